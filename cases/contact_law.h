@@ -1,0 +1,62 @@
+/* contact_law.h - the exact contact law: Coulomb friction with a tangential spring, under a normal force that may vanish.
+ * Written in the tangential motion u(t) and the normal motion v(t) [length]; how they come from the degrees of
+ * freedom is the caller's business. Needs libm only, allocates nothing, keeps no state, cannot fail.
+ *
+ *     N = max(kn (v + gap), 0)        N0 = max(kn gap, 0)
+ *     stick      T = kt (u - w), |T| <= mu N, w constant
+ *     slip(s)    T = s mu N, s = +1 or -1, w = u - s mu N / kt
+ *     separated  T = 0, N = 0, w = u
+ *
+ * w is the displacement of the contact point (the slider). Source: Yang, Chu, Menq 1998 and Colonna et al. 2025, eq. 9-12 ([1] in README.md). */
+#ifndef HC_CONTACT_LAW_H
+#define HC_CONTACT_LAW_H
+
+#include <math.h>
+
+typedef struct contact {
+  double kt;  /* [force/length] >= 0  tangential stiffness                   */
+  double kn;  /* [force/length] >= 0  normal stiffness                       */
+  double mu;  /* [1] >= 0             friction coefficient                   */
+  double gap; /* [length]             > 0: preload N0 = kn gap; < 0: clearance */
+} contact;
+
+typedef enum contact_state { CONTACT_SEPARATED, CONTACT_STICK, CONTACT_SLIP_PLUS, CONTACT_SLIP_MINUS } contact_state;
+
+/* The strongest thing that happens over a period, in the order of INTERFACE.md's `contact` column. */
+typedef enum contact_regime { CONTACT_LINEAR, CONTACT_STUCK, CONTACT_SLIPS, CONTACT_SEPARATES } contact_regime;
+const char *contact_regime_name(contact_regime regime); /* "linear", "stick", "slip", "separation" */
+
+/* Static normal force [force]. */
+static inline double contact_preload(const contact *c) { return c->gap > 0 ? c->kn * c->gap : 0.0; }
+
+/* Normal force [force] at normal motion v. */
+static inline double contact_normal(const contact *c, double v)
+{
+  double g = v + c->gap;
+  return g > 0 ? c->kn * g : 0.0;
+}
+
+/* +1 while slipping forward, -1 backward, 0 otherwise. */
+static inline int contact_slip_sign(contact_state st) { return (st == CONTACT_SLIP_PLUS) - (st == CONTACT_SLIP_MINUS); }
+
+/* One step of the law from slider position *w to motion (u, v): elastic predictor, Coulomb corrector.
+ * Exact if u -+ mu N/kt is monotone over the step. *w moves; *t gets the tangential force. Returns the state at the end. */
+contact_state contact_step(const contact *c, double u, double v, double *w, double *t);
+
+/* State just after v + gap rises through 0, from the velocities there (dv > 0): slips with sign s if s kt du > mu kn dv. */
+contact_state contact_on_touch(const contact *c, double du, double dv);
+
+/* Guards of the exact law: each is positive inside the state and reaches 0 where it ends.
+ *   contact:   v + gap
+ *   stick:     mu N - s kt (u - w)      for s = +1 and -1
+ *   slip(s):   s kt du - mu kn dv  */
+static inline double contact_guard_stick(const contact *c, int s, double u, double v, double w)
+{
+  return c->mu * contact_normal(c, v) - s * c->kt * (u - w);
+}
+static inline double contact_guard_slip(const contact *c, int s, double du, double dv)
+{
+  return s * c->kt * du - c->mu * c->kn * dv;
+}
+
+#endif

@@ -1,0 +1,46 @@
+/* status.h - what a call can answer, in one list: code and words.
+ * Every fallible function of the library returns an hc_status; none prints, exits or sets errno for the caller. */
+#ifndef HC_STATUS_H
+#define HC_STATUS_H
+
+#include <stdbool.h>
+
+#define HC_STATUS_LIST(X) /* expanded to the enum and to hc_status_text() */                        \
+  X(HC_OK, "ok")                                                                                    \
+  X(HC_BAD_INPUT, "an argument is outside its documented range")                                    \
+  X(HC_NO_MEMORY, "out of memory")                                                                  \
+  X(HC_IO, "a file could not be read or written")                                                   \
+  X(HC_STALLED, "Newton steps became tiny while the residual stayed large")                         \
+  X(HC_NOT_CONVERGED, "the Newton residual stayed above tolerance")                                 \
+  X(HC_SINGULAR, "the Jacobian is singular")                                                        \
+  X(HC_NOT_FINITE, "a force, residual or solution was not finite")                                  \
+  X(HC_STEP_TOO_SMALL, "the continuation step shrank to its minimum")                               \
+  X(HC_TOO_MANY_POINTS, "the response curve needs more points than allowed")                        \
+  X(HC_NOT_CLOSED, "the slider did not close over a period")                                        \
+  X(HC_INTEGRATOR, "CVODE gave up; its own flag is in detail")                                      \
+  X(HC_CHATTER, "more contact transitions in a period than allowed")                                \
+  X(HC_NOT_SETTLED, "the transient did not reach a steady state within the allowed periods")        \
+  X(HC_INTERRUPTED, "stopped on request")                                                           \
+  X(HC_UNSUPPORTED, "this version cannot do that yet")                                              \
+  X(HC_BUG, "internal error: please report it")
+
+#define HC_STATUS_ENUM(code, text) code,
+typedef enum hc_status { HC_STATUS_LIST(HC_STATUS_ENUM) } hc_status;
+#undef HC_STATUS_ENUM
+
+/* The words for a status; a constant string, never NULL. */
+const char *hc_status_text(hc_status status);
+
+/* Long work calls this now and then: done is the fraction finished, 0..1, or negative when unknown.
+ * Answer false to stop; the work then returns HC_INTERRUPTED and keeps what it has. `tick` may be NULL. */
+typedef struct hc_monitor {
+  bool (*tick)(void *self, double done);
+  void *self;
+} hc_monitor;
+
+static inline bool hc_monitor_tick(const hc_monitor *m, double done)
+{
+  return !m || !m->tick || m->tick(m->self, done);
+}
+
+#endif

@@ -1,0 +1,44 @@
+/* check.h - what every test needs on top of cmocka: comparisons that print both sides and fail on NaN, and a watchdog.
+ * A test file has one group; its tests are named folder.file.what and run as one ctest. */
+#ifndef HC_TESTS_CHECK_H
+#define HC_TESTS_CHECK_H
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+#define PI 3.14159265358979323846
+
+/* value <= bound, or fail with both and the context printf-style; NaN fails. */
+#define CHECK_LE(value, bound, ...)                                                         \
+  do {                                                                                      \
+    double v_ = (value), b_ = (bound);                                                      \
+    if (!(v_ <= b_)) {                                                                      \
+      print_error("%s:%d: %s = %.17g > %.17g: ", __FILE__, __LINE__, #value, v_, b_);       \
+      print_error(__VA_ARGS__);                                                             \
+      print_error("\n");                                                                    \
+      fail();                                                                               \
+    }                                                                                       \
+  } while (0)
+
+/* |a - b| <= tol, NaN fails. */
+#define CHECK_NEAR(a, b, tol, ...) CHECK_LE(fabs((a) - (b)), (tol), __VA_ARGS__)
+
+/* A hang is a failure: every test main calls this first. */
+static inline void check_watchdog(unsigned seconds) { alarm(seconds); }
+
+#define CHECK_MAIN(name, tests, seconds)                    \
+  int main(void)                                            \
+  {                                                         \
+    check_watchdog(seconds);                                \
+    return cmocka_run_group_tests_name(name, tests, NULL, NULL); \
+  }
+
+#endif
