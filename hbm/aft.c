@@ -1,0 +1,251 @@
+/* aft.c - contact force harmonics from displacement harmonics (alternating frequency/time).
+ *   X -> x(th_i), th_i = 2 pi i/N -> u_i, v_i -> contact_step over the period until the slider closes -> F_i -> F
+ * The slider after a separation starts from the interpolated instant of contact, or (the paper's way) from the last separated sample.
+ * Jacobian: dF_i = k_i dx_i - kt cos(alpha) dw, k_i by one more FFT, dw constant over a stick interval (slope.h).
+ * FFTW does not normalise and uses exp(-i): the 2/N and the sign of the sine live in to_series() and to_samples(), only there.
+ * Plans are ESTIMATE: planned in microseconds, and the same on every run. Not here: the dynamic stiffness (system.c). */
+#include "hbm/aft.h"
+
+#include <complex.h>
+#include <fftw3.h>
+#include <pthread.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "hbm/slope.h"
+
+/* Where the slider's position came from: dw = g0 dx(th_i0) + g1 dx(th_i1); both slopes 0 when it depends on nothing. */
+typedef struct slider_origin { int i0, i1; double g0, g1; } slider_origin;
+
+struct aft {
+  scene_contact contacts[SCENE_MAX_CONTACTS];
+  int n_contacts, n_harm, n_time, restart;
+  double *x, *f, *k;         /* [n_time]     displacement [length], force, its stiffness along the orbit */
+  fftw_complex *spec;        /* [n_time/2+1] consumed by to_time (c2r overwrites its input)            */
+  fftw_plan to_time, to_freq_f, to_freq_k;
+  double complex *root;      /* [n_time]     exp(i th_i)                                                */
+  double complex *inv_step;  /* [n_harm+1]   1/(exp(i h 2 pi/N) - 1), for sums over sample ranges       */
+  double *symbol;            /* [4H+1]       series of k                                                */
+  double *left, *right;      /* [2H+1]       one rank-1 term                                            */
+};
+
+/* One contact's sweep over the samples. */
+typedef struct track {
+  const scene_contact *contact;
+  double c, s;          /* u = c x, v = s x */
+  double w;             /* slider */
+  contact_state state;  /* at the sample before */
+  slider_origin origin; /* of w */
+} track;
+
+/* FFTW's planner is not thread-safe; this guards it for all our handles in a process. */
+static pthread_mutex_t planner = PTHREAD_MUTEX_INITIALIZER;
+
+static hc_status make_plans(aft *a)
+{
+  pthread_mutex_lock(&planner);
+  a->to_time = fftw_plan_dft_c2r_1d(a->n_time, a->spec, a->x, FFTW_ESTIMATE);
+  a->to_freq_f = fftw_plan_dft_r2c_1d(a->n_time, a->f, a->spec, FFTW_ESTIMATE);
+  a->to_freq_k = fftw_plan_dft_r2c_1d(a->n_time, a->k, a->spec, FFTW_ESTIMATE);
+  pthread_mutex_unlock(&planner);
+  return a->to_time && a->to_freq_f && a->to_freq_k ? HC_OK : HC_NO_MEMORY;
+}
+
+static hc_status make_tables(aft *a)
+{
+  int n = a->n_time, n_coef = series_length(a->n_harm);
+  a->x = fftw_alloc_real((size_t)n);
+  a->f = fftw_alloc_real((size_t)n);
+  a->k = fftw_alloc_real((size_t)n);
+  a->spec = fftw_alloc_complex((size_t)n / 2 + 1);
+  a->root = malloc((size_t)n * sizeof *a->root);
+  a->inv_step = malloc(((size_t)a->n_harm + 1) * sizeof *a->inv_step);
+  a->symbol = calloc((size_t)slope_symbol_length(a->n_harm), sizeof(double));
+  a->left = calloc((size_t)n_coef, sizeof(double));
+  a->right = calloc((size_t)n_coef, sizeof(double));
+  if (!a->x || !a->f || !a->k || !a->spec || !a->root || !a->inv_step || !a->symbol || !a->left || !a->right) return HC_NO_MEMORY;
+  const double step = 6.283185307179586476925 / n;
+  for (int i = 0; i < n; ++i) a->root[i] = CMPLX(cos(i * step), sin(i * step));
+  for (int h = 1; h <= a->n_harm; ++h) a->inv_step[h] = 1 / (a->root[h % n] - 1);
+  return HC_OK;
+}
+
+hc_status aft_new(const scene *sc, int n_harm, int n_time, aft **out)
+{
+  *out = NULL;
+  if (n_harm < 1 || n_harm > SCENE_MAX_HARMONICS || n_time < 2 * n_harm + 1) return HC_BAD_INPUT;
+  aft *a = calloc(1, sizeof *a);
+  if (!a) return HC_NO_MEMORY;
+  memcpy(a->contacts, sc->contacts, sizeof a->contacts);
+  a->n_contacts = sc->n_contacts;
+  a->n_harm = n_harm;
+  a->n_time = n_time;
+  a->restart = sc->hbm.restart;
+  hc_status st = make_tables(a);
+  if (st == HC_OK) st = make_plans(a);
+  if (st == HC_OK) { *out = a; return HC_OK; }
+  aft_free(a);
+  return st;
+}
+
+void aft_free(aft *a)
+{
+  if (!a) return;
+  pthread_mutex_lock(&planner);
+  fftw_destroy_plan(a->to_time); /* NULL is allowed */
+  fftw_destroy_plan(a->to_freq_f);
+  fftw_destroy_plan(a->to_freq_k);
+  pthread_mutex_unlock(&planner);
+  fftw_free(a->x);
+  fftw_free(a->f);
+  fftw_free(a->k);
+  fftw_free(a->spec);
+  free(a->root);
+  free(a->inv_step);
+  free(a->symbol);
+  free(a->left);
+  free(a->right);
+  free(a);
+}
+
+static void to_samples(aft *a, const double *X)
+{
+  memset(a->spec, 0, ((size_t)a->n_time / 2 + 1) * sizeof *a->spec);
+  a->spec[0] = X[0];
+  for (int h = 1; h <= a->n_harm; ++h) a->spec[h] = 0.5 * CMPLX(X[2 * h - 1], -X[2 * h]);
+  fftw_execute(a->to_time);
+}
+
+/* The first n_harm harmonics of the samples behind plan. Above N/2 a harmonic reads its alias, as the sampled sums themselves do. */
+static void to_series(aft *a, fftw_plan plan, int n_harm, double *out)
+{
+  int n = a->n_time;
+  fftw_execute(plan);
+  out[0] = creal(a->spec[0]) / n;
+  for (int h = 1; h <= n_harm; ++h) {
+    int m = h % n;
+    double complex z = m <= n / 2 ? a->spec[m] : conj(a->spec[n - m]);
+    out[2 * h - 1] = 2 * creal(z) / n;
+    out[2 * h] = -2 * cimag(z) / n;
+  }
+}
+
+/* On entering contact at sample i after a separated one: w = u where the straight line between the samples meets v + gap = 0. */
+static void restart_slider(const aft *a, track *t, int i)
+{
+  int before = i ? i - 1 : a->n_time - 1;
+  double x0 = a->x[before], dx = a->x[i] - x0, g0 = t->s * x0 + t->contact->law.gap, rise = t->s * dx;
+  double part = rise > 0 ? -g0 / rise : 0; /* in [0, 1): g0 <= 0 < g0 + rise */
+  if (a->restart == HBM_RESTART_SAMPLE) part = 0;
+  t->w = t->c * (x0 + part * dx);
+  /* d part = -(s/rise)((1 - part) dx_0 + part dx_1), and dw = c (dx_0 + part (dx_1 - dx_0) + dx d part) */
+  double lag = a->restart == HBM_RESTART_SAMPLE || !(rise > 0) ? 0 : t->s * dx / rise;
+  t->origin = (slider_origin){before, i, t->c * (1 - part) * (1 - lag), t->c * part * (1 - lag)};
+}
+
+/* Advance to sample i: the force of this contact there, and the stiffness dF_i/dx_i at fixed w. */
+static contact_state advance(const aft *a, track *t, int i, double *force, double *stiffness)
+{
+  const contact *law = &t->contact->law;
+  double u = t->c * a->x[i], v = t->s * a->x[i], traction;
+  if (t->state == CONTACT_SEPARATED && contact_normal(law, v) > 0) restart_slider(a, t, i);
+  t->state = contact_step(law, u, v, &t->w, &traction);
+  int slip = contact_slip_sign(t->state);
+  if (slip) t->origin = (slider_origin){i, i, t->c - slip * law->mu * law->kn * t->s / law->kt, 0};
+  *force = traction * t->c + (contact_normal(law, v) - contact_preload(law)) * t->s;
+  if (t->state == CONTACT_SEPARATED) *stiffness = 0;
+  else *stiffness = (slip ? slip * law->mu * law->kn * t->s : law->kt * t->c) * t->c + law->kn * t->s * t->s;
+  return t->state;
+}
+
+/* Series of kt cos(alpha) over the samples first..last: geometric sums, minus their rank-1 effect on jac. */
+static void subtract_stick_interval(aft *a, const track *t, int first, int last, double *jac)
+{
+  const slider_origin *o = &t->origin;
+  if (o->g0 == 0 && o->g1 == 0) return;
+  int n = a->n_time;
+  double weight = t->contact->law.kt * t->c / n;
+  a->left[0] = weight * (last - first + 1);
+  a->right[0] = o->g0 + o->g1;
+  for (int h = 1; h <= a->n_harm; ++h) {
+    double complex sum = (a->root[(long)h * (last + 1) % n] - a->root[(long)h * first % n]) * a->inv_step[h];
+    double complex right = o->g0 * a->root[(long)h * o->i0 % n] + o->g1 * a->root[(long)h * o->i1 % n];
+    a->left[2 * h - 1] = 2 * weight * creal(sum);
+    a->left[2 * h] = 2 * weight * cimag(sum);
+    a->right[2 * h - 1] = creal(right);
+    a->right[2 * h] = cimag(right);
+  }
+  slope_subtract(a->n_harm, a->left, a->right, jac);
+}
+
+/* A pass over the period that only moves the slider. */
+static void settle(const aft *a, track *t)
+{
+  double force, stiffness;
+  for (int i = 0; i < a->n_time; ++i) advance(a, t, i, &force, &stiffness);
+}
+
+/* The pass that counts: adds force and stiffness to f and k, and each stick interval's memory to jac. */
+static void record(aft *a, track *t, double *jac, contact_report *report)
+{
+  int first = -1; /* of the stick interval under way */
+  bool separates = false, slips = false, touches = false;
+  for (int i = 0; i < a->n_time; ++i) {
+    contact_state before = t->state;
+    double force, stiffness;
+    track old = *t;
+    contact_state now = advance(a, t, i, &force, &stiffness);
+    if (i == 0) report->w[t->contact - a->contacts] = t->w;
+    bool restarted = before == CONTACT_SEPARATED && now == CONTACT_STICK;
+    if (first >= 0 && (now != CONTACT_STICK || restarted)) {
+      if (jac) subtract_stick_interval(a, &old, first, i - 1, jac);
+      first = -1;
+    }
+    if (now == CONTACT_STICK && first < 0) first = i;
+    a->f[i] += force;
+    a->k[i] += stiffness;
+    separates |= now == CONTACT_SEPARATED;
+    slips |= contact_slip_sign(now) != 0;
+    touches |= now != CONTACT_SEPARATED;
+    report->transitions += now != before;
+  }
+  if (first >= 0 && jac) subtract_stick_interval(a, t, first, a->n_time - 1, jac);
+  contact_regime regime = separates ? (touches ? CONTACT_SEPARATES : CONTACT_LINEAR) : slips ? CONTACT_SLIPS : CONTACT_STUCK;
+  if (regime > report->regime) report->regime = regime;
+}
+
+/* One step of the law maps w to the nearest point of an interval, and so does a whole period: the second pass repeats itself.
+ * The check guards that argument (and rounding), not convergence. */
+static hc_status evaluate_contact(aft *a, int j, double size, double *jac, contact_report *report)
+{
+  track t = {.contact = &a->contacts[j], .state = CONTACT_STICK};
+  scene_projection(t.contact, &t.c, &t.s);
+  if (!(contact_normal(&t.contact->law, t.s * a->x[a->n_time - 1]) > 0)) t.state = CONTACT_SEPARATED;
+  settle(a, &t);
+  double w = t.w;
+  record(a, &t, jac, report);
+  return fabs(t.w - w) <= 1e-12 * (fabs(w) + size) ? HC_OK : HC_NOT_CLOSED;
+}
+
+hc_status aft_eval(aft *a, const double *X, double *F, double *jac, contact_report *report)
+{
+  contact_report local;
+  if (!report) report = &local;
+  *report = (contact_report){.regime = CONTACT_LINEAR};
+  int n_coef = series_length(a->n_harm);
+  double size = 0; /* bounds |x| */
+  for (int i = 0; i < n_coef; ++i) size += fabs(X[i]);
+  if (!isfinite(size)) return HC_NOT_FINITE;
+  to_samples(a, X);
+  memset(a->f, 0, (size_t)a->n_time * sizeof(double));
+  memset(a->k, 0, (size_t)a->n_time * sizeof(double));
+  if (jac) memset(jac, 0, (size_t)n_coef * n_coef * sizeof(double));
+  hc_status st = HC_OK;
+  for (int j = 0; j < a->n_contacts && st == HC_OK; ++j) st = evaluate_contact(a, j, size, jac, report);
+  if (st != HC_OK) return st;
+  to_series(a, a->to_freq_f, a->n_harm, F);
+  if (!jac) return HC_OK;
+  to_series(a, a->to_freq_k, 2 * a->n_harm, a->symbol);
+  slope_add(a->n_harm, a->symbol, jac);
+  return HC_OK;
+}

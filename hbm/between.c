@@ -1,0 +1,157 @@
+/* between.c - see between.h. Newton at a fixed omega is only as good as its guess, and near turning points other solutions are close: an
+ * answer counts if it is where interpolation said, to a small part of the stretch, and if no two crossings gave the same one. */
+#include "hbm/between.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "hbm/curve.h"
+#include "hbm/solver.h"
+
+enum { MAX_HALVINGS = 40 };
+
+typedef struct candidate { double *X, *dX, *guess; hbm_point point; } candidate; /* three rows of one block */
+
+static double distance(int n, const double *a, const double *b)
+{
+  double sum = 0;
+  for (int i = 0; i < n; ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
+  return sqrt(sum);
+}
+
+/* Newton at omega from the interpolant at sigma. False: not next to it. */
+static bool solve_at(hbm_solver *s, const hbm_curve *c, int k, const hbm_segment *seg, double sigma, double omega, candidate *x)
+{
+  double at, d_omega;
+  size_t bytes = (size_t)c->n_coef * sizeof(double);
+  x->point = (hbm_point){.omega = omega};
+  hbm_segment_at(seg, sigma, x->X, &at, x->dX, &d_omega);
+  memcpy(x->guess, x->X, bytes);
+  if (hbm_solve_fixed(s, omega, seg->x_scale, x->X, &x->point) != HC_OK) return false;
+  if (!(distance(c->n_coef, x->X, x->guess) <= (0.1 * seg->length + 1e-8) * seg->x_scale)) return false;
+  if (hbm_tangent_fixed(s, x->X, x->dX) != HC_OK) return false;
+  double sign = d_omega < 0 ? -1 : 1;
+  for (int i = 0; i < c->n_coef; ++i) x->dX[i] *= sign;
+  x->point.d_omega = sign;
+  const hbm_point *a = &c->points[k];
+  x->point.branch = (d_omega > 0) == (a->d_omega > 0) ? a->branch : a[1].branch;
+  return true;
+}
+
+/* The point of the curve in the plane across the interpolant at sigma, with its tangent. */
+static hc_status point_across(hbm_solver *s, const hbm_curve *c, int k, const hbm_segment *seg, double sigma, candidate *x)
+{
+  double d_omega, *normal = x->guess;
+  int n = s->sys.n, first = s->sys.first;
+  hbm_segment_at(seg, sigma, x->X, &x->point.omega, x->dX, &d_omega);
+  for (int i = 0; i < n; ++i) normal[i] = x->dX[i + first] / (seg->x_scale * seg->x_scale);
+  normal[n] = d_omega / (seg->omega_scale * seg->omega_scale);
+  double omega = x->point.omega;
+  hc_status st = hbm_solve_plane(s, normal, seg->x_scale, seg->omega_scale, x->X, &omega, &x->point);
+  if (st == HC_OK) st = hbm_tangent_plane(s, x->dX, &x->point.d_omega);
+  const hbm_point *a = &c->points[k];
+  x->point.branch = (x->point.d_omega > 0) == (a->d_omega > 0) ? a->branch : a[1].branch;
+  return st;
+}
+
+/* A curve of three points: the ends of segment k and one between them. */
+static hc_status halve(hbm_solver *s, const hbm_curve *c, int k, const hbm_segment *seg, candidate *x, hbm_curve *halves)
+{
+  hc_status st = point_across(s, c, k, seg, 0.5, x);
+  halves->omega_scale = c->omega_scale;
+  if (st == HC_OK) st = hbm_curve_append(halves, c->n_coef, seg->X0, seg->dX0, &c->points[k]);
+  if (st == HC_OK) st = hbm_curve_append(halves, c->n_coef, x->X, x->dX, &x->point);
+  return st == HC_OK ? hbm_curve_append(halves, c->n_coef, seg->X1, seg->dX1, &c->points[k + 1]) : st;
+}
+
+static hc_status search(hbm_solver *s, const hbm_curve *c, int k, double omega, bool last, int halvings, candidate *x, hbm_curve *out)
+{
+  hbm_segment seg = hbm_segment_between(c, k);
+  double sigma[3];
+  int found = hbm_segment_find(&seg, omega, last, sigma), before = out->n;
+  bool good = true;
+  for (int i = 0; i < found && good; ++i) {
+    good = solve_at(s, c, k, &seg, sigma[i], omega, x);
+    for (int j = before; j < out->n && good; ++j)
+      good = distance(c->n_coef, x->X, out->X + (size_t)j * c->n_coef) > 1e-9 * seg.x_scale;
+    if (good && hbm_curve_append(out, c->n_coef, x->X, x->dX, &x->point) != HC_OK) return HC_NO_MEMORY;
+  }
+  if (good) return HC_OK;
+  out->n = before;
+  if (halvings == 0) return HC_NOT_CONVERGED;
+  hbm_curve halves = {0};
+  hc_status st = halve(s, c, k, &seg, x, &halves);
+  if (st == HC_OK) st = search(s, &halves, 0, omega, false, halvings - 1, x, out);
+  if (st == HC_OK) st = search(s, &halves, 1, omega, last, halvings - 1, x, out);
+  hbm_curve_free(&halves);
+  return st;
+}
+
+hc_status hbm_segment_solutions(hbm_solver *s, const hbm_curve *c, int k, double omega, bool last, hbm_curve *out)
+{
+  size_t n = (size_t)c->n_coef + 1; /* guess doubles as a plane's normal, one longer */
+  double *block = calloc(3 * n, sizeof *block);
+  if (!block) return HC_NO_MEMORY;
+  candidate x = {.X = block, .dX = block + n, .guess = block + 2 * n};
+  hc_status st = search(s, c, k, omega, last, MAX_HALVINGS, &x, out);
+  free(block);
+  return st;
+}
+
+hc_status hbm_curve_at(hbm_solver *s, const hbm_curve *c, double omega, hbm_curve *at)
+{
+  hc_status worst = HC_OK;
+  at->omega_scale = c->omega_scale;
+  for (int k = 0; k + 1 < c->n; ++k) {
+    hc_status st = hbm_segment_solutions(s, c, k, omega, k + 2 == c->n, at);
+    if (st != HC_OK) worst = st;
+  }
+  return worst;
+}
+
+/* Amplitude on the curve near its highest point; position 0..2 runs over the two segments beside it. The point into x. Negative: failed. */
+static double amplitude_near(hbm_solver *s, const hbm_curve *c, int top, double position, candidate *x)
+{
+  int k = top - 1 + (position >= 1);
+  hbm_segment seg = hbm_segment_between(c, k);
+  hbm_measures m;
+  if (point_across(s, c, k, &seg, position - (position >= 1), x) != HC_OK) return -1;
+  return hbm_measure(s, x->X, &m) == HC_OK ? m.amplitude : -1;
+}
+
+static hc_status refine_peak(hbm_solver *s, const hbm_curve *c, int top, candidate *x, hbm_curve *peak)
+{
+  const double golden = 0.61803398874989485;
+  double a = 0, b = 2, p = b - golden * (b - a), q = a + golden * (b - a);
+  double fp = amplitude_near(s, c, top, p, x), fq = amplitude_near(s, c, top, q, x);
+  while (b - a > 1e-7 && fp >= 0 && fq >= 0) { /* the amplitude is flat there: 1e-7 in position is 1e-14 in it */
+    if (fp > fq) { b = q; q = p; fq = fp; p = b - golden * (b - a); fp = amplitude_near(s, c, top, p, x); }
+    else { a = p; p = q; fp = fq; q = a + golden * (b - a); fq = amplitude_near(s, c, top, q, x); }
+  }
+  if (amplitude_near(s, c, top, 0.5 * (a + b), x) < 0) return HC_NOT_CONVERGED;
+  return hbm_curve_append(peak, c->n_coef, x->X, x->dX, &x->point);
+}
+
+hc_status hbm_curve_peak(hbm_solver *s, const hbm_curve *c, hbm_curve *peak)
+{
+  int top = -1;
+  double highest = -1;
+  for (int k = 0; k < c->n; ++k) {
+    hbm_measures m;
+    hc_status st = hbm_measure(s, c->X + (size_t)k * c->n_coef, &m);
+    if (st != HC_OK) return st;
+    if (m.amplitude > highest) { highest = m.amplitude; top = k; }
+  }
+  if (top < 0) return HC_BAD_INPUT;
+  peak->omega_scale = c->omega_scale;
+  if (top == 0 || top == c->n - 1) /* an end of the sweep: the peak may lie outside */
+    return hbm_curve_append(peak, c->n_coef, hbm_curve_X(c, top), hbm_curve_dX(c, top), &c->points[top]);
+  size_t n = (size_t)c->n_coef + 1;
+  double *block = calloc(3 * n, sizeof *block);
+  if (!block) return HC_NO_MEMORY;
+  candidate x = {.X = block, .dX = block + n, .guess = block + 2 * n};
+  hc_status st = refine_peak(s, c, top, &x, peak);
+  free(block);
+  return st;
+}

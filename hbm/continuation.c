@@ -1,0 +1,266 @@
+/* continuation.c - the response curve from one end of the sweep to the other.
+ *
+ *   predict   cubic Hermite through the last two points and their tangents, extrapolated by the step h (the tangent alone at first)
+ *   correct   natural: Newton at the predicted omega; arc-length (Keller): Newton in the plane through the prediction, across the path
+ *   judge     how far the corrector moved the prediction tells the error e of interpolating the new stretch: extrapolation
+ *             leaves x''''(h_p + h)^2 h^2/24, interpolation x'''' h^4/384. The step is chosen to keep that at TOLERANCE.
+ *
+ * `auto` steps naturally until the curve gets steep or Newton fails, then by arc-length, and returns when the curve is flat again.
+ * It goes on from a point only forward along its own tangent, so it cannot retrace its path. Lengths: curve.h. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "hbm/between.h"
+#include "hbm/curve.h"
+#include "hbm/solver.h"
+
+static const double TOLERANCE = 1e-4;   /* of interpolation, relative to |X| */
+static const double H_FIRST = 0.02, H_MAX = 0.5, H_MIN = 1e-11;
+static const double H_CORNER = 1e-4;    /* below: a corner in the curve rather than curvature; accept a kink */
+static const double STEEP = 0.2, FLAT = 0.6; /* share of omega in the unit tangent: leave natural steps, take them up again */
+enum { MAX_POINTS = 200000, FLAT_STEPS = 6 };
+
+typedef struct path {
+  hbm_solver *s;
+  hbm_curve *curve;
+  double from, to, direction;  /* direction: sign of to - from */
+  double resolution;           /* [rad/time] width of the narrowest feature in omega: the linear resonance's half width C/2M */
+  double h;
+  bool natural;                /* how the next step is corrected */
+  int flat_steps;              /* accepted in a row on flat curve while in arc-length mode */
+  double *X, *dX, omega, d_omega; /* prediction, then trial point and its tangent */
+  double *P, omega_p;          /* the prediction as it was */
+  double *normal;              /* [n+1] */
+  hbm_point point;
+} path;
+
+static double metric(const path *p, double x_scale, const double *aX, double a_omega, const double *bX, double b_omega)
+{
+  double sum = 0;
+  for (int i = 0; i < p->curve->n_coef; ++i) sum += aX[i] * bX[i];
+  return sum / (x_scale * x_scale) + a_omega * b_omega / (p->curve->omega_scale * p->curve->omega_scale);
+}
+
+static double size_of_last(const path *p)
+{
+  double size = hbm_norm(p->curve->n_coef, hbm_curve_X(p->curve, p->curve->n - 1));
+  return size > 0 ? size : 1;
+}
+
+/* Prediction into X, omega; its direction into dX, d_omega (unit length). Returns interpolation error / prediction error. */
+static double predict(path *p, double h)
+{
+  const hbm_curve *c = p->curve;
+  int last = c->n - 1;
+  double x_scale = size_of_last(p), ratio = 1.0 / 16;
+  hbm_segment seg = {.length = 0};
+  if (c->n >= 2) seg = hbm_segment_between(c, last - 1);
+  if (c->n >= 2 && h <= 4 * seg.length) {
+    hbm_segment_at(&seg, 1 + h / seg.length, p->X, &p->omega, p->dX, &p->d_omega);
+    ratio = h * h / (16 * (seg.length + h) * (seg.length + h));
+  } else {
+    const double *X = hbm_curve_X(c, last), *dX = hbm_curve_dX(c, last);
+    const hbm_point *q = &c->points[last];
+    double step = h / sqrt(metric(p, x_scale, dX, q->d_omega, dX, q->d_omega));
+    for (int i = 0; i < c->n_coef; ++i) p->X[i] = X[i] + step * dX[i];
+    memcpy(p->dX, dX, (size_t)c->n_coef * sizeof(double));
+    p->omega = q->omega + step * q->d_omega;
+    p->d_omega = q->d_omega;
+  }
+  double length = sqrt(metric(p, x_scale, p->dX, p->d_omega, p->dX, p->d_omega));
+  for (int i = 0; i < c->n_coef; ++i) p->dX[i] /= length;
+  p->d_omega /= length;
+  memcpy(p->P, p->X, (size_t)c->n_coef * sizeof(double));
+  p->omega_p = p->omega;
+  return ratio;
+}
+
+static hc_status correct_natural(path *p)
+{
+  hc_status st = hbm_solve_fixed(p->s, p->omega, size_of_last(p), p->X, &p->point);
+  if (st == HC_OK) st = hbm_tangent_fixed(p->s, p->X, p->dX);
+  p->d_omega = 1;
+  return st;
+}
+
+static hc_status correct_in_plane(path *p)
+{
+  int n = p->s->sys.n, first = p->s->sys.first;
+  double x_scale = size_of_last(p), omega_scale = p->curve->omega_scale;
+  for (int i = 0; i < n; ++i) p->normal[i] = p->dX[i + first] / (x_scale * x_scale);
+  p->normal[n] = p->d_omega / (omega_scale * omega_scale);
+  hc_status st = hbm_solve_plane(p->s, p->normal, x_scale, omega_scale, p->X, &p->omega, &p->point);
+  return st == HC_OK ? hbm_tangent_plane(p->s, p->dX, &p->d_omega) : st;
+}
+
+/* Make the trial tangent point the way the step went. Returns cos of the angle to the last tangent. */
+static double orient(path *p)
+{
+  const hbm_curve *c = p->curve;
+  int n = c->n_coef, last = c->n - 1;
+  double x_scale = size_of_last(p), *chord = p->s->Z;
+  const double *X0 = hbm_curve_X(c, last), *dX0 = hbm_curve_dX(c, last);
+  double d_omega0 = c->points[last].d_omega;
+  for (int i = 0; i < n; ++i) chord[i] = p->X[i] - X0[i];
+  if (metric(p, x_scale, p->dX, p->d_omega, chord, p->omega - c->points[last].omega) < 0) {
+    for (int i = 0; i < n; ++i) p->dX[i] = -p->dX[i];
+    p->d_omega = -p->d_omega;
+  }
+  double a = metric(p, x_scale, dX0, d_omega0, dX0, d_omega0), b = metric(p, x_scale, p->dX, p->d_omega, p->dX, p->d_omega);
+  return metric(p, x_scale, dX0, d_omega0, p->dX, p->d_omega) / sqrt(a * b);
+}
+
+/* Distance the corrector moved the prediction, with omega measured by omega_unit. */
+static double correction(const path *p, double omega_unit)
+{
+  double sum = 0, x_scale = size_of_last(p), d = (p->omega - p->omega_p) / omega_unit;
+  for (int i = 0; i < p->curve->n_coef; ++i) sum += (p->X[i] - p->P[i]) * (p->X[i] - p->P[i]);
+  return sqrt(sum / (x_scale * x_scale) + d * d);
+}
+
+static bool may_go_natural(const path *p) { return p->s->sys.sc.hbm.continuation != HBM_CONTINUATION_ARCLENGTH; }
+static bool may_go_arclength(const path *p) { return p->s->sys.sc.hbm.continuation != HBM_CONTINUATION_NATURAL; }
+
+static void switch_to_arclength(path *p)
+{
+  p->natural = false;
+  p->flat_steps = 0;
+  p->curve->arclength = true;
+}
+
+/* Share of omega in the unit tangent. */
+static double flatness(const path *p)
+{
+  double all = metric(p, size_of_last(p), p->dX, p->d_omega, p->dX, p->d_omega);
+  return fabs(p->d_omega) / p->curve->omega_scale / sqrt(all);
+}
+
+/* One trial step of length h. HC_OK and accepted, or HC_OK and not, or why Newton failed. p->h becomes the next step to try. */
+static hc_status try_step(path *p, bool *accepted)
+{
+  double ratio = predict(p, p->h);
+  *accepted = false;
+  if (p->natural && !(p->direction * (p->omega - p->curve->points[p->curve->n - 1].omega) > 0)) return HC_NOT_CONVERGED;
+  hc_status st = p->natural ? correct_natural(p) : correct_in_plane(p);
+  p->curve->iterations += p->point.iterations;
+  if (st != HC_OK) { p->h *= 0.4; return st; }
+  double cosine = orient(p), moved = correction(p, p->curve->omega_scale), error = ratio * correction(p, p->resolution);
+  bool corner = p->h <= H_CORNER;
+  double grow = 0.9 * pow(TOLERANCE / fmax(error, 1e-12 * TOLERANCE), 0.25);
+  bool good = corner ? moved <= p->h : moved <= 0.25 * p->h && cosine >= 0.7 && error <= 4 * TOLERANCE;
+  if (p->point.iterations > 8) grow = fmin(grow, 0.7);
+  p->h *= good ? fmin(2, fmax(0.4, grow)) : fmin(0.5, fmax(0.2, grow));
+  if (corner && good) p->h = fmax(p->h, 2 * H_MIN);
+  p->h = fmin(p->h, H_MAX);
+  *accepted = good;
+  return HC_OK;
+}
+
+static hc_status accept(path *p)
+{
+  hbm_curve *c = p->curve;
+  const hbm_point *before = &c->points[c->n - 1];
+  p->point.d_omega = p->d_omega;
+  p->point.branch = before->branch + ((before->d_omega > 0) != (p->d_omega > 0));
+  c->turning_points = p->point.branch;
+  double flat = flatness(p);
+  hc_status st = hbm_curve_append(c, c->n_coef, p->X, p->dX, &p->point);
+  if (st != HC_OK) return st;
+  if (p->natural) {
+    if (flat < STEEP && may_go_arclength(p)) switch_to_arclength(p);
+  } else {
+    bool forward = p->direction * p->d_omega > 0;
+    p->flat_steps = flat > FLAT && forward ? p->flat_steps + 1 : 0;
+    if (p->flat_steps >= FLAT_STEPS && may_go_natural(p)) p->natural = true;
+  }
+  return HC_OK;
+}
+
+/* The trial step left [from, to]: end the curve exactly on the limit it crossed. Sets *done. */
+static hc_status finish_at_limit(path *p, bool *done)
+{
+  hbm_curve *c = p->curve;
+  const hbm_point *tip = &c->points[c->n - 1];
+  bool beyond = p->direction * (tip->omega - p->to) >= 0, behind = p->direction * (tip->omega - p->from) < 0;
+  *done = beyond || behind;
+  if (!*done) return HC_OK;
+  c->left_at_start = behind;
+  double limit = beyond ? p->to : p->from;
+  if (tip->omega == limit) return HC_OK;
+  hbm_curve on_limit = {.omega_scale = c->omega_scale};
+  hc_status st = hbm_segment_solutions(p->s, c, c->n - 2, limit, false, &on_limit);
+  if (st == HC_OK && on_limit.n == 0) st = HC_NOT_CONVERGED;
+  --c->n; /* the tip outside gives way to the limit itself */
+  if (st == HC_OK) st = hbm_curve_append(c, c->n_coef, on_limit.X, on_limit.dX, on_limit.points);
+  hbm_curve_free(&on_limit);
+  return st;
+}
+
+static hc_status first_point(path *p)
+{
+  hbm_curve *c = p->curve;
+  hc_status st = hbm_solve_first(p->s, p->from, p->X, &p->point);
+  if (st == HC_OK) st = hbm_tangent_fixed(p->s, p->X, p->dX);
+  if (st != HC_OK) return st;
+  for (int i = 0; i < c->n_coef; ++i) p->dX[i] *= p->direction;
+  p->point.d_omega = p->direction;
+  p->point.branch = 0;
+  return hbm_curve_append(c, c->n_coef, p->X, p->dX, &p->point);
+}
+
+static double progress(const path *p)
+{
+  double part = (p->curve->points[p->curve->n - 1].omega - p->from) / (p->to - p->from);
+  return fmin(1, fmax(0, part));
+}
+
+static hc_status follow(path *p, const hc_monitor *monitor)
+{
+  hbm_curve *c = p->curve;
+  hc_status st = first_point(p);
+  bool done = p->from == p->to;
+  while (st == HC_OK && !done) {
+    if (c->n >= MAX_POINTS) return HC_TOO_MANY_POINTS;
+    if (!hc_monitor_tick(monitor, progress(p))) return HC_INTERRUPTED;
+    bool accepted;
+    hc_status step = try_step(p, &accepted);
+    if (step == HC_NO_MEMORY) return step;
+    if (accepted) {
+      if ((st = accept(p)) == HC_OK) st = finish_at_limit(p, &done);
+      continue;
+    }
+    ++c->rejected;
+    if (p->natural && may_go_arclength(p) && (step != HC_OK || p->h < H_FIRST)) switch_to_arclength(p);
+    if (p->h < H_MIN) return step != HC_OK ? step : HC_STEP_TOO_SMALL;
+  }
+  return st;
+}
+
+static hc_status path_new(path *p)
+{
+  size_t n = (size_t)p->curve->n_coef;
+  p->X = calloc(4 * n + 2, sizeof(double)); /* one block: X, dX, P, normal */
+  if (!p->X) return HC_NO_MEMORY;
+  p->dX = p->X + n;
+  p->P = p->dX + n;
+  p->normal = p->P + n;
+  return HC_OK;
+}
+
+hc_status hbm_trace(hbm_solver *s, double from, double to, const hc_monitor *monitor, hbm_curve *curve)
+{
+  if (!(from > 0 && to > 0) || curve->n) return HC_BAD_INPUT;
+  path p = {.s = s, .curve = curve, .from = from, .to = to, .direction = to >= from ? 1 : -1, .h = H_FIRST};
+  curve->n_coef = s->sys.n_coef;
+  curve->omega_scale = fmax(fabs(to - from) / 4, 1e-3 * from);
+  p.resolution = fmin(curve->omega_scale, fmax(0.5 * s->sys.sc.damping / s->sys.sc.mass, 1e-6 * from));
+  p.natural = may_go_natural(&p);
+  curve->arclength = !p.natural;
+  long before = s->sys.evaluations;
+  hc_status st = path_new(&p);
+  if (st == HC_OK) st = follow(&p, monitor);
+  free(p.X);
+  curve->evaluations = s->sys.evaluations - before;
+  return curve->end = st;
+}

@@ -1,0 +1,67 @@
+/* hbm.h - harmonic balance of a scene: response curves, and every solution at a frequency. The way into this folder.
+ *
+ *     x(t) ~ X[0] + sum_{h=1..H} X[2h-1] cos(h omega t) + X[2h] sin(h omega t)         (series.h)
+ *
+ * solved from R(X, omega) = 0 (system.h) by KINSOL (newton.h), followed along omega (continuation.c). Handles are opaque, one a thread;
+ * nothing is printed. Not here: time integration, verdicts. */
+#ifndef HC_HBM_H
+#define HC_HBM_H
+
+#include "cases/scene.h"
+#include "cases/status.h"
+#include "hbm/aft.h"
+
+typedef struct hbm_solver hbm_solver;
+
+typedef struct hbm_point {
+  double omega;    /* [rad/time] */
+  double residual; /* [1] |R|, largest component, relative to the forces that make it up */
+  double d_omega;  /* [rad/time] tangent of the curve with respect to its parameter, beside hbm_curve's dX */
+  int branch;      /* turning points passed since the start of the curve */
+  int iterations;  /* Newton iterations spent on this point */
+} hbm_point;
+
+typedef struct hbm_curve {
+  int n, cap, n_coef; /* points; room; 2H+1 */
+  hbm_point *points;  /* [n] */
+  double *X, *dX;     /* [n][n_coef] [length]; dX: tangent, same parameter as d_omega */
+  double omega_scale; /* [rad/time] what omega is measured by along the curve; harmonics are measured by their norm */
+  hc_status end;      /* HC_OK: the whole sweep was covered; else why the curve stops at the last point */
+  bool left_at_start; /* ended because the branch turned back past the start of the sweep */
+  bool arclength;     /* arc-length continuation was needed */
+  int turning_points, rejected;
+  long iterations, evaluations; /* Newton iterations and contact force evaluations, rejected steps included */
+} hbm_curve;
+
+/* Measures of one solution. */
+typedef struct hbm_measures {
+  double amplitude, max, min, rms, mean, harmonic_1; /* [length], as INTERFACE.md defines them */
+  contact_report contact;
+} hbm_measures;
+
+/* A workspace for sc (copied). HC_UNSUPPORTED for what this version lacks, HC_BAD_INPUT, HC_NO_MEMORY. */
+hc_status hbm_solver_new(const scene *sc, hbm_solver **out);
+void hbm_solver_free(hbm_solver *s);
+int hbm_n_harmonics(const hbm_solver *s);
+
+/* Solve at a fixed omega from the guess X[2H+1]; X is the solution on HC_OK and untouched otherwise. */
+hc_status hbm_solve(hbm_solver *s, double omega, double *X, hbm_point *point);
+
+/* Solve at a fixed omega from nothing: from the linear response, else by ramping the force, else by ramping the contact. */
+hc_status hbm_solve_first(hbm_solver *s, double omega, double *X, hbm_point *point);
+
+/* The response curve from omega `from` to `to`, appended to an empty *curve. What was found is kept whatever the status. */
+hc_status hbm_trace(hbm_solver *s, double from, double to, const hc_monitor *monitor, hbm_curve *curve);
+
+/* Every solution of the curve at omega, appended to *at in the curve's order. The status is that of the worst one. */
+hc_status hbm_curve_at(hbm_solver *s, const hbm_curve *curve, double omega, hbm_curve *at);
+
+/* The point of largest amplitude of the curve, refined between its points, appended to *peak. */
+hc_status hbm_curve_peak(hbm_solver *s, const hbm_curve *curve, hbm_curve *peak);
+
+hc_status hbm_measure(hbm_solver *s, const double *X, hbm_measures *out);
+
+/* A curve is made empty with {0} and freed here. */
+void hbm_curve_free(hbm_curve *curve);
+
+#endif

@@ -1,0 +1,25 @@
+/* series.h - real trigonometric polynomials, the language of the hbm folder:
+ *
+ *     x(th) = X[0] + sum_{h=1..H} X[2h-1] cos(h th) + X[2h] sin(h th),      th = omega t [rad]
+ *
+ * stored as X[2H+1], mean first. Needs libm only, allocates nothing. */
+#ifndef HC_SERIES_H
+#define HC_SERIES_H
+
+typedef struct series_jet { double x, d1, d2; } series_jet; /* value, d/dth, d2/dth2 */
+
+static inline int series_length(int n_harm) { return 2 * n_harm + 1; }
+
+/* x, x', x'' at the angle whose cosine and sine are c and s. Error: about n_harm rounding units of sum |X|. */
+series_jet series_at(int n_harm, const double *X, double c, double s);
+
+/* Largest and smallest value over a period, to rounding (extrema bracketed on a grid of 8 n_harm + 16 angles, then refined). */
+void series_extrema(int n_harm, const double *X, double *max, double *min);
+
+/* Root mean square over a period, mean included. */
+double series_rms(int n_harm, const double *X);
+
+/* |a_1 + i b_1|, or 0 when n_harm = 0. */
+double series_harmonic_1(int n_harm, const double *X);
+
+#endif

@@ -1,0 +1,200 @@
+/* solver.c - makes and frees hbm_solver, and hands its two systems to KINSOL. */
+#include "hbm/solver.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "hbm/series.h"
+
+double hbm_norm(int n, const double *v)
+{
+  double sum = 0;
+  for (int i = 0; i < n; ++i) sum += v[i] * v[i];
+  return sqrt(sum);
+}
+
+void hbm_pack(const hbm_solver *s, const double *X, double omega, double *z)
+{
+  memcpy(z, X + s->sys.first, (size_t)s->sys.n * sizeof(double));
+  z[s->sys.n] = omega;
+}
+
+void hbm_unpack(const hbm_solver *s, const double *z, double *X, double *omega)
+{
+  X[0] = 0;
+  memcpy(X + s->sys.first, z, (size_t)s->sys.n * sizeof(double));
+  *omega = z[s->sys.n];
+}
+
+static void take_harmonics(hbm_solver *s, const double *z)
+{
+  s->Z[0] = 0;
+  memcpy(s->Z + s->sys.first, z, (size_t)s->sys.n * sizeof(double));
+}
+
+static hc_status fixed_residual(void *self, const double *z, double *r)
+{
+  hbm_solver *s = self;
+  take_harmonics(s, z);
+  return hbm_system_residual(&s->sys, s->omega, s->Z, r);
+}
+
+static hc_status fixed_jacobian(void *self, const double *z, double *jac)
+{
+  hbm_solver *s = self;
+  (void)z; /* that of the last residual, says newton.h */
+  hbm_system_jacobian(&s->sys, s->omega, s->sys.n, jac);
+  return HC_OK;
+}
+
+static hc_status plane_residual(void *self, const double *z, double *r)
+{
+  hbm_solver *s = self;
+  int n = s->sys.n;
+  if (!(z[n] > 0)) return HC_NOT_FINITE; /* omega > 0 always */
+  take_harmonics(s, z);
+  r[n] = 0;
+  for (int i = 0; i <= n; ++i) r[n] += s->normal[i] * (z[i] - s->anchor[i]);
+  return hbm_system_residual(&s->sys, z[n], s->Z, r);
+}
+
+static hc_status plane_jacobian(void *self, const double *z, double *jac)
+{
+  hbm_solver *s = self;
+  int n = s->sys.n;
+  size_t ld = (size_t)n + 1;
+  hbm_system_jacobian(&s->sys, z[n], n + 1, jac);
+  hbm_system_domega(&s->sys, z[n], s->Z, jac + ld * n);
+  for (int i = 0; i <= n; ++i) jac[n + ld * i] = s->normal[i];
+  return HC_OK;
+}
+
+static hc_status make_workspace(hbm_solver *s)
+{
+  size_t m = (size_t)s->sys.n_coef + 1;
+  double **const arrays[] = {&s->Z, &s->z, &s->z_scale, &s->r_scale, &s->normal, &s->anchor};
+  for (size_t i = 0; i < sizeof arrays / sizeof *arrays; ++i)
+    if (!(*arrays[i] = calloc(m, sizeof(double)))) return HC_NO_MEMORY;
+  newton_problem fixed = {s->sys.n, s, fixed_residual, fixed_jacobian};
+  newton_problem plane = {s->sys.n + 1, s, plane_residual, plane_jacobian};
+  hc_status st = newton_new(&fixed, &s->fixed);
+  return st == HC_OK ? newton_new(&plane, &s->plane) : st;
+}
+
+hc_status hbm_solver_new(const scene *sc, hbm_solver **out)
+{
+  *out = NULL;
+  if (sc->hbm.force == HBM_FORCE_EXACT || sc->hbm.harmonics == SCENE_AUTO || sc->hbm.samples == SCENE_AUTO) return HC_UNSUPPORTED;
+  hbm_solver *s = calloc(1, sizeof *s);
+  if (!s) return HC_NO_MEMORY;
+  hc_status st = hbm_system_init(&s->sys, sc, sc->hbm.harmonics, sc->hbm.samples);
+  if (st == HC_OK) st = make_workspace(s);
+  if (st == HC_OK) { *out = s; return HC_OK; }
+  hbm_solver_free(s);
+  return st;
+}
+
+void hbm_solver_free(hbm_solver *s)
+{
+  if (!s) return;
+  newton_free(s->fixed);
+  newton_free(s->plane);
+  hbm_system_clear(&s->sys);
+  double *const arrays[] = {s->Z, s->z, s->z_scale, s->r_scale, s->normal, s->anchor};
+  for (size_t i = 0; i < sizeof arrays / sizeof *arrays; ++i) free(arrays[i]);
+  free(s);
+}
+
+int hbm_n_harmonics(const hbm_solver *s) { return s->sys.n_harm; }
+
+/* Weights for KINSOL: X by its size, R by the forces it is made of at the guess. */
+static hc_status set_scales(hbm_solver *s, double omega, double x_scale, const double *X)
+{
+  hc_status st = hbm_system_contact(&s->sys, X);
+  if (st != HC_OK) return st;
+  double force = hbm_system_scale(&s->sys, omega);
+  if (!(force > 0)) force = 1; /* no forcing, no motion: 0 = 0 at any scale */
+  if (!(x_scale > 0)) x_scale = 1;
+  for (int i = 0; i < s->sys.n; ++i) {
+    s->z_scale[i] = 1 / x_scale;
+    s->r_scale[i] = 1 / force;
+  }
+  return HC_OK;
+}
+
+/* The residual again, against the forces at the answer rather than at the guess. */
+static hc_status recheck(hbm_solver *s, double omega, const newton_report *report, hbm_point *point)
+{
+  double force = hbm_system_scale(&s->sys, omega);
+  point->omega = omega;
+  point->iterations = report->iterations;
+  point->residual = force > 0 ? report->residual / (s->r_scale[0] * force) : report->residual;
+  return point->residual <= 10 * s->sys.sc.hbm.tolerance ? HC_OK : HC_NOT_CONVERGED;
+}
+
+enum { MAX_NEWTON = 25 };
+
+hc_status hbm_solve_fixed(hbm_solver *s, double omega, double x_scale, double *X, hbm_point *point)
+{
+  hc_status st = set_scales(s, omega, x_scale, X);
+  if (st != HC_OK) return st;
+  s->omega = omega;
+  newton_options opt = {s->z_scale, s->r_scale, s->sys.sc.hbm.tolerance, 3.0, MAX_NEWTON};
+  newton_report report;
+  hbm_pack(s, X, omega, s->z);
+  st = newton_solve(s->fixed, s->z, &opt, &report);
+  if (st != HC_OK) { point->iterations = report.iterations; return st; }
+  hbm_unpack(s, s->z, X, &omega);
+  return recheck(s, omega, &report, point);
+}
+
+hc_status hbm_solve_plane(hbm_solver *s, const double *normal, double x_scale, double omega_scale, double *X, double *omega, hbm_point *point)
+{
+  hc_status st = set_scales(s, *omega, x_scale, X);
+  if (st != HC_OK) return st;
+  int n = s->sys.n;
+  s->z_scale[n] = 1 / omega_scale;
+  s->r_scale[n] = 1; /* normal . (z - anchor) is a length in the metric */
+  memcpy(s->normal, normal, (size_t)(n + 1) * sizeof(double));
+  hbm_pack(s, X, *omega, s->anchor);
+  memcpy(s->z, s->anchor, (size_t)(n + 1) * sizeof(double));
+  newton_options opt = {s->z_scale, s->r_scale, s->sys.sc.hbm.tolerance, 1.0, MAX_NEWTON};
+  newton_report report;
+  st = newton_solve(s->plane, s->z, &opt, &report);
+  if (st != HC_OK) { point->iterations = report.iterations; return st; }
+  hbm_unpack(s, s->z, X, omega);
+  return recheck(s, *omega, &report, point);
+}
+
+hc_status hbm_tangent_fixed(hbm_solver *s, const double *X, double *dX)
+{
+  hbm_system_domega(&s->sys, s->omega, X, s->z);
+  hc_status st = newton_backsolve(s->fixed, s->z);
+  dX[0] = 0;
+  for (int i = 0; i < s->sys.n; ++i) dX[i + s->sys.first] = -s->z[i];
+  return st;
+}
+
+hc_status hbm_tangent_plane(hbm_solver *s, double *dX, double *d_omega)
+{
+  memset(s->z, 0, (size_t)s->sys.n * sizeof(double));
+  s->z[s->sys.n] = 1;
+  hc_status st = newton_backsolve(s->plane, s->z);
+  hbm_unpack(s, s->z, dX, d_omega);
+  return st;
+}
+
+hc_status hbm_measure(hbm_solver *s, const double *X, hbm_measures *out)
+{
+  hc_status st = hbm_system_contact(&s->sys, X);
+  if (st != HC_OK) return st;
+  int n_harm = s->sys.n_harm;
+  series_extrema(n_harm, X, &out->max, &out->min);
+  out->amplitude = 0.5 * (out->max - out->min);
+  out->rms = series_rms(n_harm, X);
+  out->mean = X[0];
+  out->harmonic_1 = series_harmonic_1(n_harm, X);
+  out->contact = s->sys.report;
+  return HC_OK;
+}

@@ -1,0 +1,40 @@
+/* solver.h - inside of hbm_solver, for the files of this folder: the equations, and KINSOL for both of their forms.
+ *
+ *     fixed:   R(X, omega) = 0 at given omega                                              n unknowns
+ *     plane:   R(X, omega) = 0 and  normal . D (z - anchor) = 0,   z = (X, omega)          n + 1 unknowns  (paper eq. 15-16)
+ *
+ * Everything the continuation measures lengths with is the metric D: 1/x_scale^2 on the harmonics, 1/omega_scale^2 on omega. */
+#ifndef HC_HBM_SOLVER_H
+#define HC_HBM_SOLVER_H
+
+#include "hbm/hbm.h"
+#include "hbm/newton.h"
+#include "hbm/system.h"
+
+struct hbm_solver {
+  hbm_system sys;
+  newton *fixed, *plane;
+  double omega;                 /* of the fixed form */
+  double *Z;                    /* [n_coef]  X with harmonic 0, for the callbacks */
+  double *z;                    /* [n+1]     unknowns of a solve */
+  double *z_scale, *r_scale;    /* [n+1]     weights for KINSOL */
+  double *normal, *anchor;      /* [n+1]     of the plane form, metric weights included in normal */
+};
+
+/* z[n+1] <-> X[n_coef] and omega. */
+void hbm_pack(const hbm_solver *s, const double *X, double omega, double *z);
+void hbm_unpack(const hbm_solver *s, const double *z, double *X, double *omega);
+
+/* Solve the fixed form at omega from X; or the plane form from (X, *omega), which is also the anchor, with `normal`[n+1] given.
+ * x_scale [length] is the size of X. */
+hc_status hbm_solve_fixed(hbm_solver *s, double omega, double x_scale, double *X, hbm_point *point);
+hc_status hbm_solve_plane(hbm_solver *s, const double *normal, double x_scale, double omega_scale, double *X, double *omega, hbm_point *point);
+
+/* dX/domega [n_coef] at the end of the last fixed solve; (dX, domega) along the curve, with normal . (dX, domega) = 1, after a plane solve. */
+hc_status hbm_tangent_fixed(hbm_solver *s, const double *X, double *dX);
+hc_status hbm_tangent_plane(hbm_solver *s, double *dX, double *d_omega);
+
+/* Euclidean norm of v[n]. */
+double hbm_norm(int n, const double *v);
+
+#endif

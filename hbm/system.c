@@ -1,0 +1,109 @@
+/* system.c - see system.h for the equations. The contact force comes from aft.c; nothing else here knows how. */
+#include "hbm/system.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "hbm/series.h"
+
+hc_status hbm_system_init(hbm_system *sys, const scene *sc, int n_harm, int n_time)
+{
+  *sys = (hbm_system){.sc = *sc, .n_harm = n_harm, .n_coef = series_length(n_harm), .contact_factor = 1, .force_factor = 1};
+  sys->first = sc->hbm.keep_mean ? 0 : 1;
+  sys->n = sys->n_coef - sys->first;
+  size_t n = (size_t)sys->n_coef;
+  sys->X = calloc(n, sizeof(double));
+  sys->F = calloc(n, sizeof(double));
+  sys->dF = calloc(n * n, sizeof(double));
+  sys->rows = calloc(n, sizeof(double));
+  if (!sys->X || !sys->F || !sys->dF || !sys->rows) return HC_NO_MEMORY;
+  return aft_new(sc, n_harm, n_time, &sys->sampled);
+}
+
+void hbm_system_clear(hbm_system *sys)
+{
+  aft_free(sys->sampled);
+  free(sys->X);
+  free(sys->F);
+  free(sys->dF);
+  free(sys->rows);
+  *sys = (hbm_system){0};
+}
+
+hc_status hbm_system_contact(hbm_system *sys, const double *X)
+{
+  size_t bytes = (size_t)sys->n_coef * sizeof(double);
+  if (sys->evaluated && memcmp(X, sys->X, bytes) == 0) return HC_OK;
+  sys->evaluated = false;
+  ++sys->evaluations;
+  hc_status st = aft_eval(sys->sampled, X, sys->F, sys->dF, &sys->report);
+  if (st != HC_OK) return st;
+  memcpy(sys->X, X, bytes);
+  sys->evaluated = true;
+  return HC_OK;
+}
+
+hc_status hbm_system_residual(hbm_system *sys, double omega, const double *X, double *R)
+{
+  hc_status st = hbm_system_contact(sys, X);
+  if (st != HC_OK) return st;
+  const scene *sc = &sys->sc;
+  double *full = sys->rows;
+  full[0] = sc->stiffness * X[0] + sys->contact_factor * sys->F[0];
+  for (int h = 1; h <= sys->n_harm; ++h) {
+    double k = sc->stiffness - sc->mass * h * h * omega * omega, c = sc->damping * h * omega;
+    double a = X[2 * h - 1], b = X[2 * h];
+    full[2 * h - 1] = k * a + c * b + sys->contact_factor * sys->F[2 * h - 1];
+    full[2 * h] = k * b - c * a + sys->contact_factor * sys->F[2 * h];
+  }
+  full[1] -= sys->force_factor * sc->force;
+  memcpy(R, full + sys->first, (size_t)sys->n * sizeof(double));
+  double sum = 0;
+  for (int i = 0; i < sys->n; ++i) sum += R[i];
+  return isfinite(sum) ? HC_OK : HC_NOT_FINITE;
+}
+
+void hbm_system_jacobian(const hbm_system *sys, double omega, int ld, double *jac)
+{
+  const scene *sc = &sys->sc;
+  for (int col = 0; col < sys->n; ++col) {
+    const double *from = sys->dF + (size_t)sys->n_coef * (col + sys->first) + sys->first;
+    double *to = jac + (size_t)ld * col;
+    for (int row = 0; row < sys->n; ++row) to[row] = sys->contact_factor * from[row];
+  }
+  if (sys->first == 0) jac[0] += sc->stiffness;
+  for (int h = 1; h <= sys->n_harm; ++h) {
+    double k = sc->stiffness - sc->mass * h * h * omega * omega, c = sc->damping * h * omega;
+    size_t a = (size_t)(2 * h - 1 - sys->first), b = a + 1, n = (size_t)ld;
+    jac[a + n * a] += k;
+    jac[b + n * b] += k;
+    jac[a + n * b] += c;
+    jac[b + n * a] -= c;
+  }
+}
+
+void hbm_system_domega(hbm_system *sys, double omega, const double *X, double *dR)
+{
+  const scene *sc = &sys->sc;
+  double *full = sys->rows;
+  full[0] = 0;
+  for (int h = 1; h <= sys->n_harm; ++h) {
+    double dk = -2 * sc->mass * h * h * omega, dc = sc->damping * h;
+    full[2 * h - 1] = dk * X[2 * h - 1] + dc * X[2 * h];
+    full[2 * h] = dk * X[2 * h] - dc * X[2 * h - 1];
+  }
+  memcpy(dR, full + sys->first, (size_t)sys->n * sizeof(double));
+}
+
+double hbm_system_scale(const hbm_system *sys, double omega)
+{
+  const scene *sc = &sys->sc;
+  double sum = fabs(sc->stiffness * sys->X[0]), force = fabs(sys->F[0]);
+  for (int h = 1; h <= sys->n_harm; ++h) {
+    double z = sc->stiffness + sc->mass * h * h * omega * omega + sc->damping * h * omega;
+    sum += z * hypot(sys->X[2 * h - 1], sys->X[2 * h]);
+    force += hypot(sys->F[2 * h - 1], sys->F[2 * h]);
+  }
+  return sum + sys->contact_factor * force + sys->force_factor * sc->force;
+}
