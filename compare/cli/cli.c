@@ -1,0 +1,152 @@
+/* cli.c - see cli.h. */
+#include "compare/cli/cli.h"
+
+#include <errno.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cases/case_file.h"
+#include "cases/number.h"
+#include "compare/show/output.h"
+
+static const struct argp_option common_options[] = {
+    {"set", CLI_SET, "PATH=VALUE", 0, "Set a field of the case, e.g. hbm.harmonics=10 or contacts[0].gap=-1; may be repeated", 10},
+    {"format", CLI_FORMAT, "table|csv|json", 0, "Form of the result (csv: 17 significant digits) [table]", 10},
+    {"output", 'o', "FILE", 0, "Write the result to FILE, whole or not at all, instead of standard output", 10},
+    {"quiet", 'q', NULL, 0, "No progress, no remarks", 10},
+    {0},
+};
+
+/* A list "5,7,9" of numbers, each strictly read. */
+static void read_list(struct argp_state *state, const char *option, const char *text, scene_list *out)
+{
+  out->n = 0;
+  for (const char *at = text;; ) {
+    size_t length = strcspn(at, ",");
+    if (out->n == SCENE_MAX_LIST) argp_error(state, "--%s takes at most %d numbers", option, SCENE_MAX_LIST);
+    if (number_read(at, length, &out->v[out->n]) != NUMBER_FINE || !(out->v[out->n] > 0))
+      argp_error(state, "--%s: '%.*s' is not a positive number; expected a list like 5,7,9", option, (int)length, at);
+    ++out->n;
+    if (!at[length]) return;
+    at += length + 1;
+  }
+}
+
+static void read_format(struct argp_state *state, const char *text, table_format *out)
+{
+  if (!strcmp(text, "table")) *out = FORMAT_TABLE;
+  else if (!strcmp(text, "csv")) *out = FORMAT_CSV;
+  else if (!strcmp(text, "json")) *out = FORMAT_JSON;
+  else argp_error(state, "--format: '%s' is unknown; expected table, csv or json", text);
+}
+
+static error_t on_option(int key, char *arg, struct argp_state *state)
+{
+  cli_options *o = state->input;
+  switch (key) {
+  case CLI_SET:
+    if (o->n_set == CLI_MAX_SET) argp_error(state, "--set may be given at most %d times", CLI_MAX_SET);
+    o->set[o->n_set++] = arg;
+    return 0;
+  case CLI_FORMAT: read_format(state, arg, &o->format); return 0;
+  case 'o': o->output = arg; return 0;
+  case 'q': o->quiet = true; return 0;
+  case CLI_AT: read_list(state, "at", arg, &o->at); return 0;
+  case CLI_HARMONICS: read_list(state, "harmonics", arg, &o->harmonics); return 0;
+  case CLI_SAMPLES: read_list(state, "samples", arg, &o->samples); return 0;
+  case CLI_MOTION: o->motion = arg; return 0;
+  case ARGP_KEY_ARG:
+    if (o->argument) argp_error(state, "'%s' is one argument too many", arg);
+    o->argument = arg;
+    return 0;
+  default: return ARGP_ERR_UNKNOWN;
+  }
+}
+
+void cli_parse(int argc, char **argv, const char *command, const char *args, const char *doc, const struct argp_option *own, bool needs_argument,
+               cli_options *o)
+{
+  struct argp_option options[16] = {{0}};
+  int n = 0;
+  for (; own && (own[n].name || own[n].key); ++n) options[n] = own[n];
+  memcpy(options + n, common_options, sizeof common_options);
+  struct argp argp = {options, on_option, args, doc, NULL, NULL, NULL};
+  char name[64];
+  *o = (cli_options){.command = command};
+  snprintf(name, sizeof name, "hbmcheck %s", command);
+  argv[0] = name;
+  argp_err_exit_status = EXIT_USAGE;
+  argp_parse(&argp, argc, argv, 0, NULL, o);
+  argv[0] = (char *)"hbmcheck";
+  if (needs_argument && !o->argument) {
+    fprintf(stderr, "%s: no %s given\nTry 'hbmcheck %s --help'.\n", name, args, command);
+    exit(EXIT_USAGE);
+  }
+}
+
+void cli_say(const cli_options *o, const char *format, ...)
+{
+  va_list args;
+  va_start(args, format);
+  fprintf(stderr, "hbmcheck %s: ", o->command);
+  vfprintf(stderr, format, args);
+  fputc('\n', stderr);
+  va_end(args);
+}
+
+int cli_load_case(const cli_options *o, scene *sc)
+{
+  case_error err = {{0}};
+  hc_status st = case_read(o->argument, o->n_set, o->set, sc, &err);
+  if (st == HC_OK) return 0;
+  fprintf(stderr, "%s\n", err.message[0] ? err.message : hc_status_text(st));
+  return st == HC_NO_MEMORY ? EXIT_BUG : EXIT_BAD_CASE;
+}
+
+/* What a person can try next. */
+static const char *advice(hc_status st)
+{
+  switch (st) {
+  case HC_STALLED:
+  case HC_NOT_CONVERGED:
+  case HC_SINGULAR:
+  case HC_STEP_TOO_SMALL:
+    return "try --set hbm.continuation=auto, more --set hbm.samples=..., or a sweep from the other end";
+  case HC_TOO_MANY_POINTS: return "try more --set hbm.samples=...: false turning points may come from too few";
+  case HC_INTEGRATOR: return "try a larger --set transient.regularisation=... or a tighter --set transient.tolerance=...";
+  case HC_NOT_SETTLED: return "try a larger --set transient.max_periods=... or --set transient.start=hbm";
+  case HC_NOT_FINITE: return "the motion grew without bound: is the scene damped?";
+  case HC_UNSUPPORTED: return "see hbmcheck describe hbm and hbmcheck describe transient";
+  default: return "see README.md, 'When it says no'";
+  }
+}
+
+int cli_solver_failed(const cli_options *o, const char *solver, hc_status st, double omega)
+{
+  if (st == HC_INTERRUPTED) {
+    cli_say(o, "%s: stopped on request; what was found is kept", solver);
+    return EXIT_NO_SOLUTION;
+  }
+  if (st == HC_NO_MEMORY) {
+    cli_say(o, "%s", hc_status_text(st));
+    return EXIT_NO_SOLUTION;
+  }
+  if (omega > 0) cli_say(o, "%s stopped at omega = %.10g: %s; %s", solver, omega, hc_status_text(st), advice(st));
+  else cli_say(o, "%s: %s; %s", solver, hc_status_text(st), advice(st));
+  return EXIT_NO_SOLUTION;
+}
+
+int cli_write(const cli_options *o, int n, table *const *tables)
+{
+  output *out = NULL;
+  hc_status st = output_open(o->output, &out);
+  if (st == HC_OK) {
+    st = table_write(n, tables, o->format, output_stream(out));
+    if (st == HC_OK) st = output_commit(out);
+    else output_abandon(out);
+  }
+  if (st == HC_OK) return 0;
+  cli_say(o, "%s: %s", o->output ? o->output : "standard output", st == HC_IO && errno ? strerror(errno) : hc_status_text(st));
+  return EXIT_NO_SOLUTION;
+}

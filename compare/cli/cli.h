@@ -1,0 +1,55 @@
+/* cli.h - what the commands share: options, exit codes, and the one place where a failure is put into words.
+ * A command is a function (argc, argv) -> exit code; results go to stdout or --output, everything else to stderr. */
+#ifndef HC_CLI_H
+#define HC_CLI_H
+
+#include <argp.h>
+#include <stdbool.h>
+
+#include "cases/scene.h"
+#include "cases/status.h"
+#include "compare/show/table.h"
+
+enum { EXIT_AGREED = 0, EXIT_DISAGREED = 1, EXIT_BAD_CASE = 2, EXIT_NO_SOLUTION = 3, EXIT_USAGE = 64, EXIT_BUG = 70 };
+
+enum { CLI_MAX_SET = 256 };
+
+typedef struct cli_options {
+  const char *command;         /* "frf", for messages */
+  const char *argument;        /* CASE, or what stands in its place; NULL if absent */
+  int n_set;
+  const char *set[CLI_MAX_SET];
+  table_format format;
+  const char *output;
+  bool quiet;
+  scene_list at;               /* --at; n = 0 when absent */
+  scene_list harmonics, samples; /* --harmonics, --samples; n = 0 when absent */
+  const char *motion;          /* --motion */
+} cli_options;
+
+/* Keys of the options that only some commands have. */
+enum { CLI_AT = 0x100, CLI_HARMONICS, CLI_SAMPLES, CLI_MOTION, CLI_SET, CLI_FORMAT };
+
+/* Parse a command's arguments; does not return on --help, --version or wrong usage (exit 64). `own`: the command's options, or NULL. */
+void cli_parse(int argc, char **argv, const char *command, const char *args, const char *doc, const struct argp_option *own, bool needs_argument,
+               cli_options *o);
+
+/* Read the case with --set applied. 0, or the exit code after saying why. */
+int cli_load_case(const cli_options *o, scene *sc);
+
+/* "hbmcheck COMMAND: ..." on stderr. */
+void cli_say(const cli_options *o, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+/* Say which solver failed where and what to try; returns the exit code of INTERFACE.md. omega <= 0: at no particular one. */
+int cli_solver_failed(const cli_options *o, const char *solver, hc_status st, double omega);
+
+/* Write the tables to stdout or --output, whole or not at all. 0 or the exit code. Frees nothing. */
+int cli_write(const cli_options *o, int n, table *const *tables);
+
+int cmd_frf(int argc, char **argv);
+int cmd_transient(int argc, char **argv);
+int cmd_compare(int argc, char **argv);
+int cmd_contact(int argc, char **argv);
+int cmd_describe(int argc, char **argv);
+
+#endif

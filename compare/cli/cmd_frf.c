@@ -1,0 +1,100 @@
+/* cmd_frf.c - hbmcheck frf: the response curve, or every solution at given frequencies. */
+#include <math.h>
+
+#include "compare/cli/cli.h"
+#include "compare/measure/frequencies.h"
+#include "compare/show/progress.h"
+#include "hbm/hbm.h"
+
+static const char doc[] =
+    "The harmonic-balance response curve of CASE, turning points included, or every solution at the omegas of --at."
+    "\vColumns: amplitude = (max - min)/2 of x over a period, branch = turning points passed, contact = the strongest thing that happens "
+    "in a period.\nexit: 0 the whole sweep  2 case file wrong  3 stopped before the end (where and why on stderr)  64 usage\n"
+    "example: hbmcheck frf cases/paper/case2.yaml --at 8,9 --set hbm.harmonics=5";
+
+static const struct argp_option options[] = {
+    {"at", CLI_AT, "LIST", 0, "Only the solutions at these omegas, rad per unit time", 1},
+    {0},
+};
+
+static const table_column columns[] = {
+    {"omega", TABLE_REAL},      {"branch", TABLE_INTEGER}, {"amplitude", TABLE_REAL},     {"max", TABLE_REAL},
+    {"min", TABLE_REAL},        {"rms", TABLE_REAL},       {"mean", TABLE_REAL},          {"harmonic_1", TABLE_REAL},
+    {"contact", TABLE_TEXT},    {"iterations", TABLE_INTEGER}, {"residual", TABLE_REAL},
+};
+
+static hc_status put_points(hbm_solver *s, const hbm_curve *c, table *t)
+{
+  for (int k = 0; k < c->n; ++k) {
+    hbm_measures m;
+    hc_status st = hbm_measure(s, c->X + (size_t)k * c->n_coef, &m);
+    if (st != HC_OK) return st;
+    table_put_real(t, c->points[k].omega);
+    table_put_integer(t, c->points[k].branch);
+    const double values[] = {m.amplitude, m.max, m.min, m.rms, m.mean, m.harmonic_1};
+    for (int i = 0; i < 6; ++i) table_put_real(t, values[i]);
+    table_put_text(t, contact_regime_name(m.contact.regime));
+    table_put_integer(t, c->points[k].iterations);
+    table_put_real(t, c->points[k].residual);
+  }
+  return HC_OK;
+}
+
+static void note_curve(table *t, const scene *sc, const hbm_curve *c)
+{
+  table_note(t, "%s: H = %d%s, %d samples; %d points, %ld iterations, %d steps rejected, %d turning points, %s continuation", sc->title,
+             sc->hbm.harmonics, sc->hbm.keep_mean ? "" : " without harmonic 0", sc->hbm.samples, c->n, c->iterations, c->rejected,
+             c->turning_points, c->arclength ? "arc-length" : "natural");
+  if (c->n == 0) return;
+  double last = c->points[c->n - 1].omega;
+  if (c->left_at_start) table_note(t, "the branch turned back and left the sweep where it began, at omega = %.10g", last);
+  else if (c->end == HC_OK) table_note(t, "reached the end of the sweep, omega = %.10g", last);
+  else table_note(t, "STOPPED at omega = %.10g: %s", last, hc_status_text(c->end));
+}
+
+/* All solutions at the asked frequencies. A frequency without any is a failure unless the curve says the branch never goes there. */
+static hc_status solve_at(hbm_solver *s, const hbm_curve *curve, const scene_list *at, hbm_curve *found, double *failed_at)
+{
+  hc_status worst = HC_OK;
+  for (int i = 0; i < at->n; ++i) {
+    int before = found->n;
+    hc_status st = hbm_curve_at(s, curve, at->v[i], found);
+    if (st == HC_OK && found->n == before) st = curve->end != HC_OK ? curve->end : HC_NOT_CONVERGED;
+    if (st != HC_OK && worst == HC_OK) { worst = st; *failed_at = at->v[i]; }
+  }
+  return worst;
+}
+
+int cmd_frf(int argc, char **argv)
+{
+  cli_options o;
+  scene sc;
+  cli_parse(argc, argv, "frf", "CASE", doc, options, true, &o);
+  int code = cli_load_case(&o, &sc);
+  if (code) return code;
+  hbm_solver *s = NULL;
+  hbm_curve curve = {0}, found = {0};
+  double from, to, failed_at = 0;
+  table *t = table_new("Response curve", sizeof columns / sizeof *columns, columns);
+  progress *bar = progress_start("harmonic balance", o.quiet);
+  hc_monitor monitor = progress_monitor(bar);
+  comparison_sweep(&sc, &o.at, &from, &to);
+  hc_status st = hbm_solver_new(&sc, &s);
+  if (st == HC_OK) {
+    st = hbm_trace(s, from, to, &monitor, &curve);
+    if (st != HC_OK) failed_at = curve.n ? curve.points[curve.n - 1].omega : from;
+    hc_status at = o.at.n ? solve_at(s, &curve, &o.at, &found, &failed_at) : HC_OK;
+    if (st == HC_OK || o.at.n) st = at; /* --at: a curve that stops beyond the asked omegas is nobody's concern */
+    hc_status shown = put_points(s, o.at.n ? &found : &curve, t);
+    if (st == HC_OK) st = shown;
+    note_curve(t, &sc, &curve);
+  }
+  progress_end(bar);
+  code = st == HC_OK ? 0 : cli_solver_failed(&o, "harmonic balance", st, failed_at);
+  int written = s ? cli_write(&o, 1, &t) : 0;
+  table_free(t);
+  hbm_curve_free(&found);
+  hbm_curve_free(&curve);
+  hbm_solver_free(s);
+  return code ? code : written;
+}
