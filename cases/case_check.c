@@ -1,0 +1,55 @@
+/* case_check.c - what no field can be wrong about alone. Blames the field that was given last. */
+#include <string.h>
+
+#include "cases/case_reader.h"
+
+static const field *named(const char *section, const char *name) { return field_find(section, name, strlen(name)); }
+
+/* Assignments come after the file, later ones after earlier ones; within the file, and for defaults, a goes first. */
+static case_place last_given(const case_reader *r, const field *a, const field *b)
+{
+  case_place pa = r->at[field_index(a)], pb = r->at[field_index(b)];
+  if (pa.line == 0) return pb;
+  return pb.set > pa.set ? pb : pa;
+}
+
+static hc_status check_sweep(case_reader *r)
+{
+  if (r->sc.omega_from != r->sc.omega_to) return HC_OK;
+  message_add(case_blame(r, last_given(r, named("sweep", "omega"), named("sweep", "frequency"))),
+              "the sweep ends where it starts, expected FROM and TO to differ (single frequencies: compare.omega, or --at)");
+  return HC_BAD_INPUT;
+}
+
+static hc_status check_samples(case_reader *r)
+{
+  const scene_hbm *h = &r->sc.hbm;
+  if (h->force != HBM_FORCE_SAMPLED || h->samples == SCENE_AUTO || h->harmonics == SCENE_AUTO || h->samples >= 2 * h->harmonics + 1)
+    return HC_OK;
+  message_add(case_blame(r, last_given(r, named("hbm", "samples"), named("hbm", "harmonics"))),
+              "%d samples cannot tell %d harmonics apart, expected hbm.samples >= %d", h->samples, h->harmonics, 2 * h->harmonics + 1);
+  return HC_BAD_INPUT;
+}
+
+/* Contacts of the file are whole; one that an assignment appended may still lack something. */
+static hc_status check_contacts(case_reader *r)
+{
+  for (int j = 0; j < r->sc.n_contacts; ++j)
+    for (int i = 0; i < field_count(); ++i) {
+      const field *f = field_at(i);
+      if (!(f->flags & FIELD_IN_CONTACT) || f->fallback || r->contact_has[j] >> i & 1) continue;
+      message *m = case_blame(r, r->contact_at[j]);
+      message_add(m, "this appends a contact without `%s`, expected contacts[%d].%s=VALUE too: ", f->name, j, f->name);
+      field_expected(f, m);
+      return HC_BAD_INPUT;
+    }
+  return HC_OK;
+}
+
+hc_status case_check(case_reader *r)
+{
+  hc_status st = check_contacts(r);
+  if (st == HC_OK) st = check_sweep(r);
+  if (st == HC_OK) st = check_samples(r);
+  return st;
+}

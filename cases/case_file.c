@@ -1,0 +1,116 @@
+/* case_file.c - from a file to a scene; see case_file.h, and case_reader.h for the steps in between. */
+#include "cases/case_file.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "cases/case_reader.h"
+
+message *case_blame(case_reader *r, case_place place)
+{
+  message *m = &r->msg;
+  message_start(m, m->text, m->size);
+  if (place.set > 0) {
+    message_add(m, "--set ");
+    message_add_input(m, r->set[place.set - 1], strlen(r->set[place.set - 1]), 120);
+    message_add(m, ": ");
+  } else {
+    message_add_input(m, r->name, strlen(r->name), 240);
+    if (place.line > 0) message_add(m, ":%zu:%zu", place.line, place.column);
+    message_add(m, ": ");
+  }
+  return m;
+}
+
+bool case_suggest(message *m, suggestion s, const char *section, int j)
+{
+  char path[FIELD_PATH];
+  if (s.f) message_add(m, ", did you mean `%s`?", section && !strcmp(section, s.f->section) ? s.f->name : field_path(s.f, j, path));
+  if (s.s) message_add(m, ", did you mean `%s`%s?", s.s->name, section && *section ? " at the top level" : "");
+  return s.f || s.s;
+}
+
+static hc_status whole_file(case_reader *r, hc_status st, const char *words)
+{
+  message_add(case_blame(r, (case_place){0}), "%s", words);
+  return st;
+}
+
+/* "dir/case2.yaml" is titled "case2". */
+static void title_from_name(const char *name, char title[SCENE_MAX_TEXT])
+{
+  const char *slash = strrchr(name, '/'), *base = slash && slash[1] ? slash + 1 : name, *dot = strrchr(base, '.');
+  message m;
+  message_start(&m, title, SCENE_MAX_TEXT);
+  message_add_input(&m, base, dot && dot > base ? (size_t)(dot - base) : strlen(base), SCENE_MAX_TEXT);
+  memset(title + m.used, 0, SCENE_MAX_TEXT - m.used);
+}
+
+static hc_status read_all(case_reader *r, const char *text, size_t length, int n_set)
+{
+  yaml_document_t doc;
+  if (length > CASE_LARGEST) return whole_file(r, HC_BAD_INPUT, "larger than 1 MB, expected a case file (a few kB)");
+  hc_status st = yaml_text_load(r, text, length, &doc);
+  if (st != HC_OK) return st;
+  st = yaml_scene_read(r, &doc);
+  yaml_document_delete(&doc);
+  for (int k = 1; k <= n_set && st == HC_OK; ++k) st = case_set_apply(r, k);
+  if (st == HC_OK) st = case_check(r);
+  if (st == HC_OK && r->at[field_index(field_find("", "title", 5))].line == 0) title_from_name(r->name, r->sc.title);
+  return st;
+}
+
+static void start(case_reader *r, const char *name, const char *const *set, case_error *err)
+{
+  memset(r, 0, sizeof *r);
+  r->name = name;
+  r->set = set;
+  message_start(&r->msg, err->message, sizeof err->message);
+  field_defaults(&r->sc);
+}
+
+hc_status case_parse(const char *name, const char *text, size_t length, int n_set, const char *const *set, scene *out, case_error *err)
+{
+  case_reader r;
+  start(&r, name, set, err);
+  hc_status st = read_all(&r, text, length, n_set);
+  if (st == HC_OK) *out = r.sc;
+  return st;
+}
+
+/* The file's bytes, at most one more than allowed, in memory to free. */
+static hc_status slurp(case_reader *r, FILE *from, char **text, size_t *length)
+{
+  struct stat info;
+  if (fstat(fileno(from), &info) == 0 && S_ISDIR(info.st_mode)) return whole_file(r, HC_IO, "a directory, expected a case file");
+  if (!(*text = malloc(CASE_LARGEST + 1))) return whole_file(r, HC_NO_MEMORY, "out of memory");
+  *length = fread(*text, 1, CASE_LARGEST + 1, from);
+  return ferror(from) ? whole_file(r, HC_IO, "cannot be read, expected a case file") : HC_OK;
+}
+
+static hc_status cannot_open(case_reader *r, int error)
+{
+  char words[128];
+  if (strerror_r(error, words, sizeof words)) snprintf(words, sizeof words, "error %d", error);
+  message_add(case_blame(r, (case_place){0}), "cannot be opened: %s", words);
+  return HC_IO;
+}
+
+hc_status case_read(const char *path, int n_set, const char *const *set, scene *out, case_error *err)
+{
+  case_reader r;
+  bool standard_input = !strcmp(path, "-");
+  char *text = NULL;
+  size_t length = 0;
+  start(&r, standard_input ? "<stdin>" : path, set, err);
+  FILE *from = standard_input ? stdin : fopen(path, "rb");
+  if (!from) return cannot_open(&r, errno);
+  hc_status st = slurp(&r, from, &text, &length);
+  if (!standard_input) fclose(from);
+  if (st == HC_OK) st = read_all(&r, text, length, n_set);
+  if (st == HC_OK) *out = r.sc;
+  free(text);
+  return st;
+}

@@ -1,0 +1,95 @@
+/* fields.h - every field of a case file, in one table: name, kind, unit, default, range, meaning, and where it lives in a scene.
+ * The reader, --set, the echo and describe all work from it; a new field is a new row in fields.c and nothing else. */
+#ifndef HC_FIELDS_H
+#define HC_FIELDS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdio.h>
+
+#include "cases/message.h"
+#include "cases/scene.h"
+
+typedef enum field_kind {
+  FIELD_REAL,    /* double                                             */
+  FIELD_INTEGER, /* int                                                */
+  FIELD_FLAG,    /* bool                                               */
+  FIELD_CHOICE,  /* int, an index into choices                         */
+  FIELD_TEXT,    /* char[size]                                         */
+  FIELD_PAIR,    /* double[2], from and to                             */
+  FIELD_REALS,   /* scene_list                                         */
+  FIELD_INTEGERS /* scene_list of integers                             */
+} field_kind;
+
+enum { FIELD_IN_CONTACT = 1, FIELD_AUTO = 2, FIELD_OPEN = 4, FIELD_NO_ECHO = 8 };
+
+typedef struct field {
+  const char *section, *name; /* section is "" for the top level; path is section.name                                     */
+  const char *symbol;         /* what PHYSICS.md and the paper call it, or ""; only ever suggested, never read              */
+  field_kind kind;
+  unsigned flags;             /* FIELD_IN_CONTACT: offset is into scene_contact; FIELD_AUTO: `auto` is a value (SCENE_AUTO);
+                                 FIELD_OPEN: low itself is out of range; FIELD_NO_ECHO: another field writes what it stored  */
+  const char *unit;           /* in terms of force, length, time; "1" for pure numbers, "" where there is none              */
+  size_t offset, size;        /* in bytes; size only for FIELD_TEXT                                                         */
+  const char *fallback;       /* the default as one would write it; "" for nothing at all; NULL: the field is required      */
+  double low, high;           /* range, of each entry in lists                                                              */
+  double scale;               /* stored = scale * written; 0 counts as 1                                                    */
+  const char *const *choices; /* in the order of the enum, ending in NULL                                                   */
+  const char *rival;          /* the other way, in the same section, to say the same: never both in one file; or NULL       */
+  const char *meaning;
+} field;
+
+typedef struct field_section {
+  const char *name, *meaning;
+} field_section;
+
+enum { FIELD_MAX = 64, FIELD_PATH = 64 }; /* rows at most, asserted; characters of a path */
+
+int field_count(void);
+const field *field_at(int i); /* 0 <= i < field_count(), in the order of the echo, sections together */
+int field_index(const field *f);
+const field_section *field_section_at(int i); /* NULL past the last one; the first is the top level, named "" */
+const field_section *field_find_section(const char *name, size_t length);
+const field *field_find(const char *section, const char *name, size_t length); /* NULL if there is none */
+
+/* "hbm.samples", "title", "contacts[2].gap"; j < 0 gives "contacts[].gap". Returns path. */
+const char *field_path(const field *f, int j, char path[FIELD_PATH]);
+
+/* What may stand there, in words: "a number > 0", "an integer 1..200 or auto", "true or false". */
+void field_expected(const field *f, message *m);
+
+/* Where the field lives: base is the scene, or the scene_contact for a field in a contact. */
+static inline void *field_place(const field *f, void *base) { return (char *)base + f->offset; }
+static inline const void *field_look(const field *f, const void *base) { return (const char *)base + f->offset; }
+
+/* A value as it was written, before it means anything. */
+typedef struct field_item {
+  const char *text;
+  size_t length;
+  bool quoted;         /* "5" in quotes is text, not a number */
+  size_t line, column; /* from 1; 0 when not from a file      */
+} field_item;
+typedef struct field_value {
+  bool list;
+  int n; /* entries; 1 if not a list. More than fit are counted, not kept */
+  field_item item[SCENE_MAX_LIST];
+} field_value;
+
+/* Store v, checked against the field's kind and range. On false nothing is stored, m got what comes after the path
+ * (" is `12,5`, expected a number > 0") and *bad is the entry at fault, or -1 for the value as a whole. */
+bool field_store(const field *f, void *base, const field_value *v, message *m, int *bad);
+
+/* text[length] as --set and the defaults write it: `5`, `sampled`, `[1, 3, 5]` or `1,3,5` for lists. Points into text. */
+void field_split(const field *f, const char *text, size_t length, field_value *v);
+
+/* The stored value as one writes it in a case file; reads back to the same bits. */
+void field_write(const field *f, const void *base, FILE *to);
+
+/* Back to the default; a required field keeps what it has. */
+void field_reset(const field *f, void *base);
+
+/* Everything at its default, no contacts; required fields are zero. */
+void field_defaults(scene *sc);
+void field_contact_defaults(scene_contact *c);
+
+#endif

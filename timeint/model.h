@@ -1,0 +1,43 @@
+/* model.h - the scene's equations in the phase theta = omega t, without dimensions; no solver is known here.
+ *
+ *     X = x/L,  P = dX/dtheta,  W_j = w_j/L          L [length]: about the size of the motion, so states are about 1
+ *     X' = P
+ *     P' = f cos(theta) - c P - k X - sum_j [ T_j cos(alpha_j) + (N_j - N0_j) sin(alpha_j) ]
+ *     W_j' = the slider of law_regularised.h, eta = regularisation kt/omega
+ *     k = K/(M omega^2), c = C/(M omega), f = F0/(M omega^2 L); kt, kn divided by M omega^2, gap by L
+ *
+ * Forces are in units of M omega^2 L. N0 = max(kn gap, 0) is the exact preload, not softplus' of it: at gap = 0 the two
+ * differ to first order in the width, and a constant force would show in the answer to first order too. */
+#ifndef HC_TIMEINT_MODEL_H
+#define HC_TIMEINT_MODEL_H
+
+#include "cases/scene.h"
+#include "timeint/law_regularised.h"
+
+enum { MODEL_X, MODEL_P, MODEL_W, MODEL_MAX_STATES = MODEL_W + SCENE_MAX_CONTACTS }; /* order of the states */
+
+typedef struct model_contact {
+  law_regularised law; /* without dimensions */
+  double cosine, sine; /* of the contact's angle */
+  double preload;      /* N0 */
+} model_contact;
+
+typedef struct model {
+  int n_contacts, n_states; /* n_states = 2 + n_contacts */
+  double k, c, f;
+  model_contact contact[SCENE_MAX_CONTACTS];
+} model;
+
+/* The equations of *sc at omega [rad/time] > 0, in lengths L = length > 0. */
+void model_make(model *m, const scene *sc, double omega, double length);
+
+/* dy[n_states] at phase theta and state y[n_states]. Answers whether all of it is finite. */
+bool model_rhs(const model *m, double theta, const double *y, double *dy);
+
+/* jac[n_states * n_states], column by column: d dy[i] / d y[j] at jac[i + j n_states]. */
+void model_jacobian(const model *m, const double *y, double *jac);
+
+/* Does contact j slide at y: in contact and |T| > mu N? */
+bool model_slides(const model *m, int j, const double *y);
+
+#endif
