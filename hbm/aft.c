@@ -14,8 +14,8 @@
 
 #include "hbm/slope.h"
 
-/* Where the slider's position came from: dw = g0 dx(th_i0) + g1 dx(th_i1); both slopes 0 when it depends on nothing. */
-typedef struct slider_origin { int i0, i1; double g0, g1; } slider_origin;
+/* Where the slider's position came from: dw = slope dx(th_i); slope 0 when it depends on nothing. */
+typedef struct slider_origin { int i; double slope; } slider_origin;
 
 struct aft {
   scene_contact contacts[SCENE_MAX_CONTACTS];
@@ -130,17 +130,14 @@ static void to_series(aft *a, fftw_plan plan, int n_harm, double *out)
   }
 }
 
-/* On entering contact at sample i after a separated one: w = u where the straight line between the samples meets v + gap = 0. */
+/* On entering contact at sample i after a separated one. Interpolated: w = u on the straight line between the samples where
+ * v + gap = 0, which for u = c x and v = s x is -gap c/s, whatever the samples. Else w stays the last separated sample's u. */
 static void restart_slider(const aft *a, track *t, int i)
 {
   int before = i ? i - 1 : a->n_time - 1;
-  double x0 = a->x[before], dx = a->x[i] - x0, g0 = t->s * x0 + t->contact->law.gap, rise = t->s * dx;
-  double part = rise > 0 ? -g0 / rise : 0; /* in [0, 1): g0 <= 0 < g0 + rise */
-  if (a->restart == HBM_RESTART_SAMPLE) part = 0;
-  t->w = t->c * (x0 + part * dx);
-  /* d part = -(s/rise)((1 - part) dx_0 + part dx_1), and dw = c (dx_0 + part (dx_1 - dx_0) + dx d part) */
-  double lag = a->restart == HBM_RESTART_SAMPLE || !(rise > 0) ? 0 : t->s * dx / rise;
-  t->origin = (slider_origin){before, i, t->c * (1 - part) * (1 - lag), t->c * part * (1 - lag)};
+  bool interpolated = a->restart == HBM_RESTART_INTERPOLATED;
+  t->w = interpolated ? -t->contact->law.gap * t->c / t->s : t->c * a->x[before];
+  t->origin = (slider_origin){before, interpolated ? 0 : t->c};
 }
 
 /* Advance to sample i: the force of this contact there, and the stiffness dF_i/dx_i at fixed w. */
@@ -151,7 +148,7 @@ static contact_state advance(const aft *a, track *t, int i, double *force, doubl
   if (t->state == CONTACT_SEPARATED && contact_normal(law, v) > 0) restart_slider(a, t, i);
   t->state = contact_step(law, u, v, &t->w, &traction);
   int slip = contact_slip_sign(t->state);
-  if (slip) t->origin = (slider_origin){i, i, t->c - slip * law->mu * law->kn * t->s / law->kt, 0};
+  if (slip) t->origin = (slider_origin){i, t->c - slip * law->mu * law->kn * t->s / law->kt};
   *force = traction * t->c + (contact_normal(law, v) - contact_preload(law)) * t->s;
   if (t->state == CONTACT_SEPARATED) *stiffness = 0;
   else *stiffness = (slip ? slip * law->mu * law->kn * t->s : law->kt * t->c) * t->c + law->kn * t->s * t->s;
@@ -162,14 +159,14 @@ static contact_state advance(const aft *a, track *t, int i, double *force, doubl
 static void subtract_stick_interval(aft *a, const track *t, int first, int last, double *jac)
 {
   const slider_origin *o = &t->origin;
-  if (o->g0 == 0 && o->g1 == 0) return;
+  if (o->slope == 0) return;
   int n = a->n_time;
   double weight = t->contact->law.kt * t->c / n;
   a->left[0] = weight * (last - first + 1);
-  a->right[0] = o->g0 + o->g1;
+  a->right[0] = o->slope;
   for (int h = 1; h <= a->n_harm; ++h) {
     double complex sum = (a->root[(long)h * (last + 1) % n] - a->root[(long)h * first % n]) * a->inv_step[h];
-    double complex right = o->g0 * a->root[(long)h * o->i0 % n] + o->g1 * a->root[(long)h * o->i1 % n];
+    double complex right = o->slope * a->root[(long)h * o->i % n];
     a->left[2 * h - 1] = 2 * weight * creal(sum);
     a->left[2 * h] = 2 * weight * cimag(sum);
     a->right[2 * h - 1] = creal(right);
@@ -196,8 +193,7 @@ static void record(aft *a, track *t, double *jac, contact_report *report)
     track old = *t;
     contact_state now = advance(a, t, i, &force, &stiffness);
     if (i == 0) report->w[t->contact - a->contacts] = t->w;
-    bool restarted = before == CONTACT_SEPARATED && now == CONTACT_STICK;
-    if (first >= 0 && (now != CONTACT_STICK || restarted)) {
+    if (first >= 0 && now != CONTACT_STICK) {
       if (jac) subtract_stick_interval(a, &old, first, i - 1, jac);
       first = -1;
     }
@@ -246,6 +242,6 @@ hc_status aft_eval(aft *a, const double *X, double *F, double *jac, contact_repo
   to_series(a, a->to_freq_f, a->n_harm, F);
   if (!jac) return HC_OK;
   to_series(a, a->to_freq_k, 2 * a->n_harm, a->symbol);
-  slope_add(a->n_harm, a->symbol, jac);
+  slope_add(a->n_harm, a->symbol, n_coef, jac);
   return HC_OK;
 }

@@ -27,6 +27,7 @@ typedef struct path {
   double from, to, direction;  /* direction: sign of to - from */
   double resolution;           /* [rad/time] width of the narrowest feature in omega: the linear resonance's half width C/2M */
   double h;
+  int sense;                   /* sign of det [dR/dX dR/domega; tangent], kept along the curve */
   bool natural;                /* how the next step is corrected */
   int flat_steps;              /* accepted in a row on flat curve while in arc-length mode */
   double *X, *dX, omega, d_omega; /* prediction, then trial point and its tangent */
@@ -94,8 +95,8 @@ static hc_status correct_in_plane(path *p)
   return st == HC_OK ? hbm_tangent_plane(p->s, p->dX, &p->d_omega) : st;
 }
 
-/* Make the trial tangent point the way the step went. Returns cos of the angle to the last tangent. */
-static double orient(path *p)
+/* Make the trial tangent keep the curve's sense. Returns cos of the angle to the last tangent; *forward: the step went along both. */
+static double orient(path *p, bool *forward)
 {
   const hbm_curve *c = p->curve;
   int n = c->n_coef, last = c->n - 1;
@@ -103,10 +104,13 @@ static double orient(path *p)
   const double *X0 = hbm_curve_X(c, last), *dX0 = hbm_curve_dX(c, last);
   double d_omega0 = c->points[last].d_omega;
   for (int i = 0; i < n; ++i) chord[i] = p->X[i] - X0[i];
-  if (metric(p, x_scale, p->dX, p->d_omega, chord, p->omega - c->points[last].omega) < 0) {
+  if (newton_sign(p->natural ? p->s->fixed : p->s->plane) != p->sense) {
     for (int i = 0; i < n; ++i) p->dX[i] = -p->dX[i];
     p->d_omega = -p->d_omega;
   }
+  double w = p->omega - c->points[last].omega;
+  *forward = metric(p, x_scale, p->dX, p->d_omega, chord, w) > 0 && metric(p, x_scale, dX0, d_omega0, chord, w) > 0;
+  if (p->natural && !(p->d_omega * p->direction > 0)) *forward = false;
   double a = metric(p, x_scale, dX0, d_omega0, dX0, d_omega0), b = metric(p, x_scale, p->dX, p->d_omega, p->dX, p->d_omega);
   return metric(p, x_scale, dX0, d_omega0, p->dX, p->d_omega) / sqrt(a * b);
 }
@@ -141,14 +145,15 @@ static hc_status try_step(path *p, bool *accepted)
 {
   double ratio = predict(p, p->h);
   *accepted = false;
-  if (p->natural && !(p->direction * (p->omega - p->curve->points[p->curve->n - 1].omega) > 0)) return HC_NOT_CONVERGED;
+  if (p->natural && !(p->direction * (p->omega - p->curve->points[p->curve->n - 1].omega) > 0)) { p->h *= 0.4; return HC_NOT_CONVERGED; }
   hc_status st = p->natural ? correct_natural(p) : correct_in_plane(p);
   p->curve->iterations += p->point.iterations;
   if (st != HC_OK) { p->h *= 0.4; return st; }
-  double cosine = orient(p), moved = correction(p, p->curve->omega_scale), error = ratio * correction(p, p->resolution);
+  bool forward;
+  double cosine = orient(p, &forward), moved = correction(p, p->curve->omega_scale), error = ratio * correction(p, p->resolution);
   bool corner = p->h <= H_CORNER;
   double grow = 0.9 * pow(TOLERANCE / fmax(error, 1e-12 * TOLERANCE), 0.25);
-  bool good = corner ? moved <= p->h : moved <= 0.25 * p->h && cosine >= 0.7 && error <= 4 * TOLERANCE;
+  bool good = forward && (corner ? moved <= p->h : moved <= 0.25 * p->h && cosine >= 0.7 && error <= 4 * TOLERANCE);
   if (p->point.iterations > 8) grow = fmin(grow, 0.7);
   p->h *= good ? fmin(2, fmax(0.4, grow)) : fmin(0.5, fmax(0.2, grow));
   if (corner && good) p->h = fmax(p->h, 2 * H_MIN);
@@ -203,6 +208,7 @@ static hc_status first_point(path *p)
   hc_status st = hbm_solve_first(p->s, p->from, p->X, &p->point);
   if (st == HC_OK) st = hbm_tangent_fixed(p->s, p->X, p->dX);
   if (st != HC_OK) return st;
+  p->sense = newton_sign(p->s->fixed) * (p->direction > 0 ? 1 : -1);
   for (int i = 0; i < c->n_coef; ++i) p->dX[i] *= p->direction;
   p->point.d_omega = p->direction;
   p->point.branch = 0;
@@ -250,7 +256,7 @@ static hc_status path_new(path *p)
 
 hc_status hbm_trace(hbm_solver *s, double from, double to, const hc_monitor *monitor, hbm_curve *curve)
 {
-  if (!(from > 0 && to > 0) || curve->n) return HC_BAD_INPUT;
+  if (!(from > 0 && to > 0 && isfinite(from) && isfinite(to)) || curve->n) return HC_BAD_INPUT;
   path p = {.s = s, .curve = curve, .from = from, .to = to, .direction = to >= from ? 1 : -1, .h = H_FIRST};
   curve->n_coef = s->sys.n_coef;
   curve->omega_scale = fmax(fabs(to - from) / 4, 1e-3 * from);

@@ -23,13 +23,17 @@ struct newton {                 /* from newton_new, to newton_free; not shared b
   SUNLinearSolver ls;
   void *kin;
   double *start;                /* [n] where the solve began */
+  bool factored;                /* jac holds factors made at the end of the last solve */
   hc_status refusal;            /* why the problem last refused a z */
 };
 
 static int on_residual(N_Vector z, N_Vector r, void *self)
 {
   newton *nw = self;
+  const double *v = N_VGetArrayPointer(r);
   nw->refusal = nw->problem.residual(nw->problem.self, N_VGetArrayPointer(z), N_VGetArrayPointer(r));
+  for (int i = 0; i < nw->problem.n && nw->refusal == HC_OK; ++i)
+    if (!isfinite(v[i])) nw->refusal = HC_NOT_FINITE;
   return nw->refusal == HC_OK ? 0 : 1;
 }
 
@@ -103,14 +107,27 @@ static double weighted_max(int n, const double *weight, const double *v)
 static hc_status factor_here(newton *nw)
 {
   if (on_residual(nw->z, nw->r, nw) || on_jacobian(nw->z, nw->r, nw->jac, nw, NULL, NULL)) return nw->refusal;
-  return SUNLinSolSetup(nw->ls, nw->jac) == 0 ? HC_OK : HC_SINGULAR;
+  nw->factored = SUNLinSolSetup(nw->ls, nw->jac) == 0;
+  return HC_OK;
+}
+
+int newton_sign(const newton *nw)
+{
+  if (!nw->factored) return 0;
+  const sunindextype *pivot = ((SUNLinearSolverContent_Dense)nw->ls->content)->pivots;
+  int sign = 1;
+  for (int i = 0; i < nw->problem.n; ++i) {
+    if (SUNDenseMatrix_Column(nw->jac, i)[i] < 0) sign = -sign;
+    if (pivot[i] != i) sign = -sign;
+  }
+  return sign;
 }
 
 hc_status newton_backsolve(newton *nw, double *x)
 {
   size_t bytes = (size_t)nw->problem.n * sizeof(double);
   memcpy(N_VGetArrayPointer(nw->step), x, bytes);
-  if (SUNLinSolSolve(nw->ls, nw->jac, nw->step, nw->step, 0) != 0) return HC_SINGULAR;
+  if (!nw->factored || SUNLinSolSolve(nw->ls, nw->jac, nw->step, nw->step, 0) != 0) return HC_SINGULAR;
   memcpy(x, N_VGetArrayPointer(nw->step), bytes);
   return HC_OK;
 }
@@ -124,7 +141,7 @@ static hc_status polish(newton *nw, const newton_options *opt, newton_report *re
   if (st != HC_OK) return st;
   double before = weighted_max(n, opt->r_scale, r);
   report->residual = before;
-  if (SUNLinSolSolve(nw->ls, nw->jac, nw->step, nw->r, 0) != 0) return HC_SINGULAR;
+  if (!nw->factored || SUNLinSolSolve(nw->ls, nw->jac, nw->step, nw->r, 0) != 0) return HC_OK; /* a solution all the same */
   double length = weighted_max(n, opt->z_scale, step);
   if (!(length <= opt->max_step)) return HC_OK; /* nearly singular: no better answer to be had this way */
   for (int i = 0; i < n; ++i) z[i] -= step[i];
@@ -138,6 +155,7 @@ static hc_status polish(newton *nw, const newton_options *opt, newton_report *re
 /* KINSOL's word, and ours. */
 static hc_status judge(newton *nw, int flag, const newton_options *opt, newton_report *report)
 {
+  hc_status refusal = nw->refusal;
   bool finite = on_residual(nw->z, nw->r, nw) == 0;
   report->residual = finite ? weighted_max(nw->problem.n, opt->r_scale, N_VGetArrayPointer(nw->r)) : NAN;
   bool small = report->residual <= opt->tolerance;
@@ -151,7 +169,7 @@ static hc_status judge(newton *nw, int flag, const newton_options *opt, newton_r
   case KIN_MEM_FAIL: return HC_NO_MEMORY;
   case KIN_SYSFUNC_FAIL:
   case KIN_FIRST_SYSFUNC_ERR:
-  case KIN_REPTD_SYSFUNC_ERR: return nw->refusal != HC_OK ? nw->refusal : HC_NOT_FINITE;
+  case KIN_REPTD_SYSFUNC_ERR: return refusal != HC_OK ? refusal : HC_NOT_FINITE;
   default: return HC_NOT_CONVERGED; /* so is any new flag */
   }
 }
@@ -174,6 +192,7 @@ hc_status newton_solve(newton *nw, double *z, const newton_options *opt, newton_
 {
   size_t bytes = (size_t)nw->problem.n * sizeof(double);
   *report = (newton_report){0, NAN};
+  nw->factored = false;
   memcpy(nw->start, z, bytes);
   memcpy(N_VGetArrayPointer(nw->z_scale), opt->z_scale, bytes);
   memcpy(N_VGetArrayPointer(nw->r_scale), opt->r_scale, bytes);

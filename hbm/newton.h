@@ -17,7 +17,7 @@ typedef struct newton_problem {
 typedef struct newton_options {
   const double *z_scale, *r_scale; /* [n] weights: z_scale z and r_scale r are of order 1 */
   double tolerance;                /* largest |r_scale r| accepted */
-  double max_step;                 /* longest Newton step, 2-norm of z_scale dz */
+  double max_step;                 /* longest Newton step, 2-norm of z_scale dz; KINSOL takes less than 1 for 1 */
   int max_iterations;
 } newton_options;
 
@@ -34,7 +34,10 @@ void newton_free(newton *nw);
  * HC_OK; HC_STALLED, HC_NOT_CONVERGED, HC_SINGULAR, HC_NOT_FINITE, HC_NO_MEMORY: *z is then as it was given. */
 hc_status newton_solve(newton *nw, double *z, const newton_options *opt, newton_report *report);
 
-/* x := J(z)^-1 x with the Jacobian of the last solve's end. HC_SINGULAR. */
+/* x := J(z)^-1 x with the Jacobian of the last solve's end. HC_SINGULAR, also after a solve that failed. */
 hc_status newton_backsolve(newton *nw, double *x);
+
+/* Sign of the determinant of the Jacobian of the last solve's end; 0 if it is singular. */
+int newton_sign(const newton *nw);
 
 #endif

@@ -1,8 +1,9 @@
 /* series.c - see series.h. */
 #include "hbm/series.h"
 
-#include <float.h>
 #include <math.h>
+
+#include "hbm/crossing.h"
 
 static const double TWO_PI = 6.283185307179586476925;
 
@@ -22,41 +23,26 @@ series_jet series_at(int n_harm, const double *X, double c, double s)
   return j;
 }
 
-/* The value at the extremum inside (a, b), where x' changes sign from da to -da: Newton on x', kept inside by bisection. */
-static double extremum_between(int n_harm, const double *X, double a, double b, double da)
-{
-  double th = 0.5 * (a + b);
-  series_jet j = {0, 0, 0};
-  for (int it = 0; it < 60; ++it) {
-    j = series_at(n_harm, X, cos(th), sin(th));
-    if ((j.d1 > 0) == (da > 0)) a = th; else b = th;
-    double next = th - j.d1 / j.d2;
-    if (!(next > a && next < b)) next = 0.5 * (a + b);
-    /* x is stationary here: an error e in th costs x'' e^2/2, so 1e-9 rad is already rounding */
-    if (fabs(next - th) < 1e-9) return series_at(n_harm, X, cos(next), sin(next)).x;
-    th = next;
-  }
-  return j.x;
-}
-
 void series_extrema(int n_harm, const double *X, double *max, double *min)
 {
-  int n = 8 * n_harm + 16;
-  double step = TWO_PI / n, dc = cos(step), ds = sin(step), c = 1, s = 0;
-  series_jet here = series_at(n_harm, X, c, s);
-  *max = *min = here.x;
-  for (int i = 1; i <= n; ++i) {
-    double next = c * dc - s * ds;
-    s = c * ds + s * dc;
-    c = next;
-    series_jet then = series_at(n_harm, X, c, s);
-    double x = then.x;
-    if ((here.d1 > 0) != (then.d1 > 0)) x = extremum_between(n_harm, X, (i - 1) * step, i * step, here.d1);
-    if (x > *max) *max = x;
-    if (x < *min) *min = x;
-    if (then.x > *max) *max = then.x;
-    if (then.x < *min) *min = then.x;
-    here = then;
+  const double one = 1;
+  motion m = {n_harm, 1, {X}};
+  guard rising = guard_make(&m, 1, &one, 0), falling = guard_negative(&rising);
+  motion_node here = motion_at(&m, 0), root;
+  *max = *min = here.d[0][0];
+  for (int i = 1; i <= TRANSITIONS_GRID; ++i) {
+    motion_node next = motion_at(&m, TWO_PI * i / TRANSITIONS_GRID);
+    /* between grid angles x' changes sign any number of times; every change is an extremum */
+    for (bool up = here.d[1][0] > 0; crossing_first(&m, up ? &rising : &falling, &here, &next, &root); up = !up) {
+      double x = root.d[0][0];
+      if (x > *max) *max = x;
+      if (x < *min) *min = x;
+      if (!(root.th > here.th)) break; /* x' is 0 to rounding */
+      here = root;
+    }
+    here = next;
+    if (here.d[0][0] > *max) *max = here.d[0][0];
+    if (here.d[0][0] < *min) *min = here.d[0][0];
   }
 }
 

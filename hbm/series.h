@@ -13,7 +13,7 @@ static inline int series_length(int n_harm) { return 2 * n_harm + 1; }
 /* x, x', x'' at the angle whose cosine and sine are c and s. Error: about n_harm rounding units of sum |X|. */
 series_jet series_at(int n_harm, const double *X, double c, double s);
 
-/* Largest and smallest value over a period, to rounding (extrema bracketed on a grid of 8 n_harm + 16 angles, then refined). */
+/* Largest and smallest value over a period, to rounding: every extremum is found (crossing.h). */
 void series_extrema(int n_harm, const double *X, double *max, double *min);
 
 /* Root mean square over a period, mean included. */

@@ -3,12 +3,11 @@
 
 #include <stdlib.h>
 
-void slope_add(int n_harm, const double *k, double *jac)
+void slope_add(int n_harm, const double *k, int ld, double *jac)
 {
-  int n = series_length(n_harm);
   jac[0] += k[0];
   for (int q = 1; q <= n_harm; ++q) {
-    double *cos_col = jac + (size_t)n * (2 * q - 1), *sin_col = cos_col + n;
+    double *cos_col = jac + (size_t)ld * (2 * q - 1), *sin_col = cos_col + ld;
     cos_col[0] += 0.5 * k[2 * q - 1]; /* the mean of k cos(q th) */
     sin_col[0] += 0.5 * k[2 * q];
     jac[2 * q - 1] += k[2 * q - 1]; /* k times a constant */

@@ -11,8 +11,8 @@
 /* Coefficients of the symbol k(th): the series convention with 2 n_harm harmonics. */
 static inline int slope_symbol_length(int n_harm) { return 4 * n_harm + 1; }
 
-/* jac[row + n col], n = 2 n_harm + 1, += the Toeplitz + Hankel matrix of symbol[4 n_harm + 1] [force/length]. */
-void slope_add(int n_harm, const double *symbol, double *jac);
+/* jac[row + ld col], rows and columns 0 .. 2 n_harm, += the Toeplitz + Hankel matrix of symbol[4 n_harm + 1] [force/length]. */
+void slope_add(int n_harm, const double *symbol, int ld, double *jac);
 
 /* jac -= left right^T, both [2 n_harm + 1]. */
 void slope_subtract(int n_harm, const double *left, const double *right, double *jac);

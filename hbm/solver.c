@@ -145,8 +145,8 @@ hc_status hbm_solve_fixed(hbm_solver *s, double omega, double x_scale, double *X
   hbm_pack(s, X, omega, s->z);
   st = newton_solve(s->fixed, s->z, &opt, &report);
   if (st != HC_OK) { point->iterations = report.iterations; return st; }
-  hbm_unpack(s, s->z, X, &omega);
-  return recheck(s, omega, &report, point);
+  if ((st = recheck(s, omega, &report, point)) == HC_OK) hbm_unpack(s, s->z, X, &omega);
+  return st;
 }
 
 hc_status hbm_solve_plane(hbm_solver *s, const double *normal, double x_scale, double omega_scale, double *X, double *omega, hbm_point *point)
@@ -163,8 +163,8 @@ hc_status hbm_solve_plane(hbm_solver *s, const double *normal, double x_scale, d
   newton_report report;
   st = newton_solve(s->plane, s->z, &opt, &report);
   if (st != HC_OK) { point->iterations = report.iterations; return st; }
-  hbm_unpack(s, s->z, X, omega);
-  return recheck(s, *omega, &report, point);
+  if ((st = recheck(s, s->z[n], &report, point)) == HC_OK) hbm_unpack(s, s->z, X, omega);
+  return st;
 }
 
 hc_status hbm_tangent_fixed(hbm_solver *s, const double *X, double *dX)

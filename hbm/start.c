@@ -60,6 +60,8 @@ hc_status hbm_solve_first(hbm_solver *s, double omega, double *X, hbm_point *poi
 hc_status hbm_solve(hbm_solver *s, double omega, double *X, hbm_point *point)
 {
   double size = hbm_norm(s->sys.n_coef, X);
-  if (!(size > 0)) size = s->sys.sc.force / scene_max_stiffness(&s->sys.sc);
-  return hbm_solve_fixed(s, omega, size, X, point);
+  if (size != 0) return hbm_solve_fixed(s, omega, size, X, point);
+  hc_status st = hbm_solve_first(s, omega, X, point); /* nothing says how large an answer to expect */
+  if (st != HC_OK) memset(X, 0, (size_t)s->sys.n_coef * sizeof(double));
+  return st;
 }
