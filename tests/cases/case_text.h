@@ -1,0 +1,63 @@
+/* case_text.h - what the tests of the reader share: a smallest case, reading it, a random number generator of our own. */
+#ifndef HC_TESTS_CASE_TEXT_H
+#define HC_TESTS_CASE_TEXT_H
+
+#include <string.h>
+
+#include "cases/case_file.h"
+#include "tests/check.h"
+
+/* Three lines: what is appended starts on line 4. */
+#define SMALLEST  "oscillator: {mass: 1, damping: 0.4, stiffness: 40}\nforcing: {amplitude: 100}\nsweep: {omega: [3, 20]}\n"
+#define CONTACT_1 "{tangential_stiffness: 100, normal_stiffness: 1000, friction: 0.3, angle_deg: 45, gap: -5}"
+
+static inline hc_status parse(const char *text, scene *sc, case_error *err)
+{
+  return case_parse("f", text, strlen(text), 0, NULL, sc, err);
+}
+
+/* text, or one assignment on top of it, must be refused with a message of exactly this start that holds this fragment;
+ * and the scene must be left alone. set may be NULL. */
+static inline void refused(const char *text, const char *set, const char *start, const char *fragment)
+{
+  scene sc, before;
+  case_error err = {{0}};
+  memset(&sc, 0x5A, sizeof sc);
+  before = sc;
+  hc_status st = case_parse("f", text, strlen(text), set != NULL, &set, &sc, &err);
+  if (st == HC_OK || strncmp(err.message, start, strlen(start)) || !strstr(err.message, fragment)) {
+    print_error("%s%s%s\n  gave %d `%s`\n  not `%s...%s...`\n", text, set ? "--set " : "", set ? set : "", (int)st, err.message, start,
+                fragment);
+    fail();
+  }
+  assert_int_equal(st, HC_BAD_INPUT);
+  assert_memory_equal(&sc, &before, sizeof sc);
+}
+
+static inline void accepted(const char *text, const char *set, scene *sc)
+{
+  case_error err = {{0}};
+  hc_status st = case_parse("f", text, strlen(text), set != NULL, &set, sc, &err);
+  if (st != HC_OK) print_error("%s%s%s: %s\n", text, set ? "--set " : "", set ? set : "", err.message);
+  assert_int_equal(st, HC_OK);
+  assert_string_equal(err.message, "");
+}
+
+/* xorshift64: the same numbers on every machine. */
+static inline uint64_t draw(uint64_t *state)
+{
+  *state ^= *state << 13, *state ^= *state >> 7, *state ^= *state << 17;
+  return *state;
+}
+static inline int draw_int(uint64_t *state, int low, int high) { return low + (int)(draw(state) % (uint64_t)(high - low + 1)); }
+static inline double draw_unit(uint64_t *state) { return (double)(draw(state) >> 11) * 0x1p-53; }
+
+/* One line, no control characters, not empty, terminated. */
+static inline void check_message(const case_error *err)
+{
+  size_t n = strnlen(err->message, sizeof err->message);
+  assert_in_range(n, 1, sizeof err->message - 1);
+  for (size_t i = 0; i < n; ++i) assert_true((unsigned char)err->message[i] >= 0x20 && err->message[i] != 0x7F);
+}
+
+#endif

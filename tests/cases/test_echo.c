@@ -1,0 +1,195 @@
+/* test_echo.c - what is echoed reads back to the same bytes; the paper's scenes are all readable and are what they say. */
+#include <dirent.h>
+
+#include "cases/fields.h"
+#include "tests/cases/case_text.h"
+
+static char *echoed(const scene *sc, hc_status expect)
+{
+  char *text = NULL;
+  size_t size;
+  FILE *to = open_memstream(&text, &size);
+  assert_int_equal(case_echo(sc, to), expect);
+  fclose(to);
+  return text;
+}
+
+static void check_round_trip(const scene *sc)
+{
+  scene back;
+  case_error err;
+  char *text = echoed(sc, HC_OK);
+  if (case_parse("other", text, strlen(text), 0, NULL, &back, &err) != HC_OK) fail_msg("%s\n%s", text, err.message);
+  if (memcmp(sc, &back, sizeof back)) {
+    char *again = echoed(&back, HC_OK);
+    fail_msg("%s\nbecame\n%s", text, again);
+  }
+  free(text);
+}
+
+/* A number in the field's range: often one of its ends, else spread over the magnitudes, all bits random. */
+static double random_in(const field *f, uint64_t *s)
+{
+  for (;;) {
+    double x = ldexp(draw_unit(s) + 0x1p-53, draw_int(s, -1070, 1020) / (draw(s) % 4 ? 40 : 1));
+    int what = draw_int(s, 0, 9);
+    if (what == 0) x = f->low;
+    if (what == 1) x = f->high;
+    if (what == 2) x = 0;
+    if (f->low > -INFINITY && f->high < INFINITY && what > 4) x = f->low + (f->high - f->low) * draw_unit(s);
+    if (f->low < 0 && what % 2) x = -x;
+    if (isfinite(x) && x >= f->low && x <= f->high && !(f->flags & FIELD_OPEN && x == f->low)) return x;
+  }
+}
+
+static void random_list(const field *f, scene_list *list, uint64_t *s)
+{
+  memset(list, 0, sizeof *list);
+  list->n = draw(s) % 8 ? draw_int(s, 1, 6) : SCENE_MAX_LIST;
+  for (int i = 0; i < list->n; ++i) list->v[i] = f->kind == FIELD_INTEGERS ? draw_int(s, (int)f->low, (int)f->high) : random_in(f, s);
+}
+
+static void random_text(char *to, size_t size, uint64_t *s)
+{
+  static const char *const pieces[] = {
+      "a", "Z", " ", "\"", "\\", "'", ":", "#", "%", "{", "]", "- ", "\xC3\xA9", "\xE2\x82\xAC", "\xF0\x9F\x98\x80", "~", "0", ","};
+  memset(to, 0, size);
+  for (int n = draw_int(s, 0, 60); n > 0; --n) {
+    const char *p = pieces[draw(s) % (sizeof pieces / sizeof *pieces)];
+    if (strlen(to) + strlen(p) < size) strcat(to, p);
+  }
+}
+
+static void random_field(const field *f, void *base, uint64_t *s)
+{
+  void *to = field_place(f, base);
+  int n = 0;
+  switch (f->kind) {
+  case FIELD_REAL: *(double *)to = random_in(f, s); break;
+  case FIELD_PAIR: ((double *)to)[0] = random_in(f, s), ((double *)to)[1] = random_in(f, s); break;
+  case FIELD_INTEGER: *(int *)to = f->flags & FIELD_AUTO && draw(s) % 4 == 0 ? SCENE_AUTO : draw_int(s, (int)f->low, (int)f->high); break;
+  case FIELD_FLAG: *(bool *)to = draw(s) % 2; break;
+  case FIELD_CHOICE:
+    while (f->choices[n]) ++n;
+    *(int *)to = draw_int(s, 0, n - 1);
+    break;
+  case FIELD_TEXT: random_text(to, f->size, s); break;
+  default: random_list(f, to, s); break;
+  }
+}
+
+/* Any scene a reader could have made. Of compare's rivals one is at its default, and the samples suffice. */
+static void random_scene(scene *sc, uint64_t *s)
+{
+  field_defaults(sc);
+  sc->n_contacts = draw_int(s, 0, 3);
+  for (int i = 0; i < field_count(); ++i) {
+    const field *f = field_at(i);
+    bool in_contact = f->flags & FIELD_IN_CONTACT;
+    for (int j = 0; in_contact && j < sc->n_contacts; ++j) random_field(f, &sc->contacts[j], s);
+    if (!in_contact && !(f->flags & FIELD_NO_ECHO)) random_field(f, sc, s);
+  }
+  if (draw(s) % 2) sc->compare.points = 20;
+  else memset(&sc->compare.omega, 0, sizeof sc->compare.omega);
+  if (sc->hbm.samples != SCENE_AUTO && sc->hbm.samples < 2 * sc->hbm.harmonics + 1) sc->hbm.samples = 2 * sc->hbm.harmonics + 1;
+  if (sc->omega_from == sc->omega_to) sc->omega_to = sc->omega_from > 1 ? 1 : 2;
+}
+
+static void random_scenes_come_back_bit_for_bit(void **state)
+{
+  (void)state;
+  uint64_t s = 6;
+  for (int i = 0; i < 2000; ++i) {
+    scene sc;
+    random_scene(&sc, &s);
+    check_round_trip(&sc);
+  }
+}
+
+static void frequencies_and_assignments_come_back_too(void **state)
+{
+  (void)state;
+  scene sc;
+  accepted("oscillator: {mass: 1, damping: 0, stiffness: 1}\nforcing: {amplitude: 1}\nsweep: {frequency: [0.1, 3.3]}\n", "title= \"x\\\" ",
+           &sc);
+  check_round_trip(&sc);
+}
+
+static void what_is_no_scene_is_not_echoed(void **state)
+{
+  (void)state;
+  scene sc;
+  accepted(SMALLEST, NULL, &sc);
+  sc.hbm.force = 7;
+  free(echoed(&sc, HC_BAD_INPUT));
+  accepted(SMALLEST, NULL, &sc);
+  sc.n_contacts = SCENE_MAX_CONTACTS + 1;
+  free(echoed(&sc, HC_BAD_INPUT));
+}
+
+static void the_papers_scenes_are_all_readable(void **state)
+{
+  (void)state;
+  const char *folder = SOURCE_DIR "/cases/paper";
+  DIR *dir = opendir(folder);
+  int n = 0;
+  assert_non_null(dir);
+  for (struct dirent *e; (e = readdir(dir)) != NULL;) {
+    char path[1024];
+    scene sc;
+    case_error err;
+    if (!strstr(e->d_name, ".yaml")) continue;
+    snprintf(path, sizeof path, "%s/%s", folder, e->d_name);
+    if (case_read(path, 0, NULL, &sc, &err) != HC_OK) fail_msg("%s", err.message);
+    check_round_trip(&sc);
+    assert_true(sc.n_contacts == 1 && sc.contacts[0].law.mu == 0.3 && sc.contacts[0].angle_deg == 45 &&
+                sc.damping == 0.4); /* all of them */
+    assert_true(sc.hbm.keep_mean);
+    ++n;
+  }
+  closedir(dir);
+  assert_true(n >= 25);
+}
+
+/* Against shared/reference/README.md: M, K, F0, kt, kn, gap. */
+static void reference_scenes_are_what_they_say(void **state)
+{
+  (void)state;
+  static const struct {
+    const char *name;
+    double mass, stiffness, force, kt, kn, gap;
+  } all[] = {
+      {"case_a", 1, 40, 10, 100, 200, 0.5},
+      {"case1", 1, 40, 10, 100, 200, 0.5},
+      {"case_b", 1, 40, 10, 100, 200, -0.5},
+      {"case2", 1, 40, 100, 100, 1000, -5},
+      {"fig17_kn_1e4", 1, 40, 100, 100, 1e4, -5},
+      {"fig17_kn_200", 1, 40, 100, 100, 200, -5},
+      {"fig18_kt_1e4", 1, 40, 100, 1e4, 1000, -5},
+      {"fig09_gap_p1", 1, 40, 100, 100, 1000, 1},
+      {"fig09_gap_m5", 1, 40, 100, 100, 1000, -5},
+      {"fig07_f0_1", 1, 40, 1, 100, 200, 0.5},
+      {"fig08_f0_1", 1, 40, 1, 100, 200, -0.5},
+      {"table10_case1", 1.6, 8e5, 100, 5e5, 7e5, 0.3},
+      {"table10_case2", 1.6, 8e5, 100, 5e5, 7e5, -0.2},
+  };
+  for (size_t i = 0; i < sizeof all / sizeof *all; ++i) {
+    char path[1024];
+    scene sc;
+    case_error err;
+    snprintf(path, sizeof path, "%s/cases/paper/%s.yaml", SOURCE_DIR, all[i].name);
+    assert_int_equal(case_read(path, 0, NULL, &sc, &err), HC_OK);
+    const contact *c = &sc.contacts[0].law;
+    bool same = sc.mass == all[i].mass && sc.stiffness == all[i].stiffness && sc.force == all[i].force && c->kt == all[i].kt &&
+                c->kn == all[i].kn && c->gap == all[i].gap;
+    if (!same) fail_msg("%s", all[i].name);
+  }
+}
+
+static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(random_scenes_come_back_bit_for_bit), cmocka_unit_test(frequencies_and_assignments_come_back_too),
+    cmocka_unit_test(what_is_no_scene_is_not_echoed),      cmocka_unit_test(the_papers_scenes_are_all_readable),
+    cmocka_unit_test(reference_scenes_are_what_they_say),
+};
+
+CHECK_MAIN("cases.echo", tests, 120)

@@ -1,0 +1,191 @@
+/* test_set.c - assignments: what they reach, in which order, and what they say when they are wrong. */
+#include "tests/cases/case_text.h"
+
+#define ONE SMALLEST "contacts: [" CONTACT_1 "]\n"
+
+static void every_kind_can_be_set(void **state)
+{
+  (void)state;
+  scene sc;
+  accepted(ONE, "oscillator.mass=2.5", &sc);
+  assert_true(sc.mass == 2.5);
+  accepted(ONE, " hbm.harmonics = 10 ", &sc);
+  assert_int_equal(sc.hbm.harmonics, 10);
+  accepted(ONE, "hbm.harmonics=auto", &sc);
+  assert_int_equal(sc.hbm.harmonics, SCENE_AUTO);
+  accepted(ONE, "hbm.static=false", &sc);
+  assert_false(sc.hbm.keep_mean);
+  accepted(ONE, "hbm.force=exact", &sc);
+  assert_int_equal(sc.hbm.force, HBM_FORCE_EXACT);
+  accepted(ONE, "title=a: [b] = \"c\" ", &sc); /* text is taken as it is */
+  assert_string_equal(sc.title, "a: [b] = \"c\" ");
+  accepted(ONE, "title=", &sc);
+  assert_string_equal(sc.title, "");
+}
+
+static void lists_with_or_without_brackets(void **state)
+{
+  (void)state;
+  static const char *const forms[] = {"compare.harmonics=[1,3,5]", "compare.harmonics=1,3,5", "compare.harmonics= [ 1 , 3, 5 ] "};
+  scene sc;
+  for (size_t i = 0; i < sizeof forms / sizeof *forms; ++i) {
+    accepted(ONE, forms[i], &sc);
+    assert_int_equal(sc.compare.harmonics.n, 3);
+    assert_true(sc.compare.harmonics.v[0] == 1 && sc.compare.harmonics.v[1] == 3 && sc.compare.harmonics.v[2] == 5);
+    assert_true(sc.compare.harmonics.v[3] == 0); /* nothing of the longer default is left behind */
+  }
+  accepted(ONE, "sweep.omega=30,2", &sc);
+  assert_true(sc.omega_from == 30 && sc.omega_to == 2);
+  accepted(ONE, "compare.omega=5", &sc);
+  assert_true(sc.compare.omega.n == 1 && sc.compare.omega.v[0] == 5);
+}
+
+static void contacts_are_reached_replaced_and_appended(void **state)
+{
+  (void)state;
+  scene sc;
+  accepted(ONE, "contacts[0].gap=-1", &sc);
+  assert_true(sc.contacts[0].law.gap == -1 && sc.contacts[0].law.kt == 100);
+  accepted(ONE, "contacts=[]", &sc);
+  assert_int_equal(sc.n_contacts, 0);
+  accepted(ONE, "contacts[0]={tangential_stiffness: 1, normal_stiffness: 2, friction: 3, angle_deg: 4}", &sc);
+  assert_true(sc.n_contacts == 1 && sc.contacts[0].law.kt == 1 && sc.contacts[0].law.gap == 0);
+  accepted(ONE, "contacts[1]=" CONTACT_1, &sc);
+  assert_int_equal(sc.n_contacts, 2);
+  assert_memory_equal(&sc.contacts[0], &sc.contacts[1], sizeof sc.contacts[0]);
+  accepted(ONE, "contacts=[" CONTACT_1 ", " CONTACT_1 ", " CONTACT_1 "]", &sc);
+  assert_int_equal(sc.n_contacts, 3);
+}
+
+static void a_contact_may_be_appended_field_by_field(void **state)
+{
+  (void)state;
+  const char *set[] = {"contacts[0].tangential_stiffness=1", "contacts[0].normal_stiffness=2", "contacts[0].friction=0",
+                       "contacts[0].angle_deg=0"};
+  scene sc;
+  case_error err;
+  assert_int_equal(case_parse("f", SMALLEST, strlen(SMALLEST), 4, set, &sc, &err), HC_OK);
+  assert_true(sc.n_contacts == 1 && sc.contacts[0].law.kt == 1 && sc.contacts[0].law.kn == 2 && sc.contacts[0].law.gap == 0);
+  assert_int_equal(case_parse("f", SMALLEST, strlen(SMALLEST), 3, set, &sc, &err), HC_BAD_INPUT);
+  assert_string_equal(err.message, "--set contacts[0].tangential_stiffness=1: this appends a contact without `angle_deg`, expected "
+                                   "contacts[0].angle_deg=VALUE too: a number 0..90");
+}
+
+static void later_ones_win_and_rivals_give_way(void **state)
+{
+  (void)state;
+  const char *set[] = {"sweep.frequency=1,2", "sweep.omega=4,5", "compare.points=9", "compare.omega=7",
+                       "compare.points=11",   "hbm.samples=8",   "hbm.samples=64"};
+  scene sc;
+  case_error err;
+  const char *text = SMALLEST "compare: {omega: [1, 2]}\n";
+  assert_int_equal(case_parse("f", text, strlen(text), 1, set, &sc, &err), HC_OK);
+  assert_true(sc.omega_from > 6.28 && sc.omega_from < 6.29 && sc.compare.omega.n == 2);
+  assert_int_equal(case_parse("f", text, strlen(text), 3, set, &sc, &err), HC_OK);
+  assert_true(sc.omega_from == 4 && sc.omega_to == 5 && sc.compare.omega.n == 0 && sc.compare.points == 9);
+  assert_int_equal(case_parse("f", text, strlen(text), 4, set, &sc, &err), HC_OK);
+  assert_true(sc.compare.omega.n == 1 && sc.compare.omega.v[0] == 7 && sc.compare.points == 20);
+  assert_int_equal(case_parse("f", text, strlen(text), 7, set, &sc, &err), HC_OK); /* 8 samples in between are nobody's business */
+  assert_true(sc.compare.omega.n == 0 && sc.compare.points == 11 && sc.hbm.samples == 64);
+}
+
+static void mistakes_name_the_assignment(void **state)
+{
+  (void)state;
+  static const struct {
+    const char *set, *message;
+  } all[] = {
+      {"hbm.sample=3", "--set hbm.sample=3: unknown field `hbm.sample`, did you mean `hbm.samples`?"},
+      {"samples=3", "--set samples=3: unknown field `samples`, did you mean `hbm.samples`?"},
+      {"hmb.samples=3", "--set hmb.samples=3: unknown field `hmb.samples`, did you mean `hbm.samples`?"},
+      {"contacts[0].gpa=1", "--set contacts[0].gpa=1: unknown field `contacts[0].gpa`, did you mean `contacts[0].gap`?"},
+      {"contacts[0].fritcon=1", "--set contacts[0].fritcon=1: unknown field `contacts[0].fritcon`, did you mean `contacts[0].friction`?"},
+      {"contacts.gap=1", "--set contacts.gap=1: unknown field `contacts.gap`, did you mean `contacts[0].gap`?"},
+      {"mu=1", "--set mu=1: unknown field `mu`, did you mean `contacts[0].friction`?"},
+      {"contacts[2].gap=1", "--set contacts[2].gap=1: the case has 1 contacts, expected an index 0..1 (the last one appends)"},
+      {"contacts[-1].gap=1", "--set contacts[-1].gap=1: unknown field `contacts[-1].gap`, did you mean `contacts[0].gap`?"},
+      {"contacts[99999].gap=1", "--set contacts[99999].gap=1: unknown field `contacts[99999].gap`, did you mean `contacts[0].gap`?"},
+      {"gate=1",
+       "--set gate=1: `gate` is a section, expected one of its fields: gate.amplitude, gate.harmonic_1, gate.mean, gate.waveform"},
+      {"hbm.samples", "--set hbm.samples: no `=`, expected PATH=VALUE such as hbm.harmonics=10"},
+      {"hbm.samples=", "--set hbm.samples=: hbm.samples is empty, expected an integer 3..16777216 or auto"},
+      {"oscillator.mass=0", "--set oscillator.mass=0: oscillator.mass is `0`, expected a number > 0"},
+      {"oscillator.mass=12,5",
+       "--set oscillator.mass=12,5: oscillator.mass is `12,5`, expected a number > 0 (the decimal sign is a point)"},
+      {"contacts[0].friction=-1", "--set contacts[0].friction=-1: contacts[0].friction is `-1`, expected a number >= 0"},
+      {"sweep.omega=3", "--set sweep.omega=3: sweep.omega is a list of 1, expected two numbers > 0, [FROM, TO]"},
+      {"sweep.omega=3,3", "--set sweep.omega=3,3: the sweep ends where it starts, expected FROM and TO to differ (single frequencies: "
+                          "compare.omega, or --at)"},
+      {"compare.omega=5,,6", "--set compare.omega=5,,6: compare.omega has an empty entry, expected a list of numbers > 0"},
+      {"compare.omega=[]", "--set compare.omega=[]: compare.omega is a list of 0, expected a list of numbers > 0 (1 to 256 of them)"},
+      {"hbm.harmonics=200", NULL},
+      {"hbm.samples=10", "--set hbm.samples=10: 10 samples cannot tell 5 harmonics apart, expected hbm.samples >= 11"},
+      {"contacts=[{gap: x}]", "--set contacts=[{gap: x}]: contacts[0].gap is `x`, expected a number"},
+      {"contacts[0]={gap: 1}", "--set contacts[0]={gap: 1}: missing key `tangential_stiffness` in `contacts[0]`, expected a number >= 0"},
+      {"contacts[1]=[",
+       "--set contacts[1]=[: not YAML: did not find expected node content, expected `key: value` lines, indented with spaces"},
+      {"contacts=", "--set contacts=: nothing here, expected [{...}, ...] or {...}, or [] for no contacts"},
+  };
+  scene sc;
+  for (size_t i = 0; i < sizeof all / sizeof *all; ++i) {
+    if (!all[i].message) {
+      accepted(ONE, all[i].set, &sc);
+      continue;
+    }
+    refused(ONE, all[i].set, all[i].message, "");
+    case_error err;
+    case_parse("f", ONE, strlen(ONE), 1, &all[i].set, &sc, &err);
+    assert_string_equal(err.message, all[i].message);
+  }
+}
+
+/* The samples came from the file, the harmonics from the assignment: it is the assignment that broke it. */
+static void the_one_given_last_is_blamed(void **state)
+{
+  (void)state;
+  refused(SMALLEST "hbm: {samples: 16}\n", "hbm.harmonics=8", "--set hbm.harmonics=8: 16 samples cannot tell 8 harmonics apart", "");
+  refused(SMALLEST "hbm: {samples: 9}\n", "oscillator.mass=8", "f:4:16: 9 samples", "");
+  const char *set[] = {"hbm.samples=9", "hbm.harmonics=4", "hbm.harmonics=5"};
+  scene sc;
+  case_error err;
+  assert_int_equal(case_parse("f", SMALLEST, strlen(SMALLEST), 2, set, &sc, &err), HC_OK);
+  assert_int_equal(case_parse("f", SMALLEST, strlen(SMALLEST), 3, set, &sc, &err), HC_BAD_INPUT);
+  assert_int_equal(strncmp(err.message, "--set hbm.harmonics=5: 9 samples", 32), 0);
+}
+
+static void a_wrong_file_is_not_mended_by_assignments(void **state)
+{
+  (void)state;
+  refused("oscillator: {mass: 0, damping: 0, stiffness: 1}\n", "oscillator.mass=1", "f:1:20: ", "oscillator.mass is `0`");
+}
+
+static void sixteen_contacts_and_no_more(void **state)
+{
+  (void)state;
+  char set[17][128];
+  const char *list[17];
+  scene sc;
+  case_error err;
+  for (int i = 0; i < 17; ++i) {
+    snprintf(set[i], sizeof set[i], "contacts[%d]=%s", i, CONTACT_1);
+    list[i] = set[i];
+  }
+  assert_int_equal(case_parse("f", SMALLEST, strlen(SMALLEST), 16, list, &sc, &err), HC_OK);
+  assert_int_equal(sc.n_contacts, 16);
+  assert_int_equal(case_parse("f", SMALLEST, strlen(SMALLEST), 17, list, &sc, &err), HC_BAD_INPUT);
+  assert_non_null(strstr(err.message, "the case has 16 contacts, expected an index 0..15"));
+}
+
+static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(every_kind_can_be_set),
+    cmocka_unit_test(lists_with_or_without_brackets),
+    cmocka_unit_test(contacts_are_reached_replaced_and_appended),
+    cmocka_unit_test(a_contact_may_be_appended_field_by_field),
+    cmocka_unit_test(later_ones_win_and_rivals_give_way),
+    cmocka_unit_test(mistakes_name_the_assignment),
+    cmocka_unit_test(the_one_given_last_is_blamed),
+    cmocka_unit_test(a_wrong_file_is_not_mended_by_assignments),
+    cmocka_unit_test(sixteen_contacts_and_no_more),
+};
+
+CHECK_MAIN("cases.set", tests, 60)

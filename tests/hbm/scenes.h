@@ -1,0 +1,137 @@
+/* scenes.h - what the tests of hbm/ share: the eight reference scenes, the reference numbers of tests/reference/, random motions, and
+ * contact forces of a sampled motion the slow way. Random numbers are a fixed sequence: every run sees the same cases. */
+#ifndef HC_TESTS_HBM_SCENES_H
+#define HC_TESTS_HBM_SCENES_H
+
+#include <float.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cases/scene.h"
+#include "tests/check.h"
+
+typedef struct reference_scene {
+  const char *name;
+  double mass, damping, stiffness, force, kt, kn, gap;
+  double omega_from, omega_to; /* a sweep that holds every reference frequency */
+} reference_scene;
+
+static const reference_scene reference_scenes[] = { /* mu = 0.3, alpha = 45 deg in all */
+  {"a10", 1, 0.4, 40, 10, 100, 200, 0.5, 3, 20},        {"b10", 1, 0.4, 40, 10, 100, 200, -0.5, 3, 20},
+  {"c2", 1, 0.4, 40, 100, 100, 1000, -5, 3, 20},        {"c2kn1e4", 1, 0.4, 40, 100, 100, 1e4, -5, 3, 20},
+  {"c2kt1e4", 1, 0.4, 40, 100, 1e4, 1000, -5, 3, 20},   {"gap1", 1, 0.4, 40, 100, 100, 1000, 1, 3, 30},
+  {"r1", 1.6, 0.4, 8e5, 100, 5e5, 7e5, 0.3, 750, 1050}, {"r2", 1.6, 0.4, 8e5, 100, 5e5, 7e5, -0.2, 600, 850},
+};
+enum { N_REFERENCE_SCENES = sizeof reference_scenes / sizeof *reference_scenes };
+
+/* A scene by its name, sampled with n_time samples, slider restart interpolated, continuation auto, tolerance 1e-10. */
+static inline scene scene_named(const char *name, int n_harm, bool keep_mean, int n_time)
+{
+  for (int i = 0; i < N_REFERENCE_SCENES; ++i) {
+    const reference_scene *r = &reference_scenes[i];
+    if (strcmp(r->name, name)) continue;
+    scene sc = {.mass = r->mass, .damping = r->damping, .stiffness = r->stiffness, .force = r->force, .n_contacts = 1,
+                .omega_from = r->omega_from, .omega_to = r->omega_to};
+    sc.contacts[0] = (scene_contact){{r->kt, r->kn, 0.3, r->gap}, 45};
+    sc.hbm = (scene_hbm){.harmonics = n_harm, .keep_mean = keep_mean, .force = HBM_FORCE_SAMPLED, .samples = n_time,
+                         .restart = HBM_RESTART_INTERPOLATED, .continuation = HBM_CONTINUATION_AUTO, .tolerance = 1e-10};
+    return sc;
+  }
+  fail_msg("no scene %s", name);
+  abort();
+}
+
+/* A row of hbm_exact.csv. */
+typedef struct reference_row {
+  char name[16];
+  int n_harm, keep_mean, branch;
+  double omega, amplitude, max, min, harmonic_1, mean;
+} reference_row;
+
+/* A row of hbm_peak.csv. */
+typedef struct reference_peak {
+  char name[16];
+  int n_harm, keep_mean;
+  double omega, amplitude, harmonic_1;
+} reference_peak;
+
+static inline FILE *open_reference(const char *path, const char *header)
+{
+  char line[256];
+  FILE *f = fopen(path, "r");
+  if (!f || !fgets(line, sizeof line, f)) fail_msg("cannot read %s", path);
+  line[strcspn(line, "\r\n")] = 0;
+  assert_string_equal(line, header);
+  return f;
+}
+
+enum { MAX_REFERENCE = 1000 };
+
+/* All rows of hbm_exact.csv into row[MAX_REFERENCE]; how many. A line that does not read whole is a failure. */
+static inline int read_reference_rows(reference_row *row)
+{
+  char line[256];
+  FILE *f = open_reference(SOURCE_DIR "/tests/reference/hbm_exact.csv", "case,harmonics,static,branch,omega,amplitude,max,min,harmonic_1,mean");
+  int n = 0;
+  while (fgets(line, sizeof line, f)) {
+    assert_true(n < MAX_REFERENCE);
+    reference_row *r = &row[n++];
+    int got = sscanf(line, "%15[^,],%d,%d,%d,%lf,%lf,%lf,%lf,%lf,%lf", r->name, &r->n_harm, &r->keep_mean, &r->branch, &r->omega,
+                     &r->amplitude, &r->max, &r->min, &r->harmonic_1, &r->mean);
+    if (got != 10) fail_msg("hbm_exact.csv, row %d: %s", n, line);
+  }
+  fclose(f);
+  return n;
+}
+
+static inline int read_reference_peaks(reference_peak *row)
+{
+  char line[256];
+  FILE *f = open_reference(SOURCE_DIR "/tests/reference/hbm_peak.csv", "case,harmonics,static,omega_at_peak,peak_amplitude,harmonic_1_at_peak");
+  int n = 0;
+  while (fgets(line, sizeof line, f)) {
+    assert_true(n < MAX_REFERENCE);
+    reference_peak *r = &row[n++];
+    int got = sscanf(line, "%15[^,],%d,%d,%lf,%lf,%lf", r->name, &r->n_harm, &r->keep_mean, &r->omega, &r->amplitude, &r->harmonic_1);
+    if (got != 6) fail_msg("hbm_peak.csv, row %d: %s", n, line);
+  }
+  fclose(f);
+  return n;
+}
+
+/* Uniform in [-1, 1): a 64-bit congruential sequence (Knuth's MMIX constants), upper 53 bits. */
+static inline double random_signed(uint64_t *seed)
+{
+  *seed = *seed * 6364136223846793005u + 1442695040888963407u;
+  return (double)(int64_t)(*seed) / 9223372036854775808.0;
+}
+
+/* A random motion X[2H+1] of size about `size`, harmonics decaying like 1/h^decay. */
+static inline void random_motion(uint64_t *seed, int n_harm, double size, double decay, double *X)
+{
+  X[0] = 0.3 * size * random_signed(seed);
+  for (int h = 1; h <= n_harm; ++h)
+    for (int i = 2 * h - 1; i <= 2 * h; ++i) X[i] = size * random_signed(seed) / pow(h, decay);
+}
+
+/* X -> the motion x(th + shift). */
+static inline void shift_motion(int n_harm, const double *X, double shift, double *Y)
+{
+  Y[0] = X[0];
+  for (int h = 1; h <= n_harm; ++h) {
+    double c = cos(h * shift), s = sin(h * shift);
+    Y[2 * h - 1] = X[2 * h - 1] * c + X[2 * h] * s;
+    Y[2 * h] = X[2 * h] * c - X[2 * h - 1] * s;
+  }
+}
+
+static inline double sum_abs(int n, const double *v)
+{
+  double sum = 0;
+  for (int i = 0; i < n; ++i) sum += fabs(v[i]);
+  return sum;
+}
+
+#endif

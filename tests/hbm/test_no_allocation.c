@@ -1,0 +1,130 @@
+/* test_no_allocation.c - after the first call, evaluating the contact force and solving at a frequency allocate nothing.
+ * The executable's own malloc and friends come before the C library's for every shared library too (FFTW, SUNDIALS): they count, and pass on
+ * to glibc's __libc_ entries. Under the sanitizers, which bring their own, and without glibc the test is skipped. */
+#include "tests/hbm/scenes.h"
+
+#if defined __SANITIZE_ADDRESS__ || !defined __GLIBC__
+#define CAN_COUNT 0
+#elif defined __has_feature
+#if __has_feature(address_sanitizer)
+#define CAN_COUNT 0
+#endif
+#endif
+#ifndef CAN_COUNT
+#define CAN_COUNT 1
+#endif
+
+#if CAN_COUNT
+#include <errno.h>
+#include <fftw3.h>
+#include <nvector/nvector_serial.h>
+
+#include "cases/sundials_compat.h"
+#include "hbm/hbm.h"
+
+static long allocations;
+
+void *__libc_malloc(size_t);
+void *__libc_calloc(size_t, size_t);
+void *__libc_realloc(void *, size_t);
+void *__libc_memalign(size_t, size_t);
+
+void *malloc(size_t n) { ++allocations; return __libc_malloc(n); }
+void *calloc(size_t n, size_t size) { ++allocations; return __libc_calloc(n, size); }
+void *realloc(void *p, size_t n) { ++allocations; return __libc_realloc(p, n); }
+void *memalign(size_t align, size_t n);
+void *memalign(size_t align, size_t n) { ++allocations; return __libc_memalign(align, n); }
+void *aligned_alloc(size_t align, size_t n) { ++allocations; return __libc_memalign(align, n); }
+int posix_memalign(void **p, size_t align, size_t n) { ++allocations; return (*p = __libc_memalign(align, n)) ? 0 : ENOMEM; }
+
+/* The counter must see what libraries do, or the tests below would pass for nothing. */
+static void the_counter_sees_libraries(void **state)
+{
+  (void)state;
+  long before = allocations;
+  double *a = fftw_alloc_real(100);
+  assert_true(allocations > before);
+  fftw_free(a);
+  SUNContext ctx;
+  before = allocations;
+  assert_int_equal(hc_sundials_context(&ctx), 0);
+  assert_true(allocations > before);
+  before = allocations;
+  N_Vector v = N_VNew_Serial(10, ctx);
+  assert_true(allocations > before);
+  N_VDestroy(v);
+  SUNContext_Free(&ctx);
+}
+
+/* For sizes made of small primes. FFTW's own transforms of others (101, 1001 = 7 11 13, 1021 with Debian's FFTW 3.3) take work space at each
+ * call, once to four times a transform: aft.h's promise does not hold for those. */
+static void force_allocates_nothing(void **state)
+{
+  (void)state;
+  static const int sizes[] = {64, 100, 1000, 4096};
+  enum { H = 10, N_COEF = 2 * H + 1 };
+  double X[N_COEF], F[N_COEF], jac[N_COEF * N_COEF];
+  contact_report report;
+  uint64_t seed = 11;
+  for (int i = 0; i < 4; ++i) {
+    scene sc = scene_named("c2", H, true, sizes[i]);
+    aft *a;
+    assert_int_equal(aft_new(&sc, H, sizes[i], &a), HC_OK);
+    random_motion(&seed, H, 10, 2, X);
+    assert_int_equal(aft_eval(a, X, F, jac, &report), HC_OK);
+    long before = allocations;
+    for (int k = 0; k < 20; ++k) {
+      random_motion(&seed, H, 10, 2, X);
+      assert_int_equal(aft_eval(a, X, F, k % 2 ? jac : NULL, &report), HC_OK);
+    }
+    long after = allocations; /* cmocka may allocate */
+    aft_free(a);
+    if (after != before) fail_msg("N = %d: %ld allocations in 20 evaluations", sizes[i], after - before);
+  }
+}
+
+/* Solving, measuring, and failing to solve: from 1e30 away, which ends in both strategies. */
+static void solve_allocates_nothing(void **state)
+{
+  (void)state;
+  enum { H = 10, N_COEF = 2 * H + 1 };
+  scene sc = scene_named("c2", H, true, 1024);
+  hbm_solver *s;
+  hbm_point point;
+  hbm_measures m;
+  double X[N_COEF], Y[N_COEF] = {0};
+  assert_int_equal(hbm_solver_new(&sc, &s), HC_OK);
+  assert_int_equal(hbm_solve_first(s, 6, X, &point), HC_OK);
+  assert_int_equal(hbm_solve(s, 6.01, X, &point), HC_OK);
+  long before = allocations;
+  int bad = 0, failed = 0;
+  for (int k = 0; k < 50; ++k) {
+    bad += hbm_solve(s, 6 + 0.01 * k, X, &point) != HC_OK || hbm_measure(s, X, &m) != HC_OK;
+    Y[0] = 1e3;
+    for (int i = 1; i < N_COEF; ++i) Y[i] = (i * 7919 % 13 - 6) * 1e2;
+    failed += hbm_solve(s, 8 + 0.01 * k, Y, &point) != HC_OK;
+  }
+  long after = allocations;
+  hbm_solver_free(s);
+  print_message("%d of 50 wild starts failed\n", failed);
+  assert_int_equal(bad, 0);
+  assert_int_equal(after - before, 0);
+}
+
+static const struct CMUnitTest tests[] = {
+  cmocka_unit_test(the_counter_sees_libraries), cmocka_unit_test(force_allocates_nothing), cmocka_unit_test(solve_allocates_nothing),
+};
+
+#else
+
+static void cannot_count_here(void **state)
+{
+  (void)state;
+  print_message("skipped: malloc belongs to the sanitizer here, or the C library is not glibc\n");
+  skip();
+}
+
+static const struct CMUnitTest tests[] = {cmocka_unit_test(cannot_count_here)};
+
+#endif
+CHECK_MAIN("hbm.no_allocation", tests, 60)

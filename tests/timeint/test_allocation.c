@@ -1,0 +1,81 @@
+/* test_allocation.c - marching allocates nothing: every malloc, calloc and realloc of the process, SUNDIALS' included, passes through
+ * here and is counted. */
+#include "tests/check.h"
+
+#include "tests/timeint/scenes.h"
+
+#if defined __has_feature
+#if __has_feature(address_sanitizer)
+#define SANITIZED 1
+#endif
+#endif
+#if defined __GLIBC__ && !defined __SANITIZE_ADDRESS__ && !defined SANITIZED
+#define COUNTED 1
+
+static long allocations;
+
+extern void *__libc_malloc(size_t), *__libc_calloc(size_t, size_t), *__libc_realloc(void *, size_t);
+void *malloc(size_t n)
+{
+  ++allocations;
+  return __libc_malloc(n);
+}
+void *calloc(size_t n, size_t m)
+{
+  ++allocations;
+  return __libc_calloc(n, m);
+}
+void *realloc(void *p, size_t n)
+{
+  ++allocations;
+  return __libc_realloc(p, n);
+}
+#else
+#define COUNTED 0 /* the sanitizer's own malloc, or another C library's: nothing to count with */
+static long allocations;
+#endif
+
+typedef struct count {
+  int ticks;
+  long at_three, at_fifty;
+} count;
+
+static bool tick(void *self, double done)
+{
+  count *c = self;
+  (void)done;
+  if (c->ticks == 3) c->at_three = allocations;
+  if (c->ticks == 50) c->at_fifty = allocations;
+  ++c->ticks;
+  return true;
+}
+
+static void marching_allocates_nothing(void **state)
+{
+  (void)state;
+  if (!COUNTED) skip();
+  scene sc = scene_b10();
+  timeint *ti;
+  count c = {0};
+  hc_monitor monitor = {.tick = tick, .self = &c};
+  long before = allocations;
+  assert_int_equal(timeint_new(&sc, &ti), HC_OK);
+  CHECK_LE(10, allocations - before, "the counter counts SUNDIALS, too");
+  timeint_state y = timeint_rest(ti);
+  timeint_result r;
+  assert_int_equal(timeint_steady(ti, 7, &y, &monitor, &r), HC_OK);
+  CHECK_LE(50, c.ticks, "enough periods");
+  assert_int_equal(c.at_fifty - c.at_three, 0);
+  long settled = allocations; /* neither measuring nor sweeping do */
+  assert_int_equal(timeint_sweep(ti, 7, 7.2, &y, NULL), HC_OK);
+  assert_int_equal(timeint_steady(ti, 7.2, &y, NULL, &r), HC_OK);
+  assert_int_equal(allocations - settled, 0);
+  timeint_free(ti);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {cmocka_unit_test(marching_allocates_nothing)};
+  check_watchdog(60);
+  return cmocka_run_group_tests_name("timeint.allocation", tests, NULL, NULL);
+}

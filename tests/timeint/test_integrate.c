@@ -1,0 +1,133 @@
+/* test_integrate.c - one period by CVODE: against a closed form, bit for bit again, and what its flags become. */
+#include "tests/check.h"
+
+#include <complex.h>
+#include <float.h>
+
+#include <cvode/cvode.h>
+
+#include "tests/timeint/scenes.h"
+#include "timeint/integrate.h"
+
+/* x'' + c x' + k x = f cos(theta) from x = x' = 0: the forced motion plus the free one that cancels it at 0. */
+static double complex linear_state(const model *m, double theta)
+{
+  double complex X = m->f / (m->k - 1 + I * m->c), r = -m->c / 2 + csqrt(m->c * m->c / 4 - m->k);
+  double x0 = creal(X), v0 = creal(I * X); /* x = Re(X e^{i theta}); the free part starts from (-x0, -v0) */
+  double b = (-v0 - creal(r) * -x0) / cimag(r), decay = exp(creal(r) * theta), w = cimag(r) * theta;
+  double free_x = decay * (-x0 * cos(w) + b * sin(w));
+  double free_v = decay * (creal(r) * (-x0 * cos(w) + b * sin(w)) + cimag(r) * (x0 * sin(w) + b * cos(w)));
+  return creal(X * cexp(I * theta)) + free_x + I * (creal(I * X * cexp(I * theta)) + free_v);
+}
+
+/* Every step's error is kept below the tolerance (of states of size 1); `steps` of them add up, damping only shrinks them: steps *
+ * tolerance. */
+static void linear_period_is_the_closed_form(void **state)
+{
+  (void)state;
+  scene sc = scene_linear(1, 0.4, 40, 40);
+  model m;
+  model_make(&m, &sc, 5, 1);
+  for (double tol = 1e-6; tol > 1e-14; tol *= 1e-2) {
+    integrator *in;
+    assert_int_equal(integrate_new(m.n_states, tol, &in), HC_OK);
+    double y[MODEL_MAX_STATES] = {0};
+    assert_int_equal(integrate_period(in, &m, y, NULL, NULL), HC_OK);
+    double bound = (double)integrate_steps(in) * tol * 2.5; /* |states| <= 2.5: the tolerance is relative, too */
+    CHECK_NEAR(y[0], creal(linear_state(&m, 2 * PI)), bound, "x at %g", tol);
+    CHECK_NEAR(y[1], cimag(linear_state(&m, 2 * PI)), bound, "v at %g", tol);
+    integrate_free(in);
+  }
+}
+
+typedef struct seen {
+  const model *m;
+  double last, worst;
+} seen;
+
+static hc_status look(void *self, const integrator *in, double theta0, double theta1)
+{
+  seen *s = self;
+  double y[MODEL_MAX_STATES], mid = 0.5 * (theta0 + theta1);
+  CHECK_LE(fabs(theta0 - s->last), 0, "steps follow each other");
+  s->last = theta1;
+  hc_status st = integrate_dense(in, mid, 0, y);
+  s->worst = fmax(s->worst, fabs(y[0] - creal(linear_state(s->m, mid))));
+  return st;
+}
+
+/* A watched period takes the same steps to the same end; its dense output is as good as the steps (bound as above; between steps the
+ * polynomial of the
+ * same order: the same size again). */
+static void watched_period_is_the_same(void **state)
+{
+  (void)state;
+  scene sc = scene_linear(1, 0.4, 40, 40);
+  model m;
+  model_make(&m, &sc, 5, 1);
+  integrator *in;
+  assert_int_equal(integrate_new(m.n_states, 1e-10, &in), HC_OK);
+  double y[MODEL_MAX_STATES] = {0}, z[MODEL_MAX_STATES] = {0};
+  seen s = {.m = &m};
+  assert_int_equal(integrate_period(in, &m, y, NULL, NULL), HC_OK);
+  long steps = integrate_steps(in);
+  assert_int_equal(integrate_period(in, &m, z, look, &s), HC_OK);
+  assert_int_equal(integrate_steps(in), 2 * steps);
+  CHECK_LE(fabs(y[0] - z[0]) + fabs(y[1] - z[1]), 0, "the same bits");
+  CHECK_NEAR(s.last, 2 * PI, 0, "the last step ends the period");
+  CHECK_LE(s.worst, 2 * (double)steps * 1e-10 * 2.5, "dense output");
+  integrate_free(in);
+}
+
+/* Settling relies on it: a period is a function of the state alone, whatever was integrated before. */
+static void a_period_has_no_memory(void **state)
+{
+  (void)state;
+  scene sc = scene_c2();
+  model m, other;
+  model_make(&m, &sc, 7, 10);
+  model_make(&other, &sc, 8, 3);
+  integrator *in;
+  assert_int_equal(integrate_new(m.n_states, 1e-10, &in), HC_OK);
+  double y[MODEL_MAX_STATES] = {0.8, 0.6, 0.5}, z[MODEL_MAX_STATES] = {0.8, 0.6, 0.5}, w[MODEL_MAX_STATES] = {0};
+  assert_int_equal(integrate_period(in, &m, y, NULL, NULL), HC_OK);
+  assert_int_equal(integrate_period(in, &other, w, NULL, NULL), HC_OK);
+  assert_int_equal(integrate_period(in, &m, z, NULL, NULL), HC_OK);
+  CHECK_LE(fabs(y[0] - z[0]) + fabs(y[1] - z[1]) + fabs(y[2] - z[2]), 0, "the same bits");
+  integrate_free(in);
+}
+
+static void failures_are_reported(void **state)
+{
+  (void)state;
+  scene sc = scene_c2();
+  model m;
+  model_make(&m, &sc, 7, 10);
+  integrator *in;
+  double y[MODEL_MAX_STATES] = {0.5, 0, 0};
+  assert_int_equal(integrate_new(m.n_states, 1e-30, &in), HC_OK); /* no double is that good */
+  assert_int_equal(integrate_period(in, &m, y, NULL, NULL), HC_INTEGRATOR);
+  assert_int_equal(integrate_flag(in), CV_TOO_MUCH_ACC);
+  CHECK_LE(fabs(y[0] - 0.5) + fabs(y[1]) + fabs(y[2]), 0, "the state stays");
+  assert_int_equal(integrate_tolerance(in, 1e-8), HC_OK);
+  assert_int_equal(integrate_period(in, &m, y, NULL, NULL), HC_OK); /* and works again */
+  m.f = NAN;
+  assert_int_equal(integrate_period(in, &m, y, NULL, NULL), HC_NOT_FINITE);
+  m.f = INFINITY;
+  assert_int_equal(integrate_period(in, &m, y, NULL, NULL), HC_NOT_FINITE);
+  integrate_free(in);
+  assert_int_not_equal(integrate_new(m.n_states, -1, &in), HC_OK);
+  assert_null(in);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(linear_period_is_the_closed_form),
+      cmocka_unit_test(watched_period_is_the_same),
+      cmocka_unit_test(a_period_has_no_memory),
+      cmocka_unit_test(failures_are_reported),
+  };
+  check_watchdog(120);
+  return cmocka_run_group_tests_name("timeint.integrate", tests, NULL, NULL);
+}

@@ -1,0 +1,77 @@
+/* test_measure.c - peaks, sums and regimes of a period that is known in closed form. */
+#include "tests/check.h"
+
+#include <complex.h>
+
+#include "tests/timeint/scenes.h"
+#include "timeint/measure.h"
+
+/* Undamped, unforced: x = sum of what the start gives: x = p cos(s theta) + q sin(s theta), s^2 = k; here s = 2.5, so that a period
+ * holds two and a half waves, the
+ * highest peak is sqrt(p^2 + q^2) and lies between steps, and sums over the instants are known: with e = exp(i s theta), all are
+ * geometric series. */
+static double complex series(double s, int harmonic) /* (1/n) sum_i exp(i (s + harmonic) theta_i) */
+{
+  double complex step = cexp(I * (s + harmonic) * 2 * PI / TIMEINT_WAVE);
+  return (cpow(step, TIMEINT_WAVE) - 1) / (step - 1) / TIMEINT_WAVE;
+}
+
+/* CVODE at 1e-13 a step, 1500 steps, states up to 2.5: 4e-10 at worst for the state, the wave and the sums. A peak is a root of v: x
+ * errs by the state's error, too. */
+static void free_vibration(void **state)
+{
+  (void)state;
+  const double s = 2.5, p = 0.6, q = -0.8, tol = 4e-10;
+  scene sc = scene_linear(1, 0, s * s, 0);
+  model m;
+  integrator *in;
+  measure *me = calloc(1, sizeof *me);
+  assert_non_null(me);
+  model_make(&m, &sc, 1, 1);
+  assert_int_equal(integrate_new(m.n_states, 1e-13, &in), HC_OK);
+  double y[MODEL_MAX_STATES] = {p, s * q};
+  measure_begin(me, &m);
+  measure_period(me, y);
+  assert_int_equal(integrate_period(in, &m, y, measure_step, me), HC_OK);
+  timeint_result r;
+  measure_report(me, &sc, 10, &r);     /* L = 10: lengths come out ten times as large */
+  double complex X = 10 * (p - I * q); /* x = Re(X e^{i s theta}) */
+  CHECK_NEAR(r.max, 10, 10 * tol, "highest peak");
+  CHECK_NEAR(r.min, -10, 10 * tol, "lowest");
+  CHECK_NEAR(r.amplitude, 10, 10 * tol, "amplitude");
+  CHECK_NEAR(r.mean, creal(X * series(s, 0)), 10 * tol, "mean");
+  CHECK_NEAR(r.a1, creal(X * (series(s, 1) + series(s, -1))), 20 * tol, "a1");
+  CHECK_NEAR(r.b1, creal(X * (series(s, 1) - series(s, -1)) / I), 20 * tol, "b1");
+  CHECK_NEAR(r.rms * r.rms, 50 + 0.5 * creal(X * X * series(2 * s, 0)), 200 * tol, "rms");
+  for (int i = 0; i < TIMEINT_WAVE; ++i) CHECK_NEAR(r.wave[i], creal(X * cexp(I * s * 2 * PI * i / TIMEINT_WAVE)), 10 * tol, "wave[%d]", i);
+  integrate_free(in);
+  free(me);
+}
+
+/* alpha = 30: v = x/2, so a gap g is touched at x = -2 g. */
+static contact_regime regime(double gap, double min, double max, bool slides)
+{
+  scene sc = scene_linear(1, 0, 1, 1);
+  scene_add(&sc, 1, 1, 1, gap, 30);
+  measure me = {.periods = 1, .min = min, .max = max, .slides = slides};
+  timeint_result r;
+  measure_report(&me, &sc, 1, &r);
+  return r.regime;
+}
+
+static void regimes(void **state)
+{
+  (void)state;
+  assert_int_equal(regime(-1, -5, 1.99, false), CONTACT_LINEAR);
+  assert_int_equal(regime(-1, -5, 2.01, true), CONTACT_SEPARATES);
+  assert_int_equal(regime(1, -1.99, 5, false), CONTACT_STUCK);
+  assert_int_equal(regime(1, -1.99, 5, true), CONTACT_SLIPS);
+  assert_int_equal(regime(1, -2.01, 5, false), CONTACT_SEPARATES);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {cmocka_unit_test(free_vibration), cmocka_unit_test(regimes)};
+  check_watchdog(60);
+  return cmocka_run_group_tests_name("timeint.measure", tests, NULL, NULL);
+}
