@@ -69,7 +69,7 @@ static const field table[] = {
   {"hbm", "harmonics", "H", FIELD_INTEGER, .unit = "1", .flags = FIELD_AUTO, SCENE(hbm.harmonics), .fallback = "5", WITHIN(1, SCENE_MAX_HARMONICS),
    .meaning = "the highest harmonic kept"},
   {"hbm", "static", "", FIELD_FLAG, .unit = "", SCENE(hbm.keep_mean), .fallback = "true", .meaning = "keep harmonic 0, the mean; false is the paper's mode"},
-  {"hbm", "force", "", CHOICE(force_names), SCENE(hbm.force), .fallback = "sampled",
+  {"hbm", "force", "", CHOICE(force_names), SCENE(hbm.force), .fallback = "exact",
    .meaning = "contact force located by its events, free of aliasing, or sampled (AFT)"},
   {"hbm", "samples", "N", FIELD_INTEGER, .unit = "1", .flags = FIELD_AUTO, SCENE(hbm.samples), .fallback = "1024", WITHIN(3, MOST_SAMPLES),
    .meaning = "per period, at least 2 harmonics + 1; for the sampled force"},

@@ -65,7 +65,7 @@ static hc_status make_tables(aft *a)
   a->right = calloc((size_t)n_coef, sizeof(double));
   if (!a->x || !a->f || !a->k || !a->spec || !a->root || !a->inv_step || !a->symbol || !a->left || !a->right) return HC_NO_MEMORY;
   const double step = 6.283185307179586476925 / n;
-  for (int i = 0; i < n; ++i) a->root[i] = CMPLX(cos(i * step), sin(i * step));
+  for (int i = 0; i < n; ++i) a->root[i] = cos(i * step) + I * sin(i * step);
   for (int h = 1; h <= a->n_harm; ++h) a->inv_step[h] = 1 / (a->root[h % n] - 1);
   return HC_OK;
 }
@@ -112,7 +112,7 @@ static void to_samples(aft *a, const double *X)
 {
   memset(a->spec, 0, ((size_t)a->n_time / 2 + 1) * sizeof *a->spec);
   a->spec[0] = X[0];
-  for (int h = 1; h <= a->n_harm; ++h) a->spec[h] = 0.5 * CMPLX(X[2 * h - 1], -X[2 * h]);
+  for (int h = 1; h <= a->n_harm; ++h) a->spec[h] = 0.5 * (X[2 * h - 1] - I * X[2 * h]);
   fftw_execute(a->to_time);
 }
 

@@ -4,19 +4,13 @@
 
 #include "cases/scene.h"
 #include "cases/status.h"
+#include "hbm/contact_report.h"
 
 typedef struct aft aft;
 
 /* A workspace for the contacts of sc, n_harm >= 1 harmonics and n_time >= 2 n_harm + 1 samples a period (odd allowed). */
 hc_status aft_new(const scene *sc, int n_harm, int n_time, aft **out);
 void aft_free(aft *a);
-
-/* What one evaluation also learns. */
-typedef struct contact_report {
-  contact_regime regime;       /* the strongest thing that happens to any contact in the period */
-  int transitions;             /* changes of state in the period, all contacts */
-  double w[SCENE_MAX_CONTACTS]; /* [length] slider of each contact at th = 0, on the closed orbit */
-} contact_report;
 
 /* F[2H+1] [force]: harmonics of sum_j T_j cos(alpha_j) + (N_j - N0_j) sin(alpha_j) for the displacement X[2H+1] [length].
  * jac[row + (2H+1) col] = dF/dX [force/length] of exactly what is computed, unless NULL.

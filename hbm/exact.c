@@ -10,7 +10,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "hbm/aft.h"
 #include "hbm/slope.h"
 
 static const double PI = 3.14159265358979323846;

@@ -5,6 +5,7 @@
 #define HC_EXACT_H
 
 #include "cases/scene.h"
+#include "hbm/contact_report.h"
 #include "hbm/transitions.h"
 
 typedef struct exact exact;
@@ -15,8 +16,6 @@ void exact_free(exact *e);
 
 /* The contacts of a scene, moved by the one coordinate x. */
 void exact_contacts_of(const scene *sc, moving_contact contacts[SCENE_MAX_CONTACTS]);
-
-typedef struct contact_report contact_report;
 
 /* F[n_dof (2H+1)] [force]: for each coordinate d the harmonics of sum_j cu_jd T_j + cv_jd (N_j - N0_j), at X (same layout) [length].
  * jac[row + ld col], ld = n_dof (2H+1): dF/dX, unless NULL. report may be NULL.

@@ -85,7 +85,7 @@ static hc_status make_workspace(hbm_solver *s)
 hc_status hbm_solver_new(const scene *sc, hbm_solver **out)
 {
   *out = NULL;
-  if (sc->hbm.force == HBM_FORCE_EXACT || sc->hbm.harmonics == SCENE_AUTO || sc->hbm.samples == SCENE_AUTO) return HC_UNSUPPORTED;
+  if (sc->hbm.harmonics == SCENE_AUTO || (sc->hbm.force == HBM_FORCE_SAMPLED && sc->hbm.samples == SCENE_AUTO)) return HC_UNSUPPORTED;
   hbm_solver *s = calloc(1, sizeof *s);
   if (!s) return HC_NO_MEMORY;
   hc_status st = hbm_system_init(&s->sys, sc, sc->hbm.harmonics, sc->hbm.samples);

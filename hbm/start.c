@@ -15,7 +15,7 @@ double hbm_linear_response(const scene *sc, double omega, int n_harm, double *X)
   for (int j = 0; j < sc->n_contacts; ++j)
     if (sc->contacts[j].law.gap > 0) k += scene_stuck_stiffness(&sc->contacts[j]);
   memset(X, 0, (size_t)series_length(n_harm) * sizeof(double));
-  double complex x = sc->force / CMPLX(k - sc->mass * omega * omega, sc->damping * omega);
+  double complex x = sc->force / (k - sc->mass * omega * omega + I * sc->damping * omega);
   if (!isfinite(cabs(x))) x = sc->force / (k + sc->mass * omega * omega); /* undamped, at resonance: any size of the right order */
   X[1] = creal(x);
   X[2] = -cimag(x); /* Re(z exp(i th)) = Re z cos - Im z sin */

@@ -1,4 +1,4 @@
-/* system.c - see system.h for the equations. The contact force comes from aft.c; nothing else here knows how. */
+/* system.c - see system.h for the equations. The contact force comes from aft.c or exact.c; nothing else here knows how. */
 #include "hbm/system.h"
 
 #include <math.h>
@@ -18,12 +18,16 @@ hc_status hbm_system_init(hbm_system *sys, const scene *sc, int n_harm, int n_ti
   sys->dF = calloc(n * n, sizeof(double));
   sys->rows = calloc(n, sizeof(double));
   if (!sys->X || !sys->F || !sys->dF || !sys->rows) return HC_NO_MEMORY;
-  return aft_new(sc, n_harm, n_time, &sys->sampled);
+  if (sc->hbm.force == HBM_FORCE_SAMPLED) return aft_new(sc, n_harm, n_time, &sys->sampled);
+  moving_contact contacts[SCENE_MAX_CONTACTS];
+  exact_contacts_of(sc, contacts);
+  return exact_new(n_harm, 1, sc->n_contacts, contacts, &sys->located);
 }
 
 void hbm_system_clear(hbm_system *sys)
 {
   aft_free(sys->sampled);
+  exact_free(sys->located);
   free(sys->X);
   free(sys->F);
   free(sys->dF);
@@ -37,7 +41,8 @@ hc_status hbm_system_contact(hbm_system *sys, const double *X)
   if (sys->evaluated && memcmp(X, sys->X, bytes) == 0) return HC_OK;
   sys->evaluated = false;
   ++sys->evaluations;
-  hc_status st = aft_eval(sys->sampled, X, sys->F, sys->dF, &sys->report);
+  hc_status st = sys->sampled ? aft_eval(sys->sampled, X, sys->F, sys->dF, &sys->report)
+                              : exact_eval(sys->located, X, sys->F, sys->dF, &sys->report);
   if (st != HC_OK) return st;
   memcpy(sys->X, X, bytes);
   sys->evaluated = true;

@@ -10,13 +10,15 @@
 #define HC_SYSTEM_H
 
 #include "hbm/aft.h"
+#include "hbm/exact.h"
 
 typedef struct hbm_system {
   scene sc;             /* a copy */
   int n_harm, n_coef;   /* harmonics; 2 n_harm + 1 */
   int first, n;         /* first unknown in X (0, or 1 without harmonic 0); number of unknowns */
   double contact_factor /* lambda */, force_factor /* phi */;
-  aft *sampled;
+  aft *sampled;         /* the one of these two that hbm.force asks for; the other is NULL */
+  exact *located;
   double *X, *F, *dF;   /* the last evaluation: where, force [n_coef], Jacobian [n_coef][n_coef] by columns */
   double *rows;         /* [n_coef] a full right-hand side, before row 0 is dropped or not */
   bool evaluated;       /* X, F, dF and report belong together */
@@ -24,6 +26,7 @@ typedef struct hbm_system {
   long evaluations;
 } hbm_system;
 
+/* n_time: samples per period, for sampled forces only. */
 hc_status hbm_system_init(hbm_system *sys, const scene *sc, int n_harm, int n_time);
 void hbm_system_clear(hbm_system *sys);
 

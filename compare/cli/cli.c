@@ -112,8 +112,8 @@ static const char *advice(hc_status st)
   case HC_NOT_CONVERGED:
   case HC_SINGULAR:
   case HC_STEP_TOO_SMALL:
-    return "try --set hbm.continuation=auto, more --set hbm.samples=..., or a sweep from the other end";
-  case HC_TOO_MANY_POINTS: return "try more --set hbm.samples=...: false turning points may come from too few";
+    return "try --set hbm.continuation=auto, --set hbm.force=exact, or a sweep from the other end";
+  case HC_TOO_MANY_POINTS: return "try --set hbm.force=exact: false turning points come from too few samples";
   case HC_INTEGRATOR: return "try a larger --set transient.regularisation=... or a tighter --set transient.tolerance=...";
   case HC_NOT_SETTLED: return "try a larger --set transient.max_periods=... or --set transient.start=hbm";
   case HC_NOT_FINITE: return "the motion grew without bound: is the scene damped?";
@@ -135,6 +135,14 @@ int cli_solver_failed(const cli_options *o, const char *solver, hc_status st, do
   if (omega > 0) cli_say(o, "%s stopped at omega = %.10g: %s; %s", solver, omega, hc_status_text(st), advice(st));
   else cli_say(o, "%s: %s; %s", solver, hc_status_text(st), advice(st));
   return EXIT_NO_SOLUTION;
+}
+
+const char *cli_hbm_settings(const scene *sc, char *text, size_t size)
+{
+  char samples[32] = "exact forces";
+  if (sc->hbm.force == HBM_FORCE_SAMPLED) snprintf(samples, sizeof samples, "%d samples", sc->hbm.samples);
+  snprintf(text, size, "H = %d%s, %s", sc->hbm.harmonics, sc->hbm.keep_mean ? "" : " WITHOUT harmonic 0", samples);
+  return text;
 }
 
 int cli_write(const cli_options *o, int n, table *const *tables)

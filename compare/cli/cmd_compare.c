@@ -45,8 +45,9 @@ static void put_row(table *t, const comparison_row *r)
 static void put_notes(table *t, const scene *sc, const comparison *c)
 {
   table_note(t, "%s", sc->title);
-  table_note(t, "HBM: H = %d%s, sampled, %d samples. Transient: regularised law, %g, closure %g", sc->hbm.harmonics,
-             sc->hbm.keep_mean ? "" : " WITHOUT harmonic 0", sc->hbm.samples, sc->transient.regularisation, sc->transient.tolerance);
+  char how[128];
+  table_note(t, "HBM: %s. Transient: regularised law, %g, closure %g", cli_hbm_settings(sc, how, sizeof how), sc->transient.regularisation,
+             sc->transient.tolerance);
   table_note(t, "gate: amplitude %g, harmonic_1 %g, mean %g, waveform %g of the transient's amplitude", sc->gate.amplitude, sc->gate.harmonic_1,
              sc->gate.mean, sc->gate.waveform);
   for (int v = 0; v < VERDICT_COUNT; ++v)

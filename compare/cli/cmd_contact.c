@@ -7,11 +7,12 @@
 #include "cases/number.h"
 #include "compare/cli/cli.h"
 #include "hbm/aft.h"
+#include "hbm/exact.h"
 #include "hbm/series.h"
 
 static const char doc[] =
     "Fourier coefficients of CASE's contact force sum_j T_j cos(alpha_j) + (N_j - N0_j) sin(alpha_j) under the motion "
-    "x = a0 + a1 cos + b1 sin + a2 cos 2 + ..., by sampling at hbm.samples, and again at each N of --samples."
+    "x = a0 + a1 cos + b1 sin + a2 cos 2 + ...: exact (or sampled at hbm.samples if hbm.force says so), and sampled at each N of --samples."
     "\vRow 0 is the mean. As many harmonics as the motion or hbm.harmonics has, whichever is more.\n"
     "example: hbmcheck contact cases/paper/case2.yaml --motion 0,8,0 --samples 64,512";
 
@@ -21,7 +22,7 @@ static const struct argp_option options[] = {
     {0},
 };
 
-enum { MAX_COEF = 2 * SCENE_MAX_HARMONICS + 1, MAX_SETS = 17 };
+enum { MAX_COEF = 2 * SCENE_MAX_HARMONICS + 1, MAX_SETS = 17, EXACT = 0 };
 
 /* X[MAX_COEF] from the text; the number of harmonics, or -1 after saying what is wrong. */
 static int read_motion(const cli_options *o, double *X)
@@ -40,14 +41,26 @@ static int read_motion(const cli_options *o, double *X)
   return n / 2;
 }
 
-/* Coefficients for each sample count into F[set][MAX_COEF]. 0 or the exit code. */
+/* The exact coefficients, F[MAX_COEF]. */
+static hc_status evaluate_exactly(const scene *sc, int n_harm, const double *X, double *F)
+{
+  exact *e = NULL;
+  moving_contact contacts[SCENE_MAX_CONTACTS];
+  exact_contacts_of(sc, contacts);
+  hc_status st = exact_new(n_harm, 1, sc->n_contacts, contacts, &e);
+  if (st == HC_OK) st = exact_eval(e, X, F, NULL, NULL);
+  exact_free(e);
+  return st;
+}
+
+/* Coefficients for each sample count (EXACT: none) into F[set][MAX_COEF]. 0 or the exit code. */
 static int evaluate(const cli_options *o, const scene *sc, int n_harm, const double *X, const int *n_time, int n_sets, double (*F)[MAX_COEF])
 {
   for (int i = 0; i < n_sets; ++i) {
     aft *a = NULL;
-    hc_status st = aft_new(sc, n_harm, n_time[i], &a);
+    hc_status st = n_time[i] == EXACT ? evaluate_exactly(sc, n_harm, X, F[i]) : aft_new(sc, n_harm, n_time[i], &a);
     if (st == HC_BAD_INPUT) { cli_say(o, "%d samples are too few for %d harmonics; expected at least %d", n_time[i], n_harm, 2 * n_harm + 1); return EXIT_USAGE; }
-    if (st == HC_OK) st = aft_eval(a, X, F[i], NULL, NULL);
+    if (st == HC_OK && a) st = aft_eval(a, X, F[i], NULL, NULL);
     aft_free(a);
     if (st != HC_OK) return cli_solver_failed(o, "the contact force", st, 0);
   }
@@ -71,7 +84,8 @@ static int show(const cli_options *o, const scene *sc, int n_harm, const int *n_
       table_put_real(t, h ? F[i][2 * h] : 0);
     }
   }
-  table_note(t, "%s: cos and sin by sampling, N = %d", sc->title, n_time[0]);
+  if (n_time[0] == EXACT) table_note(t, "%s: cos and sin exact", sc->title);
+  else table_note(t, "%s: cos and sin by sampling, N = %d", sc->title, n_time[0]);
   int code = cli_write(o, 1, &t);
   table_free(t);
   return code;
@@ -87,10 +101,10 @@ int cmd_contact(int argc, char **argv)
   if (code) return code;
   int n_harm = read_motion(&o, X);
   if (n_harm < 0) return EXIT_USAGE;
-  if (sc.hbm.force == HBM_FORCE_EXACT || sc.hbm.samples == SCENE_AUTO) return cli_solver_failed(&o, "the contact force", HC_UNSUPPORTED, 0);
+  if (sc.hbm.force == HBM_FORCE_SAMPLED && sc.hbm.samples == SCENE_AUTO) return cli_solver_failed(&o, "the contact force", HC_UNSUPPORTED, 0);
   if (n_harm < sc.hbm.harmonics) n_harm = sc.hbm.harmonics;
   if (n_harm < 1) n_harm = 1;
-  int n_time[MAX_SETS] = {sc.hbm.samples}, n_sets = 1;
+  int n_time[MAX_SETS] = {sc.hbm.force == HBM_FORCE_EXACT ? EXACT : sc.hbm.samples}, n_sets = 1;
   for (int i = 0; i < o.samples.n; ++i) {
     double n = o.samples.v[i];
     if (n_sets == MAX_SETS || n != floor(n) || n > 1 << 24) { cli_say(&o, "--samples takes at most %d whole numbers", MAX_SETS - 1); return EXIT_USAGE; }

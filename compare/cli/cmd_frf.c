@@ -42,9 +42,9 @@ static hc_status put_points(hbm_solver *s, const hbm_curve *c, table *t)
 
 static void note_curve(table *t, const scene *sc, const hbm_curve *c)
 {
-  table_note(t, "%s: H = %d%s, %d samples; %d points, %ld iterations, %d steps rejected, %d turning points, %s continuation", sc->title,
-             sc->hbm.harmonics, sc->hbm.keep_mean ? "" : " without harmonic 0", sc->hbm.samples, c->n, c->iterations, c->rejected,
-             c->turning_points, c->arclength ? "arc-length" : "natural");
+  char how[128];
+  table_note(t, "%s: %s; %d points, %ld iterations, %d steps rejected, %d turning points, %s continuation", sc->title,
+             cli_hbm_settings(sc, how, sizeof how), c->n, c->iterations, c->rejected, c->turning_points, c->arclength ? "arc-length" : "natural");
   if (c->n == 0) return;
   double last = c->points[c->n - 1].omega;
   if (c->left_at_start) table_note(t, "the branch turned back and left the sweep where it began, at omega = %.10g", last);

@@ -61,14 +61,14 @@ static inline void drop(traced *t)
  * Higher harmonics h likewise, with z_h, which is larger than z off resonance, and least where h w meets the resonance: C h w. */
 static inline double linear_tolerance(const scene *sc, double k, double omega, int h)
 {
-  double z = cabs(CMPLX(k - sc->mass * h * h * omega * omega, sc->damping * h * omega)), x = sc->force / cabs(CMPLX(k - sc->mass * omega * omega, sc->damping * omega));
+  double z = hypot(k - sc->mass * h * h * omega * omega, sc->damping * h * omega), x = sc->force / hypot(k - sc->mass * omega * omega, sc->damping * omega);
   return (8 + 2 * log2(sc->hbm.samples)) * DBL_EPSILON * (k + sc->mass * h * h * omega * omega + sc->damping * h * omega) / z * x;
 }
 
 static inline void check_linear_point(const scene *sc, double k, const double *X, double omega, const char *what)
 {
-  double complex x = sc->force / CMPLX(k - sc->mass * omega * omega, sc->damping * omega);
-  CHECK_LE(cabs(CMPLX(X[1] - creal(x), X[2] + cimag(x))), linear_tolerance(sc, k, omega, 1), "%s at %.17g", what, omega);
+  double complex x = sc->force / (k - sc->mass * omega * omega + I * sc->damping * omega);
+  CHECK_LE(hypot(X[1] - creal(x), X[2] + cimag(x)), linear_tolerance(sc, k, omega, 1), "%s at %.17g", what, omega);
   CHECK_LE(fabs(X[0]), linear_tolerance(sc, k, omega, 0), "%s at %.17g", what, omega);
   for (int h = 2; h <= sc->hbm.harmonics; ++h) CHECK_LE(hypot(X[2 * h - 1], X[2 * h]), linear_tolerance(sc, k, omega, h), "%s at %.17g, h=%d", what, omega, h);
 }

@@ -1,0 +1,100 @@
+/* curves.c - a benchmark, not a test: every curve of the paper's figures with exact forces, traced from both ends.
+ * usage: bench_curves [CASE.yaml...]   (default: the scenes of figures 7, 8, 9, 17, 18, 20, and figure 17 up to kn = 1e7)
+ * One line a curve: how it ended, points, iterations, rejected steps, turning points, contact evaluations, milliseconds, and the largest
+ * distance, relative to the amplitude, between solutions found going up and going down at 16 frequencies both curves cover. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "cases/case_file.h"
+#include "hbm/hbm.h"
+
+static double now_ms(void)
+{
+  struct timespec t;
+  clock_gettime(CLOCK_MONOTONIC, &t);
+  return 1e3 * (double)t.tv_sec + 1e-6 * (double)t.tv_nsec;
+}
+
+/* Largest relative distance of the solutions of `a` at omega from the nearest ones of `b`; NaN when `b` has none. */
+static double mismatch(hbm_solver *s, const hbm_curve *a, const hbm_curve *b, double omega)
+{
+  hbm_curve at = {0}, bt = {0};
+  double worst = 0;
+  if (hbm_curve_at(s, a, omega, &at) != HC_OK || hbm_curve_at(s, b, omega, &bt) != HC_OK) worst = INFINITY;
+  if (at.n != bt.n) worst = NAN;
+  for (int i = 0; i < at.n && at.n == bt.n; ++i) {
+    double best = INFINITY, size = 0;
+    for (int j = 0; j < bt.n; ++j) {
+      double sum = 0;
+      size = 0;
+      for (int k = 0; k < at.n_coef; ++k) {
+        double d = at.X[i * at.n_coef + k] - bt.X[j * bt.n_coef + k];
+        sum += d * d;
+        size += at.X[i * at.n_coef + k] * at.X[i * at.n_coef + k];
+      }
+      best = fmin(best, sqrt(sum / size));
+    }
+    worst = fmax(worst, best);
+  }
+  hbm_curve_free(&at);
+  hbm_curve_free(&bt);
+  return worst;
+}
+
+static int trace_both(const char *name, scene *sc)
+{
+  hbm_solver *s = NULL;
+  hbm_curve up = {0}, down = {0};
+  double retrace = 0, t = now_ms(), low = fmin(sc->omega_from, sc->omega_to), high = fmax(sc->omega_from, sc->omega_to);
+  hc_status st = hbm_solver_new(sc, &s), back = HC_OK;
+  if (st == HC_OK) st = hbm_trace(s, low, high, NULL, &up);
+  t = now_ms() - t;
+  if (st == HC_OK) back = hbm_trace(s, high, low, NULL, &down);
+  int differ = 0;
+  for (int i = 0; i < 16 && st == HC_OK && back == HC_OK; ++i) {
+    double d = mismatch(s, &up, &down, low + (high - low) * (i + 0.37) / 16);
+    if (isnan(d)) ++differ;
+    else retrace = fmax(retrace, d);
+  }
+  double worst = 0;
+  for (int k = 0; k < up.n; ++k) worst = fmax(worst, up.points[k].residual);
+  printf("%-22s %3d %d %10g %5d %6ld %5d %3d %6ld %8.2f %8.1e  %8.1e", name, sc->hbm.harmonics, sc->hbm.keep_mean, up.n ? up.points[up.n - 1].omega : 0, up.n,
+         up.iterations, up.rejected, up.turning_points, up.evaluations, t, worst, retrace);
+  if (differ) printf("  %d of 16 frequencies with other solutions from the other end", differ);
+  if (st != HC_OK) printf("  UP: %s", hc_status_text(st));
+  if (back != HC_OK) printf("  DOWN at %g: %s", down.n ? down.points[down.n - 1].omega : 0, hc_status_text(back));
+  printf("\n");
+  hbm_curve_free(&up);
+  hbm_curve_free(&down);
+  hbm_solver_free(s);
+  return st != HC_OK || back != HC_OK;
+}
+
+static int run_case(const char *path, int *bad)
+{
+  scene sc;
+  case_error err;
+  const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
+  if (case_read(path, 0, NULL, &sc, &err) != HC_OK) { fprintf(stderr, "%s\n", err.message); return 1; }
+  static const int harmonics[] = {1, 5, 10, 25};
+  for (int h = 0; h < 4; ++h)
+    for (int keep = 0; keep < 2; ++keep) {
+      sc.hbm.harmonics = harmonics[h];
+      sc.hbm.keep_mean = keep;
+      sc.hbm.force = HBM_FORCE_EXACT;
+      *bad += trace_both(name, &sc);
+    }
+  return 0;
+}
+
+int main(int argc, char **argv)
+{
+  int bad = 0, wrong = 0;
+  printf("%-22s %3s %s %10s %5s %6s %5s %3s %6s %8s %8s  %8s\n", "case", "H", "0", "end", "pts", "iter", "rej", "trn", "evals", "ms", "residual", "retrace");
+  for (int i = 1; i < argc; ++i) wrong |= run_case(argv[i], &bad);
+  printf("%d curves did not reach their end\n", bad);
+  return wrong;
+}
