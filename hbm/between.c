@@ -11,7 +11,14 @@
 
 enum { MAX_HALVINGS = 40 };
 
-typedef struct candidate { double *X, *dX, *guess; hbm_point point; } candidate; /* three rows of one block */
+hc_status hbm_candidate_new(int n_coef, hbm_candidate *out)
+{
+  size_t n = (size_t)n_coef + 1; /* guess doubles as a plane's normal, one longer */
+  double *block = calloc(3 * n, sizeof *block);
+  if (!block) return HC_NO_MEMORY;
+  *out = (hbm_candidate){.X = block, .dX = block + n, .guess = block + 2 * n};
+  return HC_OK;
+}
 
 static double distance(int n, const double *a, const double *b)
 {
@@ -21,7 +28,7 @@ static double distance(int n, const double *a, const double *b)
 }
 
 /* Newton at omega from the interpolant at sigma. False: not next to it. */
-static bool solve_at(hbm_solver *s, const hbm_curve *c, int k, const hbm_segment *seg, double sigma, double omega, candidate *x)
+static bool solve_at(hbm_solver *s, const hbm_curve *c, int k, const hbm_segment *seg, double sigma, double omega, hbm_candidate *x)
 {
   double at, d_omega;
   size_t bytes = (size_t)c->n_coef * sizeof(double);
@@ -39,9 +46,9 @@ static bool solve_at(hbm_solver *s, const hbm_curve *c, int k, const hbm_segment
   return true;
 }
 
-/* The point of the curve in the plane across the interpolant at sigma, with its tangent. */
-static hc_status point_across(hbm_solver *s, const hbm_curve *c, int k, const hbm_segment *seg, double sigma, candidate *x)
+hc_status hbm_segment_point(hbm_solver *s, const hbm_curve *c, int k, double sigma, hbm_candidate *x)
 {
+  hbm_segment between = hbm_segment_between(c, k), *seg = &between;
   double d_omega, *normal = x->guess;
   int n = s->sys.n, first = s->sys.first;
   hbm_segment_at(seg, sigma, x->X, &x->point.omega, x->dX, &d_omega);
@@ -56,16 +63,16 @@ static hc_status point_across(hbm_solver *s, const hbm_curve *c, int k, const hb
 }
 
 /* A curve of three points: the ends of segment k and one between them. */
-static hc_status halve(hbm_solver *s, const hbm_curve *c, int k, const hbm_segment *seg, candidate *x, hbm_curve *halves)
+static hc_status halve(hbm_solver *s, const hbm_curve *c, int k, const hbm_segment *seg, hbm_candidate *x, hbm_curve *halves)
 {
-  hc_status st = point_across(s, c, k, seg, 0.5, x);
+  hc_status st = hbm_segment_point(s, c, k, 0.5, x);
   halves->omega_scale = c->omega_scale;
   if (st == HC_OK) st = hbm_curve_append(halves, c->n_coef, seg->X0, seg->dX0, &c->points[k]);
   if (st == HC_OK) st = hbm_curve_append(halves, c->n_coef, x->X, x->dX, &x->point);
   return st == HC_OK ? hbm_curve_append(halves, c->n_coef, seg->X1, seg->dX1, &c->points[k + 1]) : st;
 }
 
-static hc_status search(hbm_solver *s, const hbm_curve *c, int k, double omega, bool last, int halvings, candidate *x, hbm_curve *out)
+static hc_status search(hbm_solver *s, const hbm_curve *c, int k, double omega, bool last, int halvings, hbm_candidate *x, hbm_curve *out)
 {
   hbm_segment seg = hbm_segment_between(c, k);
   double sigma[3];
@@ -90,12 +97,11 @@ static hc_status search(hbm_solver *s, const hbm_curve *c, int k, double omega, 
 
 hc_status hbm_segment_solutions(hbm_solver *s, const hbm_curve *c, int k, double omega, bool last, hbm_curve *out)
 {
-  size_t n = (size_t)c->n_coef + 1; /* guess doubles as a plane's normal, one longer */
-  double *block = calloc(3 * n, sizeof *block);
-  if (!block) return HC_NO_MEMORY;
-  candidate x = {.X = block, .dX = block + n, .guess = block + 2 * n};
-  hc_status st = search(s, c, k, omega, last, MAX_HALVINGS, &x, out);
-  free(block);
+  hbm_candidate x;
+  hc_status st = hbm_candidate_new(c->n_coef, &x);
+  if (st != HC_OK) return st;
+  st = search(s, c, k, omega, last, MAX_HALVINGS, &x, out);
+  free(x.X);
   return st;
 }
 
@@ -111,16 +117,15 @@ hc_status hbm_curve_at(hbm_solver *s, const hbm_curve *c, double omega, hbm_curv
 }
 
 /* Amplitude on the curve near its highest point; position 0..2 runs over the two segments beside it. The point into x. Negative: failed. */
-static double amplitude_near(hbm_solver *s, const hbm_curve *c, int top, double position, candidate *x)
+static double amplitude_near(hbm_solver *s, const hbm_curve *c, int top, double position, hbm_candidate *x)
 {
   int k = top - 1 + (position >= 1);
-  hbm_segment seg = hbm_segment_between(c, k);
   hbm_measures m;
-  if (point_across(s, c, k, &seg, position - (position >= 1), x) != HC_OK) return -1;
+  if (hbm_segment_point(s, c, k, position - (position >= 1), x) != HC_OK) return -1;
   return hbm_measure(s, x->X, &m) == HC_OK ? m.amplitude : -1;
 }
 
-static hc_status refine_peak(hbm_solver *s, const hbm_curve *c, int top, candidate *x, hbm_curve *peak)
+static hc_status refine_peak(hbm_solver *s, const hbm_curve *c, int top, hbm_candidate *x, hbm_curve *peak)
 {
   const double golden = 0.61803398874989485;
   double a = 0, b = 2, p = b - golden * (b - a), q = a + golden * (b - a);
@@ -147,11 +152,10 @@ hc_status hbm_curve_peak(hbm_solver *s, const hbm_curve *c, hbm_curve *peak)
   peak->omega_scale = c->omega_scale;
   if (top == 0 || top == c->n - 1) /* an end of the sweep: the peak may lie outside */
     return hbm_curve_append(peak, c->n_coef, hbm_curve_X(c, top), hbm_curve_dX(c, top), &c->points[top]);
-  size_t n = (size_t)c->n_coef + 1;
-  double *block = calloc(3 * n, sizeof *block);
-  if (!block) return HC_NO_MEMORY;
-  candidate x = {.X = block, .dX = block + n, .guess = block + 2 * n};
-  hc_status st = refine_peak(s, c, top, &x, peak);
-  free(block);
+  hbm_candidate x;
+  hc_status st = hbm_candidate_new(c->n_coef, &x);
+  if (st != HC_OK) return st;
+  st = refine_peak(s, c, top, &x, peak);
+  free(x.X);
   return st;
 }

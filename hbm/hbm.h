@@ -9,7 +9,8 @@
 
 #include "cases/scene.h"
 #include "cases/status.h"
-#include "hbm/aft.h"
+#include "hbm/contact_report.h"
+#include "hbm/stability.h"
 
 typedef struct hbm_solver hbm_solver;
 
@@ -60,6 +61,21 @@ hc_status hbm_curve_at(hbm_solver *s, const hbm_curve *curve, double omega, hbm_
 hc_status hbm_curve_peak(hbm_solver *s, const hbm_curve *curve, hbm_curve *peak);
 
 hc_status hbm_measure(hbm_solver *s, const double *X, hbm_measures *out);
+
+/* Floquet multipliers of the solution X at omega, along its own exactly located transitions also where forces are sampled. */
+hc_status hbm_stability_at(hbm_solver *s, double omega, const double *X, hbm_stability *out);
+
+/* Where the curve changes its nature. */
+typedef enum hbm_special_kind { HBM_TURNING_POINT, HBM_PERIOD_DOUBLING, HBM_CONTACT_CHANGE } hbm_special_kind;
+typedef struct hbm_special {
+  hbm_special_kind kind;
+  double omega, amplitude;
+  int branch;
+  contact_regime before, after; /* along the curve; the same where only the number of transitions changes */
+} hbm_special;
+
+/* All of them in the curve's order, located to 1e-9 of omega or better, into out[cap]; *n is how many there are, which may exceed cap. */
+hc_status hbm_specials(hbm_solver *s, const hbm_curve *curve, int cap, hbm_special *out, int *n);
 
 /* A curve is made empty with {0} and freed here. */
 void hbm_curve_free(hbm_curve *curve);

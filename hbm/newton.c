@@ -9,10 +9,10 @@
 #include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sunlinsol/sunlinsol_dense.h>
 #include <sunmatrix/sunmatrix_dense.h>
 
 #include "cases/sundials_compat.h"
+#include "hbm/lu.h"
 
 struct newton {                 /* from newton_new, to newton_free; not shared between threads */
   newton_problem problem;
@@ -53,7 +53,7 @@ static hc_status make_kinsol(newton *nw)
   for (size_t i = 0; i < sizeof vectors / sizeof *vectors; ++i)
     if (!(*vectors[i] = N_VNew_Serial(n, nw->ctx))) return HC_NO_MEMORY;
   if (!(nw->jac = SUNDenseMatrix(n, n, nw->ctx))) return HC_NO_MEMORY;
-  if (!(nw->ls = SUNLinSol_Dense(nw->z, nw->jac, nw->ctx))) return HC_NO_MEMORY;
+  if (!(nw->ls = lu_sundials_solver(nw->problem.n, nw->ctx))) return HC_NO_MEMORY;
   if (!(nw->kin = KINCreate(nw->ctx))) return HC_NO_MEMORY;
   int bad = HC_KINSOL_QUIET(nw->kin);
   bad |= KINSetUserData(nw->kin, nw);
@@ -113,14 +113,7 @@ static hc_status factor_here(newton *nw)
 
 int newton_sign(const newton *nw)
 {
-  if (!nw->factored) return 0;
-  const sunindextype *pivot = ((SUNLinearSolverContent_Dense)nw->ls->content)->pivots;
-  int sign = 1;
-  for (int i = 0; i < nw->problem.n; ++i) {
-    if (SUNDenseMatrix_Column(nw->jac, i)[i] < 0) sign = -sign;
-    if (pivot[i] != i) sign = -sign;
-  }
-  return sign;
+  return nw->factored ? lu_sign(nw->problem.n, SUNDenseMatrix_Data(nw->jac), lu_sundials_pivots(nw->ls)) : 0;
 }
 
 hc_status newton_backsolve(newton *nw, double *x)

@@ -76,6 +76,13 @@ static hc_status make_workspace(hbm_solver *s)
   double **const arrays[] = {&s->Z, &s->z, &s->z_scale, &s->r_scale, &s->normal, &s->anchor};
   for (size_t i = 0; i < sizeof arrays / sizeof *arrays; ++i)
     if (!(*arrays[i] = calloc(m, sizeof(double)))) return HC_NO_MEMORY;
+  hc_status made = stability_new(s->sys.sc.n_contacts, &s->stability);
+  if (made == HC_OK && s->sys.sampled) {
+    moving_contact contacts[SCENE_MAX_CONTACTS];
+    exact_contacts_of(&s->sys.sc, contacts);
+    made = exact_new(s->sys.n_harm, 1, s->sys.sc.n_contacts, contacts, &s->pattern);
+  }
+  if (made != HC_OK) return made;
   newton_problem fixed = {s->sys.n, s, fixed_residual, fixed_jacobian};
   newton_problem plane = {s->sys.n + 1, s, plane_residual, plane_jacobian};
   hc_status st = newton_new(&fixed, &s->fixed);
@@ -100,6 +107,8 @@ void hbm_solver_free(hbm_solver *s)
   if (!s) return;
   newton_free(s->fixed);
   newton_free(s->plane);
+  exact_free(s->pattern);
+  stability_free(s->stability);
   hbm_system_clear(&s->sys);
   double *const arrays[] = {s->Z, s->z, s->z_scale, s->r_scale, s->normal, s->anchor};
   for (size_t i = 0; i < sizeof arrays / sizeof *arrays; ++i) free(arrays[i]);
@@ -197,4 +206,20 @@ hc_status hbm_measure(hbm_solver *s, const double *X, hbm_measures *out)
   out->harmonic_1 = series_harmonic_1(n_harm, X);
   out->contact = s->sys.report;
   return HC_OK;
+}
+
+hc_status hbm_pattern_at(hbm_solver *s, const double *X, const exact **e, contact_report *report)
+{
+  *e = s->pattern ? s->pattern : s->sys.located;
+  hc_status st = s->pattern ? exact_eval(s->pattern, X, s->Z, NULL, report) : hbm_system_contact(&s->sys, X);
+  if (st == HC_OK && !s->pattern) *report = s->sys.report;
+  return st;
+}
+
+hc_status hbm_stability_at(hbm_solver *s, double omega, const double *X, hbm_stability *out)
+{
+  const exact *e;
+  contact_report report;
+  hc_status st = hbm_pattern_at(s, X, &e, &report);
+  return st == HC_OK ? stability_of(s->stability, &s->sys.sc, e, omega, out) : st;
 }

@@ -14,6 +14,8 @@
 struct hbm_solver {
   hbm_system sys;
   newton *fixed, *plane;
+  exact *pattern;               /* transitions of a solution of sampled equations; NULL when the equations are exact themselves */
+  stability *stability;
   double omega;                 /* of the fixed form */
   double *Z;                    /* [n_coef]  X with harmonic 0, for the callbacks */
   double *z;                    /* [n+1]     unknowns of a solve */
@@ -33,6 +35,9 @@ hc_status hbm_solve_plane(hbm_solver *s, const double *normal, double x_scale, d
 /* dX/domega [n_coef] at the end of the last fixed solve; (dX, domega) along the curve, with normal . (dX, domega) = 1, after a plane solve. */
 hc_status hbm_tangent_fixed(hbm_solver *s, const double *X, double *dX);
 hc_status hbm_tangent_plane(hbm_solver *s, double *dX, double *d_omega);
+
+/* The exact evaluator, evaluated at X, and what it found. */
+hc_status hbm_pattern_at(hbm_solver *s, const double *X, const exact **e, contact_report *report);
 
 /* Euclidean norm of v[n]. */
 double hbm_norm(int n, const double *v);

@@ -20,7 +20,8 @@ static const struct argp_option options[] = {
 static const table_column columns[] = {
     {"omega", TABLE_REAL},      {"branch", TABLE_INTEGER}, {"amplitude", TABLE_REAL},     {"max", TABLE_REAL},
     {"min", TABLE_REAL},        {"rms", TABLE_REAL},       {"mean", TABLE_REAL},          {"harmonic_1", TABLE_REAL},
-    {"contact", TABLE_TEXT},    {"iterations", TABLE_INTEGER}, {"residual", TABLE_REAL},
+    {"stable", TABLE_TEXT},     {"multiplier", TABLE_REAL}, {"contact", TABLE_TEXT},      {"iterations", TABLE_INTEGER},
+    {"residual", TABLE_REAL},
 };
 
 static hc_status put_points(hbm_solver *s, const hbm_curve *c, table *t)
@@ -33,6 +34,10 @@ static hc_status put_points(hbm_solver *s, const hbm_curve *c, table *t)
     table_put_integer(t, c->points[k].branch);
     const double values[] = {m.amplitude, m.max, m.min, m.rms, m.mean, m.harmonic_1};
     for (int i = 0; i < 6; ++i) table_put_real(t, values[i]);
+    hbm_stability floquet;
+    bool known = hbm_stability_at(s, c->points[k].omega, c->X + (size_t)k * c->n_coef, &floquet) == HC_OK;
+    table_put_text(t, !known ? "unknown" : floquet.multiplier < 1 ? "yes" : "no");
+    table_put_real(t, known ? floquet.multiplier : NAN);
     table_put_text(t, contact_regime_name(m.contact.regime));
     table_put_integer(t, c->points[k].iterations);
     table_put_real(t, c->points[k].residual);
@@ -50,6 +55,24 @@ static void note_curve(table *t, const scene *sc, const hbm_curve *c)
   if (c->left_at_start) table_note(t, "the branch turned back and left the sweep where it began, at omega = %.10g", last);
   else if (c->end == HC_OK) table_note(t, "reached the end of the sweep, omega = %.10g", last);
   else table_note(t, "STOPPED at omega = %.10g: %s", last, hc_status_text(c->end));
+}
+
+static void note_specials(table *t, hbm_solver *s, const hbm_curve *c)
+{
+  enum { SHOWN = 24 };
+  hbm_special special[SHOWN];
+  int n = 0;
+  hc_status st = hbm_specials(s, c, SHOWN, special, &n);
+  for (int i = 0; i < n && i < SHOWN; ++i) {
+    const hbm_special *p = &special[i];
+    const char *from = contact_regime_name(p->before), *to = contact_regime_name(p->after);
+    if (p->kind == HBM_TURNING_POINT) table_note(t, "turning point at omega = %.10f, amplitude %.9g", p->omega, p->amplitude);
+    else if (p->kind == HBM_PERIOD_DOUBLING) table_note(t, "period doubling at omega = %.10f, amplitude %.9g", p->omega, p->amplitude);
+    else if (p->before != p->after) table_note(t, "contact goes from %s to %s at omega = %.10f, amplitude %.9g", from, to, p->omega, p->amplitude);
+    else table_note(t, "contact pattern changes (%s) at omega = %.10f, amplitude %.9g", to, p->omega, p->amplitude);
+  }
+  if (n > SHOWN) table_note(t, "and %d more", n - SHOWN);
+  if (st != HC_OK) table_note(t, "at least one more was noticed but not located: %s", hc_status_text(st));
 }
 
 /* All solutions at the asked frequencies. A frequency without any is a failure unless the curve says the branch never goes there. */
@@ -88,6 +111,7 @@ int cmd_frf(int argc, char **argv)
     hc_status shown = put_points(s, o.at.n ? &found : &curve, t);
     if (st == HC_OK) st = shown;
     note_curve(t, &sc, &curve);
+    if (!o.at.n) note_specials(t, s, &curve);
   }
   progress_end(bar);
   code = st == HC_OK ? 0 : cli_solver_failed(&o, "harmonic balance", st, failed_at);

@@ -1,0 +1,223 @@
+/* stability.c - see stability.h. The state is (dx, dx', dheld_1, ..., dheld_n); dheld_j counts only while contact j is stuck. */
+#include "hbm/stability.h"
+
+#include <complex.h>
+#include <gsl/gsl_eigen.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const double TWO_PI = 6.283185307179586476925;
+
+enum { MAX_STATE = 2 + SCENE_MAX_CONTACTS };
+
+struct stability {
+  int cap;             /* of boundary */
+  double *boundary;    /* [cap] [rad] every instant a contact changes state, sorted */
+  double phi[MAX_STATE][MAX_STATE];
+  gsl_eigen_nonsymm_workspace *work[MAX_STATE + 1]; /* by size, made when first needed */
+  gsl_matrix *matrix[MAX_STATE + 1];
+  gsl_vector_complex *values;
+};
+
+hc_status stability_new(int n_contacts, stability **out)
+{
+  *out = calloc(1, sizeof **out);
+  stability *s = *out;
+  if (!s) return HC_NO_MEMORY;
+  s->cap = 2;
+  (void)n_contacts;
+  s->boundary = malloc((size_t)s->cap * sizeof(double));
+  if (s->boundary) return HC_OK;
+  stability_free(s);
+  *out = NULL;
+  return HC_NO_MEMORY;
+}
+
+void stability_free(stability *s)
+{
+  if (!s) return;
+  for (int m = 0; m <= MAX_STATE; ++m) {
+    if (s->work[m]) gsl_eigen_nonsymm_free(s->work[m]);
+    if (s->matrix[m]) gsl_matrix_free(s->matrix[m]);
+  }
+  if (s->values) gsl_vector_complex_free(s->values);
+  free(s->boundary);
+  free(s);
+}
+
+static int ascending(const void *a, const void *b)
+{
+  double x = *(const double *)a, y = *(const double *)b;
+  return (x > y) - (x < y);
+}
+
+static double wrap(double th) { return th >= TWO_PI ? th - TWO_PI : th; }
+
+/* All instants of change in [0, 2 pi], ends included; their number or -1 without memory. */
+static int collect_boundaries(stability *s, const exact *e, int n_contacts)
+{
+  int n = 2;
+  for (int j = 0, n_pieces; j < n_contacts; ++j) {
+    exact_pieces(e, j, &n_pieces);
+    n += 2 * n_pieces;
+  }
+  if (n > s->cap) {
+    double *more = realloc(s->boundary, 2 * (size_t)n * sizeof(double));
+    if (!more) return -1;
+    s->boundary = more;
+    s->cap = 2 * n;
+  }
+  n = 0;
+  s->boundary[n++] = 0;
+  s->boundary[n++] = TWO_PI;
+  for (int j = 0, n_pieces; j < n_contacts; ++j) {
+    const contact_piece *p = exact_pieces(e, j, &n_pieces);
+    for (int i = 0; i < n_pieces; ++i) {
+      s->boundary[n++] = wrap(p[i].from);
+      s->boundary[n++] = wrap(p[i].to);
+    }
+  }
+  qsort(s->boundary, (size_t)n, sizeof(double), ascending);
+  return n;
+}
+
+/* The piece of contact j that covers th, NULL while separated. */
+static const contact_piece *piece_at(const exact *e, int j, double th)
+{
+  int n;
+  const contact_piece *p = exact_pieces(e, j, &n);
+  for (int i = 0; i < n; ++i)
+    if ((th >= p[i].from && th < p[i].to) || (th + TWO_PI >= p[i].from && th + TWO_PI < p[i].to)) return &p[i];
+  return NULL;
+}
+
+static bool stuck_for_ever(const exact *e, int j)
+{
+  int n;
+  const contact_piece *p = exact_pieces(e, j, &n);
+  return n == 1 && p->state == CONTACT_STICK && p->slope[0] == 0 && p->to - p->from >= TWO_PI;
+}
+
+/* (x, x') after time t of M x'' + C x' + k x = 0 from (1, 0) and from (0, 1), in e[row][column]. */
+static void free_motion(const scene *sc, double k, double t, double e[2][2])
+{
+  double a = 0.5 * sc->damping / sc->mass, d = a * a - k / sc->mass, decay = exp(-a * t), co, si; /* co = cosh(sqrt(d) t), si = sinh(..)/sqrt(d) */
+  if (d < 0) {
+    double w = sqrt(-d);
+    co = cos(w * t);
+    si = w * t > 1e-8 ? sin(w * t) / w : t;
+  } else {
+    double w = sqrt(d);
+    co = cosh(w * t);
+    si = w * t > 1e-8 ? sinh(w * t) / w : t;
+  }
+  e[0][0] = decay * (co + a * si);
+  e[0][1] = decay * si;
+  e[1][0] = -decay * si * k / sc->mass;
+  e[1][1] = decay * (co - a * si);
+}
+
+/* Sliders that come to rest at this boundary: dheld from dx there. */
+static void set_sliders(stability *s, const scene *sc, const contact_piece *const *piece, double th, int m)
+{
+  for (int j = 0; j < sc->n_contacts; ++j) {
+    const contact_piece *p = piece[j];
+    if (!p || p->state != CONTACT_STICK || p->from != p->origin || wrap(p->from) != th) continue;
+    for (int q = 0; q < m; ++q) s->phi[2 + j][q] = p->slope[0] * s->phi[0][q];
+  }
+}
+
+/* Stiffness to x, and the share of each dheld in the force on x. */
+static double stiffness_now(const scene *sc, const contact_piece *const *piece, double *share)
+{
+  double k = sc->stiffness;
+  for (int j = 0; j < sc->n_contacts; ++j) {
+    double c, si;
+    const contact *law = &sc->contacts[j].law;
+    share[j] = 0;
+    if (!piece[j]) continue;
+    scene_projection(&sc->contacts[j], &c, &si);
+    int slip = contact_slip_sign(piece[j]->state);
+    k += (slip ? slip * law->mu * law->kn * si : law->kt * c) * c + law->kn * si * si;
+    share[j] = slip ? 0 : c;
+  }
+  return k;
+}
+
+static void advance_stretch(stability *s, const scene *sc, const contact_piece *const *piece, double t, int m)
+{
+  double share[SCENE_MAX_CONTACTS], e[2][2], k = stiffness_now(sc, piece, share);
+  free_motion(sc, k, t, e);
+  for (int q = 0; q < m; ++q) {
+    double pull = 0;
+    for (int j = 0; j < sc->n_contacts; ++j) pull += share[j] * s->phi[2 + j][q];
+    double rest = k != 0 ? pull / k : 0, x = s->phi[0][q] - rest, v = s->phi[1][q];
+    s->phi[0][q] = rest + e[0][0] * x + e[0][1] * v;
+    s->phi[1][q] = e[1][0] * x + e[1][1] * v;
+  }
+}
+
+/* Multipliers of the leading m x m part over the rows and columns in `active`. */
+static hc_status eigenvalues(stability *s, int m, const int *active, double complex *lambda)
+{
+  if (m == 2) {
+    double half = 0.5 * (s->phi[0][0] + s->phi[1][1]), det = s->phi[0][0] * s->phi[1][1] - s->phi[0][1] * s->phi[1][0];
+    double complex root = csqrt(half * half - det);
+    lambda[0] = half + (half < 0 ? -root : root);
+    lambda[1] = cabs(lambda[0]) > 0 ? det / lambda[0] : 0;
+    return HC_OK;
+  }
+  if (!s->work[m]) s->work[m] = gsl_eigen_nonsymm_alloc((size_t)m);
+  if (!s->matrix[m]) s->matrix[m] = gsl_matrix_alloc((size_t)m, (size_t)m);
+  if (s->values && s->values->size != (size_t)m) { gsl_vector_complex_free(s->values); s->values = NULL; }
+  if (!s->values) s->values = gsl_vector_complex_alloc((size_t)m);
+  if (!s->work[m] || !s->matrix[m] || !s->values) return HC_NO_MEMORY;
+  for (int i = 0; i < m; ++i)
+    for (int q = 0; q < m; ++q) gsl_matrix_set(s->matrix[m], (size_t)i, (size_t)q, s->phi[active[i]][active[q]]);
+  if (gsl_eigen_nonsymm(s->matrix[m], s->values, s->work[m])) return HC_NOT_CONVERGED;
+  for (int i = 0; i < m; ++i) {
+    gsl_complex z = gsl_vector_complex_get(s->values, (size_t)i);
+    lambda[i] = GSL_REAL(z) + I * GSL_IMAG(z);
+  }
+  return HC_OK;
+}
+
+static void summarise(int m, const double complex *lambda, hbm_stability *out)
+{
+  double complex flip = 1, fold = 1, all = 1;
+  *out = (hbm_stability){.multiplier = -1};
+  for (int i = 0; i < m; ++i) {
+    flip *= 1 + lambda[i];
+    fold *= 1 - lambda[i];
+    all *= lambda[i];
+    if (cabs(lambda[i]) > out->multiplier) { out->multiplier = cabs(lambda[i]); out->re = creal(lambda[i]); out->im = cimag(lambda[i]); }
+  }
+  out->flip = creal(flip);
+  out->fold = creal(fold);
+  out->determinant = creal(all);
+}
+
+hc_status stability_of(stability *s, const scene *sc, const exact *e, double omega, hbm_stability *out)
+{
+  const contact_piece *piece[SCENE_MAX_CONTACTS];
+  int m = 2 + sc->n_contacts, n = collect_boundaries(s, e, sc->n_contacts), active[MAX_STATE] = {0, 1}, n_active = 2;
+  if (n < 0) return HC_NO_MEMORY;
+  memset(s->phi, 0, sizeof s->phi);
+  for (int q = 0; q < m; ++q) s->phi[q][q] = 1;
+  for (int i = 0; i + 1 < n; ++i) {
+    double a = s->boundary[i], b = s->boundary[i + 1];
+    if (!(b > a)) continue;
+    for (int j = 0; j < sc->n_contacts; ++j) piece[j] = piece_at(e, j, 0.5 * (a + b));
+    if (i == 0 || a == 0) /* sliders at rest at the start of the period are states of their own, but for those stuck for ever */
+      for (int j = 0; j < sc->n_contacts; ++j)
+        if (piece[j] && piece[j]->state == CONTACT_STICK && !stuck_for_ever(e, j) && !(piece[j]->from == piece[j]->origin && wrap(piece[j]->from) == a))
+          active[n_active++] = 2 + j;
+    set_sliders(s, sc, piece, a, m);
+    advance_stretch(s, sc, piece, (b - a) / omega, m);
+  }
+  double complex lambda[MAX_STATE];
+  hc_status st = eigenvalues(s, n_active, active, lambda);
+  if (st == HC_OK) summarise(n_active, lambda, out);
+  return st;
+}
