@@ -78,6 +78,10 @@ static const field table[] = {
   {"hbm", "continuation", "", CHOICE(continuation_names), SCENE(hbm.continuation), .fallback = "auto", .meaning = "how the response curve is followed"},
   {"hbm", "tolerance", "", FIELD_REAL, .unit = "1", SCENE(hbm.tolerance), .fallback = "1e-10", WITHIN(1e-14, 1e-2),
    .meaning = "of the residual, relative to the forces that make it up"},
+  {"hbm", "accuracy", "", FIELD_REAL, .unit = "1", SCENE(hbm.accuracy), .fallback = "1e-4", WITHIN(1e-12, 1e-1),
+   .meaning = "relative error that harmonics: auto and samples: auto aim at"},
+  {"hbm", "skip_linear", "", FIELD_FLAG, .unit = "", SCENE(hbm.skip_linear), .fallback = "true",
+   .meaning = "take points where nothing happens at the contacts from the closed form"},
 
   {"transient", "law", "", CHOICE(law_names), SCENE(transient.law), .fallback = "regularised", .meaning = "contact law that is integrated"},
   {"transient", "regularisation", "eta", FIELD_REAL, .unit = "1", SCENE(transient.regularisation), .fallback = "1e-4", WITHIN(1e-8, 1e-1),

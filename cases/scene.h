@@ -36,6 +36,8 @@ typedef struct scene_hbm {
   int restart;   /* hbm_restart_kind */
   int continuation; /* hbm_continuation_kind */
   double tolerance; /* [1] relative to the forces that make up the residual */
+  double accuracy;  /* [1] what auto harmonics and samples aim at: error relative to the solution */
+  bool skip_linear; /* points where nothing happens at the contacts come from the closed form */
 } scene_hbm;
 
 typedef struct scene_transient {

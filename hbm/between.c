@@ -34,6 +34,8 @@ static bool solve_at(hbm_solver *s, const hbm_curve *c, int k, const hbm_segment
   size_t bytes = (size_t)c->n_coef * sizeof(double);
   x->point = (hbm_point){.omega = omega};
   hbm_segment_at(seg, sigma, x->X, &at, x->dX, &d_omega);
+  hbm_trim(s, c->n_coef, x->X);
+  hbm_trim(s, c->n_coef, x->dX);
   memcpy(x->guess, x->X, bytes);
   if (hbm_solve_fixed(s, omega, seg->x_scale, x->X, &x->point) != HC_OK) return false;
   if (!(distance(c->n_coef, x->X, x->guess) <= (0.1 * seg->length + 1e-8) * seg->x_scale)) return false;
@@ -52,6 +54,8 @@ hc_status hbm_segment_point(hbm_solver *s, const hbm_curve *c, int k, double sig
   double d_omega, *normal = x->guess;
   int n = s->sys.n, first = s->sys.first;
   hbm_segment_at(seg, sigma, x->X, &x->point.omega, x->dX, &d_omega);
+  hbm_trim(s, c->n_coef, x->X);
+  hbm_trim(s, c->n_coef, x->dX);
   for (int i = 0; i < n; ++i) normal[i] = x->dX[i + first] / (seg->x_scale * seg->x_scale);
   normal[n] = d_omega / (seg->omega_scale * seg->omega_scale);
   double omega = x->point.omega;

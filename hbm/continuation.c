@@ -13,13 +13,16 @@
 
 #include "hbm/between.h"
 #include "hbm/curve.h"
+#include "hbm/series.h"
 #include "hbm/solver.h"
+#include "hbm/start.h"
 
 static const double TOLERANCE = 1e-4;   /* of interpolation, relative to |X| */
 static const double H_FIRST = 0.02, H_MAX = 0.5, H_MIN = 1e-11;
 static const double H_CORNER = 1e-4;    /* below: a corner in the curve rather than curvature; accept a kink */
+static const double LINEAR_NEAR = 1e-2;  /* the linear response counts as the predicted solution within this */
 static const double STEEP = 0.2, FLAT = 0.6; /* share of omega in the unit tangent: leave natural steps, take them up again */
-enum { MAX_POINTS = 200000, FLAT_STEPS = 6 };
+enum { MAX_POINTS = 200000, FLAT_STEPS = 6, EASY_POINTS = 4 };
 
 typedef struct path {
   hbm_solver *s;
@@ -27,11 +30,15 @@ typedef struct path {
   double from, to, direction;  /* direction: sign of to - from */
   double resolution;           /* [rad/time] width of the narrowest feature in omega: the linear resonance's half width C/2M */
   double h;
+  int sign;                    /* of det of the trial's Jacobian */
+  bool fresh;                  /* the equations changed at the last point: extrapolate by its tangent alone */
+  int easy;                    /* points in a row where fewer harmonics would do */
   int sense;                   /* sign of det [dR/dX dR/domega; tangent], kept along the curve */
   bool natural;                /* how the next step is corrected */
   int flat_steps;              /* accepted in a row on flat curve while in arc-length mode */
   double *X, *dX, omega, d_omega; /* prediction, then trial point and its tangent */
   double *P, omega_p;          /* the prediction as it was */
+  double *chord;               /* from the last point to the trial */
   double *normal;              /* [n+1] */
   hbm_point point;
 } path;
@@ -57,7 +64,7 @@ static double predict(path *p, double h)
   double x_scale = size_of_last(p), ratio = 1.0 / 16;
   hbm_segment seg = {.length = 0};
   if (c->n >= 2) seg = hbm_segment_between(c, last - 1);
-  if (c->n >= 2 && h <= 4 * seg.length) {
+  if (c->n >= 2 && h <= 4 * seg.length && !p->fresh) {
     hbm_segment_at(&seg, 1 + h / seg.length, p->X, &p->omega, p->dX, &p->d_omega);
     ratio = h * h / (16 * (seg.length + h) * (seg.length + h));
   } else {
@@ -69,6 +76,8 @@ static double predict(path *p, double h)
     p->omega = q->omega + step * q->d_omega;
     p->d_omega = q->d_omega;
   }
+  hbm_trim(p->s, c->n_coef, p->X);
+  hbm_trim(p->s, c->n_coef, p->dX);
   double length = sqrt(metric(p, x_scale, p->dX, p->d_omega, p->dX, p->d_omega));
   for (int i = 0; i < c->n_coef; ++i) p->dX[i] /= length;
   p->d_omega /= length;
@@ -79,9 +88,12 @@ static double predict(path *p, double h)
 
 static hc_status correct_natural(path *p)
 {
+  p->d_omega = 1;
+  p->sign = 1; /* of the linear equations: det Z_h = (K - M h^2 omega^2)^2 + (C h omega)^2 */
+  if (p->s->sys.sc.hbm.skip_linear && hbm_linear_point(p->s, p->omega, LINEAR_NEAR, p->X, p->dX, &p->point)) return HC_OK;
   hc_status st = hbm_solve_fixed(p->s, p->omega, size_of_last(p), p->X, &p->point);
   if (st == HC_OK) st = hbm_tangent_fixed(p->s, p->X, p->dX);
-  p->d_omega = 1;
+  p->sign = newton_sign(p->s->fixed);
   return st;
 }
 
@@ -92,6 +104,7 @@ static hc_status correct_in_plane(path *p)
   for (int i = 0; i < n; ++i) p->normal[i] = p->dX[i + first] / (x_scale * x_scale);
   p->normal[n] = p->d_omega / (omega_scale * omega_scale);
   hc_status st = hbm_solve_plane(p->s, p->normal, x_scale, omega_scale, p->X, &p->omega, &p->point);
+  p->sign = newton_sign(p->s->plane);
   return st == HC_OK ? hbm_tangent_plane(p->s, p->dX, &p->d_omega) : st;
 }
 
@@ -100,11 +113,11 @@ static double orient(path *p, bool *forward)
 {
   const hbm_curve *c = p->curve;
   int n = c->n_coef, last = c->n - 1;
-  double x_scale = size_of_last(p), *chord = p->s->Z;
+  double x_scale = size_of_last(p), *chord = p->chord;
   const double *X0 = hbm_curve_X(c, last), *dX0 = hbm_curve_dX(c, last);
   double d_omega0 = c->points[last].d_omega;
   for (int i = 0; i < n; ++i) chord[i] = p->X[i] - X0[i];
-  if (newton_sign(p->natural ? p->s->fixed : p->s->plane) != p->sense) {
+  if (p->sign != p->sense) {
     for (int i = 0; i < n; ++i) p->dX[i] = -p->dX[i];
     p->d_omega = -p->d_omega;
   }
@@ -170,8 +183,10 @@ static hc_status accept(path *p)
   p->point.branch = before->branch + ((before->d_omega > 0) != (p->d_omega > 0));
   c->turning_points = p->point.branch;
   double flat = flatness(p);
+  p->fresh = false;
   hc_status st = hbm_curve_append(c, c->n_coef, p->X, p->dX, &p->point);
   if (st != HC_OK) return st;
+  c->linear += p->point.iterations == 0;
   if (p->natural) {
     if (flat < STEEP && may_go_arclength(p)) switch_to_arclength(p);
   } else {
@@ -202,6 +217,98 @@ static hc_status finish_at_limit(path *p, bool *done)
   return st;
 }
 
+/* Solve the last point again with the equations as they are now, across its own tangent. */
+static hc_status redo_last(path *p)
+{
+  hbm_curve *c = p->curve;
+  hbm_point *tip = &c->points[c->n - 1];
+  double *X = hbm_curve_X(c, c->n - 1), *dX = hbm_curve_dX(c, c->n - 1);
+  size_t bytes = (size_t)c->n_coef * sizeof(double);
+  hbm_trim(p->s, c->n_coef, X);
+  hbm_trim(p->s, c->n_coef, dX);
+  memcpy(p->X, X, bytes);
+  memcpy(p->dX, dX, bytes);
+  p->omega = tip->omega;
+  p->d_omega = tip->d_omega;
+  bool end = c->n == 1 || tip->omega == p->to; /* ends of the sweep stay where they are */
+  hc_status st = end ? hbm_solve_fixed(p->s, p->omega, size_of_last(p), p->X, &p->point) : correct_in_plane(p);
+  if (end && st == HC_OK) {
+    st = hbm_tangent_fixed(p->s, p->X, p->dX);
+    p->d_omega = 1;
+    p->sign = newton_sign(p->s->fixed);
+  }
+  c->iterations += p->point.iterations;
+  if (st != HC_OK) return st;
+  double along = metric(p, size_of_last(p), p->dX, p->d_omega, dX, tip->d_omega);
+  if (along < 0) {
+    for (int i = 0; i < c->n_coef; ++i) p->dX[i] = -p->dX[i];
+    p->d_omega = -p->d_omega;
+  }
+  p->sense = along < 0 ? -p->sign : p->sign;
+  memcpy(X, p->X, bytes);
+  memcpy(dX, p->dX, bytes);
+  tip->omega = p->omega;
+  tip->d_omega = p->d_omega;
+  tip->residual = p->point.residual;
+  tip->harmonics = p->s->sys.n_harm;
+  tip->iterations += p->point.iterations;
+  p->fresh = true;
+  return HC_OK;
+}
+
+/* Size of what X has in the harmonics that the next lower rung of the ladder would drop, relative to X. */
+static double tail(const path *p, const double *X)
+{
+  int n = p->s->sys.n_coef, kept = series_length(refine_next_harmonics(p->s->sys.n_harm, false));
+  return hbm_norm(n - kept, X + kept) / size_of_last(p);
+}
+
+/* hbm.harmonics: auto and hbm.samples: auto. As many as the last point needs, estimated there; HC_OK once hbm.accuracy is met or no finer
+ * equations are to be had. Fewer again after EASY_POINTS in a row whose dropped harmonics would not show. */
+static hc_status adapt(path *p)
+{
+  hbm_solver *s = p->s;
+  hbm_curve *c = p->curve;
+  const scene_hbm *asked = &s->sys.sc.hbm;
+  hc_status st = HC_OK;
+  while (st == HC_OK && (s->finer_harmonics || s->finer_samples)) {
+    hbm_point *tip = &c->points[c->n - 1];
+    const double *X = hbm_curve_X(c, c->n - 1);
+    double by_harmonics = s->finer_harmonics ? refinement_error(s->finer_harmonics, tip->omega, s->sys.n_harm, X) : 0;
+    double by_samples = s->finer_samples ? refinement_error(s->finer_samples, tip->omega, s->sys.n_harm, X) : 0;
+    tip->error = fmax(by_harmonics, by_samples);
+    int n_harm = s->sys.n_harm, n_time = s->n_time;
+    if (by_harmonics > asked->accuracy) n_harm = refine_next_harmonics(n_harm, true);
+    if ((by_samples > asked->accuracy || n_time < 4 * n_harm) && n_time < REFINE_MOST_SAMPLES) n_time *= 2;
+    if (n_harm == s->sys.n_harm && n_time == s->n_time) {
+      c->inaccurate |= tip->error > asked->accuracy;
+      break;
+    }
+    if ((st = hbm_solver_resize(s, n_harm, n_time)) == HC_OK) st = redo_last(p);
+    p->easy = 0;
+  }
+  bool easy = st == HC_OK && s->finer_harmonics && s->sys.n_harm > 1 && tail(p, hbm_curve_X(c, c->n - 1)) < 0.05 * asked->accuracy;
+  p->easy = easy ? p->easy + 1 : 0;
+  if (p->easy < EASY_POINTS) return st;
+  p->easy = 0;
+  if ((st = hbm_solver_resize(s, refine_next_harmonics(s->sys.n_harm, false), s->n_time)) == HC_OK) st = redo_last(p);
+  return st;
+}
+
+/* The curve's rows cut to the harmonics it needed, and the solver set to them: what follows (--at, peaks) can have no fewer. */
+static hc_status compact(hbm_solver *s, hbm_curve *c)
+{
+  int most = 1, before = c->n_coef;
+  for (int k = 0; k < c->n; ++k) most = c->points[k].harmonics > most ? c->points[k].harmonics : most;
+  int n = series_length(most);
+  for (int k = 0; k < c->n; ++k) {
+    memmove(c->X + (size_t)k * n, c->X + (size_t)k * before, (size_t)n * sizeof(double));
+    memmove(c->dX + (size_t)k * n, c->dX + (size_t)k * before, (size_t)n * sizeof(double));
+  }
+  c->n_coef = n;
+  return most == s->sys.n_harm ? HC_OK : hbm_solver_resize(s, most, s->n_time);
+}
+
 static hc_status first_point(path *p)
 {
   hbm_curve *c = p->curve;
@@ -225,6 +332,7 @@ static hc_status follow(path *p, const hc_monitor *monitor)
 {
   hbm_curve *c = p->curve;
   hc_status st = first_point(p);
+  if (st == HC_OK) st = adapt(p);
   bool done = p->from == p->to;
   while (st == HC_OK && !done) {
     if (c->n >= MAX_POINTS) return HC_TOO_MANY_POINTS;
@@ -233,7 +341,9 @@ static hc_status follow(path *p, const hc_monitor *monitor)
     hc_status step = try_step(p, &accepted);
     if (step == HC_NO_MEMORY) return step;
     if (accepted) {
-      if ((st = accept(p)) == HC_OK) st = finish_at_limit(p, &done);
+      st = accept(p);
+      if (st == HC_OK) st = adapt(p);
+      if (st == HC_OK) st = finish_at_limit(p, &done);
       continue;
     }
     ++c->rejected;
@@ -246,11 +356,12 @@ static hc_status follow(path *p, const hc_monitor *monitor)
 static hc_status path_new(path *p)
 {
   size_t n = (size_t)p->curve->n_coef;
-  p->X = calloc(4 * n + 2, sizeof(double)); /* one block: X, dX, P, normal */
+  p->X = calloc(5 * n + 1, sizeof(double)); /* one block: X, dX, P, chord, normal */
   if (!p->X) return HC_NO_MEMORY;
   p->dX = p->X + n;
   p->P = p->dX + n;
-  p->normal = p->P + n;
+  p->chord = p->P + n;
+  p->normal = p->chord + n;
   return HC_OK;
 }
 
@@ -258,7 +369,8 @@ hc_status hbm_trace(hbm_solver *s, double from, double to, const hc_monitor *mon
 {
   if (!(from > 0 && to > 0 && isfinite(from) && isfinite(to)) || curve->n) return HC_BAD_INPUT;
   path p = {.s = s, .curve = curve, .from = from, .to = to, .direction = to >= from ? 1 : -1, .h = H_FIRST};
-  curve->n_coef = s->sys.n_coef;
+  bool adapts = s->sys.sc.hbm.harmonics == SCENE_AUTO;
+  curve->n_coef = adapts ? series_length(REFINE_MOST_HARMONICS) : s->sys.n_coef;
   curve->omega_scale = fmax(fabs(to - from) / 4, 1e-3 * from);
   p.resolution = fmin(curve->omega_scale, fmax(0.5 * s->sys.sc.damping / s->sys.sc.mass, 1e-6 * from));
   p.natural = may_go_natural(&p);
@@ -267,6 +379,10 @@ hc_status hbm_trace(hbm_solver *s, double from, double to, const hc_monitor *mon
   hc_status st = path_new(&p);
   if (st == HC_OK) st = follow(&p, monitor);
   free(p.X);
+  if (adapts && st != HC_NO_MEMORY) {
+    hc_status cut = compact(s, curve);
+    if (st == HC_OK) st = cut;
+  }
   curve->evaluations = s->sys.evaluations - before;
   return curve->end = st;
 }

@@ -41,6 +41,11 @@ void hbm_curve_free(hbm_curve *c)
   *c = (hbm_curve){0};
 }
 
+void hbm_trim(const hbm_solver *s, int n_coef, double *X)
+{
+  for (int i = s->sys.n_coef; i < n_coef; ++i) X[i] = 0;
+}
+
 /* Inner product in the segment's metric. */
 static double inner(const hbm_segment *s, const double *aX, double a_omega, const double *bX, double b_omega)
 {

@@ -13,6 +13,9 @@ hc_status hbm_curve_append(hbm_curve *curve, int n_coef, const double *X, const 
 static inline double *hbm_curve_X(const hbm_curve *c, int k) { return c->X + (size_t)k * c->n_coef; }
 static inline double *hbm_curve_dX(const hbm_curve *c, int k) { return c->dX + (size_t)k * c->n_coef; }
 
+/* Zero what X[n_coef] has beyond the harmonics the solver keeps now. */
+void hbm_trim(const hbm_solver *s, int n_coef, double *X);
+
 /* Two neighbouring points z0, z1 and their tangents, scaled to dz/dsigma on sigma = 0..1. */
 typedef struct hbm_segment {
   int n_coef;

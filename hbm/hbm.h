@@ -19,7 +19,9 @@ typedef struct hbm_point {
   double residual; /* [1] |R|, largest component, relative to the forces that make it up */
   double d_omega;  /* [rad/time] tangent of the curve with respect to its parameter, beside hbm_curve's dX */
   int branch;      /* turning points passed since the start of the curve */
-  int iterations;  /* Newton iterations spent on this point */
+  int iterations;  /* Newton iterations spent on this point; 0: taken from the linear closed form */
+  int harmonics;   /* kept at this point: changes along the curve for hbm.harmonics: auto */
+  double error;    /* [1] estimated relative error for auto harmonics or samples, NaN when a number was given */
 } hbm_point;
 
 typedef struct hbm_curve {
@@ -30,6 +32,8 @@ typedef struct hbm_curve {
   hc_status end;      /* HC_OK: the whole sweep was covered; else why the curve stops at the last point */
   bool left_at_start; /* ended because the branch turned back past the start of the sweep */
   bool arclength;     /* arc-length continuation was needed */
+  bool inaccurate;    /* auto: somewhere not even the most harmonics or samples met hbm.accuracy */
+  int linear;         /* points taken from the linear closed form */
   int turning_points, rejected;
   long iterations, evaluations; /* Newton iterations and contact force evaluations, rejected steps included */
 } hbm_curve;
@@ -43,7 +47,8 @@ typedef struct hbm_measures {
 /* A workspace for sc (copied). HC_UNSUPPORTED for what this version lacks, HC_BAD_INPUT, HC_NO_MEMORY. */
 hc_status hbm_solver_new(const scene *sc, hbm_solver **out);
 void hbm_solver_free(hbm_solver *s);
-int hbm_n_harmonics(const hbm_solver *s);
+int hbm_n_harmonics(const hbm_solver *s); /* in use now; after a trace with auto, the most the curve needed */
+int hbm_n_samples(const hbm_solver *s);
 
 /* Solve at a fixed omega from the guess X[2H+1]; X is the solution on HC_OK and untouched otherwise. */
 hc_status hbm_solve(hbm_solver *s, double omega, double *X, hbm_point *point);

@@ -76,27 +76,75 @@ static hc_status make_workspace(hbm_solver *s)
   double **const arrays[] = {&s->Z, &s->z, &s->z_scale, &s->r_scale, &s->normal, &s->anchor};
   for (size_t i = 0; i < sizeof arrays / sizeof *arrays; ++i)
     if (!(*arrays[i] = calloc(m, sizeof(double)))) return HC_NO_MEMORY;
-  hc_status made = stability_new(s->sys.sc.n_contacts, &s->stability);
-  if (made == HC_OK && s->sys.sampled) {
-    moving_contact contacts[SCENE_MAX_CONTACTS];
-    exact_contacts_of(&s->sys.sc, contacts);
-    made = exact_new(s->sys.n_harm, 1, s->sys.sc.n_contacts, contacts, &s->pattern);
-  }
-  if (made != HC_OK) return made;
   newton_problem fixed = {s->sys.n, s, fixed_residual, fixed_jacobian};
   newton_problem plane = {s->sys.n + 1, s, plane_residual, plane_jacobian};
   hc_status st = newton_new(&fixed, &s->fixed);
   return st == HC_OK ? newton_new(&plane, &s->plane) : st;
 }
 
+static hc_status make_pattern(hbm_solver *s)
+{
+  if (!s->sys.sampled) return HC_OK;
+  moving_contact contacts[SCENE_MAX_CONTACTS];
+  exact_contacts_of(&s->sys.sc, contacts);
+  return exact_new(s->sys.n_harm, 1, s->sys.sc.n_contacts, contacts, &s->pattern);
+}
+
+/* The finer equations that auto is measured by: twice the harmonics, twice the samples. */
+static hc_status make_refinements(hbm_solver *s, int n_time)
+{
+  const scene *sc = &s->sys.sc;
+  int n_harm = s->sys.n_harm, twice = n_harm > SCENE_MAX_HARMONICS / 2 ? SCENE_MAX_HARMONICS : 2 * n_harm;
+  hc_status st = HC_OK;
+  if (sc->hbm.harmonics == SCENE_AUTO) st = refinement_new(sc, twice, n_time < 4 * twice ? 4 * twice : n_time, &s->finer_harmonics);
+  if (st == HC_OK && sc->hbm.samples == SCENE_AUTO && s->sys.sampled) st = refinement_new(sc, n_harm, 2 * n_time, &s->finer_samples);
+  return st;
+}
+
+static hc_status make_equations(hbm_solver *s, const scene *sc, int n_harm, int n_time)
+{
+  hc_status st = hbm_system_init(&s->sys, sc, n_harm, n_time);
+  s->n_time = n_time;
+  if (st == HC_OK) st = make_workspace(s);
+  if (st == HC_OK) st = make_pattern(s);
+  return st == HC_OK ? make_refinements(s, n_time) : st;
+}
+
+static void drop_equations(hbm_solver *s)
+{
+  newton_free(s->fixed);
+  newton_free(s->plane);
+  exact_free(s->pattern);
+  refinement_free(s->finer_harmonics);
+  refinement_free(s->finer_samples);
+  hbm_system_clear(&s->sys);
+  double *const arrays[] = {s->Z, s->z, s->z_scale, s->r_scale, s->normal, s->anchor};
+  for (size_t i = 0; i < sizeof arrays / sizeof *arrays; ++i) free(arrays[i]);
+  *s = (hbm_solver){.stability = s->stability};
+}
+
+hc_status hbm_solver_resize(hbm_solver *s, int n_harm, int n_time)
+{
+  scene sc = s->sys.sc;
+  long evaluations = s->sys.evaluations; /* counted over the solver's life */
+  drop_equations(s);
+  hc_status st = make_equations(s, &sc, n_harm, n_time);
+  s->sys.evaluations = evaluations;
+  return st;
+}
+
+enum { AUTO_FIRST_HARMONICS = 3, AUTO_FIRST_SAMPLES = 64 };
+
 hc_status hbm_solver_new(const scene *sc, hbm_solver **out)
 {
   *out = NULL;
-  if (sc->hbm.harmonics == SCENE_AUTO || (sc->hbm.force == HBM_FORCE_SAMPLED && sc->hbm.samples == SCENE_AUTO)) return HC_UNSUPPORTED;
   hbm_solver *s = calloc(1, sizeof *s);
   if (!s) return HC_NO_MEMORY;
-  hc_status st = hbm_system_init(&s->sys, sc, sc->hbm.harmonics, sc->hbm.samples);
-  if (st == HC_OK) st = make_workspace(s);
+  int n_harm = sc->hbm.harmonics == SCENE_AUTO ? AUTO_FIRST_HARMONICS : sc->hbm.harmonics, n_time = sc->hbm.samples;
+  if (n_time == SCENE_AUTO)
+    for (n_time = AUTO_FIRST_SAMPLES; n_time < 4 * n_harm; n_time *= 2) {}
+  hc_status st = stability_new(&s->stability);
+  if (st == HC_OK) st = make_equations(s, sc, n_harm, n_time);
   if (st == HC_OK) { *out = s; return HC_OK; }
   hbm_solver_free(s);
   return st;
@@ -105,17 +153,14 @@ hc_status hbm_solver_new(const scene *sc, hbm_solver **out)
 void hbm_solver_free(hbm_solver *s)
 {
   if (!s) return;
-  newton_free(s->fixed);
-  newton_free(s->plane);
-  exact_free(s->pattern);
+  drop_equations(s);
   stability_free(s->stability);
-  hbm_system_clear(&s->sys);
-  double *const arrays[] = {s->Z, s->z, s->z_scale, s->r_scale, s->normal, s->anchor};
-  for (size_t i = 0; i < sizeof arrays / sizeof *arrays; ++i) free(arrays[i]);
   free(s);
 }
 
 int hbm_n_harmonics(const hbm_solver *s) { return s->sys.n_harm; }
+
+int hbm_n_samples(const hbm_solver *s) { return s->sys.sampled ? s->n_time : 0; }
 
 /* Weights for KINSOL: X by its size, R by the forces it is made of at the guess. */
 static hc_status set_scales(hbm_solver *s, double omega, double x_scale, const double *X)
@@ -138,6 +183,8 @@ static hc_status recheck(hbm_solver *s, double omega, const newton_report *repor
   double force = hbm_system_scale(&s->sys, omega);
   point->omega = omega;
   point->iterations = report->iterations;
+  point->harmonics = s->sys.n_harm;
+  point->error = NAN;
   point->residual = force > 0 ? report->residual / (s->r_scale[0] * force) : report->residual;
   return point->residual <= 10 * s->sys.sc.hbm.tolerance ? HC_OK : HC_NOT_CONVERGED;
 }

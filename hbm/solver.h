@@ -9,19 +9,25 @@
 
 #include "hbm/hbm.h"
 #include "hbm/newton.h"
+#include "hbm/refine.h"
 #include "hbm/system.h"
 
 struct hbm_solver {
   hbm_system sys;
+  int n_time;                   /* samples per period, for sampled forces */
   newton *fixed, *plane;
   exact *pattern;               /* transitions of a solution of sampled equations; NULL when the equations are exact themselves */
   stability *stability;
   double omega;                 /* of the fixed form */
+  refinement *finer_harmonics, *finer_samples; /* what auto measures itself by; NULL where the scene says a number */
   double *Z;                    /* [n_coef]  X with harmonic 0, for the callbacks */
   double *z;                    /* [n+1]     unknowns of a solve */
   double *z_scale, *r_scale;    /* [n+1]     weights for KINSOL */
   double *normal, *anchor;      /* [n+1]     of the plane form, metric weights included in normal */
 };
+
+/* Other numbers of harmonics and samples from here on. The solver is unusable, but may be freed, unless HC_OK. */
+hc_status hbm_solver_resize(hbm_solver *s, int n_harm, int n_time);
 
 /* z[n+1] <-> X[n_coef] and omega. */
 void hbm_pack(const hbm_solver *s, const double *X, double omega, double *z);

@@ -20,13 +20,12 @@ struct stability {
   gsl_vector_complex *values;
 };
 
-hc_status stability_new(int n_contacts, stability **out)
+hc_status stability_new(stability **out)
 {
   *out = calloc(1, sizeof **out);
   stability *s = *out;
   if (!s) return HC_NO_MEMORY;
   s->cap = 2;
-  (void)n_contacts;
   s->boundary = malloc((size_t)s->cap * sizeof(double));
   if (s->boundary) return HC_OK;
   stability_free(s);

@@ -20,7 +20,7 @@ typedef struct hbm_stability {
 
 typedef struct stability stability;
 
-hc_status stability_new(int n_contacts, stability **out);
+hc_status stability_new(stability **out);
 void stability_free(stability *s);
 
 /* For the orbit last evaluated by e, at omega. A slider stuck all period has a multiplier 1 of its own (its residual traction is a family);

@@ -9,17 +9,44 @@
 #include "hbm/series.h"
 #include "hbm/solver.h"
 
-double hbm_linear_response(const scene *sc, double omega, int n_harm, double *X)
+static double static_stiffness(const scene *sc)
 {
   double k = sc->stiffness;
   for (int j = 0; j < sc->n_contacts; ++j)
     if (sc->contacts[j].law.gap > 0) k += scene_stuck_stiffness(&sc->contacts[j]);
+  return k;
+}
+
+double hbm_linear_response(const scene *sc, double omega, int n_harm, double *X)
+{
+  double k = static_stiffness(sc);
   memset(X, 0, (size_t)series_length(n_harm) * sizeof(double));
   double complex x = sc->force / (k - sc->mass * omega * omega + I * sc->damping * omega);
   if (!isfinite(cabs(x))) x = sc->force / (k + sc->mass * omega * omega); /* undamped, at resonance: any size of the right order */
   X[1] = creal(x);
   X[2] = -cimag(x); /* Re(z exp(i th)) = Re z cos - Im z sin */
   return cabs(x);
+}
+
+bool hbm_linear_point(hbm_solver *s, double omega, double near, double *X, double *dX, hbm_point *point)
+{
+  const scene *sc = &s->sys.sc;
+  double *linear = s->anchor, *R = s->z, k = static_stiffness(sc), far = 0, worst = 0;
+  double size = hbm_linear_response(sc, omega, s->sys.n_harm, linear);
+  for (int i = 0; i < s->sys.n_coef; ++i) far += (X[i] - linear[i]) * (X[i] - linear[i]);
+  if (!(k > 0 && size > 0 && sqrt(far) <= near * size)) return false;
+  if (hbm_system_residual(&s->sys, omega, linear, R) != HC_OK || s->sys.report.regime > CONTACT_STUCK) return false;
+  for (int i = 0; i < s->sys.n; ++i) worst = fmax(worst, fabs(R[i]));
+  worst /= hbm_system_scale(&s->sys, omega);
+  if (!(worst <= s->sys.sc.hbm.tolerance)) return false;
+  memcpy(X, linear, (size_t)s->sys.n_coef * sizeof(double));
+  memset(dX, 0, (size_t)s->sys.n_coef * sizeof(double));
+  double complex z = k - sc->mass * omega * omega + I * sc->damping * omega;
+  double complex slope = -sc->force * (-2 * sc->mass * omega + I * sc->damping) / (z * z);
+  dX[1] = creal(slope);
+  dX[2] = -cimag(slope);
+  *point = (hbm_point){.omega = omega, .residual = worst, .harmonics = s->sys.n_harm, .error = NAN};
+  return true;
 }
 
 /* Follow *factor from 0 to 1 at fixed omega from the solution at 0; *factor is 1 again afterwards. */

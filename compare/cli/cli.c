@@ -137,11 +137,12 @@ int cli_solver_failed(const cli_options *o, const char *solver, hc_status st, do
   return EXIT_NO_SOLUTION;
 }
 
-const char *cli_hbm_settings(const scene *sc, char *text, size_t size)
+const char *cli_hbm_settings(const scene *sc, int n_harm, int n_time, char *text, size_t size)
 {
-  char samples[32] = "exact forces";
-  if (sc->hbm.force == HBM_FORCE_SAMPLED) snprintf(samples, sizeof samples, "%d samples", sc->hbm.samples);
-  snprintf(text, size, "H = %d%s, %s", sc->hbm.harmonics, sc->hbm.keep_mean ? "" : " WITHOUT harmonic 0", samples);
+  char samples[48] = "exact forces";
+  if (sc->hbm.force == HBM_FORCE_SAMPLED) snprintf(samples, sizeof samples, "%s%d samples", sc->hbm.samples == SCENE_AUTO ? "auto, at most " : "", n_time);
+  snprintf(text, size, "H = %s%d%s, %s", sc->hbm.harmonics == SCENE_AUTO ? "auto, at most " : "", n_harm,
+           sc->hbm.keep_mean ? "" : " WITHOUT harmonic 0", samples);
   return text;
 }
 

@@ -46,8 +46,8 @@ int cli_solver_failed(const cli_options *o, const char *solver, hc_status st, do
 /* Write the tables to stdout or --output, whole or not at all. 0 or the exit code. Frees nothing. */
 int cli_write(const cli_options *o, int n, table *const *tables);
 
-/* "H = 10, exact forces" or "H = 10 WITHOUT harmonic 0, 1024 samples". Returns text. */
-const char *cli_hbm_settings(const scene *sc, char *text, size_t size);
+/* "H = 10, exact forces" or "H = 10 WITHOUT harmonic 0, 1024 samples", with the numbers in use for auto. Returns text. */
+const char *cli_hbm_settings(const scene *sc, int n_harm, int n_time, char *text, size_t size);
 
 int cmd_frf(int argc, char **argv);
 int cmd_transient(int argc, char **argv);

@@ -46,7 +46,7 @@ static void put_notes(table *t, const scene *sc, const comparison *c)
 {
   table_note(t, "%s", sc->title);
   char how[128];
-  table_note(t, "HBM: %s. Transient: regularised law, %g, closure %g", cli_hbm_settings(sc, how, sizeof how), sc->transient.regularisation,
+  table_note(t, "HBM: %s. Transient: regularised law, %g, closure %g", cli_hbm_settings(sc, c->harmonics, c->samples, how, sizeof how), sc->transient.regularisation,
              sc->transient.tolerance);
   table_note(t, "gate: amplitude %g, harmonic_1 %g, mean %g, waveform %g of the transient's amplitude", sc->gate.amplitude, sc->gate.harmonic_1,
              sc->gate.mean, sc->gate.waveform);

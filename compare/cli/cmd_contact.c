@@ -102,7 +102,7 @@ int cmd_contact(int argc, char **argv)
   int n_harm = read_motion(&o, X);
   if (n_harm < 0) return EXIT_USAGE;
   if (sc.hbm.force == HBM_FORCE_SAMPLED && sc.hbm.samples == SCENE_AUTO) return cli_solver_failed(&o, "the contact force", HC_UNSUPPORTED, 0);
-  if (n_harm < sc.hbm.harmonics) n_harm = sc.hbm.harmonics;
+  if (n_harm < sc.hbm.harmonics) n_harm = sc.hbm.harmonics; /* auto is 0: the motion's own */
   if (n_harm < 1) n_harm = 1;
   int n_time[MAX_SETS] = {sc.hbm.force == HBM_FORCE_EXACT ? EXACT : sc.hbm.samples}, n_sets = 1;
   for (int i = 0; i < o.samples.n; ++i) {

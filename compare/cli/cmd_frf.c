@@ -45,11 +45,12 @@ static hc_status put_points(hbm_solver *s, const hbm_curve *c, table *t)
   return HC_OK;
 }
 
-static void note_curve(table *t, const scene *sc, const hbm_curve *c)
+static void note_curve(table *t, const scene *sc, const hbm_solver *s, const hbm_curve *c)
 {
   char how[128];
   table_note(t, "%s: %s; %d points, %ld iterations, %d steps rejected, %d turning points, %s continuation", sc->title,
-             cli_hbm_settings(sc, how, sizeof how), c->n, c->iterations, c->rejected, c->turning_points, c->arclength ? "arc-length" : "natural");
+             cli_hbm_settings(sc, hbm_n_harmonics(s), hbm_n_samples(s), how, sizeof how), c->n, c->iterations, c->rejected, c->turning_points, c->arclength ? "arc-length" : "natural");
+  if (c->inaccurate) table_note(t, "hbm.accuracy %g was NOT met everywhere with the most harmonics or samples that auto takes", sc->hbm.accuracy);
   if (c->n == 0) return;
   double last = c->points[c->n - 1].omega;
   if (c->left_at_start) table_note(t, "the branch turned back and left the sweep where it began, at omega = %.10g", last);
@@ -110,7 +111,7 @@ int cmd_frf(int argc, char **argv)
     if (st == HC_OK || o.at.n) st = at; /* --at: a curve that stops beyond the asked omegas is nobody's concern */
     hc_status shown = put_points(s, o.at.n ? &found : &curve, t);
     if (st == HC_OK) st = shown;
-    note_curve(t, &sc, &curve);
+    note_curve(t, &sc, s, &curve);
     if (!o.at.n) note_specials(t, s, &curve);
   }
   progress_end(bar);

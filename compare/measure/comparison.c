@@ -192,6 +192,8 @@ hc_status comparison_run(const scene *sc, const hc_monitor *monitor, comparison 
     double from, to;
     comparison_sweep(sc, &sc->compare.omega, &from, &to);
     st = hbm_trace(r.hbm, from, to, monitor, &out->curve);
+    out->harmonics = hbm_n_harmonics(r.hbm);
+    out->samples = hbm_n_samples(r.hbm);
     if (st != HC_INTERRUPTED && st != HC_NO_MEMORY) st = compare_all(&r); /* as far as the curve goes */
   }
   timeint_free(r.ti);

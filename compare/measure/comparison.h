@@ -40,6 +40,7 @@ typedef struct comparison {
   comparison_row *rows;
   hbm_curve curve;            /* the response curve behind the rows; its `end` says how far it came */
   int count[VERDICT_COUNT];
+  int harmonics, samples;     /* in use: for auto, the most the curve needed; samples 0 for exact forces */
 } comparison;
 
 /* Compare at the scene's frequencies (compare.omega, or compare.points chosen along the response curve). Rows found before an interrupt

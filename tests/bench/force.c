@@ -17,7 +17,7 @@
 #include "hbm/exact.h"
 #include "hbm/hbm.h"
 
-enum { MAX_CONFIGS = 160, MAX_ROUNDS = 101, VARIANTS = 64, MAX_COEF = 2 * SCENE_MAX_HARMONICS + 1, SCENES = 3, OMEGAS = 3, EXACT = 0 };
+enum { MAX_CONFIGS = 256, MAX_ROUNDS = 101, VARIANTS = 64, MAX_COEF = 2 * SCENE_MAX_HARMONICS + 1, SCENES = 3, OMEGAS = 3, EXACT = 0 };
 
 typedef struct bench_scene { const char *name, *file; double omega[OMEGAS]; } bench_scene;
 
@@ -143,6 +143,7 @@ static double mean_pieces(config *c)
 
 static void add_config(const scene *sc, int scene_index, int h, int n_time, int n_contacts)
 {
+  if (n_configs == MAX_CONFIGS) die("too many configurations", HC_NO_MEMORY);
   config *c = &configs[n_configs++];
   scene used = split(sc, n_contacts);
   moving_contact contacts[SCENE_MAX_CONTACTS];

@@ -148,8 +148,8 @@ static const mistake extra[] = {
     /* missing */
     {"contacts: [{gap: 1}]", "f:4:12: ", "missing key `tangential_stiffness` in `contacts[0]`, expected a number >= 0"},
     /* across fields */
-    {"hbm: {samples: 10}", "f:4:16: ", "10 samples cannot tell 5 harmonics apart, expected hbm.samples >= 11"},
-    {"hbm:\n  harmonics: 8\n  samples: 16", "f:6:12: ", "expected hbm.samples >= 17"},
+    {"hbm: {samples: 10, force: sampled}", "f:4:16: ", "10 samples cannot tell 5 harmonics apart, expected hbm.samples >= 11"},
+    {"hbm:\n  harmonics: 8\n  samples: 16\n  force: sampled", "f:6:12: ", "expected hbm.samples >= 17"},
     /* not YAML, or more of it than a case needs */
     {"title: a: b", "f:4:9: ", "not YAML: mapping values are not allowed"},
     {"\ttitle: a", "f:4:1: ", "not YAML"},

@@ -20,6 +20,7 @@
 #include <nvector/nvector_serial.h>
 
 #include "cases/sundials_compat.h"
+#include "hbm/aft.h"
 #include "hbm/hbm.h"
 
 static long allocations;

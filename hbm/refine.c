@@ -1,0 +1,70 @@
+/* refine.c - see refine.h. */
+#include "hbm/refine.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "hbm/lu.h"
+#include "hbm/series.h"
+
+struct refinement {
+  hbm_system sys;
+  double *X;   /* [n_coef] padded */
+  double *R;   /* [n] residual, then step */
+  double *jac; /* [n][n] */
+  int *pivot;  /* [n] */
+};
+
+hc_status refinement_new(const scene *sc, int n_harm, int n_time, refinement **out)
+{
+  *out = NULL;
+  refinement *r = calloc(1, sizeof *r);
+  if (!r) return HC_NO_MEMORY;
+  hc_status st = hbm_system_init(&r->sys, sc, n_harm, n_time);
+  size_t n = (size_t)r->sys.n_coef;
+  r->X = calloc(n, sizeof(double));
+  r->R = calloc(n, sizeof(double));
+  r->jac = calloc(n * n, sizeof(double));
+  r->pivot = calloc(n, sizeof *r->pivot);
+  if (st == HC_OK && (!r->X || !r->R || !r->jac || !r->pivot)) st = HC_NO_MEMORY;
+  if (st == HC_OK) { *out = r; return HC_OK; }
+  refinement_free(r);
+  return st;
+}
+
+void refinement_free(refinement *r)
+{
+  if (!r) return;
+  hbm_system_clear(&r->sys);
+  free(r->X);
+  free(r->R);
+  free(r->jac);
+  free(r->pivot);
+  free(r);
+}
+
+double refinement_error(refinement *r, double omega, int n_harm, const double *X)
+{
+  int n = r->sys.n;
+  double size = 0, step = 0;
+  memset(r->X, 0, (size_t)r->sys.n_coef * sizeof(double));
+  memcpy(r->X, X, (size_t)series_length(n_harm) * sizeof(double));
+  if (hbm_system_residual(&r->sys, omega, r->X, r->R) != HC_OK) return INFINITY;
+  hbm_system_jacobian(&r->sys, omega, n, r->jac);
+  if (!lu_factor(n, r->jac, r->pivot)) return INFINITY;
+  lu_solve(n, r->jac, r->pivot, r->R);
+  for (int i = 0; i < n; ++i) step += r->R[i] * r->R[i];
+  for (int i = 0; i < r->sys.n_coef; ++i) size += r->X[i] * r->X[i];
+  double error = size > 0 ? sqrt(step / size) : 0;
+  return isfinite(error) ? error : INFINITY;
+}
+
+int refine_next_harmonics(int n_harm, bool up)
+{
+  static const int ladder[] = {1, 2, 3, 5, 7, 10, 14, 20, 28, 40, 56, 80, REFINE_MOST_HARMONICS};
+  enum { RUNGS = sizeof ladder / sizeof *ladder };
+  int i = 0;
+  while (i + 1 < RUNGS && ladder[i] < n_harm) ++i;
+  return ladder[up ? (i + 1 < RUNGS ? i + 1 : i) : (i > 0 ? i - 1 : 0)];
+}

@@ -1,0 +1,23 @@
+/* refine.h - how wrong truncation or sampling makes a solution, by one Newton step on finer equations.
+ * With R' the equations of twice the harmonics (or samples) and X the solution padded with zeros, X - J'^-1 R'(X) is their solution to
+ * second order, so |J'^-1 R'(X)| / |X| estimates the error of X, low harmonics included. Comparing H with H + 1 would not do: convergence in H is not
+ * monotone. */
+#ifndef HC_REFINE_H
+#define HC_REFINE_H
+
+#include "hbm/system.h"
+
+typedef struct refinement refinement;
+
+/* The equations with n_harm harmonics and n_time samples (for sampled forces). */
+hc_status refinement_new(const scene *sc, int n_harm, int n_time, refinement **out);
+void refinement_free(refinement *r);
+
+/* Relative error of X[2 n_harm + 1], a solution with n_harm <= its own harmonics; infinite where it cannot be told. */
+double refinement_error(refinement *r, double omega, int n_harm, const double *X);
+
+/* The ladder of truncation orders that auto climbs: the next above (up) or below, SCENE_MAX_HARMONICS / 2 at most. */
+enum { REFINE_MOST_HARMONICS = SCENE_MAX_HARMONICS / 2, REFINE_MOST_SAMPLES = 1 << 20 };
+int refine_next_harmonics(int n_harm, bool up);
+
+#endif
