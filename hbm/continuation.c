@@ -13,44 +13,27 @@
 
 #include "hbm/between.h"
 #include "hbm/curve.h"
+#include "hbm/path.h"
 #include "hbm/series.h"
-#include "hbm/solver.h"
 #include "hbm/start.h"
 
 static const double TOLERANCE = 1e-4;   /* of interpolation, relative to |X| */
 static const double H_FIRST = 0.02, H_MAX = 0.5, H_MIN = 1e-11;
 static const double H_CORNER = 1e-4;    /* below: a corner in the curve rather than curvature; accept a kink */
+static const double FAR = 4;
 static const double LINEAR_NEAR = 1e-2;  /* the linear response counts as the predicted solution within this */
 static const double STEEP = 0.2, FLAT = 0.6; /* share of omega in the unit tangent: leave natural steps, take them up again */
-enum { MAX_POINTS = 200000, FLAT_STEPS = 6, EASY_POINTS = 4 };
+enum { MAX_POINTS = 200000, FLAT_STEPS = 6 };
 
-typedef struct path {
-  hbm_solver *s;
-  hbm_curve *curve;
-  double from, to, direction;  /* direction: sign of to - from */
-  double resolution;           /* [rad/time] width of the narrowest feature in omega: the linear resonance's half width C/2M */
-  double h;
-  int sign;                    /* of det of the trial's Jacobian */
-  bool fresh;                  /* the equations changed at the last point: extrapolate by its tangent alone */
-  int easy;                    /* points in a row where fewer harmonics would do */
-  int sense;                   /* sign of det [dR/dX dR/domega; tangent], kept along the curve */
-  bool natural;                /* how the next step is corrected */
-  int flat_steps;              /* accepted in a row on flat curve while in arc-length mode */
-  double *X, *dX, omega, d_omega; /* prediction, then trial point and its tangent */
-  double *P, omega_p;          /* the prediction as it was */
-  double *chord;               /* from the last point to the trial */
-  double *normal;              /* [n+1] */
-  hbm_point point;
-} path;
 
-static double metric(const path *p, double x_scale, const double *aX, double a_omega, const double *bX, double b_omega)
+double path_metric(const path *p, double x_scale, const double *aX, double a_omega, const double *bX, double b_omega)
 {
   double sum = 0;
   for (int i = 0; i < p->curve->n_coef; ++i) sum += aX[i] * bX[i];
   return sum / (x_scale * x_scale) + a_omega * b_omega / (p->curve->omega_scale * p->curve->omega_scale);
 }
 
-static double size_of_last(const path *p)
+double path_size(const path *p)
 {
   double size = hbm_norm(p->curve->n_coef, hbm_curve_X(p->curve, p->curve->n - 1));
   return size > 0 ? size : 1;
@@ -61,7 +44,7 @@ static double predict(path *p, double h)
 {
   const hbm_curve *c = p->curve;
   int last = c->n - 1;
-  double x_scale = size_of_last(p), ratio = 1.0 / 16;
+  double x_scale = path_size(p), ratio = 1.0 / 16;
   hbm_segment seg = {.length = 0};
   if (c->n >= 2) seg = hbm_segment_between(c, last - 1);
   if (c->n >= 2 && h <= 4 * seg.length && !p->fresh) {
@@ -70,7 +53,7 @@ static double predict(path *p, double h)
   } else {
     const double *X = hbm_curve_X(c, last), *dX = hbm_curve_dX(c, last);
     const hbm_point *q = &c->points[last];
-    double step = h / sqrt(metric(p, x_scale, dX, q->d_omega, dX, q->d_omega));
+    double step = h / sqrt(path_metric(p, x_scale, dX, q->d_omega, dX, q->d_omega));
     for (int i = 0; i < c->n_coef; ++i) p->X[i] = X[i] + step * dX[i];
     memcpy(p->dX, dX, (size_t)c->n_coef * sizeof(double));
     p->omega = q->omega + step * q->d_omega;
@@ -78,7 +61,7 @@ static double predict(path *p, double h)
   }
   hbm_trim(p->s, c->n_coef, p->X);
   hbm_trim(p->s, c->n_coef, p->dX);
-  double length = sqrt(metric(p, x_scale, p->dX, p->d_omega, p->dX, p->d_omega));
+  double length = sqrt(path_metric(p, x_scale, p->dX, p->d_omega, p->dX, p->d_omega));
   for (int i = 0; i < c->n_coef; ++i) p->dX[i] /= length;
   p->d_omega /= length;
   memcpy(p->P, p->X, (size_t)c->n_coef * sizeof(double));
@@ -91,16 +74,16 @@ static hc_status correct_natural(path *p)
   p->d_omega = 1;
   p->sign = 1; /* of the linear equations: det Z_h = (K - M h^2 omega^2)^2 + (C h omega)^2 */
   if (p->s->sys.sc.hbm.skip_linear && hbm_linear_point(p->s, p->omega, LINEAR_NEAR, p->X, p->dX, &p->point)) return HC_OK;
-  hc_status st = hbm_solve_fixed(p->s, p->omega, size_of_last(p), p->X, &p->point);
+  hc_status st = hbm_solve_fixed(p->s, p->omega, path_size(p), p->X, &p->point);
   if (st == HC_OK) st = hbm_tangent_fixed(p->s, p->X, p->dX);
   p->sign = newton_sign(p->s->fixed);
   return st;
 }
 
-static hc_status correct_in_plane(path *p)
+hc_status path_correct_in_plane(path *p)
 {
   int n = p->s->sys.n, first = p->s->sys.first;
-  double x_scale = size_of_last(p), omega_scale = p->curve->omega_scale;
+  double x_scale = path_size(p), omega_scale = p->curve->omega_scale;
   for (int i = 0; i < n; ++i) p->normal[i] = p->dX[i + first] / (x_scale * x_scale);
   p->normal[n] = p->d_omega / (omega_scale * omega_scale);
   hc_status st = hbm_solve_plane(p->s, p->normal, x_scale, omega_scale, p->X, &p->omega, &p->point);
@@ -113,7 +96,7 @@ static double orient(path *p, bool *forward)
 {
   const hbm_curve *c = p->curve;
   int n = c->n_coef, last = c->n - 1;
-  double x_scale = size_of_last(p), *chord = p->chord;
+  double x_scale = path_size(p), *chord = p->chord;
   const double *X0 = hbm_curve_X(c, last), *dX0 = hbm_curve_dX(c, last);
   double d_omega0 = c->points[last].d_omega;
   for (int i = 0; i < n; ++i) chord[i] = p->X[i] - X0[i];
@@ -122,16 +105,16 @@ static double orient(path *p, bool *forward)
     p->d_omega = -p->d_omega;
   }
   double w = p->omega - c->points[last].omega;
-  *forward = metric(p, x_scale, p->dX, p->d_omega, chord, w) > 0 && metric(p, x_scale, dX0, d_omega0, chord, w) > 0;
+  *forward = path_metric(p, x_scale, p->dX, p->d_omega, chord, w) > 0 && path_metric(p, x_scale, dX0, d_omega0, chord, w) > 0;
   if (p->natural && !(p->d_omega * p->direction > 0)) *forward = false;
-  double a = metric(p, x_scale, dX0, d_omega0, dX0, d_omega0), b = metric(p, x_scale, p->dX, p->d_omega, p->dX, p->d_omega);
-  return metric(p, x_scale, dX0, d_omega0, p->dX, p->d_omega) / sqrt(a * b);
+  double a = path_metric(p, x_scale, dX0, d_omega0, dX0, d_omega0), b = path_metric(p, x_scale, p->dX, p->d_omega, p->dX, p->d_omega);
+  return path_metric(p, x_scale, dX0, d_omega0, p->dX, p->d_omega) / sqrt(a * b);
 }
 
 /* Distance the corrector moved the prediction, with omega measured by omega_unit. */
 static double correction(const path *p, double omega_unit)
 {
-  double sum = 0, x_scale = size_of_last(p), d = (p->omega - p->omega_p) / omega_unit;
+  double sum = 0, x_scale = path_size(p), d = (p->omega - p->omega_p) / omega_unit;
   for (int i = 0; i < p->curve->n_coef; ++i) sum += (p->X[i] - p->P[i]) * (p->X[i] - p->P[i]);
   return sqrt(sum / (x_scale * x_scale) + d * d);
 }
@@ -149,7 +132,7 @@ static void switch_to_arclength(path *p)
 /* Share of omega in the unit tangent. */
 static double flatness(const path *p)
 {
-  double all = metric(p, size_of_last(p), p->dX, p->d_omega, p->dX, p->d_omega);
+  double all = path_metric(p, path_size(p), p->dX, p->d_omega, p->dX, p->d_omega);
   return fabs(p->d_omega) / p->curve->omega_scale / sqrt(all);
 }
 
@@ -159,7 +142,7 @@ static hc_status try_step(path *p, bool *accepted)
   double ratio = predict(p, p->h);
   *accepted = false;
   if (p->natural && !(p->direction * (p->omega - p->curve->points[p->curve->n - 1].omega) > 0)) { p->h *= 0.4; return HC_NOT_CONVERGED; }
-  hc_status st = p->natural ? correct_natural(p) : correct_in_plane(p);
+  hc_status st = p->natural ? correct_natural(p) : path_correct_in_plane(p);
   p->curve->iterations += p->point.iterations;
   if (st != HC_OK) { p->h *= 0.4; return st; }
   bool forward;
@@ -197,18 +180,12 @@ static hc_status accept(path *p)
   return HC_OK;
 }
 
-/* The trial step left [from, to]: end the curve exactly on the limit it crossed. Sets *done. */
-static hc_status finish_at_limit(path *p, bool *done)
+/* End the curve exactly on a limit of the sweep that its last step crossed. */
+static hc_status land_on(path *p, double limit)
 {
   hbm_curve *c = p->curve;
-  const hbm_point *tip = &c->points[c->n - 1];
-  bool beyond = p->direction * (tip->omega - p->to) >= 0, behind = p->direction * (tip->omega - p->from) < 0;
-  *done = beyond || behind;
-  if (!*done) return HC_OK;
-  c->left_at_start = behind;
-  double limit = beyond ? p->to : p->from;
-  if (tip->omega == limit) return HC_OK;
   hbm_curve on_limit = {.omega_scale = c->omega_scale};
+  if (c->points[c->n - 1].omega == limit) return HC_OK;
   hc_status st = hbm_segment_solutions(p->s, c, c->n - 2, limit, false, &on_limit);
   if (st == HC_OK && on_limit.n == 0) st = HC_NOT_CONVERGED;
   --c->n; /* the tip outside gives way to the limit itself */
@@ -217,102 +194,46 @@ static hc_status finish_at_limit(path *p, bool *done)
   return st;
 }
 
-/* Solve the last point again with the equations as they are now, across its own tangent. */
-static hc_status redo_last(path *p)
+/* Is the sweep over? Yes past its end; also where the branch turned back past its start and did not come back within a factor FAR: it is
+ * then cut where it left. In between (a loop of a superharmonic resonance across the start) it is followed outside the sweep. */
+static hc_status finish_at_limit(path *p, bool *done)
 {
   hbm_curve *c = p->curve;
-  hbm_point *tip = &c->points[c->n - 1];
-  double *X = hbm_curve_X(c, c->n - 1), *dX = hbm_curve_dX(c, c->n - 1);
-  size_t bytes = (size_t)c->n_coef * sizeof(double);
-  hbm_trim(p->s, c->n_coef, X);
-  hbm_trim(p->s, c->n_coef, dX);
-  memcpy(p->X, X, bytes);
-  memcpy(p->dX, dX, bytes);
-  p->omega = tip->omega;
-  p->d_omega = tip->d_omega;
-  bool end = c->n == 1 || tip->omega == p->to; /* ends of the sweep stay where they are */
-  hc_status st = end ? hbm_solve_fixed(p->s, p->omega, size_of_last(p), p->X, &p->point) : correct_in_plane(p);
-  if (end && st == HC_OK) {
-    st = hbm_tangent_fixed(p->s, p->X, p->dX);
-    p->d_omega = 1;
-    p->sign = newton_sign(p->s->fixed);
-  }
-  c->iterations += p->point.iterations;
-  if (st != HC_OK) return st;
-  double along = metric(p, size_of_last(p), p->dX, p->d_omega, dX, tip->d_omega);
-  if (along < 0) {
-    for (int i = 0; i < c->n_coef; ++i) p->dX[i] = -p->dX[i];
-    p->d_omega = -p->d_omega;
-  }
-  p->sense = along < 0 ? -p->sign : p->sign;
-  memcpy(X, p->X, bytes);
-  memcpy(dX, p->dX, bytes);
-  tip->omega = p->omega;
-  tip->d_omega = p->d_omega;
-  tip->residual = p->point.residual;
-  tip->harmonics = p->s->sys.n_harm;
-  tip->iterations += p->point.iterations;
-  p->fresh = true;
-  return HC_OK;
+  double omega = c->points[c->n - 1].omega;
+  *done = p->direction * (omega - p->to) >= 0;
+  if (*done) return land_on(p, p->to);
+  if (p->direction * (omega - p->from) >= 0) { p->left = 0; return HC_OK; }
+  if (!p->left) p->left = c->n - 1;
+  *done = c->left_at_start = p->direction > 0 ? omega < p->from / FAR : omega > p->from * FAR;
+  if (!*done) return HC_OK;
+  c->n = p->left + 1;
+  c->turning_points = c->points[p->left].branch;
+  return land_on(p, p->from);
 }
 
-/* Size of what X has in the harmonics that the next lower rung of the ladder would drop, relative to X. */
-static double tail(const path *p, const double *X)
-{
-  int n = p->s->sys.n_coef, kept = series_length(refine_next_harmonics(p->s->sys.n_harm, false));
-  return hbm_norm(n - kept, X + kept) / size_of_last(p);
-}
+static hc_status trace(hbm_solver *s, double from, double to, bool from_afar, const hc_monitor *monitor, hbm_curve *curve);
 
-/* hbm.harmonics: auto and hbm.samples: auto. As many as the last point needs, estimated there; HC_OK once hbm.accuracy is met or no finer
- * equations are to be had. Fewer again after EASY_POINTS in a row whose dropped harmonics would not show. */
-static hc_status adapt(path *p)
+/* The solution at p->from by the curve that comes down from well above every resonance, where inertia rules and any guess will do. */
+static hc_status solve_from_afar(path *p)
 {
-  hbm_solver *s = p->s;
-  hbm_curve *c = p->curve;
-  const scene_hbm *asked = &s->sys.sc.hbm;
-  hc_status st = HC_OK;
-  while (st == HC_OK && (s->finer_harmonics || s->finer_samples)) {
-    hbm_point *tip = &c->points[c->n - 1];
-    const double *X = hbm_curve_X(c, c->n - 1);
-    double by_harmonics = s->finer_harmonics ? refinement_error(s->finer_harmonics, tip->omega, s->sys.n_harm, X) : 0;
-    double by_samples = s->finer_samples ? refinement_error(s->finer_samples, tip->omega, s->sys.n_harm, X) : 0;
-    tip->error = fmax(by_harmonics, by_samples);
-    int n_harm = s->sys.n_harm, n_time = s->n_time;
-    if (by_harmonics > asked->accuracy) n_harm = refine_next_harmonics(n_harm, true);
-    if ((by_samples > asked->accuracy || n_time < 4 * n_harm) && n_time < REFINE_MOST_SAMPLES) n_time *= 2;
-    if (n_harm == s->sys.n_harm && n_time == s->n_time) {
-      c->inaccurate |= tip->error > asked->accuracy;
-      break;
-    }
-    if ((st = hbm_solver_resize(s, n_harm, n_time)) == HC_OK) st = redo_last(p);
-    p->easy = 0;
+  const scene *sc = &p->s->sys.sc;
+  hbm_curve down = {0};
+  double far = FAR * fmax(p->from, sqrt(scene_max_stiffness(sc) / sc->mass));
+  hc_status st = trace(p->s, far, p->from, false, NULL, &down);
+  if (st == HC_OK && down.left_at_start) st = HC_NOT_CONVERGED;
+  if (st == HC_OK) {
+    memcpy(p->X, hbm_curve_X(&down, down.n - 1), (size_t)p->s->sys.n_coef * sizeof(double));
+    st = hbm_solve_fixed(p->s, p->from, hbm_norm(p->s->sys.n_coef, p->X), p->X, &p->point);
   }
-  bool easy = st == HC_OK && s->finer_harmonics && s->sys.n_harm > 1 && tail(p, hbm_curve_X(c, c->n - 1)) < 0.05 * asked->accuracy;
-  p->easy = easy ? p->easy + 1 : 0;
-  if (p->easy < EASY_POINTS) return st;
-  p->easy = 0;
-  if ((st = hbm_solver_resize(s, refine_next_harmonics(s->sys.n_harm, false), s->n_time)) == HC_OK) st = redo_last(p);
+  hbm_curve_free(&down);
   return st;
-}
-
-/* The curve's rows cut to the harmonics it needed, and the solver set to them: what follows (--at, peaks) can have no fewer. */
-static hc_status compact(hbm_solver *s, hbm_curve *c)
-{
-  int most = 1, before = c->n_coef;
-  for (int k = 0; k < c->n; ++k) most = c->points[k].harmonics > most ? c->points[k].harmonics : most;
-  int n = series_length(most);
-  for (int k = 0; k < c->n; ++k) {
-    memmove(c->X + (size_t)k * n, c->X + (size_t)k * before, (size_t)n * sizeof(double));
-    memmove(c->dX + (size_t)k * n, c->dX + (size_t)k * before, (size_t)n * sizeof(double));
-  }
-  c->n_coef = n;
-  return most == s->sys.n_harm ? HC_OK : hbm_solver_resize(s, most, s->n_time);
 }
 
 static hc_status first_point(path *p)
 {
   hbm_curve *c = p->curve;
   hc_status st = hbm_solve_first(p->s, p->from, p->X, &p->point);
+  if (st != HC_OK && st != HC_NO_MEMORY && p->from_afar) st = solve_from_afar(p);
   if (st == HC_OK) st = hbm_tangent_fixed(p->s, p->X, p->dX);
   if (st != HC_OK) return st;
   p->sense = newton_sign(p->s->fixed) * (p->direction > 0 ? 1 : -1);
@@ -332,7 +253,7 @@ static hc_status follow(path *p, const hc_monitor *monitor)
 {
   hbm_curve *c = p->curve;
   hc_status st = first_point(p);
-  if (st == HC_OK) st = adapt(p);
+  if (st == HC_OK) st = path_adapt(p);
   bool done = p->from == p->to;
   while (st == HC_OK && !done) {
     if (c->n >= MAX_POINTS) return HC_TOO_MANY_POINTS;
@@ -342,7 +263,7 @@ static hc_status follow(path *p, const hc_monitor *monitor)
     if (step == HC_NO_MEMORY) return step;
     if (accepted) {
       st = accept(p);
-      if (st == HC_OK) st = adapt(p);
+      if (st == HC_OK) st = path_adapt(p);
       if (st == HC_OK) st = finish_at_limit(p, &done);
       continue;
     }
@@ -365,10 +286,9 @@ static hc_status path_new(path *p)
   return HC_OK;
 }
 
-hc_status hbm_trace(hbm_solver *s, double from, double to, const hc_monitor *monitor, hbm_curve *curve)
+static hc_status trace(hbm_solver *s, double from, double to, bool from_afar, const hc_monitor *monitor, hbm_curve *curve)
 {
-  if (!(from > 0 && to > 0 && isfinite(from) && isfinite(to)) || curve->n) return HC_BAD_INPUT;
-  path p = {.s = s, .curve = curve, .from = from, .to = to, .direction = to >= from ? 1 : -1, .h = H_FIRST};
+  path p = {.s = s, .from_afar = from_afar, .curve = curve, .from = from, .to = to, .direction = to >= from ? 1 : -1, .h = H_FIRST};
   bool adapts = s->sys.sc.hbm.harmonics == SCENE_AUTO;
   curve->n_coef = adapts ? series_length(REFINE_MOST_HARMONICS) : s->sys.n_coef;
   curve->omega_scale = fmax(fabs(to - from) / 4, 1e-3 * from);
@@ -380,9 +300,15 @@ hc_status hbm_trace(hbm_solver *s, double from, double to, const hc_monitor *mon
   if (st == HC_OK) st = follow(&p, monitor);
   free(p.X);
   if (adapts && st != HC_NO_MEMORY) {
-    hc_status cut = compact(s, curve);
+    hc_status cut = path_compact(s, curve);
     if (st == HC_OK) st = cut;
   }
   curve->evaluations = s->sys.evaluations - before;
   return curve->end = st;
+}
+
+hc_status hbm_trace(hbm_solver *s, double from, double to, const hc_monitor *monitor, hbm_curve *curve)
+{
+  if (!(from > 0 && to > 0 && isfinite(from) && isfinite(to)) || curve->n) return HC_BAD_INPUT;
+  return trace(s, from, to, true, monitor, curve);
 }

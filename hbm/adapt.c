@@ -1,0 +1,100 @@
+/* adapt.c - hbm.harmonics: auto and hbm.samples: auto: the equations change along the curve, as far as the last point needs. */
+#include <math.h>
+#include <string.h>
+
+#include "hbm/path.h"
+#include "hbm/series.h"
+
+enum { EASY_POINTS = 4 };
+
+/* Solve the last point again with the equations as they are now, across its own tangent. */
+static hc_status redo_last(path *p)
+{
+  hbm_curve *c = p->curve;
+  hbm_point *tip = &c->points[c->n - 1];
+  double *X = hbm_curve_X(c, c->n - 1), *dX = hbm_curve_dX(c, c->n - 1);
+  size_t bytes = (size_t)c->n_coef * sizeof(double);
+  hbm_trim(p->s, c->n_coef, X);
+  hbm_trim(p->s, c->n_coef, dX);
+  memcpy(p->X, X, bytes);
+  memcpy(p->dX, dX, bytes);
+  p->omega = tip->omega;
+  p->d_omega = tip->d_omega;
+  bool end = c->n == 1 || tip->omega == p->to; /* ends of the sweep stay where they are */
+  hc_status st = end ? hbm_solve_fixed(p->s, p->omega, path_size(p), p->X, &p->point) : path_correct_in_plane(p);
+  if (end && st == HC_OK) {
+    st = hbm_tangent_fixed(p->s, p->X, p->dX);
+    p->d_omega = 1;
+    p->sign = newton_sign(p->s->fixed);
+  }
+  c->iterations += p->point.iterations;
+  if (st != HC_OK) return st;
+  double along = path_metric(p, path_size(p), p->dX, p->d_omega, dX, tip->d_omega);
+  if (along < 0) {
+    for (int i = 0; i < c->n_coef; ++i) p->dX[i] = -p->dX[i];
+    p->d_omega = -p->d_omega;
+  }
+  p->sense = along < 0 ? -p->sign : p->sign;
+  memcpy(X, p->X, bytes);
+  memcpy(dX, p->dX, bytes);
+  tip->omega = p->omega;
+  tip->d_omega = p->d_omega;
+  tip->residual = p->point.residual;
+  tip->harmonics = p->s->sys.n_harm;
+  tip->iterations += p->point.iterations;
+  p->fresh = true;
+  return HC_OK;
+}
+
+/* Size of what X has in the harmonics that the next lower rung of the ladder would drop, relative to X. */
+static double tail(const path *p, const double *X)
+{
+  int n = p->s->sys.n_coef, kept = series_length(refine_next_harmonics(p->s->sys.n_harm, false));
+  return hbm_norm(n - kept, X + kept) / path_size(p);
+}
+
+/* hbm.harmonics: auto and hbm.samples: auto. As many as the last point needs, estimated there; HC_OK once hbm.accuracy is met or no finer
+ * equations are to be had. Fewer again after EASY_POINTS in a row whose dropped harmonics would not show. */
+hc_status path_adapt(path *p)
+{
+  hbm_solver *s = p->s;
+  hbm_curve *c = p->curve;
+  const scene_hbm *asked = &s->sys.sc.hbm;
+  hc_status st = HC_OK;
+  while (st == HC_OK && (s->finer_harmonics || s->finer_samples)) {
+    hbm_point *tip = &c->points[c->n - 1];
+    const double *X = hbm_curve_X(c, c->n - 1);
+    double by_harmonics = s->finer_harmonics ? refinement_error(s->finer_harmonics, tip->omega, s->sys.n_harm, X) : 0;
+    double by_samples = s->finer_samples ? refinement_error(s->finer_samples, tip->omega, s->sys.n_harm, X) : 0;
+    tip->error = fmax(by_harmonics, by_samples);
+    int n_harm = s->sys.n_harm, n_time = s->n_time;
+    if (by_harmonics > asked->accuracy) n_harm = refine_next_harmonics(n_harm, true);
+    if ((by_samples > asked->accuracy || n_time < 4 * n_harm) && n_time < REFINE_MOST_SAMPLES) n_time *= 2;
+    if (n_harm == s->sys.n_harm && n_time == s->n_time) {
+      c->inaccurate |= tip->error > asked->accuracy;
+      break;
+    }
+    if ((st = hbm_solver_resize(s, n_harm, n_time)) == HC_OK) st = redo_last(p);
+    p->easy = 0;
+  }
+  bool easy = st == HC_OK && s->finer_harmonics && s->sys.n_harm > 1 && tail(p, hbm_curve_X(c, c->n - 1)) < 0.05 * asked->accuracy;
+  p->easy = easy ? p->easy + 1 : 0;
+  if (p->easy < EASY_POINTS) return st;
+  p->easy = 0;
+  if ((st = hbm_solver_resize(s, refine_next_harmonics(s->sys.n_harm, false), s->n_time)) == HC_OK) st = redo_last(p);
+  return st;
+}
+
+/* The curve's rows cut to the harmonics it needed, and the solver set to them: what follows (--at, peaks) can have no fewer. */
+hc_status path_compact(hbm_solver *s, hbm_curve *c)
+{
+  int most = 1, before = c->n_coef;
+  for (int k = 0; k < c->n; ++k) most = c->points[k].harmonics > most ? c->points[k].harmonics : most;
+  int n = series_length(most);
+  for (int k = 0; k < c->n; ++k) {
+    memmove(c->X + (size_t)k * n, c->X + (size_t)k * before, (size_t)n * sizeof(double));
+    memmove(c->dX + (size_t)k * n, c->dX + (size_t)k * before, (size_t)n * sizeof(double));
+  }
+  c->n_coef = n;
+  return most == s->sys.n_harm ? HC_OK : hbm_solver_resize(s, most, s->n_time);
+}
