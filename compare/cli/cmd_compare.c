@@ -31,7 +31,8 @@ static void put_row(table *t, const comparison_row *r)
   table_put_real(t, r->omega);
   if (r->branch >= 0) table_put_integer(t, r->branch);
   else table_put_missing(t);
-  table_put_text(t, verdict_name(r->verdict));
+  char verdict_text[24];
+  table_put_text(t, comparison_verdict_text(r, verdict_text));
   table_put_real(t, r->branch >= 0 && r->hbm_status == HC_OK ? r->hbm.amplitude : NAN);
   table_put_real(t, has_transient ? r->transient.amplitude : NAN);
   const double errors[] = {r->errors.amplitude, r->errors.harmonic_1, r->errors.mean, r->errors.waveform};

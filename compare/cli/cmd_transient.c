@@ -40,7 +40,9 @@ static void put_result(table *t, hc_status st, const timeint_result *r, const ch
 {
   bool shown = st == HC_OK || st == HC_NOT_SETTLED;
   table_put_real(t, r->omega);
-  table_put_text(t, st == HC_OK ? "settled" : verdict_name(st == HC_NOT_SETTLED ? VERDICT_NOT_SETTLED : VERDICT_SOLVER_FAILED));
+  char settled[24] = "settled";
+  if (r->period_multiple > 1) snprintf(settled, sizeof settled, "period_%d", r->period_multiple);
+  table_put_text(t, st == HC_OK ? settled : verdict_name(st == HC_NOT_SETTLED ? VERDICT_NOT_SETTLED : VERDICT_SOLVER_FAILED));
   const double values[] = {r->amplitude, r->max, r->min, r->rms, r->mean, r->harmonic_1};
   for (int i = 0; i < 6; ++i) table_put_real(t, shown ? values[i] : NAN);
   table_put_integer(t, r->periods);

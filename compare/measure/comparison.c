@@ -2,6 +2,7 @@
 #include "compare/measure/comparison.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -28,6 +29,13 @@ const char *verdict_meaning(verdict v)
   return meanings[v];
 }
 
+const char *comparison_verdict_text(const comparison_row *row, char text[24])
+{
+  if (row->verdict == VERDICT_PERIOD_K) snprintf(text, 24, "period_%d", row->transient.period_multiple);
+  else snprintf(text, 24, "%s", verdict_name(row->verdict));
+  return text;
+}
+
 timeint_state comparison_orbit_start(const hbm_measures *m, int n_harm, const double *X, double omega)
 {
   series_jet j = series_at(n_harm, X, 1, 0);
@@ -48,14 +56,17 @@ static double waveform_distance(int n_harm, const double *X, const timeint_resul
   return worst;
 }
 
+/* |difference| / amplitude; no difference is no error, also where nothing moves (no forcing). */
+static double relative(double difference, double amplitude) { return difference == 0 ? 0 : fabs(difference) / amplitude; }
+
 static comparison_errors errors_between(const hbm_measures *hbm, int n_harm, const double *X, const timeint_result *tr)
 {
   double a = tr->amplitude;
   return (comparison_errors){
-      .amplitude = fabs(hbm->amplitude - a) / a,
-      .harmonic_1 = fabs(hbm->harmonic_1 - tr->harmonic_1) / a,
-      .mean = fabs(hbm->mean - tr->mean) / a,
-      .waveform = waveform_distance(n_harm, X, tr) / a,
+      .amplitude = relative(hbm->amplitude - a, a),
+      .harmonic_1 = relative(hbm->harmonic_1 - tr->harmonic_1, a),
+      .mean = relative(hbm->mean - tr->mean, a),
+      .waveform = relative(waveform_distance(n_harm, X, tr), a),
   };
 }
 
@@ -78,7 +89,9 @@ static verdict judge(const scene *sc, const hbm_curve *at, int k, int n_harm, co
 {
   if (row->transient_status == HC_NOT_SETTLED) return VERDICT_NOT_SETTLED;
   if (row->transient_status != HC_OK || row->hbm_status != HC_OK) return VERDICT_SOLVER_FAILED;
+  if (row->transient.period_multiple > 1) return VERDICT_PERIOD_K;
   if (within_gate(&row->errors, &sc->gate)) return VERDICT_MATCH;
+  if (row->stability.multiplier > 1) return VERDICT_UNSTABLE;
   return another_is_nearer(at, k, n_harm, &row->transient, row->errors.waveform) ? VERDICT_OTHER_BRANCH : VERDICT_DIFFERS;
 }
 
@@ -136,6 +149,7 @@ static hc_status compare_at(runner *r, double omega)
     timeint_state state;
     row.branch = at.points[k].branch;
     row.hbm_status = hbm_measure(r->hbm, X, &row.hbm);
+    if (hbm_stability_at(r->hbm, omega, X, &row.stability) != HC_OK) row.stability.multiplier = NAN;
     row.transient_status = start_state(r, &row, X, &state);
     if (row.transient_status == HC_OK) row.transient_status = timeint_steady(r->ti, omega, &state, r->monitor, &row.transient);
     if (row.transient_status == HC_INTERRUPTED) { st = HC_INTERRUPTED; break; }
@@ -210,7 +224,7 @@ void comparison_clear(comparison *c)
 
 int comparison_exit_code(const comparison *c)
 {
-  if (c->count[VERDICT_DIFFERS] > 0) return 1;
+  if (c->count[VERDICT_DIFFERS] > 0 || c->count[VERDICT_PERIOD_K] > 0) return 1;
   if (c->count[VERDICT_SOLVER_FAILED] > 0 || c->count[VERDICT_NOT_SETTLED] > 0 || c->count[VERDICT_MATCH] == 0) return 3;
   return 0;
 }

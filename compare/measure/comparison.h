@@ -15,12 +15,14 @@
   X(VERDICT_MATCH, "match", "every error is within the gate")                               \
   X(VERDICT_DIFFERS, "differs", "same orbit, but an error is beyond the gate")              \
   X(VERDICT_OTHER_BRANCH, "other_branch", "the transient left for another HBM solution")    \
+  X(VERDICT_UNSTABLE, "unstable", "this HBM solution is unstable: the transient left it")   \
+  X(VERDICT_PERIOD_K, "period_k", "the transient repeats only after k forcing periods")     \
   X(VERDICT_NOT_SETTLED, "not_settled", "the transient found no steady state in max_periods") \
   X(VERDICT_SOLVER_FAILED, "solver_failed", "one of the solvers gave up")
 #define VERDICT_ENUM(code, name, meaning) code,
 typedef enum verdict { VERDICT_LIST(VERDICT_ENUM) VERDICT_COUNT } verdict;
 #undef VERDICT_ENUM
-const char *verdict_name(verdict v);
+const char *verdict_name(verdict v); /* "period_k" for all k; a row's own is comparison_verdict_text */
 const char *verdict_meaning(verdict v);
 
 typedef struct comparison_errors { double amplitude, harmonic_1, mean, waveform; } comparison_errors; /* [1] */
@@ -30,6 +32,7 @@ typedef struct comparison_row {
   int branch;                 /* of the HBM solution; -1: HBM has none here */
   verdict verdict;
   hc_status hbm_status, transient_status;
+  hbm_stability stability;    /* of the HBM solution; multiplier NaN when unknown */
   hbm_measures hbm;           /* valid when hbm_status is HC_OK */
   timeint_result transient;   /* valid when transient_status is HC_OK or HC_NOT_SETTLED */
   comparison_errors errors;   /* NaN where there is nothing to compare */
@@ -48,7 +51,10 @@ typedef struct comparison {
 hc_status comparison_run(const scene *sc, const hc_monitor *monitor, comparison *out);
 void comparison_clear(comparison *c);
 
-/* Exit code of INTERFACE.md: 0 agreed, 1 a transient differs from every HBM solution, 3 something could not be compared. */
+/* "match", "period_2", ...: the row's verdict in text[24], which is returned. */
+const char *comparison_verdict_text(const comparison_row *row, char text[24]);
+
+/* Exit code of INTERFACE.md: 0 agreed; 1 a transient differs from every HBM solution, or has another period; 3 something could not be compared. */
 int comparison_exit_code(const comparison *c);
 
 /* x(t), x'(t) and sliders at t = 0 of an HBM solution: where its transient starts. */

@@ -19,18 +19,24 @@
 
 enum { MAX_CONFIGS = 256, MAX_ROUNDS = 101, VARIANTS = 64, MAX_COEF = 2 * SCENE_MAX_HARMONICS + 1, SCENES = 3, OMEGAS = 3, EXACT = 0 };
 
-typedef struct bench_scene { const char *name, *file; double omega[OMEGAS]; } bench_scene;
+typedef struct bench_scene {
+  const char *name, *file;
+  double omega[OMEGAS];
+} bench_scene;
 
 static const bench_scene scenes[SCENES] = {
-  {"case2", "case2.yaml", {5.8, 7, 9}},
-  {"gap1", "fig09_gap_p1.yaml", {12.5, 16, 20}},
-  {"b10", "case_b.yaml", {5.6, 6.5, 7.9}},
+    {"case2", "case2.yaml", {5.8, 7, 9}},
+    {"gap1", "fig09_gap_p1.yaml", {12.5, 16, 20}},
+    {"b10", "case_b.yaml", {5.6, 6.5, 7.9}},
 };
 static const int harmonics[] = {1, 5, 10, 25, 50};
 enum { N_HARMONICS = sizeof harmonics / sizeof *harmonics };
 
 /* Motions of one scene with one H, perturbed. */
-typedef struct motions { int n_harm, n_coef; double *X; /* [VARIANTS][n_coef] */ } motions;
+typedef struct motions {
+  int n_harm, n_coef;
+  double *X; /* [VARIANTS][n_coef] */
+} motions;
 
 typedef struct config {
   int scene, n_harm, n_time, n_contacts; /* n_time EXACT: exact forces */
@@ -38,8 +44,8 @@ typedef struct config {
   aft *sampled;
   exact *located;
   int batch, next;
-  double pieces;           /* mean over the motions */
-  double us[MAX_ROUNDS];   /* [us] an evaluation */
+  double pieces;         /* mean over the motions */
+  double us[MAX_ROUNDS]; /* [us] an evaluation */
 } config;
 
 static motions all_motions[SCENES][N_HARMONICS];
@@ -147,7 +153,12 @@ static void add_config(const scene *sc, int scene_index, int h, int n_time, int 
   config *c = &configs[n_configs++];
   scene used = split(sc, n_contacts);
   moving_contact contacts[SCENE_MAX_CONTACTS];
-  *c = (config){.scene = scene_index, .n_harm = harmonics[h], .n_time = n_time, .n_contacts = n_contacts, .m = &all_motions[scene_index][h], .batch = 1};
+  *c = (config){.scene = scene_index,
+                .n_harm = harmonics[h],
+                .n_time = n_time,
+                .n_contacts = n_contacts,
+                .m = &all_motions[scene_index][h],
+                .batch = 1};
   exact_contacts_of(&used, contacts);
   hc_status st = n_time ? aft_new(&used, c->n_harm, n_time, &c->sampled) : exact_new(c->n_harm, 1, n_contacts, contacts, &c->located);
   if (st != HC_OK) die("workspace", st);
@@ -202,7 +213,8 @@ static double quantile(const double *v, double at)
 static const config *find(int scene_index, int n_harm, int n_time, int n_contacts)
 {
   for (int i = 0; i < n_configs; ++i)
-    if (configs[i].scene == scene_index && configs[i].n_harm == n_harm && configs[i].n_time == n_time && configs[i].n_contacts == n_contacts)
+    if (configs[i].scene == scene_index && configs[i].n_harm == n_harm && configs[i].n_time == n_time &&
+        configs[i].n_contacts == n_contacts)
       return &configs[i];
   return NULL;
 }
@@ -212,12 +224,14 @@ static void print_ratio(int k, int n_harm, int n_time)
   const config *a = find(k, n_harm, EXACT, 1), *b = find(k, n_harm, n_time, 1);
   double ratio[MAX_ROUNDS];
   for (int r = 0; r < rounds; ++r) ratio[r] = a->us[r] / b->us[r];
-  printf("%-6s exact(H=%d)/sampled(N=%d, H=%d) = %.3f  [%.3f, %.3f]\n", scenes[k].name, n_harm, n_time, n_harm, quantile(ratio, 0.5), quantile(ratio, 0.25),
-         quantile(ratio, 0.75));
+  printf("%-6s exact(H=%d)/sampled(N=%d, H=%d) = %.3f  [%.3f, %.3f]\n", scenes[k].name, n_harm, n_time, n_harm, quantile(ratio, 0.5),
+         quantile(ratio, 0.25), quantile(ratio, 0.75));
 }
 
 /* Least squares of log(time) against log(variable). */
-typedef struct fit { double n, x, y, xx, xy; } fit;
+typedef struct fit {
+  double n, x, y, xx, xy;
+} fit;
 
 static void fit_add(fit *f, double at, const config *c)
 {
@@ -241,7 +255,8 @@ static void print_exponents(int k)
       fit_add(&all, n, c);
       if (n >= 1024) fit_add(&high, n, c);
     }
-    printf("%-6s sampled, H = %-2d: time ~ N^%.2f, from N = 1024 N^%.2f\n", scenes[k].name, harmonics[h], fit_exponent(&all), fit_exponent(&high));
+    printf("%-6s sampled, H = %-2d: time ~ N^%.2f, from N = 1024 N^%.2f\n", scenes[k].name, harmonics[h], fit_exponent(&all),
+           fit_exponent(&high));
   }
   for (int n = 0; n <= 1024; n += 1024) {
     fit all = {0}, high = {0};
@@ -249,13 +264,14 @@ static void print_exponents(int k)
       fit_add(&all, harmonics[h], find(k, harmonics[h], n, 1));
       if (harmonics[h] >= 10) fit_add(&high, harmonics[h], find(k, harmonics[h], n, 1));
     }
-    printf("%-6s %s: time ~ H^%.2f, from H = 10 H^%.2f\n", scenes[k].name, n ? "sampled, N = 1024" : "exact", fit_exponent(&all), fit_exponent(&high));
+    printf("%-6s %s: time ~ H^%.2f, from H = 10 H^%.2f\n", scenes[k].name, n ? "sampled, N = 1024" : "exact", fit_exponent(&all),
+           fit_exponent(&high));
   }
   for (int n = 0; n <= 256; n += 256) {
     fit f = {0};
     for (int j = 1; j <= 8; ++j) fit_add(&f, j, find(k, 5, n, j));
-    printf("%-6s %s, H = 5: time ~ contacts^%.2f (1 %.2f us, 8 %.2f us)\n", scenes[k].name, n ? "sampled, N = 256" : "exact", fit_exponent(&f),
-           quantile(find(k, 5, n, 1)->us, 0.5), quantile(find(k, 5, n, 8)->us, 0.5));
+    printf("%-6s %s, H = 5: time ~ contacts^%.2f (1 %.2f us, 8 %.2f us)\n", scenes[k].name, n ? "sampled, N = 256" : "exact",
+           fit_exponent(&f), quantile(find(k, 5, n, 1)->us, 0.5), quantile(find(k, 5, n, 8)->us, 0.5));
   }
 }
 
@@ -306,14 +322,20 @@ int main(int argc, char **argv)
 {
   const char *dir = argc > 2 ? argv[2] : "cases/paper";
   if (argc > 1) rounds = atoi(argv[1]);
-  if (rounds < 1 || rounds > MAX_ROUNDS) { fprintf(stderr, "usage: bench_force [ROUNDS 1..%d] [CASES_DIR]\n", MAX_ROUNDS); return 64; }
+  if (rounds < 1 || rounds > MAX_ROUNDS) {
+    fprintf(stderr, "usage: bench_force [ROUNDS 1..%d] [CASES_DIR]\n", MAX_ROUNDS);
+    return 64;
+  }
   print_machine();
   for (int k = 0; k < SCENES; ++k) {
     scene sc;
     case_error err;
     char path[4096];
     snprintf(path, sizeof path, "%s/%s", dir, scenes[k].file);
-    if (case_read(path, 0, NULL, &sc, &err) != HC_OK) { fprintf(stderr, "%s\n", err.message); return 1; }
+    if (case_read(path, 0, NULL, &sc, &err) != HC_OK) {
+      fprintf(stderr, "%s\n", err.message);
+      return 1;
+    }
     add_scene(&sc, k);
   }
   measure();

@@ -11,7 +11,8 @@
 static const double DAMPING = 0.4, STIFFNESS = 40, FORCE = 100, CONTACT = 550, CLEARANCE = 7.0710678118654755, WIDTH = 1e-2;
 static const double TWO_PI = 6.283185307179586476925;
 
-int func(integer ndim, const doublereal *u, const integer *icp, const doublereal *par, integer ijac, doublereal *f, doublereal *dfdu, doublereal *dfdp)
+int func(integer ndim, const doublereal *u, const integer *icp, const doublereal *par, integer ijac, doublereal *f, doublereal *dfdu,
+         doublereal *dfdp)
 {
   (void)ndim, (void)icp;
   double omega = par[0], z = (u[0] - CLEARANCE) / WIDTH, r2 = u[2] * u[2] + u[3] * u[3];
@@ -51,23 +52,28 @@ int stpnt(integer ndim, doublereal t, doublereal *u, doublereal *par)
   return 0;
 }
 
-int pvls(integer ndim, const doublereal *u, doublereal *par) { (void)ndim, (void)u, (void)par; return 0; }
+int pvls(integer ndim, const doublereal *u, doublereal *par)
+{
+  (void)ndim, (void)u, (void)par;
+  return 0;
+}
 
-int bcnd(integer ndim, const doublereal *par, const integer *icp, integer nbc, const doublereal *u0, const doublereal *u1, integer ijac, doublereal *fb,
-         doublereal *dbc)
+int bcnd(integer ndim, const doublereal *par, const integer *icp, integer nbc, const doublereal *u0, const doublereal *u1, integer ijac,
+         doublereal *fb, doublereal *dbc)
 {
   (void)ndim, (void)par, (void)icp, (void)nbc, (void)u0, (void)u1, (void)ijac, (void)fb, (void)dbc;
   return 0;
 }
 
-int icnd(integer ndim, const doublereal *par, const integer *icp, integer nint, const doublereal *u, const doublereal *uold, const doublereal *udot,
-         const doublereal *upold, integer ijac, doublereal *fi, doublereal *dint)
+int icnd(integer ndim, const doublereal *par, const integer *icp, integer nint, const doublereal *u, const doublereal *uold,
+         const doublereal *udot, const doublereal *upold, integer ijac, doublereal *fi, doublereal *dint)
 {
   (void)ndim, (void)par, (void)icp, (void)nint, (void)u, (void)uold, (void)udot, (void)upold, (void)ijac, (void)fi, (void)dint;
   return 0;
 }
 
-int fopt(integer ndim, const doublereal *u, const integer *icp, const doublereal *par, integer ijac, doublereal *fs, doublereal *dfdu, doublereal *dfdp)
+int fopt(integer ndim, const doublereal *u, const integer *icp, const doublereal *par, integer ijac, doublereal *fs, doublereal *dfdu,
+         doublereal *dfdp)
 {
   (void)ndim, (void)u, (void)icp, (void)par, (void)ijac, (void)fs, (void)dfdu, (void)dfdp;
   return 0;
