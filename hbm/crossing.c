@@ -48,6 +48,7 @@ guard guard_make(const motion *m, int order, const double *a, double constant)
     g.bound2 += h2 * size;
     g.bound3 += h2 * h * size;
   }
+  g.bound1 = sqrt(g.size * g.bound2); /* Cauchy-Schwarz */
   return g;
 }
 
@@ -87,9 +88,12 @@ static motion_node falling_root(const search *s, motion_node a, motion_node b)
     double f = guard_value(s->g, &x), slope = derivative(s->g, &x, 1);
     if (f > 0) a = x; else b = x;
     double next = x.th - f / slope;
-    if (!(next > a.th && next < b.th)) next = 0.5 * (a.th + b.th);
-    if (fabs(next - x.th) <= 2 * DBL_EPSILON * (1 + fabs(x.th))) break;
+    if (fabs(next - x.th) <= 2 * DBL_EPSILON * (1 + fabs(x.th))) break; /* first: at the root, next may be an end of the bracket */
+    bool inside = next > a.th && next < b.th;
+    if (!inside) next = 0.5 * (a.th + b.th);
+    double moved = next - x.th;
     x = motion_at(s->m, next);
+    if (inside && s->g->bound2 * moved * moved <= 2 * DBL_EPSILON * fabs(slope)) break; /* the error left is at most bound2 moved^2/(2 |slope|) */
   }
   return x;
 }
@@ -104,12 +108,17 @@ static motion_node minimum(const search *s, motion_node a, motion_node b)
     if (slope < 0) a = x; else b = x;
     double next = x.th;
     if (s->g->order == 0) next -= slope / derivative(s->g, &x, 2); /* no third derivative at hand for order 1 */
-    if (s->g->order || !(next > a.th && next < b.th)) next = 0.5 * (a.th + b.th);
-    if (fabs(next - x.th) <= 1e-9) break; /* f is stationary: an error e costs f'' e^2/2 */
+    bool newton = s->g->order == 0;
+    if (newton && fabs(next - x.th) <= 1e-9) break; /* f is stationary: an error e costs f'' e^2/2 */
+    if (!newton || !(next > a.th && next < b.th)) next = 0.5 * (a.th + b.th);
+    if (fabs(next - x.th) <= 1e-9) break;
     x = motion_at(s->m, next);
   }
   return x;
 }
+
+static inline double lesser(double x, double y) { return x < y ? x : y; } /* fmin and fmax are calls, for the sake of NaN */
+static inline double greater(double x, double y) { return x > y ? x : y; }
 
 static bool find(const search *s, motion_node a, motion_node b, int depth, motion_node *root)
 {
@@ -117,15 +126,15 @@ static bool find(const search *s, motion_node a, motion_node b, int depth, motio
   double fa = guard_value(g, &a), fb = guard_value(g, &b), width = b.th - a.th;
   if (fa < -s->noise) { *root = a; return true; }
   double sag = g->bound2 * width * width / 8;
-  if (fmin(fa, fb) > sag) return false;
+  if (lesser(fa, fb) > sag) return false;
   double da = derivative(g, &a, 1), db = derivative(g, &b, 1), bend = 0.5 * g->bound2 * width;
   bool below = fb < -s->noise;
-  bool falls = fmax(da, db) + bend < 0, rises = fmin(da, db) - bend > 0;
+  bool falls = greater(da, db) + bend < 0, rises = lesser(da, db) - bend > 0;
   if (falls || rises || sag <= s->noise || depth == 0) {
     if (below) *root = falling_root(s, a, b);
     return below;
   }
-  if (g->order == 0 && fmin(derivative(g, &a, 2), derivative(g, &b, 2)) - 0.5 * g->bound3 * width > 0 && !below) {
+  if (g->order == 0 && lesser(derivative(g, &a, 2), derivative(g, &b, 2)) - 0.5 * g->bound3 * width > 0 && !below) {
     if (da >= 0 || db <= 0) return false; /* convex and monotone, both ends above */
     motion_node low = minimum(s, a, b);
     if (guard_value(g, &low) >= -s->noise) return false;
@@ -138,7 +147,8 @@ static bool find(const search *s, motion_node a, motion_node b, int depth, motio
 
 bool crossing_first(const motion *m, const guard *g, const motion_node *a, const motion_node *b, motion_node *root)
 {
-  /* rounding of f itself, and of the angles it is evaluated at: |f'| <= sqrt(size bound2) */
-  search s = {m, g, DBL_EPSILON * (16 * guard_scale(g) + 32 * sqrt(g->size * g->bound2))};
+  double width = b->th - a->th, sag = g->bound2 * width * width / 8;
+  if (guard_value(g, a) > sag && guard_value(g, b) > sag) return false; /* nearly always: before anything is copied */
+  search s = {m, g, DBL_EPSILON * (16 * guard_scale(g) + 32 * g->bound1)}; /* rounding of f, and of the angles it is evaluated at */
   return find(&s, *a, *b, MAX_DEPTH, root);
 }

@@ -11,7 +11,7 @@ typedef struct guard {
   double a[MOTION_MAX_DOF], constant;
   double size;              /* bound of |f - mean - constant| */
   double mean;              /* of f without the constant */
-  double bound2, bound3;    /* bounds of |f''|, |f'''| */
+  double bound1, bound2, bound3; /* of |f'|, |f''|, |f'''| */
 } guard;
 
 guard guard_make(const motion *m, int order, const double *a, double constant);

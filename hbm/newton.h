@@ -1,5 +1,6 @@
 /* newton.h - full Newton by KINSOL for a square system r(z) = 0, with the answer checked by us.
- * Memory is made once and reused by every solve; nothing is allocated in a solve. One handle a thread. */
+ * Memory is made once and reused by every solve; nothing is allocated in a solve, but for the message SUNDIALS 7 composes and
+ * frees when KINSol fails. One handle a thread. */
 #ifndef HC_NEWTON_H
 #define HC_NEWTON_H
 

@@ -9,44 +9,53 @@
 
 static const double TWO_PI = 6.283185307179586476925;
 
+enum { HALF = TRANSITIONS_GRID / 2 };
+
 void motion_table_fill(int n_harm, double *table)
 {
-  for (int i = 0; i < TRANSITIONS_GRID; ++i)
-    for (int h = 1; h <= n_harm; ++h) {
-      double th = TWO_PI * ((long)h * i % TRANSITIONS_GRID) / TRANSITIONS_GRID;
-      table[2 * (i * n_harm + h - 1)] = cos(th);
-      table[2 * (i * n_harm + h - 1) + 1] = sin(th);
+  for (int h = 1; h <= n_harm; ++h)
+    for (int i = 0; i < HALF; ++i) {
+      double th = TWO_PI * (h * i % TRANSITIONS_GRID) / TRANSITIONS_GRID;
+      table[(h - 1) * TRANSITIONS_GRID + i] = cos(th);
+      table[(h - 1) * TRANSITIONS_GRID + HALF + i] = sin(th);
     }
 }
 
-static void fill_coordinate(motion_grid *g, int d)
+/* Sums over even harmonics, [0], and odd ones, [1], of x and two derivatives at the first half of the grid. */
+static void sum_harmonics(int n_harm, const double *X, const double *table, double sum[2][3][HALF])
 {
-  int n_harm = g->m.n_harm;
-  const double *X = g->m.X[d];
-  for (int i = 0; i < TRANSITIONS_GRID; ++i) {
-    const double *t = g->table + 2 * (size_t)i * n_harm;
-    double x = X[0], d1 = 0, d2 = 0;
-    for (int h = 1; h <= n_harm; ++h) {
-      double c = t[2 * h - 2], s = t[2 * h - 1], a = X[2 * h - 1], b = X[2 * h];
-      double even = a * c + b * s, odd = b * c - a * s;
-      x += even;
-      d1 += h * odd;
-      d2 -= (double)h * h * even;
+  for (int i = 0; i < HALF; ++i) sum[0][0][i] = X[0];
+  for (int h = 1; h <= n_harm; ++h) {
+    const double *restrict c = table + (h - 1) * TRANSITIONS_GRID, *restrict s = c + HALF;
+    double *restrict x = sum[h & 1][0], *restrict d1 = sum[h & 1][1], *restrict d2 = sum[h & 1][2];
+    double a = X[2 * h - 1], b = X[2 * h], h1 = h, h2 = h1 * h1;
+    for (int i = 0; i < HALF; ++i) {
+      double even = a * c[i] + b * s[i], odd = b * c[i] - a * s[i];
+      x[i] += even;
+      d1[i] += h1 * odd;
+      d2[i] -= h2 * even;
     }
-    g->node[i].d[0][d] = x;
-    g->node[i].d[1][d] = d1;
-    g->node[i].d[2][d] = d2;
   }
+}
+
+static void fill_coordinate(motion_grid *g, int d, const double *table)
+{
+  double sum[2][3][HALF] = {{{0}}};
+  sum_harmonics(g->m.n_harm, g->m.X[d], table, sum);
+  for (int k = 0; k < 3; ++k)
+    for (int i = 0; i < HALF; ++i) {
+      g->node[i].d[k][d] = sum[0][k][i] + sum[1][k][i];
+      g->node[i + HALF].d[k][d] = sum[0][k][i] - sum[1][k][i];
+    }
 }
 
 void motion_grid_fill(motion_grid *g, const motion *m, const double *table)
 {
   g->m = *m;
-  g->table = table;
-  for (int d = 0; d < m->n_dof; ++d) fill_coordinate(g, d);
-  for (int i = 0; i < TRANSITIONS_GRID; ++i) g->node[i].th = TWO_PI * i / TRANSITIONS_GRID;
-  g->node[TRANSITIONS_GRID] = g->node[0];
-  g->node[TRANSITIONS_GRID].th = TWO_PI;
+  for (int d = 0; d < m->n_dof; ++d) fill_coordinate(g, d, table);
+  memcpy(g->node + TRANSITIONS_GRID, g->node, TRANSITIONS_GRID * sizeof *g->node);
+  g->node[2 * TRANSITIONS_GRID] = g->node[0];
+  for (int i = 0; i <= 2 * TRANSITIONS_GRID; ++i) g->node[i].th = TWO_PI * i / TRANSITIONS_GRID;
 }
 
 /* Everything about one contact while its period is walked through. */
@@ -148,19 +157,22 @@ static hc_status walk_between(walk *w, motion_node a, const motion_node *b)
   return st;
 }
 
+/* The grid node after angle th. */
+static const motion_node *node_after(const walk *w, double th)
+{
+  const motion_node *node = w->grid->node + (int)(th * (TRANSITIONS_GRID / TWO_PI));
+  while (node->th <= th) ++node;
+  return node;
+}
+
 /* From a to b, grid nodes in between, in contact all the way. */
-static hc_status walk_contact(walk *w, motion_node a, const motion_node *b)
+static hc_status walk_contact(walk *w, const motion_node *a, const motion_node *b)
 {
   hc_status st = HC_OK;
   if (!w->friction) return HC_OK;
-  const double step = TWO_PI / TRANSITIONS_GRID;
-  for (long i = (long)floor(a.th / step) + 1; st == HC_OK && a.th < b->th; ++i) {
-    motion_node next = w->grid->node[i % TRANSITIONS_GRID];
-    next.th = i * step;
-    if (next.th <= a.th) continue;
-    if (next.th >= b->th) next = *b;
-    st = walk_between(w, a, &next);
-    a = next;
+  for (const motion_node *next = node_after(w, a->th); st == HC_OK && a->th < b->th; a = next++) {
+    if (next->th >= b->th) return walk_between(w, *a, b);
+    st = walk_between(w, *a, next);
   }
   return st;
 }
@@ -186,17 +198,11 @@ static void touch(walk *w, const motion_node *at)
   }
 }
 
-/* First angle in [a, until] where the guard falls through 0, over grid nodes. */
-static bool first_over_grid(const walk *w, const guard *g, motion_node a, double until, motion_node *root)
+/* First angle in [a, until) where the guard falls through 0, over grid nodes. */
+static bool first_over_grid(const walk *w, const guard *g, const motion_node *a, double until, motion_node *root)
 {
-  const double step = TWO_PI / TRANSITIONS_GRID;
-  for (long i = (long)floor(a.th / step) + 1; a.th < until; ++i) {
-    motion_node next = w->grid->node[i % TRANSITIONS_GRID];
-    next.th = i * step;
-    if (next.th <= a.th) continue;
-    if (crossing_first(&w->grid->m, g, &a, &next, root)) return root->th < until;
-    a = next;
-  }
+  for (const motion_node *next = node_after(w, a->th); a->th < until; a = next++)
+    if (crossing_first(&w->grid->m, g, a, next, root)) return root->th < until;
   return false;
 }
 
@@ -208,10 +214,10 @@ static hc_status walk_intermittent(walk *w, motion_node a)
   hc_status st = HC_OK;
   motion_node on, off;
   w->recording = true;
-  while (st == HC_OK && first_over_grid(w, &touch_down, a, end, &on)) {
+  while (st == HC_OK && first_over_grid(w, &touch_down, &a, end, &on)) {
     touch(w, &on);
-    if (!first_over_grid(w, &w->normal, on, end, &off)) { off = a; off.th = end; } /* rounding at the start angle */
-    st = walk_contact(w, on, &off);
+    if (!first_over_grid(w, &w->normal, &on, end, &off)) { off = a; off.th = end; } /* rounding at the start angle */
+    st = walk_contact(w, &on, &off);
     if (st == HC_OK) st = close_piece(w, off.th);
     a = off;
   }
@@ -226,13 +232,13 @@ static hc_status walk_closed(walk *w)
   w->now.state = w->friction ? CONTACT_STICK : CONTACT_SLIP_PLUS;
   w->now.held = w->friction ? fmin(fmax(0, low), high) : 0;
   if (w->now.held != 0) hold(w, low > 0 ? 1 : -1, start);
-  hc_status st = walk_contact(w, *start, end);
+  hc_status st = walk_contact(w, start, end);
   contact_piece first = w->now;
   w->recording = true;
   w->now.from = 0;
   w->now.transitions = 0;
   w->now.origin -= w->now.origin >= TWO_PI ? TWO_PI : 0;
-  if (st == HC_OK) st = walk_contact(w, *start, end);
+  if (st == HC_OK) st = walk_contact(w, start, end);
   if (st == HC_OK) st = close_piece(w, TWO_PI);
   if (st != HC_OK) return st;
   bool same = w->now.state == first.state && (first.state != CONTACT_STICK || fabs(w->now.held - first.held) <= 1e-11 * guard_scale(&w->stick[0]));
@@ -252,7 +258,7 @@ hc_status transitions_find(const motion_grid *grid, const moving_contact *c, int
   if (guard_lower(&w.normal) < 0) {
     for (int i = 0; i < TRANSITIONS_GRID && !separates; ++i)
       if (guard_value(&w.normal, &grid->node[i]) < 0) { separates = true; apart = grid->node[i]; }
-    if (!separates) separates = first_over_grid(&w, &w.normal, grid->node[0], TWO_PI, &apart);
+    if (!separates) separates = first_over_grid(&w, &w.normal, &grid->node[0], TWO_PI, &apart);
   }
   st = separates ? walk_intermittent(&w, apart) : walk_closed(&w);
   *n = w.n;

@@ -43,12 +43,11 @@ typedef struct contact_piece {
 /* Grid values of a motion, shared by all contacts. */
 typedef struct motion_grid {
   motion m;
-  motion_node node[TRANSITIONS_GRID + 1]; /* the last one is the first, 2 pi later */
-  const double *table;                    /* of motion_table_fill */
+  motion_node node[2 * TRANSITIONS_GRID + 1]; /* two periods: a walk that starts anywhere in the first never wraps */
 } motion_grid;
 
-/* cos and sin of h th_i for the grid, [TRANSITIONS_GRID][2 n_harm], filled once. */
-static inline int motion_table_length(int n_harm) { return TRANSITIONS_GRID * 2 * n_harm; }
+/* cos and sin of h th_i for half the grid, [n_harm][2][TRANSITIONS_GRID/2], filled once: half a period later odd harmonics change sign. */
+static inline int motion_table_length(int n_harm) { return TRANSITIONS_GRID * n_harm; }
 void motion_table_fill(int n_harm, double *table);
 
 void motion_grid_fill(motion_grid *g, const motion *m, const double *table);

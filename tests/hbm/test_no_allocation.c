@@ -84,6 +84,10 @@ static void force_allocates_nothing(void **state)
   }
 }
 
+/* SUNDIALS 7 allocates, and frees, a message in each KINSol call that fails, although the handler drops it; 6 allocates nothing.
+ * A solve that fails calls KINSol twice, once a strategy. */
+enum { MESSAGES = SUNDIALS_VERSION_MAJOR >= 7 ? 2 : 0 };
+
 /* Solving, measuring, and failing to solve: from 1e30 away, which ends in both strategies. */
 static void solve_allocates_nothing(void **state)
 {
@@ -97,19 +101,23 @@ static void solve_allocates_nothing(void **state)
   assert_int_equal(hbm_solver_new(&sc, &s), HC_OK);
   assert_int_equal(hbm_solve_first(s, 6, X, &point), HC_OK);
   assert_int_equal(hbm_solve(s, 6.01, X, &point), HC_OK);
-  long before = allocations;
+  long good = 0, wild = 0; /* allocations: in all good solves, most in one wild */
   int bad = 0, failed = 0;
   for (int k = 0; k < 50; ++k) {
+    long before = allocations;
     bad += hbm_solve(s, 6 + 0.01 * k, X, &point) != HC_OK || hbm_measure(s, X, &m) != HC_OK;
+    good += allocations - before;
     Y[0] = 1e3;
     for (int i = 1; i < N_COEF; ++i) Y[i] = (i * 7919 % 13 - 6) * 1e2;
+    before = allocations;
     failed += hbm_solve(s, 8 + 0.01 * k, Y, &point) != HC_OK;
+    if (allocations - before > wild) wild = allocations - before;
   }
-  long after = allocations;
   hbm_solver_free(s);
   print_message("%d of 50 wild starts failed\n", failed);
   assert_int_equal(bad, 0);
-  assert_int_equal(after - before, 0);
+  assert_int_equal(good, 0);
+  assert_true(wild <= MESSAGES);
 }
 
 static const struct CMUnitTest tests[] = {
