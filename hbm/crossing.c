@@ -49,6 +49,7 @@ guard guard_make(const motion *m, int order, const double *a, double constant)
     g.bound3 += h2 * h * size;
   }
   g.bound1 = sqrt(g.size * g.bound2); /* Cauchy-Schwarz */
+  g.noise = DBL_EPSILON * (16 * guard_scale(&g) + 32 * g.bound1);
   return g;
 }
 
@@ -75,7 +76,6 @@ double guard_value(const guard *g, const motion_node *at) { return derivative(g,
 typedef struct search {
   const motion *m;
   const guard *g;
-  double noise; /* f is not told from 0 below this */
 } search;
 
 /* Root of f in [a, b], f falling through 0 once: Newton kept inside by bisection. */
@@ -124,20 +124,20 @@ static bool find(const search *s, motion_node a, motion_node b, int depth, motio
 {
   const guard *g = s->g;
   double fa = guard_value(g, &a), fb = guard_value(g, &b), width = b.th - a.th;
-  if (fa < -s->noise) { *root = a; return true; }
+  if (fa < -g->noise) { *root = a; return true; }
   double sag = g->bound2 * width * width / 8;
   if (lesser(fa, fb) > sag) return false;
   double da = derivative(g, &a, 1), db = derivative(g, &b, 1), bend = 0.5 * g->bound2 * width;
-  bool below = fb < -s->noise;
+  bool below = fb < -g->noise;
   bool falls = greater(da, db) + bend < 0, rises = lesser(da, db) - bend > 0;
-  if (falls || rises || sag <= s->noise || depth == 0) {
+  if (falls || rises || sag <= g->noise || depth == 0) {
     if (below) *root = falling_root(s, a, b);
     return below;
   }
   if (g->order == 0 && lesser(derivative(g, &a, 2), derivative(g, &b, 2)) - 0.5 * g->bound3 * width > 0 && !below) {
     if (da >= 0 || db <= 0) return false; /* convex and monotone, both ends above */
     motion_node low = minimum(s, a, b);
-    if (guard_value(g, &low) >= -s->noise) return false;
+    if (guard_value(g, &low) >= -g->noise) return false;
     *root = falling_root(s, a, low);
     return true;
   }
@@ -149,6 +149,6 @@ bool crossing_first(const motion *m, const guard *g, const motion_node *a, const
 {
   double width = b->th - a->th, sag = g->bound2 * width * width / 8;
   if (guard_value(g, a) > sag && guard_value(g, b) > sag) return false; /* nearly always: before anything is copied */
-  search s = {m, g, DBL_EPSILON * (16 * guard_scale(g) + 32 * g->bound1)}; /* rounding of f, and of the angles it is evaluated at */
+  search s = {m, g};
   return find(&s, *a, *b, MAX_DEPTH, root);
 }

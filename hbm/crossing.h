@@ -12,6 +12,7 @@ typedef struct guard {
   double size;              /* bound of |f - mean - constant| */
   double mean;              /* of f without the constant */
   double bound1, bound2, bound3; /* of |f'|, |f''|, |f'''| */
+  double noise;             /* f is not told from 0 below this: rounding of f itself, and of the angles it is evaluated at */
 } guard;
 
 guard guard_make(const motion *m, int order, const double *a, double constant);

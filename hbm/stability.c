@@ -91,11 +91,15 @@ static const contact_piece *piece_at(const exact *e, int j, double th)
   return NULL;
 }
 
-static bool stuck_for_ever(const exact *e, int j)
+/* Does contact j's slider remember the motion? Not if it is stuck for ever, and not if every stick starts with a touch-down that puts it at
+ * the same place whatever the motion: dheld is then 0 at all times and no state of the system. */
+static bool remembers(const exact *e, int j)
 {
   int n;
   const contact_piece *p = exact_pieces(e, j, &n);
-  return n == 1 && p->state == CONTACT_STICK && p->slope[0] == 0 && p->to - p->from >= TWO_PI;
+  for (int i = 0; i < n; ++i)
+    if (p[i].state == CONTACT_STICK && p[i].slope[0] != 0) return true;
+  return false;
 }
 
 /* (x, x') after time t of M x'' + C x' + k x = 0 from (1, 0) and from (0, 1), in e[row][column]. */
@@ -208,9 +212,9 @@ hc_status stability_of(stability *s, const scene *sc, const exact *e, double ome
     double a = s->boundary[i], b = s->boundary[i + 1];
     if (!(b > a)) continue;
     for (int j = 0; j < sc->n_contacts; ++j) piece[j] = piece_at(e, j, 0.5 * (a + b));
-    if (i == 0 || a == 0) /* sliders at rest at the start of the period are states of their own, but for those stuck for ever */
+    if (i == 0 || a == 0) /* sliders at rest at the start of the period are states of their own */
       for (int j = 0; j < sc->n_contacts; ++j)
-        if (piece[j] && piece[j]->state == CONTACT_STICK && !stuck_for_ever(e, j) && !(piece[j]->from == piece[j]->origin && wrap(piece[j]->from) == a))
+        if (piece[j] && piece[j]->state == CONTACT_STICK && remembers(e, j) && !(piece[j]->from == piece[j]->origin && wrap(piece[j]->from) == a))
           active[n_active++] = 2 + j;
     set_sliders(s, sc, piece, a, m);
     advance_stretch(s, sc, piece, (b - a) / omega, m);

@@ -40,6 +40,14 @@ static void sum_harmonics(int n_harm, const double *X, const double *table, doub
 
 static void fill_coordinate(motion_grid *g, int d, const double *table)
 {
+  g->size[0][d] = fabs(g->m.X[d][0]);
+  g->size[1][d] = g->size[2][d] = 0;
+  for (int h = 1; h <= g->m.n_harm; ++h) {
+    double size = fabs(g->m.X[d][2 * h - 1]) + fabs(g->m.X[d][2 * h]);
+    g->size[0][d] += size;
+    g->size[1][d] += h * size;
+    g->size[2][d] += (double)h * h * size;
+  }
   double sum[2][3][HALF] = {{{0}}};
   sum_harmonics(g->m.n_harm, g->m.X[d], table, sum);
   for (int k = 0; k < 3; ++k)
@@ -77,7 +85,15 @@ static guard make_guard(const walk *w, int order, double of_u, double of_v, doub
 {
   double a[MOTION_MAX_DOF] = {0};
   for (int d = 0; d < w->grid->m.n_dof; ++d) a[d] = of_u * w->c->cu[d] + of_v * w->c->cv[d];
-  return guard_make(&w->grid->m, order, a, constant);
+  guard g = guard_make(&w->grid->m, order, a, constant);
+  /* u and v may cancel (kt cos = mu kn sin): rounding is relative to what they were before, and to how far off a touch-down may be located */
+  double before = 16 * fabs(constant);
+  for (int d = 0; d < w->grid->m.n_dof; ++d) {
+    double weight = fabs(of_u * w->c->cu[d]) + fabs(of_v * w->c->cv[d]);
+    before += weight * (16 * w->grid->size[order][d] + 32 * w->grid->size[order + 1][d]);
+  }
+  g.noise = fmax(g.noise, DBL_EPSILON * before);
+  return g;
 }
 
 static void make_guards(walk *w)
@@ -177,6 +193,9 @@ static hc_status walk_contact(walk *w, const motion_node *a, const motion_node *
   return st;
 }
 
+/* The state of a contact that carries no tangential force: T = kt u with kt = 0, or mu N with mu = 0. */
+static contact_state frictionless(const contact *law) { return law->kt > 0 ? CONTACT_SLIP_PLUS : CONTACT_STICK; }
+
 /* Touch-down at `at`: T = N = 0 and w = u; slips at once if the slip guard says so. */
 static void touch(walk *w, const motion_node *at)
 {
@@ -189,7 +208,7 @@ static void touch(walk *w, const motion_node *at)
   }
   w->now.from = w->now.origin = at->th;
   w->now.held = law->kt * u;
-  w->now.state = contact_on_touch(law, du, dv);
+  w->now.state = w->friction ? contact_on_touch(law, du, dv) : frictionless(law);
   /* d held = kt (du_origin + u' d th), d th = -dv_origin/v' moves with the instant of contact */
   double along = dv > 0 ? du / dv : 0;
   for (int d = 0; d < w->grid->m.n_dof; ++d) {
@@ -229,7 +248,7 @@ static hc_status walk_closed(walk *w)
 {
   const motion_node *start = &w->grid->node[0], *end = &w->grid->node[TRANSITIONS_GRID];
   double low = -guard_value(&w->stick[0], start), high = guard_value(&w->stick[1], start);
-  w->now.state = w->friction ? CONTACT_STICK : CONTACT_SLIP_PLUS;
+  w->now.state = w->friction ? CONTACT_STICK : frictionless(&w->c->law);
   w->now.held = w->friction ? fmin(fmax(0, low), high) : 0;
   if (w->now.held != 0) hold(w, low > 0 ? 1 : -1, start);
   hc_status st = walk_contact(w, start, end);

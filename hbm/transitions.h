@@ -43,6 +43,7 @@ typedef struct contact_piece {
 /* Grid values of a motion, shared by all contacts. */
 typedef struct motion_grid {
   motion m;
+  double size[3][MOTION_MAX_DOF];             /* sums of |coefficients| of x, x', x'' */
   motion_node node[2 * TRANSITIONS_GRID + 1]; /* two periods: a walk that starts anywhere in the first never wraps */
 } motion_grid;
 

@@ -310,8 +310,8 @@ static void sampling_tends_to_it(void **state)
       aft_free(a);
       CHECK_LE(error[p], sampled_error(H, 1, &c, X, 1 << p, &e), "trial %d H=%d N=2^%d kt=%g kn=%g mu=%g gap=%g", trial, H, p, c.law.kt, c.law.kn, c.law.mu, c.law.gap);
     }
-    if (error[16] > 1e3 * exact_rounding(H, 1, &c, X)) {
-      orders += log2(error[10] / error[16]) / 6;
+    if (error[13] > 100 * exact_rounding(H, 1, &c, X)) {
+      orders += log2(error[10] / error[13]) / 3;
       ++n_orders;
     }
   }
