@@ -21,6 +21,7 @@ static const double TOLERANCE = 1e-4;   /* of interpolation, relative to |X| */
 static const double H_FIRST = 0.02, H_MAX = 0.5, H_MIN = 1e-11;
 static const double H_CORNER = 1e-4;    /* below: a corner in the curve rather than curvature; accept a kink */
 static const double FAR = 4;
+static const double H_TURN = 1e-9;      /* steps that fail below this are at a corner to be turned */
 static const double LINEAR_NEAR = 1e-2;  /* the linear response counts as the predicted solution within this */
 static const double STEEP = 0.2, FLAT = 0.6; /* share of omega in the unit tangent: leave natural steps, take them up again */
 enum { MAX_POINTS = 200000, FLAT_STEPS = 6 };
@@ -80,12 +81,19 @@ static hc_status correct_natural(path *p)
   return st;
 }
 
-hc_status path_correct_in_plane(path *p)
+/* The plane across (dX, d_omega), metric weights included. */
+static void fill_normal(path *p)
 {
   int n = p->s->sys.n, first = p->s->sys.first;
   double x_scale = path_size(p), omega_scale = p->curve->omega_scale;
   for (int i = 0; i < n; ++i) p->normal[i] = p->dX[i + first] / (x_scale * x_scale);
   p->normal[n] = p->d_omega / (omega_scale * omega_scale);
+}
+
+hc_status path_correct_in_plane(path *p)
+{
+  double x_scale = path_size(p), omega_scale = p->curve->omega_scale;
+  fill_normal(p);
   hc_status st = hbm_solve_plane(p->s, p->normal, x_scale, omega_scale, p->X, &p->omega, &p->point);
   p->sign = newton_sign(p->s->plane);
   return st == HC_OK ? hbm_tangent_plane(p->s, p->dX, &p->d_omega) : st;
@@ -156,6 +164,52 @@ static hc_status try_step(path *p, bool *accepted)
   p->h = fmin(p->h, H_MAX);
   *accepted = good;
   return HC_OK;
+}
+
+/* Round a corner too sharp for a plane across the old tangent, as where a nearly rigid contact is made or lost: the equations a step h beyond
+ * the corner tell the direction there (their kernel, with the sense of the curve), and the step is taken along that. */
+static hc_status turn_corner(path *p, double h, bool *accepted)
+{
+  const hbm_curve *c = p->curve;
+  const hbm_point *tip = &c->points[c->n - 1];
+  const double *X0 = hbm_curve_X(c, c->n - 1), *dX0 = hbm_curve_dX(c, c->n - 1);
+  int sign;
+  p->fresh = true; /* extrapolating across a corner is no use */
+  predict(p, h);
+  fill_normal(p);
+  hc_status st = hbm_kernel_at(p->s, p->normal, p->X, p->omega, p->dX, &p->d_omega, &sign);
+  if (st != HC_OK || sign == 0) return st != HC_OK ? st : HC_SINGULAR;
+  double x_scale = path_size(p), length = sqrt(path_metric(p, x_scale, p->dX, p->d_omega, p->dX, p->d_omega));
+  length = sign == p->sense ? length : -length;
+  for (int i = 0; i < c->n_coef; ++i) {
+    p->dX[i] /= length;
+    p->X[i] = p->P[i] = X0[i] + h * p->dX[i];
+  }
+  p->d_omega /= length;
+  p->omega = p->omega_p = tip->omega + h * p->d_omega;
+  st = path_correct_in_plane(p);
+  p->curve->iterations += p->point.iterations;
+  if (st != HC_OK) return st;
+  if (p->sign != p->sense) {
+    for (int i = 0; i < c->n_coef; ++i) p->dX[i] = -p->dX[i];
+    p->d_omega = -p->d_omega;
+  }
+  for (int i = 0; i < c->n_coef; ++i) p->chord[i] = p->X[i] - X0[i];
+  bool onward = path_metric(p, x_scale, p->dX, p->d_omega, p->chord, p->omega - tip->omega) > 0;
+  bool back = path_metric(p, x_scale, dX0, tip->d_omega, p->chord, p->omega - tip->omega) <
+              -0.99 * h * sqrt(path_metric(p, x_scale, dX0, tip->d_omega, dX0, tip->d_omega)); /* the way it came */
+  *accepted = onward && !back && correction(p, c->omega_scale) <= h;
+  return HC_OK;
+}
+
+/* Corners of growing size, up to what a step may be where there is a kink at all. */
+static bool try_corners(path *p)
+{
+  bool accepted = false;
+  for (double h = H_TURN; h <= H_CORNER && !accepted; h *= 4)
+    if (turn_corner(p, h, &accepted) != HC_OK) accepted = false;
+  if (accepted) p->h = H_TURN;
+  return accepted;
 }
 
 static hc_status accept(path *p)
@@ -269,6 +323,12 @@ static hc_status follow(path *p, const hc_monitor *monitor)
     }
     ++c->rejected;
     if (p->natural && may_go_arclength(p) && (step != HC_OK || p->h < H_FIRST)) switch_to_arclength(p);
+    if (p->h < H_TURN && !p->natural && p->turned != c->n && try_corners(p)) {
+      if ((st = accept(p)) == HC_OK) st = finish_at_limit(p, &done);
+      p->fresh = true;
+      continue;
+    }
+    if (p->h < H_TURN) p->turned = c->n; /* once a point */
     if (p->h < H_MIN) return step != HC_OK ? step : HC_STEP_TOO_SMALL;
   }
   return st;

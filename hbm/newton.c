@@ -111,6 +111,14 @@ static hc_status factor_here(newton *nw)
   return HC_OK;
 }
 
+hc_status newton_factor_at(newton *nw, const double *z)
+{
+  memcpy(N_VGetArrayPointer(nw->z), z, (size_t)nw->problem.n * sizeof(double));
+  nw->factored = false;
+  hc_status st = factor_here(nw);
+  return st == HC_OK && !nw->factored ? HC_SINGULAR : st;
+}
+
 int newton_sign(const newton *nw)
 {
   return nw->factored ? lu_sign(nw->problem.n, SUNDenseMatrix_Data(nw->jac), lu_sundials_pivots(nw->ls)) : 0;

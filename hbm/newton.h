@@ -38,7 +38,10 @@ hc_status newton_solve(newton *nw, double *z, const newton_options *opt, newton_
 /* x := J(z)^-1 x with the Jacobian of the last solve's end. HC_SINGULAR, also after a solve that failed. */
 hc_status newton_backsolve(newton *nw, double *x);
 
-/* Sign of the determinant of the Jacobian of the last solve's end; 0 if it is singular. */
+/* Evaluate and factor the Jacobian at z, for newton_backsolve and newton_sign, without solving. */
+hc_status newton_factor_at(newton *nw, const double *z);
+
+/* Sign of the determinant of the Jacobian of the last solve's end or newton_factor_at; 0 if it is singular. */
 int newton_sign(const newton *nw);
 
 #endif

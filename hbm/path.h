@@ -17,6 +17,7 @@ typedef struct path {
   int easy;                    /* points in a row where fewer harmonics would do */
   int sense;                   /* sign of det [dR/dX dR/domega; tangent], kept along the curve */
   bool from_afar;              /* a first point may be looked for from high omega */
+  int turned;                  /* the number of points when corners were last tried */
   bool natural;                /* how the next step is corrected */
   int flat_steps;              /* accepted in a row on flat curve while in arc-length mode */
   double *X, *dX, omega, d_omega; /* prediction, then trial point and its tangent */

@@ -241,6 +241,16 @@ hc_status hbm_tangent_plane(hbm_solver *s, double *dX, double *d_omega)
   return st;
 }
 
+hc_status hbm_kernel_at(hbm_solver *s, const double *normal, const double *X, double omega, double *dX, double *d_omega, int *sign)
+{
+  memcpy(s->normal, normal, (size_t)(s->sys.n + 1) * sizeof(double));
+  hbm_pack(s, X, omega, s->anchor);
+  hc_status st = newton_factor_at(s->plane, s->anchor);
+  if (st == HC_OK) st = hbm_tangent_plane(s, dX, d_omega);
+  *sign = newton_sign(s->plane);
+  return st;
+}
+
 hc_status hbm_measure(hbm_solver *s, const double *X, hbm_measures *out)
 {
   hc_status st = hbm_system_contact(&s->sys, X);

@@ -42,6 +42,10 @@ hc_status hbm_solve_plane(hbm_solver *s, const double *normal, double x_scale, d
 hc_status hbm_tangent_fixed(hbm_solver *s, const double *X, double *dX);
 hc_status hbm_tangent_plane(hbm_solver *s, double *dX, double *d_omega);
 
+/* The curve's direction if it passed through (X, omega): the kernel of the equations there, with normal . (dX, domega) = 1. sign: of the
+ * determinant of the plane form. X need not be a solution. */
+hc_status hbm_kernel_at(hbm_solver *s, const double *normal, const double *X, double omega, double *dX, double *d_omega, int *sign);
+
 /* The exact evaluator, evaluated at X, and what it found. */
 hc_status hbm_pattern_at(hbm_solver *s, const double *X, const exact **e, contact_report *report);
 
