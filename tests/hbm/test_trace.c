@@ -101,6 +101,7 @@ static void natural_continuation_stops_at_the_fold(void **state)
 
 /* Case 2 from 8.5 down: the separated branch ends grazing at 7.337 (closed form 7.3371828168, H = 1 or not: the motion is still linear there), and
  * turns up to a fold beyond 8.5, back past the start. */
+/* Down from 8.5 on the separated branch of c2: round the grazing turn, up past the start to the fold at 9.21, and down to the end. */
 static void a_branch_that_turns_back(void **state)
 {
   (void)state;
@@ -108,15 +109,30 @@ static void a_branch_that_turns_back(void **state)
   traced t = trace(&sc, 8.5, 3, "c2 down from 8.5");
   const hbm_curve *c = &t.curve;
   double lowest = 8.5;
-  for (int k = 0; k < c->n; ++k) lowest = fmin(lowest, c->points[k].omega);
+  for (int k = 0; k < c->n && c->points[k].branch == 0; ++k) lowest = fmin(lowest, c->points[k].omega);
   assert_int_equal(t.status, HC_OK);
-  assert_true(c->left_at_start && c->turning_points % 2 == 1 && c->points[c->n - 1].omega == 8.5);
+  assert_true(!c->left_at_start && c->turning_points % 2 == 0 && c->points[c->n - 1].omega == 3);
   CHECK_NEAR(lowest, 7.3371828168, 1e-3 * 7.34, "points, not the turn itself: steps there are short, 1e-3 is ample");
   hbm_curve at = {0};
   assert_int_equal(hbm_curve_at(t.s, c, 8, &at), HC_OK);
-  assert_int_equal(at.n, 2);
+  assert_int_equal(at.n, 3);
   check_linear_point(&sc, 40, at.X, 8, "the branch it came on");
   hbm_curve_free(&at);
+  drop(&t);
+}
+
+/* Nearly rigid and without harmonic 0 the fold is beyond 4 times the start: the curve is cut where it left the sweep. */
+static void a_branch_that_leaves(void **state)
+{
+  (void)state;
+  scene sc = scene_named("c2", 1, false, 64);
+  sc.contacts[0].law.kn = 1e7;
+  sc.hbm.force = HBM_FORCE_EXACT;
+  traced t = trace(&sc, 8.5, 3, "nearly rigid, down from 8.5");
+  const hbm_curve *c = &t.curve;
+  assert_int_equal(t.status, HC_OK);
+  assert_true(c->left_at_start && c->turning_points == 1 && c->points[c->n - 1].omega == 8.5);
+  for (int k = 0; k < c->n; ++k) CHECK_LE(c->points[k].omega, 8.5, "point %d", k);
   drop(&t);
 }
 
@@ -231,6 +247,7 @@ static void solving_from_nonsense(void **state)
 
 static const struct CMUnitTest tests[] = {
   cmocka_unit_test(turning_points_are_real), cmocka_unit_test(natural_continuation_stops_at_the_fold), cmocka_unit_test(a_branch_that_turns_back),
+  cmocka_unit_test(a_branch_that_leaves),
   cmocka_unit_test(interruption_keeps_points), cmocka_unit_test(always_an_end_with_a_reason), cmocka_unit_test(sweeps_that_make_no_sense),
   cmocka_unit_test(solving_from_nonsense),
 };

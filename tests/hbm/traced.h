@@ -20,10 +20,11 @@ static inline bool tick(void *self, double done)
 
 typedef struct traced { hbm_solver *s; hbm_curve curve; hc_status status; } traced;
 
-/* What holds for every curve, however it ended: a reason, frequencies above 0 and inside the sweep, finite points, branches counted. */
+/* What holds for every curve, however it ended: a reason, frequencies above 0 and inside the sweep (or within a factor 4 behind its start, where a
+ * branch that turned back is followed for a while), finite points, branches counted. */
 static inline void check_curve(const hbm_curve *c, double from, double to, const char *what)
 {
-  double low = fmin(from, to), high = fmax(from, to);
+  double low = from < to ? from / 4 : to, high = from < to ? to : 4 * from;
   int n_coef = c->n_coef, turns = 0;
   for (int k = 0; k < c->n; ++k) {
     const hbm_point *p = &c->points[k];
