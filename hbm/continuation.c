@@ -156,12 +156,13 @@ static hc_status try_step(path *p, bool *accepted)
   bool forward;
   double cosine = orient(p, &forward), moved = correction(p, p->curve->omega_scale), error = ratio * correction(p, p->resolution);
   bool corner = p->h <= H_CORNER;
-  double grow = 0.9 * pow(TOLERANCE / fmax(error, 1e-12 * TOLERANCE), 0.25);
-  bool good = forward && (corner ? moved <= p->h : moved <= 0.25 * p->h && cosine >= 0.7 && error <= 4 * TOLERANCE);
+  double scale = p->s->step_scale, tolerance = TOLERANCE * scale * scale * scale * scale;
+  double grow = 0.9 * pow(tolerance / fmax(error, 1e-12 * tolerance), 0.25);
+  bool good = forward && (corner ? moved <= p->h : moved <= 0.25 * p->h && cosine >= 0.7 && error <= 4 * tolerance);
   if (p->point.iterations > 8) grow = fmin(grow, 0.7);
   p->h *= good ? fmin(2, fmax(0.4, grow)) : fmin(0.5, fmax(0.2, grow));
   if (corner && good) p->h = fmax(p->h, 2 * H_MIN);
-  p->h = fmin(p->h, H_MAX);
+  p->h = fmin(p->h, H_MAX * scale);
   *accepted = good;
   return HC_OK;
 }

@@ -59,6 +59,9 @@ hc_status hbm_solve_first(hbm_solver *s, double omega, double *X, hbm_point *poi
 /* The response curve from omega `from` to `to`, appended to an empty *curve. What was found is kept whatever the status. */
 hc_status hbm_trace(hbm_solver *s, double from, double to, const hc_monitor *monitor, hbm_curve *curve);
 
+/* Continuation steps `scale` times as long as they would be, 0 < scale <= 1: a curve must not depend on them, and this is how to see. */
+void hbm_scale_steps(hbm_solver *s, double scale);
+
 /* Every solution of the curve at omega, appended to *at in the curve's order. The status is that of the worst one. */
 hc_status hbm_curve_at(hbm_solver *s, const hbm_curve *curve, double omega, hbm_curve *at);
 

@@ -120,7 +120,7 @@ static void drop_equations(hbm_solver *s)
   hbm_system_clear(&s->sys);
   double *const arrays[] = {s->Z, s->z, s->z_scale, s->r_scale, s->normal, s->anchor};
   for (size_t i = 0; i < sizeof arrays / sizeof *arrays; ++i) free(arrays[i]);
-  *s = (hbm_solver){.stability = s->stability};
+  *s = (hbm_solver){.stability = s->stability, .step_scale = s->step_scale};
 }
 
 hc_status hbm_solver_resize(hbm_solver *s, int n_harm, int n_time)
@@ -143,6 +143,7 @@ hc_status hbm_solver_new(const scene *sc, hbm_solver **out)
   int n_harm = sc->hbm.harmonics == SCENE_AUTO ? AUTO_FIRST_HARMONICS : sc->hbm.harmonics, n_time = sc->hbm.samples;
   if (n_time == SCENE_AUTO)
     for (n_time = AUTO_FIRST_SAMPLES; n_time < 4 * n_harm; n_time *= 2) {}
+  s->step_scale = 1;
   hc_status st = stability_new(&s->stability);
   if (st == HC_OK) st = make_equations(s, sc, n_harm, n_time);
   if (st == HC_OK) { *out = s; return HC_OK; }
@@ -159,6 +160,8 @@ void hbm_solver_free(hbm_solver *s)
 }
 
 int hbm_n_harmonics(const hbm_solver *s) { return s->sys.n_harm; }
+
+void hbm_scale_steps(hbm_solver *s, double scale) { s->step_scale = scale > 0 && scale <= 1 ? scale : 1; }
 
 int hbm_n_samples(const hbm_solver *s) { return s->sys.sampled ? s->n_time : 0; }
 

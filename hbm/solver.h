@@ -14,6 +14,7 @@
 
 struct hbm_solver {
   hbm_system sys;
+  double step_scale;            /* of hbm_scale_steps */
   int n_time;                   /* samples per period, for sampled forces */
   newton *fixed, *plane;
   exact *pattern;               /* transitions of a solution of sampled equations; NULL when the equations are exact themselves */

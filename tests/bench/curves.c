@@ -1,7 +1,7 @@
-/* curves.c - a benchmark, not a test: every curve of the paper's figures with exact forces, traced from both ends.
+/* curves.c - a benchmark, not a test: every curve of the paper's figures with exact forces, traced from both ends and with half the step.
  * usage: bench_curves [CASE.yaml...]   (default: the scenes of figures 7, 8, 9, 17, 18, 20, and figure 17 up to kn = 1e7)
  * One line a curve: how it ended, points, iterations, rejected steps, turning points, contact evaluations, milliseconds, and the largest
- * distance, relative to the amplitude, between solutions found going up and going down at 16 frequencies both curves cover. */
+ * distance, relative to the amplitude, between its solutions at 16 frequencies and those of the curve from the other end and with half the step. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -44,33 +44,51 @@ static double mismatch(hbm_solver *s, const hbm_curve *a, const hbm_curve *b, do
   return worst;
 }
 
+/* Largest mismatch at 16 frequencies; *differ counts those where the two curves have different numbers of solutions. */
+static double compare_curves(hbm_solver *s, const hbm_curve *a, const hbm_curve *b, double low, double high, int *differ)
+{
+  double worst = 0;
+  for (int i = 0; i < 16; ++i) {
+    double d = mismatch(s, a, b, low + (high - low) * (i + 0.37) / 16);
+    if (isnan(d)) ++*differ;
+    else worst = fmax(worst, d);
+  }
+  return worst;
+}
+
 static int trace_both(const char *name, scene *sc)
 {
   hbm_solver *s = NULL;
-  hbm_curve up = {0}, down = {0};
-  double retrace = 0, t = now_ms(), low = fmin(sc->omega_from, sc->omega_to), high = fmax(sc->omega_from, sc->omega_to);
+  hbm_curve up = {0}, down = {0}, half = {0};
+  double retrace = 0, halved = 0, t = now_ms(), low = fmin(sc->omega_from, sc->omega_to), high = fmax(sc->omega_from, sc->omega_to);
   hc_status st = hbm_solver_new(sc, &s), back = HC_OK;
   if (st == HC_OK) st = hbm_trace(s, low, high, NULL, &up);
   t = now_ms() - t;
   if (st == HC_OK) back = hbm_trace(s, high, low, NULL, &down);
-  int differ = 0;
-  for (int i = 0; i < 16 && st == HC_OK && back == HC_OK; ++i) {
-    double d = mismatch(s, &up, &down, low + (high - low) * (i + 0.37) / 16);
-    if (isnan(d)) ++differ;
-    else retrace = fmax(retrace, d);
+  hc_status fine = HC_OK;
+  int differ = 0, differ_half = 0;
+  if (st == HC_OK) {
+    hbm_scale_steps(s, 0.5);
+    fine = hbm_trace(s, low, high, NULL, &half);
+    hbm_scale_steps(s, 1);
   }
+  if (st == HC_OK && back == HC_OK) retrace = compare_curves(s, &up, &down, low, high, &differ);
+  if (st == HC_OK && fine == HC_OK) halved = compare_curves(s, &up, &half, low, high, &differ_half);
   double worst = 0;
   for (int k = 0; k < up.n; ++k) worst = fmax(worst, up.points[k].residual);
-  printf("%-22s %3d %d %10g %5d %6ld %5d %3d %6ld %8.2f %8.1e  %8.1e", name, sc->hbm.harmonics, sc->hbm.keep_mean, up.n ? up.points[up.n - 1].omega : 0, up.n,
-         up.iterations, up.rejected, up.turning_points, up.evaluations, t, worst, retrace);
+  printf("%-22s %3d %d %10g %5d %6ld %5d %3d %6ld %8.2f %8.1e  %8.1e  %8.1e", name, sc->hbm.harmonics, sc->hbm.keep_mean, up.n ? up.points[up.n - 1].omega : 0, up.n,
+         up.iterations, up.rejected, up.turning_points, up.evaluations, t, worst, retrace, halved);
   if (differ) printf("  %d of 16 frequencies with other solutions from the other end", differ);
+  if (differ_half) printf("  %d with half the step", differ_half);
+  if (fine != HC_OK) printf("  HALF STEP at %g: %s", half.n ? half.points[half.n - 1].omega : 0, hc_status_text(fine));
   if (st != HC_OK) printf("  UP: %s", hc_status_text(st));
   if (back != HC_OK) printf("  DOWN at %g: %s", down.n ? down.points[down.n - 1].omega : 0, hc_status_text(back));
   printf("\n");
   hbm_curve_free(&up);
   hbm_curve_free(&down);
+  hbm_curve_free(&half);
   hbm_solver_free(s);
-  return st != HC_OK || back != HC_OK;
+  return st != HC_OK || back != HC_OK || fine != HC_OK || differ_half;
 }
 
 static int run_case(const char *path, int *bad)
@@ -93,7 +111,7 @@ static int run_case(const char *path, int *bad)
 int main(int argc, char **argv)
 {
   int bad = 0, wrong = 0;
-  printf("%-22s %3s %s %10s %5s %6s %5s %3s %6s %8s %8s  %8s\n", "case", "H", "0", "end", "pts", "iter", "rej", "trn", "evals", "ms", "residual", "retrace");
+  printf("%-22s %3s %s %10s %5s %6s %5s %3s %6s %8s %8s  %8s  %8s\n", "case", "H", "0", "end", "pts", "iter", "rej", "trn", "evals", "ms", "residual", "other end", "half step");
   for (int i = 1; i < argc; ++i) wrong |= run_case(argv[i], &bad);
   printf("%d curves did not reach their end\n", bad);
   return wrong;
