@@ -20,7 +20,7 @@ static hc_status redo_last(path *p)
   memcpy(p->dX, dX, bytes);
   p->omega = tip->omega;
   p->d_omega = tip->d_omega;
-  bool end = c->n == 1 || tip->omega == p->to; /* ends of the sweep stay where they are */
+  bool end = c->n == 1 || tip->omega == p->to || tip->omega == p->from; /* ends of the sweep stay where they are */
   hc_status st = end ? hbm_solve_fixed(p->s, p->omega, path_size(p), p->X, &p->point) : path_correct_in_plane(p);
   if (end && st == HC_OK) {
     st = hbm_tangent_fixed(p->s, p->X, p->dX);
@@ -29,12 +29,14 @@ static hc_status redo_last(path *p)
   }
   c->iterations += p->point.iterations;
   if (st != HC_OK) return st;
-  double along = path_metric(p, path_size(p), p->dX, p->d_omega, dX, tip->d_omega);
-  if (along < 0) {
+  /* The sense of the curve is the same for coarser and finer equations (a further harmonic adds a block of positive determinant): it tells
+   * forward, where the old tangent may have followed a fold that only the coarse equations have. */
+  if (p->sign != p->sense) {
     for (int i = 0; i < c->n_coef; ++i) p->dX[i] = -p->dX[i];
     p->d_omega = -p->d_omega;
   }
-  p->sense = along < 0 ? -p->sign : p->sign;
+  if (c->n > 1) tip->branch = tip[-1].branch + ((tip[-1].d_omega > 0) != (p->d_omega > 0));
+  c->turning_points = tip->branch;
   memcpy(X, p->X, bytes);
   memcpy(dX, p->dX, bytes);
   tip->omega = p->omega;
@@ -44,6 +46,18 @@ static hc_status redo_last(path *p)
   tip->iterations += p->point.iterations;
   p->fresh = true;
   return HC_OK;
+}
+
+/* The same, going back to earlier points as long as the finer equations have no solution near the last: a fold of the coarse ones alone. */
+static hc_status redo_back(path *p)
+{
+  hc_status st = redo_last(p);
+  while (st != HC_OK && st != HC_NO_MEMORY && p->curve->n > 1) {
+    --p->curve->n;
+    p->h *= 0.5;
+    st = redo_last(p);
+  }
+  return st;
 }
 
 /* Size of what X has in the harmonics that the next lower rung of the ladder would drop, relative to X. */
@@ -74,18 +88,20 @@ hc_status path_adapt(path *p)
       c->inaccurate |= tip->error > asked->accuracy;
       break;
     }
-    if ((st = hbm_solver_resize(s, n_harm, n_time)) == HC_OK) st = redo_last(p);
+    if ((st = hbm_solver_resize(s, n_harm, n_time)) == HC_OK) st = redo_back(p);
     p->easy = 0;
   }
   bool easy = st == HC_OK && s->finer_harmonics && s->sys.n_harm > 1 && tail(p, hbm_curve_X(c, c->n - 1)) < 0.05 * asked->accuracy;
   p->easy = easy ? p->easy + 1 : 0;
   if (p->easy < EASY_POINTS) return st;
+  int before = s->sys.n_harm;
   p->easy = 0;
-  if ((st = hbm_solver_resize(s, refine_next_harmonics(s->sys.n_harm, false), s->n_time)) == HC_OK) st = redo_last(p);
+  if ((st = hbm_solver_resize(s, refine_next_harmonics(before, false), s->n_time)) == HC_OK) st = redo_back(p);
+  if (st == HC_OK) st = path_adapt(p); /* measured, and taken back if it was too much */
+  if (s->sys.n_harm >= before) p->easy = -4 * EASY_POINTS;
   return st;
 }
 
-/* The curve's rows cut to the harmonics it needed, and the solver set to them: what follows (--at, peaks) can have no fewer. */
 hc_status path_compact(hbm_solver *s, hbm_curve *c)
 {
   int most = 1, before = c->n_coef;

@@ -320,6 +320,7 @@ static hc_status follow(path *p, const hc_monitor *monitor)
       st = accept(p);
       if (st == HC_OK) st = path_adapt(p);
       if (st == HC_OK) st = finish_at_limit(p, &done);
+      if (st == HC_OK && done) st = path_adapt(p); /* the limit is a point of its own */
       continue;
     }
     ++c->rejected;

@@ -174,6 +174,18 @@ static contact_regime regime_of(const contact_piece *p, int n)
   return slips ? CONTACT_SLIPS : CONTACT_STUCK;
 }
 
+/* Changes of state over the period: every piece ends in another or in a separation, which ends in a piece. */
+static int count_changes(const contact_piece *p, int n)
+{
+  int changes = 0;
+  for (int i = 0; i < n; ++i) {
+    const contact_piece *next = &p[(i + 1) % n];
+    bool meets = next->from == p[i].to || next->from == p[i].to - 2 * PI;
+    changes += meets ? next->state != p[i].state : 2;
+  }
+  return changes;
+}
+
 /* Slider at th = 0: held by the piece that covers it, riding on the motion otherwise. */
 static double slider_at_zero(const exact *e, int j)
 {
@@ -200,7 +212,7 @@ static void fill_report(const exact *e, contact_report *report)
   for (int j = 0; j < e->n_contacts; ++j) {
     contact_regime regime = regime_of(e->pieces + (size_t)j * e->cap, e->n_pieces[j]);
     if (regime > report->regime) report->regime = regime;
-    report->transitions += e->n_pieces[j];
+    report->transitions += count_changes(e->pieces + (size_t)j * e->cap, e->n_pieces[j]);
     report->w[j] = slider_at_zero(e, j);
   }
 }

@@ -90,11 +90,14 @@ static hc_status make_pattern(hbm_solver *s)
   return exact_new(s->sys.n_harm, 1, s->sys.sc.n_contacts, contacts, &s->pattern);
 }
 
-/* The finer equations that auto is measured by: twice the harmonics, twice the samples. */
+enum { AUTO_FIRST_HARMONICS = 3, AUTO_FIRST_SAMPLES = 64, AUTO_LEAST_LOOK = 14 };
+
+/* The finer equations that auto is measured by: twice the harmonics, but enough to see a short contact from H = 1; twice the samples. */
 static hc_status make_refinements(hbm_solver *s, int n_time)
 {
   const scene *sc = &s->sys.sc;
   int n_harm = s->sys.n_harm, twice = n_harm > SCENE_MAX_HARMONICS / 2 ? SCENE_MAX_HARMONICS : 2 * n_harm;
+  if (twice < AUTO_LEAST_LOOK) twice = AUTO_LEAST_LOOK;
   hc_status st = HC_OK;
   if (sc->hbm.harmonics == SCENE_AUTO) st = refinement_new(sc, twice, n_time < 4 * twice ? 4 * twice : n_time, &s->finer_harmonics);
   if (st == HC_OK && sc->hbm.samples == SCENE_AUTO && s->sys.sampled) st = refinement_new(sc, n_harm, 2 * n_time, &s->finer_samples);
@@ -132,8 +135,6 @@ hc_status hbm_solver_resize(hbm_solver *s, int n_harm, int n_time)
   s->sys.evaluations = evaluations;
   return st;
 }
-
-enum { AUTO_FIRST_HARMONICS = 3, AUTO_FIRST_SAMPLES = 64 };
 
 hc_status hbm_solver_new(const scene *sc, hbm_solver **out)
 {

@@ -79,6 +79,7 @@ static hc_status locate_root(finder *f, int k, hbm_special_kind kind, double fa,
     omega_before = f->x.point.omega;
     if (fm == 0 || b - a < 1e-12 || (still && kind == HBM_PERIOD_DOUBLING && it > 2)) break;
   }
+  if (kind == HBM_TURNING_POINT) f->x.point.branch = f->c->points[k].branch; /* the turn belongs to the branch it ends */
   return report_here(f, m, kind, w.regime, w.regime);
 }
 

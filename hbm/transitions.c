@@ -139,6 +139,8 @@ static void hold(walk *w, int s, const motion_node *at)
 static hc_status walk_between(walk *w, motion_node a, const motion_node *b)
 {
   hc_status st = HC_OK;
+  double here = -1; /* the last transition's angle, and how many there have been */
+  int times = 0;
   while (st == HC_OK && a.th < b->th) {
     motion_node root, other;
     int s = contact_slip_sign(w->now.state);
@@ -154,9 +156,16 @@ static hc_status walk_between(walk *w, motion_node a, const motion_node *b)
       found |= back;
     }
     if (!found) return HC_OK;
+    times = root.th > here ? 0 : times + 1;
+    here = root.th;
+    if (times > 3) { /* T, N and their rates are all 0 to rounding: what follows shows a little later, where they still are */
+      a = motion_at(&w->grid->m, fmin(here + 1e-8, b->th));
+      if (!contact_slip_sign(w->now.state)) w->now.held = 0.5 * (guard_value(&w->stick[1], &a) - guard_value(&w->stick[0], &a));
+      continue;
+    }
     a = root;
     if (++w->now.transitions > 64 * (w->grid->m.n_harm + 1)) return HC_CHATTER;
-    if (!contact_slip_sign(w->now.state) && guard_value(&w->slip[index_of(s)], &root) <= 0) {
+    if (!contact_slip_sign(w->now.state) && guard_value(&w->slip[index_of(s)], &root) <= 0 && times == 0) {
       /* |T| over mu N and coming back: no slip but rounding, as where T and N vanish together. The slider gives way by as much. */
       w->now.held = -s * guard_value(&w->stick[index_of(s)], &root);
       continue;

@@ -104,7 +104,7 @@ static void the_sign_of_signed_permutations(void **state)
   assert_true(seen_plus > 100 && seen_minus > 100);
 }
 
-/* Exchanging two rows of a random matrix, or the sign of one, turns the determinant over; 1e-10 keeps clear of singular ones. */
+/* Exchanging two rows of a random matrix, or the sign of one, turns the determinant over; of random matrices none is near singular. */
 static void the_sign_turns_over_with_a_row(void **state)
 {
   (void)state;

@@ -21,6 +21,7 @@
 
 #include "cases/sundials_compat.h"
 #include "hbm/aft.h"
+#include "hbm/exact.h"
 #include "hbm/hbm.h"
 
 static long allocations;
@@ -88,12 +89,38 @@ static void force_allocates_nothing(void **state)
  * A solve that fails calls KINSol twice, once a strategy. */
 enum { MESSAGES = SUNDIALS_VERSION_MAJOR >= 7 ? 2 : 0 };
 
-/* Solving, measuring, and failing to solve: from 1e30 away, which ends in both strategies. */
-static void solve_allocates_nothing(void **state)
+/* Event-located forces, with and without Jacobian, one coordinate and two, motions that touch, slip, or do neither. */
+static void exact_force_allocates_nothing(void **state)
 {
   (void)state;
+  enum { H = 20, N_COEF = 2 * H + 1 };
+  static double X[2 * N_COEF], F[2 * N_COEF], jac[4 * N_COEF * N_COEF];
+  contact_report report;
+  uint64_t seed = 12;
+  for (int n_dof = 1; n_dof <= 2; ++n_dof) {
+    moving_contact c[2] = {{{100, 1000, 0.3, -5}, {0.7, 0.1}, {0.7, 0.2}}, {{100, 1000, 0.3, 1}, {0.7, 0}, {0, 0.7}}};
+    exact *e;
+    int bad = 0;
+    assert_int_equal(exact_new(H, n_dof, 2, c, &e), HC_OK);
+    long before = allocations;
+    for (int k = 0; k < 40; ++k) {
+      random_motion(&seed, H, k % 3 ? 10 : 0.1, 2, X);
+      random_motion(&seed, H, k % 3 ? 10 : 0.1, 2, X + N_COEF);
+      bad += exact_eval(e, X, F, k % 2 ? jac : NULL, k % 4 ? &report : NULL) != HC_OK;
+    }
+    long after = allocations;
+    exact_free(e);
+    assert_int_equal(bad, 0);
+    assert_int_equal(after - before, 0);
+  }
+}
+
+/* Solving, measuring, and failing to solve: from 1e30 away, which ends in both strategies. */
+static void solving_with(int force)
+{
   enum { H = 10, N_COEF = 2 * H + 1 };
   scene sc = scene_named("c2", H, true, 1024);
+  sc.hbm.force = force;
   hbm_solver *s;
   hbm_point point;
   hbm_measures m;
@@ -120,8 +147,16 @@ static void solve_allocates_nothing(void **state)
   assert_true(wild <= MESSAGES);
 }
 
+static void solve_allocates_nothing(void **state)
+{
+  (void)state;
+  solving_with(HBM_FORCE_SAMPLED);
+  solving_with(HBM_FORCE_EXACT);
+}
+
 static const struct CMUnitTest tests[] = {
-  cmocka_unit_test(the_counter_sees_libraries), cmocka_unit_test(force_allocates_nothing), cmocka_unit_test(solve_allocates_nothing),
+  cmocka_unit_test(the_counter_sees_libraries), cmocka_unit_test(force_allocates_nothing), cmocka_unit_test(exact_force_allocates_nothing),
+  cmocka_unit_test(solve_allocates_nothing),
 };
 
 #else

@@ -1,1 +1,203 @@
-int main(void){return 0;}
+/* test_special.c - grazing onsets, folds and period doublings of the paper's case 2: against a closed form, against what a fold is, and against the
+ * values of the true orbit (PHYSICS 3.4: time integration and AUTO-07p), to which truncation must tend. */
+#include "hbm/hbm.h"
+#include "tests/hbm/scenes.h"
+
+enum { ROOM = 32 };
+
+typedef struct found {
+  hbm_solver *s;
+  hbm_curve c;
+  hbm_special at[ROOM];
+  int n;
+} found;
+
+static found find(const char *name, int n_harm)
+{
+  found f = {0};
+  scene sc = scene_named(name, n_harm, true, 1024);
+  sc.hbm.force = HBM_FORCE_EXACT;
+  assert_int_equal(hbm_solver_new(&sc, &f.s), HC_OK);
+  assert_int_equal(hbm_trace(f.s, 3, 20, NULL, &f.c), HC_OK);
+  assert_int_equal(hbm_specials(f.s, &f.c, ROOM, f.at, &f.n), HC_OK);
+  assert_true(f.n <= ROOM);
+  return f;
+}
+
+static void drop(found *f)
+{
+  hbm_curve_free(&f->c);
+  hbm_solver_free(f->s);
+}
+
+/* omega of the i-th special of a kind; the order is the curve's. */
+static double special(const found *f, hbm_special_kind kind, int i)
+{
+  for (int k = 0; k < f->n; ++k)
+    if (f->at[k].kind == kind && i-- == 0) return f->at[k].omega;
+  return NAN;
+}
+
+/* Before contact the response is linear whatever H is, |x| = F0/|Z|, and touches when |x| sin(alpha) = |gap|: a quadratic in w^2,
+ * M^2 w^4 + (C^2 - 2 K M) w^2 + K^2 - (F0 sin/gap)^2 = 0. The pattern is bisected to 1e-11 of a segment, shorter than 10 in omega. The orbit in Newton's
+ * tolerance 1e-10 of |x| would move it by 1e-10 |x|/(d|x|/d omega), |x| = 7.07 and the slopes 1.3 and 3.7: below 6e-10. 1e-8 is what hbm.h promises. */
+static void contact_sets_in_where_the_linear_response_grazes(void **state)
+{
+  (void)state;
+  double b = 0.4 * 0.4 - 2 * 40, q = 100 * sqrt(0.5) / 5, c = 40 * 40 - q * q;
+  double low = sqrt(0.5 * (-b - sqrt(b * b - 4 * c))), high = sqrt(0.5 * (-b + sqrt(b * b - 4 * c)));
+  CHECK_NEAR(low, 5.0995831509, 1e-10, "closed form against PHYSICS.md");
+  CHECK_NEAR(high, 7.3371828168, 1e-10, "closed form against PHYSICS.md");
+  static const int harmonics[] = {1, 5, 20};
+  static const char *names[] = {"c2", "c2kn1e4"};
+  for (int q2 = 0; q2 < 6; ++q2) {
+    found f = find(names[q2 % 2], harmonics[q2 / 2]);
+    CHECK_NEAR(special(&f, HBM_CONTACT_CHANGE, 0), low, 1e-8, "%s H=%d", names[q2 % 2], harmonics[q2 / 2]);
+    CHECK_NEAR(special(&f, HBM_CONTACT_CHANGE, 1), high, 1e-8, "%s H=%d", names[q2 % 2], harmonics[q2 / 2]);
+    assert_true(isnan(special(&f, HBM_CONTACT_CHANGE, 2)));
+    assert_int_equal(f.at[0].before, CONTACT_LINEAR);
+    assert_int_equal(f.at[0].after, CONTACT_SEPARATES);
+    assert_int_equal(f.at[f.n - 1].after, CONTACT_LINEAR);
+    CHECK_NEAR(f.at[0].amplitude, 5 / sqrt(0.5), 1e-7, "amplitude at grazing"); /* slope 1.3 times 1e-8 */
+    drop(&f);
+  }
+}
+
+static int solutions_at(found *f, double omega, hbm_curve *at)
+{
+  *at = (hbm_curve){0};
+  assert_int_equal(hbm_curve_at(f->s, &f->c, omega, at), HC_OK);
+  return at->n;
+}
+
+static hbm_stability stability_of_solution(found *f, const hbm_curve *at, int i)
+{
+  hbm_stability st;
+  assert_int_equal(hbm_stability_at(f->s, at->points[i].omega, at->X + (size_t)i * at->n_coef, &st), HC_OK);
+  return st;
+}
+
+/* A fold has two more solutions on one side than on the other, at any distance. hbm.h promises 1e-9 of omega, so 1e-8 away is beyond doubt.
+ * Near it the two multipliers next to +1 are 1 -+ a sqrt(d): from d = 1e-3 to 1e-5 they come 10 times nearer to each other, to the d/sqrt(d) = 3 % of the
+ * next order. Their mean misses 1 because the multiplier belongs to the orbit of the untruncated equations, by O(H^-3) as the transitions are:
+ * the fold of H is 4e-5 from that of 2H (9.20954, 9.209579, 9.209580 at H = 10, 20, 40), and a sqrt(4e-5) is what that costs at most. */
+static void a_fold_is_where_two_solutions_and_multiplier_one_meet(void **state)
+{
+  (void)state;
+  found f = find("c2", 20);
+  double fold = special(&f, HBM_TURNING_POINT, 0), split[2], turn = special(&f, HBM_TURNING_POINT, 1);
+  CHECK_NEAR(fold, 9.20958, 1e-5, "fold at H = 20");
+  CHECK_NEAR(turn, 7.3369, 1e-5, "turn at H = 20");
+  assert_true(isnan(special(&f, HBM_TURNING_POINT, 2)));
+  hbm_curve at;
+  static const struct { double d; int below, above; } side[] = {{1e-8, 3, 1}, {1e-6, 3, 1}, {1e-3, 3, 1}};
+  for (int i = 0; i < 3; ++i) {
+    assert_int_equal(solutions_at(&f, fold - side[i].d, &at), side[i].below);
+    hbm_curve_free(&at);
+    assert_int_equal(solutions_at(&f, fold + side[i].d, &at), side[i].above);
+    hbm_curve_free(&at);
+  }
+  for (int i = 0; i < 2; ++i) {
+    assert_int_equal(solutions_at(&f, fold - (i ? 1e-5 : 1e-3), &at), 3);
+    hbm_stability upper = stability_of_solution(&f, &at, 0), middle = stability_of_solution(&f, &at, 1);
+    split[i] = middle.re - upper.re;
+    CHECK_NEAR(0.5 * (middle.re + upper.re), 1, split[0] * sqrt(4e-5 / 1e-3) + 0.1 * split[i], "mean multiplier at %g from the fold", i ? 1e-5 : 1e-3);
+    assert_true(upper.im == 0 && middle.im == 0 && upper.fold > middle.fold);
+    hbm_curve_free(&at);
+  }
+  CHECK_NEAR(split[0] / split[1], 10, 0.5, "square root law");
+  CHECK_LE(split[1], 0.1, "multipliers meet");
+  drop(&f);
+}
+
+/* The orbit's error falls like H^-4, so the doubling's does, on the whole: over the two doublings of H from 10 to 40, by 16^2 / 10 at least where the contact
+ * lasts long (5.57), where asymptotics hold from H = 10 on. Just after grazing (5.106) contact lasts a 50th of a period, and 40 harmonics hardly resolve
+ * it: there only 2e-5 at H = 40, and falling by 10 to H = 80. The references are rounded to 1e-6: 5e-7. */
+static void doublings_tend_to_those_of_the_true_orbit(void **state)
+{
+  (void)state;
+  static const int harmonics[] = {10, 20, 40, 80};
+  double low[4], high[4];
+  for (int q = 0; q < 4; ++q) {
+    found f = find("c2", harmonics[q]);
+    low[q] = fabs(special(&f, HBM_PERIOD_DOUBLING, 0) - 5.106167);
+    high[q] = fabs(special(&f, HBM_PERIOD_DOUBLING, 1) - 5.569782);
+    assert_true(isnan(special(&f, HBM_PERIOD_DOUBLING, 2)));
+    for (int i = 0; i < 2; ++i) { /* the multiplier itself is -1 there: flip = (1 + l)(1 + l') moves by 1e2 a unit of omega, located to 1e-9 */
+      hbm_curve at;
+      solutions_at(&f, special(&f, HBM_PERIOD_DOUBLING, i), &at);
+      CHECK_NEAR(stability_of_solution(&f, &at, 0).re, -1, 1e-6, "H=%d", harmonics[q]);
+      hbm_curve_free(&at);
+    }
+    drop(&f);
+  }
+  CHECK_LE(low[2], 2e-5, "5.106167 at H = 40");
+  CHECK_LE(high[2], 2e-5, "5.569782 at H = 40");
+  CHECK_LE(low[3], low[2] / 10 + 5e-7, "5.106167 from H = 40 to 80");
+  CHECK_LE(high[2], high[0] * 10 / 256 + 5e-7, "5.569782 from H = 10 to 40");
+  CHECK_LE(high[1], high[0] / 4 + 5e-7, "5.569782 from H = 10 to 20");
+  CHECK_LE(high[3], high[1] * 10 / 256 + 5e-7, "5.569782 from H = 20 to 80");
+}
+
+/* kn = 1e4: contact ten times stiffer and three times shorter, so H = 80 here is worth about H = 25 there: 1e-4, and eight times nearer than H = 40. */
+static void the_doubling_of_a_stiff_contact(void **state)
+{
+  (void)state;
+  double miss[2];
+  for (int q = 0; q < 2; ++q) {
+    found f = find("c2kn1e4", q ? 80 : 40);
+    miss[q] = fabs(special(&f, HBM_PERIOD_DOUBLING, 1) - 6.036792);
+    assert_true(isnan(special(&f, HBM_PERIOD_DOUBLING, 2)));
+    drop(&f);
+  }
+  CHECK_LE(miss[1], 1e-4, "H = 80");
+  CHECK_LE(miss[1], miss[0] / 8, "H = 40 to 80");
+}
+
+/* Between the doublings unstable, between fold and turn unstable, else stable: at the middles and next to the limits, outside what truncation moves. */
+static void every_stretch_is_as_stable_as_it_should_be(void **state)
+{
+  (void)state;
+  static const struct { double omega; int n; bool stable[3]; } at[] = {
+      {3.5, 1, {true}}, {5.05, 1, {true}}, {5.105, 1, {true}}, {5.1075, 1, {false}}, {5.2, 1, {false}}, {5.4, 1, {false}}, {5.568, 1, {false}}, {5.572, 1, {true}},
+      {6, 1, {true}}, {7, 1, {true}}, {7.33, 1, {true}}, {7.338, 3, {true, false, true}}, {8, 3, {true, false, true}}, {9.2, 3, {true, false, true}},
+      {9.21, 1, {true}}, {12, 1, {true}}, {19, 1, {true}}};
+  found f = find("c2", 20);
+  for (size_t q = 0; q < sizeof at / sizeof *at; ++q) {
+    hbm_curve here;
+    assert_int_equal(solutions_at(&f, at[q].omega, &here), at[q].n);
+    for (int i = 0; i < here.n; ++i) {
+      double m = stability_of_solution(&f, &here, i).multiplier;
+      if (!(at[q].stable[i] ? m < 1 : m > 1)) fail_msg("omega %g, solution %d: multiplier %.12g", at[q].omega, i, m);
+    }
+    hbm_curve_free(&here);
+  }
+  drop(&f);
+}
+
+/* More specials than room: counted all the same, the first ones kept. */
+static void too_little_room_keeps_the_first(void **state)
+{
+  (void)state;
+  found f = find("c2", 10);
+  hbm_special few[2];
+  int n = -1;
+  assert_int_equal(hbm_specials(f.s, &f.c, 2, few, &n), HC_OK);
+  assert_int_equal(n, f.n);
+  for (int i = 0; i < 2; ++i) {
+    assert_int_equal(few[i].kind, f.at[i].kind);
+    assert_true(few[i].omega == f.at[i].omega);
+  }
+  hbm_curve empty = {0};
+  assert_int_equal(hbm_specials(f.s, &empty, 2, few, &n), HC_OK);
+  assert_int_equal(n, 0);
+  drop(&f);
+}
+
+static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(contact_sets_in_where_the_linear_response_grazes), cmocka_unit_test(a_fold_is_where_two_solutions_and_multiplier_one_meet),
+    cmocka_unit_test(doublings_tend_to_those_of_the_true_orbit),        cmocka_unit_test(the_doubling_of_a_stiff_contact),
+    cmocka_unit_test(every_stretch_is_as_stable_as_it_should_be),       cmocka_unit_test(too_little_room_keeps_the_first),
+};
+
+CHECK_MAIN("hbm.special", tests, 300)

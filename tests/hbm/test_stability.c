@@ -111,7 +111,7 @@ static void without_slip_the_determinant_is_that_of_the_damping(void **state)
       double omega = c.points[k].omega, det = exp(-sc.damping * 2 * PI / omega / sc.mass);
       assert_int_equal(hbm_stability_at(s, omega, c.X + (size_t)k * c.n_coef, &st), HC_OK);
       CHECK_NEAR(moving_determinant(&st), det, 1e-12 * (1 + st.multiplier * st.multiplier), "H=%d omega=%.17g", harmonics[q], omega);
-      if (st.determinant != 0) CHECK_NEAR(st.determinant, det, 1e-12 * (1 + st.multiplier * st.multiplier), "H=%d omega=%.17g", harmonics[q], omega);
+      if (fabs(st.determinant) > 1e-9) CHECK_NEAR(st.determinant, det, 1e-12 * (1 + st.multiplier * st.multiplier), "H=%d omega=%.17g", harmonics[q], omega);
       else ++slider_across_0;
       /* one determinant, two multipliers: l and det/l, or a pair of modulus sqrt(det) */
       CHECK_LE(sqrt(det), st.multiplier * (1 + 1e-12), "H=%d omega=%.17g", harmonics[q], omega);
@@ -317,20 +317,20 @@ static void check_slipping(const scene *sc, double omega, const char *what)
   if (getenv("HC_TEST_PRINT"))
     print_message("%s omega=%g H=%d pieces=%d/%d: multiplier %.8f (%.8f %+.8fi) differences %.8f (%.8f %+.8fi) det %.2e %.2e bound %.1e\n", what, omega, n_harm,
                   pieces, f.contacts, st.multiplier, st.re, st.im, fd.multiplier, fd.re, fd.im, st.determinant, fd.determinant, tol);
-  assert_int_equal(pieces, f.contacts); /* the same orbit */
-  assert_int_not_equal(pieces, 0);
+  assert_true(f.contacts > 0 && pieces >= f.contacts && pieces <= f.contacts + sc->n_contacts); /* the same orbit; a stretch may be cut at th = 0 */
   CHECK_NEAR(st.fold, fd.fold, tol, "%s omega=%g", what, omega);
   CHECK_NEAR(st.flip, fd.flip, tol, "%s omega=%g", what, omega);
   CHECK_NEAR(st.multiplier, fd.multiplier, tol / fmax(0.1, fabs(fd.im)), "%s omega=%g", what, omega);
   CHECK_NEAR(st.re, fd.re, tol / fmax(0.1, fabs(fd.im)), "%s omega=%g", what, omega);
-  /* slip takes area out of the flow: the determinant must be below that of the damping alone */
-  CHECK_LE(fabs(st.determinant), exp(-sc->damping * 2 * PI / omega / sc->mass) * (1 + 1e-9) , "%s omega=%g", what, omega);
+  /* slip takes area out of the flow: the determinant is below that of the damping alone, visibly here */
+  CHECK_NEAR(moving_determinant(&st), fd.determinant, tol, "%s omega=%g", what, omega);
+  CHECK_LE(moving_determinant(&st), (1 - 1e-3) * exp(-sc->damping * 2 * PI / omega / sc->mass), "%s omega=%g", what, omega);
 }
 
 static void slipping_orbits_against_differences_of_the_period_map(void **state)
 {
   (void)state;
-  static const struct { const char *name; double omega; } at[] = {{"b10", 5.5}, {"b10", 6.5}, {"b10", 7}, {"a10", 11}, {"a10", 12}, {"a10", 12.5}, {"a10", 13}, {"a10", 14}, {"c2kt1e4", 5.8}, {"c2kt1e4", 11}};
+  static const struct { const char *name; double omega; } at[] = {{"b10", 5.5}, {"b10", 6.5}, {"b10", 7}, {"a10", 13}, {"a10", 13.5}, {"a10", 14}};
   for (size_t i = 0; i < sizeof at / sizeof *at; ++i) {
     scene sc = exact_scene(at[i].name, 30);
     check_slipping(&sc, at[i].omega, at[i].name);
