@@ -1,4 +1,5 @@
-/* adapt.c - hbm.harmonics: auto and hbm.samples: auto: the equations change along the curve, as far as the last point needs. */
+/* adapt.c - hbm.harmonics: auto and hbm.samples: auto. Harmonics change along the curve, as far as the last point needs. Samples do not: sampled
+ * equations of another N turn elsewhere, so a curve that needs more starts again with twice as many. */
 #include <math.h>
 #include <string.h>
 
@@ -81,14 +82,14 @@ hc_status path_adapt(path *p)
     double by_harmonics = s->finer_harmonics ? refinement_error(s->finer_harmonics, tip->omega, s->sys.n_harm, X) : 0;
     double by_samples = s->finer_samples ? refinement_error(s->finer_samples, tip->omega, s->sys.n_harm, X) : 0;
     tip->error = fmax(by_harmonics, by_samples);
-    int n_harm = s->sys.n_harm, n_time = s->n_time;
-    if (by_harmonics > asked->accuracy) n_harm = refine_next_harmonics(n_harm, true);
-    if ((by_samples > asked->accuracy || n_time < 4 * n_harm) && n_time < REFINE_MOST_SAMPLES) n_time *= 2;
-    if (n_harm == s->sys.n_harm && n_time == s->n_time) {
+    int n_harm = by_harmonics > asked->accuracy ? refine_next_harmonics(s->sys.n_harm, true) : s->sys.n_harm;
+    bool sparse = s->finer_samples && (by_samples > asked->accuracy || s->n_time < 4 * n_harm);
+    if (sparse && s->n_time < REFINE_MOST_SAMPLES) { p->more_samples = true; return HC_OK; }
+    if (n_harm == s->sys.n_harm) {
       c->inaccurate |= tip->error > asked->accuracy;
       break;
     }
-    if ((st = hbm_solver_resize(s, n_harm, n_time)) == HC_OK) st = redo_back(p);
+    if ((st = hbm_solver_resize(s, n_harm, s->n_time)) == HC_OK) st = redo_back(p);
     p->easy = 0;
   }
   bool easy = st == HC_OK && s->finer_harmonics && s->sys.n_harm > 1 && tail(p, hbm_curve_X(c, c->n - 1)) < 0.05 * asked->accuracy;

@@ -310,7 +310,7 @@ static hc_status follow(path *p, const hc_monitor *monitor)
   hc_status st = first_point(p);
   if (st == HC_OK) st = path_adapt(p);
   bool done = p->from == p->to;
-  while (st == HC_OK && !done) {
+  while (st == HC_OK && !done && !p->more_samples) {
     if (c->n >= MAX_POINTS) return HC_TOO_MANY_POINTS;
     if (!hc_monitor_tick(monitor, progress(p))) return HC_INTERRUPTED;
     bool accepted;
@@ -348,19 +348,37 @@ static hc_status path_new(path *p)
   return HC_OK;
 }
 
+/* One way through the sweep with the equations as they are, but for harmonics: auto. *more_samples: it should be gone again with more of them. */
+static hc_status trace_once(path *p, const hc_monitor *monitor, bool *more_samples)
+{
+  hbm_curve *c = p->curve;
+  c->n = c->turning_points = c->linear = 0;
+  c->inaccurate = c->left_at_start = false;
+  p->h = H_FIRST;
+  p->natural = may_go_natural(p);
+  c->arclength = !p->natural;
+  hc_status st = path_new(p);
+  if (st == HC_OK) st = follow(p, monitor);
+  free(p->X);
+  bool gave_up = st != HC_OK && st != HC_NO_MEMORY && st != HC_INTERRUPTED; /* at a kink that more samples may smooth */
+  *more_samples = p->more_samples || (gave_up && p->s->finer_samples && p->s->n_time < REFINE_MOST_SAMPLES);
+  return st;
+}
+
 static hc_status trace(hbm_solver *s, double from, double to, bool from_afar, const hc_monitor *monitor, hbm_curve *curve)
 {
-  path p = {.s = s, .from_afar = from_afar, .curve = curve, .from = from, .to = to, .direction = to >= from ? 1 : -1, .h = H_FIRST};
-  bool adapts = s->sys.sc.hbm.harmonics == SCENE_AUTO;
+  const path start = {.s = s, .from_afar = from_afar, .curve = curve, .from = from, .to = to, .direction = to >= from ? 1 : -1};
+  bool adapts = s->sys.sc.hbm.harmonics == SCENE_AUTO, more_samples;
   curve->n_coef = adapts ? series_length(REFINE_MOST_HARMONICS) : s->sys.n_coef;
   curve->omega_scale = fmax(fabs(to - from) / 4, 1e-3 * from);
-  p.resolution = fmin(curve->omega_scale, fmax(0.5 * s->sys.sc.damping / s->sys.sc.mass, 1e-6 * from));
-  p.natural = may_go_natural(&p);
-  curve->arclength = !p.natural;
   long before = s->sys.evaluations;
-  hc_status st = path_new(&p);
-  if (st == HC_OK) st = follow(&p, monitor);
-  free(p.X);
+  hc_status st;
+  do {
+    path p = start;
+    p.resolution = fmin(curve->omega_scale, fmax(0.5 * s->sys.sc.damping / s->sys.sc.mass, 1e-6 * from));
+    st = trace_once(&p, monitor, &more_samples);
+    if (more_samples && (st = hbm_solver_resize(s, s->sys.n_harm, 2 * s->n_time)) != HC_OK) break;
+  } while (more_samples);
   if (adapts && st != HC_NO_MEMORY) {
     hc_status cut = path_compact(s, curve);
     if (st == HC_OK) st = cut;

@@ -18,6 +18,7 @@ typedef struct path {
   int sense;                   /* sign of det [dR/dX dR/domega; tangent], kept along the curve */
   bool from_afar;              /* a first point may be looked for from high omega */
   int turned;                  /* the number of points when corners were last tried */
+  bool more_samples;           /* found wanting: start again with twice as many */
   bool natural;                /* how the next step is corrected */
   int flat_steps;              /* accepted in a row on flat curve while in arc-length mode */
   double *X, *dX, omega, d_omega; /* prediction, then trial point and its tangent */
@@ -36,7 +37,8 @@ double path_size(const path *p);
 /* Newton from (X, omega) in the plane across (dX, d_omega); the tangent there into dX, d_omega. */
 hc_status path_correct_in_plane(path *p);
 
-/* As many harmonics and samples as the last point needs, estimated there; HC_OK once hbm.accuracy is met or no finer equations are to be had. */
+/* As many harmonics as the last point needs, estimated there; HC_OK once hbm.accuracy is met or no finer equations are to be had, or with
+ * more_samples set when the curve must start again. */
 hc_status path_adapt(path *p);
 
 /* The curve's rows cut to the harmonics it needed, and the solver set to them: what follows (--at, peaks) can have no fewer. */
