@@ -96,12 +96,12 @@ static const field table[] = {
 
   {"compare", "omega", "", FIELD_REALS, .unit = "rad/time", SCENE(compare.omega), .fallback = "", POSITIVE, .rival = "points",
    .meaning = "the frequencies at which to compare"},
-  {"compare", "points", "", FIELD_INTEGER, .unit = "1", SCENE(compare.points), .fallback = "20", WITHIN(1, 10000), .rival = "omega",
+  {"compare", "points", "", FIELD_INTEGER, .unit = "1", SCENE(compare.points), .fallback = "20", WITHIN(1, SCENE_MAX_LIST), .rival = "omega",
    .meaning = "instead: how many frequencies, spread over the sweep, dense at peaks"},
   {"compare", "harmonics", "", FIELD_INTEGERS, .unit = "1", SCENE(compare.harmonics), .fallback = "[1, 3, 5, 10]", WITHIN(1, SCENE_MAX_HARMONICS),
-   .meaning = "truncation orders to report"},
+   .meaning = "truncation orders to report (read, but this version prints no such table yet)"},
   {"compare", "samples", "", FIELD_INTEGERS, .unit = "1", SCENE(compare.samples), .fallback = "[32, 128, 512, 2048]", WITHIN(3, MOST_SAMPLES),
-   .meaning = "sampling rates to report"},
+   .meaning = "sampling rates to report (read, but this version prints no such table yet)"},
 
   {"gate", "amplitude", "", FIELD_REAL, .unit = "1", SCENE(gate.amplitude), .fallback = "1e-3", POSITIVE, .meaning = "of (max - min)/2 over a period"},
   {"gate", "harmonic_1", "", FIELD_REAL, .unit = "1", SCENE(gate.harmonic_1), .fallback = "1e-3", POSITIVE, .meaning = "of the fundamental, a1 + i b1"},

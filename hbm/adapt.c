@@ -55,6 +55,7 @@ static hc_status redo_back(path *p)
   hc_status st = redo_last(p);
   while (st != HC_OK && st != HC_NO_MEMORY && p->curve->n > 1) {
     --p->curve->n;
+    if (p->left >= p->curve->n) p->left = 0;
     p->h *= 0.5;
     st = redo_last(p);
   }

@@ -320,7 +320,11 @@ static hc_status follow(path *p, const hc_monitor *monitor)
       st = accept(p);
       if (st == HC_OK) st = path_adapt(p);
       if (st == HC_OK) st = finish_at_limit(p, &done);
-      if (st == HC_OK && done) st = path_adapt(p); /* the limit is a point of its own */
+      if (st == HC_OK && done) {
+        st = path_adapt(p); /* the limit is a point of its own */
+        double last = c->points[c->n - 1].omega;
+        done = last == p->to || (c->left_at_start && last == p->from); /* unless it went back from there */
+      }
       continue;
     }
     ++c->rejected;

@@ -73,6 +73,9 @@ hc_status hbm_measure(hbm_solver *s, const double *X, hbm_measures *out);
 /* Floquet multipliers of the solution X at omega, along its own exactly located transitions also where forces are sampled. */
 hc_status hbm_stability_at(hbm_solver *s, double omega, const double *X, hbm_stability *out);
 
+/* What to tell a person: +1 stable, -1 unstable, 0 unknown (a multiplier within 1e-9 of 1 in size, or the truncated equations disagree). */
+int hbm_stability_verdict(const hbm_stability *st);
+
 /* Where the curve changes its nature. */
 typedef enum hbm_special_kind { HBM_TURNING_POINT, HBM_PERIOD_DOUBLING, HBM_CONTACT_CHANGE } hbm_special_kind;
 typedef struct hbm_special {

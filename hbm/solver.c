@@ -282,5 +282,17 @@ hc_status hbm_stability_at(hbm_solver *s, double omega, const double *X, hbm_sta
   const exact *e;
   contact_report report;
   hc_status st = hbm_pattern_at(s, X, &e, &report);
-  return st == HC_OK ? stability_of(s->stability, &s->sys.sc, e, omega, out) : st;
+  if (st == HC_OK) st = stability_of(s->stability, &s->sys.sc, e, omega, out);
+  if (st != HC_OK) return st;
+  s->omega = omega;
+  hbm_pack(s, X, omega, s->z);
+  hc_status factored = newton_factor_at(s->fixed, s->z);
+  out->agrees = factored == HC_OK && (newton_sign(s->fixed) > 0) == (out->fold > 0);
+  return HC_OK;
+}
+
+int hbm_stability_verdict(const hbm_stability *st)
+{
+  if (!(fabs(st->multiplier - 1) > 1e-9) || !st->agrees) return 0; /* NaN too */
+  return st->multiplier < 1 ? 1 : -1;
 }

@@ -112,10 +112,11 @@ static hc_status search_segment(finder *f, int k, const watched *a, const watche
 {
   hc_status st = HC_OK;
   f->first = f->n;
+  hc_status turn = HC_OK, flip = HC_OK;
   if (!same_pattern(a, b)) st = locate_patterns(f, k, *a, b);
-  if (st == HC_OK && (a->d_omega > 0) != (b->d_omega > 0)) st = locate_root(f, k, HBM_TURNING_POINT, a->d_omega, b->d_omega);
-  if (st == HC_OK && (a->flip > 0) != (b->flip > 0)) st = locate_root(f, k, HBM_PERIOD_DOUBLING, a->flip, b->flip);
-  return st;
+  if ((a->d_omega > 0) != (b->d_omega > 0)) turn = locate_root(f, k, HBM_TURNING_POINT, a->d_omega, b->d_omega);
+  if ((a->flip > 0) != (b->flip > 0)) flip = locate_root(f, k, HBM_PERIOD_DOUBLING, a->flip, b->flip);
+  return st != HC_OK ? st : turn != HC_OK ? turn : flip;
 }
 
 hc_status hbm_specials(hbm_solver *s, const hbm_curve *c, int cap, hbm_special *out, int *n)

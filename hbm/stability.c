@@ -105,20 +105,22 @@ static bool remembers(const exact *e, int j)
 /* (x, x') after time t of M x'' + C x' + k x = 0 from (1, 0) and from (0, 1), in e[row][column]. */
 static void free_motion(const scene *sc, double k, double t, double e[2][2])
 {
-  double a = 0.5 * sc->damping / sc->mass, d = a * a - k / sc->mass, decay = exp(-a * t), co, si; /* co = cosh(sqrt(d) t), si = sinh(..)/sqrt(d) */
-  if (d < 0) {
-    double w = sqrt(-d);
-    co = cos(w * t);
-    si = w * t > 1e-8 ? sin(w * t) / w : t;
-  } else {
-    double w = sqrt(d);
-    co = cosh(w * t);
-    si = w * t > 1e-8 ? sinh(w * t) / w : t;
+  double a = 0.5 * sc->damping / sc->mass, d = a * a - k / sc->mass, w = sqrt(fabs(d)), co, si;
+  if (w * t <= 1e-8) { /* critical */
+    co = exp(-a * t);
+    si = t * co;
+  } else if (d < 0) {
+    co = exp(-a * t) * cos(w * t);
+    si = exp(-a * t) * sin(w * t) / w;
+  } else { /* cosh and sinh with the decay inside: neither overflows on its own */
+    double slow = exp((w - a) * t), fast = exp(-(w + a) * t);
+    co = 0.5 * (slow + fast);
+    si = 0.5 * (slow - fast) / w;
   }
-  e[0][0] = decay * (co + a * si);
-  e[0][1] = decay * si;
-  e[1][0] = -decay * si * k / sc->mass;
-  e[1][1] = decay * (co - a * si);
+  e[0][0] = co + a * si;
+  e[0][1] = si;
+  e[1][0] = -si * k / sc->mass;
+  e[1][1] = co - a * si;
 }
 
 /* Sliders that come to rest at this boundary: dheld from dx there. */
@@ -220,6 +222,10 @@ hc_status stability_of(stability *s, const scene *sc, const exact *e, double ome
     advance_stretch(s, sc, piece, (b - a) / omega, m);
   }
   double complex lambda[MAX_STATE];
+  double size = 0;
+  for (int i = 0; i < m; ++i)
+    for (int q = 0; q < m; ++q) size += fabs(s->phi[i][q]);
+  if (!isfinite(size)) return HC_NOT_FINITE;
   hc_status st = eigenvalues(s, n_active, active, lambda);
   if (st == HC_OK) summarise(n_active, lambda, out);
   return st;

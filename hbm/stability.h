@@ -16,6 +16,7 @@ typedef struct hbm_stability {
   double re, im;      /* that multiplier */
   double flip, fold;  /* product of (1 + multiplier), of (1 - multiplier): change sign at a period doubling, at a fold */
   double determinant; /* product of all multipliers */
+  bool agrees;        /* the equations' own fold test, the sign of det dR/dX, says the same as `fold`: with few harmonics it need not */
 } hbm_stability;
 
 typedef struct stability stability;
@@ -24,7 +25,9 @@ hc_status stability_new(stability **out);
 void stability_free(stability *s);
 
 /* For the orbit last evaluated by e, at omega. A slider stuck all period has a multiplier 1 of its own (its residual traction is a family);
- * it is left out. HC_NOT_CONVERGED if the eigenvalues could not be computed. */
+ * it is left out. HC_NOT_CONVERGED if the eigenvalues could not be computed, HC_NOT_FINITE if
+ * they are too large. GSL's error handler is the caller's business: switched off, its errors come back as HC_NOT_CONVERGED.
+ * `agrees` is left false here: it is the solver's to say (hbm_stability_at). */
 hc_status stability_of(stability *s, const scene *sc, const exact *e, double omega, hbm_stability *out);
 
 #endif

@@ -117,7 +117,7 @@ static const char *advice(hc_status st)
   case HC_INTEGRATOR: return "try a larger --set transient.regularisation=... or a tighter --set transient.tolerance=...";
   case HC_NOT_SETTLED: return "try a larger --set transient.max_periods=... or --set transient.start=hbm";
   case HC_NOT_FINITE: return "the motion grew without bound: is the scene damped?";
-  case HC_UNSUPPORTED: return "see hbmcheck describe hbm and hbmcheck describe transient";
+  case HC_UNSUPPORTED: return "transient.law: exact and transient.steady_state: shooting are not there yet";
   default: return "see README.md, 'When it says no'";
   }
 }

@@ -51,6 +51,12 @@ static void put_notes(table *t, const scene *sc, const comparison *c)
              sc->transient.tolerance);
   table_note(t, "gate: amplitude %g, harmonic_1 %g, mean %g, waveform %g of the transient's amplitude", sc->gate.amplitude, sc->gate.harmonic_1,
              sc->gate.mean, sc->gate.waveform);
+  if (c->curve.end != HC_OK && c->curve.n)
+    table_note(t, "the HBM curve STOPPED at omega = %.10g: %s", c->curve.points[c->curve.n - 1].omega, hc_status_text(c->curve.end));
+  int unaccounted = 0;
+  for (int i = 0; i < c->n_rows; ++i)
+    unaccounted += c->rows[i].transient_status == HC_OK && c->rows[i].hbm_status == HC_OK && !c->rows[i].accounted;
+  if (unaccounted) table_note(t, "%d transients match NO HBM solution of this curve within the gate", unaccounted);
   for (int v = 0; v < VERDICT_COUNT; ++v)
     if (c->count[v]) table_note(t, "%d %s: %s", c->count[v], verdict_name((verdict)v), verdict_meaning((verdict)v));
 }
@@ -79,7 +85,7 @@ int cmd_compare(int argc, char **argv)
   hc_monitor monitor = progress_monitor(bar);
   hc_status st = comparison_run(&sc, &monitor, &c);
   progress_end(bar);
-  if (st != HC_OK) code = cli_solver_failed(&o, "compare", st, 0);
+  if (st != HC_OK) code = cli_solver_failed(&o, "the comparison", st, 0);
   else code = comparison_exit_code(&c);
   table *t = table_new("HBM against time integration", sizeof columns / sizeof *columns, columns);
   for (int i = 0; i < c.n_rows; ++i) put_row(t, &c.rows[i]);

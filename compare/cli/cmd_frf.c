@@ -7,7 +7,8 @@
 #include "hbm/hbm.h"
 
 static const char doc[] =
-    "The harmonic-balance response curve of CASE, turning points included, or every solution at the omegas of --at."
+    "The harmonic-balance response curve of CASE, turning points included, or every solution of that curve at the omegas of --at. The curve is the branch that begins "
+    "at the sweep's first omega; what is not connected to it (try the sweep the other way) is not seen."
     "\vColumns: amplitude = (max - min)/2 of x over a period, branch = turning points passed, contact = the strongest thing that happens "
     "in a period.\nexit: 0 the whole sweep  2 case file wrong  3 stopped before the end (where and why on stderr)  64 usage\n"
     "example: hbmcheck frf cases/paper/case2.yaml --at 8,9 --set hbm.harmonics=5";
@@ -36,7 +37,8 @@ static hc_status put_points(hbm_solver *s, const hbm_curve *c, table *t)
     for (int i = 0; i < 6; ++i) table_put_real(t, values[i]);
     hbm_stability floquet;
     bool known = hbm_stability_at(s, c->points[k].omega, c->X + (size_t)k * c->n_coef, &floquet) == HC_OK;
-    table_put_text(t, !known ? "unknown" : floquet.multiplier < 1 ? "yes" : "no");
+    int stable = known ? hbm_stability_verdict(&floquet) : 0;
+    table_put_text(t, stable > 0 ? "yes" : stable < 0 ? "no" : "unknown");
     table_put_real(t, known ? floquet.multiplier : NAN);
     table_put_text(t, contact_regime_name(m.contact.regime));
     table_put_integer(t, c->points[k].iterations);
@@ -108,7 +110,7 @@ int cmd_frf(int argc, char **argv)
     st = hbm_trace(s, from, to, &monitor, &curve);
     if (st != HC_OK) failed_at = curve.n ? curve.points[curve.n - 1].omega : from;
     hc_status at = o.at.n ? solve_at(s, &curve, &o.at, &found, &failed_at) : HC_OK;
-    if (st == HC_OK || o.at.n) st = at; /* --at: a curve that stops beyond the asked omegas is nobody's concern */
+    if (st == HC_OK) st = at; /* a curve that stops early is a failure also with --at: it might have come back */
     hc_status shown = put_points(s, o.at.n ? &found : &curve, t);
     if (st == HC_OK) st = shown;
     note_curve(t, &sc, s, &curve);

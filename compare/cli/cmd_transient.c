@@ -137,7 +137,7 @@ int cmd_transient(int argc, char **argv)
   j.t = table_new("Steady states", sizeof columns / sizeof *columns, columns);
   hc_status st = run(&j, &asked);
   progress_end(bar);
-  if (st != HC_OK) j.code = cli_solver_failed(&o, "transient", st, 0);
+  if (st != HC_OK) j.code = cli_solver_failed(&o, "time integration", st, 0);
   code = j.ti ? cli_write(&o, 1, &j.t) : 0;
   table_free(j.t);
   hbm_curve_free(&j.curve);

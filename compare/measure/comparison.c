@@ -51,7 +51,8 @@ static double waveform_distance(int n_harm, const double *X, const timeint_resul
   for (int i = 0; i < TIMEINT_WAVE; ++i) {
     double th = 6.283185307179586476925 * i / TIMEINT_WAVE;
     double d = fabs(series_at(n_harm, X, cos(th), sin(th)).x - tr->wave[i]);
-    if (!(d <= worst)) worst = d; /* NaN stays */
+    if (!(d >= 0)) return NAN;
+    if (d > worst) worst = d;
   }
   return worst;
 }
@@ -85,13 +86,26 @@ static bool another_is_nearer(const hbm_curve *at, int k, int n_harm, const time
   return false;
 }
 
+/* Is the transient within the gate of any HBM solution at this omega? */
+static bool accounted_for(hbm_solver *hbm, const scene *sc, const hbm_curve *at, const timeint_result *tr)
+{
+  for (int i = 0; i < at->n; ++i) {
+    const double *X = at->X + (size_t)i * at->n_coef;
+    hbm_measures m;
+    if (hbm_measure(hbm, X, &m) != HC_OK) continue;
+    comparison_errors e = errors_between(&m, hbm_n_harmonics(hbm), X, tr);
+    if (within_gate(&e, &sc->gate)) return true;
+  }
+  return false;
+}
+
 static verdict judge(const scene *sc, const hbm_curve *at, int k, int n_harm, const comparison_row *row)
 {
   if (row->transient_status == HC_NOT_SETTLED) return VERDICT_NOT_SETTLED;
   if (row->transient_status != HC_OK || row->hbm_status != HC_OK) return VERDICT_SOLVER_FAILED;
   if (row->transient.period_multiple > 1) return VERDICT_PERIOD_K;
   if (within_gate(&row->errors, &sc->gate)) return VERDICT_MATCH;
-  if (row->stability.multiplier > 1) return VERDICT_UNSTABLE;
+  if (hbm_stability_verdict(&row->stability) < 0) return VERDICT_UNSTABLE;
   return another_is_nearer(at, k, n_harm, &row->transient, row->errors.waveform) ? VERDICT_OTHER_BRANCH : VERDICT_DIFFERS;
 }
 
@@ -155,6 +169,7 @@ static hc_status compare_at(runner *r, double omega)
     if (row.transient_status == HC_INTERRUPTED) { st = HC_INTERRUPTED; break; }
     bool comparable = row.hbm_status == HC_OK && row.transient_status == HC_OK;
     row.errors = comparable ? errors_between(&row.hbm, n_harm, X, &row.transient) : (comparison_errors){NAN, NAN, NAN, NAN};
+    row.accounted = comparable && row.transient.period_multiple == 1 && accounted_for(r->hbm, r->sc, &at, &row.transient);
     row.verdict = judge(r->sc, &at, k, n_harm, &row);
     st = add_row(r->out, &row);
   }
@@ -224,7 +239,9 @@ void comparison_clear(comparison *c)
 
 int comparison_exit_code(const comparison *c)
 {
-  if (c->count[VERDICT_DIFFERS] > 0 || c->count[VERDICT_PERIOD_K] > 0) return 1;
+  for (int i = 0; i < c->n_rows; ++i)
+    if (c->rows[i].transient_status == HC_OK && c->rows[i].hbm_status == HC_OK && !c->rows[i].accounted) return 1;
+  if (c->curve.end != HC_OK) return 3; /* what lies beyond was not compared, and the curve might have come back */
   if (c->count[VERDICT_SOLVER_FAILED] > 0 || c->count[VERDICT_NOT_SETTLED] > 0 || c->count[VERDICT_MATCH] == 0) return 3;
   return 0;
 }

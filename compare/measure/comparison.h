@@ -33,6 +33,7 @@ typedef struct comparison_row {
   verdict verdict;
   hc_status hbm_status, transient_status;
   hbm_stability stability;    /* of the HBM solution; multiplier NaN when unknown */
+  bool accounted;             /* the transient is within the gate of this or another HBM solution */
   hbm_measures hbm;           /* valid when hbm_status is HC_OK */
   timeint_result transient;   /* valid when transient_status is HC_OK or HC_NOT_SETTLED */
   comparison_errors errors;   /* NaN where there is nothing to compare */

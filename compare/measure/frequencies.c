@@ -54,6 +54,7 @@ static hc_status drawn_lengths(hbm_solver *hbm, const hbm_curve *c, double *ampl
 static void spread_points(const hbm_curve *c, const double *length, int n, scene_list *out)
 {
   int k = 0;
+  if (n > SCENE_MAX_LIST) n = SCENE_MAX_LIST;
   for (int i = 0; i < n; ++i) {
     double at = length[c->n - 1] * (i + 0.5) / n;
     while (k + 2 < c->n && length[k + 1] < at) ++k;

@@ -54,6 +54,31 @@ static void verdicts_reach_the_exit_code(void **state)
   expect("transient " CASE2 "--at 6.5 -q --set transient.max_periods=3 2>&1 >/dev/null", 3, "omega = 6.5");
 }
 
+/* Not agreed unless everything asked for was compared and every transient is accounted for by some HBM solution. */
+static void agreement_is_not_claimed_lightly(void **state)
+{
+  (void)state;
+  expect("compare " CASE2 "-q --set hbm.continuation=natural 2>&1", 3, "STOPPED at omega = 9.2");
+  expect("frf " CASE2 "-q --at 8 --set hbm.continuation=natural 2>&1 >/dev/null", 3, "stopped at omega = 9.2");
+  /* two contacts, one harmonic: the only HBM solution at 6.9 is unstable, and the transient is 20 % away from it */
+  expect("compare " CASE2 "-q --at 6.9 --set hbm.harmonics=1 --set sweep.omega=4,20 --set 'contacts=[{tangential_stiffness: 100, normal_stiffness: "
+         "200, friction: 0.3, angle_deg: 30, gap: 0.5}, {tangential_stiffness: 60, normal_stiffness: 300, friction: 0.5, angle_deg: 10, gap: 0.2}]'",
+         1, "match NO HBM solution");
+  expect("compare " CASE2 "-q --set compare.points=10000 2>&1", 2, "compare.points");
+  expect("compare " CASE2 "-q --at 9", 0, "unstable"); /* the transient from the unstable orbit lands on another, found, one */
+  expect("compare " CASE2 "-q --at 5.56", 1, "period_2");
+}
+
+/* An overdamped scene decays as exp((w - a) t), not as 0 times infinity; and without damping nobody can say. */
+static void stability_is_said_or_unknown(void **state)
+{
+  (void)state;
+  expect("frf " CASE2 "-q --format csv --at 3.5 --set contacts=[] --set oscillator.damping=40 --set oscillator.stiffness=0.5", 0, ",yes,");
+  expect("frf " CASE2 "-q --format csv --at 3.5 --set contacts=[] --set oscillator.damping=0 --set sweep.omega=3,6", 0, ",unknown,");
+  expect("frf " CASE2 "-q --format csv --at 0.1 --set contacts=[] --set oscillator.damping=40 --set oscillator.stiffness=0.5 --set sweep.omega=0.1,1", 0,
+         ",0.455826"); /* exp((-20 + sqrt(20^2 - 0.5)) 2 pi/0.1) */
+}
+
 /* What dropping harmonic 0 costs on case 2, PHYSICS of the specification: 18 %, 42 %, 63 % of the fundamental at 6.5, 8, 9 in the limit of
  * many harmonics and samples. Figures given to a whole percent, hence half a percent, and 1e-3 for H = 10. */
 static void dropping_the_mean_costs_what_it_costs(void **state)
@@ -130,7 +155,8 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(columns_are_the_interface), cmocka_unit_test(verdicts_reach_the_exit_code),
-      cmocka_unit_test(dropping_the_mean_costs_what_it_costs), cmocka_unit_test(mistakes_are_named),
+      cmocka_unit_test(dropping_the_mean_costs_what_it_costs), cmocka_unit_test(mistakes_are_named), cmocka_unit_test(agreement_is_not_claimed_lightly),
+      cmocka_unit_test(stability_is_said_or_unknown),
       cmocka_unit_test(help_works_everywhere), cmocka_unit_test(a_failed_run_touches_no_file),
   };
   check_watchdog(300);

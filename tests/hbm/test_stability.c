@@ -287,7 +287,7 @@ static hbm_stability by_differences(const flow *at, double delta)
   }
   double trace = phi[0][0] + phi[1][1], det = phi[0][0] * phi[1][1] - phi[0][1] * phi[1][0];
   double complex root = csqrt(0.25 * trace * trace - det), l = 0.5 * trace + (trace < 0 ? -root : root);
-  return (hbm_stability){cabs(l), creal(l), cimag(l), 1 + trace + det, 1 - trace + det, det};
+  return (hbm_stability){cabs(l), creal(l), cimag(l), 1 + trace + det, 1 - trace + det, det, false};
 }
 
 /* How far the trace and determinant of an H-harmonic orbit may be from the true orbit's. At an event x''' jumps by kappa x' (in th), kappa =
