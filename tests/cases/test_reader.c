@@ -141,7 +141,8 @@ static const mistake extra[] = {
     {"compare: {omega: [1, 0, 2]}", "f:4:22: ", "compare.omega has the entry `0`, expected a list of numbers > 0"},
     {"compare: {harmonics: [1, 201]}", "f:4:26: ", "integers 1..200"},
     {"compare: {samples: [2]}", "f:4:21: ", "integers 3.."},
-    {"compare: {points: 0}", "f:4:19: ", "1..10000"},
+    {"compare: {points: 0}", "f:4:19: ", "1..256"},
+    {"compare: {points: 257}", "f:4:19: ", "1..256"}, /* as many as a scene_list holds */
     {"gate: {waveform: 0}", "f:4:18: ", "expected a number > 0"},
     {"contacts: [{tangential_stiffness: -1}]", "f:4:35: ", "contacts[0].tangential_stiffness is `-1`, expected a number >= 0"},
     {"contacts:\n  - " CONTACT_1 "\n  - {angle_deg: 90.5}", "f:6:17: ", "contacts[1].angle_deg is `90.5`, expected a number 0..90"},
