@@ -41,16 +41,38 @@ static int read_motion(const cli_options *o, double *X)
   return n / 2;
 }
 
+static hc_status exact_of(const scene *sc, int n_harm, exact **e)
+{
+  moving_contact contacts[SCENE_MAX_CONTACTS];
+  exact_contacts_of(sc, contacts);
+  return exact_new(n_harm, 1, sc->n_contacts, contacts, e);
+}
+
 /* The exact coefficients, F[MAX_COEF]. */
 static hc_status evaluate_exactly(const scene *sc, int n_harm, const double *X, double *F)
 {
   exact *e = NULL;
-  moving_contact contacts[SCENE_MAX_CONTACTS];
-  exact_contacts_of(sc, contacts);
-  hc_status st = exact_new(n_harm, 1, sc->n_contacts, contacts, &e);
+  hc_status st = exact_of(sc, n_harm, &e);
   if (st == HC_OK) st = exact_eval(e, X, F, NULL, NULL);
   exact_free(e);
   return st;
+}
+
+/* What each contact does and when; what no line covers is separated. */
+static void note_pattern(table *t, const scene *sc, int n_harm, const double *X)
+{
+  static const char *const names[] = {"separated", "sticks", "slips forward", "slips backward"};
+  enum { SHOWN = 16 };
+  double F[MAX_COEF];
+  exact *e = NULL;
+  if (exact_of(sc, n_harm, &e) != HC_OK || exact_eval(e, X, F, NULL, NULL) != HC_OK) { exact_free(e); return; }
+  for (int j = 0, n; j < sc->n_contacts; ++j) {
+    const contact_piece *p = exact_pieces(e, j, &n);
+    if (n == 0) table_note(t, "contact %d: separated all period", j);
+    for (int i = 0; i < n && i < SHOWN; ++i) table_note(t, "contact %d: %s from %.12g to %.12g rad", j, names[p[i].state], p[i].from, p[i].to);
+    if (n > SHOWN) table_note(t, "contact %d: and %d pieces more", j, n - SHOWN);
+  }
+  exact_free(e);
 }
 
 /* Coefficients for each sample count (EXACT: none) into F[set][MAX_COEF]. 0 or the exit code. */
@@ -67,7 +89,7 @@ static int evaluate(const cli_options *o, const scene *sc, int n_harm, const dou
   return 0;
 }
 
-static int show(const cli_options *o, const scene *sc, int n_harm, const int *n_time, int n_sets, double (*F)[MAX_COEF])
+static int show(const cli_options *o, const scene *sc, int n_harm, const double *X, const int *n_time, int n_sets, double (*F)[MAX_COEF])
 {
   table_column columns[1 + 2 * MAX_SETS] = {{"harmonic", TABLE_INTEGER}, {"cos", TABLE_REAL}, {"sin", TABLE_REAL}};
   char names[2 * MAX_SETS][24];
@@ -86,6 +108,7 @@ static int show(const cli_options *o, const scene *sc, int n_harm, const int *n_
   }
   if (n_time[0] == EXACT) table_note(t, "%s: cos and sin exact", sc->title);
   else table_note(t, "%s: cos and sin by sampling, N = %d", sc->title, n_time[0]);
+  note_pattern(t, sc, n_harm, X);
   int code = cli_write(o, 1, &t);
   table_free(t);
   return code;
@@ -113,7 +136,7 @@ int cmd_contact(int argc, char **argv)
   double (*F)[MAX_COEF] = calloc(MAX_SETS, sizeof *F);
   if (!F) return cli_solver_failed(&o, "the contact force", HC_NO_MEMORY, 0);
   code = evaluate(&o, &sc, n_harm, X, n_time, n_sets, F);
-  if (!code) code = show(&o, &sc, n_harm, n_time, n_sets, F);
+  if (!code) code = show(&o, &sc, n_harm, X, n_time, n_sets, F);
   free(F);
   return code;
 }
