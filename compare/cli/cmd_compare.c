@@ -56,7 +56,7 @@ static void put_notes(table *t, const scene *sc, const comparison *c)
   int unaccounted = 0;
   for (int i = 0; i < c->n_rows; ++i)
     unaccounted += c->rows[i].transient_status == HC_OK && c->rows[i].hbm_status == HC_OK && !c->rows[i].accounted;
-  if (unaccounted) table_note(t, "%d transients match NO HBM solution of this curve within the gate", unaccounted);
+  if (unaccounted) table_note(t, "%d transient%s NO HBM solution of this curve within the gate", unaccounted, unaccounted == 1 ? " matches" : "s match");
   for (int v = 0; v < VERDICT_COUNT; ++v)
     if (c->count[v]) table_note(t, "%d %s: %s", c->count[v], verdict_name((verdict)v), verdict_meaning((verdict)v));
 }

@@ -9,25 +9,15 @@
 #include "compare/measure/frequencies.h"
 #include "hbm/series.h"
 
-const char *verdict_name(verdict v)
-{
-  static const char *const names[] = {
-#define VERDICT_NAME(code, name, meaning) name,
-      VERDICT_LIST(VERDICT_NAME)
-#undef VERDICT_NAME
-  };
-  return names[v];
-}
+static const struct { const char *name, *meaning; } verdicts[] = {
+#define VERDICT_WORDS(code, name, meaning) {name, meaning},
+    VERDICT_LIST(VERDICT_WORDS)
+#undef VERDICT_WORDS
+};
 
-const char *verdict_meaning(verdict v)
-{
-  static const char *const meanings[] = {
-#define VERDICT_MEANING(code, name, meaning) meaning,
-      VERDICT_LIST(VERDICT_MEANING)
-#undef VERDICT_MEANING
-  };
-  return meanings[v];
-}
+const char *verdict_name(verdict v) { return verdicts[v].name; }
+
+const char *verdict_meaning(verdict v) { return verdicts[v].meaning; }
 
 const char *comparison_verdict_text(const comparison_row *row, char text[24])
 {
