@@ -85,7 +85,9 @@ static const field table[] = {
 
   {"transient", "law", "", CHOICE(law_names), SCENE(transient.law), .fallback = "regularised", .meaning = "contact law that is integrated"},
   {"transient", "regularisation", "eta", FIELD_REAL, .unit = "1", SCENE(transient.regularisation), .fallback = "1e-4", WITHIN(1e-8, 1e-1),
-   .meaning = "of the slider's friction; the error is proportional to it"},
+   .meaning = "of the contact law's corners; the error vanishes with it"},
+  {"transient", "richardson", "", FIELD_FLAG, .unit = "", SCENE(transient.richardson), .fallback = "false",
+   .meaning = "extrapolate to no regularisation, from the regularisation given, a half and a quarter of it"},
   {"transient", "steady_state", "", CHOICE(steady_names), SCENE(transient.steady), .fallback = "auto", .meaning = "how the steady state is reached"},
   {"transient", "start", "", CHOICE(start_names), SCENE(transient.start), .fallback = "hbm",
    .meaning = "on the HBM orbit, at rest, or swept up or down as on a shaker"},
@@ -99,9 +101,9 @@ static const field table[] = {
   {"compare", "points", "", FIELD_INTEGER, .unit = "1", SCENE(compare.points), .fallback = "20", WITHIN(1, SCENE_MAX_LIST), .rival = "omega",
    .meaning = "instead: how many frequencies, spread over the sweep, dense at peaks"},
   {"compare", "harmonics", "", FIELD_INTEGERS, .unit = "1", SCENE(compare.harmonics), .fallback = "[1, 3, 5, 10]", WITHIN(1, SCENE_MAX_HARMONICS),
-   .meaning = "truncation orders to report (read, but this version prints no such table yet)"},
+   .meaning = "truncation orders of the table that compare --tables prints"},
   {"compare", "samples", "", FIELD_INTEGERS, .unit = "1", SCENE(compare.samples), .fallback = "[32, 128, 512, 2048]", WITHIN(3, MOST_SAMPLES),
-   .meaning = "sampling rates to report (read, but this version prints no such table yet)"},
+   .meaning = "sampling rates of that table; exact forces stand beside them"},
 
   {"gate", "amplitude", "", FIELD_REAL, .unit = "1", SCENE(gate.amplitude), .fallback = "1e-3", POSITIVE, .meaning = "of (max - min)/2 over a period"},
   {"gate", "harmonic_1", "", FIELD_REAL, .unit = "1", SCENE(gate.harmonic_1), .fallback = "1e-3", POSITIVE, .meaning = "of the fundamental, a1 + i b1"},

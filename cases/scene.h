@@ -43,6 +43,7 @@ typedef struct scene_hbm {
 typedef struct scene_transient {
   int law;               /* transient_law_kind */
   double regularisation; /* [1] */
+  bool richardson;       /* extrapolate to no regularisation */
   int steady;            /* transient_steady_kind */
   int start;             /* transient_start_kind */
   double tolerance;      /* [1] relative distance to the periodic orbit */

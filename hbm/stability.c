@@ -2,10 +2,12 @@
 #include "hbm/stability.h"
 
 #include <complex.h>
-#include <gsl/gsl_eigen.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include "cases/numerics/floquet.h"
+#include "cases/numerics/linear.h"
 
 static const double TWO_PI = 6.283185307179586476925;
 
@@ -15,9 +17,7 @@ struct stability {
   int cap;             /* of boundary */
   double *boundary;    /* [cap] [rad] every instant a contact changes state, sorted */
   double phi[MAX_STATE][MAX_STATE];
-  gsl_eigen_nonsymm_workspace *work[MAX_STATE + 1]; /* by size, made when first needed */
-  gsl_matrix *matrix[MAX_STATE + 1];
-  gsl_vector_complex *values;
+  floquet *floquet;
 };
 
 hc_status stability_new(stability **out)
@@ -27,7 +27,7 @@ hc_status stability_new(stability **out)
   if (!s) return HC_NO_MEMORY;
   s->cap = 2;
   s->boundary = malloc((size_t)s->cap * sizeof(double));
-  if (s->boundary) return HC_OK;
+  if (s->boundary && floquet_new(MAX_STATE, &s->floquet) == HC_OK) return HC_OK;
   stability_free(s);
   *out = NULL;
   return HC_NO_MEMORY;
@@ -36,11 +36,7 @@ hc_status stability_new(stability **out)
 void stability_free(stability *s)
 {
   if (!s) return;
-  for (int m = 0; m <= MAX_STATE; ++m) {
-    if (s->work[m]) gsl_eigen_nonsymm_free(s->work[m]);
-    if (s->matrix[m]) gsl_matrix_free(s->matrix[m]);
-  }
-  if (s->values) gsl_vector_complex_free(s->values);
+  floquet_free(s->floquet);
   free(s->boundary);
   free(s);
 }
@@ -102,27 +98,6 @@ static bool remembers(const exact *e, int j)
   return false;
 }
 
-/* (x, x') after time t of M x'' + C x' + k x = 0 from (1, 0) and from (0, 1), in e[row][column]. */
-static void free_motion(const scene *sc, double k, double t, double e[2][2])
-{
-  double a = 0.5 * sc->damping / sc->mass, d = a * a - k / sc->mass, w = sqrt(fabs(d)), co, si;
-  if (w * t <= 1e-8) { /* critical */
-    co = exp(-a * t);
-    si = t * co;
-  } else if (d < 0) {
-    co = exp(-a * t) * cos(w * t);
-    si = exp(-a * t) * sin(w * t) / w;
-  } else { /* cosh and sinh with the decay inside: neither overflows on its own */
-    double slow = exp((w - a) * t), fast = exp(-(w + a) * t);
-    co = 0.5 * (slow + fast);
-    si = 0.5 * (slow - fast) / w;
-  }
-  e[0][0] = co + a * si;
-  e[0][1] = si;
-  e[1][0] = -si * k / sc->mass;
-  e[1][1] = co - a * si;
-}
-
 /* Sliders that come to rest at this boundary: dheld from dx there. */
 static void set_sliders(stability *s, const scene *sc, const contact_piece *const *piece, double th, int m)
 {
@@ -153,7 +128,7 @@ static double stiffness_now(const scene *sc, const contact_piece *const *piece, 
 static void advance_stretch(stability *s, const scene *sc, const contact_piece *const *piece, double t, int m)
 {
   double share[SCENE_MAX_CONTACTS], e[2][2], k = stiffness_now(sc, piece, share);
-  free_motion(sc, k, t, e);
+  linear_free_motion(sc->mass, sc->damping, k, t, e);
   for (int q = 0; q < m; ++q) {
     double pull = 0;
     for (int j = 0; j < sc->n_contacts; ++j) pull += share[j] * s->phi[2 + j][q];
@@ -163,41 +138,16 @@ static void advance_stretch(stability *s, const scene *sc, const contact_piece *
   }
 }
 
-/* Multipliers of the leading m x m part over the rows and columns in `active`. */
-static hc_status eigenvalues(stability *s, int m, const int *active, double complex *lambda)
-{
-  if (m == 2) {
-    double half = 0.5 * (s->phi[0][0] + s->phi[1][1]), det = s->phi[0][0] * s->phi[1][1] - s->phi[0][1] * s->phi[1][0];
-    double complex root = csqrt(half * half - det);
-    lambda[0] = half + (half < 0 ? -root : root);
-    lambda[1] = cabs(lambda[0]) > 0 ? det / lambda[0] : 0;
-    return HC_OK;
-  }
-  if (!s->work[m]) s->work[m] = gsl_eigen_nonsymm_alloc((size_t)m);
-  if (!s->matrix[m]) s->matrix[m] = gsl_matrix_alloc((size_t)m, (size_t)m);
-  if (s->values && s->values->size != (size_t)m) { gsl_vector_complex_free(s->values); s->values = NULL; }
-  if (!s->values) s->values = gsl_vector_complex_alloc((size_t)m);
-  if (!s->work[m] || !s->matrix[m] || !s->values) return HC_NO_MEMORY;
-  for (int i = 0; i < m; ++i)
-    for (int q = 0; q < m; ++q) gsl_matrix_set(s->matrix[m], (size_t)i, (size_t)q, s->phi[active[i]][active[q]]);
-  if (gsl_eigen_nonsymm(s->matrix[m], s->values, s->work[m])) return HC_NOT_CONVERGED;
-  for (int i = 0; i < m; ++i) {
-    gsl_complex z = gsl_vector_complex_get(s->values, (size_t)i);
-    lambda[i] = GSL_REAL(z) + I * GSL_IMAG(z);
-  }
-  return HC_OK;
-}
-
 static void summarise(int m, const double complex *lambda, hbm_stability *out)
 {
   double complex flip = 1, fold = 1, all = 1;
-  *out = (hbm_stability){.multiplier = -1};
+  const double complex most = floquet_largest(m, lambda);
   for (int i = 0; i < m; ++i) {
     flip *= 1 + lambda[i];
     fold *= 1 - lambda[i];
     all *= lambda[i];
-    if (cabs(lambda[i]) > out->multiplier) { out->multiplier = cabs(lambda[i]); out->re = creal(lambda[i]); out->im = cimag(lambda[i]); }
   }
+  *out = (hbm_stability){.multiplier = cabs(most), .re = creal(most), .im = cimag(most)};
   out->flip = creal(flip);
   out->fold = creal(fold);
   out->determinant = creal(all);
@@ -222,11 +172,7 @@ hc_status stability_of(stability *s, const scene *sc, const exact *e, double ome
     advance_stretch(s, sc, piece, (b - a) / omega, m);
   }
   double complex lambda[MAX_STATE];
-  double size = 0;
-  for (int i = 0; i < m; ++i)
-    for (int q = 0; q < m; ++q) size += fabs(s->phi[i][q]);
-  if (!isfinite(size)) return HC_NOT_FINITE;
-  hc_status st = eigenvalues(s, n_active, active, lambda);
+  hc_status st = floquet_multipliers(s->floquet, s->phi[0], MAX_STATE, 1, n_active, active, lambda);
   if (st == HC_OK) summarise(n_active, lambda, out);
   return st;
 }

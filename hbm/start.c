@@ -6,6 +6,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "cases/numerics/linear.h"
+
 #include "hbm/series.h"
 #include "hbm/solver.h"
 
@@ -21,7 +23,7 @@ double hbm_linear_response(const scene *sc, double omega, int n_harm, double *X)
 {
   double k = static_stiffness(sc);
   memset(X, 0, (size_t)series_length(n_harm) * sizeof(double));
-  double complex x = sc->force / (k - sc->mass * omega * omega + I * sc->damping * omega);
+  double complex x = linear_response(sc->mass, sc->damping, k, sc->force, omega);
   if (!isfinite(cabs(x))) x = sc->force / (k + sc->mass * omega * omega); /* undamped, at resonance: any size of the right order */
   X[1] = creal(x);
   X[2] = -cimag(x); /* Re(z exp(i th)) = Re z cos - Im z sin */

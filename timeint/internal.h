@@ -1,19 +1,22 @@
 /* internal.h - the handle of timeint.h, for the files of this folder alone.
  *
- * timeint.c makes it and carries states across; march.c finds the steady state; sweep.c follows a branch. An event-located exact
- * law would bring its own integrate_period; shooting would stand beside march.c and share begin, period and report. */
+ * timeint.c makes it and carries states across; steady.c decides how the steady state is found: linear_forever.c (nothing to
+ * integrate), shoot.c (Newton on the period map), attract.c (where a motion goes that left its orbit), march.c (waiting); sweep.c
+ * follows a branch. */
 #ifndef HC_TIMEINT_INTERNAL_H
 #define HC_TIMEINT_INTERNAL_H
 
 #include "timeint/integrate.h"
 #include "timeint/measure.h"
 #include "timeint/settle.h"
+#include "timeint/shoot.h"
 #include "timeint/timeint.h"
 
 struct timeint { /* from timeint_new, to timeint_free; not shared between threads                  */
   scene sc;      /* a copy: the caller may drop theirs                                             */
   integrator *in;
   settle *settle;
+  shoot *shoot;
   measure measure;
   model model;         /* the equations at omega in units of length                                      */
   double omega;        /* [rad/time]                                                                     */
@@ -25,6 +28,24 @@ struct timeint { /* from timeint_new, to timeint_free; not shared between thread
   int periods;       /* since timeint_begin                                                            */
   long steps0, rhs0; /* counts at timeint_begin                                                        */
 };
+
+/* timeint_steady by waiting: march.c. */
+hc_status timeint_march(timeint *ti, const hc_monitor *monitor, timeint_result *r);
+
+/* timeint_steady for `auto`: steady.c for the way to an orbit, attract.c for what becomes of a motion that is next to none. */
+hc_status timeint_attract(timeint *ti, int first, const hc_monitor *monitor, timeint_result *r);
+
+/* What a Newton solve answers when there is nothing wrong but that it found no orbit. */
+bool timeint_no_orbit(hc_status st);
+
+/* The measures in *r, of the orbit through ti->y, extrapolated to no regularisation: richardson.c. */
+hc_status timeint_extrapolate(timeint *ti, const hc_monitor *monitor, timeint_result *r);
+
+/* The k periods from ti->y on, which is on an orbit found by `method`, measured into *r. */
+hc_status timeint_report(timeint *ti, int k, timeint_method method, const shoot_report *found, timeint_result *r);
+
+/* Length [L] within which an orbit is found: transient.tolerance of the motion's size, or what the integration's own errors allow. */
+double timeint_goal(const timeint *ti);
 
 /* Equations, unit of length and a-priori contraction for omega; y from *state. HC_BAD_INPUT unless omega and *state are finite, omega
  * > 0. */

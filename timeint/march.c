@@ -70,22 +70,6 @@ static hc_status adapt(timeint *ti, progress *p)
   return use_tolerance(ti, p, fmax(finest, refine_by * ti->tolerance));
 }
 
-static void clear_result(timeint_result *r, double omega)
-{
-  memset(r, 0, sizeof *r);
-  r->omega = omega;
-  r->amplitude = r->max = r->min = r->rms = r->mean = r->a1 = r->b1 = r->harmonic_1 = r->closure = r->contraction = NAN;
-  for (int i = 0; i < TIMEINT_WAVE; ++i) r->wave[i] = NAN;
-}
-
-static void fill_counts(const timeint *ti, timeint_result *r)
-{
-  r->periods = ti->periods;
-  r->steps = integrate_steps(ti->in) - ti->steps0;
-  r->rhs = integrate_rhs(ti->in) - ti->rhs0;
-  r->cvode_flag = integrate_flag(ti->in);
-}
-
 /* The next k periods into *r, and how near the orbit they are. */
 static hc_status measure_orbit(timeint *ti, int k, progress *p, timeint_result *r)
 {
@@ -112,11 +96,12 @@ static int seems_settled(const timeint *ti, double amplitude)
   return settle_judge(ti->settle, goal).multiple;
 }
 
-static hc_status march(timeint *ti, const hc_monitor *monitor, timeint_result *r)
+hc_status timeint_march(timeint *ti, const hc_monitor *monitor, timeint_result *r)
 {
   const int most = ti->sc.transient.max_periods;
   progress p;
   hc_status st = start(ti, &p);
+  r->method = TIMEINT_BY_MARCHING;
   while (st == HC_OK && ti->periods < most - 1) {
     if (!hc_monitor_tick(monitor, (double)ti->periods / most)) return HC_INTERRUPTED;
     if ((st = march_one(ti, false)) != HC_OK || (st = adapt(ti, &p)) != HC_OK) return st;
@@ -126,15 +111,4 @@ static hc_status march(timeint *ti, const hc_monitor *monitor, timeint_result *r
   }
   if (st == HC_OK && ti->periods < most) st = measure_orbit(ti, 1, &p, r);
   return st == HC_OK && r->period_multiple == 0 ? HC_NOT_SETTLED : st;
-}
-
-hc_status timeint_steady(timeint *ti, double omega, timeint_state *state, const hc_monitor *monitor, timeint_result *result)
-{
-  clear_result(result, omega);
-  hc_status st = timeint_begin(ti, omega, state);
-  if (st != HC_OK) return st;
-  st = march(ti, monitor, result);
-  *state = timeint_now(ti); /* on failure, the last one that was reached */
-  fill_counts(ti, result);
-  return st;
 }

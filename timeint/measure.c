@@ -31,22 +31,22 @@ static void take_instant(measure *me, double x)
   me->wave[me->next++] = x;
 }
 
-/* At the end of a step, and at the start of a period: where the next step begins. */
-static void take_end(measure *me, double theta, const double *y)
+/* At the end of a step, and at the start of a period (`in` NULL): where the next step begins. */
+static void take_end(measure *me, const integrator *in, double theta, const double *y)
 {
   double dy[MODEL_MAX_STATES];
   model_rhs(me->m, theta, y, dy); /* finite: CVODE has just been here */
   memcpy(me->y, y, sizeof *y * (size_t)me->m->n_states);
   me->a = dy[MODEL_P];
   extend(me, y[MODEL_X]);
-  for (int j = 0; j < me->m->n_contacts; ++j) me->slides = me->slides || model_slides(me->m, j, y);
+  for (int j = 0; j < me->m->n_contacts; ++j) me->slides = me->slides || (in && integrate_slides(in, j, y));
 }
 
 void measure_period(measure *me, const double *y)
 {
   ++me->periods;
   me->next = 0;
-  take_end(me, 0, y);
+  take_end(me, NULL, 0, y);
   take_instant(me, y[MODEL_X]);
 }
 
@@ -103,7 +103,7 @@ hc_status measure_step(void *self, const integrator *in, double theta0, double t
   if (st != HC_OK) return st;
   model_rhs(me->m, theta1, y, dy);
   if ((st = take_peaks(me, in, theta0, theta1, y, dy[MODEL_P])) != HC_OK) return st;
-  take_end(me, theta1, y);
+  take_end(me, in, theta1, y);
   return HC_OK;
 }
 

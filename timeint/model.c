@@ -8,6 +8,7 @@
  * a contact opens or closes the motion is at least as large as the gap; a gap of 0 leaves the static motion. */
 static double corner_width(const scene *sc, const contact *law)
 {
+  if (sc->transient.law == TRANSIENT_LAW_EXACT) return 0;
   double length = fabs(sc->force) / scene_max_stiffness(sc);
   return sc->transient.regularisation * fmax(fabs(law->gap), length);
 }

@@ -23,7 +23,6 @@ static hc_status check_scene(const scene *sc)
   for (int j = 0; j < sc->n_contacts; ++j)
     if (!contact_ok(&sc->contacts[j])) return HC_BAD_INPUT;
   if (!positive(t->regularisation) || !positive(t->tolerance) || t->max_periods < 1) return HC_BAD_INPUT;
-  if (t->law != TRANSIENT_LAW_REGULARISED || t->steady == TRANSIENT_STEADY_SHOOTING) return HC_UNSUPPORTED;
   return HC_OK;
 }
 
@@ -37,7 +36,9 @@ hc_status timeint_new(const scene *sc, timeint **out)
   ti->sc = *sc;
   ti->tolerance = timeint_final_tolerance(ti);
   const int n = MODEL_W + sc->n_contacts;
-  if ((st = integrate_new(n, ti->tolerance, &ti->in)) == HC_OK && (st = settle_new(n, &ti->settle)) == HC_OK) {
+  hc_status (*make)(int, double, integrator **) = sc->transient.law == TRANSIENT_LAW_EXACT ? integrate_new_exact : integrate_new_regularised;
+  if ((st = make(n, ti->tolerance, &ti->in)) == HC_OK && (st = settle_new(n, &ti->settle)) == HC_OK &&
+      (st = shoot_new(ti, &ti->shoot)) == HC_OK) {
     *out = ti;
     return HC_OK;
   }
@@ -48,6 +49,7 @@ hc_status timeint_new(const scene *sc, timeint **out)
 void timeint_free(timeint *ti)
 {
   if (!ti) return;
+  shoot_free(ti->shoot);
   settle_free(ti->settle);
   integrate_free(ti->in);
   free(ti);

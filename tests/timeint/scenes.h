@@ -36,11 +36,14 @@ static inline scene scene_c2(void) { return scene_paper(100, 100, 1000, -5); }
 static inline scene scene_c2kt1e4(void) { return scene_paper(100, 1e4, 1000, -5); }
 static inline scene scene_gap1(void) { return scene_paper(100, 100, 1000, 1); }
 
-static inline scene scene_r2(void) /* slow: contraction 0.9989 a period */
+static inline scene scene_blade(double gap) /* slow: contraction 0.9989 a period */
 {
   scene sc = scene_linear(1.6, 0.4, 8e5, 100);
-  scene_add(&sc, 5e5, 7e5, 0.3, -0.2, 45);
+  scene_add(&sc, 5e5, 7e5, 0.3, gap, 45);
   return sc;
 }
+
+static inline scene scene_r1(void) { return scene_blade(0.3); }
+static inline scene scene_r2(void) { return scene_blade(-0.2); }
 
 #endif

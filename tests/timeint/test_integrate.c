@@ -4,7 +4,7 @@
 #include <complex.h>
 #include <float.h>
 
-#include <cvode/cvode.h>
+#include <cvodes/cvodes.h>
 
 #include "tests/timeint/scenes.h"
 #include "timeint/integrate.h"
@@ -30,7 +30,7 @@ static void linear_period_is_the_closed_form(void **state)
   model_make(&m, &sc, 5, 1);
   for (double tol = 1e-6; tol > 1e-14; tol *= 1e-2) {
     integrator *in;
-    assert_int_equal(integrate_new(m.n_states, tol, &in), HC_OK);
+    assert_int_equal(integrate_new_regularised(m.n_states, tol, &in), HC_OK);
     double y[MODEL_MAX_STATES] = {0};
     assert_int_equal(integrate_period(in, &m, y, NULL, NULL), HC_OK);
     double bound = (double)integrate_steps(in) * tol * 2.5; /* |states| <= 2.5: the tolerance is relative, too */
@@ -66,7 +66,7 @@ static void watched_period_is_the_same(void **state)
   model m;
   model_make(&m, &sc, 5, 1);
   integrator *in;
-  assert_int_equal(integrate_new(m.n_states, 1e-10, &in), HC_OK);
+  assert_int_equal(integrate_new_regularised(m.n_states, 1e-10, &in), HC_OK);
   double y[MODEL_MAX_STATES] = {0}, z[MODEL_MAX_STATES] = {0};
   seen s = {.m = &m};
   assert_int_equal(integrate_period(in, &m, y, NULL, NULL), HC_OK);
@@ -88,7 +88,7 @@ static void a_period_has_no_memory(void **state)
   model_make(&m, &sc, 7, 10);
   model_make(&other, &sc, 8, 3);
   integrator *in;
-  assert_int_equal(integrate_new(m.n_states, 1e-10, &in), HC_OK);
+  assert_int_equal(integrate_new_regularised(m.n_states, 1e-10, &in), HC_OK);
   double y[MODEL_MAX_STATES] = {0.8, 0.6, 0.5}, z[MODEL_MAX_STATES] = {0.8, 0.6, 0.5}, w[MODEL_MAX_STATES] = {0};
   assert_int_equal(integrate_period(in, &m, y, NULL, NULL), HC_OK);
   assert_int_equal(integrate_period(in, &other, w, NULL, NULL), HC_OK);
@@ -105,7 +105,7 @@ static void failures_are_reported(void **state)
   model_make(&m, &sc, 7, 10);
   integrator *in;
   double y[MODEL_MAX_STATES] = {0.5, 0, 0};
-  assert_int_equal(integrate_new(m.n_states, 1e-30, &in), HC_OK); /* no double is that good */
+  assert_int_equal(integrate_new_regularised(m.n_states, 1e-30, &in), HC_OK); /* no double is that good */
   assert_int_equal(integrate_period(in, &m, y, NULL, NULL), HC_INTEGRATOR);
   assert_int_equal(integrate_flag(in), CV_TOO_MUCH_ACC);
   CHECK_LE(fabs(y[0] - 0.5) + fabs(y[1]) + fabs(y[2]), 0, "the state stays");
@@ -116,7 +116,7 @@ static void failures_are_reported(void **state)
   m.f = INFINITY;
   assert_int_equal(integrate_period(in, &m, y, NULL, NULL), HC_NOT_FINITE);
   integrate_free(in);
-  assert_int_not_equal(integrate_new(m.n_states, -1, &in), HC_OK);
+  assert_int_not_equal(integrate_new_regularised(m.n_states, -1, &in), HC_OK);
   assert_null(in);
 }
 

@@ -43,6 +43,7 @@ static void distance_is_honest(void **state)
     timeint_state y = {.x = 1.01 * creal(X), .v = -omega * cimag(X)};
     timeint_result r;
     sc.transient.max_periods = allowed[i];
+    sc.transient.steady = TRANSIENT_STEADY_MARCH;
     assert_int_equal(timeint_new(&sc, &ti), HC_OK);
     assert_int_equal(timeint_steady(ti, omega, &y, NULL, &r), i < 3 ? HC_NOT_SETTLED : HC_OK);
     timeint_free(ti);

@@ -160,7 +160,7 @@ static void sub_harmonics(void **state)
   timeint_free(ti);
   assert_int_equal(steady(&sc, 5.3, &y, &r), HC_NOT_SETTLED);
   assert_int_equal(r.period_multiple, 0);
-  assert_int_equal(r.periods, 300);
+  CHECK_LE(r.periods, 300, "no more than allowed");
   CHECK_LE(1e-6, r.closure, "far from any orbit");
   CHECK_LE(5, r.amplitude, "the last period is measured");
 }
@@ -173,6 +173,7 @@ static void stopped_and_refused(void **state)
   scene sc = scene_c2();
   timeint *ti;
   int ticks = 0;
+  sc.transient.steady = TRANSIENT_STEADY_MARCH;
   hc_monitor stop = {.tick = stop_at_ten, .self = &ticks};
   assert_int_equal(timeint_new(&sc, &ti), HC_OK);
   timeint_state y = timeint_rest(ti), bad = {.x = NAN};
@@ -186,13 +187,9 @@ static void stopped_and_refused(void **state)
   assert_int_equal(timeint_steady(ti, 0, &y, NULL, &r), HC_BAD_INPUT);
   assert_int_equal(timeint_sweep(ti, 7, -1, &y, NULL), HC_BAD_INPUT);
   timeint_free(ti);
-  sc.transient.law = TRANSIENT_LAW_EXACT;
-  assert_int_equal(timeint_new(&sc, &ti), HC_UNSUPPORTED);
-  assert_null(ti);
-  sc.transient.law = TRANSIENT_LAW_REGULARISED, sc.transient.steady = TRANSIENT_STEADY_SHOOTING;
-  assert_int_equal(timeint_new(&sc, &ti), HC_UNSUPPORTED);
-  sc.transient.steady = TRANSIENT_STEADY_MARCH, sc.mass = NAN;
+  sc.mass = NAN;
   assert_int_equal(timeint_new(&sc, &ti), HC_BAD_INPUT);
+  assert_null(ti);
 }
 
 int main(void)

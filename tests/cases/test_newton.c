@@ -1,6 +1,6 @@
 /* test_newton.c - KINSOL behind newton.h: iterates against Heron's, refusals, stalls, singular matrices; nothing hangs, nothing lies.
  * Each problem counts its calls and fails the test when they run away: a loop inside KINSOL would otherwise only meet the watchdog. */
-#include "hbm/newton.h"
+#include "cases/numerics/newton.h"
 #include "tests/hbm/scenes.h"
 
 enum { MAX_CALLS = 5000 };
@@ -409,4 +409,4 @@ static const struct CMUnitTest tests[] = {
   cmocka_unit_test(singular_is_said), cmocka_unit_test(refusals_are_passed_on), cmocka_unit_test(the_reason_of_a_refusal_survives),
   cmocka_unit_test(nan_is_refused), cmocka_unit_test(a_nan_jacobian_is_not_an_answer), cmocka_unit_test(works_on_after_failures),
 };
-CHECK_MAIN("hbm.newton", tests, 60)
+CHECK_MAIN("cases.newton", tests, 60)

@@ -4,7 +4,7 @@
 #include <sunmatrix/sunmatrix_dense.h>
 
 #include "cases/sundials_compat.h"
-#include "hbm/lu.h"
+#include "cases/numerics/lu.h"
 #include "tests/hbm/scenes.h"
 
 enum { MAX_N = 60 };
@@ -203,4 +203,4 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(sundials_gets_the_same_numbers),
 };
 
-CHECK_MAIN("hbm.lu", tests, 60)
+CHECK_MAIN("cases.lu", tests, 60)

@@ -1,7 +1,7 @@
 /* newton.c - KINSOL behind newton.h. KINSOL's habits that matter here: a NaN residual is "success" for KIN_NONE and an endless loop
  * for KIN_LINESEARCH, so residuals are refused by a positive return; the default longest step is 1000 |z0|, useless from z = 0; the Jacobian
  * is kept for 10 iterations unless told otherwise; KIN_STEP_LT_STPTOL is positive and may be a stall. */
-#include "hbm/newton.h"
+#include "cases/numerics/newton.h"
 
 #include <kinsol/kinsol.h>
 #include <math.h>
@@ -12,7 +12,7 @@
 #include <sunmatrix/sunmatrix_dense.h>
 
 #include "cases/sundials_compat.h"
-#include "hbm/lu.h"
+#include "cases/numerics/lu.h"
 
 struct newton {                 /* from newton_new, to newton_free; not shared between threads */
   newton_problem problem;

@@ -1,5 +1,5 @@
 /* lu.c - see lu.h. Right-looking by columns: the inner loops run down contiguous columns, which the compiler vectorises. */
-#include "hbm/lu.h"
+#include "cases/numerics/lu.h"
 
 #include <math.h>
 #include <stdlib.h>

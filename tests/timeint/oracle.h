@@ -1,0 +1,115 @@
+/* oracle.h - the exact law's motion in closed form, a period at a time, with a law of its own: states by name, guards looked at 4000
+ * times a period, then bisected. What lasts less than 2 pi/4000 it may miss. */
+#ifndef HC_TESTS_ORACLE_H
+#define HC_TESTS_ORACLE_H
+
+#include <complex.h>
+
+#include "cases/numerics/linear.h"
+#include "tests/check.h"
+#include "timeint/model.h"
+
+enum { SCAN = 4000 };
+typedef enum { APART, STUCK, PLUS, MINUS } how;
+typedef struct oracle {
+  const model *m;
+  how state[SCENE_MAX_CONTACTS];
+  double held[SCENE_MAX_CONTACTS];
+  double theta, x, p;
+  int events;
+} oracle;
+
+static inline double slip_of(how s) { return s == PLUS ? 1 : s == MINUS ? -1 : 0; }
+
+/* X, P at theta of the linear equation of the states as they are. */
+static inline void oracle_move(const oracle *o, double theta, double *x, double *p)
+{
+  double k = o->m->k, d = 0, e[2][2];
+  for (int j = 0; j < o->m->n_contacts; ++j) {
+    const model_contact *c = &o->m->contact[j];
+    d -= c->preload * c->sine;
+    if (o->state[j] == APART) continue;
+    double normal = c->sine + slip_of(o->state[j]) * c->law.mu * c->cosine;
+    k += normal * c->law.kn * c->sine;
+    d += normal * c->law.kn * c->law.gap;
+    if (o->state[j] != STUCK || !c->law.slides) continue;
+    k += c->law.kt * c->cosine * c->cosine;
+    d -= c->law.kt * c->cosine * o->held[j];
+  }
+  double complex X = linear_response(1, o->m->c, k, o->m->f, 1), now = X * cexp(I * o->theta), then = X * cexp(I * theta);
+  double x0 = o->x - creal(now) + d / k, p0 = o->p - creal(I * now);
+  linear_free_motion(1, o->m->c, k, theta - o->theta, e);
+  *x = e[0][0] * x0 + e[0][1] * p0 + creal(then) - d / k;
+  *p = e[1][0] * x0 + e[1][1] * p0 + creal(I * then);
+}
+
+/* The state contact j should be in after x, p: its own while no guard is below 0. */
+static inline how oracle_next(const oracle *o, int j, double x, double p)
+{
+  const model_contact *c = &o->m->contact[j];
+  const double u = c->cosine * x, g = c->sine * x + c->law.gap, limit = c->law.mu * c->law.kn * g;
+  if (!(c->law.kn > 0)) return APART;
+  if (o->state[j] == APART) {
+    if (!(g > 0)) return APART;
+    return c->law.slides && c->law.kt * c->cosine > c->law.mu * c->law.kn * c->sine ? PLUS : STUCK;
+  }
+  if (g < 0) return APART;
+  if (!c->law.slides) return STUCK;
+  double s = slip_of(o->state[j]), t = c->law.kt * (u - o->held[j]), rate = (s * c->law.kt * c->cosine - c->law.mu * c->law.kn * c->sine) * p;
+  if (s != 0) return rate < 0 ? STUCK : o->state[j];
+  const double slack = 1e-13 * c->law.kt; /* on the limit since it stuck, or T and N vanishing together */
+  return t > limit + slack ? PLUS : t < -limit - slack ? MINUS : STUCK;
+}
+
+static inline bool oracle_changes(const oracle *o, double x, double p)
+{
+  bool any = false;
+  for (int j = 0; j < o->m->n_contacts; ++j) any = any || oracle_next(o, j, x, p) != o->state[j];
+  return any;
+}
+
+static inline void oracle_switch(oracle *o)
+{
+  for (int j = 0; j < o->m->n_contacts; ++j) {
+    const model_contact *c = &o->m->contact[j];
+    how next = oracle_next(o, j, o->x, o->p), was = o->state[j];
+    if (next == STUCK && was == APART) o->held[j] = c->cosine * -c->law.gap / c->sine;
+    if (next == STUCK && slip_of(was) != 0)
+      o->held[j] = c->cosine * o->x - slip_of(was) * c->law.mu * c->law.kn * (c->sine * o->x + c->law.gap) / c->law.kt;
+    o->events += next != was;
+    o->state[j] = next;
+  }
+}
+
+static inline void oracle_period(oracle *o)
+{
+  o->theta = 0;
+  for (int i = 1; i <= SCAN;) {
+    double to = 2 * PI * i / SCAN, x, p;
+    oracle_move(o, to, &x, &p);
+    if (!oracle_changes(o, x, p)) {
+      o->theta = to, o->x = x, o->p = p, ++i; /* small steps: nothing accumulates but rounding */
+      continue;
+    }
+    double low = o->theta, high = to;
+    for (int b = 0; b < 60; ++b) {
+      double mid = 0.5 * (low + high);
+      oracle_move(o, mid, &x, &p);
+      if (oracle_changes(o, x, p)) high = mid;
+      else low = mid;
+    }
+    oracle_move(o, high, &x, &p);
+    o->theta = high, o->x = x, o->p = p;
+    oracle_switch(o);
+  }
+}
+
+static inline double oracle_slider(const oracle *o, int j)
+{
+  const model_contact *c = &o->m->contact[j];
+  if (o->state[j] == APART || !c->law.slides) return c->cosine * o->x;
+  if (o->state[j] == STUCK) return o->held[j];
+  return c->cosine * o->x - slip_of(o->state[j]) * c->law.mu * c->law.kn * (c->sine * o->x + c->law.gap) / c->law.kt;
+}
+
+#endif

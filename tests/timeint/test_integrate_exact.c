@@ -1,0 +1,423 @@
+/* test_integrate_exact.c - periods of the exact law by CVODE: against closed forms, its slope against differences, and every way two
+ * things can happen at once. */
+#include "tests/check.h"
+
+#include <complex.h>
+#include <float.h>
+
+#include <cvodes/cvodes.h>
+
+#include "cases/numerics/linear.h"
+#include "tests/timeint/oracle.h"
+#include "tests/timeint/reference_rows.h"
+#include "tests/timeint/scenes.h"
+#include "timeint/integrate.h"
+#include "timeint/measure.h"
+
+static const double tol = 1e-12; /* CVODE's. A period is some 200 steps, each of which may err by it */
+
+static model exact_model(scene sc, double omega, double length)
+{
+  sc.transient.law = TRANSIENT_LAW_EXACT;
+  model m;
+  model_make(&m, &sc, omega, length);
+  return m;
+}
+
+static integrator *exact_new(const model *m)
+{
+  integrator *in;
+  assert_int_equal(integrate_new_exact(m->n_states, tol, &in), HC_OK);
+  return in;
+}
+
+static void run(integrator *in, const model *m, double *y, int periods)
+{
+  for (int i = 0; i < periods; ++i) assert_int_equal(integrate_period(in, m, y, NULL, NULL), HC_OK);
+}
+
+/* From rest (w = 0: stuck if touching). CVODE's errors of a period, 200 tol, are carried on; where the motion is stable they do not grow
+ * for long: all the periods' together, times 5. The oracle's own: rounding, 1e-13 of slack. */
+static void follows_oracle(const char *what, scene sc, double omega, double length, int periods)
+{
+  model m = exact_model(sc, omega, length);
+  oracle o = {.m = &m};
+  for (int j = 0; j < m.n_contacts; ++j) o.state[j] = m.contact[j].law.kn > 0 && m.contact[j].law.gap > 0 ? STUCK : APART;
+  integrator *in = exact_new(&m);
+  double y[MODEL_MAX_STATES] = {0};
+  for (int i = 0; i < periods; ++i) {
+    run(in, &m, y, 1);
+    oracle_period(&o);
+    const double bound = 5 * 200 * tol * (i + 1);
+    CHECK_NEAR(y[MODEL_X], o.x, bound, "%s x in period %d", what, i);
+    CHECK_NEAR(y[MODEL_P], o.p, bound, "%s p in period %d", what, i);
+    for (int j = 0; j < m.n_contacts; ++j) CHECK_NEAR(y[MODEL_W + j], oracle_slider(&o, j), bound, "%s w%d in period %d", what, j, i);
+    assert_int_equal(integrate_switches(in), o.events);
+  }
+  integrate_free(in);
+}
+
+static scene three_contacts(void)
+{
+  scene sc = scene_linear(1, 0.4, 40, 60);
+  scene_add(&sc, 100, 200, 0.3, -0.5, 45);
+  scene_add(&sc, 80, 50, 0.5, 1.2, 20);
+  scene_add(&sc, 300, 400, 0.1, -2, 70);
+  return sc;
+}
+
+static scene one(double force, double kt, double kn, double mu, double gap, double angle)
+{
+  scene sc = scene_linear(1, 0.4, 40, force);
+  scene_add(&sc, kt, kn, mu, gap, angle);
+  return sc;
+}
+
+static void scenes_follow_the_closed_form(void **state)
+{
+  (void)state;
+  follows_oracle("linear", scene_linear(1, 0.4, 40, 100), 7, 10, 20);
+  follows_oracle("c2", scene_c2(), 7, 10, 20); /* bilinear */
+  follows_oracle("b10", scene_b10(), 7, 1, 20);
+  follows_oracle("a10", scene_a10(), 13, 0.7, 20);
+  follows_oracle("c2kt1e4", scene_c2kt1e4(), 7, 10, 20);
+  follows_oracle("gap1", scene_gap1(), 9, 10, 20);
+  follows_oracle("r2", scene_r2(), 708.5, 0.3, 200); /* first touch after 150 periods */
+  follows_oracle("three", three_contacts(), 7, 2, 20);
+}
+
+static void degenerate_contacts_follow_it_too(void **state)
+{
+  (void)state;
+  follows_oracle("alpha 0", one(100, 100, 200, 0.3, 0.5, 0), 9, 2, 20); /* Jenkins: constant limit */
+  follows_oracle("alpha 0, apart", one(100, 100, 200, 0.3, -0.5, 0), 9, 2, 5);
+  follows_oracle("alpha 90", one(100, 100, 200, 0.3, -0.5, 90), 9, 2, 20);
+  follows_oracle("mu 0", one(100, 100, 200, 0, -0.5, 45), 9, 2, 20);
+  follows_oracle("kt 0", one(100, 0, 200, 0.3, 0.5, 45), 9, 2, 20);
+  follows_oracle("kn 0", one(100, 100, 0, 0.3, 0.5, 45), 9, 2, 5);
+  follows_oracle("gap 0, sticks", one(100, 50, 200, 0.3, 0, 45), 9, 2, 20);
+  follows_oracle("gap 0, slips", one(100, 300, 200, 0.3, 0, 45), 9, 2, 20);
+}
+
+/* Where kt cos <= mu kn sin a contact that touches sticks until it separates, T and N vanishing together: the frictionless contact of
+ * the same stiffness against x, kn' = kn + kt at 45 degrees. Equality: the slip's guard is 0 all the time. */
+static void bilinear_contacts_need_no_friction(void **state)
+{
+  (void)state;
+  const double kt[] = {299.999, 256, 100};
+  for (int i = 0; i < 3; ++i) {
+    const double kn = i == 1 ? 1024 : 1000, mu = i == 1 ? 0.25 : 0.3; /* 0.25 * 1024 = 256, exactly */
+    model m = exact_model(one(100, kt[i], kn, mu, -3, 45), 7, 10), plain = exact_model(one(100, 0, kn + kt[i], 0, -3, 45), 7, 10);
+    integrator *in = exact_new(&m), *ref = exact_new(&plain);
+    double y[MODEL_MAX_STATES] = {0}, z[MODEL_MAX_STATES] = {0};
+    for (int n = 0; n < 20; ++n) {
+      run(in, &m, y, 1);
+      run(ref, &plain, z, 1);
+      CHECK_NEAR(y[0], z[0], 5 * 200 * tol * (n + 1), "x, kt %g", kt[i]);
+      CHECK_NEAR(y[1], z[1], 5 * 200 * tol * (n + 1), "p, kt %g", kt[i]);
+    }
+    assert_true(integrate_switches(in) >= integrate_switches(ref) && integrate_switches(ref) > 20);
+    if (i != 1) assert_int_equal(integrate_switches(in), integrate_switches(ref));
+    integrate_free(in);
+    integrate_free(ref);
+  }
+}
+
+static void two_contacts_are_one_of_double_stiffness(void **state)
+{
+  (void)state;
+  scene twin = one(10, 100, 200, 0.3, -0.5, 45), single = one(10, 200, 400, 0.3, -0.5, 45);
+  scene_add(&twin, 100, 200, 0.3, -0.5, 45);
+  model m = exact_model(twin, 7, 1), s = exact_model(single, 7, 1);
+  integrator *in = exact_new(&m), *ref = exact_new(&s);
+  double y[MODEL_MAX_STATES] = {0}, z[MODEL_MAX_STATES] = {0};
+  run(in, &m, y, 20);
+  run(ref, &s, z, 20);
+  CHECK_NEAR(y[0], z[0], 20 * 200 * tol, "x");
+  CHECK_NEAR(y[1], z[1], 20 * 200 * tol, "p");
+  CHECK_NEAR(y[2], y[3], 0, "both sliders");
+  CHECK_NEAR(y[2], z[2], 20 * 200 * tol, "w");
+  assert_int_equal(integrate_switches(in), 2 * integrate_switches(ref));
+  CHECK_LE((double)integrate_steps(in), 1.05 * (double)integrate_steps(ref), "one restart for both");
+  integrate_free(in);
+  integrate_free(ref);
+}
+
+/* On the orbit of the separated oscillator, X = A cos(theta - phi), a contact at A(1 - d): 2 transitions if d > 0, none if d < 0, for d
+ * down to 100 times CVODE's error; it is open for sqrt(2 d) to either side, far less than a step. */
+static void grazing_is_not_stepped_over(void **state)
+{
+  (void)state;
+  for (int i = 0; i < 40; ++i) {
+    const double omega = 7 + 0.05 * i;
+    double complex X = linear_response(1, 0.4, 40, 100, omega);
+    for (int k = 0; k < 8; ++k)
+      for (int sign = -1; sign <= 1; sign += 2) {
+        const double d = sign * (k < 7 ? pow(10, -3 - k) : 1e-10);
+        model m = exact_model(one(100, 100, 200, 0.3, -cabs(X) * (1 - d) * sqrt(0.5), 45), omega, cabs(X));
+        double y[MODEL_MAX_STATES] = {creal(X) / cabs(X), creal(I * X) / cabs(X), 0};
+        integrator *in = exact_new(&m);
+        run(in, &m, y, 1);
+        const long want = d < 0 ? 0 : integrate_switches(in) == 4 ? 4 : 2; /* slips or, its kt cos > mu kn sin, also sticks back */
+        CHECK_NEAR((double)integrate_switches(in), (double)want, 0, "d %g omega %g", d, omega);
+        integrate_free(in);
+      }
+  }
+}
+
+/* The contact's edge where the separated motion ends its period, to a few roundings: the transition falls on 2 pi, before, after, or just
+ * does not happen. What contact does in such a time is below rounding. */
+static void a_transition_at_the_end_of_the_period(void **state)
+{
+  (void)state;
+  model m = exact_model(one(100, 300, 200, 0.3, -0.5, 45), 7.3, 10);
+  const double start[MODEL_MAX_STATES] = {0.02, -0.578, 0}; /* ends at its largest X, rising */
+  m.contact[0].law.gap = -100;
+  integrator *in = exact_new(&m);
+  double end[MODEL_MAX_STATES];
+  memcpy(end, start, sizeof end);
+  run(in, &m, end, 1);
+  int touched = 0, n = 0;
+  for (double off = 0; off < 1e-10; off = off > 0 ? 1.3 * off : 1e-17)
+    for (int sign = -1; sign <= 1; sign += 2, ++n) {
+      double y[MODEL_MAX_STATES];
+      memcpy(y, start, sizeof y);
+      m.contact[0].law.gap = -m.contact[0].sine * (end[0] + sign * off);
+      long before = integrate_switches(in);
+      run(in, &m, y, 1);
+      touched += integrate_switches(in) > before;
+      CHECK_NEAR(y[0], end[0], tol, "x, off %g", off); /* a few steps more, or a root in the last one */
+      CHECK_NEAR(y[1], end[1], tol, "p, off %g", off);
+      run(in, &m, y, 1); /* and from there */
+    }
+  assert_true(touched > n / 3 && touched < n);
+  integrate_free(in);
+}
+
+/* Against central differences of the period map with Richardson's h^4. Noise: half of a period's 200 steps may err by tol, over h = 1e-4,
+ * times Richardson's 5/3; truncation (piecewise smooth, fifth derivative up to 1e3 times 12) h^4 * 1e3.
+ * A slider that stuck where it touched has T and N vanish together; moved by h it slips over a stretch of about h before it separates: an
+ * error h |h|, so Richardson's h there, h^2 * 1e2 being left. A slider slaved at the start moves with x; its own column is zero. */
+static void check_slope(const char *what, scene sc, double omega, double length, const double *start, int periods, bool no_slip)
+{
+  model m = exact_model(sc, omega, length);
+  const int n = m.n_states;
+  const double h = 1e-4;
+  double y[MODEL_MAX_STATES] = {0}, end[MODEL_MAX_STATES], slope[MODEL_MAX_STATES * MODEL_MAX_STATES];
+  if (start) memcpy(y, start, sizeof *y * (size_t)n);
+  integrator *in = exact_new(&m);
+  run(in, &m, y, periods);
+  memcpy(end, y, sizeof end);
+  assert_int_equal(integrate_slope(in, &m, end, slope), HC_OK);
+  double plain[MODEL_MAX_STATES], size = 1;
+  memcpy(plain, y, sizeof plain);
+  run(in, &m, plain, 1);
+  for (int i = 0; i < n; ++i) CHECK_NEAR(end[i], plain[i], 0, "the same period");
+  for (int i = 0; i < n * n; ++i) size = fmax(size, fabs(slope[i]));
+  for (int q = 0; q < n; ++q) {
+    double column = 0, diff[MODEL_MAX_STATES] = {0};
+    for (int i = 0; i < n; ++i) column += fabs(slope[i + q * n]);
+    if (q >= MODEL_W && column == 0) continue;
+    const double smooth[] = {-1 / 12.0, 8 / 12.0, -8 / 12.0, 1 / 12.0}, kinked[] = {-1 / 4.0, 1, -1, 1 / 4.0};
+    const double *weight = q < MODEL_W ? smooth : kinked, truncation = q < MODEL_W ? 1e3 * pow(h, 4) : 1e2 * h * h;
+    for (int k = 0; k < 4; ++k) {
+      const double by = (k < 2 ? 2 - k : 1 - k) * h; /* 2, 1, -1, -2 */
+      double z[MODEL_MAX_STATES];
+      memcpy(z, y, sizeof z);
+      z[q] += by;
+      for (int j = 0; j < m.n_contacts; ++j) { /* sliders without a column of their own stay where the law has them */
+        double own = 0;
+        for (int i = 0; i < n; ++i) own += fabs(slope[i + (MODEL_W + j) * n]);
+        const model_contact *c = &m.contact[j];
+        const double g = c->sine * y[0] + c->law.gap, t = c->law.kt * (c->cosine * y[0] - y[MODEL_W + j]);
+        const double s = g > 0 && c->law.slides ? (t > 0 ? 1 : -1) : 0;
+        if (own == 0 && q == MODEL_X) z[MODEL_W + j] += (c->cosine - (s != 0 ? s * c->law.mu * c->law.kn * c->sine / c->law.kt : 0)) * by;
+      }
+      run(in, &m, z, 1);
+      for (int i = 0; i < n; ++i) diff[i] += weight[k] * z[i] / h;
+    }
+    for (int i = 0; i < n; ++i)
+      CHECK_NEAR(slope[i + q * n], diff[i], size * (100 * tol * 5 / 3 / h + truncation), "%s: d y%d / d y%d", what, i, q);
+  }
+  if (no_slip) { /* volume shrinks by the damping alone, in every phase without slip */
+    double det = slope[0] * slope[1 + n] - slope[1] * slope[n], damping = exp(-sc.damping / sc.mass * 2 * PI / omega);
+    CHECK_NEAR(det, damping, 64 * DBL_EPSILON * size * size, "%s: determinant", what);
+  }
+  integrate_free(in);
+}
+
+static void slope_is_that_of_the_period(void **state)
+{
+  (void)state;
+  const double high[] = {23 / 24.0, 0, 0.6};
+  check_slope("c2", scene_c2(), 9, 24, high, 100, true);
+  check_slope("c2", scene_c2(), 7, 10, NULL, 100, true);
+  check_slope("b10", scene_b10(), 7, 1, NULL, 100, false);
+  check_slope("a10", scene_a10(), 13, 0.7, NULL, 100, false);
+  const double r2[] = {0.0724587530 / 0.299294926, 205.420778 / 708.5 / 0.299294926, 0.05123607 / 0.299294926};
+  check_slope("r2", scene_r2(), 708.5, 0.299294926, r2, 2, false);
+  check_slope("gap1, stuck", scene_gap1(), 7, 1, NULL, 50, true);
+  for (int i = 1; i < 6; ++i) check_slope("three", three_contacts(), 6 + 0.3 * i, 2, NULL, 10 * i, false);
+}
+
+/* Rows that rest reaches, and c2's upper branch from a state near it; damping makes what is left of the start exp(-0.2 * 2 pi/omega) a
+ * period: below 1e-12 after 220. Reference good to 1e-9; the amplitude's own error is that of x. */
+static void steady_states_are_the_references(void **state)
+{
+  (void)state;
+  const scene cases[] = {scene_a10(), scene_b10(), scene_c2(), scene_c2kt1e4(), scene_gap1()};
+  const struct {
+    int which;
+    double omega, x0;
+  } rows[] = {{REF_A10, 13, 0}, {REF_A10, 14, 0}, {REF_B10, 6, 0},     {REF_B10, 7, 0},     {REF_C2, 6, 0},
+              {REF_C2, 7, 0},   {REF_C2, 9, 23.4}, {REF_C2, 9.15, 25.7}, {REF_C2, 10, 0}};
+  for (size_t i = 0; i < sizeof rows / sizeof *rows; ++i) {
+    const reference_row *r = reference_rows;
+    while (r->which != rows[i].which || r->omega != rows[i].omega) ++r; /* the first such row: swept up */
+    const scene *sc = &cases[r->which];
+    const double length = r->amplitude;
+    model m = exact_model(*sc, r->omega, length);
+    integrator *in = exact_new(&m);
+    double y[MODEL_MAX_STATES] = {rows[i].x0 / length, 0, 0.7 * rows[i].x0 / length};
+    run(in, &m, y, 400);
+    static measure me;
+    timeint_result result = {0};
+    measure_begin(&me, &m);
+    measure_period(&me, y);
+    assert_int_equal(integrate_period(in, &m, y, measure_step, &me), HC_OK);
+    measure_report(&me, sc, length, &result);
+    CHECK_NEAR(result.amplitude, r->amplitude, 1e-8 * r->amplitude, "case %d omega %g", r->which, r->omega);
+    CHECK_NEAR(result.harmonic_1, r->harmonic_1, 1e-8 * r->amplitude, "case %d omega %g", r->which, r->omega);
+    long before = integrate_switches(in);
+    run(in, &m, y, 1);
+    assert_true(r->events == 0 ? integrate_switches(in) == before : integrate_switches(in) > before);
+    integrate_free(in);
+  }
+}
+
+typedef struct seen {
+  const model *m;
+  double last, worst;
+} seen;
+
+/* Dense output obeys the law at any instant: X' = P, and P' of model_rhs, whose sliders are the returned ones; the sliders' rates add
+ * up to their way (Simpson over a step: h^5/2880 of a fifth derivative of 50 is below 1e-6 while h < 0.5). */
+static hc_status look(void *self, const integrator *in, double theta0, double theta1)
+{
+  seen *s = self;
+  CHECK_NEAR(theta0, s->last, 0, "steps follow each other");
+  s->last = theta1;
+  double way[SCENE_MAX_CONTACTS] = {0};
+  for (int i = 0; i <= 4; ++i) {
+    double theta = theta0 + (theta1 - theta0) * i / 4, y[MODEL_MAX_STATES], dy[MODEL_MAX_STATES], law[MODEL_MAX_STATES];
+    assert_int_equal(integrate_dense(in, theta, 0, y), HC_OK);
+    assert_int_equal(integrate_dense(in, theta, 1, dy), HC_OK);
+    model_rhs(s->m, theta, y, law);
+    s->worst = fmax(s->worst, fmax(fabs(dy[0] - law[0]), fabs(dy[1] - law[1])));
+    for (int j = 0; i % 2 == 0 && j < s->m->n_contacts; ++j) {
+      if (i == 0) way[j] = -y[MODEL_W + j];
+      if (i == 4) way[j] += y[MODEL_W + j];
+      way[j] -= (i == 2 ? 4 : 1) * dy[MODEL_W + j] * (theta1 - theta0) / 6;
+    }
+  }
+  for (int j = 0; j < s->m->n_contacts; ++j) CHECK_NEAR(way[j], 0, 1e-6, "slider %d from %g to %g", j, theta0, theta1);
+  return HC_OK;
+}
+
+static void watched_period_is_the_same(void **state)
+{
+  (void)state;
+  model m = exact_model(three_contacts(), 7, 2), other = exact_model(three_contacts(), 8, 3);
+  integrator *in = exact_new(&m);
+  double y[MODEL_MAX_STATES] = {0}, z[MODEL_MAX_STATES] = {0}, w[MODEL_MAX_STATES] = {0};
+  seen s = {.m = &m};
+  run(in, &m, y, 1);
+  long steps = integrate_steps(in);
+  run(in, &other, w, 1); /* a period is a function of the state alone */
+  long both = integrate_steps(in);
+  assert_int_equal(integrate_period(in, &m, z, look, &s), HC_OK);
+  assert_int_equal(integrate_steps(in) - both, steps);
+  for (int i = 0; i < m.n_states; ++i) CHECK_NEAR(y[i], z[i], 0, "the same bits, y%d", i);
+  CHECK_NEAR(s.last, 2 * PI, 0, "the last step ends the period");
+  /* The step after a restart: order 1, error h^2 |y''|/2 = tol, that of the derivative h |y''|, |y''| < 50. */
+  CHECK_LE(s.worst, sqrt(2 * tol * 50), "dense output");
+  integrate_free(in);
+}
+
+/* No force, at rest, also on the very edge of contacts: P is 0 for ever, which CVODE must not mind. */
+static void rest_stays_at_rest(void **state)
+{
+  (void)state;
+  const double gap[] = {0.5, 0, -0.5};
+  for (int i = 0; i < 3; ++i) {
+    model m = exact_model(one(0, 100, 200, 0.3, gap[i], 45), 7, 1);
+    integrator *in = exact_new(&m);
+    double y[MODEL_MAX_STATES] = {0};
+    run(in, &m, y, 5);
+    CHECK_NEAR(fabs(y[0]) + fabs(y[1]) + fabs(y[2]), 0, 0, "gap %g", gap[i]);
+    integrate_free(in);
+  }
+}
+
+/* One period from many states, most of them far from any orbit: turns within a step, short slips, short contacts. The oracle misses what
+ * lasts less than 2 pi/4000: a slip or contact that short moves X by its force, less than 50 h (its guard grows by that much) h, for h. */
+static void any_start_follows_the_closed_form(void **state)
+{
+  (void)state;
+  const double h = 2 * PI / SCAN;
+  scene cases[] = {one(100, 300, 200, 0.3, 0.5, 0), one(30, 300, 200, 0.3, 0.5, 45), one(100, 300, 200, 0.3, -0.5, 60)};
+  for (int k = 0; k < 3; ++k) {
+    model m = exact_model(cases[k], 3.1, 2);
+    integrator *in = exact_new(&m);
+    for (int i = 0; i < 300; ++i) {
+      double y[MODEL_MAX_STATES] = {1.5 * sin(12.9898 * i), 3 * sin(78.233 * i), 0};
+      y[2] = m.contact[0].cosine * y[0];
+      const bool open = m.contact[0].sine * y[0] + m.contact[0].law.gap <= 0;
+      oracle o = {.m = &m, .x = y[0], .p = y[1], .state = {open ? APART : STUCK}, .held = {y[2]}};
+      oracle_period(&o);
+      run(in, &m, y, 1);
+      CHECK_NEAR(y[0], o.x, 50 * h * h * h, "x, case %d start %d", k, i);
+      CHECK_NEAR(y[1], o.p, 50 * h * h, "p, case %d start %d", k, i);
+    }
+    integrate_free(in);
+  }
+}
+
+static void failures_are_reported(void **state)
+{
+  (void)state;
+  model m = exact_model(scene_c2(), 7, 10);
+  integrator *in;
+  double y[MODEL_MAX_STATES] = {0.5, 0, 0};
+  assert_int_equal(integrate_new_exact(m.n_states, 1e-30, &in), HC_OK); /* no double is that good */
+  assert_int_equal(integrate_period(in, &m, y, NULL, NULL), HC_INTEGRATOR);
+  assert_int_equal(integrate_flag(in), CV_TOO_MUCH_ACC);
+  CHECK_NEAR(y[0], 0.5, 0, "the state stays");
+  assert_int_equal(integrate_tolerance(in, 1e-8), HC_OK);
+  assert_int_equal(integrate_period(in, &m, y, NULL, NULL), HC_OK); /* and works again */
+  const double bad[] = {NAN, INFINITY};
+  for (int i = 0; i < 2; ++i) {
+    model broken = m;
+    broken.f = bad[i];
+    assert_int_equal(integrate_period(in, &broken, y, NULL, NULL), HC_NOT_FINITE);
+    double z[MODEL_MAX_STATES] = {0, bad[i], 0};
+    assert_int_equal(integrate_period(in, &m, z, NULL, NULL), HC_NOT_FINITE);
+  }
+  integrate_free(in);
+  assert_int_not_equal(integrate_new_exact(m.n_states, -1, &in), HC_OK);
+  assert_null(in);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(scenes_follow_the_closed_form),         cmocka_unit_test(degenerate_contacts_follow_it_too),
+      cmocka_unit_test(bilinear_contacts_need_no_friction),    cmocka_unit_test(two_contacts_are_one_of_double_stiffness),
+      cmocka_unit_test(grazing_is_not_stepped_over),           cmocka_unit_test(a_transition_at_the_end_of_the_period),
+      cmocka_unit_test(slope_is_that_of_the_period),           cmocka_unit_test(steady_states_are_the_references),
+      cmocka_unit_test(rest_stays_at_rest),                    cmocka_unit_test(any_start_follows_the_closed_form),
+      cmocka_unit_test(watched_period_is_the_same),            cmocka_unit_test(failures_are_reported),
+  };
+  check_watchdog(120);
+  return cmocka_run_group_tests_name("timeint.integrate_exact", tests, NULL, NULL);
+}

@@ -1,0 +1,129 @@
+/* test_shoot.c - orbits as fixed points of the period map: few periods, the same orbit as marching finds, and what cannot be. Both laws. */
+#include "tests/check.h"
+
+#include "tests/timeint/scenes.h"
+
+static timeint *made(scene sc, int law, int steady, int start)
+{
+  timeint *ti;
+  sc.transient.law = law;
+  sc.transient.steady = steady;
+  sc.transient.start = start;
+  assert_int_equal(timeint_new(&sc, &ti), HC_OK);
+  return ti;
+}
+
+/* What was found lies within `closure` of the orbit, and a period carries it back to itself: marching one more period from there moves it
+ * by at most twice that and the integration's own error. */
+static void check_orbit(timeint *ti, double omega, timeint_state y, const timeint_result *r, double tolerance)
+{
+  timeint_result again;
+  CHECK_LE(r->closure, tolerance, "closure at %g", omega);
+  timeint_state here = y;
+  assert_int_equal(timeint_orbit(ti, omega, 1, &y, NULL, &again), HC_OK);
+  CHECK_NEAR(y.x, here.x, 3 * tolerance * r->amplitude, "x stays at %g", omega);
+  CHECK_NEAR(again.amplitude, r->amplitude, 3 * tolerance * r->amplitude, "amplitude stays at %g", omega);
+}
+
+/* Shooting against waiting, with the same law, from the same start: one orbit. Each is within transient.tolerance of it. */
+static void finds_what_marching_finds(void **state)
+{
+  (void)state;
+  const struct { scene sc; double omega; } cases[] = {{scene_b10(), 7}, {scene_c2(), 6}, {scene_a10(), 13}, {scene_gap1(), 25}};
+  for (int law = TRANSIENT_LAW_REGULARISED; law <= TRANSIENT_LAW_EXACT; ++law)
+    for (int i = 0; i < 4; ++i) {
+      timeint_result waited, shot;
+      timeint *march = made(cases[i].sc, law, TRANSIENT_STEADY_MARCH, TRANSIENT_START_REST);
+      timeint *automatic = made(cases[i].sc, law, TRANSIENT_STEADY_AUTO, TRANSIENT_START_REST);
+      timeint_state y = timeint_rest(march), z = y;
+      assert_int_equal(timeint_steady(march, cases[i].omega, &y, NULL, &waited), HC_OK);
+      assert_int_equal(timeint_steady(automatic, cases[i].omega, &z, NULL, &shot), HC_OK);
+      const double tolerance = 2 * cases[i].sc.transient.tolerance;
+      CHECK_NEAR(shot.amplitude, waited.amplitude, tolerance * waited.amplitude, "law %d case %d", law, i);
+      CHECK_NEAR(shot.a1, waited.a1, tolerance * waited.amplitude, "law %d case %d a1", law, i);
+      CHECK_NEAR(shot.b1, waited.b1, tolerance * waited.amplitude, "law %d case %d b1", law, i);
+      assert_int_equal(waited.method, TIMEINT_BY_MARCHING);
+      assert_int_equal(shot.method, TIMEINT_BY_SHOOTING);
+      CHECK_LE(shot.periods, 0.7 * waited.periods, "law %d case %d periods", law, i);
+      check_orbit(automatic, cases[i].omega, z, &shot, cases[i].sc.transient.tolerance);
+      timeint_free(automatic);
+      timeint_free(march);
+    }
+}
+
+/* From 1 % off the orbit: Newton doubles the digits each iteration, a period an iteration with the exact law. What damping allows a march
+ * in one period is 1 - exp(-C T/2M) = 0.1 % of the way (r2). */
+static void few_periods_whatever_the_damping(void **state)
+{
+  (void)state;
+  const struct { scene sc; double omega, from; int most; } cases[] = {{scene_c2(), 9, 7, 20}, {scene_r2(), 708.5, 700, 60}};
+  for (int i = 0; i < 2; ++i) {
+    timeint *ti = made(cases[i].sc, TRANSIENT_LAW_EXACT, TRANSIENT_STEADY_AUTO, TRANSIENT_START_UP);
+    timeint_result r;
+    timeint_state y = timeint_rest(ti);
+    assert_int_equal(timeint_sweep(ti, cases[i].from, cases[i].omega, &y, NULL), HC_OK);
+    assert_int_equal(timeint_steady(ti, cases[i].omega, &y, NULL, &r), HC_OK);
+    timeint_free(ti);
+    ti = made(cases[i].sc, TRANSIENT_LAW_EXACT, TRANSIENT_STEADY_AUTO, TRANSIENT_START_HBM);
+    y.x *= 1.01;
+    assert_int_equal(timeint_steady(ti, cases[i].omega, &y, NULL, &r), HC_OK);
+    CHECK_LE(r.periods, cases[i].most, "case %d", i);
+    CHECK_LE(r.closure, 1e-9, "case %d", i);
+    CHECK_LE(r.multiplier, 1, "case %d", i);
+    timeint_free(ti);
+  }
+}
+
+/* Stuck all period: the slider may rest anywhere in an interval. It is left where it is, the mean follows it, and nothing else does.
+ * x = (steady) + kt c w/(K + kt c^2 + kn s^2) with w held. */
+static void a_free_slider_is_left_alone(void **state)
+{
+  (void)state;
+  const scene sc = scene_a10();
+  const double offset[] = {0, 0.02, -0.05}, c = sqrt(0.5), share = 100 * c / (40 + 100 * 0.5 + 200 * 0.5);
+  for (int law = TRANSIENT_LAW_REGULARISED; law <= TRANSIENT_LAW_EXACT; ++law)
+    for (int i = 0; i < 3; ++i) {
+      timeint *ti = made(sc, law, TRANSIENT_STEADY_SHOOTING, TRANSIENT_START_REST);
+      timeint_result r;
+      timeint_state y = {.x = 0.15 + share * offset[i], .w = {offset[i]}};
+      assert_int_equal(timeint_orbit(ti, 12, 1, &y, NULL, &r), HC_OK);
+      assert_int_equal(r.free_sliders, 1);
+      CHECK_NEAR(r.amplitude, 0.216217353374, 1e-9, "law %d", law);
+      CHECK_NEAR(r.mean, share * offset[i], 1e-9, "law %d offset %g", law, offset[i]);
+      CHECK_NEAR(y.w[0], offset[i], 1e-15, "law %d offset %g", law, offset[i]);
+      timeint_free(ti);
+    }
+}
+
+/* Case 2 has three orbits at 9: the two outer are stable, the one between is not, and shooting says so of each. Starts: their HBM
+ * solutions with one harmonic, rounded. */
+static void unstable_orbits_are_found_and_named(void **state)
+{
+  (void)state;
+  const scene sc = scene_c2();
+  timeint *ti = made(sc, TRANSIENT_LAW_EXACT, TRANSIENT_STEADY_SHOOTING, TRANSIENT_START_HBM);
+  timeint_result r;
+  int found[3] = {0}; /* stable, unstable, failed */
+  for (double x = 4; x < 12; x += 0.25)
+    for (double v = -60; v <= 60; v += 10) {
+      timeint_state y = {.x = -x, .v = v};
+      hc_status st = timeint_orbit(ti, 9, 1, &y, NULL, &r);
+      ++found[st != HC_OK ? 2 : timeint_stability(&r) < 0 ? 1 : 0];
+      if (st == HC_OK) CHECK_LE(r.closure, 1e-9, "from %g %g", x, v);
+      if (st == HC_OK && timeint_stability(&r) < 0) CHECK_NEAR(r.multiplier_im, 0, 0, "a saddle");
+    }
+  print_message("stable %d, unstable %d, none %d\n", found[0], found[1], found[2]);
+  CHECK_LE(1, found[0], "stable ones");
+  CHECK_LE(1, found[1], "the saddle");
+  timeint_free(ti);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(finds_what_marching_finds),   cmocka_unit_test(few_periods_whatever_the_damping),
+      cmocka_unit_test(a_free_slider_is_left_alone), cmocka_unit_test(unstable_orbits_are_found_and_named),
+  };
+  check_watchdog(120);
+  return cmocka_run_group_tests_name("timeint.shoot", tests, NULL, NULL);
+}

@@ -1,0 +1,131 @@
+/* test_slope.c - the slope of a period (regularised law): against differences of periods and against closed forms. */
+#include "tests/check.h"
+
+#include <string.h>
+
+#include "cases/numerics/linear.h"
+#include "tests/timeint/scenes.h"
+#include "timeint/integrate.h"
+
+enum { N = 3 }; /* X, P and one slider */
+
+static integrator *make(int n, double tolerance)
+{
+  integrator *in;
+  assert_int_equal(integrate_new_regularised(n, tolerance, &in), HC_OK);
+  return in;
+}
+
+/* Central differences of fourth order. */
+static void differences(integrator *in, const model *m, const double *y, double h, double *slope)
+{
+  static const double at[4] = {1, -1, 2, -2}, weight[4] = {8, -8, -1, 1};
+  memset(slope, 0, sizeof *slope * N * N);
+  for (int j = 0; j < N; ++j)
+    for (int k = 0; k < 4; ++k) {
+      double z[N] = {y[0], y[1], y[2]};
+      z[j] += at[k] * h;
+      assert_int_equal(integrate_period(in, m, z, NULL, NULL), HC_OK);
+      for (int i = 0; i < N; ++i) slope[i + j * N] += weight[k] * z[i] / (12 * h);
+    }
+}
+
+/* Every step errs by up to 1e-6 of the slopes (slope_tolerance); some 1300 steps, corners among them, add up like independent errors to
+ * 4e-5. Allowed: 1e-4 (worst seen: 2.4e-5). The differences: a period at 1e-13 scatters by up to 250 times that (timeint.c), over h = 1e-5
+ * that is 4e-6. Their truncation has no bound here; that it is small shows in the agreement. */
+static void compare(const scene *from, const char *name, double omega, double length, double regularisation)
+{
+  scene sc = *from;
+  model m;
+  sc.transient.regularisation = regularisation;
+  model_make(&m, &sc, omega, length);
+  integrator *fine = make(N, 1e-13);
+  double y[N] = {0.7, 0.5, 0.4}, want[N * N], slope[N * N], alone[2][2], apart = 0;
+  for (int i = 0; i < 50; ++i) assert_int_equal(integrate_period(fine, &m, y, NULL, NULL), HC_OK);
+  differences(fine, &m, y, 1e-5, want);
+  linear_free_motion(1, m.c, m.k, 2 * PI, alone);
+  for (int i = 0; i < 4; ++i) apart = fmax(apart, fabs(want[i % 2 + i / 2 * N] - alone[i % 2][i / 2]));
+  CHECK_LE(0.1, apart, "%s at %g: the contact takes part", name, omega);
+  for (double tol = 1e-8; tol > 1e-13; tol *= 1e-2) {
+    integrator *in = make(N, tol);
+    double z[N] = {y[0], y[1], y[2]}, plain[N] = {y[0], y[1], y[2]};
+    assert_int_equal(integrate_period(in, &m, plain, NULL, NULL), HC_OK);
+    assert_int_equal(integrate_slope(in, &m, z, slope), HC_OK);
+    for (int i = 0; i < N * N; ++i) CHECK_NEAR(slope[i], want[i], 1e-4, "%s at %g, %g: slope[%d] at %g", name, omega, regularisation, i, tol);
+    /* both within 250 tolerances of the exact end: as good, if not the same bits */
+    for (int i = 0; i < N; ++i) CHECK_NEAR(z[i], plain[i], 500 * tol, "%s at %g, %g: y[%d] at %g", name, omega, regularisation, i, tol);
+    integrate_free(in);
+  }
+  integrate_free(fine);
+}
+
+static void slopes_are_differences(void **state)
+{
+  (void)state;
+  scene c2 = scene_c2(), b10 = scene_b10(), a10 = scene_a10();
+  for (double regularisation = 1e-4; regularisation < 0.1; regularisation *= 100) {
+    compare(&c2, "c2", 9, 20, regularisation);
+    compare(&b10, "b10", 7, 1.4, regularisation);
+    compare(&a10, "a10", 13, 0.7, regularisation);
+  }
+}
+
+static double det(const double *a)
+{
+  return a[0] * (a[4] * a[8] - a[7] * a[5]) - a[3] * (a[1] * a[8] - a[7] * a[2]) + a[6] * (a[1] * a[5] - a[4] * a[2]);
+}
+
+/* a10 at 10 sticks all the time: stiffness 40 + 150, the slider stays, and x moves with it like with a constant force: det = exp(-C T/M).
+ * Nothing has corners: each of some 500 steps at 1e-6. */
+static void stuck_period_is_the_closed_form(void **state)
+{
+  (void)state;
+  scene sc = scene_a10();
+  model m;
+  model_make(&m, &sc, 10, 0.1);
+  integrator *in = make(N, 1e-12);
+  double y[N] = {1, 0, 0.1}, slope[N * N], e[2][2], k = 190. / 100, by_w = 100 * sqrt(0.5) / 190;
+  assert_int_equal(integrate_slope(in, &m, y, slope), HC_OK);
+  linear_free_motion(1, 0.04, k, 2 * PI, e);
+  const double want[N * N] = {e[0][0], e[1][0], 0, e[0][1], e[1][1], 0, by_w * (1 - e[0][0]), -by_w * e[1][0], 1};
+  const double bound = 1e-6 * (double)integrate_steps(in);
+  for (int i = 0; i < N * N; ++i) CHECK_NEAR(slope[i], want[i], bound, "slope[%d]", i);
+  CHECK_NEAR(det(slope), exp(-2 * PI * 0.04), 6 * bound, "no slip: Liouville");
+  integrate_free(in);
+}
+
+static void a_slope_leaves_no_trace(void **state)
+{
+  (void)state;
+  scene sc = scene_c2();
+  model m;
+  model_make(&m, &sc, 7, 10);
+  integrator *in = make(N, 1e-10);
+  double y[N] = {0.8, 0.6, 0.5}, z[N] = {0.8, 0.6, 0.5}, w[N] = {0.8, 0.6, 0.5}, v[N] = {0.8, 0.6, 0.5}, slope[2][N * N];
+  assert_int_equal(integrate_period(in, &m, y, NULL, NULL), HC_OK);
+  assert_int_equal(integrate_slope(in, &m, w, slope[0]), HC_OK);
+  assert_int_equal(integrate_period(in, &m, z, NULL, NULL), HC_OK);
+  assert_int_equal(integrate_slope(in, &m, v, slope[1]), HC_OK);
+  assert_memory_equal(y, z, sizeof y); /* whatever came before: the same bits */
+  assert_memory_equal(w, v, sizeof w);
+  assert_memory_equal(slope[0], slope[1], sizeof slope[0]);
+  m.f = NAN;
+  assert_int_equal(integrate_slope(in, &m, v, slope[1]), HC_NOT_FINITE);
+  assert_memory_equal(w, v, sizeof w); /* y stays on failure */
+  model_make(&m, &sc, 7, 10);
+  double u[N] = {0.8, 0.6, 0.5};
+  assert_int_equal(integrate_slope(in, &m, u, slope[1]), HC_OK); /* and works again */
+  assert_memory_equal(slope[0], slope[1], sizeof slope[0]);
+  integrate_free(in);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(slopes_are_differences),
+      cmocka_unit_test(stuck_period_is_the_closed_form),
+      cmocka_unit_test(a_slope_leaves_no_trace),
+  };
+  check_watchdog(120);
+  return cmocka_run_group_tests_name("timeint.slope", tests, NULL, NULL);
+}

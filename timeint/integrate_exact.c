@@ -1,0 +1,343 @@
+/* integrate_exact.c - see integrate.h. X and P by CVODE, one smooth right-hand side a phase (phase.h), from transition to transition; the
+ * sliders follow from the phase. Adams: nothing here is stiff but a huge damping.
+ *
+ * Root functions, always four, so that a period allocates nothing:
+ *     up - X,  X - down                      end the phase where they fall through 0
+ *     P                                      ends it if some contact slips
+ *     P'                                     ends nothing
+ * P and P' are there to be looked at: in a step whose ends lie inside the phase X can only leave it beyond a turning point; CVODE
+ * goes for that root of P, finds X outside there, and takes the crossing before it. P' does the same for two roots of P in one
+ * step. So nothing that lasts longer than CVODE's root tolerance (100 roundings of theta) is stepped over, unless P has four roots in
+ * one step. In a phase that nothing can end all four are 1.
+ * None is ever exactly 0: a function that stays 0 is an error or a warning to CVODE, depending on when.
+ *
+ * A transition located within dtheta makes an error of order dtheta^2, the force being continuous; CVODE's 1e-13 leaves nothing to polish.
+ *
+ * Slope: between transitions the variations obey a linear equation with constant coefficients, so they are carried along in closed form. */
+#include "timeint/integrate_private.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cvodes/cvodes.h>
+#include <cvodes/cvodes_ls.h>
+#include <nvector/nvector_serial.h>
+#include <sunlinsol/sunlinsol_dense.h>
+#include <sunmatrix/sunmatrix_dense.h>
+
+#include "cases/numerics/linear.h"
+#include "cases/sundials_compat.h"
+#include "timeint/phase.h"
+
+static const double two_pi = 6.283185307179586477;
+static const double at_end = 64 * DBL_EPSILON; /* nearer to 2 pi CVODE would answer CV_TOO_CLOSE to a restart */
+
+enum {
+  MAX_STEPS = 1000000,   /* between transitions: a thousand times what a hard period takes */
+  MAX_TRANSITIONS = 1000 /* per period: 16 contacts that open, slip, stick, slip, stick and close make 96 an oscillation */
+};
+
+enum { ROOT_UP, ROOT_DOWN, ROOT_TURN, ROOT_BEND, ROOTS };
+
+typedef struct exact { /* from integrate_new_exact, to integrate_free; not shared between threads */
+  integrator base;
+  int n;                 /* number of states                                              */
+  double tolerance;
+  const model *m;        /* of the period under way; the caller's                         */
+  phase phase;           /* now                                                           */
+  bool not_finite;       /* the right-hand side was, in the period under way              */
+  bool varies;           /* the slope is asked for                                        */
+  double varied;         /* theta up to which `slope` has come                            */
+  double slope[MODEL_MAX_STATES * MODEL_MAX_STATES]; /* by columns; rows of W while stuck */
+  SUNContext ctx;        /* made first, freed last, this integrator's alone               */
+  N_Vector y, dky;       /* [2] X, P; dense output                                        */
+  SUNMatrix jac;         /* [2][2]                                                        */
+  SUNLinearSolver ls;
+  void *cv;
+} exact;
+
+static int rhs(sunrealtype theta, N_Vector y, N_Vector dy, void *self)
+{
+  exact *in = self;
+  const double *z = NV_DATA_S(y);
+  double *dz = NV_DATA_S(dy);
+  dz[MODEL_X] = z[MODEL_P];
+  dz[MODEL_P] = phase_force(&in->phase, cos(theta), z[MODEL_X], z[MODEL_P]);
+  if (isfinite(dz[MODEL_X] + dz[MODEL_P])) return 0;
+  in->not_finite = true;
+  return -1;
+}
+
+static int jacobian(sunrealtype theta, N_Vector y, N_Vector dy, SUNMatrix jac, void *self, N_Vector t1, N_Vector t2, N_Vector t3)
+{
+  (void)theta, (void)y, (void)dy, (void)t1, (void)t2, (void)t3;
+  const exact *in = self;
+  double *a = SM_DATA_D(jac);
+  a[0] = 0, a[1] = -in->phase.k; /* by X */
+  a[2] = 1, a[3] = -in->m->c;    /* by P */
+  return 0;
+}
+
+/* CVODE multiplies values on either side of a root: this must not underflow. */
+static double never_zero(double g) { return g != 0 ? g : -1e-100; }
+
+static int roots(sunrealtype theta, N_Vector y, sunrealtype *g, void *self)
+{
+  const exact *in = self;
+  const phase *ph = &in->phase;
+  const double *z = NV_DATA_S(y);
+  for (int i = 0; i < ROOTS; ++i) g[i] = 1;
+  if (!phase_ends(ph)) return 0;
+  if (ph->up < INFINITY) g[ROOT_UP] = never_zero(ph->up - z[MODEL_X]);
+  if (ph->down > -INFINITY) g[ROOT_DOWN] = never_zero(z[MODEL_X] - ph->down);
+  g[ROOT_TURN] = never_zero(z[MODEL_P]);
+  g[ROOT_BEND] = never_zero(phase_force(ph, cos(theta), z[MODEL_X], z[MODEL_P]));
+  return 0;
+}
+
+static hc_status translate(exact *in, int flag)
+{
+  if (flag == CV_SUCCESS) return HC_OK;
+  in->base.flag = flag;
+  if (in->not_finite) return HC_NOT_FINITE;
+  return flag == CV_MEM_FAIL ? HC_NO_MEMORY : HC_INTEGRATOR; /* warnings, and flags yet unknown, too */
+}
+
+static hc_status make_cvode(exact *in)
+{
+  int falls[ROOTS] = {[ROOT_UP] = -1, [ROOT_DOWN] = -1}; /* 0: either way */
+  N_VConst(0.0, in->y);
+  int flag = CVodeInit(in->cv, rhs, 0.0, in->y); /* first: the other calls need it */
+  if (flag == CV_SUCCESS) flag = CVodeRootInit(in->cv, ROOTS, roots);
+  if (flag != CV_SUCCESS) return translate(in, flag);
+  const int flags[] = {
+      HC_CVODE_QUIET(in->cv),
+      CVodeSStolerances(in->cv, in->tolerance, in->tolerance),
+      CVodeSetUserData(in->cv, in),
+      CVodeSetLinearSolver(in->cv, in->ls, in->jac),
+      CVodeSetJacFn(in->cv, jacobian),
+      CVodeSetRootDirection(in->cv, falls),
+      CVodeSetEtaFixedStepBounds(in->cv, 0.9, 1.2), /* from 0, 1.5: a third fewer steps, and a tenth of the error (c2 at omega 9) */
+      CVodeSetNoInactiveRootWarn(in->cv),
+      CVodeSetMaxNumSteps(in->cv, MAX_STEPS),
+      CVodeSetMaxHnilWarns(in->cv, -1),
+  };
+  return translate(in, integrate_first_flag(flags, sizeof flags / sizeof *flags));
+}
+
+static hc_status make_parts(exact *in)
+{
+  if (hc_sundials_context(&in->ctx)) return HC_NO_MEMORY;
+  in->y = N_VNew_Serial(2, in->ctx);
+  in->dky = N_VNew_Serial(2, in->ctx);
+  in->jac = SUNDenseMatrix(2, 2, in->ctx);
+  if (!in->y || !in->dky || !in->jac) return HC_NO_MEMORY;
+  in->ls = SUNLinSol_Dense(in->y, in->jac, in->ctx);
+  in->cv = CVodeCreate(CV_ADAMS, in->ctx);
+  return in->ls && in->cv ? HC_OK : HC_NO_MEMORY;
+}
+
+static void release(integrator *base)
+{
+  exact *in = (exact *)base;
+  if (in->cv) CVodeFree(&in->cv);
+  if (in->ls) SUNLinSolFree(in->ls);
+  if (in->jac) SUNMatDestroy(in->jac);
+  if (in->dky) N_VDestroy(in->dky);
+  if (in->y) N_VDestroy(in->y);
+  if (in->ctx) SUNContext_Free(&in->ctx);
+  free(in);
+}
+
+static hc_status set_tolerance(integrator *base, double tolerance)
+{
+  exact *in = (exact *)base;
+  in->tolerance = tolerance;
+  return translate(in, CVodeSStolerances(in->cv, tolerance, tolerance));
+}
+
+/* Variations from in->varied to theta: dX'' + c dX' + k dX = sum_j share_j dW_j, a column at a time. The response to a constant force 1 from
+ * rest is (1 - e00)/k in X and e01 in P. */
+static void vary_to(exact *in, double theta)
+{
+  const phase *ph = &in->phase;
+  const double span = theta - in->varied, c = in->m->c;
+  double e[2][2];
+  linear_free_motion(1, c, ph->k, span, e);
+  const double step = ph->k != 0 ? (1 - e[0][0]) / ph->k : c != 0 ? (span - e[0][1]) / c : 0.5 * span * span;
+  for (int q = 0; q < in->n; ++q) {
+    double *z = in->slope + q * in->n, pull = 0, x = z[MODEL_X], p = z[MODEL_P];
+    for (int j = 0; j < in->m->n_contacts; ++j) pull += phase_share(ph, j) * z[MODEL_W + j];
+    z[MODEL_X] = e[0][0] * x + e[0][1] * p + step * pull;
+    z[MODEL_P] = e[1][0] * x + e[1][1] * p + e[0][1] * pull;
+  }
+  in->varied = theta;
+}
+
+/* Sliders that have just come to rest. */
+static void vary_held(exact *in, const phase *before)
+{
+  for (int j = 0; j < in->m->n_contacts; ++j) {
+    const phase_contact *pc = &in->phase.contact[j];
+    if (pc->state != CONTACT_STICK || (before && before->contact[j].state == CONTACT_STICK)) continue;
+    for (int q = 0; q < in->n; ++q) {
+      double *z = in->slope + q * in->n;
+      z[MODEL_W + j] = pc->own ? (q == MODEL_W + j ? 1.0 : 0.0) : pc->held_by_x * z[MODEL_X];
+    }
+  }
+}
+
+static void vary_begin(exact *in)
+{
+  memset(in->slope, 0, sizeof in->slope);
+  in->slope[MODEL_X] = 1;
+  in->slope[MODEL_P + in->n] = 1;
+  in->varied = 0;
+  vary_held(in, NULL);
+}
+
+/* Into slope[n*n], with the rows of sliders that are tied to X. */
+static void vary_end(exact *in, double *slope)
+{
+  vary_to(in, two_pi);
+  memcpy(slope, in->slope, sizeof *slope * (size_t)(in->n * in->n));
+  for (int j = 0; j < in->m->n_contacts; ++j) {
+    double rest, by_x;
+    phase_slider(&in->phase, j, &rest, &by_x);
+    if (phase_share(&in->phase, j) != 0) continue;
+    for (int q = 0; q < in->n; ++q) slope[MODEL_W + j + q * in->n] = by_x * slope[MODEL_X + q * in->n];
+  }
+}
+
+static hc_status add_counts(exact *in)
+{
+  long steps = 0, evals = 0;
+  int flag = CVodeGetNumSteps(in->cv, &steps);
+  if (flag == CV_SUCCESS) flag = CVodeGetNumRhsEvals(in->cv, &evals);
+  in->base.steps += steps;
+  in->base.rhs += evals;
+  return translate(in, flag);
+}
+
+/* CVODE from theta on, in the phase as it is. */
+static hc_status start(exact *in, double theta)
+{
+  int flag = CVodeReInit(in->cv, theta, in->y);
+  if (flag == CV_SUCCESS) flag = CVodeSetStopTime(in->cv, two_pi);
+  return translate(in, flag);
+}
+
+/* CVODE stopped on a root at theta. */
+static hc_status transition(exact *in, double theta, int *count)
+{
+  int info[ROOTS] = {0};
+  int flag = CVodeGetRootInfo(in->cv, info);
+  if (flag != CV_SUCCESS) return translate(in, flag);
+  const int way = info[ROOT_TURN] ? info[ROOT_TURN] : info[ROOT_UP] ? 1 : info[ROOT_DOWN] ? -1 : 0;
+  if (!way) return HC_OK;
+  const phase before = in->phase;
+  const int n = phase_next(&in->phase, NV_DATA_S(in->y)[MODEL_X], way, info[ROOT_TURN] != 0);
+  if (!n) return HC_OK;
+  if ((*count += n) > MAX_TRANSITIONS) return HC_CHATTER;
+  if (in->varies) {
+    phase after = in->phase;
+    in->phase = before;
+    vary_to(in, theta);
+    in->phase = after;
+    vary_held(in, &before);
+  }
+  if (theta == two_pi) return HC_OK;
+  hc_status st = add_counts(in);
+  return st == HC_OK ? start(in, theta) : st;
+}
+
+/* To the end of the period. Unwatched, CVODE returns at roots only; the steps are the same. At tout == tstop 6.4 says CV_SUCCESS, 7 says
+ * CV_TSTOP_RETURN. */
+static hc_status run(exact *in, integrate_watch *watch, void *self, int *count)
+{
+  for (sunrealtype theta = 0; theta < two_pi;) {
+    sunrealtype before = theta;
+    int flag = CVode(in->cv, two_pi, in->y, &theta, watch ? CV_ONE_STEP : CV_NORMAL);
+    if (flag != CV_SUCCESS && flag != CV_TSTOP_RETURN && flag != CV_ROOT_RETURN) return translate(in, flag);
+    if (two_pi - theta <= at_end * two_pi) theta = two_pi;
+    hc_status st = watch ? watch(self, &in->base, before, theta) : HC_OK;
+    if (st == HC_OK && flag == CV_ROOT_RETURN) st = transition(in, theta, count);
+    if (st != HC_OK) return st;
+  }
+  return HC_OK;
+}
+
+static void take_state(const exact *in, double *y)
+{
+  memcpy(y, NV_DATA_S(in->y), 2 * sizeof *y);
+  for (int j = 0; j < in->m->n_contacts; ++j) {
+    double rest, by_x;
+    phase_slider(&in->phase, j, &rest, &by_x);
+    y[MODEL_W + j] = rest + by_x * y[MODEL_X];
+  }
+}
+
+static hc_status period(integrator *base, const model *m, double *y, double *slope, integrate_watch *watch, void *self)
+{
+  exact *in = (exact *)base;
+  if (m->n_states != in->n) return HC_BUG;
+  in->m = m;
+  in->not_finite = false;
+  in->varies = slope != NULL;
+  base->flag = CV_SUCCESS;
+  int count = phase_begin(&in->phase, m, y);
+  if (count < 0) return HC_NOT_FINITE;
+  if (slope) vary_begin(in);
+  memcpy(NV_DATA_S(in->y), y, 2 * sizeof *y);
+  hc_status st = start(in, 0);
+  if (st == HC_OK) st = run(in, watch, self, &count);
+  hc_status counted = add_counts(in);
+  base->switches += count;
+  if (st == HC_OK) st = counted;
+  if (st != HC_OK) return st;
+  take_state(in, y);
+  if (slope) vary_end(in, slope);
+  return HC_OK;
+}
+
+static hc_status dense(const integrator *base, double theta, int order, double *y)
+{
+  const exact *in = (const exact *)base;
+  if (CVodeGetDky(in->cv, theta, order, in->dky) != CV_SUCCESS) return HC_BUG; /* theta outside the step */
+  memcpy(y, NV_DATA_S(in->dky), 2 * sizeof *y);
+  for (int j = 0; j < in->m->n_contacts; ++j) {
+    double rest, by_x;
+    phase_slider(&in->phase, j, &rest, &by_x);
+    y[MODEL_W + j] = (order == 0 ? rest : 0) + by_x * y[MODEL_X];
+  }
+  return HC_OK;
+}
+
+static bool slides(const integrator *base, int j, const double *y)
+{
+  (void)y; /* the phase knows */
+  return contact_slip_sign(((const exact *)base)->phase.contact[j].state) != 0;
+}
+
+static const integrator_class class = {.tolerance = set_tolerance, .period = period, .dense = dense, .slides = slides, .free = release};
+
+hc_status integrate_new_exact(int n_states, double tolerance, integrator **out)
+{
+  *out = NULL;
+  if (n_states < MODEL_W || n_states > MODEL_MAX_STATES) return HC_BAD_INPUT;
+  exact *in = calloc(1, sizeof *in); /* zeroed, so free works half-built */
+  if (!in) return HC_NO_MEMORY;
+  in->base.does = &class;
+  in->n = n_states;
+  in->tolerance = tolerance;
+  hc_status st = make_parts(in);
+  if (st == HC_OK) st = make_cvode(in);
+  if (st == HC_OK) {
+    *out = &in->base;
+    return HC_OK;
+  }
+  release(&in->base);
+  return st;
+}

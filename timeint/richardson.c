@@ -1,0 +1,63 @@
+/* richardson.c - measures at no regularisation from those at rho, rho/2, rho/4.
+ *
+ *     q(rho) = q0 + a rho + b rho^2 + ...       A = 2 q(rho/2) - q(rho),  B = 2 q(rho/4) - q(rho/2),  q0 ~ (4 B - A)/3
+ *
+ * Both orders are eliminated, since which of the two leads depends on whether contact returns in stick (a) or in slip (a = 0, b);
+ * README.md has the figures. What the second step changed, |q0 - B|, estimates what is left of q(rho): generously, as it is the error of
+ * the first step. */
+#include <math.h>
+
+#include "timeint/internal.h"
+
+enum { LEVELS = 3 };
+
+static double extrapolate(double q1, double q2, double q3)
+{
+  const double a = 2 * q2 - q1, b = 2 * q3 - q2;
+  return (4 * b - a) / 3;
+}
+
+/* The same orbit at another regularisation, from where it was. */
+static hc_status solve_at(timeint *ti, double regularisation, int k, const hc_monitor *monitor, timeint_result *r)
+{
+  shoot_report found;
+  const double size = timeint_size(ti) / ti->length;
+  ti->sc.transient.regularisation = regularisation;
+  model_make(&ti->model, &ti->sc, ti->omega, ti->length);
+  hc_status st = shoot_newton(ti->shoot, k, size, timeint_goal(ti), monitor, &found);
+  return st == HC_OK ? timeint_report(ti, k, TIMEINT_BY_SHOOTING, &found, r) : st;
+}
+
+static void combine(timeint_result *r, const timeint_result *half, const timeint_result *quarter)
+{
+  const double first = 2 * quarter->amplitude - half->amplitude;
+#define EXTRAPOLATED(field) r->field = extrapolate(r->field, half->field, quarter->field)
+  EXTRAPOLATED(max);
+  EXTRAPOLATED(min);
+  EXTRAPOLATED(rms);
+  EXTRAPOLATED(mean);
+  EXTRAPOLATED(a1);
+  EXTRAPOLATED(b1);
+  for (int i = 0; i < TIMEINT_WAVE; ++i) EXTRAPOLATED(wave[i]);
+#undef EXTRAPOLATED
+  r->amplitude = 0.5 * (r->max - r->min);
+  r->harmonic_1 = hypot(r->a1, r->b1);
+  r->regularisation_error = r->amplitude > 0 ? fabs(r->amplitude - first) / r->amplitude : 0;
+}
+
+hc_status timeint_extrapolate(timeint *ti, const hc_monitor *monitor, timeint_result *r)
+{
+  const double rho = ti->sc.transient.regularisation;
+  if (!ti->sc.transient.richardson || ti->sc.transient.law == TRANSIENT_LAW_EXACT) return HC_OK;
+  if (r->method == TIMEINT_BY_CLOSED_FORM) {
+    r->regularisation_error = 0;
+    return HC_OK;
+  }
+  timeint_result at[LEVELS - 1];
+  hc_status st = timeint_set_tolerance(ti, timeint_final_tolerance(ti));
+  for (int i = 0; i < LEVELS - 1 && st == HC_OK; ++i) st = solve_at(ti, rho / (2 << i), r->period_multiple, monitor, &at[i]);
+  if (st == HC_OK) combine(r, &at[0], &at[1]);
+  ti->sc.transient.regularisation = rho;
+  model_make(&ti->model, &ti->sc, ti->omega, ti->length);
+  return st;
+}
