@@ -70,10 +70,11 @@ static hc_status pass(wait *w, int periods, bool *linear)
   return st == HC_OK ? back : st;
 }
 
-/* Is the motion, at ti->y when the solve began, on its way to this orbit? */
-static bool goes_there(const shoot_report *found, double size)
+/* Is the motion, at ti->y when the solve began, on its way to this orbit? A sweep has left it next to its orbit, if that is stable. */
+static bool goes_there(const wait *w, const shoot_report *found, double size)
 {
   const double rho = cabs(found->multiplier);
+  if (w->n == 0) return rho < 1 && found->moved <= near * size;
   return rho < 1 && found->moved <= 5 * near * size && found->nonlinear <= 0.5 * (1 - rho);
 }
 
@@ -89,7 +90,7 @@ static hc_status look(wait *w, int k, bool *found_it, timeint_result *r)
   hc_status st = shoot_newton(ti->shoot, k, near * size, timeint_goal(ti), w->monitor, &found);
   if (timeint_no_orbit(st)) { ++w->failed; return HC_OK; }
   if (st != HC_OK) return st;
-  *found_it = goes_there(&found, size);
+  *found_it = goes_there(w, &found, size);
   if (*found_it) return timeint_report(ti, k, TIMEINT_BY_SHOOTING, &found, r);
   memcpy(ti->y, began, sizeof began);
   return HC_OK;

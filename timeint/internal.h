@@ -15,6 +15,7 @@
 struct timeint { /* from timeint_new, to timeint_free; not shared between threads                  */
   scene sc;      /* a copy: the caller may drop theirs                                             */
   integrator *in;
+  integrator *sweeper; /* the exact law's, for sweeps where `in` is not; else NULL                      */
   settle *settle;
   shoot *shoot;
   measure measure;

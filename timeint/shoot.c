@@ -184,11 +184,13 @@ static void begin(shoot *s, int k, const hc_monitor *monitor)
   s->known = s->begun = false;
 }
 
-/* A residual r is an error of about r/(1 - rho): a tenth of the goal times that, but no less than what periods scatter by, measured up to
- * 250 times CVODE's tolerance with the regularised law (timeint.c). */
+/* A residual r is an error of about r/(1 - rho): a tenth of the goal times that, but no less than what periods scatter by: up to 250 times
+ * CVODE's tolerance with the regularised law (timeint.c), and the rounding of some thousand steps. Newton's last step goes below; what is
+ * left is judged by finish(). */
 static double small_residual(const shoot *s, double goal)
 {
-  return fmax(0.1 * goal * (1 - fmin(s->ti->contraction, 1)), 100 * s->k * s->ti->tolerance);
+  const double scatter = fmax(100 * s->ti->tolerance, 2e4 * DBL_EPSILON);
+  return fmax(0.1 * goal * (1 - fmin(s->ti->contraction, 1)), s->k * scatter);
 }
 
 /* |F^k(z0) - z* - Phi (z0 - z*)| / |z0 - z*|, z* = z. */

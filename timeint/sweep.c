@@ -5,6 +5,8 @@
  * the state is marched until it has settled to a percent of its size, or for MAX_FOLDS e-folds. How far it has gone meanwhile is
  * how far its orbit has moved: the step grows while that is little and shrinks when it is much (where the curve is steep: near resonance,
  * towards a fold), to a tenth of the half width of a resonance at least.
+ * All this with the exact law, whatever the scene's: a branch is the same for both to within the regularisation, a tenth of the cost decides,
+ * and what is reported at the end of a sweep is solved with the scene's own.
  * A state that is not periodic moves of itself: it goes on, too, in small steps. Not here: knowing that a branch has ended. The state
  * falls off it by itself, as on the shaker. */
 #include <complex.h>
@@ -138,7 +140,7 @@ static hc_status arrive(sweep *s, double omega, timeint_state *state, bool *arri
   return st;
 }
 
-hc_status timeint_sweep(timeint *ti, double omega_from, double omega_to, timeint_state *state, const hc_monitor *monitor)
+static hc_status sweep_with_this_law(timeint *ti, double omega_from, double omega_to, timeint_state *state, const hc_monitor *monitor)
 {
   hc_status st = timeint_begin(ti, omega_from, state);
   if (st == HC_OK && !(omega_to > 0 && isfinite(omega_to))) st = HC_BAD_INPUT;
@@ -152,5 +154,24 @@ hc_status timeint_sweep(timeint *ti, double omega_from, double omega_to, timeint
     if (begun) s.step = next_step(ti, s.step, s.moved);
     begun = true;
   }
+  return st;
+}
+
+/* The other law's integrator and equations in the place of the scene's, or back. */
+static void swap_law(timeint *ti, int law)
+{
+  integrator *in = ti->in;
+  ti->in = ti->sweeper;
+  ti->sweeper = in;
+  ti->sc.transient.law = law;
+}
+
+hc_status timeint_sweep(timeint *ti, double omega_from, double omega_to, timeint_state *state, const hc_monitor *monitor)
+{
+  const int law = ti->sc.transient.law;
+  if (law == TRANSIENT_LAW_EXACT) return sweep_with_this_law(ti, omega_from, omega_to, state, monitor);
+  swap_law(ti, TRANSIENT_LAW_EXACT);
+  hc_status st = sweep_with_this_law(ti, omega_from, omega_to, state, monitor);
+  swap_law(ti, law);
   return st;
 }

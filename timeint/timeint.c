@@ -37,7 +37,8 @@ hc_status timeint_new(const scene *sc, timeint **out)
   ti->tolerance = timeint_final_tolerance(ti);
   const int n = MODEL_W + sc->n_contacts;
   hc_status (*make)(int, double, integrator **) = sc->transient.law == TRANSIENT_LAW_EXACT ? integrate_new_exact : integrate_new_regularised;
-  if ((st = make(n, ti->tolerance, &ti->in)) == HC_OK && (st = settle_new(n, &ti->settle)) == HC_OK &&
+  const bool other = sc->transient.law != TRANSIENT_LAW_EXACT;
+  if ((st = make(n, ti->tolerance, &ti->in)) == HC_OK && (st = other ? integrate_new_exact(n, ti->tolerance, &ti->sweeper) : HC_OK) == HC_OK && (st = settle_new(n, &ti->settle)) == HC_OK &&
       (st = shoot_new(ti, &ti->shoot)) == HC_OK) {
     *out = ti;
     return HC_OK;
@@ -51,6 +52,7 @@ void timeint_free(timeint *ti)
   if (!ti) return;
   shoot_free(ti->shoot);
   settle_free(ti->settle);
+  integrate_free(ti->sweeper);
   integrate_free(ti->in);
   free(ti);
 }

@@ -75,7 +75,7 @@ hc_status timeint_orbit(timeint *ti, double omega, int k, timeint_state *state, 
 int timeint_stability(const timeint_result *result);
 
 /* As on a shaker: carry *state from omega_from to omega_to in frequency steps small enough to stay on a branch, partially settling at
- * each; does not settle at omega_to (call timeint_steady for that). */
+ * each; with the exact law whatever the scene's, and does not settle at omega_to (call timeint_steady for that). */
 hc_status timeint_sweep(timeint *ti, double omega_from, double omega_to, timeint_state *state, const hc_monitor *monitor);
 
 #endif

@@ -66,7 +66,8 @@ static void marching_allocates_nothing(void **state)
   assert_int_equal(timeint_steady(ti, 7, &y, &monitor, &r), HC_OK);
   CHECK_LE(50, c.ticks, "enough periods");
   assert_int_equal(c.at_fifty - c.at_three, 0);
-  long settled = allocations; /* neither measuring nor sweeping do */
+  assert_int_equal(timeint_sweep(ti, 7, 7.01, &y, NULL), HC_OK); /* CVODE makes itself ready in the first period of each law */
+  long settled = allocations;                                    /* neither measuring, nor shooting, nor sweeping do */
   assert_int_equal(timeint_sweep(ti, 7, 7.2, &y, NULL), HC_OK);
   assert_int_equal(timeint_steady(ti, 7.2, &y, NULL, &r), HC_OK);
   assert_int_equal(allocations - settled, 0);
