@@ -59,6 +59,23 @@ static void multiplier_passes_minus_one(void **state)
   CHECK_NEAR(doubling(&kn, 6.5, 6.05, 6.03), 6.036792, 1e-5, "kn = 1e4");
 }
 
+/* Above the doubling the period-1 orbit is where the motion goes. */
+static void period_1_above(void **state)
+{
+  (void)state;
+  scene sc = stiff();
+  timeint *ti;
+  timeint_result r;
+  sc.transient.start = TRANSIENT_START_HBM;
+  assert_int_equal(timeint_new(&sc, &ti), HC_OK);
+  timeint_state y = followed_to(ti, 6.5, 6.05, &r);
+  assert_int_equal(timeint_steady(ti, 6.05, &y, NULL, &r), HC_OK);
+  assert_int_equal(r.period_multiple, 1);
+  assert_int_equal(timeint_stability(&r), 1);
+  assert_false(r.left_orbit);
+  timeint_free(ti);
+}
+
 /* Left to itself next to the unstable period-1 orbit. */
 static void becomes(const scene *sc, double omega, int multiple, bool aperiodic)
 {
@@ -115,7 +132,8 @@ static void swept_up_to_period_4(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(multiplier_passes_minus_one),        cmocka_unit_test(sub_harmonics_of_case_2),
+      cmocka_unit_test(multiplier_passes_minus_one),        cmocka_unit_test(period_1_above),
+      cmocka_unit_test(sub_harmonics_of_case_2),
       cmocka_unit_test(sub_harmonics_with_a_stiff_contact), cmocka_unit_test(swept_up_to_period_4),
   };
   check_watchdog(120);
