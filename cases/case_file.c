@@ -32,10 +32,16 @@ bool case_suggest(message *m, suggestion s, const char *section, int j)
   return s.f || s.s;
 }
 
-static hc_status whole_file(case_reader *r, hc_status st, const char *words)
+static hc_status whole_file(case_reader *r, const char *words)
 {
-  message_add(case_blame(r, (case_place){0}), "%s", words);
-  return st;
+  message_add(case_blame(r, (case_place){0}), "%s, expected a %s file", words, r->noun);
+  return HC_IO;
+}
+
+static hc_status out_of_memory(case_reader *r)
+{
+  message_add(case_blame(r, (case_place){0}), "out of memory");
+  return HC_NO_MEMORY;
 }
 
 /* "dir/case2.yaml" is titled "case2". */
@@ -48,46 +54,53 @@ static void title_from_name(const char *name, char title[SCENE_MAX_TEXT])
   memset(title + m.used, 0, SCENE_MAX_TEXT - m.used);
 }
 
-static hc_status read_all(case_reader *r, const char *text, size_t length, int n_set)
+void case_reader_start(case_reader *r, const char *name, const char *const *set, case_error *err)
+{
+  memset(r, 0, sizeof *r);
+  r->name = name;
+  r->noun = "case";
+  r->required = "`oscillator`, `forcing` and `sweep`";
+  r->set = set;
+  message_start(&r->msg, err->message, sizeof err->message);
+  field_defaults(&r->sc);
+}
+
+hc_status case_reader_scene(case_reader *r, const char *text, size_t length)
 {
   yaml_document_t doc;
-  if (length > CASE_LARGEST) return whole_file(r, HC_BAD_INPUT, "larger than 1 MB, expected a case file (a few kB)");
   hc_status st = yaml_text_load(r, text, length, &doc);
   if (st != HC_OK) return st;
-  st = yaml_scene_read(r, &doc);
+  st = yaml_scene_read(r, &doc, yaml_document_get_root_node(&doc));
   yaml_document_delete(&doc);
+  return st;
+}
+
+static hc_status read_all(case_reader *r, const char *text, size_t length, int n_set)
+{
+  hc_status st = case_reader_scene(r, text, length);
   for (int k = 1; k <= n_set && st == HC_OK; ++k) st = case_set_apply(r, k);
   if (st == HC_OK) st = case_check(r);
   if (st == HC_OK && r->at[field_index(field_find("", "title", 5))].line == 0) title_from_name(r->name, r->sc.title);
   return st;
 }
 
-static void start(case_reader *r, const char *name, const char *const *set, case_error *err)
-{
-  memset(r, 0, sizeof *r);
-  r->name = name;
-  r->set = set;
-  message_start(&r->msg, err->message, sizeof err->message);
-  field_defaults(&r->sc);
-}
-
 hc_status case_parse(const char *name, const char *text, size_t length, int n_set, const char *const *set, scene *out, case_error *err)
 {
   case_reader r;
-  start(&r, name, set, err);
+  case_reader_start(&r, name, set, err);
   hc_status st = read_all(&r, text, length, n_set);
   if (st == HC_OK) *out = r.sc;
   return st;
 }
 
-/* The file's bytes, at most one more than allowed, in memory to free. */
-static hc_status slurp(case_reader *r, FILE *from, char **text, size_t *length)
+/* At most one byte more than allowed: then it is too large. */
+static hc_status read_stream(case_reader *r, FILE *from, char **text, size_t *length)
 {
   struct stat info;
-  if (fstat(fileno(from), &info) == 0 && S_ISDIR(info.st_mode)) return whole_file(r, HC_IO, "a directory, expected a case file");
-  if (!(*text = malloc(CASE_LARGEST + 1))) return whole_file(r, HC_NO_MEMORY, "out of memory");
+  if (fstat(fileno(from), &info) == 0 && S_ISDIR(info.st_mode)) return whole_file(r, "a directory");
+  if (!(*text = malloc(CASE_LARGEST + 1))) return out_of_memory(r);
   *length = fread(*text, 1, CASE_LARGEST + 1, from);
-  return ferror(from) ? whole_file(r, HC_IO, "cannot be read, expected a case file") : HC_OK;
+  return ferror(from) ? whole_file(r, "cannot be read") : HC_OK;
 }
 
 static hc_status cannot_open(case_reader *r, int error)
@@ -98,17 +111,24 @@ static hc_status cannot_open(case_reader *r, int error)
   return HC_IO;
 }
 
+hc_status case_reader_slurp(case_reader *r, char **text, size_t *length)
+{
+  bool standard_input = !strcmp(r->name, "<stdin>");
+  *text = NULL;
+  FILE *from = standard_input ? stdin : fopen(r->name, "rb");
+  if (!from) return cannot_open(r, errno);
+  hc_status st = read_stream(r, from, text, length);
+  if (!standard_input) fclose(from);
+  return st;
+}
+
 hc_status case_read(const char *path, int n_set, const char *const *set, scene *out, case_error *err)
 {
   case_reader r;
-  bool standard_input = !strcmp(path, "-");
   char *text = NULL;
   size_t length = 0;
-  start(&r, standard_input ? "<stdin>" : path, set, err);
-  FILE *from = standard_input ? stdin : fopen(path, "rb");
-  if (!from) return cannot_open(&r, errno);
-  hc_status st = slurp(&r, from, &text, &length);
-  if (!standard_input) fclose(from);
+  case_reader_start(&r, !strcmp(path, "-") ? "<stdin>" : path, set, err);
+  hc_status st = case_reader_slurp(&r, &text, &length);
   if (st == HC_OK) st = read_all(&r, text, length, n_set);
   if (st == HC_OK) *out = r.sc;
   free(text);

@@ -1,4 +1,5 @@
-/* case_reader.h - what the parts of the case reader share; private to cases/. The public face is case_file.h.
+/* case_reader.h - what the parts of the case reader share; private to cases/ and to the study file's reader, which
+ * speaks the same language (compare/study/). The public face is case_file.h.
  *
  *     text --yaml_text_load--> document --yaml_scene_read--> scene --case_set_apply--> scene --case_check--> done */
 #ifndef HC_CASE_READER_H
@@ -6,6 +7,7 @@
 
 #include <yaml.h>
 
+#include "cases/case_file.h"
 #include "cases/fields.h"
 #include "cases/status.h"
 #include "cases/suggest.h"
@@ -20,8 +22,11 @@ typedef struct case_place {
 
 typedef struct case_reader {
   const char *name;         /* of the file, for messages                                         */
+  const char *noun;         /* "case", or what else such a file is, for messages                 */
+  const char *required;     /* what it cannot do without, in words                               */
   const char *const *set;   /* the assignments                                                   */
   int set_now;              /* the one being applied, from 1; 0 while the file is read           */
+  case_place here;          /* where the path being resolved or the value being set stands       */
   scene sc;                 /* filled as reading goes on                                         */
   case_place at[FIELD_MAX]; /* [field_index] where each field was last given; for contacts' fields, in the contact being read */
   case_place contact_at[SCENE_MAX_CONTACTS];          /* where each contact appeared                  */
@@ -35,6 +40,15 @@ static inline case_place case_place_of(const case_reader *r, yaml_mark_t mark)
   return (case_place){.set = r->set_now, .line = mark.line + 1, .column = mark.column + 1};
 }
 
+/* A reader of the case file `name`, every field at its default; messages go to err. */
+void case_reader_start(case_reader *r, const char *name, const char *const *set, case_error *err);
+
+/* The bytes of r's file, "<stdin>" being standard input, in memory to free in any case. */
+hc_status case_reader_slurp(case_reader *r, char **text, size_t *length);
+
+/* The scene of text[length], before assignments and case_check. */
+hc_status case_reader_scene(case_reader *r, const char *text, size_t length);
+
 /* Start the message with "FILE:LINE:COLUMN: " or "--set PATH=VALUE: " and return it for the rest. */
 message *case_blame(case_reader *r, case_place place);
 
@@ -44,10 +58,39 @@ bool case_suggest(message *m, suggestion s, const char *section, int j);
 /* text as one YAML document without aliases, anchors, tags and depth, to be freed with yaml_document_delete when HC_OK. */
 hc_status yaml_text_load(case_reader *r, const char *text, size_t length, yaml_document_t *doc);
 
-/* The whole document, its list of contacts, or contact j of it, into r->sc. */
-hc_status yaml_scene_read(case_reader *r, yaml_document_t *doc);
+/* What a node says, and what it is in words: "a mapping", "a list", "a single value", "empty". */
+static inline const char *yaml_node_text(const yaml_node_t *n) { return (const char *)n->data.scalar.value; }
+const char *yaml_node_what(const yaml_node_t *n);
+field_item yaml_node_item(const yaml_node_t *n); /* of a scalar */
+
+/* The node as it was written; NULL, or the node that cannot be part of any value. */
+const yaml_node_t *yaml_node_value(yaml_document_t *doc, const yaml_node_t *node, field_value *v);
+
+/* Keys must be plain words; false with the message made. */
+bool yaml_check_key(case_reader *r, const yaml_node_t *key);
+hc_status yaml_duplicate_key(case_reader *r, const yaml_node_t *key, case_place first);
+
+/* A scene at `root`, its list of contacts, or contact j of it, into r->sc. */
+hc_status yaml_scene_read(case_reader *r, yaml_document_t *doc, const yaml_node_t *root);
 hc_status yaml_scene_contacts(case_reader *r, yaml_document_t *doc, yaml_node_t *node);
 hc_status yaml_scene_contact(case_reader *r, yaml_document_t *doc, yaml_node_t *node, int j);
+
+/* The value of one field, of contact j if it is one of a contact's, into base (fields.h). */
+hc_status yaml_scene_value(case_reader *r, yaml_document_t *doc, const field *f, int j, void *base, const yaml_node_t *node);
+
+/* What a path "hbm.samples" or "contacts[0].gap" names; f = NULL: a contact, or with contact = -1 all contacts. */
+typedef struct case_target {
+  const field *f;
+  int contact; /* -1 outside contacts */
+} case_target;
+hc_status case_find_target(case_reader *r, const char *path, size_t length, case_target *t);
+
+/* The scene, or the contact of t, which is appended if it is the one past the last; then note that t.f was given at r->here. */
+void *case_target_base(case_reader *r, case_target t);
+void case_target_given(case_reader *r, case_target t);
+
+/* Of two ways to say the same (sweep.omega, sweep.frequency) the one not given now, if f has one, goes back to its default. */
+void case_drop_rival(case_reader *r, const field *f);
 
 /* Apply assignment number k, from 1. */
 hc_status case_set_apply(case_reader *r, int k);

@@ -5,16 +5,9 @@
 
 #include "cases/case_reader.h"
 
-typedef struct target { /* what a PATH names; f = NULL: a contact, or with contact = -1 all contacts */
-  const field *f;
-  int contact; /* -1 outside contacts */
-} target;
-
-static case_place here(const case_reader *r) { return (case_place){.set = r->set_now, .line = 1, .column = 1}; }
-
 static hc_status unknown_path(case_reader *r, const char *path, size_t length)
 {
-  message *m = case_blame(r, here(r));
+  message *m = case_blame(r, r->here);
   const field_section *s = field_find_section(path, length);
   if (s) {
     message_add(m, "`%s` is a section, expected one of its fields:", s->name);
@@ -41,10 +34,10 @@ static int read_index(const char *s, const char *stop, const char **end)
   return index;
 }
 
-static hc_status find_in_contacts(case_reader *r, const char *path, size_t length, target *t)
+static hc_status find_in_contacts(case_reader *r, const char *path, size_t length, case_target *t)
 {
   const char *stop = path + length, *s = path + 8;
-  *t = (target){.contact = -1};
+  *t = (case_target){.contact = -1};
   if (s == stop) return HC_OK;
   t->contact = read_index(s, stop, &s);
   if (t->contact < 0) return unknown_path(r, path, length);
@@ -54,14 +47,14 @@ static hc_status find_in_contacts(case_reader *r, const char *path, size_t lengt
   }
   int last = r->sc.n_contacts < SCENE_MAX_CONTACTS ? r->sc.n_contacts : SCENE_MAX_CONTACTS - 1;
   if (t->contact <= last) return HC_OK;
-  message_add(case_blame(r, here(r)), "the case has %d contacts, expected an index 0..%d%s", r->sc.n_contacts, last,
+  message_add(case_blame(r, r->here), "the case has %d contacts, expected an index 0..%d%s", r->sc.n_contacts, last,
               last == r->sc.n_contacts ? " (the last one appends)" : "");
   return HC_BAD_INPUT;
 }
 
-static hc_status find_target(case_reader *r, const char *path, size_t length, target *t)
+hc_status case_find_target(case_reader *r, const char *path, size_t length, case_target *t)
 {
-  *t = (target){.contact = -1};
+  *t = (case_target){.contact = -1};
   if (length >= 8 && !memcmp(path, "contacts", 8) && (length == 8 || path[8] == '[')) return find_in_contacts(r, path, length, t);
   const char *dot = memchr(path, '.', length);
   const field_section *s = dot ? field_find_section(path, (size_t)(dot - path)) : field_section_at(0);
@@ -76,12 +69,24 @@ static void append_contact_if_new(case_reader *r, int j)
   if (j < r->sc.n_contacts) return;
   field_contact_defaults(&r->sc.contacts[j]);
   r->contact_has[j] = 0;
-  r->contact_at[j] = here(r);
+  r->contact_at[j] = r->here;
   r->sc.n_contacts = j + 1;
 }
 
-/* One way of saying it replaces the other. */
-static void drop_rival(case_reader *r, const field *f)
+void *case_target_base(case_reader *r, case_target t)
+{
+  if (t.contact < 0) return &r->sc;
+  append_contact_if_new(r, t.contact);
+  return &r->sc.contacts[t.contact];
+}
+
+void case_target_given(case_reader *r, case_target t)
+{
+  if (t.contact >= 0) r->contact_has[t.contact] |= 1ull << field_index(t.f);
+  else r->at[field_index(t.f)] = r->here;
+}
+
+void case_drop_rival(case_reader *r, const field *f)
 {
   const field *rival = f->rival ? field_find(f->section, f->rival, strlen(f->rival)) : NULL;
   if (!rival) return;
@@ -89,26 +94,25 @@ static void drop_rival(case_reader *r, const field *f)
   r->at[field_index(rival)] = (case_place){0};
 }
 
-static hc_status set_field(case_reader *r, target t, const char *text)
+static hc_status set_field(case_reader *r, case_target t, const char *text)
 {
   char path[FIELD_PATH], why_text[512];
   field_value v;
   message why;
   int bad;
   message_start(&why, why_text, sizeof why_text);
-  if (t.contact >= 0) append_contact_if_new(r, t.contact);
-  drop_rival(r, t.f);
+  void *base = case_target_base(r, t);
+  case_drop_rival(r, t.f);
   field_split(t.f, text, strlen(text), &v);
-  if (!field_store(t.f, t.contact >= 0 ? (void *)&r->sc.contacts[t.contact] : (void *)&r->sc, &v, &why, &bad)) {
-    message_add(case_blame(r, here(r)), "%s%s", field_path(t.f, t.contact, path), why.text);
+  if (!field_store(t.f, base, &v, &why, &bad)) {
+    message_add(case_blame(r, r->here), "%s%s", field_path(t.f, t.contact, path), why.text);
     return HC_BAD_INPUT;
   }
-  if (t.contact >= 0) r->contact_has[t.contact] |= 1ull << field_index(t.f);
-  else r->at[field_index(t.f)] = here(r);
+  case_target_given(r, t);
   return HC_OK;
 }
 
-static hc_status set_contacts(case_reader *r, target t, const char *text)
+static hc_status set_contacts(case_reader *r, case_target t, const char *text)
 {
   yaml_document_t doc;
   hc_status st = yaml_text_load(r, text, strlen(text), &doc);
@@ -117,7 +121,7 @@ static hc_status set_contacts(case_reader *r, target t, const char *text)
   if (t.contact < 0) {
     st = yaml_scene_contacts(r, &doc, root);
   } else {
-    append_contact_if_new(r, t.contact);
+    case_target_base(r, t);
     st = yaml_scene_contact(r, &doc, root, t.contact);
   }
   yaml_document_delete(&doc);
@@ -127,16 +131,17 @@ static hc_status set_contacts(case_reader *r, target t, const char *text)
 hc_status case_set_apply(case_reader *r, int k)
 {
   const char *path = r->set[k - 1], *equals = strchr(path, '=');
-  target t;
+  case_target t;
   r->set_now = k;
+  r->here = (case_place){.set = k, .line = 1, .column = 1};
   if (!equals) {
-    message_add(case_blame(r, here(r)), "no `=`, expected PATH=VALUE such as hbm.harmonics=10");
+    message_add(case_blame(r, r->here), "no `=`, expected PATH=VALUE such as hbm.harmonics=10");
     return HC_BAD_INPUT;
   }
   size_t length = (size_t)(equals - path);
   while (length > 0 && *path == ' ') ++path, --length;
   while (length > 0 && path[length - 1] == ' ') --length;
-  hc_status st = find_target(r, path, length, &t);
+  hc_status st = case_find_target(r, path, length, &t);
   if (st != HC_OK) return st;
   return t.f ? set_field(r, t, equals + 1) : set_contacts(r, t, equals + 1);
 }

@@ -73,3 +73,14 @@ suggestion suggest_path(const char *path, size_t length)
   const field *f = field_find(name, path + dot, length - dot);
   return f ? (suggestion){.f = f} : suggest_key(name, path + dot, length - dot);
 }
+
+const char *suggest_word(const char *const *words, const char *key, size_t length)
+{
+  const char *best = NULL;
+  int least = FAR;
+  for (; *words; ++words) {
+    int d = nearness(key, length, *words);
+    if (d < least) best = *words, least = d;
+  }
+  return best;
+}

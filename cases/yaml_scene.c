@@ -3,25 +3,23 @@
 
 #include "cases/case_reader.h"
 
-static const char *text_of(const yaml_node_t *n) { return (const char *)n->data.scalar.value; }
-
-static const char *what_is(const yaml_node_t *n)
+const char *yaml_node_what(const yaml_node_t *n)
 {
   if (n->type == YAML_MAPPING_NODE) return "a mapping";
   return n->type == YAML_SEQUENCE_NODE ? "a list" : n->data.scalar.length > 0 ? "a single value" : "empty";
 }
 
 /* Keys must be plain words; false with the message made. */
-static bool check_key(case_reader *r, const yaml_node_t *key)
+bool yaml_check_key(case_reader *r, const yaml_node_t *key)
 {
   if (key->type == YAML_SCALAR_NODE) return true;
-  message_add(case_blame(r, case_place_of(r, key->start_mark)), "%s stands where a key should, expected `key: value`", what_is(key));
+  message_add(case_blame(r, case_place_of(r, key->start_mark)), "%s stands where a key should, expected `key: value`", yaml_node_what(key));
   return false;
 }
 
 static hc_status unknown_key(case_reader *r, const yaml_node_t *key, const char *section)
 {
-  const char *text = text_of(key);
+  const char *text = yaml_node_text(key);
   size_t length = key->data.scalar.length;
   message *m = case_blame(r, case_place_of(r, key->start_mark));
   message_add(m, "unknown key `");
@@ -38,18 +36,18 @@ static hc_status unknown_key(case_reader *r, const yaml_node_t *key, const char 
   return HC_BAD_INPUT;
 }
 
-static hc_status duplicate_key(case_reader *r, const yaml_node_t *key, case_place first)
+hc_status yaml_duplicate_key(case_reader *r, const yaml_node_t *key, case_place first)
 {
   message *m = case_blame(r, case_place_of(r, key->start_mark));
   message_add(m, "duplicate key `");
-  message_add_input(m, text_of(key), key->data.scalar.length, 60);
+  message_add_input(m, yaml_node_text(key), key->data.scalar.length, 60);
   message_add(m, "`, expected it once (first on line %zu)", first.line);
   return HC_BAD_INPUT;
 }
 
-static field_item item_of(const yaml_node_t *n)
+field_item yaml_node_item(const yaml_node_t *n)
 {
-  return (field_item){.text = text_of(n),
+  return (field_item){.text = yaml_node_text(n),
                       .length = n->data.scalar.length,
                       .quoted = n->data.scalar.style != YAML_PLAIN_SCALAR_STYLE,
                       .line = n->start_mark.line + 1,
@@ -57,33 +55,33 @@ static field_item item_of(const yaml_node_t *n)
 }
 
 /* The node as it was written; NULL, or the node that cannot be part of any value. */
-static const yaml_node_t *value_of(yaml_document_t *doc, const yaml_node_t *node, field_value *v)
+const yaml_node_t *yaml_node_value(yaml_document_t *doc, const yaml_node_t *node, field_value *v)
 {
   v->list = node->type == YAML_SEQUENCE_NODE;
   v->n = 1;
   if (node->type == YAML_MAPPING_NODE) return node;
-  if (node->type == YAML_SCALAR_NODE) v->item[0] = item_of(node);
+  if (node->type == YAML_SCALAR_NODE) v->item[0] = yaml_node_item(node);
   if (node->type == YAML_SCALAR_NODE) return NULL;
   v->n = (int)(node->data.sequence.items.top - node->data.sequence.items.start);
   for (int i = 0; i < v->n && i < SCENE_MAX_LIST; ++i) {
     const yaml_node_t *entry = yaml_document_get_node(doc, node->data.sequence.items.start[i]);
     if (entry->type != YAML_SCALAR_NODE) return entry;
-    v->item[i] = item_of(entry);
+    v->item[i] = yaml_node_item(entry);
   }
   return NULL;
 }
 
-static hc_status read_value(case_reader *r, yaml_document_t *doc, const field *f, int j, void *base, const yaml_node_t *node)
+hc_status yaml_scene_value(case_reader *r, yaml_document_t *doc, const field *f, int j, void *base, const yaml_node_t *node)
 {
   char path[FIELD_PATH], why_text[512];
   field_value v;
   message why;
   int bad = -1;
-  const yaml_node_t *misfit = value_of(doc, node, &v);
+  const yaml_node_t *misfit = yaml_node_value(doc, node, &v);
   message_start(&why, why_text, sizeof why_text);
   if (!misfit && field_store(f, base, &v, &why, &bad)) return HC_OK;
   if (misfit) {
-    message_add(&why, misfit == node ? " is %s, expected " : " has %s inside, expected ", what_is(misfit));
+    message_add(&why, misfit == node ? " is %s, expected " : " has %s inside, expected ", yaml_node_what(misfit));
     field_expected(f, &why);
   }
   case_place at = case_place_of(r, misfit ? misfit->start_mark : node->start_mark);
@@ -105,9 +103,9 @@ static hc_status check_rival(case_reader *r, const field *f, const yaml_node_t *
 static hc_status read_field(case_reader *r, yaml_document_t *doc, const field *f, int j, void *base, const yaml_node_pair_t *pair)
 {
   const yaml_node_t *key = yaml_document_get_node(doc, pair->key), *value = yaml_document_get_node(doc, pair->value);
-  if (case_given(r, f)) return duplicate_key(r, key, r->at[field_index(f)]);
+  if (case_given(r, f)) return yaml_duplicate_key(r, key, r->at[field_index(f)]);
   hc_status st = check_rival(r, f, key);
-  if (st == HC_OK) st = read_value(r, doc, f, j, base, value);
+  if (st == HC_OK) st = yaml_scene_value(r, doc, f, j, base, value);
   r->at[field_index(f)] = case_place_of(r, value->start_mark);
   return st;
 }
@@ -135,7 +133,7 @@ static hc_status read_section(case_reader *r, yaml_document_t *doc, const field_
     message *m = case_blame(r, case_place_of(r, node->start_mark));
     message_add(m, "%s", s->name);
     if (j >= 0) message_add(m, "[%d]", j);
-    message_add(m, " is %s, expected a mapping such as {", what_is(node));
+    message_add(m, " is %s, expected a mapping such as {", yaml_node_what(node));
     for (int i = 0, n = 0; i < field_count() && n < 2; ++i)
       if (!strcmp(field_at(i)->section, s->name)) message_add(m, "%s: ..., ", field_at(i)->name), ++n;
     message_add(m, "...}");
@@ -144,8 +142,8 @@ static hc_status read_section(case_reader *r, yaml_document_t *doc, const field_
   hc_status st = HC_OK;
   for (yaml_node_pair_t *p = node->data.mapping.pairs.start; p < node->data.mapping.pairs.top && st == HC_OK; ++p) {
     const yaml_node_t *key = yaml_document_get_node(doc, p->key);
-    if (!check_key(r, key)) return HC_BAD_INPUT;
-    const field *f = field_find(s->name, text_of(key), key->data.scalar.length);
+    if (!yaml_check_key(r, key)) return HC_BAD_INPUT;
+    const field *f = field_find(s->name, yaml_node_text(key), key->data.scalar.length);
     st = f ? read_field(r, doc, f, j, base, p) : unknown_key(r, key, s->name);
   }
   return st == HC_OK ? check_missing(r, s, node, j) : st;
@@ -170,7 +168,7 @@ hc_status yaml_scene_contacts(case_reader *r, yaml_document_t *doc, yaml_node_t 
 {
   if (node->type != YAML_SEQUENCE_NODE) {
     message_add(case_blame(r, case_place_of(r, node->start_mark)), "contacts is %s, expected a list of contacts, or [] for none",
-                what_is(node));
+                yaml_node_what(node));
     return HC_BAD_INPUT;
   }
   memset(r->sc.contacts, 0, sizeof r->sc.contacts);
@@ -216,25 +214,24 @@ static hc_status read_top(case_reader *r, yaml_document_t *doc, const yaml_node_
 {
   const yaml_node_t *key = yaml_document_get_node(doc, pair->key);
   yaml_node_t *value = yaml_document_get_node(doc, pair->value);
-  if (!check_key(r, key)) return HC_BAD_INPUT;
-  const field *f = field_find("", text_of(key), key->data.scalar.length);
+  if (!yaml_check_key(r, key)) return HC_BAD_INPUT;
+  const field *f = field_find("", yaml_node_text(key), key->data.scalar.length);
   if (f) return read_field(r, doc, f, -1, &r->sc, pair);
-  const field_section *s = field_find_section(text_of(key), key->data.scalar.length);
+  const field_section *s = field_find_section(yaml_node_text(key), key->data.scalar.length);
   if (!s) return unknown_key(r, key, "");
   case_place *at = &given[section_index(s)];
-  if (at->line > 0) return duplicate_key(r, key, *at);
+  if (at->line > 0) return yaml_duplicate_key(r, key, *at);
   *at = case_place_of(r, key->start_mark);
   if (!strcmp(s->name, "contacts")) return yaml_scene_contacts(r, doc, value);
   return read_section(r, doc, s, -1, &r->sc, value);
 }
 
-hc_status yaml_scene_read(case_reader *r, yaml_document_t *doc)
+hc_status yaml_scene_read(case_reader *r, yaml_document_t *doc, const yaml_node_t *root)
 {
   case_place given[FIELD_MAX] = {{0}}; /* [section] */
-  const yaml_node_t *root = yaml_document_get_root_node(doc);
   if (root->type != YAML_MAPPING_NODE) {
     message_add(case_blame(r, case_place_of(r, root->start_mark)),
-                "the case is %s, expected a mapping with `oscillator`, `forcing` and `sweep`", what_is(root));
+                "the case is %s, expected a mapping with `oscillator`, `forcing` and `sweep`", yaml_node_what(root));
     return HC_BAD_INPUT;
   }
   for (yaml_node_pair_t *p = root->data.mapping.pairs.start; p < root->data.mapping.pairs.top; ++p) {

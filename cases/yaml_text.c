@@ -25,7 +25,7 @@ static hc_status check_characters(case_reader *r, const char *text, size_t lengt
     unsigned long code = 0;
     n = utf8_character(text + i, length - i, &code);
     if (n == 0) {
-      message_add(case_blame(r, at), "byte 0x%02X is not UTF-8, expected a case file in UTF-8", (unsigned)(unsigned char)text[i]);
+      message_add(case_blame(r, at), "byte 0x%02X is not UTF-8, expected a %s file in UTF-8", (unsigned)(unsigned char)text[i], r->noun);
       return HC_BAD_INPUT;
     }
     if (!is_yaml_character(code)) {
@@ -74,7 +74,7 @@ static const char *objection(const yaml_event_t *e, guard *g)
   case YAML_MAPPING_END_EVENT: --g->depth; break;
   default: break;
   }
-  if (g->depth > DEEPEST) return "lists or mappings nested too deeply, expected a case of at most 4 levels";
+  if (g->depth > DEEPEST) return "lists or mappings nested too deeply, expected a few levels";
   if (anchor) return "a YAML anchor (&), expected the value alone";
   return tag ? "a YAML tag (!), expected the value alone" : NULL;
 }
@@ -92,8 +92,9 @@ static hc_status check_events(case_reader *r, yaml_parser_t *p)
     if (why) return HC_BAD_INPUT;
   }
   if (g.documents > 0) return HC_OK;
-  message_add(case_blame(r, (case_place){.set = r->set_now, .line = 1, .column = 1}), "nothing here, expected %s",
-              r->set_now ? "[{...}, ...] or {...}, or [] for no contacts" : "a case with `oscillator`, `forcing` and `sweep`");
+  message *m = case_blame(r, (case_place){.set = r->set_now, .line = 1, .column = 1});
+  if (r->set_now) message_add(m, "nothing here, expected [{...}, ...] or {...}, or [] for no contacts");
+  else message_add(m, "nothing here, expected a %s with %s", r->noun, r->required);
   return HC_BAD_INPUT;
 }
 
@@ -111,6 +112,10 @@ static hc_status out_of_memory(case_reader *r)
 hc_status yaml_text_load(case_reader *r, const char *text, size_t length, yaml_document_t *doc)
 {
   yaml_parser_t p;
+  if (length > CASE_LARGEST) {
+    message_add(case_blame(r, (case_place){0}), "larger than 1 MB, expected a %s file (a few kB)", r->noun);
+    return HC_BAD_INPUT;
+  }
   if (starts_with(text, length, "\xEF\xBB\xBF")) text += 3, length -= 3; /* libyaml skips the mark only where it guesses the encoding */
   hc_status st = check_characters(r, text, length);
   for (int pass = 0; pass < 2 && st == HC_OK; ++pass) {

@@ -116,6 +116,14 @@ static bool tick(void *self, double done)
 
 hc_monitor progress_monitor(progress *p) { return (hc_monitor){tick, p}; }
 
+void progress_relabel(progress *p, const char *label)
+{
+  char *clean = p && p->label ? utf8_clean(label, true) : NULL;
+  if (!clean) return;
+  free(p->label);
+  p->label = clean;
+}
+
 void progress_end(progress *p)
 {
   if (!p) return;

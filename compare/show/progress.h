@@ -24,6 +24,9 @@ progress *progress_start(const char *label, bool quiet);
 /* For long work; one thread at a time may tick. done is 0..1, or negative when unknown: then the time spent is shown. */
 hc_monitor progress_monitor(progress *p);
 
+/* From the next drawing on, another label. */
+void progress_relabel(progress *p, const char *label);
+
 /* Erases the line, frees. Before anything else is written to stderr. */
 void progress_end(progress *p);
 

@@ -1,4 +1,4 @@
-/* table.c - the table itself, and csv. The other formats: table_aligned.c, table_json.c. Proof: tests/compare/test_table.c. */
+/* table.c - the table itself, and csv. The other formats: table_aligned.c, table_wrapped.c, table_json.c. Proof: tests/compare/test_table.c. */
 #include "compare/show/table.h"
 
 #include <assert.h>
@@ -146,10 +146,14 @@ void table_note(table *t, const char *format, ...)
   t->notes[t->n_notes++] = note;
 }
 
+void table_wrap(table *t, int width)
+{
+  if (t) t->wrap = width > 0 ? width : 0;
+}
+
 int table_rows(const table *t) { return t ? (int)(t->n_cells / (size_t)t->n_columns) : 0; }
 
-/* Quotes where RFC 4180 asks for them, where a reader might strip or skip (outer blanks, '#'), and for empty text, which is not missing. */
-static void write_csv_text(const char *s, FILE *to)
+void table_write_csv_text(const char *s, FILE *to)
 {
   bool plain = *s && !strpbrk(s, ",\"\r\n") && !strchr("# \t", *s) && !strchr(" \t", s[strlen(s) - 1]);
   if (plain) { fputs(s, to); return; }
@@ -169,7 +173,7 @@ static void write_csv_cell(const table *t, int row, int column, FILE *to)
     return;
   }
   switch (t->columns[column].kind) {
-  case TABLE_TEXT: write_csv_text(cell->as.text, to); break;
+  case TABLE_TEXT: table_write_csv_text(cell->as.text, to); break;
   case TABLE_INTEGER: fprintf(to, "%ld", cell->as.integer); break;
   case TABLE_REAL: fprintf(to, "%.17g", cell->as.real); break; /* inf and -inf as they should be */
   }
@@ -181,7 +185,7 @@ static void write_csv(const table *t, bool with_title, FILE *to)
   for (size_t i = 0; i < t->n_notes; ++i) fprintf(to, *t->notes[i] ? "# %s\n" : "#\n", t->notes[i]);
   for (int j = 0; j < t->n_columns; ++j) {
     if (j) putc(',', to);
-    write_csv_text(t->columns[j].name, to);
+    table_write_csv_text(t->columns[j].name, to);
   }
   putc('\n', to);
   for (int i = 0; i < table_rows(t); ++i) {
@@ -206,7 +210,7 @@ hc_status table_write(int n, table *const *tables, table_format format, FILE *to
   for (int k = 0; k < n && format != FORMAT_JSON && st == HC_OK; ++k) {
     if (k) putc('\n', to);
     if (format == FORMAT_CSV) write_csv(tables[k], n > 1, to);
-    else st = table_write_aligned(tables[k], to);
+    else st = tables[k]->wrap ? table_write_wrapped(tables[k], to) : table_write_aligned(tables[k], to);
   }
   leave_c_locale(c, before);
   return ferror(to) ? HC_IO : st;

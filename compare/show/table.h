@@ -29,6 +29,9 @@ void table_put_missing(table *t);
 /* A remark about the whole table, one line: after it in `table`, as "# ..." lines before the header in csv, under "notes" in json. */
 void table_note(table *t, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
+/* In the format table, carry words over to further lines so that no line is longer than `width`, as far as that goes; nothing is cut then. */
+void table_wrap(table *t, int width);
+
 /* Full rows so far. */
 int table_rows(const table *t);
 

@@ -17,6 +17,7 @@ struct table {
   table_cell *cells;
   size_t n_notes, notes_room;
   char **notes; /* one line each */
+  int wrap;     /* columns of the terminal to fit into, 0: each row is one line */
   bool failed;  /* an allocation did: nothing is appended any more */
 };
 
@@ -27,6 +28,10 @@ static inline const table_cell *table_at(const table *t, int row, int column)
 
 /* Called with the C locale in force; HC_OK or HC_NO_MEMORY: whether the stream failed is the caller's to ask. */
 hc_status table_write_aligned(const table *t, FILE *to);
+hc_status table_write_wrapped(const table *t, FILE *to);
+/* A csv cell: quotes where RFC 4180 asks for them, where a reader might strip or skip (outer blanks, '#'), and for empty text, which is not
+ * missing. */
+void table_write_csv_text(const char *s, FILE *to);
 hc_status table_write_json(int n, table *const *tables, FILE *to);
 
 #endif
