@@ -33,12 +33,12 @@ static void read_list(struct argp_state *state, const char *option, const char *
   }
 }
 
-static void read_format(struct argp_state *state, const char *text, table_format *out)
+static void read_format(struct argp_state *state, const char *option, const char *text, bool table_too, table_format *out)
 {
-  if (!strcmp(text, "table")) *out = FORMAT_TABLE;
+  if (table_too && !strcmp(text, "table")) *out = FORMAT_TABLE;
   else if (!strcmp(text, "csv")) *out = FORMAT_CSV;
   else if (!strcmp(text, "json")) *out = FORMAT_JSON;
-  else argp_error(state, "--format: '%s' is unknown; expected table, csv or json", text);
+  else argp_error(state, "--%s: '%s' is unknown; expected %scsv or json", option, text, table_too ? "table, " : "");
 }
 
 static error_t on_option(int key, char *arg, struct argp_state *state)
@@ -49,16 +49,34 @@ static error_t on_option(int key, char *arg, struct argp_state *state)
     if (o->n_set == CLI_MAX_SET) argp_error(state, "--set may be given at most %d times", CLI_MAX_SET);
     o->set[o->n_set++] = arg;
     return 0;
-  case CLI_FORMAT: read_format(state, arg, &o->format); return 0;
+  case CLI_FORMAT: read_format(state, "format", arg, true, &o->format); return 0;
   case 'o': o->output = arg; return 0;
   case 'q': o->quiet = true; return 0;
   case CLI_AT: read_list(state, "at", arg, &o->at); return 0;
   case CLI_HARMONICS: read_list(state, "harmonics", arg, &o->harmonics); return 0;
   case CLI_SAMPLES: read_list(state, "samples", arg, &o->samples); return 0;
   case CLI_MOTION: o->motion = arg; return 0;
+  case CLI_JOBS:
+    if (number_read_integer(arg, strlen(arg), &o->jobs) != NUMBER_FINE || o->jobs < 1 || o->jobs > CLI_MAX_JOBS)
+      argp_error(state, "--jobs: '%s' is unknown; expected an integer 1..%d", arg, CLI_MAX_JOBS);
+    return 0;
+  case CLI_REPEATS:
+    if (number_read_integer(arg, strlen(arg), &o->repeats) != NUMBER_FINE || o->repeats < 1 || o->repeats > CLI_MAX_REPEATS)
+      argp_error(state, "--repeats: '%s' is unknown; expected an integer 1..%d", arg, CLI_MAX_REPEATS);
+    return 0;
+  case CLI_ALONE: o->alone = true; return 0;
+  case CLI_RESULTS: o->results = arg; return 0;
+  case CLI_TABLES: o->tables = true; return 0;
+  case CLI_FRESH: o->fresh = true; return 0;
+  case CLI_TIMINGS: o->timings = true; return 0;
+  case CLI_EXPORT:
+    o->export = true;
+    read_format(state, "export", arg, false, &o->export_format);
+    return 0;
   case ARGP_KEY_ARG:
-    if (o->argument) argp_error(state, "'%s' is one argument too many", arg);
-    o->argument = arg;
+    if (o->n_arguments == (o->several ? CLI_MAX_ARGUMENTS : 1)) argp_error(state, "'%s' is one argument too many", arg);
+    o->arguments[o->n_arguments++] = arg;
+    if (!o->argument) o->argument = arg;
     return 0;
   default: return ARGP_ERR_UNKNOWN;
   }
@@ -73,7 +91,7 @@ void cli_parse(int argc, char **argv, const char *command, const char *args, con
   memcpy(options + n, common_options, sizeof common_options);
   struct argp argp = {options, on_option, args, doc, NULL, NULL, NULL};
   char name[64];
-  *o = (cli_options){.command = command};
+  *o = (cli_options){.command = command, .several = strstr(args, "...") != NULL};
   snprintf(name, sizeof name, "hbmcheck %s", command);
   argv[0] = name;
   argp_err_exit_status = EXIT_USAGE;
@@ -144,6 +162,18 @@ const char *cli_hbm_settings(const scene *sc, int n_harm, int n_time, char *text
   snprintf(text, size, "H = %s%d%s, %s", sc->hbm.harmonics == SCENE_AUTO ? "auto, at most " : "", n_harm,
            sc->hbm.keep_mean ? "" : " WITHOUT harmonic 0", samples);
   return text;
+}
+
+void cli_put_row(table *t, rows_kind kind, const row_cell *cells)
+{
+  int n;
+  rows_columns(kind, &n);
+  for (int i = 0; i < n; ++i) {
+    if (!cells[i].there) table_put_missing(t);
+    else if (cells[i].kind == TABLE_TEXT) table_put_text(t, cells[i].as.text);
+    else if (cells[i].kind == TABLE_INTEGER) table_put_integer(t, cells[i].as.integer);
+    else table_put_real(t, cells[i].as.real);
+  }
 }
 
 int cli_write(const cli_options *o, int n, table *const *tables)

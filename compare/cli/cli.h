@@ -8,11 +8,12 @@
 
 #include "cases/scene.h"
 #include "cases/status.h"
+#include "compare/measure/rows.h"
 #include "compare/show/table.h"
 
 enum { EXIT_AGREED = 0, EXIT_DISAGREED = 1, EXIT_BAD_CASE = 2, EXIT_NO_SOLUTION = 3, EXIT_USAGE = 64, EXIT_BUG = 70 };
 
-enum { CLI_MAX_SET = 256 };
+enum { CLI_MAX_SET = 256, CLI_MAX_ARGUMENTS = 64, CLI_MAX_JOBS = 1024, CLI_MAX_REPEATS = 1000 };
 
 typedef struct cli_options {
   const char *command;         /* "frf", for messages */
@@ -25,12 +26,24 @@ typedef struct cli_options {
   scene_list at;               /* --at; n = 0 when absent */
   scene_list harmonics, samples; /* --harmonics, --samples; n = 0 when absent */
   const char *motion;          /* --motion */
+  bool several;                /* more than one argument may be given: argument is the first of */
+  int n_arguments;
+  const char *arguments[CLI_MAX_ARGUMENTS];
+  int jobs;                    /* --jobs; 0 when absent */
+  const char *results;         /* --results; NULL when absent */
+  bool tables;                 /* --tables */
+  int repeats;                 /* --repeats; 0 when absent */
+  bool alone;                  /* --alone */
+  bool fresh, timings;         /* --fresh, --timings */
+  bool export;                 /* --export was given, in export_format */
+  table_format export_format;
 } cli_options;
 
 /* Keys of the options that only some commands have. */
-enum { CLI_AT = 0x100, CLI_HARMONICS, CLI_SAMPLES, CLI_MOTION, CLI_SET, CLI_FORMAT };
+enum { CLI_AT = 0x100, CLI_HARMONICS, CLI_SAMPLES, CLI_MOTION, CLI_SET, CLI_FORMAT, CLI_JOBS, CLI_RESULTS, CLI_FRESH, CLI_EXPORT, CLI_TIMINGS, CLI_TABLES, CLI_REPEATS, CLI_ALONE };
 
-/* Parse a command's arguments; does not return on --help, --version or wrong usage (exit 64). `own`: the command's options, or NULL. */
+/* Parse a command's arguments; does not return on --help, --version or wrong usage (exit 64). `own`: the command's options, or NULL.
+ * `args` ending in "..." takes several arguments. */
 void cli_parse(int argc, char **argv, const char *command, const char *args, const char *doc, const struct argp_option *own, bool needs_argument,
                cli_options *o);
 
@@ -43,6 +56,9 @@ void cli_say(const cli_options *o, const char *format, ...) __attribute__((forma
 /* Say which solver failed where and what to try; returns the exit code of INTERFACE.md. omega <= 0: at no particular one. */
 int cli_solver_failed(const cli_options *o, const char *solver, hc_status st, double omega);
 
+/* Append a row of that kind. */
+void cli_put_row(table *t, rows_kind kind, const row_cell *cells);
+
 /* Write the tables to stdout or --output, whole or not at all. 0 or the exit code. Frees nothing. */
 int cli_write(const cli_options *o, int n, table *const *tables);
 
@@ -52,6 +68,8 @@ const char *cli_hbm_settings(const scene *sc, int n_harm, int n_time, char *text
 int cmd_frf(int argc, char **argv);
 int cmd_transient(int argc, char **argv);
 int cmd_compare(int argc, char **argv);
+int cmd_study(int argc, char **argv);
+int cmd_bench(int argc, char **argv);
 int cmd_contact(int argc, char **argv);
 int cmd_describe(int argc, char **argv);
 

@@ -1,8 +1,7 @@
 /* cmd_frf.c - hbmcheck frf: the response curve, or every solution at given frequencies. */
-#include <math.h>
-
 #include "compare/cli/cli.h"
 #include "compare/measure/frequencies.h"
+#include "compare/measure/response.h"
 #include "compare/show/progress.h"
 #include "hbm/hbm.h"
 
@@ -18,31 +17,15 @@ static const struct argp_option options[] = {
     {0},
 };
 
-static const table_column columns[] = {
-    {"omega", TABLE_REAL},      {"branch", TABLE_INTEGER}, {"amplitude", TABLE_REAL},     {"max", TABLE_REAL},
-    {"min", TABLE_REAL},        {"rms", TABLE_REAL},       {"mean", TABLE_REAL},          {"harmonic_1", TABLE_REAL},
-    {"stable", TABLE_TEXT},     {"multiplier", TABLE_REAL}, {"contact", TABLE_TEXT},      {"iterations", TABLE_INTEGER},
-    {"residual", TABLE_REAL},
-};
-
 static hc_status put_points(hbm_solver *s, const hbm_curve *c, table *t)
 {
   for (int k = 0; k < c->n; ++k) {
-    hbm_measures m;
-    hc_status st = hbm_measure(s, c->X + (size_t)k * c->n_coef, &m);
+    response_row row;
+    row_cell cells[ROWS_MOST];
+    hc_status st = response_row_of(s, c, k, &row);
     if (st != HC_OK) return st;
-    table_put_real(t, c->points[k].omega);
-    table_put_integer(t, c->points[k].branch);
-    const double values[] = {m.amplitude, m.max, m.min, m.rms, m.mean, m.harmonic_1};
-    for (int i = 0; i < 6; ++i) table_put_real(t, values[i]);
-    hbm_stability floquet;
-    bool known = hbm_stability_at(s, c->points[k].omega, c->X + (size_t)k * c->n_coef, &floquet) == HC_OK;
-    int stable = known ? hbm_stability_verdict(&floquet) : 0;
-    table_put_text(t, stable > 0 ? "yes" : stable < 0 ? "no" : "unknown");
-    table_put_real(t, known ? floquet.multiplier : NAN);
-    table_put_text(t, contact_regime_name(m.contact.regime));
-    table_put_integer(t, c->points[k].iterations);
-    table_put_real(t, c->points[k].residual);
+    rows_frf(&row, cells);
+    cli_put_row(t, ROWS_FRF, cells);
   }
   return HC_OK;
 }
@@ -78,30 +61,18 @@ static void note_specials(table *t, hbm_solver *s, const hbm_curve *c)
   if (st != HC_OK) table_note(t, "at least one more was noticed but not located: %s", hc_status_text(st));
 }
 
-/* All solutions at the asked frequencies. A frequency without any is a failure unless the curve says the branch never goes there. */
-static hc_status solve_at(hbm_solver *s, const hbm_curve *curve, const scene_list *at, hbm_curve *found, double *failed_at)
-{
-  hc_status worst = HC_OK;
-  for (int i = 0; i < at->n; ++i) {
-    int before = found->n;
-    hc_status st = hbm_curve_at(s, curve, at->v[i], found);
-    if (st == HC_OK && found->n == before) st = curve->end != HC_OK ? curve->end : HC_NOT_CONVERGED;
-    if (st != HC_OK && worst == HC_OK) { worst = st; *failed_at = at->v[i]; }
-  }
-  return worst;
-}
-
 int cmd_frf(int argc, char **argv)
 {
   cli_options o;
   scene sc;
   cli_parse(argc, argv, "frf", "CASE", doc, options, true, &o);
-  int code = cli_load_case(&o, &sc);
+  int code = cli_load_case(&o, &sc), n_columns;
   if (code) return code;
   hbm_solver *s = NULL;
   hbm_curve curve = {0}, found = {0};
   double from, to, failed_at = 0;
-  table *t = table_new("Response curve", sizeof columns / sizeof *columns, columns);
+  const table_column *columns = rows_columns(ROWS_FRF, &n_columns);
+  table *t = table_new("Response curve", n_columns, columns);
   progress *bar = progress_start("harmonic balance", o.quiet);
   hc_monitor monitor = progress_monitor(bar);
   comparison_sweep(&sc, &o.at, &from, &to);
@@ -109,7 +80,7 @@ int cmd_frf(int argc, char **argv)
   if (st == HC_OK) {
     st = hbm_trace(s, from, to, &monitor, &curve);
     if (st != HC_OK) failed_at = curve.n ? curve.points[curve.n - 1].omega : from;
-    hc_status at = o.at.n ? solve_at(s, &curve, &o.at, &found, &failed_at) : HC_OK;
+    hc_status at = o.at.n ? response_at(s, &curve, &o.at, &found, &failed_at) : HC_OK;
     if (st == HC_OK) st = at; /* a curve that stops early is a failure also with --at: it might have come back */
     hc_status shown = put_points(s, o.at.n ? &found : &curve, t);
     if (st == HC_OK) st = shown;

@@ -15,6 +15,8 @@ static const struct command {
     {"compare", "harmonic balance and time integration at the same frequencies: discrepancies and verdicts", cmd_compare},
     {"frf", "the harmonic-balance response curve, or every solution at given frequencies", cmd_frf},
     {"transient", "the steady state by time integration at given frequencies", cmd_transient},
+    {"study", "many scenes in parallel, kept as they come, and claims held against them", cmd_study},
+    {"bench", "work-precision: run time against error for every method at one frequency", cmd_bench},
     {"contact", "Fourier coefficients of the contact force of a given motion", cmd_contact},
     {"describe", "what a case file may say", cmd_describe},
 };

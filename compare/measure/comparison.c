@@ -37,10 +37,11 @@ timeint_state comparison_orbit_start(const hbm_measures *m, int n_harm, const do
 /* Largest |x_hbm(t) - x_transient(t)| over the period. */
 static double waveform_distance(int n_harm, const double *X, const timeint_result *tr)
 {
+  const double shift = tr->free_sliders > 0 ? X[0] - tr->mean : 0; /* a mean of its own history is no difference */
   double worst = 0;
   for (int i = 0; i < TIMEINT_WAVE; ++i) {
     double th = 6.283185307179586476925 * i / TIMEINT_WAVE;
-    double d = fabs(series_at(n_harm, X, cos(th), sin(th)).x - tr->wave[i]);
+    double d = fabs(series_at(n_harm, X, cos(th), sin(th)).x - tr->wave[i] - shift);
     if (!(d >= 0)) return NAN;
     if (d > worst) worst = d;
   }
@@ -61,19 +62,11 @@ static comparison_errors errors_between(const hbm_measures *hbm, int n_harm, con
   };
 }
 
-static bool within_gate(const comparison_errors *e, const scene_gate *g)
+/* Where a slider is free the mean is a matter of history, and not held against HBM. */
+static bool within_gate(const comparison_errors *e, const timeint_result *tr, const scene_gate *g)
 {
-  return e->amplitude <= g->amplitude && e->harmonic_1 <= g->harmonic_1 && e->mean <= g->mean && e->waveform <= g->waveform;
-}
-
-/* The transient belongs to another branch if another solution's orbit is clearly nearer than the one it started from. */
-static bool another_is_nearer(const hbm_curve *at, int k, int n_harm, const timeint_result *tr, double own_error)
-{
-  for (int i = 0; i < at->n; ++i) {
-    if (i == k) continue;
-    if (waveform_distance(n_harm, at->X + (size_t)i * at->n_coef, tr) / tr->amplitude < 0.5 * own_error) return true;
-  }
-  return false;
+  bool mean = tr->free_sliders > 0 || e->mean <= g->mean;
+  return e->amplitude <= g->amplitude && e->harmonic_1 <= g->harmonic_1 && mean && e->waveform <= g->waveform;
 }
 
 /* Is the transient within the gate of any HBM solution at this omega? */
@@ -84,19 +77,9 @@ static bool accounted_for(hbm_solver *hbm, const scene *sc, const hbm_curve *at,
     hbm_measures m;
     if (hbm_measure(hbm, X, &m) != HC_OK) continue;
     comparison_errors e = errors_between(&m, hbm_n_harmonics(hbm), X, tr);
-    if (within_gate(&e, &sc->gate)) return true;
+    if (within_gate(&e, tr, &sc->gate)) return true;
   }
   return false;
-}
-
-static verdict judge(const scene *sc, const hbm_curve *at, int k, int n_harm, const comparison_row *row)
-{
-  if (row->transient_status == HC_NOT_SETTLED) return VERDICT_NOT_SETTLED;
-  if (row->transient_status != HC_OK || row->hbm_status != HC_OK) return VERDICT_SOLVER_FAILED;
-  if (row->transient.period_multiple > 1) return VERDICT_PERIOD_K;
-  if (within_gate(&row->errors, &sc->gate)) return VERDICT_MATCH;
-  if (hbm_stability_verdict(&row->stability) < 0) return VERDICT_UNSTABLE;
-  return another_is_nearer(at, k, n_harm, &row->transient, row->errors.waveform) ? VERDICT_OTHER_BRANCH : VERDICT_DIFFERS;
 }
 
 static hc_status add_row(comparison *c, const comparison_row *row)
@@ -118,6 +101,8 @@ typedef struct runner {
   const scene *sc;
   hbm_solver *hbm;
   timeint *ti;
+  timeint *exact; /* the referee: exact law, shooting */
+  budgeter *budgeter;
   const hc_monitor *monitor;
   comparison *out;
   timeint_state swept;  /* where a sweep start has come to */
@@ -138,30 +123,106 @@ static hc_status start_state(runner *r, const comparison_row *row, const double 
   return st;
 }
 
-/* Every HBM solution at omega against the transient started from it. */
+/* Largest difference of two transients over the period, relative to the second one's amplitude. */
+static double orbits_apart(const timeint_result *a, const timeint_result *b)
+{
+  const double shift = a->free_sliders > 0 || b->free_sliders > 0 ? a->mean - b->mean : 0;
+  double worst = 0;
+  for (int i = 0; i < TIMEINT_WAVE; ++i) {
+    double d = fabs(a->wave[i] - b->wave[i] - shift);
+    if (!(d <= worst)) worst = d; /* NaN stays */
+  }
+  return relative(worst, b->amplitude);
+}
+
+/* Does the transient run on the orbit next to the HBM solution? It does if it was found there. Otherwise, having come from elsewhere, that
+ * orbit is computed from the HBM solution, with the transient's own law, and the two are held together: same law, same orbit, so that the
+ * difference is of the order of transient.tolerance, and anything beyond `same` is another orbit. */
+static bool runs_next_to(runner *r, const comparison_row *row, const double *X)
+{
+  const double same = fmax(1e-6, 100 * r->sc->transient.tolerance);
+  if (r->sc->transient.start == TRANSIENT_START_HBM && row->transient.method != TIMEINT_BY_MARCHING) return !row->transient.left_orbit;
+  timeint_state state = comparison_orbit_start(&row->hbm, hbm_n_harmonics(r->hbm), X, row->omega);
+  timeint_result restarted;
+  if (timeint_orbit(r->ti, row->omega, 1, &state, r->monitor, &restarted) != HC_OK) return true; /* none there: what differs is HBM */
+  return orbits_apart(&restarted, &row->transient) <= same;
+}
+
+static bool unstable(const comparison_row *row)
+{
+  if (row->orbit_status == HC_OK && timeint_stability(&row->orbit) != 0) return timeint_stability(&row->orbit) < 0;
+  return hbm_stability_verdict(&row->stability) < 0;
+}
+
+static verdict judge(runner *r, const comparison_row *row, const double *X)
+{
+  if (row->transient_status == HC_NOT_SETTLED) return VERDICT_NOT_SETTLED;
+  if (row->transient_status == HC_APERIODIC && row->hbm_status == HC_OK) return VERDICT_APERIODIC;
+  if (row->transient_status != HC_OK || row->hbm_status != HC_OK) return VERDICT_SOLVER_FAILED;
+  if (row->transient.period_multiple > 1) return VERDICT_PERIOD_K;
+  if (within_gate(&row->errors, &row->transient, &r->sc->gate)) return VERDICT_MATCH;
+  if (unstable(row)) return VERDICT_UNSTABLE;
+  return runs_next_to(r, row, X) ? VERDICT_DIFFERS : VERDICT_OTHER_BRANCH;
+}
+
+/* The orbit of the exact law next to the HBM solution; not computed again where the transient is just that. */
+static void referee(runner *r, comparison_row *row, const double *X)
+{
+  const scene_transient *t = &r->sc->transient;
+  const timeint_result *tr = &row->transient;
+  bool same = t->law == TRANSIENT_LAW_EXACT && t->start == TRANSIENT_START_HBM && row->transient_status == HC_OK && !tr->left_orbit &&
+              tr->period_multiple == 1 && tr->method == TIMEINT_BY_SHOOTING;
+  timeint_state state = comparison_orbit_start(&row->hbm, hbm_n_harmonics(r->hbm), X, row->omega);
+  if (same) row->orbit = *tr, row->orbit_status = HC_OK;
+  else row->orbit_status = timeint_orbit(r->exact, row->omega, 1, &state, r->monitor, &row->orbit);
+  row->orbit_error = NAN;
+  if (row->orbit_status != HC_OK) return;
+  row->orbit_error = relative(waveform_distance(hbm_n_harmonics(r->hbm), X, &row->orbit), row->orbit.amplitude);
+}
+
+/* What the discrepancy is made of. */
+static hc_status account(runner *r, const hbm_curve *at, int k, comparison_row *row)
+{
+  const budget_case from = {.omega = row->omega, .n_harm = at->points[k].harmonics, .X = at->X + (size_t)k * at->n_coef, .hbm = &row->hbm,
+                            .transient_status = row->transient_status, .transient = &row->transient,
+                            .orbit_status = row->orbit_status, .orbit = &row->orbit, .state = row->transient_state};
+  return row->hbm_status == HC_OK ? budgeter_run(r->budgeter, &from, r->monitor, &row->budget) : HC_OK;
+}
+
+/* One HBM solution against the transient started from it. */
+static hc_status compare_solution(runner *r, const hbm_curve *at, int k, comparison_row *row)
+{
+  const double *X = at->X + (size_t)k * at->n_coef;
+  timeint_state state;
+  row->branch = at->points[k].branch;
+  row->hbm_status = hbm_measure(r->hbm, X, &row->hbm);
+  if (hbm_stability_at(r->hbm, row->omega, X, &row->stability) != HC_OK) row->stability.multiplier = NAN;
+  row->transient_status = start_state(r, row, X, &state);
+  if (row->transient_status == HC_OK) row->transient_status = timeint_steady(r->ti, row->omega, &state, r->monitor, &row->transient);
+  if (row->transient_status == HC_INTERRUPTED) return HC_INTERRUPTED;
+  referee(r, row, X);
+  if (row->orbit_status == HC_INTERRUPTED) return HC_INTERRUPTED;
+  bool comparable = row->hbm_status == HC_OK && row->transient_status == HC_OK;
+  if (comparable) row->errors = errors_between(&row->hbm, hbm_n_harmonics(r->hbm), X, &row->transient);
+  row->accounted = comparable && row->transient.period_multiple == 1 && accounted_for(r->hbm, r->sc, at, &row->transient);
+  row->verdict = judge(r, row, X);
+  row->transient_state = state;
+  return account(r, at, k, row);
+}
+
+/* Every HBM solution at omega. */
 static hc_status compare_at(runner *r, double omega)
 {
   hbm_curve at = {0};
-  int n_harm = hbm_n_harmonics(r->hbm);
-  comparison_row row = {.omega = omega, .branch = -1, .verdict = VERDICT_SOLVER_FAILED, .transient_status = HC_UNSUPPORTED};
-  row.errors = (comparison_errors){NAN, NAN, NAN, NAN};
+  const comparison_row none = {.omega = omega, .branch = -1, .verdict = VERDICT_SOLVER_FAILED, .transient_status = HC_UNSUPPORTED,
+                               .orbit_status = HC_UNSUPPORTED, .errors = {NAN, NAN, NAN, NAN}, .orbit_error = NAN, .budget = budget_nothing()};
+  comparison_row row = none;
   row.hbm_status = hbm_curve_at(r->hbm, &r->out->curve, omega, &at);
   if (row.hbm_status == HC_OK && at.n == 0) row.hbm_status = r->out->curve.end != HC_OK ? r->out->curve.end : HC_NOT_CONVERGED;
   hc_status st = at.n == 0 || row.hbm_status != HC_OK ? add_row(r->out, &row) : HC_OK;
   for (int k = 0; k < at.n && st == HC_OK; ++k) {
-    const double *X = at.X + (size_t)k * at.n_coef;
-    timeint_state state;
-    row.branch = at.points[k].branch;
-    row.hbm_status = hbm_measure(r->hbm, X, &row.hbm);
-    if (hbm_stability_at(r->hbm, omega, X, &row.stability) != HC_OK) row.stability.multiplier = NAN;
-    row.transient_status = start_state(r, &row, X, &state);
-    if (row.transient_status == HC_OK) row.transient_status = timeint_steady(r->ti, omega, &state, r->monitor, &row.transient);
-    if (row.transient_status == HC_INTERRUPTED) { st = HC_INTERRUPTED; break; }
-    bool comparable = row.hbm_status == HC_OK && row.transient_status == HC_OK;
-    row.errors = comparable ? errors_between(&row.hbm, n_harm, X, &row.transient) : (comparison_errors){NAN, NAN, NAN, NAN};
-    row.accounted = comparable && row.transient.period_multiple == 1 && accounted_for(r->hbm, r->sc, &at, &row.transient);
-    row.verdict = judge(r->sc, &at, k, n_harm, &row);
-    st = add_row(r->out, &row);
+    row = none;
+    if ((st = compare_solution(r, &at, k, &row)) == HC_OK) st = add_row(r->out, &row);
   }
   hbm_curve_free(&at);
   return st;
@@ -201,20 +262,33 @@ static hc_status compare_all(runner *r)
   return st;
 }
 
+hc_status comparison_referee(const scene *sc, timeint **out)
+{
+  scene own = *sc;
+  own.transient.law = TRANSIENT_LAW_EXACT;
+  own.transient.tolerance = fmin(sc->transient.tolerance, 1e-9);
+  return timeint_new(&own, out);
+}
+
 hc_status comparison_run(const scene *sc, const hc_monitor *monitor, comparison *out)
 {
   *out = (comparison){0};
   runner r = {.sc = sc, .monitor = monitor, .out = out};
   hc_status st = hbm_solver_new(sc, &r.hbm);
   if (st == HC_OK) st = timeint_new(sc, &r.ti);
+  if (st == HC_OK) st = comparison_referee(sc, &r.exact);
+  if (st == HC_OK) st = budgeter_new(sc, &r.budgeter);
   if (st == HC_OK) {
     double from, to;
     comparison_sweep(sc, &sc->compare.omega, &from, &to);
     st = hbm_trace(r.hbm, from, to, monitor, &out->curve);
     out->harmonics = hbm_n_harmonics(r.hbm);
     out->samples = hbm_n_samples(r.hbm);
+    response_summarise(r.hbm, &out->curve, &out->summary);
     if (st != HC_INTERRUPTED && st != HC_NO_MEMORY) st = compare_all(&r); /* as far as the curve goes */
   }
+  budgeter_free(r.budgeter);
+  timeint_free(r.exact);
   timeint_free(r.ti);
   hbm_solver_free(r.hbm);
   return st;
@@ -227,10 +301,16 @@ void comparison_clear(comparison *c)
   *c = (comparison){0};
 }
 
+bool comparison_unaccounted(const comparison_row *row)
+{
+  bool known = row->transient_status == HC_OK || row->transient_status == HC_APERIODIC;
+  return known && row->hbm_status == HC_OK && !row->accounted;
+}
+
 int comparison_exit_code(const comparison *c)
 {
   for (int i = 0; i < c->n_rows; ++i)
-    if (c->rows[i].transient_status == HC_OK && c->rows[i].hbm_status == HC_OK && !c->rows[i].accounted) return 1;
+    if (comparison_unaccounted(&c->rows[i])) return 1;
   if (c->curve.end != HC_OK) return 3; /* what lies beyond was not compared, and the curve might have come back */
   if (c->count[VERDICT_SOLVER_FAILED] > 0 || c->count[VERDICT_NOT_SETTLED] > 0 || c->count[VERDICT_MATCH] == 0) return 3;
   return 0;

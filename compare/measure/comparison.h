@@ -1,12 +1,16 @@
 /* comparison.h - the main job: the same frequencies solved by harmonic balance and by time integration, and how far apart they are.
  *
  * Per frequency and per HBM solution (branch) the transient starts, unless the scene says otherwise, on that solution's own orbit.
+ * Beside it stands the referee: the periodic orbit of the exact contact law next to the HBM solution, stable or not, found by shooting.
+ * What the HBM solution should be is that orbit; what a machine does is the transient.
  * An error is |hbm - transient| / the transient's amplitude. Phases are never aligned: the forcing fixes them. */
 #ifndef HC_COMPARISON_H
 #define HC_COMPARISON_H
 
 #include "cases/scene.h"
 #include "cases/status.h"
+#include "compare/budget/parts.h"
+#include "compare/measure/response.h"
 #include "hbm/hbm.h"
 #include "timeint/timeint.h"
 
@@ -14,9 +18,10 @@
 #define VERDICT_LIST(X)                                                                     \
   X(VERDICT_MATCH, "match", "every error is within the gate")                               \
   X(VERDICT_DIFFERS, "differs", "same orbit, but an error is beyond the gate")              \
-  X(VERDICT_OTHER_BRANCH, "other_branch", "the transient left for another HBM solution")    \
-  X(VERDICT_UNSTABLE, "unstable", "this HBM solution is unstable: the transient left it")   \
+  X(VERDICT_OTHER_BRANCH, "other_branch", "the transient runs on another orbit than the one next to this HBM solution") \
+  X(VERDICT_UNSTABLE, "unstable", "this HBM solution is unstable: no motion stays there") \
   X(VERDICT_PERIOD_K, "period_k", "the transient repeats only after k forcing periods")     \
+  X(VERDICT_APERIODIC, "aperiodic", "the transient never repeats: neighbouring motions drift apart") \
   X(VERDICT_NOT_SETTLED, "not_settled", "the transient found no steady state in max_periods") \
   X(VERDICT_SOLVER_FAILED, "solver_failed", "one of the solvers gave up")
 #define VERDICT_ENUM(code, name, meaning) code,
@@ -35,7 +40,12 @@ typedef struct comparison_row {
   hbm_stability stability;    /* of the HBM solution; multiplier NaN when unknown */
   bool accounted;             /* the transient is within the gate of this or another HBM solution */
   hbm_measures hbm;           /* valid when hbm_status is HC_OK */
-  timeint_result transient;   /* valid when transient_status is HC_OK or HC_NOT_SETTLED */
+  timeint_result transient;   /* valid when transient_status is HC_OK, HC_NOT_SETTLED or HC_APERIODIC */
+  timeint_state transient_state; /* on the transient's orbit */
+  hc_status orbit_status;
+  timeint_result orbit;       /* the referee's, valid when orbit_status is HC_OK */
+  double orbit_error;         /* [1] waveform error of the HBM solution against that orbit, NaN without it */
+  error_budget budget;        /* what the discrepancy is made of */
   comparison_errors errors;   /* NaN where there is nothing to compare */
 } comparison_row;
 
@@ -44,6 +54,7 @@ typedef struct comparison {
   comparison_row *rows;
   hbm_curve curve;            /* the response curve behind the rows; its `end` says how far it came */
   int count[VERDICT_COUNT];
+  response_summary summary;   /* of that curve */
   int harmonics, samples;     /* in use: for auto, the most the curve needed; samples 0 for exact forces */
 } comparison;
 
@@ -55,8 +66,14 @@ void comparison_clear(comparison *c);
 /* "match", "period_2", ...: the row's verdict in text[24], which is returned. */
 const char *comparison_verdict_text(const comparison_row *row, char text[24]);
 
+/* Is it known where the transient went, and no HBM solution is there? */
+bool comparison_unaccounted(const comparison_row *row);
+
 /* Exit code of INTERFACE.md: 0 agreed; 1 a transient differs from every HBM solution, or has another period; 3 something could not be compared. */
 int comparison_exit_code(const comparison *c);
+
+/* The time integration that HBM solutions are held against: sc's, with the exact law. For timeint_orbit. */
+hc_status comparison_referee(const scene *sc, timeint **out);
 
 /* x(t), x'(t) and sliders at t = 0 of an HBM solution: where its transient starts. */
 timeint_state comparison_orbit_start(const hbm_measures *m, int n_harm, const double *X, double omega);

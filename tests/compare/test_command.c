@@ -80,6 +80,17 @@ static void stability_is_said_or_unknown(void **state)
          ",0.455826"); /* exp((-20 + sqrt(20^2 - 0.5)) 2 pi/0.1) */
 }
 
+/* The number in a csv's first row of data, in the column of that name. */
+static double first_row(const char *csv, const char *name)
+{
+  const char *header = strstr(csv, "omega,"), *at = strstr(header ? header : "", name), *row = strchr(at ? at : "", '\n');
+  assert_non_null(row);
+  int columns = 0;
+  for (const char *c = header; c < at; ++c) columns += *c == ',';
+  for (++row; columns > 0 && row; --columns) row = strchr(row, ',') + 1;
+  return strtod(row, NULL);
+}
+
 /* What dropping harmonic 0 costs on case 2, PHYSICS of the specification: 18 %, 42 %, 63 % of the fundamental at 6.5, 8, 9 in the limit of
  * many harmonics and samples. Figures given to a whole percent, hence half a percent, and 1e-3 for H = 10. */
 static void dropping_the_mean_costs_what_it_costs(void **state)
@@ -91,13 +102,8 @@ static void dropping_the_mean_costs_what_it_costs(void **state)
     double hbm, transient;
     snprintf(args, sizeof args, "compare " CASE2 "--at %g -q --format csv --set hbm.static=false", expected[i][0]);
     outcome o = run(args);
-    const char *row = strstr(o.out, "\n6.5,0,");
-    if (!row) row = strstr(o.out, "\n8,0,");
-    if (!row) row = strstr(o.out, "\n9,0,");
-    assert_non_null(row);
-    for (int column = 0; column < 9 && row; ++column) row = strchr(row + 1, ',');
-    assert_non_null(row);
-    assert_int_equal(sscanf(row, ",%lf,%lf", &hbm, &transient), 2);
+    hbm = first_row(o.out, "hbm_harmonic_1");
+    transient = first_row(o.out, "transient_harmonic_1");
     CHECK_NEAR(1 - hbm / transient, expected[i][1], 0.005 + 1e-3, "omega = %g", expected[i][0]);
   }
 }

@@ -1,0 +1,113 @@
+/* test_command.c - hbmcheck bench as people use it: columns, errors that fall along each family, wrong usage. Times are never judged. */
+#include <stdbool.h>
+#include <string.h>
+#include <sys/wait.h>
+
+#include "tests/check.h"
+
+#define CASE2 "cases/paper/case2.yaml "
+typedef struct outcome { int code; char out[131072]; } outcome;
+
+static outcome run(const char *args)
+{
+  static outcome o;
+  char line[1024];
+  snprintf(line, sizeof line, "%s %s", HBMCHECK_COMMAND, args);
+  FILE *pipe = popen(line, "r");
+  assert_non_null(pipe);
+  o.out[fread(o.out, 1, sizeof o.out - 1, pipe)] = 0;
+  int status = pclose(pipe);
+  o.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  return o;
+}
+
+static void expect(const char *args, int code, const char *fragment)
+{
+  outcome o = run(args);
+  if (o.code == code && strstr(o.out, fragment)) return;
+  print_error("hbmcheck %s\nexit %d, expected %d; expected to read '%s' in:\n%s\n", args, o.code, code, fragment, o.out);
+  fail();
+}
+
+/* The error of the row that starts like this, as csv. NaN: no such row, or not solved. */
+static double error_of(const char *csv, const char *start)
+{
+  const char *row = strstr(csv, start);
+  if (!row) fail_msg("no row %s", start);
+  for (int commas = 0; row && commas < 6; ++commas) row = strchr(row, ',') + 1; /* omega, method, harmonics, samples, regularisation, tolerance */
+  return row && *row != ',' ? strtod(row, NULL) : NAN;
+}
+
+/* Each step finer is nearer by at least this; the last may stand where the reference ends. */
+static void check_falls(const char *csv, const char *family, int n, const char *const *starts, double factor)
+{
+  double before = INFINITY;
+  for (int i = 0; i < n; ++i) {
+    double e = error_of(csv, starts[i]);
+    CHECK_LE(e, factor * before, "%s, %s", family, starts[i]);
+    before = e;
+  }
+}
+
+/* Case 2 at 6.5: stable, alone, far from folds. Harmonic balance in H: exact forces order 3 to 4 in the amplitude, so a factor 4 in H is 16 and
+ * more, 4 asked. Sampled: down to the same H's truncation. The regularised law on case 2 is of first order: a tenth, 1/5 asked. */
+static void errors_fall_along_each_family(void **state)
+{
+  (void)state;
+  outcome o = run("bench " CASE2 "--at 6.5 --repeats 1 --alone --format csv -q --set transient.max_periods=2000");
+  assert_int_equal(o.code, 0);
+  static const char *const exact[] = {"6.5,hbm_exact,5,", "6.5,hbm_exact,20,", "6.5,hbm_exact,80,"};
+  static const char *const regularised[] = {"6.5,regularised_shooting,,,0.01,1e-08", "6.5,regularised_shooting,,,0.001,1e-08", "6.5,regularised_shooting,,,0.0001,1e-08"};
+  check_falls(o.out, "hbm_exact", 3, exact, 0.25);
+  check_falls(o.out, "regularised_shooting", 3, regularised, 0.2);
+  double coarse = error_of(o.out, "6.5,hbm_sampled,40,256,"), fine = error_of(o.out, "6.5,hbm_sampled,40,16384,"), limit = error_of(o.out, "6.5,hbm_exact,40,");
+  CHECK_LE(fine, 0.1 * coarse + 2 * limit, "hbm_sampled");
+  assert_non_null(strstr(o.out, "omega,accuracy,method,settings,"));
+  assert_non_null(strstr(o.out, "# fastest at omega = 6.5: "));
+  assert_non_null(strstr(o.out, "compiler"));
+}
+
+/* The smallest error of all rows of a method: what the family comes to. */
+static double best_of(const char *csv, const char *method)
+{
+  char start[64];
+  double best = INFINITY;
+  snprintf(start, sizeof start, "\n6.5,%s,", method);
+  for (const char *row = csv; (row = strstr(row, start)); ++row) {
+    double e = error_of(row, start + 1);
+    if (e < best) best = e;
+  }
+  return best;
+}
+
+/* Every family comes near the reference: each bound ten times what its finest setting claims. */
+static void every_method_comes_near(void **state)
+{
+  (void)state;
+  outcome o = run("bench " CASE2 "--at 6.5 --repeats 1 --alone --format csv -q");
+  assert_int_equal(o.code, 0);
+  CHECK_LE(best_of(o.out, "exact_shooting"), 1e-10, "tolerance 1e-11");
+  CHECK_LE(best_of(o.out, "exact_marching"), 1e-10, "tolerance 1e-11");
+  CHECK_LE(best_of(o.out, "regularised_shooting"), 1e-5, "first order, regularisation 1e-6");
+  CHECK_LE(best_of(o.out, "regularised_marching"), 1e-4, "first order, regularisation 1e-5");
+  CHECK_LE(best_of(o.out, "regularised_richardson"), 1e-5, "extrapolated from 1e-2");
+}
+
+static void mistakes_are_named(void **state)
+{
+  (void)state;
+  expect("bench 2>&1", 64, "CASE");
+  expect("bench " CASE2 "--repeats 0 2>&1", 64, "--repeats");
+  expect("bench " CASE2 "--repeats x 2>&1", 64, "--repeats");
+  expect("bench " CASE2 "--at 5,,6 2>&1", 64, "--at");
+  expect("bench /nonexistent.yaml 2>&1", 2, "/nonexistent.yaml: ");
+  expect("bench " CASE2 "--at 5.3 --repeats 1 --alone -q 2>&1", 3, "omega = 5.3: no stable orbit"); /* between the period doublings */
+  expect("bench --help", 0, "example");
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {cmocka_unit_test(errors_fall_along_each_family), cmocka_unit_test(every_method_comes_near), cmocka_unit_test(mistakes_are_named)};
+  check_watchdog(300);
+  return cmocka_run_group_tests_name("bench.command", tests, NULL, NULL);
+}
