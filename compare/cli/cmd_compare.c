@@ -12,7 +12,7 @@ static const char doc[] =
     "\vAn error is |hbm - transient| / the transient's amplitude; the limits are the case's gate. from_aliasing, ... say what "
     "it is made of; their sum is no less than the discrepancy, or budget_holds says no.\n"
     "--tables adds a table over truncation orders and samples (largest amplitude discrepancy, peak, false turning points, cost) and one of "
-    "observed orders; it takes seconds, and with csv they follow the first after a blank line.\n"
+    "observed orders; it takes seconds, and with csv they follow the first after a blank line. The screen shows the main columns, csv and json all of them.\n"
     "exit: 0 agreed  1 a transient differs from every HBM solution  2 case file wrong  3 something could not be compared  64 usage\n"
     "example: hbmcheck compare cases/paper/case2.yaml --set hbm.static=false";
 
@@ -41,6 +41,10 @@ static void note_worst(table *t, const scene *sc, const comparison *c)
   if (doubtful) table_note(t, "in %d row%s the parts do NOT account for what is observed", doubtful, doubtful == 1 ? "" : "s");
   if (unknown) table_note(t, "%d row%s without a budget: no periodic orbit was found next to the HBM solution", unknown, unknown == 1 ? "" : "s");
 }
+
+/* In csv and json, not on the screen. */
+static const char *const details[] = {"mean_error",     "from_integration", "from_settling", "hbm_harmonic_1", "transient_harmonic_1", "periods",
+                                      "orbit_amplitude", "orbit_multiplier", "budget_sum",    "budget_observed"};
 
 static void put_notes(table *t, const scene *sc, const comparison *c)
 {
@@ -83,6 +87,7 @@ static table *rows_table(const scene *sc, const comparison *c)
     rows_compare(&c->rows[i], cells);
     cli_put_row(t, ROWS_COMPARE, cells);
   }
+  for (size_t i = 0; i < sizeof details / sizeof *details; ++i) table_hide(t, details[i]);
   put_notes(t, sc, c);
   return t;
 }

@@ -44,7 +44,8 @@ table *table_new(const char *title, int n_columns, const table_column *columns)
   t->n_columns = n_columns;
   t->columns = columns;
   t->title = utf8_clean(title ? title : "", true);
-  t->failed = !t->title;
+  t->hidden = calloc((size_t)n_columns, sizeof *t->hidden);
+  t->failed = !t->title || !t->hidden;
   return t;
 }
 
@@ -57,6 +58,7 @@ void table_free(table *t)
   free(t->cells);
   free(t->notes);
   free(t->title);
+  free(t->hidden);
   free(t);
 }
 
@@ -149,6 +151,12 @@ void table_note(table *t, const char *format, ...)
 void table_wrap(table *t, int width)
 {
   if (t) t->wrap = width > 0 ? width : 0;
+}
+
+void table_hide(table *t, const char *column)
+{
+  for (int i = 0; t && t->hidden && i < t->n_columns; ++i)
+    if (!strcmp(t->columns[i].name, column)) t->hidden[i] = true;
 }
 
 int table_rows(const table *t) { return t ? (int)(t->n_cells / (size_t)t->n_columns) : 0; }

@@ -32,6 +32,9 @@ void table_note(table *t, const char *format, ...) __attribute__((format(printf,
 /* In the format table, carry words over to further lines so that no line is longer than `width`, as far as that goes; nothing is cut then. */
 void table_wrap(table *t, int width);
 
+/* In the format table, leave that column out: a line that does not fit the screen is not read. csv and json have it all the same. */
+void table_hide(table *t, const char *column);
+
 /* Full rows so far. */
 int table_rows(const table *t);
 

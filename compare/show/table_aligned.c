@@ -13,7 +13,7 @@
 enum { SIGNIFICANT = 7, MAX_DIGITS = 11, MAX_EXPONENT = SIGNIFICANT - 1, MAX_TEXT_WIDTH = 60, NUMBER_ROOM = 40 };
 
 typedef struct { bool scientific; int decimals, width; } column_style; /* width in terminal columns */
-typedef struct { FILE *to; int spaces; } line;                         /* spaces: owed before the next visible character */
+typedef struct { FILE *to; int spaces; bool begun; } line;             /* spaces: owed before the next visible character; begun: has a cell */
 
 static void put_spaces(line *l, int n) { l->spaces += n; }
 
@@ -32,6 +32,7 @@ static void put_bytes(line *l, const char *s, size_t bytes)
 static void end_line(line *l)
 {
   l->spaces = 0;
+  l->begun = false;
   putc('\n', l->to);
 }
 
@@ -106,12 +107,21 @@ static void put_text(line *l, const char *text, int columns)
   put_spaces(l, columns - width);
 }
 
+static int last_shown(const table *t)
+{
+  int last = t->n_columns - 1;
+  while (last > 0 && t->hidden[last]) --last;
+  return last;
+}
+
 static void put_cell(line *l, const table *t, int column, const column_style *style, const char *text)
 {
   bool number = t->columns[column].kind != TABLE_TEXT;
-  if (column > 0) put_spaces(l, 2);
+  if (t->hidden[column]) return;
+  if (l->begun) put_spaces(l, 2);
+  l->begun = true;
   if (number) put_spaces(l, style->width - utf8_width(text));
-  if (number || column == t->n_columns - 1) put_bytes(l, text, strlen(text));
+  if (number || column == last_shown(t)) put_bytes(l, text, strlen(text));
   else put_text(l, text, style->width);
 }
 
@@ -123,7 +133,7 @@ static void put_line(line *l, const char *text)
 
 hc_status table_write_aligned(const table *t, FILE *to)
 {
-  line l = {to, 0};
+  line l = {.to = to};
   column_style *styles = calloc((size_t)t->n_columns, sizeof *styles);
   if (!styles) return HC_NO_MEMORY;
   if (*t->title) put_line(&l, t->title);

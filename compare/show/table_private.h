@@ -17,6 +17,7 @@ struct table {
   table_cell *cells;
   size_t n_notes, notes_room;
   char **notes; /* one line each */
+  bool *hidden; /* [n_columns] left out of the aligned format */
   int wrap;     /* columns of the terminal to fit into, 0: each row is one line */
   bool failed;  /* an allocation did: nothing is appended any more */
 };

@@ -55,6 +55,20 @@ static table *small_table(const char *title)
   return t;
 }
 
+/* Left out on the screen, kept for machines; the last one shown ends the line. */
+static void hidden_columns_are_for_machines(void **state)
+{
+  (void)state;
+  table *t = table_new(NULL, 4, columns);
+  put(t, 5, "match", 1200, 1.25e-6);
+  table_hide(t, "error");
+  table_hide(t, "omega");
+  table_hide(t, "no such column");
+  expect(1, &t, FORMAT_TABLE, "verdict  steps\nmatch     1200\n");
+  expect(1, &t, FORMAT_CSV, "omega,verdict,steps,error\n5,match,1200,1.2500000000000001e-06\n");
+  table_free(t);
+}
+
 static void table_is_aligned(void **state)
 {
   (void)state;
@@ -389,7 +403,7 @@ static void misuse_is_caught(void **state)
 }
 
 static const struct CMUnitTest tests[] = {
-  cmocka_unit_test(table_is_aligned),
+  cmocka_unit_test(hidden_columns_are_for_machines), cmocka_unit_test(table_is_aligned),
   cmocka_unit_test(csv_is_exact),
   cmocka_unit_test(json_is_exact),
   cmocka_unit_test(no_rows_and_no_title),
