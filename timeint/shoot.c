@@ -14,7 +14,7 @@
 #include "cases/sundials_compat.h"
 #include "timeint/internal.h"
 
-enum { MAX_N = MODEL_MAX_STATES, NEWTON_ITERATIONS = 12, ANDERSON_ITERATIONS = 100, ANDERSON_DEPTH = 4 };
+enum { MAX_N = MODEL_MAX_STATES, NEWTON_ITERATIONS = 12, ANDERSON_ITERATIONS = 100, ANDERSON_DEPTH = 4, LAST_STEPS = 4 };
 
 struct shoot { /* from shoot_new, to shoot_free */
   timeint *ti;
@@ -184,13 +184,19 @@ static void begin(shoot *s, int k, const hc_monitor *monitor)
   s->known = s->begun = false;
 }
 
-/* A residual r is an error of about r/(1 - rho): a tenth of the goal times that, but no less than what periods scatter by: up to 250 times
- * CVODE's tolerance with the regularised law (timeint.c), and the rounding of some thousand steps. Newton's last step goes below; what is
- * left is judged by finish(). */
+/* What k periods scatter by: up to 250 times CVODE's tolerance with the regularised law (timeint.c), 400 seen next to a fold (r2 at 708.5),
+ * and the rounding of some thousand steps. */
+static double scatter(const shoot *s)
+{
+  const double of_steps = s->ti->sc.transient.law == TRANSIENT_LAW_EXACT ? 50 : 1000;
+  return s->k * fmax(of_steps * s->ti->tolerance, 2e4 * DBL_EPSILON);
+}
+
+/* A residual r is an error of about r/(1 - rho): a tenth of the goal times that, but no less than what periods scatter by. Newton's last
+ * step goes below; what is left is judged by finish(). */
 static double small_residual(const shoot *s, double goal)
 {
-  const double scatter = fmax(100 * s->ti->tolerance, 2e4 * DBL_EPSILON);
-  return fmax(0.1 * goal * (1 - fmin(s->ti->contraction, 1)), s->k * scatter);
+  return fmax(0.1 * goal * (1 - fmin(s->ti->contraction, 1)), scatter(s));
 }
 
 /* |F^k(z0) - z* - Phi (z0 - z*)| / |z0 - z*|, z* = z. */
@@ -221,20 +227,48 @@ static hc_status find_multiplier(shoot *s, shoot_report *r)
   return st;
 }
 
-/* What there is to say of z, next to the orbit, and Newton's last step from it. */
-static hc_status finish(shoot *s, const double *z, double goal, shoot_report *r)
+/* Newton's step from z into step[n], and its length. */
+static hc_status next_step(shoot *s, const double *z, double *step, double *length)
 {
-  double step[MAX_N];
   hc_status st = newton_factor_at(s->newton, z);
   if (st != HC_OK) return st;
   for (int i = 0; i < s->n; ++i) step[i] = z[i] - s->f[i];
-  if ((st = newton_backsolve(s->newton, step)) != HC_OK) return st;
-  r->distance = norm(s->n, step);
-  r->moved = apart(s->n, s->start, z);
-  r->nonlinear = nonlinear_part(s, z);
+  st = newton_backsolve(s->newton, step);
+  *length = norm(s->n, step);
+  return st;
+}
+
+/* No orbit can be found to better than this: the scatter of periods, seen through (I - Phi)^-1 (Frobenius norm, factors of the last step). */
+static double attainable(shoot *s)
+{
+  double sum = 0, column[MAX_N];
+  for (int j = 0; j < s->n; ++j) {
+    for (int i = 0; i < s->n; ++i) column[i] = i == j;
+    if (newton_backsolve(s->newton, column) != HC_OK) return INFINITY;
+    sum += norm(s->n, column) * norm(s->n, column);
+  }
+  return sqrt(sum) * scatter(s);
+}
+
+/* From z, next to the orbit, as near to it as the goal asks or the scatter of periods allows; then what there is to say of it. */
+static hc_status finish(shoot *s, double *z, double goal, shoot_report *r)
+{
+  double step[MAX_N], best[MAX_N];
+  hc_status st = HC_OK;
+  for (int tries = 0; tries < LAST_STEPS && st == HC_OK; ++tries) {
+    double length;
+    if ((st = next_step(s, z, step, &length)) != HC_OK) break;
+    if (length < r->distance) memcpy(best, z, sizeof best), r->distance = length;
+    if (r->distance <= goal) break;
+    for (int i = 0; i < s->n; ++i) z[i] -= step[i];
+  }
+  if (st == HC_OK && r->distance < INFINITY) st = evaluate(s, best);
+  if (st != HC_OK || !(r->distance < INFINITY)) return st != HC_OK ? st : HC_NOT_CONVERGED;
+  r->moved = apart(s->n, s->start, best);
+  r->nonlinear = nonlinear_part(s, best);
   if ((st = find_multiplier(s, r)) != HC_OK) return st;
-  memcpy(s->ti->y, z, sizeof *z * (size_t)s->n);
-  return r->distance <= goal ? HC_OK : HC_NOT_CONVERGED;
+  memcpy(s->ti->y, best, sizeof *best * (size_t)s->n);
+  return r->distance <= fmax(goal, attainable(s)) ? HC_OK : HC_NOT_CONVERGED;
 }
 
 hc_status shoot_newton(shoot *s, int k, double reach, double goal, const hc_monitor *monitor, shoot_report *report)

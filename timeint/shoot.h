@@ -27,7 +27,8 @@ hc_status shoot_new(timeint *ti, shoot **out);
 void shoot_free(shoot *s);
 
 /* From ti->y to the orbit, Newton steps no longer than `reach` [L]; ti->y becomes a point on it. On failure ti->y is where it was.
- * goal [L]: distance at which to stop. HC_SINGULAR, HC_STALLED, HC_NOT_CONVERGED; HC_NOT_SETTLED
+ * goal [L]: distance at which to stop, or at what the scatter of periods, seen through (I - Phi)^-1, allows; report->distance says which.
+ * HC_SINGULAR, HC_STALLED, HC_NOT_CONVERGED; HC_NOT_SETTLED
  * after max_periods; what integration answers; HC_INTERRUPTED. */
 hc_status shoot_newton(shoot *s, int k, double reach, double goal, const hc_monitor *monitor, shoot_report *report);
 hc_status shoot_anderson(shoot *s, int k, double goal, const hc_monitor *monitor, shoot_report *report);

@@ -12,6 +12,7 @@
 
 /* An HBM orbit may be off by some ten percent of the motion with one harmonic; farther away it is another orbit. [size] */
 static const double reach_from_hbm = 0.3;
+static const double next_to = 0.5; /* [size] what shooting calls the orbit next to its start */
 static const double nudge = 1e-3; /* [size] off an unstable orbit, along its own direction */
 
 const char *timeint_method_name(timeint_method method)
@@ -113,7 +114,9 @@ static hc_status shoot_here(timeint *ti, int k, const hc_monitor *monitor, timei
     return HC_OK;
   }
   hc_status st = timeint_set_tolerance(ti, timeint_final_tolerance(ti));
+  const double size = fmax(timeint_size(ti), ti->least_length) / ti->length;
   if (st == HC_OK) st = next_orbit(ti, k, monitor, &method, &found);
+  if (st == HC_OK && !(found.moved <= next_to * size)) st = HC_NOT_CONVERGED; /* an orbit, but not the one next to the start */
   return st == HC_OK ? timeint_report(ti, k, method, &found, r) : st;
 }
 

@@ -33,7 +33,8 @@ typedef struct timeint_result {
   double amplitude, max, min; /* [length] amplitude = (max - min)/2, peaks from dense output */
   double rms, mean;           /* [length] rms of x (mean included) over the reported period */
   double a1, b1, harmonic_1;  /* [length] x ~ a1 cos(omega t) + b1 sin(omega t); harmonic_1 = hypot(a1, b1) */
-  double closure; /* [1] estimated distance to the periodic orbit, drift/(1 - contraction), relative to the amplitude; may be INFINITY */
+  double closure; /* [1] estimated distance to the periodic orbit, drift/(1 - contraction), relative to the amplitude; may be INFINITY,
+                   * and more than transient.tolerance where the integration's own errors, seen through 1/(1 - contraction), allow no less */
   double contraction; /* [1] measured contraction per period of the drift, or NaN when it could not be measured */
   int periods;        /* forcing periods integrated, all included */
   int period_multiple; /* of the orbit found, 1 unless a sub-harmonic was found (k <= 16: measures cover k periods, wave the last); 0 not settled */
