@@ -31,6 +31,34 @@ static hc_status check_samples(case_reader *r)
   return HC_BAD_INPUT;
 }
 
+/* Limits of ranges are as many as there are ranges, and there is something to a range. */
+static hc_status check_gate_ranges(case_reader *r)
+{
+  static const char *const limits[] = {"range_amplitude", "range_harmonic_1", "range_mean", "range_waveform"};
+  const field *ranges = named("gate", "ranges");
+  const scene_list *omega = &r->sc.gate_ranges.omega;
+  int longest = 0;
+  for (int i = 0; i < omega->n; i += 2) {
+    if (i + 1 < omega->n && omega->v[i] <= omega->v[i + 1]) continue;
+    message *m = case_blame(r, r->at[field_index(ranges)]);
+    if (i + 1 == omega->n) message_add(m, "gate.ranges ends in a single %.10g, expected FROM, TO, FROM, TO, ...", omega->v[i]);
+    else message_add(m, "gate.ranges has a range from %.10g to %.10g, expected FROM <= TO", omega->v[i], omega->v[i + 1]);
+    return HC_BAD_INPUT;
+  }
+  for (size_t k = 0; k < sizeof limits / sizeof *limits; ++k) {
+    const field *f = named("gate", limits[k]);
+    int n = ((const scene_list *)field_look(f, &r->sc))->n;
+    if (n > longest) longest = n;
+    if (n == 0 || n == omega->n / 2) continue;
+    message_add(case_blame(r, last_given(r, f, ranges)), "gate.%s has %d limit%s for %d range%s in gate.ranges, expected one for each", limits[k], n,
+                n == 1 ? "" : "s", omega->n / 2, omega->n == 2 ? "" : "s");
+    return HC_BAD_INPUT;
+  }
+  if (omega->n == 0 || longest > 0) return HC_OK;
+  message_add(case_blame(r, r->at[field_index(ranges)]), "gate.ranges without limits, expected gate.range_amplitude or another gate.range_... too");
+  return HC_BAD_INPUT;
+}
+
 /* Contacts of the file are whole; one that an assignment appended may still lack something. */
 static hc_status check_contacts(case_reader *r)
 {
@@ -51,5 +79,6 @@ hc_status case_check(case_reader *r)
   hc_status st = check_contacts(r);
   if (st == HC_OK) st = check_sweep(r);
   if (st == HC_OK) st = check_samples(r);
+  if (st == HC_OK) st = check_gate_ranges(r);
   return st;
 }

@@ -109,6 +109,20 @@ static const field table[] = {
   {"gate", "harmonic_1", "", FIELD_REAL, .unit = "1", SCENE(gate.harmonic_1), .fallback = "1e-3", POSITIVE, .meaning = "of the fundamental, a1 + i b1"},
   {"gate", "mean", "", FIELD_REAL, .unit = "1", SCENE(gate.mean), .fallback = "1e-3", POSITIVE, .meaning = "of harmonic 0"},
   {"gate", "waveform", "", FIELD_REAL, .unit = "1", SCENE(gate.waveform), .fallback = "5e-3", POSITIVE, .meaning = "anywhere in the period"},
+  {"gate", "ranges", "", FIELD_REALS, .unit = "rad/time", SCENE(gate_ranges.omega), .fallback = "", POSITIVE,
+   .meaning = "FROM, TO, FROM, TO, ...: where the limits below hold; the last range counts"},
+  {"gate", "range_amplitude", "", FIELD_REALS, .unit = "1", SCENE(gate_ranges.amplitude), .fallback = "", POSITIVE,
+   .meaning = "instead of amplitude in the ranges: a limit for each; none: as elsewhere"},
+  {"gate", "range_harmonic_1", "", FIELD_REALS, .unit = "1", SCENE(gate_ranges.harmonic_1), .fallback = "", POSITIVE,
+   .meaning = "instead of harmonic_1 in the ranges: a limit for each; none: as elsewhere"},
+  {"gate", "range_mean", "", FIELD_REALS, .unit = "1", SCENE(gate_ranges.mean), .fallback = "", POSITIVE,
+   .meaning = "instead of mean in the ranges: a limit for each; none: as elsewhere"},
+  {"gate", "range_waveform", "", FIELD_REALS, .unit = "1", SCENE(gate_ranges.waveform), .fallback = "", POSITIVE,
+   .meaning = "instead of waveform in the ranges: a limit for each; none: as elsewhere"},
+  {"gate", "iterations", "", FIELD_INTEGER, .unit = "1", SCENE(gate_cost.iterations), .fallback = "0", WITHIN(0, 1e9),
+   .meaning = "Newton iterations the whole response curve may take; 0: any number"},
+  {"gate", "evaluations", "", FIELD_INTEGER, .unit = "1", SCENE(gate_cost.evaluations), .fallback = "0", WITHIN(0, 1e9),
+   .meaning = "contact force evaluations the whole response curve may take; 0: any number"},
 };
 /* clang-format on */
 

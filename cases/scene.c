@@ -1,4 +1,4 @@
-/* scene.c - geometry of a scene. */
+/* scene.c - geometry of a scene, and which limits hold where. */
 #include "cases/scene.h"
 
 void scene_projection(const scene_contact *c, double *cosine, double *sine)
@@ -20,4 +20,18 @@ double scene_max_stiffness(const scene *sc)
   double k = sc->stiffness;
   for (int j = 0; j < sc->n_contacts; ++j) k += scene_stuck_stiffness(&sc->contacts[j]);
   return k;
+}
+
+scene_gate scene_gate_at(const scene *sc, double omega)
+{
+  const scene_gate_ranges *r = &sc->gate_ranges;
+  scene_gate g = sc->gate;
+  for (int i = 0; 2 * i + 1 < r->omega.n; ++i) {
+    if (omega < r->omega.v[2 * i] || omega > r->omega.v[2 * i + 1]) continue;
+    g.amplitude = r->amplitude.n ? r->amplitude.v[i] : sc->gate.amplitude;
+    g.harmonic_1 = r->harmonic_1.n ? r->harmonic_1.v[i] : sc->gate.harmonic_1;
+    g.mean = r->mean.n ? r->mean.v[i] : sc->gate.mean;
+    g.waveform = r->waveform.n ? r->waveform.v[i] : sc->gate.waveform;
+  }
+  return g;
 }

@@ -59,6 +59,13 @@ typedef struct scene_compare {
 
 typedef struct scene_gate { double amplitude, harmonic_1, mean, waveform; } scene_gate; /* [1] largest relative discrepancy */
 
+typedef struct scene_gate_ranges { /* other limits in parts of the sweep; see scene_gate_at */
+  scene_list omega;                                    /* [rad/time] from, to, from, to, ..., ends included */
+  scene_list amplitude, harmonic_1, mean, waveform;    /* [1] one a range; n = 0: as outside the ranges */
+} scene_gate_ranges;
+
+typedef struct scene_gate_cost { int iterations, evaluations; } scene_gate_cost; /* most for the response curve; 0: no limit */
+
 typedef struct scene {
   char title[SCENE_MAX_TEXT], unit_length[16], unit_force[16], unit_time[16];
   double mass, damping, stiffness;
@@ -70,6 +77,8 @@ typedef struct scene {
   scene_transient transient;
   scene_compare compare;
   scene_gate gate;
+  scene_gate_ranges gate_ranges;
+  scene_gate_cost gate_cost;
 } scene;
 
 /* cos and sin of the contact's angle, exact at 0 and 90 degrees. The one place where x becomes (u, v) = (c x, s x). */
@@ -80,5 +89,8 @@ double scene_stuck_stiffness(const scene_contact *c);
 
 /* Largest stiffness x can see: K plus every contact stuck. */
 double scene_max_stiffness(const scene *sc);
+
+/* The limits that hold at omega: the gate's, or those of the last range omega lies in. */
+scene_gate scene_gate_at(const scene *sc, double omega);
 
 #endif

@@ -5,7 +5,8 @@
  * map between the two is linear enough for what is left to shrink: |F(z) - z* - Phi (z - z*)| <= (1 - rho)/2 |z - z*|. Otherwise on.
  *
  * A motion that shows no such orbit is tested for chaos: the mean rate at which two neighbours drift apart, drawn together again after
- * each period, over BATCHES times BATCH periods, against its own scatter over the batches. */
+ * each period, over BATCHES times BATCH periods, against its own scatter over the batches. Not before FOLDS times what damping forgets in:
+ * next to a saddle neighbours drift apart as well, for a while. */
 #include <math.h>
 #include <string.h>
 
@@ -15,8 +16,9 @@
 static const double coarse = 1e-9; /* CVODE's tolerance while waiting, if the final one is not coarser */
 static const double near = 0.02;   /* [size] of a return that is worth a Newton solve */
 static const double slowest_chaos = 1e-3; /* [1/period] neighbours part in a thousand periods: any slower and it cannot be told from none */
+static const double shortest_leap = 0.1; /* [size] from period to period, now and then: what only crawls is leaving a saddle, or settling */
 static const double apart = 1e-5; /* [L] of the two: far above what a period scatters by at the final tolerance, far below the motion */
-enum { LYAPUNOV_AFTER = 500, BATCHES = 16, BATCH = 40, LYAPUNOV_PERIODS = 2 * (BATCHES + 1) * BATCH, LAST_RESORT = 6 };
+enum { LYAPUNOV_AFTER = 500, FOLDS = 6, BATCHES = 16, BATCH = 40, LYAPUNOV_PERIODS = 2 * (BATCHES + 1) * BATCH, LAST_RESORT = 6 };
 
 /* How the waiting goes. */
 typedef struct wait {
@@ -131,13 +133,15 @@ static hc_status grow(timeint *ti, double *d, double *log_growth)
 /* Do neighbours drift apart, by more than the scatter of the batches' means (three standard errors)? */
 static hc_status drifts_apart(timeint *ti, const hc_monitor *monitor, bool *yes, double *rate)
 {
-  double d[MODEL_MAX_STATES] = {apart}, mean = 0, square = 0, one;
+  double d[MODEL_MAX_STATES] = {apart}, mean = 0, square = 0, leap = 0, one;
   for (int b = -1; b < BATCHES; ++b) { /* the first one only turns d into the direction of growth */
     double sum = 0;
     for (int i = 0; i < BATCH; ++i) {
       if (!hc_monitor_tick(monitor, (double)ti->periods / ti->sc.transient.max_periods)) return HC_INTERRUPTED;
+      const double x = ti->y[MODEL_X], p = ti->y[MODEL_P];
       hc_status st = grow(ti, d, &one);
       if (st != HC_OK) return st;
+      leap = fmax(leap, hypot(ti->y[MODEL_X] - x, ti->y[MODEL_P] - p) / hypot(x, p));
       sum += one / BATCH;
     }
     if (b < 0) continue;
@@ -145,7 +149,7 @@ static hc_status drifts_apart(timeint *ti, const hc_monitor *monitor, bool *yes,
     square += sum * sum / BATCHES;
   }
   *rate = mean;
-  *yes = mean > slowest_chaos && mean > 3 * sqrt(fmax(square - mean * mean, 0) / (BATCHES - 1));
+  *yes = leap > shortest_leap && mean > slowest_chaos && mean > 3 * sqrt(fmax(square - mean * mean, 0) / (BATCHES - 1));
   return HC_OK;
 }
 
@@ -177,7 +181,7 @@ hc_status timeint_attract(timeint *ti, int first, const hc_monitor *monitor, tim
       return HC_OK;
     }
     if ((st = look_around(&w, &done, r)) != HC_OK || done) return st;
-    if (ti->periods > LYAPUNOV_AFTER && ti->periods + LYAPUNOV_PERIODS < ti->sc.transient.max_periods) {
+    if (ti->periods > fmax(LYAPUNOV_AFTER, FOLDS / (1 - ti->contraction)) && ti->periods + LYAPUNOV_PERIODS < ti->sc.transient.max_periods) {
       if ((st = drifts_apart(ti, monitor, &chaos, &r->lyapunov)) != HC_OK) return st;
       if (chaos) return aperiodic(&w, r);
     }

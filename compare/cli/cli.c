@@ -8,6 +8,7 @@
 
 #include "cases/case_file.h"
 #include "cases/number.h"
+#include "compare/plot/plot.h"
 #include "compare/show/output.h"
 
 static const struct argp_option common_options[] = {
@@ -65,6 +66,16 @@ static error_t on_option(int key, char *arg, struct argp_state *state)
       argp_error(state, "--repeats: '%s' is unknown; expected an integer 1..%d", arg, CLI_MAX_REPEATS);
     return 0;
   case CLI_ALONE: o->alone = true; return 0;
+  case CLI_JUNIT: o->junit = arg; return 0;
+  case CLI_AGAINST: o->against = arg; return 0;
+  case CLI_COLUMNS: o->curve_columns = arg; return 0;
+  case CLI_QUANTITY: o->quantity = arg; return 0;
+  case CLI_ALL: o->all = true; return 0;
+  case CLI_PLOT:
+    if (!plot_can(arg)) argp_error(state, "--plot: '%s' has an unknown ending; expected a name ending in " PLOT_ENDINGS ", or -", arg);
+    o->plot = arg;
+    return 0;
+  case CLI_PLOT_Y: o->plot_y = arg; return 0;
   case CLI_RESULTS: o->results = arg; return 0;
   case CLI_TABLES: o->tables = true; return 0;
   case CLI_FRESH: o->fresh = true; return 0;
@@ -101,6 +112,17 @@ void cli_parse(int argc, char **argv, const char *command, const char *args, con
     fprintf(stderr, "%s: no %s given\nTry 'hbmcheck %s --help'.\n", name, args, command);
     exit(EXIT_USAGE);
   }
+  bool for_programs = (o->format != FORMAT_TABLE || o->export) && !o->output;
+  if (o->plot && !strcmp(o->plot, "-") && for_programs) {
+    fprintf(stderr, "%s: --plot - would mix a drawing into %s; give one of them a file\n", name, o->format == FORMAT_TABLE ? "the export" : "csv or json");
+    exit(EXIT_USAGE);
+  }
+}
+
+int cli_plotted(const cli_options *o, hc_status st, const char *why)
+{
+  if (st != HC_OK) cli_say(o, "no drawing: %s", why);
+  return st == HC_OK ? 0 : EXIT_NO_SOLUTION;
 }
 
 void cli_say(const cli_options *o, const char *format, ...)

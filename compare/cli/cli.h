@@ -34,13 +34,21 @@ typedef struct cli_options {
   bool tables;                 /* --tables */
   int repeats;                 /* --repeats; 0 when absent */
   bool alone;                  /* --alone */
+  const char *against, *curve_columns, *quantity; /* --against, --columns, --quantity; NULL when absent */
+  const char *junit;           /* --junit; NULL when absent */
+  bool all;                    /* --all */
+  const char *plot, *plot_y;   /* --plot, --plot-y; NULL when absent */
   bool fresh, timings;         /* --fresh, --timings */
   bool export;                 /* --export was given, in export_format */
   table_format export_format;
 } cli_options;
 
 /* Keys of the options that only some commands have. */
-enum { CLI_AT = 0x100, CLI_HARMONICS, CLI_SAMPLES, CLI_MOTION, CLI_SET, CLI_FORMAT, CLI_JOBS, CLI_RESULTS, CLI_FRESH, CLI_EXPORT, CLI_TIMINGS, CLI_TABLES, CLI_REPEATS, CLI_ALONE };
+enum { CLI_AT = 0x100, CLI_HARMONICS, CLI_SAMPLES, CLI_MOTION, CLI_SET, CLI_FORMAT, CLI_JOBS, CLI_RESULTS, CLI_FRESH, CLI_EXPORT, CLI_TIMINGS, CLI_TABLES, CLI_REPEATS, CLI_ALONE, CLI_JUNIT, CLI_ALL, CLI_PLOT, CLI_PLOT_Y, CLI_AGAINST, CLI_COLUMNS, CLI_QUANTITY };
+
+/* What the commands that can draw share. */
+#define CLI_PLOT_OPTION \
+  {"plot", CLI_PLOT, "FILE", 0, "Draw the result with gnuplot, too: FILE ends in .svg, .png or .pdf; - draws with letters, here. Exit 3 if only that fails", 2}
 
 /* Parse a command's arguments; does not return on --help, --version or wrong usage (exit 64). `own`: the command's options, or NULL.
  * `args` ending in "..." takes several arguments. */
@@ -62,6 +70,9 @@ void cli_put_row(table *t, rows_kind kind, const row_cell *cells);
 /* Write the tables to stdout or --output, whole or not at all. 0 or the exit code. Frees nothing. */
 int cli_write(const cli_options *o, int n, table *const *tables);
 
+/* What came of a drawing: 0, or the exit code after saying that it is missing and why. */
+int cli_plotted(const cli_options *o, hc_status st, const char *why);
+
 /* "H = 10, exact forces" or "H = 10 WITHOUT harmonic 0, 1024 samples", with the numbers in use for auto. Returns text. */
 const char *cli_hbm_settings(const scene *sc, int n_harm, int n_time, char *text, size_t size);
 
@@ -70,6 +81,9 @@ int cmd_transient(int argc, char **argv);
 int cmd_compare(int argc, char **argv);
 int cmd_study(int argc, char **argv);
 int cmd_bench(int argc, char **argv);
+int cmd_gate(int argc, char **argv);
+int cmd_verify(int argc, char **argv);
+int cmd_report(int argc, char **argv);
 int cmd_contact(int argc, char **argv);
 int cmd_describe(int argc, char **argv);
 

@@ -7,6 +7,7 @@
 #include "compare/bench/bench.h"
 #include "compare/cli/cli.h"
 #include "compare/cli/version.h"
+#include "compare/plot/plot.h"
 #include "compare/show/progress.h"
 
 static const char doc[] =
@@ -22,6 +23,7 @@ static const struct argp_option options[] = {
     {"at", CLI_AT, "LIST", 0, "Omegas, rad per unit time [of the case's compare frequencies the one where the response is largest]", 1},
     {"repeats", CLI_REPEATS, "N", 0, "Times each method is measured; those that take long less often, as the column says [9]", 1},
     {"alone", CLI_ALONE, NULL, 0, "No other programs beside our methods", 1},
+    CLI_PLOT_OPTION,
     {0},
 };
 
@@ -176,6 +178,8 @@ int cmd_bench(int argc, char **argv)
     code = EXIT_NO_SOLUTION;
   } else if (st != HC_OK) code = cli_solver_failed(&o, "the benchmark", st, failed_at);
   int written = b.n_rows ? show(&o, &sc, &b) : 0;
+  plot_order drawing = {.path = o.plot};
+  if (o.plot && b.n_rows && !written) written = cli_plotted(&o, plot_bench(&drawing, &sc, &b), drawing.why);
   bench_clear(&b);
   return code ? code : written;
 }

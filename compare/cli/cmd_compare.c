@@ -4,6 +4,7 @@
 #include "compare/cli/cli.h"
 #include "compare/cli/compare_tables.h"
 #include "compare/measure/comparison.h"
+#include "compare/plot/plot.h"
 #include "compare/show/progress.h"
 
 static const char doc[] =
@@ -21,6 +22,7 @@ static const struct argp_option options[] = {
     {"tables", CLI_TABLES, NULL, 0, "Also the tables over truncation orders and samples, and observed orders", 1},
     {"harmonics", CLI_HARMONICS, "LIST", 0, "Truncation orders of the tables, 1..200 [compare.harmonics]; implies --tables", 1},
     {"samples", CLI_SAMPLES, "LIST", 0, "Samples per period of the tables, at least 2 H + 2 [compare.samples]; implies --tables", 1},
+    CLI_PLOT_OPTION,
     {0},
 };
 
@@ -97,6 +99,7 @@ int cmd_compare(int argc, char **argv)
   cli_options o;
   scene sc;
   comparison c;
+  accuracy a = {0};
   table *tables[3] = {NULL};
   int n_tables = 1;
   cli_parse(argc, argv, "compare", "CASE", doc, options, true, &o);
@@ -109,7 +112,7 @@ int cmd_compare(int argc, char **argv)
   hc_status st = comparison_run(&sc, &monitor, &c), tabled = HC_OK;
   tables[0] = rows_table(&sc, &c);
   if (st == HC_OK && (o.tables || o.harmonics.n || o.samples.n)) {
-    tabled = compare_tables(&sc, &c, &monitor, tables + 1);
+    tabled = compare_tables(&sc, &c, &monitor, tables + 1, &a);
     n_tables = 3;
   }
   progress_end(bar);
@@ -118,7 +121,10 @@ int cmd_compare(int argc, char **argv)
   if (tabled != HC_OK) code = cli_solver_failed(&o, "the tables", tabled, 0);
   say_failures(&o, &c);
   int written = c.n_rows ? cli_write(&o, n_tables, tables) : 0;
+  plot_order drawing = {.path = o.plot};
+  if (o.plot && c.n_rows && !written) written = cli_plotted(&o, plot_compare(&drawing, &sc, &c, n_tables > 1 ? &a : NULL), drawing.why);
   for (int i = 0; i < n_tables; ++i) table_free(tables[i]);
+  accuracy_clear(&a);
   comparison_clear(&c);
   return code ? code : written;
 }

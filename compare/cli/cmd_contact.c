@@ -6,6 +6,7 @@
 
 #include "cases/number.h"
 #include "compare/cli/cli.h"
+#include "compare/plot/plot.h"
 #include "hbm/aft.h"
 #include "hbm/exact.h"
 #include "hbm/series.h"
@@ -19,6 +20,7 @@ static const char doc[] =
 static const struct argp_option options[] = {
     {"motion", CLI_MOTION, "a0,a1,b1,...", 0, "The motion's coefficients, an odd number of them", 1},
     {"samples", CLI_SAMPLES, "LIST", 0, "Also at these numbers of samples per period", 1},
+    CLI_PLOT_OPTION,
     {0},
 };
 
@@ -137,6 +139,8 @@ int cmd_contact(int argc, char **argv)
   if (!F) return cli_solver_failed(&o, "the contact force", HC_NO_MEMORY, 0);
   code = evaluate(&o, &sc, n_harm, X, n_time, n_sets, F);
   if (!code) code = show(&o, &sc, n_harm, X, n_time, n_sets, F);
+  plot_order drawing = {.path = o.plot};
+  if (!code && o.plot) code = cli_plotted(&o, plot_contact(&drawing, &sc, n_harm, X), drawing.why);
   free(F);
   return code;
 }

@@ -2,6 +2,7 @@
 #include "compare/cli/cli.h"
 #include "compare/measure/frequencies.h"
 #include "compare/measure/response.h"
+#include "compare/plot/plot.h"
 #include "compare/show/progress.h"
 #include "hbm/hbm.h"
 
@@ -14,6 +15,7 @@ static const char doc[] =
 
 static const struct argp_option options[] = {
     {"at", CLI_AT, "LIST", 0, "Only the solutions at these omegas, rad per unit time", 1},
+    CLI_PLOT_OPTION,
     {0},
 };
 
@@ -90,6 +92,8 @@ int cmd_frf(int argc, char **argv)
   progress_end(bar);
   code = st == HC_OK ? 0 : cli_solver_failed(&o, "harmonic balance", st, failed_at);
   int written = s ? cli_write(&o, 1, &t) : 0;
+  plot_order drawing = {.path = o.plot};
+  if (o.plot && s && !written) written = cli_plotted(&o, plot_frf(&drawing, &sc, s, &curve, o.at.n ? &found : NULL), drawing.why);
   table_free(t);
   hbm_curve_free(&found);
   hbm_curve_free(&curve);

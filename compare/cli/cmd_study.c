@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include "compare/cli/cli.h"
+#include "compare/plot/plot.h"
 #include "compare/show/output.h"
 #include "compare/show/progress.h"
 #include "compare/study/claims.h"
@@ -29,6 +30,8 @@ static const struct argp_option options[] = {
     {"fresh", CLI_FRESH, NULL, 0, "Throw away what the results file has, and start again", 1},
     {"export", CLI_EXPORT, "csv|json", 0, "Write every scene with its rows instead of the summary", 1},
     {"timings", CLI_TIMINGS, NULL, 0, "Export the seconds each scene took, too", 1},
+    CLI_PLOT_OPTION,
+    {"plot-y", CLI_PLOT_Y, "NAME", 0, "What to draw: a column of scenes, or of rows, then the largest of each scene [peak_amplitude, or amplitude]", 2},
     {0},
 };
 
@@ -113,6 +116,11 @@ static int read_studies(job *j)
     }
     if (st != HC_OK) return wrong(j, st, &err);
     name_results(o, &j->tasks[i]);
+    plot_order drawing = {.path = o->plot};
+    if (o->plot && plot_study_check(&drawing, j->tasks[i].s, o->plot_y) != HC_OK) {
+      if (j->rank == 0) cli_say(o, "%s", drawing.why);
+      return EXIT_USAGE;
+    }
   }
   return check_names(j);
 }
@@ -134,6 +142,8 @@ static int check_usage(job *j, bool lonely)
   if (lonely) fault = "started in several copies by mpirun, but built without MPI (cmake -DHBMCHECK_MPI=ON): each would do the same";
   else if (o->export && o->n_arguments > 1) fault = "--export takes one study at a time";
   else if (j->size > 1 && o->jobs > 1) fault = "under mpirun every process computes one scene at a time: give mpirun more processes instead of --jobs";
+  else if (o->plot && o->n_arguments > 1) fault = "--plot draws one study at a time";
+  else if (o->plot_y && !o->plot) fault = "--plot-y goes with --plot";
   else if (o->timings && !o->export) fault = "--timings goes with --export";
   if (fault && j->rank == 0) cli_say(o, "%s", fault);
   long online = sysconf(_SC_NPROCESSORS_ONLN);
@@ -301,8 +311,11 @@ static int tell(job *j, int n_run)
   }
   say_totals(j);
   if (!code) code = write_tables(j);
+  plot_order drawing = {.path = j->o.plot};
+  int drawn = 0;
+  if (!code && j->o.plot && n_run > 0) drawn = cli_plotted(&j->o, plot_study(&drawing, j->tasks[0].s, j->tasks[0].store, j->o.plot_y), drawing.why);
   for (int i = 0; i < N_TABLES; ++i) table_free(j->tables[i]);
-  return code ? code : j->claims.unexpected ? EXIT_DISAGREED : any_failed ? EXIT_NO_SOLUTION : 0;
+  return code ? code : j->claims.unexpected ? EXIT_DISAGREED : any_failed ? EXIT_NO_SOLUTION : drawn;
 }
 
 /* Rank 0: run, then tell. A study that was stopped is not told of with --export: half of it would look like all. */

@@ -1,6 +1,7 @@
 /* cmd_transient.c - hbmcheck transient: the steady state by CVODE at given frequencies. */
 #include "compare/cli/cli.h"
 #include "compare/measure/steady_states.h"
+#include "compare/plot/plot.h"
 #include "compare/show/progress.h"
 
 static const char doc[] =
@@ -12,6 +13,7 @@ static const char doc[] =
 
 static const struct argp_option options[] = {
     {"at", CLI_AT, "LIST", 0, "Omegas, rad per unit time [compare.omega of the case]", 1},
+    CLI_PLOT_OPTION,
     {0},
 };
 
@@ -49,6 +51,8 @@ int cmd_transient(int argc, char **argv)
   for (int i = 0; i < found.n; ++i) show(&o, &found.rows[i], t, &code);
   if (st != HC_OK) code = cli_solver_failed(&o, "time integration", st, 0);
   int written = st == HC_OK || found.n ? cli_write(&o, 1, &t) : 0;
+  plot_order drawing = {.path = o.plot};
+  if (o.plot && found.n && !written) written = cli_plotted(&o, plot_transient(&drawing, &sc, &found), drawing.why);
   table_free(t);
   steady_states_clear(&found);
   return code ? code : written;

@@ -59,12 +59,10 @@ static table *order_table(const accuracy *a)
   return t;
 }
 
-hc_status compare_tables(const scene *sc, const comparison *c, const hc_monitor *monitor, table *out[2])
+hc_status compare_tables(const scene *sc, const comparison *c, const hc_monitor *monitor, table *out[2], accuracy *a)
 {
-  accuracy a;
-  hc_status st = accuracy_run(sc, c, monitor, &a);
-  out[0] = accuracy_table(&a);
-  out[1] = order_table(&a);
-  accuracy_clear(&a);
+  hc_status st = accuracy_run(sc, c, monitor, a);
+  out[0] = accuracy_table(a);
+  out[1] = order_table(a);
   return st;
 }

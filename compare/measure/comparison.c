@@ -72,12 +72,13 @@ static bool within_gate(const comparison_errors *e, const timeint_result *tr, co
 /* Is the transient within the gate of any HBM solution at this omega? */
 static bool accounted_for(hbm_solver *hbm, const scene *sc, const hbm_curve *at, const timeint_result *tr)
 {
+  const scene_gate gate = scene_gate_at(sc, tr->omega);
   for (int i = 0; i < at->n; ++i) {
     const double *X = at->X + (size_t)i * at->n_coef;
     hbm_measures m;
     if (hbm_measure(hbm, X, &m) != HC_OK) continue;
     comparison_errors e = errors_between(&m, hbm_n_harmonics(hbm), X, tr);
-    if (within_gate(&e, tr, &sc->gate)) return true;
+    if (within_gate(&e, tr, &gate)) return true;
   }
   return false;
 }
@@ -160,7 +161,8 @@ static verdict judge(runner *r, const comparison_row *row, const double *X)
   if (row->transient_status == HC_APERIODIC && row->hbm_status == HC_OK) return VERDICT_APERIODIC;
   if (row->transient_status != HC_OK || row->hbm_status != HC_OK) return VERDICT_SOLVER_FAILED;
   if (row->transient.period_multiple > 1) return VERDICT_PERIOD_K;
-  if (within_gate(&row->errors, &row->transient, &r->sc->gate)) return VERDICT_MATCH;
+  const scene_gate gate = scene_gate_at(r->sc, row->omega);
+  if (within_gate(&row->errors, &row->transient, &gate)) return VERDICT_MATCH;
   if (unstable(row)) return VERDICT_UNSTABLE;
   return runs_next_to(r, row, X) ? VERDICT_DIFFERS : VERDICT_OTHER_BRANCH;
 }

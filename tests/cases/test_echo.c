@@ -78,6 +78,20 @@ static void random_field(const field *f, void *base, uint64_t *s)
   }
 }
 
+/* As many limits as ranges, each range from its lower end to its upper. */
+static void mend_gate_ranges(scene_gate_ranges *r)
+{
+  scene_list *limits[] = {&r->amplitude, &r->harmonic_1, &r->mean, &r->waveform};
+  if (r->omega.n % 2) r->omega.v[--r->omega.n] = 0;
+  for (int i = 0; i < r->omega.n; i += 2)
+    if (r->omega.v[i] > r->omega.v[i + 1]) r->omega.v[i + 1] = r->omega.v[i];
+  for (int k = 0; k < 4; ++k) {
+    for (; limits[k]->n < r->omega.n / 2; ++limits[k]->n) limits[k]->v[limits[k]->n] = 1e-3;
+    for (; limits[k]->n > r->omega.n / 2; --limits[k]->n) limits[k]->v[limits[k]->n - 1] = 0;
+  }
+  if (r->omega.n > 2) memset(limits[r->omega.n % 3], 0, sizeof *limits[0]); /* not every limit need differ there */
+}
+
 /* Any scene a reader could have made. Of compare's rivals one is at its default, and the samples suffice. */
 static void random_scene(scene *sc, uint64_t *s)
 {
@@ -89,6 +103,7 @@ static void random_scene(scene *sc, uint64_t *s)
     for (int j = 0; in_contact && j < sc->n_contacts; ++j) random_field(f, &sc->contacts[j], s);
     if (!in_contact && !(f->flags & FIELD_NO_ECHO)) random_field(f, sc, s);
   }
+  mend_gate_ranges(&sc->gate_ranges);
   if (draw(s) % 2) sc->compare.points = 20;
   else memset(&sc->compare.omega, 0, sizeof sc->compare.omega);
   if (sc->hbm.samples != SCENE_AUTO && sc->hbm.samples < 2 * sc->hbm.harmonics + 1) sc->hbm.samples = 2 * sc->hbm.harmonics + 1;
@@ -142,7 +157,7 @@ static void the_papers_scenes_are_all_readable(void **state)
     snprintf(path, sizeof path, "%s/%s", folder, e->d_name);
     if (case_read(path, 0, NULL, &sc, &err) != HC_OK) fail_msg("%s", err.message);
     check_round_trip(&sc);
-    assert_true(sc.n_contacts == 1 && sc.contacts[0].law.mu == 0.3 && sc.contacts[0].angle_deg == 45 &&
+    assert_true(sc.n_contacts >= 1 && sc.contacts[0].law.mu == 0.3 && sc.contacts[0].angle_deg == 45 &&
                 sc.damping == 0.4); /* all of them */
     assert_true(sc.hbm.keep_mean);
     ++n;

@@ -144,6 +144,14 @@ static const mistake extra[] = {
     {"compare: {points: 0}", "f:4:19: ", "1..256"},
     {"compare: {points: 257}", "f:4:19: ", "1..256"}, /* as many as a scene_list holds */
     {"gate: {waveform: 0}", "f:4:18: ", "expected a number > 0"},
+    {"gate: {iterations: -1}", "f:4:20: ", "gate.iterations is `-1`, expected an integer 0.."},
+    {"gate: {amplitud: 1e-3}", "f:4:8: ", "did you mean `amplitude`?"},
+    {"gate: {range_mean: 1e-3}", "f:4:20: ", "expected a list of numbers > 0"},
+    {"gate:\n  ranges: [7, 9, 12]\n  range_mean: [1]", "f:5:11: ", "ends in a single 12, expected FROM, TO, FROM, TO, ..."},
+    {"gate: {ranges: [9, 7], range_mean: [1]}", "f:4:16: ", "a range from 9 to 7, expected FROM <= TO"},
+    {"gate: {ranges: [7, 9], range_mean: [1, 2]}", "f:4:36: ", "gate.range_mean has 2 limits for 1 range in gate.ranges, expected one for each"},
+    {"gate: {range_waveform: [1]}", "f:4:24: ", "gate.range_waveform has 1 limit for 0 ranges"},
+    {"gate: {ranges: [7, 9]}", "f:4:16: ", "gate.ranges without limits"},
     {"contacts: [{tangential_stiffness: -1}]", "f:4:35: ", "contacts[0].tangential_stiffness is `-1`, expected a number >= 0"},
     {"contacts:\n  - " CONTACT_1 "\n  - {angle_deg: 90.5}", "f:6:17: ", "contacts[1].angle_deg is `90.5`, expected a number 0..90"},
     /* missing */

@@ -1,0 +1,250 @@
+/* gate.c - see gate.h. What is compared with what is decided in judge_solution(), and nowhere else. */
+#include "compare/gate/gate.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const struct { const char *name; size_t allowed, found; } quantities[] = {
+#define QUANTITY(q) {#q, offsetof(scene_gate, q), offsetof(comparison_errors, q)}
+    QUANTITY(amplitude), QUANTITY(harmonic_1), QUANTITY(mean), QUANTITY(waveform)};
+enum { N_QUANTITIES = sizeof quantities / sizeof *quantities, MEAN = 2 };
+
+static double at(const void *base, size_t offset) { return *(const double *)((const char *)base + offset); }
+
+const char *gate_result_name(gate_result r) { return r == GATE_PASS ? "pass" : r == GATE_FAIL ? "fail" : "error"; }
+
+static bool within(double found, double allowed) { return found <= allowed * (1 + GATE_SLACK); } /* NaN is not */
+
+/* ---- collecting ---- */
+
+typedef struct judge {
+  const scene *sc;
+  const comparison *c;
+  gate_case *out;
+  hc_status st; /* HC_NO_MEMORY from then on */
+} judge;
+
+static void add(judge *j, const gate_check *check)
+{
+  gate_case *g = j->out;
+  if (g->n == g->cap) {
+    int cap = g->cap ? 2 * g->cap : 64;
+    gate_check *checks = realloc(g->checks, (size_t)cap * sizeof *checks);
+    if (!checks) j->st = HC_NO_MEMORY;
+    if (!checks) return;
+    g->checks = checks;
+    g->cap = cap;
+  }
+  g->checks[g->n++] = *check;
+  g->failures += check->result == GATE_FAIL;
+  g->errors += check->result == GATE_ERROR;
+}
+
+/* A check of row, or of the curve for NULL, that has passed so far. */
+static gate_check check_of(const comparison_row *row, const char *quantity, const char *against)
+{
+  gate_check c = {.omega = row ? row->omega : NAN, .branch = row ? row->branch : -1, .quantity = quantity, .against = against, .allowed = NAN,
+                  .found = NAN, .result = GATE_PASS};
+  if (row) comparison_verdict_text(row, c.verdict);
+  return c;
+}
+
+__attribute__((format(printf, 3, 4))) static void not_passed(gate_check *c, gate_result result, const char *format, ...)
+{
+  va_list args;
+  va_start(args, format);
+  vsnprintf(c->reason, sizeof c->reason, format, args);
+  va_end(args);
+  c->result = result;
+}
+
+/* ---- one HBM solution ---- */
+
+/* |difference| / amplitude; no difference is no error, also where nothing moves. */
+static double relative(double difference, double amplitude) { return difference == 0 ? 0 : fabs(difference) / amplitude; }
+
+static comparison_errors errors_against_orbit(const comparison_row *r)
+{
+  const double a = r->orbit.amplitude;
+  return (comparison_errors){.amplitude = relative(r->hbm.amplitude - a, a),
+                             .harmonic_1 = relative(r->hbm.harmonic_1 - r->orbit.harmonic_1, a),
+                             .mean = relative(r->hbm.mean - r->orbit.mean, a),
+                             .waveform = r->orbit_error};
+}
+
+static void hold(judge *j, const comparison_row *r, const comparison_errors *errors, bool mean_is_free, const char *against)
+{
+  const scene_gate limits = scene_gate_at(j->sc, r->omega);
+  for (int q = 0; q < N_QUANTITIES; ++q) {
+    if (q == MEAN && mean_is_free) continue;
+    gate_check c = check_of(r, quantities[q].name, against);
+    c.allowed = at(&limits, quantities[q].allowed);
+    c.found = at(errors, quantities[q].found);
+    if (isnan(c.found)) not_passed(&c, GATE_ERROR, "it is not a number");
+    else if (!within(c.found, c.allowed)) c.result = GATE_FAIL;
+    add(j, &c);
+  }
+}
+
+static bool all_within(const comparison_errors *e, const scene_gate *limits, bool mean_is_free)
+{
+  for (int q = 0; q < N_QUANTITIES; ++q)
+    if (!(q == MEAN && mean_is_free) && !within(at(e, quantities[q].found), at(limits, quantities[q].allowed))) return false;
+  return true;
+}
+
+/* Two transients of one law on one orbit differ by what is left of settling; the bound is that of comparison.c's runs_next_to. */
+static bool same_motion(const judge *j, const timeint_result *a, const timeint_result *b)
+{
+  const double shift = a->free_sliders > 0 || b->free_sliders > 0 ? a->mean - b->mean : 0;
+  const double bound = fmax(1e-6, 100 * j->sc->transient.tolerance) * b->amplitude;
+  for (int i = 0; i < TIMEINT_WAVE; ++i)
+    if (!(fabs(a->wave[i] - b->wave[i] - shift) <= bound)) return false;
+  return true;
+}
+
+/* Does some HBM solution at this omega match the motion that row's transient ends in? The comparison knows for the limits outside the ranges;
+ * within one, where limits may be wider, a solution whose own transient is that same motion tells. */
+static bool accounted(const judge *j, const comparison_row *row)
+{
+  if (row->accounted) return true;
+  if (row->transient_status != HC_OK || row->transient.period_multiple != 1) return false;
+  const scene_gate limits = scene_gate_at(j->sc, row->omega);
+  for (int i = 0; i < j->c->n_rows; ++i) {
+    const comparison_row *r = &j->c->rows[i];
+    if (r->omega != row->omega || r->hbm_status != HC_OK || r->transient_status != HC_OK || r->transient.period_multiple != 1) continue;
+    if (all_within(&r->errors, &limits, r->transient.free_sliders > 0) && same_motion(j, &row->transient, &r->transient)) return true;
+  }
+  return false;
+}
+
+static void judge_transient(judge *j, const comparison_row *r)
+{
+  gate_check c = check_of(r, "transient", "transient");
+  if (accounted(j, r)) c.result = GATE_PASS;
+  else if (r->verdict == VERDICT_PERIOD_K)
+    not_passed(&c, GATE_FAIL, "the transient repeats only after %d forcing periods: no HBM solution is what happens", r->transient.period_multiple);
+  else if (r->verdict == VERDICT_APERIODIC) not_passed(&c, GATE_FAIL, "the transient never repeats: no HBM solution is what happens");
+  else not_passed(&c, GATE_FAIL, "the transient runs elsewhere, and no HBM solution at this omega is within the limits");
+  add(j, &c);
+}
+
+static void judge_orbit(judge *j, const comparison_row *r)
+{
+  if (r->orbit_status == HC_OK) {
+    const comparison_errors errors = errors_against_orbit(r);
+    hold(j, r, &errors, r->orbit.free_sliders > 0, "orbit");
+    return;
+  }
+  gate_check c = check_of(r, "orbit", NULL);
+  not_passed(&c, GATE_ERROR, "no exact orbit was found next to this HBM solution: %s", hc_status_text(r->orbit_status));
+  add(j, &c);
+}
+
+static void judge_solution(judge *j, const comparison_row *r)
+{
+  gate_check lost = check_of(r, "solution", NULL);
+  switch (r->verdict) {
+  case VERDICT_MATCH:
+  case VERDICT_DIFFERS: hold(j, r, &r->errors, r->transient.free_sliders > 0, "transient"); return;
+  case VERDICT_UNSTABLE:
+  case VERDICT_OTHER_BRANCH:
+  case VERDICT_PERIOD_K:
+  case VERDICT_APERIODIC:
+    judge_orbit(j, r);
+    judge_transient(j, r);
+    return;
+  default: break;
+  }
+  if (r->hbm_status != HC_OK) not_passed(&lost, GATE_ERROR, "harmonic balance: %s", hc_status_text(r->hbm_status));
+  else not_passed(&lost, GATE_ERROR, "time integration: %s", hc_status_text(r->transient_status));
+  add(j, &lost);
+}
+
+/* ---- the response curve ---- */
+
+static void judge_cost(judge *j, const char *quantity, int allowed, long found)
+{
+  gate_check c = check_of(NULL, quantity, "limit");
+  if (allowed == 0) return;
+  c.allowed = allowed;
+  c.found = (double)found;
+  if (found > allowed) c.result = GATE_FAIL;
+  add(j, &c);
+}
+
+static void judge_curve(judge *j)
+{
+  gate_check c = check_of(NULL, "curve", NULL);
+  const hbm_curve *curve = &j->c->curve;
+  if (curve->end != HC_OK && curve->n > 0)
+    not_passed(&c, GATE_ERROR, "the HBM curve stopped at omega = %.10g: %s", curve->points[curve->n - 1].omega, hc_status_text(curve->end));
+  else if (curve->end != HC_OK) not_passed(&c, GATE_ERROR, "the HBM curve has no points: %s", hc_status_text(curve->end));
+  else if (j->c->n_rows == 0) not_passed(&c, GATE_ERROR, "nothing was compared");
+  if (c.result != GATE_PASS) add(j, &c);
+  judge_cost(j, "iterations", j->sc->gate_cost.iterations, j->c->summary.iterations);
+  judge_cost(j, "evaluations", j->sc->gate_cost.evaluations, j->c->summary.evaluations);
+}
+
+/* ---- the case ---- */
+
+hc_status gate_judge(const char *name, const scene *sc, const comparison *c, gate_case *out)
+{
+  *out = (gate_case){.name = name};
+  judge j = {sc, c, out, HC_OK};
+  for (int i = 0; i < c->n_rows; ++i) judge_solution(&j, &c->rows[i]);
+  judge_curve(&j);
+  return j.st;
+}
+
+hc_status gate_run(const char *name, const scene *sc, const hc_monitor *monitor, gate_case *out)
+{
+  comparison c;
+  hc_status st = comparison_run(sc, monitor, &c);
+  hc_status judged = gate_judge(name, sc, &c, out);
+  comparison_clear(&c);
+  return st != HC_OK ? st : judged;
+}
+
+void gate_clear(gate_case *g)
+{
+  free(g->checks);
+  *g = (gate_case){0};
+}
+
+/* ---- telling ---- */
+
+double gate_shown(const gate_check *c)
+{
+  if (!isfinite(c->found) || !strcmp(c->against, "limit")) return c->found;
+  if (c->found <= GATE_SLACK * c->allowed) return 0;
+  for (int digits = 3; digits < 17; ++digits) {
+    char text[32];
+    snprintf(text, sizeof text, "%.*e", digits - 1, c->found);
+    double shown = strtod(text, NULL);
+    if ((shown <= c->allowed) == (c->result == GATE_PASS)) return shown;
+  }
+  return c->found;
+}
+
+bool gate_is_worst(const gate_case *g, int i)
+{
+  const gate_check *c = &g->checks[i];
+  for (int k = 0; k < g->n; ++k) {
+    const gate_check *other = &g->checks[k];
+    if (k == i || strcmp(other->quantity, c->quantity)) continue;
+    double mine = gate_shown(c) / c->allowed, theirs = gate_shown(other) / other->allowed; /* what is noise decides nothing */
+    if (theirs > mine || (!(mine > theirs) && k < i)) return false; /* of equals, and of those without numbers, the first */
+  }
+  return true;
+}
+
+int gate_exit_code(int n, const gate_case *cases)
+{
+  int failures = 0, errors = 0;
+  for (int i = 0; i < n; ++i) failures += cases[i].failures, errors += cases[i].errors;
+  return failures ? 1 : errors ? 3 : 0;
+}

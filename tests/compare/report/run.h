@@ -1,0 +1,64 @@
+/* run.h - the built command in a shell, and a file in memory. */
+#ifndef HC_TESTS_REPORT_RUN_H
+#define HC_TESTS_REPORT_RUN_H
+
+#include <stdbool.h>
+#include <string.h>
+#include <sys/wait.h>
+
+#include "tests/check.h"
+
+/* A comparison of two frequencies, tables of two orders: what a page has, in a second. */
+#define CASE2 "cases/paper/case2.yaml"
+#define SMALL " --at 8,9 --harmonics 1,5 --samples 32,512 -q "
+
+typedef struct outcome { int code; char out[4096]; } outcome;
+
+/* Run "PROGRAM ARGS"; what it says into out, whichever stream args lead there. */
+static inline outcome run_program(const char *program, const char *args)
+{
+  outcome o = {.code = -1};
+  char line[2048];
+  snprintf(line, sizeof line, "%s %s", program, args);
+  FILE *pipe = popen(line, "r");
+  assert_non_null(pipe);
+  o.out[fread(o.out, 1, sizeof o.out - 1, pipe)] = 0;
+  while (fgetc(pipe) != EOF) {} /* the rest: a closed pipe would end the program */
+  int status = pclose(pipe);
+  o.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  return o;
+}
+
+static inline void expect(const char *args, int code, const char *fragment)
+{
+  outcome o = run_program(HBMCHECK_COMMAND, args);
+  if (o.code != code || !strstr(o.out, fragment)) {
+    print_error("hbmcheck %s\nexit %d, expected %d; expected to read '%s' in:\n%s\n", args, o.code, code, fragment, o.out);
+    fail();
+  }
+}
+
+/* The whole file, zero-terminated; to be freed. */
+static inline char *contents(const char *path, size_t *length)
+{
+  FILE *f = fopen(path, "rb");
+  assert_non_null(f);
+  assert_int_equal(fseek(f, 0, SEEK_END), 0);
+  long n = ftell(f);
+  rewind(f);
+  char *text = calloc((size_t)n + 1, 1);
+  assert_non_null(text);
+  *length = fread(text, 1, (size_t)n, f);
+  assert_int_equal(*length, (size_t)n);
+  fclose(f);
+  return text;
+}
+
+/* A folder for one test; what is in it is the test's to remove. */
+static inline void make_folder(char path[64])
+{
+  snprintf(path, 64, "/tmp/hbmcheck-report-XXXXXX");
+  assert_non_null(mkdtemp(path));
+}
+
+#endif
