@@ -1,0 +1,55 @@
+/* csv.h - a response curve from a text file of columns: strict, every mistake is one message FILE:LINE:COLUMN: what is wrong, what was expected.
+ *
+ * Fields are separated by semicolons, tabs, commas or blanks, whichever of these the first line has, in that order. '#' starts a line of
+ * remarks; blank lines are skipped; a first line without a number is a header. CRLF and a byte order mark are welcome; quotes are not known. */
+#ifndef HC_VERIFY_CSV_H
+#define HC_VERIFY_CSV_H
+
+#include <stdbool.h>
+
+#include "cases/status.h"
+
+enum { VERIFY_TEXT = 1024, VERIFY_MOST_POINTS = 100000, VERIFY_LEAST_POINTS = 3, VERIFY_MOST_FIELDS = 256, VERIFY_NAME = 64 };
+
+typedef enum verify_quantity {
+  VERIFY_AMPLITUDE,  /* (max - min)/2 */
+  VERIFY_HARMONIC_1, /* |a1 + i b1| */
+  VERIFY_PEAK,       /* max |x| */
+  VERIFY_MAX,        /* what follows is nothing one can ask for: hypotheses */
+  VERIFY_RMS,
+  VERIFY_QUANTITIES
+} verify_quantity;
+const char *verify_quantity_name(verify_quantity q);
+
+/* Where a column is: by number, or by its name in the header. */
+typedef struct verify_column {
+  int number; /* from 1; 0: by header */
+  char header[VERIFY_NAME];
+} verify_column;
+
+typedef struct verify_columns {
+  verify_column omega, value;
+  bool cycles; /* the first is a frequency in cycles per time: times 2 pi */
+  verify_quantity quantity;
+} verify_columns;
+
+typedef struct verify_point {
+  double omega, value; /* [rad/time], [length] */
+  long line;           /* in the file, from 1 */
+} verify_point;
+
+typedef struct verify_data {
+  verify_quantity quantity;
+  int n;
+  verify_point *points; /* [n] in the file's order */
+} verify_data;
+
+/* "omega=1,amplitude=2", NAME=NUMBER or NAME=HEADER; names: omega or frequency, and amplitude, harmonic_1, peak or value. `quantity`: what
+ * value is, NULL if not told. HC_BAD_INPUT with message[VERIFY_TEXT]. */
+hc_status verify_columns_read(const char *text, const char *quantity, verify_columns *out, char *message);
+
+/* HC_OK, or HC_BAD_INPUT, HC_IO, HC_NO_MEMORY with message[VERIFY_TEXT]. Free with verify_data_clear in any case. */
+hc_status verify_data_read(const char *path, const verify_columns *columns, verify_data *out, char *message);
+void verify_data_clear(verify_data *d);
+
+#endif

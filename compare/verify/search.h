@@ -1,0 +1,15 @@
+/* search.h - which of our own equations, and which reading of the columns, the points lie on; private to compare/verify/. */
+#ifndef HC_VERIFY_SEARCH_H
+#define HC_VERIFY_SEARCH_H
+
+#include "compare/verify/verify.h"
+
+enum { VERIFY_LEAST_DIFFERING = 3 }; /* fewer points lie on anything */
+
+/* out->rows are judged already; fills out->hypotheses, best first, and truth_distance. */
+hc_status verify_search(const scene *sc, const verify_data *data, const hc_monitor *monitor, verify_report *out);
+
+/* Does the best hypothesis explain the points? */
+bool verify_fits(const verify_report *r);
+
+#endif

@@ -1,0 +1,129 @@
+/* solutions.c - see solutions.h. */
+#include "compare/verify/solutions.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const double close_omegas = 0.1; /* [1] a step that Newton may take in one go */
+
+scene verify_scene(const scene *sc, const verify_equations *e)
+{
+  scene own = *sc;
+  own.hbm.harmonics = e->harmonics;
+  own.hbm.keep_mean = e->keep_mean;
+  own.hbm.force = e->samples ? HBM_FORCE_SAMPLED : HBM_FORCE_EXACT;
+  own.hbm.samples = e->samples ? e->samples : 1024;
+  own.hbm.restart = e->restart;
+  own.hbm.continuation = HBM_CONTINUATION_AUTO;
+  if (e->contact == VERIFY_CONTACT_AS_IT_IS) return own;
+  if (e->contact == VERIFY_CONTACT_STUCK) own.stiffness = scene_max_stiffness(sc);
+  own.n_contacts = 0;
+  return own;
+}
+
+void verify_quantities(const hbm_measures *m, verify_solution *out)
+{
+  *out = (verify_solution){{[VERIFY_AMPLITUDE] = m->amplitude, [VERIFY_HARMONIC_1] = m->harmonic_1, [VERIFY_PEAK] = fmax(m->max, -m->min),
+                            [VERIFY_MAX] = m->max, [VERIFY_RMS] = m->rms}};
+}
+
+static hc_status reserve(verify_solutions *s)
+{
+  if (s->count < s->cap) return HC_OK;
+  int cap = s->cap ? 2 * s->cap : 64;
+  verify_solution *of = realloc(s->of, (size_t)cap * sizeof *of);
+  if (of) s->of = of;
+  double *X = realloc(s->X, (size_t)cap * (size_t)s->n_coef * sizeof *X);
+  if (X) s->X = X;
+  if (!of || !X) return HC_NO_MEMORY;
+  s->cap = cap;
+  return HC_OK;
+}
+
+/* X, measured, among the solutions at the omega that began with number `from`; not twice. */
+static hc_status add(verify_solutions *s, hbm_solver *hbm, int from, const double *X)
+{
+  hbm_measures m;
+  verify_solution now;
+  if (hbm_measure(hbm, X, &m) != HC_OK) return HC_OK;
+  verify_quantities(&m, &now);
+  for (int k = from; k < s->count; ++k) {
+    bool same = true;
+    for (int q = 0; q < VERIFY_QUANTITIES && same; ++q) same = fabs(now.q[q] - s->of[k].q[q]) <= 1e-8 * m.amplitude;
+    if (same) return HC_OK;
+  }
+  hc_status st = reserve(s);
+  if (st != HC_OK) return st;
+  s->of[s->count] = now;
+  memcpy(s->X + (size_t)s->count * s->n_coef, X, (size_t)s->n_coef * sizeof *X);
+  ++s->count;
+  return HC_OK;
+}
+
+static hc_status start(verify_solutions *s, int n, int n_coef)
+{
+  *s = (verify_solutions){.n = n, .n_coef = n_coef, .first = calloc((size_t)n + 1, sizeof *s->first)};
+  return s->first ? HC_OK : HC_NO_MEMORY;
+}
+
+hc_status verify_solutions_of(const scene *sc, const verify_equations *e, double from, double to, int n, const double *omega, const hc_monitor *monitor,
+                              verify_solutions *out)
+{
+  const scene own = verify_scene(sc, e);
+  hbm_solver *hbm = NULL;
+  hbm_curve curve = {0};
+  hc_status st = start(out, n, 2 * e->harmonics + 1);
+  if (st == HC_OK) st = hbm_solver_new(&own, &hbm);
+  if (st == HC_OK) st = hbm_trace(hbm, from, to, monitor, &curve);
+  if (st != HC_INTERRUPTED && st != HC_NO_MEMORY && hbm) st = HC_OK; /* as far as it came */
+  for (int i = 0; i < n && st == HC_OK; ++i) {
+    hbm_curve at = {0};
+    if (hbm_curve_at(hbm, &curve, omega[i], &at) == HC_NO_MEMORY) st = HC_NO_MEMORY;
+    for (int k = 0; k < at.n && st == HC_OK; ++k) st = add(out, hbm, out->first[i], at.X + (size_t)k * at.n_coef);
+    out->first[i + 1] = out->count;
+    hbm_curve_free(&at);
+    if (!hc_monitor_tick(monitor, -1)) st = HC_INTERRUPTED;
+  }
+  hbm_curve_free(&curve);
+  hbm_solver_free(hbm);
+  return st;
+}
+
+/* From guess number k of *from, X[n_coef] being room for it. */
+static hc_status solve_from(verify_solutions *s, hbm_solver *hbm, int i, double omega, const verify_solutions *from, int k, double *X)
+{
+  hbm_point point;
+  if (s->count - s->first[i] >= VERIFY_MOST_SOLUTIONS) return HC_OK;
+  memcpy(X, from->X + (size_t)k * from->n_coef, (size_t)s->n_coef * sizeof *X);
+  hc_status st = hbm_solve(hbm, omega, X, &point);
+  if (st == HC_OK) return add(s, hbm, s->first[i], X);
+  return st == HC_NO_MEMORY ? st : HC_OK;
+}
+
+hc_status verify_solutions_near(const scene *sc, const verify_equations *e, const verify_solutions *near, const double *omega, verify_solutions *out)
+{
+  const scene own = verify_scene(sc, e);
+  hbm_solver *hbm = NULL;
+  double *X = malloc((size_t)near->n_coef * sizeof *X);
+  hc_status st = start(out, near->n, near->n_coef);
+  if (!X) st = HC_NO_MEMORY;
+  if (st == HC_OK) st = hbm_solver_new(&own, &hbm);
+  for (int i = 0; i < near->n && st == HC_OK; ++i) {
+    bool close = i > 0 && omega[i] - omega[i - 1] <= close_omegas * omega[i];
+    for (int k = near->first[i]; k < near->first[i + 1] && st == HC_OK; ++k) st = solve_from(out, hbm, i, omega[i], near, k, X);
+    for (int k = close ? out->first[i - 1] : 0; close && k < out->first[i] && st == HC_OK; ++k) st = solve_from(out, hbm, i, omega[i], out, k, X);
+    out->first[i + 1] = out->count;
+  }
+  free(X);
+  hbm_solver_free(hbm);
+  return st;
+}
+
+void verify_solutions_clear(verify_solutions *s)
+{
+  free(s->first);
+  free(s->of);
+  free(s->X);
+  *s = (verify_solutions){0};
+}

@@ -1,0 +1,213 @@
+/* truth.c - see truth.h. The number of harmonics starts at LEAST, or twice the case's, and is doubled until the exact law's orbits agree to a
+ * tenth of the gate, so that what a verdict is worth is known and not hoped for. */
+#include "compare/verify/truth.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "compare/measure/frequencies.h"
+#include "compare/verify/solutions.h"
+
+enum { LEAST_HARMONICS = 20, ENOUGH_HARMONICS = 80, MOST_CHECKS = 20 };
+static const double far = 7; /* a little over 2 pi: mixed units are seen from there */
+
+void verify_window(const scene *sc, const verify_data *data, double *from, double *to)
+{
+  scene_list ends = {.n = 2, .v = {INFINITY, 0}};
+  const double low = fmin(sc->omega_from, sc->omega_to) / far, high = fmax(sc->omega_from, sc->omega_to) * far;
+  for (int i = 0; i < data->n; ++i) {
+    double omega = data->points[i].omega;
+    if (omega < low || omega > high) continue;
+    ends.v[0] = fmin(ends.v[0], omega);
+    ends.v[1] = fmax(ends.v[1], omega);
+  }
+  if (!(ends.v[0] <= ends.v[1])) ends.n = 0;
+  comparison_sweep(sc, &ends, from, to);
+}
+
+double verify_gate(const scene *sc, verify_quantity q) { return q == VERIFY_HARMONIC_1 ? sc->gate.harmonic_1 : sc->gate.amplitude; }
+
+typedef struct truth {
+  const scene *sc;
+  const verify_data *data;
+  const hc_monitor *monitor;
+  verify_report *out;
+  hbm_solver *hbm;
+  timeint *referee;
+  hbm_curve curve;
+  double from, to;
+} truth;
+
+/* ---- one point ---- */
+
+static int stable_at(truth *t, double omega, const double *X)
+{
+  hbm_stability s;
+  return hbm_stability_at(t->hbm, omega, X, &s) == HC_OK ? hbm_stability_verdict(&s) : 0;
+}
+
+/* The nearest of the solutions *at to the row's value, or -1; its measures into *nearest. */
+static int nearest_of(truth *t, const hbm_curve *at, double value, hbm_measures *nearest)
+{
+  int best = -1;
+  double least = INFINITY;
+  for (int k = 0; k < at->n; ++k) {
+    hbm_measures m;
+    verify_solution s;
+    if (hbm_measure(t->hbm, at->X + (size_t)k * at->n_coef, &m) != HC_OK) continue;
+    verify_quantities(&m, &s);
+    double d = fabs(s.q[t->data->quantity] - value);
+    if (d < least) least = d, best = k, *nearest = m;
+  }
+  return best;
+}
+
+/* Every solution at omega; where the curve did not come, one by itself. HC_NO_MEMORY. */
+static hc_status solve_at(truth *t, double omega, hbm_curve *at)
+{
+  if (omega < fmin(t->from, t->to) || omega > fmax(t->from, t->to)) return HC_OK;
+  if (hbm_curve_at(t->hbm, &t->curve, omega, at) == HC_NO_MEMORY) return HC_NO_MEMORY;
+  if (at->n > 0) return HC_OK;
+  double *X = calloc((size_t)t->curve.n_coef, sizeof *X);
+  hbm_point point;
+  hc_status st = X ? hbm_solve_first(t->hbm, omega, X, &point) : HC_NO_MEMORY;
+  at->n_coef = t->curve.n_coef;
+  if (st == HC_OK && (at->X = X) && (at->points = calloc(1, sizeof point))) {
+    at->points[0] = point;
+    at->points[0].omega = omega;
+    at->points[0].branch = 0;
+    at->n = at->cap = 1;
+    return HC_OK;
+  }
+  if (at->X != X) free(X);
+  return st == HC_NO_MEMORY ? st : HC_OK;
+}
+
+static hc_status judge_point(truth *t, const verify_point *p, verify_row *row)
+{
+  hbm_curve at = {0};
+  hbm_measures m;
+  verify_solution s;
+  *row = (verify_row){.omega = p->omega, .value = p->value, .line = p->line, .branch = -1, .nearest = NAN, .error = NAN, .verdict = VERDICT_SOLVER_FAILED};
+  hc_status st = solve_at(t, p->omega, &at);
+  int k = st == HC_OK ? nearest_of(t, &at, p->value, &m) : -1;
+  if (k >= 0) {
+    verify_quantities(&m, &s);
+    row->solutions = at.n;
+    row->branch = at.points[k].branch;
+    row->nearest = s.q[t->data->quantity];
+    row->amplitude = m.amplitude;
+    row->error = p->value == row->nearest ? 0 : fabs(p->value - row->nearest) / m.amplitude;
+    row->stable = stable_at(t, p->omega, at.X + (size_t)k * at.n_coef);
+    row->stable_too = row->stable > 0;
+    for (int j = 0; j < at.n && row->stable < 0 && !row->stable_too; ++j)
+      row->stable_too = j != k && stable_at(t, p->omega, at.X + (size_t)j * at.n_coef) > 0;
+    row->verdict = !(row->error <= t->out->gate) ? VERDICT_DIFFERS : row->stable < 0 ? VERDICT_UNSTABLE : VERDICT_MATCH;
+  }
+  hbm_curve_free(&at);
+  return st;
+}
+
+/* ---- the referee ---- */
+
+/* What the orbit next to the row's solution has for the quantity. A mean that is a matter of history is left out. */
+static double orbit_quantity(const truth *t, const timeint_result *orbit)
+{
+  if (t->data->quantity == VERIFY_HARMONIC_1) return orbit->harmonic_1;
+  return t->data->quantity == VERIFY_PEAK ? fmax(orbit->max, -orbit->min) : orbit->amplitude;
+}
+
+static hc_status check_row(truth *t, const verify_row *row)
+{
+  hbm_curve at = {0};
+  hbm_measures m;
+  timeint_result orbit;
+  hc_status st = solve_at(t, row->omega, &at), found = HC_NOT_CONVERGED;
+  int k = st == HC_OK ? nearest_of(t, &at, row->value, &m) : -1;
+  if (k >= 0) {
+    int n_harm = hbm_n_harmonics(t->hbm);
+    timeint_state state = comparison_orbit_start(&m, n_harm, at.X + (size_t)k * at.n_coef, row->omega);
+    found = timeint_orbit(t->referee, row->omega, 1, &state, t->monitor, &orbit);
+    if (found == HC_INTERRUPTED) st = HC_INTERRUPTED;
+  }
+  hbm_curve_free(&at);
+  if (found != HC_OK || (t->data->quantity == VERIFY_PEAK && orbit.free_sliders > 0)) {
+    ++t->out->unchecked;
+    return st;
+  }
+  double error = fabs(orbit_quantity(t, &orbit) - row->nearest);
+  ++t->out->checked;
+  if (error > 0) t->out->checked_error = fmax(t->out->checked_error, error / orbit.amplitude);
+  return st;
+}
+
+/* At most MOST_CHECKS points, spread over the file. */
+static hc_status check(truth *t)
+{
+  verify_report *out = t->out;
+  hc_status st = HC_OK;
+  int n = out->n_rows < MOST_CHECKS ? out->n_rows : MOST_CHECKS;
+  out->checked = out->unchecked = 0;
+  out->checked_error = 0;
+  for (int i = 0; i < n && st == HC_OK; ++i) {
+    const verify_row *row = &out->rows[n > 1 ? (int)((long)i * (out->n_rows - 1) / (n - 1)) : 0];
+    if (row->branch >= 0) st = check_row(t, row);
+    if (!hc_monitor_tick(t->monitor, -1)) st = HC_INTERRUPTED;
+  }
+  return st;
+}
+
+/* ---- all points ---- */
+
+static hc_status judge_all(truth *t)
+{
+  hc_status st = HC_OK;
+  t->out->n_rows = 0;
+  for (int i = 0; i < t->data->n && st == HC_OK; ++i) {
+    st = judge_point(t, &t->data->points[i], &t->out->rows[i]);
+    if (st == HC_OK) t->out->n_rows = i + 1;
+    if (!hc_monitor_tick(t->monitor, 0.5 * (i + 1) / t->data->n)) st = HC_INTERRUPTED;
+  }
+  return st;
+}
+
+/* The curve with H harmonics, and everything on it. */
+static hc_status with_harmonics(truth *t, int harmonics)
+{
+  const verify_equations e = {.keep_mean = true, .harmonics = harmonics};
+  const scene own = verify_scene(t->sc, &e);
+  hbm_curve_free(&t->curve);
+  t->curve = (hbm_curve){0};
+  hbm_solver_free(t->hbm);
+  t->hbm = NULL;
+  hc_status st = hbm_solver_new(&own, &t->hbm);
+  if (st != HC_OK) return st;
+  st = hbm_trace(t->hbm, t->from, t->to, t->monitor, &t->curve);
+  t->curve.n_coef = 2 * harmonics + 1;
+  t->out->harmonics = harmonics;
+  t->out->curve_end = t->curve.end;
+  t->out->curve_omega = t->curve.n ? t->curve.points[t->curve.n - 1].omega : t->from;
+  if (st == HC_INTERRUPTED || st == HC_NO_MEMORY) return st;
+  st = judge_all(t);
+  return st == HC_OK ? check(t) : st;
+}
+
+hc_status verify_truth(const scene *sc, const verify_data *data, const hc_monitor *monitor, verify_report *out)
+{
+  truth t = {.sc = sc, .data = data, .monitor = monitor, .out = out};
+  out->gate = verify_gate(sc, data->quantity);
+  out->rows = calloc((size_t)data->n, sizeof *out->rows);
+  verify_window(sc, data, &t.from, &t.to);
+  hc_status st = out->rows ? comparison_referee(sc, &t.referee) : HC_NO_MEMORY;
+  int harmonics = 2 * sc->hbm.harmonics; /* 0 for auto */
+  harmonics = harmonics < LEAST_HARMONICS ? LEAST_HARMONICS : harmonics > SCENE_MAX_HARMONICS ? SCENE_MAX_HARMONICS : harmonics;
+  for (bool again = true; again && st == HC_OK; harmonics *= 2) {
+    st = with_harmonics(&t, harmonics);
+    again = out->checked_error > 0.1 * out->gate && 2 * harmonics <= ENOUGH_HARMONICS;
+  }
+  hbm_curve_free(&t.curve);
+  hbm_solver_free(t.hbm);
+  timeint_free(t.referee);
+  return st;
+}

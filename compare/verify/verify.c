@@ -1,0 +1,84 @@
+/* verify.c - see verify.h. Here: the order of things, and what can be told from verdicts alone, which is whether the points run along the right
+ * branch. A curve that shows unstable branches beside the stable ones is a whole curve; one that shows them alone was led astray. */
+#include "compare/verify/verify.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "compare/verify/search.h"
+#include "compare/verify/truth.h"
+
+/* Unstable where there is something stable, and no point on that: over all of the stretch in question. */
+static bool only_unstable(const verify_report *r)
+{
+  double low = INFINITY, high = -INFINITY;
+  for (int i = 0; i < r->n_rows; ++i) {
+    const verify_row *row = &r->rows[i];
+    if (row->verdict != VERDICT_UNSTABLE || !row->stable_too) continue;
+    low = fmin(low, row->omega);
+    high = fmax(high, row->omega);
+  }
+  for (int i = 0; i < r->n_rows && low <= high; ++i) {
+    const verify_row *row = &r->rows[i];
+    if (row->verdict == VERDICT_MATCH && row->omega >= low && row->omega <= high) return false;
+  }
+  return low <= high;
+}
+
+static bool one_value_each(const verify_report *r)
+{
+  double way = r->n_rows > 1 ? r->rows[1].omega - r->rows[0].omega : 0;
+  for (int i = 1; i < r->n_rows; ++i)
+    if (!((r->rows[i].omega - r->rows[i - 1].omega) * way > 0)) return false;
+  return true;
+}
+
+/* Runs on a stable branch whose neighbours before and after are on another one that goes on all the while. */
+static bool mark_hops(verify_report *r)
+{
+  bool any = false;
+  if (!one_value_each(r)) return false;
+  for (int from = 1, to; from < r->n_rows; from = to) {
+    const verify_row *before = &r->rows[from - 1];
+    bool odd = before->verdict == VERDICT_MATCH && r->rows[from].branch != before->branch;
+    for (to = from; to < r->n_rows && r->rows[to].branch == r->rows[from].branch; ++to)
+      odd &= r->rows[to].verdict == VERDICT_MATCH && r->rows[to].solutions > 1;
+    if (!odd || to == r->n_rows || r->rows[to].verdict != VERDICT_MATCH || r->rows[to].branch != before->branch) continue;
+    for (int i = from; i < to; ++i) r->rows[i].verdict = VERDICT_OTHER_BRANCH;
+    any = true;
+  }
+  return any;
+}
+
+static int differing(const verify_report *r)
+{
+  int n = 0;
+  for (int i = 0; i < r->n_rows; ++i) n += r->rows[i].verdict == VERDICT_DIFFERS || r->rows[i].verdict == VERDICT_SOLVER_FAILED;
+  return n;
+}
+
+hc_status verify_run(const scene *sc, const verify_data *data, const hc_monitor *monitor, verify_report *out)
+{
+  *out = (verify_report){.truth_distance = NAN};
+  hc_status st = verify_truth(sc, data, monitor, out);
+  int off = differing(out);
+  if (off == 0 && mark_hops(out)) out->causes = CAUSE_OTHER_BRANCH;
+  else if (off == 0 && only_unstable(out)) out->causes = CAUSE_UNSTABLE;
+  if (st == HC_OK && off >= VERIFY_LEAST_DIFFERING) st = verify_search(sc, data, monitor, out);
+  if (verify_fits(out)) out->causes = out->hypotheses[0].causes;
+  for (int i = 0; i < out->n_rows; ++i) ++out->count[out->rows[i].verdict];
+  return out->status = st;
+}
+
+void verify_clear(verify_report *r)
+{
+  free(r->rows);
+  *r = (verify_report){0};
+}
+
+int verify_exit_code(const verify_report *r)
+{
+  if (r->causes || r->count[VERDICT_DIFFERS] > 0 || r->count[VERDICT_OTHER_BRANCH] > 0) return 1;
+  if (r->count[VERDICT_SOLVER_FAILED] > 0 || r->n_rows == 0) return 3;
+  return r->checked > 0 && r->checked_error <= r->gate ? 0 : 3;
+}

@@ -1,0 +1,89 @@
+/* curves.h - prepared curves: what our own harmonic balance gives with one known mistake in it, as the file of somebody else would say it. */
+#ifndef HC_TESTS_VERIFY_CURVES_H
+#define HC_TESTS_VERIFY_CURVES_H
+
+#include <string.h>
+
+#include "cases/case_file.h"
+#include "compare/verify/verify.h"
+#include "tests/check.h"
+
+enum { CURVE_ROOM = 512 };
+
+/* How a curve is spoiled; all zero is a good one. */
+typedef struct spoiling {
+  bool no_static;
+  int harmonics, samples; /* 0: the case's, exact forces */
+  bool slider_on_sample;
+  double omega_factor, value_factor; /* file's = factor times ours; 0: 1 */
+  int said, meant; /* verify_quantity: what the column is called, what it holds */
+  bool no_contact;
+  int branch; /* -1: unstable only where there is a choice; 1: all; 0: as swept upwards; 2: hops */
+  double noise; /* [1] relative, alternating in sign */
+} spoiling;
+
+static inline scene curve_scene(const char *path)
+{
+  scene sc;
+  case_error err = {{0}};
+  if (case_read(path, 0, NULL, &sc, &err) != HC_OK) {
+    print_error("%s\n", err.message);
+    fail();
+  }
+  return sc;
+}
+
+static inline scene curve_spoil(const scene *sc, const spoiling *how)
+{
+  scene own = *sc;
+  own.hbm.keep_mean = !how->no_static;
+  if (how->harmonics) own.hbm.harmonics = how->harmonics;
+  own.hbm.force = how->samples ? HBM_FORCE_SAMPLED : HBM_FORCE_EXACT;
+  if (how->samples) own.hbm.samples = how->samples;
+  own.hbm.restart = how->slider_on_sample ? HBM_RESTART_SAMPLE : HBM_RESTART_INTERPOLATED;
+  if (how->no_contact) own.n_contacts = 0;
+  return own;
+}
+
+static inline double curve_value(const hbm_measures *m, int quantity)
+{
+  return quantity == VERIFY_HARMONIC_1 ? m->harmonic_1 : quantity == VERIFY_PEAK ? fmax(m->max, -m->min) : m->amplitude;
+}
+
+/* Which of the solutions at one omega this curve has: bit k for the k-th along the curve, which is upper, unstable, lower for three. */
+static inline unsigned curve_wanted(int branch, int n, int i)
+{
+  if (branch == 1) return ~0u;
+  if (n < 3) return 1;
+  if (branch == -1) return 2;
+  return branch == 2 && i % 12 < 4 ? 4 : 1;
+}
+
+/* n omegas over [low, high], into data, to be cleared by verify_data_clear. */
+static inline verify_data curve_make(const scene *sc, const spoiling *how, double low, double high, int n)
+{
+  const scene own = curve_spoil(sc, how);
+  hbm_solver *hbm;
+  hbm_curve curve = {0};
+  verify_data d = {.quantity = (verify_quantity)how->said, .points = calloc(CURVE_ROOM, sizeof *d.points)};
+  assert_int_equal(hbm_solver_new(&own, &hbm), HC_OK);
+  assert_int_equal(hbm_trace(hbm, own.omega_from, own.omega_to, NULL, &curve), HC_OK);
+  for (int i = 0; i < n; ++i) {
+    double omega = low + (high - low) * i / (n - 1);
+    hbm_curve at = {0};
+    hbm_measures m;
+    hbm_curve_at(hbm, &curve, omega, &at);
+    for (int k = 0; k < at.n && d.n < CURVE_ROOM; ++k) {
+      if (!(curve_wanted(how->branch, at.n, i) & (1u << k))) continue;
+      assert_int_equal(hbm_measure(hbm, at.X + (size_t)k * at.n_coef, &m), HC_OK);
+      double value = curve_value(&m, how->meant) * (how->value_factor > 0 ? how->value_factor : 1) * (1 + (i % 2 ? how->noise : -how->noise));
+      d.points[d.n++] = (verify_point){omega * (how->omega_factor > 0 ? how->omega_factor : 1), value, i + 1};
+    }
+    hbm_curve_free(&at);
+  }
+  hbm_curve_free(&curve);
+  hbm_solver_free(hbm);
+  return d;
+}
+
+#endif

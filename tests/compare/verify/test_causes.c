@@ -1,0 +1,204 @@
+/* test_causes.c - curves spoiled in one known way each: the cause is named, by its word, and a good curve is not blamed for anything.
+ *
+ * The curves are made here by our own harmonic balance, on two scenes: case 2, whose contact strikes and sticks, and one under preload that
+ * slides and lifts off. What is tested is that the mistake is told from all others that are tried. */
+#include "tests/compare/verify/curves.h"
+
+static const char case2[] = "cases/paper/case2.yaml", preloaded[] = "cases/paper/fig09_gap_p1.yaml";
+
+typedef struct prepared {
+  const char *name, *scene, *cause;
+  double low, high;
+  int n;
+  spoiling how;
+} prepared;
+
+static void say(const prepared *p, const verify_report *r)
+{
+  char text[VERIFY_TEXT];
+  print_error("%s (%s), expected %s: %s\n", p->name, p->scene, p->cause, verify_sentence(r, text));
+  for (int i = 0; i < r->n_hypotheses && i < 5; ++i) {
+    const verify_hypothesis *h = &r->hypotheses[i];
+    print_error("  %s: %.3g (score %.3g; H %d N %d restart %d)\n", verify_cause_words(h->causes, text), h->distance, h->score, h->equations.harmonics,
+                h->equations.samples, h->equations.restart);
+  }
+}
+
+/* The report of one prepared curve, its cause checked. */
+static verify_report named(const prepared *p)
+{
+  const scene sc = curve_scene(p->scene);
+  verify_data d = curve_make(&sc, &p->how, p->low, p->high, p->n);
+  verify_report r;
+  char words[VERIFY_TEXT];
+  assert_int_equal(verify_run(&sc, &d, NULL, &r), HC_OK);
+  if (strcmp(verify_cause_words(r.causes, words), p->cause)) {
+    say(p, &r);
+    fail();
+  }
+  assert_int_equal(verify_exit_code(&r), strcmp(p->cause, "none") ? 1 : 0);
+  verify_data_clear(&d);
+  return r;
+}
+
+static void name_all(int n, const prepared *p)
+{
+  for (int i = 0; i < n; ++i) {
+    verify_report r = named(&p[i]);
+    verify_clear(&r);
+  }
+}
+#define NAME_ALL(list) name_all(sizeof list / sizeof *list, list)
+
+/* Frequencies where something happens at the contact, mostly. */
+#define ON_CASE2 case2, .low = 4, .high = 14, .n = 41
+#define ON_PRELOADED preloaded, .low = 15, .high = 29, .n = 41
+
+static void equations_solved_wrongly(void **state)
+{
+  (void)state;
+  static const prepared list[] = {
+      {"no static", ON_CASE2, .cause = "no_static_harmonic", .how = {.no_static = true}},
+      {"no static", ON_PRELOADED, .cause = "no_static_harmonic", .how = {.no_static = true}},
+      {"H = 1", ON_CASE2, .cause = "too_few_harmonics", .how = {.harmonics = 1}},
+      {"H = 2", ON_CASE2, .cause = "too_few_harmonics", .how = {.harmonics = 2}},
+      {"H = 3", ON_CASE2, .cause = "too_few_harmonics", .how = {.harmonics = 3, .meant = VERIFY_HARMONIC_1, .said = VERIFY_HARMONIC_1}},
+      {"H = 1", ON_PRELOADED, .cause = "too_few_harmonics", .how = {.harmonics = 1}},
+      {"linear", ON_CASE2, .cause = "no_contact", .how = {.no_contact = true}},
+      {"linear", ON_PRELOADED, .cause = "no_contact", .how = {.no_contact = true}},
+  };
+  NAME_ALL(list);
+}
+
+static void forces_sampled_too_coarsely(void **state)
+{
+  (void)state;
+  static const prepared list[] = {
+      {"N = 32", ON_CASE2, .cause = "too_few_samples", .how = {.samples = 32}},
+      {"N = 32", ON_PRELOADED, .cause = "too_few_samples", .how = {.samples = 32}},
+      {"N = 64", ON_CASE2, .cause = "too_few_samples", .how = {.samples = 64, .noise = 1e-6}},
+      {"N = 32, no static", ON_CASE2, .cause = "no_static_harmonic+too_few_samples", .how = {.samples = 32, .no_static = true}},
+      {"N = 64, no static, slider on a sample", ON_CASE2, .cause = "no_static_harmonic+too_few_samples+slider_restart",
+       .how = {.samples = 64, .no_static = true, .slider_on_sample = true}},
+      {"N = 32, slider on a sample", ON_CASE2, .cause = "too_few_samples+slider_restart", .how = {.samples = 32, .slider_on_sample = true}},
+      {"N = 128, slider on a sample", ON_CASE2, .cause = "too_few_samples+slider_restart", .how = {.samples = 128, .slider_on_sample = true}},
+      {"H = 1, N = 32, no static", ON_CASE2, .cause = "no_static_harmonic+too_few_harmonics+too_few_samples",
+       .how = {.harmonics = 1, .samples = 32, .no_static = true}},
+  };
+  NAME_ALL(list);
+}
+
+static void columns_misread(void **state)
+{
+  (void)state;
+  static const prepared list[] = {
+      {"Hz", ON_CASE2, .cause = "frequency_unit", .how = {.omega_factor = 1 / (2 * PI)}},
+      {"rad/s times 2 pi", ON_CASE2, .cause = "frequency_unit", .how = {.omega_factor = 2 * PI}},
+      {"Hz", ON_PRELOADED, .cause = "frequency_unit", .how = {.omega_factor = 1 / (2 * PI)}},
+      {"peak to peak", ON_CASE2, .cause = "peak_to_peak", .how = {.value_factor = 2}},
+      {"peak to peak", ON_PRELOADED, .cause = "peak_to_peak", .how = {.value_factor = 2}},
+      {"one-sided", ON_CASE2, .cause = "half_amplitude", .how = {.value_factor = 0.5, .said = VERIFY_HARMONIC_1, .meant = VERIFY_HARMONIC_1}},
+      {"rms", ON_CASE2, .cause = "rms", .how = {.value_factor = 0.70710678118654752}},
+      {"mm for m", ON_CASE2, .cause = "length_unit", .how = {.value_factor = 1e3}},
+      {"m for mm", ON_PRELOADED, .cause = "length_unit", .how = {.value_factor = 1e-3}},
+      {"harmonic 1 as amplitude", ON_CASE2, .cause = "other_quantity", .how = {.said = VERIFY_AMPLITUDE, .meant = VERIFY_HARMONIC_1}},
+      {"peak as amplitude", ON_CASE2, .cause = "other_quantity", .how = {.said = VERIFY_AMPLITUDE, .meant = VERIFY_PEAK}},
+      {"no static, in mm", ON_CASE2, .cause = "no_static_harmonic+length_unit", .how = {.no_static = true, .value_factor = 1e3}},
+  };
+  NAME_ALL(list);
+}
+
+/* Case 2 has an upper, an unstable and a lower solution from 7.337 to 9.209. */
+static void branches_mistaken(void **state)
+{
+  (void)state;
+  static const prepared unstable = {"unstable", ON_CASE2, .cause = "unstable_branch", .how = {.branch = -1}},
+                        hops = {"hops", ON_CASE2, .cause = "other_branch", .how = {.branch = 2}};
+  verify_report r = named(&unstable);
+  assert_int_equal(r.count[VERDICT_DIFFERS], 0);
+  verify_clear(&r);
+  r = named(&hops);
+  assert_true(r.count[VERDICT_OTHER_BRANCH] > 0 && r.count[VERDICT_DIFFERS] == 0);
+  verify_clear(&r);
+}
+
+static void nothing_wrong(void **state)
+{
+  (void)state;
+  static const prepared list[] = {
+      {"good", ON_CASE2, .cause = "none", .how = {.harmonics = 20, .noise = 1e-5}},
+      {"good, all branches", ON_CASE2, .cause = "none", .how = {.harmonics = 20, .noise = 1e-5, .branch = 1}},
+      {"good peak", ON_CASE2, .cause = "none", .how = {.harmonics = 20, .said = VERIFY_PEAK, .meant = VERIFY_PEAK}},
+      {"good", ON_PRELOADED, .cause = "none", .how = {.harmonics = 20, .noise = 1e-5}},
+      {"good enough samples", ON_CASE2, .cause = "none", .how = {.harmonics = 20, .samples = 4096}},
+  };
+  NAME_ALL(list);
+}
+
+/* What nobody tried is not explained away: a curve 7 % too high at every point. */
+static void no_cause_is_made_up(void **state)
+{
+  (void)state;
+  const scene sc = curve_scene(case2);
+  const spoiling how = {.harmonics = 20, .value_factor = 1.07};
+  verify_data d = curve_make(&sc, &how, 4, 14, 41);
+  verify_report r;
+  char text[VERIFY_TEXT];
+  assert_int_equal(verify_run(&sc, &d, NULL, &r), HC_OK);
+  assert_int_equal(r.causes, 0);
+  assert_int_equal(verify_exit_code(&r), 1);
+  assert_non_null(strstr(verify_sentence(&r, text), "no hypothesis fits better than"));
+  verify_clear(&r);
+  verify_data_clear(&d);
+}
+
+/* The error column is |value - truth|/amplitude: noise of 1e-3 is 1e-3. The truth's own error is in checked_error. */
+static void errors_are_what_was_put_in(void **state)
+{
+  (void)state;
+  const scene sc = curve_scene(case2);
+  const spoiling how = {.harmonics = 40, .noise = 1e-3};
+  verify_data d = curve_make(&sc, &how, 10, 14, 9);
+  verify_report r;
+  assert_int_equal(verify_run(&sc, &d, NULL, &r), HC_OK);
+  assert_int_equal(r.n_rows, 9);
+  CHECK_LE(r.checked_error, 1e-4, "a tenth of the gate");
+  for (int i = 0; i < r.n_rows; ++i) CHECK_NEAR(r.rows[i].error, 1e-3, r.checked_error + 1e-6, "omega = %g", r.rows[i].omega);
+  verify_clear(&r);
+  verify_data_clear(&d);
+}
+
+static bool stop(void *self, double done)
+{
+  (void)done;
+  return --*(int *)self > 0;
+}
+
+/* Stopped at any moment: what is there is kept, and nothing else is claimed. */
+static void stopping_keeps_rows(void **state)
+{
+  (void)state;
+  const scene sc = curve_scene(case2);
+  const spoiling how = {.samples = 32};
+  verify_data d = curve_make(&sc, &how, 4, 14, 11);
+  for (int ticks = 1; ticks < 2000; ticks *= 3) {
+    int left = ticks;
+    const hc_monitor monitor = {stop, &left};
+    verify_report r;
+    assert_int_equal(verify_run(&sc, &d, &monitor, &r), HC_INTERRUPTED);
+    assert_in_range(r.n_rows, 0, d.n);
+    verify_clear(&r);
+  }
+  verify_data_clear(&d);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(nothing_wrong),      cmocka_unit_test(equations_solved_wrongly), cmocka_unit_test(forces_sampled_too_coarsely),
+      cmocka_unit_test(columns_misread),    cmocka_unit_test(branches_mistaken),        cmocka_unit_test(no_cause_is_made_up),
+      cmocka_unit_test(errors_are_what_was_put_in), cmocka_unit_test(stopping_keeps_rows),
+  };
+  check_watchdog(600);
+  return cmocka_run_group_tests_name("verify.causes", tests, NULL, NULL);
+}

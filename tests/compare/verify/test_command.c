@@ -1,0 +1,94 @@
+/* test_command.c - hbmcheck verify as people use it: the shipped example, exit codes, columns, messages. */
+#include <string.h>
+#include <sys/wait.h>
+
+#include "tests/check.h"
+
+typedef struct outcome { int code; char out[262144]; } outcome;
+
+static const outcome *run(const char *args)
+{
+  static outcome o;
+  char line[2048];
+  snprintf(line, sizeof line, "%s %s", HBMCHECK_COMMAND, args);
+  FILE *pipe = popen(line, "r");
+  assert_non_null(pipe);
+  size_t n = fread(o.out, 1, sizeof o.out - 1, pipe);
+  o.out[n] = 0;
+  int status = pclose(pipe);
+  o.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  return &o;
+}
+
+static void expect(const char *args, int code, const char *fragment)
+{
+  const outcome *o = run(args);
+  if (o->code != code || !strstr(o->out, fragment)) {
+    print_error("hbmcheck %s\nexit %d, expected %d; expected to read '%s' in:\n%s\n", args, o->code, code, fragment, o->out);
+    fail();
+  }
+}
+
+#define EXAMPLE "verify cases/verify/case2.yaml --against cases/verify/no_static.csv --columns omega=1,harmonic_1=2 "
+
+static void the_shipped_example_is_named(void **state)
+{
+  (void)state;
+  expect(EXAMPLE, 1, "suspected cause: harmonic 0 is missing (hbm.static: false, ");
+  expect(EXAMPLE "-q --format csv", 1, "omega,value,nearest,branch,stable,error,verdict,line\n");
+  expect(EXAMPLE "-q --format csv", 1, "# cause: no_static_harmonic\n");
+  expect(EXAMPLE "-q --format json", 1, "\"cause\": \"no_static_harmonic\"");
+}
+
+/* Our own curve, as frf writes it: branches, unstable points and remarks included. */
+static void our_own_curve_matches(void **state)
+{
+  (void)state;
+  char path[] = "/tmp/hbmcheck-verify-XXXXXX", args[512];
+  int fd = mkstemp(path);
+  assert_true(fd >= 0);
+  close(fd);
+  snprintf(args, sizeof args, "frf cases/paper/case2.yaml -q --format csv --set hbm.harmonics=20 -o %s", path);
+  expect(args, 0, "");
+  snprintf(args, sizeof args, "verify cases/paper/case2.yaml -q --against %s --columns omega=omega,amplitude=amplitude", path);
+  expect(args, 0, "no cause to suspect");
+  snprintf(args, sizeof args, "verify cases/paper/case2.yaml -q --against %s --columns frequency=omega,value=amplitude --quantity amplitude", path);
+  expect(args, 1, "cause: frequency_unit");
+  snprintf(args, sizeof args, "verify cases/paper/case2.yaml -q --against %s --columns omega=1,amplitude=8", path);
+  expect(args, 1, "cause: other_quantity");
+  unlink(path);
+}
+
+static void mistakes_are_named(void **state)
+{
+  (void)state;
+  expect("verify cases/verify/case2.yaml 2>&1", 64, "--against");
+  expect("verify cases/verify/case2.yaml --against cases/verify/no_static.csv 2>&1", 64, "--columns");
+  expect("verify cases/verify/case2.yaml --against cases/verify/no_static.csv --columns omega=1,amplitud=2 2>&1", 64, "did you mean amplitude");
+  expect("verify cases/verify/case2.yaml --against cases/verify/no_static.csv --columns omega=1,value=2 2>&1", 64, "--quantity");
+  expect("verify cases/verify/case2.yaml --against cases/verify/no_static.csv --columns omega=1,amplitude=9 2>&1", 2, "no_static.csv:4:1: no column 9");
+  expect("verify cases/verify/case2.yaml --against /dev/null --columns omega=1,amplitude=2 2>&1", 2, "/dev/null:1:1: 0 points");
+  expect("verify cases/verify/case2.yaml --against /nonexistent.csv --columns omega=1,amplitude=2 2>&1", 2, "/nonexistent.csv: ");
+  expect("verify /nonexistent.yaml --against /dev/null --columns omega=1,amplitude=2 2>&1", 2, "/nonexistent.yaml: ");
+  expect("verify --help", 0, "example");
+  expect("--help", 0, "verify");
+}
+
+/* Far from the sweep nothing is known, and that is not a match. */
+static void what_cannot_be_judged_is_said(void **state)
+{
+  (void)state;
+  expect("verify cases/verify/case2.yaml -q --against /dev/stdin --columns omega=1,amplitude=2 2>&1 <<'END'\n1e6 1\n2e6 1\n3e6 1\nEND\n", 3, "solver_failed");
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(the_shipped_example_is_named),
+      cmocka_unit_test(our_own_curve_matches),
+      cmocka_unit_test(mistakes_are_named),
+      cmocka_unit_test(what_cannot_be_judged_is_said),
+  };
+  check_watchdog(300);
+  return cmocka_run_group_tests_name("verify.command", tests, NULL, NULL);
+}

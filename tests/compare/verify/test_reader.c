@@ -1,0 +1,177 @@
+/* test_reader.c - files of columns as people have them, and what is said about those that are wrong: FILE:LINE:COLUMN, what, expected what. */
+#include <string.h>
+
+#include "compare/verify/csv.h"
+#include "tests/check.h"
+
+static const double two_pi = 2 * PI;
+
+/* The file `text` read with `columns`; HC_OK or not, the message in *words. */
+static hc_status read_text(const char *text, size_t length, const char *columns, verify_data *d, char words[VERIFY_TEXT])
+{
+  char path[] = "/tmp/hbmcheck-verify-XXXXXX";
+  verify_columns where;
+  int fd = mkstemp(path);
+  assert_true(fd >= 0 && write(fd, text, length) == (ssize_t)length);
+  close(fd);
+  assert_int_equal(verify_columns_read(columns, "amplitude", &where, words), HC_OK);
+  hc_status st = verify_data_read(path, &where, d, words);
+  unlink(path);
+  return st;
+}
+
+/* Three points (5, 1), (6, 2), (7, 3), whatever the file looks like. */
+static void reads(const char *text, const char *columns)
+{
+  verify_data d;
+  char words[VERIFY_TEXT];
+  if (read_text(text, strlen(text), columns, &d, words) != HC_OK) {
+    print_error("%s\nin: %s\n", words, text);
+    fail();
+  }
+  assert_int_equal(d.n, 3);
+  for (int i = 0; i < 3; ++i) {
+    CHECK_NEAR(d.points[i].omega, 5 + i, 0, "point %d of %s", i, text);
+    CHECK_NEAR(d.points[i].value, 1 + i, 0, "point %d of %s", i, text);
+  }
+  verify_data_clear(&d);
+}
+
+static void files_as_people_have_them(void **state)
+{
+  (void)state;
+  reads("5,1\n6,2\n7,3\n", "omega=1,amplitude=2");
+  reads("5,1\n6,2\n7,3", "omega=1,amplitude=2");
+  reads("5,1\r\n6,2\r\n7,3\r\n", "omega=1,amplitude=2");
+  reads("\xEF\xBB\xBF" "w,A\n5,1\n6,2\n7,3\n", "omega=w,amplitude=A");
+  reads("# made by\n\n  # us\nA; remark; w\n1;a,b;5\n\n2;;6\n# end\n3; ;7.0e0\n", "omega=w,value=A");
+  reads("  5   1\n 6\t2  \n+7 3\n", "omega=1,amplitude=2");
+  reads("5\t\t1\n6\tx y\t2\n7\t\t3\n", "omega=1,amplitude=3");
+  reads("omega,branch,amplitude\n5,0,1\n6,1,2\n7,2,3\n", "amplitude=amplitude,omega=omega");
+  reads("\"ascii quotes are part of a name\",w\n1,5\n2,6\n3,7\n", "omega=2,value=1");
+  reads("5 1\n6 2\n7 3", "value=2,omega=1");
+}
+
+static void cycles_become_radians(void **state)
+{
+  (void)state;
+  verify_data d;
+  char words[VERIFY_TEXT];
+  const char text[] = "1 1\n0.5 0\n3 3\n";
+  assert_int_equal(read_text(text, strlen(text), "frequency=1,value=2", &d, words), HC_OK);
+  CHECK_NEAR(d.points[0].omega, two_pi, 4e-16 * two_pi, "1 a unit of time");
+  CHECK_NEAR(d.points[1].omega, PI, 4e-16 * PI, "half");
+  assert_int_equal(d.points[2].line, 3);
+  verify_data_clear(&d);
+}
+
+static void refused(const char *text, size_t length, const char *columns, const char *place, const char *fragment)
+{
+  verify_data d;
+  char words[VERIFY_TEXT];
+  hc_status st = read_text(text, length, columns, &d, words);
+  const char *at = strstr(words, place);
+  if (st != HC_BAD_INPUT || !at || !strstr(at, fragment) || !strstr(at, "expected")) {
+    print_error("status %d, message '%s'; expected '%s ... %s' for:\n%s\n", st, words, place, fragment, text);
+    fail();
+  }
+  verify_data_clear(&d);
+}
+#define REFUSED(text, columns, place, fragment) refused(text, sizeof text - 1, columns, place, fragment)
+
+static void mistakes_have_a_place(void **state)
+{
+  (void)state;
+  REFUSED("", "omega=1,value=2", ":1:1: ", "0 points");
+  REFUSED("# nothing\n", "omega=1,value=2", ":1:1: ", "0 points");
+  REFUSED("w,A\n5,1\n6,2\n", "omega=w,value=A", ":3:1: ", "2 points");
+  REFUSED("5,1\n6,x\n7,3\n", "omega=1,value=2", ":2:3: ", "'x' is not a number");
+  REFUSED("5,1\n6,\n7,3\n", "omega=1,value=2", ":2:3: ", "'' is not a number");
+  REFUSED("5;1\n6;2,5\n7;3\n", "omega=1,value=2", ":2:3: ", "'2,5' is not a number");
+  REFUSED("5,1\n6,nan\n7,3\n", "omega=1,value=2", ":2:3: ", "'nan' is not finite");
+  REFUSED("5,1\n6,inf\n7,3\n", "omega=1,value=2", ":2:3: ", "not finite");
+  REFUSED("5,1\n6,1e999\n7,3\n", "omega=1,value=2", ":2:3: ", "too large");
+  REFUSED("5,1\n6,-2\n7,3\n", "omega=1,value=2", ":2:3: ", "too small");
+  REFUSED("5,1\n0,2\n7,3\n", "omega=1,value=2", ":2:1: ", "too small");
+  REFUSED("5,1\n  -6,2\n7,3\n", "omega=1,value=2", ":2:3: ", "too small");
+  REFUSED("5,1\n6,2,9\n7,3\n", "omega=1,value=2", ":2:1: ", "3 fields, expected 2 as in line 1");
+  REFUSED("w,A\n5\n6,2\n7,3\n", "omega=1,value=2", ":2:1: ", "1 field");
+  REFUSED("w,A\n5,1\n6,2\n7,3\n", "omega=1,value=3", ":1:1: ", "no column 3");
+  REFUSED("w,A\n5,1\n6,2\n7,3\n", "omega=w,value=B", ":1:1: ", "one of w, A");
+  REFUSED("A,A\n5,1\n6,2\n7,3\n", "omega=1,value=A", ":1:1: ", "more than one");
+  REFUSED("5,1\n6,2\n7,3\n", "omega=w,value=2", ":1:1: ", "header");
+  REFUSED("w,A\nu,v\n6,2\n7,3\n", "omega=w,value=A", ":2:1: ", "'u'"); /* a line of units is not a point */
+  REFUSED("5,1\n6,\x01\xFF\n7,3\n", "omega=1,value=2", ":2:3: ", "\\x01\\xFF");
+  REFUSED("5,1\0\n6,2\n7,3\n", "omega=1,value=2", ":1:3: ", "not a number");
+  REFUSED("\xC3\xA4 ,1\n6,2\n7,3\n", "omega=1,value=2", ":1:1: ", "not a number"); /* half a header is none */
+  REFUSED("a,1\n\xC3\xA4 , \xC3\xA4\n7,3\n", "omega=2,value=2", ":2:5: ", "not a number"); /* columns are characters */
+}
+
+static void limits_hold(void **state)
+{
+  (void)state;
+  size_t size = (size_t)(VERIFY_MOST_POINTS + 1) * 4;
+  char *text = malloc(size + 1), words[VERIFY_TEXT];
+  assert_non_null(text);
+  for (size_t i = 0; i < size; i += 4) memcpy(text + i, "5 1\n", 4);
+  refused(text, size, "omega=1,value=2", ":100001:1: ", "too many");
+  verify_data d;
+  assert_int_equal(read_text(text, size - 4, "omega=1,value=2", &d, words), HC_OK);
+  assert_int_equal(d.n, VERIFY_MOST_POINTS);
+  verify_data_clear(&d);
+  memset(text, ',', 1000);
+  refused(text, 1000, "omega=1,value=2", ":1:257: ", "at most 256");
+  free(text);
+}
+
+static void no_such_file(void **state)
+{
+  (void)state;
+  verify_columns where;
+  verify_data d;
+  char words[VERIFY_TEXT];
+  assert_int_equal(verify_columns_read("omega=1,peak=2", NULL, &where, words), HC_OK);
+  assert_int_equal(verify_data_read("/nonexistent.csv", &where, &d, words), HC_IO);
+  assert_non_null(strstr(words, "/nonexistent.csv: "));
+  assert_int_equal(verify_data_read("/tmp", &where, &d, words), HC_IO);
+}
+
+static void unclear(const char *columns, const char *quantity, const char *fragment)
+{
+  verify_columns where;
+  char words[VERIFY_TEXT] = "";
+  if (verify_columns_read(columns, quantity, &where, words) != HC_BAD_INPUT || !strstr(words, fragment)) {
+    print_error("--columns '%s': '%s', expected '%s'\n", columns, words, fragment);
+    fail();
+  }
+}
+
+static void columns_say_what_they_mean(void **state)
+{
+  (void)state;
+  unclear("", NULL, "NAME=COLUMN");
+  unclear("omega", NULL, "NAME=COLUMN");
+  unclear("omega=1", NULL, "no column of values");
+  unclear("amplitude=1", NULL, "no column of frequencies");
+  unclear("omega=1,amplitud=2", NULL, "did you mean amplitude");
+  unclear("omega=1,frequency=2,peak=3", NULL, "a second column of frequencies");
+  unclear("omega=1,amplitude=2,peak=3", NULL, "a second column of values");
+  unclear("omega=1,value=2", NULL, "--quantity");
+  unclear("omega=1,value=2", "size", "expected amplitude, harmonic_1 or peak");
+  unclear("omega=1,amplitude=2", "peak", "contradicts");
+  unclear("omega=0,amplitude=2", NULL, "'0' is no column");
+  unclear("omega=1.5,amplitude=2", NULL, "'1.5' is no column");
+  unclear("omega=,amplitude=2", NULL, "'' is no column");
+  unclear("omega=1,amplitude=2,", NULL, "NAME=COLUMN");
+  unclear("omega=1,rms=2", NULL, "unknown");
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(files_as_people_have_them), cmocka_unit_test(cycles_become_radians), cmocka_unit_test(mistakes_have_a_place),
+      cmocka_unit_test(limits_hold), cmocka_unit_test(no_such_file), cmocka_unit_test(columns_say_what_they_mean),
+  };
+  check_watchdog(60);
+  return cmocka_run_group_tests_name("verify.reader", tests, NULL, NULL);
+}
