@@ -21,8 +21,8 @@ static void bent_peak_is_climbed(void **state)
   assert_int_equal(timeint_steady(ti, 708.5, &y, NULL, &r), HC_OK);
   CHECK_NEAR(r.amplitude, 0.299294926095, 1e-6 * 0.3, "amplitude");
   CHECK_NEAR(r.mean, -0.000611262701079, 1e-6 * 0.3, "mean");
-  CHECK_LE(r.closure, 1e-9, "closure");
-  CHECK_LE(r.periods, 20000, "periods");
+  CHECK_LE(r.closure, 1e-7, "closure"); /* next to the fold |(I - Phi)^-1| is 3000, and a period scatters by 1000 times CVODE's 3.3e-14 */
+  CHECK_LE(r.periods, 60, "periods");
   assert_int_equal(r.regime, CONTACT_SEPARATES);
   timeint_free(ti);
 }
