@@ -2,7 +2,8 @@
  *
  *     x' = v,   M v' = F0 cos(omega t) - C v - K x - sum_j [ T_j cos(alpha_j) + (N_j - N0_j) sin(alpha_j) ]
  *
- * with the contact law of cases/contact_law.h, exact or regularised (law_regularised.h) as transient.law says. Phase: t = 0 is the forcing's maximum; every state handed
+ * with the contact law of cases/contact_law.h, exact or regularised (law_regularised.h) as transient.law says. Phase: t = 0 is the
+ * forcing's maximum; every state handed
  * in or out is at a whole number of forcing periods. Handles are opaque, one a thread. Not here: harmonic balance, verdicts. */
 #ifndef HC_TIMEINT_H
 #define HC_TIMEINT_H
@@ -34,7 +35,7 @@ typedef struct timeint_result {
   double rms, mean;           /* [length] rms of x (mean included) over the reported period */
   double a1, b1, harmonic_1;  /* [length] x ~ a1 cos(omega t) + b1 sin(omega t); harmonic_1 = hypot(a1, b1) */
   double closure; /* [1] estimated distance to the periodic orbit, drift/(1 - contraction), relative to the amplitude; may be INFINITY,
-                   * and more than transient.tolerance where the integration's own errors, seen through 1/(1 - contraction), allow no less */
+ * and more than transient.tolerance where the integration's own errors, seen through 1/(1 - contraction), allow no less */
   double contraction; /* [1] measured contraction per period of the drift, or NaN when it could not be measured */
   int periods;        /* forcing periods integrated, all included */
   int period_multiple; /* of the orbit found, 1 unless a sub-harmonic was found (k <= 16: measures cover k periods, wave the last); 0 not settled */
@@ -61,7 +62,8 @@ void timeint_free(timeint *ti);
 timeint_state timeint_rest(const timeint *ti);
 
 /* From *state at omega to the steady state as the scene's transient options say; *state becomes a point on the orbit, *result its
- * measures. transient.richardson: the measures are extrapolated to no regularisation. `auto`: where the motion goes. With start: hbm the state is taken for a point next to an orbit: that orbit is the answer if it
+ * measures. transient.richardson: the measures are extrapolated to no regularisation. `auto`: where the motion goes. With start: hbm
+ * the state is taken for a point next to an orbit: that orbit is the answer if it
  * is stable; if not, the motion leaves it (left_orbit). `shooting`: the period-1 orbit next to *state, stable or not.
  * HC_OK settled; HC_NOT_SETTLED after max_periods, HC_APERIODIC when nothing repeats within 16 periods and neighbours drift apart (in both
  * the result is the last period); HC_INTEGRATOR, HC_NOT_FINITE, HC_CHATTER;
@@ -69,7 +71,8 @@ timeint_state timeint_rest(const timeint *ti);
 hc_status timeint_steady(timeint *ti, double omega, timeint_state *state, const hc_monitor *monitor, timeint_result *result);
 
 /* The orbit of k forcing periods next to *state by Newton on the period map, stable or not, whatever transient.steady_state says; the
- * multiplier tells which. Errors as timeint_steady with shooting. 1 <= k <= 16; the orbit may be a shorter one run through several times. */
+ * multiplier tells which. Errors as timeint_steady with shooting. 1 <= k <= 16; the orbit may be a shorter one run through several
+ * times. */
 hc_status timeint_orbit(timeint *ti, double omega, int k, timeint_state *state, const hc_monitor *monitor, timeint_result *result);
 
 /* Stable by its multiplier: +1; -1 not; 0 unknown, or within 1e-9 of the border. */
