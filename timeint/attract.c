@@ -7,6 +7,7 @@
  * A motion that shows no such orbit is tested for chaos: the mean rate at which two neighbours drift apart, drawn together again after
  * each period, over BATCHES times BATCH periods, against its own scatter over the batches. Not before FOLDS times what damping forgets in:
  * next to a saddle neighbours drift apart as well, for a while. */
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -125,9 +126,9 @@ static hc_status grow(timeint *ti, double *d, double *log_growth)
   ti->periods += 2;
   for (int i = 0; i < n; ++i) size += (other[i] - ti->y[i]) * (other[i] - ti->y[i]);
   size = sqrt(size);
-  *log_growth = log(size / apart);
-  for (int i = 0; i < n; ++i) d[i] = (other[i] - ti->y[i]) * (apart / size);
-  return isfinite(*log_growth) ? HC_OK : HC_NOT_FINITE;
+  *log_growth = log(fmax(size / apart, DBL_EPSILON)); /* two that met drift apart no more */
+  for (int i = 0; i < n && size > 0; ++i) d[i] = (other[i] - ti->y[i]) * (apart / size);
+  return isfinite(size) && isfinite(*log_growth) ? HC_OK : HC_NOT_FINITE;
 }
 
 /* Do neighbours drift apart, by more than the scatter of the batches' means (three standard errors)? */

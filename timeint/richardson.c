@@ -10,6 +10,7 @@
 #include "timeint/internal.h"
 
 enum { LEVELS = 3 };
+static const double same_orbit = 0.2; /* [size] the largest regularisation, 0.1, moves an orbit by some percent */
 
 static double extrapolate(double q1, double q2, double q3)
 {
@@ -25,6 +26,7 @@ static hc_status solve_at(timeint *ti, double regularisation, int k, const hc_mo
   ti->sc.transient.regularisation = regularisation;
   model_make(&ti->model, &ti->sc, ti->omega, ti->length);
   hc_status st = shoot_newton(ti->shoot, k, size, timeint_goal(ti), monitor, &found);
+  if (st == HC_OK && !(found.moved <= same_orbit * size)) st = HC_NOT_CONVERGED; /* another orbit: nothing to extrapolate from */
   return st == HC_OK ? timeint_report(ti, k, TIMEINT_BY_SHOOTING, &found, r) : st;
 }
 
