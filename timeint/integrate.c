@@ -1,14 +1,17 @@
-/* integrate.c - see integrate.h: hands each call to the law's integrator. */
+/* integrate.c - see integrate.h: hands each call to the law's integrator, and keeps what both are made of. */
 #include "timeint/integrate_private.h"
 
-#include <cvodes/cvodes.h>
+#include "cases/sundials_compat.h"
 
 void integrate_free(integrator *in)
 {
   if (in) in->does->free(in);
 }
 
-hc_status integrate_tolerance(integrator *in, double tolerance) { return in->does->tolerance(in, tolerance); }
+hc_status integrate_tolerance(integrator *in, double tolerance)
+{
+  return integrate_translate(in, CVodeSStolerances(in->cv, tolerance, tolerance));
+}
 
 hc_status integrate_period(integrator *in, const model *m, double *y, integrate_watch *watch, void *self)
 {
@@ -33,4 +36,44 @@ int integrate_first_flag(const int *flags, size_t n)
   for (size_t i = 0; i < n; ++i)
     if (flags[i] != CV_SUCCESS) return flags[i];
   return CV_SUCCESS;
+}
+
+hc_status integrate_make_parts(integrator *in, int n, int method)
+{
+  if (hc_sundials_context(&in->ctx)) return HC_NO_MEMORY;
+  in->y = N_VNew_Serial(n, in->ctx);
+  in->dky = N_VNew_Serial(n, in->ctx);
+  in->jac = SUNDenseMatrix(n, n, in->ctx);
+  if (!in->y || !in->dky || !in->jac) return HC_NO_MEMORY;
+  in->ls = SUNLinSol_Dense(in->y, in->jac, in->ctx);
+  in->cv = CVodeCreate(method, in->ctx);
+  return in->ls && in->cv ? HC_OK : HC_NO_MEMORY;
+}
+
+void integrate_free_parts(integrator *in)
+{
+  if (in->cv) CVodeFree(&in->cv);
+  if (in->ls) SUNLinSolFree(in->ls);
+  if (in->jac) SUNMatDestroy(in->jac);
+  if (in->dky) N_VDestroy(in->dky);
+  if (in->y) N_VDestroy(in->y);
+  if (in->ctx) SUNContext_Free(&in->ctx);
+}
+
+hc_status integrate_translate(integrator *in, int flag)
+{
+  if (flag == CV_SUCCESS) return HC_OK;
+  in->flag = flag;
+  if (in->not_finite) return HC_NOT_FINITE;
+  return flag == CV_MEM_FAIL ? HC_NO_MEMORY : HC_INTEGRATOR; /* warnings, and flags yet unknown, too */
+}
+
+hc_status integrate_add_counts(integrator *in)
+{
+  long steps = 0, evals = 0;
+  int flag = CVodeGetNumSteps(in->cv, &steps);
+  if (flag == CV_SUCCESS) flag = CVodeGetNumRhsEvals(in->cv, &evals);
+  in->steps += steps;
+  in->rhs += evals;
+  return integrate_translate(in, flag);
 }

@@ -47,15 +47,9 @@ typedef struct exact { /* from integrate_new_exact, to integrate_free; not share
   double tolerance;
   const model *m;        /* of the period under way; the caller's                         */
   phase phase;           /* now                                                           */
-  bool not_finite;       /* the right-hand side was, in the period under way              */
   bool varies;           /* the slope is asked for                                        */
   double varied;         /* theta up to which `slope` has come                            */
   double slope[MODEL_MAX_STATES * MODEL_MAX_STATES]; /* by columns; rows of W while stuck */
-  SUNContext ctx;        /* made first, freed last, this integrator's alone               */
-  N_Vector y, dky;       /* [2] X, P; dense output                                        */
-  SUNMatrix jac;         /* [2][2]                                                        */
-  SUNLinearSolver ls;
-  void *cv;
 } exact;
 
 static int rhs(sunrealtype theta, N_Vector y, N_Vector dy, void *self)
@@ -66,7 +60,7 @@ static int rhs(sunrealtype theta, N_Vector y, N_Vector dy, void *self)
   dz[MODEL_X] = z[MODEL_P];
   dz[MODEL_P] = phase_force(&in->phase, cos(theta), z[MODEL_X], z[MODEL_P]);
   if (isfinite(dz[MODEL_X] + dz[MODEL_P])) return 0;
-  in->not_finite = true;
+  in->base.not_finite = true;
   return -1;
 }
 
@@ -97,65 +91,32 @@ static int roots(sunrealtype theta, N_Vector y, sunrealtype *g, void *self)
   return 0;
 }
 
-static hc_status translate(exact *in, int flag)
-{
-  if (flag == CV_SUCCESS) return HC_OK;
-  in->base.flag = flag;
-  if (in->not_finite) return HC_NOT_FINITE;
-  return flag == CV_MEM_FAIL ? HC_NO_MEMORY : HC_INTEGRATOR; /* warnings, and flags yet unknown, too */
-}
-
 static hc_status make_cvode(exact *in)
 {
   int falls[ROOTS] = {[ROOT_UP] = -1, [ROOT_DOWN] = -1}; /* 0: either way */
-  N_VConst(0.0, in->y);
-  int flag = CVodeInit(in->cv, rhs, 0.0, in->y); /* first: the other calls need it */
-  if (flag == CV_SUCCESS) flag = CVodeRootInit(in->cv, ROOTS, roots);
-  if (flag != CV_SUCCESS) return translate(in, flag);
+  N_VConst(0.0, in->base.y);
+  int flag = CVodeInit(in->base.cv, rhs, 0.0, in->base.y); /* first: the other calls need it */
+  if (flag == CV_SUCCESS) flag = CVodeRootInit(in->base.cv, ROOTS, roots);
+  if (flag != CV_SUCCESS) return integrate_translate(&in->base, flag);
   const int flags[] = {
-      HC_CVODE_QUIET(in->cv),
-      CVodeSStolerances(in->cv, in->tolerance, in->tolerance),
-      CVodeSetUserData(in->cv, in),
-      CVodeSetLinearSolver(in->cv, in->ls, in->jac),
-      CVodeSetJacFn(in->cv, jacobian),
-      CVodeSetRootDirection(in->cv, falls),
-      CVodeSetEtaFixedStepBounds(in->cv, 0.9, 1.2), /* from 0, 1.5: a third fewer steps, and a tenth of the error (c2 at omega 9) */
-      CVodeSetNoInactiveRootWarn(in->cv),
-      CVodeSetMaxNumSteps(in->cv, MAX_STEPS),
-      CVodeSetMaxHnilWarns(in->cv, -1),
+      HC_CVODE_QUIET(in->base.cv),
+      CVodeSStolerances(in->base.cv, in->tolerance, in->tolerance),
+      CVodeSetUserData(in->base.cv, in),
+      CVodeSetLinearSolver(in->base.cv, in->base.ls, in->base.jac),
+      CVodeSetJacFn(in->base.cv, jacobian),
+      CVodeSetRootDirection(in->base.cv, falls),
+      CVodeSetEtaFixedStepBounds(in->base.cv, 0.9, 1.2), /* from 0, 1.5: a third fewer steps, and a tenth of the error (c2 at omega 9) */
+      CVodeSetNoInactiveRootWarn(in->base.cv),
+      CVodeSetMaxNumSteps(in->base.cv, MAX_STEPS),
+      CVodeSetMaxHnilWarns(in->base.cv, -1),
   };
-  return translate(in, integrate_first_flag(flags, sizeof flags / sizeof *flags));
-}
-
-static hc_status make_parts(exact *in)
-{
-  if (hc_sundials_context(&in->ctx)) return HC_NO_MEMORY;
-  in->y = N_VNew_Serial(2, in->ctx);
-  in->dky = N_VNew_Serial(2, in->ctx);
-  in->jac = SUNDenseMatrix(2, 2, in->ctx);
-  if (!in->y || !in->dky || !in->jac) return HC_NO_MEMORY;
-  in->ls = SUNLinSol_Dense(in->y, in->jac, in->ctx);
-  in->cv = CVodeCreate(CV_ADAMS, in->ctx);
-  return in->ls && in->cv ? HC_OK : HC_NO_MEMORY;
+  return integrate_translate(&in->base, integrate_first_flag(flags, sizeof flags / sizeof *flags));
 }
 
 static void release(integrator *base)
 {
-  exact *in = (exact *)base;
-  if (in->cv) CVodeFree(&in->cv);
-  if (in->ls) SUNLinSolFree(in->ls);
-  if (in->jac) SUNMatDestroy(in->jac);
-  if (in->dky) N_VDestroy(in->dky);
-  if (in->y) N_VDestroy(in->y);
-  if (in->ctx) SUNContext_Free(&in->ctx);
-  free(in);
-}
-
-static hc_status set_tolerance(integrator *base, double tolerance)
-{
-  exact *in = (exact *)base;
-  in->tolerance = tolerance;
-  return translate(in, CVodeSStolerances(in->cv, tolerance, tolerance));
+  integrate_free_parts(base);
+  free(base);
 }
 
 /* Variations from in->varied to theta: dX'' + c dX' + k dX = sum_j share_j dW_j, a column at a time. The response to a constant force 1 from
@@ -211,34 +172,24 @@ static void vary_end(exact *in, double *slope)
   }
 }
 
-static hc_status add_counts(exact *in)
-{
-  long steps = 0, evals = 0;
-  int flag = CVodeGetNumSteps(in->cv, &steps);
-  if (flag == CV_SUCCESS) flag = CVodeGetNumRhsEvals(in->cv, &evals);
-  in->base.steps += steps;
-  in->base.rhs += evals;
-  return translate(in, flag);
-}
-
 /* CVODE from theta on, in the phase as it is. */
 static hc_status start(exact *in, double theta)
 {
-  int flag = CVodeReInit(in->cv, theta, in->y);
-  if (flag == CV_SUCCESS) flag = CVodeSetStopTime(in->cv, two_pi);
-  return translate(in, flag);
+  int flag = CVodeReInit(in->base.cv, theta, in->base.y);
+  if (flag == CV_SUCCESS) flag = CVodeSetStopTime(in->base.cv, two_pi);
+  return integrate_translate(&in->base, flag);
 }
 
 /* CVODE stopped on a root at theta. */
 static hc_status transition(exact *in, double theta, int *count)
 {
   int info[ROOTS] = {0};
-  int flag = CVodeGetRootInfo(in->cv, info);
-  if (flag != CV_SUCCESS) return translate(in, flag);
+  int flag = CVodeGetRootInfo(in->base.cv, info);
+  if (flag != CV_SUCCESS) return integrate_translate(&in->base, flag);
   const int way = info[ROOT_TURN] ? info[ROOT_TURN] : info[ROOT_UP] ? 1 : info[ROOT_DOWN] ? -1 : 0;
   if (!way) return HC_OK;
   const phase before = in->phase;
-  const int n = phase_next(&in->phase, NV_DATA_S(in->y)[MODEL_X], way, info[ROOT_TURN] != 0);
+  const int n = phase_next(&in->phase, NV_DATA_S(in->base.y)[MODEL_X], way, info[ROOT_TURN] != 0);
   if (!n) return HC_OK;
   if ((*count += n) > MAX_TRANSITIONS) return HC_CHATTER;
   if (in->varies) {
@@ -249,7 +200,7 @@ static hc_status transition(exact *in, double theta, int *count)
     vary_held(in, &before);
   }
   if (theta == two_pi) return HC_OK;
-  hc_status st = add_counts(in);
+  hc_status st = integrate_add_counts(&in->base);
   return st == HC_OK ? start(in, theta) : st;
 }
 
@@ -259,8 +210,8 @@ static hc_status run(exact *in, integrate_watch *watch, void *self, int *count)
 {
   for (sunrealtype theta = 0; theta < two_pi;) {
     sunrealtype before = theta;
-    int flag = CVode(in->cv, two_pi, in->y, &theta, watch ? CV_ONE_STEP : CV_NORMAL);
-    if (flag != CV_SUCCESS && flag != CV_TSTOP_RETURN && flag != CV_ROOT_RETURN) return translate(in, flag);
+    int flag = CVode(in->base.cv, two_pi, in->base.y, &theta, watch ? CV_ONE_STEP : CV_NORMAL);
+    if (flag != CV_SUCCESS && flag != CV_TSTOP_RETURN && flag != CV_ROOT_RETURN) return integrate_translate(&in->base, flag);
     if (two_pi - theta <= at_end * two_pi) theta = two_pi;
     hc_status st = watch ? watch(self, &in->base, before, theta) : HC_OK;
     if (st == HC_OK && flag == CV_ROOT_RETURN) st = transition(in, theta, count);
@@ -271,7 +222,7 @@ static hc_status run(exact *in, integrate_watch *watch, void *self, int *count)
 
 static void take_state(const exact *in, double *y)
 {
-  memcpy(y, NV_DATA_S(in->y), 2 * sizeof *y);
+  memcpy(y, NV_DATA_S(in->base.y), 2 * sizeof *y);
   for (int j = 0; j < in->m->n_contacts; ++j) {
     double rest, by_x;
     phase_slider(&in->phase, j, &rest, &by_x);
@@ -284,16 +235,16 @@ static hc_status period(integrator *base, const model *m, double *y, double *slo
   exact *in = (exact *)base;
   if (m->n_states != in->n) return HC_BUG;
   in->m = m;
-  in->not_finite = false;
+  in->base.not_finite = false;
   in->varies = slope != NULL;
   base->flag = CV_SUCCESS;
   int count = phase_begin(&in->phase, m, y);
   if (count < 0) return HC_NOT_FINITE;
   if (slope) vary_begin(in);
-  memcpy(NV_DATA_S(in->y), y, 2 * sizeof *y);
+  memcpy(NV_DATA_S(in->base.y), y, 2 * sizeof *y);
   hc_status st = start(in, 0);
   if (st == HC_OK) st = run(in, watch, self, &count);
-  hc_status counted = add_counts(in);
+  hc_status counted = integrate_add_counts(&in->base);
   base->switches += count;
   if (st == HC_OK) st = counted;
   if (st != HC_OK) return st;
@@ -305,8 +256,8 @@ static hc_status period(integrator *base, const model *m, double *y, double *slo
 static hc_status dense(const integrator *base, double theta, int order, double *y)
 {
   const exact *in = (const exact *)base;
-  if (CVodeGetDky(in->cv, theta, order, in->dky) != CV_SUCCESS) return HC_BUG; /* theta outside the step */
-  memcpy(y, NV_DATA_S(in->dky), 2 * sizeof *y);
+  if (CVodeGetDky(in->base.cv, theta, order, in->base.dky) != CV_SUCCESS) return HC_BUG; /* theta outside the step */
+  memcpy(y, NV_DATA_S(in->base.dky), 2 * sizeof *y);
   for (int j = 0; j < in->m->n_contacts; ++j) {
     double rest, by_x;
     phase_slider(&in->phase, j, &rest, &by_x);
@@ -321,7 +272,7 @@ static bool slides(const integrator *base, int j, const double *y)
   return contact_slip_sign(((const exact *)base)->phase.contact[j].state) != 0;
 }
 
-static const integrator_class class = {.tolerance = set_tolerance, .period = period, .dense = dense, .slides = slides, .free = release};
+static const integrator_class class = {.period = period, .dense = dense, .slides = slides, .free = release};
 
 hc_status integrate_new_exact(int n_states, double tolerance, integrator **out)
 {
@@ -332,7 +283,7 @@ hc_status integrate_new_exact(int n_states, double tolerance, integrator **out)
   in->base.does = &class;
   in->n = n_states;
   in->tolerance = tolerance;
-  hc_status st = make_parts(in);
+  hc_status st = integrate_make_parts(&in->base, 2, CV_ADAMS);
   if (st == HC_OK) st = make_cvode(in);
   if (st == HC_OK) {
     *out = &in->base;

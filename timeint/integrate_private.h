@@ -4,10 +4,14 @@
 
 #include <stddef.h>
 
+#include <cvodes/cvodes.h>
+#include <nvector/nvector_serial.h>
+#include <sunlinsol/sunlinsol_dense.h>
+#include <sunmatrix/sunmatrix_dense.h>
+
 #include "timeint/integrate.h"
 
 typedef struct integrator_class {
-  hc_status (*tolerance)(integrator *, double);
   hc_status (*period)(integrator *, const model *, double *y, double *slope, integrate_watch *, void *self); /* slope, watch: or NULL */
   hc_status (*dense)(const integrator *, double theta, int order, double *y);
   bool (*slides)(const integrator *, int j, const double *y);
@@ -18,7 +22,23 @@ struct integrator { /* the first member of each kind */
   const integrator_class *does;
   long steps, rhs, switches; /* of all finished periods            */
   int flag;                  /* CVODE's last flag other than success */
+  bool not_finite;           /* the right-hand side was, in the period under way */
+  SUNContext ctx;            /* made first, freed last, this integrator's alone */
+  N_Vector y, dky;           /* [n] what CVODE integrates; dense output */
+  SUNMatrix jac;             /* [n][n] */
+  SUNLinearSolver ls;
+  void *cv;
 };
+
+/* From the context to CVODE's memory, for n equations by `method` (CV_ADAMS, CV_BDF), and back; freeing works half-built. */
+hc_status integrate_make_parts(integrator *in, int n, int method);
+void integrate_free_parts(integrator *in);
+
+/* A flag of CVODE's in our words; remembered unless it is success. */
+hc_status integrate_translate(integrator *in, int flag);
+
+/* Steps and right-hand sides since CVODE was last started, added to the counts. */
+hc_status integrate_add_counts(integrator *in);
 
 /* The first of n flags that is not CV_SUCCESS, else CV_SUCCESS. */
 int integrate_first_flag(const int *flags, size_t n);

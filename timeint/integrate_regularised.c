@@ -27,21 +27,15 @@ typedef struct regularised { /* from integrate_new_regularised, to integrate_fre
   integrator base;
   int n;            /* number of states                                                  */
   const model *m;   /* of the period under way; the caller's                             */
-  bool not_finite;  /* the right-hand side was, in the period under way                  */
-  SUNContext ctx;   /* made first, freed last, this integrator's alone                   */
-  N_Vector y, dky;  /* [n] the state; dense output                                       */
   N_Vector *s;      /* [n][n] d y / d y_j(0), j = 0..n-1: CVODES calls them sensitivities */
   double *here;     /* [n][n] the Jacobian where their right-hand side is wanted         */
-  SUNMatrix jac;    /* [n][n]                                                            */
-  SUNLinearSolver ls;
-  void *cv;
 } regularised;
 
 static int rhs(sunrealtype theta, N_Vector y, N_Vector dy, void *self)
 {
   regularised *in = self;
   if (model_rhs(in->m, theta, NV_DATA_S(y), NV_DATA_S(dy))) return 0;
-  in->not_finite = true;
+  in->base.not_finite = true;
   return -1;
 }
 
@@ -69,33 +63,25 @@ static int slope_rhs(int n, sunrealtype theta, N_Vector y, N_Vector dy, N_Vector
   return 0;
 }
 
-static hc_status translate(regularised *in, int flag)
-{
-  if (flag == CV_SUCCESS) return HC_OK;
-  in->base.flag = flag;
-  if (in->not_finite) return HC_NOT_FINITE;
-  return flag == CV_MEM_FAIL ? HC_NO_MEMORY : HC_INTEGRATOR; /* warnings, and flags yet unknown, too */
-}
-
 /* CVODE's rule for when to renew the Jacobian stays as it is: renewing it in every step was measured 30 % slower, since
  * CVODE then forgets the rate of convergence and takes a second Newton iteration to learn it. */
 static hc_status make_cvode(regularised *in, double tolerance)
 {
-  N_VConst(0.0, in->y);
-  int flag = CVodeInit(in->cv, rhs, 0.0, in->y); /* first: the other calls need it */
-  if (flag != CV_SUCCESS) return translate(in, flag);
+  N_VConst(0.0, in->base.y);
+  int flag = CVodeInit(in->base.cv, rhs, 0.0, in->base.y); /* first: the other calls need it */
+  if (flag != CV_SUCCESS) return integrate_translate(&in->base, flag);
   const int flags[] = {
-      HC_CVODE_QUIET(in->cv),
-      CVodeSStolerances(in->cv, tolerance, tolerance),
-      CVodeSetUserData(in->cv, in),
-      CVodeSetLinearSolver(in->cv, in->ls, in->jac),
-      CVodeSetJacFn(in->cv, jacobian),
-      CVodeSetMaxNumSteps(in->cv, MAX_STEPS),
-      CVodeSetMaxErrTestFails(in->cv, MAX_ERROR_FAILS),
-      CVodeSetMaxConvFails(in->cv, MAX_NEWTON_FAILS),
-      CVodeSetMaxHnilWarns(in->cv, -1),
+      HC_CVODE_QUIET(in->base.cv),
+      CVodeSStolerances(in->base.cv, tolerance, tolerance),
+      CVodeSetUserData(in->base.cv, in),
+      CVodeSetLinearSolver(in->base.cv, in->base.ls, in->base.jac),
+      CVodeSetJacFn(in->base.cv, jacobian),
+      CVodeSetMaxNumSteps(in->base.cv, MAX_STEPS),
+      CVodeSetMaxErrTestFails(in->base.cv, MAX_ERROR_FAILS),
+      CVodeSetMaxConvFails(in->base.cv, MAX_NEWTON_FAILS),
+      CVodeSetMaxHnilWarns(in->base.cv, -1),
   };
-  return translate(in, integrate_first_flag(flags, sizeof flags / sizeof *flags));
+  return integrate_translate(&in->base, integrate_first_flag(flags, sizeof flags / sizeof *flags));
 }
 
 /* Their errors are watched, too, if loosely: without that a step may leap over a corner that hardly moves y and put a slope off by
@@ -108,48 +94,32 @@ static hc_status make_slopes(regularised *in)
     N_VConst(0.0, in->s[j]);
     absolute[j] = slope_tolerance;
   }
-  int flag = CVodeSensInit(in->cv, in->n, CV_STAGGERED, slope_rhs, in->s); /* first: the other calls need it */
-  if (flag != CV_SUCCESS) return translate(in, flag);
+  int flag = CVodeSensInit(in->base.cv, in->n, CV_STAGGERED, slope_rhs, in->s); /* first: the other calls need it */
+  if (flag != CV_SUCCESS) return integrate_translate(&in->base, flag);
   const int flags[] = {
-      CVodeSensSStolerances(in->cv, slope_tolerance, absolute),
-      CVodeSetSensErrCon(in->cv, 1),
-      CVodeSensToggleOff(in->cv),
+      CVodeSensSStolerances(in->base.cv, slope_tolerance, absolute),
+      CVodeSetSensErrCon(in->base.cv, 1),
+      CVodeSensToggleOff(in->base.cv),
   };
-  return translate(in, integrate_first_flag(flags, sizeof flags / sizeof *flags));
+  return integrate_translate(&in->base, integrate_first_flag(flags, sizeof flags / sizeof *flags));
 }
 
 static hc_status make_parts(regularised *in)
 {
-  if (hc_sundials_context(&in->ctx)) return HC_NO_MEMORY;
-  in->y = N_VNew_Serial(in->n, in->ctx);
-  in->dky = N_VNew_Serial(in->n, in->ctx);
-  in->jac = SUNDenseMatrix(in->n, in->n, in->ctx);
-  in->s = N_VCloneVectorArray(in->n, in->y);
+  hc_status st = integrate_make_parts(&in->base, in->n, CV_BDF);
+  if (st != HC_OK) return st;
+  in->s = N_VCloneVectorArray(in->n, in->base.y);
   in->here = calloc((size_t)(in->n * in->n), sizeof *in->here);
-  if (!in->y || !in->dky || !in->jac || !in->s || !in->here) return HC_NO_MEMORY;
-  in->ls = SUNLinSol_Dense(in->y, in->jac, in->ctx);
-  in->cv = CVodeCreate(CV_BDF, in->ctx);
-  return in->ls && in->cv ? HC_OK : HC_NO_MEMORY;
+  return in->s && in->here ? HC_OK : HC_NO_MEMORY;
 }
 
 static void release(integrator *base)
 {
   regularised *in = (regularised *)base;
-  if (in->cv) CVodeFree(&in->cv);
-  if (in->ls) SUNLinSolFree(in->ls);
-  if (in->jac) SUNMatDestroy(in->jac);
   if (in->s) N_VDestroyVectorArray(in->s, in->n);
-  if (in->dky) N_VDestroy(in->dky);
-  if (in->y) N_VDestroy(in->y);
-  if (in->ctx) SUNContext_Free(&in->ctx);
   free(in->here);
-  free(in);
-}
-
-static hc_status set_tolerance(integrator *base, double tolerance)
-{
-  regularised *in = (regularised *)base;
-  return translate(in, CVodeSStolerances(in->cv, tolerance, tolerance));
+  integrate_free_parts(base);
+  free(base);
 }
 
 static int start_slopes(regularised *in)
@@ -158,23 +128,23 @@ static int start_slopes(regularised *in)
     N_VConst(0.0, in->s[j]);
     NV_Ith_S(in->s[j], j) = 1;
   }
-  return CVodeSensReInit(in->cv, CV_STAGGERED, in->s);
+  return CVodeSensReInit(in->base.cv, CV_STAGGERED, in->s);
 }
 
 static hc_status start_period(regularised *in, bool slopes)
 {
-  int flag = CVodeReInit(in->cv, 0.0, in->y);
-  if (flag == CV_SUCCESS) flag = slopes ? start_slopes(in) : CVodeSensToggleOff(in->cv);
-  if (flag == CV_SUCCESS) flag = CVodeSetStopTime(in->cv, two_pi);
-  return translate(in, flag);
+  int flag = CVodeReInit(in->base.cv, 0.0, in->base.y);
+  if (flag == CV_SUCCESS) flag = slopes ? start_slopes(in) : CVodeSensToggleOff(in->base.cv);
+  if (flag == CV_SUCCESS) flag = CVodeSetStopTime(in->base.cv, two_pi);
+  return integrate_translate(&in->base, flag);
 }
 
 /* To the end of the period in one call. At tout == tstop 6.4 says CV_SUCCESS, 7 says CV_TSTOP_RETURN. */
 static hc_status run(regularised *in)
 {
   sunrealtype theta = 0;
-  int flag = CVode(in->cv, two_pi, in->y, &theta, CV_NORMAL);
-  return flag == CV_TSTOP_RETURN ? HC_OK : translate(in, flag);
+  int flag = CVode(in->base.cv, two_pi, in->base.y, &theta, CV_NORMAL);
+  return flag == CV_TSTOP_RETURN ? HC_OK : integrate_translate(&in->base, flag);
 }
 
 /* The same steps, one call each. */
@@ -182,30 +152,20 @@ static hc_status run_watched(regularised *in, integrate_watch *watch, void *self
 {
   for (sunrealtype theta = 0;;) {
     sunrealtype before = theta;
-    int flag = CVode(in->cv, two_pi, in->y, &theta, CV_ONE_STEP);
-    if (flag != CV_SUCCESS && flag != CV_TSTOP_RETURN) return translate(in, flag);
+    int flag = CVode(in->base.cv, two_pi, in->base.y, &theta, CV_ONE_STEP);
+    if (flag != CV_SUCCESS && flag != CV_TSTOP_RETURN) return integrate_translate(&in->base, flag);
     hc_status st = watch(self, &in->base, before, theta);
     if (st != HC_OK || flag == CV_TSTOP_RETURN) return st;
     if (!(theta < two_pi)) return HC_OK;
   }
 }
 
-static hc_status add_counts(regularised *in)
-{
-  long steps = 0, evals = 0;
-  int flag = CVodeGetNumSteps(in->cv, &steps);
-  if (flag == CV_SUCCESS) flag = CVodeGetNumRhsEvals(in->cv, &evals);
-  in->base.steps += steps;
-  in->base.rhs += evals;
-  return translate(in, flag);
-}
-
 static hc_status take_slopes(regularised *in, double *slope)
 {
   sunrealtype theta;
-  int flag = CVodeGetSens(in->cv, &theta, in->s);
+  int flag = CVodeGetSens(in->base.cv, &theta, in->s);
   for (int j = 0; j < in->n; ++j) memcpy(slope + j * in->n, NV_DATA_S(in->s[j]), sizeof *slope * (size_t)in->n);
-  return translate(in, flag);
+  return integrate_translate(&in->base, flag);
 }
 
 static hc_status period(integrator *base, const model *m, double *y, double *slope, integrate_watch *watch, void *self)
@@ -213,29 +173,29 @@ static hc_status period(integrator *base, const model *m, double *y, double *slo
   regularised *in = (regularised *)base;
   const size_t bytes = sizeof *y * (size_t)in->n;
   in->m = m;
-  in->not_finite = false;
+  in->base.not_finite = false;
   base->flag = CV_SUCCESS;
-  memcpy(NV_DATA_S(in->y), y, bytes);
+  memcpy(NV_DATA_S(in->base.y), y, bytes);
   hc_status st = start_period(in, slope != NULL);
   if (st == HC_OK) st = watch ? run_watched(in, watch, self) : run(in);
-  hc_status counted = add_counts(in);
+  hc_status counted = integrate_add_counts(&in->base);
   if (st == HC_OK) st = counted;
   if (st == HC_OK && slope) st = take_slopes(in, slope);
-  if (st == HC_OK) memcpy(y, NV_DATA_S(in->y), bytes);
+  if (st == HC_OK) memcpy(y, NV_DATA_S(in->base.y), bytes);
   return st;
 }
 
 static hc_status dense(const integrator *base, double theta, int order, double *y)
 {
   const regularised *in = (const regularised *)base;
-  if (CVodeGetDky(in->cv, theta, order, in->dky) != CV_SUCCESS) return HC_BUG; /* theta outside the step */
-  memcpy(y, NV_DATA_S(in->dky), sizeof *y * (size_t)in->n);
+  if (CVodeGetDky(in->base.cv, theta, order, in->base.dky) != CV_SUCCESS) return HC_BUG; /* theta outside the step */
+  memcpy(y, NV_DATA_S(in->base.dky), sizeof *y * (size_t)in->n);
   return HC_OK;
 }
 
 static bool slides(const integrator *base, int j, const double *y) { return model_slides(((const regularised *)base)->m, j, y); }
 
-static const integrator_class class = {.tolerance = set_tolerance, .period = period, .dense = dense, .slides = slides, .free = release};
+static const integrator_class class = {.period = period, .dense = dense, .slides = slides, .free = release};
 
 hc_status integrate_new_regularised(int n_states, double tolerance, integrator **out)
 {
