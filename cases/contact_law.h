@@ -39,6 +39,14 @@ static inline double contact_normal(const contact *c, double v)
 /* +1 while slipping forward, -1 backward, 0 otherwise. */
 static inline int contact_slip_sign(contact_state st) { return (st == CONTACT_SLIP_PLUS) - (st == CONTACT_SLIP_MINUS); }
 
+/* N - N0 [force], what of the normal force moves the mass. Never their difference: under a preload a million times the forcing nothing but
+ * rounding would be left of it. */
+static inline double contact_normal_change(const contact *c, double v)
+{
+  if (!(c->gap > 0)) return contact_normal(c, v);
+  return v + c->gap > 0 ? c->kn * v : -contact_preload(c);
+}
+
 /* One step of the law from slider position *w to motion (u, v): elastic predictor, Coulomb corrector.
  * Exact if u -+ mu N/kt is monotone over the step. *w moves; *t gets the tangential force. Returns the state at the end. */
 contact_state contact_step(const contact *c, double u, double v, double *w, double *t);

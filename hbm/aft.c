@@ -149,7 +149,7 @@ static contact_state advance(const aft *a, track *t, int i, double *force, doubl
   t->state = contact_step(law, u, v, &t->w, &traction);
   int slip = contact_slip_sign(t->state);
   if (slip) t->origin = (slider_origin){i, t->c - slip * law->mu * law->kn * t->s / law->kt};
-  *force = traction * t->c + (contact_normal(law, v) - contact_preload(law)) * t->s;
+  *force = traction * t->c + contact_normal_change(law, v) * t->s;
   if (t->state == CONTACT_SEPARATED) *stiffness = 0;
   else *stiffness = (slip ? slip * law->mu * law->kn * t->s : law->kt * t->c) * t->c + law->kn * t->s * t->s;
   return t->state;

@@ -114,12 +114,30 @@ static void add_piece(exact *e, const moving_contact *c, const contact_piece *p,
   const contact *law = &c->law;
   int s = contact_slip_sign(p->state), symbol = slope_symbol_length(e->n_harm);
   double traction_v = s * law->mu * law->kn, traction_u = s ? 0 : law->kt, traction_0 = s ? traction_v * law->gap : -p->held;
+  const double clearance = law->gap > 0 ? 0 : law->kn * law->gap;
   for (int d = 0; d < e->n_dof; ++d) {
     for (int f = 0; f < e->n_dof; ++f) {
       double k = c->cu[d] * (traction_u * c->cu[f] + traction_v * c->cv[f]) + c->cv[d] * law->kn * c->cv[f];
       if (k != 0) add_scaled(symbol, k, e->indicator, e->symbol + (size_t)(d * e->n_dof + f) * symbol);
     }
-    add_scaled(e->n_coef, c->cu[d] * traction_0 + c->cv[d] * law->kn * law->gap, e->indicator, C + (size_t)d * e->n_coef);
+    add_scaled(e->n_coef, c->cu[d] * traction_0 + c->cv[d] * clearance, e->indicator, C + (size_t)d * e->n_coef);
+  }
+}
+
+/* C takes what is missing of a preload while the contact is open: the rest of it is balanced, and never enters (contact_normal_change). */
+static void add_openings(exact *e, int j, double *C)
+{
+  const moving_contact *c = &e->contacts[j];
+  const contact_piece *p = e->pieces + (size_t)j * e->cap;
+  const int n = e->n_pieces[j];
+  const double preload = contact_preload(&c->law);
+  if (preload == 0) return;
+  for (int i = 0; i < n || i == 0; ++i) {
+    contact_piece open = {.from = 0, .to = 2 * PI};
+    if (n > 0) open.from = p[i].to, open.to = i + 1 < n ? p[i + 1].from : p[0].from + 2 * PI;
+    if (!(open.to > open.from)) continue;
+    fill_indicator(e, &open);
+    for (int d = 0; d < e->n_dof; ++d) add_scaled(e->n_coef, -preload * c->cv[d], e->indicator, C + (size_t)d * e->n_coef);
   }
 }
 
@@ -240,7 +258,7 @@ hc_status exact_eval(exact *e, const double *X, double *F, double *jac, contact_
     contact_piece *p = e->pieces + (size_t)j * e->cap;
     hc_status st = transitions_find(&e->grid, c, e->cap, p, &e->n_pieces[j]);
     if (st != HC_OK) return st;
-    for (int d = 0; d < e->n_dof; ++d) F[d * e->n_coef] -= c->cv[d] * contact_preload(&c->law);
+    add_openings(e, j, F);
     for (int i = 0; i < e->n_pieces[j]; ++i) {
       fill_indicator(e, &p[i]);
       add_piece(e, c, &p[i], F);

@@ -20,6 +20,16 @@ static double normal_force(const law_regularised *c, double v)
   return c->width > 0 ? c->kn * c->width * log1p(exp(g / c->width)) : 0.0 * g; /* NaN in, NaN out */
 }
 
+/* N - N0, without the difference (contact_normal_change). */
+static double normal_change(const law_regularised *c, double v)
+{
+  double g = v + c->gap;
+  if (!(c->gap > 0) || isnan(g)) return normal_force(c, v);
+  if (g > SOFT_END * c->width) return c->kn * v;
+  if (g < -SOFT_END * c->width) return -c->kn * c->gap;
+  return c->kn * (c->width > 0 ? v + c->width * log1p(exp(-g / c->width)) : v);
+}
+
 static double normal_slope(const law_regularised *c, double v)
 {
   double g = v + c->gap;
@@ -33,7 +43,7 @@ static double excess_force(double t, double limit) { return t > limit ? t - limi
 
 law_value law_regularised_eval(const law_regularised *c, double u, double v, double w)
 {
-  law_value r = {.n = normal_force(c, v)};
+  law_value r = {.n = normal_force(c, v), .change = normal_change(c, v)};
   if (!c->slides) return r;
   r.t = c->kt * (u - w);
   double excess = excess_force(r.t, c->mu * r.n);

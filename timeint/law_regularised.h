@@ -29,8 +29,8 @@ typedef struct law_regularised {
 } law_regularised;
 
 typedef struct law_value {
-  double n, t, rate;
-} law_value; /* N [force], T [force], w' [length/time] */
+  double n, change, t, rate;
+} law_value; /* N, N - N0 and T [force], w' [length/time] */
 
 /* Partial derivatives dN/dv, dT/du, ...; N depends on v alone, and w enters as u - w: dT/dw = -dT/du, dw'/dw = -dw'/du. */
 typedef struct law_slope {

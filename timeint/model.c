@@ -41,7 +41,7 @@ bool model_rhs(const model *m, double theta, const double *y, double *dy)
   for (int j = 0; j < m->n_contacts; ++j) {
     const model_contact *c = &m->contact[j];
     law_value l = law_regularised_eval(&c->law, c->cosine * y[MODEL_X], c->sine * y[MODEL_X], y[MODEL_W + j]);
-    force -= l.t * c->cosine + (l.n - c->preload) * c->sine;
+    force -= l.t * c->cosine + l.change * c->sine;
     dy[MODEL_W + j] = l.rate;
     rates += l.rate;
   }

@@ -147,11 +147,13 @@ static void add_contact(phase *ph, int j)
   const model_contact *mc = &ph->m->contact[j];
   const law_regularised *law = &mc->law;
   const phase_contact *pc = &ph->contact[j];
-  ph->d -= mc->preload * mc->sine;
-  if (pc->state == CONTACT_SEPARATED) return;
-  const double by_n = mc->sine + contact_slip_sign(pc->state) * law->mu * mc->cosine; /* what reaches the mass of N */
-  ph->k += by_n * law->kn * mc->sine;
-  ph->d += by_n * law->kn * law->gap;
+  if (pc->state == CONTACT_SEPARATED) {
+    ph->d -= mc->preload * mc->sine;
+    return;
+  }
+  const double friction = contact_slip_sign(pc->state) * law->mu * mc->cosine, n0 = law->kn * law->gap;
+  ph->k += (mc->sine + friction) * law->kn * mc->sine;
+  ph->d += friction * n0 + (law->gap > 0 ? 0 : mc->sine * n0); /* the preload is balanced: left out, not added and taken away */
   const double share = phase_share(ph, j);
   ph->k += share * mc->cosine;
   ph->d -= share * pc->held;
@@ -199,7 +201,7 @@ static double force_at_start(const model *m, const double *y)
     const contact law = law_of(mc);
     double w = y[MODEL_W + j], t = 0, v = mc->sine * y[MODEL_X];
     if (mc->law.slides) contact_step(&law, mc->cosine * y[MODEL_X], v, &w, &t);
-    force -= t * mc->cosine + (contact_normal(&law, v) - mc->preload) * mc->sine;
+    force -= t * mc->cosine + contact_normal_change(&law, v) * mc->sine;
   }
   return force;
 }

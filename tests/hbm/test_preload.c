@@ -1,0 +1,83 @@
+/* test_preload.c - a preload many orders of magnitude above what moves the mass must not drown it in rounding.
+ *
+ * kn gap = 8e8, a motion of 1e-10: in contact all the time and stuck, the force is (kt cos^2 + kn sin^2) x, with nothing left of the preload. As a
+ * difference N - N0 it would carry 8e8 units of 1e-16, five orders more than the force itself. Found by `stress`. */
+#include "hbm/aft.h"
+#include "hbm/exact.h"
+#include "tests/hbm/scenes.h"
+
+enum { H = 3, N_COEF = 2 * H + 1 };
+static const double X[N_COEF] = {1e-11, 1e-10, -2e-10, 3e-11, 1e-11, 0, -5e-12};
+
+static scene preloaded(void)
+{
+  scene sc = scene_named("a10", H, true, 64);
+  sc.contacts[0].law = (contact){.kt = 3e6, .kn = 1e8, .mu = 0.5, .gap = 8};
+  sc.contacts[0].angle_deg = 30;
+  return sc;
+}
+
+/* Each coefficient sums 2H+1 (exact) or 64 (sampled) products: as many rounding units of the largest. */
+static void check(const double *F, double terms, const char *which)
+{
+  const scene sc = preloaded();
+  const double k = scene_stuck_stiffness(&sc.contacts[0]);
+  for (int i = 0; i < N_COEF; ++i) CHECK_NEAR(F[i], k * X[i], terms * DBL_EPSILON * k * 2e-10, "%s, row %d", which, i);
+}
+
+static void exact_force_of_a_small_motion(void **state)
+{
+  (void)state;
+  scene sc = preloaded();
+  moving_contact contacts[SCENE_MAX_CONTACTS];
+  exact *e;
+  double F[N_COEF];
+  exact_contacts_of(&sc, contacts);
+  assert_int_equal(exact_new(H, 1, 1, contacts, &e), HC_OK);
+  assert_int_equal(exact_eval(e, X, F, NULL, NULL), HC_OK);
+  exact_free(e);
+  check(F, 4 * N_COEF, "exact");
+}
+
+static void sampled_force_of_a_small_motion(void **state)
+{
+  (void)state;
+  scene sc = preloaded();
+  aft *a;
+  double F[N_COEF];
+  assert_int_equal(aft_new(&sc, H, 64, &a), HC_OK);
+  assert_int_equal(aft_eval(a, X, F, NULL, NULL), HC_OK);
+  aft_free(a);
+  check(F, 64, "sampled");
+}
+
+/* Open for part of the period the preload is missing there: against samples, whose error is d^2/8 times the jumps of the force's slope, d = 2 pi/N. */
+static void an_opening_takes_the_preload_away(void **state)
+{
+  (void)state;
+  enum { N = 8192 };
+  scene sc = preloaded();
+  const double large[N_COEF] = {0, 20, 0, 1, 0, 0, 0};
+  moving_contact contacts[SCENE_MAX_CONTACTS];
+  contact_report report;
+  exact *e;
+  aft *a;
+  double F[N_COEF], G[N_COEF];
+  exact_contacts_of(&sc, contacts);
+  assert_int_equal(exact_new(H, 1, 1, contacts, &e), HC_OK);
+  assert_int_equal(exact_eval(e, large, F, NULL, &report), HC_OK);
+  assert_int_equal(report.regime, CONTACT_SEPARATES);
+  assert_int_equal(aft_new(&sc, H, N, &a), HC_OK);
+  assert_int_equal(aft_eval(a, large, G, NULL, NULL), HC_OK);
+  const double d = 2 * PI / N, slope = 1e8 * 22; /* at most kn |x'|; some ten transitions and stretches, each counted once */
+  for (int i = 0; i < N_COEF; ++i) CHECK_NEAR(F[i], G[i], 10 * slope * d * d / 8, "row %d", i);
+  exact_free(e);
+  aft_free(a);
+}
+
+static const struct CMUnitTest tests[] = {
+  cmocka_unit_test(exact_force_of_a_small_motion),
+  cmocka_unit_test(sampled_force_of_a_small_motion),
+  cmocka_unit_test(an_opening_takes_the_preload_away),
+};
+CHECK_MAIN("hbm.preload", tests, 30)
