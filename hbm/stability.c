@@ -8,6 +8,7 @@
 
 #include "cases/numerics/floquet.h"
 #include "cases/numerics/linear.h"
+#include "hbm/exact.h"
 
 static const double TWO_PI = 6.283185307179586476925;
 

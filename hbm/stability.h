@@ -9,7 +9,7 @@
 #define HC_STABILITY_H
 
 #include "cases/scene.h"
-#include "hbm/exact.h"
+#include "cases/status.h"
 
 typedef struct hbm_stability {
   double multiplier;  /* modulus of the largest Floquet multiplier */
@@ -19,6 +19,7 @@ typedef struct hbm_stability {
   bool agrees;        /* the equations' own fold test, the sign of det dR/dX, says the same as `fold`: with few harmonics it need not */
 } hbm_stability;
 
+typedef struct exact exact; /* hbm/exact.h */
 typedef struct stability stability;
 
 hc_status stability_new(stability **out);

@@ -35,7 +35,7 @@ typedef struct comparison_errors { double amplitude, harmonic_1, mean, waveform;
 typedef struct comparison_row {
   double omega;
   int branch;                 /* of the HBM solution; -1: HBM has none here */
-  verdict verdict;
+  enum verdict verdict;       /* `enum`, because C++ wants to know */
   hc_status hbm_status, transient_status;
   hbm_stability stability;    /* of the HBM solution; multiplier NaN when unknown */
   bool accounted;             /* the transient is within the gate of this or another HBM solution */

@@ -1,0 +1,86 @@
+#!/bin/sh
+# kit.sh PREFIX LIBDIR SCRATCH shared|static WHAT... - one test of what is installed under PREFIX. CC, FLAGS: the compiler, and what the library's
+# own sanitizers ask of a program that loads it.
+set -eu
+prefix=$1 lib=$1/$2 scratch=$3 kind=$4 what=$5
+shift 5
+export PKG_CONFIG_PATH="$lib/pkgconfig" LD_LIBRARY_PATH="$lib${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}"
+case2=$prefix/share/hbmcheck/cases/paper/case2.yaml
+
+wrong() { echo "$*" >&2; exit 1; }
+static() { [ "$kind" = shared ] || echo --static; }
+
+# One of each kind of thing must be there, and the command must run from there.
+prefix() {
+  rm -rf "$prefix"
+  "$1" --install "$2" --prefix "$prefix" >"$scratch/installed.txt"
+  for file in include/hbmcheck/hbmcheck.h share/bash-completion/completions/hbmcheck share/doc/hbmcheck/copyright; do
+    [ -s "$prefix/$file" ] || wrong "$file is missing"
+  done
+  "$prefix/bin/hbmcheck" frf "$case2" --at 5 --format csv >"$scratch/frf.csv" || wrong "the installed command fails"
+}
+
+# Each header says itself what it needs. Their names are not ours alone, so each is also met by its full path.
+headers() {
+  cd "$prefix/include/hbmcheck"
+  n=0
+  for header in $(find . -name '*.h' | sed 's|^\./||'); do
+    for name in "$header" "hbmcheck/$header"; do
+      printf '#include <%s>\n' "$name" |
+        $CC -std=c11 -Wall -Wextra -Wpedantic -Werror $(pkg-config --cflags hbmcheck) -x c -fsyntax-only - || wrong "$name"
+    done
+    n=$((n + 1))
+  done
+  [ "$n" -ge 10 ] || wrong "$n headers"
+}
+
+# By find_package, as a project of its own.
+package() {
+  rm -rf "$scratch/package"
+  "$1" -S "$2" -B "$scratch/package" -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_C_COMPILER="$CC" -DCMAKE_C_FLAGS="$FLAGS" >"$scratch/package.txt" 2>&1 ||
+    { cat "$scratch/package.txt"; wrong "the consumer does not configure"; }
+  "$1" --build "$scratch/package"
+  "$scratch/package/consumer" "$case2"
+}
+
+pkgconfig() {
+  [ "$(pkg-config --modversion hbmcheck)" = "$("$prefix/bin/hbmcheck" --version | awk 'NR == 1 {print $2}')" ] || wrong "versions differ"
+  $CC $FLAGS -std=c11 "$1/main.c" -o "$scratch/by_pkgconfig" $(pkg-config $(static) --cflags --libs hbmcheck) -lm
+  "$scratch/by_pkgconfig" "$case2"
+}
+
+# The same program through a C++ compiler: the headers are C++ too, and their functions are found under their C names. {0} is C's habit, not a slip.
+cxx() {
+  [ $# -ge 2 ] || exit 77
+  "$2" $FLAGS -std=c++17 -Wall -Wextra -Wno-missing-field-initializers -Werror -x c++ "$1/main.c" -x none -o "$scratch/by_cxx" \
+    $(pkg-config $(static) --cflags --libs hbmcheck) -lm
+  "$scratch/by_cxx" "$case2"
+}
+
+# The functions the installed headers declare, by the preprocessor: our lines, bodies (and structs) cut out, what is left of the first parenthesis.
+declared() {
+  echo '#include <hbmcheck/hbmcheck.h>' | $CC -E $(pkg-config --cflags hbmcheck) -x c - | awk -v ours="$prefix" '
+    /^# [0-9]+ "/ { on = index($3, "\"" ours) == 1; next }
+    on { text = text " " $0 }
+    END {
+      while (gsub(/{[^{}]*}/, ";", text)) continue
+      n = split(text, statement, ";")
+      for (i = 1; i <= n; ++i) {
+        if (statement[i] !~ /\(/ || statement[i] ~ /^ *(static|typedef) /) continue
+        sub(/ *\(.*/, "", statement[i])
+        sub(/.*[ *]/, "", statement[i])
+        print statement[i]
+      }
+    }' | sort -u
+}
+
+# What the library exports is what its headers declare: nothing more, nothing less.
+abi() {
+  declared >"$scratch/declared.txt"
+  nm -D --defined-only "$lib/libhbmcheck.so" | awk '{print $NF}' | sed 's/@.*//' | sort -u >"$scratch/exported.txt"
+  grep -qx hbm_trace "$scratch/declared.txt" || wrong "hbm_trace is not seen in the headers"
+  diff "$scratch/declared.txt" "$scratch/exported.txt" || wrong "< declared, not exported; > exported, not declared"
+  echo "$(wc -l <"$scratch/exported.txt") functions"
+}
+
+"$what" "$@"
