@@ -51,13 +51,15 @@ bool hbm_linear_point(hbm_solver *s, double omega, double near, double *X, doubl
   return true;
 }
 
+enum { RAMP_MOST_SOLVES = 200 }; /* a ramp that gets there takes 10 to 60; one that creeps towards a fold of its own never does */
+
 /* Follow *factor from 0 to 1 at fixed omega from the solution at 0; *factor is 1 again afterwards. */
 static hc_status ramp(hbm_solver *s, double *factor, double omega, double x_scale, double *X, hbm_point *point)
 {
   double here = 0, step = 0.1;
   hc_status st = HC_OK;
   int iterations = 0;
-  while (here < 1 && step > 1e-4) {
+  for (int solves = 0; here < 1 && step > 1e-4 && solves < RAMP_MOST_SOLVES; ++solves) {
     *factor = fmin(1, here + step);
     s->sys.evaluated = false;
     st = hbm_solve_fixed(s, omega, fmax(x_scale, hbm_norm(s->sys.n_coef, X)), X, point);

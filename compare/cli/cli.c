@@ -2,6 +2,7 @@
 #include "compare/cli/cli.h"
 
 #include <errno.h>
+#include <limits.h>
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
@@ -42,6 +43,12 @@ static void read_format(struct argp_state *state, const char *option, const char
   else argp_error(state, "--%s: '%s' is unknown; expected %scsv or json", option, text, table_too ? "table, " : "");
 }
 
+static void read_integer(struct argp_state *state, const char *option, const char *text, int low, int high, int *out)
+{
+  if (number_read_integer(text, strlen(text), out) != NUMBER_FINE || *out < low || *out > high)
+    argp_error(state, "--%s: '%s' is unknown; expected an integer %d..%d", option, text, low, high);
+}
+
 static error_t on_option(int key, char *arg, struct argp_state *state)
 {
   cli_options *o = state->input;
@@ -57,14 +64,17 @@ static error_t on_option(int key, char *arg, struct argp_state *state)
   case CLI_HARMONICS: read_list(state, "harmonics", arg, &o->harmonics); return 0;
   case CLI_SAMPLES: read_list(state, "samples", arg, &o->samples); return 0;
   case CLI_MOTION: o->motion = arg; return 0;
-  case CLI_JOBS:
-    if (number_read_integer(arg, strlen(arg), &o->jobs) != NUMBER_FINE || o->jobs < 1 || o->jobs > CLI_MAX_JOBS)
-      argp_error(state, "--jobs: '%s' is unknown; expected an integer 1..%d", arg, CLI_MAX_JOBS);
+  case CLI_JOBS: read_integer(state, "jobs", arg, 1, CLI_MAX_JOBS, &o->jobs); return 0;
+  case CLI_REPEATS: read_integer(state, "repeats", arg, 1, CLI_MAX_REPEATS, &o->repeats); return 0;
+  case CLI_SCENES: read_integer(state, "scenes", arg, 1, CLI_MAX_SCENES, &o->scenes); return 0;
+  case CLI_SEED: read_integer(state, "seed", arg, 0, INT_MAX, &o->seed); return 0;
+  case CLI_FIRST: read_integer(state, "first", arg, 0, CLI_MAX_SCENES, &o->first); return 0;
+  case CLI_SECONDS:
+    if (number_read(arg, strlen(arg), &o->seconds) != NUMBER_FINE || !(o->seconds > 0))
+      argp_error(state, "--seconds: '%s' is unknown; expected a number > 0", arg);
     return 0;
-  case CLI_REPEATS:
-    if (number_read_integer(arg, strlen(arg), &o->repeats) != NUMBER_FINE || o->repeats < 1 || o->repeats > CLI_MAX_REPEATS)
-      argp_error(state, "--repeats: '%s' is unknown; expected an integer 1..%d", arg, CLI_MAX_REPEATS);
-    return 0;
+  case CLI_CASE: o->one_case = true; return 0;
+  case CLI_FINDINGS: o->findings = arg; return 0;
   case CLI_ALONE: o->alone = true; return 0;
   case CLI_JUNIT: o->junit = arg; return 0;
   case CLI_AGAINST: o->against = arg; return 0;
@@ -102,11 +112,15 @@ void cli_parse(int argc, char **argv, const char *command, const char *args, con
   memcpy(options + n, common_options, sizeof common_options);
   struct argp argp = {options, on_option, args, doc, NULL, NULL, NULL};
   char name[64];
-  *o = (cli_options){.command = command, .several = strstr(args, "...") != NULL};
+  *o = (cli_options){.command = command, .seed = -1, .several = strstr(args, "...") != NULL};
   snprintf(name, sizeof name, "hbmcheck %s", command);
   argv[0] = name;
   argp_err_exit_status = EXIT_USAGE;
-  argp_parse(&argp, argc, argv, 0, NULL, o);
+  error_t failed = argp_parse(&argp, argc, argv, 0, NULL, o); /* of what is left to us only ENOMEM: usage makes it exit */
+  if (failed) {
+    fprintf(stderr, "%s: %s\n", name, failed == ENOMEM ? hc_status_text(HC_NO_MEMORY) : strerror(failed));
+    exit(failed == ENOMEM ? EXIT_NO_SOLUTION : EXIT_BUG);
+  }
   argv[0] = (char *)"hbmcheck";
   if (needs_argument && !o->argument) {
     fprintf(stderr, "%s: no %s given\nTry 'hbmcheck %s --help'.\n", name, args, command);
@@ -141,7 +155,7 @@ int cli_load_case(const cli_options *o, scene *sc)
   hc_status st = case_read(o->argument, o->n_set, o->set, sc, &err);
   if (st == HC_OK) return 0;
   fprintf(stderr, "%s\n", err.message[0] ? err.message : hc_status_text(st));
-  return st == HC_NO_MEMORY ? EXIT_BUG : EXIT_BAD_CASE;
+  return st == HC_NO_MEMORY ? EXIT_NO_SOLUTION : EXIT_BAD_CASE;
 }
 
 /* What a person can try next. */

@@ -13,7 +13,7 @@
 
 enum { EXIT_AGREED = 0, EXIT_DISAGREED = 1, EXIT_BAD_CASE = 2, EXIT_NO_SOLUTION = 3, EXIT_USAGE = 64, EXIT_BUG = 70 };
 
-enum { CLI_MAX_SET = 256, CLI_MAX_ARGUMENTS = 64, CLI_MAX_JOBS = 1024, CLI_MAX_REPEATS = 1000 };
+enum { CLI_MAX_SET = 256, CLI_MAX_ARGUMENTS = 64, CLI_MAX_JOBS = 1024, CLI_MAX_REPEATS = 1000, CLI_MAX_SCENES = 100000000 };
 
 typedef struct cli_options {
   const char *command;         /* "frf", for messages */
@@ -39,12 +39,17 @@ typedef struct cli_options {
   bool all;                    /* --all */
   const char *plot, *plot_y;   /* --plot, --plot-y; NULL when absent */
   bool fresh, timings;         /* --fresh, --timings */
+  int scenes, seed, first;     /* --scenes, 0 when absent; --seed, -1 when absent; --first */
+  double seconds;              /* --seconds; 0 when absent */
+  bool one_case;               /* --case */
+  const char *findings;        /* --findings; NULL when absent */
   bool export;                 /* --export was given, in export_format */
   table_format export_format;
 } cli_options;
 
 /* Keys of the options that only some commands have. */
-enum { CLI_AT = 0x100, CLI_HARMONICS, CLI_SAMPLES, CLI_MOTION, CLI_SET, CLI_FORMAT, CLI_JOBS, CLI_RESULTS, CLI_FRESH, CLI_EXPORT, CLI_TIMINGS, CLI_TABLES, CLI_REPEATS, CLI_ALONE, CLI_JUNIT, CLI_ALL, CLI_PLOT, CLI_PLOT_Y, CLI_AGAINST, CLI_COLUMNS, CLI_QUANTITY };
+enum { CLI_AT = 0x100, CLI_HARMONICS, CLI_SAMPLES, CLI_MOTION, CLI_SET, CLI_FORMAT, CLI_JOBS, CLI_RESULTS, CLI_FRESH, CLI_EXPORT, CLI_TIMINGS, CLI_TABLES, CLI_REPEATS, CLI_ALONE, CLI_JUNIT, CLI_ALL, CLI_PLOT, CLI_PLOT_Y, CLI_AGAINST, CLI_COLUMNS, CLI_QUANTITY,
+       CLI_SCENES, CLI_SEED, CLI_FIRST, CLI_SECONDS, CLI_CASE, CLI_FINDINGS };
 
 /* What the commands that can draw share. */
 #define CLI_PLOT_OPTION \
@@ -84,6 +89,7 @@ int cmd_bench(int argc, char **argv);
 int cmd_gate(int argc, char **argv);
 int cmd_verify(int argc, char **argv);
 int cmd_report(int argc, char **argv);
+int cmd_stress(int argc, char **argv);
 int cmd_contact(int argc, char **argv);
 int cmd_describe(int argc, char **argv);
 

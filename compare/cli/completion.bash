@@ -8,7 +8,7 @@ _hbmcheck_fields()
 _hbmcheck()
 {
   local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD - 1]} command=${COMP_WORDS[1]}
-  local commands="compare frf transient study bench gate verify report contact describe"
+  local commands="compare frf transient study bench gate verify report stress contact describe"
   COMPREPLY=()
   if [ "$COMP_CWORD" -eq 1 ]; then
     mapfile -t COMPREPLY < <(compgen -W "$commands --help --version" -- "$word")

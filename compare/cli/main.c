@@ -19,6 +19,7 @@ static const struct command {
     {"bench", "work-precision: run time against error for every method at one frequency", cmd_bench},
     {"gate", "the accuracy gate for CI: case files with limits, a table of verdicts, JUnit, an exit code", cmd_gate},
     {"verify", "another code's response curve held against both, and the suspected cause where it is off", cmd_verify},
+    {"stress", "random scenes, every method held against every other", cmd_stress},
     {"report", "one self-contained HTML page: verdict in words, plots, tables, what aliasing does", cmd_report},
     {"contact", "Fourier coefficients of the contact force of a given motion", cmd_contact},
     {"describe", "what a case file may say", cmd_describe},

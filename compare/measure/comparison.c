@@ -51,6 +51,11 @@ static double waveform_distance(int n_harm, const double *X, const timeint_resul
 /* |difference| / amplitude; no difference is no error, also where nothing moves (no forcing). */
 static double relative(double difference, double amplitude) { return difference == 0 ? 0 : fabs(difference) / amplitude; }
 
+double comparison_waveform_error(int n_harm, const double *X, const timeint_result *tr)
+{
+  return relative(waveform_distance(n_harm, X, tr), tr->amplitude);
+}
+
 static comparison_errors errors_between(const hbm_measures *hbm, int n_harm, const double *X, const timeint_result *tr)
 {
   double a = tr->amplitude;
@@ -58,7 +63,7 @@ static comparison_errors errors_between(const hbm_measures *hbm, int n_harm, con
       .amplitude = relative(hbm->amplitude - a, a),
       .harmonic_1 = relative(hbm->harmonic_1 - tr->harmonic_1, a),
       .mean = relative(hbm->mean - tr->mean, a),
-      .waveform = relative(waveform_distance(n_harm, X, tr), a),
+      .waveform = comparison_waveform_error(n_harm, X, tr),
   };
 }
 
@@ -179,7 +184,7 @@ static void referee(runner *r, comparison_row *row, const double *X)
   else row->orbit_status = timeint_orbit(r->exact, row->omega, 1, &state, r->monitor, &row->orbit);
   row->orbit_error = NAN;
   if (row->orbit_status != HC_OK) return;
-  row->orbit_error = relative(waveform_distance(hbm_n_harmonics(r->hbm), X, &row->orbit), row->orbit.amplitude);
+  row->orbit_error = comparison_waveform_error(hbm_n_harmonics(r->hbm), X, &row->orbit);
 }
 
 /* What the discrepancy is made of. */

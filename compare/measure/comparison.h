@@ -75,6 +75,9 @@ int comparison_exit_code(const comparison *c);
 /* The time integration that HBM solutions are held against: sc's, with the exact law. For timeint_orbit. */
 hc_status comparison_referee(const scene *sc, timeint **out);
 
+/* Largest |x_hbm(t) - x_transient(t)| over the period, relative to the transient's amplitude; the means, where a slider is free, set equal. */
+double comparison_waveform_error(int n_harm, const double *X, const timeint_result *tr);
+
 /* x(t), x'(t) and sliders at t = 0 of an HBM solution: where its transient starts. */
 timeint_state comparison_orbit_start(const hbm_measures *m, int n_harm, const double *X, double omega);
 

@@ -1,0 +1,94 @@
+/* test_command.c - hbmcheck stress as people use it: 200 scenes without a finding, stopped and resumed, one scene again. Runs the built command
+ * (HBMCHECK_COMMAND) in a shell, in a folder of its own. */
+#include <string.h>
+#include <sys/wait.h>
+
+#include "tests/check.h"
+
+static char folder[] = "/tmp/hbmcheck-stress-XXXXXX";
+
+typedef struct outcome { int code; char out[262144]; } outcome;
+static outcome last;
+
+/* "%s" in args is the folder, as often as it stands there (at most four times). */
+static void stress(const char *args)
+{
+  char line[2048], filled[1536];
+  snprintf(filled, sizeof filled, args, folder, folder, folder, folder);
+  snprintf(line, sizeof line, "%s stress -q %s", HBMCHECK_COMMAND, filled);
+  FILE *pipe = popen(line, "r");
+  assert_non_null(pipe);
+  last.out[fread(last.out, 1, sizeof last.out - 1, pipe)] = 0;
+  int status = pclose(pipe);
+  last.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+static void expect(const char *args, int code, const char *fragment)
+{
+  stress(args);
+  if (last.code != code || !strstr(last.out, fragment))
+    fail_msg("hbmcheck stress %s\nexit %d, expected %d; expected to read '%s' in:\n%s", args, last.code, code, fragment, last.out);
+}
+
+static void two_hundred_scenes_without_a_finding(void **state)
+{
+  (void)state;
+  expect("--scenes 200", 0, "200 scenes of seed 1 from 0 on: 0 findings, 0 scenes never classified");
+}
+
+/* Every outcome but those that hang on time, from every line of the table. */
+static void what_was_stopped_goes_on(void **state)
+{
+  (void)state;
+  static char whole[sizeof last.out];
+  expect("--seed 5 --scenes 12 --seconds 60 --jobs 1 --results %s/whole --format csv | sed 's/,[^,]*,[^,]*$//' > %s/a; wc -l < %s/whole", 0, "13");
+  expect("--seed 5 --scenes 5 --seconds 60 --jobs 1 --results %s/part --format csv | wc -l; wc -l < %s/part", 0, "6");
+  expect("--seed 5 --scenes 1 --case > /dev/null; head -c -40 %s/part > %s/cut", 0, ""); /* killed while it wrote */
+  expect("--seed 5 --scenes 12 --seconds 60 --jobs 2 --results %s/cut --format csv > /dev/null; cut -d' ' -f1,4-9 %s/cut | sort > %s/b; cut -d' ' -f1,4-9 %s/whole | sort", 0, "0");
+  strcpy(whole, last.out);
+  expect("--seed 5 --scenes 1 --case > /dev/null; cat %s/b", 0, "0");
+  assert_string_equal(last.out, whole);
+  expect("--seed 6 --scenes 12 --seconds 60 --results %s/whole 2>&1", 2, "not the results of this seed");
+}
+
+static void one_scene_is_printed_as_a_case_file(void **state)
+{
+  (void)state;
+  expect("--seed 5 --first 3 --case", 0, "Stress scene 3 of seed 5");
+  expect("--seed 5 --first 3 --case --output %s/three.yaml && " HBMCHECK_COMMAND " frf --quiet %s/three.yaml > /dev/null && echo read", 0, "read");
+  expect("--seed 5 --first 3 --scenes 1 --all --format csv", 0, "3,verdict,");
+}
+
+static void what_cannot_be_is_said(void **state)
+{
+  (void)state;
+  expect("--scenes 0 2>&1", 64, "expected an integer 1..");
+  expect("--seconds nan 2>&1", 64, "expected a number > 0");
+  expect("--set hbm.harmonics=3 2>&1", 64, "no case file");
+  expect("--scenes 1 --results %s 2>&1", 3, "directory");
+  expect("--scenes 1 --results /dev/null/x 2>&1", 3, "Not a directory");
+}
+
+static int make_folder(void **state)
+{
+  (void)state;
+  return mkdtemp(folder) ? 0 : -1;
+}
+
+static int remove_folder(void **state)
+{
+  (void)state;
+  char line[64];
+  snprintf(line, sizeof line, "rm -r %s", folder);
+  return system(line);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(two_hundred_scenes_without_a_finding), cmocka_unit_test(what_was_stopped_goes_on),
+    cmocka_unit_test(one_scene_is_printed_as_a_case_file), cmocka_unit_test(what_cannot_be_is_said),
+  };
+  check_watchdog(900);
+  return cmocka_run_group_tests_name("stress.command", tests, make_folder, remove_folder);
+}
