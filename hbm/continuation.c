@@ -268,13 +268,20 @@ static hc_status finish_at_limit(path *p, bool *done)
 
 static hc_status trace(hbm_solver *s, double from, double to, bool from_afar, const hc_monitor *monitor, hbm_curve *curve);
 
+static bool tick_aside(void *outer, double done)
+{
+  (void)done;
+  return hc_monitor_tick(outer, -1);
+}
+
 /* The solution at p->from by the curve that comes down from well above every resonance, where inertia rules and any guess will do. */
-static hc_status solve_from_afar(path *p)
+static hc_status solve_from_afar(path *p, const hc_monitor *monitor)
 {
   const scene *sc = &p->s->sys.sc;
+  const hc_monitor aside = {tick_aside, (void *)monitor}; /* how far this has come says nothing of the sweep */
   hbm_curve down = {0};
   double far = FAR * fmax(p->from, sqrt(scene_max_stiffness(sc) / sc->mass));
-  hc_status st = trace(p->s, far, p->from, false, NULL, &down);
+  hc_status st = trace(p->s, far, p->from, false, &aside, &down);
   if (st == HC_OK && down.left_at_start) st = HC_NOT_CONVERGED;
   if (st == HC_OK) {
     memcpy(p->X, hbm_curve_X(&down, down.n - 1), (size_t)p->s->sys.n_coef * sizeof(double));
@@ -284,11 +291,11 @@ static hc_status solve_from_afar(path *p)
   return st;
 }
 
-static hc_status first_point(path *p)
+static hc_status first_point(path *p, const hc_monitor *monitor)
 {
   hbm_curve *c = p->curve;
-  hc_status st = hbm_solve_first(p->s, p->from, p->X, &p->point);
-  if (st != HC_OK && st != HC_NO_MEMORY && p->from_afar) st = solve_from_afar(p);
+  hc_status st = hbm_solve_start(p->s, p->from, monitor, p->X, &p->point);
+  if (st != HC_OK && st != HC_NO_MEMORY && st != HC_INTERRUPTED && p->from_afar) st = solve_from_afar(p, monitor);
   if (st == HC_OK) st = hbm_tangent_fixed(p->s, p->X, p->dX);
   if (st != HC_OK) return st;
   p->sense = newton_sign(p->s->fixed) * (p->direction > 0 ? 1 : -1);
@@ -307,7 +314,7 @@ static double progress(const path *p)
 static hc_status follow(path *p, const hc_monitor *monitor)
 {
   hbm_curve *c = p->curve;
-  hc_status st = first_point(p);
+  hc_status st = first_point(p, monitor);
   if (st == HC_OK) st = path_adapt(p);
   bool done = p->from == p->to;
   while (st == HC_OK && !done && !p->more_samples) {

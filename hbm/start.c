@@ -54,12 +54,16 @@ bool hbm_linear_point(hbm_solver *s, double omega, double near, double *X, doubl
 enum { RAMP_MOST_SOLVES = 200 }; /* a ramp that gets there takes 10 to 60; one that creeps towards a fold of its own never does */
 
 /* Follow *factor from 0 to 1 at fixed omega from the solution at 0; *factor is 1 again afterwards. */
-static hc_status ramp(hbm_solver *s, double *factor, double omega, double x_scale, double *X, hbm_point *point)
+static hc_status ramp(hbm_solver *s, double *factor, double omega, double x_scale, const hc_monitor *monitor, double *X, hbm_point *point)
 {
   double here = 0, step = 0.1;
   hc_status st = HC_OK;
   int iterations = 0;
   for (int solves = 0; here < 1 && step > 1e-4 && solves < RAMP_MOST_SOLVES; ++solves) {
+    if (!hc_monitor_tick(monitor, -1)) {
+      st = HC_INTERRUPTED;
+      break;
+    }
     *factor = fmin(1, here + step);
     s->sys.evaluated = false;
     st = hbm_solve_fixed(s, omega, fmax(x_scale, hbm_norm(s->sys.n_coef, X)), X, point);
@@ -72,7 +76,7 @@ static hc_status ramp(hbm_solver *s, double *factor, double omega, double x_scal
   return here == 1 ? HC_OK : st;
 }
 
-hc_status hbm_solve_first(hbm_solver *s, double omega, double *X, hbm_point *point)
+hc_status hbm_solve_start(hbm_solver *s, double omega, const hc_monitor *monitor, double *X, hbm_point *point)
 {
   const scene *sc = &s->sys.sc;
   int n_coef = s->sys.n_coef;
@@ -80,13 +84,15 @@ hc_status hbm_solve_first(hbm_solver *s, double omega, double *X, hbm_point *poi
   hc_status st = hbm_solve_fixed(s, omega, size, X, point);
   if (st == HC_OK) return HC_OK;
   memset(X, 0, (size_t)n_coef * sizeof(double));
-  st = ramp(s, &s->sys.force_factor, omega, size / 100, X, point);
-  if (st == HC_OK) return HC_OK;
+  st = ramp(s, &s->sys.force_factor, omega, size / 100, monitor, X, point);
+  if (st == HC_OK || st == HC_INTERRUPTED) return st;
   scene apart = *sc;
   apart.n_contacts = 0;
   size = hbm_linear_response(&apart, omega, s->sys.n_harm, X);
-  return ramp(s, &s->sys.contact_factor, omega, size, X, point);
+  return ramp(s, &s->sys.contact_factor, omega, size, monitor, X, point);
 }
+
+hc_status hbm_solve_first(hbm_solver *s, double omega, double *X, hbm_point *point) { return hbm_solve_start(s, omega, NULL, X, point); }
 
 hc_status hbm_solve(hbm_solver *s, double omega, double *X, hbm_point *point)
 {
