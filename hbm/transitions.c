@@ -279,6 +279,7 @@ hc_status transitions_find(const motion_grid *grid, const moving_contact *c, int
   *n = 0;
   if (!(c->law.kn > 0)) return HC_OK;
   make_guards(&w);
+  if (w.friction && !isfinite(guard_scale(&w.stick[0]) + guard_scale(&w.slip[0]))) return HC_NOT_FINITE; /* mu kn or more overflows */
   if (guard_upper(&w.normal) <= 0) return HC_OK; /* never touches, whatever the phase */
   motion_node apart;
   hc_status st;

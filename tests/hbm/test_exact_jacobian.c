@@ -84,7 +84,7 @@ static void random_motions(void **state)
       moving_contact c = random_contact(&seed, D);
       for (int d = 0; d < D; ++d) random_motion(&seed, H, 1, 1.5 + trial % 3 * 0.5, X + d * n);
       if (trial % 4 == 0) c.law.gap = fabs(c.law.gap) + 1.5; /* mostly never separates: sliders remember a period */
-      char what[40];
+      char what[64];
       snprintf(what, sizeof what, "trial %d", trial);
       check_jacobian(&seed, H, D, &c, X, what, &count);
     }
@@ -112,7 +112,7 @@ static void grazing_motions(void **state)
     static contact_motion m;
     contact_motion_of(H, D, &c, X, &m);
     make_graze(&c, &m, H, kind, depths[trial % 6]);
-    char what[40];
+    char what[64];
     snprintf(what, sizeof what, "trial %d kind %d depth %g", trial, kind, depths[trial % 6]);
     check_jacobian(&seed, H, D, &c, X, what, &count);
   }

@@ -1,0 +1,91 @@
+/* scenes.h - a scene of cases/adversarial, changed as the command line would change it, and all its HBM solutions at a frequency. */
+#ifndef HC_TESTS_ADVERSARIAL_SCENES_H
+#define HC_TESTS_ADVERSARIAL_SCENES_H
+
+#include "tests/check.h"
+
+#include <string.h>
+
+#include "cases/case_file.h"
+#include "hbm/hbm.h"
+#include "timeint/timeint.h"
+
+/* set: "PATH=VALUE", ended by NULL. */
+static inline scene load(const char *name, const char *const *set)
+{
+  char path[256];
+  scene sc;
+  case_error err;
+  int n = 0;
+  while (set && set[n]) ++n;
+  snprintf(path, sizeof path, SOURCE_DIR "/cases/adversarial/%s.yaml", name);
+  if (case_read(path, n, set, &sc, &err) != HC_OK) fail_msg("%s", err.message);
+  return sc;
+}
+
+#define LOAD(name, ...) load(name, (const char *const[]){__VA_ARGS__, NULL})
+
+/* The scene's response curve, to be asked at several frequencies. */
+typedef struct response { hbm_solver *s; hbm_curve curve; } response;
+
+static inline response response_of(const scene *sc)
+{
+  response r = {0};
+  assert_int_equal(hbm_solver_new(sc, &r.s), HC_OK);
+  hc_status st = hbm_trace(r.s, sc->omega_from, sc->omega_to, NULL, &r.curve);
+  if (st != HC_OK) fail_msg("%s: %s at %.17g", sc->title, hc_status_text(st), r.curve.n ? r.curve.points[r.curve.n - 1].omega : sc->omega_from);
+  return r;
+}
+
+static inline void response_free(response *r)
+{
+  hbm_curve_free(&r->curve);
+  hbm_solver_free(r->s);
+}
+
+static inline hbm_curve response_at(const response *r, double omega)
+{
+  hbm_curve at = {0};
+  assert_int_equal(hbm_curve_at(r->s, &r->curve, omega, &at), HC_OK);
+  if (at.n == 0) fail_msg("no solution at %g", omega);
+  return at;
+}
+
+static inline hbm_curve solutions(const scene *sc, double omega)
+{
+  response r = response_of(sc);
+  hbm_curve at = response_at(&r, omega);
+  response_free(&r);
+  return at;
+}
+
+static inline double norm_of(int n, const double *X)
+{
+  double sum = 0;
+  for (int i = 0; i < n; ++i) sum += X[i] * X[i];
+  return sqrt(sum);
+}
+
+static inline const double *solution(const hbm_curve *at, int k) { return at->X + (size_t)k * at->n_coef; }
+
+/* Both scenes have the same solutions at all of the first one's compare.omega, b's being `factor` times a's, to `tolerance` of their size. */
+static inline void same_answers(const scene *a, const scene *b, double factor, double tolerance)
+{
+  response of_a = response_of(a), of_b = response_of(b);
+  for (int i = 0; i < a->compare.omega.n; ++i) {
+    double omega = a->compare.omega.v[i];
+    hbm_curve p = response_at(&of_a, omega), q = response_at(&of_b, omega);
+    if (p.n != q.n) fail_msg("%s at %g: %d solutions, and %d", a->title, omega, p.n, q.n);
+    for (int k = 0; k < p.n; ++k) {
+      double size = factor * norm_of(p.n_coef, solution(&p, k));
+      for (int j = 0; j < p.n_coef; ++j)
+        CHECK_NEAR(solution(&q, k)[j], factor * solution(&p, k)[j], tolerance * size, "%s at %g, solution %d, X[%d]", a->title, omega, k, j);
+    }
+    hbm_curve_free(&p);
+    hbm_curve_free(&q);
+  }
+  response_free(&of_a);
+  response_free(&of_b);
+}
+
+#endif

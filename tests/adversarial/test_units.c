@@ -1,0 +1,213 @@
+/* test_units.c - a change of units changes no answer: lengths, forces and times of a scene multiplied, its answers multiplied alike.
+ * Any absolute constant left in a solver shows here. */
+#include "tests/adversarial/reference_scenes.h"
+
+typedef struct units { const char *what; double length, force, time; } units;
+
+static const units factors[] = {
+  {"powers of two", 1024, 1.0 / 8, 64}, {"powers of two, far off", 0x1p-40, 0x1p30, 0x1p-20},
+  {"mm, kp, minutes", 1000, 1 / 9.81, 1 / 60.0}, {"odd and far off", 1e-9, 3e7, 1e5},
+};
+enum { N_FACTORS = sizeof factors / sizeof *factors, N_EXACT = 2 }; /* the first N_EXACT are powers of two */
+
+static reference_row rows[MAX_REFERENCE];
+static int n_rows, orbits, loose; /* orbits compared so far, and of these, those farther apart than INVARIANT */
+
+static int read_rows(void **state)
+{
+  (void)state;
+  n_rows = read_reference_rows(rows);
+  return n_rows == 542 ? 0 : -1;
+}
+
+static scene in_units(scene sc, const units *u)
+{
+  const double stiffness = u->force / u->length;
+  sc.mass *= stiffness * u->time * u->time;
+  sc.damping *= stiffness * u->time;
+  sc.stiffness *= stiffness;
+  sc.force *= u->force;
+  sc.omega_from /= u->time;
+  sc.omega_to /= u->time;
+  for (int j = 0; j < sc.n_contacts; ++j) {
+    sc.contacts[j].law.kt *= stiffness;
+    sc.contacts[j].law.kn *= stiffness;
+    sc.contacts[j].law.gap *= u->length;
+  }
+  return sc;
+}
+
+typedef struct run { hbm_solver *s; hbm_curve curve; } run;
+
+static run traced_scene(const scene *sc)
+{
+  run r = {0};
+  assert_int_equal(hbm_solver_new(sc, &r.s), HC_OK);
+  assert_int_equal(hbm_trace(r.s, sc->omega_from, sc->omega_to, NULL, &r.curve), HC_OK);
+  return r;
+}
+
+static void drop_run(run *r)
+{
+  hbm_curve_free(&r->curve);
+  hbm_solver_free(r->s);
+}
+
+/* Largest |X'/L - X| of the solutions at the reference omegas, relative to the norm. */
+static double solutions_apart(const char *name, run *a, run *b, const units *u)
+{
+  double worst = 0, last = 0;
+  for (int i = 0; i < n_rows; ++i) {
+    if (strcmp(rows[i].name, name) || rows[i].n_harm != 10 || !rows[i].keep_mean || rows[i].omega == last) continue;
+    hbm_curve p = {0}, q = {0};
+    last = rows[i].omega;
+    assert_int_equal(hbm_curve_at(a->s, &a->curve, last, &p), HC_OK);
+    assert_int_equal(hbm_curve_at(b->s, &b->curve, last / u->time, &q), HC_OK);
+    assert_true(p.n > 0 && p.n == q.n);
+    for (int k = 0; k < p.n; ++k) {
+      const double *X = p.X + (size_t)k * p.n_coef, *Y = q.X + (size_t)k * q.n_coef;
+      double d = 0, size = 0;
+      for (int j = 0; j < p.n_coef; ++j) d = hypot(d, Y[j] / u->length - X[j]), size = hypot(size, X[j]);
+      assert_true(isfinite(d / size));
+      worst = fmax(worst, d / size);
+    }
+    hbm_curve_free(&p);
+    hbm_curve_free(&q);
+  }
+  return worst;
+}
+
+/* Rounding alone: 1e-16, a hundred times over, enlarged by the steepness of the response, 3000 at most (r1, r2; Q = 2800). */
+static const double INVARIANT = 1e-10;
+
+static void hbm_with(int force, int n_scenes)
+{
+  for (int f = 0; f < N_FACTORS; ++f) {
+    double worst = 0;
+    for (int i = 0; i < n_scenes; ++i) {
+      const reference_scene *r = &reference_scenes[i];
+      scene sc = exact_reference_scene(r->name, 10);
+      sc.hbm.force = force;
+      sc.hbm.samples = 512;
+      scene other = in_units(sc, &factors[f]);
+      run a = traced_scene(&sc), b = traced_scene(&other);
+      double d = solutions_apart(r->name, &a, &b, &factors[f]);
+      CHECK_LE(d, INVARIANT, "%s, %s", r->name, factors[f].what);
+      worst = fmax(worst, d);
+      drop_run(&a);
+      drop_run(&b);
+    }
+    print_message("%-24s %.1e\n", factors[f].what, worst);
+  }
+}
+
+static void exact_forces(void **state)
+{
+  (void)state;
+  hbm_with(HBM_FORCE_EXACT, N_REFERENCE_SCENES);
+}
+
+/* The first scenes only: the stiff ones' sampled curves have more kinks than this test has time. */
+static void sampled_forces(void **state)
+{
+  (void)state;
+  hbm_with(HBM_FORCE_SAMPLED, 3);
+}
+
+static timeint_state in_units_state(timeint_state y, int n, const units *u)
+{
+  y.x *= u->length;
+  y.v *= u->length / u->time;
+  for (int j = 0; j < n; ++j) y.w[j] *= u->length;
+  return y;
+}
+
+/* What CVODE's tolerance, 1e-14 of its unit of length a step at its finest, comes to if all steps of a period err the same way, through
+ * 1/|1 - multiplier|; twice, for two orbits; and its unit follows the motion's size to a factor of 4 only. */
+static double integrated(const timeint_result *r)
+{
+  return 4 * 2 * 1e-14 * (double)r->steps / r->periods / hypot(1 - r->multiplier_re, r->multiplier_im);
+}
+
+/* Largest difference of x(t) over the period, relative to the amplitude, of the orbits next to the HBM solutions at omega. */
+static double orbits_apart(timeint *a, timeint *b, run *from, const reference_scene *r, double omega, const units *u)
+{
+  hbm_curve at = {0};
+  double worst = 0;
+  assert_int_equal(hbm_curve_at(from->s, &from->curve, omega, &at), HC_OK);
+  for (int k = 0; k < at.n; ++k) {
+    timeint_state y = orbit_start(from->s, 10, at.X + (size_t)k * at.n_coef, omega), z = in_units_state(y, 1, u);
+    timeint_result p, q;
+    hc_status st = timeint_orbit(a, omega, 1, &y, NULL, &p); /* an HBM solution of 10 harmonics may have no orbit next to it */
+    assert_int_equal(timeint_orbit(b, omega / u->time, 1, &z, NULL, &q), st);
+    if (st != HC_OK) continue;
+    double d = fabs(q.amplitude / u->length - p.amplitude);
+    for (int i = 0; i < TIMEINT_WAVE; ++i) d = fmax(d, fabs(q.wave[i] / u->length - p.wave[i]));
+    d /= p.amplitude;
+    CHECK_LE(d, fmax(INVARIANT, integrated(&p)), "%s at %g, solution %d, %s", r->name, omega, k, u->what);
+    loose += d > INVARIANT;
+    worst = fmax(worst, d);
+    ++orbits;
+  }
+  hbm_curve_free(&at);
+  return worst;
+}
+
+static double transients_apart(const reference_scene *r, int law, const units *u)
+{
+  scene sc = exact_reference_scene(r->name, 10);
+  sc.transient.law = law;
+  sc.transient.tolerance = 1e-12;
+  scene other = in_units(sc, u);
+  run from = traced_scene(&sc);
+  timeint *a, *b;
+  double worst = 0, last = 0;
+  assert_int_equal(timeint_new(&sc, &a), HC_OK);
+  assert_int_equal(timeint_new(&other, &b), HC_OK);
+  for (int i = 0; i < n_rows; ++i) {
+    if (strcmp(rows[i].name, r->name) || rows[i].n_harm != 10 || !rows[i].keep_mean || rows[i].omega == last) continue;
+    last = rows[i].omega;
+    worst = fmax(worst, orbits_apart(a, b, &from, r, last, u));
+  }
+  timeint_free(a);
+  timeint_free(b);
+  drop_run(&from);
+  return worst;
+}
+
+/* Powers of two: not a bit may differ; CVODE sees lengths and times in units of the motion's own. Else INVARIANT,
+ * but where conditioning allows no better, next to folds: `integrated`. Few are as loose. */
+static void transient_with(int law, int n_scenes)
+{
+  for (int f = 0; f < N_FACTORS; ++f) {
+    double worst = 0;
+    orbits = loose = 0;
+    for (int i = 0; i < n_scenes; ++i) {
+      double d = transients_apart(&reference_scenes[i], law, &factors[f]);
+      if (f < N_EXACT) CHECK_LE(d, 0, "%s, %s", reference_scenes[i].name, factors[f].what);
+      worst = fmax(worst, d);
+    }
+    print_message("%-24s %.1e, %d of %d orbits beyond %g\n", factors[f].what, worst, loose, orbits, INVARIANT);
+    assert_true(orbits >= 7 * n_scenes && 10 * loose <= orbits);
+  }
+}
+
+static void exact_law(void **state)
+{
+  (void)state;
+  transient_with(TRANSIENT_LAW_EXACT, N_REFERENCE_SCENES);
+}
+
+static void regularised_law(void **state)
+{
+  (void)state;
+  transient_with(TRANSIENT_LAW_REGULARISED, 3);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {cmocka_unit_test(exact_forces), cmocka_unit_test(sampled_forces), cmocka_unit_test(exact_law),
+                                     cmocka_unit_test(regularised_law)};
+  check_watchdog(900);
+  return cmocka_run_group_tests_name("adversarial.units", tests, read_rows, NULL);
+}
