@@ -235,7 +235,7 @@ static long first_of_line(const chart *c, long line)
 
 static void put_line(figure *g, const chart *c, long line)
 {
-  char name[24];
+  char name[32];
   snprintf(name, sizeof name, "line%ld", line);
   figure_block(g, name);
   for (int i = 0; i < c->s->axes[c->x].n; ++i) {
