@@ -23,8 +23,8 @@ hc_status case_parse(const char *name, const char *text, size_t length, int n_se
 /* Write the resolved scene as a case file that reads back to the same scene, bit for bit. */
 hc_status case_echo(const scene *sc, FILE *to);
 
-/* Describe one field or section, or all (field = NULL), as text for a terminal: name, unit, default, range, meaning.
+/* Describe one field or section, or all (asked = NULL), as text for a terminal: name, unit, default, range, meaning.
  * HC_BAD_INPUT with a suggestion in err if there is no such field. */
-hc_status case_describe(const char *field, FILE *to, case_error *err);
+hc_status case_describe(const char *asked, FILE *to, case_error *err);
 
 #endif

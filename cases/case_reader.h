@@ -27,6 +27,7 @@ typedef struct case_reader {
   const char *const *set;   /* the assignments                                                   */
   int set_now;              /* the one being applied, from 1; 0 while the file is read           */
   case_place here;          /* where the path being resolved or the value being set stands       */
+  case_place end;           /* of the file's text; line = 0 before it is known                   */
   scene sc;                 /* filled as reading goes on                                         */
   case_place at[FIELD_MAX]; /* [field_index] where each field was last given; for contacts' fields, in the contact being read */
   case_place contact_at[SCENE_MAX_CONTACTS];          /* where each contact appeared                  */
@@ -35,8 +36,10 @@ typedef struct case_reader {
 } case_reader;
 
 static inline bool case_given(const case_reader *r, const field *f) { return r->at[field_index(f)].line > 0; }
+/* libyaml ends a last line that has no end of its own, and then stands on a line that is not there: its end is meant. */
 static inline case_place case_place_of(const case_reader *r, yaml_mark_t mark)
 {
+  if (r->set_now == 0 && r->end.line > 0 && mark.line + 1 > r->end.line) return r->end;
   return (case_place){.set = r->set_now, .line = mark.line + 1, .column = mark.column + 1};
 }
 

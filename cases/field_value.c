@@ -91,8 +91,10 @@ static bool read_number(const field *f, const field_item *it, double *out, const
     return true;
   }
   number_fault fault = is_integer(f) ? number_read_integer(it->text, it->length, &i) : number_read(it->text, it->length, &x);
-  if (fault != NUMBER_FINE) *hint = number_hint(it, fault);
-  if (fault != NUMBER_FINE) return false;
+  if (fault != NUMBER_FINE) {
+    *hint = number_hint(it, fault);
+    return false;
+  }
   if (is_integer(f)) x = i;
   if (!(x >= f->low && x <= f->high) || (f->flags & FIELD_OPEN && x == f->low)) return false;
   *out = f->scale != 0 ? f->scale * x : x;

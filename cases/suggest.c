@@ -71,7 +71,8 @@ suggestion suggest_path(const char *path, size_t length)
   suggestion section = suggest_key("", path, stem);
   const char *name = section.s ? section.s->name : "";
   const field *f = field_find(name, path + dot, length - dot);
-  return f ? (suggestion){.f = f} : suggest_key(name, path + dot, length - dot);
+  if (f) return (suggestion){.f = f};
+  return suggest_key(name, path + dot, length - dot);
 }
 
 const char *suggest_word(const char *const *words, const char *key, size_t length)

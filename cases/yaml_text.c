@@ -6,10 +6,11 @@
 
 enum { DEEPEST = 16 }; /* a case file needs 4 */
 
+/* YAML 1.1 ends lines at U+0085, U+2028 and U+2029 too; no editor does, and the lines in messages would not be those on the screen. */
 static bool is_yaml_character(unsigned long c)
 {
-  if (c == '\t' || c == '\n' || c == '\r' || c == 0x85) return true;
-  return c >= 0x20 && !(c >= 0x7F && c < 0xA0) && c != 0xFEFF && c != 0xFFFE && c != 0xFFFF;
+  if (c == '\t' || c == '\n' || c == '\r') return true;
+  return c >= 0x20 && !(c >= 0x7F && c < 0xA0) && c != 0x2028 && c != 0x2029 && c != 0xFEFF && c != 0xFFFE && c != 0xFFFF;
 }
 
 static bool starts_with(const char *text, size_t length, const char *word)
@@ -40,18 +41,19 @@ static hc_status check_characters(case_reader *r, const char *text, size_t lengt
     if (line_end) ++at.line, at.column = 1;
     else ++at.column;
   }
+  if (r->set_now == 0) r->end = at;
   return HC_OK;
 }
 
 static hc_status parser_failed(case_reader *r, const yaml_parser_t *p)
 {
   message *m = case_blame(r, case_place_of(r, p->problem_mark));
-  if (p->error == YAML_MEMORY_ERROR) {
+  if (p->error == YAML_MEMORY_ERROR || p->error == YAML_NO_ERROR) { /* libyaml forgets to say so in places */
     message_add(m, "out of memory");
     return HC_NO_MEMORY;
   }
   message_add(m, "not YAML: %s", p->problem ? p->problem : "cannot be parsed");
-  if (p->context && r->set_now == 0) message_add(m, " (%s from line %zu on)", p->context, p->context_mark.line + 1);
+  if (p->context && r->set_now == 0) message_add(m, " (%s from line %zu on)", p->context, case_place_of(r, p->context_mark).line);
   message_add(m, ", expected `key: value` lines, indented with spaces");
   return HC_BAD_INPUT;
 }

@@ -12,6 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cases/numerics/room.h"
 #include "hbm/slope.h"
 
 /* Where the slider's position came from: dw = slope dx(th_i); slope 0 when it depends on nothing. */
@@ -43,6 +44,7 @@ static pthread_mutex_t planner = PTHREAD_MUTEX_INITIALIZER;
 
 static hc_status make_plans(aft *a)
 {
+  if (!hc_room_for(64 * (size_t)a->n_time)) return HC_NO_MEMORY;
   pthread_mutex_lock(&planner);
   a->to_time = fftw_plan_dft_c2r_1d(a->n_time, a->spec, a->x, FFTW_ESTIMATE);
   a->to_freq_f = fftw_plan_dft_r2c_1d(a->n_time, a->f, a->spec, FFTW_ESTIMATE);

@@ -1,6 +1,8 @@
 /* integrate.c - see integrate.h: hands each call to the law's integrator, and keeps what both are made of. */
 #include "timeint/integrate_private.h"
 
+#include <math.h>
+
 #include "cases/sundials_compat.h"
 
 void integrate_free(integrator *in)
@@ -13,14 +15,21 @@ hc_status integrate_tolerance(integrator *in, double tolerance)
   return integrate_translate(in, CVodeSStolerances(in->cv, tolerance, tolerance));
 }
 
+static hc_status period(integrator *in, const model *m, double *y, double *slope, integrate_watch *watch, void *self)
+{
+  if (!in->ready && !hc_room_for(0)) return HC_NO_MEMORY;
+  in->ready = true;
+  return in->does->period(in, m, y, slope, watch, self);
+}
+
 hc_status integrate_period(integrator *in, const model *m, double *y, integrate_watch *watch, void *self)
 {
-  return in->does->period(in, m, y, NULL, watch, self);
+  return period(in, m, y, NULL, watch, self);
 }
 
 hc_status integrate_slope(integrator *in, const model *m, double *y, double *slope)
 {
-  return in->does->period(in, m, y, slope, NULL, NULL);
+  return period(in, m, y, slope, NULL, NULL);
 }
 
 hc_status integrate_dense(const integrator *in, double theta, int order, double *y) { return in->does->dense(in, theta, order, y); }
@@ -47,7 +56,7 @@ hc_status integrate_make_parts(integrator *in, int n, int method)
   if (!in->y || !in->dky || !in->jac) return HC_NO_MEMORY;
   in->ls = SUNLinSol_Dense(in->y, in->jac, in->ctx);
   in->cv = CVodeCreate(method, in->ctx);
-  return in->ls && in->cv ? HC_OK : HC_NO_MEMORY;
+  return in->ls && in->cv && hc_room_for(0) ? HC_OK : HC_NO_MEMORY; /* room: CVodeInit comes next */
 }
 
 void integrate_free_parts(integrator *in)
@@ -66,6 +75,15 @@ hc_status integrate_translate(integrator *in, int flag)
   in->flag = flag;
   if (in->not_finite) return HC_NOT_FINITE;
   return flag == CV_MEM_FAIL ? HC_NO_MEMORY : HC_INTEGRATOR; /* warnings, and flags yet unknown, too */
+}
+
+hc_status integrate_check_end(integrator *in, double theta, int n)
+{
+  double size = 0;
+  for (int i = 0; i < n; ++i) size += fabs(NV_Ith_S(in->y, i));
+  if (theta > 6.2831853071795) return isfinite(size) ? HC_OK : HC_NOT_FINITE; /* 2 pi but for CVODE's 100 roundings */
+  in->flag = CV_UNRECOGNIZED_ERR;
+  return HC_INTEGRATOR;
 }
 
 hc_status integrate_add_counts(integrator *in)

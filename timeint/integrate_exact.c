@@ -91,13 +91,14 @@ static int roots(sunrealtype theta, N_Vector y, sunrealtype *g, void *self)
   return 0;
 }
 
+/* What fails here is memory, whatever the flag: CVodeSetLinearSolver's CVLS_MEM_FAIL is the number of CV_CONV_FAILURE. */
 static hc_status make_cvode(exact *in)
 {
   int falls[ROOTS] = {[ROOT_UP] = -1, [ROOT_DOWN] = -1}; /* 0: either way */
   N_VConst(0.0, in->base.y);
   int flag = CVodeInit(in->base.cv, rhs, 0.0, in->base.y); /* first: the other calls need it */
   if (flag == CV_SUCCESS) flag = CVodeRootInit(in->base.cv, ROOTS, roots);
-  if (flag != CV_SUCCESS) return integrate_translate(&in->base, flag);
+  if (flag != CV_SUCCESS) return HC_NO_MEMORY;
   const int flags[] = {
       HC_CVODE_QUIET(in->base.cv),
       CVodeSStolerances(in->base.cv, in->tolerance, in->tolerance),
@@ -110,7 +111,7 @@ static hc_status make_cvode(exact *in)
       CVodeSetMaxNumSteps(in->base.cv, MAX_STEPS),
       CVodeSetMaxHnilWarns(in->base.cv, -1),
   };
-  return integrate_translate(&in->base, integrate_first_flag(flags, sizeof flags / sizeof *flags));
+  return integrate_first_flag(flags, sizeof flags / sizeof *flags) == CV_SUCCESS ? HC_OK : HC_NO_MEMORY;
 }
 
 static void release(integrator *base)
@@ -208,16 +209,19 @@ static hc_status transition(exact *in, double theta, int *count)
  * CV_TSTOP_RETURN. */
 static hc_status run(exact *in, integrate_watch *watch, void *self, int *count)
 {
-  for (sunrealtype theta = 0; theta < two_pi;) {
+  sunrealtype theta = 0;
+  for (int still = 0; theta < two_pi;) {
     sunrealtype before = theta;
     int flag = CVode(in->base.cv, two_pi, in->base.y, &theta, watch ? CV_ONE_STEP : CV_NORMAL);
     if (flag != CV_SUCCESS && flag != CV_TSTOP_RETURN && flag != CV_ROOT_RETURN) return integrate_translate(&in->base, flag);
     if (two_pi - theta <= at_end * two_pi) theta = two_pi;
+    still = theta > before ? 0 : still + 1;
+    if (still > MAX_TRANSITIONS) break;
     hc_status st = watch ? watch(self, &in->base, before, theta) : HC_OK;
     if (st == HC_OK && flag == CV_ROOT_RETURN) st = transition(in, theta, count);
     if (st != HC_OK) return st;
   }
-  return HC_OK;
+  return integrate_check_end(&in->base, theta, 2);
 }
 
 static void take_state(const exact *in, double *y)

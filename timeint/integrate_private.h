@@ -28,6 +28,7 @@ struct integrator { /* the first member of each kind */
   SUNMatrix jac;             /* [n][n] */
   SUNLinearSolver ls;
   void *cv;
+  bool ready;                /* CVODE has been called: it allocates the first time, and crashes if it cannot (room.h) */
 };
 
 /* From the context to CVODE's memory, for n equations by `method` (CV_ADAMS, CV_BDF), and back; freeing works half-built. */
@@ -36,6 +37,9 @@ void integrate_free_parts(integrator *in);
 
 /* A flag of CVODE's in our words; remembered unless it is success. */
 hc_status integrate_translate(integrator *in, int flag);
+
+/* CVODE's success is believed where it came to: HC_OK if theta is the end of the period and y[n] finite, else HC_INTEGRATOR, HC_NOT_FINITE. */
+hc_status integrate_check_end(integrator *in, double theta, int n);
 
 /* Steps and right-hand sides since CVODE was last started, added to the counts. */
 hc_status integrate_add_counts(integrator *in);

@@ -63,13 +63,14 @@ static int slope_rhs(int n, sunrealtype theta, N_Vector y, N_Vector dy, N_Vector
   return 0;
 }
 
-/* CVODE's rule for when to renew the Jacobian stays as it is: renewing it in every step was measured 30 % slower, since
+/* What fails here is memory, whatever the flag: CVodeSetLinearSolver's CVLS_MEM_FAIL is the number of CV_CONV_FAILURE.
+ * CVODE's rule for when to renew the Jacobian stays as it is: renewing it in every step was measured 30 % slower, since
  * CVODE then forgets the rate of convergence and takes a second Newton iteration to learn it. */
 static hc_status make_cvode(regularised *in, double tolerance)
 {
   N_VConst(0.0, in->base.y);
   int flag = CVodeInit(in->base.cv, rhs, 0.0, in->base.y); /* first: the other calls need it */
-  if (flag != CV_SUCCESS) return integrate_translate(&in->base, flag);
+  if (flag != CV_SUCCESS) return HC_NO_MEMORY;
   const int flags[] = {
       HC_CVODE_QUIET(in->base.cv),
       CVodeSStolerances(in->base.cv, tolerance, tolerance),
@@ -81,7 +82,7 @@ static hc_status make_cvode(regularised *in, double tolerance)
       CVodeSetMaxConvFails(in->base.cv, MAX_NEWTON_FAILS),
       CVodeSetMaxHnilWarns(in->base.cv, -1),
   };
-  return integrate_translate(&in->base, integrate_first_flag(flags, sizeof flags / sizeof *flags));
+  return integrate_first_flag(flags, sizeof flags / sizeof *flags) == CV_SUCCESS ? HC_OK : HC_NO_MEMORY;
 }
 
 /* Their errors are watched, too, if loosely: without that a step may leap over a corner that hardly moves y and put a slope off by
@@ -94,21 +95,22 @@ static hc_status make_slopes(regularised *in)
     N_VConst(0.0, in->s[j]);
     absolute[j] = slope_tolerance;
   }
+  if (!hc_room_for(0)) return HC_NO_MEMORY;
   int flag = CVodeSensInit(in->base.cv, in->n, CV_STAGGERED, slope_rhs, in->s); /* first: the other calls need it */
-  if (flag != CV_SUCCESS) return integrate_translate(&in->base, flag);
+  if (flag != CV_SUCCESS) return HC_NO_MEMORY;
   const int flags[] = {
       CVodeSensSStolerances(in->base.cv, slope_tolerance, absolute),
       CVodeSetSensErrCon(in->base.cv, 1),
       CVodeSensToggleOff(in->base.cv),
   };
-  return integrate_translate(&in->base, integrate_first_flag(flags, sizeof flags / sizeof *flags));
+  return integrate_first_flag(flags, sizeof flags / sizeof *flags) == CV_SUCCESS ? HC_OK : HC_NO_MEMORY;
 }
 
 static hc_status make_parts(regularised *in)
 {
   hc_status st = integrate_make_parts(&in->base, in->n, CV_BDF);
   if (st != HC_OK) return st;
-  in->s = N_VCloneVectorArray(in->n, in->base.y);
+  in->s = N_VCloneVectorArray(in->n, in->base.y); /* room: asked for above */
   in->here = calloc((size_t)(in->n * in->n), sizeof *in->here);
   return in->s && in->here ? HC_OK : HC_NO_MEMORY;
 }
@@ -144,7 +146,8 @@ static hc_status run(regularised *in)
 {
   sunrealtype theta = 0;
   int flag = CVode(in->base.cv, two_pi, in->base.y, &theta, CV_NORMAL);
-  return flag == CV_TSTOP_RETURN ? HC_OK : integrate_translate(&in->base, flag);
+  hc_status st = flag == CV_TSTOP_RETURN ? HC_OK : integrate_translate(&in->base, flag);
+  return st == HC_OK ? integrate_check_end(&in->base, theta, in->n) : st;
 }
 
 /* The same steps, one call each. */
@@ -154,9 +157,10 @@ static hc_status run_watched(regularised *in, integrate_watch *watch, void *self
     sunrealtype before = theta;
     int flag = CVode(in->base.cv, two_pi, in->base.y, &theta, CV_ONE_STEP);
     if (flag != CV_SUCCESS && flag != CV_TSTOP_RETURN) return integrate_translate(&in->base, flag);
-    hc_status st = watch(self, &in->base, before, theta);
-    if (st != HC_OK || flag == CV_TSTOP_RETURN) return st;
-    if (!(theta < two_pi)) return HC_OK;
+    bool last = flag == CV_TSTOP_RETURN || !(theta < two_pi);
+    hc_status st = last || !(theta > before) ? integrate_check_end(&in->base, theta, in->n) : HC_OK; /* no step that stands still */
+    if (st == HC_OK) st = watch(self, &in->base, before, theta);
+    if (st != HC_OK || last) return st;
   }
 }
 

@@ -136,7 +136,7 @@ static hc_status make_anderson(shoot *s)
   s->u = N_VNew_Serial(s->n, s->ctx);
   s->ones = N_VNew_Serial(s->n, s->ctx);
   s->kin = s->u && s->ones ? KINCreate(s->ctx) : NULL;
-  if (!s->kin) return HC_NO_MEMORY;
+  if (!s->kin || !hc_room_for(0)) return HC_NO_MEMORY;
   N_VConst(1, s->ones);
   int bad = HC_KINSOL_QUIET(s->kin);
   bad |= KINSetUserData(s->kin, s);

@@ -8,21 +8,20 @@
 struct floquet { /* GSL's workspaces know their size: one set a size, 3..n */
   int n;
   gsl_eigen_nonsymm_workspace **work; /* [n + 1] */
-  gsl_matrix **matrix;                /* [n + 1] */
+  double *matrix;                     /* [n][n] for any size; ours, because gsl_matrix_alloc leaks when half of it fails */
   gsl_vector_complex **values;        /* [n + 1] */
 };
 
 static hc_status make_sizes(floquet *f)
 {
   f->work = calloc((size_t)f->n + 1, sizeof *f->work);
-  f->matrix = calloc((size_t)f->n + 1, sizeof *f->matrix);
+  f->matrix = calloc((size_t)f->n * (size_t)f->n, sizeof *f->matrix);
   f->values = calloc((size_t)f->n + 1, sizeof *f->values);
   if (!f->work || !f->matrix || !f->values) return HC_NO_MEMORY;
   for (int m = 3; m <= f->n; ++m) {
     f->work[m] = gsl_eigen_nonsymm_alloc((size_t)m);
-    f->matrix[m] = gsl_matrix_alloc((size_t)m, (size_t)m);
     f->values[m] = gsl_vector_complex_alloc((size_t)m);
-    if (!f->work[m] || !f->matrix[m] || !f->values[m]) return HC_NO_MEMORY;
+    if (!f->work[m] || !f->values[m]) return HC_NO_MEMORY;
   }
   return HC_OK;
 }
@@ -46,7 +45,6 @@ void floquet_free(floquet *f)
   if (!f) return;
   for (int m = 3; m <= f->n; ++m) {
     if (f->work && f->work[m]) gsl_eigen_nonsymm_free(f->work[m]);
-    if (f->matrix && f->matrix[m]) gsl_matrix_free(f->matrix[m]);
     if (f->values && f->values[m]) gsl_vector_complex_free(f->values[m]);
   }
   free(f->work);
@@ -65,9 +63,10 @@ static void two_by_two(double a, double b, double c, double d, double complex *l
 
 static hc_status by_gsl(floquet *f, const double *phi, int row, int column, int m, const int *active, double complex *lambda)
 {
+  gsl_matrix_view matrix = gsl_matrix_view_array(f->matrix, (size_t)m, (size_t)m);
   for (int i = 0; i < m; ++i)
-    for (int j = 0; j < m; ++j) gsl_matrix_set(f->matrix[m], (size_t)i, (size_t)j, phi[active[i] * row + active[j] * column]);
-  if (gsl_eigen_nonsymm(f->matrix[m], f->values[m], f->work[m])) return HC_NOT_CONVERGED;
+    for (int j = 0; j < m; ++j) gsl_matrix_set(&matrix.matrix, (size_t)i, (size_t)j, phi[active[i] * row + active[j] * column]);
+  if (gsl_eigen_nonsymm(&matrix.matrix, f->values[m], f->work[m])) return HC_NOT_CONVERGED;
   for (int i = 0; i < m; ++i) {
     gsl_complex z = gsl_vector_complex_get(f->values[m], (size_t)i);
     lambda[i] = GSL_REAL(z) + I * GSL_IMAG(z);

@@ -54,7 +54,7 @@ static hc_status make_kinsol(newton *nw)
     if (!(*vectors[i] = N_VNew_Serial(n, nw->ctx))) return HC_NO_MEMORY;
   if (!(nw->jac = SUNDenseMatrix(n, n, nw->ctx))) return HC_NO_MEMORY;
   if (!(nw->ls = lu_sundials_solver(nw->problem.n, nw->ctx))) return HC_NO_MEMORY;
-  if (!(nw->kin = KINCreate(nw->ctx))) return HC_NO_MEMORY;
+  if (!(nw->kin = KINCreate(nw->ctx)) || !hc_room_for(0)) return HC_NO_MEMORY;
   int bad = HC_KINSOL_QUIET(nw->kin);
   bad |= KINSetUserData(nw->kin, nw);
   bad |= KINInit(nw->kin, on_residual, nw->z);

@@ -97,7 +97,7 @@ static hc_status largest_stable(finder *f, double omega, const hc_monitor *monit
   hbm_curve at = {0};
   hbm_measures m;
   hc_status st = hbm_curve_at(f->hbm, &f->curve, omega, &at);
-  best->amplitude = -1;
+  *best = (timeint_result){.amplitude = -1};
   if (st != HC_NO_MEMORY) st = HC_OK;
   for (int k = 0; k < at.n && st == HC_OK; ++k) {
     const double *Xk = at.X + (size_t)k * at.n_coef;

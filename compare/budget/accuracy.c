@@ -211,10 +211,10 @@ static hc_status put_errors(const job *j, const solutions *s, const solutions *p
   return HC_OK;
 }
 
-static void put_curve(const job *j, traced *t, accuracy_row *row)
+static hc_status put_curve(const job *j, traced *t, accuracy_row *row)
 {
   response_summary curve = {.peak_amplitude = NAN, .peak_omega = NAN};
-  if (t->hbm) response_summarise(t->hbm, &t->curve, &curve);
+  hc_status st = t->hbm ? response_summarise(t->hbm, &t->curve, &curve) : HC_OK;
   row->status = t->status;
   row->peak_amplitude = curve.peak_amplitude;
   row->peak_omega = curve.peak_omega;
@@ -224,16 +224,18 @@ static void put_curve(const job *j, traced *t, accuracy_row *row)
   row->rejected = t->curve.rejected;
   row->iterations = t->curve.iterations;
   row->evaluations = t->curve.evaluations;
+  return st;
 }
 
 static hc_status put_row(const job *j, traced *t, int samples, const solutions *s, const solutions *plain, int true_turns, double began)
 {
   accuracy_row *row = &j->out->rows[j->out->n_rows];
   *row = (accuracy_row){.harmonics = t->n_harm, .samples = samples, .possible = true};
-  put_curve(j, t, row);
+  hc_status st = put_curve(j, t, row);
+  if (st != HC_OK) return st;
   row->iterations += s->iterations;
   row->false_turning_points = row->turning_points > true_turns ? row->turning_points - true_turns : 0;
-  hc_status st = put_errors(j, s, plain, row);
+  st = put_errors(j, s, plain, row);
   row->seconds = t->seconds + thread_seconds() - began;
   if (st == HC_OK) ++j->out->n_rows;
   return st;
@@ -346,8 +348,9 @@ hc_status accuracy_run(const scene *sc, const comparison *c, const hc_monitor *m
   if (harmonics[0] < 1 || harmonics[j.n_harm - 1] > SCENE_MAX_HARMONICS) return HC_BAD_INPUT;
   out->rows = calloc((size_t)j.n_harm * (size_t)(j.n_samples + 1), sizeof *out->rows);
   out->orders = calloc((size_t)j.n_harm + 2, sizeof *out->orders);
-  hc_status st = out->rows && out->orders ? all_rows(&j) : HC_NO_MEMORY;
-  if (out->rows && out->orders) put_orders(&j);
+  if (!out->rows || !out->orders) return HC_NO_MEMORY;
+  hc_status st = all_rows(&j);
+  put_orders(&j);
   put_reference(&j);
   if (st == HC_OK) {
     order_row regularisation;

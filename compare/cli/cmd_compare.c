@@ -111,6 +111,7 @@ int cmd_compare(int argc, char **argv)
   hc_monitor monitor = progress_monitor(bar);
   hc_status st = comparison_run(&sc, &monitor, &c), tabled = HC_OK;
   tables[0] = rows_table(&sc, &c);
+  if (st != HC_OK) table_note(tables[0], "INCOMPLETE: %s", hc_status_text(st));
   if (st == HC_OK && (o.tables || o.harmonics.n || o.samples.n)) {
     tabled = compare_tables(&sc, &c, &monitor, tables + 1, &a);
     n_tables = 3;

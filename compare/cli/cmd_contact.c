@@ -61,20 +61,22 @@ static hc_status evaluate_exactly(const scene *sc, int n_harm, const double *X, 
 }
 
 /* What each contact does and when; what no line covers is separated. */
-static void note_pattern(table *t, const scene *sc, int n_harm, const double *X)
+static hc_status note_pattern(table *t, const scene *sc, int n_harm, const double *X)
 {
   static const char *const names[] = {"separated", "sticks", "slips forward", "slips backward"};
   enum { SHOWN = 16 };
   double F[MAX_COEF];
   exact *e = NULL;
-  if (exact_of(sc, n_harm, &e) != HC_OK || exact_eval(e, X, F, NULL, NULL) != HC_OK) { exact_free(e); return; }
-  for (int j = 0, n; j < sc->n_contacts; ++j) {
+  hc_status st = exact_of(sc, n_harm, &e);
+  if (st == HC_OK) st = exact_eval(e, X, F, NULL, NULL);
+  for (int j = 0, n; j < sc->n_contacts && st == HC_OK; ++j) {
     const contact_piece *p = exact_pieces(e, j, &n);
     if (n == 0) table_note(t, "contact %d: separated all period", j);
     for (int i = 0; i < n && i < SHOWN; ++i) table_note(t, "contact %d: %s from %.12g to %.12g rad", j, names[p[i].state], p[i].from, p[i].to);
     if (n > SHOWN) table_note(t, "contact %d: and %d pieces more", j, n - SHOWN);
   }
   exact_free(e);
+  return st;
 }
 
 /* Coefficients for each sample count (EXACT: none) into F[set][MAX_COEF]. 0 or the exit code. */
@@ -110,8 +112,8 @@ static int show(const cli_options *o, const scene *sc, int n_harm, const double 
   }
   if (n_time[0] == EXACT) table_note(t, "%s: cos and sin exact", sc->title);
   else table_note(t, "%s: cos and sin by sampling, N = %d", sc->title, n_time[0]);
-  note_pattern(t, sc, n_harm, X);
-  int code = cli_write(o, 1, &t);
+  hc_status st = note_pattern(t, sc, n_harm, X);
+  int code = st == HC_NO_MEMORY ? cli_solver_failed(o, "the contact force", st, 0) : cli_write(o, 1, &t);
   table_free(t);
   return code;
 }

@@ -45,7 +45,7 @@ static void note_curve(table *t, const scene *sc, const hbm_solver *s, const hbm
   else table_note(t, "STOPPED at omega = %.10g: %s", last, hc_status_text(c->end));
 }
 
-static void note_specials(table *t, hbm_solver *s, const hbm_curve *c)
+static hc_status note_specials(table *t, hbm_solver *s, const hbm_curve *c)
 {
   enum { SHOWN = 24 };
   hbm_special special[SHOWN];
@@ -61,6 +61,7 @@ static void note_specials(table *t, hbm_solver *s, const hbm_curve *c)
   }
   if (n > SHOWN) table_note(t, "and %d more", n - SHOWN);
   if (st != HC_OK) table_note(t, "at least one more was noticed but not located: %s", hc_status_text(st));
+  return st;
 }
 
 int cmd_frf(int argc, char **argv)
@@ -87,7 +88,9 @@ int cmd_frf(int argc, char **argv)
     hc_status shown = put_points(s, o.at.n ? &found : &curve, t);
     if (st == HC_OK) st = shown;
     note_curve(t, &sc, s, &curve);
-    if (!o.at.n) note_specials(t, s, &curve);
+    hc_status noted = o.at.n ? HC_OK : note_specials(t, s, &curve);
+    if (st == HC_OK && noted == HC_NO_MEMORY) st = noted; /* others are told in the note */
+    if (st != HC_OK && (curve.n == 0 || curve.end == HC_OK)) table_note(t, "INCOMPLETE: %s", hc_status_text(st));
   }
   progress_end(bar);
   code = st == HC_OK ? 0 : cli_solver_failed(&o, "harmonic balance", st, failed_at);

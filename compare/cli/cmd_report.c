@@ -79,12 +79,15 @@ static char *text_of(const cli_options *o)
   if (!to) return NULL;
   if (o) put_command(to, o);
   else cli_print_version(to, NULL);
-  return fclose(to) == 0 ? text : NULL;
+  bool whole = !ferror(to);
+  if (fclose(to) == 0 && whole) return text;
+  free(text);
+  return NULL;
 }
 
 static void describe_settings(const report_data *d, char *text, size_t size)
 {
-  char hbm[128], law[64] = "exact contact law";
+  char hbm[96], law[64] = "exact contact law";
   const scene_transient *t = &d->sc->transient;
   if (t->law != TRANSIENT_LAW_EXACT) snprintf(law, sizeof law, "regularised contact law, %g", t->regularisation);
   cli_hbm_settings(d->sc, d->comparison.harmonics, d->comparison.samples, hbm, sizeof hbm);

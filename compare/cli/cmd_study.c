@@ -69,7 +69,7 @@ static double wall_seconds(void)
 static int wrong(const job *j, hc_status st, const case_error *err)
 {
   if (j->rank == 0) fprintf(stderr, "%s\n", err->message[0] ? err->message : hc_status_text(st));
-  return st == HC_NO_MEMORY ? EXIT_BUG : EXIT_BAD_CASE;
+  return st == HC_NO_MEMORY ? EXIT_NO_SOLUTION : EXIT_BAD_CASE;
 }
 
 /* ---- before anything runs ---- */
@@ -201,9 +201,11 @@ static int summarise(job *j, const task *t, bool *any_failed)
 {
   study_summary sum;
   table *to = j->tables[SUMMARY];
-  if (study_summarise(t->s, t->store, &sum) != HC_OK || study_verdicts(t->s, t->store, j->tables[VERDICTS]) != HC_OK) {
-    cli_say(&j->o, "%s: %s", t->results, study_store_error(t->store));
-    return EXIT_BAD_CASE;
+  hc_status st = study_summarise(t->s, t->store, &sum);
+  if (st == HC_OK) st = study_verdicts(t->s, t->store, j->tables[VERDICTS]);
+  if (st != HC_OK) {
+    cli_say(&j->o, "%s: %s", t->results, st == HC_NO_MEMORY ? hc_status_text(st) : study_store_error(t->store));
+    return st == HC_NO_MEMORY ? EXIT_NO_SOLUTION : EXIT_BAD_CASE;
   }
   table_put_text(to, study_kind_name(t->s->kind));
   table_put_integer(to, t->s->n_scenes);
@@ -347,7 +349,10 @@ static void follow(const job *j)
 int cmd_study(int argc, char **argv)
 {
   job *j = calloc(1, sizeof *j);
-  if (!j) return EXIT_BUG;
+  if (!j) {
+    fprintf(stderr, "hbmcheck study: %s\n", hc_status_text(HC_NO_MEMORY));
+    return EXIT_NO_SOLUTION;
+  }
   bool lonely = !cluster_start(&j->rank, &j->size);
   cli_parse(argc, argv, "study", "STUDY...", doc, options, true, &j->o);
   int code = check_usage(j, lonely);

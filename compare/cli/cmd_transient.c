@@ -49,7 +49,10 @@ int cmd_transient(int argc, char **argv)
   const table_column *columns = rows_columns(ROWS_TRANSIENT, &n_columns);
   table *t = table_new("Steady states", n_columns, columns);
   for (int i = 0; i < found.n; ++i) show(&o, &found.rows[i], t, &code);
-  if (st != HC_OK) code = cli_solver_failed(&o, "time integration", st, 0);
+  if (st != HC_OK) {
+    table_note(t, "INCOMPLETE: %s", hc_status_text(st));
+    code = cli_solver_failed(&o, "time integration", st, 0);
+  }
   int written = st == HC_OK || found.n ? cli_write(&o, 1, &t) : 0;
   plot_order drawing = {.path = o.plot};
   if (o.plot && found.n && !written) written = cli_plotted(&o, plot_transient(&drawing, &sc, &found), drawing.why);

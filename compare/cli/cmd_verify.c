@@ -124,7 +124,7 @@ static int read_curve(const cli_options *o, verify_data *data)
   hc_status st = verify_data_read(o->against, &where, data, words);
   if (st == HC_OK) return 0;
   fprintf(stderr, "%s\n", words);
-  return st == HC_NO_MEMORY ? EXIT_BUG : EXIT_BAD_CASE;
+  return st == HC_NO_MEMORY ? EXIT_NO_SOLUTION : EXIT_BAD_CASE;
 }
 
 int cmd_verify(int argc, char **argv)

@@ -64,5 +64,6 @@ hc_status compare_tables(const scene *sc, const comparison *c, const hc_monitor 
   hc_status st = accuracy_run(sc, c, monitor, a);
   out[0] = accuracy_table(a);
   out[1] = order_table(a);
+  for (int i = 0; i < 2 && st != HC_OK; ++i) table_note(out[i], "INCOMPLETE: %s", hc_status_text(st));
   return st;
 }

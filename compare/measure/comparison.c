@@ -203,12 +203,14 @@ static hc_status compare_solution(runner *r, const hbm_curve *at, int k, compari
   timeint_state state;
   row->branch = at->points[k].branch;
   row->hbm_status = hbm_measure(r->hbm, X, &row->hbm);
-  if (hbm_stability_at(r->hbm, row->omega, X, &row->stability) != HC_OK) row->stability.multiplier = NAN;
+  hc_status known = hbm_stability_at(r->hbm, row->omega, X, &row->stability);
+  if (known == HC_NO_MEMORY) return known;
+  if (known != HC_OK) row->stability.multiplier = NAN;
   row->transient_status = start_state(r, row, X, &state);
   if (row->transient_status == HC_OK) row->transient_status = timeint_steady(r->ti, row->omega, &state, r->monitor, &row->transient);
-  if (row->transient_status == HC_INTERRUPTED) return HC_INTERRUPTED;
+  if (row->transient_status == HC_INTERRUPTED || row->transient_status == HC_NO_MEMORY) return row->transient_status;
   referee(r, row, X);
-  if (row->orbit_status == HC_INTERRUPTED) return HC_INTERRUPTED;
+  if (row->orbit_status == HC_INTERRUPTED || row->orbit_status == HC_NO_MEMORY) return row->orbit_status;
   bool comparable = row->hbm_status == HC_OK && row->transient_status == HC_OK;
   if (comparable) row->errors = errors_between(&row->hbm, hbm_n_harmonics(r->hbm), X, &row->transient);
   row->accounted = comparable && row->transient.period_multiple == 1 && accounted_for(r->hbm, r->sc, at, &row->transient);
@@ -226,7 +228,7 @@ static hc_status compare_at(runner *r, double omega)
   comparison_row row = none;
   row.hbm_status = hbm_curve_at(r->hbm, &r->out->curve, omega, &at);
   if (row.hbm_status == HC_OK && at.n == 0) row.hbm_status = r->out->curve.end != HC_OK ? r->out->curve.end : HC_NOT_CONVERGED;
-  hc_status st = at.n == 0 || row.hbm_status != HC_OK ? add_row(r->out, &row) : HC_OK;
+  hc_status st = row.hbm_status == HC_NO_MEMORY ? row.hbm_status : at.n == 0 || row.hbm_status != HC_OK ? add_row(r->out, &row) : HC_OK;
   for (int k = 0; k < at.n && st == HC_OK; ++k) {
     row = none;
     if ((st = compare_solution(r, &at, k, &row)) == HC_OK) st = add_row(r->out, &row);
@@ -291,7 +293,8 @@ hc_status comparison_run(const scene *sc, const hc_monitor *monitor, comparison 
     st = hbm_trace(r.hbm, from, to, monitor, &out->curve);
     out->harmonics = hbm_n_harmonics(r.hbm);
     out->samples = hbm_n_samples(r.hbm);
-    response_summarise(r.hbm, &out->curve, &out->summary);
+    hc_status summed = response_summarise(r.hbm, &out->curve, &out->summary);
+    if (summed != HC_OK) st = summed;
     if (st != HC_INTERRUPTED && st != HC_NO_MEMORY) st = compare_all(&r); /* as far as the curve goes */
   }
   budgeter_free(r.budgeter);

@@ -26,6 +26,7 @@ typedef struct response_summary {
   double peak_amplitude, peak_omega, peak_harmonic_1; /* [length], [rad/time], [length] */
   bool reached_end, arclength, left_at_start;
 } response_summary;
-void response_summarise(hbm_solver *s, const hbm_curve *c, response_summary *out);
+/* HC_NO_MEMORY, or HC_OK also where no peak was found: NaN. */
+hc_status response_summarise(hbm_solver *s, const hbm_curve *c, response_summary *out);
 
 #endif

@@ -51,14 +51,17 @@ static hc_status add_failure(job *j, steady_stage stage, hc_status st, double om
   return st == HC_INTERRUPTED ? st : added;
 }
 
-/* The error of a regularised steady state at *state: by the exact law's orbit next to it, or by what Richardson's extrapolation left. */
-static double regularisation_error(job *j, const timeint_state *state, const timeint_result *r)
+/* The error of a regularised steady state at *state: by the exact law's orbit next to it, or by what Richardson's extrapolation left. *st
+ * becomes HC_NO_MEMORY if that is why there is none. */
+static double regularisation_error(job *j, const timeint_state *state, const timeint_result *r, hc_status *st)
 {
   timeint_state start = *state;
   timeint_result orbit;
   if (!j->exact || r->method == TIMEINT_BY_CLOSED_FORM) return 0;
   if (j->sc->transient.richardson) return r->regularisation_error;
-  if (timeint_orbit(j->exact, r->omega, r->period_multiple, &start, j->monitor, &orbit) != HC_OK) return NAN;
+  hc_status found = timeint_orbit(j->exact, r->omega, r->period_multiple, &start, j->monitor, &orbit);
+  if (found == HC_NO_MEMORY) *st = found;
+  if (found != HC_OK) return NAN;
   return budget_regularisation(r, &orbit);
 }
 
@@ -68,7 +71,7 @@ static hc_status settle(job *j, double omega, timeint_state *state, const char *
   steady_row row = {.result = {.omega = omega}, .without_hbm = without_hbm, .from_regularisation = NAN};
   snprintf(row.start, sizeof row.start, "%s", start);
   row.status = timeint_steady(j->ti, omega, state, j->monitor, &row.result);
-  if (row.status == HC_OK) row.from_regularisation = regularisation_error(j, state, &row.result);
+  if (row.status == HC_OK) row.from_regularisation = regularisation_error(j, state, &row.result, &row.status);
   hc_status st = add_row(j->out, &row);
   return row.status == HC_INTERRUPTED ? HC_INTERRUPTED : st;
 }
@@ -90,7 +93,7 @@ static hc_status from_hbm_orbits(job *j, double omega)
   hbm_curve at = {0};
   timeint_state rest = timeint_rest(j->ti);
   hc_status st = hbm_curve_at(j->hbm, &j->curve, omega, &at), why = st != HC_OK ? st : j->curve.end != HC_OK ? j->curve.end : HC_NOT_CONVERGED;
-  st = st != HC_OK || at.n == 0 ? settle(j, omega, &rest, "rest", why) : HC_OK;
+  if (st != HC_NO_MEMORY) st = st != HC_OK || at.n == 0 ? settle(j, omega, &rest, "rest", why) : HC_OK;
   for (int k = 0; k < at.n && st == HC_OK; ++k) st = settle_from_orbit(j, omega, &at, k);
   hbm_curve_free(&at);
   return st;

@@ -111,7 +111,7 @@ hc_status figure_close(figure *g, hc_status st)
 {
   if (!g->to) return st; /* never opened: nothing to free, and the reason is the caller's */
   bool lost = ferror(g->to) != 0;
-  lost |= fclose(g->to) != 0;
+  lost |= fclose(g->to) != 0 || !g->script;
   if (st == HC_OK && lost) st = HC_NO_MEMORY;
   if (st == HC_OK) st = draw(g);
   if (st != HC_OK && !g->order->why[0]) snprintf(g->order->why, PLOT_WHY, "%s", hc_status_text(st));

@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cases/numerics/room.h"
 #include "compare/measure/frequencies.h"
 #include "hbm/aft.h"
 #include "hbm/exact.h"
@@ -38,7 +39,7 @@ static hc_status workshop_open(workshop *w)
 {
   w->force = fftw_malloc(FINE * sizeof *w->force);
   w->spectrum = fftw_malloc((FINE / 2 + 1) * sizeof *w->spectrum);
-  if (!w->force || !w->spectrum) return HC_NO_MEMORY;
+  if (!w->force || !w->spectrum || !hc_room_for(64 * (size_t)FINE)) return HC_NO_MEMORY;
   w->plan = fftw_plan_dft_r2c_1d(FINE, w->force, w->spectrum, FFTW_ESTIMATE);
   return w->plan ? HC_OK : HC_NO_MEMORY;
 }

@@ -52,7 +52,7 @@ static void put_case(page *p)
   size_t size = 0;
   FILE *memory = open_memstream(&text, &size);
   hc_status st = memory ? case_echo(p->d->sc, memory) : HC_NO_MEMORY;
-  if (memory && fclose(memory) != 0) st = HC_NO_MEMORY;
+  if (memory && (fclose(memory) != 0 || !text)) st = HC_NO_MEMORY;
   if (st == HC_OK) html_text(p->to, text);
   else if (p->status == HC_OK) p->status = st;
   free(text);

@@ -27,8 +27,8 @@ static void on_signal(int number) { stop_signal = number; }
 
 void progress_install_signals(void)
 {
-  static const int numbers[] = {SIGINT, SIGTERM};
-  for (int i = 0; i < 2; ++i) {
+  static const int numbers[] = {SIGINT, SIGTERM, SIGHUP};
+  for (int i = 0; i < 3; ++i) {
     struct sigaction old, action = {.sa_handler = on_signal, .sa_flags = SA_RESTART | (int)SA_RESETHAND};
     sigemptyset(&action.sa_mask);
     if (sigaction(numbers[i], NULL, &old) == 0 && old.sa_handler != SIG_IGN) sigaction(numbers[i], &action, NULL);

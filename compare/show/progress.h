@@ -1,4 +1,4 @@
-/* progress.h - a line on the terminal while long work goes on, and the way out of it: SIGINT and SIGTERM ask the work to stop.
+/* progress.h - a line on the terminal while long work goes on, and the way out of it: SIGINT, SIGTERM and SIGHUP ask it to stop.
  * For the command line only: the library has neither signals nor a terminal. */
 #ifndef HC_PROGRESS_H
 #define HC_PROGRESS_H
@@ -10,7 +10,7 @@
 
 typedef struct progress progress;
 
-/* From now on the first SIGINT or SIGTERM makes every tick answer false; the second of its kind kills. A signal that was ignored (nohup)
+/* From now on the first SIGINT, SIGTERM or SIGHUP makes every tick answer false; the second of its kind kills. A signal that was ignored (nohup)
  * stays ignored. Call once, early. */
 void progress_install_signals(void);
 

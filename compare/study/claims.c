@@ -36,7 +36,8 @@ static hc_status prepare_columns(const study *s, sqlite3 *db, const study_value 
   char why[128];
   if (sqlite3_prepare_v2(db, query->text, -1, q, &rest) != SQLITE_OK) {
     int code = sqlite3_errcode(db);
-    return blame(s, query, what, code == SQLITE_AUTH ? "may only read, expected one SELECT" : sqlite3_errmsg(db), err);
+    blame(s, query, what, code == SQLITE_AUTH ? "may only read, expected one SELECT" : sqlite3_errmsg(db), err);
+    return code == SQLITE_NOMEM ? HC_NO_MEMORY : HC_BAD_INPUT;
   }
   snprintf(why, sizeof why, "gives %d columns, expected one value", sqlite3_column_count(*q));
   const char *fault = !*q ? "is no query, expected one SELECT" : rest[strspn(rest, " \t\r\n;")] ? "is more than one query, expected one SELECT"
@@ -113,7 +114,10 @@ static hc_status evaluate(const study *s, sqlite3 *db, const study_value *query,
     if (code == SQLITE_ROW) st = blame(s, query, what, "gives more than one row, expected one value", err);
   }
   if (st == HC_OK && code == SQLITE_INTERRUPT) st = HC_INTERRUPTED;
-  else if (st == HC_OK && code != SQLITE_DONE) st = blame(s, query, what, sqlite3_errmsg(db), err);
+  else if (st == HC_OK && code != SQLITE_DONE) {
+    st = blame(s, query, what, sqlite3_errmsg(db), err);
+    if (code == SQLITE_NOMEM) st = HC_NO_MEMORY;
+  }
   sqlite3_finalize(q);
   return st;
 }

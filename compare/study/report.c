@@ -37,8 +37,9 @@ hc_status study_summarise(const study *s, study_store *store, study_summary *out
     const char *reason = (const char *)sqlite3_column_text(q, 4);
     snprintf(out->reason, sizeof out->reason, "%s", reason ? reason : "");
   }
+  hc_status st = good ? HC_OK : study_sql_status(study_store_readonly(store));
   sqlite3_finalize(q);
-  return good ? HC_OK : HC_IO;
+  return st;
 }
 
 const table_column *study_verdict_columns(int *n)
@@ -60,7 +61,7 @@ hc_status study_verdicts(const study *s, study_store *store, table *t)
       table_put_text(t, s->title);
     }
   sqlite3_finalize(q);
-  return code == SQLITE_DONE ? HC_OK : HC_IO;
+  return code == SQLITE_DONE ? HC_OK : code == SQLITE_NOMEM ? HC_NO_MEMORY : HC_IO;
 }
 
 /* ---- export ---- */
@@ -100,7 +101,8 @@ static char *export_query(const study *s, bool timings)
   if (s->kind != STUDY_TRANSIENT) select_columns(ROWS_CURVE, 's', to);
   select_columns(study_rows(s), 'r', to);
   fputs(" FROM scene AS s LEFT JOIN \"row\" AS r ON r.scene = s.id ORDER BY s.id, r.number", to);
-  if (fclose(to) == 0) return sql;
+  bool whole = !ferror(to);
+  if (fclose(to) == 0 && whole) return sql;
   free(sql);
   return NULL;
 }
@@ -156,7 +158,7 @@ hc_status study_export(const study *s, study_store *store, table_format format, 
   if (!sql) return HC_NO_MEMORY;
   int code = sqlite3_prepare_v2(study_store_readonly(store), sql, -1, &q, NULL);
   free(sql);
-  if (code != SQLITE_OK) return HC_IO;
+  if (code != SQLITE_OK) return study_sql_status(study_store_readonly(store));
   if (json) fputs("{\n  \"rows\": [", to);
   else write_csv_header(q, to);
   for (long n = 0; good && (code = sqlite3_step(q)) == SQLITE_ROW; ++n) {
@@ -166,6 +168,6 @@ hc_status study_export(const study *s, study_store *store, table_format format, 
   }
   if (json) fputs("\n  ],\n  \"notes\": []\n}\n", to);
   sqlite3_finalize(q);
-  if (!good) return HC_NO_MEMORY;
+  if (!good || code == SQLITE_NOMEM) return HC_NO_MEMORY;
   return code == SQLITE_DONE && !ferror(to) ? HC_OK : HC_IO;
 }

@@ -47,11 +47,13 @@ static hc_status put_solutions(hbm_solver *s, const scene *sc, const hbm_curve *
   double failed_at = 0;
   hc_status at = response_at(s, curve, &sc->compare.omega, &found, &failed_at);
   hc_status st = make_rows(r, ROWS_FRF, found.n);
-  if (at != HC_OK) fail_with(r, "no solution", at, failed_at);
+  if (at == HC_NO_MEMORY) st = at; /* says nothing about the scene: it is not kept */
+  else if (at != HC_OK) fail_with(r, "no solution", at, failed_at);
   for (int k = 0; k < found.n && st == HC_OK; ++k) {
     response_row row;
     hc_status one = response_row_of(s, &found, k, &row);
-    if (one == HC_OK) rows_frf(&row, next_row(r));
+    if (one == HC_NO_MEMORY) st = one;
+    else if (one == HC_OK) rows_frf(&row, next_row(r));
     else fail_with(r, "harmonic balance", one, found.points[k].omega);
   }
   hbm_curve_free(&found);
@@ -70,9 +72,9 @@ static hc_status solve_frf(const scene *sc, const hc_monitor *monitor, study_res
     st = hbm_trace(s, from, to, monitor, &curve);
     if (st != HC_INTERRUPTED && st != HC_NO_MEMORY) {
       if (st != HC_OK) fail_with(r, "the response curve stopped", st, curve.n ? curve.points[curve.n - 1].omega : from);
-      response_summarise(s, &curve, &summary);
+      st = response_summarise(s, &curve, &summary);
       put_curve(r, &summary);
-      st = put_solutions(s, sc, &curve, r);
+      if (st == HC_OK) st = put_solutions(s, sc, &curve, r);
     }
   } else if (st != HC_NO_MEMORY) {
     fail_with(r, "harmonic balance", st, 0);
@@ -101,7 +103,8 @@ static hc_status solve_transient(const scene *sc, const hc_monitor *monitor, stu
   for (int i = 0; i < found.n && st == HC_OK; ++i) {
     const steady_row *row = &found.rows[i];
     if (row->stage == STEADY_TRANSIENT) rows_transient(row, next_row(r));
-    if (row->status != HC_OK) fail_with(r, stages[row->stage], row->status, row->result.omega);
+    if (row->status == HC_NO_MEMORY) st = row->status;
+    else if (row->status != HC_OK) fail_with(r, stages[row->stage], row->status, row->result.omega);
   }
   steady_states_clear(&found);
   return st;

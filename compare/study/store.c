@@ -39,7 +39,7 @@ static hc_status refuse_sql(case_error *err, const char *path, sqlite3 *db)
 {
   char why[256];
   int code = sqlite3_errcode(db);
-  if (code == SQLITE_NOMEM) return refuse(err, path, HC_NO_MEMORY, "out of memory");
+  if (code == SQLITE_NOMEM || code == SQLITE_OK /* then it was our own text that had no room */) return refuse(err, path, HC_NO_MEMORY, "out of memory");
   snprintf(why, sizeof why, "%s (SQLite: %.150s)",
            code == SQLITE_CORRUPT || code == SQLITE_NOTADB ? "damaged; delete it, or give another name with --results" : "cannot be used",
            sqlite3_errmsg(db));
@@ -206,6 +206,7 @@ void study_store_close(study_store *st)
 }
 
 const char *study_store_error(const study_store *st) { return sqlite3_errmsg(st->db); }
+hc_status study_sql_status(sqlite3 *db) { return sqlite3_errcode(db) == SQLITE_NOMEM ? HC_NO_MEMORY : HC_IO; }
 
 /* ---- reading only ---- */
 
@@ -230,5 +231,5 @@ hc_status study_store_view(study_store *st, const char *name, const char *select
   int code = sqlite3_exec(st->db, sql, NULL, NULL, NULL);
   sqlite3_free(sql);
   study_store_readonly(st);
-  return code == SQLITE_OK ? HC_OK : HC_IO;
+  return code == SQLITE_OK ? HC_OK : code == SQLITE_NOMEM ? HC_NO_MEMORY : HC_IO;
 }

@@ -20,9 +20,12 @@ void study_store_close(study_store *st);
 /* Which scenes are there: done[n_scenes]; *n is how many. */
 hc_status study_store_done(study_store *st, unsigned char *done, long *n);
 
-/* Keep one scene. HC_IO: it is not kept (disk full?), study_store_error tells. */
+/* Keep one scene. HC_IO, HC_NO_MEMORY: it is not kept (disk full?), study_store_error tells. */
 hc_status study_store_put(study_store *st, const study_result *r);
 const char *study_store_error(const study_store *st);
+
+/* HC_NO_MEMORY or HC_IO: which of them SQLite's last failure on this connection was. */
+hc_status study_sql_status(sqlite3 *db);
 
 /* For queries on the results; whatever is prepared from now on can only read. */
 sqlite3 *study_store_readonly(study_store *st);

@@ -38,7 +38,8 @@ char *store_schema(const study *s, int application_id)
   fputs("); CREATE TABLE \"row\"(scene INTEGER, number INTEGER", to);
   write_columns(study_rows(s), to);
   fputs(", PRIMARY KEY(scene, number)) WITHOUT ROWID", to);
-  if (fclose(to) == 0) return sql;
+  bool whole = !ferror(to);
+  if (fclose(to) == 0 && whole) return sql;
   free(sql);
   return NULL;
 }
@@ -79,12 +80,13 @@ void store_unprepare(study_store *st)
   sqlite3_finalize(st->put_row);
 }
 
-static void bind_cell(sqlite3_stmt *q, int i, const row_cell *c)
+/* False: no memory for the text; the column would be NULL, and nobody the wiser. */
+static bool bind_cell(sqlite3_stmt *q, int i, const row_cell *c)
 {
-  if (!c->there) sqlite3_bind_null(q, i);
-  else if (c->kind == TABLE_REAL) sqlite3_bind_double(q, i, c->as.real);
-  else if (c->kind == TABLE_INTEGER) sqlite3_bind_int64(q, i, c->as.integer);
-  else sqlite3_bind_text(q, i, c->as.text, -1, SQLITE_TRANSIENT);
+  if (!c->there) return sqlite3_bind_null(q, i) == SQLITE_OK;
+  if (c->kind == TABLE_REAL) return sqlite3_bind_double(q, i, c->as.real) == SQLITE_OK;
+  if (c->kind == TABLE_INTEGER) return sqlite3_bind_int64(q, i, c->as.integer) == SQLITE_OK;
+  return sqlite3_bind_text(q, i, c->as.text, -1, SQLITE_TRANSIENT) == SQLITE_OK;
 }
 
 /* A number where the field is one, 0 or 1 for flags, else as it is written. */
@@ -111,11 +113,10 @@ static bool insert_scene(study_store *st, const study_result *r)
       bind_value(q, ++i, sf, sf->values[study_index(s, r->id, a)].text);
     }
   sqlite3_bind_text(q, ++i, r->failed ? "failed" : "done", -1, SQLITE_STATIC);
-  if (r->failed) sqlite3_bind_text(q, ++i, r->reason, -1, SQLITE_TRANSIENT);
-  else sqlite3_bind_null(q, ++i);
+  bool good = (r->failed ? sqlite3_bind_text(q, ++i, r->reason, -1, SQLITE_TRANSIENT) : sqlite3_bind_null(q, ++i)) == SQLITE_OK;
   sqlite3_bind_double(q, ++i, r->seconds);
-  for (int c = 0; c < n_curve; ++c) bind_cell(q, ++i, r->has_curve ? &r->curve[c] : &(row_cell){.there = false});
-  bool good = sqlite3_step(q) == SQLITE_DONE;
+  for (int c = 0; c < n_curve; ++c) good &= bind_cell(q, ++i, r->has_curve ? &r->curve[c] : &(row_cell){.there = false});
+  good = good && sqlite3_step(q) == SQLITE_DONE;
   sqlite3_reset(q);
   return good;
 }
@@ -127,8 +128,8 @@ static bool insert_rows(study_store *st, const study_result *r)
   for (int n = 0; n < r->n_rows && good; ++n) {
     sqlite3_bind_int64(q, 1, r->id);
     sqlite3_bind_int(q, 2, n);
-    for (int c = 0; c < r->n_columns; ++c) bind_cell(q, 3 + c, &r->rows[(size_t)n * (size_t)r->n_columns + (size_t)c]);
-    good = sqlite3_step(q) == SQLITE_DONE;
+    for (int c = 0; c < r->n_columns; ++c) good &= bind_cell(q, 3 + c, &r->rows[(size_t)n * (size_t)r->n_columns + (size_t)c]);
+    good = good && sqlite3_step(q) == SQLITE_DONE;
     sqlite3_reset(q);
   }
   return good;
@@ -139,7 +140,7 @@ hc_status study_store_put(study_store *st, const study_result *r)
   if (sqlite3_exec(st->db, "BEGIN IMMEDIATE", NULL, NULL, NULL) == SQLITE_OK && insert_scene(st, r) && insert_rows(st, r) &&
       sqlite3_exec(st->db, "COMMIT", NULL, NULL, NULL) == SQLITE_OK)
     return HC_OK;
-  return HC_IO; /* closing rolls back; study_store_error still has the words */
+  return study_sql_status(st->db); /* closing rolls back; study_store_error still has the words */
 }
 
 hc_status study_store_done(study_store *st, unsigned char *done, long *n)
@@ -154,5 +155,5 @@ hc_status study_store_done(study_store *st, unsigned char *done, long *n)
     if (id >= 0 && id < st->s->n_scenes) done[id] = 1, ++*n;
   }
   sqlite3_finalize(q);
-  return code == SQLITE_DONE ? HC_OK : HC_IO;
+  return code == SQLITE_DONE ? HC_OK : code == SQLITE_NOMEM ? HC_NO_MEMORY : HC_IO;
 }

@@ -66,7 +66,7 @@ hc_status study_take_fingerprint(study *s)
   FILE *to = open_memstream(&text, &size);
   if (!to) return HC_NO_MEMORY;
   hc_status st = case_echo(&base, to);
-  if (fclose(to) != 0 || st != HC_OK) { free(text); return HC_NO_MEMORY; }
+  if (fclose(to) != 0 || st != HC_OK || !text /* glibc closes well, too, where its first allocation failed */) { free(text); return HC_NO_MEMORY; }
   uint64_t h = mix(mix(0xcbf29ce484222325u, study_kind_name(s->kind)), text);
   free(text);
   for (int a = 0; a < s->n_axes; ++a)

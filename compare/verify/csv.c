@@ -2,6 +2,7 @@
 #include "compare/verify/csv.h"
 
 #include <errno.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -29,7 +30,8 @@ typedef struct reader {
 
 static hc_status blame(reader *r, int column)
 {
-  message_add(r->m, "%s:%ld:%d: ", r->name, r->line, column);
+  message_add_input(r->m, r->name, strlen(r->name), 240);
+  message_add(r->m, ":%ld:%d: ", r->line, column);
   return HC_BAD_INPUT;
 }
 
@@ -135,12 +137,15 @@ static hc_status begin(reader *r, bool header)
 
 /* ---- points ---- */
 
-static hc_status read_number(reader *r, int index, const char *what, bool zero, double *value)
+/* scale times the number, which must be finite too. */
+static hc_status read_number(reader *r, int index, const char *what, bool zero, double scale, double *value)
 {
   static const char *const faults[] = {[NUMBER_NONE] = "is not a number", [NUMBER_NOT_FINITE] = "is not finite", [NUMBER_TOO_LARGE] = "is too large",
                                        [NUMBER_TOO_SMALL] = "is too small", [NUMBER_NOT_INTEGER] = "is not an integer"};
   const field *f = &r->fields[index];
   number_fault fault = number_read(f->text, f->length, value);
+  if (fault == NUMBER_FINE) *value *= scale;
+  if (fault == NUMBER_FINE && !isfinite(*value)) fault = NUMBER_TOO_LARGE;
   if (fault == NUMBER_FINE && (*value > 0 || (zero && *value == 0))) return HC_OK;
   blame(r, f->column);
   message_add(r->m, "'");
@@ -175,9 +180,8 @@ static hc_status read_point(reader *r)
     message_add(r->m, "%d field%s, expected %d as in line %ld", r->n_fields, r->n_fields == 1 ? "" : "s", r->first_fields, r->first_line);
     return HC_BAD_INPUT;
   }
-  hc_status st = read_number(r, r->omega, r->columns->cycles ? "a frequency" : "an omega", false, &p.omega);
-  if (st == HC_OK) st = read_number(r, r->value, verify_quantity_name(r->columns->quantity), true, &p.value);
-  if (r->columns->cycles) p.omega *= two_pi;
+  hc_status st = read_number(r, r->omega, r->columns->cycles ? "a frequency" : "an omega", false, r->columns->cycles ? two_pi : 1, &p.omega);
+  if (st == HC_OK) st = read_number(r, r->value, verify_quantity_name(r->columns->quantity), true, 1, &p.value);
   return st == HC_OK ? add_point(r, p) : st;
 }
 
@@ -244,11 +248,14 @@ hc_status verify_data_read(const char *path, const verify_columns *columns, veri
   *out = (verify_data){.quantity = columns->quantity};
   message_start(&m, words, VERIFY_TEXT);
   reader *r = malloc(sizeof *r);
-  if (!r) return HC_NO_MEMORY;
+  if (!r) {
+    message_add(&m, "%s", hc_status_text(HC_NO_MEMORY));
+    return HC_NO_MEMORY;
+  }
   *r = (reader){.name = path, .m = &m, .columns = columns, .out = out};
   errno = 0;
   FILE *from = fopen(path, "r");
-  hc_status st = from ? read_all(from, &text, &length) : HC_IO;
+  hc_status st = from ? read_all(from, &text, &length) : errno == ENOMEM ? HC_NO_MEMORY : HC_IO;
   if (st == HC_IO) message_add(&m, "%s: %s, expected a file of columns", path, errno ? strerror(errno) : hc_status_text(st));
   else if (st == HC_BAD_INPUT) message_add(&m, "%s: larger than %zu MiB, expected a response curve", path, most_bytes >> 20);
   else if (st == HC_OK) st = read_lines(r, text, length);

@@ -41,10 +41,13 @@ typedef struct truth {
 
 /* ---- one point ---- */
 
-static int stable_at(truth *t, double omega, const double *X)
+/* *st becomes HC_NO_MEMORY if that is why nobody knows. */
+static int stable_at(truth *t, double omega, const double *X, hc_status *st)
 {
   hbm_stability s;
-  return hbm_stability_at(t->hbm, omega, X, &s) == HC_OK ? hbm_stability_verdict(&s) : 0;
+  hc_status known = hbm_stability_at(t->hbm, omega, X, &s);
+  if (known == HC_NO_MEMORY) *st = known;
+  return known == HC_OK ? hbm_stability_verdict(&s) : 0;
 }
 
 /* The nearest of the solutions *at to the row's value, or -1; its measures into *nearest. */
@@ -81,7 +84,7 @@ static hc_status solve_at(truth *t, double omega, hbm_curve *at)
     return HC_OK;
   }
   if (at->X != X) free(X);
-  return st == HC_NO_MEMORY ? st : HC_OK;
+  return st == HC_NO_MEMORY || at->X ? HC_NO_MEMORY : HC_OK;
 }
 
 static hc_status judge_point(truth *t, const verify_point *p, verify_row *row)
@@ -99,10 +102,10 @@ static hc_status judge_point(truth *t, const verify_point *p, verify_row *row)
     row->nearest = s.q[t->data->quantity];
     row->amplitude = m.amplitude;
     row->error = p->value == row->nearest ? 0 : fabs(p->value - row->nearest) / m.amplitude;
-    row->stable = stable_at(t, p->omega, at.X + (size_t)k * at.n_coef);
+    row->stable = stable_at(t, p->omega, at.X + (size_t)k * at.n_coef, &st);
     row->stable_too = row->stable > 0;
     for (int j = 0; j < at.n && row->stable < 0 && !row->stable_too; ++j)
-      row->stable_too = j != k && stable_at(t, p->omega, at.X + (size_t)j * at.n_coef) > 0;
+      row->stable_too = j != k && stable_at(t, p->omega, at.X + (size_t)j * at.n_coef, &st) > 0;
     row->verdict = !(row->error <= t->out->gate) ? VERDICT_DIFFERS : row->stable < 0 ? VERDICT_UNSTABLE : VERDICT_MATCH;
   }
   hbm_curve_free(&at);
@@ -129,7 +132,7 @@ static hc_status check_row(truth *t, const verify_row *row)
     int n_harm = hbm_n_harmonics(t->hbm);
     timeint_state state = comparison_orbit_start(&m, n_harm, at.X + (size_t)k * at.n_coef, row->omega);
     found = timeint_orbit(t->referee, row->omega, 1, &state, t->monitor, &orbit);
-    if (found == HC_INTERRUPTED) st = HC_INTERRUPTED;
+    if (found == HC_INTERRUPTED || found == HC_NO_MEMORY) st = found;
   }
   hbm_curve_free(&at);
   if (found != HC_OK || (t->data->quantity == VERIFY_PEAK && orbit.free_sliders > 0)) {

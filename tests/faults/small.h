@@ -1,0 +1,77 @@
+/* small.h - the scene of these tests: two contacts that open and close, three harmonics, one frequency to compare at; milliseconds. */
+#ifndef HC_TESTS_FAULTS_SMALL_H
+#define HC_TESTS_FAULTS_SMALL_H
+
+#include <signal.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "cases/case_file.h"
+#include "tests/check.h"
+
+#define SMALL_BODY                                                                                                              \
+  "{oscillator: {mass: 1, damping: 2, stiffness: 40}, forcing: {amplitude: 20}, sweep: {omega: [6, 7]}, hbm: {harmonics: 3},\n" \
+  " contacts: [{tangential_stiffness: 20, normal_stiffness: 20, friction: 0.3, angle_deg: 45, gap: 0.1},\n"                     \
+  "            {tangential_stiffness: 20, normal_stiffness: 20, friction: 0.2, angle_deg: 30, gap: 0.5}],\n"                    \
+  " transient: {tolerance: 1.0e-6}, compare: {omega: [6.5], harmonics: [1, 2], samples: [16, 32]},\n"                           \
+  " gate: {amplitude: 0.5, harmonic_1: 0.5, mean: 0.5, waveform: 0.5}}\n"
+
+#define SMALL_STUDY                                                                                                               \
+  "study: small\nbase: small.yaml\nrun: frf\nvary: [{hbm.harmonics: [2, 3]}]\nviews: {peaks: SELECT peak_amplitude AS p FROM scene}\n" \
+  "claims: [{source: text, says: it moves, found: SELECT max(p) FROM peaks, holds: SELECT count(*) = 2 FROM scene}]\n"
+
+/* The scene, with --set assignments applied; the list ends with NULL. */
+static inline scene small_scene(const char *const *set)
+{
+  scene sc;
+  case_error err;
+  int n = 0;
+  while (set && set[n]) ++n;
+  if (case_parse("small.yaml", SMALL_BODY, strlen(SMALL_BODY), n, set, &sc, &err) != HC_OK) fail_msg("%s", err.message);
+  return sc;
+}
+
+/* What is being tried; told if it hangs. */
+static char small_doing[200];
+
+static inline void small_hangs(int number)
+{
+  (void)number;
+  ssize_t written = write(2, small_doing, strlen(small_doing));
+  _exit(written > 0 ? 98 : 97);
+}
+
+/* check_watchdog that says in what the program hung. */
+static inline void small_watchdog(unsigned seconds)
+{
+  signal(SIGALRM, small_hangs);
+  check_watchdog(seconds);
+}
+
+static inline void small_file(const char *name, const char *text)
+{
+  FILE *to = fopen(name, "w");
+  assert_non_null(to);
+  assert_true(fputs(text, to) >= 0);
+  assert_int_equal(fclose(to), 0);
+}
+
+/* small.yaml, study.yaml and a curve to verify, in a new folder, which becomes the current one. */
+static inline void small_folder(char *name)
+{
+  assert_non_null(mkdtemp(name));
+  assert_int_equal(chdir(name), 0);
+  small_file("small.yaml", SMALL_BODY);
+  small_file("study.yaml", SMALL_STUDY);
+  small_file("curve.csv", "omega,amplitude\n6.2,0.969\n6.4,1.0525\n6.6,1.1341\n"); /* of this scene, rounded */
+}
+
+static inline void small_clean(const char *name)
+{
+  char line[300];
+  snprintf(line, sizeof line, "rm -r %s", name);
+  assert_int_equal(chdir("/"), 0);
+  assert_int_equal(system(line), 0);
+}
+
+#endif

@@ -1,0 +1,178 @@
+/* test_memory.c - the commands with allocation number n failing, n = 1, 2, ..., and with all from n on failing: they end by themselves, leak
+ * nothing, and either write what an undisturbed run writes or
+ * say that memory ran out and exit with 3; a file is not there, whole, or says itself what it lacks.
+ * Run with the argument "every" for each n (the test labelled slow), else for the first ones and then in growing strides. */
+#include <dirent.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "tests/faults/child.h"
+#include "tests/faults/memory.h"
+#include "tests/faults/small.h"
+
+enum { SECONDS = 60, DENSE = 12 /* first n tried one by one */, STRIDES = 6 /* then each n + n/STRIDES */, SHOWN = 8 };
+
+typedef struct trial {
+  const char *line;
+  bool timed; /* what it writes has seconds in it: only its length is compared, roughly */
+  long n;
+  memory_mode mode;
+} trial;
+
+static bool every;
+static outcome now;
+
+static int work(void *self)
+{
+  const trial *t = self;
+  memory_fail(t->n, t->mode);
+  int code = child_command(t->line);
+  fflush(stdout);
+  *child_count = memory_asked();
+  memory_fail(0, MEMORY_ONE); /* looking for leaks takes memory, too */
+  return code;
+}
+
+/* Nothing of ours lies about: no file written beside another. */
+static bool folder_is_clean(void)
+{
+  DIR *here = opendir(".");
+  bool clean = true;
+  assert_non_null(here);
+  for (struct dirent *e; (e = readdir(here));) clean = clean && strncmp(e->d_name, ".hbmcheck-", 10) != 0;
+  closedir(here);
+  return clean;
+}
+
+/* What the command wrote to "result", then removed. NULL: nothing there. */
+static char *take_result(void)
+{
+  static char text[CHILD_TEXT];
+  FILE *from = fopen("result", "r");
+  if (!from) return NULL;
+  text[fread(text, 1, sizeof text - 1, from)] = 0;
+  fclose(from);
+  unlink("result");
+  return text;
+}
+
+static bool is_whole(const trial *t, const char *result, const char *good)
+{
+  if (t->timed) return strlen(result) > 0.9 * strlen(good) && !strcmp(result + strlen(result) - 2, good + strlen(good) - 2);
+  return !strcmp(result, good);
+}
+
+static bool passes(const trial *t, int good_code, const char *good)
+{
+  char what[300];
+  snprintf(what, sizeof what, "hbmcheck %s, allocation %ld%s", t->line, t->n, t->mode == MEMORY_ONE ? "" : " and all after it");
+  child_run(work, (void *)t, SECONDS, &now);
+  const char *result = take_result();
+  bool whole = result && is_whole(t, result, good), silent = !strstr(now.err, "memory");
+  bool honest = !result || whole || strstr(result, "out of memory") || strstr(result, "solver_failed"); /* what was found is kept, if it says so itself */
+  bool fine = now.code == good_code ? whole : now.code == 3 && honest && !silent;
+  if (fine && folder_is_clean()) return true;
+  child_show(&now, what);
+  print_error("result %s\n", !result ? "absent" : whole ? "whole" : "CHANGED");
+  if (result && !whole) print_error("%.2000s\n", result);
+  return false;
+}
+
+static void try_one(const char *line, bool timed)
+{
+  static char good[CHILD_TEXT];
+  trial t = {line, timed, 0, MEMORY_ONE};
+  child_run(work, &t, SECONDS, &now);
+  const int code = now.code;
+  const long n = now.count;
+  const char *result = take_result();
+  if (code < 0 || code > 1 || !result || n < 1) child_show(&now, line);
+  assert_true((code == 0 || code == 1) && result && n >= 1);
+  strcpy(good, result);
+  long tried = 0, failed = 0;
+  for (t.n = 1; t.n <= n && failed < SHOWN; t.n += every || t.n < DENSE ? 1 : 1 + t.n / STRIDES, ++tried)
+    for (t.mode = MEMORY_ONE; t.mode <= MEMORY_ALL_FROM; ++t.mode) failed += !passes(&t, code, good);
+  print_message("%ld of %ld allocations: hbmcheck %s\n", tried, n, line);
+  assert_int_equal(failed, 0);
+}
+
+static void try(const char *line) { try_one(line, false); }
+
+static void frf(void **state)
+{
+  (void)state;
+  try("frf small.yaml -q -o result");
+  try("frf small.yaml -q -o result --format json --at 6.3 --set hbm.harmonics=2 --set hbm.force=sampled --set hbm.samples=16");
+  try("frf small.yaml -q -o result --format csv --set hbm.harmonics=auto --set hbm.samples=auto --set hbm.force=sampled --set hbm.accuracy=0.01");
+}
+
+static void transient(void **state)
+{
+  (void)state;
+  try("transient small.yaml -q -o result");
+  try("transient small.yaml -q -o result --format csv --set transient.law=exact --set transient.start=rest");
+  try("transient small.yaml -q -o result --format json --set transient.law=exact --set transient.start=up");
+}
+
+static void compare(void **state)
+{
+  (void)state;
+  try("compare small.yaml -q -o result --set transient.law=exact");
+  try_one("compare small.yaml -q -o result --format json --tables --set transient.law=exact --harmonics 1 --samples 16", true);
+}
+
+static void contact_force(void **state)
+{
+  (void)state;
+  try("contact small.yaml -q -o result --motion 0,1,0 --samples 16");
+}
+
+static void gate(void **state)
+{
+  (void)state;
+  try("gate small.yaml -q -o result --set transient.law=exact");
+  try("gate small.yaml -q -o /dev/null --junit result --set transient.law=exact");
+}
+
+static void study(void **state)
+{
+  (void)state;
+  try("study study.yaml -q --jobs 1 --results :memory: --export csv -o result");
+  try("study study.yaml -q --jobs 1 --results :memory: --export json -o result");
+}
+
+static void verify(void **state)
+{
+  (void)state;
+  try("verify small.yaml -q --against curve.csv --columns omega=omega,amplitude=amplitude -o result --set transient.law=exact");
+}
+
+static void describe(void **state)
+{
+  (void)state;
+  try("describe -o result");
+  try("describe hbm.samples -q -o result");
+}
+
+/* at N one|all "ARG ...": that failure here and now, for a debugger. */
+static int at_one(char **argv)
+{
+  memory_fail(strtol(argv[2], NULL, 10), !strcmp(argv[3], "all") ? MEMORY_ALL_FROM : MEMORY_ONE);
+  return child_command(argv[4]);
+}
+
+int main(int argc, char **argv)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(frf),   cmocka_unit_test(transient), cmocka_unit_test(compare), cmocka_unit_test(contact_force), cmocka_unit_test(gate),
+      cmocka_unit_test(study), cmocka_unit_test(verify),    cmocka_unit_test(describe),
+  };
+  static char folder[] = "/tmp/hbmcheck-memory-XXXXXX";
+  every = argc > 1 && !strcmp(argv[1], "every");
+  if (argc == 5 && !strcmp(argv[1], "at")) return at_one(argv);
+  check_watchdog(every ? 3000 : 600);
+  small_folder(folder);
+  int failed = cmocka_run_group_tests_name("faults.memory", tests, NULL, NULL);
+  small_clean(folder);
+  return failed;
+}

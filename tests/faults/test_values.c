@@ -1,0 +1,184 @@
+/* test_values.c - NaN and infinity at the n-th evaluation of the contact force (hbm/exact.c, hbm/aft.c) or of the right-hand side of the
+ * regularised law (timeint/model.c), with the status of a good evaluation or the one it owes: no hang, no wrong answer, and the handle is not
+ * poisoned: asked again it answers what a new one answers, bit for bit. */
+#include "hbm/aft.h"
+#include "hbm/exact.h"
+#include "hbm/hbm.h"
+#include "tests/faults/small.h"
+#include "timeint/model.h"
+#include "timeint/timeint.h"
+
+enum { H3 = 7 /* coefficients of three harmonics */ };
+
+typedef struct poison { /* of an evaluation */
+  long at;              /* 0: none */
+  bool stays;           /* all after it, too */
+  double value;
+  bool jacobian;        /* into the Jacobian instead of the force */
+  bool honest;          /* answered as HC_NOT_FINITE or false */
+  long calls;
+} poison;
+
+static poison now;
+
+static bool strikes(void)
+{
+  ++now.calls;
+  return now.at > 0 && (now.stays ? now.calls >= now.at : now.calls == now.at);
+}
+
+static hc_status spoil(double *F, double *jac)
+{
+  double *to = now.jacobian && jac ? jac : F;
+  to[1] = now.value;
+  return now.honest ? HC_NOT_FINITE : HC_OK;
+}
+
+hc_status __real_exact_eval(exact *e, const double *X, double *F, double *jac, contact_report *report);
+hc_status __wrap_exact_eval(exact *e, const double *X, double *F, double *jac, contact_report *report);
+hc_status __wrap_exact_eval(exact *e, const double *X, double *F, double *jac, contact_report *report)
+{
+  hc_status st = __real_exact_eval(e, X, F, jac, report);
+  return strikes() ? spoil(F, jac) : st;
+}
+
+hc_status __real_aft_eval(aft *a, const double *X, double *F, double *jac, contact_report *report);
+hc_status __wrap_aft_eval(aft *a, const double *X, double *F, double *jac, contact_report *report);
+hc_status __wrap_aft_eval(aft *a, const double *X, double *F, double *jac, contact_report *report)
+{
+  hc_status st = __real_aft_eval(a, X, F, jac, report);
+  return strikes() ? spoil(F, jac) : st;
+}
+
+bool __real_model_rhs(const model *m, double theta, const double *y, double *dy);
+bool __wrap_model_rhs(const model *m, double theta, const double *y, double *dy);
+bool __wrap_model_rhs(const model *m, double theta, const double *y, double *dy)
+{
+  bool finite = __real_model_rhs(m, theta, y, dy);
+  if (!strikes()) return finite;
+  dy[MODEL_P] = now.value;
+  return !now.honest;
+}
+
+static void doing(const char *what)
+{
+  snprintf(small_doing, sizeof small_doing, "%s: evaluation %ld%s is %g%s%s\n", what, now.at, now.stays ? " and all after it" : "", now.value,
+           now.jacobian ? " in the Jacobian" : "", now.honest ? ", and says so" : "");
+}
+
+/* ---- harmonic balance ---- */
+
+static const char *const located[] = {NULL}, *const sampled[] = {"hbm.force=sampled", "hbm.samples=64", NULL};
+
+static hc_status traced(hbm_solver *s, hbm_curve *c)
+{
+  *c = (hbm_curve){0};
+  return hbm_trace(s, 6, 7, NULL, c);
+}
+
+/* Trace with the poison, then without. HC_OK only with the last point at the end and finite everywhere. */
+static hc_status trace_with(const char *const *set, poison p, const hbm_curve *right)
+{
+  scene sc = small_scene(set);
+  hbm_solver *s;
+  hbm_curve c;
+  assert_int_equal(hbm_solver_new(&sc, &s), HC_OK);
+  now = p;
+  doing(set == located ? "exact forces" : "sampled forces");
+  hc_status st = traced(s, &c);
+  const long calls = now.calls;
+  now = (poison){0};
+  for (int i = 0; i < c.n * c.n_coef; ++i) CHECK_LE(fabs(c.X[i]), 10, "%s", small_doing);
+  if (st == HC_OK && right) { /* at the end of the sweep, where both have a point, residuals of 1e-9 apart (see test_solvers.c) */
+    CHECK_NEAR(c.points[c.n - 1].omega, 7, 1e-12, "%s", small_doing);
+    for (int i = 0; i < H3; ++i) CHECK_NEAR(c.X[(c.n - 1) * H3 + i], right->X[(right->n - 1) * H3 + i], 1e-7, "%s", small_doing);
+  }
+  hbm_curve_free(&c);
+  if (right) {
+    assert_int_equal(traced(s, &c), HC_OK);
+    assert_int_equal(c.n, right->n);
+    assert_memory_equal(c.X, right->X, sizeof(double) * (size_t)c.n * H3);
+    hbm_curve_free(&c);
+  }
+  hbm_solver_free(s);
+  now.calls = calls;
+  return st;
+}
+
+static void poisoned_force(const char *const *set)
+{
+  scene sc = small_scene(set);
+  hbm_solver *s;
+  hbm_curve right;
+  now = (poison){0};
+  assert_int_equal(hbm_solver_new(&sc, &s), HC_OK);
+  assert_int_equal(traced(s, &right), HC_OK);
+  const long most = now.calls, at[] = {1, 2, 3, 4, 5, most / 2, most / 2 + 1, most - 1, most};
+  static const double values[] = {NAN, INFINITY, -INFINITY, 1e308};
+  for (int i = 0; i < 9; ++i)
+    for (int k = 0; k < 4; ++k)
+      for (int how = 0; how < 8; ++how) {
+        poison p = {.at = at[i], .stays = how & 1, .value = values[k], .jacobian = how & 2, .honest = how & 4};
+        hc_status st = trace_with(set, p, &right);
+        if (p.stays && (p.honest || (!p.jacobian && !isfinite(p.value))) && st == HC_OK) fail_msg("%s ended well", small_doing);
+      }
+  hbm_curve_free(&right);
+  hbm_solver_free(s);
+}
+
+static void exact_force(void **state)
+{
+  (void)state;
+  poisoned_force(located);
+}
+
+static void sampled_force(void **state)
+{
+  (void)state;
+  poisoned_force(sampled);
+}
+
+/* ---- time integration ---- */
+
+static const char *const smoothly[] = {"transient.regularisation=0.01", "transient.tolerance=1e-4", NULL};
+
+static hc_status settled(timeint *ti, timeint_state from, timeint_result *r) { return timeint_steady(ti, 6.5, &from, NULL, r); }
+
+static void right_hand_side(void **state)
+{
+  (void)state;
+  scene sc = small_scene(smoothly);
+  timeint *ti;
+  timeint_result right, r;
+  assert_int_equal(timeint_new(&sc, &ti), HC_OK);
+  timeint_state orbit = timeint_rest(ti);
+  now = (poison){0};
+  assert_int_equal(timeint_steady(ti, 6.5, &orbit, NULL, &r), HC_OK);
+  orbit.x *= 1.001; /* next to it: from rest it would take a hundred periods */
+  now = (poison){0};
+  assert_int_equal(settled(ti, orbit, &right), HC_OK);
+  const long most = now.calls, at[] = {1, 2, 3, 10, 100, most / 2, most - 1, most};
+  static const double values[] = {NAN, INFINITY, -INFINITY};
+  for (int i = 0; i < 8; ++i)
+    for (int k = 0; k < 3; ++k)
+      for (int how = 0; how < 4; ++how) {
+        now = (poison){.at = at[i], .stays = how & 1, .value = values[k], .honest = how & 2};
+        doing("regularised law");
+        hc_status st = settled(ti, orbit, &r);
+        const bool lasting = now.stays && at[i] < most - 1; /* the last ones belong to measuring a step that CVODE has finished */
+        if (lasting && st == HC_OK) fail_msg("%s ended well", small_doing);
+        if (lasting && now.honest && st != HC_NOT_FINITE) fail_msg("%s: %s", small_doing, hc_status_text(st));
+        now = (poison){0};
+        if (st == HC_OK) CHECK_NEAR(r.amplitude, right.amplitude, 2e-4 * right.amplitude, "%s", small_doing); /* twice the tolerance */
+        assert_int_equal(settled(ti, orbit, &r), HC_OK);
+        assert_true(r.amplitude == right.amplitude && r.closure == right.closure);
+      }
+  timeint_free(ti);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {cmocka_unit_test(exact_force), cmocka_unit_test(sampled_force), cmocka_unit_test(right_hand_side)};
+  small_watchdog(300);
+  return cmocka_run_group_tests_name("faults.values", tests, NULL, NULL);
+}
