@@ -88,23 +88,39 @@ static const contact_piece *piece_at(const exact *e, int j, double th)
   return NULL;
 }
 
+/* Is contact j's slider held for ever? Also where it has slipped until friction just holds it (shakedown): such an orbit is the last of a family
+ * that differs by where the slider rests, and it touches the limit without passing it, in no time. Its one-sided derivative, as if it slipped there,
+ * has a multiplier 1 that is the family's. What passes for no time: the slip's path goes with its length squared, so 1e-6 rad move it by rounding. */
+static bool held_for_ever(const exact *e, int j)
+{
+  const double no_time = 1e-6;
+  double stuck = 0, touching = 0;
+  int n;
+  const contact_piece *p = exact_pieces(e, j, &n);
+  for (int i = 0; i < n; ++i) {
+    touching += p[i].to - p[i].from;
+    if (p[i].state == CONTACT_STICK) stuck += p[i].to - p[i].from;
+  }
+  return touching >= TWO_PI * (1 - 1e-15) && stuck >= touching - no_time;
+}
+
 /* Does contact j's slider remember the motion? Not if it is stuck for ever, and not if every stick starts with a touch-down that puts it at
  * the same place whatever the motion: dheld is then 0 at all times and no state of the system. */
 static bool remembers(const exact *e, int j)
 {
   int n;
   const contact_piece *p = exact_pieces(e, j, &n);
-  for (int i = 0; i < n; ++i)
+  for (int i = 0; i < n && !held_for_ever(e, j); ++i)
     if (p[i].state == CONTACT_STICK && p[i].slope[0] != 0) return true;
   return false;
 }
 
 /* Sliders that come to rest at this boundary: dheld from dx there. */
-static void set_sliders(stability *s, const scene *sc, const contact_piece *const *piece, double th, int m)
+static void set_sliders(stability *s, const scene *sc, const exact *e, const contact_piece *const *piece, double th, int m)
 {
   for (int j = 0; j < sc->n_contacts; ++j) {
     const contact_piece *p = piece[j];
-    if (!p || p->state != CONTACT_STICK || p->from != p->origin || wrap(p->from) != th) continue;
+    if (!p || p->state != CONTACT_STICK || p->from != p->origin || wrap(p->from) != th || held_for_ever(e, j)) continue;
     for (int q = 0; q < m; ++q) s->phi[2 + j][q] = p->slope[0] * s->phi[0][q];
   }
 }
@@ -169,7 +185,7 @@ hc_status stability_of(stability *s, const scene *sc, const exact *e, double ome
       for (int j = 0; j < sc->n_contacts; ++j)
         if (piece[j] && piece[j]->state == CONTACT_STICK && remembers(e, j) && !(piece[j]->from == piece[j]->origin && wrap(piece[j]->from) == a))
           active[n_active++] = 2 + j;
-    set_sliders(s, sc, piece, a, m);
+    set_sliders(s, sc, e, piece, a, m);
     advance_stretch(s, sc, piece, (b - a) / omega, m);
   }
   double complex lambda[MAX_STATE];

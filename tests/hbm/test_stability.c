@@ -349,11 +349,35 @@ static void two_contacts_against_differences_of_the_period_map(void **state)
   }
 }
 
+/* Held by friction, after slipping from w = 0 until it just is: the slider is one of a family, its multiplier 1 is nobody's, and what is left is the
+ * stuck oscillator, exp(lambda T) with M lambda^2 + C lambda + K' = 0. Found by `stress`: "unknown" was said of orbits that are stable. */
+static void a_slider_shaken_down_is_held(void **state)
+{
+  (void)state;
+  scene sc = exact_scene("a10", 4);
+  sc.mass = 0.004673179462143663, sc.damping = 3.034467329816304, sc.stiffness = 5318.444481348431, sc.force = 583.943258710234;
+  sc.contacts[0] = (scene_contact){{.kt = 15.850124418365803, .kn = 1.2291759286480795, .mu = 1.9994961307629158, .gap = 0.732771594469483}, 55.94139530323445};
+  const double omega = 881.68431426493737, rate = 0.5 * sc.damping / sc.mass, k = sc.stiffness + scene_stuck_stiffness(&sc.contacts[0]);
+  hbm_solver *s;
+  hbm_point point;
+  hbm_stability st;
+  double X[9];
+  assert_int_equal(hbm_solver_new(&sc, &s), HC_OK);
+  assert_int_equal(hbm_solve_first(s, omega, X, &point), HC_OK);
+  CHECK_LE(1e-6, fabs(X[0]), "the slider has slipped: it rests where the mean is not 0");
+  assert_int_equal(hbm_stability_at(s, omega, X, &st), HC_OK);
+  CHECK_LE(rate * rate, k / sc.mass, "under-damped, so that both multipliers have the modulus");
+  CHECK_NEAR(st.multiplier, exp(-rate * 2 * PI / omega), 1e-12, "stuck oscillator");
+  assert_int_equal(hbm_stability_verdict(&st), 1);
+  hbm_solver_free(s);
+}
+
 static const struct CMUnitTest tests[] = {
     cmocka_unit_test(a_linear_oscillator_has_the_exponentials_of_its_eigenvalues),
     cmocka_unit_test(without_slip_the_determinant_is_that_of_the_damping),
     cmocka_unit_test(slipping_orbits_against_differences_of_the_period_map),
     cmocka_unit_test(two_contacts_against_differences_of_the_period_map),
+    cmocka_unit_test(a_slider_shaken_down_is_held),
 };
 
 CHECK_MAIN("hbm.stability", tests, 200)
