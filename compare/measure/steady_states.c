@@ -72,6 +72,7 @@ static hc_status settle(job *j, double omega, timeint_state *state, const char *
   snprintf(row.start, sizeof row.start, "%s", start);
   row.status = timeint_steady(j->ti, omega, state, j->monitor, &row.result);
   if (row.status == HC_OK) row.from_regularisation = regularisation_error(j, state, &row.result, &row.status);
+  if (row.status == HC_NO_MEMORY) return HC_NO_MEMORY;
   hc_status st = add_row(j->out, &row);
   return row.status == HC_INTERRUPTED ? HC_INTERRUPTED : st;
 }
@@ -107,6 +108,7 @@ static hc_status swept(job *j, const scene_list *at, bool up)
   for (int i = 0; i < at->n; ++i) {
     double omega = at->v[up ? i : at->n - 1 - i];
     hc_status st = timeint_sweep(j->ti, here, omega, &state, j->monitor);
+    if (st == HC_NO_MEMORY) return st;
     if (st != HC_OK) return add_failure(j, STEADY_SWEEP, st, omega); /* from nowhere there is no going on */
     if ((st = settle(j, omega, &state, up ? "up" : "down", HC_OK)) != HC_OK) return st;
     here = omega;

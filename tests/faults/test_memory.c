@@ -1,7 +1,7 @@
 /* test_memory.c - the commands with allocation number n failing, n = 1, 2, ..., and with all from n on failing: they end by themselves, leak
  * nothing, and either write what an undisturbed run writes or
  * say that memory ran out and exit with 3; a file is not there, whole, or says itself what it lacks.
- * Run with the argument "every" for each n (the test labelled slow), else for the first ones and then in growing strides. */
+ * Run with the argument "every" for each n (ctest -C Thorough), else for the first ones and then in growing strides. */
 #include <dirent.h>
 #include <stdlib.h>
 #include <string.h>

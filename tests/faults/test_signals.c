@@ -12,7 +12,7 @@
 
 enum { MOST_ARGUMENTS = 16, TEXT = 1 << 16 };
 
-static int times = 4; /* moments a command and signal; 20 with the argument "every" */
+static int times = 2; /* moments a command and signal; 20 with the argument "every" */
 
 static double seconds(void)
 {
@@ -140,7 +140,7 @@ static void report(void **state)
   (void)state;
   said s = shell("$H report small.yaml -q -o result --harmonics 1 --samples 16 2>&1");
   if (s.code == 64) skip(); /* built without Chart.js */
-  try_with("report small.yaml -o result --harmonics 1 --samples 16", times > 4 ? times : 1);
+  try_with("report small.yaml -o result --harmonics 1 --samples 16", times > 2 ? times : 1);
 }
 
 /* Each time a little is added, whatever ended it; then the export is that of an undisturbed run. */
