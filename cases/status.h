@@ -44,4 +44,11 @@ static inline bool hc_monitor_tick(const hc_monitor *m, double done)
   return !m || !m->tick || m->tick(m->self, done);
 }
 
+/* The tick of a monitor around another one (self; may be NULL), for work whose progress says nothing of the whole. */
+static inline bool hc_monitor_tick_aside(void *self, double done)
+{
+  (void)done;
+  return hc_monitor_tick((const hc_monitor *)self, -1);
+}
+
 #endif

@@ -268,17 +268,11 @@ static hc_status finish_at_limit(path *p, bool *done)
 
 static hc_status trace(hbm_solver *s, double from, double to, bool from_afar, const hc_monitor *monitor, hbm_curve *curve);
 
-static bool tick_aside(void *outer, double done)
-{
-  (void)done;
-  return hc_monitor_tick(outer, -1);
-}
-
 /* The solution at p->from by the curve that comes down from well above every resonance, where inertia rules and any guess will do. */
 static hc_status solve_from_afar(path *p, const hc_monitor *monitor)
 {
   const scene *sc = &p->s->sys.sc;
-  const hc_monitor aside = {tick_aside, (void *)monitor}; /* how far this has come says nothing of the sweep */
+  const hc_monitor aside = {hc_monitor_tick_aside, (void *)monitor};
   hbm_curve down = {0};
   double far = FAR * fmax(p->from, sqrt(scene_max_stiffness(sc) / sc->mass));
   hc_status st = trace(p->s, far, p->from, false, &aside, &down);

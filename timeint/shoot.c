@@ -95,6 +95,7 @@ static hc_status evaluate(shoot *s, const double *z)
 /* Does slider i - MODEL_W repeat itself wherever it is? */
 static bool is_free(const shoot *s, int i)
 {
+  /* cppcheck-suppress arrayIndexOutOfBoundsCond; it takes MODEL_W, 2, for the number of states */
   if (i < MODEL_W || s->f[i] != s->z[i]) return false;
   for (int j = 0; j < s->n; ++j)
     if (s->phi[i + j * s->n] != (i == j)) return false;

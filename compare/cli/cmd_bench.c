@@ -90,7 +90,7 @@ static void put_ways(table *t, const bench *b, const bench_place *p)
     put_seconds(t, best ? best->seconds : NAN);
     table_put_text(t, second ? bench_method_name(second->method) : NULL);
     table_put_text(t, second ? bench_settings(second, text) : NULL);
-    put_seconds(t, second ? second->seconds / best->seconds : NAN);
+    put_seconds(t, best && second ? second->seconds / best->seconds : NAN);
   }
 }
 

@@ -12,7 +12,7 @@ static const struct { const char *name; size_t allowed, found; } quantities[] = 
     QUANTITY(amplitude), QUANTITY(harmonic_1), QUANTITY(mean), QUANTITY(waveform)};
 enum { N_QUANTITIES = sizeof quantities / sizeof *quantities, MEAN = 2 };
 
-static double at(const void *base, size_t offset) { return *(const double *)((const char *)base + offset); }
+static double at(const void *base, size_t offset) { return *(const double *)(const void *)((const char *)base + offset); }
 
 const char *gate_result_name(gate_result r) { return r == GATE_PASS ? "pass" : r == GATE_FAIL ? "fail" : "error"; }
 

@@ -64,7 +64,7 @@ static hc_status read_values(plot_order *p, study_store *store, chart *c)
   char sql[192];
   if (c->of_rows) snprintf(sql, sizeof sql, "SELECT scene, max(\"%s\") FROM \"row\" GROUP BY scene", c->measure);
   else snprintf(sql, sizeof sql, "SELECT id, \"%s\" FROM scene", c->measure);
-  c->value = malloc((size_t)c->s->n_scenes * sizeof *c->value);
+  c->value = calloc((size_t)c->s->n_scenes, sizeof *c->value);
   if (!c->value) return HC_NO_MEMORY;
   for (long i = 0; i < c->s->n_scenes; ++i) c->value[i] = NAN;
   int code = sqlite3_prepare_v2(db, sql, -1, &query, NULL);

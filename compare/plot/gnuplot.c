@@ -45,7 +45,7 @@ static int start(FILE *script, FILE *drawing, FILE *words, pid_t *pid)
   if (bad) return bad;
   bad = posix_spawnattr_init(&how);
   if (!bad) {
-    if (!bad) bad = posix_spawnattr_setsigdefault(&how, &pipe);
+    bad = posix_spawnattr_setsigdefault(&how, &pipe);
     if (!bad) bad = posix_spawnattr_setflags(&how, POSIX_SPAWN_SETSIGDEF);
     if (!bad) bad = posix_spawn_file_actions_adddup2(&streams, fileno(script), STDIN_FILENO);
     if (!bad) bad = posix_spawn_file_actions_adddup2(&streams, fileno(drawing), STDOUT_FILENO);

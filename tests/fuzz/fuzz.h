@@ -1,0 +1,47 @@
+/* fuzz.h - what the four fuzz targets share: the properties that hold for any input, beyond not crashing. A property that does not hold ends the
+ * process with its words on stderr: a finding for libFuzzer, a failure for ctest. Targets: README.md. */
+#ifndef HC_TESTS_FUZZ_H
+#define HC_TESTS_FUZZ_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "cases/case_file.h"
+
+/* One input; libFuzzer fixes the name. Always 0. */
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
+
+/* Inputs so far that were read, and that were refused: a corpus has some of both. */
+extern long fuzz_accepted, fuzz_refused;
+
+/* Holds, or the process ends with the words. */
+#if defined(__GNUC__)
+__attribute__((format(printf, 2, 3)))
+#endif
+void must(bool holds, const char *format, ...);
+
+/* An input as a string of its own, cut at its first NUL: its end is the sanitizer's. To free. */
+char *fuzz_string(const uint8_t *data, size_t size);
+
+/* words[size]: terminated, not empty, one line, UTF-8, no control characters. */
+void message_is_clean(const char *words, size_t size);
+
+/* The words start with "NAME:LINE:COLUMN: ", and that place is in text[length] or just behind a line of it. In YAML a CR alone ends a line. */
+void place_is_inside(const char *words, const char *name, const char *text, size_t length, bool yaml);
+
+/* Every field is finite and within the range that `hbmcheck describe` tells, and fields go together. */
+void scene_is_in_range(const scene *sc);
+
+/* case_echo's text reads back to the same scene, bit for bit. */
+void scene_echoes(const scene *sc);
+
+/* A scene no reader has any reason to leave behind, and whether it is still that. */
+void scene_mark(scene *sc);
+bool scene_is_marked(const scene *sc);
+
+/* The folder of this process' own, made when first asked for, and `length` bytes as its file `name`; path[] gets where that is. */
+enum { FUZZ_PATH = 128 };
+void fuzz_write(const char *name, const char *text, size_t length, char path[FUZZ_PATH]);
+
+#endif
