@@ -96,11 +96,8 @@ stress_check stress_check_shooting(stress_subject *s)
   if (s->base.status != HC_OK) return stress_refuse(s, s->base.status);
   if (!s->sc->hbm.keep_mean && s->base.m.contact.regime != CONTACT_LINEAR) return stress_skip(STRESS_NOT_APPLICABLE); /* another equation */
   scene sc = *s->sc;
-  stress_orbit coarse_orbit = s->orbit;
   double error = shoot_from(s, &s->base, &s->orbit);
-  s->truncation = error;
   if (s->orbit.status == HC_OK && error <= tolerance_of(&s->orbit)) return stress_agree(error, tolerance_of(&s->orbit));
-  coarse_orbit = s->orbit;
   const double coarse = error;
   while (2 * s->fine.n_harm <= STRESS_MOST_HARMONICS) {
     stress_solution finer;
@@ -118,7 +115,7 @@ stress_check stress_check_shooting(stress_subject *s)
     if (error <= tolerance_of(&orbit)) return stress_explain(STRESS_TRUNCATED, coarse, NAN);
     if (2 * s->fine.n_harm > STRESS_MOST_HARMONICS && (error <= before / 2 || error <= 3 * step)) return stress_explain(STRESS_TRUNCATED, error, 3 * step);
   }
-  if (s->orbit.status != HC_OK) return coarse_orbit.status == HC_OK ? stress_explain(STRESS_NO_ORBIT, NAN, NAN) : stress_refuse(s, s->orbit.status);
+  if (s->orbit.status != HC_OK) return stress_refuse(s, s->orbit.status);
   if (beyond_harmonics(s, s->fine.n_harm)) return stress_explain(STRESS_UNRESOLVED, error, NAN);
   sc.hbm.harmonics = s->fine.n_harm;
   double confirmed = confirm(s, &sc, &s->orbit);

@@ -1,6 +1,8 @@
 /* shrink.c - a finding made small: the fewest contacts, harmonics and digits with which it still is one. */
-#include <math.h>
+#include <stdio.h>
+#include <string.h>
 
+#include "cases/number.h"
 #include "compare/stress/stress.h"
 
 typedef struct shrinker {
@@ -47,9 +49,9 @@ static void fewer_harmonics(shrinker *s, scene *sc)
 
 static double rounded(double x, int digits)
 {
-  if (x == 0) return 0;
-  double unit = pow(10, floor(log10(fabs(x))) - digits + 1);
-  return round(x / unit) * unit;
+  char text[32];
+  snprintf(text, sizeof text, "%.*e", digits - 1, x);
+  return number_read(text, strlen(text), &x) == NUMBER_FINE ? x : 0;
 }
 
 /* One number at a time: with 1 digit, else with 2, 3. `spread`: a frequency, which the sweep goes along with. */

@@ -35,7 +35,6 @@ void stress_subject_start(stress_subject *s, const scene *sc, double seconds, co
   s->seconds = seconds;
   s->outer = outer;
   s->monitor = (hc_monitor){go_on, s};
-  s->truncation = NAN;
   stress_clock(s);
   stress_solve(s, s->sc, s->omega, 0, NULL, &s->base);
   s->fine = s->base;

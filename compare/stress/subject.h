@@ -36,7 +36,6 @@ typedef struct stress_subject {
   stress_solution base;         /* at the scene's own H, exact forces */
   stress_solution fine;         /* with the most harmonics that were needed; base before STRESS_SHOOTING */
   stress_orbit orbit;           /* the exact law's, next to fine */
-  double truncation;            /* [1] waveform distance of base from orbit; NaN: not known */
 } stress_subject;
 
 void stress_subject_start(stress_subject *s, const scene *sc, double seconds, const hc_monitor *outer);

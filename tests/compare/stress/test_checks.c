@@ -160,8 +160,26 @@ static void a_wrong_verdict_is_found(void **state)
   expect_finding(VERDICT_UNSTABLED, STRESS_VERDICT);
 }
 
+/* What has nothing to do with the fault goes: contacts, harmonics, digits. */
+static void a_finding_is_made_small(void **state)
+{
+  (void)state;
+  scene sc = case_2();
+  sc.n_contacts = 2;
+  sc.contacts[1] = (scene_contact){{1.2345, 2.3456, 0.34567, -4.5678}, 12.345};
+  sc.mass = 1.0123456;
+  spoiled = MULTIPLIER;
+  assert_int_equal(stress_shrink(&sc, STRESS_STABILITY, 20, NULL), HC_OK);
+  spoiled = NOTHING;
+  assert_int_equal(sc.n_contacts, 1);
+  assert_true(sc.hbm.harmonics < 20 && sc.mass == 1);
+  stress_result r = stressed(sc, MULTIPLIER);
+  assert_int_equal(r.check[STRESS_STABILITY].outcome, STRESS_FINDING);
+}
+
 static const struct CMUnitTest tests[] = {
   cmocka_unit_test(good_answers_are_no_findings), cmocka_unit_test(a_wrong_force_is_found), cmocka_unit_test(a_wrong_solution_is_found),
   cmocka_unit_test(a_wrong_orbit_is_found), cmocka_unit_test(a_wrong_verdict_is_found),
+  cmocka_unit_test(a_finding_is_made_small),
 };
 CHECK_MAIN("stress.checks", tests, 300)
