@@ -39,7 +39,7 @@ static void evaluate(const scene *sc, const double *X, force *out)
 {
   exact *e = NULL;
   moving_contact contacts[SCENE_MAX_CONTACTS];
-  contact_report report;
+  contact_report report = {.transitions = 0};
   memset(out, 0, sizeof *out);
   exact_contacts_of(sc, contacts);
   out->status = exact_new(sc->hbm.harmonics, 1, sc->n_contacts, contacts, &e);

@@ -15,19 +15,39 @@ static void heading(const stress_plan *plan, char text[LINE])
   snprintf(text, LINE, "# hbmcheck stress 1, seed %lu, %.17g s, %d checks\n", plan->seed, plan->seconds, STRESS_N_CHECKS);
 }
 
+/* The next number of the line; false: there is none. */
+static bool take(const char **at, double *x)
+{
+  char *end;
+  *x = strtod(*at, &end);
+  bool there = end != *at;
+  *at = end;
+  return there;
+}
+
+/* The next one, a code 0 .. n-1. */
+static bool take_code(const char **at, int n, int *code)
+{
+  double x;
+  if (!take(at, &x) || !(x >= 0 && x < n)) return false;
+  *code = (int)x;
+  return true;
+}
+
 static bool parse(const char *line, stress_result *r)
 {
-  int used;
-  if (sscanf(line, "%ld %lf%n", &r->index, &r->seconds, &used) != 2) return false;
+  double index;
+  if (!take(&line, &index) || !(index >= 0 && index < 1e15) || !take(&line, &r->seconds)) return false;
+  r->index = (long)index;
   for (int k = 0; k < STRESS_N_CHECKS; ++k) {
-    stress_check *c = &r->check[k];
-    int outcome, reason, status, n;
-    if (sscanf(line + used, "%d %d %d %lf %lf %lf%n", &outcome, &reason, &status, &c->error, &c->bound, &c->seconds, &n) != 6) return false;
-    if (outcome < 0 || outcome >= STRESS_N_OUTCOMES || reason < 0 || reason >= STRESS_N_REASONS || status < HC_OK || status > HC_BUG) return false;
-    *c = (stress_check){(stress_outcome)outcome, (stress_reason)reason, (hc_status)status, c->error, c->bound, c->seconds};
-    used += n;
+    stress_check c = {STRESS_SKIPPED, STRESS_NO_REASON, HC_OK, 0, 0, 0};
+    int outcome, reason, status;
+    if (!take_code(&line, STRESS_N_OUTCOMES, &outcome) || !take_code(&line, STRESS_N_REASONS, &reason) || !take_code(&line, HC_BUG + 1, &status)) return false;
+    if (!take(&line, &c.error) || !take(&line, &c.bound) || !take(&line, &c.seconds)) return false;
+    c.outcome = (stress_outcome)outcome, c.reason = (stress_reason)reason, c.status = (hc_status)status;
+    r->check[k] = c;
   }
-  r->there = !strcmp(line + used, " .\n");
+  r->there = !strcmp(line, " .\n");
   return r->there;
 }
 

@@ -170,11 +170,12 @@ static double regularised(stress_subject *s, double regularisation, stress_orbit
 stress_check stress_check_regularised(stress_subject *s)
 {
   if (s->orbit.status != HC_OK) return stress_skip(STRESS_NO_ORBIT);
+  static const double less[] = {1e-4, 1e-5, 1e-6, 1e-7};
   double error = -1; /* none yet */
   stress_orbit o;
-  for (double eta = 1e-4; eta > 0.5e-7; eta /= 10) {
+  for (int i = 0; i < 4; ++i) {
     double before = error;
-    error = regularised(s, eta, &o);
+    error = regularised(s, less[i], &o);
     if (o.status != HC_OK) return stress_refuse(s, o.status);
     if (error <= fmax(close_enough, 3 * (o.r.closure + s->orbit.r.closure))) return stress_agree(error, close_enough);
     if (error <= before / 4) return stress_explain(STRESS_SMOOTHED, error, before / 4);

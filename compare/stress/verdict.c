@@ -31,7 +31,7 @@ static bool wrong(const comparison_row *r, const scene_gate *g, double *share)
     return orbit && !(r->orbit_error <= 1.01 * g->waveform + 1.01 * law);
   }
   case VERDICT_UNSTABLE: return r->orbit_status == HC_OK ? timeint_stability(&r->orbit) > 0 : hbm_stability_verdict(&r->stability) > 0;
-  case VERDICT_DIFFERS: return *share <= 1;
+  case VERDICT_DIFFERS:
   case VERDICT_OTHER_BRANCH: return *share <= 1;
   case VERDICT_PERIOD_K: return r->transient.period_multiple < 2;
   default: return false;
