@@ -27,19 +27,6 @@ static const double STEEP = 0.2, FLAT = 0.6; /* share of omega in the unit tange
 enum { MAX_POINTS = 200000, FLAT_STEPS = 6 };
 
 
-double path_metric(const path *p, double x_scale, const double *aX, double a_omega, const double *bX, double b_omega)
-{
-  double sum = 0;
-  for (int i = 0; i < p->curve->n_coef; ++i) sum += aX[i] * bX[i];
-  return sum / (x_scale * x_scale) + a_omega * b_omega / (p->curve->omega_scale * p->curve->omega_scale);
-}
-
-double path_size(const path *p)
-{
-  double size = hbm_norm(p->curve->n_coef, hbm_curve_X(p->curve, p->curve->n - 1));
-  return size > 0 ? size : 1;
-}
-
 /* Prediction into X, omega; its direction into dX, d_omega (unit length). Returns interpolation error / prediction error. */
 static double predict(path *p, double h)
 {
@@ -119,14 +106,6 @@ static double orient(path *p, bool *forward)
   return path_metric(p, x_scale, dX0, d_omega0, p->dX, p->d_omega) / sqrt(a * b);
 }
 
-/* Distance the corrector moved the prediction, with omega measured by omega_unit. */
-static double correction(const path *p, double omega_unit)
-{
-  double sum = 0, x_scale = path_size(p), d = (p->omega - p->omega_p) / omega_unit;
-  for (int i = 0; i < p->curve->n_coef; ++i) sum += (p->X[i] - p->P[i]) * (p->X[i] - p->P[i]);
-  return sqrt(sum / (x_scale * x_scale) + d * d);
-}
-
 static bool may_go_natural(const path *p) { return p->s->sys.sc.hbm.continuation != HBM_CONTINUATION_ARCLENGTH; }
 static bool may_go_arclength(const path *p) { return p->s->sys.sc.hbm.continuation != HBM_CONTINUATION_NATURAL; }
 
@@ -135,13 +114,6 @@ static void switch_to_arclength(path *p)
   p->natural = false;
   p->flat_steps = 0;
   p->curve->arclength = true;
-}
-
-/* Share of omega in the unit tangent. */
-static double flatness(const path *p)
-{
-  double all = path_metric(p, path_size(p), p->dX, p->d_omega, p->dX, p->d_omega);
-  return fabs(p->d_omega) / p->curve->omega_scale / sqrt(all);
 }
 
 /* One trial step of length h. HC_OK and accepted, or HC_OK and not, or why Newton failed. p->h becomes the next step to try. */
@@ -154,11 +126,11 @@ static hc_status try_step(path *p, bool *accepted)
   p->curve->iterations += p->point.iterations;
   if (st != HC_OK) { p->h *= 0.4; return st; }
   bool forward;
-  double cosine = orient(p, &forward), moved = correction(p, p->curve->omega_scale), error = ratio * correction(p, p->resolution);
+  double cosine = orient(p, &forward), moved = path_correction(p, p->curve->omega_scale), error = ratio * path_correction(p, p->resolution);
   bool corner = p->h <= H_CORNER;
   double scale = p->s->step_scale, tolerance = TOLERANCE * scale * scale * scale * scale;
   double grow = 0.9 * pow(tolerance / fmax(error, 1e-12 * tolerance), 0.25);
-  bool good = forward && (corner ? moved <= p->h : moved <= 0.25 * p->h && cosine >= 0.7 && error <= 4 * tolerance);
+  bool good = forward && (corner ? moved <= p->h || (p->natural && path_agrees_backwards(p, p->h)) : moved <= 0.25 * p->h && cosine >= 0.7 && error <= 4 * tolerance);
   if (p->point.iterations > 8) grow = fmin(grow, 0.7);
   p->h *= good ? fmin(2, fmax(0.4, grow)) : fmin(0.5, fmax(0.2, grow));
   if (corner && good) p->h = fmax(p->h, 2 * H_MIN);
@@ -199,7 +171,7 @@ static hc_status turn_corner(path *p, double h, bool *accepted)
   bool onward = path_metric(p, x_scale, p->dX, p->d_omega, p->chord, p->omega - tip->omega) > 0;
   bool back = path_metric(p, x_scale, dX0, tip->d_omega, p->chord, p->omega - tip->omega) <
               -0.99 * h * sqrt(path_metric(p, x_scale, dX0, tip->d_omega, dX0, tip->d_omega)); /* the way it came */
-  *accepted = onward && !back && correction(p, c->omega_scale) <= h;
+  *accepted = onward && !back && path_correction(p, c->omega_scale) <= h;
   return HC_OK;
 }
 
@@ -220,7 +192,7 @@ static hc_status accept(path *p)
   p->point.d_omega = p->d_omega;
   p->point.branch = before->branch + ((before->d_omega > 0) != (p->d_omega > 0));
   c->turning_points = p->point.branch;
-  double flat = flatness(p);
+  double flat = path_flatness(p);
   p->fresh = false;
   hc_status st = hbm_curve_append(c, c->n_coef, p->X, p->dX, &p->point);
   if (st != HC_OK) return st;

@@ -1,4 +1,4 @@
-/* path.h - a response curve under way, shared by continuation.c (which way, how far) and adapt.c (with how many harmonics). */
+/* path.h - a response curve under way, shared by continuation.c (which way, how far), adapt.c (with how many harmonics) and path.c (its geometry). */
 #ifndef HC_HBM_PATH_H
 #define HC_HBM_PATH_H
 
@@ -33,6 +33,16 @@ double path_metric(const path *p, double x_scale, const double *aX, double a_ome
 
 /* Norm of the last point's harmonics, 1 if it is 0. */
 double path_size(const path *p);
+
+/* Distance the corrector moved the prediction, with omega measured by omega_unit. */
+double path_correction(const path *p, double omega_unit);
+
+/* Is the trial point as far from the last one as its own tangent says, within h? Past a corner the old tangent predicts nothing, however short
+ * the step; the new one, looking back, does. */
+bool path_agrees_backwards(const path *p, double h);
+
+/* Share of omega in the unit tangent. */
+double path_flatness(const path *p);
 
 /* Newton from (X, omega) in the plane across (dX, d_omega); the tangent there into dX, d_omega. */
 hc_status path_correct_in_plane(path *p);

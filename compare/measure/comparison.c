@@ -231,7 +231,9 @@ static hc_status compare_at(runner *r, double omega)
   hc_status st = row.hbm_status == HC_NO_MEMORY ? row.hbm_status : at.n == 0 || row.hbm_status != HC_OK ? add_row(r->out, &row) : HC_OK;
   for (int k = 0; k < at.n && st == HC_OK; ++k) {
     row = none;
-    if ((st = compare_solution(r, &at, k, &row)) == HC_OK) st = add_row(r->out, &row);
+    st = compare_solution(r, &at, k, &row);
+    if (st == HC_OK && !hc_monitor_tick(r->monitor, 1)) st = HC_INTERRUPTED; /* what was stopped inside may look like an answer */
+    if (st == HC_OK) st = add_row(r->out, &row);
   }
   hbm_curve_free(&at);
   return st;

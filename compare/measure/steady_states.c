@@ -52,7 +52,7 @@ static hc_status add_failure(job *j, steady_stage stage, hc_status st, double om
 }
 
 /* The error of a regularised steady state at *state: by the exact law's orbit next to it, or by what Richardson's extrapolation left. *st
- * becomes HC_NO_MEMORY if that is why there is none. */
+ * becomes HC_NO_MEMORY or HC_INTERRUPTED if that is why there is none. */
 static double regularisation_error(job *j, const timeint_state *state, const timeint_result *r, hc_status *st)
 {
   timeint_state start = *state;
@@ -60,7 +60,7 @@ static double regularisation_error(job *j, const timeint_state *state, const tim
   if (!j->exact || r->method == TIMEINT_BY_CLOSED_FORM) return 0;
   if (j->sc->transient.richardson) return r->regularisation_error;
   hc_status found = timeint_orbit(j->exact, r->omega, r->period_multiple, &start, j->monitor, &orbit);
-  if (found == HC_NO_MEMORY) *st = found;
+  if (found == HC_NO_MEMORY || found == HC_INTERRUPTED) *st = found;
   if (found != HC_OK) return NAN;
   return budget_regularisation(r, &orbit);
 }
