@@ -111,7 +111,7 @@ static hc_status make_parts(regularised *in)
   hc_status st = integrate_make_parts(&in->base, in->n, CV_BDF);
   if (st != HC_OK) return st;
   in->s = N_VCloneVectorArray(in->n, in->base.y); /* room: asked for above */
-  in->here = calloc((size_t)(in->n * in->n), sizeof *in->here);
+  in->here = calloc((size_t)in->n * (size_t)in->n, sizeof *in->here);
   return in->s && in->here ? HC_OK : HC_NO_MEMORY;
 }
 

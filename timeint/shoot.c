@@ -254,7 +254,7 @@ static double attainable(shoot *s)
 /* From z, next to the orbit, as near to it as the goal asks or the scatter of periods allows; then what there is to say of it. */
 static hc_status finish(shoot *s, double *z, double goal, shoot_report *r)
 {
-  double step[MAX_N], best[MAX_N];
+  double step[MAX_N], best[MAX_N] = {0};
   hc_status st = HC_OK;
   for (int tries = 0; tries < LAST_STEPS && st == HC_OK; ++tries) {
     double length;

@@ -152,10 +152,11 @@ static char *beside(const char *file, const char *name)
 {
   const char *slash = strrchr(file, '/');
   size_t folder = slash && *name != '/' ? (size_t)(slash - file) + 1 : 0;
-  char *path = malloc(folder + strlen(name) + 1);
+  size_t length = strlen(name) + 1;
+  char *path = malloc(folder + length);
   if (!path) return NULL;
   memcpy(path, file, folder);
-  strcpy(path + folder, name);
+  memcpy(path + folder, name, length);
   return path;
 }
 

@@ -61,10 +61,10 @@ hc_status verify_sample_new(const verify_report *r, verify_quantity quantity, ve
 {
   enum { MOST = MOST_DIFFERING + MOST_MATCHING };
   const verify_row **rows = malloc((size_t)r->n_rows * sizeof *rows + 1);
-  double *numbers = malloc(4 * MOST * sizeof *numbers);
+  double *numbers = calloc(4 * MOST, sizeof *numbers);
   *out = (verify_sample){.omega = numbers, .quantity = quantity, .part = 0.9};
   if (numbers) out->value = numbers + MOST, out->scratch = numbers + 2 * MOST;
-  out->differs = malloc(MOST * sizeof *out->differs);
+  out->differs = calloc(MOST, sizeof *out->differs);
   if (rows && numbers && out->differs) {
     for (int i = 0; i < r->n_rows; ++i) rows[i] = &r->rows[i];
     qsort(rows, (size_t)r->n_rows, sizeof *rows, by_omega);

@@ -95,7 +95,7 @@ static hc_status judge_point(truth *t, const verify_point *p, verify_row *row)
   *row = (verify_row){.omega = p->omega, .value = p->value, .line = p->line, .branch = -1, .nearest = NAN, .error = NAN, .verdict = VERDICT_SOLVER_FAILED};
   hc_status st = solve_at(t, p->omega, &at);
   int k = st == HC_OK ? nearest_of(t, &at, p->value, &m) : -1;
-  if (k >= 0) {
+  if (k >= 0 && at.points) {
     verify_quantities(&m, &s);
     row->solutions = at.n;
     row->branch = at.points[k].branch;
