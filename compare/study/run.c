@@ -2,12 +2,10 @@
  * watches, and answers other processes (cluster.h). The order in which scenes are kept differs from run to run, what is kept does not. */
 #include "compare/study/run.h"
 
-#include <errno.h>
-#include <pthread.h>
-#include <stdatomic.h>
 #include <stdlib.h>
 #include <time.h>
 
+#include "compare/crew.h"
 #include "compare/study/cluster.h"
 
 enum { WATCH_MS = 50, SERVE_MS = 1 };
@@ -15,31 +13,20 @@ enum { WATCH_MS = 50, SERVE_MS = 1 };
 typedef struct pool {
   const study *s;
   study_store *store;
-  pthread_mutex_t lock, writing; /* of what follows; of the store */
-  pthread_cond_t changed;
+  crew crew;                     /* its lock is of `taken` and the counts */
+  pthread_mutex_t writing;       /* of the store */
   bool lost;                     /* under `writing`: a scene could not be kept, and no other is tried */
   unsigned char *taken;          /* [n_scenes] there already, or being computed */
   long next, there, now;
-  int running;                   /* threads */
-  hc_status worst;
-  atomic_bool stop;
 } pool;
-
-static void stop_with(pool *p, hc_status st)
-{
-  pthread_mutex_lock(&p->lock);
-  if (p->worst == HC_OK) p->worst = st;
-  pthread_mutex_unlock(&p->lock);
-  atomic_store(&p->stop, true);
-}
 
 static long take(pool *p)
 {
   long id = -1;
-  pthread_mutex_lock(&p->lock);
+  pthread_mutex_lock(&p->crew.lock);
   while (p->next < p->s->n_scenes && p->taken[p->next]) ++p->next;
-  if (p->next < p->s->n_scenes && !atomic_load(&p->stop)) p->taken[id = p->next++] = 1;
-  pthread_mutex_unlock(&p->lock);
+  if (p->next < p->s->n_scenes && !crew_stopped(&p->crew)) p->taken[id = p->next++] = 1;
+  pthread_mutex_unlock(&p->crew.lock);
   return id;
 }
 
@@ -50,33 +37,24 @@ static hc_status keep(pool *p, const study_result *r)
   p->lost = st != HC_OK;
   pthread_mutex_unlock(&p->writing);
   if (st != HC_OK) return st;
-  pthread_mutex_lock(&p->lock);
+  pthread_mutex_lock(&p->crew.lock);
   ++p->there, ++p->now;
-  pthread_mutex_unlock(&p->lock);
+  pthread_mutex_unlock(&p->crew.lock);
   return HC_OK;
-}
-
-static bool go_on(void *self, double done)
-{
-  (void)done;
-  return !atomic_load(&((pool *)self)->stop);
 }
 
 static void *work(void *self)
 {
   pool *p = self;
-  hc_monitor monitor = {go_on, p};
+  hc_monitor monitor = {crew_tick, &p->crew};
   for (long id; (id = take(p)) >= 0;) {
     study_result r;
     hc_status st = study_solve(p->s, id, &monitor, &r);
     if (st == HC_OK) st = keep(p, &r);
     study_result_clear(&r);
-    if (st != HC_OK) { stop_with(p, st); break; }
+    if (st != HC_OK) { crew_stop(&p->crew, st); break; }
   }
-  pthread_mutex_lock(&p->lock);
-  --p->running;
-  pthread_cond_signal(&p->changed);
-  pthread_mutex_unlock(&p->lock);
+  crew_leave(&p->crew);
   return NULL;
 }
 
@@ -95,65 +73,43 @@ static void keep_packed(void *self, const char *packed, size_t size)
   hc_status st = study_result_unpack(packed, size, &r);
   if (st == HC_OK) st = keep(self, &r);
   study_result_clear(&r);
-  if (st != HC_OK) stop_with(self, st);
+  if (st != HC_OK) crew_stop(&((pool *)self)->crew, st);
 }
 
 /* ---- the calling thread ---- */
-
-static void wait_a_little(pool *p, int ms)
-{
-  struct timespec until;
-  clock_gettime(CLOCK_REALTIME, &until);
-  until.tv_nsec += ms * 1000000L;
-  if (until.tv_nsec >= 1000000000L) until.tv_nsec -= 1000000000L, ++until.tv_sec;
-  pthread_mutex_lock(&p->lock);
-  if (p->running > 0) pthread_cond_timedwait(&p->changed, &p->lock, &until);
-  pthread_mutex_unlock(&p->lock);
-}
 
 static void watch_over(pool *p, const study_watch *watch)
 {
   const cluster_desk desk = {take_some, keep_packed, p};
   for (int beat = 0;; ++beat) {
     bool others = cluster_serve(&desk);
-    pthread_mutex_lock(&p->lock);
+    pthread_mutex_lock(&p->crew.lock);
     long there = p->there, now = p->now;
-    bool own = p->running > 0;
-    pthread_mutex_unlock(&p->lock);
+    bool own = p->crew.running > 0;
+    pthread_mutex_unlock(&p->crew.lock);
     if (!own && !others) return;
     if (beat % (others ? WATCH_MS / SERVE_MS : 1) == 0 && watch->tick && !watch->tick(watch->self, there, now, p->s->n_scenes))
-      stop_with(p, HC_INTERRUPTED);
-    if (own) wait_a_little(p, others ? SERVE_MS : WATCH_MS);
+      crew_stop(&p->crew, HC_INTERRUPTED);
+    if (own) crew_wait(&p->crew, others ? SERVE_MS : WATCH_MS);
     else nanosleep(&(struct timespec){.tv_nsec = SERVE_MS * 1000000L}, NULL);
   }
 }
 
-static void run_threads(pool *p, int jobs, const study_watch *watch)
-{
-  pthread_t *threads = calloc((size_t)jobs, sizeof *threads);
-  int n = 0;
-  pthread_mutex_lock(&p->lock);
-  while (threads && n < jobs && pthread_create(&threads[n], NULL, work, p) == 0) ++n;
-  p->running = n;
-  pthread_mutex_unlock(&p->lock);
-  if (n == 0) stop_with(p, HC_NO_MEMORY);
-  watch_over(p, watch);
-  for (int i = 0; i < n; ++i) pthread_join(threads[i], NULL);
-  free(threads);
-}
-
 hc_status study_run(const study *s, study_store *store, int jobs, const study_watch *watch, long *now, long *there)
 {
-  pool p = {.s = s, .store = store, .lock = PTHREAD_MUTEX_INITIALIZER, .writing = PTHREAD_MUTEX_INITIALIZER, .changed = PTHREAD_COND_INITIALIZER};
+  pool p = {.s = s, .store = store, .writing = PTHREAD_MUTEX_INITIALIZER};
+  crew_init(&p.crew);
   *now = *there = 0;
   if (!(p.taken = malloc((size_t)s->n_scenes))) return HC_NO_MEMORY;
   hc_status st = study_store_done(store, p.taken, &p.there);
-  if (st != HC_OK) p.worst = st, atomic_store(&p.stop, true);
+  if (st != HC_OK) crew_stop(&p.crew, st);
   long left = s->n_scenes - p.there;
   if (left < jobs) jobs = left > 0 ? (int)left : 1;
-  run_threads(&p, jobs, watch); /* also with nothing left: other processes want to hear it */
+  crew_start(&p.crew, jobs, work, &p); /* also with nothing left: other processes want to hear it */
+  watch_over(&p, watch);
+  const hc_status worst = crew_join(&p.crew);
   *now = p.now;
   *there = p.there;
   free(p.taken);
-  return p.worst != HC_OK ? p.worst : p.there == s->n_scenes ? HC_OK : HC_INTERRUPTED;
+  return worst != HC_OK ? worst : p.there == s->n_scenes ? HC_OK : HC_INTERRUPTED;
 }
