@@ -1,9 +1,8 @@
 /* test_verdicts.c - every scene of cases/adversarial through the command, as people run it: the verdict of each row and the exit code. Why
  * each must be what it is stands in the case file. Motions are tested in test_contacts.c and test_curves.c. */
-#include "tests/check.h"
+#include "tests/shell.h"
 
 #include <string.h>
-#include <sys/wait.h>
 
 typedef struct outcome { int code; char out[16384]; } outcome;
 
@@ -12,21 +11,14 @@ static outcome run(const char *args)
   outcome o = {.code = -1};
   char line[1024];
   snprintf(line, sizeof line, "%s %s 2>&1", HBMCHECK_COMMAND, args);
-  FILE *pipe = popen(line, "r");
-  assert_non_null(pipe);
-  size_t n = fread(o.out, 1, sizeof o.out - 1, pipe);
-  o.out[n] = 0;
-  int status = pclose(pipe);
-  o.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  o.code = shell_read(line, o.out, sizeof o.out);
   return o;
 }
 
 static void expect(const char *args, int code, const char *fragment)
 {
   outcome o = run(args);
-  if (o.code == code && strstr(o.out, fragment)) return;
-  print_error("hbmcheck %s\nexit %d, expected %d; expected to read '%s' in:\n%s\n", args, o.code, code, fragment, o.out);
-  fail();
+  shell_check(args, o.code, o.out, code, fragment);
 }
 
 /* The third column, `verdict`, of the rows of a csv, one letter each: m match, u unstable, o other_branch, ... */

@@ -1,9 +1,8 @@
 /* test_command.c - the command as people and scripts use it: exit codes, columns, messages, files written whole or not at all.
  * Runs the built hbmcheck (HBMCHECK_COMMAND) in a shell; what it computes is tested elsewhere. */
 #include <string.h>
-#include <sys/wait.h>
 
-#include "tests/check.h"
+#include "tests/shell.h"
 
 typedef struct outcome { int code; char out[65536]; } outcome;
 
@@ -13,22 +12,14 @@ static outcome run(const char *args)
   outcome o = {.code = -1};
   char line[2048];
   snprintf(line, sizeof line, "%s %s", HBMCHECK_COMMAND, args);
-  FILE *pipe = popen(line, "r");
-  assert_non_null(pipe);
-  size_t n = fread(o.out, 1, sizeof o.out - 1, pipe);
-  o.out[n] = 0;
-  int status = pclose(pipe);
-  o.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  o.code = shell_read(line, o.out, sizeof o.out);
   return o;
 }
 
 static void expect(const char *args, int code, const char *fragment)
 {
   outcome o = run(args);
-  if (o.code != code || !strstr(o.out, fragment)) {
-    print_error("hbmcheck %s\nexit %d, expected %d; expected to read '%s' in:\n%s\n", args, o.code, code, fragment, o.out);
-    fail();
-  }
+  shell_check(args, o.code, o.out, code, fragment);
 }
 
 #define CASE2 "cases/paper/case2.yaml "

@@ -1,9 +1,8 @@
 /* test_command.c - hbmcheck bench as people use it: columns, errors that fall along each family, wrong usage. Times are never judged. */
 #include <stdbool.h>
 #include <string.h>
-#include <sys/wait.h>
 
-#include "tests/check.h"
+#include "tests/shell.h"
 
 #define CASE2 "cases/paper/case2.yaml "
 typedef struct outcome { int code; char out[131072]; } outcome;
@@ -13,20 +12,14 @@ static outcome run(const char *args)
   static outcome o;
   char line[1024];
   snprintf(line, sizeof line, "%s %s", HBMCHECK_COMMAND, args);
-  FILE *pipe = popen(line, "r");
-  assert_non_null(pipe);
-  o.out[fread(o.out, 1, sizeof o.out - 1, pipe)] = 0;
-  int status = pclose(pipe);
-  o.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  o.code = shell_read(line, o.out, sizeof o.out);
   return o;
 }
 
 static void expect(const char *args, int code, const char *fragment)
 {
   outcome o = run(args);
-  if (o.code == code && strstr(o.out, fragment)) return;
-  print_error("hbmcheck %s\nexit %d, expected %d; expected to read '%s' in:\n%s\n", args, o.code, code, fragment, o.out);
-  fail();
+  shell_check(args, o.code, o.out, code, fragment);
 }
 
 /* The error of the row that starts like this, as csv. NaN: no such row, or not solved. */

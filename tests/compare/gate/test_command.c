@@ -3,9 +3,8 @@
 #include <stdbool.h>
 #include <string.h>
 #include <sys/stat.h>
-#include <sys/wait.h>
 
-#include "tests/check.h"
+#include "tests/shell.h"
 
 #define CASE2 "cases/paper/case2.yaml "
 #define SMALL "oscillator: {mass: 1, damping: 0.4, stiffness: 40}\nforcing: {amplitude: 10}\nsweep: {omega: [3, 9]}\n"
@@ -17,12 +16,7 @@ static char folder[] = "/tmp/hbmcheck-gate-XXXXXX";
 static outcome shell(const char *line)
 {
   outcome o = {.code = -1};
-  FILE *pipe = popen(line, "r");
-  assert_non_null(pipe);
-  size_t n = fread(o.out, 1, sizeof o.out - 1, pipe);
-  o.out[n] = 0;
-  int status = pclose(pipe);
-  o.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  o.code = shell_read(line, o.out, sizeof o.out);
   return o;
 }
 
@@ -41,8 +35,7 @@ static outcome gate(const char *args)
 static void expect(const char *args, int code, const char *fragment)
 {
   outcome o = gate(args);
-  if (o.code != code || !strstr(o.out, fragment))
-    fail_msg("hbmcheck gate %s\nexit %d, expected %d; expected to read '%s' in:\n%s", args, o.code, code, fragment, o.out);
+  shell_check(args, o.code, o.out, code, fragment);
 }
 
 static void put_case(const char *name, const char *text)

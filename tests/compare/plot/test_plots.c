@@ -4,9 +4,8 @@
 #include <stdbool.h>
 #include <string.h>
 #include <sys/stat.h>
-#include <sys/wait.h>
 
-#include "tests/check.h"
+#include "tests/shell.h"
 
 #define CASE2 "cases/paper/case2.yaml "
 enum { MOST = 1 << 20 };
@@ -19,19 +18,13 @@ static int shell(const char *line)
 {
   char whole[4096];
   snprintf(whole, sizeof whole, "D='%s'; H='%s'; %s", folder, HBMCHECK_COMMAND, line);
-  FILE *pipe = popen(whole, "r");
-  assert_non_null(pipe);
-  text[fread(text, 1, sizeof text - 1, pipe)] = 0;
-  int status = pclose(pipe);
-  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  return shell_read(whole, text, sizeof text);
 }
 
 static void expect(const char *line, int code, const char *fragment)
 {
   int got = shell(line);
-  if (got == code && strstr(text, fragment)) return;
-  print_error("%s\nexit %d, expected %d; expected to read '%s' in:\n%.4000s\n", line, got, code, fragment, text);
-  fail();
+  shell_check(line, got, text, code, fragment);
 }
 
 /* The file in our folder, into text; its length. */

@@ -4,9 +4,8 @@
 
 #include <stdbool.h>
 #include <string.h>
-#include <sys/wait.h>
 
-#include "tests/check.h"
+#include "tests/shell.h"
 
 /* A comparison of two frequencies, tables of two orders: what a page has, in a second. */
 #define CASE2 "cases/paper/case2.yaml"
@@ -20,22 +19,14 @@ static inline outcome run_program(const char *program, const char *args)
   outcome o = {.code = -1};
   char line[2048];
   snprintf(line, sizeof line, "%s %s", program, args);
-  FILE *pipe = popen(line, "r");
-  assert_non_null(pipe);
-  o.out[fread(o.out, 1, sizeof o.out - 1, pipe)] = 0;
-  while (fgetc(pipe) != EOF) {} /* the rest: a closed pipe would end the program */
-  int status = pclose(pipe);
-  o.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  o.code = shell_read(line, o.out, sizeof o.out);
   return o;
 }
 
 static inline void expect(const char *args, int code, const char *fragment)
 {
   outcome o = run_program(HBMCHECK_COMMAND, args);
-  if (o.code != code || !strstr(o.out, fragment)) {
-    print_error("hbmcheck %s\nexit %d, expected %d; expected to read '%s' in:\n%s\n", args, o.code, code, fragment, o.out);
-    fail();
-  }
+  shell_check(args, o.code, o.out, code, fragment);
 }
 
 /* The whole file, zero-terminated; to be freed. */

@@ -1,9 +1,8 @@
 /* test_command.c - hbmcheck stress as people use it: 200 scenes without a finding, stopped and resumed, one scene again. Runs the built command
  * (HBMCHECK_COMMAND) in a shell, in a folder of its own. */
 #include <string.h>
-#include <sys/wait.h>
 
-#include "tests/check.h"
+#include "tests/shell.h"
 
 static char folder[] = "/tmp/hbmcheck-stress-XXXXXX";
 
@@ -16,18 +15,13 @@ static void stress(const char *args)
   char line[2048], filled[1536];
   snprintf(filled, sizeof filled, args, folder, folder, folder, folder);
   snprintf(line, sizeof line, "%s stress -q %s", HBMCHECK_COMMAND, filled);
-  FILE *pipe = popen(line, "r");
-  assert_non_null(pipe);
-  last.out[fread(last.out, 1, sizeof last.out - 1, pipe)] = 0;
-  int status = pclose(pipe);
-  last.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  last.code = shell_read(line, last.out, sizeof last.out);
 }
 
 static void expect(const char *args, int code, const char *fragment)
 {
   stress(args);
-  if (last.code != code || !strstr(last.out, fragment))
-    fail_msg("hbmcheck stress %s\nexit %d, expected %d; expected to read '%s' in:\n%s", args, last.code, code, fragment, last.out);
+  shell_check(args, last.code, last.out, code, fragment);
 }
 
 static void two_hundred_scenes_without_a_finding(void **state)

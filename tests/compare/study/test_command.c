@@ -7,7 +7,7 @@
 #include <sys/wait.h>
 #include <time.h>
 
-#include "tests/check.h"
+#include "tests/shell.h"
 
 static char folder[] = "/tmp/hbmcheck-command-XXXXXX";
 
@@ -20,22 +20,15 @@ static outcome run(const char *args)
   outcome o = {-1, malloc(MOST)};
   char line[1024];
   snprintf(line, sizeof line, "cd %s; %s study %s", folder, HBMCHECK_COMMAND, args);
-  FILE *pipe = popen(line, "r");
-  assert_true(pipe && o.out);
-  size_t n = fread(o.out, 1, MOST - 1, pipe);
-  o.out[n] = 0;
-  int status = pclose(pipe);
-  o.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  assert_non_null(o.out);
+  o.code = shell_read(line, o.out, MOST);
   return o;
 }
 
 static void expect(const char *args, int code, const char *fragment)
 {
   outcome o = run(args);
-  if (o.code != code || !strstr(o.out, fragment)) {
-    print_error("hbmcheck study %s\nexit %d, expected %d; expected to read '%s' in:\n%s\n", args, o.code, code, fragment, o.out);
-    fail();
-  }
+  shell_check(args, o.code, o.out, code, fragment);
   free(o.out);
 }
 

@@ -1,8 +1,7 @@
 /* test_command.c - hbmcheck verify as people use it: the shipped example, exit codes, columns, messages. */
 #include <string.h>
-#include <sys/wait.h>
 
-#include "tests/check.h"
+#include "tests/shell.h"
 
 typedef struct outcome { int code; char out[262144]; } outcome;
 
@@ -11,22 +10,14 @@ static const outcome *run(const char *args)
   static outcome o;
   char line[2048];
   snprintf(line, sizeof line, "%s %s", HBMCHECK_COMMAND, args);
-  FILE *pipe = popen(line, "r");
-  assert_non_null(pipe);
-  size_t n = fread(o.out, 1, sizeof o.out - 1, pipe);
-  o.out[n] = 0;
-  int status = pclose(pipe);
-  o.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  o.code = shell_read(line, o.out, sizeof o.out);
   return &o;
 }
 
 static void expect(const char *args, int code, const char *fragment)
 {
   const outcome *o = run(args);
-  if (o->code != code || !strstr(o->out, fragment)) {
-    print_error("hbmcheck %s\nexit %d, expected %d; expected to read '%s' in:\n%s\n", args, o->code, code, fragment, o->out);
-    fail();
-  }
+  shell_check(args, o->code, o->out, code, fragment);
 }
 
 #define EXAMPLE "verify cases/verify/case2.yaml --against cases/verify/no_static.csv --columns omega=1,harmonic_1=2 "
