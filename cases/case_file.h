@@ -6,8 +6,8 @@
 #include <stddef.h>
 #include <stdio.h>
 
-#include "cases/scene.h"
-#include "cases/status.h"
+#include "model/scene.h"
+#include "base/status.h"
 
 enum { CASE_MESSAGE = 512 };
 typedef struct case_error { char message[CASE_MESSAGE]; } case_error; /* one line, no newline; empty when all is well */

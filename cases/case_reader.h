@@ -1,5 +1,5 @@
 /* case_reader.h - what the parts of the case reader share; private to cases/ and to the study file's reader, which
- * speaks the same language (compare/study/). The public face is case_file.h.
+ * speaks the same language (campaigns/study/). The public face is case_file.h.
  *
  *     text --yaml_text_load--> document --yaml_scene_read--> scene --case_set_apply--> scene --case_check--> done */
 #ifndef HC_CASE_READER_H
@@ -9,7 +9,7 @@
 
 #include "cases/case_file.h"
 #include "cases/fields.h"
-#include "cases/status.h"
+#include "base/status.h"
 #include "cases/suggest.h"
 
 enum { CASE_LARGEST = 1 << 20 }; /* bytes of a case file; a real one has a few thousand */

@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-#include "cases/number.h"
+#include "base/number.h"
 
 static bool is_integer(const field *f) { return f->kind == FIELD_INTEGER || f->kind == FIELD_INTEGERS; }
 

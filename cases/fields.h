@@ -7,8 +7,8 @@
 #include <stddef.h>
 #include <stdio.h>
 
-#include "cases/message.h"
-#include "cases/scene.h"
+#include "base/message.h"
+#include "model/scene.h"
 
 typedef enum field_kind {
   FIELD_REAL,    /* double                                             */

@@ -16,7 +16,4 @@ suggestion suggest_key(const char *section, const char *key, size_t length);
 /* The same for a whole path, "hbm.sample". */
 suggestion suggest_path(const char *path, size_t length);
 
-/* The nearest of words[], which ends in NULL, or NULL if none is near. */
-const char *suggest_word(const char *const *words, const char *key, size_t length);
-
 #endif

@@ -12,7 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cases/numerics/room.h"
+#include "numerics/room.h"
 #include "hbm/slope.h"
 
 /* Where the slider's position came from: dw = slope dx(th_i); slope 0 when it depends on nothing. */

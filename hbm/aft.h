@@ -2,8 +2,8 @@
 #ifndef HC_AFT_H
 #define HC_AFT_H
 
-#include "cases/scene.h"
-#include "cases/status.h"
+#include "model/scene.h"
+#include "base/status.h"
 #include "hbm/contact_report.h"
 
 typedef struct aft aft;

@@ -2,7 +2,7 @@
 #ifndef HC_CONTACT_REPORT_H
 #define HC_CONTACT_REPORT_H
 
-#include "cases/scene.h"
+#include "model/scene.h"
 
 typedef struct contact_report {
   contact_regime regime;       /* the strongest thing that happens to any contact in the period */

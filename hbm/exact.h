@@ -4,7 +4,7 @@
 #ifndef HC_EXACT_H
 #define HC_EXACT_H
 
-#include "cases/scene.h"
+#include "model/scene.h"
 #include "hbm/contact_report.h"
 #include "hbm/transitions.h"
 

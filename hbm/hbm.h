@@ -7,8 +7,8 @@
 #ifndef HC_HBM_H
 #define HC_HBM_H
 
-#include "cases/scene.h"
-#include "cases/status.h"
+#include "model/scene.h"
+#include "base/status.h"
 #include "hbm/contact_report.h"
 #include "hbm/stability.h"
 

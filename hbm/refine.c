@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cases/numerics/lu.h"
+#include "numerics/lu.h"
 #include "hbm/series.h"
 
 struct refinement {

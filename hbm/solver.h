@@ -8,7 +8,7 @@
 #define HC_HBM_SOLVER_H
 
 #include "hbm/hbm.h"
-#include "cases/numerics/newton.h"
+#include "numerics/newton.h"
 #include "hbm/refine.h"
 #include "hbm/system.h"
 

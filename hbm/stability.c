@@ -6,8 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cases/numerics/floquet.h"
-#include "cases/numerics/linear.h"
+#include "numerics/floquet.h"
+#include "model/linear.h"
 #include "hbm/exact.h"
 
 static const double TWO_PI = 6.283185307179586476925;

@@ -8,8 +8,8 @@
 #ifndef HC_STABILITY_H
 #define HC_STABILITY_H
 
-#include "cases/scene.h"
-#include "cases/status.h"
+#include "model/scene.h"
+#include "base/status.h"
 
 typedef struct hbm_stability {
   double multiplier;  /* modulus of the largest Floquet multiplier */

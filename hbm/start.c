@@ -6,7 +6,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "cases/numerics/linear.h"
+#include "model/linear.h"
 
 #include "hbm/series.h"
 #include "hbm/solver.h"

@@ -1,7 +1,7 @@
 /* transitions.h - when a contact sticks, slips and separates over a period of a given motion, located to rounding error.
  * Needs libm only; allocates nothing.
  *
- * Every guard of the contact law (cases/contact_law.h) is linear in the motion, so it is a trigonometric polynomial f(th) plus a constant:
+ * Every guard of the contact law (model/contact_law.h) is linear in the motion, so it is a trigonometric polynomial f(th) plus a constant:
  *     contact   g   = v + gap
  *     stick(s)  q_s = mu kn (v + gap) - s (kt u - held),   held = kt w          slip(s) starts where q_s falls through 0
  *     slip(s)   r_s = s kt u' - mu kn v'                                        stick starts where r_s falls through 0
@@ -10,8 +10,8 @@
 #ifndef HC_TRANSITIONS_H
 #define HC_TRANSITIONS_H
 
-#include "cases/contact_law.h"
-#include "cases/status.h"
+#include "model/contact_law.h"
+#include "base/status.h"
 
 enum { MOTION_MAX_DOF = 2, TRANSITIONS_GRID = 32 };
 

@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-#include "cases/sundials_compat.h"
+#include "numerics/sundials_compat.h"
 
 void integrate_free(integrator *in)
 {

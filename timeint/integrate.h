@@ -10,7 +10,7 @@
 #ifndef HC_TIMEINT_INTEGRATE_H
 #define HC_TIMEINT_INTEGRATE_H
 
-#include "cases/status.h"
+#include "base/status.h"
 #include "timeint/model.h"
 
 typedef struct integrator integrator;

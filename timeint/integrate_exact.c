@@ -27,8 +27,8 @@
 #include <sunlinsol/sunlinsol_dense.h>
 #include <sunmatrix/sunmatrix_dense.h>
 
-#include "cases/numerics/linear.h"
-#include "cases/sundials_compat.h"
+#include "model/linear.h"
+#include "numerics/sundials_compat.h"
 #include "timeint/phase.h"
 
 static const double two_pi = 6.283185307179586477;

@@ -12,7 +12,7 @@
 #include <sunlinsol/sunlinsol_dense.h>
 #include <sunmatrix/sunmatrix_dense.h>
 
-#include "cases/sundials_compat.h"
+#include "numerics/sundials_compat.h"
 
 static const double two_pi = 6.283185307179586477;
 static const double slope_tolerance = 1e-6; /* of the slopes' steps; they are about 1 */

@@ -1,4 +1,4 @@
-/* law_regularised.h - the contact law of cases/contact_law.h, made smooth enough for an implicit integrator.
+/* law_regularised.h - the contact law of model/contact_law.h, made smooth enough for an implicit integrator.
  *
  *     N  = kn width softplus((v + gap)/width)          softplus(z) = log(1 + exp(z))
  *     S  = kt (u - w)                                  force of the tangential spring
@@ -18,7 +18,7 @@
 
 #include <stdbool.h>
 
-#include "cases/contact_law.h"
+#include "model/contact_law.h"
 
 typedef struct law_regularised {
   double kt, kn, mu, gap; /* as in contact_law.h */

@@ -4,7 +4,7 @@
 #include <complex.h>
 #include <math.h>
 
-#include "cases/numerics/linear.h"
+#include "model/linear.h"
 #include "timeint/internal.h"
 
 static const double two_pi = 6.283185307179586477;

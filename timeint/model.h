@@ -14,7 +14,7 @@
 #ifndef HC_TIMEINT_MODEL_H
 #define HC_TIMEINT_MODEL_H
 
-#include "cases/scene.h"
+#include "model/scene.h"
 #include "timeint/law_regularised.h"
 
 enum { MODEL_X, MODEL_P, MODEL_W, MODEL_MAX_STATES = MODEL_W + SCENE_MAX_CONTACTS }; /* order of the states */

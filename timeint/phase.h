@@ -1,4 +1,4 @@
-/* phase.h - the contact states of the exact law (cases/contact_law.h) in which a motion stays for a while, and what ends them. libm only.
+/* phase.h - the contact states of the exact law (model/contact_law.h) in which a motion stays for a while, and what ends them. libm only.
  *
  * In a phase every contact sticks, slips one way or is separated, and the equation of model.h is linear:
  *     P' = f cos(theta) - c P - k X - d            k, d constant: no switch is left in it, whatever X and P are

@@ -20,7 +20,7 @@
 #ifndef HC_TIMEINT_SETTLE_H
 #define HC_TIMEINT_SETTLE_H
 
-#include "cases/status.h"
+#include "base/status.h"
 
 enum { SETTLE_MAX_MULTIPLE = 16 };
 

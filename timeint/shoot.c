@@ -1,4 +1,4 @@
-/* shoot.c - see shoot.h. Newton itself is cases/numerics/newton.h; here is the map, evaluated once a point. */
+/* shoot.c - see shoot.h. Newton itself is numerics/newton.h; here is the map, evaluated once a point. */
 #include "timeint/shoot.h"
 
 #include <float.h>
@@ -9,9 +9,9 @@
 #include <kinsol/kinsol.h>
 #include <nvector/nvector_serial.h>
 
-#include "cases/numerics/floquet.h"
-#include "cases/numerics/newton.h"
-#include "cases/sundials_compat.h"
+#include "numerics/floquet.h"
+#include "numerics/newton.h"
+#include "numerics/sundials_compat.h"
 #include "timeint/internal.h"
 
 enum { MAX_N = MODEL_MAX_STATES, NEWTON_ITERATIONS = 12, ANDERSON_ITERATIONS = 100, ANDERSON_DEPTH = 4, LAST_STEPS = 4 };

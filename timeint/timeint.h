@@ -2,14 +2,14 @@
  *
  *     x' = v,   M v' = F0 cos(omega t) - C v - K x - sum_j [ T_j cos(alpha_j) + (N_j - N0_j) sin(alpha_j) ]
  *
- * with the contact law of cases/contact_law.h, exact or regularised (law_regularised.h) as transient.law says. Phase: t = 0 is the
+ * with the contact law of model/contact_law.h, exact or regularised (law_regularised.h) as transient.law says. Phase: t = 0 is the
  * forcing's maximum; every state handed
  * in or out is at a whole number of forcing periods. Handles are opaque, one a thread. Not here: harmonic balance, verdicts. */
 #ifndef HC_TIMEINT_H
 #define HC_TIMEINT_H
 
-#include "cases/scene.h"
-#include "cases/status.h"
+#include "model/scene.h"
+#include "base/status.h"
 
 enum { TIMEINT_WAVE = 512 };
 

@@ -9,15 +9,15 @@
  *
  * A number passes if found <= allowed (1 + GATE_SLACK); costs, being whole numbers, if found <= allowed. Both sides are converged far beyond
  * that, so what rounding does on another machine flips no verdict unless a limit is set to a hair's breadth of what is found.
- * Nothing is printed. Not here: how the two sides are compared (compare/measure). */
+ * Nothing is printed. Not here: how the two sides are compared (compare/comparison.h). */
 #ifndef HC_GATE_H
 #define HC_GATE_H
 
 #include <stdio.h>
 
-#include "cases/scene.h"
-#include "cases/status.h"
-#include "compare/measure/comparison.h"
+#include "model/scene.h"
+#include "base/status.h"
+#include "compare/comparison.h"
 
 #define GATE_SLACK 1e-6 /* [1] of the limit */
 

@@ -5,9 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cases/number.h"
+#include "base/number.h"
 #include "compare/gate/gate.h"
-#include "compare/show/utf8.h"
+#include "base/utf8.h"
 
 /* In an attribute or between tags. What XML 1.0 cannot hold even escaped, control characters and U+FFFE, U+FFFF, utf8_clean makes spaces. */
 static hc_status put_text(const char *raw, FILE *to)

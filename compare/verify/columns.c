@@ -2,9 +2,9 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "cases/message.h"
-#include "cases/number.h"
-#include "cases/suggest.h"
+#include "base/message.h"
+#include "base/number.h"
+#include "base/nearest.h"
 #include "compare/verify/csv.h"
 
 static const char *const quantities[] = {"amplitude", "harmonic_1", "peak", "max", "rms"};
@@ -39,7 +39,7 @@ static hc_status read_place(const char *text, size_t length, verify_column *out,
 
 static hc_status unknown(const char *text, size_t length, message *m)
 {
-  const char *near = suggest_word(names, text, length);
+  const char *near = nearest_word(names, text, length);
   message_add(m, "--columns: '");
   message_add_input(m, text, length, 60);
   message_add(m, "' is unknown, expected omega or frequency, and amplitude, harmonic_1, peak or value");

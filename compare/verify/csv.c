@@ -7,8 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cases/message.h"
-#include "cases/number.h"
+#include "base/message.h"
+#include "base/number.h"
 
 static const double two_pi = 6.283185307179586476925;
 static const size_t most_bytes = (size_t)64 << 20; /* 640 a point */

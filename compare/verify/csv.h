@@ -7,7 +7,7 @@
 
 #include <stdbool.h>
 
-#include "cases/status.h"
+#include "base/status.h"
 
 enum { VERIFY_TEXT = 1024, VERIFY_MOST_POINTS = 100000, VERIFY_LEAST_POINTS = 3, VERIFY_MOST_FIELDS = 256, VERIFY_NAME = 64 };
 

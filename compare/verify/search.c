@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "compare/measure/frequencies.h"
+#include "compare/frequencies.h"
 #include "compare/verify/readings.h"
 #include "compare/verify/truth.h"
 

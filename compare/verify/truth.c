@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "compare/measure/frequencies.h"
+#include "compare/frequencies.h"
 #include "compare/verify/solutions.h"
 
 enum { LEAST_HARMONICS = 20, ENOUGH_HARMONICS = 80, MOST_CHECKS = 20 };

@@ -10,9 +10,9 @@
 #ifndef HC_VERIFY_H
 #define HC_VERIFY_H
 
-#include "cases/scene.h"
-#include "cases/status.h"
-#include "compare/measure/comparison.h"
+#include "model/scene.h"
+#include "base/status.h"
+#include "compare/comparison.h"
 #include "compare/verify/csv.h"
 
 /* One bit each: what can have been done to a curve. Words for scripts, and for people. */

@@ -2,7 +2,7 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "cases/message.h"
+#include "base/message.h"
 #include "compare/verify/search.h"
 
 static const struct { const char *word, *meaning, *remedy; } causes[] = {

@@ -9,7 +9,7 @@
 #include <string.h>
 #include <time.h>
 
-#include "compare/measure/comparison.h"
+#include "compare/comparison.h"
 #include "tests/timeint/scenes.h"
 
 static inline double cpu_ms(void)

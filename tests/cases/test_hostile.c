@@ -3,7 +3,7 @@
 #include <sys/stat.h>
 #include <time.h>
 
-#include "cases/message.h"
+#include "base/message.h"
 #include "tests/cases/case_text.h"
 
 enum { MEGABYTE = 1 << 20 };
@@ -102,7 +102,7 @@ static void files_are_closed_again(void **state)
   for (int i = 0; i < 40; ++i) {
     assert_int_equal(case_read(SOURCE_DIR "/cases/paper/case2.yaml", 0, NULL, &sc, &err), HC_OK);
     assert_int_equal(case_read(SOURCE_DIR, 0, NULL, &sc, &err), HC_IO);
-    assert_int_equal(case_read(SOURCE_DIR "/cases/scene.h", 0, NULL, &sc, &err), HC_BAD_INPUT);
+    assert_int_equal(case_read(SOURCE_DIR "/cases/README.md", 0, NULL, &sc, &err), HC_BAD_INPUT);
   }
   setrlimit(RLIMIT_NOFILE, &before);
 }

@@ -61,7 +61,7 @@ char *strdup(const char *text)
   return copy ? memcpy(copy, text, bytes) : NULL;
 }
 
-/* Calls that crash without memory, by the linker's --wrap (CMakeLists.txt has the list, and cases/numerics/room.h the reason). */
+/* Calls that crash without memory, by the linker's --wrap (CMakeLists.txt has the list, and numerics/room.h the reason). */
 #define SHELTERED(type, name, parameters, arguments) \
   type __real_##name parameters;                      \
   type __wrap_##name parameters;                      \

@@ -1,7 +1,7 @@
 /* memory.h - allocations that fail on demand, in our code and in every library: SUNDIALS, FFTW, GSL, SQLite, jansson, libyaml, the C library.
  * The program's own malloc and friends come before everybody else's; they count, refuse, or pass on to the C library or the sanitizer.
  * A few calls of SUNDIALS and FFTW that crash without memory are sheltered: nothing fails inside them. What the library does about those is in
- * cases/numerics/room.h. */
+ * numerics/room.h. */
 #ifndef HC_TESTS_FAULTS_MEMORY_H
 #define HC_TESTS_FAULTS_MEMORY_H
 

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "compare/study/study.h"
+#include "campaigns/study/study.h"
 #include "tests/fuzz/fuzz.h"
 
 static const char base[] = "oscillator: {mass: 1, damping: 0.4, stiffness: 40}\nforcing: {amplitude: 100}\nsweep: {omega: [3, 20]}\n"

@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cases/scene.h"
+#include "model/scene.h"
 #include "tests/check.h"
 
 typedef struct reference_scene {

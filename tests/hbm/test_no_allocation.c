@@ -19,7 +19,7 @@
 #include <fftw3.h>
 #include <nvector/nvector_serial.h>
 
-#include "cases/sundials_compat.h"
+#include "numerics/sundials_compat.h"
 #include "hbm/aft.h"
 #include "hbm/exact.h"
 #include "hbm/hbm.h"

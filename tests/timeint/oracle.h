@@ -5,7 +5,7 @@
 
 #include <complex.h>
 
-#include "cases/numerics/linear.h"
+#include "model/linear.h"
 #include "tests/check.h"
 #include "timeint/model.h"
 

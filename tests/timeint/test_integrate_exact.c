@@ -7,7 +7,7 @@
 
 #include <cvodes/cvodes.h>
 
-#include "cases/numerics/linear.h"
+#include "model/linear.h"
 #include "tests/timeint/oracle.h"
 #include "tests/timeint/reference_rows.h"
 #include "tests/timeint/scenes.h"

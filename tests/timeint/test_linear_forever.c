@@ -5,7 +5,7 @@
 #include <float.h>
 #include <string.h>
 
-#include "cases/numerics/linear.h"
+#include "model/linear.h"
 #include "tests/timeint/reference_rows.h"
 #include "tests/timeint/scenes.h"
 #include "timeint/internal.h"

@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-#include "cases/numerics/linear.h"
+#include "model/linear.h"
 #include "tests/timeint/scenes.h"
 #include "timeint/integrate.h"
 

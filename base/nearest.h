@@ -1,0 +1,16 @@
+/* nearest.h - which word was meant by one that is not known: edit distance. */
+#ifndef HC_NEAREST_H
+#define HC_NEAREST_H
+
+#include <stddef.h>
+
+enum { NEAREST_FAR = 1000 };
+
+/* How far key[length] is from `name`: 0..2 typing mistakes (insertions, deletions, replacements, swaps of neighbours), 1 for the
+ * start of the name, else NEAREST_FAR. Words of less than 6 letters may have one mistake only: every two of them are close. */
+int nearest_distance(const char *key, size_t length, const char *name);
+
+/* The nearest of words[], which ends in NULL, or NULL if none is near. */
+const char *nearest_word(const char *const *words, const char *key, size_t length);
+
+#endif

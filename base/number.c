@@ -1,0 +1,129 @@
+/* number.c - see number.h. The grammar is checked here by hand, so strtod only ever sees plain decimal numbers. */
+#include "base/number.h"
+
+#include <errno.h>
+#include <limits.h>
+#include <locale.h>
+#include <math.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { LONGEST = 256 }; /* characters of a number; a double needs no more than 17 digits and an exponent */
+
+static size_t digits(const char *s)
+{
+  size_t n = 0;
+  while (s[n] >= '0' && s[n] <= '9') ++n;
+  return n;
+}
+
+static const char *skip_sign(const char *s) { return *s == '+' || *s == '-' ? s + 1 : s; }
+
+static bool is_decimal(const char *s)
+{
+  s = skip_sign(s);
+  size_t whole = digits(s), fraction = 0;
+  s += whole;
+  if (*s == '.') fraction = digits(++s), s += fraction;
+  if (whole + fraction == 0) return false;
+  if (*s == 'e' || *s == 'E') {
+    s = skip_sign(s + 1);
+    size_t exponent = digits(s);
+    if (exponent == 0) return false;
+    s += exponent;
+  }
+  return *s == '\0';
+}
+
+/* nan, inf and infinity as C and YAML spell them: recognised only to say so. */
+static bool is_not_finite(const char *s)
+{
+  static const char *const words[] = {"nan", "inf", "infinity"};
+  s = skip_sign(s);
+  if (*s == '.') ++s;
+  for (size_t i = 0; i < sizeof words / sizeof *words; ++i) {
+    const char *a = s, *b = words[i];
+    while (*a && (*a | 0x20) == *b) ++a, ++b;
+    if (!*a && !*b) return true;
+  }
+  return false;
+}
+
+/* strtod with a decimal point whatever the locale. Text that strtod does not take to its end counts as no number. */
+static bool convert(const char *text, double *value)
+{
+  locale_t c = newlocale(LC_ALL_MASK, "C", (locale_t)0), before = uselocale(c);
+  char *end;
+  *value = strtod(text, &end);
+  uselocale(before);
+  if (c) freelocale(c);
+  return *end == '\0';
+}
+
+static bool terminate(const char *text, size_t length, char copy[LONGEST])
+{
+  if (length >= LONGEST || memchr(text, '\0', length)) return false;
+  memcpy(copy, text, length);
+  copy[length] = '\0';
+  return true;
+}
+
+static bool has_nonzero_digit(const char *s)
+{
+  for (; *s && *s != 'e' && *s != 'E'; ++s)
+    if (*s >= '1' && *s <= '9') return true;
+  return false;
+}
+
+number_fault number_read(const char *text, size_t length, double *value)
+{
+  char copy[LONGEST];
+  double x;
+  int before = errno;
+  if (!terminate(text, length, copy)) return NUMBER_NONE;
+  if (is_not_finite(copy)) return NUMBER_NOT_FINITE;
+  if (!is_decimal(copy) || !convert(copy, &x)) return NUMBER_NONE;
+  errno = before; /* subnormal numbers set ERANGE, and are welcome */
+  if (!isfinite(x)) return NUMBER_TOO_LARGE;
+  if (x == 0 && has_nonzero_digit(copy)) return NUMBER_TOO_SMALL;
+  *value = x;
+  return NUMBER_FINE;
+}
+
+/* e-09 -> e-9, e+20 -> e+20: printf's leading zero says nothing. */
+static void shorten_exponent(char *text)
+{
+  char *e = strchr(text, 'e'), *zeros = e ? e + 2 : NULL;
+  size_t n = 0;
+  if (!e) return;
+  while (zeros[n] == '0') ++n;
+  memmove(zeros, zeros + n, strlen(zeros + n) + 1);
+}
+
+number_fault number_read_integer(const char *text, size_t length, int *value)
+{
+  double x;
+  number_fault fault = number_read(text, length, &x);
+  if (fault != NUMBER_FINE) return fault;
+  const char *s = skip_sign(text);
+  if (s + digits(s) < text + length) return NUMBER_NOT_INTEGER;
+  if (!(x >= INT_MIN && x <= INT_MAX)) return NUMBER_TOO_LARGE;
+  *value = (int)x;
+  return NUMBER_FINE;
+}
+
+const char *number_write(double value, char text[NUMBER_TEXT])
+{
+  locale_t c = newlocale(LC_ALL_MASK, "C", (locale_t)0), before = uselocale(c);
+  for (int precision = 15; precision <= 17; ++precision) {
+    double back;
+    snprintf(text, NUMBER_TEXT, "%.*g", precision, value);
+    if (number_read(text, strlen(text), &back) == NUMBER_FINE && memcmp(&back, &value, sizeof value) == 0) break;
+  }
+  uselocale(before);
+  if (c) freelocale(c);
+  shorten_exponent(text);
+  return text;
+}

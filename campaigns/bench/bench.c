@@ -1,0 +1,204 @@
+/* bench.c - see bench.h: the settings of each method, and the rounds in which they take turns. */
+#include "campaigns/bench/bench.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "campaigns/bench/place.h"
+#include "campaigns/bench/scipy.h"
+
+enum { MOST_SETTINGS = 8, MOST_ROWS = 128, FEWEST = 3 };
+static const double enough = 0.25;       /* [s] a row that has taken as long is repeated no more, once it has been FEWEST times */
+
+/* A method's settings: every a with every b. a: harmonics or regularisation, b: samples or tolerance; 0 is none. */
+typedef struct family { bench_method method; int n_a; double a[MOST_SETTINGS]; int n_b; double b[MOST_SETTINGS]; } family;
+static const family families[] = {
+    {BENCH_HBM_EXACT, 7, {1, 3, 5, 10, 20, 40, 80}, 1, {0}},
+    {BENCH_HBM_SAMPLED, 5, {1, 5, 10, 20, 40}, 5, {64, 256, 1024, 4096, 16384}},
+    {BENCH_EXACT_SHOOTING, 1, {0}, 5, {1e-3, 1e-5, 1e-7, 1e-9, 1e-11}},
+    {BENCH_EXACT_MARCHING, 1, {0}, 5, {1e-3, 1e-5, 1e-7, 1e-9, 1e-11}},
+    {BENCH_REGULARISED_SHOOTING, 5, {1e-2, 1e-3, 1e-4, 1e-5, 1e-6}, 3, {1e-4, 1e-6, 1e-8}},
+    {BENCH_REGULARISED_MARCHING, 4, {1e-2, 1e-3, 1e-4, 1e-5}, 3, {1e-4, 1e-6, 1e-8}},
+    {BENCH_REGULARISED_RICHARDSON, 2, {1e-1, 1e-2}, 3, {1e-4, 1e-6, 1e-8}},
+};
+enum { N_FAMILIES = sizeof families / sizeof *families };
+
+/* The work on one place. */
+typedef struct job {
+  const scene *sc;
+  const bench_options *options;
+  const hc_monitor *outer;
+  double from, width, done; /* of the whole work: where this place begins, its share, and how much of the share is done */
+  hc_monitor monitor;
+  place_start start;
+  trial *trials;
+  bench *out;
+} job;
+
+static bool tick(void *self, double done)
+{
+  const job *j = self;
+  (void)done;
+  return hc_monitor_tick(j->outer, j->from + j->width * j->done);
+}
+
+static hc_status add_row(bench *b, const bench_row *row)
+{
+  if (b->n_rows == b->cap) {
+    int cap = b->cap ? 2 * b->cap : MOST_ROWS;
+    bench_row *rows = realloc(b->rows, (size_t)cap * sizeof *rows);
+    if (!rows) return HC_NO_MEMORY;
+    b->rows = rows;
+    b->cap = cap;
+  }
+  b->rows[b->n_rows++] = *row;
+  return HC_OK;
+}
+
+static bench_row empty_row(bench_method method, double omega)
+{
+  return (bench_row){.method = method, .omega = omega, .regularisation = NAN, .tolerance = NAN, .error = NAN, .error_harmonic_1 = NAN,
+                     .error_finer = NAN, .seconds = NAN, .low = NAN, .high = NAN, .curve_seconds = NAN};
+}
+
+static hc_status add_family(bench *b, const family *f, double omega)
+{
+  hc_status st = HC_OK;
+  for (int i = 0; i < f->n_a && st == HC_OK; ++i)
+    for (int k = 0; k < f->n_b && st == HC_OK; ++k) {
+      bench_row row = empty_row(f->method, omega);
+      bool hbm = f->method == BENCH_HBM_EXACT || f->method == BENCH_HBM_SAMPLED;
+      if (hbm) row.harmonics = (int)f->a[i], row.samples = (int)f->b[k];
+      else row.tolerance = f->b[k];
+      if (!hbm && f->a[i] > 0) row.regularisation = f->a[i];
+      if (row.samples > 0 && row.samples < 2 * row.harmonics + 2) continue;
+      st = add_row(b, &row);
+    }
+  return st;
+}
+
+/* Marching, did a row with no finer settings take too long? (Shooting's time goes up and down with luck.) */
+static bool hopeless(const bench_row *rows, int i)
+{
+  if (rows[i].method != BENCH_EXACT_MARCHING && rows[i].method != BENCH_REGULARISED_MARCHING) return false;
+  for (int k = 0; k < i; ++k) {
+    const bench_row *r = &rows[k];
+    if (r->method != rows[i].method || r->outcome != BENCH_TOO_LONG) continue;
+    if (!(r->regularisation < rows[i].regularisation) && !(r->tolerance < rows[i].tolerance)) return true;
+  }
+  return false;
+}
+
+/* All rows once: what they find; and the curves. */
+static hc_status first_round(job *j, bench_place *p)
+{
+  bench_row *rows = j->out->rows + p->first;
+  hc_status st = HC_OK;
+  for (int i = 0; i < p->n && st == HC_OK; ++i) {
+    j->done = 0.1 + 0.5 * i / p->n;
+    if (hopeless(rows, i)) rows[i].outcome = BENCH_TOO_LONG;
+    else if (!hc_monitor_tick(&j->monitor, -1)) st = HC_INTERRUPTED;
+    else if ((st = trial_start(j->sc, &j->start, &rows[i], j->options->repeats, &j->monitor, &j->trials[i])) == HC_OK)
+      st = trial_curve(&j->trials[i], &j->monitor);
+  }
+  return st;
+}
+
+static bool has_enough(const trial *t, const bench_row *row)
+{
+  if (row->outcome != BENCH_SOLVED || t->runs == t->cap) return true;
+  int fewest = row->seconds > trial_slow ? 1 : FEWEST;
+  return t->runs >= fewest && t->spent > enough; /* spent: the first run included */
+}
+
+static hc_status rounds(job *j, const bench_place *p)
+{
+  const int n = j->options->repeats;
+  hc_status st = HC_OK;
+  for (int round = 0; round < n && st == HC_OK; ++round)
+    for (int i = 0; i < p->n && st == HC_OK; ++i) {
+      j->done = 0.6 + 0.3 * (round * p->n + i) / ((double)n * p->n);
+      if (!hc_monitor_tick(&j->monitor, -1)) st = HC_INTERRUPTED;
+      else if (!has_enough(&j->trials[i], &j->out->rows[p->first + i])) st = trial_run(&j->trials[i], &j->start, &j->monitor);
+    }
+  return st;
+}
+
+static hc_status measure_ours(job *j, bench_place *p)
+{
+  hc_status st = HC_OK;
+  p->first = j->out->n_rows;
+  for (int i = 0; i < N_FAMILIES && st == HC_OK; ++i) st = add_family(j->out, &families[i], p->omega);
+  p->n = j->out->n_rows - p->first;
+  if (st == HC_OK && !(j->trials = calloc((size_t)p->n, sizeof *j->trials))) st = HC_NO_MEMORY;
+  if (st == HC_OK) st = first_round(j, p);
+  if (st == HC_OK) st = rounds(j, p);
+  for (int i = 0; j->trials && i < p->n; ++i) trial_finish(&j->trials[i]);
+  free(j->trials);
+  j->trials = NULL;
+  return st;
+}
+
+/* The runs of scipy, as rows. */
+static hc_status measure_scipy(job *j, bench_place *p)
+{
+  scipy_run runs[SCIPY_MOST_RUNS];
+  int n = 0;
+  j->done = 0.9;
+  hc_status st = scipy_lsoda(j->sc, &j->start, p->multiplier, j->options->repeats, &j->monitor, runs, &n, p->scipy);
+  const steady_motion *ref = &j->start.reference;
+  for (int i = 0; i < n && (st == HC_OK || st == HC_INTERRUPTED); ++i) {
+    bench_row row = empty_row(BENCH_SCIPY_LSODA, p->omega);
+    row.tolerance = runs[i].rtol;
+    row.outcome = BENCH_SOLVED;
+    row.error = fabs(runs[i].amplitude - ref->amplitude) / ref->amplitude;
+    row.error_harmonic_1 = fabs(runs[i].harmonic_1 - ref->harmonic_1) / ref->amplitude;
+    row.repeats = runs[i].n;
+    trial_quartiles(runs[i].n, runs[i].seconds, &row.low, &row.seconds, &row.high);
+    if (!(row.error <= 0.3)) row.outcome = BENCH_OTHER_ORBIT;
+    if (add_row(j->out, &row) != HC_OK) st = HC_NO_MEMORY;
+    else ++p->n;
+  }
+  return st;
+}
+
+static hc_status bench_at(job *j, finder *f, double omega)
+{
+  bench_place *p = &j->out->places[j->out->n_places];
+  j->done = 0;
+  hc_status st = finder_place(f, omega, &j->monitor, p, &j->start);
+  if (st != HC_OK) return st;
+  ++j->out->n_places;
+  snprintf(p->scipy, sizeof p->scipy, "not asked for");
+  st = measure_ours(j, p);
+  if (st == HC_OK && !j->options->alone) st = measure_scipy(j, p);
+  bench_judge(p->n, j->out->rows + p->first, p->floor);
+  return st;
+}
+
+hc_status bench_run(const scene *sc, const bench_options *options, const hc_monitor *monitor, bench *out, double *failed_at)
+{
+  finder f;
+  scene_list at = options->at;
+  *out = (bench){0};
+  *failed_at = 0;
+  if (options->repeats < 1) return HC_BAD_INPUT;
+  hc_status st = finder_start(sc, &at, monitor, &f);
+  if (st == HC_OK && at.n == 0 && (st = finder_default(&f, &at.v[0])) == HC_OK) at.n = 1;
+  for (int i = 0; i < at.n && st == HC_OK; ++i) {
+    job j = {.sc = &f.sc, .options = options, .outer = monitor, .from = (double)i / at.n, .width = 1.0 / at.n, .out = out};
+    j.monitor = (hc_monitor){tick, &j};
+    st = bench_at(&j, &f, at.v[i]);
+    if (st != HC_OK) *failed_at = at.v[i];
+  }
+  finder_free(&f);
+  return st;
+}
+
+void bench_clear(bench *b)
+{
+  free(b->rows);
+  *b = (bench){0};
+}

@@ -1,0 +1,24 @@
+/* place.h - where methods are compared: a frequency, the reference orbit there, and the solutions next to it from which all methods start. */
+#ifndef HC_BENCH_PLACE_H
+#define HC_BENCH_PLACE_H
+
+#include "campaigns/bench/trial.h"
+
+/* Looks for places: the response curve by harmonic balance, and the exact law's orbits next to it. */
+typedef struct finder {
+  scene sc;        /* with harmonics and forces of the curve */
+  hbm_solver *hbm;
+  hbm_curve curve;
+} finder;
+
+/* The curve over the scene's sweep and the asked frequencies. finder_free in any case. */
+hc_status finder_start(const scene *sc, const scene_list *at, const hc_monitor *monitor, finder *f);
+void finder_free(finder *f);
+
+/* Of the scene's compare frequencies the one where the curve's response is largest. */
+hc_status finder_default(finder *f, double *omega);
+
+/* The largest stable response at omega. HC_NOT_CONVERGED: there is none, or no neighbour of it. */
+hc_status finder_place(finder *f, double omega, const hc_monitor *monitor, bench_place *place, place_start *start);
+
+#endif

@@ -1,0 +1,169 @@
+/* scipy.c - see scipy.h: a child process, its lines read as they come, a limit on its time. */
+#include "campaigns/bench/scipy.h"
+
+#include <math.h>
+#include <poll.h>
+#include <signal.h>
+#include <spawn.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <time.h>
+#include <unistd.h>
+
+extern char **environ;
+
+enum { MOST_ARGUMENTS = 4 + 9 + 7 * SCENE_MAX_CONTACTS, NUMBER = 32, LINE = 256, NOT_THERE = 69, MOST_PERIODS = 3000 };
+static const double longest = 6; /* [s] of wall time, Python's start included */
+static const double left = 1e-9; /* [1] of the distance from which it starts */
+
+/* The child and what it has said. */
+typedef struct child {
+  pid_t pid;
+  int from;          /* its standard output */
+  char line[LINE];   /* as much as there is of the next line */
+  size_t n;
+  bool ended;        /* nothing more comes */
+} child;
+
+typedef struct arguments { char text[MOST_ARGUMENTS][NUMBER]; char *argv[MOST_ARGUMENTS + 1]; int n; } arguments;
+
+static void add(arguments *a, double value)
+{
+  snprintf(a->text[a->n], NUMBER, "%.17g", value);
+  a->argv[a->n] = a->text[a->n];
+  ++a->n;
+}
+
+static void fill(arguments *a, const char *python, const scene *sc, const place_start *at, int periods, int repeats)
+{
+  *a = (arguments){.n = 3};
+  a->argv[0] = (char *)(size_t)python;
+  a->argv[1] = (char *)(size_t)"-c";
+  a->argv[2] = (char *)(size_t)scipy_script;
+  const double head[] = {at->omega, periods, repeats, at->state.x, at->state.v, sc->mass, sc->damping, sc->stiffness, sc->force};
+  for (size_t i = 0; i < sizeof head / sizeof *head; ++i) add(a, head[i]);
+  for (int j = 0; j < sc->n_contacts; ++j) {
+    const contact *law = &sc->contacts[j].law;
+    double c, s;
+    scene_projection(&sc->contacts[j], &c, &s);
+    const double own[] = {at->state.w[j], law->kt, law->kn, law->mu, law->gap, c, s};
+    for (size_t i = 0; i < sizeof own / sizeof *own; ++i) add(a, own[i]);
+  }
+}
+
+/* Its standard error goes nowhere: a message of Python's is none of ours. Signals are as they were for a program started afresh. */
+static bool start(child *c, arguments *a)
+{
+  int ends[2];
+  posix_spawn_file_actions_t actions;
+  *c = (child){.pid = -1, .from = -1};
+  if (pipe(ends) != 0) return false;
+  bool ready = posix_spawn_file_actions_init(&actions) == 0;
+  if (ready) {
+    ready = posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO) == 0 && posix_spawn_file_actions_addclose(&actions, ends[0]) == 0 &&
+            posix_spawn_file_actions_addclose(&actions, ends[1]) == 0 && posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", 1, 0) == 0 &&
+            posix_spawnp(&c->pid, a->argv[0], &actions, NULL, a->argv, environ) == 0;
+    posix_spawn_file_actions_destroy(&actions);
+  }
+  close(ends[1]);
+  c->from = ends[0];
+  if (!ready) close(ends[0]);
+  return ready;
+}
+
+/* Kills it if it still runs. Its exit code, or -1. */
+static int finish(child *c)
+{
+  int status = 0;
+  close(c->from);
+  if (!c->ended) kill(c->pid, SIGKILL);
+  while (waitpid(c->pid, &status, 0) < 0) continue;
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+static double wall(void)
+{
+  struct timespec t;
+  clock_gettime(CLOCK_MONOTONIC, &t);
+  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+/* The next line into text[LINE]. False: no more, or no more time, or the monitor said stop. */
+static bool next_line(child *c, double until, const hc_monitor *monitor, char *text, bool *stopped)
+{
+  for (;;) {
+    char *end = memchr(c->line, '\n', c->n);
+    if (end) {
+      size_t length = (size_t)(end - c->line);
+      memcpy(text, c->line, length);
+      text[length] = 0;
+      c->n -= length + 1;
+      memmove(c->line, end + 1, c->n);
+      return true;
+    }
+    if (c->n == LINE) c->n = 0; /* no line of ours */
+    struct pollfd p = {.fd = c->from, .events = POLLIN};
+    if ((*stopped = !hc_monitor_tick(monitor, -1)) || wall() > until) return false;
+    if (poll(&p, 1, 50) <= 0) continue;
+    ssize_t got = read(c->from, c->line + c->n, LINE - c->n);
+    if (got <= 0) c->ended = true;
+    if (got <= 0) return false;
+    c->n += (size_t)got;
+  }
+}
+
+static void take(const char *text, scipy_run *runs, int *n)
+{
+  double v[4];
+  char *end = (char *)(size_t)text;
+  for (int i = 0; i < 4; ++i) v[i] = strtod(end, &end);
+  if (!(v[0] > 0) || !(v[1] >= 0)) return;
+  int k = 0;
+  while (k < *n && runs[k].rtol != v[0]) ++k;
+  if (k == SCIPY_MOST_RUNS) return;
+  if (k == *n) runs[(*n)++] = (scipy_run){.rtol = v[0]};
+  runs[k].amplitude = v[2];
+  runs[k].harmonic_1 = v[3];
+  if (runs[k].n < SCIPY_MOST_REPEATS) runs[k].seconds[runs[k].n++] = v[1];
+}
+
+/* With this python3: its exit code, -1 when it was stopped, NOT_THERE when there is no such program or no scipy. */
+static int run(const char *python, arguments *a, const hc_monitor *monitor, scipy_run *runs, int *n, char text[96], bool *stopped)
+{
+  child c;
+  char line[LINE];
+  const double until = wall() + longest;
+  a->argv[0] = (char *)(size_t)python;
+  if (!start(&c, a)) return NOT_THERE;
+  while (next_line(&c, until, monitor, line, stopped)) {
+    if (line[0] == '#') snprintf(text, 96, "%.90s", line + 2);
+    else take(line, runs, n);
+  }
+  return finish(&c);
+}
+
+hc_status scipy_lsoda(const scene *sc, const place_start *at, double multiplier, int repeats, const hc_monitor *monitor, scipy_run *runs, int *n,
+                      char text[96])
+{
+  const char *asked = getenv("PYTHON"), *candidates[] = {asked && *asked ? asked : "python3", asked && *asked ? NULL : "/usr/bin/python3"};
+  arguments a;
+  bool stopped = false;
+  *n = 0;
+  double periods = multiplier < 1 ? ceil(log(left) / log(fmax(multiplier, 0.01))) : INFINITY;
+  if (!(periods < MOST_PERIODS)) {
+    snprintf(text, 96, "not run: marching would take %.2g periods", periods);
+    return HC_OK;
+  }
+  snprintf(text, 96, "not found (no python3 with scipy; PYTHON says which python3)");
+  fill(&a, "", sc, at, (int)periods, repeats < 3 ? repeats : 3);
+  for (int i = 0; i < 2 && candidates[i] && !stopped; ++i) {
+    int code = run(candidates[i], &a, monitor, runs, n, text, &stopped);
+    if (code != NOT_THERE && code != 127) break;
+  }
+  size_t length = strlen(text);
+  if (*n > 0) snprintf(text + length, 96 - length, ", %d periods, what it did in %g s", (int)periods, longest);
+  else if (!strncmp(text, "scipy", 5)) snprintf(text + length, 96 - length, ", nothing in %g s: %d periods", longest, (int)periods);
+  return stopped ? HC_INTERRUPTED : HC_OK;
+}

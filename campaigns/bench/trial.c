@@ -1,0 +1,216 @@
+/* trial.c - see trial.h. */
+#include "campaigns/bench/trial.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+const double bench_longest = 1.5, bench_longest_shot = 0.3;
+const double trial_slow = 0.2;
+static const double shortest_run = 5e-4;  /* [s] the clock is good to a microsecond */
+static const double other_orbit = 0.3;    /* [amplitude] of the waveform: few harmonics are some ten percent off, another orbit is elsewhere */
+
+double trial_clock(void)
+{
+  struct timespec t;
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+/* A monitor that also stops what takes too long. */
+typedef struct limit { const hc_monitor *outer; double until; bool stopped; } limit;
+
+static bool tick_limit(void *self, double done)
+{
+  limit *l = self;
+  (void)done;
+  l->stopped = !hc_monitor_tick(l->outer, -1);
+  return !l->stopped && trial_clock() < l->until;
+}
+
+static bool is_hbm(bench_method m) { return m == BENCH_HBM_EXACT || m == BENCH_HBM_SAMPLED; }
+
+static scene settings_of(const scene *sc, const bench_row *r)
+{
+  scene s = *sc;
+  if (is_hbm(r->method)) {
+    s.hbm.harmonics = r->harmonics;
+    s.hbm.force = r->method == BENCH_HBM_EXACT ? HBM_FORCE_EXACT : HBM_FORCE_SAMPLED;
+    if (r->samples > 0) s.hbm.samples = r->samples;
+    return s;
+  }
+  s.transient.law = r->regularisation > 0 ? TRANSIENT_LAW_REGULARISED : TRANSIENT_LAW_EXACT;
+  if (r->regularisation > 0) s.transient.regularisation = r->regularisation;
+  s.transient.tolerance = r->tolerance;
+  s.transient.richardson = r->method == BENCH_REGULARISED_RICHARDSON;
+  bool marches = r->method == BENCH_EXACT_MARCHING || r->method == BENCH_REGULARISED_MARCHING;
+  s.transient.steady = marches ? TRANSIENT_STEADY_MARCH : TRANSIENT_STEADY_SHOOTING;
+  return s;
+}
+
+/* What one solution came to. */
+typedef struct answer { hc_status status; steady_motion motion; bool too_long; } answer;
+
+static void solve_hbm(trial *t, const place_start *at, double *X, hbm_measures *m, answer *a)
+{
+  hbm_point point;
+  memcpy(X, t->X, sizeof t->X);
+  a->status = hbm_solve(t->hbm, at->omega, X, &point);
+  if (a->status == HC_OK) a->status = hbm_measure(t->hbm, X, m);
+}
+
+static void solve_transient(trial *t, const place_start *at, const hc_monitor *monitor, timeint_result *r, answer *a)
+{
+  const bool marches = t->sc.transient.steady == TRANSIENT_STEADY_MARCH;
+  limit l = {monitor, trial_clock() + (marches ? bench_longest : bench_longest_shot), false};
+  hc_monitor limited = {tick_limit, &l};
+  timeint_state state = at->state;
+  a->status = timeint_steady(t->ti, at->omega, &state, &limited, r);
+  a->too_long = a->status == HC_INTERRUPTED && !l.stopped;
+}
+
+/* A batch of solutions; the time of one. */
+static double solve(trial *t, const place_start *at, const hc_monitor *monitor, answer *a)
+{
+  double X[TRIAL_MOST_COEF];
+  hbm_measures m;
+  timeint_result r;
+  *a = (answer){.status = HC_OK};
+  const double began = trial_clock();
+  for (int i = 0; i < t->batch; ++i) {
+    if (t->hbm) solve_hbm(t, at, X, &m, a);
+    else solve_transient(t, at, monitor, &r, a);
+  }
+  const double took = trial_clock() - began;
+  t->spent += took;
+  if (a->status == HC_OK) a->motion = t->hbm ? motion_of_series(&m, t->row->harmonics, X) : motion_of_transient(&r);
+  return took / t->batch;
+}
+
+/* The method's own curve knows its solution at the neighbour: the largest there. */
+static hc_status from_own_curve(const place_start *at, const hc_monitor *monitor, trial *t)
+{
+  limit l = {monitor, trial_clock() + bench_longest_shot, false};
+  hc_monitor limited = {tick_limit, &l};
+  hbm_curve curve = {0}, found = {0};
+  hbm_measures m;
+  double most = -1;
+  hbm_trace(t->hbm, t->sc.omega_from, t->sc.omega_to, &limited, &curve); /* as far as it comes */
+  hc_status st = l.stopped ? HC_INTERRUPTED : hbm_curve_at(t->hbm, &curve, at->neighbour, &found);
+  for (int k = 0; k < found.n && st == HC_OK; ++k) {
+    const double *X = found.X + (size_t)k * found.n_coef;
+    if (hbm_measure(t->hbm, X, &m) != HC_OK || m.amplitude <= most) continue;
+    most = m.amplitude;
+    memcpy(t->X, X, (size_t)found.n_coef * sizeof *X);
+  }
+  hbm_curve_free(&found);
+  hbm_curve_free(&curve);
+  return st == HC_OK && most < 0 ? HC_NOT_CONVERGED : st;
+}
+
+/* Workspace and start. The neighbour's solution with these settings is next to that with many harmonics, or on the method's own curve. */
+static hc_status make(const place_start *at, const hc_monitor *monitor, trial *t)
+{
+  hbm_point point;
+  if (!is_hbm(t->row->method)) return timeint_new(&t->sc, &t->ti);
+  hc_status st = hbm_solver_new(&t->sc, &t->hbm);
+  if (st != HC_OK) return st;
+  memcpy(t->X, at->X, (size_t)(2 * t->row->harmonics + 1) * sizeof *t->X);
+  return hbm_solve(t->hbm, at->neighbour, t->X, &point) == HC_OK ? HC_OK : from_own_curve(at, monitor, t);
+}
+
+static void take(const answer *a, const place_start *at, double took, bench_row *row)
+{
+  const steady_motion *ref = &at->reference;
+  row->status = a->status;
+  row->outcome = a->status == HC_OK ? BENCH_SOLVED : a->too_long ? BENCH_TOO_LONG : BENCH_FAILED;
+  if (a->status != HC_OK) return;
+  motion_gap gap = motion_between(&a->motion, ref);
+  if (!(gap.waveform <= other_orbit * ref->amplitude)) row->outcome = BENCH_OTHER_ORBIT;
+  if (row->outcome != BENCH_SOLVED) return;
+  row->error = gap.amplitude / ref->amplitude;
+  row->error_harmonic_1 = gap.harmonic_1 / ref->amplitude;
+  row->seconds = took;
+}
+
+hc_status trial_start(const scene *sc, const place_start *at, bench_row *row, int cap, const hc_monitor *monitor, trial *t)
+{
+  answer a;
+  *t = (trial){.row = row, .sc = settings_of(sc, row), .cap = cap, .batch = 1, .seconds = calloc((size_t)cap, sizeof(double))};
+  if (!t->seconds) return HC_NO_MEMORY;
+  hc_status st = make(at, monitor, t);
+  if (st == HC_NO_MEMORY || st == HC_INTERRUPTED) return st;
+  if (st != HC_OK) {
+    row->status = st;
+    row->outcome = BENCH_FAILED;
+    return HC_OK;
+  }
+  double took = solve(t, at, monitor, &a);
+  if (a.status == HC_NO_MEMORY || (a.status == HC_INTERRUPTED && !a.too_long)) return a.status;
+  take(&a, at, took, row);
+  if (took > trial_slow && row->outcome == BENCH_SOLVED) t->seconds[t->runs++] = took; /* is the only one */
+  if (took < shortest_run) t->batch = (int)fmin(ceil(shortest_run / fmax(took, 1e-7)), 1000);
+  return HC_OK;
+}
+
+hc_status trial_run(trial *t, const place_start *at, const hc_monitor *monitor)
+{
+  answer a;
+  if (t->row->outcome != BENCH_SOLVED || t->runs == t->cap) return HC_OK;
+  double took = solve(t, at, monitor, &a);
+  if (a.too_long) return HC_OK; /* by a hair, this time: not counted */
+  if (a.status == HC_OK) t->seconds[t->runs++] = took;
+  return a.status;
+}
+
+hc_status trial_curve(trial *t, const hc_monitor *monitor)
+{
+  limit l = {monitor, trial_clock() + bench_longest, false};
+  hc_monitor limited = {tick_limit, &l};
+  double v[3], low, high;
+  hc_status st = HC_OK;
+  if (t->row->method != BENCH_HBM_EXACT || t->row->outcome != BENCH_SOLVED) return HC_OK;
+  for (int i = 0; i < 3 && st == HC_OK; ++i) {
+    hbm_curve curve = {0};
+    const double began = trial_clock();
+    st = hbm_trace(t->hbm, t->sc.omega_from, t->sc.omega_to, &limited, &curve);
+    v[i] = trial_clock() - began;
+    hbm_curve_free(&curve);
+  }
+  if (st == HC_OK) trial_quartiles(3, v, &low, &t->row->curve_seconds, &high);
+  return l.stopped || st == HC_NO_MEMORY ? (l.stopped ? HC_INTERRUPTED : st) : HC_OK; /* a curve that ends early has no time */
+}
+
+static int ascending(const void *a, const void *b)
+{
+  double x = *(const double *)a, y = *(const double *)b;
+  return (x > y) - (x < y);
+}
+
+static double quantile(int n, const double *v, double at)
+{
+  double place = at * (n - 1);
+  int i = (int)place;
+  return i + 1 < n ? v[i] + (place - i) * (v[i + 1] - v[i]) : v[n - 1];
+}
+
+void trial_quartiles(int n, double *v, double *low, double *median, double *high)
+{
+  qsort(v, (size_t)n, sizeof *v, ascending);
+  *low = quantile(n, v, 0.25);
+  *median = quantile(n, v, 0.5);
+  *high = quantile(n, v, 0.75);
+}
+
+void trial_finish(trial *t)
+{
+  if (t->row && t->seconds && t->runs > 0) {
+    t->row->repeats = t->runs;
+    trial_quartiles(t->runs, t->seconds, &t->row->low, &t->row->seconds, &t->row->high);
+  }
+  free(t->seconds);
+  hbm_solver_free(t->hbm);
+  timeint_free(t->ti);
+  *t = (trial){0};
+}

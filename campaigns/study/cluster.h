@@ -1,0 +1,29 @@
+/* cluster.h - a study shared between processes started together by mpirun (CMake option HBMCHECK_MPI; cluster_none.c without it).
+ * Rank 0 has the store and hands out scenes, the others compute them, each one at a time. Call from the main thread. */
+#ifndef HC_STUDY_CLUSTER_H
+#define HC_STUDY_CLUSTER_H
+
+#include "campaigns/study/solve.h"
+
+/* Once, first: how many processes there are, and which this one is. false: started in several copies by a program this build knows
+ * nothing of; each would do the same. */
+bool cluster_start(int *rank, int *size);
+void cluster_end(void);
+
+/* The largest of what the processes say, to all. */
+int cluster_agree(int code);
+
+/* Rank 0's side: take(self, most, ids) gives scenes to compute, keep() takes the packed result of one. */
+typedef struct cluster_desk {
+  int (*take)(void *self, int most, long *ids);
+  void (*keep)(void *self, const char *packed, size_t size);
+  void *self;
+} cluster_desk;
+
+/* Answer whoever asks now; never waits for long. true: some process is still at work. */
+bool cluster_serve(const cluster_desk *desk);
+
+/* The other ranks' side: compute what rank 0 hands out until there is no more. */
+void cluster_work(const study *s, const hc_monitor *monitor);
+
+#endif

@@ -1,0 +1,115 @@
+/* run.c - see run.h. Threads take the next scene's number under one lock and hand the result to the store under another; the calling thread
+ * watches, and answers other processes (cluster.h). The order in which scenes are kept differs from run to run, what is kept does not. */
+#include "campaigns/study/run.h"
+
+#include <stdlib.h>
+#include <time.h>
+
+#include "numerics/crew.h"
+#include "campaigns/study/cluster.h"
+
+enum { WATCH_MS = 50, SERVE_MS = 1 };
+
+typedef struct pool {
+  const study *s;
+  study_store *store;
+  crew crew;                     /* its lock is of `taken` and the counts */
+  pthread_mutex_t writing;       /* of the store */
+  bool lost;                     /* under `writing`: a scene could not be kept, and no other is tried */
+  unsigned char *taken;          /* [n_scenes] there already, or being computed */
+  long next, there, now;
+} pool;
+
+static long take(pool *p)
+{
+  long id = -1;
+  pthread_mutex_lock(&p->crew.lock);
+  while (p->next < p->s->n_scenes && p->taken[p->next]) ++p->next;
+  if (p->next < p->s->n_scenes && !crew_stopped(&p->crew)) p->taken[id = p->next++] = 1;
+  pthread_mutex_unlock(&p->crew.lock);
+  return id;
+}
+
+static hc_status keep(pool *p, const study_result *r)
+{
+  pthread_mutex_lock(&p->writing);
+  hc_status st = p->lost ? HC_IO : study_store_put(p->store, r);
+  p->lost = st != HC_OK;
+  pthread_mutex_unlock(&p->writing);
+  if (st != HC_OK) return st;
+  pthread_mutex_lock(&p->crew.lock);
+  ++p->there, ++p->now;
+  pthread_mutex_unlock(&p->crew.lock);
+  return HC_OK;
+}
+
+static void *work(void *self)
+{
+  pool *p = self;
+  hc_monitor monitor = {crew_tick, &p->crew};
+  for (long id; (id = take(p)) >= 0;) {
+    study_result r;
+    hc_status st = study_solve(p->s, id, &monitor, &r);
+    if (st == HC_OK) st = keep(p, &r);
+    study_result_clear(&r);
+    if (st != HC_OK) { crew_stop(&p->crew, st); break; }
+  }
+  crew_leave(&p->crew);
+  return NULL;
+}
+
+/* ---- other processes ---- */
+
+static int take_some(void *self, int most, long *ids)
+{
+  int n = 0;
+  while (n < most && (ids[n] = take(self)) >= 0) ++n;
+  return n;
+}
+
+static void keep_packed(void *self, const char *packed, size_t size)
+{
+  study_result r;
+  hc_status st = study_result_unpack(packed, size, &r);
+  if (st == HC_OK) st = keep(self, &r);
+  study_result_clear(&r);
+  if (st != HC_OK) crew_stop(&((pool *)self)->crew, st);
+}
+
+/* ---- the calling thread ---- */
+
+static void watch_over(pool *p, const study_watch *watch)
+{
+  const cluster_desk desk = {take_some, keep_packed, p};
+  for (int beat = 0;; ++beat) {
+    bool others = cluster_serve(&desk);
+    pthread_mutex_lock(&p->crew.lock);
+    long there = p->there, now = p->now;
+    bool own = p->crew.running > 0;
+    pthread_mutex_unlock(&p->crew.lock);
+    if (!own && !others) return;
+    if (beat % (others ? WATCH_MS / SERVE_MS : 1) == 0 && watch->tick && !watch->tick(watch->self, there, now, p->s->n_scenes))
+      crew_stop(&p->crew, HC_INTERRUPTED);
+    if (own) crew_wait(&p->crew, others ? SERVE_MS : WATCH_MS);
+    else nanosleep(&(struct timespec){.tv_nsec = SERVE_MS * 1000000L}, NULL);
+  }
+}
+
+hc_status study_run(const study *s, study_store *store, int jobs, const study_watch *watch, long *now, long *there)
+{
+  pool p = {.s = s, .store = store, .writing = PTHREAD_MUTEX_INITIALIZER};
+  crew_init(&p.crew);
+  *now = *there = 0;
+  if (!(p.taken = malloc((size_t)s->n_scenes))) return HC_NO_MEMORY;
+  hc_status st = study_store_done(store, p.taken, &p.there);
+  if (st != HC_OK) crew_stop(&p.crew, st);
+  long left = s->n_scenes - p.there;
+  if (left < jobs) jobs = left > 0 ? (int)left : 1;
+  crew_start(&p.crew, jobs, work, &p); /* also with nothing left: other processes want to hear it */
+  watch_over(&p, watch);
+  const hc_status worst = crew_join(&p.crew);
+  *now = p.now;
+  *there = p.there;
+  free(p.taken);
+  return worst != HC_OK ? worst : p.there == s->n_scenes ? HC_OK : HC_INTERRUPTED;
+}

@@ -1,0 +1,105 @@
+/* cmd_frf.c - hbmcheck frf: the response curve, or every solution at given frequencies. */
+#include "command/cli.h"
+#include "compare/frequencies.h"
+#include "compare/response.h"
+#include "command/plot/plot.h"
+#include "output/progress.h"
+#include "hbm/hbm.h"
+
+static const char doc[] =
+    "The harmonic-balance response curve of CASE, turning points included, or every solution of that curve at the omegas of --at. The curve is the branch that begins "
+    "at the sweep's first omega; what is not connected to it (try the sweep the other way) is not seen."
+    "\vColumns: amplitude = (max - min)/2 of x over a period, branch = turning points passed, contact = the strongest thing that happens "
+    "in a period.\nexit: 0 the whole sweep  2 case file wrong  3 stopped before the end (where and why on stderr)  64 usage\n"
+    "example: hbmcheck frf cases/paper/case2.yaml --at 8,9 --set hbm.harmonics=5";
+
+static const struct argp_option options[] = {
+    {"at", CLI_AT, "LIST", 0, "Only the solutions at these omegas, rad per unit time", 1},
+    CLI_PLOT_OPTION,
+    {0},
+};
+
+static hc_status put_points(hbm_solver *s, const hbm_curve *c, table *t)
+{
+  for (int k = 0; k < c->n; ++k) {
+    response_row row;
+    row_cell cells[ROWS_MOST];
+    hc_status st = response_row_of(s, c, k, &row);
+    if (st != HC_OK) return st;
+    rows_frf(&row, cells);
+    cli_put_row(t, ROWS_FRF, cells);
+  }
+  return HC_OK;
+}
+
+static void note_curve(table *t, const scene *sc, const hbm_solver *s, const hbm_curve *c)
+{
+  char how[128];
+  table_note(t, "%s: %s; %d points, %ld iterations, %d steps rejected, %d turning points, %s continuation", sc->title,
+             cli_hbm_settings(sc, hbm_n_harmonics(s), hbm_n_samples(s), how, sizeof how), c->n, c->iterations, c->rejected, c->turning_points, c->arclength ? "arc-length" : "natural");
+  if (c->inaccurate) table_note(t, "hbm.accuracy %g was NOT met everywhere with the most harmonics or samples that auto takes", sc->hbm.accuracy);
+  if (c->n == 0) return;
+  double last = c->points[c->n - 1].omega;
+  if (c->left_at_start) table_note(t, "the branch turned back and left the sweep where it began, at omega = %.10g", last);
+  else if (c->end == HC_OK) table_note(t, "reached the end of the sweep, omega = %.10g", last);
+  else table_note(t, "STOPPED at omega = %.10g: %s", last, hc_status_text(c->end));
+}
+
+static hc_status note_specials(table *t, hbm_solver *s, const hbm_curve *c)
+{
+  enum { SHOWN = 24 };
+  hbm_special special[SHOWN];
+  int n = 0;
+  hc_status st = hbm_specials(s, c, SHOWN, special, &n);
+  for (int i = 0; i < n && i < SHOWN; ++i) {
+    const hbm_special *p = &special[i];
+    const char *from = contact_regime_name(p->before), *to = contact_regime_name(p->after);
+    if (p->kind == HBM_TURNING_POINT) table_note(t, "turning point at omega = %.10f, amplitude %.9g", p->omega, p->amplitude);
+    else if (p->kind == HBM_PERIOD_DOUBLING) table_note(t, "period doubling at omega = %.10f, amplitude %.9g", p->omega, p->amplitude);
+    else if (p->before != p->after) table_note(t, "contact goes from %s to %s at omega = %.10f, amplitude %.9g", from, to, p->omega, p->amplitude);
+    else table_note(t, "contact pattern changes (%s) at omega = %.10f, amplitude %.9g", to, p->omega, p->amplitude);
+  }
+  if (n > SHOWN) table_note(t, "and %d more", n - SHOWN);
+  if (st != HC_OK) table_note(t, "at least one more was noticed but not located: %s", hc_status_text(st));
+  return st;
+}
+
+int cmd_frf(int argc, char **argv)
+{
+  cli_options o;
+  scene sc;
+  cli_parse(argc, argv, "frf", "CASE", doc, options, true, &o);
+  int code = cli_load_case(&o, &sc), n_columns;
+  if (code) return code;
+  hbm_solver *s = NULL;
+  hbm_curve curve = {0}, found = {0};
+  double from, to, failed_at = 0;
+  const table_column *columns = rows_columns(ROWS_FRF, &n_columns);
+  table *t = table_new("Response curve", n_columns, columns);
+  progress *bar = progress_start("harmonic balance", o.quiet);
+  hc_monitor monitor = progress_monitor(bar);
+  comparison_sweep(&sc, &o.at, &from, &to);
+  hc_status st = hbm_solver_new(&sc, &s);
+  if (st == HC_OK) {
+    st = hbm_trace(s, from, to, &monitor, &curve);
+    if (st != HC_OK) failed_at = curve.n ? curve.points[curve.n - 1].omega : from;
+    hc_status at = o.at.n ? response_at(s, &curve, &o.at, &found, &failed_at) : HC_OK;
+    if (st == HC_OK) st = at; /* a curve that stops early is a failure also with --at: it might have come back */
+    hc_status shown = put_points(s, o.at.n ? &found : &curve, t);
+    if (st == HC_OK) st = shown;
+    note_curve(t, &sc, s, &curve);
+    hc_status noted = o.at.n ? HC_OK : note_specials(t, s, &curve);
+    if (st == HC_OK && noted == HC_NO_MEMORY) st = noted; /* others are told in the note */
+    if (st != HC_OK && (curve.n == 0 || curve.end == HC_OK)) table_note(t, "INCOMPLETE: %s", hc_status_text(st));
+  }
+  progress_end(bar);
+  code = st == HC_OK ? 0 : cli_solver_failed(&o, "harmonic balance", st, failed_at);
+  int written = s ? cli_write(&o, 1, &t) : 0;
+  plot_order drawing = {.path = o.plot};
+  if (o.plot && s && !written) written = cli_plotted(&o, plot_frf(&drawing, &sc, s, &curve, o.at.n ? &found : NULL), drawing.why);
+  table_free(t);
+  hbm_curve_free(&found);
+  hbm_curve_free(&curve);
+  hbm_solver_free(s);
+  return code ? code : written;
+}

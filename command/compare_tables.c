@@ -1,0 +1,69 @@
+/* compare_tables.c - see compare_tables.h. */
+#include "command/compare_tables.h"
+
+#include <math.h>
+
+int compare_lists(const cli_options *o, scene *sc)
+{
+  static const double most_samples = 1 << 24;
+  for (int i = 0; i < o->harmonics.n; ++i)
+    if (o->harmonics.v[i] != floor(o->harmonics.v[i]) || o->harmonics.v[i] > SCENE_MAX_HARMONICS) {
+      cli_say(o, "--harmonics: %g is not a whole number 1..%d", o->harmonics.v[i], SCENE_MAX_HARMONICS);
+      return EXIT_USAGE;
+    }
+  for (int i = 0; i < o->samples.n; ++i)
+    if (o->samples.v[i] != floor(o->samples.v[i]) || o->samples.v[i] < 3 || o->samples.v[i] > most_samples) {
+      cli_say(o, "--samples: %g is not a whole number 3..%.0f", o->samples.v[i], most_samples);
+      return EXIT_USAGE;
+    }
+  if (o->harmonics.n) sc->compare.harmonics = o->harmonics;
+  if (o->samples.n) sc->compare.samples = o->samples;
+  return 0;
+}
+
+static void note_accuracy(table *t, const accuracy *a)
+{
+  table_note(t, "amplitude_error: largest over %d orbits of the exact transient at %d frequencies; missing: orbits no solution is next to", a->orbits,
+             a->frequencies);
+  if (isfinite(a->peak_amplitude))
+    table_note(t, "peak: %.10g at omega = %.8g, %s", a->peak_amplitude, a->peak_omega,
+               a->peak_by_orbit ? "of the exact transient's orbits" : "of the curve with exact forces and most harmonics");
+  table_note(t, "aliasing: against exact forces and the same H; false turning points: more than with exact forces and the same H");
+}
+
+static table *accuracy_table(const accuracy *a)
+{
+  int n;
+  const table_column *columns = rows_columns(ROWS_ACCURACY, &n);
+  table *t = table_new("Samples and truncation order", n, columns);
+  for (int i = 0; i < a->n_rows; ++i) {
+    row_cell cells[ROWS_MOST];
+    rows_accuracy(&a->rows[i], cells);
+    cli_put_row(t, ROWS_ACCURACY, cells);
+  }
+  note_accuracy(t, a);
+  return t;
+}
+
+static table *order_table(const accuracy *a)
+{
+  int n;
+  const table_column *columns = rows_columns(ROWS_ORDER, &n);
+  table *t = table_new("Observed orders", n, columns);
+  for (int i = 0; i < a->n_orders; ++i) {
+    row_cell cells[ROWS_MOST];
+    rows_order(&a->orders[i], cells);
+    cli_put_row(t, ROWS_ORDER, cells);
+  }
+  table_note(t, "error ~ quantity^-order (regularisation^order), least squares over the asymptotic part of its envelope; spread: standard error");
+  return t;
+}
+
+hc_status compare_tables(const scene *sc, const comparison *c, const hc_monitor *monitor, table *out[2], accuracy *a)
+{
+  hc_status st = accuracy_run(sc, c, monitor, a);
+  out[0] = accuracy_table(a);
+  out[1] = order_table(a);
+  for (int i = 0; i < 2 && st != HC_OK; ++i) table_note(out[i], "INCOMPLETE: %s", hc_status_text(st));
+  return st;
+}

@@ -1,0 +1,301 @@
+/* curve.c - see curve.h. */
+#include "command/plot/curve.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "compare/frequencies.h"
+
+static const double off_curve = 0.01; /* [1] farther than this share of the picture from the curve is another branch */
+
+/* ---- where the curve goes ---- */
+
+/* With more points where it is bent: between two, cubic in each coefficient with the curve's own tangents. */
+enum { BETWEEN = 4 };
+
+static double chord(const hbm_curve *c, int k, int i, double *slope)
+{
+  const double *X = c->X + (size_t)k * (size_t)c->n_coef;
+  double w0 = c->points[k].omega, w1 = c->points[k + 1].omega, a = i < 0 ? w0 : X[i], b = i < 0 ? w1 : X[i + c->n_coef];
+  slope[0] = i < 0 ? c->points[k].d_omega : c->dX[(size_t)k * (size_t)c->n_coef + (size_t)i];
+  slope[1] = i < 0 ? c->points[k + 1].d_omega : c->dX[(size_t)(k + 1) * (size_t)c->n_coef + (size_t)i];
+  return b - a;
+}
+
+/* How long the step between k and k+1 is in the parameter the tangents belong to: chord against mean tangent, all unknowns together. */
+static double step_length(const hbm_curve *c, int k)
+{
+  double up = 0, down = 0, t[2];
+  for (int i = -1; i < c->n_coef; ++i) {
+    double d = chord(c, k, i, t), mean = 0.5 * (t[0] + t[1]), size = i < 0 ? c->omega_scale : 1;
+    up += d * mean / (size * size);
+    down += mean * mean / (size * size);
+  }
+  return down > 0 ? up / down : 0;
+}
+
+static double cubic(double a, double d, double t0, double t1, double s)
+{
+  double s2 = s * s, s3 = s2 * s;
+  return a + (3 * s2 - 2 * s3) * d + (s3 - 2 * s2 + s) * t0 + (s3 - s2) * t1;
+}
+
+/* The solution at the share `at` of the way from k to k+1, into X; its omega. */
+static double between(const hbm_curve *c, int k, double at, double *X)
+{
+  double t[2], h = step_length(c, k), d = chord(c, k, -1, t);
+  double omega = cubic(c->points[k].omega, d, h * t[0], h * t[1], at);
+  for (int i = 0; i < c->n_coef; ++i) {
+    d = chord(c, k, i, t);
+    X[i] = cubic(c->X[(size_t)k * (size_t)c->n_coef + (size_t)i], d, h * t[0], h * t[1], at);
+  }
+  return omega;
+}
+
+static hc_status add(hbm_solver *s, double omega, const double *X, bool judge, curve_point *p)
+{
+  hbm_measures m;
+  hbm_stability floquet;
+  hc_status st = hbm_measure(s, X, &m);
+  if (st != HC_OK) return st;
+  *p = (curve_point){omega, m.amplitude, 0};
+  if (judge && hbm_stability_at(s, omega, X, &floquet) == HC_OK) p->stable = hbm_stability_verdict(&floquet);
+  return HC_OK;
+}
+
+/* points[BETWEEN (n - 1) + 1]; between two points of like stability it is theirs, else each has its own. */
+static hc_status sample_curve(hbm_solver *s, const hbm_curve *c, bool judge, curve_point **points, int *n)
+{
+  hc_status st = HC_OK;
+  *n = 0;
+  *points = calloc((size_t)BETWEEN * (size_t)(c->n > 0 ? c->n : 1), sizeof **points);
+  double *X = malloc((size_t)(c->n_coef > 0 ? c->n_coef : 1) * sizeof *X);
+  if (!*points || !X) st = HC_NO_MEMORY;
+  for (int k = 0; k < c->n && st == HC_OK; ++k) st = add(s, c->points[k].omega, c->X + (size_t)k * (size_t)c->n_coef, judge, &(*points)[BETWEEN * k]);
+  for (int k = 0; k + 1 < c->n && st == HC_OK; ++k) {
+    int here = (*points)[BETWEEN * k].stable, next = (*points)[BETWEEN * (k + 1)].stable;
+    for (int i = 1; i < BETWEEN && st == HC_OK; ++i) {
+      curve_point *p = &(*points)[BETWEEN * k + i];
+      double omega = between(c, k, (double)i / BETWEEN, X);
+      st = add(s, omega, X, judge && here != next, p);
+      if (here == next || !p->stable) p->stable = 2 * i <= BETWEEN ? here : next; /* off the solution itself it may be unknown */
+    }
+  }
+  if (st == HC_OK && c->n > 0) *n = BETWEEN * (c->n - 1) + 1;
+  free(X);
+  return st;
+}
+
+/* ---- the other end ---- */
+
+static double sq(double x) { return x * x; }
+
+/* Distance of p from the segment a b, in shares of the picture. */
+static double distance(const curve_point *p, const curve_point *a, const curve_point *b, double wide, double high)
+{
+  double bx = (b->omega - a->omega) / wide, by = (b->amplitude - a->amplitude) / high, px = (p->omega - a->omega) / wide, py = (p->amplitude - a->amplitude) / high;
+  double along = bx * bx + by * by > 0 ? (px * bx + py * by) / (bx * bx + by * by) : 0;
+  along = along < 0 ? 0 : along > 1 ? 1 : along;
+  return sqrt(sq(px - along * bx) + sq(py - along * by));
+}
+
+static bool on_curve(const curve_shape *c, const curve_point *p, double wide, double high)
+{
+  for (int k = 0; k + 1 < c->n; ++k)
+    if (distance(p, &c->points[k], &c->points[k + 1], wide, high) <= off_curve) return true;
+  return false;
+}
+
+/* Keeps what is not on the curve, with gaps where it was. */
+static void keep_other(curve_shape *c)
+{
+  int kept = 0;
+  double high = 0;
+  for (int k = 0; k < c->n; ++k) high = fmax(high, c->points[k].amplitude);
+  for (int k = 0; k < c->n_other; ++k) {
+    const curve_point p = c->other[k];
+    bool off = p.omega >= c->low && p.omega <= c->high && !on_curve(c, &p, c->high - c->low, high > 0 ? high : 1);
+    if (off) c->other[kept++] = p;
+    else if (kept && !isnan(c->other[kept - 1].omega)) c->other[kept++] = (curve_point){.omega = NAN};
+  }
+  c->n_other = kept;
+}
+
+/* A curve that cannot be had is not drawn; only running out of memory matters. */
+static hc_status trace_other(const scene *sc, double from, double to, curve_shape *out)
+{
+  hbm_solver *s = NULL;
+  hbm_curve back = {0};
+  hc_status st = hbm_solver_new(sc, &s);
+  if (st == HC_OK) hbm_trace(s, from, to, NULL, &back);
+  if (st == HC_OK && back.n > 0) st = sample_curve(s, &back, false, &out->other, &out->n_other);
+  if (st == HC_OK) keep_other(out);
+  else out->n_other = 0;
+  hbm_curve_free(&back);
+  hbm_solver_free(s);
+  return st == HC_NO_MEMORY ? st : HC_OK;
+}
+
+/* ---- made and freed ---- */
+
+hc_status curve_shape_of(const scene *sc, hbm_solver *s, const hbm_curve *curve, curve_shape *out)
+{
+  *out = (curve_shape){.harmonics = hbm_n_harmonics(s), .samples = hbm_n_samples(s)};
+  out->low = fmin(sc->omega_from, sc->omega_to);
+  out->high = fmax(sc->omega_from, sc->omega_to);
+  hc_status st = sample_curve(s, curve, true, &out->points, &out->n);
+  if (st == HC_OK && curve->n > 0) hbm_specials(s, curve, CURVE_MOST_SPECIALS, out->special, &out->n_special);
+  if (out->n_special > CURVE_MOST_SPECIALS) out->n_special = CURVE_MOST_SPECIALS;
+  if (st == HC_OK && sc->hbm.force == HBM_FORCE_EXACT) st = trace_other(sc, sc->omega_to, sc->omega_from, out);
+  return st;
+}
+
+hc_status curve_shape_trace(const scene *sc, const scene_list *asked, curve_shape *out)
+{
+  hbm_solver *s = NULL;
+  hbm_curve curve = {0};
+  double from, to;
+  *out = (curve_shape){.low = fmin(sc->omega_from, sc->omega_to), .high = fmax(sc->omega_from, sc->omega_to)};
+  comparison_sweep(sc, asked, &from, &to);
+  hc_status st = hbm_solver_new(sc, &s);
+  if (st == HC_OK) {
+    hbm_trace(s, from, to, NULL, &curve);
+    st = curve_shape_of(sc, s, &curve, out);
+  }
+  out->low = fmin(out->low, fmin(from, to));
+  out->high = fmax(out->high, fmax(from, to));
+  hbm_curve_free(&curve);
+  hbm_solver_free(s);
+  return st == HC_NO_MEMORY ? st : HC_OK;
+}
+
+void curve_shape_clear(curve_shape *c)
+{
+  free(c->points);
+  free(c->other);
+  c->points = c->other = NULL;
+}
+
+/* ---- drawn ---- */
+
+static const struct run { const char *name, *title, *look, *quiet; int stable; } runs[] = {
+    {"stable", "harmonic balance: stable", "lw 2.2 dt 1 lc rgb '#0072B2'", "lw 1.4 dt 1 lc rgb '#999999'", 1},
+    {"unstable", "unstable", "lw 1.8 dt (10,6) lc rgb '#0072B2'", "lw 1.4 dt (5,4) lc rgb '#999999'", -1},
+    {"unknown", "stability unknown", "lw 1.6 dt 3 lc rgb '#0072B2'", "lw 1.2 dt 3 lc rgb '#999999'", 0},
+};
+enum { N_RUNS = sizeof runs / sizeof *runs };
+
+static const struct special_look { const char *name, *title, *look; hbm_special_kind kind; } marks[] = {
+    {"turning", "turning point", "pt 11 ps 0.9 lc rgb '#000000'", HBM_TURNING_POINT},
+    {"doubling", "period doubling", "pt 13 ps 0.9 lc rgb '#000000'", HBM_PERIOD_DOUBLING},
+    {"change", "contact changes", "pt 4 ps 0.7 lw 1 lc rgb '#000000'", HBM_CONTACT_CHANGE},
+};
+enum { N_MARKS = sizeof marks / sizeof *marks };
+
+/* The segments that end or begin in a point of that kind belong to it, mixed ones to the kind of their first point. */
+static int put_run(figure *g, const curve_shape *c, int stable)
+{
+  int n = 0;
+  for (int k = 0; k < c->n; ++k) {
+    bool mine = c->points[k].stable == stable, ends = k > 0 && c->points[k - 1].stable == stable;
+    if (mine || ends) figure_point(g, c->points[k].omega, c->points[k].amplitude);
+    if (!mine && ends) figure_gap(g);
+    n += mine;
+  }
+  return n;
+}
+
+static int count_run(const curve_shape *c, int stable)
+{
+  int n = 0;
+  for (int k = 0; k < c->n; ++k) n += c->points[k].stable == stable;
+  return n;
+}
+
+static bool is_mark(const hbm_special *p, hbm_special_kind kind)
+{
+  return p->kind == kind && (kind != HBM_CONTACT_CHANGE || p->before != p->after);
+}
+
+static int count_marks(const curve_shape *c, hbm_special_kind kind)
+{
+  int n = 0;
+  for (int i = 0; i < c->n_special; ++i) n += is_mark(&c->special[i], kind);
+  return n;
+}
+
+void curve_shape_data(figure *g, const curve_shape *c)
+{
+  for (int r = 0; r < N_RUNS; ++r) {
+    figure_block(g, runs[r].name);
+    put_run(g, c, runs[r].stable);
+    figure_block_end(g);
+  }
+  for (int m = 0; m < N_MARKS; ++m) {
+    figure_block(g, marks[m].name);
+    for (int i = 0; i < c->n_special; ++i)
+      if (is_mark(&c->special[i], marks[m].kind)) figure_point(g, c->special[i].omega, c->special[i].amplitude);
+    figure_block_end(g);
+  }
+  figure_block(g, "other");
+  for (int k = 0; k < c->n_other; ++k) {
+    if (isnan(c->other[k].omega)) figure_gap(g);
+    figure_point(g, c->other[k].omega, c->other[k].amplitude);
+  }
+  figure_block_end(g);
+}
+
+void curve_shape_items(figure *g, const curve_shape *c, bool quiet)
+{
+  char look[FIGURE_LOOK], what[64];
+  if (c->n_other > 1)
+    figure_item(g, "$other using 1:2 with lines", figure_look(g, "lw 3 dt 1 lc rgb '#c8c8c8'", 5, look), "other branch, from the sweep's other end");
+  for (int r = 0; r < N_RUNS; ++r) {
+    if (count_run(c, runs[r].stable) == 0) continue;
+    snprintf(what, sizeof what, "$%s using 1:2 with lines", runs[r].name);
+    figure_item(g, what, figure_look(g, quiet ? runs[r].quiet : runs[r].look, r, look), "%s", runs[r].title);
+  }
+  for (int m = 0; m < N_MARKS && !quiet; ++m) {
+    if (count_marks(c, marks[m].kind) == 0) continue;
+    snprintf(what, sizeof what, "$%s using 1:2 with points", marks[m].name);
+    figure_item(g, what, g->letters ? figure_look(g, "", 20 + m, look) : marks[m].look, "%s", marks[m].title);
+  }
+}
+
+void curve_shape_axes(figure *g, const scene *sc, const curve_shape *c)
+{
+  figure_below(g, "%s [rad/%s]", g->letters ? "omega" : "ω", sc->unit_time);
+  figure_set(g, "ylabel", "amplitude of x [%s]", sc->unit_length);
+  figure_say(g, "set xrange [%.10g:%.10g]\nset yrange [0:*]\n", c->low, c->high);
+}
+
+bool curve_shape_window(const curve_shape *c, curve_window *out)
+{
+  static const double small = 0.12, margin = 0.4; /* share of the sweep; of the part */
+  curve_window w = {INFINITY, -INFINITY, INFINITY, -INFINITY};
+  double top = 0;
+  for (int i = 0; i < c->n_special; ++i) {
+    w.low = fmin(w.low, c->special[i].omega);
+    w.high = fmax(w.high, c->special[i].omega);
+    w.least = fmin(w.least, c->special[i].amplitude);
+    w.most = fmax(w.most, c->special[i].amplitude);
+  }
+  if (!(w.high > w.low) || w.high - w.low > small * (c->high - c->low)) return false;
+  double beside = margin * (w.high - w.low);
+  for (int k = 0; k < c->n; ++k) {
+    top = fmax(top, c->points[k].amplitude);
+    if (c->points[k].omega >= w.low && c->points[k].omega <= w.high) w.most = fmax(w.most, c->points[k].amplitude);
+  }
+  double above = fmax(margin * (w.most - w.least), 0.02 * top);
+  *out = (curve_window){w.low - beside, w.high + beside, fmax(w.least - above, 0), w.most + above};
+  return true;
+}
+
+const char *curve_shape_settings(const scene *sc, const curve_shape *c, char text[96])
+{
+  char samples[32] = "exact forces";
+  if (sc->hbm.force == HBM_FORCE_SAMPLED) snprintf(samples, sizeof samples, "%d samples", c->samples);
+  snprintf(text, 96, "H = %s%d%s, %s", sc->hbm.harmonics == SCENE_AUTO ? "auto, at most " : "", c->harmonics, sc->hbm.keep_mean ? "" : " without harmonic 0", samples);
+  return text;
+}

@@ -1,0 +1,287 @@
+/* figure.c - see figure.h. */
+#include "command/plot/figure.h"
+
+#include <ctype.h>
+#include <errno.h>
+#include <math.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include "command/plot/gnuplot.h"
+#include "output/output.h"
+#include "base/utf8.h"
+
+enum { MOST_TEXT = 512, PLAIN_WIDTH = 100, PLAIN_HEIGHT = 32, LEAST_WIDTH = 40, LEAST_HEIGHT = 15, MOST_WIDTH = 240, LONG_TITLE = 90 };
+
+static bool ends_in(const char *path, const char *ending)
+{
+  size_t n = strlen(path), k = strlen(ending);
+  return n > k && !strcmp(path + n - k, ending);
+}
+
+bool plot_can(const char *path)
+{
+  return !strcmp(path, "-") || ends_in(path, ".svg") || ends_in(path, ".png") || ends_in(path, ".pdf");
+}
+
+/* ---- the terminal ---- */
+
+/* As wide as the terminal, or as COLUMNS says; a bit less high, so that the prompt does not push it out. */
+static void set_letters(figure *g)
+{
+  struct winsize size;
+  const char *told = getenv("COLUMNS");
+  int width = told ? (int)strtol(told, NULL, 10) : 0, height = 0;
+  if (isatty(STDOUT_FILENO) && ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0) {
+    width = size.ws_col;
+    height = size.ws_row - 2;
+  }
+  if (width <= 0) width = PLAIN_WIDTH;
+  width = width < LEAST_WIDTH ? LEAST_WIDTH : width > MOST_WIDTH ? MOST_WIDTH : width;
+  if (height <= 0 || height > width / 2) height = width > 2 * PLAIN_HEIGHT ? PLAIN_HEIGHT : width / 2;
+  figure_say(g, "set terminal dumb enhanced mono size %d,%d\n", width, height < LEAST_HEIGHT ? LEAST_HEIGHT : height);
+}
+
+static void set_terminal(figure *g, int width, int height)
+{
+  const char *path = g->order->path;
+  figure_say(g, "set encoding utf8\n");
+  if (g->letters) set_letters(g);
+  else if (ends_in(path, ".svg"))
+    figure_say(g, "set terminal svg enhanced size %d,%d font 'sans,13' background rgb 'white'\n", width, height);
+  else if (ends_in(path, ".png"))
+    figure_say(g, "set terminal pngcairo enhanced size %d,%d font 'sans,10' fontscale 1.5 linewidth 1.5 pointscale 1.5 background rgb 'white'\n",
+               3 * width / 2, 3 * height / 2);
+  else figure_say(g, "set terminal pdfcairo enhanced size %.2fin,%.2fin font 'sans,10' background rgb 'white'\n", width / 90.0, height / 90.0);
+  figure_say(g, "set border lw 0.8\nset tics nomirror out\nset key noautotitle Left reverse samplen 3\n");
+  if (!g->letters) figure_say(g, "set grid lw 0.7 lc rgb '#d5d5d5' dt 1\nset key outside below center horizontal width 1\n");
+}
+
+hc_status figure_open(figure *g, plot_order *p, int width, int height)
+{
+  *g = (figure){.order = p, .letters = !strcmp(p->path, "-")};
+  snprintf(p->why, sizeof p->why, "%s", hc_status_text(HC_NO_MEMORY));
+  g->to = open_memstream(&g->script, &g->length);
+  if (!g->to) return HC_NO_MEMORY;
+  p->why[0] = 0;
+  set_terminal(g, width, height);
+  return HC_OK;
+}
+
+/* ---- to where it belongs ---- */
+
+static hc_status copy(FILE *drawing, FILE *to)
+{
+  char buffer[4096];
+  rewind(drawing);
+  for (size_t n; (n = fread(buffer, 1, sizeof buffer, drawing)) > 0;)
+    if (fwrite(buffer, 1, n, to) != n) return HC_IO;
+  return ferror(drawing) ? HC_IO : HC_OK;
+}
+
+static hc_status deliver(figure *g, FILE *drawing)
+{
+  output *out = NULL;
+  plot_order *p = g->order;
+  hc_status st = output_open(g->letters ? NULL : p->path, &out);
+  if (st == HC_OK) {
+    st = copy(drawing, output_stream(out));
+    if (st == HC_OK) st = output_commit(out);
+    else output_abandon(out);
+  }
+  if (st != HC_OK)
+    snprintf(p->why, sizeof p->why, "%s: %s", g->letters ? "standard output" : p->path, st == HC_IO && errno ? strerror(errno) : hc_status_text(st));
+  return st;
+}
+
+static hc_status draw(figure *g)
+{
+  FILE *drawing = tmpfile();
+  if (!drawing) { snprintf(g->order->why, PLOT_WHY, "no temporary file: %s", strerror(errno)); return HC_IO; }
+  hc_status st = gnuplot_run(g->script, g->length, drawing, g->order->why, PLOT_WHY);
+  if (st == HC_OK) st = deliver(g, drawing);
+  fclose(drawing);
+  return st;
+}
+
+hc_status figure_close(figure *g, hc_status st)
+{
+  if (!g->to) return st; /* never opened: nothing to free, and the reason is the caller's */
+  bool lost = ferror(g->to) != 0;
+  lost |= fclose(g->to) != 0 || !g->script;
+  if (st == HC_OK && lost) st = HC_NO_MEMORY;
+  if (st == HC_OK) st = draw(g);
+  if (st != HC_OK && !g->order->why[0]) snprintf(g->order->why, PLOT_WHY, "%s", hc_status_text(st));
+  free(g->script);
+  return st;
+}
+
+/* ---- words ---- */
+
+void figure_say(figure *g, const char *format, ...)
+{
+  va_list args;
+  va_start(args, format);
+  vfprintf(g->to, format, args);
+  va_end(args);
+}
+
+/* Inside double quotes: letters, digits, blanks and harmless marks as they are, all else in octal; the markup's own signs after a backslash. */
+static void put_escaped(FILE *to, const char *text)
+{
+  char *clean = utf8_clean(text, true);
+  for (const char *c = clean ? clean : ""; *c; ++c) {
+    unsigned char u = (unsigned char)*c;
+    if (strchr("^_{}@&~\\", u)) fprintf(to, "\\134\\%03o", u);
+    else if (u >= 0x80 || isalnum(u) || strchr(" .,:;()+-/=<>|*?#", u)) fputc(u, to);
+    else fprintf(to, "\\%03o", u);
+  }
+  free(clean);
+}
+
+static void put_text(FILE *to, const char *format, va_list args)
+{
+  char text[MOST_TEXT];
+  vsnprintf(text, sizeof text, format, args);
+  fputc('"', to);
+  put_escaped(to, text);
+  fputc('"', to);
+}
+
+void figure_text(figure *g, const char *format, ...)
+{
+  va_list args;
+  va_start(args, format);
+  put_text(g->to, format, args);
+  va_end(args);
+}
+
+void figure_set(figure *g, const char *command, const char *format, ...)
+{
+  va_list args;
+  va_start(args, format);
+  fprintf(g->to, "set %s ", command);
+  put_text(g->to, format, args);
+  fputc('\n', g->to);
+  va_end(args);
+}
+
+void figure_below(figure *g, const char *format, ...)
+{
+  char text[MOST_TEXT];
+  va_list args;
+  va_start(args, format);
+  vsnprintf(text, sizeof text, format, args);
+  va_end(args);
+  figure_say(g, "set xlabel \"");
+  put_escaped(g->to, text);
+  figure_say(g, g->letters ? "\"\n" : "\\n{/*0.4  }\"\n");
+}
+
+void figure_title(figure *g, const char *command, const char *title, const char *about)
+{
+  bool small = !g->letters && utf8_width(title) > LONG_TITLE;
+  figure_say(g, "%s \"%s", command, small ? "{/*0.75 " : "");
+  put_escaped(g->to, title);
+  figure_say(g, "%s", small ? "}" : "");
+  figure_say(g, g->letters ? "\\n" : "\\n{/*0.85 ");
+  put_escaped(g->to, about);
+  figure_say(g, g->letters ? "\"\n" : "}\"\n");
+}
+
+/* ---- data ---- */
+
+void figure_block(figure *g, const char *name) { figure_say(g, "$%s << EOD\n", name); }
+
+void figure_point(figure *g, double x, double y)
+{
+  if (isfinite(x) && isfinite(y)) figure_say(g, "%.10g %.10g\n", x, y);
+}
+
+void figure_gap(figure *g) { figure_say(g, "\n"); }
+
+void figure_block_end(figure *g) { figure_say(g, "EOD\n"); }
+
+void figure_item(figure *g, const char *what, const char *look, const char *title, ...)
+{
+  va_list args;
+  figure_say(g, "%s%s %s", g->items++ ? ", \\\n  " : "plot ", what, look);
+  if (!title) { figure_say(g, " notitle"); return; }
+  figure_say(g, " title ");
+  va_start(args, title);
+  put_text(g->to, title, args);
+  va_end(args);
+}
+
+void figure_draw(figure *g)
+{
+  figure_say(g, "\n");
+  g->items = 0;
+}
+
+/* ---- looks: Okabe and Ito's colours, dark before light ---- */
+
+static const char *const colours[] = {"#0072B2", "#D55E00", "#000000", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#777777"};
+static const int dashes[] = {1, 2, 4, 5, 3}, shapes[] = {6, 5, 8, 13, 2, 11, 4, 7, 3, 12};
+enum { N_COLOURS = sizeof colours / sizeof *colours, N_DASHES = sizeof dashes / sizeof *dashes, N_SHAPES = sizeof shapes / sizeof *shapes };
+
+const char *figure_look(const figure *g, const char *look, int n, char text[FIGURE_LOOK])
+{
+  if (g->letters) snprintf(text, FIGURE_LOOK, "lt %d", n + 1);
+  else snprintf(text, FIGURE_LOOK, "%s", look);
+  return text;
+}
+
+const char *figure_line(const figure *g, int n, double width, char text[FIGURE_LOOK])
+{
+  char look[FIGURE_LOOK];
+  snprintf(look, sizeof look, "lw %g dt %d lc rgb '%s'", width, dashes[n % N_DASHES], colours[n % N_COLOURS]);
+  return figure_look(g, look, n, text);
+}
+
+const char *figure_mark(const figure *g, int n, double width, char text[FIGURE_LOOK])
+{
+  char look[FIGURE_LOOK];
+  snprintf(look, sizeof look, "lw %g dt %d lc rgb '%s' pt %d ps 0.9", width, dashes[n % N_DASHES], colours[n % N_COLOURS], shapes[n % N_SHAPES]);
+  if (g->letters) snprintf(look, sizeof look, "lt %d pt %d", n + 1, n + 1);
+  snprintf(text, FIGURE_LOOK, "%s", look);
+  return text;
+}
+
+void figure_log(figure *g, const char *axis)
+{
+  figure_say(g, "set logscale %s\nset format %s '%s'\n", axis, axis, g->letters ? "%.0e" : "10^{%T}");
+}
+
+const char *figure_unit(const scene *sc, const char *unit, char text[FIGURE_UNIT])
+{
+  const struct { const char *word, *label; } words[] = {{"force", sc->unit_force}, {"length", sc->unit_length}, {"time", sc->unit_time}};
+  size_t n = 0;
+  text[0] = 0;
+  while (*unit && n < FIGURE_UNIT - 17) {
+    size_t skip = 1, w;
+    for (w = 0; w < 3; ++w)
+      if (!strncmp(unit, words[w].word, strlen(words[w].word))) break;
+    if (w < 3) { n += (size_t)snprintf(text + n, FIGURE_UNIT - n, "%s", words[w].label); skip = strlen(words[w].word); }
+    else { text[n++] = *unit; text[n] = 0; }
+    unit += skip;
+  }
+  return text;
+}
+
+/* Light is small. The scale darkens evenly, so it reads the same in grey; numbers are white where it is dark. */
+void figure_heat(figure *g, const char *label, bool logarithmic, double low, double high)
+{
+  if (!(high > low)) high = low + (low != 0 ? 1e-6 * fabs(low) : 1); /* one value only */
+  figure_say(g, "set palette defined (0 '#fdf6e3', 0.35 '#f0a860', 0.7 '#a8325a', 1 '#2a0a4a')\nset cblabel ");
+  figure_text(g, "%s", label);
+  figure_say(g, "\nunset key\nunset grid\nset tics scale 0\nset autoscale noextend\n%s", logarithmic ? "set logscale cb\nset format cb '10^{%T}'\n" : "");
+  figure_say(g, "low = %.10g\nhigh = %.10g\n", low, high);
+  figure_say(g, "set cbrange [low:high]\nshare(v) = %s\n", logarithmic ? "log(v/low)/log(high/low)" : "(v - low)/(high - low)");
+  figure_say(g, "half = 0.5\nplot $cells using 1:2:($1-half):($1+half):($2-half):($2+half):3 with boxxyerror fill solid noborder lc palette, \\\n");
+  figure_say(g, "  $cells using (share($3) < 0.5 ? $1 : NaN):2:(sprintf('%%.3g', $3)) with labels tc rgb 'black', \\\n");
+  figure_say(g, "  $cells using (share($3) < 0.5 ? NaN : $1):2:(sprintf('%%.3g', $3)) with labels tc rgb 'white'\n");
+}

@@ -1,0 +1,115 @@
+/* figure_bench.c - work against precision: error over time, what nothing beats joined by a line. */
+#include <math.h>
+#include <stdlib.h>
+
+#include "command/plot/panels.h"
+
+enum { MOST_PLACES = 4 };
+
+/* Shapes apart from each other in grey: filled for harmonic balance, open for ours by time integration, crosses for others. */
+static const char *const looks[BENCH_METHODS] = {
+    [BENCH_HBM_EXACT] = "pt 7 ps 1.1 lc rgb '#0072B2'",
+    [BENCH_HBM_SAMPLED] = "pt 5 ps 0.7 lc rgb '#56B4E9'",
+    [BENCH_EXACT_SHOOTING] = "pt 8 ps 1.2 lw 1.5 lc rgb '#D55E00'",
+    [BENCH_EXACT_MARCHING] = "pt 10 ps 1.2 lw 1.5 lc rgb '#D55E00'",
+    [BENCH_REGULARISED_SHOOTING] = "pt 6 ps 1.1 lw 1.5 lc rgb '#009E73'",
+    [BENCH_REGULARISED_MARCHING] = "pt 4 ps 1.1 lw 1.5 lc rgb '#009E73'",
+    [BENCH_REGULARISED_RICHARDSON] = "pt 12 ps 1.2 lw 1.5 lc rgb '#CC79A7'",
+    [BENCH_SCIPY_LSODA] = "pt 2 ps 1.1 lw 1.6 lc rgb '#000000'",
+};
+
+static bool shown(const bench_row *r) { return r->outcome == BENCH_SOLVED && r->repeats > 0 && r->seconds > 0 && isfinite(r->error_finer); }
+
+/* What lies below what the reference is good for stands on that border. */
+static double height(const bench_row *r, const bench_place *p) { return fmax(r->error_finer, fmax(p->floor, 1e-16)); }
+
+static int put_method(figure *g, const bench *b, const bench_place *p, int place, int method)
+{
+  char name[32];
+  int n = 0;
+  snprintf(name, sizeof name, "p%dm%d", place, method);
+  figure_block(g, name);
+  for (int i = p->first; i < p->first + p->n; ++i) {
+    const bench_row *r = &b->rows[i];
+    if (r->method != (bench_method)method || !shown(r)) continue;
+    figure_point(g, r->seconds, height(r, p));
+    ++n;
+  }
+  figure_block_end(g);
+  return n;
+}
+
+static int by_time(const void *a, const void *b)
+{
+  const double *x = a, *y = b;
+  return x[0] != y[0] ? (x[0] > y[0]) - (x[0] < y[0]) : (x[1] < y[1]) - (x[1] > y[1]);
+}
+
+static hc_status put_front(figure *g, const bench *b, const bench_place *p, int place)
+{
+  char name[32];
+  int n = 0;
+  double (*at)[2] = malloc((size_t)(p->n > 0 ? p->n : 1) * sizeof *at);
+  if (!at) return HC_NO_MEMORY;
+  for (int i = p->first; i < p->first + p->n; ++i) {
+    if (!b->rows[i].front || !shown(&b->rows[i])) continue;
+    at[n][0] = b->rows[i].seconds;
+    at[n++][1] = height(&b->rows[i], p);
+  }
+  qsort(at, (size_t)n, sizeof *at, by_time);
+  snprintf(name, sizeof name, "front%d", place);
+  figure_block(g, name);
+  for (int i = 0; i < n; ++i) figure_point(g, at[i][0], at[i][1]);
+  figure_block_end(g);
+  free(at);
+  return HC_OK;
+}
+
+static void place_items(figure *g, int place, const int *count)
+{
+  char what[64], look[FIGURE_LOOK];
+  snprintf(what, sizeof what, "$front%d using 1:2 with steps", place);
+  figure_item(g, what, figure_look(g, "lw 3 dt 1 lc rgb '#bbbbbb'", 0, look), "nothing is nearer and faster");
+  for (int m = 0; m < BENCH_METHODS; ++m) {
+    if (!count[m]) continue;
+    snprintf(what, sizeof what, "$p%dm%d using 1:2 with points", place, m);
+    figure_item(g, what, g->letters ? figure_look(g, "", m + 1, look) : looks[m], "%s", bench_method_name((bench_method)m));
+  }
+}
+
+static hc_status place_panel(figure *g, const scene *sc, const bench *b, int place)
+{
+  const bench_place *p = &b->places[place];
+  int count[BENCH_METHODS];
+  hc_status st = put_front(g, b, p, place);
+  if (st != HC_OK) return st;
+  for (int m = 0; m < BENCH_METHODS; ++m) count[m] = put_method(g, b, p, place, m);
+  figure_set(g, "title", "ω = %.8g rad/%s", p->omega, sc->unit_time);
+  place_items(g, place, count);
+  figure_draw(g);
+  return HC_OK;
+}
+
+hc_status plot_bench(plot_order *p, const scene *sc, const bench *b)
+{
+  figure g = {0};
+  int n = 0, at[MOST_PLACES];
+  for (int k = 0; k < b->n_places && n < MOST_PLACES; ++k) {
+    bool any = false;
+    for (int i = b->places[k].first; i < b->places[k].first + b->places[k].n; ++i) any |= shown(&b->rows[i]);
+    if (any) at[n++] = k;
+  }
+  if (n == 0) { snprintf(p->why, sizeof p->why, "nothing was measured that could be drawn"); return HC_BAD_INPUT; }
+  int columns = n > 1 ? 2 : 1, rows = (n + columns - 1) / columns;
+  hc_status st = figure_open(&g, p, columns * 700, rows * 520);
+  if (st == HC_OK) {
+    panels_begin(&g, rows, columns, sc->title, n < b->n_places ? "work and precision at the first frequencies" : "work and precision");
+    figure_below(&g, "processor time of one solution [s]");
+    figure_set(&g, "ylabel", "relative error of the amplitude, at these or finer settings");
+    figure_log(&g, "x");
+    figure_log(&g, "y");
+    for (int k = 0; k < n && st == HC_OK; ++k) st = place_panel(&g, sc, b, at[k]);
+    panels_end(&g);
+  }
+  return figure_close(&g, st);
+}

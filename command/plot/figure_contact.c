@@ -1,0 +1,175 @@
+/* figure_contact.c - what the contacts do under a given motion: loops T over u, and the forces over the period. */
+#include <math.h>
+#include <stdlib.h>
+
+#include "command/plot/panels.h"
+#include "hbm/exact.h"
+#include "hbm/series.h"
+
+static const double two_pi = 6.28318530717958647692;
+
+enum { POINTS = 4096, EVERY = 8, MOST_DRAWN = 8 };
+
+/* Along one period. */
+typedef struct walk { double u[POINTS + 1], normal[POINTS + 1], t[POINTS + 1]; contact_state state[POINTS + 1]; } walk;
+
+/* The piece at th, or NULL: separated. A piece may begin before 0 or end after 2 pi. */
+static const contact_piece *piece_at(const contact_piece *p, int n, double th)
+{
+  for (int i = 0; i < n; ++i)
+    for (int turn = -1; turn <= 1; ++turn)
+      if (th + turn * two_pi >= p[i].from && th + turn * two_pi <= p[i].to) return &p[i];
+  return NULL;
+}
+
+/* The exact law, from the pieces that exact.c found: stuck, T = kt u - held; slipping, T = +-mu N. */
+static void walk_contact(const scene_contact *c, int n_harm, const double *X, const contact_piece *pieces, int n, walk *out)
+{
+  double cosine, sine;
+  scene_projection(c, &cosine, &sine);
+  for (int i = 0; i <= POINTS; ++i) {
+    double th = two_pi * i / POINTS, x = series_at(n_harm, X, cos(th), sin(th)).x;
+    const contact_piece *p = piece_at(pieces, n, th);
+    out->u[i] = x * cosine;
+    out->normal[i] = contact_normal(&c->law, x * sine);
+    out->state[i] = p ? p->state : CONTACT_SEPARATED;
+    out->t[i] = contact_slip_sign(out->state[i]) * c->law.mu * out->normal[i];
+    if (out->state[i] == CONTACT_STICK) out->t[i] = c->law.kt * out->u[i] - p->held;
+  }
+}
+
+static const struct phase { const char *name, *title; int dash; } phases[] = {{"stick", "sticks", 1}, {"slip", "slips", 2}, {"apart", "separated", 3}};
+enum { N_PHASES = sizeof phases / sizeof *phases };
+
+static int phase_of(contact_state st) { return st == CONTACT_STICK ? 0 : st == CONTACT_SEPARATED ? 2 : 1; }
+
+/* $stick3, ...: the loop of contact j where it does that. What happens; 0: never. */
+static int put_phase(figure *g, const walk *w, int j, int phase)
+{
+  char name[24];
+  int n = 0;
+  snprintf(name, sizeof name, "%s%d", phases[phase].name, j);
+  figure_block(g, name);
+  for (int i = 0; i < POINTS; ++i) {
+    bool mine = phase_of(w->state[i + 1]) == phase, next = i + 2 <= POINTS && phase_of(w->state[i + 2]) == phase;
+    if (!mine) continue;
+    bool begins = i == 0 || phase_of(w->state[i]) != phase;
+    if (begins) figure_point(g, w->u[i], w->t[i]);
+    if (!next || i % EVERY == 0) figure_point(g, w->u[i + 1], w->t[i + 1]);
+    if (!next) figure_gap(g);
+    ++n;
+  }
+  figure_block_end(g);
+  return n;
+}
+
+static void put_forces(figure *g, const walk *w, const contact *c, int j)
+{
+  char name[24];
+  snprintf(name, sizeof name, "forces%d", j);
+  figure_block(g, name);
+  for (int i = 0; i <= POINTS; i += EVERY)
+    figure_say(g, "%.10g %.10g %.10g %.10g\n", (double)i / POINTS, w->t[i], w->normal[i], c->mu * w->normal[i]);
+  figure_block_end(g);
+}
+
+static void loop_items(figure *g, int j, const int *there, bool only)
+{
+  static const char *const colours[] = {"#0072B2", "#D55E00", "#000000", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#777777"};
+  static const double widths[N_PHASES] = {2.4, 2.0, 2.0};
+  for (int k = 0; k < N_PHASES; ++k) {
+    char what[64], look[FIGURE_LOOK], of[32] = "";
+    if (!there[k]) continue;
+    if (!only) snprintf(of, sizeof of, "contact %d ", j);
+    snprintf(what, sizeof what, "$%s%d using 1:2 with lines", phases[k].name, j);
+    snprintf(look, sizeof look, "lw %g dt %d lc rgb '%s'", widths[k], phases[k].dash, colours[j]);
+    if (g->letters) snprintf(look, sizeof look, "lt %d", N_PHASES * j + k + 1);
+    figure_item(g, what, look, "%s%s", of, phases[k].title);
+  }
+}
+
+static void force_items(figure *g, int n)
+{
+  for (int j = 0; j < n; ++j) {
+    char what[64], look[FIGURE_LOOK], of[32] = "";
+    if (n > 1) snprintf(of, sizeof of, " of contact %d", j);
+    snprintf(what, sizeof what, "$forces%d using 1:3 with lines", j);
+    figure_item(g, what, figure_line(g, 3 * j + 2, 1.8, look), "normal force N%s", of);
+    snprintf(what, sizeof what, "$forces%d using 1:2 with lines", j);
+    figure_item(g, what, figure_line(g, 3 * j, 2, look), "tangential force T%s", of);
+    if (n > 1 || g->letters) continue;
+    figure_item(g, "$forces0 using 1:4 with lines", "lw 1 dt 3 lc rgb '#555555'", "± μ N");
+    figure_item(g, "$forces0 using 1:(-$4) with lines", "lw 1 dt 3 lc rgb '#555555'", NULL);
+  }
+}
+
+static void widen(double *closed, const walk *w)
+{
+  for (int i = 0; i <= POINTS; ++i) {
+    if (w->state[i] == CONTACT_SEPARATED) continue;
+    closed[0] = fmin(closed[0], w->u[i]);
+    closed[1] = fmax(closed[1], w->u[i]);
+  }
+}
+
+/* The contacts walked through the motion, their data written. */
+static hc_status put_contacts(figure *g, const scene *sc, int n, int n_harm, const double *X, int there[][N_PHASES], double closed[2])
+{
+  double F[2 * SCENE_MAX_HARMONICS + 1];
+  moving_contact contacts[SCENE_MAX_CONTACTS];
+  exact *e = NULL;
+  walk *w = malloc(sizeof *w);
+  exact_contacts_of(sc, contacts);
+  hc_status st = w ? exact_new(n_harm, 1, sc->n_contacts, contacts, &e) : HC_NO_MEMORY;
+  if (st == HC_OK) st = exact_eval(e, X, F, NULL, NULL);
+  for (int j = 0, pieces; j < n && st == HC_OK; ++j) {
+    const contact_piece *p = exact_pieces(e, j, &pieces);
+    walk_contact(&sc->contacts[j], n_harm, X, p, pieces, w);
+    for (int k = 0; k < N_PHASES; ++k) there[j][k] = put_phase(g, w, j, k);
+    widen(closed, w);
+    put_forces(g, w, &sc->contacts[j].law, j);
+  }
+  exact_free(e);
+  free(w);
+  return st;
+}
+
+/* The loop is where the contact is closed; far away from there nothing happens. */
+static void set_window(figure *g, const double *closed)
+{
+  double wide = closed[1] - closed[0];
+  if (wide > 0) figure_say(g, "set xrange [%.10g:%.10g]\n", closed[0] - 0.5 * wide, closed[1] + 0.25 * wide);
+}
+
+static void loops_and_forces(figure *g, const scene *sc, int n, int there[][N_PHASES], const double *closed)
+{
+  figure_say(g, "set title 'Hysteresis'\nset offsets graph 0.05, graph 0.05, graph 0.05, graph 0.05\nset zeroaxis lw 0.8 dt 1 lc rgb '#999999'\n");
+  figure_below(g, "tangential motion u [%s]", sc->unit_length);
+  figure_set(g, "ylabel", "tangential force T [%s]", sc->unit_force);
+  set_window(g, closed);
+  for (int j = 0; j < n; ++j) loop_items(g, j, there[j], n == 1);
+  figure_draw(g);
+  figure_below(g, "t / T");
+  figure_say(g, "set title 'Forces over the period'\nset xrange [0:1]\nset offsets 0, 0, graph 0.03, graph 0.03\n");
+  figure_set(g, "ylabel", "force [%s]", sc->unit_force);
+  force_items(g, n);
+  figure_draw(g);
+}
+
+hc_status plot_contact(plot_order *p, const scene *sc, int n_harm, const double *X)
+{
+  figure g = {0};
+  int n = sc->n_contacts < MOST_DRAWN ? sc->n_contacts : MOST_DRAWN, there[MOST_DRAWN][N_PHASES];
+  double closed[2] = {INFINITY, -INFINITY}; /* u while some contact is closed */
+  char about[128] = "exact law along the given motion";
+  if (n == 0) { snprintf(p->why, sizeof p->why, "there is no contact to draw"); return HC_BAD_INPUT; }
+  hc_status st = figure_open(&g, p, 1100, 500);
+  if (st == HC_OK) st = put_contacts(&g, sc, n, n_harm, X, there, closed);
+  if (st == HC_OK) {
+    if (n < sc->n_contacts) snprintf(about, sizeof about, "exact law along the given motion; contacts 0 to %d of %d", n - 1, sc->n_contacts);
+    panels_begin(&g, 1, 2, sc->title, about);
+    loops_and_forces(&g, sc, n, there, closed);
+    panels_end(&g);
+  }
+  return figure_close(&g, st);
+}

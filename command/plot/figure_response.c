@@ -1,0 +1,273 @@
+/* figure_response.c - amplitude over omega: frf, compare, and transient at several frequencies. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "command/plot/curve.h"
+#include "command/plot/panels.h"
+
+enum { WIDTH = 800, HEIGHT = 540 };
+
+/* Open shapes for what is as it should be, filled ones and crosses for what is not; no two alike without colour. */
+static const struct verdict_look { const char *name, *look; } looks[] = {
+    {"match", "pt 6 ps 1.2 lw 1.6 lc rgb '#D55E00'"},        {"settled", "pt 6 ps 1.2 lw 1.6 lc rgb '#D55E00'"},
+    {"differs", "pt 5 ps 1.0 lc rgb '#000000'"},             {"other_branch", "pt 8 ps 1.2 lw 1.6 lc rgb '#009E73'"},
+    {"unstable", "pt 2 ps 1.1 lw 1.8 lc rgb '#000000'"},     {"aperiodic", "pt 3 ps 1.2 lw 1.4 lc rgb '#CC79A7'"},
+    {"not_settled", "pt 1 ps 1.2 lw 1.8 lc rgb '#E69F00'"},  {"solver_failed", "pt 10 ps 1.2 lw 1.6 lc rgb '#555555'"},
+    {"period_k", "pt 12 ps 1.3 lw 1.6 lc rgb '#CC79A7'"},
+};
+enum { N_LOOKS = sizeof looks / sizeof *looks, MOST_VERDICTS = 16 };
+
+static int look_of(const char *name)
+{
+  for (int i = 0; i < N_LOOKS; ++i)
+    if (!strcmp(looks[i].name, name)) return i;
+  return N_LOOKS - 1; /* period_2, period_3, ... */
+}
+
+/* Points by verdict, in order of appearance. */
+typedef struct verdicts {
+  int n, count[MOST_VERDICTS];
+  char name[MOST_VERDICTS][24];
+} verdicts;
+
+static int verdict_place(verdicts *v, const char *name)
+{
+  int i = 0;
+  while (i < v->n && strcmp(v->name[i], name)) ++i;
+  if (i == v->n && v->n < MOST_VERDICTS) snprintf(v->name[v->n++], sizeof v->name[0], "%s", name);
+  return i < MOST_VERDICTS ? i : MOST_VERDICTS - 1;
+}
+
+static void verdict_items(figure *g, const verdicts *v, const char *of)
+{
+  for (int i = 0; i < v->n; ++i) {
+    char what[64], look[FIGURE_LOOK];
+    int k = look_of(v->name[i]);
+    snprintf(what, sizeof what, "$verdict%d using 1:2 with points", i);
+    figure_item(g, what, g->letters ? figure_look(g, "", 10 + k, look) : looks[k].look, "%s: %s (%d)", of, v->name[i], v->count[i]);
+  }
+}
+
+/* What is drawn, in this order. */
+typedef struct layers {
+  const curve_shape *shape;
+  bool quiet;         /* the curve is background */
+  bool asked, flights;
+  const verdicts *v;
+  const char *of;     /* whose verdicts */
+} layers;
+
+static void draw_layers(figure *g, const layers *l)
+{
+  char look[FIGURE_LOOK];
+  curve_shape_items(g, l->shape, l->quiet);
+  if (l->asked) figure_item(g, "$asked using 1:2 with points", figure_look(g, "pt 6 ps 1.2 lw 1.6 lc rgb '#D55E00'", 8, look), "solutions asked for");
+  if (l->flights && !g->letters)
+    figure_item(g, "$flights using 1:2:(0):3 with vectors filled head size character 0.9,20", "lw 0.8 dt 1 lc rgb '#999999'", "where the transient went");
+  if (l->v) verdict_items(g, l->v, l->of);
+  figure_draw(g);
+}
+
+static void detail_panel(figure *g, const curve_window *w, const layers *l)
+{
+  figure_say(g, "set title 'Where the contact changes'\nset xrange [%.10g:%.10g]\nset yrange [%.10g:%.10g]\n", w->low, w->high, w->least, w->most);
+  draw_layers(g, l);
+}
+
+/* The curve in a drawing of its own, or the whole and its detail side by side. */
+static void response_panels(figure *g, const scene *sc, const layers *l, const char *about)
+{
+  curve_window w;
+  bool detail = curve_shape_window(l->shape, &w);
+  if (detail) panels_begin(g, 1, 2, sc->title, about);
+  else figure_title(g, "set title", sc->title, about);
+  if (detail && !g->letters) figure_say(g, "set title 'Whole sweep'\n");
+  curve_shape_axes(g, sc, l->shape);
+  draw_layers(g, l);
+  if (!detail) return;
+  detail_panel(g, &w, l);
+  panels_end(g);
+}
+
+static int response_width(const curve_shape *shape)
+{
+  curve_window w;
+  return curve_shape_window(shape, &w) ? 1300 : WIDTH;
+}
+
+/* ---- frf ---- */
+
+static hc_status put_asked(figure *g, hbm_solver *s, const hbm_curve *asked)
+{
+  hc_status st = HC_OK;
+  figure_block(g, "asked");
+  for (int k = 0; asked && k < asked->n && st == HC_OK; ++k) {
+    hbm_measures m;
+    st = hbm_measure(s, asked->X + (size_t)k * (size_t)asked->n_coef, &m);
+    if (st == HC_OK) figure_point(g, asked->points[k].omega, m.amplitude);
+  }
+  figure_block_end(g);
+  return st;
+}
+
+hc_status plot_frf(plot_order *p, const scene *sc, hbm_solver *s, const hbm_curve *curve, const hbm_curve *asked)
+{
+  figure g = {0};
+  curve_shape shape = {0};
+  char settings[96];
+  if (curve->n == 0) { snprintf(p->why, sizeof p->why, "there is no point of the response curve to draw"); return HC_BAD_INPUT; }
+  hc_status st = curve_shape_of(sc, s, curve, &shape);
+  if (st == HC_OK) st = figure_open(&g, p, response_width(&shape), HEIGHT);
+  if (st == HC_OK) st = put_asked(&g, s, asked);
+  if (st == HC_OK) {
+    layers l = {.shape = &shape, .asked = asked && asked->n > 0};
+    curve_shape_data(&g, &shape);
+    response_panels(&g, sc, &l, curve_shape_settings(sc, &shape, settings));
+  }
+  curve_shape_clear(&shape);
+  return figure_close(&g, st);
+}
+
+/* ---- compare ---- */
+
+static bool has_transient(const comparison_row *r)
+{
+  return r->transient_status == HC_OK || r->transient_status == HC_NOT_SETTLED || r->transient_status == HC_APERIODIC;
+}
+
+static bool has_hbm(const comparison_row *r) { return r->branch >= 0 && r->hbm_status == HC_OK; }
+
+/* What is said of an HBM solution that the transient left stands at that solution; all else stands where the transient is. */
+static bool stands_at_hbm(const comparison_row *r)
+{
+  return has_hbm(r) && (r->verdict == VERDICT_UNSTABLE || r->verdict == VERDICT_OTHER_BRANCH || !has_transient(r));
+}
+
+static void put_verdicts(figure *g, const comparison *c, verdicts *v)
+{
+  char name[24];
+  *v = (verdicts){0};
+  for (int i = 0; i < c->n_rows; ++i) ++v->count[verdict_place(v, comparison_verdict_text(&c->rows[i], name))];
+  for (int k = 0; k < v->n; ++k) {
+    char block[24];
+    snprintf(block, sizeof block, "verdict%d", k);
+    figure_block(g, block);
+    for (int i = 0; i < c->n_rows; ++i) {
+      const comparison_row *r = &c->rows[i];
+      if (verdict_place(v, comparison_verdict_text(r, name)) != k) continue;
+      if (stands_at_hbm(r)) figure_point(g, r->omega, r->hbm.amplitude);
+      else if (has_transient(r)) figure_point(g, r->omega, r->transient.amplitude);
+    }
+    figure_block_end(g);
+  }
+}
+
+/* From an HBM solution to where the transient went from it. */
+static int put_flights(figure *g, const comparison *c)
+{
+  int n = 0;
+  figure_block(g, "flights");
+  for (int i = 0; i < c->n_rows; ++i) {
+    const comparison_row *r = &c->rows[i];
+    if (!stands_at_hbm(r) || !has_transient(r)) continue;
+    figure_say(g, "%.10g %.10g %.10g\n", r->omega, r->hbm.amplitude, r->transient.amplitude - r->hbm.amplitude);
+    ++n;
+  }
+  figure_block_end(g);
+  return n;
+}
+
+/* Response, perhaps its detail, and three panels of discrepancy. */
+static void all_panels(figure *g, const scene *sc, const layers *l, const accuracy *a, const char *about)
+{
+  curve_window w;
+  bool detail = curve_shape_window(l->shape, &w);
+  panels_begin(g, 2, detail ? 3 : 2, sc->title, about);
+  if (!g->letters) figure_say(g, "set title 'Response'\n");
+  curve_shape_axes(g, sc, l->shape);
+  draw_layers(g, l);
+  if (detail) detail_panel(g, &w, l);
+  panels_accuracy(g, a);
+  panels_end(g);
+}
+
+hc_status plot_compare(plot_order *p, const scene *sc, const comparison *c, const accuracy *a)
+{
+  figure g = {0};
+  curve_shape shape = {0};
+  curve_window w;
+  verdicts v;
+  char settings[96];
+  bool all = a && a->n_rows > 0;
+  if (c->n_rows == 0) { snprintf(p->why, sizeof p->why, "there is nothing compared to draw"); return HC_BAD_INPUT; }
+  hc_status st = curve_shape_trace(sc, &sc->compare.omega, &shape);
+  int width = !all ? response_width(&shape) : curve_shape_window(&shape, &w) ? 1900 : 1300;
+  if (st == HC_OK) st = figure_open(&g, p, width, all ? 1040 : HEIGHT);
+  if (st == HC_OK) {
+    layers l = {.shape = &shape, .flights = put_flights(&g, c) > 0, .v = &v, .of = "transient"};
+    put_verdicts(&g, c, &v);
+    curve_shape_data(&g, &shape);
+    curve_shape_settings(sc, &shape, settings);
+    if (all) all_panels(&g, sc, &l, a, settings);
+    else response_panels(&g, sc, &l, settings);
+  }
+  curve_shape_clear(&shape);
+  return figure_close(&g, st);
+}
+
+/* ---- transient ---- */
+
+static bool measured(const steady_row *r)
+{
+  return r->stage == STEADY_TRANSIENT && (r->status == HC_OK || r->status == HC_NOT_SETTLED || r->status == HC_APERIODIC);
+}
+
+static void put_steady(figure *g, const steady_states *s, verdicts *v)
+{
+  char name[24];
+  *v = (verdicts){0};
+  for (int i = 0; i < s->n; ++i)
+    if (measured(&s->rows[i])) ++v->count[verdict_place(v, steady_verdict_text(&s->rows[i], name))];
+  for (int k = 0; k < v->n; ++k) {
+    char block[24];
+    snprintf(block, sizeof block, "verdict%d", k);
+    figure_block(g, block);
+    for (int i = 0; i < s->n; ++i) {
+      const steady_row *r = &s->rows[i];
+      if (measured(r) && verdict_place(v, steady_verdict_text(r, name)) == k) figure_point(g, r->result.omega, r->result.amplitude);
+    }
+    figure_block_end(g);
+  }
+}
+
+static hc_status plot_points(plot_order *p, const scene *sc, const steady_states *s)
+{
+  figure g = {0};
+  curve_shape shape = {0};
+  verdicts v;
+  char settings[96], about[160];
+  hc_status st = curve_shape_trace(sc, &sc->compare.omega, &shape);
+  if (st == HC_OK) st = figure_open(&g, p, response_width(&shape), HEIGHT);
+  if (st == HC_OK) {
+    layers l = {.shape = &shape, .quiet = true, .v = &v, .of = "time integration"};
+    curve_shape_data(&g, &shape);
+    put_steady(&g, s, &v);
+    snprintf(about, sizeof about, "time integration; harmonic balance, %s", curve_shape_settings(sc, &shape, settings));
+    response_panels(&g, sc, &l, about);
+  }
+  curve_shape_clear(&shape);
+  return figure_close(&g, st);
+}
+
+hc_status plot_transient(plot_order *p, const scene *sc, const steady_states *found)
+{
+  int n = 0;
+  bool several = false;
+  for (int i = 0; i < found->n; ++i) {
+    n += measured(&found->rows[i]);
+    several |= found->rows[i].result.omega != found->rows[0].result.omega;
+  }
+  if (n == 0) { snprintf(p->why, sizeof p->why, "there is no steady state to draw"); return HC_BAD_INPUT; }
+  return several ? plot_points(p, sc, found) : panels_waves(p, sc, found);
+}

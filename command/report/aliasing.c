@@ -1,0 +1,267 @@
+/* aliasing.c - see aliasing.h. Numbers go out as integers: forces in 1e-4, harmonics in 1e-6, differences and folds in 1e-9 of the state's
+ * `scale`, the largest |force|; a page of hundreds of states stays small. */
+#include "command/report/aliasing.h"
+
+#include <complex.h>
+#include <fftw3.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "numerics/room.h"
+#include "compare/frequencies.h"
+#include "hbm/aft.h"
+#include "hbm/exact.h"
+#include "hbm/hbm.h"
+#include "hbm/series.h"
+
+enum { N_HARM = 5, N_STIFF = 5, N_SAMPLES = 9, SHOWN_TIMES = 256, SHOWN_HARMONICS = 80, FINE = 1 << 15, MOST_COEF = 2 * SCENE_MAX_HARMONICS + 1 };
+
+static const int harmonics[N_HARM] = {1, 3, 5, 10, 20};
+static const int samples[N_SAMPLES] = {16, 32, 64, 128, 256, 512, 1024, 2048, 4096};
+static const double factors[N_STIFF] = {0.1, 0.3, 1, 3, 10};
+static const double PI = 3.14159265358979323846;
+static const double force_step = 1e-4, harmonic_step = 1e-6, fold_step = 1e-9;
+
+/* Workspace, and the solution at hand. */
+typedef struct workshop {
+  scene sc;                      /* with the factor and H at hand */
+  exact *fine;                   /* as many harmonics as exact forces go to */
+  moving_contact contacts[SCENE_MAX_CONTACTS];
+  double *force;                 /* [FINE] */
+  fftw_complex *spectrum;        /* [FINE/2+1] true harmonics of the force, F_h = (a_h - i b_h) for h > 0 */
+  fftw_plan plan;
+  int n_harm;
+  double omega, X[MOST_COEF], scale; /* scale: largest |force| */
+} workshop;
+
+static hc_status workshop_open(workshop *w)
+{
+  w->force = fftw_malloc(FINE * sizeof *w->force);
+  w->spectrum = fftw_malloc((FINE / 2 + 1) * sizeof *w->spectrum);
+  if (!w->force || !w->spectrum || !hc_room_for(64 * (size_t)FINE)) return HC_NO_MEMORY;
+  w->plan = fftw_plan_dft_r2c_1d(FINE, w->force, w->spectrum, FFTW_ESTIMATE);
+  return w->plan ? HC_OK : HC_NO_MEMORY;
+}
+
+static void workshop_close(workshop *w)
+{
+  if (w->plan) fftw_destroy_plan(w->plan);
+  fftw_free(w->force);
+  fftw_free(w->spectrum);
+}
+
+/* ---- the truth ---------------------------------------------------------------------------------------------------------------------- */
+
+/* Force of one contact at the angle th, from its pieces. */
+static double contact_at(const moving_contact *c, int n, const contact_piece *p, double th, double x)
+{
+  const double u = c->cu[0] * x, v = c->cv[0] * x, normal = contact_normal(&c->law, v);
+  double tangential = 0;
+  for (int i = 0; i < n; ++i) {
+    double at = th < p[i].from ? th + 2 * PI : th;
+    if (at < p[i].from || at > p[i].to) continue;
+    int s = contact_slip_sign(p[i].state);
+    tangential = s ? s * c->law.mu * normal : c->law.kt * u - p[i].held;
+  }
+  return c->cu[0] * tangential + c->cv[0] * (normal - contact_preload(&c->law));
+}
+
+/* The force at FINE times, from the pieces the last evaluation found; its harmonics, those that have closed forms from these. */
+static hc_status find_truth(workshop *w)
+{
+  double X[MOST_COEF] = {0}, F[MOST_COEF];
+  memcpy(X, w->X, (size_t)(2 * w->n_harm + 1) * sizeof *X);
+  hc_status st = exact_eval(w->fine, X, F, NULL, NULL);
+  if (st != HC_OK) return st;
+  w->scale = 0;
+  for (int i = 0; i < FINE; ++i) {
+    double th = 2 * PI * i / FINE, x = series_at(w->n_harm, w->X, cos(th), sin(th)).x, f = 0;
+    for (int j = 0, n; j < w->sc.n_contacts; ++j) {
+      const contact_piece *p = exact_pieces(w->fine, j, &n);
+      f += contact_at(&w->contacts[j], n, p, th, x);
+    }
+    w->force[i] = f;
+    w->scale = fmax(w->scale, fabs(f));
+  }
+  fftw_execute(w->plan);
+  for (int h = 0; h <= FINE / 2; ++h) w->spectrum[h] *= 2.0 / FINE;
+  w->spectrum[0] = F[0];
+  for (int h = 1; h <= SCENE_MAX_HARMONICS; ++h) w->spectrum[h] = F[2 * h - 1] - I * F[2 * h];
+  return HC_OK;
+}
+
+/* ---- as JSON ------------------------------------------------------------------------------------------------------------------------ */
+
+static json_t *in_steps(double value, double step) { return isfinite(value / step) ? json_integer((json_int_t)llround(value / step)) : json_null(); }
+
+static json_t *number(double value) { return isfinite(value) ? json_real(value) : json_null(); }
+
+static json_t *list_of_integers(int n, const int *v)
+{
+  json_t *list = json_array();
+  for (int i = 0; i < n; ++i) json_array_append_new(list, json_integer(v[i]));
+  return list;
+}
+
+static json_t *list_of_numbers(int n, const double *v)
+{
+  json_t *list = json_array();
+  for (int i = 0; i < n; ++i) json_array_append_new(list, number(v[i]));
+  return list;
+}
+
+/* The amplitude of the sampled equations' solution next to X; NaN: none was found there. */
+static double sampled_amplitude(const workshop *w, int n)
+{
+  scene sc = w->sc;
+  hbm_solver *s = NULL;
+  hbm_measures m;
+  hbm_point point;
+  double X[MOST_COEF], amplitude = NAN;
+  memcpy(X, w->X, sizeof X);
+  sc.hbm.force = HBM_FORCE_SAMPLED;
+  sc.hbm.samples = n;
+  if (hbm_solver_new(&sc, &s) == HC_OK && hbm_solve(s, w->omega, X, &point) == HC_OK && hbm_measure(s, X, &m) == HC_OK) amplitude = m.amplitude;
+  hbm_solver_free(s);
+  return amplitude;
+}
+
+/* One N: amplitude; sampled minus true, cosine and sine parts [2 H + 1]; |F_{N-h}| and |F_{N+h}|, h = 0..H. */
+static json_t *sampled_state(const workshop *w, int n)
+{
+  double F[MOST_COEF];
+  aft *a = NULL;
+  hc_status st = n >= 2 * w->n_harm + 2 ? aft_new(&w->sc, w->n_harm, n, &a) : HC_BAD_INPUT;
+  if (st == HC_OK) st = aft_eval(a, w->X, F, NULL, NULL);
+  aft_free(a);
+  if (st != HC_OK) return json_null();
+  json_t *difference = json_array(), *folds = json_array();
+  for (int h = 0; h <= w->n_harm; ++h) {
+    double complex f = w->spectrum[h];
+    json_array_append_new(difference, in_steps((h ? F[2 * h - 1] : F[0]) - creal(f), fold_step * w->scale));
+    if (h) json_array_append_new(difference, in_steps(F[2 * h] + cimag(f), fold_step * w->scale));
+    json_array_append_new(folds, in_steps(cabs(w->spectrum[n - h]), fold_step * w->scale));
+    json_array_append_new(folds, in_steps(cabs(w->spectrum[n + h]), fold_step * w->scale));
+  }
+  return json_pack("{s:o, s:o, s:o}", "amplitude", number(sampled_amplitude(w, n)), "difference", difference, "folds", folds);
+}
+
+static json_t *state_of(workshop *w, double amplitude)
+{
+  if (find_truth(w) != HC_OK) return json_null();
+  if (!(w->scale > 0)) return json_pack("{s:o, s:i}", "amplitude", number(amplitude), "scale", 0); /* no contact, or one that does nothing */
+  json_t *force = json_array(), *truth = json_array(), *sampled = json_array();
+  for (int i = 0; i < SHOWN_TIMES; ++i) json_array_append_new(force, in_steps(w->force[i * (FINE / SHOWN_TIMES)], force_step * w->scale));
+  for (int h = 0; h <= SHOWN_HARMONICS; ++h) {
+    json_array_append_new(truth, in_steps(creal(w->spectrum[h]), harmonic_step * w->scale));
+    if (h) json_array_append_new(truth, in_steps(-cimag(w->spectrum[h]), harmonic_step * w->scale));
+  }
+  for (int i = 0; i < N_SAMPLES; ++i) json_array_append_new(sampled, sampled_state(w, samples[i]));
+  return json_pack("{s:o, s:o, s:o, s:o, s:o}", "amplitude", number(amplitude), "scale", number(w->scale), "force", force, "true", truth, "sampled",
+                   sampled);
+}
+
+/* ---- the states --------------------------------------------------------------------------------------------------------------------- */
+
+/* Of the curve's solutions at omega the one with the largest amplitude, into w->X; NaN: there is none. */
+static double largest_solution(workshop *w, hbm_solver *s, const hbm_curve *curve, double omega)
+{
+  hbm_curve at = {0};
+  double largest = NAN;
+  hbm_curve_at(s, curve, omega, &at);
+  for (int k = 0; k < at.n; ++k) {
+    hbm_measures m;
+    if (hbm_measure(s, at.X + (size_t)k * at.n_coef, &m) != HC_OK || m.amplitude <= largest) continue;
+    largest = m.amplitude;
+    memcpy(w->X, at.X + (size_t)k * at.n_coef, (size_t)at.n_coef * sizeof *w->X);
+  }
+  hbm_curve_free(&at);
+  w->omega = omega;
+  return largest;
+}
+
+/* All omegas of one stiffness and H, appended to states[omega]. */
+static hc_status put_states(workshop *w, int n_omega, const double *omega, const hc_monitor *monitor, json_t *const *states)
+{
+  hbm_solver *s = NULL;
+  hbm_curve curve = {0};
+  scene_list asked = {.n = n_omega};
+  double from, to;
+  memcpy(asked.v, omega, (size_t)n_omega * sizeof *omega);
+  comparison_sweep(&w->sc, &asked, &from, &to);
+  hc_status st = hbm_solver_new(&w->sc, &s);
+  if (st == HC_OK) st = hbm_trace(s, from, to, monitor, &curve); /* as far as it goes */
+  for (int i = 0; i < n_omega && st != HC_INTERRUPTED && st != HC_NO_MEMORY; ++i) {
+    double amplitude = s ? largest_solution(w, s, &curve, omega[i]) : NAN;
+    json_array_append_new(states[i], isnan(amplitude) ? json_null() : state_of(w, amplitude));
+  }
+  hbm_curve_free(&curve);
+  hbm_solver_free(s);
+  return st == HC_INTERRUPTED || st == HC_NO_MEMORY ? st : HC_OK;
+}
+
+static void set_scene(workshop *w, const scene *sc, double factor, int n_harm)
+{
+  w->sc = *sc;
+  w->n_harm = n_harm;
+  w->sc.hbm.harmonics = n_harm;
+  w->sc.hbm.force = HBM_FORCE_EXACT;
+  for (int j = 0; j < sc->n_contacts; ++j) w->sc.contacts[j].law.kn *= factor;
+  exact_contacts_of(&w->sc, w->contacts);
+}
+
+/* The monitor of a part of the work: how far the whole is stands still meanwhile. */
+typedef struct standstill { const hc_monitor *whole; double done; } standstill;
+
+static bool tick_standing(void *self, double done)
+{
+  const standstill *s = self;
+  (void)done;
+  return hc_monitor_tick(s->whole, s->done);
+}
+
+/* states[omega][kn][H]. */
+static hc_status all_states(const scene *sc, workshop *w, int n_omega, const double *omega, const hc_monitor *monitor, json_t *states)
+{
+  standstill at = {monitor, 0};
+  hc_monitor inner = {tick_standing, &at};
+  for (int i = 0; i < n_omega; ++i) json_array_append_new(states, json_array());
+  for (int k = 0; k < N_STIFF; ++k) {
+    json_t *row[ALIASING_MOST_OMEGAS];
+    for (int i = 0; i < n_omega; ++i) json_array_append_new(json_array_get(states, (size_t)i), row[i] = json_array());
+    for (int h = 0; h < N_HARM; ++h) {
+      at.done = (double)(k * N_HARM + h) / (N_STIFF * N_HARM);
+      if (!hc_monitor_tick(monitor, at.done)) return HC_INTERRUPTED;
+      set_scene(w, sc, factors[k], harmonics[h]);
+      exact_free(w->fine);
+      hc_status st = exact_new(SCENE_MAX_HARMONICS, 1, sc->n_contacts, w->contacts, &w->fine);
+      if (st == HC_OK) st = put_states(w, n_omega, omega, &inner, row);
+      if (st != HC_OK) return st;
+    }
+  }
+  return HC_OK;
+}
+
+hc_status aliasing_states(const scene *sc, int n_omega, const double *omega, int first, const hc_monitor *monitor, json_t **out)
+{
+  workshop *w = calloc(1, sizeof *w);
+  json_t *states = json_array();
+  *out = NULL;
+  hc_status st = w && states ? workshop_open(w) : HC_NO_MEMORY;
+  if (st == HC_OK) st = all_states(sc, w, n_omega, omega, monitor, states);
+  if (st == HC_OK) {
+    *out = json_pack("{s:o, s:i, s:o, s:o, s:o, s:o, s:[f, f, f], s:O}", "omega", list_of_numbers(n_omega, omega), "first", first, "harmonics",
+                     list_of_integers(N_HARM, harmonics), "samples", list_of_integers(N_SAMPLES, samples), "factors",
+                     list_of_numbers(N_STIFF, factors), "kn", number(sc->n_contacts ? sc->contacts[0].law.kn : NAN), "steps", force_step,
+                     harmonic_step, fold_step, "states", states);
+    if (!*out) st = HC_NO_MEMORY;
+  }
+  json_decref(states);
+  if (w) {
+    exact_free(w->fine);
+    workshop_close(w);
+  }
+  free(w);
+  return st;
+}

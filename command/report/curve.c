@@ -1,0 +1,105 @@
+/* curve.c - see curve.h. */
+#include "command/report/curve.h"
+
+#include <math.h>
+#include <stdio.h>
+
+#include "compare/frequencies.h"
+#include "compare/response.h"
+
+static const double shorter_steps = 0.35; /* a curve drawn with straight lines needs more points than one that is only followed */
+
+static json_t *number(double value) { return isfinite(value) ? json_real(value) : json_null(); }
+
+static void append(json_t *columns, const char *name, json_t *value)
+{
+  json_t *list = json_object_get(columns, name);
+  if (!list) json_object_set_new(columns, name, list = json_array());
+  json_array_append_new(list, value);
+}
+
+static void put_point(json_t *columns, const response_row *r)
+{
+  int stable = r->stability_known ? hbm_stability_verdict(&r->stability) : 0;
+  append(columns, "omega", number(r->point.omega));
+  append(columns, "amplitude", number(r->measures.amplitude));
+  append(columns, "harmonic_1", number(r->measures.harmonic_1));
+  append(columns, "mean", number(r->measures.mean));
+  append(columns, "branch", json_integer(r->point.branch));
+  append(columns, "stable", json_integer(stable));
+  append(columns, "contact", json_string(contact_regime_name(r->measures.contact.regime)));
+}
+
+static void put_specials(hbm_solver *s, const hbm_curve *c, json_t *list)
+{
+  enum { MOST = 64 };
+  hbm_special special[MOST];
+  int n = 0;
+  hbm_specials(s, c, MOST, special, &n); /* what was located is shown */
+  for (int i = 0; i < n && i < MOST; ++i) {
+    const hbm_special *p = &special[i];
+    char text[96];
+    const char *from = contact_regime_name(p->before), *to = contact_regime_name(p->after);
+    if (p->kind == HBM_TURNING_POINT) snprintf(text, sizeof text, "turning point");
+    else if (p->kind == HBM_PERIOD_DOUBLING) snprintf(text, sizeof text, "period doubling");
+    else if (p->before != p->after) snprintf(text, sizeof text, "contact goes from %s to %s", from, to);
+    else snprintf(text, sizeof text, "contact pattern changes (%s)", to);
+    json_array_append_new(list, json_pack("{s:f, s:f, s:i, s:s}", "omega", p->omega, "amplitude", p->amplitude, "branch", p->branch, "what", text));
+  }
+}
+
+/* The curve of sc over the comparison's frequencies; specials may be NULL. */
+static hc_status trace(const scene *sc, const comparison *c, const hc_monitor *monitor, json_t *columns, json_t *specials)
+{
+  hbm_solver *s = NULL;
+  hbm_curve curve = {0};
+  scene_list asked = {0};
+  double from, to;
+  for (int i = 0; i < c->n_rows && asked.n < SCENE_MAX_LIST; ++i) asked.v[asked.n++] = c->rows[i].omega;
+  comparison_sweep(sc, &asked, &from, &to);
+  hc_status st = hbm_solver_new(sc, &s);
+  if (st == HC_OK && sc->hbm.force == HBM_FORCE_EXACT) hbm_scale_steps(s, shorter_steps);
+  if (st == HC_OK) st = hbm_trace(s, from, to, monitor, &curve);
+  for (int k = 0; k < curve.n; ++k) {
+    response_row row;
+    if (response_row_of(s, &curve, k, &row) == HC_OK) put_point(columns, &row);
+  }
+  if (s && specials) put_specials(s, &curve, specials);
+  hbm_curve_free(&curve);
+  hbm_solver_free(s);
+  return st == HC_INTERRUPTED || st == HC_NO_MEMORY ? st : HC_OK;
+}
+
+/* What the rows of the comparison found, on either side. */
+static void put_rows(const comparison *c, json_t *hbm, json_t *transient)
+{
+  for (int i = 0; i < c->n_rows; ++i) {
+    const comparison_row *r = &c->rows[i];
+    char text[24];
+    bool moved = r->transient_status == HC_OK || r->transient_status == HC_NOT_SETTLED || r->transient_status == HC_APERIODIC;
+    comparison_verdict_text(r, text);
+    if (r->branch >= 0 && r->hbm_status == HC_OK)
+      json_array_append_new(hbm, json_pack("{s:f, s:o, s:o, s:o, s:i, s:s, s:o}", "omega", r->omega, "amplitude", number(r->hbm.amplitude),
+                                           "harmonic_1", number(r->hbm.harmonic_1), "mean", number(r->hbm.mean), "branch", r->branch, "verdict",
+                                           text, "error", number(r->errors.amplitude)));
+    if (moved)
+      json_array_append_new(transient, json_pack("{s:f, s:o, s:o, s:o, s:i, s:s, s:o}", "omega", r->omega, "amplitude",
+                                                 number(r->transient.amplitude), "harmonic_1", number(r->transient.harmonic_1), "mean",
+                                                 number(r->transient.mean), "branch", r->branch, "verdict", text, "error",
+                                                 number(r->errors.amplitude)));
+  }
+}
+
+hc_status curve_json(const scene *sc, const comparison *c, const hc_monitor *monitor, json_t **out)
+{
+  json_t *curve = json_object(), *other = json_object(), *specials = json_array(), *hbm = json_array(), *transient = json_array();
+  scene turned = *sc; /* harmonic 0 the other way */
+  turned.hbm.keep_mean = !sc->hbm.keep_mean;
+  hc_status st = trace(sc, c, monitor, curve, specials);
+  if (st == HC_OK) st = trace(&turned, c, monitor, other, NULL);
+  put_rows(c, hbm, transient);
+  *out = json_pack("{s:o, s:o, s:b, s:o, s:o, s:o}", "curve", curve, "turned", other, "mean_kept", (int)sc->hbm.keep_mean, "specials", specials,
+                   "hbm", hbm, "transient", transient);
+  if (st == HC_OK && !*out) st = HC_NO_MEMORY;
+  return st;
+}

@@ -1,0 +1,15 @@
+# embed.cmake - files as bytes in a C source: cmake -DOUTPUT=assets.c -DNAMES=a;b -DFILES=x;y -DCHART_VERSION=3.9.1 -P embed.cmake
+# An empty file name gives an empty asset. Each is `const unsigned char NAME[]` with its length, as assets.h declares them.
+set(text "/* Made by embed.cmake. */\n#include \"command/report/assets.h\"\n")
+foreach(name file IN ZIP_LISTS NAMES FILES)
+  if(EXISTS "${file}")
+    file(READ "${file}" hex HEX)
+  else()
+    set(hex "")
+  endif()
+  string(LENGTH "${hex}" length)
+  math(EXPR length "${length} / 2")
+  string(REGEX REPLACE "([0-9a-f][0-9a-f])" "0x\\1," bytes "${hex}")
+  string(APPEND text "const unsigned char asset_${name}_bytes[] = {${bytes}0};\nconst asset asset_${name} = {asset_${name}_bytes, ${length}};\n")
+endforeach()
+file(WRITE "${OUTPUT}" "${text}")

@@ -1,0 +1,118 @@
+/* html.c - see html.h. */
+#include "command/report/html.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { DECADES = 12, JSON_DIGITS = 9 };
+
+void html_text(FILE *to, const char *text)
+{
+  for (const unsigned char *c = (const unsigned char *)text; *c; ++c) switch (*c) {
+    case '<': fputs("&lt;", to); break;
+    case '>': fputs("&gt;", to); break;
+    case '&': fputs("&amp;", to); break;
+    case '"': fputs("&quot;", to); break;
+    case '\'': fputs("&#39;", to); break;
+    default: putc(*c < 0x20 && *c != '\n' ? ' ' : *c, to);
+    }
+}
+
+void html_printf(FILE *to, const char *format, ...)
+{
+  char text[512];
+  va_list args;
+  va_start(args, format);
+  vsnprintf(text, sizeof text, format, args);
+  va_end(args);
+  html_text(to, text);
+}
+
+void html_table(FILE *to, const char *caption)
+{
+  fputs("<div class=\"wide\" tabindex=\"0\"><table><caption>", to);
+  html_text(to, caption);
+  fputs("</caption>\n<thead><tr>", to);
+}
+
+void html_head(FILE *to, const char *name)
+{
+  fputs("<th scope=\"col\">", to);
+  for (; *name; ++name) { /* a long name may break at its underscores */
+    html_text(to, (char[]){*name, 0});
+    if (*name == '_') fputs("<wbr>", to);
+  }
+  fputs("</th>", to);
+}
+
+void html_row(FILE *to) { fputs("\n<tr>", to); }
+
+void html_cell_text(FILE *to, const char *text)
+{
+  fputs("<td class=\"text\">", to);
+  html_text(to, text);
+  fputs("</td>", to);
+}
+
+void html_cell_number(FILE *to, double value)
+{
+  if (isnan(value)) fputs("<td></td>", to);
+  else fprintf(to, "<td>%.6g</td>", value);
+}
+
+void html_cell_bar(FILE *to, double value, double limit)
+{
+  if (isnan(value)) { fputs("<td></td>", to); return; }
+  double length = value > 0 ? 100 * (1 + log10(value) / DECADES) : 0;
+  fprintf(to, "<td class=\"bar%s\"><span style=\"width:%.0f%%\"></span>%.2g</td>", value > limit ? " beyond" : "", fmin(fmax(length, 0), 100), value);
+}
+
+void html_table_end(FILE *to) { fputs("\n</tbody></table></div>\n", to); }
+
+static bool is_among(const char *name, const char *const *list)
+{
+  for (; list && *list; ++list)
+    if (!strcmp(name, *list)) return true;
+  return false;
+}
+
+static void put_cell(FILE *to, const row_cell *c)
+{
+  if (!c->there) fputs("<td></td>", to);
+  else if (c->kind == TABLE_TEXT) html_cell_text(to, c->as.text);
+  else if (c->kind == TABLE_INTEGER) fprintf(to, "<td>%ld</td>", c->as.integer);
+  else html_cell_number(to, c->as.real);
+}
+
+void html_rows(FILE *to, const char *caption, rows_kind kind, int n, const void *rows, html_fill *fill, const char *const *without)
+{
+  int n_columns;
+  const table_column *columns = rows_columns(kind, &n_columns);
+  html_table(to, caption);
+  for (int j = 0; j < n_columns; ++j)
+    if (!is_among(columns[j].name, without)) html_head(to, columns[j].name);
+  fputs("</tr></thead><tbody>", to);
+  for (int i = 0; i < n; ++i) {
+    row_cell cells[ROWS_MOST];
+    fill(rows, i, cells);
+    html_row(to);
+    for (int j = 0; j < n_columns; ++j)
+      if (!is_among(columns[j].name, without)) put_cell(to, &cells[j]);
+    fputs("</tr>", to);
+  }
+  html_table_end(to);
+}
+
+hc_status html_json(FILE *to, const json_t *value)
+{
+  char *text = json_dumps(value, JSON_COMPACT | JSON_SORT_KEYS | JSON_REAL_PRECISION(JSON_DIGITS));
+  if (!text) return HC_NO_MEMORY;
+  for (const char *c = text; *c; ++c) { /* "<" occurs in strings only */
+    if (*c == '<') fputs("\\u003c", to);
+    else putc(*c, to);
+  }
+  free(text);
+  return HC_OK;
+}

@@ -1,0 +1,213 @@
+/* page.c - the page: page.html with its {{names}} filled in. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cases/case_file.h"
+#include "command/report/assets.h"
+#include "command/report/html.h"
+#include "command/report/words.h"
+
+typedef struct page {
+  const report_data *d;
+  const report_origin *origin;
+  FILE *to;
+  hc_status status;
+} page;
+
+static void put_asset(FILE *to, const asset *a) { fwrite(a->bytes, 1, a->length, to); }
+
+/* ---- plain pieces ------------------------------------------------------------------------------------------------------------------- */
+
+static void put_title(page *p) { html_text(p->to, p->d->sc->title[0] ? p->d->sc->title : "untitled case"); }
+static void put_style(page *p) { put_asset(p->to, &asset_style); }
+static void put_script(page *p)
+{
+  put_asset(p->to, &asset_script);
+  put_asset(p->to, &asset_aliasing);
+  put_asset(p->to, &asset_start);
+}
+static void put_chart(page *p) { put_asset(p->to, &asset_chart); }
+
+/* "3.9.1" from the notice that Chart.js begins with. */
+static void put_chart_version(page *p)
+{
+  static const char before[] = "Chart.js v";
+  char notice[256] = {0};
+  memcpy(notice, asset_chart.bytes, asset_chart.length < sizeof notice - 1 ? asset_chart.length : sizeof notice - 1);
+  const char *at = strstr(notice, before);
+  if (at) fprintf(p->to, "%.*s", (int)strspn(at + strlen(before), "0123456789."), at + strlen(before));
+}
+
+static void put_settings(page *p) { html_text(p->to, p->origin->settings); }
+static void put_command(page *p) { html_text(p->to, p->origin->command); }
+static void put_versions(page *p) { html_text(p->to, p->origin->versions); }
+static void put_verdict(page *p) { words_verdict(p->d, p->to); }
+static void put_advice(page *p) { words_what_to_do(p->d, p->to); }
+static void put_gate(page *p) { words_gate(p->d, p->to); }
+
+static void put_case(page *p)
+{
+  char *text = NULL;
+  size_t size = 0;
+  FILE *memory = open_memstream(&text, &size);
+  hc_status st = memory ? case_echo(p->d->sc, memory) : HC_NO_MEMORY;
+  if (memory && (fclose(memory) != 0 || !text)) st = HC_NO_MEMORY;
+  if (st == HC_OK) html_text(p->to, text);
+  else if (p->status == HC_OK) p->status = st;
+  free(text);
+}
+
+/* ---- tables ------------------------------------------------------------------------------------------------------------------------- */
+
+static void fill_compare(const void *rows, int i, row_cell *cells) { rows_compare((const comparison_row *)rows + i, cells); }
+static void fill_accuracy(const void *rows, int i, row_cell *cells) { rows_accuracy((const accuracy_row *)rows + i, cells); }
+static void fill_order(const void *rows, int i, row_cell *cells) { rows_order((const order_row *)rows + i, cells); }
+
+static void put_compare(page *p)
+{
+  html_rows(p->to, "Every column, as hbmcheck compare prints it", ROWS_COMPARE, p->d->comparison.n_rows, p->d->comparison.rows, fill_compare, NULL);
+}
+
+static void put_accuracy(page *p)
+{
+  static const char *const without[] = {"seconds", NULL}; /* the same input is to give the same page */
+  html_rows(p->to, "Samples and truncation order: errors relative to the exact transient's orbits", ROWS_ACCURACY, p->d->accuracy.n_rows,
+            p->d->accuracy.rows, fill_accuracy, without);
+}
+
+static void put_orders(page *p)
+{
+  html_rows(p->to, "Observed orders: error ~ quantity^-order (regularisation^order)", ROWS_ORDER, p->d->accuracy.n_orders, p->d->accuracy.orders,
+            fill_order, NULL);
+}
+
+static void put_budget_row(FILE *to, const comparison_row *r, const scene *sc)
+{
+  char text[24];
+  const budget_parts *b = &r->budget.amplitude;
+  html_row(to);
+  html_cell_number(to, r->omega);
+  html_cell_number(to, r->branch >= 0 ? r->branch : NAN);
+  html_cell_text(to, comparison_verdict_text(r, text));
+  html_cell_number(to, r->branch >= 0 && r->hbm_status == HC_OK ? r->hbm.amplitude : NAN);
+  bool moved = r->transient_status == HC_OK || r->transient_status == HC_NOT_SETTLED || r->transient_status == HC_APERIODIC;
+  html_cell_number(to, moved ? r->transient.amplitude : NAN);
+  html_cell_bar(to, r->errors.amplitude, r->verdict == VERDICT_MATCH || r->verdict == VERDICT_DIFFERS ? sc->gate.amplitude : INFINITY);
+#define CELL(part) html_cell_bar(to, b->part, sc->gate.amplitude);
+  BUDGET_PARTS(CELL)
+#undef CELL
+  html_cell_bar(to, r->budget.known ? b->sum : NAN, sc->gate.amplitude);
+  fputs("</tr>", to);
+}
+
+static void put_budget(page *p)
+{
+  static const char *const heads[] = {"omega", "branch", "verdict", "hbm_amplitude", "transient_amplitude", "amplitude_error"};
+  html_table(p->to, "Verdict and error budget of the amplitude, relative; bars: 1e-12 to 1, logarithmic; red: beyond the gate");
+  for (int i = 0; i < 6; ++i) html_head(p->to, heads[i]);
+#define HEAD(part) html_head(p->to, "from_" #part);
+  BUDGET_PARTS(HEAD)
+#undef HEAD
+  html_head(p->to, "sum");
+  fputs("</tr></thead><tbody>", p->to);
+  for (int i = 0; i < p->d->comparison.n_rows; ++i) put_budget_row(p->to, &p->d->comparison.rows[i], p->d->sc);
+  html_table_end(p->to);
+}
+
+static void put_specials(page *p)
+{
+  size_t i;
+  const json_t *special;
+  const json_t *list = json_object_get(p->d->response, "specials");
+  if (json_array_size(list) == 0) { fputs("<p>Nothing special happens on the curve.</p>\n", p->to); return; }
+  html_table(p->to, "What happens on the curve, in its order");
+  html_head(p->to, "what");
+  html_head(p->to, "omega");
+  html_head(p->to, "amplitude");
+  html_head(p->to, "branch");
+  fputs("</tr></thead><tbody>", p->to);
+  json_array_foreach(list, i, special)
+  {
+    html_row(p->to);
+    html_cell_text(p->to, json_string_value(json_object_get(special, "what")));
+    fprintf(p->to, "<td>%.10f</td>", json_number_value(json_object_get(special, "omega")));
+    html_cell_number(p->to, json_number_value(json_object_get(special, "amplitude")));
+    html_cell_number(p->to, (double)json_integer_value(json_object_get(special, "branch")));
+    fputs("</tr>", p->to);
+  }
+  html_table_end(p->to);
+}
+
+/* ---- data for the plots ------------------------------------------------------------------------------------------------------------- */
+
+static json_t *number(double value) { return isfinite(value) ? json_real(value) : json_null(); }
+
+static json_t *budget_json(const comparison *c)
+{
+  json_t *list = json_array();
+  for (int i = 0; i < c->n_rows; ++i) {
+    const comparison_row *r = &c->rows[i];
+    if (!r->budget.known) continue;
+    json_t *row = json_pack("{s:f, s:i, s:o}", "omega", r->omega, "branch", r->branch, "sum", number(r->budget.amplitude.sum));
+#define PUT(part) json_object_set_new(row, #part, number(r->budget.amplitude.part));
+    BUDGET_PARTS(PUT)
+#undef PUT
+    json_array_append_new(list, row);
+  }
+  return list;
+}
+
+static json_t *accuracy_json(const accuracy *a)
+{
+  json_t *list = json_array();
+  for (int i = 0; i < a->n_rows; ++i) {
+    const accuracy_row *r = &a->rows[i];
+    json_array_append_new(list, json_pack("{s:i, s:i, s:o, s:o, s:o, s:i}", "harmonics", r->harmonics, "samples", r->samples, "amplitude_error",
+                                          number(r->worst), "aliasing", number(r->aliasing), "peak_error", number(r->peak_error), "false_turning_points",
+                                          r->false_turning_points));
+  }
+  return list;
+}
+
+static void put_data(page *p)
+{
+  const scene *sc = p->d->sc;
+  json_t *data = json_pack("{s:{s:s, s:s, s:s}, s:f, s:O, s:O, s:o, s:o}", "units", "length", sc->unit_length, "force", sc->unit_force, "time",
+                           sc->unit_time, "gate", sc->gate.amplitude, "response", p->d->response, "aliasing", p->d->aliasing, "budget",
+                           budget_json(&p->d->comparison), "accuracy", accuracy_json(&p->d->accuracy));
+  if (!data || html_json(p->to, data) != HC_OK) p->status = HC_NO_MEMORY;
+  json_decref(data);
+}
+
+/* ---- the whole ---------------------------------------------------------------------------------------------------------------------- */
+
+static const struct piece {
+  const char *name;
+  void (*put)(page *p);
+} pieces[] = {
+    {"title", put_title},   {"style", put_style},       {"script", put_script},     {"chart", put_chart},     {"settings", put_settings},
+    {"command", put_command}, {"versions", put_versions}, {"verdict", put_verdict}, {"advice", put_advice},   {"gate", put_gate},
+    {"case", put_case},     {"compare", put_compare},   {"accuracy", put_accuracy}, {"orders", put_orders},   {"budget", put_budget},
+    {"specials", put_specials}, {"data", put_data},     {"chart_version", put_chart_version},
+};
+
+static void put_piece(page *p, const char *name, size_t length)
+{
+  for (size_t i = 0; i < sizeof pieces / sizeof *pieces; ++i)
+    if (strlen(pieces[i].name) == length && !memcmp(pieces[i].name, name, length)) { pieces[i].put(p); return; }
+  p->status = HC_BUG; /* page.html names a piece that is not there */
+}
+
+hc_status report_write(const report_data *d, const report_origin *origin, FILE *to)
+{
+  page p = {d, origin, to, HC_OK};
+  const char *at = (const char *)asset_page.bytes, *open, *close; /* an asset ends in a zero beyond its length */
+  while ((open = strstr(at, "{{")) && (close = strstr(open, "}}"))) {
+    fwrite(at, 1, (size_t)(open - at), to);
+    put_piece(&p, open + 2, (size_t)(close - open - 2));
+    at = close + 2;
+  }
+  fputs(at, to);
+  return ferror(to) ? HC_IO : p.status;
+}

@@ -1,0 +1,78 @@
+/* report.c - see report.h: everything the page shows is computed here, in stages. */
+#include "command/report/report.h"
+
+#include <math.h>
+
+#include "command/report/aliasing.h"
+#include "command/report/assets.h"
+#include "command/report/curve.h"
+
+bool report_has_charts(void) { return asset_chart.length > 0; }
+
+/* The comparison's frequencies at which some HBM solution meets a contact's nonlinearity, ascending; how many. */
+static int busy_omegas(const comparison *c, double all[SCENE_MAX_LIST])
+{
+  int n = 0;
+  for (int i = 0; i < c->n_rows && n < SCENE_MAX_LIST; ++i) {
+    const comparison_row *r = &c->rows[i];
+    bool busy = r->branch >= 0 && r->hbm_status == HC_OK && r->hbm.contact.regime != CONTACT_LINEAR;
+    if (busy && (n == 0 || r->omega != all[n - 1])) all[n++] = r->omega;
+  }
+  return n;
+}
+
+/* Of those the one nearest to the peak, and others spread over the rest, ascending; how many. *first: where the nearest one is. */
+static int choose_omegas(const comparison *c, double *omega, int *first)
+{
+  double all[SCENE_MAX_LIST];
+  int n = busy_omegas(c, all), peak = 0, chosen = 0, step = (n + ALIASING_MOST_OMEGAS - 1) / ALIASING_MOST_OMEGAS;
+  for (int i = 1; i < n; ++i)
+    if (fabs(all[i] - c->summary.peak_omega) < fabs(all[peak] - c->summary.peak_omega)) peak = i;
+  *first = 0;
+  for (int i = 0; i < n; ++i) {
+    if ((i - peak) % step || chosen == ALIASING_MOST_OMEGAS) continue;
+    if (i == peak) *first = chosen;
+    omega[chosen++] = all[i];
+  }
+  return chosen;
+}
+
+static hc_status gather_aliasing(const scene *sc, const hc_monitor *monitor, report_data *out)
+{
+  double omega[ALIASING_MOST_OMEGAS];
+  int first, n = choose_omegas(&out->comparison, omega, &first);
+  if (n > 0 && sc->n_contacts > 0) return aliasing_states(sc, n, omega, first, monitor, &out->aliasing);
+  out->aliasing = json_null();
+  return HC_OK;
+}
+
+static void say(void (*announce)(void *, const char *), void *self, const char *stage)
+{
+  if (announce) announce(self, stage);
+}
+
+hc_status report_gather(const scene *sc, const hc_monitor *monitor, void (*announce)(void *self, const char *stage), void *self, report_data *out)
+{
+  *out = (report_data){.sc = sc};
+  say(announce, self, "comparing");
+  hc_status st = comparison_run(sc, monitor, &out->comparison);
+  if (st != HC_OK) return st;
+  say(announce, self, "response curve");
+  st = curve_json(sc, &out->comparison, monitor, &out->response);
+  if (st != HC_OK) return st;
+  say(announce, self, "aliasing");
+  st = gather_aliasing(sc, monitor, out);
+  if (st != HC_OK) return st;
+  say(announce, self, "samples and truncation orders");
+  out->tabled = accuracy_run(sc, &out->comparison, monitor, &out->accuracy);
+  return out->tabled == HC_INTERRUPTED || out->tabled == HC_NO_MEMORY ? out->tabled : HC_OK;
+}
+
+void report_clear(report_data *d)
+{
+  json_decref(d->response);
+  json_decref(d->aliasing);
+  accuracy_clear(&d->accuracy);
+  comparison_clear(&d->comparison);
+  *d = (report_data){0};
+}

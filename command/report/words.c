@@ -1,0 +1,192 @@
+/* words.c - see words.h. */
+#include "command/report/words.h"
+
+#include <math.h>
+
+#include "command/report/html.h"
+
+static void item(FILE *to, const char *class) { fprintf(to, "<li class=\"%s\">", class); }
+
+static void count_verdicts(const comparison *c, FILE *to)
+{
+  fputs("<ul class=\"verdicts\">\n", to);
+  for (int v = 0; v < VERDICT_COUNT; ++v) {
+    if (!c->count[v]) continue;
+    fprintf(to, "<li><b>%d</b> <code>%s</code>: ", c->count[v], verdict_name((verdict)v));
+    html_text(to, verdict_meaning((verdict)v));
+    fputs("</li>\n", to);
+  }
+  fputs("</ul>\n", to);
+}
+
+void words_verdict(const report_data *d, FILE *to)
+{
+  const comparison *c = &d->comparison;
+  int code = comparison_exit_code(c), missing = 0;
+  static const char *const classes[] = {"good", "bad"};
+  static const char *const heads[] = {"They agree.", "They do not agree.", "Not everything could be compared."};
+  static const char *const tails[] = {" At every frequency the transient is within the gate of a harmonic-balance solution.",
+                                      " At least one transient is not a harmonic-balance solution within the gate.",
+                                      " What is said below holds for what was compared."};
+  int which = code == 0 ? 0 : code == 1 ? 1 : 2;
+  for (int i = 0; i < c->n_rows; ++i) missing += comparison_unaccounted(&c->rows[i]);
+  fprintf(to, "<p class=\"verdict %s\"><strong>%s</strong>%s</p>\n", which == 2 ? "open" : classes[which], heads[which], tails[which]);
+  if (missing)
+    fprintf(to, "<p>%d transient%s no solution of this response curve within the gate.</p>\n", missing, missing == 1 ? " matches" : "s match");
+  if (c->curve.end != HC_OK && c->curve.n) {
+    fprintf(to, "<p class=\"verdict open\">The response curve <strong>stopped</strong> at omega = %.8g: ", c->curve.points[c->curve.n - 1].omega);
+    html_text(to, hc_status_text(c->curve.end));
+    fputs(".</p>\n", to);
+  }
+  count_verdicts(c, to);
+}
+
+/* ---- what to do --------------------------------------------------------------------------------------------------------------------- */
+
+static void say_worst(const report_data *d, FILE *to)
+{
+  const comparison *c = &d->comparison;
+  const comparison_row *top = NULL;
+  int doubtful = 0, unknown = 0;
+  char text[BUDGET_TEXT];
+  for (int i = 0; i < c->n_rows; ++i) {
+    const comparison_row *r = &c->rows[i];
+    doubtful += r->budget.known && !r->budget.holds;
+    unknown += !r->budget.known;
+    if (r->budget.known && (!top || r->budget.amplitude.sum > top->budget.amplitude.sum)) top = r;
+  }
+  if (top) {
+    item(to, top->budget.amplitude.sum <= d->sc->gate.amplitude ? "good" : "bad");
+    html_printf(to, "Largest error at omega = %.8g, branch %d: %s.", top->omega, top->branch, budget_advice(&top->budget, d->sc, c->harmonics, text));
+    fputs("</li>\n", to);
+  }
+  if (doubtful)
+    fprintf(to, "<li class=\"bad\">In %d row%s the parts do not account for what is observed: look there first.</li>\n", doubtful,
+            doubtful == 1 ? "" : "s");
+  if (unknown)
+    fprintf(to, "<li class=\"open\">%d row%s without a budget: no periodic orbit was found next to the HBM solution.</li>\n", unknown,
+            unknown == 1 ? "" : "s");
+}
+
+static const accuracy_row *exact_row(const accuracy *a, int n_harm)
+{
+  for (int i = 0; i < a->n_rows; ++i)
+    if (a->rows[i].harmonics == n_harm && a->rows[i].samples == 0) return &a->rows[i];
+  return NULL;
+}
+
+/* The fewest harmonics of the table from which on the truncation is within the limit; 0: none. */
+static int enough_harmonics(const accuracy *a, double limit)
+{
+  int enough = 0;
+  for (int i = a->n_rows - 1; i >= 0; --i) {
+    if (a->rows[i].samples) continue;
+    if (!(a->rows[i].worst <= limit) || a->rows[i].missing) break;
+    enough = a->rows[i].harmonics;
+  }
+  return enough;
+}
+
+static void say_harmonics(const report_data *d, FILE *to)
+{
+  const accuracy *a = &d->accuracy;
+  const double limit = d->sc->gate.amplitude;
+  const int enough = enough_harmonics(a, limit), kept = d->comparison.harmonics;
+  const accuracy_row *last = NULL, *row = exact_row(a, enough);
+  if (!d->sc->hbm.keep_mean)
+    fputs("<li class=\"bad\">Harmonic 0 is left out (hbm.static: false): that solves another equation, and no number of harmonics mends it.</li>\n",
+          to);
+  for (int i = 0; i < a->n_rows; ++i)
+    if (a->rows[i].samples == 0) last = &a->rows[i];
+  if (!last) return;
+  item(to, row && kept >= enough ? "good" : kept > last->harmonics ? "open" : "bad");
+  html_printf(to, "Harmonics: %d kept. ", kept);
+  if (row)
+    html_printf(to, "Of those tried, H >= %d keeps the amplitude within %.3g %% of the exact transient's (H = %d: %.2g %%).", enough, 100 * limit,
+                enough, 100 * row->worst);
+  else
+    html_printf(to, "None of those in the tables keeps the amplitude within %.3g %% of the exact transient's (H = %d: %.2g %%).", 100 * limit,
+                last->harmonics, 100 * last->worst);
+  if (!row && last->missing) html_printf(to, " %d of %d orbits have no solution next to them.", last->missing, a->orbits);
+  fputs("</li>\n", to);
+}
+
+static bool samples_do(const accuracy_row *r, const accuracy_row *plain, double limit)
+{
+  return r->possible && r->aliasing <= limit && r->missing <= plain->missing;
+}
+
+/* For the number of harmonics of the table next to the one kept: the fewest samples from which on aliasing stays below the limit. */
+static void say_samples(const report_data *d, FILE *to)
+{
+  const accuracy *a = &d->accuracy;
+  const accuracy_row *plain = NULL, *enough = NULL, *most = NULL;
+  for (int i = 0; i < a->n_rows; ++i)
+    if (a->rows[i].samples == 0 && (!plain || a->rows[i].harmonics <= d->comparison.harmonics)) plain = &a->rows[i];
+  if (!plain) return;
+  for (int i = a->n_rows - 1; i >= 0; --i) {
+    const accuracy_row *r = &a->rows[i];
+    if (r->harmonics != plain->harmonics || r->samples == 0) continue;
+    if (!most) most = r;
+    if (!samples_do(r, plain, d->sc->gate.amplitude)) break;
+    enough = r;
+  }
+  if (!most) return;
+  const bool sampled = d->sc->hbm.force == HBM_FORCE_SAMPLED;
+  item(to, enough && (!sampled || d->comparison.samples >= enough->samples) ? "good" : "bad");
+  if (!enough)
+    html_printf(to, "Sampling: not even %d samples a period are enough at H = %d (aliasing %.2g %%): use exact forces.", most->samples,
+                plain->harmonics, 100 * most->aliasing);
+  else
+    html_printf(to, "Sampling: %d samples a period are enough at H = %d (aliasing %.2g %%); exact forces need none.", enough->samples,
+                plain->harmonics, 100 * enough->aliasing);
+  if (enough && enough->false_turning_points)
+    html_printf(to, " But the curve sampled so has %d turning points that are not the oscillator's: follow curves with exact forces.",
+                enough->false_turning_points);
+  if (sampled) html_printf(to, " In use: %d samples.", d->comparison.samples);
+  fputs("</li>\n", to);
+}
+
+void words_what_to_do(const report_data *d, FILE *to)
+{
+  fputs("<ul class=\"advice\">\n", to);
+  say_worst(d, to);
+  say_harmonics(d, to);
+  say_samples(d, to);
+  if (d->tabled != HC_OK) {
+    item(to, "open");
+    html_printf(to, "The tables over H and N ended early: %s.", hc_status_text(d->tabled));
+    fputs("</li>\n", to);
+  }
+  fputs("</ul>\n", to);
+}
+
+/* ---- the gate ----------------------------------------------------------------------------------------------------------------------- */
+
+void words_gate(const report_data *d, FILE *to)
+{
+  static const char *const names[] = {"amplitude", "harmonic_1", "mean", "waveform"};
+  const double limits[] = {d->sc->gate.amplitude, d->sc->gate.harmonic_1, d->sc->gate.mean, d->sc->gate.waveform};
+  double worst[4] = {NAN, NAN, NAN, NAN}, where[4] = {NAN, NAN, NAN, NAN};
+  for (int i = 0; i < d->comparison.n_rows; ++i) {
+    const comparison_row *r = &d->comparison.rows[i];
+    const double errors[] = {r->errors.amplitude, r->errors.harmonic_1, r->errors.mean, r->errors.waveform};
+    if (r->verdict != VERDICT_MATCH && r->verdict != VERDICT_DIFFERS) continue; /* elsewhere the two are not the same motion */
+    for (int k = 0; k < 4; ++k)
+      if (errors[k] > worst[k] || isnan(worst[k])) worst[k] = errors[k], where[k] = r->omega;
+  }
+  html_table(to, "The gate: largest relative error allowed and found, where both sides are on the same orbit");
+  static const char *const heads[] = {"measure", "allowed", "largest found", "at omega", "within"};
+  for (int k = 0; k < 5; ++k) html_head(to, heads[k]);
+  fputs("</tr></thead><tbody>", to);
+  for (int k = 0; k < 4; ++k) {
+    html_row(to);
+    html_cell_text(to, names[k]);
+    html_cell_number(to, limits[k]);
+    html_cell_bar(to, worst[k], limits[k]);
+    html_cell_number(to, where[k]);
+    html_cell_text(to, isnan(worst[k]) ? "not compared" : worst[k] <= limits[k] ? "yes" : "no");
+    fputs("</tr>", to);
+  }
+  html_table_end(to);
+}

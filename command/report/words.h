@@ -1,0 +1,11 @@
+/* words.h - the verdict and its reasons in words a person can act on, as HTML. */
+#ifndef HC_REPORT_WORDS_H
+#define HC_REPORT_WORDS_H
+
+#include "command/report/report.h"
+
+void words_verdict(const report_data *d, FILE *to);  /* the whole, in a sentence, and what the verdicts mean */
+void words_what_to_do(const report_data *d, FILE *to); /* worst point; harmonics and samples that are enough */
+void words_gate(const report_data *d, FILE *to);     /* table: allowed, worst found, where */
+
+#endif

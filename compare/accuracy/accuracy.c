@@ -1,0 +1,369 @@
+/* accuracy.c - see budget.h: the table over truncation orders and sampling rates, and the orders it shows.
+ *
+ *     the curve with exact forces and most harmonics -> orbits to compare with, the peak (reference.h)
+ *     each H: the curve with exact forces -> a solution next to each orbit -> each N: the same solution, from there; and the curve
+ */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "compare/accuracy/reference.h"
+#include "compare/frequencies.h"
+
+enum { LEAST_REFERENCE = 20, EXACT = 0 };
+
+static const double floor_of_orbits = 1e-8; /* [1] ten times what the referee's orbits are good for */
+
+/* A curve and its price. */
+typedef struct traced {
+  int n_harm;
+  hbm_solver *hbm;
+  hbm_curve curve;
+  hc_status status;
+  double seconds;
+} traced;
+
+/* The solution next to each target, for one H and N. */
+typedef struct solutions {
+  int n, n_coef;
+  bool *there;   /* [n] */
+  double *X;     /* [n][n_coef] */
+  steady_motion *motion; /* [n] */
+  long iterations;
+} solutions;
+
+typedef struct job {
+  const scene *sc;
+  const comparison *c;
+  const hc_monitor *monitor;
+  int n_harm, n_samples, *harmonics, *samples; /* ascending, each once */
+  reference ref;
+  accuracy *out;
+} job;
+
+static double thread_seconds(void)
+{
+  struct timespec t;
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+/* ---- curves and solutions ---------------------------------------------------------------------------------------------------------- */
+
+static hc_status trace(const job *j, int n_harm, int samples, traced *t)
+{
+  scene sc = *j->sc;
+  double from, to, began = thread_seconds();
+  scene_list none = {0};
+  *t = (traced){.n_harm = n_harm};
+  sc.hbm.harmonics = n_harm;
+  sc.hbm.force = samples == EXACT ? HBM_FORCE_EXACT : HBM_FORCE_SAMPLED;
+  if (samples != EXACT) sc.hbm.samples = samples;
+  comparison_sweep(&sc, j->sc->compare.omega.n ? &j->sc->compare.omega : &none, &from, &to);
+  hc_status st = hbm_solver_new(&sc, &t->hbm);
+  t->status = st == HC_OK ? hbm_trace(t->hbm, from, to, j->monitor, &t->curve) : st;
+  t->seconds = thread_seconds() - began;
+  return t->status == HC_INTERRUPTED || t->status == HC_NO_MEMORY ? t->status : HC_OK; /* as far as the curve goes */
+}
+
+static void drop_trace(traced *t)
+{
+  hbm_curve_free(&t->curve);
+  hbm_solver_free(t->hbm);
+  *t = (traced){0};
+}
+
+static hc_status solutions_new(int n, int n_coef, solutions *s)
+{
+  *s = (solutions){.n = n, .n_coef = n_coef};
+  s->there = calloc((size_t)n + 1, sizeof *s->there);
+  s->X = calloc((size_t)n * (size_t)n_coef + 1, sizeof *s->X);
+  s->motion = calloc((size_t)n + 1, sizeof *s->motion);
+  return s->there && s->X && s->motion ? HC_OK : HC_NO_MEMORY;
+}
+
+static void solutions_free(solutions *s)
+{
+  free(s->there);
+  free(s->X);
+  free(s->motion);
+  *s = (solutions){0};
+}
+
+static bool take(solutions *s, int i, hbm_solver *hbm, const double *X)
+{
+  hbm_measures m;
+  if (hbm_measure(hbm, X, &m) != HC_OK) return false;
+  memcpy(s->X + (size_t)i * s->n_coef, X, (size_t)s->n_coef * sizeof *X);
+  s->motion[i] = motion_of_series(&m, hbm_n_harmonics(hbm), X);
+  return s->there[i] = true;
+}
+
+/* The nearest pair of a target without solution and a solution of *at not taken yet; false when there is no more. */
+static bool nearest_pair(const job *j, const solutions *s, int first, int last, const hbm_curve *at, const steady_motion *found,
+                         const bool *taken, int *i, int *k)
+{
+  double least = INFINITY;
+  for (int a = first; a < last; ++a)
+    for (int b = 0; b < at->n; ++b) {
+      if (s->there[a] || taken[b]) continue;
+      double d = motion_between(&found[b], &j->ref.targets[a].orbit).waveform;
+      if (d < least) { least = d; *i = a; *k = b; }
+    }
+  return least < INFINITY;
+}
+
+/* The targets first..last-1, of one frequency, get the solutions of the curve there: each at most one, the nearest pairs first. */
+static hc_status assign(const job *j, traced *t, int first, int last, solutions *s)
+{
+  hbm_curve at = {0};
+  hc_status st = hbm_curve_at(t->hbm, &t->curve, j->ref.targets[first].omega, &at);
+  steady_motion *found = calloc((size_t)at.n + 1, sizeof *found);
+  bool *taken = calloc((size_t)at.n + 1, sizeof *taken);
+  int i, k;
+  st = st == HC_NO_MEMORY || !found || !taken ? HC_NO_MEMORY : HC_OK;
+  for (int b = 0; b < at.n && st == HC_OK; ++b) {
+    hbm_measures m;
+    const double *X = at.X + (size_t)b * at.n_coef;
+    s->iterations += at.points[b].iterations;
+    taken[b] = hbm_measure(t->hbm, X, &m) != HC_OK; /* not to be had */
+    if (!taken[b]) found[b] = motion_of_series(&m, t->n_harm, X);
+  }
+  while (st == HC_OK && nearest_pair(j, s, first, last, &at, found, taken, &i, &k)) {
+    taken[k] = true;
+    take(s, i, t->hbm, at.X + (size_t)k * at.n_coef);
+  }
+  free(found);
+  free(taken);
+  hbm_curve_free(&at);
+  return st;
+}
+
+static hc_status solve_exact(const job *j, traced *t, solutions *s)
+{
+  hc_status st = solutions_new(j->ref.n, 2 * t->n_harm + 1, s);
+  for (int first = 0, last; first < j->ref.n && st == HC_OK; first = last) {
+    for (last = first; last < j->ref.n && j->ref.targets[last].omega == j->ref.targets[first].omega;) ++last;
+    st = assign(j, t, first, last, s);
+  }
+  return st;
+}
+
+/* Two starts that came to the same solution: the one that came from farther away has none of its own. */
+static void drop_doubles(const job *j, const solutions *from, solutions *s)
+{
+  for (int a = 0; a < s->n; ++a)
+    for (int b = 0; b < s->n; ++b) {
+      if (a == b || !s->there[a] || !s->there[b] || j->ref.targets[a].omega != j->ref.targets[b].omega) continue;
+      if (!(motion_between(&s->motion[a], &s->motion[b]).waveform <= 1e-6 * s->motion[b].amplitude)) continue;
+      double da = motion_between(&s->motion[a], &from->motion[a]).waveform, db = motion_between(&s->motion[b], &from->motion[b]).waveform;
+      if (da > db || (da == db && a > b)) s->there[a] = false;
+    }
+}
+
+/* The sampled solutions, each from the one with exact forces. */
+static hc_status solve_sampled(const job *j, traced *t, const solutions *from, solutions *s)
+{
+  hc_status st = solutions_new(from->n, from->n_coef, s);
+  double X[2 * SCENE_MAX_HARMONICS + 1];
+  for (int i = 0; i < from->n && st == HC_OK && t->hbm; ++i) {
+    hbm_point point = {0};
+    if (!from->there[i]) continue;
+    memcpy(X, from->X + (size_t)i * from->n_coef, (size_t)from->n_coef * sizeof *X);
+    if (hbm_solve(t->hbm, j->ref.targets[i].omega, X, &point) == HC_OK) take(s, i, t->hbm, X);
+    s->iterations += point.iterations;
+  }
+  if (st == HC_OK) drop_doubles(j, from, s);
+  return st;
+}
+
+/* ---- a row -------------------------------------------------------------------------------------------------------------------------- */
+
+static int ascending(const void *a, const void *b)
+{
+  double x = *(const double *)a, y = *(const double *)b;
+  return (x > y) - (x < y);
+}
+
+static double median(int n, double *e)
+{
+  qsort(e, (size_t)n, sizeof *e, ascending);
+  return n == 0 ? NAN : n % 2 ? e[n / 2] : 0.5 * (e[n / 2 - 1] + e[n / 2]);
+}
+
+static hc_status put_errors(const job *j, const solutions *s, const solutions *plain, accuracy_row *row)
+{
+  double *e = calloc((size_t)s->n + 1, sizeof *e);
+  if (!e) return HC_NO_MEMORY;
+  row->worst = row->aliasing = s->n ? 0 : NAN;
+  for (int i = 0; i < s->n; ++i) {
+    const double a = j->ref.targets[i].orbit.amplitude, got = s->motion[i].amplitude;
+    if (!s->there[i]) continue;
+    e[row->solutions++] = got == a ? 0 : fabs(got - a) / a;
+    row->worst = fmax(row->worst, e[row->solutions - 1]);
+    row->aliasing = fmax(row->aliasing, got == plain->motion[i].amplitude ? 0 : fabs(got - plain->motion[i].amplitude) / a);
+  }
+  if (row->solutions == 0) row->worst = row->aliasing = NAN;
+  row->missing = s->n - row->solutions;
+  row->median = median(row->solutions, e);
+  free(e);
+  return HC_OK;
+}
+
+static hc_status put_curve(const job *j, traced *t, accuracy_row *row)
+{
+  response_summary curve = {.peak_amplitude = NAN, .peak_omega = NAN};
+  hc_status st = t->hbm ? response_summarise(t->hbm, &t->curve, &curve) : HC_OK;
+  row->status = t->status;
+  row->peak_amplitude = curve.peak_amplitude;
+  row->peak_omega = curve.peak_omega;
+  row->peak_error = fabs(curve.peak_amplitude - j->ref.peak_amplitude) / j->ref.peak_amplitude;
+  row->peak_omega_error = fabs(curve.peak_omega - j->ref.peak_omega) / j->ref.peak_omega;
+  row->turning_points = t->curve.turning_points;
+  row->rejected = t->curve.rejected;
+  row->iterations = t->curve.iterations;
+  row->evaluations = t->curve.evaluations;
+  return st;
+}
+
+static hc_status put_row(const job *j, traced *t, int samples, const solutions *s, const solutions *plain, int true_turns, double began)
+{
+  accuracy_row *row = &j->out->rows[j->out->n_rows];
+  *row = (accuracy_row){.harmonics = t->n_harm, .samples = samples, .possible = true};
+  hc_status st = put_curve(j, t, row);
+  if (st != HC_OK) return st;
+  row->iterations += s->iterations;
+  row->false_turning_points = row->turning_points > true_turns ? row->turning_points - true_turns : 0;
+  st = put_errors(j, s, plain, row);
+  row->seconds = t->seconds + thread_seconds() - began;
+  if (st == HC_OK) ++j->out->n_rows;
+  return st;
+}
+
+static void put_impossible(const job *j, int n_harm, int samples)
+{
+  j->out->rows[j->out->n_rows++] = (accuracy_row){.harmonics = n_harm, .samples = samples, .status = HC_BAD_INPUT, .worst = NAN, .median = NAN,
+                                                  .aliasing = NAN, .peak_amplitude = NAN, .peak_omega = NAN, .peak_error = NAN,
+                                                  .peak_omega_error = NAN, .seconds = NAN};
+}
+
+static hc_status sampled_row(const job *j, int n_harm, int samples, const solutions *plain, int true_turns)
+{
+  traced t;
+  solutions s = {0};
+  if (samples < 2 * n_harm + 2) { put_impossible(j, n_harm, samples); return HC_OK; }
+  hc_status st = trace(j, n_harm, samples, &t);
+  double began = thread_seconds();
+  if (st == HC_OK) st = solve_sampled(j, &t, plain, &s);
+  if (st == HC_OK) st = put_row(j, &t, samples, &s, plain, true_turns, began);
+  solutions_free(&s);
+  drop_trace(&t);
+  return st;
+}
+
+/* All rows of one H; its curve with exact forces is there. */
+static hc_status rows_of(const job *j, traced *t)
+{
+  solutions plain;
+  double began = thread_seconds();
+  hc_status st = solve_exact(j, t, &plain);
+  if (st == HC_OK) st = put_row(j, t, EXACT, &plain, &plain, t->curve.turning_points, began);
+  for (int i = 0; i < j->n_samples && st == HC_OK; ++i) st = sampled_row(j, t->n_harm, j->samples[i], &plain, t->curve.turning_points);
+  solutions_free(&plain);
+  return st;
+}
+
+/* ---- the whole ---------------------------------------------------------------------------------------------------------------------- */
+
+/* A list of whole numbers, ascending, each once, into out[]; how many. */
+static int whole_numbers(const scene_list *list, int *out)
+{
+  scene_list sorted = *list;
+  int n = 0;
+  qsort(sorted.v, (size_t)sorted.n, sizeof *sorted.v, ascending);
+  for (int i = 0; i < sorted.n; ++i)
+    if (n == 0 || (int)sorted.v[i] != out[n - 1]) out[n++] = (int)sorted.v[i];
+  return n;
+}
+
+static void put_order(job *j, const char *quantity, int n_harm, int n, const double *x, const double *e, double floor)
+{
+  order_fit fit = order_fit_to(n, x, e, floor);
+  if (fit.points > 1) j->out->orders[j->out->n_orders++] = (order_row){.quantity = quantity, .harmonics = n_harm, .omega = NAN, .fit = fit};
+}
+
+/* Of the aliasing in N for each H, and of the truncation in H with exact forces. */
+static void put_orders(job *j)
+{
+  double x[SCENE_MAX_LIST], e[SCENE_MAX_LIST], h[SCENE_MAX_LIST], truncation[SCENE_MAX_LIST];
+  int n = 0, n_h = 0;
+  for (int i = 0; i < j->out->n_rows; ++i) {
+    const accuracy_row *row = &j->out->rows[i];
+    if (row->samples == EXACT) h[n_h] = row->harmonics, truncation[n_h++] = row->worst;
+    else x[n] = row->samples, e[n++] = row->aliasing;
+    bool last = i + 1 == j->out->n_rows || j->out->rows[i + 1].harmonics != row->harmonics;
+    if (last) put_order(j, "samples", row->harmonics, n, x, e, 1e2 * j->sc->hbm.tolerance), n = 0;
+  }
+  put_order(j, "harmonics", 0, n_h, h, truncation, floor_of_orbits);
+}
+
+static hc_status all_rows(job *j)
+{
+  int most = j->harmonics[j->n_harm - 1] > LEAST_REFERENCE ? j->harmonics[j->n_harm - 1] : LEAST_REFERENCE;
+  traced finest, t = {0};
+  hc_status st = trace(j, most, EXACT, &finest);
+  if (st == HC_OK && !finest.hbm) st = finest.status;
+  if (st == HC_OK) st = reference_make(j->sc, j->c, finest.hbm, &finest.curve, j->monitor, &j->ref);
+  for (int i = 0; i < j->n_harm && st == HC_OK; ++i) {
+    bool again = j->harmonics[i] == most; /* solved already */
+    if (!hc_monitor_tick(j->monitor, (double)i / j->n_harm)) st = HC_INTERRUPTED;
+    if (st == HC_OK && !again) st = trace(j, j->harmonics[i], EXACT, &t);
+    if (st == HC_OK) st = rows_of(j, again ? &finest : &t);
+    if (!again) drop_trace(&t);
+  }
+  drop_trace(&finest);
+  return st;
+}
+
+static void put_reference(const job *j)
+{
+  accuracy *out = j->out;
+  out->orbits = j->ref.n;
+  for (int i = 0; i < j->ref.n; ++i) out->frequencies += i == 0 || j->ref.targets[i].omega != j->ref.targets[i - 1].omega;
+  out->peak_harmonics = j->ref.harmonics;
+  out->peak_by_orbit = j->ref.peak_by_orbit;
+  out->peak_amplitude = j->ref.peak_amplitude;
+  out->peak_omega = j->ref.peak_omega;
+}
+
+hc_status accuracy_run(const scene *sc, const comparison *c, const hc_monitor *monitor, accuracy *out)
+{
+  int harmonics[SCENE_MAX_LIST], samples[SCENE_MAX_LIST];
+  *out = (accuracy){0};
+  job j = {.sc = sc, .c = c, .monitor = monitor, .harmonics = harmonics, .samples = samples, .out = out};
+  j.n_harm = whole_numbers(&sc->compare.harmonics, harmonics);
+  j.n_samples = whole_numbers(&sc->compare.samples, samples);
+  if (j.n_harm == 0) return HC_OK;
+  if (harmonics[0] < 1 || harmonics[j.n_harm - 1] > SCENE_MAX_HARMONICS) return HC_BAD_INPUT;
+  out->rows = calloc((size_t)j.n_harm * (size_t)(j.n_samples + 1), sizeof *out->rows);
+  out->orders = calloc((size_t)j.n_harm + 2, sizeof *out->orders);
+  if (!out->rows || !out->orders) return HC_NO_MEMORY;
+  hc_status st = all_rows(&j);
+  put_orders(&j);
+  put_reference(&j);
+  if (st == HC_OK) {
+    order_row regularisation;
+    st = order_of_regularisation(sc, c, monitor, &regularisation);
+    if (regularisation.fit.points > 1) out->orders[out->n_orders++] = regularisation;
+  }
+  reference_clear(&j.ref);
+  return st;
+}
+
+void accuracy_clear(accuracy *a)
+{
+  free(a->rows);
+  free(a->orders);
+  *a = (accuracy){0};
+}

@@ -1,0 +1,32 @@
+/* response.h - what is said about an HBM response curve: a row a solution, and the curve as a whole. */
+#ifndef HC_RESPONSE_H
+#define HC_RESPONSE_H
+
+#include "model/scene.h"
+#include "hbm/hbm.h"
+
+/* One solution, with what one wants to know of it. */
+typedef struct response_row {
+  hbm_point point;
+  hbm_measures measures;
+  bool stability_known;
+  hbm_stability stability; /* valid when known */
+} response_row;
+
+hc_status response_row_of(hbm_solver *s, const hbm_curve *c, int k, response_row *out);
+
+/* All solutions at the asked frequencies, appended to *found. A frequency without any is a failure, the first of which is returned with its
+ * omega, unless the curve says the branch never goes there. */
+hc_status response_at(hbm_solver *s, const hbm_curve *curve, const scene_list *at, hbm_curve *found, double *failed_at);
+
+/* A whole curve in a few numbers; the peak is NaN where there is none. */
+typedef struct response_summary {
+  int harmonics, samples, points, rejected, turning_points; /* samples: 0 for exact forces */
+  long iterations, evaluations;
+  double peak_amplitude, peak_omega, peak_harmonic_1; /* [length], [rad/time], [length] */
+  bool reached_end, arclength, left_at_start;
+} response_summary;
+/* HC_NO_MEMORY, or HC_OK also where no peak was found: NaN. */
+hc_status response_summarise(hbm_solver *s, const hbm_curve *c, response_summary *out);
+
+#endif

@@ -1,0 +1,163 @@
+/* steady_states.c - see steady_states.h. */
+#include "compare/steady_states.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "compare/comparison.h"
+#include "compare/frequencies.h"
+
+const char *steady_verdict_text(const steady_row *r, char text[24])
+{
+  if (r->status == HC_OK && timeint_stability(&r->result) < 0) snprintf(text, 24, "%s", verdict_name(VERDICT_UNSTABLE));
+  else if (r->status == HC_OK && r->result.period_multiple > 1) snprintf(text, 24, "period_%d", r->result.period_multiple);
+  else if (r->status == HC_OK) snprintf(text, 24, "settled");
+  else if (r->status == HC_NOT_SETTLED) snprintf(text, 24, "%s", verdict_name(VERDICT_NOT_SETTLED));
+  else if (r->status == HC_APERIODIC) snprintf(text, 24, "%s", verdict_name(VERDICT_APERIODIC));
+  else snprintf(text, 24, "%s", verdict_name(VERDICT_SOLVER_FAILED));
+  return text;
+}
+
+/* Everything the run needs at hand. */
+typedef struct job {
+  const scene *sc;
+  timeint *ti;
+  timeint *exact; /* to see what the regularisation costs; NULL where the law is the exact one already */
+  hbm_solver *hbm; /* NULL unless the start is on HBM orbits */
+  hbm_curve curve;
+  const hc_monitor *monitor;
+  steady_states *out;
+} job;
+
+static hc_status add_row(steady_states *s, const steady_row *row)
+{
+  if (s->n == s->cap) {
+    int cap = s->cap ? 2 * s->cap : 16;
+    steady_row *rows = realloc(s->rows, (size_t)cap * sizeof *rows);
+    if (!rows) return HC_NO_MEMORY;
+    s->rows = rows;
+    s->cap = cap;
+  }
+  s->rows[s->n++] = *row;
+  return HC_OK;
+}
+
+/* A row that came to nothing at that stage. */
+static hc_status add_failure(job *j, steady_stage stage, hc_status st, double omega)
+{
+  steady_row row = {.status = st, .stage = stage, .result = {.omega = omega}};
+  hc_status added = add_row(j->out, &row);
+  return st == HC_INTERRUPTED ? st : added;
+}
+
+/* The error of a regularised steady state at *state: by the exact law's orbit next to it, or by what Richardson's extrapolation left. *st
+ * becomes HC_NO_MEMORY or HC_INTERRUPTED if that is why there is none. */
+static double regularisation_error(job *j, const timeint_state *state, const timeint_result *r, hc_status *st)
+{
+  timeint_state start = *state;
+  timeint_result orbit;
+  if (!j->exact || r->method == TIMEINT_BY_CLOSED_FORM) return 0;
+  if (j->sc->transient.richardson) return r->regularisation_error;
+  hc_status found = timeint_orbit(j->exact, r->omega, r->period_multiple, &start, j->monitor, &orbit);
+  if (found == HC_NO_MEMORY || found == HC_INTERRUPTED) *st = found;
+  if (found != HC_OK) return NAN;
+  return budget_regularisation(r, &orbit);
+}
+
+/* To the steady state at omega from *state; not HC_OK only when there is no going on. */
+static hc_status settle(job *j, double omega, timeint_state *state, const char *start, hc_status without_hbm)
+{
+  steady_row row = {.result = {.omega = omega}, .without_hbm = without_hbm, .from_regularisation = NAN};
+  snprintf(row.start, sizeof row.start, "%s", start);
+  row.status = timeint_steady(j->ti, omega, state, j->monitor, &row.result);
+  if (row.status == HC_OK) row.from_regularisation = regularisation_error(j, state, &row.result, &row.status);
+  if (row.status == HC_NO_MEMORY) return HC_NO_MEMORY;
+  hc_status st = add_row(j->out, &row);
+  return row.status == HC_INTERRUPTED ? HC_INTERRUPTED : st;
+}
+
+static hc_status settle_from_orbit(job *j, double omega, const hbm_curve *at, int k)
+{
+  hbm_measures m;
+  const double *X = at->X + (size_t)k * at->n_coef;
+  char start[32];
+  hc_status st = hbm_measure(j->hbm, X, &m);
+  if (st != HC_OK) return add_failure(j, STEADY_HBM, st, omega);
+  timeint_state state = comparison_orbit_start(&m, hbm_n_harmonics(j->hbm), X, omega);
+  snprintf(start, sizeof start, "hbm branch %d", at->points[k].branch);
+  return settle(j, omega, &state, start, HC_OK);
+}
+
+static hc_status from_hbm_orbits(job *j, double omega)
+{
+  hbm_curve at = {0};
+  timeint_state rest = timeint_rest(j->ti);
+  hc_status st = hbm_curve_at(j->hbm, &j->curve, omega, &at), why = st != HC_OK ? st : j->curve.end != HC_OK ? j->curve.end : HC_NOT_CONVERGED;
+  if (st != HC_NO_MEMORY) st = st != HC_OK || at.n == 0 ? settle(j, omega, &rest, "rest", why) : HC_OK;
+  for (int k = 0; k < at.n && st == HC_OK; ++k) st = settle_from_orbit(j, omega, &at, k);
+  hbm_curve_free(&at);
+  return st;
+}
+
+/* The asked omegas in the order a sweep meets them, from the sweep's end, the state carried along. */
+static hc_status swept(job *j, const scene_list *at, bool up)
+{
+  double here = up ? fmin(j->sc->omega_from, j->sc->omega_to) : fmax(j->sc->omega_from, j->sc->omega_to);
+  timeint_state state = timeint_rest(j->ti);
+  for (int i = 0; i < at->n; ++i) {
+    double omega = at->v[up ? i : at->n - 1 - i];
+    hc_status st = timeint_sweep(j->ti, here, omega, &state, j->monitor);
+    if (st == HC_NO_MEMORY) return st;
+    if (st != HC_OK) return add_failure(j, STEADY_SWEEP, st, omega); /* from nowhere there is no going on */
+    if ((st = settle(j, omega, &state, up ? "up" : "down", HC_OK)) != HC_OK) return st;
+    here = omega;
+  }
+  return HC_OK;
+}
+
+static hc_status trace(job *j, const scene_list *asked)
+{
+  double from, to;
+  comparison_sweep(j->sc, asked, &from, &to);
+  hc_status st = hbm_solver_new(j->sc, &j->hbm);
+  if (st != HC_OK) return st;
+  st = hbm_trace(j->hbm, from, to, j->monitor, &j->curve);
+  return st == HC_INTERRUPTED || st == HC_NO_MEMORY ? st : HC_OK; /* as far as the curve goes */
+}
+
+static hc_status run(job *j, const scene_list *asked)
+{
+  int start = j->sc->transient.start;
+  hc_status st = timeint_new(j->sc, &j->ti);
+  if (st == HC_OK && j->sc->transient.law != TRANSIENT_LAW_EXACT) st = comparison_referee(j->sc, &j->exact);
+  if (st != HC_OK) return st;
+  if (start == TRANSIENT_START_UP || start == TRANSIENT_START_DOWN) return swept(j, asked, start == TRANSIENT_START_UP);
+  if (start == TRANSIENT_START_HBM) st = trace(j, asked);
+  for (int i = 0; i < asked->n && st == HC_OK; ++i) {
+    timeint_state rest = timeint_rest(j->ti);
+    st = j->hbm ? from_hbm_orbits(j, asked->v[i]) : settle(j, asked->v[i], &rest, "rest", HC_OK);
+  }
+  return st;
+}
+
+hc_status steady_states_run(const scene *sc, const hc_monitor *monitor, steady_states *out)
+{
+  *out = (steady_states){0};
+  if (sc->compare.omega.n == 0) return HC_BAD_INPUT;
+  scene_list asked;
+  job j = {.sc = sc, .monitor = monitor, .out = out};
+  hc_status st = comparison_frequencies(sc, NULL, &(hbm_curve){0}, &asked);
+  if (st == HC_OK) st = run(&j, &asked);
+  hbm_curve_free(&j.curve);
+  hbm_solver_free(j.hbm);
+  timeint_free(j.exact);
+  timeint_free(j.ti);
+  return st;
+}
+
+void steady_states_clear(steady_states *s)
+{
+  free(s->rows);
+  *s = (steady_states){0};
+}

@@ -1,0 +1,34 @@
+/* contact_law.c - see contact_law.h; the law itself stands there. */
+#include "model/contact_law.h"
+
+contact_state contact_step(const contact *c, double u, double v, double *w, double *t)
+{
+  double n = contact_normal(c, v);
+  if (!(n > 0)) { *w = u; *t = 0; return CONTACT_SEPARATED; }
+  double limit = c->mu * n;
+  *t = c->kt * (u - *w);
+  if (fabs(*t) <= limit) return CONTACT_STICK;
+  double s = *t > 0 ? 1 : -1;
+  *t = s * limit;
+  *w = u - *t / c->kt; /* kt > 0 here: kt = 0 makes the predictor 0 */
+  return s > 0 ? CONTACT_SLIP_PLUS : CONTACT_SLIP_MINUS;
+}
+
+contact_state contact_on_touch(const contact *c, double du, double dv)
+{
+  double friction = c->mu * c->kn * dv;
+  if (c->kt * du > friction) return CONTACT_SLIP_PLUS;
+  if (-c->kt * du > friction) return CONTACT_SLIP_MINUS;
+  return CONTACT_STICK;
+}
+
+const char *contact_regime_name(contact_regime regime)
+{
+  switch (regime) {
+  case CONTACT_LINEAR: return "linear";
+  case CONTACT_STUCK: return "stick";
+  case CONTACT_SLIPS: return "slip";
+  case CONTACT_SEPARATES: return "separation";
+  }
+  return "unknown";
+}

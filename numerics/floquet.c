@@ -1,0 +1,97 @@
+/* floquet.c - see floquet.h. Two by two by the quadratic formula without cancellation, larger ones by GSL's Francis QR. */
+#include "numerics/floquet.h"
+
+#include <gsl/gsl_eigen.h>
+#include <math.h>
+#include <stdlib.h>
+
+struct floquet { /* GSL's workspaces know their size: one set a size, 3..n */
+  int n;
+  gsl_eigen_nonsymm_workspace **work; /* [n + 1] */
+  double *matrix;                     /* [n][n] for any size; ours, because gsl_matrix_alloc leaks when half of it fails */
+  gsl_vector_complex **values;        /* [n + 1] */
+};
+
+static hc_status make_sizes(floquet *f)
+{
+  f->work = calloc((size_t)f->n + 1, sizeof *f->work);
+  f->matrix = calloc((size_t)f->n * (size_t)f->n, sizeof *f->matrix);
+  f->values = calloc((size_t)f->n + 1, sizeof *f->values);
+  if (!f->work || !f->matrix || !f->values) return HC_NO_MEMORY;
+  for (int m = 3; m <= f->n; ++m) {
+    f->work[m] = gsl_eigen_nonsymm_alloc((size_t)m);
+    f->values[m] = gsl_vector_complex_alloc((size_t)m);
+    if (!f->work[m] || !f->values[m]) return HC_NO_MEMORY;
+  }
+  return HC_OK;
+}
+
+hc_status floquet_new(int n, floquet **out)
+{
+  *out = NULL;
+  floquet *f = calloc(1, sizeof *f); /* zeroed, so free works half-built */
+  if (!f) return HC_NO_MEMORY;
+  f->n = n;
+  if (make_sizes(f) == HC_OK) {
+    *out = f;
+    return HC_OK;
+  }
+  floquet_free(f);
+  return HC_NO_MEMORY;
+}
+
+void floquet_free(floquet *f)
+{
+  if (!f) return;
+  for (int m = 3; m <= f->n; ++m) {
+    if (f->work && f->work[m]) gsl_eigen_nonsymm_free(f->work[m]);
+    if (f->values && f->values[m]) gsl_vector_complex_free(f->values[m]);
+  }
+  free(f->work);
+  free(f->matrix);
+  free(f->values);
+  free(f);
+}
+
+static void two_by_two(double a, double b, double c, double d, double complex *lambda)
+{
+  double half = 0.5 * (a + d), det = a * d - b * c;
+  double complex root = csqrt(half * half - det);
+  lambda[0] = half + (half < 0 ? -root : root);
+  lambda[1] = cabs(lambda[0]) > 0 ? det / lambda[0] : 0;
+}
+
+static hc_status by_gsl(floquet *f, const double *phi, int row, int column, int m, const int *active, double complex *lambda)
+{
+  gsl_matrix_view matrix = gsl_matrix_view_array(f->matrix, (size_t)m, (size_t)m);
+  for (int i = 0; i < m; ++i)
+    for (int j = 0; j < m; ++j) gsl_matrix_set(&matrix.matrix, (size_t)i, (size_t)j, phi[active[i] * row + active[j] * column]);
+  if (gsl_eigen_nonsymm(&matrix.matrix, f->values[m], f->work[m])) return HC_NOT_CONVERGED;
+  for (int i = 0; i < m; ++i) {
+    gsl_complex z = gsl_vector_complex_get(f->values[m], (size_t)i);
+    lambda[i] = GSL_REAL(z) + I * GSL_IMAG(z);
+  }
+  return HC_OK;
+}
+
+hc_status floquet_multipliers(floquet *f, const double *phi, int row, int column, int m, const int *active, double complex *lambda)
+{
+  double size = 0;
+  if (m > f->n) return HC_BAD_INPUT;
+  for (int i = 0; i < m; ++i)
+    for (int j = 0; j < m; ++j) size += fabs(phi[active[i] * row + active[j] * column]);
+  if (!isfinite(size)) return HC_NOT_FINITE;
+  if (m > 2) return by_gsl(f, phi, row, column, m, active, lambda);
+  const int a = active[0], b = m == 2 ? active[1] : a;
+  if (m == 2) two_by_two(phi[a * row + a * column], phi[a * row + b * column], phi[b * row + a * column], phi[b * row + b * column], lambda);
+  else if (m == 1) lambda[0] = phi[a * row + a * column];
+  return HC_OK;
+}
+
+double complex floquet_largest(int m, const double complex *lambda)
+{
+  double complex most = 0;
+  for (int i = 0; i < m; ++i)
+    if (!(cabs(lambda[i]) <= cabs(most))) most = lambda[i];
+  return most;
+}

@@ -1,0 +1,22 @@
+/* floquet.h - multipliers of a periodic orbit from its monodromy matrix. */
+#ifndef HC_FLOQUET_H
+#define HC_FLOQUET_H
+
+#include <complex.h>
+
+#include "base/status.h"
+
+typedef struct floquet floquet;
+
+/* Room for matrices up to n x n; everything is allocated here. */
+hc_status floquet_new(int n, floquet **out);
+void floquet_free(floquet *f);
+
+/* lambda[m]: eigenvalues of the rows and columns active[m] of phi, whose element (i, j) is phi[i * row + j * column].
+ * HC_NOT_FINITE, HC_NOT_CONVERGED. */
+hc_status floquet_multipliers(floquet *f, const double *phi, int row, int column, int m, const int *active, double complex *lambda);
+
+/* The one of largest modulus; 0 if there are none. */
+double complex floquet_largest(int m, const double complex *lambda);
+
+#endif

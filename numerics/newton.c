@@ -1,0 +1,205 @@
+/* newton.c - KINSOL behind newton.h. KINSOL's habits that matter here: a NaN residual is "success" for KIN_NONE and an endless loop
+ * for KIN_LINESEARCH, so residuals are refused by a positive return; the default longest step is 1000 |z0|, useless from z = 0; the Jacobian
+ * is kept for 10 iterations unless told otherwise; KIN_STEP_LT_STPTOL is positive and may be a stall. */
+#include "numerics/newton.h"
+
+#include <kinsol/kinsol.h>
+#include <math.h>
+#include <nvector/nvector_serial.h>
+#include <stdbool.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sunmatrix/sunmatrix_dense.h>
+
+#include "numerics/sundials_compat.h"
+#include "numerics/lu.h"
+
+struct newton {                 /* from newton_new, to newton_free; not shared between threads */
+  newton_problem problem;
+  SUNContext ctx;               /* made first, freed last, this handle's alone */
+  N_Vector z, z_scale, r_scale; /* [n] */
+  N_Vector r, step;             /* [n] for our own check and polishing */
+  SUNMatrix jac;                /* [n][n] overwritten by its factors */
+  SUNLinearSolver ls;
+  void *kin;
+  double *start;                /* [n] where the solve began */
+  bool factored;                /* jac holds factors made at the end of the last solve */
+  hc_status refusal;            /* why the problem last refused a z */
+};
+
+static int on_residual(N_Vector z, N_Vector r, void *self)
+{
+  newton *nw = self;
+  const double *v = N_VGetArrayPointer(r);
+  nw->refusal = nw->problem.residual(nw->problem.self, N_VGetArrayPointer(z), N_VGetArrayPointer(r));
+  for (int i = 0; i < nw->problem.n && nw->refusal == HC_OK; ++i)
+    if (!isfinite(v[i])) nw->refusal = HC_NOT_FINITE;
+  return nw->refusal == HC_OK ? 0 : 1;
+}
+
+static int on_jacobian(N_Vector z, N_Vector r, SUNMatrix jac, void *self, N_Vector t1, N_Vector t2)
+{
+  newton *nw = self;
+  (void)r, (void)t1, (void)t2;
+  nw->refusal = nw->problem.jacobian(nw->problem.self, N_VGetArrayPointer(z), SUNDenseMatrix_Data(jac));
+  return nw->refusal == HC_OK ? 0 : 1;
+}
+
+static hc_status make_kinsol(newton *nw)
+{
+  sunindextype n = nw->problem.n;
+  if (hc_sundials_context(&nw->ctx)) return HC_NO_MEMORY;
+  N_Vector *const vectors[] = {&nw->z, &nw->z_scale, &nw->r_scale, &nw->r, &nw->step};
+  for (size_t i = 0; i < sizeof vectors / sizeof *vectors; ++i)
+    if (!(*vectors[i] = N_VNew_Serial(n, nw->ctx))) return HC_NO_MEMORY;
+  if (!(nw->jac = SUNDenseMatrix(n, n, nw->ctx))) return HC_NO_MEMORY;
+  if (!(nw->ls = lu_sundials_solver(nw->problem.n, nw->ctx))) return HC_NO_MEMORY;
+  if (!(nw->kin = KINCreate(nw->ctx)) || !hc_room_for(0)) return HC_NO_MEMORY;
+  int bad = HC_KINSOL_QUIET(nw->kin);
+  bad |= KINSetUserData(nw->kin, nw);
+  bad |= KINInit(nw->kin, on_residual, nw->z);
+  bad |= KINSetLinearSolver(nw->kin, nw->ls, nw->jac);
+  bad |= KINSetJacFn(nw->kin, on_jacobian);
+  bad |= KINSetMaxSetupCalls(nw->kin, 1);      /* full Newton */
+  bad |= KINSetScaledStepTol(nw->kin, 1e-15);  /* a stop for small steps is for us to judge */
+  return bad ? HC_NO_MEMORY : HC_OK;
+}
+
+hc_status newton_new(const newton_problem *problem, newton **out)
+{
+  *out = NULL;
+  newton *nw = calloc(1, sizeof *nw);
+  if (!nw) return HC_NO_MEMORY;
+  nw->problem = *problem;
+  nw->start = calloc((size_t)problem->n, sizeof(double));
+  hc_status st = nw->start ? make_kinsol(nw) : HC_NO_MEMORY;
+  if (st == HC_OK) { *out = nw; return HC_OK; }
+  newton_free(nw);
+  return st;
+}
+
+void newton_free(newton *nw)
+{
+  if (!nw) return;
+  if (nw->kin) KINFree(&nw->kin);
+  if (nw->ls) SUNLinSolFree(nw->ls);
+  if (nw->jac) SUNMatDestroy(nw->jac);
+  N_Vector const vectors[] = {nw->z, nw->z_scale, nw->r_scale, nw->r, nw->step};
+  for (size_t i = 0; i < sizeof vectors / sizeof *vectors; ++i)
+    if (vectors[i]) N_VDestroy(vectors[i]);
+  if (nw->ctx) SUNContext_Free(&nw->ctx);
+  free(nw->start);
+  free(nw);
+}
+
+/* Largest |weight v|; NaN if any is. */
+static double weighted_max(int n, const double *weight, const double *v)
+{
+  double max = 0;
+  for (int i = 0; i < n; ++i) {
+    double a = fabs(weight[i] * v[i]);
+    if (!(a <= max)) max = a;
+  }
+  return max;
+}
+
+/* Evaluate and factor at z, with the residual in r. */
+static hc_status factor_here(newton *nw)
+{
+  if (on_residual(nw->z, nw->r, nw) || on_jacobian(nw->z, nw->r, nw->jac, nw, NULL, NULL)) return nw->refusal;
+  nw->factored = SUNLinSolSetup(nw->ls, nw->jac) == 0;
+  return HC_OK;
+}
+
+hc_status newton_factor_at(newton *nw, const double *z)
+{
+  memcpy(N_VGetArrayPointer(nw->z), z, (size_t)nw->problem.n * sizeof(double));
+  nw->factored = false;
+  hc_status st = factor_here(nw);
+  return st == HC_OK && !nw->factored ? HC_SINGULAR : st;
+}
+
+int newton_sign(const newton *nw)
+{
+  return nw->factored ? lu_sign(nw->problem.n, SUNDenseMatrix_Data(nw->jac), lu_sundials_pivots(nw->ls)) : 0;
+}
+
+hc_status newton_backsolve(newton *nw, double *x)
+{
+  size_t bytes = (size_t)nw->problem.n * sizeof(double);
+  memcpy(N_VGetArrayPointer(nw->step), x, bytes);
+  if (!nw->factored || SUNLinSolSolve(nw->ls, nw->jac, nw->step, nw->step, 0) != 0) return HC_SINGULAR;
+  memcpy(x, N_VGetArrayPointer(nw->step), bytes);
+  return HC_OK;
+}
+
+/* One Newton step from a converged z, kept unless it made the residual worse than acceptable. Leaves the factors behind. */
+static hc_status polish(newton *nw, const newton_options *opt, newton_report *report)
+{
+  int n = nw->problem.n;
+  double *z = N_VGetArrayPointer(nw->z), *r = N_VGetArrayPointer(nw->r), *step = N_VGetArrayPointer(nw->step);
+  hc_status st = factor_here(nw);
+  if (st != HC_OK) return st;
+  double before = weighted_max(n, opt->r_scale, r);
+  report->residual = before;
+  if (!nw->factored || SUNLinSolSolve(nw->ls, nw->jac, nw->step, nw->r, 0) != 0) return HC_OK; /* a solution all the same */
+  double length = weighted_max(n, opt->z_scale, step);
+  if (!(length <= opt->max_step)) return HC_OK; /* nearly singular: no better answer to be had this way */
+  for (int i = 0; i < n; ++i) z[i] -= step[i];
+  ++report->iterations;
+  double after = on_residual(nw->z, nw->r, nw) ? NAN : weighted_max(n, opt->r_scale, r);
+  if (after <= before || after <= 0.1 * opt->tolerance) { report->residual = after; return HC_OK; }
+  for (int i = 0; i < n; ++i) z[i] += step[i];
+  return on_residual(nw->z, nw->r, nw) ? nw->refusal : HC_OK;
+}
+
+/* KINSOL's word, and ours. */
+static hc_status judge(newton *nw, int flag, const newton_options *opt, newton_report *report)
+{
+  hc_status refusal = nw->refusal;
+  bool finite = on_residual(nw->z, nw->r, nw) == 0;
+  report->residual = finite ? weighted_max(nw->problem.n, opt->r_scale, N_VGetArrayPointer(nw->r)) : NAN;
+  bool small = report->residual <= opt->tolerance;
+  switch (flag) {
+  case KIN_SUCCESS:
+  case KIN_INITIAL_GUESS_OK:
+  case KIN_MAXITER_REACHED:
+  case KIN_LSETUP_FAIL: return small ? HC_OK : flag == KIN_LSETUP_FAIL ? HC_SINGULAR : HC_NOT_CONVERGED;
+  case KIN_STEP_LT_STPTOL:
+  case KIN_LINESEARCH_NONCONV: return small ? HC_OK : HC_STALLED;
+  case KIN_MEM_FAIL: return HC_NO_MEMORY;
+  case KIN_SYSFUNC_FAIL:
+  case KIN_FIRST_SYSFUNC_ERR:
+  case KIN_REPTD_SYSFUNC_ERR: return refusal != HC_OK ? refusal : HC_NOT_FINITE;
+  default: return HC_NOT_CONVERGED; /* so is any new flag */
+  }
+}
+
+static hc_status attempt(newton *nw, int strategy, const newton_options *opt, newton_report *report)
+{
+  size_t bytes = (size_t)nw->problem.n * sizeof(double);
+  memcpy(N_VGetArrayPointer(nw->z), nw->start, bytes);
+  int bad = KINSetFuncNormTol(nw->kin, opt->tolerance) | KINSetMaxNewtonStep(nw->kin, opt->max_step);
+  bad |= KINSetNumMaxIters(nw->kin, opt->max_iterations);
+  if (bad) return HC_BAD_INPUT;
+  int flag = KINSol(nw->kin, nw->z, strategy, nw->z_scale, nw->r_scale);
+  long iterations = 0;
+  KINGetNumNonlinSolvIters(nw->kin, &iterations);
+  report->iterations += (int)iterations;
+  return judge(nw, flag, opt, report);
+}
+
+hc_status newton_solve(newton *nw, double *z, const newton_options *opt, newton_report *report)
+{
+  size_t bytes = (size_t)nw->problem.n * sizeof(double);
+  *report = (newton_report){0, NAN};
+  nw->factored = false;
+  memcpy(nw->start, z, bytes);
+  memcpy(N_VGetArrayPointer(nw->z_scale), opt->z_scale, bytes);
+  memcpy(N_VGetArrayPointer(nw->r_scale), opt->r_scale, bytes);
+  hc_status st = attempt(nw, KIN_NONE, opt, report);
+  if (st != HC_OK && st != HC_NO_MEMORY) st = attempt(nw, KIN_LINESEARCH, opt, report);
+  if (st == HC_OK) st = polish(nw, opt, report);
+  if (st == HC_OK) memcpy(z, N_VGetArrayPointer(nw->z), bytes);
+  return st;
+}

@@ -1,0 +1,148 @@
+/* output.c - see output.h.
+ * The file beside is opened with O_EXCL under a name of our own, not with mkstemp: then the kernel applies the umask and default ACLs,
+ * where reading the umask would disturb other threads. Not here: signals; the main program abandons. Proof: tests/output/test_output.c. */
+#include "output/output.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+enum { MAX_LINKS = 40, MAX_LINK_TEXT = 4096, MAX_TRIES = 10000 };
+
+struct output {
+  FILE *stream;
+  char *target; /* what the commit renames to, links followed; NULL when written straight */
+  char *beside; /* what is written until then; set only while it exists */
+};
+
+/* `name` in the folder of `path`, or just `name` if absolute. */
+static char *in_folder_of(const char *path, const char *name)
+{
+  const char *slash = strrchr(path, '/');
+  size_t folder = slash && *name != '/' ? (size_t)(slash - path) + 1 : 0, length = strlen(name);
+  char *joined = malloc(folder + length + 1);
+  if (!joined) return NULL;
+  memcpy(joined, path, folder);
+  memcpy(joined + folder, name, length + 1);
+  return joined;
+}
+
+/* Where the links at the end of `path` lead, whether or not anything is there. */
+static char *follow_links(const char *path)
+{
+  char *at = strdup(path);
+  for (int links = 0; at; ++links) {
+    char text[MAX_LINK_TEXT];
+    ssize_t n = readlink(at, text, sizeof text);
+    if (n < 0) return at; /* no link, or nothing there */
+    if (links == MAX_LINKS || n == (ssize_t)sizeof text) { free(at); errno = ELOOP; return NULL; }
+    text[n] = 0;
+    char *next = in_folder_of(at, text);
+    free(at);
+    at = next;
+  }
+  return NULL;
+}
+
+/* Opens a new file in the target's folder. The name is short whatever the target's is, so it cannot be too long on its own. */
+static int open_beside(output *o)
+{
+  for (int i = 0; i < MAX_TRIES; ++i) {
+    char name[64];
+    snprintf(name, sizeof name, ".hbmcheck-%ld-%d", (long)getpid(), i);
+    char *beside = in_folder_of(o->target, name);
+    if (!beside) return -1;
+    int fd = open(beside, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (fd >= 0) { o->beside = beside; return fd; }
+    free(beside);
+    if (errno != EEXIST) return -1;
+  }
+  return -1;
+}
+
+/* A file descriptor to write to, or -1 and errno. `old` is what stands at `path`, NULL if nothing does. */
+static int open_regular(output *o, const char *path, const struct stat *old)
+{
+  if (old && access(path, W_OK) != 0) return -1; /* a rename would not mind that it is read-only; its owner does */
+  o->target = follow_links(path);
+  if (!o->target) return -1;
+  int fd = open_beside(o);
+  if (fd >= 0 && old) fchmod(fd, old->st_mode & 0777); /* fails on a file system without permissions: nothing to keep there */
+  return fd;
+}
+
+static bool is_standard_output(const struct stat *st)
+{
+  struct stat out;
+  return fstat(STDOUT_FILENO, &out) == 0 && out.st_dev == st->st_dev && out.st_ino == st->st_ino;
+}
+
+static FILE *open_stream(output *o, const char *path)
+{
+  struct stat st;
+  bool exists = path && stat(path, &st) == 0;
+  if (!path || (exists && is_standard_output(&st))) return stdout;
+  if (!*path) { errno = ENOENT; return NULL; }
+  /* a directory is refused by open itself */
+  int fd = exists && !S_ISREG(st.st_mode) ? open(path, O_WRONLY | O_NOCTTY | O_CLOEXEC) : open_regular(o, path, exists ? &st : NULL);
+  if (fd < 0) return NULL;
+  FILE *stream = fdopen(fd, "w");
+  if (!stream) close(fd);
+  return stream;
+}
+
+/* Closes, removes what was written beside, frees; errno stays as it was. */
+static void discard(output *o)
+{
+  int why = errno;
+  if (o->stream && o->stream != stdout) fclose(o->stream);
+  if (o->beside) unlink(o->beside);
+  free(o->beside);
+  free(o->target);
+  free(o);
+  errno = why;
+}
+
+hc_status output_open(const char *path, output **out)
+{
+  *out = NULL;
+  output *o = calloc(1, sizeof *o);
+  if (!o) return HC_NO_MEMORY;
+  o->stream = open_stream(o, path);
+  if (o->stream) { *out = o; return HC_OK; }
+  discard(o);
+  return errno == ENOMEM ? HC_NO_MEMORY : HC_IO;
+}
+
+FILE *output_stream(output *o) { return o->stream; }
+
+/* Everything handed to the kernel, which took it? Closes all but standard output. */
+static bool finish_stream(output *o)
+{
+  FILE *stream = o->stream;
+  bool lost = ferror(stream) != 0;
+  errno = 0;
+  bool flushed = (stream == stdout ? fflush(stream) : fclose(stream)) == 0;
+  o->stream = NULL;
+  if (lost && errno == 0) errno = EIO; /* the failing write was long ago */
+  return flushed && !lost;
+}
+
+hc_status output_commit(output *o)
+{
+  bool good = finish_stream(o);
+  if (good && o->beside && (good = rename(o->beside, o->target) == 0)) {
+    free(o->beside);
+    o->beside = NULL;
+  }
+  discard(o);
+  return good ? HC_OK : HC_IO;
+}
+
+void output_abandon(output *o)
+{
+  if (o) discard(o);
+}

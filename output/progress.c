@@ -1,0 +1,136 @@
+/* progress.c - see progress.h. Proof: tests/output/test_progress.c. */
+#include "output/progress.h"
+
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/ioctl.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "base/utf8.h"
+
+enum { LINE_ROOM = 512, SHOW_LEFT_AFTER = 1 /* [s] before that an estimate is noise */ };
+static const double interval = 0.1; /* [s] between two drawings */
+
+struct progress {
+  char *label;         /* one line, valid UTF-8; NULL: draw nothing */
+  double start, drawn; /* [s] on the monotonic clock */
+};
+
+/* The command line's only variable outside a function: a signal handler gets no argument, so what it leaves behind has to be at a fixed
+ * place. Written by the handler alone, never cleared. */
+static volatile sig_atomic_t stop_signal;
+
+static void on_signal(int number) { stop_signal = number; }
+
+void progress_install_signals(void)
+{
+  static const int numbers[] = {SIGINT, SIGTERM, SIGHUP};
+  for (int i = 0; i < 3; ++i) {
+    struct sigaction old, action = {.sa_handler = on_signal, .sa_flags = SA_RESTART | (int)SA_RESETHAND};
+    sigemptyset(&action.sa_mask);
+    if (sigaction(numbers[i], NULL, &old) == 0 && old.sa_handler != SIG_IGN) sigaction(numbers[i], &action, NULL);
+  }
+}
+
+int progress_interrupted(void) { return stop_signal; }
+
+static double now(void)
+{
+  struct timespec t;
+  clock_gettime(CLOCK_MONOTONIC, &t);
+  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+/* "12 s", "3 min", "5 h" */
+static void print_duration(char *text, size_t size, double seconds)
+{
+  if (seconds < 99.5) snprintf(text, size, "%.0f s", seconds);
+  else if (seconds < 99.5 * 60) snprintf(text, size, "%.0f min", seconds / 60);
+  else if (seconds < 1e6 * 3600) snprintf(text, size, "%.0f h", seconds / 3600);
+  else snprintf(text, size, "ages");
+}
+
+/* "  37 %  12 s left", "  12 s" when unknown, or nothing to say yet */
+static void print_tail(char *tail, size_t size, double done, double elapsed)
+{
+  char time[32];
+  double part = done < 1 ? done : 1;
+  bool known = done >= 0; /* NaN is unknown too */
+  int n = known ? snprintf(tail, size, "  %.0f %%", 100 * part) : snprintf(tail, size, "%s", "");
+  if (elapsed < SHOW_LEFT_AFTER || part == 0) return;
+  print_duration(time, sizeof time, known ? elapsed * (1 - part) / part : elapsed);
+  snprintf(tail + n, size - (size_t)n, known ? "  %s left" : "  %s", time);
+}
+
+void progress_line(char *line, size_t size, const char *label, double done, double elapsed, int columns)
+{
+  char tail[64];
+  print_tail(tail, sizeof tail, done, elapsed);
+  int width, room = columns - (int)strlen(tail);
+  size_t bytes = utf8_fit(label, room > 0 ? room : 0, &width);
+  while (bytes > 0 && bytes + strlen(tail) >= size) bytes = utf8_fit(label, --width, &width);
+  snprintf(line, size, "%.*s%s", (int)bytes, label, tail);
+}
+
+static int terminal_columns(void)
+{
+  struct winsize w;
+  return ioctl(STDERR_FILENO, TIOCGWINSZ, &w) == 0 && w.ws_col > 0 ? w.ws_col : 80;
+}
+
+static void draw(progress *p, double done)
+{
+  char line[LINE_ROOM];
+  p->drawn = now();
+  progress_line(line, sizeof line, p->label, done, p->drawn - p->start, terminal_columns() - 1); /* a full line would wrap */
+  fprintf(stderr, "\r%s\033[K", line);
+  fflush(stderr);
+}
+
+static bool may_draw(bool quiet)
+{
+  const char *term = getenv("TERM");
+  return !quiet && term && *term && strcmp(term, "dumb") != 0 && isatty(STDERR_FILENO);
+}
+
+progress *progress_start(const char *label, bool quiet)
+{
+  progress *p = calloc(1, sizeof *p);
+  if (!p) return NULL;
+  if (may_draw(quiet)) p->label = utf8_clean(label, true);
+  p->start = now();
+  if (p->label) draw(p, -1);
+  return p;
+}
+
+static bool tick(void *self, double done)
+{
+  progress *p = self;
+  if (stop_signal) return false;
+  if (p && p->label && now() - p->drawn >= interval) draw(p, done);
+  return true;
+}
+
+hc_monitor progress_monitor(progress *p) { return (hc_monitor){tick, p}; }
+
+void progress_relabel(progress *p, const char *label)
+{
+  char *clean = p && p->label ? utf8_clean(label, true) : NULL;
+  if (!clean) return;
+  free(p->label);
+  p->label = clean;
+}
+
+void progress_end(progress *p)
+{
+  if (!p) return;
+  if (p->label) {
+    fputs("\r\033[K", stderr);
+    fflush(stderr);
+  }
+  free(p->label);
+  free(p);
+}

@@ -1,0 +1,194 @@
+/* rows.c - see rows.h. Each list is written once and expanded twice: to the columns, and to the function that fills a row.
+ *   X(kind, name, is it there, value)   with r the row */
+#include "output/rows.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/* What a row says about itself, for the lists below. */
+static bool settled(const steady_row *r) { return r->status == HC_OK; }
+static bool measured(const steady_row *r) { return r->status == HC_OK || r->status == HC_NOT_SETTLED || r->status == HC_APERIODIC; }
+static bool has_hbm(const comparison_row *r) { return r->branch >= 0 && r->hbm_status == HC_OK; }
+static bool has_orbit(const comparison_row *r) { return r->orbit_status == HC_OK; }
+static bool has_transient(const comparison_row *r)
+{
+  return r->transient_status == HC_OK || r->transient_status == HC_NOT_SETTLED || r->transient_status == HC_APERIODIC;
+}
+static const char *largest_part(const comparison_row *r)
+{
+  double share;
+  return budget_largest(&r->budget, &share);
+}
+static const char *curve_text(const accuracy_row *r)
+{
+  return !r->possible ? "impossible: samples < 2 H + 2" : r->status == HC_OK ? "whole" : "stopped";
+}
+static const char *stable_text(const response_row *r)
+{
+  int stable = r->stability_known ? hbm_stability_verdict(&r->stability) : 0;
+  return stable > 0 ? "yes" : stable < 0 ? "no" : "unknown";
+}
+
+/* clang-format off */
+#define FRF_COLUMNS(X)                                                      \
+  X(REAL,    "omega",      true, r->point.omega)                            \
+  X(INTEGER, "branch",     true, r->point.branch)                           \
+  X(REAL,    "amplitude",  true, r->measures.amplitude)                     \
+  X(REAL,    "max",        true, r->measures.max)                           \
+  X(REAL,    "min",        true, r->measures.min)                           \
+  X(REAL,    "rms",        true, r->measures.rms)                           \
+  X(REAL,    "mean",       true, r->measures.mean)                          \
+  X(REAL,    "harmonic_1", true, r->measures.harmonic_1)                    \
+  X(TEXT,    "stable",     true, stable_text(r))                            \
+  X(REAL,    "multiplier", r->stability_known, r->stability.multiplier)     \
+  X(TEXT,    "contact",    true, contact_regime_name(r->measures.contact.regime)) \
+  X(INTEGER, "iterations", true, r->point.iterations)                       \
+  X(REAL,    "residual",   true, r->point.residual)
+
+#define TRANSIENT_COLUMNS(X)                                                \
+  X(REAL,    "omega",      true, r->result.omega)                           \
+  X(TEXT,    "verdict",    true, steady_verdict_text(r, (char[24]){0}))     \
+  X(REAL,    "amplitude",  measured(r), r->result.amplitude)                \
+  X(REAL,    "max",        measured(r), r->result.max)                      \
+  X(REAL,    "min",        measured(r), r->result.min)                      \
+  X(REAL,    "rms",        measured(r), r->result.rms)                      \
+  X(REAL,    "mean",       measured(r), r->result.mean)                     \
+  X(REAL,    "harmonic_1", measured(r), r->result.harmonic_1)               \
+  X(INTEGER, "periods",    true, r->result.periods)                         \
+  X(REAL,    "closure",    measured(r), r->result.closure)                  \
+  X(INTEGER, "period_multiple", true, settled(r) ? r->result.period_multiple : 0) \
+  X(INTEGER, "steps",      true, r->result.steps)                           \
+  X(TEXT,    "contact",    measured(r), contact_regime_name(r->result.regime)) \
+  X(TEXT,    "start",      true, r->start)                                  \
+  X(TEXT,    "method",     settled(r), timeint_method_name(r->result.method)) \
+  X(REAL,    "multiplier", settled(r), r->result.multiplier)                \
+  X(INTEGER, "free_sliders", settled(r), r->result.free_sliders)            \
+  X(REAL,    "lyapunov",   measured(r), r->result.lyapunov)                 \
+  X(REAL,    "from_regularisation", settled(r), r->from_regularisation)
+
+#define COMPARE_COLUMNS(X)                                                  \
+  X(REAL,    "omega",               true, r->omega)                         \
+  X(INTEGER, "branch",              r->branch >= 0, r->branch)              \
+  X(TEXT,    "verdict",             true, comparison_verdict_text(r, (char[24]){0})) \
+  X(REAL,    "hbm_amplitude",       has_hbm(r), r->hbm.amplitude)           \
+  X(REAL,    "transient_amplitude", has_transient(r), r->transient.amplitude) \
+  X(REAL,    "amplitude_error",     true, r->errors.amplitude)              \
+  X(REAL,    "harmonic_1_error",    true, r->errors.harmonic_1)             \
+  X(REAL,    "mean_error",          true, r->errors.mean)                   \
+  X(REAL,    "waveform_error",      true, r->errors.waveform)               \
+  X(REAL,    "from_aliasing",       true, r->budget.amplitude.aliasing)     \
+  X(REAL,    "from_truncation",     true, r->budget.amplitude.truncation)   \
+  X(REAL,    "from_regularisation", true, r->budget.amplitude.regularisation) \
+  X(REAL,    "from_integration",    true, r->budget.amplitude.integration)  \
+  X(REAL,    "from_settling",       true, r->budget.amplitude.settling)     \
+  X(REAL,    "hbm_harmonic_1",      has_hbm(r), r->hbm.harmonic_1)          \
+  X(REAL,    "transient_harmonic_1", has_transient(r), r->transient.harmonic_1) \
+  X(INTEGER, "periods",             has_transient(r), r->transient.periods) \
+  X(REAL,    "orbit_amplitude",     has_orbit(r), r->orbit.amplitude)       \
+  X(REAL,    "orbit_multiplier",    has_orbit(r), r->orbit.multiplier)      \
+  X(REAL,    "orbit_error",         true, r->orbit_error)                   \
+  X(REAL,    "budget_sum",          r->budget.known, r->budget.amplitude.sum) \
+  X(REAL,    "budget_observed",     r->budget.known, r->budget.amplitude.observed) \
+  X(TEXT,    "budget_holds",        r->budget.known, r->budget.holds ? "yes" : "no") \
+  X(TEXT,    "largest_part",        largest_part(r) != NULL, largest_part(r))
+
+#define CURVE_COLUMNS(X)                                                    \
+  X(INTEGER, "harmonics",       true, r->harmonics)                         \
+  X(INTEGER, "samples",         r->samples > 0, r->samples)                 \
+  X(INTEGER, "points",          true, r->points)                            \
+  X(INTEGER, "rejected",        true, r->rejected)                          \
+  X(INTEGER, "turning_points",  true, r->turning_points)                    \
+  X(INTEGER, "iterations",      true, r->iterations)                        \
+  X(INTEGER, "evaluations",     true, r->evaluations)                       \
+  X(REAL,    "peak_amplitude",  true, r->peak_amplitude)                    \
+  X(REAL,    "peak_omega",      true, r->peak_omega)                        \
+  X(REAL,    "peak_harmonic_1", true, r->peak_harmonic_1)                   \
+  X(INTEGER, "reached_end",     true, r->reached_end)                       \
+  X(INTEGER, "arclength",       true, r->arclength)                         \
+  X(INTEGER, "left_at_start",   true, r->left_at_start)
+
+#define ACCURACY_COLUMNS(X)                                                 \
+  X(INTEGER, "harmonics",       true, r->harmonics)                         \
+  X(TEXT,    "force",           true, r->samples > 0 ? "sampled" : "exact") \
+  X(INTEGER, "samples",         r->samples > 0, r->samples)                 \
+  X(REAL,    "amplitude_error", true, r->worst)                             \
+  X(REAL,    "amplitude_error_median", true, r->median)                     \
+  X(REAL,    "aliasing",        true, r->aliasing)                          \
+  X(REAL,    "peak_amplitude",  true, r->peak_amplitude)                    \
+  X(REAL,    "peak_omega",      true, r->peak_omega)                        \
+  X(REAL,    "peak_amplitude_error", true, r->peak_error)                   \
+  X(REAL,    "peak_omega_error", true, r->peak_omega_error)                 \
+  X(INTEGER, "turning_points",  r->possible, r->turning_points)             \
+  X(INTEGER, "false_turning_points", r->possible, r->false_turning_points)  \
+  X(INTEGER, "rejected",        r->possible, r->rejected)                   \
+  X(INTEGER, "missing",         r->possible, r->missing)                    \
+  X(INTEGER, "iterations",      r->possible, r->iterations)                 \
+  X(INTEGER, "evaluations",     r->possible, r->evaluations)                \
+  X(REAL,    "seconds",         true, r->seconds)                           \
+  X(TEXT,    "curve",           true, curve_text(r))
+
+#define ORDER_COLUMNS(X)                                                    \
+  X(TEXT,    "quantity",        true, r->quantity)                          \
+  X(INTEGER, "harmonics",       r->harmonics > 0, r->harmonics)             \
+  X(REAL,    "omega",           true, r->omega)                             \
+  X(REAL,    "order",           true, r->fit.order)                         \
+  X(REAL,    "spread",          true, r->fit.spread)                        \
+  X(REAL,    "from",            true, r->fit.from)                          \
+  X(REAL,    "to",              true, r->fit.to)                            \
+  X(INTEGER, "points",          true, r->fit.points)
+/* clang-format on */
+
+static void put_REAL(row_cell *c, bool there, double value)
+{
+  *c = (row_cell){.kind = TABLE_REAL, .there = there && !isnan(value)};
+  if (c->there) c->as.real = value;
+}
+
+static void put_INTEGER(row_cell *c, bool there, long value)
+{
+  *c = (row_cell){.kind = TABLE_INTEGER, .there = there};
+  if (there) c->as.integer = value;
+}
+
+static void put_TEXT(row_cell *c, bool there, const char *value)
+{
+  *c = (row_cell){.kind = TABLE_TEXT, .there = there};
+  if (there) snprintf(c->as.text, sizeof c->as.text, "%s", value);
+}
+
+#define COLUMN(kind, name, there, value) {name, TABLE_##kind},
+#define PUT(kind, name, there, value)    put_##kind(cells++, there, value);
+
+static const table_column frf_columns[] = {FRF_COLUMNS(COLUMN)};
+static const table_column transient_columns[] = {TRANSIENT_COLUMNS(COLUMN)};
+static const table_column compare_columns[] = {COMPARE_COLUMNS(COLUMN)};
+static const table_column curve_columns[] = {CURVE_COLUMNS(COLUMN)};
+static const table_column accuracy_columns[] = {ACCURACY_COLUMNS(COLUMN)};
+static const table_column order_columns[] = {ORDER_COLUMNS(COLUMN)};
+
+enum { N_FRF = sizeof frf_columns / sizeof *frf_columns, N_TRANSIENT = sizeof transient_columns / sizeof *transient_columns };
+enum { N_COMPARE = sizeof compare_columns / sizeof *compare_columns, N_CURVE = sizeof curve_columns / sizeof *curve_columns };
+enum { N_ACCURACY = sizeof accuracy_columns / sizeof *accuracy_columns, N_ORDER = sizeof order_columns / sizeof *order_columns };
+_Static_assert((int)N_ACCURACY <= (int)ROWS_MOST && (int)N_ORDER <= (int)ROWS_MOST, "callers keep ROWS_MOST cells");
+_Static_assert((int)N_FRF <= (int)ROWS_MOST && (int)N_TRANSIENT <= (int)ROWS_MOST, "callers keep ROWS_MOST cells");
+_Static_assert((int)N_COMPARE <= (int)ROWS_MOST && (int)N_CURVE <= (int)ROWS_MOST, "callers keep ROWS_MOST cells");
+
+const table_column *rows_columns(rows_kind kind, int *n)
+{
+  switch (kind) {
+  case ROWS_FRF: *n = N_FRF; return frf_columns;
+  case ROWS_TRANSIENT: *n = N_TRANSIENT; return transient_columns;
+  case ROWS_COMPARE: *n = N_COMPARE; return compare_columns;
+  case ROWS_ACCURACY: *n = N_ACCURACY; return accuracy_columns;
+  case ROWS_ORDER: *n = N_ORDER; return order_columns;
+  default: *n = N_CURVE; return curve_columns;
+  }
+}
+
+void rows_frf(const response_row *r, row_cell *cells) { FRF_COLUMNS(PUT) }
+void rows_transient(const steady_row *r, row_cell *cells) { TRANSIENT_COLUMNS(PUT) }
+void rows_compare(const comparison_row *r, row_cell *cells) { COMPARE_COLUMNS(PUT) }
+void rows_curve(const response_summary *r, row_cell *cells) { CURVE_COLUMNS(PUT) }
+void rows_accuracy(const accuracy_row *r, row_cell *cells) { ACCURACY_COLUMNS(PUT) }
+void rows_order(const order_row *r, row_cell *cells) { ORDER_COLUMNS(PUT) }

@@ -1,0 +1,33 @@
+/* rows.h - the columns of results, one table a kind, for everything that shows or keeps them: the commands, the study.
+ * Names are INTERFACE.md's. A new column is a new line in rows.c and nothing else. Not here: how they are written (show/table.h). */
+#ifndef HC_ROWS_H
+#define HC_ROWS_H
+
+#include "compare/accuracy/accuracy.h"
+#include "compare/comparison.h"
+#include "compare/response.h"
+#include "compare/steady_states.h"
+#include "output/table.h"
+
+typedef enum { ROWS_FRF, ROWS_TRANSIENT, ROWS_COMPARE, ROWS_CURVE, ROWS_ACCURACY, ROWS_ORDER } rows_kind;
+
+enum { ROWS_MOST = 48, ROWS_TEXT = 32 }; /* columns of a kind, asserted; bytes of a text, the end included */
+
+typedef struct row_cell {
+  table_kind kind;
+  bool there;
+  union { char text[ROWS_TEXT]; long integer; double real; } as;
+} row_cell;
+
+/* The columns of a kind, *n of them; constant. */
+const table_column *rows_columns(rows_kind kind, int *n);
+
+/* One row: cells[n] in the columns' order. A real that is not a number is not there. Cannot fail. */
+void rows_frf(const response_row *r, row_cell *cells);
+void rows_transient(const steady_row *r, row_cell *cells);
+void rows_compare(const comparison_row *r, row_cell *cells);
+void rows_curve(const response_summary *r, row_cell *cells);
+void rows_accuracy(const accuracy_row *r, row_cell *cells);
+void rows_order(const order_row *r, row_cell *cells);
+
+#endif

@@ -1,0 +1,225 @@
+/* table.c - the table itself, and csv. The other formats: table_aligned.c, table_wrapped.c, table_json.c. Proof: tests/output/test_table.c. */
+#include "output/table.h"
+
+#include <assert.h>
+#include <limits.h>
+#include <locale.h>
+#include <math.h>
+#include <stdarg.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "output/table_private.h"
+#include "base/utf8.h"
+
+/* The C locale for this thread alone; printf and jansson then write '.'. */
+static bool enter_c_locale(locale_t *c, locale_t *before)
+{
+  *c = newlocale(LC_ALL_MASK, "C", (locale_t)0);
+  if (!*c) return false;
+  *before = uselocale(*c);
+  return true;
+}
+
+static void leave_c_locale(locale_t c, locale_t before)
+{
+  uselocale(before);
+  freelocale(c);
+}
+
+static void check_columns(int n, const table_column *columns)
+{
+  assert(n > 0 && columns);
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < i; ++j) assert(strcmp(columns[i].name, columns[j].name) != 0);
+  (void)columns; /* where assert is nothing */
+}
+
+table *table_new(const char *title, int n_columns, const table_column *columns)
+{
+  check_columns(n_columns, columns);
+  table *t = calloc(1, sizeof *t);
+  if (!t) return NULL;
+  t->n_columns = n_columns;
+  t->columns = columns;
+  t->title = utf8_clean(title ? title : "", true);
+  t->hidden = calloc((size_t)n_columns, sizeof *t->hidden);
+  t->failed = !t->title || !t->hidden;
+  return t;
+}
+
+void table_free(table *t)
+{
+  if (!t) return;
+  for (size_t i = 0; i < t->n_cells; ++i)
+    if (t->columns[i % (size_t)t->n_columns].kind == TABLE_TEXT) free(t->cells[i].as.text);
+  for (size_t i = 0; i < t->n_notes; ++i) free(t->notes[i]);
+  free(t->cells);
+  free(t->notes);
+  free(t->title);
+  free(t->hidden);
+  free(t);
+}
+
+/* Room for one more of `size` bytes in *array, which holds n. */
+static bool reserve(void **array, size_t n, size_t *room, size_t size)
+{
+  if (n < *room) return true;
+  size_t more = *room ? 2 * *room : 64;
+  if (more > SIZE_MAX / 2 / size) return false;
+  void *grown = realloc(*array, more * size);
+  if (!grown) return false;
+  *array = grown;
+  *room = more;
+  return true;
+}
+
+/* The next cell, appended as missing; NULL when that cannot be. */
+static table_cell *next_cell(table *t)
+{
+  if (!t || t->failed) return NULL;
+  void *cells = t->cells;
+  if (t->n_cells >= INT_MAX || !reserve(&cells, t->n_cells, &t->cells_room, sizeof *t->cells)) { t->failed = true; return NULL; }
+  t->cells = cells;
+  table_cell *cell = &t->cells[t->n_cells++];
+  *cell = (table_cell){.there = false};
+  return cell;
+}
+
+/* The same for a value of that kind, which has to be its column's. */
+static table_cell *next_cell_of(table *t, table_kind kind)
+{
+  assert(!t || t->failed || t->columns[t->n_cells % (size_t)t->n_columns].kind == kind);
+  (void)kind; /* where assert is nothing */
+  return next_cell(t);
+}
+
+void table_put_text(table *t, const char *value)
+{
+  table_cell *cell = next_cell_of(t, TABLE_TEXT);
+  if (!cell || !value) return;
+  cell->as.text = utf8_clean(value, false);
+  cell->there = cell->as.text != NULL;
+  if (!cell->there) t->failed = true;
+}
+
+void table_put_integer(table *t, long value)
+{
+  table_cell *cell = next_cell_of(t, TABLE_INTEGER);
+  if (cell) *cell = (table_cell){.there = true, .as.integer = value};
+}
+
+void table_put_real(table *t, double value)
+{
+  table_cell *cell = next_cell_of(t, TABLE_REAL);
+  if (cell && !isnan(value)) *cell = (table_cell){.there = true, .as.real = value};
+}
+
+void table_put_missing(table *t) { next_cell(t); }
+
+/* printf into memory of its own, '.' for the decimal point. */
+__attribute__((format(printf, 1, 0))) static char *print_to_memory(const char *format, va_list args)
+{
+  locale_t c, before;
+  if (!enter_c_locale(&c, &before)) return NULL;
+  va_list again;
+  va_copy(again, args);
+  int n = vsnprintf(NULL, 0, format, args);
+  char *text = n < 0 ? NULL : malloc((size_t)n + 1);
+  if (text) vsnprintf(text, (size_t)n + 1, format, again);
+  va_end(again);
+  leave_c_locale(c, before);
+  return text;
+}
+
+void table_note(table *t, const char *format, ...)
+{
+  if (!t || t->failed) return;
+  va_list args;
+  va_start(args, format);
+  char *text = print_to_memory(format, args);
+  va_end(args);
+  char *note = text ? utf8_clean(text, true) : NULL;
+  free(text);
+  void *notes = t->notes;
+  if (!note || !reserve(&notes, t->n_notes, &t->notes_room, sizeof *t->notes)) { free(note); t->failed = true; return; }
+  t->notes = notes;
+  t->notes[t->n_notes++] = note;
+}
+
+void table_wrap(table *t, int width)
+{
+  if (t) t->wrap = width > 0 ? width : 0;
+}
+
+void table_hide(table *t, const char *column)
+{
+  for (int i = 0; t && t->hidden && i < t->n_columns; ++i)
+    if (!strcmp(t->columns[i].name, column)) t->hidden[i] = true;
+}
+
+int table_rows(const table *t) { return t ? (int)(t->n_cells / (size_t)t->n_columns) : 0; }
+
+void table_write_csv_text(const char *s, FILE *to)
+{
+  bool plain = *s && !strpbrk(s, ",\"\r\n") && !strchr("# \t", *s) && !strchr(" \t", s[strlen(s) - 1]);
+  if (plain) { fputs(s, to); return; }
+  putc('"', to);
+  for (; *s; ++s) {
+    if (*s == '"') putc('"', to);
+    putc(*s, to);
+  }
+  putc('"', to);
+}
+
+static void write_csv_cell(const table *t, int row, int column, FILE *to)
+{
+  const table_cell *cell = table_at(t, row, column);
+  if (!cell->there) {
+    if (t->n_columns == 1) fputs("\"\"", to); /* an empty line would end the table */
+    return;
+  }
+  switch (t->columns[column].kind) {
+  case TABLE_TEXT: table_write_csv_text(cell->as.text, to); break;
+  case TABLE_INTEGER: fprintf(to, "%ld", cell->as.integer); break;
+  case TABLE_REAL: fprintf(to, "%.17g", cell->as.real); break; /* inf and -inf as they should be */
+  }
+}
+
+static void write_csv(const table *t, bool with_title, FILE *to)
+{
+  if (with_title) fprintf(to, *t->title ? "# %s\n" : "# table\n", t->title);
+  for (size_t i = 0; i < t->n_notes; ++i) fprintf(to, *t->notes[i] ? "# %s\n" : "#\n", t->notes[i]);
+  for (int j = 0; j < t->n_columns; ++j) {
+    if (j) putc(',', to);
+    table_write_csv_text(t->columns[j].name, to);
+  }
+  putc('\n', to);
+  for (int i = 0; i < table_rows(t); ++i) {
+    for (int j = 0; j < t->n_columns; ++j) {
+      if (j) putc(',', to);
+      write_csv_cell(t, i, j, to);
+    }
+    putc('\n', to);
+  }
+}
+
+hc_status table_write(int n, table *const *tables, table_format format, FILE *to)
+{
+  for (int k = 0; k < n; ++k) {
+    if (!tables[k] || tables[k]->failed) return HC_NO_MEMORY;
+    assert(tables[k]->n_cells % (size_t)tables[k]->n_columns == 0);
+  }
+  locale_t c, before;
+  if (!enter_c_locale(&c, &before)) return HC_NO_MEMORY;
+  hc_status st = HC_OK;
+  if (format == FORMAT_JSON) st = table_write_json(n, tables, to);
+  for (int k = 0; k < n && format != FORMAT_JSON && st == HC_OK; ++k) {
+    if (k) putc('\n', to);
+    if (format == FORMAT_CSV) write_csv(tables[k], n > 1, to);
+    else st = tables[k]->wrap ? table_write_wrapped(tables[k], to) : table_write_aligned(tables[k], to);
+  }
+  leave_c_locale(c, before);
+  return ferror(to) ? HC_IO : st;
+}

@@ -1,0 +1,38 @@
+/* table_private.h - what a table holds, for table.c and the writers of each format. */
+#ifndef HC_TABLE_PRIVATE_H
+#define HC_TABLE_PRIVATE_H
+
+#include "output/table.h"
+
+typedef struct table_cell {
+  bool there; /* false: missing, whatever the kind (a NaN is stored so) */
+  union { char *text; long integer; double real; } as; /* by the column's kind; text is owned, valid UTF-8 */
+} table_cell;
+
+struct table {
+  char *title; /* one line, "" for none */
+  int n_columns;
+  const table_column *columns; /* [n_columns] the caller's */
+  size_t n_cells, cells_room;  /* a row after another; n_cells is a multiple of n_columns between rows */
+  table_cell *cells;
+  size_t n_notes, notes_room;
+  char **notes; /* one line each */
+  bool *hidden; /* [n_columns] left out of the aligned format */
+  int wrap;     /* columns of the terminal to fit into, 0: each row is one line */
+  bool failed;  /* an allocation did: nothing is appended any more */
+};
+
+static inline const table_cell *table_at(const table *t, int row, int column)
+{
+  return &t->cells[(size_t)row * (size_t)t->n_columns + (size_t)column];
+}
+
+/* Called with the C locale in force; HC_OK or HC_NO_MEMORY: whether the stream failed is the caller's to ask. */
+hc_status table_write_aligned(const table *t, FILE *to);
+hc_status table_write_wrapped(const table *t, FILE *to);
+/* A csv cell: quotes where RFC 4180 asks for them, where a reader might strip or skip (outer blanks, '#'), and for empty text, which is not
+ * missing. */
+void table_write_csv_text(const char *s, FILE *to);
+hc_status table_write_json(int n, table *const *tables, FILE *to);
+
+#endif

@@ -1,0 +1,176 @@
+/* test_number.c - strict numbers: what is one, what is not, the same in a locale with a decimal comma, and back to the same bits. */
+#include <errno.h>
+#include <float.h>
+#include <limits.h>
+#include <locale.h>
+
+#include "base/number.h"
+#include "tests/cases/case_text.h"
+
+static void numbers_are_read_whole(void **state)
+{
+  (void)state;
+  static const struct {
+    const char *text;
+    double value;
+  } good[] = {
+      {"0", 0},
+      {"5", 5},
+      {"+5", 5},
+      {"-5", -5},
+      {"5.", 5},
+      {".5", 0.5},
+      {"1.25e2", 125},
+      {"1E+2", 100},
+      {"1e-2", 0.01},
+      {"007", 7},
+      {"1.7976931348623157e308", DBL_MAX},
+      {"4.9406564584124654e-324", 4.9406564584124654e-324},
+      {"0e999", 0},
+  };
+  for (size_t i = 0; i < sizeof good / sizeof *good; ++i) {
+    double x = -99;
+    assert_int_equal(number_read(good[i].text, strlen(good[i].text), &x), NUMBER_FINE);
+    if (x != good[i].value) print_error("%s: %.17g\n", good[i].text, x);
+    assert_true(x == good[i].value);
+  }
+}
+
+static void what_is_no_number_says_why(void **state)
+{
+  (void)state;
+  static const struct {
+    const char *text;
+    number_fault fault;
+  } bad[] = {
+      {"", NUMBER_NONE},
+      {"12,5", NUMBER_NONE},
+      {"1e5, 3", NUMBER_NONE},
+      {"0x10", NUMBER_NONE},
+      {"1_000", NUMBER_NONE},
+      {"5 m", NUMBER_NONE},
+      {" 5", NUMBER_NONE},
+      {"5 ", NUMBER_NONE},
+      {"1e", NUMBER_NONE},
+      {"e5", NUMBER_NONE},
+      {".", NUMBER_NONE},
+      {"+", NUMBER_NONE},
+      {"--5", NUMBER_NONE},
+      {"1.2.3", NUMBER_NONE},
+      {"1e5.0", NUMBER_NONE},
+      {"0b1", NUMBER_NONE},
+      {"1f", NUMBER_NONE},
+      {"five", NUMBER_NONE},
+      {"na", NUMBER_NONE},
+      {"nans", NUMBER_NONE},
+      {"nan(1)", NUMBER_NONE},
+      {"nan", NUMBER_NOT_FINITE},
+      {"NaN", NUMBER_NOT_FINITE},
+      {".nan", NUMBER_NOT_FINITE},
+      {"inf", NUMBER_NOT_FINITE},
+      {"-.Inf", NUMBER_NOT_FINITE},
+      {"+infinity", NUMBER_NOT_FINITE},
+      {"1e309", NUMBER_TOO_LARGE},
+      {"-1e999", NUMBER_TOO_LARGE},
+      {"1e-999", NUMBER_TOO_SMALL},
+      {"\xC2\xA0"
+       "5",
+       NUMBER_NONE},
+  };
+  for (size_t i = 0; i < sizeof bad / sizeof *bad; ++i) {
+    double x = -99;
+    number_fault fault = number_read(bad[i].text, strlen(bad[i].text), &x);
+    if (fault != bad[i].fault) print_error("`%s`: %d\n", bad[i].text, (int)fault);
+    assert_int_equal(fault, bad[i].fault);
+    assert_true(x == -99);
+  }
+  double x = -99;
+  assert_int_equal(number_read("5\0006", 3, &x), NUMBER_NONE);
+  char long_text[1000];
+  memset(long_text, '1', sizeof long_text);
+  assert_int_equal(number_read(long_text, sizeof long_text, &x), NUMBER_NONE);
+}
+
+static void integers_are_digits(void **state)
+{
+  (void)state;
+  static const struct {
+    const char *text;
+    number_fault fault;
+    int value;
+  } all[] = {
+      {"1024", NUMBER_FINE, 1024},
+      {"+7", NUMBER_FINE, 7},
+      {"-7", NUMBER_FINE, -7},
+      {"2147483647", NUMBER_FINE, INT_MAX},
+      {"-2147483648", NUMBER_FINE, INT_MIN},
+      {"2147483648", NUMBER_TOO_LARGE, 0},
+      {"1e3", NUMBER_NOT_INTEGER, 0},
+      {"1.0", NUMBER_NOT_INTEGER, 0},
+      {"1.5", NUMBER_NOT_INTEGER, 0},
+      {"", NUMBER_NONE, 0},
+      {"x", NUMBER_NONE, 0},
+      {"99999999999999999999", NUMBER_TOO_LARGE, 0},
+  };
+  for (size_t i = 0; i < sizeof all / sizeof *all; ++i) {
+    int x = 0;
+    assert_int_equal(number_read_integer(all[i].text, strlen(all[i].text), &x), all[i].fault);
+    assert_int_equal(x, all[i].value);
+  }
+}
+
+static void written_numbers_come_back(void **state)
+{
+  (void)state;
+  char text[NUMBER_TEXT];
+  assert_string_equal(number_write(0.1, text), "0.1");
+  assert_string_equal(number_write(1e-9, text), "1e-9");
+  assert_string_equal(number_write(1e20, text), "1e+20");
+  assert_string_equal(number_write(1e100, text), "1e+100");
+  assert_string_equal(number_write(-0.0, text), "-0");
+  uint64_t s = 4;
+  for (int i = 0; i < 20000; ++i) {
+    uint64_t bits = draw(&s);
+    double x, back = 0;
+    memcpy(&x, &bits, sizeof x);
+    if (!isfinite(x)) continue;
+    number_write(x, text);
+    assert_int_equal(number_read(text, strlen(text), &back), NUMBER_FINE);
+    assert_memory_equal(&x, &back, sizeof x);
+  }
+}
+
+static void errno_is_left_alone(void **state)
+{
+  (void)state;
+  double x;
+  errno = 42;
+  number_read("1e-310", 6, &x);
+  number_read("1e999", 5, &x);
+  assert_int_equal(errno, 42);
+}
+
+/* With a decimal comma for the host program, nothing changes; skipped where no such locale is installed. */
+static void locale_does_not_matter(void **state)
+{
+  static const char *const names[] = {"de_DE.UTF-8", "de_DE.utf8", "de_DE", "fr_FR.UTF-8", "fr_FR.utf8"};
+  const char *set = NULL;
+  for (size_t i = 0; i < sizeof names / sizeof *names && !set; ++i) set = setlocale(LC_ALL, names[i]);
+  if (!set) skip();
+  assert_string_equal(localeconv()->decimal_point, ","); /* or the test would prove nothing */
+  numbers_are_read_whole(state);
+  what_is_no_number_says_why(state);
+  written_numbers_come_back(state);
+  scene sc;
+  accepted(SMALLEST "gate: {mean: 2.5e-3}\n", "hbm.tolerance=1.5e-9", &sc);
+  assert_true(sc.damping == 0.4 && sc.gate.mean == 2.5e-3 && sc.hbm.tolerance == 1.5e-9);
+  assert_string_equal(localeconv()->decimal_point, ","); /* and the host's locale is still its own */
+  setlocale(LC_ALL, "C");
+}
+
+static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(numbers_are_read_whole),    cmocka_unit_test(what_is_no_number_says_why), cmocka_unit_test(integers_are_digits),
+    cmocka_unit_test(written_numbers_come_back), cmocka_unit_test(errno_is_left_alone),        cmocka_unit_test(locale_does_not_matter),
+};
+
+CHECK_MAIN("cases.number", tests, 60)

@@ -1,0 +1,234 @@
+/* test_page.c - the page that hbmcheck report writes: whole or not there, small, self-contained, the same twice, safe with any title.
+ * What a browser makes of it: test_browser.c. */
+#include <jansson.h>
+
+#include "tests/command/report/run.h"
+
+enum { MOST_BYTES = 1000000 }; /* "under 1 MB" */
+
+static void count(const char *text, const char *what, int expected)
+{
+  int n = 0;
+  for (const char *at = text; (at = strstr(at, what)); at += strlen(what)) ++n;
+  if (n != expected) { print_error("'%s' occurs %d times, expected %d\n", what, n, expected); fail(); }
+}
+
+/* The data block as it would be read by the page; to be released. */
+static json_t *data_of(const char *page)
+{
+  static const char before[] = "<script type=\"application/json\" id=\"data\">";
+  const char *from = strstr(page, before);
+  assert_non_null(from);
+  from += strlen(before);
+  const char *to = strstr(from, "</script>");
+  assert_non_null(to);
+  json_error_t error;
+  json_t *data = json_loadb(from, (size_t)(to - from), JSON_REJECT_DUPLICATES, &error);
+  if (!data) print_error("the data block: %s\n", error.text);
+  assert_non_null(data);
+  return data;
+}
+
+static void check_words(const char *page)
+{
+  static const char *const words[] = {"They agree.", "within the gate", "exact forces need none", "<code>unstable</code>", "contact goes from linear to separation",
+                                      "turning point", "from_<wbr>truncation", "normal_stiffness: 1000", "hbmcheck report " CASE2 " --at 8,9 --harmonics 1,5 --samples 32,512",
+                                      "SUNDIALS ", "Chart.js ", "Permission is hereby granted"};
+  for (size_t i = 0; i < sizeof words / sizeof *words; ++i)
+    if (!strstr(page, words[i])) { print_error("the page does not say '%s'\n", words[i]); fail(); }
+}
+
+/* Nothing is loaded: no element with an address, and the browser is told to allow none. */
+static void check_self_contained(const char *page)
+{
+  static const char *const loads[] = {"src=\"", "src='", "href=\"http", "href=\"//", "@import", "url(", "<link rel=\"stylesheet", "<iframe", "XMLHttpRequest", "fetch("};
+  for (size_t i = 0; i < sizeof loads / sizeof *loads; ++i)
+    if (strstr(page, loads[i])) { print_error("the page holds '%s'\n", loads[i]); fail(); }
+  assert_non_null(strstr(page, "default-src 'none'"));
+  assert_null(strstr(page, "{{"));
+}
+
+static void check_data(const char *page)
+{
+  json_t *data = data_of(page), *curve = json_object_get(json_object_get(data, "response"), "curve"), *aliasing = json_object_get(data, "aliasing");
+  size_t n = json_array_size(json_object_get(curve, "omega")), turns = 0;
+  assert_true(n > 50);
+  assert_int_equal(json_array_size(json_object_get(curve, "amplitude")), n);
+  for (size_t i = 1; i < n; ++i) /* a folded curve stays in its own order */
+    turns += json_number_value(json_array_get(json_object_get(curve, "omega"), i)) < json_number_value(json_array_get(json_object_get(curve, "omega"), i - 1));
+  assert_true(turns > 5);
+  assert_int_equal(json_array_size(json_object_get(aliasing, "omega")), 2);
+  assert_int_equal(json_array_size(json_object_get(aliasing, "samples")), 9);
+  assert_int_equal(json_array_size(json_array_get(json_array_get(json_object_get(aliasing, "states"), 0), 4)), 5);
+  json_decref(data);
+}
+
+static void page_is_small_and_complete(void **state)
+{
+  (void)state;
+  char folder[64], args[512], path[2][96];
+  size_t length[2];
+  char *page[2];
+  make_folder(folder);
+  for (int i = 0; i < 2; ++i) {
+    snprintf(path[i], sizeof path[i], "%s/%d.html", folder, i);
+    snprintf(args, sizeof args, "report " CASE2 SMALL "-o %s 2>&1", path[i]);
+    expect(args, 0, "");
+    page[i] = contents(path[i], &length[i]);
+    unlink(path[i]);
+  }
+  assert_int_equal(length[0], length[1]);
+  assert_memory_equal(page[0], page[1], length[0]); /* same input, same bytes */
+  CHECK_LE((double)length[0], MOST_BYTES, "bytes of the page");
+  assert_int_equal(strncmp(page[0], "<!doctype html>", 15), 0);
+  assert_non_null(strstr(page[0] + length[0] - 16, "</html>"));
+  count(page[0], "<script", 3);
+  count(page[0], "</script>", 3);
+  check_words(page[0]);
+  check_self_contained(page[0]);
+  check_data(page[0]);
+  free(page[0]);
+  free(page[1]);
+  rmdir(folder);
+}
+
+/* The sampled spectrum is the true one plus what folds onto it: F_h + conj(F_{N-h}) + F_{N+h} + ..., here for the mean of 32 samples,
+ * where sampled - true = Re(F_N + F_2N + ...). The first term is in the page to 1e-6 of the largest force; the rest falls like 1/n^2, at
+ * most sum_{m>=2} |F_N|/m^2 < 0.65 times the kinks' bound, for which 3 times the largest of |F_N|, |F_{N-1}|, |F_{N+1}| stands. */
+static void sampled_mean_is_what_folds_onto_it(void **state)
+{
+  (void)state;
+  char folder[64], args[512], path[96];
+  size_t length;
+  make_folder(folder);
+  snprintf(path, sizeof path, "%s/page.html", folder);
+  snprintf(args, sizeof args, "report " CASE2 SMALL "-o %s 2>&1", path);
+  expect(args, 0, "");
+  char *page = contents(path, &length);
+  json_t *data = data_of(page), *aliasing = json_object_get(data, "aliasing");
+  json_t *one = json_array_get(json_array_get(json_array_get(json_object_get(aliasing, "states"), 1), 2), 2); /* omega 9, the case's kn, H = 5 */
+  json_t *truth = json_object_get(one, "true"), *sampled = json_array_get(json_object_get(one, "sampled"), 1);
+  json_t *difference = json_object_get(sampled, "difference"), *folds = json_object_get(sampled, "folds");
+  double off = json_integer_value(json_array_get(difference, 0)) * 1e-9, first = json_integer_value(json_array_get(truth, 2 * 32 - 1)) * 1e-6, most = 0;
+  for (size_t i = 0; i < 4; ++i) most = fmax(most, json_integer_value(json_array_get(folds, i)) * 1e-9);
+  CHECK_LE(fabs(off - first), 3 * 0.65 * most + 1e-6, "sampled mean - true mean = %g, Re F_32 = %g", off, first);
+  CHECK_LE(1e-5, fabs(off), "something does fold");
+  json_decref(data);
+  free(page);
+  unlink(path);
+  rmdir(folder);
+}
+
+static void hostile_titles_are_text(void **state)
+{
+  (void)state;
+  char folder[64], args[512], path[96];
+  size_t length;
+  make_folder(folder);
+  snprintf(path, sizeof path, "%s/page.html", folder);
+  snprintf(args, sizeof args, "report " CASE2 SMALL "--at 9 -o %s --set 'title=</script></title><b>x</b>{{data}}&' --set 'units.length=</scr' 2>&1", path);
+  expect(args, 0, "");
+  char *page = contents(path, &length);
+  count(page, "</script>", 3);
+  count(page, "</title>", 1);
+  assert_null(strstr(page, "<b>x</b>"));
+  assert_null(strstr(page, "</scr\"")); /* the unit, in the data block */
+  assert_non_null(strstr(page, "<h1>&lt;/script&gt;&lt;/title&gt;&lt;b&gt;x&lt;/b&gt;{{data}}&amp;</h1>"));
+  json_t *data = data_of(page);
+  assert_string_equal(json_string_value(json_object_get(json_object_get(data, "units"), "length")), "</scr");
+  json_decref(data);
+  free(page);
+  unlink(path);
+  rmdir(folder);
+}
+
+/* Without contacts, and where they do nothing, there is nothing to alias; a page comes all the same. */
+static void linear_cases_have_a_page(void **state)
+{
+  (void)state;
+  static const char *const sets[] = {"--set contacts=[]", "--set forcing.amplitude=0.001"};
+  for (size_t i = 0; i < sizeof sets / sizeof *sets; ++i) {
+    char folder[64], args[512], path[96];
+    size_t length;
+    make_folder(folder);
+    snprintf(path, sizeof path, "%s/page.html", folder);
+    snprintf(args, sizeof args, "report " CASE2 SMALL "%s -o %s 2>&1", sets[i], path);
+    expect(args, 0, "");
+    char *page = contents(path, &length);
+    json_t *data = data_of(page);
+    assert_true(json_is_null(json_object_get(data, "aliasing")));
+    json_decref(data);
+    free(page);
+    unlink(path);
+    rmdir(folder);
+  }
+}
+
+/* Exit codes are compare's; a page that could not be written leaves what was there. */
+static void failures_touch_no_file(void **state)
+{
+  (void)state;
+  char folder[64], args[512], path[96], text[16] = {0};
+  make_folder(folder);
+  snprintf(path, sizeof path, "%s/page.html", folder);
+  FILE *f = fopen(path, "w");
+  assert_non_null(f);
+  fputs("before", f);
+  fclose(f);
+  snprintf(args, sizeof args, "report " CASE2 " --set hbm.harmonics=0 -o %s 2>&1", path);
+  expect(args, 2, "hbm.harmonics");
+  snprintf(args, sizeof args, "report " CASE2 " --format csv -o %s 2>&1", path);
+  expect(args, 64, "HTML");
+  snprintf(args, sizeof args, "-s INT 0.3 %s report " CASE2 " -q -o %s 2>&1", HBMCHECK_COMMAND, path);
+  outcome o = run_program("timeout --preserve-status", args);
+  assert_int_equal(o.code, 3);
+  assert_non_null(strstr(o.out, "stopped on request"));
+  f = fopen(path, "r");
+  assert_non_null(f);
+  assert_non_null(fgets(text, sizeof text, f));
+  assert_string_equal(text, "before");
+  fclose(f);
+  unlink(path);
+  assert_int_equal(rmdir(folder), 0); /* nothing else was left */
+  expect("report " CASE2 SMALL "-o /nonexistent/page.html 2>&1", 3, "/nonexistent/page.html: No such file");
+  expect("report 2>&1", 64, "CASE");
+  expect("report --help", 0, "example");
+}
+
+/* Dropping harmonic 0 is the worst one can do to case 2: the page says so, names the cure, and the exit code is compare's. */
+static void disagreement_is_said(void **state)
+{
+  (void)state;
+  char folder[64], args[512], path[96];
+  size_t length;
+  make_folder(folder);
+  snprintf(path, sizeof path, "%s/page.html", folder);
+  snprintf(args, sizeof args, "report " CASE2 SMALL "--set hbm.static=false -o %s 2>&1", path);
+  expect(args, 1, "");
+  char *page = contents(path, &length);
+  assert_non_null(strstr(page, "They do not agree."));
+  assert_non_null(strstr(page, "use hbm.static: true"));
+  assert_non_null(strstr(page, "no number of harmonics mends it"));
+  free(page);
+  unlink(path);
+  rmdir(folder);
+}
+
+/* Built without Chart.js, the command names what is missing. */
+static void missing_charts_are_named(void **state)
+{
+  (void)state;
+  expect("report " CASE2 " 2>&1", 64, "libjs-chart.js");
+}
+
+int main(void)
+{
+  static const struct CMUnitTest without[] = {cmocka_unit_test(missing_charts_are_named)};
+  static const struct CMUnitTest with[] = {
+      cmocka_unit_test(page_is_small_and_complete), cmocka_unit_test(sampled_mean_is_what_folds_onto_it), cmocka_unit_test(hostile_titles_are_text),
+      cmocka_unit_test(linear_cases_have_a_page), cmocka_unit_test(failures_touch_no_file), cmocka_unit_test(disagreement_is_said),
+  };
+  check_watchdog(600);
+  return HAVE_CHARTJS ? cmocka_run_group_tests_name("compare_report.page", with, NULL, NULL)
+                      : cmocka_run_group_tests_name("compare_report.page", without, NULL, NULL);
+}

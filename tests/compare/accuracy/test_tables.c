@@ -1,0 +1,126 @@
+/* test_tables.c - the table over samples and truncation order: its reference, its counts, and what it says of case 2. */
+#include "compare/accuracy/accuracy.h"
+#include "tests/check.h"
+#include "tests/hbm/scenes.h"
+
+static scene case2(void)
+{
+  scene sc = scene_named("c2", 10, true, 1024);
+  sc.hbm.force = HBM_FORCE_EXACT;
+  sc.transient = (scene_transient){.law = TRANSIENT_LAW_EXACT, .regularisation = 1e-4, .tolerance = 1e-9, .max_periods = 20000,
+                                   .steady = TRANSIENT_STEADY_SHOOTING};
+  sc.gate = (scene_gate){1e-3, 1e-3, 1e-3, 5e-3};
+  sc.compare.omega = (scene_list){2, {6, 8}};
+  return sc;
+}
+
+static const accuracy_row *find(const accuracy *a, int harmonics, int samples)
+{
+  for (int i = 0; i < a->n_rows; ++i)
+    if (a->rows[i].harmonics == harmonics && a->rows[i].samples == samples) return &a->rows[i];
+  fail_msg("no row %d, %d", harmonics, samples);
+  abort();
+}
+
+/* Lists unsorted and with a repetition; 8 samples are too few for 10 harmonics. One orbit at 6, three at 8. */
+static void rows_are_the_grid(void **state)
+{
+  (void)state;
+  scene sc = case2();
+  comparison c;
+  accuracy a;
+  sc.compare.harmonics = (scene_list){3, {10, 3, 10}};
+  sc.compare.samples = (scene_list){2, {2048, 8}};
+  assert_int_equal(comparison_run(&sc, NULL, &c), HC_OK);
+  assert_int_equal(accuracy_run(&sc, &c, NULL, &a), HC_OK);
+  assert_int_equal(a.n_rows, 6);
+  assert_int_equal(a.orbits, 4);
+  assert_int_equal(a.frequencies, 2);
+  assert_false(find(&a, 10, 8)->possible);
+  assert_true(isnan(find(&a, 10, 8)->worst));
+  assert_true(find(&a, 3, 8)->possible); /* 2 H + 2 just */
+  const accuracy_row *fine = find(&a, 10, 0), *coarse = find(&a, 3, 0), *sampled = find(&a, 10, 2048);
+  assert_int_equal(fine->missing, 0);
+  assert_int_equal(fine->turning_points, 2);
+  assert_int_equal(fine->false_turning_points, 0);
+  CHECK_LE(fine->worst, coarse->worst, "more harmonics");
+  CHECK_LE(fine->worst, sampled->worst + sampled->aliasing, "the triangle");
+  CHECK_NEAR(fine->aliasing, 0, 0, "exact forces");
+  accuracy_clear(&a);
+  comparison_clear(&c);
+}
+
+/* The worst error of H = 10 with exact forces is what the rows of the comparison say themselves. */
+static void the_table_agrees_with_the_rows(void **state)
+{
+  (void)state;
+  scene sc = case2();
+  comparison c;
+  accuracy a;
+  double worst = 0;
+  sc.compare.harmonics = (scene_list){1, {10}};
+  assert_int_equal(comparison_run(&sc, NULL, &c), HC_OK);
+  assert_int_equal(accuracy_run(&sc, &c, NULL, &a), HC_OK);
+  for (int i = 0; i < c.n_rows; ++i)
+    worst = fmax(worst, fabs(c.rows[i].hbm.amplitude - c.rows[i].orbit.amplitude) / c.rows[i].orbit.amplitude);
+  CHECK_NEAR(a.rows[0].worst, worst, 1e-8, "twice the residual tolerance, over 1 - multiplier"); 
+  accuracy_clear(&a);
+  comparison_clear(&c);
+}
+
+/* The peak of the exact transient against that of H = 40 and 80 with exact forces, whose error falls like H^-3 or faster: the last is within
+ * 1/(2^3 - 1) of the difference of the two, and the frequency's likewise. */
+static void the_peak_is_the_limit_of_many_harmonics(void **state)
+{
+  (void)state;
+  scene sc = case2();
+  comparison c;
+  accuracy a;
+  sc.compare.harmonics = (scene_list){2, {40, 80}};
+  assert_int_equal(comparison_run(&sc, NULL, &c), HC_OK);
+  assert_int_equal(accuracy_run(&sc, &c, NULL, &a), HC_OK);
+  const accuracy_row *h40 = find(&a, 40, 0), *h80 = find(&a, 80, 0);
+  assert_true(a.peak_by_orbit);
+  CHECK_NEAR(a.peak_amplitude, h80->peak_amplitude, fabs(h80->peak_amplitude - h40->peak_amplitude) / 7 + 1e-8, "amplitude");
+  CHECK_NEAR(a.peak_omega, h80->peak_omega, fabs(h80->peak_omega - h40->peak_omega) / 7 + 1e-6 * a.peak_omega, "omega");
+  accuracy_clear(&a);
+  comparison_clear(&c);
+}
+
+static bool stop_at_once(void *self, double done)
+{
+  (void)done;
+  return --*(int *)self > 0;
+}
+
+/* Interrupted anywhere: HC_INTERRUPTED, whole rows, nothing lost. */
+static void an_interrupt_keeps_whole_rows(void **state)
+{
+  (void)state;
+  scene sc = case2();
+  comparison c;
+  sc.compare.harmonics = (scene_list){2, {1, 3}};
+  assert_int_equal(comparison_run(&sc, NULL, &c), HC_OK);
+  for (int ticks = 1; ticks < 400; ticks = 2 * ticks + 1) {
+    accuracy a;
+    int left = ticks;
+    hc_monitor monitor = {stop_at_once, &left};
+    hc_status st = accuracy_run(&sc, &c, &monitor, &a);
+    assert_int_equal(st, left > 0 ? HC_OK : HC_INTERRUPTED);
+    for (int i = 0; i < a.n_rows; ++i) assert_true(a.rows[i].harmonics == 1 || a.rows[i].harmonics == 3);
+    accuracy_clear(&a);
+  }
+  comparison_clear(&c);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(rows_are_the_grid),
+      cmocka_unit_test(the_table_agrees_with_the_rows),
+      cmocka_unit_test(the_peak_is_the_limit_of_many_harmonics),
+      cmocka_unit_test(an_interrupt_keeps_whole_rows),
+  };
+  check_watchdog(240);
+  return cmocka_run_group_tests_name("compare.budget_tables", tests, NULL, NULL);
+}

@@ -1,0 +1,206 @@
+/* test_contact_law.c - the exact contact law, branch by branch, and what holds between branches. */
+#include <float.h>
+
+#include "model/scene.h"
+#include "tests/cases/case_text.h"
+
+/* Dyadic numbers: every product and sum below is exact, so equality is asked for. */
+static const contact law = {.kt = 4, .kn = 8, .mu = 0.25, .gap = 0.5};
+
+static void separated_lets_go_and_follows(void **state)
+{
+  (void)state;
+  double w = 7, t = 9;
+  assert_int_equal(contact_step(&law, 3, -1, &w, &t), CONTACT_SEPARATED);
+  assert_true(w == 3 && t == 0);
+  w = 7, t = 9;
+  assert_int_equal(contact_step(&law, 3, -0.5, &w, &t), CONTACT_SEPARATED); /* v + gap = 0: N = 0 */
+  assert_true(w == 3 && t == 0);
+  assert_true(contact_normal(&law, -0.5) == 0 && contact_normal(&law, -1) == 0 && contact_normal(&law, 0.5) == 8);
+  assert_true(contact_preload(&law) == 4);
+  assert_true(contact_preload(&(contact){.kn = 8, .gap = -0.5}) == 0);
+}
+
+static void stick_is_a_spring_to_the_slider(void **state)
+{
+  (void)state;
+  double w = 1, t; /* N = 8, limit 2, so |u - w| <= 0.5 sticks, the limit included */
+  assert_int_equal(contact_step(&law, 1.25, 0.5, &w, &t), CONTACT_STICK);
+  assert_true(w == 1 && t == 1);
+  assert_int_equal(contact_step(&law, 1.5, 0.5, &w, &t), CONTACT_STICK);
+  assert_true(w == 1 && t == 2);
+  assert_int_equal(contact_step(&law, 0.5, 0.5, &w, &t), CONTACT_STICK);
+  assert_true(w == 1 && t == -2);
+}
+
+static void slip_holds_the_limit_and_drags_the_slider(void **state)
+{
+  (void)state;
+  double w = 1, t;
+  assert_int_equal(contact_step(&law, 3, 0.5, &w, &t), CONTACT_SLIP_PLUS);
+  assert_true(t == 2 && w == 2.5);
+  assert_int_equal(contact_step(&law, -3, 0.5, &w, &t), CONTACT_SLIP_MINUS);
+  assert_true(t == -2 && w == -2.5);
+  assert_int_equal(contact_slip_sign(CONTACT_SLIP_PLUS), 1);
+  assert_int_equal(contact_slip_sign(CONTACT_SLIP_MINUS), -1);
+  assert_int_equal(contact_slip_sign(CONTACT_STICK), 0);
+  assert_int_equal(contact_slip_sign(CONTACT_SEPARATED), 0);
+}
+
+static void no_tangential_spring_means_no_friction_force(void **state)
+{
+  (void)state;
+  contact c = law;
+  double w = 1, t = 5;
+  c.kt = 0;
+  assert_int_equal(contact_step(&c, 100, 0.5, &w, &t), CONTACT_STICK);
+  assert_true(t == 0 && w == 1);
+  c.mu = 0; /* 0 <= 0: still no division by kt = 0 */
+  assert_int_equal(contact_step(&c, 100, 0.5, &w, &t), CONTACT_STICK);
+  assert_true(t == 0 && w == 1);
+  assert_int_equal(contact_step(&c, 100, -1, &w, &t), CONTACT_SEPARATED);
+  assert_true(t == 0 && w == 100);
+}
+
+static void no_friction_slips_with_the_slider_on_the_mass(void **state)
+{
+  (void)state;
+  contact c = law;
+  double w = 1, t = 5;
+  c.mu = 0;
+  assert_int_equal(contact_step(&c, 3, 0.5, &w, &t), CONTACT_SLIP_PLUS);
+  assert_true(t == 0 && w == 3);
+  assert_int_equal(contact_step(&c, 2, 0.5, &w, &t), CONTACT_SLIP_MINUS);
+  assert_true(t == 0 && w == 2);
+}
+
+static void touching_decides_by_the_velocities(void **state)
+{
+  (void)state; /* kt du against mu kn dv = 2 dv */
+  assert_int_equal(contact_on_touch(&law, 1, 1), CONTACT_SLIP_PLUS);
+  assert_int_equal(contact_on_touch(&law, -1, 1), CONTACT_SLIP_MINUS);
+  assert_int_equal(contact_on_touch(&law, 0.5, 1), CONTACT_STICK); /* equal: sticks */
+  assert_int_equal(contact_on_touch(&law, -0.5, 1), CONTACT_STICK);
+  assert_int_equal(contact_on_touch(&law, 0, 1), CONTACT_STICK);
+}
+
+/* For one slider position T = clamp(kt (u - w), +-mu N(v)), so |T1 - T2| <= kt |u1 - u2| + mu kn |v1 - v2| across every
+ * transition, separation included. Rounding: each T is off by at most 3 eps (kt (|u| + |w|) + mu kn (|v| + |gap|)), below 60 eps
+ * with the numbers drawn here; two of them make 120 eps. */
+static void force_has_no_jump(void **state)
+{
+  (void)state;
+  uint64_t s = 1;
+  int states[4] = {0};
+  for (int i = 0; i < 20000; ++i) {
+    contact c = {.kt = 4 * draw_unit(&s), .kn = 4 * draw_unit(&s), .mu = draw_unit(&s), .gap = 2 * draw_unit(&s) - 1};
+    double w = 2 * draw_unit(&s) - 1, w1 = w, w2 = w, u = 2 * draw_unit(&s) - 1, v = 2 * draw_unit(&s) - 1;
+    double step = 1e-3, du = step * (2 * draw_unit(&s) - 1), dv = step * (2 * draw_unit(&s) - 1), t1, t2;
+    contact_state a = contact_step(&c, u, v, &w1, &t1), b = contact_step(&c, u + du, v + dv, &w2, &t2);
+    CHECK_LE(fabs(t2 - t1), c.kt * fabs(du) + c.mu * c.kn * fabs(dv) + 120 * DBL_EPSILON, "i=%d", i);
+    if (a != b) ++states[a];
+  }
+  for (int i = 0; i < 4; ++i) assert_true(states[i] > 0); /* transitions of every kind were met */
+}
+
+/* After a slipping step the stick guard of that side is 0 and of the other 2 mu N. w = u - T/kt is rounded twice and
+ * u - w once, each by at most eps/2 of a term below kt |u| + mu N <= 4 + 8: 3 * 12 eps/2 = 18 eps, and mu N's own rounding 2 eps. */
+static void guards_vanish_where_states_end(void **state)
+{
+  (void)state;
+  uint64_t s = 2;
+  int slips = 0;
+  for (int i = 0; i < 20000; ++i) {
+    contact c = {.kt = 0.5 + 3.5 * draw_unit(&s), .kn = 4 * draw_unit(&s), .mu = draw_unit(&s), .gap = draw_unit(&s)};
+    double w = 2 * draw_unit(&s) - 1, u = 2 * draw_unit(&s) - 1, v = 2 * draw_unit(&s) - 1, t;
+    contact_state st = contact_step(&c, u, v, &w, &t);
+    int sign = contact_slip_sign(st);
+    double limit = c.mu * contact_normal(&c, v);
+    if (st == CONTACT_STICK) assert_true(contact_guard_stick(&c, 1, u, v, w) >= 0 && contact_guard_stick(&c, -1, u, v, w) >= 0);
+    if (!sign) continue;
+    ++slips;
+    CHECK_NEAR(contact_guard_stick(&c, sign, u, v, w), 0, 20 * DBL_EPSILON, "i=%d", i);
+    CHECK_NEAR(contact_guard_stick(&c, -sign, u, v, w), 2 * limit, 20 * DBL_EPSILON, "i=%d", i);
+  }
+  assert_true(slips > 1000);
+  assert_true(contact_guard_slip(&law, 1, 1, 1) == 2 && contact_guard_slip(&law, -1, 1, 1) == -6);
+}
+
+/* A small step h after touching, u = u0 + du h, v = -gap + dv h, w = u0, is in the state that on_touch foretold.
+ * kt du h and mu kn dv h scale alike, so only draws within rounding of equality could differ; those are left out. */
+static void touching_agrees_with_the_step_after_it(void **state)
+{
+  (void)state;
+  uint64_t s = 3;
+  int seen[4] = {0};
+  for (int i = 0; i < 20000; ++i) {
+    contact c = {.kt = 4 * draw_unit(&s), .kn = 4 * draw_unit(&s), .mu = draw_unit(&s), .gap = 0};
+    double du = 2 * draw_unit(&s) - 1, dv = draw_unit(&s) + 0x1p-20, h = 0x1p-10, w = 0, t;
+    if (fabs(c.kt * fabs(du) - c.mu * c.kn * dv) < 1e-12) continue;
+    contact_state st = contact_on_touch(&c, du, dv);
+    assert_int_equal(contact_step(&c, du * h, dv * h, &w, &t), st);
+    ++seen[st];
+  }
+  assert_true(seen[CONTACT_STICK] > 0 && seen[CONTACT_SLIP_PLUS] > 0 && seen[CONTACT_SLIP_MINUS] > 0);
+}
+
+/* Constant limit fc = mu kn gap (v = 0): a cycle of amplitude A loses 4 fc (A - fc/k). k = 1, fc = 1/2, A = 1: 1. Steps of 1/8 put
+ * each kink (|u - u_turn| = 2 fc/k = 1) on a step, T is linear in between, and all numbers are dyadic: the sum is exact. */
+static void jenkins_loses_the_closed_form_energy(void **state)
+{
+  (void)state;
+  contact c = {.kt = 1, .kn = 1, .mu = 0.5, .gap = 1};
+  double w = 0, t, before, loss = 0;
+  contact_step(&c, 1, 0, &w, &before); /* at the upper turn, slipped: w = 1/2 */
+  assert_true(w == 0.5 && before == 0.5);
+  for (int i = 1; i <= 32; ++i) {
+    double du = i <= 16 ? -0.125 : 0.125, u = i <= 16 ? 1 - 0.125 * i : -1 + 0.125 * (i - 16);
+    contact_step(&c, u, 0, &w, &t);
+    loss += (before + t) / 2 * du;
+    before = t;
+  }
+  assert_true(loss == 1.0 && w == 0.5);
+}
+
+static void geometry_is_exact_at_the_ends(void **state)
+{
+  (void)state;
+  double c, s;
+  scene_contact k = {.law = {.kt = 100, .kn = 1000}, .angle_deg = 0};
+  scene_projection(&k, &c, &s);
+  assert_true(c == 1 && s == 0);
+  k.angle_deg = 90;
+  scene_projection(&k, &c, &s);
+  assert_true(c == 0 && s == 1 && scene_stuck_stiffness(&k) == 1000);
+  k.angle_deg = 45;
+  /* (kt + kn)/2; the angle's rounding moves cos^2 and sin^2 by opposite 2 eps, theirs add 2 eps each: 1100 * 4 eps is ample */
+  CHECK_NEAR(scene_stuck_stiffness(&k), 550, 1100 * 4 * DBL_EPSILON, "45 degrees");
+  scene sc = {.stiffness = 40, .n_contacts = 2, .contacts = {k, k}};
+  CHECK_NEAR(scene_max_stiffness(&sc), 1140, 2400 * 4 * DBL_EPSILON, "two contacts");
+}
+
+static void names_are_those_of_the_columns(void **state)
+{
+  (void)state;
+  assert_string_equal(contact_regime_name(CONTACT_LINEAR), "linear");
+  assert_string_equal(contact_regime_name(CONTACT_STUCK), "stick");
+  assert_string_equal(contact_regime_name(CONTACT_SLIPS), "slip");
+  assert_string_equal(contact_regime_name(CONTACT_SEPARATES), "separation");
+}
+
+static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(separated_lets_go_and_follows),
+    cmocka_unit_test(stick_is_a_spring_to_the_slider),
+    cmocka_unit_test(slip_holds_the_limit_and_drags_the_slider),
+    cmocka_unit_test(no_tangential_spring_means_no_friction_force),
+    cmocka_unit_test(no_friction_slips_with_the_slider_on_the_mass),
+    cmocka_unit_test(touching_decides_by_the_velocities),
+    cmocka_unit_test(force_has_no_jump),
+    cmocka_unit_test(guards_vanish_where_states_end),
+    cmocka_unit_test(touching_agrees_with_the_step_after_it),
+    cmocka_unit_test(jenkins_loses_the_closed_form_energy),
+    cmocka_unit_test(geometry_is_exact_at_the_ends),
+    cmocka_unit_test(names_are_those_of_the_columns),
+};
+
+CHECK_MAIN("cases.contact_law", tests, 60)

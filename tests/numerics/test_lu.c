@@ -1,0 +1,206 @@
+/* test_lu.c - LU factors: residuals against the bound of rounding theory, signs of determinants, and what must be refused. */
+#include <float.h>
+#include <nvector/nvector_serial.h>
+#include <sunmatrix/sunmatrix_dense.h>
+
+#include "numerics/sundials_compat.h"
+#include "numerics/lu.h"
+#include "tests/hbm/scenes.h"
+
+enum { MAX_N = 60 };
+
+static void random_matrix(uint64_t *seed, int n, double *a)
+{
+  for (int i = 0; i < n * n; ++i) a[i] = random_signed(seed);
+}
+
+/* Row i of P^-1 L U is row i of A: the rows of |L||U| in the order of A, times |x|, into bound[n]. */
+static void lu_times(int n, const double *f, const int *pivot, const double *x, double *bound)
+{
+  for (int i = 0; i < n; ++i) {
+    bound[i] = 0;
+    for (int j = 0; j < n; ++j) {
+      double sum = 0;
+      for (int k = 0; k <= (i < j ? i : j); ++k) sum += (k == i ? 1 : fabs(f[i + n * k])) * fabs(f[k + n * j]);
+      bound[i] += sum * fabs(x[j]);
+    }
+  }
+  for (int k = n - 1; k >= 0; --k) {
+    double swap = bound[k];
+    bound[k] = bound[pivot[k]];
+    bound[pivot[k]] = swap;
+  }
+}
+
+/* The computed x solves (A + E) x = b with |E| <= gamma_3n |L||U| (Higham, Accuracy and Stability, theorem 9.4), gamma_m = m u/(1 - m u), u = eps/2.
+ * Multiplying by the pivot's reciprocal rounds each entry of L once more and the reciprocal itself: 3n + 2. With partial pivoting |L| <= 1,
+ * so the right-hand side is at most n growth eps max|A| |x|_1 times 3/2: the bound is not vacuous, which the second check says; the growth of
+ * random matrices is about n^(2/3), never n. b - A x is formed in long double, 2^-11 of what is tested. */
+static void solves_within_the_bound_of_rounding_theory(void **state)
+{
+  (void)state;
+  static double a[MAX_N * MAX_N], f[MAX_N * MAX_N], b[MAX_N], x[MAX_N], bound[MAX_N];
+  int pivot[MAX_N];
+  uint64_t seed = 1;
+  double worst = 0;
+  for (int n = 1; n <= MAX_N; ++n)
+    for (int trial = 0; trial < 20; ++trial) {
+      double biggest = 0, growth = 0;
+      random_matrix(&seed, n, a);
+      for (int i = 0; i < n; ++i) x[i] = b[i] = random_signed(&seed);
+      memcpy(f, a, sizeof f);
+      assert_true(lu_factor(n, f, pivot));
+      lu_solve(n, f, pivot, x);
+      lu_times(n, f, pivot, x, bound);
+      for (int j = 0; j < n; ++j)
+        for (int i = 0; i < n; ++i) {
+          biggest = fmax(biggest, fabs(a[i + n * j]));
+          if (i <= j) growth = fmax(growth, fabs(f[i + n * j]));
+          else CHECK_LE(fabs(f[i + n * j]), 1 + DBL_EPSILON, "n=%d: a multiplier, so the pivot was not the largest", n);
+        }
+      CHECK_LE(growth, n * biggest, "n=%d: growth", n);
+      double gamma = (3 * n + 2) * 0.5 * DBL_EPSILON / (1 - (3 * n + 2) * 0.5 * DBL_EPSILON);
+      for (int i = 0; i < n; ++i) {
+        long double r = b[i];
+        for (int j = 0; j < n; ++j) r -= (long double)a[i + n * j] * x[j];
+        CHECK_LE(fabs((double)r), gamma * bound[i], "n=%d trial=%d row=%d", n, trial, i);
+        worst = fmax(worst, fabs((double)r) / (gamma * bound[i]));
+      }
+    }
+  assert_true(worst > 1e-3); /* the bound is within reach: a residual a thousand times larger would be seen */
+}
+
+/* det of a permutation with the signs d_i is (-1)^(n - cycles) prod d_i; nothing rounds. */
+static void the_sign_of_signed_permutations(void **state)
+{
+  (void)state;
+  static double a[MAX_N * MAX_N];
+  int pivot[MAX_N], to[MAX_N], seen_plus = 0, seen_minus = 0;
+  uint64_t seed = 7;
+  for (int trial = 0; trial < 600; ++trial) {
+    int n = 1 + trial % MAX_N, sign = 1;
+    bool seen[MAX_N] = {false};
+    for (int i = 0; i < n; ++i) to[i] = i;
+    for (int i = n - 1; i > 0; --i) {
+      int j = (int)(0.5 * (1 + random_signed(&seed)) * (i + 1)), t = to[i];
+      to[i] = to[j];
+      to[j] = t;
+    }
+    memset(a, 0, sizeof a);
+    for (int i = 0; i < n; ++i) {
+      double d = random_signed(&seed);
+      if (d < 0) sign = -sign;
+      a[to[i] + n * i] = d;
+    }
+    for (int i = 0; i < n; ++i)
+      for (int j = i, length = 0; !seen[j]; j = to[j], ++length) {
+        seen[j] = true;
+        if (length) sign = -sign;
+      }
+    assert_true(lu_factor(n, a, pivot));
+    assert_int_equal(lu_sign(n, a, pivot), sign);
+    ++*(sign > 0 ? &seen_plus : &seen_minus);
+  }
+  assert_true(seen_plus > 100 && seen_minus > 100);
+}
+
+/* Exchanging two rows of a random matrix, or the sign of one, turns the determinant over; of random matrices none is near singular. */
+static void the_sign_turns_over_with_a_row(void **state)
+{
+  (void)state;
+  static double a[MAX_N * MAX_N], f[MAX_N * MAX_N];
+  int pivot[MAX_N];
+  uint64_t seed = 11;
+  for (int n = 2; n <= MAX_N; ++n) {
+    random_matrix(&seed, n, a);
+    memcpy(f, a, sizeof f);
+    assert_true(lu_factor(n, f, pivot));
+    int before = lu_sign(n, f, pivot);
+    for (int j = 0; j < n; ++j) {
+      double t = a[n * j];
+      a[n * j] = a[n - 1 + n * j];
+      a[n - 1 + n * j] = t;
+    }
+    memcpy(f, a, sizeof f);
+    assert_true(lu_factor(n, f, pivot));
+    assert_int_equal(lu_sign(n, f, pivot), -before);
+    for (int j = 0; j < n; ++j) a[1 + n * j] = -a[1 + n * j];
+    assert_true(lu_factor(n, a, pivot));
+    assert_int_equal(lu_sign(n, a, pivot), before);
+  }
+}
+
+/* A zero row or column, two equal rows of small integers (their difference is exactly 0 where nothing rounds: multiplier 1), and a NaN or
+ * infinity anywhere. */
+static void singular_and_not_finite_are_refused(void **state)
+{
+  (void)state;
+  static double a[MAX_N * MAX_N];
+  int pivot[MAX_N];
+  uint64_t seed = 3;
+  static const int sizes[] = {1, 2, 3, 11, 60};
+  const double poison[] = {NAN, -NAN, INFINITY, -INFINITY};
+  for (size_t q = 0; q < sizeof sizes / sizeof *sizes; ++q) {
+    int n = sizes[q];
+    for (int at = 0; at < n; ++at) {
+      random_matrix(&seed, n, a);
+      for (int i = 0; i < n; ++i) a[i + n * at] = 0;
+      assert_false(lu_factor(n, a, pivot));
+      random_matrix(&seed, n, a);
+      for (int i = 0; i < n; ++i) a[at + n * i] = 0;
+      assert_false(lu_factor(n, a, pivot));
+    }
+    for (int at = 0; at < n * n; at += n < 20 ? 1 : 37)
+      for (int p = 0; p < 4; ++p) {
+        random_matrix(&seed, n, a);
+        a[at] = poison[p];
+        assert_false(lu_factor(n, a, pivot));
+      }
+  }
+  double equal_rows[] = {2, 2, 1, 3, 3, 5, -4, -4, 7};
+  assert_false(lu_factor(3, equal_rows, pivot));
+  double nearly[] = {1, 1, 1, 1 + DBL_EPSILON};
+  assert_true(lu_factor(2, nearly, pivot)); /* singular is 0 exactly, nothing else */
+}
+
+/* Through SUNDIALS: the same numbers bit for bit, in place or not, and a singular matrix is a recoverable failure. */
+static void sundials_gets_the_same_numbers(void **state)
+{
+  (void)state;
+  SUNContext ctx;
+  assert_int_equal(hc_sundials_context(&ctx), 0);
+  enum { N = 21 };
+  uint64_t seed = 5;
+  double a[N * N], x[N];
+  int pivot[N];
+  SUNMatrix m = SUNDenseMatrix(N, N, ctx);
+  N_Vector b = N_VNew_Serial(N, ctx), z = N_VNew_Serial(N, ctx);
+  SUNLinearSolver ls = lu_sundials_solver(N, ctx);
+  assert_non_null(ls);
+  random_matrix(&seed, N, a);
+  for (int i = 0; i < N; ++i) N_VGetArrayPointer(b)[i] = x[i] = random_signed(&seed);
+  memcpy(SUNDenseMatrix_Data(m), a, sizeof a);
+  assert_true(lu_factor(N, a, pivot));
+  lu_solve(N, a, pivot, x);
+  assert_int_equal(SUNLinSolSetup(ls, m), 0);
+  assert_memory_equal(lu_sundials_pivots(ls), pivot, sizeof pivot);
+  assert_int_equal(SUNLinSolSolve(ls, m, z, b, 0), 0);
+  assert_memory_equal(N_VGetArrayPointer(z), x, sizeof x);
+  assert_int_equal(SUNLinSolSolve(ls, m, b, b, 0), 0);
+  assert_memory_equal(N_VGetArrayPointer(b), x, sizeof x);
+  SUNMatZero(m);
+  assert_true(SUNLinSolSetup(ls, m) > 0);
+  SUNLinSolFree(ls);
+  N_VDestroy(b);
+  N_VDestroy(z);
+  SUNMatDestroy(m);
+  SUNContext_Free(&ctx);
+}
+
+static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(solves_within_the_bound_of_rounding_theory), cmocka_unit_test(the_sign_of_signed_permutations),
+    cmocka_unit_test(the_sign_turns_over_with_a_row),             cmocka_unit_test(singular_and_not_finite_are_refused),
+    cmocka_unit_test(sundials_gets_the_same_numbers),
+};
+
+CHECK_MAIN("cases.lu", tests, 60)

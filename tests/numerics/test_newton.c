@@ -1,0 +1,412 @@
+/* test_newton.c - KINSOL behind newton.h: iterates against Heron's, refusals, stalls, singular matrices; nothing hangs, nothing lies.
+ * Each problem counts its calls and fails the test when they run away: a loop inside KINSOL would otherwise only meet the watchdog. */
+#include "numerics/newton.h"
+#include "tests/hbm/scenes.h"
+
+enum { MAX_CALLS = 5000 };
+
+typedef struct probe {
+  int residuals, jacobians;
+  double history[64][2]; /* z at each Jacobian */
+  double limit;          /* some problems refuse |z_0| beyond this */
+} probe;
+
+static const double ones[2] = {1, 1};
+static const newton_options plain = {ones, ones, 1e-12, 100, 50};
+
+static void count(probe *p)
+{
+  if (++p->residuals > MAX_CALLS) fail_msg("%d residuals: KINSOL is in a loop", p->residuals);
+}
+
+static void remember(probe *p, const double *z)
+{
+  if (p->jacobians < 64) memcpy(p->history[p->jacobians], z, 2 * sizeof(double));
+  ++p->jacobians;
+}
+
+/* r = A (x^2 - 2, y^2 - 3), A = [3 1; 1 2]: Newton does not see A, and each component is Heron's x' = (x + 2/x)/2. */
+static hc_status heron_residual(void *self, const double *z, double *r)
+{
+  count(self);
+  double f = z[0] * z[0] - 2, g = z[1] * z[1] - 3;
+  r[0] = 3 * f + g;
+  r[1] = f + 2 * g;
+  return HC_OK;
+}
+
+static hc_status heron_jacobian(void *self, const double *z, double *jac)
+{
+  remember(self, z);
+  jac[0] = 6 * z[0];
+  jac[1] = 2 * z[0];
+  jac[2] = 2 * z[1];
+  jac[3] = 4 * z[1];
+  return HC_OK;
+}
+
+static newton *make(probe *p, int n, hc_status (*residual)(void *, const double *, double *), hc_status (*jacobian)(void *, const double *, double *))
+{
+  newton *nw;
+  *p = (probe){.limit = INFINITY};
+  newton_problem problem = {n, p, residual, jacobian};
+  assert_int_equal(newton_new(&problem, &nw), HC_OK);
+  return nw;
+}
+
+/* Full Newton evaluates the Jacobian at every iterate: these must be Heron's, to the rounding of a 2 x 2 solve with condition number below 20
+ * (z ~ 1..2) per step, 40 eps; Heron halves errors at least, so they add to twice that. From (1, 1) the errors go 4e-1, 9e-2, 2e-3, 2e-6, 2e-12,
+ * rounding: five iterations reach 1e-12 |r|, one more polishes. */
+static void quadratic_like_heron(void **state)
+{
+  (void)state;
+  probe p;
+  newton *nw = make(&p, 2, heron_residual, heron_jacobian);
+  double z[2] = {1, 1}, x = 1, y = 1;
+  newton_report report;
+  assert_int_equal(newton_solve(nw, z, &plain, &report), HC_OK);
+  for (int i = 0; i < p.jacobians && i < 64; ++i) {
+    CHECK_NEAR(p.history[i][0], x, 80 * DBL_EPSILON * x, "iterate %d", i);
+    CHECK_NEAR(p.history[i][1], y, 80 * DBL_EPSILON * y, "iterate %d", i);
+    x = (x + 2 / x) / 2;
+    y = (y + 3 / y) / 2;
+  }
+  CHECK_NEAR(z[0], sqrt(2), 80 * DBL_EPSILON, "root");
+  CHECK_NEAR(z[1], sqrt(3), 80 * DBL_EPSILON, "root");
+  CHECK_LE(report.residual, plain.tolerance, "residual");
+  assert_in_range(report.iterations, 5, 7);
+  assert_in_range(p.jacobians, report.iterations, report.iterations + 1);
+  newton_free(nw);
+}
+
+/* Weights: the same system in other units takes the same path. Powers of two, so that nothing rounds differently. */
+static void weights_are_units(void **state)
+{
+  (void)state;
+  probe p;
+  newton *nw = make(&p, 2, heron_residual, heron_jacobian);
+  double z[2] = {1.5, 1.5}, z_scale[2] = {1024, 1024}, r_scale[2] = {1 / 4096.0, 1 / 4096.0};
+  newton_report report;
+  newton_options loose = {z_scale, r_scale, 1e-4, 1e6, 50}; /* |r| <= 0.41: one Heron step from 1.5 gives 2e-2; then one polishing step */
+  assert_int_equal(newton_solve(nw, z, &loose, &report), HC_OK);
+  CHECK_LE(report.residual, 1e-4, "judged with its weight");
+  CHECK_LE(fabs(z[0] - sqrt(2)), 3e-6, "start 8.6e-2 off, Heron: e'= e^2/(2x) = 2.5e-3, then 2.2e-6");
+  newton_options strict = {z_scale, r_scale, 1e-15, 1e6, 50}; /* |r| <= 4e-12 */
+  z[0] = z[1] = 1.5;
+  assert_int_equal(newton_solve(nw, z, &strict, &report), HC_OK);
+  CHECK_NEAR(z[0], sqrt(2), 80 * DBL_EPSILON, "root");
+  newton_free(nw);
+}
+
+/* dx/db of A (x^2 - 2, y^2 - 3) = b at the root is J^-1; 2 x 2 inverse by hand, condition below 20. */
+static void backsolve_is_the_inverse_at_the_end(void **state)
+{
+  (void)state;
+  probe p;
+  newton *nw = make(&p, 2, heron_residual, heron_jacobian);
+  double z[2] = {1, 1}, b[2] = {1, -2}, jac[4];
+  newton_report report;
+  assert_int_equal(newton_solve(nw, z, &plain, &report), HC_OK);
+  assert_int_equal(newton_backsolve(nw, b), HC_OK);
+  heron_jacobian(&p, z, jac);
+  CHECK_NEAR(jac[0] * b[0] + jac[2] * b[1], 1, 1e-11, "polishing may leave the factors of the iterate before: 1e-12 off, times 6");
+  CHECK_NEAR(jac[1] * b[0] + jac[3] * b[1], -2, 1e-11, "as above");
+  newton_free(nw);
+}
+
+/* z + 0.1 z^3 = 1 from 0, where KINSOL's default longest step (1000 |z_0|) would be 0. */
+static hc_status cubic_residual(void *self, const double *z, double *r)
+{
+  count(self);
+  *r = z[0] + 0.1 * z[0] * z[0] * z[0] - 1;
+  return HC_OK;
+}
+
+static hc_status cubic_jacobian(void *self, const double *z, double *jac)
+{
+  double pair[2] = {z[0], 0};
+  remember(self, pair);
+  *jac = 1 + 0.3 * z[0] * z[0];
+  return HC_OK;
+}
+
+static void starts_from_zero(void **state)
+{
+  (void)state;
+  probe p;
+  newton *nw = make(&p, 1, cubic_residual, cubic_jacobian);
+  newton_report report;
+  double z = 0;
+  assert_int_equal(newton_solve(nw, &z, &plain, &report), HC_OK);
+  CHECK_NEAR(z + 0.1 * z * z * z, 1, 4 * DBL_EPSILON, "root");
+  /* and no step is longer than it may be. With weight 4 and max_step 1 that is 1/4, four steps to 0.92. KINSOL takes max_step < 1 for 1, and left to
+   * itself 1000 |z_0|, here 40 */
+  static const double four = 4;
+  newton_options short_steps = plain;
+  short_steps.z_scale = &four;
+  short_steps.max_step = 1;
+  z = 0.01;
+  p.jacobians = 0;
+  assert_int_equal(newton_solve(nw, &z, &short_steps, &report), HC_OK);
+  for (int i = 1; i < p.jacobians; ++i) CHECK_LE(fabs(p.history[i][0] - p.history[i - 1][0]), 0.25 * (1 + 4 * DBL_EPSILON), "step %d", i);
+  assert_true(report.iterations >= 4);
+  newton_free(nw);
+}
+
+/* A root at the start: nothing to do, nothing to spoil. */
+static void starts_at_the_root(void **state)
+{
+  (void)state;
+  probe p;
+  newton *nw = make(&p, 1, cubic_residual, cubic_jacobian);
+  newton_report report;
+  double z = 0;
+  assert_int_equal(newton_solve(nw, &z, &plain, &report), HC_OK);
+  double root = z;
+  assert_int_equal(newton_solve(nw, &z, &plain, &report), HC_OK);
+  CHECK_NEAR(z, root, 4 * DBL_EPSILON, "root");
+  CHECK_LE(report.residual, 4 * DBL_EPSILON, "residual");
+  newton_free(nw);
+}
+
+/* Whatever goes wrong, z is as it was given, bit by bit. */
+static hc_status fails_untouched(newton *nw, int n, const double *start, const newton_options *opt, newton_report *report)
+{
+  double z[2] = {start[0], n > 1 ? start[1] : 0}, before[2];
+  memcpy(before, z, sizeof z);
+  hc_status st = newton_solve(nw, z, opt, report);
+  assert_int_not_equal(st, HC_OK);
+  assert_memory_equal(z, before, sizeof z);
+  return st;
+}
+
+/* x^2 + 1: no root; Newton wanders chaotically, the line search settles at the minimum x = 0, where J = 0. */
+static hc_status no_root_residual(void *self, const double *z, double *r)
+{
+  count(self);
+  *r = z[0] * z[0] + 1;
+  return HC_OK;
+}
+
+static hc_status no_root_jacobian(void *self, const double *z, double *jac)
+{
+  (void)self;
+  *jac = 2 * z[0];
+  return HC_OK;
+}
+
+static void no_root_is_never_ok(void **state)
+{
+  (void)state;
+  static const double starts[] = {3, 0.5, -1, 1e-3, 1e-9, 0, 1e6, 1 / 1.7320508075688772}; /* the last has period 2 under Newton */
+  probe p;
+  newton *nw = make(&p, 1, no_root_residual, no_root_jacobian);
+  for (size_t i = 0; i < sizeof starts / sizeof *starts; ++i) {
+    newton_report report;
+    p.residuals = 0;
+    hc_status st = fails_untouched(nw, 1, &starts[i], &plain, &report);
+    assert_true(st == HC_STALLED || st == HC_NOT_CONVERGED || st == HC_SINGULAR);
+    CHECK_LE(1, report.residual, "start %g: x^2 + 1 >= 1 everywhere", starts[i]);
+  }
+  newton_free(nw);
+}
+
+/* atan x = 0 from 3: plain Newton runs away (it does beyond 1.39), the line search does not. */
+static hc_status atan_residual(void *self, const double *z, double *r)
+{
+  count(self);
+  *r = atan(z[0]);
+  return HC_OK;
+}
+
+static hc_status atan_jacobian(void *self, const double *z, double *jac)
+{
+  (void)self;
+  *jac = 1 / (1 + z[0] * z[0]);
+  return HC_OK;
+}
+
+static void the_line_search_helps_out(void **state)
+{
+  (void)state;
+  probe p;
+  newton *nw = make(&p, 1, atan_residual, atan_jacobian);
+  newton_report report;
+  double z = 3;
+  assert_int_equal(newton_solve(nw, &z, &plain, &report), HC_OK);
+  CHECK_LE(fabs(z), plain.tolerance, "root");
+  newton_free(nw);
+}
+
+/* |x| + 1: ends in the kink, where no step lowers it. A stall, and said to be one. */
+static hc_status kink_residual(void *self, const double *z, double *r)
+{
+  count(self);
+  *r = fabs(z[0]) + 1;
+  return HC_OK;
+}
+
+static hc_status kink_jacobian(void *self, const double *z, double *jac)
+{
+  (void)self;
+  *jac = z[0] < 0 ? -1 : 1;
+  return HC_OK;
+}
+
+static void a_stall_is_said(void **state)
+{
+  (void)state;
+  probe p;
+  newton *nw = make(&p, 1, kink_residual, kink_jacobian);
+  newton_report report;
+  assert_int_equal(fails_untouched(nw, 1, (double[]){3}, &plain, &report), HC_STALLED);
+  CHECK_NEAR(report.residual, 1, 1e-6, "the residual of the kink");
+  newton_free(nw);
+}
+
+/* r = (x + y - 1, x + y - 2): every Jacobian is singular, exactly in floating point too. */
+static hc_status parallel_residual(void *self, const double *z, double *r)
+{
+  count(self);
+  r[0] = z[0] + z[1] - 1;
+  r[1] = z[0] + z[1] - 2;
+  return HC_OK;
+}
+
+static hc_status parallel_jacobian(void *self, const double *z, double *jac)
+{
+  (void)self, (void)z;
+  for (int i = 0; i < 4; ++i) jac[i] = 1;
+  return HC_OK;
+}
+
+static void singular_is_said(void **state)
+{
+  (void)state;
+  probe p;
+  newton *nw = make(&p, 2, parallel_residual, parallel_jacobian);
+  newton_report report;
+  assert_int_equal(fails_untouched(nw, 2, (double[]){0, 0}, &plain, &report), HC_SINGULAR);
+  newton_free(nw);
+}
+
+/* ln z = -1, |z| <= limit, refused outside: Newton from 5 jumps to -8; from 0.2 it converges to 1/e. */
+static hc_status log_residual(void *self, const double *z, double *r)
+{
+  probe *p = self;
+  count(p);
+  if (!(z[0] > 0 && z[0] <= p->limit)) return HC_NOT_FINITE;
+  *r = log(z[0]) + 1;
+  return HC_OK;
+}
+
+/* The same, but leaving the NaN of log(-8) in r and saying all is well. */
+static hc_status nan_residual(void *self, const double *z, double *r)
+{
+  count(self);
+  *r = log(z[0]) + 1;
+  return HC_OK;
+}
+
+static hc_status log_jacobian(void *self, const double *z, double *jac)
+{
+  (void)self;
+  *jac = 1 / z[0];
+  return HC_OK;
+}
+
+static void refusals_are_passed_on(void **state)
+{
+  (void)state;
+  probe p;
+  newton *nw = make(&p, 1, log_residual, log_jacobian);
+  newton_report report;
+  double z = 0.2;
+  assert_int_equal(newton_solve(nw, &z, &plain, &report), HC_OK);
+  CHECK_NEAR(z, exp(-1), 4 * DBL_EPSILON, "root");
+  z = 5; /* the full step to -8 is refused, a shorter one is not */
+  assert_int_equal(newton_solve(nw, &z, &plain, &report), HC_OK);
+  CHECK_NEAR(z, exp(-1), 4 * DBL_EPSILON, "root");
+  assert_int_equal(fails_untouched(nw, 1, (double[]){-1}, &plain, &report), HC_NOT_FINITE); /* at the start itself: both strategies */
+  p.limit = 0.1; /* no root within: whichever way it goes there, the refusal is the reason */
+  assert_int_not_equal(fails_untouched(nw, 1, (double[]){0.05}, &plain, &report), HC_OK);
+  newton_free(nw);
+}
+
+/* Only the start is allowed: each step of both strategies is refused, however short. The reason given must come out, not another. */
+static hc_status start_only_residual(void *self, const double *z, double *r)
+{
+  count(self);
+  if (z[0] != 1) return HC_NOT_CLOSED;
+  *r = 1;
+  return HC_OK;
+}
+
+static void the_reason_of_a_refusal_survives(void **state)
+{
+  (void)state;
+  probe p;
+  newton *nw = make(&p, 1, start_only_residual, log_jacobian);
+  newton_report report;
+  assert_int_equal(fails_untouched(nw, 1, (double[]){1}, &plain, &report), HC_NOT_CLOSED);
+  newton_free(nw);
+}
+
+/* A NaN the problem did not refuse itself must not pass for convergence, nor send the line search round for ever. */
+static void nan_is_refused(void **state)
+{
+  (void)state;
+  probe p;
+  newton *nw = make(&p, 1, nan_residual, log_jacobian);
+  newton_report report;
+  assert_int_equal(fails_untouched(nw, 1, (double[]){-1}, &plain, &report), HC_NOT_FINITE); /* NaN at the start */
+  p.residuals = 0;
+  double z = 5; /* NaN at the first full step: fail or find the root, but neither hang nor answer NaN */
+  hc_status st = newton_solve(nw, &z, &plain, &report);
+  if (st == HC_OK) CHECK_NEAR(z, exp(-1), 4 * DBL_EPSILON, "root");
+  else assert_true(z == 5 && st == HC_NOT_FINITE);
+  newton_free(nw);
+}
+
+static hc_status nan_jacobian(void *self, const double *z, double *jac)
+{
+  (void)self, (void)z;
+  *jac = NAN;
+  return HC_OK;
+}
+
+static void a_nan_jacobian_is_not_an_answer(void **state)
+{
+  (void)state;
+  probe p;
+  newton *nw = make(&p, 1, cubic_residual, nan_jacobian);
+  newton_report report;
+  fails_untouched(nw, 1, (double[]){0.5}, &plain, &report);
+  newton_free(nw);
+}
+
+/* A handle that failed is as good as new. */
+static void works_on_after_failures(void **state)
+{
+  (void)state;
+  probe p;
+  newton *nw = make(&p, 1, log_residual, log_jacobian);
+  newton_report report;
+  for (int i = 0; i < 5; ++i) {
+    assert_int_equal(fails_untouched(nw, 1, (double[]){-1}, &plain, &report), HC_NOT_FINITE);
+    double z = 0.2;
+    assert_int_equal(newton_solve(nw, &z, &plain, &report), HC_OK);
+    CHECK_NEAR(z, exp(-1), 4 * DBL_EPSILON, "root");
+  }
+  newton_free(nw);
+  newton_free(NULL);
+}
+
+static const struct CMUnitTest tests[] = {
+  cmocka_unit_test(quadratic_like_heron), cmocka_unit_test(weights_are_units), cmocka_unit_test(backsolve_is_the_inverse_at_the_end),
+  cmocka_unit_test(starts_from_zero), cmocka_unit_test(starts_at_the_root), cmocka_unit_test(no_root_is_never_ok),
+  cmocka_unit_test(the_line_search_helps_out), cmocka_unit_test(a_stall_is_said),
+  cmocka_unit_test(singular_is_said), cmocka_unit_test(refusals_are_passed_on), cmocka_unit_test(the_reason_of_a_refusal_survives),
+  cmocka_unit_test(nan_is_refused), cmocka_unit_test(a_nan_jacobian_is_not_an_answer), cmocka_unit_test(works_on_after_failures),
+};
+CHECK_MAIN("cases.newton", tests, 60)

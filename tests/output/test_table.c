@@ -1,0 +1,422 @@
+/* test_table.c - what the three formats look like, byte for byte, and that csv and json give back every double bit for bit. */
+#include <jansson.h>
+#include <locale.h>
+#include <signal.h>
+#include <string.h>
+#include <sys/wait.h>
+
+#include "output/table.h"
+#include "output/table_private.h"
+#include "base/utf8.h"
+#include "tests/check.h"
+
+static const table_column columns[] = {{"omega", TABLE_REAL}, {"verdict", TABLE_TEXT}, {"steps", TABLE_INTEGER}, {"error", TABLE_REAL}};
+static const table_column one_real[] = {{"value", TABLE_REAL}};
+static const table_column two_texts[] = {{"a", TABLE_TEXT}, {"b", TABLE_TEXT}};
+
+/* What table_write writes; free() it. */
+static char *written(int n, table *const *tables, table_format format)
+{
+  char *text = NULL;
+  size_t size = 0;
+  FILE *to = open_memstream(&text, &size);
+  assert_non_null(to);
+  assert_int_equal(table_write(n, tables, format, to), HC_OK);
+  assert_int_equal(fclose(to), 0);
+  assert_true(uselocale((locale_t)0) == LC_GLOBAL_LOCALE); /* as it was */
+  return text;
+}
+
+static void expect(int n, table *const *tables, table_format format, const char *expected)
+{
+  char *text = written(n, tables, format);
+  assert_string_equal(text, expected);
+  free(text);
+}
+
+static void put(table *t, double omega, const char *verdict, long steps, double error)
+{
+  table_put_real(t, omega);
+  table_put_text(t, verdict);
+  table_put_integer(t, steps);
+  table_put_real(t, error);
+}
+
+static table *small_table(const char *title)
+{
+  table *t = table_new(title, 4, columns);
+  put(t, 5, "match", 1200, 1.25e-6);
+  put(t, 12.5, "not, \"yet\"", -7, NAN);
+  table_put_missing(t);
+  table_put_text(t, NULL);
+  table_put_missing(t);
+  table_put_real(t, -INFINITY);
+  table_note(t, "%d of %s, tolerance %.1e", 2, "3", 0.05);
+  return t;
+}
+
+/* Left out on the screen, kept for machines; the last one shown ends the line. */
+static void hidden_columns_are_for_machines(void **state)
+{
+  (void)state;
+  table *t = table_new(NULL, 4, columns);
+  put(t, 5, "match", 1200, 1.25e-6);
+  table_hide(t, "error");
+  table_hide(t, "omega");
+  table_hide(t, "no such column");
+  expect(1, &t, FORMAT_TABLE, "verdict  steps\nmatch     1200\n");
+  expect(1, &t, FORMAT_CSV, "omega,verdict,steps,error\n5,match,1200,1.2500000000000001e-06\n");
+  table_free(t);
+}
+
+static void table_is_aligned(void **state)
+{
+  (void)state;
+  table *t = small_table("Small");
+  assert_int_equal(table_rows(t), 3);
+  expect(1, &t, FORMAT_TABLE,
+         "Small\n"
+         "omega  verdict     steps       error\n"
+         "  5.0  match        1200  0.00000125\n"
+         " 12.5  not, \"yet\"     -7\n"
+         "                                -inf\n"
+         "\n"
+         "2 of 3, tolerance 5.0e-02\n");
+  table_free(t);
+}
+
+static void csv_is_exact(void **state)
+{
+  (void)state;
+  table *t = small_table("Small");
+  expect(1, &t, FORMAT_CSV,
+         "# 2 of 3, tolerance 5.0e-02\n"
+         "omega,verdict,steps,error\n"
+         "5,match,1200,1.2500000000000001e-06\n"
+         "12.5,\"not, \"\"yet\"\"\",-7,\n"
+         ",,,-inf\n");
+  table_free(t);
+}
+
+static void json_is_exact(void **state)
+{
+  (void)state;
+  table *t = small_table("Small");
+  expect(1, &t, FORMAT_JSON,
+         "{\n  \"rows\": [\n"
+         "    {\"omega\": 5.0, \"verdict\": \"match\", \"steps\": 1200, \"error\": 1.2500000000000001e-6},\n"
+         "    {\"omega\": 12.5, \"verdict\": \"not, \\\"yet\\\"\", \"steps\": -7, \"error\": null},\n"
+         "    {\"omega\": null, \"verdict\": null, \"steps\": null, \"error\": null}\n"
+         "  ],\n  \"notes\": [\n    \"2 of 3, tolerance 5.0e-02\"\n  ]\n}\n");
+  table_free(t);
+}
+
+static void no_rows_and_no_title(void **state)
+{
+  (void)state;
+  table *t = table_new(NULL, 4, columns);
+  expect(1, &t, FORMAT_TABLE, "omega  verdict  steps  error\n");
+  expect(1, &t, FORMAT_CSV, "omega,verdict,steps,error\n");
+  expect(1, &t, FORMAT_JSON, "{\n  \"rows\": [],\n  \"notes\": []\n}\n");
+  expect(0, NULL, FORMAT_TABLE, "");
+  expect(0, NULL, FORMAT_CSV, "");
+  expect(0, NULL, FORMAT_JSON, "{\n  \"notes\": {}\n}\n");
+  table_free(t);
+}
+
+/* Titles that collide, with each other and with "notes", must not hide a table. */
+static void several_tables(void **state)
+{
+  (void)state;
+  table *t[4] = {small_table("A"), table_new("A", 1, one_real), table_new("notes", 1, one_real), table_new(NULL, 1, one_real)};
+  table_put_real(t[1], 2);
+  table_put_missing(t[2]);
+  char *text = written(4, t, FORMAT_JSON);
+  json_t *root = json_loads(text, JSON_REJECT_DUPLICATES, NULL);
+  assert_non_null(root);
+  assert_int_equal(json_object_size(root), 5);
+  assert_int_equal(json_array_size(json_object_get(root, "A")), 3);
+  assert_true(json_real_value(json_object_get(json_array_get(json_object_get(root, "A (2)"), 0), "value")) == 2);
+  assert_int_equal(json_array_size(json_object_get(root, "notes (2)")), 1);
+  assert_true(json_is_array(json_object_get(root, "table")));
+  json_t *notes = json_object_get(root, "notes");
+  assert_int_equal(json_object_size(notes), 1);
+  assert_string_equal(json_string_value(json_array_get(json_object_get(notes, "A"), 0)), "2 of 3, tolerance 5.0e-02");
+  json_decref(root);
+  free(text);
+  expect(3, t + 1, FORMAT_CSV, "# A\nvalue\n2\n\n# notes\nvalue\n\"\"\n\n# table\nvalue\n");
+  expect(2, t + 1, FORMAT_TABLE, "A\nvalue\n    2\n\nnotes\nvalue\n\n");
+  for (int k = 0; k < 4; ++k) table_free(t[k]);
+}
+
+static void csv_quotes_what_a_reader_could_misread(void **state)
+{
+  static const char *const pairs[][2] = {
+    {"plain text", "plain text"}, {"", "\"\""}, {"a,b", "\"a,b\""}, {"a\nb", "\"a\nb\""}, {"a\rb", "\"a\rb\""}, {"\"", "\"\"\"\""},
+    {"#1", "\"#1\""}, {"no #1", "no #1"}, {" a", "\" a\""}, {"a ", "\"a \""}, {"\ta", "\"\ta\""}, {"M\xc3\xbcller", "M\xc3\xbcller"},
+  };
+  (void)state;
+  for (size_t i = 0; i < sizeof pairs / sizeof *pairs; ++i) {
+    table *t = table_new(NULL, 2, two_texts);
+    table_put_text(t, "x");
+    table_put_text(t, pairs[i][0]);
+    char expected[64];
+    snprintf(expected, sizeof expected, "a,b\nx,%s\n", pairs[i][1]);
+    expect(1, &t, FORMAT_CSV, expected);
+    table_free(t);
+  }
+}
+
+/* A column of reals, its lines right-aligned and without the header, `|` between them. */
+static void expect_reals(int n, const double *values, const char *expected)
+{
+  table *t = table_new(NULL, 1, one_real);
+  for (int i = 0; i < n; ++i) table_put_real(t, values[i]);
+  char *text = written(1, &t, FORMAT_TABLE), *rows = strchr(text, '\n') + 1;
+  for (char *p = rows; *p; ++p)
+    if (*p == '\n') *p = '|';
+  assert_string_equal(rows, expected);
+  free(text);
+  table_free(t);
+}
+#define EXPECT_REALS(expected, ...) \
+  expect_reals((int)(sizeof(double[]){__VA_ARGS__} / sizeof(double)), (const double[]){__VA_ARGS__}, expected)
+
+static void reals_get_one_notation_a_column(void **state)
+{
+  (void)state;
+  EXPECT_REALS("    3|   10|  200|", 3, 10, 200);
+  EXPECT_REALS(" 3.00|12.25|-0.50|    0|", 3, 12.25, -0.5, -0.0);
+  EXPECT_REALS("  0.1|  0.3|", 0.1, 0.1 + 0.2);
+  EXPECT_REALS("  0.01|100.00|", 0.01, 100);
+  EXPECT_REALS("0.3333333|6.6666667|", 1.0 / 3, 20.0 / 3);
+  EXPECT_REALS("1234567|", 1234567);
+  EXPECT_REALS("1.234568e+07|", 12345678.0);
+  EXPECT_REALS("1.0e-12|2.5e-01|      0|", 1e-12, 0.25, 0);
+  EXPECT_REALS("1.234568e-05|", 1.23456789e-5);
+  EXPECT_REALS("1e+300|1e-300|   inf|  -inf||", 1e300, 1e-300, INFINITY, -INFINITY, NAN);
+  EXPECT_REALS("    0|", 0);
+  EXPECT_REALS("   10|", 9.99999996);
+}
+
+static void text_is_utf8_and_safe(void **state)
+{
+  (void)state;
+  table *t = table_new("Stra\xc3\x9f" "e\x1b[31m\n", 2, two_texts);
+  table_put_text(t, "M\xc3\xbcller");
+  table_put_text(t, "e\xcc\x81 \xe6\xa2\x81  ");
+  table_put_text(t, "bad\xff\xc0\xaf\xed\xa0\x80");
+  table_put_text(t, "\x1b[2J\nx");
+  table_put_text(t, "abcdefgh");
+  table_put_text(t, "");
+  table_note(t, "two\nlines\n");
+  expect(1, &t, FORMAT_TABLE,
+         "Stra\xc3\x9f" "e [31m\n"
+         "a          b\n"
+         "M\xc3\xbcller     e\xcc\x81 \xe6\xa2\x81\n"
+         "bad\xef\xbf\xbd\xef\xbf\xbd\xef\xbf\xbd\xef\xbf\xbd\xef\xbf\xbd\xef\xbf\xbd   [2J x\n"
+         "abcdefgh\n"
+         "\n"
+         "two lines\n");
+  char *text = written(1, &t, FORMAT_JSON);
+  json_t *root = json_loads(text, 0, NULL);
+  assert_non_null(root); /* json that is not UTF-8 does not parse */
+  assert_string_equal(json_string_value(json_object_get(json_array_get(json_object_get(root, "rows"), 1), "b")), "\x1b[2J\nx");
+  json_decref(root);
+  free(text);
+  table_free(t);
+}
+
+static void utf8_is_decoded_strictly(void **state)
+{
+  static const struct { const char *text; unsigned code; int bytes; } part[] = {
+    {"a", 'a', 1}, {"\xc2\x80", 0x80, 2}, {"\xe0\xa0\x80", 0x800, 3}, {"\xf0\x90\x80\x80", 0x10000, 4}, {"\xf4\x8f\xbf\xbf", 0x10ffff, 4},
+    {"\x80", 0xfffd, 1}, {"\xc1\xbf", 0xfffd, 1}, {"\xe0\x9f\xbf", 0xfffd, 1}, {"\xf0\x8f\xbf\xbf", 0xfffd, 1}, /* overlong */
+    {"\xed\xa0\x80", 0xfffd, 1}, {"\xf4\x90\x80\x80", 0xfffd, 1}, {"\xff", 0xfffd, 1},                       /* not characters */
+    {"\xc3", 0xfffd, 1}, {"\xe2\x82", 0xfffd, 1}, {"\xf0\x9f\x98", 0xfffd, 1}, {"\xc3(", 0xfffd, 1},            /* cut short */
+  };
+  (void)state;
+  for (size_t i = 0; i < sizeof part / sizeof *part; ++i) {
+    const char *p = part[i].text;
+    assert_int_equal(utf8_next(&p), part[i].code);
+    assert_int_equal(p - part[i].text, part[i].bytes);
+  }
+  assert_int_equal(utf8_width("M\xc3\xbcller"), 6);
+  assert_int_equal(utf8_width("e\xcc\x81"), 1);         /* e, combining acute */
+  assert_int_equal(utf8_width("\xe6\xa2\x81x"), 3);     /* a wide one */
+  assert_int_equal(utf8_width("\xf0\x9f\x98\x80"), 2); /* an emoji */
+}
+
+static void long_text_is_cut_except_at_the_end(void **state)
+{
+  (void)state;
+  char longest[101], expected[512];
+  memset(longest, 'x', 100);
+  longest[100] = 0;
+  table *t = table_new(NULL, 2, two_texts);
+  for (int i = 0; i < 2; ++i) table_put_text(t, longest);
+  snprintf(expected, sizeof expected, "a%61sb\n%.59s\xe2\x80\xa6  %s\n", "", longest, longest);
+  expect(1, &t, FORMAT_TABLE, expected);
+  table_free(t);
+}
+
+static uint64_t next_bits(uint64_t *s) /* xorshift64 */
+{
+  *s ^= *s << 13;
+  *s ^= *s >> 7;
+  return *s ^= *s << 17;
+}
+
+enum { N_RANDOM = 20000 };
+
+/* All bit patterns are equally likely: every exponent, both signs; the first ones are the extremes. */
+static table *random_table(double *values)
+{
+  static const double extreme[] = {0.0, -0.0, 5e-324, 2.2250738585072014e-308, 1.7976931348623157e308, 0.1, 1e23};
+  const int n_extreme = (int)(sizeof extreme / sizeof *extreme);
+  uint64_t s = 88172645463325252u;
+  table *t = table_new(NULL, 1, one_real);
+  for (int i = 0; i < N_RANDOM; ++i) {
+    if (i < n_extreme) values[i] = extreme[i];
+    else do {
+        uint64_t bits = next_bits(&s);
+        memcpy(&values[i], &bits, sizeof bits);
+      } while (!isfinite(values[i]));
+    table_put_real(t, values[i]);
+  }
+  return t;
+}
+
+static void doubles_come_back_bit_for_bit(void **state)
+{
+  (void)state;
+  double *values = calloc(N_RANDOM, sizeof *values);
+  assert_non_null(values);
+  table *t = random_table(values);
+  char *csv = written(1, &t, FORMAT_CSV), *json = written(1, &t, FORMAT_JSON), *p = strchr(csv, '\n');
+  json_t *root = json_loads(json, 0, NULL);
+  assert_non_null(root);
+  for (int i = 0; i < N_RANDOM; ++i) {
+    double from_csv = strtod(p, &p);
+    double from_json = json_real_value(json_object_get(json_array_get(json_object_get(root, "rows"), (size_t)i), "value"));
+    assert_int_equal(*p, '\n');
+    assert_memory_equal(&from_csv, &values[i], sizeof(double));
+    assert_memory_equal(&from_json, &values[i], sizeof(double));
+  }
+  json_decref(root);
+  free(csv);
+  free(json);
+  free(values);
+  table_free(t);
+}
+
+static bool set_comma_locale(void)
+{
+  static const char *const names[] = {"de_DE.UTF-8", "de_DE.utf8", "de_DE", "fr_FR.UTF-8", "fr_FR", "nl_NL.UTF-8", "es_ES.UTF-8", "ru_RU.UTF-8"};
+  for (size_t i = 0; i < sizeof names / sizeof *names; ++i)
+    if (setlocale(LC_ALL, names[i]) && strcmp(localeconv()->decimal_point, ",") == 0) return true;
+  setlocale(LC_ALL, "C");
+  return false;
+}
+
+static void a_comma_locale_changes_nothing(void **state)
+{
+  (void)state;
+  char *before[3], *after[3];
+  for (int f = 0; f < 3; ++f) {
+    table *t = small_table("Small");
+    before[f] = written(1, &t, (table_format)f);
+    table_free(t);
+  }
+  bool comma = set_comma_locale();
+  for (int f = 0; f < 3; ++f) {
+    table *t = small_table("Small");
+    after[f] = written(1, &t, (table_format)f);
+    table_free(t);
+  }
+  bool kept = strcmp(localeconv()->decimal_point, comma ? "," : ".") == 0; /* the host's locale is as it was */
+  setlocale(LC_ALL, "C");
+  for (int f = 0; f < 3; ++f) {
+    assert_string_equal(before[f], after[f]);
+    free(before[f]);
+    free(after[f]);
+  }
+  assert_true(kept);
+  if (!comma) skip(); /* no such locale here: the comparison above says little */
+}
+
+static void failures_are_reported(void **state)
+{
+  (void)state;
+  table *t = small_table(NULL), *none = NULL;
+  FILE *full = fopen("/dev/full", "w");
+  assert_non_null(full);
+  setvbuf(full, NULL, _IONBF, 0);
+  for (int f = 0; f < 3; ++f) assert_int_equal(table_write(1, &t, (table_format)f, full), HC_IO);
+  fclose(full);
+  put(none, 1, "x", 1, 1); /* table_new ran out of memory */
+  table_note(none, "x");
+  assert_int_equal(table_rows(none), 0);
+  assert_int_equal(table_write(1, &none, FORMAT_CSV, stdout), HC_NO_MEMORY);
+  t->failed = true; /* as after a failed realloc */
+  put(t, 1, "x", 1, 1);
+  assert_int_equal(table_rows(t), 3);
+  assert_int_equal(table_write(1, &t, FORMAT_JSON, stdout), HC_NO_MEMORY);
+  table_free(t);
+  table_free(none);
+}
+
+static void wrong_kind(table *t) { table_put_text(t, "5"); }
+static void integer_for_real(table *t) { table_put_integer(t, 5); }
+static void incomplete_row(table *t)
+{
+  table_put_real(t, 5);
+  FILE *to = fopen("/dev/null", "w");
+  if (to) table_write(1, &t, FORMAT_CSV, to);
+}
+
+/* Whether `misuse` of a fresh table aborts. */
+static bool aborts(void (*misuse)(table *))
+{
+  fflush(NULL);
+  pid_t child = fork();
+  if (child == 0) {
+    signal(SIGABRT, SIG_DFL);
+    if (!freopen("/dev/null", "w", stderr)) _exit(1);
+    misuse(table_new(NULL, 4, columns));
+    _exit(0);
+  }
+  int status = 0;
+  assert_int_equal(waitpid(child, &status, 0), child);
+  return WIFSIGNALED(status) && WTERMSIG(status) == SIGABRT;
+}
+
+static void misuse_is_caught(void **state)
+{
+  (void)state;
+#ifdef NDEBUG
+  skip();
+#endif
+  assert_true(aborts(wrong_kind));
+  assert_true(aborts(integer_for_real));
+  assert_true(aborts(incomplete_row));
+}
+
+static const struct CMUnitTest tests[] = {
+  cmocka_unit_test(hidden_columns_are_for_machines), cmocka_unit_test(table_is_aligned),
+  cmocka_unit_test(csv_is_exact),
+  cmocka_unit_test(json_is_exact),
+  cmocka_unit_test(no_rows_and_no_title),
+  cmocka_unit_test(several_tables),
+  cmocka_unit_test(csv_quotes_what_a_reader_could_misread),
+  cmocka_unit_test(reals_get_one_notation_a_column),
+  cmocka_unit_test(text_is_utf8_and_safe),
+  cmocka_unit_test(utf8_is_decoded_strictly),
+  cmocka_unit_test(long_text_is_cut_except_at_the_end),
+  cmocka_unit_test(doubles_come_back_bit_for_bit),
+  cmocka_unit_test(a_comma_locale_changes_nothing),
+  cmocka_unit_test(failures_are_reported),
+  cmocka_unit_test(misuse_is_caught),
+};
+
+CHECK_MAIN("compare.table", tests, 60)
