@@ -56,8 +56,8 @@ size_t utf8_character(const char *text, size_t length, unsigned long *code)
 bool utf8_is_control(unsigned long code)
 {
   return code < 0x20 || (code >= 0x7F && code <= 0x9F) || (code >= 0x202A && code <= 0x202E) /* directions */
-         || code == 0x2028 || code == 0x2029 /* line ends */ || (code >= 0x2066 && code <= 0x2069) || code == 0xFEFF || code == 0xFFFE ||
-         code == 0xFFFF;
+         || code == 0x2028 || code == 0x2029 /* line ends */ || (code >= 0x2066 && code <= 0x2069) || code == 0xFEFF ||
+         code == 0xFFFE || code == 0xFFFF;
 }
 
 void message_add_input(message *m, const char *text, size_t length, size_t limit)

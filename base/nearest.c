@@ -8,7 +8,8 @@ enum { LONGEST = 40, FAR = NEAREST_FAR };
 
 static int smallest(int a, int b) { return a < b ? a : b; }
 
-/* Insertions, deletions, replacements and swaps of neighbours that turn a[n] into b (Damerau, optimal string alignment). */
+/* Insertions, deletions, replacements and swaps of neighbours that turn a[n] into b (Damerau, optimal string
+ * alignment). */
 static int distance(const char *a, size_t n, const char *b)
 {
   int row[3][LONGEST + 1]; /* the last two rows and the current one, [0..strlen(b)] */

@@ -6,8 +6,9 @@
 
 enum { NEAREST_FAR = 1000 };
 
-/* How far key[length] is from `name`: 0..2 typing mistakes (insertions, deletions, replacements, swaps of neighbours), 1 for the
- * start of the name, else NEAREST_FAR. Words of less than 6 letters may have one mistake only: every two of them are close. */
+/* How far key[length] is from `name`: 0..2 typing mistakes (insertions, deletions, replacements, swaps of
+ * neighbours), 1 for the start of the name, else NEAREST_FAR. Words of less than 6 letters may have one mistake
+ * only: every two of them are close. */
 int nearest_distance(const char *key, size_t length, const char *name);
 
 /* The nearest of words[], which ends in NULL, or NULL if none is near. */

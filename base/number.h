@@ -1,5 +1,6 @@
-/* number.h - numbers as text, strictly and the same in every locale: reading a whole text as one finite number, and the shortest
- * text that reads back to the same bits. Safe from several threads; the host program's locale is neither used nor changed. */
+/* number.h - numbers as text, strictly and the same in every locale: reading a whole text as one finite number, and
+ * the shortest text that reads back to the same bits. Safe from several threads; the host program's locale is
+ * neither used nor changed. */
 #ifndef HC_NUMBER_H
 #define HC_NUMBER_H
 
@@ -20,7 +21,8 @@ number_fault number_read(const char *text, size_t length, double *value);
 /* The whole of text[length] as [+-]digits, or a fault with *value untouched. */
 number_fault number_read_integer(const char *text, size_t length, int *value);
 
-/* The shortest of %.15g, %.16g and %.17g that reads back to the same bits (1e-9, not 1e-09). value must be finite. Returns text. */
+/* The shortest of %.15g, %.16g and %.17g that reads back to the same bits (1e-9, not 1e-09). value must be finite.
+ * Returns text. */
 enum { NUMBER_TEXT = 32 };
 const char *number_write(double value, char text[NUMBER_TEXT]);
 

@@ -5,24 +5,24 @@
 
 #include <stdbool.h>
 
-#define HC_STATUS_LIST(X) /* expanded to the enum and to hc_status_text() */                        \
-  X(HC_OK, "ok")                                                                                    \
-  X(HC_BAD_INPUT, "an argument is outside its documented range")                                    \
-  X(HC_NO_MEMORY, "out of memory")                                                                  \
-  X(HC_IO, "a file could not be read or written")                                                   \
-  X(HC_STALLED, "Newton steps became tiny while the residual stayed large")                         \
-  X(HC_NOT_CONVERGED, "the Newton residual stayed above tolerance")                                 \
-  X(HC_SINGULAR, "the Jacobian is singular")                                                        \
-  X(HC_NOT_FINITE, "a force, residual or solution was not finite")                                  \
-  X(HC_STEP_TOO_SMALL, "the continuation step shrank to its minimum")                               \
-  X(HC_TOO_MANY_POINTS, "the response curve needs more points than allowed")                        \
-  X(HC_NOT_CLOSED, "the slider did not close over a period")                                        \
-  X(HC_INTEGRATOR, "CVODE gave up; its own flag is in detail")                                      \
-  X(HC_CHATTER, "more contact transitions in a period than allowed")                                \
-  X(HC_NOT_SETTLED, "the transient did not reach a steady state within the allowed periods")        \
-  X(HC_APERIODIC, "the motion never repeats: neighbouring motions drift apart")                     \
-  X(HC_INTERRUPTED, "stopped on request")                                                           \
-  X(HC_UNSUPPORTED, "this version cannot do that yet")                                              \
+#define HC_STATUS_LIST(X) /* expanded to the enum and to hc_status_text() */                                           \
+  X(HC_OK, "ok")                                                                                                       \
+  X(HC_BAD_INPUT, "an argument is outside its documented range")                                                       \
+  X(HC_NO_MEMORY, "out of memory")                                                                                     \
+  X(HC_IO, "a file could not be read or written")                                                                      \
+  X(HC_STALLED, "Newton steps became tiny while the residual stayed large")                                            \
+  X(HC_NOT_CONVERGED, "the Newton residual stayed above tolerance")                                                    \
+  X(HC_SINGULAR, "the Jacobian is singular")                                                                           \
+  X(HC_NOT_FINITE, "a force, residual or solution was not finite")                                                     \
+  X(HC_STEP_TOO_SMALL, "the continuation step shrank to its minimum")                                                  \
+  X(HC_TOO_MANY_POINTS, "the response curve needs more points than allowed")                                           \
+  X(HC_NOT_CLOSED, "the slider did not close over a period")                                                           \
+  X(HC_INTEGRATOR, "CVODE gave up; its own flag is in detail")                                                         \
+  X(HC_CHATTER, "more contact transitions in a period than allowed")                                                   \
+  X(HC_NOT_SETTLED, "the transient did not reach a steady state within the allowed periods")                           \
+  X(HC_APERIODIC, "the motion never repeats: neighbouring motions drift apart")                                        \
+  X(HC_INTERRUPTED, "stopped on request")                                                                              \
+  X(HC_UNSUPPORTED, "this version cannot do that yet")                                                                 \
   X(HC_BUG, "internal error: please report it")
 
 #define HC_STATUS_ENUM(code, text) code,

@@ -18,11 +18,14 @@ unsigned long utf8_next(const char **p)
 
 int utf8_columns(unsigned long code)
 {
-  static const struct { unsigned from, to; int columns; } block[] = {
-    {0x0300, 0x036f, 0}, {0x1100, 0x115f, 2}, {0x1ab0, 0x1aff, 0}, {0x1dc0, 0x1dff, 0}, {0x200b, 0x200f, 0},
-    {0x20d0, 0x20ff, 0}, {0x2e80, 0x303e, 2}, {0x3041, 0xa4cf, 2}, {0xac00, 0xd7a3, 2}, {0xf900, 0xfaff, 2},
-    {0xfe00, 0xfe0f, 0}, {0xfe20, 0xfe2f, 0}, {0xfe30, 0xfe6f, 2}, {0xff00, 0xff60, 2}, {0xffe0, 0xffe6, 2},
-    {0x1f300, 0x1f64f, 2}, {0x1f900, 0x1f9ff, 2}, {0x20000, 0x3fffd, 2},
+  static const struct {
+    unsigned from, to;
+    int columns;
+  } block[] = {
+      {0x0300, 0x036f, 0},   {0x1100, 0x115f, 2},   {0x1ab0, 0x1aff, 0},   {0x1dc0, 0x1dff, 0}, {0x200b, 0x200f, 0},
+      {0x20d0, 0x20ff, 0},   {0x2e80, 0x303e, 2},   {0x3041, 0xa4cf, 2},   {0xac00, 0xd7a3, 2}, {0xf900, 0xfaff, 2},
+      {0xfe00, 0xfe0f, 0},   {0xfe20, 0xfe2f, 0},   {0xfe30, 0xfe6f, 2},   {0xff00, 0xff60, 2}, {0xffe0, 0xffe6, 2},
+      {0x1f300, 0x1f64f, 2}, {0x1f900, 0x1f9ff, 2}, {0x20000, 0x3fffd, 2},
   };
   for (size_t i = 0; i < sizeof block / sizeof *block; ++i)
     if (code >= block[i].from && code <= block[i].to) return block[i].columns;
@@ -54,8 +57,15 @@ char *utf8_clean(const char *text, bool one_line)
   while (*text) {
     const char *from = text;
     unsigned long code = utf8_next(&text);
-    if (one_line && utf8_is_control(code)) { *to++ = ' '; continue; }
-    if (code == REPLACEMENT) { memcpy(to, "\xef\xbf\xbd", 3); to += 3; continue; }
+    if (one_line && utf8_is_control(code)) {
+      *to++ = ' ';
+      continue;
+    }
+    if (code == REPLACEMENT) {
+      memcpy(to, "\xef\xbf\xbd", 3);
+      to += 3;
+      continue;
+    }
     memcpy(to, from, (size_t)(text - from));
     to += text - from;
   }

@@ -1,14 +1,17 @@
-/* utf8.h - text in columns, without the locale a host program may have set. What is UTF-8 and what is a control character: text/message.h. */
+/* utf8.h - text in columns, without the locale a host program may have set. What is UTF-8 and what is a control
+ * character: text/message.h. */
 #ifndef HC_UTF8_H
 #define HC_UTF8_H
 
 #include <stdbool.h>
 #include <stddef.h>
 
-/* The code point at *p, which is moved past it. A byte that starts no valid sequence counts alone, as U+FFFD. **p must not be 0. */
+/* The code point at *p, which is moved past it. A byte that starts no valid sequence counts alone, as U+FFFD. **p
+ * must not be 0. */
 unsigned long utf8_next(const char **p);
 
-/* Terminal columns of a code point: 0 combining, 2 east Asian wide and emoji, else 1. Approximate outside these blocks. */
+/* Terminal columns of a code point: 0 combining, 2 east Asian wide and emoji, else 1. Approximate outside these
+ * blocks. */
 int utf8_columns(unsigned long code);
 
 /* Columns of a whole text; control characters count as the space they are shown as. */
@@ -17,8 +20,8 @@ int utf8_width(const char *text);
 /* Bytes of the longest start of `text` that fits into `columns`; *width is how many it takes. */
 size_t utf8_fit(const char *text, int columns, int *width);
 
-/* A copy, valid UTF-8 whatever came in (U+FFFD for what was not); free() it. one_line: control characters become spaces, and spaces
- * at the end go. NULL when out of memory. */
+/* A copy, valid UTF-8 whatever came in (U+FFFD for what was not); free() it. one_line: control characters become
+ * spaces, and spaces at the end go. NULL when out of memory. */
 char *utf8_clean(const char *text, bool one_line);
 
 #endif

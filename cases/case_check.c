@@ -16,18 +16,21 @@ static case_place last_given(const case_reader *r, const field *a, const field *
 static hc_status check_sweep(case_reader *r)
 {
   if (r->sc.omega_from != r->sc.omega_to) return HC_OK;
-  message_add(case_blame(r, last_given(r, named("sweep", "omega"), named("sweep", "frequency"))),
-              "the sweep ends where it starts, expected FROM and TO to differ (single frequencies: compare.omega, or --at)");
+  message_add(
+      case_blame(r, last_given(r, named("sweep", "omega"), named("sweep", "frequency"))),
+      "the sweep ends where it starts, expected FROM and TO to differ (single frequencies: compare.omega, or --at)");
   return HC_BAD_INPUT;
 }
 
 static hc_status check_samples(case_reader *r)
 {
   const scene_hbm *h = &r->sc.hbm;
-  if (h->force != HBM_FORCE_SAMPLED || h->samples == SCENE_AUTO || h->harmonics == SCENE_AUTO || h->samples >= 2 * h->harmonics + 1)
+  if (h->force != HBM_FORCE_SAMPLED || h->samples == SCENE_AUTO || h->harmonics == SCENE_AUTO ||
+      h->samples >= 2 * h->harmonics + 1)
     return HC_OK;
   message_add(case_blame(r, last_given(r, named("hbm", "samples"), named("hbm", "harmonics"))),
-              "%d samples cannot tell %d harmonics apart, expected hbm.samples >= %d", h->samples, h->harmonics, 2 * h->harmonics + 1);
+              "%d samples cannot tell %d harmonics apart, expected hbm.samples >= %d", h->samples, h->harmonics,
+              2 * h->harmonics + 1);
   return HC_BAD_INPUT;
 }
 
@@ -41,8 +44,10 @@ static hc_status check_gate_ranges(case_reader *r)
   for (int i = 0; i < omega->n; i += 2) {
     if (i + 1 < omega->n && omega->v[i] <= omega->v[i + 1]) continue;
     message *m = case_blame(r, r->at[field_index(ranges)]);
-    if (i + 1 == omega->n) message_add(m, "gate.ranges ends in a single %.10g, expected FROM, TO, FROM, TO, ...", omega->v[i]);
-    else message_add(m, "gate.ranges has a range from %.10g to %.10g, expected FROM <= TO", omega->v[i], omega->v[i + 1]);
+    if (i + 1 == omega->n)
+      message_add(m, "gate.ranges ends in a single %.10g, expected FROM, TO, FROM, TO, ...", omega->v[i]);
+    else
+      message_add(m, "gate.ranges has a range from %.10g to %.10g, expected FROM <= TO", omega->v[i], omega->v[i + 1]);
     return HC_BAD_INPUT;
   }
   for (size_t k = 0; k < sizeof limits / sizeof *limits; ++k) {
@@ -50,12 +55,14 @@ static hc_status check_gate_ranges(case_reader *r)
     int n = ((const scene_list *)field_look(f, &r->sc))->n;
     if (n > longest) longest = n;
     if (n == 0 || n == omega->n / 2) continue;
-    message_add(case_blame(r, last_given(r, f, ranges)), "gate.%s has %d limit%s for %d range%s in gate.ranges, expected one for each", limits[k], n,
+    message_add(case_blame(r, last_given(r, f, ranges)),
+                "gate.%s has %d limit%s for %d range%s in gate.ranges, expected one for each", limits[k], n,
                 n == 1 ? "" : "s", omega->n / 2, omega->n == 2 ? "" : "s");
     return HC_BAD_INPUT;
   }
   if (omega->n == 0 || longest > 0) return HC_OK;
-  message_add(case_blame(r, r->at[field_index(ranges)]), "gate.ranges without limits, expected gate.range_amplitude or another gate.range_... too");
+  message_add(case_blame(r, r->at[field_index(ranges)]),
+              "gate.ranges without limits, expected gate.range_amplitude or another gate.range_... too");
   return HC_BAD_INPUT;
 }
 

@@ -27,7 +27,9 @@ message *case_blame(case_reader *r, case_place place)
 bool case_suggest(message *m, suggestion s, const char *section, int j)
 {
   char path[FIELD_PATH];
-  if (s.f) message_add(m, ", did you mean `%s`?", section && !strcmp(section, s.f->section) ? s.f->name : field_path(s.f, j, path));
+  if (s.f)
+    message_add(m, ", did you mean `%s`?",
+                section && !strcmp(section, s.f->section) ? s.f->name : field_path(s.f, j, path));
   if (s.s) message_add(m, ", did you mean `%s`%s?", s.s->name, section && *section ? " at the top level" : "");
   return s.f || s.s;
 }
@@ -84,7 +86,8 @@ static hc_status read_all(case_reader *r, const char *text, size_t length, int n
   return st;
 }
 
-hc_status case_parse(const char *name, const char *text, size_t length, int n_set, const char *const *set, scene *out, case_error *err)
+hc_status case_parse(const char *name, const char *text, size_t length, int n_set, const char *const *set, scene *out,
+                     case_error *err)
 {
   case_reader r;
   case_reader_start(&r, name, set, err);

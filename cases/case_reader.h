@@ -7,14 +7,15 @@
 
 #include <yaml.h>
 
+#include "base/status.h"
 #include "cases/case_file.h"
 #include "cases/fields.h"
-#include "base/status.h"
 #include "cases/suggest.h"
 
 enum { CASE_LARGEST = 1 << 20 }; /* bytes of a case file; a real one has a few thousand */
 
-/* Where something was said: the set-th assignment, counted from 1, or for set = 0 a line and column of the file. line = 0: nowhere. */
+/* Where something was said: the set-th assignment, counted from 1, or for set = 0 a line and column of the file.
+ * line = 0: nowhere. */
 typedef struct case_place {
   int set;
   size_t line, column;
@@ -29,14 +30,16 @@ typedef struct case_reader {
   case_place here;          /* where the path being resolved or the value being set stands       */
   case_place end;           /* of the file's text; line = 0 before it is known                   */
   scene sc;                 /* filled as reading goes on                                         */
-  case_place at[FIELD_MAX]; /* [field_index] where each field was last given; for contacts' fields, in the contact being read */
+  case_place at[FIELD_MAX]; /* [field_index] where each field was last given; for contacts' fields, in the contact
+                               being read */
   case_place contact_at[SCENE_MAX_CONTACTS];          /* where each contact appeared                  */
   unsigned long long contact_has[SCENE_MAX_CONTACTS]; /* bit field_index: the field has been given    */
-  message msg;                                        /* the one message                                                   */
+  message msg;                                        /* the one message */
 } case_reader;
 
 static inline bool case_given(const case_reader *r, const field *f) { return r->at[field_index(f)].line > 0; }
-/* libyaml ends a last line that has no end of its own, and then stands on a line that is not there: its end is meant. */
+/* libyaml ends a last line that has no end of its own, and then stands on a line that is not there: its end is
+ * meant. */
 static inline case_place case_place_of(const case_reader *r, yaml_mark_t mark)
 {
   if (r->set_now == 0 && r->end.line > 0 && mark.line + 1 > r->end.line) return r->end;
@@ -55,10 +58,12 @@ hc_status case_reader_scene(case_reader *r, const char *text, size_t length);
 /* Start the message with "FILE:LINE:COLUMN: " or "--set PATH=VALUE: " and return it for the rest. */
 message *case_blame(case_reader *r, case_place place);
 
-/* ", did you mean `x`?" if there is something to suggest. Fields show their whole path unless they are of `section` (NULL: always). */
+/* ", did you mean `x`?" if there is something to suggest. Fields show their whole path unless they are of `section`
+ * (NULL: always). */
 bool case_suggest(message *m, suggestion s, const char *section, int j);
 
-/* text as one YAML document without aliases, anchors, tags and depth, to be freed with yaml_document_delete when HC_OK. */
+/* text as one YAML document without aliases, anchors, tags and depth, to be freed with yaml_document_delete when
+ * HC_OK. */
 hc_status yaml_text_load(case_reader *r, const char *text, size_t length, yaml_document_t *doc);
 
 /* What a node says, and what it is in words: "a mapping", "a list", "a single value", "empty". */
@@ -79,7 +84,8 @@ hc_status yaml_scene_contacts(case_reader *r, yaml_document_t *doc, yaml_node_t 
 hc_status yaml_scene_contact(case_reader *r, yaml_document_t *doc, yaml_node_t *node, int j);
 
 /* The value of one field, of contact j if it is one of a contact's, into base (fields.h). */
-hc_status yaml_scene_value(case_reader *r, yaml_document_t *doc, const field *f, int j, void *base, const yaml_node_t *node);
+hc_status yaml_scene_value(case_reader *r, yaml_document_t *doc, const field *f, int j, void *base,
+                           const yaml_node_t *node);
 
 /* What a path "hbm.samples" or "contacts[0].gap" names; f = NULL: a contact, or with contact = -1 all contacts. */
 typedef struct case_target {
@@ -88,11 +94,13 @@ typedef struct case_target {
 } case_target;
 hc_status case_find_target(case_reader *r, const char *path, size_t length, case_target *t);
 
-/* The scene, or the contact of t, which is appended if it is the one past the last; then note that t.f was given at r->here. */
+/* The scene, or the contact of t, which is appended if it is the one past the last; then note that t.f was given at
+ * r->here. */
 void *case_target_base(case_reader *r, case_target t);
 void case_target_given(case_reader *r, case_target t);
 
-/* Of two ways to say the same (sweep.omega, sweep.frequency) the one not given now, if f has one, goes back to its default. */
+/* Of two ways to say the same (sweep.omega, sweep.frequency) the one not given now, if f has one, goes back to its
+ * default. */
 void case_drop_rival(case_reader *r, const field *f);
 
 /* Apply assignment number k, from 1. */

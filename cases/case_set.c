@@ -1,6 +1,8 @@
 /* case_set.c - assignments PATH=VALUE on top of a case file.
- *   hbm.samples=2048   title=Any text   sweep.omega=[3,20] or 3,20   contacts[0].gap=-1   contacts[0]={...}   contacts=[...]
- * An index one past the last contact appends one. A field with a rival (sweep.omega, sweep.frequency) takes its place. */
+ *   hbm.samples=2048   title=Any text   sweep.omega=[3,20] or 3,20   contacts[0].gap=-1   contacts[0]={...}
+ *                      contacts=[...]
+ * An index one past the last contact appends one. A field with a rival (sweep.omega, sweep.frequency) takes its
+ * place. */
 #include <string.h>
 
 #include "cases/case_reader.h"
@@ -12,14 +14,16 @@ static hc_status unknown_path(case_reader *r, const char *path, size_t length)
   if (s) {
     message_add(m, "`%s` is a section, expected one of its fields:", s->name);
     for (int i = 0, n = 0; i < field_count(); ++i)
-      if (!strcmp(field_at(i)->section, s->name)) message_add(m, "%s %s.%s", n++ ? "," : "", s->name, field_at(i)->name);
+      if (!strcmp(field_at(i)->section, s->name))
+        message_add(m, "%s %s.%s", n++ ? "," : "", s->name, field_at(i)->name);
     return HC_BAD_INPUT;
   }
   message_add(m, "unknown field `");
   message_add_input(m, path, length, 60);
   message_add(m, "`");
   suggestion guess = suggest_path(path, length);
-  if (!case_suggest(m, guess, NULL, 0)) message_add(m, ", expected a path such as hbm.samples (`hbmcheck describe` lists them)");
+  if (!case_suggest(m, guess, NULL, 0))
+    message_add(m, ", expected a path such as hbm.samples (`hbmcheck describe` lists them)");
   return HC_BAD_INPUT;
 }
 
@@ -55,7 +59,8 @@ static hc_status find_in_contacts(case_reader *r, const char *path, size_t lengt
 hc_status case_find_target(case_reader *r, const char *path, size_t length, case_target *t)
 {
   *t = (case_target){.contact = -1};
-  if (length >= 8 && !memcmp(path, "contacts", 8) && (length == 8 || path[8] == '[')) return find_in_contacts(r, path, length, t);
+  if (length >= 8 && !memcmp(path, "contacts", 8) && (length == 8 || path[8] == '['))
+    return find_in_contacts(r, path, length, t);
   const char *dot = memchr(path, '.', length);
   const field_section *s = dot ? field_find_section(path, (size_t)(dot - path)) : field_section_at(0);
   const char *name = dot ? dot + 1 : path;

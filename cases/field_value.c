@@ -7,7 +7,10 @@
 
 static bool is_integer(const field *f) { return f->kind == FIELD_INTEGER || f->kind == FIELD_INTEGERS; }
 
-static bool is_list(const field *f) { return f->kind == FIELD_PAIR || f->kind == FIELD_REALS || f->kind == FIELD_INTEGERS; }
+static bool is_list(const field *f)
+{
+  return f->kind == FIELD_PAIR || f->kind == FIELD_REALS || f->kind == FIELD_INTEGERS;
+}
 
 static void say_range(const field *f, message *m)
 {
@@ -66,7 +69,10 @@ static bool refuse(const field *f, const field_value *v, int bad, const char *hi
   return false;
 }
 
-static bool is_word(const field_item *it, const char *word) { return strlen(word) == it->length && !memcmp(word, it->text, it->length); }
+static bool is_word(const field_item *it, const char *word)
+{
+  return strlen(word) == it->length && !memcmp(word, it->text, it->length);
+}
 
 static const char *number_hint(const field_item *it, number_fault fault)
 {
@@ -90,7 +96,8 @@ static bool read_number(const field *f, const field_item *it, double *out, const
     *out = SCENE_AUTO;
     return true;
   }
-  number_fault fault = is_integer(f) ? number_read_integer(it->text, it->length, &i) : number_read(it->text, it->length, &x);
+  number_fault fault =
+      is_integer(f) ? number_read_integer(it->text, it->length, &i) : number_read(it->text, it->length, &x);
   if (fault != NUMBER_FINE) {
     *hint = number_hint(it, fault);
     return false;
@@ -130,7 +137,8 @@ static bool store_flag(const field *f, void *to, const field_value *v, message *
 {
   const field_item *it = &v->item[0];
   bool yes = is_word(it, "true");
-  if (it->quoted || !(yes || is_word(it, "false"))) return refuse(f, v, -1, it->quoted ? "in quotes it is text" : NULL, m);
+  if (it->quoted || !(yes || is_word(it, "false")))
+    return refuse(f, v, -1, it->quoted ? "in quotes it is text" : NULL, m);
   *(bool *)to = yes;
   return true;
 }
@@ -214,7 +222,8 @@ void field_reset(const field *f, void *base)
   if (!f->fallback || !*f->fallback) return;
   message_start(&m, words, sizeof words);
   field_split(f, f->fallback, strlen(f->fallback), &v);
-  field_store(f, base, &v, &m, &bad); /* cannot refuse: tests/cases/test_fields.c holds every default against its range */
+  field_store(f, base, &v, &m, &bad); /* cannot refuse: tests/cases/test_fields.c holds every default against its
+                                         range */
 }
 
 static void reset_all(void *base, unsigned in_contact)

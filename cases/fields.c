@@ -4,14 +4,23 @@
 #include <string.h>
 
 static const char *const force_names[] = {[HBM_FORCE_EXACT] = "exact", [HBM_FORCE_SAMPLED] = "sampled", NULL};
-static const char *const restart_names[] = {[HBM_RESTART_INTERPOLATED] = "interpolated", [HBM_RESTART_SAMPLE] = "sample", NULL};
-static const char *const continuation_names[] = {
-    [HBM_CONTINUATION_AUTO] = "auto", [HBM_CONTINUATION_NATURAL] = "natural", [HBM_CONTINUATION_ARCLENGTH] = "arclength", NULL};
-static const char *const law_names[] = {[TRANSIENT_LAW_REGULARISED] = "regularised", [TRANSIENT_LAW_EXACT] = "exact", NULL};
-static const char *const steady_names[] = {
-    [TRANSIENT_STEADY_AUTO] = "auto", [TRANSIENT_STEADY_MARCH] = "march", [TRANSIENT_STEADY_SHOOTING] = "shooting", NULL};
-static const char *const start_names[] = {
-    [TRANSIENT_START_HBM] = "hbm", [TRANSIENT_START_REST] = "rest", [TRANSIENT_START_UP] = "up", [TRANSIENT_START_DOWN] = "down", NULL};
+static const char *const restart_names[] = {
+    [HBM_RESTART_INTERPOLATED] = "interpolated", [HBM_RESTART_SAMPLE] = "sample", NULL};
+static const char *const continuation_names[] = {[HBM_CONTINUATION_AUTO] = "auto",
+                                                 [HBM_CONTINUATION_NATURAL] = "natural",
+                                                 [HBM_CONTINUATION_ARCLENGTH] = "arclength",
+                                                 NULL};
+static const char *const law_names[] = {
+    [TRANSIENT_LAW_REGULARISED] = "regularised", [TRANSIENT_LAW_EXACT] = "exact", NULL};
+static const char *const steady_names[] = {[TRANSIENT_STEADY_AUTO] = "auto",
+                                           [TRANSIENT_STEADY_MARCH] = "march",
+                                           [TRANSIENT_STEADY_SHOOTING] = "shooting",
+                                           NULL};
+static const char *const start_names[] = {[TRANSIENT_START_HBM] = "hbm",
+                                          [TRANSIENT_START_REST] = "rest",
+                                          [TRANSIENT_START_UP] = "up",
+                                          [TRANSIENT_START_DOWN] = "down",
+                                          NULL};
 
 static const field_section sections[] = {
     {"", "one scene a file"},
@@ -29,13 +38,14 @@ static const field_section sections[] = {
 /* Shorthands for the rows below. */
 #define SCENE(member)   .offset = offsetof(scene, member)
 #define CONTACT(member) .flags = FIELD_IN_CONTACT, .offset = offsetof(scene_contact, member)
-#define TEXT(member)    .kind = FIELD_TEXT, .unit = "", .offset = offsetof(scene, member), .size = sizeof((scene *)0)->member
-#define CHOICE(names)   .kind = FIELD_CHOICE, .unit = "", .choices = names
-#define WITHIN(a, b)    .low = (a), .high = (b)
-#define UNBOUNDED       WITHIN(-INFINITY, INFINITY)
-#define NOT_NEGATIVE    WITHIN(0, INFINITY)
-#define POSITIVE        .flags = FIELD_OPEN, WITHIN(0, INFINITY)
-#define MOST_SAMPLES    16777216 /* 2^24: sizes in bytes stay far inside an int */
+#define TEXT(member)                                                                                                   \
+  .kind = FIELD_TEXT, .unit = "", .offset = offsetof(scene, member), .size = sizeof((scene *)0)->member
+#define CHOICE(names) .kind = FIELD_CHOICE, .unit = "", .choices = names
+#define WITHIN(a, b)  .low = (a), .high = (b)
+#define UNBOUNDED     WITHIN(-INFINITY, INFINITY)
+#define NOT_NEGATIVE  WITHIN(0, INFINITY)
+#define POSITIVE      .flags = FIELD_OPEN, WITHIN(0, INFINITY)
+#define MOST_SAMPLES  16777216 /* 2^24: sizes in bytes stay far inside an int */
 
 /* clang-format off */
 static const field table[] = {
@@ -45,17 +55,22 @@ static const field table[] = {
   {"units", "force", "", TEXT(unit_force), .fallback = "N", .meaning = "label of forces"},
   {"units", "time", "", TEXT(unit_time), .fallback = "s", .meaning = "label of times"},
 
-  {"oscillator", "mass", "M", FIELD_REAL, .unit = "force time^2/length", SCENE(mass), POSITIVE, .meaning = "the moving mass"},
-  {"oscillator", "damping", "C", FIELD_REAL, .unit = "force time/length", SCENE(damping), NOT_NEGATIVE, .meaning = "of the linear damper"},
-  {"oscillator", "stiffness", "K", FIELD_REAL, .unit = "force/length", SCENE(stiffness), NOT_NEGATIVE, .meaning = "of the linear spring, without contacts"},
+  {"oscillator", "mass", "M", FIELD_REAL, .unit = "force time^2/length", SCENE(mass), POSITIVE,
+   .meaning = "the moving mass"},
+  {"oscillator", "damping", "C", FIELD_REAL, .unit = "force time/length", SCENE(damping), NOT_NEGATIVE,
+   .meaning = "of the linear damper"},
+  {"oscillator", "stiffness", "K", FIELD_REAL, .unit = "force/length", SCENE(stiffness), NOT_NEGATIVE,
+   .meaning = "of the linear spring, without contacts"},
 
-  {"forcing", "amplitude", "F0", FIELD_REAL, .unit = "force", SCENE(force), NOT_NEGATIVE, .meaning = "of the force F0 cos(omega t)"},
+  {"forcing", "amplitude", "F0", FIELD_REAL, .unit = "force", SCENE(force), NOT_NEGATIVE,
+   .meaning = "of the force F0 cos(omega t)"},
 
   {"contacts", "tangential_stiffness", "kt", FIELD_REAL, .unit = "force/length", CONTACT(law.kt), NOT_NEGATIVE,
    .meaning = "of the spring along the contact, in series with the slider"},
   {"contacts", "normal_stiffness", "kn", FIELD_REAL, .unit = "force/length", CONTACT(law.kn), NOT_NEGATIVE,
    .meaning = "of the spring across the contact: N = max(kn (v + gap), 0)"},
-  {"contacts", "friction", "mu", FIELD_REAL, .unit = "1", CONTACT(law.mu), NOT_NEGATIVE, .meaning = "Coulomb's coefficient: |T| <= mu N"},
+  {"contacts", "friction", "mu", FIELD_REAL, .unit = "1", CONTACT(law.mu), NOT_NEGATIVE,
+   .meaning = "Coulomb's coefficient: |T| <= mu N"},
   {"contacts", "angle_deg", "alpha", FIELD_REAL, .unit = "deg", CONTACT(angle_deg), WITHIN(0, 90),
    .meaning = "from x to the contact's tangent: u = x cos(alpha), v = x sin(alpha)"},
   {"contacts", "gap", "g", FIELD_REAL, .unit = "length", CONTACT(law.gap), .fallback = "0", UNBOUNDED,
@@ -63,19 +78,22 @@ static const field table[] = {
 
   {"sweep", "omega", "", FIELD_PAIR, .unit = "rad/time", SCENE(omega_from), POSITIVE, .rival = "frequency",
    .meaning = "from and to; downwards if from > to"},
-  {"sweep", "frequency", "", FIELD_PAIR, .unit = "cycles/time", .flags = FIELD_OPEN | FIELD_NO_ECHO, SCENE(omega_from), WITHIN(0, INFINITY),
+  {"sweep", "frequency", "", FIELD_PAIR, .unit = "cycles/time", .flags = FIELD_OPEN | FIELD_NO_ECHO,
+   SCENE(omega_from), WITHIN(0, INFINITY),
    .scale = 6.283185307179586477, .rival = "omega", .meaning = "instead of omega = 2 pi frequency"},
 
-  {"hbm", "harmonics", "H", FIELD_INTEGER, .unit = "1", .flags = FIELD_AUTO, SCENE(hbm.harmonics), .fallback = "5", WITHIN(1, SCENE_MAX_HARMONICS),
-   .meaning = "the highest harmonic kept"},
-  {"hbm", "static", "", FIELD_FLAG, .unit = "", SCENE(hbm.keep_mean), .fallback = "true", .meaning = "keep harmonic 0, the mean; false is the paper's mode"},
+  {"hbm", "harmonics", "H", FIELD_INTEGER, .unit = "1", .flags = FIELD_AUTO, SCENE(hbm.harmonics), .fallback = "5",
+   WITHIN(1, SCENE_MAX_HARMONICS), .meaning = "the highest harmonic kept"},
+  {"hbm", "static", "", FIELD_FLAG, .unit = "", SCENE(hbm.keep_mean), .fallback = "true",
+   .meaning = "keep harmonic 0, the mean; false is the paper's mode"},
   {"hbm", "force", "", CHOICE(force_names), SCENE(hbm.force), .fallback = "exact",
    .meaning = "contact force located by its events, free of aliasing, or sampled (AFT)"},
-  {"hbm", "samples", "N", FIELD_INTEGER, .unit = "1", .flags = FIELD_AUTO, SCENE(hbm.samples), .fallback = "1024", WITHIN(3, MOST_SAMPLES),
-   .meaning = "per period, at least 2 harmonics + 1; for the sampled force"},
+  {"hbm", "samples", "N", FIELD_INTEGER, .unit = "1", .flags = FIELD_AUTO, SCENE(hbm.samples), .fallback = "1024",
+   WITHIN(3, MOST_SAMPLES), .meaning = "per period, at least 2 harmonics + 1; for the sampled force"},
   {"hbm", "slider_restart", "", CHOICE(restart_names), SCENE(hbm.restart), .fallback = "interpolated",
    .meaning = "where the slider starts after a separation; for the sampled force"},
-  {"hbm", "continuation", "", CHOICE(continuation_names), SCENE(hbm.continuation), .fallback = "auto", .meaning = "how the response curve is followed"},
+  {"hbm", "continuation", "", CHOICE(continuation_names), SCENE(hbm.continuation), .fallback = "auto",
+   .meaning = "how the response curve is followed"},
   {"hbm", "tolerance", "", FIELD_REAL, .unit = "1", SCENE(hbm.tolerance), .fallback = "1e-10", WITHIN(1e-14, 1e-2),
    .meaning = "of the residual, relative to the forces that make it up"},
   {"hbm", "accuracy", "", FIELD_REAL, .unit = "1", SCENE(hbm.accuracy), .fallback = "1e-4", WITHIN(1e-12, 1e-1),
@@ -83,32 +101,39 @@ static const field table[] = {
   {"hbm", "skip_linear", "", FIELD_FLAG, .unit = "", SCENE(hbm.skip_linear), .fallback = "true",
    .meaning = "take points where nothing happens at the contacts from the closed form"},
 
-  {"transient", "law", "", CHOICE(law_names), SCENE(transient.law), .fallback = "regularised", .meaning = "contact law that is integrated"},
-  {"transient", "regularisation", "eta", FIELD_REAL, .unit = "1", SCENE(transient.regularisation), .fallback = "1e-4", WITHIN(1e-8, 1e-1),
-   .meaning = "of the contact law's corners; the error vanishes with it"},
+  {"transient", "law", "", CHOICE(law_names), SCENE(transient.law), .fallback = "regularised",
+   .meaning = "contact law that is integrated"},
+  {"transient", "regularisation", "eta", FIELD_REAL, .unit = "1", SCENE(transient.regularisation),
+   .fallback = "1e-4", WITHIN(1e-8, 1e-1), .meaning = "of the contact law's corners; the error vanishes with it"},
   {"transient", "richardson", "", FIELD_FLAG, .unit = "", SCENE(transient.richardson), .fallback = "false",
    .meaning = "extrapolate to no regularisation, from the regularisation given, a half and a quarter of it"},
-  {"transient", "steady_state", "", CHOICE(steady_names), SCENE(transient.steady), .fallback = "auto", .meaning = "how the steady state is reached"},
+  {"transient", "steady_state", "", CHOICE(steady_names), SCENE(transient.steady), .fallback = "auto",
+   .meaning = "how the steady state is reached"},
   {"transient", "start", "", CHOICE(start_names), SCENE(transient.start), .fallback = "hbm",
    .meaning = "on the HBM orbit, at rest, or swept up or down as on a shaker"},
-  {"transient", "tolerance", "", FIELD_REAL, .unit = "1", SCENE(transient.tolerance), .fallback = "1e-9", WITHIN(1e-13, 1e-2),
-   .meaning = "relative distance to the periodic orbit"},
-  {"transient", "max_periods", "", FIELD_INTEGER, .unit = "1", SCENE(transient.max_periods), .fallback = "20000", WITHIN(1, 1e7),
-   .meaning = "forcing periods before the answer is not_settled"},
+  {"transient", "tolerance", "", FIELD_REAL, .unit = "1", SCENE(transient.tolerance), .fallback = "1e-9",
+   WITHIN(1e-13, 1e-2), .meaning = "relative distance to the periodic orbit"},
+  {"transient", "max_periods", "", FIELD_INTEGER, .unit = "1", SCENE(transient.max_periods), .fallback = "20000",
+   WITHIN(1, 1e7), .meaning = "forcing periods before the answer is not_settled"},
 
-  {"compare", "omega", "", FIELD_REALS, .unit = "rad/time", SCENE(compare.omega), .fallback = "", POSITIVE, .rival = "points",
-   .meaning = "the frequencies at which to compare"},
-  {"compare", "points", "", FIELD_INTEGER, .unit = "1", SCENE(compare.points), .fallback = "20", WITHIN(1, SCENE_MAX_LIST), .rival = "omega",
+  {"compare", "omega", "", FIELD_REALS, .unit = "rad/time", SCENE(compare.omega),
+   .fallback = "", POSITIVE, .rival = "points", .meaning = "the frequencies at which to compare"},
+  {"compare", "points", "", FIELD_INTEGER, .unit = "1", SCENE(compare.points), .fallback = "20",
+   WITHIN(1, SCENE_MAX_LIST), .rival = "omega",
    .meaning = "instead: how many frequencies, spread over the sweep, dense at peaks"},
-  {"compare", "harmonics", "", FIELD_INTEGERS, .unit = "1", SCENE(compare.harmonics), .fallback = "[1, 3, 5, 10]", WITHIN(1, SCENE_MAX_HARMONICS),
-   .meaning = "truncation orders of the table that compare --tables prints"},
-  {"compare", "samples", "", FIELD_INTEGERS, .unit = "1", SCENE(compare.samples), .fallback = "[32, 128, 512, 2048]", WITHIN(3, MOST_SAMPLES),
-   .meaning = "sampling rates of that table; exact forces stand beside them"},
+  {"compare", "harmonics", "", FIELD_INTEGERS, .unit = "1", SCENE(compare.harmonics), .fallback = "[1, 3, 5, 10]",
+   WITHIN(1, SCENE_MAX_HARMONICS), .meaning = "truncation orders of the table that compare --tables prints"},
+  {"compare", "samples", "", FIELD_INTEGERS, .unit = "1", SCENE(compare.samples), .fallback = "[32, 128, 512, 2048]",
+   WITHIN(3, MOST_SAMPLES), .meaning = "sampling rates of that table; exact forces stand beside them"},
 
-  {"gate", "amplitude", "", FIELD_REAL, .unit = "1", SCENE(gate.amplitude), .fallback = "1e-3", POSITIVE, .meaning = "of (max - min)/2 over a period"},
-  {"gate", "harmonic_1", "", FIELD_REAL, .unit = "1", SCENE(gate.harmonic_1), .fallback = "1e-3", POSITIVE, .meaning = "of the fundamental, a1 + i b1"},
-  {"gate", "mean", "", FIELD_REAL, .unit = "1", SCENE(gate.mean), .fallback = "1e-3", POSITIVE, .meaning = "of harmonic 0"},
-  {"gate", "waveform", "", FIELD_REAL, .unit = "1", SCENE(gate.waveform), .fallback = "5e-3", POSITIVE, .meaning = "anywhere in the period"},
+  {"gate", "amplitude", "", FIELD_REAL, .unit = "1", SCENE(gate.amplitude), .fallback = "1e-3", POSITIVE,
+   .meaning = "of (max - min)/2 over a period"},
+  {"gate", "harmonic_1", "", FIELD_REAL, .unit = "1", SCENE(gate.harmonic_1), .fallback = "1e-3", POSITIVE,
+   .meaning = "of the fundamental, a1 + i b1"},
+  {"gate", "mean", "", FIELD_REAL, .unit = "1", SCENE(gate.mean), .fallback = "1e-3", POSITIVE,
+   .meaning = "of harmonic 0"},
+  {"gate", "waveform", "", FIELD_REAL, .unit = "1", SCENE(gate.waveform), .fallback = "5e-3", POSITIVE,
+   .meaning = "anywhere in the period"},
   {"gate", "ranges", "", FIELD_REALS, .unit = "rad/time", SCENE(gate_ranges.omega), .fallback = "", POSITIVE,
    .meaning = "FROM, TO, FROM, TO, ...: where the limits below hold; the last range counts"},
   {"gate", "range_amplitude", "", FIELD_REALS, .unit = "1", SCENE(gate_ranges.amplitude), .fallback = "", POSITIVE,
@@ -128,7 +153,8 @@ static const field table[] = {
 
 enum { COUNT = sizeof table / sizeof *table, SECTIONS = sizeof sections / sizeof *sections };
 _Static_assert((int)COUNT <= (int)FIELD_MAX, "case_reader keeps one place a field");
-_Static_assert(offsetof(scene, omega_to) == offsetof(scene, omega_from) + sizeof(double), "FIELD_PAIR stores both at once");
+_Static_assert(offsetof(scene, omega_to) == offsetof(scene, omega_from) + sizeof(double),
+               "FIELD_PAIR stores both at once");
 
 int field_count(void) { return COUNT; }
 
@@ -138,7 +164,10 @@ int field_index(const field *f) { return (int)(f - table); }
 
 const field_section *field_section_at(int i) { return i < SECTIONS ? &sections[i] : NULL; }
 
-static bool same(const char *word, const char *name, size_t length) { return strlen(word) == length && memcmp(word, name, length) == 0; }
+static bool same(const char *word, const char *name, size_t length)
+{
+  return strlen(word) == length && memcmp(word, name, length) == 0;
+}
 
 const field_section *field_find_section(const char *name, size_t length)
 {

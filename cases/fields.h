@@ -1,5 +1,6 @@
-/* fields.h - every field of a case file, in one table: name, kind, unit, default, range, meaning, and where it lives in a scene.
- * The reader, --set, the echo and describe all work from it; a new field is a new row in fields.c and nothing else. */
+/* fields.h - every field of a case file, in one table: name, kind, unit, default, range, meaning, and where it lives
+ * in a scene. The reader, --set, the echo and describe all work from it; a new field is a new row in fields.c and
+ * nothing else. */
 #ifndef HC_FIELDS_H
 #define HC_FIELDS_H
 
@@ -24,18 +25,18 @@ typedef enum field_kind {
 enum { FIELD_IN_CONTACT = 1, FIELD_AUTO = 2, FIELD_OPEN = 4, FIELD_NO_ECHO = 8 };
 
 typedef struct field {
-  const char *section, *name; /* section is "" for the top level; path is section.name                                     */
-  const char *symbol;         /* what PHYSICS.md and the paper call it, or ""; only ever suggested, never read              */
+  const char *section, *name; /* section is "" for the top level; path is section.name */
+  const char *symbol;         /* what PHYSICS.md and the paper call it, or ""; only ever suggested, never read */
   field_kind kind;
-  unsigned flags;             /* FIELD_IN_CONTACT: offset is into scene_contact; FIELD_AUTO: `auto` is a value (SCENE_AUTO);
-                                 FIELD_OPEN: low itself is out of range; FIELD_NO_ECHO: another field writes what it stored  */
-  const char *unit;           /* in terms of force, length, time; "1" for pure numbers, "" where there is none              */
-  size_t offset, size;        /* in bytes; size only for FIELD_TEXT                                                         */
-  const char *fallback;       /* the default as one would write it; "" for nothing at all; NULL: the field is required      */
-  double low, high;           /* range, of each entry in lists                                                              */
-  double scale;               /* stored = scale * written; 0 counts as 1                                                    */
-  const char *const *choices; /* in the order of the enum, ending in NULL                                                   */
-  const char *rival;          /* the other way, in the same section, to say the same: never both in one file; or NULL       */
+  unsigned flags;       /* FIELD_IN_CONTACT: offset is into scene_contact; FIELD_AUTO: `auto` is a value (SCENE_AUTO);
+                     FIELD_OPEN: low itself is out of range; FIELD_NO_ECHO: another field writes what it stored */
+  const char *unit;     /* in terms of force, length, time; "1" for pure numbers, "" where there is none */
+  size_t offset, size;  /* in bytes; size only for FIELD_TEXT */
+  const char *fallback; /* the default as one would write it; "" for nothing at all; NULL: the field is required */
+  double low, high;     /* range, of each entry in lists */
+  double scale;         /* stored = scale * written; 0 counts as 1 */
+  const char *const *choices; /* in the order of the enum, ending in NULL */
+  const char *rival;          /* the other way, in the same section, to say the same: never both in one file; or NULL */
   const char *meaning;
 } field;
 
@@ -79,7 +80,8 @@ typedef struct field_value {
  * (" is `12,5`, expected a number > 0") and *bad is the entry at fault, or -1 for the value as a whole. */
 bool field_store(const field *f, void *base, const field_value *v, message *m, int *bad);
 
-/* text[length] as --set and the defaults write it: `5`, `sampled`, `[1, 3, 5]` or `1,3,5` for lists. Points into text. */
+/* text[length] as --set and the defaults write it: `5`, `sampled`, `[1, 3, 5]` or `1,3,5` for lists. Points into
+ * text. */
 void field_split(const field *f, const char *text, size_t length, field_value *v);
 
 /* The stored value as one writes it in a case file; reads back to the same bits. */

@@ -13,7 +13,8 @@ const char *yaml_node_what(const yaml_node_t *n)
 bool yaml_check_key(case_reader *r, const yaml_node_t *key)
 {
   if (key->type == YAML_SCALAR_NODE) return true;
-  message_add(case_blame(r, case_place_of(r, key->start_mark)), "%s stands where a key should, expected `key: value`", yaml_node_what(key));
+  message_add(case_blame(r, case_place_of(r, key->start_mark)), "%s stands where a key should, expected `key: value`",
+              yaml_node_what(key));
   return false;
 }
 
@@ -32,7 +33,8 @@ static hc_status unknown_key(case_reader *r, const yaml_node_t *key, const char 
   for (int i = 0; i < field_count(); ++i)
     if (!strcmp(field_at(i)->section, section)) message_add(m, "%s %s", n++ ? "," : "", field_at(i)->name);
   for (int i = 1; !*section && (s = field_section_at(i)) != NULL; ++i) message_add(m, ", %s", s->name);
-  if (length > 0 && text[0] >= '0' && text[0] <= '9') message_add(m, " (a comma ends a value: the decimal sign is a point)");
+  if (length > 0 && text[0] >= '0' && text[0] <= '9')
+    message_add(m, " (a comma ends a value: the decimal sign is a point)");
   return HC_BAD_INPUT;
 }
 
@@ -71,7 +73,8 @@ const yaml_node_t *yaml_node_value(yaml_document_t *doc, const yaml_node_t *node
   return NULL;
 }
 
-hc_status yaml_scene_value(case_reader *r, yaml_document_t *doc, const field *f, int j, void *base, const yaml_node_t *node)
+hc_status yaml_scene_value(case_reader *r, yaml_document_t *doc, const field *f, int j, void *base,
+                           const yaml_node_t *node)
 {
   char path[FIELD_PATH], why_text[512];
   field_value v;
@@ -94,13 +97,15 @@ static hc_status check_rival(case_reader *r, const field *f, const yaml_node_t *
 {
   const field *rival = f->rival ? field_find(f->section, f->rival, strlen(f->rival)) : NULL;
   if (!rival || !case_given(r, rival)) return HC_OK;
-  message_add(case_blame(r, case_place_of(r, key->start_mark)), "both `%s` (line %zu) and `%s` in `%s`, expected one of them", f->rival,
-              r->at[field_index(rival)].line, f->name, f->section);
+  message_add(case_blame(r, case_place_of(r, key->start_mark)),
+              "both `%s` (line %zu) and `%s` in `%s`, expected one of them", f->rival, r->at[field_index(rival)].line,
+              f->name, f->section);
   return HC_BAD_INPUT;
 }
 
 /* One key of a section, or of the top level. */
-static hc_status read_field(case_reader *r, yaml_document_t *doc, const field *f, int j, void *base, const yaml_node_pair_t *pair)
+static hc_status read_field(case_reader *r, yaml_document_t *doc, const field *f, int j, void *base,
+                            const yaml_node_pair_t *pair)
 {
   const yaml_node_t *key = yaml_document_get_node(doc, pair->key), *value = yaml_document_get_node(doc, pair->value);
   if (case_given(r, f)) return yaml_duplicate_key(r, key, r->at[field_index(f)]);
@@ -127,7 +132,8 @@ static hc_status check_missing(case_reader *r, const field_section *s, const yam
 }
 
 /* A section that is a mapping, or one contact of the list of them. */
-static hc_status read_section(case_reader *r, yaml_document_t *doc, const field_section *s, int j, void *base, const yaml_node_t *node)
+static hc_status read_section(case_reader *r, yaml_document_t *doc, const field_section *s, int j, void *base,
+                              const yaml_node_t *node)
 {
   if (node->type != YAML_MAPPING_NODE) {
     message *m = case_blame(r, case_place_of(r, node->start_mark));
@@ -167,8 +173,8 @@ hc_status yaml_scene_contact(case_reader *r, yaml_document_t *doc, yaml_node_t *
 hc_status yaml_scene_contacts(case_reader *r, yaml_document_t *doc, yaml_node_t *node)
 {
   if (node->type != YAML_SEQUENCE_NODE) {
-    message_add(case_blame(r, case_place_of(r, node->start_mark)), "contacts is %s, expected a list of contacts, or [] for none",
-                yaml_node_what(node));
+    message_add(case_blame(r, case_place_of(r, node->start_mark)),
+                "contacts is %s, expected a list of contacts, or [] for none", yaml_node_what(node));
     return HC_BAD_INPUT;
   }
   memset(r->sc.contacts, 0, sizeof r->sc.contacts);
@@ -176,7 +182,8 @@ hc_status yaml_scene_contacts(case_reader *r, yaml_document_t *doc, yaml_node_t 
   for (yaml_node_item_t *it = node->data.sequence.items.start; it < node->data.sequence.items.top; ++it) {
     yaml_node_t *entry = yaml_document_get_node(doc, *it);
     if (r->sc.n_contacts == SCENE_MAX_CONTACTS) {
-      message_add(case_blame(r, case_place_of(r, entry->start_mark)), "one contact too many, expected at most %d", SCENE_MAX_CONTACTS);
+      message_add(case_blame(r, case_place_of(r, entry->start_mark)), "one contact too many, expected at most %d",
+                  SCENE_MAX_CONTACTS);
       return HC_BAD_INPUT;
     }
     hc_status st = yaml_scene_contact(r, doc, entry, r->sc.n_contacts++);
@@ -193,7 +200,9 @@ static hc_status check_sections(case_reader *r, const case_place *given, const y
     for (int j = 0; j < field_count() && given[i].line == 0; ++j) {
       const field *f = field_at(j);
       if (strcmp(f->section, s->name) || f->fallback || f->flags & (FIELD_IN_CONTACT | FIELD_NO_ECHO)) continue;
-      if (!m) message_add(m = case_blame(r, case_place_of(r, root->start_mark)), "missing section `%s`, expected `%s: {", s->name, s->name);
+      if (!m)
+        message_add(m = case_blame(r, case_place_of(r, root->start_mark)), "missing section `%s`, expected `%s: {",
+                    s->name, s->name);
       else message_add(m, ", ");
       message_add(m, "%s: ...", f->name);
     }

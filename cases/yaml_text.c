@@ -1,16 +1,19 @@
-/* yaml_text.c - from bytes to a YAML document that is safe to walk. Three passes: the characters; the events, which stop deep
- * nesting, aliases and second documents before libyaml builds anything (its time is quadratic in the depth); then the document. */
+/* yaml_text.c - from bytes to a YAML document that is safe to walk. Three passes: the characters; the events, which
+ * stop deep nesting, aliases and second documents before libyaml builds anything (its time is quadratic in the
+ * depth); then the document. */
 #include <string.h>
 
 #include "cases/case_reader.h"
 
 enum { DEEPEST = 16 }; /* a case file needs 4 */
 
-/* YAML 1.1 ends lines at U+0085, U+2028 and U+2029 too; no editor does, and the lines in messages would not be those on the screen. */
+/* YAML 1.1 ends lines at U+0085, U+2028 and U+2029 too; no editor does, and the lines in messages would not be those
+ * on the screen. */
 static bool is_yaml_character(unsigned long c)
 {
   if (c == '\t' || c == '\n' || c == '\r') return true;
-  return c >= 0x20 && !(c >= 0x7F && c < 0xA0) && c != 0x2028 && c != 0x2029 && c != 0xFEFF && c != 0xFFFE && c != 0xFFFF;
+  return c >= 0x20 && !(c >= 0x7F && c < 0xA0) && c != 0x2028 && c != 0x2029 && c != 0xFEFF && c != 0xFFFE &&
+         c != 0xFFFF;
 }
 
 static bool starts_with(const char *text, size_t length, const char *word)
@@ -26,7 +29,8 @@ static hc_status check_characters(case_reader *r, const char *text, size_t lengt
     unsigned long code = 0;
     n = utf8_character(text + i, length - i, &code);
     if (n == 0) {
-      message_add(case_blame(r, at), "byte 0x%02X is not UTF-8, expected a %s file in UTF-8", (unsigned)(unsigned char)text[i], r->noun);
+      message_add(case_blame(r, at), "byte 0x%02X is not UTF-8, expected a %s file in UTF-8",
+                  (unsigned)(unsigned char)text[i], r->noun);
       return HC_BAD_INPUT;
     }
     if (!is_yaml_character(code)) {
@@ -53,7 +57,8 @@ static hc_status parser_failed(case_reader *r, const yaml_parser_t *p)
     return HC_NO_MEMORY;
   }
   message_add(m, "not YAML: %s", p->problem ? p->problem : "cannot be parsed");
-  if (p->context && r->set_now == 0) message_add(m, " (%s from line %zu on)", p->context, case_place_of(r, p->context_mark).line);
+  if (p->context && r->set_now == 0)
+    message_add(m, " (%s from line %zu on)", p->context, case_place_of(r, p->context_mark).line);
   message_add(m, ", expected `key: value` lines, indented with spaces");
   return HC_BAD_INPUT;
 }
@@ -67,11 +72,16 @@ static const char *objection(const yaml_event_t *e, guard *g)
 {
   const yaml_char_t *anchor = NULL, *tag = NULL;
   switch (e->type) {
-  case YAML_DOCUMENT_START_EVENT: return ++g->documents > 1 ? "a second YAML document, expected one scene a file" : NULL;
+  case YAML_DOCUMENT_START_EVENT:
+    return ++g->documents > 1 ? "a second YAML document, expected one scene a file" : NULL;
   case YAML_ALIAS_EVENT: return "a YAML alias (*), expected the value itself";
   case YAML_SCALAR_EVENT: anchor = e->data.scalar.anchor, tag = e->data.scalar.tag; break;
-  case YAML_SEQUENCE_START_EVENT: anchor = e->data.sequence_start.anchor, tag = e->data.sequence_start.tag, ++g->depth; break;
-  case YAML_MAPPING_START_EVENT: anchor = e->data.mapping_start.anchor, tag = e->data.mapping_start.tag, ++g->depth; break;
+  case YAML_SEQUENCE_START_EVENT:
+    anchor = e->data.sequence_start.anchor, tag = e->data.sequence_start.tag, ++g->depth;
+    break;
+  case YAML_MAPPING_START_EVENT:
+    anchor = e->data.mapping_start.anchor, tag = e->data.mapping_start.tag, ++g->depth;
+    break;
   case YAML_SEQUENCE_END_EVENT:
   case YAML_MAPPING_END_EVENT: --g->depth; break;
   default: break;
@@ -118,7 +128,8 @@ hc_status yaml_text_load(case_reader *r, const char *text, size_t length, yaml_d
     message_add(case_blame(r, (case_place){0}), "larger than 1 MB, expected a %s file (a few kB)", r->noun);
     return HC_BAD_INPUT;
   }
-  if (starts_with(text, length, "\xEF\xBB\xBF")) text += 3, length -= 3; /* libyaml skips the mark only where it guesses the encoding */
+  /* libyaml skips the mark only where it guesses the encoding */
+  if (starts_with(text, length, "\xEF\xBB\xBF")) text += 3, length -= 3;
   hc_status st = check_characters(r, text, length);
   for (int pass = 0; pass < 2 && st == HC_OK; ++pass) {
     if (!yaml_parser_initialize(&p)) return out_of_memory(r);

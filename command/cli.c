@@ -7,13 +7,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cases/case_file.h"
 #include "base/number.h"
+#include "cases/case_file.h"
 #include "command/plot/plot.h"
 #include "output/output.h"
 
 static const struct argp_option common_options[] = {
-    {"set", CLI_SET, "PATH=VALUE", 0, "Set a field of the case, e.g. hbm.harmonics=10 or contacts[0].gap=-1; may be repeated", 10},
+    {"set", CLI_SET, "PATH=VALUE", 0,
+     "Set a field of the case, e.g. hbm.harmonics=10 or contacts[0].gap=-1; may be repeated", 10},
     {"format", CLI_FORMAT, "table|csv|json", 0, "Form of the result (csv: 17 significant digits) [table]", 10},
     {"output", 'o', "FILE", 0, "Write the result to FILE, whole or not at all, instead of standard output", 10},
     {"quiet", 'q', NULL, 0, "No progress, no remarks", 10},
@@ -24,7 +25,7 @@ static const struct argp_option common_options[] = {
 static void read_list(struct argp_state *state, const char *option, const char *text, scene_list *out)
 {
   out->n = 0;
-  for (const char *at = text;; ) {
+  for (const char *at = text;;) {
     size_t length = strcspn(at, ",");
     if (out->n == SCENE_MAX_LIST) argp_error(state, "--%s takes at most %d numbers", option, SCENE_MAX_LIST);
     if (number_read(at, length, &out->v[out->n]) != NUMBER_FINE || !(out->v[out->n] > 0))
@@ -35,7 +36,8 @@ static void read_list(struct argp_state *state, const char *option, const char *
   }
 }
 
-static void read_format(struct argp_state *state, const char *option, const char *text, bool table_too, table_format *out)
+static void read_format(struct argp_state *state, const char *option, const char *text, bool table_too,
+                        table_format *out)
 {
   if (table_too && !strcmp(text, "table")) *out = FORMAT_TABLE;
   else if (!strcmp(text, "csv")) *out = FORMAT_CSV;
@@ -82,7 +84,8 @@ static error_t on_option(int key, char *arg, struct argp_state *state)
   case CLI_QUANTITY: o->quantity = arg; return 0;
   case CLI_ALL: o->all = true; return 0;
   case CLI_PLOT:
-    if (!plot_can(arg)) argp_error(state, "--plot: '%s' has an unknown ending; expected a name ending in " PLOT_ENDINGS ", or -", arg);
+    if (!plot_can(arg))
+      argp_error(state, "--plot: '%s' has an unknown ending; expected a name ending in " PLOT_ENDINGS ", or -", arg);
     o->plot = arg;
     return 0;
   case CLI_PLOT_Y: o->plot_y = arg; return 0;
@@ -103,8 +106,8 @@ static error_t on_option(int key, char *arg, struct argp_state *state)
   }
 }
 
-void cli_parse(int argc, char **argv, const char *command, const char *args, const char *doc, const struct argp_option *own, bool needs_argument,
-               cli_options *o)
+void cli_parse(int argc, char **argv, const char *command, const char *args, const char *doc,
+               const struct argp_option *own, bool needs_argument, cli_options *o)
 {
   struct argp_option options[16] = {{0}};
   int n = 0;
@@ -116,7 +119,8 @@ void cli_parse(int argc, char **argv, const char *command, const char *args, con
   snprintf(name, sizeof name, "hbmcheck %s", command);
   argv[0] = name;
   argp_err_exit_status = EXIT_USAGE;
-  error_t failed = argp_parse(&argp, argc, argv, 0, NULL, o); /* of what is left to us only ENOMEM: usage makes it exit */
+  error_t failed = argp_parse(&argp, argc, argv, 0, NULL, o); /* of what is left to us only ENOMEM: usage makes it
+                                                                 exit */
   if (failed) {
     fprintf(stderr, "%s: %s\n", name, failed == ENOMEM ? hc_status_text(HC_NO_MEMORY) : strerror(failed));
     exit(failed == ENOMEM ? EXIT_NO_SOLUTION : EXIT_BUG);
@@ -128,7 +132,8 @@ void cli_parse(int argc, char **argv, const char *command, const char *args, con
   }
   bool for_programs = (o->format != FORMAT_TABLE || o->export) && !o->output;
   if (o->plot && !strcmp(o->plot, "-") && for_programs) {
-    fprintf(stderr, "%s: --plot - would mix a drawing into %s; give one of them a file\n", name, o->format == FORMAT_TABLE ? "the export" : "csv or json");
+    fprintf(stderr, "%s: --plot - would mix a drawing into %s; give one of them a file\n", name,
+            o->format == FORMAT_TABLE ? "the export" : "csv or json");
     exit(EXIT_USAGE);
   }
 }
@@ -168,7 +173,8 @@ static const char *advice(hc_status st)
   case HC_STEP_TOO_SMALL:
     return "try --set hbm.continuation=auto, --set hbm.force=exact, or a sweep from the other end";
   case HC_TOO_MANY_POINTS: return "try --set hbm.force=exact: false turning points come from too few samples";
-  case HC_INTEGRATOR: return "try a larger --set transient.regularisation=... or a tighter --set transient.tolerance=...";
+  case HC_INTEGRATOR:
+    return "try a larger --set transient.regularisation=... or a tighter --set transient.tolerance=...";
   case HC_NOT_SETTLED: return "try a larger --set transient.max_periods=... or --set transient.start=hbm";
   case HC_NOT_FINITE: return "the motion grew without bound: is the scene damped?";
   case HC_UNSUPPORTED: return "transient.law: exact and transient.steady_state: shooting are not there yet";
@@ -194,7 +200,8 @@ int cli_solver_failed(const cli_options *o, const char *solver, hc_status st, do
 const char *cli_hbm_settings(const scene *sc, int n_harm, int n_time, char *text, size_t size)
 {
   char samples[48] = "exact forces";
-  if (sc->hbm.force == HBM_FORCE_SAMPLED) snprintf(samples, sizeof samples, "%s%d samples", sc->hbm.samples == SCENE_AUTO ? "auto, at most " : "", n_time);
+  if (sc->hbm.force == HBM_FORCE_SAMPLED)
+    snprintf(samples, sizeof samples, "%s%d samples", sc->hbm.samples == SCENE_AUTO ? "auto, at most " : "", n_time);
   snprintf(text, size, "H = %s%d%s, %s", sc->hbm.harmonics == SCENE_AUTO ? "auto, at most " : "", n_harm,
            sc->hbm.keep_mean ? "" : " WITHOUT harmonic 0", samples);
   return text;
@@ -222,6 +229,7 @@ int cli_write(const cli_options *o, int n, table *const *tables)
     else output_abandon(out);
   }
   if (st == HC_OK) return 0;
-  cli_say(o, "%s: %s", o->output ? o->output : "standard output", st == HC_IO && errno ? strerror(errno) : hc_status_text(st));
+  cli_say(o, "%s: %s", o->output ? o->output : "standard output",
+          st == HC_IO && errno ? strerror(errno) : hc_status_text(st));
   return EXIT_NO_SOLUTION;
 }

@@ -6,36 +6,55 @@
 
 #include "campaigns/bench/bench.h"
 #include "command/cli.h"
-#include "command/version.h"
 #include "command/plot/plot.h"
+#include "command/version.h"
 #include "output/progress.h"
 
 static const char doc[] =
-    "Run time against error for every method on CASE, at the largest stable response at each omega: harmonic balance with exact and sampled forces, "
-    "time integration with the exact and the regularised law, by shooting and by marching; scipy's LSODA beside them where python3 has it."
-    "\vThe error is of the amplitude, relative to the exact law's orbit. Seconds are processor time of one solution at that omega from its neighbour's in "
-    "a sweep: median, lower and upper quartile. Methods take turns. error_finer is the largest error at these or finer settings: what can be counted "
+    "Run time against error for every method on CASE, at the largest stable response at each omega: harmonic balance "
+    "with exact and sampled forces, "
+    "time integration with the exact and the regularised law, by shooting and by marching; scipy's LSODA beside them "
+    "where python3 has it."
+    "\vThe error is of the amplitude, relative to the exact law's orbit. Seconds are processor time of one solution "
+    "at that omega from its neighbour's in "
+    "a sweep: median, lower and upper quartile. Methods take turns. error_finer is the largest error at these or "
+    "finer settings: what can be counted "
     "on. front: nothing is both nearer by it and faster.\n"
     "exit: 0 done  2 case file wrong  3 no stable orbit to compare with, or stopped  64 usage\n"
     "example: hbmcheck bench cases/paper/case2.yaml --at 9";
 
 static const struct argp_option options[] = {
-    {"at", CLI_AT, "LIST", 0, "Omegas, rad per unit time [of the case's compare frequencies the one where the response is largest]", 1},
-    {"repeats", CLI_REPEATS, "N", 0, "Times each method is measured; those that take long less often, as the column says [9]", 1},
+    {"at", CLI_AT, "LIST", 0,
+     "Omegas, rad per unit time [of the case's compare frequencies the one where the response is largest]", 1},
+    {"repeats", CLI_REPEATS, "N", 0,
+     "Times each method is measured; those that take long less often, as the column says [9]", 1},
     {"alone", CLI_ALONE, NULL, 0, "No other programs beside our methods", 1},
     CLI_PLOT_OPTION,
     {0},
 };
 
 static const table_column columns[] = {
-    {"omega", TABLE_REAL},        {"method", TABLE_TEXT},           {"harmonics", TABLE_INTEGER},  {"samples", TABLE_INTEGER},
-    {"regularisation", TABLE_REAL}, {"tolerance", TABLE_REAL},      {"error", TABLE_REAL},         {"error_harmonic_1", TABLE_REAL},
-    {"error_finer", TABLE_REAL},  {"seconds", TABLE_REAL},          {"low", TABLE_REAL},           {"high", TABLE_REAL},
-    {"repeats", TABLE_INTEGER},   {"front", TABLE_TEXT},            {"curve_seconds", TABLE_REAL}, {"outcome", TABLE_TEXT},
+    {"omega", TABLE_REAL},
+    {"method", TABLE_TEXT},
+    {"harmonics", TABLE_INTEGER},
+    {"samples", TABLE_INTEGER},
+    {"regularisation", TABLE_REAL},
+    {"tolerance", TABLE_REAL},
+    {"error", TABLE_REAL},
+    {"error_harmonic_1", TABLE_REAL},
+    {"error_finer", TABLE_REAL},
+    {"seconds", TABLE_REAL},
+    {"low", TABLE_REAL},
+    {"high", TABLE_REAL},
+    {"repeats", TABLE_INTEGER},
+    {"front", TABLE_TEXT},
+    {"curve_seconds", TABLE_REAL},
+    {"outcome", TABLE_TEXT},
 };
 static const table_column way_columns[] = {
-    {"omega", TABLE_REAL},   {"accuracy", TABLE_REAL},    {"method", TABLE_TEXT},  {"settings", TABLE_TEXT},
-    {"error_finer", TABLE_REAL}, {"seconds", TABLE_REAL}, {"next_method", TABLE_TEXT}, {"next_settings", TABLE_TEXT}, {"times_faster", TABLE_REAL},
+    {"omega", TABLE_REAL},       {"accuracy", TABLE_REAL},      {"method", TABLE_TEXT},
+    {"settings", TABLE_TEXT},    {"error_finer", TABLE_REAL},   {"seconds", TABLE_REAL},
+    {"next_method", TABLE_TEXT}, {"next_settings", TABLE_TEXT}, {"times_faster", TABLE_REAL},
 };
 enum { N_COLUMNS = sizeof columns / sizeof *columns, N_WAY_COLUMNS = sizeof way_columns / sizeof *way_columns };
 static const double accuracies[] = {1e-2, 1e-3, 1e-4, 1e-6, 1e-8};
@@ -51,7 +70,10 @@ static void put_count(table *t, int n)
 static void put_seconds(table *t, double s)
 {
   char text[32];
-  if (!(s > 0)) { table_put_missing(t); return; }
+  if (!(s > 0)) {
+    table_put_missing(t);
+    return;
+  }
   snprintf(text, sizeof text, "%.3g", s);
   table_put_real(t, strtod(text, NULL));
 }
@@ -102,9 +124,12 @@ static void note_winners(table *t, const bench *b, const bench_place *p)
   const bench_row *second, *last = NULL;
   double first = 1e-1;
   for (int decade = -1; decade >= -13 && n < sizeof text - 96; --decade) {
-    const bench_row *best = decade > -13 ? bench_cheapest(p->n, b->rows + p->first, 1.0000001 * pow(10, decade), &second) : NULL;
+    const bench_row *best =
+        decade > -13 ? bench_cheapest(p->n, b->rows + p->first, 1.0000001 * pow(10, decade), &second) : NULL;
     if (decade < -1 && best && last && best->method == last->method) continue;
-    if (last) n += (size_t)snprintf(text + n, sizeof text - n, "%s%s from %.0e to %.0e", n ? "; " : "", bench_method_name(last->method), first, pow(10, decade + 1));
+    if (last)
+      n += (size_t)snprintf(text + n, sizeof text - n, "%s%s from %.0e to %.0e", n ? "; " : "",
+                            bench_method_name(last->method), first, pow(10, decade + 1));
     first = pow(10, decade);
     if (!best) break;
     last = best;
@@ -129,8 +154,11 @@ static void note_versions(table *t)
 
 static void note_place(table *t, const bench_place *p)
 {
-  table_note(t, "omega = %.10g: reference amplitude %.12g, good to %.0e, Floquet multiplier %.4g; all start from the solutions at omega = %.10g", p->omega,
-             p->amplitude, p->floor, p->multiplier, p->neighbour);
+  table_note(
+      t,
+      "omega = %.10g: reference amplitude %.12g, good to %.0e, Floquet multiplier %.4g; all start from the solutions "
+      "at omega = %.10g",
+      p->omega, p->amplitude, p->floor, p->multiplier, p->neighbour);
   table_note(t, "omega = %.10g: scipy_lsoda: %s", p->omega, p->scipy);
 }
 
@@ -138,16 +166,22 @@ static void put_notes(table *t, const scene *sc, const bench *b)
 {
   table_note(t, "%s", sc->title);
   for (int i = 0; i < b->n_places; ++i) note_place(t, &b->places[i]);
-  table_note(t, "seconds: processor time of one solution and its measures; curve_seconds: the whole response curve over the sweep");
-  table_note(t, "HBM: residual tolerance %g, harmonic 0 %s; transient: the tolerance is transient.tolerance; a solution is given up after %g s, by shooting %g s",
-             sc->hbm.tolerance, sc->hbm.keep_mean ? "kept" : "NOT kept", bench_longest, bench_longest_shot);
+  table_note(
+      t, "seconds: processor time of one solution and its measures; curve_seconds: the whole response curve over the "
+         "sweep");
+  table_note(
+      t,
+      "HBM: residual tolerance %g, harmonic 0 %s; transient: the tolerance is transient.tolerance; a solution is "
+      "given up after %g s, by shooting %g s",
+      sc->hbm.tolerance, sc->hbm.keep_mean ? "kept" : "NOT kept", bench_longest, bench_longest_shot);
   table_note(t, "AUTO-07p is not run from here: it wants its equations compiled (tests/bench/versus_auto.sh does)");
   note_versions(t);
 }
 
 static int show(const cli_options *o, const scene *sc, const bench *b)
 {
-  table *tables[2] = {table_new("Work and precision", N_COLUMNS, columns), table_new("Cheapest way", N_WAY_COLUMNS, way_columns)};
+  table *tables[2] = {table_new("Work and precision", N_COLUMNS, columns),
+                      table_new("Cheapest way", N_WAY_COLUMNS, way_columns)};
   for (int i = 0; i < b->n_rows; ++i) put_row(tables[0], &b->rows[i]);
   put_notes(tables[0], sc, b);
   for (int i = 0; i < b->n_places; ++i) {
@@ -174,7 +208,11 @@ int cmd_bench(int argc, char **argv)
   hc_status st = bench_run(&sc, &how, &monitor, &b, &failed_at);
   progress_end(bar);
   if (st == HC_NOT_CONVERGED) {
-    cli_say(&o, "omega = %.10g: no stable orbit of the exact law next to a harmonic-balance solution, or none beside it; try another --at", failed_at);
+    cli_say(
+        &o,
+        "omega = %.10g: no stable orbit of the exact law next to a harmonic-balance solution, or none beside it; try "
+        "another --at",
+        failed_at);
     code = EXIT_NO_SOLUTION;
   } else if (st != HC_OK) code = cli_solver_failed(&o, "the benchmark", st, failed_at);
   int written = b.n_rows ? show(&o, &sc, &b) : 0;

@@ -3,25 +3,32 @@
 
 #include "command/cli.h"
 #include "command/compare_tables.h"
-#include "compare/comparison.h"
 #include "command/plot/plot.h"
+#include "compare/comparison.h"
 #include "output/progress.h"
 
 static const char doc[] =
-    "Solve CASE by harmonic balance and by time integration at the same frequencies; report how far apart they are, and a verdict for every "
+    "Solve CASE by harmonic balance and by time integration at the same frequencies; report how far apart they are, "
+    "and a verdict for every "
     "frequency and branch."
-    "\vAn error is |hbm - transient| / the transient's amplitude; the limits are the case's gate. from_aliasing, ... say what "
+    "\vAn error is |hbm - transient| / the transient's amplitude; the limits are the case's gate. from_aliasing, ... "
+    "say what "
     "it is made of; their sum is no less than the discrepancy, or budget_holds says no.\n"
-    "--tables adds a table over truncation orders and samples (largest amplitude discrepancy, peak, false turning points, cost) and one of "
-    "observed orders; it takes seconds, and with csv they follow the first after a blank line. The screen shows the main columns, csv and json all of them.\n"
-    "exit: 0 agreed  1 a transient differs from every HBM solution  2 case file wrong  3 something could not be compared  64 usage\n"
+    "--tables adds a table over truncation orders and samples (largest amplitude discrepancy, peak, false turning "
+    "points, cost) and one of "
+    "observed orders; it takes seconds, and with csv they follow the first after a blank line. The screen shows the "
+    "main columns, csv and json all of them.\n"
+    "exit: 0 agreed  1 a transient differs from every HBM solution  2 case file wrong  3 something could not be "
+    "compared  64 usage\n"
     "example: hbmcheck compare cases/paper/case2.yaml --set hbm.static=false";
 
 static const struct argp_option options[] = {
     {"at", CLI_AT, "LIST", 0, "Omegas, rad per unit time [compare.omega, else compare.points over the sweep]", 1},
     {"tables", CLI_TABLES, NULL, 0, "Also the tables over truncation orders and samples, and observed orders", 1},
-    {"harmonics", CLI_HARMONICS, "LIST", 0, "Truncation orders of the tables, 1..200 [compare.harmonics]; implies --tables", 1},
-    {"samples", CLI_SAMPLES, "LIST", 0, "Samples per period of the tables, at least 2 H + 2 [compare.samples]; implies --tables", 1},
+    {"harmonics", CLI_HARMONICS, "LIST", 0,
+     "Truncation orders of the tables, 1..200 [compare.harmonics]; implies --tables", 1},
+    {"samples", CLI_SAMPLES, "LIST", 0,
+     "Samples per period of the tables, at least 2 H + 2 [compare.samples]; implies --tables", 1},
     CLI_PLOT_OPTION,
     {0},
 };
@@ -40,29 +47,37 @@ static void note_worst(table *t, const scene *sc, const comparison *c)
   }
   if (top) budget_advice(&top->budget, sc, c->harmonics, text);
   if (top) table_note(t, "largest budget, omega = %.10g, branch %d: %s", top->omega, top->branch, text);
-  if (doubtful) table_note(t, "in %d row%s the parts do NOT account for what is observed", doubtful, doubtful == 1 ? "" : "s");
-  if (unknown) table_note(t, "%d row%s without a budget: no periodic orbit was found next to the HBM solution", unknown, unknown == 1 ? "" : "s");
+  if (doubtful)
+    table_note(t, "in %d row%s the parts do NOT account for what is observed", doubtful, doubtful == 1 ? "" : "s");
+  if (unknown)
+    table_note(t, "%d row%s without a budget: no periodic orbit was found next to the HBM solution", unknown,
+               unknown == 1 ? "" : "s");
 }
 
 /* In csv and json, not on the screen. */
-static const char *const details[] = {"mean_error",     "from_integration", "from_settling", "hbm_harmonic_1", "transient_harmonic_1", "periods",
-                                      "orbit_amplitude", "orbit_multiplier", "budget_sum",    "budget_observed"};
+static const char *const details[] = {"mean_error",           "from_integration", "from_settling",   "hbm_harmonic_1",
+                                      "transient_harmonic_1", "periods",          "orbit_amplitude", "orbit_multiplier",
+                                      "budget_sum",           "budget_observed"};
 
 static void put_notes(table *t, const scene *sc, const comparison *c)
 {
   table_note(t, "%s", sc->title);
   char how[128];
   char law[64] = "exact law";
-  if (sc->transient.law != TRANSIENT_LAW_EXACT) snprintf(law, sizeof law, "regularised law, %g", sc->transient.regularisation);
-  table_note(t, "HBM: %s. Transient: %s, closure %g", cli_hbm_settings(sc, c->harmonics, c->samples, how, sizeof how), law, sc->transient.tolerance);
-  table_note(t, "gate: amplitude %g, harmonic_1 %g, mean %g, waveform %g of the transient's amplitude", sc->gate.amplitude, sc->gate.harmonic_1,
-             sc->gate.mean, sc->gate.waveform);
+  if (sc->transient.law != TRANSIENT_LAW_EXACT)
+    snprintf(law, sizeof law, "regularised law, %g", sc->transient.regularisation);
+  table_note(t, "HBM: %s. Transient: %s, closure %g", cli_hbm_settings(sc, c->harmonics, c->samples, how, sizeof how),
+             law, sc->transient.tolerance);
+  table_note(t, "gate: amplitude %g, harmonic_1 %g, mean %g, waveform %g of the transient's amplitude",
+             sc->gate.amplitude, sc->gate.harmonic_1, sc->gate.mean, sc->gate.waveform);
   if (c->curve.end != HC_OK && c->curve.n)
-    table_note(t, "the HBM curve STOPPED at omega = %.10g: %s", c->curve.points[c->curve.n - 1].omega, hc_status_text(c->curve.end));
+    table_note(t, "the HBM curve STOPPED at omega = %.10g: %s", c->curve.points[c->curve.n - 1].omega,
+               hc_status_text(c->curve.end));
   int unaccounted = 0;
-  for (int i = 0; i < c->n_rows; ++i)
-    unaccounted += comparison_unaccounted(&c->rows[i]);
-  if (unaccounted) table_note(t, "%d transient%s NO HBM solution of this curve within the gate", unaccounted, unaccounted == 1 ? " matches" : "s match");
+  for (int i = 0; i < c->n_rows; ++i) unaccounted += comparison_unaccounted(&c->rows[i]);
+  if (unaccounted)
+    table_note(t, "%d transient%s NO HBM solution of this curve within the gate", unaccounted,
+               unaccounted == 1 ? " matches" : "s match");
   for (int v = 0; v < VERDICT_COUNT; ++v)
     if (c->count[v]) table_note(t, "%d %s: %s", c->count[v], verdict_name((verdict)v), verdict_meaning((verdict)v));
   note_worst(t, sc, c);
@@ -73,7 +88,8 @@ static void say_failures(const cli_options *o, const comparison *c)
   for (int i = 0; i < c->n_rows; ++i) {
     const comparison_row *r = &c->rows[i];
     if (r->hbm_status != HC_OK) cli_solver_failed(o, "harmonic balance", r->hbm_status, r->omega);
-    else if (r->transient_status != HC_OK && r->transient_status != HC_APERIODIC) cli_solver_failed(o, "time integration", r->transient_status, r->omega);
+    else if (r->transient_status != HC_OK && r->transient_status != HC_APERIODIC)
+      cli_solver_failed(o, "time integration", r->transient_status, r->omega);
   }
   if (c->curve.end != HC_OK && c->curve.n)
     cli_solver_failed(o, "the HBM response curve", c->curve.end, c->curve.points[c->curve.n - 1].omega);
@@ -123,7 +139,8 @@ int cmd_compare(int argc, char **argv)
   say_failures(&o, &c);
   int written = c.n_rows ? cli_write(&o, n_tables, tables) : 0;
   plot_order drawing = {.path = o.plot};
-  if (o.plot && c.n_rows && !written) written = cli_plotted(&o, plot_compare(&drawing, &sc, &c, n_tables > 1 ? &a : NULL), drawing.why);
+  if (o.plot && c.n_rows && !written)
+    written = cli_plotted(&o, plot_compare(&drawing, &sc, &c, n_tables > 1 ? &a : NULL), drawing.why);
   for (int i = 0; i < n_tables; ++i) table_free(tables[i]);
   accuracy_clear(&a);
   comparison_clear(&c);

@@ -13,7 +13,8 @@
 
 static const char doc[] =
     "Fourier coefficients of CASE's contact force sum_j T_j cos(alpha_j) + (N_j - N0_j) sin(alpha_j) under the motion "
-    "x = a0 + a1 cos + b1 sin + a2 cos 2 + ...: exact (or sampled at hbm.samples if hbm.force says so), and sampled at each N of --samples."
+    "x = a0 + a1 cos + b1 sin + a2 cos 2 + ...: exact (or sampled at hbm.samples if hbm.force says so), and sampled "
+    "at each N of --samples."
     "\vRow 0 is the mean. As many harmonics as the motion or hbm.harmonics has, whichever is more.\n"
     "example: hbmcheck contact cases/paper/case2.yaml --motion 0,8,0 --samples 64,512";
 
@@ -30,16 +31,28 @@ enum { MAX_COEF = 2 * SCENE_MAX_HARMONICS + 1, MAX_SETS = 17, EXACT = 0 };
 static int read_motion(const cli_options *o, double *X)
 {
   int n = 0;
-  if (!o->motion) { cli_say(o, "no motion given: --motion a0,a1,b1,..."); return -1; }
+  if (!o->motion) {
+    cli_say(o, "no motion given: --motion a0,a1,b1,...");
+    return -1;
+  }
   for (const char *at = o->motion;;) {
     size_t length = strcspn(at, ",");
-    if (n == MAX_COEF) { cli_say(o, "--motion takes at most %d coefficients", MAX_COEF); return -1; }
-    if (number_read(at, length, &X[n]) != NUMBER_FINE) { cli_say(o, "--motion: '%.*s' is not a number", (int)length, at); return -1; }
+    if (n == MAX_COEF) {
+      cli_say(o, "--motion takes at most %d coefficients", MAX_COEF);
+      return -1;
+    }
+    if (number_read(at, length, &X[n]) != NUMBER_FINE) {
+      cli_say(o, "--motion: '%.*s' is not a number", (int)length, at);
+      return -1;
+    }
     ++n;
     if (!at[length]) break;
     at += length + 1;
   }
-  if (n % 2 == 0) { cli_say(o, "--motion has %d coefficients; expected an odd number: a0,a1,b1,a2,b2,...", n); return -1; }
+  if (n % 2 == 0) {
+    cli_say(o, "--motion has %d coefficients; expected an odd number: a0,a1,b1,a2,b2,...", n);
+    return -1;
+  }
   return n / 2;
 }
 
@@ -72,7 +85,8 @@ static hc_status note_pattern(table *t, const scene *sc, int n_harm, const doubl
   for (int j = 0, n; j < sc->n_contacts && st == HC_OK; ++j) {
     const contact_piece *p = exact_pieces(e, j, &n);
     if (n == 0) table_note(t, "contact %d: separated all period", j);
-    for (int i = 0; i < n && i < SHOWN; ++i) table_note(t, "contact %d: %s from %.12g to %.12g rad", j, names[p[i].state], p[i].from, p[i].to);
+    for (int i = 0; i < n && i < SHOWN; ++i)
+      table_note(t, "contact %d: %s from %.12g to %.12g rad", j, names[p[i].state], p[i].from, p[i].to);
     if (n > SHOWN) table_note(t, "contact %d: and %d pieces more", j, n - SHOWN);
   }
   exact_free(e);
@@ -80,12 +94,16 @@ static hc_status note_pattern(table *t, const scene *sc, int n_harm, const doubl
 }
 
 /* Coefficients for each sample count (EXACT: none) into F[set][MAX_COEF]. 0 or the exit code. */
-static int evaluate(const cli_options *o, const scene *sc, int n_harm, const double *X, const int *n_time, int n_sets, double (*F)[MAX_COEF])
+static int evaluate(const cli_options *o, const scene *sc, int n_harm, const double *X, const int *n_time, int n_sets,
+                    double (*F)[MAX_COEF])
 {
   for (int i = 0; i < n_sets; ++i) {
     aft *a = NULL;
     hc_status st = n_time[i] == EXACT ? evaluate_exactly(sc, n_harm, X, F[i]) : aft_new(sc, n_harm, n_time[i], &a);
-    if (st == HC_BAD_INPUT) { cli_say(o, "%d samples are too few for %d harmonics; expected at least %d", n_time[i], n_harm, 2 * n_harm + 1); return EXIT_USAGE; }
+    if (st == HC_BAD_INPUT) {
+      cli_say(o, "%d samples are too few for %d harmonics; expected at least %d", n_time[i], n_harm, 2 * n_harm + 1);
+      return EXIT_USAGE;
+    }
     if (st == HC_OK && a) st = aft_eval(a, X, F[i], NULL, NULL);
     aft_free(a);
     if (st != HC_OK) return cli_solver_failed(o, "the contact force", st, 0);
@@ -93,7 +111,8 @@ static int evaluate(const cli_options *o, const scene *sc, int n_harm, const dou
   return 0;
 }
 
-static int show(const cli_options *o, const scene *sc, int n_harm, const double *X, const int *n_time, int n_sets, double (*F)[MAX_COEF])
+static int show(const cli_options *o, const scene *sc, int n_harm, const double *X, const int *n_time, int n_sets,
+                double (*F)[MAX_COEF])
 {
   table_column columns[1 + 2 * MAX_SETS] = {{"harmonic", TABLE_INTEGER}, {"cos", TABLE_REAL}, {"sin", TABLE_REAL}};
   char names[2 * MAX_SETS][24];
@@ -128,16 +147,20 @@ int cmd_contact(int argc, char **argv)
   if (code) return code;
   int n_harm = read_motion(&o, X);
   if (n_harm < 0) return EXIT_USAGE;
-  if (sc.hbm.force == HBM_FORCE_SAMPLED && sc.hbm.samples == SCENE_AUTO) return cli_solver_failed(&o, "the contact force", HC_UNSUPPORTED, 0);
+  if (sc.hbm.force == HBM_FORCE_SAMPLED && sc.hbm.samples == SCENE_AUTO)
+    return cli_solver_failed(&o, "the contact force", HC_UNSUPPORTED, 0);
   if (n_harm < sc.hbm.harmonics) n_harm = sc.hbm.harmonics; /* auto is 0: the motion's own */
   if (n_harm < 1) n_harm = 1;
   int n_time[MAX_SETS] = {sc.hbm.force == HBM_FORCE_EXACT ? EXACT : sc.hbm.samples}, n_sets = 1;
   for (int i = 0; i < o.samples.n; ++i) {
     double n = o.samples.v[i];
-    if (n_sets == MAX_SETS || n != floor(n) || n > 1 << 24) { cli_say(&o, "--samples takes at most %d whole numbers", MAX_SETS - 1); return EXIT_USAGE; }
+    if (n_sets == MAX_SETS || n != floor(n) || n > 1 << 24) {
+      cli_say(&o, "--samples takes at most %d whole numbers", MAX_SETS - 1);
+      return EXIT_USAGE;
+    }
     n_time[n_sets++] = (int)n;
   }
-  double (*F)[MAX_COEF] = calloc(MAX_SETS, sizeof *F);
+  double(*F)[MAX_COEF] = calloc(MAX_SETS, sizeof *F);
   if (!F) return cli_solver_failed(&o, "the contact force", HC_NO_MEMORY, 0);
   code = evaluate(&o, &sc, n_harm, X, n_time, n_sets, F);
   if (!code) code = show(&o, &sc, n_harm, X, n_time, n_sets, F);

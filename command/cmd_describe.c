@@ -5,8 +5,9 @@
 #include "command/cli.h"
 #include "output/output.h"
 
-static const char doc[] = "What a case file may say: every field, or one FIELD or section, with unit, default, range and meaning."
-                          "\vexample: hbmcheck describe hbm.samples";
+static const char doc[] =
+    "What a case file may say: every field, or one FIELD or section, with unit, default, range and meaning."
+    "\vexample: hbmcheck describe hbm.samples";
 
 int cmd_describe(int argc, char **argv)
 {

@@ -1,16 +1,19 @@
 /* cmd_frf.c - hbmcheck frf: the response curve, or every solution at given frequencies. */
 #include "command/cli.h"
+#include "command/plot/plot.h"
 #include "compare/frequencies.h"
 #include "compare/response.h"
-#include "command/plot/plot.h"
-#include "output/progress.h"
 #include "hbm/hbm.h"
+#include "output/progress.h"
 
 static const char doc[] =
-    "The harmonic-balance response curve of CASE, turning points included, or every solution of that curve at the omegas of --at. The curve is the branch that begins "
+    "The harmonic-balance response curve of CASE, turning points included, or every solution of that curve at the "
+    "omegas of --at. The curve is the branch that begins "
     "at the sweep's first omega; what is not connected to it (try the sweep the other way) is not seen."
-    "\vColumns: amplitude = (max - min)/2 of x over a period, branch = turning points passed, contact = the strongest thing that happens "
-    "in a period.\nexit: 0 the whole sweep  2 case file wrong  3 stopped before the end (where and why on stderr)  64 usage\n"
+    "\vColumns: amplitude = (max - min)/2 of x over a period, branch = turning points passed, contact = the strongest "
+    "thing that happens "
+    "in a period.\nexit: 0 the whole sweep  2 case file wrong  3 stopped before the end (where and why on stderr)  64 "
+    "usage\n"
     "example: hbmcheck frf cases/paper/case2.yaml --at 8,9 --set hbm.harmonics=5";
 
 static const struct argp_option options[] = {
@@ -36,11 +39,15 @@ static void note_curve(table *t, const scene *sc, const hbm_solver *s, const hbm
 {
   char how[128];
   table_note(t, "%s: %s; %d points, %ld iterations, %d steps rejected, %d turning points, %s continuation", sc->title,
-             cli_hbm_settings(sc, hbm_n_harmonics(s), hbm_n_samples(s), how, sizeof how), c->n, c->iterations, c->rejected, c->turning_points, c->arclength ? "arc-length" : "natural");
-  if (c->inaccurate) table_note(t, "hbm.accuracy %g was NOT met everywhere with the most harmonics or samples that auto takes", sc->hbm.accuracy);
+             cli_hbm_settings(sc, hbm_n_harmonics(s), hbm_n_samples(s), how, sizeof how), c->n, c->iterations,
+             c->rejected, c->turning_points, c->arclength ? "arc-length" : "natural");
+  if (c->inaccurate)
+    table_note(t, "hbm.accuracy %g was NOT met everywhere with the most harmonics or samples that auto takes",
+               sc->hbm.accuracy);
   if (c->n == 0) return;
   double last = c->points[c->n - 1].omega;
-  if (c->left_at_start) table_note(t, "the branch turned back and left the sweep where it began, at omega = %.10g", last);
+  if (c->left_at_start)
+    table_note(t, "the branch turned back and left the sweep where it began, at omega = %.10g", last);
   else if (c->end == HC_OK) table_note(t, "reached the end of the sweep, omega = %.10g", last);
   else table_note(t, "STOPPED at omega = %.10g: %s", last, hc_status_text(c->end));
 }
@@ -54,9 +61,12 @@ static hc_status note_specials(table *t, hbm_solver *s, const hbm_curve *c)
   for (int i = 0; i < n && i < SHOWN; ++i) {
     const hbm_special *p = &special[i];
     const char *from = contact_regime_name(p->before), *to = contact_regime_name(p->after);
-    if (p->kind == HBM_TURNING_POINT) table_note(t, "turning point at omega = %.10f, amplitude %.9g", p->omega, p->amplitude);
-    else if (p->kind == HBM_PERIOD_DOUBLING) table_note(t, "period doubling at omega = %.10f, amplitude %.9g", p->omega, p->amplitude);
-    else if (p->before != p->after) table_note(t, "contact goes from %s to %s at omega = %.10f, amplitude %.9g", from, to, p->omega, p->amplitude);
+    if (p->kind == HBM_TURNING_POINT)
+      table_note(t, "turning point at omega = %.10f, amplitude %.9g", p->omega, p->amplitude);
+    else if (p->kind == HBM_PERIOD_DOUBLING)
+      table_note(t, "period doubling at omega = %.10f, amplitude %.9g", p->omega, p->amplitude);
+    else if (p->before != p->after)
+      table_note(t, "contact goes from %s to %s at omega = %.10f, amplitude %.9g", from, to, p->omega, p->amplitude);
     else table_note(t, "contact pattern changes (%s) at omega = %.10f, amplitude %.9g", to, p->omega, p->amplitude);
   }
   if (n > SHOWN) table_note(t, "and %d more", n - SHOWN);
@@ -96,7 +106,8 @@ int cmd_frf(int argc, char **argv)
   code = st == HC_OK ? 0 : cli_solver_failed(&o, "harmonic balance", st, failed_at);
   int written = s ? cli_write(&o, 1, &t) : 0;
   plot_order drawing = {.path = o.plot};
-  if (o.plot && s && !written) written = cli_plotted(&o, plot_frf(&drawing, &sc, s, &curve, o.at.n ? &found : NULL), drawing.why);
+  if (o.plot && s && !written)
+    written = cli_plotted(&o, plot_frf(&drawing, &sc, s, &curve, o.at.n ? &found : NULL), drawing.why);
   table_free(t);
   hbm_curve_free(&found);
   hbm_curve_free(&curve);

@@ -12,26 +12,38 @@
 #include "output/progress.h"
 
 static const char doc[] =
-    "Compare harmonic balance with time integration on every CASE, and hold what is found against the limits under its gate: a table of what was "
+    "Compare harmonic balance with time integration on every CASE, and hold what is found against the limits under "
+    "its gate: a table of what was "
     "allowed and what was found, and an exit code."
-    "\vA stable HBM solution is held against the transient, an unstable one against the exact orbit next to it; and every transient must match some "
-    "HBM solution. Limits: gate.amplitude, harmonic_1, mean, waveform; the same with range_ in front, in gate.ranges; gate.iterations and "
+    "\vA stable HBM solution is held against the transient, an unstable one against the exact orbit next to it; and "
+    "every transient must match some "
+    "HBM solution. Limits: gate.amplitude, harmonic_1, mean, waveform; the same with range_ in front, in gate.ranges; "
+    "gate.iterations and "
     "gate.evaluations of the response curve (hbmcheck describe gate).\n"
-    "A number passes up to 1.000001 times its limit, so that rounding decides nothing. Every case is read before anything runs.\n"
-    "exit: 0 all within  1 something is not  2 a case file is wrong  3 something could not be compared or written  64 usage\n"
+    "A number passes up to 1.000001 times its limit, so that rounding decides nothing. Every case is read before "
+    "anything runs.\n"
+    "exit: 0 all within  1 something is not  2 a case file is wrong  3 something could not be compared or written  64 "
+    "usage\n"
     "example: hbmcheck gate cases/paper/case2.yaml --junit gate.xml";
 
 static const struct argp_option options[] = {
     {"junit", CLI_JUNIT, "FILE", 0, "Also write every check as JUnit XML to FILE, whole or not at all", 1},
-    {"all", CLI_ALL, NULL, 0, "Show every check in the table [the worst of each quantity, and all that do not pass]", 1},
-    {"at", CLI_AT, "LIST", 0, "Omegas, rad per unit time, for every case [each case's compare.omega or compare.points]", 1},
+    {"all", CLI_ALL, NULL, 0, "Show every check in the table [the worst of each quantity, and all that do not pass]",
+     1},
+    {"at", CLI_AT, "LIST", 0, "Omegas, rad per unit time, for every case [each case's compare.omega or compare.points]",
+     1},
     {0},
 };
 
-/* Limits and findings are numbers for machines; for people text, because costs and discrepancies stand in one column. */
-#define COLUMNS(number)                                                                                                    \
-  {"case", TABLE_TEXT}, {"omega", TABLE_REAL}, {"branch", TABLE_INTEGER}, {"verdict", TABLE_TEXT}, {"quantity", TABLE_TEXT}, \
-      {"against", TABLE_TEXT}, {"allowed", number}, {"found", number}, {"result", TABLE_TEXT}, {"reason", TABLE_TEXT}
+/* Limits and findings are numbers for machines; for people text, because costs and discrepancies stand in one
+ * column. */
+#define COLUMNS(number)                                                                                                \
+  {"case", TABLE_TEXT}, {"omega", TABLE_REAL}, {"branch", TABLE_INTEGER}, {"verdict", TABLE_TEXT},                     \
+      {"quantity", TABLE_TEXT}, {"against", TABLE_TEXT}, {"allowed", number}, {"found", number},                       \
+      {"result", TABLE_TEXT},                                                                                          \
+  {                                                                                                                    \
+    "reason", TABLE_TEXT                                                                                               \
+  }
 static const table_column columns[] = {COLUMNS(TABLE_REAL)}, columns_for_people[] = {COLUMNS(TABLE_TEXT)};
 enum { N_COLUMNS = sizeof columns / sizeof *columns };
 
@@ -119,8 +131,10 @@ static table *checks_table(const job *j)
   for (int i = 0; i < j->n; ++i) {
     const gate_case *g = &j->cases[i];
     for (int k = 0; k < g->n; ++k)
-      if (!people || j->o.all || g->checks[k].result != GATE_PASS || gate_is_worst(g, k)) put_check(t, g, &g->checks[k], people);
-    table_note(t, "%s: %d checks, %d passed, %d failed, %d could not be made", g->name, g->n, g->n - g->failures - g->errors, g->failures, g->errors);
+      if (!people || j->o.all || g->checks[k].result != GATE_PASS || gate_is_worst(g, k))
+        put_check(t, g, &g->checks[k], people);
+    table_note(t, "%s: %d checks, %d passed, %d failed, %d could not be made", g->name, g->n,
+               g->n - g->failures - g->errors, g->failures, g->errors);
   }
   return t;
 }

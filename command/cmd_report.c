@@ -6,16 +6,19 @@
 
 #include "command/cli.h"
 #include "command/compare_tables.h"
-#include "command/version.h"
 #include "command/report/report.h"
+#include "command/version.h"
 #include "output/output.h"
 #include "output/progress.h"
 
 static const char doc[] =
-    "Write one self-contained HTML page about CASE: verdict and error budget in words, interactive plots, the tables, what aliasing does to this "
+    "Write one self-contained HTML page about CASE: verdict and error budget in words, interactive plots, the tables, "
+    "what aliasing does to this "
     "case, and the resolved case and versions to make it again. It opens from disk and needs no network."
-    "\vWithout --output the page is named after the case: case2.yaml gives case2.html in the current folder. The same input gives the same bytes.\n"
-    "exit: as hbmcheck compare, 0 agree  1 a transient differs from every HBM solution  2 case file wrong  3 something could not be compared  64 usage\n"
+    "\vWithout --output the page is named after the case: case2.yaml gives case2.html in the current folder. The same "
+    "input gives the same bytes.\n"
+    "exit: as hbmcheck compare, 0 agree  1 a transient differs from every HBM solution  2 case file wrong  3 "
+    "something could not be compared  64 usage\n"
     "example: hbmcheck report cases/paper/case2.yaml --output case2.html";
 
 static const struct argp_option options[] = {
@@ -41,7 +44,10 @@ static void put_word(FILE *to, const char *word)
 {
   static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./=,:+@%";
   putc(' ', to);
-  if (*word && strspn(word, plain) == strlen(word)) { fputs(word, to); return; }
+  if (*word && strspn(word, plain) == strlen(word)) {
+    fputs(word, to);
+    return;
+  }
   putc('\'', to);
   for (; *word; ++word) {
     if (*word == '\'') fputs("'\\''", to);
@@ -91,7 +97,8 @@ static void describe_settings(const report_data *d, char *text, size_t size)
   const scene_transient *t = &d->sc->transient;
   if (t->law != TRANSIENT_LAW_EXACT) snprintf(law, sizeof law, "regularised contact law, %g", t->regularisation);
   cli_hbm_settings(d->sc, d->comparison.harmonics, d->comparison.samples, hbm, sizeof hbm);
-  snprintf(text, size, "Harmonic balance: %s. Time integration: %s, to %g of the steady state.", hbm, law, t->tolerance);
+  snprintf(text, size, "Harmonic balance: %s. Time integration: %s, to %g of the steady state.", hbm, law,
+           t->tolerance);
 }
 
 static hc_status write_page(const cli_options *o, const report_data *d, const char *path)

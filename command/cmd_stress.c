@@ -7,17 +7,20 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "campaigns/stress/scenes.h"
+#include "campaigns/stress/stress.h"
 #include "cases/case_file.h"
 #include "command/cli.h"
 #include "output/output.h"
 #include "output/progress.h"
-#include "campaigns/stress/scenes.h"
-#include "campaigns/stress/stress.h"
 
 static const char doc[] =
-    "Draw scenes from a Sobol sequence over the whole range of every quantity, solve each by every method, and hold each against every other. Every "
-    "check ends as agreed, explained (by a reason that was computed, too), refused (a solver said why) or a finding: two methods differ and nothing explains it."
-    "\vSeed and index make a scene again: --first INDEX --scenes 1 --all runs it alone, --case prints its case file. With --results the same command goes "
+    "Draw scenes from a Sobol sequence over the whole range of every quantity, solve each by every method, and hold "
+    "each against every other. Every "
+    "check ends as agreed, explained (by a reason that was computed, too), refused (a solver said why) or a finding: "
+    "two methods differ and nothing explains it."
+    "\vSeed and index make a scene again: --first INDEX --scenes 1 --all runs it alone, --case prints its case file. "
+    "With --results the same command goes "
     "on where it was stopped.\n"
     "exit: 0 no findings  1 findings  3 stopped, or a file could not be written  64 usage\n"
     "example: hbmcheck stress --scenes 200";
@@ -36,14 +39,18 @@ static const struct argp_option options[] = {
 };
 
 static const table_column check_columns[] = {
-    {"check", TABLE_TEXT},       {"skipped", TABLE_INTEGER},   {"agreed", TABLE_INTEGER},  {"explained", TABLE_INTEGER}, {"refused", TABLE_INTEGER},
-    {"findings", TABLE_INTEGER}, {"median_error", TABLE_REAL}, {"largest_error", TABLE_REAL}, {"scene", TABLE_INTEGER}, {"seconds", TABLE_REAL}, {"holds", TABLE_TEXT},
+    {"check", TABLE_TEXT},        {"skipped", TABLE_INTEGER},    {"agreed", TABLE_INTEGER},
+    {"explained", TABLE_INTEGER}, {"refused", TABLE_INTEGER},    {"findings", TABLE_INTEGER},
+    {"median_error", TABLE_REAL}, {"largest_error", TABLE_REAL}, {"scene", TABLE_INTEGER},
+    {"seconds", TABLE_REAL},      {"holds", TABLE_TEXT},
 };
 static const table_column reason_columns[] = {
-    {"check", TABLE_TEXT}, {"outcome", TABLE_TEXT}, {"reason", TABLE_TEXT}, {"scenes", TABLE_INTEGER}, {"one_of_them", TABLE_INTEGER}, {"meaning", TABLE_TEXT},
+    {"check", TABLE_TEXT},     {"outcome", TABLE_TEXT},        {"reason", TABLE_TEXT},
+    {"scenes", TABLE_INTEGER}, {"one_of_them", TABLE_INTEGER}, {"meaning", TABLE_TEXT},
 };
 static const table_column scene_columns[] = {
-    {"scene", TABLE_INTEGER}, {"check", TABLE_TEXT}, {"outcome", TABLE_TEXT}, {"reason", TABLE_TEXT}, {"error", TABLE_REAL}, {"bound", TABLE_REAL}, {"why", TABLE_TEXT},
+    {"scene", TABLE_INTEGER}, {"check", TABLE_TEXT}, {"outcome", TABLE_TEXT}, {"reason", TABLE_TEXT},
+    {"error", TABLE_REAL},    {"bound", TABLE_REAL}, {"why", TABLE_TEXT},
 };
 #define COUNT(a) ((int)(sizeof(a) / sizeof *(a)))
 
@@ -102,7 +109,10 @@ static table *checks_table(job *j)
   return t;
 }
 
-static const char *why(const stress_check *c) { return c->outcome == STRESS_REFUSED ? hc_status_text(c->status) : stress_reason_meaning(c->reason); }
+static const char *why(const stress_check *c)
+{
+  return c->outcome == STRESS_REFUSED ? hc_status_text(c->status) : stress_reason_meaning(c->reason);
+}
 
 /* Everything that did not simply agree, by reason. */
 static table *reasons_table(const job *j)
@@ -116,7 +126,9 @@ static table *reasons_table(const job *j)
           long n = 0, index = 0;
           for (long i = 0; i < j->plan.scenes; ++i) {
             const stress_check *c = &j->results[i].check[k];
-            if (!j->results[i].there || o == STRESS_AGREED || (int)c->outcome != o || (int)c->reason != r || (int)c->status != st) continue;
+            if (!j->results[i].there || o == STRESS_AGREED || (int)c->outcome != o || (int)c->reason != r ||
+                (int)c->status != st)
+              continue;
             if (n++ == 0) one = c, index = j->results[i].index;
           }
           if (n == 0) continue;
@@ -147,7 +159,8 @@ static table *scenes_table(const job *j)
   table *t = table_new(j->o.all ? "Scenes" : "Findings", COUNT(scene_columns), scene_columns);
   for (long i = 0; i < j->plan.scenes; ++i)
     for (int k = 0; k < STRESS_N_CHECKS && j->results[i].there; ++k)
-      if (j->o.all || j->results[i].check[k].outcome == STRESS_FINDING) put_scene(t, j->results[i].index, k, &j->results[i].check[k]);
+      if (j->o.all || j->results[i].check[k].outcome == STRESS_FINDING)
+        put_scene(t, j->results[i].index, k, &j->results[i].check[k]);
   return t;
 }
 
@@ -161,10 +174,11 @@ static void note_totals(const job *j, table *t)
     total += r->seconds;
     if (r->seconds > slowest) slowest = r->seconds, at = r->index;
   }
-  table_note(t, "%ld scenes of seed %lu from %ld on: %ld findings, %ld scenes never classified", j->there, j->plan.seed, j->plan.first, j->findings,
-             j->plan.scenes - j->there);
+  table_note(t, "%ld scenes of seed %lu from %ld on: %ld findings, %ld scenes never classified", j->there, j->plan.seed,
+             j->plan.first, j->findings, j->plan.scenes - j->there);
   if (j->there > 0) table_note(t, "%.4g s of processor time; slowest: scene %ld, %.3g s", total, at, slowest);
-  table_note(t, "errors are those of what agreed; again: hbmcheck stress --seed %lu --first SCENE --scenes 1 --all", j->plan.seed);
+  table_note(t, "errors are those of what agreed; again: hbmcheck stress --seed %lu --first SCENE --scenes 1 --all",
+             j->plan.seed);
 }
 
 static int tell(job *j)
@@ -187,7 +201,8 @@ static hc_status scene_at(const job *j, long index, scene *sc)
   return st;
 }
 
-/* `comment`, of one line or empty, and the scene into a file, or to standard output. 0 or the exit code after saying why. */
+/* `comment`, of one line or empty, and the scene into a file, or to standard output. 0 or the exit code after saying
+ * why. */
 static int write_case(const job *j, const char *path, const char *comment, const scene *sc)
 {
   output *out = NULL;
@@ -199,7 +214,8 @@ static int write_case(const job *j, const char *path, const char *comment, const
     else output_abandon(out);
   }
   if (st == HC_OK) return 0;
-  cli_say(&j->o, "%s: %s", path ? path : "standard output", st == HC_IO && errno ? strerror(errno) : hc_status_text(st));
+  cli_say(&j->o, "%s: %s", path ? path : "standard output",
+          st == HC_IO && errno ? strerror(errno) : hc_status_text(st));
   return EXIT_NO_SOLUTION;
 }
 
@@ -218,8 +234,11 @@ static int keep_finding(const job *j, long index, stress_kind kind, const hc_mon
   if (st == HC_OK) st = stress_shrink(&sc, kind, j->plan.seconds, monitor);
   if (st != HC_OK && st != HC_INTERRUPTED) return cli_solver_failed(&j->o, "shrinking", st, 0);
   snprintf(path, sizeof path, "%s/stress-%lu-%ld-%s.yaml", j->o.findings, j->plan.seed, index, stress_kind_name(kind));
-  snprintf(comment, sizeof comment, "# Found by hbmcheck stress --seed %lu --first %ld --scenes 1, and made smaller: %s.\n# It should hold that: %s.\n", j->plan.seed,
-           index, stress_kind_name(kind), stress_kind_meaning(kind));
+  snprintf(
+      comment, sizeof comment,
+      "# Found by hbmcheck stress --seed %lu --first %ld --scenes 1, and made smaller: %s.\n# It should hold that: "
+      "%s.\n",
+      j->plan.seed, index, stress_kind_name(kind), stress_kind_meaning(kind));
   return write_case(j, path, comment, &sc);
 }
 
@@ -230,7 +249,8 @@ static int keep_findings(const job *j)
   const hc_monitor monitor = progress_monitor(bar);
   for (long i = 0; i < j->plan.scenes && !code; ++i)
     for (int k = 0; k < STRESS_N_CHECKS && !code; ++k)
-      if (j->results[i].there && j->results[i].check[k].outcome == STRESS_FINDING) code = keep_finding(j, j->results[i].index, (stress_kind)k, &monitor);
+      if (j->results[i].there && j->results[i].check[k].outcome == STRESS_FINDING)
+        code = keep_finding(j, j->results[i].index, (stress_kind)k, &monitor);
   progress_end(bar);
   return code;
 }
@@ -262,7 +282,8 @@ static int run(job *j)
   for (long i = 0; i < j->plan.scenes; ++i) j->there += j->results[i].there;
   if (st == HC_OK) return 0;
   if (st == HC_BAD_INPUT) {
-    cli_say(&j->o, "%s: not the results of this seed and these --seconds, expected those or a new file", j->plan.journal);
+    cli_say(&j->o, "%s: not the results of this seed and these --seconds, expected those or a new file",
+            j->plan.journal);
     return EXIT_BAD_CASE;
   }
   if (st == HC_IO) cli_say(&j->o, "%s: %s", j->plan.journal, strerror(why_not));
@@ -282,15 +303,22 @@ int cmd_stress(int argc, char **argv)
     return EXIT_USAGE;
   }
   long online = sysconf(_SC_NPROCESSORS_ONLN);
-  j.plan = (stress_plan){.seed = j.o.seed >= 0 ? (unsigned long)j.o.seed : 1, .first = j.o.first, .scenes = j.o.scenes ? j.o.scenes : 200,
-                         .jobs = j.o.jobs ? j.o.jobs : online < 1 ? 1 : online > CLI_MAX_JOBS ? CLI_MAX_JOBS : (int)online,
-                         .seconds = j.o.seconds > 0 ? j.o.seconds : 1, .journal = j.o.results};
+  j.plan = (stress_plan){.seed = j.o.seed >= 0 ? (unsigned long)j.o.seed : 1,
+                         .first = j.o.first,
+                         .scenes = j.o.scenes ? j.o.scenes : 200,
+                         .jobs = j.o.jobs                ? j.o.jobs
+                                 : online < 1            ? 1
+                                 : online > CLI_MAX_JOBS ? CLI_MAX_JOBS
+                                                         : (int)online,
+                         .seconds = j.o.seconds > 0 ? j.o.seconds : 1,
+                         .journal = j.o.results};
   if (j.o.one_case) return print_case(&j);
   if (j.o.findings && mkdir(j.o.findings, 0777) != 0 && errno != EEXIST) {
     cli_say(&j.o, "%s: %s", j.o.findings, strerror(errno));
     return EXIT_NO_SOLUTION;
   }
-  if (!(j.results = calloc((size_t)j.plan.scenes, sizeof *j.results))) return cli_solver_failed(&j.o, "stress", HC_NO_MEMORY, 0);
+  if (!(j.results = calloc((size_t)j.plan.scenes, sizeof *j.results)))
+    return cli_solver_failed(&j.o, "stress", HC_NO_MEMORY, 0);
   int stopped = run(&j), code = stopped && j.there == 0 ? stopped : tell(&j);
   if (!stopped && j.o.findings && code == EXIT_DISAGREED) {
     int kept = keep_findings(&j);

@@ -1,4 +1,5 @@
-/* cmd_study.c - hbmcheck study: many scenes of one case, in parallel, kept as they come, and what a study claims held against them. */
+/* cmd_study.c - hbmcheck study: many scenes of one case, in parallel, kept as they come, and what a study claims
+ * held against them. */
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -8,30 +9,34 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "command/cli.h"
-#include "command/plot/plot.h"
-#include "output/output.h"
-#include "output/progress.h"
 #include "campaigns/study/claims.h"
 #include "campaigns/study/cluster.h"
 #include "campaigns/study/report.h"
 #include "campaigns/study/run.h"
+#include "command/cli.h"
+#include "command/plot/plot.h"
+#include "output/output.h"
+#include "output/progress.h"
 
 static const char doc[] =
-    "Compute every scene of each STUDY (a YAML file: a base case, and what varies) in parallel, keep the results in an SQLite file, and hold what the "
+    "Compute every scene of each STUDY (a YAML file: a base case, and what varies) in parallel, keep the results in "
+    "an SQLite file, and hold what the "
     "study claims against them. Killed or stopped at any moment, the same command goes on where it was."
     "\vThe file's format, the tables of the results and what is guaranteed: campaigns/study/README.md.\n"
-    "exit: 0 done  1 a claim is not as it expects  2 study or results file wrong  3 a scene could not be solved, or stopped before the end  64 usage\n"
+    "exit: 0 done  1 a claim is not as it expects  2 study or results file wrong  3 a scene could not be solved, or "
+    "stopped before the end  64 usage\n"
     "example: hbmcheck study gaps.yaml --jobs 4 --export csv --output gaps.csv";
 
 static const struct argp_option options[] = {
     {"jobs", CLI_JOBS, "N", 0, "Scenes computed at a time [the processors that are online]", 1},
-    {"results", CLI_RESULTS, "FILE", 0, "SQLite file of the results, or a folder for it; :memory: keeps nothing [STUDY's name with .sqlite, here]", 1},
+    {"results", CLI_RESULTS, "FILE", 0,
+     "SQLite file of the results, or a folder for it; :memory: keeps nothing [STUDY's name with .sqlite, here]", 1},
     {"fresh", CLI_FRESH, NULL, 0, "Throw away what the results file has, and start again", 1},
     {"export", CLI_EXPORT, "csv|json", 0, "Write every scene with its rows instead of the summary", 1},
     {"timings", CLI_TIMINGS, NULL, 0, "Export the seconds each scene took, too", 1},
     CLI_PLOT_OPTION,
-    {"plot-y", CLI_PLOT_Y, "NAME", 0, "What to draw: a column of scenes, or of rows, then the largest of each scene [peak_amplitude, or amplitude]", 2},
+    {"plot-y", CLI_PLOT_Y, "NAME", 0,
+     "What to draw: a column of scenes, or of rows, then the largest of each scene [peak_amplitude, or amplitude]", 2},
     {0},
 };
 
@@ -45,7 +50,7 @@ typedef struct task {
   char results[MOST_PATH];
   study_store *store; /* rank 0 only */
   long now, there;
-  double wall;        /* [s] */
+  double wall; /* [s] */
 } task;
 
 typedef struct job {
@@ -83,12 +88,17 @@ static bool is_folder(const char *path)
 /* The study's name with .sqlite, here or in the folder of --results. */
 static void name_results(const cli_options *o, task *t)
 {
-  const char *name = t->s->name, *slash = strrchr(name, '/'), *stem = !strcmp(name, "<stdin>") ? "study" : slash ? slash + 1 : name;
+  const char *name = t->s->name, *slash = strrchr(name, '/'),
+             *stem = !strcmp(name, "<stdin>") ? "study"
+                     : slash                  ? slash + 1
+                                              : name;
   const char *dot = strrchr(stem, '.');
   int length = (int)(dot && dot > stem ? (size_t)(dot - stem) : strlen(stem));
   bool folder = o->results && is_folder(o->results);
   if (o->results && !folder) snprintf(t->results, sizeof t->results, "%s", o->results);
-  else snprintf(t->results, sizeof t->results, "%s%s%.*s.sqlite", folder ? o->results : "", folder ? "/" : "", length, stem);
+  else
+    snprintf(t->results, sizeof t->results, "%s%s%.*s.sqlite", folder ? o->results : "", folder ? "/" : "", length,
+             stem);
 }
 
 static int check_names(const job *j)
@@ -97,8 +107,9 @@ static int check_names(const job *j)
     for (int k = 0; k < i; ++k) {
       if (strcmp(j->tasks[i].results, j->tasks[k].results) || !strcmp(j->tasks[i].results, ":memory:")) continue;
       if (j->rank == 0)
-        cli_say(&j->o, "%s and %s would share the results file %s; run them one by one, or give a folder or names that differ", j->tasks[k].s->name,
-                j->tasks[i].s->name, j->tasks[i].results);
+        cli_say(&j->o,
+                "%s and %s would share the results file %s; run them one by one, or give a folder or names that differ",
+                j->tasks[k].s->name, j->tasks[i].s->name, j->tasks[i].results);
       return EXIT_USAGE;
     }
   return 0;
@@ -129,7 +140,8 @@ static int open_stores(job *j)
 {
   for (int i = 0; i < j->n; ++i) {
     case_error err = {{0}};
-    hc_status st = study_store_open(j->tasks[i].s, j->tasks[i].results, HBMCHECK_VERSION, j->o.fresh, &j->tasks[i].store, &err);
+    hc_status st =
+        study_store_open(j->tasks[i].s, j->tasks[i].results, HBMCHECK_VERSION, j->o.fresh, &j->tasks[i].store, &err);
     if (st != HC_OK) return wrong(j, st, &err);
   }
   return 0;
@@ -139,9 +151,12 @@ static int check_usage(job *j, bool lonely)
 {
   const cli_options *o = &j->o;
   const char *fault = NULL;
-  if (lonely) fault = "started in several copies by mpirun, but built without MPI (cmake -DHBMCHECK_MPI=ON): each would do the same";
+  if (lonely)
+    fault =
+        "started in several copies by mpirun, but built without MPI (cmake -DHBMCHECK_MPI=ON): each would do the same";
   else if (o->export && o->n_arguments > 1) fault = "--export takes one study at a time";
-  else if (j->size > 1 && o->jobs > 1) fault = "under mpirun every process computes one scene at a time: give mpirun more processes instead of --jobs";
+  else if (j->size > 1 && o->jobs > 1)
+    fault = "under mpirun every process computes one scene at a time: give mpirun more processes instead of --jobs";
   else if (o->plot && o->n_arguments > 1) fault = "--plot draws one study at a time";
   else if (o->plot_y && !o->plot) fault = "--plot-y goes with --plot";
   else if (o->timings && !o->export) fault = "--timings goes with --export";
@@ -182,17 +197,20 @@ static int run_task(job *j, task *t)
   if (st == HC_OK) return 0;
   if (st == HC_IO) cli_say(&j->o, "%s: a scene could not be kept: %s", t->results, study_store_error(t->store));
   else if (st == HC_NO_MEMORY) cli_say(&j->o, "%s", hc_status_text(st));
-  if (!strcmp(t->results, ":memory:")) cli_say(&j->o, "stopped: %ld of %ld scenes were done and are lost with :memory:", t->there, t->s->n_scenes);
+  if (!strcmp(t->results, ":memory:"))
+    cli_say(&j->o, "stopped: %ld of %ld scenes were done and are lost with :memory:", t->there, t->s->n_scenes);
   else
-    cli_say(&j->o, "stopped: %ld of %ld scenes are in %s; the same command goes on from there", t->there, t->s->n_scenes, t->results);
+    cli_say(&j->o, "stopped: %ld of %ld scenes are in %s; the same command goes on from there", t->there,
+            t->s->n_scenes, t->results);
   return EXIT_NO_SOLUTION;
 }
 
 /* ---- telling ---- */
 
 static const table_column summary_columns[] = {
-    {"run", TABLE_TEXT},      {"scenes", TABLE_INTEGER},     {"computed", TABLE_INTEGER}, {"done", TABLE_INTEGER}, {"failed", TABLE_INTEGER},
-    {"computing_s", TABLE_REAL}, {"exact_s", TABLE_REAL}, {"wall_s", TABLE_REAL}, {"results", TABLE_TEXT},  {"study", TABLE_TEXT},
+    {"run", TABLE_TEXT},       {"scenes", TABLE_INTEGER},   {"computed", TABLE_INTEGER}, {"done", TABLE_INTEGER},
+    {"failed", TABLE_INTEGER}, {"computing_s", TABLE_REAL}, {"exact_s", TABLE_REAL},     {"wall_s", TABLE_REAL},
+    {"results", TABLE_TEXT},   {"study", TABLE_TEXT},
 };
 
 static double rounded(double seconds) { return (double)(long)(seconds * 1000 + 0.5) / 1000; }
@@ -217,7 +235,9 @@ static int summarise(job *j, const task *t, bool *any_failed)
   table_put_real(to, rounded(t->wall));
   table_put_text(to, t->results);
   table_put_text(to, t->s->title);
-  if (sum.failed) table_note(to, "%s: %ld failed, the first of them scene %ld: %s", t->s->title, sum.failed, sum.first_failed, sum.reason);
+  if (sum.failed)
+    table_note(to, "%s: %ld failed, the first of them scene %ld: %s", t->s->title, sum.failed, sum.first_failed,
+               sum.reason);
   *any_failed |= sum.failed > 0 && !t->s->may_fail;
   j->scenes += t->s->n_scenes;
   j->seconds += sum.seconds;
@@ -248,7 +268,8 @@ static int write_export(const job *j)
     else output_abandon(out);
   }
   if (st == HC_OK) return 0;
-  cli_say(&j->o, "%s: %s", j->o.output ? j->o.output : "standard output", st == HC_IO && errno ? strerror(errno) : hc_status_text(st));
+  cli_say(&j->o, "%s: %s", j->o.output ? j->o.output : "standard output",
+          st == HC_IO && errno ? strerror(errno) : hc_status_text(st));
   return EXIT_NO_SOLUTION;
 }
 
@@ -270,14 +291,16 @@ static int page_width(const job *j)
   struct winsize size;
   const char *told = getenv("COLUMNS");
   int width = told ? (int)strtol(told, NULL, 10) : 0;
-  if (!j->o.output && isatty(STDOUT_FILENO) && ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0) width = size.ws_col;
+  if (!j->o.output && isatty(STDOUT_FILENO) && ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0)
+    width = size.ws_col;
   return width >= LEAST_WIDTH ? width : width > 0 ? LEAST_WIDTH : PLAIN_WIDTH;
 }
 
 static void make_tables(job *j)
 {
   static const char *const titles[STUDY_CLAIM_TABLES] = {
-      "Claims", "Claims, with the settings of their source and with ours", "Seconds, as the source reports them, and here with its settings and with ours"};
+      "Claims", "Claims, with the settings of their source and with ours",
+      "Seconds, as the source reports them, and here with its settings and with ours"};
   int n;
   j->tables[SUMMARY] = table_new("Studies", sizeof summary_columns / sizeof *summary_columns, summary_columns);
   const table_column *columns = study_verdict_columns(&n);
@@ -294,12 +317,14 @@ static void say_totals(const job *j)
   static const char *const with[STUDY_ANSWERS] = {"", " with the settings of their source", " with ours"};
   const study_claims_tally *c = &j->claims;
   if (j->n > 1)
-    table_note(j->tables[SUMMARY], "%d studies, %ld scenes: %.3g s of processor time, %.3g s of it with exact forces; %.3g s on the clock", j->n, j->scenes,
-               j->seconds, j->exact_seconds, j->wall);
+    table_note(j->tables[SUMMARY],
+               "%d studies, %ld scenes: %.3g s of processor time, %.3g s of it with exact forces; %.3g s on the clock",
+               j->n, j->scenes, j->seconds, j->exact_seconds, j->wall);
   for (int k = 0; k < STUDY_ANSWERS; ++k)
     if (c->agree[k] + c->disagree[k] + c->unsaid[k] > 0)
-      table_note(j->tables[CLAIMS + (k == STUDY_PLAIN ? STUDY_CLAIMS : STUDY_SIDES)], "%d claims agree%s, %d do not, of %d it cannot be said", c->agree[k],
-                 with[k], c->disagree[k], c->unsaid[k]);
+      table_note(j->tables[CLAIMS + (k == STUDY_PLAIN ? STUDY_CLAIMS : STUDY_SIDES)],
+                 "%d claims agree%s, %d do not, of %d it cannot be said", c->agree[k], with[k], c->disagree[k],
+                 c->unsaid[k]);
 }
 
 static int tell(job *j, int n_run)
@@ -315,7 +340,8 @@ static int tell(job *j, int n_run)
   if (!code) code = write_tables(j);
   plot_order drawing = {.path = j->o.plot};
   int drawn = 0;
-  if (!code && j->o.plot && n_run > 0) drawn = cli_plotted(&j->o, plot_study(&drawing, j->tasks[0].s, j->tasks[0].store, j->o.plot_y), drawing.why);
+  if (!code && j->o.plot && n_run > 0)
+    drawn = cli_plotted(&j->o, plot_study(&drawing, j->tasks[0].s, j->tasks[0].store, j->o.plot_y), drawing.why);
   for (int i = 0; i < N_TABLES; ++i) table_free(j->tables[i]);
   return code ? code : j->claims.unexpected ? EXIT_DISAGREED : any_failed ? EXIT_NO_SOLUTION : drawn;
 }

@@ -3,33 +3,43 @@
 #include <stdio.h>
 
 #include "command/cli.h"
-#include "output/progress.h"
 #include "compare/verify/verify.h"
+#include "output/progress.h"
 
 static const char doc[] =
-    "Hold another code's response curve of CASE, a file of columns, against harmonic balance with exact forces and many harmonics, itself held "
-    "against time integration; a verdict for every point, and the suspected cause where they differ, found by making the mistake ourselves."
-    "\vFILE: fields separated by comma, semicolon, tab or blanks; # starts a remark; a header is welcome; any order, several branches. "
-    "COLUMN is a number from 1 or a name in the header. omega is in rad per unit time, frequency in cycles per unit time; amplitude = "
-    "(max - min)/2 of x, harmonic_1 = |a1 + i b1|, peak = max |x|. A point matches within the case's gate.amplitude or gate.harmonic_1. With csv "
+    "Hold another code's response curve of CASE, a file of columns, against harmonic balance with exact forces and "
+    "many harmonics, itself held "
+    "against time integration; a verdict for every point, and the suspected cause where they differ, found by making "
+    "the mistake ourselves."
+    "\vFILE: fields separated by comma, semicolon, tab or blanks; # starts a remark; a header is welcome; any order, "
+    "several branches. "
+    "COLUMN is a number from 1 or a name in the header. omega is in rad per unit time, frequency in cycles per unit "
+    "time; amplitude = "
+    "(max - min)/2 of x, harmonic_1 = |a1 + i b1|, peak = max |x|. A point matches within the case's gate.amplitude "
+    "or gate.harmonic_1. With csv "
     "only the points are written, with the cause in the remarks before them.\n"
-    "exit: 0 every point matches  1 some do not, or run along the wrong branch  2 a file is wrong  3 could not be judged  64 usage\n"
-    "example: hbmcheck verify cases/verify/case2.yaml --against cases/verify/no_static.csv --columns omega=1,harmonic_1=2";
+    "exit: 0 every point matches  1 some do not, or run along the wrong branch  2 a file is wrong  3 could not be "
+    "judged  64 usage\n"
+    "example: hbmcheck verify cases/verify/case2.yaml --against cases/verify/no_static.csv --columns "
+    "omega=1,harmonic_1=2";
 
 static const struct argp_option options[] = {
     {"against", CLI_AGAINST, "FILE", 0, "The curve to hold against ours", 1},
-    {"columns", CLI_COLUMNS, "NAME=COLUMN,...", 0, "Where its columns are: omega or frequency, and amplitude, harmonic_1, peak or value", 1},
+    {"columns", CLI_COLUMNS, "NAME=COLUMN,...", 0,
+     "Where its columns are: omega or frequency, and amplitude, harmonic_1, peak or value", 1},
     {"quantity", CLI_QUANTITY, "amplitude|harmonic_1|peak", 0, "What the column named value is", 1},
     {0},
 };
 
 static const table_column columns[] = {
-    {"omega", TABLE_REAL},    {"value", TABLE_REAL}, {"nearest", TABLE_REAL},   {"branch", TABLE_INTEGER},
-    {"stable", TABLE_TEXT},   {"error", TABLE_REAL}, {"verdict", TABLE_TEXT}, {"line", TABLE_INTEGER},
+    {"omega", TABLE_REAL},  {"value", TABLE_REAL}, {"nearest", TABLE_REAL}, {"branch", TABLE_INTEGER},
+    {"stable", TABLE_TEXT}, {"error", TABLE_REAL}, {"verdict", TABLE_TEXT}, {"line", TABLE_INTEGER},
 };
 static const table_column guess_columns[] = {
-    {"cause", TABLE_TEXT},        {"distance", TABLE_REAL},     {"truth_distance", TABLE_REAL}, {"harmonics", TABLE_INTEGER}, {"static", TABLE_TEXT},
-    {"samples", TABLE_INTEGER},   {"slider_restart", TABLE_TEXT}, {"omega_factor", TABLE_REAL}, {"value_factor", TABLE_REAL}, {"quantity", TABLE_TEXT},
+    {"cause", TABLE_TEXT},          {"distance", TABLE_REAL},     {"truth_distance", TABLE_REAL},
+    {"harmonics", TABLE_INTEGER},   {"static", TABLE_TEXT},       {"samples", TABLE_INTEGER},
+    {"slider_restart", TABLE_TEXT}, {"omega_factor", TABLE_REAL}, {"value_factor", TABLE_REAL},
+    {"quantity", TABLE_TEXT},
 };
 enum { N_COLUMNS = sizeof columns / sizeof *columns, N_GUESS_COLUMNS = sizeof guess_columns / sizeof *guess_columns };
 
@@ -68,11 +78,14 @@ static void put_guess(table *t, const verify_hypothesis *h, double truth)
 static void note_truth(table *t, const scene *sc, const verify_data *data, const verify_report *r)
 {
   table_note(t, "%s", sc->title);
-  table_note(t, "truth: H = %d, exact forces, harmonic 0 kept; gate: %s %g", r->harmonics, verify_quantity_name(data->quantity), r->gate);
-  if (r->checked) table_note(t, "truth held against time integration at %d points: %.1e off at most", r->checked, r->checked_error);
+  table_note(t, "truth: H = %d, exact forces, harmonic 0 kept; gate: %s %g", r->harmonics,
+             verify_quantity_name(data->quantity), r->gate);
+  if (r->checked)
+    table_note(t, "truth held against time integration at %d points: %.1e off at most", r->checked, r->checked_error);
   if (r->unchecked) table_note(t, "at %d points time integration found no orbit next to the truth", r->unchecked);
   if (r->checked && r->checked_error > 0.1 * r->gate) table_note(t, "the truth is NOT known to a tenth of the gate");
-  if (r->curve_end != HC_OK) table_note(t, "the truth's curve STOPPED at omega = %.10g: %s", r->curve_omega, hc_status_text(r->curve_end));
+  if (r->curve_end != HC_OK)
+    table_note(t, "the truth's curve STOPPED at omega = %.10g: %s", r->curve_omega, hc_status_text(r->curve_end));
 }
 
 static const char *meaning(verdict v)
@@ -94,14 +107,17 @@ static void put_notes(table *t, const scene *sc, const verify_data *data, const 
   for (int v = 0; v < VERDICT_COUNT; ++v)
     if (r->count[v]) table_note(t, "%d %s: %s", r->count[v], verdict_name((verdict)v), meaning((verdict)v));
   table_note(t, "%s", verify_sentence(r, text));
-  table_note(t, "cause: %s", r->causes || (r->status == HC_OK && verify_exit_code(r) == 0) ? verify_cause_words(r->causes, text) : "unknown");
+  table_note(t, "cause: %s",
+             r->causes || (r->status == HC_OK && verify_exit_code(r) == 0) ? verify_cause_words(r->causes, text)
+                                                                           : "unknown");
 }
 
 static int show(const cli_options *o, const scene *sc, const verify_data *data, const verify_report *r)
 {
   table *tables[2] = {table_new("Points", N_COLUMNS, columns), table_new("Hypotheses", N_GUESS_COLUMNS, guess_columns)};
   for (int i = 0; i < r->n_rows; ++i) put_row(tables[0], &r->rows[i]);
-  for (int i = 0; i < r->n_hypotheses && i < VERIFY_SHOWN; ++i) put_guess(tables[1], &r->hypotheses[i], r->truth_distance);
+  for (int i = 0; i < r->n_hypotheses && i < VERIFY_SHOWN; ++i)
+    put_guess(tables[1], &r->hypotheses[i], r->truth_distance);
   put_notes(tables[0], sc, data, r);
   int code = cli_write(o, r->n_hypotheses && o->format != FORMAT_CSV ? 2 : 1, tables);
   for (int i = 0; i < 2; ++i) table_free(tables[i]);
@@ -114,7 +130,8 @@ static int read_curve(const cli_options *o, verify_data *data)
   verify_columns where;
   char words[VERIFY_TEXT];
   if (!o->against || !o->curve_columns) {
-    cli_say(o, "no %s given, expected --against FILE --columns omega=1,amplitude=2", o->against ? "--columns" : "--against");
+    cli_say(o, "no %s given, expected --against FILE --columns omega=1,amplitude=2",
+            o->against ? "--columns" : "--against");
     return EXIT_USAGE;
   }
   if (verify_columns_read(o->curve_columns, o->quantity, &where, words) != HC_OK) {
@@ -143,7 +160,8 @@ int cmd_verify(int argc, char **argv)
     hc_status st = verify_run(&sc, &data, &monitor, &report);
     progress_end(bar);
     code = st == HC_OK ? verify_exit_code(&report) : cli_solver_failed(&o, "the verification", st, 0);
-    if (code == EXIT_NO_SOLUTION && st == HC_OK) cli_say(&o, "some points could not be judged; the notes of the table say why");
+    if (code == EXIT_NO_SOLUTION && st == HC_OK)
+      cli_say(&o, "some points could not be judged; the notes of the table say why");
     written = report.n_rows ? show(&o, &sc, &data, &report) : 0;
   }
   verify_clear(&report);

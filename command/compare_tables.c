@@ -23,12 +23,19 @@ int compare_lists(const cli_options *o, scene *sc)
 
 static void note_accuracy(table *t, const accuracy *a)
 {
-  table_note(t, "amplitude_error: largest over %d orbits of the exact transient at %d frequencies; missing: orbits no solution is next to", a->orbits,
-             a->frequencies);
+  table_note(
+      t,
+      "amplitude_error: largest over %d orbits of the exact transient at %d frequencies; missing: orbits no solution "
+      "is next to",
+      a->orbits, a->frequencies);
   if (isfinite(a->peak_amplitude))
     table_note(t, "peak: %.10g at omega = %.8g, %s", a->peak_amplitude, a->peak_omega,
-               a->peak_by_orbit ? "of the exact transient's orbits" : "of the curve with exact forces and most harmonics");
-  table_note(t, "aliasing: against exact forces and the same H; false turning points: more than with exact forces and the same H");
+               a->peak_by_orbit ? "of the exact transient's orbits"
+                                : "of the curve with exact forces and most harmonics");
+  table_note(
+      t,
+      "aliasing: against exact forces and the same H; false turning points: more than with exact forces and the same "
+      "H");
 }
 
 static table *accuracy_table(const accuracy *a)
@@ -55,7 +62,9 @@ static table *order_table(const accuracy *a)
     rows_order(&a->orders[i], cells);
     cli_put_row(t, ROWS_ORDER, cells);
   }
-  table_note(t, "error ~ quantity^-order (regularisation^order), least squares over the asymptotic part of its envelope; spread: standard error");
+  table_note(t,
+             "error ~ quantity^-order (regularisation^order), least squares over the asymptotic part of its envelope; "
+             "spread: standard error");
   return t;
 }
 

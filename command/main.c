@@ -12,7 +12,8 @@ static const struct command {
   const char *name, *does;
   int (*run)(int argc, char **argv);
 } commands[] = {
-    {"compare", "harmonic balance and time integration at the same frequencies: discrepancies and verdicts", cmd_compare},
+    {"compare", "harmonic balance and time integration at the same frequencies: discrepancies and verdicts",
+     cmd_compare},
     {"frf", "the harmonic-balance response curve, or every solution at given frequencies", cmd_frf},
     {"transient", "the steady state by time integration at given frequencies", cmd_transient},
     {"study", "many scenes in parallel, kept as they come, and claims held against them", cmd_study},
@@ -31,17 +32,27 @@ static void usage(FILE *to)
   fputs("usage: hbmcheck COMMAND [OPTION...] CASE\n\n", to);
   for (int i = 0; i < N_COMMANDS; ++i) fprintf(to, "  %-10s %s\n", commands[i].name, commands[i].does);
   fputs("\nhbmcheck COMMAND --help tells more. Start with: hbmcheck compare cases/paper/case2.yaml\n"
-        "exit: 0 agreed  1 disagreed  2 case file wrong  3 could not  64 usage  70 a bug\n", to);
+        "exit: 0 agreed  1 disagreed  2 case file wrong  3 could not  64 usage  70 a bug\n",
+        to);
 }
 
 int main(int argc, char **argv)
 {
-  signal(SIGPIPE, SIG_IGN); /* a closed pipe is a write error like any other */
+  signal(SIGPIPE, SIG_IGN);    /* a closed pipe is a write error like any other */
   gsl_set_error_handler_off(); /* its default aborts; our code reads the statuses */
   progress_install_signals();
-  if (argc < 2) { usage(stderr); return EXIT_USAGE; }
-  if (!strcmp(argv[1], "--help") || !strcmp(argv[1], "help")) { usage(stdout); return 0; }
-  if (!strcmp(argv[1], "--version")) { cli_print_version(stdout, NULL); return 0; }
+  if (argc < 2) {
+    usage(stderr);
+    return EXIT_USAGE;
+  }
+  if (!strcmp(argv[1], "--help") || !strcmp(argv[1], "help")) {
+    usage(stdout);
+    return 0;
+  }
+  if (!strcmp(argv[1], "--version")) {
+    cli_print_version(stdout, NULL);
+    return 0;
+  }
   for (int i = 0; i < N_COMMANDS; ++i)
     if (!strcmp(argv[1], commands[i].name)) return commands[i].run(argc - 1, argv + 1);
   fprintf(stderr, "hbmcheck: '%s' is not a command\n\n", argv[1]);

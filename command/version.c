@@ -16,6 +16,6 @@ void cli_print_version(FILE *to, struct argp_state *state)
   char sundials[32] = "unknown";
   (void)state;
   SUNDIALSGetVersion(sundials, (int)sizeof sundials);
-  fprintf(to, "hbmcheck %s\nSUNDIALS %s, %s, GSL %s, libyaml %s, jansson %s, SQLite %s\n", HBMCHECK_VERSION, sundials, fftw_version, gsl_version,
-          yaml_get_version_string(), jansson_version_str(), sqlite3_libversion());
+  fprintf(to, "hbmcheck %s\nSUNDIALS %s, %s, GSL %s, libyaml %s, jansson %s, SQLite %s\n", HBMCHECK_VERSION, sundials,
+          fftw_version, gsl_version, yaml_get_version_string(), jansson_version_str(), sqlite3_libversion());
 }

@@ -1,4 +1,5 @@
-/* parts.c - see parts.h. The solutions between the HBM solution and the transient are found first; then each measure is split the same way. */
+/* parts.c - see parts.h. The solutions between the HBM solution and the transient are found first; then each measure
+ * is split the same way. */
 #include "compare/budget.h"
 
 #include <math.h>
@@ -11,11 +12,11 @@
 static const double same_orbit = 0.05; /* [amplitude] */
 static const double finest = 1e-10;    /* below it the scatter of a period keeps Newton from closing, shoot.h */
 
-struct budgeter {             /* from budgeter_new, to budgeter_free */
-  scene sc;                   /* a copy */
-  int n_harm;                 /* of alias_free */
-  hbm_solver *alias_free;     /* exact forces; NULL until needed */
-  timeint *finer, *coarser;   /* the transient's law, stepped finer and coarser; NULL until needed */
+struct budgeter {           /* from budgeter_new, to budgeter_free */
+  scene sc;                 /* a copy */
+  int n_harm;               /* of alias_free */
+  hbm_solver *alias_free;   /* exact forces; NULL until needed */
+  timeint *finer, *coarser; /* the transient's law, stepped finer and coarser; NULL until needed */
   double X[2 * SCENE_MAX_HARMONICS + 1];
 };
 
@@ -23,7 +24,8 @@ struct budgeter {             /* from budgeter_new, to budgeter_free */
 typedef struct chain {
   steady_motion h, hx, orbit, finer, transient;
   bool has_hx, has_orbit, has_finer, has_transient;
-  bool finer_is_coarser; /* `finer` was not to be had: it is a coarser one, an error estimate and no link of the chain */
+  bool finer_is_coarser; /* `finer` was not to be had: it is a coarser one, an error estimate and no link of the
+                            chain */
   double settling;       /* [1] */
 } chain;
 
@@ -51,7 +53,10 @@ error_budget budget_nothing(void)
 }
 
 /* |difference| / amplitude; no difference is no error, also where nothing moves. */
-static double relative(double difference, double amplitude) { return difference == 0 ? 0 : fabs(difference) / amplitude; }
+static double relative(double difference, double amplitude)
+{
+  return difference == 0 ? 0 : fabs(difference) / amplitude;
+}
 
 bool budget_same_orbit(const timeint_result *a, const timeint_result *b)
 {
@@ -65,7 +70,7 @@ double budget_regularisation(const timeint_result *tr, const timeint_result *orb
   return budget_same_orbit(tr, orbit) ? relative(tr->amplitude - orbit->amplitude, orbit->amplitude) : NAN;
 }
 
-/* ---- hx: the same truncation without aliasing ------------------------------------------------------------------------------------ */
+/* ---- hx: the same truncation without aliasing ------------------------------------------------ */
 
 static hc_status need_alias_free(budgeter *b, int n_harm)
 {
@@ -82,7 +87,8 @@ static void try_alias_free(budgeter *b, const budget_case *from, chain *c)
 {
   hbm_point point;
   hbm_measures m;
-  if (hbm_solve(b->alias_free, from->omega, b->X, &point) != HC_OK || hbm_measure(b->alias_free, b->X, &m) != HC_OK) return;
+  if (hbm_solve(b->alias_free, from->omega, b->X, &point) != HC_OK || hbm_measure(b->alias_free, b->X, &m) != HC_OK)
+    return;
   steady_motion found = motion_of_series(&m, b->n_harm, b->X);
   if (c->has_hx) {
     double old = motion_between(&c->h, &c->hx).waveform + motion_between(&c->hx, &c->orbit).waveform;
@@ -103,18 +109,20 @@ static hc_status find_alias_free(budgeter *b, const budget_case *from, chain *c)
   try_alias_free(b, from, c);
   if (!c->has_orbit) return HC_OK;
   double direct = motion_between(&c->h, &c->orbit).waveform;
-  if (c->has_hx && motion_between(&c->h, &c->hx).waveform + motion_between(&c->hx, &c->orbit).waveform <= 3 * direct) return HC_OK;
+  if (c->has_hx && motion_between(&c->h, &c->hx).waveform + motion_between(&c->hx, &c->orbit).waveform <= 3 * direct)
+    return HC_OK;
   motion_series(&c->orbit, from->n_harm, b->X);
   if (!b->sc.hbm.keep_mean) b->X[0] = 0;
   try_alias_free(b, from, c);
   return HC_OK;
 }
 
-/* ---- T': the transient without its integration error ----------------------------------------------------------------------------- */
+/* ---- T': the transient without its integration error ----------------------------------------- */
 
-/* The orbit next to the transient's with transient.tolerance = tolerance. HC_OK also if there was none: then !*found. */
-static hc_status integrate_again(budgeter *b, timeint **ti, double tolerance, const budget_case *from, const hc_monitor *monitor, steady_motion *out,
-                                 bool *found)
+/* The orbit next to the transient's with transient.tolerance = tolerance. HC_OK also if there was none: then
+ * !*found. */
+static hc_status integrate_again(budgeter *b, timeint **ti, double tolerance, const budget_case *from,
+                                 const hc_monitor *monitor, steady_motion *out, bool *found)
 {
   scene sc = b->sc;
   timeint_result r;
@@ -123,7 +131,8 @@ static hc_status integrate_again(budgeter *b, timeint **ti, double tolerance, co
   hc_monitor bounded = {patience_tick, &p};
   *found = false;
   sc.transient.tolerance = tolerance;
-  sc.transient.steady = TRANSIENT_STEADY_SHOOTING; /* with transient.richardson, timeint_steady extrapolates as it did for T */
+  sc.transient.steady = TRANSIENT_STEADY_SHOOTING; /* with transient.richardson, timeint_steady extrapolates as it
+                                                      did for T */
   hc_status st = *ti ? HC_OK : timeint_new(&sc, ti);
   if (st == HC_OK) st = timeint_steady(*ti, from->omega, &state, &bounded, &r);
   if (st == HC_NO_MEMORY) return st;
@@ -145,7 +154,7 @@ static hc_status find_finer(budgeter *b, const budget_case *from, const hc_monit
   return st;
 }
 
-/* ---- the parts -------------------------------------------------------------------------------------------------------------------- */
+/* ---- the parts ------------------------------------------------------------------------------- */
 
 static double known(double part) { return part >= 0 ? part : 0; }
 
@@ -158,7 +167,9 @@ static void add_up(budget_parts *p)
 }
 
 /* The gaps between the links. */
-typedef struct links { motion_gap observed, direct, aliasing, truncation, regularisation, integration; } links;
+typedef struct links {
+  motion_gap observed, direct, aliasing, truncation, regularisation, integration;
+} links;
 
 /* gap[6]: one measure of them, in their order. */
 static budget_parts split(const chain *c, bool exact_law, double settling, double unit, const double gap[6])
@@ -194,7 +205,8 @@ static void settle_accounts(const chain *c, bool exact_law, error_budget *out)
 {
   const links l = measure_links(c, exact_law);
   const double unit = c->has_transient ? c->transient.amplitude : c->orbit.amplitude;
-#define GAPS(m) (const double[6]){l.observed.m, l.direct.m, l.aliasing.m, l.truncation.m, l.regularisation.m, l.integration.m}
+#define GAPS(m)                                                                                                        \
+  (const double[6]){l.observed.m, l.direct.m, l.aliasing.m, l.truncation.m, l.regularisation.m, l.integration.m}
   out->amplitude = split(c, exact_law, c->settling, unit, GAPS(amplitude));
   out->harmonic_1 = split(c, exact_law, c->settling, unit, GAPS(harmonic_1));
   out->waveform = split(c, exact_law, c->settling, unit, GAPS(waveform));
@@ -223,7 +235,8 @@ hc_status budgeter_run(budgeter *b, const budget_case *from, const hc_monitor *m
   if ((c->has_transient = on_orbit(from))) c->transient = motion_of_transient(from->transient);
   if (c->has_orbit || c->has_transient) st = find_alias_free(b, from, c);
   if (st == HC_OK && c->has_transient) st = find_finer(b, from, monitor, c);
-  if (st == HC_OK && (c->has_orbit || c->has_transient)) settle_accounts(c, b->sc.transient.law == TRANSIENT_LAW_EXACT, out);
+  if (st == HC_OK && (c->has_orbit || c->has_transient))
+    settle_accounts(c, b->sc.transient.law == TRANSIENT_LAW_EXACT, out);
   free(c);
   return st;
 }

@@ -1,4 +1,5 @@
-/* parts.h - what the discrepancy of one HBM solution is made of: one part a cause, each measured by taking that cause alone away.
+/* parts.h - what the discrepancy of one HBM solution is made of: one part a cause, each measured by taking that
+ * cause alone away.
  *
  *     h     the HBM solution                    from_aliasing        |h - hx|
  *     hx    the same H, exact forces            from_truncation      |hx - O|
@@ -6,9 +7,10 @@
  *     T'    the transient's law, finer steps    from_integration     |T' - T| beyond
  *     T     the transient                       from_settling        its estimated distance to its own orbit
  *
- * By the triangle inequality the parts' sum is at least |h - T|. They are sizes: two of opposite sign make the sum larger than what is
- * observed. A transient that is not on the orbit next to h has no part in this: what is accounted for then is |h - O|.
- * All are relative to the transient's amplitude (to O's without it). NaN: not there, or could not be computed. */
+ * By the triangle inequality the parts' sum is at least |h - T|. They are sizes: two of opposite sign make the sum
+ * larger than what is observed. A transient that is not on the orbit next to h has no part in this: what is
+ * accounted for then is |h - O|. All are relative to the transient's amplitude (to O's without it). NaN: not there,
+ * or could not be computed. */
 #ifndef HC_PARTS_H
 #define HC_PARTS_H
 
@@ -27,10 +29,11 @@ typedef struct budget_parts {
 } budget_parts;
 
 typedef struct error_budget {
-  budget_parts amplitude, harmonic_1, waveform; /* |difference| of (max - min)/2, of |a1 + i b1|, largest of x over the period */
-  bool known;             /* there is an observed discrepancy */
-  bool against_transient; /* it is |h - T|; else |h - O| */
-  bool holds;             /* in amplitude the sum is no less than what is observed, but for rounding */
+  budget_parts amplitude, harmonic_1, waveform; /* |difference| of (max - min)/2, of |a1 + i b1|, largest of x over
+                                                   the period */
+  bool known;                                   /* there is an observed discrepancy */
+  bool against_transient;                       /* it is |h - T|; else |h - O| */
+  bool holds; /* in amplitude the sum is no less than what is observed, but for rounding */
 } error_budget;
 
 /* Nothing known. */
@@ -44,7 +47,7 @@ typedef struct budget_case {
   const hbm_measures *hbm; /* of X */
   hc_status transient_status, orbit_status;
   const timeint_result *transient, *orbit; /* valid where the status is HC_OK */
-  timeint_state state;     /* on the transient's orbit */
+  timeint_state state;                     /* on the transient's orbit */
 } budget_case;
 
 /* Workspace for the solutions between h and T; one a thread. What it needs is made when it is needed. */
@@ -55,17 +58,19 @@ void budgeter_free(budgeter *b);
 /* HC_OK, also where parts could not be had; HC_INTERRUPTED, HC_NO_MEMORY. */
 hc_status budgeter_run(budgeter *b, const budget_case *from, const hc_monitor *monitor, error_budget *out);
 
-/* Are the two the same orbit: as many periods, nowhere farther apart than a twentieth of the amplitude, and not one stable, the other not?
- * Laws and integrations differ by far less, branches by more. */
+/* Are the two the same orbit: as many periods, nowhere farther apart than a twentieth of the amplitude, and not one
+ * stable, the other not? Laws and integrations differ by far less, branches by more. */
 bool budget_same_orbit(const timeint_result *a, const timeint_result *b);
 
-/* |difference of amplitudes|, relative, of a transient and the exact law's orbit next to it; NaN where the two are not the same orbit. */
+/* |difference of amplitudes|, relative, of a transient and the exact law's orbit next to it; NaN where the two are
+ * not the same orbit. */
 double budget_regularisation(const timeint_result *tr, const timeint_result *orbit);
 
 /* The part that is largest in amplitude, "aliasing", ... and its share of the sum; NULL where there is none. */
 const char *budget_largest(const error_budget *b, double *share);
 
-/* "4.1 %: truncation (97 %); use hbm.harmonics >= 14". One line in text[BUDGET_TEXT], which is returned; n_harm as in use. */
+/* "4.1 %: truncation (97 %); use hbm.harmonics >= 14". One line in text[BUDGET_TEXT], which is returned; n_harm as
+ * in use. */
 enum { BUDGET_TEXT = 160 };
 const char *budget_advice(const error_budget *b, const scene *sc, int n_harm, char text[BUDGET_TEXT]);
 

@@ -1,4 +1,5 @@
-/* comparison.c - see comparison.h. What is swept here are frequencies and branches; what one row's numbers mean is errors_between(). */
+/* comparison.c - see comparison.h. What is swept here are frequencies and branches; what one row's numbers mean is
+ * errors_between(). */
 #include "compare/comparison.h"
 
 #include <math.h>
@@ -9,7 +10,9 @@
 #include "compare/frequencies.h"
 #include "hbm/series.h"
 
-static const struct { const char *name, *meaning; } verdicts[] = {
+static const struct {
+  const char *name, *meaning;
+} verdicts[] = {
 #define VERDICT_WORDS(code, name, meaning) {name, meaning},
     VERDICT_LIST(VERDICT_WORDS)
 #undef VERDICT_WORDS
@@ -49,7 +52,10 @@ static double waveform_distance(int n_harm, const double *X, const timeint_resul
 }
 
 /* |difference| / amplitude; no difference is no error, also where nothing moves (no forcing). */
-static double relative(double difference, double amplitude) { return difference == 0 ? 0 : fabs(difference) / amplitude; }
+static double relative(double difference, double amplitude)
+{
+  return difference == 0 ? 0 : fabs(difference) / amplitude;
+}
 
 double comparison_waveform_error(int n_harm, const double *X, const timeint_result *tr)
 {
@@ -111,7 +117,7 @@ typedef struct runner {
   budgeter *budgeter;
   const hc_monitor *monitor;
   comparison *out;
-  timeint_state swept;  /* where a sweep start has come to */
+  timeint_state swept; /* where a sweep start has come to */
   double swept_omega;
 } runner;
 
@@ -119,7 +125,9 @@ typedef struct runner {
 static hc_status start_state(runner *r, const comparison_row *row, const double *X, timeint_state *state)
 {
   switch (r->sc->transient.start) {
-  case TRANSIENT_START_HBM: *state = comparison_orbit_start(&row->hbm, hbm_n_harmonics(r->hbm), X, row->omega); return HC_OK;
+  case TRANSIENT_START_HBM:
+    *state = comparison_orbit_start(&row->hbm, hbm_n_harmonics(r->hbm), X, row->omega);
+    return HC_OK;
   case TRANSIENT_START_REST: *state = timeint_rest(r->ti); return HC_OK;
   default: break;
   }
@@ -141,16 +149,19 @@ static double orbits_apart(const timeint_result *a, const timeint_result *b)
   return relative(worst, b->amplitude);
 }
 
-/* Does the transient run on the orbit next to the HBM solution? It does if it was found there. Otherwise, having come from elsewhere, that
- * orbit is computed from the HBM solution, with the transient's own law, and the two are held together: same law, same orbit, so that the
- * difference is of the order of transient.tolerance, and anything beyond `same` is another orbit. */
+/* Does the transient run on the orbit next to the HBM solution? It does if it was found there. Otherwise, having
+ * come from elsewhere, that orbit is computed from the HBM solution, with the transient's own law, and the two are
+ * held together: same law, same orbit, so that the difference is of the order of transient.tolerance, and anything
+ * beyond `same` is another orbit. */
 static bool runs_next_to(runner *r, const comparison_row *row, const double *X)
 {
   const double same = fmax(1e-6, 100 * r->sc->transient.tolerance);
-  if (r->sc->transient.start == TRANSIENT_START_HBM && row->transient.method != TIMEINT_BY_MARCHING) return !row->transient.left_orbit;
+  if (r->sc->transient.start == TRANSIENT_START_HBM && row->transient.method != TIMEINT_BY_MARCHING)
+    return !row->transient.left_orbit;
   timeint_state state = comparison_orbit_start(&row->hbm, hbm_n_harmonics(r->hbm), X, row->omega);
   timeint_result restarted;
-  if (timeint_orbit(r->ti, row->omega, 1, &state, r->monitor, &restarted) != HC_OK) return true; /* none there: what differs is HBM */
+  /* none there: what differs is HBM */
+  if (timeint_orbit(r->ti, row->omega, 1, &state, r->monitor, &restarted) != HC_OK) return true;
   return orbits_apart(&restarted, &row->transient) <= same;
 }
 
@@ -177,8 +188,8 @@ static void referee(runner *r, comparison_row *row, const double *X)
 {
   const scene_transient *t = &r->sc->transient;
   const timeint_result *tr = &row->transient;
-  bool same = t->law == TRANSIENT_LAW_EXACT && t->start == TRANSIENT_START_HBM && row->transient_status == HC_OK && !tr->left_orbit &&
-              tr->period_multiple == 1 && tr->method == TIMEINT_BY_SHOOTING;
+  bool same = t->law == TRANSIENT_LAW_EXACT && t->start == TRANSIENT_START_HBM && row->transient_status == HC_OK &&
+              !tr->left_orbit && tr->period_multiple == 1 && tr->method == TIMEINT_BY_SHOOTING;
   timeint_state state = comparison_orbit_start(&row->hbm, hbm_n_harmonics(r->hbm), X, row->omega);
   if (same) row->orbit = *tr, row->orbit_status = HC_OK;
   else row->orbit_status = timeint_orbit(r->exact, row->omega, 1, &state, r->monitor, &row->orbit);
@@ -190,9 +201,15 @@ static void referee(runner *r, comparison_row *row, const double *X)
 /* What the discrepancy is made of. */
 static hc_status account(runner *r, const hbm_curve *at, int k, comparison_row *row)
 {
-  const budget_case from = {.omega = row->omega, .n_harm = at->points[k].harmonics, .X = at->X + (size_t)k * at->n_coef, .hbm = &row->hbm,
-                            .transient_status = row->transient_status, .transient = &row->transient,
-                            .orbit_status = row->orbit_status, .orbit = &row->orbit, .state = row->transient_state};
+  const budget_case from = {.omega = row->omega,
+                            .n_harm = at->points[k].harmonics,
+                            .X = at->X + (size_t)k * at->n_coef,
+                            .hbm = &row->hbm,
+                            .transient_status = row->transient_status,
+                            .transient = &row->transient,
+                            .orbit_status = row->orbit_status,
+                            .orbit = &row->orbit,
+                            .state = row->transient_state};
   return row->hbm_status == HC_OK ? budgeter_run(r->budgeter, &from, r->monitor, &row->budget) : HC_OK;
 }
 
@@ -207,13 +224,15 @@ static hc_status compare_solution(runner *r, const hbm_curve *at, int k, compari
   if (known == HC_NO_MEMORY) return known;
   if (known != HC_OK) row->stability.multiplier = NAN;
   row->transient_status = start_state(r, row, X, &state);
-  if (row->transient_status == HC_OK) row->transient_status = timeint_steady(r->ti, row->omega, &state, r->monitor, &row->transient);
+  if (row->transient_status == HC_OK)
+    row->transient_status = timeint_steady(r->ti, row->omega, &state, r->monitor, &row->transient);
   if (row->transient_status == HC_INTERRUPTED || row->transient_status == HC_NO_MEMORY) return row->transient_status;
   referee(r, row, X);
   if (row->orbit_status == HC_INTERRUPTED || row->orbit_status == HC_NO_MEMORY) return row->orbit_status;
   bool comparable = row->hbm_status == HC_OK && row->transient_status == HC_OK;
   if (comparable) row->errors = errors_between(&row->hbm, hbm_n_harmonics(r->hbm), X, &row->transient);
-  row->accounted = comparable && row->transient.period_multiple == 1 && accounted_for(r->hbm, r->sc, at, &row->transient);
+  row->accounted =
+      comparable && row->transient.period_multiple == 1 && accounted_for(r->hbm, r->sc, at, &row->transient);
   row->verdict = judge(r, row, X);
   row->transient_state = state;
   return account(r, at, k, row);
@@ -223,16 +242,26 @@ static hc_status compare_solution(runner *r, const hbm_curve *at, int k, compari
 static hc_status compare_at(runner *r, double omega)
 {
   hbm_curve at = {0};
-  const comparison_row none = {.omega = omega, .branch = -1, .verdict = VERDICT_SOLVER_FAILED, .transient_status = HC_UNSUPPORTED,
-                               .orbit_status = HC_UNSUPPORTED, .errors = {NAN, NAN, NAN, NAN}, .orbit_error = NAN, .budget = budget_nothing()};
+  const comparison_row none = {.omega = omega,
+                               .branch = -1,
+                               .verdict = VERDICT_SOLVER_FAILED,
+                               .transient_status = HC_UNSUPPORTED,
+                               .orbit_status = HC_UNSUPPORTED,
+                               .errors = {NAN, NAN, NAN, NAN},
+                               .orbit_error = NAN,
+                               .budget = budget_nothing()};
   comparison_row row = none;
   row.hbm_status = hbm_curve_at(r->hbm, &r->out->curve, omega, &at);
-  if (row.hbm_status == HC_OK && at.n == 0) row.hbm_status = r->out->curve.end != HC_OK ? r->out->curve.end : HC_NOT_CONVERGED;
-  hc_status st = row.hbm_status == HC_NO_MEMORY ? row.hbm_status : at.n == 0 || row.hbm_status != HC_OK ? add_row(r->out, &row) : HC_OK;
+  if (row.hbm_status == HC_OK && at.n == 0)
+    row.hbm_status = r->out->curve.end != HC_OK ? r->out->curve.end : HC_NOT_CONVERGED;
+  hc_status st = row.hbm_status == HC_NO_MEMORY         ? row.hbm_status
+                 : at.n == 0 || row.hbm_status != HC_OK ? add_row(r->out, &row)
+                                                        : HC_OK;
   for (int k = 0; k < at.n && st == HC_OK; ++k) {
     row = none;
     st = compare_solution(r, &at, k, &row);
-    if (st == HC_OK && !hc_monitor_tick(r->monitor, 1)) st = HC_INTERRUPTED; /* what was stopped inside may look like an answer */
+    /* what was stopped inside may look like an answer */
+    if (st == HC_OK && !hc_monitor_tick(r->monitor, 1)) st = HC_INTERRUPTED;
     if (st == HC_OK) st = add_row(r->out, &row);
   }
   hbm_curve_free(&at);
@@ -248,7 +277,10 @@ static void begin_sweep(runner *r)
 }
 
 /* Part i of n of the whole work, for the monitor of the inner loops. */
-typedef struct share { const hc_monitor *outer; double from, width; } share;
+typedef struct share {
+  const hc_monitor *outer;
+  double from, width;
+} share;
 
 static bool tick_share(void *self, double done)
 {
@@ -324,6 +356,7 @@ int comparison_exit_code(const comparison *c)
   for (int i = 0; i < c->n_rows; ++i)
     if (comparison_unaccounted(&c->rows[i])) return 1;
   if (c->curve.end != HC_OK) return 3; /* what lies beyond was not compared, and the curve might have come back */
-  if (c->count[VERDICT_SOLVER_FAILED] > 0 || c->count[VERDICT_NOT_SETTLED] > 0 || c->count[VERDICT_MATCH] == 0) return 3;
+  if (c->count[VERDICT_SOLVER_FAILED] > 0 || c->count[VERDICT_NOT_SETTLED] > 0 || c->count[VERDICT_MATCH] == 0)
+    return 3;
   return 0;
 }

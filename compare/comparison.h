@@ -1,28 +1,31 @@
-/* comparison.h - the main job: the same frequencies solved by harmonic balance and by time integration, and how far apart they are.
+/* comparison.h - the main job: the same frequencies solved by harmonic balance and by time integration, and how far
+ * apart they are.
  *
- * Per frequency and per HBM solution (branch) the transient starts, unless the scene says otherwise, on that solution's own orbit.
- * Beside it stands the referee: the periodic orbit of the exact contact law next to the HBM solution, stable or not, found by shooting.
- * What the HBM solution should be is that orbit; what a machine does is the transient.
- * An error is |hbm - transient| / the transient's amplitude. Phases are never aligned: the forcing fixes them. */
+ * Per frequency and per HBM solution (branch) the transient starts, unless the scene says otherwise, on that
+ * solution's own orbit. Beside it stands the referee: the periodic orbit of the exact contact law next to the HBM
+ * solution, stable or not, found by shooting. What the HBM solution should be is that orbit; what a machine does is
+ * the transient. An error is |hbm - transient| / the transient's amplitude. Phases are never aligned: the forcing
+ * fixes them. */
 #ifndef HC_COMPARISON_H
 #define HC_COMPARISON_H
 
-#include "model/scene.h"
 #include "base/status.h"
 #include "compare/budget.h"
 #include "compare/response.h"
 #include "hbm/hbm.h"
+#include "model/scene.h"
 #include "timeint/timeint.h"
 
 /* Never a bare number: what a comparison can come to. Names are INTERFACE.md's. */
-#define VERDICT_LIST(X)                                                                     \
-  X(VERDICT_MATCH, "match", "every error is within the gate")                               \
-  X(VERDICT_DIFFERS, "differs", "same orbit, but an error is beyond the gate")              \
-  X(VERDICT_OTHER_BRANCH, "other_branch", "the transient runs on another orbit than the one next to this HBM solution") \
-  X(VERDICT_UNSTABLE, "unstable", "this HBM solution is unstable: no motion stays there") \
-  X(VERDICT_PERIOD_K, "period_k", "the transient repeats only after k forcing periods")     \
-  X(VERDICT_APERIODIC, "aperiodic", "the transient never repeats: neighbouring motions drift apart") \
-  X(VERDICT_NOT_SETTLED, "not_settled", "the transient found no steady state in max_periods") \
+#define VERDICT_LIST(X)                                                                                                \
+  X(VERDICT_MATCH, "match", "every error is within the gate")                                                          \
+  X(VERDICT_DIFFERS, "differs", "same orbit, but an error is beyond the gate")                                         \
+  X(VERDICT_OTHER_BRANCH, "other_branch",                                                                              \
+    "the transient runs on another orbit than the one next to this HBM solution")                                      \
+  X(VERDICT_UNSTABLE, "unstable", "this HBM solution is unstable: no motion stays there")                              \
+  X(VERDICT_PERIOD_K, "period_k", "the transient repeats only after k forcing periods")                                \
+  X(VERDICT_APERIODIC, "aperiodic", "the transient never repeats: neighbouring motions drift apart")                   \
+  X(VERDICT_NOT_SETTLED, "not_settled", "the transient found no steady state in max_periods")                          \
   X(VERDICT_SOLVER_FAILED, "solver_failed", "one of the solvers gave up")
 #define VERDICT_ENUM(code, name, meaning) code,
 typedef enum verdict { VERDICT_LIST(VERDICT_ENUM) VERDICT_COUNT } verdict;
@@ -30,36 +33,39 @@ typedef enum verdict { VERDICT_LIST(VERDICT_ENUM) VERDICT_COUNT } verdict;
 const char *verdict_name(verdict v); /* "period_k" for all k; a row's own is comparison_verdict_text */
 const char *verdict_meaning(verdict v);
 
-typedef struct comparison_errors { double amplitude, harmonic_1, mean, waveform; } comparison_errors; /* [1] */
+typedef struct comparison_errors {
+  double amplitude, harmonic_1, mean, waveform;
+} comparison_errors; /* [1] */
 
 typedef struct comparison_row {
   double omega;
-  int branch;                 /* of the HBM solution; -1: HBM has none here */
-  enum verdict verdict;       /* `enum`, because C++ wants to know */
+  int branch;           /* of the HBM solution; -1: HBM has none here */
+  enum verdict verdict; /* `enum`, because C++ wants to know */
   hc_status hbm_status, transient_status;
-  hbm_stability stability;    /* of the HBM solution; multiplier NaN when unknown */
-  bool accounted;             /* the transient is within the gate of this or another HBM solution */
-  hbm_measures hbm;           /* valid when hbm_status is HC_OK */
-  timeint_result transient;   /* valid when transient_status is HC_OK, HC_NOT_SETTLED or HC_APERIODIC */
+  hbm_stability stability;       /* of the HBM solution; multiplier NaN when unknown */
+  bool accounted;                /* the transient is within the gate of this or another HBM solution */
+  hbm_measures hbm;              /* valid when hbm_status is HC_OK */
+  timeint_result transient;      /* valid when transient_status is HC_OK, HC_NOT_SETTLED or HC_APERIODIC */
   timeint_state transient_state; /* on the transient's orbit */
   hc_status orbit_status;
-  timeint_result orbit;       /* the referee's, valid when orbit_status is HC_OK */
-  double orbit_error;         /* [1] waveform error of the HBM solution against that orbit, NaN without it */
-  error_budget budget;        /* what the discrepancy is made of */
-  comparison_errors errors;   /* NaN where there is nothing to compare */
+  timeint_result orbit;     /* the referee's, valid when orbit_status is HC_OK */
+  double orbit_error;       /* [1] waveform error of the HBM solution against that orbit, NaN without it */
+  error_budget budget;      /* what the discrepancy is made of */
+  comparison_errors errors; /* NaN where there is nothing to compare */
 } comparison_row;
 
 typedef struct comparison {
   int n_rows, cap;
   comparison_row *rows;
-  hbm_curve curve;            /* the response curve behind the rows; its `end` says how far it came */
+  hbm_curve curve; /* the response curve behind the rows; its `end` says how far it came */
   int count[VERDICT_COUNT];
-  response_summary summary;   /* of that curve */
-  int harmonics, samples;     /* in use: for auto, the most the curve needed; samples 0 for exact forces */
+  response_summary summary; /* of that curve */
+  int harmonics, samples;   /* in use: for auto, the most the curve needed; samples 0 for exact forces */
 } comparison;
 
-/* Compare at the scene's frequencies (compare.omega, or compare.points chosen along the response curve). Rows found before an interrupt
- * or a failure are kept. HC_OK even when single rows failed: their verdicts say so. Free with comparison_clear in any case. */
+/* Compare at the scene's frequencies (compare.omega, or compare.points chosen along the response curve). Rows found
+ * before an interrupt or a failure are kept. HC_OK even when single rows failed: their verdicts say so. Free with
+ * comparison_clear in any case. */
 hc_status comparison_run(const scene *sc, const hc_monitor *monitor, comparison *out);
 void comparison_clear(comparison *c);
 
@@ -69,13 +75,15 @@ const char *comparison_verdict_text(const comparison_row *row, char text[24]);
 /* Is it known where the transient went, and no HBM solution is there? */
 bool comparison_unaccounted(const comparison_row *row);
 
-/* Exit code of INTERFACE.md: 0 agreed; 1 a transient differs from every HBM solution, or has another period; 3 something could not be compared. */
+/* Exit code of INTERFACE.md: 0 agreed; 1 a transient differs from every HBM solution, or has another period; 3
+ * something could not be compared. */
 int comparison_exit_code(const comparison *c);
 
 /* The time integration that HBM solutions are held against: sc's, with the exact law. For timeint_orbit. */
 hc_status comparison_referee(const scene *sc, timeint **out);
 
-/* Largest |x_hbm(t) - x_transient(t)| over the period, relative to the transient's amplitude; the means, where a slider is free, set equal. */
+/* Largest |x_hbm(t) - x_transient(t)| over the period, relative to the transient's amplitude; the means, where a
+ * slider is free, set equal. */
 double comparison_waveform_error(int n_harm, const double *X, const timeint_result *tr);
 
 /* x(t), x'(t) and sliders at t = 0 of an HBM solution: where its transient starts. */

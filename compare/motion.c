@@ -19,7 +19,8 @@ steady_motion motion_of_series(const hbm_measures *m, int n_harm, const double *
 
 steady_motion motion_of_transient(const timeint_result *r)
 {
-  steady_motion out = {.amplitude = r->amplitude, .harmonic_1 = r->harmonic_1, .mean = r->mean, .free_mean = r->free_sliders > 0};
+  steady_motion out = {
+      .amplitude = r->amplitude, .harmonic_1 = r->harmonic_1, .mean = r->mean, .free_mean = r->free_sliders > 0};
   for (int i = 0; i < TIMEINT_WAVE; ++i) out.wave[i] = r->wave[i];
   return out;
 }
@@ -30,7 +31,10 @@ motion_gap motion_between(const steady_motion *a, const steady_motion *b)
   motion_gap gap = {.amplitude = fabs(a->amplitude - b->amplitude), .harmonic_1 = fabs(a->harmonic_1 - b->harmonic_1)};
   for (int i = 0; i < TIMEINT_WAVE; ++i) {
     double d = fabs(a->wave[i] - b->wave[i] - shift);
-    if (!(d >= 0)) { gap.waveform = NAN; break; }
+    if (!(d >= 0)) {
+      gap.waveform = NAN;
+      break;
+    }
     if (d > gap.waveform) gap.waveform = d;
   }
   return gap;

@@ -15,7 +15,9 @@ steady_motion motion_of_series(const hbm_measures *m, int n_harm, const double *
 steady_motion motion_of_transient(const timeint_result *r);
 
 /* Distances of a and b, [length]. */
-typedef struct motion_gap { double amplitude, harmonic_1, waveform; } motion_gap;
+typedef struct motion_gap {
+  double amplitude, harmonic_1, waveform;
+} motion_gap;
 motion_gap motion_between(const steady_motion *a, const steady_motion *b);
 
 /* X[2 n_harm + 1] of the wave, n_harm < TIMEINT_WAVE/2; exact for a wave without higher harmonics. */

@@ -21,7 +21,10 @@ hc_status response_at(hbm_solver *s, const hbm_curve *curve, const scene_list *a
     int before = found->n;
     hc_status st = hbm_curve_at(s, curve, at->v[i], found);
     if (st == HC_OK && found->n == before) st = curve->end != HC_OK ? curve->end : HC_NOT_CONVERGED;
-    if (st != HC_OK && worst == HC_OK) { worst = st; *failed_at = at->v[i]; }
+    if (st != HC_OK && worst == HC_OK) {
+      worst = st;
+      *failed_at = at->v[i];
+    }
   }
   return worst;
 }
@@ -44,9 +47,15 @@ static hc_status find_peak(hbm_solver *s, const hbm_curve *c, response_summary *
 
 hc_status response_summarise(hbm_solver *s, const hbm_curve *c, response_summary *out)
 {
-  *out = (response_summary){.harmonics = hbm_n_harmonics(s), .samples = hbm_n_samples(s), .points = c->n, .rejected = c->rejected,
-                            .turning_points = c->turning_points, .iterations = c->iterations, .evaluations = c->evaluations,
-                            .reached_end = c->n > 0 && c->end == HC_OK && !c->left_at_start, .arclength = c->arclength,
+  *out = (response_summary){.harmonics = hbm_n_harmonics(s),
+                            .samples = hbm_n_samples(s),
+                            .points = c->n,
+                            .rejected = c->rejected,
+                            .turning_points = c->turning_points,
+                            .iterations = c->iterations,
+                            .evaluations = c->evaluations,
+                            .reached_end = c->n > 0 && c->end == HC_OK && !c->left_at_start,
+                            .arclength = c->arclength,
                             .left_at_start = c->left_at_start};
   return find_peak(s, c, out);
 }

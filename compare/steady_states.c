@@ -11,7 +11,8 @@
 const char *steady_verdict_text(const steady_row *r, char text[24])
 {
   if (r->status == HC_OK && timeint_stability(&r->result) < 0) snprintf(text, 24, "%s", verdict_name(VERDICT_UNSTABLE));
-  else if (r->status == HC_OK && r->result.period_multiple > 1) snprintf(text, 24, "period_%d", r->result.period_multiple);
+  else if (r->status == HC_OK && r->result.period_multiple > 1)
+    snprintf(text, 24, "period_%d", r->result.period_multiple);
   else if (r->status == HC_OK) snprintf(text, 24, "settled");
   else if (r->status == HC_NOT_SETTLED) snprintf(text, 24, "%s", verdict_name(VERDICT_NOT_SETTLED));
   else if (r->status == HC_APERIODIC) snprintf(text, 24, "%s", verdict_name(VERDICT_APERIODIC));
@@ -23,7 +24,7 @@ const char *steady_verdict_text(const steady_row *r, char text[24])
 typedef struct job {
   const scene *sc;
   timeint *ti;
-  timeint *exact; /* to see what the regularisation costs; NULL where the law is the exact one already */
+  timeint *exact;  /* to see what the regularisation costs; NULL where the law is the exact one already */
   hbm_solver *hbm; /* NULL unless the start is on HBM orbits */
   hbm_curve curve;
   const hc_monitor *monitor;
@@ -51,8 +52,8 @@ static hc_status add_failure(job *j, steady_stage stage, hc_status st, double om
   return st == HC_INTERRUPTED ? st : added;
 }
 
-/* The error of a regularised steady state at *state: by the exact law's orbit next to it, or by what Richardson's extrapolation left. *st
- * becomes HC_NO_MEMORY or HC_INTERRUPTED if that is why there is none. */
+/* The error of a regularised steady state at *state: by the exact law's orbit next to it, or by what Richardson's
+ * extrapolation left. *st becomes HC_NO_MEMORY or HC_INTERRUPTED if that is why there is none. */
 static double regularisation_error(job *j, const timeint_state *state, const timeint_result *r, hc_status *st)
 {
   timeint_state start = *state;
@@ -93,7 +94,9 @@ static hc_status from_hbm_orbits(job *j, double omega)
 {
   hbm_curve at = {0};
   timeint_state rest = timeint_rest(j->ti);
-  hc_status st = hbm_curve_at(j->hbm, &j->curve, omega, &at), why = st != HC_OK ? st : j->curve.end != HC_OK ? j->curve.end : HC_NOT_CONVERGED;
+  hc_status st = hbm_curve_at(j->hbm, &j->curve, omega, &at), why = st != HC_OK             ? st
+                                                                    : j->curve.end != HC_OK ? j->curve.end
+                                                                                            : HC_NOT_CONVERGED;
   if (st != HC_NO_MEMORY) st = st != HC_OK || at.n == 0 ? settle(j, omega, &rest, "rest", why) : HC_OK;
   for (int k = 0; k < at.n && st == HC_OK; ++k) st = settle_from_orbit(j, omega, &at, k);
   hbm_curve_free(&at);

@@ -1,10 +1,10 @@
-/* steady_states.h - the steady states of a scene by time integration at the frequencies of compare.omega, from where transient.start says:
- * on each HBM solution's orbit, at rest, or swept from an end of the sweep, as on a shaker. */
+/* steady_states.h - the steady states of a scene by time integration at the frequencies of compare.omega, from where
+ * transient.start says: on each HBM solution's orbit, at rest, or swept from an end of the sweep, as on a shaker. */
 #ifndef HC_STEADY_STATES_H
 #define HC_STEADY_STATES_H
 
-#include "model/scene.h"
 #include "base/status.h"
+#include "model/scene.h"
 #include "timeint/timeint.h"
 
 /* A row can fail in one of three ways, so that a message can say which side it was. */
@@ -15,8 +15,9 @@ typedef struct steady_row {
   steady_stage stage;    /* where it failed; beyond STEADY_TRANSIENT there is no result but omega: no row to show */
   hc_status without_hbm; /* why an HBM start became a start at rest; HC_OK: it did not */
   timeint_result result;
-  double from_regularisation; /* [1] estimated error of the amplitude, relative, by the exact law's orbit next to it; NaN: not known */
-  char start[32];        /* "rest", "up", "down", "hbm branch 2" */
+  double from_regularisation; /* [1] estimated error of the amplitude, relative, by the exact law's orbit next to it;
+                                 NaN: not known */
+  char start[32];             /* "rest", "up", "down", "hbm branch 2" */
 } steady_row;
 
 typedef struct steady_states {
@@ -24,12 +25,13 @@ typedef struct steady_states {
   steady_row *rows;
 } steady_states;
 
-/* HC_OK even when single rows failed: they say so. HC_BAD_INPUT without compare.omega. After an interrupt, and else, what was found is kept;
- * the row that was interrupted is the last. Free with steady_states_clear in any case. */
+/* HC_OK even when single rows failed: they say so. HC_BAD_INPUT without compare.omega. After an interrupt, and else,
+ * what was found is kept; the row that was interrupted is the last. Free with steady_states_clear in any case. */
 hc_status steady_states_run(const scene *sc, const hc_monitor *monitor, steady_states *out);
 void steady_states_clear(steady_states *s);
 
-/* "settled", "unstable" (by shooting alone), "period_2", "aperiodic", "not_settled", "solver_failed", into text[24], which is returned. */
+/* "settled", "unstable" (by shooting alone), "period_2", "aperiodic", "not_settled", "solver_failed", into text[24],
+ * which is returned. */
 const char *steady_verdict_text(const steady_row *row, char text[24]);
 
 #endif

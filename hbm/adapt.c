@@ -1,5 +1,6 @@
-/* adapt.c - hbm.harmonics: auto and hbm.samples: auto. Harmonics change along the curve, as far as the last point needs. Samples do not: sampled
- * equations of another N turn elsewhere, so a curve that needs more starts again with twice as many. */
+/* adapt.c - hbm.harmonics: auto and hbm.samples: auto. Harmonics change along the curve, as far as the last point
+ * needs. Samples do not: sampled equations of another N turn elsewhere, so a curve that needs more starts again with
+ * twice as many. */
 #include <math.h>
 #include <string.h>
 
@@ -30,8 +31,9 @@ static hc_status redo_last(path *p)
   }
   c->iterations += p->point.iterations;
   if (st != HC_OK) return st;
-  /* The sense of the curve is the same for coarser and finer equations (a further harmonic adds a block of positive determinant): it tells
-   * forward, where the old tangent may have followed a fold that only the coarse equations have. */
+  /* The sense of the curve is the same for coarser and finer equations (a further harmonic adds a block of positive
+   * determinant): it tells forward, where the old tangent may have followed a fold that only the coarse equations
+   * have. */
   if (p->sign != p->sense) {
     for (int i = 0; i < c->n_coef; ++i) p->dX[i] = -p->dX[i];
     p->d_omega = -p->d_omega;
@@ -49,7 +51,8 @@ static hc_status redo_last(path *p)
   return HC_OK;
 }
 
-/* The same, going back to earlier points as long as the finer equations have no solution near the last: a fold of the coarse ones alone. */
+/* The same, going back to earlier points as long as the finer equations have no solution near the last: a fold of
+ * the coarse ones alone. */
 static hc_status redo_back(path *p)
 {
   hc_status st = redo_last(p);
@@ -69,8 +72,9 @@ static double tail(const path *p, const double *X)
   return hbm_norm(n - kept, X + kept) / path_size(p);
 }
 
-/* hbm.harmonics: auto and hbm.samples: auto. As many as the last point needs, estimated there; HC_OK once hbm.accuracy is met or no finer
- * equations are to be had. Fewer again after EASY_POINTS in a row whose dropped harmonics would not show. */
+/* hbm.harmonics: auto and hbm.samples: auto. As many as the last point needs, estimated there; HC_OK once
+ * hbm.accuracy is met or no finer equations are to be had. Fewer again after EASY_POINTS in a row whose dropped
+ * harmonics would not show. */
 hc_status path_adapt(path *p)
 {
   hbm_solver *s = p->s;
@@ -85,7 +89,10 @@ hc_status path_adapt(path *p)
     tip->error = fmax(by_harmonics, by_samples);
     int n_harm = by_harmonics > asked->accuracy ? refine_next_harmonics(s->sys.n_harm, true) : s->sys.n_harm;
     bool sparse = s->finer_samples && (by_samples > asked->accuracy || s->n_time < 4 * n_harm);
-    if (sparse && s->n_time < REFINE_MOST_SAMPLES) { p->more_samples = true; return HC_OK; }
+    if (sparse && s->n_time < REFINE_MOST_SAMPLES) {
+      p->more_samples = true;
+      return HC_OK;
+    }
     if (n_harm == s->sys.n_harm) {
       c->inaccurate |= tip->error > asked->accuracy;
       break;
@@ -93,7 +100,8 @@ hc_status path_adapt(path *p)
     if ((st = hbm_solver_resize(s, n_harm, s->n_time)) == HC_OK) st = redo_back(p);
     p->easy = 0;
   }
-  bool easy = st == HC_OK && s->finer_harmonics && s->sys.n_harm > 1 && tail(p, hbm_curve_X(c, c->n - 1)) < 0.05 * asked->accuracy;
+  bool easy = st == HC_OK && s->finer_harmonics && s->sys.n_harm > 1 &&
+              tail(p, hbm_curve_X(c, c->n - 1)) < 0.05 * asked->accuracy;
   p->easy = easy ? p->easy + 1 : 0;
   if (p->easy < EASY_POINTS) return st;
   int before = s->sys.n_harm;

@@ -1,9 +1,10 @@
 /* aft.c - contact force harmonics from displacement harmonics (alternating frequency/time).
  *   X -> x(th_i), th_i = 2 pi i/N -> u_i, v_i -> contact_step over the period until the slider closes -> F_i -> F
- * The slider after a separation starts from the interpolated instant of contact, or (the paper's way) from the last separated sample.
- * Jacobian: dF_i = k_i dx_i - kt cos(alpha) dw, k_i by one more FFT, dw constant over a stick interval (slope.h).
- * FFTW does not normalise and uses exp(-i): the 2/N and the sign of the sine live in to_series() and to_samples(), only there.
- * Plans are ESTIMATE: planned in microseconds, and the same on every run. Not here: the dynamic stiffness (system.c). */
+ * The slider after a separation starts from the interpolated instant of contact, or (the paper's way) from the last
+ * separated sample. Jacobian: dF_i = k_i dx_i - kt cos(alpha) dw, k_i by one more FFT, dw constant over a stick
+ * interval (slope.h). FFTW does not normalise and uses exp(-i): the 2/N and the sign of the sine live in to_series()
+ * and to_samples(), only there. Plans are ESTIMATE: planned in microseconds, and the same on every run. Not here:
+ * the dynamic stiffness (system.c). */
 #include "hbm/aft.h"
 
 #include <complex.h>
@@ -12,22 +13,25 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "numerics/room.h"
 #include "hbm/slope.h"
+#include "numerics/room.h"
 
 /* Where the slider's position came from: dw = slope dx(th_i); slope 0 when it depends on nothing. */
-typedef struct slider_origin { int i; double slope; } slider_origin;
+typedef struct slider_origin {
+  int i;
+  double slope;
+} slider_origin;
 
 struct aft {
   scene_contact contacts[SCENE_MAX_CONTACTS];
   int n_contacts, n_harm, n_time, restart;
-  double *x, *f, *k;         /* [n_time]     displacement [length], force, its stiffness along the orbit */
-  fftw_complex *spec;        /* [n_time/2+1] consumed by to_time (c2r overwrites its input)            */
+  double *x, *f, *k;  /* [n_time]     displacement [length], force, its stiffness along the orbit */
+  fftw_complex *spec; /* [n_time/2+1] consumed by to_time (c2r overwrites its input)            */
   fftw_plan to_time, to_freq_f, to_freq_k;
-  double complex *root;      /* [n_time]     exp(i th_i)                                                */
-  double complex *inv_step;  /* [n_harm+1]   1/(exp(i h 2 pi/N) - 1), for sums over sample ranges       */
-  double *symbol;            /* [4H+1]       series of k                                                */
-  double *left, *right;      /* [2H+1]       one rank-1 term                                            */
+  double complex *root;     /* [n_time]     exp(i th_i)                                                */
+  double complex *inv_step; /* [n_harm+1]   1/(exp(i h 2 pi/N) - 1), for sums over sample ranges       */
+  double *symbol;           /* [4H+1]       series of k                                                */
+  double *left, *right;     /* [2H+1]       one rank-1 term                                            */
 };
 
 /* One contact's sweep over the samples. */
@@ -65,7 +69,8 @@ static hc_status make_tables(aft *a)
   a->symbol = calloc((size_t)slope_symbol_length(a->n_harm), sizeof(double));
   a->left = calloc((size_t)n_coef, sizeof(double));
   a->right = calloc((size_t)n_coef, sizeof(double));
-  if (!a->x || !a->f || !a->k || !a->spec || !a->root || !a->inv_step || !a->symbol || !a->left || !a->right) return HC_NO_MEMORY;
+  if (!a->x || !a->f || !a->k || !a->spec || !a->root || !a->inv_step || !a->symbol || !a->left || !a->right)
+    return HC_NO_MEMORY;
   const double step = 6.283185307179586476925 / n;
   for (int i = 0; i < n; ++i) a->root[i] = cos(i * step) + I * sin(i * step);
   for (int h = 1; h <= a->n_harm; ++h) a->inv_step[h] = 1 / (a->root[h % n] - 1);
@@ -85,7 +90,10 @@ hc_status aft_new(const scene *sc, int n_harm, int n_time, aft **out)
   a->restart = sc->hbm.restart;
   hc_status st = make_tables(a);
   if (st == HC_OK) st = make_plans(a);
-  if (st == HC_OK) { *out = a; return HC_OK; }
+  if (st == HC_OK) {
+    *out = a;
+    return HC_OK;
+  }
   aft_free(a);
   return st;
 }
@@ -118,7 +126,8 @@ static void to_samples(aft *a, const double *X)
   fftw_execute(a->to_time);
 }
 
-/* The first n_harm harmonics of the samples behind plan. Above N/2 a harmonic reads its alias, as the sampled sums themselves do. */
+/* The first n_harm harmonics of the samples behind plan. Above N/2 a harmonic reads its alias, as the sampled sums
+ * themselves do. */
 static void to_series(aft *a, fftw_plan plan, int n_harm, double *out)
 {
   int n = a->n_time;
@@ -132,8 +141,9 @@ static void to_series(aft *a, fftw_plan plan, int n_harm, double *out)
   }
 }
 
-/* On entering contact at sample i after a separated one. Interpolated: w = u on the straight line between the samples where
- * v + gap = 0, which for u = c x and v = s x is -gap c/s, whatever the samples. Else w stays the last separated sample's u. */
+/* On entering contact at sample i after a separated one. Interpolated: w = u on the straight line between the
+ * samples where v + gap = 0, which for u = c x and v = s x is -gap c/s, whatever the samples. Else w stays the last
+ * separated sample's u. */
 static void restart_slider(const aft *a, track *t, int i)
 {
   int before = i ? i - 1 : a->n_time - 1;
@@ -208,12 +218,14 @@ static void record(aft *a, track *t, double *jac, contact_report *report)
     report->transitions += now != before;
   }
   if (first >= 0 && jac) subtract_stick_interval(a, t, first, a->n_time - 1, jac);
-  contact_regime regime = separates ? (touches ? CONTACT_SEPARATES : CONTACT_LINEAR) : slips ? CONTACT_SLIPS : CONTACT_STUCK;
+  contact_regime regime = separates ? (touches ? CONTACT_SEPARATES : CONTACT_LINEAR)
+                          : slips   ? CONTACT_SLIPS
+                                    : CONTACT_STUCK;
   if (regime > report->regime) report->regime = regime;
 }
 
-/* One step of the law maps w to the nearest point of an interval, and so does a whole period: the second pass repeats itself.
- * The check guards that argument (and rounding), not convergence. */
+/* One step of the law maps w to the nearest point of an interval, and so does a whole period: the second pass
+ * repeats itself. The check guards that argument (and rounding), not convergence. */
 static hc_status evaluate_contact(aft *a, int j, double size, double *jac, contact_report *report)
 {
   track t = {.contact = &a->contacts[j], .state = CONTACT_STICK};

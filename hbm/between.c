@@ -1,5 +1,6 @@
-/* between.c - see between.h. Newton at a fixed omega is only as good as its guess, and near turning points other solutions are close: an
- * answer counts if it is where interpolation said, to a small part of the stretch, and if no two crossings gave the same one. */
+/* between.c - see between.h. Newton at a fixed omega is only as good as its guess, and near turning points other
+ * solutions are close: an answer counts if it is where interpolation said, to a small part of the stretch, and if no
+ * two crossings gave the same one. */
 #include "hbm/between.h"
 
 #include <math.h>
@@ -28,7 +29,8 @@ static double distance(int n, const double *a, const double *b)
 }
 
 /* Newton at omega from the interpolant at sigma. False: not next to it. */
-static bool solve_at(hbm_solver *s, const hbm_curve *c, int k, const hbm_segment *seg, double sigma, double omega, hbm_candidate *x)
+static bool solve_at(hbm_solver *s, const hbm_curve *c, int k, const hbm_segment *seg, double sigma, double omega,
+                     hbm_candidate *x)
 {
   double at, d_omega;
   size_t bytes = (size_t)c->n_coef * sizeof(double);
@@ -67,7 +69,8 @@ hc_status hbm_segment_point(hbm_solver *s, const hbm_curve *c, int k, double sig
 }
 
 /* A curve of three points: the ends of segment k and one between them. */
-static hc_status halve(hbm_solver *s, const hbm_curve *c, int k, const hbm_segment *seg, hbm_candidate *x, hbm_curve *halves)
+static hc_status halve(hbm_solver *s, const hbm_curve *c, int k, const hbm_segment *seg, hbm_candidate *x,
+                       hbm_curve *halves)
 {
   hc_status st = hbm_segment_point(s, c, k, 0.5, x);
   halves->omega_scale = c->omega_scale;
@@ -76,7 +79,8 @@ static hc_status halve(hbm_solver *s, const hbm_curve *c, int k, const hbm_segme
   return st == HC_OK ? hbm_curve_append(halves, c->n_coef, seg->X1, seg->dX1, &c->points[k + 1]) : st;
 }
 
-static hc_status search(hbm_solver *s, const hbm_curve *c, int k, double omega, bool last, int halvings, hbm_candidate *x, hbm_curve *out)
+static hc_status search(hbm_solver *s, const hbm_curve *c, int k, double omega, bool last, int halvings,
+                        hbm_candidate *x, hbm_curve *out)
 {
   hbm_segment seg = hbm_segment_between(c, k);
   double sigma[3];
@@ -120,7 +124,8 @@ hc_status hbm_curve_at(hbm_solver *s, const hbm_curve *c, double omega, hbm_curv
   return worst;
 }
 
-/* Amplitude on the curve near its highest point; position 0..2 runs over the two segments beside it. The point into x. Negative: failed. */
+/* Amplitude on the curve near its highest point; position 0..2 runs over the two segments beside it. The point into
+ * x. Negative: failed. */
 static double amplitude_near(hbm_solver *s, const hbm_curve *c, int top, double position, hbm_candidate *x)
 {
   int k = top - 1 + (position >= 1);
@@ -135,8 +140,19 @@ static hc_status refine_peak(hbm_solver *s, const hbm_curve *c, int top, hbm_can
   double a = 0, b = 2, p = b - golden * (b - a), q = a + golden * (b - a);
   double fp = amplitude_near(s, c, top, p, x), fq = amplitude_near(s, c, top, q, x);
   while (b - a > 1e-7 && fp >= 0 && fq >= 0) { /* the amplitude is flat there: 1e-7 in position is 1e-14 in it */
-    if (fp > fq) { b = q; q = p; fq = fp; p = b - golden * (b - a); fp = amplitude_near(s, c, top, p, x); }
-    else { a = p; p = q; fp = fq; q = a + golden * (b - a); fq = amplitude_near(s, c, top, q, x); }
+    if (fp > fq) {
+      b = q;
+      q = p;
+      fq = fp;
+      p = b - golden * (b - a);
+      fp = amplitude_near(s, c, top, p, x);
+    } else {
+      a = p;
+      p = q;
+      fp = fq;
+      q = a + golden * (b - a);
+      fq = amplitude_near(s, c, top, q, x);
+    }
   }
   if (amplitude_near(s, c, top, 0.5 * (a + b), x) < 0) return HC_NOT_CONVERGED;
   return hbm_curve_append(peak, c->n_coef, x->X, x->dX, &x->point);
@@ -150,7 +166,10 @@ hc_status hbm_curve_peak(hbm_solver *s, const hbm_curve *c, hbm_curve *peak)
     hbm_measures m;
     hc_status st = hbm_measure(s, c->X + (size_t)k * c->n_coef, &m);
     if (st != HC_OK) return st;
-    if (m.amplitude > highest) { highest = m.amplitude; top = k; }
+    if (m.amplitude > highest) {
+      highest = m.amplitude;
+      top = k;
+    }
   }
   if (top < 0) return HC_BAD_INPUT;
   peak->omega_scale = c->omega_scale;

@@ -5,8 +5,8 @@
 #include "model/scene.h"
 
 typedef struct contact_report {
-  contact_regime regime;       /* the strongest thing that happens to any contact in the period */
-  int transitions;             /* changes of state in the period, all contacts */
+  contact_regime regime;        /* the strongest thing that happens to any contact in the period */
+  int transitions;              /* changes of state in the period, all contacts */
   double w[SCENE_MAX_CONTACTS]; /* [length] slider of each contact at th = 0, on the closed orbit */
 } contact_report;
 

@@ -1,12 +1,16 @@
 /* continuation.c - the response curve from one end of the sweep to the other.
  *
- *   predict   cubic Hermite through the last two points and their tangents, extrapolated by the step h (the tangent alone at first)
- *   correct   natural: Newton at the predicted omega; arc-length (Keller): Newton in the plane through the prediction, across the path
- *   judge     how far the corrector moved the prediction tells the error e of interpolating the new stretch: extrapolation
- *             leaves x''''(h_p + h)^2 h^2/24, interpolation x'''' h^4/384. The step is chosen to keep that at TOLERANCE.
+ *   predict   cubic Hermite through the last two points and their tangents, extrapolated by the step h (the tangent
+ *             alone at first)
+ *   correct   natural: Newton at the predicted omega; arc-length (Keller): Newton in the plane through the
+ *             prediction, across the path
+ *   judge     how far the corrector moved the prediction tells the error e of interpolating the new stretch:
+ *             extrapolation leaves x''''(h_p + h)^2 h^2/24, interpolation x'''' h^4/384. The step is chosen to keep
+ *             that at TOLERANCE.
  *
- * `auto` steps naturally until the curve gets steep or Newton fails, then by arc-length, and returns when the curve is flat again.
- * It goes on from a point only forward along its own tangent, so it cannot retrace its path. Lengths: curve.h. */
+ * `auto` steps naturally until the curve gets steep or Newton fails, then by arc-length, and returns when the curve
+ * is flat again. It goes on from a point only forward along its own tangent, so it cannot retrace its path. Lengths:
+ * curve.h. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -17,17 +21,18 @@
 #include "hbm/series.h"
 #include "hbm/start.h"
 
-static const double TOLERANCE = 1e-4;   /* of interpolation, relative to |X| */
+static const double TOLERANCE = 1e-4; /* of interpolation, relative to |X| */
 static const double H_FIRST = 0.02, H_MAX = 0.5, H_MIN = 1e-11;
-static const double H_CORNER = 1e-4;    /* below: a corner in the curve rather than curvature; accept a kink */
+static const double H_CORNER = 1e-4; /* below: a corner in the curve rather than curvature; accept a kink */
 static const double FAR = 4;
-static const double H_TURN = 1e-9;      /* steps that fail below this are at a corner to be turned */
-static const double LINEAR_NEAR = 1e-2;  /* the linear response counts as the predicted solution within this */
-static const double STEEP = 0.2, FLAT = 0.6; /* share of omega in the unit tangent: leave natural steps, take them up again */
+static const double H_TURN = 1e-9;           /* steps that fail below this are at a corner to be turned */
+static const double LINEAR_NEAR = 1e-2;      /* the linear response counts as the predicted solution within this */
+static const double STEEP = 0.2, FLAT = 0.6; /* share of omega in the unit tangent: leave natural steps, take them up
+                                                again */
 enum { MAX_POINTS = 200000, FLAT_STEPS = 6 };
 
-
-/* Prediction into X, omega; its direction into dX, d_omega (unit length). Returns interpolation error / prediction error. */
+/* Prediction into X, omega; its direction into dX, d_omega (unit length). Returns interpolation error / prediction
+ * error. */
 static double predict(path *p, double h)
 {
   const hbm_curve *c = p->curve;
@@ -61,7 +66,8 @@ static hc_status correct_natural(path *p)
 {
   p->d_omega = 1;
   p->sign = 1; /* of the linear equations: det Z_h = (K - M h^2 omega^2)^2 + (C h omega)^2 */
-  if (p->s->sys.sc.hbm.skip_linear && hbm_linear_point(p->s, p->omega, LINEAR_NEAR, p->X, p->dX, &p->point)) return HC_OK;
+  if (p->s->sys.sc.hbm.skip_linear && hbm_linear_point(p->s, p->omega, LINEAR_NEAR, p->X, p->dX, &p->point))
+    return HC_OK;
   hc_status st = hbm_solve_fixed(p->s, p->omega, path_size(p), p->X, &p->point);
   if (st == HC_OK) st = hbm_tangent_fixed(p->s, p->X, p->dX);
   p->sign = newton_sign(p->s->fixed);
@@ -86,7 +92,8 @@ hc_status path_correct_in_plane(path *p)
   return st == HC_OK ? hbm_tangent_plane(p->s, p->dX, &p->d_omega) : st;
 }
 
-/* Make the trial tangent keep the curve's sense. Returns cos of the angle to the last tangent; *forward: the step went along both. */
+/* Make the trial tangent keep the curve's sense. Returns cos of the angle to the last tangent; *forward: the step
+ * went along both. */
 static double orient(path *p, bool *forward)
 {
   const hbm_curve *c = p->curve;
@@ -100,9 +107,11 @@ static double orient(path *p, bool *forward)
     p->d_omega = -p->d_omega;
   }
   double w = p->omega - c->points[last].omega;
-  *forward = path_metric(p, x_scale, p->dX, p->d_omega, chord, w) > 0 && path_metric(p, x_scale, dX0, d_omega0, chord, w) > 0;
+  *forward =
+      path_metric(p, x_scale, p->dX, p->d_omega, chord, w) > 0 && path_metric(p, x_scale, dX0, d_omega0, chord, w) > 0;
   if (p->natural && !(p->d_omega * p->direction > 0)) *forward = false;
-  double a = path_metric(p, x_scale, dX0, d_omega0, dX0, d_omega0), b = path_metric(p, x_scale, p->dX, p->d_omega, p->dX, p->d_omega);
+  double a = path_metric(p, x_scale, dX0, d_omega0, dX0, d_omega0),
+         b = path_metric(p, x_scale, p->dX, p->d_omega, p->dX, p->d_omega);
   return path_metric(p, x_scale, dX0, d_omega0, p->dX, p->d_omega) / sqrt(a * b);
 }
 
@@ -116,21 +125,30 @@ static void switch_to_arclength(path *p)
   p->curve->arclength = true;
 }
 
-/* One trial step of length h. HC_OK and accepted, or HC_OK and not, or why Newton failed. p->h becomes the next step to try. */
+/* One trial step of length h. HC_OK and accepted, or HC_OK and not, or why Newton failed. p->h becomes the next step
+ * to try. */
 static hc_status try_step(path *p, bool *accepted)
 {
   double ratio = predict(p, p->h);
   *accepted = false;
-  if (p->natural && !(p->direction * (p->omega - p->curve->points[p->curve->n - 1].omega) > 0)) { p->h *= 0.4; return HC_NOT_CONVERGED; }
+  if (p->natural && !(p->direction * (p->omega - p->curve->points[p->curve->n - 1].omega) > 0)) {
+    p->h *= 0.4;
+    return HC_NOT_CONVERGED;
+  }
   hc_status st = p->natural ? correct_natural(p) : path_correct_in_plane(p);
   p->curve->iterations += p->point.iterations;
-  if (st != HC_OK) { p->h *= 0.4; return st; }
+  if (st != HC_OK) {
+    p->h *= 0.4;
+    return st;
+  }
   bool forward;
-  double cosine = orient(p, &forward), moved = path_correction(p, p->curve->omega_scale), error = ratio * path_correction(p, p->resolution);
+  double cosine = orient(p, &forward), moved = path_correction(p, p->curve->omega_scale),
+         error = ratio * path_correction(p, p->resolution);
   bool corner = p->h <= H_CORNER;
   double scale = p->s->step_scale, tolerance = TOLERANCE * scale * scale * scale * scale;
   double grow = 0.9 * pow(tolerance / fmax(error, 1e-12 * tolerance), 0.25);
-  bool good = forward && (corner ? moved <= p->h || (p->natural && path_agrees_backwards(p, p->h)) : moved <= 0.25 * p->h && cosine >= 0.7 && error <= 4 * tolerance);
+  bool good = forward && (corner ? moved <= p->h || (p->natural && path_agrees_backwards(p, p->h))
+                                 : moved <= 0.25 * p->h && cosine >= 0.7 && error <= 4 * tolerance);
   if (p->point.iterations > 8) grow = fmin(grow, 0.7);
   p->h *= good ? fmin(2, fmax(0.4, grow)) : fmin(0.5, fmax(0.2, grow));
   if (corner && good) p->h = fmax(p->h, 2 * H_MIN);
@@ -139,8 +157,9 @@ static hc_status try_step(path *p, bool *accepted)
   return HC_OK;
 }
 
-/* Round a corner too sharp for a plane across the old tangent, as where a nearly rigid contact is made or lost: the equations a step h beyond
- * the corner tell the direction there (their kernel, with the sense of the curve), and the step is taken along that. */
+/* Round a corner too sharp for a plane across the old tangent, as where a nearly rigid contact is made or lost: the
+ * equations a step h beyond the corner tell the direction there (their kernel, with the sense of the curve), and the
+ * step is taken along that. */
 static hc_status turn_corner(path *p, double h, bool *accepted)
 {
   const hbm_curve *c = p->curve;
@@ -221,15 +240,19 @@ static hc_status land_on(path *p, double limit)
   return st;
 }
 
-/* Is the sweep over? Yes past its end; also where the branch turned back past its start and did not come back within a factor FAR: it is
- * then cut where it left. In between (a loop of a superharmonic resonance across the start) it is followed outside the sweep. */
+/* Is the sweep over? Yes past its end; also where the branch turned back past its start and did not come back within
+ * a factor FAR: it is then cut where it left. In between (a loop of a superharmonic resonance across the start) it
+ * is followed outside the sweep. */
 static hc_status finish_at_limit(path *p, bool *done)
 {
   hbm_curve *c = p->curve;
   double omega = c->points[c->n - 1].omega;
   *done = p->direction * (omega - p->to) >= 0;
   if (*done) return land_on(p, p->to);
-  if (p->direction * (omega - p->from) >= 0) { p->left = 0; return HC_OK; }
+  if (p->direction * (omega - p->from) >= 0) {
+    p->left = 0;
+    return HC_OK;
+  }
   if (!p->left) p->left = c->n - 1;
   *done = c->left_at_start = p->direction > 0 ? omega < p->from / FAR : omega > p->from * FAR;
   if (!*done) return HC_OK;
@@ -238,9 +261,11 @@ static hc_status finish_at_limit(path *p, bool *done)
   return land_on(p, p->from);
 }
 
-static hc_status trace(hbm_solver *s, double from, double to, bool from_afar, const hc_monitor *monitor, hbm_curve *curve);
+static hc_status trace(hbm_solver *s, double from, double to, bool from_afar, const hc_monitor *monitor,
+                       hbm_curve *curve);
 
-/* The solution at p->from by the curve that comes down from well above every resonance, where inertia rules and any guess will do. */
+/* The solution at p->from by the curve that comes down from well above every resonance, where inertia rules and any
+ * guess will do. */
 static hc_status solve_from_afar(path *p, const hc_monitor *monitor)
 {
   const scene *sc = &p->s->sys.sc;
@@ -325,7 +350,8 @@ static hc_status path_new(path *p)
   return HC_OK;
 }
 
-/* One way through the sweep with the equations as they are, but for harmonics: auto. *more_samples: it should be gone again with more of them. */
+/* One way through the sweep with the equations as they are, but for harmonics: auto. *more_samples: it should be
+ * gone again with more of them. */
 static hc_status trace_once(path *p, const hc_monitor *monitor, bool *more_samples)
 {
   hbm_curve *c = p->curve;
@@ -342,9 +368,11 @@ static hc_status trace_once(path *p, const hc_monitor *monitor, bool *more_sampl
   return st;
 }
 
-static hc_status trace(hbm_solver *s, double from, double to, bool from_afar, const hc_monitor *monitor, hbm_curve *curve)
+static hc_status trace(hbm_solver *s, double from, double to, bool from_afar, const hc_monitor *monitor,
+                       hbm_curve *curve)
 {
-  const path start = {.s = s, .from_afar = from_afar, .curve = curve, .from = from, .to = to, .direction = to >= from ? 1 : -1};
+  const path start = {
+      .s = s, .from_afar = from_afar, .curve = curve, .from = from, .to = to, .direction = to >= from ? 1 : -1};
   bool adapts = s->sys.sc.hbm.harmonics == SCENE_AUTO, more_samples;
   curve->n_coef = adapts ? series_length(REFINE_MOST_HARMONICS) : s->sys.n_coef;
   curve->omega_scale = fmax(fabs(to - from) / 4, 1e-3 * from);

@@ -1,5 +1,6 @@
-/* crossing.c - see crossing.h. An interval is proved free of crossings by the bound of f'', or proved monotone by it, or proved convex by
- * the bound of f'''; else it is halved. The proofs hold at once wherever the motion is smooth on the scale of the interval. */
+/* crossing.c - see crossing.h. An interval is proved free of crossings by the bound of f'', or proved monotone by
+ * it, or proved convex by the bound of f'''; else it is halved. The proofs hold at once wherever the motion is
+ * smooth on the scale of the interval. */
 #include "hbm/crossing.h"
 
 #include <float.h>
@@ -86,14 +87,17 @@ static motion_node falling_root(const search *s, motion_node a, motion_node b)
   motion_node x = motion_at(s->m, a.th + (b.th - a.th) * fa / (fa - fb));
   for (int it = 0; it < MAX_NEWTON; ++it) {
     double f = guard_value(s->g, &x), slope = derivative(s->g, &x, 1);
-    if (f > 0) a = x; else b = x;
+    if (f > 0) a = x;
+    else b = x;
     double next = x.th - f / slope;
-    if (fabs(next - x.th) <= 2 * DBL_EPSILON * (1 + fabs(x.th))) break; /* first: at the root, next may be an end of the bracket */
+    /* first: at the root, next may be an end of the bracket */
+    if (fabs(next - x.th) <= 2 * DBL_EPSILON * (1 + fabs(x.th))) break;
     bool inside = next > a.th && next < b.th;
     if (!inside) next = 0.5 * (a.th + b.th);
     double moved = next - x.th;
     x = motion_at(s->m, next);
-    if (inside && s->g->bound2 * moved * moved <= 2 * DBL_EPSILON * fabs(slope)) break; /* the error left is at most bound2 moved^2/(2 |slope|) */
+    /* the error left is at most bound2 moved^2/(2 |slope|) */
+    if (inside && s->g->bound2 * moved * moved <= 2 * DBL_EPSILON * fabs(slope)) break;
   }
   return x;
 }
@@ -105,7 +109,8 @@ static motion_node minimum(const search *s, motion_node a, motion_node b)
   motion_node x = motion_at(s->m, a.th + (b.th - a.th) * da / (da - db));
   for (int it = 0; it < MAX_NEWTON; ++it) {
     double slope = derivative(s->g, &x, 1);
-    if (slope < 0) a = x; else b = x;
+    if (slope < 0) a = x;
+    else b = x;
     double next = x.th;
     if (s->g->order == 0) next -= slope / derivative(s->g, &x, 2); /* no third derivative at hand for order 1 */
     bool newton = s->g->order == 0;
@@ -117,19 +122,23 @@ static motion_node minimum(const search *s, motion_node a, motion_node b)
   return x;
 }
 
-static inline double lesser(double x, double y) { return x < y ? x : y; } /* fmin and fmax are calls, for the sake of NaN */
+/* fmin and fmax are calls, for the sake of NaN */
+static inline double lesser(double x, double y) { return x < y ? x : y; }
 static inline double greater(double x, double y) { return x > y ? x : y; }
 
 static bool find(const search *s, motion_node a, motion_node b, int depth, motion_node *root)
 {
   const guard *g = s->g;
   double fa = guard_value(g, &a), fb = guard_value(g, &b), width = b.th - a.th;
-  if (fa < -g->noise) { *root = a; return true; }
+  if (fa < -g->noise) {
+    *root = a;
+    return true;
+  }
   double sag = g->bound2 * width * width / 8;
   if (lesser(fa, fb) > sag) return false;
   double da = derivative(g, &a, 1), db = derivative(g, &b, 1), bend = 0.5 * g->bound2 * width;
   bool below = fb < -g->noise;
-  bool falls = greater(da, db) + bend < 0, rises = lesser(da, db) - bend > 0;
+  bool falls = greater(da, db) + bend<0, rises = lesser(da, db) - bend> 0;
   if (falls || rises || sag <= g->noise || depth == 0) {
     if (below) *root = falling_root(s, a, b);
     return below;

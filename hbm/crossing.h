@@ -1,4 +1,5 @@
-/* crossing.h - the first angle where a guard, a trigonometric polynomial plus a constant, falls through 0 in an interval. libm only. */
+/* crossing.h - the first angle where a guard, a trigonometric polynomial plus a constant, falls through 0 in an
+ * interval. libm only. */
 #ifndef HC_CROSSING_H
 #define HC_CROSSING_H
 
@@ -7,12 +8,12 @@
 #include "hbm/transitions.h"
 
 typedef struct guard {
-  int n_dof, order;         /* f = sum a[d] x_d^(order) + constant */
+  int n_dof, order; /* f = sum a[d] x_d^(order) + constant */
   double a[MOTION_MAX_DOF], constant;
-  double size;              /* bound of |f - mean - constant| */
-  double mean;              /* of f without the constant */
+  double size;                   /* bound of |f - mean - constant| */
+  double mean;                   /* of f without the constant */
   double bound1, bound2, bound3; /* of |f'|, |f''|, |f'''| */
-  double noise;             /* f is not told from 0 below this: rounding of f itself, and of the angles it is evaluated at */
+  double noise; /* f is not told from 0 below this: rounding of f itself, and of the angles it is evaluated at */
 } guard;
 
 guard guard_make(const motion *m, int order, const double *a, double constant);
@@ -27,8 +28,8 @@ static inline double guard_upper(const guard *g) { return g->mean + g->constant 
 /* The size of what f is made of: rounding errors are relative to it. */
 double guard_scale(const guard *g);
 
-/* f >= 0 at a (to rounding). The first angle in (a, b] where it becomes negative, with its node; false if there is none.
- * Excursions below 0 that are not distinguishable from rounding do not count. */
+/* f >= 0 at a (to rounding). The first angle in (a, b] where it becomes negative, with its node; false if there is
+ * none. Excursions below 0 that are not distinguishable from rounding do not count. */
 bool crossing_first(const motion *m, const guard *g, const motion_node *a, const motion_node *b, motion_node *root);
 
 #endif

@@ -65,11 +65,18 @@ static double chord(const hbm_segment *s)
 hbm_segment hbm_segment_between(const hbm_curve *c, int k)
 {
   const hbm_point *p = &c->points[k], *q = p + 1;
-  hbm_segment s = {.n_coef = c->n_coef, .X0 = hbm_curve_X(c, k), .X1 = hbm_curve_X(c, k + 1), .dX0 = hbm_curve_dX(c, k),
-                   .dX1 = hbm_curve_dX(c, k + 1), .omega0 = p->omega, .omega1 = q->omega, .omega_scale = c->omega_scale};
+  hbm_segment s = {.n_coef = c->n_coef,
+                   .X0 = hbm_curve_X(c, k),
+                   .X1 = hbm_curve_X(c, k + 1),
+                   .dX0 = hbm_curve_dX(c, k),
+                   .dX1 = hbm_curve_dX(c, k + 1),
+                   .omega0 = p->omega,
+                   .omega1 = q->omega,
+                   .omega_scale = c->omega_scale};
   s.x_scale = fmax(hbm_norm(c->n_coef, s.X0), hbm_norm(c->n_coef, s.X1));
   if (!(s.x_scale > 0)) s.x_scale = 1;
-  double t0 = sqrt(inner(&s, s.dX0, p->d_omega, s.dX0, p->d_omega)), t1 = sqrt(inner(&s, s.dX1, q->d_omega, s.dX1, q->d_omega));
+  double t0 = sqrt(inner(&s, s.dX0, p->d_omega, s.dX0, p->d_omega)),
+         t1 = sqrt(inner(&s, s.dX1, q->d_omega, s.dX1, q->d_omega));
   double cosine = inner(&s, s.dX0, p->d_omega, s.dX1, q->d_omega) / (t0 * t1);
   double angle = acos(fmin(1, fmax(-1, cosine)));
   s.length = chord(&s) * (1 + angle * angle / 24); /* arc of a circle, to fourth order */
@@ -85,28 +92,36 @@ void hbm_segment_at(const hbm_segment *s, double t, double *X, double *omega, do
   double r = 1 - t;
   double h00 = (1 + 2 * t) * r * r, h10 = t * r * r, h01 = t * t * (3 - 2 * t), h11 = -t * t * r;
   double g00 = -6 * t * r, g10 = r * (1 - 3 * t), g11 = t * (3 * t - 2);
-  for (int i = 0; i < s->n_coef; ++i) X[i] = h00 * s->X0[i] + h10 * s->scale0 * s->dX0[i] + h01 * s->X1[i] + h11 * s->scale1 * s->dX1[i];
+  for (int i = 0; i < s->n_coef; ++i)
+    X[i] = h00 * s->X0[i] + h10 * s->scale0 * s->dX0[i] + h01 * s->X1[i] + h11 * s->scale1 * s->dX1[i];
   *omega = h00 * s->omega0 + h10 * s->d_omega0 + h01 * s->omega1 + h11 * s->d_omega1;
   if (dX)
-    for (int i = 0; i < s->n_coef; ++i) dX[i] = g00 * (s->X0[i] - s->X1[i]) + g10 * s->scale0 * s->dX0[i] + g11 * s->scale1 * s->dX1[i];
+    for (int i = 0; i < s->n_coef; ++i)
+      dX[i] = g00 * (s->X0[i] - s->X1[i]) + g10 * s->scale0 * s->dX0[i] + g11 * s->scale1 * s->dX1[i];
   if (d_omega) *d_omega = g00 * (s->omega0 - s->omega1) + g10 * s->d_omega0 + g11 * s->d_omega1;
 }
 
 static double omega_at(const hbm_segment *s, double t)
 {
   double r = 1 - t;
-  return (1 + 2 * t) * r * r * s->omega0 + t * r * r * s->d_omega0 + t * t * (3 - 2 * t) * s->omega1 - t * t * r * s->d_omega1;
+  return (1 + 2 * t) * r * r * s->omega0 + t * r * r * s->d_omega0 + t * t * (3 - 2 * t) * s->omega1 -
+         t * t * r * s->d_omega1;
 }
 
 /* Interior extrema of omega(sigma), ascending: roots of A t^2 + B t + C. */
 static int omega_extrema(const hbm_segment *s, double t[2])
 {
   double jump = s->omega0 - s->omega1;
-  double a = 6 * jump + 3 * (s->d_omega0 + s->d_omega1), b = -6 * jump - 4 * s->d_omega0 - 2 * s->d_omega1, c = s->d_omega0;
+  double a = 6 * jump + 3 * (s->d_omega0 + s->d_omega1), b = -6 * jump - 4 * s->d_omega0 - 2 * s->d_omega1,
+         c = s->d_omega0;
   double disc = b * b - 4 * a * c;
   if (!(disc > 0)) return 0;
   double q = -0.5 * (b + copysign(sqrt(disc), b)), r[2] = {a != 0 ? q / a : -1, q != 0 ? c / q : -1};
-  if (r[0] > r[1]) { double swap = r[0]; r[0] = r[1]; r[1] = swap; }
+  if (r[0] > r[1]) {
+    double swap = r[0];
+    r[0] = r[1];
+    r[1] = swap;
+  }
   int n = 0;
   for (int i = 0; i < 2; ++i)
     if (r[i] > 0 && r[i] < 1) t[n++] = r[i];
@@ -122,13 +137,21 @@ int hbm_segment_find(const hbm_segment *s, double omega, bool last, double sigma
   for (int i = 0; i + 1 < n_knots; ++i) {
     double a = knot[i], b = knot[i + 1];
     /* the ends are the points themselves, not the interpolant's rounding of them */
-    double fa = (i == 0 ? s->omega0 : omega_at(s, a)) - omega, fb = (i + 2 == n_knots ? s->omega1 : omega_at(s, b)) - omega;
-    if (fa == 0) { sigma[n++] = a; continue; }
-    if (fb == 0) { if (last && i + 2 == n_knots) sigma[n++] = b; continue; }
+    double fa = (i == 0 ? s->omega0 : omega_at(s, a)) - omega,
+           fb = (i + 2 == n_knots ? s->omega1 : omega_at(s, b)) - omega;
+    if (fa == 0) {
+      sigma[n++] = a;
+      continue;
+    }
+    if (fb == 0) {
+      if (last && i + 2 == n_knots) sigma[n++] = b;
+      continue;
+    }
     if ((fa < 0) == (fb < 0)) continue;
     for (int it = 0; it < 60 && b - a > 1e-15; ++it) {
       double m = 0.5 * (a + b), fm = omega_at(s, m) - omega;
-      if ((fm < 0) == (fa < 0)) a = m; else b = m;
+      if ((fm < 0) == (fa < 0)) a = m;
+      else b = m;
     }
     sigma[n++] = 0.5 * (a + b);
   }

@@ -1,5 +1,5 @@
-/* curve.h - the points of a response curve, and the cubic Hermite interpolation between neighbours (tangents are known at both ends).
- * Lengths are in the curve's metric: |dz|^2 = |dX|^2/|X|^2 + domega^2/omega_scale^2. */
+/* curve.h - the points of a response curve, and the cubic Hermite interpolation between neighbours (tangents are
+ * known at both ends). Lengths are in the curve's metric: |dz|^2 = |dX|^2/|X|^2 + domega^2/omega_scale^2. */
 #ifndef HC_HBM_CURVE_H
 #define HC_HBM_CURVE_H
 
@@ -22,9 +22,9 @@ typedef struct hbm_segment {
   const double *X0, *X1, *dX0, *dX1;
   double omega0, omega1;
   double x_scale, omega_scale;
-  double scale0, scale1;   /* dz/dsigma = scale * stored tangent */
+  double scale0, scale1;     /* dz/dsigma = scale * stored tangent */
   double d_omega0, d_omega1; /* already scaled */
-  double length;           /* arc length in the metric, from chord and angle */
+  double length;             /* arc length in the metric, from chord and angle */
 } hbm_segment;
 
 hbm_segment hbm_segment_between(const hbm_curve *curve, int k); /* points k and k + 1 */

@@ -1,9 +1,11 @@
 /* exact.c - see exact.h.
  *   on a piece    T = kt u - held (stick) or s mu kn (v + gap) (slip s),   N = kn (v + gap)
  *   so            F_d(th) = sum_e K_de(th) x_e(th) + C_d(th),    K, C piecewise constant
- *   and           F = [Toeplitz + Hankel of K] X + C,   dF/dX = the same matrix - (harmonics of a stick piece) (d held)^T
- * Moving a transition changes nothing to first order, since the force is continuous there. The harmonics of a piece's indicator are
- * written with its middle m and half width w, sin(h w) cos(h m), not as a difference of ends: short pieces keep their relative accuracy. */
+ *   and           F = [Toeplitz + Hankel of K] X + C,   dF/dX = the same matrix - (harmonics of a stick piece) (d
+ *                 held)^T
+ * Moving a transition changes nothing to first order, since the force is continuous there. The harmonics of a
+ * piece's indicator are written with its middle m and half width w, sin(h w) cos(h m), not as a difference of ends:
+ * short pieces keep their relative accuracy. */
 #include "hbm/exact.h"
 
 #include <math.h>
@@ -31,7 +33,8 @@ struct exact {
 hc_status exact_new(int n_harm, int n_dof, int n_contacts, const moving_contact *contacts, exact **out)
 {
   *out = NULL;
-  if (n_harm < 1 || n_harm > SCENE_MAX_HARMONICS || n_dof < 1 || n_dof > MOTION_MAX_DOF || n_contacts < 0 || n_contacts > SCENE_MAX_CONTACTS)
+  if (n_harm < 1 || n_harm > SCENE_MAX_HARMONICS || n_dof < 1 || n_dof > MOTION_MAX_DOF || n_contacts < 0 ||
+      n_contacts > SCENE_MAX_CONTACTS)
     return HC_BAD_INPUT;
   exact *e = calloc(1, sizeof *e);
   if (!e) return HC_NO_MEMORY;
@@ -113,7 +116,8 @@ static void add_piece(exact *e, const moving_contact *c, const contact_piece *p,
 {
   const contact *law = &c->law;
   int s = contact_slip_sign(p->state), symbol = slope_symbol_length(e->n_harm);
-  double traction_v = s * law->mu * law->kn, traction_u = s ? 0 : law->kt, traction_0 = s ? traction_v * law->gap : -p->held;
+  double traction_v = s * law->mu * law->kn, traction_u = s ? 0 : law->kt,
+         traction_0 = s ? traction_v * law->gap : -p->held;
   const double clearance = law->gap > 0 ? 0 : law->kn * law->gap;
   for (int d = 0; d < e->n_dof; ++d) {
     for (int f = 0; f < e->n_dof; ++f) {
@@ -124,7 +128,8 @@ static void add_piece(exact *e, const moving_contact *c, const contact_piece *p,
   }
 }
 
-/* C takes what is missing of a preload while the contact is open: the rest of it is balanced, and never enters (contact_normal_change). */
+/* C takes what is missing of a preload while the contact is open: the rest of it is balanced, and never enters
+ * (contact_normal_change). */
 static void add_openings(exact *e, int j, double *C)
 {
   const moving_contact *c = &e->contacts[j];
@@ -137,7 +142,8 @@ static void add_openings(exact *e, int j, double *C)
     if (n > 0) open.from = p[i].to, open.to = i + 1 < n ? p[i + 1].from : p[0].from + 2 * PI;
     if (!(open.to > open.from)) continue;
     fill_indicator(e, &open);
-    for (int d = 0; d < e->n_dof; ++d) add_scaled(e->n_coef, -preload * c->cv[d], e->indicator, C + (size_t)d * e->n_coef);
+    for (int d = 0; d < e->n_dof; ++d)
+      add_scaled(e->n_coef, -preload * c->cv[d], e->indicator, C + (size_t)d * e->n_coef);
   }
 }
 
@@ -162,21 +168,25 @@ static void subtract_memory(exact *e, const moving_contact *c, const contact_pie
     for (int d = 0; d < e->n_dof; ++d) {
       double scale = -c->cu[d] * p->slope[f];
       if (scale == 0) continue;
-      for (int q = 0; q < n; ++q) add_scaled(n, scale * e->right[q], e->indicator, jac + (size_t)d * n + ld * ((size_t)f * n + q));
+      for (int q = 0; q < n; ++q)
+        add_scaled(n, scale * e->right[q], e->indicator, jac + (size_t)d * n + ld * ((size_t)f * n + q));
     }
 }
 
 static void subtract_memories(exact *e, double *jac)
 {
   for (int j = 0; j < e->n_contacts; ++j)
-    for (int i = 0; i < e->n_pieces[j]; ++i) subtract_memory(e, &e->contacts[j], e->pieces + (size_t)j * e->cap + i, jac);
+    for (int i = 0; i < e->n_pieces[j]; ++i)
+      subtract_memory(e, &e->contacts[j], e->pieces + (size_t)j * e->cap + i, jac);
 }
 
 static void assemble(const exact *e, double *matrix)
 {
   int n = e->n_coef, D = e->n_dof, symbol = slope_symbol_length(e->n_harm);
   for (int d = 0; d < D; ++d)
-    for (int f = 0; f < D; ++f) slope_add(e->n_harm, e->symbol + (size_t)(d * D + f) * symbol, D * n, matrix + (size_t)d * n + (size_t)D * n * f * n);
+    for (int f = 0; f < D; ++f)
+      slope_add(e->n_harm, e->symbol + (size_t)(d * D + f) * symbol, D * n,
+                matrix + (size_t)d * n + (size_t)D * n * f * n);
 }
 
 static contact_regime regime_of(const contact_piece *p, int n)

@@ -1,12 +1,13 @@
-/* exact.h - contact force harmonics from displacement harmonics without sampling: no aliasing.
- * Between transitions the force is linear in the motion, so with the transitions located (transitions.h) its Fourier integrals are
- * elementary: everything comes from the coefficients of piecewise constant functions. libm only; nothing is allocated after exact_new. */
+/* exact.h - contact force harmonics from displacement harmonics without sampling: no aliasing. Between transitions
+ * the force is linear in the motion, so with the transitions located (transitions.h) its Fourier integrals are
+ * elementary: everything comes from the coefficients of piecewise constant functions. libm only; nothing is
+ * allocated after exact_new. */
 #ifndef HC_EXACT_H
 #define HC_EXACT_H
 
-#include "model/scene.h"
 #include "hbm/contact_report.h"
 #include "hbm/transitions.h"
+#include "model/scene.h"
 
 typedef struct exact exact;
 
@@ -17,9 +18,9 @@ void exact_free(exact *e);
 /* The contacts of a scene, moved by the one coordinate x. */
 void exact_contacts_of(const scene *sc, moving_contact contacts[SCENE_MAX_CONTACTS]);
 
-/* F[n_dof (2H+1)] [force]: for each coordinate d the harmonics of sum_j cu_jd T_j + cv_jd (N_j - N0_j), at X (same layout) [length].
- * jac[row + ld col], ld = n_dof (2H+1): dF/dX, unless NULL. report may be NULL.
- * HC_NOT_FINITE, HC_CHATTER (more transitions than a motion of H harmonics should cause), HC_NOT_CLOSED. */
+/* F[n_dof (2H+1)] [force]: for each coordinate d the harmonics of sum_j cu_jd T_j + cv_jd (N_j - N0_j), at X (same
+ * layout) [length]. jac[row + ld col], ld = n_dof (2H+1): dF/dX, unless NULL. report may be NULL. HC_NOT_FINITE,
+ * HC_CHATTER (more transitions than a motion of H harmonics should cause), HC_NOT_CLOSED. */
 hc_status exact_eval(exact *e, const double *X, double *F, double *jac, contact_report *report);
 
 /* The pieces of contact j found by the last evaluation. */

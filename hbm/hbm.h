@@ -2,15 +2,15 @@
  *
  *     x(t) ~ X[0] + sum_{h=1..H} X[2h-1] cos(h omega t) + X[2h] sin(h omega t)         (series.h)
  *
- * solved from R(X, omega) = 0 (system.h) by KINSOL (newton.h), followed along omega (continuation.c). Handles are opaque, one a thread;
- * nothing is printed. Not here: time integration, verdicts. */
+ * solved from R(X, omega) = 0 (system.h) by KINSOL (newton.h), followed along omega (continuation.c). Handles are
+ * opaque, one a thread; nothing is printed. Not here: time integration, verdicts. */
 #ifndef HC_HBM_H
 #define HC_HBM_H
 
-#include "model/scene.h"
 #include "base/status.h"
 #include "hbm/contact_report.h"
 #include "hbm/stability.h"
+#include "model/scene.h"
 
 typedef struct hbm_solver hbm_solver;
 
@@ -53,13 +53,16 @@ int hbm_n_samples(const hbm_solver *s);
 /* Solve at a fixed omega from the guess X[2H+1]; X is the solution on HC_OK and untouched otherwise. */
 hc_status hbm_solve(hbm_solver *s, double omega, double *X, hbm_point *point);
 
-/* Solve at a fixed omega from nothing: from the linear response, else by ramping the force, else by ramping the contact. */
+/* Solve at a fixed omega from nothing: from the linear response, else by ramping the force, else by ramping the
+ * contact. */
 hc_status hbm_solve_first(hbm_solver *s, double omega, double *X, hbm_point *point);
 
-/* The response curve from omega `from` to `to`, appended to an empty *curve. What was found is kept whatever the status. */
+/* The response curve from omega `from` to `to`, appended to an empty *curve. What was found is kept whatever the
+ * status. */
 hc_status hbm_trace(hbm_solver *s, double from, double to, const hc_monitor *monitor, hbm_curve *curve);
 
-/* Continuation steps `scale` times as long as they would be, 0 < scale <= 1: a curve must not depend on them, and this is how to see. */
+/* Continuation steps `scale` times as long as they would be, 0 < scale <= 1: a curve must not depend on them, and
+ * this is how to see. */
 void hbm_scale_steps(hbm_solver *s, double scale);
 
 /* Every solution of the curve at omega, appended to *at in the curve's order. The status is that of the worst one. */
@@ -70,10 +73,12 @@ hc_status hbm_curve_peak(hbm_solver *s, const hbm_curve *curve, hbm_curve *peak)
 
 hc_status hbm_measure(hbm_solver *s, const double *X, hbm_measures *out);
 
-/* Floquet multipliers of the solution X at omega, along its own exactly located transitions also where forces are sampled. */
+/* Floquet multipliers of the solution X at omega, along its own exactly located transitions also where forces are
+ * sampled. */
 hc_status hbm_stability_at(hbm_solver *s, double omega, const double *X, hbm_stability *out);
 
-/* What to tell a person: +1 stable, -1 unstable, 0 unknown (a multiplier within 1e-9 of 1 in size, or the truncated equations disagree). */
+/* What to tell a person: +1 stable, -1 unstable, 0 unknown (a multiplier within 1e-9 of 1 in size, or the truncated
+ * equations disagree). */
 int hbm_stability_verdict(const hbm_stability *st);
 
 /* Where the curve changes its nature. */
@@ -85,7 +90,8 @@ typedef struct hbm_special {
   contact_regime before, after; /* along the curve; the same where only the number of transitions changes */
 } hbm_special;
 
-/* All of them in the curve's order, located to 1e-9 of omega or better, into out[cap]; *n is how many there are, which may exceed cap. */
+/* All of them in the curve's order, located to 1e-9 of omega or better, into out[cap]; *n is how many there are,
+ * which may exceed cap. */
 hc_status hbm_specials(hbm_solver *s, const hbm_curve *curve, int cap, hbm_special *out, int *n);
 
 /* A curve is made empty with {0} and freed here. */

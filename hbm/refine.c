@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "numerics/lu.h"
 #include "hbm/series.h"
+#include "numerics/lu.h"
 
 struct refinement {
   hbm_system sys;
@@ -28,7 +28,10 @@ hc_status refinement_new(const scene *sc, int n_harm, int n_time, refinement **o
   r->jac = calloc(n * n, sizeof(double));
   r->pivot = calloc(n, sizeof *r->pivot);
   if (st == HC_OK && (!r->X || !r->R || !r->jac || !r->pivot)) st = HC_NO_MEMORY;
-  if (st == HC_OK) { *out = r; return HC_OK; }
+  if (st == HC_OK) {
+    *out = r;
+    return HC_OK;
+  }
   refinement_free(r);
   return st;
 }

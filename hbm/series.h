@@ -6,7 +6,9 @@
 #ifndef HC_SERIES_H
 #define HC_SERIES_H
 
-typedef struct series_jet { double x, d1, d2; } series_jet; /* value, d/dth, d2/dth2 */
+typedef struct series_jet {
+  double x, d1, d2;
+} series_jet; /* value, d/dth, d2/dth2 */
 
 static inline int series_length(int n_harm) { return 2 * n_harm + 1; }
 

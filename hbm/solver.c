@@ -92,15 +92,18 @@ static hc_status make_pattern(hbm_solver *s)
 
 enum { AUTO_FIRST_HARMONICS = 3, AUTO_FIRST_SAMPLES = 64, AUTO_LEAST_LOOK = 14 };
 
-/* The finer equations that auto is measured by: twice the harmonics, but enough to see a short contact from H = 1; twice the samples. */
+/* The finer equations that auto is measured by: twice the harmonics, but enough to see a short contact from H = 1;
+ * twice the samples. */
 static hc_status make_refinements(hbm_solver *s, int n_time)
 {
   const scene *sc = &s->sys.sc;
   int n_harm = s->sys.n_harm, twice = n_harm > SCENE_MAX_HARMONICS / 2 ? SCENE_MAX_HARMONICS : 2 * n_harm;
   if (twice < AUTO_LEAST_LOOK) twice = AUTO_LEAST_LOOK;
   hc_status st = HC_OK;
-  if (sc->hbm.harmonics == SCENE_AUTO) st = refinement_new(sc, twice, n_time < 4 * twice ? 4 * twice : n_time, &s->finer_harmonics);
-  if (st == HC_OK && sc->hbm.samples == SCENE_AUTO && s->sys.sampled) st = refinement_new(sc, n_harm, 2 * n_time, &s->finer_samples);
+  if (sc->hbm.harmonics == SCENE_AUTO)
+    st = refinement_new(sc, twice, n_time < 4 * twice ? 4 * twice : n_time, &s->finer_harmonics);
+  if (st == HC_OK && sc->hbm.samples == SCENE_AUTO && s->sys.sampled)
+    st = refinement_new(sc, n_harm, 2 * n_time, &s->finer_samples);
   return st;
 }
 
@@ -147,7 +150,10 @@ hc_status hbm_solver_new(const scene *sc, hbm_solver **out)
   s->step_scale = 1;
   hc_status st = stability_new(&s->stability);
   if (st == HC_OK) st = make_equations(s, sc, n_harm, n_time);
-  if (st == HC_OK) { *out = s; return HC_OK; }
+  if (st == HC_OK) {
+    *out = s;
+    return HC_OK;
+  }
   hbm_solver_free(s);
   return st;
 }
@@ -204,12 +210,16 @@ hc_status hbm_solve_fixed(hbm_solver *s, double omega, double x_scale, double *X
   newton_report report;
   hbm_pack(s, X, omega, s->z);
   st = newton_solve(s->fixed, s->z, &opt, &report);
-  if (st != HC_OK) { point->iterations = report.iterations; return st; }
+  if (st != HC_OK) {
+    point->iterations = report.iterations;
+    return st;
+  }
   if ((st = recheck(s, omega, &report, point)) == HC_OK) hbm_unpack(s, s->z, X, &omega);
   return st;
 }
 
-hc_status hbm_solve_plane(hbm_solver *s, const double *normal, double x_scale, double omega_scale, double *X, double *omega, hbm_point *point)
+hc_status hbm_solve_plane(hbm_solver *s, const double *normal, double x_scale, double omega_scale, double *X,
+                          double *omega, hbm_point *point)
 {
   hc_status st = set_scales(s, *omega, x_scale, X);
   if (st != HC_OK) return st;
@@ -222,7 +232,10 @@ hc_status hbm_solve_plane(hbm_solver *s, const double *normal, double x_scale, d
   newton_options opt = {s->z_scale, s->r_scale, s->sys.sc.hbm.tolerance, 1.0, MAX_NEWTON};
   newton_report report;
   st = newton_solve(s->plane, s->z, &opt, &report);
-  if (st != HC_OK) { point->iterations = report.iterations; return st; }
+  if (st != HC_OK) {
+    point->iterations = report.iterations;
+    return st;
+  }
   if ((st = recheck(s, s->z[n], &report, point)) == HC_OK) hbm_unpack(s, s->z, X, omega);
   return st;
 }
@@ -245,7 +258,8 @@ hc_status hbm_tangent_plane(hbm_solver *s, double *dX, double *d_omega)
   return st;
 }
 
-hc_status hbm_kernel_at(hbm_solver *s, const double *normal, const double *X, double omega, double *dX, double *d_omega, int *sign)
+hc_status hbm_kernel_at(hbm_solver *s, const double *normal, const double *X, double omega, double *dX, double *d_omega,
+                        int *sign)
 {
   memcpy(s->normal, normal, (size_t)(s->sys.n + 1) * sizeof(double));
   hbm_pack(s, X, omega, s->anchor);

@@ -1,6 +1,7 @@
-/* special.c - turning points, period doublings and changes of the contact pattern along a curve, each located between two points.
- * A turning point and a doubling are roots of smooth functions of sigma (d omega along the tangent; the product of 1 + multiplier): regula
- * falsi. A pattern changes at an instant, so it is bisected; what lies beyond the first change of a stretch is searched again. */
+/* special.c - turning points, period doublings and changes of the contact pattern along a curve, each located
+ * between two points. A turning point and a doubling are roots of smooth functions of sigma (d omega along the
+ * tangent; the product of 1 + multiplier): regula falsi. A pattern changes at an instant, so it is bisected; what
+ * lies beyond the first change of a stretch is searched again. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -42,10 +43,14 @@ static hc_status watch_at(finder *f, int k, double sigma, watched *w)
   return st == HC_OK ? watch(f, f->x.point.omega, f->x.point.d_omega, f->x.X, w) : st;
 }
 
-static bool same_pattern(const watched *a, const watched *b) { return a->regime == b->regime && a->transitions == b->transitions; }
+static bool same_pattern(const watched *a, const watched *b)
+{
+  return a->regime == b->regime && a->transitions == b->transitions;
+}
 
 /* The point in f->x, found at sigma, goes behind those of this segment that come before it. */
-static hc_status report_here(finder *f, double sigma, hbm_special_kind kind, contact_regime before, contact_regime after)
+static hc_status report_here(finder *f, double sigma, hbm_special_kind kind, contact_regime before,
+                             contact_regime after)
 {
   hbm_measures m;
   hc_status st = hbm_measure(f->s, f->x.X, &m);
@@ -61,7 +66,10 @@ static hc_status report_here(finder *f, double sigma, hbm_special_kind kind, con
   return HC_OK;
 }
 
-static double value_of(hbm_special_kind kind, const watched *w) { return kind == HBM_TURNING_POINT ? w->d_omega : w->flip; }
+static double value_of(hbm_special_kind kind, const watched *w)
+{
+  return kind == HBM_TURNING_POINT ? w->d_omega : w->flip;
+}
 
 /* A sign change of a smooth watched value on segment k: Illinois. */
 static hc_status locate_root(finder *f, int k, hbm_special_kind kind, double fa, double fb)
@@ -74,12 +82,21 @@ static hc_status locate_root(finder *f, int k, hbm_special_kind kind, double fa,
     hc_status st = watch_at(f, k, m, &w);
     if (st != HC_OK) return st;
     double fm = value_of(kind, &w);
-    if ((fm < 0) == (fb < 0)) { b = m; fb = fm; fa *= 0.5; } else { a = m; fa = fm; fb *= 0.5; }
+    if ((fm < 0) == (fb < 0)) {
+      b = m;
+      fb = fm;
+      fa *= 0.5;
+    } else {
+      a = m;
+      fa = fm;
+      fb *= 0.5;
+    }
     bool still = fabs(f->x.point.omega - omega_before) <= 1e-12 * f->x.point.omega;
     omega_before = f->x.point.omega;
     if (fm == 0 || b - a < 1e-12 || (still && kind == HBM_PERIOD_DOUBLING && it > 2)) break;
   }
-  if (kind == HBM_TURNING_POINT) f->x.point.branch = f->c->points[k].branch; /* the turn belongs to the branch it ends */
+  /* the turn belongs to the branch it ends */
+  if (kind == HBM_TURNING_POINT) f->x.point.branch = f->c->points[k].branch;
   return report_here(f, m, kind, w.regime, w.regime);
 }
 

@@ -1,4 +1,5 @@
-/* stability.c - see stability.h. The state is (dx, dx', dheld_1, ..., dheld_n); dheld_j counts only while contact j is stuck. */
+/* stability.c - see stability.h. The state is (dx, dx', dheld_1, ..., dheld_n); dheld_j counts only while contact j
+ * is stuck. */
 #include "hbm/stability.h"
 
 #include <complex.h>
@@ -6,17 +7,17 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "numerics/floquet.h"
-#include "model/linear.h"
 #include "hbm/exact.h"
+#include "model/linear.h"
+#include "numerics/floquet.h"
 
 static const double TWO_PI = 6.283185307179586476925;
 
 enum { MAX_STATE = 2 + SCENE_MAX_CONTACTS };
 
 struct stability {
-  int cap;             /* of boundary */
-  double *boundary;    /* [cap] [rad] every instant a contact changes state, sorted */
+  int cap;          /* of boundary */
+  double *boundary; /* [cap] [rad] every instant a contact changes state, sorted */
   double phi[MAX_STATE][MAX_STATE];
   floquet *floquet;
 };
@@ -88,9 +89,10 @@ static const contact_piece *piece_at(const exact *e, int j, double th)
   return NULL;
 }
 
-/* Is contact j's slider held for ever? Also where it has slipped until friction just holds it (shakedown): such an orbit is the last of a family
- * that differs by where the slider rests, and it touches the limit without passing it, in no time. Its one-sided derivative, as if it slipped there,
- * has a multiplier 1 that is the family's. What passes for no time: the slip's path goes with its length squared, so 1e-6 rad move it by rounding. */
+/* Is contact j's slider held for ever? Also where it has slipped until friction just holds it (shakedown): such an
+ * orbit is the last of a family that differs by where the slider rests, and it touches the limit without passing it,
+ * in no time. Its one-sided derivative, as if it slipped there, has a multiplier 1 that is the family's. What passes
+ * for no time: the slip's path goes with its length squared, so 1e-6 rad move it by rounding. */
 static bool held_for_ever(const exact *e, int j)
 {
   const double no_time = 1e-6;
@@ -104,8 +106,9 @@ static bool held_for_ever(const exact *e, int j)
   return touching >= TWO_PI * (1 - 1e-15) && stuck >= touching - no_time;
 }
 
-/* Does contact j's slider remember the motion? Not if it is stuck for ever, and not if every stick starts with a touch-down that puts it at
- * the same place whatever the motion: dheld is then 0 at all times and no state of the system. */
+/* Does contact j's slider remember the motion? Not if it is stuck for ever, and not if every stick starts with a
+ * touch-down that puts it at the same place whatever the motion: dheld is then 0 at all times and no state of the
+ * system. */
 static bool remembers(const exact *e, int j)
 {
   int n;
@@ -116,7 +119,8 @@ static bool remembers(const exact *e, int j)
 }
 
 /* Sliders that come to rest at this boundary: dheld from dx there. */
-static void set_sliders(stability *s, const scene *sc, const exact *e, const contact_piece *const *piece, double th, int m)
+static void set_sliders(stability *s, const scene *sc, const exact *e, const contact_piece *const *piece, double th,
+                        int m)
 {
   for (int j = 0; j < sc->n_contacts; ++j) {
     const contact_piece *p = piece[j];
@@ -183,7 +187,8 @@ hc_status stability_of(stability *s, const scene *sc, const exact *e, double ome
     for (int j = 0; j < sc->n_contacts; ++j) piece[j] = piece_at(e, j, 0.5 * (a + b));
     if (i == 0 || a == 0) /* sliders at rest at the start of the period are states of their own */
       for (int j = 0; j < sc->n_contacts; ++j)
-        if (piece[j] && piece[j]->state == CONTACT_STICK && remembers(e, j) && !(piece[j]->from == piece[j]->origin && wrap(piece[j]->from) == a))
+        if (piece[j] && piece[j]->state == CONTACT_STICK && remembers(e, j) &&
+            !(piece[j]->from == piece[j]->origin && wrap(piece[j]->from) == a))
           active[n_active++] = 2 + j;
     set_sliders(s, sc, e, piece, a, m);
     advance_stretch(s, sc, piece, (b - a) / omega, m);

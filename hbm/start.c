@@ -1,5 +1,6 @@
-/* start.c - the first point: the linear response as guess, then a ramp of the forcing, then a ramp of the contact.
- * A ramp follows the solution from an easy system to the scene's (phi or lambda of system.h from 0 to 1), step halved on failure. */
+/* start.c - the first point: the linear response as guess, then a ramp of the forcing, then a ramp of the contact. A
+ * ramp follows the solution from an easy system to the scene's (phi or lambda of system.h from 0 to 1), step halved
+ * on failure. */
 #include "hbm/start.h"
 
 #include <complex.h>
@@ -24,7 +25,8 @@ double hbm_linear_response(const scene *sc, double omega, int n_harm, double *X)
   double k = static_stiffness(sc);
   memset(X, 0, (size_t)series_length(n_harm) * sizeof(double));
   double complex x = linear_response(sc->mass, sc->damping, k, sc->force, omega);
-  if (!isfinite(cabs(x))) x = sc->force / (k + sc->mass * omega * omega); /* undamped, at resonance: any size of the right order */
+  /* undamped, at resonance: any size of the right order */
+  if (!isfinite(cabs(x))) x = sc->force / (k + sc->mass * omega * omega);
   X[1] = creal(x);
   X[2] = -cimag(x); /* Re(z exp(i th)) = Re z cos - Im z sin */
   return cabs(x);
@@ -51,10 +53,14 @@ bool hbm_linear_point(hbm_solver *s, double omega, double near, double *X, doubl
   return true;
 }
 
-enum { RAMP_MOST_SOLVES = 200 }; /* a ramp that gets there takes 10 to 60; one that creeps towards a fold of its own never does */
+enum {
+  RAMP_MOST_SOLVES = 200
+}; /* a ramp that gets there takes 10 to 60; one that creeps towards a fold of its own
+                                    never does */
 
 /* Follow *factor from 0 to 1 at fixed omega from the solution at 0; *factor is 1 again afterwards. */
-static hc_status ramp(hbm_solver *s, double *factor, double omega, double x_scale, const hc_monitor *monitor, double *X, hbm_point *point)
+static hc_status ramp(hbm_solver *s, double *factor, double omega, double x_scale, const hc_monitor *monitor, double *X,
+                      hbm_point *point)
 {
   double here = 0, step = 0.1;
   hc_status st = HC_OK;
@@ -68,7 +74,10 @@ static hc_status ramp(hbm_solver *s, double *factor, double omega, double x_scal
     s->sys.evaluated = false;
     st = hbm_solve_fixed(s, omega, fmax(x_scale, hbm_norm(s->sys.n_coef, X)), X, point);
     iterations += point->iterations;
-    if (st == HC_OK) { here = *factor; step *= 1.5; } else step *= 0.5;
+    if (st == HC_OK) {
+      here = *factor;
+      step *= 1.5;
+    } else step *= 0.5;
   }
   *factor = 1;
   s->sys.evaluated = false;
@@ -92,7 +101,10 @@ hc_status hbm_solve_start(hbm_solver *s, double omega, const hc_monitor *monitor
   return ramp(s, &s->sys.contact_factor, omega, size, monitor, X, point);
 }
 
-hc_status hbm_solve_first(hbm_solver *s, double omega, double *X, hbm_point *point) { return hbm_solve_start(s, omega, NULL, X, point); }
+hc_status hbm_solve_first(hbm_solver *s, double omega, double *X, hbm_point *point)
+{
+  return hbm_solve_start(s, omega, NULL, X, point);
+}
 
 hc_status hbm_solve(hbm_solver *s, double omega, double *X, hbm_point *point)
 {

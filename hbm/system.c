@@ -1,4 +1,5 @@
-/* system.c - see system.h for the equations. The contact force comes from aft.c or exact.c; nothing else here knows how. */
+/* system.c - see system.h for the equations. The contact force comes from aft.c or exact.c; nothing else here knows
+ * how. */
 #include "hbm/system.h"
 
 #include <math.h>
@@ -9,7 +10,8 @@
 
 hc_status hbm_system_init(hbm_system *sys, const scene *sc, int n_harm, int n_time)
 {
-  *sys = (hbm_system){.sc = *sc, .n_harm = n_harm, .n_coef = series_length(n_harm), .contact_factor = 1, .force_factor = 1};
+  *sys = (hbm_system){
+      .sc = *sc, .n_harm = n_harm, .n_coef = series_length(n_harm), .contact_factor = 1, .force_factor = 1};
   sys->first = sc->hbm.keep_mean ? 0 : 1;
   sys->n = sys->n_coef - sys->first;
   size_t n = (size_t)sys->n_coef;

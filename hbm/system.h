@@ -4,8 +4,9 @@
  *     Z_h = [ K - M h^2 omega^2      C h omega       ]      on (a_h, b_h);   Z_0 = K
  *           [    - C h omega     K - M h^2 omega^2   ]
  *
- * F: contact force harmonics. lambda = phi = 1 but for the ramps of start.c. Without harmonic 0 (the paper's mode) X[0] = 0 and row 0
- * is dropped. Vectors have 2H+1 entries, X[0] included; the unknowns are the n entries from X[first] on. */
+ * F: contact force harmonics. lambda = phi = 1 but for the ramps of start.c. Without harmonic 0 (the paper's mode)
+ * X[0] = 0 and row 0 is dropped. Vectors have 2H+1 entries, X[0] included; the unknowns are the n entries from
+ * X[first] on. */
 #ifndef HC_SYSTEM_H
 #define HC_SYSTEM_H
 
@@ -13,15 +14,15 @@
 #include "hbm/exact.h"
 
 typedef struct hbm_system {
-  scene sc;             /* a copy */
-  int n_harm, n_coef;   /* harmonics; 2 n_harm + 1 */
-  int first, n;         /* first unknown in X (0, or 1 without harmonic 0); number of unknowns */
+  scene sc;           /* a copy */
+  int n_harm, n_coef; /* harmonics; 2 n_harm + 1 */
+  int first, n;       /* first unknown in X (0, or 1 without harmonic 0); number of unknowns */
   double contact_factor /* lambda */, force_factor /* phi */;
-  aft *sampled;         /* the one of these two that hbm.force asks for; the other is NULL */
+  aft *sampled; /* the one of these two that hbm.force asks for; the other is NULL */
   exact *located;
-  double *X, *F, *dF;   /* the last evaluation: where, force [n_coef], Jacobian [n_coef][n_coef] by columns */
-  double *rows;         /* [n_coef] a full right-hand side, before row 0 is dropped or not */
-  bool evaluated;       /* X, F, dF and report belong together */
+  double *X, *F, *dF; /* the last evaluation: where, force [n_coef], Jacobian [n_coef][n_coef] by columns */
+  double *rows;       /* [n_coef] a full right-hand side, before row 0 is dropped or not */
+  bool evaluated;     /* X, F, dF and report belong together */
   contact_report report;
   long evaluations;
 } hbm_system;
@@ -42,8 +43,8 @@ void hbm_system_jacobian(const hbm_system *sys, double omega, int ld, double *ja
 /* dR/domega [n] at X. */
 void hbm_system_domega(hbm_system *sys, double omega, const double *X, double *dR);
 
-/* What a residual is judged against [force]: the sizes of the forces it is made of, not of their sum. Near resonance K X and
- * M omega^2 X cancel, and a good answer would look bad. At the X of the last residual. */
+/* What a residual is judged against [force]: the sizes of the forces it is made of, not of their sum. Near resonance
+ * K X and M omega^2 X cancel, and a good answer would look bad. At the X of the last residual. */
 double hbm_system_scale(const hbm_system *sys, double omega);
 
 #endif

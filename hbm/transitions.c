@@ -1,4 +1,5 @@
-/* transitions.c - see transitions.h: what happens to a contact, in the order it happens. The search for one crossing is crossing.c's. */
+/* transitions.c - see transitions.h: what happens to a contact, in the order it happens. The search for one crossing
+ * is crossing.c's. */
 #include "hbm/transitions.h"
 
 #include <float.h>
@@ -70,10 +71,10 @@ void motion_grid_fill(motion_grid *g, const motion *m, const double *table)
 typedef struct walk {
   const motion_grid *grid;
   const moving_contact *c;
-  guard normal;        /* g; its negative is searched for touch-down */
-  guard stick[2];      /* p_s = mu kn (v + gap) - s kt u, the part of q_s that does not change; s = +1, -1 */
-  guard slip[2];       /* r_s */
-  contact_piece now;   /* the piece under way; from, state, held, origin, slope */
+  guard normal;      /* g; its negative is searched for touch-down */
+  guard stick[2];    /* p_s = mu kn (v + gap) - s kt u, the part of q_s that does not change; s = +1, -1 */
+  guard slip[2];     /* r_s */
+  contact_piece now; /* the piece under way; from, state, held, origin, slope */
   contact_piece *piece;
   int n, cap;
   bool recording, friction;
@@ -86,7 +87,8 @@ static guard make_guard(const walk *w, int order, double of_u, double of_v, doub
   double a[MOTION_MAX_DOF] = {0};
   for (int d = 0; d < w->grid->m.n_dof; ++d) a[d] = of_u * w->c->cu[d] + of_v * w->c->cv[d];
   guard g = guard_make(&w->grid->m, order, a, constant);
-  /* u and v may cancel (kt cos = mu kn sin): rounding is relative to what they were before, and to how far off a touch-down may be located */
+  /* u and v may cancel (kt cos = mu kn sin): rounding is relative to what they were before, and to how far off a
+   * touch-down may be located */
   double before = 16 * fabs(constant);
   for (int d = 0; d < w->grid->m.n_dof; ++d) {
     double weight = fabs(of_u * w->c->cu[d]) + fabs(of_v * w->c->cv[d]);
@@ -132,7 +134,8 @@ static void hold(walk *w, int s, const motion_node *at)
   const contact *law = &w->c->law;
   w->now.held = -s * guard_value(&w->stick[index_of(s)], at);
   w->now.origin = at->th;
-  for (int d = 0; d < w->grid->m.n_dof; ++d) w->now.slope[d] = law->kt * w->c->cu[d] - s * law->mu * law->kn * w->c->cv[d];
+  for (int d = 0; d < w->grid->m.n_dof; ++d)
+    w->now.slope[d] = law->kt * w->c->cu[d] - s * law->mu * law->kn * w->c->cv[d];
 }
 
 /* Between two nodes in contact: pieces end where a guard falls through 0. */
@@ -158,15 +161,18 @@ static hc_status walk_between(walk *w, motion_node a, const motion_node *b)
     if (!found) return HC_OK;
     times = root.th > here ? 0 : times + 1;
     here = root.th;
-    if (times > 3) { /* T, N and their rates are all 0 to rounding: what follows shows a little later, where they still are */
+    if (times > 3) { /* T, N and their rates are all 0 to rounding: what follows shows a little later, where they
+                        still are */
       a = motion_at(&w->grid->m, fmin(here + 1e-8, b->th));
-      if (!contact_slip_sign(w->now.state)) w->now.held = 0.5 * (guard_value(&w->stick[1], &a) - guard_value(&w->stick[0], &a));
+      if (!contact_slip_sign(w->now.state))
+        w->now.held = 0.5 * (guard_value(&w->stick[1], &a) - guard_value(&w->stick[0], &a));
       continue;
     }
     a = root;
     if (++w->now.transitions > 64 * (w->grid->m.n_harm + 1)) return HC_CHATTER;
     if (!contact_slip_sign(w->now.state) && guard_value(&w->slip[index_of(s)], &root) <= 0 && times == 0) {
-      /* |T| over mu N and coming back: no slip but rounding, as where T and N vanish together. The slider gives way by as much. */
+      /* |T| over mu N and coming back: no slip but rounding, as where T and N vanish together. The slider gives way
+       * by as much. */
       w->now.held = -s * guard_value(&w->stick[index_of(s)], &root);
       continue;
     }
@@ -244,7 +250,10 @@ static hc_status walk_intermittent(walk *w, motion_node a)
   w->recording = true;
   while (st == HC_OK && first_over_grid(w, &touch_down, &a, end, &on)) {
     touch(w, &on);
-    if (!first_over_grid(w, &w->normal, &on, end, &off)) { off = a; off.th = end; } /* rounding at the start angle */
+    if (!first_over_grid(w, &w->normal, &on, end, &off)) {
+      off = a;
+      off.th = end;
+    } /* rounding at the start angle */
     st = walk_contact(w, &on, &off);
     if (st == HC_OK) st = close_piece(w, off.th);
     a = off;
@@ -252,7 +261,8 @@ static hc_status walk_intermittent(walk *w, motion_node a)
   return st;
 }
 
-/* Contact is never lost: the slider's own history repeats after one period from w = 0 (a period maps w like a clamp). */
+/* Contact is never lost: the slider's own history repeats after one period from w = 0 (a period maps w like a
+ * clamp). */
 static hc_status walk_closed(walk *w)
 {
   const motion_node *start = &w->grid->node[0], *end = &w->grid->node[TRANSITIONS_GRID];
@@ -269,7 +279,8 @@ static hc_status walk_closed(walk *w)
   if (st == HC_OK) st = walk_contact(w, start, end);
   if (st == HC_OK) st = close_piece(w, TWO_PI);
   if (st != HC_OK) return st;
-  bool same = w->now.state == first.state && (first.state != CONTACT_STICK || fabs(w->now.held - first.held) <= 1e-11 * guard_scale(&w->stick[0]));
+  bool same = w->now.state == first.state &&
+              (first.state != CONTACT_STICK || fabs(w->now.held - first.held) <= 1e-11 * guard_scale(&w->stick[0]));
   return same ? HC_OK : HC_NOT_CLOSED;
 }
 
@@ -279,14 +290,18 @@ hc_status transitions_find(const motion_grid *grid, const moving_contact *c, int
   *n = 0;
   if (!(c->law.kn > 0)) return HC_OK;
   make_guards(&w);
-  if (w.friction && !isfinite(guard_scale(&w.stick[0]) + guard_scale(&w.slip[0]))) return HC_NOT_FINITE; /* mu kn or more overflows */
+  /* mu kn or more overflows */
+  if (w.friction && !isfinite(guard_scale(&w.stick[0]) + guard_scale(&w.slip[0]))) return HC_NOT_FINITE;
   if (guard_upper(&w.normal) <= 0) return HC_OK; /* never touches, whatever the phase */
   motion_node apart;
   hc_status st;
   bool separates = false;
   if (guard_lower(&w.normal) < 0) {
     for (int i = 0; i < TRANSITIONS_GRID && !separates; ++i)
-      if (guard_value(&w.normal, &grid->node[i]) < 0) { separates = true; apart = grid->node[i]; }
+      if (guard_value(&w.normal, &grid->node[i]) < 0) {
+        separates = true;
+        apart = grid->node[i];
+      }
     if (!separates) separates = first_over_grid(&w, &w.normal, &grid->node[0], TWO_PI, &apart);
   }
   st = separates ? walk_intermittent(&w, apart) : walk_closed(&w);

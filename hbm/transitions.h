@@ -1,17 +1,21 @@
-/* transitions.h - when a contact sticks, slips and separates over a period of a given motion, located to rounding error.
- * Needs libm only; allocates nothing.
+/* transitions.h - when a contact sticks, slips and separates over a period of a given motion, located to rounding
+ * error. Needs libm only; allocates nothing.
  *
- * Every guard of the contact law (model/contact_law.h) is linear in the motion, so it is a trigonometric polynomial f(th) plus a constant:
+ * Every guard of the contact law (model/contact_law.h) is linear in the motion, so it is a trigonometric polynomial
+ * f(th) plus a constant:
  *     contact   g   = v + gap
- *     stick(s)  q_s = mu kn (v + gap) - s (kt u - held),   held = kt w          slip(s) starts where q_s falls through 0
- *     slip(s)   r_s = s kt u' - mu kn v'                                        stick starts where r_s falls through 0
- * A crossing is searched between neighbouring angles of a grid. No crossing is missed, double roots (grazing) included: an interval is
- * dismissed only if max|f''| proves it empty, else it is divided at its extremum or in the middle. */
+ *     stick(s)  q_s = mu kn (v + gap) - s (kt u - held),   held = kt w          slip(s) starts where q_s falls
+ *                                                          through 0
+ *     slip(s)   r_s = s kt u' - mu kn v'                                        stick starts where r_s falls through
+ *               0
+ * A crossing is searched between neighbouring angles of a grid. No crossing is missed, double roots (grazing)
+ * included: an interval is dismissed only if max|f''| proves it empty, else it is divided at its extremum or in the
+ * middle. */
 #ifndef HC_TRANSITIONS_H
 #define HC_TRANSITIONS_H
 
-#include "model/contact_law.h"
 #include "base/status.h"
+#include "model/contact_law.h"
 
 enum { MOTION_MAX_DOF = 2, TRANSITIONS_GRID = 32 };
 
@@ -28,7 +32,9 @@ typedef struct moving_contact {
 } moving_contact;
 
 /* The coordinates and two derivatives by th at one angle. */
-typedef struct motion_node { double th, d[3][MOTION_MAX_DOF]; } motion_node;
+typedef struct motion_node {
+  double th, d[3][MOTION_MAX_DOF];
+} motion_node;
 
 /* A stretch of the period in one state. */
 typedef struct contact_piece {
@@ -47,15 +53,16 @@ typedef struct motion_grid {
   motion_node node[2 * TRANSITIONS_GRID + 1]; /* two periods: a walk that starts anywhere in the first never wraps */
 } motion_grid;
 
-/* cos and sin of h th_i for half the grid, [n_harm][2][TRANSITIONS_GRID/2], filled once: half a period later odd harmonics change sign. */
+/* cos and sin of h th_i for half the grid, [n_harm][2][TRANSITIONS_GRID/2], filled once: half a period later odd
+ * harmonics change sign. */
 static inline int motion_table_length(int n_harm) { return TRANSITIONS_GRID * n_harm; }
 void motion_table_fill(int n_harm, double *table);
 
 void motion_grid_fill(motion_grid *g, const motion *m, const double *table);
 motion_node motion_at(const motion *m, double th);
 
-/* The pieces of one period, ascending, into piece[cap]; *n of them. The slider starts at w = 0 where contact never breaks.
- * HC_CHATTER: more than cap pieces. HC_NOT_CLOSED: the slider did not repeat itself. */
+/* The pieces of one period, ascending, into piece[cap]; *n of them. The slider starts at w = 0 where contact never
+ * breaks. HC_CHATTER: more than cap pieces. HC_NOT_CLOSED: the slider did not repeat itself. */
 hc_status transitions_find(const motion_grid *grid, const moving_contact *c, int cap, contact_piece *piece, int *n);
 
 #endif

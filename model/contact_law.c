@@ -4,7 +4,11 @@
 contact_state contact_step(const contact *c, double u, double v, double *w, double *t)
 {
   double n = contact_normal(c, v);
-  if (!(n > 0)) { *w = u; *t = 0; return CONTACT_SEPARATED; }
+  if (!(n > 0)) {
+    *w = u;
+    *t = 0;
+    return CONTACT_SEPARATED;
+  }
   double limit = c->mu * n;
   *t = c->kt * (u - *w);
   if (fabs(*t) <= limit) return CONTACT_STICK;

@@ -1,13 +1,14 @@
-/* contact_law.h - the exact contact law: Coulomb friction with a tangential spring, under a normal force that may vanish.
- * Written in the tangential motion u(t) and the normal motion v(t) [length]; how they come from the degrees of
- * freedom is the caller's business. Needs libm only, allocates nothing, keeps no state, cannot fail.
+/* contact_law.h - the exact contact law: Coulomb friction with a tangential spring, under a normal force that may
+ * vanish. Written in the tangential motion u(t) and the normal motion v(t) [length]; how they come from the degrees
+ * of freedom is the caller's business. Needs libm only, allocates nothing, keeps no state, cannot fail.
  *
  *     N = max(kn (v + gap), 0)        N0 = max(kn gap, 0)
  *     stick      T = kt (u - w), |T| <= mu N, w constant
  *     slip(s)    T = s mu N, s = +1 or -1, w = u - s mu N / kt
  *     separated  T = 0, N = 0, w = u
  *
- * w is the displacement of the contact point (the slider). Source: Yang, Chu, Menq 1998 and Colonna et al. 2025, eq. 9-12 ([1] in README.md). */
+ * w is the displacement of the contact point (the slider). Source: Yang, Chu, Menq 1998 and Colonna et al. 2025, eq.
+ * 9-12 ([1] in README.md). */
 #ifndef HC_CONTACT_LAW_H
 #define HC_CONTACT_LAW_H
 
@@ -39,19 +40,20 @@ static inline double contact_normal(const contact *c, double v)
 /* +1 while slipping forward, -1 backward, 0 otherwise. */
 static inline int contact_slip_sign(contact_state st) { return (st == CONTACT_SLIP_PLUS) - (st == CONTACT_SLIP_MINUS); }
 
-/* N - N0 [force], what of the normal force moves the mass. Never their difference: under a preload a million times the forcing nothing but
- * rounding would be left of it. */
+/* N - N0 [force], what of the normal force moves the mass. Never their difference: under a preload a million times
+ * the forcing nothing but rounding would be left of it. */
 static inline double contact_normal_change(const contact *c, double v)
 {
   if (!(c->gap > 0)) return contact_normal(c, v);
   return v + c->gap > 0 ? c->kn * v : -contact_preload(c);
 }
 
-/* One step of the law from slider position *w to motion (u, v): elastic predictor, Coulomb corrector.
- * Exact if u -+ mu N/kt is monotone over the step. *w moves; *t gets the tangential force. Returns the state at the end. */
+/* One step of the law from slider position *w to motion (u, v): elastic predictor, Coulomb corrector. Exact if u -+
+ * mu N/kt is monotone over the step. *w moves; *t gets the tangential force. Returns the state at the end. */
 contact_state contact_step(const contact *c, double u, double v, double *w, double *t);
 
-/* State just after v + gap rises through 0, from the velocities there (dv > 0): slips with sign s if s kt du > mu kn dv. */
+/* State just after v + gap rises through 0, from the velocities there (dv > 0): slips with sign s if s kt du > mu kn
+ * dv. */
 contact_state contact_on_touch(const contact *c, double du, double dv);
 
 /* Guards of the exact law: each is positive inside the state and reaches 0 where it ends.

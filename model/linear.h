@@ -5,8 +5,8 @@
 
 #include <complex.h>
 
-/* e[row][column]: (x, x') after time t of M x'' + C x' + k x = 0 from (1, 0) and from (0, 1). k >= 0; k = 0 is a free mass.
- * Accurate in all damping regimes, nothing overflows: cosh and sinh carry their decay inside. */
+/* e[row][column]: (x, x') after time t of M x'' + C x' + k x = 0 from (1, 0) and from (0, 1). k >= 0; k = 0 is a
+ * free mass. Accurate in all damping regimes, nothing overflows: cosh and sinh carry their decay inside. */
 void linear_free_motion(double mass, double damping, double stiffness, double t, double e[2][2]);
 
 /* X of the steady state x = Re X exp(i omega t); infinite at an undamped resonance. */

@@ -14,7 +14,10 @@
 
 enum { SCENE_MAX_CONTACTS = 16, SCENE_MAX_LIST = 256, SCENE_MAX_TEXT = 128, SCENE_MAX_HARMONICS = 200, SCENE_AUTO = 0 };
 
-typedef struct scene_list { int n; double v[SCENE_MAX_LIST]; } scene_list;
+typedef struct scene_list {
+  int n;
+  double v[SCENE_MAX_LIST];
+} scene_list;
 
 typedef struct scene_contact {
   contact law;
@@ -26,14 +29,19 @@ typedef enum { HBM_RESTART_INTERPOLATED, HBM_RESTART_SAMPLE } hbm_restart_kind;
 typedef enum { HBM_CONTINUATION_AUTO, HBM_CONTINUATION_NATURAL, HBM_CONTINUATION_ARCLENGTH } hbm_continuation_kind;
 typedef enum { TRANSIENT_LAW_REGULARISED, TRANSIENT_LAW_EXACT } transient_law_kind;
 typedef enum { TRANSIENT_STEADY_AUTO, TRANSIENT_STEADY_MARCH, TRANSIENT_STEADY_SHOOTING } transient_steady_kind;
-typedef enum { TRANSIENT_START_HBM, TRANSIENT_START_REST, TRANSIENT_START_UP, TRANSIENT_START_DOWN } transient_start_kind;
+typedef enum {
+  TRANSIENT_START_HBM,
+  TRANSIENT_START_REST,
+  TRANSIENT_START_UP,
+  TRANSIENT_START_DOWN
+} transient_start_kind;
 
 typedef struct scene_hbm {
-  int harmonics; /* 1..SCENE_MAX_HARMONICS, or SCENE_AUTO */
-  bool keep_mean; /* `static`: keep harmonic 0 */
-  int force;     /* hbm_force_kind */
-  int samples;   /* per period, >= 2 harmonics + 1, or SCENE_AUTO */
-  int restart;   /* hbm_restart_kind */
+  int harmonics;    /* 1..SCENE_MAX_HARMONICS, or SCENE_AUTO */
+  bool keep_mean;   /* `static`: keep harmonic 0 */
+  int force;        /* hbm_force_kind */
+  int samples;      /* per period, >= 2 harmonics + 1, or SCENE_AUTO */
+  int restart;      /* hbm_restart_kind */
   int continuation; /* hbm_continuation_kind */
   double tolerance; /* [1] relative to the forces that make up the residual */
   double accuracy;  /* [1] what auto harmonics and samples aim at: error relative to the solution */
@@ -57,14 +65,20 @@ typedef struct scene_compare {
   scene_list samples;   /* sampling rates to report */
 } scene_compare;
 
-typedef struct scene_gate { double amplitude, harmonic_1, mean, waveform; } scene_gate; /* [1] largest relative discrepancy */
+/* [1] largest relative discrepancy */
+typedef struct scene_gate {
+  double amplitude, harmonic_1, mean, waveform;
+} scene_gate;
 
-typedef struct scene_gate_ranges { /* other limits in parts of the sweep; see scene_gate_at */
-  scene_list omega;                                    /* [rad/time] from, to, from, to, ..., ends included */
-  scene_list amplitude, harmonic_1, mean, waveform;    /* [1] one a range; n = 0: as outside the ranges */
+typedef struct scene_gate_ranges {                  /* other limits in parts of the sweep; see scene_gate_at */
+  scene_list omega;                                 /* [rad/time] from, to, from, to, ..., ends included */
+  scene_list amplitude, harmonic_1, mean, waveform; /* [1] one a range; n = 0: as outside the ranges */
 } scene_gate_ranges;
 
-typedef struct scene_gate_cost { int iterations, evaluations; } scene_gate_cost; /* most for the response curve; 0: no limit */
+/* most for the response curve; 0: no limit */
+typedef struct scene_gate_cost {
+  int iterations, evaluations;
+} scene_gate_cost;
 
 typedef struct scene {
   char title[SCENE_MAX_TEXT], unit_length[16], unit_force[16], unit_time[16];

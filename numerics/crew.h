@@ -1,5 +1,6 @@
-/* crew.h - several threads that take one piece of work after another until there is none left or they are told to stop, and the calling thread, which
- * watches meanwhile. What the pieces are, and where results go, is the owner's business; his data goes under the crew's lock. */
+/* crew.h - several threads that take one piece of work after another until there is none left or they are told to
+ * stop, and the calling thread, which watches meanwhile. What the pieces are, and where results go, is the owner's
+ * business; his data goes under the crew's lock. */
 #ifndef HC_CREW_H
 #define HC_CREW_H
 
@@ -14,14 +15,14 @@ typedef struct crew {
   int running;            /* threads at work; under the lock */
   hc_status worst;        /* why it was stopped first, else HC_OK; under the lock */
   atomic_bool stop;
-  pthread_t *threads;     /* [n] started */
+  pthread_t *threads; /* [n] started */
   int n;
 } crew;
 
 void crew_init(crew *c);
 
-/* Start up to `jobs` threads of work(self), each of which calls crew_leave at its end. Where not one could be started, the crew stops with
- * HC_NO_MEMORY. */
+/* Start up to `jobs` threads of work(self), each of which calls crew_leave at its end. Where not one could be
+ * started, the crew stops with HC_NO_MEMORY. */
 void crew_start(crew *c, int jobs, void *(*work)(void *), void *self);
 void crew_leave(crew *c);
 

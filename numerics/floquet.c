@@ -1,4 +1,5 @@
-/* floquet.c - see floquet.h. Two by two by the quadratic formula without cancellation, larger ones by GSL's Francis QR. */
+/* floquet.c - see floquet.h. Two by two by the quadratic formula without cancellation, larger ones by GSL's Francis
+ * QR. */
 #include "numerics/floquet.h"
 
 #include <gsl/gsl_eigen.h>
@@ -8,8 +9,8 @@
 struct floquet { /* GSL's workspaces know their size: one set a size, 3..n */
   int n;
   gsl_eigen_nonsymm_workspace **work; /* [n + 1] */
-  double *matrix;                     /* [n][n] for any size; ours, because gsl_matrix_alloc leaks when half of it fails */
-  gsl_vector_complex **values;        /* [n + 1] */
+  double *matrix;              /* [n][n] for any size; ours, because gsl_matrix_alloc leaks when half of it fails */
+  gsl_vector_complex **values; /* [n + 1] */
 };
 
 static hc_status make_sizes(floquet *f)
@@ -61,11 +62,13 @@ static void two_by_two(double a, double b, double c, double d, double complex *l
   lambda[1] = cabs(lambda[0]) > 0 ? det / lambda[0] : 0;
 }
 
-static hc_status by_gsl(floquet *f, const double *phi, int row, int column, int m, const int *active, double complex *lambda)
+static hc_status by_gsl(floquet *f, const double *phi, int row, int column, int m, const int *active,
+                        double complex *lambda)
 {
   gsl_matrix_view matrix = gsl_matrix_view_array(f->matrix, (size_t)m, (size_t)m);
   for (int i = 0; i < m; ++i)
-    for (int j = 0; j < m; ++j) gsl_matrix_set(&matrix.matrix, (size_t)i, (size_t)j, phi[active[i] * row + active[j] * column]);
+    for (int j = 0; j < m; ++j)
+      gsl_matrix_set(&matrix.matrix, (size_t)i, (size_t)j, phi[active[i] * row + active[j] * column]);
   if (gsl_eigen_nonsymm(&matrix.matrix, f->values[m], f->work[m])) return HC_NOT_CONVERGED;
   for (int i = 0; i < m; ++i) {
     gsl_complex z = gsl_vector_complex_get(f->values[m], (size_t)i);
@@ -74,7 +77,8 @@ static hc_status by_gsl(floquet *f, const double *phi, int row, int column, int 
   return HC_OK;
 }
 
-hc_status floquet_multipliers(floquet *f, const double *phi, int row, int column, int m, const int *active, double complex *lambda)
+hc_status floquet_multipliers(floquet *f, const double *phi, int row, int column, int m, const int *active,
+                              double complex *lambda)
 {
   double size = 0;
   if (m > f->n) return HC_BAD_INPUT;
@@ -83,7 +87,9 @@ hc_status floquet_multipliers(floquet *f, const double *phi, int row, int column
   if (!isfinite(size)) return HC_NOT_FINITE;
   if (m > 2) return by_gsl(f, phi, row, column, m, active, lambda);
   const int a = active[0], b = m == 2 ? active[1] : a;
-  if (m == 2) two_by_two(phi[a * row + a * column], phi[a * row + b * column], phi[b * row + a * column], phi[b * row + b * column], lambda);
+  if (m == 2)
+    two_by_two(phi[a * row + a * column], phi[a * row + b * column], phi[b * row + a * column],
+               phi[b * row + b * column], lambda);
   else if (m == 1) lambda[0] = phi[a * row + a * column];
   return HC_OK;
 }

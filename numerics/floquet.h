@@ -14,7 +14,8 @@ void floquet_free(floquet *f);
 
 /* lambda[m]: eigenvalues of the rows and columns active[m] of phi, whose element (i, j) is phi[i * row + j * column].
  * HC_NOT_FINITE, HC_NOT_CONVERGED. */
-hc_status floquet_multipliers(floquet *f, const double *phi, int row, int column, int m, const int *active, double complex *lambda);
+hc_status floquet_multipliers(floquet *f, const double *phi, int row, int column, int m, const int *active,
+                              double complex *lambda);
 
 /* The one of largest modulus; 0 if there are none. */
 double complex floquet_largest(int m, const double complex *lambda);

@@ -1,4 +1,5 @@
-/* lu.c - see lu.h. Right-looking by columns: the inner loops run down contiguous columns, which the compiler vectorises. */
+/* lu.c - see lu.h. Right-looking by columns: the inner loops run down contiguous columns, which the compiler
+ * vectorises. */
 #include "numerics/lu.h"
 
 #include <math.h>
@@ -59,7 +60,9 @@ int lu_sign(int n, const double *a, const int *pivot)
   return sign;
 }
 
-typedef struct content { int n, pivot[]; } content;
+typedef struct content {
+  int n, pivot[];
+} content;
 
 static SUNLinearSolver_Type type(SUNLinearSolver ls)
 {
@@ -70,7 +73,8 @@ static SUNLinearSolver_Type type(SUNLinearSolver ls)
 static int setup(SUNLinearSolver ls, SUNMatrix a)
 {
   content *c = ls->content;
-  return lu_factor(c->n, SUNDenseMatrix_Data(a), c->pivot) ? 0 : 1; /* positive: recoverable, KINSOL says KIN_LSETUP_FAIL */
+  return lu_factor(c->n, SUNDenseMatrix_Data(a), c->pivot) ? 0 : 1; /* positive: recoverable, KINSOL says
+                                                                       KIN_LSETUP_FAIL */
 }
 
 static int solve(SUNLinearSolver ls, SUNMatrix a, N_Vector x, N_Vector b, sunrealtype tolerance)

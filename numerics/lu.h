@@ -1,8 +1,10 @@
-/* lu.h - LU factors with partial pivoting of a small dense matrix, as a SUNDIALS linear solver for KINSOL.
- * Why our own: the systems here have 3 to 100 unknowns and call overhead rules. Factor and solve, microseconds on one thread, same run:
+/* lu.h - LU factors with partial pivoting of a small dense matrix, as a SUNDIALS linear solver for KINSOL. Why our
+ * own: the systems here have 3 to 100 unknowns and call overhead rules. Factor and solve, microseconds on one
+ * thread, same run:
  *     n            3     11    21    41    101    401
  *     here         0.06  0.46  1.3   5.6   69     4450
- *     LAPACK       0.10  0.64  2.1   6.4   38     1290     (OpenBLAS, one thread; reference LAPACK is slower up to n = 41)
+ *     LAPACK       0.10  0.64  2.1   6.4   38     1290     (OpenBLAS, one thread; reference LAPACK is slower up to n
+ *                  = 41)
  * and no BLAS means no BLAS threads to pin. */
 #ifndef HC_LU_H
 #define HC_LU_H
@@ -18,7 +20,8 @@ void lu_solve(int n, const double *a, const int *pivot, double *x);
 /* Sign of det A. */
 int lu_sign(int n, const double *a, const int *pivot);
 
-/* A SUNDIALS solver for n x n dense matrices that factors them in place; NULL when out of memory. Freed by SUNLinSolFree. */
+/* A SUNDIALS solver for n x n dense matrices that factors them in place; NULL when out of memory. Freed by
+ * SUNLinSolFree. */
 SUNLinearSolver lu_sundials_solver(int n, SUNContext ctx);
 
 /* The pivots of the last matrix it factored. */

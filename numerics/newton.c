@@ -1,6 +1,7 @@
-/* newton.c - KINSOL behind newton.h. KINSOL's habits that matter here: a NaN residual is "success" for KIN_NONE and an endless loop
- * for KIN_LINESEARCH, so residuals are refused by a positive return; the default longest step is 1000 |z0|, useless from z = 0; the Jacobian
- * is kept for 10 iterations unless told otherwise; KIN_STEP_LT_STPTOL is positive and may be a stall. */
+/* newton.c - KINSOL behind newton.h. KINSOL's habits that matter here: a NaN residual is "success" for KIN_NONE and
+ * an endless loop for KIN_LINESEARCH, so residuals are refused by a positive return; the default longest step is
+ * 1000 |z0|, useless from z = 0; the Jacobian is kept for 10 iterations unless told otherwise; KIN_STEP_LT_STPTOL is
+ * positive and may be a stall. */
 #include "numerics/newton.h"
 
 #include <kinsol/kinsol.h>
@@ -11,10 +12,10 @@
 #include <string.h>
 #include <sunmatrix/sunmatrix_dense.h>
 
-#include "numerics/sundials_compat.h"
 #include "numerics/lu.h"
+#include "numerics/sundials_compat.h"
 
-struct newton {                 /* from newton_new, to newton_free; not shared between threads */
+struct newton { /* from newton_new, to newton_free; not shared between threads */
   newton_problem problem;
   SUNContext ctx;               /* made first, freed last, this handle's alone */
   N_Vector z, z_scale, r_scale; /* [n] */
@@ -22,9 +23,9 @@ struct newton {                 /* from newton_new, to newton_free; not shared b
   SUNMatrix jac;                /* [n][n] overwritten by its factors */
   SUNLinearSolver ls;
   void *kin;
-  double *start;                /* [n] where the solve began */
-  bool factored;                /* jac holds factors made at the end of the last solve */
-  hc_status refusal;            /* why the problem last refused a z */
+  double *start;     /* [n] where the solve began */
+  bool factored;     /* jac holds factors made at the end of the last solve */
+  hc_status refusal; /* why the problem last refused a z */
 };
 
 static int on_residual(N_Vector z, N_Vector r, void *self)
@@ -60,8 +61,8 @@ static hc_status make_kinsol(newton *nw)
   bad |= KINInit(nw->kin, on_residual, nw->z);
   bad |= KINSetLinearSolver(nw->kin, nw->ls, nw->jac);
   bad |= KINSetJacFn(nw->kin, on_jacobian);
-  bad |= KINSetMaxSetupCalls(nw->kin, 1);      /* full Newton */
-  bad |= KINSetScaledStepTol(nw->kin, 1e-15);  /* a stop for small steps is for us to judge */
+  bad |= KINSetMaxSetupCalls(nw->kin, 1);     /* full Newton */
+  bad |= KINSetScaledStepTol(nw->kin, 1e-15); /* a stop for small steps is for us to judge */
   return bad ? HC_NO_MEMORY : HC_OK;
 }
 
@@ -73,7 +74,10 @@ hc_status newton_new(const newton_problem *problem, newton **out)
   nw->problem = *problem;
   nw->start = calloc((size_t)problem->n, sizeof(double));
   hc_status st = nw->start ? make_kinsol(nw) : HC_NO_MEMORY;
-  if (st == HC_OK) { *out = nw; return HC_OK; }
+  if (st == HC_OK) {
+    *out = nw;
+    return HC_OK;
+  }
   newton_free(nw);
   return st;
 }
@@ -133,7 +137,8 @@ hc_status newton_backsolve(newton *nw, double *x)
   return HC_OK;
 }
 
-/* One Newton step from a converged z, kept unless it made the residual worse than acceptable. Leaves the factors behind. */
+/* One Newton step from a converged z, kept unless it made the residual worse than acceptable. Leaves the factors
+ * behind. */
 static hc_status polish(newton *nw, const newton_options *opt, newton_report *report)
 {
   int n = nw->problem.n;
@@ -142,13 +147,17 @@ static hc_status polish(newton *nw, const newton_options *opt, newton_report *re
   if (st != HC_OK) return st;
   double before = weighted_max(n, opt->r_scale, r);
   report->residual = before;
-  if (!nw->factored || SUNLinSolSolve(nw->ls, nw->jac, nw->step, nw->r, 0) != 0) return HC_OK; /* a solution all the same */
+  /* a solution all the same */
+  if (!nw->factored || SUNLinSolSolve(nw->ls, nw->jac, nw->step, nw->r, 0) != 0) return HC_OK;
   double length = weighted_max(n, opt->z_scale, step);
   if (!(length <= opt->max_step)) return HC_OK; /* nearly singular: no better answer to be had this way */
   for (int i = 0; i < n; ++i) z[i] -= step[i];
   ++report->iterations;
   double after = on_residual(nw->z, nw->r, nw) ? NAN : weighted_max(n, opt->r_scale, r);
-  if (after <= before || after <= 0.1 * opt->tolerance) { report->residual = after; return HC_OK; }
+  if (after <= before || after <= 0.1 * opt->tolerance) {
+    report->residual = after;
+    return HC_OK;
+  }
   for (int i = 0; i < n; ++i) z[i] += step[i];
   return on_residual(nw->z, nw->r, nw) ? nw->refusal : HC_OK;
 }

@@ -1,6 +1,6 @@
-/* newton.h - full Newton by KINSOL for a square system r(z) = 0, with the answer checked by us.
- * Memory is made once and reused by every solve; nothing is allocated in a solve, but for the message SUNDIALS 7 composes and
- * frees when KINSol fails. One handle a thread. */
+/* newton.h - full Newton by KINSOL for a square system r(z) = 0, with the answer checked by us. Memory is made once
+ * and reused by every solve; nothing is allocated in a solve, but for the message SUNDIALS 7 composes and frees when
+ * KINSol fails. One handle a thread. */
 #ifndef HC_NEWTON_H
 #define HC_NEWTON_H
 
@@ -30,9 +30,10 @@ typedef struct newton_report {
 hc_status newton_new(const newton_problem *problem, newton **out);
 void newton_free(newton *nw);
 
-/* Solve from *z. First plain Newton, then, if that fails, with KINSOL's line search from the same start. A converged z gets one more
- * Newton step: the tolerance is relative to forces that may nearly cancel, so the error in z may still be large against it.
- * HC_OK; HC_STALLED, HC_NOT_CONVERGED, HC_SINGULAR, HC_NOT_FINITE, HC_NO_MEMORY: *z is then as it was given. */
+/* Solve from *z. First plain Newton, then, if that fails, with KINSOL's line search from the same start. A converged
+ * z gets one more Newton step: the tolerance is relative to forces that may nearly cancel, so the error in z may
+ * still be large against it. HC_OK; HC_STALLED, HC_NOT_CONVERGED, HC_SINGULAR, HC_NOT_FINITE, HC_NO_MEMORY: *z is
+ * then as it was given. */
 hc_status newton_solve(newton *nw, double *z, const newton_options *opt, newton_report *report);
 
 /* x := J(z)^-1 x with the Jacobian of the last solve's end. HC_SINGULAR, also after a solve that failed. */

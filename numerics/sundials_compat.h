@@ -1,4 +1,5 @@
-/* sundials_compat.h - the few places where SUNDIALS 6.4 and 7.x differ. Included by hbm/ and timeint/, by nothing else. */
+/* sundials_compat.h - the few places where SUNDIALS 6.4 and 7.x differ. Included by hbm/ and timeint/, by nothing
+ * else. */
 #ifndef HC_SUNDIALS_COMPAT_H
 #define HC_SUNDIALS_COMPAT_H
 
@@ -12,7 +13,8 @@ _Static_assert(sizeof(sunrealtype) == sizeof(double), "everything outside SUNDIA
 
 #if SUNDIALS_VERSION_MAJOR >= 7
 
-static inline void hc_sundials_quiet_handler(int line, const char *func, const char *file, const char *msg, SUNErrCode code, void *data, SUNContext ctx)
+static inline void hc_sundials_quiet_handler(int line, const char *func, const char *file, const char *msg,
+                                             SUNErrCode code, void *data, SUNContext ctx)
 {
   (void)line, (void)func, (void)file, (void)msg, (void)code, (void)data, (void)ctx;
 }
@@ -28,7 +30,7 @@ static inline int hc_sundials_context(SUNContext *ctx)
 }
 
 #define HC_KINSOL_QUIET(mem) 0
-#define HC_CVODE_QUIET(mem) 0
+#define HC_CVODE_QUIET(mem)  0
 
 #else
 
@@ -43,7 +45,7 @@ static inline int hc_sundials_context(SUNContext *ctx) { return hc_room_for(0) ?
 
 /* In 6.x each solver's memory has a handler of its own: errors are values here, so it prints nothing. */
 #define HC_KINSOL_QUIET(mem) KINSetErrHandlerFn(mem, hc_sundials_quiet_handler, NULL)
-#define HC_CVODE_QUIET(mem) CVodeSetErrHandlerFn(mem, hc_sundials_quiet_handler, NULL)
+#define HC_CVODE_QUIET(mem)  CVodeSetErrHandlerFn(mem, hc_sundials_quiet_handler, NULL)
 
 #endif
 #endif

@@ -1,6 +1,6 @@
-/* output.c - see output.h.
- * The file beside is opened with O_EXCL under a name of our own, not with mkstemp: then the kernel applies the umask and default ACLs,
- * where reading the umask would disturb other threads. Not here: signals; the main program abandons. Proof: tests/output/test_output.c. */
+/* output.c - see output.h. The file beside is opened with O_EXCL under a name of our own, not with mkstemp: then the
+ * kernel applies the umask and default ACLs, where reading the umask would disturb other threads. Not here: signals;
+ * the main program abandons. Proof: tests/output/test_output.c. */
 #include "output/output.h"
 
 #include <errno.h>
@@ -38,7 +38,11 @@ static char *follow_links(const char *path)
     char text[MAX_LINK_TEXT];
     ssize_t n = readlink(at, text, sizeof text);
     if (n < 0) return at; /* no link, or nothing there */
-    if (links == MAX_LINKS || n == (ssize_t)sizeof text) { free(at); errno = ELOOP; return NULL; }
+    if (links == MAX_LINKS || n == (ssize_t)sizeof text) {
+      free(at);
+      errno = ELOOP;
+      return NULL;
+    }
     text[n] = 0;
     char *next = in_folder_of(at, text);
     free(at);
@@ -47,7 +51,8 @@ static char *follow_links(const char *path)
   return NULL;
 }
 
-/* Opens a new file in the target's folder. The name is short whatever the target's is, so it cannot be too long on its own. */
+/* Opens a new file in the target's folder. The name is short whatever the target's is, so it cannot be too long on
+ * its own. */
 static int open_beside(output *o)
 {
   for (int i = 0; i < MAX_TRIES; ++i) {
@@ -56,7 +61,10 @@ static int open_beside(output *o)
     char *beside = in_folder_of(o->target, name);
     if (!beside) return -1;
     int fd = open(beside, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    if (fd >= 0) { o->beside = beside; return fd; }
+    if (fd >= 0) {
+      o->beside = beside;
+      return fd;
+    }
     free(beside);
     if (errno != EEXIST) return -1;
   }
@@ -70,7 +78,9 @@ static int open_regular(output *o, const char *path, const struct stat *old)
   o->target = follow_links(path);
   if (!o->target) return -1;
   int fd = open_beside(o);
-  if (fd >= 0 && old) fchmod(fd, old->st_mode & 0777); /* fails on a file system without permissions: nothing to keep there */
+  if (fd >= 0 && old)
+    fchmod(fd, old->st_mode & 0777); /* fails on a file system without permissions: nothing to keep
+                                                          there */
   return fd;
 }
 
@@ -85,9 +95,13 @@ static FILE *open_stream(output *o, const char *path)
   struct stat st;
   bool exists = path && stat(path, &st) == 0;
   if (!path || (exists && is_standard_output(&st))) return stdout;
-  if (!*path) { errno = ENOENT; return NULL; }
+  if (!*path) {
+    errno = ENOENT;
+    return NULL;
+  }
   /* a directory is refused by open itself */
-  int fd = exists && !S_ISREG(st.st_mode) ? open(path, O_WRONLY | O_NOCTTY | O_CLOEXEC) : open_regular(o, path, exists ? &st : NULL);
+  int fd = exists && !S_ISREG(st.st_mode) ? open(path, O_WRONLY | O_NOCTTY | O_CLOEXEC)
+                                          : open_regular(o, path, exists ? &st : NULL);
   if (fd < 0) return NULL;
   FILE *stream = fdopen(fd, "w");
   if (!stream) close(fd);
@@ -112,7 +126,10 @@ hc_status output_open(const char *path, output **out)
   output *o = calloc(1, sizeof *o);
   if (!o) return HC_NO_MEMORY;
   o->stream = open_stream(o, path);
-  if (o->stream) { *out = o; return HC_OK; }
+  if (o->stream) {
+    *out = o;
+    return HC_OK;
+  }
   discard(o);
   return errno == ENOMEM ? HC_NO_MEMORY : HC_IO;
 }

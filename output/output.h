@@ -1,7 +1,8 @@
-/* output.h - files written whole or not at all: a file appears under its name only when it is complete.
- * output_open writes beside it, output_commit renames, output_abandon removes; what stood there before stays until the commit.
- * A symbolic link keeps pointing and its target is replaced. What is no regular file (/dev/null, a fifo) is written straight to, and so is
- * a name for standard output itself (/dev/stdout). A new file gets 0666 less the umask, a replaced one keeps its permissions. */
+/* output.h - files written whole or not at all: a file appears under its name only when it is complete. output_open
+ * writes beside it, output_commit renames, output_abandon removes; what stood there before stays until the commit. A
+ * symbolic link keeps pointing and its target is replaced. What is no regular file (/dev/null, a fifo) is written
+ * straight to, and so is a name for standard output itself (/dev/stdout). A new file gets 0666 less the umask, a
+ * replaced one keeps its permissions. */
 #ifndef HC_OUTPUT_H
 #define HC_OUTPUT_H
 
@@ -15,8 +16,8 @@ typedef struct output output;
  * HC_IO (a directory, no such folder, not writable; errno says which) or HC_NO_MEMORY, with *out = NULL. */
 hc_status output_open(const char *path, output **out);
 FILE *output_stream(output *o);
-/* HC_IO when anything written so far was lost, a full disk or (with SIGPIPE ignored) a closed pipe; errno says why and the file is as it
- * was before output_open. Frees o either way. */
+/* HC_IO when anything written so far was lost, a full disk or (with SIGPIPE ignored) a closed pipe; errno says why
+ * and the file is as it was before output_open. Frees o either way. */
 hc_status output_commit(output *o);
 /* o = NULL does nothing. */
 void output_abandon(output *o);

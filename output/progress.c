@@ -19,8 +19,8 @@ struct progress {
   double start, drawn; /* [s] on the monotonic clock */
 };
 
-/* The command line's only variable outside a function: a signal handler gets no argument, so what it leaves behind has to be at a fixed
- * place. Written by the handler alone, never cleared. */
+/* The command line's only variable outside a function: a signal handler gets no argument, so what it leaves behind
+ * has to be at a fixed place. Written by the handler alone, never cleared. */
 static volatile sig_atomic_t stop_signal;
 
 static void on_signal(int number) { stop_signal = number; }
@@ -85,7 +85,8 @@ static void draw(progress *p, double done)
 {
   char line[LINE_ROOM];
   p->drawn = now();
-  progress_line(line, sizeof line, p->label, done, p->drawn - p->start, terminal_columns() - 1); /* a full line would wrap */
+  /* a full line would wrap */
+  progress_line(line, sizeof line, p->label, done, p->drawn - p->start, terminal_columns() - 1);
   fprintf(stderr, "\r%s\033[K", line);
   fflush(stderr);
 }

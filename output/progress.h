@@ -1,5 +1,5 @@
-/* progress.h - a line on the terminal while long work goes on, and the way out of it: SIGINT, SIGTERM and SIGHUP ask it to stop.
- * For the command line only: the library has neither signals nor a terminal. */
+/* progress.h - a line on the terminal while long work goes on, and the way out of it: SIGINT, SIGTERM and SIGHUP ask
+ * it to stop. For the command line only: the library has neither signals nor a terminal. */
 #ifndef HC_PROGRESS_H
 #define HC_PROGRESS_H
 
@@ -10,18 +10,20 @@
 
 typedef struct progress progress;
 
-/* From now on the first SIGINT, SIGTERM or SIGHUP makes every tick answer false; the second of its kind kills. A signal that was ignored (nohup)
- * stays ignored. Call once, early. */
+/* From now on the first SIGINT, SIGTERM or SIGHUP makes every tick answer false; the second of its kind kills. A
+ * signal that was ignored (nohup) stays ignored. Call once, early. */
 void progress_install_signals(void);
 
 /* The signal that asked to stop, 0 for none. Any thread may ask. */
 int progress_interrupted(void);
 
-/* Draws "label" and from then on, at most 10 times a second, "label  37 %  12 s left" on stderr, if that is a terminal, TERM is neither
- * unset nor dumb, and not quiet. No colour. Never fails: NULL (out of memory) is a progress that draws nothing and still minds signals. */
+/* Draws "label" and from then on, at most 10 times a second, "label  37 %  12 s left" on stderr, if that is a
+ * terminal, TERM is neither unset nor dumb, and not quiet. No colour. Never fails: NULL (out of memory) is a
+ * progress that draws nothing and still minds signals. */
 progress *progress_start(const char *label, bool quiet);
 
-/* For long work; one thread at a time may tick. done is 0..1, or negative when unknown: then the time spent is shown. */
+/* For long work; one thread at a time may tick. done is 0..1, or negative when unknown: then the time spent is
+ * shown. */
 hc_monitor progress_monitor(progress *p);
 
 /* From the next drawing on, another label. */

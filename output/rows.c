@@ -1,4 +1,5 @@
-/* rows.c - see rows.h. Each list is written once and expanded twice: to the columns, and to the function that fills a row.
+/* rows.c - see rows.h. Each list is written once and expanded twice: to the columns, and to the function that fills
+ * a row.
  *   X(kind, name, is it there, value)   with r the row */
 #include "output/rows.h"
 
@@ -8,7 +9,10 @@
 
 /* What a row says about itself, for the lists below. */
 static bool settled(const steady_row *r) { return r->status == HC_OK; }
-static bool measured(const steady_row *r) { return r->status == HC_OK || r->status == HC_NOT_SETTLED || r->status == HC_APERIODIC; }
+static bool measured(const steady_row *r)
+{
+  return r->status == HC_OK || r->status == HC_NOT_SETTLED || r->status == HC_APERIODIC;
+}
 static bool has_hbm(const comparison_row *r) { return r->branch >= 0 && r->hbm_status == HC_OK; }
 static bool has_orbit(const comparison_row *r) { return r->orbit_status == HC_OK; }
 static bool has_transient(const comparison_row *r)
@@ -167,9 +171,18 @@ static const table_column curve_columns[] = {CURVE_COLUMNS(COLUMN)};
 static const table_column accuracy_columns[] = {ACCURACY_COLUMNS(COLUMN)};
 static const table_column order_columns[] = {ORDER_COLUMNS(COLUMN)};
 
-enum { N_FRF = sizeof frf_columns / sizeof *frf_columns, N_TRANSIENT = sizeof transient_columns / sizeof *transient_columns };
-enum { N_COMPARE = sizeof compare_columns / sizeof *compare_columns, N_CURVE = sizeof curve_columns / sizeof *curve_columns };
-enum { N_ACCURACY = sizeof accuracy_columns / sizeof *accuracy_columns, N_ORDER = sizeof order_columns / sizeof *order_columns };
+enum {
+  N_FRF = sizeof frf_columns / sizeof *frf_columns,
+  N_TRANSIENT = sizeof transient_columns / sizeof *transient_columns
+};
+enum {
+  N_COMPARE = sizeof compare_columns / sizeof *compare_columns,
+  N_CURVE = sizeof curve_columns / sizeof *curve_columns
+};
+enum {
+  N_ACCURACY = sizeof accuracy_columns / sizeof *accuracy_columns,
+  N_ORDER = sizeof order_columns / sizeof *order_columns
+};
 _Static_assert((int)N_ACCURACY <= (int)ROWS_MOST && (int)N_ORDER <= (int)ROWS_MOST, "callers keep ROWS_MOST cells");
 _Static_assert((int)N_FRF <= (int)ROWS_MOST && (int)N_TRANSIENT <= (int)ROWS_MOST, "callers keep ROWS_MOST cells");
 _Static_assert((int)N_COMPARE <= (int)ROWS_MOST && (int)N_CURVE <= (int)ROWS_MOST, "callers keep ROWS_MOST cells");

@@ -1,5 +1,6 @@
-/* rows.h - the columns of results, one table a kind, for everything that shows or keeps them: the commands, the study.
- * Names are INTERFACE.md's. A new column is a new line in rows.c and nothing else. Not here: how they are written (show/table.h). */
+/* rows.h - the columns of results, one table a kind, for everything that shows or keeps them: the commands, the
+ * study. Names are INTERFACE.md's. A new column is a new line in rows.c and nothing else. Not here: how they are
+ * written (show/table.h). */
 #ifndef HC_ROWS_H
 #define HC_ROWS_H
 
@@ -16,7 +17,11 @@ enum { ROWS_MOST = 48, ROWS_TEXT = 32 }; /* columns of a kind, asserted; bytes o
 typedef struct row_cell {
   table_kind kind;
   bool there;
-  union { char text[ROWS_TEXT]; long integer; double real; } as;
+  union {
+    char text[ROWS_TEXT];
+    long integer;
+    double real;
+  } as;
 } row_cell;
 
 /* The columns of a kind, *n of them; constant. */

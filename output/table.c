@@ -1,4 +1,5 @@
-/* table.c - the table itself, and csv. The other formats: table_aligned.c, table_wrapped.c, table_json.c. Proof: tests/output/test_table.c. */
+/* table.c - the table itself, and csv. The other formats: table_aligned.c, table_wrapped.c, table_json.c. Proof:
+ * tests/output/test_table.c. */
 #include "output/table.h"
 
 #include <assert.h>
@@ -10,8 +11,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "output/table_private.h"
 #include "base/utf8.h"
+#include "output/table_private.h"
 
 /* The C locale for this thread alone; printf and jansson then write '.'. */
 static bool enter_c_locale(locale_t *c, locale_t *before)
@@ -80,7 +81,10 @@ static table_cell *next_cell(table *t)
 {
   if (!t || t->failed) return NULL;
   void *cells = t->cells;
-  if (t->n_cells >= INT_MAX || !reserve(&cells, t->n_cells, &t->cells_room, sizeof *t->cells)) { t->failed = true; return NULL; }
+  if (t->n_cells >= INT_MAX || !reserve(&cells, t->n_cells, &t->cells_room, sizeof *t->cells)) {
+    t->failed = true;
+    return NULL;
+  }
   t->cells = cells;
   table_cell *cell = &t->cells[t->n_cells++];
   *cell = (table_cell){.there = false};
@@ -143,7 +147,11 @@ void table_note(table *t, const char *format, ...)
   char *note = text ? utf8_clean(text, true) : NULL;
   free(text);
   void *notes = t->notes;
-  if (!note || !reserve(&notes, t->n_notes, &t->notes_room, sizeof *t->notes)) { free(note); t->failed = true; return; }
+  if (!note || !reserve(&notes, t->n_notes, &t->notes_room, sizeof *t->notes)) {
+    free(note);
+    t->failed = true;
+    return;
+  }
   t->notes = notes;
   t->notes[t->n_notes++] = note;
 }
@@ -164,7 +172,10 @@ int table_rows(const table *t) { return t ? (int)(t->n_cells / (size_t)t->n_colu
 void table_write_csv_text(const char *s, FILE *to)
 {
   bool plain = *s && !strpbrk(s, ",\"\r\n") && !strchr("# \t", *s) && !strchr(" \t", s[strlen(s) - 1]);
-  if (plain) { fputs(s, to); return; }
+  if (plain) {
+    fputs(s, to);
+    return;
+  }
   putc('"', to);
   for (; *s; ++s) {
     if (*s == '"') putc('"', to);

@@ -1,7 +1,7 @@
 /* table.h - results as rows of named columns, written as an aligned table, csv (17 significant digits) or json.
- * Column names are INTERFACE.md's. A value that is not there (NaN, NULL) is empty in csv and table, null in json. Infinities are inf and
- * -inf in csv and table, null in json. The decimal point is '.' whatever locale the host program has set; text comes out as valid UTF-8.
- * Not here: the file it goes to (output.h). */
+ * Column names are INTERFACE.md's. A value that is not there (NaN, NULL) is empty in csv and table, null in json.
+ * Infinities are inf and -inf in csv and table, null in json. The decimal point is '.' whatever locale the host
+ * program has set; text comes out as valid UTF-8. Not here: the file it goes to (output.h). */
 #ifndef HC_TABLE_H
 #define HC_TABLE_H
 
@@ -10,7 +10,10 @@
 #include "base/status.h"
 
 typedef enum { TABLE_TEXT, TABLE_INTEGER, TABLE_REAL } table_kind;
-typedef struct { const char *name; table_kind kind; } table_column;
+typedef struct {
+  const char *name;
+  table_kind kind;
+} table_column;
 typedef enum { FORMAT_TABLE, FORMAT_CSV, FORMAT_JSON } table_format;
 
 typedef struct table table;
@@ -20,30 +23,36 @@ typedef struct table table;
 table *table_new(const char *title, int n_columns, const table_column *columns);
 void table_free(table *t);
 
-/* A row is its values in column order. Each put fills the next cell, a new row starts by itself; the kind must be the column's and the
- * last row be full when written (asserted). Text is copied; csv and json keep its line breaks, the table shows spaces. */
+/* A row is its values in column order. Each put fills the next cell, a new row starts by itself; the kind must be
+ * the column's and the last row be full when written (asserted). Text is copied; csv and json keep its line breaks,
+ * the table shows spaces. */
 void table_put_text(table *t, const char *value);
 void table_put_integer(table *t, long value);
 void table_put_real(table *t, double value);
 void table_put_missing(table *t);
-/* A remark about the whole table, one line: after it in `table`, as "# ..." lines before the header in csv, under "notes" in json. */
+/* A remark about the whole table, one line: after it in `table`, as "# ..." lines before the header in csv, under
+ * "notes" in json. */
 void table_note(table *t, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/* In the format table, carry words over to further lines so that no line is longer than `width`, as far as that goes; nothing is cut then. */
+/* In the format table, carry words over to further lines so that no line is longer than `width`, as far as that
+ * goes; nothing is cut then. */
 void table_wrap(table *t, int width);
 
-/* In the format table, leave that column out: a line that does not fit the screen is not read. csv and json have it all the same. */
+/* In the format table, leave that column out: a line that does not fit the screen is not read. csv and json have it
+ * all the same. */
 void table_hide(table *t, const char *column);
 
 /* Full rows so far. */
 int table_rows(const table *t);
 
-/* All tables of one command.
- * table: one after another, each under its title; 7 significant digits, a column in one notation with its decimal points aligned.
+/* All tables of one command. table: one after another, each under its title; 7 significant digits, a column in one
+ * notation with its decimal points aligned.
  *        A text of more than 60 columns is cut with an ellipsis unless it is the row's last.
- * csv:   RFC 4180 quoting, lines end in \n, blank-line separated, "# title" first when n > 1. Empty text is "" in quotes: not missing.
- * json:  for n = 1 {"rows": [{column: value}, ...], "notes": [...]}; else one object {"title": [{column: value}, ...], ...,
- *        "notes": {"title": [...], ...}} with notes of the tables that have some. A title that is taken becomes "title (2)", no title "table".
+ * csv:   RFC 4180 quoting, lines end in \n, blank-line separated, "# title" first when n > 1. Empty text is "" in
+ * quotes: not missing. json:  for n = 1 {"rows": [{column: value}, ...], "notes": [...]}; else one object {"title":
+ * [{column: value}, ...], ...,
+ *        "notes": {"title": [...], ...}} with notes of the tables that have some. A title that is taken becomes
+ *        "title (2)", no title "table".
  * HC_IO once the stream has failed; what is still in its buffer is for output_commit to check. */
 hc_status table_write(int n, table *const *tables, table_format format, FILE *to);
 

@@ -1,19 +1,28 @@
-/* table_aligned.c - a table for people: columns two spaces apart, text to the left, numbers to the right under their header.
- * A column of reals is written in one notation, so that its decimal points stand under each other: fixed with as many decimals as its
- * values need for 7 significant digits each, or scientific when that would take more than 11 digits. An exact zero is "0".
- * Spaces are written only once something follows them, so no line ends in one. Proof: tests/output/test_table.c. */
+/* table_aligned.c - a table for people: columns two spaces apart, text to the left, numbers to the right under their
+ * header. A column of reals is written in one notation, so that its decimal points stand under each other: fixed
+ * with as many decimals as its values need for 7 significant digits each, or scientific when that would take more
+ * than 11 digits. An exact zero is "0". Spaces are written only once something follows them, so no line ends in one.
+ * Proof: tests/output/test_table.c. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "output/table_private.h"
 #include "base/message.h"
 #include "base/utf8.h"
+#include "output/table_private.h"
 
 enum { SIGNIFICANT = 7, MAX_DIGITS = 11, MAX_EXPONENT = SIGNIFICANT - 1, MAX_TEXT_WIDTH = 60, NUMBER_ROOM = 40 };
 
-typedef struct { bool scientific; int decimals, width; } column_style; /* width in terminal columns */
-typedef struct { FILE *to; int spaces; bool begun; } line;             /* spaces: owed before the next visible character; begun: has a cell */
+typedef struct {
+  bool scientific;
+  int decimals, width;
+} column_style; /* width in terminal columns */
+typedef struct {
+  FILE *to;
+  int spaces;
+  bool begun;
+} line; /* spaces: owed before the next visible character; begun:
+                                                              has a cell */
 
 static void put_spaces(line *l, int n) { l->spaces += n; }
 
@@ -23,7 +32,10 @@ static void put_bytes(line *l, const char *s, size_t bytes)
   for (const char *end = s + bytes; s < end;) {
     const char *from = s;
     unsigned long code = utf8_next(&s);
-    if (code == ' ' || utf8_is_control(code)) { ++l->spaces; continue; }
+    if (code == ' ' || utf8_is_control(code)) {
+      ++l->spaces;
+      continue;
+    }
     for (; l->spaces > 0; --l->spaces) putc(' ', l->to);
     fwrite(from, 1, (size_t)(s - from), l->to);
   }
@@ -36,7 +48,8 @@ static void end_line(line *l)
   putc('\n', l->to);
 }
 
-/* Exponent of v, finite and not 0, rounded to 7 significant digits, and how many of the 6 mantissa decimals are needed. */
+/* Exponent of v, finite and not 0, rounded to 7 significant digits, and how many of the 6 mantissa decimals are
+ * needed. */
 static void measure(double v, int *exponent, int *mantissa)
 {
   char text[NUMBER_ROOM];

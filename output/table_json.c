@@ -1,5 +1,5 @@
-/* table_json.c - tables as json: values and texts through jansson, the frame around them here, so that a row is one line and key order
- * is column order. table.h says what the document looks like. Proof: tests/output/test_table.c. */
+/* table_json.c - tables as json: values and texts through jansson, the frame around them here, so that a row is one
+ * line and key order is column order. table.h says what the document looks like. Proof: tests/output/test_table.c. */
 #include <jansson.h>
 #include <math.h>
 
@@ -74,7 +74,8 @@ static hc_status write_one(const table *t, FILE *to)
   return st;
 }
 
-/* The title, or when an earlier table or "notes" has it, the title with a number: no table may hide another. Goes into `taken`. */
+/* The title, or when an earlier table or "notes" has it, the title with a number: no table may hide another. Goes
+ * into `taken`. */
 static json_t *make_key(const table *t, json_t *taken)
 {
   const char *title = *t->title ? t->title : "table";

@@ -6,7 +6,11 @@
 
 typedef struct table_cell {
   bool there; /* false: missing, whatever the kind (a NaN is stored so) */
-  union { char *text; long integer; double real; } as; /* by the column's kind; text is owned, valid UTF-8 */
+  union {
+    char *text;
+    long integer;
+    double real;
+  } as; /* by the column's kind; text is owned, valid UTF-8 */
 } table_cell;
 
 struct table {
@@ -30,8 +34,8 @@ static inline const table_cell *table_at(const table *t, int row, int column)
 /* Called with the C locale in force; HC_OK or HC_NO_MEMORY: whether the stream failed is the caller's to ask. */
 hc_status table_write_aligned(const table *t, FILE *to);
 hc_status table_write_wrapped(const table *t, FILE *to);
-/* A csv cell: quotes where RFC 4180 asks for them, where a reader might strip or skip (outer blanks, '#'), and for empty text, which is not
- * missing. */
+/* A csv cell: quotes where RFC 4180 asks for them, where a reader might strip or skip (outer blanks, '#'), and for
+ * empty text, which is not missing. */
 void table_write_csv_text(const char *s, FILE *to);
 hc_status table_write_json(int n, table *const *tables, FILE *to);
 

@@ -1,14 +1,20 @@
-/* table_wrapped.c - a table of texts for people, too long for one line each: columns of a width that fits the terminal, words carried over to
- * the next line, an empty line between rows where any takes more than one. A number is a text like any other. */
+/* table_wrapped.c - a table of texts for people, too long for one line each: columns of a width that fits the
+ * terminal, words carried over to the next line, an empty line between rows where any takes more than one. A number
+ * is a text like any other. */
 #include <stdlib.h>
 #include <string.h>
 
-#include "output/table_private.h"
 #include "base/utf8.h"
+#include "output/table_private.h"
 
 enum { NARROWEST = 8, BETWEEN = 2 };
 
-typedef struct wrapped { char **texts; int *widths; const char **rest; } wrapped; /* [rows + 1][columns], the header first; [columns] */
+/* [rows + 1][columns], the header first; [columns] */
+typedef struct wrapped {
+  char **texts;
+  int *widths;
+  const char **rest;
+} wrapped;
 
 static int widest(const table *t, const wrapped *w, int column)
 {
@@ -34,7 +40,8 @@ static void share_width(const table *t, const wrapped *w)
   }
 }
 
-/* Bytes of the next line of *rest, which is moved past them and past the spaces before them; where it starts goes into *from. */
+/* Bytes of the next line of *rest, which is moved past them and past the spaces before them; where it starts goes
+ * into *from. */
 static size_t next_piece(const char **rest, int width, const char **from)
 {
   int own;

@@ -17,15 +17,15 @@
 #define PI 3.14159265358979323846
 
 /* value <= bound, or fail with both and the context printf-style; NaN fails. */
-#define CHECK_LE(value, bound, ...)                                                         \
-  do {                                                                                      \
-    double v_ = (value), b_ = (bound);                                                      \
-    if (!(v_ <= b_)) {                                                                      \
-      print_error("%s:%d: %s = %.17g > %.17g: ", __FILE__, __LINE__, #value, v_, b_);       \
-      print_error(__VA_ARGS__);                                                             \
-      print_error("\n");                                                                    \
-      fail();                                                                               \
-    }                                                                                       \
+#define CHECK_LE(value, bound, ...)                                                                                    \
+  do {                                                                                                                 \
+    double v_ = (value), b_ = (bound);                                                                                 \
+    if (!(v_ <= b_)) {                                                                                                 \
+      print_error("%s:%d: %s = %.17g > %.17g: ", __FILE__, __LINE__, #value, v_, b_);                                  \
+      print_error(__VA_ARGS__);                                                                                        \
+      print_error("\n");                                                                                               \
+      fail();                                                                                                          \
+    }                                                                                                                  \
   } while (0)
 
 /* |a - b| <= tol, NaN fails. */
@@ -34,11 +34,11 @@
 /* A hang is a failure: every test main calls this first. */
 static inline void check_watchdog(unsigned seconds) { alarm(seconds); }
 
-#define CHECK_MAIN(name, tests, seconds)                    \
-  int main(void)                                            \
-  {                                                         \
-    check_watchdog(seconds);                                \
-    return cmocka_run_group_tests_name(name, tests, NULL, NULL); \
+#define CHECK_MAIN(name, tests, seconds)                                                                               \
+  int main(void)                                                                                                       \
+  {                                                                                                                    \
+    check_watchdog(seconds);                                                                                           \
+    return cmocka_run_group_tests_name(name, tests, NULL, NULL);                                                       \
   }
 
 #endif

@@ -1,4 +1,5 @@
-/* shell.h - a line for sh, for tests of the command: its exit code, what it says, and both held against expectations. */
+/* shell.h - a line for sh, for tests of the command: its exit code, what it says, and both held against
+ * expectations. */
 #ifndef HC_TESTS_SHELL_H
 #define HC_TESTS_SHELL_H
 
@@ -7,8 +8,8 @@
 
 #include "tests/check.h"
 
-/* What `line` prints into out[size], zero-terminated; what does not fit is read and dropped, since a closed pipe would end the program. Returns the exit
- * code, as sh does: 128 and the signal's number for what a signal ended. */
+/* What `line` prints into out[size], zero-terminated; what does not fit is read and dropped, since a closed pipe
+ * would end the program. Returns the exit code, as sh does: 128 and the signal's number for what a signal ended. */
 static inline int shell_read(const char *line, char *out, size_t size)
 {
   FILE *pipe = popen(line, "r");

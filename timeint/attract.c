@@ -1,12 +1,14 @@
-/* attract.c - where a motion goes: waiting in stretches, each twice as long as the last, and after each a look for the orbit it is on.
+/* attract.c - where a motion goes: waiting in stretches, each twice as long as the last, and after each a look for
+ * the orbit it is on.
  *
- * A stretch is marched in coarse steps: Newton does the fine work. Then, if the last state came back to an earlier one, k periods ago,
- * to within `near`, the k-orbit next to it is computed (shoot.h). It is where the motion goes if it is stable, next to the state, and the
- * map between the two is linear enough for what is left to shrink: |F(z) - z* - Phi (z - z*)| <= (1 - rho)/2 |z - z*|. Otherwise on.
+ * A stretch is marched in coarse steps: Newton does the fine work. Then, if the last state came back to an earlier
+ * one, k periods ago, to within `near`, the k-orbit next to it is computed (shoot.h). It is where the motion goes if
+ * it is stable, next to the state, and the map between the two is linear enough for what is left to shrink: |F(z) -
+ * z* - Phi (z - z*)| <= (1 - rho)/2 |z - z*|. Otherwise on.
  *
- * A motion that shows no such orbit is tested for chaos: the mean rate at which two neighbours drift apart, drawn together again after
- * each period, over BATCHES times BATCH periods, against its own scatter over the batches. Not before FOLDS times what damping forgets in:
- * next to a saddle neighbours drift apart as well, for a while. */
+ * A motion that shows no such orbit is tested for chaos: the mean rate at which two neighbours drift apart, drawn
+ * together again after each period, over BATCHES times BATCH periods, against its own scatter over the batches. Not
+ * before FOLDS times what damping forgets in: next to a saddle neighbours drift apart as well, for a while. */
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -14,12 +16,22 @@
 #include "timeint/internal.h"
 #include "timeint/linear_forever.h"
 
-static const double coarse = 1e-9; /* CVODE's tolerance while waiting, if the final one is not coarser */
-static const double near = 0.02;   /* [size] of a return that is worth a Newton solve */
-static const double slowest_chaos = 1e-3; /* [1/period] neighbours part in a thousand periods: any slower and it cannot be told from none */
-static const double shortest_leap = 0.1; /* [size] from period to period, now and then: what only crawls is leaving a saddle, or settling */
-static const double apart = 1e-5; /* [L] of the two: far above what a period scatters by at the final tolerance, far below the motion */
-enum { LYAPUNOV_AFTER = 500, FOLDS = 6, BATCHES = 16, BATCH = 40, LYAPUNOV_PERIODS = 2 * (BATCHES + 1) * BATCH, LAST_RESORT = 6 };
+static const double coarse = 1e-9;        /* CVODE's tolerance while waiting, if the final one is not coarser */
+static const double near = 0.02;          /* [size] of a return that is worth a Newton solve */
+static const double slowest_chaos = 1e-3; /* [1/period] neighbours part in a thousand periods: any slower and it
+                                             cannot be told from none */
+static const double shortest_leap = 0.1;  /* [size] from period to period, now and then: what only crawls is leaving a
+                                            saddle, or settling */
+static const double apart = 1e-5; /* [L] of the two: far above what a period scatters by at the final tolerance, far
+                                     below the motion */
+enum {
+  LYAPUNOV_AFTER = 500,
+  FOLDS = 6,
+  BATCHES = 16,
+  BATCH = 40,
+  LYAPUNOV_PERIODS = 2 * (BATCHES + 1) * BATCH,
+  LAST_RESORT = 6
+};
 
 /* How the waiting goes. */
 typedef struct wait {
@@ -73,7 +85,8 @@ static hc_status pass(wait *w, int periods, bool *linear)
   return st == HC_OK ? back : st;
 }
 
-/* Is the motion, at ti->y when the solve began, on its way to this orbit? A sweep has left it next to its orbit, if that is stable. */
+/* Is the motion, at ti->y when the solve began, on its way to this orbit? A sweep has left it next to its orbit, if
+ * that is stable. */
 static bool goes_there(const wait *w, const shoot_report *found, double size)
 {
   const double rho = cabs(found->multiplier);
@@ -91,7 +104,10 @@ static hc_status look(wait *w, int k, bool *found_it, timeint_result *r)
   memcpy(began, ti->y, sizeof began);
   *found_it = false;
   hc_status st = shoot_newton(ti->shoot, k, near * size, timeint_goal(ti), w->monitor, &found);
-  if (timeint_no_orbit(st)) { ++w->failed; return HC_OK; }
+  if (timeint_no_orbit(st)) {
+    ++w->failed;
+    return HC_OK;
+  }
   if (st != HC_OK) return st;
   *found_it = goes_there(w, &found, size);
   if (*found_it) return timeint_report(ti, k, TIMEINT_BY_SHOOTING, &found, r);
@@ -99,8 +115,8 @@ static hc_status look(wait *w, int k, bool *found_it, timeint_result *r)
   return HC_OK;
 }
 
-/* Of each k in turn whose return is clearly nearer than those of all before: multiples of a cycle return as well as the cycle itself, and
- * near a period doubling both the lost orbit and the new one are at hand. */
+/* Of each k in turn whose return is clearly nearer than those of all before: multiples of a cycle return as well as
+ * the cycle itself, and near a period doubling both the lost orbit and the new one are at hand. */
 static hc_status look_around(wait *w, bool *found_it, timeint_result *r)
 {
   double within = 2 * near * size_of(w->ti);
@@ -113,8 +129,8 @@ static hc_status look_around(wait *w, bool *found_it, timeint_result *r)
   return st;
 }
 
-/* One period of the motion and of a neighbour at ti->y + d; d becomes their difference afterwards, drawn in to its old length again, and the
- * log of how it grew is returned. */
+/* One period of the motion and of a neighbour at ti->y + d; d becomes their difference afterwards, drawn in to its
+ * old length again, and the log of how it grew is returned. */
 static hc_status grow(timeint *ti, double *d, double *log_growth)
 {
   const int n = ti->model.n_states;
@@ -182,7 +198,8 @@ hc_status timeint_attract(timeint *ti, int first, const hc_monitor *monitor, tim
       return HC_OK;
     }
     if ((st = look_around(&w, &done, r)) != HC_OK || done) return st;
-    if (ti->periods > fmax(LYAPUNOV_AFTER, FOLDS / (1 - ti->contraction)) && ti->periods + LYAPUNOV_PERIODS < ti->sc.transient.max_periods) {
+    if (ti->periods > fmax(LYAPUNOV_AFTER, FOLDS / (1 - ti->contraction)) &&
+        ti->periods + LYAPUNOV_PERIODS < ti->sc.transient.max_periods) {
       if ((st = drifts_apart(ti, monitor, &chaos, &r->lyapunov)) != HC_OK) return st;
       if (chaos) return aperiodic(&w, r);
     }

@@ -32,7 +32,10 @@ hc_status integrate_slope(integrator *in, const model *m, double *y, double *slo
   return period(in, m, y, slope, NULL, NULL);
 }
 
-hc_status integrate_dense(const integrator *in, double theta, int order, double *y) { return in->does->dense(in, theta, order, y); }
+hc_status integrate_dense(const integrator *in, double theta, int order, double *y)
+{
+  return in->does->dense(in, theta, order, y);
+}
 bool integrate_slides(const integrator *in, int j, const double *y) { return in->does->slides(in, j, y); }
 
 long integrate_steps(const integrator *in) { return in->steps; }

@@ -1,19 +1,21 @@
-/* integrate_exact.c - see integrate.h. X and P by CVODE, one smooth right-hand side a phase (phase.h), from transition to transition; the
- * sliders follow from the phase. Adams: nothing here is stiff but a huge damping.
+/* integrate_exact.c - see integrate.h. X and P by CVODE, one smooth right-hand side a phase (phase.h), from
+ * transition to transition; the sliders follow from the phase. Adams: nothing here is stiff but a huge damping.
  *
  * Root functions, always four, so that a period allocates nothing:
  *     up - X,  X - down                      end the phase where they fall through 0
  *     P                                      ends it if some contact slips
  *     P'                                     ends nothing
- * P and P' are there to be looked at: in a step whose ends lie inside the phase X can only leave it beyond a turning point; CVODE
- * goes for that root of P, finds X outside there, and takes the crossing before it. P' does the same for two roots of P in one
- * step. So nothing that lasts longer than CVODE's root tolerance (100 roundings of theta) is stepped over, unless P has four roots in
- * one step. In a phase that nothing can end all four are 1.
- * None is ever exactly 0: a function that stays 0 is an error or a warning to CVODE, depending on when.
+ * P and P' are there to be looked at: in a step whose ends lie inside the phase X can only leave it beyond a turning
+ * point; CVODE goes for that root of P, finds X outside there, and takes the crossing before it. P' does the same
+ * for two roots of P in one step. So nothing that lasts longer than CVODE's root tolerance (100 roundings of theta)
+ * is stepped over, unless P has four roots in one step. In a phase that nothing can end all four are 1. None is ever
+ * exactly 0: a function that stays 0 is an error or a warning to CVODE, depending on when.
  *
- * A transition located within dtheta makes an error of order dtheta^2, the force being continuous; CVODE's 1e-13 leaves nothing to polish.
+ * A transition located within dtheta makes an error of order dtheta^2, the force being continuous; CVODE's 1e-13
+ * leaves nothing to polish.
  *
- * Slope: between transitions the variations obey a linear equation with constant coefficients, so they are carried along in closed form. */
+ * Slope: between transitions the variations obey a linear equation with constant coefficients, so they are carried
+ * along in closed form. */
 #include "timeint/integrate_private.h"
 
 #include <float.h>
@@ -36,19 +38,20 @@ static const double at_end = 64 * DBL_EPSILON; /* nearer to 2 pi CVODE would ans
 
 enum {
   MAX_STEPS = 1000000,   /* between transitions: a thousand times what a hard period takes */
-  MAX_TRANSITIONS = 1000 /* per period: 16 contacts that open, slip, stick, slip, stick and close make 96 an oscillation */
+  MAX_TRANSITIONS = 1000 /* per period: 16 contacts that open, slip, stick, slip, stick and close make 96 an
+                            oscillation */
 };
 
 enum { ROOT_UP, ROOT_DOWN, ROOT_TURN, ROOT_BEND, ROOTS };
 
 typedef struct exact { /* from integrate_new_exact, to integrate_free; not shared between threads */
   integrator base;
-  int n;                 /* number of states                                              */
+  int n; /* number of states                                              */
   double tolerance;
-  const model *m;        /* of the period under way; the caller's                         */
-  phase phase;           /* now                                                           */
-  bool varies;           /* the slope is asked for                                        */
-  double varied;         /* theta up to which `slope` has come                            */
+  const model *m;                                    /* of the period under way; the caller's                         */
+  phase phase;                                       /* now                                                           */
+  bool varies;                                       /* the slope is asked for                                        */
+  double varied;                                     /* theta up to which `slope` has come                            */
   double slope[MODEL_MAX_STATES * MODEL_MAX_STATES]; /* by columns; rows of W while stuck */
 } exact;
 
@@ -64,7 +67,8 @@ static int rhs(sunrealtype theta, N_Vector y, N_Vector dy, void *self)
   return -1;
 }
 
-static int jacobian(sunrealtype theta, N_Vector y, N_Vector dy, SUNMatrix jac, void *self, N_Vector t1, N_Vector t2, N_Vector t3)
+static int jacobian(sunrealtype theta, N_Vector y, N_Vector dy, SUNMatrix jac, void *self, N_Vector t1, N_Vector t2,
+                    N_Vector t3)
 {
   (void)theta, (void)y, (void)dy, (void)t1, (void)t2, (void)t3;
   const exact *in = self;
@@ -91,7 +95,8 @@ static int roots(sunrealtype theta, N_Vector y, sunrealtype *g, void *self)
   return 0;
 }
 
-/* What fails here is memory, whatever the flag: CVodeSetLinearSolver's CVLS_MEM_FAIL is the number of CV_CONV_FAILURE. */
+/* What fails here is memory, whatever the flag: CVodeSetLinearSolver's CVLS_MEM_FAIL is the number of
+ * CV_CONV_FAILURE. */
 static hc_status make_cvode(exact *in)
 {
   int falls[ROOTS] = {[ROOT_UP] = -1, [ROOT_DOWN] = -1}; /* 0: either way */
@@ -106,7 +111,8 @@ static hc_status make_cvode(exact *in)
       CVodeSetLinearSolver(in->base.cv, in->base.ls, in->base.jac),
       CVodeSetJacFn(in->base.cv, jacobian),
       CVodeSetRootDirection(in->base.cv, falls),
-      CVodeSetEtaFixedStepBounds(in->base.cv, 0.9, 1.2), /* from 0, 1.5: a third fewer steps, and a tenth of the error (c2 at omega 9) */
+      CVodeSetEtaFixedStepBounds(in->base.cv, 0.9, 1.2), /* from 0, 1.5: a third fewer steps, and a tenth of the
+                                                            error (c2 at omega 9) */
       CVodeSetNoInactiveRootWarn(in->base.cv),
       CVodeSetMaxNumSteps(in->base.cv, MAX_STEPS),
       CVodeSetMaxHnilWarns(in->base.cv, -1),
@@ -120,8 +126,8 @@ static void release(integrator *base)
   free(base);
 }
 
-/* Variations from in->varied to theta: dX'' + c dX' + k dX = sum_j share_j dW_j, a column at a time. The response to a constant force 1 from
- * rest is (1 - e00)/k in X and e01 in P. */
+/* Variations from in->varied to theta: dX'' + c dX' + k dX = sum_j share_j dW_j, a column at a time. The response to
+ * a constant force 1 from rest is (1 - e00)/k in X and e01 in P. */
 static void vary_to(exact *in, double theta)
 {
   const phase *ph = &in->phase;
@@ -205,15 +211,16 @@ static hc_status transition(exact *in, double theta, int *count)
   return st == HC_OK ? start(in, theta) : st;
 }
 
-/* To the end of the period. Unwatched, CVODE returns at roots only; the steps are the same. At tout == tstop 6.4 says CV_SUCCESS, 7 says
- * CV_TSTOP_RETURN. */
+/* To the end of the period. Unwatched, CVODE returns at roots only; the steps are the same. At tout == tstop 6.4
+ * says CV_SUCCESS, 7 says CV_TSTOP_RETURN. */
 static hc_status run(exact *in, integrate_watch *watch, void *self, int *count)
 {
   sunrealtype theta = 0;
   for (int still = 0; theta < two_pi;) {
     sunrealtype before = theta;
     int flag = CVode(in->base.cv, two_pi, in->base.y, &theta, watch ? CV_ONE_STEP : CV_NORMAL);
-    if (flag != CV_SUCCESS && flag != CV_TSTOP_RETURN && flag != CV_ROOT_RETURN) return integrate_translate(&in->base, flag);
+    if (flag != CV_SUCCESS && flag != CV_TSTOP_RETURN && flag != CV_ROOT_RETURN)
+      return integrate_translate(&in->base, flag);
     if (two_pi - theta <= at_end * two_pi) theta = two_pi;
     still = theta > before ? 0 : still + 1;
     if (still > MAX_TRANSITIONS) break;

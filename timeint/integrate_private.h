@@ -12,7 +12,8 @@
 #include "timeint/integrate.h"
 
 typedef struct integrator_class {
-  hc_status (*period)(integrator *, const model *, double *y, double *slope, integrate_watch *, void *self); /* slope, watch: or NULL */
+  /* slope, watch: or NULL */
+  hc_status (*period)(integrator *, const model *, double *y, double *slope, integrate_watch *, void *self);
   hc_status (*dense)(const integrator *, double theta, int order, double *y);
   bool (*slides)(const integrator *, int j, const double *y);
   void (*free)(integrator *);
@@ -28,17 +29,19 @@ struct integrator { /* the first member of each kind */
   SUNMatrix jac;             /* [n][n] */
   SUNLinearSolver ls;
   void *cv;
-  bool ready;                /* CVODE has been called: it allocates the first time, and crashes if it cannot (room.h) */
+  bool ready; /* CVODE has been called: it allocates the first time, and crashes if it cannot (room.h) */
 };
 
-/* From the context to CVODE's memory, for n equations by `method` (CV_ADAMS, CV_BDF), and back; freeing works half-built. */
+/* From the context to CVODE's memory, for n equations by `method` (CV_ADAMS, CV_BDF), and back; freeing works
+ * half-built. */
 hc_status integrate_make_parts(integrator *in, int n, int method);
 void integrate_free_parts(integrator *in);
 
 /* A flag of CVODE's in our words; remembered unless it is success. */
 hc_status integrate_translate(integrator *in, int flag);
 
-/* CVODE's success is believed where it came to: HC_OK if theta is the end of the period and y[n] finite, else HC_INTEGRATOR, HC_NOT_FINITE. */
+/* CVODE's success is believed where it came to: HC_OK if theta is the end of the period and y[n] finite, else
+ * HC_INTEGRATOR, HC_NOT_FINITE. */
 hc_status integrate_check_end(integrator *in, double theta, int n);
 
 /* Steps and right-hand sides since CVODE was last started, added to the counts. */

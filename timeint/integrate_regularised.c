@@ -1,6 +1,7 @@
-/* integrate_regularised.c - see integrate.h. BDF with the analytic dense Jacobian of model.c: the sliding slider is stiff (its rate is
- * 1/regularisation). Everything is made in integrate_new; a period allocates nothing. Slopes are CVODES' forward sensitivities to y(0),
- * switched off in periods without; a period with them takes other steps of the same tolerance: y is as good, but not the same bits. */
+/* integrate_regularised.c - see integrate.h. BDF with the analytic dense Jacobian of model.c: the sliding slider is
+ * stiff (its rate is 1/regularisation). Everything is made in integrate_new; a period allocates nothing. Slopes are
+ * CVODES' forward sensitivities to y(0), switched off in periods without; a period with them takes other steps of
+ * the same tolerance: y is as good, but not the same bits. */
 #include "timeint/integrate_private.h"
 
 #include <stdlib.h>
@@ -25,10 +26,10 @@ enum {
 
 typedef struct regularised { /* from integrate_new_regularised, to integrate_free; not shared between threads */
   integrator base;
-  int n;            /* number of states                                                  */
-  const model *m;   /* of the period under way; the caller's                             */
-  N_Vector *s;      /* [n][n] d y / d y_j(0), j = 0..n-1: CVODES calls them sensitivities */
-  double *here;     /* [n][n] the Jacobian where their right-hand side is wanted         */
+  int n;          /* number of states                                                  */
+  const model *m; /* of the period under way; the caller's                             */
+  N_Vector *s;    /* [n][n] d y / d y_j(0), j = 0..n-1: CVODES calls them sensitivities */
+  double *here;   /* [n][n] the Jacobian where their right-hand side is wanted         */
 } regularised;
 
 static int rhs(sunrealtype theta, N_Vector y, N_Vector dy, void *self)
@@ -39,7 +40,8 @@ static int rhs(sunrealtype theta, N_Vector y, N_Vector dy, void *self)
   return -1;
 }
 
-static int jacobian(sunrealtype theta, N_Vector y, N_Vector dy, SUNMatrix jac, void *self, N_Vector t1, N_Vector t2, N_Vector t3)
+static int jacobian(sunrealtype theta, N_Vector y, N_Vector dy, SUNMatrix jac, void *self, N_Vector t1, N_Vector t2,
+                    N_Vector t3)
 {
   (void)theta, (void)dy, (void)t1, (void)t2, (void)t3;
   regularised *in = self;
@@ -48,7 +50,8 @@ static int jacobian(sunrealtype theta, N_Vector y, N_Vector dy, SUNMatrix jac, v
 }
 
 /* The variational equations s_j' = J s_j. */
-static int slope_rhs(int n, sunrealtype theta, N_Vector y, N_Vector dy, N_Vector *s, N_Vector *ds, void *self, N_Vector t1, N_Vector t2)
+static int slope_rhs(int n, sunrealtype theta, N_Vector y, N_Vector dy, N_Vector *s, N_Vector *ds, void *self,
+                     N_Vector t1, N_Vector t2)
 {
   (void)theta, (void)dy, (void)t1, (void)t2;
   regularised *in = self;
@@ -85,9 +88,9 @@ static hc_status make_cvode(regularised *in, double tolerance)
   return integrate_first_flag(flags, sizeof flags / sizeof *flags) == CV_SUCCESS ? HC_OK : HC_NO_MEMORY;
 }
 
-/* Their errors are watched, too, if loosely: without that a step may leap over a corner that hardly moves y and put a slope off by
- * 4e-3 (measured; with it 3e-5 at worst), which costs Newton a step and hides a fold. Staggered: y is solved for first, then all
- * slopes; solving for both at once was measured as dear, and no better. */
+/* Their errors are watched, too, if loosely: without that a step may leap over a corner that hardly moves y and put
+ * a slope off by 4e-3 (measured; with it 3e-5 at worst), which costs Newton a step and hides a fold. Staggered: y is
+ * solved for first, then all slopes; solving for both at once was measured as dear, and no better. */
 static hc_status make_slopes(regularised *in)
 {
   double absolute[MODEL_MAX_STATES];
@@ -158,7 +161,8 @@ static hc_status run_watched(regularised *in, integrate_watch *watch, void *self
     int flag = CVode(in->base.cv, two_pi, in->base.y, &theta, CV_ONE_STEP);
     if (flag != CV_SUCCESS && flag != CV_TSTOP_RETURN) return integrate_translate(&in->base, flag);
     bool last = flag == CV_TSTOP_RETURN || !(theta < two_pi);
-    hc_status st = last || !(theta > before) ? integrate_check_end(&in->base, theta, in->n) : HC_OK; /* no step that stands still */
+    /* no step that stands still */
+    hc_status st = last || !(theta > before) ? integrate_check_end(&in->base, theta, in->n) : HC_OK;
     if (st == HC_OK) st = watch(self, &in->base, before, theta);
     if (st != HC_OK || last) return st;
   }
@@ -197,7 +201,10 @@ static hc_status dense(const integrator *base, double theta, int order, double *
   return HC_OK;
 }
 
-static bool slides(const integrator *base, int j, const double *y) { return model_slides(((const regularised *)base)->m, j, y); }
+static bool slides(const integrator *base, int j, const double *y)
+{
+  return model_slides(((const regularised *)base)->m, j, y);
+}
 
 static const integrator_class class = {.period = period, .dense = dense, .slides = slides, .free = release};
 

@@ -1,8 +1,8 @@
 /* internal.h - the handle of timeint.h, for the files of this folder alone.
  *
- * timeint.c makes it and carries states across; steady.c decides how the steady state is found: linear_forever.c (nothing to
- * integrate), shoot.c (Newton on the period map), attract.c (where a motion goes that left its orbit), march.c (waiting); sweep.c
- * follows a branch. */
+ * timeint.c makes it and carries states across; steady.c decides how the steady state is found: linear_forever.c
+ * (nothing to integrate), shoot.c (Newton on the period map), attract.c (where a motion goes that left its orbit),
+ * march.c (waiting); sweep.c follows a branch. */
 #ifndef HC_TIMEINT_INTERNAL_H
 #define HC_TIMEINT_INTERNAL_H
 
@@ -33,7 +33,8 @@ struct timeint { /* from timeint_new, to timeint_free; not shared between thread
 /* timeint_steady by waiting: march.c. */
 hc_status timeint_march(timeint *ti, const hc_monitor *monitor, timeint_result *r);
 
-/* timeint_steady for `auto`: steady.c for the way to an orbit, attract.c for what becomes of a motion that is next to none. */
+/* timeint_steady for `auto`: steady.c for the way to an orbit, attract.c for what becomes of a motion that is next
+ * to none. */
 hc_status timeint_attract(timeint *ti, int first, const hc_monitor *monitor, timeint_result *r);
 
 /* What a Newton solve answers when there is nothing wrong but that it found no orbit. */
@@ -45,11 +46,12 @@ hc_status timeint_extrapolate(timeint *ti, const hc_monitor *monitor, timeint_re
 /* The k periods from ti->y on, which is on an orbit found by `method`, measured into *r. */
 hc_status timeint_report(timeint *ti, int k, timeint_method method, const shoot_report *found, timeint_result *r);
 
-/* Length [L] within which an orbit is found: transient.tolerance of the motion's size, or what the integration's own errors allow. */
+/* Length [L] within which an orbit is found: transient.tolerance of the motion's size, or what the integration's own
+ * errors allow. */
 double timeint_goal(const timeint *ti);
 
-/* Equations, unit of length and a-priori contraction for omega; y from *state. HC_BAD_INPUT unless omega and *state are finite, omega
- * > 0. */
+/* Equations, unit of length and a-priori contraction for omega; y from *state. HC_BAD_INPUT unless omega and *state
+ * are finite, omega > 0. */
 hc_status timeint_begin(timeint *ti, double omega, const timeint_state *state);
 
 hc_status timeint_set_tolerance(timeint *ti, double tolerance);
@@ -63,8 +65,8 @@ timeint_state timeint_now(const timeint *ti);
 /* [length] hypot(x, v/omega) now: the amplitude, if the motion were harmonic and centred. */
 double timeint_size(const timeint *ti);
 
-/* What settling is judged by, [2 + n_contacts] [length]: x, v/omega, and by how much x would follow each slider, kt cos(alpha)
- * w/(largest stiffness). */
+/* What settling is judged by, [2 + n_contacts] [length]: x, v/omega, and by how much x would follow each slider, kt
+ * cos(alpha) w/(largest stiffness). */
 void timeint_point(const timeint *ti, double *z);
 
 /* CVODE's tolerance for a steady state within the scene's transient.tolerance. */

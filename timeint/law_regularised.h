@@ -2,17 +2,18 @@
  *
  *     N  = kn width softplus((v + gap)/width)          softplus(z) = log(1 + exp(z))
  *     S  = kt (u - w)                                  force of the tangential spring
- *     w' = sign(S) max(|S| - mu N, 0) / eta            viscoplastic slider: a Coulomb slider with a dashpot eta beside it
- *     T  = S, limited to +-mu N                        what reaches the mass; `overstress`: T = S, the dashpot's force eta w' included
+ *     w' = sign(S) max(|S| - mu N, 0) / eta            viscoplastic slider: a Coulomb slider with a dashpot eta
+ *                                                      beside it
+ *     T  = S, limited to +-mu N                        what reaches the mass; `overstress`: T = S, the dashpot's
+ *                                                      force eta w' included
  *
- * width -> 0, eta -> 0 give the exact law. |S| <= mu N sticks exactly, w does not move.
- * Normal: second order in width (a bump as wide as width, as high as kn width).
- * Tangential, overstress: first order in eta, everywhere the slider moves; a separated contact drags like a dashpot eta.
- * Tangential, limited: T is exact in slip and separation. w trails by eta w'/kt, which is 0 again where a slip ends (second order),
- * but not where
- * a contact closes and sticks (first order, of eta u'/kt at that instant). Measured figures: README.md.
- * Written in the tangential motion u and the normal motion v [length]; how they come from the degrees of freedom is the
- * caller's business. Any consistent units. Needs libm only, allocates nothing, keeps no state, cannot fail. */
+ * width -> 0, eta -> 0 give the exact law. |S| <= mu N sticks exactly, w does not move. Normal: second order in
+ * width (a bump as wide as width, as high as kn width). Tangential, overstress: first order in eta, everywhere the
+ * slider moves; a separated contact drags like a dashpot eta. Tangential, limited: T is exact in slip and
+ * separation. w trails by eta w'/kt, which is 0 again where a slip ends (second order), but not where a contact
+ * closes and sticks (first order, of eta u'/kt at that instant). Measured figures: README.md. Written in the
+ * tangential motion u and the normal motion v [length]; how they come from the degrees of freedom is the caller's
+ * business. Any consistent units. Needs libm only, allocates nothing, keeps no state, cannot fail. */
 #ifndef HC_LAW_REGULARISED_H
 #define HC_LAW_REGULARISED_H
 
@@ -25,19 +26,21 @@ typedef struct law_regularised {
   double width;           /* [length] >= 0 of the corner in N; 0 is the exact corner */
   double eta;             /* [force time/length] > 0 where `slides` */
   bool overstress;        /* the dashpot's force reaches the mass; law_regularised_make says no */
-  bool slides;            /* kt, kn and mu all > 0; otherwise the exact law has T = 0, which is what is returned, w' = 0 */
+  bool slides; /* kt, kn and mu all > 0; otherwise the exact law has T = 0, which is what is returned, w' = 0 */
 } law_regularised;
 
 typedef struct law_value {
   double n, change, t, rate;
 } law_value; /* N, N - N0 and T [force], w' [length/time] */
 
-/* Partial derivatives dN/dv, dT/du, ...; N depends on v alone, and w enters as u - w: dT/dw = -dT/du, dw'/dw = -dw'/du. */
+/* Partial derivatives dN/dv, dT/du, ...; N depends on v alone, and w enters as u - w: dT/dw = -dT/du, dw'/dw =
+ * -dw'/du. */
 typedef struct law_slope {
   double n_v, t_u, t_v, rate_u, rate_v;
 } law_slope;
 
-/* The law of `c`, its slider relaxing at the rate kt/eta = 1/relaxation [1/time] once it slides. width >= 0, relaxation > 0. */
+/* The law of `c`, its slider relaxing at the rate kt/eta = 1/relaxation [1/time] once it slides. width >= 0,
+ * relaxation > 0. */
 law_regularised law_regularised_make(const contact *c, double width, double relaxation);
 
 law_value law_regularised_eval(const law_regularised *c, double u, double v, double w);

@@ -8,10 +8,12 @@
 #include "timeint/internal.h"
 
 static const double two_pi = 6.283185307179586477;
-static const double margin = 1e-9; /* of what a guard is made of: far above the errors of an integration started at the same state */
-static const double corner = 40;   /* [width] beyond which softplus is exact to rounding: SOFT_END of law_regularised.c */
+static const double margin = 1e-9; /* of what a guard is made of: far above the errors of an integration started at
+                                      the same state */
+static const double corner = 40; /* [width] beyond which softplus is exact to rounding: SOFT_END of law_regularised.c */
 
-typedef struct linear { /* the oscillator that ti->y belongs to as long as nothing happens; lengths in units of ti->length */
+typedef struct linear {  /* the oscillator that ti->y belongs to as long as nothing happens; lengths in units of
+                           ti->length */
   double k, center;      /* center: d/k                                */
   double complex steady; /* Z                                          */
   double free;           /* bound of |X - center - Re(Z e^{i theta})|  */
@@ -48,7 +50,8 @@ static bool stays(double a, double b, double center, double reach)
   return a + b * center - fabs(b) * reach > margin * size && isfinite(size);
 }
 
-/* Guards of separation, v + gap < 0, and of stick, v + gap > 0 and mu N -+ kt (u - w) > 0: contact_law.h, the first clear of the corner. */
+/* Guards of separation, v + gap < 0, and of stick, v + gap > 0 and mu N -+ kt (u - w) > 0: contact_law.h, the first
+ * clear of the corner. */
 static bool contact_stays(const model_contact *c, double x, double w, double center, double reach)
 {
   const law_regularised *law = &c->law;

@@ -1,18 +1,16 @@
 /* march.c - the steady state by waiting for it.
  *
- * A period is marched after another: the first in the finest steps of CVODE (timeint_final_tolerance), to see how much the state
- * moves; the next ones in
- * steps as coarse as that allows, and in finer ones as it moves less. Only in the finest is the orbit judged (settle.h), and its
- * period or k periods measured. */
+ * A period is marched after another: the first in the finest steps of CVODE (timeint_final_tolerance), to see how
+ * much the state moves; the next ones in steps as coarse as that allows, and in finer ones as it moves less. Only in
+ * the finest is the orbit judged (settle.h), and its period or k periods measured. */
 #include <math.h>
 #include <string.h>
 
 #include "timeint/internal.h"
 
-/* Coarse steps are 3 to 5 times as cheap, and lose nothing while the state is farther off than they put it: by up to 250 times the
- * tolerance a period, which
- * adds up over 1/(1 - rho) periods to at least 1/sqrt(1 - rho) times that. Hence drift sqrt(1 - rho)/1000. (A start on the orbit must
- * not be thrown off it.) */
+/* Coarse steps are 3 to 5 times as cheap, and lose nothing while the state is farther off than they put it: by up to
+ * 250 times the tolerance a period, which adds up over 1/(1 - rho) periods to at least 1/sqrt(1 - rho) times that.
+ * Hence drift sqrt(1 - rho)/1000. (A start on the orbit must not be thrown off it.) */
 static const double coarsest = 1e-8, drift_over_tolerance = 1e3, refine_by = 0.1;
 enum { STAY = 20 }; /* baselines at one tolerance at most, lest a scatter larger than thought keep it */
 

@@ -50,9 +50,10 @@ void measure_period(measure *me, const double *y)
   take_instant(me, y[MODEL_X]);
 }
 
-/* A root of P's derivative of the given order (0: of P itself) between t0 and t1, where it has the values f0 and f1 of opposite sign:
- * regula falsi with the Illinois weight. y: the state there. */
-static hc_status find_root(const integrator *in, int order, double t0, double f0, double t1, double f1, double *y, double *root)
+/* A root of P's derivative of the given order (0: of P itself) between t0 and t1, where it has the values f0 and f1
+ * of opposite sign: regula falsi with the Illinois weight. y: the state there. */
+static hc_status find_root(const integrator *in, int order, double t0, double f0, double t1, double f1, double *y,
+                           double *root)
 {
   const double close = 4 * DBL_EPSILON * t1;
   for (int i = 0; i < 60 && fabs(t1 - t0) > close; ++i) {

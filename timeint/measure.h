@@ -1,9 +1,9 @@
 /* measure.h - what is reported of one or several successive periods, from CVODE's dense output.
  *
- * Peaks: roots of v, bracketed inside each step (a pair of them by an extremum of v of the other sign), refined to rounding;
- * x there errs by second order in the root. The wave: x at TIMEINT_WAVE equispaced instants. Mean, rms and first harmonic are sums over
- * these; x has a continuous second derivative, its harmonics fall like h^-4, so what folds over from 512 and up is below 512^-4 =
- * 1.5e-11 of x. */
+ * Peaks: roots of v, bracketed inside each step (a pair of them by an extremum of v of the other sign), refined to
+ * rounding; x there errs by second order in the root. The wave: x at TIMEINT_WAVE equispaced instants. Mean, rms and
+ * first harmonic are sums over these; x has a continuous second derivative, its harmonics fall like h^-4, so what
+ * folds over from 512 and up is below 512^-4 = 1.5e-11 of x. */
 #ifndef HC_TIMEINT_MEASURE_H
 #define HC_TIMEINT_MEASURE_H
 

@@ -4,8 +4,8 @@
 #include <math.h>
 #include <string.h>
 
-/* Width of the corner in N for one contact: a fraction of the larger of its gap and the motion under a static force. Where
- * a contact opens or closes the motion is at least as large as the gap; a gap of 0 leaves the static motion. */
+/* Width of the corner in N for one contact: a fraction of the larger of its gap and the motion under a static force.
+ * Where a contact opens or closes the motion is at least as large as the gap; a gap of 0 leaves the static motion. */
 static double corner_width(const scene *sc, const contact *law)
 {
   if (sc->transient.law == TRANSIENT_LAW_EXACT) return 0;
@@ -16,7 +16,8 @@ static double corner_width(const scene *sc, const contact *law)
 static void make_contact(model_contact *mc, const scene *sc, const scene_contact *from, double omega, double length)
 {
   const double unit = sc->mass * omega * omega; /* [force/length] */
-  contact law = {.kt = from->law.kt / unit, .kn = from->law.kn / unit, .mu = from->law.mu, .gap = from->law.gap / length};
+  contact law = {
+      .kt = from->law.kt / unit, .kn = from->law.kn / unit, .mu = from->law.mu, .gap = from->law.gap / length};
   scene_projection(from, &mc->cosine, &mc->sine);
   if (mc->cosine == 0) law.kt = 0; /* u = 0 always: the tangential spring does no work */
   mc->law = law_regularised_make(&law, corner_width(sc, &from->law) / length, sc->transient.regularisation);

@@ -6,11 +6,11 @@
  *     W_j' = the slider of law_regularised.h, eta = regularisation kt/omega
  *     k = K/(M omega^2), c = C/(M omega), f = F0/(M omega^2 L); kt, kn divided by M omega^2, gap by L
  *
- * Forces are in units of M omega^2 L. N0 = max(kn gap, 0) is the exact preload, not softplus' of it: at gap = 0 the two
- * differ to first order in the width, and a constant force would show in the answer to first order too.
+ * Forces are in units of M omega^2 L. N0 = max(kn gap, 0) is the exact preload, not softplus' of it: at gap = 0 the
+ * two differ to first order in the width, and a constant force would show in the answer to first order too.
  *
- * For the exact law the corner's width is 0, and X', P' of model_rhs are then exact for any state whose slider obeys |T| <= mu N; the
- * sliders' own motion is integrate_exact.c's. */
+ * For the exact law the corner's width is 0, and X', P' of model_rhs are then exact for any state whose slider obeys
+ * |T| <= mu N; the sliders' own motion is integrate_exact.c's. */
 #ifndef HC_TIMEINT_MODEL_H
 #define HC_TIMEINT_MODEL_H
 

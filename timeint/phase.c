@@ -59,8 +59,8 @@ static void stick(phase_contact *pc, double held, double held_by_x)
   pc->held_by_x = held_by_x;
 }
 
-/* From slip(sign) at x. The guard s kt u' - mu kn v' vanishes there, and it is kt times the rate of u - s mu N/kt: that the instant
- * moves with the state changes nothing, dw = du - s mu dN/kt. */
+/* From slip(sign) at x. The guard s kt u' - mu kn v' vanishes there, and it is kt times the rate of u - s mu N/kt:
+ * that the instant moves with the state changes nothing, dw = du - s mu dN/kt. */
 static void stick_from_slip(phase_contact *pc, const model_contact *mc, int sign, double x)
 {
   double rest, by_x;
@@ -68,9 +68,9 @@ static void stick_from_slip(phase_contact *pc, const model_contact *mc, int sign
   stick(pc, rest + by_x * x, by_x);
 }
 
-/* Where v + gap rises through 0, at the instant t*: w = u(t*), so dw = du + u' dt* with dt* = -dv/v'. u and v being proportional to X that
- * is cos dX - cos P (sin dX)/(sin P) = 0: the slider comes to rest at the same place always. The velocities enter contact_on_touch
- * as ratios only. */
+/* Where v + gap rises through 0, at the instant t*: w = u(t*), so dw = du + u' dt* with dt* = -dv/v'. u and v being
+ * proportional to X that is cos dX - cos P (sin dX)/(sin P) = 0: the slider comes to rest at the same place always.
+ * The velocities enter contact_on_touch as ratios only. */
 static void touch(phase_contact *pc, const model_contact *mc)
 {
   const contact law = law_of(mc);
@@ -129,8 +129,8 @@ static bool cross(phase *ph, int j, double x)
   return false;
 }
 
-/* Every contact in the state it has just after x. Ends: moving one way, a contact passes at most stick, slip, separated in this order,
- * or separated, stick, slip. */
+/* Every contact in the state it has just after x. Ends: moving one way, a contact passes at most stick, slip,
+ * separated in this order, or separated, stick, slip. */
 static int cross_all(phase *ph, double x)
 {
   int n = 0;
@@ -153,7 +153,8 @@ static void add_contact(phase *ph, int j)
   }
   const double friction = contact_slip_sign(pc->state) * law->mu * mc->cosine, n0 = law->kn * law->gap;
   ph->k += (mc->sine + friction) * law->kn * mc->sine;
-  ph->d += friction * n0 + (law->gap > 0 ? 0 : mc->sine * n0); /* the preload is balanced: left out, not added and taken away */
+  ph->d += friction * n0 + (law->gap > 0 ? 0 : mc->sine * n0); /* the preload is balanced: left out, not added and
+                                                                  taken away */
   const double share = phase_share(ph, j);
   ph->k += share * mc->cosine;
   ph->d -= share * pc->held;

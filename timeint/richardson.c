@@ -1,10 +1,11 @@
 /* richardson.c - measures at no regularisation from those at rho, rho/2, rho/4.
  *
- *     q(rho) = q0 + a rho + b rho^2 + ...       A = 2 q(rho/2) - q(rho),  B = 2 q(rho/4) - q(rho/2),  q0 ~ (4 B - A)/3
+ *     q(rho) = q0 + a rho + b rho^2 + ...       A = 2 q(rho/2) - q(rho),  B = 2 q(rho/4) - q(rho/2),  q0 ~ (4 B -
+ *                                               A)/3
  *
- * Both orders are eliminated, since which of the two leads depends on whether contact returns in stick (a) or in slip (a = 0, b);
- * README.md has the figures. What the second step changed, |q0 - B|, estimates what is left of q(rho): generously, as it is the error of
- * the first step. */
+ * Both orders are eliminated, since which of the two leads depends on whether contact returns in stick (a) or in
+ * slip (a = 0, b); README.md has the figures. What the second step changed, |q0 - B|, estimates what is left of
+ * q(rho): generously, as it is the error of the first step. */
 #include <math.h>
 
 #include "timeint/internal.h"
@@ -26,7 +27,8 @@ static hc_status solve_at(timeint *ti, double regularisation, int k, const hc_mo
   ti->sc.transient.regularisation = regularisation;
   model_make(&ti->model, &ti->sc, ti->omega, ti->length);
   hc_status st = shoot_newton(ti->shoot, k, size, timeint_goal(ti), monitor, &found);
-  if (st == HC_OK && !(found.moved <= same_orbit * size)) st = HC_NOT_CONVERGED; /* another orbit: nothing to extrapolate from */
+  /* another orbit: nothing to extrapolate from */
+  if (st == HC_OK && !(found.moved <= same_orbit * size)) st = HC_NOT_CONVERGED;
   return st == HC_OK ? timeint_report(ti, k, TIMEINT_BY_SHOOTING, &found, r) : st;
 }
 
@@ -57,7 +59,8 @@ hc_status timeint_extrapolate(timeint *ti, const hc_monitor *monitor, timeint_re
   }
   timeint_result at[LEVELS - 1];
   hc_status st = timeint_set_tolerance(ti, timeint_final_tolerance(ti));
-  for (int i = 0; i < LEVELS - 1 && st == HC_OK; ++i) st = solve_at(ti, rho / (2 << i), r->period_multiple, monitor, &at[i]);
+  for (int i = 0; i < LEVELS - 1 && st == HC_OK; ++i)
+    st = solve_at(ti, rho / (2 << i), r->period_multiple, monitor, &at[i]);
   if (st == HC_OK) combine(r, &at[0], &at[1]);
   ti->sc.transient.regularisation = rho;
   model_make(&ti->model, &ti->sc, ti->omega, ti->length);

@@ -8,7 +8,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MIN_BASELINE = SETTLE_MAX_MULTIPLE, MAX_BASELINE = 512, CAPACITY = 2 * MAX_BASELINE + 2 * SETTLE_MAX_MULTIPLE, RECENT = 16 };
+enum {
+  MIN_BASELINE = SETTLE_MAX_MULTIPLE,
+  MAX_BASELINE = 512,
+  CAPACITY = 2 * MAX_BASELINE + 2 * SETTLE_MAX_MULTIPLE,
+  RECENT = 16
+};
 
 static const double contraction_cap = 0.9995;
 
@@ -53,7 +58,10 @@ void settle_start(settle *s, double contraction)
 
 void settle_restart(settle *s) { s->first = s->n > 0 ? s->n - 1 : 0; }
 
-void settle_push(settle *s, const double *z) { memcpy(s->ring + (s->n++ % CAPACITY) * s->d, z, sizeof *z * (size_t)s->d); }
+void settle_push(settle *s, const double *z)
+{
+  memcpy(s->ring + (s->n++ % CAPACITY) * s->d, z, sizeof *z * (size_t)s->d);
+}
 
 int settle_baseline(const settle *s) { return s->baseline; }
 
@@ -87,7 +95,10 @@ double settle_drift(const settle *s)
 }
 
 /* Per step, from the largest drifts over k steps of the last b and of the b before. */
-static double rate(const settle *s, int b, int k) { return pow(moved_most(s, 0, b, k) / moved_most(s, b, b, k), 1.0 / b); }
+static double rate(const settle *s, int b, int k)
+{
+  return pow(moved_most(s, 0, b, k) / moved_most(s, b, b, k), 1.0 / b);
+}
 
 double settle_rate(const settle *s) { return s->n > 2 * s->baseline ? rate(s, s->baseline, 1) : NAN; }
 
@@ -98,8 +109,8 @@ static bool directed(const settle *s, int b, int k)
   return moved(s, 0, folds * k) >= 0.4 * folds * moved_most(s, 0, b, k);
 }
 
-/* Contraction per step along one direction, over the longest baseline that has one: the nearer to 1, the longer it takes to tell. NaN:
- * none has. */
+/* Contraction per step along one direction, over the longest baseline that has one: the nearer to 1, the longer it
+ * takes to tell. NaN: none has. */
 static double measured_contraction(const settle *s, int k)
 {
   int b = s->baseline;
@@ -114,7 +125,8 @@ static double bound(const settle *s, int k, double rho)
   double least = INFINITY;
   if (!(rho < 1)) return least;
   int recent = s->baseline < RECENT ? s->baseline : RECENT;
-  for (int m = k; m <= s->baseline || m == k; m *= 2) least = fmin(least, moved_most(s, 0, recent, m) / -expm1(m * log(rho)));
+  for (int m = k; m <= s->baseline || m == k; m *= 2)
+    least = fmin(least, moved_most(s, 0, recent, m) / -expm1(m * log(rho)));
   return least;
 }
 
@@ -126,8 +138,8 @@ static settle_estimate estimate_cycle(const settle *s, int k)
   return e;
 }
 
-/* The shortest k-cycle, k > 1, that the points keep to within goal while they change 100 times as much from one to the next:
- * near a fixed point about to be reached, or near a k/2-cycle, all is small together. 0: none. */
+/* The shortest k-cycle, k > 1, that the points keep to within goal while they change 100 times as much from one to
+ * the next: near a fixed point about to be reached, or near a k/2-cycle, all is small together. 0: none. */
 static int find_cycle(const settle *s, double goal)
 {
   for (int k = 1; k <= SETTLE_MAX_MULTIPLE; ++k) {
@@ -145,7 +157,8 @@ settle_estimate settle_judge(const settle *s, double goal)
   if (s->n - s->first < 2 * s->baseline + 1 + SETTLE_MAX_MULTIPLE) return e;
   int k = find_cycle(s, goal);
   e = estimate_cycle(s, k > 1 ? k : 1);
-  if (k == 0) e.distance = fmax(e.distance, moved_most(s, 0, s->baseline, 1) / 2); /* |z_n - z_{n-1}| <= |e_n| + |e_{n-1}| */
+  /* |z_n - z_{n-1}| <= |e_n| + |e_{n-1}| */
+  if (k == 0) e.distance = fmax(e.distance, moved_most(s, 0, s->baseline, 1) / 2);
   else if (e.distance <= goal) e.multiple = k;
   return e;
 }

@@ -14,16 +14,22 @@
 #include "numerics/sundials_compat.h"
 #include "timeint/internal.h"
 
-enum { MAX_N = MODEL_MAX_STATES, NEWTON_ITERATIONS = 12, ANDERSON_ITERATIONS = 100, ANDERSON_DEPTH = 4, LAST_STEPS = 4 };
+enum {
+  MAX_N = MODEL_MAX_STATES,
+  NEWTON_ITERATIONS = 12,
+  ANDERSON_ITERATIONS = 100,
+  ANDERSON_DEPTH = 4,
+  LAST_STEPS = 4
+};
 
 struct shoot { /* from shoot_new, to shoot_free */
   timeint *ti;
   int n, k;
   const hc_monitor *monitor;
-  double z[MAX_N], f[MAX_N];          /* the last point, and F^k of it */
-  double phi[MAX_N * MAX_N];          /* [n][n] column by column, dF^k/dz there */
-  double start[MAX_N], first[MAX_N];  /* where the solve began, and F^k of that */
-  bool known, begun;                  /* z, f, phi hold; start, first hold */
+  double z[MAX_N], f[MAX_N];         /* the last point, and F^k of it */
+  double phi[MAX_N * MAX_N];         /* [n][n] column by column, dF^k/dz there */
+  double start[MAX_N], first[MAX_N]; /* where the solve began, and F^k of that */
+  bool known, begun;                 /* z, f, phi hold; start, first hold */
   newton *newton;
   floquet *floquet;
   SUNContext ctx; /* of what follows */
@@ -185,16 +191,16 @@ static void begin(shoot *s, int k, const hc_monitor *monitor)
   s->known = s->begun = false;
 }
 
-/* What k periods scatter by: up to 250 times CVODE's tolerance with the regularised law (timeint.c), 400 seen next to a fold (r2 at 708.5),
- * and the rounding of some thousand steps. */
+/* What k periods scatter by: up to 250 times CVODE's tolerance with the regularised law (timeint.c), 400 seen next
+ * to a fold (r2 at 708.5), and the rounding of some thousand steps. */
 static double scatter(const shoot *s)
 {
   const double of_steps = s->ti->sc.transient.law == TRANSIENT_LAW_EXACT ? 50 : 1000;
   return s->k * fmax(of_steps * s->ti->tolerance, 2e4 * DBL_EPSILON);
 }
 
-/* A residual r is an error of about r/(1 - rho): a tenth of the goal times that, but no less than what periods scatter by. Newton's last
- * step goes below; what is left is judged by finish(). */
+/* A residual r is an error of about r/(1 - rho): a tenth of the goal times that, but no less than what periods
+ * scatter by. Newton's last step goes below; what is left is judged by finish(). */
 static double small_residual(const shoot *s, double goal)
 {
   return fmax(0.1 * goal * (1 - fmin(s->ti->contraction, 1)), scatter(s));
@@ -239,7 +245,8 @@ static hc_status next_step(shoot *s, const double *z, double *step, double *leng
   return st;
 }
 
-/* No orbit can be found to better than this: the scatter of periods, seen through (I - Phi)^-1 (Frobenius norm, factors of the last step). */
+/* No orbit can be found to better than this: the scatter of periods, seen through (I - Phi)^-1 (Frobenius norm,
+ * factors of the last step). */
 static double attainable(shoot *s)
 {
   double sum = 0, column[MAX_N];
@@ -251,7 +258,8 @@ static double attainable(shoot *s)
   return sqrt(sum) * scatter(s);
 }
 
-/* From z, next to the orbit, as near to it as the goal asks or the scatter of periods allows; then what there is to say of it. */
+/* From z, next to the orbit, as near to it as the goal asks or the scatter of periods allows; then what there is to
+ * say of it. */
 static hc_status finish(shoot *s, double *z, double goal, shoot_report *r)
 {
   double step[MAX_N], best[MAX_N] = {0};
@@ -280,8 +288,11 @@ hc_status shoot_newton(shoot *s, int k, double reach, double goal, const hc_moni
   memcpy(z, before, sizeof z);
   for (int i = 0; i < s->n; ++i) ones[i] = 1;
   begin(s, k, monitor);
-  const newton_options options = {
-      .z_scale = ones, .r_scale = ones, .tolerance = small_residual(s, goal), .max_step = reach, .max_iterations = NEWTON_ITERATIONS};
+  const newton_options options = {.z_scale = ones,
+                                  .r_scale = ones,
+                                  .tolerance = small_residual(s, goal),
+                                  .max_step = reach,
+                                  .max_iterations = NEWTON_ITERATIONS};
   *report = (shoot_report){.distance = INFINITY, .moved = INFINITY, .nonlinear = INFINITY, .multiplier = NAN};
   hc_status st = newton_solve(s->newton, z, &options, &iterations);
   if (st == HC_OK) st = finish(s, z, goal, report);

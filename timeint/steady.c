@@ -10,10 +10,11 @@
 #include "timeint/internal.h"
 #include "timeint/linear_forever.h"
 
-/* An HBM orbit may be off by some ten percent of the motion with one harmonic; farther away it is another orbit. [size] */
+/* An HBM orbit may be off by some ten percent of the motion with one harmonic; farther away it is another orbit.
+ * [size] */
 static const double reach_from_hbm = 0.3;
 static const double next_to = 0.5; /* [size] what shooting calls the orbit next to its start */
-static const double nudge = 1e-3; /* [size] off an unstable orbit, along its own direction */
+static const double nudge = 1e-3;  /* [size] off an unstable orbit, along its own direction */
 
 const char *timeint_method_name(timeint_method method)
 {
@@ -116,11 +117,13 @@ static hc_status shoot_here(timeint *ti, int k, const hc_monitor *monitor, timei
   hc_status st = timeint_set_tolerance(ti, timeint_final_tolerance(ti));
   const double size = fmax(timeint_size(ti), ti->least_length) / ti->length;
   if (st == HC_OK) st = next_orbit(ti, k, monitor, &method, &found);
-  if (st == HC_OK && !(found.moved <= next_to * size)) st = HC_NOT_CONVERGED; /* an orbit, but not the one next to the start */
+  /* an orbit, but not the one next to the start */
+  if (st == HC_OK && !(found.moved <= next_to * size)) st = HC_NOT_CONVERGED;
   return st == HC_OK ? timeint_report(ti, k, method, &found, r) : st;
 }
 
-/* Off the unstable orbit that was found next to where the motion began: back to there, and a nudge in the direction in which it leaves. */
+/* Off the unstable orbit that was found next to where the motion began: back to there, and a nudge in the direction
+ * in which it leaves. */
 static void leave(timeint *ti, const double *began)
 {
   double direction[MODEL_MAX_STATES], along = 0;
@@ -160,10 +163,12 @@ static hc_status automatic(timeint *ti, const hc_monitor *monitor, timeint_resul
   }
   hc_status st = timeint_set_tolerance(ti, timeint_final_tolerance(ti));
   if (st != HC_OK) return st;
-  return ti->sc.transient.start == TRANSIENT_START_HBM ? from_orbit(ti, monitor, r) : timeint_attract(ti, 8, monitor, r);
+  return ti->sc.transient.start == TRANSIENT_START_HBM ? from_orbit(ti, monitor, r)
+                                                       : timeint_attract(ti, 8, monitor, r);
 }
 
-hc_status timeint_steady(timeint *ti, double omega, timeint_state *state, const hc_monitor *monitor, timeint_result *result)
+hc_status timeint_steady(timeint *ti, double omega, timeint_state *state, const hc_monitor *monitor,
+                         timeint_result *result)
 {
   clear_result(result, omega);
   hc_status st = timeint_begin(ti, omega, state);
@@ -179,7 +184,8 @@ hc_status timeint_steady(timeint *ti, double omega, timeint_state *state, const 
   return st;
 }
 
-hc_status timeint_orbit(timeint *ti, double omega, int k, timeint_state *state, const hc_monitor *monitor, timeint_result *result)
+hc_status timeint_orbit(timeint *ti, double omega, int k, timeint_state *state, const hc_monitor *monitor,
+                        timeint_result *result)
 {
   clear_result(result, omega);
   if (k < 1 || k > SETTLE_MAX_MULTIPLE) return HC_BAD_INPUT;

@@ -1,14 +1,14 @@
 /* sweep.c - from one frequency to another as on a shaker, so that the state stays on the branch it is on.
  *
- * Frequency goes in relative steps of at most 1 %. At each the stable orbit next to the state is taken, by Newton on the period map or
- * from the closed form: a slow sweep is on it all the time. Where there is none, the branch has ended or become unstable, and
- * the state is marched until it has settled to a percent of its size, or for MAX_FOLDS e-folds. How far it has gone meanwhile is
- * how far its orbit has moved: the step grows while that is little and shrinks when it is much (where the curve is steep: near resonance,
- * towards a fold), to a tenth of the half width of a resonance at least.
- * All this with the exact law, whatever the scene's: a branch is the same for both to within the regularisation, a tenth of the cost decides,
- * and what is reported at the end of a sweep is solved with the scene's own.
- * A state that is not periodic moves of itself: it goes on, too, in small steps. Not here: knowing that a branch has ended. The state
- * falls off it by itself, as on the shaker. */
+ * Frequency goes in relative steps of at most 1 %. At each the stable orbit next to the state is taken, by Newton on
+ * the period map or from the closed form: a slow sweep is on it all the time. Where there is none, the branch has
+ * ended or become unstable, and the state is marched until it has settled to a percent of its size, or for MAX_FOLDS
+ * e-folds. How far it has gone meanwhile is how far its orbit has moved: the step grows while that is little and
+ * shrinks when it is much (where the curve is steep: near resonance, towards a fold), to a tenth of the half width
+ * of a resonance at least. All this with the exact law, whatever the scene's: a branch is the same for both to
+ * within the regularisation, a tenth of the cost decides, and what is reported at the end of a sweep is solved with
+ * the scene's own. A state that is not periodic moves of itself: it goes on, too, in small steps. Not here: knowing
+ * that a branch has ended. The state falls off it by itself, as on the shaker. */
 #include <complex.h>
 #include <math.h>
 #include <string.h>
@@ -17,10 +17,11 @@
 #include "timeint/linear_forever.h"
 
 static const double largest_step = 1e-2, first_step = 2e-3, smallest_step = 1e-4;
-static const double restless_step = 5e-4; /* among sub-harmonics and chaos: case 2 has period 8 over 1e-3 of omega, and jumps lose the way */
-static const double sweep_tolerance = 1e-8;                /* of CVODE: scatters by 1e-6 of the motion */
+static const double restless_step = 5e-4;   /* among sub-harmonics and chaos: case 2 has period 8 over 1e-3 of omega,
+                                             and jumps lose the way */
+static const double sweep_tolerance = 1e-8; /* of CVODE: scatters by 1e-6 of the motion */
 static const double settled_enough = 1e-2, followed_enough = 1e-5; /* of the motion, by marching and by Newton */
-static const double moved_little = 0.03, moved_much = 0.1; /* of the motion, from one frequency to the next */
+static const double moved_little = 0.03, moved_much = 0.1;         /* of the motion, from one frequency to the next */
 enum { MIN_PERIODS = 4, MAX_FOLDS = 5 };
 
 /* max |a - b| relative to the motion. */
@@ -31,10 +32,9 @@ static double apart(const timeint *ti, const double *a, const double *b)
   return most / fmax(timeint_size(ti), ti->least_length);
 }
 
-/* How far from rest the state is, from its last two moves: multipliers come as a complex pair, so (x, v/omega) turns by their angle
- * and shrinks; read
- * as complex numbers moves[0], moves[1] have the ratio lambda, and |moves[1]/(1 - lambda)| is left. An estimate (settle.h has the
- * bound). */
+/* How far from rest the state is, from its last two moves: multipliers come as a complex pair, so (x, v/omega) turns
+ * by their angle and shrinks; read as complex numbers moves[0], moves[1] have the ratio lambda, and |moves[1]/(1 -
+ * lambda)| is left. An estimate (settle.h has the bound). */
 static double left_to_go(const double complex moves[2], double move, double slow)
 {
   double turn = cabs(1 - moves[1] / moves[0]);
@@ -117,7 +117,8 @@ static double next_omega(const sweep *s, bool begun)
   return left <= 1.2 * s->step ? s->to : s->omega * exp(sign * s->step);
 }
 
-/* At omega, from the state where the sweep stands. *arrived says no if the step was too long for the orbit to be followed: it is shorter now. */
+/* At omega, from the state where the sweep stands. *arrived says no if the step was too long for the orbit to be
+ * followed: it is shorter now. */
 static hc_status arrive(sweep *s, double omega, timeint_state *state, bool *arrived)
 {
   const double span = fabs(log(s->to / s->from)), done = span > 0 ? fabs(log(omega / s->from)) / span : 1;
@@ -140,12 +141,18 @@ static hc_status arrive(sweep *s, double omega, timeint_state *state, bool *arri
   return st;
 }
 
-static hc_status sweep_with_this_law(timeint *ti, double omega_from, double omega_to, timeint_state *state, const hc_monitor *monitor)
+static hc_status sweep_with_this_law(timeint *ti, double omega_from, double omega_to, timeint_state *state,
+                                     const hc_monitor *monitor)
 {
   hc_status st = timeint_begin(ti, omega_from, state);
   if (st == HC_OK && !(omega_to > 0 && isfinite(omega_to))) st = HC_BAD_INPUT;
   if (st == HC_OK) st = timeint_set_tolerance(ti, fmax(sweep_tolerance, timeint_final_tolerance(ti)));
-  sweep s = {.ti = ti, .monitor = monitor, .from = omega_from, .to = omega_to, .omega = omega_from, .step = fmin(first_step, half_width(ti))};
+  sweep s = {.ti = ti,
+             .monitor = monitor,
+             .from = omega_from,
+             .to = omega_to,
+             .omega = omega_from,
+             .step = fmin(first_step, half_width(ti))};
   s.calm = linear_forever(ti);
   for (bool begun = false, arrived; st == HC_OK;) {
     st = arrive(&s, next_omega(&s, begun), state, &arrived);
@@ -166,7 +173,8 @@ static void swap_law(timeint *ti, int law)
   ti->sc.transient.law = law;
 }
 
-hc_status timeint_sweep(timeint *ti, double omega_from, double omega_to, timeint_state *state, const hc_monitor *monitor)
+hc_status timeint_sweep(timeint *ti, double omega_from, double omega_to, timeint_state *state,
+                        const hc_monitor *monitor)
 {
   const int law = ti->sc.transient.law;
   if (law == TRANSIENT_LAW_EXACT) return sweep_with_this_law(ti, omega_from, omega_to, state, monitor);

@@ -12,13 +12,15 @@ static bool not_negative(double a) { return a >= 0 && a <= DBL_MAX; }
 
 static bool contact_ok(const scene_contact *c)
 {
-  return not_negative(c->law.kt) && not_negative(c->law.kn) && not_negative(c->law.mu) && isfinite(c->law.gap) && isfinite(c->angle_deg);
+  return not_negative(c->law.kt) && not_negative(c->law.kn) && not_negative(c->law.mu) && isfinite(c->law.gap) &&
+         isfinite(c->angle_deg);
 }
 
 static hc_status check_scene(const scene *sc)
 {
   const scene_transient *t = &sc->transient;
-  if (!positive(sc->mass) || !not_negative(sc->damping) || !not_negative(sc->stiffness) || !isfinite(sc->force)) return HC_BAD_INPUT;
+  if (!positive(sc->mass) || !not_negative(sc->damping) || !not_negative(sc->stiffness) || !isfinite(sc->force))
+    return HC_BAD_INPUT;
   if (sc->n_contacts < 0 || sc->n_contacts > SCENE_MAX_CONTACTS) return HC_BAD_INPUT;
   for (int j = 0; j < sc->n_contacts; ++j)
     if (!contact_ok(&sc->contacts[j])) return HC_BAD_INPUT;
@@ -36,10 +38,12 @@ hc_status timeint_new(const scene *sc, timeint **out)
   ti->sc = *sc;
   ti->tolerance = timeint_final_tolerance(ti);
   const int n = MODEL_W + sc->n_contacts;
-  hc_status (*make)(int, double, integrator **) = sc->transient.law == TRANSIENT_LAW_EXACT ? integrate_new_exact : integrate_new_regularised;
+  hc_status (*make)(int, double, integrator **) =
+      sc->transient.law == TRANSIENT_LAW_EXACT ? integrate_new_exact : integrate_new_regularised;
   const bool other = sc->transient.law != TRANSIENT_LAW_EXACT;
-  if ((st = make(n, ti->tolerance, &ti->in)) == HC_OK && (st = other ? integrate_new_exact(n, ti->tolerance, &ti->sweeper) : HC_OK) == HC_OK && (st = settle_new(n, &ti->settle)) == HC_OK &&
-      (st = shoot_new(ti, &ti->shoot)) == HC_OK) {
+  if ((st = make(n, ti->tolerance, &ti->in)) == HC_OK &&
+      (st = other ? integrate_new_exact(n, ti->tolerance, &ti->sweeper) : HC_OK) == HC_OK &&
+      (st = settle_new(n, &ti->settle)) == HC_OK && (st = shoot_new(ti, &ti->shoot)) == HC_OK) {
     *out = ti;
     return HC_OK;
   }
@@ -155,11 +159,10 @@ void timeint_point(const timeint *ti, double *z)
   }
 }
 
-/* Measured: restarting CVODE each period, the states of a settled orbit scatter by 20 to 250 times its tolerance (corners make its
- * error jump
- * with the step sequence). A scatter of s a period adds up to s/sqrt(2 (1 - rho)) in a slowly contracting orbit. Hence tolerance/1000,
- * times
- * sqrt(1 - rho), and not below 1e-14, where rounding takes over; never above 1e-6, where steps leap over whole contacts. */
+/* Measured: restarting CVODE each period, the states of a settled orbit scatter by 20 to 250 times its tolerance
+ * (corners make its error jump with the step sequence). A scatter of s a period adds up to s/sqrt(2 (1 - rho)) in a
+ * slowly contracting orbit. Hence tolerance/1000, times sqrt(1 - rho), and not below 1e-14, where rounding takes
+ * over; never above 1e-6, where steps leap over whole contacts. */
 double timeint_final_tolerance(const timeint *ti)
 {
   double wanted = 1e-3 * ti->sc.transient.tolerance * sqrt(1 - fmin(ti->contraction, 1));

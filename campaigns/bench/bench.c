@@ -10,10 +10,17 @@
 #include "campaigns/bench/scipy.h"
 
 enum { MOST_SETTINGS = 8, MOST_ROWS = 128, FEWEST = 3 };
-static const double enough = 0.25;       /* [s] a row that has taken as long is repeated no more, once it has been FEWEST times */
+static const double enough = 0.25; /* [s] a row that has taken as long is repeated no more, once it has been FEWEST
+                                      times */
 
 /* A method's settings: every a with every b. a: harmonics or regularisation, b: samples or tolerance; 0 is none. */
-typedef struct family { bench_method method; int n_a; double a[MOST_SETTINGS]; int n_b; double b[MOST_SETTINGS]; } family;
+typedef struct family {
+  bench_method method;
+  int n_a;
+  double a[MOST_SETTINGS];
+  int n_b;
+  double b[MOST_SETTINGS];
+} family;
 static const family families[] = {
     {BENCH_HBM_EXACT, 7, {1, 3, 5, 10, 20, 40, 80}, 1, {0}},
     {BENCH_HBM_SAMPLED, 5, {1, 5, 10, 20, 40}, 5, {64, 256, 1024, 4096, 16384}},
@@ -30,7 +37,8 @@ typedef struct job {
   const scene *sc;
   const bench_options *options;
   const hc_monitor *outer;
-  double from, width, done; /* of the whole work: where this place begins, its share, and how much of the share is done */
+  double from, width, done; /* of the whole work: where this place begins, its share, and how much of the share is
+                               done */
   hc_monitor monitor;
   place_start start;
   trial *trials;
@@ -59,8 +67,17 @@ static hc_status add_row(bench *b, const bench_row *row)
 
 static bench_row empty_row(bench_method method, double omega)
 {
-  return (bench_row){.method = method, .omega = omega, .regularisation = NAN, .tolerance = NAN, .error = NAN, .error_harmonic_1 = NAN,
-                     .error_finer = NAN, .seconds = NAN, .low = NAN, .high = NAN, .curve_seconds = NAN};
+  return (bench_row){.method = method,
+                     .omega = omega,
+                     .regularisation = NAN,
+                     .tolerance = NAN,
+                     .error = NAN,
+                     .error_harmonic_1 = NAN,
+                     .error_finer = NAN,
+                     .seconds = NAN,
+                     .low = NAN,
+                     .high = NAN,
+                     .curve_seconds = NAN};
 }
 
 static hc_status add_family(bench *b, const family *f, double omega)
@@ -121,7 +138,8 @@ static hc_status rounds(job *j, const bench_place *p)
     for (int i = 0; i < p->n && st == HC_OK; ++i) {
       j->done = 0.6 + 0.3 * (round * p->n + i) / ((double)n * p->n);
       if (!hc_monitor_tick(&j->monitor, -1)) st = HC_INTERRUPTED;
-      else if (!has_enough(&j->trials[i], &j->out->rows[p->first + i])) st = trial_run(&j->trials[i], &j->start, &j->monitor);
+      else if (!has_enough(&j->trials[i], &j->out->rows[p->first + i]))
+        st = trial_run(&j->trials[i], &j->start, &j->monitor);
     }
   return st;
 }
@@ -178,7 +196,8 @@ static hc_status bench_at(job *j, finder *f, double omega)
   return st;
 }
 
-hc_status bench_run(const scene *sc, const bench_options *options, const hc_monitor *monitor, bench *out, double *failed_at)
+hc_status bench_run(const scene *sc, const bench_options *options, const hc_monitor *monitor, bench *out,
+                    double *failed_at)
 {
   finder f;
   scene_list at = options->at;
@@ -188,7 +207,8 @@ hc_status bench_run(const scene *sc, const bench_options *options, const hc_moni
   hc_status st = finder_start(sc, &at, monitor, &f);
   if (st == HC_OK && at.n == 0 && (st = finder_default(&f, &at.v[0])) == HC_OK) at.n = 1;
   for (int i = 0; i < at.n && st == HC_OK; ++i) {
-    job j = {.sc = &f.sc, .options = options, .outer = monitor, .from = (double)i / at.n, .width = 1.0 / at.n, .out = out};
+    job j = {
+        .sc = &f.sc, .options = options, .outer = monitor, .from = (double)i / at.n, .width = 1.0 / at.n, .out = out};
     j.monitor = (hc_monitor){tick, &j};
     st = bench_at(&j, &f, at.v[i]);
     if (st != HC_OK) *failed_at = at.v[i];

@@ -1,25 +1,29 @@
-/* bench.h - work against precision: what every method costs at one frequency, and how far off it is. The way into this folder.
+/* bench.h - work against precision: what every method costs at one frequency, and how far off it is. The way into
+ * this folder.
  *
  *     reference    the exact law's periodic orbit at omega, by shooting as tight as rounding allows
  *     error        |amplitude - reference's| / reference's amplitude; error_harmonic_1 likewise of |a1 + i b1|
- *     cost         processor time of ONE solution at omega from the solution at a neighbouring frequency, as in a sweep: an HBM method from its
- *                  own solution there, time integration from the exact orbit's state there. With its measures, without making the workspace.
+ *     cost         processor time of ONE solution at omega from the solution at a neighbouring frequency, as in a
+ *                  sweep: an HBM method from its own solution there, time integration from the exact orbit's state
+ *                  there. With its measures, without making the workspace.
  *
- * The branch is that of the largest stable response at omega. Methods take turns; nothing is printed. Not here: curves (tests/bench). */
+ * The branch is that of the largest stable response at omega. Methods take turns; nothing is printed. Not here:
+ * curves (tests/bench). */
 #ifndef HC_BENCH_H
 #define HC_BENCH_H
 
-#include "model/scene.h"
 #include "base/status.h"
+#include "model/scene.h"
 
-#define BENCH_METHOD_LIST(X)                                                                                            \
-  X(BENCH_HBM_EXACT, "hbm_exact", "harmonic balance, exact forces")                                                     \
-  X(BENCH_HBM_SAMPLED, "hbm_sampled", "harmonic balance, sampled forces")                                               \
-  X(BENCH_EXACT_SHOOTING, "exact_shooting", "time integration, exact law, shooting")                                    \
-  X(BENCH_EXACT_MARCHING, "exact_marching", "time integration, exact law, marching")                                    \
-  X(BENCH_REGULARISED_SHOOTING, "regularised_shooting", "time integration, regularised law, shooting")                  \
-  X(BENCH_REGULARISED_MARCHING, "regularised_marching", "time integration, regularised law, marching")                  \
-  X(BENCH_REGULARISED_RICHARDSON, "regularised_richardson", "time integration, regularised law, shooting, extrapolated") \
+#define BENCH_METHOD_LIST(X)                                                                                           \
+  X(BENCH_HBM_EXACT, "hbm_exact", "harmonic balance, exact forces")                                                    \
+  X(BENCH_HBM_SAMPLED, "hbm_sampled", "harmonic balance, sampled forces")                                              \
+  X(BENCH_EXACT_SHOOTING, "exact_shooting", "time integration, exact law, shooting")                                   \
+  X(BENCH_EXACT_MARCHING, "exact_marching", "time integration, exact law, marching")                                   \
+  X(BENCH_REGULARISED_SHOOTING, "regularised_shooting", "time integration, regularised law, shooting")                 \
+  X(BENCH_REGULARISED_MARCHING, "regularised_marching", "time integration, regularised law, marching")                 \
+  X(BENCH_REGULARISED_RICHARDSON, "regularised_richardson",                                                            \
+    "time integration, regularised law, shooting, extrapolated")                                                       \
   X(BENCH_SCIPY_LSODA, "scipy_lsoda", "scipy's solve_ivp, LSODA, the exact law without events, marched")
 #define BENCH_ENUM(code, name, meaning) code,
 typedef enum bench_method { BENCH_METHOD_LIST(BENCH_ENUM) BENCH_METHODS } bench_method;
@@ -28,7 +32,7 @@ const char *bench_method_name(bench_method m);
 const char *bench_method_meaning(bench_method m);
 
 typedef enum bench_outcome {
-  BENCH_WAITING,     /* not run: stopped before            */
+  BENCH_WAITING, /* not run: stopped before            */
   BENCH_SOLVED,
   BENCH_FAILED,      /* why: status                        */
   BENCH_OTHER_ORBIT, /* a solution, but not the one next to the reference */
@@ -36,8 +40,8 @@ typedef enum bench_outcome {
 } bench_outcome;
 const char *bench_outcome_name(bench_outcome o); /* "solved", ... */
 
-
-extern const double bench_longest, bench_longest_shot; /* [s] of processor time that one solution may take; by shooting */
+extern const double bench_longest, bench_longest_shot; /* [s] of processor time that one solution may take; by
+                                                          shooting */
 
 /* One method with one choice of settings. */
 typedef struct bench_row {
@@ -47,8 +51,9 @@ typedef struct bench_row {
   double regularisation, tolerance; /* NaN: none */
   bench_outcome outcome;
   hc_status status;
-  double error, error_harmonic_1;   /* [1] NaN unless solved */
-  double error_finer; /* [1] the largest error at these or finer settings of the method: what one may count on, and not luck */
+  double error, error_harmonic_1; /* [1] NaN unless solved */
+  double error_finer; /* [1] the largest error at these or finer settings of the method: what one may count on, and
+                         not luck */
   double seconds, low, high; /* [s] median and quartiles over `repeats` */
   int repeats;
   double curve_seconds; /* [s] hbm_exact: the whole response curve; else NaN */
@@ -57,11 +62,11 @@ typedef struct bench_row {
 
 /* One frequency. */
 typedef struct bench_place {
-  double omega, neighbour; /* [rad/time] */
+  double omega, neighbour;      /* [rad/time] */
   double amplitude, multiplier; /* of the reference: [length], [1] a period */
-  double floor;            /* [1] errors below are taken for it: the reference is no better */
-  int first, n;            /* its rows */
-  char scipy[96];          /* version, or why there is no scipy_lsoda */
+  double floor;                 /* [1] errors below are taken for it: the reference is no better */
+  int first, n;                 /* its rows */
+  char scipy[96];               /* version, or why there is no scipy_lsoda */
 } bench_place;
 
 typedef struct bench {
@@ -76,15 +81,17 @@ typedef struct bench_options {
   bool alone;    /* no other programs */
 } bench_options;
 
-/* HC_INTERRUPTED: what was measured until then is kept. HC_NOT_CONVERGED where a frequency has no stable orbit to compare with; omega of it
- * in *failed_at. bench_clear in any case. */
-hc_status bench_run(const scene *sc, const bench_options *options, const hc_monitor *monitor, bench *out, double *failed_at);
+/* HC_INTERRUPTED: what was measured until then is kept. HC_NOT_CONVERGED where a frequency has no stable orbit to
+ * compare with; omega of it in *failed_at. bench_clear in any case. */
+hc_status bench_run(const scene *sc, const bench_options *options, const hc_monitor *monitor, bench *out,
+                    double *failed_at);
 void bench_clear(bench *b);
 
 /* error_finer and front of the n rows of one place. */
 void bench_judge(int n, bench_row *rows, double floor);
 
-/* The fastest of the solved rows whose error_finer is within accuracy, or NULL; *second is the fastest of the other methods, or NULL. */
+/* The fastest of the solved rows whose error_finer is within accuracy, or NULL; *second is the fastest of the other
+ * methods, or NULL. */
 const bench_row *bench_cheapest(int n, const bench_row *rows, double accuracy, const bench_row **second);
 
 /* "H = 10, N = 1024", "regularisation 1e-4, tolerance 1e-6": in text[BENCH_TEXT], which is returned. */

@@ -4,7 +4,9 @@
 
 #include "campaigns/bench/bench.h"
 
-static const struct { const char *name, *meaning; } methods[] = {
+static const struct {
+  const char *name, *meaning;
+} methods[] = {
 #define BENCH_WORDS(code, name, meaning) {name, meaning},
     BENCH_METHOD_LIST(BENCH_WORDS)
 #undef BENCH_WORDS
@@ -16,8 +18,11 @@ const char *bench_method_meaning(bench_method m) { return methods[m].meaning; }
 
 const char *bench_outcome_name(bench_outcome o)
 {
-  static const char *const names[] = {
-      [BENCH_WAITING] = "not_run", [BENCH_SOLVED] = "solved", [BENCH_FAILED] = "failed", [BENCH_OTHER_ORBIT] = "other_orbit", [BENCH_TOO_LONG] = "too_long"};
+  static const char *const names[] = {[BENCH_WAITING] = "not_run",
+                                      [BENCH_SOLVED] = "solved",
+                                      [BENCH_FAILED] = "failed",
+                                      [BENCH_OTHER_ORBIT] = "other_orbit",
+                                      [BENCH_TOO_LONG] = "too_long"};
   return names[o];
 }
 
@@ -25,7 +30,8 @@ const char *bench_settings(const bench_row *r, char text[BENCH_TEXT])
 {
   if (r->samples > 0) snprintf(text, BENCH_TEXT, "H = %d, N = %d", r->harmonics, r->samples);
   else if (r->harmonics > 0) snprintf(text, BENCH_TEXT, "H = %d", r->harmonics);
-  else if (r->regularisation > 0) snprintf(text, BENCH_TEXT, "regularisation %.0e, tolerance %.0e", r->regularisation, r->tolerance);
+  else if (r->regularisation > 0)
+    snprintf(text, BENCH_TEXT, "regularisation %.0e, tolerance %.0e", r->regularisation, r->tolerance);
   else snprintf(text, BENCH_TEXT, "tolerance %.0e", r->tolerance);
   return text;
 }
@@ -33,8 +39,8 @@ const char *bench_settings(const bench_row *r, char text[BENCH_TEXT])
 /* At settings no coarser than a's in any respect? NaN is no setting. */
 static bool no_coarser(const bench_row *b, const bench_row *a)
 {
-  return b->method == a->method && b->harmonics >= a->harmonics && b->samples >= a->samples && !(b->regularisation > a->regularisation) &&
-         !(b->tolerance > a->tolerance);
+  return b->method == a->method && b->harmonics >= a->harmonics && b->samples >= a->samples &&
+         !(b->regularisation > a->regularisation) && !(b->tolerance > a->tolerance);
 }
 
 static bool beats(const bench_row *b, const bench_row *a)
@@ -51,7 +57,8 @@ void bench_judge(int n, bench_row *rows, double floor)
     if (r->outcome != BENCH_SOLVED) continue;
     r->error_finer = fmax(r->error, floor);
     for (int k = 0; k < n; ++k)
-      if (rows[k].outcome == BENCH_SOLVED && no_coarser(&rows[k], r)) r->error_finer = fmax(r->error_finer, rows[k].error);
+      if (rows[k].outcome == BENCH_SOLVED && no_coarser(&rows[k], r))
+        r->error_finer = fmax(r->error_finer, rows[k].error);
   }
   for (int i = 0; i < n; ++i) {
     rows[i].front = rows[i].outcome == BENCH_SOLVED && rows[i].repeats > 0;
@@ -60,7 +67,10 @@ void bench_judge(int n, bench_row *rows, double floor)
   }
 }
 
-static bool meets(const bench_row *r, double accuracy) { return r->outcome == BENCH_SOLVED && r->repeats > 0 && r->error_finer <= accuracy; }
+static bool meets(const bench_row *r, double accuracy)
+{
+  return r->outcome == BENCH_SOLVED && r->repeats > 0 && r->error_finer <= accuracy;
+}
 
 const bench_row *bench_cheapest(int n, const bench_row *rows, double accuracy, const bench_row **second)
 {
@@ -69,6 +79,8 @@ const bench_row *bench_cheapest(int n, const bench_row *rows, double accuracy, c
   for (int i = 0; i < n; ++i)
     if (meets(&rows[i], accuracy) && (!best || rows[i].seconds < best->seconds)) best = &rows[i];
   for (int i = 0; i < n && best; ++i)
-    if (meets(&rows[i], accuracy) && rows[i].method != best->method && (!*second || rows[i].seconds < (*second)->seconds)) *second = &rows[i];
+    if (meets(&rows[i], accuracy) && rows[i].method != best->method &&
+        (!*second || rows[i].seconds < (*second)->seconds))
+      *second = &rows[i];
   return best;
 }

@@ -25,6 +25,6 @@ void bench_machine(char *text, int size)
   char model[160];
   processor(model, sizeof model);
   if (uname(&name) != 0) snprintf(name.sysname, sizeof name.sysname, "unknown"), name.release[0] = name.machine[0] = 0;
-  snprintf(text, (size_t)size, "%s%s%s, %ld processors, %s, compiler %s", model, model[0] ? ", " : "", name.machine, sysconf(_SC_NPROCESSORS_ONLN),
-           name.sysname, __VERSION__);
+  snprintf(text, (size_t)size, "%s%s%s, %ld processors, %s, compiler %s", model, model[0] ? ", " : "", name.machine,
+           sysconf(_SC_NPROCESSORS_ONLN), name.sysname, __VERSION__);
 }

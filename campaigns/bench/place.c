@@ -10,9 +10,10 @@
 #include "compare/frequencies.h"
 
 enum { CURVE_HARMONICS = 20, TRIES = 8, NO_DECADE = -6 };
-static const double best_floor = 1e-12;  /* [1] rounding of a period's integration, seen from its amplitude */
-static const double waiting = 1e-12;     /* transient.tolerance of a reference that shooting did not bring below 1e-10 */
-static const double first_distance = 1e-3, next_door = 0.3; /* [omega] of the neighbour; [amplitude] how far apart two neighbours may be */
+static const double best_floor = 1e-12; /* [1] rounding of a period's integration, seen from its amplitude */
+static const double waiting = 1e-12;    /* transient.tolerance of a reference that shooting did not bring below 1e-10 */
+static const double first_distance = 1e-3, next_door = 0.3; /* [omega] of the neighbour; [amplitude] how far apart
+                                                               two neighbours may be */
 
 hc_status finder_start(const scene *sc, const scene_list *at, const hc_monitor *monitor, finder *f)
 {
@@ -45,14 +46,16 @@ hc_status finder_default(finder *f, double *omega)
     hbm_measures m;
     st = hbm_curve_at(f->hbm, &f->curve, all.v[i], &at) == HC_NO_MEMORY ? HC_NO_MEMORY : HC_OK;
     for (int k = 0; k < at.n; ++k)
-      if (hbm_measure(f->hbm, at.X + (size_t)k * at.n_coef, &m) == HC_OK && m.amplitude > most) most = m.amplitude, *omega = all.v[i];
+      if (hbm_measure(f->hbm, at.X + (size_t)k * at.n_coef, &m) == HC_OK && m.amplitude > most)
+        most = m.amplitude, *omega = all.v[i];
     hbm_curve_free(&at);
   }
   return st == HC_OK && most < 0 ? HC_NOT_CONVERGED : st;
 }
 
 /* The exact law's orbit next to *state, which moves there. */
-static hc_status exact_orbit(const scene *sc, double omega, int steady, double tolerance, const hc_monitor *monitor, timeint_state *state, timeint_result *r)
+static hc_status exact_orbit(const scene *sc, double omega, int steady, double tolerance, const hc_monitor *monitor,
+                             timeint_state *state, timeint_result *r)
 {
   scene own = *sc;
   timeint *ti = NULL;
@@ -68,7 +71,8 @@ static hc_status exact_orbit(const scene *sc, double omega, int steady, double t
 }
 
 /* By shooting, at the tightest decade of tolerance at which rounding lets it converge. */
-static hc_status tightest_orbit(const scene *sc, double omega, const hc_monitor *monitor, timeint_state *state, timeint_result *r, double *floor)
+static hc_status tightest_orbit(const scene *sc, double omega, const hc_monitor *monitor, timeint_state *state,
+                                timeint_result *r, double *floor)
 {
   hc_status st = HC_NOT_CONVERGED;
   int decade = -14;
@@ -79,7 +83,8 @@ static hc_status tightest_orbit(const scene *sc, double omega, const hc_monitor 
 }
 
 /* Where that was a coarse one: by waiting, from there. */
-static hc_status wait_for(const scene *sc, double omega, const hc_monitor *monitor, timeint_state *state, timeint_result *r, double *floor)
+static hc_status wait_for(const scene *sc, double omega, const hc_monitor *monitor, timeint_state *state,
+                          timeint_result *r, double *floor)
 {
   timeint_result waited;
   if (*floor < 5e-10) return HC_OK;
@@ -92,7 +97,8 @@ static hc_status wait_for(const scene *sc, double omega, const hc_monitor *monit
 }
 
 /* Of the curve's solutions at omega, by size: the largest whose orbit is stable. */
-static hc_status largest_stable(finder *f, double omega, const hc_monitor *monitor, double *X, timeint_state *state, timeint_result *best, double *floor)
+static hc_status largest_stable(finder *f, double omega, const hc_monitor *monitor, double *X, timeint_state *state,
+                                timeint_result *best, double *floor)
 {
   hbm_curve at = {0};
   hbm_measures m;
@@ -117,10 +123,14 @@ static hc_status largest_stable(finder *f, double omega, const hc_monitor *monit
   return st == HC_OK && best->amplitude < 0 ? HC_NOT_CONVERGED : st;
 }
 
-static bool near(const steady_motion *a, const steady_motion *b) { return motion_between(a, b).waveform <= next_door * b->amplitude; }
+static bool near(const steady_motion *a, const steady_motion *b)
+{
+  return motion_between(a, b).waveform <= next_door * b->amplitude;
+}
 
 /* The same branch at omega: both sides of it. */
-static bool try_neighbour(finder *f, double omega, const double *X, const timeint_state *state, const hc_monitor *monitor, place_start *start)
+static bool try_neighbour(finder *f, double omega, const double *X, const timeint_state *state,
+                          const hc_monitor *monitor, place_start *start)
 {
   hbm_point point;
   hbm_measures m;
@@ -148,7 +158,8 @@ hc_status finder_place(finder *f, double omega, const hc_monitor *monitor, bench
   start->reference = motion_of_transient(&r);
   place->amplitude = r.amplitude;
   place->multiplier = r.multiplier;
-  if (omega > 0.5 * (f->sc.omega_from + f->sc.omega_to)) distance = -distance; /* towards the middle of the sweep first */
+  /* towards the middle of the sweep first */
+  if (omega > 0.5 * (f->sc.omega_from + f->sc.omega_to)) distance = -distance;
   for (int i = 0; i < TRIES; ++i) {
     if (!hc_monitor_tick(monitor, -1)) return HC_INTERRUPTED;
     if (try_neighbour(f, omega * (1 + distance), X, &state, monitor, start)) {

@@ -1,4 +1,5 @@
-/* place.h - where methods are compared: a frequency, the reference orbit there, and the solutions next to it from which all methods start. */
+/* place.h - where methods are compared: a frequency, the reference orbit there, and the solutions next to it from
+ * which all methods start. */
 #ifndef HC_BENCH_PLACE_H
 #define HC_BENCH_PLACE_H
 
@@ -6,7 +7,7 @@
 
 /* Looks for places: the response curve by harmonic balance, and the exact law's orbits next to it. */
 typedef struct finder {
-  scene sc;        /* with harmonics and forces of the curve */
+  scene sc; /* with harmonics and forces of the curve */
   hbm_solver *hbm;
   hbm_curve curve;
 } finder;

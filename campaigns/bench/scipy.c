@@ -21,13 +21,17 @@ static const double left = 1e-9; /* [1] of the distance from which it starts */
 /* The child and what it has said. */
 typedef struct child {
   pid_t pid;
-  int from;          /* its standard output */
-  char line[LINE];   /* as much as there is of the next line */
+  int from;        /* its standard output */
+  char line[LINE]; /* as much as there is of the next line */
   size_t n;
-  bool ended;        /* nothing more comes */
+  bool ended; /* nothing more comes */
 } child;
 
-typedef struct arguments { char text[MOST_ARGUMENTS][NUMBER]; char *argv[MOST_ARGUMENTS + 1]; int n; } arguments;
+typedef struct arguments {
+  char text[MOST_ARGUMENTS][NUMBER];
+  char *argv[MOST_ARGUMENTS + 1];
+  int n;
+} arguments;
 
 static void add(arguments *a, double value)
 {
@@ -40,9 +44,10 @@ static void fill(arguments *a, const char *python, const scene *sc, const place_
 {
   *a = (arguments){.n = 3};
   a->argv[0] = (char *)(size_t)python;
-  a->argv[1] = (char *)(size_t)"-c";
+  a->argv[1] = (char *)(size_t) "-c";
   a->argv[2] = (char *)(size_t)scipy_script;
-  const double head[] = {at->omega, periods, repeats, at->state.x, at->state.v, sc->mass, sc->damping, sc->stiffness, sc->force};
+  const double head[] = {at->omega, periods,     repeats,       at->state.x, at->state.v,
+                         sc->mass,  sc->damping, sc->stiffness, sc->force};
   for (size_t i = 0; i < sizeof head / sizeof *head; ++i) add(a, head[i]);
   for (int j = 0; j < sc->n_contacts; ++j) {
     const contact *law = &sc->contacts[j].law;
@@ -53,7 +58,8 @@ static void fill(arguments *a, const char *python, const scene *sc, const place_
   }
 }
 
-/* Its standard error goes nowhere: a message of Python's is none of ours. Signals are as they were for a program started afresh. */
+/* Its standard error goes nowhere: a message of Python's is none of ours. Signals are as they were for a program
+ * started afresh. */
 static bool start(child *c, arguments *a)
 {
   int ends[2];
@@ -62,8 +68,10 @@ static bool start(child *c, arguments *a)
   if (pipe(ends) != 0) return false;
   bool ready = posix_spawn_file_actions_init(&actions) == 0;
   if (ready) {
-    ready = posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO) == 0 && posix_spawn_file_actions_addclose(&actions, ends[0]) == 0 &&
-            posix_spawn_file_actions_addclose(&actions, ends[1]) == 0 && posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", 1, 0) == 0 &&
+    ready = posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO) == 0 &&
+            posix_spawn_file_actions_addclose(&actions, ends[0]) == 0 &&
+            posix_spawn_file_actions_addclose(&actions, ends[1]) == 0 &&
+            posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", 1, 0) == 0 &&
             posix_spawnp(&c->pid, a->argv[0], &actions, NULL, a->argv, environ) == 0;
     posix_spawn_file_actions_destroy(&actions);
   }
@@ -130,7 +138,8 @@ static void take(const char *text, scipy_run *runs, int *n)
 }
 
 /* With this python3: its exit code, -1 when it was stopped, NOT_THERE when there is no such program or no scipy. */
-static int run(const char *python, arguments *a, const hc_monitor *monitor, scipy_run *runs, int *n, char text[96], bool *stopped)
+static int run(const char *python, arguments *a, const hc_monitor *monitor, scipy_run *runs, int *n, char text[96],
+               bool *stopped)
 {
   child c;
   char line[LINE];
@@ -144,10 +153,11 @@ static int run(const char *python, arguments *a, const hc_monitor *monitor, scip
   return finish(&c);
 }
 
-hc_status scipy_lsoda(const scene *sc, const place_start *at, double multiplier, int repeats, const hc_monitor *monitor, scipy_run *runs, int *n,
-                      char text[96])
+hc_status scipy_lsoda(const scene *sc, const place_start *at, double multiplier, int repeats, const hc_monitor *monitor,
+                      scipy_run *runs, int *n, char text[96])
 {
-  const char *asked = getenv("PYTHON"), *candidates[] = {asked && *asked ? asked : "python3", asked && *asked ? NULL : "/usr/bin/python3"};
+  const char *asked = getenv("PYTHON"),
+             *candidates[] = {asked && *asked ? asked : "python3", asked && *asked ? NULL : "/usr/bin/python3"};
   arguments a;
   bool stopped = false;
   *n = 0;
@@ -164,6 +174,7 @@ hc_status scipy_lsoda(const scene *sc, const place_start *at, double multiplier,
   }
   size_t length = strlen(text);
   if (*n > 0) snprintf(text + length, 96 - length, ", %d periods, what it did in %g s", (int)periods, longest);
-  else if (!strncmp(text, "scipy", 5)) snprintf(text + length, 96 - length, ", nothing in %g s: %d periods", longest, (int)periods);
+  else if (!strncmp(text, "scipy", 5))
+    snprintf(text + length, 96 - length, ", nothing in %g s: %d periods", longest, (int)periods);
   return stopped ? HC_INTERRUPTED : HC_OK;
 }

@@ -1,4 +1,5 @@
-/* scipy.h - the same steady state by scipy's LSODA, as many people compute it: a process of python3 runs the script in scipy_script.c. */
+/* scipy.h - the same steady state by scipy's LSODA, as many people compute it: a process of python3 runs the script
+ * in scipy_script.c. */
 #ifndef HC_BENCH_SCIPY_H
 #define HC_BENCH_SCIPY_H
 
@@ -7,16 +8,17 @@
 enum { SCIPY_MOST_RUNS = 8, SCIPY_MOST_REPEATS = 32 };
 
 typedef struct scipy_run {
-  double rtol, amplitude, harmonic_1;    /* [1], [length] */
+  double rtol, amplitude, harmonic_1; /* [1], [length] */
   int n;
-  double seconds[SCIPY_MOST_REPEATS];    /* of processor time inside the process, around solve_ivp alone */
+  double seconds[SCIPY_MOST_REPEATS]; /* of processor time inside the process, around solve_ivp alone */
 } scipy_run;
 
-/* From the same state as the others, marched until 1e-9 of the start's distance is left (by `multiplier`, a period). Into runs, *n of them, and words for
- * people in text[96]: versions, or why there is nothing. No python3 or scipy is HC_OK with *n = 0. $PYTHON says which python3.
- * It gets a few seconds; what it did until then counts. HC_INTERRUPTED. */
-hc_status scipy_lsoda(const scene *sc, const place_start *at, double multiplier, int repeats, const hc_monitor *monitor, scipy_run *runs, int *n,
-                      char text[96]);
+/* From the same state as the others, marched until 1e-9 of the start's distance is left (by `multiplier`, a period).
+ * Into runs, *n of them, and words for people in text[96]: versions, or why there is nothing. No python3 or scipy is
+ * HC_OK with *n = 0. $PYTHON says which python3. It gets a few seconds; what it did until then counts.
+ * HC_INTERRUPTED. */
+hc_status scipy_lsoda(const scene *sc, const place_start *at, double multiplier, int repeats, const hc_monitor *monitor,
+                      scipy_run *runs, int *n, char text[96]);
 
 extern const char scipy_script[];
 

@@ -1,6 +1,7 @@
-/* scipy_script.c - what a person writes who has scipy and no event location: the law's cases in the right-hand side, a tight rtol, many periods.
- * argv: omega periods repeats x v M C K F0, then for each contact w kt kn mu gap cos sin. Prints a line a run: rtol seconds amplitude harmonic_1.
- * Where the slider's rate jumps LSODA may take ever smaller steps at a tight rtol (1e-8 on case 2): the time limit ends that. */
+/* scipy_script.c - what a person writes who has scipy and no event location: the law's cases in the right-hand side,
+ * a tight rtol, many periods. argv: omega periods repeats x v M C K F0, then for each contact w kt kn mu gap cos
+ * sin. Prints a line a run: rtol seconds amplitude harmonic_1. Where the slider's rate jumps LSODA may take ever
+ * smaller steps at a tight rtol (1e-8 on case 2): the time limit ends that. */
 #include "campaigns/bench/scipy.h"
 
 const char scipy_script[] =
@@ -47,7 +48,8 @@ const char scipy_script[] =
     "for rtol in (1e-4, 1e-6, 1e-8, 1e-10):\n"
     "    for repeat in range(repeats):\n"
     "        began = time.process_time()\n"
-    "        r = solve_ivp(motion, (0.0, last[-1]), y0, method='LSODA', rtol=rtol, atol=rtol * max(abs(y0[0]), abs(y0[1]) / omega), t_eval=last)\n"
+    "        r = solve_ivp(motion, (0.0, last[-1]), y0, method='LSODA', rtol=rtol, atol=rtol * max(abs(y0[0]), "
+    "abs(y0[1]) / omega), t_eval=last)\n"
     "        seconds = time.process_time() - began\n"
     "        if not r.success:\n"
     "            continue\n"

@@ -8,8 +8,9 @@
 
 const double bench_longest = 1.5, bench_longest_shot = 0.3;
 const double trial_slow = 0.2;
-static const double shortest_run = 5e-4;  /* [s] the clock is good to a microsecond */
-static const double other_orbit = 0.3;    /* [amplitude] of the waveform: few harmonics are some ten percent off, another orbit is elsewhere */
+static const double shortest_run = 5e-4; /* [s] the clock is good to a microsecond */
+static const double other_orbit = 0.3;   /* [amplitude] of the waveform: few harmonics are some ten percent off,
+                                          another orbit is elsewhere */
 
 double trial_clock(void)
 {
@@ -19,7 +20,11 @@ double trial_clock(void)
 }
 
 /* A monitor that also stops what takes too long. */
-typedef struct limit { const hc_monitor *outer; double until; bool stopped; } limit;
+typedef struct limit {
+  const hc_monitor *outer;
+  double until;
+  bool stopped;
+} limit;
 
 static bool tick_limit(void *self, double done)
 {
@@ -50,7 +55,11 @@ static scene settings_of(const scene *sc, const bench_row *r)
 }
 
 /* What one solution came to. */
-typedef struct answer { hc_status status; steady_motion motion; bool too_long; } answer;
+typedef struct answer {
+  hc_status status;
+  steady_motion motion;
+  bool too_long;
+} answer;
 
 static void solve_hbm(trial *t, const place_start *at, double *X, hbm_measures *m, answer *a)
 {
@@ -109,7 +118,8 @@ static hc_status from_own_curve(const place_start *at, const hc_monitor *monitor
   return st == HC_OK && most < 0 ? HC_NOT_CONVERGED : st;
 }
 
-/* Workspace and start. The neighbour's solution with these settings is next to that with many harmonics, or on the method's own curve. */
+/* Workspace and start. The neighbour's solution with these settings is next to that with many harmonics, or on the
+ * method's own curve. */
 static hc_status make(const place_start *at, const hc_monitor *monitor, trial *t)
 {
   hbm_point point;
@@ -134,10 +144,12 @@ static void take(const answer *a, const place_start *at, double took, bench_row 
   row->seconds = took;
 }
 
-hc_status trial_start(const scene *sc, const place_start *at, bench_row *row, int cap, const hc_monitor *monitor, trial *t)
+hc_status trial_start(const scene *sc, const place_start *at, bench_row *row, int cap, const hc_monitor *monitor,
+                      trial *t)
 {
   answer a;
-  *t = (trial){.row = row, .sc = settings_of(sc, row), .cap = cap, .batch = 1, .seconds = calloc((size_t)cap, sizeof(double))};
+  *t = (trial){
+      .row = row, .sc = settings_of(sc, row), .cap = cap, .batch = 1, .seconds = calloc((size_t)cap, sizeof(double))};
   if (!t->seconds) return HC_NO_MEMORY;
   hc_status st = make(at, monitor, t);
   if (st == HC_NO_MEMORY || st == HC_INTERRUPTED) return st;
@@ -179,7 +191,8 @@ hc_status trial_curve(trial *t, const hc_monitor *monitor)
     hbm_curve_free(&curve);
   }
   if (st == HC_OK) trial_quartiles(3, v, &low, &t->row->curve_seconds, &high);
-  return l.stopped || st == HC_NO_MEMORY ? (l.stopped ? HC_INTERRUPTED : st) : HC_OK; /* a curve that ends early has no time */
+  /* a curve that ends early has no time */
+  return l.stopped || st == HC_NO_MEMORY ? (l.stopped ? HC_INTERRUPTED : st) : HC_OK;
 }
 
 static int ascending(const void *a, const void *b)

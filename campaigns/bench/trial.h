@@ -11,21 +11,21 @@ enum { TRIAL_MOST_COEF = 2 * SCENE_MAX_HARMONICS + 1 };
 
 /* What all trials of a place start from. */
 typedef struct place_start {
-  double omega, neighbour;           /* [rad/time] */
-  double X[TRIAL_MOST_COEF];         /* [length] HBM solution at the neighbour, as many harmonics as there are, then zeros */
-  timeint_state state;               /* on the exact orbit at the neighbour */
-  steady_motion reference;           /* at omega */
+  double omega, neighbour;   /* [rad/time] */
+  double X[TRIAL_MOST_COEF]; /* [length] HBM solution at the neighbour, as many harmonics as there are, then zeros */
+  timeint_state state;       /* on the exact orbit at the neighbour */
+  steady_motion reference;   /* at omega */
 } place_start;
 
 typedef struct trial {
-  bench_row *row;   /* the caller's; settings are read, outcome and errors written */
+  bench_row *row; /* the caller's; settings are read, outcome and errors written */
   scene sc;
-  hbm_solver *hbm;  /* one of the two */
+  hbm_solver *hbm; /* one of the two */
   timeint *ti;
   double X[TRIAL_MOST_COEF]; /* the HBM method's own solution at the neighbour */
-  double *seconds;  /* [cap] of each run */
-  int runs, cap, batch; /* batch: solutions a run, so that a run is long enough for the clock */
-  double spent;     /* [s] */
+  double *seconds;           /* [cap] of each run */
+  int runs, cap, batch;      /* batch: solutions a run, so that a run is long enough for the clock */
+  double spent;              /* [s] */
 } trial;
 
 extern const double trial_slow; /* [s] of a solution: what takes longer is measured by its first run */
@@ -33,9 +33,10 @@ extern const double trial_slow; /* [s] of a solution: what takes longer is measu
 /* Processor time of this thread [s]. */
 double trial_clock(void);
 
-/* Ready to run up to cap times, the first run done: errors and outcome are in the row. HC_INTERRUPTED, HC_NO_MEMORY; what goes wrong with the method
- * itself is the row's outcome. Free in any case. */
-hc_status trial_start(const scene *sc, const place_start *at, bench_row *row, int cap, const hc_monitor *monitor, trial *t);
+/* Ready to run up to cap times, the first run done: errors and outcome are in the row. HC_INTERRUPTED, HC_NO_MEMORY;
+ * what goes wrong with the method itself is the row's outcome. Free in any case. */
+hc_status trial_start(const scene *sc, const place_start *at, bench_row *row, int cap, const hc_monitor *monitor,
+                      trial *t);
 
 /* Once more, timed. */
 hc_status trial_run(trial *t, const place_start *at, const hc_monitor *monitor);

@@ -1,7 +1,8 @@
 /* force.c - checks of the contact force alone: one motion, no equation to solve.
  *
- * The motion has the scene's H harmonics, falling like 1/h^2, and is large enough to cross the widest gap. A slider stuck all period may rest
- * anywhere, and where it does rest depends on where the walk over the period began: there the mean force is left out. */
+ * The motion has the scene's H harmonics, falling like 1/h^2, and is large enough to cross the widest gap. A slider
+ * stuck all period may rest anywhere, and where it does rest depends on where the walk over the period began: there
+ * the mean force is left out. */
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -87,7 +88,8 @@ static double preload(const scene *sc)
   return sum;
 }
 
-/* What rounding may do to a force coefficient: H rounding units of every force that makes it up (series.h), with room for the transitions' own. */
+/* What rounding may do to a force coefficient: H rounding units of every force that makes it up (series.h), with
+ * room for the transitions' own. */
 static double rounding(const scene *sc, const double *X)
 {
   return 500 * DBL_EPSILON * (sc->hbm.harmonics + 1) * (stiffness(sc) * (fabs(X[0]) + size(sc, X, 0)) + preload(sc));
@@ -114,21 +116,26 @@ static double largest(const scene *sc, const force *f)
 /* With N samples, d = 2 pi/N apart, a coefficient is (1/pi) of a trapezoidal sum over f(th) cos(h th). Its errors:
  *     smooth parts    |(f cos)''| d^2/12 over 2 pi:     S (X2 + 2 h X1 + h^2 X0) d^2/6
  *     kinks           jumps of f' of at most S X1, d^2/8 each
- *     the slider      comes to rest between samples, off by at most |w''| d^2/8, w'' made of u'' and (mu kn/kt) v''; stays so all period: S X2 d^2/4
+ *     the slider      comes to rest between samples, off by at most |w''| d^2/8, w'' made of u'' and (mu kn/kt) v'';
+ *                     stays so all period: S X2 d^2/4
  * with S all stiffnesses, Xp = sum h^p |X_h|. Twice that for what the terms do to each other. */
 static double sampling(const scene *sc, const double *X, const force *f, int n_time, int h)
 {
   double d = 6.283185307179586 / n_time, x0 = fabs(X[0]) + size(sc, X, 0), x1 = size(sc, X, 1), x2 = size(sc, X, 2);
   double k = stiffness(sc);
-  return 2 * d * d * (k * (x2 + 2 * h * x1 + h * h * x0) / 6 + h * h * preload(sc) / 6 + (f->transitions + 1) * k * x1 / 8 + k * x2 / 4);
+  return 2 * d * d *
+         (k * (x2 + 2 * h * x1 + h * h * x0) / 6 + h * h * preload(sc) / 6 + (f->transitions + 1) * k * x1 / 8 +
+          k * x2 / 4);
 }
 
 /* The coefficient that comes nearest to its bound, or is farthest beyond. */
-static void hold_samples(const scene *sc, const double *X, const force *f, const double *sampled, int n_time, double *error, double *bound)
+static void hold_samples(const scene *sc, const double *X, const force *f, const double *sampled, int n_time,
+                         double *error, double *bound)
 {
   double worst = -1;
   for (int i = f->free ? 1 : 0; i < 2 * sc->hbm.harmonics + 1; ++i) {
-    double e = fabs(f->F[i] - sampled[i]), b = sampling(sc, X, f, n_time, (i + 1) / 2) + rounding(sc, X), share = e == 0 ? 0 : e / b;
+    double e = fabs(f->F[i] - sampled[i]), b = sampling(sc, X, f, n_time, (i + 1) / 2) + rounding(sc, X),
+           share = e == 0 ? 0 : e / b;
     if (share <= worst) continue;
     *error = e == 0 ? 0 : e / largest(sc, f);
     *bound = e == 0 ? 0 : b / largest(sc, f);
@@ -183,8 +190,9 @@ stress_check stress_check_shift(stress_subject *s)
   return stress_agree(error, error == 0 ? 0 : rounding(sc, X) / largest(sc, &f));
 }
 
-/* A stuck or separated contact pushes back by where the mass is, whichever way it goes; friction does not. Where the motion slips, the scene is given
- * so much friction that a contact which closes never slips; if it slips still (preloaded), there is nothing to check. */
+/* A stuck or separated contact pushes back by where the mass is, whichever way it goes; friction does not. Where the
+ * motion slips, the scene is given so much friction that a contact which closes never slips; if it slips still
+ * (preloaded), there is nothing to check. */
 stress_check stress_check_reflection(stress_subject *s)
 {
   scene sc = *s->sc;

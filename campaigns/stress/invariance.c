@@ -5,7 +5,8 @@
 #include "campaigns/stress/scenes.h"
 #include "campaigns/stress/subject.h"
 
-/* How much more than its data a solution moves: every datum is moved by `nudge`, up and down in turn, and HBM solved again. */
+/* How much more than its data a solution moves: every datum is moved by `nudge`, up and down in turn, and HBM solved
+ * again. */
 static double sensitivity(stress_subject *s, const stress_solution *from)
 {
   const double nudge = 1e-9;
@@ -25,8 +26,10 @@ static double sensitivity(stress_subject *s, const stress_solution *from)
   return fmax(1, stress_distance(2 * from->n_harm + 1, moved.X, from->X) / nudge);
 }
 
-/* The distance of the same solution in other units, back in ours. From nothing, or from our own solution. NaN: *st says what failed. */
-static double in_other_units(stress_subject *s, double length, double force, double time, bool from_nothing, hc_status *st)
+/* The distance of the same solution in other units, back in ours. From nothing, or from our own solution. NaN: *st
+ * says what failed. */
+static double in_other_units(stress_subject *s, double length, double force, double time, bool from_nothing,
+                             hc_status *st)
 {
   const scene sc = stress_in_units(s->sc, length, force, time);
   const int n_coef = 2 * s->base.n_harm + 1;
@@ -39,8 +42,9 @@ static double in_other_units(stress_subject *s, double length, double force, dou
   return other.status == HC_OK ? stress_distance(n_coef, other.X, s->base.X) : NAN;
 }
 
-/* Powers of two change no mantissa: not even the path of a failing Newton iteration may differ, from nothing. Inches, pounds and minutes
- * round every datum, and can lead an iteration elsewhere; from our own solution they must stay there. */
+/* Powers of two change no mantissa: not even the path of a failing Newton iteration may differ, from nothing.
+ * Inches, pounds and minutes round every datum, and can lead an iteration elsewhere; from our own solution they must
+ * stay there. */
 stress_check stress_check_units(stress_subject *s)
 {
   const double bound = 1e-10; /* what INTERFACE.md's tolerance of residuals allows a well-conditioned solution */
@@ -52,13 +56,17 @@ stress_check stress_check_units(stress_subject *s)
   double decimal = in_other_units(s, 39.3701, 0.224809, 1.0 / 60, false, &st);
   if (st == HC_OK && decimal <= bound) return stress_agree(fmax(binary, decimal), bound);
   double allowed = sensitivity(s, &s->base) * s->sc->hbm.tolerance;
-  if (st != HC_OK) return allowed > 1e-3 ? stress_explain(STRESS_ILL_CONDITIONED, NAN, allowed) : stress_find(STRESS_DISAGREES, NAN, bound);
-  return decimal <= allowed ? stress_explain(STRESS_ILL_CONDITIONED, decimal, allowed) : stress_find(STRESS_DISAGREES, decimal, allowed);
+  if (st != HC_OK)
+    return allowed > 1e-3 ? stress_explain(STRESS_ILL_CONDITIONED, NAN, allowed)
+                          : stress_find(STRESS_DISAGREES, NAN, bound);
+  return decimal <= allowed ? stress_explain(STRESS_ILL_CONDITIONED, decimal, allowed)
+                            : stress_find(STRESS_DISAGREES, decimal, allowed);
 }
 
-/* Work per period, divided by pi:   F0 b1 = C omega sum h^2 (a_h^2 + b_h^2) + contacts,   contacts >= 0, and = 0 where nothing slips.
- * It holds for the truncated equations as it does for the oscillator: the force is the exact one of the truncated motion, which is a motion like
- * any other. Bound: the residual's tolerance, relative to each harmonic's forces, times how far they go. */
+/* Work per period, divided by pi:   F0 b1 = C omega sum h^2 (a_h^2 + b_h^2) + contacts,   contacts >= 0, and = 0
+ * where nothing slips. It holds for the truncated equations as it does for the oscillator: the force is the exact
+ * one of the truncated motion, which is a motion like any other. Bound: the residual's tolerance, relative to each
+ * harmonic's forces, times how far they go. */
 stress_check stress_check_energy(stress_subject *s)
 {
   const scene *sc = s->sc;
@@ -72,6 +80,8 @@ stress_check stress_check_energy(stress_subject *s)
     terms += ((k + h * h * sc->mass * w * w + h * w * sc->damping) * a + (h == 1 ? sc->force : 0)) * h * a;
   }
   const double contacts = sc->force * b->X[2] - damper;
-  const double error = b->m.contact.regime == CONTACT_SLIPS || b->m.contact.regime == CONTACT_SEPARATES ? fmax(-contacts, 0) : fabs(contacts);
+  const double error = b->m.contact.regime == CONTACT_SLIPS || b->m.contact.regime == CONTACT_SEPARATES
+                           ? fmax(-contacts, 0)
+                           : fabs(contacts);
   return stress_agree(error == 0 ? 0 : error / terms, sc->hbm.tolerance);
 }

@@ -8,11 +8,14 @@
 
 enum { LINE = 128 + 96 * STRESS_N_CHECKS };
 
-struct stress_journal { FILE *file; };
+struct stress_journal {
+  FILE *file;
+};
 
 static void heading(const stress_plan *plan, char text[LINE])
 {
-  snprintf(text, LINE, "# hbmcheck stress 1, seed %lu, %.17g s, %d checks\n", plan->seed, plan->seconds, STRESS_N_CHECKS);
+  snprintf(text, LINE, "# hbmcheck stress 1, seed %lu, %.17g s, %d checks\n", plan->seed, plan->seconds,
+           STRESS_N_CHECKS);
 }
 
 /* The next number of the line; false: there is none. */
@@ -42,7 +45,9 @@ static bool parse(const char *line, stress_result *r)
   for (int k = 0; k < STRESS_N_CHECKS; ++k) {
     stress_check c = {STRESS_SKIPPED, STRESS_NO_REASON, HC_OK, 0, 0, 0};
     int outcome, reason, status;
-    if (!take_code(&line, STRESS_N_OUTCOMES, &outcome) || !take_code(&line, STRESS_N_REASONS, &reason) || !take_code(&line, HC_BUG + 1, &status)) return false;
+    if (!take_code(&line, STRESS_N_OUTCOMES, &outcome) || !take_code(&line, STRESS_N_REASONS, &reason) ||
+        !take_code(&line, HC_BUG + 1, &status))
+      return false;
     if (!take(&line, &c.error) || !take(&line, &c.bound) || !take(&line, &c.seconds)) return false;
     c.outcome = (stress_outcome)outcome, c.reason = (stress_reason)reason, c.status = (hc_status)status;
     r->check[k] = c;
@@ -103,7 +108,8 @@ hc_status stress_journal_add(stress_journal *j, const stress_result *r)
   fprintf(j->file, "%ld %.3f", r->index, r->seconds);
   for (int k = 0; k < STRESS_N_CHECKS; ++k) {
     const stress_check *c = &r->check[k];
-    fprintf(j->file, "  %d %d %d %.17g %.17g %.3f", (int)c->outcome, (int)c->reason, (int)c->status, c->error, c->bound, c->seconds);
+    fprintf(j->file, "  %d %d %d %.17g %.17g %.3f", (int)c->outcome, (int)c->reason, (int)c->status, c->error, c->bound,
+            c->seconds);
   }
   fputs(" .\n", j->file);
   return fflush(j->file) == 0 && !ferror(j->file) ? HC_OK : HC_IO;

@@ -1,4 +1,5 @@
-/* journal.h - results of a stress run, kept as they come: a text file, a line a scene, from which a run that was killed goes on.
+/* journal.h - results of a stress run, kept as they come: a text file, a line a scene, from which a run that was
+ * killed goes on.
  *
  *     # hbmcheck stress 1, seed 1, 2 s
  *     INDEX SECONDS  OUTCOME REASON STATUS ERROR BOUND SECONDS  (for each check)  .
@@ -11,8 +12,8 @@
 
 typedef struct stress_journal stress_journal;
 
-/* plan->journal, if any: its scenes that belong to the plan into results, *there of them. *out is NULL where there is none to keep.
- * HC_BAD_INPUT: it is no journal of this seed and these seconds; HC_IO, HC_NO_MEMORY. */
+/* plan->journal, if any: its scenes that belong to the plan into results, *there of them. *out is NULL where there
+ * is none to keep. HC_BAD_INPUT: it is no journal of this seed and these seconds; HC_IO, HC_NO_MEMORY. */
 hc_status stress_journal_open(const stress_plan *plan, stress_result *results, long *there, stress_journal **out);
 
 /* On disk when this returns HC_OK. */

@@ -1,12 +1,14 @@
-/* limits.c - checks that one method tends to another: samples to exact forces, harmonics to the orbit, regularisation to the exact law.
+/* limits.c - checks that one method tends to another: samples to exact forces, harmonics to the orbit,
+ * regularisation to the exact law.
  *
- * Close enough means 1e-6 of the amplitude (the sum of the two tolerances where those are larger). What is farther off must come nearer when
- * the cause is halved, or say by how much it is off when its own estimate is asked; else it is a finding. */
+ * Close enough means 1e-6 of the amplitude (the sum of the two tolerances where those are larger). What is farther
+ * off must come nearer when the cause is halved, or say by how much it is off when its own estimate is asked; else
+ * it is a finding. */
 #include <math.h>
 #include <string.h>
 
-#include "compare/comparison.h"
 #include "campaigns/stress/subject.h"
+#include "compare/comparison.h"
 
 static const double close_enough = 1e-6;
 
@@ -40,15 +42,18 @@ stress_check stress_check_sampled(stress_subject *s)
     ++solved;
   }
   if (solved < 2) return stress_refuse(s, failed);
-  /* Of second order; of first where a slider's rest hangs on one sample; and scattering by where the transitions lie between the samples: in 64
-   * times as many an eighth is asked, or half in the last four times as many. */
+  /* Of second order; of first where a slider's rest hangs on one sample; and scattering by where the transitions lie
+   * between the samples: in 64 times as many an eighth is asked, or half in the last four times as many. */
   const double bound = fmax(worst / 8, before / 2);
   return error <= bound ? stress_explain(STRESS_ALIASED, error, bound) : stress_find(STRESS_DISAGREES, error, bound);
 }
 
 /* ---- harmonics ---- */
 
-static timeint_state start_of(const stress_subject *s, const stress_solution *h) { return comparison_orbit_start(&h->m, h->n_harm, h->X, s->omega); }
+static timeint_state start_of(const stress_subject *s, const stress_solution *h)
+{
+  return comparison_orbit_start(&h->m, h->n_harm, h->X, s->omega);
+}
 
 /* The exact law's orbit from an HBM solution, and how far that is from it. NaN: no orbit. */
 static double shoot_from(stress_subject *s, const stress_solution *h, stress_orbit *orbit)
@@ -76,7 +81,8 @@ static double confirm(stress_subject *s, const scene *sc, const stress_orbit *o)
   return h.status == HC_OK ? comparison_waveform_error(h.n_harm, h.X, &o->r) : NAN;
 }
 
-/* Does the stuck mass oscillate too fast for n harmonics? Its ringing after each impact is what they would have to follow. */
+/* Does the stuck mass oscillate too fast for n harmonics? Its ringing after each impact is what they would have to
+ * follow. */
 static bool beyond_harmonics(const stress_subject *s, int n)
 {
   return sqrt(scene_max_stiffness(s->sc) / s->sc->mass) > 0.1 * n * s->omega;
@@ -94,7 +100,8 @@ static double moved(const stress_solution *h, const stress_solution *finer, doub
 stress_check stress_check_shooting(stress_subject *s)
 {
   if (s->base.status != HC_OK) return stress_refuse(s, s->base.status);
-  if (!s->sc->hbm.keep_mean && s->base.m.contact.regime != CONTACT_LINEAR) return stress_skip(STRESS_NOT_APPLICABLE); /* another equation */
+  /* another equation */
+  if (!s->sc->hbm.keep_mean && s->base.m.contact.regime != CONTACT_LINEAR) return stress_skip(STRESS_NOT_APPLICABLE);
   scene sc = *s->sc;
   double error = shoot_from(s, &s->base, &s->orbit);
   if (s->orbit.status == HC_OK && error <= tolerance_of(&s->orbit)) return stress_agree(error, tolerance_of(&s->orbit));
@@ -113,7 +120,8 @@ stress_check stress_check_shooting(stress_subject *s)
     if (orbit.status == HC_INTERRUPTED) return stress_refuse(s, orbit.status);
     if (orbit.status != HC_OK) continue;
     if (error <= tolerance_of(&orbit)) return stress_explain(STRESS_TRUNCATED, coarse, NAN);
-    if (2 * s->fine.n_harm > STRESS_MOST_HARMONICS && (error <= before / 2 || error <= 3 * step)) return stress_explain(STRESS_TRUNCATED, error, 3 * step);
+    if (2 * s->fine.n_harm > STRESS_MOST_HARMONICS && (error <= before / 2 || error <= 3 * step))
+      return stress_explain(STRESS_TRUNCATED, error, 3 * step);
   }
   if (s->orbit.status != HC_OK) return stress_refuse(s, s->orbit.status);
   if (beyond_harmonics(s, s->fine.n_harm)) return stress_explain(STRESS_UNRESOLVED, error, NAN);
@@ -130,14 +138,16 @@ static double multiplier_error(const stress_solution *h, const stress_orbit *o)
   return fabs(h->stability.multiplier - o->r.multiplier) / fmax(1, o->r.multiplier);
 }
 
-/* Multipliers are those of an orbit and change with it, and at once where a transition appears: beyond a thousandth they must come nearer with twice
- * the harmonics (slowly, where a short hard contact is beyond them all), or the two orbits run through different transitions. */
+/* Multipliers are those of an orbit and change with it, and at once where a transition appears: beyond a thousandth
+ * they must come nearer with twice the harmonics (slowly, where a short hard contact is beyond them all), or the two
+ * orbits run through different transitions. */
 stress_check stress_check_stability(stress_subject *s)
 {
   const double bound = 1e-3;
   if (s->base.status != HC_OK) return stress_refuse(s, s->base.status);
   if (!s->sc->hbm.keep_mean && s->base.m.contact.regime != CONTACT_LINEAR) return stress_skip(STRESS_NOT_APPLICABLE);
-  if (s->orbit.status != HC_OK || isnan(s->orbit.r.multiplier) || s->fine.stability_status != HC_OK) return stress_skip(STRESS_NO_ORBIT);
+  if (s->orbit.status != HC_OK || isnan(s->orbit.r.multiplier) || s->fine.stability_status != HC_OK)
+    return stress_skip(STRESS_NO_ORBIT);
   const double far = comparison_waveform_error(s->fine.n_harm, s->fine.X, &s->orbit.r);
   if (!(far <= 1e-3)) return stress_skip(STRESS_NO_ORBIT); /* not the same one, or hardly */
   const double error = multiplier_error(&s->fine, &s->orbit);
@@ -146,10 +156,12 @@ stress_check stress_check_stability(stress_subject *s)
   stress_solution finer;
   sc.hbm.harmonics = 2 * s->fine.n_harm;
   stress_solve(s, &sc, s->omega, s->fine.n_harm, s->fine.X, &finer);
-  const double better = finer.status == HC_OK && finer.stability_status == HC_OK ? multiplier_error(&finer, &s->orbit) : NAN;
+  const double better =
+      finer.status == HC_OK && finer.stability_status == HC_OK ? multiplier_error(&finer, &s->orbit) : NAN;
   if (better <= fmax(bound, 0.8 * error)) return stress_explain(STRESS_TRUNCATED, error, better);
   if (s->fine.m.contact.transitions != s->orbit.r.switches) return stress_explain(STRESS_OTHER_EVENTS, error, better);
-  if (far > close_enough && beyond_harmonics(s, sc.hbm.harmonics)) return stress_explain(STRESS_UNRESOLVED, error, better);
+  if (far > close_enough && beyond_harmonics(s, sc.hbm.harmonics))
+    return stress_explain(STRESS_UNRESOLVED, error, better);
   return stress_find(STRESS_DISAGREES, error, bound);
 }
 
@@ -166,7 +178,8 @@ static double regularised(stress_subject *s, double regularisation, stress_orbit
   return hypot(o->r.a1 - s->orbit.r.a1, o->r.b1 - s->orbit.r.b1) / s->orbit.r.amplitude;
 }
 
-/* First order in the regularisation, second in places, and never known beforehand which: less of it must come nearer. */
+/* First order in the regularisation, second in places, and never known beforehand which: less of it must come
+ * nearer. */
 stress_check stress_check_regularised(stress_subject *s)
 {
   if (s->orbit.status != HC_OK) return stress_skip(STRESS_NO_ORBIT);

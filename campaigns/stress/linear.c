@@ -1,15 +1,16 @@
-/* linear.c - checks against closed forms: scenes made linear by a gap that is never reached, or by a preload and friction that never let go.
+/* linear.c - checks against closed forms: scenes made linear by a gap that is never reached, or by a preload and
+ * friction that never let go.
  *
  *     x = Re Z exp(i omega t),   Z = F0 / (k - M omega^2 + i C omega)
  *
- * The terms of the denominator cancel near resonance: what rounding (and the tolerance of a residual that is judged against those terms) does to
- * Z grows with cond = (k + M omega^2 + C omega) / |k - M omega^2 + i C omega|. */
+ * The terms of the denominator cancel near resonance: what rounding (and the tolerance of a residual that is judged
+ * against those terms) does to Z grows with cond = (k + M omega^2 + C omega) / |k - M omega^2 + i C omega|. */
 #include <float.h>
 #include <math.h>
 #include <string.h>
 
-#include "model/linear.h"
 #include "campaigns/stress/subject.h"
+#include "model/linear.h"
 
 static double condition(const scene *sc, double k, double omega)
 {
@@ -41,10 +42,12 @@ static stress_check hold(stress_subject *s, const scene *linear, double k)
   hc_status st = timeint_new(&sc, &ti);
   if (st == HC_OK) st = timeint_steady(ti, s->omega, &state, &s->monitor, &r);
   timeint_free(ti);
-  if (st != HC_OK) return sc.damping == 0 ? stress_agree(error, bound) : stress_refuse(s, st); /* undamped, nothing settles */
+  /* undamped, nothing settles */
+  if (st != HC_OK) return sc.damping == 0 ? stress_agree(error, bound) : stress_refuse(s, st);
   double transient = off(r.a1, r.b1, z);
   const double allowed = r.method == TIMEINT_BY_CLOSED_FORM ? bound : fmax(bound, fmax(1e-6, 3 * r.closure));
-  return !(transient <= allowed) ? stress_agree(transient, allowed) : stress_agree(fmax(error, r.method == TIMEINT_BY_CLOSED_FORM ? transient : 0), bound);
+  return !(transient <= allowed) ? stress_agree(transient, allowed)
+                                 : stress_agree(fmax(error, r.method == TIMEINT_BY_CLOSED_FORM ? transient : 0), bound);
 }
 
 stress_check stress_check_free(stress_subject *s)

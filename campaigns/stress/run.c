@@ -1,8 +1,8 @@
 /* run.c - see stress.h. Threads take the next scene under the crew's lock; the calling thread watches. */
-#include "numerics/crew.h"
 #include "campaigns/stress/journal.h"
 #include "campaigns/stress/scenes.h"
 #include "campaigns/stress/stress.h"
+#include "numerics/crew.h"
 
 enum { WATCH_MS = 50 };
 
@@ -10,7 +10,7 @@ typedef struct pool {
   const stress_plan *plan;
   stress_result *results;
   stress_journal *journal;
-  crew crew;       /* its lock is of what follows, and of the journal */
+  crew crew; /* its lock is of what follows, and of the journal */
   long next, done;
 } pool;
 

@@ -1,11 +1,12 @@
 /* scenes.c - see scenes.h.
  *
- * kn, kt 1e0..1e8; mu 0..3; angle 0..90 degrees; gap -10..10; F0 1e-6..1e6; damping ratio 0..0.5; mass 1e-3..1e3; stiffness 1e0..1e6; 1 to 4
- * contacts; H 1..50; N 16..2^14; harmonic 0 kept or not; both kinds of force, both laws. Ends of ranges where something special happens (mu = 0, 0 and 90 degrees, gap = 0, no
- * damping) are points of measure zero and would never be drawn: each gets a twentieth of its range. A force drawn from twelve decades
- * mostly moves the mass either far less than the gap or far more: for two scenes in three it is drawn such that the gap is just reached.
- * The frequency lies near the free resonance, near that of the stuck mass, or between; not so low that the stuck mass makes more than
- * MOST_OSCILLATIONS in a period, which only costs time. */
+ * kn, kt 1e0..1e8; mu 0..3; angle 0..90 degrees; gap -10..10; F0 1e-6..1e6; damping ratio 0..0.5; mass 1e-3..1e3;
+ * stiffness 1e0..1e6; 1 to 4 contacts; H 1..50; N 16..2^14; harmonic 0 kept or not; both kinds of force, both laws.
+ * Ends of ranges where something special happens (mu = 0, 0 and 90 degrees, gap = 0, no damping) are points of
+ * measure zero and would never be drawn: each gets a twentieth of its range. A force drawn from twelve decades
+ * mostly moves the mass either far less than the gap or far more: for two scenes in three it is drawn such that the
+ * gap is just reached. The frequency lies near the free resonance, near that of the stuck mass, or between; not so
+ * low that the stuck mass makes more than MOST_OSCILLATIONS in a period, which only costs time. */
 #include "campaigns/stress/scenes.h"
 
 #include <gsl/gsl_qrng.h>
@@ -16,7 +17,22 @@
 
 #include "cases/fields.h"
 
-enum { MASS, STIFFNESS, DAMPING, FORCE_WAY, FORCE, PLACE, BESIDE, CONTACTS, HARMONICS, SAMPLES, KEEP_MEAN, LAW, SAMPLED, CONTACT };
+enum {
+  MASS,
+  STIFFNESS,
+  DAMPING,
+  FORCE_WAY,
+  FORCE,
+  PLACE,
+  BESIDE,
+  CONTACTS,
+  HARMONICS,
+  SAMPLES,
+  KEEP_MEAN,
+  LAW,
+  SAMPLED,
+  CONTACT
+};
 enum { KN, KT, MU, ANGLE, GAP, PER_CONTACT };
 enum { MOST_CONTACTS = 4, DIMENSIONS = CONTACT + MOST_CONTACTS * PER_CONTACT, MOST_OSCILLATIONS = 500 };
 

@@ -1,9 +1,10 @@
-/* scenes.h - the scenes of a stress run: one point of a shifted Sobol sequence each, mapped onto the whole range of every quantity. */
+/* scenes.h - the scenes of a stress run: one point of a shifted Sobol sequence each, mapped onto the whole range of
+ * every quantity. */
 #ifndef HC_STRESS_SCENES_H
 #define HC_STRESS_SCENES_H
 
-#include "model/scene.h"
 #include "base/status.h"
+#include "model/scene.h"
 
 typedef struct stress_scenes stress_scenes; /* one a thread */
 
@@ -13,7 +14,8 @@ void stress_scenes_free(stress_scenes *s);
 /* Scene number `index` >= 0; cheap where indices rise. Its one frequency is compare.omega, its sweep lies around it. */
 hc_status stress_scenes_at(stress_scenes *s, long index, scene *out);
 
-/* The same scene with lengths, forces and times in units that are so much smaller: every length, force, time gets larger by its factor. */
+/* The same scene with lengths, forces and times in units that are so much smaller: every length, force, time gets
+ * larger by its factor. */
 scene stress_in_units(const scene *sc, double length, double force, double time);
 
 #endif

@@ -1,56 +1,59 @@
 /* stress.h - random scenes, every method held against every other. The way into this folder.
  *
- * A scene is a point of a Sobol sequence (scenes.h): seed and index make it again. On each, every check of STRESS_CHECKS holds two ways to the
- * same answer against each other and ends in one of four ways:
+ * A scene is a point of a Sobol sequence (scenes.h): seed and index make it again. On each, every check of
+ * STRESS_CHECKS holds two ways to the same answer against each other and ends in one of four ways:
  *     agreed      within a bound that is derived where the check is
- *     explained   beyond it, for a reason that was itself computed (STRESS_REASONS): the difference shrinks with the harmonics as it must,
- *                 the scene is so ill-conditioned that it must differ by that much, ...
+ *     explained   beyond it, for a reason that was itself computed (STRESS_REASONS): the difference shrinks with the
+ *                 harmonics as it must, the scene is so ill-conditioned that it must differ by that much, ...
  *     refused     a solver said that it could not, and why; second worst
  *     finding     two methods say different things and nothing explains it: a fault of ours
- * or was skipped, having nothing to hold against each other. There is no fifth. Not here: how it is shown (cli/cmd_stress.c). */
+ * or was skipped, having nothing to hold against each other. There is no fifth. Not here: how it is shown
+ * (cli/cmd_stress.c). */
 #ifndef HC_STRESS_H
 #define HC_STRESS_H
 
 #include <stdio.h>
 
-#include "model/scene.h"
 #include "base/status.h"
+#include "model/scene.h"
 
-#define STRESS_CHECKS(X)                                                                                                    \
-  X(STRESS_FORCE, "force_exact_sampled", "contact force harmonics of one motion, located exactly and sampled ever finer")  \
-  X(STRESS_SHIFT, "force_time_shift", "the force of a motion that starts at another time is the same force, later")        \
-  X(STRESS_REFLECTION, "force_time_reflection", "run backwards, a motion without slip has its force run backwards")        \
-  X(STRESS_FREE, "linear_never_touching", "gaps never reached: HBM and transient are the closed form of K")                \
-  X(STRESS_STUCK, "linear_always_stuck", "never slipping nor opening: the closed form of K + kt cos^2 + kn sin^2")         \
-  X(STRESS_UNITS, "units", "the same scene in other units, powers of two and not: the same solutions")                     \
-  X(STRESS_ENERGY, "energy", "the forcing's work is the damper's and the contacts', and contacts give none back")          \
-  X(STRESS_SAMPLED, "hbm_exact_sampled", "HBM with ever more samples tends to HBM with exact forces")                      \
-  X(STRESS_SHOOTING, "hbm_shooting", "HBM with more and more harmonics tends to the orbit of the exact law")               \
-  X(STRESS_STABILITY, "multipliers", "the orbit's Floquet multiplier by HBM's own orbit and by time integration")          \
-  X(STRESS_REGULARISED, "shooting_regularised", "the regularised law's orbit tends to the exact law's")                    \
+#define STRESS_CHECKS(X)                                                                                               \
+  X(STRESS_FORCE, "force_exact_sampled",                                                                               \
+    "contact force harmonics of one motion, located exactly and sampled ever finer")                                   \
+  X(STRESS_SHIFT, "force_time_shift", "the force of a motion that starts at another time is the same force, later")    \
+  X(STRESS_REFLECTION, "force_time_reflection", "run backwards, a motion without slip has its force run backwards")    \
+  X(STRESS_FREE, "linear_never_touching", "gaps never reached: HBM and transient are the closed form of K")            \
+  X(STRESS_STUCK, "linear_always_stuck", "never slipping nor opening: the closed form of K + kt cos^2 + kn sin^2")     \
+  X(STRESS_UNITS, "units", "the same scene in other units, powers of two and not: the same solutions")                 \
+  X(STRESS_ENERGY, "energy", "the forcing's work is the damper's and the contacts', and contacts give none back")      \
+  X(STRESS_SAMPLED, "hbm_exact_sampled", "HBM with ever more samples tends to HBM with exact forces")                  \
+  X(STRESS_SHOOTING, "hbm_shooting", "HBM with more and more harmonics tends to the orbit of the exact law")           \
+  X(STRESS_STABILITY, "multipliers", "the orbit's Floquet multiplier by HBM's own orbit and by time integration")      \
+  X(STRESS_REGULARISED, "shooting_regularised", "the regularised law's orbit tends to the exact law's")                \
   X(STRESS_VERDICT, "verdict", "what compare says, held against all that is known by now")
 
-#define STRESS_REASONS(X)                                                                                             \
-  X(STRESS_NO_REASON, "", "")                                                                                         \
-  X(STRESS_TRUNCATED, "truncated", "too few harmonics, and doubling them says by how much")                           \
-  X(STRESS_UNRESOLVED, "unresolved", "the contact's own oscillation lies beyond the harmonics")                       \
-  X(STRESS_ALIASED, "aliased", "too few samples, and more of them come nearer")                                       \
-  X(STRESS_SMOOTHED, "smoothed", "the regularised law itself, and less regularisation comes nearer")                  \
-  X(STRESS_ILL_CONDITIONED, "ill_conditioned", "rounding or tolerances alone, through the scene's own sensitivity")   \
-  X(STRESS_OTHER_ORBIT, "other_orbit", "two orbits exist side by side, and each is confirmed by the other method")    \
-  X(STRESS_OTHER_EVENTS, "other_events", "next to a grazing: the two orbits, as near as they are, differ by a transition")  \
-  X(STRESS_NO_ORBIT, "no_orbit", "nothing to hold against: the other method found no solution")                       \
-  X(STRESS_NOT_APPLICABLE, "not_applicable", "the law that is checked does not hold here")                            \
-  X(STRESS_REFUSED_BY, "refused", "a solver gave up and said why")                                                    \
-  X(STRESS_TOO_DEAR, "too_dear", "given up after the time allowed for one check")                                     \
-  X(STRESS_SAID_SO, "said_so", "compare says that the two differ, or why they cannot be compared")                    \
-  X(STRESS_DISAGREES, "disagrees", "two methods differ, and nothing explains it")                                     \
-  X(STRESS_WRONG_VERDICT, "wrong_verdict", "compare says what is known not to be so")                                 \
+#define STRESS_REASONS(X)                                                                                              \
+  X(STRESS_NO_REASON, "", "")                                                                                          \
+  X(STRESS_TRUNCATED, "truncated", "too few harmonics, and doubling them says by how much")                            \
+  X(STRESS_UNRESOLVED, "unresolved", "the contact's own oscillation lies beyond the harmonics")                        \
+  X(STRESS_ALIASED, "aliased", "too few samples, and more of them come nearer")                                        \
+  X(STRESS_SMOOTHED, "smoothed", "the regularised law itself, and less regularisation comes nearer")                   \
+  X(STRESS_ILL_CONDITIONED, "ill_conditioned", "rounding or tolerances alone, through the scene's own sensitivity")    \
+  X(STRESS_OTHER_ORBIT, "other_orbit", "two orbits exist side by side, and each is confirmed by the other method")     \
+  X(STRESS_OTHER_EVENTS, "other_events",                                                                               \
+    "next to a grazing: the two orbits, as near as they are, differ by a transition")                                  \
+  X(STRESS_NO_ORBIT, "no_orbit", "nothing to hold against: the other method found no solution")                        \
+  X(STRESS_NOT_APPLICABLE, "not_applicable", "the law that is checked does not hold here")                             \
+  X(STRESS_REFUSED_BY, "refused", "a solver gave up and said why")                                                     \
+  X(STRESS_TOO_DEAR, "too_dear", "given up after the time allowed for one check")                                      \
+  X(STRESS_SAID_SO, "said_so", "compare says that the two differ, or why they cannot be compared")                     \
+  X(STRESS_DISAGREES, "disagrees", "two methods differ, and nothing explains it")                                      \
+  X(STRESS_WRONG_VERDICT, "wrong_verdict", "compare says what is known not to be so")                                  \
   X(STRESS_INTERNAL, "internal", "an internal error, or a number that is none")
 
-#define STRESS_OUTCOMES(X)                                                                                  \
-  X(STRESS_SKIPPED, "skipped") X(STRESS_AGREED, "agreed") X(STRESS_EXPLAINED, "explained") X(STRESS_REFUSED, "refused") \
-  X(STRESS_FINDING, "finding")
+#define STRESS_OUTCOMES(X)                                                                                             \
+  X(STRESS_SKIPPED, "skipped")                                                                                         \
+  X(STRESS_AGREED, "agreed") X(STRESS_EXPLAINED, "explained") X(STRESS_REFUSED, "refused") X(STRESS_FINDING, "finding")
 
 #define STRESS_CODE(code, name, meaning) code,
 typedef enum stress_kind { STRESS_CHECKS(STRESS_CODE) STRESS_N_CHECKS } stress_kind;
@@ -99,11 +102,13 @@ typedef struct stress_watch {
   void *self;
 } stress_watch;
 
-/* The whole plan by several threads, into results[plan->scenes]. HC_INTERRUPTED keeps what is there; HC_BAD_INPUT: the journal belongs to another
- * plan or is none, HC_IO: it cannot be written (errno says why). *resumed: scenes that the journal had. */
+/* The whole plan by several threads, into results[plan->scenes]. HC_INTERRUPTED keeps what is there; HC_BAD_INPUT:
+ * the journal belongs to another plan or is none, HC_IO: it cannot be written (errno says why). *resumed: scenes
+ * that the journal had. */
 hc_status stress_run(const stress_plan *plan, const stress_watch *watch, stress_result *results, long *resumed);
 
-/* A scene as small and round as it gets with `kind` still a finding: contacts dropped, digits dropped, fewer harmonics. In place. */
+/* A scene as small and round as it gets with `kind` still a finding: contacts dropped, digits dropped, fewer
+ * harmonics. In place. */
 hc_status stress_shrink(scene *sc, stress_kind kind, double seconds, const hc_monitor *monitor);
 
 #endif

@@ -46,7 +46,8 @@ static void note_fatal(stress_subject *s, hc_status st)
   if (st == HC_NO_MEMORY) s->fatal = st;
 }
 
-void stress_solve(stress_subject *s, const scene *sc, double omega, int n_guess, const double *guess, stress_solution *out)
+void stress_solve(stress_subject *s, const scene *sc, double omega, int n_guess, const double *guess,
+                  stress_solution *out)
 {
   hbm_solver *hbm = NULL;
   hbm_point point;
@@ -75,9 +76,15 @@ void stress_shoot(stress_subject *s, const scene *sc, double omega, stress_orbit
 
 stress_check stress_skip(stress_reason why) { return (stress_check){STRESS_SKIPPED, why, HC_OK, NAN, NAN, 0}; }
 
-stress_check stress_explain(stress_reason why, double error, double bound) { return (stress_check){STRESS_EXPLAINED, why, HC_OK, error, bound, 0}; }
+stress_check stress_explain(stress_reason why, double error, double bound)
+{
+  return (stress_check){STRESS_EXPLAINED, why, HC_OK, error, bound, 0};
+}
 
-stress_check stress_find(stress_reason why, double error, double bound) { return (stress_check){STRESS_FINDING, why, HC_OK, error, bound, 0}; }
+stress_check stress_find(stress_reason why, double error, double bound)
+{
+  return (stress_check){STRESS_FINDING, why, HC_OK, error, bound, 0};
+}
 
 stress_check stress_agree(double error, double bound)
 {
@@ -91,7 +98,8 @@ stress_check stress_refuse(stress_subject *s, hc_status st)
   note_fatal(s, st);
   if (st == HC_INTERRUPTED) c.outcome = STRESS_EXPLAINED, c.reason = STRESS_TOO_DEAR;
   /* none of these is an answer to a scene whose every field is within its range */
-  if (st == HC_OK || st == HC_BUG || st == HC_BAD_INPUT || st == HC_UNSUPPORTED || st == HC_IO) c.outcome = STRESS_FINDING, c.reason = STRESS_INTERNAL;
+  if (st == HC_OK || st == HC_BUG || st == HC_BAD_INPUT || st == HC_UNSUPPORTED || st == HC_IO)
+    c.outcome = STRESS_FINDING, c.reason = STRESS_INTERNAL;
   return c;
 }
 
@@ -114,7 +122,8 @@ static const char *const kinds[] = {STRESS_CHECKS(NAME)}, *const reasons[] = {ST
 static const char *const outcomes[] = {STRESS_OUTCOMES(NAME)};
 #undef NAME
 #define MEANING(code, name, meaning) meaning,
-static const char *const kind_meanings[] = {STRESS_CHECKS(MEANING)}, *const reason_meanings[] = {STRESS_REASONS(MEANING)};
+static const char *const kind_meanings[] = {STRESS_CHECKS(MEANING)}, *const reason_meanings[] = {
+                                                                         STRESS_REASONS(MEANING)};
 #undef MEANING
 
 const char *stress_kind_name(stress_kind kind) { return kinds[kind]; }
@@ -128,8 +137,9 @@ const char *stress_outcome_name(stress_outcome outcome) { return outcomes[outcom
 hc_status stress_scene(const scene *sc, double seconds, const hc_monitor *monitor, stress_result *out)
 {
   static stress_check (*const checks[STRESS_N_CHECKS])(stress_subject *) = {
-      stress_check_force, stress_check_shift, stress_check_reflection, stress_check_free, stress_check_stuck, stress_check_units,
-      stress_check_energy, stress_check_sampled, stress_check_shooting, stress_check_stability, stress_check_regularised, stress_check_verdict};
+      stress_check_force,    stress_check_shift,     stress_check_reflection,  stress_check_free,
+      stress_check_stuck,    stress_check_units,     stress_check_energy,      stress_check_sampled,
+      stress_check_shooting, stress_check_stability, stress_check_regularised, stress_check_verdict};
   stress_subject s;
   double start = stress_processor_seconds();
   stress_subject_start(&s, sc, seconds, monitor);

@@ -1,4 +1,5 @@
-/* subject.h - a scene under stress: its solutions by every method as the checks need them, and the words a check ends with. */
+/* subject.h - a scene under stress: its solutions by every method as the checks need them, and the words a check
+ * ends with. */
 #ifndef HC_STRESS_SUBJECT_H
 #define HC_STRESS_SUBJECT_H
 
@@ -25,17 +26,17 @@ typedef struct stress_orbit {
 } stress_orbit;
 
 typedef struct stress_subject {
-  const scene *asked;           /* as it is                                   */
-  scene exact;                  /* with exact forces and the exact contact law */
-  const scene *sc;              /* = &exact: what the checks work on           */
+  const scene *asked; /* as it is                                   */
+  scene exact;        /* with exact forces and the exact contact law */
+  const scene *sc;    /* = &exact: what the checks work on           */
   double omega;
-  double seconds, deadline;     /* allowed for one check; when this one ends, by the thread's processor time */
+  double seconds, deadline; /* allowed for one check; when this one ends, by the thread's processor time */
   const hc_monitor *outer;
-  hc_monitor monitor;           /* outer's, and the deadline */
-  hc_status fatal;              /* HC_OK; HC_INTERRUPTED by outer, HC_NO_MEMORY: nothing further is worth anything */
-  stress_solution base;         /* at the scene's own H, exact forces */
-  stress_solution fine;         /* with the most harmonics that were needed; base before STRESS_SHOOTING */
-  stress_orbit orbit;           /* the exact law's, next to fine */
+  hc_monitor monitor;   /* outer's, and the deadline */
+  hc_status fatal;      /* HC_OK; HC_INTERRUPTED by outer, HC_NO_MEMORY: nothing further is worth anything */
+  stress_solution base; /* at the scene's own H, exact forces */
+  stress_solution fine; /* with the most harmonics that were needed; base before STRESS_SHOOTING */
+  stress_orbit orbit;   /* the exact law's, next to fine */
 } stress_subject;
 
 void stress_subject_start(stress_subject *s, const scene *sc, double seconds, const hc_monitor *outer);
@@ -45,7 +46,8 @@ void stress_clock(stress_subject *s);
 double stress_processor_seconds(void); /* of this thread */
 
 /* HBM for sc (any variant of the subject's) at omega from guess[2 n_guess + 1], or from nothing where guess is NULL. */
-void stress_solve(stress_subject *s, const scene *sc, double omega, int n_guess, const double *guess, stress_solution *out);
+void stress_solve(stress_subject *s, const scene *sc, double omega, int n_guess, const double *guess,
+                  stress_solution *out);
 
 /* The period-1 orbit next to out->state for sc, by shooting, with sc's law. */
 void stress_shoot(stress_subject *s, const scene *sc, double omega, stress_orbit *out);

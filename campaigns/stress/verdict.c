@@ -1,15 +1,17 @@
-/* verdict.c - the check that matters most: what `compare` tells its user, held against all that is known of the scene by now.
+/* verdict.c - the check that matters most: what `compare` tells its user, held against all that is known of the
+ * scene by now.
  *
- *     match                 the HBM solution lies within the gate of the exact law's motion, but for what the regularised law is said to cost
+ *     match                 the HBM solution lies within the gate of the exact law's motion, but for what the
+ *                           regularised law is said to cost
  *     unstable              the orbit next to the HBM solution is unstable by time integration
  *     differs, other_branch, period_k, aperiodic, not_settled, solver_failed
- *                           say by themselves that there is no agreement: explained. But an orbit that HBM meets to a hundredth of the gate, and
- *                           that is stable, is no `differs`
+ *                           say by themselves that there is no agreement: explained. But an orbit that HBM meets to
+ *                           a hundredth of the gate, and that is stable, is no `differs`
  * and no row's error budget may fall short of the discrepancy it accounts for. */
 #include <math.h>
 
-#include "compare/comparison.h"
 #include "campaigns/stress/subject.h"
+#include "compare/comparison.h"
 
 /* Largest share of the gate; above 1: beyond. */
 static double share_of_gate(const comparison_errors *e, const scene_gate *g, bool free)
@@ -27,10 +29,12 @@ static bool wrong(const comparison_row *r, const scene_gate *g, double *share)
   switch (r->verdict) {
   case VERDICT_MATCH: {
     if (!(*share <= 1)) return true;
-    double law = known(r->budget.waveform.regularisation) + known(r->budget.waveform.integration) + known(r->budget.waveform.settling);
+    double law = known(r->budget.waveform.regularisation) + known(r->budget.waveform.integration) +
+                 known(r->budget.waveform.settling);
     return orbit && !(r->orbit_error <= 1.01 * g->waveform + 1.01 * law);
   }
-  case VERDICT_UNSTABLE: return r->orbit_status == HC_OK ? timeint_stability(&r->orbit) > 0 : hbm_stability_verdict(&r->stability) > 0;
+  case VERDICT_UNSTABLE:
+    return r->orbit_status == HC_OK ? timeint_stability(&r->orbit) > 0 : hbm_stability_verdict(&r->stability) > 0;
   case VERDICT_DIFFERS:
   case VERDICT_OTHER_BRANCH: return *share <= 1;
   case VERDICT_PERIOD_K: return r->transient.period_multiple < 2;
@@ -44,7 +48,8 @@ static stress_check row_check(stress_subject *s, const comparison_row *r)
   double share;
   if (r->hbm_status == HC_BUG || r->transient_status == HC_BUG) return stress_find(STRESS_INTERNAL, NAN, NAN);
   if (wrong(r, &g, &share)) return stress_find(STRESS_WRONG_VERDICT, share, 1);
-  if (r->budget.known && !r->budget.holds) return stress_find(STRESS_WRONG_VERDICT, r->budget.amplitude.observed, r->budget.amplitude.sum);
+  if (r->budget.known && !r->budget.holds)
+    return stress_find(STRESS_WRONG_VERDICT, r->budget.amplitude.observed, r->budget.amplitude.sum);
   if (r->verdict == VERDICT_MATCH) return stress_agree(share, 1);
   if (r->verdict != VERDICT_SOLVER_FAILED) return stress_explain(STRESS_SAID_SO, share, 1);
   hc_status st = r->hbm_status != HC_OK ? r->hbm_status : r->transient_status;
@@ -57,7 +62,8 @@ stress_check stress_check_verdict(stress_subject *s)
   comparison c;
   hc_status st = comparison_run(s->asked, &s->monitor, &c);
   stress_check worst = stress_skip(STRESS_NO_ORBIT);
-  if (c.n_rows == 0) worst = st == HC_OK ? stress_find(STRESS_INTERNAL, NAN, NAN) : stress_refuse(s, st); /* a frequency without an answer */
+  /* a frequency without an answer */
+  if (c.n_rows == 0) worst = st == HC_OK ? stress_find(STRESS_INTERNAL, NAN, NAN) : stress_refuse(s, st);
   for (int i = 0; i < c.n_rows; ++i) {
     stress_check row = row_check(s, &c.rows[i]);
     if (row.outcome > worst.outcome) worst = row;

@@ -11,11 +11,19 @@ enum { TICK_EVERY = 10000 /* of SQLite's instructions */, VALUE_TEXT = 512, ANY_
 
 const table_column *study_claims_columns(int which, int *n)
 {
-  static const table_column plain[] = {{"source", TABLE_TEXT}, {"says", TABLE_TEXT}, {"found", TABLE_TEXT}, {"holds", TABLE_TEXT}};
-  static const table_column sides[] = {{"source", TABLE_TEXT},      {"says", TABLE_TEXT},       {"paper_found", TABLE_TEXT},
-                                       {"paper_holds", TABLE_TEXT}, {"ours_found", TABLE_TEXT}, {"ours_holds", TABLE_TEXT}};
-  static const table_column seconds[] = {{"source", TABLE_TEXT}, {"reported_s", TABLE_REAL}, {"paper_s", TABLE_REAL}, {"ours_s", TABLE_REAL}, {"says", TABLE_TEXT}};
-  *n = which == STUDY_SIDES ? sizeof sides / sizeof *sides : which == STUDY_SECONDS ? sizeof seconds / sizeof *seconds : sizeof plain / sizeof *plain;
+  static const table_column plain[] = {
+      {"source", TABLE_TEXT}, {"says", TABLE_TEXT}, {"found", TABLE_TEXT}, {"holds", TABLE_TEXT}};
+  static const table_column sides[] = {{"source", TABLE_TEXT},      {"says", TABLE_TEXT},
+                                       {"paper_found", TABLE_TEXT}, {"paper_holds", TABLE_TEXT},
+                                       {"ours_found", TABLE_TEXT},  {"ours_holds", TABLE_TEXT}};
+  static const table_column seconds[] = {{"source", TABLE_TEXT},
+                                         {"reported_s", TABLE_REAL},
+                                         {"paper_s", TABLE_REAL},
+                                         {"ours_s", TABLE_REAL},
+                                         {"says", TABLE_TEXT}};
+  *n = which == STUDY_SIDES     ? sizeof sides / sizeof *sides
+       : which == STUDY_SECONDS ? sizeof seconds / sizeof *seconds
+                                : sizeof plain / sizeof *plain;
   return which == STUDY_SIDES ? sides : which == STUDY_SECONDS ? seconds : plain;
 }
 
@@ -30,7 +38,8 @@ static hc_status blame(const study *s, const study_value *query, const char *wha
 }
 
 /* One query that gives that many columns. */
-static hc_status prepare_columns(const study *s, sqlite3 *db, const study_value *query, const char *what, int columns, sqlite3_stmt **q, case_error *err)
+static hc_status prepare_columns(const study *s, sqlite3 *db, const study_value *query, const char *what, int columns,
+                                 sqlite3_stmt **q, case_error *err)
 {
   const char *rest = "";
   char why[128];
@@ -40,15 +49,19 @@ static hc_status prepare_columns(const study *s, sqlite3 *db, const study_value 
     return code == SQLITE_NOMEM ? HC_NO_MEMORY : HC_BAD_INPUT;
   }
   snprintf(why, sizeof why, "gives %d columns, expected one value", sqlite3_column_count(*q));
-  const char *fault = !*q ? "is no query, expected one SELECT" : rest[strspn(rest, " \t\r\n;")] ? "is more than one query, expected one SELECT"
-                      : !sqlite3_stmt_readonly(*q) ? "may only read, expected one SELECT" : columns != ANY_COLUMNS && sqlite3_column_count(*q) != columns ? why : NULL;
+  const char *fault = !*q                              ? "is no query, expected one SELECT"
+                      : rest[strspn(rest, " \t\r\n;")] ? "is more than one query, expected one SELECT"
+                      : !sqlite3_stmt_readonly(*q)     ? "may only read, expected one SELECT"
+                      : columns != ANY_COLUMNS && sqlite3_column_count(*q) != columns ? why
+                                                                                      : NULL;
   if (!fault) return HC_OK;
   sqlite3_finalize(*q);
   *q = NULL;
   return blame(s, query, what, fault, err);
 }
 
-static hc_status prepare(const study *s, sqlite3 *db, const study_value *query, const char *what, sqlite3_stmt **q, case_error *err)
+static hc_status prepare(const study *s, sqlite3 *db, const study_value *query, const char *what, sqlite3_stmt **q,
+                         case_error *err)
 {
   return prepare_columns(s, db, query, what, 1, q, err);
 }
@@ -100,7 +113,8 @@ hc_status study_claims_check(const study *s, case_error *err)
 static int tick(void *self) { return !hc_monitor_tick(self, -1); }
 
 /* The one value into text[VALUE_TEXT], "" for NULL or no row at all. */
-static hc_status evaluate(const study *s, sqlite3 *db, const study_value *query, const char *what, char *text, case_error *err)
+static hc_status evaluate(const study *s, sqlite3 *db, const study_value *query, const char *what, char *text,
+                          case_error *err)
 {
   sqlite3_stmt *q = NULL;
   *text = 0;
@@ -122,7 +136,10 @@ static hc_status evaluate(const study *s, sqlite3 *db, const study_value *query,
   return st;
 }
 
-typedef struct said { bool there; char found[VALUE_TEXT], holds[VALUE_TEXT], seconds[VALUE_TEXT]; } said;
+typedef struct said {
+  bool there;
+  char found[VALUE_TEXT], holds[VALUE_TEXT], seconds[VALUE_TEXT];
+} said;
 
 static hc_status answer(const study *s, sqlite3 *db, const study_answer *a, said *to, case_error *err)
 {
@@ -147,7 +164,10 @@ static void put_answer(const study_claim *c, int which, const said *a, table *t,
   table_put_text(t, agrees ? "agrees" : disagrees ? "does not agree" : "cannot be said");
   if (expect == STUDY_EXPECT_NOTHING || (expect == STUDY_EXPECT_AGREE ? agrees : disagrees)) return;
   ++tally->unexpected;
-  table_note(t, "not as expected%s: %s: %s", which == STUDY_PAPER ? " with the source's settings" : which == STUDY_OURS ? " with ours" : "",
+  table_note(t, "not as expected%s: %s: %s",
+             which == STUDY_PAPER  ? " with the source's settings"
+             : which == STUDY_OURS ? " with ours"
+                                   : "",
              c->source.text ? c->source.text : "a claim", c->says.text);
 }
 
@@ -158,7 +178,8 @@ static void put_seconds(const char *text, table *t)
   else table_put_missing(t);
 }
 
-static void put_claim(const study_claim *c, const said a[STUDY_ANSWERS], table *const t[STUDY_CLAIM_TABLES], study_claims_tally *tally)
+static void put_claim(const study_claim *c, const said a[STUDY_ANSWERS], table *const t[STUDY_CLAIM_TABLES],
+                      study_claims_tally *tally)
 {
   if (a[STUDY_PLAIN].there) {
     table_put_text(t[STUDY_CLAIMS], c->source.text);
@@ -176,8 +197,8 @@ static void put_claim(const study_claim *c, const said a[STUDY_ANSWERS], table *
   table_put_text(t[STUDY_SECONDS], c->says.text);
 }
 
-hc_status study_claims_run(const study *s, study_store *store, const hc_monitor *stop, table *const t[STUDY_CLAIM_TABLES], study_claims_tally *tally,
-                           case_error *err)
+hc_status study_claims_run(const study *s, study_store *store, const hc_monitor *stop,
+                           table *const t[STUDY_CLAIM_TABLES], study_claims_tally *tally, case_error *err)
 {
   hc_status st = make_views(s, store, err);
   sqlite3 *db = study_store_readonly(store);

@@ -2,8 +2,8 @@
 #ifndef HC_STUDY_CLAIMS_H
 #define HC_STUDY_CLAIMS_H
 
-#include "output/table.h"
 #include "campaigns/study/store.h"
+#include "output/table.h"
 
 /* Verdicts by kind of answer (STUDY_PLAIN, STUDY_PAPER, STUDY_OURS). */
 typedef struct study_claims_tally {
@@ -11,15 +11,17 @@ typedef struct study_claims_tally {
   int unexpected; /* not as `expect` says */
 } study_claims_tally;
 
-/* Claims answered once; claims answered with the settings of their source and with ours; seconds, where a claim has some. */
+/* Claims answered once; claims answered with the settings of their source and with ours; seconds, where a claim has
+ * some. */
 enum { STUDY_CLAIMS, STUDY_SIDES, STUDY_SECONDS, STUDY_CLAIM_TABLES };
 const table_column *study_claims_columns(int which, int *n);
 
-/* Can every query be run? Held against empty tables, before anything is computed. HC_BAD_INPUT with "FILE:LINE:COLUMN: ..." in err. */
+/* Can every query be run? Held against empty tables, before anything is computed. HC_BAD_INPUT with
+ * "FILE:LINE:COLUMN: ..." in err. */
 hc_status study_claims_check(const study *s, case_error *err);
 
 /* Evaluate; one row a claim into each table it belongs to. `stop` ends a query that takes too long: HC_INTERRUPTED. */
-hc_status study_claims_run(const study *s, study_store *store, const hc_monitor *stop, table *const t[STUDY_CLAIM_TABLES], study_claims_tally *tally,
-                           case_error *err);
+hc_status study_claims_run(const study *s, study_store *store, const hc_monitor *stop,
+                           table *const t[STUDY_CLAIM_TABLES], study_claims_tally *tally, case_error *err);
 
 #endif

@@ -1,12 +1,13 @@
-/* cluster.h - a study shared between processes started together by mpirun (CMake option HBMCHECK_MPI; cluster_none.c without it).
- * Rank 0 has the store and hands out scenes, the others compute them, each one at a time. Call from the main thread. */
+/* cluster.h - a study shared between processes started together by mpirun (CMake option HBMCHECK_MPI; cluster_none.c
+ * without it). Rank 0 has the store and hands out scenes, the others compute them, each one at a time. Call from the
+ * main thread. */
 #ifndef HC_STUDY_CLUSTER_H
 #define HC_STUDY_CLUSTER_H
 
 #include "campaigns/study/solve.h"
 
-/* Once, first: how many processes there are, and which this one is. false: started in several copies by a program this build knows
- * nothing of; each would do the same. */
+/* Once, first: how many processes there are, and which this one is. false: started in several copies by a program
+ * this build knows nothing of; each would do the same. */
 bool cluster_start(int *rank, int *size);
 void cluster_end(void);
 

@@ -1,6 +1,6 @@
-/* cluster_mpi.c - cluster.h by MPI. A rank asks (empty message), rank 0 answers with some scenes' numbers, none when there are no more; a
- * result travels as bytes (study_result_pack), the program being the same everywhere. Messages of a rank arrive in order, so its results
- * are there before its next question. Only the main thread calls MPI. */
+/* cluster_mpi.c - cluster.h by MPI. A rank asks (empty message), rank 0 answers with some scenes' numbers, none when
+ * there are no more; a result travels as bytes (study_result_pack), the program being the same everywhere. Messages
+ * of a rank arrive in order, so its results are there before its next question. Only the main thread calls MPI. */
 #include <mpi.h>
 #include <stdlib.h>
 

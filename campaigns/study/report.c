@@ -27,7 +27,8 @@ hc_status study_summarise(const study *s, study_store *store, study_summary *out
            exact_scenes(s));
   sqlite3_stmt *q = NULL;
   *out = (study_summary){.first_failed = -1};
-  bool good = sqlite3_prepare_v2(study_store_readonly(store), sql, -1, &q, NULL) == SQLITE_OK && sqlite3_step(q) == SQLITE_ROW;
+  bool good =
+      sqlite3_prepare_v2(study_store_readonly(store), sql, -1, &q, NULL) == SQLITE_OK && sqlite3_step(q) == SQLITE_ROW;
   if (good) {
     out->done = (long)sqlite3_column_int64(q, 0);
     out->failed = (long)sqlite3_column_int64(q, 1);
@@ -53,7 +54,9 @@ hc_status study_verdicts(const study *s, study_store *store, table *t)
 {
   sqlite3_stmt *q = NULL;
   if (s->kind == STUDY_FRF) return HC_OK; /* has no verdicts */
-  int code = sqlite3_prepare_v2(study_store_readonly(store), "SELECT verdict, count(*) FROM \"row\" GROUP BY verdict ORDER BY 2 DESC, 1", -1, &q, NULL);
+  int code =
+      sqlite3_prepare_v2(study_store_readonly(store),
+                         "SELECT verdict, count(*) FROM \"row\" GROUP BY verdict ORDER BY 2 DESC, 1", -1, &q, NULL);
   if (code == SQLITE_OK)
     while ((code = sqlite3_step(q)) == SQLITE_ROW) {
       table_put_text(t, (const char *)sqlite3_column_text(q, 0));
@@ -83,8 +86,8 @@ static void select_columns(rows_kind kind, char table_letter, FILE *to)
   int n;
   const table_column *columns = rows_columns(kind, &n);
   for (int i = 0; i < n; ++i)
-    fprintf(to, ", %c.\"%s\" AS \"%s%s\"", table_letter, columns[i].name, table_letter == 'r' && is_scene_column(columns[i].name) ? "row_" : "",
-            columns[i].name);
+    fprintf(to, ", %c.\"%s\" AS \"%s%s\"", table_letter, columns[i].name,
+            table_letter == 'r' && is_scene_column(columns[i].name) ? "row_" : "", columns[i].name);
 }
 
 /* To free; NULL when out of memory. */
@@ -96,7 +99,8 @@ static char *export_query(const study *s, bool timings)
   if (!to) return NULL;
   fputs("SELECT s.id AS scene", to);
   for (int a = 0; a < s->n_axes; ++a)
-    for (int k = 0; k < s->axes[a].n_fields; ++k) fprintf(to, ", s.\"%s\" AS \"%s\"", s->axes[a].fields[k].path, s->axes[a].fields[k].path);
+    for (int k = 0; k < s->axes[a].n_fields; ++k)
+      fprintf(to, ", s.\"%s\" AS \"%s\"", s->axes[a].fields[k].path, s->axes[a].fields[k].path);
   fprintf(to, ", s.status AS status, s.reason AS reason%s", timings ? ", s.seconds AS seconds" : "");
   if (s->kind != STUDY_TRANSIENT) select_columns(ROWS_CURVE, 's', to);
   select_columns(study_rows(s), 'r', to);
@@ -125,7 +129,8 @@ static json_t *json_cell(sqlite3_stmt *q, int j)
 {
   switch (sqlite3_column_type(q, j)) {
   case SQLITE_INTEGER: return json_integer(sqlite3_column_int64(q, j));
-  case SQLITE_FLOAT: return isfinite(sqlite3_column_double(q, j)) ? json_real(sqlite3_column_double(q, j)) : json_null();
+  case SQLITE_FLOAT:
+    return isfinite(sqlite3_column_double(q, j)) ? json_real(sqlite3_column_double(q, j)) : json_null();
   case SQLITE_NULL: return json_null();
   default: return json_string((const char *)sqlite3_column_text(q, j));
   }
@@ -135,7 +140,8 @@ static bool write_json_row(sqlite3_stmt *q, FILE *to)
 {
   json_t *object = json_object();
   bool good = object != NULL;
-  for (int j = 0; good && j < sqlite3_column_count(q); ++j) good = json_object_set_new(object, sqlite3_column_name(q, j), json_cell(q, j)) == 0;
+  for (int j = 0; good && j < sqlite3_column_count(q); ++j)
+    good = json_object_set_new(object, sqlite3_column_name(q, j), json_cell(q, j)) == 0;
   good = good && (json_dumpf(object, to, JSON_REAL_PRECISION(17)) == 0 || ferror(to));
   json_decref(object);
   return good;

@@ -2,15 +2,15 @@
 #ifndef HC_STUDY_REPORT_H
 #define HC_STUDY_REPORT_H
 
-#include "output/table.h"
 #include "campaigns/study/store.h"
+#include "output/table.h"
 
 typedef struct study_summary {
   long done, failed;
-  double seconds;           /* of computing, all threads together */
-  double exact_seconds;     /* of these, by scenes with exact forces */
-  long first_failed;        /* scene, or -1 */
-  char reason[STUDY_TEXT];  /* of that one */
+  double seconds;          /* of computing, all threads together */
+  double exact_seconds;    /* of these, by scenes with exact forces */
+  long first_failed;       /* scene, or -1 */
+  char reason[STUDY_TEXT]; /* of that one */
 } study_summary;
 
 hc_status study_summarise(const study *s, study_store *store, study_summary *out);
@@ -19,8 +19,9 @@ hc_status study_summarise(const study *s, study_store *store, study_summary *out
 const table_column *study_verdict_columns(int *n);
 hc_status study_verdicts(const study *s, study_store *store, table *t);
 
-/* Every scene with its rows (a scene without any is one line), by scene and then by the rows' order: the same bytes whatever computed them,
- * unless `timings` asks for the seconds of each scene. csv or json; HC_IO once the stream has failed. */
+/* Every scene with its rows (a scene without any is one line), by scene and then by the rows' order: the same bytes
+ * whatever computed them, unless `timings` asks for the seconds of each scene. csv or json; HC_IO once the stream
+ * has failed. */
 hc_status study_export(const study *s, study_store *store, table_format format, bool timings, FILE *to);
 
 #endif

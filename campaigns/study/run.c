@@ -1,22 +1,23 @@
-/* run.c - see run.h. Threads take the next scene's number under one lock and hand the result to the store under another; the calling thread
- * watches, and answers other processes (cluster.h). The order in which scenes are kept differs from run to run, what is kept does not. */
+/* run.c - see run.h. Threads take the next scene's number under one lock and hand the result to the store under
+ * another; the calling thread watches, and answers other processes (cluster.h). The order in which scenes are kept
+ * differs from run to run, what is kept does not. */
 #include "campaigns/study/run.h"
 
 #include <stdlib.h>
 #include <time.h>
 
-#include "numerics/crew.h"
 #include "campaigns/study/cluster.h"
+#include "numerics/crew.h"
 
 enum { WATCH_MS = 50, SERVE_MS = 1 };
 
 typedef struct pool {
   const study *s;
   study_store *store;
-  crew crew;                     /* its lock is of `taken` and the counts */
-  pthread_mutex_t writing;       /* of the store */
-  bool lost;                     /* under `writing`: a scene could not be kept, and no other is tried */
-  unsigned char *taken;          /* [n_scenes] there already, or being computed */
+  crew crew;               /* its lock is of `taken` and the counts */
+  pthread_mutex_t writing; /* of the store */
+  bool lost;               /* under `writing`: a scene could not be kept, and no other is tried */
+  unsigned char *taken;    /* [n_scenes] there already, or being computed */
   long next, there, now;
 } pool;
 
@@ -52,7 +53,10 @@ static void *work(void *self)
     hc_status st = study_solve(p->s, id, &monitor, &r);
     if (st == HC_OK) st = keep(p, &r);
     study_result_clear(&r);
-    if (st != HC_OK) { crew_stop(&p->crew, st); break; }
+    if (st != HC_OK) {
+      crew_stop(&p->crew, st);
+      break;
+    }
   }
   crew_leave(&p->crew);
   return NULL;
@@ -88,7 +92,8 @@ static void watch_over(pool *p, const study_watch *watch)
     bool own = p->crew.running > 0;
     pthread_mutex_unlock(&p->crew.lock);
     if (!own && !others) return;
-    if (beat % (others ? WATCH_MS / SERVE_MS : 1) == 0 && watch->tick && !watch->tick(watch->self, there, now, p->s->n_scenes))
+    if (beat % (others ? WATCH_MS / SERVE_MS : 1) == 0 && watch->tick &&
+        !watch->tick(watch->self, there, now, p->s->n_scenes))
       crew_stop(&p->crew, HC_INTERRUPTED);
     if (own) crew_wait(&p->crew, others ? SERVE_MS : WATCH_MS);
     else nanosleep(&(struct timespec){.tv_nsec = SERVE_MS * 1000000L}, NULL);

@@ -87,8 +87,9 @@ static hc_status solve_frf(const scene *sc, const hc_monitor *monitor, study_res
 
 static hc_status solve_transient(const scene *sc, const hc_monitor *monitor, study_result *r)
 {
-  static const char *const stages[] = {
-      [STEADY_TRANSIENT] = "time integration", [STEADY_SWEEP] = "the frequency sweep", [STEADY_HBM] = "harmonic balance"};
+  static const char *const stages[] = {[STEADY_TRANSIENT] = "time integration",
+                                       [STEADY_SWEEP] = "the frequency sweep",
+                                       [STEADY_HBM] = "harmonic balance"};
   steady_states found;
   hc_status st = steady_states_run(sc, monitor, &found);
   if (st == HC_BAD_INPUT && sc->compare.omega.n == 0) {
@@ -117,7 +118,8 @@ static void tell_failures(const comparison *c, study_result *r)
     if (row->hbm_status != HC_OK) fail_with(r, "harmonic balance", row->hbm_status, row->omega);
     else if (row->transient_status != HC_OK) fail_with(r, "time integration", row->transient_status, row->omega);
   }
-  if (c->curve.end != HC_OK) fail_with(r, "the response curve stopped", c->curve.end, c->curve.n ? c->curve.points[c->curve.n - 1].omega : 0);
+  if (c->curve.end != HC_OK)
+    fail_with(r, "the response curve stopped", c->curve.end, c->curve.n ? c->curve.points[c->curve.n - 1].omega : 0);
 }
 
 static hc_status solve_compare(const scene *sc, const hc_monitor *monitor, study_result *r)

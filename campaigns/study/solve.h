@@ -2,25 +2,25 @@
 #ifndef HC_STUDY_SOLVE_H
 #define HC_STUDY_SOLVE_H
 
-#include "output/rows.h"
 #include "campaigns/study/study.h"
+#include "output/rows.h"
 
 typedef struct study_result {
   long id;
-  bool failed;         /* something could not be solved: reason says what; what was found all the same is there */
+  bool failed; /* something could not be solved: reason says what; what was found all the same is there */
   char reason[STUDY_TEXT];
-  double seconds;      /* of this thread's processor time */
+  double seconds; /* of this thread's processor time */
   bool has_curve;
   row_cell curve[ROWS_MOST];
   int n_rows, n_columns; /* columns of the study's kind */
-  row_cell *rows;      /* [n_rows][n_columns] */
+  row_cell *rows;        /* [n_rows][n_columns] */
 } study_result;
 
 /* The kind of the rows of a study. */
 rows_kind study_rows(const study *s);
 
-/* Compute scene id. HC_OK (single failures are in the result), HC_INTERRUPTED or HC_NO_MEMORY: no result then. Free with study_result_clear
- * in any case. Safe from several threads. */
+/* Compute scene id. HC_OK (single failures are in the result), HC_INTERRUPTED or HC_NO_MEMORY: no result then. Free
+ * with study_result_clear in any case. Safe from several threads. */
 hc_status study_solve(const study *s, long id, const hc_monitor *monitor, study_result *out);
 void study_result_clear(study_result *r);
 

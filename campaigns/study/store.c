@@ -1,7 +1,8 @@
 /* store.c - see store.h. Opening and refusing; the tables themselves: store_table.c.
  *
- * What is checked, in this order, before the first byte is written: the lock; SQLite's own first bytes and our application id in them, read
- * as a plain file, so that nobody else's file is even opened as a database; its integrity; schema, program version and fingerprint. */
+ * What is checked, in this order, before the first byte is written: the lock; SQLite's own first bytes and our
+ * application id in them, read as a plain file, so that nobody else's file is even opened as a database; its
+ * integrity; schema, program version and fingerprint. */
 #include "campaigns/study/store_private.h"
 
 #include <errno.h>
@@ -39,9 +40,11 @@ static hc_status refuse_sql(case_error *err, const char *path, sqlite3 *db)
 {
   char why[256];
   int code = sqlite3_errcode(db);
-  if (code == SQLITE_NOMEM || code == SQLITE_OK /* then it was our own text that had no room */) return refuse(err, path, HC_NO_MEMORY, "out of memory");
+  if (code == SQLITE_NOMEM || code == SQLITE_OK /* then it was our own text that had no room */)
+    return refuse(err, path, HC_NO_MEMORY, "out of memory");
   snprintf(why, sizeof why, "%s (SQLite: %.150s)",
-           code == SQLITE_CORRUPT || code == SQLITE_NOTADB ? "damaged; delete it, or give another name with --results" : "cannot be used",
+           code == SQLITE_CORRUPT || code == SQLITE_NOTADB ? "damaged; delete it, or give another name with --results"
+                                                           : "cannot be used",
            sqlite3_errmsg(db));
   return refuse(err, path, HC_IO, why);
 }
@@ -61,7 +64,8 @@ static hc_status check_header(int fd, const char *path, bool *is_new, case_error
   uint32_t id = 0;
   for (int i = 0; i < 4; ++i) id = id << 8 | head[ID_AT + i];
   if (id == APPLICATION_ID) return HC_OK;
-  return refuse(err, path, HC_IO, "an SQLite file of another program, expected the results of a study, or a new name (--results)");
+  return refuse(err, path, HC_IO,
+                "an SQLite file of another program, expected the results of a study, or a new name (--results)");
 }
 
 /* The descriptor is kept until the database is closed: closing it earlier would drop SQLite's own locks. */
@@ -71,10 +75,12 @@ static hc_status lock_file(const char *path, int *fd, bool *is_new, case_error *
   *fd = open(path, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
   if (*fd < 0) return refuse_errno(err, path, "cannot be opened for writing", errno);
   struct stat info;
-  if (fstat(*fd, &info) != 0 || !S_ISREG(info.st_mode)) return refuse(err, path, HC_IO, "not a regular file, expected one for the results");
+  if (fstat(*fd, &info) != 0 || !S_ISREG(info.st_mode))
+    return refuse(err, path, HC_IO, "not a regular file, expected one for the results");
   if (flock(*fd, LOCK_EX | LOCK_NB) != 0) {
     if (errno != EWOULDBLOCK) return refuse_errno(err, path, "cannot be locked", errno);
-    return refuse(err, path, HC_IO, "another hbmcheck is writing these results; let it finish, or give another name with --results");
+    return refuse(err, path, HC_IO,
+                  "another hbmcheck is writing these results; let it finish, or give another name with --results");
   }
   return check_header(*fd, path, is_new, err);
 }
@@ -88,7 +94,8 @@ static char *study_key_value(sqlite3 *db, const char *key)
   char *text = NULL;
   if (sqlite3_prepare_v2(db, "SELECT value FROM study WHERE key = ?", -1, &q, NULL) == SQLITE_OK) {
     sqlite3_bind_text(q, 1, key, -1, SQLITE_STATIC);
-    if (sqlite3_step(q) == SQLITE_ROW && sqlite3_column_text(q, 0)) text = strdup((const char *)sqlite3_column_text(q, 0));
+    if (sqlite3_step(q) == SQLITE_ROW && sqlite3_column_text(q, 0))
+      text = strdup((const char *)sqlite3_column_text(q, 0));
   }
   sqlite3_finalize(q);
   return text;
@@ -105,8 +112,8 @@ static bool same_value(sqlite3 *db, const char *key, const char *expected)
 static bool is_sound(sqlite3 *db)
 {
   sqlite3_stmt *q = NULL;
-  bool sound = sqlite3_prepare_v2(db, "PRAGMA quick_check(1)", -1, &q, NULL) == SQLITE_OK && sqlite3_step(q) == SQLITE_ROW &&
-               !strcmp((const char *)sqlite3_column_text(q, 0), "ok");
+  bool sound = sqlite3_prepare_v2(db, "PRAGMA quick_check(1)", -1, &q, NULL) == SQLITE_OK &&
+               sqlite3_step(q) == SQLITE_ROW && !strcmp((const char *)sqlite3_column_text(q, 0), "ok");
   sqlite3_finalize(q);
   return sound;
 }
@@ -119,12 +126,15 @@ static hc_status check_contents(const study *s, sqlite3 *db, const char *path, c
   char *made_by = study_key_value(db, "hbmcheck");
   hc_status st = HC_OK;
   if (!made_by || !same_value(db, "schema", schema_version) || strcmp(made_by, version) != 0) {
-    snprintf(why, sizeof why, "made by hbmcheck %.30s, this is %s; --fresh throws these results away, --results FILE keeps them", made_by ? made_by : "?",
-             version);
+    snprintf(why, sizeof why,
+             "made by hbmcheck %.30s, this is %s; --fresh throws these results away, --results FILE keeps them",
+             made_by ? made_by : "?", version);
     st = refuse(err, path, HC_BAD_INPUT, why);
   } else if (!same_value(db, "fingerprint", fingerprint)) {
-    st = refuse(err, path, HC_BAD_INPUT,
-                "results of another study, or of this one before it was changed; --fresh throws them away, --results FILE keeps them");
+    st = refuse(
+        err, path, HC_BAD_INPUT,
+        "results of another study, or of this one before it was changed; --fresh throws them away, --results FILE "
+        "keeps them");
   }
   free(made_by);
   return st;
@@ -144,7 +154,8 @@ static bool put_keys(const study *s, sqlite3 *db, const char *version)
   snprintf(fingerprint, sizeof fingerprint, "%016" PRIx64, s->fingerprint);
   snprintf(scenes, sizeof scenes, "%ld", s->n_scenes);
   return put_key(db, "schema", schema_version) && put_key(db, "hbmcheck", version) && put_key(db, "title", s->title) &&
-         put_key(db, "run", study_kind_name(s->kind)) && put_key(db, "fingerprint", fingerprint) && put_key(db, "scenes", scenes);
+         put_key(db, "run", study_kind_name(s->kind)) && put_key(db, "fingerprint", fingerprint) &&
+         put_key(db, "scenes", scenes);
 }
 
 /* All tables anew, in one transaction. */
@@ -152,20 +163,24 @@ static bool make_tables(const study *s, sqlite3 *db, const char *version)
 {
   char *sql = store_schema(s, APPLICATION_ID);
   bool good = sql && sqlite3_exec(db, "BEGIN IMMEDIATE", NULL, NULL, NULL) == SQLITE_OK &&
-              sqlite3_exec(db, "DROP TABLE IF EXISTS \"row\"; DROP TABLE IF EXISTS scene; DROP TABLE IF EXISTS study", NULL, NULL, NULL) == SQLITE_OK &&
+              sqlite3_exec(db, "DROP TABLE IF EXISTS \"row\"; DROP TABLE IF EXISTS scene; DROP TABLE IF EXISTS study",
+                           NULL, NULL, NULL) == SQLITE_OK &&
               sqlite3_exec(db, sql, NULL, NULL, NULL) == SQLITE_OK && put_keys(s, db, version) &&
               sqlite3_exec(db, "COMMIT", NULL, NULL, NULL) == SQLITE_OK;
   free(sql);
   return good;
 }
 
-static hc_status open_database(study_store *st, const char *path, const char *version, bool is_new, bool fresh, case_error *err)
+static hc_status open_database(study_store *st, const char *path, const char *version, bool is_new, bool fresh,
+                               case_error *err)
 {
   const study *s = st->s;
-  if (sqlite3_open_v2(path, &st->db, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE, NULL) != SQLITE_OK) return refuse_sql(err, path, st->db);
+  if (sqlite3_open_v2(path, &st->db, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE, NULL) != SQLITE_OK)
+    return refuse_sql(err, path, st->db);
   sqlite3_busy_timeout(st->db, BUSY_MS);
   if (!is_new) {
-    sqlite3_db_config(st->db, SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 1, NULL); /* until it is known to be ours, closing writes nothing */
+    /* until it is known to be ours, closing writes nothing */
+    sqlite3_db_config(st->db, SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 1, NULL);
     if (!is_sound(st->db)) return refuse(err, path, HC_IO, "damaged; delete it, or give another name with --results");
     sqlite3_stmt *q = NULL; /* a crash before the first commit leaves a file of ours without tables */
     bool empty = sqlite3_prepare_v2(st->db, "SELECT 1 FROM study", -1, &q, NULL) != SQLITE_OK;
@@ -177,11 +192,13 @@ static hc_status open_database(study_store *st, const char *path, const char *ve
     sqlite3_db_config(st->db, SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 0, NULL);
   }
   if (is_new && !make_tables(s, st->db, version)) return refuse_sql(err, path, st->db);
-  if (sqlite3_exec(st->db, "PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL", NULL, NULL, NULL) != SQLITE_OK) return refuse_sql(err, path, st->db);
+  if (sqlite3_exec(st->db, "PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL", NULL, NULL, NULL) != SQLITE_OK)
+    return refuse_sql(err, path, st->db);
   return store_prepare(st) ? HC_OK : refuse_sql(err, path, st->db);
 }
 
-hc_status study_store_open(const study *s, const char *path, const char *version, bool fresh, study_store **out, case_error *err)
+hc_status study_store_open(const study *s, const char *path, const char *version, bool fresh, study_store **out,
+                           case_error *err)
 {
   *out = NULL;
   study_store *st = calloc(1, sizeof *st);

@@ -1,8 +1,9 @@
 /* store.h - the results of a study in an SQLite file: tables study, scene and row (campaigns/study/README.md).
  *
- * One scene is one transaction (WAL, synchronous NORMAL): a process killed at any moment leaves whole scenes, each once; a machine that
- * loses power may lose the last of them, which are then computed again. One process at a time writes: an flock on the file, gone with the
- * process. A file that is not the results of this very study is refused unchanged. One thread at a time. */
+ * One scene is one transaction (WAL, synchronous NORMAL): a process killed at any moment leaves whole scenes, each
+ * once; a machine that loses power may lose the last of them, which are then computed again. One process at a time
+ * writes: an flock on the file, gone with the process. A file that is not the results of this very study is refused
+ * unchanged. One thread at a time. */
 #ifndef HC_STUDY_STORE_H
 #define HC_STUDY_STORE_H
 
@@ -12,9 +13,10 @@
 
 typedef struct study_store study_store;
 
-/* Open or make `path`; ":memory:" keeps nothing. fresh: throw away results of another study or version that stand there. HC_OK, or
- * HC_BAD_INPUT, HC_IO with err saying "PATH: what is wrong, what to do" and *out NULL. */
-hc_status study_store_open(const study *s, const char *path, const char *version, bool fresh, study_store **out, case_error *err);
+/* Open or make `path`; ":memory:" keeps nothing. fresh: throw away results of another study or version that stand
+ * there. HC_OK, or HC_BAD_INPUT, HC_IO with err saying "PATH: what is wrong, what to do" and *out NULL. */
+hc_status study_store_open(const study *s, const char *path, const char *version, bool fresh, study_store **out,
+                           case_error *err);
 void study_store_close(study_store *st);
 
 /* Which scenes are there: done[n_scenes]; *n is how many. */
@@ -30,7 +32,8 @@ hc_status study_sql_status(sqlite3 *db);
 /* For queries on the results; whatever is prepared from now on can only read. */
 sqlite3 *study_store_readonly(study_store *st);
 
-/* Give a query a name, for this connection only: nothing is written to the file. `select` is one SELECT. HC_IO: study_store_error tells. */
+/* Give a query a name, for this connection only: nothing is written to the file. `select` is one SELECT. HC_IO:
+ * study_store_error tells. */
 hc_status study_store_view(study_store *st, const char *name, const char *select);
 
 #endif

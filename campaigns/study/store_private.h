@@ -4,10 +4,10 @@
 
 #include "campaigns/study/store.h"
 
-struct study_store {     /* from study_store_open, to study_store_close */
-  const study *s;        /* the caller's */
+struct study_store { /* from study_store_open, to study_store_close */
+  const study *s;    /* the caller's */
   sqlite3 *db;
-  int lock;              /* file descriptor that holds the flock; -1 for :memory: */
+  int lock; /* file descriptor that holds the flock; -1 for :memory: */
   sqlite3_stmt *put_scene, *put_row;
 };
 

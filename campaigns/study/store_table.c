@@ -8,7 +8,10 @@
 
 /* ---- columns ---- */
 
-static const char *type_of(table_kind kind) { return kind == TABLE_REAL ? "REAL" : kind == TABLE_INTEGER ? "INTEGER" : "TEXT"; }
+static const char *type_of(table_kind kind)
+{
+  return kind == TABLE_REAL ? "REAL" : kind == TABLE_INTEGER ? "INTEGER" : "TEXT";
+}
 
 static const char *type_of_field(const field *f)
 {
@@ -29,10 +32,13 @@ char *store_schema(const study *s, int application_id)
   size_t size;
   FILE *to = open_memstream(&sql, &size);
   if (!to) return NULL;
-  fprintf(to, "PRAGMA application_id = %d; CREATE TABLE study(key TEXT PRIMARY KEY, value TEXT) WITHOUT ROWID;"
-              "CREATE TABLE scene(id INTEGER PRIMARY KEY", application_id);
+  fprintf(to,
+          "PRAGMA application_id = %d; CREATE TABLE study(key TEXT PRIMARY KEY, value TEXT) WITHOUT ROWID;"
+          "CREATE TABLE scene(id INTEGER PRIMARY KEY",
+          application_id);
   for (int a = 0; a < s->n_axes; ++a)
-    for (int k = 0; k < s->axes[a].n_fields; ++k) fprintf(to, ", \"%s\" %s", s->axes[a].fields[k].path, type_of_field(s->axes[a].fields[k].f));
+    for (int k = 0; k < s->axes[a].n_fields; ++k)
+      fprintf(to, ", \"%s\" %s", s->axes[a].fields[k].path, type_of_field(s->axes[a].fields[k].f));
   fputs(", status TEXT, reason TEXT, seconds REAL", to);
   write_columns(ROWS_CURVE, to);
   fputs("); CREATE TABLE \"row\"(scene INTEGER, number INTEGER", to);
@@ -113,9 +119,11 @@ static bool insert_scene(study_store *st, const study_result *r)
       bind_value(q, ++i, sf, sf->values[study_index(s, r->id, a)].text);
     }
   sqlite3_bind_text(q, ++i, r->failed ? "failed" : "done", -1, SQLITE_STATIC);
-  bool good = (r->failed ? sqlite3_bind_text(q, ++i, r->reason, -1, SQLITE_TRANSIENT) : sqlite3_bind_null(q, ++i)) == SQLITE_OK;
+  bool good =
+      (r->failed ? sqlite3_bind_text(q, ++i, r->reason, -1, SQLITE_TRANSIENT) : sqlite3_bind_null(q, ++i)) == SQLITE_OK;
   sqlite3_bind_double(q, ++i, r->seconds);
-  for (int c = 0; c < n_curve; ++c) good &= bind_cell(q, ++i, r->has_curve ? &r->curve[c] : &(row_cell){.there = false});
+  for (int c = 0; c < n_curve; ++c)
+    good &= bind_cell(q, ++i, r->has_curve ? &r->curve[c] : &(row_cell){.there = false});
   good = good && sqlite3_step(q) == SQLITE_DONE;
   sqlite3_reset(q);
   return good;
@@ -128,7 +136,8 @@ static bool insert_rows(study_store *st, const study_result *r)
   for (int n = 0; n < r->n_rows && good; ++n) {
     sqlite3_bind_int64(q, 1, r->id);
     sqlite3_bind_int(q, 2, n);
-    for (int c = 0; c < r->n_columns; ++c) good &= bind_cell(q, 3 + c, &r->rows[(size_t)n * (size_t)r->n_columns + (size_t)c]);
+    for (int c = 0; c < r->n_columns; ++c)
+      good &= bind_cell(q, 3 + c, &r->rows[(size_t)n * (size_t)r->n_columns + (size_t)c]);
     good = good && sqlite3_step(q) == SQLITE_DONE;
     sqlite3_reset(q);
   }
@@ -137,8 +146,8 @@ static bool insert_rows(study_store *st, const study_result *r)
 
 hc_status study_store_put(study_store *st, const study_result *r)
 {
-  if (sqlite3_exec(st->db, "BEGIN IMMEDIATE", NULL, NULL, NULL) == SQLITE_OK && insert_scene(st, r) && insert_rows(st, r) &&
-      sqlite3_exec(st->db, "COMMIT", NULL, NULL, NULL) == SQLITE_OK)
+  if (sqlite3_exec(st->db, "BEGIN IMMEDIATE", NULL, NULL, NULL) == SQLITE_OK && insert_scene(st, r) &&
+      insert_rows(st, r) && sqlite3_exec(st->db, "COMMIT", NULL, NULL, NULL) == SQLITE_OK)
     return HC_OK;
   return study_sql_status(st->db); /* closing rolls back; study_store_error still has the words */
 }

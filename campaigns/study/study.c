@@ -9,7 +9,8 @@
 
 const char *study_kind_name(study_kind kind)
 {
-  static const char *const names[] = {[STUDY_FRF] = "frf", [STUDY_TRANSIENT] = "transient", [STUDY_COMPARE] = "compare"};
+  static const char *const names[] = {
+      [STUDY_FRF] = "frf", [STUDY_TRANSIENT] = "transient", [STUDY_COMPARE] = "compare"};
   return names[kind];
 }
 
@@ -43,7 +44,8 @@ hc_status study_scene(const study *s, long id, scene *out, case_error *err)
   r.sc = s->base;
   memset(r.contact_has, 0xff, sizeof r.contact_has); /* the base is whole */
   for (int a = 0; a < s->n_axes; ++a)
-    for (int k = 0; k < s->axes[a].n_fields; ++k) apply(&r, &s->axes[a].fields[k], &s->axes[a].fields[k].values[study_index(s, id, a)]);
+    for (int k = 0; k < s->axes[a].n_fields; ++k)
+      apply(&r, &s->axes[a].fields[k], &s->axes[a].fields[k].values[study_index(s, id, a)]);
   hc_status st = case_check(&r);
   if (st == HC_OK) *out = r.sc;
   return st;
@@ -66,7 +68,10 @@ hc_status study_take_fingerprint(study *s)
   FILE *to = open_memstream(&text, &size);
   if (!to) return HC_NO_MEMORY;
   hc_status st = case_echo(&base, to);
-  if (fclose(to) != 0 || st != HC_OK || !text /* glibc closes well, too, where its first allocation failed */) { free(text); return HC_NO_MEMORY; }
+  if (fclose(to) != 0 || st != HC_OK || !text /* glibc closes well, too, where its first allocation failed */) {
+    free(text);
+    return HC_NO_MEMORY;
+  }
   uint64_t h = mix(mix(0xcbf29ce484222325u, study_kind_name(s->kind)), text);
   free(text);
   for (int a = 0; a < s->n_axes; ++a)

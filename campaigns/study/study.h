@@ -1,5 +1,5 @@
-/* study.h - a sweep of any fields of a case: a file that says what varies, the grid of scenes it makes, and the way from a scene's number
- * to the scene. Format, schema and guarantees: campaigns/study/README.md. Nothing is printed.
+/* study.h - a sweep of any fields of a case: a file that says what varies, the grid of scenes it makes, and the way
+ * from a scene's number to the scene. Format, schema and guarantees: campaigns/study/README.md. Nothing is printed.
  *
  *     study_read -> study -> study_scene(id), 0 <= id < n_scenes, the last axis fastest */
 #ifndef HC_STUDY_H
@@ -49,7 +49,9 @@ typedef struct study_claim {
 } study_claim;
 
 /* A name for a query that the claims share. */
-typedef struct study_view { study_value name, query; } study_view;
+typedef struct study_view {
+  study_value name, query;
+} study_view;
 
 typedef struct study {
   char *name; /* of the file, for messages */
@@ -65,12 +67,13 @@ typedef struct study {
   uint64_t fingerprint; /* of all that decides the results: not the title, not the claims */
 } study;
 
-/* Read `path` ("-" is standard input), its base case, and apply the n_set assignments of the command line to it. HC_OK and *out, or
- * HC_BAD_INPUT / HC_IO / HC_NO_MEMORY with err filled and *out NULL. */
+/* Read `path` ("-" is standard input), its base case, and apply the n_set assignments of the command line to it.
+ * HC_OK and *out, or HC_BAD_INPUT / HC_IO / HC_NO_MEMORY with err filled and *out NULL. */
 hc_status study_read(const char *path, int n_set, const char *const *set, study **out, case_error *err);
 void study_free(study *s);
 
-/* Scene number id. HC_BAD_INPUT with err filled when its fields do not go together (fewer samples than harmonics need). */
+/* Scene number id. HC_BAD_INPUT with err filled when its fields do not go together (fewer samples than harmonics
+ * need). */
 hc_status study_scene(const study *s, long id, scene *out, case_error *err);
 
 /* Which value of axis `axis` scene id has, 0..n-1. */

@@ -1,4 +1,5 @@
-/* study_axes.c - what varies: lists, ranges and fields that go together, each value held against its field before anything runs. */
+/* study_axes.c - what varies: lists, ranges and fields that go together, each value held against its field before
+ * anything runs. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -30,7 +31,8 @@ static double range_at(const range *g, int i)
   return isfinite(x) ? x : (1 - part) * g->from + part * g->to;
 }
 
-static hc_status bad_entry(study_reader *q, const char *path, const char *key, const yaml_node_t *node, const char *expected)
+static hc_status bad_entry(study_reader *q, const char *path, const char *key, const yaml_node_t *node,
+                           const char *expected)
 {
   message *m = study_blame(q, node);
   message_add(m, "%s: `%s` is ", path, key);
@@ -54,7 +56,9 @@ static hc_status read_range_entry(study_reader *q, const char *path, int k, cons
     if (!it.quoted && number_read(it.text, it.length, k == RANGE_FROM ? &g->from : &g->to) == NUMBER_FINE) return HC_OK;
     return bad_entry(q, path, range_keys[k], node, "a number");
   case RANGE_COUNT:
-    if (!it.quoted && number_read_integer(it.text, it.length, &g->count) == NUMBER_FINE && g->count >= 1 && g->count <= STUDY_MOST_SCENES) return HC_OK;
+    if (!it.quoted && number_read_integer(it.text, it.length, &g->count) == NUMBER_FINE && g->count >= 1 &&
+        g->count <= STUDY_MOST_SCENES)
+      return HC_OK;
     return bad_entry(q, path, range_keys[k], node, "an integer 1..1000000");
   default:
     g->log = it.length == 3 && !memcmp(it.text, "log", 3);
@@ -66,11 +70,14 @@ static hc_status read_range_entry(study_reader *q, const char *path, int k, cons
 /* What a whole range can be wrong about, or NULL. */
 static const char *range_fault(const field *f, const range *g)
 {
-  if (f->kind != FIELD_REAL && f->kind != FIELD_INTEGER) return "is no number, expected a list [..., ...] of its values";
+  if (f->kind != FIELD_REAL && f->kind != FIELD_INTEGER)
+    return "is no number, expected a list [..., ...] of its values";
   for (int k = RANGE_FROM; k <= RANGE_COUNT; ++k)
     if (g->seen[k].line == 0) return "has an incomplete range, expected {from: A, to: B, count: N}, or with scale: log";
-  if (g->log && !(g->from > 0 && g->to > 0)) return "has a log range that does not stay above 0, expected from > 0 and to > 0";
-  if (g->count == 1 && g->from != g->to) return "has a range of one value with two ends, expected count >= 2, or a list of one";
+  if (g->log && !(g->from > 0 && g->to > 0))
+    return "has a log range that does not stay above 0, expected from > 0 and to > 0";
+  if (g->count == 1 && g->from != g->to)
+    return "has a range of one value with two ends, expected count >= 2, or a list of one";
   return g->count > 1 && g->from == g->to ? "has a range whose ends are equal, expected from and to to differ" : NULL;
 }
 
@@ -92,7 +99,8 @@ static hc_status read_range(study_reader *q, const char *path, const field *f, c
 }
 
 /* Value i as text, held against its field. Integers forgive the rounding of a log range. */
-static hc_status range_value(study_reader *q, const study_field *sf, const range *g, int i, const yaml_node_t *node, study_value *out)
+static hc_status range_value(study_reader *q, const study_field *sf, const range *g, int i, const yaml_node_t *node,
+                             study_value *out)
 {
   char text[NUMBER_TEXT], words[256];
   scene scratch = q->r.sc;
@@ -163,11 +171,12 @@ static hc_status count_values(study_reader *q, const study_field *sf, const yaml
     *n = g->count;
     return st;
   }
-  long count = node->type == YAML_SEQUENCE_NODE ? (long)(node->data.sequence.items.top - node->data.sequence.items.start) : 0;
+  long count =
+      node->type == YAML_SEQUENCE_NODE ? (long)(node->data.sequence.items.top - node->data.sequence.items.start) : 0;
   *n = (int)count;
   if (count > 0) return HC_OK;
-  message_add(study_blame(q, node), "`%s` varies over %s, expected a list of values or {from: A, to: B, count: N}", sf->path,
-              node->type == YAML_SEQUENCE_NODE ? "an empty list" : yaml_node_what(node));
+  message_add(study_blame(q, node), "`%s` varies over %s, expected a list of values or {from: A, to: B, count: N}",
+              sf->path, node->type == YAML_SEQUENCE_NODE ? "an empty list" : yaml_node_what(node));
   return HC_BAD_INPUT;
 }
 
@@ -177,15 +186,17 @@ static hc_status read_values(study_reader *q, study_axis *a, study_field *sf, co
   int n;
   hc_status st = count_values(q, sf, node, &g, &n);
   if (st == HC_OK && sf != a->fields && n != a->n) {
-    message_add(study_blame(q, node), "`%s` has %d values but `%s` on the same axis has %d, expected as many", sf->path, n, a->fields[0].path, a->n);
+    message_add(study_blame(q, node), "`%s` has %d values but `%s` on the same axis has %d, expected as many", sf->path,
+                n, a->fields[0].path, a->n);
     st = HC_BAD_INPUT;
   }
   if (st != HC_OK) return st;
   a->n = n;
   if (!(sf->values = calloc((size_t)n, sizeof *sf->values))) return study_no_memory(q);
   for (int i = 0; i < n && st == HC_OK; ++i)
-    st = node->type == YAML_MAPPING_NODE ? range_value(q, sf, &g, i, node, &sf->values[i])
-                                         : list_value(q, sf, study_node(q, node->data.sequence.items.start[i]), &sf->values[i]);
+    st = node->type == YAML_MAPPING_NODE
+             ? range_value(q, sf, &g, i, node, &sf->values[i])
+             : list_value(q, sf, study_node(q, node->data.sequence.items.start[i]), &sf->values[i]);
   return st;
 }
 
@@ -198,7 +209,9 @@ static hc_status read_field(study_reader *q, study_axis *a, const yaml_node_pair
   hc_status st = study_give(q, key, &t, sf->path);
   if (st != HC_OK) return st;
   if (!t.f || t.contact >= contacts) {
-    message_add(study_blame(q, key), "`%s` cannot vary, expected a field of a contact that the base case has, such as contacts[0].gap", sf->path);
+    message_add(study_blame(q, key),
+                "`%s` cannot vary, expected a field of a contact that the base case has, such as contacts[0].gap",
+                sf->path);
     return HC_BAD_INPUT;
   }
   sf->f = t.f;
@@ -210,7 +223,10 @@ static hc_status read_field(study_reader *q, study_axis *a, const yaml_node_pair
 }
 
 /* For sorting the values of an axis, each with all its fields. */
-typedef struct entry { const study_axis *axis; int i; } entry;
+typedef struct entry {
+  const study_axis *axis;
+  int i;
+} entry;
 
 static int by_value(const void *pa, const void *pb)
 {
@@ -247,7 +263,8 @@ static hc_status read_axis(study_reader *q, study_axis *a, const yaml_node_t *no
   bool mapping = node->type == YAML_MAPPING_NODE;
   size_t n = mapping ? (size_t)(node->data.mapping.pairs.top - node->data.mapping.pairs.start) : 0;
   if (n == 0) {
-    message_add(study_blame(q, node), "an axis is %s, expected {FIELD: [VALUE, ...]}", mapping ? "empty" : yaml_node_what(node));
+    message_add(study_blame(q, node), "an axis is %s, expected {FIELD: [VALUE, ...]}",
+                mapping ? "empty" : yaml_node_what(node));
     return HC_BAD_INPUT;
   }
   if (!(a->fields = calloc(n, sizeof *a->fields))) return study_no_memory(q);
@@ -257,13 +274,15 @@ static hc_status read_axis(study_reader *q, study_axis *a, const yaml_node_t *no
   if (st != HC_OK) return st;
   q->s->n_scenes *= a->n;
   if (q->s->n_scenes <= STUDY_MOST_SCENES) return HC_OK;
-  message_add(study_blame(q, node), "the grid has %ld scenes up to here, expected at most %d", q->s->n_scenes, STUDY_MOST_SCENES);
+  message_add(study_blame(q, node), "the grid has %ld scenes up to here, expected at most %d", q->s->n_scenes,
+              STUDY_MOST_SCENES);
   return HC_BAD_INPUT;
 }
 
 hc_status study_read_axes(study_reader *q, const yaml_node_t *node)
 {
-  size_t n = node->type == YAML_SEQUENCE_NODE ? (size_t)(node->data.sequence.items.top - node->data.sequence.items.start) : 0;
+  size_t n =
+      node->type == YAML_SEQUENCE_NODE ? (size_t)(node->data.sequence.items.top - node->data.sequence.items.start) : 0;
   if (n == 0) {
     message_add(study_blame(q, node), "vary is %s, expected a list of axes such as [{hbm.samples: [32, 128]}]",
                 node->type == YAML_SEQUENCE_NODE ? "an empty list" : yaml_node_what(node));

@@ -1,4 +1,5 @@
-/* study_claims.c - reading what a study claims, and the views its queries share. Holding them against results: claims.c. */
+/* study_claims.c - reading what a study claims, and the views its queries share. Holding them against results:
+ * claims.c. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -6,15 +7,28 @@
 #include "base/number.h"
 #include "campaigns/study/study_reader.h"
 
-enum { CLAIM_SOURCE, CLAIM_SAYS, CLAIM_FOUND, CLAIM_HOLDS, CLAIM_EXPECT, CLAIM_SECONDS, CLAIM_PAPER, CLAIM_OURS, N_CLAIM_KEYS };
-static const char *const claim_keys[] = {"source", "says", "found", "holds", "expect", "seconds", "paper", "ours", NULL};
+enum {
+  CLAIM_SOURCE,
+  CLAIM_SAYS,
+  CLAIM_FOUND,
+  CLAIM_HOLDS,
+  CLAIM_EXPECT,
+  CLAIM_SECONDS,
+  CLAIM_PAPER,
+  CLAIM_OURS,
+  N_CLAIM_KEYS
+};
+static const char *const claim_keys[] = {"source",  "says",  "found", "holds", "expect",
+                                         "seconds", "paper", "ours",  NULL};
 enum { ANSWER_FOUND, ANSWER_HOLDS, ANSWER_EXPECT, ANSWER_SECONDS, N_ANSWER_KEYS };
 static const char *const answer_keys[] = {"found", "holds", "expect", "seconds", NULL};
 
 static hc_status read_expectation(study_reader *q, const yaml_node_t *node, study_answer *a)
 {
   const char *text = node->type == YAML_SCALAR_NODE ? yaml_node_text(node) : "";
-  a->expect = !strcmp(text, "agree") ? STUDY_EXPECT_AGREE : !strcmp(text, "disagree") ? STUDY_EXPECT_DISAGREE : STUDY_EXPECT_NOTHING;
+  a->expect = !strcmp(text, "agree")      ? STUDY_EXPECT_AGREE
+              : !strcmp(text, "disagree") ? STUDY_EXPECT_DISAGREE
+                                          : STUDY_EXPECT_NOTHING;
   if (a->expect != STUDY_EXPECT_NOTHING) return HC_OK;
   message_add(study_blame(q, node), "expect is not known, expected agree or disagree");
   return HC_BAD_INPUT;
@@ -24,7 +38,8 @@ static hc_status read_answer(study_reader *q, const char *name, const yaml_node_
 {
   case_place seen[N_ANSWER_KEYS] = {{0}};
   if (node->type != YAML_MAPPING_NODE) {
-    message_add(study_blame(q, node), "%s is %s, expected {found: \"SELECT ...\", holds: \"SELECT ...\", seconds: \"SELECT ...\"}", name,
+    message_add(study_blame(q, node),
+                "%s is %s, expected {found: \"SELECT ...\", holds: \"SELECT ...\", seconds: \"SELECT ...\"}", name,
                 yaml_node_what(node));
     return HC_BAD_INPUT;
   }
@@ -34,7 +49,11 @@ static hc_status read_answer(study_reader *q, const char *name, const yaml_node_
     const yaml_node_t *value = study_node(q, p->value);
     if (k < 0) return HC_BAD_INPUT;
     if (k == ANSWER_EXPECT) st = read_expectation(q, value, a);
-    else st = study_read_text(q, answer_keys[k], value, k == ANSWER_FOUND ? &a->found : k == ANSWER_HOLDS ? &a->holds : &a->seconds);
+    else
+      st = study_read_text(q, answer_keys[k], value,
+                           k == ANSWER_FOUND   ? &a->found
+                           : k == ANSWER_HOLDS ? &a->holds
+                                               : &a->seconds);
   }
   if (st != HC_OK || a->holds.text || a->seconds.text) return st;
   message_add(study_blame(q, node), "missing key `holds` in `%s`, expected an SQL query that gives 0 or 1", name);
@@ -45,7 +64,8 @@ static hc_status read_seconds(study_reader *q, const yaml_node_t *node, study_cl
 {
   hc_status st = study_read_text(q, "seconds", node, &c->reported);
   if (st != HC_OK) return st;
-  if (number_read(c->reported.text, strlen(c->reported.text), &c->seconds) == NUMBER_FINE && c->seconds >= 0) return HC_OK;
+  if (number_read(c->reported.text, strlen(c->reported.text), &c->seconds) == NUMBER_FINE && c->seconds >= 0)
+    return HC_OK;
   message_add(study_blame(q, node), "seconds is `");
   message_add_input(&q->r.msg, c->reported.text, strlen(c->reported.text), 60);
   message_add(&q->r.msg, "`, expected how many the source reports, a number >= 0");
@@ -67,9 +87,11 @@ static hc_status read_entry(study_reader *q, int k, const yaml_node_t *value, st
 }
 
 /* What a whole claim can lack, or have too much of. */
-static hc_status check_claim(study_reader *q, const yaml_node_t *node, const study_claim *c, const case_place seen[N_CLAIM_KEYS])
+static hc_status check_claim(study_reader *q, const yaml_node_t *node, const study_claim *c,
+                             const case_place seen[N_CLAIM_KEYS])
 {
-  bool plain = c->answers[STUDY_PLAIN].holds.text != NULL, sided = seen[CLAIM_PAPER].line > 0 || seen[CLAIM_OURS].line > 0;
+  bool plain = c->answers[STUDY_PLAIN].holds.text != NULL,
+       sided = seen[CLAIM_PAPER].line > 0 || seen[CLAIM_OURS].line > 0;
   const char *lacks = !c->says.text ? "says" : !plain && !sided ? "holds" : NULL;
   if (lacks) {
     message_add(study_blame(q, node), "missing key `%s` in a claim, expected %s", lacks,
@@ -90,7 +112,9 @@ static hc_status read_claim(study_reader *q, const yaml_node_t *node, study_clai
   case_place seen[N_CLAIM_KEYS] = {{0}};
   c->seconds = NAN;
   if (node->type != YAML_MAPPING_NODE) {
-    message_add(study_blame(q, node), "a claim is %s, expected {source: ..., says: ..., found: \"SELECT ...\", holds: \"SELECT ...\"}", yaml_node_what(node));
+    message_add(study_blame(q, node),
+                "a claim is %s, expected {source: ..., says: ..., found: \"SELECT ...\", holds: \"SELECT ...\"}",
+                yaml_node_what(node));
     return HC_BAD_INPUT;
   }
   hc_status st = HC_OK;
@@ -105,7 +129,9 @@ static hc_status read_claim(study_reader *q, const yaml_node_t *node, study_clai
 hc_status study_read_claims(study_reader *q, const yaml_node_t *node)
 {
   if (node->type != YAML_SEQUENCE_NODE) {
-    message_add(study_blame(q, node), "claims is %s, expected a list of {source: ..., says: ..., found: ..., holds: ...}", yaml_node_what(node));
+    message_add(study_blame(q, node),
+                "claims is %s, expected a list of {source: ..., says: ..., found: ..., holds: ...}",
+                yaml_node_what(node));
     return HC_BAD_INPUT;
   }
   size_t n = (size_t)(node->data.sequence.items.top - node->data.sequence.items.start);
@@ -142,14 +168,17 @@ static hc_status read_view(study_reader *q, const yaml_node_pair_t *pair, int i)
   if (!twice && good_name(v->name.text)) return study_read_text(q, "a view", study_node(q, pair->value), &v->query);
   message_add(study_blame(q, key), "a view is called `");
   message_add_input(&q->r.msg, v->name.text, strlen(v->name.text), 60);
-  message_add(&q->r.msg, "`, expected %s", twice ? "a name of its own" : "lower-case letters, digits and _, and neither study, scene nor row");
+  message_add(&q->r.msg, "`, expected %s",
+              twice ? "a name of its own" : "lower-case letters, digits and _, and neither study, scene nor row");
   return HC_BAD_INPUT;
 }
 
 hc_status study_read_views(study_reader *q, const yaml_node_t *node)
 {
   if (node->type != YAML_MAPPING_NODE) {
-    message_add(study_blame(q, node), "views is %s, expected a mapping such as {exact: \"SELECT * FROM scene WHERE ...\"}", yaml_node_what(node));
+    message_add(study_blame(q, node),
+                "views is %s, expected a mapping such as {exact: \"SELECT * FROM scene WHERE ...\"}",
+                yaml_node_what(node));
     return HC_BAD_INPUT;
   }
   size_t n = (size_t)(node->data.mapping.pairs.top - node->data.mapping.pairs.start);

@@ -1,5 +1,6 @@
-/* study_file.c - reading a study file: title, base case, what is set for all scenes. What varies: study_axes.c; what is claimed: study_claims.c.
- * In this order whatever the file's: base or case, set, --set, vary. The first mistake ends it. */
+/* study_file.c - reading a study file: title, base case, what is set for all scenes. What varies: study_axes.c; what
+ * is claimed: study_claims.c. In this order whatever the file's: base or case, set, --set, vary. The first mistake
+ * ends it. */
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -12,7 +13,10 @@
 enum { KEY_STUDY, KEY_BASE, KEY_CASE, KEY_RUN, KEY_SET, KEY_VARY, KEY_VIEWS, KEY_CLAIMS, KEY_MAY_FAIL, N_KEYS };
 static const char *const keys[] = {"study", "base", "case", "run", "set", "vary", "views", "claims", "may_fail", NULL};
 
-message *study_blame(study_reader *q, const yaml_node_t *node) { return case_blame(&q->r, case_place_of(&q->r, node->start_mark)); }
+message *study_blame(study_reader *q, const yaml_node_t *node)
+{
+  return case_blame(&q->r, case_place_of(&q->r, node->start_mark));
+}
 
 hc_status study_no_memory(study_reader *q)
 {
@@ -30,7 +34,10 @@ static void unknown_key(study_reader *q, const yaml_node_t *key, const char *whe
   message_add(m, "` in %s", where);
   const char *guess = nearest_word(words, text, length);
   size_t stem = strcspn(text, ".[");
-  if (guess) { message_add(m, ", did you mean `%s`?", guess); return; }
+  if (guess) {
+    message_add(m, ", did you mean `%s`?", guess);
+    return;
+  }
   if (words == keys && field_find_section(text, stem)) {
     message_add(m, ", expected fields of the case in `case`, `set` or `vary`");
     return;
@@ -43,8 +50,12 @@ int study_key(study_reader *q, const yaml_node_t *key, const char *where, const 
 {
   if (!yaml_check_key(&q->r, key)) return -1;
   for (int i = 0; words[i]; ++i) {
-    if (strlen(words[i]) != key->data.scalar.length || memcmp(words[i], yaml_node_text(key), key->data.scalar.length)) continue;
-    if (seen[i].line > 0) { yaml_duplicate_key(&q->r, key, seen[i]); return -1; }
+    if (strlen(words[i]) != key->data.scalar.length || memcmp(words[i], yaml_node_text(key), key->data.scalar.length))
+      continue;
+    if (seen[i].line > 0) {
+      yaml_duplicate_key(&q->r, key, seen[i]);
+      return -1;
+    }
     seen[i] = case_place_of(&q->r, key->start_mark);
     return i;
   }
@@ -124,11 +135,13 @@ static hc_status set_one(study_reader *q, const yaml_node_pair_t *pair)
 static hc_status read_set(study_reader *q, const yaml_node_t *node)
 {
   if (node->type != YAML_MAPPING_NODE) {
-    message_add(study_blame(q, node), "set is %s, expected a mapping such as {hbm.harmonics: 10}", yaml_node_what(node));
+    message_add(study_blame(q, node), "set is %s, expected a mapping such as {hbm.harmonics: 10}",
+                yaml_node_what(node));
     return HC_BAD_INPUT;
   }
   hc_status st = HC_OK;
-  for (yaml_node_pair_t *p = node->data.mapping.pairs.start; p < node->data.mapping.pairs.top && st == HC_OK; ++p) st = set_one(q, p);
+  for (yaml_node_pair_t *p = node->data.mapping.pairs.start; p < node->data.mapping.pairs.top && st == HC_OK; ++p)
+    st = set_one(q, p);
   return st;
 }
 
@@ -184,7 +197,8 @@ static hc_status read_base(study_reader *q, const yaml_node_t *node)
 static hc_status read_case(study_reader *q, const yaml_node_t *node)
 {
   hc_status st = yaml_scene_read(&q->r, &q->doc, node);
-  if (st == HC_OK && !*q->r.sc.title) snprintf(q->r.sc.title, sizeof q->r.sc.title, "%.*s", (int)sizeof q->r.sc.title - 1, q->s->title);
+  if (st == HC_OK && !*q->r.sc.title)
+    snprintf(q->r.sc.title, sizeof q->r.sc.title, "%.*s", (int)sizeof q->r.sc.title - 1, q->s->title);
   return st;
 }
 
@@ -206,7 +220,10 @@ static hc_status read_kind(study_reader *q, const yaml_node_t *node)
 {
   const char *text = node->type == YAML_SCALAR_NODE ? yaml_node_text(node) : "";
   for (int k = STUDY_FRF; k <= STUDY_COMPARE; ++k)
-    if (!strcmp(text, study_kind_name((study_kind)k))) { q->s->kind = (study_kind)k; return HC_OK; }
+    if (!strcmp(text, study_kind_name((study_kind)k))) {
+      q->s->kind = (study_kind)k;
+      return HC_OK;
+    }
   message_add(study_blame(q, node), "run is ");
   if (*text) {
     message_add(&q->r.msg, "`");
@@ -237,7 +254,8 @@ static hc_status find_keys(study_reader *q, const yaml_node_t *root, const yaml_
 {
   case_place seen[N_KEYS] = {{0}};
   if (root->type != YAML_MAPPING_NODE) {
-    message_add(study_blame(q, root), "the study is %s, expected a mapping with %s", yaml_node_what(root), q->r.required);
+    message_add(study_blame(q, root), "the study is %s, expected a mapping with %s", yaml_node_what(root),
+                q->r.required);
     return HC_BAD_INPUT;
   }
   for (yaml_node_pair_t *p = root->data.mapping.pairs.start; p < root->data.mapping.pairs.top; ++p) {
@@ -250,7 +268,8 @@ static hc_status find_keys(study_reader *q, const yaml_node_t *root, const yaml_
     return HC_BAD_INPUT;
   }
   if (!value[KEY_STUDY]) return missing(q, root, "study", "the study's title");
-  if (!value[KEY_BASE] && !value[KEY_CASE]) return missing(q, root, "base", "the name of a case file, or `case: {...}`");
+  if (!value[KEY_BASE] && !value[KEY_CASE])
+    return missing(q, root, "base", "the name of a case file, or `case: {...}`");
   return value[KEY_VARY] ? HC_OK : missing(q, root, "vary", "a list such as [{hbm.samples: [32, 128]}]");
 }
 

@@ -1,11 +1,12 @@
-/* study_reader.h - what the parts of the study file's reader share; private to campaigns/study/. Messages and places are the case reader's.
+/* study_reader.h - what the parts of the study file's reader share; private to campaigns/study/. Messages and places
+ * are the case reader's.
  *
  *     study_file.c: the file, base, set     study_axes.c: vary     study_claims.c: views, claims */
 #ifndef HC_STUDY_READER_H
 #define HC_STUDY_READER_H
 
-#include "cases/case_reader.h"
 #include "campaigns/study/study.h"
+#include "cases/case_reader.h"
 
 /* A field that `set`, --set or an axis gives: none is both set and varied. */
 typedef struct study_given {
@@ -23,7 +24,8 @@ typedef struct study_reader {
 
 static inline yaml_node_t *study_node(study_reader *q, int index) { return yaml_document_get_node(&q->doc, index); }
 
-/* Which of words[] (ending in NULL) this key is, noted in seen[]. -1 with the message made: no word, unknown, or there twice. */
+/* Which of words[] (ending in NULL) this key is, noted in seen[]. -1 with the message made: no word, unknown, or
+ * there twice. */
 int study_key(study_reader *q, const yaml_node_t *key, const char *where, const char *const *words, case_place *seen);
 
 /* Start a message about that node. */

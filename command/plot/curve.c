@@ -23,7 +23,8 @@ static double chord(const hbm_curve *c, int k, int i, double *slope)
   return b - a;
 }
 
-/* How long the step between k and k+1 is in the parameter the tangents belong to: chord against mean tangent, all unknowns together. */
+/* How long the step between k and k+1 is in the parameter the tangents belong to: chord against mean tangent, all
+ * unknowns together. */
 static double step_length(const hbm_curve *c, int k)
 {
   double up = 0, down = 0, t[2];
@@ -72,14 +73,16 @@ static hc_status sample_curve(hbm_solver *s, const hbm_curve *c, bool judge, cur
   *points = calloc((size_t)BETWEEN * (size_t)(c->n > 0 ? c->n : 1), sizeof **points);
   double *X = malloc((size_t)(c->n_coef > 0 ? c->n_coef : 1) * sizeof *X);
   if (!*points || !X) st = HC_NO_MEMORY;
-  for (int k = 0; k < c->n && st == HC_OK; ++k) st = add(s, c->points[k].omega, c->X + (size_t)k * (size_t)c->n_coef, judge, &(*points)[BETWEEN * k]);
+  for (int k = 0; k < c->n && st == HC_OK; ++k)
+    st = add(s, c->points[k].omega, c->X + (size_t)k * (size_t)c->n_coef, judge, &(*points)[BETWEEN * k]);
   for (int k = 0; k + 1 < c->n && st == HC_OK; ++k) {
     int here = (*points)[BETWEEN * k].stable, next = (*points)[BETWEEN * (k + 1)].stable;
     for (int i = 1; i < BETWEEN && st == HC_OK; ++i) {
       curve_point *p = &(*points)[BETWEEN * k + i];
       double omega = between(c, k, (double)i / BETWEEN, X);
       st = add(s, omega, X, judge && here != next, p);
-      if (here == next || !p->stable) p->stable = 2 * i <= BETWEEN ? here : next; /* off the solution itself it may be unknown */
+      /* off the solution itself it may be unknown */
+      if (here == next || !p->stable) p->stable = 2 * i <= BETWEEN ? here : next;
     }
   }
   if (st == HC_OK && c->n > 0) *n = BETWEEN * (c->n - 1) + 1;
@@ -94,7 +97,8 @@ static double sq(double x) { return x * x; }
 /* Distance of p from the segment a b, in shares of the picture. */
 static double distance(const curve_point *p, const curve_point *a, const curve_point *b, double wide, double high)
 {
-  double bx = (b->omega - a->omega) / wide, by = (b->amplitude - a->amplitude) / high, px = (p->omega - a->omega) / wide, py = (p->amplitude - a->amplitude) / high;
+  double bx = (b->omega - a->omega) / wide, by = (b->amplitude - a->amplitude) / high,
+         px = (p->omega - a->omega) / wide, py = (p->amplitude - a->amplitude) / high;
   double along = bx * bx + by * by > 0 ? (px * bx + py * by) / (bx * bx + by * by) : 0;
   along = along < 0 ? 0 : along > 1 ? 1 : along;
   return sqrt(sq(px - along * bx) + sq(py - along * by));
@@ -179,14 +183,20 @@ void curve_shape_clear(curve_shape *c)
 
 /* ---- drawn ---- */
 
-static const struct run { const char *name, *title, *look, *quiet; int stable; } runs[] = {
+static const struct run {
+  const char *name, *title, *look, *quiet;
+  int stable;
+} runs[] = {
     {"stable", "harmonic balance: stable", "lw 2.2 dt 1 lc rgb '#0072B2'", "lw 1.4 dt 1 lc rgb '#999999'", 1},
     {"unstable", "unstable", "lw 1.8 dt (10,6) lc rgb '#0072B2'", "lw 1.4 dt (5,4) lc rgb '#999999'", -1},
     {"unknown", "stability unknown", "lw 1.6 dt 3 lc rgb '#0072B2'", "lw 1.2 dt 3 lc rgb '#999999'", 0},
 };
 enum { N_RUNS = sizeof runs / sizeof *runs };
 
-static const struct special_look { const char *name, *title, *look; hbm_special_kind kind; } marks[] = {
+static const struct special_look {
+  const char *name, *title, *look;
+  hbm_special_kind kind;
+} marks[] = {
     {"turning", "turning point", "pt 11 ps 0.9 lc rgb '#000000'", HBM_TURNING_POINT},
     {"doubling", "period doubling", "pt 13 ps 0.9 lc rgb '#000000'", HBM_PERIOD_DOUBLING},
     {"change", "contact changes", "pt 4 ps 0.7 lw 1 lc rgb '#000000'", HBM_CONTACT_CHANGE},
@@ -250,7 +260,8 @@ void curve_shape_items(figure *g, const curve_shape *c, bool quiet)
 {
   char look[FIGURE_LOOK], what[64];
   if (c->n_other > 1)
-    figure_item(g, "$other using 1:2 with lines", figure_look(g, "lw 3 dt 1 lc rgb '#c8c8c8'", 5, look), "other branch, from the sweep's other end");
+    figure_item(g, "$other using 1:2 with lines", figure_look(g, "lw 3 dt 1 lc rgb '#c8c8c8'", 5, look),
+                "other branch, from the sweep's other end");
   for (int r = 0; r < N_RUNS; ++r) {
     if (count_run(c, runs[r].stable) == 0) continue;
     snprintf(what, sizeof what, "$%s using 1:2 with lines", runs[r].name);
@@ -296,6 +307,7 @@ const char *curve_shape_settings(const scene *sc, const curve_shape *c, char tex
 {
   char samples[32] = "exact forces";
   if (sc->hbm.force == HBM_FORCE_SAMPLED) snprintf(samples, sizeof samples, "%d samples", c->samples);
-  snprintf(text, 96, "H = %s%d%s, %s", sc->hbm.harmonics == SCENE_AUTO ? "auto, at most " : "", c->harmonics, sc->hbm.keep_mean ? "" : " without harmonic 0", samples);
+  snprintf(text, 96, "H = %s%d%s, %s", sc->hbm.harmonics == SCENE_AUTO ? "auto, at most " : "", c->harmonics,
+           sc->hbm.keep_mean ? "" : " without harmonic 0", samples);
   return text;
 }

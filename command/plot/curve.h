@@ -33,7 +33,9 @@ void curve_shape_items(figure *g, const curve_shape *c, bool quiet);
 /* Axes and ranges of amplitude over omega. */
 void curve_shape_axes(figure *g, const scene *sc, const curve_shape *c);
 /* All that happens on the curve happens in a small part of the sweep: that part, to be drawn beside the whole. */
-typedef struct curve_window { double low, high, least, most; } curve_window;
+typedef struct curve_window {
+  double low, high, least, most;
+} curve_window;
 bool curve_shape_window(const curve_shape *c, curve_window *out);
 /* "H = 10, exact forces" */
 const char *curve_shape_settings(const scene *sc, const curve_shape *c, char text[96]);

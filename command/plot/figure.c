@@ -10,11 +10,19 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include "base/utf8.h"
 #include "command/plot/gnuplot.h"
 #include "output/output.h"
-#include "base/utf8.h"
 
-enum { MOST_TEXT = 512, PLAIN_WIDTH = 100, PLAIN_HEIGHT = 32, LEAST_WIDTH = 40, LEAST_HEIGHT = 15, MOST_WIDTH = 240, LONG_TITLE = 90 };
+enum {
+  MOST_TEXT = 512,
+  PLAIN_WIDTH = 100,
+  PLAIN_HEIGHT = 32,
+  LEAST_WIDTH = 40,
+  LEAST_HEIGHT = 15,
+  MOST_WIDTH = 240,
+  LONG_TITLE = 90
+};
 
 static bool ends_in(const char *path, const char *ending)
 {
@@ -53,11 +61,16 @@ static void set_terminal(figure *g, int width, int height)
   else if (ends_in(path, ".svg"))
     figure_say(g, "set terminal svg enhanced size %d,%d font 'sans,13' background rgb 'white'\n", width, height);
   else if (ends_in(path, ".png"))
-    figure_say(g, "set terminal pngcairo enhanced size %d,%d font 'sans,10' fontscale 1.5 linewidth 1.5 pointscale 1.5 background rgb 'white'\n",
+    figure_say(g,
+               "set terminal pngcairo enhanced size %d,%d font 'sans,10' fontscale 1.5 linewidth 1.5 pointscale 1.5 "
+               "background rgb 'white'\n",
                3 * width / 2, 3 * height / 2);
-  else figure_say(g, "set terminal pdfcairo enhanced size %.2fin,%.2fin font 'sans,10' background rgb 'white'\n", width / 90.0, height / 90.0);
+  else
+    figure_say(g, "set terminal pdfcairo enhanced size %.2fin,%.2fin font 'sans,10' background rgb 'white'\n",
+               width / 90.0, height / 90.0);
   figure_say(g, "set border lw 0.8\nset tics nomirror out\nset key noautotitle Left reverse samplen 3\n");
-  if (!g->letters) figure_say(g, "set grid lw 0.7 lc rgb '#d5d5d5' dt 1\nset key outside below center horizontal width 1\n");
+  if (!g->letters)
+    figure_say(g, "set grid lw 0.7 lc rgb '#d5d5d5' dt 1\nset key outside below center horizontal width 1\n");
 }
 
 hc_status figure_open(figure *g, plot_order *p, int width, int height)
@@ -93,14 +106,18 @@ static hc_status deliver(figure *g, FILE *drawing)
     else output_abandon(out);
   }
   if (st != HC_OK)
-    snprintf(p->why, sizeof p->why, "%s: %s", g->letters ? "standard output" : p->path, st == HC_IO && errno ? strerror(errno) : hc_status_text(st));
+    snprintf(p->why, sizeof p->why, "%s: %s", g->letters ? "standard output" : p->path,
+             st == HC_IO && errno ? strerror(errno) : hc_status_text(st));
   return st;
 }
 
 static hc_status draw(figure *g)
 {
   FILE *drawing = tmpfile();
-  if (!drawing) { snprintf(g->order->why, PLOT_WHY, "no temporary file: %s", strerror(errno)); return HC_IO; }
+  if (!drawing) {
+    snprintf(g->order->why, PLOT_WHY, "no temporary file: %s", strerror(errno));
+    return HC_IO;
+  }
   hc_status st = gnuplot_run(g->script, g->length, drawing, g->order->why, PLOT_WHY);
   if (st == HC_OK) st = deliver(g, drawing);
   fclose(drawing);
@@ -129,7 +146,8 @@ void figure_say(figure *g, const char *format, ...)
   va_end(args);
 }
 
-/* Inside double quotes: letters, digits, blanks and harmless marks as they are, all else in octal; the markup's own signs after a backslash. */
+/* Inside double quotes: letters, digits, blanks and harmless marks as they are, all else in octal; the markup's own
+ * signs after a backslash. */
 static void put_escaped(FILE *to, const char *text)
 {
   char *clean = utf8_clean(text, true);
@@ -209,7 +227,10 @@ void figure_item(figure *g, const char *what, const char *look, const char *titl
 {
   va_list args;
   figure_say(g, "%s%s %s", g->items++ ? ", \\\n  " : "plot ", what, look);
-  if (!title) { figure_say(g, " notitle"); return; }
+  if (!title) {
+    figure_say(g, " notitle");
+    return;
+  }
   figure_say(g, " title ");
   va_start(args, title);
   put_text(g->to, title, args);
@@ -224,9 +245,14 @@ void figure_draw(figure *g)
 
 /* ---- looks: Okabe and Ito's colours, dark before light ---- */
 
-static const char *const colours[] = {"#0072B2", "#D55E00", "#000000", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#777777"};
+static const char *const colours[] = {"#0072B2", "#D55E00", "#000000", "#009E73",
+                                      "#CC79A7", "#E69F00", "#56B4E9", "#777777"};
 static const int dashes[] = {1, 2, 4, 5, 3}, shapes[] = {6, 5, 8, 13, 2, 11, 4, 7, 3, 12};
-enum { N_COLOURS = sizeof colours / sizeof *colours, N_DASHES = sizeof dashes / sizeof *dashes, N_SHAPES = sizeof shapes / sizeof *shapes };
+enum {
+  N_COLOURS = sizeof colours / sizeof *colours,
+  N_DASHES = sizeof dashes / sizeof *dashes,
+  N_SHAPES = sizeof shapes / sizeof *shapes
+};
 
 const char *figure_look(const figure *g, const char *look, int n, char text[FIGURE_LOOK])
 {
@@ -245,7 +271,8 @@ const char *figure_line(const figure *g, int n, double width, char text[FIGURE_L
 const char *figure_mark(const figure *g, int n, double width, char text[FIGURE_LOOK])
 {
   char look[FIGURE_LOOK];
-  snprintf(look, sizeof look, "lw %g dt %d lc rgb '%s' pt %d ps 0.9", width, dashes[n % N_DASHES], colours[n % N_COLOURS], shapes[n % N_SHAPES]);
+  snprintf(look, sizeof look, "lw %g dt %d lc rgb '%s' pt %d ps 0.9", width, dashes[n % N_DASHES],
+           colours[n % N_COLOURS], shapes[n % N_SHAPES]);
   if (g->letters) snprintf(look, sizeof look, "lt %d pt %d", n + 1, n + 1);
   snprintf(text, FIGURE_LOOK, "%s", look);
   return text;
@@ -258,15 +285,22 @@ void figure_log(figure *g, const char *axis)
 
 const char *figure_unit(const scene *sc, const char *unit, char text[FIGURE_UNIT])
 {
-  const struct { const char *word, *label; } words[] = {{"force", sc->unit_force}, {"length", sc->unit_length}, {"time", sc->unit_time}};
+  const struct {
+    const char *word, *label;
+  } words[] = {{"force", sc->unit_force}, {"length", sc->unit_length}, {"time", sc->unit_time}};
   size_t n = 0;
   text[0] = 0;
   while (*unit && n < FIGURE_UNIT - 17) {
     size_t skip = 1, w;
     for (w = 0; w < 3; ++w)
       if (!strncmp(unit, words[w].word, strlen(words[w].word))) break;
-    if (w < 3) { n += (size_t)snprintf(text + n, FIGURE_UNIT - n, "%s", words[w].label); skip = strlen(words[w].word); }
-    else { text[n++] = *unit; text[n] = 0; }
+    if (w < 3) {
+      n += (size_t)snprintf(text + n, FIGURE_UNIT - n, "%s", words[w].label);
+      skip = strlen(words[w].word);
+    } else {
+      text[n++] = *unit;
+      text[n] = 0;
+    }
     unit += skip;
   }
   return text;
@@ -278,10 +312,15 @@ void figure_heat(figure *g, const char *label, bool logarithmic, double low, dou
   if (!(high > low)) high = low + (low != 0 ? 1e-6 * fabs(low) : 1); /* one value only */
   figure_say(g, "set palette defined (0 '#fdf6e3', 0.35 '#f0a860', 0.7 '#a8325a', 1 '#2a0a4a')\nset cblabel ");
   figure_text(g, "%s", label);
-  figure_say(g, "\nunset key\nunset grid\nset tics scale 0\nset autoscale noextend\n%s", logarithmic ? "set logscale cb\nset format cb '10^{%T}'\n" : "");
+  figure_say(g, "\nunset key\nunset grid\nset tics scale 0\nset autoscale noextend\n%s",
+             logarithmic ? "set logscale cb\nset format cb '10^{%T}'\n" : "");
   figure_say(g, "low = %.10g\nhigh = %.10g\n", low, high);
-  figure_say(g, "set cbrange [low:high]\nshare(v) = %s\n", logarithmic ? "log(v/low)/log(high/low)" : "(v - low)/(high - low)");
-  figure_say(g, "half = 0.5\nplot $cells using 1:2:($1-half):($1+half):($2-half):($2+half):3 with boxxyerror fill solid noborder lc palette, \\\n");
-  figure_say(g, "  $cells using (share($3) < 0.5 ? $1 : NaN):2:(sprintf('%%.3g', $3)) with labels tc rgb 'black', \\\n");
+  figure_say(g, "set cbrange [low:high]\nshare(v) = %s\n",
+             logarithmic ? "log(v/low)/log(high/low)" : "(v - low)/(high - low)");
+  figure_say(g,
+             "half = 0.5\nplot $cells using 1:2:($1-half):($1+half):($2-half):($2+half):3 with boxxyerror fill solid "
+             "noborder lc palette, \\\n");
+  figure_say(g,
+             "  $cells using (share($3) < 0.5 ? $1 : NaN):2:(sprintf('%%.3g', $3)) with labels tc rgb 'black', \\\n");
   figure_say(g, "  $cells using (share($3) < 0.5 ? NaN : $1):2:(sprintf('%%.3g', $3)) with labels tc rgb 'white'\n");
 }

@@ -1,6 +1,7 @@
-/* figure.h - a gnuplot script in the making: the terminal, texts that are text whatever they say, data, looks.
- * Every text that comes from outside goes through figure_text: what gnuplot or its markup could act on is written as an octal escape, so a title
- * can neither end its string nor run anything. Data blocks have our own names. A write that failed is reported by figure_close. */
+/* figure.h - a gnuplot script in the making: the terminal, texts that are text whatever they say, data, looks. Every
+ * text that comes from outside goes through figure_text: what gnuplot or its markup could act on is written as an
+ * octal escape, so a title can neither end its string nor run anything. Data blocks have our own names. A write that
+ * failed is reported by figure_close. */
 #ifndef HC_PLOT_FIGURE_H
 #define HC_PLOT_FIGURE_H
 
@@ -11,11 +12,11 @@
 
 typedef struct figure {
   plot_order *order;
-  bool letters;     /* drawn with letters, in the terminal */
-  FILE *to;         /* the script so far */
+  bool letters; /* drawn with letters, in the terminal */
+  FILE *to;     /* the script so far */
   char *script;
   size_t length;
-  int items;        /* of the plot command being written */
+  int items; /* of the plot command being written */
 } figure;
 
 /* A drawing of about width x height points of 1/90 inch. */
@@ -40,11 +41,14 @@ void figure_point(figure *g, double x, double y);
 void figure_gap(figure *g);
 void figure_block_end(figure *g);
 
-/* One more of a plot's items: figure_item(g, "$a using 1:2 with lines", look, "title %s", ...); no title: NULL. figure_draw ends the plot. */
-void figure_item(figure *g, const char *what, const char *look, const char *title, ...) __attribute__((format(printf, 4, 5)));
+/* One more of a plot's items: figure_item(g, "$a using 1:2 with lines", look, "title %s", ...); no title: NULL.
+ * figure_draw ends the plot. */
+void figure_item(figure *g, const char *what, const char *look, const char *title, ...)
+    __attribute__((format(printf, 4, 5)));
 void figure_draw(figure *g);
 
-/* Line n of several, line and points told apart by dashes and shapes: figure_line(g, 0, 2.0). In text[96], which is returned. */
+/* Line n of several, line and points told apart by dashes and shapes: figure_line(g, 0, 2.0). In text[96], which is
+ * returned. */
 enum { FIGURE_LOOK = 96 };
 const char *figure_line(const figure *g, int n, double width, char text[FIGURE_LOOK]);
 const char *figure_mark(const figure *g, int n, double width, char text[FIGURE_LOOK]);
@@ -58,7 +62,8 @@ void figure_log(figure *g, const char *axis);
 enum { FIGURE_UNIT = 64 };
 const char *figure_unit(const scene *sc, const char *unit, char text[FIGURE_UNIT]);
 
-/* Cells (column, row, value), from the data block $cells, low <= value <= high, light to dark and each with its value. Axes and tics are the caller's. */
+/* Cells (column, row, value), from the data block $cells, low <= value <= high, light to dark and each with its
+ * value. Axes and tics are the caller's. */
 void figure_heat(figure *g, const char *label, bool logarithmic, double low, double high);
 
 #endif

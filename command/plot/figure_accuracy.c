@@ -4,7 +4,7 @@
 
 #include "command/plot/panels.h"
 
-enum { EXACT = 0 }; /* samples of exact forces */
+enum { EXACT = 0 };                  /* samples of exact forces */
 static const double no_less = 1e-17; /* [1] what an error of nothing is taken for where it must have a logarithm */
 
 /* What was varied: each once, in the order of the rows; exact forces after all samples. */
@@ -45,7 +45,10 @@ static void put_error(figure *g, double x, const double *e)
   if (e && *e > 0) figure_point(g, x, *e);
 }
 
-static const double *worst_of(const accuracy_row *r) { return r && r->possible && r->status == HC_OK ? &r->worst : NULL; }
+static const double *worst_of(const accuracy_row *r)
+{
+  return r && r->possible && r->status == HC_OK ? &r->worst : NULL;
+}
 
 /* ---- slopes to compare with ---- */
 
@@ -67,7 +70,11 @@ static void guide_item(figure *g, int order, const char *of, int look)
   static const char *const looks[] = {"lw 1.2 dt 3 lc rgb '#888888'", "lw 1.2 dt 5 lc rgb '#888888'"};
   char what[64], text[FIGURE_LOOK];
   snprintf(what, sizeof what, "$guide%d using 1:2 with lines", order);
-  figure_item(g, what, figure_look(g, looks[look], 6 + look, text), "slope of 1/%s%s", of, order == 1 ? "" : order == 2 ? "²" : order == 3 ? "³" : "⁴");
+  figure_item(g, what, figure_look(g, looks[look], 6 + look, text), "slope of 1/%s%s", of,
+              order == 1   ? ""
+              : order == 2 ? "²"
+              : order == 3 ? "³"
+                           : "⁴");
 }
 
 /* ---- the panels ---- */
@@ -92,7 +99,8 @@ static void over_samples(figure *g, const accuracy *a, const grid *q)
   figure_say(g, "set title 'Aliasing: sampled against exact forces'\nset ylabel 'largest relative amplitude error'\n");
   figure_below(g, "samples per period N");
   figure_log(g, "y");
-  figure_say(g, "set logscale x 2\nset format x '%%.0f'\nset xrange [%g:%g]\nset yrange [*:*]\n", q->samples[0] / 1.3, q->samples[q->n_time - 1] * 1.3);
+  figure_say(g, "set logscale x 2\nset format x '%%.0f'\nset xrange [%g:%g]\nset yrange [*:*]\n", q->samples[0] / 1.3,
+             q->samples[q->n_time - 1] * 1.3);
   for (int h = 0; h < q->n_harm; ++h) {
     char what[64], look[FIGURE_LOOK];
     snprintf(what, sizeof what, "$n%d using 1:2 with linespoints", h);
@@ -126,10 +134,13 @@ static void over_harmonics(figure *g, const accuracy *a, const grid *q)
   put_guide(g, 2, first, last, 2 * top);
   put_guide(g, 4, first, last, 2 * top);
   figure_below(g, "harmonics H");
-  figure_say(g, "set title 'Discrepancy from time integration, over H'\nset logscale x 10\nset format x '%%.0f'\nset xtics (");
+  figure_say(
+      g, "set title 'Discrepancy from time integration, over H'\nset logscale x 10\nset format x '%%.0f'\nset xtics (");
   for (int h = 0; h < q->n_harm; ++h) figure_say(g, "%s%d", h ? ", " : "", q->harmonics[h]);
   figure_say(g, ")\nset xrange [%g:%g]\n", first / 1.15, last * 1.15);
-  if (q->exact) figure_item(g, "$hexact using 1:2 with linespoints", g->letters ? "lt 1 pt 1" : "lw 2.4 dt 1 pt 7 ps 1 lc rgb '#000000'", "exact forces");
+  if (q->exact)
+    figure_item(g, "$hexact using 1:2 with linespoints",
+                g->letters ? "lt 1 pt 1" : "lw 2.4 dt 1 pt 7 ps 1 lc rgb '#000000'", "exact forces");
   for (int i = 0; i < q->n_time; ++i) {
     snprintf(name, sizeof name, "$h%d using 1:2 with linespoints", i);
     figure_item(g, name, figure_mark(g, i + 1, 1.4, look), "N = %d", q->samples[i]);
@@ -154,9 +165,12 @@ static void heat(figure *g, const accuracy *a, const grid *q)
       high = fmax(high, *e);
     }
   figure_block_end(g);
-  figure_say(g, "unset logscale x\nunset logscale y\nset format x '%%s'\nset format y '%%s'\nset title 'Discrepancy from time integration, over N and H'\n");
+  figure_say(
+      g, "unset logscale x\nunset logscale y\nset format x '%%s'\nset format y '%%s'\nset title 'Discrepancy from time "
+         "integration, over N and H'\n");
   figure_below(g, "samples per period N");
-  figure_say(g, "set ylabel 'harmonics H'\nset xrange [-0.5:%g]\nset yrange [-0.5:%g]\nset xtics (", columns - 0.5, q->n_harm - 0.5);
+  figure_say(g, "set ylabel 'harmonics H'\nset xrange [-0.5:%g]\nset yrange [-0.5:%g]\nset xtics (", columns - 0.5,
+             q->n_harm - 0.5);
   for (int i = 0; i < columns; ++i) {
     if (i < q->n_time) figure_say(g, "%s'%d' %d", i ? ", " : "", q->samples[i], i);
     else figure_say(g, "%s'exact' %d", i ? ", " : "", i);

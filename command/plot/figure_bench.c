@@ -6,7 +6,8 @@
 
 enum { MOST_PLACES = 4 };
 
-/* Shapes apart from each other in grey: filled for harmonic balance, open for ours by time integration, crosses for others. */
+/* Shapes apart from each other in grey: filled for harmonic balance, open for ours by time integration, crosses for
+ * others. */
 static const char *const looks[BENCH_METHODS] = {
     [BENCH_HBM_EXACT] = "pt 7 ps 1.1 lc rgb '#0072B2'",
     [BENCH_HBM_SAMPLED] = "pt 5 ps 0.7 lc rgb '#56B4E9'",
@@ -18,7 +19,10 @@ static const char *const looks[BENCH_METHODS] = {
     [BENCH_SCIPY_LSODA] = "pt 2 ps 1.1 lw 1.6 lc rgb '#000000'",
 };
 
-static bool shown(const bench_row *r) { return r->outcome == BENCH_SOLVED && r->repeats > 0 && r->seconds > 0 && isfinite(r->error_finer); }
+static bool shown(const bench_row *r)
+{
+  return r->outcome == BENCH_SOLVED && r->repeats > 0 && r->seconds > 0 && isfinite(r->error_finer);
+}
 
 /* What lies below what the reference is good for stands on that border. */
 static double height(const bench_row *r, const bench_place *p) { return fmax(r->error_finer, fmax(p->floor, 1e-16)); }
@@ -49,7 +53,7 @@ static hc_status put_front(figure *g, const bench *b, const bench_place *p, int 
 {
   char name[32];
   int n = 0;
-  double (*at)[2] = malloc((size_t)(p->n > 0 ? p->n : 1) * sizeof *at);
+  double(*at)[2] = malloc((size_t)(p->n > 0 ? p->n : 1) * sizeof *at);
   if (!at) return HC_NO_MEMORY;
   for (int i = p->first; i < p->first + p->n; ++i) {
     if (!b->rows[i].front || !shown(&b->rows[i])) continue;
@@ -73,7 +77,8 @@ static void place_items(figure *g, int place, const int *count)
   for (int m = 0; m < BENCH_METHODS; ++m) {
     if (!count[m]) continue;
     snprintf(what, sizeof what, "$p%dm%d using 1:2 with points", place, m);
-    figure_item(g, what, g->letters ? figure_look(g, "", m + 1, look) : looks[m], "%s", bench_method_name((bench_method)m));
+    figure_item(g, what, g->letters ? figure_look(g, "", m + 1, look) : looks[m], "%s",
+                bench_method_name((bench_method)m));
   }
 }
 
@@ -99,11 +104,15 @@ hc_status plot_bench(plot_order *p, const scene *sc, const bench *b)
     for (int i = b->places[k].first; i < b->places[k].first + b->places[k].n; ++i) any |= shown(&b->rows[i]);
     if (any) at[n++] = k;
   }
-  if (n == 0) { snprintf(p->why, sizeof p->why, "nothing was measured that could be drawn"); return HC_BAD_INPUT; }
+  if (n == 0) {
+    snprintf(p->why, sizeof p->why, "nothing was measured that could be drawn");
+    return HC_BAD_INPUT;
+  }
   int columns = n > 1 ? 2 : 1, rows = (n + columns - 1) / columns;
   hc_status st = figure_open(&g, p, columns * 700, rows * 520);
   if (st == HC_OK) {
-    panels_begin(&g, rows, columns, sc->title, n < b->n_places ? "work and precision at the first frequencies" : "work and precision");
+    panels_begin(&g, rows, columns, sc->title,
+                 n < b->n_places ? "work and precision at the first frequencies" : "work and precision");
     figure_below(&g, "processor time of one solution [s]");
     figure_set(&g, "ylabel", "relative error of the amplitude, at these or finer settings");
     figure_log(&g, "x");

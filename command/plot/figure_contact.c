@@ -11,7 +11,10 @@ static const double two_pi = 6.28318530717958647692;
 enum { POINTS = 4096, EVERY = 8, MOST_DRAWN = 8 };
 
 /* Along one period. */
-typedef struct walk { double u[POINTS + 1], normal[POINTS + 1], t[POINTS + 1]; contact_state state[POINTS + 1]; } walk;
+typedef struct walk {
+  double u[POINTS + 1], normal[POINTS + 1], t[POINTS + 1];
+  contact_state state[POINTS + 1];
+} walk;
 
 /* The piece at th, or NULL: separated. A piece may begin before 0 or end after 2 pi. */
 static const contact_piece *piece_at(const contact_piece *p, int n, double th)
@@ -23,7 +26,8 @@ static const contact_piece *piece_at(const contact_piece *p, int n, double th)
 }
 
 /* The exact law, from the pieces that exact.c found: stuck, T = kt u - held; slipping, T = +-mu N. */
-static void walk_contact(const scene_contact *c, int n_harm, const double *X, const contact_piece *pieces, int n, walk *out)
+static void walk_contact(const scene_contact *c, int n_harm, const double *X, const contact_piece *pieces, int n,
+                         walk *out)
 {
   double cosine, sine;
   scene_projection(c, &cosine, &sine);
@@ -38,7 +42,10 @@ static void walk_contact(const scene_contact *c, int n_harm, const double *X, co
   }
 }
 
-static const struct phase { const char *name, *title; int dash; } phases[] = {{"stick", "sticks", 1}, {"slip", "slips", 2}, {"apart", "separated", 3}};
+static const struct phase {
+  const char *name, *title;
+  int dash;
+} phases[] = {{"stick", "sticks", 1}, {"slip", "slips", 2}, {"apart", "separated", 3}};
 enum { N_PHASES = sizeof phases / sizeof *phases };
 
 static int phase_of(contact_state st) { return st == CONTACT_STICK ? 0 : st == CONTACT_SEPARATED ? 2 : 1; }
@@ -75,7 +82,8 @@ static void put_forces(figure *g, const walk *w, const contact *c, int j)
 
 static void loop_items(figure *g, int j, const int *there, bool only)
 {
-  static const char *const colours[] = {"#0072B2", "#D55E00", "#000000", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#777777"};
+  static const char *const colours[] = {"#0072B2", "#D55E00", "#000000", "#009E73",
+                                        "#CC79A7", "#E69F00", "#56B4E9", "#777777"};
   static const double widths[N_PHASES] = {2.4, 2.0, 2.0};
   for (int k = 0; k < N_PHASES; ++k) {
     char what[64], look[FIGURE_LOOK], of[32] = "";
@@ -113,7 +121,8 @@ static void widen(double *closed, const walk *w)
 }
 
 /* The contacts walked through the motion, their data written. */
-static hc_status put_contacts(figure *g, const scene *sc, int n, int n_harm, const double *X, int there[][N_PHASES], double closed[2])
+static hc_status put_contacts(figure *g, const scene *sc, int n, int n_harm, const double *X, int there[][N_PHASES],
+                              double closed[2])
 {
   double F[2 * SCENE_MAX_HARMONICS + 1];
   moving_contact contacts[SCENE_MAX_CONTACTS];
@@ -143,7 +152,9 @@ static void set_window(figure *g, const double *closed)
 
 static void loops_and_forces(figure *g, const scene *sc, int n, int there[][N_PHASES], const double *closed)
 {
-  figure_say(g, "set title 'Hysteresis'\nset offsets graph 0.05, graph 0.05, graph 0.05, graph 0.05\nset zeroaxis lw 0.8 dt 1 lc rgb '#999999'\n");
+  figure_say(
+      g, "set title 'Hysteresis'\nset offsets graph 0.05, graph 0.05, graph 0.05, graph 0.05\nset zeroaxis lw 0.8 dt 1 "
+         "lc rgb '#999999'\n");
   figure_below(g, "tangential motion u [%s]", sc->unit_length);
   figure_set(g, "ylabel", "tangential force T [%s]", sc->unit_force);
   set_window(g, closed);
@@ -162,11 +173,15 @@ hc_status plot_contact(plot_order *p, const scene *sc, int n_harm, const double 
   int n = sc->n_contacts < MOST_DRAWN ? sc->n_contacts : MOST_DRAWN, there[MOST_DRAWN][N_PHASES];
   double closed[2] = {INFINITY, -INFINITY}; /* u while some contact is closed */
   char about[128] = "exact law along the given motion";
-  if (n == 0) { snprintf(p->why, sizeof p->why, "there is no contact to draw"); return HC_BAD_INPUT; }
+  if (n == 0) {
+    snprintf(p->why, sizeof p->why, "there is no contact to draw");
+    return HC_BAD_INPUT;
+  }
   hc_status st = figure_open(&g, p, 1100, 500);
   if (st == HC_OK) st = put_contacts(&g, sc, n, n_harm, X, there, closed);
   if (st == HC_OK) {
-    if (n < sc->n_contacts) snprintf(about, sizeof about, "exact law along the given motion; contacts 0 to %d of %d", n - 1, sc->n_contacts);
+    if (n < sc->n_contacts)
+      snprintf(about, sizeof about, "exact law along the given motion; contacts 0 to %d of %d", n - 1, sc->n_contacts);
     panels_begin(&g, 1, 2, sc->title, about);
     loops_and_forces(&g, sc, n, there, closed);
     panels_end(&g);

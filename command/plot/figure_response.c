@@ -9,11 +9,17 @@
 enum { WIDTH = 800, HEIGHT = 540 };
 
 /* Open shapes for what is as it should be, filled ones and crosses for what is not; no two alike without colour. */
-static const struct verdict_look { const char *name, *look; } looks[] = {
-    {"match", "pt 6 ps 1.2 lw 1.6 lc rgb '#D55E00'"},        {"settled", "pt 6 ps 1.2 lw 1.6 lc rgb '#D55E00'"},
-    {"differs", "pt 5 ps 1.0 lc rgb '#000000'"},             {"other_branch", "pt 8 ps 1.2 lw 1.6 lc rgb '#009E73'"},
-    {"unstable", "pt 2 ps 1.1 lw 1.8 lc rgb '#000000'"},     {"aperiodic", "pt 3 ps 1.2 lw 1.4 lc rgb '#CC79A7'"},
-    {"not_settled", "pt 1 ps 1.2 lw 1.8 lc rgb '#E69F00'"},  {"solver_failed", "pt 10 ps 1.2 lw 1.6 lc rgb '#555555'"},
+static const struct verdict_look {
+  const char *name, *look;
+} looks[] = {
+    {"match", "pt 6 ps 1.2 lw 1.6 lc rgb '#D55E00'"},
+    {"settled", "pt 6 ps 1.2 lw 1.6 lc rgb '#D55E00'"},
+    {"differs", "pt 5 ps 1.0 lc rgb '#000000'"},
+    {"other_branch", "pt 8 ps 1.2 lw 1.6 lc rgb '#009E73'"},
+    {"unstable", "pt 2 ps 1.1 lw 1.8 lc rgb '#000000'"},
+    {"aperiodic", "pt 3 ps 1.2 lw 1.4 lc rgb '#CC79A7'"},
+    {"not_settled", "pt 1 ps 1.2 lw 1.8 lc rgb '#E69F00'"},
+    {"solver_failed", "pt 10 ps 1.2 lw 1.6 lc rgb '#555555'"},
     {"period_k", "pt 12 ps 1.3 lw 1.6 lc rgb '#CC79A7'"},
 };
 enum { N_LOOKS = sizeof looks / sizeof *looks, MOST_VERDICTS = 16 };
@@ -45,33 +51,38 @@ static void verdict_items(figure *g, const verdicts *v, const char *of)
     char what[64], look[FIGURE_LOOK];
     int k = look_of(v->name[i]);
     snprintf(what, sizeof what, "$verdict%d using 1:2 with points", i);
-    figure_item(g, what, g->letters ? figure_look(g, "", 10 + k, look) : looks[k].look, "%s: %s (%d)", of, v->name[i], v->count[i]);
+    figure_item(g, what, g->letters ? figure_look(g, "", 10 + k, look) : looks[k].look, "%s: %s (%d)", of, v->name[i],
+                v->count[i]);
   }
 }
 
 /* What is drawn, in this order. */
 typedef struct layers {
   const curve_shape *shape;
-  bool quiet;         /* the curve is background */
+  bool quiet; /* the curve is background */
   bool asked, flights;
   const verdicts *v;
-  const char *of;     /* whose verdicts */
+  const char *of; /* whose verdicts */
 } layers;
 
 static void draw_layers(figure *g, const layers *l)
 {
   char look[FIGURE_LOOK];
   curve_shape_items(g, l->shape, l->quiet);
-  if (l->asked) figure_item(g, "$asked using 1:2 with points", figure_look(g, "pt 6 ps 1.2 lw 1.6 lc rgb '#D55E00'", 8, look), "solutions asked for");
+  if (l->asked)
+    figure_item(g, "$asked using 1:2 with points", figure_look(g, "pt 6 ps 1.2 lw 1.6 lc rgb '#D55E00'", 8, look),
+                "solutions asked for");
   if (l->flights && !g->letters)
-    figure_item(g, "$flights using 1:2:(0):3 with vectors filled head size character 0.9,20", "lw 0.8 dt 1 lc rgb '#999999'", "where the transient went");
+    figure_item(g, "$flights using 1:2:(0):3 with vectors filled head size character 0.9,20",
+                "lw 0.8 dt 1 lc rgb '#999999'", "where the transient went");
   if (l->v) verdict_items(g, l->v, l->of);
   figure_draw(g);
 }
 
 static void detail_panel(figure *g, const curve_window *w, const layers *l)
 {
-  figure_say(g, "set title 'Where the contact changes'\nset xrange [%.10g:%.10g]\nset yrange [%.10g:%.10g]\n", w->low, w->high, w->least, w->most);
+  figure_say(g, "set title 'Where the contact changes'\nset xrange [%.10g:%.10g]\nset yrange [%.10g:%.10g]\n", w->low,
+             w->high, w->least, w->most);
   draw_layers(g, l);
 }
 
@@ -116,7 +127,10 @@ hc_status plot_frf(plot_order *p, const scene *sc, hbm_solver *s, const hbm_curv
   figure g = {0};
   curve_shape shape = {0};
   char settings[96];
-  if (curve->n == 0) { snprintf(p->why, sizeof p->why, "there is no point of the response curve to draw"); return HC_BAD_INPUT; }
+  if (curve->n == 0) {
+    snprintf(p->why, sizeof p->why, "there is no point of the response curve to draw");
+    return HC_BAD_INPUT;
+  }
   hc_status st = curve_shape_of(sc, s, curve, &shape);
   if (st == HC_OK) st = figure_open(&g, p, response_width(&shape), HEIGHT);
   if (st == HC_OK) st = put_asked(&g, s, asked);
@@ -138,7 +152,8 @@ static bool has_transient(const comparison_row *r)
 
 static bool has_hbm(const comparison_row *r) { return r->branch >= 0 && r->hbm_status == HC_OK; }
 
-/* What is said of an HBM solution that the transient left stands at that solution; all else stands where the transient is. */
+/* What is said of an HBM solution that the transient left stands at that solution; all else stands where the
+ * transient is. */
 static bool stands_at_hbm(const comparison_row *r)
 {
   return has_hbm(r) && (r->verdict == VERDICT_UNSTABLE || r->verdict == VERDICT_OTHER_BRANCH || !has_transient(r));
@@ -200,7 +215,10 @@ hc_status plot_compare(plot_order *p, const scene *sc, const comparison *c, cons
   verdicts v;
   char settings[96];
   bool all = a && a->n_rows > 0;
-  if (c->n_rows == 0) { snprintf(p->why, sizeof p->why, "there is nothing compared to draw"); return HC_BAD_INPUT; }
+  if (c->n_rows == 0) {
+    snprintf(p->why, sizeof p->why, "there is nothing compared to draw");
+    return HC_BAD_INPUT;
+  }
   hc_status st = curve_shape_trace(sc, &sc->compare.omega, &shape);
   int width = !all ? response_width(&shape) : curve_shape_window(&shape, &w) ? 1900 : 1300;
   if (st == HC_OK) st = figure_open(&g, p, width, all ? 1040 : HEIGHT);
@@ -220,7 +238,8 @@ hc_status plot_compare(plot_order *p, const scene *sc, const comparison *c, cons
 
 static bool measured(const steady_row *r)
 {
-  return r->stage == STEADY_TRANSIENT && (r->status == HC_OK || r->status == HC_NOT_SETTLED || r->status == HC_APERIODIC);
+  return r->stage == STEADY_TRANSIENT &&
+         (r->status == HC_OK || r->status == HC_NOT_SETTLED || r->status == HC_APERIODIC);
 }
 
 static void put_steady(figure *g, const steady_states *s, verdicts *v)
@@ -235,7 +254,8 @@ static void put_steady(figure *g, const steady_states *s, verdicts *v)
     figure_block(g, block);
     for (int i = 0; i < s->n; ++i) {
       const steady_row *r = &s->rows[i];
-      if (measured(r) && verdict_place(v, steady_verdict_text(r, name)) == k) figure_point(g, r->result.omega, r->result.amplitude);
+      if (measured(r) && verdict_place(v, steady_verdict_text(r, name)) == k)
+        figure_point(g, r->result.omega, r->result.amplitude);
     }
     figure_block_end(g);
   }
@@ -268,6 +288,9 @@ hc_status plot_transient(plot_order *p, const scene *sc, const steady_states *fo
     n += measured(&found->rows[i]);
     several |= found->rows[i].result.omega != found->rows[0].result.omega;
   }
-  if (n == 0) { snprintf(p->why, sizeof p->why, "there is no steady state to draw"); return HC_BAD_INPUT; }
+  if (n == 0) {
+    snprintf(p->why, sizeof p->why, "there is no steady state to draw");
+    return HC_BAD_INPUT;
+  }
   return several ? plot_points(p, sc, found) : panels_waves(p, sc, found);
 }

@@ -1,5 +1,5 @@
-/* figure_study.c - a study's results: a measure over the axis that is a scale, a line for each value of the other axes, or a heat map.
- * Proof: tests/command/plot/test_plots.c. */
+/* figure_study.c - a study's results: a measure over the axis that is a scale, a line for each value of the other
+ * axes, or a heat map. Proof: tests/command/plot/test_plots.c. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,9 +13,9 @@ enum { MOST_LINES = 12, MOST_HEAT_LABELS = 24, LEAST_HEAT = 4, TEXT = 160 };
 typedef struct chart {
   const study *s;
   const char *measure;
-  bool of_rows;      /* the largest of a column of rows */
-  double *value;     /* [n_scenes] NaN: none */
-  int x;             /* axis along the drawing; -1: nothing varies */
+  bool of_rows;             /* the largest of a column of rows */
+  double *value;            /* [n_scenes] NaN: none */
+  int x;                    /* axis along the drawing; -1: nothing varies */
   const study_field *scale; /* its field that is a scale, or NULL: its values stand side by side */
   bool log_x, log_y;
   int heat;          /* the other axis of a heat map, or -1 */
@@ -39,7 +39,8 @@ static void name_columns(plot_order *p, rows_kind kind)
   const table_column *columns = rows_columns(kind, &n);
   for (int i = 0; i < n; ++i) {
     size_t used = strlen(p->why);
-    if (columns[i].kind != TABLE_TEXT && used + 48 < sizeof p->why) snprintf(p->why + used, sizeof p->why - used, ", %s", columns[i].name);
+    if (columns[i].kind != TABLE_TEXT && used + 48 < sizeof p->why)
+      snprintf(p->why + used, sizeof p->why - used, ", %s", columns[i].name);
   }
 }
 
@@ -50,7 +51,8 @@ static hc_status choose_measure(plot_order *p, const char *asked, chart *c)
   if (!strcmp(c->measure, "seconds") || (curve && is_number_column(ROWS_CURVE, c->measure))) return HC_OK;
   c->of_rows = is_number_column(study_rows(c->s), c->measure);
   if (c->of_rows) return HC_OK;
-  snprintf(p->why, sizeof p->why, "--plot-y: '%.40s' is no measure of this study; expected seconds", asked ? asked : "");
+  snprintf(p->why, sizeof p->why, "--plot-y: '%.40s' is no measure of this study; expected seconds",
+           asked ? asked : "");
   if (curve) name_columns(p, ROWS_CURVE);
   name_columns(p, study_rows(c->s));
   return HC_BAD_INPUT;
@@ -109,7 +111,10 @@ static void choose_axes(chart *c)
   int plain = -1, varying = 0, heat[2] = {-1, -1};
   c->x = c->heat = -1;
   for (int i = s->n_axes - 1; i >= 0; --i)
-    if (s->axes[i].n > 1) { plain = i; heat[varying++ > 0] = i; }
+    if (s->axes[i].n > 1) {
+      plain = i;
+      heat[varying++ > 0] = i;
+    }
   for (int least = 3; least >= 2 && c->x < 0; --least)
     for (int i = 0; i < s->n_axes && c->x < 0; ++i)
       if (s->axes[i].n >= least && scale_of(&s->axes[i])) c->x = i;
@@ -118,7 +123,8 @@ static void choose_axes(chart *c)
   c->scale = scale_of(&s->axes[c->x]);
   c->lines = s->n_scenes / s->axes[c->x].n;
   c->drawn = c->lines < MOST_LINES ? c->lines : MOST_LINES;
-  if (varying == 2 && s->axes[heat[0]].n >= LEAST_HEAT && s->axes[heat[1]].n >= LEAST_HEAT) c->heat = heat[0] == c->x ? heat[1] : heat[0];
+  if (varying == 2 && s->axes[heat[0]].n >= LEAST_HEAT && s->axes[heat[1]].n >= LEAST_HEAT)
+    c->heat = heat[0] == c->x ? heat[1] : heat[0];
 }
 
 /* Spread over more than a factor of 100, or in equal ratios. */
@@ -160,12 +166,24 @@ static bool is_log_measure(const chart *c, double *low, double *high)
 
 static const char *measure_unit(const chart *c, char unit[FIGURE_UNIT])
 {
-  static const char *const lengths[] = {"amplitude", "peak_amplitude", "hbm_amplitude", "transient_amplitude", "orbit_amplitude", "max", "min", "rms", "mean",
-                                        "harmonic_1", "peak_harmonic_1", "hbm_harmonic_1", "transient_harmonic_1"};
+  static const char *const lengths[] = {"amplitude",
+                                        "peak_amplitude",
+                                        "hbm_amplitude",
+                                        "transient_amplitude",
+                                        "orbit_amplitude",
+                                        "max",
+                                        "min",
+                                        "rms",
+                                        "mean",
+                                        "harmonic_1",
+                                        "peak_harmonic_1",
+                                        "hbm_harmonic_1",
+                                        "transient_harmonic_1"};
   for (size_t i = 0; i < sizeof lengths / sizeof *lengths; ++i)
     if (!strcmp(lengths[i], c->measure)) return figure_unit(&c->s->base, "length", unit);
   if (!strcmp(c->measure, "seconds")) return "s";
-  if (!strcmp(c->measure, "omega") || !strcmp(c->measure, "peak_omega")) return figure_unit(&c->s->base, "rad/time", unit);
+  if (!strcmp(c->measure, "omega") || !strcmp(c->measure, "peak_omega"))
+    return figure_unit(&c->s->base, "rad/time", unit);
   return "1";
 }
 
@@ -210,8 +228,11 @@ static const char *line_text(const chart *c, long id, char text[TEXT])
     if (i == c->x || a->n < 2) continue;
     for (int k = 0; k < a->n_fields && n < TEXT - 1; ++k) {
       const char *dot = strrchr(a->fields[k].path, '.');
-      n += (size_t)snprintf(text + n, TEXT - n, "%s%s = %s", k ? ", " : n ? "; " : "", dot ? dot + 1 : a->fields[k].path,
-                            a->fields[k].values[study_index(c->s, id, i)].text);
+      n += (size_t)snprintf(text + n, TEXT - n, "%s%s = %s",
+                            k   ? ", "
+                            : n ? "; "
+                                : "",
+                            dot ? dot + 1 : a->fields[k].path, a->fields[k].values[study_index(c->s, id, i)].text);
     }
   }
   return text;
@@ -275,7 +296,8 @@ static void draw_lines(figure *g, chart *c)
     double first = 1, last = 1;
     number_of(c->scale, 0, &first);
     number_of(c->scale, a->n - 1, &last);
-    figure_say(g, "set logscale x\nset format x '%%g'\nset xrange [%.10g:%.10g]\n", fmin(first, last) / 1.15, fmax(first, last) * 1.15);
+    figure_say(g, "set logscale x\nset format x '%%g'\nset xrange [%.10g:%.10g]\n", fmin(first, last) / 1.15,
+               fmax(first, last) * 1.15);
     if (a->n <= 12) {
       figure_say(g, "set xtics (");
       for (int i = 0; i < a->n; ++i) figure_say(g, "%s%s", i ? ", " : "", value_text(a, c->scale, i, text));
@@ -303,7 +325,8 @@ static void draw_heat(figure *g, chart *c)
   char text[TEXT];
   figure_block(g, "cells");
   for (long id = 0; id < c->s->n_scenes; ++id)
-    if (isfinite(c->value[id])) figure_say(g, "%d %d %.8g\n", study_index(c->s, id, c->x), study_index(c->s, id, c->heat), c->value[id]);
+    if (isfinite(c->value[id]))
+      figure_say(g, "%d %d %.8g\n", study_index(c->s, id, c->x), study_index(c->s, id, c->heat), c->value[id]);
   figure_block_end(g);
   figure_below(g, "%s", axis_text(c->s, ax, c->scale, text));
   figure_set(g, "ylabel", "%s", axis_text(c->s, ay, sy, text));
@@ -341,7 +364,8 @@ hc_status plot_study(plot_order *p, const study *s, study_store *store, const ch
   if (st == HC_OK) st = figure_open(&g, p, 860, heat || c.drawn <= 4 ? 560 : 560 + 20 * (int)(c.drawn - 4));
   if (st == HC_OK) {
     snprintf(about, sizeof about, "%s", s->base.title);
-    if (!heat && c.drawn < c.lines) snprintf(about, sizeof about, "%.100s; the first %ld of %ld lines", s->base.title, c.drawn, c.lines);
+    if (!heat && c.drawn < c.lines)
+      snprintf(about, sizeof about, "%.100s; the first %ld of %ld lines", s->base.title, c.drawn, c.lines);
     figure_title(&g, "set title", s->title, about);
     if (heat) draw_heat(&g, &c);
     else draw_lines(&g, &c);

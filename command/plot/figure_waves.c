@@ -1,8 +1,8 @@
 /* figure_waves.c - the motion over a period at one frequency; a figure of transient. */
 #include <math.h>
 
-#include "model/scene.h"
 #include "command/plot/panels.h"
+#include "model/scene.h"
 
 static const double two_pi = 6.28318530717958647692;
 
@@ -10,7 +10,8 @@ enum { MOST_WAVES = 12 };
 
 static bool measured(const steady_row *r)
 {
-  return r->stage == STEADY_TRANSIENT && (r->status == HC_OK || r->status == HC_NOT_SETTLED || r->status == HC_APERIODIC);
+  return r->stage == STEADY_TRANSIENT &&
+         (r->status == HC_OK || r->status == HC_NOT_SETTLED || r->status == HC_APERIODIC);
 }
 
 static void put_wave(figure *g, int n, const timeint_result *r)
@@ -57,7 +58,8 @@ hc_status panels_waves(plot_order *p, const scene *sc, const steady_states *foun
     low = fmin(low, r->result.min);
     high = fmax(high, r->result.max);
   }
-  snprintf(about, sizeof about, "steady state at ω = %.8g rad/%s, period T = %.6g %s", omega, sc->unit_time, two_pi / omega, sc->unit_time);
+  snprintf(about, sizeof about, "steady state at ω = %.8g rad/%s, period T = %.6g %s", omega, sc->unit_time,
+           two_pi / omega, sc->unit_time);
   figure_title(&g, "set title", sc->title, about);
   figure_set(&g, "ylabel", "x [%s]", sc->unit_length);
   figure_below(&g, "t / T");

@@ -32,7 +32,8 @@ static void complain(FILE *words, int status, char *why, size_t size)
   message_add_input(&m, text + begin, n - begin, WORDS);
 }
 
-/* Started with these as its three streams, broken pipes as lethal as by default, and without its user's settings. An errno. */
+/* Started with these as its three streams, broken pipes as lethal as by default, and without its user's settings. An
+ * errno. */
 static int start(FILE *script, FILE *drawing, FILE *words, pid_t *pid)
 {
   char name[] = "gnuplot", settings[] = "--default-settings", *argv[] = {name, settings, NULL};
@@ -70,7 +71,10 @@ static hc_status run(FILE *script, FILE *drawing, FILE *words, char *why, size_t
     return bad == ENOMEM ? HC_NO_MEMORY : HC_IO;
   }
   while (waitpid(pid, &status, 0) < 0)
-    if (errno != EINTR) { snprintf(why, size, "gnuplot: %s", strerror(errno)); return HC_IO; }
+    if (errno != EINTR) {
+      snprintf(why, size, "gnuplot: %s", strerror(errno));
+      return HC_IO;
+    }
   if (WIFEXITED(status) && WEXITSTATUS(status) == 0 && lseek(fileno(drawing), 0, SEEK_END) > 0) return HC_OK;
   complain(words, status, why, size);
   return HC_IO;

@@ -1,5 +1,5 @@
-/* gnuplot.h - a script drawn by gnuplot as a child process, without a shell: the script comes from a file without a name, so does the
- * drawing go to one, and there is no pipe that could fill up or break. */
+/* gnuplot.h - a script drawn by gnuplot as a child process, without a shell: the script comes from a file without a
+ * name, so does the drawing go to one, and there is no pipe that could fill up or break. */
 #ifndef HC_PLOT_GNUPLOT_H
 #define HC_PLOT_GNUPLOT_H
 
@@ -8,8 +8,8 @@
 
 #include "base/status.h"
 
-/* What the script writes to its standard output goes into `drawing`. HC_IO with why[size] saying what went wrong: gnuplot is not installed,
- * or its own words; HC_NO_MEMORY. */
+/* What the script writes to its standard output goes into `drawing`. HC_IO with why[size] saying what went wrong:
+ * gnuplot is not installed, or its own words; HC_NO_MEMORY. */
 hc_status gnuplot_run(const char *script, size_t length, FILE *drawing, char *why, size_t size);
 
 #endif

@@ -1,4 +1,5 @@
-/* panels.h - private to command/plot/: several panels in one drawing, and parts of one figure that another file draws. */
+/* panels.h - private to command/plot/: several panels in one drawing, and parts of one figure that another file
+ * draws. */
 #ifndef HC_PLOT_PANELS_H
 #define HC_PLOT_PANELS_H
 

@@ -1,17 +1,19 @@
 /* plot.h - drawings of results, made by gnuplot as a process of its own: the way into this folder.
  *
- *     what was found -> figure_*.c write a script with its data (figure.h) -> gnuplot draws it (gnuplot.h) -> a file, whole or not at all
+ *     what was found -> figure_*.c write a script with its data (figure.h) -> gnuplot draws it (gnuplot.h) -> a
+ *     file, whole or not at all
  *
- * The ending of the file's name says what it becomes; "-" is a drawing of letters on standard output. Solid, dashed and dotted lines and
- * shapes tell things apart, colours only help. Nothing is printed but that drawing. Not here: what the numbers mean. */
+ * The ending of the file's name says what it becomes; "-" is a drawing of letters on standard output. Solid, dashed
+ * and dotted lines and shapes tell things apart, colours only help. Nothing is printed but that drawing. Not here:
+ * what the numbers mean. */
 #ifndef HC_PLOT_H
 #define HC_PLOT_H
 
 #include "campaigns/bench/bench.h"
+#include "campaigns/study/store.h"
 #include "compare/accuracy/accuracy.h"
 #include "compare/comparison.h"
 #include "compare/steady_states.h"
-#include "campaigns/study/store.h"
 #include "hbm/hbm.h"
 
 #define PLOT_ENDINGS ".svg, .png or .pdf"
@@ -27,13 +29,15 @@ typedef struct plot_order {
 /* Can that be drawn to, going by the name? */
 bool plot_can(const char *path);
 
-/* All of these: HC_OK, HC_NO_MEMORY, HC_BAD_INPUT (there is nothing to draw) or HC_IO (no gnuplot, or the file could not be written). */
+/* All of these: HC_OK, HC_NO_MEMORY, HC_BAD_INPUT (there is nothing to draw) or HC_IO (no gnuplot, or the file could
+ * not be written). */
 
-/* The response curve with its stability and where it changes its nature; what the sweep from the other end finds besides is faint.
- * `asked`: solutions to mark, or NULL. */
+/* The response curve with its stability and where it changes its nature; what the sweep from the other end finds
+ * besides is faint. `asked`: solutions to mark, or NULL. */
 hc_status plot_frf(plot_order *p, const scene *sc, hbm_solver *s, const hbm_curve *curve, const hbm_curve *asked);
 
-/* The same with the transients and their verdicts on it. a: beside it the discrepancy over samples and harmonics, or NULL. */
+/* The same with the transients and their verdicts on it. a: beside it the discrepancy over samples and harmonics, or
+ * NULL. */
 hc_status plot_compare(plot_order *p, const scene *sc, const comparison *c, const accuracy *a);
 
 /* At one frequency the motion over a period, at several the amplitudes over the response curve. */
@@ -42,8 +46,9 @@ hc_status plot_transient(plot_order *p, const scene *sc, const steady_states *fo
 /* Hysteresis loops T over u and the forces over the period, under x = X[0] + X[1] cos + X[2] sin + ..., n_harm >= 1. */
 hc_status plot_contact(plot_order *p, const scene *sc, int n_harm, const double *X);
 
-/* A measure (a column of scenes, or the largest of a column of rows; NULL: the peak's amplitude, or the amplitude) over the first axis that
- * is a scale, a line for each value of the others; a heat map for two axes of four values and more. */
+/* A measure (a column of scenes, or the largest of a column of rows; NULL: the peak's amplitude, or the amplitude)
+ * over the first axis that is a scale, a line for each value of the others; a heat map for two axes of four values
+ * and more. */
 hc_status plot_study(plot_order *p, const study *s, study_store *store, const char *measure);
 /* Does the study have that measure? HC_BAD_INPUT: no, and p->why says which there are. */
 hc_status plot_study_check(plot_order *p, const study *s, const char *measure);

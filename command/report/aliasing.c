@@ -1,5 +1,5 @@
-/* aliasing.c - see aliasing.h. Numbers go out as integers: forces in 1e-4, harmonics in 1e-6, differences and folds in 1e-9 of the state's
- * `scale`, the largest |force|; a page of hundreds of states stays small. */
+/* aliasing.c - see aliasing.h. Numbers go out as integers: forces in 1e-4, harmonics in 1e-6, differences and folds
+ * in 1e-9 of the state's `scale`, the largest |force|; a page of hundreds of states stays small. */
 #include "command/report/aliasing.h"
 
 #include <complex.h>
@@ -8,14 +8,22 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "numerics/room.h"
 #include "compare/frequencies.h"
 #include "hbm/aft.h"
 #include "hbm/exact.h"
 #include "hbm/hbm.h"
 #include "hbm/series.h"
+#include "numerics/room.h"
 
-enum { N_HARM = 5, N_STIFF = 5, N_SAMPLES = 9, SHOWN_TIMES = 256, SHOWN_HARMONICS = 80, FINE = 1 << 15, MOST_COEF = 2 * SCENE_MAX_HARMONICS + 1 };
+enum {
+  N_HARM = 5,
+  N_STIFF = 5,
+  N_SAMPLES = 9,
+  SHOWN_TIMES = 256,
+  SHOWN_HARMONICS = 80,
+  FINE = 1 << 15,
+  MOST_COEF = 2 * SCENE_MAX_HARMONICS + 1
+};
 
 static const int harmonics[N_HARM] = {1, 3, 5, 10, 20};
 static const int samples[N_SAMPLES] = {16, 32, 64, 128, 256, 512, 1024, 2048, 4096};
@@ -25,11 +33,11 @@ static const double force_step = 1e-4, harmonic_step = 1e-6, fold_step = 1e-9;
 
 /* Workspace, and the solution at hand. */
 typedef struct workshop {
-  scene sc;                      /* with the factor and H at hand */
-  exact *fine;                   /* as many harmonics as exact forces go to */
+  scene sc;    /* with the factor and H at hand */
+  exact *fine; /* as many harmonics as exact forces go to */
   moving_contact contacts[SCENE_MAX_CONTACTS];
-  double *force;                 /* [FINE] */
-  fftw_complex *spectrum;        /* [FINE/2+1] true harmonics of the force, F_h = (a_h - i b_h) for h > 0 */
+  double *force;          /* [FINE] */
+  fftw_complex *spectrum; /* [FINE/2+1] true harmonics of the force, F_h = (a_h - i b_h) for h > 0 */
   fftw_plan plan;
   int n_harm;
   double omega, X[MOST_COEF], scale; /* scale: largest |force| */
@@ -51,7 +59,7 @@ static void workshop_close(workshop *w)
   fftw_free(w->spectrum);
 }
 
-/* ---- the truth ---------------------------------------------------------------------------------------------------------------------- */
+/* ---- the truth ------------------------------------------------------------------------------- */
 
 /* Force of one contact at the angle th, from its pieces. */
 static double contact_at(const moving_contact *c, int n, const contact_piece *p, double th, double x)
@@ -67,7 +75,8 @@ static double contact_at(const moving_contact *c, int n, const contact_piece *p,
   return c->cu[0] * tangential + c->cv[0] * (normal - contact_preload(&c->law));
 }
 
-/* The force at FINE times, from the pieces the last evaluation found; its harmonics, those that have closed forms from these. */
+/* The force at FINE times, from the pieces the last evaluation found; its harmonics, those that have closed forms
+ * from these. */
 static hc_status find_truth(workshop *w)
 {
   double X[MOST_COEF] = {0}, F[MOST_COEF];
@@ -91,9 +100,12 @@ static hc_status find_truth(workshop *w)
   return HC_OK;
 }
 
-/* ---- as JSON ------------------------------------------------------------------------------------------------------------------------ */
+/* ---- as JSON --------------------------------------------------------------------------------- */
 
-static json_t *in_steps(double value, double step) { return isfinite(value / step) ? json_integer((json_int_t)llround(value / step)) : json_null(); }
+static json_t *in_steps(double value, double step)
+{
+  return isfinite(value / step) ? json_integer((json_int_t)llround(value / step)) : json_null();
+}
 
 static json_t *number(double value) { return isfinite(value) ? json_real(value) : json_null(); }
 
@@ -122,7 +134,8 @@ static double sampled_amplitude(const workshop *w, int n)
   memcpy(X, w->X, sizeof X);
   sc.hbm.force = HBM_FORCE_SAMPLED;
   sc.hbm.samples = n;
-  if (hbm_solver_new(&sc, &s) == HC_OK && hbm_solve(s, w->omega, X, &point) == HC_OK && hbm_measure(s, X, &m) == HC_OK) amplitude = m.amplitude;
+  if (hbm_solver_new(&sc, &s) == HC_OK && hbm_solve(s, w->omega, X, &point) == HC_OK && hbm_measure(s, X, &m) == HC_OK)
+    amplitude = m.amplitude;
   hbm_solver_free(s);
   return amplitude;
 }
@@ -144,25 +157,28 @@ static json_t *sampled_state(const workshop *w, int n)
     json_array_append_new(folds, in_steps(cabs(w->spectrum[n - h]), fold_step * w->scale));
     json_array_append_new(folds, in_steps(cabs(w->spectrum[n + h]), fold_step * w->scale));
   }
-  return json_pack("{s:o, s:o, s:o}", "amplitude", number(sampled_amplitude(w, n)), "difference", difference, "folds", folds);
+  return json_pack("{s:o, s:o, s:o}", "amplitude", number(sampled_amplitude(w, n)), "difference", difference, "folds",
+                   folds);
 }
 
 static json_t *state_of(workshop *w, double amplitude)
 {
   if (find_truth(w) != HC_OK) return json_null();
-  if (!(w->scale > 0)) return json_pack("{s:o, s:i}", "amplitude", number(amplitude), "scale", 0); /* no contact, or one that does nothing */
+  /* no contact, or one that does nothing */
+  if (!(w->scale > 0)) return json_pack("{s:o, s:i}", "amplitude", number(amplitude), "scale", 0);
   json_t *force = json_array(), *truth = json_array(), *sampled = json_array();
-  for (int i = 0; i < SHOWN_TIMES; ++i) json_array_append_new(force, in_steps(w->force[i * (FINE / SHOWN_TIMES)], force_step * w->scale));
+  for (int i = 0; i < SHOWN_TIMES; ++i)
+    json_array_append_new(force, in_steps(w->force[i * (FINE / SHOWN_TIMES)], force_step * w->scale));
   for (int h = 0; h <= SHOWN_HARMONICS; ++h) {
     json_array_append_new(truth, in_steps(creal(w->spectrum[h]), harmonic_step * w->scale));
     if (h) json_array_append_new(truth, in_steps(-cimag(w->spectrum[h]), harmonic_step * w->scale));
   }
   for (int i = 0; i < N_SAMPLES; ++i) json_array_append_new(sampled, sampled_state(w, samples[i]));
-  return json_pack("{s:o, s:o, s:o, s:o, s:o}", "amplitude", number(amplitude), "scale", number(w->scale), "force", force, "true", truth, "sampled",
-                   sampled);
+  return json_pack("{s:o, s:o, s:o, s:o, s:o}", "amplitude", number(amplitude), "scale", number(w->scale), "force",
+                   force, "true", truth, "sampled", sampled);
 }
 
-/* ---- the states --------------------------------------------------------------------------------------------------------------------- */
+/* ---- the states ------------------------------------------------------------------------------ */
 
 /* Of the curve's solutions at omega the one with the largest amplitude, into w->X; NaN: there is none. */
 static double largest_solution(workshop *w, hbm_solver *s, const hbm_curve *curve, double omega)
@@ -182,7 +198,8 @@ static double largest_solution(workshop *w, hbm_solver *s, const hbm_curve *curv
 }
 
 /* All omegas of one stiffness and H, appended to states[omega]. */
-static hc_status put_states(workshop *w, int n_omega, const double *omega, const hc_monitor *monitor, json_t *const *states)
+static hc_status put_states(workshop *w, int n_omega, const double *omega, const hc_monitor *monitor,
+                            json_t *const *states)
 {
   hbm_solver *s = NULL;
   hbm_curve curve = {0};
@@ -212,7 +229,10 @@ static void set_scene(workshop *w, const scene *sc, double factor, int n_harm)
 }
 
 /* The monitor of a part of the work: how far the whole is stands still meanwhile. */
-typedef struct standstill { const hc_monitor *whole; double done; } standstill;
+typedef struct standstill {
+  const hc_monitor *whole;
+  double done;
+} standstill;
 
 static bool tick_standing(void *self, double done)
 {
@@ -222,7 +242,8 @@ static bool tick_standing(void *self, double done)
 }
 
 /* states[omega][kn][H]. */
-static hc_status all_states(const scene *sc, workshop *w, int n_omega, const double *omega, const hc_monitor *monitor, json_t *states)
+static hc_status all_states(const scene *sc, workshop *w, int n_omega, const double *omega, const hc_monitor *monitor,
+                            json_t *states)
 {
   standstill at = {monitor, 0};
   hc_monitor inner = {tick_standing, &at};
@@ -243,7 +264,8 @@ static hc_status all_states(const scene *sc, workshop *w, int n_omega, const dou
   return HC_OK;
 }
 
-hc_status aliasing_states(const scene *sc, int n_omega, const double *omega, int first, const hc_monitor *monitor, json_t **out)
+hc_status aliasing_states(const scene *sc, int n_omega, const double *omega, int first, const hc_monitor *monitor,
+                          json_t **out)
 {
   workshop *w = calloc(1, sizeof *w);
   json_t *states = json_array();
@@ -251,10 +273,11 @@ hc_status aliasing_states(const scene *sc, int n_omega, const double *omega, int
   hc_status st = w && states ? workshop_open(w) : HC_NO_MEMORY;
   if (st == HC_OK) st = all_states(sc, w, n_omega, omega, monitor, states);
   if (st == HC_OK) {
-    *out = json_pack("{s:o, s:i, s:o, s:o, s:o, s:o, s:[f, f, f], s:O}", "omega", list_of_numbers(n_omega, omega), "first", first, "harmonics",
-                     list_of_integers(N_HARM, harmonics), "samples", list_of_integers(N_SAMPLES, samples), "factors",
-                     list_of_numbers(N_STIFF, factors), "kn", number(sc->n_contacts ? sc->contacts[0].law.kn : NAN), "steps", force_step,
-                     harmonic_step, fold_step, "states", states);
+    *out = json_pack("{s:o, s:i, s:o, s:o, s:o, s:o, s:[f, f, f], s:O}", "omega", list_of_numbers(n_omega, omega),
+                     "first", first, "harmonics", list_of_integers(N_HARM, harmonics), "samples",
+                     list_of_integers(N_SAMPLES, samples), "factors", list_of_numbers(N_STIFF, factors), "kn",
+                     number(sc->n_contacts ? sc->contacts[0].law.kn : NAN), "steps", force_step, harmonic_step,
+                     fold_step, "states", states);
     if (!*out) st = HC_NO_MEMORY;
   }
   json_decref(states);

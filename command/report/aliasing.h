@@ -1,21 +1,25 @@
-/* aliasing.h - what sampling does to the contact force, as states a page can move between: over omega, N, H and normal stiffness.
+/* aliasing.h - what sampling does to the contact force, as states a page can move between: over omega, N, H and
+ * normal stiffness.
  *
- *     each (kn, H, omega): the HBM solution X with exact forces and largest amplitude; its contact force over a period; its true harmonics F
+ *     each (kn, H, omega): the HBM solution X with exact forces and largest amplitude; its contact force over a
+ *     period; its true harmonics F
  *     each N beside:       the harmonics that N samples of X's force give (aft.h); the true ones folding onto them,
- *                              F_h sampled = F_h + sum_m conj(F_{mN-h}) + F_{mN+h};       and the sampled equations' own solution
- */
+ *                              F_h sampled = F_h + sum_m conj(F_{mN-h}) + F_{mN+h};       and the sampled equations'
+ *                                                                                         own solution */
 #ifndef HC_REPORT_ALIASING_H
 #define HC_REPORT_ALIASING_H
 
 #include <jansson.h>
 
-#include "model/scene.h"
 #include "base/status.h"
+#include "model/scene.h"
 
 enum { ALIASING_MOST_OMEGAS = 4 };
 
-/* The states at omega[n_omega], n_omega <= ALIASING_MOST_OMEGAS, of which omega[first] is shown first, as JSON into *out: see page.js,
- * "aliasing", for who reads it. A state without solution is null. HC_INTERRUPTED, HC_NO_MEMORY: *out is NULL. */
-hc_status aliasing_states(const scene *sc, int n_omega, const double *omega, int first, const hc_monitor *monitor, json_t **out);
+/* The states at omega[n_omega], n_omega <= ALIASING_MOST_OMEGAS, of which omega[first] is shown first, as JSON into
+ * *out: see page.js, "aliasing", for who reads it. A state without solution is null. HC_INTERRUPTED, HC_NO_MEMORY:
+ * *out is NULL. */
+hc_status aliasing_states(const scene *sc, int n_omega, const double *omega, int first, const hc_monitor *monitor,
+                          json_t **out);
 
 #endif

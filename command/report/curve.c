@@ -7,7 +7,8 @@
 #include "compare/frequencies.h"
 #include "compare/response.h"
 
-static const double shorter_steps = 0.35; /* a curve drawn with straight lines needs more points than one that is only followed */
+static const double shorter_steps = 0.35; /* a curve drawn with straight lines needs more points than one that is
+                                             only followed */
 
 static json_t *number(double value) { return isfinite(value) ? json_real(value) : json_null(); }
 
@@ -44,12 +45,14 @@ static void put_specials(hbm_solver *s, const hbm_curve *c, json_t *list)
     else if (p->kind == HBM_PERIOD_DOUBLING) snprintf(text, sizeof text, "period doubling");
     else if (p->before != p->after) snprintf(text, sizeof text, "contact goes from %s to %s", from, to);
     else snprintf(text, sizeof text, "contact pattern changes (%s)", to);
-    json_array_append_new(list, json_pack("{s:f, s:f, s:i, s:s}", "omega", p->omega, "amplitude", p->amplitude, "branch", p->branch, "what", text));
+    json_array_append_new(list, json_pack("{s:f, s:f, s:i, s:s}", "omega", p->omega, "amplitude", p->amplitude,
+                                          "branch", p->branch, "what", text));
   }
 }
 
 /* The curve of sc over the comparison's frequencies; specials may be NULL. */
-static hc_status trace(const scene *sc, const comparison *c, const hc_monitor *monitor, json_t *columns, json_t *specials)
+static hc_status trace(const scene *sc, const comparison *c, const hc_monitor *monitor, json_t *columns,
+                       json_t *specials)
 {
   hbm_solver *s = NULL;
   hbm_curve curve = {0};
@@ -76,30 +79,34 @@ static void put_rows(const comparison *c, json_t *hbm, json_t *transient)
   for (int i = 0; i < c->n_rows; ++i) {
     const comparison_row *r = &c->rows[i];
     char text[24];
-    bool moved = r->transient_status == HC_OK || r->transient_status == HC_NOT_SETTLED || r->transient_status == HC_APERIODIC;
+    bool moved =
+        r->transient_status == HC_OK || r->transient_status == HC_NOT_SETTLED || r->transient_status == HC_APERIODIC;
     comparison_verdict_text(r, text);
     if (r->branch >= 0 && r->hbm_status == HC_OK)
-      json_array_append_new(hbm, json_pack("{s:f, s:o, s:o, s:o, s:i, s:s, s:o}", "omega", r->omega, "amplitude", number(r->hbm.amplitude),
-                                           "harmonic_1", number(r->hbm.harmonic_1), "mean", number(r->hbm.mean), "branch", r->branch, "verdict",
-                                           text, "error", number(r->errors.amplitude)));
+      json_array_append_new(hbm, json_pack("{s:f, s:o, s:o, s:o, s:i, s:s, s:o}", "omega", r->omega, "amplitude",
+                                           number(r->hbm.amplitude), "harmonic_1", number(r->hbm.harmonic_1), "mean",
+                                           number(r->hbm.mean), "branch", r->branch, "verdict", text, "error",
+                                           number(r->errors.amplitude)));
     if (moved)
-      json_array_append_new(transient, json_pack("{s:f, s:o, s:o, s:o, s:i, s:s, s:o}", "omega", r->omega, "amplitude",
-                                                 number(r->transient.amplitude), "harmonic_1", number(r->transient.harmonic_1), "mean",
-                                                 number(r->transient.mean), "branch", r->branch, "verdict", text, "error",
-                                                 number(r->errors.amplitude)));
+      json_array_append_new(transient,
+                            json_pack("{s:f, s:o, s:o, s:o, s:i, s:s, s:o}", "omega", r->omega, "amplitude",
+                                      number(r->transient.amplitude), "harmonic_1", number(r->transient.harmonic_1),
+                                      "mean", number(r->transient.mean), "branch", r->branch, "verdict", text, "error",
+                                      number(r->errors.amplitude)));
   }
 }
 
 hc_status curve_json(const scene *sc, const comparison *c, const hc_monitor *monitor, json_t **out)
 {
-  json_t *curve = json_object(), *other = json_object(), *specials = json_array(), *hbm = json_array(), *transient = json_array();
+  json_t *curve = json_object(), *other = json_object(), *specials = json_array(), *hbm = json_array(),
+         *transient = json_array();
   scene turned = *sc; /* harmonic 0 the other way */
   turned.hbm.keep_mean = !sc->hbm.keep_mean;
   hc_status st = trace(sc, c, monitor, curve, specials);
   if (st == HC_OK) st = trace(&turned, c, monitor, other, NULL);
   put_rows(c, hbm, transient);
-  *out = json_pack("{s:o, s:o, s:b, s:o, s:o, s:o}", "curve", curve, "turned", other, "mean_kept", (int)sc->hbm.keep_mean, "specials", specials,
-                   "hbm", hbm, "transient", transient);
+  *out = json_pack("{s:o, s:o, s:b, s:o, s:o, s:o}", "curve", curve, "turned", other, "mean_kept",
+                   (int)sc->hbm.keep_mean, "specials", specials, "hbm", hbm, "transient", transient);
   if (st == HC_OK && !*out) st = HC_NO_MEMORY;
   return st;
 }

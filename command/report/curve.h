@@ -1,5 +1,5 @@
-/* curve.h - the response curve and what stands on it, as JSON for the page: points in the curve's order, for a folded curve is not a
- * function of omega. */
+/* curve.h - the response curve and what stands on it, as JSON for the page: points in the curve's order, for a
+ * folded curve is not a function of omega. */
 #ifndef HC_REPORT_CURVE_H
 #define HC_REPORT_CURVE_H
 
@@ -7,8 +7,8 @@
 
 #include "compare/comparison.h"
 
-/* {curve, without_mean: columns of points; specials; hbm, transient: what the rows found}: see page.js, "response", for who reads it.
- * HC_INTERRUPTED, HC_NO_MEMORY; a curve that stops early is shown as far as it goes. */
+/* {curve, without_mean: columns of points; specials; hbm, transient: what the rows found}: see page.js, "response",
+ * for who reads it. HC_INTERRUPTED, HC_NO_MEMORY; a curve that stops early is shown as far as it goes. */
 hc_status curve_json(const scene *sc, const comparison *c, const hc_monitor *monitor, json_t **out);
 
 #endif

@@ -64,9 +64,13 @@ void html_cell_number(FILE *to, double value)
 
 void html_cell_bar(FILE *to, double value, double limit)
 {
-  if (isnan(value)) { fputs("<td></td>", to); return; }
+  if (isnan(value)) {
+    fputs("<td></td>", to);
+    return;
+  }
   double length = value > 0 ? 100 * (1 + log10(value) / DECADES) : 0;
-  fprintf(to, "<td class=\"bar%s\"><span style=\"width:%.0f%%\"></span>%.2g</td>", value > limit ? " beyond" : "", fmin(fmax(length, 0), 100), value);
+  fprintf(to, "<td class=\"bar%s\"><span style=\"width:%.0f%%\"></span>%.2g</td>", value > limit ? " beyond" : "",
+          fmin(fmax(length, 0), 100), value);
 }
 
 void html_table_end(FILE *to) { fputs("\n</tbody></table></div>\n", to); }
@@ -86,7 +90,8 @@ static void put_cell(FILE *to, const row_cell *c)
   else html_cell_number(to, c->as.real);
 }
 
-void html_rows(FILE *to, const char *caption, rows_kind kind, int n, const void *rows, html_fill *fill, const char *const *without)
+void html_rows(FILE *to, const char *caption, rows_kind kind, int n, const void *rows, html_fill *fill,
+               const char *const *without)
 {
   int n_columns;
   const table_column *columns = rows_columns(kind, &n_columns);

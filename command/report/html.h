@@ -8,23 +8,28 @@
 
 #include "output/rows.h"
 
-/* Text between tags or in a quoted attribute: <, >, &, quotes escaped; control characters but line breaks become spaces. */
+/* Text between tags or in a quoted attribute: <, >, &, quotes escaped; control characters but line breaks become
+ * spaces. */
 void html_text(FILE *to, const char *text);
-void html_printf(FILE *to, const char *format, ...) __attribute__((format(printf, 2, 3))); /* the same, formatted; at most 511 bytes */
+/* the same, formatted; at most 511 bytes */
+void html_printf(FILE *to, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/* A table: html_table(to, class), html_head for each column, html_row before each row, one cell after another, html_table_end. */
+/* A table: html_table(to, class), html_head for each column, html_row before each row, one cell after another,
+ * html_table_end. */
 void html_table(FILE *to, const char *caption);
 void html_head(FILE *to, const char *name);
 void html_row(FILE *to);
 void html_cell_text(FILE *to, const char *text);
 void html_cell_number(FILE *to, double value); /* 6 significant digits; NaN: empty */
-/* A part of an error budget or an error [1], with a bar from 1e-12 to 1 on a logarithmic scale; marked when beyond the limit. */
+/* A part of an error budget or an error [1], with a bar from 1e-12 to 1 on a logarithmic scale; marked when beyond
+ * the limit. */
 void html_cell_bar(FILE *to, double value, double limit);
 void html_table_end(FILE *to);
 
 /* All rows of a kind, row(i) filling the cells; columns named in `without` (ending in NULL, or NULL) are left out. */
 typedef void html_fill(const void *rows, int i, row_cell *cells);
-void html_rows(FILE *to, const char *caption, rows_kind kind, int n, const void *rows, html_fill *fill, const char *const *without);
+void html_rows(FILE *to, const char *caption, rows_kind kind, int n, const void *rows, html_fill *fill,
+               const char *const *without);
 
 /* JSON that may stand in a script element: no "<" in it. HC_NO_MEMORY, HC_OK. */
 hc_status html_json(FILE *to, const json_t *value);

@@ -17,7 +17,7 @@ typedef struct page {
 
 static void put_asset(FILE *to, const asset *a) { fwrite(a->bytes, 1, a->length, to); }
 
-/* ---- plain pieces ------------------------------------------------------------------------------------------------------------------- */
+/* ---- plain pieces ---------------------------------------------------------------------------- */
 
 static void put_title(page *p) { html_text(p->to, p->d->sc->title[0] ? p->d->sc->title : "untitled case"); }
 static void put_style(page *p) { put_asset(p->to, &asset_style); }
@@ -58,28 +58,35 @@ static void put_case(page *p)
   free(text);
 }
 
-/* ---- tables ------------------------------------------------------------------------------------------------------------------------- */
+/* ---- tables ---------------------------------------------------------------------------------- */
 
-static void fill_compare(const void *rows, int i, row_cell *cells) { rows_compare((const comparison_row *)rows + i, cells); }
-static void fill_accuracy(const void *rows, int i, row_cell *cells) { rows_accuracy((const accuracy_row *)rows + i, cells); }
+static void fill_compare(const void *rows, int i, row_cell *cells)
+{
+  rows_compare((const comparison_row *)rows + i, cells);
+}
+static void fill_accuracy(const void *rows, int i, row_cell *cells)
+{
+  rows_accuracy((const accuracy_row *)rows + i, cells);
+}
 static void fill_order(const void *rows, int i, row_cell *cells) { rows_order((const order_row *)rows + i, cells); }
 
 static void put_compare(page *p)
 {
-  html_rows(p->to, "Every column, as hbmcheck compare prints it", ROWS_COMPARE, p->d->comparison.n_rows, p->d->comparison.rows, fill_compare, NULL);
+  html_rows(p->to, "Every column, as hbmcheck compare prints it", ROWS_COMPARE, p->d->comparison.n_rows,
+            p->d->comparison.rows, fill_compare, NULL);
 }
 
 static void put_accuracy(page *p)
 {
   static const char *const without[] = {"seconds", NULL}; /* the same input is to give the same page */
-  html_rows(p->to, "Samples and truncation order: errors relative to the exact transient's orbits", ROWS_ACCURACY, p->d->accuracy.n_rows,
-            p->d->accuracy.rows, fill_accuracy, without);
+  html_rows(p->to, "Samples and truncation order: errors relative to the exact transient's orbits", ROWS_ACCURACY,
+            p->d->accuracy.n_rows, p->d->accuracy.rows, fill_accuracy, without);
 }
 
 static void put_orders(page *p)
 {
-  html_rows(p->to, "Observed orders: error ~ quantity^-order (regularisation^order)", ROWS_ORDER, p->d->accuracy.n_orders, p->d->accuracy.orders,
-            fill_order, NULL);
+  html_rows(p->to, "Observed orders: error ~ quantity^-order (regularisation^order)", ROWS_ORDER,
+            p->d->accuracy.n_orders, p->d->accuracy.orders, fill_order, NULL);
 }
 
 static void put_budget_row(FILE *to, const comparison_row *r, const scene *sc)
@@ -91,9 +98,11 @@ static void put_budget_row(FILE *to, const comparison_row *r, const scene *sc)
   html_cell_number(to, r->branch >= 0 ? r->branch : NAN);
   html_cell_text(to, comparison_verdict_text(r, text));
   html_cell_number(to, r->branch >= 0 && r->hbm_status == HC_OK ? r->hbm.amplitude : NAN);
-  bool moved = r->transient_status == HC_OK || r->transient_status == HC_NOT_SETTLED || r->transient_status == HC_APERIODIC;
+  bool moved =
+      r->transient_status == HC_OK || r->transient_status == HC_NOT_SETTLED || r->transient_status == HC_APERIODIC;
   html_cell_number(to, moved ? r->transient.amplitude : NAN);
-  html_cell_bar(to, r->errors.amplitude, r->verdict == VERDICT_MATCH || r->verdict == VERDICT_DIFFERS ? sc->gate.amplitude : INFINITY);
+  html_cell_bar(to, r->errors.amplitude,
+                r->verdict == VERDICT_MATCH || r->verdict == VERDICT_DIFFERS ? sc->gate.amplitude : INFINITY);
 #define CELL(part) html_cell_bar(to, b->part, sc->gate.amplitude);
   BUDGET_PARTS(CELL)
 #undef CELL
@@ -103,8 +112,11 @@ static void put_budget_row(FILE *to, const comparison_row *r, const scene *sc)
 
 static void put_budget(page *p)
 {
-  static const char *const heads[] = {"omega", "branch", "verdict", "hbm_amplitude", "transient_amplitude", "amplitude_error"};
-  html_table(p->to, "Verdict and error budget of the amplitude, relative; bars: 1e-12 to 1, logarithmic; red: beyond the gate");
+  static const char *const heads[] = {"omega",          "branch", "verdict", "hbm_amplitude", "transient_amplitude",
+                                      "amplitude_error"};
+  html_table(
+      p->to,
+      "Verdict and error budget of the amplitude, relative; bars: 1e-12 to 1, logarithmic; red: beyond the gate");
   for (int i = 0; i < 6; ++i) html_head(p->to, heads[i]);
 #define HEAD(part) html_head(p->to, "from_" #part);
   BUDGET_PARTS(HEAD)
@@ -120,7 +132,10 @@ static void put_specials(page *p)
   size_t i;
   const json_t *special;
   const json_t *list = json_object_get(p->d->response, "specials");
-  if (json_array_size(list) == 0) { fputs("<p>Nothing special happens on the curve.</p>\n", p->to); return; }
+  if (json_array_size(list) == 0) {
+    fputs("<p>Nothing special happens on the curve.</p>\n", p->to);
+    return;
+  }
   html_table(p->to, "What happens on the curve, in its order");
   html_head(p->to, "what");
   html_head(p->to, "omega");
@@ -139,7 +154,7 @@ static void put_specials(page *p)
   html_table_end(p->to);
 }
 
-/* ---- data for the plots ------------------------------------------------------------------------------------------------------------- */
+/* ---- data for the plots ---------------------------------------------------------------------- */
 
 static json_t *number(double value) { return isfinite(value) ? json_real(value) : json_null(); }
 
@@ -149,7 +164,8 @@ static json_t *budget_json(const comparison *c)
   for (int i = 0; i < c->n_rows; ++i) {
     const comparison_row *r = &c->rows[i];
     if (!r->budget.known) continue;
-    json_t *row = json_pack("{s:f, s:i, s:o}", "omega", r->omega, "branch", r->branch, "sum", number(r->budget.amplitude.sum));
+    json_t *row =
+        json_pack("{s:f, s:i, s:o}", "omega", r->omega, "branch", r->branch, "sum", number(r->budget.amplitude.sum));
 #define PUT(part) json_object_set_new(row, #part, number(r->budget.amplitude.part));
     BUDGET_PARTS(PUT)
 #undef PUT
@@ -163,9 +179,10 @@ static json_t *accuracy_json(const accuracy *a)
   json_t *list = json_array();
   for (int i = 0; i < a->n_rows; ++i) {
     const accuracy_row *r = &a->rows[i];
-    json_array_append_new(list, json_pack("{s:i, s:i, s:o, s:o, s:o, s:i}", "harmonics", r->harmonics, "samples", r->samples, "amplitude_error",
-                                          number(r->worst), "aliasing", number(r->aliasing), "peak_error", number(r->peak_error), "false_turning_points",
-                                          r->false_turning_points));
+    json_array_append_new(list,
+                          json_pack("{s:i, s:i, s:o, s:o, s:o, s:i}", "harmonics", r->harmonics, "samples", r->samples,
+                                    "amplitude_error", number(r->worst), "aliasing", number(r->aliasing), "peak_error",
+                                    number(r->peak_error), "false_turning_points", r->false_turning_points));
   }
   return list;
 }
@@ -173,29 +190,35 @@ static json_t *accuracy_json(const accuracy *a)
 static void put_data(page *p)
 {
   const scene *sc = p->d->sc;
-  json_t *data = json_pack("{s:{s:s, s:s, s:s}, s:f, s:O, s:O, s:o, s:o}", "units", "length", sc->unit_length, "force", sc->unit_force, "time",
-                           sc->unit_time, "gate", sc->gate.amplitude, "response", p->d->response, "aliasing", p->d->aliasing, "budget",
-                           budget_json(&p->d->comparison), "accuracy", accuracy_json(&p->d->accuracy));
+  json_t *data = json_pack("{s:{s:s, s:s, s:s}, s:f, s:O, s:O, s:o, s:o}", "units", "length", sc->unit_length, "force",
+                           sc->unit_force, "time", sc->unit_time, "gate", sc->gate.amplitude, "response",
+                           p->d->response, "aliasing", p->d->aliasing, "budget", budget_json(&p->d->comparison),
+                           "accuracy", accuracy_json(&p->d->accuracy));
   if (!data || html_json(p->to, data) != HC_OK) p->status = HC_NO_MEMORY;
   json_decref(data);
 }
 
-/* ---- the whole ---------------------------------------------------------------------------------------------------------------------- */
+/* ---- the whole ------------------------------------------------------------------------------- */
 
 static const struct piece {
   const char *name;
   void (*put)(page *p);
 } pieces[] = {
-    {"title", put_title},   {"style", put_style},       {"script", put_script},     {"chart", put_chart},     {"settings", put_settings},
-    {"command", put_command}, {"versions", put_versions}, {"verdict", put_verdict}, {"advice", put_advice},   {"gate", put_gate},
-    {"case", put_case},     {"compare", put_compare},   {"accuracy", put_accuracy}, {"orders", put_orders},   {"budget", put_budget},
-    {"specials", put_specials}, {"data", put_data},     {"chart_version", put_chart_version},
+    {"title", put_title},       {"style", put_style},       {"script", put_script},
+    {"chart", put_chart},       {"settings", put_settings}, {"command", put_command},
+    {"versions", put_versions}, {"verdict", put_verdict},   {"advice", put_advice},
+    {"gate", put_gate},         {"case", put_case},         {"compare", put_compare},
+    {"accuracy", put_accuracy}, {"orders", put_orders},     {"budget", put_budget},
+    {"specials", put_specials}, {"data", put_data},         {"chart_version", put_chart_version},
 };
 
 static void put_piece(page *p, const char *name, size_t length)
 {
   for (size_t i = 0; i < sizeof pieces / sizeof *pieces; ++i)
-    if (strlen(pieces[i].name) == length && !memcmp(pieces[i].name, name, length)) { pieces[i].put(p); return; }
+    if (strlen(pieces[i].name) == length && !memcmp(pieces[i].name, name, length)) {
+      pieces[i].put(p);
+      return;
+    }
   p->status = HC_BUG; /* page.html names a piece that is not there */
 }
 

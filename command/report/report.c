@@ -21,7 +21,8 @@ static int busy_omegas(const comparison *c, double all[SCENE_MAX_LIST])
   return n;
 }
 
-/* Of those the one nearest to the peak, and others spread over the rest, ascending; how many. *first: where the nearest one is. */
+/* Of those the one nearest to the peak, and others spread over the rest, ascending; how many. *first: where the
+ * nearest one is. */
 static int choose_omegas(const comparison *c, double *omega, int *first)
 {
   double all[SCENE_MAX_LIST];
@@ -51,7 +52,8 @@ static void say(void (*announce)(void *, const char *), void *self, const char *
   if (announce) announce(self, stage);
 }
 
-hc_status report_gather(const scene *sc, const hc_monitor *monitor, void (*announce)(void *self, const char *stage), void *self, report_data *out)
+hc_status report_gather(const scene *sc, const hc_monitor *monitor, void (*announce)(void *self, const char *stage),
+                        void *self, report_data *out)
 {
   *out = (report_data){.sc = sc};
   say(announce, self, "comparing");

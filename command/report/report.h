@@ -1,27 +1,30 @@
-/* report.h - a comparison as one self-contained HTML page: words, interactive plots, tables, and aliasing taught. The way into this folder.
+/* report.h - a comparison as one self-contained HTML page: words, interactive plots, tables, and aliasing taught.
+ * The way into this folder.
  *
- *     scene -> comparison, tables over H and N, response curve, aliasing states (report_gather) -> one page (report_write)
+ *     scene -> comparison, tables over H and N, response curve, aliasing states (report_gather) -> one page
+ *     (report_write)
  *
- * The page needs no network and no other file: page.html, page.css, page.js and the installed Chart.js are built into the program
- * (embed.cmake). Same input, same bytes: no date, no run times. Nothing is printed; not here: options and files (cli/cmd_report.c). */
+ * The page needs no network and no other file: page.html, page.css, page.js and the installed Chart.js are built
+ * into the program (embed.cmake). Same input, same bytes: no date, no run times. Nothing is printed; not here:
+ * options and files (cli/cmd_report.c). */
 #ifndef HC_REPORT_REPORT_H
 #define HC_REPORT_REPORT_H
 
 #include <jansson.h>
 #include <stdio.h>
 
-#include "model/scene.h"
 #include "base/status.h"
 #include "compare/accuracy/accuracy.h"
 #include "compare/comparison.h"
+#include "model/scene.h"
 
 typedef struct report_data {
-  const scene *sc;      /* the caller's */
+  const scene *sc; /* the caller's */
   comparison comparison;
   accuracy accuracy;
-  hc_status tabled;     /* how the tables ended; what was found is shown */
-  json_t *response;     /* the curve and what stands on it (curve.h) */
-  json_t *aliasing;     /* precomputed states (aliasing.h); JSON null without contacts */
+  hc_status tabled; /* how the tables ended; what was found is shown */
+  json_t *response; /* the curve and what stands on it (curve.h) */
+  json_t *aliasing; /* precomputed states (aliasing.h); JSON null without contacts */
 } report_data;
 
 /* Words about how the page came to be, for its last section. All UTF-8, escaped here. */
@@ -34,9 +37,10 @@ typedef struct report_origin {
 /* Was Chart.js there when this was built? Without it there is no report. */
 bool report_has_charts(void);
 
-/* Everything the page shows. announce(self, "tables") before each stage; may be NULL. HC_INTERRUPTED, HC_NO_MEMORY, or what kept the
- * comparison or the curve from being made at all. Free with report_clear in any case. */
-hc_status report_gather(const scene *sc, const hc_monitor *monitor, void (*announce)(void *self, const char *stage), void *self, report_data *out);
+/* Everything the page shows. announce(self, "tables") before each stage; may be NULL. HC_INTERRUPTED, HC_NO_MEMORY,
+ * or what kept the comparison or the curve from being made at all. Free with report_clear in any case. */
+hc_status report_gather(const scene *sc, const hc_monitor *monitor, void (*announce)(void *self, const char *stage),
+                        void *self, report_data *out);
 void report_clear(report_data *d);
 
 /* The page. HC_IO once the stream has failed, HC_NO_MEMORY. */

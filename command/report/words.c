@@ -25,23 +25,27 @@ void words_verdict(const report_data *d, FILE *to)
   int code = comparison_exit_code(c), missing = 0;
   static const char *const classes[] = {"good", "bad"};
   static const char *const heads[] = {"They agree.", "They do not agree.", "Not everything could be compared."};
-  static const char *const tails[] = {" At every frequency the transient is within the gate of a harmonic-balance solution.",
-                                      " At least one transient is not a harmonic-balance solution within the gate.",
-                                      " What is said below holds for what was compared."};
+  static const char *const tails[] = {
+      " At every frequency the transient is within the gate of a harmonic-balance solution.",
+      " At least one transient is not a harmonic-balance solution within the gate.",
+      " What is said below holds for what was compared."};
   int which = code == 0 ? 0 : code == 1 ? 1 : 2;
   for (int i = 0; i < c->n_rows; ++i) missing += comparison_unaccounted(&c->rows[i]);
-  fprintf(to, "<p class=\"verdict %s\"><strong>%s</strong>%s</p>\n", which == 2 ? "open" : classes[which], heads[which], tails[which]);
+  fprintf(to, "<p class=\"verdict %s\"><strong>%s</strong>%s</p>\n", which == 2 ? "open" : classes[which], heads[which],
+          tails[which]);
   if (missing)
-    fprintf(to, "<p>%d transient%s no solution of this response curve within the gate.</p>\n", missing, missing == 1 ? " matches" : "s match");
+    fprintf(to, "<p>%d transient%s no solution of this response curve within the gate.</p>\n", missing,
+            missing == 1 ? " matches" : "s match");
   if (c->curve.end != HC_OK && c->curve.n) {
-    fprintf(to, "<p class=\"verdict open\">The response curve <strong>stopped</strong> at omega = %.8g: ", c->curve.points[c->curve.n - 1].omega);
+    fprintf(to, "<p class=\"verdict open\">The response curve <strong>stopped</strong> at omega = %.8g: ",
+            c->curve.points[c->curve.n - 1].omega);
     html_text(to, hc_status_text(c->curve.end));
     fputs(".</p>\n", to);
   }
   count_verdicts(c, to);
 }
 
-/* ---- what to do --------------------------------------------------------------------------------------------------------------------- */
+/* ---- what to do ------------------------------------------------------------------------------ */
 
 static void say_worst(const report_data *d, FILE *to)
 {
@@ -57,15 +61,18 @@ static void say_worst(const report_data *d, FILE *to)
   }
   if (top) {
     item(to, top->budget.amplitude.sum <= d->sc->gate.amplitude ? "good" : "bad");
-    html_printf(to, "Largest error at omega = %.8g, branch %d: %s.", top->omega, top->branch, budget_advice(&top->budget, d->sc, c->harmonics, text));
+    html_printf(to, "Largest error at omega = %.8g, branch %d: %s.", top->omega, top->branch,
+                budget_advice(&top->budget, d->sc, c->harmonics, text));
     fputs("</li>\n", to);
   }
   if (doubtful)
-    fprintf(to, "<li class=\"bad\">In %d row%s the parts do not account for what is observed: look there first.</li>\n", doubtful,
-            doubtful == 1 ? "" : "s");
+    fprintf(to, "<li class=\"bad\">In %d row%s the parts do not account for what is observed: look there first.</li>\n",
+            doubtful, doubtful == 1 ? "" : "s");
   if (unknown)
-    fprintf(to, "<li class=\"open\">%d row%s without a budget: no periodic orbit was found next to the HBM solution.</li>\n", unknown,
-            unknown == 1 ? "" : "s");
+    fprintf(
+        to,
+        "<li class=\"open\">%d row%s without a budget: no periodic orbit was found next to the HBM solution.</li>\n",
+        unknown, unknown == 1 ? "" : "s");
 }
 
 static const accuracy_row *exact_row(const accuracy *a, int n_harm)
@@ -94,20 +101,26 @@ static void say_harmonics(const report_data *d, FILE *to)
   const int enough = enough_harmonics(a, limit), kept = d->comparison.harmonics;
   const accuracy_row *last = NULL, *row = exact_row(a, enough);
   if (!d->sc->hbm.keep_mean)
-    fputs("<li class=\"bad\">Harmonic 0 is left out (hbm.static: false): that solves another equation, and no number of harmonics mends it.</li>\n",
-          to);
+    fputs(
+        "<li class=\"bad\">Harmonic 0 is left out (hbm.static: false): that solves another equation, and no number of "
+        "harmonics mends it.</li>\n",
+        to);
   for (int i = 0; i < a->n_rows; ++i)
     if (a->rows[i].samples == 0) last = &a->rows[i];
   if (!last) return;
   item(to, row && kept >= enough ? "good" : kept > last->harmonics ? "open" : "bad");
   html_printf(to, "Harmonics: %d kept. ", kept);
   if (row)
-    html_printf(to, "Of those tried, H >= %d keeps the amplitude within %.3g %% of the exact transient's (H = %d: %.2g %%).", enough, 100 * limit,
-                enough, 100 * row->worst);
+    html_printf(
+        to, "Of those tried, H >= %d keeps the amplitude within %.3g %% of the exact transient's (H = %d: %.2g %%).",
+        enough, 100 * limit, enough, 100 * row->worst);
   else
-    html_printf(to, "None of those in the tables keeps the amplitude within %.3g %% of the exact transient's (H = %d: %.2g %%).", 100 * limit,
-                last->harmonics, 100 * last->worst);
-  if (!row && last->missing) html_printf(to, " %d of %d orbits have no solution next to them.", last->missing, a->orbits);
+    html_printf(
+        to,
+        "None of those in the tables keeps the amplitude within %.3g %% of the exact transient's (H = %d: %.2g %%).",
+        100 * limit, last->harmonics, 100 * last->worst);
+  if (!row && last->missing)
+    html_printf(to, " %d of %d orbits have no solution next to them.", last->missing, a->orbits);
   fputs("</li>\n", to);
 }
 
@@ -116,7 +129,8 @@ static bool samples_do(const accuracy_row *r, const accuracy_row *plain, double 
   return r->possible && r->aliasing <= limit && r->missing <= plain->missing;
 }
 
-/* For the number of harmonics of the table next to the one kept: the fewest samples from which on aliasing stays below the limit. */
+/* For the number of harmonics of the table next to the one kept: the fewest samples from which on aliasing stays
+ * below the limit. */
 static void say_samples(const report_data *d, FILE *to)
 {
   const accuracy *a = &d->accuracy;
@@ -135,14 +149,17 @@ static void say_samples(const report_data *d, FILE *to)
   const bool sampled = d->sc->hbm.force == HBM_FORCE_SAMPLED;
   item(to, enough && (!sampled || d->comparison.samples >= enough->samples) ? "good" : "bad");
   if (!enough)
-    html_printf(to, "Sampling: not even %d samples a period are enough at H = %d (aliasing %.2g %%): use exact forces.", most->samples,
-                plain->harmonics, 100 * most->aliasing);
+    html_printf(to, "Sampling: not even %d samples a period are enough at H = %d (aliasing %.2g %%): use exact forces.",
+                most->samples, plain->harmonics, 100 * most->aliasing);
   else
-    html_printf(to, "Sampling: %d samples a period are enough at H = %d (aliasing %.2g %%); exact forces need none.", enough->samples,
-                plain->harmonics, 100 * enough->aliasing);
+    html_printf(to, "Sampling: %d samples a period are enough at H = %d (aliasing %.2g %%); exact forces need none.",
+                enough->samples, plain->harmonics, 100 * enough->aliasing);
   if (enough && enough->false_turning_points)
-    html_printf(to, " But the curve sampled so has %d turning points that are not the oscillator's: follow curves with exact forces.",
-                enough->false_turning_points);
+    html_printf(
+        to,
+        " But the curve sampled so has %d turning points that are not the oscillator's: follow curves with exact "
+        "forces.",
+        enough->false_turning_points);
   if (sampled) html_printf(to, " In use: %d samples.", d->comparison.samples);
   fputs("</li>\n", to);
 }
@@ -161,7 +178,7 @@ void words_what_to_do(const report_data *d, FILE *to)
   fputs("</ul>\n", to);
 }
 
-/* ---- the gate ----------------------------------------------------------------------------------------------------------------------- */
+/* ---- the gate -------------------------------------------------------------------------------- */
 
 void words_gate(const report_data *d, FILE *to)
 {
@@ -171,7 +188,8 @@ void words_gate(const report_data *d, FILE *to)
   for (int i = 0; i < d->comparison.n_rows; ++i) {
     const comparison_row *r = &d->comparison.rows[i];
     const double errors[] = {r->errors.amplitude, r->errors.harmonic_1, r->errors.mean, r->errors.waveform};
-    if (r->verdict != VERDICT_MATCH && r->verdict != VERDICT_DIFFERS) continue; /* elsewhere the two are not the same motion */
+    /* elsewhere the two are not the same motion */
+    if (r->verdict != VERDICT_MATCH && r->verdict != VERDICT_DIFFERS) continue;
     for (int k = 0; k < 4; ++k)
       if (errors[k] > worst[k] || isnan(worst[k])) worst[k] = errors[k], where[k] = r->omega;
   }

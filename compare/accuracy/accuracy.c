@@ -1,8 +1,8 @@
 /* accuracy.c - see budget.h: the table over truncation orders and sampling rates, and the orders it shows.
  *
  *     the curve with exact forces and most harmonics -> orbits to compare with, the peak (reference.h)
- *     each H: the curve with exact forces -> a solution next to each orbit -> each N: the same solution, from there; and the curve
- */
+ *     each H: the curve with exact forces -> a solution next to each orbit -> each N: the same solution, from there;
+ *     and the curve */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -27,8 +27,8 @@ typedef struct traced {
 /* The solution next to each target, for one H and N. */
 typedef struct solutions {
   int n, n_coef;
-  bool *there;   /* [n] */
-  double *X;     /* [n][n_coef] */
+  bool *there;           /* [n] */
+  double *X;             /* [n][n_coef] */
   steady_motion *motion; /* [n] */
   long iterations;
 } solutions;
@@ -49,7 +49,7 @@ static double thread_seconds(void)
   return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-/* ---- curves and solutions ---------------------------------------------------------------------------------------------------------- */
+/* ---- curves and solutions -------------------------------------------------------------------- */
 
 static hc_status trace(const job *j, int n_harm, int samples, traced *t)
 {
@@ -101,20 +101,25 @@ static bool take(solutions *s, int i, hbm_solver *hbm, const double *X)
 }
 
 /* The nearest pair of a target without solution and a solution of *at not taken yet; false when there is no more. */
-static bool nearest_pair(const job *j, const solutions *s, int first, int last, const hbm_curve *at, const steady_motion *found,
-                         const bool *taken, int *i, int *k)
+static bool nearest_pair(const job *j, const solutions *s, int first, int last, const hbm_curve *at,
+                         const steady_motion *found, const bool *taken, int *i, int *k)
 {
   double least = INFINITY;
   for (int a = first; a < last; ++a)
     for (int b = 0; b < at->n; ++b) {
       if (s->there[a] || taken[b]) continue;
       double d = motion_between(&found[b], &j->ref.targets[a].orbit).waveform;
-      if (d < least) { least = d; *i = a; *k = b; }
+      if (d < least) {
+        least = d;
+        *i = a;
+        *k = b;
+      }
     }
   return least < INFINITY;
 }
 
-/* The targets first..last-1, of one frequency, get the solutions of the curve there: each at most one, the nearest pairs first. */
+/* The targets first..last-1, of one frequency, get the solutions of the curve there: each at most one, the nearest
+ * pairs first. */
 static hc_status assign(const job *j, traced *t, int first, int last, solutions *s)
 {
   hbm_curve at = {0};
@@ -157,7 +162,8 @@ static void drop_doubles(const job *j, const solutions *from, solutions *s)
     for (int b = 0; b < s->n; ++b) {
       if (a == b || !s->there[a] || !s->there[b] || j->ref.targets[a].omega != j->ref.targets[b].omega) continue;
       if (!(motion_between(&s->motion[a], &s->motion[b]).waveform <= 1e-6 * s->motion[b].amplitude)) continue;
-      double da = motion_between(&s->motion[a], &from->motion[a]).waveform, db = motion_between(&s->motion[b], &from->motion[b]).waveform;
+      double da = motion_between(&s->motion[a], &from->motion[a]).waveform,
+             db = motion_between(&s->motion[b], &from->motion[b]).waveform;
       if (da > db || (da == db && a > b)) s->there[a] = false;
     }
 }
@@ -178,7 +184,7 @@ static hc_status solve_sampled(const job *j, traced *t, const solutions *from, s
   return st;
 }
 
-/* ---- a row -------------------------------------------------------------------------------------------------------------------------- */
+/* ---- a row ----------------------------------------------------------------------------------- */
 
 static int ascending(const void *a, const void *b)
 {
@@ -202,7 +208,8 @@ static hc_status put_errors(const job *j, const solutions *s, const solutions *p
     if (!s->there[i]) continue;
     e[row->solutions++] = got == a ? 0 : fabs(got - a) / a;
     row->worst = fmax(row->worst, e[row->solutions - 1]);
-    row->aliasing = fmax(row->aliasing, got == plain->motion[i].amplitude ? 0 : fabs(got - plain->motion[i].amplitude) / a);
+    row->aliasing =
+        fmax(row->aliasing, got == plain->motion[i].amplitude ? 0 : fabs(got - plain->motion[i].amplitude) / a);
   }
   if (row->solutions == 0) row->worst = row->aliasing = NAN;
   row->missing = s->n - row->solutions;
@@ -227,7 +234,8 @@ static hc_status put_curve(const job *j, traced *t, accuracy_row *row)
   return st;
 }
 
-static hc_status put_row(const job *j, traced *t, int samples, const solutions *s, const solutions *plain, int true_turns, double began)
+static hc_status put_row(const job *j, traced *t, int samples, const solutions *s, const solutions *plain,
+                         int true_turns, double began)
 {
   accuracy_row *row = &j->out->rows[j->out->n_rows];
   *row = (accuracy_row){.harmonics = t->n_harm, .samples = samples, .possible = true};
@@ -243,16 +251,27 @@ static hc_status put_row(const job *j, traced *t, int samples, const solutions *
 
 static void put_impossible(const job *j, int n_harm, int samples)
 {
-  j->out->rows[j->out->n_rows++] = (accuracy_row){.harmonics = n_harm, .samples = samples, .status = HC_BAD_INPUT, .worst = NAN, .median = NAN,
-                                                  .aliasing = NAN, .peak_amplitude = NAN, .peak_omega = NAN, .peak_error = NAN,
-                                                  .peak_omega_error = NAN, .seconds = NAN};
+  j->out->rows[j->out->n_rows++] = (accuracy_row){.harmonics = n_harm,
+                                                  .samples = samples,
+                                                  .status = HC_BAD_INPUT,
+                                                  .worst = NAN,
+                                                  .median = NAN,
+                                                  .aliasing = NAN,
+                                                  .peak_amplitude = NAN,
+                                                  .peak_omega = NAN,
+                                                  .peak_error = NAN,
+                                                  .peak_omega_error = NAN,
+                                                  .seconds = NAN};
 }
 
 static hc_status sampled_row(const job *j, int n_harm, int samples, const solutions *plain, int true_turns)
 {
   traced t;
   solutions s = {0};
-  if (samples < 2 * n_harm + 2) { put_impossible(j, n_harm, samples); return HC_OK; }
+  if (samples < 2 * n_harm + 2) {
+    put_impossible(j, n_harm, samples);
+    return HC_OK;
+  }
   hc_status st = trace(j, n_harm, samples, &t);
   double began = thread_seconds();
   if (st == HC_OK) st = solve_sampled(j, &t, plain, &s);
@@ -269,12 +288,13 @@ static hc_status rows_of(const job *j, traced *t)
   double began = thread_seconds();
   hc_status st = solve_exact(j, t, &plain);
   if (st == HC_OK) st = put_row(j, t, EXACT, &plain, &plain, t->curve.turning_points, began);
-  for (int i = 0; i < j->n_samples && st == HC_OK; ++i) st = sampled_row(j, t->n_harm, j->samples[i], &plain, t->curve.turning_points);
+  for (int i = 0; i < j->n_samples && st == HC_OK; ++i)
+    st = sampled_row(j, t->n_harm, j->samples[i], &plain, t->curve.turning_points);
   solutions_free(&plain);
   return st;
 }
 
-/* ---- the whole ---------------------------------------------------------------------------------------------------------------------- */
+/* ---- the whole ------------------------------------------------------------------------------- */
 
 /* A list of whole numbers, ascending, each once, into out[]; how many. */
 static int whole_numbers(const scene_list *list, int *out)
@@ -290,7 +310,9 @@ static int whole_numbers(const scene_list *list, int *out)
 static void put_order(job *j, const char *quantity, int n_harm, int n, const double *x, const double *e, double floor)
 {
   order_fit fit = order_fit_to(n, x, e, floor);
-  if (fit.points > 1) j->out->orders[j->out->n_orders++] = (order_row){.quantity = quantity, .harmonics = n_harm, .omega = NAN, .fit = fit};
+  if (fit.points > 1)
+    j->out->orders[j->out->n_orders++] =
+        (order_row){.quantity = quantity, .harmonics = n_harm, .omega = NAN, .fit = fit};
 }
 
 /* Of the aliasing in N for each H, and of the truncation in H with exact forces. */
@@ -330,7 +352,8 @@ static void put_reference(const job *j)
 {
   accuracy *out = j->out;
   out->orbits = j->ref.n;
-  for (int i = 0; i < j->ref.n; ++i) out->frequencies += i == 0 || j->ref.targets[i].omega != j->ref.targets[i - 1].omega;
+  for (int i = 0; i < j->ref.n; ++i)
+    out->frequencies += i == 0 || j->ref.targets[i].omega != j->ref.targets[i - 1].omega;
   out->peak_harmonics = j->ref.harmonics;
   out->peak_by_orbit = j->ref.peak_by_orbit;
   out->peak_amplitude = j->ref.peak_amplitude;

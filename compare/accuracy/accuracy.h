@@ -1,14 +1,15 @@
 /* budget.h - where a discrepancy comes from, and how fast it goes away: the way into this folder.
  *
- * Per HBM solution its parts, one a cause: parts.h. Over truncation orders H and sampling rates N, what each pair costs and is worth:
- * accuracy_run. How fast an error falls with N, H and the regularisation: order_fit. Nothing is printed; not here: verdicts. */
+ * Per HBM solution its parts, one a cause: parts.h. Over truncation orders H and sampling rates N, what each pair
+ * costs and is worth: accuracy_run. How fast an error falls with N, H and the regularisation: order_fit. Nothing is
+ * printed; not here: verdicts. */
 #ifndef HC_BUDGET_H
 #define HC_BUDGET_H
 
-#include "model/scene.h"
 #include "base/status.h"
 #include "compare/budget.h"
 #include "compare/comparison.h"
+#include "model/scene.h"
 
 /* e ~ c x^-order over the points `from` <= x <= `to`, by least squares on logarithms. */
 typedef struct order_fit {
@@ -19,26 +20,27 @@ typedef struct order_fit {
 
 enum { ORDER_MOST_POINTS = 512 };
 
-/* x ascending > 0, larger is finer; error e >= 0 [1], NaN where there is none. What counts is the envelope, the largest error at this x or a
- * finer one: an aliasing error is erratic and may be small by luck. Only the asymptotic part is used: errors below 0.1 and above `floor`,
- * and from the x on that gives the narrowest 95 % interval for the order, at least three points: coarse points that bend the line are worth
- * less than nothing. n <= ORDER_MOST_POINTS. */
+/* x ascending > 0, larger is finer; error e >= 0 [1], NaN where there is none. What counts is the envelope, the
+ * largest error at this x or a finer one: an aliasing error is erratic and may be small by luck. Only the asymptotic
+ * part is used: errors below 0.1 and above `floor`, and from the x on that gives the narrowest 95 % interval for the
+ * order, at least three points: coarse points that bend the line are worth less than nothing. n <=
+ * ORDER_MOST_POINTS. */
 order_fit order_fit_to(int n, const double *x, const double *e, double floor);
 
 /* One pair (H, N), over the frequencies of the comparison and the referee's orbits there. NaN: not known. */
 typedef struct accuracy_row {
-  int harmonics, samples; /* samples 0: exact forces */
-  bool possible;          /* N >= 2 H + 2 */
-  hc_status status;       /* how the response curve ended */
-  int solutions, missing; /* orbits that have a solution next to them; that have none */
-  double worst, median;   /* [1] |amplitude - orbit's|/orbit's over those solutions */
-  double aliasing;        /* [1] largest |amplitude - exact forces'|, same H */
-  double peak_amplitude, peak_omega; /* of the curve */
-  double peak_error, peak_omega_error; /* [1] against the exact transient's peak */
+  int harmonics, samples;                   /* samples 0: exact forces */
+  bool possible;                            /* N >= 2 H + 2 */
+  hc_status status;                         /* how the response curve ended */
+  int solutions, missing;                   /* orbits that have a solution next to them; that have none */
+  double worst, median;                     /* [1] |amplitude - orbit's|/orbit's over those solutions */
+  double aliasing;                          /* [1] largest |amplitude - exact forces'|, same H */
+  double peak_amplitude, peak_omega;        /* of the curve */
+  double peak_error, peak_omega_error;      /* [1] against the exact transient's peak */
   int turning_points, false_turning_points; /* more than with exact forces, same H */
-  int rejected;           /* steps of the continuation */
+  int rejected;                             /* steps of the continuation */
   long iterations, evaluations;
-  double seconds;         /* of processor time */
+  double seconds; /* of processor time */
 } accuracy_row;
 
 typedef struct order_row {
@@ -50,22 +52,23 @@ typedef struct order_row {
 
 typedef struct accuracy {
   int n_rows, n_orders;
-  accuracy_row *rows; /* [n_rows] harmonics of compare.harmonics; in each exact forces, then compare.samples, ascending */
-  order_row *orders;  /* [n_orders] */
+  accuracy_row *rows;      /* [n_rows] harmonics of compare.harmonics; in each exact forces, then compare.samples,
+                         ascending */
+  order_row *orders;       /* [n_orders] */
   int orbits, frequencies; /* what is compared with */
   int peak_harmonics;      /* the reference peak was looked for from that of the curve with so many */
   bool peak_by_orbit;      /* and found on the exact transient's own orbits; else it is that curve's */
   double peak_amplitude, peak_omega;
 } accuracy;
 
-/* The tables of the scene's compare.harmonics and compare.samples over the frequencies of *c, a comparison of the same scene whose orbits
- * are used again. Each solution is computed once; the sampled ones start from those with exact forces. HC_INTERRUPTED, HC_NO_MEMORY; rows
- * found until then are kept. Free with accuracy_clear in any case. */
+/* The tables of the scene's compare.harmonics and compare.samples over the frequencies of *c, a comparison of the
+ * same scene whose orbits are used again. Each solution is computed once; the sampled ones start from those with
+ * exact forces. HC_INTERRUPTED, HC_NO_MEMORY; rows found until then are kept. Free with accuracy_clear in any case. */
 hc_status accuracy_run(const scene *sc, const comparison *c, const hc_monitor *monitor, accuracy *out);
 void accuracy_clear(accuracy *a);
 
-/* The regularisation's order at the row of *c where it matters most, from rho, rho/4, rho/16, rho/64. A fit without points when there is
- * none, or the law is exact. */
+/* The regularisation's order at the row of *c where it matters most, from rho, rho/4, rho/16, rho/64. A fit without
+ * points when there is none, or the law is exact. */
 hc_status order_of_regularisation(const scene *sc, const comparison *c, const hc_monitor *monitor, order_row *out);
 
 #endif

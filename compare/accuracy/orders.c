@@ -15,7 +15,8 @@ static const double asymptotic = 0.1; /* [1] a larger error says nothing of how 
 static const order_fit no_fit = {.order = NAN, .spread = NAN, .from = NAN, .to = NAN};
 
 /* The usable points, from the finest, and their logarithms; how many. */
-static int usable_points(int n, const double *x, const double *e, double floor, double *used, double *log_x, double *log_e)
+static int usable_points(int n, const double *x, const double *e, double floor, double *used, double *log_x,
+                         double *log_e)
 {
   double envelope = 0;
   int m = 0;
@@ -33,7 +34,8 @@ static order_fit fit_line(int m, const double *used, const double *log_x, const 
 {
   double c0, c1, cov00, cov01, cov11, sum;
   gsl_fit_linear(log_x, 1, log_e, 1, (size_t)m, &c0, &c1, &cov00, &cov01, &cov11, &sum);
-  return (order_fit){.order = -c1, .spread = m > 2 ? sqrt(cov11) : NAN, .from = used[m - 1], .to = used[0], .points = m};
+  return (order_fit){
+      .order = -c1, .spread = m > 2 ? sqrt(cov11) : NAN, .from = used[m - 1], .to = used[0], .points = m};
 }
 
 order_fit order_fit_to(int n, const double *x, const double *e, double floor)
@@ -47,7 +49,10 @@ order_fit order_fit_to(int n, const double *x, const double *e, double floor)
   for (int k = LEAST_POINTS; k <= m; ++k) { /* the k finest */
     order_fit fit = fit_line(k, used, log_x, log_e);
     double width = fit.spread * gsl_cdf_tdist_Pinv(0.975, k - 2);
-    if (width <= narrowest) { narrowest = width; best = fit; }
+    if (width <= narrowest) {
+      narrowest = width;
+      best = fit;
+    }
   }
   return best;
 }
@@ -63,7 +68,8 @@ static const comparison_row *most_regularised(const comparison *c)
 }
 
 /* Amplitude error of the orbit next to `row`'s at that regularisation; NaN where it is not to be had. */
-static hc_status error_at(const scene *sc, double regularisation, const comparison_row *row, const hc_monitor *monitor, double *e)
+static hc_status error_at(const scene *sc, double regularisation, const comparison_row *row, const hc_monitor *monitor,
+                          double *e)
 {
   scene other = *sc;
   timeint *ti = NULL;

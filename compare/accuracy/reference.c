@@ -1,6 +1,6 @@
-/* reference.c - see reference.h.
- * The peak is looked for on the exact law's orbits themselves, by shooting, from the peak of a curve that is near: parabolas through three
- * frequencies, ever closer together. Harmonic balance would have to keep 160 harmonics for 1e-8 of it. */
+/* reference.c - see reference.h. The peak is looked for on the exact law's orbits themselves, by shooting, from the
+ * peak of a curve that is near: parabolas through three frequencies, ever closer together. Harmonic balance would
+ * have to keep 160 harmonics for 1e-8 of it. */
 #include "compare/accuracy/reference.h"
 
 #include <math.h>
@@ -8,7 +8,8 @@
 
 enum { PEAK_LEVELS = 6 };
 
-static const double reusable = 0.01; /* [amplitude] an orbit that near to a solution of the fine curve is the one next to it */
+static const double reusable = 0.01; /* [amplitude] an orbit that near to a solution of the fine curve is the one
+                                        next to it */
 
 static hc_status add_target(reference *r, double omega, const steady_motion *orbit)
 {
@@ -26,13 +27,14 @@ static hc_status add_target(reference *r, double omega, const steady_motion *orb
 static bool is_known(const reference *r, double omega, const steady_motion *orbit)
 {
   for (int i = 0; i < r->n; ++i)
-    if (r->targets[i].omega == omega && motion_between(&r->targets[i].orbit, orbit).waveform <= 1e-6 * orbit->amplitude) return true;
+    if (r->targets[i].omega == omega && motion_between(&r->targets[i].orbit, orbit).waveform <= 1e-6 * orbit->amplitude)
+      return true;
   return false;
 }
 
 /* The orbit next to a solution: of the comparison's rows, else by shooting. False: none. */
-static bool orbit_next_to(const comparison *c, timeint *ti, const hbm_measures *m, int n_harm, const double *X, double omega,
-                          const hc_monitor *monitor, steady_motion *out)
+static bool orbit_next_to(const comparison *c, timeint *ti, const hbm_measures *m, int n_harm, const double *X,
+                          double omega, const hc_monitor *monitor, steady_motion *out)
 {
   steady_motion here = motion_of_series(m, n_harm, X);
   for (int i = 0; i < c->n_rows; ++i) {
@@ -56,7 +58,8 @@ static hc_status targets_at(const comparison *c, timeint *ti, hbm_solver *hbm, c
     const double *X = at.X + (size_t)k * at.n_coef;
     hbm_measures m;
     steady_motion orbit;
-    if (hbm_measure(hbm, X, &m) != HC_OK || !orbit_next_to(c, ti, &m, hbm_n_harmonics(hbm), X, omega, monitor, &orbit)) continue;
+    if (hbm_measure(hbm, X, &m) != HC_OK || !orbit_next_to(c, ti, &m, hbm_n_harmonics(hbm), X, omega, monitor, &orbit))
+      continue;
     if (!is_known(r, omega, &orbit)) st = add_target(r, omega, &orbit);
   }
   hbm_curve_free(&at);
@@ -81,7 +84,10 @@ static bool climb(const scene *sc, timeint *ti, double omega, const timeint_stat
     if (omega - d < low || omega + d > high) break; /* a peak at the end of the sweep is where the sweep ends */
     double left = amplitude_at(ti, omega - d, state), right = amplitude_at(ti, omega + d, state);
     double bend = left - 2 * top + right;
-    if (left < 0 || right < 0 || !(bend < 0)) { d /= 4; continue; }
+    if (left < 0 || right < 0 || !(bend < 0)) {
+      d /= 4;
+      continue;
+    }
     double step = 0.5 * d * (left - right) / bend;
     omega += fmax(fmin(step, 2 * d), -2 * d);
     top = amplitude_at(ti, omega, state);
@@ -98,7 +104,8 @@ static void find_peak(const scene *sc, timeint *ti, hbm_solver *hbm, const hbm_c
   hbm_curve peak = {0};
   hbm_measures m;
   out->peak_amplitude = out->peak_omega = NAN;
-  if (curve->n > 0 && hbm_curve_peak(hbm, curve, &peak) == HC_OK && peak.n > 0 && hbm_measure(hbm, peak.X, &m) == HC_OK) {
+  if (curve->n > 0 && hbm_curve_peak(hbm, curve, &peak) == HC_OK && peak.n > 0 &&
+      hbm_measure(hbm, peak.X, &m) == HC_OK) {
     double omega = peak.points[0].omega;
     timeint_state state = comparison_orbit_start(&m, hbm_n_harmonics(hbm), peak.X, omega);
     if (!climb(sc, ti, omega, &state, out)) out->peak_amplitude = m.amplitude, out->peak_omega = omega;
@@ -106,7 +113,8 @@ static void find_peak(const scene *sc, timeint *ti, hbm_solver *hbm, const hbm_c
   hbm_curve_free(&peak);
 }
 
-hc_status reference_make(const scene *sc, const comparison *c, hbm_solver *hbm, const hbm_curve *curve, const hc_monitor *monitor, reference *out)
+hc_status reference_make(const scene *sc, const comparison *c, hbm_solver *hbm, const hbm_curve *curve,
+                         const hc_monitor *monitor, reference *out)
 {
   timeint *ti = NULL;
   *out = (reference){.harmonics = hbm_n_harmonics(hbm)};

@@ -1,11 +1,15 @@
-/* reference.h - what a table's rows are held against: the exact law's orbits at the compared frequencies, and the peak of its response. */
+/* reference.h - what a table's rows are held against: the exact law's orbits at the compared frequencies, and the
+ * peak of its response. */
 #ifndef HC_REFERENCE_H
 #define HC_REFERENCE_H
 
 #include "compare/accuracy/accuracy.h"
 #include "compare/motion.h"
 
-typedef struct target { double omega; steady_motion orbit; } target;
+typedef struct target {
+  double omega;
+  steady_motion orbit;
+} target;
 
 typedef struct reference {
   int n, cap;
@@ -16,7 +20,8 @@ typedef struct reference {
 } reference;
 
 /* From the curve of `hbm`, whose forces are exact. Free with reference_clear in any case. */
-hc_status reference_make(const scene *sc, const comparison *c, hbm_solver *hbm, const hbm_curve *curve, const hc_monitor *monitor, reference *out);
+hc_status reference_make(const scene *sc, const comparison *c, hbm_solver *hbm, const hbm_curve *curve,
+                         const hc_monitor *monitor, reference *out);
 void reference_clear(reference *r);
 
 #endif

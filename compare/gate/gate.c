@@ -7,12 +7,21 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const struct { const char *name; size_t allowed, found; } quantities[] = {
-#define QUANTITY(q) {#q, offsetof(scene_gate, q), offsetof(comparison_errors, q)}
+static const struct {
+  const char *name;
+  size_t allowed, found;
+} quantities[] = {
+#define QUANTITY(q)                                                                                                    \
+  {                                                                                                                    \
+#q, offsetof(scene_gate, q), offsetof(comparison_errors, q)                                                        \
+  }
     QUANTITY(amplitude), QUANTITY(harmonic_1), QUANTITY(mean), QUANTITY(waveform)};
 enum { N_QUANTITIES = sizeof quantities / sizeof *quantities, MEAN = 2 };
 
-static double at(const void *base, size_t offset) { return *(const double *)(const void *)((const char *)base + offset); }
+static double at(const void *base, size_t offset)
+{
+  return *(const double *)(const void *)((const char *)base + offset);
+}
 
 const char *gate_result_name(gate_result r) { return r == GATE_PASS ? "pass" : r == GATE_FAIL ? "fail" : "error"; }
 
@@ -46,8 +55,13 @@ static void add(judge *j, const gate_check *check)
 /* A check of row, or of the curve for NULL, that has passed so far. */
 static gate_check check_of(const comparison_row *row, const char *quantity, const char *against)
 {
-  gate_check c = {.omega = row ? row->omega : NAN, .branch = row ? row->branch : -1, .quantity = quantity, .against = against, .allowed = NAN,
-                  .found = NAN, .result = GATE_PASS};
+  gate_check c = {.omega = row ? row->omega : NAN,
+                  .branch = row ? row->branch : -1,
+                  .quantity = quantity,
+                  .against = against,
+                  .allowed = NAN,
+                  .found = NAN,
+                  .result = GATE_PASS};
   if (row) comparison_verdict_text(row, c.verdict);
   return c;
 }
@@ -64,7 +78,10 @@ __attribute__((format(printf, 3, 4))) static void not_passed(gate_check *c, gate
 /* ---- one HBM solution ---- */
 
 /* |difference| / amplitude; no difference is no error, also where nothing moves. */
-static double relative(double difference, double amplitude) { return difference == 0 ? 0 : fabs(difference) / amplitude; }
+static double relative(double difference, double amplitude)
+{
+  return difference == 0 ? 0 : fabs(difference) / amplitude;
+}
 
 static comparison_errors errors_against_orbit(const comparison_row *r)
 {
@@ -75,7 +92,8 @@ static comparison_errors errors_against_orbit(const comparison_row *r)
                              .waveform = r->orbit_error};
 }
 
-static void hold(judge *j, const comparison_row *r, const comparison_errors *errors, bool mean_is_free, const char *against)
+static void hold(judge *j, const comparison_row *r, const comparison_errors *errors, bool mean_is_free,
+                 const char *against)
 {
   const scene_gate limits = scene_gate_at(j->sc, r->omega);
   for (int q = 0; q < N_QUANTITIES; ++q) {
@@ -92,11 +110,13 @@ static void hold(judge *j, const comparison_row *r, const comparison_errors *err
 static bool all_within(const comparison_errors *e, const scene_gate *limits, bool mean_is_free)
 {
   for (int q = 0; q < N_QUANTITIES; ++q)
-    if (!(q == MEAN && mean_is_free) && !within(at(e, quantities[q].found), at(limits, quantities[q].allowed))) return false;
+    if (!(q == MEAN && mean_is_free) && !within(at(e, quantities[q].found), at(limits, quantities[q].allowed)))
+      return false;
   return true;
 }
 
-/* Two transients of one law on one orbit differ by what is left of settling; the bound is that of comparison.c's runs_next_to. */
+/* Two transients of one law on one orbit differ by what is left of settling; the bound is that of comparison.c's
+ * runs_next_to. */
 static bool same_motion(const judge *j, const timeint_result *a, const timeint_result *b)
 {
   const double shift = a->free_sliders > 0 || b->free_sliders > 0 ? a->mean - b->mean : 0;
@@ -106,8 +126,9 @@ static bool same_motion(const judge *j, const timeint_result *a, const timeint_r
   return true;
 }
 
-/* Does some HBM solution at this omega match the motion that row's transient ends in? The comparison knows for the limits outside the ranges;
- * within one, where limits may be wider, a solution whose own transient is that same motion tells. */
+/* Does some HBM solution at this omega match the motion that row's transient ends in? The comparison knows for the
+ * limits outside the ranges; within one, where limits may be wider, a solution whose own transient is that same
+ * motion tells. */
 static bool accounted(const judge *j, const comparison_row *row)
 {
   if (row->accounted) return true;
@@ -115,8 +136,12 @@ static bool accounted(const judge *j, const comparison_row *row)
   const scene_gate limits = scene_gate_at(j->sc, row->omega);
   for (int i = 0; i < j->c->n_rows; ++i) {
     const comparison_row *r = &j->c->rows[i];
-    if (r->omega != row->omega || r->hbm_status != HC_OK || r->transient_status != HC_OK || r->transient.period_multiple != 1) continue;
-    if (all_within(&r->errors, &limits, r->transient.free_sliders > 0) && same_motion(j, &row->transient, &r->transient)) return true;
+    if (r->omega != row->omega || r->hbm_status != HC_OK || r->transient_status != HC_OK ||
+        r->transient.period_multiple != 1)
+      continue;
+    if (all_within(&r->errors, &limits, r->transient.free_sliders > 0) &&
+        same_motion(j, &row->transient, &r->transient))
+      return true;
   }
   return false;
 }
@@ -126,9 +151,12 @@ static void judge_transient(judge *j, const comparison_row *r)
   gate_check c = check_of(r, "transient", "transient");
   if (accounted(j, r)) c.result = GATE_PASS;
   else if (r->verdict == VERDICT_PERIOD_K)
-    not_passed(&c, GATE_FAIL, "the transient repeats only after %d forcing periods: no HBM solution is what happens", r->transient.period_multiple);
-  else if (r->verdict == VERDICT_APERIODIC) not_passed(&c, GATE_FAIL, "the transient never repeats: no HBM solution is what happens");
-  else not_passed(&c, GATE_FAIL, "the transient runs elsewhere, and no HBM solution at this omega is within the limits");
+    not_passed(&c, GATE_FAIL, "the transient repeats only after %d forcing periods: no HBM solution is what happens",
+               r->transient.period_multiple);
+  else if (r->verdict == VERDICT_APERIODIC)
+    not_passed(&c, GATE_FAIL, "the transient never repeats: no HBM solution is what happens");
+  else
+    not_passed(&c, GATE_FAIL, "the transient runs elsewhere, and no HBM solution at this omega is within the limits");
   add(j, &c);
 }
 
@@ -181,8 +209,10 @@ static void judge_curve(judge *j)
   gate_check c = check_of(NULL, "curve", NULL);
   const hbm_curve *curve = &j->c->curve;
   if (curve->end != HC_OK && curve->n > 0)
-    not_passed(&c, GATE_ERROR, "the HBM curve stopped at omega = %.10g: %s", curve->points[curve->n - 1].omega, hc_status_text(curve->end));
-  else if (curve->end != HC_OK) not_passed(&c, GATE_ERROR, "the HBM curve has no points: %s", hc_status_text(curve->end));
+    not_passed(&c, GATE_ERROR, "the HBM curve stopped at omega = %.10g: %s", curve->points[curve->n - 1].omega,
+               hc_status_text(curve->end));
+  else if (curve->end != HC_OK)
+    not_passed(&c, GATE_ERROR, "the HBM curve has no points: %s", hc_status_text(curve->end));
   else if (j->c->n_rows == 0) not_passed(&c, GATE_ERROR, "nothing was compared");
   if (c.result != GATE_PASS) add(j, &c);
   judge_cost(j, "iterations", j->sc->gate_cost.iterations, j->c->summary.iterations);
@@ -236,8 +266,11 @@ bool gate_is_worst(const gate_case *g, int i)
   for (int k = 0; k < g->n; ++k) {
     const gate_check *other = &g->checks[k];
     if (k == i || strcmp(other->quantity, c->quantity)) continue;
-    double mine = gate_shown(c) / c->allowed, theirs = gate_shown(other) / other->allowed; /* what is noise decides nothing */
-    if (theirs > mine || (!(mine > theirs) && k < i)) return false; /* of equals, and of those without numbers, the first */
+    /* what is noise decides nothing */
+    double mine = gate_shown(c) / c->allowed, theirs = gate_shown(other) / other->allowed;
+    if (theirs > mine || (!(mine > theirs) && k < i))
+      return false; /* of equals, and of those without numbers, the
+                                                                       first */
   }
   return true;
 }

@@ -1,38 +1,45 @@
-/* gate.h - is this HBM result right, within the limits its case file sets? Pass or fail, for machines. The way into this folder.
+/* gate.h - is this HBM result right, within the limits its case file sets? Pass or fail, for machines. The way into
+ * this folder.
  *
  * What each HBM solution of a comparison is held against:
  *     verdict match, differs                          the transient, which runs next to it
- *     unstable, other_branch, period_k, aperiodic     the exact law's orbit next to it (comparison.h's referee), within the same limits; and the
- *                                                     transient, wherever it went, must match some HBM solution at its omega
- *     not_settled, solver_failed                      nothing: an error, and so is an orbit that was not found, and a curve that stopped
- * The mean is not held against anything where a slider is free: it is a matter of history there. The limits: scene_gate_at.
+ *     unstable, other_branch, period_k, aperiodic     the exact law's orbit next to it (comparison.h's referee),
+ *                                                     within the same limits; and the transient, wherever it went,
+ *                                                     must match some HBM solution at its omega
+ *     not_settled, solver_failed                      nothing: an error, and so is an orbit that was not found, and
+ *                                                     a curve that stopped
+ * The mean is not held against anything where a slider is free: it is a matter of history there. The limits:
+ * scene_gate_at.
  *
- * A number passes if found <= allowed (1 + GATE_SLACK); costs, being whole numbers, if found <= allowed. Both sides are converged far beyond
- * that, so what rounding does on another machine flips no verdict unless a limit is set to a hair's breadth of what is found.
- * Nothing is printed. Not here: how the two sides are compared (compare/comparison.h). */
+ * A number passes if found <= allowed (1 + GATE_SLACK); costs, being whole numbers, if found <= allowed. Both sides
+ * are converged far beyond that, so what rounding does on another machine flips no verdict unless a limit is set to
+ * a hair's breadth of what is found. Nothing is printed. Not here: how the two sides are compared
+ * (compare/comparison.h). */
 #ifndef HC_GATE_H
 #define HC_GATE_H
 
 #include <stdio.h>
 
-#include "model/scene.h"
 #include "base/status.h"
 #include "compare/comparison.h"
+#include "model/scene.h"
 
 #define GATE_SLACK 1e-6 /* [1] of the limit */
 
-typedef enum gate_result { GATE_PASS, GATE_FAIL, GATE_ERROR } gate_result; /* GATE_ERROR: there was nothing to hold it against */
-const char *gate_result_name(gate_result r);                                /* "pass", "fail", "error" */
+/* GATE_ERROR: there was nothing to hold it against */
+typedef enum gate_result { GATE_PASS, GATE_FAIL, GATE_ERROR } gate_result;
+const char *gate_result_name(gate_result r); /* "pass", "fail", "error" */
 
 enum { GATE_REASON = 160 };
 
 typedef struct gate_check {
-  double omega;         /* [rad/time] NaN: about the response curve as a whole */
-  int branch;           /* of the HBM solution; -1: about none */
-  char verdict[24];     /* of the comparison's row, empty for the curve */
-  const char *quantity; /* "amplitude", "harmonic_1", "mean", "waveform", "transient" (matched by some HBM solution?), "orbit" and "solution"
-                           (errors only), of the curve: "curve" (an error), "iterations", "evaluations" */
-  const char *against;  /* "transient", "orbit" or "limit"; NULL: nothing */
+  double omega;          /* [rad/time] NaN: about the response curve as a whole */
+  int branch;            /* of the HBM solution; -1: about none */
+  char verdict[24];      /* of the comparison's row, empty for the curve */
+  const char *quantity;  /* "amplitude", "harmonic_1", "mean", "waveform", "transient" (matched by some HBM
+                           solution?), "orbit" and "solution" (errors only), of the curve: "curve" (an error),
+                           "iterations", "evaluations" */
+  const char *against;   /* "transient", "orbit" or "limit"; NULL: nothing */
   double allowed, found; /* NaN where there are none */
   gate_result result;
   char reason[GATE_REASON]; /* in words; empty where the two numbers say it, and for what passes */
@@ -45,15 +52,16 @@ typedef struct gate_case {
   int failures, errors;
 } gate_case;
 
-/* Compare, then judge. HC_OK whatever the checks say; HC_INTERRUPTED, HC_NO_MEMORY and other ends of the whole comparison else, with what was
- * found kept. Free with gate_clear in any case. */
+/* Compare, then judge. HC_OK whatever the checks say; HC_INTERRUPTED, HC_NO_MEMORY and other ends of the whole
+ * comparison else, with what was found kept. Free with gate_clear in any case. */
 hc_status gate_run(const char *name, const scene *sc, const hc_monitor *monitor, gate_case *out);
 
 /* The second half: the checks of a comparison of sc. HC_NO_MEMORY. */
 hc_status gate_judge(const char *name, const scene *sc, const comparison *c, gate_case *out);
 void gate_clear(gate_case *g);
 
-/* What was found, as it is shown: to 3 digits, or as many more as it takes to be on the right side of the limit; 0 below GATE_SLACK of it. */
+/* What was found, as it is shown: to 3 digits, or as many more as it takes to be on the right side of the limit; 0
+ * below GATE_SLACK of it. */
 double gate_shown(const gate_check *c);
 
 /* Is check i the one nearest to its limit, or farthest beyond, of its quantity? */
@@ -62,8 +70,8 @@ bool gate_is_worst(const gate_case *g, int i);
 /* INTERFACE.md's: 1 if a check failed, else 3 if one is an error, else 0. */
 int gate_exit_code(int n, const gate_case *cases);
 
-/* The checks as JUnit XML: a testsuite a case, a testcase a check, <failure> and <error>. No times and no dates: equal results are equal bytes.
- * HC_IO, HC_NO_MEMORY. */
+/* The checks as JUnit XML: a testsuite a case, a testcase a check, <failure> and <error>. No times and no dates:
+ * equal results are equal bytes. HC_IO, HC_NO_MEMORY. */
 hc_status gate_write_junit(int n, const gate_case *cases, FILE *to);
 
 #endif

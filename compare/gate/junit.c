@@ -1,15 +1,17 @@
 /* junit.c - the checks as JUnit XML, the dialect that GitLab, Jenkins and the usual GitHub actions read:
  *     testsuites > testsuite (a case) > testcase (a check) > failure | error
- * Everything from outside goes through put_text(): file names may hold anything. time is always 0: how long it took is not a result. */
+ * Everything from outside goes through put_text(): file names may hold anything. time is always 0: how long it took
+ * is not a result. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/number.h"
-#include "compare/gate/gate.h"
 #include "base/utf8.h"
+#include "compare/gate/gate.h"
 
-/* In an attribute or between tags. What XML 1.0 cannot hold even escaped, control characters and U+FFFE, U+FFFF, utf8_clean makes spaces. */
+/* In an attribute or between tags. What XML 1.0 cannot hold even escaped, control characters and U+FFFE, U+FFFF,
+ * utf8_clean makes spaces. */
 static hc_status put_text(const char *raw, FILE *to)
 {
   char *text = utf8_clean(raw, true);
@@ -47,7 +49,9 @@ static void say_check(const gate_check *c, char *text, size_t size)
   number_write(c->allowed, allowed);
   if (*c->reason) snprintf(text, size, "%s", c->reason);
   else if (!strcmp(c->against, "limit")) snprintf(text, size, "%s %s, at most %s allowed", found, c->quantity, allowed);
-  else snprintf(text, size, "%s is off the %s by %s of its amplitude, %s allowed (verdict %s)", c->quantity, c->against, found, allowed, c->verdict);
+  else
+    snprintf(text, size, "%s is off the %s by %s of its amplitude, %s allowed (verdict %s)", c->quantity, c->against,
+             found, allowed, c->verdict);
 }
 
 static hc_status put_check(const gate_case *g, const gate_check *c, FILE *to)

@@ -3,8 +3,8 @@
 #include <string.h>
 
 #include "base/message.h"
-#include "base/number.h"
 #include "base/nearest.h"
+#include "base/number.h"
 #include "compare/verify/csv.h"
 
 static const char *const quantities[] = {"amplitude", "harmonic_1", "peak", "max", "rms"};
@@ -20,7 +20,10 @@ static int quantity_of(const char *text, size_t length)
   return -1;
 }
 
-static bool is(const char *word, const char *text, size_t length) { return strlen(word) == length && !memcmp(word, text, length); }
+static bool is(const char *word, const char *text, size_t length)
+{
+  return strlen(word) == length && !memcmp(word, text, length);
+}
 
 static hc_status read_place(const char *text, size_t length, verify_column *out, message *m)
 {
@@ -30,7 +33,9 @@ static hc_status read_place(const char *text, size_t length, verify_column *out,
     out->header[length] = 0;
     return HC_OK;
   }
-  if (number_read_integer(text, length, &out->number) == NUMBER_FINE && out->number >= 1 && out->number <= VERIFY_MOST_FIELDS) return HC_OK;
+  if (number_read_integer(text, length, &out->number) == NUMBER_FINE && out->number >= 1 &&
+      out->number <= VERIFY_MOST_FIELDS)
+    return HC_OK;
   message_add(m, "--columns: '");
   message_add_input(m, text, length, 60);
   message_add(m, "' is no column, expected its number from 1 to %d or its name in the header", VERIFY_MOST_FIELDS);
@@ -47,7 +52,9 @@ static hc_status unknown(const char *text, size_t length, message *m)
   return HC_BAD_INPUT;
 }
 
-typedef struct seen { bool omega, value, needs_quantity; } seen;
+typedef struct seen {
+  bool omega, value, needs_quantity;
+} seen;
 
 /* NAME=COLUMN. */
 static hc_status read_one(const char *text, size_t length, verify_columns *out, seen *s, message *m)
@@ -87,11 +94,15 @@ hc_status verify_columns_read(const char *text, const char *quantity, verify_col
     if (!*at) break;
   }
   int q = quantity ? quantity_of(quantity, strlen(quantity)) : -1;
-  if (!s.omega || !s.value) message_add(&m, "--columns: no column of %s, expected a list like omega=1,amplitude=2", s.omega ? "values" : "frequencies");
+  if (!s.omega || !s.value)
+    message_add(&m, "--columns: no column of %s, expected a list like omega=1,amplitude=2",
+                s.omega ? "values" : "frequencies");
   else if (quantity && q < 0) message_add(&m, "--quantity: expected amplitude, harmonic_1 or peak");
-  else if (!quantity && s.needs_quantity) message_add(&m, "--columns: value is what? Add --quantity amplitude, harmonic_1 or peak");
+  else if (!quantity && s.needs_quantity)
+    message_add(&m, "--columns: value is what? Add --quantity amplitude, harmonic_1 or peak");
   else if (quantity && !s.needs_quantity && (verify_quantity)q != out->quantity)
-    message_add(&m, "--quantity %s contradicts --columns %s; name that column value, or leave --quantity out", quantity, quantities[out->quantity]);
+    message_add(&m, "--quantity %s contradicts --columns %s; name that column value, or leave --quantity out", quantity,
+                quantities[out->quantity]);
   if (m.used) return HC_BAD_INPUT;
   if (quantity) out->quantity = (verify_quantity)q;
   return HC_OK;

@@ -13,7 +13,12 @@
 static const double two_pi = 6.283185307179586476925;
 static const size_t most_bytes = (size_t)64 << 20; /* 640 a point */
 
-typedef struct field { const char *text; size_t length; int column; } field; /* column: in characters from 1, as editors count */
+/* column: in characters from 1, as editors count */
+typedef struct field {
+  const char *text;
+  size_t length;
+  int column;
+} field;
 
 typedef struct reader {
   const char *name;
@@ -67,7 +72,8 @@ static hc_status split(reader *r, const char *text, size_t length)
   r->n_fields = 0;
   for (;;) {
     const char *stop = at;
-    if (r->separator == ' ') while (at < end && blank(*at)) stop = ++at;
+    if (r->separator == ' ')
+      while (at < end && blank(*at)) stop = ++at;
     if (r->separator == ' ' && at == end) return HC_OK;
     while (stop < end && (r->separator == ' ' ? !blank(*stop) : *stop != r->separator)) ++stop;
     if (r->n_fields == VERIFY_MOST_FIELDS) {
@@ -140,8 +146,11 @@ static hc_status begin(reader *r, bool header)
 /* scale times the number, which must be finite too. */
 static hc_status read_number(reader *r, int index, const char *what, bool zero, double scale, double *value)
 {
-  static const char *const faults[] = {[NUMBER_NONE] = "is not a number", [NUMBER_NOT_FINITE] = "is not finite", [NUMBER_TOO_LARGE] = "is too large",
-                                       [NUMBER_TOO_SMALL] = "is too small", [NUMBER_NOT_INTEGER] = "is not an integer"};
+  static const char *const faults[] = {[NUMBER_NONE] = "is not a number",
+                                       [NUMBER_NOT_FINITE] = "is not finite",
+                                       [NUMBER_TOO_LARGE] = "is too large",
+                                       [NUMBER_TOO_SMALL] = "is too small",
+                                       [NUMBER_NOT_INTEGER] = "is not an integer"};
   const field *f = &r->fields[index];
   number_fault fault = number_read(f->text, f->length, value);
   if (fault == NUMBER_FINE) *value *= scale;
@@ -150,7 +159,8 @@ static hc_status read_number(reader *r, int index, const char *what, bool zero, 
   blame(r, f->column);
   message_add(r->m, "'");
   message_add_input(r->m, f->text, f->length, 40);
-  message_add(r->m, "' %s, expected %s, a number %s 0 like 12.5 or 1.25e1", fault == NUMBER_FINE ? "is too small" : faults[fault], what, zero ? ">=" : ">");
+  message_add(r->m, "' %s, expected %s, a number %s 0 like 12.5 or 1.25e1",
+              fault == NUMBER_FINE ? "is too small" : faults[fault], what, zero ? ">=" : ">");
   return HC_BAD_INPUT;
 }
 
@@ -177,10 +187,12 @@ static hc_status read_point(reader *r)
   verify_point p = {.line = r->line};
   if (r->n_fields != r->first_fields) {
     blame(r, 1);
-    message_add(r->m, "%d field%s, expected %d as in line %ld", r->n_fields, r->n_fields == 1 ? "" : "s", r->first_fields, r->first_line);
+    message_add(r->m, "%d field%s, expected %d as in line %ld", r->n_fields, r->n_fields == 1 ? "" : "s",
+                r->first_fields, r->first_line);
     return HC_BAD_INPUT;
   }
-  hc_status st = read_number(r, r->omega, r->columns->cycles ? "a frequency" : "an omega", false, r->columns->cycles ? two_pi : 1, &p.omega);
+  hc_status st = read_number(r, r->omega, r->columns->cycles ? "a frequency" : "an omega", false,
+                             r->columns->cycles ? two_pi : 1, &p.omega);
   if (st == HC_OK) st = read_number(r, r->value, verify_quantity_name(r->columns->quantity), true, 1, &p.value);
   return st == HC_OK ? add_point(r, p) : st;
 }
@@ -214,7 +226,8 @@ static hc_status read_lines(reader *r, const char *text, size_t length)
   if (st != HC_OK || r->out->n >= VERIFY_LEAST_POINTS) return st;
   r->line += r->line == 0;
   blame(r, 1);
-  message_add(r->m, "%d point%s in the file, expected at least %d", r->out->n, r->out->n == 1 ? "" : "s", VERIFY_LEAST_POINTS);
+  message_add(r->m, "%d point%s in the file, expected at least %d", r->out->n, r->out->n == 1 ? "" : "s",
+              VERIFY_LEAST_POINTS);
   return HC_BAD_INPUT;
 }
 
@@ -256,8 +269,10 @@ hc_status verify_data_read(const char *path, const verify_columns *columns, veri
   errno = 0;
   FILE *from = fopen(path, "r");
   hc_status st = from ? read_all(from, &text, &length) : errno == ENOMEM ? HC_NO_MEMORY : HC_IO;
-  if (st == HC_IO) message_add(&m, "%s: %s, expected a file of columns", path, errno ? strerror(errno) : hc_status_text(st));
-  else if (st == HC_BAD_INPUT) message_add(&m, "%s: larger than %zu MiB, expected a response curve", path, most_bytes >> 20);
+  if (st == HC_IO)
+    message_add(&m, "%s: %s, expected a file of columns", path, errno ? strerror(errno) : hc_status_text(st));
+  else if (st == HC_BAD_INPUT)
+    message_add(&m, "%s: larger than %zu MiB, expected a response curve", path, most_bytes >> 20);
   else if (st == HC_OK) st = read_lines(r, text, length);
   if (st == HC_NO_MEMORY) message_add(&m, "%s: %s", path, hc_status_text(st));
   if (from) fclose(from);

@@ -1,7 +1,9 @@
-/* csv.h - a response curve from a text file of columns: strict, every mistake is one message FILE:LINE:COLUMN: what is wrong, what was expected.
+/* csv.h - a response curve from a text file of columns: strict, every mistake is one message FILE:LINE:COLUMN: what
+ * is wrong, what was expected.
  *
- * Fields are separated by semicolons, tabs, commas or blanks, whichever of these the first line has, in that order. '#' starts a line of
- * remarks; blank lines are skipped; a first line without a number is a header. CRLF and a byte order mark are welcome; quotes are not known. */
+ * Fields are separated by semicolons, tabs, commas or blanks, whichever of these the first line has, in that order.
+ * '#' starts a line of remarks; blank lines are skipped; a first line without a number is a header. CRLF and a byte
+ * order mark are welcome; quotes are not known. */
 #ifndef HC_VERIFY_CSV_H
 #define HC_VERIFY_CSV_H
 
@@ -9,7 +11,13 @@
 
 #include "base/status.h"
 
-enum { VERIFY_TEXT = 1024, VERIFY_MOST_POINTS = 100000, VERIFY_LEAST_POINTS = 3, VERIFY_MOST_FIELDS = 256, VERIFY_NAME = 64 };
+enum {
+  VERIFY_TEXT = 1024,
+  VERIFY_MOST_POINTS = 100000,
+  VERIFY_LEAST_POINTS = 3,
+  VERIFY_MOST_FIELDS = 256,
+  VERIFY_NAME = 64
+};
 
 typedef enum verify_quantity {
   VERIFY_AMPLITUDE,  /* (max - min)/2 */
@@ -44,8 +52,8 @@ typedef struct verify_data {
   verify_point *points; /* [n] in the file's order */
 } verify_data;
 
-/* "omega=1,amplitude=2", NAME=NUMBER or NAME=HEADER; names: omega or frequency, and amplitude, harmonic_1, peak or value. `quantity`: what
- * value is, NULL if not told. HC_BAD_INPUT with message[VERIFY_TEXT]. */
+/* "omega=1,amplitude=2", NAME=NUMBER or NAME=HEADER; names: omega or frequency, and amplitude, harmonic_1, peak or
+ * value. `quantity`: what value is, NULL if not told. HC_BAD_INPUT with message[VERIFY_TEXT]. */
 hc_status verify_columns_read(const char *text, const char *quantity, verify_columns *out, char *message);
 
 /* HC_OK, or HC_BAD_INPUT, HC_IO, HC_NO_MEMORY with message[VERIFY_TEXT]. Free with verify_data_clear in any case. */

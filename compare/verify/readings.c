@@ -1,4 +1,5 @@
-/* readings.c - see readings.h. Distances are relative to the larger of the two, so that no factor makes everything small. */
+/* readings.c - see readings.h. Distances are relative to the larger of the two, so that no factor makes everything
+ * small. */
 #include "compare/verify/readings.h"
 
 #include <math.h>
@@ -7,12 +8,18 @@
 
 static const double frequencies[VERIFY_FREQUENCIES] = {1, 6.283185307179586476925, 1 / 6.283185307179586476925};
 
-static const struct { double factor; unsigned cause; } factors[] = {
+static const struct {
+  double factor;
+  unsigned cause;
+} factors[] = {
     {1, 0},
     {2, CAUSE_TWICE},
     {0.5, CAUSE_HALF},
     {0.70710678118654752440, CAUSE_RMS},
-    {1e3, CAUSE_LENGTH}, {1e-3, CAUSE_LENGTH}, {1e2, CAUSE_LENGTH}, {1e-2, CAUSE_LENGTH},
+    {1e3, CAUSE_LENGTH},
+    {1e-3, CAUSE_LENGTH},
+    {1e2, CAUSE_LENGTH},
+    {1e-2, CAUSE_LENGTH},
 };
 enum { FACTORS = sizeof factors / sizeof *factors, MOST_DIFFERING = 48, MOST_MATCHING = 16 };
 
@@ -27,7 +34,10 @@ static int by_omega(const void *a, const void *b)
   return (p->line > q->line) - (p->line < q->line);
 }
 
-static bool differs(const verify_row *r) { return r->verdict == VERDICT_DIFFERS || r->verdict == VERDICT_SOLVER_FAILED; }
+static bool differs(const verify_row *r)
+{
+  return r->verdict == VERDICT_DIFFERS || r->verdict == VERDICT_SOLVER_FAILED;
+}
 
 /* At most `most` of the n rows that differ or not, evenly spread, appended. */
 static void take(const verify_row **rows, int n, bool off, int most, verify_sample *out)
@@ -104,7 +114,8 @@ static double geometric_mean(int n, const double *d)
   return exp(sum / n);
 }
 
-/* What a part of them is within: half would not do, since where nothing happens at the contacts points fit whatever was done there. */
+/* What a part of them is within: half would not do, since where nothing happens at the contacts points fit whatever
+ * was done there. */
 static double within(int n, double *d, double part)
 {
   if (n == 0) return 0;
@@ -125,7 +136,8 @@ static double distance(const verify_sample *p, const verify_solutions *s, verify
   double *far = p->scratch, *near = p->scratch + p->n;
   for (int i = 0; i < p->n; ++i) {
     double least = 1;
-    for (int k = s->first[i]; k < s->first[i + 1]; ++k) least = fmin(least, relative(p->value[i], factor * s->of[k].q[q]));
+    for (int k = s->first[i]; k < s->first[i + 1]; ++k)
+      least = fmin(least, relative(p->value[i], factor * s->of[k].q[q]));
     if (p->differs[i]) far[off++] = least;
     else near[on++] = least;
   }
@@ -140,7 +152,8 @@ static int bits(unsigned causes)
   return n;
 }
 
-void verify_read_best(const verify_sample *p, const verify_solutions *s, int frequency, unsigned otherwise, double floor, verify_hypothesis *h)
+void verify_read_best(const verify_sample *p, const verify_solutions *s, int frequency, unsigned otherwise,
+                      double floor, verify_hypothesis *h)
 {
   const unsigned given = h->causes | (frequency ? CAUSE_FREQUENCY : 0);
   h->omega_factor = frequencies[frequency];

@@ -1,8 +1,10 @@
 /* search.c - see search.h. In three stages, each only if the one before left something to explain:
- *   exact    every number of harmonics with and without harmonic 0, and the linear limits, with every reading of the columns
+ *   exact    every number of harmonics with and without harmonic 0, and the linear limits, with every reading of the
+ *            columns
  *   sampled  for the likeliest of these, every number of samples, from their solutions by Newton
  *   curves   the likeliest of the sampled along their own curves, which have solutions that no exact one is near to
- * What fits within the gate explains all that a verdict sees. A number of harmonics counts as a cause where the gate sees it. */
+ * What fits within the gate explains all that a verdict sees. A number of harmonics counts as a cause where the gate
+ * sees it. */
 #include "compare/verify/search.h"
 
 #include <math.h>
@@ -15,8 +17,15 @@
 
 static const int harmonics_tried[] = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 12, 15, 20};
 static const int samples_tried[] = {16, 32, 64, 128, 256, 512, 1024};
-enum { HARMONICS_TRIED = sizeof harmonics_tried / sizeof *harmonics_tried, SAMPLES_TRIED = sizeof samples_tried / sizeof *samples_tried,
-       MOST_ORDERS = HARMONICS_TRIED + 2, MOST_BASES = MOST_ORDERS, CLEARLY = 5, MOST_LIKELY = 4, USUAL_HARMONICS = 10 };
+enum {
+  HARMONICS_TRIED = sizeof harmonics_tried / sizeof *harmonics_tried,
+  SAMPLES_TRIED = sizeof samples_tried / sizeof *samples_tried,
+  MOST_ORDERS = HARMONICS_TRIED + 2,
+  MOST_BASES = MOST_ORDERS,
+  CLEARLY = 5,
+  MOST_LIKELY = 4,
+  USUAL_HARMONICS = 10
+};
 
 /* Exact equations: what is known of one number of harmonics, with or without harmonic 0. */
 typedef struct order {
@@ -31,17 +40,17 @@ typedef struct search {
   const hc_monitor *monitor;
   verify_report *out;
   verify_sample points;
-  double from, to;        /* the sweep that covers the points as they stand */
+  double from, to; /* the sweep that covers the points as they stand */
   double floor;
-  int own;                /* the case's harmonics */
-  bool scaled[VERIFY_FREQUENCIES]; /* is this reading of the frequency possible? */
+  int own;                                      /* the case's harmonics */
+  bool scaled[VERIFY_FREQUENCIES];              /* is this reading of the frequency possible? */
   verify_solutions many[2][VERIFY_FREQUENCIES]; /* with the truth's harmonics: without harmonic 0, with */
   int n_orders;
   order orders[2 * MOST_ORDERS];
-  int n_likely;           /* sampled equations that may be it, likeliest first */
+  int n_likely; /* sampled equations that may be it, likeliest first */
   verify_equations likely[MOST_LIKELY];
   double likely_score[MOST_LIKELY];
-  int done, expected;     /* equations, for the monitor */
+  int done, expected; /* equations, for the monitor */
 } search;
 
 /* ---- one set of equations ---- */
@@ -54,7 +63,8 @@ static bool tick(search *s)
 
 static bool same_equations(const verify_equations *a, const verify_equations *b)
 {
-  return a->contact == b->contact && a->keep_mean == b->keep_mean && a->harmonics == b->harmonics && a->samples == b->samples && a->restart == b->restart;
+  return a->contact == b->contact && a->keep_mean == b->keep_mean && a->harmonics == b->harmonics &&
+         a->samples == b->samples && a->restart == b->restart;
 }
 
 static void keep(search *s, const verify_hypothesis *h)
@@ -78,7 +88,9 @@ static unsigned causes_of(const search *s, const verify_equations *e, int freque
   if (e->contact != VERIFY_CONTACT_AS_IT_IS) return e->contact == VERIFY_CONTACT_NONE ? CAUSE_NO_CONTACT : CAUSE_STUCK;
   if (e->samples && e->restart == HBM_RESTART_SAMPLE) causes |= CAUSE_SLIDER;
   for (int i = 0; i < s->n_orders; ++i)
-    if (s->orders[i].harmonics == e->harmonics && s->orders[i].keep_mean == e->keep_mean && s->orders[i].matters[frequency]) causes |= CAUSE_HARMONICS;
+    if (s->orders[i].harmonics == e->harmonics && s->orders[i].keep_mean == e->keep_mean &&
+        s->orders[i].matters[frequency])
+      causes |= CAUSE_HARMONICS;
   return causes;
 }
 
@@ -174,10 +186,7 @@ static hc_status try_all_exact(search *s)
   return st;
 }
 
-static bool explained(const search *s)
-{
-  return verify_fits(s->out) && s->out->hypotheses[0].distance <= s->out->gate;
-}
+static bool explained(const search *s) { return verify_fits(s->out) && s->out->hypotheses[0].distance <= s->out->gate; }
 
 /* ---- stages 2 and 3 ---- */
 
@@ -206,13 +215,14 @@ static hc_status try_sampled(search *s, const order *o, int frequency, int low, 
   return st;
 }
 
-/* The orders whose samples are worth trying. With or without harmonic 0, if exact forces tell which, all of them; else for both the case's own,
- * many, and the two nearest. Numbers of s->orders. */
+/* The orders whose samples are worth trying. With or without harmonic 0, if exact forces tell which, all of them;
+ * else for both the case's own, many, and the two nearest. Numbers of s->orders. */
 static int choose_bases(const search *s, int bases[MOST_BASES])
 {
   int n = 0;
   double least[2] = {INFINITY, INFINITY};
-  for (int i = 0; i < s->n_orders; ++i) least[s->orders[i].keep_mean] = fmin(least[s->orders[i].keep_mean], s->orders[i].score);
+  for (int i = 0; i < s->n_orders; ++i)
+    least[s->orders[i].keep_mean] = fmin(least[s->orders[i].keep_mean], s->orders[i].score);
   for (int mean = 1; mean >= 0; --mean) {
     const bool alone = least[mean] * CLEARLY < least[!mean];
     if (least[!mean] * CLEARLY < least[mean]) continue;
@@ -225,7 +235,8 @@ static int choose_bases(const search *s, int bases[MOST_BASES])
     }
     for (int i = 0; i < s->n_orders; ++i) {
       const order *o = &s->orders[i];
-      bool wanted = alone || o->harmonics == s->own || o->harmonics == s->out->harmonics || i == best[0] || i == best[1];
+      bool wanted =
+          alone || o->harmonics == s->own || o->harmonics == s->out->harmonics || i == best[0] || i == best[1];
       if (o->keep_mean == mean && wanted && n < MOST_BASES) bases[n++] = i;
     }
   }
@@ -237,7 +248,8 @@ static hc_status try_bases(search *s, int frequency)
   int bases[MOST_BASES], n = choose_bases(s, bases);
   hc_status st = HC_OK;
   s->expected = s->done + n * 2 * SAMPLES_TRIED + s->n_orders;
-  for (int i = 0; i < n && st == HC_OK; ++i) st = try_sampled(s, &s->orders[bases[i]], frequency, 0, samples_tried[SAMPLES_TRIED - 1]);
+  for (int i = 0; i < n && st == HC_OK; ++i)
+    st = try_sampled(s, &s->orders[bases[i]], frequency, 0, samples_tried[SAMPLES_TRIED - 1]);
   const verify_equations top = s->likely[0];
   for (int i = 0; i < s->n_orders && s->n_likely && st == HC_OK && !explained(s); ++i) {
     bool done = s->orders[i].keep_mean != top.keep_mean;

@@ -1,4 +1,5 @@
-/* search.h - which of our own equations, and which reading of the columns, the points lie on; private to compare/verify/. */
+/* search.h - which of our own equations, and which reading of the columns, the points lie on; private to
+ * compare/verify/. */
 #ifndef HC_VERIFY_SEARCH_H
 #define HC_VERIFY_SEARCH_H
 

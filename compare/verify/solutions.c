@@ -24,8 +24,11 @@ scene verify_scene(const scene *sc, const verify_equations *e)
 
 void verify_quantities(const hbm_measures *m, verify_solution *out)
 {
-  *out = (verify_solution){{[VERIFY_AMPLITUDE] = m->amplitude, [VERIFY_HARMONIC_1] = m->harmonic_1, [VERIFY_PEAK] = fmax(m->max, -m->min),
-                            [VERIFY_MAX] = m->max, [VERIFY_RMS] = m->rms}};
+  *out = (verify_solution){{[VERIFY_AMPLITUDE] = m->amplitude,
+                            [VERIFY_HARMONIC_1] = m->harmonic_1,
+                            [VERIFY_PEAK] = fmax(m->max, -m->min),
+                            [VERIFY_MAX] = m->max,
+                            [VERIFY_RMS] = m->rms}};
 }
 
 static hc_status reserve(verify_solutions *s)
@@ -67,8 +70,8 @@ static hc_status start(verify_solutions *s, int n, int n_coef)
   return s->first ? HC_OK : HC_NO_MEMORY;
 }
 
-hc_status verify_solutions_of(const scene *sc, const verify_equations *e, double from, double to, int n, const double *omega, const hc_monitor *monitor,
-                              verify_solutions *out)
+hc_status verify_solutions_of(const scene *sc, const verify_equations *e, double from, double to, int n,
+                              const double *omega, const hc_monitor *monitor, verify_solutions *out)
 {
   const scene own = verify_scene(sc, e);
   hbm_solver *hbm = NULL;
@@ -91,7 +94,8 @@ hc_status verify_solutions_of(const scene *sc, const verify_equations *e, double
 }
 
 /* From guess number k of *from, X[n_coef] being room for it. */
-static hc_status solve_from(verify_solutions *s, hbm_solver *hbm, int i, double omega, const verify_solutions *from, int k, double *X)
+static hc_status solve_from(verify_solutions *s, hbm_solver *hbm, int i, double omega, const verify_solutions *from,
+                            int k, double *X)
 {
   hbm_point point;
   if (s->count - s->first[i] >= VERIFY_MOST_SOLUTIONS) return HC_OK;
@@ -101,7 +105,8 @@ static hc_status solve_from(verify_solutions *s, hbm_solver *hbm, int i, double 
   return st == HC_NO_MEMORY ? st : HC_OK;
 }
 
-hc_status verify_solutions_near(const scene *sc, const verify_equations *e, const verify_solutions *near, const double *omega, verify_solutions *out)
+hc_status verify_solutions_near(const scene *sc, const verify_equations *e, const verify_solutions *near,
+                                const double *omega, verify_solutions *out)
 {
   const scene own = verify_scene(sc, e);
   hbm_solver *hbm = NULL;
@@ -111,8 +116,10 @@ hc_status verify_solutions_near(const scene *sc, const verify_equations *e, cons
   if (st == HC_OK) st = hbm_solver_new(&own, &hbm);
   for (int i = 0; i < near->n && st == HC_OK; ++i) {
     bool close = i > 0 && omega[i] - omega[i - 1] <= close_omegas * omega[i];
-    for (int k = near->first[i]; k < near->first[i + 1] && st == HC_OK; ++k) st = solve_from(out, hbm, i, omega[i], near, k, X);
-    for (int k = close ? out->first[i - 1] : 0; close && k < out->first[i] && st == HC_OK; ++k) st = solve_from(out, hbm, i, omega[i], out, k, X);
+    for (int k = near->first[i]; k < near->first[i + 1] && st == HC_OK; ++k)
+      st = solve_from(out, hbm, i, omega[i], near, k, X);
+    for (int k = close ? out->first[i - 1] : 0; close && k < out->first[i] && st == HC_OK; ++k)
+      st = solve_from(out, hbm, i, omega[i], out, k, X);
     out->first[i + 1] = out->count;
   }
   free(X);

@@ -1,4 +1,5 @@
-/* solutions.h - what equations that somebody may have solved have for solutions at given omegas; private to compare/verify/. */
+/* solutions.h - what equations that somebody may have solved have for solutions at given omegas; private to
+ * compare/verify/. */
 #ifndef HC_VERIFY_SOLUTIONS_H
 #define HC_VERIFY_SOLUTIONS_H
 
@@ -6,15 +7,17 @@
 
 enum { VERIFY_MOST_SOLUTIONS = 16 }; /* at one omega from guesses; sampled equations may have many */
 
-typedef struct verify_solution { double q[VERIFY_QUANTITIES]; } verify_solution; /* [length] */
+typedef struct verify_solution {
+  double q[VERIFY_QUANTITIES];
+} verify_solution; /* [length] */
 
 /* Solutions first[i] .. first[i+1]-1 are those at omega[i]. */
 typedef struct verify_solutions {
-  int n, n_coef;      /* omegas; 2H+1 */
-  int *first;         /* [n+1] */
+  int n, n_coef; /* omegas; 2H+1 */
+  int *first;    /* [n+1] */
   int count, cap;
   verify_solution *of; /* [count] */
-  double *X;          /* [count][n_coef] */
+  double *X;           /* [count][n_coef] */
 } verify_solutions;
 
 /* sc with these equations for its own. */
@@ -22,14 +25,16 @@ scene verify_scene(const scene *sc, const verify_equations *e);
 
 void verify_quantities(const hbm_measures *m, verify_solution *out);
 
-/* Along their response curve from `from` to `to`, as far as it comes. A solution that is not found is none. HC_INTERRUPTED, HC_NO_MEMORY, or
- * why there are no such equations. */
-hc_status verify_solutions_of(const scene *sc, const verify_equations *e, double from, double to, int n, const double *omega, const hc_monitor *monitor,
-                              verify_solutions *out);
+/* Along their response curve from `from` to `to`, as far as it comes. A solution that is not found is none.
+ * HC_INTERRUPTED, HC_NO_MEMORY, or why there are no such equations. */
+hc_status verify_solutions_of(const scene *sc, const verify_equations *e, double from, double to, int n,
+                              const double *omega, const hc_monitor *monitor, verify_solutions *out);
 
-/* By Newton from the solutions `near` of equations with as many harmonics at the same omegas, and from those at the omega before if that is
- * close: sampled equations from exact ones, at a small part of what their curve would cost. omega[] ascends. */
-hc_status verify_solutions_near(const scene *sc, const verify_equations *e, const verify_solutions *near, const double *omega, verify_solutions *out);
+/* By Newton from the solutions `near` of equations with as many harmonics at the same omegas, and from those at the
+ * omega before if that is close: sampled equations from exact ones, at a small part of what their curve would cost.
+ * omega[] ascends. */
+hc_status verify_solutions_near(const scene *sc, const verify_equations *e, const verify_solutions *near,
+                                const double *omega, verify_solutions *out);
 
 void verify_solutions_clear(verify_solutions *s);
 

@@ -1,5 +1,5 @@
-/* truth.c - see truth.h. The number of harmonics starts at LEAST, or twice the case's, and is doubled until the exact law's orbits agree to a
- * tenth of the gate, so that what a verdict is worth is known and not hoped for. */
+/* truth.c - see truth.h. The number of harmonics starts at LEAST, or twice the case's, and is doubled until the
+ * exact law's orbits agree to a tenth of the gate, so that what a verdict is worth is known and not hoped for. */
 #include "compare/verify/truth.h"
 
 #include <math.h>
@@ -26,7 +26,10 @@ void verify_window(const scene *sc, const verify_data *data, double *from, doubl
   comparison_sweep(sc, &ends, from, to);
 }
 
-double verify_gate(const scene *sc, verify_quantity q) { return q == VERIFY_HARMONIC_1 ? sc->gate.harmonic_1 : sc->gate.amplitude; }
+double verify_gate(const scene *sc, verify_quantity q)
+{
+  return q == VERIFY_HARMONIC_1 ? sc->gate.harmonic_1 : sc->gate.amplitude;
+}
 
 typedef struct truth {
   const scene *sc;
@@ -92,7 +95,13 @@ static hc_status judge_point(truth *t, const verify_point *p, verify_row *row)
   hbm_curve at = {0};
   hbm_measures m;
   verify_solution s;
-  *row = (verify_row){.omega = p->omega, .value = p->value, .line = p->line, .branch = -1, .nearest = NAN, .error = NAN, .verdict = VERDICT_SOLVER_FAILED};
+  *row = (verify_row){.omega = p->omega,
+                      .value = p->value,
+                      .line = p->line,
+                      .branch = -1,
+                      .nearest = NAN,
+                      .error = NAN,
+                      .verdict = VERDICT_SOLVER_FAILED};
   hc_status st = solve_at(t, p->omega, &at);
   int k = st == HC_OK ? nearest_of(t, &at, p->value, &m) : -1;
   if (k >= 0 && at.points) {
@@ -204,7 +213,9 @@ hc_status verify_truth(const scene *sc, const verify_data *data, const hc_monito
   verify_window(sc, data, &t.from, &t.to);
   hc_status st = out->rows ? comparison_referee(sc, &t.referee) : HC_NO_MEMORY;
   int harmonics = 2 * sc->hbm.harmonics; /* 0 for auto */
-  harmonics = harmonics < LEAST_HARMONICS ? LEAST_HARMONICS : harmonics > SCENE_MAX_HARMONICS ? SCENE_MAX_HARMONICS : harmonics;
+  harmonics = harmonics < LEAST_HARMONICS       ? LEAST_HARMONICS
+              : harmonics > SCENE_MAX_HARMONICS ? SCENE_MAX_HARMONICS
+                                                : harmonics;
   for (bool again = true; again && st == HC_OK; harmonics *= 2) {
     st = with_harmonics(&t, harmonics);
     again = out->checked_error > 0.1 * out->gate && 2 * harmonics <= ENOUGH_HARMONICS;

@@ -1,4 +1,5 @@
-/* truth.h - what a point should be: the solutions of harmonic balance with exact forces and many harmonics; private to compare/verify/. */
+/* truth.h - what a point should be: the solutions of harmonic balance with exact forces and many harmonics; private
+ * to compare/verify/. */
 #ifndef HC_VERIFY_TRUTH_H
 #define HC_VERIFY_TRUTH_H
 

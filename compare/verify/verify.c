@@ -1,5 +1,6 @@
-/* verify.c - see verify.h. Here: the order of things, and what can be told from verdicts alone, which is whether the points run along the right
- * branch. A curve that shows unstable branches beside the stable ones is a whole curve; one that shows them alone was led astray. */
+/* verify.c - see verify.h. Here: the order of things, and what can be told from verdicts alone, which is whether the
+ * points run along the right branch. A curve that shows unstable branches beside the stable ones is a whole curve;
+ * one that shows them alone was led astray. */
 #include "compare/verify/verify.h"
 
 #include <math.h>
@@ -43,7 +44,8 @@ static bool mark_hops(verify_report *r)
     bool odd = before->verdict == VERDICT_MATCH && r->rows[from].branch != before->branch;
     for (to = from; to < r->n_rows && r->rows[to].branch == r->rows[from].branch; ++to)
       odd &= r->rows[to].verdict == VERDICT_MATCH && r->rows[to].solutions > 1;
-    if (!odd || to == r->n_rows || r->rows[to].verdict != VERDICT_MATCH || r->rows[to].branch != before->branch) continue;
+    if (!odd || to == r->n_rows || r->rows[to].verdict != VERDICT_MATCH || r->rows[to].branch != before->branch)
+      continue;
     for (int i = from; i < to; ++i) r->rows[i].verdict = VERDICT_OTHER_BRANCH;
     any = true;
   }
@@ -53,7 +55,8 @@ static bool mark_hops(verify_report *r)
 static int differing(const verify_report *r)
 {
   int n = 0;
-  for (int i = 0; i < r->n_rows; ++i) n += r->rows[i].verdict == VERDICT_DIFFERS || r->rows[i].verdict == VERDICT_SOLVER_FAILED;
+  for (int i = 0; i < r->n_rows; ++i)
+    n += r->rows[i].verdict == VERDICT_DIFFERS || r->rows[i].verdict == VERDICT_SOLVER_FAILED;
   return n;
 }
 

@@ -5,7 +5,9 @@
 #include "base/message.h"
 #include "compare/verify/search.h"
 
-static const struct { const char *word, *meaning, *remedy; } causes[] = {
+static const struct {
+  const char *word, *meaning, *remedy;
+} causes[] = {
 #define VERIFY_CAUSE_WORDS(code, word, meaning, remedy) {word, meaning, remedy},
     VERIFY_CAUSE_LIST(VERIFY_CAUSE_WORDS)
 #undef VERIFY_CAUSE_WORDS
@@ -35,7 +37,8 @@ static void add_settings(message *m, const verify_hypothesis *h)
   if (e->contact == VERIFY_CONTACT_NONE) message_add(m, "K alone");
   else if (e->contact == VERIFY_CONTACT_STUCK) message_add(m, "K and the stuck contacts' stiffness");
   else message_add(m, "%sH = %d", e->keep_mean ? "" : "hbm.static: false, ", e->harmonics);
-  if (e->samples) message_add(m, ", N = %d%s", e->samples, e->restart == HBM_RESTART_SAMPLE ? ", hbm.slider_restart: sample" : "");
+  if (e->samples)
+    message_add(m, ", N = %d%s", e->samples, e->restart == HBM_RESTART_SAMPLE ? ", hbm.slider_restart: sample" : "");
   if (h->omega_factor != 1) message_add(m, "; true omega = %.6g x the file's", h->omega_factor);
   if (h->causes & CAUSE_QUANTITY || h->value_factor != 1) {
     message_add(m, "; values = ");
@@ -63,7 +66,8 @@ static void add_remedies(message *m, unsigned bits)
 static void say_match(message *m, const verify_report *r)
 {
   message_add(m, "no cause to suspect: every point lies on a solution, within the gate of %g", r->gate);
-  if (r->count[VERDICT_UNSTABLE]) message_add(m, "; %d of them on unstable ones, where no motion stays", r->count[VERDICT_UNSTABLE]);
+  if (r->count[VERDICT_UNSTABLE])
+    message_add(m, "; %d of them on unstable ones, where no motion stays", r->count[VERDICT_UNSTABLE]);
 }
 
 static void say_unexplained(message *m, const verify_report *r)

@@ -1,4 +1,5 @@
-/* reference_scenes.h - the eight reference scenes with everything both solvers need, and the steady states they are known to have. */
+/* reference_scenes.h - the eight reference scenes with everything both solvers need, and the steady states they are
+ * known to have. */
 #ifndef HC_TESTS_ADVERSARIAL_REFERENCE_H
 #define HC_TESTS_ADVERSARIAL_REFERENCE_H
 
@@ -13,7 +14,8 @@ static inline scene exact_reference_scene(const char *name, int n_harm)
   sc.hbm.force = HBM_FORCE_EXACT;
   sc.hbm.tolerance = 1e-12;
   sc.hbm.skip_linear = true;
-  sc.transient = (scene_transient){.law = TRANSIENT_LAW_EXACT, .regularisation = 1e-4, .tolerance = 1e-10, .max_periods = 20000};
+  sc.transient =
+      (scene_transient){.law = TRANSIENT_LAW_EXACT, .regularisation = 1e-4, .tolerance = 1e-10, .max_periods = 20000};
   return sc;
 }
 
@@ -34,7 +36,8 @@ static inline void read_steady_references(steady_reference *row)
   while (fgets(line, sizeof line, f)) {
     assert_true(n < N_STEADY_REFERENCES);
     steady_reference *r = &row[n++];
-    int got = sscanf(line, "%15[^,],%7[^,],%lf,%lf,%lf,%lf,%lf", r->name, r->sweep, &r->omega, &r->amplitude, &r->max, &r->min, &r->harmonic_1);
+    int got = sscanf(line, "%15[^,],%7[^,],%lf,%lf,%lf,%lf,%lf", r->name, r->sweep, &r->omega, &r->amplitude, &r->max,
+                     &r->min, &r->harmonic_1);
     if (got != 7) fail_msg("transient_exact.csv, row %d: %s", n, line);
   }
   fclose(f);

@@ -1,4 +1,5 @@
-/* scenes.h - a scene of cases/adversarial, changed as the command line would change it, and all its HBM solutions at a frequency. */
+/* scenes.h - a scene of cases/adversarial, changed as the command line would change it, and all its HBM solutions at
+ * a frequency. */
 #ifndef HC_TESTS_ADVERSARIAL_SCENES_H
 #define HC_TESTS_ADVERSARIAL_SCENES_H
 
@@ -26,14 +27,19 @@ static inline scene load(const char *name, const char *const *set)
 #define LOAD(name, ...) load(name, (const char *const[]){__VA_ARGS__, NULL})
 
 /* The scene's response curve, to be asked at several frequencies. */
-typedef struct response { hbm_solver *s; hbm_curve curve; } response;
+typedef struct response {
+  hbm_solver *s;
+  hbm_curve curve;
+} response;
 
 static inline response response_of(const scene *sc)
 {
   response r = {0};
   assert_int_equal(hbm_solver_new(sc, &r.s), HC_OK);
   hc_status st = hbm_trace(r.s, sc->omega_from, sc->omega_to, NULL, &r.curve);
-  if (st != HC_OK) fail_msg("%s: %s at %.17g", sc->title, hc_status_text(st), r.curve.n ? r.curve.points[r.curve.n - 1].omega : sc->omega_from);
+  if (st != HC_OK)
+    fail_msg("%s: %s at %.17g", sc->title, hc_status_text(st),
+             r.curve.n ? r.curve.points[r.curve.n - 1].omega : sc->omega_from);
   return r;
 }
 
@@ -68,7 +74,8 @@ static inline double norm_of(int n, const double *X)
 
 static inline const double *solution(const hbm_curve *at, int k) { return at->X + (size_t)k * at->n_coef; }
 
-/* Both scenes have the same solutions at all of the first one's compare.omega, b's being `factor` times a's, to `tolerance` of their size. */
+/* Both scenes have the same solutions at all of the first one's compare.omega, b's being `factor` times a's, to
+ * `tolerance` of their size. */
 static inline void same_answers(const scene *a, const scene *b, double factor, double tolerance)
 {
   response of_a = response_of(a), of_b = response_of(b);
@@ -79,7 +86,8 @@ static inline void same_answers(const scene *a, const scene *b, double factor, d
     for (int k = 0; k < p.n; ++k) {
       double size = factor * norm_of(p.n_coef, solution(&p, k));
       for (int j = 0; j < p.n_coef; ++j)
-        CHECK_NEAR(solution(&q, k)[j], factor * solution(&p, k)[j], tolerance * size, "%s at %g, solution %d, X[%d]", a->title, omega, k, j);
+        CHECK_NEAR(solution(&q, k)[j], factor * solution(&p, k)[j], tolerance * size, "%s at %g, solution %d, X[%d]",
+                   a->title, omega, k, j);
     }
     hbm_curve_free(&p);
     hbm_curve_free(&q);

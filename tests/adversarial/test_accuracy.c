@@ -1,4 +1,5 @@
-/* test_accuracy.c - how good is harmonic balance with exact forces and 30 harmonics? Held against the exact transient at every reference row. */
+/* test_accuracy.c - how good is harmonic balance with exact forces and 30 harmonics? Held against the exact
+ * transient at every reference row. */
 #include "tests/adversarial/reference_scenes.h"
 
 static steady_reference rows[N_STEADY_REFERENCES];
@@ -13,14 +14,15 @@ static int read_rows(void **state)
 /* What one HBM curve is worth against the exact transient. */
 typedef struct accuracy_of {
   const char *name;
-  int rows, grazing;    /* compared; left out */
-  double worst, omega;  /* [1] |X1 - the transient's|/amplitude, and where */
-  double clearance;     /* [1] the least there is */
-  double settled;       /* [1] largest |amplitude - the reference's|/amplitude of the transients: the ruler's own error */
+  int rows, grazing;   /* compared; left out */
+  double worst, omega; /* [1] |X1 - the transient's|/amplitude, and where */
+  double clearance;    /* [1] the least there is */
+  double settled; /* [1] largest |amplitude - the reference's|/amplitude of the transients: the ruler's own error */
 } accuracy_of;
 
-/* How far the orbit is from touching, or parting, without velocity: |extreme of v + gap|/|gap|. Closer than GRAZING, an HBM error e of the motion
- * moves that extreme by e, and the response by the square root of it: there no number of harmonics has its usual worth. */
+/* How far the orbit is from touching, or parting, without velocity: |extreme of v + gap|/|gap|. Closer than GRAZING,
+ * an HBM error e of the motion moves that extreme by e, and the response by the square root of it: there no number
+ * of harmonics has its usual worth. */
 static const double GRAZING = 1e-2;
 
 static double clearance(const scene *sc, const steady_reference *r)
@@ -44,7 +46,8 @@ static int nearest(hbm_solver *s, const hbm_curve *at, const steady_reference *r
   return found;
 }
 
-static void judge_row(hbm_solver *s, timeint *ti, const hbm_curve *curve, const steady_reference *r, int n_harm, accuracy_of *a)
+static void judge_row(hbm_solver *s, timeint *ti, const hbm_curve *curve, const steady_reference *r, int n_harm,
+                      accuracy_of *a)
 {
   hbm_curve at = {0};
   double distance;
@@ -55,7 +58,8 @@ static void judge_row(hbm_solver *s, timeint *ti, const hbm_curve *curve, const 
   const double *X = at.X + (size_t)k * at.n_coef;
   timeint_state start = orbit_start(s, n_harm, X, r->omega);
   assert_int_equal(timeint_orbit(ti, r->omega, 1, &start, NULL, &tr), HC_OK);
-  double off = hypot(X[1] - tr.a1, X[2] - tr.b1) / tr.amplitude, ruler = fabs(tr.amplitude - r->amplitude) / r->amplitude;
+  double off = hypot(X[1] - tr.a1, X[2] - tr.b1) / tr.amplitude,
+         ruler = fabs(tr.amplitude - r->amplitude) / r->amplitude;
   assert_true(isfinite(off) && isfinite(ruler));
   if (off > a->worst) a->worst = off, a->omega = r->omega;
   a->settled = fmax(a->settled, ruler);
@@ -76,7 +80,10 @@ static accuracy_of accuracy_at(const char *name, double from, double to, int n_h
   for (int i = 0; i < N_STEADY_REFERENCES; ++i) {
     if (strcmp(rows[i].name, name)) continue;
     a.clearance = fmin(a.clearance, clearance(&sc, &rows[i]));
-    if (!(clearance(&sc, &rows[i]) >= GRAZING)) { ++a.grazing; continue; }
+    if (!(clearance(&sc, &rows[i]) >= GRAZING)) {
+      ++a.grazing;
+      continue;
+    }
     judge_row(s, ti, &curve, &rows[i], n_harm, &a);
   }
   hbm_curve_free(&curve);
@@ -85,21 +92,27 @@ static accuracy_of accuracy_at(const char *name, double from, double to, int n_h
   return a;
 }
 
-/* Kinks of the force, of size (stiffness in contact)/K, leave harmonics h^-4 of x and h^-3 of its first harmonic's error; what is asked for
- * is the case's H. 30 will do for five. Not for three: c2kn1e4 and c2kt1e4, where the contact is 126 and 138 times as stiff as K and lasts a
- * few harmonics' wavelengths, and r2 at 708 to 708.5, just before its fold at 708.6: the same relative error of the force, Q = 2800 times
- * enlarged. */
-static const struct { const char *name; int n_harm; } asked[] = {
-  {"a10", 30}, {"b10", 30}, {"c2", 30}, {"c2kn1e4", 60}, {"c2kt1e4", 180}, {"gap1", 30}, {"r1", 30}, {"r2", 50},
+/* Kinks of the force, of size (stiffness in contact)/K, leave harmonics h^-4 of x and h^-3 of its first harmonic's
+ * error; what is asked for is the case's H. 30 will do for five. Not for three: c2kn1e4 and c2kt1e4, where the
+ * contact is 126 and 138 times as stiff as K and lasts a few harmonics' wavelengths, and r2 at 708 to 708.5, just
+ * before its fold at 708.6: the same relative error of the force, Q = 2800 times enlarged. */
+static const struct {
+  const char *name;
+  int n_harm;
+} asked[] = {
+    {"a10", 30}, {"b10", 30}, {"c2", 30}, {"c2kn1e4", 60}, {"c2kt1e4", 180}, {"gap1", 30}, {"r1", 30}, {"r2", 50},
 };
 
 static void print_row(const accuracy_of *a, int n_harm)
 {
-  print_message("%-8s H = %3d: %2d rows, %d grazing; worst %.1e at %-6g least clearance %.2g; transients within %.0e of the reference\n",
-                a->name, n_harm, a->rows, a->grazing, a->worst, a->omega, a->clearance, a->settled);
+  print_message(
+      "%-8s H = %3d: %2d rows, %d grazing; worst %.1e at %-6g least clearance %.2g; transients within %.0e of the "
+      "reference\n",
+      a->name, n_harm, a->rows, a->grazing, a->worst, a->omega, a->clearance, a->settled);
 }
 
-/* With 30 harmonics, and with as many as asked where 30 do not do: a case that 30 suffice for has no excuse, and one that is excused needs it. */
+/* With 30 harmonics, and with as many as asked where 30 do not do: a case that 30 suffice for has no excuse, and one
+ * that is excused needs it. */
 static void the_first_harmonic_is_good_to_a_millionth(void **state)
 {
   (void)state;
@@ -116,7 +129,8 @@ static void the_first_harmonic_is_good_to_a_millionth(void **state)
       print_row(&a, asked[i].n_harm);
     }
     CHECK_LE(a.worst, 1e-6, "%s with %d harmonics, at %g", a.name, asked[i].n_harm, a.omega);
-    CHECK_LE(a.settled, 1e-8, "%s: the transients are the reference's", a.name); /* its digits, as tests/timeint/test_exact_reference.c */
+    /* its digits, as tests/timeint/test_exact_reference.c */
+    CHECK_LE(a.settled, 1e-8, "%s: the transients are the reference's", a.name);
   }
   assert_int_equal(compared, N_STEADY_REFERENCES); /* none grazes */
 }

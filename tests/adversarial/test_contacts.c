@@ -1,9 +1,11 @@
-/* test_contacts.c - the scenes of cases/adversarial about single contacts, by harmonic balance: what must come out, from closed forms or from a
- * scene that is the same in another guise. What both solvers say together: test_verdicts.c. */
+/* test_contacts.c - the scenes of cases/adversarial about single contacts, by harmonic balance: what must come out,
+ * from closed forms or from a scene that is the same in another guise. What both solvers say together:
+ * test_verdicts.c. */
 #include "tests/adversarial/scenes.h"
 
-/* Newton is quadratic: once hbm.tolerance, 1e-10 of the forces, is met the error is its square, and what is left is rounding: some 100 operations a
- * coefficient, enlarged by the steepness of the response, 100 at most where these scenes are compared. */
+/* Newton is quadratic: once hbm.tolerance, 1e-10 of the forces, is met the error is its square, and what is left is
+ * rounding: some 100 operations a coefficient, enlarged by the steepness of the response, 100 at most where these
+ * scenes are compared. */
 static const double SOLVED = 1e-11;
 
 /* Case 2 grazes where |F0/(K - M w^2 + i C w)| sin(alpha) = |gap|, a quadratic equation for w^2. */
@@ -14,8 +16,9 @@ static double grazing_omega(const scene *sc, int sign)
   return sqrt((b + sign * root) / (2 * M * M));
 }
 
-/* On it and an ulp either side: as many solutions as on either side of a fold, one of them with the amplitude |gap|/sin(alpha). Off by an ulp, the
- * linear amplitude is off by dA/dw ulp(w) = 1e-15 A; if it touches, the response differs by less. */
+/* On it and an ulp either side: as many solutions as on either side of a fold, one of them with the amplitude
+ * |gap|/sin(alpha). Off by an ulp, the linear amplitude is off by dA/dw ulp(w) = 1e-15 A; if it touches, the
+ * response differs by less. */
 static void grazing_to_an_ulp(void **state)
 {
   (void)state;
@@ -46,7 +49,8 @@ static void amplitude_equal_to_the_gap(void **state)
   hbm_curve_free(&at);
 }
 
-/* From touching to separating T = mu N exactly, and an ulp below or above it: the force is the same as where it sticks, with ten times mu. */
+/* From touching to separating T = mu N exactly, and an ulp below or above it: the force is the same as where it
+ * sticks, with ten times mu. */
 static void on_the_edge_of_the_cone(void **state)
 {
   (void)state;
@@ -60,7 +64,8 @@ static void on_the_edge_of_the_cone(void **state)
   same_answers(&sc, &beside, 1, SOLVED);
 }
 
-/* Once separated, never slips: kt cos < mu kn sin. Not so before, and at other angles: the premise is checked by friction a tenth. */
+/* Once separated, never slips: kt cos < mu kn sin. Not so before, and at other angles: the premise is checked by
+ * friction a tenth. */
 static void tangential_and_normal_force_vanish_together(void **state)
 {
   (void)state;
@@ -74,7 +79,8 @@ static void tangential_and_normal_force_vanish_together(void **state)
   hbm_curve_free(&q);
 }
 
-/* Odd symmetric, x(t + T/2) = -x(t); and with one harmonic, the Jenkins element in closed form, x = A cos th, phi = arccos(1 - 2 fc/(kt A)):
+/* Odd symmetric, x(t + T/2) = -x(t); and with one harmonic, the Jenkins element in closed form, x = A cos th, phi =
+ * arccos(1 - 2 fc/(kt A)):
  *     a1 = kt A/pi (phi - sin(2 phi)/2),  b1 = -kt A/pi sin^2(phi),  and  |(K - M w^2) A + a1, C w A - b1| = F0. */
 static void angle_0_is_a_jenkins_element(void **state)
 {
@@ -85,22 +91,27 @@ static void angle_0_is_a_jenkins_element(void **state)
     double w = sc.compare.omega.v[i];
     hbm_curve at = solutions(&sc, w), first = solutions(&one, w);
     double size = norm_of(at.n_coef, at.X), A = hypot(first.X[1], first.X[2]);
-    for (int h = 2; h <= 30; h += 2) CHECK_LE(fmax(fabs(at.X[0]), hypot(at.X[2 * h - 1], at.X[2 * h])), SOLVED * size, "harmonic %d at %g", h, w);
+    for (int h = 2; h <= 30; h += 2)
+      CHECK_LE(fmax(fabs(at.X[0]), hypot(at.X[2 * h - 1], at.X[2 * h])), SOLVED * size, "harmonic %d at %g", h, w);
     assert_true(A > fc / kt);
     double phi = acos(1 - 2 * fc / (kt * A));
     double a1 = kt * A / PI * (phi - sin(2 * phi) / 2), b1 = -kt * A / PI * sin(phi) * sin(phi);
-    CHECK_NEAR(hypot((one.stiffness - one.mass * w * w) * A + a1, one.damping * w * A - b1), one.force, 1e-9 * one.force, "at %g", w);
+    CHECK_NEAR(hypot((one.stiffness - one.mass * w * w) * A + a1, one.damping * w * A - b1), one.force,
+               1e-9 * one.force, "at %g", w);
     hbm_curve_free(&at);
     hbm_curve_free(&first);
   }
 }
 
-/* The same whatever kt and mu; and with one harmonic the unilateral spring in closed form, x = m + A cos th, g = gap + m, p = arccos(-g/A):
- *     a0 = kn/pi (g p + A sin p),  a1 = kn/pi (2 g sin p + A (p + sin p cos p)),  K m + a0 = 0 and |(K - M w^2) A + a1, C w A| = F0. */
+/* The same whatever kt and mu; and with one harmonic the unilateral spring in closed form, x = m + A cos th, g = gap
+ * + m, p = arccos(-g/A):
+ *     a0 = kn/pi (g p + A sin p),  a1 = kn/pi (2 g sin p + A (p + sin p cos p)),  K m + a0 = 0 and |(K - M w^2) A +
+ *     a1, C w A| = F0. */
 static void angle_90_is_a_stop(void **state)
 {
   (void)state;
-  scene sc = load("angle_90", NULL), free_of = LOAD("angle_90", "contacts[0].friction=0", "contacts[0].tangential_stiffness=0");
+  scene sc = load("angle_90", NULL),
+        free_of = LOAD("angle_90", "contacts[0].friction=0", "contacts[0].tangential_stiffness=0");
   scene one = LOAD("angle_90", "hbm.harmonics=1");
   same_answers(&sc, &free_of, 1, SOLVED);
   for (int i = 1; i < 3; ++i) {
@@ -108,9 +119,11 @@ static void angle_90_is_a_stop(void **state)
     hbm_curve at = solutions(&one, w);
     double m = at.X[0], A = hypot(at.X[1], at.X[2]), g = one.contacts[0].law.gap + m;
     assert_true(A > -g);
-    double p = acos(-g / A), a0 = kn / PI * (g * p + A * sin(p)), a1 = kn / PI * (2 * g * sin(p) + A * (p + sin(p) * cos(p)));
+    double p = acos(-g / A), a0 = kn / PI * (g * p + A * sin(p)),
+           a1 = kn / PI * (2 * g * sin(p) + A * (p + sin(p) * cos(p)));
     CHECK_NEAR(one.stiffness * m, -a0, 1e-9 * one.force, "mean at %g", w);
-    CHECK_NEAR(hypot((one.stiffness - one.mass * w * w) * A + a1, one.damping * w * A), one.force, 1e-9 * one.force, "at %g", w);
+    CHECK_NEAR(hypot((one.stiffness - one.mass * w * w) * A + a1, one.damping * w * A), one.force, 1e-9 * one.force,
+               "at %g", w);
     hbm_curve_free(&at);
   }
 }
@@ -136,17 +149,19 @@ static void friction_from_none_to_too_much(void **state)
 static void gap_0_scales_with_the_force(void **state)
 {
   (void)state;
-  scene sc = load("gap_0", NULL), twice = LOAD("gap_0", "forcing.amplitude=200"), thrice = LOAD("gap_0", "forcing.amplitude=300");
+  scene sc = load("gap_0", NULL), twice = LOAD("gap_0", "forcing.amplitude=200"),
+        thrice = LOAD("gap_0", "forcing.amplitude=300");
   same_answers(&sc, &twice, 2, 0);
   same_answers(&sc, &thrice, 3, SOLVED);
 }
 
-/* Free and undamped from x = 0: back after pi/8 + pi/24, a period of omega = 2 w1 w2/(w1 + w2) = 12, to CVODE's 1e-12 a step, some 100 of them. */
+/* Free and undamped from x = 0: back after pi/8 + pi/24, a period of omega = 2 w1 w2/(w1 + w2) = 12, to CVODE's
+ * 1e-12 a step, some 100 of them. */
 static void gap_0_vibrates_at_its_bilinear_frequency(void **state)
 {
   (void)state;
-  scene sc = LOAD("gap_0", "forcing.amplitude=0", "oscillator.damping=0", "transient.law=exact", "transient.steady_state=march",
-                  "transient.max_periods=1", "transient.start=rest");
+  scene sc = LOAD("gap_0", "forcing.amplitude=0", "oscillator.damping=0", "transient.law=exact",
+                  "transient.steady_state=march", "transient.max_periods=1", "transient.start=rest");
   timeint *ti;
   timeint_result r;
   const double omega = 2 * 8 * 24 / (8.0 + 24);
@@ -175,10 +190,16 @@ static void contacts_that_switch_together(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(grazing_to_an_ulp), cmocka_unit_test(amplitude_equal_to_the_gap), cmocka_unit_test(on_the_edge_of_the_cone),
-      cmocka_unit_test(tangential_and_normal_force_vanish_together), cmocka_unit_test(angle_0_is_a_jenkins_element),
-      cmocka_unit_test(angle_90_is_a_stop), cmocka_unit_test(friction_from_none_to_too_much), cmocka_unit_test(gap_0_scales_with_the_force),
-      cmocka_unit_test(gap_0_vibrates_at_its_bilinear_frequency), cmocka_unit_test(contacts_that_switch_together),
+      cmocka_unit_test(grazing_to_an_ulp),
+      cmocka_unit_test(amplitude_equal_to_the_gap),
+      cmocka_unit_test(on_the_edge_of_the_cone),
+      cmocka_unit_test(tangential_and_normal_force_vanish_together),
+      cmocka_unit_test(angle_0_is_a_jenkins_element),
+      cmocka_unit_test(angle_90_is_a_stop),
+      cmocka_unit_test(friction_from_none_to_too_much),
+      cmocka_unit_test(gap_0_scales_with_the_force),
+      cmocka_unit_test(gap_0_vibrates_at_its_bilinear_frequency),
+      cmocka_unit_test(contacts_that_switch_together),
   };
   check_watchdog(900);
   return cmocka_run_group_tests_name("adversarial.contacts", tests, NULL, NULL);

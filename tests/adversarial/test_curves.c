@@ -1,12 +1,14 @@
-/* test_curves.c - the scenes of cases/adversarial about response curves and motions as a whole: resonance with next to no damping, sweeps that end
- * on a fold or run downwards, branches that only one direction reaches, the most harmonics, nothing at all. */
+/* test_curves.c - the scenes of cases/adversarial about response curves and motions as a whole: resonance with next
+ * to no damping, sweeps that end on a fold or run downwards, branches that only one direction reaches, the most
+ * harmonics, nothing at all. */
 #include "tests/adversarial/scenes.h"
 
 #include <complex.h>
 
 static const double SOLVED = 1e-11; /* as in test_contacts.c */
 
-/* x = Re(F0/(K - M w^2 + i C w) e^{i w t}), by both; K and M w^2 cancel to eps K, against C w = 2e-6: relative 1e-16/2e-6 = 1e-10. */
+/* x = Re(F0/(K - M w^2 + i C w) e^{i w t}), by both; K and M w^2 cancel to eps K, against C w = 2e-6: relative
+ * 1e-16/2e-6 = 1e-10. */
 static void resonance_has_its_closed_form(void **state)
 {
   (void)state;
@@ -30,12 +32,14 @@ static void resonance_has_its_closed_form(void **state)
   timeint_free(ti);
 }
 
-/* With the contact in reach, one harmonic: the same curve from either end, and energy: what the force puts in, pi F0 |X1 sin(phase)|,
- * is what the damper takes, pi C w |X1|^2, since this contact, bilinear, takes none: F0 X[2] = C w |X1|^2. */
+/* With the contact in reach, one harmonic: the same curve from either end, and energy: what the force puts in, pi F0
+ * |X1 sin(phase)|, is what the damper takes, pi C w |X1|^2, since this contact, bilinear, takes none: F0 X[2] = C w
+ * |X1|^2. */
 static void resonance_with_a_contact_balances_its_energy(void **state)
 {
   (void)state;
-  scene sc = LOAD("zeta_1e-6_contact", "hbm.harmonics=1"), down = LOAD("zeta_1e-6_contact", "hbm.harmonics=1", "sweep.omega=1.1,0.9");
+  scene sc = LOAD("zeta_1e-6_contact", "hbm.harmonics=1"),
+        down = LOAD("zeta_1e-6_contact", "hbm.harmonics=1", "sweep.omega=1.1,0.9");
   for (int i = 0; i < sc.compare.omega.n; ++i) {
     double w = sc.compare.omega.v[i];
     hbm_curve at = solutions(&sc, w), back = solutions(&down, w);
@@ -45,7 +49,8 @@ static void resonance_with_a_contact_balances_its_energy(void **state)
       double A = hypot(X[1], X[2]);
       const double solved = 1e-10 * sc.stiffness * A * A; /* hbm.tolerance, of K A, times A */
       CHECK_NEAR(sc.force * X[2], sc.damping * w * A * A, solved, "solution %d at %g", k, w);
-      CHECK_NEAR(A, hypot(solution(&back, at.n - 1 - k)[1], solution(&back, at.n - 1 - k)[2]), 1e-6 * A, "solution %d at %g, from above", k, w);
+      CHECK_NEAR(A, hypot(solution(&back, at.n - 1 - k)[1], solution(&back, at.n - 1 - k)[2]), 1e-6 * A,
+                 "solution %d at %g, from above", k, w);
     }
     hbm_curve_free(&at);
     hbm_curve_free(&back);
@@ -70,9 +75,10 @@ static int folds(const scene *sc, hbm_special *out, int cap)
   return found;
 }
 
-/* The sweep ends on the fold, and beside it. Never an error, and the last point is on the sweep's end, an even number of turns on: either
- * before the fold, or after having gone round both (a tip shorter than the curve's own accuracy, 1e-4 of X, so (1e-4)^2 of omega, may be gone
- * round though it is outside). Well before it the end is met first; beyond it there is no missing both turns. */
+/* The sweep ends on the fold, and beside it. Never an error, and the last point is on the sweep's end, an even
+ * number of turns on: either before the fold, or after having gone round both (a tip shorter than the curve's own
+ * accuracy, 1e-4 of X, so (1e-4)^2 of omega, may be gone round though it is outside). Well before it the end is met
+ * first; beyond it there is no missing both turns. */
 static void a_sweep_that_ends_on_a_fold(void **state)
 {
   (void)state;
@@ -105,7 +111,8 @@ static void downwards_is_upwards_backwards(void **state)
     assert_int_equal(p.n, q.n);
     for (int k = 0; k < p.n; ++k) {
       const double *X = solution(&p, k), *Y = solution(&q, p.n - 1 - k);
-      for (int j = 0; j < p.n_coef; ++j) CHECK_NEAR(X[j], Y[j], SOLVED * norm_of(p.n_coef, X), "X[%d] at %g", j, p.points[k].omega);
+      for (int j = 0; j < p.n_coef; ++j)
+        CHECK_NEAR(X[j], Y[j], SOLVED * norm_of(p.n_coef, X), "X[%d] at %g", j, p.points[k].omega);
     }
     hbm_curve_free(&p);
     hbm_curve_free(&q);
@@ -158,7 +165,8 @@ static void a_contact_of_friction_alone(void **state)
   same_answers(&sc, &flat, 1, 1e-7); /* v/gap = 4e-9 at most, and a response up to ten times as steep */
 }
 
-/* Contact forces are at most (kt + kn)/2 x = 4e-7 x against |Z| x = F0 = 100 and K = 40: off the linear answer by 4e-7 |X|/|F0| at most. */
+/* Contact forces are at most (kt + kn)/2 x = 4e-7 x against |Z| x = F0 = 100 and K = 40: off the linear answer by
+ * 4e-7 |X|/|F0| at most. */
 static void a_contact_of_next_to_no_stiffness(void **state)
 {
   (void)state;
@@ -177,9 +185,13 @@ static void a_contact_of_next_to_no_stiffness(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(resonance_has_its_closed_form), cmocka_unit_test(resonance_with_a_contact_balances_its_energy),
-      cmocka_unit_test(a_sweep_that_ends_on_a_fold), cmocka_unit_test(downwards_is_upwards_backwards),
-      cmocka_unit_test(both_directions_reach_their_branch), cmocka_unit_test(no_force_is_rest), cmocka_unit_test(a_contact_of_friction_alone),
+      cmocka_unit_test(resonance_has_its_closed_form),
+      cmocka_unit_test(resonance_with_a_contact_balances_its_energy),
+      cmocka_unit_test(a_sweep_that_ends_on_a_fold),
+      cmocka_unit_test(downwards_is_upwards_backwards),
+      cmocka_unit_test(both_directions_reach_their_branch),
+      cmocka_unit_test(no_force_is_rest),
+      cmocka_unit_test(a_contact_of_friction_alone),
       cmocka_unit_test(a_contact_of_next_to_no_stiffness),
   };
   check_watchdog(900);

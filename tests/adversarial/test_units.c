@@ -1,12 +1,17 @@
-/* test_units.c - a change of units changes no answer: lengths, forces and times of a scene multiplied, its answers multiplied alike.
- * Any absolute constant left in a solver shows here. */
+/* test_units.c - a change of units changes no answer: lengths, forces and times of a scene multiplied, its answers
+ * multiplied alike. Any absolute constant left in a solver shows here. */
 #include "tests/adversarial/reference_scenes.h"
 
-typedef struct units { const char *what; double length, force, time; } units;
+typedef struct units {
+  const char *what;
+  double length, force, time;
+} units;
 
 static const units factors[] = {
-  {"powers of two", 1024, 1.0 / 8, 64}, {"powers of two, far off", 0x1p-40, 0x1p30, 0x1p-20},
-  {"mm, kp, minutes", 1000, 1 / 9.81, 1 / 60.0}, {"odd and far off", 1e-9, 3e7, 1e5},
+    {"powers of two", 1024, 1.0 / 8, 64},
+    {"powers of two, far off", 0x1p-40, 0x1p30, 0x1p-20},
+    {"mm, kp, minutes", 1000, 1 / 9.81, 1 / 60.0},
+    {"odd and far off", 1e-9, 3e7, 1e5},
 };
 enum { N_FACTORS = sizeof factors / sizeof *factors, N_EXACT = 2 }; /* the first N_EXACT are powers of two */
 
@@ -37,7 +42,10 @@ static scene in_units(scene sc, const units *u)
   return sc;
 }
 
-typedef struct run { hbm_solver *s; hbm_curve curve; } run;
+typedef struct run {
+  hbm_solver *s;
+  hbm_curve curve;
+} run;
 
 static run traced_scene(const scene *sc)
 {
@@ -77,7 +85,8 @@ static double solutions_apart(const char *name, run *a, run *b, const units *u)
   return worst;
 }
 
-/* Rounding alone: 1e-16, a hundred times over, enlarged by the steepness of the response, 3000 at most (r1, r2; Q = 2800). */
+/* Rounding alone: 1e-16, a hundred times over, enlarged by the steepness of the response, 3000 at most (r1, r2; Q =
+ * 2800). */
 static const double INVARIANT = 1e-10;
 
 static void hbm_with(int force, int n_scenes)
@@ -122,14 +131,16 @@ static timeint_state in_units_state(timeint_state y, int n, const units *u)
   return y;
 }
 
-/* What CVODE's tolerance, 1e-14 of its unit of length a step at its finest, comes to if all steps of a period err the same way, through
- * 1/|1 - multiplier|; twice, for two orbits; and its unit follows the motion's size to a factor of 4 only. */
+/* What CVODE's tolerance, 1e-14 of its unit of length a step at its finest, comes to if all steps of a period err
+ * the same way, through 1/|1 - multiplier|; twice, for two orbits; and its unit follows the motion's size to a
+ * factor of 4 only. */
 static double integrated(const timeint_result *r)
 {
   return 4 * 2 * 1e-14 * (double)r->steps / r->periods / hypot(1 - r->multiplier_re, r->multiplier_im);
 }
 
-/* Largest difference of x(t) over the period, relative to the amplitude, of the orbits next to the HBM solutions at omega. */
+/* Largest difference of x(t) over the period, relative to the amplitude, of the orbits next to the HBM solutions at
+ * omega. */
 static double orbits_apart(timeint *a, timeint *b, run *from, const reference_scene *r, double omega, const units *u)
 {
   hbm_curve at = {0};
@@ -138,7 +149,8 @@ static double orbits_apart(timeint *a, timeint *b, run *from, const reference_sc
   for (int k = 0; k < at.n; ++k) {
     timeint_state y = orbit_start(from->s, 10, at.X + (size_t)k * at.n_coef, omega), z = in_units_state(y, 1, u);
     timeint_result p, q;
-    hc_status st = timeint_orbit(a, omega, 1, &y, NULL, &p); /* an HBM solution of 10 harmonics may have no orbit next to it */
+    hc_status st = timeint_orbit(a, omega, 1, &y, NULL, &p); /* an HBM solution of 10 harmonics may have no orbit
+                                                                next to it */
     assert_int_equal(timeint_orbit(b, omega / u->time, 1, &z, NULL, &q), st);
     if (st != HC_OK) continue;
     double d = fabs(q.amplitude / u->length - p.amplitude);
@@ -206,8 +218,8 @@ static void regularised_law(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(exact_forces), cmocka_unit_test(sampled_forces), cmocka_unit_test(exact_law),
-                                     cmocka_unit_test(regularised_law)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(exact_forces), cmocka_unit_test(sampled_forces),
+                                     cmocka_unit_test(exact_law), cmocka_unit_test(regularised_law)};
   check_watchdog(900);
   return cmocka_run_group_tests_name("adversarial.units", tests, read_rows, NULL);
 }

@@ -1,10 +1,14 @@
-/* test_verdicts.c - every scene of cases/adversarial through the command, as people run it: the verdict of each row and the exit code. Why
- * each must be what it is stands in the case file. Motions are tested in test_contacts.c and test_curves.c. */
+/* test_verdicts.c - every scene of cases/adversarial through the command, as people run it: the verdict of each row
+ * and the exit code. Why each must be what it is stands in the case file. Motions are tested in test_contacts.c and
+ * test_curves.c. */
 #include "tests/shell.h"
 
 #include <string.h>
 
-typedef struct outcome { int code; char out[16384]; } outcome;
+typedef struct outcome {
+  int code;
+  char out[16384];
+} outcome;
 
 static outcome run(const char *args)
 {
@@ -29,13 +33,18 @@ static void letters(char *csv, char *out, size_t size)
     char word[32];
     double omega;
     int branch;
-    if (sscanf(line, "%lf,%d,%31[a-z_0-9]", &omega, &branch, word) == 3 || sscanf(line, "%lf,,%31[a-z_0-9]", &omega, word) == 2)
+    if (sscanf(line, "%lf,%d,%31[a-z_0-9]", &omega, &branch, word) == 3 ||
+        sscanf(line, "%lf,,%31[a-z_0-9]", &omega, word) == 2)
       if (n + 1 < size) out[n++] = word[0];
   }
   out[n] = 0;
 }
 
-typedef struct verdicts { const char *scene, *options; int code; const char *letters; } verdicts;
+typedef struct verdicts {
+  const char *scene, *options;
+  int code;
+  const char *letters;
+} verdicts;
 
 static void check_verdicts(int n, const verdicts *v)
 {
@@ -56,11 +65,22 @@ static void contacts(void **state)
 {
   (void)state;
   static const verdicts list[] = {
-    {"grazing", "", 0, "mmum"},      {"amplitude_is_gap", "", 0, "m"}, {"cone_edge", "", 0, "mmmum"}, {"vanishing_together", "", 0, "mmmumm"},
-    {"angle_0", "", 0, "mmmm"},      {"angle_90", "", 0, "mmmm"},      {"no_friction", "", 0, "mmmumm"}, {"huge_friction", "", 0, "mmmumm"},
-    {"huge_friction", "--set 'contacts[0].friction=1e6'", 0, "mmmumm"}, {"gap_0", "", 0, "mmmmm"},
-    {"two_at_once", "", 0, "mmmm"},  {"sixteen", "--at 5,9,13,22", 0, "mmmm"}, {"friction_only", "", 0, "mmmm"}, {"soft", "", 0, "mmm"},
-    {"huge_friction", "--at 5,6 --set 'contacts[0].friction=1e308'", 3, "ss"}, /* refused, and said so, rather than hung */
+      {"grazing", "", 0, "mmum"},
+      {"amplitude_is_gap", "", 0, "m"},
+      {"cone_edge", "", 0, "mmmum"},
+      {"vanishing_together", "", 0, "mmmumm"},
+      {"angle_0", "", 0, "mmmm"},
+      {"angle_90", "", 0, "mmmm"},
+      {"no_friction", "", 0, "mmmumm"},
+      {"huge_friction", "", 0, "mmmumm"},
+      {"huge_friction", "--set 'contacts[0].friction=1e6'", 0, "mmmumm"},
+      {"gap_0", "", 0, "mmmmm"},
+      {"two_at_once", "", 0, "mmmm"},
+      {"sixteen", "--at 5,9,13,22", 0, "mmmm"},
+      {"friction_only", "", 0, "mmmm"},
+      {"soft", "", 0, "mmm"},
+      /* refused, and said so, rather than hung */
+      {"huge_friction", "--at 5,6 --set 'contacts[0].friction=1e308'", 3, "ss"},
   };
   CHECK_VERDICTS(list);
 }
@@ -70,27 +90,38 @@ static void curves(void **state)
 {
   (void)state;
   static const verdicts list[] = {
-    {"hard", "", 1, "mddumm"}, {"overdamped", "", 0, "mmmm"}, {"downwards", "", 0, "mmumm"}, {"no_force", "", 0, "mm"},
-    {"zeta_1e-6", "", 0, "mmm"}, {"zeta_1e-6_contact", "--at 0.95,1,1.05", 0, "mmm"}, {"two_hundred_harmonics", "--at 9", 0, "mum"},
-    /* leaves a saddle that forgets 1e-6 a period: 300 do not do, and it is said */
-    {"zeta_1e-6_contact", "--at 1.0005 --set transient.max_periods=300", 3, "mnm"},
+      {"hard", "", 1, "mddumm"},
+      {"overdamped", "", 0, "mmmm"},
+      {"downwards", "", 0, "mmumm"},
+      {"no_force", "", 0, "mm"},
+      {"zeta_1e-6", "", 0, "mmm"},
+      {"zeta_1e-6_contact", "--at 0.95,1,1.05", 0, "mmm"},
+      {"two_hundred_harmonics", "--at 9", 0, "mum"},
+      /* leaves a saddle that forgets 1e-6 a period: 300 do not do, and it is said */
+      {"zeta_1e-6_contact", "--at 1.0005 --set transient.max_periods=300", 3, "mnm"},
   };
   CHECK_VERDICTS(list);
 }
 
-/* The orbit of 7.37 is on the curve from 3 to 30; a transient swept down says so. A curve that cannot turn round says where it stopped, and agrees to
- * nothing. A sweep too narrow for the fold sees one branch, as README says of it; a fact about the sweep, not a disagreement. */
+/* The orbit of 7.37 is on the curve from 3 to 30; a transient swept down says so. A curve that cannot turn round
+ * says where it stopped, and agrees to nothing. A sweep too narrow for the fold sees one branch, as README says of
+ * it; a fact about the sweep, not a disagreement. */
 static void a_branch_is_not_hidden(void **state)
 {
   (void)state;
   static const verdicts list[] = {
-    {"isolated", "", 0, "mum"}, {"isolated", "--set transient.start=down", 0, "oum"}, {"isolated", "--set transient.start=up", 0, "muo"},
-    {"isolated", "--set hbm.continuation=natural", 3, "m"}, {"isolated", "--set hbm.continuation=natural --set transient.start=down", 1, "o"},
-    {"isolated", "--set sweep.omega=15,17", 0, "m"}, {"isolated", "--set sweep.omega=15,30", 0, "mum"},
+      {"isolated", "", 0, "mum"},
+      {"isolated", "--set transient.start=down", 0, "oum"},
+      {"isolated", "--set transient.start=up", 0, "muo"},
+      {"isolated", "--set hbm.continuation=natural", 3, "m"},
+      {"isolated", "--set hbm.continuation=natural --set transient.start=down", 1, "o"},
+      {"isolated", "--set sweep.omega=15,17", 0, "m"},
+      {"isolated", "--set sweep.omega=15,30", 0, "mum"},
   };
   CHECK_VERDICTS(list);
   expect("gate cases/adversarial/isolated.yaml -q --set transient.start=down", 0, "13 passed");
-  expect("gate cases/adversarial/isolated.yaml -q --set transient.start=down --set hbm.continuation=natural", 1, "fail");
+  expect("gate cases/adversarial/isolated.yaml -q --set transient.start=down --set hbm.continuation=natural", 1,
+         "fail");
   expect("frf cases/adversarial/isolated.yaml --at 16 -q --format csv", 0, "16,2,7.3659");
   expect("frf cases/adversarial/isolated.yaml --at 16 -q --set hbm.continuation=natural", 3, "stopped at omega");
 }
@@ -116,7 +147,8 @@ static void refusals(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(contacts), cmocka_unit_test(curves), cmocka_unit_test(a_branch_is_not_hidden),
+  const struct CMUnitTest tests[] = {cmocka_unit_test(contacts), cmocka_unit_test(curves),
+                                     cmocka_unit_test(a_branch_is_not_hidden),
                                      cmocka_unit_test(chaos_is_not_agreed_with), cmocka_unit_test(refusals)};
   check_watchdog(900);
   return cmocka_run_group_tests_name("adversarial.verdicts", tests, NULL, NULL);

@@ -1,4 +1,5 @@
-/* test_number.c - strict numbers: what is one, what is not, the same in a locale with a decimal comma, and back to the same bits. */
+/* test_number.c - strict numbers: what is one, what is not, the same in a locale with a decimal comma, and back to
+ * the same bits. */
 #include <errno.h>
 #include <float.h>
 #include <limits.h>
@@ -169,8 +170,9 @@ static void locale_does_not_matter(void **state)
 }
 
 static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(numbers_are_read_whole),    cmocka_unit_test(what_is_no_number_says_why), cmocka_unit_test(integers_are_digits),
-    cmocka_unit_test(written_numbers_come_back), cmocka_unit_test(errno_is_left_alone),        cmocka_unit_test(locale_does_not_matter),
+    cmocka_unit_test(numbers_are_read_whole), cmocka_unit_test(what_is_no_number_says_why),
+    cmocka_unit_test(integers_are_digits),    cmocka_unit_test(written_numbers_come_back),
+    cmocka_unit_test(errno_is_left_alone),    cmocka_unit_test(locale_does_not_matter),
 };
 
 CHECK_MAIN("cases.number", tests, 60)

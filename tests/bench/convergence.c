@@ -1,9 +1,9 @@
-/* convergence.c - a benchmark, not a test: how fast the two sides come together, and with which order.
- * usage: bench_convergence
- * 1. Harmonic balance with exact forces, H = 10, 20, 40, 80, against the exact law's orbit by shooting at tolerance 1e-13.
- * 2. The regularised law, 1e-1 .. 1e-5, plain and extrapolated (transient.richardson), against the same orbit.
- * Errors are relative: of |a1 + i b1|, of a1 + i b1 in the plane, of the amplitude (max - min)/2, and the largest of x over the period.
- * An order is log(error before/error)/log(ratio of H, or of the regularisation). */
+/* convergence.c - a benchmark, not a test: how fast the two sides come together, and with which order. usage:
+ * bench_convergence 1. Harmonic balance with exact forces, H = 10, 20, 40, 80, against the exact law's orbit by
+ * shooting at tolerance 1e-13. 2. The regularised law, 1e-1 .. 1e-5, plain and extrapolated (transient.richardson),
+ * against the same orbit. Errors are relative: of |a1 + i b1|, of a1 + i b1 in the plane, of the amplitude (max -
+ * min)/2, and the largest of x over the period. An order is log(error before/error)/log(ratio of H, or of the
+ * regularisation). */
 #include "hbm/series.h"
 #include "tests/bench/orbits.h"
 
@@ -11,7 +11,11 @@ enum { MEASURES = 4, LEVELS = 4, DECADES = 5 };
 static const int levels[LEVELS] = {10, 20, 40, 80};
 static const double pi = 3.14159265358979323846;
 
-typedef struct bench_case { const char *name; scene sc; double omega; } bench_case;
+typedef struct bench_case {
+  const char *name;
+  scene sc;
+  double omega;
+} bench_case;
 
 static void errors_of_series(int H, const double *X, const hbm_measures *m, const timeint_result *ref, double *e)
 {
@@ -74,19 +78,26 @@ static void errors_of_transient(const timeint_result *r, const timeint_result *r
 }
 
 /* At tolerance 1e-11, or where rounding does not allow that, 1e-10. */
-static timeint_result regularised_orbit(scene sc, double omega, timeint_state start, double regularisation, bool richardson)
+static timeint_result regularised_orbit(scene sc, double omega, timeint_state start, double regularisation,
+                                        bool richardson)
 {
   hc_status st = HC_NOT_CONVERGED;
   timeint_result r;
-  sc.transient = (scene_transient){.law = TRANSIENT_LAW_REGULARISED, .regularisation = regularisation, .richardson = richardson,
-                                   .steady = TRANSIENT_STEADY_SHOOTING, .tolerance = 1e-11, .start = TRANSIENT_START_HBM, .max_periods = 20000};
+  sc.transient = (scene_transient){.law = TRANSIENT_LAW_REGULARISED,
+                                   .regularisation = regularisation,
+                                   .richardson = richardson,
+                                   .steady = TRANSIENT_STEADY_SHOOTING,
+                                   .tolerance = 1e-11,
+                                   .start = TRANSIENT_START_HBM,
+                                   .max_periods = 20000};
   for (; st == HC_NOT_CONVERGED && sc.transient.tolerance < 2e-10; sc.transient.tolerance *= 10) {
     timeint *ti = NULL;
     timeint_state y = start;
     must(timeint_new(&sc, &ti), "transient");
     st = timeint_steady(ti, omega, &y, NULL, &r);
     timeint_free(ti);
-    if (st == HC_OK && sc.transient.tolerance > 1.5e-11) fprintf(stderr, "regularisation %.0e: at tolerance %.0e\n", regularisation, sc.transient.tolerance);
+    if (st == HC_OK && sc.transient.tolerance > 1.5e-11)
+      fprintf(stderr, "regularisation %.0e: at tolerance %.0e\n", regularisation, sc.transient.tolerance);
   }
   must(st, "transient");
   return r;
@@ -108,11 +119,17 @@ static void regularisation_of(const bench_case *c, bool richardson)
 int main(void)
 {
   const char *columns = " \\|X1\\| | order | X1 | order | amplitude | order | waveform | order |\n";
-  const bench_case first[] = {{"c2", with_hbm(scene_c2(), 5, 3, 20), 6}, {"a10", with_hbm(scene_a10(), 5, 3, 20), 13}, {"b10", with_hbm(scene_b10(), 5, 3, 20), 7}};
+  const bench_case first[] = {{"c2", with_hbm(scene_c2(), 5, 3, 20), 6},
+                              {"a10", with_hbm(scene_a10(), 5, 3, 20), 13},
+                              {"b10", with_hbm(scene_b10(), 5, 3, 20), 7}};
   const bench_case second[] = {{"c2", with_hbm(scene_c2(), 5, 3, 20), 7}, {"b10", with_hbm(scene_b10(), 5, 3, 20), 7}};
-  printf("Harmonic balance, exact forces, against the exact law's orbit\n\n| case | H |%s|---|---|---|---|---|---|---|---|---|---|\n", columns);
+  printf("Harmonic balance, exact forces, against the exact law's orbit\n\n| case | H "
+         "|%s|---|---|---|---|---|---|---|---|---|---|\n",
+         columns);
   for (size_t i = 0; i < sizeof first / sizeof *first; ++i) harmonics_of(&first[i]);
-  printf("\nThe regularised law against the exact law\n\n| case | measures | regularisation |%s|---|---|---|---|---|---|---|---|---|---|---|\n", columns);
+  printf("\nThe regularised law against the exact law\n\n| case | measures | regularisation "
+         "|%s|---|---|---|---|---|---|---|---|---|---|---|\n",
+         columns);
   for (size_t i = 0; i < sizeof second / sizeof *second; ++i)
     for (int richardson = 0; richardson < 2; ++richardson) regularisation_of(&second[i], richardson);
   return 0;

@@ -1,7 +1,9 @@
-/* curves.c - a benchmark, not a test: every curve of the paper's figures with exact forces, traced from both ends and with half the step.
- * usage: bench_curves [CASE.yaml...]   (default: the scenes of figures 7, 8, 9, 17, 18, 20, and figure 17 up to kn = 1e7)
- * One line a curve: how it ended, points, iterations, rejected steps, turning points, contact evaluations, milliseconds, and the largest
- * distance, relative to the amplitude, between its solutions at 16 frequencies and those of the curve from the other end and with half the step. */
+/* curves.c - a benchmark, not a test: every curve of the paper's figures with exact forces, traced from both ends
+ * and with half the step.
+ * usage: bench_curves [CASE.yaml...]   (default: the scenes of figures 7, 8, 9, 17, 18, 20, and figure 17 up to kn =
+ * 1e7) One line a curve: how it ended, points, iterations, rejected steps, turning points, contact evaluations,
+ * milliseconds, and the largest distance, relative to the amplitude, between its solutions at 16 frequencies and
+ * those of the curve from the other end and with half the step. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -45,7 +47,8 @@ static double mismatch(hbm_solver *s, const hbm_curve *a, const hbm_curve *b, do
 }
 
 /* Largest mismatch at 16 frequencies; *differ counts those where the two curves have different numbers of solutions. */
-static double compare_curves(hbm_solver *s, const hbm_curve *a, const hbm_curve *b, double low, double high, int *differ)
+static double compare_curves(hbm_solver *s, const hbm_curve *a, const hbm_curve *b, double low, double high,
+                             int *differ)
 {
   double worst = 0;
   for (int i = 0; i < 16; ++i) {
@@ -60,7 +63,8 @@ static int trace_both(const char *name, scene *sc)
 {
   hbm_solver *s = NULL;
   hbm_curve up = {0}, down = {0}, half = {0};
-  double retrace = 0, halved = 0, t = now_ms(), low = fmin(sc->omega_from, sc->omega_to), high = fmax(sc->omega_from, sc->omega_to);
+  double retrace = 0, halved = 0, t = now_ms(), low = fmin(sc->omega_from, sc->omega_to),
+         high = fmax(sc->omega_from, sc->omega_to);
   hc_status st = hbm_solver_new(sc, &s), back = HC_OK;
   if (st == HC_OK) st = hbm_trace(s, low, high, NULL, &up);
   t = now_ms() - t;
@@ -76,8 +80,9 @@ static int trace_both(const char *name, scene *sc)
   if (st == HC_OK && fine == HC_OK) halved = compare_curves(s, &up, &half, low, high, &differ_half);
   double worst = 0;
   for (int k = 0; k < up.n; ++k) worst = fmax(worst, up.points[k].residual);
-  printf("%-22s %3d %d %10g %5d %6ld %5d %3d %6ld %8.2f %8.1e  %8.1e  %8.1e", name, sc->hbm.harmonics, sc->hbm.keep_mean, up.n ? up.points[up.n - 1].omega : 0, up.n,
-         up.iterations, up.rejected, up.turning_points, up.evaluations, t, worst, retrace, halved);
+  printf("%-22s %3d %d %10g %5d %6ld %5d %3d %6ld %8.2f %8.1e  %8.1e  %8.1e", name, sc->hbm.harmonics,
+         sc->hbm.keep_mean, up.n ? up.points[up.n - 1].omega : 0, up.n, up.iterations, up.rejected, up.turning_points,
+         up.evaluations, t, worst, retrace, halved);
   if (differ) printf("  %d of 16 frequencies with other solutions from the other end", differ);
   if (differ_half) printf("  %d with half the step", differ_half);
   if (fine != HC_OK) printf("  HALF STEP at %g: %s", half.n ? half.points[half.n - 1].omega : 0, hc_status_text(fine));
@@ -96,7 +101,10 @@ static int run_case(const char *path, int *bad)
   scene sc;
   case_error err;
   const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
-  if (case_read(path, 0, NULL, &sc, &err) != HC_OK) { fprintf(stderr, "%s\n", err.message); return 1; }
+  if (case_read(path, 0, NULL, &sc, &err) != HC_OK) {
+    fprintf(stderr, "%s\n", err.message);
+    return 1;
+  }
   static const int harmonics[] = {1, 5, 10, 25};
   for (int h = 0; h < 4; ++h)
     for (int keep = 0; keep < 2; ++keep) {
@@ -111,7 +119,8 @@ static int run_case(const char *path, int *bad)
 int main(int argc, char **argv)
 {
   int bad = 0, wrong = 0;
-  printf("%-22s %3s %s %10s %5s %6s %5s %3s %6s %8s %8s  %8s  %8s\n", "case", "H", "0", "end", "pts", "iter", "rej", "trn", "evals", "ms", "residual", "other end", "half step");
+  printf("%-22s %3s %s %10s %5s %6s %5s %3s %6s %8s %8s  %8s  %8s\n", "case", "H", "0", "end", "pts", "iter", "rej",
+         "trn", "evals", "ms", "residual", "other end", "half step");
   for (int i = 1; i < argc; ++i) wrong |= run_case(argv[i], &bad);
   printf("%d curves did not reach their end\n", bad);
   return wrong;

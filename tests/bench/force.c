@@ -1,11 +1,12 @@
-/* force.c - a benchmark, not a test: what one evaluation of the contact force with its Jacobian costs, exact against sampled.
+/* force.c - a benchmark, not a test: what one evaluation of the contact force with its Jacobian costs, exact against
+ * sampled.
  * usage: bench_force [ROUNDS] [CASES_DIR]   (default 15 and cases/paper)
- * Motions are solutions, the largest response at three omegas each, of case 2 and gap1 (separation, then stick: neither slips once it
- * separates, since kt <= mu kn tan(alpha)) and of case B (stick, slip and separation: b10 of the references);
- * every call sees another of 64 slightly different motions. All configurations are timed in turn, a batch of about a millisecond each,
- * ROUNDS times; a figure is the median of its batches, a ratio the median of the ratios within a round, with quartiles.
- * The machine is shared: microseconds are for orientation, the ratios are the result. Contacts 1..8 share the stiffness of one, and their
- * gaps differ by a percent each. */
+ * Motions are solutions, the largest response at three omegas each, of case 2 and gap1 (separation, then stick:
+ * neither slips once it separates, since kt <= mu kn tan(alpha)) and of case B (stick, slip and separation: b10 of
+ * the references); every call sees another of 64 slightly different motions. All configurations are timed in turn, a
+ * batch of about a millisecond each, ROUNDS times; a figure is the median of its batches, a ratio the median of the
+ * ratios within a round, with quartiles. The machine is shared: microseconds are for orientation, the ratios are the
+ * result. Contacts 1..8 share the stiffness of one, and their gaps differ by a percent each. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -17,7 +18,15 @@
 #include "hbm/exact.h"
 #include "hbm/hbm.h"
 
-enum { MAX_CONFIGS = 256, MAX_ROUNDS = 101, VARIANTS = 64, MAX_COEF = 2 * SCENE_MAX_HARMONICS + 1, SCENES = 3, OMEGAS = 3, EXACT = 0 };
+enum {
+  MAX_CONFIGS = 256,
+  MAX_ROUNDS = 101,
+  VARIANTS = 64,
+  MAX_COEF = 2 * SCENE_MAX_HARMONICS + 1,
+  SCENES = 3,
+  OMEGAS = 3,
+  EXACT = 0
+};
 
 typedef struct bench_scene {
   const char *name, *file;
@@ -160,7 +169,8 @@ static void add_config(const scene *sc, int scene_index, int h, int n_time, int 
                 .m = &all_motions[scene_index][h],
                 .batch = 1};
   exact_contacts_of(&used, contacts);
-  hc_status st = n_time ? aft_new(&used, c->n_harm, n_time, &c->sampled) : exact_new(c->n_harm, 1, n_contacts, contacts, &c->located);
+  hc_status st = n_time ? aft_new(&used, c->n_harm, n_time, &c->sampled)
+                        : exact_new(c->n_harm, 1, n_contacts, contacts, &c->located);
   if (st != HC_OK) die("workspace", st);
   for (int i = 0; i < 4; ++i) evaluate(c);
   double t = now_us();
@@ -224,8 +234,8 @@ static void print_ratio(int k, int n_harm, int n_time)
   const config *a = find(k, n_harm, EXACT, 1), *b = find(k, n_harm, n_time, 1);
   double ratio[MAX_ROUNDS];
   for (int r = 0; r < rounds; ++r) ratio[r] = a->us[r] / b->us[r];
-  printf("%-6s exact(H=%d)/sampled(N=%d, H=%d) = %.3f  [%.3f, %.3f]\n", scenes[k].name, n_harm, n_time, n_harm, quantile(ratio, 0.5),
-         quantile(ratio, 0.25), quantile(ratio, 0.75));
+  printf("%-6s exact(H=%d)/sampled(N=%d, H=%d) = %.3f  [%.3f, %.3f]\n", scenes[k].name, n_harm, n_time, n_harm,
+         quantile(ratio, 0.5), quantile(ratio, 0.25), quantile(ratio, 0.75));
 }
 
 /* Least squares of log(time) against log(variable). */
@@ -255,8 +265,8 @@ static void print_exponents(int k)
       fit_add(&all, n, c);
       if (n >= 1024) fit_add(&high, n, c);
     }
-    printf("%-6s sampled, H = %-2d: time ~ N^%.2f, from N = 1024 N^%.2f\n", scenes[k].name, harmonics[h], fit_exponent(&all),
-           fit_exponent(&high));
+    printf("%-6s sampled, H = %-2d: time ~ N^%.2f, from N = 1024 N^%.2f\n", scenes[k].name, harmonics[h],
+           fit_exponent(&all), fit_exponent(&high));
   }
   for (int n = 0; n <= 1024; n += 1024) {
     fit all = {0}, high = {0};
@@ -264,14 +274,15 @@ static void print_exponents(int k)
       fit_add(&all, harmonics[h], find(k, harmonics[h], n, 1));
       if (harmonics[h] >= 10) fit_add(&high, harmonics[h], find(k, harmonics[h], n, 1));
     }
-    printf("%-6s %s: time ~ H^%.2f, from H = 10 H^%.2f\n", scenes[k].name, n ? "sampled, N = 1024" : "exact", fit_exponent(&all),
-           fit_exponent(&high));
+    printf("%-6s %s: time ~ H^%.2f, from H = 10 H^%.2f\n", scenes[k].name, n ? "sampled, N = 1024" : "exact",
+           fit_exponent(&all), fit_exponent(&high));
   }
   for (int n = 0; n <= 256; n += 256) {
     fit f = {0};
     for (int j = 1; j <= 8; ++j) fit_add(&f, j, find(k, 5, n, j));
-    printf("%-6s %s, H = 5: time ~ contacts^%.2f (1 %.2f us, 8 %.2f us)\n", scenes[k].name, n ? "sampled, N = 256" : "exact",
-           fit_exponent(&f), quantile(find(k, 5, n, 1)->us, 0.5), quantile(find(k, 5, n, 8)->us, 0.5));
+    printf("%-6s %s, H = 5: time ~ contacts^%.2f (1 %.2f us, 8 %.2f us)\n", scenes[k].name,
+           n ? "sampled, N = 256" : "exact", fit_exponent(&f), quantile(find(k, 5, n, 1)->us, 0.5),
+           quantile(find(k, 5, n, 8)->us, 0.5));
   }
 }
 

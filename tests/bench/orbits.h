@@ -1,5 +1,5 @@
-/* orbits.h - what the benchmarks of steady states share: scenes with their sweeps, the start on the HBM orbit, processor time, medians.
- * A failure ends the program: a benchmark that goes on without a figure misleads. */
+/* orbits.h - what the benchmarks of steady states share: scenes with their sweeps, the start on the HBM orbit,
+ * processor time, medians. A failure ends the program: a benchmark that goes on without a figure misleads. */
 #ifndef HC_BENCH_ORBITS_H
 #define HC_BENCH_ORBITS_H
 
@@ -42,7 +42,12 @@ static inline double median(int n, double *v)
 /* With harmonic balance over from..to: H harmonics, harmonic 0, exact forces. */
 static inline scene with_hbm(scene sc, int harmonics, double from, double to)
 {
-  sc.hbm = (scene_hbm){.harmonics = harmonics, .keep_mean = true, .force = HBM_FORCE_EXACT, .samples = 1024, .tolerance = 1e-12, .accuracy = 1e-4,
+  sc.hbm = (scene_hbm){.harmonics = harmonics,
+                       .keep_mean = true,
+                       .force = HBM_FORCE_EXACT,
+                       .samples = 1024,
+                       .tolerance = 1e-12,
+                       .accuracy = 1e-4,
                        .skip_linear = true};
   sc.omega_from = from;
   sc.omega_to = to;
@@ -81,18 +86,23 @@ static inline timeint_state hbm_start(const scene *sc, double omega)
 }
 
 /* With tolerance `tolerance` and the exact law, from *state, which becomes a point on the orbit. */
-static inline hc_status exact_orbit(scene sc, double omega, int steady, double tolerance, timeint_state *state, timeint_result *r)
+static inline hc_status exact_orbit(scene sc, double omega, int steady, double tolerance, timeint_state *state,
+                                    timeint_result *r)
 {
   timeint *ti = NULL;
-  sc.transient = (scene_transient){.law = TRANSIENT_LAW_EXACT, .steady = steady, .tolerance = tolerance, .regularisation = 1e-4, .max_periods = 200000};
+  sc.transient = (scene_transient){.law = TRANSIENT_LAW_EXACT,
+                                   .steady = steady,
+                                   .tolerance = tolerance,
+                                   .regularisation = 1e-4,
+                                   .max_periods = 200000};
   must(timeint_new(&sc, &ti), "reference");
   hc_status st = timeint_steady(ti, omega, state, NULL, r);
   timeint_free(ti);
   return st;
 }
 
-/* The exact law's orbit next to `start`, by shooting at tolerance 1e-13. Where rounding does not allow that, at the tightest decade it does; and
- * if that is coarser than 1e-11, by waiting from there, to 1e-12. */
+/* The exact law's orbit next to `start`, by shooting at tolerance 1e-13. Where rounding does not allow that, at the
+ * tightest decade it does; and if that is coarser than 1e-11, by waiting from there, to 1e-12. */
 static inline timeint_result reference_orbit(scene sc, double omega, timeint_state start)
 {
   hc_status st = HC_NOT_CONVERGED;
@@ -105,7 +115,9 @@ static inline timeint_result reference_orbit(scene sc, double omega, timeint_sta
   }
   must(st, "reference");
   if (decade > -11) must(exact_orbit(sc, omega, TRANSIENT_STEADY_MARCH, 1e-12, &start, &r), "reference");
-  if (decade > -13) fprintf(stderr, "omega = %g: reference by shooting at 1e%d%s\n", omega, decade, decade > -11 ? ", then by waiting to 1e-12" : "");
+  if (decade > -13)
+    fprintf(stderr, "omega = %g: reference by shooting at 1e%d%s\n", omega, decade,
+            decade > -11 ? ", then by waiting to 1e-12" : "");
   return r;
 }
 

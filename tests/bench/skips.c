@@ -1,6 +1,7 @@
-/* skips.c - a benchmark, not a test: what each shortcut of hbm/ saves. usage: bench_skips [REPEATS]
- * For each of three scenes, groups of ways to trace the same curve; the ways of a group take turns, REPEATS times, in one run, and the first of a group is
- * what the others' ratios refer to. Columns: force evaluations, Newton iterations, points, milliseconds (median, and the quartiles around it), ratio. */
+/* skips.c - a benchmark, not a test: what each shortcut of hbm/ saves. usage: bench_skips [REPEATS] For each of
+ * three scenes, groups of ways to trace the same curve; the ways of a group take turns, REPEATS times, in one run,
+ * and the first of a group is what the others' ratios refer to. Columns: force evaluations, Newton iterations,
+ * points, milliseconds (median, and the quartiles around it), ratio. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -18,22 +19,46 @@ static double now_ms(void)
   return 1e3 * (double)t.tv_sec + 1e-6 * (double)t.tv_nsec;
 }
 
-typedef struct way { const char *name; int harmonics, samples, continuation; bool skip_linear; } way;
-typedef struct group { const char *name; int n; way ways[MAX_WAYS]; } group;
+typedef struct way {
+  const char *name;
+  int harmonics, samples, continuation;
+  bool skip_linear;
+} way;
+typedef struct group {
+  const char *name;
+  int n;
+  way ways[MAX_WAYS];
+} group;
 
 /* samples -1: exact forces. Auto: accuracy 1e-3 for harmonics and samples alike. */
 static const group groups[N_GROUPS] = {
     {"skip_linear", 2, {{"on", 10, -1, HBM_CONTINUATION_AUTO, true}, {"off", 10, -1, HBM_CONTINUATION_AUTO, false}}},
-    {"continuation", 2, {{"auto", 10, -1, HBM_CONTINUATION_AUTO, false}, {"arclength", 10, -1, HBM_CONTINUATION_ARCLENGTH, false}}},
-    {"harmonics", 4, {{"auto", SCENE_AUTO, -1, HBM_CONTINUATION_AUTO, true}, {"10", 10, -1, HBM_CONTINUATION_AUTO, true},
-                      {"20", 20, -1, HBM_CONTINUATION_AUTO, true}, {"40", 40, -1, HBM_CONTINUATION_AUTO, true}}},
-    {"samples", 3, {{"auto", 5, SCENE_AUTO, HBM_CONTINUATION_AUTO, true}, {"1024", 5, 1024, HBM_CONTINUATION_AUTO, true}, {"4096", 5, 4096, HBM_CONTINUATION_AUTO, true}}}};
+    {"continuation",
+     2,
+     {{"auto", 10, -1, HBM_CONTINUATION_AUTO, false}, {"arclength", 10, -1, HBM_CONTINUATION_ARCLENGTH, false}}},
+    {"harmonics",
+     4,
+     {{"auto", SCENE_AUTO, -1, HBM_CONTINUATION_AUTO, true},
+      {"10", 10, -1, HBM_CONTINUATION_AUTO, true},
+      {"20", 20, -1, HBM_CONTINUATION_AUTO, true},
+      {"40", 40, -1, HBM_CONTINUATION_AUTO, true}}},
+    {"samples",
+     3,
+     {{"auto", 5, SCENE_AUTO, HBM_CONTINUATION_AUTO, true},
+      {"1024", 5, 1024, HBM_CONTINUATION_AUTO, true},
+      {"4096", 5, 4096, HBM_CONTINUATION_AUTO, true}}}};
 
 static scene with(scene sc, const way *w)
 {
-  sc.hbm = (scene_hbm){.harmonics = w->harmonics, .keep_mean = true, .force = w->samples < 0 ? HBM_FORCE_EXACT : HBM_FORCE_SAMPLED,
-                       .samples = w->samples < 0 ? 1024 : w->samples, .restart = HBM_RESTART_INTERPOLATED, .continuation = w->continuation,
-                       .tolerance = 1e-10, .accuracy = 1e-3, .skip_linear = w->skip_linear};
+  sc.hbm = (scene_hbm){.harmonics = w->harmonics,
+                       .keep_mean = true,
+                       .force = w->samples < 0 ? HBM_FORCE_EXACT : HBM_FORCE_SAMPLED,
+                       .samples = w->samples < 0 ? 1024 : w->samples,
+                       .restart = HBM_RESTART_INTERPOLATED,
+                       .continuation = w->continuation,
+                       .tolerance = 1e-10,
+                       .accuracy = 1e-3,
+                       .skip_linear = w->skip_linear};
   return sc;
 }
 
@@ -43,7 +68,12 @@ static int ascending(const void *a, const void *b)
   return (x > y) - (x < y);
 }
 
-typedef struct result { double ms[MAX_REPEATS]; long evaluations, iterations; int points, harmonics, samples; hc_status status; } result;
+typedef struct result {
+  double ms[MAX_REPEATS];
+  long evaluations, iterations;
+  int points, harmonics, samples;
+  hc_status status;
+} result;
 
 static void run_once(const scene *sc, result *r, int at)
 {
@@ -73,8 +103,9 @@ static void run_group(const char *name, const scene *base, const group *g, int r
   for (int w = 0; w < g->n; ++w) qsort(results[w].ms, (size_t)repeats, sizeof(double), ascending);
   for (int w = 0; w < g->n; ++w) {
     const result *r = &results[w];
-    printf("%-4s %-13s %-10s %3d %5d %5d %7ld %6ld %8.3f %8.3f %8.3f %6.2f", name, g->name, g->ways[w].name, r->harmonics, r->samples, r->points, r->evaluations, r->iterations,
-           r->ms[repeats / 2], r->ms[repeats / 4], r->ms[3 * repeats / 4], r->ms[repeats / 2] / results[0].ms[repeats / 2]);
+    printf("%-4s %-13s %-10s %3d %5d %5d %7ld %6ld %8.3f %8.3f %8.3f %6.2f", name, g->name, g->ways[w].name,
+           r->harmonics, r->samples, r->points, r->evaluations, r->iterations, r->ms[repeats / 2], r->ms[repeats / 4],
+           r->ms[3 * repeats / 4], r->ms[repeats / 2] / results[0].ms[repeats / 2]);
     if (r->status != HC_OK) printf("  %s", hc_status_text(r->status));
     printf("\n");
   }
@@ -83,13 +114,26 @@ static void run_group(const char *name, const scene *base, const group *g, int r
 int main(int argc, char **argv)
 {
   int repeats = argc > 1 ? atoi(argv[1]) : 21;
-  if (repeats < 1 || repeats > MAX_REPEATS) { fprintf(stderr, "usage: %s [REPEATS, 1..%d]\n", argv[0], MAX_REPEATS); return 64; }
-  static const struct { const char *name; double mass, stiffness, force, kt, kn, gap, from, to; } scenes[] = {
-      {"c2", 1, 40, 100, 100, 1000, -5, 3, 20}, {"a10", 1, 40, 10, 100, 200, 0.5, 3, 20}, {"r2", 1.6, 8e5, 100, 5e5, 7e5, -0.2, 600, 850}};
-  printf("%-4s %-13s %-10s %3s %5s %5s %7s %6s %8s %8s %8s %6s\n", "case", "switch", "setting", "H", "N", "pts", "evals", "iter", "ms", "quarter", "3/4", "ratio");
+  if (repeats < 1 || repeats > MAX_REPEATS) {
+    fprintf(stderr, "usage: %s [REPEATS, 1..%d]\n", argv[0], MAX_REPEATS);
+    return 64;
+  }
+  static const struct {
+    const char *name;
+    double mass, stiffness, force, kt, kn, gap, from, to;
+  } scenes[] = {{"c2", 1, 40, 100, 100, 1000, -5, 3, 20},
+                {"a10", 1, 40, 10, 100, 200, 0.5, 3, 20},
+                {"r2", 1.6, 8e5, 100, 5e5, 7e5, -0.2, 600, 850}};
+  printf("%-4s %-13s %-10s %3s %5s %5s %7s %6s %8s %8s %8s %6s\n", "case", "switch", "setting", "H", "N", "pts",
+         "evals", "iter", "ms", "quarter", "3/4", "ratio");
   for (size_t i = 0; i < sizeof scenes / sizeof *scenes; ++i) {
-    scene sc = {.mass = scenes[i].mass, .damping = 0.4, .stiffness = scenes[i].stiffness, .force = scenes[i].force, .n_contacts = 1,
-                .omega_from = scenes[i].from, .omega_to = scenes[i].to};
+    scene sc = {.mass = scenes[i].mass,
+                .damping = 0.4,
+                .stiffness = scenes[i].stiffness,
+                .force = scenes[i].force,
+                .n_contacts = 1,
+                .omega_from = scenes[i].from,
+                .omega_to = scenes[i].to};
     sc.contacts[0] = (scene_contact){{scenes[i].kt, scenes[i].kn, 0.3, scenes[i].gap}, 45};
     for (int g = 0; g < N_GROUPS; ++g) run_group(scenes[i].name, &sc, &groups[g], repeats);
   }

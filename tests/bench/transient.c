@@ -1,18 +1,27 @@
-/* transient.c - a benchmark, not a test: what one steady state by time integration costs, by every way this program has.
- * usage: bench_transient [ROUNDS [CASE]]       (default 5, all) the table of costs, and the periods that two asked figures take
- *        bench_transient start                 x v of case 2's HBM orbit (H = 5) at omega = 9, and its reference amplitude
- *        bench_transient once                  case 2 at omega = 9 from there to 1e-8: "processor seconds, amplitude"
- * c2 at 9 (upper branch), b10 at 7, r2 at 708.5, each from the HBM orbit (H = 5, exact forces), to four accuracies of the amplitude. Errors are
- * relative, against the exact law by shooting at tolerance 1e-13. transient.tolerance is the accuracy asked, or a tenth of it where that
- * misses; the regularisation is the largest of half decades 10^-1 .. 10^-8 that meets the accuracy with it, by shooting; where shooting fails, marching
- * gets 0.1 sqrt(accuracy). Richardson's other levels are always shot.
- * Ways take turns, ROUNDS times; a time is the median of its rounds [ms of processor], a ratio the median of ratios within a round to the
- * way that is cheapest among those that met the accuracy. The handle is made beforehand: one serves a whole sweep. */
+/* transient.c - a benchmark, not a test: what one steady state by time integration costs, by every way this program
+ * has.
+ * usage: bench_transient [ROUNDS [CASE]]       (default 5, all) the table of costs, and the periods that two asked
+ * figures take
+ *        bench_transient start                 x v of case 2's HBM orbit (H = 5) at omega = 9, and its reference
+ *                                              amplitude
+ *        bench_transient once                  case 2 at omega = 9 from there to 1e-8: "processor seconds,
+ *                                              amplitude"
+ * c2 at 9 (upper branch), b10 at 7, r2 at 708.5, each from the HBM orbit (H = 5, exact forces), to four accuracies
+ * of the amplitude. Errors are relative, against the exact law by shooting at tolerance 1e-13. transient.tolerance
+ * is the accuracy asked, or a tenth of it where that misses; the regularisation is the largest of half decades 10^-1
+ * .. 10^-8 that meets the accuracy with it, by shooting; where shooting fails, marching gets 0.1 sqrt(accuracy).
+ * Richardson's other levels are always shot. Ways take turns, ROUNDS times; a time is the median of its rounds [ms
+ * of processor], a ratio the median of ratios within a round to the way that is cheapest among those that met the
+ * accuracy. The handle is made beforehand: one serves a whole sweep. */
 #include "tests/bench/orbits.h"
 
 enum { WAYS = 5, ACCURACIES = 4, CASES = 3, MAX_ROUNDS = 101, HALF_DECADES = 15 };
 
-typedef struct way { const char *name; int law, steady; bool richardson; } way;
+typedef struct way {
+  const char *name;
+  int law, steady;
+  bool richardson;
+} way;
 static const way ways[WAYS] = {{"exact, shooting", TRANSIENT_LAW_EXACT, TRANSIENT_STEADY_SHOOTING, false},
                                {"exact, marching", TRANSIENT_LAW_EXACT, TRANSIENT_STEADY_MARCH, false},
                                {"regularised, shooting", TRANSIENT_LAW_REGULARISED, TRANSIENT_STEADY_SHOOTING, false},
@@ -22,7 +31,13 @@ static const double accuracies[ACCURACIES] = {1e-4, 1e-6, 1e-8, 1e-10};
 
 static const double longest_shot = 1e3, longest_march = 3e4; /* [ms] after which a way has failed */
 
-typedef struct bench_case { const char *name; scene sc; double omega; timeint_state start; double amplitude; } bench_case;
+typedef struct bench_case {
+  const char *name;
+  scene sc;
+  double omega;
+  timeint_state start;
+  double amplitude;
+} bench_case;
 
 /* One way to one accuracy. */
 typedef struct trial {
@@ -42,7 +57,8 @@ static bool tick(void *until, double done)
 static void run(trial *t, const bench_case *c, int round)
 {
   timeint_state y = c->start;
-  double began = cpu_ms(), until = began + (t->sc.transient.steady == TRANSIENT_STEADY_MARCH ? longest_march : longest_shot);
+  double began = cpu_ms(),
+         until = began + (t->sc.transient.steady == TRANSIENT_STEADY_MARCH ? longest_march : longest_shot);
   hc_monitor monitor = {tick, &until};
   t->status = timeint_steady(t->ti, c->omega, &y, &monitor, &t->r);
   t->ms[round] = cpu_ms() - began;
@@ -50,12 +66,18 @@ static void run(trial *t, const bench_case *c, int round)
 }
 
 /* With these settings, once. */
-static bool attempt(trial *t, const bench_case *c, const way *w, double tolerance, double regularisation, double accuracy)
+static bool attempt(trial *t, const bench_case *c, const way *w, double tolerance, double regularisation,
+                    double accuracy)
 {
   timeint_free(t->ti);
   t->sc = c->sc;
-  t->sc.transient = (scene_transient){.law = w->law, .steady = w->steady, .richardson = w->richardson, .regularisation = regularisation,
-                                      .tolerance = tolerance, .start = TRANSIENT_START_HBM, .max_periods = 200000};
+  t->sc.transient = (scene_transient){.law = w->law,
+                                      .steady = w->steady,
+                                      .richardson = w->richardson,
+                                      .regularisation = regularisation,
+                                      .tolerance = tolerance,
+                                      .start = TRANSIENT_START_HBM,
+                                      .max_periods = 200000};
   must(timeint_new(&t->sc, &t->ti), w->name);
   run(t, c, 0);
   return t->error <= accuracy;
@@ -65,7 +87,8 @@ static bool attempt(trial *t, const bench_case *c, const way *w, double toleranc
 static void choose(trial *t, const bench_case *c, const way *w, double accuracy)
 {
   way shot = *w;
-  double found[2] = {accuracy, 0.1 * sqrt(accuracy)}; /* tolerance, regularisation; a guess where shooting finds nothing */
+  double found[2] = {accuracy, 0.1 * sqrt(accuracy)}; /* tolerance, regularisation; a guess where shooting finds
+                                                         nothing */
   bool met = false;
   shot.steady = TRANSIENT_STEADY_SHOOTING;
   for (int fine = 0; fine < 2 && !met; ++fine)
@@ -74,7 +97,8 @@ static void choose(trial *t, const bench_case *c, const way *w, double accuracy)
       met = attempt(t, c, &shot, settings[0], settings[1], accuracy);
       if (met) memcpy(found, settings, sizeof found);
     }
-  if (w->steady == TRANSIENT_STEADY_MARCH && !attempt(t, c, w, found[0], found[1], accuracy)) attempt(t, c, w, found[0] / 10, found[1], accuracy);
+  if (w->steady == TRANSIENT_STEADY_MARCH && !attempt(t, c, w, found[0], found[1], accuracy))
+    attempt(t, c, w, found[0] / 10, found[1], accuracy);
 }
 
 static void print_row(const bench_case *c, double accuracy, const way *w, const trial *t, const trial *best, int rounds)
@@ -83,10 +107,13 @@ static void print_row(const bench_case *c, double accuracy, const way *w, const 
   char rho[16] = "-";
   for (int i = 0; i < rounds; ++i) ms[i] = t->ms[i], ratio[i] = best ? t->ms[i] / best->ms[i] : NAN;
   if (w->law == TRANSIENT_LAW_REGULARISED) snprintf(rho, sizeof rho, "%.1e", t->sc.transient.regularisation);
-  printf("| %-3s | %.0e | %-23s | %7s | %.0e | %8.1e | %7d | %9ld | %9.3f | ", c->name, accuracy, w->name, rho, t->sc.transient.tolerance, t->error,
-         t->r.periods, t->r.steps, median(rounds, ms));
+  printf("| %-3s | %.0e | %-23s | %7s | %.0e | %8.1e | %7d | %9ld | %9.3f | ", c->name, accuracy, w->name, rho,
+         t->sc.transient.tolerance, t->error, t->r.periods, t->r.steps, median(rounds, ms));
   if (t->error <= accuracy) printf("%7.1f |\n", median(rounds, ratio));
-  else printf("%s |\n", t->status == HC_OK ? "not met" : t->status == HC_INTERRUPTED ? "took too long" : hc_status_text(t->status));
+  else
+    printf("%s |\n", t->status == HC_OK            ? "not met"
+                     : t->status == HC_INTERRUPTED ? "took too long"
+                                                   : hc_status_text(t->status));
   fflush(stdout);
 }
 
@@ -121,11 +148,15 @@ static void print_periods(const bench_case *c, int law, int most)
   timeint *ti = NULL;
   timeint_state y = c->start;
   timeint_result r;
-  sc.transient = (scene_transient){.law = law, .regularisation = 1e-4, .tolerance = 1e-9, .start = TRANSIENT_START_HBM, .max_periods = 20000};
+  sc.transient = (scene_transient){
+      .law = law, .regularisation = 1e-4, .tolerance = 1e-9, .start = TRANSIENT_START_HBM, .max_periods = 20000};
   must(timeint_new(&sc, &ti), c->name);
   must(timeint_steady(ti, c->omega, &y, NULL, &r), c->name);
-  printf("%s at %g from the HBM orbit (H = 5) to 1e-9, %s law: %d periods integrated by %s (asked: at most %d), closure %.1e\n", c->name, c->omega,
-         law == TRANSIENT_LAW_EXACT ? "exact" : "regularised", r.periods, timeint_method_name(r.method), most, r.closure);
+  printf(
+      "%s at %g from the HBM orbit (H = 5) to 1e-9, %s law: %d periods integrated by %s (asked: at most %d), closure "
+      "%.1e\n",
+      c->name, c->omega, law == TRANSIENT_LAW_EXACT ? "exact" : "regularised", r.periods, timeint_method_name(r.method),
+      most, r.closure);
   timeint_free(ti);
 }
 
@@ -166,7 +197,10 @@ int main(int argc, char **argv)
   if (argc > 1 && !strcmp(argv[1], "start")) return start();
   if (argc > 1 && !strcmp(argv[1], "once")) return once();
   int rounds = argc > 1 ? atoi(argv[1]) : 5;
-  if (rounds < 1 || rounds > MAX_ROUNDS) { fprintf(stderr, "usage: %s [ROUNDS, 1..%d, [c2|b10|r2] | start | once]\n", argv[0], MAX_ROUNDS); return 64; }
+  if (rounds < 1 || rounds > MAX_ROUNDS) {
+    fprintf(stderr, "usage: %s [ROUNDS, 1..%d, [c2|b10|r2] | start | once]\n", argv[0], MAX_ROUNDS);
+    return 64;
+  }
   const bench_case cases[CASES] = {make_case("c2", scene_c2(), 9, 3, 20), make_case("b10", scene_b10(), 7, 3, 20),
                                    make_case("r2", scene_r2(), 708.5, 600, 850)};
   for (int law = TRANSIENT_LAW_REGULARISED; law <= TRANSIENT_LAW_EXACT; ++law) {
@@ -174,7 +208,8 @@ int main(int argc, char **argv)
     print_periods(&cases[0], law, 20);
   }
   fflush(stdout);
-  printf("\n| case | accuracy | way | regularisation | tolerance | error | periods | steps | ms | ratio |\n|---|---|---|---|---|---|---|---|---|---|\n");
+  printf("\n| case | accuracy | way | regularisation | tolerance | error | periods | steps | ms | ratio "
+         "|\n|---|---|---|---|---|---|---|---|---|---|\n");
   for (int k = 0; k < CASES; ++k)
     for (int a = 0; a < ACCURACIES; ++a)
       if (argc < 3 || !strcmp(argv[2], cases[k].name)) table_of(&cases[k], accuracies[a], rounds);

@@ -1,4 +1,5 @@
-/* case_text.h - what the tests of the reader share: a smallest case, reading it, a random number generator of our own. */
+/* case_text.h - what the tests of the reader share: a smallest case, reading it, a random number generator of our
+ * own. */
 #ifndef HC_TESTS_CASE_TEXT_H
 #define HC_TESTS_CASE_TEXT_H
 
@@ -8,7 +9,8 @@
 #include "tests/check.h"
 
 /* Three lines: what is appended starts on line 4. */
-#define SMALLEST  "oscillator: {mass: 1, damping: 0.4, stiffness: 40}\nforcing: {amplitude: 100}\nsweep: {omega: [3, 20]}\n"
+#define SMALLEST                                                                                                       \
+  "oscillator: {mass: 1, damping: 0.4, stiffness: 40}\nforcing: {amplitude: 100}\nsweep: {omega: [3, 20]}\n"
 #define CONTACT_1 "{tangential_stiffness: 100, normal_stiffness: 1000, friction: 0.3, angle_deg: 45, gap: -5}"
 
 static inline hc_status parse(const char *text, scene *sc, case_error *err)
@@ -26,8 +28,8 @@ static inline void refused(const char *text, const char *set, const char *start,
   before = sc;
   hc_status st = case_parse("f", text, strlen(text), set != NULL, &set, &sc, &err);
   if (st == HC_OK || strncmp(err.message, start, strlen(start)) || !strstr(err.message, fragment)) {
-    print_error("%s%s%s\n  gave %d `%s`\n  not `%s...%s...`\n", text, set ? "--set " : "", set ? set : "", (int)st, err.message, start,
-                fragment);
+    print_error("%s%s%s\n  gave %d `%s`\n  not `%s...%s...`\n", text, set ? "--set " : "", set ? set : "", (int)st,
+                err.message, start, fragment);
     fail();
   }
   assert_int_equal(st, HC_BAD_INPUT);
@@ -49,7 +51,10 @@ static inline uint64_t draw(uint64_t *state)
   *state ^= *state << 13, *state ^= *state >> 7, *state ^= *state << 17;
   return *state;
 }
-static inline int draw_int(uint64_t *state, int low, int high) { return low + (int)(draw(state) % (uint64_t)(high - low + 1)); }
+static inline int draw_int(uint64_t *state, int low, int high)
+{
+  return low + (int)(draw(state) % (uint64_t)(high - low + 1));
+}
 static inline double draw_unit(uint64_t *state) { return (double)(draw(state) >> 11) * 0x1p-53; }
 
 /* One line, no control characters, not empty, terminated. */

@@ -1,4 +1,5 @@
-/* test_echo.c - what is echoed reads back to the same bytes; the paper's scenes are all readable and are what they say. */
+/* test_echo.c - what is echoed reads back to the same bytes; the paper's scenes are all readable and are what they
+ * say. */
 #include <dirent.h>
 
 #include "cases/fields.h"
@@ -46,13 +47,15 @@ static void random_list(const field *f, scene_list *list, uint64_t *s)
 {
   memset(list, 0, sizeof *list);
   list->n = draw(s) % 8 ? draw_int(s, 1, 6) : SCENE_MAX_LIST;
-  for (int i = 0; i < list->n; ++i) list->v[i] = f->kind == FIELD_INTEGERS ? draw_int(s, (int)f->low, (int)f->high) : random_in(f, s);
+  for (int i = 0; i < list->n; ++i)
+    list->v[i] = f->kind == FIELD_INTEGERS ? draw_int(s, (int)f->low, (int)f->high) : random_in(f, s);
 }
 
 static void random_text(char *to, size_t size, uint64_t *s)
 {
   static const char *const pieces[] = {
-      "a", "Z", " ", "\"", "\\", "'", ":", "#", "%", "{", "]", "- ", "\xC3\xA9", "\xE2\x82\xAC", "\xF0\x9F\x98\x80", "~", "0", ","};
+      "a", "Z", " ", "\"", "\\", "'", ":", "#", "%", "{", "]", "- ", "\xC3\xA9", "\xE2\x82\xAC", "\xF0\x9F\x98\x80",
+      "~", "0", ","};
   memset(to, 0, size);
   for (int n = draw_int(s, 0, 60); n > 0; --n) {
     const char *p = pieces[draw(s) % (sizeof pieces / sizeof *pieces)];
@@ -67,7 +70,9 @@ static void random_field(const field *f, void *base, uint64_t *s)
   switch (f->kind) {
   case FIELD_REAL: *(double *)to = random_in(f, s); break;
   case FIELD_PAIR: ((double *)to)[0] = random_in(f, s), ((double *)to)[1] = random_in(f, s); break;
-  case FIELD_INTEGER: *(int *)to = f->flags & FIELD_AUTO && draw(s) % 4 == 0 ? SCENE_AUTO : draw_int(s, (int)f->low, (int)f->high); break;
+  case FIELD_INTEGER:
+    *(int *)to = f->flags & FIELD_AUTO && draw(s) % 4 == 0 ? SCENE_AUTO : draw_int(s, (int)f->low, (int)f->high);
+    break;
   case FIELD_FLAG: *(bool *)to = draw(s) % 2; break;
   case FIELD_CHOICE:
     while (f->choices[n]) ++n;
@@ -106,7 +111,8 @@ static void random_scene(scene *sc, uint64_t *s)
   mend_gate_ranges(&sc->gate_ranges);
   if (draw(s) % 2) sc->compare.points = 20;
   else memset(&sc->compare.omega, 0, sizeof sc->compare.omega);
-  if (sc->hbm.samples != SCENE_AUTO && sc->hbm.samples < 2 * sc->hbm.harmonics + 1) sc->hbm.samples = 2 * sc->hbm.harmonics + 1;
+  if (sc->hbm.samples != SCENE_AUTO && sc->hbm.samples < 2 * sc->hbm.harmonics + 1)
+    sc->hbm.samples = 2 * sc->hbm.harmonics + 1;
   if (sc->omega_from == sc->omega_to) sc->omega_to = sc->omega_from > 1 ? 1 : 2;
 }
 
@@ -125,8 +131,8 @@ static void frequencies_and_assignments_come_back_too(void **state)
 {
   (void)state;
   scene sc;
-  accepted("oscillator: {mass: 1, damping: 0, stiffness: 1}\nforcing: {amplitude: 1}\nsweep: {frequency: [0.1, 3.3]}\n", "title= \"x\\\" ",
-           &sc);
+  accepted("oscillator: {mass: 1, damping: 0, stiffness: 1}\nforcing: {amplitude: 1}\nsweep: {frequency: [0.1, 3.3]}\n",
+           "title= \"x\\\" ", &sc);
   check_round_trip(&sc);
 }
 
@@ -195,8 +201,8 @@ static void reference_scenes_are_what_they_say(void **state)
     snprintf(path, sizeof path, "%s/cases/paper/%s.yaml", SOURCE_DIR, all[i].name);
     assert_int_equal(case_read(path, 0, NULL, &sc, &err), HC_OK);
     const contact *c = &sc.contacts[0].law;
-    bool same = sc.mass == all[i].mass && sc.stiffness == all[i].stiffness && sc.force == all[i].force && c->kt == all[i].kt &&
-                c->kn == all[i].kn && c->gap == all[i].gap;
+    bool same = sc.mass == all[i].mass && sc.stiffness == all[i].stiffness && sc.force == all[i].force &&
+                c->kt == all[i].kt && c->kn == all[i].kn && c->gap == all[i].gap;
     if (!same) fail_msg("%s", all[i].name);
   }
 }

@@ -1,4 +1,5 @@
-/* test_fields.c - the table of fields is sound: defaults inside their ranges, names unique, rivals mutual; and describe shows it all. */
+/* test_fields.c - the table of fields is sound: defaults inside their ranges, names unique, rivals mutual; and
+ * describe shows it all. */
 #include "cases/fields.h"
 #include "tests/cases/case_text.h"
 
@@ -29,9 +30,11 @@ static void defaults_are_those_of_the_interface(void **state)
   assert_string_equal(sc.unit_force, "N");
   assert_string_equal(sc.unit_time, "s");
   assert_int_equal(sc.n_contacts, 0);
-  assert_true(sc.hbm.harmonics == 5 && sc.hbm.keep_mean && sc.hbm.samples == 1024 && sc.hbm.restart == HBM_RESTART_INTERPOLATED);
+  assert_true(sc.hbm.harmonics == 5 && sc.hbm.keep_mean && sc.hbm.samples == 1024 &&
+              sc.hbm.restart == HBM_RESTART_INTERPOLATED);
   assert_true(sc.hbm.continuation == HBM_CONTINUATION_AUTO && sc.hbm.tolerance == 1e-10);
-  assert_true(sc.transient.law == TRANSIENT_LAW_REGULARISED && sc.transient.regularisation == 1e-4 && sc.transient.tolerance == 1e-9);
+  assert_true(sc.transient.law == TRANSIENT_LAW_REGULARISED && sc.transient.regularisation == 1e-4 &&
+              sc.transient.tolerance == 1e-9);
   assert_true(sc.transient.steady == TRANSIENT_STEADY_AUTO && sc.transient.start == TRANSIENT_START_HBM &&
               sc.transient.max_periods == 20000);
   assert_true(sc.compare.omega.n == 0 && sc.compare.points == 20);
@@ -39,7 +42,8 @@ static void defaults_are_those_of_the_interface(void **state)
   assert_int_equal(sc.compare.samples.n, 4);
   assert_memory_equal(sc.compare.harmonics.v, harmonics, sizeof harmonics);
   assert_memory_equal(sc.compare.samples.v, samples, sizeof samples);
-  assert_true(sc.gate.amplitude == 1e-3 && sc.gate.harmonic_1 == 1e-3 && sc.gate.mean == 1e-3 && sc.gate.waveform == 5e-3);
+  assert_true(sc.gate.amplitude == 1e-3 && sc.gate.harmonic_1 == 1e-3 && sc.gate.mean == 1e-3 &&
+              sc.gate.waveform == 5e-3);
 }
 
 static void rows_are_sound(void **state)
@@ -52,7 +56,8 @@ static void rows_are_sound(void **state)
     assert_true(strlen(f->meaning) > 0);
     assert_true(f->offset < (f->flags & FIELD_IN_CONTACT ? sizeof(scene_contact) : sizeof(scene)));
     assert_int_equal((f->flags & FIELD_IN_CONTACT) != 0, !strcmp(f->section, "contacts"));
-    if (f->kind != FIELD_TEXT && f->kind != FIELD_FLAG && f->kind != FIELD_CHOICE) assert_true(f->low < f->high && *f->unit);
+    if (f->kind != FIELD_TEXT && f->kind != FIELD_FLAG && f->kind != FIELD_CHOICE)
+      assert_true(f->low < f->high && *f->unit);
     if (!f->rival) continue;
     const field *rival = field_find(f->section, f->rival, strlen(f->rival));
     assert_non_null(rival);

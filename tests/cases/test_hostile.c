@@ -161,12 +161,13 @@ static void small_buffers_are_never_overrun(void **state)
   }
 }
 
-/* Bytes of a good case changed at random: it is read, or refused in one clean line; never anything else (sanitizers watch). */
+/* Bytes of a good case changed at random: it is read, or refused in one clean line; never anything else (sanitizers
+ * watch). */
 static void mutants_are_read_or_refused(void **state)
 {
   (void)state;
-  static const char good[] =
-      "title: \"T\"\n" SMALLEST "contacts:\n  - " CONTACT_1 "\nhbm: {harmonics: 3, samples: 64}\ncompare: {omega: [5, 6]}\n";
+  static const char good[] = "title: \"T\"\n" SMALLEST "contacts:\n  - " CONTACT_1
+                             "\nhbm: {harmonics: 3, samples: 64}\ncompare: {omega: [5, 6]}\n";
   static const char spice[] = "[]{}:,-?*&!|>'\"%@`#\n\t \\0159e.x~";
   uint64_t s = 5;
   int fine = 0, bad = 0;
@@ -180,7 +181,8 @@ static void mutants_are_read_or_refused(void **state)
       text[draw_int(&s, 0, sizeof good - 2)] = c;
     }
     hc_status st =
-        case_parse("f", text, (size_t)draw_int(&s, 0, 9) ? sizeof good - 1 : (size_t)draw_int(&s, 0, sizeof good - 1), 0, NULL, &sc, &err);
+        case_parse("f", text, (size_t)draw_int(&s, 0, 9) ? sizeof good - 1 : (size_t)draw_int(&s, 0, sizeof good - 1),
+                   0, NULL, &sc, &err);
     if (st == HC_OK) ++fine;
     else ++bad, assert_int_equal(st, HC_BAD_INPUT), check_message(&err);
   }

@@ -16,9 +16,11 @@ static void everything_lands_where_it_belongs(void **state)
            "    friction: 8\n"
            "    angle_deg: 9\n"
            "sweep: {omega: [20, 3]}\n"
-           "hbm: {harmonics: auto, static: false, force: exact, samples: auto, slider_restart: sample, continuation: arclength, tolerance: "
+           "hbm: {harmonics: auto, static: false, force: exact, samples: auto, slider_restart: sample, continuation: "
+           "arclength, tolerance: "
            "1e-8}\n"
-           "transient: {law: exact, regularisation: 1e-3, steady_state: shooting, start: down, tolerance: 1e-7, max_periods: 9}\n"
+           "transient: {law: exact, regularisation: 1e-3, steady_state: shooting, start: down, tolerance: 1e-7, "
+           "max_periods: 9}\n"
            "compare: {points: 7, harmonics: [2], samples: [5, 16]}\n"
            "gate: {amplitude: 1, harmonic_1: 2, mean: 3, waveform: 4}\n",
            NULL, &sc);
@@ -26,14 +28,18 @@ static void everything_lands_where_it_belongs(void **state)
   assert_string_equal(sc.unit_length, "mm");
   assert_string_equal(sc.unit_force, "kN");
   assert_string_equal(sc.unit_time, "ms");
-  assert_true(sc.mass == 1.5 && sc.damping == 0.25 && sc.stiffness == 0 && sc.force == 0 && sc.omega_from == 20 && sc.omega_to == 3);
+  assert_true(sc.mass == 1.5 && sc.damping == 0.25 && sc.stiffness == 0 && sc.force == 0 && sc.omega_from == 20 &&
+              sc.omega_to == 3);
   assert_int_equal(sc.n_contacts, 2);
   const scene_contact *a = &sc.contacts[0], *b = &sc.contacts[1];
   assert_true(a->law.kt == 1 && a->law.kn == 2 && a->law.mu == 3 && a->angle_deg == 90 && a->law.gap == -5);
   assert_true(b->law.kt == 6 && b->law.kn == 7 && b->law.mu == 8 && b->angle_deg == 9 && b->law.gap == 0);
-  assert_true(sc.hbm.harmonics == SCENE_AUTO && !sc.hbm.keep_mean && sc.hbm.force == HBM_FORCE_EXACT && sc.hbm.samples == SCENE_AUTO);
-  assert_true(sc.hbm.restart == HBM_RESTART_SAMPLE && sc.hbm.continuation == HBM_CONTINUATION_ARCLENGTH && sc.hbm.tolerance == 1e-8);
-  assert_true(sc.transient.law == TRANSIENT_LAW_EXACT && sc.transient.regularisation == 1e-3 && sc.transient.max_periods == 9);
+  assert_true(sc.hbm.harmonics == SCENE_AUTO && !sc.hbm.keep_mean && sc.hbm.force == HBM_FORCE_EXACT &&
+              sc.hbm.samples == SCENE_AUTO);
+  assert_true(sc.hbm.restart == HBM_RESTART_SAMPLE && sc.hbm.continuation == HBM_CONTINUATION_ARCLENGTH &&
+              sc.hbm.tolerance == 1e-8);
+  assert_true(sc.transient.law == TRANSIENT_LAW_EXACT && sc.transient.regularisation == 1e-3 &&
+              sc.transient.max_periods == 9);
   assert_true(sc.transient.steady == TRANSIENT_STEADY_SHOOTING && sc.transient.start == TRANSIENT_START_DOWN &&
               sc.transient.tolerance == 1e-7);
   assert_true(sc.compare.points == 7 && sc.compare.harmonics.n == 1 && sc.compare.harmonics.v[0] == 2);
@@ -46,12 +52,14 @@ static void harmless_forms_are_read(void **state)
   (void)state;
   scene sc;
   accepted("\xEF\xBB\xBF%YAML 1.1\n---\n" SMALLEST "...\n", NULL, &sc);
-  accepted("# note\r\nforcing: {amplitude: +5}\r\noscillator:\r\n  mass: 1\r\n  damping: 0\r\n  stiffness: 1\r\nsweep: {omega: [1, 2]}\r\n",
+  accepted("# note\r\nforcing: {amplitude: +5}\r\noscillator:\r\n  mass: 1\r\n  damping: 0\r\n  stiffness: 1\r\nsweep: "
+           "{omega: [1, 2]}\r\n",
            NULL, &sc);
   assert_true(sc.force == 5);
   accepted(SMALLEST "title: \"\"\ncontacts: []\n", NULL, &sc);
   assert_string_equal(sc.title, "");
-  accepted(SMALLEST "hbm: {force: 'exact', harmonics: 7, samples: 3}\n", NULL, &sc); /* too few samples matter only when sampling */
+  /* too few samples matter only when sampling */
+  accepted(SMALLEST "hbm: {force: 'exact', harmonics: 7, samples: 3}\n", NULL, &sc);
   accepted(SMALLEST "hbm: {samples: 11}\n", NULL, &sc);
   accepted(SMALLEST "hbm: {}\n", NULL, &sc);
   case_error err;
@@ -64,7 +72,9 @@ static void frequency_becomes_omega(void **state)
 {
   (void)state;
   scene sc;
-  accepted("oscillator: {mass: 1, damping: 0, stiffness: 1}\nforcing: {amplitude: 1}\nsweep: {frequency: [0.5, 3.25]}\n", NULL, &sc);
+  accepted(
+      "oscillator: {mass: 1, damping: 0, stiffness: 1}\nforcing: {amplitude: 1}\nsweep: {frequency: [0.5, 3.25]}\n",
+      NULL, &sc);
   CHECK_NEAR(sc.omega_from, PI, PI * 2 * 0x1p-52, "0.5");
   CHECK_NEAR(sc.omega_to, 6.5 * PI, 6.5 * PI * 2 * 0x1p-52, "3.25");
 }
@@ -85,9 +95,11 @@ static const mistake extra[] = {
     {"hbm: {max_periods: 3}", "f:4:7: ", "did you mean `transient.max_periods`?"},
     {"hbm: {gate: 3}", "f:4:7: ", "did you mean `gate` at the top level?"},
     {"transient: {regularization: 1e-4}", "f:4:13: ", "did you mean `regularisation`?"},
-    {"zzz: 1", "f:4:1: ", "expected one of title, units, oscillator, forcing, contacts, sweep, hbm, transient, compare, gate"},
+    {"zzz: 1",
+     "f:4:1: ", "expected one of title, units, oscillator, forcing, contacts, sweep, hbm, transient, compare, gate"},
     {"hbm: {zzz: 1}", "f:4:7: ", "expected one of harmonics, static, force"},
-    {"hbm: {st: 1}", "f:4:7: ", "unknown key `st` in `hbm`, expected one of harmonics"}, /* two letters start too many names */
+    /* two letters start too many names */
+    {"hbm: {st: 1}", "f:4:7: ", "unknown key `st` in `hbm`, expected one of harmonics"},
     {"hbm: {stat: 1}", "f:4:7: ", "did you mean `static`?"},
     {"[1]: 2", "f:4:1: ", "a list stands where a key should"},
     /* duplicates and rivals */
@@ -107,13 +119,15 @@ static const mistake extra[] = {
     {"hbm: {samples: }", "f:4:16: ", "hbm.samples is empty"},
     {"compare: {omega: 5}", "f:4:18: ", "compare.omega is `5`, expected a list of numbers > 0"},
     {"compare: {omega: [1, [2]]}", "f:4:22: ", "compare.omega has a list inside"},
-    {"compare: {omega: []}", "f:4:18: ", "compare.omega is a list of 0, expected a list of numbers > 0 (1 to 256 of them)"},
+    {"compare: {omega: []}",
+     "f:4:18: ", "compare.omega is a list of 0, expected a list of numbers > 0 (1 to 256 of them)"},
     {"title: [a]", "f:4:8: ", "title is a list, expected text"},
     {"title:", "f:4:7: ", "title is empty"},
     {"title: \"a\\nb\"", "f:4:8: ", "title is `a\\x0Ab`, expected text of at most 127 bytes (on one line"},
     {"units: {length: sixteen_letters_}", "f:4:17: ", "expected text of at most 15 bytes (too long)"},
     /* numbers, integers, flags, choices */
-    {"hbm:\n  tolerance: 12,5", "f:5:14: ", "hbm.tolerance is `12,5`, expected a number 1e-14..0.01 (the decimal sign is a point)"},
+    {"hbm:\n  tolerance: 12,5",
+     "f:5:14: ", "hbm.tolerance is `12,5`, expected a number 1e-14..0.01 (the decimal sign is a point)"},
     {"hbm:\n  tolerance: 1e5, 3", "f:5:14: ", "hbm.tolerance is `1e5, 3`"},
     {"hbm: {tolerance: nan}", "f:4:18: ", "(it must be finite)"},
     {"hbm: {tolerance: -.inf}", "f:4:18: ", "(it must be finite)"},
@@ -147,17 +161,22 @@ static const mistake extra[] = {
     {"gate: {iterations: -1}", "f:4:20: ", "gate.iterations is `-1`, expected an integer 0.."},
     {"gate: {amplitud: 1e-3}", "f:4:8: ", "did you mean `amplitude`?"},
     {"gate: {range_mean: 1e-3}", "f:4:20: ", "expected a list of numbers > 0"},
-    {"gate:\n  ranges: [7, 9, 12]\n  range_mean: [1]", "f:5:11: ", "ends in a single 12, expected FROM, TO, FROM, TO, ..."},
+    {"gate:\n  ranges: [7, 9, 12]\n  range_mean: [1]",
+     "f:5:11: ", "ends in a single 12, expected FROM, TO, FROM, TO, ..."},
     {"gate: {ranges: [9, 7], range_mean: [1]}", "f:4:16: ", "a range from 9 to 7, expected FROM <= TO"},
-    {"gate: {ranges: [7, 9], range_mean: [1, 2]}", "f:4:36: ", "gate.range_mean has 2 limits for 1 range in gate.ranges, expected one for each"},
+    {"gate: {ranges: [7, 9], range_mean: [1, 2]}",
+     "f:4:36: ", "gate.range_mean has 2 limits for 1 range in gate.ranges, expected one for each"},
     {"gate: {range_waveform: [1]}", "f:4:24: ", "gate.range_waveform has 1 limit for 0 ranges"},
     {"gate: {ranges: [7, 9]}", "f:4:16: ", "gate.ranges without limits"},
-    {"contacts: [{tangential_stiffness: -1}]", "f:4:35: ", "contacts[0].tangential_stiffness is `-1`, expected a number >= 0"},
-    {"contacts:\n  - " CONTACT_1 "\n  - {angle_deg: 90.5}", "f:6:17: ", "contacts[1].angle_deg is `90.5`, expected a number 0..90"},
+    {"contacts: [{tangential_stiffness: -1}]",
+     "f:4:35: ", "contacts[0].tangential_stiffness is `-1`, expected a number >= 0"},
+    {"contacts:\n  - " CONTACT_1 "\n  - {angle_deg: 90.5}",
+     "f:6:17: ", "contacts[1].angle_deg is `90.5`, expected a number 0..90"},
     /* missing */
     {"contacts: [{gap: 1}]", "f:4:12: ", "missing key `tangential_stiffness` in `contacts[0]`, expected a number >= 0"},
     /* across fields */
-    {"hbm: {samples: 10, force: sampled}", "f:4:16: ", "10 samples cannot tell 5 harmonics apart, expected hbm.samples >= 11"},
+    {"hbm: {samples: 10, force: sampled}",
+     "f:4:16: ", "10 samples cannot tell 5 harmonics apart, expected hbm.samples >= 11"},
     {"hbm:\n  harmonics: 8\n  samples: 16\n  force: sampled", "f:6:12: ", "expected hbm.samples >= 17"},
     /* not YAML, or more of it than a case needs */
     {"title: a: b", "f:4:9: ", "not YAML: mapping values are not allowed"},
@@ -186,7 +205,8 @@ static const mistake whole[] = {
      "f:2:1: ", "missing section `forcing`, expected `forcing: {amplitude: ...}`"},
     {"oscillator: {mass: 1, damping: 0, stiffness: 1}\nforcing: {amplitude: 1}\n",
      "f:1:1: ", "missing section `sweep`, expected `sweep: {omega: ...}`"},
-    {"oscillator: {mass: 1, stiffness: 1}\n", "f:1:13: ", "missing key `damping` in `oscillator`, expected a number >= 0"},
+    {"oscillator: {mass: 1, stiffness: 1}\n",
+     "f:1:13: ", "missing key `damping` in `oscillator`, expected a number >= 0"},
     {"sweep: {}\n", "f:1:8: ", "missing key `omega` in `sweep`, expected two numbers > 0, [FROM, TO], or `frequency`"},
     {"sweep: {omega: [1, 2], frequency: [1, 2]}\n", "f:1:24: ", "both `omega` (line 1) and `frequency`"},
     {"sweep: {omega: [1]}\n", "f:1:16: ", "sweep.omega is a list of 1, expected two numbers > 0, [FROM, TO]"},
@@ -195,7 +215,8 @@ static const mistake whole[] = {
     {"sweep: {frequency: [1, 1e308]}\n", "f:1:24: ", "too large"},
     {"oscillator: {mass: 0}\n", "f:1:20: ", "oscillator.mass is `0`, expected a number > 0"},
     {"oscillator: {mass: 12,5, damping: 1, stiffness: 1}\n", "f:1:23: ",
-     "unknown key `5` in `oscillator`, expected one of mass, damping, stiffness (a comma ends a value: the decimal sign is a point)"},
+     "unknown key `5` in `oscillator`, expected one of mass, damping, stiffness (a comma ends a value: the decimal "
+     "sign is a point)"},
     {"oscillator: {mass: 1, damping: -1}\n", "f:1:32: ", "oscillator.damping is `-1`, expected a number >= 0"},
     {"oscillator: {mass: 1, damping: 0, stiffness: 1}\nforcing: {amplitude: 1}\nsweep:\n  omega: [7, 7]\n",
      "f:4:10: ", "the sweep ends where it starts"},

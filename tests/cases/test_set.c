@@ -26,7 +26,8 @@ static void every_kind_can_be_set(void **state)
 static void lists_with_or_without_brackets(void **state)
 {
   (void)state;
-  static const char *const forms[] = {"compare.harmonics=[1,3,5]", "compare.harmonics=1,3,5", "compare.harmonics= [ 1 , 3, 5 ] "};
+  static const char *const forms[] = {"compare.harmonics=[1,3,5]", "compare.harmonics=1,3,5",
+                                      "compare.harmonics= [ 1 , 3, 5 ] "};
   scene sc;
   for (size_t i = 0; i < sizeof forms / sizeof *forms; ++i) {
     accepted(ONE, forms[i], &sc);
@@ -65,10 +66,12 @@ static void a_contact_may_be_appended_field_by_field(void **state)
   scene sc;
   case_error err;
   assert_int_equal(case_parse("f", SMALLEST, strlen(SMALLEST), 4, set, &sc, &err), HC_OK);
-  assert_true(sc.n_contacts == 1 && sc.contacts[0].law.kt == 1 && sc.contacts[0].law.kn == 2 && sc.contacts[0].law.gap == 0);
+  assert_true(sc.n_contacts == 1 && sc.contacts[0].law.kt == 1 && sc.contacts[0].law.kn == 2 &&
+              sc.contacts[0].law.gap == 0);
   assert_int_equal(case_parse("f", SMALLEST, strlen(SMALLEST), 3, set, &sc, &err), HC_BAD_INPUT);
-  assert_string_equal(err.message, "--set contacts[0].tangential_stiffness=1: this appends a contact without `angle_deg`, expected "
-                                   "contacts[0].angle_deg=VALUE too: a number 0..90");
+  assert_string_equal(err.message,
+                      "--set contacts[0].tangential_stiffness=1: this appends a contact without `angle_deg`, expected "
+                      "contacts[0].angle_deg=VALUE too: a number 0..90");
 }
 
 static void later_ones_win_and_rivals_give_way(void **state)
@@ -85,7 +88,8 @@ static void later_ones_win_and_rivals_give_way(void **state)
   assert_true(sc.omega_from == 4 && sc.omega_to == 5 && sc.compare.omega.n == 0 && sc.compare.points == 9);
   assert_int_equal(case_parse("f", text, strlen(text), 4, set, &sc, &err), HC_OK);
   assert_true(sc.compare.omega.n == 1 && sc.compare.omega.v[0] == 7 && sc.compare.points == 20);
-  assert_int_equal(case_parse("f", text, strlen(text), 7, set, &sc, &err), HC_OK); /* 8 samples in between are nobody's business */
+  /* 8 samples in between are nobody's business */
+  assert_int_equal(case_parse("f", text, strlen(text), 7, set, &sc, &err), HC_OK);
   assert_true(sc.compare.omega.n == 0 && sc.compare.points == 11 && sc.hbm.samples == 64);
 }
 
@@ -98,33 +102,46 @@ static void mistakes_name_the_assignment(void **state)
       {"hbm.sample=3", "--set hbm.sample=3: unknown field `hbm.sample`, did you mean `hbm.samples`?"},
       {"samples=3", "--set samples=3: unknown field `samples`, did you mean `hbm.samples`?"},
       {"hmb.samples=3", "--set hmb.samples=3: unknown field `hmb.samples`, did you mean `hbm.samples`?"},
-      {"contacts[0].gpa=1", "--set contacts[0].gpa=1: unknown field `contacts[0].gpa`, did you mean `contacts[0].gap`?"},
-      {"contacts[0].fritcon=1", "--set contacts[0].fritcon=1: unknown field `contacts[0].fritcon`, did you mean `contacts[0].friction`?"},
+      {"contacts[0].gpa=1",
+       "--set contacts[0].gpa=1: unknown field `contacts[0].gpa`, did you mean `contacts[0].gap`?"},
+      {"contacts[0].fritcon=1",
+       "--set contacts[0].fritcon=1: unknown field `contacts[0].fritcon`, did you mean `contacts[0].friction`?"},
       {"contacts.gap=1", "--set contacts.gap=1: unknown field `contacts.gap`, did you mean `contacts[0].gap`?"},
       {"mu=1", "--set mu=1: unknown field `mu`, did you mean `contacts[0].friction`?"},
-      {"contacts[2].gap=1", "--set contacts[2].gap=1: the case has 1 contacts, expected an index 0..1 (the last one appends)"},
-      {"contacts[-1].gap=1", "--set contacts[-1].gap=1: unknown field `contacts[-1].gap`, did you mean `contacts[0].gap`?"},
-      {"contacts[99999].gap=1", "--set contacts[99999].gap=1: unknown field `contacts[99999].gap`, did you mean `contacts[0].gap`?"},
+      {"contacts[2].gap=1",
+       "--set contacts[2].gap=1: the case has 1 contacts, expected an index 0..1 (the last one appends)"},
+      {"contacts[-1].gap=1",
+       "--set contacts[-1].gap=1: unknown field `contacts[-1].gap`, did you mean `contacts[0].gap`?"},
+      {"contacts[99999].gap=1",
+       "--set contacts[99999].gap=1: unknown field `contacts[99999].gap`, did you mean `contacts[0].gap`?"},
       {"gate=1",
-       "--set gate=1: `gate` is a section, expected one of its fields: gate.amplitude, gate.harmonic_1, gate.mean, gate.waveform, "
-       "gate.ranges, gate.range_amplitude, gate.range_harmonic_1, gate.range_mean, gate.range_waveform, gate.iterations, gate.evaluations"},
+       "--set gate=1: `gate` is a section, expected one of its fields: gate.amplitude, gate.harmonic_1, gate.mean, "
+       "gate.waveform, "
+       "gate.ranges, gate.range_amplitude, gate.range_harmonic_1, gate.range_mean, gate.range_waveform, "
+       "gate.iterations, gate.evaluations"},
       {"hbm.samples", "--set hbm.samples: no `=`, expected PATH=VALUE such as hbm.harmonics=10"},
       {"hbm.samples=", "--set hbm.samples=: hbm.samples is empty, expected an integer 3..16777216 or auto"},
       {"oscillator.mass=0", "--set oscillator.mass=0: oscillator.mass is `0`, expected a number > 0"},
       {"oscillator.mass=12,5",
        "--set oscillator.mass=12,5: oscillator.mass is `12,5`, expected a number > 0 (the decimal sign is a point)"},
-      {"contacts[0].friction=-1", "--set contacts[0].friction=-1: contacts[0].friction is `-1`, expected a number >= 0"},
+      {"contacts[0].friction=-1",
+       "--set contacts[0].friction=-1: contacts[0].friction is `-1`, expected a number >= 0"},
       {"sweep.omega=3", "--set sweep.omega=3: sweep.omega is a list of 1, expected two numbers > 0, [FROM, TO]"},
-      {"sweep.omega=3,3", "--set sweep.omega=3,3: the sweep ends where it starts, expected FROM and TO to differ (single frequencies: "
-                          "compare.omega, or --at)"},
-      {"compare.omega=5,,6", "--set compare.omega=5,,6: compare.omega has an empty entry, expected a list of numbers > 0"},
-      {"compare.omega=[]", "--set compare.omega=[]: compare.omega is a list of 0, expected a list of numbers > 0 (1 to 256 of them)"},
+      {"sweep.omega=3,3",
+       "--set sweep.omega=3,3: the sweep ends where it starts, expected FROM and TO to differ (single frequencies: "
+       "compare.omega, or --at)"},
+      {"compare.omega=5,,6",
+       "--set compare.omega=5,,6: compare.omega has an empty entry, expected a list of numbers > 0"},
+      {"compare.omega=[]",
+       "--set compare.omega=[]: compare.omega is a list of 0, expected a list of numbers > 0 (1 to 256 of them)"},
       {"hbm.harmonics=200", NULL},
       {"hbm.samples=10", NULL}, /* too few to sample with, but the exact force does not sample */
       {"contacts=[{gap: x}]", "--set contacts=[{gap: x}]: contacts[0].gap is `x`, expected a number"},
-      {"contacts[0]={gap: 1}", "--set contacts[0]={gap: 1}: missing key `tangential_stiffness` in `contacts[0]`, expected a number >= 0"},
+      {"contacts[0]={gap: 1}",
+       "--set contacts[0]={gap: 1}: missing key `tangential_stiffness` in `contacts[0]`, expected a number >= 0"},
       {"contacts[1]=[",
-       "--set contacts[1]=[: not YAML: did not find expected node content, expected `key: value` lines, indented with spaces"},
+       "--set contacts[1]=[: not YAML: did not find expected node content, expected `key: value` lines, indented with "
+       "spaces"},
       {"contacts=", "--set contacts=: nothing here, expected [{...}, ...] or {...}, or [] for no contacts"},
   };
   scene sc;
@@ -144,10 +161,13 @@ static void mistakes_name_the_assignment(void **state)
 static void the_one_given_last_is_blamed(void **state)
 {
   (void)state;
-  refused(SMALLEST "hbm: {samples: 16, force: sampled}\n", "hbm.harmonics=8", "--set hbm.harmonics=8: 16 samples cannot tell 8 harmonics apart", "");
+  refused(SMALLEST "hbm: {samples: 16, force: sampled}\n", "hbm.harmonics=8",
+          "--set hbm.harmonics=8: 16 samples cannot tell 8 harmonics apart", "");
   refused(SMALLEST "hbm: {samples: 9, force: sampled}\n", "oscillator.mass=8", "f:4:16: 9 samples", "");
-  refused(SMALLEST "hbm: {force: sampled}\n", "hbm.samples=10", "--set hbm.samples=10: 10 samples cannot tell 5 harmonics apart, expected hbm.samples >= 11", "");
-  const char *set[] = {"hbm.samples=9", "hbm.harmonics=4", "hbm.harmonics=5"}, *sampled = SMALLEST "hbm: {force: sampled}\n";
+  refused(SMALLEST "hbm: {force: sampled}\n", "hbm.samples=10",
+          "--set hbm.samples=10: 10 samples cannot tell 5 harmonics apart, expected hbm.samples >= 11", "");
+  const char *set[] = {"hbm.samples=9", "hbm.harmonics=4", "hbm.harmonics=5"},
+             *sampled = SMALLEST "hbm: {force: sampled}\n";
   scene sc;
   case_error err;
   assert_int_equal(case_parse("f", sampled, strlen(sampled), 2, set, &sc, &err), HC_OK);
@@ -158,7 +178,8 @@ static void the_one_given_last_is_blamed(void **state)
 static void a_wrong_file_is_not_mended_by_assignments(void **state)
 {
   (void)state;
-  refused("oscillator: {mass: 0, damping: 0, stiffness: 1}\n", "oscillator.mass=1", "f:1:20: ", "oscillator.mass is `0`");
+  refused("oscillator: {mass: 0, damping: 0, stiffness: 1}\n", "oscillator.mass=1",
+          "f:1:20: ", "oscillator.mass is `0`");
 }
 
 static void sixteen_contacts_and_no_more(void **state)

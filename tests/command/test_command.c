@@ -1,10 +1,13 @@
-/* test_command.c - the command as people and scripts use it: exit codes, columns, messages, files written whole or not at all.
- * Runs the built hbmcheck (HBMCHECK_COMMAND) in a shell; what it computes is tested elsewhere. */
+/* test_command.c - the command as people and scripts use it: exit codes, columns, messages, files written whole or
+ * not at all. Runs the built hbmcheck (HBMCHECK_COMMAND) in a shell; what it computes is tested elsewhere. */
 #include <string.h>
 
 #include "tests/shell.h"
 
-typedef struct outcome { int code; char out[65536]; } outcome;
+typedef struct outcome {
+  int code;
+  char out[65536];
+} outcome;
 
 /* Run "hbmcheck ARGS"; stdout, or both streams with " 2>&1" in args, into out. */
 static outcome run(const char *args)
@@ -28,9 +31,11 @@ static void columns_are_the_interface(void **state)
 {
   (void)state;
   expect("frf " CASE2 "--at 6 --format csv -q", 0, "omega,branch,amplitude,max,min,rms,mean,harmonic_1,");
-  expect("transient " CASE2 "--at 6 --format csv -q", 0, "omega,verdict,amplitude,max,min,rms,mean,harmonic_1,periods,closure,period_multiple,steps");
+  expect("transient " CASE2 "--at 6 --format csv -q", 0,
+         "omega,verdict,amplitude,max,min,rms,mean,harmonic_1,periods,closure,period_multiple,steps");
   expect("compare " CASE2 "--at 5 --format csv -q", 0,
-         "omega,branch,verdict,hbm_amplitude,transient_amplitude,amplitude_error,harmonic_1_error,mean_error,waveform_error");
+         "omega,branch,verdict,hbm_amplitude,transient_amplitude,amplitude_error,harmonic_1_error,"
+         "mean_error,waveform_error");
   expect("contact " CASE2 "--motion 0,8,0 --samples 64 --format csv", 0, "harmonic,cos,sin,cos_64,sin_64");
   expect("contact " CASE2 "--motion 0,8,0", 0, "contact 0: sticks from 5.79649035"); /* 2 pi - arccos(5 sqrt(2)/8) */
   expect("compare " CASE2 "--at 5 --format json -q", 0, "\"verdict\": \"match\"");
@@ -53,16 +58,21 @@ static void agreement_is_not_claimed_lightly(void **state)
   expect("compare " CASE2 "-q --set hbm.continuation=natural 2>&1", 3, "STOPPED at omega = 9.2");
   expect("frf " CASE2 "-q --at 8 --set hbm.continuation=natural 2>&1 >/dev/null", 3, "stopped at omega = 9.2");
   /* two contacts, one harmonic: the only HBM solution at 6.9 is unstable, and the transient is 20 % away from it */
-  expect("compare " CASE2 "-q --at 6.9 --set hbm.harmonics=1 --set sweep.omega=4,20 --set 'contacts=[{tangential_stiffness: 100, normal_stiffness: "
-         "200, friction: 0.3, angle_deg: 30, gap: 0.5}, {tangential_stiffness: 60, normal_stiffness: 300, friction: 0.5, angle_deg: 10, gap: 0.2}]'",
-         1, "NO HBM solution");
+  expect(
+      "compare " CASE2
+      "-q --at 6.9 --set hbm.harmonics=1 --set sweep.omega=4,20 --set 'contacts=[{tangential_stiffness: 100, "
+      "normal_stiffness: "
+      "200, friction: 0.3, angle_deg: 30, gap: 0.5}, {tangential_stiffness: 60, normal_stiffness: 300, friction: 0.5, "
+      "angle_deg: 10, gap: 0.2}]'",
+      1, "NO HBM solution");
   expect("compare " CASE2 "-q --set compare.points=10000 2>&1", 2, "compare.points");
-  expect("compare " CASE2 "-q --at 9", 0, "unstable"); /* the transient from the unstable orbit lands on another, found, one */
+  expect("compare " CASE2 "-q --at 9", 0, "unstable"); /* the transient from the unstable orbit lands on another,
+                                                          found, one */
   expect("compare " CASE2 "-q --at 5.56", 1, "period_2");
 }
 
-/* Between two stable orbits of a blade that forgets 0.1 % a period: the motion crawls away from the saddle, neighbours drifting apart as it
- * goes, and settles all the same. It was called aperiodic once. */
+/* Between two stable orbits of a blade that forgets 0.1 % a period: the motion crawls away from the saddle,
+ * neighbours drifting apart as it goes, and settles all the same. It was called aperiodic once. */
 static void leaving_a_saddle_is_not_chaos(void **state)
 {
   (void)state;
@@ -73,16 +83,22 @@ static void leaving_a_saddle_is_not_chaos(void **state)
 static void stability_is_said_or_unknown(void **state)
 {
   (void)state;
-  expect("frf " CASE2 "-q --format csv --at 3.5 --set contacts=[] --set oscillator.damping=40 --set oscillator.stiffness=0.5", 0, ",yes,");
-  expect("frf " CASE2 "-q --format csv --at 3.5 --set contacts=[] --set oscillator.damping=0 --set sweep.omega=3,6", 0, ",unknown,");
-  expect("frf " CASE2 "-q --format csv --at 0.1 --set contacts=[] --set oscillator.damping=40 --set oscillator.stiffness=0.5 --set sweep.omega=0.1,1", 0,
-         ",0.455826"); /* exp((-20 + sqrt(20^2 - 0.5)) 2 pi/0.1) */
+  expect("frf " CASE2
+         "-q --format csv --at 3.5 --set contacts=[] --set oscillator.damping=40 --set oscillator.stiffness=0.5",
+         0, ",yes,");
+  expect("frf " CASE2 "-q --format csv --at 3.5 --set contacts=[] --set oscillator.damping=0 --set sweep.omega=3,6", 0,
+         ",unknown,");
+  expect("frf " CASE2
+         "-q --format csv --at 0.1 --set contacts=[] --set oscillator.damping=40 --set oscillator.stiffness=0.5 --set "
+         "sweep.omega=0.1,1",
+         0, ",0.455826"); /* exp((-20 + sqrt(20^2 - 0.5)) 2 pi/0.1) */
 }
 
 /* The number in a csv's first row of data, in the column of that name. */
 static double first_row(const char *csv, const char *name)
 {
-  const char *header = strstr(csv, "omega,"), *at = strstr(header ? header : "", name), *row = strchr(at ? at : "", '\n');
+  const char *header = strstr(csv, "omega,"), *at = strstr(header ? header : "", name),
+             *row = strchr(at ? at : "", '\n');
   assert_non_null(row);
   int columns = 0;
   for (const char *c = header; c < at; ++c) columns += *c == ',';
@@ -90,8 +106,9 @@ static double first_row(const char *csv, const char *name)
   return strtod(row, NULL);
 }
 
-/* What dropping harmonic 0 costs on case 2, PHYSICS of the specification: 18 %, 42 %, 63 % of the fundamental at 6.5, 8, 9 in the limit of
- * many harmonics and samples. Figures given to a whole percent, hence half a percent, and 1e-3 for H = 10. */
+/* What dropping harmonic 0 costs on case 2, PHYSICS of the specification: 18 %, 42 %, 63 % of the fundamental at
+ * 6.5, 8, 9 in the limit of many harmonics and samples. Figures given to a whole percent, hence half a percent, and
+ * 1e-3 for H = 10. */
 static void dropping_the_mean_costs_what_it_costs(void **state)
 {
   (void)state;
@@ -126,7 +143,8 @@ static void mistakes_are_named(void **state)
 static void help_works_everywhere(void **state)
 {
   (void)state;
-  static const char *const commands[] = {"compare", "frf", "transient", "study", "bench", "gate", "verify", "report", "contact", "describe"};
+  static const char *const commands[] = {"compare", "frf",    "transient", "study",   "bench",
+                                         "gate",    "verify", "report",    "contact", "describe"};
   for (size_t i = 0; i < sizeof commands / sizeof *commands; ++i) {
     char args[64];
     int lines = 0;
@@ -164,10 +182,15 @@ static void a_failed_run_touches_no_file(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(columns_are_the_interface), cmocka_unit_test(verdicts_reach_the_exit_code),
-      cmocka_unit_test(dropping_the_mean_costs_what_it_costs), cmocka_unit_test(mistakes_are_named), cmocka_unit_test(agreement_is_not_claimed_lightly),
-      cmocka_unit_test(leaving_a_saddle_is_not_chaos), cmocka_unit_test(stability_is_said_or_unknown),
-      cmocka_unit_test(help_works_everywhere), cmocka_unit_test(a_failed_run_touches_no_file),
+      cmocka_unit_test(columns_are_the_interface),
+      cmocka_unit_test(verdicts_reach_the_exit_code),
+      cmocka_unit_test(dropping_the_mean_costs_what_it_costs),
+      cmocka_unit_test(mistakes_are_named),
+      cmocka_unit_test(agreement_is_not_claimed_lightly),
+      cmocka_unit_test(leaving_a_saddle_is_not_chaos),
+      cmocka_unit_test(stability_is_said_or_unknown),
+      cmocka_unit_test(help_works_everywhere),
+      cmocka_unit_test(a_failed_run_touches_no_file),
   };
   check_watchdog(300);
   return cmocka_run_group_tests_name("compare.command", tests, NULL, NULL);

@@ -1,5 +1,6 @@
-/* test_parts.c - the error budget over the eight reference scenes: the parts account for what is observed, and name the cause where it is
- * known. Parts are sizes, so that two of opposite sign make the sum larger than what is observed; how often is printed. */
+/* test_parts.c - the error budget over the eight reference scenes: the parts account for what is observed, and name
+ * the cause where it is known. Parts are sizes, so that two of opposite sign make the sum larger than what is
+ * observed; how often is printed. */
 #include "compare/accuracy/accuracy.h"
 #include "tests/check.h"
 
@@ -17,19 +18,25 @@ static scene scene_of(const char *name, int n_harm)
 {
   scene sc = scene_named(name, n_harm, true, 1024);
   sc.hbm.force = HBM_FORCE_EXACT;
-  sc.transient = (scene_transient){.law = TRANSIENT_LAW_EXACT, .regularisation = 1e-4, .tolerance = 1e-9, .max_periods = 200};
+  sc.transient =
+      (scene_transient){.law = TRANSIENT_LAW_EXACT, .regularisation = 1e-4, .tolerance = 1e-9, .max_periods = 200};
   sc.gate = (scene_gate){1e-3, 1e-3, 1e-3, 5e-3};
   for (int i = 0; i < n_reference; ++i) {
     const reference_row *r = &reference_rows[i];
     if (strcmp(r->name, name) || r->n_harm != n_harm || !r->keep_mean) continue;
-    if (sc.compare.omega.n == 0 || sc.compare.omega.v[sc.compare.omega.n - 1] != r->omega) sc.compare.omega.v[sc.compare.omega.n++] = r->omega;
+    if (sc.compare.omega.n == 0 || sc.compare.omega.v[sc.compare.omega.n - 1] != r->omega)
+      sc.compare.omega.v[sc.compare.omega.n++] = r->omega;
   }
   assert_true(sc.compare.omega.n > 0);
   return sc;
 }
 
 /* What was seen. */
-typedef struct tally { int rows, known, large, within; double worst; char where[64]; } tally;
+typedef struct tally {
+  int rows, known, large, within;
+  double worst;
+  char where[64];
+} tally;
 
 /* Below this an observed discrepancy is a matter of rounding and tolerances. */
 static const double visible = 1e-7;
@@ -52,8 +59,12 @@ static void count_row(const char *name, int n_harm, const comparison_row *r, tal
   }
 }
 
-/* scenes: how many of the eight; the last, r2, has many false solutions at N = 64, each of which takes seconds with the regularised law. */
-typedef struct variant { const char *name; int force, samples, law, scenes; } variant;
+/* scenes: how many of the eight; the last, r2, has many false solutions at N = 64, each of which takes seconds with
+ * the regularised law. */
+typedef struct variant {
+  const char *name;
+  int force, samples, law, scenes;
+} variant;
 
 static tally run_all(const variant *v)
 {
@@ -63,13 +74,17 @@ static tally run_all(const variant *v)
       scene sc = scene_of(reference_scenes[i].name, n_harm);
       comparison c;
       sc.hbm.force = v->force, sc.hbm.samples = v->samples, sc.transient.law = v->law;
-      if (v->law == TRANSIENT_LAW_REGULARISED) sc.transient.steady = TRANSIENT_STEADY_SHOOTING, sc.transient.tolerance = 1e-8;
+      if (v->law == TRANSIENT_LAW_REGULARISED)
+        sc.transient.steady = TRANSIENT_STEADY_SHOOTING, sc.transient.tolerance = 1e-8;
       assert_int_equal(comparison_run(&sc, NULL, &c), HC_OK);
       for (int k = 0; k < c.n_rows; ++k) count_row(reference_scenes[i].name, n_harm, &c.rows[k], &t);
       comparison_clear(&c);
     }
-  print_message("[   INFO   ] %s: %d rows, %d with a budget, %d above %g, of these %d within a factor 3 (%.1f %%); largest sum/observed %.3g (%s)\n",
-                v->name, t.rows, t.known, t.large, visible, t.within, t.large ? 100.0 * t.within / t.large : 100, t.worst, t.where);
+  print_message(
+      "[   INFO   ] %s: %d rows, %d with a budget, %d above %g, of these %d within a factor 3 (%.1f %%); largest "
+      "sum/observed %.3g (%s)\n",
+      v->name, t.rows, t.known, t.large, visible, t.within, t.large ? 100.0 * t.within / t.large : 100, t.worst,
+      t.where);
   return t;
 }
 
@@ -83,8 +98,9 @@ static void one_cause_is_accounted_for_in_full(void **state)
   CHECK_LE(t.worst, 1.1, "%s", t.where); /* 1e-9 and the like beside 1e-7 */
 }
 
-/* The fraction within a factor 3 is what it is: a cancellation is a matter of chance. More than a factor 3 takes two parts that agree to
- * half their size with opposite signs, (a + b)/|a - b| > 3: one in three of random sign and size at most. */
+/* The fraction within a factor 3 is what it is: a cancellation is a matter of chance. More than a factor 3 takes two
+ * parts that agree to half their size with opposite signs, (a + b)/|a - b| > 3: one in three of random sign and size
+ * at most. */
 static void two_causes_may_cancel_but_seldom(void **state)
 {
   (void)state;
@@ -92,7 +108,8 @@ static void two_causes_may_cancel_but_seldom(void **state)
                          {"N = 1024, exact law", HBM_FORCE_SAMPLED, 1024, TRANSIENT_LAW_EXACT, 8},
                          {"exact forces, regularised law", HBM_FORCE_EXACT, 1024, TRANSIENT_LAW_REGULARISED, 8},
                          {"N = 64, regularised law, without r2", HBM_FORCE_SAMPLED, 64, TRANSIENT_LAW_REGULARISED, 7}};
-  const int n = SANITIZED ? 2 : sizeof all / sizeof *all; /* regularised: some minutes under the sanitizers, and the same code */
+  const int n = SANITIZED ? 2 : sizeof all / sizeof *all; /* regularised: some minutes under the sanitizers, and the
+                                                             same code */
   for (int i = SANITIZED; i < n; ++i) {
     tally t = run_all(&all[i]);
     assert_true(t.large > 20);
@@ -100,7 +117,8 @@ static void two_causes_may_cancel_but_seldom(void **state)
   }
 }
 
-/* One cause made worse, the others far below it: in every row where something happens at the contact, that part is the largest. */
+/* One cause made worse, the others far below it: in every row where something happens at the contact, that part is
+ * the largest. */
 static void expect_cause(const char *cause, const scene *sc, double visible_from)
 {
   comparison c;
@@ -112,8 +130,9 @@ static void expect_cause(const char *cause, const scene *sc, double visible_from
     const char *name = budget_largest(b, &share);
     if (!b->known || !b->against_transient || !(b->amplitude.sum > visible_from)) continue;
     if (!name || strcmp(name, cause)) {
-      print_message("[   INFO   ] at %g, branch %d: %s, not %s: %g %g %g %g %g\n", c.rows[k].omega, c.rows[k].branch, name ? name : "nothing", cause,
-                    b->amplitude.aliasing, b->amplitude.truncation, b->amplitude.regularisation, b->amplitude.integration, b->amplitude.settling);
+      print_message("[   INFO   ] at %g, branch %d: %s, not %s: %g %g %g %g %g\n", c.rows[k].omega, c.rows[k].branch,
+                    name ? name : "nothing", cause, b->amplitude.aliasing, b->amplitude.truncation,
+                    b->amplitude.regularisation, b->amplitude.integration, b->amplitude.settling);
       fail();
     }
     ++seen;
@@ -160,7 +179,8 @@ static void more_regularisation_is_regularisation(void **state)
   expect_cause("regularisation", &sc, 1e-4);
 }
 
-/* Waiting with a loose tolerance: CVODE's steps and the distance left are the error, and H = 40 leaves 1e-6 for the rest. */
+/* Waiting with a loose tolerance: CVODE's steps and the distance left are the error, and H = 40 leaves 1e-6 for the
+ * rest. */
 static void a_loose_tolerance_is_integration_or_settling(void **state)
 {
   (void)state;
@@ -193,8 +213,10 @@ static void advice_names_cause_and_remedy(void **state)
   error_budget b = budget_nothing();
   assert_string_equal(budget_advice(&b, &sc, 3, text), "no orbit to account for");
   b.known = b.holds = true;
-  b.amplitude = (budget_parts){.aliasing = 1e-4, .truncation = 8e-3, .regularisation = 0, .integration = 0, .settling = 0, .sum = 8.1e-3};
-  assert_string_equal(budget_advice(&b, &sc, 3, text), "0.81 %: truncation (99 %); use hbm.harmonics >= 6"); /* 3 times cbrt(8) */
+  b.amplitude = (budget_parts){
+      .aliasing = 1e-4, .truncation = 8e-3, .regularisation = 0, .integration = 0, .settling = 0, .sum = 8.1e-3};
+  /* 3 times cbrt(8) */
+  assert_string_equal(budget_advice(&b, &sc, 3, text), "0.81 %: truncation (99 %); use hbm.harmonics >= 6");
   sc.hbm.keep_mean = false;
   assert_string_equal(budget_advice(&b, &sc, 3, text), "0.81 %: truncation (99 %); use hbm.static: true");
   b.amplitude.aliasing = 1, b.amplitude.sum = 1.008;
@@ -206,10 +228,13 @@ static void advice_names_cause_and_remedy(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(advice_names_cause_and_remedy),      cmocka_unit_test(fewer_samples_are_aliasing),
-      cmocka_unit_test(fewer_harmonics_are_truncation),     cmocka_unit_test(more_regularisation_is_regularisation),
+      cmocka_unit_test(advice_names_cause_and_remedy),
+      cmocka_unit_test(fewer_samples_are_aliasing),
+      cmocka_unit_test(fewer_harmonics_are_truncation),
+      cmocka_unit_test(more_regularisation_is_regularisation),
       cmocka_unit_test(a_loose_tolerance_is_integration_or_settling),
-      cmocka_unit_test(one_cause_is_accounted_for_in_full), cmocka_unit_test(two_causes_may_cancel_but_seldom),
+      cmocka_unit_test(one_cause_is_accounted_for_in_full),
+      cmocka_unit_test(two_causes_may_cancel_but_seldom),
   };
   check_watchdog(600);
   n_reference = read_reference_rows(reference_rows);

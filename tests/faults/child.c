@@ -12,7 +12,8 @@
 volatile long *child_count;
 static FILE *streams[2]; /* made once: the parent never fails */
 
-/* Exit codes of our own are small or round; 99 is nobody's. The sanitizer keeps its own signal handlers, against cmocka's. */
+/* Exit codes of our own are small or round; 99 is nobody's. The sanitizer keeps its own signal handlers, against
+ * cmocka's. */
 const char *__asan_default_options(void);
 const char *__asan_default_options(void) { return "exitcode=99:handle_segv=2:handle_sigbus=2"; }
 

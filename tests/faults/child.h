@@ -1,5 +1,5 @@
-/* child.h - a piece of work in a process of its own, so that it may crash, leak, hang or call exit() and the test goes on; and the command
- * hbmcheck as such work, its main() linked in under the name hbmcheck_main. */
+/* child.h - a piece of work in a process of its own, so that it may crash, leak, hang or call exit() and the test
+ * goes on; and the command hbmcheck as such work, its main() linked in under the name hbmcheck_main. */
 #ifndef HC_TESTS_FAULTS_CHILD_H
 #define HC_TESTS_FAULTS_CHILD_H
 

@@ -1,5 +1,5 @@
-/* memory.c - see memory.h. Under gcc's address sanitizer the real functions are the sanitizer's, so that it still sees every leak and
- * overrun; else glibc's. strdup is here because the sanitizer's does not come through malloc. */
+/* memory.c - see memory.h. Under gcc's address sanitizer the real functions are the sanitizer's, so that it still
+ * sees every leak and overrun; else glibc's. strdup is here because the sanitizer's does not come through malloc. */
 #include "tests/faults/memory.h"
 
 #include <cvodes/cvodes.h>
@@ -52,7 +52,10 @@ void *realloc(void *p, size_t n) { return refuse() ? NULL : REAL(realloc)(p, n);
 void *memalign(size_t align, size_t n);
 void *memalign(size_t align, size_t n) { return refuse() ? NULL : REAL(memalign)(align, n); }
 void *aligned_alloc(size_t align, size_t n) { return refuse() ? NULL : REAL(memalign)(align, n); }
-int posix_memalign(void **p, size_t align, size_t n) { return refuse() || !(*p = REAL(memalign)(align, n)) ? ENOMEM : 0; }
+int posix_memalign(void **p, size_t align, size_t n)
+{
+  return refuse() || !(*p = REAL(memalign)(align, n)) ? ENOMEM : 0;
+}
 
 char *strdup(const char *text)
 {
@@ -61,20 +64,23 @@ char *strdup(const char *text)
   return copy ? memcpy(copy, text, bytes) : NULL;
 }
 
-/* Calls that crash without memory, by the linker's --wrap (CMakeLists.txt has the list, and numerics/room.h the reason). */
-#define SHELTERED(type, name, parameters, arguments) \
-  type __real_##name parameters;                      \
-  type __wrap_##name parameters;                      \
-  type __wrap_##name parameters                       \
-  {                                                   \
-    ++sheltered;                                      \
-    type answer = __real_##name arguments;            \
-    --sheltered;                                      \
-    return answer;                                    \
+/* Calls that crash without memory, by the linker's --wrap (CMakeLists.txt has the list, and numerics/room.h the
+ * reason). */
+#define SHELTERED(type, name, parameters, arguments)                                                                   \
+  type __real_##name parameters;                                                                                       \
+  type __wrap_##name parameters;                                                                                       \
+  type __wrap_##name parameters                                                                                        \
+  {                                                                                                                    \
+    ++sheltered;                                                                                                       \
+    type answer = __real_##name arguments;                                                                             \
+    --sheltered;                                                                                                       \
+    return answer;                                                                                                     \
   }
 
-SHELTERED(fftw_plan, fftw_plan_dft_c2r_1d, (int n, fftw_complex *from, double *to, unsigned flags), (n, from, to, flags))
-SHELTERED(fftw_plan, fftw_plan_dft_r2c_1d, (int n, double *from, fftw_complex *to, unsigned flags), (n, from, to, flags))
+SHELTERED(fftw_plan, fftw_plan_dft_c2r_1d, (int n, fftw_complex *from, double *to, unsigned flags),
+          (n, from, to, flags))
+SHELTERED(fftw_plan, fftw_plan_dft_r2c_1d, (int n, double *from, fftw_complex *to, unsigned flags),
+          (n, from, to, flags))
 SHELTERED(int, KINInit, (void *kin, KINSysFn f, N_Vector v), (kin, f, v))
 SHELTERED(int, KINSetLinearSolver, (void *kin, SUNLinearSolver ls, SUNMatrix a), (kin, ls, a))
 SHELTERED(int, CVodeInit, (void *cv, CVRhsFn f, sunrealtype t, N_Vector y), (cv, f, t, y))

@@ -1,4 +1,5 @@
-/* shell.h - a line for sh, with $H for the built hbmcheck, in the current folder; its exit code and what it says are held against expectations. */
+/* shell.h - a line for sh, with $H for the built hbmcheck, in the current folder; its exit code and what it says are
+ * held against expectations. */
 #ifndef HC_TESTS_FAULTS_SHELL_H
 #define HC_TESTS_FAULTS_SHELL_H
 
@@ -7,7 +8,10 @@
 
 #include "tests/shell.h"
 
-typedef struct said { int code; char text[1 << 16]; } said;
+typedef struct said {
+  int code;
+  char text[1 << 16];
+} said;
 
 static inline said shell(const char *line)
 {

@@ -1,4 +1,5 @@
-/* small.h - the scene of these tests: two contacts that open and close, three harmonics, one frequency to compare at; milliseconds. */
+/* small.h - the scene of these tests: two contacts that open and close, three harmonics, one frequency to compare
+ * at; milliseconds. */
 #ifndef HC_TESTS_FAULTS_SMALL_H
 #define HC_TESTS_FAULTS_SMALL_H
 
@@ -9,15 +10,17 @@
 #include "cases/case_file.h"
 #include "tests/check.h"
 
-#define SMALL_BODY                                                                                                              \
-  "{oscillator: {mass: 1, damping: 2, stiffness: 40}, forcing: {amplitude: 20}, sweep: {omega: [6, 7]}, hbm: {harmonics: 3},\n" \
-  " contacts: [{tangential_stiffness: 20, normal_stiffness: 20, friction: 0.3, angle_deg: 45, gap: 0.1},\n"                     \
-  "            {tangential_stiffness: 20, normal_stiffness: 20, friction: 0.2, angle_deg: 30, gap: 0.5}],\n"                    \
-  " transient: {tolerance: 1.0e-6}, compare: {omega: [6.5], harmonics: [1, 2], samples: [16, 32]},\n"                           \
+#define SMALL_BODY                                                                                                     \
+  "{oscillator: {mass: 1, damping: 2, stiffness: 40}, forcing: {amplitude: 20}, sweep: {omega: [6, 7]}, "              \
+  "hbm: {harmonics: 3},\n"                                                                                             \
+  " contacts: [{tangential_stiffness: 20, normal_stiffness: 20, friction: 0.3, angle_deg: 45, gap: 0.1},\n"            \
+  "            {tangential_stiffness: 20, normal_stiffness: 20, friction: 0.2, angle_deg: 30, gap: 0.5}],\n"           \
+  " transient: {tolerance: 1.0e-6}, compare: {omega: [6.5], harmonics: [1, 2], samples: [16, 32]},\n"                  \
   " gate: {amplitude: 0.5, harmonic_1: 0.5, mean: 0.5, waveform: 0.5}}\n"
 
-#define SMALL_STUDY                                                                                                               \
-  "study: small\nbase: small.yaml\nrun: frf\nvary: [{hbm.harmonics: [2, 3]}]\nviews: {peaks: SELECT peak_amplitude AS p FROM scene}\n" \
+#define SMALL_STUDY                                                                                                    \
+  "study: small\nbase: small.yaml\nrun: frf\nvary: [{hbm.harmonics: [2, 3]}]\n"                                        \
+  "views: {peaks: SELECT peak_amplitude AS p FROM scene}\n"                                                            \
   "claims: [{source: text, says: it moves, found: SELECT max(p) FROM peaks, holds: SELECT count(*) = 2 FROM scene}]\n"
 
 /* The scene, with --set assignments applied; the list ends with NULL. */

@@ -1,6 +1,7 @@
-/* test_files.c - what is written where it cannot be: a full disk, a limit on file sizes, a closed pipe, a folder in place of the file, no folder
- * at all; and results files of studies that are empty, cut, overwritten, foreign, locked or of a study that has changed. Exit 3 (or 2 for a
- * results file) and the name of what failed; what stood there before stays. Also as root, whom no permission stops. */
+/* test_files.c - what is written where it cannot be: a full disk, a limit on file sizes, a closed pipe, a folder in
+ * place of the file, no folder at all; and results files of studies that are empty, cut, overwritten, foreign,
+ * locked or of a study that has changed. Exit 3 (or 2 for a results file) and the name of what failed; what stood
+ * there before stays. Also as root, whom no permission stops. */
 #include "tests/faults/shell.h"
 #include "tests/faults/small.h"
 
@@ -20,9 +21,13 @@ static void full_disk(void **state)
   expect("$H contact small.yaml -q --motion 0,1,0 2>&1 >/dev/full", 3, "standard output: No space left");
   expect("$H study study.yaml -q --results :memory: --export csv -o /dev/full 2>&1", 3, "/dev/full: No space left");
   expect("$H study study.yaml -q --results /dev/full 2>&1", 2, "/dev/full: not a regular file");
-  expect("ln -sf /dev/full full.svg; $H frf small.yaml -q --plot full.svg 2>&1 >/dev/null", 3, "no drawing: "); /* also without gnuplot */
-  expect("$H report small.yaml -q --harmonics 1 --samples 16 -o /dev/full 2>&1; c=$?; [ $c = 64 ] && exit 3; exit $c", 3, "hbmcheck report: "); /* 64: no Chart.js */
-  expect("$H verify small.yaml -q --against curve.csv --columns omega=1,amplitude=2 2>&1 >/dev/full", 3, "standard output: No space left");
+  /* also without gnuplot */
+  expect("ln -sf /dev/full full.svg; $H frf small.yaml -q --plot full.svg 2>&1 >/dev/null", 3, "no drawing: ");
+  /* 64: no Chart.js */
+  expect("$H report small.yaml -q --harmonics 1 --samples 16 -o /dev/full 2>&1; c=$?; [ $c = 64 ] && exit 3; exit $c",
+         3, "hbmcheck report: ");
+  expect("$H verify small.yaml -q --against curve.csv --columns omega=1,amplitude=2 2>&1 >/dev/full", 3,
+         "standard output: No space left");
 }
 
 /* A limit on the size of files, the signal for it ignored, is a disk that fills up in the middle. */
@@ -48,14 +53,17 @@ static void wrong_places(void **state)
   expect("$H verify small.yaml -q --against there --columns omega=1,amplitude=2 2>&1", 2, "there: ");
 }
 
-/* With SIGPIPE as it is by default and ignored; the reader leaves at once, so there may be nothing to say, but never a signal. */
+/* With SIGPIPE as it is by default and ignored; the reader leaves at once, so there may be nothing to say, but never
+ * a signal. */
 static void closed_pipe(void **state)
 {
   (void)state;
   expect("{ $H describe 2>err; echo $? >code; } | true; cat code err", 0, "");
   expect("{ sleep 0.3; $H describe 2>err; echo $? >code; } | true; cat code err", 0, "3\nhbmcheck describe: ");
-  expect("{ sleep 0.3; $H frf small.yaml -q --format csv 2>err; echo $? >code; } | true; cat code err", 0, "3\nhbmcheck frf: standard output: Broken pipe");
-  expect("(trap '' PIPE; { sleep 0.3; $H frf small.yaml -q 2>err; echo $? >code; } | true); cat code err", 0, "3\nhbmcheck frf: standard output: Broken pipe");
+  expect("{ sleep 0.3; $H frf small.yaml -q --format csv 2>err; echo $? >code; } | true; cat code err", 0,
+         "3\nhbmcheck frf: standard output: Broken pipe");
+  expect("(trap '' PIPE; { sleep 0.3; $H frf small.yaml -q 2>err; echo $? >code; } | true); cat code err", 0,
+         "3\nhbmcheck frf: standard output: Broken pipe");
   expect("$H frf small.yaml -q --format csv | head -1", 0, "# small: H = 3");
 }
 
@@ -65,38 +73,51 @@ static void damaged_results(void **state)
 {
   (void)state;
   expect("$H study study.yaml -q --results good.sqlite 2>&1", 0, "good.sqlite");
-  expect(": >empty.sqlite; $H study study.yaml -q --results empty.sqlite", 0, "empty.sqlite"); /* as a crash before the first write leaves it */
-  expect("head -c 50 good.sqlite >cut.sqlite; cp cut.sqlite copy; $H study study.yaml -q --results cut.sqlite 2>&1; c=$?; cmp cut.sqlite copy && exit $c", 2,
-         "cut.sqlite: not an SQLite file");
-  expect("head -c 5000 good.sqlite >cut2.sqlite; cp cut2.sqlite copy; $H study study.yaml -q --results cut2.sqlite 2>&1; c=$?; cmp cut2.sqlite copy && exit $c",
-         2, "cut2.sqlite: damaged");
-  expect("cp good.sqlite bad.sqlite; for at in 1 2 3; do head -c 4000 /dev/zero | tr '\\0' 'x' | dd of=bad.sqlite bs=4096 seek=$at conv=notrunc 2>/dev/null; "
-         "done; cp bad.sqlite copy; $H study study.yaml -q --results bad.sqlite 2>&1; c=$?; cmp bad.sqlite copy && exit $c",
-         2, "bad.sqlite: damaged");
-  expect("echo precious >text.sqlite; $H study study.yaml -q --fresh --results text.sqlite 2>&1; cat text.sqlite", 0, "precious\n");
+  /* as a crash before the first write leaves it */
+  expect(": >empty.sqlite; $H study study.yaml -q --results empty.sqlite", 0, "empty.sqlite");
+  expect("head -c 50 good.sqlite >cut.sqlite; cp cut.sqlite copy; $H study study.yaml -q --results cut.sqlite 2>&1; "
+         "c=$?; cmp cut.sqlite copy && exit $c",
+         2, "cut.sqlite: not an SQLite file");
+  expect(
+      "head -c 5000 good.sqlite >cut2.sqlite; cp cut2.sqlite copy; $H study study.yaml -q --results cut2.sqlite 2>&1; "
+      "c=$?; cmp cut2.sqlite copy && exit $c",
+      2, "cut2.sqlite: damaged");
+  expect(
+      "cp good.sqlite bad.sqlite; for at in 1 2 3; do head -c 4000 /dev/zero | tr '\\0' 'x' | dd of=bad.sqlite "
+      "bs=4096 seek=$at conv=notrunc 2>/dev/null; "
+      "done; cp bad.sqlite copy; $H study study.yaml -q --results bad.sqlite 2>&1; c=$?; cmp bad.sqlite copy && exit "
+      "$c",
+      2, "bad.sqlite: damaged");
+  expect("echo precious >text.sqlite; $H study study.yaml -q --fresh --results text.sqlite 2>&1; cat text.sqlite", 0,
+         "precious\n");
 }
 
 static void changed_study(void **state)
 {
   (void)state;
-  expect("sed 's/\\[2, 3\\]/[2, 3, 4]/' study.yaml >changed.yaml; $H study changed.yaml -q --results good.sqlite 2>&1", 2,
-         "good.sqlite: results of another study, or of this one before it was changed");
-  expect("$H study study.yaml -q --results good.sqlite --set forcing.amplitude=21 2>&1", 2, "good.sqlite: results of another study");
-  expect("$H study study.yaml -q --results good.sqlite 2>&1", 0, "frf       2         0     2       0"); /* all of it is still there */
+  expect("sed 's/\\[2, 3\\]/[2, 3, 4]/' study.yaml >changed.yaml; $H study changed.yaml -q --results good.sqlite 2>&1",
+         2, "good.sqlite: results of another study, or of this one before it was changed");
+  expect("$H study study.yaml -q --results good.sqlite --set forcing.amplitude=21 2>&1", 2,
+         "good.sqlite: results of another study");
+  /* all of it is still there */
+  expect("$H study study.yaml -q --results good.sqlite 2>&1", 0, "frf       2         0     2       0");
 }
 
-/* Held by another process for longer than we are ready to wait for the file's lock; the scenes are kept when it lets go. */
+/* Held by another process for longer than we are ready to wait for the file's lock; the scenes are kept when it lets
+ * go. */
 static void locked_results(void **state)
 {
   (void)state;
-  expect("flock good.sqlite sh -c '$H study study.yaml -q --results good.sqlite 2>&1'", 2, "good.sqlite: another hbmcheck is writing these results");
+  expect("flock good.sqlite sh -c '$H study study.yaml -q --results good.sqlite 2>&1'", 2,
+         "good.sqlite: another hbmcheck is writing these results");
 }
 
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(full_disk),       cmocka_unit_test(disk_fills_up), cmocka_unit_test(wrong_places),   cmocka_unit_test(closed_pipe),
-      cmocka_unit_test(damaged_results), cmocka_unit_test(changed_study), cmocka_unit_test(locked_results),
+      cmocka_unit_test(full_disk),      cmocka_unit_test(disk_fills_up),   cmocka_unit_test(wrong_places),
+      cmocka_unit_test(closed_pipe),    cmocka_unit_test(damaged_results), cmocka_unit_test(changed_study),
+      cmocka_unit_test(locked_results),
   };
   static char folder[] = "/tmp/hbmcheck-files-XXXXXX";
   small_watchdog(200);

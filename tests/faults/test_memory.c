@@ -1,7 +1,7 @@
-/* test_memory.c - the commands with allocation number n failing, n = 1, 2, ..., and with all from n on failing: they end by themselves, leak
- * nothing, and either write what an undisturbed run writes or
- * say that memory ran out and exit with 3; a file is not there, whole, or says itself what it lacks.
- * Run with the argument "every" for each n (ctest -C Thorough), else for the first ones and then in growing strides. */
+/* test_memory.c - the commands with allocation number n failing, n = 1, 2, ..., and with all from n on failing: they
+ * end by themselves, leak nothing, and either write what an undisturbed run writes or say that memory ran out and
+ * exit with 3; a file is not there, whole, or says itself what it lacks. Run with the argument "every" for each n
+ * (ctest -C Thorough), else for the first ones and then in growing strides. */
 #include <dirent.h>
 #include <stdlib.h>
 #include <string.h>
@@ -58,18 +58,21 @@ static char *take_result(void)
 
 static bool is_whole(const trial *t, const char *result, const char *good)
 {
-  if (t->timed) return strlen(result) > 0.9 * strlen(good) && !strcmp(result + strlen(result) - 2, good + strlen(good) - 2);
+  if (t->timed)
+    return strlen(result) > 0.9 * strlen(good) && !strcmp(result + strlen(result) - 2, good + strlen(good) - 2);
   return !strcmp(result, good);
 }
 
 static bool passes(const trial *t, int good_code, const char *good)
 {
   char what[300];
-  snprintf(what, sizeof what, "hbmcheck %s, allocation %ld%s", t->line, t->n, t->mode == MEMORY_ONE ? "" : " and all after it");
+  snprintf(what, sizeof what, "hbmcheck %s, allocation %ld%s", t->line, t->n,
+           t->mode == MEMORY_ONE ? "" : " and all after it");
   child_run(work, (void *)t, SECONDS, &now);
   const char *result = take_result();
   bool whole = result && is_whole(t, result, good), silent = !strstr(now.err, "memory");
-  bool honest = !result || whole || strstr(result, "out of memory") || strstr(result, "solver_failed"); /* what was found is kept, if it says so itself */
+  /* what was found is kept, if it says so itself */
+  bool honest = !result || whole || strstr(result, "out of memory") || strstr(result, "solver_failed");
   bool fine = now.code == good_code ? whole : now.code == 3 && honest && !silent;
   if (fine && folder_is_clean()) return true;
   child_show(&now, what);
@@ -102,8 +105,10 @@ static void frf(void **state)
 {
   (void)state;
   try("frf small.yaml -q -o result");
-  try("frf small.yaml -q -o result --format json --at 6.3 --set hbm.harmonics=2 --set hbm.force=sampled --set hbm.samples=16");
-  try("frf small.yaml -q -o result --format csv --set hbm.harmonics=auto --set hbm.samples=auto --set hbm.force=sampled --set hbm.accuracy=0.01");
+  try("frf small.yaml -q -o result --format json --at 6.3 --set hbm.harmonics=2 --set hbm.force=sampled --set "
+      "hbm.samples=16");
+  try("frf small.yaml -q -o result --format csv --set hbm.harmonics=auto --set hbm.samples=auto --set "
+      "hbm.force=sampled --set hbm.accuracy=0.01");
 }
 
 static void transient(void **state)
@@ -118,7 +123,8 @@ static void compare(void **state)
 {
   (void)state;
   try("compare small.yaml -q -o result --set transient.law=exact");
-  try_one("compare small.yaml -q -o result --format json --tables --set transient.law=exact --harmonics 1 --samples 16", true);
+  try_one("compare small.yaml -q -o result --format json --tables --set transient.law=exact --harmonics 1 --samples 16",
+          true);
 }
 
 static void contact_force(void **state)
@@ -144,7 +150,8 @@ static void study(void **state)
 static void verify(void **state)
 {
   (void)state;
-  try("verify small.yaml -q --against curve.csv --columns omega=omega,amplitude=amplitude -o result --set transient.law=exact");
+  try("verify small.yaml -q --against curve.csv --columns omega=omega,amplitude=amplitude -o result --set "
+      "transient.law=exact");
 }
 
 static void describe(void **state)
@@ -164,8 +171,8 @@ static int at_one(char **argv)
 int main(int argc, char **argv)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(frf),   cmocka_unit_test(transient), cmocka_unit_test(compare), cmocka_unit_test(contact_force), cmocka_unit_test(gate),
-      cmocka_unit_test(study), cmocka_unit_test(verify),    cmocka_unit_test(describe),
+      cmocka_unit_test(frf),  cmocka_unit_test(transient), cmocka_unit_test(compare), cmocka_unit_test(contact_force),
+      cmocka_unit_test(gate), cmocka_unit_test(study),     cmocka_unit_test(verify),  cmocka_unit_test(describe),
   };
   static char folder[] = "/tmp/hbmcheck-memory-XXXXXX";
   every = argc > 1 && !strcmp(argv[1], "every");

@@ -1,6 +1,7 @@
-/* test_signals.c - SIGINT, SIGTERM, SIGHUP and SIGKILL at moments drawn from a fixed sequence: an output file is absent, whole, or says that it was
- * stopped; the exit code is 3 with a remark, or that of a run that was over before; the catchable ones leave no other file behind; a study that was
- * killed again and again goes on to the same export. A signal that comes before main() has set its handlers kills, with nothing written. */
+/* test_signals.c - SIGINT, SIGTERM, SIGHUP and SIGKILL at moments drawn from a fixed sequence: an output file is
+ * absent, whole, or says that it was stopped; the exit code is 3 with a remark, or that of a run that was over
+ * before; the catchable ones leave no other file behind; a study that was killed again and again goes on to the same
+ * export. A signal that comes before main() has set its handlers kills, with nothing written. */
 #include <dirent.h>
 #include <fcntl.h>
 #include <signal.h>
@@ -79,10 +80,12 @@ static bool honest(int number, int status, int good_code, const char *good)
   const char *there = contents("result", result);
   const bool whole = there && !strcmp(there, good), nothing_beside = sweep_up() == 0;
   if (!contents("err", err)) err[0] = 0;
-  if (WIFSIGNALED(status)) return WTERMSIG(status) == number && (whole || !there) && (nothing_beside || number == SIGKILL);
+  if (WIFSIGNALED(status))
+    return WTERMSIG(status) == number && (whole || !there) && (nothing_beside || number == SIGKILL);
   if (!nothing_beside) return false;
   if (WEXITSTATUS(status) == good_code && whole) return true;
-  return WEXITSTATUS(status) == 3 && strstr(err, "stopped") && (!there || whole || strstr(there, "STOPPED") || strstr(there, "stopped"));
+  return WEXITSTATUS(status) == 3 && strstr(err, "stopped") &&
+         (!there || whole || strstr(there, "STOPPED") || strstr(there, "stopped"));
 }
 
 static void try_with(const char *line, int moments)
@@ -103,8 +106,8 @@ static void try_with(const char *line, int moments)
     stopped += WIFSIGNALED(status) || WEXITSTATUS(status) == 3;
     if (honest(number, status, code, good)) continue;
     const char *there = contents("result", result);
-    print_error("hbmcheck %s\nsignal %d: status %x, result %.2000s\nerr %s\n", line, number, (unsigned)status, there ? there : "absent",
-                contents("err", err) ? err : "");
+    print_error("hbmcheck %s\nsignal %d: status %x, result %.2000s\nerr %s\n", line, number, (unsigned)status,
+                there ? there : "absent", contents("err", err) ? err : "");
     fail();
   }
   print_message("%d of %d were stopped: hbmcheck %s\n", stopped, 4 * moments, line);
@@ -155,19 +158,23 @@ static void study(void **state)
   const double long_as = seconds() - began;
   int stopped = 0;
   for (int i = 0; i < 4 * times; ++i) {
-    int status = run("study many.yaml --jobs 2 --results killed.sqlite", numbers[i % 4], 0.01 + 0.3 * long_as * drawn());
+    int status =
+        run("study many.yaml --jobs 2 --results killed.sqlite", numbers[i % 4], 0.01 + 0.3 * long_as * drawn());
     stopped += WIFSIGNALED(status) || WEXITSTATUS(status) == 3;
-    if (!WIFSIGNALED(status) && WEXITSTATUS(status) != 0 && WEXITSTATUS(status) != 3) fail_msg("status %x", (unsigned)status);
+    if (!WIFSIGNALED(status) && WEXITSTATUS(status) != 0 && WEXITSTATUS(status) != 3)
+      fail_msg("status %x", (unsigned)status);
   }
   assert_true(stopped > 0);
   print_message("%d of %d were stopped: hbmcheck study\n", stopped, 4 * times);
-  expect("$H study many.yaml -q --results killed.sqlite --export csv -o killed.csv 2>&1 && cmp whole.csv killed.csv", 0, "");
+  expect("$H study many.yaml -q --results killed.sqlite --export csv -o killed.csv 2>&1 && cmp whole.csv killed.csv", 0,
+         "");
 }
 
 int main(int argc, char **argv)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(frf), cmocka_unit_test(compare), cmocka_unit_test(transient), cmocka_unit_test(gate), cmocka_unit_test(report), cmocka_unit_test(study),
+      cmocka_unit_test(frf),  cmocka_unit_test(compare), cmocka_unit_test(transient),
+      cmocka_unit_test(gate), cmocka_unit_test(report),  cmocka_unit_test(study),
   };
   static char folder[] = "/tmp/hbmcheck-signals-XXXXXX";
   if (argc > 1 && !strcmp(argv[1], "every")) times = 20;

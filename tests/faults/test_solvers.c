@@ -1,6 +1,7 @@
-/* test_solvers.c - KINSOL and CVODE that fail at their n-th call, with every flag they document and one they do not, or that lie: success with
- * nothing solved, with a wrong or NaN answer, with no step taken. Each ends as an honest status or as a right answer, never as a wrong one, and
- * the handle answers the next question like a new one. The two are wrapped by the linker (--wrap). */
+/* test_solvers.c - KINSOL and CVODE that fail at their n-th call, with every flag they document and one they do not,
+ * or that lie: success with nothing solved, with a wrong or NaN answer, with no step taken. Each ends as an honest
+ * status or as a right answer, never as a wrong one, and the handle answers the next question like a new one. The
+ * two are wrapped by the linker (--wrap). */
 #include <cvodes/cvodes.h>
 #include <kinsol/kinsol.h>
 #include <nvector/nvector_serial.h>
@@ -10,7 +11,12 @@
 #include "tests/faults/small.h"
 #include "timeint/timeint.h"
 
-typedef enum { RETURN_FLAG /* and do nothing else */, SPOIL /* work, then 0.1 % off */, SPOIL_NAN, STAND_STILL /* the time, too */ } lie;
+typedef enum {
+  RETURN_FLAG /* and do nothing else */,
+  SPOIL /* work, then 0.1 % off */,
+  SPOIL_NAN,
+  STAND_STILL /* the time, too */
+} lie;
 
 typedef struct fault { /* of one of the two solvers */
   long at;             /* the call that fails, 0: none */
@@ -57,15 +63,18 @@ int __wrap_CVode(void *mem, sunrealtype to, N_Vector y, sunrealtype *t, int task
 
 static void doing(const char *what, const fault *f)
 {
-  snprintf(small_doing, sizeof small_doing, "%s: call %ld%s, flag %d, lie %d\n", what, f->at, f->stays ? " and all after it" : "", f->flag, (int)f->how);
+  snprintf(small_doing, sizeof small_doing, "%s: call %ld%s, flag %d, lie %d\n", what, f->at,
+           f->stays ? " and all after it" : "", f->flag, (int)f->how);
 }
 
 /* ---- harmonic balance ---- */
 
-static const char *const exactly[] = {"transient.law=exact", NULL}, *const smoothly[] = {"transient.regularisation=0.01", "transient.tolerance=1e-4", NULL};
+static const char *const exactly[] = {"transient.law=exact", NULL}, *const smoothly[] = {
+                                                                        "transient.regularisation=0.01",
+                                                                        "transient.tolerance=1e-4", NULL};
 
-/* Every point of the curve solves the equations: a new solver started there stays there. Residuals are within 10 tolerances, 1e-9 of the
- * forces; the Jacobian's condition is about 10 in this scene: 1e-7 leaves a factor of 10. */
+/* Every point of the curve solves the equations: a new solver started there stays there. Residuals are within 10
+ * tolerances, 1e-9 of the forces; the Jacobian's condition is about 10 in this scene: 1e-7 leaves a factor of 10. */
 static void check_curve(const hbm_curve *c)
 {
   enum { MOST = 7 };
@@ -127,11 +136,14 @@ static void kinsol_fails(void **state)
     for (int flag = -20; flag <= KIN_STEP_LT_STPTOL; ++flag)
       for (int stays = 0; stays < 2; ++stays) {
         hc_status st = trace_with((fault){at[i], stays, flag, RETURN_FLAG, 0}, &n);
-        /* a guess that is good enough, and our own last Newton step, may do without KINSOL: check_curve has seen that they did */
-        bool residual_decides = flag == KIN_MAXITER_REACHED || flag == KIN_LSETUP_FAIL || flag == KIN_LINESEARCH_NONCONV || flag >= 0;
+        /* a guess that is good enough, and our own last Newton step, may do without KINSOL: check_curve has seen
+         * that they did */
+        bool residual_decides =
+            flag == KIN_MAXITER_REACHED || flag == KIN_LSETUP_FAIL || flag == KIN_LINESEARCH_NONCONV || flag >= 0;
         if (stays && st == HC_OK && !residual_decides) fail_msg("%s ended well", small_doing);
         if (stays && flag == KIN_MEM_FAIL && st != HC_NO_MEMORY) fail_msg("%s: %s", small_doing, hc_status_text(st));
-        if (!stays && flag != KIN_MEM_FAIL && st != HC_OK) fail_msg("%s: one failure is to be survived: %s", small_doing, hc_status_text(st));
+        if (!stays && flag != KIN_MEM_FAIL && st != HC_OK)
+          fail_msg("%s: one failure is to be survived: %s", small_doing, hc_status_text(st));
       }
 }
 
@@ -152,7 +164,8 @@ static void kinsol_lies(void **state)
 
 /* ---- time integration ---- */
 
-/* Of the two laws, 0 regularised, 1 exact: what is right, and a start next to the orbit: from rest it would take a hundred periods. */
+/* Of the two laws, 0 regularised, 1 exact: what is right, and a start next to the orbit: from rest it would take a
+ * hundred periods. */
 static double right_amplitude[2];
 static timeint_state near_orbit[2];
 
@@ -186,10 +199,14 @@ static hc_status steady_with(int law, fault f, fault *which, timeint_result *r)
   const long calls = which->calls;
   *which = (fault){0};
   assert_int_equal(timeint_steady(ti, 6.5, &start, NULL, &again), HC_OK);
-  /* transient.tolerance, of the amplitude, is the distance to the orbit that a settled motion may have, on either side */
+  /* transient.tolerance, of the amplitude, is the distance to the orbit that a settled motion may have, on either
+   * side */
   CHECK_NEAR(again.amplitude, right_amplitude[law], 0, "%s asked again", small_doing);
-  if (st == HC_OK) CHECK_NEAR(r->amplitude, right_amplitude[law], 2 * sc.transient.tolerance * right_amplitude[law], "%s", small_doing);
-  for (int i = 0; i < TIMEINT_WAVE && st == HC_OK; ++i) CHECK_LE(fabs(r->wave[i]), 1.2 * right_amplitude[law], "%s wave", small_doing);
+  if (st == HC_OK)
+    CHECK_NEAR(r->amplitude, right_amplitude[law], 2 * sc.transient.tolerance * right_amplitude[law], "%s",
+               small_doing);
+  for (int i = 0; i < TIMEINT_WAVE && st == HC_OK; ++i)
+    CHECK_LE(fabs(r->wave[i]), 1.2 * right_amplitude[law], "%s wave", small_doing);
   timeint_free(ti);
   which->calls = calls;
   return st;
@@ -209,7 +226,8 @@ static void cvode_fails(void **state)
           doing(law ? "exact law" : "regularised law", &f);
           hc_status st = steady_with(law, f, &cv, &r);
           hc_status expected = flag == CV_MEM_FAIL ? HC_NO_MEMORY : HC_INTEGRATOR;
-          if (stays ? st != expected : st != HC_OK && st != expected) fail_msg("%s: %s", small_doing, hc_status_text(st));
+          if (stays ? st != expected : st != HC_OK && st != expected)
+            fail_msg("%s: %s", small_doing, hc_status_text(st));
           if (stays) assert_int_equal(r.cvode_flag, flag);
         }
   }
@@ -255,7 +273,10 @@ static void shooting_fails(void **state)
 
 /* ---- the commands ---- */
 
-typedef struct order { const char *line; fault kin, cv; } order;
+typedef struct order {
+  const char *line;
+  fault kin, cv;
+} order;
 
 static int command(void *self)
 {
@@ -270,12 +291,19 @@ static void failures_are_told(void **state)
 {
   (void)state;
   const fault bad = {1, true, KIN_LSOLVE_FAIL, RETURN_FLAG, 0}, stuck = {1, true, CV_ERR_FAILURE, RETURN_FLAG, 0};
-  const struct { order o; const char *words[3]; } all[] = {
-      {{"frf small.yaml -q", bad, {0}}, {"harmonic balance stopped at omega = 6:", "the Newton residual stayed above tolerance", "try --set"}},
-      {{"transient small.yaml -q --set transient.start=rest", {0}, stuck}, {"time integration stopped at omega = 6.5:", "CVODE gave up", "try "}},
-      {{"transient small.yaml -q --set transient.law=exact", {0}, stuck}, {"time integration stopped at omega = 6.5:", "CVODE gave up", "try "}},
+  const struct {
+    order o;
+    const char *words[3];
+  } all[] = {
+      {{"frf small.yaml -q", bad, {0}},
+       {"harmonic balance stopped at omega = 6:", "the Newton residual stayed above tolerance", "try --set"}},
+      {{"transient small.yaml -q --set transient.start=rest", {0}, stuck},
+       {"time integration stopped at omega = 6.5:", "CVODE gave up", "try "}},
+      {{"transient small.yaml -q --set transient.law=exact", {0}, stuck},
+       {"time integration stopped at omega = 6.5:", "CVODE gave up", "try "}},
       {{"compare small.yaml -q", {0}, stuck}, {"time integration stopped at omega = 6.5:", "CVODE gave up", "try "}},
-      {{"compare small.yaml -q", bad, {0}}, {"harmonic balance", "the Newton residual stayed above tolerance", "try --set"}},
+      {{"compare small.yaml -q", bad, {0}},
+       {"harmonic balance", "the Newton residual stayed above tolerance", "try --set"}},
       {{"gate small.yaml -q", {0}, stuck}, {"", "", ""}},
       {{"study study.yaml -q --jobs 1 --results :memory:", bad, {0}}, {"", "", ""}},
   };

@@ -1,6 +1,7 @@
-/* test_values.c - NaN and infinity at the n-th evaluation of the contact force (hbm/exact.c, hbm/aft.c) or of the right-hand side of the
- * regularised law (timeint/model.c), with the status of a good evaluation or the one it owes: no hang, no wrong answer, and the handle is not
- * poisoned: asked again it answers what a new one answers, bit for bit. */
+/* test_values.c - NaN and infinity at the n-th evaluation of the contact force (hbm/exact.c, hbm/aft.c) or of the
+ * right-hand side of the regularised law (timeint/model.c), with the status of a good evaluation or the one it owes:
+ * no hang, no wrong answer, and the handle is not poisoned: asked again it answers what a new one answers, bit for
+ * bit. */
 #include "hbm/aft.h"
 #include "hbm/exact.h"
 #include "hbm/hbm.h"
@@ -14,8 +15,8 @@ typedef struct poison { /* of an evaluation */
   long at;              /* 0: none */
   bool stays;           /* all after it, too */
   double value;
-  bool jacobian;        /* into the Jacobian instead of the force */
-  bool honest;          /* answered as HC_NOT_FINITE or false */
+  bool jacobian; /* into the Jacobian instead of the force */
+  bool honest;   /* answered as HC_NOT_FINITE or false */
   long calls;
 } poison;
 
@@ -62,8 +63,9 @@ bool __wrap_model_rhs(const model *m, double theta, const double *y, double *dy)
 
 static void doing(const char *what)
 {
-  snprintf(small_doing, sizeof small_doing, "%s: evaluation %ld%s is %g%s%s\n", what, now.at, now.stays ? " and all after it" : "", now.value,
-           now.jacobian ? " in the Jacobian" : "", now.honest ? ", and says so" : "");
+  snprintf(small_doing, sizeof small_doing, "%s: evaluation %ld%s is %g%s%s\n", what, now.at,
+           now.stays ? " and all after it" : "", now.value, now.jacobian ? " in the Jacobian" : "",
+           now.honest ? ", and says so" : "");
 }
 
 /* ---- harmonic balance ---- */
@@ -89,9 +91,11 @@ static hc_status trace_with(const char *const *set, poison p, const hbm_curve *r
   const long calls = now.calls;
   now = (poison){0};
   for (int i = 0; i < c.n * c.n_coef; ++i) CHECK_LE(fabs(c.X[i]), 10, "%s", small_doing);
-  if (st == HC_OK && right) { /* at the end of the sweep, where both have a point, residuals of 1e-9 apart (see test_solvers.c) */
+  if (st == HC_OK && right) { /* at the end of the sweep, where both have a point, residuals of 1e-9 apart (see
+                                 test_solvers.c) */
     CHECK_NEAR(c.points[c.n - 1].omega, 7, 1e-12, "%s", small_doing);
-    for (int i = 0; i < H3; ++i) CHECK_NEAR(c.X[(c.n - 1) * H3 + i], right->X[(right->n - 1) * H3 + i], 1e-7, "%s", small_doing);
+    for (int i = 0; i < H3; ++i)
+      CHECK_NEAR(c.X[(c.n - 1) * H3 + i], right->X[(right->n - 1) * H3 + i], 1e-7, "%s", small_doing);
   }
   hbm_curve_free(&c);
   if (right) {
@@ -120,7 +124,8 @@ static void poisoned_force(const char *const *set)
       for (int how = 0; how < 8; ++how) {
         poison p = {.at = at[i], .stays = how & 1, .value = values[k], .jacobian = how & 2, .honest = how & 4};
         hc_status st = trace_with(set, p, &right);
-        if (p.stays && (p.honest || (!p.jacobian && !isfinite(p.value))) && st == HC_OK) fail_msg("%s ended well", small_doing);
+        if (p.stays && (p.honest || (!p.jacobian && !isfinite(p.value))) && st == HC_OK)
+          fail_msg("%s ended well", small_doing);
       }
   hbm_curve_free(&right);
   hbm_solver_free(s);
@@ -142,7 +147,10 @@ static void sampled_force(void **state)
 
 static const char *const smoothly[] = {"transient.regularisation=0.01", "transient.tolerance=1e-4", NULL};
 
-static hc_status settled(timeint *ti, timeint_state from, timeint_result *r) { return timeint_steady(ti, 6.5, &from, NULL, r); }
+static hc_status settled(timeint *ti, timeint_state from, timeint_result *r)
+{
+  return timeint_steady(ti, 6.5, &from, NULL, r);
+}
 
 static void right_hand_side(void **state)
 {
@@ -165,11 +173,13 @@ static void right_hand_side(void **state)
         now = (poison){.at = at[i], .stays = how & 1, .value = values[k], .honest = how & 2};
         doing("regularised law");
         hc_status st = settled(ti, orbit, &r);
-        const bool lasting = now.stays && at[i] < most - 1; /* the last ones belong to measuring a step that CVODE has finished */
+        const bool lasting = now.stays && at[i] < most - 1; /* the last ones belong to measuring a step that CVODE
+                                                               has finished */
         if (lasting && st == HC_OK) fail_msg("%s ended well", small_doing);
         if (lasting && now.honest && st != HC_NOT_FINITE) fail_msg("%s: %s", small_doing, hc_status_text(st));
         now = (poison){0};
-        if (st == HC_OK) CHECK_NEAR(r.amplitude, right.amplitude, 2e-4 * right.amplitude, "%s", small_doing); /* twice the tolerance */
+        /* twice the tolerance */
+        if (st == HC_OK) CHECK_NEAR(r.amplitude, right.amplitude, 2e-4 * right.amplitude, "%s", small_doing);
         assert_int_equal(settled(ti, orbit, &r), HC_OK);
         assert_true(r.amplitude == right.amplitude && r.closure == right.closure);
       }
@@ -178,7 +188,8 @@ static void right_hand_side(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(exact_force), cmocka_unit_test(sampled_force), cmocka_unit_test(right_hand_side)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(exact_force), cmocka_unit_test(sampled_force),
+                                     cmocka_unit_test(right_hand_side)};
   small_watchdog(300);
   return cmocka_run_group_tests_name("faults.values", tests, NULL, NULL);
 }

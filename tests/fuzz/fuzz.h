@@ -1,5 +1,6 @@
-/* fuzz.h - what the four fuzz targets share: the properties that hold for any input, beyond not crashing. A property that does not hold ends the
- * process with its words on stderr: a finding for libFuzzer, a failure for ctest. Targets: README.md. */
+/* fuzz.h - what the four fuzz targets share: the properties that hold for any input, beyond not crashing. A property
+ * that does not hold ends the process with its words on stderr: a finding for libFuzzer, a failure for ctest.
+ * Targets: README.md. */
 #ifndef HC_TESTS_FUZZ_H
 #define HC_TESTS_FUZZ_H
 
@@ -27,7 +28,8 @@ char *fuzz_string(const uint8_t *data, size_t size);
 /* words[size]: terminated, not empty, one line, UTF-8, no control characters. */
 void message_is_clean(const char *words, size_t size);
 
-/* The words start with "NAME:LINE:COLUMN: ", and that place is in text[length] or just behind a line of it. In YAML a CR alone ends a line. */
+/* The words start with "NAME:LINE:COLUMN: ", and that place is in text[length] or just behind a line of it. In YAML
+ * a CR alone ends a line. */
 void place_is_inside(const char *words, const char *name, const char *text, size_t length, bool yaml);
 
 /* Every field is finite and within the range that `hbmcheck describe` tells, and fields go together. */
@@ -40,7 +42,8 @@ void scene_echoes(const scene *sc);
 void scene_mark(scene *sc);
 bool scene_is_marked(const scene *sc);
 
-/* The folder of this process' own, made when first asked for, and `length` bytes as its file `name`; path[] gets where that is. */
+/* The folder of this process' own, made when first asked for, and `length` bytes as its file `name`; path[] gets
+ * where that is. */
 enum { FUZZ_PATH = 128 };
 void fuzz_write(const char *name, const char *text, size_t length, char path[FUZZ_PATH]);
 

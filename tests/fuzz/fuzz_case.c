@@ -1,4 +1,5 @@
-/* fuzz_case.c - bytes as a case file: read, in range and echoed bit for bit, or refused with a place and the scene left alone. */
+/* fuzz_case.c - bytes as a case file: read, in range and echoed bit for bit, or refused with a place and the scene
+ * left alone. */
 #include <string.h>
 
 #include "cases/case_reader.h"
@@ -17,7 +18,8 @@ static void lines_are_what_they_seem(const char *text, size_t length)
 {
   static const char *const ends[] = {"\xC2\x85", "\xE2\x80\xA8", "\xE2\x80\xA9"};
   for (size_t k = 0; k < sizeof ends / sizeof *ends; ++k)
-    for (size_t i = 0, n = strlen(ends[k]); i + n <= length; ++i) must(memcmp(text + i, ends[k], n) != 0, "a strange line end at byte %zu", i);
+    for (size_t i = 0, n = strlen(ends[k]); i + n <= length; ++i)
+      must(memcmp(text + i, ends[k], n) != 0, "a strange line end at byte %zu", i);
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)

@@ -13,8 +13,10 @@ static void data_is_in_range(const verify_data *d, const char *text, size_t leng
   must(d->n >= VERIFY_LEAST_POINTS && d->n <= VERIFY_MOST_POINTS, "%d points", d->n);
   for (int i = 0; i < d->n; ++i) {
     const verify_point *p = &d->points[i];
-    must(isfinite(p->omega) && p->omega > 0 && isfinite(p->value) && p->value >= 0, "point %d is (%g, %g)", i, p->omega, p->value);
-    must(p->line > (i ? d->points[i - 1].line : 0) && p->line <= lines, "point %d stands on line %ld of %ld", i, p->line, lines);
+    must(isfinite(p->omega) && p->omega > 0 && isfinite(p->value) && p->value >= 0, "point %d is (%g, %g)", i, p->omega,
+         p->value);
+    must(p->line > (i ? d->points[i - 1].line : 0) && p->line <= lines, "point %d stands on line %ld of %ld", i,
+         p->line, lines);
   }
 }
 

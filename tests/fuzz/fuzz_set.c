@@ -1,13 +1,15 @@
-/* fuzz_set.c - bytes as assignments on top of a good case, one or several of them: "PATH=VALUE", each further one after a line end and "--set ". */
+/* fuzz_set.c - bytes as assignments on top of a good case, one or several of them: "PATH=VALUE", each further one
+ * after a line end and "--set ". */
 #include <stdlib.h>
 #include <string.h>
 
 #include "tests/fuzz/fuzz.h"
 
 /* Nothing in it is at odds with anything but an assignment, so that an assignment is always to blame. */
-static const char good[] = "title: T\noscillator: {mass: 1, damping: 0.4, stiffness: 40}\nforcing: {amplitude: 100}\nsweep: {omega: [3, 20]}\n"
-                           "contacts:\n  - {tangential_stiffness: 100, normal_stiffness: 1000, friction: 0.3, angle_deg: 45, gap: -5}\n"
-                           "  - {tangential_stiffness: 50, normal_stiffness: 10, friction: 0, angle_deg: 90}\ncompare: {omega: [5, 6]}\n";
+static const char good[] =
+    "title: T\noscillator: {mass: 1, damping: 0.4, stiffness: 40}\nforcing: {amplitude: 100}\nsweep: {omega: [3, 20]}\n"
+    "contacts:\n  - {tangential_stiffness: 100, normal_stiffness: 1000, friction: 0.3, angle_deg: 45, gap: -5}\n"
+    "  - {tangential_stiffness: 50, normal_stiffness: 10, friction: 0, angle_deg: 90}\ncompare: {omega: [5, 6]}\n";
 static const char between[] = "\n--set ";
 enum { MOST = 16 };
 

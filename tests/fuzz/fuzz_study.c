@@ -1,22 +1,25 @@
-/* fuzz_study.c - bytes as a study file beside a base.yaml: refused with a place in one of the two, or a grid whose scenes are the ones that --set
- * makes of the echoed base. */
+/* fuzz_study.c - bytes as a study file beside a base.yaml: refused with a place in one of the two, or a grid whose
+ * scenes are the ones that --set makes of the echoed base. */
 #include <stdlib.h>
 #include <string.h>
 
 #include "campaigns/study/study.h"
 #include "tests/fuzz/fuzz.h"
 
-static const char base[] = "oscillator: {mass: 1, damping: 0.4, stiffness: 40}\nforcing: {amplitude: 100}\nsweep: {omega: [3, 20]}\n"
-                           "contacts:\n  - {tangential_stiffness: 100, normal_stiffness: 1000, friction: 0.3, angle_deg: 45, gap: -5}\n"
-                           "compare: {omega: [5, 6]}\n";
+static const char base[] =
+    "oscillator: {mass: 1, damping: 0.4, stiffness: 40}\nforcing: {amplitude: 100}\nsweep: {omega: [3, 20]}\n"
+    "contacts:\n  - {tangential_stiffness: 100, normal_stiffness: 1000, friction: 0.3, angle_deg: 45, gap: -5}\n"
+    "compare: {omega: [5, 6]}\n";
 
 static void refusal_is_clean(hc_status st, const case_error *err, const char *path, const char *text, size_t length)
 {
   char beside[FUZZ_PATH];
-  must(st == HC_BAD_INPUT || (st == HC_IO && strstr(err->message, "the base case: ")), "status %d: %s", (int)st, err->message);
+  must(st == HC_BAD_INPUT || (st == HC_IO && strstr(err->message, "the base case: ")), "status %d: %s", (int)st,
+       err->message);
   message_is_clean(err->message, sizeof err->message);
   snprintf(beside, sizeof beside, "%.*sbase.yaml", (int)(strrchr(path, '/') + 1 - path), path);
-  if (!strncmp(err->message, beside, strlen(beside))) place_is_inside(err->message, beside, base, sizeof base - 1, true);
+  if (!strncmp(err->message, beside, strlen(beside)))
+    place_is_inside(err->message, beside, base, sizeof base - 1, true);
   else place_is_inside(err->message, path, text, length, true);
 }
 
@@ -69,7 +72,8 @@ static void study_is_whole(const study *s)
 {
   long product = 1;
   for (int a = 0; a < s->n_axes; ++a) product *= s->axes[a].n;
-  must(s->n_axes >= 1 && product == s->n_scenes && product >= 1 && product <= STUDY_MOST_SCENES, "%ld scenes", s->n_scenes);
+  must(s->n_axes >= 1 && product == s->n_scenes && product >= 1 && product <= STUDY_MOST_SCENES, "%ld scenes",
+       s->n_scenes);
   must(memchr(s->title, 0, sizeof s->title) != NULL, "no end to the title");
   scene_is_what_set_makes(s, 0);
   scene_is_what_set_makes(s, s->n_scenes / 2);

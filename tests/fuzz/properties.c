@@ -41,7 +41,8 @@ static void text_is_clean(const char *text, size_t length)
   for (size_t i = 0, n; i < length; i += n) {
     unsigned long code = 0;
     n = utf8_character(text + i, length - i, &code);
-    must(n > 0 && !utf8_is_control(code), "byte %zu, 0x%02X, is not UTF-8 or a control character: %s", i, (unsigned)(unsigned char)text[i], text);
+    must(n > 0 && !utf8_is_control(code), "byte %zu, 0x%02X, is not UTF-8 or a control character: %s", i,
+         (unsigned)(unsigned char)text[i], text);
   }
 }
 
@@ -77,7 +78,8 @@ void place_is_inside(const char *words, const char *name, const char *text, size
   must(!strncmp(words, name, n), "not about %s: %s", name, words);
   must(sscanf(words + n, ":%zu:%zu:%c", &line, &column, &behind) == 3 && behind == ' ', "no place: %s", words);
   long most = line > 0 ? line_length(text, length, line, yaml) : -1;
-  must(most >= 0 && column >= 1 && column <= (size_t)most + 1, "a place outside the input (line %zu has %ld bytes): %s", line, most, words);
+  must(most >= 0 && column >= 1 && column <= (size_t)most + 1, "a place outside the input (line %zu has %ld bytes): %s",
+       line, most, words);
 }
 
 /* ---- scenes ---- */
@@ -85,7 +87,8 @@ void place_is_inside(const char *words, const char *name, const char *text, size
 static void number_is_in_range(const field *f, double x)
 {
   if (f->flags & FIELD_AUTO && x == SCENE_AUTO) return;
-  must(isfinite(x) && x >= f->low && x <= f->high && !(f->flags & FIELD_OPEN && x == f->low), "%s.%s = %.17g is outside its range", f->section, f->name, x);
+  must(isfinite(x) && x >= f->low && x <= f->high && !(f->flags & FIELD_OPEN && x == f->low),
+       "%s.%s = %.17g is outside its range", f->section, f->name, x);
 }
 
 static void list_is_in_range(const field *f, const scene_list *list)
@@ -93,7 +96,8 @@ static void list_is_in_range(const field *f, const scene_list *list)
   must(list->n >= 0 && list->n <= SCENE_MAX_LIST, "%s.%s has %d entries", f->section, f->name, list->n);
   for (int i = 0; i < list->n; ++i) {
     number_is_in_range(f, list->v[i]);
-    must(f->kind != FIELD_INTEGERS || list->v[i] == rint(list->v[i]), "%s.%s has %.17g among integers", f->section, f->name, list->v[i]);
+    must(f->kind != FIELD_INTEGERS || list->v[i] == rint(list->v[i]), "%s.%s has %.17g among integers", f->section,
+         f->name, list->v[i]);
   }
 }
 
@@ -117,10 +121,14 @@ static void field_is_in_range(const field *f, const void *base)
   switch (f->kind) {
   case FIELD_REAL: number_is_in_range(f, *(const double *)at); return;
   case FIELD_INTEGER: number_is_in_range(f, *(const int *)at); return;
-  case FIELD_FLAG: must(*(const unsigned char *)at <= 1, "%s.%s is neither true nor false", f->section, f->name); return;
+  case FIELD_FLAG:
+    must(*(const unsigned char *)at <= 1, "%s.%s is neither true nor false", f->section, f->name);
+    return;
   case FIELD_CHOICE: choice_is_known(f, *(const int *)at); return;
   case FIELD_TEXT: text_is_one_line(f, at); return;
-  case FIELD_PAIR: number_is_in_range(f, ((const double *)at)[0]), number_is_in_range(f, ((const double *)at)[1]); return;
+  case FIELD_PAIR:
+    number_is_in_range(f, ((const double *)at)[0]), number_is_in_range(f, ((const double *)at)[1]);
+    return;
   default: list_is_in_range(f, at); return;
   }
 }
@@ -136,7 +144,8 @@ void scene_is_in_range(const scene *sc)
   const scene_hbm *h = &sc->hbm;
   bool both_told = h->harmonics != SCENE_AUTO && h->samples != SCENE_AUTO;
   must(sc->omega_from != sc->omega_to, "the sweep stands still");
-  must(h->force != HBM_FORCE_SAMPLED || !both_told || h->samples >= 2 * h->harmonics + 1, "%d samples for %d harmonics", h->samples, h->harmonics);
+  must(h->force != HBM_FORCE_SAMPLED || !both_told || h->samples >= 2 * h->harmonics + 1, "%d samples for %d harmonics",
+       h->samples, h->harmonics);
   must(sc->gate_ranges.omega.n % 2 == 0, "half a range");
 }
 

@@ -1,5 +1,6 @@
-/* exact_scenes.h - for the tests of exact.c: one evaluation, random contacts and motions of one or two coordinates, those that graze, and the
- * contact force sampled the slow way for independent u and v, with how far from the exact one it may be. */
+/* exact_scenes.h - for the tests of exact.c: one evaluation, random contacts and motions of one or two coordinates,
+ * those that graze, and the contact force sampled the slow way for independent u and v, with how far from the exact
+ * one it may be. */
 #ifndef HC_TESTS_HBM_EXACT_SCENES_H
 #define HC_TESTS_HBM_EXACT_SCENES_H
 
@@ -17,7 +18,8 @@ typedef struct evaluation {
 } evaluation;
 
 /* One evaluation in a workspace of its own; jac may be NULL. */
-static inline void evaluate(int n_harm, int n_dof, int n_contacts, const moving_contact *c, const double *X, evaluation *out, double *jac)
+static inline void evaluate(int n_harm, int n_dof, int n_contacts, const moving_contact *c, const double *X,
+                            evaluation *out, double *jac)
 {
   exact *e;
   assert_int_equal(exact_new(n_harm, n_dof, n_contacts, c, &e), HC_OK);
@@ -41,7 +43,9 @@ static inline moving_contact contact_at(contact law, double angle_deg)
 }
 
 /* Bounds of |u^(k)| and |v^(k)|, k = 0, 1, 2, and what u and v are (series). */
-typedef struct contact_motion { double u[2 * EXACT_MAX_HARM + 1], v[2 * EXACT_MAX_HARM + 1], U[3], V[3]; } contact_motion;
+typedef struct contact_motion {
+  double u[2 * EXACT_MAX_HARM + 1], v[2 * EXACT_MAX_HARM + 1], U[3], V[3];
+} contact_motion;
 
 static inline void contact_motion_of(int n_harm, int n_dof, const moving_contact *c, const double *X, contact_motion *m)
 {
@@ -68,11 +72,13 @@ static inline double force_size(const moving_contact *c, const contact_motion *m
   return 2 * law->kt * m->U[k] + (1 + law->mu) * law->kn * (m->V[k] + gap);
 }
 
-/* Random laws like slow_aft.h's: stiffnesses over three decades, preloads and clearances, now and then no friction or no tangential spring. */
+/* Random laws like slow_aft.h's: stiffnesses over three decades, preloads and clearances, now and then no friction
+ * or no tangential spring. */
 static inline contact random_law(uint64_t *seed)
 {
   double pick = random_signed(seed);
-  contact law = {pow(10, 1.5 * random_signed(seed)), pow(10, 1.5 * random_signed(seed)), 0.5 + 0.5 * random_signed(seed), random_signed(seed)};
+  contact law = {pow(10, 1.5 * random_signed(seed)), pow(10, 1.5 * random_signed(seed)),
+                 0.5 + 0.5 * random_signed(seed), random_signed(seed)};
   if (pick < -0.9) law.mu = 0;
   if (pick > 0.9) law.kt = 0;
   return law;
@@ -88,9 +94,9 @@ static inline moving_contact random_contact(uint64_t *seed, int n_dof)
   return (moving_contact){random_law(seed), {1, 0}, {0, 1}};
 }
 
-/* Make the contact graze: depth > 0 of v + gap at the motion's highest point (kind 0: touches by so much) or at its lowest (kind 1: 0 < depth stays in
- * contact by so much, depth < 0 leaves it by so much). kind 2: mu is so small that slip just happens, by a part `depth` of the friction limit,
- * for a constant normal force (v = 0). */
+/* Make the contact graze: depth > 0 of v + gap at the motion's highest point (kind 0: touches by so much) or at its
+ * lowest (kind 1: 0 < depth stays in contact by so much, depth < 0 leaves it by so much). kind 2: mu is so small
+ * that slip just happens, by a part `depth` of the friction limit, for a constant normal force (v = 0). */
 static inline void make_graze(moving_contact *c, const contact_motion *m, int n_harm, int kind, double depth)
 {
   double high, low;
@@ -102,8 +108,10 @@ static inline void make_graze(moving_contact *c, const contact_motion *m, int n_
   c->law.mu = c->law.kt * (high - low) / 2 / c->law.kn * (1 - depth);
 }
 
-/* The sampled force for n_dof coordinates: direct sums, contact_step, three periods, w = u where the straight line between samples touches. */
-static inline void slow_sampled(int n_harm, int n_dof, const moving_contact *c, const double *X, int n_time, double *F, double *w_at_zero)
+/* The sampled force for n_dof coordinates: direct sums, contact_step, three periods, w = u where the straight line
+ * between samples touches. */
+static inline void slow_sampled(int n_harm, int n_dof, const moving_contact *c, const double *X, int n_time, double *F,
+                                double *w_at_zero)
 {
   int n = series_length(n_harm);
   static contact_motion m;
@@ -145,17 +153,22 @@ static inline void slow_sampled(int n_harm, int n_dof, const moving_contact *c, 
     }
   }
   for (int d = 0; d < n_dof; ++d)
-    for (int i = 0; i < n; ++i) F[d * n + i] = (double)((i ? 2 : 1) * (c->cu[d] * sum[0][i] + c->cv[d] * sum[1][i]) / n_time);
+    for (int i = 0; i < n; ++i)
+      F[d * n + i] = (double)((i ? 2 : 1) * (c->cu[d] * sum[0][i] + c->cv[d] * sum[1][i]) / n_time);
   free(u);
 }
 
 /* How far the sampled coefficients may be from the exact ones, s = 2 pi/N:
- *   sum      each kink, a jump of the force's slope <= force_size(1), costs s^2/12 of it (Euler-Maclaurin), with 1/pi in the coefficient
- *   slider   after slip the extremum of u -+ mu N/kt is missed by s^2/8 of its second derivative; after a touch w = u at a chord's root, off by
- *            s^2/8 (U'' + U' V''/v'), and by U' s at most: kt of that for as long as the slider is stuck, 1/pi of it in the coefficient
+ *   sum      each kink, a jump of the force's slope <= force_size(1), costs s^2/12 of it (Euler-Maclaurin), with
+ *            1/pi in the coefficient
+ *   slider   after slip the extremum of u -+ mu N/kt is missed by s^2/8 of its second derivative; after a touch w =
+ *            u at a chord's root, off by s^2/8 (U'' + U' V''/v'), and by U' s at most: kt of that for as long as the
+ *            slider is stuck, 1/pi of it in the coefficient
  *   rounding of 2^18 sums of the force's size
- * twice, for terms of higher order (s H < 0.02). A piece too short to be sampled fits in: its force is below s^2/8 of a second derivative. */
-static inline double sampled_error(int n_harm, int n_dof, const moving_contact *c, const double *X, int n_time, const evaluation *e)
+ * twice, for terms of higher order (s H < 0.02). A piece too short to be sampled fits in: its force is below s^2/8
+ * of a second derivative. */
+static inline double sampled_error(int n_harm, int n_dof, const moving_contact *c, const double *X, int n_time,
+                                   const evaluation *e)
 {
   static contact_motion m;
   contact_motion_of(n_harm, n_dof, c, X, &m);
@@ -177,10 +190,12 @@ static inline double sampled_error(int n_harm, int n_dof, const moving_contact *
     }
     error += slider * (p->to - p->from + 2 * s) / PI;
   }
-  return projection * (2 * error + 64 * (n_harm + 8) * DBL_EPSILON * force_size(c, &m, 0) + s * s / 8 * force_size(c, &m, 2) * s);
+  return projection *
+         (2 * error + 64 * (n_harm + 8) * DBL_EPSILON * force_size(c, &m, 0) + s * s / 8 * force_size(c, &m, 2) * s);
 }
 
-/* What rounding may do to exact coefficients: H + 8 terms each of some eps; transitions, off by eps/slope, move forces that are continuous. */
+/* What rounding may do to exact coefficients: H + 8 terms each of some eps; transitions, off by eps/slope, move
+ * forces that are continuous. */
 static inline double exact_rounding(int n_harm, int n_dof, const moving_contact *c, const double *X)
 {
   static contact_motion m;

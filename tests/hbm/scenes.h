@@ -1,5 +1,6 @@
-/* scenes.h - what the tests of hbm/ share: the eight reference scenes, the reference numbers of tests/reference/, random motions, and
- * contact forces of a sampled motion the slow way. Random numbers are a fixed sequence: every run sees the same cases. */
+/* scenes.h - what the tests of hbm/ share: the eight reference scenes, the reference numbers of tests/reference/,
+ * random motions, and contact forces of a sampled motion the slow way. Random numbers are a fixed sequence: every
+ * run sees the same cases. */
 #ifndef HC_TESTS_HBM_SCENES_H
 #define HC_TESTS_HBM_SCENES_H
 
@@ -18,11 +19,12 @@ typedef struct reference_scene {
   double omega_from, omega_to; /* a sweep that holds every reference frequency */
 } reference_scene;
 
-static const reference_scene reference_scenes[] = { /* mu = 0.3, alpha = 45 deg in all */
-  {"a10", 1, 0.4, 40, 10, 100, 200, 0.5, 3, 20},        {"b10", 1, 0.4, 40, 10, 100, 200, -0.5, 3, 20},
-  {"c2", 1, 0.4, 40, 100, 100, 1000, -5, 3, 20},        {"c2kn1e4", 1, 0.4, 40, 100, 100, 1e4, -5, 3, 20},
-  {"c2kt1e4", 1, 0.4, 40, 100, 1e4, 1000, -5, 3, 20},   {"gap1", 1, 0.4, 40, 100, 100, 1000, 1, 3, 30},
-  {"r1", 1.6, 0.4, 8e5, 100, 5e5, 7e5, 0.3, 750, 1050}, {"r2", 1.6, 0.4, 8e5, 100, 5e5, 7e5, -0.2, 600, 850},
+static const reference_scene reference_scenes[] = {
+    /* mu = 0.3, alpha = 45 deg in all */
+    {"a10", 1, 0.4, 40, 10, 100, 200, 0.5, 3, 20},        {"b10", 1, 0.4, 40, 10, 100, 200, -0.5, 3, 20},
+    {"c2", 1, 0.4, 40, 100, 100, 1000, -5, 3, 20},        {"c2kn1e4", 1, 0.4, 40, 100, 100, 1e4, -5, 3, 20},
+    {"c2kt1e4", 1, 0.4, 40, 100, 1e4, 1000, -5, 3, 20},   {"gap1", 1, 0.4, 40, 100, 100, 1000, 1, 3, 30},
+    {"r1", 1.6, 0.4, 8e5, 100, 5e5, 7e5, 0.3, 750, 1050}, {"r2", 1.6, 0.4, 8e5, 100, 5e5, 7e5, -0.2, 600, 850},
 };
 enum { N_REFERENCE_SCENES = sizeof reference_scenes / sizeof *reference_scenes };
 
@@ -32,11 +34,21 @@ static inline scene scene_named(const char *name, int n_harm, bool keep_mean, in
   for (int i = 0; i < N_REFERENCE_SCENES; ++i) {
     const reference_scene *r = &reference_scenes[i];
     if (strcmp(r->name, name)) continue;
-    scene sc = {.mass = r->mass, .damping = r->damping, .stiffness = r->stiffness, .force = r->force, .n_contacts = 1,
-                .omega_from = r->omega_from, .omega_to = r->omega_to};
+    scene sc = {.mass = r->mass,
+                .damping = r->damping,
+                .stiffness = r->stiffness,
+                .force = r->force,
+                .n_contacts = 1,
+                .omega_from = r->omega_from,
+                .omega_to = r->omega_to};
     sc.contacts[0] = (scene_contact){{r->kt, r->kn, 0.3, r->gap}, 45};
-    sc.hbm = (scene_hbm){.harmonics = n_harm, .keep_mean = keep_mean, .force = HBM_FORCE_SAMPLED, .samples = n_time,
-                         .restart = HBM_RESTART_INTERPOLATED, .continuation = HBM_CONTINUATION_AUTO, .tolerance = 1e-10};
+    sc.hbm = (scene_hbm){.harmonics = n_harm,
+                         .keep_mean = keep_mean,
+                         .force = HBM_FORCE_SAMPLED,
+                         .samples = n_time,
+                         .restart = HBM_RESTART_INTERPOLATED,
+                         .continuation = HBM_CONTINUATION_AUTO,
+                         .tolerance = 1e-10};
     return sc;
   }
   fail_msg("no scene %s", name);
@@ -73,13 +85,14 @@ enum { MAX_REFERENCE = 1000 };
 static inline int read_reference_rows(reference_row *row)
 {
   char line[256];
-  FILE *f = open_reference(SOURCE_DIR "/tests/reference/hbm_exact.csv", "case,harmonics,static,branch,omega,amplitude,max,min,harmonic_1,mean");
+  FILE *f = open_reference(SOURCE_DIR "/tests/reference/hbm_exact.csv",
+                           "case,harmonics,static,branch,omega,amplitude,max,min,harmonic_1,mean");
   int n = 0;
   while (fgets(line, sizeof line, f)) {
     assert_true(n < MAX_REFERENCE);
     reference_row *r = &row[n++];
-    int got = sscanf(line, "%15[^,],%d,%d,%d,%lf,%lf,%lf,%lf,%lf,%lf", r->name, &r->n_harm, &r->keep_mean, &r->branch, &r->omega,
-                     &r->amplitude, &r->max, &r->min, &r->harmonic_1, &r->mean);
+    int got = sscanf(line, "%15[^,],%d,%d,%d,%lf,%lf,%lf,%lf,%lf,%lf", r->name, &r->n_harm, &r->keep_mean, &r->branch,
+                     &r->omega, &r->amplitude, &r->max, &r->min, &r->harmonic_1, &r->mean);
     if (got != 10) fail_msg("hbm_exact.csv, row %d: %s", n, line);
   }
   fclose(f);
@@ -89,12 +102,14 @@ static inline int read_reference_rows(reference_row *row)
 static inline int read_reference_peaks(reference_peak *row)
 {
   char line[256];
-  FILE *f = open_reference(SOURCE_DIR "/tests/reference/hbm_peak.csv", "case,harmonics,static,omega_at_peak,peak_amplitude,harmonic_1_at_peak");
+  FILE *f = open_reference(SOURCE_DIR "/tests/reference/hbm_peak.csv",
+                           "case,harmonics,static,omega_at_peak,peak_amplitude,harmonic_1_at_peak");
   int n = 0;
   while (fgets(line, sizeof line, f)) {
     assert_true(n < MAX_REFERENCE);
     reference_peak *r = &row[n++];
-    int got = sscanf(line, "%15[^,],%d,%d,%lf,%lf,%lf", r->name, &r->n_harm, &r->keep_mean, &r->omega, &r->amplitude, &r->harmonic_1);
+    int got = sscanf(line, "%15[^,],%d,%d,%lf,%lf,%lf", r->name, &r->n_harm, &r->keep_mean, &r->omega, &r->amplitude,
+                     &r->harmonic_1);
     if (got != 6) fail_msg("hbm_peak.csv, row %d: %s", n, line);
   }
   fclose(f);

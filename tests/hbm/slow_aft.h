@@ -1,5 +1,6 @@
-/* slow_aft.h - the sampled contact force the slow way, for tests: direct sums instead of FFTs, the law written as a clamp, six periods
- * instead of two, no Jacobian. Shares nothing with hbm/aft.c but the definition of what is to be computed. */
+/* slow_aft.h - the sampled contact force the slow way, for tests: direct sums instead of FFTs, the law written as a
+ * clamp, six periods instead of two, no Jacobian. Shares nothing with hbm/aft.c but the definition of what is to be
+ * computed. */
 #ifndef HC_TESTS_HBM_SLOW_AFT_H
 #define HC_TESTS_HBM_SLOW_AFT_H
 
@@ -9,16 +10,20 @@ enum { SLOW_MAX_TIME = 4096, SLOW_PERIODS = 6 };
 
 typedef struct slow_aft {
   double x[SLOW_MAX_TIME], f[SLOW_MAX_TIME];
-  uint64_t pattern;             /* hash of the states of all contacts at all samples of the first two periods and the last */
+  uint64_t pattern; /* hash of the states of all contacts at all samples of the first two periods and the last */
   double w[SCENE_MAX_CONTACTS]; /* slider at th = 0 */
-  bool never_slips;             /* some contact is stuck all through the last period: w depends on where the first one began */
-  double moved;                 /* largest change of w at th = 0 from the second period to the last */
+  bool never_slips; /* some contact is stuck all through the last period: w depends on where the first one began */
+  double moved;     /* largest change of w at th = 0 from the second period to the last */
 } slow_aft;
 
 /* T and the new w of one sample; 's' stuck, '+' '-' slipping, '0' separated. */
 static inline char slow_clamp(const contact *c, double u, double normal, double *w, double *traction)
 {
-  if (normal <= 0) { *w = u; *traction = 0; return '0'; }
+  if (normal <= 0) {
+    *w = u;
+    *traction = 0;
+    return '0';
+  }
   double elastic = c->kt * (u - *w), limit = c->mu * normal;
   *traction = fmin(fmax(elastic, -limit), limit);
   if (*traction == elastic) return 's';
@@ -35,8 +40,10 @@ static inline void slow_contact(slow_aft *a, const scene *sc, int j, int n_time)
   char before = c->kn * (si * a->x[n_time - 1] + c->gap) > 0 ? 's' : '0';
   for (int period = 0; period < SLOW_PERIODS; ++period)
     for (int i = 0; i < n_time; ++i) {
-      double x = a->x[i], x_before = a->x[i ? i - 1 : n_time - 1], traction, normal = fmax(c->kn * (si * x + c->gap), 0);
-      if (before == '0' && normal > 0) { /* w = u where the straight line between the samples touches, or at the last separated sample */
+      double x = a->x[i], x_before = a->x[i ? i - 1 : n_time - 1], traction,
+             normal = fmax(c->kn * (si * x + c->gap), 0);
+      if (before == '0' && normal > 0) { /* w = u where the straight line between the samples touches, or at the last
+                                            separated sample */
         double part = sc->hbm.restart == HBM_RESTART_SAMPLE ? 0 : (-c->gap - si * x_before) / (si * x - si * x_before);
         w = co * (x_before + part * (x - x_before));
       }
@@ -45,7 +52,10 @@ static inline void slow_contact(slow_aft *a, const scene *sc, int j, int n_time)
       if (period == 1 && i == 0) second = w;
       if (period < SLOW_PERIODS - 1) continue;
       stuck &= before == 's';
-      if (i == 0) { a->w[j] = w; a->moved = fmax(a->moved, fabs(w - second)); }
+      if (i == 0) {
+        a->w[j] = w;
+        a->moved = fmax(a->moved, fabs(w - second));
+      }
       a->f[i] += co * traction + si * (normal - fmax(c->kn * c->gap, 0));
     }
   a->never_slips |= stuck;
@@ -79,7 +89,8 @@ static inline void slow_force(slow_aft *a, const scene *sc, int n_harm, int n_ti
   }
 }
 
-/* Largest |dF/dx| any sample can see of contact j: T moves with u and, slipping, with mu N; a slider remembers as much once more. */
+/* Largest |dF/dx| any sample can see of contact j: T moves with u and, slipping, with mu N; a slider remembers as
+ * much once more. */
 static inline double slow_stiffness(const scene_contact *c)
 {
   double co, si;
@@ -87,25 +98,29 @@ static inline double slow_stiffness(const scene_contact *c)
   return 2 * co * (c->law.kt * co + c->law.mu * c->law.kn * si) + c->law.kn * si * si;
 }
 
-/* How far two right ways to compute F may lie apart. A sample x_i is good to (2H + 1 terms, angles to an eps each; FFT: log2 N stages)
- * (2H + 3) eps sum |X|, both ways together twice that, and 2 log2 N eps sum |X|; clamps do not enlarge it, the force does by its stiffness K;
- * gap adds an eps of itself. The transform back is another log2 N stages of sizes |f| <= K (sum |X| + |gap|), times 2 for 2/N. */
+/* How far two right ways to compute F may lie apart. A sample x_i is good to (2H + 1 terms, angles to an eps each;
+ * FFT: log2 N stages) (2H + 3) eps sum |X|, both ways together twice that, and 2 log2 N eps sum |X|; clamps do not
+ * enlarge it, the force does by its stiffness K; gap adds an eps of itself. The transform back is another log2 N
+ * stages of sizes |f| <= K (sum |X| + |gap|), times 2 for 2/N. */
 static inline double slow_tolerance(const scene *sc, int n_harm, int n_time, const double *X)
 {
   double tolerance = 0, size = sum_abs(2 * n_harm + 1, X), stages = log2(n_time);
   for (int j = 0; j < sc->n_contacts; ++j)
-    tolerance += slow_stiffness(&sc->contacts[j]) * (4 * n_harm + 6 + 2 * stages + 2 * stages) * (size + fabs(sc->contacts[j].law.gap));
+    tolerance += slow_stiffness(&sc->contacts[j]) * (4 * n_harm + 6 + 2 * stages + 2 * stages) *
+                 (size + fabs(sc->contacts[j].law.gap));
   return 2 * DBL_EPSILON * tolerance;
 }
 
-/* n_contacts random contacts for motions of size about 1: preloads and clearances, every angle, now and then no friction or no kt. */
+/* n_contacts random contacts for motions of size about 1: preloads and clearances, every angle, now and then no
+ * friction or no kt. */
 static inline scene random_contacts(uint64_t *seed, int n_contacts)
 {
   static const double angles[] = {0, 30, 45, 90, 80, 5};
   scene sc = {.mass = 1, .stiffness = 1, .n_contacts = n_contacts};
   for (int j = 0; j < n_contacts; ++j) {
     double pick = random_signed(seed);
-    contact law = {pow(10, 1.5 * random_signed(seed)), pow(10, 1.5 * random_signed(seed)), 0.5 + 0.5 * random_signed(seed), random_signed(seed)};
+    contact law = {pow(10, 1.5 * random_signed(seed)), pow(10, 1.5 * random_signed(seed)),
+                   0.5 + 0.5 * random_signed(seed), random_signed(seed)};
     if (pick < -0.9) law.mu = 0;
     if (pick > 0.9) law.kt = 0;
     sc.contacts[j] = (scene_contact){law, angles[(int)(2.999999 * (1 + random_signed(seed)))]};

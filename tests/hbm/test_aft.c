@@ -1,19 +1,23 @@
-/* test_aft.c - contact force harmonics by sampling: closed forms, orders of the error in 1/N, and the same sums done the slow way.
+/* test_aft.c - contact force harmonics by sampling: closed forms, orders of the error in 1/N, and the same sums done
+ * the slow way.
  *
- * Euler-Maclaurin with kinks. The mean over N equidistant angles misses the integral of g over a period, divided by 2 pi, by a sum over
- * the places where the m-th derivative of g jumps by J_m, at a fraction t of a step s = 2 pi/N:  s^{m+1} J_m B_{m+1}(t) / ((m+1)! 2 pi),
- * where |B_2| <= 1/6, |B_3| <= 0.0482, |B_4| <= 1/30, |B_5| <= 0.0245. With g = f cos h th or f sin h th, f continuous and made of constants
- * and A cos th: |jump of f^(j)| <= J of A's size for j >= 1, hence |J_m| <= J ((1 + h)^m - h^m), and a tail falling like (1 + h) s/(2 pi). */
+ * Euler-Maclaurin with kinks. The mean over N equidistant angles misses the integral of g over a period, divided by
+ * 2 pi, by a sum over the places where the m-th derivative of g jumps by J_m, at a fraction t of a step s = 2 pi/N:
+ * s^{m+1} J_m B_{m+1}(t) / ((m+1)! 2 pi), where |B_2| <= 1/6, |B_3| <= 0.0482, |B_4| <= 1/30, |B_5| <= 0.0245. With
+ * g = f cos h th or f sin h th, f continuous and made of constants and A cos th: |jump of f^(j)| <= J of A's size
+ * for j >= 1, hence |J_m| <= J ((1 + h)^m - h^m), and a tail falling like (1 + h) s/(2 pi). */
 #include "hbm/aft.h"
 #include "hbm/series.h"
 #include "tests/hbm/slow_aft.h"
 
 static slow_aft slow; /* too large for a stack */
 
-/* Error of the h-th coefficient from one kink: first derivative jumps by J1, higher ones by at most J. For (1 + h) s < 0.15 pi. */
+/* Error of the h-th coefficient from one kink: first derivative jumps by J1, higher ones by at most J. For (1 + h) s
+ * < 0.15 pi. */
 static double kink_error(int h, int n_time, double J1, double J)
 {
-  static const double c[] = {0, 1.0 / 12, 0.0482 / 6, 1.0 / 720, 1.3 * 0.0245 / 120}; /* 1.3: the tail, ratio below 0.15, and room */
+  /* 1.3: the tail, ratio below 0.15, and room */
+  static const double c[] = {0, 1.0 / 12, 0.0482 / 6, 1.0 / 720, 1.3 * 0.0245 / 120};
   double s = 2 * PI / n_time, sum = c[1] * s * s * J1;
   assert_true((1 + h) * s < 0.15 * PI);
   for (int m = 2; m <= 4; ++m) sum += c[m] * pow(s, m + 1) * J * (pow(1 + h, m) - pow(h, m));
@@ -27,7 +31,8 @@ static scene one_contact(double kt, double kn, double mu, double gap, double ang
   return sc;
 }
 
-static hc_status eval_once(const scene *sc, int n_harm, int n_time, const double *X, double *F, double *jac, contact_report *report)
+static hc_status eval_once(const scene *sc, int n_harm, int n_time, const double *X, double *F, double *jac,
+                           contact_report *report)
 {
   aft *a;
   hc_status st = aft_new(sc, n_harm, n_time, &a);
@@ -45,7 +50,8 @@ static double unilateral(int h, double k, double g, double A)
   return 2 * k / PI * (g * sin(h * p) / h + A / 2 * (sin((h + 1) * p) / (h + 1) + sin((h - 1) * p) / (h - 1)));
 }
 
-/* Angle 90: only the normal spring. With clearance the force is the spring's; with preload, less N0. The jump of f' at +-p is k A sin p. */
+/* Angle 90: only the normal spring. With clearance the force is the spring's; with preload, less N0. The jump of f'
+ * at +-p is k A sin p. */
 static void unilateral_spring(void **state)
 {
   (void)state;
@@ -68,35 +74,40 @@ static void unilateral_spring(void **state)
         for (int h = 0; h <= H; ++h) {
           double exact = unilateral(h, kn, gap, A) - (h == 0 ? contact_preload(&sc.contacts[0].law) : 0);
           double bound = 2 * kink_error(h, N, kn * A * sin(acos(-gap / A)), kn * A) + slow_tolerance(&sc, H, N, X);
-          CHECK_LE(hypot(G[h ? 2 * h - 1 : 0] - exact, h ? G[2 * h] : 0), bound, "N=%d gap=%g h=%d shift=%g", N, gap, h, shift);
+          CHECK_LE(hypot(G[h ? 2 * h - 1 : 0] - exact, h ? G[2 * h] : 0), bound, "N=%d gap=%g h=%d shift=%g", N, gap, h,
+                   shift);
         }
         assert_int_equal(report.regime, CONTACT_SEPARATES);
         assert_int_equal(report.transitions, 2);
       }
 }
 
-/* Angle 0 with preload: v = 0, so the friction limit is constant, fc = mu kn gap. Odd harmonics by integrating T = kt (x - x_turn) -+ fc over
- * the stick angle phi and +-fc over the rest, for h = 1 and 3. */
+/* Angle 0 with preload: v = 0, so the friction limit is constant, fc = mu kn gap. Odd harmonics by integrating T =
+ * kt (x - x_turn) -+ fc over the stick angle phi and +-fc over the rest, for h = 1 and 3. */
 static double jenkins(int h, bool sine, double k, double A, double fc)
 {
   double phi = acos(1 - 2 * fc / (k * A));
-  /* downstroke from th = 0: stick f = fc - kA (1 - cos th) until phi, then -fc until pi; odd about pi. Coefficient: 2/pi of the half period. */
+  /* downstroke from th = 0: stick f = fc - kA (1 - cos th) until phi, then -fc until pi; odd about pi. Coefficient:
+   * 2/pi of the half period. */
   double whole, stick_const, stick_cos;
   if (sine) {
     whole = (cos(h * phi) - cos(h * PI)) / h;
     stick_const = (1 - cos(h * phi)) / h;
-    stick_cos = h == 1 ? 0.5 * sin(phi) * sin(phi) : 0.5 * ((1 - cos((h + 1) * phi)) / (h + 1) + (1 - cos((h - 1) * phi)) / (h - 1));
+    stick_cos = h == 1 ? 0.5 * sin(phi) * sin(phi)
+                       : 0.5 * ((1 - cos((h + 1) * phi)) / (h + 1) + (1 - cos((h - 1) * phi)) / (h - 1));
   } else {
     whole = -sin(h * phi) / h;
     stick_const = sin(h * phi) / h;
-    stick_cos = h == 1 ? 0.5 * (phi + sin(phi) * cos(phi)) : 0.5 * (sin((h + 1) * phi) / (h + 1) + sin((h - 1) * phi) / (h - 1));
+    stick_cos = h == 1 ? 0.5 * (phi + sin(phi) * cos(phi))
+                       : 0.5 * (sin((h + 1) * phi) / (h + 1) + sin((h - 1) * phi) / (h - 1));
   }
   return 2 / PI * ((fc - k * A) * stick_const + k * A * stick_cos - fc * whole);
 }
 
-/* Onsets of slip: two, f' jumps by k A sin phi. Turns: two, f'' jumps by k A; when they are samples (N even, no shift) the sampled forces
- * are exact and B_3(0) = 0, so turns enter from s^4 on. Elsewhere the sampled extremum is up to A s^2/8 short, and so is the slider over the stick
- * angle phi of each half period: 2 phi k A s^2/8 (1/pi) more, plus the turns' own s^3 term. */
+/* Onsets of slip: two, f' jumps by k A sin phi. Turns: two, f'' jumps by k A; when they are samples (N even, no
+ * shift) the sampled forces are exact and B_3(0) = 0, so turns enter from s^4 on. Elsewhere the sampled extremum is
+ * up to A s^2/8 short, and so is the slider over the stick angle phi of each half period: 2 phi k A s^2/8 (1/pi)
+ * more, plus the turns' own s^3 term. */
 static void jenkins_element(void **state)
 {
   (void)state;
@@ -119,21 +130,22 @@ static void jenkins_element(void **state)
       for (int h = 0; h <= H; ++h) {
         double a = h % 2 ? jenkins(h, false, k, A, fc) : 0, b = h % 2 ? jenkins(h, true, k, A, fc) : 0;
         double onsets = 2 * kink_error(h, N, k * A * sin(phi), k * A), turns = 2 * kink_error(h, N, 0, k * A);
-        if (j == 0) turns = 2 * 1.1 / (720 * PI) * pow(s, 4) * k * A * (pow(1 + h, 3) - pow(h, 3)); /* next: s^6, (1 + h) s < 0.5 */
+        /* next: s^6, (1 + h) s < 0.5 */
+        if (j == 0) turns = 2 * 1.1 / (720 * PI) * pow(s, 4) * k * A * (pow(1 + h, 3) - pow(h, 3));
         else turns += 2 * phi * k * A * s * s / 8 / PI;
         double bound = onsets + turns + slow_tolerance(&sc, H, N, X);
         CHECK_LE(hypot(G[h ? 2 * h - 1 : 0] - a, h ? G[2 * h] - b : 0), bound, "N=%d h=%d shift %d/8 step", N, h, j);
       }
-
 
       assert_int_equal(report.regime, CONTACT_SLIPS);
       assert_int_equal(report.transitions, 4);
     }
 }
 
-/* Case 2 never slips (kt cos < mu kn sin), so from the touch on its force is (kt c^2 + kn s^2) (x - x_touch), x_touch = -gap/s: the unilateral
- * spring again. Largest error of the first harmonic, relative to A, over 64 shifts within a step and 32 amplitudes A, 10 to 10.1: these move the two
- * kinks against each other by more than a step, N >= 512, for 1 % of A is 1.4 % of p = 0.63. */
+/* Case 2 never slips (kt cos < mu kn sin), so from the touch on its force is (kt c^2 + kn s^2) (x - x_touch),
+ * x_touch = -gap/s: the unilateral spring again. Largest error of the first harmonic, relative to A, over 64 shifts
+ * within a step and 32 amplitudes A, 10 to 10.1: these move the two kinks against each other by more than a step, N
+ * >= 512, for 1 % of A is 1.4 % of p = 0.63. */
 static double case_2_error(int restart, int n_time)
 {
   scene sc = scene_named("c2", 1, true, n_time);
@@ -153,18 +165,21 @@ static double case_2_error(int restart, int n_time)
   return worst;
 }
 
-/* Restarted on the last separated sample, w lags the touch by a part f of a step, D = A sin p s, and the sample itself lies (1 - f) D beyond.
- * There T = kt c (1 - f + f) D must not exceed mu N = mu kn s (1 - f) D = r kt c (1 - f) D, r = 3, else it slips until the lag is (r - 1)(1 - f) D:
- * the lag is min(f, (r - 1)(1 - f)) D, at worst (1 - 1/r) D = 2/3 D, and stays for the whole contact (but for an instant of slip at its end). The
- * first harmonic is then off by kt c^2 (2/3) A sin p s (2/pi) sin p; 64 shifts miss at most 1/64 of it, and kinks add second-order terms.
- * Restarted at the interpolated touch, w is exact, as u and v are proportional, and only the kinks are left. */
+/* Restarted on the last separated sample, w lags the touch by a part f of a step, D = A sin p s, and the sample
+ * itself lies (1 - f) D beyond. There T = kt c (1 - f + f) D must not exceed mu N = mu kn s (1 - f) D = r kt c (1 -
+ * f) D, r = 3, else it slips until the lag is (r - 1)(1 - f) D: the lag is min(f, (r - 1)(1 - f)) D, at worst (1 -
+ * 1/r) D = 2/3 D, and stays for the whole contact (but for an instant of slip at its end). The first harmonic is
+ * then off by kt c^2 (2/3) A sin p s (2/pi) sin p; 64 shifts miss at most 1/64 of it, and kinks add second-order
+ * terms. Restarted at the interpolated touch, w is exact, as u and v are proportional, and only the kinks are left. */
 static void restarts_of_the_slider(void **state)
 {
   (void)state;
-  double g = -1 - 5 / sqrt(0.5), sin_p = sqrt(1 - g * g / (10.1 * 10.1)), sample[4], touch[4]; /* the largest p, at A = 10.1 */
+  /* the largest p, at A = 10.1 */
+  double g = -1 - 5 / sqrt(0.5), sin_p = sqrt(1 - g * g / (10.1 * 10.1)), sample[4], touch[4];
   for (int i = 0; i < 4; ++i) {
     int N = 512 << (2 * i);
-    double s = 2 * PI / N, lag = 100 * 0.5 * (2.0 / 3) * s * sin_p * sin_p * 2 / PI, kinks = 2 * kink_error(1, N, 550 * sin_p, 550);
+    double s = 2 * PI / N, lag = 100 * 0.5 * (2.0 / 3) * s * sin_p * sin_p * 2 / PI,
+           kinks = 2 * kink_error(1, N, 550 * sin_p, 550);
     double rounding = 550 * 2 * (20 + 4 * log2(N)) * DBL_EPSILON; /* slow_tolerance, H = 1, sum |X| + gap < 2 A */
     sample[i] = case_2_error(HBM_RESTART_SAMPLE, N);
     touch[i] = case_2_error(HBM_RESTART_INTERPOLATED, N);
@@ -173,9 +188,10 @@ static void restarts_of_the_slider(void **state)
     CHECK_LE(touch[i], kinks + rounding, "N=%d", N);
     if (!i) continue;
     double order_sample = log2(sample[i - 1] / sample[i]) / 2, order_touch = log2(touch[i - 1] / touch[i]) / 2;
-    print_message("N = %5d: error of F1, restarted on a sample %.1e A (order %.2f), at the touch %.1e A (order %.2f)\n", N, sample[i], order_sample,
-                  touch[i], order_touch);
-    /* the worst kinks B_2(t1) + B_2(t2) = 1/3 - |t1| - |t2| are met to 1/128 and, as amplitudes fall at random, some 1/32: 15 % of 1/3, 0.1 in the order */
+    print_message("N = %5d: error of F1, restarted on a sample %.1e A (order %.2f), at the touch %.1e A (order %.2f)\n",
+                  N, sample[i], order_sample, touch[i], order_touch);
+    /* the worst kinks B_2(t1) + B_2(t2) = 1/3 - |t1| - |t2| are met to 1/128 and, as amplitudes fall at random, some
+     * 1/32: 15 % of 1/3, 0.1 in the order */
     CHECK_NEAR(order_sample, 1, 0.1, "N=%d", N);
     CHECK_NEAR(order_touch, 2, 0.1, "N=%d", N);
   }
@@ -185,7 +201,9 @@ static void restarts_of_the_slider(void **state)
 static void agrees_with_the_slow_way(void **state)
 {
   (void)state;
-  static const struct { int H, N; } sizes[] = {{1, 3}, {1, 5}, {2, 5}, {3, 7}, {1, 64}, {5, 33}, {10, 128}, {50, 101}, {50, 512}};
+  static const struct {
+    int H, N;
+  } sizes[] = {{1, 3}, {1, 5}, {2, 5}, {3, 7}, {1, 64}, {5, 33}, {10, 128}, {50, 101}, {50, 512}};
   uint64_t seed = 6;
   int regimes[4] = {0};
   double X[101], F[101], slowF[101];
@@ -199,19 +217,22 @@ static void agrees_with_the_slow_way(void **state)
       assert_int_equal(eval_once(&sc, H, N, X, F, NULL, &report), HC_OK);
       slow_force(&slow, &sc, H, N, X, slowF);
       double tolerance = slow_tolerance(&sc, H, N, X);
-      for (int p = 0; p < 2 * H + 1; ++p) CHECK_NEAR(F[p], slowF[p], tolerance, "H=%d N=%d trial %d, row %d", H, N, trial, p);
+      for (int p = 0; p < 2 * H + 1; ++p)
+        CHECK_NEAR(F[p], slowF[p], tolerance, "H=%d N=%d trial %d, row %d", H, N, trial, p);
       for (int j = 0; j < sc.n_contacts; ++j) {
         const contact *c = &sc.contacts[j].law; /* w = u - T/kt: stiffness of F over kt; kt = 0 leaves w free */
-        if (c->kt > 0) CHECK_NEAR(report.w[j], slow.w[j], tolerance / c->kt + tolerance, "w, H=%d N=%d trial %d", H, N, trial);
+        if (c->kt > 0)
+          CHECK_NEAR(report.w[j], slow.w[j], tolerance / c->kt + tolerance, "w, H=%d N=%d trial %d", H, N, trial);
       }
       ++regimes[report.regime];
     }
   for (int r = CONTACT_STUCK; r <= CONTACT_SEPARATES; ++r) assert_true(regimes[r] > 0); /* the cases cover them */
 }
 
-/* A step of the law maps w to the nearest point of an interval (or to a constant, after a separation). Such maps are closed under composition,
- * so a period is one too, and applying it twice is applying it once: a second period finds the slider settled, whatever the motion. Exactly in
- * exact arithmetic; the clamp's ends carry a few eps. aft.c relies on it and answers HC_NOT_CLOSED if it fails. */
+/* A step of the law maps w to the nearest point of an interval (or to a constant, after a separation). Such maps are
+ * closed under composition, so a period is one too, and applying it twice is applying it once: a second period finds
+ * the slider settled, whatever the motion. Exactly in exact arithmetic; the clamp's ends carry a few eps. aft.c
+ * relies on it and answers HC_NOT_CLOSED if it fails. */
 static void the_slider_closes_in_one_pass(void **state)
 {
   (void)state;
@@ -242,7 +263,8 @@ static void contacts_add(void **state)
   (void)state;
   enum { H = 6, N = 50, N_COEF = 2 * H + 1 };
   uint64_t seed = 8;
-  double X[N_COEF], F[N_COEF], G[N_COEF], sum[N_COEF], jac[N_COEF * N_COEF], one[N_COEF * N_COEF], jac_sum[N_COEF * N_COEF];
+  double X[N_COEF], F[N_COEF], G[N_COEF], sum[N_COEF], jac[N_COEF * N_COEF], one[N_COEF * N_COEF],
+      jac_sum[N_COEF * N_COEF];
   for (int trial = 0; trial < 100; ++trial) {
     scene sc = random_contacts(&seed, trial % 10 ? 4 : SCENE_MAX_CONTACTS);
     double stiffness = 0;
@@ -268,7 +290,8 @@ static void contacts_add(void **state)
     double tolerance = slow_tolerance(&sc, H, N, X);
     for (int p = 0; p < N_COEF; ++p) CHECK_NEAR(F[p], sum[p], tolerance, "trial %d row %d", trial, p);
     /* symbol by FFT, then sums over up to N/2 stick intervals of both */
-    for (int p = 0; p < N_COEF * N_COEF; ++p) CHECK_NEAR(jac[p], jac_sum[p], 4 * (log2(N) + N) * DBL_EPSILON * stiffness, "trial %d, %d", trial, p);
+    for (int p = 0; p < N_COEF * N_COEF; ++p)
+      CHECK_NEAR(jac[p], jac_sum[p], 4 * (log2(N) + N) * DBL_EPSILON * stiffness, "trial %d, %d", trial, p);
     assert_int_equal(transitions, all.transitions);
     assert_int_equal(strongest, all.regime);
   }
@@ -295,7 +318,8 @@ static void linear_motions(void **state)
   double k = scene_stuck_stiffness(&sc.contacts[0]), tolerance = slow_tolerance(&sc, H, N, X);
   for (int p = 0; p < N_COEF; ++p) {
     CHECK_NEAR(F[p], k * X[p], tolerance, "row %d", p);
-    for (int q = 0; q < N_COEF; ++q) CHECK_NEAR(jac[p + N_COEF * q], p == q ? k : 0, 4 * log2(N) * DBL_EPSILON * k, "row %d column %d", p, q);
+    for (int q = 0; q < N_COEF; ++q)
+      CHECK_NEAR(jac[p + N_COEF * q], p == q ? k : 0, 4 * log2(N) * DBL_EPSILON * k, "row %d column %d", p, q);
   }
   assert_int_equal(report.regime, CONTACT_STUCK);
   assert_true(report.w[0] == 0 && report.transitions == 0);
@@ -326,8 +350,13 @@ static void bad_input(void **state)
 }
 
 static const struct CMUnitTest tests[] = {
-  cmocka_unit_test(unilateral_spring), cmocka_unit_test(jenkins_element), cmocka_unit_test(restarts_of_the_slider),
-  cmocka_unit_test(agrees_with_the_slow_way), cmocka_unit_test(the_slider_closes_in_one_pass), cmocka_unit_test(contacts_add),
-  cmocka_unit_test(linear_motions), cmocka_unit_test(bad_input),
+    cmocka_unit_test(unilateral_spring),
+    cmocka_unit_test(jenkins_element),
+    cmocka_unit_test(restarts_of_the_slider),
+    cmocka_unit_test(agrees_with_the_slow_way),
+    cmocka_unit_test(the_slider_closes_in_one_pass),
+    cmocka_unit_test(contacts_add),
+    cmocka_unit_test(linear_motions),
+    cmocka_unit_test(bad_input),
 };
 CHECK_MAIN("hbm.aft", tests, 120)

@@ -1,4 +1,5 @@
-/* test_auto.c - hbm.harmonics: auto and hbm.samples: auto keep hbm.accuracy, what they cost, and every switch that saves work changes nothing else. */
+/* test_auto.c - hbm.harmonics: auto and hbm.samples: auto keep hbm.accuracy, what they cost, and every switch that
+ * saves work changes nothing else. */
 #include "hbm/curve.h"
 #include "hbm/hbm.h"
 #include "tests/hbm/scenes.h"
@@ -23,8 +24,10 @@ static run traced(const scene *sc)
   assert_int_equal(hbm_solver_new(sc, &r.s), HC_OK);
   hc_status st = hbm_trace(r.s, sc->omega_from, sc->omega_to, NULL, &r.c);
   if (st != HC_OK)
-    fail_msg("K=%g kn=%g gap=%g H=%d N=%d accuracy=%g: %s after %d points, at omega %.12g with H=%d N=%d", sc->stiffness, sc->contacts[0].law.kn, sc->contacts[0].law.gap,
-             sc->hbm.harmonics, sc->hbm.samples, sc->hbm.accuracy, hc_status_text(st), r.c.n, r.c.n ? r.c.points[r.c.n - 1].omega : 0, hbm_n_harmonics(r.s), hbm_n_samples(r.s));
+    fail_msg("K=%g kn=%g gap=%g H=%d N=%d accuracy=%g: %s after %d points, at omega %.12g with H=%d N=%d",
+             sc->stiffness, sc->contacts[0].law.kn, sc->contacts[0].law.gap, sc->hbm.harmonics, sc->hbm.samples,
+             sc->hbm.accuracy, hc_status_text(st), r.c.n, r.c.n ? r.c.points[r.c.n - 1].omega : 0, hbm_n_harmonics(r.s),
+             hbm_n_samples(r.s));
   return r;
 }
 
@@ -34,7 +37,8 @@ static void drop(run *r)
   hbm_solver_free(r->s);
 }
 
-/* Largest distance, relative to the solution, of a's solutions at omega from the nearest of b's; infinite where they are not equally many. */
+/* Largest distance, relative to the solution, of a's solutions at omega from the nearest of b's; infinite where they
+ * are not equally many. */
 static double distance_at(const run *a, const run *b, double omega)
 {
   hbm_curve at = {0}, bt = {0};
@@ -63,7 +67,8 @@ static double distance_at(const run *a, const run *b, double omega)
 
 enum { FREQUENCIES = 12 };
 
-/* Spread over the sweep, clear of its ends; but r2, a narrow resonance, only touches between 707.013 and its fold at 708.747: there, and a little to either side. */
+/* Spread over the sweep, clear of its ends; but r2, a narrow resonance, only touches between 707.013 and its fold at
+ * 708.747: there, and a little to either side. */
 static void frequencies(const scene *sc, double omega[FREQUENCIES])
 {
   bool narrow = sc->stiffness == 8e5;
@@ -89,9 +94,10 @@ static double hardest(const run *r)
 
 static const char *const names[] = {"c2", "b10", "gap1", "r2"};
 
-/* The estimate is one Newton step of twice the harmonics: the error but for the error of 2H, a sixteenth of it once H^-4 has set in and at worst as
- * large as it; and solutions between points use the most harmonics of the curve, so can only be better. Hence 2 times the accuracy, and 3 near folds where
- * the second order of the step shows. H = 60 itself is wrong by (10/60)^4 of H = 10: c2 1e-8. */
+/* The estimate is one Newton step of twice the harmonics: the error but for the error of 2H, a sixteenth of it once
+ * H^-4 has set in and at worst as large as it; and solutions between points use the most harmonics of the curve, so
+ * can only be better. Hence 2 times the accuracy, and 3 near folds where the second order of the step shows. H = 60
+ * itself is wrong by (10/60)^4 of H = 10: c2 1e-8. */
 static void auto_harmonics_keep_the_accuracy(void **state)
 {
   (void)state;
@@ -107,15 +113,19 @@ static void auto_harmonics_keep_the_accuracy(void **state)
       sc.hbm.accuracy = accuracies[a];
       run r = traced(&sc);
       assert_false(r.c.inaccurate);
-      CHECK_LE(worst_distance(&r, &reference, omega, FREQUENCIES), 3 * accuracies[a], "%s, accuracy %g, H=%d", names[q], accuracies[a], hbm_n_harmonics(r.s));
-      for (int k = 0; k + 1 < r.c.n; ++k) CHECK_LE(r.c.points[k].error, accuracies[a], "%s, accuracy %g, point %d", names[q], accuracies[a], k);
+      CHECK_LE(worst_distance(&r, &reference, omega, FREQUENCIES), 3 * accuracies[a], "%s, accuracy %g, H=%d", names[q],
+               accuracies[a], hbm_n_harmonics(r.s));
+      for (int k = 0; k + 1 < r.c.n; ++k)
+        CHECK_LE(r.c.points[k].error, accuracies[a], "%s, accuracy %g, point %d", names[q], accuracies[a], k);
       omega[FREQUENCIES] = hardest(&r);
       int need = 0;
       for (size_t i = 0; i < sizeof ladder / sizeof *ladder && !need; ++i) {
         sc.hbm.harmonics = ladder[i];
         run fixed = {0};
         assert_int_equal(hbm_solver_new(&sc, &fixed.s), HC_OK);
-        if (hbm_trace(fixed.s, sc.omega_from, sc.omega_to, NULL, &fixed.c) == HC_OK && worst_distance(&fixed, &reference, omega, FREQUENCIES + 1) <= accuracies[a]) need = ladder[i];
+        if (hbm_trace(fixed.s, sc.omega_from, sc.omega_to, NULL, &fixed.c) == HC_OK &&
+            worst_distance(&fixed, &reference, omega, FREQUENCIES + 1) <= accuracies[a])
+          need = ladder[i];
         drop(&fixed);
       }
       print_message("%-5s accuracy %g: H up to %d, needed %d\n", names[q], accuracies[a], hbm_n_harmonics(r.s), need);
@@ -127,8 +137,9 @@ static void auto_harmonics_keep_the_accuracy(void **state)
   }
 }
 
-/* Each point's own row is as accurate as its `error` says: solved again with 60 harmonics from that row, at its omega. A step back to fewer harmonics is
- * taken on a tail of 0.05 accuracy, and its effect on the kept ones is not measured until the next point: hence 3 here too. */
+/* Each point's own row is as accurate as its `error` says: solved again with 60 harmonics from that row, at its
+ * omega. A step back to fewer harmonics is taken on a tail of 0.05 accuracy, and its effect on the kept ones is not
+ * measured until the next point: hence 3 here too. */
 static void harmonics_follow_the_curve(void **state)
 {
   (void)state;
@@ -156,7 +167,8 @@ static void harmonics_follow_the_curve(void **state)
         size += X[i] * X[i];
       }
       if (sqrt(sum / size) > 0.1) continue; /* another branch, next to a fold */
-      CHECK_LE(sqrt(sum / size), 3e-3, "%s, omega %g, point %d, H=%d, said %g", names[q], r.c.points[k].omega, k, h, r.c.points[k].error);
+      CHECK_LE(sqrt(sum / size), 3e-3, "%s, omega %g, point %d, H=%d, said %g", names[q], r.c.points[k].omega, k, h,
+               r.c.points[k].error);
       ++checked;
     }
     print_message("%-5s harmonics %d to %d over %d points, %d checked\n", names[q], fewest, most, r.c.n, checked);
@@ -169,7 +181,8 @@ static void harmonics_follow_the_curve(void **state)
   }
 }
 
-/* Sampling errs like 1/N^2, so that N against 2N shows 3/4 of it, 4/3 of the accuracy; with the restart interpolated it is not monotone: 3. */
+/* Sampling errs like 1/N^2, so that N against 2N shows 3/4 of it, 4/3 of the accuracy; with the restart interpolated
+ * it is not monotone: 3. */
 static void auto_samples_keep_the_accuracy(void **state)
 {
   (void)state;
@@ -197,8 +210,9 @@ static void auto_samples_keep_the_accuracy(void **state)
   }
 }
 
-/* A point solved leaves a residual at 1e-10 of its forces or, polished once more, at rounding; the closed form at rounding. Forces to motions: at most
- * the resonance's K/(C w) = 5e3 for r2 (lightly damped) but polished 1e-16 each: 1e-9 is far above. So too for natural against arc-length steps. */
+/* A point solved leaves a residual at 1e-10 of its forces or, polished once more, at rounding; the closed form at
+ * rounding. Forces to motions: at most the resonance's K/(C w) = 5e3 for r2 (lightly damped) but polished 1e-16
+ * each: 1e-9 is far above. So too for natural against arc-length steps. */
 static void shortcuts_change_no_solution(void **state)
 {
   (void)state;
@@ -225,7 +239,8 @@ static void shortcuts_change_no_solution(void **state)
   }
 }
 
-/* Every switch off: numbers as given, the same at every point, no estimate, no arc-length, no closed form. a10 with 1 N stays away from folds. */
+/* Every switch off: numbers as given, the same at every point, no estimate, no arc-length, no closed form. a10 with
+ * 1 N stays away from folds. */
 static void every_switch_can_be_turned_off(void **state)
 {
   (void)state;
@@ -255,8 +270,9 @@ static void every_switch_can_be_turned_off(void **state)
 }
 
 static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(auto_harmonics_keep_the_accuracy), cmocka_unit_test(harmonics_follow_the_curve),     cmocka_unit_test(auto_samples_keep_the_accuracy),
-    cmocka_unit_test(shortcuts_change_no_solution),     cmocka_unit_test(every_switch_can_be_turned_off),
+    cmocka_unit_test(auto_harmonics_keep_the_accuracy), cmocka_unit_test(harmonics_follow_the_curve),
+    cmocka_unit_test(auto_samples_keep_the_accuracy),   cmocka_unit_test(shortcuts_change_no_solution),
+    cmocka_unit_test(every_switch_can_be_turned_off),
 };
 
 CHECK_MAIN("hbm.auto", tests, 300)

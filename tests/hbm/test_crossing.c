@@ -1,6 +1,6 @@
-/* test_crossing.c - the first angle where a trigonometric polynomial falls through 0: against dense sampling, and against roots that are known.
- * Here "noise" is what crossing.c says it cannot tell from 0, eps (16 scale + 32 sqrt(size bound2)), and what an evaluation may be off by:
- * dips shallower than that are free to be seen or not. */
+/* test_crossing.c - the first angle where a trigonometric polynomial falls through 0: against dense sampling, and
+ * against roots that are known. Here "noise" is what crossing.c says it cannot tell from 0, eps (16 scale + 32
+ * sqrt(size bound2)), and what an evaluation may be off by: dips shallower than that are free to be seen or not. */
 #include "hbm/crossing.h"
 #include "hbm/series.h"
 #include "tests/hbm/scenes.h"
@@ -9,7 +9,8 @@ enum { MAX_HARM = 200, MAX_COEF = 2 * MAX_HARM + 1 };
 
 static double noise_of(const guard *g) { return DBL_EPSILON * (16 * guard_scale(g) + 32 * sqrt(g->size * g->bound2)); }
 
-/* A derivative of f at th in extended precision: an own evaluation, by turning z = exp(i h th) step by step (H long double eps: 2e-17). */
+/* A derivative of f at th in extended precision: an own evaluation, by turning z = exp(i h th) step by step (H long
+ * double eps: 2e-17). */
 static long double slow_value(const motion *m, const guard *g, int derivative, long double th)
 {
   long double f = derivative ? 0 : g->constant, c = cosl(th), s = sinl(th);
@@ -34,7 +35,10 @@ static long double slow_value(const motion *m, const guard *g, int derivative, l
   return f;
 }
 
-typedef struct outcome { bool found; double root; } outcome;
+typedef struct outcome {
+  bool found;
+  double root;
+} outcome;
 
 /* Over the whole turn from `from`, in `steps` intervals, as transitions.c does it. */
 static outcome search_turn(const motion *m, const guard *g, double from, int steps)
@@ -51,8 +55,9 @@ static outcome search_turn(const motion *m, const guard *g, double from, int ste
   return (outcome){false, 0};
 }
 
-/* A found root is one: f there is 0 to noise; beyond it, within what a slope or a curvature needs for that, f is below; before it nothing is. The last
- * is seen by sampling 8 H + 64 times a turn and descending from each sample that is a local minimum. Returns the deepest dip before `to`. */
+/* A found root is one: f there is 0 to noise; beyond it, within what a slope or a curvature needs for that, f is
+ * below; before it nothing is. The last is seen by sampling 8 H + 64 times a turn and descending from each sample
+ * that is a local minimum. Returns the deepest dip before `to`. */
 static double deepest_before(const motion *m, const guard *g, double from, double to, double *where)
 {
   int n = 8 * m->n_harm + 64;
@@ -66,22 +71,33 @@ static double deepest_before(const motion *m, const guard *g, double from, doubl
       if (slow_value(m, g, 1, lo) < 0 && slow_value(m, g, 1, hi) > 0) {
         for (int it = 0; it < 40; ++it) {
           long double mid = 0.5L * (lo + hi);
-          if (slow_value(m, g, 1, mid) < 0) lo = mid; else hi = mid;
+          if (slow_value(m, g, 1, mid) < 0) lo = mid;
+          else hi = mid;
         }
         f = slow_value(m, g, 0, lo);
       }
       f = fminl(f, here);
-      if (f < deepest) { deepest = (double)f; *where = (double)lo; }
+      if (f < deepest) {
+        deepest = (double)f;
+        *where = (double)lo;
+      }
     }
-    if (after < deepest) { deepest = (double)after; *where = next; }
+    if (after < deepest) {
+      deepest = (double)after;
+      *where = next;
+    }
     before = here;
     here = after;
   }
   return deepest;
 }
 
-/* What the polynomial's own evaluation may be off by at angles up to 4 pi: recurrences lose up to 2 H eps of |f'|'s size. */
-static double slack_of(const motion *m, const guard *g) { return 3 * noise_of(g) + 16 * DBL_EPSILON * (m->n_harm + 4) * (guard_scale(g) + sqrt(g->size * g->bound2)); }
+/* What the polynomial's own evaluation may be off by at angles up to 4 pi: recurrences lose up to 2 H eps of |f'|'s
+ * size. */
+static double slack_of(const motion *m, const guard *g)
+{
+  return 3 * noise_of(g) + 16 * DBL_EPSILON * (m->n_harm + 4) * (guard_scale(g) + sqrt(g->size * g->bound2));
+}
 
 static void check_search(const motion *m, const guard *g, double from, int steps, const char *what, int *n_found)
 {
@@ -89,11 +105,13 @@ static void check_search(const motion *m, const guard *g, double from, int steps
   if (slow_value(m, g, 0, from) < slack) return; /* must start above 0 */
   outcome o = search_turn(m, g, from, steps);
   double to = o.found ? o.root : from + 2 * PI, deepest = deepest_before(m, g, from, to, &where);
-  CHECK_LE(-deepest, slack, "%s: missed a dip at %.17g, before %.17g (%s)", what, where, to, o.found ? "root" : "the end");
+  CHECK_LE(-deepest, slack, "%s: missed a dip at %.17g, before %.17g (%s)", what, where, to,
+           o.found ? "root" : "the end");
   if (!o.found) return;
   ++*n_found;
   CHECK_LE((double)fabsl(slow_value(m, g, 0, o.root)), slack, "%s: f at the root %.17g", what, o.root);
-  /* f < 0 soon: within the distance where the largest slope it can have there would take it below -slack, doubled until it does */
+  /* f < 0 soon: within the distance where the largest slope it can have there would take it below -slack, doubled
+   * until it does */
   double ahead = 1e-12;
   while (ahead < 0.1 && slow_value(m, g, 0, o.root + ahead) >= 0) ahead *= 2;
   CHECK_LE(ahead, 3e-2 / sqrt(m->n_harm), "%s: f does not fall below 0 after %.17g", what, o.root);
@@ -131,7 +149,8 @@ static void random_polynomials(void **state)
   assert_true(n_found > n_all / 4 && n_found < n_all);
 }
 
-/* The deepest minimum of a random f, put at +-depth around 0 and at 0: what is deeper than noise is found, what stays above 0 is not. */
+/* The deepest minimum of a random f, put at +-depth around 0 and at 0: what is deeper than noise is found, what
+ * stays above 0 is not. */
 static void grazing(void **state)
 {
   (void)state;
@@ -157,13 +176,16 @@ static void grazing(void **state)
           double depth = sign * depths[d] * g.size;
           if (depth > slack) {
             ++seen;
-            if (!found.found) fail_msg("H=%d order=%d: a dip of %g at %.17g is missed (noise %g)", H, order, depth, low, noise_of(&g));
-            CHECK_LE((double)fabsl(slow_value(&m, &g, 0, found.root)), slack, "H=%d order=%d depth %g", H, order, depth);
+            if (!found.found)
+              fail_msg("H=%d order=%d: a dip of %g at %.17g is missed (noise %g)", H, order, depth, low, noise_of(&g));
+            CHECK_LE((double)fabsl(slow_value(&m, &g, 0, found.root)), slack, "H=%d order=%d depth %g", H, order,
+                     depth);
             double away = remainder(found.root - low, 2 * PI);
             CHECK_LE(away, 1e-12, "H=%d: a falling root lies before the minimum", H);
           } else if (-depth > slack) {
             ++told;
-            if (found.found) fail_msg("H=%d order=%d: a minimum of %g at %.17g is taken for a crossing", H, order, -depth, low);
+            if (found.found)
+              fail_msg("H=%d order=%d: a minimum of %g at %.17g is taken for a crossing", H, order, -depth, low);
           }
         }
     }
@@ -171,8 +193,8 @@ static void grazing(void **state)
   assert_true(seen > 300 && told > 300);
 }
 
-/* f = (1 - cos(h th)): double roots at all 2 pi k/h, exactly grazing; with a constant of +-1e-12 and +-1e-15 added, dips by that or none. And
- * f = +-sin^3 th, triple: found where it falls, to the cube root of noise. */
+/* f = (1 - cos(h th)): double roots at all 2 pi k/h, exactly grazing; with a constant of +-1e-12 and +-1e-15 added,
+ * dips by that or none. And f = +-sin^3 th, triple: found where it falls, to the cube root of noise. */
 static void roots_that_are_known(void **state)
 {
   (void)state;
@@ -192,7 +214,8 @@ static void roots_that_are_known(void **state)
       if (-shifts[s] > slack_of(&m, &g)) {
         assert_true(o.found);
         double exact = (2 * PI - acos(1 + shifts[s])) / h; /* acos(1 - e) is good to eps/sqrt(2 e) */
-        CHECK_NEAR(o.root, exact, 2 * slack_of(&m, &g) / (h * sqrt(-2 * shifts[s])) + 8 * DBL_EPSILON, "h=%d, 1 - cos(h th) %g", h, shifts[s]);
+        CHECK_NEAR(o.root, exact, 2 * slack_of(&m, &g) / (h * sqrt(-2 * shifts[s])) + 8 * DBL_EPSILON,
+                   "h=%d, 1 - cos(h th) %g", h, shifts[s]);
       }
     }
   memset(X, 0, sizeof X);
@@ -209,7 +232,8 @@ static void roots_that_are_known(void **state)
   }
 }
 
-/* Simple roots: f = cos(h (th - t0)) falls through 0 at t0 + pi/(2h) to a few eps of the angle, and from every starting angle the next one is found. */
+/* Simple roots: f = cos(h (th - t0)) falls through 0 at t0 + pi/(2h) to a few eps of the angle, and from every
+ * starting angle the next one is found. */
 static void simple_roots_to_rounding(void **state)
 {
   (void)state;
@@ -247,7 +271,8 @@ static void constants_and_zero(void **state)
         assert_false(search_turn(&m, &g, 0.3, 32).found);
       }
     }
-  memset(X, 0, sizeof X); /* a rounding error's worth of motion on a constant that is 0 to rounding: nothing to find, and nothing to search for long */
+  memset(X, 0, sizeof X); /* a rounding error's worth of motion on a constant that is 0 to rounding: nothing to find,
+                             and nothing to search for long */
   X[0] = 1;
   for (int i = 1; i < MAX_COEF; ++i) X[i] = 1e-19;
   motion m = {MAX_HARM, 1, {X}};
@@ -256,7 +281,8 @@ static void constants_and_zero(void **state)
   assert_false(search_turn(&m, &g, 0.3, 32).found);
 }
 
-/* Flat contacts, f = (1 + cos th)^k / 2^k + shift, a root of order 2k at pi: what costs most. Bounded by the watchdog; k <= 4 here. */
+/* Flat contacts, f = (1 + cos th)^k / 2^k + shift, a root of order 2k at pi: what costs most. Bounded by the
+ * watchdog; k <= 4 here. */
 static void flat_minima(void **state)
 {
   (void)state;
@@ -303,7 +329,12 @@ static void nodes_and_bounds(void **state)
 }
 
 static const struct CMUnitTest tests[] = {
-  cmocka_unit_test(nodes_and_bounds),     cmocka_unit_test(random_polynomials), cmocka_unit_test(grazing),     cmocka_unit_test(roots_that_are_known),
-  cmocka_unit_test(simple_roots_to_rounding), cmocka_unit_test(constants_and_zero), cmocka_unit_test(flat_minima),
+    cmocka_unit_test(nodes_and_bounds),
+    cmocka_unit_test(random_polynomials),
+    cmocka_unit_test(grazing),
+    cmocka_unit_test(roots_that_are_known),
+    cmocka_unit_test(simple_roots_to_rounding),
+    cmocka_unit_test(constants_and_zero),
+    cmocka_unit_test(flat_minima),
 };
 CHECK_MAIN("hbm.crossing", tests, 120)

@@ -13,8 +13,10 @@ static int read_references(void **state)
   return 0;
 }
 
-/* A whole sweep, up or down, its points and between them, and its peak: F0/(C sqrt(k/M - C^2/4M^2)) at w^2 = k/M - C^2/2M^2. */
-static void check_linear_sweep(const scene *sc, double k, contact_regime regime, double from, double to, const char *what)
+/* A whole sweep, up or down, its points and between them, and its peak: F0/(C sqrt(k/M - C^2/4M^2)) at w^2 = k/M -
+ * C^2/2M^2. */
+static void check_linear_sweep(const scene *sc, double k, contact_regime regime, double from, double to,
+                               const char *what)
 {
   traced t = trace(sc, from, to, what);
   const hbm_curve *c = &t.curve;
@@ -41,19 +43,23 @@ static void check_linear_sweep(const scene *sc, double k, contact_regime regime,
   assert_int_equal(hbm_curve_peak(t.s, c, &peak), HC_OK);
   assert_int_equal(peak.n, 1);
   assert_int_equal(hbm_measure(t.s, peak.X, &m), HC_OK);
-  double damping = sc->damping / sc->mass, top = sc->force / (sc->mass * damping * sqrt(k / sc->mass - damping * damping / 4));
+  double damping = sc->damping / sc->mass,
+         top = sc->force / (sc->mass * damping * sqrt(k / sc->mass - damping * damping / 4));
   double omega_top = sqrt(k / sc->mass - damping * damping / 2);
-  /* a maximum: an omega off by e costs x''/x e^2/2 = (2/damping)^2 e^2/2, and golden section cannot tell e where that is below the rounding r of
-   * the amplitude: e <= (damping/2) sqrt(2 r), r the linear tolerance; the amplitude is as good as that rounding, twice for the comparison */
+  /* a maximum: an omega off by e costs x''/x e^2/2 = (2/damping)^2 e^2/2, and golden section cannot tell e where
+   * that is below the rounding r of the amplitude: e <= (damping/2) sqrt(2 r), r the linear tolerance; the amplitude
+   * is as good as that rounding, twice for the comparison */
   double rounding = linear_tolerance(sc, k, omega_top, 1) / top;
   CHECK_NEAR(m.amplitude, top, 4 * rounding * top, "%s: peak", what);
-  CHECK_NEAR(peak.points[0].omega, omega_top, 4 * damping / 2 * sqrt(2 * rounding) + 1e-7 * fabs(to - from), "%s: peak", what);
+  CHECK_NEAR(peak.points[0].omega, omega_top, 4 * damping / 2 * sqrt(2 * rounding) + 1e-7 * fabs(to - from), "%s: peak",
+             what);
   hbm_curve_free(&peak);
   drop(&t);
 }
 
-/* No contact; preloaded and never slipping (a10 with 1 N: 0.18 at resonance, below mu kn gap/(kt cos + mu kn sin) = 0.26); never touching (b10
- * with 1 N: 0.4 sin 45 < 0.5). The paper's Table 10 likewise, where the resonance is 2800 times sharper. The numbers there lose 4 digits more. */
+/* No contact; preloaded and never slipping (a10 with 1 N: 0.18 at resonance, below mu kn gap/(kt cos + mu kn sin) =
+ * 0.26); never touching (b10 with 1 N: 0.4 sin 45 < 0.5). The paper's Table 10 likewise, where the resonance is 2800
+ * times sharper. The numbers there lose 4 digits more. */
 static void linear_sweeps(void **state)
 {
   (void)state;
@@ -61,7 +67,8 @@ static void linear_sweeps(void **state)
   for (int i = 0; i < 3; ++i)
     for (int keep_mean = 0; keep_mean <= 1; ++keep_mean)
       for (int down = 0; down <= 1; ++down) {
-        scene stuck = scene_named("a10", orders[i], keep_mean, 64), apart = scene_named("b10", orders[i], keep_mean, 64);
+        scene stuck = scene_named("a10", orders[i], keep_mean, 64),
+              apart = scene_named("b10", orders[i], keep_mean, 64);
         double from = down ? 20 : 3, to = 23 - from;
         stuck.force = apart.force = 1;
         scene bare = apart;
@@ -69,19 +76,21 @@ static void linear_sweeps(void **state)
         check_linear_sweep(&bare, 40, CONTACT_LINEAR, from, to, "no contact");
         check_linear_sweep(&apart, 40, CONTACT_LINEAR, from, to, "apart");
         check_linear_sweep(&stuck, 190, CONTACT_STUCK, from, to, "stuck");
-        CHECK_LE(linear_tolerance(&stuck, 190, 13.78, 1) / 0.18, 1e-12, "what the tolerance comes to, where it is largest");
+        CHECK_LE(linear_tolerance(&stuck, 190, 13.78, 1) / 0.18, 1e-12,
+                 "what the tolerance comes to, where it is largest");
         scene sharp = scene_named("r2", orders[i], keep_mean, 64);
         sharp.force = 1; /* 3.5e-3 at resonance, far from 0.2 */
         check_linear_sweep(&sharp, 8e5, CONTACT_LINEAR, down ? 850 : 600, down ? 600 : 850, "apart, sharp");
       }
 }
 
-/* What sampling costs at N = 4096: kinks of the force miss s^2/12 = 2e-7 of their size times K x, s = 2 pi/N, and the solution answers with at
- * most the Q of 16 (r2: 2800, but the contact adds a force 1000 times smaller than K x) or the steepness near a fold, 10 or so where rows are
- * listed: 3e-5 of the amplitude. 1e-4 is held; found is 5e-6. */
+/* What sampling costs at N = 4096: kinks of the force miss s^2/12 = 2e-7 of their size times K x, s = 2 pi/N, and
+ * the solution answers with at most the Q of 16 (r2: 2800, but the contact adds a force 1000 times smaller than K x)
+ * or the steepness near a fold, 10 or so where rows are listed: 3e-5 of the amplitude. 1e-4 is held; found is 5e-6. */
 static const double SAMPLED = 1e-4;
 
-/* Rows of one curve, as one frequency after the other; in the order of the curve, reversed or not, one solution for each row. */
+/* Rows of one curve, as one frequency after the other; in the order of the curve, reversed or not, one solution for
+ * each row. */
 static int check_rows(const traced *t, const char *name, int n_harm, int keep_mean, bool reversed)
 {
   int checked = 0;
@@ -90,25 +99,34 @@ static int check_rows(const traced *t, const char *name, int n_harm, int keep_me
     if (strcmp(r->name, name) || r->n_harm != n_harm || r->keep_mean != keep_mean) continue;
     int before = 0, all = 0; /* rows at this omega before this one, and in all */
     for (int j = 0; j < n_rows; ++j) {
-      bool same = !strcmp(rows[j].name, name) && rows[j].n_harm == n_harm && rows[j].keep_mean == keep_mean && rows[j].omega == r->omega;
+      bool same = !strcmp(rows[j].name, name) && rows[j].n_harm == n_harm && rows[j].keep_mean == keep_mean &&
+                  rows[j].omega == r->omega;
       all += same;
       before += same && j < i;
     }
     hbm_curve at = {0};
     hbm_measures m;
     hc_status st = hbm_curve_at(t->s, &t->curve, r->omega, &at);
-    if (st != HC_OK || at.n != all) fail_msg("%s H=%d static=%d: %d solutions at %g, not %d; %s", name, n_harm, keep_mean, at.n, r->omega, all, hc_status_text(st));
+    if (st != HC_OK || at.n != all)
+      fail_msg("%s H=%d static=%d: %d solutions at %g, not %d; %s", name, n_harm, keep_mean, at.n, r->omega, all,
+               hc_status_text(st));
     int k = reversed ? all - 1 - before : before;
     assert_int_equal(hbm_measure(t->s, at.X + (size_t)k * at.n_coef, &m), HC_OK);
     double tol = SAMPLED * r->amplitude;
-    CHECK_NEAR(m.amplitude, r->amplitude, tol, "%s H=%d static=%d omega=%g branch %d", name, n_harm, keep_mean, r->omega, r->branch);
-    CHECK_NEAR(m.max, r->max, tol, "%s H=%d static=%d omega=%g branch %d", name, n_harm, keep_mean, r->omega, r->branch);
-    CHECK_NEAR(m.min, r->min, tol, "%s H=%d static=%d omega=%g branch %d", name, n_harm, keep_mean, r->omega, r->branch);
-    CHECK_NEAR(m.mean, r->mean, tol, "%s H=%d static=%d omega=%g branch %d", name, n_harm, keep_mean, r->omega, r->branch);
-    CHECK_NEAR(m.harmonic_1, r->harmonic_1, tol, "%s H=%d static=%d omega=%g branch %d", name, n_harm, keep_mean, r->omega, r->branch);
+    CHECK_NEAR(m.amplitude, r->amplitude, tol, "%s H=%d static=%d omega=%g branch %d", name, n_harm, keep_mean,
+               r->omega, r->branch);
+    CHECK_NEAR(m.max, r->max, tol, "%s H=%d static=%d omega=%g branch %d", name, n_harm, keep_mean, r->omega,
+               r->branch);
+    CHECK_NEAR(m.min, r->min, tol, "%s H=%d static=%d omega=%g branch %d", name, n_harm, keep_mean, r->omega,
+               r->branch);
+    CHECK_NEAR(m.mean, r->mean, tol, "%s H=%d static=%d omega=%g branch %d", name, n_harm, keep_mean, r->omega,
+               r->branch);
+    CHECK_NEAR(m.harmonic_1, r->harmonic_1, tol, "%s H=%d static=%d omega=%g branch %d", name, n_harm, keep_mean,
+               r->omega, r->branch);
     /* Sampling may add false turning points (test_paper.c), but in pairs: rising stays rising. */
     if ((at.points[k].branch - (reversed ? t->curve.turning_points : 0) - r->branch) % 2)
-      fail_msg("%s H=%d static=%d omega=%g: branch %d, not %d", name, n_harm, keep_mean, r->omega, at.points[k].branch, r->branch);
+      fail_msg("%s H=%d static=%d omega=%g: branch %d, not %d", name, n_harm, keep_mean, r->omega, at.points[k].branch,
+               r->branch);
     hbm_curve_free(&at);
     ++checked;
   }
@@ -126,7 +144,8 @@ static int check_peak(const traced *t, const char *name, int n_harm, int keep_me
     hbm_measures m;
     assert_int_equal(hbm_curve_peak(t->s, &t->curve, &peak), HC_OK);
     assert_int_equal(hbm_measure(t->s, peak.X, &m), HC_OK);
-    CHECK_NEAR(m.amplitude, r->amplitude, (SAMPLED + 1e-6) * r->amplitude, "%s H=%d static=%d", name, n_harm, keep_mean);
+    CHECK_NEAR(m.amplitude, r->amplitude, (SAMPLED + 1e-6) * r->amplitude, "%s H=%d static=%d", name, n_harm,
+               keep_mean);
     CHECK_NEAR(peak.points[0].omega, r->omega, 1.5e-3 * r->omega, "%s H=%d static=%d", name, n_harm, keep_mean);
     hbm_curve_free(&peak);
     ++checked;
@@ -134,8 +153,9 @@ static int check_peak(const traced *t, const char *name, int n_harm, int keep_me
   return checked;
 }
 
-/* c2kn1e4, harmonic 0 kept: only H = 1. With kn = 1e4, 4096 samples make hundreds of false turning points (test_paper.c) and take 20 s for the rest.
- * Without harmonic 0 its reference peaks are where the reference sweep ended, near 20, the curve still rising: no peaks. */
+/* c2kn1e4, harmonic 0 kept: only H = 1. With kn = 1e4, 4096 samples make hundreds of false turning points
+ * (test_paper.c) and take 20 s for the rest. Without harmonic 0 its reference peaks are where the reference sweep
+ * ended, near 20, the curve still rising: no peaks. */
 static void reference_rows_and_peaks(void **state)
 {
   (void)state;
@@ -149,7 +169,8 @@ static void reference_rows_and_peaks(void **state)
         if (hard && keep_mean && o > 0) continue;
         scene sc = scene_named(r->name, orders[o], keep_mean, 4096);
         traced t = trace(&sc, r->omega_from, r->omega_to, r->name);
-        if (t.status != HC_OK || t.curve.left_at_start) fail_msg("%s H=%d static=%d: %s", r->name, orders[o], keep_mean, hc_status_text(t.status));
+        if (t.status != HC_OK || t.curve.left_at_start)
+          fail_msg("%s H=%d static=%d: %s", r->name, orders[o], keep_mean, hc_status_text(t.status));
         n_checked += check_rows(&t, r->name, orders[o], keep_mean, false);
         if (!(hard && !keep_mean)) n_tops += check_peak(&t, r->name, orders[o], keep_mean);
         drop(&t);
@@ -168,7 +189,9 @@ static void from_the_other_end(void **state)
       for (int keep_mean = 0; keep_mean <= 1; ++keep_mean) {
         scene sc = scene_named(names[i], n_harm, keep_mean, 4096);
         traced t = trace(&sc, sc.omega_to, sc.omega_from, names[i]);
-        if (t.status != HC_OK || t.curve.left_at_start) fail_msg("%s H=%d static=%d, downwards: %s%s", names[i], n_harm, keep_mean, hc_status_text(t.status), t.curve.left_at_start ? ", turned back" : "");
+        if (t.status != HC_OK || t.curve.left_at_start)
+          fail_msg("%s H=%d static=%d, downwards: %s%s", names[i], n_harm, keep_mean, hc_status_text(t.status),
+                   t.curve.left_at_start ? ", turned back" : "");
         assert_true(check_rows(&t, names[i], n_harm, keep_mean, true) > 8);
         drop(&t);
       }
@@ -190,7 +213,10 @@ static void arclength_only(void **state)
 }
 
 static const struct CMUnitTest tests[] = {
-  cmocka_unit_test(linear_sweeps), cmocka_unit_test(reference_rows_and_peaks), cmocka_unit_test(from_the_other_end), cmocka_unit_test(arclength_only),
+    cmocka_unit_test(linear_sweeps),
+    cmocka_unit_test(reference_rows_and_peaks),
+    cmocka_unit_test(from_the_other_end),
+    cmocka_unit_test(arclength_only),
 };
 
 int main(void)

@@ -7,7 +7,11 @@ static void spring_series(double k, double A, double g, int n_harm, double *F)
 {
   memset(F, 0, (size_t)series_length(n_harm) * sizeof *F);
   if (g <= -A) return;
-  if (g >= A) { F[0] = k * g; F[1] = k * A; return; }
+  if (g >= A) {
+    F[0] = k * g;
+    F[1] = k * A;
+    return;
+  }
   double p = atan2(sqrt((A - g) * (A + g)), -g); /* arccos(-g/A), exact where it grazes */
   F[0] = k / PI * (g * p + A * sin(p));
   for (int h = 1; h <= n_harm; ++h) {
@@ -53,8 +57,9 @@ static void closed_forms_themselves(void **state)
 static void unilateral_spring(void **state)
 {
   (void)state;
-  static const double gaps[] = {-2, -1 - 1e-9, -1, -1 + 1e-15, -1 + 1e-12, -1 + 1e-9, -1 + 1e-6, -0.999, -0.5, -0.37, -1e-9, 0, 1e-9, 0.37, 0.999, 1 - 1e-9, 1 - 1e-12,
-                                1 - 1e-15, 1, 1 + 1e-9, 2};
+  static const double gaps[] = {-2,     -1 - 1e-9, -1,        -1 + 1e-15, -1 + 1e-12, -1 + 1e-9, -1 + 1e-6,
+                                -0.999, -0.5,      -0.37,     -1e-9,      0,          1e-9,      0.37,
+                                0.999,  1 - 1e-9,  1 - 1e-12, 1 - 1e-15,  1,          1 + 1e-9,  2};
   static const int orders[] = {1, 2, 3, 5, 10, 20, 50};
   static evaluation e;
   double X[101], expected[101], turned[101];
@@ -63,7 +68,8 @@ static void unilateral_spring(void **state)
     for (size_t i = 0; i < sizeof gaps / sizeof *gaps; ++i)
       for (int trial = 0; trial < 4; ++trial) {
         int H = orders[o], n = series_length(H);
-        double k = pow(10, 3 * random_signed(&seed)), A = pow(10, 3 * random_signed(&seed)), shift = trial ? PI * random_signed(&seed) : 0;
+        double k = pow(10, 3 * random_signed(&seed)), A = pow(10, 3 * random_signed(&seed)),
+               shift = trial ? PI * random_signed(&seed) : 0;
         moving_contact c = contact_at((contact){trial == 3 ? 0 : 7, k, trial == 2 ? 0 : 0.3, gaps[i] * A}, 90);
         memset(X, 0, sizeof X);
         X[1] = A;
@@ -73,7 +79,9 @@ static void unilateral_spring(void **state)
         shift_motion(H, X, shift, expected);
         evaluate(H, 1, 1, &c, expected, &e, NULL);
         check_series(n, e.F, turned, 1e-13 * k * A, "unilateral spring");
-        contact_regime regime = gaps[i] < -1 - 1e-10 ? CONTACT_LINEAR : gaps[i] > 1 + 1e-10 ? CONTACT_STUCK : CONTACT_SEPARATES;
+        contact_regime regime = gaps[i] < -1 - 1e-10  ? CONTACT_LINEAR
+                                : gaps[i] > 1 + 1e-10 ? CONTACT_STUCK
+                                                      : CONTACT_SEPARATES;
         if (fabs(fabs(gaps[i]) - 1) > 1e-13 && trial < 2 && gaps[i] < 1) assert_int_equal(e.report.regime, regime);
       }
 }
@@ -91,7 +99,8 @@ static void jenkins_element(void **state)
     for (int i = 0; i < 10; ++i)
       for (int trial = 0; trial < 4; ++trial) {
         int H = orders[o], n = series_length(H);
-        double k = pow(10, 2 * random_signed(&seed)), A = pow(10, 2 * random_signed(&seed)), f = ratios[i] * k * A, shift = trial ? PI * random_signed(&seed) : 0;
+        double k = pow(10, 2 * random_signed(&seed)), A = pow(10, 2 * random_signed(&seed)), f = ratios[i] * k * A,
+               shift = trial ? PI * random_signed(&seed) : 0;
         contact law = {k, 3, 0.3, f / 0.9};
         f = law.mu * law.kn * law.gap;
         moving_contact c = contact_at(law, 0);
@@ -109,8 +118,9 @@ static void jenkins_element(void **state)
       }
 }
 
-/* kt cos <= mu kn sin, and separating: exactly bilinear, for any motion. Equality included, as it comes out of rounding, one ulp to either side. The
- * other side of the comparison is one contact at 90 degrees, which has been compared with its closed form. */
+/* kt cos <= mu kn sin, and separating: exactly bilinear, for any motion. Equality included, as it comes out of
+ * rounding, one ulp to either side. The other side of the comparison is one contact at 90 degrees, which has been
+ * compared with its closed form. */
 static void never_slipping_is_bilinear(void **state)
 {
   (void)state;
@@ -124,7 +134,10 @@ static void never_slipping_is_bilinear(void **state)
     contact law = {0, pow(10, 2 * random_signed(&seed)), 0.5 + 0.4 * random_signed(&seed), 0};
     moving_contact c = contact_at(law, angle);
     double equal = law.mu * law.kn * c.cv[0] / c.cu[0];
-    c.law.kt = trial % 5 == 0 ? equal : trial % 5 == 1 ? nextafter(equal, 0) : trial % 5 == 2 ? nextafter(equal, INFINITY) : equal * (0.5 + 0.5 * random_signed(&seed));
+    c.law.kt = trial % 5 == 0   ? equal
+               : trial % 5 == 1 ? nextafter(equal, 0)
+               : trial % 5 == 2 ? nextafter(equal, INFINITY)
+                                : equal * (0.5 + 0.5 * random_signed(&seed));
     random_motion(&seed, H, 1, 1 + trial % 3 * 0.5, X);
     double high, low;
     series_extrema(H, X, &high, &low);
@@ -144,7 +157,8 @@ static void never_slipping_is_bilinear(void **state)
   assert_int_equal(checked, 400);
 }
 
-/* Stuck for good while |T| <= mu N everywhere from w = 0: F = kt c u + kn s v, X times a number. Apart for good: 0. Nothing to push: 0. */
+/* Stuck for good while |T| <= mu N everywhere from w = 0: F = kt c u + kn s v, X times a number. Apart for good: 0.
+ * Nothing to push: 0. */
 static void stuck_apart_and_degenerate(void **state)
 {
   (void)state;
@@ -164,7 +178,8 @@ static void stuck_apart_and_degenerate(void **state)
     check_series(n, e.F, expected, tol, "stuck");
     assert_int_equal(e.report.regime, CONTACT_STUCK);
     memset(expected, 0, sizeof expected);
-    moving_contact apart = c, soft = contact_at((contact){3, 0, 0.3, 1}, angle), beside = contact_at((contact){3, 5, 0.3, -0.01}, 0), flush = contact_at((contact){3, 5, 0.3, 0}, 0);
+    moving_contact apart = c, soft = contact_at((contact){3, 0, 0.3, 1}, angle),
+                   beside = contact_at((contact){3, 5, 0.3, -0.01}, 0), flush = contact_at((contact){3, 5, 0.3, 0}, 0);
     apart.law.gap = -c.cv[0] * room;
     const moving_contact *const nothing[] = {&apart, &soft, &beside, &flush};
     for (int i = 0; i < 4; ++i) {
@@ -175,7 +190,8 @@ static void stuck_apart_and_degenerate(void **state)
     /* no friction by mu = 0, by kt = 0, or both; gap 0 now and then: the normal force alone */
     random_motion(&seed, H, 1, 1, X);
     double gap = trial % 3 ? 0.5 * random_signed(&seed) : 0;
-    moving_contact smooth = contact_at((contact){3, 5, 0, gap}, angle), loose = contact_at((contact){0, 5, 0.3, gap}, angle);
+    moving_contact smooth = contact_at((contact){3, 5, 0, gap}, angle),
+                   loose = contact_at((contact){0, 5, 0.3, gap}, angle);
     moving_contact normal = contact_at((contact){0, 5 * c.cv[0] * c.cv[0], 0, gap / c.cv[0]}, 90);
     evaluate(H, 1, 1, &normal, X, &other, NULL);
     evaluate(H, 1, 1, &smooth, X, &e, NULL);
@@ -185,8 +201,12 @@ static void stuck_apart_and_degenerate(void **state)
   }
 }
 
-/* Never separating, one slider that never stops for good: w depends on where the history began, F with it. Not compared under shifts. */
-static bool stuck_for_good(const evaluation *e) { return e->n_pieces[0] == 1 && e->piece[0].state == CONTACT_STICK && e->report.regime == CONTACT_STUCK; }
+/* Never separating, one slider that never stops for good: w depends on where the history began, F with it. Not
+ * compared under shifts. */
+static bool stuck_for_good(const evaluation *e)
+{
+  return e->n_pieces[0] == 1 && e->piece[0].state == CONTACT_STICK && e->report.regime == CONTACT_STUCK;
+}
 
 /* Sum of contacts; a shift in time; a scale of lengths (bit for bit if it is a power of two). 1 and 2 coordinates. */
 static void symmetries(void **state)
@@ -240,8 +260,9 @@ static void symmetries(void **state)
   assert_true(shifted > 200);
 }
 
-/* The pieces and the report belong together: ascending, apart or touching, each at least as long as nothing; regimes by what the pieces are. A contact
- * with a preload no motion lifts never separates, however many pieces its period has. */
+/* The pieces and the report belong together: ascending, apart or touching, each at least as long as nothing; regimes
+ * by what the pieces are. A contact with a preload no motion lifts never separates, however many pieces its period
+ * has. */
 static void pieces_and_report(void **state)
 {
   (void)state;
@@ -272,10 +293,12 @@ static void pieces_and_report(void **state)
       if (i) changes += p->from > p[-1].to ? 2 : p->state != p[-1].state; /* separated in between: two */
     }
     most = e.n_pieces[0] > most ? e.n_pieces[0] : most;
-    if (last >= 0) changes += e.report.regime == CONTACT_SEPARATES ? 2 : e.piece[0].state != e.piece[last].state; /* round the period's end */
+    /* round the period's end */
+    if (last >= 0) changes += e.report.regime == CONTACT_SEPARATES ? 2 : e.piece[0].state != e.piece[last].state;
     assert_int_equal(e.report.transitions, changes);
     if (closed) {
-      if (e.report.regime != (slips && c.law.mu * c.law.kt > 0 ? CONTACT_SLIPS : CONTACT_STUCK) && c.law.mu * c.law.kt > 0)
+      if (e.report.regime != (slips && c.law.mu * c.law.kt > 0 ? CONTACT_SLIPS : CONTACT_STUCK) &&
+          c.law.mu * c.law.kt > 0)
         fail_msg("trial %d, %d pieces, closed: %s", trial, e.n_pieces[0], contact_regime_name(e.report.regime));
       assert_false(gaps);
       assert_true(e.piece[0].from == 0 && e.piece[e.n_pieces[0] - 1].to == 2 * PI);
@@ -311,7 +334,8 @@ static void sampling_tends_to_it(void **state)
       assert_int_equal(aft_eval(a, X, F, NULL, NULL), HC_OK);
       for (int i = 0; i < n; ++i) error[p] = fmax(error[p], fabs(F[i] - e.F[i]));
       aft_free(a);
-      CHECK_LE(error[p], sampled_error(H, 1, &c, X, 1 << p, &e), "trial %d H=%d N=2^%d kt=%g kn=%g mu=%g gap=%g", trial, H, p, c.law.kt, c.law.kn, c.law.mu, c.law.gap);
+      CHECK_LE(error[p], sampled_error(H, 1, &c, X, 1 << p, &e), "trial %d H=%d N=2^%d kt=%g kn=%g mu=%g gap=%g", trial,
+               H, p, c.law.kt, c.law.kn, c.law.mu, c.law.gap);
     }
     if (error[13] > 100 * exact_rounding(H, 1, &c, X)) {
       orders += log2(error[10] / error[13]) / 3;
@@ -323,8 +347,9 @@ static void sampling_tends_to_it(void **state)
   CHECK_NEAR(orders / n_orders, 2, 0.15, "mean order of %d", n_orders);
 }
 
-/* The same for independent u and v, with the slow evaluator, and for motions that graze: touching by so little, leaving by so little, slipping by
- * so little. The slider at th = 0 is compared where it is stuck, and known: a sample's distance of its rate, as the touch may be missed. */
+/* The same for independent u and v, with the slow evaluator, and for motions that graze: touching by so little,
+ * leaving by so little, slipping by so little. The slider at th = 0 is compared where it is stuck, and known: a
+ * sample's distance of its rate, as the touch may be missed. */
 static void independent_u_and_v(void **state)
 {
   (void)state;
@@ -334,7 +359,8 @@ static void independent_u_and_v(void **state)
   uint64_t seed = 16;
   double worst = 0;
   for (int trial = 0; trial < 110; ++trial) {
-    int H = trial % 5 ? 1 + (trial * 3) % 12 : 20 + trial % 31, n = series_length(H), D = 1 + trial % 2, kind = trial / 2 % 4;
+    int H = trial % 5 ? 1 + (trial * 3) % 12 : 20 + trial % 31, n = series_length(H), D = 1 + trial % 2,
+        kind = trial / 2 % 4;
     moving_contact c = random_contact(&seed, D);
     if (D == 1 && kind == 2) c = contact_at(c.law, 0);
     for (int d = 0; d < D; ++d) random_motion(&seed, H, 1, 1 + trial % 3 * 0.5, X + d * n);
@@ -351,8 +377,9 @@ static void independent_u_and_v(void **state)
     bound = sampled_error(H, D, &c, X, n_time, &e);
     for (int i = 0; i < D * n; ++i) {
       worst = fmax(worst, fabs(F[i] - e.F[i]) / bound);
-      CHECK_NEAR(F[i], e.F[i], bound, "trial %d H=%d dofs=%d kind %d depth %g N=%d kt=%g kn=%g mu=%g gap=%g, coefficient %d", trial, H, D, kind, depth, n_time, c.law.kt,
-                 c.law.kn, c.law.mu, c.law.gap, i);
+      CHECK_NEAR(F[i], e.F[i], bound,
+                 "trial %d H=%d dofs=%d kind %d depth %g N=%d kt=%g kn=%g mu=%g gap=%g, coefficient %d", trial, H, D,
+                 kind, depth, n_time, c.law.kt, c.law.kn, c.law.mu, c.law.gap, i);
     }
     double rate = 2 * PI / n_time * (m.U[1] + (c.law.kt > 0 ? c.law.mu * c.law.kn / c.law.kt : 0) * m.V[1]);
     bool known = c.law.kt > 0 && !stuck_for_good(&e);
@@ -361,9 +388,9 @@ static void independent_u_and_v(void **state)
   print_message("worst %.2g of the bound\n", worst);
 }
 
-/* Lifting off by rounding: T, N and their rates are 0 together at one angle, and every guard is rounding there. Also a tangential spring so stiff that
- * stick lasts no longer than rounding. The force is found, and is that of a lift-off 1e-7 higher, but for what that changes: a contact time of
- * sqrt(1e-7) at most. */
+/* Lifting off by rounding: T, N and their rates are 0 together at one angle, and every guard is rounding there. Also
+ * a tangential spring so stiff that stick lasts no longer than rounding. The force is found, and is that of a
+ * lift-off 1e-7 higher, but for what that changes: a contact time of sqrt(1e-7) at most. */
 static void lift_off_by_rounding(void **state)
 {
   (void)state;
@@ -386,7 +413,9 @@ static void lift_off_by_rounding(void **state)
     evaluate(H, D, 1, &c, X, &e, NULL);
     make_graze(&c, &m, H, 1, -1e-7);
     evaluate(H, D, 1, &c, X, &above, NULL);
-    for (int i = 0; i < D * n; ++i) CHECK_NEAR(e.F[i], above.F[i], sqrt(1e-7) * force_size(&c, &m, 1), "trial %d H=%d dofs=%d depth %g", trial, H, D, depths[trial % 11]);
+    for (int i = 0; i < D * n; ++i)
+      CHECK_NEAR(e.F[i], above.F[i], sqrt(1e-7) * force_size(&c, &m, 1), "trial %d H=%d dofs=%d depth %g", trial, H, D,
+                 depths[trial % 11]);
   }
 }
 
@@ -423,9 +452,16 @@ static void refusals(void **state)
 }
 
 static const struct CMUnitTest tests[] = {
-  cmocka_unit_test(closed_forms_themselves), cmocka_unit_test(unilateral_spring), cmocka_unit_test(jenkins_element),
-  cmocka_unit_test(never_slipping_is_bilinear), cmocka_unit_test(stuck_apart_and_degenerate), cmocka_unit_test(symmetries),
-  cmocka_unit_test(pieces_and_report), cmocka_unit_test(sampling_tends_to_it), cmocka_unit_test(independent_u_and_v),
-  cmocka_unit_test(lift_off_by_rounding), cmocka_unit_test(refusals),
+    cmocka_unit_test(closed_forms_themselves),
+    cmocka_unit_test(unilateral_spring),
+    cmocka_unit_test(jenkins_element),
+    cmocka_unit_test(never_slipping_is_bilinear),
+    cmocka_unit_test(stuck_apart_and_degenerate),
+    cmocka_unit_test(symmetries),
+    cmocka_unit_test(pieces_and_report),
+    cmocka_unit_test(sampling_tends_to_it),
+    cmocka_unit_test(independent_u_and_v),
+    cmocka_unit_test(lift_off_by_rounding),
+    cmocka_unit_test(refusals),
 };
 CHECK_MAIN("hbm.exact", tests, 120)

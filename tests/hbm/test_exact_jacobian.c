@@ -1,8 +1,9 @@
-/* test_exact_jacobian.c - dF/dX of event-located forces against differences of F, for one and two coordinates.
- * While the order of states stays what it is F is smooth in X, and central differences D of steps h, 2h, 4h, extrapolated twice, are good to h^6.
- * Where it changes between the outermost points F is once differentiable at best, and such columns are left out, as are those where the two
- * extrapolations disagree (a slope near 0 at some transition makes high derivatives large); fewer than 5 % are, which is asserted: the random
- * motions are the same in every run. Across a change of states, dF/dX is checked to be continuous. */
+/* test_exact_jacobian.c - dF/dX of event-located forces against differences of F, for one and two coordinates. While
+ * the order of states stays what it is F is smooth in X, and central differences D of steps h, 2h, 4h, extrapolated
+ * twice, are good to h^6. Where it changes between the outermost points F is once differentiable at best, and such
+ * columns are left out, as are those where the two extrapolations disagree (a slope near 0 at some transition makes
+ * high derivatives large); fewer than 5 % are, which is asserted: the random motions are the same in every run.
+ * Across a change of states, dF/dX is checked to be continuous. */
 #include "tests/hbm/exact_scenes.h"
 
 static const double STEP = 1e-4;
@@ -19,7 +20,8 @@ static bool same_states(const evaluation *a, const evaluation *b)
 }
 
 /* Derivative of F along V, and how far its two extrapolations are apart; false if states change. */
-static bool differences(int n_harm, int n_dof, const moving_contact *c, const double *X, const double *V, const evaluation *at, double *S, double *apart)
+static bool differences(int n_harm, int n_dof, const moving_contact *c, const double *X, const double *V,
+                        const evaluation *at, double *S, double *apart)
 {
   static evaluation plus, minus;
   static double D[3][EXACT_MAX_COEF], Y[EXACT_MAX_COEF];
@@ -42,10 +44,15 @@ static bool differences(int n_harm, int n_dof, const moving_contact *c, const do
   return true;
 }
 
-typedef struct tally { int compared, changed, disagree; double worst; } tally;
+typedef struct tally {
+  int compared, changed, disagree;
+  double worst;
+} tally;
 
-/* J against differences along columns and two random directions. Tolerance: 1e-9 of the largest entry, and rounding of F over the step. */
-static void check_jacobian(uint64_t *seed, int H, int n_dof, const moving_contact *c, const double *X, const char *what, tally *count)
+/* J against differences along columns and two random directions. Tolerance: 1e-9 of the largest entry, and rounding
+ * of F over the step. */
+static void check_jacobian(uint64_t *seed, int H, int n_dof, const moving_contact *c, const double *X, const char *what,
+                           tally *count)
 {
   static evaluation e;
   static double jac[EXACT_MAX_COEF * EXACT_MAX_COEF], V[EXACT_MAX_COEF], S[EXACT_MAX_COEF];
@@ -58,15 +65,21 @@ static void check_jacobian(uint64_t *seed, int H, int n_dof, const moving_contac
   for (int k = 0; k < columns + 2; ++k) {
     int column = columns == m ? k : (int)((0.5 + 0.4999 * random_signed(seed)) * m);
     for (int i = 0; i < m; ++i) V[i] = k < columns ? i == column : random_signed(seed) / (1 + i / n_dof);
-    if (!differences(H, n_dof, c, X, V, &e, S, &apart)) { ++count->changed; continue; }
-    if (!(apart <= 15e-9 * scale + rounding)) { ++count->disagree; continue; }
+    if (!differences(H, n_dof, c, X, V, &e, S, &apart)) {
+      ++count->changed;
+      continue;
+    }
+    if (!(apart <= 15e-9 * scale + rounding)) {
+      ++count->disagree;
+      continue;
+    }
     ++count->compared;
     for (int i = 0; i < m; ++i) {
       double J = 0;
       for (int q = 0; q < m; ++q) J += jac[i + (size_t)m * q] * V[q];
       count->worst = fmax(count->worst, fabs(J - S[i]) / (1e-9 * scale + rounding));
-      CHECK_NEAR(J, S[i], 1e-9 * scale + rounding, "%s H=%d dofs=%d, kt=%g kn=%g mu=%g gap=%g, direction %d, row %d", what, H, n_dof, c->law.kt, c->law.kn,
-                 c->law.mu, c->law.gap, k < columns ? column : -1, i);
+      CHECK_NEAR(J, S[i], 1e-9 * scale + rounding, "%s H=%d dofs=%d, kt=%g kn=%g mu=%g gap=%g, direction %d, row %d",
+                 what, H, n_dof, c->law.kt, c->law.kn, c->law.mu, c->law.gap, k < columns ? column : -1, i);
     }
   }
 }
@@ -89,7 +102,8 @@ static void random_motions(void **state)
       check_jacobian(&seed, H, D, &c, X, what, &count);
     }
   int all = count.compared + count.changed + count.disagree;
-  print_message("%d directions, %d with changing states, %d too curved; worst %.2g of the tolerance\n", all, count.changed, count.disagree, count.worst);
+  print_message("%d directions, %d with changing states, %d too curved; worst %.2g of the tolerance\n", all,
+                count.changed, count.disagree, count.worst);
   CHECK_LE(count.changed, 0.02 * all, "directions left out");
   CHECK_LE(count.disagree, 0.03 * all, "directions left out");
 }
@@ -117,15 +131,17 @@ static void grazing_motions(void **state)
     check_jacobian(&seed, H, D, &c, X, what, &count);
   }
   int all = count.compared + count.changed + count.disagree;
-  print_message("%d directions, %d with changing states, %d too curved; worst %.2g of the tolerance\n", all, count.changed, count.disagree, count.worst);
+  print_message("%d directions, %d with changing states, %d too curved; worst %.2g of the tolerance\n", all,
+                count.changed, count.disagree, count.worst);
   CHECK_LE(count.changed, 0.02 * all, "directions left out");
   CHECK_LE(count.disagree, 0.03 * all, "directions left out");
 }
 
-/* Passing the onset of contact (kind 0, from apart) or of separation (kind 1, kt = 0, from always touching) F is once differentiable: at a depth d of
- * cos th, whose f'' is 1, there is one piece more of width 2 sqrt(2 d), in which T' and N' are at most (kt + (1 + mu) kn) and a slider's memory is as
- * much again: 1/pi of it times the width, doubled by harmonics' 2/2pi, held with a factor of 2. No jump and no NaN, down to rounding and beyond.
- * The onset of slip is not like that: dissipation 4 f (A - f/k) starts with a kink, and the mean of u no longer counts. */
+/* Passing the onset of contact (kind 0, from apart) or of separation (kind 1, kt = 0, from always touching) F is
+ * once differentiable: at a depth d of cos th, whose f'' is 1, there is one piece more of width 2 sqrt(2 d), in
+ * which T' and N' are at most (kt + (1 + mu) kn) and a slider's memory is as much again: 1/pi of it times the width,
+ * doubled by harmonics' 2/2pi, held with a factor of 2. No jump and no NaN, down to rounding and beyond. The onset
+ * of slip is not like that: dissipation 4 f (A - f/k) starts with a kink, and the mean of u no longer counts. */
 static void onsets_are_smooth(void **state)
 {
   (void)state;
@@ -147,9 +163,11 @@ static void onsets_are_smooth(void **state)
             evaluate(H, 1, 1, &c, X, &e, before);
             make_graze(&c, &m, H, kind, sign * depths[d]);
             evaluate(H, 1, 1, &c, X, &e, jac);
-            double width = 2 * sqrt(2 * (depths[d] + 1e-14) / 0.8), stiffness = 2 * (c.law.kt + (1 + c.law.mu) * c.law.kn);
+            double width = 2 * sqrt(2 * (depths[d] + 1e-14) / 0.8),
+                   stiffness = 2 * (c.law.kt + (1 + c.law.mu) * c.law.kn);
             for (int i = 0; i < n * n; ++i)
-              CHECK_NEAR(jac[i], before[i], 2 / PI * stiffness * width, "kind %d mu=%g H=%d depth %g, entry %d", kind, c.law.mu, H, sign * depths[d], i);
+              CHECK_NEAR(jac[i], before[i], 2 / PI * stiffness * width, "kind %d mu=%g H=%d depth %g, entry %d", kind,
+                         c.law.mu, H, sign * depths[d], i);
           }
 }
 
@@ -170,7 +188,8 @@ static void several_contacts(void **state)
       c[j] = random_contact(&seed, D);
       evaluate(H, D, 1, &c[j], X, &one, jac);
       for (int i = 0; i < m * m; ++i) sum[i] += jac[i];
-      /* entries by size: stiffness, with a slider's rate kt (cu + |u'/v'| cv) instead, bounded by its own largest entry */
+      /* entries by size: stiffness, with a slider's rate kt (cu + |u'/v'| cv) instead, bounded by its own largest
+       * entry */
       for (int i = 0; i < m * m; ++i) tol = fmax(tol, 1e-13 * fabs(jac[i]));
     }
     evaluate(H, D, 4, c, X, &e, jac);
@@ -181,6 +200,9 @@ static void several_contacts(void **state)
 }
 
 static const struct CMUnitTest tests[] = {
-  cmocka_unit_test(random_motions), cmocka_unit_test(grazing_motions), cmocka_unit_test(onsets_are_smooth), cmocka_unit_test(several_contacts),
+    cmocka_unit_test(random_motions),
+    cmocka_unit_test(grazing_motions),
+    cmocka_unit_test(onsets_are_smooth),
+    cmocka_unit_test(several_contacts),
 };
 CHECK_MAIN("hbm.exact_jacobian", tests, 120)

@@ -1,5 +1,6 @@
-/* test_exact_reference.c - response curves with event-located forces: every reference row and peak, and the paper's stiffest contacts.
- * The reference numbers are of the same equations by another program (tests/reference/README.md): nothing but rounding may differ. */
+/* test_exact_reference.c - response curves with event-located forces: every reference row and peak, and the paper's
+ * stiffest contacts. The reference numbers are of the same equations by another program (tests/reference/README.md):
+ * nothing but rounding may differ. */
 #include "tests/hbm/traced.h"
 
 static reference_row rows[MAX_REFERENCE];
@@ -29,16 +30,22 @@ static void the_tables_are_whole(void **state)
     for (int n_harm = 1; n_harm <= 10; n_harm += n_harm == 1 ? 4 : 5)
       for (int keep_mean = 0; keep_mean <= 1; ++keep_mean) {
         int found = 0, tops = 0;
-        for (int j = 0; j < n_rows; ++j) found += !strcmp(rows[j].name, reference_scenes[i].name) && rows[j].n_harm == n_harm && rows[j].keep_mean == keep_mean;
-        for (int j = 0; j < n_peaks; ++j) tops += !strcmp(peaks[j].name, reference_scenes[i].name) && peaks[j].n_harm == n_harm && peaks[j].keep_mean == keep_mean;
-        if (found < 7 || tops != 1) fail_msg("%s H=%d static=%d: %d rows, %d peaks", reference_scenes[i].name, n_harm, keep_mean, found, tops);
+        for (int j = 0; j < n_rows; ++j)
+          found += !strcmp(rows[j].name, reference_scenes[i].name) && rows[j].n_harm == n_harm &&
+                   rows[j].keep_mean == keep_mean;
+        for (int j = 0; j < n_peaks; ++j)
+          tops += !strcmp(peaks[j].name, reference_scenes[i].name) && peaks[j].n_harm == n_harm &&
+                  peaks[j].keep_mean == keep_mean;
+        if (found < 7 || tops != 1)
+          fail_msg("%s H=%d static=%d: %d rows, %d peaks", reference_scenes[i].name, n_harm, keep_mean, found, tops);
       }
   assert_int_equal(n_rows, 542);
   assert_int_equal(n_peaks, 48);
 }
 
-/* The reference was solved to 1e-11 of the forces and is good to 1e-9; hbm.tolerance is 1e-10, and Newton is quadratic by then: in practice both
- * are at rounding times the steepness of the response, 3000 at most where rows are listed (r2, Q = 2800). The order is that of the curve. */
+/* The reference was solved to 1e-11 of the forces and is good to 1e-9; hbm.tolerance is 1e-10, and Newton is
+ * quadratic by then: in practice both are at rounding times the steepness of the response, 3000 at most where rows
+ * are listed (r2, Q = 2800). The order is that of the curve. */
 static const double SOLVED = 1e-8;
 
 static int check_rows(const traced *t, const char *name, int n_harm, int keep_mean, bool reversed)
@@ -49,31 +56,38 @@ static int check_rows(const traced *t, const char *name, int n_harm, int keep_me
     if (strcmp(r->name, name) || r->n_harm != n_harm || r->keep_mean != keep_mean) continue;
     int before = 0, all = 0; /* rows at this omega before this one, and in all */
     for (int j = 0; j < n_rows; ++j) {
-      bool same = !strcmp(rows[j].name, name) && rows[j].n_harm == n_harm && rows[j].keep_mean == keep_mean && rows[j].omega == r->omega;
+      bool same = !strcmp(rows[j].name, name) && rows[j].n_harm == n_harm && rows[j].keep_mean == keep_mean &&
+                  rows[j].omega == r->omega;
       all += same;
       before += same && j < i;
     }
     hbm_curve at = {0};
     hbm_measures m;
     hc_status st = hbm_curve_at(t->s, &t->curve, r->omega, &at);
-    if (st != HC_OK || at.n != all) fail_msg("%s H=%d static=%d: %d solutions at %g, not %d; %s", name, n_harm, keep_mean, at.n, r->omega, all, hc_status_text(st));
+    if (st != HC_OK || at.n != all)
+      fail_msg("%s H=%d static=%d: %d solutions at %g, not %d; %s", name, n_harm, keep_mean, at.n, r->omega, all,
+               hc_status_text(st));
     int k = reversed ? all - 1 - before : before;
     assert_int_equal(hbm_measure(t->s, at.X + (size_t)k * at.n_coef, &m), HC_OK);
-    const double got[] = {m.amplitude, m.max, m.min, m.harmonic_1, m.mean}, expected[] = {r->amplitude, r->max, r->min, r->harmonic_1, r->mean};
+    const double got[] = {m.amplitude, m.max, m.min, m.harmonic_1, m.mean},
+                 expected[] = {r->amplitude, r->max, r->min, r->harmonic_1, r->mean};
     static const char *const what[] = {"amplitude", "max", "min", "harmonic_1", "mean"};
     for (int q = 0; q < 5; ++q)
-      CHECK_NEAR(got[q], expected[q], SOLVED * r->amplitude, "%s of %s H=%d static=%d omega=%g branch %d", what[q], name, n_harm, keep_mean, r->omega, r->branch);
+      CHECK_NEAR(got[q], expected[q], SOLVED * r->amplitude, "%s of %s H=%d static=%d omega=%g branch %d", what[q],
+                 name, n_harm, keep_mean, r->omega, r->branch);
     int branch = reversed ? t->curve.turning_points - at.points[k].branch : at.points[k].branch;
-    if (branch != r->branch) fail_msg("%s H=%d static=%d omega=%g: branch %d, not %d", name, n_harm, keep_mean, r->omega, branch, r->branch);
+    if (branch != r->branch)
+      fail_msg("%s H=%d static=%d omega=%g: branch %d, not %d", name, n_harm, keep_mean, r->omega, branch, r->branch);
     hbm_curve_free(&at);
     ++checked;
   }
   return checked;
 }
 
-/* A reference peak is a point of the curve, to SOLVED like the rows, but not its very top: ours is never lower, and higher by what a maximum d away
- * is: found 4e-5 at most (a10), where the reference omega is 1.8e-4 off; 1e-4 and 1e-3 are held. That ours is the top is seen from points beside
- * it: none is higher, at distances from 1e-6 to 1e-3 in omega. */
+/* A reference peak is a point of the curve, to SOLVED like the rows, but not its very top: ours is never lower, and
+ * higher by what a maximum d away is: found 4e-5 at most (a10), where the reference omega is 1.8e-4 off; 1e-4 and
+ * 1e-3 are held. That ours is the top is seen from points beside it: none is higher, at distances from 1e-6 to 1e-3
+ * in omega. */
 static void check_top(const traced *t, const reference_peak *r)
 {
   hbm_curve peak = {0};
@@ -91,7 +105,8 @@ static void check_top(const traced *t, const reference_peak *r)
       assert_int_equal(hbm_curve_at(t->s, &t->curve, omega, &at), HC_OK);
       for (int k = 0; k < at.n; ++k) {
         assert_int_equal(hbm_measure(t->s, at.X + (size_t)k * at.n_coef, &beside), HC_OK);
-        CHECK_LE(beside.amplitude, (1 + 1e-12) * m.amplitude, "%s H=%d static=%d at omega %+g", r->name, r->n_harm, r->keep_mean, side * away);
+        CHECK_LE(beside.amplitude, (1 + 1e-12) * m.amplitude, "%s H=%d static=%d at omega %+g", r->name, r->n_harm,
+                 r->keep_mean, side * away);
       }
       hbm_curve_free(&at);
     }
@@ -108,11 +123,13 @@ static void check_on_curve(const traced *t, const reference_peak *r)
     assert_int_equal(hbm_measure(t->s, at.X + (size_t)k * at.n_coef, &m), HC_OK);
     nearest = fmin(nearest, fmax(fabs(m.amplitude - r->amplitude), fabs(m.harmonic_1 - r->harmonic_1)));
   }
-  CHECK_LE(nearest, SOLVED * r->amplitude, "%s H=%d static=%d: no solution at %.10g is the reference's", r->name, r->n_harm, r->keep_mean, r->omega);
+  CHECK_LE(nearest, SOLVED * r->amplitude, "%s H=%d static=%d: no solution at %.10g is the reference's", r->name,
+           r->n_harm, r->keep_mean, r->omega);
   hbm_curve_free(&at);
 }
 
-/* Skipped as a top: c2kn1e4 without harmonic 0. Its curve still rises at 20, where the sweep ends; the reference gives the last points it had. */
+/* Skipped as a top: c2kn1e4 without harmonic 0. Its curve still rises at 20, where the sweep ends; the reference
+ * gives the last points it had. */
 static int check_peak(const traced *t, const char *name, int n_harm, int keep_mean)
 {
   int tops = 0;
@@ -131,8 +148,9 @@ static traced whole(const scene *sc, double from, double to, const char *what)
 {
   traced t = trace(sc, from, to, what);
   if (t.status != HC_OK || t.curve.left_at_start)
-    fail_msg("%s H=%d static=%d from %g: %s at %.9g%s", what, sc->hbm.harmonics, sc->hbm.keep_mean, from, hc_status_text(t.status),
-             t.curve.points[t.curve.n - 1].omega, t.curve.left_at_start ? ", turned back" : "");
+    fail_msg("%s H=%d static=%d from %g: %s at %.9g%s", what, sc->hbm.harmonics, sc->hbm.keep_mean, from,
+             hc_status_text(t.status), t.curve.points[t.curve.n - 1].omega,
+             t.curve.left_at_start ? ", turned back" : "");
   return t;
 }
 
@@ -155,8 +173,8 @@ static void reference_rows_and_peaks(void **state)
   assert_true(n_checked == 542 && n_tops == 45);
 }
 
-/* Not c2kn1e4 without harmonic 0: downwards it starts on the upper of the branches that meet beyond 20 (turning points at 7.34 and 24) and returns
- * there, another part of the curve than the rows are of. */
+/* Not c2kn1e4 without harmonic 0: downwards it starts on the upper of the branches that meet beyond 20 (turning
+ * points at 7.34 and 24) and returns there, another part of the curve than the rows are of. */
 static void from_the_other_end(void **state)
 {
   (void)state;
@@ -175,9 +193,10 @@ static void from_the_other_end(void **state)
   assert_int_equal(n_checked, 542 - 21);
 }
 
-/* Figure 17: kn = 1e5 and stiffer, where the paper fails with 2^11 samples. Both ends lead through the same curve, folds included: the solutions at
- * 35 frequencies of figure 17 are the same, in the opposite order, to what Newton leaves (1e-10 of the forces) times a response that is as steep as
- * 100. Without harmonic 0 the branches meet far beyond 20 (at 32 for 1e5, H = 1), so those sweeps begin or end at 150. */
+/* Figure 17: kn = 1e5 and stiffer, where the paper fails with 2^11 samples. Both ends lead through the same curve,
+ * folds included: the solutions at 35 frequencies of figure 17 are the same, in the opposite order, to what Newton
+ * leaves (1e-10 of the forces) times a response that is as steep as 100. Without harmonic 0 the branches meet far
+ * beyond 20 (at 32 for 1e5, H = 1), so those sweeps begin or end at 150. */
 static void stiff_contacts_from_both_ends(void **state)
 {
   (void)state;
@@ -191,20 +210,25 @@ static void stiff_contacts_from_both_ends(void **state)
         snprintf(what, sizeof what, "kn=%g", kn);
         double top = keep_mean ? 20 : 150;
         traced up = whole(&sc, 3, top, what), down = whole(&sc, top, 3, what);
-        print_message("%s H=%d static=%d: %d and %d points, %d and %d turns\n", what, orders[o], keep_mean, up.curve.n, down.curve.n,
-                      up.curve.turning_points, down.curve.turning_points);
+        print_message("%s H=%d static=%d: %d and %d points, %d and %d turns\n", what, orders[o], keep_mean, up.curve.n,
+                      down.curve.n, up.curve.turning_points, down.curve.turning_points);
         assert_int_equal(up.curve.turning_points, down.curve.turning_points);
         for (double omega = 3.1; omega < 20; omega += 0.487) {
           hbm_curve a = {0}, b = {0};
           hc_status st = hbm_curve_at(up.s, &up.curve, omega, &a);
-          if (st != HC_OK) fail_msg("%s H=%d static=%d: up at %g: %s", what, orders[o], keep_mean, omega, hc_status_text(st));
+          if (st != HC_OK)
+            fail_msg("%s H=%d static=%d: up at %g: %s", what, orders[o], keep_mean, omega, hc_status_text(st));
           st = hbm_curve_at(down.s, &down.curve, omega, &b);
-          if (st != HC_OK) fail_msg("%s H=%d static=%d: down at %g: %s", what, orders[o], keep_mean, omega, hc_status_text(st));
-          if (a.n != b.n) fail_msg("%s H=%d static=%d: %d solutions at %g upwards, %d downwards", what, orders[o], keep_mean, a.n, omega, b.n);
+          if (st != HC_OK)
+            fail_msg("%s H=%d static=%d: down at %g: %s", what, orders[o], keep_mean, omega, hc_status_text(st));
+          if (a.n != b.n)
+            fail_msg("%s H=%d static=%d: %d solutions at %g upwards, %d downwards", what, orders[o], keep_mean, a.n,
+                     omega, b.n);
           for (int k = 0; k < a.n; ++k) {
             const double *X = a.X + (size_t)k * a.n_coef, *Y = b.X + (size_t)(a.n - 1 - k) * a.n_coef;
             for (int q = 0; q < a.n_coef; ++q)
-              CHECK_NEAR(X[q], Y[q], 1e-8 * sum_abs(a.n_coef, X), "%s H=%d static=%d at %g: X[%d] of solution %d", what, orders[o], keep_mean, omega, q, k);
+              CHECK_NEAR(X[q], Y[q], 1e-8 * sum_abs(a.n_coef, X), "%s H=%d static=%d at %g: X[%d] of solution %d", what,
+                         orders[o], keep_mean, omega, q, k);
           }
           hbm_curve_free(&a);
           hbm_curve_free(&b);
@@ -215,8 +239,10 @@ static void stiff_contacts_from_both_ends(void **state)
 }
 
 static const struct CMUnitTest tests[] = {
-  cmocka_unit_test(the_tables_are_whole), cmocka_unit_test(reference_rows_and_peaks), cmocka_unit_test(from_the_other_end),
-  cmocka_unit_test(stiff_contacts_from_both_ends),
+    cmocka_unit_test(the_tables_are_whole),
+    cmocka_unit_test(reference_rows_and_peaks),
+    cmocka_unit_test(from_the_other_end),
+    cmocka_unit_test(stiff_contacts_from_both_ends),
 };
 
 int main(void)

@@ -1,6 +1,7 @@
-/* test_no_allocation.c - after the first call, evaluating the contact force and solving at a frequency allocate nothing.
- * The executable's own malloc and friends come before the C library's for every shared library too (FFTW, SUNDIALS): they count, and pass on
- * to glibc's __libc_ entries. Under the sanitizers, which bring their own, and without glibc the test is skipped. */
+/* test_no_allocation.c - after the first call, evaluating the contact force and solving at a frequency allocate
+ * nothing. The executable's own malloc and friends come before the C library's for every shared library too (FFTW,
+ * SUNDIALS): they count, and pass on to glibc's __libc_ entries. Under the sanitizers, which bring their own, and
+ * without glibc the test is skipped. */
 #include "tests/hbm/scenes.h"
 
 #if defined __SANITIZE_ADDRESS__ || !defined __GLIBC__
@@ -19,10 +20,10 @@
 #include <fftw3.h>
 #include <nvector/nvector_serial.h>
 
-#include "numerics/sundials_compat.h"
 #include "hbm/aft.h"
 #include "hbm/exact.h"
 #include "hbm/hbm.h"
+#include "numerics/sundials_compat.h"
 
 static long allocations;
 
@@ -31,13 +32,37 @@ void *__libc_calloc(size_t, size_t);
 void *__libc_realloc(void *, size_t);
 void *__libc_memalign(size_t, size_t);
 
-void *malloc(size_t n) { ++allocations; return __libc_malloc(n); }
-void *calloc(size_t n, size_t size) { ++allocations; return __libc_calloc(n, size); }
-void *realloc(void *p, size_t n) { ++allocations; return __libc_realloc(p, n); }
+void *malloc(size_t n)
+{
+  ++allocations;
+  return __libc_malloc(n);
+}
+void *calloc(size_t n, size_t size)
+{
+  ++allocations;
+  return __libc_calloc(n, size);
+}
+void *realloc(void *p, size_t n)
+{
+  ++allocations;
+  return __libc_realloc(p, n);
+}
 void *memalign(size_t align, size_t n);
-void *memalign(size_t align, size_t n) { ++allocations; return __libc_memalign(align, n); }
-void *aligned_alloc(size_t align, size_t n) { ++allocations; return __libc_memalign(align, n); }
-int posix_memalign(void **p, size_t align, size_t n) { ++allocations; return (*p = __libc_memalign(align, n)) ? 0 : ENOMEM; }
+void *memalign(size_t align, size_t n)
+{
+  ++allocations;
+  return __libc_memalign(align, n);
+}
+void *aligned_alloc(size_t align, size_t n)
+{
+  ++allocations;
+  return __libc_memalign(align, n);
+}
+int posix_memalign(void **p, size_t align, size_t n)
+{
+  ++allocations;
+  return (*p = __libc_memalign(align, n)) ? 0 : ENOMEM;
+}
 
 /* The counter must see what libraries do, or the tests below would pass for nothing. */
 static void the_counter_sees_libraries(void **state)
@@ -58,8 +83,8 @@ static void the_counter_sees_libraries(void **state)
   SUNContext_Free(&ctx);
 }
 
-/* For sizes made of small primes. FFTW's own transforms of others (101, 1001 = 7 11 13, 1021 with Debian's FFTW 3.3) take work space at each
- * call, once to four times a transform: aft.h's promise does not hold for those. */
+/* For sizes made of small primes. FFTW's own transforms of others (101, 1001 = 7 11 13, 1021 with Debian's FFTW 3.3)
+ * take work space at each call, once to four times a transform: aft.h's promise does not hold for those. */
 static void force_allocates_nothing(void **state)
 {
   (void)state;
@@ -85,8 +110,8 @@ static void force_allocates_nothing(void **state)
   }
 }
 
-/* SUNDIALS 7 allocates, and frees, a message in each KINSol call that fails, although the handler drops it; 6 allocates nothing.
- * A solve that fails calls KINSol twice, once a strategy. */
+/* SUNDIALS 7 allocates, and frees, a message in each KINSol call that fails, although the handler drops it; 6
+ * allocates nothing. A solve that fails calls KINSol twice, once a strategy. */
 enum { MESSAGES = SUNDIALS_VERSION_MAJOR >= 7 ? 2 : 0 };
 
 /* Event-located forces, with and without Jacobian, one coordinate and two, motions that touch, slip, or do neither. */
@@ -155,8 +180,10 @@ static void solve_allocates_nothing(void **state)
 }
 
 static const struct CMUnitTest tests[] = {
-  cmocka_unit_test(the_counter_sees_libraries), cmocka_unit_test(force_allocates_nothing), cmocka_unit_test(exact_force_allocates_nothing),
-  cmocka_unit_test(solve_allocates_nothing),
+    cmocka_unit_test(the_counter_sees_libraries),
+    cmocka_unit_test(force_allocates_nothing),
+    cmocka_unit_test(exact_force_allocates_nothing),
+    cmocka_unit_test(solve_allocates_nothing),
 };
 
 #else

@@ -1,5 +1,6 @@
-/* test_paper.c - what the paper observed of sampled harmonic balance, in its own mode: harmonic 0 dropped, H = 1, slider restarted on a sample.
- * What is asserted is what this code finds, and where that is not what the paper says, a comment says so. Reference: hbm_peak.csv, exact forces. */
+/* test_paper.c - what the paper observed of sampled harmonic balance, in its own mode: harmonic 0 dropped, H = 1,
+ * slider restarted on a sample. What is asserted is what this code finds, and where that is not what the paper says,
+ * a comment says so. Reference: hbm_peak.csv, exact forces. */
 #include "hbm/hbm.h"
 #include "tests/hbm/scenes.h"
 
@@ -46,16 +47,17 @@ static scene paper_scene(const char *name, int n_time, int restart)
 static outcome run_and_say(const scene *sc, const char *what)
 {
   outcome o = run(sc, 3, 20);
-  print_message("%s, N = %d: %s at %.4f, %d points, %d turning points, peak %.4f\n", what, sc->hbm.samples, hc_status_text(o.status), o.last, o.points,
-                o.turning_points, o.peak);
+  print_message("%s, N = %d: %s at %.4f, %d points, %d turning points, peak %.4f\n", what, sc->hbm.samples,
+                hc_status_text(o.status), o.last, o.points, o.turning_points, o.peak);
   return o;
 }
 
-/* Case 2, Table 5. The exact forces give 2 turning points and the peak 18.4304. Paper: 2^6 fails, 2^7 converges with oscillations, 2^10 is nearly
- * smooth. Here: 2^6 and 2^7 are no clean curve (stuck in a corner of the response, or many false turns); from 2^8 on it gets through, but restarted on a
- * sample the turns grow in number with N: w follows the sample it started on, at fixed angle, until the next one takes over, a sawtooth whose teeth
- * shrink like 1/N while their slopes stay. "Nearly smooth" is what longer steps see of it. At the interpolated touch the slopes are right to
- * 1/N, and false turns die out: 2 are left at N = 2^13. */
+/* Case 2, Table 5. The exact forces give 2 turning points and the peak 18.4304. Paper: 2^6 fails, 2^7 converges with
+ * oscillations, 2^10 is nearly smooth. Here: 2^6 and 2^7 are no clean curve (stuck in a corner of the response, or
+ * many false turns); from 2^8 on it gets through, but restarted on a sample the turns grow in number with N: w
+ * follows the sample it started on, at fixed angle, until the next one takes over, a sawtooth whose teeth shrink
+ * like 1/N while their slopes stay. "Nearly smooth" is what longer steps see of it. At the interpolated touch the
+ * slopes are right to 1/N, and false turns die out: 2 are left at N = 2^13. */
 static void case_2_and_its_false_turning_points(void **state)
 {
   (void)state;
@@ -71,7 +73,8 @@ static void case_2_and_its_false_turning_points(void **state)
     on_sample[p] = run_and_say(&sc, "case 2, restart on a sample");
     assert_int_equal(on_sample[p].status, HC_OK);
     assert_true(on_sample[p].arclength && on_sample[p].turning_points >= 20 && on_sample[p].turning_points % 2 == 0);
-    /* the tops of the teeth: w lags by up to 2/3 of a step (test_aft.c), a force kt c^2 A sin p (2/3) 2 pi/N against K A: 3/N of A at most */
+    /* the tops of the teeth: w lags by up to 2/3 of a step (test_aft.c), a force kt c^2 A sin p (2/3) 2 pi/N against
+     * K A: 3/N of A at most */
     CHECK_NEAR(on_sample[p].peak, peak, (3.0 / (1 << p)) * peak, "N=%d", 1 << p);
   }
   assert_true(on_sample[10].turning_points > on_sample[8].turning_points);
@@ -84,8 +87,9 @@ static void case_2_and_its_false_turning_points(void **state)
   assert_int_equal(at_touch[13].turning_points, 2);
 }
 
-/* Case 1, Table 4: N = 5 fails in places, 2^4 is usable, 2^7 smooth. So it is. Peak with exact forces: 0.64957. Kinks miss s^2/12 of the force's
- * slope, s = 2 pi/N: 1.3 % at N = 16, of forces that are a part of the response; 2 % and 2e-3 (points, not the refined peak) are held. */
+/* Case 1, Table 4: N = 5 fails in places, 2^4 is usable, 2^7 smooth. So it is. Peak with exact forces: 0.64957.
+ * Kinks miss s^2/12 of the force's slope, s = 2 pi/N: 1.3 % at N = 16, of forces that are a part of the response; 2
+ * % and 2e-3 (points, not the refined peak) are held. */
 static void case_1_needs_few_samples(void **state)
 {
   (void)state;
@@ -106,8 +110,9 @@ static void case_1_needs_few_samples(void **state)
   }
 }
 
-/* Figures 7 and 8: case A has no turning points at any force and natural continuation suffices. Case B's branch turns at 10 N, and natural
- * continuation stops there; in fact it turns as soon as it touches, 2 N included; only 1 N, which never touches, does not. (N = 1024.) */
+/* Figures 7 and 8: case A has no turning points at any force and natural continuation suffices. Case B's branch
+ * turns at 10 N, and natural continuation stops there; in fact it turns as soon as it touches, 2 N included; only 1
+ * N, which never touches, does not. (N = 1024.) */
 static void case_b_needs_arclength_and_case_a_does_not(void **state)
 {
   (void)state;
@@ -117,20 +122,27 @@ static void case_b_needs_arclength_and_case_a_does_not(void **state)
       a.force = b.force = force;
       a.hbm.continuation = b.hbm.continuation = natural ? HBM_CONTINUATION_NATURAL : HBM_CONTINUATION_AUTO;
       outcome oa = run(&a, 3, 20), ob = run(&b, 3, 20);
-      if (oa.status != HC_OK || oa.turning_points) fail_msg("case A, %d N: %s, %d turns", force, hc_status_text(oa.status), oa.turning_points);
+      if (oa.status != HC_OK || oa.turning_points)
+        fail_msg("case A, %d N: %s, %d turns", force, hc_status_text(oa.status), oa.turning_points);
       if (force == 1) assert_true(ob.status == HC_OK && ob.turning_points == 0);
       else if (natural) assert_true(ob.status != HC_OK && ob.last < 20);
-      else if (!(ob.status == HC_OK && ob.arclength && ob.turning_points >= 2)) fail_msg("case B, %d N: %s", force, hc_status_text(ob.status));
-      print_message("%2d N%s: case A %d turns, case B %d turns%s%.4f\n", force, natural ? ", natural" : "", oa.turning_points, ob.turning_points,
-                    ob.status == HC_OK ? ", reaches " : ", stops at ", ob.last);
+      else if (!(ob.status == HC_OK && ob.arclength && ob.turning_points >= 2))
+        fail_msg("case B, %d N: %s", force, hc_status_text(ob.status));
+      print_message("%2d N%s: case A %d turns, case B %d turns%s%.4f\n", force, natural ? ", natural" : "",
+                    oa.turning_points, ob.turning_points, ob.status == HC_OK ? ", reaches " : ", stops at ", ob.last);
     }
 }
 
-/* Figure 17: a stiffer contact needs more samples. The paper's first two failures are failures here too; 2^12 gets through at kn = 5e3. */
+/* Figure 17: a stiffer contact needs more samples. The paper's first two failures are failures here too; 2^12 gets
+ * through at kn = 5e3. */
 static void stiffer_contacts_need_more_samples(void **state)
 {
   (void)state;
-  static const struct { double kn; int n_time; bool clean; } runs[] = {{3e3, 1 << 7, false}, {5e3, 1 << 8, false}, {5e3, 1 << 12, true}};
+  static const struct {
+    double kn;
+    int n_time;
+    bool clean;
+  } runs[] = {{3e3, 1 << 7, false}, {5e3, 1 << 8, false}, {5e3, 1 << 12, true}};
   for (int i = 0; i < 3; ++i) {
     scene sc = paper_scene("c2", runs[i].n_time, HBM_RESTART_SAMPLE);
     sc.contacts[0].law.kn = runs[i].kn;
@@ -143,7 +155,9 @@ static void stiffer_contacts_need_more_samples(void **state)
 }
 
 static const struct CMUnitTest tests[] = {
-  cmocka_unit_test(case_2_and_its_false_turning_points), cmocka_unit_test(case_1_needs_few_samples),
-  cmocka_unit_test(case_b_needs_arclength_and_case_a_does_not), cmocka_unit_test(stiffer_contacts_need_more_samples),
+    cmocka_unit_test(case_2_and_its_false_turning_points),
+    cmocka_unit_test(case_1_needs_few_samples),
+    cmocka_unit_test(case_b_needs_arclength_and_case_a_does_not),
+    cmocka_unit_test(stiffer_contacts_need_more_samples),
 };
 CHECK_MAIN("hbm.paper", tests, 200)

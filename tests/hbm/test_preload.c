@@ -1,7 +1,8 @@
 /* test_preload.c - a preload many orders of magnitude above what moves the mass must not drown it in rounding.
  *
- * kn gap = 8e8, a motion of 1e-10: in contact all the time and stuck, the force is (kt cos^2 + kn sin^2) x, with nothing left of the preload. As a
- * difference N - N0 it would carry 8e8 units of 1e-16, five orders more than the force itself. Found by `stress`. */
+ * kn gap = 8e8, a motion of 1e-10: in contact all the time and stuck, the force is (kt cos^2 + kn sin^2) x, with
+ * nothing left of the preload. As a difference N - N0 it would carry 8e8 units of 1e-16, five orders more than the
+ * force itself. Found by `stress`. */
 #include "hbm/aft.h"
 #include "hbm/exact.h"
 #include "tests/hbm/scenes.h"
@@ -51,7 +52,8 @@ static void sampled_force_of_a_small_motion(void **state)
   check(F, 64, "sampled");
 }
 
-/* Open for part of the period the preload is missing there: against samples, whose error is d^2/8 times the jumps of the force's slope, d = 2 pi/N. */
+/* Open for part of the period the preload is missing there: against samples, whose error is d^2/8 times the jumps of
+ * the force's slope, d = 2 pi/N. */
 static void an_opening_takes_the_preload_away(void **state)
 {
   (void)state;
@@ -69,15 +71,16 @@ static void an_opening_takes_the_preload_away(void **state)
   assert_int_equal(report.regime, CONTACT_SEPARATES);
   assert_int_equal(aft_new(&sc, H, N, &a), HC_OK);
   assert_int_equal(aft_eval(a, large, G, NULL, NULL), HC_OK);
-  const double d = 2 * PI / N, slope = 1e8 * 22; /* at most kn |x'|; some ten transitions and stretches, each counted once */
+  const double d = 2 * PI / N, slope = 1e8 * 22; /* at most kn |x'|; some ten transitions and stretches, each counted
+                                                    once */
   for (int i = 0; i < N_COEF; ++i) CHECK_NEAR(F[i], G[i], 10 * slope * d * d / 8, "row %d", i);
   exact_free(e);
   aft_free(a);
 }
 
 static const struct CMUnitTest tests[] = {
-  cmocka_unit_test(exact_force_of_a_small_motion),
-  cmocka_unit_test(sampled_force_of_a_small_motion),
-  cmocka_unit_test(an_opening_takes_the_preload_away),
+    cmocka_unit_test(exact_force_of_a_small_motion),
+    cmocka_unit_test(sampled_force_of_a_small_motion),
+    cmocka_unit_test(an_opening_takes_the_preload_away),
 };
 CHECK_MAIN("hbm.preload", tests, 30)

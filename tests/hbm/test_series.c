@@ -1,14 +1,16 @@
-/* test_series.c - trigonometric polynomials: values against direct sums, extrema against closed forms, root mean square.
- * eps = DBL_EPSILON throughout. The direct sums are long double (64-bit mantissa on x86): their own error is 2000 times smaller. */
+/* test_series.c - trigonometric polynomials: values against direct sums, extrema against closed forms, root mean
+ * square. eps = DBL_EPSILON throughout. The direct sums are long double (64-bit mantissa on x86): their own error is
+ * 2000 times smaller. */
 #include "hbm/series.h"
 #include "tests/hbm/scenes.h"
 
 enum { MAX_COEF = 2 * SCENE_MAX_HARMONICS + 1 };
 
-/* The rotation c_{h+1} = c_h c - s_h s is orthogonal but for rounding: the arguments c, s are each off by eps/2, so a step turns by up to
- * eps/sqrt(2) too much or stretches by as much, and its three operations a component add another 1.5 eps: after h steps |error| <= 2.3 h eps,
- * 3 h eps with room. A term then loses 2 eps more by its products, and the sum H eps of its largest partial sum. All told
- * 4 (H + 2) eps sum |X| h^d for the d-th derivative, as h^d |X| are the terms there. */
+/* The rotation c_{h+1} = c_h c - s_h s is orthogonal but for rounding: the arguments c, s are each off by eps/2, so
+ * a step turns by up to eps/sqrt(2) too much or stretches by as much, and its three operations a component add
+ * another 1.5 eps: after h steps |error| <= 2.3 h eps, 3 h eps with room. A term then loses 2 eps more by its
+ * products, and the sum H eps of its largest partial sum. All told 4 (H + 2) eps sum |X| h^d for the d-th
+ * derivative, as h^d |X| are the terms there. */
 static void values_agree_with_direct_sums(void **state)
 {
   (void)state;
@@ -40,7 +42,8 @@ static void values_agree_with_direct_sums(void **state)
     }
 }
 
-/* What an extremum may be off by: th to 1e-9 rad costs |x''| 1e-18/2, and |x''| <= sum h^2 |X|; the rest is the rounding of series_at, above. */
+/* What an extremum may be off by: th to 1e-9 rad costs |x''| 1e-18/2, and |x''| <= sum h^2 |X|; the rest is the
+ * rounding of series_at, above. */
 static double extremum_tolerance(int H, const double *X)
 {
   double value = fabs(X[0]), curvature = 0;
@@ -91,12 +94,15 @@ static void one_harmonic_swings_by_its_modulus(void **state)
   }
 }
 
-/* cos th + q cos 2 th: the maximum is 1 + q; the minimum is q - 1 at pi while q <= 1/4, else -q - 1/(8 q), twice, beside a local maximum at pi.
- * At q = 1/4 four roots of x' meet. Just above, both minima and the maximum between them fit between two grid angles: x' changes sign once. */
+/* cos th + q cos 2 th: the maximum is 1 + q; the minimum is q - 1 at pi while q <= 1/4, else -q - 1/(8 q), twice,
+ * beside a local maximum at pi. At q = 1/4 four roots of x' meet. Just above, both minima and the maximum between
+ * them fit between two grid angles: x' changes sign once. */
 static void extrema_that_coincide(void **state)
 {
   (void)state;
-  static const double q[] = {0.05, 0.2, 0.249, 0.25, 0.25 * (1 + 1e-8), 0.25 * (1 + 1e-4), 0.25 * (1 + 1e-3), 0.25 * (1 + 4e-3), 0.252, 0.26, 0.5, 2};
+  static const double q[] = {
+      0.05,  0.2,  0.249, 0.25, 0.25 * (1 + 1e-8), 0.25 * (1 + 1e-4), 0.25 * (1 + 1e-3), 0.25 * (1 + 4e-3),
+      0.252, 0.26, 0.5,   2};
   for (size_t i = 0; i < sizeof q / sizeof *q; ++i) {
     double X[5] = {0, 1, 0, q[i], 0};
     char what[40];
@@ -105,7 +111,8 @@ static void extrema_that_coincide(void **state)
   }
 }
 
-/* Fejer's kernel 1 + 2 sum (1 - h/(H+1)) cos h th = (sin((H+1) th/2)/sin(th/2))^2/(H+1): one peak H + 1, and H double zeros as minima. */
+/* Fejer's kernel 1 + 2 sum (1 - h/(H+1)) cos h th = (sin((H+1) th/2)/sin(th/2))^2/(H+1): one peak H + 1, and H
+ * double zeros as minima. */
 static void fejer_kernel(void **state)
 {
   (void)state;
@@ -120,7 +127,8 @@ static void fejer_kernel(void **state)
   }
 }
 
-/* Against the largest of 4096 samples a period: never below a sample, and above the best one by no more than x'' step^2/8. */
+/* Against the largest of 4096 samples a period: never below a sample, and above the best one by no more than x''
+ * step^2/8. */
 static void check_against_samples(const char *what, int H, const double *X)
 {
   enum { N = 4096 };
@@ -153,8 +161,9 @@ static void no_sample_lies_outside(void **state)
   }
 }
 
-/* Two unequal minima so close together that they fall between two grid angles: x' changes sign once there, and the lower one must win.
- * cos th + q cos 2 th has twin minima at pi +- y, y^2 = 2 (4q - 1) nearly; sin th lifts one of them. */
+/* Two unequal minima so close together that they fall between two grid angles: x' changes sign once there, and the
+ * lower one must win. cos th + q cos 2 th has twin minima at pi +- y, y^2 = 2 (4q - 1) nearly; sin th lifts one of
+ * them. */
 static void the_lower_of_two_close_minima(void **state)
 {
   (void)state;
@@ -169,8 +178,8 @@ static void the_lower_of_two_close_minima(void **state)
       }
 }
 
-/* 2H+1 equidistant samples integrate x^2 (degree 2H) exactly: only rounding is left, 4 (H + 2) eps a sample relative to (sum |X|)^2 >= x^2,
- * doubled by squaring; the root halves it and divides by rms. */
+/* 2H+1 equidistant samples integrate x^2 (degree 2H) exactly: only rounding is left, 4 (H + 2) eps a sample relative
+ * to (sum |X|)^2 >= x^2, doubled by squaring; the root halves it and divides by rms. */
 static void rms_and_first_harmonic(void **state)
 {
   (void)state;
@@ -194,9 +203,13 @@ static void rms_and_first_harmonic(void **state)
 }
 
 static const struct CMUnitTest tests[] = {
-  cmocka_unit_test(values_agree_with_direct_sums), cmocka_unit_test(a_constant_is_its_own_extremum),
-  cmocka_unit_test(one_harmonic_swings_by_its_modulus), cmocka_unit_test(extrema_that_coincide), cmocka_unit_test(fejer_kernel),
-  cmocka_unit_test(no_sample_lies_outside), cmocka_unit_test(the_lower_of_two_close_minima),
-  cmocka_unit_test(rms_and_first_harmonic),
+    cmocka_unit_test(values_agree_with_direct_sums),
+    cmocka_unit_test(a_constant_is_its_own_extremum),
+    cmocka_unit_test(one_harmonic_swings_by_its_modulus),
+    cmocka_unit_test(extrema_that_coincide),
+    cmocka_unit_test(fejer_kernel),
+    cmocka_unit_test(no_sample_lies_outside),
+    cmocka_unit_test(the_lower_of_two_close_minima),
+    cmocka_unit_test(rms_and_first_harmonic),
 };
 CHECK_MAIN("hbm.series", tests, 60)

@@ -1,4 +1,5 @@
-/* test_slope.c - the Toeplitz + Hankel Jacobian against numerical quadrature of k(th) phi_p phi_q, and the rank-1 update. */
+/* test_slope.c - the Toeplitz + Hankel Jacobian against numerical quadrature of k(th) phi_p phi_q, and the rank-1
+ * update. */
 #include "hbm/slope.h"
 #include "tests/hbm/scenes.h"
 
@@ -7,10 +8,11 @@ enum { MAX_H = 25, MAX_N = 2 * MAX_H + 1, MAX_SYMBOL = 4 * MAX_H + 1 };
 /* phi_0 = 1, phi_{2h-1} = cos h th, phi_{2h} = sin h th. */
 static double basis(int i, double th) { return i == 0 ? 1 : i % 2 ? cos((i + 1) / 2 * th) : sin(i / 2 * th); }
 
-/* F = k x has the coefficients F_p = (2 - [p = 0]) mean(F phi_p), so dF_p/dX_q = (2 - [p = 0]) mean(k phi_p phi_q). The integrand is a
- * trigonometric polynomial of degree 4H, which n = 4H + 1 equidistant points integrate exactly: only rounding is left. Each point adds at most
- * |k| <= sum |symbol| =: K, with an error of a few eps in k (its own sum: as many eps as it has terms) and in the angles h th (up to H eps each):
- * (4H + 1) + 2 (2H) + 2 H + 4 eps, all times 2K; the mean of n sums n eps/2 more. 20 (H + 1) eps K holds them all. */
+/* F = k x has the coefficients F_p = (2 - [p = 0]) mean(F phi_p), so dF_p/dX_q = (2 - [p = 0]) mean(k phi_p phi_q).
+ * The integrand is a trigonometric polynomial of degree 4H, which n = 4H + 1 equidistant points integrate exactly:
+ * only rounding is left. Each point adds at most |k| <= sum |symbol| =: K, with an error of a few eps in k (its own
+ * sum: as many eps as it has terms) and in the angles h th (up to H eps each): (4H + 1) + 2 (2H) + 2 H + 4 eps, all
+ * times 2K; the mean of n sums n eps/2 more. 20 (H + 1) eps K holds them all. */
 static void matrix_equals_quadrature(void **state)
 {
   (void)state;
@@ -37,8 +39,8 @@ static void matrix_equals_quadrature(void **state)
         double expected = (p ? 2 : 1) * sum / points, got = jac[p + ld * q] - (10 + (p + ld * q) % 7);
         CHECK_NEAR(got, expected, 20 * (H + 1) * DBL_EPSILON * (size + 17), "H=%d row %d column %d", H, p, q);
       }
-    for (int q = 0; q < n; ++q)
-      for (int p = n; p < ld; ++p) assert_true(jac[p + ld * q] == 10 + (p + ld * q) % 7); /* between the columns: not ours */
+    for (int q = 0; q < n; ++q) /* between the columns: not ours */
+      for (int p = n; p < ld; ++p) assert_true(jac[p + ld * q] == 10 + (p + ld * q) % 7);
   }
 }
 
@@ -54,8 +56,10 @@ static void rank_one_is_subtracted(void **state)
   for (int i = 0; i < N * N; ++i) jac[i] = before[i] = random_signed(&seed);
   slope_subtract(H, left, right, jac);
   for (int q = 0; q < N; ++q)
-    for (int p = 0; p < N; ++p) CHECK_NEAR(jac[p + N * q], before[p + N * q] - left[p] * right[q], 2 * DBL_EPSILON, "row %d column %d", p, q);
+    for (int p = 0; p < N; ++p)
+      CHECK_NEAR(jac[p + N * q], before[p + N * q] - left[p] * right[q], 2 * DBL_EPSILON, "row %d column %d", p, q);
 }
 
-static const struct CMUnitTest tests[] = {cmocka_unit_test(matrix_equals_quadrature), cmocka_unit_test(rank_one_is_subtracted)};
+static const struct CMUnitTest tests[] = {cmocka_unit_test(matrix_equals_quadrature),
+                                          cmocka_unit_test(rank_one_is_subtracted)};
 CHECK_MAIN("hbm.slope", tests, 60)

@@ -1,5 +1,6 @@
-/* test_special.c - grazing onsets, folds and period doublings of the paper's case 2: against a closed form, against what a fold is, and against the
- * values of the true orbit (PHYSICS 3.4: time integration and AUTO-07p), to which truncation must tend. */
+/* test_special.c - grazing onsets, folds and period doublings of the paper's case 2: against a closed form, against
+ * what a fold is, and against the values of the true orbit (PHYSICS 3.4: time integration and AUTO-07p), to which
+ * truncation must tend. */
 #include "hbm/hbm.h"
 #include "tests/hbm/scenes.h"
 
@@ -38,9 +39,10 @@ static double special(const found *f, hbm_special_kind kind, int i)
   return NAN;
 }
 
-/* Before contact the response is linear whatever H is, |x| = F0/|Z|, and touches when |x| sin(alpha) = |gap|: a quadratic in w^2,
- * M^2 w^4 + (C^2 - 2 K M) w^2 + K^2 - (F0 sin/gap)^2 = 0. The pattern is bisected to 1e-11 of a segment, shorter than 10 in omega. The orbit in Newton's
- * tolerance 1e-10 of |x| would move it by 1e-10 |x|/(d|x|/d omega), |x| = 7.07 and the slopes 1.3 and 3.7: below 6e-10. 1e-8 is what hbm.h promises. */
+/* Before contact the response is linear whatever H is, |x| = F0/|Z|, and touches when |x| sin(alpha) = |gap|: a
+ * quadratic in w^2, M^2 w^4 + (C^2 - 2 K M) w^2 + K^2 - (F0 sin/gap)^2 = 0. The pattern is bisected to 1e-11 of a
+ * segment, shorter than 10 in omega. The orbit in Newton's tolerance 1e-10 of |x| would move it by 1e-10 |x|/(d|x|/d
+ * omega), |x| = 7.07 and the slopes 1.3 and 3.7: below 6e-10. 1e-8 is what hbm.h promises. */
 static void contact_sets_in_where_the_linear_response_grazes(void **state)
 {
   (void)state;
@@ -77,10 +79,11 @@ static hbm_stability stability_of_solution(found *f, const hbm_curve *at, int i)
   return st;
 }
 
-/* A fold has two more solutions on one side than on the other, at any distance. hbm.h promises 1e-9 of omega, so 1e-8 away is beyond doubt.
- * Near it the two multipliers next to +1 are 1 -+ a sqrt(d): from d = 1e-3 to 1e-5 they come 10 times nearer to each other, to the d/sqrt(d) = 3 % of the
- * next order. Their mean misses 1 because the multiplier belongs to the orbit of the untruncated equations, by O(H^-3) as the transitions are:
- * the fold of H is 4e-5 from that of 2H (9.20954, 9.209579, 9.209580 at H = 10, 20, 40), and a sqrt(4e-5) is what that costs at most. */
+/* A fold has two more solutions on one side than on the other, at any distance. hbm.h promises 1e-9 of omega, so
+ * 1e-8 away is beyond doubt. Near it the two multipliers next to +1 are 1 -+ a sqrt(d): from d = 1e-3 to 1e-5 they
+ * come 10 times nearer to each other, to the d/sqrt(d) = 3 % of the next order. Their mean misses 1 because the
+ * multiplier belongs to the orbit of the untruncated equations, by O(H^-3) as the transitions are: the fold of H is
+ * 4e-5 from that of 2H (9.20954, 9.209579, 9.209580 at H = 10, 20, 40), and a sqrt(4e-5) is what that costs at most. */
 static void a_fold_is_where_two_solutions_and_multiplier_one_meet(void **state)
 {
   (void)state;
@@ -90,7 +93,10 @@ static void a_fold_is_where_two_solutions_and_multiplier_one_meet(void **state)
   CHECK_NEAR(turn, 7.3369, 1e-5, "turn at H = 20");
   assert_true(isnan(special(&f, HBM_TURNING_POINT, 2)));
   hbm_curve at;
-  static const struct { double d; int below, above; } side[] = {{1e-8, 3, 1}, {1e-6, 3, 1}, {1e-3, 3, 1}};
+  static const struct {
+    double d;
+    int below, above;
+  } side[] = {{1e-8, 3, 1}, {1e-6, 3, 1}, {1e-3, 3, 1}};
   for (int i = 0; i < 3; ++i) {
     assert_int_equal(solutions_at(&f, fold - side[i].d, &at), side[i].below);
     hbm_curve_free(&at);
@@ -101,7 +107,8 @@ static void a_fold_is_where_two_solutions_and_multiplier_one_meet(void **state)
     assert_int_equal(solutions_at(&f, fold - (i ? 1e-5 : 1e-3), &at), 3);
     hbm_stability upper = stability_of_solution(&f, &at, 0), middle = stability_of_solution(&f, &at, 1);
     split[i] = middle.re - upper.re;
-    CHECK_NEAR(0.5 * (middle.re + upper.re), 1, split[0] * sqrt(4e-5 / 1e-3) + 0.1 * split[i], "mean multiplier at %g from the fold", i ? 1e-5 : 1e-3);
+    CHECK_NEAR(0.5 * (middle.re + upper.re), 1, split[0] * sqrt(4e-5 / 1e-3) + 0.1 * split[i],
+               "mean multiplier at %g from the fold", i ? 1e-5 : 1e-3);
     assert_true(upper.im == 0 && middle.im == 0 && upper.fold > middle.fold);
     hbm_curve_free(&at);
   }
@@ -110,9 +117,10 @@ static void a_fold_is_where_two_solutions_and_multiplier_one_meet(void **state)
   drop(&f);
 }
 
-/* The orbit's error falls like H^-4, so the doubling's does, on the whole: over the two doublings of H from 10 to 40, by 16^2 / 10 at least where the contact
- * lasts long (5.57), where asymptotics hold from H = 10 on. Just after grazing (5.106) contact lasts a 50th of a period, and 40 harmonics hardly resolve
- * it: there only 2e-5 at H = 40, and falling by 10 to H = 80. The references are rounded to 1e-6: 5e-7. */
+/* The orbit's error falls like H^-4, so the doubling's does, on the whole: over the two doublings of H from 10 to
+ * 40, by 16^2 / 10 at least where the contact lasts long (5.57), where asymptotics hold from H = 10 on. Just after
+ * grazing (5.106) contact lasts a 50th of a period, and 40 harmonics hardly resolve it: there only 2e-5 at H = 40,
+ * and falling by 10 to H = 80. The references are rounded to 1e-6: 5e-7. */
 static void doublings_tend_to_those_of_the_true_orbit(void **state)
 {
   (void)state;
@@ -123,7 +131,8 @@ static void doublings_tend_to_those_of_the_true_orbit(void **state)
     low[q] = fabs(special(&f, HBM_PERIOD_DOUBLING, 0) - 5.106167);
     high[q] = fabs(special(&f, HBM_PERIOD_DOUBLING, 1) - 5.569782);
     assert_true(isnan(special(&f, HBM_PERIOD_DOUBLING, 2)));
-    for (int i = 0; i < 2; ++i) { /* the multiplier itself is -1 there: flip = (1 + l)(1 + l') moves by 1e2 a unit of omega, located to 1e-9 */
+    for (int i = 0; i < 2; ++i) { /* the multiplier itself is -1 there: flip = (1 + l)(1 + l') moves by 1e2 a unit of
+                                     omega, located to 1e-9 */
       hbm_curve at;
       solutions_at(&f, special(&f, HBM_PERIOD_DOUBLING, i), &at);
       CHECK_NEAR(stability_of_solution(&f, &at, 0).re, -1, 1e-6, "H=%d", harmonics[q]);
@@ -139,7 +148,8 @@ static void doublings_tend_to_those_of_the_true_orbit(void **state)
   CHECK_LE(high[3], high[1] * 10 / 256 + 5e-7, "5.569782 from H = 20 to 80");
 }
 
-/* kn = 1e4: contact ten times stiffer and three times shorter, so H = 80 here is worth about H = 25 there: 1e-4, and eight times nearer than H = 40. */
+/* kn = 1e4: contact ten times stiffer and three times shorter, so H = 80 here is worth about H = 25 there: 1e-4, and
+ * eight times nearer than H = 40. */
 static void the_doubling_of_a_stiff_contact(void **state)
 {
   (void)state;
@@ -154,14 +164,32 @@ static void the_doubling_of_a_stiff_contact(void **state)
   CHECK_LE(miss[1], miss[0] / 8, "H = 40 to 80");
 }
 
-/* Between the doublings unstable, between fold and turn unstable, else stable: at the middles and next to the limits, outside what truncation moves. */
+/* Between the doublings unstable, between fold and turn unstable, else stable: at the middles and next to the
+ * limits, outside what truncation moves. */
 static void every_stretch_is_as_stable_as_it_should_be(void **state)
 {
   (void)state;
-  static const struct { double omega; int n; bool stable[3]; } at[] = {
-      {3.5, 1, {true}}, {5.05, 1, {true}}, {5.105, 1, {true}}, {5.1075, 1, {false}}, {5.2, 1, {false}}, {5.4, 1, {false}}, {5.568, 1, {false}}, {5.572, 1, {true}},
-      {6, 1, {true}}, {7, 1, {true}}, {7.33, 1, {true}}, {7.338, 3, {true, false, true}}, {8, 3, {true, false, true}}, {9.2, 3, {true, false, true}},
-      {9.21, 1, {true}}, {12, 1, {true}}, {19, 1, {true}}};
+  static const struct {
+    double omega;
+    int n;
+    bool stable[3];
+  } at[] = {{3.5, 1, {true}},
+            {5.05, 1, {true}},
+            {5.105, 1, {true}},
+            {5.1075, 1, {false}},
+            {5.2, 1, {false}},
+            {5.4, 1, {false}},
+            {5.568, 1, {false}},
+            {5.572, 1, {true}},
+            {6, 1, {true}},
+            {7, 1, {true}},
+            {7.33, 1, {true}},
+            {7.338, 3, {true, false, true}},
+            {8, 3, {true, false, true}},
+            {9.2, 3, {true, false, true}},
+            {9.21, 1, {true}},
+            {12, 1, {true}},
+            {19, 1, {true}}};
   found f = find("c2", 20);
   for (size_t q = 0; q < sizeof at / sizeof *at; ++q) {
     hbm_curve here;
@@ -195,9 +223,12 @@ static void too_little_room_keeps_the_first(void **state)
 }
 
 static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(contact_sets_in_where_the_linear_response_grazes), cmocka_unit_test(a_fold_is_where_two_solutions_and_multiplier_one_meet),
-    cmocka_unit_test(doublings_tend_to_those_of_the_true_orbit),        cmocka_unit_test(the_doubling_of_a_stiff_contact),
-    cmocka_unit_test(every_stretch_is_as_stable_as_it_should_be),       cmocka_unit_test(too_little_room_keeps_the_first),
+    cmocka_unit_test(contact_sets_in_where_the_linear_response_grazes),
+    cmocka_unit_test(a_fold_is_where_two_solutions_and_multiplier_one_meet),
+    cmocka_unit_test(doublings_tend_to_those_of_the_true_orbit),
+    cmocka_unit_test(the_doubling_of_a_stiff_contact),
+    cmocka_unit_test(every_stretch_is_as_stable_as_it_should_be),
+    cmocka_unit_test(too_little_room_keeps_the_first),
 };
 
 CHECK_MAIN("hbm.special", tests, 300)

@@ -1,5 +1,6 @@
-/* test_stability.c - Floquet multipliers: where the oscillator is linear against its eigenvalues, where nothing slips by their product, where it
- * slips against finite differences of a period map integrated here, by another way: RK4 in time with events, no harmonics, no pieces. */
+/* test_stability.c - Floquet multipliers: where the oscillator is linear against its eigenvalues, where nothing
+ * slips by their product, where it slips against finite differences of a period map integrated here, by another way:
+ * RK4 in time with events, no harmonics, no pieces. */
 #include <complex.h>
 
 #include "hbm/hbm.h"
@@ -44,10 +45,11 @@ static hbm_stability first_stability(const scene *sc, double omega, double *X, c
   return st;
 }
 
-/* lambda = exp(r T), r the roots of M r^2 + C r + k = 0; trace and determinant follow. What rounds: T = 2 pi/omega and sqrt(d) by 2 eps each, so the
- * angle by 4 eps |sqrt(d)| T; then ten operations on numbers of order n = |phi| <= 1 + w + k/(M w) (the off-diagonal entries have units: cos^2 and
- * -sin^2 cancel in the determinant, w sin and sin/w do not grow it). A multiplier is the root of a quadratic: with half^2 - det near 0 its error is
- * that of det over the root. All of it: eps (16 + 4 |r| T) (1 + 1/|l1 - l2|). */
+/* lambda = exp(r T), r the roots of M r^2 + C r + k = 0; trace and determinant follow. What rounds: T = 2 pi/omega
+ * and sqrt(d) by 2 eps each, so the angle by 4 eps |sqrt(d)| T; then ten operations on numbers of order n = |phi| <=
+ * 1 + w + k/(M w) (the off-diagonal entries have units: cos^2 and -sin^2 cancel in the determinant, w sin and sin/w
+ * do not grow it). A multiplier is the root of a quadratic: with half^2 - det near 0 its error is that of det over
+ * the root. All of it: eps (16 + 4 |r| T) (1 + 1/|l1 - l2|). */
 static void check_linear(const scene *sc, double k, double omega, contact_regime regime, const char *what)
 {
   double X[64];
@@ -69,7 +71,8 @@ static void check_linear(const scene *sc, double k, double omega, contact_regime
 static void a_linear_oscillator_has_the_exponentials_of_its_eigenvalues(void **state)
 {
   (void)state;
-  static const double damping[] = {0.02, 0.4, 5, 12.7, 30}, omegas[] = {2.3, 6, 11, 40}; /* critical: 12.65 at k = 40, 36.4 stuck */
+  /* critical: 12.65 at k = 40, 36.4 stuck */
+  static const double damping[] = {0.02, 0.4, 5, 12.7, 30}, omegas[] = {2.3, 6, 11, 40};
   for (size_t i = 0; i < sizeof damping / sizeof *damping; ++i)
     for (size_t q = 0; q < sizeof omegas / sizeof *omegas; ++q) {
       scene none = exact_scene("b10", 5), apart, stuck = exact_scene("a10", 5);
@@ -89,12 +92,14 @@ static void a_linear_oscillator_has_the_exponentials_of_its_eigenvalues(void **s
     }
 }
 
-/* Product of all multipliers but those of sliders at rest across th = 0, which are 0 and change neither flip nor fold: 1 + trace + det and 1 - trace + det. */
+/* Product of all multipliers but those of sliders at rest across th = 0, which are 0 and change neither flip nor
+ * fold: 1 + trace + det and 1 - trace + det. */
 static double moving_determinant(const hbm_stability *st) { return 0.5 * (st->flip + st->fold) - 1; }
 
-/* Liouville: without slip the divergence of the flow is -C/M all the time, and events add nothing. The determinant is a difference of products of
- * phi's entries, each of m stretches long and rounded 10 times a stretch: 10 m eps |phi_00 phi_11|, and with det = b, trace = 2 half, no product exceeds
- * half^2 + |phi_01 phi_10| <= trace^2 + multiplier^2 + 1. m <= transitions + 2 < 40 here: 1e-13 times that; 1e-12 leaves room for the angles. */
+/* Liouville: without slip the divergence of the flow is -C/M all the time, and events add nothing. The determinant
+ * is a difference of products of phi's entries, each of m stretches long and rounded 10 times a stretch: 10 m eps
+ * |phi_00 phi_11|, and with det = b, trace = 2 half, no product exceeds half^2 + |phi_01 phi_10| <= trace^2 +
+ * multiplier^2 + 1. m <= transitions + 2 < 40 here: 1e-13 times that; 1e-12 leaves room for the angles. */
 static void without_slip_the_determinant_is_that_of_the_damping(void **state)
 {
   (void)state;
@@ -110,14 +115,19 @@ static void without_slip_the_determinant_is_that_of_the_damping(void **state)
       hbm_stability st;
       double omega = c.points[k].omega, det = exp(-sc.damping * 2 * PI / omega / sc.mass);
       assert_int_equal(hbm_stability_at(s, omega, c.X + (size_t)k * c.n_coef, &st), HC_OK);
-      CHECK_NEAR(moving_determinant(&st), det, 1e-12 * (1 + st.multiplier * st.multiplier), "H=%d omega=%.17g", harmonics[q], omega);
-      if (fabs(st.determinant) > 1e-9) CHECK_NEAR(st.determinant, det, 1e-12 * (1 + st.multiplier * st.multiplier), "H=%d omega=%.17g", harmonics[q], omega);
+      CHECK_NEAR(moving_determinant(&st), det, 1e-12 * (1 + st.multiplier * st.multiplier), "H=%d omega=%.17g",
+                 harmonics[q], omega);
+      if (fabs(st.determinant) > 1e-9)
+        CHECK_NEAR(st.determinant, det, 1e-12 * (1 + st.multiplier * st.multiplier), "H=%d omega=%.17g", harmonics[q],
+                   omega);
       else ++slider_across_0;
       /* one determinant, two multipliers: l and det/l, or a pair of modulus sqrt(det) */
       CHECK_LE(sqrt(det), st.multiplier * (1 + 1e-12), "H=%d omega=%.17g", harmonics[q], omega);
       if (st.im == 0) {
-        CHECK_NEAR(st.flip, (1 + st.re) * (1 + det / st.re), 1e-11 * (1 + fabs(st.re)) * (1 + fabs(st.re)), "H=%d omega=%.17g", harmonics[q], omega);
-        CHECK_NEAR(st.fold, (1 - st.re) * (1 - det / st.re), 1e-11 * (1 + fabs(st.re)) * (1 + fabs(st.re)), "H=%d omega=%.17g", harmonics[q], omega);
+        CHECK_NEAR(st.flip, (1 + st.re) * (1 + det / st.re), 1e-11 * (1 + fabs(st.re)) * (1 + fabs(st.re)),
+                   "H=%d omega=%.17g", harmonics[q], omega);
+        CHECK_NEAR(st.fold, (1 - st.re) * (1 - det / st.re), 1e-11 * (1 + fabs(st.re)) * (1 + fabs(st.re)),
+                   "H=%d omega=%.17g", harmonics[q], omega);
       }
       ++*(st.multiplier > 1 ? &unstable : &stable);
     }
@@ -179,11 +189,13 @@ static flow step(flow f, double h)
   return f;
 }
 
-/* What contact j turns into at this state; its own phase while nothing has happened. A traction is over its limit by more than rounding. */
+/* What contact j turns into at this state; its own phase while nothing has happened. A traction is over its limit by
+ * more than rounding. */
 static int next_phase(const flow *f, int j, double *w)
 {
   const contact *l = &f->sc->contacts[j].law;
-  double a = f->sc->contacts[j].angle_deg * PI / 180, c = cos(a), s = sin(a), open = f->x * s + l->gap, u = f->x * c, du = f->v * c, dv = f->v * s;
+  double a = f->sc->contacts[j].angle_deg * PI / 180, c = cos(a), s = sin(a), open = f->x * s + l->gap, u = f->x * c,
+         du = f->v * c, dv = f->v * s;
   double N = l->kn * open, limit = l->mu * N;
   *w = f->w[j];
   if (f->phase[j] == APART) {
@@ -241,12 +253,14 @@ static void flow_to(flow *f, double until, double h)
 
 enum { STEPS = 400, SETTLE = 300 };
 
-/* The settled orbit, from the state (x, v) at th = 0; sections are tried in turn until none of the contacts is stuck, so that (x, v) is the whole state. */
+/* The settled orbit, from the state (x, v) at th = 0; sections are tried in turn until none of the contacts is
+ * stuck, so that (x, v) is the whole state. */
 static flow settled(const scene *sc, double omega, double x, double v)
 {
   double T = 2 * PI / omega;
   flow f = {.sc = sc, .omega = omega, .x = x, .v = v};
-  for (int j = 0; j < sc->n_contacts; ++j) f.phase[j] = x * sin(sc->contacts[j].angle_deg * PI / 180) + sc->contacts[j].law.gap > 0 ? STUCK : APART;
+  for (int j = 0; j < sc->n_contacts; ++j)
+    f.phase[j] = x * sin(sc->contacts[j].angle_deg * PI / 180) + sc->contacts[j].law.gap > 0 ? STUCK : APART;
   for (int k = 1; k <= SETTLE; ++k) {
     f.events = f.contacts = 0;
     flow_to(&f, T, T / STEPS); /* the forcing has period T: start each again at 0 */
@@ -290,10 +304,12 @@ static hbm_stability by_differences(const flow *at, double delta)
   return (hbm_stability){cabs(l), creal(l), cimag(l), 1 + trace + det, 1 - trace + det, det, false};
 }
 
-/* How far the trace and determinant of an H-harmonic orbit may be from the true orbit's. At an event x''' jumps by kappa x' (in th), kappa =
- * dk/(M omega^2) with dk the stiffness that comes or goes. Each leaves coefficients kappa x'/(pi n^4) or less, so the E events of a period move x by
- * at most E kappa x'/(3 pi H^3) and an event's angle by E kappa/(3 pi H^3). An angle's error d enters phi as a stiffness dk for a time d: kappa d, E times:
- * (E kappa)^2/(3 pi H^3), times |phi|, here at most 1 + kappa. Differences: 1e-5 of x' steps through x'' of order 1 + kappa, below 1e-4; RK4 1e-7. */
+/* How far the trace and determinant of an H-harmonic orbit may be from the true orbit's. At an event x''' jumps by
+ * kappa x' (in th), kappa = dk/(M omega^2) with dk the stiffness that comes or goes. Each leaves coefficients kappa
+ * x'/(pi n^4) or less, so the E events of a period move x by at most E kappa x'/(3 pi H^3) and an event's angle by E
+ * kappa/(3 pi H^3). An angle's error d enters phi as a stiffness dk for a time d: kappa d, E times: (E kappa)^2/(3
+ * pi H^3), times |phi|, here at most 1 + kappa. Differences: 1e-5 of x' steps through x'' of order 1 + kappa, below
+ * 1e-4; RK4 1e-7. */
 static double truncation_bound(double dk, const scene *sc, double omega, int events, int n_harm)
 {
   double kappa = dk / (sc->mass * omega * omega);
@@ -312,25 +328,34 @@ static void check_slipping(const scene *sc, double omega, const char *what)
   }
   flow f = settled(sc, omega, x, v);
   hbm_stability fd = by_differences(&f, 1e-6);
-  for (int j = 0; j < sc->n_contacts; ++j) dk += scene_stuck_stiffness(&sc->contacts[j]) / sc->n_contacts; /* E dk = sum of E_j dk_j, as many events each */
+  /* E dk = sum of E_j dk_j, as many events each */
+  for (int j = 0; j < sc->n_contacts; ++j) dk += scene_stuck_stiffness(&sc->contacts[j]) / sc->n_contacts;
   double tol = truncation_bound(dk, sc, omega, f.events, n_harm);
   if (getenv("HC_TEST_PRINT"))
-    print_message("%s omega=%g H=%d pieces=%d/%d: multiplier %.8f (%.8f %+.8fi) differences %.8f (%.8f %+.8fi) det %.2e %.2e bound %.1e\n", what, omega, n_harm,
-                  pieces, f.contacts, st.multiplier, st.re, st.im, fd.multiplier, fd.re, fd.im, st.determinant, fd.determinant, tol);
-  assert_true(f.contacts > 0 && pieces >= f.contacts && pieces <= f.contacts + sc->n_contacts); /* the same orbit; a stretch may be cut at th = 0 */
+    print_message(
+        "%s omega=%g H=%d pieces=%d/%d: multiplier %.8f (%.8f %+.8fi) differences %.8f (%.8f %+.8fi) det %.2e %.2e "
+        "bound %.1e\n",
+        what, omega, n_harm, pieces, f.contacts, st.multiplier, st.re, st.im, fd.multiplier, fd.re, fd.im,
+        st.determinant, fd.determinant, tol);
+  /* the same orbit; a stretch may be cut at th = 0 */
+  assert_true(f.contacts > 0 && pieces >= f.contacts && pieces <= f.contacts + sc->n_contacts);
   CHECK_NEAR(st.fold, fd.fold, tol, "%s omega=%g", what, omega);
   CHECK_NEAR(st.flip, fd.flip, tol, "%s omega=%g", what, omega);
   CHECK_NEAR(st.multiplier, fd.multiplier, tol / fmax(0.1, fabs(fd.im)), "%s omega=%g", what, omega);
   CHECK_NEAR(st.re, fd.re, tol / fmax(0.1, fabs(fd.im)), "%s omega=%g", what, omega);
   /* slip takes area out of the flow: the determinant is below that of the damping alone, visibly here */
   CHECK_NEAR(moving_determinant(&st), fd.determinant, tol, "%s omega=%g", what, omega);
-  CHECK_LE(moving_determinant(&st), (1 - 1e-3) * exp(-sc->damping * 2 * PI / omega / sc->mass), "%s omega=%g", what, omega);
+  CHECK_LE(moving_determinant(&st), (1 - 1e-3) * exp(-sc->damping * 2 * PI / omega / sc->mass), "%s omega=%g", what,
+           omega);
 }
 
 static void slipping_orbits_against_differences_of_the_period_map(void **state)
 {
   (void)state;
-  static const struct { const char *name; double omega; } at[] = {{"b10", 5.5}, {"b10", 6.5}, {"b10", 7}, {"a10", 13}, {"a10", 13.5}, {"a10", 14}};
+  static const struct {
+    const char *name;
+    double omega;
+  } at[] = {{"b10", 5.5}, {"b10", 6.5}, {"b10", 7}, {"a10", 13}, {"a10", 13.5}, {"a10", 14}};
   for (size_t i = 0; i < sizeof at / sizeof *at; ++i) {
     scene sc = exact_scene(at[i].name, 30);
     check_slipping(&sc, at[i].omega, at[i].name);
@@ -349,15 +374,20 @@ static void two_contacts_against_differences_of_the_period_map(void **state)
   }
 }
 
-/* Held by friction, after slipping from w = 0 until it just is: the slider is one of a family, its multiplier 1 is nobody's, and what is left is the
- * stuck oscillator, exp(lambda T) with M lambda^2 + C lambda + K' = 0. Found by `stress`: "unknown" was said of orbits that are stable. */
+/* Held by friction, after slipping from w = 0 until it just is: the slider is one of a family, its multiplier 1 is
+ * nobody's, and what is left is the stuck oscillator, exp(lambda T) with M lambda^2 + C lambda + K' = 0. Found by
+ * `stress`: "unknown" was said of orbits that are stable. */
 static void a_slider_shaken_down_is_held(void **state)
 {
   (void)state;
   scene sc = exact_scene("a10", 4);
-  sc.mass = 0.004673179462143663, sc.damping = 3.034467329816304, sc.stiffness = 5318.444481348431, sc.force = 583.943258710234;
-  sc.contacts[0] = (scene_contact){{.kt = 15.850124418365803, .kn = 1.2291759286480795, .mu = 1.9994961307629158, .gap = 0.732771594469483}, 55.94139530323445};
-  const double omega = 881.68431426493737, rate = 0.5 * sc.damping / sc.mass, k = sc.stiffness + scene_stuck_stiffness(&sc.contacts[0]);
+  sc.mass = 0.004673179462143663, sc.damping = 3.034467329816304, sc.stiffness = 5318.444481348431,
+  sc.force = 583.943258710234;
+  sc.contacts[0] = (scene_contact){
+      {.kt = 15.850124418365803, .kn = 1.2291759286480795, .mu = 1.9994961307629158, .gap = 0.732771594469483},
+      55.94139530323445};
+  const double omega = 881.68431426493737, rate = 0.5 * sc.damping / sc.mass,
+               k = sc.stiffness + scene_stuck_stiffness(&sc.contacts[0]);
   hbm_solver *s;
   hbm_point point;
   hbm_stability st;

@@ -1,8 +1,10 @@
-/* test_trace.c - how a trace goes and how it may end: turning points that are real, folds, limits, interruptions, nonsense. */
+/* test_trace.c - how a trace goes and how it may end: turning points that are real, folds, limits, interruptions,
+ * nonsense. */
 #include "hbm/aft.h"
 #include "tests/hbm/traced.h"
 
-/* Sign of det dR/dX of the fixed form at X, omega, by elimination with pivots; Z as in system.h, dF from the contacts. */
+/* Sign of det dR/dX of the fixed form at X, omega, by elimination with pivots; Z as in system.h, dF from the
+ * contacts. */
 static int sign_of_determinant(const scene *sc, aft *a, const double *X, double omega)
 {
   enum { MAX = 21 };
@@ -34,15 +36,20 @@ static int sign_of_determinant(const scene *sc, aft *a, const double *X, double 
   return sign;
 }
 
-/* Along a curve that is followed one way, omega rises where det dR/dX has one sign and falls where it has the other (the tangent is the kernel of
- * [dR/dX dR/domega], whose bordered determinant keeps its sign, through folds and through kinks). A point that breaks this was reached against
- * the curve's direction: a false turning point, or a curve retraced. */
+/* Along a curve that is followed one way, omega rises where det dR/dX has one sign and falls where it has the other
+ * (the tangent is the kernel of [dR/dX dR/domega], whose bordered determinant keeps its sign, through folds and
+ * through kinks). A point that breaks this was reached against the curve's direction: a false turning point, or a
+ * curve retraced. */
 static void turning_points_are_real(void **state)
 {
   (void)state;
-  static const struct { const char *name; int H, keep_mean, N; } runs[] = {
-    {"a10", 1, 0, 4096}, {"a10", 1, 1, 4096}, {"a10", 5, 1, 4096}, {"b10", 1, 1, 4096}, {"b10", 5, 0, 128}, {"c2", 1, 0, 1024}, {"c2", 5, 1, 4096},
-    {"c2", 10, 1, 512},  {"gap1", 1, 1, 4096}, {"gap1", 5, 0, 256}, {"c2kn1e4", 1, 1, 4096}, {"r2", 5, 1, 4096}, {"r1", 1, 0, 4096}};
+  static const struct {
+    const char *name;
+    int H, keep_mean, N;
+  } runs[] = {{"a10", 1, 0, 4096},  {"a10", 1, 1, 4096}, {"a10", 5, 1, 4096},     {"b10", 1, 1, 4096},
+              {"b10", 5, 0, 128},   {"c2", 1, 0, 1024},  {"c2", 5, 1, 4096},      {"c2", 10, 1, 512},
+              {"gap1", 1, 1, 4096}, {"gap1", 5, 0, 256}, {"c2kn1e4", 1, 1, 4096}, {"r2", 5, 1, 4096},
+              {"r1", 1, 0, 4096}};
   int wrong = 0;
   for (size_t i = 0; i < sizeof runs / sizeof *runs; ++i)
     for (int down = 0; down <= 1; ++down) {
@@ -53,12 +60,15 @@ static void turning_points_are_real(void **state)
       assert_int_equal(aft_new(&sc, runs[i].H, runs[i].N, &a), HC_OK);
       int first = 0, bad = 0;
       for (int k = 0; k < c->n; ++k) {
-        int sign = sign_of_determinant(&sc, a, c->X + (size_t)k * c->n_coef, c->points[k].omega) * (c->points[k].d_omega > 0 ? 1 : -1);
+        int sign = sign_of_determinant(&sc, a, c->X + (size_t)k * c->n_coef, c->points[k].omega) *
+                   (c->points[k].d_omega > 0 ? 1 : -1);
         if (!k) first = sign;
         else if (sign != first) ++bad;
       }
-      if (bad) print_error("%s H=%d static=%d N=%d %s: %d of %d points against the curve's direction, %d turning points\n", runs[i].name, runs[i].H,
-                           runs[i].keep_mean, runs[i].N, down ? "down" : "up", bad, c->n, c->turning_points);
+      if (bad)
+        print_error("%s H=%d static=%d N=%d %s: %d of %d points against the curve's direction, %d turning points\n",
+                    runs[i].name, runs[i].H, runs[i].keep_mean, runs[i].N, down ? "down" : "up", bad, c->n,
+                    c->turning_points);
       wrong += bad;
       aft_free(a);
       drop(&t);
@@ -66,8 +76,9 @@ static void turning_points_are_real(void **state)
   assert_int_equal(wrong, 0);
 }
 
-/* Case B with 10 N: a natural trace must stop at the fold that arc-length passes, say why, and keep what it has. Case A gets through. The fold is
- * met from below: solutions end like sqrt(fold - omega), and steps shrink until the next would pass it: within 1e-3. */
+/* Case B with 10 N: a natural trace must stop at the fold that arc-length passes, say why, and keep what it has.
+ * Case A gets through. The fold is met from below: solutions end like sqrt(fold - omega), and steps shrink until the
+ * next would pass it: within 1e-3. */
 static void natural_continuation_stops_at_the_fold(void **state)
 {
   (void)state;
@@ -77,13 +88,15 @@ static void natural_continuation_stops_at_the_fold(void **state)
       scene sc = scene_named("b10", orders[o], keep_mean, 1024);
       traced whole = trace(&sc, 3, 20, "b10");
       double fold = 0;
-      for (int k = 0; k < whole.curve.n && whole.curve.points[k].omega > 0.99 * fold; ++k) fold = fmax(fold, whole.curve.points[k].omega);
+      for (int k = 0; k < whole.curve.n && whole.curve.points[k].omega > 0.99 * fold; ++k)
+        fold = fmax(fold, whole.curve.points[k].omega);
       assert_true(whole.curve.arclength && whole.status == HC_OK && whole.curve.turning_points >= 2);
       sc.hbm.continuation = HBM_CONTINUATION_NATURAL;
       traced t = trace(&sc, 3, 20, "b10, natural");
       const hbm_curve *c = &t.curve;
       double last = c->points[c->n - 1].omega;
-      print_message("b10 H=%d static=%d: fold at %.6f, natural stops at %.6f: %s\n", orders[o], keep_mean, fold, last, hc_status_text(t.status));
+      print_message("b10 H=%d static=%d: fold at %.6f, natural stops at %.6f: %s\n", orders[o], keep_mean, fold, last,
+                    hc_status_text(t.status));
       assert_int_not_equal(t.status, HC_OK);
       assert_int_not_equal(t.status, HC_INTERRUPTED); /* a loop */
       assert_false(c->arclength);
@@ -99,9 +112,10 @@ static void natural_continuation_stops_at_the_fold(void **state)
     }
 }
 
-/* Case 2 from 8.5 down: the separated branch ends grazing at 7.337 (closed form 7.3371828168, H = 1 or not: the motion is still linear there), and
- * turns up to a fold beyond 8.5, back past the start. */
-/* Down from 8.5 on the separated branch of c2: round the grazing turn, up past the start to the fold at 9.21, and down to the end. */
+/* Case 2 from 8.5 down: the separated branch ends grazing at 7.337 (closed form 7.3371828168, H = 1 or not: the
+ * motion is still linear there), and turns up to a fold beyond 8.5, back past the start. */
+/* Down from 8.5 on the separated branch of c2: round the grazing turn, up past the start to the fold at 9.21, and
+ * down to the end. */
 static void a_branch_that_turns_back(void **state)
 {
   (void)state;
@@ -121,7 +135,8 @@ static void a_branch_that_turns_back(void **state)
   drop(&t);
 }
 
-/* Nearly rigid and without harmonic 0 the fold is beyond 4 times the start: the curve is cut where it left the sweep. */
+/* Nearly rigid and without harmonic 0 the fold is beyond 4 times the start: the curve is cut where it left the
+ * sweep. */
 static void a_branch_that_leaves(void **state)
 {
   (void)state;
@@ -157,7 +172,8 @@ static void interruption_keeps_points(void **state)
   drop(&whole);
 }
 
-/* Hard scenes with rough sampling: whatever happens there is a reason, no point lies outside (check_curve), and it comes to an end. */
+/* Hard scenes with rough sampling: whatever happens there is a reason, no point lies outside (check_curve), and it
+ * comes to an end. */
 static void always_an_end_with_a_reason(void **state)
 {
   (void)state;
@@ -169,8 +185,15 @@ static void always_an_end_with_a_reason(void **state)
     int n_harm = orders[trial % 3], n_time = 16 + trial % 5 * 9;
     scene sc = scene_named(names[trial % 4], n_harm, trial / 4 % 2, n_time);
     sc.hbm.restart = trial / 8 % 2;
-    sc.hbm.continuation = trial % 5 == 4 ? HBM_CONTINUATION_NATURAL : trial % 5 == 3 ? HBM_CONTINUATION_ARCLENGTH : HBM_CONTINUATION_AUTO;
-    if (trial % 6 == 5) { sc.n_contacts = 3; sc.contacts[2] = sc.contacts[1] = sc.contacts[0]; sc.contacts[1].angle_deg = 20; sc.contacts[2].law.gap *= -0.5; }
+    sc.hbm.continuation = trial % 5 == 4   ? HBM_CONTINUATION_NATURAL
+                          : trial % 5 == 3 ? HBM_CONTINUATION_ARCLENGTH
+                                           : HBM_CONTINUATION_AUTO;
+    if (trial % 6 == 5) {
+      sc.n_contacts = 3;
+      sc.contacts[2] = sc.contacts[1] = sc.contacts[0];
+      sc.contacts[1].angle_deg = 20;
+      sc.contacts[2].law.gap *= -0.5;
+    }
     double low = 0.05 + 2 * fabs(random_signed(&seed)), high = low + 25 * fabs(random_signed(&seed));
     clock_ watch = {.stop = 4000}; /* a rough staircase may go on for long: that is an end, too */
     hc_monitor monitor = {tick, &watch};
@@ -181,7 +204,9 @@ static void always_an_end_with_a_reason(void **state)
     hc_status st = hbm_trace(s, from, to, &monitor, &c);
     assert_int_equal(st, c.end);
     check_curve(&c, from, to, "rough");
-    if (st == HC_INTERRUPTED && c.n < 1000) fail_msg("trial %d: %d steps for %d points, the last at %.17g: a loop", trial, watch.ticks, c.n, c.points[c.n - 1].omega);
+    if (st == HC_INTERRUPTED && c.n < 1000)
+      fail_msg("trial %d: %d steps for %d points, the last at %.17g: a loop", trial, watch.ticks, c.n,
+               c.points[c.n - 1].omega);
     ++ends[st];
     back += c.left_at_start;
     hbm_curve_free(&c);
@@ -246,9 +271,9 @@ static void solving_from_nonsense(void **state)
 }
 
 static const struct CMUnitTest tests[] = {
-  cmocka_unit_test(turning_points_are_real), cmocka_unit_test(natural_continuation_stops_at_the_fold), cmocka_unit_test(a_branch_that_turns_back),
-  cmocka_unit_test(a_branch_that_leaves),
-  cmocka_unit_test(interruption_keeps_points), cmocka_unit_test(always_an_end_with_a_reason), cmocka_unit_test(sweeps_that_make_no_sense),
-  cmocka_unit_test(solving_from_nonsense),
+    cmocka_unit_test(turning_points_are_real),   cmocka_unit_test(natural_continuation_stops_at_the_fold),
+    cmocka_unit_test(a_branch_that_turns_back),  cmocka_unit_test(a_branch_that_leaves),
+    cmocka_unit_test(interruption_keeps_points), cmocka_unit_test(always_an_end_with_a_reason),
+    cmocka_unit_test(sweeps_that_make_no_sense), cmocka_unit_test(solving_from_nonsense),
 };
 CHECK_MAIN("hbm.trace", tests, 200)

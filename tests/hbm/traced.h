@@ -8,7 +8,11 @@
 #include "tests/hbm/scenes.h"
 
 /* A monitor that stops the work after so many ticks. */
-typedef struct clock_ { int ticks, stop; double last; bool outside; } clock_;
+typedef struct clock_ {
+  int ticks, stop;
+  double last;
+  bool outside;
+} clock_;
 
 static inline bool tick(void *self, double done)
 {
@@ -18,19 +22,27 @@ static inline bool tick(void *self, double done)
   return ++c->ticks < c->stop;
 }
 
-typedef struct traced { hbm_solver *s; hbm_curve curve; hc_status status; } traced;
+typedef struct traced {
+  hbm_solver *s;
+  hbm_curve curve;
+  hc_status status;
+} traced;
 
-/* What holds for every curve, however it ended: a reason, frequencies above 0 and inside the sweep (or within a factor 4 behind its start, where a
- * branch that turned back is followed for a while), finite points, branches counted. */
+/* What holds for every curve, however it ended: a reason, frequencies above 0 and inside the sweep (or within a
+ * factor 4 behind its start, where a branch that turned back is followed for a while), finite points, branches
+ * counted. */
 static inline void check_curve(const hbm_curve *c, double from, double to, const char *what)
 {
   double low = from < to ? from / 4 : to, high = from < to ? to : 4 * from;
   int n_coef = c->n_coef, turns = 0;
   for (int k = 0; k < c->n; ++k) {
     const hbm_point *p = &c->points[k];
-    if (!(p->omega > 0 && p->omega >= low && p->omega <= high)) fail_msg("%s: point %d of %d at omega %.17g", what, k, c->n, p->omega);
-    CHECK_LE(p->residual, 1e-9, "%s: point %d", what, k); /* 10 times hbm.tolerance: against the forces at the answer, not the guess */
-    for (int i = 0; i < n_coef; ++i) assert_true(isfinite(c->X[(size_t)k * n_coef + i]) && isfinite(c->dX[(size_t)k * n_coef + i]));
+    if (!(p->omega > 0 && p->omega >= low && p->omega <= high))
+      fail_msg("%s: point %d of %d at omega %.17g", what, k, c->n, p->omega);
+    CHECK_LE(p->residual, 1e-9, "%s: point %d", what, k); /* 10 times hbm.tolerance: against the forces at the
+                                                             answer, not the guess */
+    for (int i = 0; i < n_coef; ++i)
+      assert_true(isfinite(c->X[(size_t)k * n_coef + i]) && isfinite(c->dX[(size_t)k * n_coef + i]));
     if (k) turns += (p->d_omega > 0) != (p[-1].d_omega > 0);
     assert_int_equal(p->branch, turns);
   }
@@ -57,13 +69,16 @@ static inline void drop(traced *t)
   hbm_solver_free(t->s);
 }
 
-/* x = F0/(k - M w^2 + i C w), X_1 = Re x, X_2 = -Im x, nothing else. A residual of some eps of the forces (k + M w^2 + C w)|x| is amplified by the
- * inverse of z = |k - M w^2 + i C w|: at most 8 eps (4 for the residual, 2 for the polishing solve, and room), and the FFT's 2 log2 N eps of k |x|.
- * Higher harmonics h likewise, with z_h, which is larger than z off resonance, and least where h w meets the resonance: C h w. */
+/* x = F0/(k - M w^2 + i C w), X_1 = Re x, X_2 = -Im x, nothing else. A residual of some eps of the forces (k + M w^2
+ * + C w)|x| is amplified by the inverse of z = |k - M w^2 + i C w|: at most 8 eps (4 for the residual, 2 for the
+ * polishing solve, and room), and the FFT's 2 log2 N eps of k |x|. Higher harmonics h likewise, with z_h, which is
+ * larger than z off resonance, and least where h w meets the resonance: C h w. */
 static inline double linear_tolerance(const scene *sc, double k, double omega, int h)
 {
-  double z = hypot(k - sc->mass * h * h * omega * omega, sc->damping * h * omega), x = sc->force / hypot(k - sc->mass * omega * omega, sc->damping * omega);
-  return (8 + 2 * log2(sc->hbm.samples)) * DBL_EPSILON * (k + sc->mass * h * h * omega * omega + sc->damping * h * omega) / z * x;
+  double z = hypot(k - sc->mass * h * h * omega * omega, sc->damping * h * omega),
+         x = sc->force / hypot(k - sc->mass * omega * omega, sc->damping * omega);
+  return (8 + 2 * log2(sc->hbm.samples)) * DBL_EPSILON *
+         (k + sc->mass * h * h * omega * omega + sc->damping * h * omega) / z * x;
 }
 
 static inline void check_linear_point(const scene *sc, double k, const double *X, double omega, const char *what)
@@ -71,7 +86,8 @@ static inline void check_linear_point(const scene *sc, double k, const double *X
   double complex x = sc->force / (k - sc->mass * omega * omega + I * sc->damping * omega);
   CHECK_LE(hypot(X[1] - creal(x), X[2] + cimag(x)), linear_tolerance(sc, k, omega, 1), "%s at %.17g", what, omega);
   CHECK_LE(fabs(X[0]), linear_tolerance(sc, k, omega, 0), "%s at %.17g", what, omega);
-  for (int h = 2; h <= sc->hbm.harmonics; ++h) CHECK_LE(hypot(X[2 * h - 1], X[2 * h]), linear_tolerance(sc, k, omega, h), "%s at %.17g, h=%d", what, omega, h);
+  for (int h = 2; h <= sc->hbm.harmonics; ++h)
+    CHECK_LE(hypot(X[2 * h - 1], X[2 * h]), linear_tolerance(sc, k, omega, h), "%s at %.17g, h=%d", what, omega, h);
 }
 
 #endif

@@ -84,9 +84,9 @@ static void touching_decides_by_the_velocities(void **state)
   assert_int_equal(contact_on_touch(&law, 0, 1), CONTACT_STICK);
 }
 
-/* For one slider position T = clamp(kt (u - w), +-mu N(v)), so |T1 - T2| <= kt |u1 - u2| + mu kn |v1 - v2| across every
- * transition, separation included. Rounding: each T is off by at most 3 eps (kt (|u| + |w|) + mu kn (|v| + |gap|)), below 60 eps
- * with the numbers drawn here; two of them make 120 eps. */
+/* For one slider position T = clamp(kt (u - w), +-mu N(v)), so |T1 - T2| <= kt |u1 - u2| + mu kn |v1 - v2| across
+ * every transition, separation included. Rounding: each T is off by at most 3 eps (kt (|u| + |w|) + mu kn (|v| +
+ * |gap|)), below 60 eps with the numbers drawn here; two of them make 120 eps. */
 static void force_has_no_jump(void **state)
 {
   (void)state;
@@ -104,7 +104,8 @@ static void force_has_no_jump(void **state)
 }
 
 /* After a slipping step the stick guard of that side is 0 and of the other 2 mu N. w = u - T/kt is rounded twice and
- * u - w once, each by at most eps/2 of a term below kt |u| + mu N <= 4 + 8: 3 * 12 eps/2 = 18 eps, and mu N's own rounding 2 eps. */
+ * u - w once, each by at most eps/2 of a term below kt |u| + mu N <= 4 + 8: 3 * 12 eps/2 = 18 eps, and mu N's own
+ * rounding 2 eps. */
 static void guards_vanish_where_states_end(void **state)
 {
   (void)state;
@@ -116,7 +117,8 @@ static void guards_vanish_where_states_end(void **state)
     contact_state st = contact_step(&c, u, v, &w, &t);
     int sign = contact_slip_sign(st);
     double limit = c.mu * contact_normal(&c, v);
-    if (st == CONTACT_STICK) assert_true(contact_guard_stick(&c, 1, u, v, w) >= 0 && contact_guard_stick(&c, -1, u, v, w) >= 0);
+    if (st == CONTACT_STICK)
+      assert_true(contact_guard_stick(&c, 1, u, v, w) >= 0 && contact_guard_stick(&c, -1, u, v, w) >= 0);
     if (!sign) continue;
     ++slips;
     CHECK_NEAR(contact_guard_stick(&c, sign, u, v, w), 0, 20 * DBL_EPSILON, "i=%d", i);
@@ -144,8 +146,9 @@ static void touching_agrees_with_the_step_after_it(void **state)
   assert_true(seen[CONTACT_STICK] > 0 && seen[CONTACT_SLIP_PLUS] > 0 && seen[CONTACT_SLIP_MINUS] > 0);
 }
 
-/* Constant limit fc = mu kn gap (v = 0): a cycle of amplitude A loses 4 fc (A - fc/k). k = 1, fc = 1/2, A = 1: 1. Steps of 1/8 put
- * each kink (|u - u_turn| = 2 fc/k = 1) on a step, T is linear in between, and all numbers are dyadic: the sum is exact. */
+/* Constant limit fc = mu kn gap (v = 0): a cycle of amplitude A loses 4 fc (A - fc/k). k = 1, fc = 1/2, A = 1: 1.
+ * Steps of 1/8 put each kink (|u - u_turn| = 2 fc/k = 1) on a step, T is linear in between, and all numbers are
+ * dyadic: the sum is exact. */
 static void jenkins_loses_the_closed_form_energy(void **state)
 {
   (void)state;
@@ -173,7 +176,8 @@ static void geometry_is_exact_at_the_ends(void **state)
   scene_projection(&k, &c, &s);
   assert_true(c == 0 && s == 1 && scene_stuck_stiffness(&k) == 1000);
   k.angle_deg = 45;
-  /* (kt + kn)/2; the angle's rounding moves cos^2 and sin^2 by opposite 2 eps, theirs add 2 eps each: 1100 * 4 eps is ample */
+  /* (kt + kn)/2; the angle's rounding moves cos^2 and sin^2 by opposite 2 eps, theirs add 2 eps each: 1100 * 4 eps
+   * is ample */
   CHECK_NEAR(scene_stuck_stiffness(&k), 550, 1100 * 4 * DBL_EPSILON, "45 degrees");
   scene sc = {.stiffness = 40, .n_contacts = 2, .contacts = {k, k}};
   CHECK_NEAR(scene_max_stiffness(&sc), 1140, 2400 * 4 * DBL_EPSILON, "two contacts");

@@ -1,10 +1,11 @@
-/* test_lu.c - LU factors: residuals against the bound of rounding theory, signs of determinants, and what must be refused. */
+/* test_lu.c - LU factors: residuals against the bound of rounding theory, signs of determinants, and what must be
+ * refused. */
 #include <float.h>
 #include <nvector/nvector_serial.h>
 #include <sunmatrix/sunmatrix_dense.h>
 
-#include "numerics/sundials_compat.h"
 #include "numerics/lu.h"
+#include "numerics/sundials_compat.h"
 #include "tests/hbm/scenes.h"
 
 enum { MAX_N = 60 };
@@ -32,10 +33,11 @@ static void lu_times(int n, const double *f, const int *pivot, const double *x, 
   }
 }
 
-/* The computed x solves (A + E) x = b with |E| <= gamma_3n |L||U| (Higham, Accuracy and Stability, theorem 9.4), gamma_m = m u/(1 - m u), u = eps/2.
- * Multiplying by the pivot's reciprocal rounds each entry of L once more and the reciprocal itself: 3n + 2. With partial pivoting |L| <= 1,
- * so the right-hand side is at most n growth eps max|A| |x|_1 times 3/2: the bound is not vacuous, which the second check says; the growth of
- * random matrices is about n^(2/3), never n. b - A x is formed in long double, 2^-11 of what is tested. */
+/* The computed x solves (A + E) x = b with |E| <= gamma_3n |L||U| (Higham, Accuracy and Stability, theorem 9.4),
+ * gamma_m = m u/(1 - m u), u = eps/2. Multiplying by the pivot's reciprocal rounds each entry of L once more and the
+ * reciprocal itself: 3n + 2. With partial pivoting |L| <= 1, so the right-hand side is at most n growth eps max|A|
+ * |x|_1 times 3/2: the bound is not vacuous, which the second check says; the growth of random matrices is about
+ * n^(2/3), never n. b - A x is formed in long double, 2^-11 of what is tested. */
 static void solves_within_the_bound_of_rounding_theory(void **state)
 {
   (void)state;
@@ -104,7 +106,8 @@ static void the_sign_of_signed_permutations(void **state)
   assert_true(seen_plus > 100 && seen_minus > 100);
 }
 
-/* Exchanging two rows of a random matrix, or the sign of one, turns the determinant over; of random matrices none is near singular. */
+/* Exchanging two rows of a random matrix, or the sign of one, turns the determinant over; of random matrices none is
+ * near singular. */
 static void the_sign_turns_over_with_a_row(void **state)
 {
   (void)state;
@@ -130,8 +133,8 @@ static void the_sign_turns_over_with_a_row(void **state)
   }
 }
 
-/* A zero row or column, two equal rows of small integers (their difference is exactly 0 where nothing rounds: multiplier 1), and a NaN or
- * infinity anywhere. */
+/* A zero row or column, two equal rows of small integers (their difference is exactly 0 where nothing rounds:
+ * multiplier 1), and a NaN or infinity anywhere. */
 static void singular_and_not_finite_are_refused(void **state)
 {
   (void)state;
@@ -198,8 +201,10 @@ static void sundials_gets_the_same_numbers(void **state)
 }
 
 static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(solves_within_the_bound_of_rounding_theory), cmocka_unit_test(the_sign_of_signed_permutations),
-    cmocka_unit_test(the_sign_turns_over_with_a_row),             cmocka_unit_test(singular_and_not_finite_are_refused),
+    cmocka_unit_test(solves_within_the_bound_of_rounding_theory),
+    cmocka_unit_test(the_sign_of_signed_permutations),
+    cmocka_unit_test(the_sign_turns_over_with_a_row),
+    cmocka_unit_test(singular_and_not_finite_are_refused),
     cmocka_unit_test(sundials_gets_the_same_numbers),
 };
 

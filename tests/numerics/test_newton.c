@@ -1,5 +1,6 @@
-/* test_newton.c - KINSOL behind newton.h: iterates against Heron's, refusals, stalls, singular matrices; nothing hangs, nothing lies.
- * Each problem counts its calls and fails the test when they run away: a loop inside KINSOL would otherwise only meet the watchdog. */
+/* test_newton.c - KINSOL behind newton.h: iterates against Heron's, refusals, stalls, singular matrices; nothing
+ * hangs, nothing lies. Each problem counts its calls and fails the test when they run away: a loop inside KINSOL
+ * would otherwise only meet the watchdog. */
 #include "numerics/newton.h"
 #include "tests/hbm/scenes.h"
 
@@ -45,7 +46,8 @@ static hc_status heron_jacobian(void *self, const double *z, double *jac)
   return HC_OK;
 }
 
-static newton *make(probe *p, int n, hc_status (*residual)(void *, const double *, double *), hc_status (*jacobian)(void *, const double *, double *))
+static newton *make(probe *p, int n, hc_status (*residual)(void *, const double *, double *),
+                    hc_status (*jacobian)(void *, const double *, double *))
 {
   newton *nw;
   *p = (probe){.limit = INFINITY};
@@ -54,9 +56,10 @@ static newton *make(probe *p, int n, hc_status (*residual)(void *, const double 
   return nw;
 }
 
-/* Full Newton evaluates the Jacobian at every iterate: these must be Heron's, to the rounding of a 2 x 2 solve with condition number below 20
- * (z ~ 1..2) per step, 40 eps; Heron halves errors at least, so they add to twice that. From (1, 1) the errors go 4e-1, 9e-2, 2e-3, 2e-6, 2e-12,
- * rounding: five iterations reach 1e-12 |r|, one more polishes. */
+/* Full Newton evaluates the Jacobian at every iterate: these must be Heron's, to the rounding of a 2 x 2 solve with
+ * condition number below 20 (z ~ 1..2) per step, 40 eps; Heron halves errors at least, so they add to twice that.
+ * From (1, 1) the errors go 4e-1, 9e-2, 2e-3, 2e-6, 2e-12, rounding: five iterations reach 1e-12 |r|, one more
+ * polishes. */
 static void quadratic_like_heron(void **state)
 {
   (void)state;
@@ -87,7 +90,8 @@ static void weights_are_units(void **state)
   newton *nw = make(&p, 2, heron_residual, heron_jacobian);
   double z[2] = {1.5, 1.5}, z_scale[2] = {1024, 1024}, r_scale[2] = {1 / 4096.0, 1 / 4096.0};
   newton_report report;
-  newton_options loose = {z_scale, r_scale, 1e-4, 1e6, 50}; /* |r| <= 0.41: one Heron step from 1.5 gives 2e-2; then one polishing step */
+  newton_options loose = {z_scale, r_scale, 1e-4, 1e6, 50}; /* |r| <= 0.41: one Heron step from 1.5 gives 2e-2; then
+                                                               one polishing step */
   assert_int_equal(newton_solve(nw, z, &loose, &report), HC_OK);
   CHECK_LE(report.residual, 1e-4, "judged with its weight");
   CHECK_LE(fabs(z[0] - sqrt(2)), 3e-6, "start 8.6e-2 off, Heron: e'= e^2/(2x) = 2.5e-3, then 2.2e-6");
@@ -109,7 +113,8 @@ static void backsolve_is_the_inverse_at_the_end(void **state)
   assert_int_equal(newton_solve(nw, z, &plain, &report), HC_OK);
   assert_int_equal(newton_backsolve(nw, b), HC_OK);
   heron_jacobian(&p, z, jac);
-  CHECK_NEAR(jac[0] * b[0] + jac[2] * b[1], 1, 1e-11, "polishing may leave the factors of the iterate before: 1e-12 off, times 6");
+  CHECK_NEAR(jac[0] * b[0] + jac[2] * b[1], 1, 1e-11,
+             "polishing may leave the factors of the iterate before: 1e-12 off, times 6");
   CHECK_NEAR(jac[1] * b[0] + jac[3] * b[1], -2, 1e-11, "as above");
   newton_free(nw);
 }
@@ -139,8 +144,8 @@ static void starts_from_zero(void **state)
   double z = 0;
   assert_int_equal(newton_solve(nw, &z, &plain, &report), HC_OK);
   CHECK_NEAR(z + 0.1 * z * z * z, 1, 4 * DBL_EPSILON, "root");
-  /* and no step is longer than it may be. With weight 4 and max_step 1 that is 1/4, four steps to 0.92. KINSOL takes max_step < 1 for 1, and left to
-   * itself 1000 |z_0|, here 40 */
+  /* and no step is longer than it may be. With weight 4 and max_step 1 that is 1/4, four steps to 0.92. KINSOL takes
+   * max_step < 1 for 1, and left to itself 1000 |z_0|, here 40 */
   static const double four = 4;
   newton_options short_steps = plain;
   short_steps.z_scale = &four;
@@ -148,7 +153,8 @@ static void starts_from_zero(void **state)
   z = 0.01;
   p.jacobians = 0;
   assert_int_equal(newton_solve(nw, &z, &short_steps, &report), HC_OK);
-  for (int i = 1; i < p.jacobians; ++i) CHECK_LE(fabs(p.history[i][0] - p.history[i - 1][0]), 0.25 * (1 + 4 * DBL_EPSILON), "step %d", i);
+  for (int i = 1; i < p.jacobians; ++i)
+    CHECK_LE(fabs(p.history[i][0] - p.history[i - 1][0]), 0.25 * (1 + 4 * DBL_EPSILON), "step %d", i);
   assert_true(report.iterations >= 4);
   newton_free(nw);
 }
@@ -170,7 +176,8 @@ static void starts_at_the_root(void **state)
 }
 
 /* Whatever goes wrong, z is as it was given, bit by bit. */
-static hc_status fails_untouched(newton *nw, int n, const double *start, const newton_options *opt, newton_report *report)
+static hc_status fails_untouched(newton *nw, int n, const double *start, const newton_options *opt,
+                                 newton_report *report)
 {
   double z[2] = {start[0], n > 1 ? start[1] : 0}, before[2];
   memcpy(before, z, sizeof z);
@@ -198,7 +205,8 @@ static hc_status no_root_jacobian(void *self, const double *z, double *jac)
 static void no_root_is_never_ok(void **state)
 {
   (void)state;
-  static const double starts[] = {3, 0.5, -1, 1e-3, 1e-9, 0, 1e6, 1 / 1.7320508075688772}; /* the last has period 2 under Newton */
+  /* the last has period 2 under Newton */
+  static const double starts[] = {3, 0.5, -1, 1e-3, 1e-9, 0, 1e6, 1 / 1.7320508075688772};
   probe p;
   newton *nw = make(&p, 1, no_root_residual, no_root_jacobian);
   for (size_t i = 0; i < sizeof starts / sizeof *starts; ++i) {
@@ -327,13 +335,15 @@ static void refusals_are_passed_on(void **state)
   z = 5; /* the full step to -8 is refused, a shorter one is not */
   assert_int_equal(newton_solve(nw, &z, &plain, &report), HC_OK);
   CHECK_NEAR(z, exp(-1), 4 * DBL_EPSILON, "root");
-  assert_int_equal(fails_untouched(nw, 1, (double[]){-1}, &plain, &report), HC_NOT_FINITE); /* at the start itself: both strategies */
+  /* at the start itself: both strategies */
+  assert_int_equal(fails_untouched(nw, 1, (double[]){-1}, &plain, &report), HC_NOT_FINITE);
   p.limit = 0.1; /* no root within: whichever way it goes there, the refusal is the reason */
   assert_int_not_equal(fails_untouched(nw, 1, (double[]){0.05}, &plain, &report), HC_OK);
   newton_free(nw);
 }
 
-/* Only the start is allowed: each step of both strategies is refused, however short. The reason given must come out, not another. */
+/* Only the start is allowed: each step of both strategies is refused, however short. The reason given must come out,
+ * not another. */
 static hc_status start_only_residual(void *self, const double *z, double *r)
 {
   count(self);
@@ -403,10 +413,19 @@ static void works_on_after_failures(void **state)
 }
 
 static const struct CMUnitTest tests[] = {
-  cmocka_unit_test(quadratic_like_heron), cmocka_unit_test(weights_are_units), cmocka_unit_test(backsolve_is_the_inverse_at_the_end),
-  cmocka_unit_test(starts_from_zero), cmocka_unit_test(starts_at_the_root), cmocka_unit_test(no_root_is_never_ok),
-  cmocka_unit_test(the_line_search_helps_out), cmocka_unit_test(a_stall_is_said),
-  cmocka_unit_test(singular_is_said), cmocka_unit_test(refusals_are_passed_on), cmocka_unit_test(the_reason_of_a_refusal_survives),
-  cmocka_unit_test(nan_is_refused), cmocka_unit_test(a_nan_jacobian_is_not_an_answer), cmocka_unit_test(works_on_after_failures),
+    cmocka_unit_test(quadratic_like_heron),
+    cmocka_unit_test(weights_are_units),
+    cmocka_unit_test(backsolve_is_the_inverse_at_the_end),
+    cmocka_unit_test(starts_from_zero),
+    cmocka_unit_test(starts_at_the_root),
+    cmocka_unit_test(no_root_is_never_ok),
+    cmocka_unit_test(the_line_search_helps_out),
+    cmocka_unit_test(a_stall_is_said),
+    cmocka_unit_test(singular_is_said),
+    cmocka_unit_test(refusals_are_passed_on),
+    cmocka_unit_test(the_reason_of_a_refusal_survives),
+    cmocka_unit_test(nan_is_refused),
+    cmocka_unit_test(a_nan_jacobian_is_not_an_answer),
+    cmocka_unit_test(works_on_after_failures),
 };
 CHECK_MAIN("cases.newton", tests, 60)

@@ -250,8 +250,8 @@ static void a_failed_rename_leaves_nothing_behind(void **state)
 
 enum { NOT_POSSIBLE = 77 };
 
-/* The exit code of `work` in a child, which is nobody when we are root: then a bug cannot rename a file over a device of this machine,
- * and permissions count. */
+/* The exit code of `work` in a child, which is nobody when we are root: then a bug cannot rename a file over a
+ * device of this machine, and permissions count. */
 static int as_nobody(int (*work)(void))
 {
   fflush(NULL);
@@ -308,7 +308,8 @@ static void a_fifo_is_written_straight_and_its_end_noticed(void **state)
   assert_int_equal(files(false), 1);
 }
 
-/* In a child whose standard output is `to`: writes "first" there, then "second" through an output of that name; the commit's status. */
+/* In a child whose standard output is `to`: writes "first" there, then "second" through an output of that name; the
+ * commit's status. */
 static int commit_in_child(const char *to, const char *name)
 {
   fflush(NULL);
@@ -360,20 +361,20 @@ static void a_read_only_file_is_respected(void **state)
 
 #define IN_FOLDER(test) cmocka_unit_test_setup_teardown(test, make_folder, remove_folder)
 static const struct CMUnitTest tests[] = {
-  IN_FOLDER(nothing_appears_until_commit),
-  IN_FOLDER(abandon_leaves_nothing),
-  IN_FOLDER(an_existing_file_stays_until_commit),
-  IN_FOLDER(permissions_follow_the_umask_or_the_file),
-  IN_FOLDER(two_at_once_do_not_mix),
-  IN_FOLDER(a_link_keeps_pointing),
-  IN_FOLDER(names_in_the_current_folder),
-  IN_FOLDER(a_long_name_is_fine),
-  IN_FOLDER(what_cannot_be_opened_says_so),
-  IN_FOLDER(a_failed_rename_leaves_nothing_behind),
-  IN_FOLDER(a_full_disk_is_noticed),
-  IN_FOLDER(a_fifo_is_written_straight_and_its_end_noticed),
-  IN_FOLDER(standard_output_is_checked_too),
-  IN_FOLDER(a_read_only_file_is_respected),
+    IN_FOLDER(nothing_appears_until_commit),
+    IN_FOLDER(abandon_leaves_nothing),
+    IN_FOLDER(an_existing_file_stays_until_commit),
+    IN_FOLDER(permissions_follow_the_umask_or_the_file),
+    IN_FOLDER(two_at_once_do_not_mix),
+    IN_FOLDER(a_link_keeps_pointing),
+    IN_FOLDER(names_in_the_current_folder),
+    IN_FOLDER(a_long_name_is_fine),
+    IN_FOLDER(what_cannot_be_opened_says_so),
+    IN_FOLDER(a_failed_rename_leaves_nothing_behind),
+    IN_FOLDER(a_full_disk_is_noticed),
+    IN_FOLDER(a_fifo_is_written_straight_and_its_end_noticed),
+    IN_FOLDER(standard_output_is_checked_too),
+    IN_FOLDER(a_read_only_file_is_respected),
 };
 
 CHECK_MAIN("compare.output", tests, 60)

@@ -112,7 +112,7 @@ static void drawings_are_a_tenth_of_a_second_apart(void **state)
   double elapsed = (double)(to.tv_sec - from.tv_sec) + 1e-9 * (double)(to.tv_nsec - from.tv_nsec);
   int drawn = 0;
   for (const char *p = seen; (p = strchr(p, '\r')); ++p) ++drawn;
-  assert_true(drawn >= 2 + 3 - 1);                  /* start and end; 350 ms hold 3 more, less one for a slow machine */
+  assert_true(drawn >= 2 + 3 - 1); /* start and end; 350 ms hold 3 more, less one for a slow machine */
   CHECK_LE(drawn, 2 + elapsed / 0.1, "%g s", elapsed);
 }
 
@@ -157,7 +157,8 @@ static void lines_say_how_long_it_takes(void **state)
   expect_line("label", 0.37, 0, 2, 100, "  37 %");
 }
 
-/* What becomes of a child that runs `work` after installing the handlers: its exit code, or 100 plus the signal that killed it. */
+/* What becomes of a child that runs `work` after installing the handlers: its exit code, or 100 plus the signal that
+ * killed it. */
 static int fate(int (*work)(void), void (*sigint)(int))
 {
   fflush(NULL);
@@ -200,13 +201,13 @@ static void signals_stop_the_work(void **state)
 }
 
 static const struct CMUnitTest tests[] = {
-  cmocka_unit_test_setup(a_terminal_shows_it_and_is_left_clean, set_term),
-  cmocka_unit_test_setup(a_narrow_terminal_does_not_wrap, set_term),
-  cmocka_unit_test_setup(a_label_cannot_command_the_terminal, set_term),
-  cmocka_unit_test_setup(drawings_are_a_tenth_of_a_second_apart, set_term),
-  cmocka_unit_test_setup(silence_elsewhere, set_term),
-  cmocka_unit_test_setup(lines_say_how_long_it_takes, set_term),
-  cmocka_unit_test_setup(signals_stop_the_work, set_term),
+    cmocka_unit_test_setup(a_terminal_shows_it_and_is_left_clean, set_term),
+    cmocka_unit_test_setup(a_narrow_terminal_does_not_wrap, set_term),
+    cmocka_unit_test_setup(a_label_cannot_command_the_terminal, set_term),
+    cmocka_unit_test_setup(drawings_are_a_tenth_of_a_second_apart, set_term),
+    cmocka_unit_test_setup(silence_elsewhere, set_term),
+    cmocka_unit_test_setup(lines_say_how_long_it_takes, set_term),
+    cmocka_unit_test_setup(signals_stop_the_work, set_term),
 };
 
 CHECK_MAIN("compare.progress", tests, 60)

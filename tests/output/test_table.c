@@ -1,16 +1,18 @@
-/* test_table.c - what the three formats look like, byte for byte, and that csv and json give back every double bit for bit. */
+/* test_table.c - what the three formats look like, byte for byte, and that csv and json give back every double bit
+ * for bit. */
 #include <jansson.h>
 #include <locale.h>
 #include <signal.h>
 #include <string.h>
 #include <sys/wait.h>
 
+#include "base/utf8.h"
 #include "output/table.h"
 #include "output/table_private.h"
-#include "base/utf8.h"
 #include "tests/check.h"
 
-static const table_column columns[] = {{"omega", TABLE_REAL}, {"verdict", TABLE_TEXT}, {"steps", TABLE_INTEGER}, {"error", TABLE_REAL}};
+static const table_column columns[] = {
+    {"omega", TABLE_REAL}, {"verdict", TABLE_TEXT}, {"steps", TABLE_INTEGER}, {"error", TABLE_REAL}};
 static const table_column one_real[] = {{"value", TABLE_REAL}};
 static const table_column two_texts[] = {{"a", TABLE_TEXT}, {"b", TABLE_TEXT}};
 
@@ -128,7 +130,8 @@ static void no_rows_and_no_title(void **state)
 static void several_tables(void **state)
 {
   (void)state;
-  table *t[4] = {small_table("A"), table_new("A", 1, one_real), table_new("notes", 1, one_real), table_new(NULL, 1, one_real)};
+  table *t[4] = {small_table("A"), table_new("A", 1, one_real), table_new("notes", 1, one_real),
+                 table_new(NULL, 1, one_real)};
   table_put_real(t[1], 2);
   table_put_missing(t[2]);
   char *text = written(4, t, FORMAT_JSON);
@@ -152,8 +155,18 @@ static void several_tables(void **state)
 static void csv_quotes_what_a_reader_could_misread(void **state)
 {
   static const char *const pairs[][2] = {
-    {"plain text", "plain text"}, {"", "\"\""}, {"a,b", "\"a,b\""}, {"a\nb", "\"a\nb\""}, {"a\rb", "\"a\rb\""}, {"\"", "\"\"\"\""},
-    {"#1", "\"#1\""}, {"no #1", "no #1"}, {" a", "\" a\""}, {"a ", "\"a \""}, {"\ta", "\"\ta\""}, {"M\xc3\xbcller", "M\xc3\xbcller"},
+      {"plain text", "plain text"},
+      {"", "\"\""},
+      {"a,b", "\"a,b\""},
+      {"a\nb", "\"a\nb\""},
+      {"a\rb", "\"a\rb\""},
+      {"\"", "\"\"\"\""},
+      {"#1", "\"#1\""},
+      {"no #1", "no #1"},
+      {" a", "\" a\""},
+      {"a ", "\"a \""},
+      {"\ta", "\"\ta\""},
+      {"M\xc3\xbcller", "M\xc3\xbcller"},
   };
   (void)state;
   for (size_t i = 0; i < sizeof pairs / sizeof *pairs; ++i) {
@@ -179,7 +192,7 @@ static void expect_reals(int n, const double *values, const char *expected)
   free(text);
   table_free(t);
 }
-#define EXPECT_REALS(expected, ...) \
+#define EXPECT_REALS(expected, ...)                                                                                    \
   expect_reals((int)(sizeof(double[]){__VA_ARGS__} / sizeof(double)), (const double[]){__VA_ARGS__}, expected)
 
 static void reals_get_one_notation_a_column(void **state)
@@ -202,7 +215,9 @@ static void reals_get_one_notation_a_column(void **state)
 static void text_is_utf8_and_safe(void **state)
 {
   (void)state;
-  table *t = table_new("Stra\xc3\x9f" "e\x1b[31m\n", 2, two_texts);
+  table *t = table_new("Stra\xc3\x9f"
+                       "e\x1b[31m\n",
+                       2, two_texts);
   table_put_text(t, "M\xc3\xbcller");
   table_put_text(t, "e\xcc\x81 \xe6\xa2\x81  ");
   table_put_text(t, "bad\xff\xc0\xaf\xed\xa0\x80");
@@ -211,7 +226,8 @@ static void text_is_utf8_and_safe(void **state)
   table_put_text(t, "");
   table_note(t, "two\nlines\n");
   expect(1, &t, FORMAT_TABLE,
-         "Stra\xc3\x9f" "e [31m\n"
+         "Stra\xc3\x9f"
+         "e [31m\n"
          "a          b\n"
          "M\xc3\xbcller     e\xcc\x81 \xe6\xa2\x81\n"
          "bad\xef\xbf\xbd\xef\xbf\xbd\xef\xbf\xbd\xef\xbf\xbd\xef\xbf\xbd\xef\xbf\xbd   [2J x\n"
@@ -221,7 +237,8 @@ static void text_is_utf8_and_safe(void **state)
   char *text = written(1, &t, FORMAT_JSON);
   json_t *root = json_loads(text, 0, NULL);
   assert_non_null(root); /* json that is not UTF-8 does not parse */
-  assert_string_equal(json_string_value(json_object_get(json_array_get(json_object_get(root, "rows"), 1), "b")), "\x1b[2J\nx");
+  assert_string_equal(json_string_value(json_object_get(json_array_get(json_object_get(root, "rows"), 1), "b")),
+                      "\x1b[2J\nx");
   json_decref(root);
   free(text);
   table_free(t);
@@ -229,11 +246,30 @@ static void text_is_utf8_and_safe(void **state)
 
 static void utf8_is_decoded_strictly(void **state)
 {
-  static const struct { const char *text; unsigned code; int bytes; } part[] = {
-    {"a", 'a', 1}, {"\xc2\x80", 0x80, 2}, {"\xe0\xa0\x80", 0x800, 3}, {"\xf0\x90\x80\x80", 0x10000, 4}, {"\xf4\x8f\xbf\xbf", 0x10ffff, 4},
-    {"\x80", 0xfffd, 1}, {"\xc1\xbf", 0xfffd, 1}, {"\xe0\x9f\xbf", 0xfffd, 1}, {"\xf0\x8f\xbf\xbf", 0xfffd, 1}, /* overlong */
-    {"\xed\xa0\x80", 0xfffd, 1}, {"\xf4\x90\x80\x80", 0xfffd, 1}, {"\xff", 0xfffd, 1},                       /* not characters */
-    {"\xc3", 0xfffd, 1}, {"\xe2\x82", 0xfffd, 1}, {"\xf0\x9f\x98", 0xfffd, 1}, {"\xc3(", 0xfffd, 1},            /* cut short */
+  static const struct {
+    const char *text;
+    unsigned code;
+    int bytes;
+  } part[] = {
+      {"a", 'a', 1},
+      {"\xc2\x80", 0x80, 2},
+      {"\xe0\xa0\x80", 0x800, 3},
+      {"\xf0\x90\x80\x80", 0x10000, 4},
+      {"\xf4\x8f\xbf\xbf", 0x10ffff, 4},
+      /* overlong */
+      {"\x80", 0xfffd, 1},
+      {"\xc1\xbf", 0xfffd, 1},
+      {"\xe0\x9f\xbf", 0xfffd, 1},
+      {"\xf0\x8f\xbf\xbf", 0xfffd, 1},
+      /* not characters */
+      {"\xed\xa0\x80", 0xfffd, 1},
+      {"\xf4\x90\x80\x80", 0xfffd, 1},
+      {"\xff", 0xfffd, 1},
+      /* cut short */
+      {"\xc3", 0xfffd, 1},
+      {"\xe2\x82", 0xfffd, 1},
+      {"\xf0\x9f\x98", 0xfffd, 1},
+      {"\xc3(", 0xfffd, 1},
   };
   (void)state;
   for (size_t i = 0; i < sizeof part / sizeof *part; ++i) {
@@ -242,8 +278,8 @@ static void utf8_is_decoded_strictly(void **state)
     assert_int_equal(p - part[i].text, part[i].bytes);
   }
   assert_int_equal(utf8_width("M\xc3\xbcller"), 6);
-  assert_int_equal(utf8_width("e\xcc\x81"), 1);         /* e, combining acute */
-  assert_int_equal(utf8_width("\xe6\xa2\x81x"), 3);     /* a wide one */
+  assert_int_equal(utf8_width("e\xcc\x81"), 1);        /* e, combining acute */
+  assert_int_equal(utf8_width("\xe6\xa2\x81x"), 3);    /* a wide one */
   assert_int_equal(utf8_width("\xf0\x9f\x98\x80"), 2); /* an emoji */
 }
 
@@ -298,7 +334,8 @@ static void doubles_come_back_bit_for_bit(void **state)
   assert_non_null(root);
   for (int i = 0; i < N_RANDOM; ++i) {
     double from_csv = strtod(p, &p);
-    double from_json = json_real_value(json_object_get(json_array_get(json_object_get(root, "rows"), (size_t)i), "value"));
+    double from_json =
+        json_real_value(json_object_get(json_array_get(json_object_get(root, "rows"), (size_t)i), "value"));
     assert_int_equal(*p, '\n');
     assert_memory_equal(&from_csv, &values[i], sizeof(double));
     assert_memory_equal(&from_json, &values[i], sizeof(double));
@@ -312,7 +349,8 @@ static void doubles_come_back_bit_for_bit(void **state)
 
 static bool set_comma_locale(void)
 {
-  static const char *const names[] = {"de_DE.UTF-8", "de_DE.utf8", "de_DE", "fr_FR.UTF-8", "fr_FR", "nl_NL.UTF-8", "es_ES.UTF-8", "ru_RU.UTF-8"};
+  static const char *const names[] = {"de_DE.UTF-8", "de_DE.utf8",  "de_DE",       "fr_FR.UTF-8",
+                                      "fr_FR",       "nl_NL.UTF-8", "es_ES.UTF-8", "ru_RU.UTF-8"};
   for (size_t i = 0; i < sizeof names / sizeof *names; ++i)
     if (setlocale(LC_ALL, names[i]) && strcmp(localeconv()->decimal_point, ",") == 0) return true;
   setlocale(LC_ALL, "C");
@@ -403,20 +441,21 @@ static void misuse_is_caught(void **state)
 }
 
 static const struct CMUnitTest tests[] = {
-  cmocka_unit_test(hidden_columns_are_for_machines), cmocka_unit_test(table_is_aligned),
-  cmocka_unit_test(csv_is_exact),
-  cmocka_unit_test(json_is_exact),
-  cmocka_unit_test(no_rows_and_no_title),
-  cmocka_unit_test(several_tables),
-  cmocka_unit_test(csv_quotes_what_a_reader_could_misread),
-  cmocka_unit_test(reals_get_one_notation_a_column),
-  cmocka_unit_test(text_is_utf8_and_safe),
-  cmocka_unit_test(utf8_is_decoded_strictly),
-  cmocka_unit_test(long_text_is_cut_except_at_the_end),
-  cmocka_unit_test(doubles_come_back_bit_for_bit),
-  cmocka_unit_test(a_comma_locale_changes_nothing),
-  cmocka_unit_test(failures_are_reported),
-  cmocka_unit_test(misuse_is_caught),
+    cmocka_unit_test(hidden_columns_are_for_machines),
+    cmocka_unit_test(table_is_aligned),
+    cmocka_unit_test(csv_is_exact),
+    cmocka_unit_test(json_is_exact),
+    cmocka_unit_test(no_rows_and_no_title),
+    cmocka_unit_test(several_tables),
+    cmocka_unit_test(csv_quotes_what_a_reader_could_misread),
+    cmocka_unit_test(reals_get_one_notation_a_column),
+    cmocka_unit_test(text_is_utf8_and_safe),
+    cmocka_unit_test(utf8_is_decoded_strictly),
+    cmocka_unit_test(long_text_is_cut_except_at_the_end),
+    cmocka_unit_test(doubles_come_back_bit_for_bit),
+    cmocka_unit_test(a_comma_locale_changes_nothing),
+    cmocka_unit_test(failures_are_reported),
+    cmocka_unit_test(misuse_is_caught),
 };
 
 CHECK_MAIN("compare.table", tests, 60)

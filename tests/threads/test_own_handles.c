@@ -1,5 +1,6 @@
-/* test_own_handles.c - threads that each have handles of their own do not know of each other: whatever runs beside it, a run gives the very bits
- * it gives alone. Under -DHBMCHECK_SANITIZE=thread the same runs show any race that left the bits alone. */
+/* test_own_handles.c - threads that each have handles of their own do not know of each other: whatever runs beside
+ * it, a run gives the very bits it gives alone. Under -DHBMCHECK_SANITIZE=thread the same runs show any race that
+ * left the bits alone. */
 #include "tests/check.h"
 
 #include <pthread.h>
@@ -29,17 +30,19 @@ static void put_all(record *r, int n, const double *v)
 /* Case 2 of the paper, changed by up to two assignments; through the reader, which has a locale to hold on to. */
 static scene case2(const char *first, const char *second)
 {
-  static const char text[] = "oscillator: {mass: 1.0, damping: 0.4, stiffness: 40}\n"
-                             "forcing: {amplitude: 100}\n"
-                             "contacts:\n"
-                             "  - {tangential_stiffness: 100, normal_stiffness: 1000, friction: 0.3, angle_deg: 45, gap: -5}\n"
-                             "sweep: {omega: [3, 20]}\n"
-                             "compare: {omega: [5, 7]}\n";
+  static const char text[] =
+      "oscillator: {mass: 1.0, damping: 0.4, stiffness: 40}\n"
+      "forcing: {amplitude: 100}\n"
+      "contacts:\n"
+      "  - {tangential_stiffness: 100, normal_stiffness: 1000, friction: 0.3, angle_deg: 45, gap: -5}\n"
+      "sweep: {omega: [3, 20]}\n"
+      "compare: {omega: [5, 7]}\n";
   const char *set[] = {first, second};
   case_error err;
   scene sc;
   memset(&sc, 0, sizeof sc);
-  if (case_parse("case 2", text, sizeof text - 1, (first != NULL) + (second != NULL), set, &sc, &err) != HC_OK) print_error("%s\n", err.message);
+  if (case_parse("case 2", text, sizeof text - 1, (first != NULL) + (second != NULL), set, &sc, &err) != HC_OK)
+    print_error("%s\n", err.message);
   return sc;
 }
 
@@ -141,7 +144,7 @@ static record alone[JOBS]; /* written before the threads start, read by them */
 typedef struct worker {
   pthread_t thread;
   pthread_barrier_t *start;
-  int first;      /* each begins with another job, so that unlike ones meet too */
+  int first; /* each begins with another job, so that unlike ones meet too */
   int wrong[JOBS];
   record found;
 } worker;
@@ -159,7 +162,8 @@ static void *work(void *self)
   return NULL;
 }
 
-/* What is compared must be results: each job's first number is its status, and a failure would repeat itself faithfully. */
+/* What is compared must be results: each job's first number is its status, and a failure would repeat itself
+ * faithfully. */
 static int run_alone(void **state)
 {
   (void)state;

@@ -1,5 +1,5 @@
-/* oracle.h - the exact law's motion in closed form, a period at a time, with a law of its own: states by name, guards looked at 4000
- * times a period, then bisected. What lasts less than 2 pi/4000 it may miss. */
+/* oracle.h - the exact law's motion in closed form, a period at a time, with a law of its own: states by name,
+ * guards looked at 4000 times a period, then bisected. What lasts less than 2 pi/4000 it may miss. */
 #ifndef HC_TESTS_ORACLE_H
 #define HC_TESTS_ORACLE_H
 
@@ -36,7 +36,8 @@ static inline void oracle_move(const oracle *o, double theta, double *x, double 
     k += c->law.kt * c->cosine * c->cosine;
     d -= c->law.kt * c->cosine * o->held[j];
   }
-  double complex X = linear_response(1, o->m->c, k, o->m->f, 1), now = X * cexp(I * o->theta), then = X * cexp(I * theta);
+  double complex X = linear_response(1, o->m->c, k, o->m->f, 1), now = X * cexp(I * o->theta),
+                 then = X * cexp(I * theta);
   double x0 = o->x - creal(now) + d / k, p0 = o->p - creal(I * now);
   linear_free_motion(1, o->m->c, k, theta - o->theta, e);
   *x = e[0][0] * x0 + e[0][1] * p0 + creal(then) - d / k;
@@ -55,7 +56,8 @@ static inline how oracle_next(const oracle *o, int j, double x, double p)
   }
   if (g < 0) return APART;
   if (!c->law.slides) return STUCK;
-  double s = slip_of(o->state[j]), t = c->law.kt * (u - o->held[j]), rate = (s * c->law.kt * c->cosine - c->law.mu * c->law.kn * c->sine) * p;
+  double s = slip_of(o->state[j]), t = c->law.kt * (u - o->held[j]),
+         rate = (s * c->law.kt * c->cosine - c->law.mu * c->law.kn * c->sine) * p;
   if (s != 0) return rate < 0 ? STUCK : o->state[j];
   const double slack = 1e-13 * c->law.kt; /* on the limit since it stuck, or T and N vanishing together */
   return t > limit + slack ? PLUS : t < -limit - slack ? MINUS : STUCK;

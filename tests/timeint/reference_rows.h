@@ -1,6 +1,6 @@
-/* reference_rows.h - the steady state of the printed equation at single frequencies, swept up and down from the ends of the sweep.
- * Closed form in each contact phase, transitions to rounding; computed by a program independent of this one; good to about 1e-9.
- * Rows of one case and direction follow each other in the order of the sweep. */
+/* reference_rows.h - the steady state of the printed equation at single frequencies, swept up and down from the ends
+ * of the sweep. Closed form in each contact phase, transitions to rounding; computed by a program independent of
+ * this one; good to about 1e-9. Rows of one case and direction follow each other in the order of the sweep. */
 #ifndef HC_TESTS_REFERENCE_ROWS_H
 #define HC_TESTS_REFERENCE_ROWS_H
 

@@ -1,4 +1,5 @@
-/* scenes.h - the reference scenes, as C. M, C, K of the paper; mu = 0.3, alpha = 45 degrees; options at their defaults. */
+/* scenes.h - the reference scenes, as C. M, C, K of the paper; mu = 0.3, alpha = 45 degrees; options at their
+ * defaults. */
 #ifndef HC_TESTS_SCENES_H
 #define HC_TESTS_SCENES_H
 
@@ -20,7 +21,8 @@ static inline scene scene_linear(double mass, double damping, double stiffness, 
 
 static inline void scene_add(scene *sc, double kt, double kn, double mu, double gap, double angle_deg)
 {
-  sc->contacts[sc->n_contacts++] = (scene_contact){.law = {.kt = kt, .kn = kn, .mu = mu, .gap = gap}, .angle_deg = angle_deg};
+  sc->contacts[sc->n_contacts++] =
+      (scene_contact){.law = {.kt = kt, .kn = kn, .mu = mu, .gap = gap}, .angle_deg = angle_deg};
 }
 
 static inline scene scene_paper(double force, double kt, double kn, double gap)

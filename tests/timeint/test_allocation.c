@@ -1,5 +1,5 @@
-/* test_allocation.c - neither marching nor shooting allocates: every malloc, calloc and realloc of the process, SUNDIALS' included, passes through
- * here and is counted. */
+/* test_allocation.c - neither marching nor shooting allocates: every malloc, calloc and realloc of the process,
+ * SUNDIALS' included, passes through here and is counted. */
 #include "tests/check.h"
 
 #include "tests/timeint/scenes.h"
@@ -85,7 +85,8 @@ static void shooting_and_sweeping_allocate_nothing(void **state)
   timeint_state y = timeint_rest(ti);
   timeint_result r;
   assert_int_equal(timeint_steady(ti, 7, &y, NULL, &r), HC_OK);
-  assert_int_equal(timeint_sweep(ti, 7, 7.01, &y, NULL), HC_OK); /* CVODE makes itself ready in the first period of each law */
+  assert_int_equal(timeint_sweep(ti, 7, 7.01, &y, NULL), HC_OK); /* CVODE makes itself ready in the first period of
+                                                                    each law */
   long settled = allocations;
   assert_int_equal(timeint_sweep(ti, 7.01, 7.2, &y, NULL), HC_OK);
   assert_int_equal(timeint_steady(ti, 7.2, &y, NULL, &r), HC_OK);
@@ -96,7 +97,8 @@ static void shooting_and_sweeping_allocate_nothing(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(marching_allocates_nothing), cmocka_unit_test(shooting_and_sweeping_allocate_nothing)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(marching_allocates_nothing),
+                                     cmocka_unit_test(shooting_and_sweeping_allocate_nothing)};
   check_watchdog(60);
   return cmocka_run_group_tests_name("timeint.allocation", tests, NULL, NULL);
 }

@@ -1,4 +1,5 @@
-/* test_exact_reference.c - the exact law, swept up and down, against tests/reference/transient_exact.csv: every row of all eight cases. */
+/* test_exact_reference.c - the exact law, swept up and down, against tests/reference/transient_exact.csv: every row
+ * of all eight cases. */
 #include "tests/check.h"
 
 #include <string.h>
@@ -23,8 +24,8 @@ static int read_rows(void **state)
   if (!f || !fgets(line, sizeof line, f)) return -1;
   while (n_rows < MAX_ROWS && fgets(line, sizeof line, f)) {
     row *r = &rows[n_rows];
-    int n = sscanf(line, "%15[^,],%7[^,],%lf,%lf,%lf,%lf,%lf,%lf,%d", r->name, r->sweep, &r->omega, &r->amplitude, &r->max, &r->min, &r->harmonic_1,
-                   &r->mean, &r->events);
+    int n = sscanf(line, "%15[^,],%7[^,],%lf,%lf,%lf,%lf,%lf,%lf,%d", r->name, r->sweep, &r->omega, &r->amplitude,
+                   &r->max, &r->min, &r->harmonic_1, &r->mean, &r->events);
     if (n != 9) return -1;
     ++n_rows;
   }
@@ -32,8 +33,9 @@ static int read_rows(void **state)
   return n_rows == 134 ? 0 : -1;
 }
 
-/* Amplitude and first harmonic to 1e-8: the table's 12 digits, "good to about 1e-9", and ours, transient.tolerance = 1e-9 of the motion.
- * The mean where it is unique: it is not where a slider never slips (free_sliders), and then both programs' histories differ. */
+/* Amplitude and first harmonic to 1e-8: the table's 12 digits, "good to about 1e-9", and ours, transient.tolerance =
+ * 1e-9 of the motion. The mean where it is unique: it is not where a slider never slips (free_sliders), and then
+ * both programs' histories differ. */
 static void follow(const scene *sc, const char *name, const char *sweep, double from)
 {
   timeint *ti;
@@ -47,8 +49,10 @@ static void follow(const scene *sc, const char *name, const char *sweep, double 
     assert_int_equal(timeint_sweep(ti, from, want->omega, &y, NULL), HC_OK);
     assert_int_equal(timeint_steady(ti, from = want->omega, &y, NULL, &r), HC_OK);
     CHECK_NEAR(r.amplitude, want->amplitude, 1e-8 * want->amplitude, "%s %s amplitude at %g", name, sweep, want->omega);
-    CHECK_NEAR(r.harmonic_1, want->harmonic_1, 1e-8 * want->amplitude, "%s %s harmonic_1 at %g", name, sweep, want->omega);
-    if (r.free_sliders == 0) CHECK_NEAR(r.mean, want->mean, 1e-8 * want->amplitude, "%s %s mean at %g", name, sweep, want->omega);
+    CHECK_NEAR(r.harmonic_1, want->harmonic_1, 1e-8 * want->amplitude, "%s %s harmonic_1 at %g", name, sweep,
+               want->omega);
+    if (r.free_sliders == 0)
+      CHECK_NEAR(r.mean, want->mean, 1e-8 * want->amplitude, "%s %s mean at %g", name, sweep, want->omega);
     assert_true((r.switches > 0) == (want->events > 0));
     assert_int_equal(r.period_multiple, 1);
     CHECK_LE(r.multiplier, 1, "%s %s is stable at %g", name, sweep, want->omega);

@@ -20,8 +20,8 @@ static double complex linear_state(const model *m, double theta)
   return creal(X * cexp(I * theta)) + free_x + I * (creal(I * X * cexp(I * theta)) + free_v);
 }
 
-/* Every step's error is kept below the tolerance (of states of size 1); `steps` of them add up, damping only shrinks them: steps *
- * tolerance. */
+/* Every step's error is kept below the tolerance (of states of size 1); `steps` of them add up, damping only shrinks
+ * them: steps * tolerance. */
 static void linear_period_is_the_closed_form(void **state)
 {
   (void)state;
@@ -56,9 +56,8 @@ static hc_status look(void *self, const integrator *in, double theta0, double th
   return st;
 }
 
-/* A watched period takes the same steps to the same end; its dense output is as good as the steps (bound as above; between steps the
- * polynomial of the
- * same order: the same size again). */
+/* A watched period takes the same steps to the same end; its dense output is as good as the steps (bound as above;
+ * between steps the polynomial of the same order: the same size again). */
 static void watched_period_is_the_same(void **state)
 {
   (void)state;

@@ -1,5 +1,5 @@
-/* test_integrate_exact.c - periods of the exact law by CVODE: against closed forms, its slope against differences, and every way two
- * things can happen at once. */
+/* test_integrate_exact.c - periods of the exact law by CVODE: against closed forms, its slope against differences,
+ * and every way two things can happen at once. */
 #include "tests/check.h"
 
 #include <complex.h>
@@ -36,13 +36,14 @@ static void run(integrator *in, const model *m, double *y, int periods)
   for (int i = 0; i < periods; ++i) assert_int_equal(integrate_period(in, m, y, NULL, NULL), HC_OK);
 }
 
-/* From rest (w = 0: stuck if touching). CVODE's errors of a period, 200 tol, are carried on; where the motion is stable they do not grow
- * for long: all the periods' together, times 5. The oracle's own: rounding, 1e-13 of slack. */
+/* From rest (w = 0: stuck if touching). CVODE's errors of a period, 200 tol, are carried on; where the motion is
+ * stable they do not grow for long: all the periods' together, times 5. The oracle's own: rounding, 1e-13 of slack. */
 static void follows_oracle(const char *what, scene sc, double omega, double length, int periods)
 {
   model m = exact_model(sc, omega, length);
   oracle o = {.m = &m};
-  for (int j = 0; j < m.n_contacts; ++j) o.state[j] = m.contact[j].law.kn > 0 && m.contact[j].law.gap > 0 ? STUCK : APART;
+  for (int j = 0; j < m.n_contacts; ++j)
+    o.state[j] = m.contact[j].law.kn > 0 && m.contact[j].law.gap > 0 ? STUCK : APART;
   integrator *in = exact_new(&m);
   double y[MODEL_MAX_STATES] = {0};
   for (int i = 0; i < periods; ++i) {
@@ -51,7 +52,8 @@ static void follows_oracle(const char *what, scene sc, double omega, double leng
     const double bound = 5 * 200 * tol * (i + 1);
     CHECK_NEAR(y[MODEL_X], o.x, bound, "%s x in period %d", what, i);
     CHECK_NEAR(y[MODEL_P], o.p, bound, "%s p in period %d", what, i);
-    for (int j = 0; j < m.n_contacts; ++j) CHECK_NEAR(y[MODEL_W + j], oracle_slider(&o, j), bound, "%s w%d in period %d", what, j, i);
+    for (int j = 0; j < m.n_contacts; ++j)
+      CHECK_NEAR(y[MODEL_W + j], oracle_slider(&o, j), bound, "%s w%d in period %d", what, j, i);
     assert_int_equal(integrate_switches(in), o.events);
   }
   integrate_free(in);
@@ -99,15 +101,17 @@ static void degenerate_contacts_follow_it_too(void **state)
   follows_oracle("gap 0, slips", one(100, 300, 200, 0.3, 0, 45), 9, 2, 20);
 }
 
-/* Where kt cos <= mu kn sin a contact that touches sticks until it separates, T and N vanishing together: the frictionless contact of
- * the same stiffness against x, kn' = kn + kt at 45 degrees. Equality: the slip's guard is 0 all the time. */
+/* Where kt cos <= mu kn sin a contact that touches sticks until it separates, T and N vanishing together: the
+ * frictionless contact of the same stiffness against x, kn' = kn + kt at 45 degrees. Equality: the slip's guard is 0
+ * all the time. */
 static void bilinear_contacts_need_no_friction(void **state)
 {
   (void)state;
   const double kt[] = {299.999, 256, 100};
   for (int i = 0; i < 3; ++i) {
     const double kn = i == 1 ? 1024 : 1000, mu = i == 1 ? 0.25 : 0.3; /* 0.25 * 1024 = 256, exactly */
-    model m = exact_model(one(100, kt[i], kn, mu, -3, 45), 7, 10), plain = exact_model(one(100, 0, kn + kt[i], 0, -3, 45), 7, 10);
+    model m = exact_model(one(100, kt[i], kn, mu, -3, 45), 7, 10),
+          plain = exact_model(one(100, 0, kn + kt[i], 0, -3, 45), 7, 10);
     integrator *in = exact_new(&m), *ref = exact_new(&plain);
     double y[MODEL_MAX_STATES] = {0}, z[MODEL_MAX_STATES] = {0};
     for (int n = 0; n < 20; ++n) {
@@ -143,8 +147,9 @@ static void two_contacts_are_one_of_double_stiffness(void **state)
   integrate_free(ref);
 }
 
-/* On the orbit of the separated oscillator, X = A cos(theta - phi), a contact at A(1 - d): 2 transitions if d > 0, none if d < 0, for d
- * down to 100 times CVODE's error; it is open for sqrt(2 d) to either side, far less than a step. */
+/* On the orbit of the separated oscillator, X = A cos(theta - phi), a contact at A(1 - d): 2 transitions if d > 0,
+ * none if d < 0, for d down to 100 times CVODE's error; it is open for sqrt(2 d) to either side, far less than a
+ * step. */
 static void grazing_is_not_stepped_over(void **state)
 {
   (void)state;
@@ -158,15 +163,16 @@ static void grazing_is_not_stepped_over(void **state)
         double y[MODEL_MAX_STATES] = {creal(X) / cabs(X), creal(I * X) / cabs(X), 0};
         integrator *in = exact_new(&m);
         run(in, &m, y, 1);
-        const long want = d < 0 ? 0 : integrate_switches(in) == 4 ? 4 : 2; /* slips or, its kt cos > mu kn sin, also sticks back */
+        /* slips or, its kt cos > mu kn sin, also sticks back */
+        const long want = d < 0 ? 0 : integrate_switches(in) == 4 ? 4 : 2;
         CHECK_NEAR((double)integrate_switches(in), (double)want, 0, "d %g omega %g", d, omega);
         integrate_free(in);
       }
   }
 }
 
-/* The contact's edge where the separated motion ends its period, to a few roundings: the transition falls on 2 pi, before, after, or just
- * does not happen. What contact does in such a time is below rounding. */
+/* The contact's edge where the separated motion ends its period, to a few roundings: the transition falls on 2 pi,
+ * before, after, or just does not happen. What contact does in such a time is below rounding. */
 static void a_transition_at_the_end_of_the_period(void **state)
 {
   (void)state;
@@ -178,7 +184,7 @@ static void a_transition_at_the_end_of_the_period(void **state)
   memcpy(end, start, sizeof end);
   run(in, &m, end, 1);
   int touched = 0, n = 0;
-  for (double off = 0; off < 1e-10; off = off > 0 ? 1.3 * off : 1e-17)
+  for (double off = 0; off<1e-10; off = off> 0 ? 1.3 * off : 1e-17)
     for (int sign = -1; sign <= 1; sign += 2, ++n) {
       double y[MODEL_MAX_STATES];
       memcpy(y, start, sizeof y);
@@ -194,11 +200,13 @@ static void a_transition_at_the_end_of_the_period(void **state)
   integrate_free(in);
 }
 
-/* Against central differences of the period map with Richardson's h^4. Noise: half of a period's 200 steps may err by tol, over h = 1e-4,
- * times Richardson's 5/3; truncation (piecewise smooth, fifth derivative up to 1e3 times 12) h^4 * 1e3.
- * A slider that stuck where it touched has T and N vanish together; moved by h it slips over a stretch of about h before it separates: an
- * error h |h|, so Richardson's h there, h^2 * 1e2 being left. A slider slaved at the start moves with x; its own column is zero. */
-static void check_slope(const char *what, scene sc, double omega, double length, const double *start, int periods, bool no_slip)
+/* Against central differences of the period map with Richardson's h^4. Noise: half of a period's 200 steps may err
+ * by tol, over h = 1e-4, times Richardson's 5/3; truncation (piecewise smooth, fifth derivative up to 1e3 times 12)
+ * h^4 * 1e3. A slider that stuck where it touched has T and N vanish together; moved by h it slips over a stretch of
+ * about h before it separates: an error h |h|, so Richardson's h there, h^2 * 1e2 being left. A slider slaved at the
+ * start moves with x; its own column is zero. */
+static void check_slope(const char *what, scene sc, double omega, double length, const double *start, int periods,
+                        bool no_slip)
 {
   model m = exact_model(sc, omega, length);
   const int n = m.n_states;
@@ -231,13 +239,15 @@ static void check_slope(const char *what, scene sc, double omega, double length,
         const model_contact *c = &m.contact[j];
         const double g = c->sine * y[0] + c->law.gap, t = c->law.kt * (c->cosine * y[0] - y[MODEL_W + j]);
         const double s = g > 0 && c->law.slides ? (t > 0 ? 1 : -1) : 0;
-        if (own == 0 && q == MODEL_X) z[MODEL_W + j] += (c->cosine - (s != 0 ? s * c->law.mu * c->law.kn * c->sine / c->law.kt : 0)) * by;
+        if (own == 0 && q == MODEL_X)
+          z[MODEL_W + j] += (c->cosine - (s != 0 ? s * c->law.mu * c->law.kn * c->sine / c->law.kt : 0)) * by;
       }
       run(in, &m, z, 1);
       for (int i = 0; i < n; ++i) diff[i] += weight[k] * z[i] / h;
     }
     for (int i = 0; i < n; ++i)
-      CHECK_NEAR(slope[i + q * n], diff[i], size * (100 * tol * 5 / 3 / h + truncation), "%s: d y%d / d y%d", what, i, q);
+      CHECK_NEAR(slope[i + q * n], diff[i], size * (100 * tol * 5 / 3 / h + truncation), "%s: d y%d / d y%d", what, i,
+                 q);
   }
   if (no_slip) { /* volume shrinks by the damping alone, in every phase without slip */
     double det = slope[0] * slope[1 + n] - slope[1] * slope[n], damping = exp(-sc.damping / sc.mass * 2 * PI / omega);
@@ -260,8 +270,9 @@ static void slope_is_that_of_the_period(void **state)
   for (int i = 1; i < 6; ++i) check_slope("three", three_contacts(), 6 + 0.3 * i, 2, NULL, 10 * i, false);
 }
 
-/* Rows that rest reaches, and c2's upper branch from a state near it; damping makes what is left of the start exp(-0.2 * 2 pi/omega) a
- * period: below 1e-12 after 220. Reference good to 1e-9; the amplitude's own error is that of x. */
+/* Rows that rest reaches, and c2's upper branch from a state near it; damping makes what is left of the start
+ * exp(-0.2 * 2 pi/omega) a period: below 1e-12 after 220. Reference good to 1e-9; the amplitude's own error is that
+ * of x. */
 static void steady_states_are_the_references(void **state)
 {
   (void)state;
@@ -269,7 +280,7 @@ static void steady_states_are_the_references(void **state)
   const struct {
     int which;
     double omega, x0;
-  } rows[] = {{REF_A10, 13, 0}, {REF_A10, 14, 0}, {REF_B10, 6, 0},     {REF_B10, 7, 0},     {REF_C2, 6, 0},
+  } rows[] = {{REF_A10, 13, 0}, {REF_A10, 14, 0},  {REF_B10, 6, 0},      {REF_B10, 7, 0}, {REF_C2, 6, 0},
               {REF_C2, 7, 0},   {REF_C2, 9, 23.4}, {REF_C2, 9.15, 25.7}, {REF_C2, 10, 0}};
   for (size_t i = 0; i < sizeof rows / sizeof *rows; ++i) {
     const reference_row *r = reference_rows;
@@ -300,8 +311,9 @@ typedef struct seen {
   double last, worst;
 } seen;
 
-/* Dense output obeys the law at any instant: X' = P, and P' of model_rhs, whose sliders are the returned ones; the sliders' rates add
- * up to their way (Simpson over a step: h^5/2880 of a fifth derivative of 50 is below 1e-6 while h < 0.5). */
+/* Dense output obeys the law at any instant: X' = P, and P' of model_rhs, whose sliders are the returned ones; the
+ * sliders' rates add up to their way (Simpson over a step: h^5/2880 of a fifth derivative of 50 is below 1e-6 while
+ * h < 0.5). */
 static hc_status look(void *self, const integrator *in, double theta0, double theta1)
 {
   seen *s = self;
@@ -359,8 +371,9 @@ static void rest_stays_at_rest(void **state)
   }
 }
 
-/* One period from many states, most of them far from any orbit: turns within a step, short slips, short contacts. The oracle misses what
- * lasts less than 2 pi/4000: a slip or contact that short moves X by its force, less than 50 h (its guard grows by that much) h, for h. */
+/* One period from many states, most of them far from any orbit: turns within a step, short slips, short contacts.
+ * The oracle misses what lasts less than 2 pi/4000: a slip or contact that short moves X by its force, less than 50
+ * h (its guard grows by that much) h, for h. */
 static void any_start_follows_the_closed_form(void **state)
 {
   (void)state;
@@ -411,12 +424,18 @@ static void failures_are_reported(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(scenes_follow_the_closed_form),         cmocka_unit_test(degenerate_contacts_follow_it_too),
-      cmocka_unit_test(bilinear_contacts_need_no_friction),    cmocka_unit_test(two_contacts_are_one_of_double_stiffness),
-      cmocka_unit_test(grazing_is_not_stepped_over),           cmocka_unit_test(a_transition_at_the_end_of_the_period),
-      cmocka_unit_test(slope_is_that_of_the_period),           cmocka_unit_test(steady_states_are_the_references),
-      cmocka_unit_test(rest_stays_at_rest),                    cmocka_unit_test(any_start_follows_the_closed_form),
-      cmocka_unit_test(watched_period_is_the_same),            cmocka_unit_test(failures_are_reported),
+      cmocka_unit_test(scenes_follow_the_closed_form),
+      cmocka_unit_test(degenerate_contacts_follow_it_too),
+      cmocka_unit_test(bilinear_contacts_need_no_friction),
+      cmocka_unit_test(two_contacts_are_one_of_double_stiffness),
+      cmocka_unit_test(grazing_is_not_stepped_over),
+      cmocka_unit_test(a_transition_at_the_end_of_the_period),
+      cmocka_unit_test(slope_is_that_of_the_period),
+      cmocka_unit_test(steady_states_are_the_references),
+      cmocka_unit_test(rest_stays_at_rest),
+      cmocka_unit_test(any_start_follows_the_closed_form),
+      cmocka_unit_test(watched_period_is_the_same),
+      cmocka_unit_test(failures_are_reported),
   };
   check_watchdog(120);
   return cmocka_run_group_tests_name("timeint.integrate_exact", tests, NULL, NULL);

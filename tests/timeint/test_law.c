@@ -7,7 +7,8 @@
 
 static const contact steel = {.kt = 3, .kn = 5, .mu = 0.3, .gap = 0.2};
 
-/* Away from the corners the law is linear: N = kn g to rounding, since softplus(z) - z = log1p(exp(-z)) < exp(-40) there. */
+/* Away from the corners the law is linear: N = kn g to rounding, since softplus(z) - z = log1p(exp(-z)) < exp(-40)
+ * there. */
 static void branches_are_exact(void **state)
 {
   (void)state;
@@ -35,26 +36,26 @@ static void sign_follows_the_motion(void **state)
   CHECK_LE(0.1, a.rate, "slides after u");
 }
 
-/* integral of (kn width softplus(g/width) - kn max(g, 0)) dg = kn width^2 pi^2/6 (Bose integral): the second order the header claims,
- * with its constant. Trapezoid on [-45, 45] widths, step 1/64 width, the corner on a node: the kink costs h^2/12 (jump of slope 1);
- * what is beyond the
- * ends is 2 exp(-45). */
+/* integral of (kn width softplus(g/width) - kn max(g, 0)) dg = kn width^2 pi^2/6 (Bose integral): the second order
+ * the header claims, with its constant. Trapezoid on [-45, 45] widths, step 1/64 width, the corner on a node: the
+ * kink costs h^2/12 (jump of slope 1); what is beyond the ends is 2 exp(-45). */
 static void softplus_errs_by_second_order(void **state)
 {
   (void)state;
   for (double width = 1e-1; width > 1e-4; width *= 0.1) {
     law_regularised c = law_regularised_make(&steel, width, 1e-2);
     double sum = 0, h = width / 64;
-    for (int i = -45 * 64; i <= 45 * 64; ++i) sum += law_regularised_eval(&c, 0, i * h - steel.gap, 0).n - steel.kn * fmax(i * h, 0);
+    for (int i = -45 * 64; i <= 45 * 64; ++i)
+      sum += law_regularised_eval(&c, 0, i * h - steel.gap, 0).n - steel.kn * fmax(i * h, 0);
     /* every N carries rounding of v + gap, DBL_EPSILON of the gap; 5760 of them add up at worst */
     double bound = steel.kn * h * h / 12 * 1.01 + h * 5760 * steel.kn * DBL_EPSILON * 45;
     CHECK_NEAR(sum * h, steel.kn * width * width * PI * PI / 6, bound, "width %g", width);
   }
 }
 
-/* Central differences, step h: error h^2/6 |f'''| + eps |f|/h. f''' of N is <= kn/(6 sqrt 3 width^2) (largest of softplus'''), of w'
- * mu times that over
- * eta. Points keep farther than h from the corners of max, where there is no slope. */
+/* Central differences, step h: error h^2/6 |f'''| + eps |f|/h. f''' of N is <= kn/(6 sqrt 3 width^2) (largest of
+ * softplus'''), of w' mu times that over eta. Points keep farther than h from the corners of max, where there is no
+ * slope. */
 static void check_slopes(const law_regularised *c, double u, double v, double w)
 {
   const double h = 1e-5;

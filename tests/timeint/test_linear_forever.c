@@ -1,4 +1,5 @@
-/* test_linear_forever.c - the closed form against the table, against integration, and whether "for ever" is ever wrong, or useless. */
+/* test_linear_forever.c - the closed form against the table, against integration, and whether "for ever" is ever
+ * wrong, or useless. */
 #include "tests/check.h"
 
 #include <complex.h>
@@ -11,8 +12,10 @@
 #include "timeint/internal.h"
 #include "timeint/linear_forever.h"
 
-/* A scene whose contacts are all as they are in static equilibrium (closed with a preload, open with a clearance), sliders held at w:
- *     M x'' + C x' + k x = F0 cos(omega t) + d,   k = K + sum (kt c^2 + kn s^2),   d = sum kt c w        over the closed ones;
+/* A scene whose contacts are all as they are in static equilibrium (closed with a preload, open with a clearance),
+ * sliders held at w:
+ *     M x'' + C x' + k x = F0 cos(omega t) + d,   k = K + sum (kt c^2 + kn s^2),   d = sum kt c w        over the
+ *                                                 closed ones;
  * without friction no kt. */
 typedef struct linear_case {
   double k, center;
@@ -71,7 +74,8 @@ static bool asked_once(const scene *sc, double omega, const timeint_state *st)
   return yes;
 }
 
-/* In the middle of where a stuck slider may rest, were x centred: -T <= mu N at the lowest x, T <= mu N at the highest. */
+/* In the middle of where a stuck slider may rest, were x centred: -T <= mu N at the lowest x, T <= mu N at the
+ * highest. */
 static double middle(const scene *sc, double omega)
 {
   const double none[SCENE_MAX_CONTACTS] = {0};
@@ -108,9 +112,10 @@ static void rows_of_the_table(void **state)
   CHECK_LE(80, n, "rows");
 }
 
-/* From off the orbit the closed form lands where waiting does: settled to 1e-9 of the amplitude, by its own word. What the table of
- * 512 instants adds to the sums is nothing here. */
-static void same_as_waiting(const scene *from, const char *name, double omega, const double *w, double off, int free_sliders)
+/* From off the orbit the closed form lands where waiting does: settled to 1e-9 of the amplitude, by its own word.
+ * What the table of 512 instants adds to the sums is nothing here. */
+static void same_as_waiting(const scene *from, const char *name, double omega, const double *w, double off,
+                            int free_sliders)
 {
   scene sc = *from;
   timeint_result r, m;
@@ -172,14 +177,16 @@ static void measures(void **state)
     same_as_waiting(&many, "many", 7, held, 0.2, 2);
     same_as_waiting(&alone, "alone", 4, none, 30, 0);
   }
-  b10.transient.regularisation = 0.02; /* a slider that lags visibly; 40 widths of the corner leave it a fifth of the gap */
+  b10.transient.regularisation = 0.02; /* a slider that lags visibly; 40 widths of the corner leave it a fifth of the
+                                          gap */
   b10.contacts[0].law.gap = -20;
   b10.transient.law = TRANSIENT_LAW_REGULARISED;
   same_as_waiting(&b10, "b10, lagging", 9, none, 0.5, 0);
 }
 
-/* A slider held far off leans on the other contact: one with a preload, that it keeps open (its N0 stays in the equation), or one with a
- * clearance, that it keeps closed: kn (x + gap). A period of some 500 steps of 1e-12, relative to |x| < 4, ends where it began. */
+/* A slider held far off leans on the other contact: one with a preload, that it keeps open (its N0 stays in the
+ * equation), or one with a clearance, that it keeps closed: kn (x + gap). A period of some 500 steps of 1e-12,
+ * relative to |x| < 4, ends where it began. */
 static void leaning(void **state)
 {
   (void)state;
@@ -214,7 +221,10 @@ typedef struct watched {
   bool closed[SCENE_MAX_CONTACTS], broken;
 } watched;
 
-static bool is_closed(const model *m, int j, const double *y) { return m->contact[j].sine * y[MODEL_X] + m->contact[j].law.gap > 0; }
+static bool is_closed(const model *m, int j, const double *y)
+{
+  return m->contact[j].sine * y[MODEL_X] + m->contact[j].law.gap > 0;
+}
 
 static hc_status look(void *self, const integrator *in, double theta0, double theta1)
 {
@@ -258,8 +268,8 @@ static timeint_state between(const timeint_state *a, const timeint_state *b, dou
   return st;
 }
 
-/* The farthest yes in a random direction from the orbit: nothing may happen from there, and the free motion must decay by
- * exp(-c/2 theta) sqrt((1 + zeta)/(1 - zeta)), < 1.1 here, of its bound, towards the closed form. */
+/* The farthest yes in a random direction from the orbit: nothing may happen from there, and the free motion must
+ * decay by exp(-c/2 theta) sqrt((1 + zeta)/(1 - zeta)), < 1.1 here, of its bound, towards the closed form. */
 static bool farthest(const scene *sc, double omega, double reach)
 {
   const double none[SCENE_MAX_CONTACTS] = {0};
@@ -313,14 +323,16 @@ static void never_wrong(void **state)
       yes += farthest(sc, uniform(3, 20), i % 4 < 2 ? 3 : 30);
       ++all;
     }
-  CHECK_LE(0.75 * all, yes, "orbits that are linear for ever"); /* 109 of 120; on the others something happens, or is near */
+  CHECK_LE(0.75 * all, yes, "orbits that are linear for ever"); /* 109 of 120; on the others something happens, or is
+                                                                   near */
 }
 
 /* -- not useless -- */
 
-/* On the orbit itself there is no free motion, and the range is exact. So for the exact law the largest force that gets a yes is where
- * something begins to happen: a margin of 1e-9 below it nothing does, 1e-5 above it something does. For the
- * regularised law 40 widths are given away: nothing happens up to there, and the motion is the closed form to the integrator's errors. */
+/* On the orbit itself there is no free motion, and the range is exact. So for the exact law the largest force that
+ * gets a yes is where something begins to happen: a margin of 1e-9 below it nothing does, 1e-5 above it something
+ * does. For the regularised law 40 widths are given away: nothing happens up to there, and the motion is the closed
+ * form to the integrator's errors. */
 static void up_to_the_edge(const scene *from, const char *name, double omega, const double *w, int law)
 {
   scene sc = *from;
@@ -342,7 +354,8 @@ static void up_to_the_edge(const scene *from, const char *name, double omega, co
     const bool happens = something_happens(ti);
     if (happens != above) print_error("%s at %g, law %d, %s %g\n", name, omega, law, above ? "above" : "below", low);
     assert_true(happens == above);
-    if (!above) CHECK_NEAR(ti->y[MODEL_X], began[MODEL_X], 2e-8, "%s at %g, law %d: stays on the orbit", name, omega, law);
+    if (!above)
+      CHECK_NEAR(ti->y[MODEL_X], began[MODEL_X], 2e-8, "%s at %g, law %d: stays on the orbit", name, omega, law);
     timeint_free(ti);
   }
 }
@@ -350,14 +363,16 @@ static void up_to_the_edge(const scene *from, const char *name, double omega, co
 static void edges(void **state)
 {
   (void)state;
-  const double none[SCENE_MAX_CONTACTS] = {0}, held[SCENE_MAX_CONTACTS] = {-0.1, 0, 0.05}, other[SCENE_MAX_CONTACTS] = {0.1, 0, -0.05};
+  const double none[SCENE_MAX_CONTACTS] = {0}, held[SCENE_MAX_CONTACTS] = {-0.1, 0, 0.05},
+               other[SCENE_MAX_CONTACTS] = {0.1, 0, -0.05};
   scene a10 = scene_a10(), b10 = scene_b10(), c2 = scene_c2(), gap1 = scene_gap1(), many = scene_many();
   scene smooth = scene_a10(); /* mu kn sin > kt cos: separation ends it, not slip */
   smooth.contacts[0].law.mu = 0;
   for (int law = 0; law < 2; ++law)
     for (int coarse = 0; coarse < 2; ++coarse) {
       a10.transient.regularisation = b10.transient.regularisation = c2.transient.regularisation = coarse ? 1e-2 : 1e-4;
-      gap1.transient.regularisation = many.transient.regularisation = smooth.transient.regularisation = coarse ? 1e-2 : 1e-4;
+      gap1.transient.regularisation = many.transient.regularisation = smooth.transient.regularisation =
+          coarse ? 1e-2 : 1e-4;
       up_to_the_edge(&a10, "a10", 12, none, law);
       up_to_the_edge(&a10, "a10, held", 12, held, law);
       up_to_the_edge(&a10, "a10, held otherwise", 17, other, law);
@@ -388,7 +403,8 @@ static void obvious_ones(void **state)
   assert_int_equal(r.periods, 0);
   assert_int_equal(r.steps, 0);
   timeint_free(ti);
-  ti = make(&c2); /* rings too much at first; the bound says yes once it has decayed to 2.9, from 4.2 by 0.73 a period */
+  ti = make(&c2); /* rings too much at first; the bound says yes once it has decayed to 2.9, from 4.2 by 0.73 a
+                     period */
   assert_false(asked(ti, 4, &rest));
   while (!linear_forever(ti) && ti->periods < 30) assert_int_equal(timeint_period(ti, false), HC_OK);
   CHECK_LE(ti->periods, 10, "c2 at 4 from rest");
@@ -440,8 +456,9 @@ static void no_stiffness_and_no_number(void **state)
   }
 }
 
-/* lambda^2 - trace lambda + det = 0 of the free motion's matrix over a period; the larger of the two. Overdamped, linear_free_motion takes
- * the slow rate as a difference of two numbers of the size of C/2: an ulp of them, over 2 pi, is C 7e-16. */
+/* lambda^2 - trace lambda + det = 0 of the free motion's matrix over a period; the larger of the two. Overdamped,
+ * linear_free_motion takes the slow rate as a difference of two numbers of the size of C/2: an ulp of them, over 2
+ * pi, is C 7e-16. */
 static void multipliers(void **state)
 {
   (void)state;

@@ -6,18 +6,17 @@
 #include "tests/timeint/scenes.h"
 #include "timeint/measure.h"
 
-/* Undamped, unforced: x = sum of what the start gives: x = p cos(s theta) + q sin(s theta), s^2 = k; here s = 2.5, so that a period
- * holds two and a half waves, the
- * highest peak is sqrt(p^2 + q^2) and lies between steps, and sums over the instants are known: with e = exp(i s theta), all are
- * geometric series. */
+/* Undamped, unforced: x = sum of what the start gives: x = p cos(s theta) + q sin(s theta), s^2 = k; here s = 2.5,
+ * so that a period holds two and a half waves, the highest peak is sqrt(p^2 + q^2) and lies between steps, and sums
+ * over the instants are known: with e = exp(i s theta), all are geometric series. */
 static double complex series(double s, int harmonic) /* (1/n) sum_i exp(i (s + harmonic) theta_i) */
 {
   double complex step = cexp(I * (s + harmonic) * 2 * PI / TIMEINT_WAVE);
   return (cpow(step, TIMEINT_WAVE) - 1) / (step - 1) / TIMEINT_WAVE;
 }
 
-/* CVODE at 1e-13 a step, 1500 steps, states up to 2.5: 4e-10 at worst for the state, the wave and the sums. A peak is a root of v: x
- * errs by the state's error, too. */
+/* CVODE at 1e-13 a step, 1500 steps, states up to 2.5: 4e-10 at worst for the state, the wave and the sums. A peak
+ * is a root of v: x errs by the state's error, too. */
 static void free_vibration(void **state)
 {
   (void)state;
@@ -43,7 +42,8 @@ static void free_vibration(void **state)
   CHECK_NEAR(r.a1, creal(X * (series(s, 1) + series(s, -1))), 20 * tol, "a1");
   CHECK_NEAR(r.b1, creal(X * (series(s, 1) - series(s, -1)) / I), 20 * tol, "b1");
   CHECK_NEAR(r.rms * r.rms, 50 + 0.5 * creal(X * X * series(2 * s, 0)), 200 * tol, "rms");
-  for (int i = 0; i < TIMEINT_WAVE; ++i) CHECK_NEAR(r.wave[i], creal(X * cexp(I * s * 2 * PI * i / TIMEINT_WAVE)), 10 * tol, "wave[%d]", i);
+  for (int i = 0; i < TIMEINT_WAVE; ++i)
+    CHECK_NEAR(r.wave[i], creal(X * cexp(I * s * 2 * PI * i / TIMEINT_WAVE)), 10 * tol, "wave[%d]", i);
   integrate_free(in);
   free(me);
 }

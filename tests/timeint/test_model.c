@@ -6,8 +6,8 @@
 #include "tests/timeint/scenes.h"
 #include "timeint/model.h"
 
-/* Against the printed equation in the scene's own units, where both laws are exact (no corner within 40 widths): rounding only, of the
- * largest term. */
+/* Against the printed equation in the scene's own units, where both laws are exact (no corner within 40 widths):
+ * rounding only, of the largest term. */
 static void rhs_is_the_printed_equation(void **state)
 {
   (void)state;
@@ -29,8 +29,8 @@ static void rhs_is_the_printed_equation(void **state)
   CHECK_NEAR(dy[0] * omega * L, v, 4 * DBL_EPSILON * 5, "x'");
 }
 
-/* Central differences as in test_law.c: h^2/6 times the third derivative of softplus (kn/(6 sqrt 3 width^2) per contact, over eta in
- * w'), plus rounding. */
+/* Central differences as in test_law.c: h^2/6 times the third derivative of softplus (kn/(6 sqrt 3 width^2) per
+ * contact, over eta in w'), plus rounding. */
 static void check_jacobian(const model *m, const double *y)
 {
   const double h = 1e-5;
@@ -89,7 +89,8 @@ static void jacobian_is_the_derivative(void **state)
   CHECK_LE(400, tried, "points off the corners");
 }
 
-/* x -> 1e9 x and 1e-9 x: scaling force, gaps and L scales nothing that the solver sees; rounding of the quotients only. */
+/* x -> 1e9 x and 1e-9 x: scaling force, gaps and L scales nothing that the solver sees; rounding of the quotients
+ * only. */
 static void scale_drops_out(void **state)
 {
   (void)state;

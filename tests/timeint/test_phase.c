@@ -38,7 +38,7 @@ static void a_period_begins_in_any_state(void **state)
   assert_int_equal(begin(&m, 0, 1, 0.3, &ph), CONTACT_STICK);
   assert_true(ph.contact[0].own);
   assert_int_equal(begin(&m, 0, 1, -0.7, &ph), CONTACT_SLIP_PLUS); /* T would be 2.8 > 2, and u outruns the limit */
-  assert_int_equal(begin(&m, 0, -1, -0.7, &ph), CONTACT_STICK);    /* moving back: on the limit, w = u - mu N/kt = -1/2 */
+  assert_int_equal(begin(&m, 0, -1, -0.7, &ph), CONTACT_STICK); /* moving back: on the limit, w = u - mu N/kt = -1/2 */
   assert_false(ph.contact[0].own);
   CHECK_NEAR(ph.contact[0].held, -0.5, 4 * eps, "drawn to the limit");
   CHECK_NEAR(ph.contact[0].held_by_x, 0.5 / r, 4 * eps, "cos - mu kn sin/kt");
@@ -58,8 +58,9 @@ static double any(void)
   return (double)(s >> 11) * 0x1p-53;
 }
 
-/* The phase's equation is that of the law (model_rhs, exact in any admissible state), sums of 8 terms rounded once or twice each; up
- * and down are where the first guard of contact_law.h vanishes: no guard is negative inside, one is 0 at the end. */
+/* The phase's equation is that of the law (model_rhs, exact in any admissible state), sums of 8 terms rounded once
+ * or twice each; up and down are where the first guard of contact_law.h vanishes: no guard is negative inside, one
+ * is 0 at the end. */
 static void bounds_and_force_are_those_of_the_law(void **state)
 {
   (void)state;
@@ -98,8 +99,8 @@ static void bounds_and_force_are_those_of_the_law(void **state)
   assert_true(stuck > 2000 && slipping > 2000 && ended > 2000);
 }
 
-/* kt = 4, mu kn = 2, 45 degrees, gap = -1: touch at sqrt 2, slips at once while rising. Turning at x = 2 sqrt 2: N = 4, T = 2, w = 2 - 1/2.
- * Falling it slips back where 4(u - 3/2) = -2(u - 1): u = 4/3. */
+/* kt = 4, mu kn = 2, 45 degrees, gap = -1: touch at sqrt 2, slips at once while rising. Turning at x = 2 sqrt 2: N =
+ * 4, T = 2, w = 2 - 1/2. Falling it slips back where 4(u - 3/2) = -2(u - 1): u = 4/3. */
 static void a_slipping_contact_goes_round(void **state)
 {
   (void)state;
@@ -139,7 +140,8 @@ static void a_sticking_contact_separates_only(void **state)
     if (i % 2 == 0) assert_int_equal(ph.contact[0].state, CONTACT_STICK);
     CHECK_LE(1e300, ph.up, "nothing ends it rising, %d", i);
     assert_int_equal(phase_next(&ph, 2, -1, true), contact_slip_sign(ph.contact[0].state) != 0);
-    CHECK_NEAR(ph.down, -gap / m.contact[0].sine, 64 * eps, "the slip does not come first"); /* at touch moved out by 16 eps */
+    /* at touch moved out by 16 eps */
+    CHECK_NEAR(ph.down, -gap / m.contact[0].sine, 64 * eps, "the slip does not come first");
     assert_int_equal(phase_next(&ph, ph.down, -1, false), 1);
     assert_int_equal(ph.contact[0].state, CONTACT_SEPARATED);
   }
@@ -180,7 +182,8 @@ static void degenerate_contacts(void **state)
   }
 }
 
-/* Two that touch at one x, and one that separates there: a single call takes all. A graze, on the guard but turning, takes none. */
+/* Two that touch at one x, and one that separates there: a single call takes all. A graze, on the guard but turning,
+ * takes none. */
 static void several_at_once(void **state)
 {
   (void)state;
@@ -204,9 +207,9 @@ static void several_at_once(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(a_period_begins_in_any_state),      cmocka_unit_test(bounds_and_force_are_those_of_the_law),
-      cmocka_unit_test(a_slipping_contact_goes_round),     cmocka_unit_test(a_sticking_contact_separates_only),
-      cmocka_unit_test(degenerate_contacts),               cmocka_unit_test(several_at_once),
+      cmocka_unit_test(a_period_begins_in_any_state),  cmocka_unit_test(bounds_and_force_are_those_of_the_law),
+      cmocka_unit_test(a_slipping_contact_goes_round), cmocka_unit_test(a_sticking_contact_separates_only),
+      cmocka_unit_test(degenerate_contacts),           cmocka_unit_test(several_at_once),
   };
   check_watchdog(60);
   return cmocka_run_group_tests_name("timeint.phase", tests, NULL, NULL);

@@ -1,4 +1,5 @@
-/* test_reference.c - swept up and down through frequencies whose steady state was computed by another program with the exact law. */
+/* test_reference.c - swept up and down through frequencies whose steady state was computed by another program with
+ * the exact law. */
 #include "tests/check.h"
 
 #include "tests/timeint/reference_rows.h"
@@ -6,11 +7,13 @@
 
 static const char *const names[REF_CASES] = {"a10", "b10", "c2", "c2kt1e4", "gap1"};
 
-/* Linear rows (no transition in a period): as test_steady's check_harmonic, 10 tolerances; the table has 12 digits. Others: the
- * regularised law's error, which
- * at regularisation rho is of the order of rho kt cos(alpha) w'/(force), below 1e-4 wherever the curve is not vertical: the figure
- * asked for. */
-static double allowed(const scene *sc, const reference_row *row) { return row->events == 0 ? 10 * sc->transient.tolerance : 1e-4; }
+/* Linear rows (no transition in a period): as test_steady's check_harmonic, 10 tolerances; the table has 12 digits.
+ * Others: the regularised law's error, which at regularisation rho is of the order of rho kt cos(alpha) w'/(force),
+ * below 1e-4 wherever the curve is not vertical: the figure asked for. */
+static double allowed(const scene *sc, const reference_row *row)
+{
+  return row->events == 0 ? 10 * sc->transient.tolerance : 1e-4;
+}
 
 static void follow(const scene *sc, int which, int sweep, double omega)
 {
@@ -25,8 +28,10 @@ static void follow(const scene *sc, int which, int sweep, double omega)
     const char *way = sweep == REF_UP ? "up" : "down";
     assert_int_equal(timeint_sweep(ti, omega, row->omega, &y, NULL), HC_OK);
     assert_int_equal(timeint_steady(ti, omega = row->omega, &y, NULL, &r), HC_OK);
-    CHECK_NEAR(r.amplitude, row->amplitude, allowed(sc, row) * row->amplitude, "%s %s amplitude at %g", names[which], way, omega);
-    CHECK_NEAR(r.harmonic_1, row->harmonic_1, allowed(sc, row) * row->amplitude, "%s %s harmonic_1 at %g", names[which], way, omega);
+    CHECK_NEAR(r.amplitude, row->amplitude, allowed(sc, row) * row->amplitude, "%s %s amplitude at %g", names[which],
+               way, omega);
+    CHECK_NEAR(r.harmonic_1, row->harmonic_1, allowed(sc, row) * row->amplitude, "%s %s harmonic_1 at %g", names[which],
+               way, omega);
     assert_int_equal(r.period_multiple, 1);
     assert_true((row->events == 0) == (r.regime <= CONTACT_STUCK));
     ++rows;
@@ -75,7 +80,8 @@ static void gap1(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(a10), cmocka_unit_test(b10), cmocka_unit_test(c2), cmocka_unit_test(c2kt1e4), cmocka_unit_test(gap1),
+      cmocka_unit_test(a10),     cmocka_unit_test(b10),  cmocka_unit_test(c2),
+      cmocka_unit_test(c2kt1e4), cmocka_unit_test(gap1),
   };
   check_watchdog(600);
   return cmocka_run_group_tests_name("timeint.reference", tests, NULL, NULL);

@@ -18,10 +18,9 @@ static double harmonic_1(scene sc, double regularisation, timeint_state y)
   return r.harmonic_1;
 }
 
-/* Slip and separation, contact resumed in slip: second order. e(h) = c h^2 (1 + O(h)): from 1e-1 to 1e-2 and to 1e-3 a factor of 100,
- * less
- * some tens of percent O(h) at 1e-1 (its slip phases last 0.3 to 1 rad, so h over them is up to a third), and 3 % at 1e-2. At 1e-3 the
- * error is 5e-7, marching's 1e-8. */
+/* Slip and separation, contact resumed in slip: second order. e(h) = c h^2 (1 + O(h)): from 1e-1 to 1e-2 and to 1e-3
+ * a factor of 100, less some tens of percent O(h) at 1e-1 (its slip phases last 0.3 to 1 rad, so h over them is up
+ * to a third), and 3 % at 1e-2. At 1e-3 the error is 5e-7, marching's 1e-8. */
 static void slip_is_second_order(void **state)
 {
   (void)state;
@@ -33,7 +32,8 @@ static void slip_is_second_order(void **state)
   CHECK_LE(fabs(e4), 0.011 * fabs(e3) + 10e-9, "%g %g", e3, e4);
 }
 
-/* Contact resumed in stick (case 2): first order, c h (1 + O(h)). The first pair is left out: at 1e-1 w trails by a tenth of a radian. */
+/* Contact resumed in stick (case 2): first order, c h (1 + O(h)). The first pair is left out: at 1e-1 w trails by a
+ * tenth of a radian. */
 static void closing_in_stick_is_first_order(void **state)
 {
   (void)state;
@@ -58,9 +58,10 @@ static timeint_result solved(scene sc, double regularisation, bool richardson)
   return r;
 }
 
-/* Case 2, 1e-2 to 1e-5: four decades at first order, c h (1 + O(h)); O(h) is 9 % at 1e-2 (seen; the corner's width is an angle of about h
- * there). Extrapolated, what is left is third order: h^2 better, and from 1e-3 on below 1e-9 (the table has 12 digits: 1e-11; CVODE's
- * scatter at tolerance 1e-11 stays below 1e-10). The estimate is the error of the step before, second order: never too small. */
+/* Case 2, 1e-2 to 1e-5: four decades at first order, c h (1 + O(h)); O(h) is 9 % at 1e-2 (seen; the corner's width
+ * is an angle of about h there). Extrapolated, what is left is third order: h^2 better, and from 1e-3 on below 1e-9
+ * (the table has 12 digits: 1e-11; CVODE's scatter at tolerance 1e-11 stays below 1e-10). The estimate is the error
+ * of the step before, second order: never too small. */
 static void extrapolation_gains_two_orders(void **state)
 {
   (void)state;
@@ -76,7 +77,8 @@ static void extrapolation_gains_two_orders(void **state)
   }
 }
 
-/* The law with the dashpot's force in it, marched without settling: 200 periods leave 0.836^200 = 3e-16 of the start. */
+/* The law with the dashpot's force in it, marched without settling: 200 periods leave 0.836^200 = 3e-16 of the
+ * start. */
 static double with_overstress(double eta)
 {
   scene sc = scene_b10();
@@ -100,8 +102,8 @@ static double with_overstress(double eta)
   return r.harmonic_1;
 }
 
-/* Known from another program: 7.0e-3, 6.7e-4, 6.6e-5, 6.6e-6 at eta = 1e-1 .. 1e-4 (two digits: half a unit of the last, 0.8 %; and
- * CVODE's scatter, 2e-9). */
+/* Known from another program: 7.0e-3, 6.7e-4, 6.6e-5, 6.6e-6 at eta = 1e-1 .. 1e-4 (two digits: half a unit of the
+ * last, 0.8 %; and CVODE's scatter, 2e-9). */
 static void overstress_is_first_order(void **state)
 {
   (void)state;

@@ -24,7 +24,8 @@ static double size(const double *z) { return fmax(fabs(z[0]), fabs(z[1])); }
 static double noise(unsigned *seed) { return (double)(*seed = *seed * 1664525u + 1013904223u) / 4294967296.0 - 0.5; }
 
 /* Steps until settled within goal, the true distance then in *distance; 0 if not within `most`. */
-static int settle_after(const map *m, double prior, double goal, double scatter, int most, double *distance, settle_estimate *e)
+static int settle_after(const map *m, double prior, double goal, double scatter, int most, double *distance,
+                        settle_estimate *e)
 {
   settle *s;
   double z[2] = {1, 1};
@@ -38,7 +39,9 @@ static int settle_after(const map *m, double prior, double goal, double scatter,
     double shown[2] = {7 + z[0], 5 + z[1]}; /* the fixed point is (7, 5) */
     settle_push(s, shown);
     *distance = size(z);
-    if (n % (prior > 0.99 ? 16 : 1) == 0) *e = settle_judge(s, goal); /* slow ones: now and then, for the test's speed */
+    if (n % (prior > 0.99 ? 16 : 1) == 0)
+      *e = settle_judge(s, goal); /* slow ones: now and then, for the test's
+                                                                         speed */
     done = e->multiple > 0;
     step(m, z);
     z[0] += scatter * noise(&seed), z[1] += scatter * noise(&seed);
@@ -48,9 +51,9 @@ static int settle_after(const map *m, double prior, double goal, double scatter,
   return done ? n : 0;
 }
 
-/* Of |z_n - z*| <= D/(1 - rho^m): never below the truth where rho is; above it by no more than 3 (the ellipse) * 2/(1 - e^-2)
- * at the longest stride. So it settles, and at the latest when the truth is goal/21: log(1/goal * 21)/log(1/rho) steps and 2 baselines
- * (512 at most, and 17). */
+/* Of |z_n - z*| <= D/(1 - rho^m): never below the truth where rho is; above it by no more than 3 (the ellipse) *
+ * 2/(1 - e^-2) at the longest stride. So it settles, and at the latest when the truth is goal/21: log(1/goal *
+ * 21)/log(1/rho) steps and 2 baselines (512 at most, and 17). */
 static void never_early_never_late(void **state)
 {
   (void)state;
@@ -68,11 +71,10 @@ static void never_early_never_late(void **state)
     }
 }
 
-/* Near a fold: the slow multiplier is much closer to 1 than damping says. The measured rate is exact but for rounding of 7 + z, 1e-15
- * of a drift of
- * goal (1 - rho) >= 1e-13: 1 % of the ratio of two at worst, 1 %/b of rho, b >= 256 the longest baseline (16 times a power of 2), 4e-5
- * against 1 - rho = 1e-4: 40 % of
- * the distance; at 0.999 a hundredth of that. */
+/* Near a fold: the slow multiplier is much closer to 1 than damping says. The measured rate is exact but for
+ * rounding of 7 + z, 1e-15 of a drift of goal (1 - rho) >= 1e-13: 1 % of the ratio of two at worst, 1 %/b of rho, b
+ * >= 256 the longest baseline (16 times a power of 2), 4e-5 against 1 - rho = 1e-4: 40 % of the distance; at 0.999 a
+ * hundredth of that. */
 static void slow_real_multiplier_is_measured(void **state)
 {
   (void)state;
@@ -87,9 +89,9 @@ static void slow_real_multiplier_is_measured(void **state)
   }
 }
 
-/* Noise of s a step leaves the state s/sqrt(2 (1 - rho)) off (half of that, being uniform, in rms). A goal of 20 times this can be
- * met; D over 1 - rho alone would ask
- * for s/(1 - rho), 47 times more than the first at rho = 0.99888. A goal of a tenth cannot be met, and must not be said to be. */
+/* Noise of s a step leaves the state s/sqrt(2 (1 - rho)) off (half of that, being uniform, in rms). A goal of 20
+ * times this can be met; D over 1 - rho alone would ask for s/(1 - rho), 47 times more than the first at rho =
+ * 0.99888. A goal of a tenth cannot be met, and must not be said to be. */
 static void noise_is_neither_contraction_nor_doom(void **state)
 {
   (void)state;

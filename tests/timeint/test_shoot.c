@@ -1,4 +1,5 @@
-/* test_shoot.c - orbits as fixed points of the period map: few periods, the same orbit as marching finds, and what cannot be. Both laws. */
+/* test_shoot.c - orbits as fixed points of the period map: few periods, the same orbit as marching finds, and what
+ * cannot be. Both laws. */
 #include "tests/check.h"
 
 #include "tests/timeint/scenes.h"
@@ -13,8 +14,8 @@ static timeint *made(scene sc, int law, int steady, int start)
   return ti;
 }
 
-/* What was found lies within `closure` of the orbit, and a period carries it back to itself: marching one more period from there moves it
- * by at most twice that and the integration's own error. */
+/* What was found lies within `closure` of the orbit, and a period carries it back to itself: marching one more
+ * period from there moves it by at most twice that and the integration's own error. */
 static void check_orbit(timeint *ti, double omega, timeint_state y, const timeint_result *r, double tolerance)
 {
   timeint_result again;
@@ -25,11 +26,15 @@ static void check_orbit(timeint *ti, double omega, timeint_state y, const timein
   CHECK_NEAR(again.amplitude, r->amplitude, 3 * tolerance * r->amplitude, "amplitude stays at %g", omega);
 }
 
-/* Shooting against waiting, with the same law, from the same start: one orbit. Each is within transient.tolerance of it. */
+/* Shooting against waiting, with the same law, from the same start: one orbit. Each is within transient.tolerance of
+ * it. */
 static void finds_what_marching_finds(void **state)
 {
   (void)state;
-  const struct { scene sc; double omega; } cases[] = {{scene_b10(), 7}, {scene_c2(), 6}, {scene_a10(), 13}, {scene_gap1(), 25}};
+  const struct {
+    scene sc;
+    double omega;
+  } cases[] = {{scene_b10(), 7}, {scene_c2(), 6}, {scene_a10(), 13}, {scene_gap1(), 25}};
   for (int law = TRANSIENT_LAW_REGULARISED; law <= TRANSIENT_LAW_EXACT; ++law)
     for (int i = 0; i < 4; ++i) {
       timeint_result waited, shot;
@@ -51,12 +56,16 @@ static void finds_what_marching_finds(void **state)
     }
 }
 
-/* From 1 % off the orbit: Newton doubles the digits each iteration, a period an iteration with the exact law. What damping allows a march
- * in one period is 1 - exp(-C T/2M) = 0.1 % of the way (r2). */
+/* From 1 % off the orbit: Newton doubles the digits each iteration, a period an iteration with the exact law. What
+ * damping allows a march in one period is 1 - exp(-C T/2M) = 0.1 % of the way (r2). */
 static void few_periods_whatever_the_damping(void **state)
 {
   (void)state;
-  const struct { scene sc; double omega, from; int most; } cases[] = {{scene_c2(), 9, 7, 20}, {scene_r2(), 708.5, 700, 60}};
+  const struct {
+    scene sc;
+    double omega, from;
+    int most;
+  } cases[] = {{scene_c2(), 9, 7, 20}, {scene_r2(), 708.5, 700, 60}};
   for (int i = 0; i < 2; ++i) {
     timeint *ti = made(cases[i].sc, TRANSIENT_LAW_EXACT, TRANSIENT_STEADY_AUTO, TRANSIENT_START_UP);
     timeint_result r;
@@ -74,8 +83,8 @@ static void few_periods_whatever_the_damping(void **state)
   }
 }
 
-/* Stuck all period: the slider may rest anywhere in an interval. It is left where it is, the mean follows it, and nothing else does.
- * x = (steady) + kt c w/(K + kt c^2 + kn s^2) with w held. */
+/* Stuck all period: the slider may rest anywhere in an interval. It is left where it is, the mean follows it, and
+ * nothing else does. x = (steady) + kt c w/(K + kt c^2 + kn s^2) with w held. */
 static void a_free_slider_is_left_alone(void **state)
 {
   (void)state;
@@ -95,13 +104,16 @@ static void a_free_slider_is_left_alone(void **state)
     }
 }
 
-/* Case 2 has three orbits at 9: the two outer are stable, the one between is a saddle, with a real multiplier beyond 1. Shooting finds each
- * from 10 % off, says which it is, and reports none where none is next to the start. */
+/* Case 2 has three orbits at 9: the two outer are stable, the one between is a saddle, with a real multiplier beyond
+ * 1. Shooting finds each from 10 % off, says which it is, and reports none where none is next to the start. */
 static void unstable_orbits_are_found_and_named(void **state)
 {
   (void)state;
   const scene sc = scene_c2();
-  const struct { double x, v, w; int stable; } orbits[] = {{-2.42, 1.91, -1.71, 1}, {-20.5, 78.8, -14.5, -1}};
+  const struct {
+    double x, v, w;
+    int stable;
+  } orbits[] = {{-2.42, 1.91, -1.71, 1}, {-20.5, 78.8, -14.5, -1}};
   timeint *ti = made(sc, TRANSIENT_LAW_EXACT, TRANSIENT_STEADY_SHOOTING, TRANSIENT_START_HBM);
   timeint_result r;
   for (int i = 0; i < 2; ++i)
@@ -122,8 +134,10 @@ static void unstable_orbits_are_found_and_named(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(finds_what_marching_finds),   cmocka_unit_test(few_periods_whatever_the_damping),
-      cmocka_unit_test(a_free_slider_is_left_alone), cmocka_unit_test(unstable_orbits_are_found_and_named),
+      cmocka_unit_test(finds_what_marching_finds),
+      cmocka_unit_test(few_periods_whatever_the_damping),
+      cmocka_unit_test(a_free_slider_is_left_alone),
+      cmocka_unit_test(unstable_orbits_are_found_and_named),
   };
   check_watchdog(120);
   return cmocka_run_group_tests_name("timeint.shoot", tests, NULL, NULL);

@@ -30,9 +30,10 @@ static void differences(integrator *in, const model *m, const double *y, double 
     }
 }
 
-/* Every step errs by up to 1e-6 of the slopes (slope_tolerance); some 1300 steps, corners among them, add up like independent errors to
- * 4e-5. Allowed: 1e-4 (worst seen: 2.4e-5). The differences: a period at 1e-13 scatters by up to 250 times that (timeint.c), over h = 1e-5
- * that is 4e-6. Their truncation has no bound here; that it is small shows in the agreement. */
+/* Every step errs by up to 1e-6 of the slopes (slope_tolerance); some 1300 steps, corners among them, add up like
+ * independent errors to 4e-5. Allowed: 1e-4 (worst seen: 2.4e-5). The differences: a period at 1e-13 scatters by up
+ * to 250 times that (timeint.c), over h = 1e-5 that is 4e-6. Their truncation has no bound here; that it is small
+ * shows in the agreement. */
 static void compare(const scene *from, const char *name, double omega, double length, double regularisation)
 {
   scene sc = *from;
@@ -51,9 +52,11 @@ static void compare(const scene *from, const char *name, double omega, double le
     double z[N] = {y[0], y[1], y[2]}, plain[N] = {y[0], y[1], y[2]};
     assert_int_equal(integrate_period(in, &m, plain, NULL, NULL), HC_OK);
     assert_int_equal(integrate_slope(in, &m, z, slope), HC_OK);
-    for (int i = 0; i < N * N; ++i) CHECK_NEAR(slope[i], want[i], 1e-4, "%s at %g, %g: slope[%d] at %g", name, omega, regularisation, i, tol);
+    for (int i = 0; i < N * N; ++i)
+      CHECK_NEAR(slope[i], want[i], 1e-4, "%s at %g, %g: slope[%d] at %g", name, omega, regularisation, i, tol);
     /* both within 250 tolerances of the exact end: as good, if not the same bits */
-    for (int i = 0; i < N; ++i) CHECK_NEAR(z[i], plain[i], 500 * tol, "%s at %g, %g: y[%d] at %g", name, omega, regularisation, i, tol);
+    for (int i = 0; i < N; ++i)
+      CHECK_NEAR(z[i], plain[i], 500 * tol, "%s at %g, %g: y[%d] at %g", name, omega, regularisation, i, tol);
     integrate_free(in);
   }
   integrate_free(fine);
@@ -75,8 +78,8 @@ static double det(const double *a)
   return a[0] * (a[4] * a[8] - a[7] * a[5]) - a[3] * (a[1] * a[8] - a[7] * a[2]) + a[6] * (a[1] * a[5] - a[4] * a[2]);
 }
 
-/* a10 at 10 sticks all the time: stiffness 40 + 150, the slider stays, and x moves with it like with a constant force: det = exp(-C T/M).
- * Nothing has corners: each of some 500 steps at 1e-6. */
+/* a10 at 10 sticks all the time: stiffness 40 + 150, the slider stays, and x moves with it like with a constant
+ * force: det = exp(-C T/M). Nothing has corners: each of some 500 steps at 1e-6. */
 static void stuck_period_is_the_closed_form(void **state)
 {
   (void)state;
@@ -101,7 +104,8 @@ static void a_slope_leaves_no_trace(void **state)
   model m;
   model_make(&m, &sc, 7, 10);
   integrator *in = make(N, 1e-10);
-  double y[N] = {0.8, 0.6, 0.5}, z[N] = {0.8, 0.6, 0.5}, w[N] = {0.8, 0.6, 0.5}, v[N] = {0.8, 0.6, 0.5}, slope[2][N * N];
+  double y[N] = {0.8, 0.6, 0.5}, z[N] = {0.8, 0.6, 0.5}, w[N] = {0.8, 0.6, 0.5}, v[N] = {0.8, 0.6, 0.5},
+         slope[2][N * N];
   assert_int_equal(integrate_period(in, &m, y, NULL, NULL), HC_OK);
   assert_int_equal(integrate_slope(in, &m, w, slope[0]), HC_OK);
   assert_int_equal(integrate_period(in, &m, z, NULL, NULL), HC_OK);

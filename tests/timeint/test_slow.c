@@ -1,14 +1,14 @@
-/* test_slow.c - a scene that forgets 0.11 % a period (case 2 of the paper's table 10): neither settled early nor never. */
+/* test_slow.c - a scene that forgets 0.11 % a period (case 2 of the paper's table 10): neither settled early nor
+ * never. */
 #include "tests/check.h"
 
 #include <complex.h>
 
 #include "tests/timeint/scenes.h"
 
-/* Swept up onto the branch that ends at 708.6, as far as 708.5, where the peak bends over by 1.5 rad/s. Exact amplitude:
- * transient_exact.csv of the reference. 1e-6: the regularised
- * law's second order (2e-7 seen; first order would be 1e-4), and CVODE's error, 3e-14 a step, 1000 steps a period, summed over 1/(1 -
- * rho) = 900: 3e-8. */
+/* Swept up onto the branch that ends at 708.6, as far as 708.5, where the peak bends over by 1.5 rad/s. Exact
+ * amplitude: transient_exact.csv of the reference. 1e-6: the regularised law's second order (2e-7 seen; first order
+ * would be 1e-4), and CVODE's error, 3e-14 a step, 1000 steps a period, summed over 1/(1 - rho) = 900: 3e-8. */
 static void bent_peak_is_climbed(void **state)
 {
   (void)state;
@@ -21,16 +21,16 @@ static void bent_peak_is_climbed(void **state)
   assert_int_equal(timeint_steady(ti, 708.5, &y, NULL, &r), HC_OK);
   CHECK_NEAR(r.amplitude, 0.299294926095, 1e-6 * 0.3, "amplitude");
   CHECK_NEAR(r.mean, -0.000611262701079, 1e-6 * 0.3, "mean");
-  CHECK_LE(r.closure, 1e-7, "closure"); /* next to the fold |(I - Phi)^-1| is 3000, and a period scatters by 1000 times CVODE's 3.3e-14 */
+  CHECK_LE(r.closure, 1e-7, "closure"); /* next to the fold |(I - Phi)^-1| is 3000, and a period scatters by 1000
+                                           times CVODE's 3.3e-14 */
   CHECK_LE(r.periods, 60, "periods");
   assert_int_equal(r.regime, CONTACT_SEPARATES);
   timeint_free(ti);
 }
 
-/* Separated, hence linear, from a start 1 % off: stopped after any number of periods, the true distance to the orbit is no larger than
- * the closure reported; and 1 % needs log(1e7)/0.00112 =
- * 14400 periods to become 1e-9, and the estimate at most 3 e-folds (2/(1 - e^-0.57), tests/timeint/test_settle.c) and 1056 periods
- * more: 18100. */
+/* Separated, hence linear, from a start 1 % off: stopped after any number of periods, the true distance to the orbit
+ * is no larger than the closure reported; and 1 % needs log(1e7)/0.00112 = 14400 periods to become 1e-9, and the
+ * estimate at most 3 e-folds (2/(1 - e^-0.57), tests/timeint/test_settle.c) and 1056 periods more: 18100. */
 static void distance_is_honest(void **state)
 {
   (void)state;

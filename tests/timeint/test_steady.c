@@ -1,4 +1,5 @@
-/* test_steady.c - the steady state where it has a closed form, at any scale; sub-harmonics; and every way not to get there. */
+/* test_steady.c - the steady state where it has a closed form, at any scale; sub-harmonics; and every way not to get
+ * there. */
 #include "tests/check.h"
 
 #include <complex.h>
@@ -20,9 +21,9 @@ static hc_status steady(const scene *sc, double omega, timeint_state *y, timeint
   return st;
 }
 
-/* Distance to the orbit <= transient.tolerance of the amplitude (what HC_OK says), and CVODE's own error: 1e-3 of that a step, 600
- * steps a period, summed over
- * 1/(1 - rho) periods <= 13 (omega <= 16: rho <= 0.925): 8 tolerances if all had one sign. Together 10. */
+/* Distance to the orbit <= transient.tolerance of the amplitude (what HC_OK says), and CVODE's own error: 1e-3 of
+ * that a step, 600 steps a period, summed over 1/(1 - rho) periods <= 13 (omega <= 16: rho <= 0.925): 8 tolerances
+ * if all had one sign. Together 10. */
 static void check_harmonic(const scene *sc, const timeint_result *r, double complex X)
 {
   const double tol = 10 * sc->transient.tolerance * cabs(X);
@@ -55,9 +56,9 @@ static void without_contacts(void **state)
   }
 }
 
-/* Amplitude 0.11 of gap 0.5: min N is 200 (0.5 - 0.08) = 84, so softplus differs by exp(-0.42/5e-5), nothing; |T| <= 100 * 0.08 = 8 <
- * 0.3 * 84: no slip. From rest the start-up transient
- * must not slip either: it at most doubles the amplitude: 16 < 0.3 * 68. */
+/* Amplitude 0.11 of gap 0.5: min N is 200 (0.5 - 0.08) = 84, so softplus differs by exp(-0.42/5e-5), nothing; |T| <=
+ * 100 * 0.08 = 8 < 0.3 * 84: no slip. From rest the start-up transient must not slip either: it at most doubles the
+ * amplitude: 16 < 0.3 * 68. */
 static void stuck_all_period(void **state)
 {
   (void)state;
@@ -69,8 +70,8 @@ static void stuck_all_period(void **state)
   assert_int_equal(r.regime, CONTACT_STUCK);
 }
 
-/* Separated all period, kt = 0, mu = 0, alpha = 0 and 90 degrees, several in parallel: each is linear while it neither slips nor
- * opens. */
+/* Separated all period, kt = 0, mu = 0, alpha = 0 and 90 degrees, several in parallel: each is linear while it
+ * neither slips nor opens. */
 static void linear_contacts(void **state)
 {
   (void)state;
@@ -89,8 +90,9 @@ static void linear_contacts(void **state)
   CHECK_NEAR(y.w[2], y.x * cos(PI / 6), 4 * DBL_EPSILON * fabs(y.x), "a slider without friction is at u");
 }
 
-/* Lengths and forces times s: the same numbers times s. CVODE sees states in units of the motion; the quotients' rounding is amplified
- * by steps decided otherwise, so agreement is to the tolerance: both within it of the orbit, and 8 of them of each other as above. */
+/* Lengths and forces times s: the same numbers times s. CVODE sees states in units of the motion; the quotients'
+ * rounding is amplified by steps decided otherwise, so agreement is to the tolerance: both within it of the orbit,
+ * and 8 of them of each other as above. */
 static void any_scale(void **state)
 {
   (void)state;
@@ -110,9 +112,8 @@ static void any_scale(void **state)
   }
 }
 
-/* A start 1e8 times too large or too small ends on the same orbit, as accurately: CVODE's absolute tolerance follows the motion down.
- * (Kept at the start's size it
- * would be 1e8 * 4e-13 of the motion.) */
+/* A start 1e8 times too large or too small ends on the same orbit, as accurately: CVODE's absolute tolerance follows
+ * the motion down. (Kept at the start's size it would be 1e8 * 4e-13 of the motion.) */
 static void start_of_any_size(void **state)
 {
   (void)state;

@@ -1,5 +1,6 @@
-/* test_verdicts.c - motions that are not of the forcing's period, on case 2 with the exact law: where the period-1 orbit loses its
- * stability, and what the motion becomes. Figures: PHYSICS.md's fact 4 (as in docs/paper.md), from another program and from AUTO. */
+/* test_verdicts.c - motions that are not of the forcing's period, on case 2 with the exact law: where the period-1
+ * orbit loses its stability, and what the motion becomes. Figures: PHYSICS.md's fact 4 (as in docs/paper.md), from
+ * another program and from AUTO. */
 #include "tests/check.h"
 
 #include "tests/timeint/scenes.h"
@@ -132,9 +133,9 @@ static void swept_up_to_period_4(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(multiplier_passes_minus_one),        cmocka_unit_test(period_1_above),
-      cmocka_unit_test(sub_harmonics_of_case_2),
-      cmocka_unit_test(sub_harmonics_with_a_stiff_contact), cmocka_unit_test(swept_up_to_period_4),
+      cmocka_unit_test(multiplier_passes_minus_one), cmocka_unit_test(period_1_above),
+      cmocka_unit_test(sub_harmonics_of_case_2),     cmocka_unit_test(sub_harmonics_with_a_stiff_contact),
+      cmocka_unit_test(swept_up_to_period_4),
   };
   check_watchdog(120);
   return cmocka_run_group_tests_name("timeint.verdicts", tests, NULL, NULL);

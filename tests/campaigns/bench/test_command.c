@@ -1,11 +1,15 @@
-/* test_command.c - hbmcheck bench as people use it: columns, errors that fall along each family, wrong usage. Times are never judged. */
+/* test_command.c - hbmcheck bench as people use it: columns, errors that fall along each family, wrong usage. Times
+ * are never judged. */
 #include <stdbool.h>
 #include <string.h>
 
 #include "tests/shell.h"
 
 #define CASE2 "cases/paper/case2.yaml "
-typedef struct outcome { int code; char out[131072]; } outcome;
+typedef struct outcome {
+  int code;
+  char out[131072];
+} outcome;
 
 static outcome run(const char *args)
 {
@@ -27,7 +31,8 @@ static double error_of(const char *csv, const char *start)
 {
   const char *row = strstr(csv, start);
   if (!row) fail_msg("no row %s", start);
-  for (int commas = 0; row && commas < 6; ++commas) row = strchr(row, ',') + 1; /* omega, method, harmonics, samples, regularisation, tolerance */
+  /* omega, method, harmonics, samples, regularisation, tolerance */
+  for (int commas = 0; row && commas < 6; ++commas) row = strchr(row, ',') + 1;
   return row && *row != ',' ? strtod(row, NULL) : NAN;
 }
 
@@ -42,18 +47,22 @@ static void check_falls(const char *csv, const char *family, int n, const char *
   }
 }
 
-/* Case 2 at 6.5: stable, alone, far from folds. Harmonic balance in H: exact forces order 3 to 4 in the amplitude, so a factor 4 in H is 16 and
- * more, 4 asked. Sampled: down to the same H's truncation. The regularised law on case 2 is of first order: a tenth, 1/5 asked. */
+/* Case 2 at 6.5: stable, alone, far from folds. Harmonic balance in H: exact forces order 3 to 4 in the amplitude,
+ * so a factor 4 in H is 16 and more, 4 asked. Sampled: down to the same H's truncation. The regularised law on case
+ * 2 is of first order: a tenth, 1/5 asked. */
 static void errors_fall_along_each_family(void **state)
 {
   (void)state;
   outcome o = run("bench " CASE2 "--at 6.5 --repeats 1 --alone --format csv -q --set transient.max_periods=2000");
   assert_int_equal(o.code, 0);
   static const char *const exact[] = {"6.5,hbm_exact,5,", "6.5,hbm_exact,20,", "6.5,hbm_exact,80,"};
-  static const char *const regularised[] = {"6.5,regularised_shooting,,,0.01,1e-08", "6.5,regularised_shooting,,,0.001,1e-08", "6.5,regularised_shooting,,,0.0001,1e-08"};
+  static const char *const regularised[] = {"6.5,regularised_shooting,,,0.01,1e-08",
+                                            "6.5,regularised_shooting,,,0.001,1e-08",
+                                            "6.5,regularised_shooting,,,0.0001,1e-08"};
   check_falls(o.out, "hbm_exact", 3, exact, 0.25);
   check_falls(o.out, "regularised_shooting", 3, regularised, 0.2);
-  double coarse = error_of(o.out, "6.5,hbm_sampled,40,256,"), fine = error_of(o.out, "6.5,hbm_sampled,40,16384,"), limit = error_of(o.out, "6.5,hbm_exact,40,");
+  double coarse = error_of(o.out, "6.5,hbm_sampled,40,256,"), fine = error_of(o.out, "6.5,hbm_sampled,40,16384,"),
+         limit = error_of(o.out, "6.5,hbm_exact,40,");
   CHECK_LE(fine, 0.1 * coarse + 2 * limit, "hbm_sampled");
   assert_non_null(strstr(o.out, "omega,accuracy,method,settings,"));
   assert_non_null(strstr(o.out, "# fastest at omega = 6.5: "));
@@ -94,13 +103,15 @@ static void mistakes_are_named(void **state)
   expect("bench " CASE2 "--repeats x 2>&1", 64, "--repeats");
   expect("bench " CASE2 "--at 5,,6 2>&1", 64, "--at");
   expect("bench /nonexistent.yaml 2>&1", 2, "/nonexistent.yaml: ");
-  expect("bench " CASE2 "--at 5.3 --repeats 1 --alone -q 2>&1", 3, "omega = 5.3: no stable orbit"); /* between the period doublings */
+  /* between the period doublings */
+  expect("bench " CASE2 "--at 5.3 --repeats 1 --alone -q 2>&1", 3, "omega = 5.3: no stable orbit");
   expect("bench --help", 0, "example");
 }
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(errors_fall_along_each_family), cmocka_unit_test(every_method_comes_near), cmocka_unit_test(mistakes_are_named)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(errors_fall_along_each_family),
+                                     cmocka_unit_test(every_method_comes_near), cmocka_unit_test(mistakes_are_named)};
   check_watchdog(300);
   return cmocka_run_group_tests_name("bench.command", tests, NULL, NULL);
 }

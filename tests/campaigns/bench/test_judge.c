@@ -9,8 +9,14 @@ static const double floor_of_tests = 1e-12;
 
 static bench_row row(bench_method m, int harmonics, double tolerance, double error, double seconds)
 {
-  return (bench_row){.method = m, .harmonics = harmonics, .regularisation = NAN, .tolerance = tolerance, .error = error, .seconds = seconds,
-                     .repeats = 1, .outcome = BENCH_SOLVED};
+  return (bench_row){.method = m,
+                     .harmonics = harmonics,
+                     .regularisation = NAN,
+                     .tolerance = tolerance,
+                     .error = error,
+                     .seconds = seconds,
+                     .repeats = 1,
+                     .outcome = BENCH_SOLVED};
 }
 
 static void dominated_rows_are_not_on_the_front(void **state)
@@ -30,11 +36,13 @@ static void dominated_rows_are_not_on_the_front(void **state)
     if (rows[i].front != expected[i]) fail_msg("row %d: front is %d", i, rows[i].front);
 }
 
-/* H = 3 is near by luck: H = 10 is farther off, so H = 3 may not be counted on to be nearer. Not so the other way round. */
+/* H = 3 is near by luck: H = 10 is farther off, so H = 3 may not be counted on to be nearer. Not so the other way
+ * round. */
 static void luck_does_not_count(void **state)
 {
   (void)state;
-  bench_row rows[] = {row(BENCH_HBM_EXACT, 3, NAN, 1e-7, 1), row(BENCH_HBM_EXACT, 10, NAN, 1e-3, 2), row(BENCH_HBM_EXACT, 40, NAN, 1e-5, 3)};
+  bench_row rows[] = {row(BENCH_HBM_EXACT, 3, NAN, 1e-7, 1), row(BENCH_HBM_EXACT, 10, NAN, 1e-3, 2),
+                      row(BENCH_HBM_EXACT, 40, NAN, 1e-5, 3)};
   bench_judge(3, rows, floor_of_tests);
   CHECK_NEAR(rows[0].error_finer, 1e-3, 0, "H = 3");
   CHECK_NEAR(rows[1].error_finer, 1e-3, 0, "H = 10");
@@ -46,7 +54,8 @@ static void luck_does_not_count(void **state)
 static void finer_is_in_every_setting(void **state)
 {
   (void)state;
-  bench_row rows[] = {row(BENCH_REGULARISED_SHOOTING, 0, 1e-6, 1e-4, 1), row(BENCH_REGULARISED_SHOOTING, 0, 1e-4, 1e-2, 1),
+  bench_row rows[] = {row(BENCH_REGULARISED_SHOOTING, 0, 1e-6, 1e-4, 1),
+                      row(BENCH_REGULARISED_SHOOTING, 0, 1e-4, 1e-2, 1),
                       row(BENCH_REGULARISED_MARCHING, 0, 1e-8, 1e-1, 1)};
   rows[0].regularisation = 1e-3, rows[1].regularisation = 1e-5, rows[2].regularisation = 1e-5;
   bench_judge(3, rows, floor_of_tests);
@@ -65,7 +74,8 @@ static void errors_end_at_the_floor(void **state)
 static void unsolved_rows_do_not_take_part(void **state)
 {
   (void)state;
-  bench_row rows[] = {row(BENCH_HBM_EXACT, 3, NAN, NAN, NAN), row(BENCH_HBM_EXACT, 1, NAN, 1e-2, 1), row(BENCH_HBM_EXACT, 5, NAN, 1e-9, 1e-9)};
+  bench_row rows[] = {row(BENCH_HBM_EXACT, 3, NAN, NAN, NAN), row(BENCH_HBM_EXACT, 1, NAN, 1e-2, 1),
+                      row(BENCH_HBM_EXACT, 5, NAN, 1e-9, 1e-9)};
   const bench_row *second;
   rows[0].outcome = BENCH_FAILED;
   rows[2].outcome = BENCH_OTHER_ORBIT;
@@ -79,9 +89,12 @@ static void unsolved_rows_do_not_take_part(void **state)
 static void the_cheapest_way_is_the_fastest_that_is_near_enough(void **state)
 {
   (void)state;
-  bench_row rows[] = {row(BENCH_HBM_EXACT, 5, NAN, 1e-3, 1), row(BENCH_HBM_EXACT, 10, NAN, 1e-4, 2), row(BENCH_EXACT_SHOOTING, 0, 1e-4, 1e-5, 3),
-                      row(BENCH_EXACT_MARCHING, 0, 1e-4, 1e-5, 30)};
-  static const struct { double accuracy; int best, second; } expected[] = {{1e-2, 0, 2}, {1e-3, 0, 2}, {1e-4, 1, 2}, {1e-5, 2, 3}, {1e-6, -1, -1}};
+  bench_row rows[] = {row(BENCH_HBM_EXACT, 5, NAN, 1e-3, 1), row(BENCH_HBM_EXACT, 10, NAN, 1e-4, 2),
+                      row(BENCH_EXACT_SHOOTING, 0, 1e-4, 1e-5, 3), row(BENCH_EXACT_MARCHING, 0, 1e-4, 1e-5, 30)};
+  static const struct {
+    double accuracy;
+    int best, second;
+  } expected[] = {{1e-2, 0, 2}, {1e-3, 0, 2}, {1e-4, 1, 2}, {1e-5, 2, 3}, {1e-6, -1, -1}};
   bench_judge(4, rows, floor_of_tests);
   for (int i = 0; i < 5; ++i) {
     const bench_row *second, *best = bench_cheapest(4, rows, expected[i].accuracy, &second);
@@ -106,9 +119,13 @@ static void quartiles_are_interpolated(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(dominated_rows_are_not_on_the_front), cmocka_unit_test(luck_does_not_count), cmocka_unit_test(finer_is_in_every_setting),
-      cmocka_unit_test(errors_end_at_the_floor), cmocka_unit_test(unsolved_rows_do_not_take_part),
-      cmocka_unit_test(the_cheapest_way_is_the_fastest_that_is_near_enough), cmocka_unit_test(quartiles_are_interpolated),
+      cmocka_unit_test(dominated_rows_are_not_on_the_front),
+      cmocka_unit_test(luck_does_not_count),
+      cmocka_unit_test(finer_is_in_every_setting),
+      cmocka_unit_test(errors_end_at_the_floor),
+      cmocka_unit_test(unsolved_rows_do_not_take_part),
+      cmocka_unit_test(the_cheapest_way_is_the_fastest_that_is_near_enough),
+      cmocka_unit_test(quartiles_are_interpolated),
   };
   check_watchdog(60);
   return cmocka_run_group_tests_name("bench.judge", tests, NULL, NULL);

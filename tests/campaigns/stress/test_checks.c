@@ -1,18 +1,32 @@
-/* test_checks.c - the checks of a stress run must be able to fail: each is given an answer that is wrong by a little, and must call it a finding.
+/* test_checks.c - the checks of a stress run must be able to fail: each is given an answer that is wrong by a
+ * little, and must call it a finding.
  *
- * The answers are spoiled where they arrive: the linker puts the functions below in front of the library's own (--wrap). Unspoiled, the same
- * scenes, case 2 of the paper and one that slips, end without a finding. */
+ * The answers are spoiled where they arrive: the linker puts the functions below in front of the library's own
+ * (--wrap). Unspoiled, the same scenes, case 2 of the paper and one that slips, end without a finding. */
 #include <string.h>
 
+#include "campaigns/stress/stress.h"
 #include "cases/fields.h"
 #include "compare/comparison.h"
-#include "campaigns/stress/stress.h"
 #include "hbm/exact.h"
 #include "tests/check.h"
 
-typedef enum spoil { NOTHING, FORCE_SCALED, FORCE_FIXED, SOLUTION_SCALED, SOLUTION_MOVED, ORBIT_SCALED, MULTIPLIER, REGULARISED_ORBIT, VERDICT_MATCHED, VERDICT_UNSTABLED, NUMBER_LOST } spoil;
+typedef enum spoil {
+  NOTHING,
+  FORCE_SCALED,
+  FORCE_FIXED,
+  SOLUTION_SCALED,
+  SOLUTION_MOVED,
+  ORBIT_SCALED,
+  MULTIPLIER,
+  REGULARISED_ORBIT,
+  VERDICT_MATCHED,
+  VERDICT_UNSTABLED,
+  NUMBER_LOST
+} spoil;
 static spoil spoiled;
-static const double by = 1e-5; /* ten times what the checks let pass where they compare methods, 1e5 times where rounding is all there is */
+static const double by = 1e-5; /* ten times what the checks let pass where they compare methods, 1e5 times where
+                                  rounding is all there is */
 
 hc_status __real_exact_eval(exact *e, const double *X, double *F, double *jac, contact_report *report);
 hc_status __wrap_exact_eval(exact *e, const double *X, double *F, double *jac, contact_report *report);
@@ -58,9 +72,12 @@ hc_status __wrap_timeint_new(const scene *sc, timeint **out)
   return __real_timeint_new(sc, out);
 }
 
-hc_status __real_timeint_orbit(timeint *ti, double omega, int k, timeint_state *state, const hc_monitor *monitor, timeint_result *r);
-hc_status __wrap_timeint_orbit(timeint *ti, double omega, int k, timeint_state *state, const hc_monitor *monitor, timeint_result *r);
-hc_status __wrap_timeint_orbit(timeint *ti, double omega, int k, timeint_state *state, const hc_monitor *monitor, timeint_result *r)
+hc_status __real_timeint_orbit(timeint *ti, double omega, int k, timeint_state *state, const hc_monitor *monitor,
+                               timeint_result *r);
+hc_status __wrap_timeint_orbit(timeint *ti, double omega, int k, timeint_state *state, const hc_monitor *monitor,
+                               timeint_result *r);
+hc_status __wrap_timeint_orbit(timeint *ti, double omega, int k, timeint_state *state, const hc_monitor *monitor,
+                               timeint_result *r)
 {
   hc_status st = __real_timeint_orbit(ti, omega, k, state, monitor, r);
   if (spoiled == ORBIT_SCALED)
@@ -77,7 +94,8 @@ hc_status __wrap_comparison_run(const scene *sc, const hc_monitor *monitor, comp
 {
   hc_status st = __real_comparison_run(sc, monitor, out);
   for (int i = 0; i < out->n_rows; ++i) {
-    if (spoiled == VERDICT_MATCHED) out->rows[i].verdict = VERDICT_MATCH, out->rows[i].errors.amplitude = 1.01 * sc->gate.amplitude;
+    if (spoiled == VERDICT_MATCHED)
+      out->rows[i].verdict = VERDICT_MATCH, out->rows[i].errors.amplitude = 1.01 * sc->gate.amplitude;
     if (spoiled == VERDICT_UNSTABLED) out->rows[i].verdict = VERDICT_UNSTABLE;
   }
   return st;
@@ -115,7 +133,8 @@ static void good_answers_are_no_findings(void **state)
     stress_result r = stressed(i ? slips : case_2(), NOTHING);
     for (int k = 0; k < STRESS_N_CHECKS; ++k)
       if (r.check[k].outcome == STRESS_FINDING || r.check[k].outcome == STRESS_REFUSED)
-        fail_msg("scene %d, %s: %s %s", i, stress_kind_name((stress_kind)k), stress_outcome_name(r.check[k].outcome), stress_reason_name(r.check[k].reason));
+        fail_msg("scene %d, %s: %s %s", i, stress_kind_name((stress_kind)k), stress_outcome_name(r.check[k].outcome),
+                 stress_reason_name(r.check[k].reason));
   }
 }
 
@@ -124,7 +143,8 @@ static void expect_finding(spoil with, stress_kind kind)
   stress_result r = stressed(case_2(), with);
   const stress_check *c = &r.check[kind];
   if (c->outcome != STRESS_FINDING)
-    fail_msg("spoil %d: %s says %s %s, %g of %g", (int)with, stress_kind_name(kind), stress_outcome_name(c->outcome), stress_reason_name(c->reason), c->error, c->bound);
+    fail_msg("spoil %d: %s says %s %s, %g of %g", (int)with, stress_kind_name(kind), stress_outcome_name(c->outcome),
+             stress_reason_name(c->reason), c->error, c->bound);
 }
 
 static void a_wrong_force_is_found(void **state)
@@ -178,8 +198,8 @@ static void a_finding_is_made_small(void **state)
 }
 
 static const struct CMUnitTest tests[] = {
-  cmocka_unit_test(good_answers_are_no_findings), cmocka_unit_test(a_wrong_force_is_found), cmocka_unit_test(a_wrong_solution_is_found),
-  cmocka_unit_test(a_wrong_orbit_is_found), cmocka_unit_test(a_wrong_verdict_is_found),
-  cmocka_unit_test(a_finding_is_made_small),
+    cmocka_unit_test(good_answers_are_no_findings), cmocka_unit_test(a_wrong_force_is_found),
+    cmocka_unit_test(a_wrong_solution_is_found),    cmocka_unit_test(a_wrong_orbit_is_found),
+    cmocka_unit_test(a_wrong_verdict_is_found),     cmocka_unit_test(a_finding_is_made_small),
 };
 CHECK_MAIN("stress.checks", tests, 300)

@@ -1,12 +1,15 @@
-/* test_command.c - hbmcheck stress as people use it: 200 scenes without a finding, stopped and resumed, one scene again. Runs the built command
- * (HBMCHECK_COMMAND) in a shell, in a folder of its own. */
+/* test_command.c - hbmcheck stress as people use it: 200 scenes without a finding, stopped and resumed, one scene
+ * again. Runs the built command (HBMCHECK_COMMAND) in a shell, in a folder of its own. */
 #include <string.h>
 
 #include "tests/shell.h"
 
 static char folder[] = "/tmp/hbmcheck-stress-XXXXXX";
 
-typedef struct outcome { int code; char out[262144]; } outcome;
+typedef struct outcome {
+  int code;
+  char out[262144];
+} outcome;
 static outcome last;
 
 /* "%s" in args is the folder, as often as it stands there (at most four times). */
@@ -31,7 +34,9 @@ static void two_hundred_scenes_without_a_finding(void **state)
 }
 
 /* Of a journal all but the times. */
-#define UNTIMED "awk '{o = $1; for (i = 3; i < NF; i += 6) o = o \" \" $i \" \" $(i + 1) \" \" $(i + 2) \" \" $(i + 3) \" \" $(i + 4); print o}'"
+#define UNTIMED                                                                                                        \
+  "awk '{o = $1; for (i = 3; i < NF; i += 6) o = o \" \" $i \" \" $(i + 1) \" \" $(i + 2) \" \" $(i + 3) \" \" "       \
+  "$(i + 4); print o}'"
 
 /* Killed while it wrote, and gone on with: the same scenes with the same results as in one go. */
 static void what_was_stopped_goes_on(void **state)
@@ -39,8 +44,12 @@ static void what_was_stopped_goes_on(void **state)
   (void)state;
   static char whole[sizeof last.out];
   expect("--seed 5 --scenes 12 --seconds 60 --jobs 1 --results %s/whole > /dev/null; wc -l < %s/whole", 0, "13");
-  expect("--seed 5 --scenes 5 --seconds 60 --jobs 1 --results %s/part > /dev/null; head -c -40 %s/part > %s/cut; wc -l < %s/cut", 0, "5");
-  expect("--seed 5 --scenes 12 --seconds 60 --jobs 2 --results %s/cut > /dev/null; " UNTIMED " %s/cut | sort", 0, "11 1 0 0 ");
+  expect(
+      "--seed 5 --scenes 5 --seconds 60 --jobs 1 --results %s/part > /dev/null; head -c -40 %s/part > %s/cut; wc -l < "
+      "%s/cut",
+      0, "5");
+  expect("--seed 5 --scenes 12 --seconds 60 --jobs 2 --results %s/cut > /dev/null; " UNTIMED " %s/cut | sort", 0,
+         "11 1 0 0 ");
   strcpy(whole, last.out);
   expect("--seed 5 --scenes 1 --case > /dev/null; " UNTIMED " %s/whole | sort", 0, "11 1 0 0 ");
   assert_string_equal(last.out, whole);
@@ -51,7 +60,9 @@ static void one_scene_is_printed_as_a_case_file(void **state)
 {
   (void)state;
   expect("--seed 5 --first 3 --case", 0, "Stress scene 3 of seed 5");
-  expect("--seed 5 --first 3 --case --output %s/three.yaml && " HBMCHECK_COMMAND " frf --quiet %s/three.yaml > /dev/null && echo read", 0, "read");
+  expect("--seed 5 --first 3 --case --output %s/three.yaml && " HBMCHECK_COMMAND
+         " frf --quiet %s/three.yaml > /dev/null && echo read",
+         0, "read");
   expect("--seed 5 --first 3 --scenes 1 --all --format csv", 0, "3,verdict,");
 }
 
@@ -82,8 +93,10 @@ static int remove_folder(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(two_hundred_scenes_without_a_finding), cmocka_unit_test(what_was_stopped_goes_on),
-    cmocka_unit_test(one_scene_is_printed_as_a_case_file), cmocka_unit_test(what_cannot_be_is_said),
+      cmocka_unit_test(two_hundred_scenes_without_a_finding),
+      cmocka_unit_test(what_was_stopped_goes_on),
+      cmocka_unit_test(one_scene_is_printed_as_a_case_file),
+      cmocka_unit_test(what_cannot_be_is_said),
   };
   check_watchdog(900);
   return cmocka_run_group_tests_name("stress.command", tests, make_folder, remove_folder);

@@ -8,9 +8,11 @@
 #include "tests/check.h"
 
 /* A linear scene: cheap, and enough wherever the scene is beside the point. */
-#define CASE "case: {oscillator: {mass: 1, damping: 0.4, stiffness: 40}, forcing: {amplitude: 1}, sweep: {omega: [3, 9]}}\n"
-#define CONTACT_CASE                                                                                                         \
-  "case: {oscillator: {mass: 1, damping: 0.4, stiffness: 40}, forcing: {amplitude: 1}, sweep: {omega: [3, 9]}, contacts: ["  \
+#define CASE                                                                                                           \
+  "case: {oscillator: {mass: 1, damping: 0.4, stiffness: 40}, forcing: {amplitude: 1}, sweep: {omega: [3, 9]}}\n"
+#define CONTACT_CASE                                                                                                   \
+  "case: {oscillator: {mass: 1, damping: 0.4, stiffness: 40}, forcing: {amplitude: 1}, sweep: {omega: [3, 9]}, "       \
+  "contacts: ["                                                                                                        \
   "{tangential_stiffness: 10, normal_stiffness: 20, friction: 0.3, angle_deg: 45}]}\n"
 
 static inline void write_text(const char *path, const char *text)
@@ -42,7 +44,10 @@ static inline study *good_study(const char *text)
 {
   case_error err;
   study *s = study_from_text(text, 0, NULL, &err);
-  if (!s) { print_error("refused: %s\n%s\n", text, err.message); fail(); }
+  if (!s) {
+    print_error("refused: %s\n%s\n", text, err.message);
+    fail();
+  }
   return s;
 }
 

@@ -1,5 +1,5 @@
-/* test_command.c - hbmcheck study as people use it: killed and resumed, in one thread and in several, refused, claimed. Runs the built
- * hbmcheck (HBMCHECK_COMMAND) in a folder of its own. */
+/* test_command.c - hbmcheck study as people use it: killed and resumed, in one thread and in several, refused,
+ * claimed. Runs the built hbmcheck (HBMCHECK_COMMAND) in a folder of its own. */
 #include <fcntl.h>
 #include <signal.h>
 #include <stdbool.h>
@@ -11,7 +11,10 @@
 
 static char folder[] = "/tmp/hbmcheck-command-XXXXXX";
 
-typedef struct outcome { int code; char *out; } outcome; /* out: to free */
+typedef struct outcome {
+  int code;
+  char *out;
+} outcome; /* out: to free */
 
 /* Run "hbmcheck study ARGS" in the folder. */
 static outcome run(const char *args)
@@ -42,10 +45,12 @@ static void write_file(const char *name, const char *text)
   assert_int_equal(fclose(to), 0);
 }
 
-#define LINEAR "case: {oscillator: {mass: 1, damping: 0.4, stiffness: 40}, forcing: {amplitude: 1}, sweep: {omega: [3, 9]}}\n"
+#define LINEAR                                                                                                         \
+  "case: {oscillator: {mass: 1, damping: 0.4, stiffness: 40}, forcing: {amplitude: 1}, sweep: {omega: [3, 9]}}\n"
 #define MANY(title, steps)                                                                                             \
-  "study: " title "\n" LINEAR "run: frf\nset: {compare.omega: [5, 6]}\nvary:\n"                                               \
-  "  - {oscillator.mass: {from: 0.5, to: 2, count: " steps "}}\n  - {oscillator.damping: {from: 0.1, to: 0.9, count: 20}}\n"
+  "study: " title "\n" LINEAR "run: frf\nset: {compare.omega: [5, 6]}\nvary:\n"                                        \
+  "  - {oscillator.mass: {from: 0.5, to: 2, count: " steps                                                             \
+  "}}\n  - {oscillator.damping: {from: 0.1, to: 0.9, count: 20}}\n"
 
 /* Start the study and kill it after so many milliseconds; true if that was before its end. */
 static bool kill_after(const char *study, long ms)
@@ -63,11 +68,13 @@ static bool kill_after(const char *study, long ms)
   kill(child, SIGKILL);
   int status;
   assert_int_equal(waitpid(child, &status, 0), child);
-  assert_true(WIFSIGNALED(status) || WEXITSTATUS(status) == 0); /* whatever a kill left behind, the next run takes it up */
+  assert_true(WIFSIGNALED(status) || WEXITSTATUS(status) == 0); /* whatever a kill left behind, the next run takes it
+                                                                   up */
   return WIFSIGNALED(status);
 }
 
-/* Ten kills at moments drawn from a fixed sequence; then every scene is there once, and the export is that of an undisturbed run. */
+/* Ten kills at moments drawn from a fixed sequence; then every scene is there once, and the export is that of an
+ * undisturbed run. */
 static void killed_and_resumed(void **state)
 {
   (void)state;
@@ -118,8 +125,10 @@ static void stopped_by_a_signal(void **state)
 {
   (void)state;
   write_file("s.yaml", MANY("signals", "80"));
-  expect("s.yaml -q 2>&1 & " ONCE_THERE("s.sqlite") "kill -TERM $!; wait $!", 3, "scenes are in s.sqlite; the same command goes on from there");
-  expect("s.yaml -q --export csv --fresh 2>/dev/null & sleep 0.1; kill -TERM $!; wait $!", 3, ""); /* half an export would look like a whole one */
+  expect("s.yaml -q 2>&1 & " ONCE_THERE("s.sqlite") "kill -TERM $!; wait $!", 3,
+         "scenes are in s.sqlite; the same command goes on from there");
+  /* half an export would look like a whole one */
+  expect("s.yaml -q --export csv --fresh 2>/dev/null & sleep 0.1; kill -TERM $!; wait $!", 3, "");
   expect("s.yaml -q", 0, "1600");
 }
 
@@ -127,8 +136,9 @@ static void a_second_process_is_refused(void **state)
 {
   (void)state;
   write_file("p.yaml", MANY("processes", "400"));
-  expect("p.yaml -q >/dev/null 2>&1 & " ONCE_THERE("p.sqlite") HBMCHECK_COMMAND " study p.yaml -q 2>&1; code=$?; kill -TERM $!; wait $!; exit $code", 2,
-         "p.sqlite: another hbmcheck is writing these results");
+  expect("p.yaml -q >/dev/null 2>&1 & " ONCE_THERE("p.sqlite") HBMCHECK_COMMAND
+         " study p.yaml -q 2>&1; code=$?; kill -TERM $!; wait $!; exit $code",
+         2, "p.sqlite: another hbmcheck is writing these results");
 }
 
 static void changed_and_foreign(void **state)
@@ -137,7 +147,8 @@ static void changed_and_foreign(void **state)
   write_file("c.yaml", "study: c\n" LINEAR "run: frf\nvary: [{oscillator.mass: [1, 2]}]\n");
   expect("c.yaml -q", 0, "c.sqlite");
   write_file("c.yaml", "study: c\n" LINEAR "run: frf\nvary: [{oscillator.mass: [1, 2, 3]}]\n");
-  expect("c.yaml -q 2>&1", 2, "c.sqlite: results of another study, or of this one before it was changed; --fresh throws them away");
+  expect("c.yaml -q 2>&1", 2,
+         "c.sqlite: results of another study, or of this one before it was changed; --fresh throws them away");
   expect("c.yaml -q --set oscillator.damping=0.5 2>&1", 2, "c.sqlite: results of another study");
   expect("c.yaml -q --fresh", 0, "c.sqlite");
   write_file("c.sqlite", "precious notes, not a database\n");
@@ -148,16 +159,22 @@ static void changed_and_foreign(void **state)
 static void claims_are_held(void **state)
 {
   (void)state;
-  write_file("m.yaml", "study: m\n" LINEAR "run: frf\nvary: [{oscillator.mass: [1, 2, 4]}]\nclaims:\n"
-                       "  - {source: text, says: heavier is slower, found: SELECT min(peak_omega) FROM scene, holds: "
-                       "\"SELECT count(*) = 0 FROM scene a JOIN scene b ON a.\\\"oscillator.mass\\\" < b.\\\"oscillator.mass\\\" AND a.peak_omega <= b.peak_omega\"}\n"
-                       "  - {says: no rows, holds: SELECT count(*) > 0 FROM row}\n");
+  write_file(
+      "m.yaml",
+      "study: m\n" LINEAR "run: frf\nvary: [{oscillator.mass: [1, 2, 4]}]\nclaims:\n"
+      "  - {source: text, says: heavier is slower, found: SELECT min(peak_omega) FROM scene, holds: "
+      "\"SELECT count(*) = 0 FROM scene a JOIN scene b ON a.\\\"oscillator.mass\\\" < b.\\\"oscillator.mass\\\" AND "
+      "a.peak_omega <= b.peak_omega\"}\n"
+      "  - {says: no rows, holds: SELECT count(*) > 0 FROM row}\n");
   /* M = 4: omega^2 = K/M - C^2/(2 M^2) = 9.995 */
   expect("m.yaml -q --results :memory:", 0, "heavier is slower  3.16148");
   expect("m.yaml -q --results :memory: --format csv", 0, ",agrees\n,no rows,,does not agree\n");
-  write_file("e.yaml", "study: e\n" LINEAR "run: frf\nvary: [{oscillator.mass: [1, 2]}]\nclaims:\n  - {says: x, holds: SELECT 0, expect: agree}\n");
+  write_file("e.yaml",
+             "study: e\n" LINEAR
+             "run: frf\nvary: [{oscillator.mass: [1, 2]}]\nclaims:\n  - {says: x, holds: SELECT 0, expect: agree}\n");
   expect("m.yaml e.yaml -q --results :memory:", 1, "does not agree");
-  write_file("w.yaml", "study: w\n" LINEAR "run: frf\nvary: [{oscillator.mass: [1, 2]}]\nclaims:\n  - {says: x, holds: SELECT y}\n");
+  write_file("w.yaml", "study: w\n" LINEAR
+                       "run: frf\nvary: [{oscillator.mass: [1, 2]}]\nclaims:\n  - {says: x, holds: SELECT y}\n");
   expect("w.yaml -q 2>&1; ls w.sqlite 2>/dev/null", 2, "w.yaml:6:22: `holds`: no such column: y");
 }
 
@@ -165,20 +182,34 @@ static void claims_are_held(void **state)
 static void claims_have_two_sides(void **state)
 {
   (void)state;
-  write_file("d.yaml", "study: d\n" LINEAR "run: frf\nvary: [{oscillator.mass: [1, 4]}]\nviews:\n  light: 'SELECT *, \"oscillator.mass\" AS m FROM scene WHERE m < 2'\n"
-                       "  light_id: SELECT id FROM light\nclaims:\n  - source: text\n    says: it is light\n    seconds: 12.5\n"
-                       "    paper: {found: SELECT m FROM light, holds: SELECT count(*) = 2 FROM light, seconds: SELECT 0.25}\n"
-                       "    ours: {found: \"SELECT 'id ' || id FROM light_id\", holds: SELECT m < 2 FROM light, expect: agree}\n"
-                       "  - {says: silence, paper: {holds: SELECT NULL}}\n");
-  expect("d.yaml -q --results :memory: --format csv", 0, "text,it is light,1,does not agree,id 0,agrees\n,silence,,cannot be said,,\n");
+  write_file(
+      "d.yaml",
+      "study: d\n" LINEAR
+      "run: frf\nvary: [{oscillator.mass: [1, 4]}]\nviews:\n  light: 'SELECT *, \"oscillator.mass\" AS m FROM scene "
+      "WHERE m < 2'\n"
+      "  light_id: SELECT id FROM light\nclaims:\n  - source: text\n    says: it is light\n    seconds: 12.5\n"
+      "    paper: {found: SELECT m FROM light, holds: SELECT count(*) = 2 FROM light, seconds: SELECT 0.25}\n"
+      "    ours: {found: \"SELECT 'id ' || id FROM light_id\", holds: SELECT m < 2 FROM light, expect: agree}\n"
+      "  - {says: silence, paper: {holds: SELECT NULL}}\n");
+  expect("d.yaml -q --results :memory: --format csv", 0,
+         "text,it is light,1,does not agree,id 0,agrees\n,silence,,cannot be said,,\n");
   expect("d.yaml -q --results :memory: --format csv", 0, "text,12.5,0.25,,it is light\n");
-  expect("d.yaml -q --results :memory:", 0, "0 claims agree with the settings of their source, 1 do not, of 1 it cannot be said");
-  expect("d.yaml -q --results d.sqlite --fresh && " HBMCHECK_COMMAND " study d.yaml -q --results d.sqlite", 0, "it is light"); /* views are of a run, not of the file */
-  write_file("v.yaml", "study: v\n" LINEAR "run: frf\nvary: [{oscillator.mass: [1, 4]}]\nviews: {a: SELECT y FROM scene}\n");
+  expect("d.yaml -q --results :memory:", 0,
+         "0 claims agree with the settings of their source, 1 do not, of 1 it cannot be said");
+  /* views are of a run, not of the file */
+  expect("d.yaml -q --results d.sqlite --fresh && " HBMCHECK_COMMAND " study d.yaml -q --results d.sqlite", 0,
+         "it is light");
+  write_file("v.yaml",
+             "study: v\n" LINEAR "run: frf\nvary: [{oscillator.mass: [1, 4]}]\nviews: {a: SELECT y FROM scene}\n");
   expect("v.yaml -q 2>&1", 2, "v.yaml:5:12: `a`: no such column: y");
-  write_file("v.yaml", "study: v\n" LINEAR "run: frf\nvary: [{oscillator.mass: [1, 4]}]\nviews: {a: SELECT 1; DROP TABLE scene}\n");
+  write_file("v.yaml", "study: v\n" LINEAR
+                       "run: frf\nvary: [{oscillator.mass: [1, 4]}]\nviews: {a: SELECT 1; DROP TABLE scene}\n");
   expect("v.yaml -q 2>&1", 2, "is more than one query");
-  write_file("u.yaml", "study: u\n" LINEAR "run: frf\nvary: [{oscillator.mass: [1, 4]}]\nclaims:\n  - {source: s, says: x, ours: {holds: SELECT 0, expect: agree}}\n");
+  write_file(
+      "u.yaml",
+      "study: u\n" LINEAR
+      "run: frf\nvary: [{oscillator.mass: [1, 4]}]\nclaims:\n  - {source: s, says: x, ours: {holds: SELECT 0, expect: "
+      "agree}}\n");
   expect("u.yaml -q --results :memory:", 1, "not as expected with ours: s: x");
 }
 
@@ -189,7 +220,11 @@ static void long_claims_are_wrapped(void **state)
   char word[] = "abcdefghi ", text[700] = "";
   for (int i = 0; i < 30; ++i) strcat(text, word);
   char file[2000];
-  snprintf(file, sizeof file, "study: l\n" LINEAR "run: frf\nvary: [{oscillator.mass: [1, 4]}]\nclaims:\n  - {source: s, says: x, found: \"SELECT '%send'\", holds: SELECT 1}\n", text);
+  snprintf(file, sizeof file,
+           "study: l\n" LINEAR
+           "run: frf\nvary: [{oscillator.mass: [1, 4]}]\nclaims:\n  - {source: s, says: x, found: \"SELECT '%send'\", "
+           "holds: SELECT 1}\n",
+           text);
   write_file("l.yaml", file);
   outcome o = run("l.yaml -q --results :memory: | sed -n '/^Claims/,$p'");
   int words = 0;
@@ -206,7 +241,8 @@ static void a_failure_is_a_row(void **state)
   write_file("f.yaml", "study: f\n" LINEAR "run: frf\nset: {hbm.force: sampled}\nvary: [{hbm.samples: [32, 8]}]\n");
   expect("f.yaml -q", 3, "8 samples cannot tell 5 harmonics apart");
   expect("f.yaml -q --export csv", 3, "\n1,8,failed,");
-  expect("f.yaml -q >/dev/null; echo 'may_fail: true' >>f.yaml; " HBMCHECK_COMMAND " study f.yaml -q", 0, "8 samples cannot tell 5 harmonics apart");
+  expect("f.yaml -q >/dev/null; echo 'may_fail: true' >>f.yaml; " HBMCHECK_COMMAND " study f.yaml -q", 0,
+         "8 samples cannot tell 5 harmonics apart");
   write_file("r.yaml", "study: r\n" LINEAR "run: transient\nvary: [{compare.omega: [[5], [6]]}]\n");
   expect("r.yaml -q --export csv", 0, "\n1,[6],done,,6,settled,");
   expect("r.yaml -q --export csv --timings", 0, "status,reason,seconds,omega");
@@ -236,9 +272,11 @@ static void usage_is_checked(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(killed_and_resumed),  cmocka_unit_test(threads_change_nothing), cmocka_unit_test(stopped_by_a_signal),
-      cmocka_unit_test(a_second_process_is_refused), cmocka_unit_test(changed_and_foreign), cmocka_unit_test(claims_are_held),
-      cmocka_unit_test(claims_have_two_sides), cmocka_unit_test(long_claims_are_wrapped), cmocka_unit_test(a_failure_is_a_row),  cmocka_unit_test(usage_is_checked),
+      cmocka_unit_test(killed_and_resumed),    cmocka_unit_test(threads_change_nothing),
+      cmocka_unit_test(stopped_by_a_signal),   cmocka_unit_test(a_second_process_is_refused),
+      cmocka_unit_test(changed_and_foreign),   cmocka_unit_test(claims_are_held),
+      cmocka_unit_test(claims_have_two_sides), cmocka_unit_test(long_claims_are_wrapped),
+      cmocka_unit_test(a_failure_is_a_row),    cmocka_unit_test(usage_is_checked),
   };
   char clean[128];
   check_watchdog(300);

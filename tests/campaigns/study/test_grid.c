@@ -13,8 +13,10 @@ static scene scene_of(const study *s, long id)
 static void the_last_axis_is_the_fastest(void **state)
 {
   (void)state;
-  study *s = good_study("study: t\n" CONTACT_CASE "set: {hbm.harmonics: 7}\nvary:\n  - hbm.samples: [32, 128]\n  - contacts[0].gap: {from: -1, to: 1, count: 3}\n"
-                        "  - {forcing.amplitude: [1, 10], hbm.static: [true, false]}\n");
+  study *s = good_study(
+      "study: t\n" CONTACT_CASE
+      "set: {hbm.harmonics: 7}\nvary:\n  - hbm.samples: [32, 128]\n  - contacts[0].gap: {from: -1, to: 1, count: 3}\n"
+      "  - {forcing.amplitude: [1, 10], hbm.static: [true, false]}\n");
   assert_int_equal(s->n_scenes, 12);
   for (long id = 0; id < 12; ++id) {
     scene sc = scene_of(s, id);
@@ -33,12 +35,22 @@ static void the_last_axis_is_the_fastest(void **state)
 static void ranges_hit_what_one_expects(void **state)
 {
   (void)state;
-  study *s = good_study("study: t\n" CONTACT_CASE "vary:\n  - contacts[0].gap: {from: -5, to: 3, count: 17}\n"
-                        "  - contacts[0].normal_stiffness: {from: 1e2, to: 1e5, count: 7, scale: log}\n  - oscillator.damping: {from: 0.1, to: 0.7, count: 3}\n");
+  study *s = good_study(
+      "study: t\n" CONTACT_CASE "vary:\n  - contacts[0].gap: {from: -5, to: 3, count: 17}\n"
+      "  - contacts[0].normal_stiffness: {from: 1e2, to: 1e5, count: 7, scale: log}\n  - oscillator.damping: {from: "
+      "0.1, to: 0.7, count: 3}\n");
   for (int i = 0; i < 17; ++i) CHECK_NEAR(scene_of(s, i * 21L).contacts[0].law.gap, -5 + 0.5 * i, 0, "value %d", i);
-  for (int i = 0; i < 7; i += 2) CHECK_NEAR(scene_of(s, i * 3L).contacts[0].law.kn, i == 0 ? 1e2 : i == 2 ? 1e3 : i == 4 ? 1e4 : 1e5, 0, "value %d", i);
-  /* between decades pow(10, x) has an argument rounded to half an ulp of 5: relative error ln(10) 4.5e-16, and half an ulp of its own */
-  for (int i = 1; i < 7; i += 2) CHECK_NEAR(scene_of(s, i * 3L).contacts[0].law.kn / (sqrt(10) * pow(10, 2 + i / 2)), 1, 2e-15, "value %d", i);
+  for (int i = 0; i < 7; i += 2)
+    CHECK_NEAR(scene_of(s, i * 3L).contacts[0].law.kn,
+               i == 0   ? 1e2
+               : i == 2 ? 1e3
+               : i == 4 ? 1e4
+                        : 1e5,
+               0, "value %d", i);
+  /* between decades pow(10, x) has an argument rounded to half an ulp of 5: relative error ln(10) 4.5e-16, and half
+   * an ulp of its own */
+  for (int i = 1; i < 7; i += 2)
+    CHECK_NEAR(scene_of(s, i * 3L).contacts[0].law.kn / (sqrt(10) * pow(10, 2 + i / 2)), 1, 2e-15, "value %d", i);
   CHECK_NEAR(scene_of(s, 0).damping, 0.1, 0, "first");
   CHECK_NEAR(scene_of(s, 2).damping, 0.7, 0, "last");
   study_free(s);
@@ -56,7 +68,9 @@ static void integers_by_powers_of_two(void **state)
 static void lists_and_rivals_can_vary(void **state)
 {
   (void)state;
-  study *s = good_study("study: t\n" CASE "vary:\n  - {sweep.frequency: [[1, 2], [2, 1]]}\n  - {compare.omega: [[5], [6, 7]], title: [a, 'b, \"c\"']}\n");
+  study *s = good_study(
+      "study: t\n" CASE
+      "vary:\n  - {sweep.frequency: [[1, 2], [2, 1]]}\n  - {compare.omega: [[5], [6, 7]], title: [a, 'b, \"c\"']}\n");
   scene sc = scene_of(s, 3);
   CHECK_NEAR(sc.omega_from, 4 * PI, 4e-15, "2 cycles");
   assert_int_equal(sc.compare.omega.n, 2);
@@ -68,7 +82,8 @@ static void lists_and_rivals_can_vary(void **state)
 static void a_scene_may_be_impossible(void **state)
 {
   (void)state;
-  study *s = good_study("study: t\n" CASE "set: {hbm.force: sampled}\nvary:\n  - {hbm.samples: [32, 8]}\n  - {hbm.harmonics: [3, 4]}\n");
+  study *s = good_study("study: t\n" CASE
+                        "set: {hbm.force: sampled}\nvary:\n  - {hbm.samples: [32, 8]}\n  - {hbm.harmonics: [3, 4]}\n");
   scene sc;
   case_error err = {{0}};
   for (long id = 0; id < 3; ++id) scene_of(s, id);
@@ -77,14 +92,16 @@ static void a_scene_may_be_impossible(void **state)
   study_free(s);
 }
 
-/* The fingerprint is of what is computed: how a value is written, titles and claims are not part of it; everything else is. */
+/* The fingerprint is of what is computed: how a value is written, titles and claims are not part of it; everything
+ * else is. */
 static void the_fingerprint_is_of_what_is_computed(void **state)
 {
   (void)state;
   static const char *const same[] = {
       "study: t\n" CASE "vary: [{oscillator.mass: [1, 2, 3]}]\n",
       "study: other\n" CASE "vary: [{oscillator.mass: [1.0, 2e0, 3]}]\nclaims: [{says: a, holds: SELECT 1}]\n",
-      "study: t\n" CASE "run: compare\nset: {hbm.harmonics: 5}\nvary: [{oscillator.mass: {from: 1, to: 3, count: 3}}]\n",
+      "study: t\n" CASE
+      "run: compare\nset: {hbm.harmonics: 5}\nvary: [{oscillator.mass: {from: 1, to: 3, count: 3}}]\n",
   };
   static const char *const different[] = {
       "study: t\n" CASE "vary: [{oscillator.mass: [1, 2]}]\n",
@@ -110,7 +127,10 @@ static void the_fingerprint_is_of_what_is_computed(void **state)
 static void the_largest_study(void **state)
 {
   (void)state;
-  study *s = good_study("study: t\n" CASE "vary:\n  - {oscillator.mass: {from: 1, to: 2, count: 1000}}\n  - {oscillator.damping: {from: 1, to: 2, count: 1000}}\n");
+  study *s = good_study(
+      "study: t\n" CASE
+      "vary:\n  - {oscillator.mass: {from: 1, to: 2, count: 1000}}\n  - {oscillator.damping: {from: 1, to: 2, count: "
+      "1000}}\n");
   assert_int_equal(s->n_scenes, 1000000);
   CHECK_NEAR(scene_of(s, 999999).damping, 2, 0, "last");
   CHECK_NEAR(scene_of(s, 999000).mass, 2, 0, "last");
@@ -119,8 +139,12 @@ static void the_largest_study(void **state)
 }
 
 static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(the_last_axis_is_the_fastest), cmocka_unit_test(ranges_hit_what_one_expects),  cmocka_unit_test(integers_by_powers_of_two),
-    cmocka_unit_test(lists_and_rivals_can_vary),    cmocka_unit_test(a_scene_may_be_impossible),    cmocka_unit_test(the_fingerprint_is_of_what_is_computed),
+    cmocka_unit_test(the_last_axis_is_the_fastest),
+    cmocka_unit_test(ranges_hit_what_one_expects),
+    cmocka_unit_test(integers_by_powers_of_two),
+    cmocka_unit_test(lists_and_rivals_can_vary),
+    cmocka_unit_test(a_scene_may_be_impossible),
+    cmocka_unit_test(the_fingerprint_is_of_what_is_computed),
     cmocka_unit_test(the_largest_study),
 };
 CHECK_MAIN("study.grid", tests, 60)

@@ -1,6 +1,6 @@
-/* test_paper.c - the shipped studies: every file reads and every query can be run; the quick ones give the verdicts they expect, which are those
- * that tests/hbm/test_paper.c settles from below. Runs the built hbmcheck (HBMCHECK_COMMAND) on cases/. The slow ones are run by hand
- * (cases/paper/studies/README.md). */
+/* test_paper.c - the shipped studies: every file reads and every query can be run; the quick ones give the verdicts
+ * they expect, which are those that tests/hbm/test_paper.c settles from below. Runs the built hbmcheck
+ * (HBMCHECK_COMMAND) on cases/. The slow ones are run by hand (cases/paper/studies/README.md). */
 #include <dirent.h>
 #include <string.h>
 #include <sys/wait.h>
@@ -50,10 +50,13 @@ static void every_shipped_study_can_be_run(void **state)
 static void the_quick_ones_are_as_expected(void **state)
 {
   (void)state;
-  static const char *const quick[] = {"fig07", "fig08", "fig11_table04", "fig13_table06", "fig14_table07", "fig18", "guideline1"};
+  static const char *const quick[] = {"fig07",         "fig08", "fig11_table04", "fig13_table06",
+                                      "fig14_table07", "fig18", "guideline1"};
   char line[4096];
-  int used = snprintf(line, sizeof line, "cd %s/cases/paper/studies && %s study -q --results :memory:", SOURCE_DIR, HBMCHECK_COMMAND);
-  for (size_t i = 0; i < sizeof quick / sizeof *quick; ++i) used += snprintf(line + used, sizeof line - (size_t)used, " %s.yaml", quick[i]);
+  int used = snprintf(line, sizeof line, "cd %s/cases/paper/studies && %s study -q --results :memory:", SOURCE_DIR,
+                      HBMCHECK_COMMAND);
+  for (size_t i = 0; i < sizeof quick / sizeof *quick; ++i)
+    used += snprintf(line + used, sizeof line - (size_t)used, " %s.yaml", quick[i]);
   assert_true(used < (int)sizeof line);
   int status = system(line);
   assert_true(WIFEXITED(status));
@@ -62,7 +65,8 @@ static void the_quick_ones_are_as_expected(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(every_shipped_study_can_be_run), cmocka_unit_test(the_quick_ones_are_as_expected)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(every_shipped_study_can_be_run),
+                                     cmocka_unit_test(the_quick_ones_are_as_expected)};
   check_watchdog(300);
   return cmocka_run_group_tests_name("study.paper", tests, NULL, NULL);
 }

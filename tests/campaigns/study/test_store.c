@@ -1,6 +1,6 @@
 /* test_store.c - what the results file refuses, and that what it refuses stays as it was, byte for byte. */
-#include "campaigns/study/store.h"
 #include "campaigns/study/claims.h"
+#include "campaigns/study/store.h"
 #include "tests/campaigns/study/study_text.h"
 
 static char folder[] = "/tmp/hbmcheck-store-XXXXXX", file[64];
@@ -42,7 +42,10 @@ static study_store *open_good(const study *s, const char *version, bool fresh)
 {
   case_error err = {{0}};
   study_store *st = NULL;
-  if (study_store_open(s, file, version, fresh, &st, &err) != HC_OK) { print_error("%s\n", err.message); fail(); }
+  if (study_store_open(s, file, version, fresh, &st, &err) != HC_OK) {
+    print_error("%s\n", err.message);
+    fail();
+  }
   return st;
 }
 
@@ -89,13 +92,18 @@ static void scenes_are_kept_once(void **state)
 static void others_are_refused(void **state)
 {
   (void)state;
-  study *s = good_study(LINEAR), *other = good_study("study: t\n" CASE "run: frf\nvary: [{oscillator.mass: [1, 2, 4]}]\n");
+  study *s = good_study(LINEAR),
+        *other = good_study("study: t\n" CASE "run: frf\nvary: [{oscillator.mass: [1, 2, 4]}]\n");
   study_store *st = open_good(s, "1", false);
   keep_scene(s, st, 0);
-  refuse_unchanged(s, false, "another hbmcheck is writing these results"); /* flock is per open file: also within a process */
+  /* flock is per open file: also within a process */
+  refuse_unchanged(s, false, "another hbmcheck is writing these results");
   refuse_unchanged(s, true, "another hbmcheck is writing these results");
   study_store_close(st);
-  refuse_unchanged(other, false, "results of another study, or of this one before it was changed; --fresh throws them away, --results FILE keeps them");
+  refuse_unchanged(
+      other, false,
+      "results of another study, or of this one before it was changed; --fresh throws them away, --results FILE keeps "
+      "them");
   st = open_good(other, "2", true);
   study_store_close(st);
   refuse_unchanged(other, false, "made by hbmcheck 2, this is 1; --fresh");
@@ -117,7 +125,9 @@ static void foreign_files_are_refused(void **state)
   (void)state;
   study *s = good_study(LINEAR);
   for (int fresh = 0; fresh < 2; ++fresh) {
-    write_text(file, "study: not a database, but longer than the hundred bytes of SQLite's header, which is what is looked at first\n");
+    write_text(
+        file, "study: not a database, but longer than the hundred bytes of SQLite's header, which is what is looked at "
+              "first\n");
     refuse_unchanged(s, fresh, "not an SQLite file, expected the results of a study");
     write_text(file, "short");
     refuse_unchanged(s, fresh, "not an SQLite file");
@@ -171,7 +181,8 @@ static void refuse_claim(const char *query, const char *words)
   snprintf(text, sizeof text, LINEAR "claims:\n  - {says: a, holds: \"%s\"}\n", query);
   study *s = study_from_text(text, 0, NULL, &err);
   assert_non_null(s);
-  if (study_claims_check(s, &err) != HC_BAD_INPUT || !strstr(err.message, ":6:22: `holds`: ") || !strstr(err.message, words)) {
+  if (study_claims_check(s, &err) != HC_BAD_INPUT || !strstr(err.message, ":6:22: `holds`: ") ||
+      !strstr(err.message, words)) {
     print_error("%s: expected '%s' in: %s\n", query, words, err.message);
     fail();
   }
@@ -191,7 +202,9 @@ static void claims_only_read(void **state)
   refuse_claim("ATTACH 'x' AS y", "may only read");
   refuse_claim("PRAGMA user_version = 3", "may only read");
   refuse_claim("SELECT load_extension('x')", "not authorized to use function");
-  study *s = good_study(LINEAR "claims:\n  - {says: a, holds: 'SELECT count(*) = 3 FROM scene JOIN row ON row.scene = scene.id WHERE \"oscillator.mass\" > 0;'}\n");
+  study *s = good_study(
+      LINEAR "claims:\n  - {says: a, holds: 'SELECT count(*) = 3 FROM scene JOIN row ON row.scene = scene.id WHERE "
+             "\"oscillator.mass\" > 0;'}\n");
   case_error err = {{0}};
   assert_int_equal(study_claims_check(s, &err), HC_OK);
   study_free(s);
@@ -201,7 +214,8 @@ static void claims_only_read(void **state)
 static void results_travel(void **state)
 {
   (void)state;
-  study *s = good_study("study: t\n" CASE "run: frf\nset: {compare.omega: [4, 5]}\nvary: [{oscillator.mass: [1, 2, 3]}]\n");
+  study *s =
+      good_study("study: t\n" CASE "run: frf\nset: {compare.omega: [4, 5]}\nvary: [{oscillator.mass: [1, 2, 3]}]\n");
   study_result r, back;
   char *packed;
   size_t size;
@@ -222,8 +236,12 @@ static void results_travel(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(scenes_are_kept_once),      cmocka_unit_test(others_are_refused),    cmocka_unit_test(foreign_files_are_refused),
-      cmocka_unit_test(damaged_files_are_refused), cmocka_unit_test(places_that_cannot_be), cmocka_unit_test(claims_only_read),
+      cmocka_unit_test(scenes_are_kept_once),
+      cmocka_unit_test(others_are_refused),
+      cmocka_unit_test(foreign_files_are_refused),
+      cmocka_unit_test(damaged_files_are_refused),
+      cmocka_unit_test(places_that_cannot_be),
+      cmocka_unit_test(claims_only_read),
       cmocka_unit_test(results_travel),
   };
   check_watchdog(60);

@@ -11,7 +11,10 @@
 #define CASE2 "cases/paper/case2.yaml"
 #define SMALL " --at 8,9 --harmonics 1,5 --samples 32,512 -q "
 
-typedef struct outcome { int code; char out[4096]; } outcome;
+typedef struct outcome {
+  int code;
+  char out[4096];
+} outcome;
 
 /* Run "PROGRAM ARGS"; what it says into out, whichever stream args lead there. */
 static inline outcome run_program(const char *program, const char *args)

@@ -1,9 +1,12 @@
-/* test_browser.c - the page in headless Chromium: opened from disk with #selftest it draws, reads its pixels back, works every control and
- * says what came of it (start.js). Nothing may appear on the console. Skipped, and says so, where Chromium is not installed. */
+/* test_browser.c - the page in headless Chromium: opened from disk with #selftest it draws, reads its pixels back,
+ * works every control and says what came of it (start.js). Nothing may appear on the console. Skipped, and says so,
+ * where Chromium is not installed. */
 #include "tests/command/report/run.h"
 
 /* Debian's chromium runs as any user in a container only without its sandbox; the page is our own. */
-#define HEADLESS " --headless=new --no-sandbox --disable-gpu --disable-dev-shm-usage --no-first-run --enable-logging=stderr --virtual-time-budget=30000 "
+#define HEADLESS                                                                                                       \
+  " --headless=new --no-sandbox --disable-gpu --disable-dev-shm-usage --no-first-run --enable-logging=stderr "         \
+  "--virtual-time-budget=30000 "
 
 static void open_page(const char *folder, const char *set, int code)
 {
@@ -12,7 +15,9 @@ static void open_page(const char *folder, const char *set, int code)
   snprintf(args, sizeof args, "report " CASE2 SMALL "%s -o %s/page.html 2>&1", set, folder);
   outcome o = run_program(HBMCHECK_COMMAND, args);
   assert_int_equal(o.code, code);
-  snprintf(args, sizeof args, HEADLESS "--user-data-dir=%s/profile --dump-dom 'file://%s/page.html#selftest' >%s/dom 2>%s/log", folder, folder, folder, folder);
+  snprintf(args, sizeof args,
+           HEADLESS "--user-data-dir=%s/profile --dump-dom 'file://%s/page.html#selftest' >%s/dom 2>%s/log", folder,
+           folder, folder, folder);
   run_program(CHROMIUM, args);
   snprintf(path, sizeof path, "%s/dom", folder);
   char *dom = contents(path, &length);
@@ -28,12 +33,23 @@ static void open_page(const char *folder, const char *set, int code)
 
 static void every_plot_is_drawn_and_every_control_works(void **state)
 {
-  static const struct { const char *set; int code; } pages[] = {
-      {"", 0}, {"--set contacts=[]", 0}, {"--set hbm.static=false", 1}, {"--set 'title=</script><b>x' --set 'units.length=<i>'", 0}};
+  static const struct {
+    const char *set;
+    int code;
+  } pages[] = {{"", 0},
+               {"--set contacts=[]", 0},
+               {"--set hbm.static=false", 1},
+               {"--set 'title=</script><b>x' --set 'units.length=<i>'", 0}};
   char folder[64], line[128];
   (void)state;
-  if (!CHROMIUM[0]) { print_message("SKIPPED: chromium is not installed (Debian: chromium), so the page was not opened\n"); skip(); }
-  if (!HAVE_CHARTJS) { print_message("SKIPPED: built without Chart.js (Debian: libjs-chart.js), so there is no page\n"); skip(); }
+  if (!CHROMIUM[0]) {
+    print_message("SKIPPED: chromium is not installed (Debian: chromium), so the page was not opened\n");
+    skip();
+  }
+  if (!HAVE_CHARTJS) {
+    print_message("SKIPPED: built without Chart.js (Debian: libjs-chart.js), so there is no page\n");
+    skip();
+  }
   make_folder(folder);
   for (size_t i = 0; i < sizeof pages / sizeof *pages; ++i) open_page(folder, pages[i].set, pages[i].code);
   snprintf(line, sizeof line, "-rf %s", folder);

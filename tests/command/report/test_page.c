@@ -1,5 +1,5 @@
-/* test_page.c - the page that hbmcheck report writes: whole or not there, small, self-contained, the same twice, safe with any title.
- * What a browser makes of it: test_browser.c. */
+/* test_page.c - the page that hbmcheck report writes: whole or not there, small, self-contained, the same twice,
+ * safe with any title. What a browser makes of it: test_browser.c. */
 #include <jansson.h>
 
 #include "tests/command/report/run.h"
@@ -10,7 +10,10 @@ static void count(const char *text, const char *what, int expected)
 {
   int n = 0;
   for (const char *at = text; (at = strstr(at, what)); at += strlen(what)) ++n;
-  if (n != expected) { print_error("'%s' occurs %d times, expected %d\n", what, n, expected); fail(); }
+  if (n != expected) {
+    print_error("'%s' occurs %d times, expected %d\n", what, n, expected);
+    fail();
+  }
 }
 
 /* The data block as it would be read by the page; to be released. */
@@ -31,31 +34,50 @@ static json_t *data_of(const char *page)
 
 static void check_words(const char *page)
 {
-  static const char *const words[] = {"They agree.", "within the gate", "exact forces need none", "<code>unstable</code>", "contact goes from linear to separation",
-                                      "turning point", "from_<wbr>truncation", "normal_stiffness: 1000", "hbmcheck report " CASE2 " --at 8,9 --harmonics 1,5 --samples 32,512",
-                                      "SUNDIALS ", "Chart.js ", "Permission is hereby granted"};
+  static const char *const words[] = {"They agree.",
+                                      "within the gate",
+                                      "exact forces need none",
+                                      "<code>unstable</code>",
+                                      "contact goes from linear to separation",
+                                      "turning point",
+                                      "from_<wbr>truncation",
+                                      "normal_stiffness: 1000",
+                                      "hbmcheck report " CASE2 " --at 8,9 --harmonics 1,5 --samples 32,512",
+                                      "SUNDIALS ",
+                                      "Chart.js ",
+                                      "Permission is hereby granted"};
   for (size_t i = 0; i < sizeof words / sizeof *words; ++i)
-    if (!strstr(page, words[i])) { print_error("the page does not say '%s'\n", words[i]); fail(); }
+    if (!strstr(page, words[i])) {
+      print_error("the page does not say '%s'\n", words[i]);
+      fail();
+    }
 }
 
 /* Nothing is loaded: no element with an address, and the browser is told to allow none. */
 static void check_self_contained(const char *page)
 {
-  static const char *const loads[] = {"src=\"", "src='", "href=\"http", "href=\"//", "@import", "url(", "<link rel=\"stylesheet", "<iframe", "XMLHttpRequest", "fetch("};
+  static const char *const loads[] = {
+      "src=\"",  "src='",          "href=\"http", "href=\"//", "@import", "url(", "<link rel=\"stylesheet",
+      "<iframe", "XMLHttpRequest", "fetch("};
   for (size_t i = 0; i < sizeof loads / sizeof *loads; ++i)
-    if (strstr(page, loads[i])) { print_error("the page holds '%s'\n", loads[i]); fail(); }
+    if (strstr(page, loads[i])) {
+      print_error("the page holds '%s'\n", loads[i]);
+      fail();
+    }
   assert_non_null(strstr(page, "default-src 'none'"));
   assert_null(strstr(page, "{{"));
 }
 
 static void check_data(const char *page)
 {
-  json_t *data = data_of(page), *curve = json_object_get(json_object_get(data, "response"), "curve"), *aliasing = json_object_get(data, "aliasing");
+  json_t *data = data_of(page), *curve = json_object_get(json_object_get(data, "response"), "curve"),
+         *aliasing = json_object_get(data, "aliasing");
   size_t n = json_array_size(json_object_get(curve, "omega")), turns = 0;
   assert_true(n > 50);
   assert_int_equal(json_array_size(json_object_get(curve, "amplitude")), n);
   for (size_t i = 1; i < n; ++i) /* a folded curve stays in its own order */
-    turns += json_number_value(json_array_get(json_object_get(curve, "omega"), i)) < json_number_value(json_array_get(json_object_get(curve, "omega"), i - 1));
+    turns += json_number_value(json_array_get(json_object_get(curve, "omega"), i)) <
+             json_number_value(json_array_get(json_object_get(curve, "omega"), i - 1));
   assert_true(turns > 5);
   assert_int_equal(json_array_size(json_object_get(aliasing, "omega")), 2);
   assert_int_equal(json_array_size(json_object_get(aliasing, "samples")), 9);
@@ -92,9 +114,10 @@ static void page_is_small_and_complete(void **state)
   rmdir(folder);
 }
 
-/* The sampled spectrum is the true one plus what folds onto it: F_h + conj(F_{N-h}) + F_{N+h} + ..., here for the mean of 32 samples,
- * where sampled - true = Re(F_N + F_2N + ...). The first term is in the page to 1e-6 of the largest force; the rest falls like 1/n^2, at
- * most sum_{m>=2} |F_N|/m^2 < 0.65 times the kinks' bound, for which 3 times the largest of |F_N|, |F_{N-1}|, |F_{N+1}| stands. */
+/* The sampled spectrum is the true one plus what folds onto it: F_h + conj(F_{N-h}) + F_{N+h} + ..., here for the
+ * mean of 32 samples, where sampled - true = Re(F_N + F_2N + ...). The first term is in the page to 1e-6 of the
+ * largest force; the rest falls like 1/n^2, at most sum_{m>=2} |F_N|/m^2 < 0.65 times the kinks' bound, for which 3
+ * times the largest of |F_N|, |F_{N-1}|, |F_{N+1}| stands. */
 static void sampled_mean_is_what_folds_onto_it(void **state)
 {
   (void)state;
@@ -106,10 +129,12 @@ static void sampled_mean_is_what_folds_onto_it(void **state)
   expect(args, 0, "");
   char *page = contents(path, &length);
   json_t *data = data_of(page), *aliasing = json_object_get(data, "aliasing");
-  json_t *one = json_array_get(json_array_get(json_array_get(json_object_get(aliasing, "states"), 1), 2), 2); /* omega 9, the case's kn, H = 5 */
+  /* omega 9, the case's kn, H = 5 */
+  json_t *one = json_array_get(json_array_get(json_array_get(json_object_get(aliasing, "states"), 1), 2), 2);
   json_t *truth = json_object_get(one, "true"), *sampled = json_array_get(json_object_get(one, "sampled"), 1);
   json_t *difference = json_object_get(sampled, "difference"), *folds = json_object_get(sampled, "folds");
-  double off = json_integer_value(json_array_get(difference, 0)) * 1e-9, first = json_integer_value(json_array_get(truth, 2 * 32 - 1)) * 1e-6, most = 0;
+  double off = json_integer_value(json_array_get(difference, 0)) * 1e-9,
+         first = json_integer_value(json_array_get(truth, 2 * 32 - 1)) * 1e-6, most = 0;
   for (size_t i = 0; i < 4; ++i) most = fmax(most, json_integer_value(json_array_get(folds, i)) * 1e-9);
   CHECK_LE(fabs(off - first), 3 * 0.65 * most + 1e-6, "sampled mean - true mean = %g, Re F_32 = %g", off, first);
   CHECK_LE(1e-5, fabs(off), "something does fold");
@@ -126,7 +151,10 @@ static void hostile_titles_are_text(void **state)
   size_t length;
   make_folder(folder);
   snprintf(path, sizeof path, "%s/page.html", folder);
-  snprintf(args, sizeof args, "report " CASE2 SMALL "--at 9 -o %s --set 'title=</script></title><b>x</b>{{data}}&' --set 'units.length=</scr' 2>&1", path);
+  snprintf(args, sizeof args,
+           "report " CASE2 SMALL
+           "--at 9 -o %s --set 'title=</script></title><b>x</b>{{data}}&' --set 'units.length=</scr' 2>&1",
+           path);
   expect(args, 0, "");
   char *page = contents(path, &length);
   count(page, "</script>", 3);
@@ -195,7 +223,8 @@ static void failures_touch_no_file(void **state)
   expect("report --help", 0, "example");
 }
 
-/* Dropping harmonic 0 is the worst one can do to case 2: the page says so, names the cure, and the exit code is compare's. */
+/* Dropping harmonic 0 is the worst one can do to case 2: the page says so, names the cure, and the exit code is
+ * compare's. */
 static void disagreement_is_said(void **state)
 {
   (void)state;
@@ -225,8 +254,9 @@ int main(void)
 {
   static const struct CMUnitTest without[] = {cmocka_unit_test(missing_charts_are_named)};
   static const struct CMUnitTest with[] = {
-      cmocka_unit_test(page_is_small_and_complete), cmocka_unit_test(sampled_mean_is_what_folds_onto_it), cmocka_unit_test(hostile_titles_are_text),
-      cmocka_unit_test(linear_cases_have_a_page), cmocka_unit_test(failures_touch_no_file), cmocka_unit_test(disagreement_is_said),
+      cmocka_unit_test(page_is_small_and_complete), cmocka_unit_test(sampled_mean_is_what_folds_onto_it),
+      cmocka_unit_test(hostile_titles_are_text),    cmocka_unit_test(linear_cases_have_a_page),
+      cmocka_unit_test(failures_touch_no_file),     cmocka_unit_test(disagreement_is_said),
   };
   check_watchdog(600);
   return HAVE_CHARTJS ? cmocka_run_group_tests_name("compare_report.page", with, NULL, NULL)

@@ -16,12 +16,16 @@ static void powers_have_their_exponent(void **state)
     CHECK_NEAR(fit.order, p, 1e-12, "p = %d", p);
     CHECK_LE(fit.spread, 1e-7, "p = %d", p); /* square root of rounding */
     for (int i = 0; i < N; ++i)
-      if (x[i] >= fit.from * (1 - 1e-12) && x[i] <= fit.to * (1 + 1e-12)) { CHECK_LE(e[i], 0.1, "used"); CHECK_LE(1e-8, e[i], "used"); }
+      if (x[i] >= fit.from * (1 - 1e-12) && x[i] <= fit.to * (1 + 1e-12)) {
+        CHECK_LE(e[i], 0.1, "used");
+        CHECK_LE(1e-8, e[i], "used");
+      }
   }
 }
 
-/* c x^-2, two of the eight by luck 50 times smaller: the envelope puts each at its finer neighbour's, 2^2 too low. That pulls a slope over all
- * eight by sum (i - 3.5) (-2)/42 over these two, at most 2 (3.5 + 2.5)/42 = 0.29. Without an envelope it would be log2(50) instead of 2. */
+/* c x^-2, two of the eight by luck 50 times smaller: the envelope puts each at its finer neighbour's, 2^2 too low.
+ * That pulls a slope over all eight by sum (i - 3.5) (-2)/42 over these two, at most 2 (3.5 + 2.5)/42 = 0.29.
+ * Without an envelope it would be log2(50) instead of 2. */
 static void luck_is_no_order(void **state)
 {
   (void)state;
@@ -66,7 +70,10 @@ static scene case2(void)
 {
   scene sc = scene_named("c2", 5, true, 1024);
   sc.hbm.force = HBM_FORCE_EXACT;
-  sc.transient = (scene_transient){.law = TRANSIENT_LAW_EXACT, .regularisation = 1e-4, .tolerance = 1e-9, .max_periods = 20000,
+  sc.transient = (scene_transient){.law = TRANSIENT_LAW_EXACT,
+                                   .regularisation = 1e-4,
+                                   .tolerance = 1e-9,
+                                   .max_periods = 20000,
                                    .steady = TRANSIENT_STEADY_SHOOTING};
   sc.gate = (scene_gate){1e-3, 1e-3, 1e-3, 5e-3};
   sc.omega_from = 5.5, sc.omega_to = 8;
@@ -74,9 +81,9 @@ static scene case2(void)
   return sc;
 }
 
-/* Where contact restarts in stick, a slider restarted on a sample is off by up to a sample: order 1; at the interpolated instant: order 2
- * (PHYSICS: 2e-3, 2e-4, 3e-5 against 2e-5, 4e-7, 5e-9 of the force, from 512 to 32768). The sum's own error is of order 2. Erratic, so the
- * order of the envelope is asserted to half. */
+/* Where contact restarts in stick, a slider restarted on a sample is off by up to a sample: order 1; at the
+ * interpolated instant: order 2 (PHYSICS: 2e-3, 2e-4, 3e-5 against 2e-5, 4e-7, 5e-9 of the force, from 512 to
+ * 32768). The sum's own error is of order 2. Erratic, so the order of the envelope is asserted to half. */
 static void aliasing_of_case_2_is_of_first_or_second_order(void **state)
 {
   (void)state;
@@ -90,15 +97,17 @@ static void aliasing_of_case_2_is_of_first_or_second_order(void **state)
     assert_int_equal(comparison_run(&sc, NULL, &c), HC_OK);
     assert_int_equal(accuracy_run(&sc, &c, NULL, &a), HC_OK);
     const order_row *r = find(&a, "samples");
-    print_message("[   INFO   ] aliasing, %s: order %.2f +- %.2f over %d points\n", restart == HBM_RESTART_SAMPLE ? "sample" : "interpolated",
-                  r->fit.order, r->fit.spread, r->fit.points);
+    print_message("[   INFO   ] aliasing, %s: order %.2f +- %.2f over %d points\n",
+                  restart == HBM_RESTART_SAMPLE ? "sample" : "interpolated", r->fit.order, r->fit.spread,
+                  r->fit.points);
     CHECK_NEAR(r->fit.order, restart == HBM_RESTART_SAMPLE ? 1 : 2, 0.5, "restart %d", restart);
     accuracy_clear(&a);
     comparison_clear(&c);
   }
 }
 
-/* x's coefficients decay like 1/n^4, so what is left out of x itself is of order 3 and more (PHYSICS: peak H^-3, |X1| H^-4). */
+/* x's coefficients decay like 1/n^4, so what is left out of x itself is of order 3 and more (PHYSICS: peak H^-3,
+ * |X1| H^-4). */
 static void truncation_of_case_2_is_of_third_order_or_more(void **state)
 {
   (void)state;
@@ -109,7 +118,8 @@ static void truncation_of_case_2_is_of_third_order_or_more(void **state)
   assert_int_equal(comparison_run(&sc, NULL, &c), HC_OK);
   assert_int_equal(accuracy_run(&sc, &c, NULL, &a), HC_OK);
   const order_row *r = find(&a, "harmonics");
-  print_message("[   INFO   ] truncation: order %.2f +- %.2f over %d points\n", r->fit.order, r->fit.spread, r->fit.points);
+  print_message("[   INFO   ] truncation: order %.2f +- %.2f over %d points\n", r->fit.order, r->fit.spread,
+                r->fit.points);
   CHECK_NEAR(r->fit.order, 3.5, 1, "spread %g", r->fit.spread);
   for (int i = 0; i < a.n_rows; ++i) assert_int_equal(a.rows[i].missing, 0);
   accuracy_clear(&a);
@@ -129,7 +139,8 @@ static void regularisation_of_case_2_is_of_first_order(void **state)
   sc.compare.omega = (scene_list){2, {6, 7}};
   assert_int_equal(comparison_run(&sc, NULL, &c), HC_OK);
   assert_int_equal(order_of_regularisation(&sc, &c, NULL, &r), HC_OK);
-  print_message("[   INFO   ] regularisation at omega %g: order %.3f +- %.3f over %d points\n", r.omega, r.fit.order, r.fit.spread, r.fit.points);
+  print_message("[   INFO   ] regularisation at omega %g: order %.3f +- %.3f over %d points\n", r.omega, r.fit.order,
+                r.fit.spread, r.fit.points);
   CHECK_NEAR(r.fit.order, 1, 0.1, "over %d points", r.fit.points);
   comparison_clear(&c);
 }

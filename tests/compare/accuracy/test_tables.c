@@ -1,4 +1,5 @@
-/* test_tables.c - the table over samples and truncation order: its reference, its counts, and what it says of case 2. */
+/* test_tables.c - the table over samples and truncation order: its reference, its counts, and what it says of case
+ * 2. */
 #include "compare/accuracy/accuracy.h"
 #include "tests/check.h"
 #include "tests/hbm/scenes.h"
@@ -7,7 +8,10 @@ static scene case2(void)
 {
   scene sc = scene_named("c2", 10, true, 1024);
   sc.hbm.force = HBM_FORCE_EXACT;
-  sc.transient = (scene_transient){.law = TRANSIENT_LAW_EXACT, .regularisation = 1e-4, .tolerance = 1e-9, .max_periods = 20000,
+  sc.transient = (scene_transient){.law = TRANSIENT_LAW_EXACT,
+                                   .regularisation = 1e-4,
+                                   .tolerance = 1e-9,
+                                   .max_periods = 20000,
                                    .steady = TRANSIENT_STEADY_SHOOTING};
   sc.gate = (scene_gate){1e-3, 1e-3, 1e-3, 5e-3};
   sc.compare.omega = (scene_list){2, {6, 8}};
@@ -63,13 +67,13 @@ static void the_table_agrees_with_the_rows(void **state)
   assert_int_equal(accuracy_run(&sc, &c, NULL, &a), HC_OK);
   for (int i = 0; i < c.n_rows; ++i)
     worst = fmax(worst, fabs(c.rows[i].hbm.amplitude - c.rows[i].orbit.amplitude) / c.rows[i].orbit.amplitude);
-  CHECK_NEAR(a.rows[0].worst, worst, 1e-8, "twice the residual tolerance, over 1 - multiplier"); 
+  CHECK_NEAR(a.rows[0].worst, worst, 1e-8, "twice the residual tolerance, over 1 - multiplier");
   accuracy_clear(&a);
   comparison_clear(&c);
 }
 
-/* The peak of the exact transient against that of H = 40 and 80 with exact forces, whose error falls like H^-3 or faster: the last is within
- * 1/(2^3 - 1) of the difference of the two, and the frequency's likewise. */
+/* The peak of the exact transient against that of H = 40 and 80 with exact forces, whose error falls like H^-3 or
+ * faster: the last is within 1/(2^3 - 1) of the difference of the two, and the frequency's likewise. */
 static void the_peak_is_the_limit_of_many_harmonics(void **state)
 {
   (void)state;
@@ -81,7 +85,8 @@ static void the_peak_is_the_limit_of_many_harmonics(void **state)
   assert_int_equal(accuracy_run(&sc, &c, NULL, &a), HC_OK);
   const accuracy_row *h40 = find(&a, 40, 0), *h80 = find(&a, 80, 0);
   assert_true(a.peak_by_orbit);
-  CHECK_NEAR(a.peak_amplitude, h80->peak_amplitude, fabs(h80->peak_amplitude - h40->peak_amplitude) / 7 + 1e-8, "amplitude");
+  CHECK_NEAR(a.peak_amplitude, h80->peak_amplitude, fabs(h80->peak_amplitude - h40->peak_amplitude) / 7 + 1e-8,
+             "amplitude");
   CHECK_NEAR(a.peak_omega, h80->peak_omega, fabs(h80->peak_omega - h40->peak_omega) / 7 + 1e-6 * a.peak_omega, "omega");
   accuracy_clear(&a);
   comparison_clear(&c);

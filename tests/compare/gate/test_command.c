@@ -1,5 +1,6 @@
-/* test_command.c - hbmcheck gate as a CI job uses it: the exit code, the table, and a JUnit file that xmllint reads, not us.
- * Runs the built hbmcheck (HBMCHECK_COMMAND) in a shell, in a folder of its own; what passes and what fails is tested in test_judge.c. */
+/* test_command.c - hbmcheck gate as a CI job uses it: the exit code, the table, and a JUnit file that xmllint reads,
+ * not us. Runs the built hbmcheck (HBMCHECK_COMMAND) in a shell, in a folder of its own; what passes and what fails
+ * is tested in test_judge.c. */
 #include <stdbool.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -9,7 +10,10 @@
 #define CASE2 "cases/paper/case2.yaml "
 #define SMALL "oscillator: {mass: 1, damping: 0.4, stiffness: 40}\nforcing: {amplitude: 10}\nsweep: {omega: [3, 9]}\n"
 
-typedef struct outcome { int code; char out[65536]; } outcome;
+typedef struct outcome {
+  int code;
+  char out[65536];
+} outcome;
 
 static char folder[] = "/tmp/hbmcheck-gate-XXXXXX";
 
@@ -76,8 +80,9 @@ static void check_counts(const char *file, int suites, int failures, int errors)
   assert_int_equal(counted(file, "number(/testsuites/@errors)"), errors);
   assert_int_equal(counted(file, "count(//testcase/failure[@message and @type])"), failures);
   assert_int_equal(counted(file, "count(//testcase/error[@message and @type])"), errors);
-  assert_int_equal(counted(file, "count(//testsuite[@tests != count(testcase) or @failures != count(testcase/failure) or "
-                                 "@errors != count(testcase/error)])"),
+  assert_int_equal(counted(file,
+                           "count(//testsuite[@tests != count(testcase) or @failures != count(testcase/failure) or "
+                           "@errors != count(testcase/error)])"),
                    0);
   assert_int_equal(counted(file, "count(//testcase[not(@name) or @classname != ../@name])"), 0);
 }
@@ -85,24 +90,29 @@ static void check_counts(const char *file, int suites, int failures, int errors)
 static void passes_then_fails_when_the_result_gets_worse(void **state)
 {
   (void)state;
-  static const struct { const char *args, *fragment; int code; bool failures; } all[] = {
-      {CASE2 "--junit @/a.xml", "pass", 0, false},
-      {CASE2 "--junit @/a.xml --set hbm.force=sampled --set hbm.samples=16384", "pass", 0, false},
-      {CASE2 "--junit @/a.xml --set hbm.force=sampled --set hbm.samples=64", "fail", 1, true},
-      {CASE2 "--junit @/a.xml --set hbm.static=false", "fail", 1, true}};
+  static const struct {
+    const char *args, *fragment;
+    int code;
+    bool failures;
+  } all[] = {{CASE2 "--junit @/a.xml", "pass", 0, false},
+             {CASE2 "--junit @/a.xml --set hbm.force=sampled --set hbm.samples=16384", "pass", 0, false},
+             {CASE2 "--junit @/a.xml --set hbm.force=sampled --set hbm.samples=64", "fail", 1, true},
+             {CASE2 "--junit @/a.xml --set hbm.static=false", "fail", 1, true}};
   for (int i = 0; i < 4; ++i) {
     expect(all[i].args, all[i].code, all[i].fragment);
     assert_true(exists("a.xml"));
     if (!*XMLLINT) continue;
     int failures = counted("a.xml", "count(//failure)");
     assert_int_equal(failures > 0, all[i].failures);
-    check_counts("a.xml", 1, failures, all[i].code ? counted("a.xml", "count(//error)") : 0); /* orbits may be lost, too */
+    /* orbits may be lost, too */
+    check_counts("a.xml", 1, failures, all[i].code ? counted("a.xml", "count(//error)") : 0);
   }
   if (!*XMLLINT) skip(); /* the verdicts are checked, the file is not: install libxml2-utils */
 }
 
-/* Case 2 has an unstable solution between two stable ones: right at 9, and 1.6 % off with H = 2 at 8. At 5.56 the period doubles. With H = 1 the
- * curve turns back before 9 and all that is left there is right; that something is missing shows to a transient that comes from elsewhere. */
+/* Case 2 has an unstable solution between two stable ones: right at 9, and 1.6 % off with H = 2 at 8. At 5.56 the
+ * period doubles. With H = 1 the curve turns back before 9 and all that is left there is right; that something is
+ * missing shows to a transient that comes from elsewhere. */
 static void unstable_solutions_are_held_against_their_orbits(void **state)
 {
   (void)state;
@@ -114,8 +124,10 @@ static void unstable_solutions_are_held_against_their_orbits(void **state)
   assert_int_equal(o.code, 1);
   const char *row = strstr(o.out, ",1,unstable,amplitude,orbit,0.001,"), *fail_at = row ? strstr(row, ",fail,") : NULL;
   assert_true(fail_at && fail_at < strchr(row, '\n'));
-  expect(CASE2 "--at 9 --set hbm.harmonics=1 --set transient.start=up", 1, "the transient runs elsewhere, and no HBM solution");
-  expect(CASE2 "--at 5.56 --junit @/p.xml", 1, "the transient repeats only after 2 forcing periods: no HBM solution is what happens");
+  expect(CASE2 "--at 9 --set hbm.harmonics=1 --set transient.start=up", 1,
+         "the transient runs elsewhere, and no HBM solution");
+  expect(CASE2 "--at 5.56 --junit @/p.xml", 1,
+         "the transient repeats only after 2 forcing periods: no HBM solution is what happens");
   if (*XMLLINT) check_counts("p.xml", 1, 1, 0); /* the HBM solution itself is right */
 }
 
@@ -138,9 +150,12 @@ static void wrong_limits_are_named_before_anything_runs(void **state)
   put_case("bad.yaml", SMALL "gate:\n  amplitude: 1e-3\n  waveform: 5e-3, 2\n");
   put_case("key.yaml", SMALL "gate: {harmonic_2: 1e-3}\n");
   put_case("ranges.yaml", SMALL "gate:\n  ranges: [4, 5]\n  range_mean: [1e-3, 1e-3]\n");
-  expect("@/ok.yaml @/bad.yaml --junit @/w.xml 2>&1", 2, "/bad.yaml:6:13: gate.waveform is `5e-3, 2`, expected a number > 0");
-  expect("@/ok.yaml @/key.yaml --junit @/w.xml 2>&1", 2, "/key.yaml:4:8: unknown key `harmonic_2` in `gate`, did you mean `harmonic_1`?");
-  expect("@/ranges.yaml @/ok.yaml --junit @/w.xml 2>&1", 2, "/ranges.yaml:6:15: gate.range_mean has 2 limits for 1 range");
+  expect("@/ok.yaml @/bad.yaml --junit @/w.xml 2>&1", 2,
+         "/bad.yaml:6:13: gate.waveform is `5e-3, 2`, expected a number > 0");
+  expect("@/ok.yaml @/key.yaml --junit @/w.xml 2>&1", 2,
+         "/key.yaml:4:8: unknown key `harmonic_2` in `gate`, did you mean `harmonic_1`?");
+  expect("@/ranges.yaml @/ok.yaml --junit @/w.xml 2>&1", 2,
+         "/ranges.yaml:6:15: gate.range_mean has 2 limits for 1 range");
   expect("@/ok.yaml @/bad.yaml --junit @/w.xml 2>/dev/null | wc -c", 0, "0\n"); /* not a row of the case that is fine */
   assert_false(exists("w.xml"));
 }
@@ -152,7 +167,8 @@ static void several_cases_are_several_suites(void **state)
   put_case("a&b <c>.yaml", SMALL "compare: {omega: [5]}\n");
   expect(CASE2 "@/ok.yaml '@/a&b <c>.yaml' --set hbm.static=false --junit @/m.xml", 1, "a&b <c>.yaml: ");
   if (!*XMLLINT) skip();
-  int failures = counted("m.xml", "count(//testsuite[1]/testcase/failure)"), errors = counted("m.xml", "count(//testsuite[1]/testcase/error)");
+  int failures = counted("m.xml", "count(//testsuite[1]/testcase/failure)"),
+      errors = counted("m.xml", "count(//testsuite[1]/testcase/error)");
   assert_true(failures > 0);
   check_counts("m.xml", 3, failures, errors); /* the others are linear, with no mean to leave out */
   assert_int_equal(counted("m.xml", "count(//testsuite[contains(@name, \"/a&b <c>.yaml\")])"), 1);
@@ -201,9 +217,12 @@ static int remove_folder(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(passes_then_fails_when_the_result_gets_worse), cmocka_unit_test(unstable_solutions_are_held_against_their_orbits),
-      cmocka_unit_test(limits_are_those_of_the_case),                 cmocka_unit_test(wrong_limits_are_named_before_anything_runs),
-      cmocka_unit_test(several_cases_are_several_suites),             cmocka_unit_test(what_cannot_be_compared_is_an_error),
+      cmocka_unit_test(passes_then_fails_when_the_result_gets_worse),
+      cmocka_unit_test(unstable_solutions_are_held_against_their_orbits),
+      cmocka_unit_test(limits_are_those_of_the_case),
+      cmocka_unit_test(wrong_limits_are_named_before_anything_runs),
+      cmocka_unit_test(several_cases_are_several_suites),
+      cmocka_unit_test(what_cannot_be_compared_is_an_error),
       cmocka_unit_test(junit_is_written_whole_or_not_at_all),
   };
   check_watchdog(600);

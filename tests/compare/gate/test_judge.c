@@ -1,4 +1,5 @@
-/* test_judge.c - what passes the gate and what does not, on comparisons made up so that the answer is plain; and their JUnit. */
+/* test_judge.c - what passes the gate and what does not, on comparisons made up so that the answer is plain; and
+ * their JUnit. */
 #include <string.h>
 
 #include "compare/gate/gate.h"
@@ -60,13 +61,15 @@ static void every_quantity_has_its_limit(void **state)
   assert_int_equal(judged(m), 0);
   assert_int_equal(m->g.n, 4);
   static const char *const names[] = {"amplitude", "harmonic_1", "mean", "waveform"};
-  double *errors[] = {&m->rows[0].errors.amplitude, &m->rows[0].errors.harmonic_1, &m->rows[0].errors.mean, &m->rows[0].errors.waveform};
+  double *errors[] = {&m->rows[0].errors.amplitude, &m->rows[0].errors.harmonic_1, &m->rows[0].errors.mean,
+                      &m->rows[0].errors.waveform};
   for (int q = 0; q < 4; ++q) {
     *errors[q] = 6e-3; /* beyond each */
     assert_int_equal(judged(m), 1);
     assert_int_equal(m->g.failures, 1);
     const gate_check *c = find(m, 0, names[q]);
-    assert_true(c->result == GATE_FAIL && c->found == 6e-3 && c->allowed == (q == 3 ? 5e-3 : 1e-3) && !strcmp(c->against, "transient"));
+    assert_true(c->result == GATE_FAIL && c->found == 6e-3 && c->allowed == (q == 3 ? 5e-3 : 1e-3) &&
+                !strcmp(c->against, "transient"));
     *errors[q] = 1e-4;
   }
   m->rows[0].errors.mean = 1, m->rows[0].transient.free_sliders = 1; /* the mean is history */
@@ -104,11 +107,14 @@ static void limits_may_differ_in_ranges(void **state)
   made *m = start(3);
   scene_gate_ranges *g = &m->sc.gate_ranges;
   *g = (scene_gate_ranges){.omega = {4, {7, 9, 8, 12}}, .amplitude = {2, {1e-2, 1e-5}}};
-  m->rows[0].omega = 6.99, m->rows[1].omega = 7, m->rows[2].omega = 8; /* below; at the lower end; in both: the last one counts */
+  /* below; at the lower end; in both: the last one counts */
+  m->rows[0].omega = 6.99, m->rows[1].omega = 7, m->rows[2].omega = 8;
   for (int i = 0; i < 3; ++i) m->rows[i].errors.amplitude = 2e-3;
   assert_int_equal(judged(m), 1);
-  assert_true(find(m, 0, "amplitude")->allowed == 1e-3 && find(m, 1, "amplitude")->allowed == 1e-2 && find(m, 2, "amplitude")->allowed == 1e-5);
-  assert_true(find(m, 1, "amplitude")->result == GATE_PASS && find(m, 1, "mean")->allowed == 1e-3 && m->g.failures == 2);
+  assert_true(find(m, 0, "amplitude")->allowed == 1e-3 && find(m, 1, "amplitude")->allowed == 1e-2 &&
+              find(m, 2, "amplitude")->allowed == 1e-5);
+  assert_true(find(m, 1, "amplitude")->result == GATE_PASS && find(m, 1, "mean")->allowed == 1e-3 &&
+              m->g.failures == 2);
   end(m);
 }
 
@@ -138,11 +144,15 @@ static void an_unstable_solution_is_held_against_its_orbit(void **state)
 static void a_transient_of_its_own_fails_in_words(void **state)
 {
   (void)state;
-  static const struct { verdict v; hc_status st; int k; const char *words; } all[] = {
-      {VERDICT_PERIOD_K, HC_OK, 2, "repeats only after 2 forcing periods"},
-      {VERDICT_APERIODIC, HC_APERIODIC, 0, "never repeats"},
-      {VERDICT_OTHER_BRANCH, HC_OK, 1, "no HBM solution at this omega is within the limits"},
-      {VERDICT_UNSTABLE, HC_OK, 1, "no HBM solution at this omega is within the limits"}};
+  static const struct {
+    verdict v;
+    hc_status st;
+    int k;
+    const char *words;
+  } all[] = {{VERDICT_PERIOD_K, HC_OK, 2, "repeats only after 2 forcing periods"},
+             {VERDICT_APERIODIC, HC_APERIODIC, 0, "never repeats"},
+             {VERDICT_OTHER_BRANCH, HC_OK, 1, "no HBM solution at this omega is within the limits"},
+             {VERDICT_UNSTABLE, HC_OK, 1, "no HBM solution at this omega is within the limits"}};
   for (int i = 0; i < 4; ++i) {
     made *m = start(1);
     m->rows[0].verdict = all[i].v, m->rows[0].accounted = false;
@@ -243,17 +253,24 @@ static void junit_escapes_what_it_is_given(void **state)
   FILE *to = open_memstream(&text, &size);
   assert_int_equal(gate_write_junit(1, &m->g, to), HC_OK);
   fclose(to);
-  assert_non_null(strstr(text, "<testsuite name=\"a&amp;b&lt;c&gt;&quot;d'  \xEF\xBF\xBD .yaml\" tests=\"4\" failures=\"0\" errors=\"0\""));
+  assert_non_null(strstr(
+      text,
+      "<testsuite name=\"a&amp;b&lt;c&gt;&quot;d'  \xEF\xBF\xBD .yaml\" tests=\"4\" failures=\"0\" errors=\"0\""));
   free(text);
   end(m);
 }
 
 static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(every_quantity_has_its_limit),          cmocka_unit_test(rounding_at_the_limit_decides_nothing),
-    cmocka_unit_test(limits_may_differ_in_ranges),           cmocka_unit_test(an_unstable_solution_is_held_against_its_orbit),
-    cmocka_unit_test(a_transient_of_its_own_fails_in_words), cmocka_unit_test(a_range_accounts_for_transients),
-    cmocka_unit_test(what_could_not_be_compared_is_an_error), cmocka_unit_test(costs_are_whole_numbers_with_limits),
-    cmocka_unit_test(one_check_of_a_quantity_is_the_worst),  cmocka_unit_test(junit_escapes_what_it_is_given),
+    cmocka_unit_test(every_quantity_has_its_limit),
+    cmocka_unit_test(rounding_at_the_limit_decides_nothing),
+    cmocka_unit_test(limits_may_differ_in_ranges),
+    cmocka_unit_test(an_unstable_solution_is_held_against_its_orbit),
+    cmocka_unit_test(a_transient_of_its_own_fails_in_words),
+    cmocka_unit_test(a_range_accounts_for_transients),
+    cmocka_unit_test(what_could_not_be_compared_is_an_error),
+    cmocka_unit_test(costs_are_whole_numbers_with_limits),
+    cmocka_unit_test(one_check_of_a_quantity_is_the_worst),
+    cmocka_unit_test(junit_escapes_what_it_is_given),
 };
 
 CHECK_MAIN("gate.judge", tests, 60)

@@ -1,4 +1,5 @@
-/* curves.h - prepared curves: what our own harmonic balance gives with one known mistake in it, as the file of somebody else would say it. */
+/* curves.h - prepared curves: what our own harmonic balance gives with one known mistake in it, as the file of
+ * somebody else would say it. */
 #ifndef HC_TESTS_VERIFY_CURVES_H
 #define HC_TESTS_VERIFY_CURVES_H
 
@@ -16,9 +17,9 @@ typedef struct spoiling {
   int harmonics, samples; /* 0: the case's, exact forces */
   bool slider_on_sample;
   double omega_factor, value_factor; /* file's = factor times ours; 0: 1 */
-  int said, meant; /* verify_quantity: what the column is called, what it holds */
+  int said, meant;                   /* verify_quantity: what the column is called, what it holds */
   bool no_contact;
-  int branch; /* -1: unstable only where there is a choice; 1: all; 0: as swept upwards; 2: hops */
+  int branch;   /* -1: unstable only where there is a choice; 1: all; 0: as swept upwards; 2: hops */
   double noise; /* [1] relative, alternating in sign */
 } spoiling;
 
@@ -50,7 +51,8 @@ static inline double curve_value(const hbm_measures *m, int quantity)
   return quantity == VERIFY_HARMONIC_1 ? m->harmonic_1 : quantity == VERIFY_PEAK ? fmax(m->max, -m->min) : m->amplitude;
 }
 
-/* Which of the solutions at one omega this curve has: bit k for the k-th along the curve, which is upper, unstable, lower for three. */
+/* Which of the solutions at one omega this curve has: bit k for the k-th along the curve, which is upper, unstable,
+ * lower for three. */
 static inline unsigned curve_wanted(int branch, int n, int i)
 {
   if (branch == 1) return ~0u;
@@ -76,7 +78,8 @@ static inline verify_data curve_make(const scene *sc, const spoiling *how, doubl
     for (int k = 0; k < at.n && d.n < CURVE_ROOM; ++k) {
       if (!(curve_wanted(how->branch, at.n, i) & (1u << k))) continue;
       assert_int_equal(hbm_measure(hbm, at.X + (size_t)k * at.n_coef, &m), HC_OK);
-      double value = curve_value(&m, how->meant) * (how->value_factor > 0 ? how->value_factor : 1) * (1 + (i % 2 ? how->noise : -how->noise));
+      double value = curve_value(&m, how->meant) * (how->value_factor > 0 ? how->value_factor : 1) *
+                     (1 + (i % 2 ? how->noise : -how->noise));
       d.points[d.n++] = (verify_point){omega * (how->omega_factor > 0 ? how->omega_factor : 1), value, i + 1};
     }
     hbm_curve_free(&at);

@@ -1,7 +1,9 @@
-/* test_causes.c - curves spoiled in one known way each: the cause is named, by its word, and a good curve is not blamed for anything.
+/* test_causes.c - curves spoiled in one known way each: the cause is named, by its word, and a good curve is not
+ * blamed for anything.
  *
- * The curves are made here by our own harmonic balance, on two scenes: case 2, whose contact strikes and sticks, and one under preload that
- * slides and lifts off. What is tested is that the mistake is told from all others that are tried. */
+ * The curves are made here by our own harmonic balance, on two scenes: case 2, whose contact strikes and sticks, and
+ * one under preload that slides and lifts off. What is tested is that the mistake is told from all others that are
+ * tried. */
 #include "tests/compare/verify/curves.h"
 
 static const char case2[] = "cases/paper/case2.yaml", preloaded[] = "cases/paper/fig09_gap_p1.yaml";
@@ -19,8 +21,8 @@ static void say(const prepared *p, const verify_report *r)
   print_error("%s (%s), expected %s: %s\n", p->name, p->scene, p->cause, verify_sentence(r, text));
   for (int i = 0; i < r->n_hypotheses && i < 5; ++i) {
     const verify_hypothesis *h = &r->hypotheses[i];
-    print_error("  %s: %.3g (score %.3g; H %d N %d restart %d)\n", verify_cause_words(h->causes, text), h->distance, h->score, h->equations.harmonics,
-                h->equations.samples, h->equations.restart);
+    print_error("  %s: %.3g (score %.3g; H %d N %d restart %d)\n", verify_cause_words(h->causes, text), h->distance,
+                h->score, h->equations.harmonics, h->equations.samples, h->equations.restart);
   }
 }
 
@@ -51,7 +53,7 @@ static void name_all(int n, const prepared *p)
 #define NAME_ALL(list) name_all(sizeof list / sizeof *list, list)
 
 /* Frequencies where something happens at the contact, mostly. */
-#define ON_CASE2 case2, .low = 4, .high = 14, .n = 41
+#define ON_CASE2     case2, .low = 4, .high = 14, .n = 41
 #define ON_PRELOADED preloaded, .low = 15, .high = 29, .n = 41
 
 static void equations_solved_wrongly(void **state)
@@ -62,7 +64,8 @@ static void equations_solved_wrongly(void **state)
       {"no static", ON_PRELOADED, .cause = "no_static_harmonic", .how = {.no_static = true}},
       {"H = 1", ON_CASE2, .cause = "too_few_harmonics", .how = {.harmonics = 1}},
       {"H = 2", ON_CASE2, .cause = "too_few_harmonics", .how = {.harmonics = 2}},
-      {"H = 3", ON_CASE2, .cause = "too_few_harmonics", .how = {.harmonics = 3, .meant = VERIFY_HARMONIC_1, .said = VERIFY_HARMONIC_1}},
+      {"H = 3", ON_CASE2, .cause = "too_few_harmonics",
+       .how = {.harmonics = 3, .meant = VERIFY_HARMONIC_1, .said = VERIFY_HARMONIC_1}},
       {"H = 1", ON_PRELOADED, .cause = "too_few_harmonics", .how = {.harmonics = 1}},
       {"linear", ON_CASE2, .cause = "no_contact", .how = {.no_contact = true}},
       {"linear", ON_PRELOADED, .cause = "no_contact", .how = {.no_contact = true}},
@@ -77,11 +80,14 @@ static void forces_sampled_too_coarsely(void **state)
       {"N = 32", ON_CASE2, .cause = "too_few_samples", .how = {.samples = 32}},
       {"N = 32", ON_PRELOADED, .cause = "too_few_samples", .how = {.samples = 32}},
       {"N = 64", ON_CASE2, .cause = "too_few_samples", .how = {.samples = 64, .noise = 1e-6}},
-      {"N = 32, no static", ON_CASE2, .cause = "no_static_harmonic+too_few_samples", .how = {.samples = 32, .no_static = true}},
+      {"N = 32, no static", ON_CASE2, .cause = "no_static_harmonic+too_few_samples",
+       .how = {.samples = 32, .no_static = true}},
       {"N = 64, no static, slider on a sample", ON_CASE2, .cause = "no_static_harmonic+too_few_samples+slider_restart",
        .how = {.samples = 64, .no_static = true, .slider_on_sample = true}},
-      {"N = 32, slider on a sample", ON_CASE2, .cause = "too_few_samples+slider_restart", .how = {.samples = 32, .slider_on_sample = true}},
-      {"N = 128, slider on a sample", ON_CASE2, .cause = "too_few_samples+slider_restart", .how = {.samples = 128, .slider_on_sample = true}},
+      {"N = 32, slider on a sample", ON_CASE2, .cause = "too_few_samples+slider_restart",
+       .how = {.samples = 32, .slider_on_sample = true}},
+      {"N = 128, slider on a sample", ON_CASE2, .cause = "too_few_samples+slider_restart",
+       .how = {.samples = 128, .slider_on_sample = true}},
       {"H = 1, N = 32, no static", ON_CASE2, .cause = "no_static_harmonic+too_few_harmonics+too_few_samples",
        .how = {.harmonics = 1, .samples = 32, .no_static = true}},
   };
@@ -97,13 +103,17 @@ static void columns_misread(void **state)
       {"Hz", ON_PRELOADED, .cause = "frequency_unit", .how = {.omega_factor = 1 / (2 * PI)}},
       {"peak to peak", ON_CASE2, .cause = "peak_to_peak", .how = {.value_factor = 2}},
       {"peak to peak", ON_PRELOADED, .cause = "peak_to_peak", .how = {.value_factor = 2}},
-      {"one-sided", ON_CASE2, .cause = "half_amplitude", .how = {.value_factor = 0.5, .said = VERIFY_HARMONIC_1, .meant = VERIFY_HARMONIC_1}},
+      {"one-sided", ON_CASE2, .cause = "half_amplitude",
+       .how = {.value_factor = 0.5, .said = VERIFY_HARMONIC_1, .meant = VERIFY_HARMONIC_1}},
       {"rms", ON_CASE2, .cause = "rms", .how = {.value_factor = 0.70710678118654752}},
       {"mm for m", ON_CASE2, .cause = "length_unit", .how = {.value_factor = 1e3}},
       {"m for mm", ON_PRELOADED, .cause = "length_unit", .how = {.value_factor = 1e-3}},
-      {"harmonic 1 as amplitude", ON_CASE2, .cause = "other_quantity", .how = {.said = VERIFY_AMPLITUDE, .meant = VERIFY_HARMONIC_1}},
-      {"peak as amplitude", ON_CASE2, .cause = "other_quantity", .how = {.said = VERIFY_AMPLITUDE, .meant = VERIFY_PEAK}},
-      {"no static, in mm", ON_CASE2, .cause = "no_static_harmonic+length_unit", .how = {.no_static = true, .value_factor = 1e3}},
+      {"harmonic 1 as amplitude", ON_CASE2, .cause = "other_quantity",
+       .how = {.said = VERIFY_AMPLITUDE, .meant = VERIFY_HARMONIC_1}},
+      {"peak as amplitude", ON_CASE2, .cause = "other_quantity",
+       .how = {.said = VERIFY_AMPLITUDE, .meant = VERIFY_PEAK}},
+      {"no static, in mm", ON_CASE2, .cause = "no_static_harmonic+length_unit",
+       .how = {.no_static = true, .value_factor = 1e3}},
   };
   NAME_ALL(list);
 }
@@ -163,7 +173,8 @@ static void errors_are_what_was_put_in(void **state)
   assert_int_equal(verify_run(&sc, &d, NULL, &r), HC_OK);
   assert_int_equal(r.n_rows, 9);
   CHECK_LE(r.checked_error, 1e-4, "a tenth of the gate");
-  for (int i = 0; i < r.n_rows; ++i) CHECK_NEAR(r.rows[i].error, 1e-3, r.checked_error + 1e-6, "omega = %g", r.rows[i].omega);
+  for (int i = 0; i < r.n_rows; ++i)
+    CHECK_NEAR(r.rows[i].error, 1e-3, r.checked_error + 1e-6, "omega = %g", r.rows[i].omega);
   verify_clear(&r);
   verify_data_clear(&d);
 }
@@ -195,9 +206,14 @@ static void stopping_keeps_rows(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(nothing_wrong),      cmocka_unit_test(equations_solved_wrongly), cmocka_unit_test(forces_sampled_too_coarsely),
-      cmocka_unit_test(columns_misread),    cmocka_unit_test(branches_mistaken),        cmocka_unit_test(no_cause_is_made_up),
-      cmocka_unit_test(errors_are_what_was_put_in), cmocka_unit_test(stopping_keeps_rows),
+      cmocka_unit_test(nothing_wrong),
+      cmocka_unit_test(equations_solved_wrongly),
+      cmocka_unit_test(forces_sampled_too_coarsely),
+      cmocka_unit_test(columns_misread),
+      cmocka_unit_test(branches_mistaken),
+      cmocka_unit_test(no_cause_is_made_up),
+      cmocka_unit_test(errors_are_what_was_put_in),
+      cmocka_unit_test(stopping_keeps_rows),
   };
   check_watchdog(600);
   return cmocka_run_group_tests_name("verify.causes", tests, NULL, NULL);

@@ -3,7 +3,10 @@
 
 #include "tests/shell.h"
 
-typedef struct outcome { int code; char out[262144]; } outcome;
+typedef struct outcome {
+  int code;
+  char out[262144];
+} outcome;
 
 static const outcome *run(const char *args)
 {
@@ -41,9 +44,13 @@ static void our_own_curve_matches(void **state)
   close(fd);
   snprintf(args, sizeof args, "frf cases/paper/case2.yaml -q --format csv --set hbm.harmonics=20 -o %s", path);
   expect(args, 0, "");
-  snprintf(args, sizeof args, "verify cases/paper/case2.yaml -q --against %s --columns omega=omega,amplitude=amplitude", path);
+  snprintf(args, sizeof args, "verify cases/paper/case2.yaml -q --against %s --columns omega=omega,amplitude=amplitude",
+           path);
   expect(args, 0, "no cause to suspect");
-  snprintf(args, sizeof args, "verify cases/paper/case2.yaml -q --against %s --columns frequency=omega,value=amplitude --quantity amplitude", path);
+  snprintf(
+      args, sizeof args,
+      "verify cases/paper/case2.yaml -q --against %s --columns frequency=omega,value=amplitude --quantity amplitude",
+      path);
   expect(args, 1, "cause: frequency_unit");
   snprintf(args, sizeof args, "verify cases/paper/case2.yaml -q --against %s --columns omega=1,amplitude=8", path);
   expect(args, 1, "cause: other_quantity");
@@ -55,11 +62,16 @@ static void mistakes_are_named(void **state)
   (void)state;
   expect("verify cases/verify/case2.yaml 2>&1", 64, "--against");
   expect("verify cases/verify/case2.yaml --against cases/verify/no_static.csv 2>&1", 64, "--columns");
-  expect("verify cases/verify/case2.yaml --against cases/verify/no_static.csv --columns omega=1,amplitud=2 2>&1", 64, "did you mean amplitude");
-  expect("verify cases/verify/case2.yaml --against cases/verify/no_static.csv --columns omega=1,value=2 2>&1", 64, "--quantity");
-  expect("verify cases/verify/case2.yaml --against cases/verify/no_static.csv --columns omega=1,amplitude=9 2>&1", 2, "no_static.csv:4:1: no column 9");
-  expect("verify cases/verify/case2.yaml --against /dev/null --columns omega=1,amplitude=2 2>&1", 2, "/dev/null:1:1: 0 points");
-  expect("verify cases/verify/case2.yaml --against /nonexistent.csv --columns omega=1,amplitude=2 2>&1", 2, "/nonexistent.csv: ");
+  expect("verify cases/verify/case2.yaml --against cases/verify/no_static.csv --columns omega=1,amplitud=2 2>&1", 64,
+         "did you mean amplitude");
+  expect("verify cases/verify/case2.yaml --against cases/verify/no_static.csv --columns omega=1,value=2 2>&1", 64,
+         "--quantity");
+  expect("verify cases/verify/case2.yaml --against cases/verify/no_static.csv --columns omega=1,amplitude=9 2>&1", 2,
+         "no_static.csv:4:1: no column 9");
+  expect("verify cases/verify/case2.yaml --against /dev/null --columns omega=1,amplitude=2 2>&1", 2,
+         "/dev/null:1:1: 0 points");
+  expect("verify cases/verify/case2.yaml --against /nonexistent.csv --columns omega=1,amplitude=2 2>&1", 2,
+         "/nonexistent.csv: ");
   expect("verify /nonexistent.yaml --against /dev/null --columns omega=1,amplitude=2 2>&1", 2, "/nonexistent.yaml: ");
   expect("verify --help", 0, "example");
   expect("--help", 0, "verify");
@@ -69,7 +81,10 @@ static void mistakes_are_named(void **state)
 static void what_cannot_be_judged_is_said(void **state)
 {
   (void)state;
-  expect("verify cases/verify/case2.yaml -q --against /dev/stdin --columns omega=1,amplitude=2 2>&1 <<'END'\n1e6 1\n2e6 1\n3e6 1\nEND\n", 3, "solver_failed");
+  expect(
+      "verify cases/verify/case2.yaml -q --against /dev/stdin --columns omega=1,amplitude=2 2>&1 <<'END'\n1e6 1\n2e6 "
+      "1\n3e6 1\nEND\n",
+      3, "solver_failed");
 }
 
 int main(void)

@@ -1,4 +1,5 @@
-/* test_reader.c - files of columns as people have them, and what is said about those that are wrong: FILE:LINE:COLUMN, what, expected what. */
+/* test_reader.c - files of columns as people have them, and what is said about those that are wrong:
+ * FILE:LINE:COLUMN, what, expected what. */
 #include <string.h>
 
 #include "compare/verify/csv.h"
@@ -7,7 +8,8 @@
 static const double two_pi = 2 * PI;
 
 /* The file `text` read with `columns`; HC_OK or not, the message in *words. */
-static hc_status read_text(const char *text, size_t length, const char *columns, verify_data *d, char words[VERIFY_TEXT])
+static hc_status read_text(const char *text, size_t length, const char *columns, verify_data *d,
+                           char words[VERIFY_TEXT])
 {
   char path[] = "/tmp/hbmcheck-verify-XXXXXX";
   verify_columns where;
@@ -43,7 +45,9 @@ static void files_as_people_have_them(void **state)
   reads("5,1\n6,2\n7,3\n", "omega=1,amplitude=2");
   reads("5,1\n6,2\n7,3", "omega=1,amplitude=2");
   reads("5,1\r\n6,2\r\n7,3\r\n", "omega=1,amplitude=2");
-  reads("\xEF\xBB\xBF" "w,A\n5,1\n6,2\n7,3\n", "omega=w,amplitude=A");
+  reads("\xEF\xBB\xBF"
+        "w,A\n5,1\n6,2\n7,3\n",
+        "omega=w,amplitude=A");
   reads("# made by\n\n  # us\nA; remark; w\n1;a,b;5\n\n2;;6\n# end\n3; ;7.0e0\n", "omega=w,value=A");
   reads("  5   1\n 6\t2  \n+7 3\n", "omega=1,amplitude=2");
   reads("5\t\t1\n6\tx y\t2\n7\t\t3\n", "omega=1,amplitude=3");
@@ -103,7 +107,7 @@ static void mistakes_have_a_place(void **state)
   REFUSED("w,A\nu,v\n6,2\n7,3\n", "omega=w,value=A", ":2:1: ", "'u'"); /* a line of units is not a point */
   REFUSED("5,1\n6,\x01\xFF\n7,3\n", "omega=1,value=2", ":2:3: ", "\\x01\\xFF");
   REFUSED("5,1\0\n6,2\n7,3\n", "omega=1,value=2", ":1:3: ", "not a number");
-  REFUSED("\xC3\xA4 ,1\n6,2\n7,3\n", "omega=1,value=2", ":1:1: ", "not a number"); /* half a header is none */
+  REFUSED("\xC3\xA4 ,1\n6,2\n7,3\n", "omega=1,value=2", ":1:1: ", "not a number");         /* half a header is none */
   REFUSED("a,1\n\xC3\xA4 , \xC3\xA4\n7,3\n", "omega=2,value=2", ":2:5: ", "not a number"); /* columns are characters */
 }
 
@@ -169,8 +173,12 @@ static void columns_say_what_they_mean(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(files_as_people_have_them), cmocka_unit_test(cycles_become_radians), cmocka_unit_test(mistakes_have_a_place),
-      cmocka_unit_test(limits_hold), cmocka_unit_test(no_such_file), cmocka_unit_test(columns_say_what_they_mean),
+      cmocka_unit_test(files_as_people_have_them),
+      cmocka_unit_test(cycles_become_radians),
+      cmocka_unit_test(mistakes_have_a_place),
+      cmocka_unit_test(limits_hold),
+      cmocka_unit_test(no_such_file),
+      cmocka_unit_test(columns_say_what_they_mean),
   };
   check_watchdog(60);
   return cmocka_run_group_tests_name("verify.reader", tests, NULL, NULL);

@@ -1,5 +1,6 @@
-/* main.c - a program outside the project, C and C++ at once: case 2 traced, integrated and compared through the installed library.
- * usage: consumer case2.yaml. Prints what it found beside what it should be; exit 1 if anything is off. */
+/* main.c - a program outside the project, C and C++ at once: case 2 traced, integrated and compared through the
+ * installed library. usage: consumer case2.yaml. Prints what it found beside what it should be; exit 1 if anything
+ * is off. */
 #include <hbmcheck/hbmcheck.h>
 
 #include <stdlib.h>
@@ -35,13 +36,14 @@ static double touch(const scene *sc) { return -sc->contacts[0].law.gap * sqrt(2)
 /* Where the linear amplitude first reaches that: the smaller root z = w^2 of (K - M z)^2 + C^2 z = (F0/touch)^2. */
 static double grazing(const scene *sc)
 {
-  double m = sc->mass, k = sc->stiffness, b = k / m - sc->damping * sc->damping / (2 * m * m), f = sc->force / touch(sc);
+  double m = sc->mass, k = sc->stiffness, b = k / m - sc->damping * sc->damping / (2 * m * m),
+         f = sc->force / touch(sc);
   return sqrt(b - sqrt(b * b - (k * k - f * f) / (m * m)));
 }
 
-/* The contact change is located to 1e-9 of omega (hbm.h); the amplitude there moves by at most d(amplitude)/d(omega) < 5 times that. The
- * solution at omega = 7: tests/reference/hbm_exact.csv, good to 1e-9, the equations solved to 1e-10 of the forces, of which the stuck stiffness
- * makes some ten times the displacement's share: 1e-8. */
+/* The contact change is located to 1e-9 of omega (hbm.h); the amplitude there moves by at most d(amplitude)/d(omega)
+ * < 5 times that. The solution at omega = 7: tests/reference/hbm_exact.csv, good to 1e-9, the equations solved to
+ * 1e-10 of the forces, of which the stuck stiffness makes some ten times the displacement's share: 1e-8. */
 static void trace(const scene *sc)
 {
   hbm_solver *s;
@@ -97,7 +99,10 @@ int main(int argc, char **argv)
   case_error err;
   alarm(60); /* a hang is a failure */
   if (argc != 2) return 64;
-  if (case_read(argv[1], 0, NULL, &sc, &err) != HC_OK) { puts(err.message); return 1; }
+  if (case_read(argv[1], 0, NULL, &sc, &err) != HC_OK) {
+    puts(err.message);
+    return 1;
+  }
   near("one version", strcmp(hbmcheck_version(), HBMCHECK_VERSION), 0, 0);
   trace(&sc);
   march(&sc);
