@@ -24,8 +24,8 @@ static hc_status check_sweep(case_reader *r)
 
 static hc_status check_samples(case_reader *r)
 {
-  const scene_hbm *h = &r->sc.hbm;
-  if (h->force != HBM_FORCE_SAMPLED || h->samples == SCENE_AUTO || h->harmonics == SCENE_AUTO ||
+  const hbm_settings *h = &r->sc.hbm;
+  if (h->force != HBM_FORCE_SAMPLED || h->samples == HBM_AUTO || h->harmonics == HBM_AUTO ||
       h->samples >= 2 * h->harmonics + 1)
     return HC_OK;
   message_add(case_blame(r, last_given(r, named("hbm", "samples"), named("hbm", "harmonics"))),
@@ -39,7 +39,7 @@ static hc_status check_gate_ranges(case_reader *r)
 {
   static const char *const limits[] = {"range_amplitude", "range_harmonic_1", "range_mean", "range_waveform"};
   const field *ranges = named("gate", "ranges");
-  const scene_list *omega = &r->sc.gate_ranges.omega;
+  const number_list *omega = &r->sc.gate.ranges.omega;
   int longest = 0;
   for (int i = 0; i < omega->n; i += 2) {
     if (i + 1 < omega->n && omega->v[i] <= omega->v[i + 1]) continue;
@@ -52,7 +52,7 @@ static hc_status check_gate_ranges(case_reader *r)
   }
   for (size_t k = 0; k < sizeof limits / sizeof *limits; ++k) {
     const field *f = named("gate", limits[k]);
-    int n = ((const scene_list *)field_look(f, &r->sc))->n;
+    int n = ((const number_list *)field_look(f, &r->sc))->n;
     if (n > longest) longest = n;
     if (n == 0 || n == omega->n / 2) continue;
     message_add(case_blame(r, last_given(r, f, ranges)),

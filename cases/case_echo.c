@@ -20,7 +20,7 @@ static bool choices_are_known(const scene *sc)
 static bool is_written(const field *f, const scene *sc)
 {
   if (f->flags & FIELD_NO_ECHO) return false;
-  if (f->kind == FIELD_REALS || f->kind == FIELD_INTEGERS) return ((const scene_list *)field_look(f, sc))->n > 0;
+  if (f->kind == FIELD_REALS || f->kind == FIELD_INTEGERS) return ((const number_list *)field_look(f, sc))->n > 0;
   const field *rival = f->rival ? field_find(f->section, f->rival, strlen(f->rival)) : NULL;
   return !rival || !is_written(rival, sc);
 }

@@ -8,7 +8,7 @@
 #include <stdio.h>
 
 #include "base/status.h"
-#include "model/scene.h"
+#include "cases/scene.h"
 
 enum { CASE_MESSAGE = 512 };
 typedef struct case_error {

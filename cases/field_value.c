@@ -93,7 +93,7 @@ static bool read_number(const field *f, const field_item *it, double *out, const
   *hint = it->quoted ? "in quotes it is text" : NULL;
   if (it->quoted) return false;
   if (f->flags & FIELD_AUTO && is_word(it, "auto")) {
-    *out = SCENE_AUTO;
+    *out = HBM_AUTO;
     return true;
   }
   number_fault fault =
@@ -121,17 +121,17 @@ static bool store_number(const field *f, void *to, const field_value *v, message
 
 static bool store_list(const field *f, void *to, const field_value *v, message *m, int *bad)
 {
-  scene_list list = {0};
+  number_list list = {0};
   const char *hint;
-  bool pair = f->kind == FIELD_PAIR, fits = pair ? v->n == 2 : v->n >= 1 && v->n <= SCENE_MAX_LIST;
+  bool pair = f->kind == FIELD_PAIR, fits = pair ? v->n == 2 : v->n >= 1 && v->n <= NUMBER_LIST_MAX;
   if (!fits) return refuse(f, v, -1, pair ? NULL : "1 to 256 of them", m);
   for (; list.n < v->n; ++list.n)
     if (!read_number(f, &v->item[list.n], &list.v[list.n], &hint)) return refuse(f, v, *bad = list.n, hint, m);
   if (pair) memcpy(to, list.v, 2 * sizeof *list.v);
-  else *(scene_list *)to = list;
+  else *(number_list *)to = list;
   return true;
 }
-_Static_assert(SCENE_MAX_LIST == 256, "store_list says so in words");
+_Static_assert(NUMBER_LIST_MAX == 256, "store_list says so in words");
 
 static bool store_flag(const field *f, void *to, const field_value *v, message *m)
 {
@@ -143,11 +143,23 @@ static bool store_flag(const field *f, void *to, const field_value *v, message *
   return true;
 }
 
+/* An enum is stored by its bytes, as large as an int: the table does not know which one it is. */
+_Static_assert(sizeof(hbm_force) == sizeof(int) && sizeof(hbm_restart) == sizeof(int) &&
+                   sizeof(hbm_continuation) == sizeof(int) && sizeof(transient_law) == sizeof(int) &&
+                   sizeof(transient_steady) == sizeof(int) && sizeof(transient_start) == sizeof(int),
+               "enums of the settings are as large as an int");
+static int choice_at(const void *at)
+{
+  int i;
+  memcpy(&i, at, sizeof i);
+  return i;
+}
+
 static bool store_choice(const field *f, void *to, const field_value *v, message *m)
 {
   for (int i = 0; f->choices[i]; ++i)
     if (is_word(&v->item[0], f->choices[i])) {
-      *(int *)to = i;
+      memcpy(to, &i, sizeof i);
       return true;
     }
   return refuse(f, v, -1, NULL, m);
@@ -202,7 +214,7 @@ void field_split(const field *f, const char *text, size_t length, field_value *v
     const char *comma = memchr(text, ',', (size_t)(end - text));
     field_item it = {.text = text, .length = (size_t)((comma ? comma : end) - text)};
     trim(&it.text, &it.length);
-    if (v->n < SCENE_MAX_LIST) v->item[v->n] = it;
+    if (v->n < NUMBER_LIST_MAX) v->item[v->n] = it;
     if (!comma) {
       ++v->n;
       break;
@@ -217,7 +229,7 @@ void field_reset(const field *f, void *base)
   message m;
   field_value v;
   int bad;
-  if (f->kind == FIELD_REALS || f->kind == FIELD_INTEGERS) memset(field_place(f, base), 0, sizeof(scene_list));
+  if (f->kind == FIELD_REALS || f->kind == FIELD_INTEGERS) memset(field_place(f, base), 0, sizeof(number_list));
   if (f->kind == FIELD_TEXT) memset(field_place(f, base), 0, f->size);
   if (!f->fallback || !*f->fallback) return;
   message_start(&m, words, sizeof words);
@@ -275,13 +287,13 @@ void field_write(const field *f, const void *base, FILE *to)
   switch (f->kind) {
   case FIELD_REAL: write_number(*(const double *)at, to); return;
   case FIELD_INTEGER:
-    if (f->flags & FIELD_AUTO && *(const int *)at == SCENE_AUTO) fputs("auto", to);
+    if (f->flags & FIELD_AUTO && *(const int *)at == HBM_AUTO) fputs("auto", to);
     else fprintf(to, "%d", *(const int *)at);
     return;
   case FIELD_FLAG: fputs(*(const bool *)at ? "true" : "false", to); return;
-  case FIELD_CHOICE: fputs(f->choices[*(const int *)at], to); return;
+  case FIELD_CHOICE: fputs(f->choices[choice_at(at)], to); return;
   case FIELD_TEXT: write_text(at, to); return;
   case FIELD_PAIR: write_list(at, 2, to); return;
-  default: write_list(((const scene_list *)at)->v, ((const scene_list *)at)->n, to); return;
+  default: write_list(((const number_list *)at)->v, ((const number_list *)at)->n, to); return;
   }
 }

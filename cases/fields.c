@@ -40,12 +40,14 @@ static const field_section sections[] = {
 #define CONTACT(member) .flags = FIELD_IN_CONTACT, .offset = offsetof(scene_contact, member)
 #define TEXT(member)                                                                                                   \
   .kind = FIELD_TEXT, .unit = "", .offset = offsetof(scene, member), .size = sizeof((scene *)0)->member
-#define CHOICE(names) .kind = FIELD_CHOICE, .unit = "", .choices = names
-#define WITHIN(a, b)  .low = (a), .high = (b)
-#define UNBOUNDED     WITHIN(-INFINITY, INFINITY)
-#define NOT_NEGATIVE  WITHIN(0, INFINITY)
-#define POSITIVE      .flags = FIELD_OPEN, WITHIN(0, INFINITY)
-#define MOST_SAMPLES  16777216 /* 2^24: sizes in bytes stay far inside an int */
+#define CHOICE(names, member)                                                                                          \
+  .kind = FIELD_CHOICE, .unit = "", .choices = names, .offset = offsetof(scene, member),                               \
+  .size = sizeof((scene *)0)->member
+#define WITHIN(a, b) .low = (a), .high = (b)
+#define UNBOUNDED    WITHIN(-INFINITY, INFINITY)
+#define NOT_NEGATIVE WITHIN(0, INFINITY)
+#define POSITIVE     .flags = FIELD_OPEN, WITHIN(0, INFINITY)
+#define MOST_SAMPLES 16777216 /* 2^24: sizes in bytes stay far inside an int */
 
 /* clang-format off */
 static const field table[] = {
@@ -83,16 +85,16 @@ static const field table[] = {
    .scale = 6.283185307179586477, .rival = "omega", .meaning = "instead of omega = 2 pi frequency"},
 
   {"hbm", "harmonics", "H", FIELD_INTEGER, .unit = "1", .flags = FIELD_AUTO, SCENE(hbm.harmonics), .fallback = "5",
-   WITHIN(1, SCENE_MAX_HARMONICS), .meaning = "the highest harmonic kept"},
+   WITHIN(1, HBM_MAX_HARMONICS), .meaning = "the highest harmonic kept"},
   {"hbm", "static", "", FIELD_FLAG, .unit = "", SCENE(hbm.keep_mean), .fallback = "true",
    .meaning = "keep harmonic 0, the mean; false is the paper's mode"},
-  {"hbm", "force", "", CHOICE(force_names), SCENE(hbm.force), .fallback = "exact",
+  {"hbm", "force", "", CHOICE(force_names, hbm.force), .fallback = "exact",
    .meaning = "contact force located by its events, free of aliasing, or sampled (AFT)"},
   {"hbm", "samples", "N", FIELD_INTEGER, .unit = "1", .flags = FIELD_AUTO, SCENE(hbm.samples), .fallback = "1024",
    WITHIN(3, MOST_SAMPLES), .meaning = "per period, at least 2 harmonics + 1; for the sampled force"},
-  {"hbm", "slider_restart", "", CHOICE(restart_names), SCENE(hbm.restart), .fallback = "interpolated",
+  {"hbm", "slider_restart", "", CHOICE(restart_names, hbm.restart), .fallback = "interpolated",
    .meaning = "where the slider starts after a separation; for the sampled force"},
-  {"hbm", "continuation", "", CHOICE(continuation_names), SCENE(hbm.continuation), .fallback = "auto",
+  {"hbm", "continuation", "", CHOICE(continuation_names, hbm.continuation), .fallback = "auto",
    .meaning = "how the response curve is followed"},
   {"hbm", "tolerance", "", FIELD_REAL, .unit = "1", SCENE(hbm.tolerance), .fallback = "1e-10", WITHIN(1e-14, 1e-2),
    .meaning = "of the residual, relative to the forces that make it up"},
@@ -101,15 +103,15 @@ static const field table[] = {
   {"hbm", "skip_linear", "", FIELD_FLAG, .unit = "", SCENE(hbm.skip_linear), .fallback = "true",
    .meaning = "take points where nothing happens at the contacts from the closed form"},
 
-  {"transient", "law", "", CHOICE(law_names), SCENE(transient.law), .fallback = "regularised",
+  {"transient", "law", "", CHOICE(law_names, transient.law), .fallback = "regularised",
    .meaning = "contact law that is integrated"},
   {"transient", "regularisation", "eta", FIELD_REAL, .unit = "1", SCENE(transient.regularisation),
    .fallback = "1e-4", WITHIN(1e-8, 1e-1), .meaning = "of the contact law's corners; the error vanishes with it"},
   {"transient", "richardson", "", FIELD_FLAG, .unit = "", SCENE(transient.richardson), .fallback = "false",
    .meaning = "extrapolate to no regularisation, from the regularisation given, a half and a quarter of it"},
-  {"transient", "steady_state", "", CHOICE(steady_names), SCENE(transient.steady), .fallback = "auto",
+  {"transient", "steady_state", "", CHOICE(steady_names, transient.steady), .fallback = "auto",
    .meaning = "how the steady state is reached"},
-  {"transient", "start", "", CHOICE(start_names), SCENE(transient.start), .fallback = "hbm",
+  {"transient", "start", "", CHOICE(start_names, transient.start), .fallback = "hbm",
    .meaning = "on the HBM orbit, at rest, or swept up or down as on a shaker"},
   {"transient", "tolerance", "", FIELD_REAL, .unit = "1", SCENE(transient.tolerance), .fallback = "1e-9",
    WITHIN(1e-13, 1e-2), .meaning = "relative distance to the periodic orbit"},
@@ -119,34 +121,34 @@ static const field table[] = {
   {"compare", "omega", "", FIELD_REALS, .unit = "rad/time", SCENE(compare.omega),
    .fallback = "", POSITIVE, .rival = "points", .meaning = "the frequencies at which to compare"},
   {"compare", "points", "", FIELD_INTEGER, .unit = "1", SCENE(compare.points), .fallback = "20",
-   WITHIN(1, SCENE_MAX_LIST), .rival = "omega",
+   WITHIN(1, NUMBER_LIST_MAX), .rival = "omega",
    .meaning = "instead: how many frequencies, spread over the sweep, dense at peaks"},
   {"compare", "harmonics", "", FIELD_INTEGERS, .unit = "1", SCENE(compare.harmonics), .fallback = "[1, 3, 5, 10]",
-   WITHIN(1, SCENE_MAX_HARMONICS), .meaning = "truncation orders of the table that compare --tables prints"},
+   WITHIN(1, HBM_MAX_HARMONICS), .meaning = "truncation orders of the table that compare --tables prints"},
   {"compare", "samples", "", FIELD_INTEGERS, .unit = "1", SCENE(compare.samples), .fallback = "[32, 128, 512, 2048]",
    WITHIN(3, MOST_SAMPLES), .meaning = "sampling rates of that table; exact forces stand beside them"},
 
-  {"gate", "amplitude", "", FIELD_REAL, .unit = "1", SCENE(gate.amplitude), .fallback = "1e-3", POSITIVE,
+  {"gate", "amplitude", "", FIELD_REAL, .unit = "1", SCENE(gate.most.amplitude), .fallback = "1e-3", POSITIVE,
    .meaning = "of (max - min)/2 over a period"},
-  {"gate", "harmonic_1", "", FIELD_REAL, .unit = "1", SCENE(gate.harmonic_1), .fallback = "1e-3", POSITIVE,
+  {"gate", "harmonic_1", "", FIELD_REAL, .unit = "1", SCENE(gate.most.harmonic_1), .fallback = "1e-3", POSITIVE,
    .meaning = "of the fundamental, a1 + i b1"},
-  {"gate", "mean", "", FIELD_REAL, .unit = "1", SCENE(gate.mean), .fallback = "1e-3", POSITIVE,
+  {"gate", "mean", "", FIELD_REAL, .unit = "1", SCENE(gate.most.mean), .fallback = "1e-3", POSITIVE,
    .meaning = "of harmonic 0"},
-  {"gate", "waveform", "", FIELD_REAL, .unit = "1", SCENE(gate.waveform), .fallback = "5e-3", POSITIVE,
+  {"gate", "waveform", "", FIELD_REAL, .unit = "1", SCENE(gate.most.waveform), .fallback = "5e-3", POSITIVE,
    .meaning = "anywhere in the period"},
-  {"gate", "ranges", "", FIELD_REALS, .unit = "rad/time", SCENE(gate_ranges.omega), .fallback = "", POSITIVE,
+  {"gate", "ranges", "", FIELD_REALS, .unit = "rad/time", SCENE(gate.ranges.omega), .fallback = "", POSITIVE,
    .meaning = "FROM, TO, FROM, TO, ...: where the limits below hold; the last range counts"},
-  {"gate", "range_amplitude", "", FIELD_REALS, .unit = "1", SCENE(gate_ranges.amplitude), .fallback = "", POSITIVE,
+  {"gate", "range_amplitude", "", FIELD_REALS, .unit = "1", SCENE(gate.ranges.amplitude), .fallback = "", POSITIVE,
    .meaning = "instead of amplitude in the ranges: a limit for each; none: as elsewhere"},
-  {"gate", "range_harmonic_1", "", FIELD_REALS, .unit = "1", SCENE(gate_ranges.harmonic_1), .fallback = "", POSITIVE,
+  {"gate", "range_harmonic_1", "", FIELD_REALS, .unit = "1", SCENE(gate.ranges.harmonic_1), .fallback = "", POSITIVE,
    .meaning = "instead of harmonic_1 in the ranges: a limit for each; none: as elsewhere"},
-  {"gate", "range_mean", "", FIELD_REALS, .unit = "1", SCENE(gate_ranges.mean), .fallback = "", POSITIVE,
+  {"gate", "range_mean", "", FIELD_REALS, .unit = "1", SCENE(gate.ranges.mean), .fallback = "", POSITIVE,
    .meaning = "instead of mean in the ranges: a limit for each; none: as elsewhere"},
-  {"gate", "range_waveform", "", FIELD_REALS, .unit = "1", SCENE(gate_ranges.waveform), .fallback = "", POSITIVE,
+  {"gate", "range_waveform", "", FIELD_REALS, .unit = "1", SCENE(gate.ranges.waveform), .fallback = "", POSITIVE,
    .meaning = "instead of waveform in the ranges: a limit for each; none: as elsewhere"},
-  {"gate", "iterations", "", FIELD_INTEGER, .unit = "1", SCENE(gate_cost.iterations), .fallback = "0", WITHIN(0, 1e9),
+  {"gate", "iterations", "", FIELD_INTEGER, .unit = "1", SCENE(gate.iterations), .fallback = "0", WITHIN(0, 1e9),
    .meaning = "Newton iterations the whole response curve may take; 0: any number"},
-  {"gate", "evaluations", "", FIELD_INTEGER, .unit = "1", SCENE(gate_cost.evaluations), .fallback = "0", WITHIN(0, 1e9),
+  {"gate", "evaluations", "", FIELD_INTEGER, .unit = "1", SCENE(gate.evaluations), .fallback = "0", WITHIN(0, 1e9),
    .meaning = "contact force evaluations the whole response curve may take; 0: any number"},
 };
 /* clang-format on */

@@ -9,17 +9,17 @@
 #include <stdio.h>
 
 #include "base/message.h"
-#include "model/scene.h"
+#include "cases/scene.h"
 
 typedef enum field_kind {
   FIELD_REAL,    /* double                                             */
   FIELD_INTEGER, /* int                                                */
   FIELD_FLAG,    /* bool                                               */
-  FIELD_CHOICE,  /* int, an index into choices                         */
+  FIELD_CHOICE,  /* an enum as large as an int: an index into choices    */
   FIELD_TEXT,    /* char[size]                                         */
   FIELD_PAIR,    /* double[2], from and to                             */
-  FIELD_REALS,   /* scene_list                                         */
-  FIELD_INTEGERS /* scene_list of integers                             */
+  FIELD_REALS,   /* number_list                                         */
+  FIELD_INTEGERS /* number_list of integers                             */
 } field_kind;
 
 enum { FIELD_IN_CONTACT = 1, FIELD_AUTO = 2, FIELD_OPEN = 4, FIELD_NO_ECHO = 8 };
@@ -28,7 +28,7 @@ typedef struct field {
   const char *section, *name; /* section is "" for the top level; path is section.name */
   const char *symbol;         /* what PHYSICS.md and the paper call it, or ""; only ever suggested, never read */
   field_kind kind;
-  unsigned flags;       /* FIELD_IN_CONTACT: offset is into scene_contact; FIELD_AUTO: `auto` is a value (SCENE_AUTO);
+  unsigned flags;       /* FIELD_IN_CONTACT: offset is into scene_contact; FIELD_AUTO: `auto` is a value (HBM_AUTO);
                      FIELD_OPEN: low itself is out of range; FIELD_NO_ECHO: another field writes what it stored */
   const char *unit;     /* in terms of force, length, time; "1" for pure numbers, "" where there is none */
   size_t offset, size;  /* in bytes; size only for FIELD_TEXT */
@@ -73,7 +73,7 @@ typedef struct field_item {
 typedef struct field_value {
   bool list;
   int n; /* entries; 1 if not a list. More than fit are counted, not kept */
-  field_item item[SCENE_MAX_LIST];
+  field_item item[NUMBER_LIST_MAX];
 } field_value;
 
 /* Store v, checked against the field's kind and range. On false nothing is stored, m got what comes after the path

@@ -65,7 +65,7 @@ const yaml_node_t *yaml_node_value(yaml_document_t *doc, const yaml_node_t *node
   if (node->type == YAML_SCALAR_NODE) v->item[0] = yaml_node_item(node);
   if (node->type == YAML_SCALAR_NODE) return NULL;
   v->n = (int)(node->data.sequence.items.top - node->data.sequence.items.start);
-  for (int i = 0; i < v->n && i < SCENE_MAX_LIST; ++i) {
+  for (int i = 0; i < v->n && i < NUMBER_LIST_MAX; ++i) {
     const yaml_node_t *entry = yaml_document_get_node(doc, node->data.sequence.items.start[i]);
     if (entry->type != YAML_SCALAR_NODE) return entry;
     v->item[i] = yaml_node_item(entry);

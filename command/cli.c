@@ -22,12 +22,12 @@ static const struct argp_option common_options[] = {
 };
 
 /* A list "5,7,9" of numbers, each strictly read. */
-static void read_list(struct argp_state *state, const char *option, const char *text, scene_list *out)
+static void read_list(struct argp_state *state, const char *option, const char *text, number_list *out)
 {
   out->n = 0;
   for (const char *at = text;;) {
     size_t length = strcspn(at, ",");
-    if (out->n == SCENE_MAX_LIST) argp_error(state, "--%s takes at most %d numbers", option, SCENE_MAX_LIST);
+    if (out->n == NUMBER_LIST_MAX) argp_error(state, "--%s takes at most %d numbers", option, NUMBER_LIST_MAX);
     if (number_read(at, length, &out->v[out->n]) != NUMBER_FINE || !(out->v[out->n] > 0))
       argp_error(state, "--%s: '%.*s' is not a positive number; expected a list like 5,7,9", option, (int)length, at);
     ++out->n;
@@ -201,8 +201,8 @@ const char *cli_hbm_settings(const scene *sc, int n_harm, int n_time, char *text
 {
   char samples[48] = "exact forces";
   if (sc->hbm.force == HBM_FORCE_SAMPLED)
-    snprintf(samples, sizeof samples, "%s%d samples", sc->hbm.samples == SCENE_AUTO ? "auto, at most " : "", n_time);
-  snprintf(text, size, "H = %s%d%s, %s", sc->hbm.harmonics == SCENE_AUTO ? "auto, at most " : "", n_harm,
+    snprintf(samples, sizeof samples, "%s%d samples", sc->hbm.samples == HBM_AUTO ? "auto, at most " : "", n_time);
+  snprintf(text, size, "H = %s%d%s, %s", sc->hbm.harmonics == HBM_AUTO ? "auto, at most " : "", n_harm,
            sc->hbm.keep_mean ? "" : " WITHOUT harmonic 0", samples);
   return text;
 }

@@ -7,7 +7,7 @@
 #include <stdbool.h>
 
 #include "base/status.h"
-#include "model/scene.h"
+#include "cases/scene.h"
 #include "output/rows.h"
 #include "output/table.h"
 
@@ -29,10 +29,10 @@ typedef struct cli_options {
   table_format format;
   const char *output;
   bool quiet;
-  scene_list at;                 /* --at; n = 0 when absent */
-  scene_list harmonics, samples; /* --harmonics, --samples; n = 0 when absent */
-  const char *motion;            /* --motion */
-  bool several;                  /* more than one argument may be given: argument is the first of */
+  number_list at;                 /* --at; n = 0 when absent */
+  number_list harmonics, samples; /* --harmonics, --samples; n = 0 when absent */
+  const char *motion;             /* --motion */
+  bool several;                   /* more than one argument may be given: argument is the first of */
   int n_arguments;
   const char *arguments[CLI_MAX_ARGUMENTS];
   int jobs;                                       /* --jobs; 0 when absent */

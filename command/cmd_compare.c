@@ -34,7 +34,7 @@ static const struct argp_option options[] = {
 };
 
 /* The row that is farthest from what it should be, and what to do about it. */
-static void note_worst(table *t, const scene *sc, const comparison *c)
+static void note_worst(table *t, const scene *sc, const compare_setup *setup, const comparison *c)
 {
   const comparison_row *top = NULL;
   char text[BUDGET_TEXT];
@@ -45,7 +45,7 @@ static void note_worst(table *t, const scene *sc, const comparison *c)
     unknown += !r->budget.known;
     if (r->budget.known && (!top || r->budget.amplitude.sum > top->budget.amplitude.sum)) top = r;
   }
-  if (top) budget_advice(&top->budget, sc, c->harmonics, text);
+  if (top) budget_advice(&top->budget, setup, sc->gate.most.amplitude, c->harmonics, text);
   if (top) table_note(t, "largest budget, omega = %.10g, branch %d: %s", top->omega, top->branch, text);
   if (doubtful)
     table_note(t, "in %d row%s the parts do NOT account for what is observed", doubtful, doubtful == 1 ? "" : "s");
@@ -59,7 +59,7 @@ static const char *const details[] = {"mean_error",           "from_integration"
                                       "transient_harmonic_1", "periods",          "orbit_amplitude", "orbit_multiplier",
                                       "budget_sum",           "budget_observed"};
 
-static void put_notes(table *t, const scene *sc, const comparison *c)
+static void put_notes(table *t, const scene *sc, const compare_setup *setup, const comparison *c)
 {
   table_note(t, "%s", sc->title);
   char how[128];
@@ -69,7 +69,7 @@ static void put_notes(table *t, const scene *sc, const comparison *c)
   table_note(t, "HBM: %s. Transient: %s, closure %g", cli_hbm_settings(sc, c->harmonics, c->samples, how, sizeof how),
              law, sc->transient.tolerance);
   table_note(t, "gate: amplitude %g, harmonic_1 %g, mean %g, waveform %g of the transient's amplitude",
-             sc->gate.amplitude, sc->gate.harmonic_1, sc->gate.mean, sc->gate.waveform);
+             sc->gate.most.amplitude, sc->gate.most.harmonic_1, sc->gate.most.mean, sc->gate.most.waveform);
   if (c->curve.end != HC_OK && c->curve.n)
     table_note(t, "the HBM curve STOPPED at omega = %.10g: %s", c->curve.points[c->curve.n - 1].omega,
                hc_status_text(c->curve.end));
@@ -80,7 +80,7 @@ static void put_notes(table *t, const scene *sc, const comparison *c)
                unaccounted == 1 ? " matches" : "s match");
   for (int v = 0; v < VERDICT_COUNT; ++v)
     if (c->count[v]) table_note(t, "%d %s: %s", c->count[v], verdict_name((verdict)v), verdict_meaning((verdict)v));
-  note_worst(t, sc, c);
+  note_worst(t, sc, setup, c);
 }
 
 static void say_failures(const cli_options *o, const comparison *c)
@@ -95,7 +95,7 @@ static void say_failures(const cli_options *o, const comparison *c)
     cli_solver_failed(o, "the HBM response curve", c->curve.end, c->curve.points[c->curve.n - 1].omega);
 }
 
-static table *rows_table(const scene *sc, const comparison *c)
+static table *rows_table(const scene *sc, const compare_setup *setup, const comparison *c)
 {
   int n_columns;
   const table_column *columns = rows_columns(ROWS_COMPARE, &n_columns);
@@ -106,7 +106,7 @@ static table *rows_table(const scene *sc, const comparison *c)
     cli_put_row(t, ROWS_COMPARE, cells);
   }
   for (size_t i = 0; i < sizeof details / sizeof *details; ++i) table_hide(t, details[i]);
-  put_notes(t, sc, c);
+  put_notes(t, sc, setup, c);
   return t;
 }
 
@@ -114,7 +114,7 @@ int cmd_compare(int argc, char **argv)
 {
   cli_options o;
   scene sc;
-  comparison c;
+  comparison c = {0};
   accuracy a = {0};
   table *tables[3] = {NULL};
   int n_tables = 1;
@@ -125,11 +125,13 @@ int cmd_compare(int argc, char **argv)
   if (o.at.n) sc.compare.omega = o.at;
   progress *bar = progress_start("comparing", o.quiet);
   hc_monitor monitor = progress_monitor(bar);
-  hc_status st = comparison_run(&sc, &monitor, &c), tabled = HC_OK;
-  tables[0] = rows_table(&sc, &c);
+  compare_setup setup;
+  hc_status st = scene_setup(&sc, &setup), tabled = HC_OK;
+  if (st == HC_OK) st = comparison_run(&setup, &monitor, &c);
+  tables[0] = rows_table(&sc, &setup, &c);
   if (st != HC_OK) table_note(tables[0], "INCOMPLETE: %s", hc_status_text(st));
   if (st == HC_OK && (o.tables || o.harmonics.n || o.samples.n)) {
-    tabled = compare_tables(&sc, &c, &monitor, tables + 1, &a);
+    tabled = compare_tables(&setup, &c, &monitor, tables + 1, &a);
     n_tables = 3;
   }
   progress_end(bar);
@@ -144,5 +146,6 @@ int cmd_compare(int argc, char **argv)
   for (int i = 0; i < n_tables; ++i) table_free(tables[i]);
   accuracy_clear(&a);
   comparison_clear(&c);
+  scene_setup_clear(&setup);
   return code ? code : written;
 }

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/number.h"
+#include "campaigns/scene_solvers.h"
 #include "command/cli.h"
 #include "command/plot/plot.h"
 #include "hbm/aft.h"
@@ -25,7 +26,7 @@ static const struct argp_option options[] = {
     {0},
 };
 
-enum { MAX_COEF = 2 * SCENE_MAX_HARMONICS + 1, MAX_SETS = 17, EXACT = 0 };
+enum { MAX_COEF = 2 * HBM_MAX_HARMONICS + 1, MAX_SETS = 17, EXACT = 0 };
 
 /* X[MAX_COEF] from the text; the number of harmonics, or -1 after saying what is wrong. */
 static int read_motion(const cli_options *o, double *X)
@@ -56,18 +57,11 @@ static int read_motion(const cli_options *o, double *X)
   return n / 2;
 }
 
-static hc_status exact_of(const scene *sc, int n_harm, exact **e)
-{
-  moving_contact contacts[SCENE_MAX_CONTACTS];
-  exact_contacts_of(sc, contacts);
-  return exact_new(n_harm, 1, sc->n_contacts, contacts, e);
-}
-
 /* The exact coefficients, F[MAX_COEF]. */
 static hc_status evaluate_exactly(const scene *sc, int n_harm, const double *X, double *F)
 {
   exact *e = NULL;
-  hc_status st = exact_of(sc, n_harm, &e);
+  hc_status st = scene_exact(sc, n_harm, &e);
   if (st == HC_OK) st = exact_eval(e, X, F, NULL, NULL);
   exact_free(e);
   return st;
@@ -80,7 +74,7 @@ static hc_status note_pattern(table *t, const scene *sc, int n_harm, const doubl
   enum { SHOWN = 16 };
   double F[MAX_COEF];
   exact *e = NULL;
-  hc_status st = exact_of(sc, n_harm, &e);
+  hc_status st = scene_exact(sc, n_harm, &e);
   if (st == HC_OK) st = exact_eval(e, X, F, NULL, NULL);
   for (int j = 0, n; j < sc->n_contacts && st == HC_OK; ++j) {
     const contact_piece *p = exact_pieces(e, j, &n);
@@ -99,7 +93,7 @@ static int evaluate(const cli_options *o, const scene *sc, int n_harm, const dou
 {
   for (int i = 0; i < n_sets; ++i) {
     aft *a = NULL;
-    hc_status st = n_time[i] == EXACT ? evaluate_exactly(sc, n_harm, X, F[i]) : aft_new(sc, n_harm, n_time[i], &a);
+    hc_status st = n_time[i] == EXACT ? evaluate_exactly(sc, n_harm, X, F[i]) : scene_aft(sc, n_harm, n_time[i], &a);
     if (st == HC_BAD_INPUT) {
       cli_say(o, "%d samples are too few for %d harmonics; expected at least %d", n_time[i], n_harm, 2 * n_harm + 1);
       return EXIT_USAGE;
@@ -147,7 +141,7 @@ int cmd_contact(int argc, char **argv)
   if (code) return code;
   int n_harm = read_motion(&o, X);
   if (n_harm < 0) return EXIT_USAGE;
-  if (sc.hbm.force == HBM_FORCE_SAMPLED && sc.hbm.samples == SCENE_AUTO)
+  if (sc.hbm.force == HBM_FORCE_SAMPLED && sc.hbm.samples == HBM_AUTO)
     return cli_solver_failed(&o, "the contact force", HC_UNSUPPORTED, 0);
   if (n_harm < sc.hbm.harmonics) n_harm = sc.hbm.harmonics; /* auto is 0: the motion's own */
   if (n_harm < 1) n_harm = 1;

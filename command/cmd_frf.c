@@ -1,9 +1,9 @@
 /* cmd_frf.c - hbmcheck frf: the response curve, or every solution at given frequencies. */
+#include "campaigns/scene_solvers.h"
 #include "command/cli.h"
 #include "command/plot/plot.h"
 #include "compare/frequencies.h"
 #include "compare/response.h"
-#include "hbm/hbm.h"
 #include "output/progress.h"
 
 static const char doc[] =
@@ -88,8 +88,8 @@ int cmd_frf(int argc, char **argv)
   table *t = table_new("Response curve", n_columns, columns);
   progress *bar = progress_start("harmonic balance", o.quiet);
   hc_monitor monitor = progress_monitor(bar);
-  comparison_sweep(&sc, &o.at, &from, &to);
-  hc_status st = hbm_solver_new(&sc, &s);
+  comparison_sweep(sc.omega_from, sc.omega_to, &o.at, &from, &to);
+  hc_status st = scene_hbm_solver(&sc, &s);
   if (st == HC_OK) {
     st = hbm_trace(s, from, to, &monitor, &curve);
     if (st != HC_OK) failed_at = curve.n ? curve.points[curve.n - 1].omega : from;

@@ -89,7 +89,10 @@ static int run_cases(job *j)
   for (; j->n < j->o.n_arguments; ++j->n) {
     progress *bar = progress_start(j->o.arguments[j->n], j->o.quiet);
     hc_monitor monitor = progress_monitor(bar);
-    hc_status st = gate_run(j->o.arguments[j->n], &j->scenes[j->n], &monitor, &j->cases[j->n]);
+    compare_setup setup;
+    hc_status st = scene_setup(&j->scenes[j->n], &setup);
+    if (st == HC_OK) st = gate_run(j->o.arguments[j->n], &setup, &monitor, &j->cases[j->n]);
+    scene_setup_clear(&setup);
     progress_end(bar);
     if (st == HC_OK) continue;
     if (st == HC_INTERRUPTED) cli_say(&j->o, "stopped on request: nothing is written, half a gate is none");

@@ -56,7 +56,7 @@ static void put_word(FILE *to, const char *word)
   putc('\'', to);
 }
 
-static void put_list(FILE *to, const char *option, const scene_list *list)
+static void put_list(FILE *to, const char *option, const number_list *list)
 {
   if (list->n) fprintf(to, " --%s ", option);
   for (int i = 0; i < list->n; ++i) fprintf(to, "%s%.15g", i ? "," : "", list->v[i]);
@@ -94,7 +94,7 @@ static char *text_of(const cli_options *o)
 static void describe_settings(const report_data *d, char *text, size_t size)
 {
   char hbm[96], law[64] = "exact contact law";
-  const scene_transient *t = &d->sc->transient;
+  const transient_settings *t = &d->sc->transient;
   if (t->law != TRANSIENT_LAW_EXACT) snprintf(law, sizeof law, "regularised contact law, %g", t->regularisation);
   cli_hbm_settings(d->sc, d->comparison.harmonics, d->comparison.samples, hbm, sizeof hbm);
   snprintf(text, size, "Harmonic balance: %s. Time integration: %s, to %g of the steady state.", hbm, law,

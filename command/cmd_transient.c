@@ -50,8 +50,11 @@ int cmd_transient(int argc, char **argv)
   }
   progress *bar = progress_start("time integration", o.quiet);
   hc_monitor monitor = progress_monitor(bar);
-  steady_states found;
-  hc_status st = steady_states_run(&sc, &monitor, &found);
+  steady_states found = {0};
+  compare_setup setup;
+  hc_status st = scene_setup(&sc, &setup);
+  if (st == HC_OK) st = steady_states_run(&setup, &monitor, &found);
+  scene_setup_clear(&setup);
   progress_end(bar);
   const table_column *columns = rows_columns(ROWS_TRANSIENT, &n_columns);
   table *t = table_new("Steady states", n_columns, columns);

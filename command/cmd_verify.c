@@ -157,7 +157,10 @@ int cmd_verify(int argc, char **argv)
   if (!code) {
     progress *bar = progress_start("verifying", o.quiet);
     hc_monitor monitor = progress_monitor(bar);
-    hc_status st = verify_run(&sc, &data, &monitor, &report);
+    compare_setup setup;
+    hc_status st = scene_setup(&sc, &setup);
+    if (st == HC_OK) st = verify_run(&setup, &data, &monitor, &report);
+    scene_setup_clear(&setup);
     progress_end(bar);
     code = st == HC_OK ? verify_exit_code(&report) : cli_solver_failed(&o, "the verification", st, 0);
     if (code == EXIT_NO_SOLUTION && st == HC_OK)

@@ -7,8 +7,8 @@ int compare_lists(const cli_options *o, scene *sc)
 {
   static const double most_samples = 1 << 24;
   for (int i = 0; i < o->harmonics.n; ++i)
-    if (o->harmonics.v[i] != floor(o->harmonics.v[i]) || o->harmonics.v[i] > SCENE_MAX_HARMONICS) {
-      cli_say(o, "--harmonics: %g is not a whole number 1..%d", o->harmonics.v[i], SCENE_MAX_HARMONICS);
+    if (o->harmonics.v[i] != floor(o->harmonics.v[i]) || o->harmonics.v[i] > HBM_MAX_HARMONICS) {
+      cli_say(o, "--harmonics: %g is not a whole number 1..%d", o->harmonics.v[i], HBM_MAX_HARMONICS);
       return EXIT_USAGE;
     }
   for (int i = 0; i < o->samples.n; ++i)
@@ -68,9 +68,10 @@ static table *order_table(const accuracy *a)
   return t;
 }
 
-hc_status compare_tables(const scene *sc, const comparison *c, const hc_monitor *monitor, table *out[2], accuracy *a)
+hc_status compare_tables(const compare_setup *setup, const comparison *c, const hc_monitor *monitor, table *out[2],
+                         accuracy *a)
 {
-  hc_status st = accuracy_run(sc, c, monitor, a);
+  hc_status st = accuracy_run(setup, c, monitor, a);
   out[0] = accuracy_table(a);
   out[1] = order_table(a);
   for (int i = 0; i < 2 && st != HC_OK; ++i) table_note(out[i], "INCOMPLETE: %s", hc_status_text(st));

@@ -9,6 +9,7 @@ int compare_lists(const cli_options *o, scene *sc);
 
 /* The table of (H, N) and the one of orders into out[], which the caller frees; with what was found, whatever the
  * status. What they are made of into *a, to free with accuracy_clear in any case. */
-hc_status compare_tables(const scene *sc, const comparison *c, const hc_monitor *monitor, table *out[2], accuracy *a);
+hc_status compare_tables(const compare_setup *setup, const comparison *c, const hc_monitor *monitor, table *out[2],
+                         accuracy *a);
 
 #endif

@@ -37,34 +37,35 @@ const char *budget_largest(const error_budget *b, double *share)
 static int enough_harmonics(int n_harm, double e, double gate)
 {
   double wanted = ceil(n_harm * cbrt(e / gate) - 1e-9);
-  return wanted < SCENE_MAX_HARMONICS ? (int)wanted : SCENE_MAX_HARMONICS;
+  return wanted < HBM_MAX_HARMONICS ? (int)wanted : HBM_MAX_HARMONICS;
 }
 
-static void put_remedy(int part, double size, const scene *sc, int n_harm, char text[64])
+static void put_remedy(int part, double size, const compare_setup *setup, double goal, int n_harm, char text[64])
 {
   switch (part) {
   case ALIASING: snprintf(text, 64, "use hbm.force: exact"); return;
   case TRUNCATION:
-    if (!sc->hbm.keep_mean) snprintf(text, 64, "use hbm.static: true");
-    else snprintf(text, 64, "use hbm.harmonics >= %d", enough_harmonics(n_harm, size, sc->gate.amplitude));
+    if (!setup->hbm.keep_mean) snprintf(text, 64, "use hbm.static: true");
+    else snprintf(text, 64, "use hbm.harmonics >= %d", enough_harmonics(n_harm, size, goal));
     return;
   case REGULARISATION: snprintf(text, 64, "use transient.law: exact"); return;
-  default: snprintf(text, 64, "use transient.tolerance <= %.0e", 0.1 * sc->transient.tolerance);
+  default: snprintf(text, 64, "use transient.tolerance <= %.0e", 0.1 * setup->transient.tolerance);
   }
 }
 
-const char *budget_advice(const error_budget *b, const scene *sc, int n_harm, char text[BUDGET_TEXT])
+const char *budget_advice(const error_budget *b, const compare_setup *setup, double goal, int n_harm,
+                          char text[BUDGET_TEXT])
 {
   double size = 0, share;
   char remedy[64];
   const char *name = budget_largest(b, &share);
   if (!b->known) snprintf(text, BUDGET_TEXT, "no orbit to account for");
   else if (!name) snprintf(text, BUDGET_TEXT, "0 %%");
-  else if (b->amplitude.sum <= sc->gate.amplitude)
+  else if (b->amplitude.sum <= goal)
     snprintf(text, BUDGET_TEXT, "%.2g %%: %s (%.0f %%); within the gate", 100 * b->amplitude.sum, name, 100 * share);
   else {
     int part = largest(b, &size);
-    put_remedy(part, size, sc, n_harm, remedy);
+    put_remedy(part, size, setup, goal, n_harm, remedy);
     snprintf(text, BUDGET_TEXT, "%.2g %%: %s (%.0f %%); %s", 100 * b->amplitude.sum, name, 100 * share, remedy);
   }
   return text;

@@ -13,27 +13,27 @@ static const double same_orbit = 0.05; /* [amplitude] */
 static const double finest = 1e-10;    /* below it the scatter of a period keeps Newton from closing, shoot.h */
 
 struct budgeter {           /* from budgeter_new, to budgeter_free */
-  scene sc;                 /* a copy */
+  compare_setup setup;      /* a copy */
   int n_harm;               /* of alias_free */
   hbm_solver *alias_free;   /* exact forces; NULL until needed */
   timeint *finer, *coarser; /* the transient's law, stepped finer and coarser; NULL until needed */
-  double X[2 * SCENE_MAX_HARMONICS + 1];
+  double X[2 * HBM_MAX_HARMONICS + 1];
 };
 
 /* What stands between h and T, and which of it is there. */
 typedef struct chain {
-  steady_motion h, hx, orbit, finer, transient;
+  periodic_motion h, hx, orbit, finer, transient;
   bool has_hx, has_orbit, has_finer, has_transient;
   bool finer_is_coarser; /* `finer` was not to be had: it is a coarser one, an error estimate and no link of the
                             chain */
   double settling;       /* [1] */
 } chain;
 
-hc_status budgeter_new(const scene *sc, budgeter **out)
+hc_status budgeter_new(const compare_setup *setup, budgeter **out)
 {
   *out = calloc(1, sizeof **out);
   if (!*out) return HC_NO_MEMORY;
-  (*out)->sc = *sc;
+  (*out)->setup = *setup;
   return HC_OK;
 }
 
@@ -53,21 +53,16 @@ error_budget budget_nothing(void)
 }
 
 /* |difference| / amplitude; no difference is no error, also where nothing moves. */
-static double relative(double difference, double amplitude)
-{
-  return difference == 0 ? 0 : fabs(difference) / amplitude;
-}
-
 bool budget_same_orbit(const timeint_result *a, const timeint_result *b)
 {
-  steady_motion ma = motion_of_transient(a), mb = motion_of_transient(b);
+  periodic_motion ma = motion_of_transient(a), mb = motion_of_transient(b);
   if (a->period_multiple != b->period_multiple || timeint_stability(a) * timeint_stability(b) < 0) return false;
-  return relative(motion_between(&ma, &mb).waveform, b->amplitude) <= same_orbit;
+  return discrepancy_relative(motion_between(&ma, &mb).waveform, b->amplitude) <= same_orbit;
 }
 
 double budget_regularisation(const timeint_result *tr, const timeint_result *orbit)
 {
-  return budget_same_orbit(tr, orbit) ? relative(tr->amplitude - orbit->amplitude, orbit->amplitude) : NAN;
+  return budget_same_orbit(tr, orbit) ? discrepancy_relative(tr->amplitude - orbit->amplitude, orbit->amplitude) : NAN;
 }
 
 /* ---- hx: the same truncation without aliasing ------------------------------------------------ */
@@ -75,11 +70,11 @@ double budget_regularisation(const timeint_result *tr, const timeint_result *orb
 static hc_status need_alias_free(budgeter *b, int n_harm)
 {
   if (b->alias_free && b->n_harm == n_harm) return HC_OK;
-  scene sc = b->sc;
+  compare_setup setup = b->setup;
   hbm_solver_free(b->alias_free);
-  sc.hbm.force = HBM_FORCE_EXACT;
-  sc.hbm.harmonics = b->n_harm = n_harm;
-  return hbm_solver_new(&sc, &b->alias_free);
+  setup.hbm.force = HBM_FORCE_EXACT;
+  setup.hbm.harmonics = b->n_harm = n_harm;
+  return hbm_solver_new(setup.model, &setup.hbm, &b->alias_free);
 }
 
 /* The solution next to b->X into c->hx, if it is a better link between h and the orbit than the one that is there. */
@@ -89,7 +84,7 @@ static void try_alias_free(budgeter *b, const budget_case *from, chain *c)
   hbm_measures m;
   if (hbm_solve(b->alias_free, from->omega, b->X, &point) != HC_OK || hbm_measure(b->alias_free, b->X, &m) != HC_OK)
     return;
-  steady_motion found = motion_of_series(&m, b->n_harm, b->X);
+  periodic_motion found = motion_of_series(&m, b->n_harm, b->X);
   if (c->has_hx) {
     double old = motion_between(&c->h, &c->hx).waveform + motion_between(&c->hx, &c->orbit).waveform;
     if (!(motion_between(&c->h, &found).waveform + motion_between(&found, &c->orbit).waveform < old)) return;
@@ -102,7 +97,7 @@ static void try_alias_free(budgeter *b, const budget_case *from, chain *c)
 static hc_status find_alias_free(budgeter *b, const budget_case *from, chain *c)
 {
   c->hx = c->h;
-  if ((c->has_hx = b->sc.hbm.force == HBM_FORCE_EXACT)) return HC_OK;
+  if ((c->has_hx = b->setup.hbm.force == HBM_FORCE_EXACT)) return HC_OK;
   hc_status st = need_alias_free(b, from->n_harm);
   if (st != HC_OK) return st == HC_NO_MEMORY ? st : HC_OK;
   memcpy(b->X, from->X, (size_t)(2 * from->n_harm + 1) * sizeof *b->X);
@@ -112,7 +107,7 @@ static hc_status find_alias_free(budgeter *b, const budget_case *from, chain *c)
   if (c->has_hx && motion_between(&c->h, &c->hx).waveform + motion_between(&c->hx, &c->orbit).waveform <= 3 * direct)
     return HC_OK;
   motion_series(&c->orbit, from->n_harm, b->X);
-  if (!b->sc.hbm.keep_mean) b->X[0] = 0;
+  if (!b->setup.hbm.keep_mean) b->X[0] = 0;
   try_alias_free(b, from, c);
   return HC_OK;
 }
@@ -122,18 +117,18 @@ static hc_status find_alias_free(budgeter *b, const budget_case *from, chain *c)
 /* The orbit next to the transient's with transient.tolerance = tolerance. HC_OK also if there was none: then
  * !*found. */
 static hc_status integrate_again(budgeter *b, timeint **ti, double tolerance, const budget_case *from,
-                                 const hc_monitor *monitor, steady_motion *out, bool *found)
+                                 const hc_monitor *monitor, periodic_motion *out, bool *found)
 {
-  scene sc = b->sc;
+  compare_setup setup = b->setup;
   timeint_result r;
   timeint_state state = from->state;
   patience p = {.outer = monitor, .left = PATIENCE_PERIODS};
   hc_monitor bounded = {patience_tick, &p};
   *found = false;
-  sc.transient.tolerance = tolerance;
-  sc.transient.steady = TRANSIENT_STEADY_SHOOTING; /* with transient.richardson, timeint_steady extrapolates as it
+  setup.transient.tolerance = tolerance;
+  setup.transient.steady = TRANSIENT_STEADY_SHOOTING; /* with transient.richardson, timeint_steady extrapolates as it
                                                       did for T */
-  hc_status st = *ti ? HC_OK : timeint_new(&sc, ti);
+  hc_status st = *ti ? HC_OK : timeint_new(setup.model, &setup.transient, ti);
   if (st == HC_OK) st = timeint_steady(*ti, from->omega, &state, &bounded, &r);
   if (st == HC_NO_MEMORY) return st;
   if (p.stopped) return HC_INTERRUPTED;
@@ -143,7 +138,7 @@ static hc_status integrate_again(budgeter *b, timeint **ti, double tolerance, co
 
 static hc_status find_finer(budgeter *b, const budget_case *from, const hc_monitor *monitor, chain *c)
 {
-  const double tolerance = b->sc.transient.tolerance;
+  const double tolerance = b->setup.transient.tolerance;
   c->settling = from->transient->closure;
   c->finer = c->transient;
   if ((c->has_finer = from->transient->method == TIMEINT_BY_CLOSED_FORM)) return HC_OK;
@@ -168,20 +163,21 @@ static void add_up(budget_parts *p)
 
 /* The gaps between the links. */
 typedef struct links {
-  motion_gap observed, direct, aliasing, truncation, regularisation, integration;
+  motion_distance observed, direct, aliasing, truncation, regularisation, integration;
 } links;
 
 /* gap[6]: one measure of them, in their order. */
 static budget_parts split(const chain *c, bool exact_law, double settling, double unit, const double gap[6])
 {
   budget_parts p = budget_nothing().amplitude;
-  p.observed = relative(gap[0], unit);
-  if (c->has_hx) p.aliasing = relative(gap[2], unit), p.truncation = relative(gap[3], unit);
-  else p.aliasing = relative(gap[1], unit); /* without aliasing there is no such solution */
+  p.observed = discrepancy_relative(gap[0], unit);
+  if (c->has_hx) p.aliasing = discrepancy_relative(gap[2], unit), p.truncation = discrepancy_relative(gap[3], unit);
+  else p.aliasing = discrepancy_relative(gap[1], unit); /* without aliasing there is no such solution */
   if (c->has_transient) {
-    p.regularisation = exact_law ? 0 : c->has_orbit ? relative(gap[4], unit) : NAN;
+    p.regularisation = exact_law ? 0 : c->has_orbit ? discrepancy_relative(gap[4], unit) : NAN;
     p.settling = settling;
-    if (c->has_finer || c->finer_is_coarser) p.integration = fmax(relative(gap[5], unit) - known(settling), 0);
+    if (c->has_finer || c->finer_is_coarser)
+      p.integration = fmax(discrepancy_relative(gap[5], unit) - known(settling), 0);
   }
   add_up(&p);
   return p;
@@ -190,15 +186,15 @@ static budget_parts split(const chain *c, bool exact_law, double settling, doubl
 /* The chain with the links that are missing closed: each gap is between what is there. */
 static links measure_links(const chain *c, bool exact_law)
 {
-  const steady_motion *last = c->has_finer ? &c->finer : &c->transient; /* the end of the chain before integration */
-  const steady_motion *orbit = c->has_transient && (exact_law || !c->has_orbit) ? last : &c->orbit;
-  const steady_motion *end = c->has_transient ? &c->transient : orbit;
+  const periodic_motion *last = c->has_finer ? &c->finer : &c->transient; /* the end of the chain before integration */
+  const periodic_motion *orbit = c->has_transient && (exact_law || !c->has_orbit) ? last : &c->orbit;
+  const periodic_motion *end = c->has_transient ? &c->transient : orbit;
   return (links){.observed = motion_between(&c->h, end),
                  .direct = motion_between(&c->h, orbit),
                  .aliasing = motion_between(&c->h, &c->hx),
                  .truncation = motion_between(&c->hx, orbit),
-                 .regularisation = c->has_transient ? motion_between(orbit, last) : (motion_gap){0},
-                 .integration = c->has_transient ? motion_between(&c->finer, &c->transient) : (motion_gap){0}};
+                 .regularisation = c->has_transient ? motion_between(orbit, last) : (motion_distance){0},
+                 .integration = c->has_transient ? motion_between(&c->finer, &c->transient) : (motion_distance){0}};
 }
 
 static void settle_accounts(const chain *c, bool exact_law, error_budget *out)
@@ -236,7 +232,7 @@ hc_status budgeter_run(budgeter *b, const budget_case *from, const hc_monitor *m
   if (c->has_orbit || c->has_transient) st = find_alias_free(b, from, c);
   if (st == HC_OK && c->has_transient) st = find_finer(b, from, monitor, c);
   if (st == HC_OK && (c->has_orbit || c->has_transient))
-    settle_accounts(c, b->sc.transient.law == TRANSIENT_LAW_EXACT, out);
+    settle_accounts(c, b->setup.transient.law == TRANSIENT_LAW_EXACT, out);
   free(c);
   return st;
 }

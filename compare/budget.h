@@ -14,6 +14,7 @@
 #ifndef HC_PARTS_H
 #define HC_PARTS_H
 
+#include "compare/compare_settings.h"
 #include "hbm/hbm.h"
 #include "timeint/timeint.h"
 
@@ -52,7 +53,7 @@ typedef struct budget_case {
 
 /* Workspace for the solutions between h and T; one a thread. What it needs is made when it is needed. */
 typedef struct budgeter budgeter;
-hc_status budgeter_new(const scene *sc, budgeter **out);
+hc_status budgeter_new(const compare_setup *setup, budgeter **out);
 void budgeter_free(budgeter *b);
 
 /* HC_OK, also where parts could not be had; HC_INTERRUPTED, HC_NO_MEMORY. */
@@ -72,6 +73,7 @@ const char *budget_largest(const error_budget *b, double *share);
 /* "4.1 %: truncation (97 %); use hbm.harmonics >= 14". One line in text[BUDGET_TEXT], which is returned; n_harm as
  * in use. */
 enum { BUDGET_TEXT = 160 };
-const char *budget_advice(const error_budget *b, const scene *sc, int n_harm, char text[BUDGET_TEXT]);
+const char *budget_advice(const error_budget *b, const compare_setup *setup, double goal, int n_harm,
+                          char text[BUDGET_TEXT]);
 
 #endif

@@ -8,6 +8,8 @@
 #include <string.h>
 
 #include "compare/frequencies.h"
+#include "compare/gate_limits.h"
+#include "compare/motion.h"
 #include "hbm/series.h"
 
 static const struct {
@@ -29,67 +31,40 @@ const char *comparison_verdict_text(const comparison_row *row, char text[24])
   return text;
 }
 
-timeint_state comparison_orbit_start(const hbm_measures *m, int n_harm, const double *X, double omega)
+hc_status comparison_orbit_start(hbm_solver *hbm, const double *X, double omega, timeint_state *out)
 {
-  series_jet j = series_at(n_harm, X, 1, 0);
-  timeint_state s = {.x = j.x, .v = omega * j.d1};
-  memcpy(s.w, m->contact.w, sizeof s.w);
-  return s;
+  series_jet j = series_at(hbm_n_harmonics(hbm), X, 1, 0);
+  *out = (timeint_state){.x = j.x, .v = omega * j.d1};
+  return hbm_sliders(hbm, X, out->w);
 }
 
-/* Largest |x_hbm(t) - x_transient(t)| over the period. */
-static double waveform_distance(int n_harm, const double *X, const timeint_result *tr)
+double comparison_waveform_error(const hbm_measures *hbm, int n_harm, const double *X, const timeint_result *tr)
 {
-  const double shift = tr->free_sliders > 0 ? X[0] - tr->mean : 0; /* a mean of its own history is no difference */
-  double worst = 0;
-  for (int i = 0; i < TIMEINT_WAVE; ++i) {
-    double th = 6.283185307179586476925 * i / TIMEINT_WAVE;
-    double d = fabs(series_at(n_harm, X, cos(th), sin(th)).x - tr->wave[i] - shift);
-    if (!(d >= 0)) return NAN;
-    if (d > worst) worst = d;
-  }
-  return worst;
+  const periodic_motion a = motion_of_series(hbm, n_harm, X), b = motion_of_transient(tr);
+  return motion_discrepancy(&a, &b).waveform;
 }
 
-/* |difference| / amplitude; no difference is no error, also where nothing moves (no forcing). */
-static double relative(double difference, double amplitude)
+static discrepancy errors_between(const hbm_measures *hbm, int n_harm, const double *X, const timeint_result *tr)
 {
-  return difference == 0 ? 0 : fabs(difference) / amplitude;
-}
-
-double comparison_waveform_error(int n_harm, const double *X, const timeint_result *tr)
-{
-  return relative(waveform_distance(n_harm, X, tr), tr->amplitude);
-}
-
-static comparison_errors errors_between(const hbm_measures *hbm, int n_harm, const double *X, const timeint_result *tr)
-{
-  double a = tr->amplitude;
-  return (comparison_errors){
-      .amplitude = relative(hbm->amplitude - a, a),
-      .harmonic_1 = relative(hbm->harmonic_1 - tr->harmonic_1, a),
-      .mean = relative(hbm->mean - tr->mean, a),
-      .waveform = comparison_waveform_error(n_harm, X, tr),
-  };
+  const periodic_motion a = motion_of_series(hbm, n_harm, X), b = motion_of_transient(tr);
+  return motion_discrepancy(&a, &b);
 }
 
 /* Where a slider is free the mean is a matter of history, and not held against HBM. */
-static bool within_gate(const comparison_errors *e, const timeint_result *tr, const scene_gate *g)
+static bool within_limits(const compare_setup *setup, const discrepancy *e, const timeint_result *tr)
 {
-  bool mean = tr->free_sliders > 0 || e->mean <= g->mean;
-  return e->amplitude <= g->amplitude && e->harmonic_1 <= g->harmonic_1 && mean && e->waveform <= g->waveform;
+  return gate_limits_hold(setup->limits, tr->omega, e, tr->free_sliders > 0);
 }
 
-/* Is the transient within the gate of any HBM solution at this omega? */
-static bool accounted_for(hbm_solver *hbm, const scene *sc, const hbm_curve *at, const timeint_result *tr)
+/* Is the transient within the limits of any HBM solution at this omega? */
+static bool accounted_for(hbm_solver *hbm, const compare_setup *setup, const hbm_curve *at, const timeint_result *tr)
 {
-  const scene_gate gate = scene_gate_at(sc, tr->omega);
   for (int i = 0; i < at->n; ++i) {
     const double *X = at->X + (size_t)i * at->n_coef;
     hbm_measures m;
     if (hbm_measure(hbm, X, &m) != HC_OK) continue;
-    comparison_errors e = errors_between(&m, hbm_n_harmonics(hbm), X, tr);
-    if (within_gate(&e, tr, &gate)) return true;
+    discrepancy e = errors_between(&m, hbm_n_harmonics(hbm), X, tr);
+    if (within_limits(setup, &e, tr)) return true;
   }
   return false;
 }
@@ -110,7 +85,7 @@ static hc_status add_row(comparison *c, const comparison_row *row)
 
 /* Everything the run needs at hand. */
 typedef struct runner {
-  const scene *sc;
+  const compare_setup *setup;
   hbm_solver *hbm;
   timeint *ti;
   timeint *exact; /* the referee: exact law, shooting */
@@ -124,10 +99,8 @@ typedef struct runner {
 /* The transient's state at the start of a row. HC_OK, or why the sweep up to here failed. */
 static hc_status start_state(runner *r, const comparison_row *row, const double *X, timeint_state *state)
 {
-  switch (r->sc->transient.start) {
-  case TRANSIENT_START_HBM:
-    *state = comparison_orbit_start(&row->hbm, hbm_n_harmonics(r->hbm), X, row->omega);
-    return HC_OK;
+  switch (r->setup->transient.start) {
+  case TRANSIENT_START_HBM: return comparison_orbit_start(r->hbm, X, row->omega, state);
   case TRANSIENT_START_REST: *state = timeint_rest(r->ti); return HC_OK;
   default: break;
   }
@@ -137,32 +110,25 @@ static hc_status start_state(runner *r, const comparison_row *row, const double 
   return st;
 }
 
-/* Largest difference of two transients over the period, relative to the second one's amplitude. */
-static double orbits_apart(const timeint_result *a, const timeint_result *b)
-{
-  const double shift = a->free_sliders > 0 || b->free_sliders > 0 ? a->mean - b->mean : 0;
-  double worst = 0;
-  for (int i = 0; i < TIMEINT_WAVE; ++i) {
-    double d = fabs(a->wave[i] - b->wave[i] - shift);
-    if (!(d <= worst)) worst = d; /* NaN stays */
-  }
-  return relative(worst, b->amplitude);
-}
-
 /* Does the transient run on the orbit next to the HBM solution? It does if it was found there. Otherwise, having
  * come from elsewhere, that orbit is computed from the HBM solution, with the transient's own law, and the two are
  * held together: same law, same orbit, so that the difference is of the order of transient.tolerance, and anything
  * beyond `same` is another orbit. */
-static bool runs_next_to(runner *r, const comparison_row *row, const double *X)
+static hc_status runs_next_to(runner *r, const comparison_row *row, const double *X, bool *next)
 {
-  const double same = fmax(1e-6, 100 * r->sc->transient.tolerance);
-  if (r->sc->transient.start == TRANSIENT_START_HBM && row->transient.method != TIMEINT_BY_MARCHING)
-    return !row->transient.left_orbit;
-  timeint_state state = comparison_orbit_start(&row->hbm, hbm_n_harmonics(r->hbm), X, row->omega);
+  const double same = fmax(1e-6, 100 * r->setup->transient.tolerance);
+  if (r->setup->transient.start == TRANSIENT_START_HBM && row->transient.method != TIMEINT_BY_MARCHING)
+    return *next = !row->transient.left_orbit, HC_OK;
+  *next = true; /* also where there is no orbit: what differs is HBM */
+  timeint_state state;
   timeint_result restarted;
-  /* none there: what differs is HBM */
-  if (timeint_orbit(r->ti, row->omega, 1, &state, r->monitor, &restarted) != HC_OK) return true;
-  return orbits_apart(&restarted, &row->transient) <= same;
+  hc_status st = comparison_orbit_start(r->hbm, X, row->omega, &state);
+  if (st == HC_OK) st = timeint_orbit(r->ti, row->omega, 1, &state, r->monitor, &restarted);
+  if (st == HC_NO_MEMORY || st == HC_INTERRUPTED) return st; /* nothing is known */
+  if (st != HC_OK) return HC_OK;
+  const periodic_motion there = motion_of_transient(&restarted), here = motion_of_transient(&row->transient);
+  *next = motion_discrepancy(&there, &here).waveform <= same;
+  return HC_OK;
 }
 
 static bool unstable(const comparison_row *row)
@@ -171,31 +137,35 @@ static bool unstable(const comparison_row *row)
   return hbm_stability_verdict(&row->stability) < 0;
 }
 
-static verdict judge(runner *r, const comparison_row *row, const double *X)
+/* HC_NO_MEMORY, HC_INTERRUPTED: *out is not known. */
+static hc_status judge(runner *r, const comparison_row *row, const double *X, verdict *out)
 {
-  if (row->transient_status == HC_NOT_SETTLED) return VERDICT_NOT_SETTLED;
-  if (row->transient_status == HC_APERIODIC && row->hbm_status == HC_OK) return VERDICT_APERIODIC;
-  if (row->transient_status != HC_OK || row->hbm_status != HC_OK) return VERDICT_SOLVER_FAILED;
-  if (row->transient.period_multiple > 1) return VERDICT_PERIOD_K;
-  const scene_gate gate = scene_gate_at(r->sc, row->omega);
-  if (within_gate(&row->errors, &row->transient, &gate)) return VERDICT_MATCH;
-  if (unstable(row)) return VERDICT_UNSTABLE;
-  return runs_next_to(r, row, X) ? VERDICT_DIFFERS : VERDICT_OTHER_BRANCH;
+  if (row->transient_status == HC_NOT_SETTLED) return *out = VERDICT_NOT_SETTLED, HC_OK;
+  if (row->transient_status == HC_APERIODIC && row->hbm_status == HC_OK) return *out = VERDICT_APERIODIC, HC_OK;
+  if (row->transient_status != HC_OK || row->hbm_status != HC_OK) return *out = VERDICT_SOLVER_FAILED, HC_OK;
+  if (row->transient.period_multiple > 1) return *out = VERDICT_PERIOD_K, HC_OK;
+  if (within_limits(r->setup, &row->errors, &row->transient)) return *out = VERDICT_MATCH, HC_OK;
+  if (unstable(row)) return *out = VERDICT_UNSTABLE, HC_OK;
+  bool next = true;
+  hc_status st = runs_next_to(r, row, X, &next);
+  *out = next ? VERDICT_DIFFERS : VERDICT_OTHER_BRANCH;
+  return st;
 }
 
 /* The orbit of the exact law next to the HBM solution; not computed again where the transient is just that. */
 static void referee(runner *r, comparison_row *row, const double *X)
 {
-  const scene_transient *t = &r->sc->transient;
+  const transient_settings *t = &r->setup->transient;
   const timeint_result *tr = &row->transient;
   bool same = t->law == TRANSIENT_LAW_EXACT && t->start == TRANSIENT_START_HBM && row->transient_status == HC_OK &&
               !tr->left_orbit && tr->period_multiple == 1 && tr->method == TIMEINT_BY_SHOOTING;
-  timeint_state state = comparison_orbit_start(&row->hbm, hbm_n_harmonics(r->hbm), X, row->omega);
+  timeint_state state;
   if (same) row->orbit = *tr, row->orbit_status = HC_OK;
-  else row->orbit_status = timeint_orbit(r->exact, row->omega, 1, &state, r->monitor, &row->orbit);
+  else if ((row->orbit_status = comparison_orbit_start(r->hbm, X, row->omega, &state)) == HC_OK)
+    row->orbit_status = timeint_orbit(r->exact, row->omega, 1, &state, r->monitor, &row->orbit);
   row->orbit_error = NAN;
   if (row->orbit_status != HC_OK) return;
-  row->orbit_error = comparison_waveform_error(hbm_n_harmonics(r->hbm), X, &row->orbit);
+  row->orbit_error = comparison_waveform_error(&row->hbm, hbm_n_harmonics(r->hbm), X, &row->orbit);
 }
 
 /* What the discrepancy is made of. */
@@ -232,8 +202,9 @@ static hc_status compare_solution(runner *r, const hbm_curve *at, int k, compari
   bool comparable = row->hbm_status == HC_OK && row->transient_status == HC_OK;
   if (comparable) row->errors = errors_between(&row->hbm, hbm_n_harmonics(r->hbm), X, &row->transient);
   row->accounted =
-      comparable && row->transient.period_multiple == 1 && accounted_for(r->hbm, r->sc, at, &row->transient);
-  row->verdict = judge(r, row, X);
+      comparable && row->transient.period_multiple == 1 && accounted_for(r->hbm, r->setup, at, &row->transient);
+  hc_status judged = judge(r, row, X, &row->verdict);
+  if (judged != HC_OK) return judged;
   row->transient_state = state;
   return account(r, at, k, row);
 }
@@ -270,8 +241,8 @@ static hc_status compare_at(runner *r, double omega)
 
 static void begin_sweep(runner *r)
 {
-  bool down = r->sc->transient.start == TRANSIENT_START_DOWN;
-  double low = fmin(r->sc->omega_from, r->sc->omega_to), high = fmax(r->sc->omega_from, r->sc->omega_to);
+  bool down = r->setup->transient.start == TRANSIENT_START_DOWN;
+  double low = fmin(r->setup->omega_from, r->setup->omega_to), high = fmax(r->setup->omega_from, r->setup->omega_to);
   r->swept_omega = down ? high : low;
   r->swept = timeint_rest(r->ti);
 }
@@ -291,11 +262,11 @@ static bool tick_share(void *self, double done)
 static hc_status compare_all(runner *r)
 {
   const hc_monitor *outer = r->monitor;
-  scene_list omega;
-  hc_status st = comparison_frequencies(r->sc, r->hbm, &r->out->curve, &omega);
+  number_list omega;
+  hc_status st = comparison_frequencies(&r->setup->compare, r->setup->omega_from, r->hbm, &r->out->curve, &omega);
   begin_sweep(r);
   for (int i = 0; i < omega.n && st == HC_OK; ++i) {
-    int at = r->sc->transient.start == TRANSIENT_START_DOWN ? omega.n - 1 - i : i;
+    int at = r->setup->transient.start == TRANSIENT_START_DOWN ? omega.n - 1 - i : i;
     share part = {outer, (double)i / omega.n, 1.0 / omega.n};
     hc_monitor inner = {tick_share, &part};
     r->monitor = &inner;
@@ -305,25 +276,25 @@ static hc_status compare_all(runner *r)
   return st;
 }
 
-hc_status comparison_referee(const scene *sc, timeint **out)
+hc_status comparison_referee(const compare_setup *setup, timeint **out)
 {
-  scene own = *sc;
+  compare_setup own = *setup;
   own.transient.law = TRANSIENT_LAW_EXACT;
-  own.transient.tolerance = fmin(sc->transient.tolerance, 1e-9);
-  return timeint_new(&own, out);
+  own.transient.tolerance = fmin(setup->transient.tolerance, 1e-9);
+  return timeint_new(own.model, &own.transient, out);
 }
 
-hc_status comparison_run(const scene *sc, const hc_monitor *monitor, comparison *out)
+hc_status comparison_run(const compare_setup *setup, const hc_monitor *monitor, comparison *out)
 {
   *out = (comparison){0};
-  runner r = {.sc = sc, .monitor = monitor, .out = out};
-  hc_status st = hbm_solver_new(sc, &r.hbm);
-  if (st == HC_OK) st = timeint_new(sc, &r.ti);
-  if (st == HC_OK) st = comparison_referee(sc, &r.exact);
-  if (st == HC_OK) st = budgeter_new(sc, &r.budgeter);
+  runner r = {.setup = setup, .monitor = monitor, .out = out};
+  hc_status st = hbm_solver_new(setup->model, &setup->hbm, &r.hbm);
+  if (st == HC_OK) st = timeint_new(setup->model, &setup->transient, &r.ti);
+  if (st == HC_OK) st = comparison_referee(setup, &r.exact);
+  if (st == HC_OK) st = budgeter_new(setup, &r.budgeter);
   if (st == HC_OK) {
     double from, to;
-    comparison_sweep(sc, &sc->compare.omega, &from, &to);
+    comparison_sweep(setup->omega_from, setup->omega_to, &setup->compare.omega, &from, &to);
     st = hbm_trace(r.hbm, from, to, monitor, &out->curve);
     out->harmonics = hbm_n_harmonics(r.hbm);
     out->samples = hbm_n_samples(r.hbm);

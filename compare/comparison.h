@@ -1,7 +1,7 @@
 /* comparison.h - the main job: the same frequencies solved by harmonic balance and by time integration, and how far
  * apart they are.
  *
- * Per frequency and per HBM solution (branch) the transient starts, unless the scene says otherwise, on that
+ * Per frequency and per HBM solution (branch) the transient starts, unless transient.start says otherwise, on that
  * solution's own orbit. Beside it stands the referee: the periodic orbit of the exact contact law next to the HBM
  * solution, stable or not, found by shooting. What the HBM solution should be is that orbit; what a machine does is
  * the transient. An error is |hbm - transient| / the transient's amplitude. Phases are never aligned: the forcing
@@ -11,9 +11,10 @@
 
 #include "base/status.h"
 #include "compare/budget.h"
+#include "compare/compare_settings.h"
+#include "compare/discrepancy.h"
 #include "compare/response.h"
 #include "hbm/hbm.h"
-#include "model/scene.h"
 #include "timeint/timeint.h"
 
 /* Never a bare number: what a comparison can come to. Names are INTERFACE.md's. */
@@ -33,10 +34,6 @@ typedef enum verdict { VERDICT_LIST(VERDICT_ENUM) VERDICT_COUNT } verdict;
 const char *verdict_name(verdict v); /* "period_k" for all k; a row's own is comparison_verdict_text */
 const char *verdict_meaning(verdict v);
 
-typedef struct comparison_errors {
-  double amplitude, harmonic_1, mean, waveform;
-} comparison_errors; /* [1] */
-
 typedef struct comparison_row {
   double omega;
   int branch;           /* of the HBM solution; -1: HBM has none here */
@@ -48,10 +45,10 @@ typedef struct comparison_row {
   timeint_result transient;      /* valid when transient_status is HC_OK, HC_NOT_SETTLED or HC_APERIODIC */
   timeint_state transient_state; /* on the transient's orbit */
   hc_status orbit_status;
-  timeint_result orbit;     /* the referee's, valid when orbit_status is HC_OK */
-  double orbit_error;       /* [1] waveform error of the HBM solution against that orbit, NaN without it */
-  error_budget budget;      /* what the discrepancy is made of */
-  comparison_errors errors; /* NaN where there is nothing to compare */
+  timeint_result orbit; /* the referee's, valid when orbit_status is HC_OK */
+  double orbit_error;   /* [1] waveform error of the HBM solution against that orbit, NaN without it */
+  error_budget budget;  /* what the discrepancy is made of */
+  discrepancy errors;   /* NaN where there is nothing to compare */
 } comparison_row;
 
 typedef struct comparison {
@@ -63,10 +60,10 @@ typedef struct comparison {
   int harmonics, samples;   /* in use: for auto, the most the curve needed; samples 0 for exact forces */
 } comparison;
 
-/* Compare at the scene's frequencies (compare.omega, or compare.points chosen along the response curve). Rows found
+/* Compare at the frequencies of *setup (compare.omega, or compare.points chosen along the response curve). Rows found
  * before an interrupt or a failure are kept. HC_OK even when single rows failed: their verdicts say so. Free with
  * comparison_clear in any case. */
-hc_status comparison_run(const scene *sc, const hc_monitor *monitor, comparison *out);
+hc_status comparison_run(const compare_setup *setup, const hc_monitor *monitor, comparison *out);
 void comparison_clear(comparison *c);
 
 /* "match", "period_2", ...: the row's verdict in text[24], which is returned. */
@@ -79,14 +76,14 @@ bool comparison_unaccounted(const comparison_row *row);
  * something could not be compared. */
 int comparison_exit_code(const comparison *c);
 
-/* The time integration that HBM solutions are held against: sc's, with the exact law. For timeint_orbit. */
-hc_status comparison_referee(const scene *sc, timeint **out);
+/* The time integration that HBM solutions are held against: the model, with the exact law. For timeint_orbit. */
+hc_status comparison_referee(const compare_setup *setup, timeint **out);
 
 /* Largest |x_hbm(t) - x_transient(t)| over the period, relative to the transient's amplitude; the means, where a
  * slider is free, set equal. */
-double comparison_waveform_error(int n_harm, const double *X, const timeint_result *tr);
+double comparison_waveform_error(const hbm_measures *hbm, int n_harm, const double *X, const timeint_result *tr);
 
 /* x(t), x'(t) and sliders at t = 0 of an HBM solution: where its transient starts. */
-timeint_state comparison_orbit_start(const hbm_measures *m, int n_harm, const double *X, double omega);
+hc_status comparison_orbit_start(hbm_solver *hbm, const double *X, double omega, timeint_state *out);
 
 #endif

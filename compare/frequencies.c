@@ -4,14 +4,14 @@
 #include <math.h>
 #include <stdlib.h>
 
-void comparison_sweep(const scene *sc, const scene_list *asked, double *from, double *to)
+void comparison_sweep(double omega_from, double omega_to, const number_list *asked, double *from, double *to)
 {
-  double low = fmin(sc->omega_from, sc->omega_to), high = fmax(sc->omega_from, sc->omega_to);
+  double low = fmin(omega_from, omega_to), high = fmax(omega_from, omega_to);
   for (int i = 0; i < asked->n; ++i) {
     low = fmin(low, asked->v[i]);
     high = fmax(high, asked->v[i]);
   }
-  bool up = sc->omega_from <= sc->omega_to;
+  bool up = omega_from <= omega_to;
   *from = up ? low : high;
   *to = up ? high : low;
 }
@@ -22,7 +22,7 @@ static int ascending(const void *a, const void *b)
   return (x > y) - (x < y);
 }
 
-static void sort_unique(scene_list *list)
+static void sort_unique(number_list *list)
 {
   qsort(list->v, (size_t)list->n, sizeof *list->v, ascending);
   int n = 0;
@@ -51,10 +51,10 @@ static hc_status drawn_lengths(hbm_solver *hbm, const hbm_curve *c, double *ampl
   return HC_OK;
 }
 
-static void spread_points(const hbm_curve *c, const double *length, int n, scene_list *out)
+static void spread_points(const hbm_curve *c, const double *length, int n, number_list *out)
 {
   int k = 0;
-  if (n > SCENE_MAX_LIST) n = SCENE_MAX_LIST;
+  if (n > NUMBER_LIST_MAX) n = NUMBER_LIST_MAX;
   for (int i = 0; i < n; ++i) {
     double at = length[c->n - 1] * (i + 0.5) / n;
     while (k + 2 < c->n && length[k + 1] < at) ++k;
@@ -63,18 +63,19 @@ static void spread_points(const hbm_curve *c, const double *length, int n, scene
   }
 }
 
-hc_status comparison_frequencies(const scene *sc, hbm_solver *hbm, const hbm_curve *c, scene_list *out)
+hc_status comparison_frequencies(const compare_settings *where, double omega_from, hbm_solver *hbm, const hbm_curve *c,
+                                 number_list *out)
 {
-  *out = sc->compare.omega;
+  *out = where->omega;
   hc_status st = HC_OK;
   if (out->n == 0 && c->n >= 2) {
     double *work = malloc(2 * (size_t)c->n * sizeof *work);
     if (!work) return HC_NO_MEMORY;
     st = drawn_lengths(hbm, c, work, work + c->n);
-    if (st == HC_OK) spread_points(c, work + c->n, sc->compare.points, out);
+    if (st == HC_OK) spread_points(c, work + c->n, where->points, out);
     free(work);
   }
-  if (out->n == 0) out->v[out->n++] = sc->omega_from; /* no curve at all: one row that says so */
+  if (out->n == 0) out->v[out->n++] = omega_from; /* no curve at all: one row that says so */
   sort_unique(out);
   return st;
 }

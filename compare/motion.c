@@ -7,9 +7,9 @@
 
 static const double two_pi = 6.283185307179586476925;
 
-steady_motion motion_of_series(const hbm_measures *m, int n_harm, const double *X)
+periodic_motion motion_of_series(const hbm_measures *m, int n_harm, const double *X)
 {
-  steady_motion out = {.amplitude = m->amplitude, .harmonic_1 = m->harmonic_1, .mean = X[0]};
+  periodic_motion out = {.amplitude = m->amplitude, .harmonic_1 = m->harmonic_1, .mean = X[0]};
   for (int i = 0; i < TIMEINT_WAVE; ++i) {
     double th = two_pi * i / TIMEINT_WAVE;
     out.wave[i] = series_at(n_harm, X, cos(th), sin(th)).x;
@@ -17,30 +17,41 @@ steady_motion motion_of_series(const hbm_measures *m, int n_harm, const double *
   return out;
 }
 
-steady_motion motion_of_transient(const timeint_result *r)
+periodic_motion motion_of_transient(const timeint_result *r)
 {
-  steady_motion out = {
+  periodic_motion out = {
       .amplitude = r->amplitude, .harmonic_1 = r->harmonic_1, .mean = r->mean, .free_mean = r->free_sliders > 0};
   for (int i = 0; i < TIMEINT_WAVE; ++i) out.wave[i] = r->wave[i];
   return out;
 }
 
-motion_gap motion_between(const steady_motion *a, const steady_motion *b)
+motion_distance motion_between(const periodic_motion *a, const periodic_motion *b)
 {
   const double shift = a->free_mean || b->free_mean ? a->mean - b->mean : 0;
-  motion_gap gap = {.amplitude = fabs(a->amplitude - b->amplitude), .harmonic_1 = fabs(a->harmonic_1 - b->harmonic_1)};
+  motion_distance distance = {.amplitude = fabs(a->amplitude - b->amplitude),
+                              .harmonic_1 = fabs(a->harmonic_1 - b->harmonic_1),
+                              .mean = fabs(a->mean - b->mean)};
   for (int i = 0; i < TIMEINT_WAVE; ++i) {
     double d = fabs(a->wave[i] - b->wave[i] - shift);
     if (!(d >= 0)) {
-      gap.waveform = NAN;
+      distance.waveform = NAN;
       break;
     }
-    if (d > gap.waveform) gap.waveform = d;
+    if (d > distance.waveform) distance.waveform = d;
   }
-  return gap;
+  return distance;
 }
 
-void motion_series(const steady_motion *m, int n_harm, double *X)
+discrepancy motion_discrepancy(const periodic_motion *a, const periodic_motion *b)
+{
+  const motion_distance d = motion_between(a, b);
+  return (discrepancy){.amplitude = discrepancy_relative(d.amplitude, b->amplitude),
+                       .harmonic_1 = discrepancy_relative(d.harmonic_1, b->amplitude),
+                       .mean = discrepancy_relative(d.mean, b->amplitude),
+                       .waveform = discrepancy_relative(d.waveform, b->amplitude)};
+}
+
+void motion_series(const periodic_motion *m, int n_harm, double *X)
 {
   for (int k = 0; k < 2 * n_harm + 1; ++k) X[k] = 0;
   for (int i = 0; i < TIMEINT_WAVE; ++i) X[0] += m->wave[i] / TIMEINT_WAVE;

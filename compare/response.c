@@ -14,7 +14,7 @@ hc_status response_row_of(hbm_solver *s, const hbm_curve *c, int k, response_row
   return known == HC_NO_MEMORY ? known : st;
 }
 
-hc_status response_at(hbm_solver *s, const hbm_curve *curve, const scene_list *at, hbm_curve *found, double *failed_at)
+hc_status response_at(hbm_solver *s, const hbm_curve *curve, const number_list *at, hbm_curve *found, double *failed_at)
 {
   hc_status worst = HC_OK;
   for (int i = 0; i < at->n; ++i) {

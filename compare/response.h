@@ -2,8 +2,8 @@
 #ifndef HC_RESPONSE_H
 #define HC_RESPONSE_H
 
+#include "compare/compare_settings.h"
 #include "hbm/hbm.h"
-#include "model/scene.h"
 
 /* One solution, with what one wants to know of it. */
 typedef struct response_row {
@@ -17,7 +17,8 @@ hc_status response_row_of(hbm_solver *s, const hbm_curve *c, int k, response_row
 
 /* All solutions at the asked frequencies, appended to *found. A frequency without any is a failure, the first of
  * which is returned with its omega, unless the curve says the branch never goes there. */
-hc_status response_at(hbm_solver *s, const hbm_curve *curve, const scene_list *at, hbm_curve *found, double *failed_at);
+hc_status response_at(hbm_solver *s, const hbm_curve *curve, const number_list *at, hbm_curve *found,
+                      double *failed_at);
 
 /* A whole curve in a few numbers; the peak is NaN where there is none. */
 typedef struct response_summary {

@@ -22,7 +22,7 @@ const char *steady_verdict_text(const steady_row *r, char text[24])
 
 /* Everything the run needs at hand. */
 typedef struct job {
-  const scene *sc;
+  const compare_setup *setup;
   timeint *ti;
   timeint *exact;  /* to see what the regularisation costs; NULL where the law is the exact one already */
   hbm_solver *hbm; /* NULL unless the start is on HBM orbits */
@@ -59,7 +59,7 @@ static double regularisation_error(job *j, const timeint_state *state, const tim
   timeint_state start = *state;
   timeint_result orbit;
   if (!j->exact || r->method == TIMEINT_BY_CLOSED_FORM) return 0;
-  if (j->sc->transient.richardson) return r->regularisation_error;
+  if (j->setup->transient.richardson) return r->regularisation_error;
   hc_status found = timeint_orbit(j->exact, r->omega, r->period_multiple, &start, j->monitor, &orbit);
   if (found == HC_NO_MEMORY || found == HC_INTERRUPTED) *st = found;
   if (found != HC_OK) return NAN;
@@ -80,12 +80,11 @@ static hc_status settle(job *j, double omega, timeint_state *state, const char *
 
 static hc_status settle_from_orbit(job *j, double omega, const hbm_curve *at, int k)
 {
-  hbm_measures m;
   const double *X = at->X + (size_t)k * at->n_coef;
   char start[32];
-  hc_status st = hbm_measure(j->hbm, X, &m);
+  timeint_state state;
+  hc_status st = comparison_orbit_start(j->hbm, X, omega, &state);
   if (st != HC_OK) return add_failure(j, STEADY_HBM, st, omega);
-  timeint_state state = comparison_orbit_start(&m, hbm_n_harmonics(j->hbm), X, omega);
   snprintf(start, sizeof start, "hbm branch %d", at->points[k].branch);
   return settle(j, omega, &state, start, HC_OK);
 }
@@ -104,9 +103,9 @@ static hc_status from_hbm_orbits(job *j, double omega)
 }
 
 /* The asked omegas in the order a sweep meets them, from the sweep's end, the state carried along. */
-static hc_status swept(job *j, const scene_list *at, bool up)
+static hc_status swept(job *j, const number_list *at, bool up)
 {
-  double here = up ? fmin(j->sc->omega_from, j->sc->omega_to) : fmax(j->sc->omega_from, j->sc->omega_to);
+  double here = up ? fmin(j->setup->omega_from, j->setup->omega_to) : fmax(j->setup->omega_from, j->setup->omega_to);
   timeint_state state = timeint_rest(j->ti);
   for (int i = 0; i < at->n; ++i) {
     double omega = at->v[up ? i : at->n - 1 - i];
@@ -119,21 +118,21 @@ static hc_status swept(job *j, const scene_list *at, bool up)
   return HC_OK;
 }
 
-static hc_status trace(job *j, const scene_list *asked)
+static hc_status trace(job *j, const number_list *asked)
 {
   double from, to;
-  comparison_sweep(j->sc, asked, &from, &to);
-  hc_status st = hbm_solver_new(j->sc, &j->hbm);
+  comparison_sweep(j->setup->omega_from, j->setup->omega_to, asked, &from, &to);
+  hc_status st = hbm_solver_new(j->setup->model, &j->setup->hbm, &j->hbm);
   if (st != HC_OK) return st;
   st = hbm_trace(j->hbm, from, to, j->monitor, &j->curve);
   return st == HC_INTERRUPTED || st == HC_NO_MEMORY ? st : HC_OK; /* as far as the curve goes */
 }
 
-static hc_status run(job *j, const scene_list *asked)
+static hc_status run(job *j, const number_list *asked)
 {
-  int start = j->sc->transient.start;
-  hc_status st = timeint_new(j->sc, &j->ti);
-  if (st == HC_OK && j->sc->transient.law != TRANSIENT_LAW_EXACT) st = comparison_referee(j->sc, &j->exact);
+  int start = j->setup->transient.start;
+  hc_status st = timeint_new(j->setup->model, &j->setup->transient, &j->ti);
+  if (st == HC_OK && j->setup->transient.law != TRANSIENT_LAW_EXACT) st = comparison_referee(j->setup, &j->exact);
   if (st != HC_OK) return st;
   if (start == TRANSIENT_START_UP || start == TRANSIENT_START_DOWN) return swept(j, asked, start == TRANSIENT_START_UP);
   if (start == TRANSIENT_START_HBM) st = trace(j, asked);
@@ -144,13 +143,13 @@ static hc_status run(job *j, const scene_list *asked)
   return st;
 }
 
-hc_status steady_states_run(const scene *sc, const hc_monitor *monitor, steady_states *out)
+hc_status steady_states_run(const compare_setup *setup, const hc_monitor *monitor, steady_states *out)
 {
   *out = (steady_states){0};
-  if (sc->compare.omega.n == 0) return HC_BAD_INPUT;
-  scene_list asked;
-  job j = {.sc = sc, .monitor = monitor, .out = out};
-  hc_status st = comparison_frequencies(sc, NULL, &(hbm_curve){0}, &asked);
+  if (setup->compare.omega.n == 0) return HC_BAD_INPUT;
+  number_list asked;
+  job j = {.setup = setup, .monitor = monitor, .out = out};
+  hc_status st = comparison_frequencies(&setup->compare, setup->omega_from, NULL, &(hbm_curve){0}, &asked);
   if (st == HC_OK) st = run(&j, &asked);
   hbm_curve_free(&j.curve);
   hbm_solver_free(j.hbm);

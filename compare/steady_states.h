@@ -4,7 +4,7 @@
 #define HC_STEADY_STATES_H
 
 #include "base/status.h"
-#include "model/scene.h"
+#include "compare/compare_settings.h"
 #include "timeint/timeint.h"
 
 /* A row can fail in one of three ways, so that a message can say which side it was. */
@@ -27,7 +27,7 @@ typedef struct steady_states {
 
 /* HC_OK even when single rows failed: they say so. HC_BAD_INPUT without compare.omega. After an interrupt, and else,
  * what was found is kept; the row that was interrupted is the last. Free with steady_states_clear in any case. */
-hc_status steady_states_run(const scene *sc, const hc_monitor *monitor, steady_states *out);
+hc_status steady_states_run(const compare_setup *setup, const hc_monitor *monitor, steady_states *out);
 void steady_states_clear(steady_states *s);
 
 /* "settled", "unstable" (by shooting alone), "period_2", "aperiodic", "not_settled", "solver_failed", into text[24],

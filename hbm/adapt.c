@@ -79,7 +79,7 @@ hc_status path_adapt(path *p)
 {
   hbm_solver *s = p->s;
   hbm_curve *c = p->curve;
-  const scene_hbm *asked = &s->sys.sc.hbm;
+  const hbm_settings *asked = &s->how;
   hc_status st = HC_OK;
   while (st == HC_OK && (s->finer_harmonics || s->finer_samples)) {
     hbm_point *tip = &c->points[c->n - 1];

@@ -23,8 +23,10 @@ typedef struct slider_origin {
 } slider_origin;
 
 struct aft {
-  scene_contact contacts[SCENE_MAX_CONTACTS];
-  int n_contacts, n_harm, n_time, restart;
+  model *model;
+  int n_harm, n_time;
+  hbm_restart restart;
+  double *w;          /* [n_contacts] sliders at th = 0                                                */
   double *x, *f, *k;  /* [n_time]     displacement [length], force, its stiffness along the orbit */
   fftw_complex *spec; /* [n_time/2+1] consumed by to_time (c2r overwrites its input)            */
   fftw_plan to_time, to_freq_f, to_freq_k;
@@ -36,7 +38,7 @@ struct aft {
 
 /* One contact's sweep over the samples. */
 typedef struct track {
-  const scene_contact *contact;
+  const model_contact *contact;
   double c, s;          /* u = c x, v = s x */
   double w;             /* slider */
   contact_state state;  /* at the sample before */
@@ -60,6 +62,7 @@ static hc_status make_plans(aft *a)
 static hc_status make_tables(aft *a)
 {
   int n = a->n_time, n_coef = series_length(a->n_harm);
+  a->w = calloc((size_t)a->model->n_contacts + 1, sizeof(double));
   a->x = fftw_alloc_real((size_t)n);
   a->f = fftw_alloc_real((size_t)n);
   a->k = fftw_alloc_real((size_t)n);
@@ -69,7 +72,7 @@ static hc_status make_tables(aft *a)
   a->symbol = calloc((size_t)slope_symbol_length(a->n_harm), sizeof(double));
   a->left = calloc((size_t)n_coef, sizeof(double));
   a->right = calloc((size_t)n_coef, sizeof(double));
-  if (!a->x || !a->f || !a->k || !a->spec || !a->root || !a->inv_step || !a->symbol || !a->left || !a->right)
+  if (!a->w || !a->x || !a->f || !a->k || !a->spec || !a->root || !a->inv_step || !a->symbol || !a->left || !a->right)
     return HC_NO_MEMORY;
   const double step = 6.283185307179586476925 / n;
   for (int i = 0; i < n; ++i) a->root[i] = cos(i * step) + I * sin(i * step);
@@ -77,18 +80,17 @@ static hc_status make_tables(aft *a)
   return HC_OK;
 }
 
-hc_status aft_new(const scene *sc, int n_harm, int n_time, aft **out)
+hc_status aft_new(const model *m, hbm_restart restart, int n_harm, int n_time, aft **out)
 {
   *out = NULL;
-  if (n_harm < 1 || n_harm > SCENE_MAX_HARMONICS || n_time < 2 * n_harm + 1) return HC_BAD_INPUT;
+  if (n_harm < 1 || n_harm > HBM_MAX_HARMONICS || n_time < 2 * n_harm + 1) return HC_BAD_INPUT;
   aft *a = calloc(1, sizeof *a);
   if (!a) return HC_NO_MEMORY;
-  memcpy(a->contacts, sc->contacts, sizeof a->contacts);
-  a->n_contacts = sc->n_contacts;
   a->n_harm = n_harm;
   a->n_time = n_time;
-  a->restart = sc->hbm.restart;
-  hc_status st = make_tables(a);
+  a->restart = restart;
+  hc_status st = model_copy(m, &a->model);
+  if (st == HC_OK) st = make_tables(a);
   if (st == HC_OK) st = make_plans(a);
   if (st == HC_OK) {
     *out = a;
@@ -101,6 +103,7 @@ hc_status aft_new(const scene *sc, int n_harm, int n_time, aft **out)
 void aft_free(aft *a)
 {
   if (!a) return;
+  model_free(a->model);
   pthread_mutex_lock(&planner);
   fftw_destroy_plan(a->to_time); /* NULL is allowed */
   fftw_destroy_plan(a->to_freq_f);
@@ -110,6 +113,7 @@ void aft_free(aft *a)
   fftw_free(a->f);
   fftw_free(a->k);
   fftw_free(a->spec);
+  free(a->w);
   free(a->root);
   free(a->inv_step);
   free(a->symbol);
@@ -204,7 +208,7 @@ static void record(aft *a, track *t, double *jac, contact_report *report)
     double force, stiffness;
     track old = *t;
     contact_state now = advance(a, t, i, &force, &stiffness);
-    if (i == 0) report->w[t->contact - a->contacts] = t->w;
+    if (i == 0) a->w[t->contact - a->model->contacts] = t->w;
     if (first >= 0 && now != CONTACT_STICK) {
       if (jac) subtract_stick_interval(a, &old, first, i - 1, jac);
       first = -1;
@@ -228,8 +232,8 @@ static void record(aft *a, track *t, double *jac, contact_report *report)
  * repeats itself. The check guards that argument (and rounding), not convergence. */
 static hc_status evaluate_contact(aft *a, int j, double size, double *jac, contact_report *report)
 {
-  track t = {.contact = &a->contacts[j], .state = CONTACT_STICK};
-  scene_projection(t.contact, &t.c, &t.s);
+  const model_contact *c = &a->model->contacts[j];
+  track t = {.contact = c, .c = c->tangent, .s = c->normal, .state = CONTACT_STICK};
   if (!(contact_normal(&t.contact->law, t.s * a->x[a->n_time - 1]) > 0)) t.state = CONTACT_SEPARATED;
   settle(a, &t);
   double w = t.w;
@@ -251,11 +255,16 @@ hc_status aft_eval(aft *a, const double *X, double *F, double *jac, contact_repo
   memset(a->k, 0, (size_t)a->n_time * sizeof(double));
   if (jac) memset(jac, 0, (size_t)n_coef * n_coef * sizeof(double));
   hc_status st = HC_OK;
-  for (int j = 0; j < a->n_contacts && st == HC_OK; ++j) st = evaluate_contact(a, j, size, jac, report);
+  for (int j = 0; j < a->model->n_contacts && st == HC_OK; ++j) st = evaluate_contact(a, j, size, jac, report);
   if (st != HC_OK) return st;
   to_series(a, a->to_freq_f, a->n_harm, F);
   if (!jac) return HC_OK;
   to_series(a, a->to_freq_k, 2 * a->n_harm, a->symbol);
   slope_add(a->n_harm, a->symbol, n_coef, jac);
   return HC_OK;
+}
+
+void aft_sliders(const aft *a, double *w)
+{
+  if (a->model->n_contacts) memcpy(w, a->w, (size_t)a->model->n_contacts * sizeof *w);
 }

@@ -2,12 +2,11 @@
 #ifndef HC_CONTACT_REPORT_H
 #define HC_CONTACT_REPORT_H
 
-#include "model/scene.h"
+#include "model/contact_law.h"
 
 typedef struct contact_report {
-  contact_regime regime;        /* the strongest thing that happens to any contact in the period */
-  int transitions;              /* changes of state in the period, all contacts */
-  double w[SCENE_MAX_CONTACTS]; /* [length] slider of each contact at th = 0, on the closed orbit */
+  contact_regime regime; /* the strongest thing that happens to any contact in the period */
+  int transitions;       /* changes of state in the period, all contacts */
 } contact_report;
 
 #endif

@@ -66,8 +66,7 @@ static hc_status correct_natural(path *p)
 {
   p->d_omega = 1;
   p->sign = 1; /* of the linear equations: det Z_h = (K - M h^2 omega^2)^2 + (C h omega)^2 */
-  if (p->s->sys.sc.hbm.skip_linear && hbm_linear_point(p->s, p->omega, LINEAR_NEAR, p->X, p->dX, &p->point))
-    return HC_OK;
+  if (p->s->how.skip_linear && hbm_linear_point(p->s, p->omega, LINEAR_NEAR, p->X, p->dX, &p->point)) return HC_OK;
   hc_status st = hbm_solve_fixed(p->s, p->omega, path_size(p), p->X, &p->point);
   if (st == HC_OK) st = hbm_tangent_fixed(p->s, p->X, p->dX);
   p->sign = newton_sign(p->s->fixed);
@@ -115,8 +114,8 @@ static double orient(path *p, bool *forward)
   return path_metric(p, x_scale, dX0, d_omega0, p->dX, p->d_omega) / sqrt(a * b);
 }
 
-static bool may_go_natural(const path *p) { return p->s->sys.sc.hbm.continuation != HBM_CONTINUATION_ARCLENGTH; }
-static bool may_go_arclength(const path *p) { return p->s->sys.sc.hbm.continuation != HBM_CONTINUATION_NATURAL; }
+static bool may_go_natural(const path *p) { return p->s->how.continuation != HBM_CONTINUATION_ARCLENGTH; }
+static bool may_go_arclength(const path *p) { return p->s->how.continuation != HBM_CONTINUATION_NATURAL; }
 
 static void switch_to_arclength(path *p)
 {
@@ -268,10 +267,10 @@ static hc_status trace(hbm_solver *s, double from, double to, bool from_afar, co
  * guess will do. */
 static hc_status solve_from_afar(path *p, const hc_monitor *monitor)
 {
-  const scene *sc = &p->s->sys.sc;
+  const model *m = p->s->model;
   const hc_monitor aside = {hc_monitor_tick_aside, (void *)monitor};
   hbm_curve down = {0};
-  double far = FAR * fmax(p->from, sqrt(scene_max_stiffness(sc) / sc->mass));
+  double far = FAR * fmax(p->from, sqrt(model_max_stiffness(m) / m->mass));
   hc_status st = trace(p->s, far, p->from, false, &aside, &down);
   if (st == HC_OK && down.left_at_start) st = HC_NOT_CONVERGED;
   if (st == HC_OK) {
@@ -373,14 +372,14 @@ static hc_status trace(hbm_solver *s, double from, double to, bool from_afar, co
 {
   const path start = {
       .s = s, .from_afar = from_afar, .curve = curve, .from = from, .to = to, .direction = to >= from ? 1 : -1};
-  bool adapts = s->sys.sc.hbm.harmonics == SCENE_AUTO, more_samples;
+  bool adapts = s->how.harmonics == HBM_AUTO, more_samples;
   curve->n_coef = adapts ? series_length(REFINE_MOST_HARMONICS) : s->sys.n_coef;
   curve->omega_scale = fmax(fabs(to - from) / 4, 1e-3 * from);
   long before = s->sys.evaluations;
   hc_status st;
   do {
     path p = start;
-    p.resolution = fmin(curve->omega_scale, fmax(0.5 * s->sys.sc.damping / s->sys.sc.mass, 1e-6 * from));
+    p.resolution = fmin(curve->omega_scale, fmax(0.5 * s->model->damping / s->model->mass, 1e-6 * from));
     st = trace_once(&p, monitor, &more_samples);
     if (more_samples && (st = hbm_solver_resize(s, s->sys.n_harm, 2 * s->n_time)) != HC_OK) break;
   } while (more_samples);

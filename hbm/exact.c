@@ -12,29 +12,29 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "hbm/hbm_settings.h"
 #include "hbm/slope.h"
 
 static const double PI = 3.14159265358979323846;
 
 struct exact {
   int n_harm, n_dof, n_coef, n_contacts, cap;
-  moving_contact contacts[SCENE_MAX_CONTACTS];
-  int n_pieces[SCENE_MAX_CONTACTS];
-  contact_piece *pieces; /* [n_contacts][cap] */
-  double *table;         /* of motion_table_fill */
-  double *indicator;     /* [4H+1] series of one piece's indicator */
-  double *weight;        /* [2H+1] 2/(pi h) */
-  double *symbol;        /* [n_dof][n_dof][4H+1] series of K */
-  double *left, *right;  /* [n_dof (2H+1)] one rank-1 term */
-  double *matrix;        /* [n_dof (2H+1)]^2 when the caller wants no Jacobian */
+  moving_contact *contacts; /* [n_contacts] */
+  int *n_pieces;            /* [n_contacts] */
+  contact_piece *pieces;    /* [n_contacts][cap] */
+  double *table;            /* of motion_table_fill */
+  double *indicator;        /* [4H+1] series of one piece's indicator */
+  double *weight;           /* [2H+1] 2/(pi h) */
+  double *symbol;           /* [n_dof][n_dof][4H+1] series of K */
+  double *left, *right;     /* [n_dof (2H+1)] one rank-1 term */
+  double *matrix;           /* [n_dof (2H+1)]^2 when the caller wants no Jacobian */
   motion_grid grid;
 };
 
 hc_status exact_new(int n_harm, int n_dof, int n_contacts, const moving_contact *contacts, exact **out)
 {
   *out = NULL;
-  if (n_harm < 1 || n_harm > SCENE_MAX_HARMONICS || n_dof < 1 || n_dof > MOTION_MAX_DOF || n_contacts < 0 ||
-      n_contacts > SCENE_MAX_CONTACTS)
+  if (n_harm < 1 || n_harm > HBM_MAX_HARMONICS || n_dof < 1 || n_dof > MOTION_MAX_DOF || n_contacts < 0)
     return HC_BAD_INPUT;
   exact *e = calloc(1, sizeof *e);
   if (!e) return HC_NO_MEMORY;
@@ -43,9 +43,11 @@ hc_status exact_new(int n_harm, int n_dof, int n_contacts, const moving_contact 
   e->n_coef = series_length(n_harm);
   e->n_contacts = n_contacts;
   e->cap = 16 * n_harm + 16;
-  if (n_contacts) memcpy(e->contacts, contacts, (size_t)n_contacts * sizeof *contacts);
   size_t m = (size_t)n_dof * e->n_coef, symbol = (size_t)slope_symbol_length(n_harm);
-  e->pieces = calloc((size_t)(n_contacts ? n_contacts : 1) * e->cap, sizeof *e->pieces);
+  const size_t n_room = n_contacts ? (size_t)n_contacts : 1;
+  e->contacts = calloc(n_room, sizeof *e->contacts);
+  e->n_pieces = calloc(n_room, sizeof *e->n_pieces);
+  e->pieces = calloc(n_room * e->cap, sizeof *e->pieces);
   e->table = calloc((size_t)motion_table_length(n_harm), sizeof(double));
   e->indicator = calloc(symbol, sizeof(double));
   e->weight = calloc(2 * (size_t)n_harm + 1, sizeof(double));
@@ -53,10 +55,12 @@ hc_status exact_new(int n_harm, int n_dof, int n_contacts, const moving_contact 
   e->left = calloc(m, sizeof(double));
   e->right = calloc(m, sizeof(double));
   e->matrix = calloc(m * m, sizeof(double));
-  if (!e->pieces || !e->table || !e->indicator || !e->weight || !e->symbol || !e->left || !e->right || !e->matrix) {
+  if (!e->contacts || !e->n_pieces || !e->pieces || !e->table || !e->indicator || !e->weight || !e->symbol ||
+      !e->left || !e->right || !e->matrix) {
     exact_free(e);
     return HC_NO_MEMORY;
   }
+  if (n_contacts) memcpy(e->contacts, contacts, (size_t)n_contacts * sizeof *contacts);
   motion_table_fill(n_harm, e->table);
   for (int h = 1; h <= 2 * n_harm; ++h) e->weight[h] = 2 / (PI * h);
   *out = e;
@@ -66,6 +70,8 @@ hc_status exact_new(int n_harm, int n_dof, int n_contacts, const moving_contact 
 void exact_free(exact *e)
 {
   if (!e) return;
+  free(e->contacts);
+  free(e->n_pieces);
   free(e->pieces);
   free(e->table);
   free(e->indicator);
@@ -77,12 +83,18 @@ void exact_free(exact *e)
   free(e);
 }
 
-void exact_contacts_of(const scene *sc, moving_contact contacts[SCENE_MAX_CONTACTS])
+hc_status exact_new_of_model(int n_harm, const model *m, exact **out)
 {
-  for (int j = 0; j < sc->n_contacts; ++j) {
-    contacts[j] = (moving_contact){.law = sc->contacts[j].law};
-    scene_projection(&sc->contacts[j], &contacts[j].cu[0], &contacts[j].cv[0]);
+  moving_contact *contacts = calloc((size_t)m->n_contacts + 1, sizeof *contacts);
+  *out = NULL;
+  if (!contacts) return HC_NO_MEMORY;
+  for (int j = 0; j < m->n_contacts; ++j) {
+    const model_contact *c = &m->contacts[j];
+    contacts[j] = (moving_contact){.law = c->law, .cu = {c->tangent}, .cv = {c->normal}};
   }
+  hc_status st = exact_new(n_harm, 1, m->n_contacts, contacts, out);
+  free(contacts);
+  return st;
 }
 
 /* Series of the function that is 1 on the piece and 0 elsewhere, 2H harmonics. */
@@ -241,7 +253,6 @@ static void fill_report(const exact *e, contact_report *report)
     contact_regime regime = regime_of(e->pieces + (size_t)j * e->cap, e->n_pieces[j]);
     if (regime > report->regime) report->regime = regime;
     report->transitions += count_changes(e->pieces + (size_t)j * e->cap, e->n_pieces[j]);
-    report->w[j] = slider_at_zero(e, j);
   }
 }
 
@@ -279,6 +290,11 @@ hc_status exact_eval(exact *e, const double *X, double *F, double *jac, contact_
   if (jac) subtract_memories(e, jac);
   if (report) fill_report(e, report);
   return HC_OK;
+}
+
+void exact_sliders(const exact *e, double *w)
+{
+  for (int j = 0; j < e->n_contacts; ++j) w[j] = slider_at_zero(e, j);
 }
 
 const contact_piece *exact_pieces(const exact *e, int j, int *n)

@@ -7,7 +7,7 @@
 
 #include "hbm/contact_report.h"
 #include "hbm/transitions.h"
-#include "model/scene.h"
+#include "model/model.h"
 
 typedef struct exact exact;
 
@@ -15,13 +15,16 @@ typedef struct exact exact;
 hc_status exact_new(int n_harm, int n_dof, int n_contacts, const moving_contact *contacts, exact **out);
 void exact_free(exact *e);
 
-/* The contacts of a scene, moved by the one coordinate x. */
-void exact_contacts_of(const scene *sc, moving_contact contacts[SCENE_MAX_CONTACTS]);
+/* The same for the contacts of a model (copied), moved by its one coordinate x. */
+hc_status exact_new_of_model(int n_harm, const model *m, exact **out);
 
 /* F[n_dof (2H+1)] [force]: for each coordinate d the harmonics of sum_j cu_jd T_j + cv_jd (N_j - N0_j), at X (same
  * layout) [length]. jac[row + ld col], ld = n_dof (2H+1): dF/dX, unless NULL. report may be NULL. HC_NOT_FINITE,
  * HC_CHATTER (more transitions than a motion of H harmonics should cause), HC_NOT_CLOSED. */
 hc_status exact_eval(exact *e, const double *X, double *F, double *jac, contact_report *report);
+
+/* w[n_contacts] [length]: each contact's slider at th = 0 on the closed orbit of the last evaluation. */
+void exact_sliders(const exact *e, double *w);
 
 /* The pieces of contact j found by the last evaluation. */
 const contact_piece *exact_pieces(const exact *e, int j, int *n);

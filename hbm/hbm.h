@@ -1,4 +1,4 @@
-/* hbm.h - harmonic balance of a scene: response curves, and every solution at a frequency. The way into this folder.
+/* hbm.h - harmonic balance of a model: response curves, and every solution at a frequency. The way into this folder.
  *
  *     x(t) ~ X[0] + sum_{h=1..H} X[2h-1] cos(h omega t) + X[2h] sin(h omega t)         (series.h)
  *
@@ -9,8 +9,9 @@
 
 #include "base/status.h"
 #include "hbm/contact_report.h"
+#include "hbm/hbm_settings.h"
 #include "hbm/stability.h"
-#include "model/scene.h"
+#include "model/model.h"
 
 typedef struct hbm_solver hbm_solver;
 
@@ -44,8 +45,9 @@ typedef struct hbm_measures {
   contact_report contact;
 } hbm_measures;
 
-/* A workspace for sc (copied). HC_UNSUPPORTED for what this version lacks, HC_BAD_INPUT, HC_NO_MEMORY. */
-hc_status hbm_solver_new(const scene *sc, hbm_solver **out);
+/* A workspace for m and how it is to be solved (both copied). HC_BAD_INPUT, HC_NO_MEMORY: *out is
+ * NULL. */
+hc_status hbm_solver_new(const model *m, const hbm_settings *how, hbm_solver **out);
 void hbm_solver_free(hbm_solver *s);
 int hbm_n_harmonics(const hbm_solver *s); /* in use now; after a trace with auto, the most the curve needed */
 int hbm_n_samples(const hbm_solver *s);
@@ -72,6 +74,9 @@ hc_status hbm_curve_at(hbm_solver *s, const hbm_curve *curve, double omega, hbm_
 hc_status hbm_curve_peak(hbm_solver *s, const hbm_curve *curve, hbm_curve *peak);
 
 hc_status hbm_measure(hbm_solver *s, const double *X, hbm_measures *out);
+
+/* w[n_contacts] [length]: the sliders at t = 0 of the motion X. Errors of the contact force. */
+hc_status hbm_sliders(hbm_solver *s, const double *X, double *w);
 
 /* Floquet multipliers of the solution X at omega, along its own exactly located transitions also where forces are
  * sampled. */

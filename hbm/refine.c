@@ -16,12 +16,12 @@ struct refinement {
   int *pivot;  /* [n] */
 };
 
-hc_status refinement_new(const scene *sc, int n_harm, int n_time, refinement **out)
+hc_status refinement_new(const model *m, const hbm_settings *how, int n_harm, int n_time, refinement **out)
 {
   *out = NULL;
   refinement *r = calloc(1, sizeof *r);
   if (!r) return HC_NO_MEMORY;
-  hc_status st = hbm_system_init(&r->sys, sc, n_harm, n_time);
+  hc_status st = hbm_system_init(&r->sys, m, how, n_harm, n_time);
   size_t n = (size_t)r->sys.n_coef;
   r->X = calloc(n, sizeof(double));
   r->R = calloc(n, sizeof(double));

@@ -10,14 +10,14 @@
 typedef struct refinement refinement;
 
 /* The equations with n_harm harmonics and n_time samples (for sampled forces). */
-hc_status refinement_new(const scene *sc, int n_harm, int n_time, refinement **out);
+hc_status refinement_new(const model *m, const hbm_settings *how, int n_harm, int n_time, refinement **out);
 void refinement_free(refinement *r);
 
 /* Relative error of X[2 n_harm + 1], a solution with n_harm <= its own harmonics; infinite where it cannot be told. */
 double refinement_error(refinement *r, double omega, int n_harm, const double *X);
 
-/* The ladder of truncation orders that auto climbs: the next above (up) or below, SCENE_MAX_HARMONICS / 2 at most. */
-enum { REFINE_MOST_HARMONICS = SCENE_MAX_HARMONICS / 2, REFINE_MOST_SAMPLES = 1 << 20 };
+/* The ladder of truncation orders that auto climbs: the next above (up) or below, HBM_MAX_HARMONICS / 2 at most. */
+enum { REFINE_MOST_HARMONICS = HBM_MAX_HARMONICS / 2, REFINE_MOST_SAMPLES = 1 << 20 };
 int refine_next_harmonics(int n_harm, bool up);
 
 #endif

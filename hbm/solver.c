@@ -85,9 +85,7 @@ static hc_status make_workspace(hbm_solver *s)
 static hc_status make_pattern(hbm_solver *s)
 {
   if (!s->sys.sampled) return HC_OK;
-  moving_contact contacts[SCENE_MAX_CONTACTS];
-  exact_contacts_of(&s->sys.sc, contacts);
-  return exact_new(s->sys.n_harm, 1, s->sys.sc.n_contacts, contacts, &s->pattern);
+  return exact_new_of_model(s->sys.n_harm, s->model, &s->pattern);
 }
 
 enum { AUTO_FIRST_HARMONICS = 3, AUTO_FIRST_SAMPLES = 64, AUTO_LEAST_LOOK = 14 };
@@ -96,20 +94,20 @@ enum { AUTO_FIRST_HARMONICS = 3, AUTO_FIRST_SAMPLES = 64, AUTO_LEAST_LOOK = 14 }
  * twice the samples. */
 static hc_status make_refinements(hbm_solver *s, int n_time)
 {
-  const scene *sc = &s->sys.sc;
-  int n_harm = s->sys.n_harm, twice = n_harm > SCENE_MAX_HARMONICS / 2 ? SCENE_MAX_HARMONICS : 2 * n_harm;
+  const hbm_settings *how = &s->how;
+  int n_harm = s->sys.n_harm, twice = n_harm > HBM_MAX_HARMONICS / 2 ? HBM_MAX_HARMONICS : 2 * n_harm;
   if (twice < AUTO_LEAST_LOOK) twice = AUTO_LEAST_LOOK;
   hc_status st = HC_OK;
-  if (sc->hbm.harmonics == SCENE_AUTO)
-    st = refinement_new(sc, twice, n_time < 4 * twice ? 4 * twice : n_time, &s->finer_harmonics);
-  if (st == HC_OK && sc->hbm.samples == SCENE_AUTO && s->sys.sampled)
-    st = refinement_new(sc, n_harm, 2 * n_time, &s->finer_samples);
+  if (how->harmonics == HBM_AUTO)
+    st = refinement_new(s->model, how, twice, n_time < 4 * twice ? 4 * twice : n_time, &s->finer_harmonics);
+  if (st == HC_OK && how->samples == HBM_AUTO && s->sys.sampled)
+    st = refinement_new(s->model, how, n_harm, 2 * n_time, &s->finer_samples);
   return st;
 }
 
-static hc_status make_equations(hbm_solver *s, const scene *sc, int n_harm, int n_time)
+static hc_status make_equations(hbm_solver *s, int n_harm, int n_time)
 {
-  hc_status st = hbm_system_init(&s->sys, sc, n_harm, n_time);
+  hc_status st = hbm_system_init(&s->sys, s->model, &s->how, n_harm, n_time);
   s->n_time = n_time;
   if (st == HC_OK) st = make_workspace(s);
   if (st == HC_OK) st = make_pattern(s);
@@ -126,30 +124,31 @@ static void drop_equations(hbm_solver *s)
   hbm_system_clear(&s->sys);
   double *const arrays[] = {s->Z, s->z, s->z_scale, s->r_scale, s->normal, s->anchor};
   for (size_t i = 0; i < sizeof arrays / sizeof *arrays; ++i) free(arrays[i]);
-  *s = (hbm_solver){.stability = s->stability, .step_scale = s->step_scale};
+  *s = (hbm_solver){.model = s->model, .how = s->how, .stability = s->stability, .step_scale = s->step_scale};
 }
 
 hc_status hbm_solver_resize(hbm_solver *s, int n_harm, int n_time)
 {
-  scene sc = s->sys.sc;
   long evaluations = s->sys.evaluations; /* counted over the solver's life */
   drop_equations(s);
-  hc_status st = make_equations(s, &sc, n_harm, n_time);
+  hc_status st = make_equations(s, n_harm, n_time);
   s->sys.evaluations = evaluations;
   return st;
 }
 
-hc_status hbm_solver_new(const scene *sc, hbm_solver **out)
+hc_status hbm_solver_new(const model *m, const hbm_settings *how, hbm_solver **out)
 {
   *out = NULL;
   hbm_solver *s = calloc(1, sizeof *s);
   if (!s) return HC_NO_MEMORY;
-  int n_harm = sc->hbm.harmonics == SCENE_AUTO ? AUTO_FIRST_HARMONICS : sc->hbm.harmonics, n_time = sc->hbm.samples;
-  if (n_time == SCENE_AUTO)
+  int n_harm = how->harmonics == HBM_AUTO ? AUTO_FIRST_HARMONICS : how->harmonics, n_time = how->samples;
+  if (n_time == HBM_AUTO)
     for (n_time = AUTO_FIRST_SAMPLES; n_time < 4 * n_harm; n_time *= 2) {}
+  s->how = *how;
   s->step_scale = 1;
-  hc_status st = stability_new(&s->stability);
-  if (st == HC_OK) st = make_equations(s, sc, n_harm, n_time);
+  hc_status st = model_copy(m, &s->model);
+  if (st == HC_OK) st = stability_new(m->n_contacts, &s->stability);
+  if (st == HC_OK) st = make_equations(s, n_harm, n_time);
   if (st == HC_OK) {
     *out = s;
     return HC_OK;
@@ -163,6 +162,7 @@ void hbm_solver_free(hbm_solver *s)
   if (!s) return;
   drop_equations(s);
   stability_free(s->stability);
+  model_free(s->model);
   free(s);
 }
 
@@ -196,7 +196,7 @@ static hc_status recheck(hbm_solver *s, double omega, const newton_report *repor
   point->harmonics = s->sys.n_harm;
   point->error = NAN;
   point->residual = force > 0 ? report->residual / (s->r_scale[0] * force) : report->residual;
-  return point->residual <= 10 * s->sys.sc.hbm.tolerance ? HC_OK : HC_NOT_CONVERGED;
+  return point->residual <= 10 * s->how.tolerance ? HC_OK : HC_NOT_CONVERGED;
 }
 
 enum { MAX_NEWTON = 25 };
@@ -206,7 +206,7 @@ hc_status hbm_solve_fixed(hbm_solver *s, double omega, double x_scale, double *X
   hc_status st = set_scales(s, omega, x_scale, X);
   if (st != HC_OK) return st;
   s->omega = omega;
-  newton_options opt = {s->z_scale, s->r_scale, s->sys.sc.hbm.tolerance, 3.0, MAX_NEWTON};
+  newton_options opt = {s->z_scale, s->r_scale, s->how.tolerance, 3.0, MAX_NEWTON};
   newton_report report;
   hbm_pack(s, X, omega, s->z);
   st = newton_solve(s->fixed, s->z, &opt, &report);
@@ -229,7 +229,7 @@ hc_status hbm_solve_plane(hbm_solver *s, const double *normal, double x_scale, d
   memcpy(s->normal, normal, (size_t)(n + 1) * sizeof(double));
   hbm_pack(s, X, *omega, s->anchor);
   memcpy(s->z, s->anchor, (size_t)(n + 1) * sizeof(double));
-  newton_options opt = {s->z_scale, s->r_scale, s->sys.sc.hbm.tolerance, 1.0, MAX_NEWTON};
+  newton_options opt = {s->z_scale, s->r_scale, s->how.tolerance, 1.0, MAX_NEWTON};
   newton_report report;
   st = newton_solve(s->plane, s->z, &opt, &report);
   if (st != HC_OK) {
@@ -283,6 +283,15 @@ hc_status hbm_measure(hbm_solver *s, const double *X, hbm_measures *out)
   return HC_OK;
 }
 
+hc_status hbm_sliders(hbm_solver *s, const double *X, double *w)
+{
+  hc_status st = hbm_system_contact(&s->sys, X);
+  if (st != HC_OK) return st;
+  if (s->sys.sampled) aft_sliders(s->sys.sampled, w);
+  else exact_sliders(s->sys.located, w);
+  return HC_OK;
+}
+
 hc_status hbm_pattern_at(hbm_solver *s, const double *X, const exact **e, contact_report *report)
 {
   *e = s->pattern ? s->pattern : s->sys.located;
@@ -296,7 +305,7 @@ hc_status hbm_stability_at(hbm_solver *s, double omega, const double *X, hbm_sta
   const exact *e;
   contact_report report;
   hc_status st = hbm_pattern_at(s, X, &e, &report);
-  if (st == HC_OK) st = stability_of(s->stability, &s->sys.sc, e, omega, out);
+  if (st == HC_OK) st = stability_of(s->stability, s->model, e, omega, out);
   if (st != HC_OK) return st;
   s->omega = omega;
   hbm_pack(s, X, omega, s->z);

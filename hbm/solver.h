@@ -15,6 +15,8 @@
 #include "numerics/newton.h"
 
 struct hbm_solver {
+  model *model; /* a copy: the caller may drop theirs */
+  hbm_settings how;
   hbm_system sys;
   double step_scale; /* of hbm_scale_steps */
   int n_time;        /* samples per period, for sampled forces */
@@ -22,7 +24,7 @@ struct hbm_solver {
   exact *pattern; /* transitions of a solution of sampled equations; NULL when the equations are exact themselves */
   stability *stability;
   double omega;                                /* of the fixed form */
-  refinement *finer_harmonics, *finer_samples; /* what auto measures itself by; NULL where the scene says a number */
+  refinement *finer_harmonics, *finer_samples; /* what auto measures itself by; NULL where the settings say a number */
   double *Z;                                   /* [n_coef]  X with harmonic 0, for the callbacks */
   double *z;                                   /* [n+1]     unknowns of a solve */
   double *z_scale, *r_scale;                   /* [n+1]     weights for KINSOL */

@@ -32,7 +32,7 @@ static hc_status watch(finder *f, double omega, double d_omega, const double *X,
   contact_report report;
   hbm_stability st;
   hc_status status = hbm_pattern_at(f->s, X, &e, &report);
-  if (status == HC_OK) status = stability_of(f->s->stability, &f->s->sys.sc, e, omega, &st);
+  if (status == HC_OK) status = stability_of(f->s->stability, f->s->model, e, omega, &st);
   *w = (watched){d_omega, st.flip, report.regime, report.transitions};
   return status;
 }

@@ -13,23 +13,35 @@
 
 static const double TWO_PI = 6.283185307179586476925;
 
-enum { MAX_STATE = 2 + SCENE_MAX_CONTACTS };
-
 struct stability {
-  int cap;          /* of boundary */
-  double *boundary; /* [cap] [rad] every instant a contact changes state, sorted */
-  double phi[MAX_STATE][MAX_STATE];
+  int cap;                     /* of boundary */
+  double *boundary;            /* [cap] [rad] every instant a contact changes state, sorted */
+  int room;                    /* states: 2 + contacts */
+  double *phi;                 /* [room][room] */
+  double *share;               /* [room] */
+  const contact_piece **piece; /* [room] the piece of each contact on the stretch at hand */
+  int *active;                 /* [room] */
+  double complex *lambda;      /* [room] */
   floquet *floquet;
 };
 
-hc_status stability_new(stability **out)
+hc_status stability_new(int n_contacts, stability **out)
 {
   *out = calloc(1, sizeof **out);
   stability *s = *out;
   if (!s) return HC_NO_MEMORY;
   s->cap = 2;
   s->boundary = malloc((size_t)s->cap * sizeof(double));
-  if (s->boundary && floquet_new(MAX_STATE, &s->floquet) == HC_OK) return HC_OK;
+  s->room = 2 + n_contacts;
+  const size_t m = (size_t)s->room;
+  s->phi = malloc(m * m * sizeof *s->phi);
+  s->share = malloc(m * sizeof *s->share);
+  s->piece = malloc(m * sizeof *s->piece);
+  s->active = malloc(m * sizeof *s->active);
+  s->lambda = malloc(m * sizeof *s->lambda);
+  if (s->boundary && s->phi && s->share && s->piece && s->active && s->lambda &&
+      floquet_new(s->room, &s->floquet) == HC_OK)
+    return HC_OK;
   stability_free(s);
   *out = NULL;
   return HC_NO_MEMORY;
@@ -40,6 +52,11 @@ void stability_free(stability *s)
   if (!s) return;
   floquet_free(s->floquet);
   free(s->boundary);
+  free(s->phi);
+  free(s->share);
+  free(s->piece);
+  free(s->active);
+  free(s->lambda);
   free(s);
 }
 
@@ -119,43 +136,43 @@ static bool remembers(const exact *e, int j)
 }
 
 /* Sliders that come to rest at this boundary: dheld from dx there. */
-static void set_sliders(stability *s, const scene *sc, const exact *e, const contact_piece *const *piece, double th,
-                        int m)
+static void set_sliders(stability *s, const model *m, const exact *e, double th)
 {
-  for (int j = 0; j < sc->n_contacts; ++j) {
-    const contact_piece *p = piece[j];
+  const int n = s->room;
+  for (int j = 0; j < m->n_contacts; ++j) {
+    const contact_piece *p = s->piece[j];
     if (!p || p->state != CONTACT_STICK || p->from != p->origin || wrap(p->from) != th || held_for_ever(e, j)) continue;
-    for (int q = 0; q < m; ++q) s->phi[2 + j][q] = p->slope[0] * s->phi[0][q];
+    for (int q = 0; q < n; ++q) s->phi[(2 + j) * n + q] = p->slope[0] * s->phi[q];
   }
 }
 
 /* Stiffness to x, and the share of each dheld in the force on x. */
-static double stiffness_now(const scene *sc, const contact_piece *const *piece, double *share)
+static double stiffness_now(const model *m, const contact_piece *const *piece, double *share)
 {
-  double k = sc->stiffness;
-  for (int j = 0; j < sc->n_contacts; ++j) {
-    double c, si;
-    const contact *law = &sc->contacts[j].law;
+  double k = m->stiffness;
+  for (int j = 0; j < m->n_contacts; ++j) {
+    const model_contact *c = &m->contacts[j];
+    const double t = c->tangent, n = c->normal;
     share[j] = 0;
     if (!piece[j]) continue;
-    scene_projection(&sc->contacts[j], &c, &si);
     int slip = contact_slip_sign(piece[j]->state);
-    k += (slip ? slip * law->mu * law->kn * si : law->kt * c) * c + law->kn * si * si;
-    share[j] = slip ? 0 : c;
+    k += (slip ? slip * c->law.mu * c->law.kn * n : c->law.kt * t) * t + c->law.kn * n * n;
+    share[j] = slip ? 0 : t;
   }
   return k;
 }
 
-static void advance_stretch(stability *s, const scene *sc, const contact_piece *const *piece, double t, int m)
+static void advance_stretch(stability *s, const model *m, double t)
 {
-  double share[SCENE_MAX_CONTACTS], e[2][2], k = stiffness_now(sc, piece, share);
-  linear_free_motion(sc->mass, sc->damping, k, t, e);
-  for (int q = 0; q < m; ++q) {
+  const int n = s->room;
+  double e[2][2], k = stiffness_now(m, s->piece, s->share), *x = s->phi, *v = s->phi + n;
+  linear_free_motion(m->mass, m->damping, k, t, e);
+  for (int q = 0; q < n; ++q) {
     double pull = 0;
-    for (int j = 0; j < sc->n_contacts; ++j) pull += share[j] * s->phi[2 + j][q];
-    double rest = k != 0 ? pull / k : 0, x = s->phi[0][q] - rest, v = s->phi[1][q];
-    s->phi[0][q] = rest + e[0][0] * x + e[0][1] * v;
-    s->phi[1][q] = e[1][0] * x + e[1][1] * v;
+    for (int j = 0; j < m->n_contacts; ++j) pull += s->share[j] * s->phi[(2 + j) * n + q];
+    double rest = k != 0 ? pull / k : 0, dx = x[q] - rest, dv = v[q];
+    x[q] = rest + e[0][0] * dx + e[0][1] * dv;
+    v[q] = e[1][0] * dx + e[1][1] * dv;
   }
 }
 
@@ -174,27 +191,28 @@ static void summarise(int m, const double complex *lambda, hbm_stability *out)
   out->determinant = creal(all);
 }
 
-hc_status stability_of(stability *s, const scene *sc, const exact *e, double omega, hbm_stability *out)
+hc_status stability_of(stability *s, const model *m, const exact *e, double omega, hbm_stability *out)
 {
-  const contact_piece *piece[SCENE_MAX_CONTACTS];
-  int m = 2 + sc->n_contacts, n = collect_boundaries(s, e, sc->n_contacts), active[MAX_STATE] = {0, 1}, n_active = 2;
+  const int room = s->room, n = collect_boundaries(s, e, m->n_contacts);
+  int n_active = 0;
   if (n < 0) return HC_NO_MEMORY;
-  memset(s->phi, 0, sizeof s->phi);
-  for (int q = 0; q < m; ++q) s->phi[q][q] = 1;
+  s->active[n_active++] = 0;
+  s->active[n_active++] = 1;
+  memset(s->phi, 0, (size_t)room * (size_t)room * sizeof *s->phi);
+  for (int q = 0; q < room; ++q) s->phi[q * room + q] = 1;
   for (int i = 0; i + 1 < n; ++i) {
     double a = s->boundary[i], b = s->boundary[i + 1];
     if (!(b > a)) continue;
-    for (int j = 0; j < sc->n_contacts; ++j) piece[j] = piece_at(e, j, 0.5 * (a + b));
+    for (int j = 0; j < m->n_contacts; ++j) s->piece[j] = piece_at(e, j, 0.5 * (a + b));
     if (i == 0 || a == 0) /* sliders at rest at the start of the period are states of their own */
-      for (int j = 0; j < sc->n_contacts; ++j)
-        if (piece[j] && piece[j]->state == CONTACT_STICK && remembers(e, j) &&
-            !(piece[j]->from == piece[j]->origin && wrap(piece[j]->from) == a))
-          active[n_active++] = 2 + j;
-    set_sliders(s, sc, e, piece, a, m);
-    advance_stretch(s, sc, piece, (b - a) / omega, m);
+      for (int j = 0; j < m->n_contacts; ++j)
+        if (s->piece[j] && s->piece[j]->state == CONTACT_STICK && remembers(e, j) &&
+            !(s->piece[j]->from == s->piece[j]->origin && wrap(s->piece[j]->from) == a))
+          s->active[n_active++] = 2 + j;
+    set_sliders(s, m, e, a);
+    advance_stretch(s, m, (b - a) / omega);
   }
-  double complex lambda[MAX_STATE];
-  hc_status st = floquet_multipliers(s->floquet, s->phi[0], MAX_STATE, 1, n_active, active, lambda);
-  if (st == HC_OK) summarise(n_active, lambda, out);
+  hc_status st = floquet_multipliers(s->floquet, s->phi, room, 1, n_active, s->active, s->lambda);
+  if (st == HC_OK) summarise(n_active, s->lambda, out);
   return st;
 }

@@ -11,7 +11,7 @@
 #define HC_STABILITY_H
 
 #include "base/status.h"
-#include "model/scene.h"
+#include "model/model.h"
 
 typedef struct hbm_stability {
   double multiplier; /* modulus of the largest Floquet multiplier */
@@ -25,13 +25,14 @@ typedef struct hbm_stability {
 typedef struct exact exact; /* hbm/exact.h */
 typedef struct stability stability;
 
-hc_status stability_new(stability **out);
+/* Room for orbits of a model with n_contacts contacts. HC_NO_MEMORY: *out is NULL. */
+hc_status stability_new(int n_contacts, stability **out);
 void stability_free(stability *s);
 
 /* For the orbit last evaluated by e, at omega. A slider stuck all period has a multiplier 1 of its own (its residual
  * traction is a family); it is left out. HC_NOT_CONVERGED if the eigenvalues could not be computed, HC_NOT_FINITE if
  * they are too large. GSL's error handler is the caller's business: switched off, its errors come back as
  * HC_NOT_CONVERGED. `agrees` is left false here: it is the solver's to say (hbm_stability_at). */
-hc_status stability_of(stability *s, const scene *sc, const exact *e, double omega, hbm_stability *out);
+hc_status stability_of(stability *s, const model *m, const exact *e, double omega, hbm_stability *out);
 
 #endif

@@ -1,5 +1,5 @@
 /* start.c - the first point: the linear response as guess, then a ramp of the forcing, then a ramp of the contact. A
- * ramp follows the solution from an easy system to the scene's (phi or lambda of system.h from 0 to 1), step halved
+ * ramp follows the solution from an easy system to the model's (phi or lambda of system.h from 0 to 1), step halved
  * on failure. */
 #include "hbm/start.h"
 
@@ -12,21 +12,21 @@
 #include "hbm/series.h"
 #include "hbm/solver.h"
 
-static double static_stiffness(const scene *sc)
+static double static_stiffness(const model *m)
 {
-  double k = sc->stiffness;
-  for (int j = 0; j < sc->n_contacts; ++j)
-    if (sc->contacts[j].law.gap > 0) k += scene_stuck_stiffness(&sc->contacts[j]);
+  double k = m->stiffness;
+  for (int j = 0; j < m->n_contacts; ++j)
+    if (m->contacts[j].law.gap > 0) k += model_stuck_stiffness(&m->contacts[j]);
   return k;
 }
 
-double hbm_linear_response(const scene *sc, double omega, int n_harm, double *X)
+double hbm_linear_response(const model *m, double omega, int n_harm, double *X)
 {
-  double k = static_stiffness(sc);
+  double k = static_stiffness(m);
   memset(X, 0, (size_t)series_length(n_harm) * sizeof(double));
-  double complex x = linear_response(sc->mass, sc->damping, k, sc->force, omega);
+  double complex x = linear_response(m->mass, m->damping, k, m->force, omega);
   /* undamped, at resonance: any size of the right order */
-  if (!isfinite(cabs(x))) x = sc->force / (k + sc->mass * omega * omega);
+  if (!isfinite(cabs(x))) x = m->force / (k + m->mass * omega * omega);
   X[1] = creal(x);
   X[2] = -cimag(x); /* Re(z exp(i th)) = Re z cos - Im z sin */
   return cabs(x);
@@ -34,29 +34,27 @@ double hbm_linear_response(const scene *sc, double omega, int n_harm, double *X)
 
 bool hbm_linear_point(hbm_solver *s, double omega, double near, double *X, double *dX, hbm_point *point)
 {
-  const scene *sc = &s->sys.sc;
-  double *linear = s->anchor, *R = s->z, k = static_stiffness(sc), far = 0, worst = 0;
-  double size = hbm_linear_response(sc, omega, s->sys.n_harm, linear);
+  const model *m = s->sys.model;
+  double *linear = s->anchor, *R = s->z, k = static_stiffness(m), far = 0, worst = 0;
+  double size = hbm_linear_response(m, omega, s->sys.n_harm, linear);
   for (int i = 0; i < s->sys.n_coef; ++i) far += (X[i] - linear[i]) * (X[i] - linear[i]);
   if (!(k > 0 && size > 0 && sqrt(far) <= near * size)) return false;
   if (hbm_system_residual(&s->sys, omega, linear, R) != HC_OK || s->sys.report.regime > CONTACT_STUCK) return false;
   for (int i = 0; i < s->sys.n; ++i) worst = fmax(worst, fabs(R[i]));
   worst /= hbm_system_scale(&s->sys, omega);
-  if (!(worst <= s->sys.sc.hbm.tolerance)) return false;
+  if (!(worst <= s->sys.how.tolerance)) return false;
   memcpy(X, linear, (size_t)s->sys.n_coef * sizeof(double));
   memset(dX, 0, (size_t)s->sys.n_coef * sizeof(double));
-  double complex z = k - sc->mass * omega * omega + I * sc->damping * omega;
-  double complex slope = -sc->force * (-2 * sc->mass * omega + I * sc->damping) / (z * z);
+  double complex z = k - m->mass * omega * omega + I * m->damping * omega;
+  double complex slope = -m->force * (-2 * m->mass * omega + I * m->damping) / (z * z);
   dX[1] = creal(slope);
   dX[2] = -cimag(slope);
   *point = (hbm_point){.omega = omega, .residual = worst, .harmonics = s->sys.n_harm, .error = NAN};
   return true;
 }
 
-enum {
-  RAMP_MOST_SOLVES = 200
-}; /* a ramp that gets there takes 10 to 60; one that creeps towards a fold of its own
-                                    never does */
+/* A ramp that gets there takes 10 to 60 solves; one that creeps towards a fold of its own never does. */
+enum { RAMP_MOST_SOLVES = 200 };
 
 /* Follow *factor from 0 to 1 at fixed omega from the solution at 0; *factor is 1 again afterwards. */
 static hc_status ramp(hbm_solver *s, double *factor, double omega, double x_scale, const hc_monitor *monitor, double *X,
@@ -87,16 +85,15 @@ static hc_status ramp(hbm_solver *s, double *factor, double omega, double x_scal
 
 hc_status hbm_solve_start(hbm_solver *s, double omega, const hc_monitor *monitor, double *X, hbm_point *point)
 {
-  const scene *sc = &s->sys.sc;
+  const model *m = s->sys.model;
   int n_coef = s->sys.n_coef;
-  double size = hbm_linear_response(sc, omega, s->sys.n_harm, X);
+  double size = hbm_linear_response(m, omega, s->sys.n_harm, X);
   hc_status st = hbm_solve_fixed(s, omega, size, X, point);
   if (st == HC_OK) return HC_OK;
   memset(X, 0, (size_t)n_coef * sizeof(double));
   st = ramp(s, &s->sys.force_factor, omega, size / 100, monitor, X, point);
   if (st == HC_OK || st == HC_INTERRUPTED) return st;
-  scene apart = *sc;
-  apart.n_contacts = 0;
+  const model apart = {.mass = m->mass, .damping = m->damping, .stiffness = m->stiffness, .force = m->force};
   size = hbm_linear_response(&apart, omega, s->sys.n_harm, X);
   return ramp(s, &s->sys.contact_factor, omega, size, monitor, X, point);
 }

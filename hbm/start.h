@@ -6,7 +6,7 @@
 
 /* Harmonics X[2H+1] of the linear response at omega with every contact as the static state leaves it: stuck where it
  * is preloaded (gap > 0), apart otherwise. Closed form: x = F0 / (K' - M omega^2 + i C omega). Returns its norm. */
-double hbm_linear_response(const scene *sc, double omega, int n_harm, double *X);
+double hbm_linear_response(const model *m, double omega, int n_harm, double *X);
 
 /* hbm_solve_first that may be stopped: HC_INTERRUPTED. */
 hc_status hbm_solve_start(hbm_solver *s, double omega, const hc_monitor *monitor, double *X, hbm_point *point);

@@ -8,11 +8,15 @@
 
 #include "hbm/series.h"
 
-hc_status hbm_system_init(hbm_system *sys, const scene *sc, int n_harm, int n_time)
+hc_status hbm_system_init(hbm_system *sys, const model *m, const hbm_settings *how, int n_harm, int n_time)
 {
-  *sys = (hbm_system){
-      .sc = *sc, .n_harm = n_harm, .n_coef = series_length(n_harm), .contact_factor = 1, .force_factor = 1};
-  sys->first = sc->hbm.keep_mean ? 0 : 1;
+  *sys = (hbm_system){.model = m,
+                      .how = *how,
+                      .n_harm = n_harm,
+                      .n_coef = series_length(n_harm),
+                      .contact_factor = 1,
+                      .force_factor = 1};
+  sys->first = how->keep_mean ? 0 : 1;
   sys->n = sys->n_coef - sys->first;
   size_t n = (size_t)sys->n_coef;
   sys->X = calloc(n, sizeof(double));
@@ -20,10 +24,8 @@ hc_status hbm_system_init(hbm_system *sys, const scene *sc, int n_harm, int n_ti
   sys->dF = calloc(n * n, sizeof(double));
   sys->rows = calloc(n, sizeof(double));
   if (!sys->X || !sys->F || !sys->dF || !sys->rows) return HC_NO_MEMORY;
-  if (sc->hbm.force == HBM_FORCE_SAMPLED) return aft_new(sc, n_harm, n_time, &sys->sampled);
-  moving_contact contacts[SCENE_MAX_CONTACTS];
-  exact_contacts_of(sc, contacts);
-  return exact_new(n_harm, 1, sc->n_contacts, contacts, &sys->located);
+  if (how->force == HBM_FORCE_SAMPLED) return aft_new(m, how->restart, n_harm, n_time, &sys->sampled);
+  return exact_new_of_model(n_harm, m, &sys->located);
 }
 
 void hbm_system_clear(hbm_system *sys)
@@ -55,16 +57,16 @@ hc_status hbm_system_residual(hbm_system *sys, double omega, const double *X, do
 {
   hc_status st = hbm_system_contact(sys, X);
   if (st != HC_OK) return st;
-  const scene *sc = &sys->sc;
+  const model *m = sys->model;
   double *full = sys->rows;
-  full[0] = sc->stiffness * X[0] + sys->contact_factor * sys->F[0];
+  full[0] = m->stiffness * X[0] + sys->contact_factor * sys->F[0];
   for (int h = 1; h <= sys->n_harm; ++h) {
-    double k = sc->stiffness - sc->mass * h * h * omega * omega, c = sc->damping * h * omega;
+    double k = m->stiffness - m->mass * h * h * omega * omega, c = m->damping * h * omega;
     double a = X[2 * h - 1], b = X[2 * h];
     full[2 * h - 1] = k * a + c * b + sys->contact_factor * sys->F[2 * h - 1];
     full[2 * h] = k * b - c * a + sys->contact_factor * sys->F[2 * h];
   }
-  full[1] -= sys->force_factor * sc->force;
+  full[1] -= sys->force_factor * m->force;
   memcpy(R, full + sys->first, (size_t)sys->n * sizeof(double));
   double sum = 0;
   for (int i = 0; i < sys->n; ++i) sum += R[i];
@@ -73,15 +75,15 @@ hc_status hbm_system_residual(hbm_system *sys, double omega, const double *X, do
 
 void hbm_system_jacobian(const hbm_system *sys, double omega, int ld, double *jac)
 {
-  const scene *sc = &sys->sc;
+  const model *m = sys->model;
   for (int col = 0; col < sys->n; ++col) {
     const double *from = sys->dF + (size_t)sys->n_coef * (col + sys->first) + sys->first;
     double *to = jac + (size_t)ld * col;
     for (int row = 0; row < sys->n; ++row) to[row] = sys->contact_factor * from[row];
   }
-  if (sys->first == 0) jac[0] += sc->stiffness;
+  if (sys->first == 0) jac[0] += m->stiffness;
   for (int h = 1; h <= sys->n_harm; ++h) {
-    double k = sc->stiffness - sc->mass * h * h * omega * omega, c = sc->damping * h * omega;
+    double k = m->stiffness - m->mass * h * h * omega * omega, c = m->damping * h * omega;
     size_t a = (size_t)(2 * h - 1 - sys->first), b = a + 1, n = (size_t)ld;
     jac[a + n * a] += k;
     jac[b + n * b] += k;
@@ -92,11 +94,11 @@ void hbm_system_jacobian(const hbm_system *sys, double omega, int ld, double *ja
 
 void hbm_system_domega(hbm_system *sys, double omega, const double *X, double *dR)
 {
-  const scene *sc = &sys->sc;
+  const model *m = sys->model;
   double *full = sys->rows;
   full[0] = 0;
   for (int h = 1; h <= sys->n_harm; ++h) {
-    double dk = -2 * sc->mass * h * h * omega, dc = sc->damping * h;
+    double dk = -2 * m->mass * h * h * omega, dc = m->damping * h;
     full[2 * h - 1] = dk * X[2 * h - 1] + dc * X[2 * h];
     full[2 * h] = dk * X[2 * h] - dc * X[2 * h - 1];
   }
@@ -105,12 +107,12 @@ void hbm_system_domega(hbm_system *sys, double omega, const double *X, double *d
 
 double hbm_system_scale(const hbm_system *sys, double omega)
 {
-  const scene *sc = &sys->sc;
-  double sum = fabs(sc->stiffness * sys->X[0]), force = fabs(sys->F[0]);
+  const model *m = sys->model;
+  double sum = fabs(m->stiffness * sys->X[0]), force = fabs(sys->F[0]);
   for (int h = 1; h <= sys->n_harm; ++h) {
-    double z = sc->stiffness + sc->mass * h * h * omega * omega + sc->damping * h * omega;
+    double z = m->stiffness + m->mass * h * h * omega * omega + m->damping * h * omega;
     sum += z * hypot(sys->X[2 * h - 1], sys->X[2 * h]);
     force += hypot(sys->F[2 * h - 1], sys->F[2 * h]);
   }
-  return sum + sys->contact_factor * force + sys->force_factor * sc->force;
+  return sum + sys->contact_factor * force + sys->force_factor * m->force;
 }

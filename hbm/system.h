@@ -1,4 +1,4 @@
-/* system.h - the harmonic-balance equations of a scene, and their derivatives.
+/* system.h - the harmonic-balance equations of a model, and their derivatives.
  *
  *     R(X, omega) = Z(omega) X + lambda F(X) - phi F0 e_1 = 0
  *     Z_h = [ K - M h^2 omega^2      C h omega       ]      on (a_h, b_h);   Z_0 = K
@@ -14,7 +14,8 @@
 #include "hbm/exact.h"
 
 typedef struct hbm_system {
-  scene sc;           /* a copy */
+  const model *model; /* the solver's */
+  hbm_settings how;   /* a copy */
   int n_harm, n_coef; /* harmonics; 2 n_harm + 1 */
   int first, n;       /* first unknown in X (0, or 1 without harmonic 0); number of unknowns */
   double contact_factor /* lambda */, force_factor /* phi */;
@@ -28,7 +29,7 @@ typedef struct hbm_system {
 } hbm_system;
 
 /* n_time: samples per period, for sampled forces only. */
-hc_status hbm_system_init(hbm_system *sys, const scene *sc, int n_harm, int n_time);
+hc_status hbm_system_init(hbm_system *sys, const model *m, const hbm_settings *how, int n_harm, int n_time);
 void hbm_system_clear(hbm_system *sys);
 
 /* Contact force and its Jacobian at X into sys->F, sys->dF; free if X is where it was evaluated last. */

@@ -37,9 +37,9 @@ enum {
 typedef struct wait {
   timeint *ti;
   const hc_monitor *monitor;
-  double past[SETTLE_MAX_MULTIPLE][MODEL_MAX_STATES]; /* [length] a ring of the latest states */
-  int n;                                              /* of them seen */
-  int failed;                                         /* Newton solves that found nothing */
+  double past[SETTLE_MAX_MULTIPLE][SCALED_MAX_STATES]; /* [length] a ring of the latest states */
+  int n;                                               /* of them seen */
+  int failed;                                          /* Newton solves that found nothing */
 } wait;
 
 static double size_of(const timeint *ti) { return fmax(timeint_size(ti), ti->least_length); }
@@ -47,10 +47,10 @@ static double size_of(const timeint *ti) { return fmax(timeint_size(ti), ti->lea
 /* Largest difference to the state k periods ago [length]. */
 static double returned(const wait *w, int k)
 {
-  double z[MODEL_MAX_STATES], most = 0;
+  double z[SCALED_MAX_STATES], most = 0;
   const double *before = w->past[(w->n - k) % SETTLE_MAX_MULTIPLE];
   timeint_point(w->ti, z);
-  for (int i = 0; i < w->ti->model.n_states; ++i) {
+  for (int i = 0; i < w->ti->scaled.n_states; ++i) {
     double d = fabs(z[i] - before[i]);
     if (!(d <= most)) most = d;
   }
@@ -71,7 +71,7 @@ static int next_return(const wait *w, int after, double within)
 static hc_status pass(wait *w, int periods, bool *linear)
 {
   timeint *ti = w->ti;
-  const int most = ti->sc.transient.max_periods;
+  const int most = ti->how.max_periods;
   hc_status st = timeint_set_tolerance(ti, fmax(coarse, timeint_final_tolerance(ti)));
   *linear = false;
   for (int i = 0; i < periods && st == HC_OK && ti->periods < most - 1; ++i) {
@@ -98,7 +98,7 @@ static bool goes_there(const wait *w, const shoot_report *found, double size)
 static hc_status look(wait *w, int k, bool *found_it, timeint_result *r)
 {
   timeint *ti = w->ti;
-  double began[MODEL_MAX_STATES];
+  double began[SCALED_MAX_STATES];
   shoot_report found;
   const double size = size_of(ti) / ti->length;
   memcpy(began, ti->y, sizeof began);
@@ -133,11 +133,11 @@ static hc_status look_around(wait *w, bool *found_it, timeint_result *r)
  * old length again, and the log of how it grew is returned. */
 static hc_status grow(timeint *ti, double *d, double *log_growth)
 {
-  const int n = ti->model.n_states;
-  double other[MODEL_MAX_STATES], size = 0;
+  const int n = ti->scaled.n_states;
+  double other[SCALED_MAX_STATES], size = 0;
   for (int i = 0; i < n; ++i) other[i] = ti->y[i] + d[i];
-  hc_status st = integrate_period(ti->in, &ti->model, ti->y, NULL, NULL);
-  if (st == HC_OK) st = integrate_period(ti->in, &ti->model, other, NULL, NULL);
+  hc_status st = integrate_period(ti->in, &ti->scaled, ti->y, NULL, NULL);
+  if (st == HC_OK) st = integrate_period(ti->in, &ti->scaled, other, NULL, NULL);
   if (st != HC_OK) return st;
   ti->periods += 2;
   for (int i = 0; i < n; ++i) size += (other[i] - ti->y[i]) * (other[i] - ti->y[i]);
@@ -150,15 +150,15 @@ static hc_status grow(timeint *ti, double *d, double *log_growth)
 /* Do neighbours drift apart, by more than the scatter of the batches' means (three standard errors)? */
 static hc_status drifts_apart(timeint *ti, const hc_monitor *monitor, bool *yes, double *rate)
 {
-  double d[MODEL_MAX_STATES] = {apart}, mean = 0, square = 0, leap = 0, one;
+  double d[SCALED_MAX_STATES] = {apart}, mean = 0, square = 0, leap = 0, one;
   for (int b = -1; b < BATCHES; ++b) { /* the first one only turns d into the direction of growth */
     double sum = 0;
     for (int i = 0; i < BATCH; ++i) {
-      if (!hc_monitor_tick(monitor, (double)ti->periods / ti->sc.transient.max_periods)) return HC_INTERRUPTED;
-      const double x = ti->y[MODEL_X], p = ti->y[MODEL_P];
+      if (!hc_monitor_tick(monitor, (double)ti->periods / ti->how.max_periods)) return HC_INTERRUPTED;
+      const double x = ti->y[SCALED_X], p = ti->y[SCALED_P];
       hc_status st = grow(ti, d, &one);
       if (st != HC_OK) return st;
-      leap = fmax(leap, hypot(ti->y[MODEL_X] - x, ti->y[MODEL_P] - p) / hypot(x, p));
+      leap = fmax(leap, hypot(ti->y[SCALED_X] - x, ti->y[SCALED_P] - p) / hypot(x, p));
       sum += one / BATCH;
     }
     if (b < 0) continue;
@@ -183,13 +183,13 @@ static hc_status aperiodic(wait *w, timeint_result *r)
 hc_status timeint_attract(timeint *ti, int first, const hc_monitor *monitor, timeint_result *r)
 {
   wait w = {.ti = ti, .monitor = monitor};
-  const int start = ti->sc.transient.start;
+  const int start = ti->how.start;
   if (start == TRANSIENT_START_UP || start == TRANSIENT_START_DOWN) { /* the sweep has probably left it on its orbit */
     bool there;
     hc_status st = look(&w, 1, &there, r);
     if (st != HC_OK || there) return st;
   }
-  for (int stretch = first; ti->periods < ti->sc.transient.max_periods - 1; stretch *= 2) {
+  for (int stretch = first; ti->periods < ti->how.max_periods - 1; stretch *= 2) {
     bool done, chaos = false;
     hc_status st = pass(&w, stretch, &done);
     if (st != HC_OK) return st;
@@ -199,7 +199,7 @@ hc_status timeint_attract(timeint *ti, int first, const hc_monitor *monitor, tim
     }
     if ((st = look_around(&w, &done, r)) != HC_OK || done) return st;
     if (ti->periods > fmax(LYAPUNOV_AFTER, FOLDS / (1 - ti->contraction)) &&
-        ti->periods + LYAPUNOV_PERIODS < ti->sc.transient.max_periods) {
+        ti->periods + LYAPUNOV_PERIODS < ti->how.max_periods) {
       if ((st = drifts_apart(ti, monitor, &chaos, &r->lyapunov)) != HC_OK) return st;
       if (chaos) return aperiodic(&w, r);
     }

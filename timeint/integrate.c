@@ -15,19 +15,20 @@ hc_status integrate_tolerance(integrator *in, double tolerance)
   return integrate_translate(in, CVodeSStolerances(in->cv, tolerance, tolerance));
 }
 
-static hc_status period(integrator *in, const model *m, double *y, double *slope, integrate_watch *watch, void *self)
+static hc_status period(integrator *in, const scaled_model *m, double *y, double *slope, integrate_watch *watch,
+                        void *self)
 {
   if (!in->ready && !hc_room_for(0)) return HC_NO_MEMORY;
   in->ready = true;
   return in->does->period(in, m, y, slope, watch, self);
 }
 
-hc_status integrate_period(integrator *in, const model *m, double *y, integrate_watch *watch, void *self)
+hc_status integrate_period(integrator *in, const scaled_model *m, double *y, integrate_watch *watch, void *self)
 {
   return period(in, m, y, NULL, watch, self);
 }
 
-hc_status integrate_slope(integrator *in, const model *m, double *y, double *slope)
+hc_status integrate_slope(integrator *in, const scaled_model *m, double *y, double *slope)
 {
   return period(in, m, y, slope, NULL, NULL);
 }

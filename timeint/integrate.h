@@ -6,13 +6,13 @@
  * converge to a fixed point of it. Had the step history been kept, each period would be cut into other steps, and
  * the drift would level off at their error.
  *
- * Two contact laws, one face: integrate_regularised.c follows model.h as it stands; integrate_exact.c follows the
+ * Two contact laws, one face: integrate_regularised.c follows scaled.h as it stands; integrate_exact.c follows the
  * exact law, one smooth right-hand side a contact phase, from transition to transition. */
 #ifndef HC_TIMEINT_INTEGRATE_H
 #define HC_TIMEINT_INTEGRATE_H
 
 #include "base/status.h"
-#include "timeint/model.h"
+#include "timeint/scaled.h"
 
 typedef struct integrator integrator;
 
@@ -31,13 +31,13 @@ hc_status integrate_tolerance(integrator *in, double tolerance);
 
 /* Carry y[n_states] through one period of *m. `watch` may be NULL. On failure y is left where it was.
  * Exact law: HC_CHATTER after too many transitions. */
-hc_status integrate_period(integrator *in, const model *m, double *y, integrate_watch *watch, void *self);
+hc_status integrate_period(integrator *in, const scaled_model *m, double *y, integrate_watch *watch, void *self);
 
 /* As integrate_period, with slope[n_states * n_states], column by column: d y[i](2 pi) / d y[j](0) at slope[i + j
  * n_states], the monodromy matrix on a periodic orbit. From the variational equations along the way; the contact
  * forces are continuous, so transitions add nothing (saltation is the identity). A slider that the law ties to x at
  * theta = 0 (slipping, separated) has a column of zeros. */
-hc_status integrate_slope(integrator *in, const model *m, double *y, double *slope);
+hc_status integrate_slope(integrator *in, const scaled_model *m, double *y, double *slope);
 
 /* Inside a watch: the state (order 0) or its derivative (order 1) at theta0 <= theta <= theta1, from the step's own
  * polynomial, as good as the step itself. y[n_states]. */

@@ -48,11 +48,11 @@ typedef struct exact { /* from integrate_new_exact, to integrate_free; not share
   integrator base;
   int n; /* number of states                                              */
   double tolerance;
-  const model *m;                                    /* of the period under way; the caller's                         */
-  phase phase;                                       /* now                                                           */
-  bool varies;                                       /* the slope is asked for                                        */
-  double varied;                                     /* theta up to which `slope` has come                            */
-  double slope[MODEL_MAX_STATES * MODEL_MAX_STATES]; /* by columns; rows of W while stuck */
+  const scaled_model *m; /* of the period under way; the caller's                         */
+  phase phase;           /* now                                                           */
+  bool varies;           /* the slope is asked for                                        */
+  double varied;         /* theta up to which `slope` has come                            */
+  double slope[SCALED_MAX_STATES * SCALED_MAX_STATES]; /* by columns; rows of W while stuck */
 } exact;
 
 static int rhs(sunrealtype theta, N_Vector y, N_Vector dy, void *self)
@@ -60,9 +60,9 @@ static int rhs(sunrealtype theta, N_Vector y, N_Vector dy, void *self)
   exact *in = self;
   const double *z = NV_DATA_S(y);
   double *dz = NV_DATA_S(dy);
-  dz[MODEL_X] = z[MODEL_P];
-  dz[MODEL_P] = phase_force(&in->phase, cos(theta), z[MODEL_X], z[MODEL_P]);
-  if (isfinite(dz[MODEL_X] + dz[MODEL_P])) return 0;
+  dz[SCALED_X] = z[SCALED_P];
+  dz[SCALED_P] = phase_force(&in->phase, cos(theta), z[SCALED_X], z[SCALED_P]);
+  if (isfinite(dz[SCALED_X] + dz[SCALED_P])) return 0;
   in->base.not_finite = true;
   return -1;
 }
@@ -88,10 +88,10 @@ static int roots(sunrealtype theta, N_Vector y, sunrealtype *g, void *self)
   const double *z = NV_DATA_S(y);
   for (int i = 0; i < ROOTS; ++i) g[i] = 1;
   if (!phase_ends(ph)) return 0;
-  if (ph->up < INFINITY) g[ROOT_UP] = never_zero(ph->up - z[MODEL_X]);
-  if (ph->down > -INFINITY) g[ROOT_DOWN] = never_zero(z[MODEL_X] - ph->down);
-  g[ROOT_TURN] = never_zero(z[MODEL_P]);
-  g[ROOT_BEND] = never_zero(phase_force(ph, cos(theta), z[MODEL_X], z[MODEL_P]));
+  if (ph->up < INFINITY) g[ROOT_UP] = never_zero(ph->up - z[SCALED_X]);
+  if (ph->down > -INFINITY) g[ROOT_DOWN] = never_zero(z[SCALED_X] - ph->down);
+  g[ROOT_TURN] = never_zero(z[SCALED_P]);
+  g[ROOT_BEND] = never_zero(phase_force(ph, cos(theta), z[SCALED_X], z[SCALED_P]));
   return 0;
 }
 
@@ -136,10 +136,10 @@ static void vary_to(exact *in, double theta)
   linear_free_motion(1, c, ph->k, span, e);
   const double step = ph->k != 0 ? (1 - e[0][0]) / ph->k : c != 0 ? (span - e[0][1]) / c : 0.5 * span * span;
   for (int q = 0; q < in->n; ++q) {
-    double *z = in->slope + q * in->n, pull = 0, x = z[MODEL_X], p = z[MODEL_P];
-    for (int j = 0; j < in->m->n_contacts; ++j) pull += phase_share(ph, j) * z[MODEL_W + j];
-    z[MODEL_X] = e[0][0] * x + e[0][1] * p + step * pull;
-    z[MODEL_P] = e[1][0] * x + e[1][1] * p + e[0][1] * pull;
+    double *z = in->slope + q * in->n, pull = 0, x = z[SCALED_X], p = z[SCALED_P];
+    for (int j = 0; j < in->m->n_contacts; ++j) pull += phase_share(ph, j) * z[SCALED_W + j];
+    z[SCALED_X] = e[0][0] * x + e[0][1] * p + step * pull;
+    z[SCALED_P] = e[1][0] * x + e[1][1] * p + e[0][1] * pull;
   }
   in->varied = theta;
 }
@@ -152,7 +152,7 @@ static void vary_held(exact *in, const phase *before)
     if (pc->state != CONTACT_STICK || (before && before->contact[j].state == CONTACT_STICK)) continue;
     for (int q = 0; q < in->n; ++q) {
       double *z = in->slope + q * in->n;
-      z[MODEL_W + j] = pc->own ? (q == MODEL_W + j ? 1.0 : 0.0) : pc->held_by_x * z[MODEL_X];
+      z[SCALED_W + j] = pc->own ? (q == SCALED_W + j ? 1.0 : 0.0) : pc->held_by_x * z[SCALED_X];
     }
   }
 }
@@ -160,8 +160,8 @@ static void vary_held(exact *in, const phase *before)
 static void vary_begin(exact *in)
 {
   memset(in->slope, 0, sizeof in->slope);
-  in->slope[MODEL_X] = 1;
-  in->slope[MODEL_P + in->n] = 1;
+  in->slope[SCALED_X] = 1;
+  in->slope[SCALED_P + in->n] = 1;
   in->varied = 0;
   vary_held(in, NULL);
 }
@@ -175,7 +175,7 @@ static void vary_end(exact *in, double *slope)
     double rest, by_x;
     phase_slider(&in->phase, j, &rest, &by_x);
     if (phase_share(&in->phase, j) != 0) continue;
-    for (int q = 0; q < in->n; ++q) slope[MODEL_W + j + q * in->n] = by_x * slope[MODEL_X + q * in->n];
+    for (int q = 0; q < in->n; ++q) slope[SCALED_W + j + q * in->n] = by_x * slope[SCALED_X + q * in->n];
   }
 }
 
@@ -196,7 +196,7 @@ static hc_status transition(exact *in, double theta, int *count)
   const int way = info[ROOT_TURN] ? info[ROOT_TURN] : info[ROOT_UP] ? 1 : info[ROOT_DOWN] ? -1 : 0;
   if (!way) return HC_OK;
   const phase before = in->phase;
-  const int n = phase_next(&in->phase, NV_DATA_S(in->base.y)[MODEL_X], way, info[ROOT_TURN] != 0);
+  const int n = phase_next(&in->phase, NV_DATA_S(in->base.y)[SCALED_X], way, info[ROOT_TURN] != 0);
   if (!n) return HC_OK;
   if ((*count += n) > MAX_TRANSITIONS) return HC_CHATTER;
   if (in->varies) {
@@ -237,11 +237,12 @@ static void take_state(const exact *in, double *y)
   for (int j = 0; j < in->m->n_contacts; ++j) {
     double rest, by_x;
     phase_slider(&in->phase, j, &rest, &by_x);
-    y[MODEL_W + j] = rest + by_x * y[MODEL_X];
+    y[SCALED_W + j] = rest + by_x * y[SCALED_X];
   }
 }
 
-static hc_status period(integrator *base, const model *m, double *y, double *slope, integrate_watch *watch, void *self)
+static hc_status period(integrator *base, const scaled_model *m, double *y, double *slope, integrate_watch *watch,
+                        void *self)
 {
   exact *in = (exact *)base;
   if (m->n_states != in->n) return HC_BUG;
@@ -272,7 +273,7 @@ static hc_status dense(const integrator *base, double theta, int order, double *
   for (int j = 0; j < in->m->n_contacts; ++j) {
     double rest, by_x;
     phase_slider(&in->phase, j, &rest, &by_x);
-    y[MODEL_W + j] = (order == 0 ? rest : 0) + by_x * y[MODEL_X];
+    y[SCALED_W + j] = (order == 0 ? rest : 0) + by_x * y[SCALED_X];
   }
   return HC_OK;
 }
@@ -288,7 +289,7 @@ static const integrator_class class = {.period = period, .dense = dense, .slides
 hc_status integrate_new_exact(int n_states, double tolerance, integrator **out)
 {
   *out = NULL;
-  if (n_states < MODEL_W || n_states > MODEL_MAX_STATES) return HC_BAD_INPUT;
+  if (n_states < SCALED_W || n_states > SCALED_MAX_STATES) return HC_BAD_INPUT;
   exact *in = calloc(1, sizeof *in); /* zeroed, so free works half-built */
   if (!in) return HC_NO_MEMORY;
   in->base.does = &class;

@@ -13,7 +13,7 @@
 
 typedef struct integrator_class {
   /* slope, watch: or NULL */
-  hc_status (*period)(integrator *, const model *, double *y, double *slope, integrate_watch *, void *self);
+  hc_status (*period)(integrator *, const scaled_model *, double *y, double *slope, integrate_watch *, void *self);
   hc_status (*dense)(const integrator *, double theta, int order, double *y);
   bool (*slides)(const integrator *, int j, const double *y);
   void (*free)(integrator *);

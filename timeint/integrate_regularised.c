@@ -1,4 +1,4 @@
-/* integrate_regularised.c - see integrate.h. BDF with the analytic dense Jacobian of model.c: the sliding slider is
+/* integrate_regularised.c - see integrate.h. BDF with the analytic dense Jacobian of scaled.c: the sliding slider is
  * stiff (its rate is 1/regularisation). Everything is made in integrate_new; a period allocates nothing. Slopes are
  * CVODES' forward sensitivities to y(0), switched off in periods without; a period with them takes other steps of
  * the same tolerance: y is as good, but not the same bits. */
@@ -26,16 +26,16 @@ enum {
 
 typedef struct regularised { /* from integrate_new_regularised, to integrate_free; not shared between threads */
   integrator base;
-  int n;          /* number of states                                                  */
-  const model *m; /* of the period under way; the caller's                             */
-  N_Vector *s;    /* [n][n] d y / d y_j(0), j = 0..n-1: CVODES calls them sensitivities */
-  double *here;   /* [n][n] the Jacobian where their right-hand side is wanted         */
+  int n;                 /* number of states                                                  */
+  const scaled_model *m; /* of the period under way; the caller's                             */
+  N_Vector *s;           /* [n][n] d y / d y_j(0), j = 0..n-1: CVODES calls them sensitivities */
+  double *here;          /* [n][n] the Jacobian where their right-hand side is wanted         */
 } regularised;
 
 static int rhs(sunrealtype theta, N_Vector y, N_Vector dy, void *self)
 {
   regularised *in = self;
-  if (model_rhs(in->m, theta, NV_DATA_S(y), NV_DATA_S(dy))) return 0;
+  if (scaled_rhs(in->m, theta, NV_DATA_S(y), NV_DATA_S(dy))) return 0;
   in->base.not_finite = true;
   return -1;
 }
@@ -45,7 +45,7 @@ static int jacobian(sunrealtype theta, N_Vector y, N_Vector dy, SUNMatrix jac, v
 {
   (void)theta, (void)dy, (void)t1, (void)t2, (void)t3;
   regularised *in = self;
-  model_jacobian(in->m, NV_DATA_S(y), SM_DATA_D(jac));
+  scaled_jacobian(in->m, NV_DATA_S(y), SM_DATA_D(jac));
   return 0;
 }
 
@@ -55,7 +55,7 @@ static int slope_rhs(int n, sunrealtype theta, N_Vector y, N_Vector dy, N_Vector
 {
   (void)theta, (void)dy, (void)t1, (void)t2;
   regularised *in = self;
-  model_jacobian(in->m, NV_DATA_S(y), in->here);
+  scaled_jacobian(in->m, NV_DATA_S(y), in->here);
   for (int j = 0; j < n; ++j) {
     const double *from = NV_DATA_S(s[j]);
     double *to = NV_DATA_S(ds[j]);
@@ -93,7 +93,7 @@ static hc_status make_cvode(regularised *in, double tolerance)
  * solved for first, then all slopes; solving for both at once was measured as dear, and no better. */
 static hc_status make_slopes(regularised *in)
 {
-  double absolute[MODEL_MAX_STATES];
+  double absolute[SCALED_MAX_STATES];
   for (int j = 0; j < in->n; ++j) {
     N_VConst(0.0, in->s[j]);
     absolute[j] = slope_tolerance;
@@ -176,7 +176,8 @@ static hc_status take_slopes(regularised *in, double *slope)
   return integrate_translate(&in->base, flag);
 }
 
-static hc_status period(integrator *base, const model *m, double *y, double *slope, integrate_watch *watch, void *self)
+static hc_status period(integrator *base, const scaled_model *m, double *y, double *slope, integrate_watch *watch,
+                        void *self)
 {
   regularised *in = (regularised *)base;
   const size_t bytes = sizeof *y * (size_t)in->n;
@@ -203,7 +204,7 @@ static hc_status dense(const integrator *base, double theta, int order, double *
 
 static bool slides(const integrator *base, int j, const double *y)
 {
-  return model_slides(((const regularised *)base)->m, j, y);
+  return scaled_slides(((const regularised *)base)->m, j, y);
 }
 
 static const integrator_class class = {.period = period, .dense = dense, .slides = slides, .free = release};

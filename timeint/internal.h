@@ -12,20 +12,21 @@
 #include "timeint/shoot.h"
 #include "timeint/timeint.h"
 
-struct timeint { /* from timeint_new, to timeint_free; not shared between threads                  */
-  scene sc;      /* a copy: the caller may drop theirs                                             */
+struct timeint {          /* from timeint_new, to timeint_free; not shared between threads                  */
+  model *model;           /* a copy: the caller may drop theirs                                             */
+  transient_settings how; /* a copy */
   integrator *in;
   integrator *sweeper; /* the exact law's, for sweeps where `in` is not; else NULL                      */
   settle *settle;
   shoot *shoot;
   measure measure;
-  model model;         /* the equations at omega in units of length                                      */
+  scaled_model scaled; /* the equations at omega in units of length                                      */
   double omega;        /* [rad/time]                                                                     */
   double length;       /* [length] about the size of the motion; y is in units of it                     */
   double least_length; /* [length] which the unit never falls below                                      */
   double tolerance;    /* [1] CVODE's at present                                                         */
   double contraction;  /* [1] a priori, per period: exp(-C T/2M)                                         */
-  double y[MODEL_MAX_STATES];
+  double y[SCALED_MAX_STATES];
   int periods;       /* since timeint_begin                                                            */
   long steps0, rhs0; /* counts at timeint_begin                                                        */
 };
@@ -69,7 +70,7 @@ double timeint_size(const timeint *ti);
  * cos(alpha) w/(largest stiffness). */
 void timeint_point(const timeint *ti, double *z);
 
-/* CVODE's tolerance for a steady state within the scene's transient.tolerance. */
+/* CVODE's tolerance for a steady state within transient.tolerance. */
 double timeint_final_tolerance(const timeint *ti);
 
 #endif

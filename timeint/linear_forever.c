@@ -19,23 +19,23 @@ typedef struct linear {  /* the oscillator that ti->y belongs to as long as noth
   double free;           /* bound of |X - center - Re(Z e^{i theta})|  */
 } linear;
 
-static bool closed(const model_contact *c, double x) { return c->law.kn > 0 && c->sine * x + c->law.gap > 0; }
+static bool closed(const scaled_contact *c, double x) { return c->law.kn > 0 && c->sine * x + c->law.gap > 0; }
 
 static linear linear_now(const timeint *ti)
 {
-  const model *m = &ti->model;
-  const double x = ti->y[MODEL_X], p = ti->y[MODEL_P];
+  const scaled_model *m = &ti->scaled;
+  const double x = ti->y[SCALED_X], p = ti->y[SCALED_P];
   linear l = {.k = m->k};
   double d = 0;
   for (int j = 0; j < m->n_contacts; ++j) {
-    const model_contact *c = &m->contact[j];
+    const scaled_contact *c = &m->contact[j];
     const double kt = c->law.slides ? c->law.kt : 0; /* without friction T = 0 */
     if (!closed(c, x)) {
       d += c->preload * c->sine;
       continue;
     }
     l.k += kt * c->cosine * c->cosine + c->law.kn * c->sine * c->sine;
-    d += kt * c->cosine * ti->y[MODEL_W + j] + (c->preload - c->law.kn * c->law.gap) * c->sine;
+    d += kt * c->cosine * ti->y[SCALED_W + j] + (c->preload - c->law.kn * c->law.gap) * c->sine;
   }
   l.center = d / l.k;
   l.steady = linear_response(1, m->c, l.k, m->f, 1);
@@ -52,7 +52,7 @@ static bool stays(double a, double b, double center, double reach)
 
 /* Guards of separation, v + gap < 0, and of stick, v + gap > 0 and mu N -+ kt (u - w) > 0: contact_law.h, the first
  * clear of the corner. */
-static bool contact_stays(const model_contact *c, double x, double w, double center, double reach)
+static bool contact_stays(const scaled_contact *c, double x, double w, double center, double reach)
 {
   const law_regularised *law = &c->law;
   const double clear = corner * law->width;
@@ -68,13 +68,13 @@ static bool contact_stays(const model_contact *c, double x, double w, double cen
 
 bool linear_forever(const timeint *ti)
 {
-  const model *m = &ti->model;
+  const scaled_model *m = &ti->scaled;
   const linear l = linear_now(ti);
   const double amplitude = cabs(l.steady), reach = amplitude + l.free;
   if (!(l.k > 0) || !isfinite(fabs(l.center) + reach)) return false;
-  if (!(m->c > 0) && !(l.free <= ti->sc.transient.tolerance * amplitude)) return false;
+  if (!(m->c > 0) && !(l.free <= ti->how.tolerance * amplitude)) return false;
   for (int j = 0; j < m->n_contacts; ++j)
-    if (!contact_stays(&m->contact[j], ti->y[MODEL_X], ti->y[MODEL_W + j], l.center, reach)) return false;
+    if (!contact_stays(&m->contact[j], ti->y[SCALED_X], ti->y[SCALED_W + j], l.center, reach)) return false;
   return true;
 }
 
@@ -102,7 +102,7 @@ static void fill_measures(const linear *l, double length, timeint_result *r)
   }
 }
 
-static void fill_stability(const model *m, double k, timeint_result *r)
+static void fill_stability(const scaled_model *m, double k, timeint_result *r)
 {
   const double complex lambda = slowest(m->c, k);
   r->multiplier = r->contraction = cabs(lambda);
@@ -114,24 +114,24 @@ static void fill_stability(const model *m, double k, timeint_result *r)
 
 void linear_steady(timeint *ti, timeint_result *r)
 {
-  const model *m = &ti->model;
+  const scaled_model *m = &ti->scaled;
   const linear l = linear_now(ti);
-  const bool exact = ti->sc.transient.law == TRANSIENT_LAW_EXACT;
+  const bool exact = ti->how.law == TRANSIENT_LAW_EXACT;
   r->method = TIMEINT_BY_CLOSED_FORM;
   r->regime = CONTACT_LINEAR;
   r->free_sliders = r->switches = 0;
   for (int j = 0; j < m->n_contacts; ++j) {
-    const model_contact *c = &m->contact[j];
-    if (closed(c, ti->y[MODEL_X])) {
+    const scaled_contact *c = &m->contact[j];
+    if (closed(c, ti->y[SCALED_X])) {
       r->regime = CONTACT_STUCK;
       r->free_sliders += c->law.slides;
     } else if (c->law.slides) { /* it follows u: w' = (u - w) kt/eta */
       double lag = exact ? 0 : c->law.eta / c->law.kt;
-      ti->y[MODEL_W + j] = c->cosine * (l.center + creal(l.steady / (1 + I * lag)));
+      ti->y[SCALED_W + j] = c->cosine * (l.center + creal(l.steady / (1 + I * lag)));
     }
   }
   fill_measures(&l, ti->length, r);
   fill_stability(m, l.k, r);
-  ti->y[MODEL_X] = l.center + creal(l.steady);
-  ti->y[MODEL_P] = -cimag(l.steady);
+  ti->y[SCALED_X] = l.center + creal(l.steady);
+  ti->y[SCALED_P] = -cimag(l.steady);
 }

@@ -1,7 +1,7 @@
 /* linear_forever.h - motions at whose contacts nothing happens any more: a linear oscillator, settled by formula
  * instead of integration.
  *
- * While every contact stays separated or stuck as it is at ti->y, model.h is linear:
+ * While every contact stays separated or stuck as it is at ti->y, scaled.h is linear:
  *     X'' + c X' + k X = f cos(theta) + d       k, d constant: d from held sliders and from clearances that are
  *                                               closed
  *     X = d/k + Re(Z e^{i theta}) + free motion,    Z = f/(k - 1 + i c)

@@ -16,7 +16,7 @@ enum { STAY = 20 }; /* baselines at one tolerance at most, lest a scatter larger
 
 static void push(timeint *ti)
 {
-  double z[MODEL_MAX_STATES];
+  double z[SCALED_MAX_STATES];
   timeint_point(ti, z);
   settle_push(ti->settle, z);
 }
@@ -71,13 +71,13 @@ static hc_status adapt(timeint *ti, progress *p)
 /* The next k periods into *r, and how near the orbit they are. */
 static hc_status measure_orbit(timeint *ti, int k, progress *p, timeint_result *r)
 {
-  measure_begin(&ti->measure, &ti->model);
+  measure_begin(&ti->measure, &ti->scaled);
   for (int i = 0; i < k; ++i) {
     hc_status st = march_one(ti, true);
     if (st != HC_OK) return st;
   }
-  measure_report(&ti->measure, &ti->sc, ti->length, r);
-  settle_estimate e = settle_judge(ti->settle, ti->sc.transient.tolerance * r->amplitude);
+  measure_report(&ti->measure, ti->model, ti->length, r);
+  settle_estimate e = settle_judge(ti->settle, ti->how.tolerance * r->amplitude);
   r->closure = e.distance / r->amplitude;
   r->contraction = isnan(e.contraction) ? p->contraction : e.contraction;
   r->period_multiple = e.multiple;
@@ -89,14 +89,14 @@ static hc_status measure_orbit(timeint *ti, int k, progress *p, timeint_result *
 static int seems_settled(const timeint *ti, double amplitude)
 {
   if (ti->tolerance > timeint_final_tolerance(ti)) return 0;
-  const double goal = ti->sc.transient.tolerance * amplitude;
+  const double goal = ti->how.tolerance * amplitude;
   if (!(settle_drift(ti->settle) <= 2 * goal)) return 0; /* cheap, and necessary */
   return settle_judge(ti->settle, goal).multiple;
 }
 
 hc_status timeint_march(timeint *ti, const hc_monitor *monitor, timeint_result *r)
 {
-  const int most = ti->sc.transient.max_periods;
+  const int most = ti->how.max_periods;
   progress p;
   hc_status st = start(ti, &p);
   r->method = TIMEINT_BY_MARCHING;

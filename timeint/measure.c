@@ -7,7 +7,7 @@
 
 static const double two_pi = 6.283185307179586477;
 
-void measure_begin(measure *me, const model *m)
+void measure_begin(measure *me, const scaled_model *m)
 {
   memset(me, 0, sizeof *me);
   me->m = m;
@@ -34,11 +34,11 @@ static void take_instant(measure *me, double x)
 /* At the end of a step, and at the start of a period (`in` NULL): where the next step begins. */
 static void take_end(measure *me, const integrator *in, double theta, const double *y)
 {
-  double dy[MODEL_MAX_STATES];
-  model_rhs(me->m, theta, y, dy); /* finite: CVODE has just been here */
+  double dy[SCALED_MAX_STATES];
+  scaled_rhs(me->m, theta, y, dy); /* finite: CVODE has just been here */
   memcpy(me->y, y, sizeof *y * (size_t)me->m->n_states);
-  me->a = dy[MODEL_P];
-  extend(me, y[MODEL_X]);
+  me->a = dy[SCALED_P];
+  extend(me, y[SCALED_X]);
   for (int j = 0; j < me->m->n_contacts; ++j) me->slides = me->slides || (in && integrate_slides(in, j, y));
 }
 
@@ -47,7 +47,7 @@ void measure_period(measure *me, const double *y)
   ++me->periods;
   me->next = 0;
   take_end(me, NULL, 0, y);
-  take_instant(me, y[MODEL_X]);
+  take_instant(me, y[SCALED_X]);
 }
 
 /* A root of P's derivative of the given order (0: of P itself) between t0 and t1, where it has the values f0 and f1
@@ -61,7 +61,7 @@ static hc_status find_root(const integrator *in, int order, double t0, double f0
     if (!(t > fmin(t0, t1) && t < fmax(t0, t1))) t = 0.5 * (t0 + t1);
     hc_status st = integrate_dense(in, t, order, y);
     if (st != HC_OK) return st;
-    double f = y[MODEL_P];
+    double f = y[SCALED_P];
     if ((f > 0) == (f1 > 0)) f0 *= 0.5;
     else t0 = t1, f0 = f1;
     t1 = t, f1 = f;
@@ -73,52 +73,51 @@ static hc_status find_root(const integrator *in, int order, double t0, double f0
 
 static hc_status take_peak(measure *me, const integrator *in, double t0, double p0, double t1, double p1)
 {
-  double y[MODEL_MAX_STATES], t;
+  double y[SCALED_MAX_STATES], t;
   if ((p0 > 0) == (p1 > 0)) return HC_OK; /* p = 0 at an end was taken as a step's end */
   hc_status st = find_root(in, 0, t0, p0, t1, p1, y, &t);
-  if (st == HC_OK) extend(me, y[MODEL_X]);
+  if (st == HC_OK) extend(me, y[SCALED_X]);
   return st;
 }
 
 /* Peaks of x between me->y at t0 and y, a at t1: where P changes sign, at most twice in a step. */
 static hc_status take_peaks(measure *me, const integrator *in, double t0, double t1, const double *y, double a)
 {
-  double p0 = me->y[MODEL_P], p1 = y[MODEL_P], mid[MODEL_MAX_STATES], t;
+  double p0 = me->y[SCALED_P], p1 = y[SCALED_P], mid[SCALED_MAX_STATES], t;
   bool turns = (p0 > 0) == (p1 > 0) && (me->a > 0) != (a > 0) && (me->a > 0) != (p0 > 0);
   if (!turns) return take_peak(me, in, t0, p0, t1, p1);
   hc_status st = find_root(in, 1, t0, me->a, t1, a, mid, &t); /* P comes nearest to 0 here */
-  if (st == HC_OK) st = take_peak(me, in, t0, p0, t, mid[MODEL_P]);
-  return st == HC_OK ? take_peak(me, in, t, mid[MODEL_P], t1, p1) : st;
+  if (st == HC_OK) st = take_peak(me, in, t0, p0, t, mid[SCALED_P]);
+  return st == HC_OK ? take_peak(me, in, t, mid[SCALED_P], t1, p1) : st;
 }
 
 hc_status measure_step(void *self, const integrator *in, double theta0, double theta1)
 {
   measure *me = self;
-  double y[MODEL_MAX_STATES], dy[MODEL_MAX_STATES];
+  double y[SCALED_MAX_STATES], dy[SCALED_MAX_STATES];
   for (double t; me->next < TIMEINT_WAVE && (t = two_pi * me->next / TIMEINT_WAVE) <= theta1;) {
     hc_status st = integrate_dense(in, t, 0, y);
     if (st != HC_OK) return st;
-    take_instant(me, y[MODEL_X]);
+    take_instant(me, y[SCALED_X]);
   }
   hc_status st = integrate_dense(in, theta1, 0, y);
   if (st != HC_OK) return st;
-  model_rhs(me->m, theta1, y, dy);
-  if ((st = take_peaks(me, in, theta0, theta1, y, dy[MODEL_P])) != HC_OK) return st;
+  scaled_rhs(me->m, theta1, y, dy);
+  if ((st = take_peaks(me, in, theta0, theta1, y, dy[SCALED_P])) != HC_OK) return st;
   take_end(me, in, theta1, y);
   return HC_OK;
 }
 
 /* The strongest thing contact c does while its motion covers [min, max]. */
-static contact_regime regime_of(const scene_contact *c, double min, double max, bool slides)
+static contact_regime regime_of(const model_contact *c, double min, double max, bool slides)
 {
-  double cosine, sine;
-  scene_projection(c, &cosine, &sine);
+  const double sine = c->normal;
   if (!(c->law.kn > 0) || !(sine * max + c->law.gap > 0)) return CONTACT_LINEAR; /* never touched */
   if (sine * min + c->law.gap < 0) return CONTACT_SEPARATES;
   return slides ? CONTACT_SLIPS : CONTACT_STUCK;
 }
 
-void measure_report(const measure *me, const scene *sc, double length, timeint_result *r)
+void measure_report(const measure *me, const model *from, double length, timeint_result *r)
 {
   const double n = (double)TIMEINT_WAVE * me->periods;
   r->max = me->max * length;
@@ -131,8 +130,8 @@ void measure_report(const measure *me, const scene *sc, double length, timeint_r
   r->harmonic_1 = hypot(r->a1, r->b1);
   for (int i = 0; i < TIMEINT_WAVE; ++i) r->wave[i] = me->wave[i] * length;
   r->regime = CONTACT_LINEAR;
-  for (int j = 0; j < sc->n_contacts; ++j) {
-    contact_regime one = regime_of(&sc->contacts[j], r->min, r->max, me->slides);
+  for (int j = 0; j < from->n_contacts; ++j) {
+    contact_regime one = regime_of(&from->contacts[j], r->min, r->max, me->slides);
     if (one > r->regime) r->regime = one;
   }
 }

@@ -11,23 +11,23 @@
 #include "timeint/timeint.h"
 
 typedef struct measure { /* lengths in units of the model's L, until measure_report */
-  const model *m;
-  int periods;                   /* begun so far                                            */
-  int next;                      /* index of the next instant of the wave                   */
-  double y[MODEL_MAX_STATES], a; /* state and P' at the end of the last step         */
+  const scaled_model *m;
+  int periods;                    /* begun so far                                            */
+  int next;                       /* index of the next instant of the wave                   */
+  double y[SCALED_MAX_STATES], a; /* state and P' at the end of the last step         */
   double max, min;
   double sum, sum_sq, sum_cos, sum_sin; /* over the instants                         */
   bool slides;                          /* some contact slid at the end of some step               */
   double wave[TIMEINT_WAVE];
 } measure;
 
-void measure_begin(measure *me, const model *m);
+void measure_begin(measure *me, const scaled_model *m);
 
 /* y: state at the start of a period. Then hand measure_step and me to integrate_period. */
 void measure_period(measure *me, const double *y);
 hc_status measure_step(void *self, const integrator *in, double theta0, double theta1);
 
 /* max, min, amplitude, rms, mean, a1, b1, harmonic_1, wave (of the last period) and regime into *r; L = length. */
-void measure_report(const measure *me, const scene *sc, double length, timeint_result *r);
+void measure_report(const measure *me, const model *from, double length, timeint_result *r);
 
 #endif

@@ -6,7 +6,7 @@
 
 static const double rounding = 16 * DBL_EPSILON; /* of sums of a few terms, relative to their sizes */
 
-static contact law_of(const model_contact *mc)
+static contact law_of(const scaled_contact *mc)
 {
   return (contact){.kt = mc->law.kt, .kn = mc->law.kn, .mu = mc->law.mu, .gap = mc->law.gap};
 }
@@ -23,7 +23,7 @@ static double guard_noise(const contact *c, double u, double v, double w)
 static int sign_of(double a) { return (a > 0) - (a < 0); }
 
 /* The slider in slip(sign): w = u - sign mu N/kt, N unclipped. */
-static void slipping_slider(const model_contact *mc, int sign, double *rest, double *by_x)
+static void slipping_slider(const scaled_contact *mc, int sign, double *rest, double *by_x)
 {
   const double share = sign * mc->law.mu * mc->law.kn / mc->law.kt;
   *rest = -share * mc->law.gap;
@@ -32,7 +32,7 @@ static void slipping_slider(const model_contact *mc, int sign, double *rest, dou
 
 void phase_slider(const phase *ph, int j, double *rest, double *by_x)
 {
-  const model_contact *mc = &ph->m->contact[j];
+  const scaled_contact *mc = &ph->m->contact[j];
   const phase_contact *pc = &ph->contact[j];
   *rest = 0;
   *by_x = mc->cosine;
@@ -47,7 +47,7 @@ void phase_slider(const phase *ph, int j, double *rest, double *by_x)
 
 double phase_share(const phase *ph, int j)
 {
-  const model_contact *mc = &ph->m->contact[j];
+  const scaled_contact *mc = &ph->m->contact[j];
   return mc->law.slides && ph->contact[j].state == CONTACT_STICK ? mc->law.kt * mc->cosine : 0.0;
 }
 
@@ -61,7 +61,7 @@ static void stick(phase_contact *pc, double held, double held_by_x)
 
 /* From slip(sign) at x. The guard s kt u' - mu kn v' vanishes there, and it is kt times the rate of u - s mu N/kt:
  * that the instant moves with the state changes nothing, dw = du - s mu dN/kt. */
-static void stick_from_slip(phase_contact *pc, const model_contact *mc, int sign, double x)
+static void stick_from_slip(phase_contact *pc, const scaled_contact *mc, int sign, double x)
 {
   double rest, by_x;
   slipping_slider(mc, sign, &rest, &by_x);
@@ -71,7 +71,7 @@ static void stick_from_slip(phase_contact *pc, const model_contact *mc, int sign
 /* Where v + gap rises through 0, at the instant t*: w = u(t*), so dw = du + u' dt* with dt* = -dv/v'. u and v being
  * proportional to X that is cos dX - cos P (sin dX)/(sin P) = 0: the slider comes to rest at the same place always.
  * The velocities enter contact_on_touch as ratios only. */
-static void touch(phase_contact *pc, const model_contact *mc)
+static void touch(phase_contact *pc, const scaled_contact *mc)
 {
   const contact law = law_of(mc);
   stick(pc, mc->cosine * pc->up, 0);
@@ -79,7 +79,7 @@ static void touch(phase_contact *pc, const model_contact *mc)
 }
 
 /* Where the guard of stick against slip(sign) vanishes; it is linear in X. */
-static void bound_by_slip(phase_contact *pc, const model_contact *mc, int sign, double x, double edge)
+static void bound_by_slip(phase_contact *pc, const scaled_contact *mc, int sign, double x, double edge)
 {
   const contact law = law_of(mc);
   const double u = mc->cosine * x, v = mc->sine * x;
@@ -96,7 +96,7 @@ static void bound_by_slip(phase_contact *pc, const model_contact *mc, int sign, 
   }
 }
 
-static void bound(phase_contact *pc, const model_contact *mc, double x)
+static void bound(phase_contact *pc, const scaled_contact *mc, double x)
 {
   const double edge = mc->law.kn > 0 && mc->sine > 0 ? -mc->law.gap / mc->sine : -INFINITY; /* v + gap = 0 */
   pc->up = INFINITY;
@@ -144,7 +144,7 @@ static int cross_all(phase *ph, double x)
 
 static void add_contact(phase *ph, int j)
 {
-  const model_contact *mc = &ph->m->contact[j];
+  const scaled_contact *mc = &ph->m->contact[j];
   const law_regularised *law = &mc->law;
   const phase_contact *pc = &ph->contact[j];
   if (pc->state == CONTACT_SEPARATED) {
@@ -194,20 +194,20 @@ int phase_next(phase *ph, double x, int way, bool turned)
 }
 
 /* P' at theta = 0 by the law itself. */
-static double force_at_start(const model *m, const double *y)
+static double force_at_start(const scaled_model *m, const double *y)
 {
-  double force = m->f - m->c * y[MODEL_P] - m->k * y[MODEL_X];
+  double force = m->f - m->c * y[SCALED_P] - m->k * y[SCALED_X];
   for (int j = 0; j < m->n_contacts; ++j) {
-    const model_contact *mc = &m->contact[j];
+    const scaled_contact *mc = &m->contact[j];
     const contact law = law_of(mc);
-    double w = y[MODEL_W + j], t = 0, v = mc->sine * y[MODEL_X];
-    if (mc->law.slides) contact_step(&law, mc->cosine * y[MODEL_X], v, &w, &t);
+    double w = y[SCALED_W + j], t = 0, v = mc->sine * y[SCALED_X];
+    if (mc->law.slides) contact_step(&law, mc->cosine * y[SCALED_X], v, &w, &t);
     force -= t * mc->cosine + contact_normal_change(&law, v) * mc->sine;
   }
   return force;
 }
 
-static void classify(phase_contact *pc, const model_contact *mc, double x, double w, int way)
+static void classify(phase_contact *pc, const scaled_contact *mc, double x, double w, int way)
 {
   const contact law = law_of(mc);
   const double u = mc->cosine * x, v = mc->sine * x;
@@ -222,15 +222,15 @@ static void classify(phase_contact *pc, const model_contact *mc, double x, doubl
   if (contact_guard_slip(&law, sign, way * mc->cosine, way * mc->sine) > 0) pc->state = slip(sign);
 }
 
-int phase_begin(phase *ph, const model *m, const double *y)
+int phase_begin(phase *ph, const scaled_model *m, const double *y)
 {
-  const double force = force_at_start(m, y), x = y[MODEL_X];
+  const double force = force_at_start(m, y), x = y[SCALED_X];
   double sliders = 0;
-  for (int j = 0; j < m->n_contacts; ++j) sliders += y[MODEL_W + j];
-  if (!isfinite(force + x + y[MODEL_P] + sliders)) return -1;
+  for (int j = 0; j < m->n_contacts; ++j) sliders += y[SCALED_W + j];
+  if (!isfinite(force + x + y[SCALED_P] + sliders)) return -1;
   ph->m = m;
-  ph->way = y[MODEL_P] != 0 ? sign_of(y[MODEL_P]) : sign_of(force);
-  for (int j = 0; j < m->n_contacts; ++j) classify(&ph->contact[j], &m->contact[j], x, y[MODEL_W + j], ph->way);
+  ph->way = y[SCALED_P] != 0 ? sign_of(y[SCALED_P]) : sign_of(force);
+  for (int j = 0; j < m->n_contacts; ++j) classify(&ph->contact[j], &m->contact[j], x, y[SCALED_W + j], ph->way);
   const int n = cross_all(ph, x);
   gather(ph, x);
   return n;

@@ -1,7 +1,7 @@
 /* phase.h - the contact states of the exact law (model/contact_law.h) in which a motion stays for a while, and what
  * ends them. libm only.
  *
- * In a phase every contact sticks, slips one way or is separated, and the equation of model.h is linear:
+ * In a phase every contact sticks, slips one way or is separated, and the equation of scaled.h is linear:
  *     P' = f cos(theta) - c P - k X - d            k, d constant: no switch is left in it, whatever X and P are
  *     W_j = rest_j + by_x_j X                      the slider: fixed while it sticks (by_x = 0), tied to X otherwise
  * u and v are proportional to X, so every guard of contact_law.h is a function of X alone or proportional to P. A
@@ -24,7 +24,7 @@
 
 #include <stdbool.h>
 
-#include "timeint/model.h"
+#include "timeint/scaled.h"
 
 typedef struct phase_contact {
   contact_state state;
@@ -36,17 +36,17 @@ typedef struct phase_contact {
 } phase_contact;
 
 typedef struct phase {
-  const model *m; /* the caller's */
+  const scaled_model *m; /* the caller's */
   double k, d, up, down;
   int way;    /* +1: X rises, -1: falls, 0: at rest, at the phase's beginning */
   bool slips; /* some contact does: the phase ends where P changes sign       */
-  phase_contact contact[SCENE_MAX_CONTACTS];
+  phase_contact contact[TIMEINT_MAX_CONTACTS];
 } phase;
 
 /* The phase at theta = 0 of any finite state y: sliders beyond their limit are drawn to it, those on it slip if the
  * motion there goes on. Answers how many contacts changed at once (0 but for states on a guard), or -1 if something
  * is not finite. */
-int phase_begin(phase *ph, const model *m, const double *y);
+int phase_begin(phase *ph, const scaled_model *m, const double *y);
 
 /* The phase after the present one ended at x: X crossed up or down, or P changed sign (`turned`). way: sign of P
  * from now on. Answers how many transitions that took; at 0 the phase goes on as it was. */

@@ -24,8 +24,8 @@ static hc_status solve_at(timeint *ti, double regularisation, int k, const hc_mo
 {
   shoot_report found;
   const double size = timeint_size(ti) / ti->length;
-  ti->sc.transient.regularisation = regularisation;
-  model_make(&ti->model, &ti->sc, ti->omega, ti->length);
+  ti->how.regularisation = regularisation;
+  scaled_make(&ti->scaled, ti->model, &ti->how, ti->omega, ti->length);
   hc_status st = shoot_newton(ti->shoot, k, size, timeint_goal(ti), monitor, &found);
   /* another orbit: nothing to extrapolate from */
   if (st == HC_OK && !(found.moved <= same_orbit * size)) st = HC_NOT_CONVERGED;
@@ -51,8 +51,8 @@ static void combine(timeint_result *r, const timeint_result *half, const timeint
 
 hc_status timeint_extrapolate(timeint *ti, const hc_monitor *monitor, timeint_result *r)
 {
-  const double rho = ti->sc.transient.regularisation;
-  if (!ti->sc.transient.richardson || ti->sc.transient.law == TRANSIENT_LAW_EXACT) return HC_OK;
+  const double rho = ti->how.regularisation;
+  if (!ti->how.richardson || ti->how.law == TRANSIENT_LAW_EXACT) return HC_OK;
   if (r->method == TIMEINT_BY_CLOSED_FORM) {
     r->regularisation_error = 0;
     return HC_OK;
@@ -62,7 +62,7 @@ hc_status timeint_extrapolate(timeint *ti, const hc_monitor *monitor, timeint_re
   for (int i = 0; i < LEVELS - 1 && st == HC_OK; ++i)
     st = solve_at(ti, rho / (2 << i), r->period_multiple, monitor, &at[i]);
   if (st == HC_OK) combine(r, &at[0], &at[1]);
-  ti->sc.transient.regularisation = rho;
-  model_make(&ti->model, &ti->sc, ti->omega, ti->length);
+  ti->how.regularisation = rho;
+  scaled_make(&ti->scaled, ti->model, &ti->how, ti->omega, ti->length);
   return st;
 }

@@ -15,7 +15,7 @@
 #include "timeint/internal.h"
 
 enum {
-  MAX_N = MODEL_MAX_STATES,
+  MAX_N = SCALED_MAX_STATES,
   NEWTON_ITERATIONS = 12,
   ANDERSON_ITERATIONS = 100,
   ANDERSON_DEPTH = 4,
@@ -69,9 +69,9 @@ static hc_status run_periods(shoot *s)
   double one[MAX_N * MAX_N], before[MAX_N * MAX_N];
   const size_t bytes = sizeof *one * (size_t)(s->n * s->n);
   for (int i = 0; i < s->k; ++i) {
-    if (s->ti->periods >= s->ti->sc.transient.max_periods - s->k) return HC_NOT_SETTLED; /* k are kept for the report */
+    if (s->ti->periods >= s->ti->how.max_periods - s->k) return HC_NOT_SETTLED; /* k are kept for the report */
     if (!hc_monitor_tick(s->monitor, -1)) return HC_INTERRUPTED;
-    hc_status st = integrate_slope(s->ti->in, &s->ti->model, s->f, i == 0 ? s->phi : one);
+    hc_status st = integrate_slope(s->ti->in, &s->ti->scaled, s->f, i == 0 ? s->phi : one);
     if (st != HC_OK) return st;
     ++s->ti->periods;
     if (i == 0) continue;
@@ -98,11 +98,11 @@ static hc_status evaluate(shoot *s, const double *z)
   return st;
 }
 
-/* Does slider i - MODEL_W repeat itself wherever it is? */
+/* Does slider i - SCALED_W repeat itself wherever it is? */
 static bool is_free(const shoot *s, int i)
 {
-  /* cppcheck-suppress arrayIndexOutOfBoundsCond; it takes MODEL_W, 2, for the number of states */
-  if (i < MODEL_W || s->f[i] != s->z[i]) return false;
+  /* cppcheck-suppress arrayIndexOutOfBoundsCond; it takes SCALED_W, 2, for the number of states */
+  if (i < SCALED_W || s->f[i] != s->z[i]) return false;
   for (int j = 0; j < s->n; ++j)
     if (s->phi[i + j * s->n] != (i == j)) return false;
   return true;
@@ -159,7 +159,7 @@ hc_status shoot_new(timeint *ti, shoot **out)
   shoot *s = calloc(1, sizeof *s); /* zeroed, so free works half-built */
   if (!s) return HC_NO_MEMORY;
   s->ti = ti;
-  s->n = MODEL_W + ti->sc.n_contacts;
+  s->n = SCALED_W + ti->model->n_contacts;
   const newton_problem problem = {.n = s->n, .self = s, .residual = residual, .jacobian = jacobian};
   hc_status st = newton_new(&problem, &s->newton);
   if (st == HC_OK) st = floquet_new(s->n, &s->floquet);
@@ -195,7 +195,7 @@ static void begin(shoot *s, int k, const hc_monitor *monitor)
  * to a fold (r2 at 708.5), and the rounding of some thousand steps. */
 static double scatter(const shoot *s)
 {
-  const double of_steps = s->ti->sc.transient.law == TRANSIENT_LAW_EXACT ? 50 : 1000;
+  const double of_steps = s->ti->how.law == TRANSIENT_LAW_EXACT ? 50 : 1000;
   return s->k * fmax(of_steps * s->ti->tolerance, 2e4 * DBL_EPSILON);
 }
 
@@ -227,7 +227,7 @@ static hc_status find_multiplier(shoot *s, shoot_report *r)
   r->free_sliders = 0;
   for (int i = 0; i < s->n; ++i) {
     if (!is_free(s, i)) active[m++] = i;
-    else if (s->ti->model.contact[i - MODEL_W].law.slides) ++r->free_sliders;
+    else if (s->ti->scaled.contact[i - SCALED_W].law.slides) ++r->free_sliders;
   }
   hc_status st = floquet_multipliers(s->floquet, s->phi, 1, s->n, m, active, lambda);
   r->multiplier = st == HC_OK ? floquet_largest(m, lambda) : NAN;

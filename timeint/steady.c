@@ -1,4 +1,4 @@
-/* steady.c - the steady state of a scene at one frequency: which way to it, in the order of what they cost.
+/* steady.c - the steady state of a model at one frequency: which way to it, in the order of what they cost.
  *
  *     1. nothing happens at the contacts from here on: the closed form (linear_forever.h)
  *     2. Newton on the period map (shoot.h); where it fails, Anderson's acceleration of it
@@ -54,7 +54,7 @@ static void fill_counts(const timeint *ti, timeint_result *r)
 double timeint_goal(const timeint *ti)
 {
   const double size = fmax(timeint_size(ti), ti->least_length) / ti->length;
-  return fmax(ti->sc.transient.tolerance * size, 100 * ti->tolerance);
+  return fmax(ti->how.tolerance * size, 100 * ti->tolerance);
 }
 
 /* Is z_0 -> z_k on a shorter cycle: the smallest divisor d of k with |F^d(z) - z| as small as errors leave it. */
@@ -67,16 +67,16 @@ static int primitive(int k, double size, const double *returned)
 
 hc_status timeint_report(timeint *ti, int k, timeint_method method, const shoot_report *found, timeint_result *r)
 {
-  double start[MODEL_MAX_STATES], returned[SETTLE_MAX_MULTIPLE + 1];
+  double start[SCALED_MAX_STATES], returned[SETTLE_MAX_MULTIPLE + 1];
   const long switches = integrate_switches(ti->in);
   memcpy(start, ti->y, sizeof start);
-  measure_begin(&ti->measure, &ti->model);
+  measure_begin(&ti->measure, &ti->scaled);
   for (int i = 0; i < k; ++i) {
     hc_status st = timeint_period(ti, true);
     if (st != HC_OK) return st;
-    returned[i + 1] = fmax(fabs(ti->y[MODEL_X] - start[MODEL_X]), fabs(ti->y[MODEL_P] - start[MODEL_P]));
+    returned[i + 1] = fmax(fabs(ti->y[SCALED_X] - start[SCALED_X]), fabs(ti->y[SCALED_P] - start[SCALED_P]));
   }
-  measure_report(&ti->measure, &ti->sc, ti->length, r);
+  measure_report(&ti->measure, ti->model, ti->length, r);
   r->method = method;
   r->switches = (int)(integrate_switches(ti->in) - switches);
   r->period_multiple = primitive(k, timeint_size(ti) / ti->length, returned);
@@ -126,18 +126,18 @@ static hc_status shoot_here(timeint *ti, int k, const hc_monitor *monitor, timei
  * in which it leaves. */
 static void leave(timeint *ti, const double *began)
 {
-  double direction[MODEL_MAX_STATES], along = 0;
+  double direction[SCALED_MAX_STATES], along = 0;
   const double size = timeint_size(ti) / ti->length;
   shoot_direction(ti->shoot, direction);
-  for (int i = 0; i < ti->model.n_states; ++i) along += direction[i] * (began[i] - ti->y[i]);
+  for (int i = 0; i < ti->scaled.n_states; ++i) along += direction[i] * (began[i] - ti->y[i]);
   const double step = (along < 0 ? -nudge : nudge) * size;
-  for (int i = 0; i < ti->model.n_states; ++i) ti->y[i] = began[i] + step * direction[i];
+  for (int i = 0; i < ti->scaled.n_states; ++i) ti->y[i] = began[i] + step * direction[i];
 }
 
 /* From next to an orbit: that one, if it is stable, else where the motion goes from there. */
 static hc_status from_orbit(timeint *ti, const hc_monitor *monitor, timeint_result *r)
 {
-  double began[MODEL_MAX_STATES];
+  double began[SCALED_MAX_STATES];
   timeint_method method;
   shoot_report found;
   memcpy(began, ti->y, sizeof began);
@@ -163,8 +163,7 @@ static hc_status automatic(timeint *ti, const hc_monitor *monitor, timeint_resul
   }
   hc_status st = timeint_set_tolerance(ti, timeint_final_tolerance(ti));
   if (st != HC_OK) return st;
-  return ti->sc.transient.start == TRANSIENT_START_HBM ? from_orbit(ti, monitor, r)
-                                                       : timeint_attract(ti, 8, monitor, r);
+  return ti->how.start == TRANSIENT_START_HBM ? from_orbit(ti, monitor, r) : timeint_attract(ti, 8, monitor, r);
 }
 
 hc_status timeint_steady(timeint *ti, double omega, timeint_state *state, const hc_monitor *monitor,
@@ -173,7 +172,7 @@ hc_status timeint_steady(timeint *ti, double omega, timeint_state *state, const 
   clear_result(result, omega);
   hc_status st = timeint_begin(ti, omega, state);
   if (st != HC_OK) return st;
-  switch (ti->sc.transient.steady) {
+  switch (ti->how.steady) {
   case TRANSIENT_STEADY_MARCH: st = timeint_march(ti, monitor, result); break;
   case TRANSIENT_STEADY_SHOOTING: st = shoot_here(ti, 1, monitor, result); break;
   default: st = automatic(ti, monitor, result);

@@ -5,9 +5,9 @@
  * ended or become unstable, and the state is marched until it has settled to a percent of its size, or for MAX_FOLDS
  * e-folds. How far it has gone meanwhile is how far its orbit has moved: the step grows while that is little and
  * shrinks when it is much (where the curve is steep: near resonance, towards a fold), to a tenth of the half width
- * of a resonance at least. All this with the exact law, whatever the scene's: a branch is the same for both to
+ * of a resonance at least. All this with the exact law, whatever the settings': a branch is the same for both to
  * within the regularisation, a tenth of the cost decides, and what is reported at the end of a sweep is solved with
- * the scene's own. A state that is not periodic moves of itself: it goes on, too, in small steps. Not here: knowing
+ * the settings' own. A state that is not periodic moves of itself: it goes on, too, in small steps. Not here: knowing
  * that a branch has ended. The state falls off it by itself, as on the shaker. */
 #include <complex.h>
 #include <math.h>
@@ -28,7 +28,7 @@ enum { MIN_PERIODS = 4, MAX_FOLDS = 5 };
 static double apart(const timeint *ti, const double *a, const double *b)
 {
   double most = 0;
-  for (int i = 0; i < ti->model.n_states; ++i) most = fmax(most, fabs(a[i] - b[i]));
+  for (int i = 0; i < ti->scaled.n_states; ++i) most = fmax(most, fabs(a[i] - b[i]));
   return most / fmax(timeint_size(ti), ti->least_length);
 }
 
@@ -44,7 +44,7 @@ static double left_to_go(const double complex moves[2], double move, double slow
 /* The stable orbit next to the state, if there is one no farther than a sweep may move at a time. */
 static hc_status follow(timeint *ti, const hc_monitor *monitor, bool *there, double *moved)
 {
-  double before[MODEL_MAX_STATES], after[MODEL_MAX_STATES], y[MODEL_MAX_STATES];
+  double before[SCALED_MAX_STATES], after[SCALED_MAX_STATES], y[SCALED_MAX_STATES];
   const double size = fmax(timeint_size(ti), ti->least_length) / ti->length;
   shoot_report found = {0};
   timeint_result unused;
@@ -65,7 +65,7 @@ static hc_status wait_here(timeint *ti, const hc_monitor *monitor, double done, 
 {
   const double slow = fmax(1 - ti->contraction, 1e-3);
   const int most = (int)ceil(MAX_FOLDS / slow);
-  double z[3][MODEL_MAX_STATES]; /* before the first period; before and after the last */
+  double z[3][SCALED_MAX_STATES]; /* before the first period; before and after the last */
   double complex moves[2] = {0, 0};
   timeint_point(ti, z[0]);
   *moved = 0;
@@ -77,7 +77,7 @@ static hc_status wait_here(timeint *ti, const hc_monitor *monitor, double done, 
     timeint_point(ti, z[2]);
     *moved = fmax(*moved, apart(ti, z[2], z[0]));
     moves[0] = moves[1];
-    moves[1] = z[2][MODEL_X] - z[1][MODEL_X] + I * (z[2][MODEL_P] - z[1][MODEL_P]);
+    moves[1] = z[2][SCALED_X] - z[1][SCALED_X] + I * (z[2][SCALED_P] - z[1][SCALED_P]);
     calm = left_to_go(moves, apart(ti, z[2], z[1]), slow) <= settled_enough ? calm + 1 : 0;
     if (calm == MIN_PERIODS) return HC_OK;
   }
@@ -86,7 +86,10 @@ static hc_status wait_here(timeint *ti, const hc_monitor *monitor, double done, 
 }
 
 /* Half the width of a linear resonance at half its power, relative to omega. */
-static double half_width(const timeint *ti) { return fmax(0.5 * ti->sc.damping / (ti->sc.mass * ti->omega), 1e-6); }
+static double half_width(const timeint *ti)
+{
+  return fmax(0.5 * ti->model->damping / (ti->model->mass * ti->omega), 1e-6);
+}
 
 static double least_step(const timeint *ti) { return fmin(smallest_step, 0.1 * half_width(ti)); }
 
@@ -164,19 +167,19 @@ static hc_status sweep_with_this_law(timeint *ti, double omega_from, double omeg
   return st;
 }
 
-/* The other law's integrator and equations in the place of the scene's, or back. */
+/* The other law's integrator and equations in the place of the settings', or back. */
 static void swap_law(timeint *ti, int law)
 {
   integrator *in = ti->in;
   ti->in = ti->sweeper;
   ti->sweeper = in;
-  ti->sc.transient.law = law;
+  ti->how.law = law;
 }
 
 hc_status timeint_sweep(timeint *ti, double omega_from, double omega_to, timeint_state *state,
                         const hc_monitor *monitor)
 {
-  const int law = ti->sc.transient.law;
+  const int law = ti->how.law;
   if (law == TRANSIENT_LAW_EXACT) return sweep_with_this_law(ti, omega_from, omega_to, state, monitor);
   swap_law(ti, TRANSIENT_LAW_EXACT);
   hc_status st = sweep_with_this_law(ti, omega_from, omega_to, state, monitor);

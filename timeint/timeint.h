@@ -1,4 +1,4 @@
-/* timeint.h - the steady state of a scene at one frequency by time integration with CVODE.
+/* timeint.h - the steady state of a model at one frequency by time integration with CVODE.
  *
  *     x' = v,   M v' = F0 cos(omega t) - C v - K x - sum_j [ T_j cos(alpha_j) + (N_j - N0_j) sin(alpha_j) ]
  *
@@ -9,9 +9,10 @@
 #define HC_TIMEINT_H
 
 #include "base/status.h"
-#include "model/scene.h"
+#include "model/model.h"
+#include "timeint/transient_settings.h"
 
-enum { TIMEINT_WAVE = 512 };
+enum { TIMEINT_WAVE = 512, TIMEINT_MAX_CONTACTS = 16 };
 
 typedef struct timeint timeint;
 
@@ -26,7 +27,7 @@ const char *timeint_method_name(timeint_method method); /* "closed_form", "shoot
 
 /* State at a whole number of periods. w[j]: slider of contact j [length]. */
 typedef struct timeint_state {
-  double x, v, w[SCENE_MAX_CONTACTS];
+  double x, v, w[TIMEINT_MAX_CONTACTS];
 } timeint_state;
 
 typedef struct timeint_result {
@@ -58,14 +59,14 @@ typedef struct timeint_result {
   double wave[TIMEINT_WAVE];   /* [length] x at t = i T / TIMEINT_WAVE of the reported period */
 } timeint_result;
 
-/* A workspace for `sc` (copied). */
-hc_status timeint_new(const scene *sc, timeint **out);
+/* A workspace for m and how its steady states are found (both copied). HC_BAD_INPUT, HC_NO_MEMORY: *out is NULL. */
+hc_status timeint_new(const model *m, const transient_settings *how, timeint **out);
 void timeint_free(timeint *ti);
 
 /* The state of rest in static equilibrium: x = v = w = 0. */
 timeint_state timeint_rest(const timeint *ti);
 
-/* From *state at omega to the steady state as the scene's transient options say; *state becomes a point on the
+/* From *state at omega to the steady state as its settings say; *state becomes a point on the
  * orbit, *result its measures. transient.richardson: the measures are extrapolated to no regularisation. `auto`:
  * where the motion goes. With start: hbm the state is taken for a point next to an orbit: that orbit is the answer
  * if it is stable; if not, the motion leaves it (left_orbit). `shooting`: the period-1 orbit next to *state, stable
@@ -85,7 +86,7 @@ hc_status timeint_orbit(timeint *ti, double omega, int k, timeint_state *state, 
 int timeint_stability(const timeint_result *result);
 
 /* As on a shaker: carry *state from omega_from to omega_to in frequency steps small enough to stay on a branch,
- * partially settling at each; with the exact law whatever the scene's, and does not settle at omega_to (call
+ * partially settling at each; with the exact law whatever the settings', and does not settle at omega_to (call
  * timeint_steady for that). */
 hc_status timeint_sweep(timeint *ti, double omega_from, double omega_to, timeint_state *state,
                         const hc_monitor *monitor);

@@ -166,7 +166,7 @@ static hc_status measure_scipy(job *j, bench_place *p)
   int n = 0;
   j->done = 0.9;
   hc_status st = scipy_lsoda(j->sc, &j->start, p->multiplier, j->options->repeats, &j->monitor, runs, &n, p->scipy);
-  const steady_motion *ref = &j->start.reference;
+  const periodic_motion *ref = &j->start.reference;
   for (int i = 0; i < n && (st == HC_OK || st == HC_INTERRUPTED); ++i) {
     bench_row row = empty_row(BENCH_SCIPY_LSODA, p->omega);
     row.tolerance = runs[i].rtol;
@@ -200,7 +200,7 @@ hc_status bench_run(const scene *sc, const bench_options *options, const hc_moni
                     double *failed_at)
 {
   finder f;
-  scene_list at = options->at;
+  number_list at = options->at;
   *out = (bench){0};
   *failed_at = 0;
   if (options->repeats < 1) return HC_BAD_INPUT;

@@ -13,7 +13,7 @@
 #define HC_BENCH_H
 
 #include "base/status.h"
-#include "model/scene.h"
+#include "cases/scene.h"
 
 #define BENCH_METHOD_LIST(X)                                                                                           \
   X(BENCH_HBM_EXACT, "hbm_exact", "harmonic balance, exact forces")                                                    \
@@ -72,13 +72,13 @@ typedef struct bench_place {
 typedef struct bench {
   int n_rows, cap, n_places;
   bench_row *rows;
-  bench_place places[SCENE_MAX_LIST];
+  bench_place places[NUMBER_LIST_MAX];
 } bench;
 
 typedef struct bench_options {
-  scene_list at; /* n = 0: of the scene's compare frequencies the one where the response is largest */
-  int repeats;   /* > 0; rows that take long are repeated less, as their `repeats` says */
-  bool alone;    /* no other programs */
+  number_list at; /* n = 0: of the scene's compare frequencies the one where the response is largest */
+  int repeats;    /* > 0; rows that take long are repeated less, as their `repeats` says */
+  bool alone;     /* no other programs */
 } bench_options;
 
 /* HC_INTERRUPTED: what was measured until then is kept. HC_NOT_CONVERGED where a frequency has no stable orbit to

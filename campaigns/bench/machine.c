@@ -22,9 +22,9 @@ static void processor(char *text, size_t size)
 void bench_machine(char *text, int size)
 {
   struct utsname name;
-  char model[160];
-  processor(model, sizeof model);
+  char chip[160];
+  processor(chip, sizeof chip);
   if (uname(&name) != 0) snprintf(name.sysname, sizeof name.sysname, "unknown"), name.release[0] = name.machine[0] = 0;
-  snprintf(text, (size_t)size, "%s%s%s, %ld processors, %s, compiler %s", model, model[0] ? ", " : "", name.machine,
+  snprintf(text, (size_t)size, "%s%s%s, %ld processors, %s, compiler %s", chip, chip[0] ? ", " : "", name.machine,
            sysconf(_SC_NPROCESSORS_ONLN), name.sysname, __VERSION__);
 }

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "campaigns/scene_solvers.h"
 #include "compare/comparison.h"
 #include "compare/frequencies.h"
 
@@ -15,16 +16,16 @@ static const double waiting = 1e-12;    /* transient.tolerance of a reference th
 static const double first_distance = 1e-3, next_door = 0.3; /* [omega] of the neighbour; [amplitude] how far apart
                                                                two neighbours may be */
 
-hc_status finder_start(const scene *sc, const scene_list *at, const hc_monitor *monitor, finder *f)
+hc_status finder_start(const scene *sc, const number_list *at, const hc_monitor *monitor, finder *f)
 {
   double from, to;
   *f = (finder){.sc = *sc};
   f->sc.hbm.harmonics = CURVE_HARMONICS;
   f->sc.hbm.force = HBM_FORCE_EXACT;
-  comparison_sweep(sc, at->n ? at : &sc->compare.omega, &from, &to);
+  comparison_sweep(sc->omega_from, sc->omega_to, at->n ? at : &sc->compare.omega, &from, &to);
   f->sc.omega_from = from;
   f->sc.omega_to = to;
-  hc_status st = hbm_solver_new(&f->sc, &f->hbm);
+  hc_status st = scene_hbm_solver(&f->sc, &f->hbm);
   if (st == HC_OK) st = hbm_trace(f->hbm, from, to, monitor, &f->curve);
   return st == HC_INTERRUPTED || st == HC_NO_MEMORY || f->curve.n == 0 ? st : HC_OK; /* as far as the curve goes */
 }
@@ -38,9 +39,9 @@ void finder_free(finder *f)
 
 hc_status finder_default(finder *f, double *omega)
 {
-  scene_list all;
+  number_list all;
   double most = -1;
-  hc_status st = comparison_frequencies(&f->sc, f->hbm, &f->curve, &all);
+  hc_status st = comparison_frequencies(&f->sc.compare, f->sc.omega_from, f->hbm, &f->curve, &all);
   for (int i = 0; i < all.n && st == HC_OK; ++i) {
     hbm_curve at = {0};
     hbm_measures m;
@@ -54,8 +55,8 @@ hc_status finder_default(finder *f, double *omega)
 }
 
 /* The exact law's orbit next to *state, which moves there. */
-static hc_status exact_orbit(const scene *sc, double omega, int steady, double tolerance, const hc_monitor *monitor,
-                             timeint_state *state, timeint_result *r)
+static hc_status exact_orbit(const scene *sc, double omega, transient_steady steady, double tolerance,
+                             const hc_monitor *monitor, timeint_state *state, timeint_result *r)
 {
   scene own = *sc;
   timeint *ti = NULL;
@@ -63,7 +64,7 @@ static hc_status exact_orbit(const scene *sc, double omega, int steady, double t
   own.transient.law = TRANSIENT_LAW_EXACT;
   own.transient.tolerance = tolerance;
   own.transient.steady = steady;
-  hc_status st = timeint_new(&own, &ti);
+  hc_status st = scene_timeint(&own, &ti);
   if (st == HC_OK) st = timeint_steady(ti, omega, &y, monitor, r);
   timeint_free(ti);
   if (st == HC_OK) *state = y;
@@ -110,8 +111,9 @@ static hc_status largest_stable(finder *f, double omega, const hc_monitor *monit
     timeint_result r;
     double floor_k;
     if (hbm_measure(f->hbm, Xk, &m) != HC_OK || m.amplitude < 0.9 * best->amplitude) continue;
-    timeint_state y = comparison_orbit_start(&m, hbm_n_harmonics(f->hbm), Xk, omega);
-    hc_status found = tightest_orbit(&f->sc, omega, monitor, &y, &r, &floor_k);
+    timeint_state y;
+    hc_status found = comparison_orbit_start(f->hbm, Xk, omega, &y);
+    if (found == HC_OK) found = tightest_orbit(&f->sc, omega, monitor, &y, &r, &floor_k);
     if (found == HC_INTERRUPTED || found == HC_NO_MEMORY) st = found;
     if (found != HC_OK || timeint_stability(&r) <= 0 || r.amplitude <= best->amplitude) continue;
     *best = r;
@@ -123,7 +125,7 @@ static hc_status largest_stable(finder *f, double omega, const hc_monitor *monit
   return st == HC_OK && best->amplitude < 0 ? HC_NOT_CONVERGED : st;
 }
 
-static bool near(const steady_motion *a, const steady_motion *b)
+static bool near(const periodic_motion *a, const periodic_motion *b)
 {
   return motion_between(a, b).waveform <= next_door * b->amplitude;
 }
@@ -141,7 +143,7 @@ static bool try_neighbour(finder *f, double omega, const double *X, const timein
   memcpy(start->X, X, (size_t)(2 * CURVE_HARMONICS + 1) * sizeof *X);
   if (hbm_solve(f->hbm, omega, start->X, &point) != HC_OK || hbm_measure(f->hbm, start->X, &m) != HC_OK) return false;
   if (exact_orbit(&f->sc, omega, TRANSIENT_STEADY_SHOOTING, 1e-9, monitor, &start->state, &r) != HC_OK) return false;
-  steady_motion by_hbm = motion_of_series(&m, CURVE_HARMONICS, start->X), by_time = motion_of_transient(&r);
+  periodic_motion by_hbm = motion_of_series(&m, CURVE_HARMONICS, start->X), by_time = motion_of_transient(&r);
   return near(&by_hbm, &by_time) && near(&by_time, &start->reference);
 }
 

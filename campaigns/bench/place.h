@@ -13,7 +13,7 @@ typedef struct finder {
 } finder;
 
 /* The curve over the scene's sweep and the asked frequencies. finder_free in any case. */
-hc_status finder_start(const scene *sc, const scene_list *at, const hc_monitor *monitor, finder *f);
+hc_status finder_start(const scene *sc, const number_list *at, const hc_monitor *monitor, finder *f);
 void finder_free(finder *f);
 
 /* Of the scene's compare frequencies the one where the curve's response is largest. */

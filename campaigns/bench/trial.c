@@ -6,6 +6,8 @@
 #include <string.h>
 #include <time.h>
 
+#include "campaigns/scene_solvers.h"
+
 const double bench_longest = 1.5, bench_longest_shot = 0.3;
 const double trial_slow = 0.2;
 static const double shortest_run = 5e-4; /* [s] the clock is good to a microsecond */
@@ -57,7 +59,7 @@ static scene settings_of(const scene *sc, const bench_row *r)
 /* What one solution came to. */
 typedef struct answer {
   hc_status status;
-  steady_motion motion;
+  periodic_motion motion;
   bool too_long;
 } answer;
 
@@ -123,8 +125,8 @@ static hc_status from_own_curve(const place_start *at, const hc_monitor *monitor
 static hc_status make(const place_start *at, const hc_monitor *monitor, trial *t)
 {
   hbm_point point;
-  if (!is_hbm(t->row->method)) return timeint_new(&t->sc, &t->ti);
-  hc_status st = hbm_solver_new(&t->sc, &t->hbm);
+  if (!is_hbm(t->row->method)) return scene_timeint(&t->sc, &t->ti);
+  hc_status st = scene_hbm_solver(&t->sc, &t->hbm);
   if (st != HC_OK) return st;
   memcpy(t->X, at->X, (size_t)(2 * t->row->harmonics + 1) * sizeof *t->X);
   return hbm_solve(t->hbm, at->neighbour, t->X, &point) == HC_OK ? HC_OK : from_own_curve(at, monitor, t);
@@ -132,11 +134,11 @@ static hc_status make(const place_start *at, const hc_monitor *monitor, trial *t
 
 static void take(const answer *a, const place_start *at, double took, bench_row *row)
 {
-  const steady_motion *ref = &at->reference;
+  const periodic_motion *ref = &at->reference;
   row->status = a->status;
   row->outcome = a->status == HC_OK ? BENCH_SOLVED : a->too_long ? BENCH_TOO_LONG : BENCH_FAILED;
   if (a->status != HC_OK) return;
-  motion_gap gap = motion_between(&a->motion, ref);
+  motion_distance gap = motion_between(&a->motion, ref);
   if (!(gap.waveform <= other_orbit * ref->amplitude)) row->outcome = BENCH_OTHER_ORBIT;
   if (row->outcome != BENCH_SOLVED) return;
   row->error = gap.amplitude / ref->amplitude;

@@ -7,14 +7,14 @@
 #include "hbm/hbm.h"
 #include "timeint/timeint.h"
 
-enum { TRIAL_MOST_COEF = 2 * SCENE_MAX_HARMONICS + 1 };
+enum { TRIAL_MOST_COEF = 2 * HBM_MAX_HARMONICS + 1 };
 
 /* What all trials of a place start from. */
 typedef struct place_start {
   double omega, neighbour;   /* [rad/time] */
   double X[TRIAL_MOST_COEF]; /* [length] HBM solution at the neighbour, as many harmonics as there are, then zeros */
   timeint_state state;       /* on the exact orbit at the neighbour */
-  steady_motion reference;   /* at omega */
+  periodic_motion reference; /* at omega */
 } place_start;
 
 typedef struct trial {

@@ -7,6 +7,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "campaigns/scene_solvers.h"
 #include "campaigns/stress/subject.h"
 #include "hbm/aft.h"
 #include "hbm/exact.h"
@@ -24,9 +25,8 @@ static void make_motion(const scene *sc, double *X)
   double reach = 0;
   memset(X, 0, STRESS_COEFFICIENTS * sizeof *X);
   for (int j = 0; j < sc->n_contacts; ++j) {
-    double c, s;
-    scene_projection(&sc->contacts[j], &c, &s);
-    reach = fmax(reach, fabs(sc->contacts[j].law.gap) / fmax(s, 0.05));
+    const model_contact c = scene_model_contact(&sc->contacts[j]);
+    reach = fmax(reach, fabs(c.law.gap) / fmax(c.normal, 0.05));
   }
   if (reach == 0) reach = 1;
   X[0] = 0.1 * reach;
@@ -39,11 +39,9 @@ static void make_motion(const scene *sc, double *X)
 static void evaluate(const scene *sc, const double *X, force *out)
 {
   exact *e = NULL;
-  moving_contact contacts[SCENE_MAX_CONTACTS];
   contact_report report = {.transitions = 0};
   memset(out, 0, sizeof *out);
-  exact_contacts_of(sc, contacts);
-  out->status = exact_new(sc->hbm.harmonics, 1, sc->n_contacts, contacts, &e);
+  out->status = scene_exact(sc, sc->hbm.harmonics, &e);
   if (out->status == HC_OK) out->status = exact_eval(e, X, out->F, NULL, &report);
   for (int j = 0; j < sc->n_contacts && out->status == HC_OK; ++j) {
     int n;
@@ -68,10 +66,8 @@ static double stiffness(const scene *sc)
 {
   double k = 0;
   for (int j = 0; j < sc->n_contacts; ++j) {
-    const contact *c = &sc->contacts[j].law;
-    double co, si;
-    scene_projection(&sc->contacts[j], &co, &si);
-    k += c->kt * co * co + c->kn * si * si + c->mu * c->kn * si * co;
+    const model_contact c = scene_model_contact(&sc->contacts[j]);
+    k += model_stuck_stiffness(&c) + c.law.mu * c.law.kn * c.normal * c.tangent;
   }
   return k;
 }
@@ -80,10 +76,8 @@ static double preload(const scene *sc)
 {
   double sum = 0;
   for (int j = 0; j < sc->n_contacts; ++j) {
-    const contact *c = &sc->contacts[j].law;
-    double co, si;
-    scene_projection(&sc->contacts[j], &co, &si);
-    sum += fabs(c->gap) * c->kn * (si + c->mu * co);
+    const model_contact c = scene_model_contact(&sc->contacts[j]);
+    sum += fabs(c.law.gap) * c.law.kn * (c.normal + c.law.mu * c.tangent);
   }
   return sum;
 }
@@ -155,7 +149,7 @@ stress_check stress_check_force(stress_subject *s)
   for (int i = 0; i < 3 && error <= bound; ++i) {
     double sampled[STRESS_COEFFICIENTS];
     aft *a = NULL;
-    hc_status st = aft_new(sc, sc->hbm.harmonics, samples[i], &a);
+    hc_status st = scene_aft(sc, sc->hbm.harmonics, samples[i], &a);
     if (st == HC_OK) st = aft_eval(a, X, sampled, NULL, NULL);
     aft_free(a);
     if (st != HC_OK) return stress_refuse(s, st);

@@ -50,17 +50,12 @@ stress_check stress_check_sampled(stress_subject *s)
 
 /* ---- harmonics ---- */
 
-static timeint_state start_of(const stress_subject *s, const stress_solution *h)
-{
-  return comparison_orbit_start(&h->m, h->n_harm, h->X, s->omega);
-}
-
 /* The exact law's orbit from an HBM solution, and how far that is from it. NaN: no orbit. */
 static double shoot_from(stress_subject *s, const stress_solution *h, stress_orbit *orbit)
 {
-  orbit->state = start_of(s, h);
+  orbit->state = h->start;
   stress_shoot(s, s->sc, s->omega, orbit);
-  return orbit->status == HC_OK ? comparison_waveform_error(h->n_harm, h->X, &orbit->r) : NAN;
+  return orbit->status == HC_OK ? comparison_waveform_error(&h->m, h->n_harm, h->X, &orbit->r) : NAN;
 }
 
 static double tolerance_of(const stress_orbit *o) { return fmax(close_enough, 3 * o->r.closure); }
@@ -78,7 +73,7 @@ static double confirm(stress_subject *s, const scene *sc, const stress_orbit *o)
       guess[2 * k] += 2 * o->r.wave[i] * sin(th) / TIMEINT_WAVE;
     }
   stress_solve(s, sc, s->omega, sc->hbm.harmonics, guess, &h);
-  return h.status == HC_OK ? comparison_waveform_error(h.n_harm, h.X, &o->r) : NAN;
+  return h.status == HC_OK ? comparison_waveform_error(&h.m, h.n_harm, h.X, &o->r) : NAN;
 }
 
 /* Does the stuck mass oscillate too fast for n harmonics? Its ringing after each impact is what they would have to
@@ -148,7 +143,7 @@ stress_check stress_check_stability(stress_subject *s)
   if (!s->sc->hbm.keep_mean && s->base.m.contact.regime != CONTACT_LINEAR) return stress_skip(STRESS_NOT_APPLICABLE);
   if (s->orbit.status != HC_OK || isnan(s->orbit.r.multiplier) || s->fine.stability_status != HC_OK)
     return stress_skip(STRESS_NO_ORBIT);
-  const double far = comparison_waveform_error(s->fine.n_harm, s->fine.X, &s->orbit.r);
+  const double far = comparison_waveform_error(&s->fine.m, s->fine.n_harm, s->fine.X, &s->orbit.r);
   if (!(far <= 1e-3)) return stress_skip(STRESS_NO_ORBIT); /* not the same one, or hardly */
   const double error = multiplier_error(&s->fine, &s->orbit);
   if (error <= bound) return stress_agree(error, bound);

@@ -9,6 +9,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "campaigns/scene_solvers.h"
 #include "campaigns/stress/subject.h"
 #include "model/linear.h"
 
@@ -39,7 +40,7 @@ static stress_check hold(stress_subject *s, const scene *linear, double k)
   timeint *ti = NULL;
   timeint_result r;
   timeint_state state = {.x = creal(z), .v = -s->omega * cimag(z)};
-  hc_status st = timeint_new(&sc, &ti);
+  hc_status st = scene_timeint(&sc, &ti);
   if (st == HC_OK) st = timeint_steady(ti, s->omega, &state, &s->monitor, &r);
   timeint_free(ti);
   /* undamped, nothing settles */

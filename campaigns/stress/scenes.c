@@ -139,7 +139,7 @@ hc_status stress_scenes_at(stress_scenes *s, long index, scene *out)
   sc.force = force_at(p, &sc, omega);
   sc.omega_from = 0.8 * omega;
   sc.omega_to = 1.2 * omega;
-  sc.compare.omega = (scene_list){1, {omega}};
+  sc.compare.omega = (number_list){1, {omega}};
   sc.hbm.harmonics = (int)geometric(p[HARMONICS], 1, 50.999);
   sc.hbm.samples = (int)geometric(p[SAMPLES], 16, 16384.999);
   if (sc.hbm.samples < 2 * sc.hbm.harmonics + 1) sc.hbm.samples = 2 * sc.hbm.harmonics + 1;

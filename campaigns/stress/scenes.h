@@ -4,7 +4,7 @@
 #define HC_STRESS_SCENES_H
 
 #include "base/status.h"
-#include "model/scene.h"
+#include "cases/scene.h"
 
 typedef struct stress_scenes stress_scenes; /* one a thread */
 

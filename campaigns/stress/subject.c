@@ -5,6 +5,7 @@
 #include <string.h>
 #include <time.h>
 
+#include "campaigns/scene_solvers.h"
 #include "compare/comparison.h"
 
 double stress_processor_seconds(void)
@@ -52,13 +53,14 @@ void stress_solve(stress_subject *s, const scene *sc, double omega, int n_guess,
   hbm_solver *hbm = NULL;
   hbm_point point;
   memset(out, 0, sizeof *out);
-  out->status = hbm_solver_new(sc, &hbm);
+  out->status = scene_hbm_solver(sc, &hbm);
   if (out->status == HC_OK) {
     out->n_harm = hbm_n_harmonics(hbm);
     int n = n_guess < out->n_harm ? n_guess : out->n_harm;
     if (guess) memcpy(out->X, guess, (size_t)(2 * n + 1) * sizeof *guess);
     out->status = guess ? hbm_solve(hbm, omega, out->X, &point) : hbm_solve_first(hbm, omega, out->X, &point);
     if (out->status == HC_OK) out->status = hbm_measure(hbm, out->X, &out->m);
+    if (out->status == HC_OK) out->status = comparison_orbit_start(hbm, out->X, omega, &out->start);
     if (out->status == HC_OK) out->stability_status = hbm_stability_at(hbm, omega, out->X, &out->stability);
   }
   hbm_solver_free(hbm);
@@ -68,7 +70,7 @@ void stress_solve(stress_subject *s, const scene *sc, double omega, int n_guess,
 void stress_shoot(stress_subject *s, const scene *sc, double omega, stress_orbit *out)
 {
   timeint *ti = NULL;
-  out->status = timeint_new(sc, &ti);
+  out->status = scene_timeint(sc, &ti);
   if (out->status == HC_OK) out->status = timeint_orbit(ti, omega, 1, &out->state, &s->monitor, &out->r);
   timeint_free(ti);
   note_fatal(s, out->status);

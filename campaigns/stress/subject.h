@@ -7,7 +7,7 @@
 #include "hbm/hbm.h"
 #include "timeint/timeint.h"
 
-enum { STRESS_MOST_HARMONICS = 100, STRESS_COEFFICIENTS = 2 * SCENE_MAX_HARMONICS + 1 };
+enum { STRESS_MOST_HARMONICS = 100, STRESS_COEFFICIENTS = 2 * HBM_MAX_HARMONICS + 1 };
 
 /* One HBM solution. */
 typedef struct stress_solution {
@@ -15,6 +15,7 @@ typedef struct stress_solution {
   int n_harm;
   double X[STRESS_COEFFICIENTS]; /* [2 n_harm + 1] [length] */
   hbm_measures m;
+  timeint_state start; /* on it, at t = 0 */
   hbm_stability stability;
 } stress_solution;
 

@@ -14,7 +14,7 @@
 #include "compare/comparison.h"
 
 /* Largest share of the gate; above 1: beyond. */
-static double share_of_gate(const comparison_errors *e, const scene_gate *g, bool free)
+static double share_of_gate(const discrepancy *e, const discrepancy *g, bool free)
 {
   double worst = fmax(e->amplitude / g->amplitude, fmax(e->harmonic_1 / g->harmonic_1, e->waveform / g->waveform));
   return free ? worst : fmax(worst, e->mean / g->mean);
@@ -22,7 +22,7 @@ static double share_of_gate(const comparison_errors *e, const scene_gate *g, boo
 
 static double known(double part) { return part > 0 ? part : 0; }
 
-static bool wrong(const comparison_row *r, const scene_gate *g, double *share)
+static bool wrong(const comparison_row *r, const discrepancy *g, double *share)
 {
   *share = share_of_gate(&r->errors, g, r->transient.free_sliders > 0);
   bool orbit = r->orbit_status == HC_OK && !r->transient.left_orbit && budget_same_orbit(&r->transient, &r->orbit);
@@ -44,7 +44,7 @@ static bool wrong(const comparison_row *r, const scene_gate *g, double *share)
 
 static stress_check row_check(stress_subject *s, const comparison_row *r)
 {
-  const scene_gate g = scene_gate_at(s->asked, r->omega);
+  const discrepancy g = gate_limits_at(&s->asked->gate, r->omega);
   double share;
   if (r->hbm_status == HC_BUG || r->transient_status == HC_BUG) return stress_find(STRESS_INTERNAL, NAN, NAN);
   if (wrong(r, &g, &share)) return stress_find(STRESS_WRONG_VERDICT, share, 1);
@@ -59,8 +59,11 @@ static stress_check row_check(stress_subject *s, const comparison_row *r)
 /* Worse is later in the list of outcomes. */
 stress_check stress_check_verdict(stress_subject *s)
 {
-  comparison c;
-  hc_status st = comparison_run(s->asked, &s->monitor, &c);
+  comparison c = {0};
+  compare_setup setup;
+  hc_status st = scene_setup(s->asked, &setup);
+  if (st == HC_OK) st = comparison_run(&setup, &s->monitor, &c);
+  scene_setup_clear(&setup);
   stress_check worst = stress_skip(STRESS_NO_ORBIT);
   /* a frequency without an answer */
   if (c.n_rows == 0) worst = st == HC_OK ? stress_find(STRESS_INTERNAL, NAN, NAN) : stress_refuse(s, st);

@@ -6,6 +6,7 @@
 #include <string.h>
 #include <time.h>
 
+#include "campaigns/scene_solvers.h"
 #include "compare/frequencies.h"
 
 rows_kind study_rows(const study *s)
@@ -66,8 +67,8 @@ static hc_status solve_frf(const scene *sc, const hc_monitor *monitor, study_res
   hbm_curve curve = {0};
   response_summary summary;
   double from, to;
-  comparison_sweep(sc, &sc->compare.omega, &from, &to);
-  hc_status st = hbm_solver_new(sc, &s);
+  comparison_sweep(sc->omega_from, sc->omega_to, &sc->compare.omega, &from, &to);
+  hc_status st = scene_hbm_solver(sc, &s);
   if (st == HC_OK) {
     st = hbm_trace(s, from, to, monitor, &curve);
     if (st != HC_INTERRUPTED && st != HC_NO_MEMORY) {
@@ -90,8 +91,11 @@ static hc_status solve_transient(const scene *sc, const hc_monitor *monitor, stu
   static const char *const stages[] = {[STEADY_TRANSIENT] = "time integration",
                                        [STEADY_SWEEP] = "the frequency sweep",
                                        [STEADY_HBM] = "harmonic balance"};
-  steady_states found;
-  hc_status st = steady_states_run(sc, monitor, &found);
+  steady_states found = {0};
+  compare_setup setup;
+  hc_status st = scene_setup(sc, &setup);
+  if (st == HC_OK) st = steady_states_run(&setup, monitor, &found);
+  scene_setup_clear(&setup);
   if (st == HC_BAD_INPUT && sc->compare.omega.n == 0) {
     r->failed = true;
     snprintf(r->reason, sizeof r->reason, "no frequencies: compare.omega is empty");
@@ -124,8 +128,11 @@ static void tell_failures(const comparison *c, study_result *r)
 
 static hc_status solve_compare(const scene *sc, const hc_monitor *monitor, study_result *r)
 {
-  comparison c;
-  hc_status st = comparison_run(sc, monitor, &c);
+  comparison c = {0};
+  compare_setup setup;
+  hc_status st = scene_setup(sc, &setup);
+  if (st == HC_OK) st = comparison_run(&setup, monitor, &c);
+  scene_setup_clear(&setup);
   if (st == HC_OK || (st != HC_INTERRUPTED && st != HC_NO_MEMORY)) {
     if (st != HC_OK) fail_with(r, "the comparison", st, 0);
     else put_curve(r, &c.summary);

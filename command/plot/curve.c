@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "campaigns/scene_solvers.h"
 #include "compare/frequencies.h"
 
 static const double off_curve = 0.01; /* [1] farther than this share of the picture from the curve is another branch */
@@ -131,7 +132,7 @@ static hc_status trace_other(const scene *sc, double from, double to, curve_shap
 {
   hbm_solver *s = NULL;
   hbm_curve back = {0};
-  hc_status st = hbm_solver_new(sc, &s);
+  hc_status st = scene_hbm_solver(sc, &s);
   if (st == HC_OK) hbm_trace(s, from, to, NULL, &back);
   if (st == HC_OK && back.n > 0) st = sample_curve(s, &back, false, &out->other, &out->n_other);
   if (st == HC_OK) keep_other(out);
@@ -155,14 +156,14 @@ hc_status curve_shape_of(const scene *sc, hbm_solver *s, const hbm_curve *curve,
   return st;
 }
 
-hc_status curve_shape_trace(const scene *sc, const scene_list *asked, curve_shape *out)
+hc_status curve_shape_trace(const scene *sc, const number_list *asked, curve_shape *out)
 {
   hbm_solver *s = NULL;
   hbm_curve curve = {0};
   double from, to;
   *out = (curve_shape){.low = fmin(sc->omega_from, sc->omega_to), .high = fmax(sc->omega_from, sc->omega_to)};
-  comparison_sweep(sc, asked, &from, &to);
-  hc_status st = hbm_solver_new(sc, &s);
+  comparison_sweep(sc->omega_from, sc->omega_to, asked, &from, &to);
+  hc_status st = scene_hbm_solver(sc, &s);
   if (st == HC_OK) {
     hbm_trace(s, from, to, NULL, &curve);
     st = curve_shape_of(sc, s, &curve, out);
@@ -307,7 +308,7 @@ const char *curve_shape_settings(const scene *sc, const curve_shape *c, char tex
 {
   char samples[32] = "exact forces";
   if (sc->hbm.force == HBM_FORCE_SAMPLED) snprintf(samples, sizeof samples, "%d samples", c->samples);
-  snprintf(text, 96, "H = %s%d%s, %s", sc->hbm.harmonics == SCENE_AUTO ? "auto, at most " : "", c->harmonics,
+  snprintf(text, 96, "H = %s%d%s, %s", sc->hbm.harmonics == HBM_AUTO ? "auto, at most " : "", c->harmonics,
            sc->hbm.keep_mean ? "" : " without harmonic 0", samples);
   return text;
 }

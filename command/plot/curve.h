@@ -24,7 +24,7 @@ typedef struct curve_shape {
 /* Of a curve that is there. */
 hc_status curve_shape_of(const scene *sc, hbm_solver *s, const hbm_curve *curve, curve_shape *out);
 /* Of the scene's own sweep, widened to `asked`. HC_OK also where the curve stops early or there is none at all. */
-hc_status curve_shape_trace(const scene *sc, const scene_list *asked, curve_shape *out);
+hc_status curve_shape_trace(const scene *sc, const number_list *asked, curve_shape *out);
 void curve_shape_clear(curve_shape *c);
 
 /* Its data, before the plot; then its items. Quiet: thin and grey, without marks, to draw something else on. */

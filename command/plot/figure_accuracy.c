@@ -10,7 +10,7 @@ static const double no_less = 1e-17; /* [1] what an error of nothing is taken fo
 /* What was varied: each once, in the order of the rows; exact forces after all samples. */
 typedef struct grid {
   int n_harm, n_time;
-  int harmonics[SCENE_MAX_LIST], samples[SCENE_MAX_LIST];
+  int harmonics[NUMBER_LIST_MAX], samples[NUMBER_LIST_MAX];
   bool exact;
 } grid;
 
@@ -18,7 +18,7 @@ static void add_once(int *list, int *n, int value)
 {
   for (int i = 0; i < *n; ++i)
     if (list[i] == value) return;
-  if (*n < SCENE_MAX_LIST) list[(*n)++] = value;
+  if (*n < NUMBER_LIST_MAX) list[(*n)++] = value;
 }
 
 static grid grid_of(const accuracy *a)

@@ -2,6 +2,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "campaigns/scene_solvers.h"
 #include "command/plot/panels.h"
 #include "hbm/exact.h"
 #include "hbm/series.h"
@@ -26,11 +27,10 @@ static const contact_piece *piece_at(const contact_piece *p, int n, double th)
 }
 
 /* The exact law, from the pieces that exact.c found: stuck, T = kt u - held; slipping, T = +-mu N. */
-static void walk_contact(const scene_contact *c, int n_harm, const double *X, const contact_piece *pieces, int n,
+static void walk_contact(const model_contact *c, int n_harm, const double *X, const contact_piece *pieces, int n,
                          walk *out)
 {
-  double cosine, sine;
-  scene_projection(c, &cosine, &sine);
+  const double cosine = c->tangent, sine = c->normal;
   for (int i = 0; i <= POINTS; ++i) {
     double th = two_pi * i / POINTS, x = series_at(n_harm, X, cos(th), sin(th)).x;
     const contact_piece *p = piece_at(pieces, n, th);
@@ -124,16 +124,15 @@ static void widen(double *closed, const walk *w)
 static hc_status put_contacts(figure *g, const scene *sc, int n, int n_harm, const double *X, int there[][N_PHASES],
                               double closed[2])
 {
-  double F[2 * SCENE_MAX_HARMONICS + 1];
-  moving_contact contacts[SCENE_MAX_CONTACTS];
+  double F[2 * HBM_MAX_HARMONICS + 1];
   exact *e = NULL;
   walk *w = malloc(sizeof *w);
-  exact_contacts_of(sc, contacts);
-  hc_status st = w ? exact_new(n_harm, 1, sc->n_contacts, contacts, &e) : HC_NO_MEMORY;
+  hc_status st = w ? scene_exact(sc, n_harm, &e) : HC_NO_MEMORY;
   if (st == HC_OK) st = exact_eval(e, X, F, NULL, NULL);
   for (int j = 0, pieces; j < n && st == HC_OK; ++j) {
     const contact_piece *p = exact_pieces(e, j, &pieces);
-    walk_contact(&sc->contacts[j], n_harm, X, p, pieces, w);
+    const model_contact c = scene_model_contact(&sc->contacts[j]);
+    walk_contact(&c, n_harm, X, p, pieces, w);
     for (int k = 0; k < N_PHASES; ++k) there[j][k] = put_phase(g, w, j, k);
     widen(closed, w);
     put_forces(g, w, &sc->contacts[j].law, j);

@@ -1,8 +1,8 @@
 /* figure_waves.c - the motion over a period at one frequency; a figure of transient. */
 #include <math.h>
 
+#include "cases/scene.h"
 #include "command/plot/panels.h"
-#include "model/scene.h"
 
 static const double two_pi = 6.28318530717958647692;
 
@@ -26,9 +26,8 @@ static void put_wave(figure *g, int n, const timeint_result *r)
 /* Where contact j closes, if the motions pass there: x sin(alpha) + gap = 0. */
 static bool closes_at(const scene *sc, int j, double low, double high, double *x)
 {
-  double c, s;
-  scene_projection(&sc->contacts[j], &c, &s);
-  *x = s > 0 ? -sc->contacts[j].law.gap / s : NAN;
+  const model_contact c = scene_model_contact(&sc->contacts[j]);
+  *x = c.normal > 0 ? -c.law.gap / c.normal : NAN;
   return *x >= low && *x <= high;
 }
 

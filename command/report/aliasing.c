@@ -8,10 +8,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "campaigns/scene_solvers.h"
 #include "compare/frequencies.h"
 #include "hbm/aft.h"
 #include "hbm/exact.h"
-#include "hbm/hbm.h"
 #include "hbm/series.h"
 #include "numerics/room.h"
 
@@ -22,7 +22,7 @@ enum {
   SHOWN_TIMES = 256,
   SHOWN_HARMONICS = 80,
   FINE = 1 << 15,
-  MOST_COEF = 2 * SCENE_MAX_HARMONICS + 1
+  MOST_COEF = 2 * HBM_MAX_HARMONICS + 1
 };
 
 static const int harmonics[N_HARM] = {1, 3, 5, 10, 20};
@@ -33,9 +33,8 @@ static const double force_step = 1e-4, harmonic_step = 1e-6, fold_step = 1e-9;
 
 /* Workspace, and the solution at hand. */
 typedef struct workshop {
-  scene sc;    /* with the factor and H at hand */
-  exact *fine; /* as many harmonics as exact forces go to */
-  moving_contact contacts[SCENE_MAX_CONTACTS];
+  scene sc;               /* with the factor and H at hand */
+  exact *fine;            /* as many harmonics as exact forces go to */
   double *force;          /* [FINE] */
   fftw_complex *spectrum; /* [FINE/2+1] true harmonics of the force, F_h = (a_h - i b_h) for h > 0 */
   fftw_plan plan;
@@ -62,9 +61,9 @@ static void workshop_close(workshop *w)
 /* ---- the truth ------------------------------------------------------------------------------- */
 
 /* Force of one contact at the angle th, from its pieces. */
-static double contact_at(const moving_contact *c, int n, const contact_piece *p, double th, double x)
+static double contact_at(const model_contact *c, int n, const contact_piece *p, double th, double x)
 {
-  const double u = c->cu[0] * x, v = c->cv[0] * x, normal = contact_normal(&c->law, v);
+  const double u = c->tangent * x, v = c->normal * x, normal = contact_normal(&c->law, v);
   double tangential = 0;
   for (int i = 0; i < n; ++i) {
     double at = th < p[i].from ? th + 2 * PI : th;
@@ -72,7 +71,7 @@ static double contact_at(const moving_contact *c, int n, const contact_piece *p,
     int s = contact_slip_sign(p[i].state);
     tangential = s ? s * c->law.mu * normal : c->law.kt * u - p[i].held;
   }
-  return c->cu[0] * tangential + c->cv[0] * (normal - contact_preload(&c->law));
+  return c->tangent * tangential + c->normal * (normal - contact_preload(&c->law));
 }
 
 /* The force at FINE times, from the pieces the last evaluation found; its harmonics, those that have closed forms
@@ -80,6 +79,8 @@ static double contact_at(const moving_contact *c, int n, const contact_piece *p,
 static hc_status find_truth(workshop *w)
 {
   double X[MOST_COEF] = {0}, F[MOST_COEF];
+  model_contact contacts[SCENE_MAX_CONTACTS];
+  for (int j = 0; j < w->sc.n_contacts; ++j) contacts[j] = scene_model_contact(&w->sc.contacts[j]);
   memcpy(X, w->X, (size_t)(2 * w->n_harm + 1) * sizeof *X);
   hc_status st = exact_eval(w->fine, X, F, NULL, NULL);
   if (st != HC_OK) return st;
@@ -88,7 +89,7 @@ static hc_status find_truth(workshop *w)
     double th = 2 * PI * i / FINE, x = series_at(w->n_harm, w->X, cos(th), sin(th)).x, f = 0;
     for (int j = 0, n; j < w->sc.n_contacts; ++j) {
       const contact_piece *p = exact_pieces(w->fine, j, &n);
-      f += contact_at(&w->contacts[j], n, p, th, x);
+      f += contact_at(&contacts[j], n, p, th, x);
     }
     w->force[i] = f;
     w->scale = fmax(w->scale, fabs(f));
@@ -96,7 +97,7 @@ static hc_status find_truth(workshop *w)
   fftw_execute(w->plan);
   for (int h = 0; h <= FINE / 2; ++h) w->spectrum[h] *= 2.0 / FINE;
   w->spectrum[0] = F[0];
-  for (int h = 1; h <= SCENE_MAX_HARMONICS; ++h) w->spectrum[h] = F[2 * h - 1] - I * F[2 * h];
+  for (int h = 1; h <= HBM_MAX_HARMONICS; ++h) w->spectrum[h] = F[2 * h - 1] - I * F[2 * h];
   return HC_OK;
 }
 
@@ -134,7 +135,8 @@ static double sampled_amplitude(const workshop *w, int n)
   memcpy(X, w->X, sizeof X);
   sc.hbm.force = HBM_FORCE_SAMPLED;
   sc.hbm.samples = n;
-  if (hbm_solver_new(&sc, &s) == HC_OK && hbm_solve(s, w->omega, X, &point) == HC_OK && hbm_measure(s, X, &m) == HC_OK)
+  if (scene_hbm_solver(&sc, &s) == HC_OK && hbm_solve(s, w->omega, X, &point) == HC_OK &&
+      hbm_measure(s, X, &m) == HC_OK)
     amplitude = m.amplitude;
   hbm_solver_free(s);
   return amplitude;
@@ -145,7 +147,7 @@ static json_t *sampled_state(const workshop *w, int n)
 {
   double F[MOST_COEF];
   aft *a = NULL;
-  hc_status st = n >= 2 * w->n_harm + 2 ? aft_new(&w->sc, w->n_harm, n, &a) : HC_BAD_INPUT;
+  hc_status st = n >= 2 * w->n_harm + 2 ? scene_aft(&w->sc, w->n_harm, n, &a) : HC_BAD_INPUT;
   if (st == HC_OK) st = aft_eval(a, w->X, F, NULL, NULL);
   aft_free(a);
   if (st != HC_OK) return json_null();
@@ -203,11 +205,11 @@ static hc_status put_states(workshop *w, int n_omega, const double *omega, const
 {
   hbm_solver *s = NULL;
   hbm_curve curve = {0};
-  scene_list asked = {.n = n_omega};
+  number_list asked = {.n = n_omega};
   double from, to;
   memcpy(asked.v, omega, (size_t)n_omega * sizeof *omega);
-  comparison_sweep(&w->sc, &asked, &from, &to);
-  hc_status st = hbm_solver_new(&w->sc, &s);
+  comparison_sweep(w->sc.omega_from, w->sc.omega_to, &asked, &from, &to);
+  hc_status st = scene_hbm_solver(&w->sc, &s);
   if (st == HC_OK) st = hbm_trace(s, from, to, monitor, &curve); /* as far as it goes */
   for (int i = 0; i < n_omega && st != HC_INTERRUPTED && st != HC_NO_MEMORY; ++i) {
     double amplitude = s ? largest_solution(w, s, &curve, omega[i]) : NAN;
@@ -225,7 +227,6 @@ static void set_scene(workshop *w, const scene *sc, double factor, int n_harm)
   w->sc.hbm.harmonics = n_harm;
   w->sc.hbm.force = HBM_FORCE_EXACT;
   for (int j = 0; j < sc->n_contacts; ++j) w->sc.contacts[j].law.kn *= factor;
-  exact_contacts_of(&w->sc, w->contacts);
 }
 
 /* The monitor of a part of the work: how far the whole is stands still meanwhile. */
@@ -256,7 +257,7 @@ static hc_status all_states(const scene *sc, workshop *w, int n_omega, const dou
       if (!hc_monitor_tick(monitor, at.done)) return HC_INTERRUPTED;
       set_scene(w, sc, factors[k], harmonics[h]);
       exact_free(w->fine);
-      hc_status st = exact_new(SCENE_MAX_HARMONICS, 1, sc->n_contacts, w->contacts, &w->fine);
+      hc_status st = scene_exact(&w->sc, HBM_MAX_HARMONICS, &w->fine);
       if (st == HC_OK) st = put_states(w, n_omega, omega, &inner, row);
       if (st != HC_OK) return st;
     }

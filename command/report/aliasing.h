@@ -12,7 +12,7 @@
 #include <jansson.h>
 
 #include "base/status.h"
-#include "model/scene.h"
+#include "cases/scene.h"
 
 enum { ALIASING_MOST_OMEGAS = 4 };
 

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "campaigns/scene_solvers.h"
 #include "compare/frequencies.h"
 #include "compare/response.h"
 
@@ -56,11 +57,11 @@ static hc_status trace(const scene *sc, const comparison *c, const hc_monitor *m
 {
   hbm_solver *s = NULL;
   hbm_curve curve = {0};
-  scene_list asked = {0};
+  number_list asked = {0};
   double from, to;
-  for (int i = 0; i < c->n_rows && asked.n < SCENE_MAX_LIST; ++i) asked.v[asked.n++] = c->rows[i].omega;
-  comparison_sweep(sc, &asked, &from, &to);
-  hc_status st = hbm_solver_new(sc, &s);
+  for (int i = 0; i < c->n_rows && asked.n < NUMBER_LIST_MAX; ++i) asked.v[asked.n++] = c->rows[i].omega;
+  comparison_sweep(sc->omega_from, sc->omega_to, &asked, &from, &to);
+  hc_status st = scene_hbm_solver(sc, &s);
   if (st == HC_OK && sc->hbm.force == HBM_FORCE_EXACT) hbm_scale_steps(s, shorter_steps);
   if (st == HC_OK) st = hbm_trace(s, from, to, monitor, &curve);
   for (int k = 0; k < curve.n; ++k) {

@@ -5,6 +5,7 @@
 
 #include <jansson.h>
 
+#include "cases/scene.h"
 #include "compare/comparison.h"
 
 /* {curve, without_mean: columns of points; specials; hbm, transient: what the rows found}: see page.js, "response",

@@ -102,11 +102,11 @@ static void put_budget_row(FILE *to, const comparison_row *r, const scene *sc)
       r->transient_status == HC_OK || r->transient_status == HC_NOT_SETTLED || r->transient_status == HC_APERIODIC;
   html_cell_number(to, moved ? r->transient.amplitude : NAN);
   html_cell_bar(to, r->errors.amplitude,
-                r->verdict == VERDICT_MATCH || r->verdict == VERDICT_DIFFERS ? sc->gate.amplitude : INFINITY);
-#define CELL(part) html_cell_bar(to, b->part, sc->gate.amplitude);
+                r->verdict == VERDICT_MATCH || r->verdict == VERDICT_DIFFERS ? sc->gate.most.amplitude : INFINITY);
+#define CELL(part) html_cell_bar(to, b->part, sc->gate.most.amplitude);
   BUDGET_PARTS(CELL)
 #undef CELL
-  html_cell_bar(to, r->budget.known ? b->sum : NAN, sc->gate.amplitude);
+  html_cell_bar(to, r->budget.known ? b->sum : NAN, sc->gate.most.amplitude);
   fputs("</tr>", to);
 }
 
@@ -191,7 +191,7 @@ static void put_data(page *p)
 {
   const scene *sc = p->d->sc;
   json_t *data = json_pack("{s:{s:s, s:s, s:s}, s:f, s:O, s:O, s:o, s:o}", "units", "length", sc->unit_length, "force",
-                           sc->unit_force, "time", sc->unit_time, "gate", sc->gate.amplitude, "response",
+                           sc->unit_force, "time", sc->unit_time, "gate", sc->gate.most.amplitude, "response",
                            p->d->response, "aliasing", p->d->aliasing, "budget", budget_json(&p->d->comparison),
                            "accuracy", accuracy_json(&p->d->accuracy));
   if (!data || html_json(p->to, data) != HC_OK) p->status = HC_NO_MEMORY;

@@ -10,10 +10,10 @@
 bool report_has_charts(void) { return asset_chart.length > 0; }
 
 /* The comparison's frequencies at which some HBM solution meets a contact's nonlinearity, ascending; how many. */
-static int busy_omegas(const comparison *c, double all[SCENE_MAX_LIST])
+static int busy_omegas(const comparison *c, double all[NUMBER_LIST_MAX])
 {
   int n = 0;
-  for (int i = 0; i < c->n_rows && n < SCENE_MAX_LIST; ++i) {
+  for (int i = 0; i < c->n_rows && n < NUMBER_LIST_MAX; ++i) {
     const comparison_row *r = &c->rows[i];
     bool busy = r->branch >= 0 && r->hbm_status == HC_OK && r->hbm.contact.regime != CONTACT_LINEAR;
     if (busy && (n == 0 || r->omega != all[n - 1])) all[n++] = r->omega;
@@ -25,7 +25,7 @@ static int busy_omegas(const comparison *c, double all[SCENE_MAX_LIST])
  * nearest one is. */
 static int choose_omegas(const comparison *c, double *omega, int *first)
 {
-  double all[SCENE_MAX_LIST];
+  double all[NUMBER_LIST_MAX];
   int n = busy_omegas(c, all), peak = 0, chosen = 0, step = (n + ALIASING_MOST_OMEGAS - 1) / ALIASING_MOST_OMEGAS;
   for (int i = 1; i < n; ++i)
     if (fabs(all[i] - c->summary.peak_omega) < fabs(all[peak] - c->summary.peak_omega)) peak = i;
@@ -57,7 +57,8 @@ hc_status report_gather(const scene *sc, const hc_monitor *monitor, void (*annou
 {
   *out = (report_data){.sc = sc};
   say(announce, self, "comparing");
-  hc_status st = comparison_run(sc, monitor, &out->comparison);
+  hc_status st = scene_setup(sc, &out->setup);
+  if (st == HC_OK) st = comparison_run(&out->setup, monitor, &out->comparison);
   if (st != HC_OK) return st;
   say(announce, self, "response curve");
   st = curve_json(sc, &out->comparison, monitor, &out->response);
@@ -66,7 +67,7 @@ hc_status report_gather(const scene *sc, const hc_monitor *monitor, void (*annou
   st = gather_aliasing(sc, monitor, out);
   if (st != HC_OK) return st;
   say(announce, self, "samples and truncation orders");
-  out->tabled = accuracy_run(sc, &out->comparison, monitor, &out->accuracy);
+  out->tabled = accuracy_run(&out->setup, &out->comparison, monitor, &out->accuracy);
   return out->tabled == HC_INTERRUPTED || out->tabled == HC_NO_MEMORY ? out->tabled : HC_OK;
 }
 
@@ -76,5 +77,6 @@ void report_clear(report_data *d)
   json_decref(d->aliasing);
   accuracy_clear(&d->accuracy);
   comparison_clear(&d->comparison);
+  scene_setup_clear(&d->setup);
   *d = (report_data){0};
 }

@@ -14,12 +14,13 @@
 #include <stdio.h>
 
 #include "base/status.h"
+#include "cases/scene.h"
 #include "compare/accuracy/accuracy.h"
 #include "compare/comparison.h"
-#include "model/scene.h"
 
 typedef struct report_data {
-  const scene *sc; /* the caller's */
+  const scene *sc;     /* the caller's */
+  compare_setup setup; /* made from it */
   comparison comparison;
   accuracy accuracy;
   hc_status tabled; /* how the tables ended; what was found is shown */

@@ -60,9 +60,9 @@ static void say_worst(const report_data *d, FILE *to)
     if (r->budget.known && (!top || r->budget.amplitude.sum > top->budget.amplitude.sum)) top = r;
   }
   if (top) {
-    item(to, top->budget.amplitude.sum <= d->sc->gate.amplitude ? "good" : "bad");
+    item(to, top->budget.amplitude.sum <= d->sc->gate.most.amplitude ? "good" : "bad");
     html_printf(to, "Largest error at omega = %.8g, branch %d: %s.", top->omega, top->branch,
-                budget_advice(&top->budget, d->sc, c->harmonics, text));
+                budget_advice(&top->budget, &d->setup, d->sc->gate.most.amplitude, c->harmonics, text));
     fputs("</li>\n", to);
   }
   if (doubtful)
@@ -97,7 +97,7 @@ static int enough_harmonics(const accuracy *a, double limit)
 static void say_harmonics(const report_data *d, FILE *to)
 {
   const accuracy *a = &d->accuracy;
-  const double limit = d->sc->gate.amplitude;
+  const double limit = d->sc->gate.most.amplitude;
   const int enough = enough_harmonics(a, limit), kept = d->comparison.harmonics;
   const accuracy_row *last = NULL, *row = exact_row(a, enough);
   if (!d->sc->hbm.keep_mean)
@@ -142,7 +142,7 @@ static void say_samples(const report_data *d, FILE *to)
     const accuracy_row *r = &a->rows[i];
     if (r->harmonics != plain->harmonics || r->samples == 0) continue;
     if (!most) most = r;
-    if (!samples_do(r, plain, d->sc->gate.amplitude)) break;
+    if (!samples_do(r, plain, d->sc->gate.most.amplitude)) break;
     enough = r;
   }
   if (!most) return;
@@ -183,7 +183,8 @@ void words_what_to_do(const report_data *d, FILE *to)
 void words_gate(const report_data *d, FILE *to)
 {
   static const char *const names[] = {"amplitude", "harmonic_1", "mean", "waveform"};
-  const double limits[] = {d->sc->gate.amplitude, d->sc->gate.harmonic_1, d->sc->gate.mean, d->sc->gate.waveform};
+  const double limits[] = {d->sc->gate.most.amplitude, d->sc->gate.most.harmonic_1, d->sc->gate.most.mean,
+                           d->sc->gate.most.waveform};
   double worst[4] = {NAN, NAN, NAN, NAN}, where[4] = {NAN, NAN, NAN, NAN};
   for (int i = 0; i < d->comparison.n_rows; ++i) {
     const comparison_row *r = &d->comparison.rows[i];

@@ -27,14 +27,14 @@ typedef struct traced {
 /* The solution next to each target, for one H and N. */
 typedef struct solutions {
   int n, n_coef;
-  bool *there;           /* [n] */
-  double *X;             /* [n][n_coef] */
-  steady_motion *motion; /* [n] */
+  bool *there;             /* [n] */
+  double *X;               /* [n][n_coef] */
+  periodic_motion *motion; /* [n] */
   long iterations;
 } solutions;
 
 typedef struct job {
-  const scene *sc;
+  const compare_setup *setup;
   const comparison *c;
   const hc_monitor *monitor;
   int n_harm, n_samples, *harmonics, *samples; /* ascending, each once */
@@ -53,15 +53,16 @@ static double thread_seconds(void)
 
 static hc_status trace(const job *j, int n_harm, int samples, traced *t)
 {
-  scene sc = *j->sc;
+  compare_setup setup = *j->setup;
   double from, to, began = thread_seconds();
-  scene_list none = {0};
+  number_list none = {0};
   *t = (traced){.n_harm = n_harm};
-  sc.hbm.harmonics = n_harm;
-  sc.hbm.force = samples == EXACT ? HBM_FORCE_EXACT : HBM_FORCE_SAMPLED;
-  if (samples != EXACT) sc.hbm.samples = samples;
-  comparison_sweep(&sc, j->sc->compare.omega.n ? &j->sc->compare.omega : &none, &from, &to);
-  hc_status st = hbm_solver_new(&sc, &t->hbm);
+  setup.hbm.harmonics = n_harm;
+  setup.hbm.force = samples == EXACT ? HBM_FORCE_EXACT : HBM_FORCE_SAMPLED;
+  if (samples != EXACT) setup.hbm.samples = samples;
+  comparison_sweep(setup.omega_from, setup.omega_to, j->setup->compare.omega.n ? &j->setup->compare.omega : &none,
+                   &from, &to);
+  hc_status st = hbm_solver_new(setup.model, &setup.hbm, &t->hbm);
   t->status = st == HC_OK ? hbm_trace(t->hbm, from, to, j->monitor, &t->curve) : st;
   t->seconds = thread_seconds() - began;
   return t->status == HC_INTERRUPTED || t->status == HC_NO_MEMORY ? t->status : HC_OK; /* as far as the curve goes */
@@ -102,7 +103,7 @@ static bool take(solutions *s, int i, hbm_solver *hbm, const double *X)
 
 /* The nearest pair of a target without solution and a solution of *at not taken yet; false when there is no more. */
 static bool nearest_pair(const job *j, const solutions *s, int first, int last, const hbm_curve *at,
-                         const steady_motion *found, const bool *taken, int *i, int *k)
+                         const periodic_motion *found, const bool *taken, int *i, int *k)
 {
   double least = INFINITY;
   for (int a = first; a < last; ++a)
@@ -124,7 +125,7 @@ static hc_status assign(const job *j, traced *t, int first, int last, solutions 
 {
   hbm_curve at = {0};
   hc_status st = hbm_curve_at(t->hbm, &t->curve, j->ref.targets[first].omega, &at);
-  steady_motion *found = calloc((size_t)at.n + 1, sizeof *found);
+  periodic_motion *found = calloc((size_t)at.n + 1, sizeof *found);
   bool *taken = calloc((size_t)at.n + 1, sizeof *taken);
   int i, k;
   st = st == HC_NO_MEMORY || !found || !taken ? HC_NO_MEMORY : HC_OK;
@@ -172,7 +173,7 @@ static void drop_doubles(const job *j, const solutions *from, solutions *s)
 static hc_status solve_sampled(const job *j, traced *t, const solutions *from, solutions *s)
 {
   hc_status st = solutions_new(from->n, from->n_coef, s);
-  double X[2 * SCENE_MAX_HARMONICS + 1];
+  double X[2 * HBM_MAX_HARMONICS + 1];
   for (int i = 0; i < from->n && st == HC_OK && t->hbm; ++i) {
     hbm_point point = {0};
     if (!from->there[i]) continue;
@@ -297,9 +298,9 @@ static hc_status rows_of(const job *j, traced *t)
 /* ---- the whole ------------------------------------------------------------------------------- */
 
 /* A list of whole numbers, ascending, each once, into out[]; how many. */
-static int whole_numbers(const scene_list *list, int *out)
+static int whole_numbers(const number_list *list, int *out)
 {
-  scene_list sorted = *list;
+  number_list sorted = *list;
   int n = 0;
   qsort(sorted.v, (size_t)sorted.n, sizeof *sorted.v, ascending);
   for (int i = 0; i < sorted.n; ++i)
@@ -318,14 +319,14 @@ static void put_order(job *j, const char *quantity, int n_harm, int n, const dou
 /* Of the aliasing in N for each H, and of the truncation in H with exact forces. */
 static void put_orders(job *j)
 {
-  double x[SCENE_MAX_LIST], e[SCENE_MAX_LIST], h[SCENE_MAX_LIST], truncation[SCENE_MAX_LIST];
+  double x[NUMBER_LIST_MAX], e[NUMBER_LIST_MAX], h[NUMBER_LIST_MAX], truncation[NUMBER_LIST_MAX];
   int n = 0, n_h = 0;
   for (int i = 0; i < j->out->n_rows; ++i) {
     const accuracy_row *row = &j->out->rows[i];
     if (row->samples == EXACT) h[n_h] = row->harmonics, truncation[n_h++] = row->worst;
     else x[n] = row->samples, e[n++] = row->aliasing;
     bool last = i + 1 == j->out->n_rows || j->out->rows[i + 1].harmonics != row->harmonics;
-    if (last) put_order(j, "samples", row->harmonics, n, x, e, 1e2 * j->sc->hbm.tolerance), n = 0;
+    if (last) put_order(j, "samples", row->harmonics, n, x, e, 1e2 * j->setup->hbm.tolerance), n = 0;
   }
   put_order(j, "harmonics", 0, n_h, h, truncation, floor_of_orbits);
 }
@@ -336,7 +337,7 @@ static hc_status all_rows(job *j)
   traced finest, t = {0};
   hc_status st = trace(j, most, EXACT, &finest);
   if (st == HC_OK && !finest.hbm) st = finest.status;
-  if (st == HC_OK) st = reference_make(j->sc, j->c, finest.hbm, &finest.curve, j->monitor, &j->ref);
+  if (st == HC_OK) st = reference_make(j->setup, j->c, finest.hbm, &finest.curve, j->monitor, &j->ref);
   for (int i = 0; i < j->n_harm && st == HC_OK; ++i) {
     bool again = j->harmonics[i] == most; /* solved already */
     if (!hc_monitor_tick(j->monitor, (double)i / j->n_harm)) st = HC_INTERRUPTED;
@@ -360,15 +361,15 @@ static void put_reference(const job *j)
   out->peak_omega = j->ref.peak_omega;
 }
 
-hc_status accuracy_run(const scene *sc, const comparison *c, const hc_monitor *monitor, accuracy *out)
+hc_status accuracy_run(const compare_setup *setup, const comparison *c, const hc_monitor *monitor, accuracy *out)
 {
-  int harmonics[SCENE_MAX_LIST], samples[SCENE_MAX_LIST];
+  int harmonics[NUMBER_LIST_MAX], samples[NUMBER_LIST_MAX];
   *out = (accuracy){0};
-  job j = {.sc = sc, .c = c, .monitor = monitor, .harmonics = harmonics, .samples = samples, .out = out};
-  j.n_harm = whole_numbers(&sc->compare.harmonics, harmonics);
-  j.n_samples = whole_numbers(&sc->compare.samples, samples);
+  job j = {.setup = setup, .c = c, .monitor = monitor, .harmonics = harmonics, .samples = samples, .out = out};
+  j.n_harm = whole_numbers(&setup->compare.harmonics, harmonics);
+  j.n_samples = whole_numbers(&setup->compare.samples, samples);
   if (j.n_harm == 0) return HC_OK;
-  if (harmonics[0] < 1 || harmonics[j.n_harm - 1] > SCENE_MAX_HARMONICS) return HC_BAD_INPUT;
+  if (harmonics[0] < 1 || harmonics[j.n_harm - 1] > HBM_MAX_HARMONICS) return HC_BAD_INPUT;
   out->rows = calloc((size_t)j.n_harm * (size_t)(j.n_samples + 1), sizeof *out->rows);
   out->orders = calloc((size_t)j.n_harm + 2, sizeof *out->orders);
   if (!out->rows || !out->orders) return HC_NO_MEMORY;
@@ -377,7 +378,7 @@ hc_status accuracy_run(const scene *sc, const comparison *c, const hc_monitor *m
   put_reference(&j);
   if (st == HC_OK) {
     order_row regularisation;
-    st = order_of_regularisation(sc, c, monitor, &regularisation);
+    st = order_of_regularisation(setup, c, monitor, &regularisation);
     if (regularisation.fit.points > 1) out->orders[out->n_orders++] = regularisation;
   }
   reference_clear(&j.ref);

@@ -8,8 +8,8 @@
 
 #include "base/status.h"
 #include "compare/budget.h"
+#include "compare/compare_settings.h"
 #include "compare/comparison.h"
-#include "model/scene.h"
 
 /* e ~ c x^-order over the points `from` <= x <= `to`, by least squares on logarithms. */
 typedef struct order_fit {
@@ -64,11 +64,12 @@ typedef struct accuracy {
 /* The tables of the scene's compare.harmonics and compare.samples over the frequencies of *c, a comparison of the
  * same scene whose orbits are used again. Each solution is computed once; the sampled ones start from those with
  * exact forces. HC_INTERRUPTED, HC_NO_MEMORY; rows found until then are kept. Free with accuracy_clear in any case. */
-hc_status accuracy_run(const scene *sc, const comparison *c, const hc_monitor *monitor, accuracy *out);
+hc_status accuracy_run(const compare_setup *setup, const comparison *c, const hc_monitor *monitor, accuracy *out);
 void accuracy_clear(accuracy *a);
 
 /* The regularisation's order at the row of *c where it matters most, from rho, rho/4, rho/16, rho/64. A fit without
  * points when there is none, or the law is exact. */
-hc_status order_of_regularisation(const scene *sc, const comparison *c, const hc_monitor *monitor, order_row *out);
+hc_status order_of_regularisation(const compare_setup *setup, const comparison *c, const hc_monitor *monitor,
+                                  order_row *out);
 
 #endif

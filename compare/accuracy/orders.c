@@ -68,17 +68,17 @@ static const comparison_row *most_regularised(const comparison *c)
 }
 
 /* Amplitude error of the orbit next to `row`'s at that regularisation; NaN where it is not to be had. */
-static hc_status error_at(const scene *sc, double regularisation, const comparison_row *row, const hc_monitor *monitor,
-                          double *e)
+static hc_status error_at(const compare_setup *setup, double regularisation, const comparison_row *row,
+                          const hc_monitor *monitor, double *e)
 {
-  scene other = *sc;
+  compare_setup other = *setup;
   timeint *ti = NULL;
   timeint_result r;
   patience p = {.outer = monitor, .left = PATIENCE_PERIODS};
   hc_monitor bounded = {patience_tick, &p};
   *e = NAN;
   other.transient.regularisation = regularisation;
-  hc_status st = timeint_new(&other, &ti);
+  hc_status st = timeint_new(other.model, &other.transient, &ti);
   if (st == HC_OK) {
     timeint_state state = row->transient_state;
     st = timeint_orbit(ti, row->omega, 1, &state, &bounded, &r);
@@ -88,18 +88,19 @@ static hc_status error_at(const scene *sc, double regularisation, const comparis
   return st == HC_NO_MEMORY ? st : p.stopped ? HC_INTERRUPTED : HC_OK;
 }
 
-hc_status order_of_regularisation(const scene *sc, const comparison *c, const hc_monitor *monitor, order_row *out)
+hc_status order_of_regularisation(const compare_setup *setup, const comparison *c, const hc_monitor *monitor,
+                                  order_row *out)
 {
-  const comparison_row *row = sc->transient.law == TRANSIENT_LAW_EXACT ? NULL : most_regularised(c);
+  const comparison_row *row = setup->transient.law == TRANSIENT_LAW_EXACT ? NULL : most_regularised(c);
   *out = (order_row){.quantity = "regularisation", .omega = row ? row->omega : NAN, .fit = no_fit};
   if (!row) return HC_OK;
-  double x[LEVELS], e[LEVELS], rho = sc->transient.regularisation;
+  double x[LEVELS], e[LEVELS], rho = setup->transient.regularisation;
   hc_status st = HC_OK;
   for (int i = 0; i < LEVELS && st == HC_OK; ++i, rho /= 4) {
     x[i] = 1 / rho;
-    st = error_at(sc, rho, row, monitor, &e[i]);
+    st = error_at(setup, rho, row, monitor, &e[i]);
   }
-  if (st == HC_OK) out->fit = order_fit_to(LEVELS, x, e, 100 * sc->transient.tolerance);
+  if (st == HC_OK) out->fit = order_fit_to(LEVELS, x, e, 100 * setup->transient.tolerance);
   if (out->fit.points) { /* in the regularisation, from coarse to fine */
     out->fit.from = 1 / out->fit.from;
     out->fit.to = 1 / out->fit.to;

@@ -8,7 +8,7 @@
 
 typedef struct target {
   double omega;
-  steady_motion orbit;
+  periodic_motion orbit;
 } target;
 
 typedef struct reference {
@@ -20,7 +20,7 @@ typedef struct reference {
 } reference;
 
 /* From the curve of `hbm`, whose forces are exact. Free with reference_clear in any case. */
-hc_status reference_make(const scene *sc, const comparison *c, hbm_solver *hbm, const hbm_curve *curve,
+hc_status reference_make(const compare_setup *setup, const comparison *c, hbm_solver *hbm, const hbm_curve *curve,
                          const hc_monitor *monitor, reference *out);
 void reference_clear(reference *r);
 

@@ -7,20 +7,20 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const struct {
-  const char *name;
-  size_t allowed, found;
-} quantities[] = {
-#define QUANTITY(q)                                                                                                    \
-  {                                                                                                                    \
-#q, offsetof(scene_gate, q), offsetof(comparison_errors, q)                                                        \
-  }
-    QUANTITY(amplitude), QUANTITY(harmonic_1), QUANTITY(mean), QUANTITY(waveform)};
+#include "compare/gate_limits.h"
+
+/* clang-format off */
+static const struct quantity { const char *name; size_t offset; } quantities[] = {
+#define QUANTITY(q) {#q, offsetof(discrepancy, q)}
+  QUANTITY(amplitude), QUANTITY(harmonic_1), QUANTITY(mean), QUANTITY(waveform)
+#undef QUANTITY
+};
+/* clang-format on */
 enum { N_QUANTITIES = sizeof quantities / sizeof *quantities, MEAN = 2 };
 
-static double at(const void *base, size_t offset)
+static double at(const discrepancy *d, int q)
 {
-  return *(const double *)(const void *)((const char *)base + offset);
+  return *(const double *)(const void *)((const char *)d + quantities[q].offset);
 }
 
 const char *gate_result_name(gate_result r) { return r == GATE_PASS ? "pass" : r == GATE_FAIL ? "fail" : "error"; }
@@ -30,7 +30,7 @@ static bool within(double found, double allowed) { return found <= allowed * (1 
 /* ---- collecting ---- */
 
 typedef struct judge {
-  const scene *sc;
+  const compare_setup *setup;
   const comparison *c;
   gate_case *out;
   hc_status st; /* HC_NO_MEMORY from then on */
@@ -77,79 +77,33 @@ __attribute__((format(printf, 3, 4))) static void not_passed(gate_check *c, gate
 
 /* ---- one HBM solution ---- */
 
-/* |difference| / amplitude; no difference is no error, also where nothing moves. */
-static double relative(double difference, double amplitude)
-{
-  return difference == 0 ? 0 : fabs(difference) / amplitude;
-}
-
-static comparison_errors errors_against_orbit(const comparison_row *r)
+static discrepancy errors_against_orbit(const comparison_row *r)
 {
   const double a = r->orbit.amplitude;
-  return (comparison_errors){.amplitude = relative(r->hbm.amplitude - a, a),
-                             .harmonic_1 = relative(r->hbm.harmonic_1 - r->orbit.harmonic_1, a),
-                             .mean = relative(r->hbm.mean - r->orbit.mean, a),
-                             .waveform = r->orbit_error};
+  return (discrepancy){.amplitude = discrepancy_relative(r->hbm.amplitude - a, a),
+                       .harmonic_1 = discrepancy_relative(r->hbm.harmonic_1 - r->orbit.harmonic_1, a),
+                       .mean = discrepancy_relative(r->hbm.mean - r->orbit.mean, a),
+                       .waveform = r->orbit_error};
 }
 
-static void hold(judge *j, const comparison_row *r, const comparison_errors *errors, bool mean_is_free,
-                 const char *against)
+static void hold(judge *j, const comparison_row *r, const discrepancy *errors, bool mean_is_free, const char *against)
 {
-  const scene_gate limits = scene_gate_at(j->sc, r->omega);
+  const discrepancy most = gate_limits_at(j->setup->limits, r->omega);
   for (int q = 0; q < N_QUANTITIES; ++q) {
     if (q == MEAN && mean_is_free) continue;
     gate_check c = check_of(r, quantities[q].name, against);
-    c.allowed = at(&limits, quantities[q].allowed);
-    c.found = at(errors, quantities[q].found);
+    c.allowed = at(&most, q);
+    c.found = at(errors, q);
     if (isnan(c.found)) not_passed(&c, GATE_ERROR, "it is not a number");
     else if (!within(c.found, c.allowed)) c.result = GATE_FAIL;
     add(j, &c);
   }
 }
 
-static bool all_within(const comparison_errors *e, const scene_gate *limits, bool mean_is_free)
-{
-  for (int q = 0; q < N_QUANTITIES; ++q)
-    if (!(q == MEAN && mean_is_free) && !within(at(e, quantities[q].found), at(limits, quantities[q].allowed)))
-      return false;
-  return true;
-}
-
-/* Two transients of one law on one orbit differ by what is left of settling; the bound is that of comparison.c's
- * runs_next_to. */
-static bool same_motion(const judge *j, const timeint_result *a, const timeint_result *b)
-{
-  const double shift = a->free_sliders > 0 || b->free_sliders > 0 ? a->mean - b->mean : 0;
-  const double bound = fmax(1e-6, 100 * j->sc->transient.tolerance) * b->amplitude;
-  for (int i = 0; i < TIMEINT_WAVE; ++i)
-    if (!(fabs(a->wave[i] - b->wave[i] - shift) <= bound)) return false;
-  return true;
-}
-
-/* Does some HBM solution at this omega match the motion that row's transient ends in? The comparison knows for the
- * limits outside the ranges; within one, where limits may be wider, a solution whose own transient is that same
- * motion tells. */
-static bool accounted(const judge *j, const comparison_row *row)
-{
-  if (row->accounted) return true;
-  if (row->transient_status != HC_OK || row->transient.period_multiple != 1) return false;
-  const scene_gate limits = scene_gate_at(j->sc, row->omega);
-  for (int i = 0; i < j->c->n_rows; ++i) {
-    const comparison_row *r = &j->c->rows[i];
-    if (r->omega != row->omega || r->hbm_status != HC_OK || r->transient_status != HC_OK ||
-        r->transient.period_multiple != 1)
-      continue;
-    if (all_within(&r->errors, &limits, r->transient.free_sliders > 0) &&
-        same_motion(j, &row->transient, &r->transient))
-      return true;
-  }
-  return false;
-}
-
 static void judge_transient(judge *j, const comparison_row *r)
 {
   gate_check c = check_of(r, "transient", "transient");
-  if (accounted(j, r)) c.result = GATE_PASS;
+  if (r->accounted) c.result = GATE_PASS;
   else if (r->verdict == VERDICT_PERIOD_K)
     not_passed(&c, GATE_FAIL, "the transient repeats only after %d forcing periods: no HBM solution is what happens",
                r->transient.period_multiple);
@@ -163,7 +117,7 @@ static void judge_transient(judge *j, const comparison_row *r)
 static void judge_orbit(judge *j, const comparison_row *r)
 {
   if (r->orbit_status == HC_OK) {
-    const comparison_errors errors = errors_against_orbit(r);
+    const discrepancy errors = errors_against_orbit(r);
     hold(j, r, &errors, r->orbit.free_sliders > 0, "orbit");
     return;
   }
@@ -215,26 +169,26 @@ static void judge_curve(judge *j)
     not_passed(&c, GATE_ERROR, "the HBM curve has no points: %s", hc_status_text(curve->end));
   else if (j->c->n_rows == 0) not_passed(&c, GATE_ERROR, "nothing was compared");
   if (c.result != GATE_PASS) add(j, &c);
-  judge_cost(j, "iterations", j->sc->gate_cost.iterations, j->c->summary.iterations);
-  judge_cost(j, "evaluations", j->sc->gate_cost.evaluations, j->c->summary.evaluations);
+  judge_cost(j, "iterations", j->setup->limits->iterations, j->c->summary.iterations);
+  judge_cost(j, "evaluations", j->setup->limits->evaluations, j->c->summary.evaluations);
 }
 
 /* ---- the case ---- */
 
-hc_status gate_judge(const char *name, const scene *sc, const comparison *c, gate_case *out)
+hc_status gate_judge(const char *name, const compare_setup *setup, const comparison *c, gate_case *out)
 {
   *out = (gate_case){.name = name};
-  judge j = {sc, c, out, HC_OK};
+  judge j = {setup, c, out, HC_OK};
   for (int i = 0; i < c->n_rows; ++i) judge_solution(&j, &c->rows[i]);
   judge_curve(&j);
   return j.st;
 }
 
-hc_status gate_run(const char *name, const scene *sc, const hc_monitor *monitor, gate_case *out)
+hc_status gate_run(const char *name, const compare_setup *setup, const hc_monitor *monitor, gate_case *out)
 {
   comparison c;
-  hc_status st = comparison_run(sc, monitor, &c);
-  hc_status judged = gate_judge(name, sc, &c, out);
+  hc_status st = comparison_run(setup, monitor, &c);
+  hc_status judged = gate_judge(name, setup, &c, out);
   comparison_clear(&c);
   return st != HC_OK ? st : judged;
 }

@@ -9,7 +9,7 @@
  *     not_settled, solver_failed                      nothing: an error, and so is an orbit that was not found, and
  *                                                     a curve that stopped
  * The mean is not held against anything where a slider is free: it is a matter of history there. The limits:
- * scene_gate_at.
+ * gate_limits_at.
  *
  * A number passes if found <= allowed (1 + GATE_SLACK); costs, being whole numbers, if found <= allowed. Both sides
  * are converged far beyond that, so what rounding does on another machine flips no verdict unless a limit is set to
@@ -21,8 +21,8 @@
 #include <stdio.h>
 
 #include "base/status.h"
+#include "compare/compare_settings.h"
 #include "compare/comparison.h"
-#include "model/scene.h"
 
 #define GATE_SLACK 1e-6 /* [1] of the limit */
 
@@ -54,10 +54,10 @@ typedef struct gate_case {
 
 /* Compare, then judge. HC_OK whatever the checks say; HC_INTERRUPTED, HC_NO_MEMORY and other ends of the whole
  * comparison else, with what was found kept. Free with gate_clear in any case. */
-hc_status gate_run(const char *name, const scene *sc, const hc_monitor *monitor, gate_case *out);
+hc_status gate_run(const char *name, const compare_setup *setup, const hc_monitor *monitor, gate_case *out);
 
-/* The second half: the checks of a comparison of sc. HC_NO_MEMORY. */
-hc_status gate_judge(const char *name, const scene *sc, const comparison *c, gate_case *out);
+/* The second half: the checks of a comparison of setup. HC_NO_MEMORY. */
+hc_status gate_judge(const char *name, const compare_setup *setup, const comparison *c, gate_case *out);
 void gate_clear(gate_case *g);
 
 /* What was found, as it is shown: to 3 digits, or as many more as it takes to be on the right side of the limit; 0

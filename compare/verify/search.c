@@ -36,7 +36,7 @@ typedef struct order {
 } order;
 
 typedef struct search {
-  const scene *sc;
+  const compare_setup *setup;
   const hc_monitor *monitor;
   verify_report *out;
   verify_sample points;
@@ -128,10 +128,10 @@ static hc_status solutions_at(search *s, const verify_equations *e, int frequenc
   double omega[128], from = s->from, to = s->to, factor = verify_omega_factor(frequency);
   for (int i = 0; i < s->points.n; ++i) omega[i] = factor * s->points.omega[i];
   if (frequency) {
-    scene_list ends = {.n = 2, .v = {omega[0], omega[s->points.n - 1]}};
-    comparison_sweep(s->sc, &ends, &from, &to);
+    number_list ends = {.n = 2, .v = {omega[0], omega[s->points.n - 1]}};
+    comparison_sweep(s->setup->omega_from, s->setup->omega_to, &ends, &from, &to);
   }
-  return verify_solutions_of(s->sc, e, from, to, s->points.n, omega, s->monitor, out);
+  return verify_solutions_of(s->setup, e, from, to, s->points.n, omega, s->monitor, out);
 }
 
 /* ---- stage 1 ---- */
@@ -173,8 +173,8 @@ static hc_status try_all_exact(search *s)
 {
   hc_status st = try_exact(s, s->out->harmonics, true);
   if (st == HC_OK) st = try_exact(s, s->out->harmonics, false);
-  if (st == HC_OK && s->sc->n_contacts) st = try_linear(s, VERIFY_CONTACT_NONE);
-  if (st == HC_OK && s->sc->n_contacts) st = try_linear(s, VERIFY_CONTACT_STUCK);
+  if (st == HC_OK && s->setup->model->n_contacts) st = try_linear(s, VERIFY_CONTACT_NONE);
+  if (st == HC_OK && s->setup->model->n_contacts) st = try_linear(s, VERIFY_CONTACT_STUCK);
   bool own_too = s->own < s->out->harmonics;
   for (int i = HARMONICS_TRIED - 1; i >= 0 && st == HC_OK; --i) {
     int harmonics = harmonics_tried[i];
@@ -206,7 +206,7 @@ static hc_status try_sampled(search *s, const order *o, int frequency, int low, 
       e.restart = restart ? HBM_RESTART_SAMPLE : HBM_RESTART_INTERPOLATED;
       if (e.samples < low || e.samples > high || !possible(e.harmonics, e.samples)) continue;
       verify_solutions of = {0};
-      st = verify_solutions_near(s->sc, &e, &near, omega, &of);
+      st = verify_solutions_near(s->setup, &e, &near, omega, &of);
       if (st == HC_OK) hold(s, &e, frequency, &of);
       verify_solutions_clear(&of);
       if (st == HC_OK && !tick(s)) st = HC_INTERRUPTED;
@@ -285,7 +285,7 @@ static int frequency_of(const verify_hypothesis *h)
 static hc_status try_everything(search *s)
 {
   hc_status st = try_all_exact(s);
-  if (st != HC_OK || explained(s) || !s->sc->n_contacts) return st;
+  if (st != HC_OK || explained(s) || !s->setup->model->n_contacts) return st;
   int frequency = verify_fits(s->out) ? frequency_of(&s->out->hypotheses[0]) : 0;
   st = try_bases(s, frequency);
   if (st == HC_OK) st = try_curves(s, frequency);
@@ -295,7 +295,8 @@ static hc_status try_everything(search *s)
 /* Another reading of the frequencies makes sense if it brings the points that differ to the sweep. */
 static void choose_frequencies(search *s)
 {
-  double low = fmin(s->sc->omega_from, s->sc->omega_to) / 2, high = fmax(s->sc->omega_from, s->sc->omega_to) * 2;
+  double low = fmin(s->setup->omega_from, s->setup->omega_to) / 2,
+         high = fmax(s->setup->omega_from, s->setup->omega_to) * 2;
   for (int f = 0; f < VERIFY_FREQUENCIES; ++f) {
     int inside = 0;
     for (int i = 0; i < s->points.n; ++i) {
@@ -306,13 +307,15 @@ static void choose_frequencies(search *s)
   }
 }
 
-hc_status verify_search(const scene *sc, const verify_data *data, const hc_monitor *monitor, verify_report *out)
+hc_status verify_search(const compare_setup *setup, const verify_data *data, const hc_monitor *monitor,
+                        verify_report *out)
 {
   search *s = calloc(1, sizeof *s);
   if (!s) return HC_NO_MEMORY;
-  *s = (search){.sc = sc, .monitor = monitor, .out = out, .floor = out->gate / 10, .expected = 2 * HARMONICS_TRIED};
-  s->own = sc->hbm.harmonics == SCENE_AUTO ? USUAL_HARMONICS : sc->hbm.harmonics;
-  verify_window(sc, data, &s->from, &s->to);
+  *s = (search){
+      .setup = setup, .monitor = monitor, .out = out, .floor = out->gate / 10, .expected = 2 * HARMONICS_TRIED};
+  s->own = setup->hbm.harmonics == HBM_AUTO ? USUAL_HARMONICS : setup->hbm.harmonics;
+  verify_window(setup, data, &s->from, &s->to);
   hc_status st = verify_sample_new(out, data->quantity, &s->points);
   out->n_hypotheses = 0;
   out->truth_distance = NAN;

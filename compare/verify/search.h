@@ -8,7 +8,8 @@
 enum { VERIFY_LEAST_DIFFERING = 3 }; /* fewer points lie on anything */
 
 /* out->rows are judged already; fills out->hypotheses, best first, and truth_distance. */
-hc_status verify_search(const scene *sc, const verify_data *data, const hc_monitor *monitor, verify_report *out);
+hc_status verify_search(const compare_setup *setup, const verify_data *data, const hc_monitor *monitor,
+                        verify_report *out);
 
 /* Does the best hypothesis explain the points? */
 bool verify_fits(const verify_report *r);

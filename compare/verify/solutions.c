@@ -7,9 +7,10 @@
 
 static const double close_omegas = 0.1; /* [1] a step that Newton may take in one go */
 
-scene verify_scene(const scene *sc, const verify_equations *e)
+compare_setup verify_setup(const compare_setup *setup, const verify_equations *e, model *linear)
 {
-  scene own = *sc;
+  const model *m = setup->model;
+  compare_setup own = *setup;
   own.hbm.harmonics = e->harmonics;
   own.hbm.keep_mean = e->keep_mean;
   own.hbm.force = e->samples ? HBM_FORCE_SAMPLED : HBM_FORCE_EXACT;
@@ -17,8 +18,9 @@ scene verify_scene(const scene *sc, const verify_equations *e)
   own.hbm.restart = e->restart;
   own.hbm.continuation = HBM_CONTINUATION_AUTO;
   if (e->contact == VERIFY_CONTACT_AS_IT_IS) return own;
-  if (e->contact == VERIFY_CONTACT_STUCK) own.stiffness = scene_max_stiffness(sc);
-  own.n_contacts = 0;
+  *linear = (model){.mass = m->mass, .damping = m->damping, .stiffness = m->stiffness, .force = m->force};
+  if (e->contact == VERIFY_CONTACT_STUCK) linear->stiffness = model_max_stiffness(m);
+  own.model = linear;
   return own;
 }
 
@@ -70,14 +72,15 @@ static hc_status start(verify_solutions *s, int n, int n_coef)
   return s->first ? HC_OK : HC_NO_MEMORY;
 }
 
-hc_status verify_solutions_of(const scene *sc, const verify_equations *e, double from, double to, int n,
+hc_status verify_solutions_of(const compare_setup *setup, const verify_equations *e, double from, double to, int n,
                               const double *omega, const hc_monitor *monitor, verify_solutions *out)
 {
-  const scene own = verify_scene(sc, e);
+  model linear;
+  const compare_setup own = verify_setup(setup, e, &linear);
   hbm_solver *hbm = NULL;
   hbm_curve curve = {0};
   hc_status st = start(out, n, 2 * e->harmonics + 1);
-  if (st == HC_OK) st = hbm_solver_new(&own, &hbm);
+  if (st == HC_OK) st = hbm_solver_new(own.model, &own.hbm, &hbm);
   if (st == HC_OK) st = hbm_trace(hbm, from, to, monitor, &curve);
   if (st != HC_INTERRUPTED && st != HC_NO_MEMORY && hbm) st = HC_OK; /* as far as it came */
   for (int i = 0; i < n && st == HC_OK; ++i) {
@@ -105,15 +108,16 @@ static hc_status solve_from(verify_solutions *s, hbm_solver *hbm, int i, double 
   return st == HC_NO_MEMORY ? st : HC_OK;
 }
 
-hc_status verify_solutions_near(const scene *sc, const verify_equations *e, const verify_solutions *near,
+hc_status verify_solutions_near(const compare_setup *setup, const verify_equations *e, const verify_solutions *near,
                                 const double *omega, verify_solutions *out)
 {
-  const scene own = verify_scene(sc, e);
+  model linear;
+  const compare_setup own = verify_setup(setup, e, &linear);
   hbm_solver *hbm = NULL;
   double *X = malloc((size_t)near->n_coef * sizeof *X);
   hc_status st = start(out, near->n, near->n_coef);
   if (!X) st = HC_NO_MEMORY;
-  if (st == HC_OK) st = hbm_solver_new(&own, &hbm);
+  if (st == HC_OK) st = hbm_solver_new(own.model, &own.hbm, &hbm);
   for (int i = 0; i < near->n && st == HC_OK; ++i) {
     bool close = i > 0 && omega[i] - omega[i - 1] <= close_omegas * omega[i];
     for (int k = near->first[i]; k < near->first[i + 1] && st == HC_OK; ++k)

@@ -20,20 +20,20 @@ typedef struct verify_solutions {
   double *X;           /* [count][n_coef] */
 } verify_solutions;
 
-/* sc with these equations for its own. */
-scene verify_scene(const scene *sc, const verify_equations *e);
+/* *setup with these equations for its own. Without contact, or with all of it stuck, its model is *linear. */
+compare_setup verify_setup(const compare_setup *setup, const verify_equations *e, model *linear);
 
 void verify_quantities(const hbm_measures *m, verify_solution *out);
 
 /* Along their response curve from `from` to `to`, as far as it comes. A solution that is not found is none.
  * HC_INTERRUPTED, HC_NO_MEMORY, or why there are no such equations. */
-hc_status verify_solutions_of(const scene *sc, const verify_equations *e, double from, double to, int n,
+hc_status verify_solutions_of(const compare_setup *setup, const verify_equations *e, double from, double to, int n,
                               const double *omega, const hc_monitor *monitor, verify_solutions *out);
 
 /* By Newton from the solutions `near` of equations with as many harmonics at the same omegas, and from those at the
  * omega before if that is close: sampled equations from exact ones, at a small part of what their curve would cost.
  * omega[] ascends. */
-hc_status verify_solutions_near(const scene *sc, const verify_equations *e, const verify_solutions *near,
+hc_status verify_solutions_near(const compare_setup *setup, const verify_equations *e, const verify_solutions *near,
                                 const double *omega, verify_solutions *out);
 
 void verify_solutions_clear(verify_solutions *s);

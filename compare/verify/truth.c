@@ -7,15 +7,17 @@
 #include <string.h>
 
 #include "compare/frequencies.h"
+#include "compare/gate_limits.h"
 #include "compare/verify/solutions.h"
 
 enum { LEAST_HARMONICS = 20, ENOUGH_HARMONICS = 80, MOST_CHECKS = 20 };
 static const double far = 7; /* a little over 2 pi: mixed units are seen from there */
 
-void verify_window(const scene *sc, const verify_data *data, double *from, double *to)
+void verify_window(const compare_setup *setup, const verify_data *data, double *from, double *to)
 {
-  scene_list ends = {.n = 2, .v = {INFINITY, 0}};
-  const double low = fmin(sc->omega_from, sc->omega_to) / far, high = fmax(sc->omega_from, sc->omega_to) * far;
+  number_list ends = {.n = 2, .v = {INFINITY, 0}};
+  const double low = fmin(setup->omega_from, setup->omega_to) / far,
+               high = fmax(setup->omega_from, setup->omega_to) * far;
   for (int i = 0; i < data->n; ++i) {
     double omega = data->points[i].omega;
     if (omega < low || omega > high) continue;
@@ -23,16 +25,17 @@ void verify_window(const scene *sc, const verify_data *data, double *from, doubl
     ends.v[1] = fmax(ends.v[1], omega);
   }
   if (!(ends.v[0] <= ends.v[1])) ends.n = 0;
-  comparison_sweep(sc, &ends, from, to);
+  comparison_sweep(setup->omega_from, setup->omega_to, &ends, from, to);
 }
 
-double verify_gate(const scene *sc, verify_quantity q)
+double verify_gate(const compare_setup *setup, verify_quantity q)
 {
-  return q == VERIFY_HARMONIC_1 ? sc->gate.harmonic_1 : sc->gate.amplitude;
+  const discrepancy *most = &setup->limits->most;
+  return q == VERIFY_HARMONIC_1 ? most->harmonic_1 : most->amplitude;
 }
 
 typedef struct truth {
-  const scene *sc;
+  const compare_setup *setup;
   const verify_data *data;
   const hc_monitor *monitor;
   verify_report *out;
@@ -138,9 +141,9 @@ static hc_status check_row(truth *t, const verify_row *row)
   hc_status st = solve_at(t, row->omega, &at), found = HC_NOT_CONVERGED;
   int k = st == HC_OK ? nearest_of(t, &at, row->value, &m) : -1;
   if (k >= 0) {
-    int n_harm = hbm_n_harmonics(t->hbm);
-    timeint_state state = comparison_orbit_start(&m, n_harm, at.X + (size_t)k * at.n_coef, row->omega);
-    found = timeint_orbit(t->referee, row->omega, 1, &state, t->monitor, &orbit);
+    timeint_state state;
+    found = comparison_orbit_start(t->hbm, at.X + (size_t)k * at.n_coef, row->omega, &state);
+    if (found == HC_OK) found = timeint_orbit(t->referee, row->omega, 1, &state, t->monitor, &orbit);
     if (found == HC_INTERRUPTED || found == HC_NO_MEMORY) st = found;
   }
   hbm_curve_free(&at);
@@ -188,12 +191,13 @@ static hc_status judge_all(truth *t)
 static hc_status with_harmonics(truth *t, int harmonics)
 {
   const verify_equations e = {.keep_mean = true, .harmonics = harmonics};
-  const scene own = verify_scene(t->sc, &e);
+  model linear;
+  const compare_setup own = verify_setup(t->setup, &e, &linear);
   hbm_curve_free(&t->curve);
   t->curve = (hbm_curve){0};
   hbm_solver_free(t->hbm);
   t->hbm = NULL;
-  hc_status st = hbm_solver_new(&own, &t->hbm);
+  hc_status st = hbm_solver_new(own.model, &own.hbm, &t->hbm);
   if (st != HC_OK) return st;
   st = hbm_trace(t->hbm, t->from, t->to, t->monitor, &t->curve);
   t->curve.n_coef = 2 * harmonics + 1;
@@ -205,17 +209,18 @@ static hc_status with_harmonics(truth *t, int harmonics)
   return st == HC_OK ? check(t) : st;
 }
 
-hc_status verify_truth(const scene *sc, const verify_data *data, const hc_monitor *monitor, verify_report *out)
+hc_status verify_truth(const compare_setup *setup, const verify_data *data, const hc_monitor *monitor,
+                       verify_report *out)
 {
-  truth t = {.sc = sc, .data = data, .monitor = monitor, .out = out};
-  out->gate = verify_gate(sc, data->quantity);
+  truth t = {.setup = setup, .data = data, .monitor = monitor, .out = out};
+  out->gate = verify_gate(setup, data->quantity);
   out->rows = calloc((size_t)data->n, sizeof *out->rows);
-  verify_window(sc, data, &t.from, &t.to);
-  hc_status st = out->rows ? comparison_referee(sc, &t.referee) : HC_NO_MEMORY;
-  int harmonics = 2 * sc->hbm.harmonics; /* 0 for auto */
-  harmonics = harmonics < LEAST_HARMONICS       ? LEAST_HARMONICS
-              : harmonics > SCENE_MAX_HARMONICS ? SCENE_MAX_HARMONICS
-                                                : harmonics;
+  verify_window(setup, data, &t.from, &t.to);
+  hc_status st = out->rows ? comparison_referee(setup, &t.referee) : HC_NO_MEMORY;
+  int harmonics = 2 * setup->hbm.harmonics; /* 0 for auto */
+  harmonics = harmonics < LEAST_HARMONICS     ? LEAST_HARMONICS
+              : harmonics > HBM_MAX_HARMONICS ? HBM_MAX_HARMONICS
+                                              : harmonics;
   for (bool again = true; again && st == HC_OK; harmonics *= 2) {
     st = with_harmonics(&t, harmonics);
     again = out->checked_error > 0.1 * out->gate && 2 * harmonics <= ENOUGH_HARMONICS;

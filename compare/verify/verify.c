@@ -60,14 +60,14 @@ static int differing(const verify_report *r)
   return n;
 }
 
-hc_status verify_run(const scene *sc, const verify_data *data, const hc_monitor *monitor, verify_report *out)
+hc_status verify_run(const compare_setup *setup, const verify_data *data, const hc_monitor *monitor, verify_report *out)
 {
   *out = (verify_report){.truth_distance = NAN};
-  hc_status st = verify_truth(sc, data, monitor, out);
+  hc_status st = verify_truth(setup, data, monitor, out);
   int off = differing(out);
   if (off == 0 && mark_hops(out)) out->causes = CAUSE_OTHER_BRANCH;
   else if (off == 0 && only_unstable(out)) out->causes = CAUSE_UNSTABLE;
-  if (st == HC_OK && off >= VERIFY_LEAST_DIFFERING) st = verify_search(sc, data, monitor, out);
+  if (st == HC_OK && off >= VERIFY_LEAST_DIFFERING) st = verify_search(setup, data, monitor, out);
   if (verify_fits(out)) out->causes = out->hypotheses[0].causes;
   for (int i = 0; i < out->n_rows; ++i) ++out->count[out->rows[i].verdict];
   return out->status = st;

@@ -14,9 +14,9 @@
 #define HC_VERIFY_H
 
 #include "base/status.h"
+#include "compare/compare_settings.h"
 #include "compare/comparison.h"
 #include "compare/verify/csv.h"
-#include "model/scene.h"
 
 /* One bit each: what can have been done to a curve. Words for scripts, and for people. */
 #define VERIFY_CAUSE_LIST(X)                                                                                           \
@@ -106,7 +106,8 @@ typedef struct verify_report {
 } verify_report;
 
 /* HC_INTERRUPTED, HC_NO_MEMORY, or why there is no truth; rows found until then are kept. verify_clear in any case. */
-hc_status verify_run(const scene *sc, const verify_data *data, const hc_monitor *monitor, verify_report *out);
+hc_status verify_run(const compare_setup *setup, const verify_data *data, const hc_monitor *monitor,
+                     verify_report *out);
 void verify_clear(verify_report *r);
 
 /* The cause in a sentence, or that there is none: in text[VERIFY_TEXT], which is returned. */

@@ -14,8 +14,8 @@ static inline scene exact_reference_scene(const char *name, int n_harm)
   sc.hbm.force = HBM_FORCE_EXACT;
   sc.hbm.tolerance = 1e-12;
   sc.hbm.skip_linear = true;
-  sc.transient =
-      (scene_transient){.law = TRANSIENT_LAW_EXACT, .regularisation = 1e-4, .tolerance = 1e-10, .max_periods = 20000};
+  sc.transient = (transient_settings){
+      .law = TRANSIENT_LAW_EXACT, .regularisation = 1e-4, .tolerance = 1e-10, .max_periods = 20000};
   return sc;
 }
 
@@ -54,7 +54,7 @@ static inline timeint_state orbit_start(hbm_solver *s, int n_harm, const double 
     state.x += X[2 * h - 1];
     state.v += h * omega * X[2 * h];
   }
-  memcpy(state.w, m.contact.w, sizeof state.w);
+  assert_int_equal(hbm_sliders(s, X, state.w), HC_OK);
   return state;
 }
 

@@ -7,6 +7,7 @@
 
 #include <string.h>
 
+#include "campaigns/scene_solvers.h"
 #include "cases/case_file.h"
 #include "hbm/hbm.h"
 #include "timeint/timeint.h"
@@ -35,7 +36,7 @@ typedef struct response {
 static inline response response_of(const scene *sc)
 {
   response r = {0};
-  assert_int_equal(hbm_solver_new(sc, &r.s), HC_OK);
+  assert_int_equal(scene_hbm_solver(sc, &r.s), HC_OK);
   hc_status st = hbm_trace(r.s, sc->omega_from, sc->omega_to, NULL, &r.curve);
   if (st != HC_OK)
     fail_msg("%s: %s at %.17g", sc->title, hc_status_text(st),

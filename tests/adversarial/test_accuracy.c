@@ -1,6 +1,8 @@
 /* test_accuracy.c - how good is harmonic balance with exact forces and 30 harmonics? Held against the exact
  * transient at every reference row. */
+#include "campaigns/scene_solvers.h"
 #include "tests/adversarial/reference_scenes.h"
+#include "tests/scene_parts.h"
 
 static steady_reference rows[N_STEADY_REFERENCES];
 
@@ -28,7 +30,7 @@ static const double GRAZING = 1e-2;
 static double clearance(const scene *sc, const steady_reference *r)
 {
   double c, s, gap = sc->contacts[0].law.gap;
-  scene_projection(&sc->contacts[0], &c, &s);
+  scene_direction(&sc->contacts[0], &c, &s);
   return fmin(fabs(r->max * s + gap), fabs(r->min * s + gap)) / fabs(gap);
 }
 
@@ -74,8 +76,8 @@ static accuracy_of accuracy_at(const char *name, double from, double to, int n_h
   hbm_solver *s;
   timeint *ti;
   hbm_curve curve = {0};
-  assert_int_equal(hbm_solver_new(&sc, &s), HC_OK);
-  assert_int_equal(timeint_new(&sc, &ti), HC_OK);
+  assert_int_equal(scene_hbm_solver(&sc, &s), HC_OK);
+  assert_int_equal(scene_timeint(&sc, &ti), HC_OK);
   assert_int_equal(hbm_trace(s, from, to, NULL, &curve), HC_OK);
   for (int i = 0; i < N_STEADY_REFERENCES; ++i) {
     if (strcmp(rows[i].name, name)) continue;

@@ -1,6 +1,7 @@
 /* test_contacts.c - the scenes of cases/adversarial about single contacts, by harmonic balance: what must come out,
  * from closed forms or from a scene that is the same in another guise. What both solvers say together:
  * test_verdicts.c. */
+#include "campaigns/scene_solvers.h"
 #include "tests/adversarial/scenes.h"
 
 /* Newton is quadratic: once hbm.tolerance, 1e-10 of the forces, is met the error is its square, and what is left is
@@ -139,7 +140,7 @@ static void friction_from_none_to_too_much(void **state)
   same_answers(&large, &huge, 1, SOLVED);
   hbm_solver *s;
   hbm_curve curve = {0};
-  assert_int_equal(hbm_solver_new(&beyond, &s), HC_OK);
+  assert_int_equal(scene_hbm_solver(&beyond, &s), HC_OK);
   assert_int_equal(hbm_trace(s, beyond.omega_from, beyond.omega_to, NULL, &curve), HC_NOT_FINITE);
   hbm_curve_free(&curve);
   hbm_solver_free(s);
@@ -166,7 +167,7 @@ static void gap_0_vibrates_at_its_bilinear_frequency(void **state)
   timeint_result r;
   const double omega = 2 * 8 * 24 / (8.0 + 24);
   timeint_state y = {.x = 0, .v = 1};
-  assert_int_equal(timeint_new(&sc, &ti), HC_OK);
+  assert_int_equal(scene_timeint(&sc, &ti), HC_OK);
   assert_int_equal(timeint_steady(ti, omega, &y, NULL, &r), HC_NOT_SETTLED);
   CHECK_NEAR(y.x * omega, 0, 1e-9, "x after a period");
   CHECK_NEAR(y.v, 1, 1e-9, "velocity after a period");

@@ -1,6 +1,7 @@
 /* test_curves.c - the scenes of cases/adversarial about response curves and motions as a whole: resonance with next
  * to no damping, sweeps that end on a fold or run downwards, branches that only one direction reaches, the most
  * harmonics, nothing at all. */
+#include "campaigns/scene_solvers.h"
 #include "tests/adversarial/scenes.h"
 
 #include <complex.h>
@@ -14,7 +15,7 @@ static void resonance_has_its_closed_form(void **state)
   (void)state;
   scene sc = load("zeta_1e-6", NULL);
   timeint *ti;
-  assert_int_equal(timeint_new(&sc, &ti), HC_OK);
+  assert_int_equal(scene_timeint(&sc, &ti), HC_OK);
   for (int i = 0; i < sc.compare.omega.n; ++i) {
     double w = sc.compare.omega.v[i];
     double complex x = sc.force / (sc.stiffness - sc.mass * w * w + I * sc.damping * w);
@@ -64,7 +65,7 @@ static int folds(const scene *sc, hbm_special *out, int cap)
   hbm_curve curve = {0};
   hbm_special all[32];
   int n, found = 0;
-  assert_int_equal(hbm_solver_new(sc, &s), HC_OK);
+  assert_int_equal(scene_hbm_solver(sc, &s), HC_OK);
   assert_int_equal(hbm_trace(s, sc->omega_from, sc->omega_to, NULL, &curve), HC_OK);
   assert_int_equal(hbm_specials(s, &curve, 32, all, &n), HC_OK);
   assert_true(n <= 32);
@@ -90,7 +91,7 @@ static void a_sweep_that_ends_on_a_fold(void **state)
     hbm_solver *s;
     hbm_curve curve = {0};
     sc.omega_to = fold[0].omega * (1 + beside[i]);
-    assert_int_equal(hbm_solver_new(&sc, &s), HC_OK);
+    assert_int_equal(scene_hbm_solver(&sc, &s), HC_OK);
     assert_int_equal(hbm_trace(s, sc.omega_from, sc.omega_to, NULL, &curve), HC_OK);
     const hbm_point *last = &curve.points[curve.n - 1];
     assert_true(last->omega == sc.omega_to);
@@ -131,7 +132,7 @@ static void both_directions_reach_their_branch(void **state)
   for (int down = 0; down < 2; ++down) {
     timeint *ti;
     timeint_result r;
-    assert_int_equal(timeint_new(&sc, &ti), HC_OK);
+    assert_int_equal(scene_timeint(&sc, &ti), HC_OK);
     timeint_state y = timeint_rest(ti);
     assert_int_equal(timeint_sweep(ti, down ? sc.omega_to : sc.omega_from, 16, &y, NULL), HC_OK);
     assert_int_equal(timeint_steady(ti, 16, &y, NULL, &r), HC_OK);

@@ -1,5 +1,6 @@
 /* test_units.c - a change of units changes no answer: lengths, forces and times of a scene multiplied, its answers
  * multiplied alike. Any absolute constant left in a solver shows here. */
+#include "campaigns/scene_solvers.h"
 #include "tests/adversarial/reference_scenes.h"
 
 typedef struct units {
@@ -50,7 +51,7 @@ typedef struct run {
 static run traced_scene(const scene *sc)
 {
   run r = {0};
-  assert_int_equal(hbm_solver_new(sc, &r.s), HC_OK);
+  assert_int_equal(scene_hbm_solver(sc, &r.s), HC_OK);
   assert_int_equal(hbm_trace(r.s, sc->omega_from, sc->omega_to, NULL, &r.curve), HC_OK);
   return r;
 }
@@ -174,8 +175,8 @@ static double transients_apart(const reference_scene *r, int law, const units *u
   run from = traced_scene(&sc);
   timeint *a, *b;
   double worst = 0, last = 0;
-  assert_int_equal(timeint_new(&sc, &a), HC_OK);
-  assert_int_equal(timeint_new(&other, &b), HC_OK);
+  assert_int_equal(scene_timeint(&sc, &a), HC_OK);
+  assert_int_equal(scene_timeint(&other, &b), HC_OK);
   for (int i = 0; i < n_rows; ++i) {
     if (strcmp(rows[i].name, r->name) || rows[i].n_harm != 10 || !rows[i].keep_mean || rows[i].omega == last) continue;
     last = rows[i].omega;

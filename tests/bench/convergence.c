@@ -4,6 +4,7 @@
  * against the same orbit. Errors are relative: of |a1 + i b1|, of a1 + i b1 in the plane, of the amplitude (max -
  * min)/2, and the largest of x over the period. An order is log(error before/error)/log(ratio of H, or of the
  * regularisation). */
+#include "campaigns/scene_solvers.h"
 #include "hbm/series.h"
 #include "tests/bench/orbits.h"
 
@@ -46,7 +47,7 @@ static void solve_with(scene sc, int H, double omega, double *X, hbm_measures *m
   hbm_solver *s = NULL;
   hbm_point point;
   sc.hbm.harmonics = H;
-  must(hbm_solver_new(&sc, &s), "harmonic balance");
+  must(scene_hbm_solver(&sc, &s), "harmonic balance");
   must(hbm_solve(s, omega, X, &point), "harmonic balance");
   must(hbm_measure(s, X, m), "harmonic balance");
   hbm_solver_free(s);
@@ -54,10 +55,10 @@ static void solve_with(scene sc, int H, double omega, double *X, hbm_measures *m
 
 static void harmonics_of(const bench_case *c)
 {
-  double X[2 * SCENE_MAX_HARMONICS + 1] = {0}, e[LEVELS][MEASURES];
+  double X[2 * HBM_MAX_HARMONICS + 1] = {0}, e[LEVELS][MEASURES];
   hbm_measures m;
-  largest_solution(&c->sc, c->omega, X, &m);
-  timeint_state start = comparison_orbit_start(&m, c->sc.hbm.harmonics, X, c->omega);
+  timeint_state start;
+  largest_solution(&c->sc, c->omega, X, &m, &start);
   timeint_result ref = reference_orbit(c->sc, c->omega, start);
   for (int i = 0; i < LEVELS; ++i) {
     solve_with(c->sc, levels[i], c->omega, X, &m);
@@ -83,17 +84,17 @@ static timeint_result regularised_orbit(scene sc, double omega, timeint_state st
 {
   hc_status st = HC_NOT_CONVERGED;
   timeint_result r;
-  sc.transient = (scene_transient){.law = TRANSIENT_LAW_REGULARISED,
-                                   .regularisation = regularisation,
-                                   .richardson = richardson,
-                                   .steady = TRANSIENT_STEADY_SHOOTING,
-                                   .tolerance = 1e-11,
-                                   .start = TRANSIENT_START_HBM,
-                                   .max_periods = 20000};
+  sc.transient = (transient_settings){.law = TRANSIENT_LAW_REGULARISED,
+                                      .regularisation = regularisation,
+                                      .richardson = richardson,
+                                      .steady = TRANSIENT_STEADY_SHOOTING,
+                                      .tolerance = 1e-11,
+                                      .start = TRANSIENT_START_HBM,
+                                      .max_periods = 20000};
   for (; st == HC_NOT_CONVERGED && sc.transient.tolerance < 2e-10; sc.transient.tolerance *= 10) {
     timeint *ti = NULL;
     timeint_state y = start;
-    must(timeint_new(&sc, &ti), "transient");
+    must(scene_timeint(&sc, &ti), "transient");
     st = timeint_steady(ti, omega, &y, NULL, &r);
     timeint_free(ti);
     if (st == HC_OK && sc.transient.tolerance > 1.5e-11)

@@ -10,6 +10,7 @@
 #include <string.h>
 #include <time.h>
 
+#include "campaigns/scene_solvers.h"
 #include "cases/case_file.h"
 #include "hbm/hbm.h"
 
@@ -65,7 +66,7 @@ static int trace_both(const char *name, scene *sc)
   hbm_curve up = {0}, down = {0}, half = {0};
   double retrace = 0, halved = 0, t = now_ms(), low = fmin(sc->omega_from, sc->omega_to),
          high = fmax(sc->omega_from, sc->omega_to);
-  hc_status st = hbm_solver_new(sc, &s), back = HC_OK;
+  hc_status st = scene_hbm_solver(sc, &s), back = HC_OK;
   if (st == HC_OK) st = hbm_trace(s, low, high, NULL, &up);
   t = now_ms() - t;
   if (st == HC_OK) back = hbm_trace(s, high, low, NULL, &down);

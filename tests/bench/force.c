@@ -13,6 +13,7 @@
 #include <string.h>
 #include <time.h>
 
+#include "campaigns/scene_solvers.h"
 #include "cases/case_file.h"
 #include "hbm/aft.h"
 #include "hbm/exact.h"
@@ -22,7 +23,7 @@ enum {
   MAX_CONFIGS = 256,
   MAX_ROUNDS = 101,
   VARIANTS = 64,
-  MAX_COEF = 2 * SCENE_MAX_HARMONICS + 1,
+  MAX_COEF = 2 * HBM_MAX_HARMONICS + 1,
   SCENES = 3,
   OMEGAS = 3,
   EXACT = 0
@@ -98,7 +99,7 @@ static void make_motions(const scene *sc, const bench_scene *b, int n_harm, moti
   hbm_curve curve = {0};
   with.hbm.harmonics = n_harm;
   with.hbm.force = HBM_FORCE_EXACT;
-  hc_status st = hbm_solver_new(&with, &s);
+  hc_status st = scene_hbm_solver(&with, &s);
   if (st == HC_OK) st = hbm_trace(s, with.omega_from, with.omega_to, NULL, &curve);
   if (st != HC_OK) die(b->name, st);
   *out = (motions){n_harm, 2 * n_harm + 1, NULL};
@@ -161,16 +162,13 @@ static void add_config(const scene *sc, int scene_index, int h, int n_time, int 
   if (n_configs == MAX_CONFIGS) die("too many configurations", HC_NO_MEMORY);
   config *c = &configs[n_configs++];
   scene used = split(sc, n_contacts);
-  moving_contact contacts[SCENE_MAX_CONTACTS];
   *c = (config){.scene = scene_index,
                 .n_harm = harmonics[h],
                 .n_time = n_time,
                 .n_contacts = n_contacts,
                 .m = &all_motions[scene_index][h],
                 .batch = 1};
-  exact_contacts_of(&used, contacts);
-  hc_status st = n_time ? aft_new(&used, c->n_harm, n_time, &c->sampled)
-                        : exact_new(c->n_harm, 1, n_contacts, contacts, &c->located);
+  hc_status st = n_time ? scene_aft(&used, c->n_harm, n_time, &c->sampled) : scene_exact(&used, c->n_harm, &c->located);
   if (st != HC_OK) die("workspace", st);
   for (int i = 0; i < 4; ++i) evaluate(c);
   double t = now_us();

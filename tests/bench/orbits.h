@@ -9,6 +9,7 @@
 #include <string.h>
 #include <time.h>
 
+#include "campaigns/scene_solvers.h"
 #include "compare/comparison.h"
 #include "tests/timeint/scenes.h"
 
@@ -42,25 +43,25 @@ static inline double median(int n, double *v)
 /* With harmonic balance over from..to: H harmonics, harmonic 0, exact forces. */
 static inline scene with_hbm(scene sc, int harmonics, double from, double to)
 {
-  sc.hbm = (scene_hbm){.harmonics = harmonics,
-                       .keep_mean = true,
-                       .force = HBM_FORCE_EXACT,
-                       .samples = 1024,
-                       .tolerance = 1e-12,
-                       .accuracy = 1e-4,
-                       .skip_linear = true};
+  sc.hbm = (hbm_settings){.harmonics = harmonics,
+                          .keep_mean = true,
+                          .force = HBM_FORCE_EXACT,
+                          .samples = 1024,
+                          .tolerance = 1e-12,
+                          .accuracy = 1e-4,
+                          .skip_linear = true};
   sc.omega_from = from;
   sc.omega_to = to;
   return sc;
 }
 
-/* The HBM solution of largest amplitude at omega, into X[2H+1]. */
-static inline void largest_solution(const scene *sc, double omega, double *X, hbm_measures *best)
+/* The HBM solution of largest amplitude at omega, into X[2H+1]; *start: x, v and sliders there at t = 0. */
+static inline void largest_solution(const scene *sc, double omega, double *X, hbm_measures *best, timeint_state *start)
 {
   hbm_solver *s = NULL;
   hbm_curve curve = {0}, at = {0};
   hbm_measures m;
-  must(hbm_solver_new(sc, &s), "harmonic balance");
+  must(scene_hbm_solver(sc, &s), "harmonic balance");
   must(hbm_trace(s, sc->omega_from, sc->omega_to, NULL, &curve), "response curve");
   must(hbm_curve_at(s, &curve, omega, &at), "response curve");
   best->amplitude = -1;
@@ -71,6 +72,7 @@ static inline void largest_solution(const scene *sc, double omega, double *X, hb
     memcpy(X, at.X + (size_t)k * at.n_coef, (size_t)at.n_coef * sizeof *X);
   }
   if (best->amplitude < 0) must(HC_NOT_CONVERGED, "no HBM solution");
+  must(comparison_orbit_start(s, X, omega, start), "HBM solution");
   hbm_curve_free(&at);
   hbm_curve_free(&curve);
   hbm_solver_free(s);
@@ -79,10 +81,11 @@ static inline void largest_solution(const scene *sc, double omega, double *X, hb
 /* x, v and sliders at t = 0 of that solution. */
 static inline timeint_state hbm_start(const scene *sc, double omega)
 {
-  double X[2 * SCENE_MAX_HARMONICS + 1];
+  double X[2 * HBM_MAX_HARMONICS + 1];
   hbm_measures m;
-  largest_solution(sc, omega, X, &m);
-  return comparison_orbit_start(&m, sc->hbm.harmonics, X, omega);
+  timeint_state start;
+  largest_solution(sc, omega, X, &m, &start);
+  return start;
 }
 
 /* With tolerance `tolerance` and the exact law, from *state, which becomes a point on the orbit. */
@@ -90,12 +93,12 @@ static inline hc_status exact_orbit(scene sc, double omega, int steady, double t
                                     timeint_result *r)
 {
   timeint *ti = NULL;
-  sc.transient = (scene_transient){.law = TRANSIENT_LAW_EXACT,
-                                   .steady = steady,
-                                   .tolerance = tolerance,
-                                   .regularisation = 1e-4,
-                                   .max_periods = 200000};
-  must(timeint_new(&sc, &ti), "reference");
+  sc.transient = (transient_settings){.law = TRANSIENT_LAW_EXACT,
+                                      .steady = steady,
+                                      .tolerance = tolerance,
+                                      .regularisation = 1e-4,
+                                      .max_periods = 200000};
+  must(scene_timeint(&sc, &ti), "reference");
   hc_status st = timeint_steady(ti, omega, state, NULL, r);
   timeint_free(ti);
   return st;

@@ -8,6 +8,7 @@
 #include <string.h>
 #include <time.h>
 
+#include "campaigns/scene_solvers.h"
 #include "hbm/hbm.h"
 
 enum { MAX_REPEATS = 1001, MAX_WAYS = 4, N_GROUPS = 4 };
@@ -38,27 +39,27 @@ static const group groups[N_GROUPS] = {
      {{"auto", 10, -1, HBM_CONTINUATION_AUTO, false}, {"arclength", 10, -1, HBM_CONTINUATION_ARCLENGTH, false}}},
     {"harmonics",
      4,
-     {{"auto", SCENE_AUTO, -1, HBM_CONTINUATION_AUTO, true},
+     {{"auto", HBM_AUTO, -1, HBM_CONTINUATION_AUTO, true},
       {"10", 10, -1, HBM_CONTINUATION_AUTO, true},
       {"20", 20, -1, HBM_CONTINUATION_AUTO, true},
       {"40", 40, -1, HBM_CONTINUATION_AUTO, true}}},
     {"samples",
      3,
-     {{"auto", 5, SCENE_AUTO, HBM_CONTINUATION_AUTO, true},
+     {{"auto", 5, HBM_AUTO, HBM_CONTINUATION_AUTO, true},
       {"1024", 5, 1024, HBM_CONTINUATION_AUTO, true},
       {"4096", 5, 4096, HBM_CONTINUATION_AUTO, true}}}};
 
 static scene with(scene sc, const way *w)
 {
-  sc.hbm = (scene_hbm){.harmonics = w->harmonics,
-                       .keep_mean = true,
-                       .force = w->samples < 0 ? HBM_FORCE_EXACT : HBM_FORCE_SAMPLED,
-                       .samples = w->samples < 0 ? 1024 : w->samples,
-                       .restart = HBM_RESTART_INTERPOLATED,
-                       .continuation = w->continuation,
-                       .tolerance = 1e-10,
-                       .accuracy = 1e-3,
-                       .skip_linear = w->skip_linear};
+  sc.hbm = (hbm_settings){.harmonics = w->harmonics,
+                          .keep_mean = true,
+                          .force = w->samples < 0 ? HBM_FORCE_EXACT : HBM_FORCE_SAMPLED,
+                          .samples = w->samples < 0 ? 1024 : w->samples,
+                          .restart = HBM_RESTART_INTERPOLATED,
+                          .continuation = w->continuation,
+                          .tolerance = 1e-10,
+                          .accuracy = 1e-3,
+                          .skip_linear = w->skip_linear};
   return sc;
 }
 
@@ -80,7 +81,7 @@ static void run_once(const scene *sc, result *r, int at)
   hbm_solver *s = NULL;
   hbm_curve c = {0};
   double t = now_ms();
-  r->status = hbm_solver_new(sc, &s);
+  r->status = scene_hbm_solver(sc, &s);
   if (r->status == HC_OK) r->status = hbm_trace(s, sc->omega_from, sc->omega_to, NULL, &c);
   r->ms[at] = now_ms() - t;
   r->evaluations = c.evaluations;

@@ -13,6 +13,7 @@
  * Richardson's other levels are always shot. Ways take turns, ROUNDS times; a time is the median of its rounds [ms
  * of processor], a ratio the median of ratios within a round to the way that is cheapest among those that met the
  * accuracy. The handle is made beforehand: one serves a whole sweep. */
+#include "campaigns/scene_solvers.h"
 #include "tests/bench/orbits.h"
 
 enum { WAYS = 5, ACCURACIES = 4, CASES = 3, MAX_ROUNDS = 101, HALF_DECADES = 15 };
@@ -71,14 +72,14 @@ static bool attempt(trial *t, const bench_case *c, const way *w, double toleranc
 {
   timeint_free(t->ti);
   t->sc = c->sc;
-  t->sc.transient = (scene_transient){.law = w->law,
-                                      .steady = w->steady,
-                                      .richardson = w->richardson,
-                                      .regularisation = regularisation,
-                                      .tolerance = tolerance,
-                                      .start = TRANSIENT_START_HBM,
-                                      .max_periods = 200000};
-  must(timeint_new(&t->sc, &t->ti), w->name);
+  t->sc.transient = (transient_settings){.law = w->law,
+                                         .steady = w->steady,
+                                         .richardson = w->richardson,
+                                         .regularisation = regularisation,
+                                         .tolerance = tolerance,
+                                         .start = TRANSIENT_START_HBM,
+                                         .max_periods = 200000};
+  must(scene_timeint(&t->sc, &t->ti), w->name);
   run(t, c, 0);
   return t->error <= accuracy;
 }
@@ -148,9 +149,9 @@ static void print_periods(const bench_case *c, int law, int most)
   timeint *ti = NULL;
   timeint_state y = c->start;
   timeint_result r;
-  sc.transient = (scene_transient){
+  sc.transient = (transient_settings){
       .law = law, .regularisation = 1e-4, .tolerance = 1e-9, .start = TRANSIENT_START_HBM, .max_periods = 20000};
-  must(timeint_new(&sc, &ti), c->name);
+  must(scene_timeint(&sc, &ti), c->name);
   must(timeint_steady(ti, c->omega, &y, NULL, &r), c->name);
   printf(
       "%s at %g from the HBM orbit (H = 5) to 1e-9, %s law: %d periods integrated by %s (asked: at most %d), closure "

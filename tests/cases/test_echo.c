@@ -43,10 +43,10 @@ static double random_in(const field *f, uint64_t *s)
   }
 }
 
-static void random_list(const field *f, scene_list *list, uint64_t *s)
+static void random_list(const field *f, number_list *list, uint64_t *s)
 {
   memset(list, 0, sizeof *list);
-  list->n = draw(s) % 8 ? draw_int(s, 1, 6) : SCENE_MAX_LIST;
+  list->n = draw(s) % 8 ? draw_int(s, 1, 6) : NUMBER_LIST_MAX;
   for (int i = 0; i < list->n; ++i)
     list->v[i] = f->kind == FIELD_INTEGERS ? draw_int(s, (int)f->low, (int)f->high) : random_in(f, s);
 }
@@ -71,7 +71,7 @@ static void random_field(const field *f, void *base, uint64_t *s)
   case FIELD_REAL: *(double *)to = random_in(f, s); break;
   case FIELD_PAIR: ((double *)to)[0] = random_in(f, s), ((double *)to)[1] = random_in(f, s); break;
   case FIELD_INTEGER:
-    *(int *)to = f->flags & FIELD_AUTO && draw(s) % 4 == 0 ? SCENE_AUTO : draw_int(s, (int)f->low, (int)f->high);
+    *(int *)to = f->flags & FIELD_AUTO && draw(s) % 4 == 0 ? HBM_AUTO : draw_int(s, (int)f->low, (int)f->high);
     break;
   case FIELD_FLAG: *(bool *)to = draw(s) % 2; break;
   case FIELD_CHOICE:
@@ -84,9 +84,9 @@ static void random_field(const field *f, void *base, uint64_t *s)
 }
 
 /* As many limits as ranges, each range from its lower end to its upper. */
-static void mend_gate_ranges(scene_gate_ranges *r)
+static void mend_gate_ranges(gate_ranges *r)
 {
-  scene_list *limits[] = {&r->amplitude, &r->harmonic_1, &r->mean, &r->waveform};
+  number_list *limits[] = {&r->amplitude, &r->harmonic_1, &r->mean, &r->waveform};
   if (r->omega.n % 2) r->omega.v[--r->omega.n] = 0;
   for (int i = 0; i < r->omega.n; i += 2)
     if (r->omega.v[i] > r->omega.v[i + 1]) r->omega.v[i + 1] = r->omega.v[i];
@@ -108,10 +108,10 @@ static void random_scene(scene *sc, uint64_t *s)
     for (int j = 0; in_contact && j < sc->n_contacts; ++j) random_field(f, &sc->contacts[j], s);
     if (!in_contact && !(f->flags & FIELD_NO_ECHO)) random_field(f, sc, s);
   }
-  mend_gate_ranges(&sc->gate_ranges);
+  mend_gate_ranges(&sc->gate.ranges);
   if (draw(s) % 2) sc->compare.points = 20;
   else memset(&sc->compare.omega, 0, sizeof sc->compare.omega);
-  if (sc->hbm.samples != SCENE_AUTO && sc->hbm.samples < 2 * sc->hbm.harmonics + 1)
+  if (sc->hbm.samples != HBM_AUTO && sc->hbm.samples < 2 * sc->hbm.harmonics + 1)
     sc->hbm.samples = 2 * sc->hbm.harmonics + 1;
   if (sc->omega_from == sc->omega_to) sc->omega_to = sc->omega_from > 1 ? 1 : 2;
 }

@@ -42,8 +42,8 @@ static void defaults_are_those_of_the_interface(void **state)
   assert_int_equal(sc.compare.samples.n, 4);
   assert_memory_equal(sc.compare.harmonics.v, harmonics, sizeof harmonics);
   assert_memory_equal(sc.compare.samples.v, samples, sizeof samples);
-  assert_true(sc.gate.amplitude == 1e-3 && sc.gate.harmonic_1 == 1e-3 && sc.gate.mean == 1e-3 &&
-              sc.gate.waveform == 5e-3);
+  assert_true(sc.gate.most.amplitude == 1e-3 && sc.gate.most.harmonic_1 == 1e-3 && sc.gate.most.mean == 1e-3 &&
+              sc.gate.most.waveform == 5e-3);
 }
 
 static void rows_are_sound(void **state)

@@ -34,8 +34,8 @@ static void everything_lands_where_it_belongs(void **state)
   const scene_contact *a = &sc.contacts[0], *b = &sc.contacts[1];
   assert_true(a->law.kt == 1 && a->law.kn == 2 && a->law.mu == 3 && a->angle_deg == 90 && a->law.gap == -5);
   assert_true(b->law.kt == 6 && b->law.kn == 7 && b->law.mu == 8 && b->angle_deg == 9 && b->law.gap == 0);
-  assert_true(sc.hbm.harmonics == SCENE_AUTO && !sc.hbm.keep_mean && sc.hbm.force == HBM_FORCE_EXACT &&
-              sc.hbm.samples == SCENE_AUTO);
+  assert_true(sc.hbm.harmonics == HBM_AUTO && !sc.hbm.keep_mean && sc.hbm.force == HBM_FORCE_EXACT &&
+              sc.hbm.samples == HBM_AUTO);
   assert_true(sc.hbm.restart == HBM_RESTART_SAMPLE && sc.hbm.continuation == HBM_CONTINUATION_ARCLENGTH &&
               sc.hbm.tolerance == 1e-8);
   assert_true(sc.transient.law == TRANSIENT_LAW_EXACT && sc.transient.regularisation == 1e-3 &&
@@ -44,7 +44,8 @@ static void everything_lands_where_it_belongs(void **state)
               sc.transient.tolerance == 1e-7);
   assert_true(sc.compare.points == 7 && sc.compare.harmonics.n == 1 && sc.compare.harmonics.v[0] == 2);
   assert_true(sc.compare.samples.n == 2 && sc.compare.samples.v[0] == 5 && sc.compare.samples.v[1] == 16);
-  assert_true(sc.gate.amplitude == 1 && sc.gate.harmonic_1 == 2 && sc.gate.mean == 3 && sc.gate.waveform == 4);
+  assert_true(sc.gate.most.amplitude == 1 && sc.gate.most.harmonic_1 == 2 && sc.gate.most.mean == 3 &&
+              sc.gate.most.waveform == 4);
 }
 
 static void harmless_forms_are_read(void **state)
@@ -156,7 +157,7 @@ static const mistake extra[] = {
     {"compare: {harmonics: [1, 201]}", "f:4:26: ", "integers 1..200"},
     {"compare: {samples: [2]}", "f:4:21: ", "integers 3.."},
     {"compare: {points: 0}", "f:4:19: ", "1..256"},
-    {"compare: {points: 257}", "f:4:19: ", "1..256"}, /* as many as a scene_list holds */
+    {"compare: {points: 257}", "f:4:19: ", "1..256"}, /* as many as a number_list holds */
     {"gate: {waveform: 0}", "f:4:18: ", "expected a number > 0"},
     {"gate: {iterations: -1}", "f:4:20: ", "gate.iterations is `-1`, expected an integer 0.."},
     {"gate: {amplitud: 1e-3}", "f:4:8: ", "did you mean `amplitude`?"},
@@ -245,10 +246,10 @@ static void too_many_are_refused(void **state)
   snprintf(text + n, sizeof text - n, "  - %s\n", CONTACT_1);
   refused(text, NULL, "f:21:5: ", "one contact too many, expected at most 16");
   n = (size_t)snprintf(text, sizeof text, "%scompare:\n  omega: [1", SMALLEST);
-  for (int i = 1; i < SCENE_MAX_LIST; ++i) n += (size_t)snprintf(text + n, sizeof text - n, ", %d", i);
+  for (int i = 1; i < NUMBER_LIST_MAX; ++i) n += (size_t)snprintf(text + n, sizeof text - n, ", %d", i);
   snprintf(text + n, sizeof text - n, "]\n");
   accepted(text, NULL, &sc);
-  assert_int_equal(sc.compare.omega.n, SCENE_MAX_LIST);
+  assert_int_equal(sc.compare.omega.n, NUMBER_LIST_MAX);
   snprintf(text + n, sizeof text - n, ", 3]\n");
   refused(text, NULL, "f:5:10: ", "compare.omega is a list of 257");
 }

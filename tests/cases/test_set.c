@@ -12,7 +12,7 @@ static void every_kind_can_be_set(void **state)
   accepted(ONE, " hbm.harmonics = 10 ", &sc);
   assert_int_equal(sc.hbm.harmonics, 10);
   accepted(ONE, "hbm.harmonics=auto", &sc);
-  assert_int_equal(sc.hbm.harmonics, SCENE_AUTO);
+  assert_int_equal(sc.hbm.harmonics, HBM_AUTO);
   accepted(ONE, "hbm.static=false", &sc);
   assert_false(sc.hbm.keep_mean);
   accepted(ONE, "hbm.force=exact", &sc);

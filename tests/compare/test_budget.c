@@ -10,6 +10,7 @@
 #define SANITIZED 0
 #endif
 #include "tests/hbm/scenes.h"
+#include "tests/scene_runs.h"
 
 static reference_row reference_rows[MAX_REFERENCE];
 static int n_reference;
@@ -19,8 +20,8 @@ static scene scene_of(const char *name, int n_harm)
   scene sc = scene_named(name, n_harm, true, 1024);
   sc.hbm.force = HBM_FORCE_EXACT;
   sc.transient =
-      (scene_transient){.law = TRANSIENT_LAW_EXACT, .regularisation = 1e-4, .tolerance = 1e-9, .max_periods = 200};
-  sc.gate = (scene_gate){1e-3, 1e-3, 1e-3, 5e-3};
+      (transient_settings){.law = TRANSIENT_LAW_EXACT, .regularisation = 1e-4, .tolerance = 1e-9, .max_periods = 200};
+  sc.gate.most = (discrepancy){1e-3, 1e-3, 1e-3, 5e-3};
   for (int i = 0; i < n_reference; ++i) {
     const reference_row *r = &reference_rows[i];
     if (strcmp(r->name, name) || r->n_harm != n_harm || !r->keep_mean) continue;
@@ -76,7 +77,7 @@ static tally run_all(const variant *v)
       sc.hbm.force = v->force, sc.hbm.samples = v->samples, sc.transient.law = v->law;
       if (v->law == TRANSIENT_LAW_REGULARISED)
         sc.transient.steady = TRANSIENT_STEADY_SHOOTING, sc.transient.tolerance = 1e-8;
-      assert_int_equal(comparison_run(&sc, NULL, &c), HC_OK);
+      assert_int_equal(scene_comparison_run(&sc, NULL, &c), HC_OK);
       for (int k = 0; k < c.n_rows; ++k) count_row(reference_scenes[i].name, n_harm, &c.rows[k], &t);
       comparison_clear(&c);
     }
@@ -123,7 +124,7 @@ static void expect_cause(const char *cause, const scene *sc, double visible_from
 {
   comparison c;
   int seen = 0;
-  assert_int_equal(comparison_run(sc, NULL, &c), HC_OK);
+  assert_int_equal(scene_comparison_run(sc, NULL, &c), HC_OK);
   for (int k = 0; k < c.n_rows; ++k) {
     const error_budget *b = &c.rows[k].budget;
     double share;
@@ -146,7 +147,7 @@ static scene known_scene(int n_harm)
 {
   scene sc = scene_of("c2", 10);
   sc.hbm.harmonics = n_harm;
-  sc.compare.omega = (scene_list){4, {6, 6.5, 7, 8}};
+  sc.compare.omega = (number_list){4, {6, 6.5, 7, 8}};
   return sc;
 }
 
@@ -190,7 +191,7 @@ static void a_loose_tolerance_is_integration_or_settling(void **state)
   sc.transient.tolerance = 1e-3;
   sc.transient.start = TRANSIENT_START_REST;
   sc.transient.steady = TRANSIENT_STEADY_MARCH;
-  assert_int_equal(comparison_run(&sc, NULL, &c), HC_OK);
+  assert_int_equal(scene_comparison_run(&sc, NULL, &c), HC_OK);
   for (int k = 0; k < c.n_rows; ++k) {
     const error_budget *b = &c.rows[k].budget;
     double share;
@@ -209,20 +210,23 @@ static void advice_names_cause_and_remedy(void **state)
 {
   (void)state;
   scene sc = known_scene(3);
+  compare_setup setup;
   char text[BUDGET_TEXT];
+  assert_int_equal(scene_setup(&sc, &setup), HC_OK);
   error_budget b = budget_nothing();
-  assert_string_equal(budget_advice(&b, &sc, 3, text), "no orbit to account for");
+  assert_string_equal(budget_advice(&b, &setup, 1e-3, 3, text), "no orbit to account for");
   b.known = b.holds = true;
   b.amplitude = (budget_parts){
       .aliasing = 1e-4, .truncation = 8e-3, .regularisation = 0, .integration = 0, .settling = 0, .sum = 8.1e-3};
   /* 3 times cbrt(8) */
-  assert_string_equal(budget_advice(&b, &sc, 3, text), "0.81 %: truncation (99 %); use hbm.harmonics >= 6");
-  sc.hbm.keep_mean = false;
-  assert_string_equal(budget_advice(&b, &sc, 3, text), "0.81 %: truncation (99 %); use hbm.static: true");
+  assert_string_equal(budget_advice(&b, &setup, 1e-3, 3, text), "0.81 %: truncation (99 %); use hbm.harmonics >= 6");
+  setup.hbm.keep_mean = false;
+  assert_string_equal(budget_advice(&b, &setup, 1e-3, 3, text), "0.81 %: truncation (99 %); use hbm.static: true");
   b.amplitude.aliasing = 1, b.amplitude.sum = 1.008;
-  assert_string_equal(budget_advice(&b, &sc, 3, text), "1e+02 %: aliasing (99 %); use hbm.force: exact");
+  assert_string_equal(budget_advice(&b, &setup, 1e-3, 3, text), "1e+02 %: aliasing (99 %); use hbm.force: exact");
   b.amplitude = (budget_parts){.truncation = 1e-5, .sum = 1e-5};
-  assert_string_equal(budget_advice(&b, &sc, 3, text), "0.001 %: truncation (100 %); within the gate");
+  assert_string_equal(budget_advice(&b, &setup, 1e-3, 3, text), "0.001 %: truncation (100 %); within the gate");
+  scene_setup_clear(&setup);
 }
 
 int main(void)

@@ -6,6 +6,7 @@
 #include <kinsol/kinsol.h>
 #include <nvector/nvector_serial.h>
 
+#include "campaigns/scene_solvers.h"
 #include "hbm/hbm.h"
 #include "tests/faults/child.h"
 #include "tests/faults/small.h"
@@ -80,7 +81,7 @@ static void check_curve(const hbm_curve *c)
   enum { MOST = 7 };
   scene sc = small_scene(NULL);
   hbm_solver *fresh;
-  assert_int_equal(hbm_solver_new(&sc, &fresh), HC_OK);
+  assert_int_equal(scene_hbm_solver(&sc, &fresh), HC_OK);
   for (int k = 0; k < c->n; ++k) {
     double X[MOST], size = 0, moved = 0;
     hbm_point point;
@@ -107,14 +108,14 @@ static hc_status trace_with(fault f, int *n)
   hbm_curve curve = {0};
   double X[7], Y[7];
   doing("hbm_trace", &f);
-  assert_int_equal(hbm_solver_new(&sc, &s), HC_OK);
+  assert_int_equal(scene_hbm_solver(&sc, &s), HC_OK);
   kin = f;
   hc_status st = hbm_trace(s, 6, 7, NULL, &curve);
   long calls = kin.calls;
   kin = (fault){0};
   check_curve(&curve);
   if (st == HC_OK) CHECK_NEAR(curve.points[curve.n - 1].omega, 7, 1e-12, "%s", small_doing);
-  assert_int_equal(hbm_solver_new(&sc, &fresh), HC_OK);
+  assert_int_equal(scene_hbm_solver(&sc, &fresh), HC_OK);
   solved_at_6_5(s, X);
   solved_at_6_5(fresh, Y);
   assert_memory_equal(X, Y, sizeof X);
@@ -175,7 +176,7 @@ static void find_orbits(void)
     scene sc = small_scene(law ? exactly : smoothly);
     timeint *ti;
     timeint_result r;
-    assert_int_equal(timeint_new(&sc, &ti), HC_OK);
+    assert_int_equal(scene_timeint(&sc, &ti), HC_OK);
     near_orbit[law] = timeint_rest(ti);
     assert_int_equal(timeint_steady(ti, 6.5, &near_orbit[law], NULL, &r), HC_OK);
     near_orbit[law].x *= 1.001;
@@ -192,7 +193,7 @@ static hc_status steady_with(int law, fault f, fault *which, timeint_result *r)
   scene sc = small_scene(law ? exactly : smoothly);
   timeint *ti;
   timeint_result again;
-  assert_int_equal(timeint_new(&sc, &ti), HC_OK);
+  assert_int_equal(scene_timeint(&sc, &ti), HC_OK);
   timeint_state y = near_orbit[law], start = y;
   *which = f;
   hc_status st = timeint_steady(ti, 6.5, &y, NULL, r);

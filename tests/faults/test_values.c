@@ -2,11 +2,12 @@
  * right-hand side of the regularised law (timeint/model.c), with the status of a good evaluation or the one it owes:
  * no hang, no wrong answer, and the handle is not poisoned: asked again it answers what a new one answers, bit for
  * bit. */
+#include "campaigns/scene_solvers.h"
 #include "hbm/aft.h"
 #include "hbm/exact.h"
 #include "hbm/hbm.h"
 #include "tests/faults/small.h"
-#include "timeint/model.h"
+#include "timeint/scaled.h"
 #include "timeint/timeint.h"
 
 enum { H3 = 7 /* coefficients of three harmonics */ };
@@ -51,13 +52,13 @@ hc_status __wrap_aft_eval(aft *a, const double *X, double *F, double *jac, conta
   return strikes() ? spoil(F, jac) : st;
 }
 
-bool __real_model_rhs(const model *m, double theta, const double *y, double *dy);
-bool __wrap_model_rhs(const model *m, double theta, const double *y, double *dy);
-bool __wrap_model_rhs(const model *m, double theta, const double *y, double *dy)
+bool __real_scaled_rhs(const scaled_model *m, double theta, const double *y, double *dy);
+bool __wrap_scaled_rhs(const scaled_model *m, double theta, const double *y, double *dy);
+bool __wrap_scaled_rhs(const scaled_model *m, double theta, const double *y, double *dy)
 {
-  bool finite = __real_model_rhs(m, theta, y, dy);
+  bool finite = __real_scaled_rhs(m, theta, y, dy);
   if (!strikes()) return finite;
-  dy[MODEL_P] = now.value;
+  dy[SCALED_P] = now.value;
   return !now.honest;
 }
 
@@ -84,7 +85,7 @@ static hc_status trace_with(const char *const *set, poison p, const hbm_curve *r
   scene sc = small_scene(set);
   hbm_solver *s;
   hbm_curve c;
-  assert_int_equal(hbm_solver_new(&sc, &s), HC_OK);
+  assert_int_equal(scene_hbm_solver(&sc, &s), HC_OK);
   now = p;
   doing(set == located ? "exact forces" : "sampled forces");
   hc_status st = traced(s, &c);
@@ -115,7 +116,7 @@ static void poisoned_force(const char *const *set)
   hbm_solver *s;
   hbm_curve right;
   now = (poison){0};
-  assert_int_equal(hbm_solver_new(&sc, &s), HC_OK);
+  assert_int_equal(scene_hbm_solver(&sc, &s), HC_OK);
   assert_int_equal(traced(s, &right), HC_OK);
   const long most = now.calls, at[] = {1, 2, 3, 4, 5, most / 2, most / 2 + 1, most - 1, most};
   static const double values[] = {NAN, INFINITY, -INFINITY, 1e308};
@@ -158,7 +159,7 @@ static void right_hand_side(void **state)
   scene sc = small_scene(smoothly);
   timeint *ti;
   timeint_result right, r;
-  assert_int_equal(timeint_new(&sc, &ti), HC_OK);
+  assert_int_equal(scene_timeint(&sc, &ti), HC_OK);
   timeint_state orbit = timeint_rest(ti);
   now = (poison){0};
   assert_int_equal(timeint_steady(ti, 6.5, &orbit, NULL, &r), HC_OK);

@@ -86,14 +86,14 @@ void place_is_inside(const char *words, const char *name, const char *text, size
 
 static void number_is_in_range(const field *f, double x)
 {
-  if (f->flags & FIELD_AUTO && x == SCENE_AUTO) return;
+  if (f->flags & FIELD_AUTO && x == HBM_AUTO) return;
   must(isfinite(x) && x >= f->low && x <= f->high && !(f->flags & FIELD_OPEN && x == f->low),
        "%s.%s = %.17g is outside its range", f->section, f->name, x);
 }
 
-static void list_is_in_range(const field *f, const scene_list *list)
+static void list_is_in_range(const field *f, const number_list *list)
 {
-  must(list->n >= 0 && list->n <= SCENE_MAX_LIST, "%s.%s has %d entries", f->section, f->name, list->n);
+  must(list->n >= 0 && list->n <= NUMBER_LIST_MAX, "%s.%s has %d entries", f->section, f->name, list->n);
   for (int i = 0; i < list->n; ++i) {
     number_is_in_range(f, list->v[i]);
     must(f->kind != FIELD_INTEGERS || list->v[i] == rint(list->v[i]), "%s.%s has %.17g among integers", f->section,
@@ -141,12 +141,12 @@ void scene_is_in_range(const scene *sc)
     if (!(f->flags & FIELD_IN_CONTACT)) field_is_in_range(f, sc);
     for (int j = 0; f->flags & FIELD_IN_CONTACT && j < sc->n_contacts; ++j) field_is_in_range(f, &sc->contacts[j]);
   }
-  const scene_hbm *h = &sc->hbm;
-  bool both_told = h->harmonics != SCENE_AUTO && h->samples != SCENE_AUTO;
+  const hbm_settings *h = &sc->hbm;
+  bool both_told = h->harmonics != HBM_AUTO && h->samples != HBM_AUTO;
   must(sc->omega_from != sc->omega_to, "the sweep stands still");
   must(h->force != HBM_FORCE_SAMPLED || !both_told || h->samples >= 2 * h->harmonics + 1, "%d samples for %d harmonics",
        h->samples, h->harmonics);
-  must(sc->gate_ranges.omega.n % 2 == 0, "half a range");
+  must(sc->gate.ranges.omega.n % 2 == 0, "half a range");
 }
 
 void scene_echoes(const scene *sc)

@@ -13,6 +13,7 @@ enum { EXACT_MAX_HARM = 60, EXACT_MAX_COEF = 2 * (2 * EXACT_MAX_HARM + 1), EXACT
 typedef struct evaluation {
   double F[EXACT_MAX_COEF];
   contact_report report;
+  double w[SCENE_MAX_CONTACTS]; /* sliders at th = 0 */
   int n_pieces[SCENE_MAX_CONTACTS];
   contact_piece piece[EXACT_MAX_PIECES]; /* of contact 0 */
 } evaluation;
@@ -30,16 +31,15 @@ static inline void evaluate(int n_harm, int n_dof, int n_contacts, const moving_
     assert_true(out->n_pieces[j] <= EXACT_MAX_PIECES);
     if (j == 0) memcpy(out->piece, p, (size_t)out->n_pieces[0] * sizeof *p);
   }
+  exact_sliders(e, out->w);
   exact_free(e);
 }
 
 static inline moving_contact contact_at(contact law, double angle_deg)
 {
-  scene sc = {.n_contacts = 1};
-  moving_contact c[SCENE_MAX_CONTACTS];
-  sc.contacts[0] = (scene_contact){law, angle_deg};
-  exact_contacts_of(&sc, c);
-  return c[0];
+  moving_contact c = {.law = law};
+  model_direction(angle_deg, &c.cu[0], &c.cv[0]);
+  return c;
 }
 
 /* Bounds of |u^(k)| and |v^(k)|, k = 0, 1, 2, and what u and v are (series). */

@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "model/scene.h"
+#include "cases/scene.h"
 #include "tests/check.h"
 
 typedef struct reference_scene {
@@ -42,13 +42,13 @@ static inline scene scene_named(const char *name, int n_harm, bool keep_mean, in
                 .omega_from = r->omega_from,
                 .omega_to = r->omega_to};
     sc.contacts[0] = (scene_contact){{r->kt, r->kn, 0.3, r->gap}, 45};
-    sc.hbm = (scene_hbm){.harmonics = n_harm,
-                         .keep_mean = keep_mean,
-                         .force = HBM_FORCE_SAMPLED,
-                         .samples = n_time,
-                         .restart = HBM_RESTART_INTERPOLATED,
-                         .continuation = HBM_CONTINUATION_AUTO,
-                         .tolerance = 1e-10};
+    sc.hbm = (hbm_settings){.harmonics = n_harm,
+                            .keep_mean = keep_mean,
+                            .force = HBM_FORCE_SAMPLED,
+                            .samples = n_time,
+                            .restart = HBM_RESTART_INTERPOLATED,
+                            .continuation = HBM_CONTINUATION_AUTO,
+                            .tolerance = 1e-10};
     return sc;
   }
   fail_msg("no scene %s", name);

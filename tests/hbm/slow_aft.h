@@ -5,6 +5,7 @@
 #define HC_TESTS_HBM_SLOW_AFT_H
 
 #include "tests/hbm/scenes.h"
+#include "tests/scene_parts.h"
 
 enum { SLOW_MAX_TIME = 4096, SLOW_PERIODS = 6 };
 
@@ -35,7 +36,7 @@ static inline void slow_contact(slow_aft *a, const scene *sc, int j, int n_time)
 {
   const contact *c = &sc->contacts[j].law;
   double co, si, w = 0, second = 0;
-  scene_projection(&sc->contacts[j], &co, &si);
+  scene_direction(&sc->contacts[j], &co, &si);
   bool stuck = true;
   char before = c->kn * (si * a->x[n_time - 1] + c->gap) > 0 ? 's' : '0';
   for (int period = 0; period < SLOW_PERIODS; ++period)
@@ -94,7 +95,7 @@ static inline void slow_force(slow_aft *a, const scene *sc, int n_harm, int n_ti
 static inline double slow_stiffness(const scene_contact *c)
 {
   double co, si;
-  scene_projection(c, &co, &si);
+  scene_direction(c, &co, &si);
   return 2 * co * (c->law.kt * co + c->law.mu * c->law.kn * si) + c->law.kn * si * si;
 }
 

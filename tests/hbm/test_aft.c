@@ -6,9 +6,11 @@
  * s^{m+1} J_m B_{m+1}(t) / ((m+1)! 2 pi), where |B_2| <= 1/6, |B_3| <= 0.0482, |B_4| <= 1/30, |B_5| <= 0.0245. With
  * g = f cos h th or f sin h th, f continuous and made of constants and A cos th: |jump of f^(j)| <= J of A's size
  * for j >= 1, hence |J_m| <= J ((1 + h)^m - h^m), and a tail falling like (1 + h) s/(2 pi). */
+#include "campaigns/scene_solvers.h"
 #include "hbm/aft.h"
 #include "hbm/series.h"
 #include "tests/hbm/slow_aft.h"
+#include "tests/scene_parts.h"
 
 static slow_aft slow; /* too large for a stack */
 
@@ -31,12 +33,18 @@ static scene one_contact(double kt, double kn, double mu, double gap, double ang
   return sc;
 }
 
-static hc_status eval_once(const scene *sc, int n_harm, int n_time, const double *X, double *F, double *jac,
-                           contact_report *report)
+/* What one evaluation in a workspace of its own tells. */
+typedef struct told {
+  contact_report report;
+  double w[SCENE_MAX_CONTACTS]; /* sliders at th = 0 */
+} told;
+
+static hc_status eval_once(const scene *sc, int n_harm, int n_time, const double *X, double *F, double *jac, told *out)
 {
   aft *a;
-  hc_status st = aft_new(sc, n_harm, n_time, &a);
-  if (st == HC_OK) st = aft_eval(a, X, F, jac, report);
+  hc_status st = scene_aft(sc, n_harm, n_time, &a);
+  if (st == HC_OK) st = aft_eval(a, X, F, jac, out ? &out->report : NULL);
+  if (st == HC_OK && out) aft_sliders(a, out->w);
   aft_free(a);
   return st;
 }
@@ -67,9 +75,9 @@ static void unilateral_spring(void **state)
         int N = sizes[i];
         double gap = gaps[j], shift = k * 0.37, X[2 * H + 1] = {0, A}, Y[2 * H + 1], F[2 * H + 1], G[2 * H + 1];
         scene sc = one_contact(2, kn, 0.3, gap, 90);
-        contact_report report;
+        told got;
         shift_motion(H, X, shift, Y);
-        assert_int_equal(eval_once(&sc, H, N, Y, F, NULL, &report), HC_OK);
+        assert_int_equal(eval_once(&sc, H, N, Y, F, NULL, &got), HC_OK);
         shift_motion(H, F, -shift, G);
         for (int h = 0; h <= H; ++h) {
           double exact = unilateral(h, kn, gap, A) - (h == 0 ? contact_preload(&sc.contacts[0].law) : 0);
@@ -77,8 +85,8 @@ static void unilateral_spring(void **state)
           CHECK_LE(hypot(G[h ? 2 * h - 1 : 0] - exact, h ? G[2 * h] : 0), bound, "N=%d gap=%g h=%d shift=%g", N, gap, h,
                    shift);
         }
-        assert_int_equal(report.regime, CONTACT_SEPARATES);
-        assert_int_equal(report.transitions, 2);
+        assert_int_equal(got.report.regime, CONTACT_SEPARATES);
+        assert_int_equal(got.report.transitions, 2);
       }
 }
 
@@ -123,9 +131,9 @@ static void jenkins_element(void **state)
     for (int j = 0; j < 8; ++j) {
       int N = sizes[i];
       double s = 2 * PI / N, shift = j * s / 8, X[2 * H + 1] = {0, A}, Y[2 * H + 1], F[2 * H + 1], G[2 * H + 1];
-      contact_report report;
+      told got;
       shift_motion(H, X, shift, Y);
-      assert_int_equal(eval_once(&sc, H, N, Y, F, NULL, &report), HC_OK);
+      assert_int_equal(eval_once(&sc, H, N, Y, F, NULL, &got), HC_OK);
       shift_motion(H, F, -shift, G);
       for (int h = 0; h <= H; ++h) {
         double a = h % 2 ? jenkins(h, false, k, A, fc) : 0, b = h % 2 ? jenkins(h, true, k, A, fc) : 0;
@@ -137,8 +145,8 @@ static void jenkins_element(void **state)
         CHECK_LE(hypot(G[h ? 2 * h - 1 : 0] - a, h ? G[2 * h] - b : 0), bound, "N=%d h=%d shift %d/8 step", N, h, j);
       }
 
-      assert_int_equal(report.regime, CONTACT_SLIPS);
-      assert_int_equal(report.transitions, 4);
+      assert_int_equal(got.report.regime, CONTACT_SLIPS);
+      assert_int_equal(got.report.transitions, 4);
     }
 }
 
@@ -152,7 +160,7 @@ static double case_2_error(int restart, int n_time)
   sc.hbm.restart = restart;
   double worst = 0;
   aft *a;
-  assert_int_equal(aft_new(&sc, 1, n_time, &a), HC_OK);
+  assert_int_equal(scene_aft(&sc, 1, n_time, &a), HC_OK);
   for (int k = 0; k < 64 * 32; ++k) {
     double X[3] = {-1, 10 + k % 32 / 320.0, 0}, Y[3], F[3], G[3], shift = k / 32 * 2 * PI / n_time / 64;
     double exact = unilateral(1, 550, X[0] + sc.contacts[0].law.gap / sqrt(0.5), X[1]);
@@ -213,8 +221,8 @@ static void agrees_with_the_slow_way(void **state)
       scene sc = random_contacts(&seed, 1 + trial % 4);
       sc.hbm.restart = trial % 2 ? HBM_RESTART_SAMPLE : HBM_RESTART_INTERPOLATED;
       random_motion(&seed, H, 1, trial % 3, X);
-      contact_report report;
-      assert_int_equal(eval_once(&sc, H, N, X, F, NULL, &report), HC_OK);
+      told got;
+      assert_int_equal(eval_once(&sc, H, N, X, F, NULL, &got), HC_OK);
       slow_force(&slow, &sc, H, N, X, slowF);
       double tolerance = slow_tolerance(&sc, H, N, X);
       for (int p = 0; p < 2 * H + 1; ++p)
@@ -222,9 +230,9 @@ static void agrees_with_the_slow_way(void **state)
       for (int j = 0; j < sc.n_contacts; ++j) {
         const contact *c = &sc.contacts[j].law; /* w = u - T/kt: stiffness of F over kt; kt = 0 leaves w free */
         if (c->kt > 0)
-          CHECK_NEAR(report.w[j], slow.w[j], tolerance / c->kt + tolerance, "w, H=%d N=%d trial %d", H, N, trial);
+          CHECK_NEAR(got.w[j], slow.w[j], tolerance / c->kt + tolerance, "w, H=%d N=%d trial %d", H, N, trial);
       }
-      ++regimes[report.regime];
+      ++regimes[got.report.regime];
     }
   for (int r = CONTACT_STUCK; r <= CONTACT_SEPARATES; ++r) assert_true(regimes[r] > 0); /* the cases cover them */
 }
@@ -269,7 +277,7 @@ static void contacts_add(void **state)
     scene sc = random_contacts(&seed, trial % 10 ? 4 : SCENE_MAX_CONTACTS);
     double stiffness = 0;
     random_motion(&seed, H, 1, 1, X);
-    contact_report all, single;
+    told all, single;
     assert_int_equal(eval_once(&sc, H, N, X, F, jac, &all), HC_OK);
     memset(sum, 0, sizeof sum);
     memset(jac_sum, 0, sizeof jac_sum);
@@ -282,8 +290,8 @@ static void contacts_add(void **state)
       assert_int_equal(eval_once(&alone, H, N, X, G, one, &single), HC_OK);
       for (int p = 0; p < N_COEF; ++p) sum[p] += G[p];
       for (int p = 0; p < N_COEF * N_COEF; ++p) jac_sum[p] += one[p];
-      transitions += single.transitions;
-      if (single.regime > strongest) strongest = single.regime;
+      transitions += single.report.transitions;
+      if (single.report.regime > strongest) strongest = single.report.regime;
       assert_true(single.w[0] == all.w[j]);
       stiffness += slow_stiffness(&sc.contacts[j]);
     }
@@ -292,8 +300,8 @@ static void contacts_add(void **state)
     /* symbol by FFT, then sums over up to N/2 stick intervals of both */
     for (int p = 0; p < N_COEF * N_COEF; ++p)
       CHECK_NEAR(jac[p], jac_sum[p], 4 * (log2(N) + N) * DBL_EPSILON * stiffness, "trial %d, %d", trial, p);
-    assert_int_equal(transitions, all.transitions);
-    assert_int_equal(strongest, all.regime);
+    assert_int_equal(transitions, all.report.transitions);
+    assert_int_equal(strongest, all.report.regime);
   }
 }
 
@@ -303,26 +311,26 @@ static void linear_motions(void **state)
   (void)state;
   enum { H = 3, N = 16, N_COEF = 2 * H + 1 };
   double X[N_COEF] = {0.1, 0.5, -0.2, 0.1, 0, 0, 0.05}, F[N_COEF], jac[N_COEF * N_COEF];
-  contact_report report;
+  told got;
   scene sc = one_contact(2, 3, 0.3, -5, 45); /* |v| < 1: apart */
   for (int n = 0; n <= 1; ++n) {
     sc.n_contacts = n;
-    assert_int_equal(eval_once(&sc, H, N, X, F, jac, &report), HC_OK);
+    assert_int_equal(eval_once(&sc, H, N, X, F, jac, &got), HC_OK);
     for (int p = 0; p < N_COEF; ++p) assert_true(F[p] == 0);
     for (int p = 0; p < N_COEF * N_COEF; ++p) assert_true(jac[p] == 0);
-    assert_int_equal(report.regime, CONTACT_LINEAR);
-    assert_int_equal(report.transitions, 0);
+    assert_int_equal(got.report.regime, CONTACT_LINEAR);
+    assert_int_equal(got.report.transitions, 0);
   }
   sc.contacts[0].law.gap = 50; /* |T| <= 2 < 0.3 * 3 * 49: stuck at w = 0 */
-  assert_int_equal(eval_once(&sc, H, N, X, F, jac, &report), HC_OK);
+  assert_int_equal(eval_once(&sc, H, N, X, F, jac, &got), HC_OK);
   double k = scene_stuck_stiffness(&sc.contacts[0]), tolerance = slow_tolerance(&sc, H, N, X);
   for (int p = 0; p < N_COEF; ++p) {
     CHECK_NEAR(F[p], k * X[p], tolerance, "row %d", p);
     for (int q = 0; q < N_COEF; ++q)
       CHECK_NEAR(jac[p + N_COEF * q], p == q ? k : 0, 4 * log2(N) * DBL_EPSILON * k, "row %d column %d", p, q);
   }
-  assert_int_equal(report.regime, CONTACT_STUCK);
-  assert_true(report.w[0] == 0 && report.transitions == 0);
+  assert_int_equal(got.report.regime, CONTACT_STUCK);
+  assert_true(got.w[0] == 0 && got.report.transitions == 0);
 }
 
 static void bad_input(void **state)
@@ -330,14 +338,14 @@ static void bad_input(void **state)
   (void)state;
   scene sc = one_contact(2, 3, 0.3, -0.1, 45);
   aft *a = (aft *)&sc;
-  assert_int_equal(aft_new(&sc, 0, 16, &a), HC_BAD_INPUT);
+  assert_int_equal(scene_aft(&sc, 0, 16, &a), HC_BAD_INPUT);
   assert_null(a);
-  assert_int_equal(aft_new(&sc, SCENE_MAX_HARMONICS + 1, 4096, &a), HC_BAD_INPUT);
-  assert_int_equal(aft_new(&sc, 8, 16, &a), HC_BAD_INPUT); /* 2H + 1 = 17 are needed */
+  assert_int_equal(scene_aft(&sc, HBM_MAX_HARMONICS + 1, 4096, &a), HC_BAD_INPUT);
+  assert_int_equal(scene_aft(&sc, 8, 16, &a), HC_BAD_INPUT); /* 2H + 1 = 17 are needed */
   assert_null(a);
   aft_free(NULL);
   static const double bad[] = {NAN, INFINITY, -INFINITY};
-  assert_int_equal(aft_new(&sc, 2, 16, &a), HC_OK);
+  assert_int_equal(scene_aft(&sc, 2, 16, &a), HC_OK);
   for (int i = 0; i < 3; ++i)
     for (int at = 0; at < 5; ++at) {
       double X[5] = {0.1, 0.2, 0.3, 0.4, 0.5}, F[5], jac[25];

@@ -1,5 +1,6 @@
 /* test_aft_jacobian.c - the Jacobian of the sampled contact force against differences, and what time shifts do to
  * both. */
+#include "campaigns/scene_solvers.h"
 #include "hbm/aft.h"
 #include "hbm/series.h"
 #include "tests/hbm/slow_aft.h"
@@ -38,7 +39,7 @@ static void jacobian_equals_central_differences(void **state)
       sc.hbm.restart = trial / 2 % 2 ? HBM_RESTART_SAMPLE : HBM_RESTART_INTERPOLATED;
       aft *a;
       contact_report report;
-      assert_int_equal(aft_new(&sc, H, N, &a), HC_OK);
+      assert_int_equal(scene_aft(&sc, H, N, &a), HC_OK);
       random_motion(&seed, H, 1, 1 + trial % 3, X);
       assert_int_equal(aft_eval(a, X, F, jac, &report), HC_OK);
       uint64_t pattern = pattern_at(&sc, H, N, X, unused);
@@ -99,7 +100,7 @@ static void whole_steps_only_rotate(void **state)
       shift_motion(H, X, shift, Y);
       aft *a;
       contact_report here, there;
-      assert_int_equal(aft_new(&sc, H, N, &a), HC_OK);
+      assert_int_equal(scene_aft(&sc, H, N, &a), HC_OK);
       assert_int_equal(aft_eval(a, X, F, jac, &here), HC_OK);
       assert_int_equal(aft_eval(a, Y, G, shifted_jac, &there), HC_OK);
       aft_free(a);

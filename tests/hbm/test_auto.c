@@ -1,5 +1,6 @@
 /* test_auto.c - hbm.harmonics: auto and hbm.samples: auto keep hbm.accuracy, what they cost, and every switch that
  * saves work changes nothing else. */
+#include "campaigns/scene_solvers.h"
 #include "hbm/curve.h"
 #include "hbm/hbm.h"
 #include "tests/hbm/scenes.h"
@@ -21,7 +22,7 @@ static scene exact_scene(const char *name, int n_harm)
 static run traced(const scene *sc)
 {
   run r = {0};
-  assert_int_equal(hbm_solver_new(sc, &r.s), HC_OK);
+  assert_int_equal(scene_hbm_solver(sc, &r.s), HC_OK);
   hc_status st = hbm_trace(r.s, sc->omega_from, sc->omega_to, NULL, &r.c);
   if (st != HC_OK)
     fail_msg("K=%g kn=%g gap=%g H=%d N=%d accuracy=%g: %s after %d points, at omega %.12g with H=%d N=%d",
@@ -109,7 +110,7 @@ static void auto_harmonics_keep_the_accuracy(void **state)
     double omega[FREQUENCIES + 1];
     frequencies(&sc, omega);
     for (int a = 0; a < 3; ++a) {
-      sc.hbm.harmonics = SCENE_AUTO;
+      sc.hbm.harmonics = HBM_AUTO;
       sc.hbm.accuracy = accuracies[a];
       run r = traced(&sc);
       assert_false(r.c.inaccurate);
@@ -122,7 +123,7 @@ static void auto_harmonics_keep_the_accuracy(void **state)
       for (size_t i = 0; i < sizeof ladder / sizeof *ladder && !need; ++i) {
         sc.hbm.harmonics = ladder[i];
         run fixed = {0};
-        assert_int_equal(hbm_solver_new(&sc, &fixed.s), HC_OK);
+        assert_int_equal(scene_hbm_solver(&sc, &fixed.s), HC_OK);
         if (hbm_trace(fixed.s, sc.omega_from, sc.omega_to, NULL, &fixed.c) == HC_OK &&
             worst_distance(&fixed, &reference, omega, FREQUENCIES + 1) <= accuracies[a])
           need = ladder[i];
@@ -144,12 +145,12 @@ static void harmonics_follow_the_curve(void **state)
 {
   (void)state;
   for (size_t q = 0; q < sizeof names / sizeof *names; ++q) {
-    scene sc = exact_scene(names[q], SCENE_AUTO);
+    scene sc = exact_scene(names[q], HBM_AUTO);
     sc.hbm.accuracy = 1e-3;
     run r = traced(&sc);
     sc.hbm.harmonics = 60;
     hbm_solver *fine = NULL;
-    assert_int_equal(hbm_solver_new(&sc, &fine), HC_OK);
+    assert_int_equal(scene_hbm_solver(&sc, &fine), HC_OK);
     int fewest = 1000, most = 0, checked = 0;
     for (int k = 0; k < r.c.n; ++k) {
       const double *row = hbm_curve_X(&r.c, k);
@@ -193,7 +194,7 @@ static void auto_samples_keep_the_accuracy(void **state)
     double omega[FREQUENCIES];
     frequencies(&sc, omega);
     sc.hbm.force = HBM_FORCE_SAMPLED;
-    sc.hbm.samples = SCENE_AUTO;
+    sc.hbm.samples = HBM_AUTO;
     int before = 0;
     for (int a = 0; a < 3; ++a) {
       sc.hbm.accuracy = accuracies[a];
@@ -262,7 +263,7 @@ static void every_switch_can_be_turned_off(void **state)
     assert_true(r.c.points[k].iterations > 0);
   }
   drop(&r);
-  sc.hbm.samples = SCENE_AUTO; /* one auto without the other */
+  sc.hbm.samples = HBM_AUTO; /* one auto without the other */
   r = traced(&sc);
   assert_int_equal(r.c.n_coef, 11);
   assert_true(isfinite(r.c.points[r.c.n - 2].error));

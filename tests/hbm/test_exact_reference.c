@@ -17,7 +17,7 @@ static int read_references(void **state)
 
 static scene exact_scene(const char *name, int n_harm, bool keep_mean)
 {
-  scene sc = scene_named(name, n_harm, keep_mean, SCENE_AUTO);
+  scene sc = scene_named(name, n_harm, keep_mean, HBM_AUTO);
   sc.hbm.force = HBM_FORCE_EXACT;
   return sc;
 }

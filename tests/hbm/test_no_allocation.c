@@ -20,6 +20,7 @@
 #include <fftw3.h>
 #include <nvector/nvector_serial.h>
 
+#include "campaigns/scene_solvers.h"
 #include "hbm/aft.h"
 #include "hbm/exact.h"
 #include "hbm/hbm.h"
@@ -96,7 +97,7 @@ static void force_allocates_nothing(void **state)
   for (int i = 0; i < 4; ++i) {
     scene sc = scene_named("c2", H, true, sizes[i]);
     aft *a;
-    assert_int_equal(aft_new(&sc, H, sizes[i], &a), HC_OK);
+    assert_int_equal(scene_aft(&sc, H, sizes[i], &a), HC_OK);
     random_motion(&seed, H, 10, 2, X);
     assert_int_equal(aft_eval(a, X, F, jac, &report), HC_OK);
     long before = allocations;
@@ -150,7 +151,7 @@ static void solving_with(int force)
   hbm_point point;
   hbm_measures m;
   double X[N_COEF], Y[N_COEF] = {0};
-  assert_int_equal(hbm_solver_new(&sc, &s), HC_OK);
+  assert_int_equal(scene_hbm_solver(&sc, &s), HC_OK);
   assert_int_equal(hbm_solve_first(s, 6, X, &point), HC_OK);
   assert_int_equal(hbm_solve(s, 6.01, X, &point), HC_OK);
   long good = 0, wild = 0; /* allocations: in all good solves, most in one wild */

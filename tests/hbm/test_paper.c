@@ -1,6 +1,7 @@
 /* test_paper.c - what the paper observed of sampled harmonic balance, in its own mode: harmonic 0 dropped, H = 1,
  * slider restarted on a sample. What is asserted is what this code finds, and where that is not what the paper says,
  * a comment says so. Reference: hbm_peak.csv, exact forces. */
+#include "campaigns/scene_solvers.h"
 #include "hbm/hbm.h"
 #include "tests/hbm/scenes.h"
 
@@ -23,7 +24,7 @@ static outcome run(const scene *sc, double from, double to)
   hbm_curve c = {0};
   int ticks = 0;
   hc_monitor monitor = {tick, &ticks};
-  assert_int_equal(hbm_solver_new(sc, &s), HC_OK);
+  assert_int_equal(scene_hbm_solver(sc, &s), HC_OK);
   outcome o = {.status = hbm_trace(s, from, to, &monitor, &c)};
   assert_int_not_equal(o.status, HC_INTERRUPTED);
   assert_true(c.n > 0);

@@ -3,9 +3,11 @@
  * kn gap = 8e8, a motion of 1e-10: in contact all the time and stuck, the force is (kt cos^2 + kn sin^2) x, with
  * nothing left of the preload. As a difference N - N0 it would carry 8e8 units of 1e-16, five orders more than the
  * force itself. Found by `stress`. */
+#include "campaigns/scene_solvers.h"
 #include "hbm/aft.h"
 #include "hbm/exact.h"
 #include "tests/hbm/scenes.h"
+#include "tests/scene_parts.h"
 
 enum { H = 3, N_COEF = 2 * H + 1 };
 static const double X[N_COEF] = {1e-11, 1e-10, -2e-10, 3e-11, 1e-11, 0, -5e-12};
@@ -30,11 +32,9 @@ static void exact_force_of_a_small_motion(void **state)
 {
   (void)state;
   scene sc = preloaded();
-  moving_contact contacts[SCENE_MAX_CONTACTS];
   exact *e;
   double F[N_COEF];
-  exact_contacts_of(&sc, contacts);
-  assert_int_equal(exact_new(H, 1, 1, contacts, &e), HC_OK);
+  assert_int_equal(scene_exact(&sc, H, &e), HC_OK);
   assert_int_equal(exact_eval(e, X, F, NULL, NULL), HC_OK);
   exact_free(e);
   check(F, 4 * N_COEF, "exact");
@@ -46,7 +46,7 @@ static void sampled_force_of_a_small_motion(void **state)
   scene sc = preloaded();
   aft *a;
   double F[N_COEF];
-  assert_int_equal(aft_new(&sc, H, 64, &a), HC_OK);
+  assert_int_equal(scene_aft(&sc, H, 64, &a), HC_OK);
   assert_int_equal(aft_eval(a, X, F, NULL, NULL), HC_OK);
   aft_free(a);
   check(F, 64, "sampled");
@@ -60,16 +60,14 @@ static void an_opening_takes_the_preload_away(void **state)
   enum { N = 8192 };
   scene sc = preloaded();
   const double large[N_COEF] = {0, 20, 0, 1, 0, 0, 0};
-  moving_contact contacts[SCENE_MAX_CONTACTS];
   contact_report report;
   exact *e;
   aft *a;
   double F[N_COEF], G[N_COEF];
-  exact_contacts_of(&sc, contacts);
-  assert_int_equal(exact_new(H, 1, 1, contacts, &e), HC_OK);
+  assert_int_equal(scene_exact(&sc, H, &e), HC_OK);
   assert_int_equal(exact_eval(e, large, F, NULL, &report), HC_OK);
   assert_int_equal(report.regime, CONTACT_SEPARATES);
-  assert_int_equal(aft_new(&sc, H, N, &a), HC_OK);
+  assert_int_equal(scene_aft(&sc, H, N, &a), HC_OK);
   assert_int_equal(aft_eval(a, large, G, NULL, NULL), HC_OK);
   const double d = 2 * PI / N, slope = 1e8 * 22; /* at most kn |x'|; some ten transitions and stretches, each counted
                                                     once */

@@ -4,7 +4,7 @@
 #include "hbm/series.h"
 #include "tests/hbm/scenes.h"
 
-enum { MAX_COEF = 2 * SCENE_MAX_HARMONICS + 1 };
+enum { MAX_COEF = 2 * HBM_MAX_HARMONICS + 1 };
 
 /* The rotation c_{h+1} = c_h c - s_h s is orthogonal but for rounding: the arguments c, s are each off by eps/2, so
  * a step turns by up to eps/sqrt(2) too much or stretches by as much, and its three operations a component add

@@ -1,6 +1,7 @@
 /* test_special.c - grazing onsets, folds and period doublings of the paper's case 2: against a closed form, against
  * what a fold is, and against the values of the true orbit (PHYSICS 3.4: time integration and AUTO-07p), to which
  * truncation must tend. */
+#include "campaigns/scene_solvers.h"
 #include "hbm/hbm.h"
 #include "tests/hbm/scenes.h"
 
@@ -18,7 +19,7 @@ static found find(const char *name, int n_harm)
   found f = {0};
   scene sc = scene_named(name, n_harm, true, 1024);
   sc.hbm.force = HBM_FORCE_EXACT;
-  assert_int_equal(hbm_solver_new(&sc, &f.s), HC_OK);
+  assert_int_equal(scene_hbm_solver(&sc, &f.s), HC_OK);
   assert_int_equal(hbm_trace(f.s, 3, 20, NULL, &f.c), HC_OK);
   assert_int_equal(hbm_specials(f.s, &f.c, ROOM, f.at, &f.n), HC_OK);
   assert_true(f.n <= ROOM);

@@ -3,9 +3,11 @@
  * RK4 in time with events, no harmonics, no pieces. */
 #include <complex.h>
 
+#include "campaigns/scene_solvers.h"
 #include "hbm/hbm.h"
 #include "hbm/solver.h"
 #include "tests/hbm/scenes.h"
+#include "tests/scene_parts.h"
 
 static scene exact_scene(const char *name, int n_harm)
 {
@@ -21,7 +23,7 @@ static int pieces_of(hbm_solver *s, const double *X)
   contact_report report;
   int sum = 0;
   assert_int_equal(hbm_pattern_at(s, X, &e, &report), HC_OK);
-  for (int j = 0, n; j < s->sys.sc.n_contacts; ++j) {
+  for (int j = 0, n; j < s->model->n_contacts; ++j) {
     exact_pieces(e, j, &n);
     sum += n;
   }
@@ -35,7 +37,7 @@ static hbm_stability first_stability(const scene *sc, double omega, double *X, c
   hbm_point point;
   hbm_stability st;
   hbm_measures m;
-  assert_int_equal(hbm_solver_new(sc, &s), HC_OK);
+  assert_int_equal(scene_hbm_solver(sc, &s), HC_OK);
   assert_int_equal(hbm_solve_first(s, omega, X, &point), HC_OK);
   assert_int_equal(hbm_measure(s, X, &m), HC_OK);
   assert_int_equal(hbm_stability_at(s, omega, X, &st), HC_OK);
@@ -108,7 +110,7 @@ static void without_slip_the_determinant_is_that_of_the_damping(void **state)
     scene sc = exact_scene("c2", harmonics[q]);
     hbm_solver *s = NULL;
     hbm_curve c = {0};
-    assert_int_equal(hbm_solver_new(&sc, &s), HC_OK);
+    assert_int_equal(scene_hbm_solver(&sc, &s), HC_OK);
     assert_int_equal(hbm_trace(s, 3, 20, NULL, &c), HC_OK);
     int unstable = 0, stable = 0, slider_across_0 = 0;
     for (int k = 0; k < c.n; ++k) {
@@ -392,7 +394,7 @@ static void a_slider_shaken_down_is_held(void **state)
   hbm_point point;
   hbm_stability st;
   double X[9];
-  assert_int_equal(hbm_solver_new(&sc, &s), HC_OK);
+  assert_int_equal(scene_hbm_solver(&sc, &s), HC_OK);
   assert_int_equal(hbm_solve_first(s, omega, X, &point), HC_OK);
   CHECK_LE(1e-6, fabs(X[0]), "the slider has slipped: it rests where the mean is not 0");
   assert_int_equal(hbm_stability_at(s, omega, X, &st), HC_OK);

@@ -1,5 +1,6 @@
 /* test_trace.c - how a trace goes and how it may end: turning points that are real, folds, limits, interruptions,
  * nonsense. */
+#include "campaigns/scene_solvers.h"
 #include "hbm/aft.h"
 #include "tests/hbm/traced.h"
 
@@ -57,7 +58,7 @@ static void turning_points_are_real(void **state)
       traced t = trace(&sc, down ? sc.omega_to : sc.omega_from, down ? sc.omega_from : sc.omega_to, runs[i].name);
       const hbm_curve *c = &t.curve;
       aft *a;
-      assert_int_equal(aft_new(&sc, runs[i].H, runs[i].N, &a), HC_OK);
+      assert_int_equal(scene_aft(&sc, runs[i].H, runs[i].N, &a), HC_OK);
       int first = 0, bad = 0;
       for (int k = 0; k < c->n; ++k) {
         int sign = sign_of_determinant(&sc, a, c->X + (size_t)k * c->n_coef, c->points[k].omega) *
@@ -199,7 +200,7 @@ static void always_an_end_with_a_reason(void **state)
     hc_monitor monitor = {tick, &watch};
     hbm_solver *s;
     hbm_curve c = {0};
-    assert_int_equal(hbm_solver_new(&sc, &s), HC_OK);
+    assert_int_equal(scene_hbm_solver(&sc, &s), HC_OK);
     double from = trial % 2 ? high : low, to = trial % 2 ? low : high;
     hc_status st = hbm_trace(s, from, to, &monitor, &c);
     assert_int_equal(st, c.end);
@@ -239,7 +240,7 @@ static void sweeps_that_make_no_sense(void **state)
   drop(&t);
   hbm_solver *s = t.s;
   sc.hbm.samples = 2;
-  assert_int_equal(hbm_solver_new(&sc, &s), HC_BAD_INPUT);
+  assert_int_equal(scene_hbm_solver(&sc, &s), HC_BAD_INPUT);
   assert_null(s);
   hbm_solver_free(NULL);
 }
@@ -251,7 +252,7 @@ static void solving_from_nonsense(void **state)
   scene sc = scene_named("c2", H, true, 64);
   hbm_solver *s;
   hbm_point point;
-  assert_int_equal(hbm_solver_new(&sc, &s), HC_OK);
+  assert_int_equal(scene_hbm_solver(&sc, &s), HC_OK);
   static const double bad[] = {NAN, INFINITY, -INFINITY};
   for (int i = 0; i < 3; ++i) {
     double X[N_COEF] = {0.1, 0.2}, before[N_COEF];

@@ -4,6 +4,7 @@
 
 #include <complex.h>
 
+#include "campaigns/scene_solvers.h"
 #include "hbm/hbm.h"
 #include "tests/hbm/scenes.h"
 
@@ -56,7 +57,7 @@ static inline traced trace(const scene *sc, double from, double to, const char *
   traced t = {0};
   clock_ watch = {.stop = 5000};
   hc_monitor monitor = {tick, &watch};
-  assert_int_equal(hbm_solver_new(sc, &t.s), HC_OK);
+  assert_int_equal(scene_hbm_solver(sc, &t.s), HC_OK);
   t.status = hbm_trace(t.s, from, to, &monitor, &t.curve);
   assert_int_equal(t.status, t.curve.end);
   check_curve(&t.curve, from, to, what);

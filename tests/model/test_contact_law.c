@@ -1,8 +1,9 @@
 /* test_contact_law.c - the exact contact law, branch by branch, and what holds between branches. */
 #include <float.h>
 
-#include "model/scene.h"
+#include "cases/scene.h"
 #include "tests/cases/case_text.h"
+#include "tests/scene_parts.h"
 
 /* Dyadic numbers: every product and sum below is exact, so equality is asked for. */
 static const contact law = {.kt = 4, .kn = 8, .mu = 0.25, .gap = 0.5};
@@ -170,10 +171,10 @@ static void geometry_is_exact_at_the_ends(void **state)
   (void)state;
   double c, s;
   scene_contact k = {.law = {.kt = 100, .kn = 1000}, .angle_deg = 0};
-  scene_projection(&k, &c, &s);
+  scene_direction(&k, &c, &s);
   assert_true(c == 1 && s == 0);
   k.angle_deg = 90;
-  scene_projection(&k, &c, &s);
+  scene_direction(&k, &c, &s);
   assert_true(c == 0 && s == 1 && scene_stuck_stiffness(&k) == 1000);
   k.angle_deg = 45;
   /* (kt + kn)/2; the angle's rounding moves cos^2 and sin^2 by opposite 2 eps, theirs add 2 eps each: 1100 * 4 eps

@@ -71,7 +71,10 @@ static void trace(record *r, const scene *sc)
   hbm_curve curve = {0};
   hbm_special specials[16];
   int n = 0;
-  hc_status st = hbm_solver_new(sc, &s);
+  compare_setup setup;
+  assert_int_equal(scene_setup(sc, &setup), HC_OK);
+  hc_status st = hbm_solver_new(setup.model, &setup.hbm, &s);
+  scene_setup_clear(&setup);
   if (st == HC_OK) st = hbm_trace(s, sc->omega_from, sc->omega_to, NULL, &curve);
   if (st == HC_OK) st = hbm_specials(s, &curve, 16, specials, &n); /* stability: eigenvalues by GSL */
   put(r, st);
@@ -88,7 +91,10 @@ static void settle(record *r, const scene *sc)
   timeint_state y;
   memset(&result, 0, sizeof result);
   memset(&y, 0, sizeof y); /* at rest */
-  hc_status st = timeint_new(sc, &ti);
+  compare_setup setup;
+  assert_int_equal(scene_setup(sc, &setup), HC_OK);
+  hc_status st = timeint_new(setup.model, &setup.transient, &ti);
+  scene_setup_clear(&setup);
   if (st == HC_OK) st = timeint_steady(ti, 7, &y, NULL, &result);
   put(r, st);
   put_all(r, 3, (double[]){y.x, y.v, y.w[0]});
@@ -124,7 +130,10 @@ static void compare(record *r)
 {
   scene sc = case2(NULL, NULL);
   comparison c;
-  put(r, comparison_run(&sc, NULL, &c));
+  compare_setup setup;
+  assert_int_equal(scene_setup(&sc, &setup), HC_OK);
+  put(r, comparison_run(&setup, NULL, &c));
+  scene_setup_clear(&setup);
   put(r, c.n_rows);
   put_curve(r, &c.curve);
   for (int i = 0; i < c.n_rows; ++i) {

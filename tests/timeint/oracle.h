@@ -7,14 +7,14 @@
 
 #include "model/linear.h"
 #include "tests/check.h"
-#include "timeint/model.h"
+#include "timeint/scaled.h"
 
 enum { SCAN = 4000 };
 typedef enum { APART, STUCK, PLUS, MINUS } how;
 typedef struct oracle {
-  const model *m;
-  how state[SCENE_MAX_CONTACTS];
-  double held[SCENE_MAX_CONTACTS];
+  const scaled_model *m;
+  how state[TIMEINT_MAX_CONTACTS];
+  double held[TIMEINT_MAX_CONTACTS];
   double theta, x, p;
   int events;
 } oracle;
@@ -26,7 +26,7 @@ static inline void oracle_move(const oracle *o, double theta, double *x, double 
 {
   double k = o->m->k, d = 0, e[2][2];
   for (int j = 0; j < o->m->n_contacts; ++j) {
-    const model_contact *c = &o->m->contact[j];
+    const scaled_contact *c = &o->m->contact[j];
     d -= c->preload * c->sine;
     if (o->state[j] == APART) continue;
     double normal = c->sine + slip_of(o->state[j]) * c->law.mu * c->cosine;
@@ -47,7 +47,7 @@ static inline void oracle_move(const oracle *o, double theta, double *x, double 
 /* The state contact j should be in after x, p: its own while no guard is below 0. */
 static inline how oracle_next(const oracle *o, int j, double x, double p)
 {
-  const model_contact *c = &o->m->contact[j];
+  const scaled_contact *c = &o->m->contact[j];
   const double u = c->cosine * x, g = c->sine * x + c->law.gap, limit = c->law.mu * c->law.kn * g;
   if (!(c->law.kn > 0)) return APART;
   if (o->state[j] == APART) {
@@ -73,7 +73,7 @@ static inline bool oracle_changes(const oracle *o, double x, double p)
 static inline void oracle_switch(oracle *o)
 {
   for (int j = 0; j < o->m->n_contacts; ++j) {
-    const model_contact *c = &o->m->contact[j];
+    const scaled_contact *c = &o->m->contact[j];
     how next = oracle_next(o, j, o->x, o->p), was = o->state[j];
     if (next == STUCK && was == APART) o->held[j] = c->cosine * -c->law.gap / c->sine;
     if (next == STUCK && slip_of(was) != 0)
@@ -108,7 +108,7 @@ static inline void oracle_period(oracle *o)
 
 static inline double oracle_slider(const oracle *o, int j)
 {
-  const model_contact *c = &o->m->contact[j];
+  const scaled_contact *c = &o->m->contact[j];
   if (o->state[j] == APART || !c->law.slides) return c->cosine * o->x;
   if (o->state[j] == STUCK) return o->held[j];
   return c->cosine * o->x - slip_of(o->state[j]) * c->law.mu * c->law.kn * (c->sine * o->x + c->law.gap) / c->law.kt;

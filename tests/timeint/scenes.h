@@ -5,7 +5,7 @@
 
 #include <string.h>
 
-#include "model/scene.h"
+#include "cases/scene.h"
 #include "timeint/timeint.h"
 
 static inline scene scene_linear(double mass, double damping, double stiffness, double force)

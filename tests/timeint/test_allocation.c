@@ -2,6 +2,7 @@
  * SUNDIALS' included, passes through here and is counted. */
 #include "tests/check.h"
 
+#include "campaigns/scene_solvers.h"
 #include "tests/timeint/scenes.h"
 
 #if defined __has_feature
@@ -56,7 +57,7 @@ static timeint *made(int steady)
   timeint *ti;
   long before = allocations;
   sc.transient.steady = steady;
-  assert_int_equal(timeint_new(&sc, &ti), HC_OK);
+  assert_int_equal(scene_timeint(&sc, &ti), HC_OK);
   CHECK_LE(10, allocations - before, "the counter counts SUNDIALS, too");
   return ti;
 }

@@ -4,6 +4,7 @@
 
 #include <string.h>
 
+#include "campaigns/scene_solvers.h"
 #include "tests/timeint/scenes.h"
 
 typedef struct row {
@@ -41,7 +42,7 @@ static void follow(const scene *sc, const char *name, const char *sweep, double 
   timeint *ti;
   timeint_result r;
   int seen = 0;
-  assert_int_equal(timeint_new(sc, &ti), HC_OK);
+  assert_int_equal(scene_timeint(sc, &ti), HC_OK);
   timeint_state y = timeint_rest(ti);
   for (int i = 0; i < n_rows; ++i) {
     const row *want = &rows[i];

@@ -6,11 +6,12 @@
 
 #include <cvodes/cvodes.h>
 
+#include "tests/scene_parts.h"
 #include "tests/timeint/scenes.h"
 #include "timeint/integrate.h"
 
 /* x'' + c x' + k x = f cos(theta) from x = x' = 0: the forced motion plus the free one that cancels it at 0. */
-static double complex linear_state(const model *m, double theta)
+static double complex linear_state(const scaled_model *m, double theta)
 {
   double complex X = m->f / (m->k - 1 + I * m->c), r = -m->c / 2 + csqrt(m->c * m->c / 4 - m->k);
   double x0 = creal(X), v0 = creal(I * X); /* x = Re(X e^{i theta}); the free part starts from (-x0, -v0) */
@@ -26,12 +27,12 @@ static void linear_period_is_the_closed_form(void **state)
 {
   (void)state;
   scene sc = scene_linear(1, 0.4, 40, 40);
-  model m;
-  model_make(&m, &sc, 5, 1);
+  scaled_model m;
+  scene_scaled(&m, &sc, 5, 1);
   for (double tol = 1e-6; tol > 1e-14; tol *= 1e-2) {
     integrator *in;
     assert_int_equal(integrate_new_regularised(m.n_states, tol, &in), HC_OK);
-    double y[MODEL_MAX_STATES] = {0};
+    double y[SCALED_MAX_STATES] = {0};
     assert_int_equal(integrate_period(in, &m, y, NULL, NULL), HC_OK);
     double bound = (double)integrate_steps(in) * tol * 2.5; /* |states| <= 2.5: the tolerance is relative, too */
     CHECK_NEAR(y[0], creal(linear_state(&m, 2 * PI)), bound, "x at %g", tol);
@@ -41,14 +42,14 @@ static void linear_period_is_the_closed_form(void **state)
 }
 
 typedef struct seen {
-  const model *m;
+  const scaled_model *m;
   double last, worst;
 } seen;
 
 static hc_status look(void *self, const integrator *in, double theta0, double theta1)
 {
   seen *s = self;
-  double y[MODEL_MAX_STATES], mid = 0.5 * (theta0 + theta1);
+  double y[SCALED_MAX_STATES], mid = 0.5 * (theta0 + theta1);
   CHECK_LE(fabs(theta0 - s->last), 0, "steps follow each other");
   s->last = theta1;
   hc_status st = integrate_dense(in, mid, 0, y);
@@ -62,11 +63,11 @@ static void watched_period_is_the_same(void **state)
 {
   (void)state;
   scene sc = scene_linear(1, 0.4, 40, 40);
-  model m;
-  model_make(&m, &sc, 5, 1);
+  scaled_model m;
+  scene_scaled(&m, &sc, 5, 1);
   integrator *in;
   assert_int_equal(integrate_new_regularised(m.n_states, 1e-10, &in), HC_OK);
-  double y[MODEL_MAX_STATES] = {0}, z[MODEL_MAX_STATES] = {0};
+  double y[SCALED_MAX_STATES] = {0}, z[SCALED_MAX_STATES] = {0};
   seen s = {.m = &m};
   assert_int_equal(integrate_period(in, &m, y, NULL, NULL), HC_OK);
   long steps = integrate_steps(in);
@@ -83,12 +84,12 @@ static void a_period_has_no_memory(void **state)
 {
   (void)state;
   scene sc = scene_c2();
-  model m, other;
-  model_make(&m, &sc, 7, 10);
-  model_make(&other, &sc, 8, 3);
+  scaled_model m, other;
+  scene_scaled(&m, &sc, 7, 10);
+  scene_scaled(&other, &sc, 8, 3);
   integrator *in;
   assert_int_equal(integrate_new_regularised(m.n_states, 1e-10, &in), HC_OK);
-  double y[MODEL_MAX_STATES] = {0.8, 0.6, 0.5}, z[MODEL_MAX_STATES] = {0.8, 0.6, 0.5}, w[MODEL_MAX_STATES] = {0};
+  double y[SCALED_MAX_STATES] = {0.8, 0.6, 0.5}, z[SCALED_MAX_STATES] = {0.8, 0.6, 0.5}, w[SCALED_MAX_STATES] = {0};
   assert_int_equal(integrate_period(in, &m, y, NULL, NULL), HC_OK);
   assert_int_equal(integrate_period(in, &other, w, NULL, NULL), HC_OK);
   assert_int_equal(integrate_period(in, &m, z, NULL, NULL), HC_OK);
@@ -100,10 +101,10 @@ static void failures_are_reported(void **state)
 {
   (void)state;
   scene sc = scene_c2();
-  model m;
-  model_make(&m, &sc, 7, 10);
+  scaled_model m;
+  scene_scaled(&m, &sc, 7, 10);
   integrator *in;
-  double y[MODEL_MAX_STATES] = {0.5, 0, 0};
+  double y[SCALED_MAX_STATES] = {0.5, 0, 0};
   assert_int_equal(integrate_new_regularised(m.n_states, 1e-30, &in), HC_OK); /* no double is that good */
   assert_int_equal(integrate_period(in, &m, y, NULL, NULL), HC_INTEGRATOR);
   assert_int_equal(integrate_flag(in), CV_TOO_MUCH_ACC);

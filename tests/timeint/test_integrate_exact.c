@@ -8,6 +8,7 @@
 #include <cvodes/cvodes.h>
 
 #include "model/linear.h"
+#include "tests/scene_parts.h"
 #include "tests/timeint/oracle.h"
 #include "tests/timeint/reference_rows.h"
 #include "tests/timeint/scenes.h"
@@ -16,22 +17,22 @@
 
 static const double tol = 1e-12; /* CVODE's. A period is some 200 steps, each of which may err by it */
 
-static model exact_model(scene sc, double omega, double length)
+static scaled_model exact_model(scene sc, double omega, double length)
 {
   sc.transient.law = TRANSIENT_LAW_EXACT;
-  model m;
-  model_make(&m, &sc, omega, length);
+  scaled_model m;
+  scene_scaled(&m, &sc, omega, length);
   return m;
 }
 
-static integrator *exact_new(const model *m)
+static integrator *integrator_of(const scaled_model *m)
 {
   integrator *in;
   assert_int_equal(integrate_new_exact(m->n_states, tol, &in), HC_OK);
   return in;
 }
 
-static void run(integrator *in, const model *m, double *y, int periods)
+static void run(integrator *in, const scaled_model *m, double *y, int periods)
 {
   for (int i = 0; i < periods; ++i) assert_int_equal(integrate_period(in, m, y, NULL, NULL), HC_OK);
 }
@@ -40,20 +41,20 @@ static void run(integrator *in, const model *m, double *y, int periods)
  * stable they do not grow for long: all the periods' together, times 5. The oracle's own: rounding, 1e-13 of slack. */
 static void follows_oracle(const char *what, scene sc, double omega, double length, int periods)
 {
-  model m = exact_model(sc, omega, length);
+  scaled_model m = exact_model(sc, omega, length);
   oracle o = {.m = &m};
   for (int j = 0; j < m.n_contacts; ++j)
     o.state[j] = m.contact[j].law.kn > 0 && m.contact[j].law.gap > 0 ? STUCK : APART;
-  integrator *in = exact_new(&m);
-  double y[MODEL_MAX_STATES] = {0};
+  integrator *in = integrator_of(&m);
+  double y[SCALED_MAX_STATES] = {0};
   for (int i = 0; i < periods; ++i) {
     run(in, &m, y, 1);
     oracle_period(&o);
     const double bound = 5 * 200 * tol * (i + 1);
-    CHECK_NEAR(y[MODEL_X], o.x, bound, "%s x in period %d", what, i);
-    CHECK_NEAR(y[MODEL_P], o.p, bound, "%s p in period %d", what, i);
+    CHECK_NEAR(y[SCALED_X], o.x, bound, "%s x in period %d", what, i);
+    CHECK_NEAR(y[SCALED_P], o.p, bound, "%s p in period %d", what, i);
     for (int j = 0; j < m.n_contacts; ++j)
-      CHECK_NEAR(y[MODEL_W + j], oracle_slider(&o, j), bound, "%s w%d in period %d", what, j, i);
+      CHECK_NEAR(y[SCALED_W + j], oracle_slider(&o, j), bound, "%s w%d in period %d", what, j, i);
     assert_int_equal(integrate_switches(in), o.events);
   }
   integrate_free(in);
@@ -110,10 +111,10 @@ static void bilinear_contacts_need_no_friction(void **state)
   const double kt[] = {299.999, 256, 100};
   for (int i = 0; i < 3; ++i) {
     const double kn = i == 1 ? 1024 : 1000, mu = i == 1 ? 0.25 : 0.3; /* 0.25 * 1024 = 256, exactly */
-    model m = exact_model(one(100, kt[i], kn, mu, -3, 45), 7, 10),
-          plain = exact_model(one(100, 0, kn + kt[i], 0, -3, 45), 7, 10);
-    integrator *in = exact_new(&m), *ref = exact_new(&plain);
-    double y[MODEL_MAX_STATES] = {0}, z[MODEL_MAX_STATES] = {0};
+    scaled_model m = exact_model(one(100, kt[i], kn, mu, -3, 45), 7, 10),
+                 plain = exact_model(one(100, 0, kn + kt[i], 0, -3, 45), 7, 10);
+    integrator *in = integrator_of(&m), *ref = integrator_of(&plain);
+    double y[SCALED_MAX_STATES] = {0}, z[SCALED_MAX_STATES] = {0};
     for (int n = 0; n < 20; ++n) {
       run(in, &m, y, 1);
       run(ref, &plain, z, 1);
@@ -132,9 +133,9 @@ static void two_contacts_are_one_of_double_stiffness(void **state)
   (void)state;
   scene twin = one(10, 100, 200, 0.3, -0.5, 45), single = one(10, 200, 400, 0.3, -0.5, 45);
   scene_add(&twin, 100, 200, 0.3, -0.5, 45);
-  model m = exact_model(twin, 7, 1), s = exact_model(single, 7, 1);
-  integrator *in = exact_new(&m), *ref = exact_new(&s);
-  double y[MODEL_MAX_STATES] = {0}, z[MODEL_MAX_STATES] = {0};
+  scaled_model m = exact_model(twin, 7, 1), s = exact_model(single, 7, 1);
+  integrator *in = integrator_of(&m), *ref = integrator_of(&s);
+  double y[SCALED_MAX_STATES] = {0}, z[SCALED_MAX_STATES] = {0};
   run(in, &m, y, 20);
   run(ref, &s, z, 20);
   CHECK_NEAR(y[0], z[0], 20 * 200 * tol, "x");
@@ -159,9 +160,9 @@ static void grazing_is_not_stepped_over(void **state)
     for (int k = 0; k < 8; ++k)
       for (int sign = -1; sign <= 1; sign += 2) {
         const double d = sign * (k < 7 ? pow(10, -3 - k) : 1e-10);
-        model m = exact_model(one(100, 100, 200, 0.3, -cabs(X) * (1 - d) * sqrt(0.5), 45), omega, cabs(X));
-        double y[MODEL_MAX_STATES] = {creal(X) / cabs(X), creal(I * X) / cabs(X), 0};
-        integrator *in = exact_new(&m);
+        scaled_model m = exact_model(one(100, 100, 200, 0.3, -cabs(X) * (1 - d) * sqrt(0.5), 45), omega, cabs(X));
+        double y[SCALED_MAX_STATES] = {creal(X) / cabs(X), creal(I * X) / cabs(X), 0};
+        integrator *in = integrator_of(&m);
         run(in, &m, y, 1);
         /* slips or, its kt cos > mu kn sin, also sticks back */
         const long want = d < 0 ? 0 : integrate_switches(in) == 4 ? 4 : 2;
@@ -176,17 +177,17 @@ static void grazing_is_not_stepped_over(void **state)
 static void a_transition_at_the_end_of_the_period(void **state)
 {
   (void)state;
-  model m = exact_model(one(100, 300, 200, 0.3, -0.5, 45), 7.3, 10);
-  const double start[MODEL_MAX_STATES] = {0.02, -0.578, 0}; /* ends at its largest X, rising */
+  scaled_model m = exact_model(one(100, 300, 200, 0.3, -0.5, 45), 7.3, 10);
+  const double start[SCALED_MAX_STATES] = {0.02, -0.578, 0}; /* ends at its largest X, rising */
   m.contact[0].law.gap = -100;
-  integrator *in = exact_new(&m);
-  double end[MODEL_MAX_STATES];
+  integrator *in = integrator_of(&m);
+  double end[SCALED_MAX_STATES];
   memcpy(end, start, sizeof end);
   run(in, &m, end, 1);
   int touched = 0, n = 0;
   for (double off = 0; off<1e-10; off = off> 0 ? 1.3 * off : 1e-17)
     for (int sign = -1; sign <= 1; sign += 2, ++n) {
-      double y[MODEL_MAX_STATES];
+      double y[SCALED_MAX_STATES];
       memcpy(y, start, sizeof y);
       m.contact[0].law.gap = -m.contact[0].sine * (end[0] + sign * off);
       long before = integrate_switches(in);
@@ -208,39 +209,39 @@ static void a_transition_at_the_end_of_the_period(void **state)
 static void check_slope(const char *what, scene sc, double omega, double length, const double *start, int periods,
                         bool no_slip)
 {
-  model m = exact_model(sc, omega, length);
+  scaled_model m = exact_model(sc, omega, length);
   const int n = m.n_states;
   const double h = 1e-4;
-  double y[MODEL_MAX_STATES] = {0}, end[MODEL_MAX_STATES], slope[MODEL_MAX_STATES * MODEL_MAX_STATES];
+  double y[SCALED_MAX_STATES] = {0}, end[SCALED_MAX_STATES], slope[SCALED_MAX_STATES * SCALED_MAX_STATES];
   if (start) memcpy(y, start, sizeof *y * (size_t)n);
-  integrator *in = exact_new(&m);
+  integrator *in = integrator_of(&m);
   run(in, &m, y, periods);
   memcpy(end, y, sizeof end);
   assert_int_equal(integrate_slope(in, &m, end, slope), HC_OK);
-  double plain[MODEL_MAX_STATES], size = 1;
+  double plain[SCALED_MAX_STATES], size = 1;
   memcpy(plain, y, sizeof plain);
   run(in, &m, plain, 1);
   for (int i = 0; i < n; ++i) CHECK_NEAR(end[i], plain[i], 0, "the same period");
   for (int i = 0; i < n * n; ++i) size = fmax(size, fabs(slope[i]));
   for (int q = 0; q < n; ++q) {
-    double column = 0, diff[MODEL_MAX_STATES] = {0};
+    double column = 0, diff[SCALED_MAX_STATES] = {0};
     for (int i = 0; i < n; ++i) column += fabs(slope[i + q * n]);
-    if (q >= MODEL_W && column == 0) continue;
+    if (q >= SCALED_W && column == 0) continue;
     const double smooth[] = {-1 / 12.0, 8 / 12.0, -8 / 12.0, 1 / 12.0}, kinked[] = {-1 / 4.0, 1, -1, 1 / 4.0};
-    const double *weight = q < MODEL_W ? smooth : kinked, truncation = q < MODEL_W ? 1e3 * pow(h, 4) : 1e2 * h * h;
+    const double *weight = q < SCALED_W ? smooth : kinked, truncation = q < SCALED_W ? 1e3 * pow(h, 4) : 1e2 * h * h;
     for (int k = 0; k < 4; ++k) {
       const double by = (k < 2 ? 2 - k : 1 - k) * h; /* 2, 1, -1, -2 */
-      double z[MODEL_MAX_STATES];
+      double z[SCALED_MAX_STATES];
       memcpy(z, y, sizeof z);
       z[q] += by;
       for (int j = 0; j < m.n_contacts; ++j) { /* sliders without a column of their own stay where the law has them */
         double own = 0;
-        for (int i = 0; i < n; ++i) own += fabs(slope[i + (MODEL_W + j) * n]);
-        const model_contact *c = &m.contact[j];
-        const double g = c->sine * y[0] + c->law.gap, t = c->law.kt * (c->cosine * y[0] - y[MODEL_W + j]);
+        for (int i = 0; i < n; ++i) own += fabs(slope[i + (SCALED_W + j) * n]);
+        const scaled_contact *c = &m.contact[j];
+        const double g = c->sine * y[0] + c->law.gap, t = c->law.kt * (c->cosine * y[0] - y[SCALED_W + j]);
         const double s = g > 0 && c->law.slides ? (t > 0 ? 1 : -1) : 0;
-        if (own == 0 && q == MODEL_X)
-          z[MODEL_W + j] += (c->cosine - (s != 0 ? s * c->law.mu * c->law.kn * c->sine / c->law.kt : 0)) * by;
+        if (own == 0 && q == SCALED_X)
+          z[SCALED_W + j] += (c->cosine - (s != 0 ? s * c->law.mu * c->law.kn * c->sine / c->law.kt : 0)) * by;
       }
       run(in, &m, z, 1);
       for (int i = 0; i < n; ++i) diff[i] += weight[k] * z[i] / h;
@@ -287,16 +288,16 @@ static void steady_states_are_the_references(void **state)
     while (r->which != rows[i].which || r->omega != rows[i].omega) ++r; /* the first such row: swept up */
     const scene *sc = &cases[r->which];
     const double length = r->amplitude;
-    model m = exact_model(*sc, r->omega, length);
-    integrator *in = exact_new(&m);
-    double y[MODEL_MAX_STATES] = {rows[i].x0 / length, 0, 0.7 * rows[i].x0 / length};
+    scaled_model m = exact_model(*sc, r->omega, length);
+    integrator *in = integrator_of(&m);
+    double y[SCALED_MAX_STATES] = {rows[i].x0 / length, 0, 0.7 * rows[i].x0 / length};
     run(in, &m, y, 400);
     static measure me;
     timeint_result result = {0};
     measure_begin(&me, &m);
     measure_period(&me, y);
     assert_int_equal(integrate_period(in, &m, y, measure_step, &me), HC_OK);
-    measure_report(&me, sc, length, &result);
+    scene_measure_report(&me, sc, length, &result);
     CHECK_NEAR(result.amplitude, r->amplitude, 1e-8 * r->amplitude, "case %d omega %g", r->which, r->omega);
     CHECK_NEAR(result.harmonic_1, r->harmonic_1, 1e-8 * r->amplitude, "case %d omega %g", r->which, r->omega);
     long before = integrate_switches(in);
@@ -307,11 +308,11 @@ static void steady_states_are_the_references(void **state)
 }
 
 typedef struct seen {
-  const model *m;
+  const scaled_model *m;
   double last, worst;
 } seen;
 
-/* Dense output obeys the law at any instant: X' = P, and P' of model_rhs, whose sliders are the returned ones; the
+/* Dense output obeys the law at any instant: X' = P, and P' of scaled_rhs, whose sliders are the returned ones; the
  * sliders' rates add up to their way (Simpson over a step: h^5/2880 of a fifth derivative of 50 is below 1e-6 while
  * h < 0.5). */
 static hc_status look(void *self, const integrator *in, double theta0, double theta1)
@@ -321,15 +322,16 @@ static hc_status look(void *self, const integrator *in, double theta0, double th
   s->last = theta1;
   double way[SCENE_MAX_CONTACTS] = {0};
   for (int i = 0; i <= 4; ++i) {
-    double theta = theta0 + (theta1 - theta0) * i / 4, y[MODEL_MAX_STATES], dy[MODEL_MAX_STATES], law[MODEL_MAX_STATES];
+    double theta = theta0 + (theta1 - theta0) * i / 4, y[SCALED_MAX_STATES], dy[SCALED_MAX_STATES],
+           law[SCALED_MAX_STATES];
     assert_int_equal(integrate_dense(in, theta, 0, y), HC_OK);
     assert_int_equal(integrate_dense(in, theta, 1, dy), HC_OK);
-    model_rhs(s->m, theta, y, law);
+    scaled_rhs(s->m, theta, y, law);
     s->worst = fmax(s->worst, fmax(fabs(dy[0] - law[0]), fabs(dy[1] - law[1])));
     for (int j = 0; i % 2 == 0 && j < s->m->n_contacts; ++j) {
-      if (i == 0) way[j] = -y[MODEL_W + j];
-      if (i == 4) way[j] += y[MODEL_W + j];
-      way[j] -= (i == 2 ? 4 : 1) * dy[MODEL_W + j] * (theta1 - theta0) / 6;
+      if (i == 0) way[j] = -y[SCALED_W + j];
+      if (i == 4) way[j] += y[SCALED_W + j];
+      way[j] -= (i == 2 ? 4 : 1) * dy[SCALED_W + j] * (theta1 - theta0) / 6;
     }
   }
   for (int j = 0; j < s->m->n_contacts; ++j) CHECK_NEAR(way[j], 0, 1e-6, "slider %d from %g to %g", j, theta0, theta1);
@@ -339,9 +341,9 @@ static hc_status look(void *self, const integrator *in, double theta0, double th
 static void watched_period_is_the_same(void **state)
 {
   (void)state;
-  model m = exact_model(three_contacts(), 7, 2), other = exact_model(three_contacts(), 8, 3);
-  integrator *in = exact_new(&m);
-  double y[MODEL_MAX_STATES] = {0}, z[MODEL_MAX_STATES] = {0}, w[MODEL_MAX_STATES] = {0};
+  scaled_model m = exact_model(three_contacts(), 7, 2), other = exact_model(three_contacts(), 8, 3);
+  integrator *in = integrator_of(&m);
+  double y[SCALED_MAX_STATES] = {0}, z[SCALED_MAX_STATES] = {0}, w[SCALED_MAX_STATES] = {0};
   seen s = {.m = &m};
   run(in, &m, y, 1);
   long steps = integrate_steps(in);
@@ -362,9 +364,9 @@ static void rest_stays_at_rest(void **state)
   (void)state;
   const double gap[] = {0.5, 0, -0.5};
   for (int i = 0; i < 3; ++i) {
-    model m = exact_model(one(0, 100, 200, 0.3, gap[i], 45), 7, 1);
-    integrator *in = exact_new(&m);
-    double y[MODEL_MAX_STATES] = {0};
+    scaled_model m = exact_model(one(0, 100, 200, 0.3, gap[i], 45), 7, 1);
+    integrator *in = integrator_of(&m);
+    double y[SCALED_MAX_STATES] = {0};
     run(in, &m, y, 5);
     CHECK_NEAR(fabs(y[0]) + fabs(y[1]) + fabs(y[2]), 0, 0, "gap %g", gap[i]);
     integrate_free(in);
@@ -380,10 +382,10 @@ static void any_start_follows_the_closed_form(void **state)
   const double h = 2 * PI / SCAN;
   scene cases[] = {one(100, 300, 200, 0.3, 0.5, 0), one(30, 300, 200, 0.3, 0.5, 45), one(100, 300, 200, 0.3, -0.5, 60)};
   for (int k = 0; k < 3; ++k) {
-    model m = exact_model(cases[k], 3.1, 2);
-    integrator *in = exact_new(&m);
+    scaled_model m = exact_model(cases[k], 3.1, 2);
+    integrator *in = integrator_of(&m);
     for (int i = 0; i < 300; ++i) {
-      double y[MODEL_MAX_STATES] = {1.5 * sin(12.9898 * i), 3 * sin(78.233 * i), 0};
+      double y[SCALED_MAX_STATES] = {1.5 * sin(12.9898 * i), 3 * sin(78.233 * i), 0};
       y[2] = m.contact[0].cosine * y[0];
       const bool open = m.contact[0].sine * y[0] + m.contact[0].law.gap <= 0;
       oracle o = {.m = &m, .x = y[0], .p = y[1], .state = {open ? APART : STUCK}, .held = {y[2]}};
@@ -399,9 +401,9 @@ static void any_start_follows_the_closed_form(void **state)
 static void failures_are_reported(void **state)
 {
   (void)state;
-  model m = exact_model(scene_c2(), 7, 10);
+  scaled_model m = exact_model(scene_c2(), 7, 10);
   integrator *in;
-  double y[MODEL_MAX_STATES] = {0.5, 0, 0};
+  double y[SCALED_MAX_STATES] = {0.5, 0, 0};
   assert_int_equal(integrate_new_exact(m.n_states, 1e-30, &in), HC_OK); /* no double is that good */
   assert_int_equal(integrate_period(in, &m, y, NULL, NULL), HC_INTEGRATOR);
   assert_int_equal(integrate_flag(in), CV_TOO_MUCH_ACC);
@@ -410,10 +412,10 @@ static void failures_are_reported(void **state)
   assert_int_equal(integrate_period(in, &m, y, NULL, NULL), HC_OK); /* and works again */
   const double bad[] = {NAN, INFINITY};
   for (int i = 0; i < 2; ++i) {
-    model broken = m;
+    scaled_model broken = m;
     broken.f = bad[i];
     assert_int_equal(integrate_period(in, &broken, y, NULL, NULL), HC_NOT_FINITE);
-    double z[MODEL_MAX_STATES] = {0, bad[i], 0};
+    double z[SCALED_MAX_STATES] = {0, bad[i], 0};
     assert_int_equal(integrate_period(in, &m, z, NULL, NULL), HC_NOT_FINITE);
   }
   integrate_free(in);

@@ -6,7 +6,9 @@
 #include <float.h>
 #include <string.h>
 
+#include "campaigns/scene_solvers.h"
 #include "model/linear.h"
+#include "tests/scene_parts.h"
 #include "tests/timeint/reference_rows.h"
 #include "tests/timeint/scenes.h"
 #include "timeint/internal.h"
@@ -30,7 +32,7 @@ static linear_case orbit_of(const scene *sc, double omega, const double *w)
   double d = 0, c, s;
   for (int j = 0; j < sc->n_contacts; ++j) {
     const contact *law = &sc->contacts[j].law;
-    scene_projection(&sc->contacts[j], &c, &s);
+    scene_direction(&sc->contacts[j], &c, &s);
     if (!(law->gap > 0)) continue;
     l.k += law->kn * s * s + (frictional(law) ? law->kt * c * c : 0);
     d += frictional(law) ? law->kt * c * w[j] : 0;
@@ -47,7 +49,7 @@ static timeint_state state_of(const scene *sc, double omega, const double *w, do
   timeint_state st = {.x = l.center + creal(l.z) + dx, .v = creal(I * omega * l.z) + dv};
   for (int j = 0; j < sc->n_contacts; ++j) {
     double c, s;
-    scene_projection(&sc->contacts[j], &c, &s);
+    scene_direction(&sc->contacts[j], &c, &s);
     st.w[j] = sc->contacts[j].law.gap > 0 ? w[j] : c * st.x;
   }
   return st;
@@ -56,7 +58,7 @@ static timeint_state state_of(const scene *sc, double omega, const double *w, do
 static timeint *make(const scene *sc)
 {
   timeint *ti;
-  assert_int_equal(timeint_new(sc, &ti), HC_OK);
+  assert_int_equal(scene_timeint(sc, &ti), HC_OK);
   return ti;
 }
 
@@ -204,10 +206,10 @@ static void leaning(void **state)
       CHECK_LE(1, asked(ti, 6, &st), "leaning %d", side);
       linear_steady(ti, &r);
       CHECK_NEAR(r.mean, center, 1e-14 * fabs(center), "leaning %d", side);
-      double y[MODEL_MAX_STATES];
+      double y[SCALED_MAX_STATES];
       memcpy(y, ti->y, sizeof y);
       assert_int_equal(timeint_set_tolerance(ti, 1e-12), HC_OK);
-      assert_int_equal(integrate_period(ti->in, &ti->model, y, NULL, NULL), HC_OK);
+      assert_int_equal(integrate_period(ti->in, &ti->scaled, y, NULL, NULL), HC_OK);
       for (int i = 0; i < 3; ++i) CHECK_NEAR(y[i], ti->y[i], 2e-9, "leaning %d: y[%d]", side, i);
       timeint_free(ti);
     }
@@ -221,17 +223,17 @@ typedef struct watched {
   bool closed[SCENE_MAX_CONTACTS], broken;
 } watched;
 
-static bool is_closed(const model *m, int j, const double *y)
+static bool is_closed(const scaled_model *m, int j, const double *y)
 {
-  return m->contact[j].sine * y[MODEL_X] + m->contact[j].law.gap > 0;
+  return m->contact[j].sine * y[SCALED_X] + m->contact[j].law.gap > 0;
 }
 
 static hc_status look(void *self, const integrator *in, double theta0, double theta1)
 {
   (void)theta0;
   watched *w = self;
-  const model *m = &w->ti->model;
-  double y[MODEL_MAX_STATES];
+  const scaled_model *m = &w->ti->scaled;
+  double y[SCALED_MAX_STATES];
   hc_status st = integrate_dense(in, theta1, 0, y);
   for (int j = 0; j < m->n_contacts && st == HC_OK; ++j) {
     bool closed = is_closed(m, j, y);
@@ -248,8 +250,8 @@ static bool something_happens(timeint *ti)
 {
   watched w = {.ti = ti};
   const long switches = integrate_switches(ti->in);
-  for (int j = 0; j < ti->model.n_contacts; ++j) w.closed[j] = is_closed(&ti->model, j, ti->y);
-  for (int i = 0; i < PERIODS; ++i) assert_int_equal(integrate_period(ti->in, &ti->model, ti->y, look, &w), HC_OK);
+  for (int j = 0; j < ti->scaled.n_contacts; ++j) w.closed[j] = is_closed(&ti->scaled, j, ti->y);
+  for (int i = 0; i < PERIODS; ++i) assert_int_equal(integrate_period(ti->in, &ti->scaled, ti->y, look, &w), HC_OK);
   return w.broken || integrate_switches(ti->in) > switches;
 }
 
@@ -290,21 +292,21 @@ static bool farthest(const scene *sc, double omega, double reach)
   if (yes) {
     timeint_state st = between(&a, &b, low);
     timeint_result r;
-    double end[MODEL_MAX_STATES], began[MODEL_MAX_STATES];
+    double end[SCALED_MAX_STATES], began[SCALED_MAX_STATES];
     assert_true(asked(ti, omega, &st));
     memcpy(began, ti->y, sizeof began);
     linear_steady(ti, &r);
     memcpy(end, ti->y, sizeof end);
     memcpy(ti->y, began, sizeof began);
     assert_false(something_happens(ti));
-    double k = ti->model.k;
+    double k = ti->scaled.k;
     for (int j = 0; j < sc->n_contacts; ++j)
-      if (is_closed(&ti->model, j, end)) k += scene_stuck_stiffness(&sc->contacts[j]) / (sc->mass * omega * omega);
+      if (is_closed(&ti->scaled, j, end)) k += scene_stuck_stiffness(&sc->contacts[j]) / (sc->mass * omega * omega);
     double left = 1.1 * hypot(began[0] - end[0], (began[1] - end[1]) / sqrt(k)) * pow(r.multiplier, PERIODS) + 1e-6;
     CHECK_NEAR(ti->y[0], end[0], left, "X");
     CHECK_NEAR(ti->y[1], end[1], left * sqrt(k), "P");
     for (int j = 0; j < sc->n_contacts; ++j)
-      if (frictional(&sc->contacts[j].law)) CHECK_NEAR(ti->y[MODEL_W + j], end[MODEL_W + j], left, "W");
+      if (frictional(&sc->contacts[j].law)) CHECK_NEAR(ti->y[SCALED_W + j], end[SCALED_W + j], left, "W");
   }
   timeint_free(ti);
   return yes;
@@ -349,13 +351,13 @@ static void up_to_the_edge(const scene *from, const char *name, double omega, co
     timeint_state st = state_of(&sc, omega, w, 0, 0);
     CHECK_LE(asked(ti, omega, &st), !above, "%s at %g: the edge is at %g", name, omega, low);
     assert_int_equal(timeint_set_tolerance(ti, 1e-12), HC_OK);
-    double began[MODEL_MAX_STATES];
+    double began[SCALED_MAX_STATES];
     memcpy(began, ti->y, sizeof began);
     const bool happens = something_happens(ti);
     if (happens != above) print_error("%s at %g, law %d, %s %g\n", name, omega, law, above ? "above" : "below", low);
     assert_true(happens == above);
     if (!above)
-      CHECK_NEAR(ti->y[MODEL_X], began[MODEL_X], 2e-8, "%s at %g, law %d: stays on the orbit", name, omega, law);
+      CHECK_NEAR(ti->y[SCALED_X], began[SCALED_X], 2e-8, "%s at %g, law %d: stays on the orbit", name, omega, law);
     timeint_free(ti);
   }
 }

@@ -3,6 +3,7 @@
 
 #include <complex.h>
 
+#include "tests/scene_parts.h"
 #include "tests/timeint/scenes.h"
 #include "timeint/measure.h"
 
@@ -22,19 +23,19 @@ static void free_vibration(void **state)
   (void)state;
   const double s = 2.5, p = 0.6, q = -0.8, tol = 4e-10;
   scene sc = scene_linear(1, 0, s * s, 0);
-  model m;
+  scaled_model m;
   integrator *in;
   measure *me = calloc(1, sizeof *me);
   assert_non_null(me);
-  model_make(&m, &sc, 1, 1);
+  scene_scaled(&m, &sc, 1, 1);
   assert_int_equal(integrate_new_regularised(m.n_states, 1e-13, &in), HC_OK);
-  double y[MODEL_MAX_STATES] = {p, s * q};
+  double y[SCALED_MAX_STATES] = {p, s * q};
   measure_begin(me, &m);
   measure_period(me, y);
   assert_int_equal(integrate_period(in, &m, y, measure_step, me), HC_OK);
   timeint_result r;
-  measure_report(me, &sc, 10, &r);     /* L = 10: lengths come out ten times as large */
-  double complex X = 10 * (p - I * q); /* x = Re(X e^{i s theta}) */
+  scene_measure_report(me, &sc, 10, &r); /* L = 10: lengths come out ten times as large */
+  double complex X = 10 * (p - I * q);   /* x = Re(X e^{i s theta}) */
   CHECK_NEAR(r.max, 10, 10 * tol, "highest peak");
   CHECK_NEAR(r.min, -10, 10 * tol, "lowest");
   CHECK_NEAR(r.amplitude, 10, 10 * tol, "amplitude");
@@ -55,7 +56,7 @@ static contact_regime regime(double gap, double min, double max, bool slides)
   scene_add(&sc, 1, 1, 1, gap, 30);
   measure me = {.periods = 1, .min = min, .max = max, .slides = slides};
   timeint_result r;
-  measure_report(&me, &sc, 1, &r);
+  scene_measure_report(&me, &sc, 1, &r);
   return r.regime;
 }
 

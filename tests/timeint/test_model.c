@@ -3,8 +3,9 @@
 
 #include <float.h>
 
+#include "tests/scene_parts.h"
 #include "tests/timeint/scenes.h"
-#include "timeint/model.h"
+#include "timeint/scaled.h"
 
 /* Against the printed equation in the scene's own units, where both laws are exact (no corner within 40 widths):
  * rounding only, of the largest term. */
@@ -21,32 +22,32 @@ static void rhs_is_the_printed_equation(void **state)
     t = fmin(fmax(c->kt * (x * cos(a) - at), -largest), largest);
     force -= t * cos(a) + (contact_normal(c, x * sin(a)) - contact_preload(c)) * sin(a);
   }
-  model m;
-  model_make(&m, &sc, omega, L);
+  scaled_model m;
+  scene_scaled(&m, &sc, omega, L);
   double y[4] = {x / L, v / (omega * L), w[0] / L, w[1] / L}, dy[4];
-  CHECK_LE(1, model_rhs(&m, theta, y, dy), "finite");
+  CHECK_LE(1, scaled_rhs(&m, theta, y, dy), "finite");
   CHECK_NEAR(dy[1] * sc.mass * omega * omega * L, force, 64 * DBL_EPSILON * 1000, "M x''");
   CHECK_NEAR(dy[0] * omega * L, v, 4 * DBL_EPSILON * 5, "x'");
 }
 
 /* Central differences as in test_law.c: h^2/6 times the third derivative of softplus (kn/(6 sqrt 3 width^2) per
  * contact, over eta in w'), plus rounding. */
-static void check_jacobian(const model *m, const double *y)
+static void check_jacobian(const scaled_model *m, const double *y)
 {
   const double h = 1e-5;
   const int n = m->n_states;
-  double jac[MODEL_MAX_STATES * MODEL_MAX_STATES];
-  model_jacobian(m, y, jac);
+  double jac[SCALED_MAX_STATES * SCALED_MAX_STATES];
+  scaled_jacobian(m, y, jac);
   for (int j = 0; j < n; ++j) {
-    double yp[MODEL_MAX_STATES], ym[MODEL_MAX_STATES], fp[MODEL_MAX_STATES], fm[MODEL_MAX_STATES];
+    double yp[SCALED_MAX_STATES], ym[SCALED_MAX_STATES], fp[SCALED_MAX_STATES], fm[SCALED_MAX_STATES];
     memcpy(yp, y, sizeof yp), memcpy(ym, y, sizeof ym);
     yp[j] += h, ym[j] -= h;
-    model_rhs(m, 0.3, yp, fp), model_rhs(m, 0.3, ym, fm);
+    scaled_rhs(m, 0.3, yp, fp), scaled_rhs(m, 0.3, ym, fm);
     for (int i = 0; i < n; ++i) {
       double third = 0, gain = 1;
       for (int c = 0; c < m->n_contacts; ++c)
         third += m->contact[c].law.kn / (6 * sqrt(3) * m->contact[c].law.width * m->contact[c].law.width);
-      if (i >= MODEL_W) gain = m->contact[i - MODEL_W].law.mu / m->contact[i - MODEL_W].law.eta;
+      if (i >= SCALED_W) gain = m->contact[i - SCALED_W].law.mu / m->contact[i - SCALED_W].law.eta;
       double tol = h * h / 6 * third * (gain + 1) + 16 * DBL_EPSILON * (fabs(fp[i]) + 100 * (1 + gain)) / h;
       CHECK_NEAR(jac[i + j * n], (fp[i] - fm[i]) / (2 * h), tol, "d%d/d%d", i, j);
     }
@@ -54,13 +55,13 @@ static void check_jacobian(const model *m, const double *y)
 }
 
 /* Farther from |S| = mu N than a step of the differences can reach? */
-static bool off_corners(const model *m, const double *y)
+static bool off_corners(const scaled_model *m, const double *y)
 {
   for (int j = 0; j < m->n_contacts; ++j) {
-    const model_contact *c = &m->contact[j];
+    const scaled_contact *c = &m->contact[j];
     if (!c->law.slides) continue;
-    double u = c->cosine * y[MODEL_X], v = c->sine * y[MODEL_X];
-    double s = fabs(c->law.kt * (u - y[MODEL_W + j])), limit = c->law.mu * law_regularised_eval(&c->law, u, v, 0).n;
+    double u = c->cosine * y[SCALED_X], v = c->sine * y[SCALED_X];
+    double s = fabs(c->law.kt * (u - y[SCALED_W + j])), limit = c->law.mu * law_regularised_eval(&c->law, u, v, 0).n;
     if (fabs(s - limit) < 1e-4 * (c->law.kt + c->law.kn)) return false;
   }
   return true;
@@ -75,12 +76,12 @@ static void jacobian_is_the_derivative(void **state)
   scene_add(&sc, 50, 60, 0.5, 2, 20);
   scene_add(&sc, 50, 60, 0.5, 2, 90);
   scene_add(&sc, 0, 60, 0.5, -2, 70);
-  model m;
-  model_make(&m, &sc, 7, 5);
+  scaled_model m;
+  scene_scaled(&m, &sc, 7, 5);
   int tried = 0;
   for (int both = 0; both < 2; ++both)
     for (int i = 0; i < 400; ++i) {
-      double y[MODEL_MAX_STATES] = {2 * sin(1.1 * i), cos(2.0 * i), 2 * sin(0.7 * i), 2 * cos(0.9 * i), 0.1, 0.2};
+      double y[SCALED_MAX_STATES] = {2 * sin(1.1 * i), cos(2.0 * i), 2 * sin(0.7 * i), 2 * cos(0.9 * i), 0.1, 0.2};
       for (int j = 0; j < m.n_contacts; ++j) m.contact[j].law.overstress = both;
       if (!off_corners(&m, y)) continue;
       check_jacobian(&m, y);
@@ -94,14 +95,14 @@ static void jacobian_is_the_derivative(void **state)
 static void scale_drops_out(void **state)
 {
   (void)state;
-  model one, other;
+  scaled_model one, other;
   scene sc = scene_c2();
-  model_make(&one, &sc, 7, 10);
+  scene_scaled(&one, &sc, 7, 10);
   for (int big = 0; big < 2; ++big) {
     double s = big ? 1e9 : 1e-9;
     scene scaled = sc;
     scaled.force *= s, scaled.contacts[0].law.gap *= s;
-    model_make(&other, &scaled, 7, 10 * s);
+    scene_scaled(&other, &scaled, 7, 10 * s);
     CHECK_NEAR(other.f, one.f, 8 * DBL_EPSILON * one.f, "force");
     CHECK_NEAR(other.contact[0].law.gap, one.contact[0].law.gap, 8 * DBL_EPSILON, "gap");
     CHECK_NEAR(other.contact[0].law.width, one.contact[0].law.width, 8 * DBL_EPSILON, "width");
@@ -112,15 +113,15 @@ static void not_finite_is_noticed(void **state)
 {
   (void)state;
   scene sc = scene_c2();
-  model m;
-  model_make(&m, &sc, 7, 10);
+  scaled_model m;
+  scene_scaled(&m, &sc, 7, 10);
   double dy[3];
   for (int i = 0; i < 3; ++i) {
     double y[3] = {0.1, 0.2, 0.3};
     y[i] = NAN;
-    CHECK_LE(model_rhs(&m, 0, y, dy), 0, "NaN in state %d", i);
+    CHECK_LE(scaled_rhs(&m, 0, y, dy), 0, "NaN in state %d", i);
     y[i] = INFINITY;
-    CHECK_LE(model_rhs(&m, 0, y, dy), 0, "infinity in state %d", i);
+    CHECK_LE(scaled_rhs(&m, 0, y, dy), 0, "infinity in state %d", i);
   }
 }
 

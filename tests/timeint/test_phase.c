@@ -3,25 +3,26 @@
 
 #include <float.h>
 
+#include "tests/scene_parts.h"
 #include "tests/timeint/scenes.h"
 #include "timeint/phase.h"
 
 static const double eps = DBL_EPSILON;
 
 /* Stiffness 40, unit mass, omega and length 1: a contact's numbers stay as they are. */
-static model with(double kt, double kn, double mu, double gap, double angle)
+static scaled_model with(double kt, double kn, double mu, double gap, double angle)
 {
   scene sc = scene_linear(1, 0.4, 40, 10);
   scene_add(&sc, kt, kn, mu, gap, angle);
   sc.transient.law = TRANSIENT_LAW_EXACT;
-  model m;
-  model_make(&m, &sc, 1, 1);
+  scaled_model m;
+  scene_scaled(&m, &sc, 1, 1);
   return m;
 }
 
-static contact_state begin(const model *m, double x, double p, double w, phase *ph)
+static contact_state begin(const scaled_model *m, double x, double p, double w, phase *ph)
 {
-  const double y[MODEL_MAX_STATES] = {x, p, w};
+  const double y[SCALED_MAX_STATES] = {x, p, w};
   assert_true(phase_begin(ph, m, y) >= 0);
   return ph->contact[0].state;
 }
@@ -31,7 +32,7 @@ static void a_period_begins_in_any_state(void **state)
 {
   (void)state;
   const double r = sqrt(2);
-  model m = with(4, 4, 0.5, 1, 45);
+  scaled_model m = with(4, 4, 0.5, 1, 45);
   phase ph;
   assert_int_equal(begin(&m, -1.5 * r, 1, 0, &ph), CONTACT_SEPARATED);
   CHECK_NEAR(ph.up, -r, 4 * eps, "v + gap = 0");
@@ -58,7 +59,7 @@ static double any(void)
   return (double)(s >> 11) * 0x1p-53;
 }
 
-/* The phase's equation is that of the law (model_rhs, exact in any admissible state), sums of 8 terms rounded once
+/* The phase's equation is that of the law (scaled_rhs, exact in any admissible state), sums of 8 terms rounded once
  * or twice each; up and down are where the first guard of contact_law.h vanishes: no guard is negative inside, one
  * is 0 at the end. */
 static void bounds_and_force_are_those_of_the_law(void **state)
@@ -66,18 +67,18 @@ static void bounds_and_force_are_those_of_the_law(void **state)
   (void)state;
   int stuck = 0, slipping = 0, ended = 0;
   for (int i = 0; i < 20000; ++i) {
-    model m = with(8 * any(), 8 * any(), any(), 2 * any() - 0.5, 90 * any());
-    const model_contact *mc = &m.contact[0];
+    scaled_model m = with(8 * any(), 8 * any(), any(), 2 * any() - 0.5, 90 * any());
+    const scaled_contact *mc = &m.contact[0];
     const contact law = {mc->law.kt, mc->law.kn, mc->law.mu, mc->law.gap};
     const double x = 2 * any() - 1, p = 2 * any() - 1, w = 2 * any() - 1;
     phase ph;
     contact_state st = begin(&m, x, p, w, &ph);
-    double rest, by_x, dy[MODEL_MAX_STATES];
+    double rest, by_x, dy[SCALED_MAX_STATES];
     phase_slider(&ph, 0, &rest, &by_x);
-    const double y[MODEL_MAX_STATES] = {x, p, rest + by_x * x};
-    model_rhs(&m, 0, y, dy);
+    const double y[SCALED_MAX_STATES] = {x, p, rest + by_x * x};
+    scaled_rhs(&m, 0, y, dy);
     const double size = 10 + 50 + 8 * 3 + 8 * 3;
-    CHECK_NEAR(phase_force(&ph, 1, x, p), dy[MODEL_P], 8 * eps * size, "P' in state %d of contact %d", st, i);
+    CHECK_NEAR(phase_force(&ph, 1, x, p), dy[SCALED_P], 8 * eps * size, "P' in state %d of contact %d", st, i);
     slipping += contact_slip_sign(st) != 0;
     if (st != CONTACT_STICK || !ph.contact[0].own) continue;
     ++stuck;
@@ -105,7 +106,7 @@ static void a_slipping_contact_goes_round(void **state)
 {
   (void)state;
   const double r = sqrt(2), tol = 16 * eps;
-  model m = with(4, 4, 0.5, -1, 45);
+  scaled_model m = with(4, 4, 0.5, -1, 45);
   phase ph;
   assert_int_equal(begin(&m, 0, 1, 0, &ph), CONTACT_SEPARATED);
   assert_int_equal(phase_next(&ph, ph.up, 1, false), 1);
@@ -132,7 +133,7 @@ static void a_sticking_contact_separates_only(void **state)
   (void)state;
   for (int i = 0; i < 2000; ++i) {
     const double kn = 0.1 + any(), mu = any(), kt = i % 2 ? mu * kn : mu * kn * any(), gap = 2 * any() - 1;
-    model m = with(kt, kn, mu, gap, 45);
+    scaled_model m = with(kt, kn, mu, gap, 45);
     phase ph;
     assert_int_equal(begin(&m, -3, 1, 0, &ph), CONTACT_SEPARATED);
     const double over = ph.up + 1e-13 * any(); /* as located */
@@ -151,7 +152,7 @@ static void degenerate_contacts(void **state)
 {
   (void)state;
   phase ph;
-  model m = with(4, 4, 0.5, 1, 0); /* constant N = 4: slips where |4(x - w)| = 2 */
+  scaled_model m = with(4, 4, 0.5, 1, 0); /* constant N = 4: slips where |4(x - w)| = 2 */
   assert_int_equal(begin(&m, 0, 1, 0.1, &ph), CONTACT_STICK);
   CHECK_NEAR(ph.up, 0.6, 4 * eps, "alpha 0");
   CHECK_NEAR(ph.down, -0.4, 4 * eps, "alpha 0");
@@ -164,7 +165,7 @@ static void degenerate_contacts(void **state)
   assert_int_equal(begin(&m, 0, 1, 0, &ph), CONTACT_SEPARATED);
   assert_false(phase_ends(&ph));
   CHECK_NEAR(ph.k, 40, 0, "kn 0");
-  const model smooth[] = {with(0, 4, 0.5, 1, 45), with(4, 4, 0, 1, 45), with(4, 4, 0.5, 1, 90)}; /* T = 0 */
+  const scaled_model smooth[] = {with(0, 4, 0.5, 1, 45), with(4, 4, 0, 1, 45), with(4, 4, 0.5, 1, 90)}; /* T = 0 */
   for (int i = 0; i < 3; ++i) {
     const double s = smooth[i].contact[0].sine;
     assert_int_equal(begin(&smooth[i], 0.1, 1, 0.3, &ph), CONTACT_STICK);
@@ -190,9 +191,9 @@ static void several_at_once(void **state)
   scene sc = scene_linear(1, 0.4, 40, 10);
   for (int i = 0; i < 3; ++i) scene_add(&sc, 100, 1000, 0.3, -0.5, 45);
   sc.transient.law = TRANSIENT_LAW_EXACT;
-  model m;
-  model_make(&m, &sc, 1, 1);
-  const double y[MODEL_MAX_STATES] = {0, 1, 0, 0, 0};
+  scaled_model m;
+  scene_scaled(&m, &sc, 1, 1);
+  const double y[SCALED_MAX_STATES] = {0, 1, 0, 0, 0};
   phase ph;
   assert_int_equal(phase_begin(&ph, &m, y), 0);
   const double edge = ph.up;

@@ -2,6 +2,7 @@
  * the exact law. */
 #include "tests/check.h"
 
+#include "campaigns/scene_solvers.h"
 #include "tests/timeint/reference_rows.h"
 #include "tests/timeint/scenes.h"
 
@@ -18,7 +19,7 @@ static double allowed(const scene *sc, const reference_row *row)
 static void follow(const scene *sc, int which, int sweep, double omega)
 {
   timeint *ti;
-  assert_int_equal(timeint_new(sc, &ti), HC_OK);
+  assert_int_equal(scene_timeint(sc, &ti), HC_OK);
   timeint_state y = timeint_rest(ti);
   timeint_result r;
   int rows = 0;

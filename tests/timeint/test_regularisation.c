@@ -1,6 +1,8 @@
 /* test_regularisation.c - the law's error falls at the order it claims. Exact values: reference_rows.h. */
 #include "tests/check.h"
 
+#include "campaigns/scene_solvers.h"
+#include "tests/scene_parts.h"
 #include "tests/timeint/scenes.h"
 #include "timeint/integrate.h"
 #include "timeint/measure.h"
@@ -12,7 +14,7 @@ static double harmonic_1(scene sc, double regularisation, timeint_state y)
   timeint *ti;
   timeint_result r;
   sc.transient.regularisation = regularisation;
-  assert_int_equal(timeint_new(&sc, &ti), HC_OK);
+  assert_int_equal(scene_timeint(&sc, &ti), HC_OK);
   assert_int_equal(timeint_steady(ti, 7, &y, NULL, &r), HC_OK);
   timeint_free(ti);
   return r.harmonic_1;
@@ -52,7 +54,7 @@ static timeint_result solved(scene sc, double regularisation, bool richardson)
   sc.transient.regularisation = regularisation;
   sc.transient.richardson = richardson;
   sc.transient.tolerance = 1e-11;
-  assert_int_equal(timeint_new(&sc, &ti), HC_OK);
+  assert_int_equal(scene_timeint(&sc, &ti), HC_OK);
   assert_int_equal(timeint_steady(ti, 7, &y, NULL, &r), HC_OK);
   timeint_free(ti);
   return r;
@@ -83,12 +85,12 @@ static double with_overstress(double eta)
 {
   scene sc = scene_b10();
   sc.transient.regularisation = eta * 7 / 100; /* eta = regularisation kt/omega */
-  model m;
-  model_make(&m, &sc, 7, 1.4);
+  scaled_model m;
+  scene_scaled(&m, &sc, 7, 1.4);
   m.contact[0].law.overstress = true;
   integrator *in;
   measure *me = calloc(1, sizeof *me);
-  double y[MODEL_MAX_STATES] = {1.04 / 1.4, 1 / 1.4, 0.6 / 1.4};
+  double y[SCALED_MAX_STATES] = {1.04 / 1.4, 1 / 1.4, 0.6 / 1.4};
   assert_non_null(me);
   assert_int_equal(integrate_new_regularised(m.n_states, 1e-11, &in), HC_OK);
   for (int i = 0; i < 200; ++i) assert_int_equal(integrate_period(in, &m, y, NULL, NULL), HC_OK);
@@ -96,7 +98,7 @@ static double with_overstress(double eta)
   measure_period(me, y);
   assert_int_equal(integrate_period(in, &m, y, measure_step, me), HC_OK);
   timeint_result r;
-  measure_report(me, &sc, 1.4, &r);
+  scene_measure_report(me, &sc, 1.4, &r);
   integrate_free(in);
   free(me);
   return r.harmonic_1;

@@ -2,6 +2,7 @@
  * cannot be. Both laws. */
 #include "tests/check.h"
 
+#include "campaigns/scene_solvers.h"
 #include "tests/timeint/scenes.h"
 
 static timeint *made(scene sc, int law, int steady, int start)
@@ -10,7 +11,7 @@ static timeint *made(scene sc, int law, int steady, int start)
   sc.transient.law = law;
   sc.transient.steady = steady;
   sc.transient.start = start;
-  assert_int_equal(timeint_new(&sc, &ti), HC_OK);
+  assert_int_equal(scene_timeint(&sc, &ti), HC_OK);
   return ti;
 }
 

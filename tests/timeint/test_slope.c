@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "model/linear.h"
+#include "tests/scene_parts.h"
 #include "tests/timeint/scenes.h"
 #include "timeint/integrate.h"
 
@@ -17,7 +18,7 @@ static integrator *make(int n, double tolerance)
 }
 
 /* Central differences of fourth order. */
-static void differences(integrator *in, const model *m, const double *y, double h, double *slope)
+static void differences(integrator *in, const scaled_model *m, const double *y, double h, double *slope)
 {
   static const double at[4] = {1, -1, 2, -2}, weight[4] = {8, -8, -1, 1};
   memset(slope, 0, sizeof *slope * N * N);
@@ -37,9 +38,9 @@ static void differences(integrator *in, const model *m, const double *y, double 
 static void compare(const scene *from, const char *name, double omega, double length, double regularisation)
 {
   scene sc = *from;
-  model m;
+  scaled_model m;
   sc.transient.regularisation = regularisation;
-  model_make(&m, &sc, omega, length);
+  scene_scaled(&m, &sc, omega, length);
   integrator *fine = make(N, 1e-13);
   double y[N] = {0.7, 0.5, 0.4}, want[N * N], slope[N * N], alone[2][2], apart = 0;
   for (int i = 0; i < 50; ++i) assert_int_equal(integrate_period(fine, &m, y, NULL, NULL), HC_OK);
@@ -84,8 +85,8 @@ static void stuck_period_is_the_closed_form(void **state)
 {
   (void)state;
   scene sc = scene_a10();
-  model m;
-  model_make(&m, &sc, 10, 0.1);
+  scaled_model m;
+  scene_scaled(&m, &sc, 10, 0.1);
   integrator *in = make(N, 1e-12);
   double y[N] = {1, 0, 0.1}, slope[N * N], e[2][2], k = 190. / 100, by_w = 100 * sqrt(0.5) / 190;
   assert_int_equal(integrate_slope(in, &m, y, slope), HC_OK);
@@ -101,8 +102,8 @@ static void a_slope_leaves_no_trace(void **state)
 {
   (void)state;
   scene sc = scene_c2();
-  model m;
-  model_make(&m, &sc, 7, 10);
+  scaled_model m;
+  scene_scaled(&m, &sc, 7, 10);
   integrator *in = make(N, 1e-10);
   double y[N] = {0.8, 0.6, 0.5}, z[N] = {0.8, 0.6, 0.5}, w[N] = {0.8, 0.6, 0.5}, v[N] = {0.8, 0.6, 0.5},
          slope[2][N * N];
@@ -116,7 +117,7 @@ static void a_slope_leaves_no_trace(void **state)
   m.f = NAN;
   assert_int_equal(integrate_slope(in, &m, v, slope[1]), HC_NOT_FINITE);
   assert_memory_equal(w, v, sizeof w); /* y stays on failure */
-  model_make(&m, &sc, 7, 10);
+  scene_scaled(&m, &sc, 7, 10);
   double u[N] = {0.8, 0.6, 0.5};
   assert_int_equal(integrate_slope(in, &m, u, slope[1]), HC_OK); /* and works again */
   assert_memory_equal(slope[0], slope[1], sizeof slope[0]);

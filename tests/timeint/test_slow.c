@@ -4,6 +4,7 @@
 
 #include <complex.h>
 
+#include "campaigns/scene_solvers.h"
 #include "tests/timeint/scenes.h"
 
 /* Swept up onto the branch that ends at 708.6, as far as 708.5, where the peak bends over by 1.5 rad/s. Exact
@@ -14,7 +15,7 @@ static void bent_peak_is_climbed(void **state)
   (void)state;
   scene sc = scene_r2();
   timeint *ti;
-  assert_int_equal(timeint_new(&sc, &ti), HC_OK);
+  assert_int_equal(scene_timeint(&sc, &ti), HC_OK);
   timeint_state y = timeint_rest(ti);
   timeint_result r;
   assert_int_equal(timeint_sweep(ti, 704, 708.5, &y, NULL), HC_OK);
@@ -44,7 +45,7 @@ static void distance_is_honest(void **state)
     timeint_result r;
     sc.transient.max_periods = allowed[i];
     sc.transient.steady = TRANSIENT_STEADY_MARCH;
-    assert_int_equal(timeint_new(&sc, &ti), HC_OK);
+    assert_int_equal(scene_timeint(&sc, &ti), HC_OK);
     assert_int_equal(timeint_steady(ti, omega, &y, NULL, &r), i < 3 ? HC_NOT_SETTLED : HC_OK);
     timeint_free(ti);
     double off = hypot(y.x - creal(X), y.v / omega + cimag(X)) / cabs(X);

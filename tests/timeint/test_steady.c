@@ -5,6 +5,7 @@
 #include <complex.h>
 #include <float.h>
 
+#include "campaigns/scene_solvers.h"
 #include "tests/timeint/scenes.h"
 
 static double complex response(const scene *sc, double stiffness, double omega)
@@ -15,7 +16,7 @@ static double complex response(const scene *sc, double stiffness, double omega)
 static hc_status steady(const scene *sc, double omega, timeint_state *y, timeint_result *r)
 {
   timeint *ti;
-  hc_status st = timeint_new(sc, &ti);
+  hc_status st = scene_timeint(sc, &ti);
   if (st == HC_OK) st = timeint_steady(ti, omega, y, NULL, r);
   timeint_free(ti);
   return st;
@@ -146,7 +147,7 @@ static void sub_harmonics(void **state)
   (void)state;
   scene sc = scene_c2();
   timeint *ti;
-  assert_int_equal(timeint_new(&sc, &ti), HC_OK);
+  assert_int_equal(scene_timeint(&sc, &ti), HC_OK);
   timeint_state y = timeint_rest(ti);
   timeint_result r;
   const double omegas[] = {5.08, 5.555};
@@ -176,7 +177,7 @@ static void stopped_and_refused(void **state)
   int ticks = 0;
   sc.transient.steady = TRANSIENT_STEADY_MARCH;
   hc_monitor stop = {.tick = stop_at_ten, .self = &ticks};
-  assert_int_equal(timeint_new(&sc, &ti), HC_OK);
+  assert_int_equal(scene_timeint(&sc, &ti), HC_OK);
   timeint_state y = timeint_rest(ti), bad = {.x = NAN};
   timeint_result r;
   assert_int_equal(timeint_steady(ti, 7, &y, &stop, &r), HC_INTERRUPTED);
@@ -189,7 +190,7 @@ static void stopped_and_refused(void **state)
   assert_int_equal(timeint_sweep(ti, 7, -1, &y, NULL), HC_BAD_INPUT);
   timeint_free(ti);
   sc.mass = NAN;
-  assert_int_equal(timeint_new(&sc, &ti), HC_BAD_INPUT);
+  assert_int_equal(scene_timeint(&sc, &ti), HC_BAD_INPUT);
   assert_null(ti);
 }
 

@@ -3,16 +3,17 @@
  * another program and from AUTO. */
 #include "tests/check.h"
 
+#include "campaigns/scene_solvers.h"
 #include "tests/timeint/scenes.h"
 
-static scene exact(scene sc)
+static scene exactly(scene sc)
 {
   sc.transient.law = TRANSIENT_LAW_EXACT;
   return sc;
 }
 
-static scene case2(void) { return exact(scene_c2()); }
-static scene stiff(void) { return exact(scene_paper(100, 100, 1e4, -5)); }
+static scene case2(void) { return exactly(scene_c2()); }
+static scene stiff(void) { return exactly(scene_paper(100, 100, 1e4, -5)); }
 
 /* Up from 4, where only the period-1 orbit is stable, to omega; the orbit followed by shooting, stable or not. */
 static timeint_state followed_to(timeint *ti, double from, double omega, timeint_result *r)
@@ -34,7 +35,7 @@ static double doubling(const scene *sc, double from, double low, double high)
   timeint_result r;
   double at[2] = {low, high}, f[2];
   timeint_state y;
-  assert_int_equal(timeint_new(sc, &ti), HC_OK);
+  assert_int_equal(scene_timeint(sc, &ti), HC_OK);
   for (int i = 0; i < 2; ++i) {
     y = followed_to(ti, from, at[i], &r);
     f[i] = r.multiplier_re + 1;
@@ -68,7 +69,7 @@ static void period_1_above(void **state)
   timeint *ti;
   timeint_result r;
   sc.transient.start = TRANSIENT_START_HBM;
-  assert_int_equal(timeint_new(&sc, &ti), HC_OK);
+  assert_int_equal(scene_timeint(&sc, &ti), HC_OK);
   timeint_state y = followed_to(ti, 6.5, 6.05, &r);
   assert_int_equal(timeint_steady(ti, 6.05, &y, NULL, &r), HC_OK);
   assert_int_equal(r.period_multiple, 1);
@@ -82,7 +83,7 @@ static void becomes(const scene *sc, double omega, int multiple, bool aperiodic)
 {
   timeint *ti;
   timeint_result r;
-  assert_int_equal(timeint_new(sc, &ti), HC_OK);
+  assert_int_equal(scene_timeint(sc, &ti), HC_OK);
   timeint_state y = followed_to(ti, 6.5, omega, &r);
   assert_int_equal(timeint_stability(&r), -1);
   y.x *= 1.001;
@@ -122,7 +123,7 @@ static void swept_up_to_period_4(void **state)
   timeint *ti;
   timeint_result r;
   sc.transient.start = TRANSIENT_START_UP;
-  assert_int_equal(timeint_new(&sc, &ti), HC_OK);
+  assert_int_equal(scene_timeint(&sc, &ti), HC_OK);
   timeint_state y = timeint_rest(ti);
   assert_int_equal(timeint_sweep(ti, 4, 5.11, &y, NULL), HC_OK);
   assert_int_equal(timeint_steady(ti, 5.11, &y, NULL, &r), HC_OK);

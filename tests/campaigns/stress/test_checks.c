@@ -64,12 +64,12 @@ hc_status __wrap_hbm_solve_first(hbm_solver *s, double omega, double *X, hbm_poi
 
 static int regularised; /* the law of the handle made last; one is made for each orbit */
 
-hc_status __real_timeint_new(const scene *sc, timeint **out);
-hc_status __wrap_timeint_new(const scene *sc, timeint **out);
-hc_status __wrap_timeint_new(const scene *sc, timeint **out)
+hc_status __real_timeint_new(const model *m, const transient_settings *how, timeint **out);
+hc_status __wrap_timeint_new(const model *m, const transient_settings *how, timeint **out);
+hc_status __wrap_timeint_new(const model *m, const transient_settings *how, timeint **out)
 {
-  regularised = sc->transient.law == TRANSIENT_LAW_REGULARISED;
-  return __real_timeint_new(sc, out);
+  regularised = how->law == TRANSIENT_LAW_REGULARISED;
+  return __real_timeint_new(m, how, out);
 }
 
 hc_status __real_timeint_orbit(timeint *ti, double omega, int k, timeint_state *state, const hc_monitor *monitor,
@@ -88,14 +88,14 @@ hc_status __wrap_timeint_orbit(timeint *ti, double omega, int k, timeint_state *
   return st;
 }
 
-hc_status __real_comparison_run(const scene *sc, const hc_monitor *monitor, comparison *out);
-hc_status __wrap_comparison_run(const scene *sc, const hc_monitor *monitor, comparison *out);
-hc_status __wrap_comparison_run(const scene *sc, const hc_monitor *monitor, comparison *out)
+hc_status __real_comparison_run(const compare_setup *setup, const hc_monitor *monitor, comparison *out);
+hc_status __wrap_comparison_run(const compare_setup *setup, const hc_monitor *monitor, comparison *out);
+hc_status __wrap_comparison_run(const compare_setup *setup, const hc_monitor *monitor, comparison *out)
 {
-  hc_status st = __real_comparison_run(sc, monitor, out);
+  hc_status st = __real_comparison_run(setup, monitor, out);
   for (int i = 0; i < out->n_rows; ++i) {
     if (spoiled == VERDICT_MATCHED)
-      out->rows[i].verdict = VERDICT_MATCH, out->rows[i].errors.amplitude = 1.01 * sc->gate.amplitude;
+      out->rows[i].verdict = VERDICT_MATCH, out->rows[i].errors.amplitude = 1.01 * setup->limits->most.amplitude;
     if (spoiled == VERDICT_UNSTABLED) out->rows[i].verdict = VERDICT_UNSTABLE;
   }
   return st;
@@ -110,7 +110,7 @@ static scene case_2(void)
   sc.n_contacts = 1;
   sc.contacts[0] = (scene_contact){{100, 1000, 0.3, -5}, 45};
   sc.omega_from = 6, sc.omega_to = 7;
-  sc.compare.omega = (scene_list){1, {6.5}};
+  sc.compare.omega = (number_list){1, {6.5}};
   sc.hbm.harmonics = 20;
   return sc;
 }

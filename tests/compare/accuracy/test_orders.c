@@ -2,6 +2,7 @@
 #include "compare/accuracy/accuracy.h"
 #include "tests/check.h"
 #include "tests/hbm/scenes.h"
+#include "tests/scene_runs.h"
 
 enum { N = 8 };
 
@@ -70,14 +71,14 @@ static scene case2(void)
 {
   scene sc = scene_named("c2", 5, true, 1024);
   sc.hbm.force = HBM_FORCE_EXACT;
-  sc.transient = (scene_transient){.law = TRANSIENT_LAW_EXACT,
-                                   .regularisation = 1e-4,
-                                   .tolerance = 1e-9,
-                                   .max_periods = 20000,
-                                   .steady = TRANSIENT_STEADY_SHOOTING};
-  sc.gate = (scene_gate){1e-3, 1e-3, 1e-3, 5e-3};
+  sc.transient = (transient_settings){.law = TRANSIENT_LAW_EXACT,
+                                      .regularisation = 1e-4,
+                                      .tolerance = 1e-9,
+                                      .max_periods = 20000,
+                                      .steady = TRANSIENT_STEADY_SHOOTING};
+  sc.gate.most = (discrepancy){1e-3, 1e-3, 1e-3, 5e-3};
   sc.omega_from = 5.5, sc.omega_to = 8;
-  sc.compare.omega = (scene_list){7, {5.8, 6, 6.2, 6.5, 6.8, 7, 7.2}};
+  sc.compare.omega = (number_list){7, {5.8, 6, 6.2, 6.5, 6.8, 7, 7.2}};
   return sc;
 }
 
@@ -92,10 +93,10 @@ static void aliasing_of_case_2_is_of_first_or_second_order(void **state)
     comparison c;
     accuracy a;
     sc.hbm.restart = restart;
-    sc.compare.harmonics = (scene_list){1, {5}};
-    sc.compare.samples = (scene_list){8, {64, 128, 256, 512, 1024, 2048, 4096, 8192}};
-    assert_int_equal(comparison_run(&sc, NULL, &c), HC_OK);
-    assert_int_equal(accuracy_run(&sc, &c, NULL, &a), HC_OK);
+    sc.compare.harmonics = (number_list){1, {5}};
+    sc.compare.samples = (number_list){8, {64, 128, 256, 512, 1024, 2048, 4096, 8192}};
+    assert_int_equal(scene_comparison_run(&sc, NULL, &c), HC_OK);
+    assert_int_equal(scene_accuracy_run(&sc, &c, NULL, &a), HC_OK);
     const order_row *r = find(&a, "samples");
     print_message("[   INFO   ] aliasing, %s: order %.2f +- %.2f over %d points\n",
                   restart == HBM_RESTART_SAMPLE ? "sample" : "interpolated", r->fit.order, r->fit.spread,
@@ -114,9 +115,9 @@ static void truncation_of_case_2_is_of_third_order_or_more(void **state)
   scene sc = case2();
   comparison c;
   accuracy a;
-  sc.compare.harmonics = (scene_list){6, {5, 8, 12, 18, 27, 40}};
-  assert_int_equal(comparison_run(&sc, NULL, &c), HC_OK);
-  assert_int_equal(accuracy_run(&sc, &c, NULL, &a), HC_OK);
+  sc.compare.harmonics = (number_list){6, {5, 8, 12, 18, 27, 40}};
+  assert_int_equal(scene_comparison_run(&sc, NULL, &c), HC_OK);
+  assert_int_equal(scene_accuracy_run(&sc, &c, NULL, &a), HC_OK);
   const order_row *r = find(&a, "harmonics");
   print_message("[   INFO   ] truncation: order %.2f +- %.2f over %d points\n", r->fit.order, r->fit.spread,
                 r->fit.points);
@@ -136,9 +137,9 @@ static void regularisation_of_case_2_is_of_first_order(void **state)
   sc.transient.law = TRANSIENT_LAW_REGULARISED;
   sc.transient.regularisation = 1e-3;
   sc.transient.tolerance = 1e-8;
-  sc.compare.omega = (scene_list){2, {6, 7}};
-  assert_int_equal(comparison_run(&sc, NULL, &c), HC_OK);
-  assert_int_equal(order_of_regularisation(&sc, &c, NULL, &r), HC_OK);
+  sc.compare.omega = (number_list){2, {6, 7}};
+  assert_int_equal(scene_comparison_run(&sc, NULL, &c), HC_OK);
+  assert_int_equal(scene_order_of_regularisation(&sc, &c, NULL, &r), HC_OK);
   print_message("[   INFO   ] regularisation at omega %g: order %.3f +- %.3f over %d points\n", r.omega, r.fit.order,
                 r.fit.spread, r.fit.points);
   CHECK_NEAR(r.fit.order, 1, 0.1, "over %d points", r.fit.points);

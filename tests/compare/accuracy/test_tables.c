@@ -3,18 +3,19 @@
 #include "compare/accuracy/accuracy.h"
 #include "tests/check.h"
 #include "tests/hbm/scenes.h"
+#include "tests/scene_runs.h"
 
 static scene case2(void)
 {
   scene sc = scene_named("c2", 10, true, 1024);
   sc.hbm.force = HBM_FORCE_EXACT;
-  sc.transient = (scene_transient){.law = TRANSIENT_LAW_EXACT,
-                                   .regularisation = 1e-4,
-                                   .tolerance = 1e-9,
-                                   .max_periods = 20000,
-                                   .steady = TRANSIENT_STEADY_SHOOTING};
-  sc.gate = (scene_gate){1e-3, 1e-3, 1e-3, 5e-3};
-  sc.compare.omega = (scene_list){2, {6, 8}};
+  sc.transient = (transient_settings){.law = TRANSIENT_LAW_EXACT,
+                                      .regularisation = 1e-4,
+                                      .tolerance = 1e-9,
+                                      .max_periods = 20000,
+                                      .steady = TRANSIENT_STEADY_SHOOTING};
+  sc.gate.most = (discrepancy){1e-3, 1e-3, 1e-3, 5e-3};
+  sc.compare.omega = (number_list){2, {6, 8}};
   return sc;
 }
 
@@ -33,10 +34,10 @@ static void rows_are_the_grid(void **state)
   scene sc = case2();
   comparison c;
   accuracy a;
-  sc.compare.harmonics = (scene_list){3, {10, 3, 10}};
-  sc.compare.samples = (scene_list){2, {2048, 8}};
-  assert_int_equal(comparison_run(&sc, NULL, &c), HC_OK);
-  assert_int_equal(accuracy_run(&sc, &c, NULL, &a), HC_OK);
+  sc.compare.harmonics = (number_list){3, {10, 3, 10}};
+  sc.compare.samples = (number_list){2, {2048, 8}};
+  assert_int_equal(scene_comparison_run(&sc, NULL, &c), HC_OK);
+  assert_int_equal(scene_accuracy_run(&sc, &c, NULL, &a), HC_OK);
   assert_int_equal(a.n_rows, 6);
   assert_int_equal(a.orbits, 4);
   assert_int_equal(a.frequencies, 2);
@@ -62,9 +63,9 @@ static void the_table_agrees_with_the_rows(void **state)
   comparison c;
   accuracy a;
   double worst = 0;
-  sc.compare.harmonics = (scene_list){1, {10}};
-  assert_int_equal(comparison_run(&sc, NULL, &c), HC_OK);
-  assert_int_equal(accuracy_run(&sc, &c, NULL, &a), HC_OK);
+  sc.compare.harmonics = (number_list){1, {10}};
+  assert_int_equal(scene_comparison_run(&sc, NULL, &c), HC_OK);
+  assert_int_equal(scene_accuracy_run(&sc, &c, NULL, &a), HC_OK);
   for (int i = 0; i < c.n_rows; ++i)
     worst = fmax(worst, fabs(c.rows[i].hbm.amplitude - c.rows[i].orbit.amplitude) / c.rows[i].orbit.amplitude);
   CHECK_NEAR(a.rows[0].worst, worst, 1e-8, "twice the residual tolerance, over 1 - multiplier");
@@ -80,9 +81,9 @@ static void the_peak_is_the_limit_of_many_harmonics(void **state)
   scene sc = case2();
   comparison c;
   accuracy a;
-  sc.compare.harmonics = (scene_list){2, {40, 80}};
-  assert_int_equal(comparison_run(&sc, NULL, &c), HC_OK);
-  assert_int_equal(accuracy_run(&sc, &c, NULL, &a), HC_OK);
+  sc.compare.harmonics = (number_list){2, {40, 80}};
+  assert_int_equal(scene_comparison_run(&sc, NULL, &c), HC_OK);
+  assert_int_equal(scene_accuracy_run(&sc, &c, NULL, &a), HC_OK);
   const accuracy_row *h40 = find(&a, 40, 0), *h80 = find(&a, 80, 0);
   assert_true(a.peak_by_orbit);
   CHECK_NEAR(a.peak_amplitude, h80->peak_amplitude, fabs(h80->peak_amplitude - h40->peak_amplitude) / 7 + 1e-8,
@@ -104,13 +105,13 @@ static void an_interrupt_keeps_whole_rows(void **state)
   (void)state;
   scene sc = case2();
   comparison c;
-  sc.compare.harmonics = (scene_list){2, {1, 3}};
-  assert_int_equal(comparison_run(&sc, NULL, &c), HC_OK);
+  sc.compare.harmonics = (number_list){2, {1, 3}};
+  assert_int_equal(scene_comparison_run(&sc, NULL, &c), HC_OK);
   for (int ticks = 1; ticks < 400; ticks = 2 * ticks + 1) {
     accuracy a;
     int left = ticks;
     hc_monitor monitor = {stop_at_once, &left};
-    hc_status st = accuracy_run(&sc, &c, &monitor, &a);
+    hc_status st = scene_accuracy_run(&sc, &c, &monitor, &a);
     assert_int_equal(st, left > 0 ? HC_OK : HC_INTERRUPTED);
     for (int i = 0; i < a.n_rows; ++i) assert_true(a.rows[i].harmonics == 1 || a.rows[i].harmonics == 3);
     accuracy_clear(&a);

@@ -5,6 +5,7 @@
 
 #include <string.h>
 
+#include "campaigns/scene_solvers.h"
 #include "cases/case_file.h"
 #include "compare/verify/verify.h"
 #include "tests/check.h"
@@ -68,7 +69,7 @@ static inline verify_data curve_make(const scene *sc, const spoiling *how, doubl
   hbm_solver *hbm;
   hbm_curve curve = {0};
   verify_data d = {.quantity = (verify_quantity)how->said, .points = calloc(CURVE_ROOM, sizeof *d.points)};
-  assert_int_equal(hbm_solver_new(&own, &hbm), HC_OK);
+  assert_int_equal(scene_hbm_solver(&own, &hbm), HC_OK);
   assert_int_equal(hbm_trace(hbm, own.omega_from, own.omega_to, NULL, &curve), HC_OK);
   for (int i = 0; i < n; ++i) {
     double omega = low + (high - low) * i / (n - 1);

@@ -5,6 +5,7 @@
  * one under preload that slides and lifts off. What is tested is that the mistake is told from all others that are
  * tried. */
 #include "tests/compare/verify/curves.h"
+#include "tests/scene_runs.h"
 
 static const char case2[] = "cases/paper/case2.yaml", preloaded[] = "cases/paper/fig09_gap_p1.yaml";
 
@@ -33,7 +34,7 @@ static verify_report named(const prepared *p)
   verify_data d = curve_make(&sc, &p->how, p->low, p->high, p->n);
   verify_report r;
   char words[VERIFY_TEXT];
-  assert_int_equal(verify_run(&sc, &d, NULL, &r), HC_OK);
+  assert_int_equal(scene_verify_run(&sc, &d, NULL, &r), HC_OK);
   if (strcmp(verify_cause_words(r.causes, words), p->cause)) {
     say(p, &r);
     fail();
@@ -154,7 +155,7 @@ static void no_cause_is_made_up(void **state)
   verify_data d = curve_make(&sc, &how, 4, 14, 41);
   verify_report r;
   char text[VERIFY_TEXT];
-  assert_int_equal(verify_run(&sc, &d, NULL, &r), HC_OK);
+  assert_int_equal(scene_verify_run(&sc, &d, NULL, &r), HC_OK);
   assert_int_equal(r.causes, 0);
   assert_int_equal(verify_exit_code(&r), 1);
   assert_non_null(strstr(verify_sentence(&r, text), "no hypothesis fits better than"));
@@ -170,7 +171,7 @@ static void errors_are_what_was_put_in(void **state)
   const spoiling how = {.harmonics = 40, .noise = 1e-3};
   verify_data d = curve_make(&sc, &how, 10, 14, 9);
   verify_report r;
-  assert_int_equal(verify_run(&sc, &d, NULL, &r), HC_OK);
+  assert_int_equal(scene_verify_run(&sc, &d, NULL, &r), HC_OK);
   assert_int_equal(r.n_rows, 9);
   CHECK_LE(r.checked_error, 1e-4, "a tenth of the gate");
   for (int i = 0; i < r.n_rows; ++i)
@@ -196,7 +197,7 @@ static void stopping_keeps_rows(void **state)
     int left = ticks;
     const hc_monitor monitor = {stop, &left};
     verify_report r;
-    assert_int_equal(verify_run(&sc, &d, &monitor, &r), HC_INTERRUPTED);
+    assert_int_equal(scene_verify_run(&sc, &d, &monitor, &r), HC_INTERRUPTED);
     assert_in_range(r.n_rows, 0, d.n);
     verify_clear(&r);
   }

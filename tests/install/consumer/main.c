@@ -51,7 +51,10 @@ static void trace(const scene *sc)
   hbm_special special;
   hbm_measures m;
   int n = 0;
-  done("hbm_solver_new", hbm_solver_new(sc, &s));
+  compare_setup setup;
+  done("scene_setup", scene_setup(sc, &setup));
+  done("hbm_solver_new", hbm_solver_new(setup.model, &setup.hbm, &s));
+  scene_setup_clear(&setup);
   done("hbm_trace", hbm_trace(s, sc->omega_from, sc->omega_to, NULL, &curve));
   done("hbm_specials", hbm_specials(s, &curve, 1, &special, &n));
   near("specials, at least one", n >= 1, 1, 0);
@@ -72,7 +75,10 @@ static void march(const scene *sc)
 {
   timeint *ti;
   timeint_result r;
-  done("timeint_new", timeint_new(sc, &ti));
+  compare_setup setup;
+  done("scene_setup", scene_setup(sc, &setup));
+  done("timeint_new", timeint_new(setup.model, &setup.transient, &ti));
+  scene_setup_clear(&setup);
   timeint_state y = timeint_rest(ti);
   done("timeint_steady", timeint_steady(ti, 5, &y, NULL, &r));
   near("transient at omega = 5", r.amplitude, linear_amplitude(sc, 5), 10 * sc->transient.tolerance * r.amplitude);
@@ -86,7 +92,10 @@ static void compare(scene sc)
   sc.compare.omega.n = 2;
   sc.compare.omega.v[0] = 5;
   sc.compare.omega.v[1] = 7;
-  done("comparison_run", comparison_run(&sc, NULL, &c));
+  compare_setup setup;
+  done("scene_setup", scene_setup(&sc, &setup));
+  done("comparison_run", comparison_run(&setup, NULL, &c));
+  scene_setup_clear(&setup);
   near("rows", c.n_rows, 2, 0);
   near("rows that match", c.count[VERDICT_MATCH], 2, 0);
   near("exit code", comparison_exit_code(&c), 0, 0);

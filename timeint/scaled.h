@@ -1,4 +1,4 @@
-/* model.h - the scene's equations in the phase theta = omega t, without dimensions; no solver is known here.
+/* scaled.h - the equations of a model in the phase theta = omega t, without dimensions; no solver is known here.
  *
  *     X = x/L,  P = dX/dtheta,  W_j = w_j/L          L [length]: about the size of the motion, so states are about 1
  *     X' = P
@@ -9,38 +9,39 @@
  * Forces are in units of M omega^2 L. N0 = max(kn gap, 0) is the exact preload, not softplus' of it: at gap = 0 the
  * two differ to first order in the width, and a constant force would show in the answer to first order too.
  *
- * For the exact law the corner's width is 0, and X', P' of model_rhs are then exact for any state whose slider obeys
+ * For the exact law the corner's width is 0, and X', P' of scaled_rhs are then exact for any state whose slider obeys
  * |T| <= mu N; the sliders' own motion is integrate_exact.c's. */
 #ifndef HC_TIMEINT_MODEL_H
 #define HC_TIMEINT_MODEL_H
 
-#include "model/scene.h"
+#include "model/model.h"
 #include "timeint/law_regularised.h"
+#include "timeint/timeint.h"
 
-enum { MODEL_X, MODEL_P, MODEL_W, MODEL_MAX_STATES = MODEL_W + SCENE_MAX_CONTACTS }; /* order of the states */
+enum { SCALED_X, SCALED_P, SCALED_W, SCALED_MAX_STATES = SCALED_W + TIMEINT_MAX_CONTACTS }; /* order of the states */
 
-typedef struct model_contact {
+typedef struct scaled_contact {
   law_regularised law; /* without dimensions */
   double cosine, sine; /* of the contact's angle */
   double preload;      /* N0 */
-} model_contact;
+} scaled_contact;
 
-typedef struct model {
+typedef struct scaled_model {
   int n_contacts, n_states; /* n_states = 2 + n_contacts */
   double k, c, f;
-  model_contact contact[SCENE_MAX_CONTACTS];
-} model;
+  scaled_contact contact[TIMEINT_MAX_CONTACTS];
+} scaled_model;
 
-/* The equations of *sc at omega [rad/time] > 0, in lengths L = length > 0. */
-void model_make(model *m, const scene *sc, double omega, double length);
+/* The equations of *from at omega [rad/time] > 0, in lengths L = length > 0. */
+void scaled_make(scaled_model *m, const model *from, const transient_settings *how, double omega, double length);
 
 /* dy[n_states] at phase theta and state y[n_states]. Answers whether all of it is finite. */
-bool model_rhs(const model *m, double theta, const double *y, double *dy);
+bool scaled_rhs(const scaled_model *m, double theta, const double *y, double *dy);
 
 /* jac[n_states * n_states], column by column: d dy[i] / d y[j] at jac[i + j n_states]. */
-void model_jacobian(const model *m, const double *y, double *jac);
+void scaled_jacobian(const scaled_model *m, const double *y, double *jac);
 
 /* Does contact j slide at y: in contact and |T| > mu N? */
-bool model_slides(const model *m, int j, const double *y);
+bool scaled_slides(const scaled_model *m, int j, const double *y);
 
 #endif

@@ -1,0 +1,30 @@
+/* compare_settings.h - where, and over what, both sides are compared; and all that a comparison works from.
+ * Names, defaults, ranges and meanings of the fields are those of `compare` in a case file (cases/fields.c). */
+#ifndef HC_COMPARE_SETTINGS_H
+#define HC_COMPARE_SETTINGS_H
+
+#include "base/number_list.h"
+#include "hbm/hbm_settings.h"
+#include "model/model.h"
+#include "timeint/transient_settings.h"
+
+typedef struct compare_settings {
+  number_list omega;     /* [rad/time]; n = 0: use `points` */
+  int points;            /* spread over the sweep, dense at peaks */
+  number_list harmonics; /* truncation orders to report */
+  number_list samples;   /* sampling rates to report */
+} compare_settings;
+
+typedef struct gate_limits gate_limits; /* compare/gate_limits.h: nobody else looks inside */
+
+/* The model and how each side solves it. Copies share the model and the limits: whoever made them frees them. */
+typedef struct compare_setup {
+  const model *model;
+  double omega_from, omega_to; /* [rad/time] the sweep, > 0, from != to; from > to: downwards */
+  hbm_settings hbm;
+  transient_settings transient;
+  compare_settings compare;
+  const gate_limits *limits; /* what is within them is a match */
+} compare_setup;
+
+#endif

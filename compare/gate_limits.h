@@ -1,0 +1,31 @@
+/* gate_limits.h - the largest discrepancies that still count as agreement, and the most that a response curve may
+ * cost. Only the gate and the rule that calls a row a match look inside. Names, defaults, ranges and meanings of the
+ * fields are those of `gate` in a case file (cases/fields.c). */
+#ifndef HC_GATE_LIMITS_H
+#define HC_GATE_LIMITS_H
+
+#include <stdbool.h>
+
+#include "base/number_list.h"
+#include "compare/discrepancy.h"
+
+/* Other limits in parts of the sweep. Where ranges overlap the last one holds. */
+typedef struct gate_ranges {
+  number_list omega;                                 /* [rad/time] from, to, from, to, ..., ends included */
+  number_list amplitude, harmonic_1, mean, waveform; /* [1] one a range; n = 0: as outside the ranges */
+} gate_ranges;
+
+typedef struct gate_limits {
+  discrepancy most; /* [1] largest relative discrepancy */
+  gate_ranges ranges;
+  int iterations, evaluations; /* most for the response curve; 0: no limit */
+} gate_limits;
+
+/* The limits that hold at omega [rad/time]: `most`, or those of the last range that omega lies in. */
+discrepancy gate_limits_at(const gate_limits *l, double omega);
+
+/* Is every discrepancy within the limits that hold at omega? The mean does not count where it is free (a slider that
+ * never slips leaves it to history). NaN is not within any limit. */
+bool gate_limits_hold(const gate_limits *l, double omega, const discrepancy *d, bool mean_free);
+
+#endif

@@ -1,0 +1,30 @@
+/* hbm_settings.h - how harmonic balance solves a model. Plain data: copy it freely. Names, defaults, ranges and
+ * meanings of the fields are those of `hbm` in a case file (cases/fields.c). */
+#ifndef HC_HBM_SETTINGS_H
+#define HC_HBM_SETTINGS_H
+
+#include <stdbool.h>
+
+enum { HBM_MAX_HARMONICS = 200, HBM_AUTO = 0 /* in the place of a number of harmonics or samples */ };
+
+typedef enum hbm_force { HBM_FORCE_EXACT, HBM_FORCE_SAMPLED } hbm_force;
+typedef enum hbm_restart { HBM_RESTART_INTERPOLATED, HBM_RESTART_SAMPLE } hbm_restart;
+typedef enum hbm_continuation {
+  HBM_CONTINUATION_AUTO,
+  HBM_CONTINUATION_NATURAL,
+  HBM_CONTINUATION_ARCLENGTH
+} hbm_continuation;
+
+typedef struct hbm_settings {
+  int harmonics;  /* 1..HBM_MAX_HARMONICS, or HBM_AUTO */
+  bool keep_mean; /* `static`: keep harmonic 0 */
+  hbm_force force;
+  int samples;         /* per period, >= 2 harmonics + 1, or HBM_AUTO */
+  hbm_restart restart; /* where the slider of a sampled force starts after a separation */
+  hbm_continuation continuation;
+  double tolerance; /* [1] of the residual, relative to the forces that make it up */
+  double accuracy;  /* [1] what auto harmonics and samples aim at: error relative to the solution */
+  bool skip_linear; /* points where nothing happens at the contacts come from the closed form */
+} hbm_settings;
+
+#endif

@@ -1,0 +1,38 @@
+/* scene_parts.h - the parts of a scene that tests look at from inside: a contact's direction, the equations of time
+ * integration. */
+#ifndef HC_TESTS_SCENE_PARTS_H
+#define HC_TESTS_SCENE_PARTS_H
+
+#include "campaigns/scene_solvers.h"
+#include "tests/check.h"
+#include "timeint/measure.h"
+#include "timeint/scaled.h"
+
+static inline void scene_direction(const scene_contact *c, double *tangent, double *normal)
+{
+  model_direction(c->angle_deg, tangent, normal);
+}
+
+static inline double scene_stuck_stiffness(const scene_contact *c)
+{
+  const model_contact with = scene_model_contact(c);
+  return model_stuck_stiffness(&with);
+}
+
+static inline void scene_scaled(scaled_model *m, const scene *sc, double omega, double length)
+{
+  model *from;
+  assert_int_equal(scene_model(sc, &from), HC_OK);
+  scaled_make(m, from, &sc->transient, omega, length);
+  model_free(from);
+}
+
+static inline void scene_measure_report(const measure *me, const scene *sc, double length, timeint_result *r)
+{
+  model *from;
+  assert_int_equal(scene_model(sc, &from), HC_OK);
+  measure_report(me, from, length, r);
+  model_free(from);
+}
+
+#endif

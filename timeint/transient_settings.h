@@ -1,0 +1,31 @@
+/* transient_settings.h - how a steady state is found by time integration. Plain data: copy it freely. Names, defaults,
+ * ranges and meanings of the fields are those of `transient` in a case file (cases/fields.c). */
+#ifndef HC_TRANSIENT_SETTINGS_H
+#define HC_TRANSIENT_SETTINGS_H
+
+#include <stdbool.h>
+
+typedef enum transient_law { TRANSIENT_LAW_REGULARISED, TRANSIENT_LAW_EXACT } transient_law;
+typedef enum transient_steady {
+  TRANSIENT_STEADY_AUTO,
+  TRANSIENT_STEADY_MARCH,
+  TRANSIENT_STEADY_SHOOTING
+} transient_steady;
+typedef enum transient_start {
+  TRANSIENT_START_HBM,
+  TRANSIENT_START_REST,
+  TRANSIENT_START_UP,
+  TRANSIENT_START_DOWN
+} transient_start;
+
+typedef struct transient_settings {
+  transient_law law;
+  double regularisation; /* [1] */
+  bool richardson;       /* extrapolate to no regularisation */
+  transient_steady steady;
+  transient_start start;
+  double tolerance; /* [1] relative distance to the periodic orbit */
+  int max_periods;
+} transient_settings;
+
+#endif
