@@ -136,8 +136,7 @@ static void limits_are_those_of_the_case(void **state)
   (void)state;
   expect(CASE2 "--at 6", 0, "pass");
   expect(CASE2 "--at 6 --set gate.amplitude=3e-4", 1, "fail"); /* found 3.83e-4 */
-  expect(CASE2 "--at 6,7 --set gate.amplitude=3e-4 --set gate.ranges=5,6.5 --set gate.range_amplitude=4e-4", 0,
-         "pass");
+  expect(CASE2 "--at 6,7 --set gate.amplitude=3e-4 --set gate.ranges=5,6.5 --set gate.range_amplitude=4e-4", 0, "pass");
   expect(CASE2 "--at 6 --set gate.ranges=5,6.5 --set gate.range_amplitude=3e-4", 1, "fail");
   expect(CASE2 "--at 6 --set gate.iterations=1", 1, "iterations");
   expect(CASE2 "--at 6 --set gate.evaluations=1", 1, "evaluations");
