@@ -8,8 +8,8 @@
 #include "command/cli.h"
 #include "command/plot/plot.h"
 #include "hbm/aft.h"
-#include "hbm/exact.h"
-#include "hbm/series.h"
+#include "hbm/exact_force.h"
+#include "numerics/series.h"
 
 static const char doc[] =
     "Fourier coefficients of CASE's contact force sum_j T_j cos(alpha_j) + (N_j - N0_j) sin(alpha_j) under the motion "
@@ -56,20 +56,20 @@ static int read_motion(const cli_options *o, double *X)
   return n / 2;
 }
 
-static hc_status exact_of(const scene *sc, int n_harm, exact **e)
+static hc_status exact_of(const scene *sc, int n_harm, exact_force **e)
 {
   moving_contact contacts[SCENE_MAX_CONTACTS];
-  exact_contacts_of(sc, contacts);
-  return exact_new(n_harm, 1, sc->n_contacts, contacts, e);
+  exact_force_contacts_of(sc, contacts);
+  return exact_force_new(n_harm, 1, sc->n_contacts, contacts, e);
 }
 
 /* The exact coefficients, F[MAX_COEF]. */
 static hc_status evaluate_exactly(const scene *sc, int n_harm, const double *X, double *F)
 {
-  exact *e = NULL;
+  exact_force *e = NULL;
   hc_status st = exact_of(sc, n_harm, &e);
-  if (st == HC_OK) st = exact_eval(e, X, F, NULL, NULL);
-  exact_free(e);
+  if (st == HC_OK) st = exact_force_eval(e, X, F, NULL, NULL);
+  exact_force_free(e);
   return st;
 }
 
@@ -79,17 +79,17 @@ static hc_status note_pattern(table *t, const scene *sc, int n_harm, const doubl
   static const char *const names[] = {"separated", "sticks", "slips forward", "slips backward"};
   enum { SHOWN = 16 };
   double F[MAX_COEF];
-  exact *e = NULL;
+  exact_force *e = NULL;
   hc_status st = exact_of(sc, n_harm, &e);
-  if (st == HC_OK) st = exact_eval(e, X, F, NULL, NULL);
+  if (st == HC_OK) st = exact_force_eval(e, X, F, NULL, NULL);
   for (int j = 0, n; j < sc->n_contacts && st == HC_OK; ++j) {
-    const contact_piece *p = exact_pieces(e, j, &n);
+    const contact_piece *p = exact_force_pieces(e, j, &n);
     if (n == 0) table_note(t, "contact %d: separated all period", j);
     for (int i = 0; i < n && i < SHOWN; ++i)
       table_note(t, "contact %d: %s from %.12g to %.12g rad", j, names[p[i].state], p[i].from, p[i].to);
     if (n > SHOWN) table_note(t, "contact %d: and %d pieces more", j, n - SHOWN);
   }
-  exact_free(e);
+  exact_force_free(e);
   return st;
 }
 

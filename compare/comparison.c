@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "compare/frequencies.h"
-#include "hbm/series.h"
+#include "numerics/series.h"
 
 static const struct {
   const char *name, *meaning;

@@ -32,7 +32,7 @@ typedef struct finder {
 
 static hc_status watch(finder *f, double omega, double d_omega, const double *X, watched *w)
 {
-  const exact *e;
+  const exact_force *e;
   contact_report report;
   hbm_stability st;
   hc_status status = hbm_pattern_at(f->s, X, &e, &report);

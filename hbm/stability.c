@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "hbm/exact.h"
+#include "hbm/exact_force.h"
 #include "model/linear.h"
 #include "numerics/floquet.h"
 
@@ -52,11 +52,11 @@ static int ascending(const void *a, const void *b)
 static double wrap(double th) { return th >= TWO_PI ? th - TWO_PI : th; }
 
 /* All instants of change in [0, 2 pi], ends included; their number or -1 without memory. */
-static int collect_boundaries(stability *s, const exact *e, int n_contacts)
+static int collect_boundaries(stability *s, const exact_force *e, int n_contacts)
 {
   int n = 2;
   for (int j = 0, n_pieces; j < n_contacts; ++j) {
-    exact_pieces(e, j, &n_pieces);
+    exact_force_pieces(e, j, &n_pieces);
     n += 2 * n_pieces;
   }
   if (n > s->cap) {
@@ -69,7 +69,7 @@ static int collect_boundaries(stability *s, const exact *e, int n_contacts)
   s->boundary[n++] = 0;
   s->boundary[n++] = TWO_PI;
   for (int j = 0, n_pieces; j < n_contacts; ++j) {
-    const contact_piece *p = exact_pieces(e, j, &n_pieces);
+    const contact_piece *p = exact_force_pieces(e, j, &n_pieces);
     for (int i = 0; i < n_pieces; ++i) {
       s->boundary[n++] = wrap(p[i].from);
       s->boundary[n++] = wrap(p[i].to);
@@ -80,10 +80,10 @@ static int collect_boundaries(stability *s, const exact *e, int n_contacts)
 }
 
 /* The piece of contact j that covers th, NULL while separated. */
-static const contact_piece *piece_at(const exact *e, int j, double th)
+static const contact_piece *piece_at(const exact_force *e, int j, double th)
 {
   int n;
-  const contact_piece *p = exact_pieces(e, j, &n);
+  const contact_piece *p = exact_force_pieces(e, j, &n);
   for (int i = 0; i < n; ++i)
     if ((th >= p[i].from && th < p[i].to) || (th + TWO_PI >= p[i].from && th + TWO_PI < p[i].to)) return &p[i];
   return NULL;
@@ -93,12 +93,12 @@ static const contact_piece *piece_at(const exact *e, int j, double th)
  * orbit is the last of a family that differs by where the slider rests, and it touches the limit without passing it,
  * in no time. Its one-sided derivative, as if it slipped there, has a multiplier 1 that is the family's. What passes
  * for no time: the slip's path goes with its length squared, so 1e-6 rad move it by rounding. */
-static bool held_for_ever(const exact *e, int j)
+static bool held_for_ever(const exact_force *e, int j)
 {
   const double no_time = 1e-6;
   double stuck = 0, touching = 0;
   int n;
-  const contact_piece *p = exact_pieces(e, j, &n);
+  const contact_piece *p = exact_force_pieces(e, j, &n);
   for (int i = 0; i < n; ++i) {
     touching += p[i].to - p[i].from;
     if (p[i].state == CONTACT_STICK) stuck += p[i].to - p[i].from;
@@ -109,23 +109,23 @@ static bool held_for_ever(const exact *e, int j)
 /* Does contact j's slider remember the motion? Not if it is stuck for ever, and not if every stick starts with a
  * touch-down that puts it at the same place whatever the motion: dheld is then 0 at all times and no state of the
  * system. */
-static bool remembers(const exact *e, int j)
+static bool remembers(const exact_force *e, int j)
 {
   int n;
-  const contact_piece *p = exact_pieces(e, j, &n);
+  const contact_piece *p = exact_force_pieces(e, j, &n);
   for (int i = 0; i < n && !held_for_ever(e, j); ++i)
-    if (p[i].state == CONTACT_STICK && p[i].slope[0] != 0) return true;
+    if (p[i].state == CONTACT_STICK && p[i].held_by_x[0] != 0) return true;
   return false;
 }
 
 /* Sliders that come to rest at this boundary: dheld from dx there. */
-static void set_sliders(stability *s, const scene *sc, const exact *e, const contact_piece *const *piece, double th,
-                        int m)
+static void set_sliders(stability *s, const scene *sc, const exact_force *e, const contact_piece *const *piece,
+                        double th, int m)
 {
   for (int j = 0; j < sc->n_contacts; ++j) {
     const contact_piece *p = piece[j];
     if (!p || p->state != CONTACT_STICK || p->from != p->origin || wrap(p->from) != th || held_for_ever(e, j)) continue;
-    for (int q = 0; q < m; ++q) s->phi[2 + j][q] = p->slope[0] * s->phi[0][q];
+    for (int q = 0; q < m; ++q) s->phi[2 + j][q] = p->held_by_x[0] * s->phi[0][q];
   }
 }
 
@@ -174,7 +174,7 @@ static void summarise(int m, const double complex *lambda, hbm_stability *out)
   out->determinant = creal(all);
 }
 
-hc_status stability_of(stability *s, const scene *sc, const exact *e, double omega, hbm_stability *out)
+hc_status stability_of(stability *s, const scene *sc, const exact_force *e, double omega, hbm_stability *out)
 {
   const contact_piece *piece[SCENE_MAX_CONTACTS];
   int m = 2 + sc->n_contacts, n = collect_boundaries(s, e, sc->n_contacts), active[MAX_STATE] = {0, 1}, n_active = 2;

@@ -1,12 +1,12 @@
-/* system.c - see system.h for the equations. The contact force comes from aft.c or exact.c; nothing else here knows
- * how. */
+/* system.c - see system.h for the equations. The contact force comes from aft.c or exact_force.c; nothing else here
+ * knows how. */
 #include "hbm/system.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "hbm/series.h"
+#include "numerics/series.h"
 
 hc_status hbm_system_init(hbm_system *sys, const scene *sc, int n_harm, int n_time)
 {
@@ -22,14 +22,14 @@ hc_status hbm_system_init(hbm_system *sys, const scene *sc, int n_harm, int n_ti
   if (!sys->X || !sys->F || !sys->dF || !sys->rows) return HC_NO_MEMORY;
   if (sc->hbm.force == HBM_FORCE_SAMPLED) return aft_new(sc, n_harm, n_time, &sys->sampled);
   moving_contact contacts[SCENE_MAX_CONTACTS];
-  exact_contacts_of(sc, contacts);
-  return exact_new(n_harm, 1, sc->n_contacts, contacts, &sys->located);
+  exact_force_contacts_of(sc, contacts);
+  return exact_force_new(n_harm, 1, sc->n_contacts, contacts, &sys->located);
 }
 
 void hbm_system_clear(hbm_system *sys)
 {
   aft_free(sys->sampled);
-  exact_free(sys->located);
+  exact_force_free(sys->located);
   free(sys->X);
   free(sys->F);
   free(sys->dF);
@@ -44,7 +44,7 @@ hc_status hbm_system_contact(hbm_system *sys, const double *X)
   sys->evaluated = false;
   ++sys->evaluations;
   hc_status st = sys->sampled ? aft_eval(sys->sampled, X, sys->F, sys->dF, &sys->report)
-                              : exact_eval(sys->located, X, sys->F, sys->dF, &sys->report);
+                              : exact_force_eval(sys->located, X, sys->F, sys->dF, &sys->report);
   if (st != HC_OK) return st;
   memcpy(sys->X, X, bytes);
   sys->evaluated = true;

@@ -62,7 +62,7 @@ void model_jacobian(const model *m, const double *y, double *jac)
   for (int j = 0; j < m->n_contacts; ++j) {
     const model_contact *c = &m->contact[j];
     const int w = MODEL_W + j;
-    law_slope s = law_regularised_slope(&c->law, c->cosine * y[MODEL_X], c->sine * y[MODEL_X], y[w]);
+    law_derivatives s = law_regularised_derivatives(&c->law, c->cosine * y[MODEL_X], c->sine * y[MODEL_X], y[w]);
     by_x[MODEL_P] -= (s.t_u * c->cosine + s.t_v * c->sine) * c->cosine + s.n_v * c->sine * c->sine;
     by_x[w] = s.rate_u * c->cosine + s.rate_v * c->sine;
     jac[MODEL_P + w * n] = s.t_u * c->cosine;

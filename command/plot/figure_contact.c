@@ -3,8 +3,8 @@
 #include <stdlib.h>
 
 #include "command/plot/panels.h"
-#include "hbm/exact.h"
-#include "hbm/series.h"
+#include "hbm/exact_force.h"
+#include "numerics/series.h"
 
 static const double two_pi = 6.28318530717958647692;
 
@@ -25,7 +25,7 @@ static const contact_piece *piece_at(const contact_piece *p, int n, double th)
   return NULL;
 }
 
-/* The exact law, from the pieces that exact.c found: stuck, T = kt u - held; slipping, T = +-mu N. */
+/* The exact law, from the pieces that exact_force.c found: stuck, T = kt u - held; slipping, T = +-mu N. */
 static void walk_contact(const scene_contact *c, int n_harm, const double *X, const contact_piece *pieces, int n,
                          walk *out)
 {
@@ -126,19 +126,19 @@ static hc_status put_contacts(figure *g, const scene *sc, int n, int n_harm, con
 {
   double F[2 * SCENE_MAX_HARMONICS + 1];
   moving_contact contacts[SCENE_MAX_CONTACTS];
-  exact *e = NULL;
+  exact_force *e = NULL;
   walk *w = malloc(sizeof *w);
-  exact_contacts_of(sc, contacts);
-  hc_status st = w ? exact_new(n_harm, 1, sc->n_contacts, contacts, &e) : HC_NO_MEMORY;
-  if (st == HC_OK) st = exact_eval(e, X, F, NULL, NULL);
+  exact_force_contacts_of(sc, contacts);
+  hc_status st = w ? exact_force_new(n_harm, 1, sc->n_contacts, contacts, &e) : HC_NO_MEMORY;
+  if (st == HC_OK) st = exact_force_eval(e, X, F, NULL, NULL);
   for (int j = 0, pieces; j < n && st == HC_OK; ++j) {
-    const contact_piece *p = exact_pieces(e, j, &pieces);
+    const contact_piece *p = exact_force_pieces(e, j, &pieces);
     walk_contact(&sc->contacts[j], n_harm, X, p, pieces, w);
     for (int k = 0; k < N_PHASES; ++k) there[j][k] = put_phase(g, w, j, k);
     widen(closed, w);
     put_forces(g, w, &sc->contacts[j].law, j);
   }
-  exact_free(e);
+  exact_force_free(e);
   free(w);
   return st;
 }

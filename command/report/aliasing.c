@@ -10,10 +10,10 @@
 
 #include "compare/frequencies.h"
 #include "hbm/aft.h"
-#include "hbm/exact.h"
+#include "hbm/exact_force.h"
 #include "hbm/hbm.h"
-#include "hbm/series.h"
 #include "numerics/room.h"
+#include "numerics/series.h"
 
 enum {
   N_HARM = 5,
@@ -33,8 +33,8 @@ static const double force_step = 1e-4, harmonic_step = 1e-6, fold_step = 1e-9;
 
 /* Workspace, and the solution at hand. */
 typedef struct workshop {
-  scene sc;    /* with the factor and H at hand */
-  exact *fine; /* as many harmonics as exact forces go to */
+  scene sc;          /* with the factor and H at hand */
+  exact_force *fine; /* as many harmonics as exact forces go to */
   moving_contact contacts[SCENE_MAX_CONTACTS];
   double *force;          /* [FINE] */
   fftw_complex *spectrum; /* [FINE/2+1] true harmonics of the force, F_h = (a_h - i b_h) for h > 0 */
@@ -81,13 +81,13 @@ static hc_status find_truth(workshop *w)
 {
   double X[MOST_COEF] = {0}, F[MOST_COEF];
   memcpy(X, w->X, (size_t)(2 * w->n_harm + 1) * sizeof *X);
-  hc_status st = exact_eval(w->fine, X, F, NULL, NULL);
+  hc_status st = exact_force_eval(w->fine, X, F, NULL, NULL);
   if (st != HC_OK) return st;
   w->scale = 0;
   for (int i = 0; i < FINE; ++i) {
     double th = 2 * PI * i / FINE, x = series_at(w->n_harm, w->X, cos(th), sin(th)).x, f = 0;
     for (int j = 0, n; j < w->sc.n_contacts; ++j) {
-      const contact_piece *p = exact_pieces(w->fine, j, &n);
+      const contact_piece *p = exact_force_pieces(w->fine, j, &n);
       f += contact_at(&w->contacts[j], n, p, th, x);
     }
     w->force[i] = f;
@@ -225,7 +225,7 @@ static void set_scene(workshop *w, const scene *sc, double factor, int n_harm)
   w->sc.hbm.harmonics = n_harm;
   w->sc.hbm.force = HBM_FORCE_EXACT;
   for (int j = 0; j < sc->n_contacts; ++j) w->sc.contacts[j].law.kn *= factor;
-  exact_contacts_of(&w->sc, w->contacts);
+  exact_force_contacts_of(&w->sc, w->contacts);
 }
 
 /* The monitor of a part of the work: how far the whole is stands still meanwhile. */
@@ -255,8 +255,8 @@ static hc_status all_states(const scene *sc, workshop *w, int n_omega, const dou
       at.done = (double)(k * N_HARM + h) / (N_STIFF * N_HARM);
       if (!hc_monitor_tick(monitor, at.done)) return HC_INTERRUPTED;
       set_scene(w, sc, factors[k], harmonics[h]);
-      exact_free(w->fine);
-      hc_status st = exact_new(SCENE_MAX_HARMONICS, 1, sc->n_contacts, w->contacts, &w->fine);
+      exact_force_free(w->fine);
+      hc_status st = exact_force_new(SCENE_MAX_HARMONICS, 1, sc->n_contacts, w->contacts, &w->fine);
       if (st == HC_OK) st = put_states(w, n_omega, omega, &inner, row);
       if (st != HC_OK) return st;
     }
@@ -282,7 +282,7 @@ hc_status aliasing_states(const scene *sc, int n_omega, const double *omega, int
   }
   json_decref(states);
   if (w) {
-    exact_free(w->fine);
+    exact_force_free(w->fine);
     workshop_close(w);
   }
   free(w);

@@ -4,7 +4,7 @@
  * nothing left of the preload. As a difference N - N0 it would carry 8e8 units of 1e-16, five orders more than the
  * force itself. Found by `stress`. */
 #include "hbm/aft.h"
-#include "hbm/exact.h"
+#include "hbm/exact_force.h"
 #include "tests/hbm/scenes.h"
 
 enum { H = 3, N_COEF = 2 * H + 1 };
@@ -31,12 +31,12 @@ static void exact_force_of_a_small_motion(void **state)
   (void)state;
   scene sc = preloaded();
   moving_contact contacts[SCENE_MAX_CONTACTS];
-  exact *e;
+  exact_force *e;
   double F[N_COEF];
-  exact_contacts_of(&sc, contacts);
-  assert_int_equal(exact_new(H, 1, 1, contacts, &e), HC_OK);
-  assert_int_equal(exact_eval(e, X, F, NULL, NULL), HC_OK);
-  exact_free(e);
+  exact_force_contacts_of(&sc, contacts);
+  assert_int_equal(exact_force_new(H, 1, 1, contacts, &e), HC_OK);
+  assert_int_equal(exact_force_eval(e, X, F, NULL, NULL), HC_OK);
+  exact_force_free(e);
   check(F, 4 * N_COEF, "exact");
 }
 
@@ -53,7 +53,7 @@ static void sampled_force_of_a_small_motion(void **state)
 }
 
 /* Open for part of the period the preload is missing there: against samples, whose error is d^2/8 times the jumps of
- * the force's slope, d = 2 pi/N. */
+ * the force's derivative, d = 2 pi/N. */
 static void an_opening_takes_the_preload_away(void **state)
 {
   (void)state;
@@ -62,19 +62,19 @@ static void an_opening_takes_the_preload_away(void **state)
   const double large[N_COEF] = {0, 20, 0, 1, 0, 0, 0};
   moving_contact contacts[SCENE_MAX_CONTACTS];
   contact_report report;
-  exact *e;
+  exact_force *e;
   aft *a;
   double F[N_COEF], G[N_COEF];
-  exact_contacts_of(&sc, contacts);
-  assert_int_equal(exact_new(H, 1, 1, contacts, &e), HC_OK);
-  assert_int_equal(exact_eval(e, large, F, NULL, &report), HC_OK);
+  exact_force_contacts_of(&sc, contacts);
+  assert_int_equal(exact_force_new(H, 1, 1, contacts, &e), HC_OK);
+  assert_int_equal(exact_force_eval(e, large, F, NULL, &report), HC_OK);
   assert_int_equal(report.regime, CONTACT_SEPARATES);
   assert_int_equal(aft_new(&sc, H, N, &a), HC_OK);
   assert_int_equal(aft_eval(a, large, G, NULL, NULL), HC_OK);
-  const double d = 2 * PI / N, slope = 1e8 * 22; /* at most kn |x'|; some ten transitions and stretches, each counted
+  const double d = 2 * PI / N, rate = 1e8 * 22; /* at most kn |x'|; some ten transitions and stretches, each counted
                                                     once */
-  for (int i = 0; i < N_COEF; ++i) CHECK_NEAR(F[i], G[i], 10 * slope * d * d / 8, "row %d", i);
-  exact_free(e);
+  for (int i = 0; i < N_COEF; ++i) CHECK_NEAR(F[i], G[i], 10 * rate * d * d / 8, "row %d", i);
+  exact_force_free(e);
   aft_free(a);
 }
 
