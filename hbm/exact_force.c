@@ -106,9 +106,17 @@ static void fill_indicator(exact_force *e, const contact_piece *p)
   }
 }
 
-static void add_scaled(int n, double scale, const double *from, double *to)
+/* Four at a time: as a loop of two its speed depends by a tenth on where the linker puts it. */
+static void add_scaled(int n, double scale, const double *restrict from, double *restrict to)
 {
-  for (int i = 0; i < n; ++i) to[i] += scale * from[i];
+  int i = 0;
+  for (; i + 4 <= n; i += 4) {
+    to[i] += scale * from[i];
+    to[i + 1] += scale * from[i + 1];
+    to[i + 2] += scale * from[i + 2];
+    to[i + 3] += scale * from[i + 3];
+  }
+  for (; i < n; ++i) to[i] += scale * from[i];
 }
 
 /* One piece's share of K and C, its indicator being filled. */
