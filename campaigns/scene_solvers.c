@@ -33,12 +33,12 @@ hc_status scene_aft(const scene *sc, int n_harm, int n_time, aft **out)
   return st;
 }
 
-hc_status scene_exact(const scene *sc, int n_harm, exact **out)
+hc_status scene_exact(const scene *sc, int n_harm, exact_force **out)
 {
   model *m;
   *out = NULL;
   hc_status st = scene_model(sc, &m);
-  if (st == HC_OK) st = exact_new_of_model(n_harm, m, out);
+  if (st == HC_OK) st = exact_force_new_of_model(n_harm, m, out);
   model_free(m);
   return st;
 }

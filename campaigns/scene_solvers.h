@@ -5,13 +5,13 @@
 
 #include "cases/scene.h"
 #include "hbm/aft.h"
-#include "hbm/exact.h"
+#include "hbm/exact_force.h"
 #include "hbm/hbm.h"
 #include "timeint/timeint.h"
 
 hc_status scene_hbm_solver(const scene *sc, hbm_solver **out);
 hc_status scene_timeint(const scene *sc, timeint **out);
 hc_status scene_aft(const scene *sc, int n_harm, int n_time, aft **out);
-hc_status scene_exact(const scene *sc, int n_harm, exact **out);
+hc_status scene_exact(const scene *sc, int n_harm, exact_force **out);
 
 #endif

@@ -9,8 +9,8 @@
 #include "command/cli.h"
 #include "command/plot/plot.h"
 #include "hbm/aft.h"
-#include "hbm/exact.h"
-#include "hbm/series.h"
+#include "hbm/exact_force.h"
+#include "numerics/series.h"
 
 static const char doc[] =
     "Fourier coefficients of CASE's contact force sum_j T_j cos(alpha_j) + (N_j - N0_j) sin(alpha_j) under the motion "
@@ -60,10 +60,10 @@ static int read_motion(const cli_options *o, double *X)
 /* The exact coefficients, F[MAX_COEF]. */
 static hc_status evaluate_exactly(const scene *sc, int n_harm, const double *X, double *F)
 {
-  exact *e = NULL;
+  exact_force *e = NULL;
   hc_status st = scene_exact(sc, n_harm, &e);
-  if (st == HC_OK) st = exact_eval(e, X, F, NULL, NULL);
-  exact_free(e);
+  if (st == HC_OK) st = exact_force_eval(e, X, F, NULL, NULL);
+  exact_force_free(e);
   return st;
 }
 
@@ -73,17 +73,17 @@ static hc_status note_pattern(table *t, const scene *sc, int n_harm, const doubl
   static const char *const names[] = {"separated", "sticks", "slips forward", "slips backward"};
   enum { SHOWN = 16 };
   double F[MAX_COEF];
-  exact *e = NULL;
+  exact_force *e = NULL;
   hc_status st = scene_exact(sc, n_harm, &e);
-  if (st == HC_OK) st = exact_eval(e, X, F, NULL, NULL);
+  if (st == HC_OK) st = exact_force_eval(e, X, F, NULL, NULL);
   for (int j = 0, n; j < sc->n_contacts && st == HC_OK; ++j) {
-    const contact_piece *p = exact_pieces(e, j, &n);
+    const contact_piece *p = exact_force_pieces(e, j, &n);
     if (n == 0) table_note(t, "contact %d: separated all period", j);
     for (int i = 0; i < n && i < SHOWN; ++i)
       table_note(t, "contact %d: %s from %.12g to %.12g rad", j, names[p[i].state], p[i].from, p[i].to);
     if (n > SHOWN) table_note(t, "contact %d: and %d pieces more", j, n - SHOWN);
   }
-  exact_free(e);
+  exact_force_free(e);
   return st;
 }
 

@@ -10,7 +10,7 @@
 #include "compare/frequencies.h"
 #include "compare/gate_limits.h"
 #include "compare/motion.h"
-#include "hbm/series.h"
+#include "numerics/series.h"
 
 static const struct {
   const char *name, *meaning;

@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-#include "hbm/series.h"
+#include "numerics/series.h"
 
 static const double two_pi = 6.283185307179586476925;
 

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "hbm/path.h"
-#include "hbm/series.h"
+#include "numerics/series.h"
 
 enum { EASY_POINTS = 4 };
 

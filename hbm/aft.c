@@ -2,9 +2,9 @@
  *   X -> x(th_i), th_i = 2 pi i/N -> u_i, v_i -> contact_step over the period until the slider closes -> F_i -> F
  * The slider after a separation starts from the interpolated instant of contact, or (the paper's way) from the last
  * separated sample. Jacobian: dF_i = k_i dx_i - kt cos(alpha) dw, k_i by one more FFT, dw constant over a stick
- * interval (slope.h). FFTW does not normalise and uses exp(-i): the 2/N and the sign of the sine live in to_series()
- * and to_samples(), only there. Plans are ESTIMATE: planned in microseconds, and the same on every run. Not here:
- * the dynamic stiffness (system.c). */
+ * interval (force_jacobian.h). FFTW does not normalise and uses exp(-i): the 2/N and the sign of the sine live in
+ * to_series() and to_samples(), only there. Plans are ESTIMATE: planned in microseconds, and the same on every run.
+ * Not here: the dynamic stiffness (system.c). */
 #include "hbm/aft.h"
 
 #include <complex.h>
@@ -13,13 +13,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "hbm/slope.h"
+#include "hbm/force_jacobian.h"
 #include "numerics/room.h"
 
-/* Where the slider's position came from: dw = slope dx(th_i); slope 0 when it depends on nothing. */
+/* Where the slider's position came from: dw = by_x dx(th_i); by_x 0 when it depends on nothing. */
 typedef struct slider_origin {
   int i;
-  double slope;
+  double by_x;
 } slider_origin;
 
 struct aft {
@@ -69,7 +69,7 @@ static hc_status make_tables(aft *a)
   a->spec = fftw_alloc_complex((size_t)n / 2 + 1);
   a->root = malloc((size_t)n * sizeof *a->root);
   a->inv_step = malloc(((size_t)a->n_harm + 1) * sizeof *a->inv_step);
-  a->symbol = calloc((size_t)slope_symbol_length(a->n_harm), sizeof(double));
+  a->symbol = calloc((size_t)force_jacobian_symbol_length(a->n_harm), sizeof(double));
   a->left = calloc((size_t)n_coef, sizeof(double));
   a->right = calloc((size_t)n_coef, sizeof(double));
   if (!a->w || !a->x || !a->f || !a->k || !a->spec || !a->root || !a->inv_step || !a->symbol || !a->left || !a->right)
@@ -175,20 +175,20 @@ static contact_state advance(const aft *a, track *t, int i, double *force, doubl
 static void subtract_stick_interval(aft *a, const track *t, int first, int last, double *jac)
 {
   const slider_origin *o = &t->origin;
-  if (o->slope == 0) return;
+  if (o->by_x == 0) return;
   int n = a->n_time;
   double weight = t->contact->law.kt * t->c / n;
   a->left[0] = weight * (last - first + 1);
-  a->right[0] = o->slope;
+  a->right[0] = o->by_x;
   for (int h = 1; h <= a->n_harm; ++h) {
     double complex sum = (a->root[(long)h * (last + 1) % n] - a->root[(long)h * first % n]) * a->inv_step[h];
-    double complex right = o->slope * a->root[(long)h * o->i % n];
+    double complex right = o->by_x * a->root[(long)h * o->i % n];
     a->left[2 * h - 1] = 2 * weight * creal(sum);
     a->left[2 * h] = 2 * weight * cimag(sum);
     a->right[2 * h - 1] = creal(right);
     a->right[2 * h] = cimag(right);
   }
-  slope_subtract(a->n_harm, a->left, a->right, jac);
+  force_jacobian_subtract(a->n_harm, a->left, a->right, jac);
 }
 
 /* A pass over the period that only moves the slider. */
@@ -260,7 +260,7 @@ hc_status aft_eval(aft *a, const double *X, double *F, double *jac, contact_repo
   to_series(a, a->to_freq_f, a->n_harm, F);
   if (!jac) return HC_OK;
   to_series(a, a->to_freq_k, 2 * a->n_harm, a->symbol);
-  slope_add(a->n_harm, a->symbol, n_coef, jac);
+  force_jacobian_add(a->n_harm, a->symbol, n_coef, jac);
   return HC_OK;
 }
 

@@ -9,6 +9,7 @@
 
 #include "hbm/curve.h"
 #include "hbm/solver.h"
+#include "numerics/roots.h"
 
 enum { MAX_HALVINGS = 40 };
 
@@ -124,52 +125,56 @@ hc_status hbm_curve_at(hbm_solver *s, const hbm_curve *c, double omega, hbm_curv
   return worst;
 }
 
-/* Amplitude on the curve near its highest point; position 0..2 runs over the two segments beside it. The point into
- * x. Negative: failed. */
-static double amplitude_near(hbm_solver *s, const hbm_curve *c, int top, double position, hbm_candidate *x)
+/* The curve beside its highest point, by a position from -1 (the point before) over 0 to 1 (the point after). */
+typedef struct summit {
+  hbm_solver *s;
+  const hbm_curve *c;
+  int top;
+  hbm_candidate *x; /* the point at the last position */
+} summit;
+
+static hc_status below_summit(void *self, double position, double *minus_amplitude)
 {
-  int k = top - 1 + (position >= 1);
+  const summit *p = self;
+  const int k = position < 0 ? p->top - 1 : p->top;
   hbm_measures m;
-  if (hbm_segment_point(s, c, k, position - (position >= 1), x) != HC_OK) return -1;
-  return hbm_measure(s, x->X, &m) == HC_OK ? m.amplitude : -1;
+  hc_status st = hbm_segment_point(p->s, p->c, k, position - (k - p->top), p->x);
+  if (st == HC_OK) st = hbm_measure(p->s, p->x->X, &m);
+  *minus_amplitude = st == HC_OK ? -m.amplitude : NAN;
+  return st;
 }
 
-static hc_status refine_peak(hbm_solver *s, const hbm_curve *c, int top, hbm_candidate *x, hbm_curve *peak)
+/* amplitude[3]: of the highest point and its neighbours. */
+static hc_status refine_peak(hbm_solver *s, const hbm_curve *c, int top, const double *amplitude, hbm_candidate *x,
+                             hbm_curve *peak)
 {
-  const double golden = 0.61803398874989485;
-  double a = 0, b = 2, p = b - golden * (b - a), q = a + golden * (b - a);
-  double fp = amplitude_near(s, c, top, p, x), fq = amplitude_near(s, c, top, q, x);
-  while (b - a > 1e-7 && fp >= 0 && fq >= 0) { /* the amplitude is flat there: 1e-7 in position is 1e-14 in it */
-    if (fp > fq) {
-      b = q;
-      q = p;
-      fq = fp;
-      p = b - golden * (b - a);
-      fp = amplitude_near(s, c, top, p, x);
-    } else {
-      a = p;
-      p = q;
-      fp = fq;
-      q = a + golden * (b - a);
-      fq = amplitude_near(s, c, top, q, x);
-    }
-  }
-  if (amplitude_near(s, c, top, 0.5 * (a + b), x) < 0) return HC_NOT_CONVERGED;
+  const double tolerance = 1e-7; /* the amplitude is flat there: 1e-7 in position is 1e-14 in it */
+  summit p = {s, c, top, x};
+  root_point found;
+  double value;
+  hc_status st =
+      root_minimum(below_summit, &p, -1, -amplitude[0], 0, -amplitude[1], 1, -amplitude[2], tolerance, &found);
+  if (st == HC_BAD_INPUT) return st;
+  /* where a point between could not be solved for, the highest one that could is the answer */
+  if (below_summit(&p, found.x, &value) != HC_OK) return HC_NOT_CONVERGED;
   return hbm_curve_append(peak, c->n_coef, x->X, x->dX, &x->point);
 }
 
 hc_status hbm_curve_peak(hbm_solver *s, const hbm_curve *c, hbm_curve *peak)
 {
   int top = -1;
-  double highest = -1;
+  double before = NAN, beside[3] = {NAN, -1, NAN}; /* amplitudes: of the point before; around the highest one */
   for (int k = 0; k < c->n; ++k) {
     hbm_measures m;
     hc_status st = hbm_measure(s, c->X + (size_t)k * c->n_coef, &m);
     if (st != HC_OK) return st;
-    if (m.amplitude > highest) {
-      highest = m.amplitude;
+    if (m.amplitude > beside[1]) {
+      beside[0] = before;
+      beside[1] = m.amplitude;
       top = k;
     }
+    if (k == top + 1) beside[2] = m.amplitude;
+    before = m.amplitude;
   }
   if (top < 0) return HC_BAD_INPUT;
   peak->omega_scale = c->omega_scale;
@@ -178,7 +183,7 @@ hc_status hbm_curve_peak(hbm_solver *s, const hbm_curve *c, hbm_curve *peak)
   hbm_candidate x;
   hc_status st = hbm_candidate_new(c->n_coef, &x);
   if (st != HC_OK) return st;
-  st = refine_peak(s, c, top, &x, peak);
+  st = refine_peak(s, c, top, beside, &x, peak);
   free(x.X);
   return st;
 }

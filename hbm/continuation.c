@@ -18,8 +18,8 @@
 #include "hbm/between.h"
 #include "hbm/curve.h"
 #include "hbm/path.h"
-#include "hbm/series.h"
 #include "hbm/start.h"
+#include "numerics/series.h"
 
 static const double TOLERANCE = 1e-4; /* of interpolation, relative to |X| */
 static const double H_FIRST = 0.02, H_MAX = 0.5, H_MIN = 1e-11;

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "hbm/solver.h"
+#include "numerics/roots.h"
 
 static hc_status grow(hbm_curve *c)
 {
@@ -108,6 +109,25 @@ static double omega_at(const hbm_segment *s, double t)
          t * t * r * s->d_omega1;
 }
 
+static double d_omega_at(const hbm_segment *s, double t)
+{
+  double r = 1 - t;
+  return -6 * t * r * (s->omega0 - s->omega1) + r * (1 - 3 * t) * s->d_omega0 + t * (3 * t - 2) * s->d_omega1;
+}
+
+typedef struct passage {
+  const hbm_segment *s;
+  double omega;
+} passage;
+
+static hc_status away_from_omega(void *self, double t, double *f, double *derivative)
+{
+  const passage *p = self;
+  *f = omega_at(p->s, t) - p->omega;
+  *derivative = d_omega_at(p->s, t);
+  return HC_OK;
+}
+
 /* Interior extrema of omega(sigma), ascending: roots of A t^2 + B t + C. */
 static int omega_extrema(const hbm_segment *s, double t[2])
 {
@@ -148,12 +168,10 @@ int hbm_segment_find(const hbm_segment *s, double omega, bool last, double sigma
       continue;
     }
     if ((fa < 0) == (fb < 0)) continue;
-    for (int it = 0; it < 60 && b - a > 1e-15; ++it) {
-      double m = 0.5 * (a + b), fm = omega_at(s, m) - omega;
-      if ((fm < 0) == (fa < 0)) a = m;
-      else b = m;
-    }
-    sigma[n++] = 0.5 * (a + b);
+    passage p = {s, omega};
+    root_point root;
+    root_between_newton(away_from_omega, &p, a, fa, b, fb, 1e-15, &root); /* a cubic cannot fail */
+    sigma[n++] = root.x;
   }
   return n;
 }

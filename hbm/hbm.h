@@ -1,6 +1,6 @@
 /* hbm.h - harmonic balance of a model: response curves, and every solution at a frequency. The way into this folder.
  *
- *     x(t) ~ X[0] + sum_{h=1..H} X[2h-1] cos(h omega t) + X[2h] sin(h omega t)         (series.h)
+ *     x(t) ~ X[0] + sum_{h=1..H} X[2h-1] cos(h omega t) + X[2h] sin(h omega t)         (numerics/series.h)
  *
  * solved from R(X, omega) = 0 (system.h) by KINSOL (newton.h), followed along omega (continuation.c). Handles are
  * opaque, one a thread; nothing is printed. Not here: time integration, verdicts. */

@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "hbm/series.h"
 #include "numerics/lu.h"
+#include "numerics/series.h"
 
 struct refinement {
   hbm_system sys;

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "hbm/series.h"
+#include "numerics/series.h"
 
 double hbm_norm(int n, const double *v)
 {
@@ -85,7 +85,7 @@ static hc_status make_workspace(hbm_solver *s)
 static hc_status make_pattern(hbm_solver *s)
 {
   if (!s->sys.sampled) return HC_OK;
-  return exact_new_of_model(s->sys.n_harm, s->model, &s->pattern);
+  return exact_force_new_of_model(s->sys.n_harm, s->model, &s->pattern);
 }
 
 enum { AUTO_FIRST_HARMONICS = 3, AUTO_FIRST_SAMPLES = 64, AUTO_LEAST_LOOK = 14 };
@@ -118,7 +118,7 @@ static void drop_equations(hbm_solver *s)
 {
   newton_free(s->fixed);
   newton_free(s->plane);
-  exact_free(s->pattern);
+  exact_force_free(s->pattern);
   refinement_free(s->finer_harmonics);
   refinement_free(s->finer_samples);
   hbm_system_clear(&s->sys);
@@ -288,21 +288,21 @@ hc_status hbm_sliders(hbm_solver *s, const double *X, double *w)
   hc_status st = hbm_system_contact(&s->sys, X);
   if (st != HC_OK) return st;
   if (s->sys.sampled) aft_sliders(s->sys.sampled, w);
-  else exact_sliders(s->sys.located, w);
+  else exact_force_sliders(s->sys.located, w);
   return HC_OK;
 }
 
-hc_status hbm_pattern_at(hbm_solver *s, const double *X, const exact **e, contact_report *report)
+hc_status hbm_pattern_at(hbm_solver *s, const double *X, const exact_force **e, contact_report *report)
 {
   *e = s->pattern ? s->pattern : s->sys.located;
-  hc_status st = s->pattern ? exact_eval(s->pattern, X, s->Z, NULL, report) : hbm_system_contact(&s->sys, X);
+  hc_status st = s->pattern ? exact_force_eval(s->pattern, X, s->Z, NULL, report) : hbm_system_contact(&s->sys, X);
   if (st == HC_OK && !s->pattern) *report = s->sys.report;
   return st;
 }
 
 hc_status hbm_stability_at(hbm_solver *s, double omega, const double *X, hbm_stability *out)
 {
-  const exact *e;
+  const exact_force *e;
   contact_report report;
   hc_status st = hbm_pattern_at(s, X, &e, &report);
   if (st == HC_OK) st = stability_of(s->stability, s->model, e, omega, out);

@@ -21,7 +21,7 @@ struct hbm_solver {
   double step_scale; /* of hbm_scale_steps */
   int n_time;        /* samples per period, for sampled forces */
   newton *fixed, *plane;
-  exact *pattern; /* transitions of a solution of sampled equations; NULL when the equations are exact themselves */
+  exact_force *pattern; /* transitions of a solution of sampled equations; NULL when the equations are exact_force */
   stability *stability;
   double omega;                                /* of the fixed form */
   refinement *finer_harmonics, *finer_samples; /* what auto measures itself by; NULL where the settings say a number */
@@ -55,7 +55,7 @@ hc_status hbm_kernel_at(hbm_solver *s, const double *normal, const double *X, do
                         int *sign);
 
 /* The exact evaluator, evaluated at X, and what it found. */
-hc_status hbm_pattern_at(hbm_solver *s, const double *X, const exact **e, contact_report *report);
+hc_status hbm_pattern_at(hbm_solver *s, const double *X, const exact_force **e, contact_report *report);
 
 /* Euclidean norm of v[n]. */
 double hbm_norm(int n, const double *v);

@@ -1,7 +1,7 @@
 /* special.c - turning points, period doublings and changes of the contact pattern along a curve, each located
  * between two points. A turning point and a doubling are roots of smooth functions of sigma (d omega along the
- * tangent; the product of 1 + multiplier): regula falsi. A pattern changes at an instant, so it is bisected; what
- * lies beyond the first change of a stretch is searched again. */
+ * tangent; the product of 1 + multiplier), searched by interpolation. A pattern changes at an instant, so it is
+ * bisected; what lies beyond the first change of a stretch is searched again. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -9,6 +9,10 @@
 #include "hbm/between.h"
 #include "hbm/curve.h"
 #include "hbm/solver.h"
+#include "numerics/roots.h"
+
+/* Of a segment, which spans a fraction of the sweep: far within the 1e-9 of omega that hbm.h promises. */
+static const double SIGMA_TOLERANCE = 1e-11;
 
 /* What is watched at a point. */
 typedef struct watched {
@@ -28,7 +32,7 @@ typedef struct finder {
 
 static hc_status watch(finder *f, double omega, double d_omega, const double *X, watched *w)
 {
-  const exact *e;
+  const exact_force *e;
   contact_report report;
   hbm_stability st;
   hc_status status = hbm_pattern_at(f->s, X, &e, &report);
@@ -71,56 +75,68 @@ static double value_of(hbm_special_kind kind, const watched *w)
   return kind == HBM_TURNING_POINT ? w->d_omega : w->flip;
 }
 
-/* A sign change of a smooth watched value on segment k: Illinois. */
+/* A search along segment k, and the point it was at last. */
+typedef struct search {
+  finder *f;
+  int k;
+  hbm_special_kind kind; /* of locate_root */
+  const watched *left;   /* of locate_patterns: what is left behind */
+  double sigma;
+  watched here;
+} search;
+
+static hc_status look_at(search *s, double sigma)
+{
+  s->sigma = sigma;
+  return watch_at(s->f, s->k, sigma, &s->here);
+}
+
+static hc_status value_at(void *self, double sigma, double *value)
+{
+  search *s = self;
+  hc_status st = look_at(s, sigma);
+  *value = value_of(s->kind, &s->here);
+  return st;
+}
+
+static hc_status is_changed(void *self, double sigma, bool *changed)
+{
+  search *s = self;
+  hc_status st = look_at(s, sigma);
+  *changed = !same_pattern(&s->here, s->left);
+  return st;
+}
+
+/* Back to the point that was found, if another one was looked at after it. */
+static hc_status settle_at(search *s, double sigma) { return s->sigma == sigma ? HC_OK : look_at(s, sigma); }
+
+/* A sign change of a smooth watched value on segment k. */
 static hc_status locate_root(finder *f, int k, hbm_special_kind kind, double fa, double fb)
 {
-  double a = 0, b = 1, m = 0, omega_before = NAN;
-  watched w;
-  for (int it = 0; it < 60; ++it) {
-    m = (a * fb - b * fa) / (fb - fa);
-    if (!(m > a && m < b)) m = 0.5 * (a + b);
-    hc_status st = watch_at(f, k, m, &w);
-    if (st != HC_OK) return st;
-    double fm = value_of(kind, &w);
-    if ((fm < 0) == (fb < 0)) {
-      b = m;
-      fb = fm;
-      fa *= 0.5;
-    } else {
-      a = m;
-      fa = fm;
-      fb *= 0.5;
-    }
-    bool still = fabs(f->x.point.omega - omega_before) <= 1e-12 * f->x.point.omega;
-    omega_before = f->x.point.omega;
-    if (fm == 0 || b - a < 1e-12 || (still && kind == HBM_PERIOD_DOUBLING && it > 2)) break;
-  }
+  search s = {.f = f, .k = k, .kind = kind, .sigma = NAN};
+  root_point root;
+  hc_status st = root_between(value_at, &s, 0, fa, 1, fb, SIGMA_TOLERANCE, &root);
+  if (st == HC_OK) st = settle_at(&s, root.x);
+  if (st != HC_OK) return st;
   /* the turn belongs to the branch it ends */
   if (kind == HBM_TURNING_POINT) f->x.point.branch = f->c->points[k].branch;
-  return report_here(f, m, kind, w.regime, w.regime);
+  return report_here(f, root.x, kind, s.here.regime, s.here.regime);
 }
 
 /* Every change of pattern on segment k, from `left` at its start to `right` at its end. */
 static hc_status locate_patterns(finder *f, int k, watched left, const watched *right)
 {
   double from = 0;
-  for (int guard = 0; guard < 64 && !same_pattern(&left, right); ++guard) {
-    double a = from, b = 1;
-    watched w = left, beyond = *right;
-    hc_status st = HC_OK;
-    while (st == HC_OK && b - a > 1e-11) {
-      double m = 0.5 * (a + b);
-      st = watch_at(f, k, m, &w);
-      if (st == HC_OK && same_pattern(&w, &left)) a = m;
-      else b = m;
-    }
-    if (st == HC_OK && b < 1) st = watch_at(f, k, b, &beyond);
-    else if (st == HC_OK) st = watch_at(f, k, 1, &w);
-    if (st == HC_OK) st = report_here(f, b, HBM_CONTACT_CHANGE, left.regime, beyond.regime);
+  for (int guard = 0; guard < 64 && from < 1 && !same_pattern(&left, right); ++guard) {
+    search s = {.f = f, .k = k, .left = &left, .sigma = NAN};
+    root_point change;
+    hc_status st = root_change(is_changed, &s, from, 1, SIGMA_TOLERANCE, &change);
+    if (st == HC_OK) st = settle_at(&s, change.x);
+    watched beyond = change.x < 1 ? s.here : *right;
+    if (st == HC_OK) st = report_here(f, change.x, HBM_CONTACT_CHANGE, left.regime, beyond.regime);
     if (st != HC_OK) return st;
     left = beyond;
-    from = b;
-    if (b >= 1) break;
+    from = change.x;
   }
   return HC_OK;
 }

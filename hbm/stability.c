@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "hbm/exact.h"
+#include "hbm/exact_force.h"
 #include "model/linear.h"
 #include "numerics/floquet.h"
 
@@ -69,11 +69,11 @@ static int ascending(const void *a, const void *b)
 static double wrap(double th) { return th >= TWO_PI ? th - TWO_PI : th; }
 
 /* All instants of change in [0, 2 pi], ends included; their number or -1 without memory. */
-static int collect_boundaries(stability *s, const exact *e, int n_contacts)
+static int collect_boundaries(stability *s, const exact_force *e, int n_contacts)
 {
   int n = 2;
   for (int j = 0, n_pieces; j < n_contacts; ++j) {
-    exact_pieces(e, j, &n_pieces);
+    exact_force_pieces(e, j, &n_pieces);
     n += 2 * n_pieces;
   }
   if (n > s->cap) {
@@ -86,7 +86,7 @@ static int collect_boundaries(stability *s, const exact *e, int n_contacts)
   s->boundary[n++] = 0;
   s->boundary[n++] = TWO_PI;
   for (int j = 0, n_pieces; j < n_contacts; ++j) {
-    const contact_piece *p = exact_pieces(e, j, &n_pieces);
+    const contact_piece *p = exact_force_pieces(e, j, &n_pieces);
     for (int i = 0; i < n_pieces; ++i) {
       s->boundary[n++] = wrap(p[i].from);
       s->boundary[n++] = wrap(p[i].to);
@@ -97,10 +97,10 @@ static int collect_boundaries(stability *s, const exact *e, int n_contacts)
 }
 
 /* The piece of contact j that covers th, NULL while separated. */
-static const contact_piece *piece_at(const exact *e, int j, double th)
+static const contact_piece *piece_at(const exact_force *e, int j, double th)
 {
   int n;
-  const contact_piece *p = exact_pieces(e, j, &n);
+  const contact_piece *p = exact_force_pieces(e, j, &n);
   for (int i = 0; i < n; ++i)
     if ((th >= p[i].from && th < p[i].to) || (th + TWO_PI >= p[i].from && th + TWO_PI < p[i].to)) return &p[i];
   return NULL;
@@ -110,12 +110,12 @@ static const contact_piece *piece_at(const exact *e, int j, double th)
  * orbit is the last of a family that differs by where the slider rests, and it touches the limit without passing it,
  * in no time. Its one-sided derivative, as if it slipped there, has a multiplier 1 that is the family's. What passes
  * for no time: the slip's path goes with its length squared, so 1e-6 rad move it by rounding. */
-static bool held_for_ever(const exact *e, int j)
+static bool held_for_ever(const exact_force *e, int j)
 {
   const double no_time = 1e-6;
   double stuck = 0, touching = 0;
   int n;
-  const contact_piece *p = exact_pieces(e, j, &n);
+  const contact_piece *p = exact_force_pieces(e, j, &n);
   for (int i = 0; i < n; ++i) {
     touching += p[i].to - p[i].from;
     if (p[i].state == CONTACT_STICK) stuck += p[i].to - p[i].from;
@@ -126,23 +126,23 @@ static bool held_for_ever(const exact *e, int j)
 /* Does contact j's slider remember the motion? Not if it is stuck for ever, and not if every stick starts with a
  * touch-down that puts it at the same place whatever the motion: dheld is then 0 at all times and no state of the
  * system. */
-static bool remembers(const exact *e, int j)
+static bool remembers(const exact_force *e, int j)
 {
   int n;
-  const contact_piece *p = exact_pieces(e, j, &n);
+  const contact_piece *p = exact_force_pieces(e, j, &n);
   for (int i = 0; i < n && !held_for_ever(e, j); ++i)
-    if (p[i].state == CONTACT_STICK && p[i].slope[0] != 0) return true;
+    if (p[i].state == CONTACT_STICK && p[i].held_by_x[0] != 0) return true;
   return false;
 }
 
 /* Sliders that come to rest at this boundary: dheld from dx there. */
-static void set_sliders(stability *s, const model *m, const exact *e, double th)
+static void set_sliders(stability *s, const model *m, const exact_force *e, double th)
 {
   const int n = s->room;
   for (int j = 0; j < m->n_contacts; ++j) {
     const contact_piece *p = s->piece[j];
     if (!p || p->state != CONTACT_STICK || p->from != p->origin || wrap(p->from) != th || held_for_ever(e, j)) continue;
-    for (int q = 0; q < n; ++q) s->phi[(2 + j) * n + q] = p->slope[0] * s->phi[q];
+    for (int q = 0; q < n; ++q) s->phi[(2 + j) * n + q] = p->held_by_x[0] * s->phi[q];
   }
 }
 
@@ -191,7 +191,7 @@ static void summarise(int m, const double complex *lambda, hbm_stability *out)
   out->determinant = creal(all);
 }
 
-hc_status stability_of(stability *s, const model *m, const exact *e, double omega, hbm_stability *out)
+hc_status stability_of(stability *s, const model *m, const exact_force *e, double omega, hbm_stability *out)
 {
   const int room = s->room, n = collect_boundaries(s, e, m->n_contacts);
   int n_active = 0;

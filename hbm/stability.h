@@ -22,7 +22,7 @@ typedef struct hbm_stability {
                   need not */
 } hbm_stability;
 
-typedef struct exact exact; /* hbm/exact.h */
+typedef struct exact_force exact_force; /* hbm/exact_force.h */
 typedef struct stability stability;
 
 /* Room for orbits of a model with n_contacts contacts. HC_NO_MEMORY: *out is NULL. */
@@ -33,6 +33,6 @@ void stability_free(stability *s);
  * traction is a family); it is left out. HC_NOT_CONVERGED if the eigenvalues could not be computed, HC_NOT_FINITE if
  * they are too large. GSL's error handler is the caller's business: switched off, its errors come back as
  * HC_NOT_CONVERGED. `agrees` is left false here: it is the solver's to say (hbm_stability_at). */
-hc_status stability_of(stability *s, const model *m, const exact *e, double omega, hbm_stability *out);
+hc_status stability_of(stability *s, const model *m, const exact_force *e, double omega, hbm_stability *out);
 
 #endif

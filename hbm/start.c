@@ -9,8 +9,8 @@
 
 #include "model/linear.h"
 
-#include "hbm/series.h"
 #include "hbm/solver.h"
+#include "numerics/series.h"
 
 static double static_stiffness(const model *m)
 {
@@ -46,9 +46,9 @@ bool hbm_linear_point(hbm_solver *s, double omega, double near, double *X, doubl
   memcpy(X, linear, (size_t)s->sys.n_coef * sizeof(double));
   memset(dX, 0, (size_t)s->sys.n_coef * sizeof(double));
   double complex z = k - m->mass * omega * omega + I * m->damping * omega;
-  double complex slope = -m->force * (-2 * m->mass * omega + I * m->damping) / (z * z);
-  dX[1] = creal(slope);
-  dX[2] = -cimag(slope);
+  double complex by_omega = -m->force * (-2 * m->mass * omega + I * m->damping) / (z * z);
+  dX[1] = creal(by_omega);
+  dX[2] = -cimag(by_omega);
   *point = (hbm_point){.omega = omega, .residual = worst, .harmonics = s->sys.n_harm, .error = NAN};
   return true;
 }

@@ -1,12 +1,12 @@
-/* system.c - see system.h for the equations. The contact force comes from aft.c or exact.c; nothing else here knows
- * how. */
+/* system.c - see system.h for the equations. The contact force comes from aft.c or exact_force.c; nothing else here
+ * knows how. */
 #include "hbm/system.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "hbm/series.h"
+#include "numerics/series.h"
 
 hc_status hbm_system_init(hbm_system *sys, const model *m, const hbm_settings *how, int n_harm, int n_time)
 {
@@ -25,13 +25,13 @@ hc_status hbm_system_init(hbm_system *sys, const model *m, const hbm_settings *h
   sys->rows = calloc(n, sizeof(double));
   if (!sys->X || !sys->F || !sys->dF || !sys->rows) return HC_NO_MEMORY;
   if (how->force == HBM_FORCE_SAMPLED) return aft_new(m, how->restart, n_harm, n_time, &sys->sampled);
-  return exact_new_of_model(n_harm, m, &sys->located);
+  return exact_force_new_of_model(n_harm, m, &sys->located);
 }
 
 void hbm_system_clear(hbm_system *sys)
 {
   aft_free(sys->sampled);
-  exact_free(sys->located);
+  exact_force_free(sys->located);
   free(sys->X);
   free(sys->F);
   free(sys->dF);
@@ -46,7 +46,7 @@ hc_status hbm_system_contact(hbm_system *sys, const double *X)
   sys->evaluated = false;
   ++sys->evaluations;
   hc_status st = sys->sampled ? aft_eval(sys->sampled, X, sys->F, sys->dF, &sys->report)
-                              : exact_eval(sys->located, X, sys->F, sys->dF, &sys->report);
+                              : exact_force_eval(sys->located, X, sys->F, sys->dF, &sys->report);
   if (st != HC_OK) return st;
   memcpy(sys->X, X, bytes);
   sys->evaluated = true;

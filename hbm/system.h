@@ -11,7 +11,7 @@
 #define HC_SYSTEM_H
 
 #include "hbm/aft.h"
-#include "hbm/exact.h"
+#include "hbm/exact_force.h"
 
 typedef struct hbm_system {
   const model *model; /* the solver's */
@@ -20,7 +20,7 @@ typedef struct hbm_system {
   int first, n;       /* first unknown in X (0, or 1 without harmonic 0); number of unknowns */
   double contact_factor /* lambda */, force_factor /* phi */;
   aft *sampled; /* the one of these two that hbm.force asks for; the other is NULL */
-  exact *located;
+  exact_force *located;
   double *X, *F, *dF; /* the last evaluation: where, force [n_coef], Jacobian [n_coef][n_coef] by columns */
   double *rows;       /* [n_coef] a full right-hand side, before row 0 is dropped or not */
   bool evaluated;     /* X, F, dF and report belong together */

@@ -1,80 +1,23 @@
 /* transitions.c - see transitions.h: what happens to a contact, in the order it happens. The search for one crossing
- * is crossing.c's. */
+ * is numerics/crossing.c's. */
 #include "hbm/transitions.h"
 
 #include <float.h>
 #include <math.h>
 #include <string.h>
 
-#include "hbm/crossing.h"
+#include "numerics/crossing.h"
 
 static const double TWO_PI = 6.283185307179586476925;
 
-enum { HALF = TRANSITIONS_GRID / 2 };
-
-void motion_table_fill(int n_harm, double *table)
-{
-  for (int h = 1; h <= n_harm; ++h)
-    for (int i = 0; i < HALF; ++i) {
-      double th = TWO_PI * (h * i % TRANSITIONS_GRID) / TRANSITIONS_GRID;
-      table[(h - 1) * TRANSITIONS_GRID + i] = cos(th);
-      table[(h - 1) * TRANSITIONS_GRID + HALF + i] = sin(th);
-    }
-}
-
-/* Sums over even harmonics, [0], and odd ones, [1], of x and two derivatives at the first half of the grid. */
-static void sum_harmonics(int n_harm, const double *X, const double *table, double sum[2][3][HALF])
-{
-  for (int i = 0; i < HALF; ++i) sum[0][0][i] = X[0];
-  for (int h = 1; h <= n_harm; ++h) {
-    const double *restrict c = table + (h - 1) * TRANSITIONS_GRID, *restrict s = c + HALF;
-    double *restrict x = sum[h & 1][0], *restrict d1 = sum[h & 1][1], *restrict d2 = sum[h & 1][2];
-    double a = X[2 * h - 1], b = X[2 * h], h1 = h, h2 = h1 * h1;
-    for (int i = 0; i < HALF; ++i) {
-      double even = a * c[i] + b * s[i], odd = b * c[i] - a * s[i];
-      x[i] += even;
-      d1[i] += h1 * odd;
-      d2[i] -= h2 * even;
-    }
-  }
-}
-
-static void fill_coordinate(motion_grid *g, int d, const double *table)
-{
-  g->size[0][d] = fabs(g->m.X[d][0]);
-  g->size[1][d] = g->size[2][d] = 0;
-  for (int h = 1; h <= g->m.n_harm; ++h) {
-    double size = fabs(g->m.X[d][2 * h - 1]) + fabs(g->m.X[d][2 * h]);
-    g->size[0][d] += size;
-    g->size[1][d] += h * size;
-    g->size[2][d] += (double)h * h * size;
-  }
-  double sum[2][3][HALF] = {{{0}}};
-  sum_harmonics(g->m.n_harm, g->m.X[d], table, sum);
-  for (int k = 0; k < 3; ++k)
-    for (int i = 0; i < HALF; ++i) {
-      g->node[i].d[k][d] = sum[0][k][i] + sum[1][k][i];
-      g->node[i + HALF].d[k][d] = sum[0][k][i] - sum[1][k][i];
-    }
-}
-
-void motion_grid_fill(motion_grid *g, const motion *m, const double *table)
-{
-  g->m = *m;
-  for (int d = 0; d < m->n_dof; ++d) fill_coordinate(g, d, table);
-  memcpy(g->node + TRANSITIONS_GRID, g->node, TRANSITIONS_GRID * sizeof *g->node);
-  g->node[2 * TRANSITIONS_GRID] = g->node[0];
-  for (int i = 0; i <= 2 * TRANSITIONS_GRID; ++i) g->node[i].th = TWO_PI * i / TRANSITIONS_GRID;
-}
-
 /* Everything about one contact while its period is walked through. */
 typedef struct walk {
-  const motion_grid *grid;
+  const series_grid *grid;
   const moving_contact *c;
   guard normal;      /* g; its negative is searched for touch-down */
   guard stick[2];    /* p_s = mu kn (v + gap) - s kt u, the part of q_s that does not change; s = +1, -1 */
   guard slip[2];     /* r_s */
-  contact_piece now; /* the piece under way; from, state, held, origin, slope */
+  contact_piece now; /* the piece under way; from, state, held, origin, held_by_x */
   contact_piece *piece;
   int n, cap;
   bool recording, friction;
@@ -84,13 +27,13 @@ static int index_of(int s) { return s < 0; }
 
 static guard make_guard(const walk *w, int order, double of_u, double of_v, double constant)
 {
-  double a[MOTION_MAX_DOF] = {0};
-  for (int d = 0; d < w->grid->m.n_dof; ++d) a[d] = of_u * w->c->cu[d] + of_v * w->c->cv[d];
+  double a[SERIES_MAX_DIM] = {0};
+  for (int d = 0; d < w->grid->m.dim; ++d) a[d] = of_u * w->c->cu[d] + of_v * w->c->cv[d];
   guard g = guard_make(&w->grid->m, order, a, constant);
   /* u and v may cancel (kt cos = mu kn sin): rounding is relative to what they were before, and to how far off a
    * touch-down may be located */
   double before = 16 * fabs(constant);
-  for (int d = 0; d < w->grid->m.n_dof; ++d) {
+  for (int d = 0; d < w->grid->m.dim; ++d) {
     double weight = fabs(of_u * w->c->cu[d]) + fabs(of_v * w->c->cv[d]);
     before += weight * (16 * w->grid->size[order][d] + 32 * w->grid->size[order + 1][d]);
   }
@@ -129,23 +72,23 @@ static hc_status close_piece(walk *w, double to)
 }
 
 /* The slider comes to rest at `at` after slipping with sign s: held = -s p_s(at). */
-static void hold(walk *w, int s, const motion_node *at)
+static void hold(walk *w, int s, const series_node *at)
 {
   const contact *law = &w->c->law;
   w->now.held = -s * guard_value(&w->stick[index_of(s)], at);
   w->now.origin = at->th;
-  for (int d = 0; d < w->grid->m.n_dof; ++d)
-    w->now.slope[d] = law->kt * w->c->cu[d] - s * law->mu * law->kn * w->c->cv[d];
+  for (int d = 0; d < w->grid->m.dim; ++d)
+    w->now.held_by_x[d] = law->kt * w->c->cu[d] - s * law->mu * law->kn * w->c->cv[d];
 }
 
 /* Between two nodes in contact: pieces end where a guard falls through 0. */
-static hc_status walk_between(walk *w, motion_node a, const motion_node *b)
+static hc_status walk_between(walk *w, series_node a, const series_node *b)
 {
   hc_status st = HC_OK;
   double here = -1; /* the last transition's angle, and how many there have been */
   int times = 0;
   while (st == HC_OK && a.th < b->th) {
-    motion_node root, other;
+    series_node root, other;
     int s = contact_slip_sign(w->now.state);
     bool found;
     if (s) {
@@ -163,7 +106,7 @@ static hc_status walk_between(walk *w, motion_node a, const motion_node *b)
     here = root.th;
     if (times > 3) { /* T, N and their rates are all 0 to rounding: what follows shows a little later, where they
                         still are */
-      a = motion_at(&w->grid->m, fmin(here + 1e-8, b->th));
+      a = series_vector_at(&w->grid->m, fmin(here + 1e-8, b->th));
       if (!contact_slip_sign(w->now.state))
         w->now.held = 0.5 * (guard_value(&w->stick[1], &a) - guard_value(&w->stick[0], &a));
       continue;
@@ -189,19 +132,19 @@ static hc_status walk_between(walk *w, motion_node a, const motion_node *b)
 }
 
 /* The grid node after angle th. */
-static const motion_node *node_after(const walk *w, double th)
+static const series_node *node_after(const walk *w, double th)
 {
-  const motion_node *node = w->grid->node + (int)(th * (TRANSITIONS_GRID / TWO_PI));
+  const series_node *node = w->grid->node + (int)(th * (SERIES_GRID / TWO_PI));
   while (node->th <= th) ++node;
   return node;
 }
 
 /* From a to b, grid nodes in between, in contact all the way. */
-static hc_status walk_contact(walk *w, const motion_node *a, const motion_node *b)
+static hc_status walk_contact(walk *w, const series_node *a, const series_node *b)
 {
   hc_status st = HC_OK;
   if (!w->friction) return HC_OK;
-  for (const motion_node *next = node_after(w, a->th); st == HC_OK && a->th < b->th; a = next++) {
+  for (const series_node *next = node_after(w, a->th); st == HC_OK && a->th < b->th; a = next++) {
     if (next->th >= b->th) return walk_between(w, *a, b);
     st = walk_between(w, *a, next);
   }
@@ -212,11 +155,11 @@ static hc_status walk_contact(walk *w, const motion_node *a, const motion_node *
 static contact_state frictionless(const contact *law) { return law->kt > 0 ? CONTACT_SLIP_PLUS : CONTACT_STICK; }
 
 /* Touch-down at `at`: T = N = 0 and w = u; slips at once if the slip guard says so. */
-static void touch(walk *w, const motion_node *at)
+static void touch(walk *w, const series_node *at)
 {
   const contact *law = &w->c->law;
   double u = 0, du = 0, dv = 0;
-  for (int d = 0; d < w->grid->m.n_dof; ++d) {
+  for (int d = 0; d < w->grid->m.dim; ++d) {
     u += w->c->cu[d] * at->d[0][d];
     du += w->c->cu[d] * at->d[1][d];
     dv += w->c->cv[d] * at->d[1][d];
@@ -226,27 +169,27 @@ static void touch(walk *w, const motion_node *at)
   w->now.state = w->friction ? contact_on_touch(law, du, dv) : frictionless(law);
   /* d held = kt (du_origin + u' d th), d th = -dv_origin/v' moves with the instant of contact */
   double along = dv > 0 ? du / dv : 0;
-  for (int d = 0; d < w->grid->m.n_dof; ++d) {
+  for (int d = 0; d < w->grid->m.dim; ++d) {
     double direct = w->c->cu[d], moved = along * w->c->cv[d];
-    w->now.slope[d] = fabs(direct - moved) > 4 * DBL_EPSILON * fabs(direct) ? law->kt * (direct - moved) : 0;
+    w->now.held_by_x[d] = fabs(direct - moved) > 4 * DBL_EPSILON * fabs(direct) ? law->kt * (direct - moved) : 0;
   }
 }
 
 /* First angle in [a, until) where the guard falls through 0, over grid nodes. */
-static bool first_over_grid(const walk *w, const guard *g, const motion_node *a, double until, motion_node *root)
+static bool first_over_grid(const walk *w, const guard *g, const series_node *a, double until, series_node *root)
 {
-  for (const motion_node *next = node_after(w, a->th); a->th < until; a = next++)
+  for (const series_node *next = node_after(w, a->th); a->th < until; a = next++)
     if (crossing_first(&w->grid->m, g, a, next, root)) return root->th < until;
   return false;
 }
 
 /* Contact is lost somewhere: from a separated angle once around, touch-down to lift-off. */
-static hc_status walk_intermittent(walk *w, motion_node a)
+static hc_status walk_intermittent(walk *w, series_node a)
 {
   guard touch_down = guard_negative(&w->normal);
   double end = a.th + TWO_PI;
   hc_status st = HC_OK;
-  motion_node on, off;
+  series_node on, off;
   w->recording = true;
   while (st == HC_OK && first_over_grid(w, &touch_down, &a, end, &on)) {
     touch(w, &on);
@@ -265,7 +208,7 @@ static hc_status walk_intermittent(walk *w, motion_node a)
  * clamp). */
 static hc_status walk_closed(walk *w)
 {
-  const motion_node *start = &w->grid->node[0], *end = &w->grid->node[TRANSITIONS_GRID];
+  const series_node *start = &w->grid->node[0], *end = &w->grid->node[SERIES_GRID];
   double low = -guard_value(&w->stick[0], start), high = guard_value(&w->stick[1], start);
   w->now.state = w->friction ? CONTACT_STICK : frictionless(&w->c->law);
   w->now.held = w->friction ? fmin(fmax(0, low), high) : 0;
@@ -284,7 +227,7 @@ static hc_status walk_closed(walk *w)
   return same ? HC_OK : HC_NOT_CLOSED;
 }
 
-hc_status transitions_find(const motion_grid *grid, const moving_contact *c, int cap, contact_piece *piece, int *n)
+hc_status transitions_find(const series_grid *grid, const moving_contact *c, int cap, contact_piece *piece, int *n)
 {
   walk w = {.grid = grid, .c = c, .piece = piece, .cap = cap};
   *n = 0;
@@ -293,11 +236,11 @@ hc_status transitions_find(const motion_grid *grid, const moving_contact *c, int
   /* mu kn or more overflows */
   if (w.friction && !isfinite(guard_scale(&w.stick[0]) + guard_scale(&w.slip[0]))) return HC_NOT_FINITE;
   if (guard_upper(&w.normal) <= 0) return HC_OK; /* never touches, whatever the phase */
-  motion_node apart;
+  series_node apart;
   hc_status st;
   bool separates = false;
   if (guard_lower(&w.normal) < 0) {
-    for (int i = 0; i < TRANSITIONS_GRID && !separates; ++i)
+    for (int i = 0; i < SERIES_GRID && !separates; ++i)
       if (guard_value(&w.normal, &grid->node[i]) < 0) {
         separates = true;
         apart = grid->node[i];

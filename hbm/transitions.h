@@ -16,53 +16,26 @@
 
 #include "base/status.h"
 #include "model/contact_law.h"
-
-enum { MOTION_MAX_DOF = 2, TRANSITIONS_GRID = 32 };
-
-/* The motion of n_dof coordinates, each a series (series.h). */
-typedef struct motion {
-  int n_harm, n_dof;
-  const double *X[MOTION_MAX_DOF]; /* [2 n_harm + 1] [length] */
-} motion;
+#include "numerics/series_grid.h"
 
 /* A contact and how the coordinates move it: u = sum cu[d] x_d, v = sum cv[d] x_d. */
 typedef struct moving_contact {
   contact law;
-  double cu[MOTION_MAX_DOF], cv[MOTION_MAX_DOF];
+  double cu[SERIES_MAX_DIM], cv[SERIES_MAX_DIM];
 } moving_contact;
-
-/* The coordinates and two derivatives by th at one angle. */
-typedef struct motion_node {
-  double th, d[3][MOTION_MAX_DOF];
-} motion_node;
 
 /* A stretch of the period in one state. */
 typedef struct contact_piece {
-  double from, to;              /* [rad] from < to <= from + 2 pi */
-  contact_state state;          /* never CONTACT_SEPARATED: what is not covered is separated */
-  double held;                  /* [force] kt w while stuck */
-  double origin;                /* [rad] where the slider came to rest: d held = sum slope[d] dx_d(origin) */
-  double slope[MOTION_MAX_DOF]; /* [force/length] all 0 when held depends on nothing */
-  int transitions;              /* changes of state since the walk began: a guard against chatter */
+  double from, to;                  /* [rad] from < to <= from + 2 pi */
+  contact_state state;              /* never CONTACT_SEPARATED: what is not covered is separated */
+  double held;                      /* [force] kt w while stuck */
+  double origin;                    /* [rad] where the slider came to rest: d held = sum held_by_x[d] dx_d(origin) */
+  double held_by_x[SERIES_MAX_DIM]; /* [force/length] all 0 when held depends on nothing */
+  int transitions;                  /* changes of state since the walk began: a guard against chatter */
 } contact_piece;
-
-/* Grid values of a motion, shared by all contacts. */
-typedef struct motion_grid {
-  motion m;
-  double size[3][MOTION_MAX_DOF];             /* sums of |coefficients| of x, x', x'' */
-  motion_node node[2 * TRANSITIONS_GRID + 1]; /* two periods: a walk that starts anywhere in the first never wraps */
-} motion_grid;
-
-/* cos and sin of h th_i for half the grid, [n_harm][2][TRANSITIONS_GRID/2], filled once: half a period later odd
- * harmonics change sign. */
-static inline int motion_table_length(int n_harm) { return TRANSITIONS_GRID * n_harm; }
-void motion_table_fill(int n_harm, double *table);
-
-void motion_grid_fill(motion_grid *g, const motion *m, const double *table);
-motion_node motion_at(const motion *m, double th);
 
 /* The pieces of one period, ascending, into piece[cap]; *n of them. The slider starts at w = 0 where contact never
  * breaks. HC_CHATTER: more than cap pieces. HC_NOT_CLOSED: the slider did not repeat itself. */
-hc_status transitions_find(const motion_grid *grid, const moving_contact *c, int cap, contact_piece *piece, int *n);
+hc_status transitions_find(const series_grid *grid, const moving_contact *c, int cap, contact_piece *piece, int *n);
 
 #endif

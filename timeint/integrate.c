@@ -15,12 +15,12 @@ hc_status integrate_tolerance(integrator *in, double tolerance)
   return integrate_translate(in, CVodeSStolerances(in->cv, tolerance, tolerance));
 }
 
-static hc_status period(integrator *in, const scaled_model *m, double *y, double *slope, integrate_watch *watch,
+static hc_status period(integrator *in, const scaled_model *m, double *y, double *monodromy, integrate_watch *watch,
                         void *self)
 {
   if (!in->ready && !hc_room_for(0)) return HC_NO_MEMORY;
   in->ready = true;
-  return in->does->period(in, m, y, slope, watch, self);
+  return in->does->period(in, m, y, monodromy, watch, self);
 }
 
 hc_status integrate_period(integrator *in, const scaled_model *m, double *y, integrate_watch *watch, void *self)
@@ -28,9 +28,9 @@ hc_status integrate_period(integrator *in, const scaled_model *m, double *y, int
   return period(in, m, y, NULL, watch, self);
 }
 
-hc_status integrate_slope(integrator *in, const scaled_model *m, double *y, double *slope)
+hc_status integrate_monodromy(integrator *in, const scaled_model *m, double *y, double *monodromy)
 {
-  return period(in, m, y, slope, NULL, NULL);
+  return period(in, m, y, monodromy, NULL, NULL);
 }
 
 hc_status integrate_dense(const integrator *in, double theta, int order, double *y)

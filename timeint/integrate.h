@@ -33,11 +33,11 @@ hc_status integrate_tolerance(integrator *in, double tolerance);
  * Exact law: HC_CHATTER after too many transitions. */
 hc_status integrate_period(integrator *in, const scaled_model *m, double *y, integrate_watch *watch, void *self);
 
-/* As integrate_period, with slope[n_states * n_states], column by column: d y[i](2 pi) / d y[j](0) at slope[i + j
- * n_states], the monodromy matrix on a periodic orbit. From the variational equations along the way; the contact
- * forces are continuous, so transitions add nothing (saltation is the identity). A slider that the law ties to x at
- * theta = 0 (slipping, separated) has a column of zeros. */
-hc_status integrate_slope(integrator *in, const scaled_model *m, double *y, double *slope);
+/* As integrate_period, with monodromy[n_states * n_states], by columns: d y[i](2 pi) / d y[j](0) at [i + j n_states];
+ * on a periodic orbit it is the monodromy matrix. From the variational equations along the way; the contact forces are
+ * continuous, so transitions add nothing (saltation is the identity). A slider that the law ties to x at theta = 0
+ * (slipping, separated) has a column of zeros. */
+hc_status integrate_monodromy(integrator *in, const scaled_model *m, double *y, double *monodromy);
 
 /* Inside a watch: the state (order 0) or its derivative (order 1) at theta0 <= theta <= theta1, from the step's own
  * polynomial, as good as the step itself. y[n_states]. */

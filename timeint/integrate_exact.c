@@ -14,7 +14,7 @@
  * A transition located within dtheta makes an error of order dtheta^2, the force being continuous; CVODE's 1e-13
  * leaves nothing to polish.
  *
- * Slope: between transitions the variations obey a linear equation with constant coefficients, so they are carried
+ * Monodromy: between transitions the variations obey a linear equation with constant coefficients, so they are carried
  * along in closed form. */
 #include "timeint/integrate_private.h"
 
@@ -50,9 +50,9 @@ typedef struct exact { /* from integrate_new_exact, to integrate_free; not share
   double tolerance;
   const scaled_model *m; /* of the period under way; the caller's                         */
   phase phase;           /* now                                                           */
-  bool varies;           /* the slope is asked for                                        */
-  double varied;         /* theta up to which `slope` has come                            */
-  double slope[SCALED_MAX_STATES * SCALED_MAX_STATES]; /* by columns; rows of W while stuck */
+  bool varies;           /* the monodromy is asked for                                        */
+  double varied;         /* theta up to which `monodromy` has come                            */
+  double monodromy[SCALED_MAX_STATES * SCALED_MAX_STATES]; /* by columns; rows of W while stuck */
 } exact;
 
 static int rhs(sunrealtype theta, N_Vector y, N_Vector dy, void *self)
@@ -136,7 +136,7 @@ static void vary_to(exact *in, double theta)
   linear_free_motion(1, c, ph->k, span, e);
   const double step = ph->k != 0 ? (1 - e[0][0]) / ph->k : c != 0 ? (span - e[0][1]) / c : 0.5 * span * span;
   for (int q = 0; q < in->n; ++q) {
-    double *z = in->slope + q * in->n, pull = 0, x = z[SCALED_X], p = z[SCALED_P];
+    double *z = in->monodromy + q * in->n, pull = 0, x = z[SCALED_X], p = z[SCALED_P];
     for (int j = 0; j < in->m->n_contacts; ++j) pull += phase_share(ph, j) * z[SCALED_W + j];
     z[SCALED_X] = e[0][0] * x + e[0][1] * p + step * pull;
     z[SCALED_P] = e[1][0] * x + e[1][1] * p + e[0][1] * pull;
@@ -151,7 +151,7 @@ static void vary_held(exact *in, const phase *before)
     const phase_contact *pc = &in->phase.contact[j];
     if (pc->state != CONTACT_STICK || (before && before->contact[j].state == CONTACT_STICK)) continue;
     for (int q = 0; q < in->n; ++q) {
-      double *z = in->slope + q * in->n;
+      double *z = in->monodromy + q * in->n;
       z[SCALED_W + j] = pc->own ? (q == SCALED_W + j ? 1.0 : 0.0) : pc->held_by_x * z[SCALED_X];
     }
   }
@@ -159,23 +159,23 @@ static void vary_held(exact *in, const phase *before)
 
 static void vary_begin(exact *in)
 {
-  memset(in->slope, 0, sizeof in->slope);
-  in->slope[SCALED_X] = 1;
-  in->slope[SCALED_P + in->n] = 1;
+  memset(in->monodromy, 0, sizeof in->monodromy);
+  in->monodromy[SCALED_X] = 1;
+  in->monodromy[SCALED_P + in->n] = 1;
   in->varied = 0;
   vary_held(in, NULL);
 }
 
-/* Into slope[n*n], with the rows of sliders that are tied to X. */
-static void vary_end(exact *in, double *slope)
+/* Into monodromy[n*n], with the rows of sliders that are tied to X. */
+static void vary_end(exact *in, double *monodromy)
 {
   vary_to(in, two_pi);
-  memcpy(slope, in->slope, sizeof *slope * (size_t)(in->n * in->n));
+  memcpy(monodromy, in->monodromy, sizeof *monodromy * (size_t)(in->n * in->n));
   for (int j = 0; j < in->m->n_contacts; ++j) {
     double rest, by_x;
     phase_slider(&in->phase, j, &rest, &by_x);
     if (phase_share(&in->phase, j) != 0) continue;
-    for (int q = 0; q < in->n; ++q) slope[SCALED_W + j + q * in->n] = by_x * slope[SCALED_X + q * in->n];
+    for (int q = 0; q < in->n; ++q) monodromy[SCALED_W + j + q * in->n] = by_x * monodromy[SCALED_X + q * in->n];
   }
 }
 
@@ -241,18 +241,18 @@ static void take_state(const exact *in, double *y)
   }
 }
 
-static hc_status period(integrator *base, const scaled_model *m, double *y, double *slope, integrate_watch *watch,
+static hc_status period(integrator *base, const scaled_model *m, double *y, double *monodromy, integrate_watch *watch,
                         void *self)
 {
   exact *in = (exact *)base;
   if (m->n_states != in->n) return HC_BUG;
   in->m = m;
   in->base.not_finite = false;
-  in->varies = slope != NULL;
+  in->varies = monodromy != NULL;
   base->flag = CV_SUCCESS;
   int count = phase_begin(&in->phase, m, y);
   if (count < 0) return HC_NOT_FINITE;
-  if (slope) vary_begin(in);
+  if (monodromy) vary_begin(in);
   memcpy(NV_DATA_S(in->base.y), y, 2 * sizeof *y);
   hc_status st = start(in, 0);
   if (st == HC_OK) st = run(in, watch, self, &count);
@@ -261,7 +261,7 @@ static hc_status period(integrator *base, const scaled_model *m, double *y, doub
   if (st == HC_OK) st = counted;
   if (st != HC_OK) return st;
   take_state(in, y);
-  if (slope) vary_end(in, slope);
+  if (monodromy) vary_end(in, monodromy);
   return HC_OK;
 }
 

@@ -12,8 +12,8 @@
 #include "timeint/integrate.h"
 
 typedef struct integrator_class {
-  /* slope, watch: or NULL */
-  hc_status (*period)(integrator *, const scaled_model *, double *y, double *slope, integrate_watch *, void *self);
+  /* monodromy, watch: or NULL */
+  hc_status (*period)(integrator *, const scaled_model *, double *y, double *monodromy, integrate_watch *, void *self);
   hc_status (*dense)(const integrator *, double theta, int order, double *y);
   bool (*slides)(const integrator *, int j, const double *y);
   void (*free)(integrator *);

@@ -1,7 +1,7 @@
-/* integrate_regularised.c - see integrate.h. BDF with the analytic dense Jacobian of scaled.c: the sliding slider is
- * stiff (its rate is 1/regularisation). Everything is made in integrate_new; a period allocates nothing. Slopes are
- * CVODES' forward sensitivities to y(0), switched off in periods without; a period with them takes other steps of
- * the same tolerance: y is as good, but not the same bits. */
+/* integrate_regularised.c - see integrate.h. BDF with the analytic dense Jacobian of model.c: the sliding slider is
+ * stiff (its rate is 1/regularisation). Everything is made in integrate_new; a period allocates nothing. The columns of
+ * the monodromy matrix are CVODES' forward sensitivities to y(0), switched off in periods without; a period with them
+ * takes other steps of the same tolerance: y is as good, but not the same bits. */
 #include "timeint/integrate_private.h"
 
 #include <stdlib.h>
@@ -16,7 +16,7 @@
 #include "numerics/sundials_compat.h"
 
 static const double two_pi = 6.283185307179586477;
-static const double slope_tolerance = 1e-6; /* of the slopes' steps; they are about 1 */
+static const double variation_tolerance = 1e-6; /* of the variations' steps; they are about 1 */
 
 enum {
   MAX_STEPS = 1000000,  /* per period: a thousand times what a hard one takes */
@@ -50,8 +50,8 @@ static int jacobian(sunrealtype theta, N_Vector y, N_Vector dy, SUNMatrix jac, v
 }
 
 /* The variational equations s_j' = J s_j. */
-static int slope_rhs(int n, sunrealtype theta, N_Vector y, N_Vector dy, N_Vector *s, N_Vector *ds, void *self,
-                     N_Vector t1, N_Vector t2)
+static int variation_rhs(int n, sunrealtype theta, N_Vector y, N_Vector dy, N_Vector *s, N_Vector *ds, void *self,
+                         N_Vector t1, N_Vector t2)
 {
   (void)theta, (void)dy, (void)t1, (void)t2;
   regularised *in = self;
@@ -89,20 +89,21 @@ static hc_status make_cvode(regularised *in, double tolerance)
 }
 
 /* Their errors are watched, too, if loosely: without that a step may leap over a corner that hardly moves y and put
- * a slope off by 4e-3 (measured; with it 3e-5 at worst), which costs Newton a step and hides a fold. Staggered: y is
- * solved for first, then all slopes; solving for both at once was measured as dear, and no better. */
-static hc_status make_slopes(regularised *in)
+ * the monodromy matrix off by 4e-3 (measured; with it 3e-5 at worst), which costs Newton a step and hides a fold.
+ * Staggered: y is solved for first, then all variations; solving for both at once was measured as dear, and no
+ * better. */
+static hc_status make_variations(regularised *in)
 {
   double absolute[SCALED_MAX_STATES];
   for (int j = 0; j < in->n; ++j) {
     N_VConst(0.0, in->s[j]);
-    absolute[j] = slope_tolerance;
+    absolute[j] = variation_tolerance;
   }
   if (!hc_room_for(0)) return HC_NO_MEMORY;
-  int flag = CVodeSensInit(in->base.cv, in->n, CV_STAGGERED, slope_rhs, in->s); /* first: the other calls need it */
+  int flag = CVodeSensInit(in->base.cv, in->n, CV_STAGGERED, variation_rhs, in->s); /* first: the other calls need it */
   if (flag != CV_SUCCESS) return HC_NO_MEMORY;
   const int flags[] = {
-      CVodeSensSStolerances(in->base.cv, slope_tolerance, absolute),
+      CVodeSensSStolerances(in->base.cv, variation_tolerance, absolute),
       CVodeSetSensErrCon(in->base.cv, 1),
       CVodeSensToggleOff(in->base.cv),
   };
@@ -127,7 +128,7 @@ static void release(integrator *base)
   free(base);
 }
 
-static int start_slopes(regularised *in)
+static int start_variations(regularised *in)
 {
   for (int j = 0; j < in->n; ++j) {
     N_VConst(0.0, in->s[j]);
@@ -136,10 +137,10 @@ static int start_slopes(regularised *in)
   return CVodeSensReInit(in->base.cv, CV_STAGGERED, in->s);
 }
 
-static hc_status start_period(regularised *in, bool slopes)
+static hc_status start_period(regularised *in, bool varies)
 {
   int flag = CVodeReInit(in->base.cv, 0.0, in->base.y);
-  if (flag == CV_SUCCESS) flag = slopes ? start_slopes(in) : CVodeSensToggleOff(in->base.cv);
+  if (flag == CV_SUCCESS) flag = varies ? start_variations(in) : CVodeSensToggleOff(in->base.cv);
   if (flag == CV_SUCCESS) flag = CVodeSetStopTime(in->base.cv, two_pi);
   return integrate_translate(&in->base, flag);
 }
@@ -168,15 +169,15 @@ static hc_status run_watched(regularised *in, integrate_watch *watch, void *self
   }
 }
 
-static hc_status take_slopes(regularised *in, double *slope)
+static hc_status take_monodromy(regularised *in, double *monodromy)
 {
   sunrealtype theta;
   int flag = CVodeGetSens(in->base.cv, &theta, in->s);
-  for (int j = 0; j < in->n; ++j) memcpy(slope + j * in->n, NV_DATA_S(in->s[j]), sizeof *slope * (size_t)in->n);
+  for (int j = 0; j < in->n; ++j) memcpy(monodromy + j * in->n, NV_DATA_S(in->s[j]), sizeof *monodromy * (size_t)in->n);
   return integrate_translate(&in->base, flag);
 }
 
-static hc_status period(integrator *base, const scaled_model *m, double *y, double *slope, integrate_watch *watch,
+static hc_status period(integrator *base, const scaled_model *m, double *y, double *monodromy, integrate_watch *watch,
                         void *self)
 {
   regularised *in = (regularised *)base;
@@ -185,11 +186,11 @@ static hc_status period(integrator *base, const scaled_model *m, double *y, doub
   in->base.not_finite = false;
   base->flag = CV_SUCCESS;
   memcpy(NV_DATA_S(in->base.y), y, bytes);
-  hc_status st = start_period(in, slope != NULL);
+  hc_status st = start_period(in, monodromy != NULL);
   if (st == HC_OK) st = watch ? run_watched(in, watch, self) : run(in);
   hc_status counted = integrate_add_counts(&in->base);
   if (st == HC_OK) st = counted;
-  if (st == HC_OK && slope) st = take_slopes(in, slope);
+  if (st == HC_OK && monodromy) st = take_monodromy(in, monodromy);
   if (st == HC_OK) memcpy(y, NV_DATA_S(in->base.y), bytes);
   return st;
 }
@@ -218,7 +219,7 @@ hc_status integrate_new_regularised(int n_states, double tolerance, integrator *
   in->n = n_states;
   hc_status st = make_parts(in);
   if (st == HC_OK) st = make_cvode(in, tolerance);
-  if (st == HC_OK) st = make_slopes(in);
+  if (st == HC_OK) st = make_variations(in);
   if (st == HC_OK) {
     *out = &in->base;
     return HC_OK;

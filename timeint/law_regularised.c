@@ -30,7 +30,7 @@ static double normal_change(const law_regularised *c, double v)
   return c->kn * (c->width > 0 ? v + c->width * log1p(exp(-g / c->width)) : v);
 }
 
-static double normal_slope(const law_regularised *c, double v)
+static double normal_stiffness(const law_regularised *c, double v)
 {
   double g = v + c->gap;
   if (g > SOFT_END * c->width) return c->kn;
@@ -52,9 +52,9 @@ law_value law_regularised_eval(const law_regularised *c, double u, double v, dou
   return r;
 }
 
-law_slope law_regularised_slope(const law_regularised *c, double u, double v, double w)
+law_derivatives law_regularised_derivatives(const law_regularised *c, double u, double v, double w)
 {
-  law_slope r = {.n_v = normal_slope(c, v)};
+  law_derivatives r = {.n_v = normal_stiffness(c, v)};
   if (!c->slides) return r;
   r.t_u = c->kt;
   double excess = excess_force(c->kt * (u - w), c->mu * normal_force(c, v));

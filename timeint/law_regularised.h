@@ -35,9 +35,9 @@ typedef struct law_value {
 
 /* Partial derivatives dN/dv, dT/du, ...; N depends on v alone, and w enters as u - w: dT/dw = -dT/du, dw'/dw =
  * -dw'/du. */
-typedef struct law_slope {
+typedef struct law_derivatives {
   double n_v, t_u, t_v, rate_u, rate_v;
-} law_slope;
+} law_derivatives;
 
 /* The law of `c`, its slider relaxing at the rate kt/eta = 1/relaxation [1/time] once it slides. width >= 0,
  * relaxation > 0. */
@@ -45,7 +45,7 @@ law_regularised law_regularised_make(const contact *c, double width, double rela
 
 law_value law_regularised_eval(const law_regularised *c, double u, double v, double w);
 
-/* Slopes where the law has them; on the corner |S| = mu N those of stick. */
-law_slope law_regularised_slope(const law_regularised *c, double u, double v, double w);
+/* Derivatives where the law has them; on the corner |S| = mu N those of stick. */
+law_derivatives law_regularised_derivatives(const law_regularised *c, double u, double v, double w);
 
 #endif

@@ -5,6 +5,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "numerics/roots.h"
+
 static const double two_pi = 6.283185307179586477;
 
 void measure_begin(measure *me, const scaled_model *m)
@@ -50,25 +52,30 @@ void measure_period(measure *me, const double *y)
   take_instant(me, y[SCALED_X]);
 }
 
-/* A root of P's derivative of the given order (0: of P itself) between t0 and t1, where it has the values f0 and f1
- * of opposite sign: regula falsi with the Illinois weight. y: the state there. */
+/* P's derivative of the given order (0: P itself) by CVODE's dense output. */
+typedef struct dense_rate {
+  const integrator *in;
+  int order;
+  double *y;
+} dense_rate;
+
+static hc_status rate_at(void *self, double theta, double *rate)
+{
+  const dense_rate *d = self;
+  hc_status st = integrate_dense(d->in, theta, d->order, d->y);
+  *rate = d->y[SCALED_P];
+  return st;
+}
+
+/* A root of it between t0 and t1, where it has the values f0 and f1 of opposite sign. y: the state there. */
 static hc_status find_root(const integrator *in, int order, double t0, double f0, double t1, double f1, double *y,
                            double *root)
 {
-  const double close = 4 * DBL_EPSILON * t1;
-  for (int i = 0; i < 60 && fabs(t1 - t0) > close; ++i) {
-    double t = (t0 * f1 - t1 * f0) / (f1 - f0);
-    if (!(t > fmin(t0, t1) && t < fmax(t0, t1))) t = 0.5 * (t0 + t1);
-    hc_status st = integrate_dense(in, t, order, y);
-    if (st != HC_OK) return st;
-    double f = y[SCALED_P];
-    if ((f > 0) == (f1 > 0)) f0 *= 0.5;
-    else t0 = t1, f0 = f1;
-    t1 = t, f1 = f;
-    if (f == 0) break;
-  }
-  *root = t1;
-  return integrate_dense(in, t1, 0, y);
+  dense_rate d = {in, order, y};
+  root_point found;
+  hc_status st = root_between(rate_at, &d, t0, f0, t1, f1, 4 * DBL_EPSILON * t1, &found);
+  *root = found.x;
+  return st == HC_OK ? integrate_dense(in, found.x, 0, y) : st;
 }
 
 static hc_status take_peak(measure *me, const integrator *in, double t0, double p0, double t1, double p1)

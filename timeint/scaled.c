@@ -64,7 +64,7 @@ void scaled_jacobian(const scaled_model *m, const double *y, double *jac)
   for (int j = 0; j < m->n_contacts; ++j) {
     const scaled_contact *c = &m->contact[j];
     const int w = SCALED_W + j;
-    law_slope s = law_regularised_slope(&c->law, c->cosine * y[SCALED_X], c->sine * y[SCALED_X], y[w]);
+    law_derivatives s = law_regularised_derivatives(&c->law, c->cosine * y[SCALED_X], c->sine * y[SCALED_X], y[w]);
     by_x[SCALED_P] -= (s.t_u * c->cosine + s.t_v * c->sine) * c->cosine + s.n_v * c->sine * c->sine;
     by_x[w] = s.rate_u * c->cosine + s.rate_v * c->sine;
     jac[SCALED_P + w * n] = s.t_u * c->cosine;

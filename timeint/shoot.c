@@ -63,7 +63,7 @@ static void multiply(int n, const double *a, const double *b, double *c)
     }
 }
 
-/* k periods from s->f on, with their slope. */
+/* k periods from s->f on, with their monodromy matrix. */
 static hc_status run_periods(shoot *s)
 {
   double one[MAX_N * MAX_N], before[MAX_N * MAX_N];
@@ -71,7 +71,7 @@ static hc_status run_periods(shoot *s)
   for (int i = 0; i < s->k; ++i) {
     if (s->ti->periods >= s->ti->how.max_periods - s->k) return HC_NOT_SETTLED; /* k are kept for the report */
     if (!hc_monitor_tick(s->monitor, -1)) return HC_INTERRUPTED;
-    hc_status st = integrate_slope(s->ti->in, &s->ti->scaled, s->f, i == 0 ? s->phi : one);
+    hc_status st = integrate_monodromy(s->ti->in, &s->ti->scaled, s->f, i == 0 ? s->phi : one);
     if (st != HC_OK) return st;
     ++s->ti->periods;
     if (i == 0) continue;
@@ -81,7 +81,7 @@ static hc_status run_periods(shoot *s)
   return HC_OK;
 }
 
-/* F^k and its slope at z: integrated only if z is not the last point asked. */
+/* F^k and its Jacobian at z: integrated only if z is not the last point asked. */
 static hc_status evaluate(shoot *s, const double *z)
 {
   const size_t bytes = sizeof *z * (size_t)s->n;

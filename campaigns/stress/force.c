@@ -10,8 +10,8 @@
 #include "campaigns/scene_solvers.h"
 #include "campaigns/stress/subject.h"
 #include "hbm/aft.h"
-#include "hbm/exact.h"
-#include "hbm/series.h"
+#include "hbm/exact_force.h"
+#include "numerics/series.h"
 
 typedef struct force {
   hc_status status;
@@ -38,19 +38,19 @@ static void make_motion(const scene *sc, double *X)
 
 static void evaluate(const scene *sc, const double *X, force *out)
 {
-  exact *e = NULL;
+  exact_force *e = NULL;
   contact_report report = {.transitions = 0};
   memset(out, 0, sizeof *out);
   out->status = scene_exact(sc, sc->hbm.harmonics, &e);
-  if (out->status == HC_OK) out->status = exact_eval(e, X, out->F, NULL, &report);
+  if (out->status == HC_OK) out->status = exact_force_eval(e, X, out->F, NULL, &report);
   for (int j = 0; j < sc->n_contacts && out->status == HC_OK; ++j) {
     int n;
-    const contact_piece *p = exact_pieces(e, j, &n);
+    const contact_piece *p = exact_force_pieces(e, j, &n);
     out->free |= n == 1 && p[0].state == CONTACT_STICK && p[0].to - p[0].from > 6.283;
     for (int i = 0; i < n; ++i) out->slips |= contact_slip_sign(p[i].state) != 0;
   }
   out->transitions = report.transitions;
-  exact_free(e);
+  exact_force_free(e);
 }
 
 /* Sums of h^p |coefficients|: bounds of |x|, |x'|, |x''| without the mean. */

@@ -4,8 +4,8 @@
 
 #include "campaigns/scene_solvers.h"
 #include "command/plot/panels.h"
-#include "hbm/exact.h"
-#include "hbm/series.h"
+#include "hbm/exact_force.h"
+#include "numerics/series.h"
 
 static const double two_pi = 6.28318530717958647692;
 
@@ -125,19 +125,19 @@ static hc_status put_contacts(figure *g, const scene *sc, int n, int n_harm, con
                               double closed[2])
 {
   double F[2 * HBM_MAX_HARMONICS + 1];
-  exact *e = NULL;
+  exact_force *e = NULL;
   walk *w = malloc(sizeof *w);
   hc_status st = w ? scene_exact(sc, n_harm, &e) : HC_NO_MEMORY;
-  if (st == HC_OK) st = exact_eval(e, X, F, NULL, NULL);
+  if (st == HC_OK) st = exact_force_eval(e, X, F, NULL, NULL);
   for (int j = 0, pieces; j < n && st == HC_OK; ++j) {
-    const contact_piece *p = exact_pieces(e, j, &pieces);
+    const contact_piece *p = exact_force_pieces(e, j, &pieces);
     const model_contact c = scene_model_contact(&sc->contacts[j]);
     walk_contact(&c, n_harm, X, p, pieces, w);
     for (int k = 0; k < N_PHASES; ++k) there[j][k] = put_phase(g, w, j, k);
     widen(closed, w);
     put_forces(g, w, &sc->contacts[j].law, j);
   }
-  exact_free(e);
+  exact_force_free(e);
   free(w);
   return st;
 }

@@ -11,9 +11,9 @@
 #include "campaigns/scene_solvers.h"
 #include "compare/frequencies.h"
 #include "hbm/aft.h"
-#include "hbm/exact.h"
-#include "hbm/series.h"
+#include "hbm/exact_force.h"
 #include "numerics/room.h"
+#include "numerics/series.h"
 
 enum {
   N_HARM = 5,
@@ -34,7 +34,7 @@ static const double force_step = 1e-4, harmonic_step = 1e-6, fold_step = 1e-9;
 /* Workspace, and the solution at hand. */
 typedef struct workshop {
   scene sc;               /* with the factor and H at hand */
-  exact *fine;            /* as many harmonics as exact forces go to */
+  exact_force *fine;      /* as many harmonics as exact forces go to */
   double *force;          /* [FINE] */
   fftw_complex *spectrum; /* [FINE/2+1] true harmonics of the force, F_h = (a_h - i b_h) for h > 0 */
   fftw_plan plan;
@@ -82,13 +82,13 @@ static hc_status find_truth(workshop *w)
   model_contact contacts[SCENE_MAX_CONTACTS];
   for (int j = 0; j < w->sc.n_contacts; ++j) contacts[j] = scene_model_contact(&w->sc.contacts[j]);
   memcpy(X, w->X, (size_t)(2 * w->n_harm + 1) * sizeof *X);
-  hc_status st = exact_eval(w->fine, X, F, NULL, NULL);
+  hc_status st = exact_force_eval(w->fine, X, F, NULL, NULL);
   if (st != HC_OK) return st;
   w->scale = 0;
   for (int i = 0; i < FINE; ++i) {
     double th = 2 * PI * i / FINE, x = series_at(w->n_harm, w->X, cos(th), sin(th)).x, f = 0;
     for (int j = 0, n; j < w->sc.n_contacts; ++j) {
-      const contact_piece *p = exact_pieces(w->fine, j, &n);
+      const contact_piece *p = exact_force_pieces(w->fine, j, &n);
       f += contact_at(&contacts[j], n, p, th, x);
     }
     w->force[i] = f;
@@ -256,7 +256,7 @@ static hc_status all_states(const scene *sc, workshop *w, int n_omega, const dou
       at.done = (double)(k * N_HARM + h) / (N_STIFF * N_HARM);
       if (!hc_monitor_tick(monitor, at.done)) return HC_INTERRUPTED;
       set_scene(w, sc, factors[k], harmonics[h]);
-      exact_free(w->fine);
+      exact_force_free(w->fine);
       hc_status st = scene_exact(&w->sc, HBM_MAX_HARMONICS, &w->fine);
       if (st == HC_OK) st = put_states(w, n_omega, omega, &inner, row);
       if (st != HC_OK) return st;
@@ -283,7 +283,7 @@ hc_status aliasing_states(const scene *sc, int n_omega, const double *omega, int
   }
   json_decref(states);
   if (w) {
-    exact_free(w->fine);
+    exact_force_free(w->fine);
     workshop_close(w);
   }
   free(w);

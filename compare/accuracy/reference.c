@@ -1,10 +1,12 @@
 /* reference.c - see reference.h. The peak is looked for on the exact law's orbits themselves, by shooting, from the
- * peak of a curve that is near: parabolas through three frequencies, ever closer together. Harmonic balance would
- * have to keep 160 harmonics for 1e-8 of it. */
+ * peak of a curve that is near: three frequencies around it, then a search between them. Harmonic balance would have
+ * to keep 160 harmonics for 1e-8 of it. */
 #include "compare/accuracy/reference.h"
 
 #include <math.h>
 #include <stdlib.h>
+
+#include "numerics/roots.h"
 
 enum { PEAK_LEVELS = 6 };
 
@@ -67,12 +69,41 @@ static hc_status targets_at(const comparison *c, timeint *ti, hbm_solver *hbm, c
   return st;
 }
 
-/* Amplitude of the orbit at omega next to *state, which moves there only if it is found. Negative: none. */
-static double amplitude_at(timeint *ti, double omega, const timeint_state *state)
+typedef struct climber {
+  timeint *ti;
+  const timeint_state *state; /* next to an orbit */
+} climber;
+
+/* Of the orbit at omega next to the climber's state. */
+static hc_status minus_amplitude(void *self, double omega, double *value)
 {
+  const climber *c = self;
   timeint_result r;
-  timeint_state here = *state;
-  return timeint_orbit(ti, omega, 1, &here, NULL, &r) == HC_OK ? r.amplitude : -1;
+  timeint_state here = *c->state;
+  hc_status st = timeint_orbit(c->ti, omega, 1, &here, NULL, &r);
+  *value = st == HC_OK ? -r.amplitude : NAN;
+  return st;
+}
+
+/* Three frequencies d apart, the one in the middle no lower than the others: from *omega uphill, closer together where
+ * an orbit is missing or is no part of a hill. False: not within PEAK_LEVELS, or not within the sweep, at whose ends a
+ * peak is where the sweep ends. *omega and f[1] are then the last middle, f[1] NaN if it has no orbit. f: minus the
+ * amplitudes. */
+static bool enclose_peak(climber *c, double low, double high, double *omega, double *d, double f[3])
+{
+  for (int level = 0; level < PEAK_LEVELS; ++level) {
+    if (*omega - *d < low || *omega + *d > high) return false;
+    bool both = minus_amplitude(c, *omega - *d, &f[0]) == HC_OK && minus_amplitude(c, *omega + *d, &f[2]) == HC_OK;
+    if (both && f[1] <= f[0] && f[1] <= f[2]) return true;
+    double bend = both ? f[0] - 2 * f[1] + f[2] : NAN;
+    if (!(bend > 0)) {
+      *d /= 4;
+      continue;
+    }
+    *omega += fmax(fmin(0.5 * *d * (f[0] - f[2]) / bend, 2 * *d), -2 * *d);
+    if (minus_amplitude(c, *omega, &f[1]) != HC_OK) return false;
+  }
+  return false;
 }
 
 /* From omega on, where *state is next to an orbit. False: *out is untouched. */
@@ -81,23 +112,16 @@ static bool climb(const compare_setup *setup, timeint *ti, double omega, const t
   const double low = fmin(setup->omega_from, setup->omega_to), high = fmax(setup->omega_from, setup->omega_to);
   const model *m = setup->model;
   const double width = fmin(m->damping > 0 ? m->damping / (2 * m->mass) : omega, 0.1 * omega);
-  double top = amplitude_at(ti, omega, state), d = 0.02 * width;
-  for (int level = 0; level < PEAK_LEVELS && top >= 0; ++level) {
-    if (omega - d < low || omega + d > high) break; /* a peak at the end of the sweep is where the sweep ends */
-    double left = amplitude_at(ti, omega - d, state), right = amplitude_at(ti, omega + d, state);
-    double bend = left - 2 * top + right;
-    if (left < 0 || right < 0 || !(bend < 0)) {
-      d /= 4;
-      continue;
-    }
-    double step = 0.5 * d * (left - right) / bend;
-    omega += fmax(fmin(step, 2 * d), -2 * d);
-    top = amplitude_at(ti, omega, state);
-    if (fabs(step) <= d) d /= 3;
-  }
-  if (!(top >= 0)) return false;
-  out->peak_amplitude = top;
-  out->peak_omega = omega;
+  climber c = {ti, state};
+  double d = 0.02 * width, f[3];
+  if (minus_amplitude(&c, omega, &f[1]) != HC_OK) return false;
+  root_point peak;
+  if (enclose_peak(&c, low, high, &omega, &d, f)) /* flat: 2e-5 of the width are 2e-10 of the amplitude */
+    root_minimum(minus_amplitude, &c, omega - d, f[0], omega, f[1], omega + d, f[2], 2e-5 * width, &peak);
+  else peak = (root_point){.x = omega, .f = f[1]};
+  if (isnan(peak.f)) return false;
+  out->peak_amplitude = -peak.f; /* the highest found, also where an orbit in between is missing */
+  out->peak_omega = peak.x;
   return out->peak_by_orbit = true;
 }
 

@@ -5,7 +5,7 @@
  * min)/2, and the largest of x over the period. An order is log(error before/error)/log(ratio of H, or of the
  * regularisation). */
 #include "campaigns/scene_solvers.h"
-#include "hbm/series.h"
+#include "numerics/series.h"
 #include "tests/bench/orbits.h"
 
 enum { MEASURES = 4, LEVELS = 4, DECADES = 5 };

@@ -16,7 +16,7 @@
 #include "campaigns/scene_solvers.h"
 #include "cases/case_file.h"
 #include "hbm/aft.h"
-#include "hbm/exact.h"
+#include "hbm/exact_force.h"
 #include "hbm/hbm.h"
 
 enum {
@@ -52,7 +52,7 @@ typedef struct config {
   int scene, n_harm, n_time, n_contacts; /* n_time EXACT: exact forces */
   const motions *m;
   aft *sampled;
-  exact *located;
+  exact_force *located;
   int batch, next;
   double pieces;         /* mean over the motions */
   double us[MAX_ROUNDS]; /* [us] an evaluation */
@@ -138,7 +138,7 @@ static void evaluate(config *c)
 {
   const double *X = c->m->X + (size_t)c->next * c->m->n_coef;
   c->next = (c->next + 1) % VARIANTS;
-  hc_status st = c->located ? exact_eval(c->located, X, F, jac, NULL) : aft_eval(c->sampled, X, F, jac, NULL);
+  hc_status st = c->located ? exact_force_eval(c->located, X, F, jac, NULL) : aft_eval(c->sampled, X, F, jac, NULL);
   if (st != HC_OK) die("evaluation", st);
   sink += F[0] + jac[0];
 }
@@ -150,7 +150,7 @@ static double mean_pieces(config *c)
     evaluate(c);
     for (int j = 0; j < c->n_contacts; ++j) {
       int n;
-      exact_pieces(c->located, j, &n);
+      exact_force_pieces(c->located, j, &n);
       sum += n;
     }
   }
@@ -356,7 +356,7 @@ int main(int argc, char **argv)
   }
   for (int i = 0; i < n_configs; ++i) {
     aft_free(configs[i].sampled);
-    exact_free(configs[i].located);
+    exact_force_free(configs[i].located);
   }
   for (int k = 0; k < SCENES; ++k)
     for (int h = 0; h < N_HARMONICS; ++h) free(all_motions[k][h].X);

@@ -1,10 +1,10 @@
-/* test_values.c - NaN and infinity at the n-th evaluation of the contact force (hbm/exact.c, hbm/aft.c) or of the
+/* test_values.c - NaN and infinity at the n-th evaluation of the contact force (hbm/exact_force.c, hbm/aft.c) or of the
  * right-hand side of the regularised law (timeint/model.c), with the status of a good evaluation or the one it owes:
  * no hang, no wrong answer, and the handle is not poisoned: asked again it answers what a new one answers, bit for
  * bit. */
 #include "campaigns/scene_solvers.h"
 #include "hbm/aft.h"
-#include "hbm/exact.h"
+#include "hbm/exact_force.h"
 #include "hbm/hbm.h"
 #include "tests/faults/small.h"
 #include "timeint/scaled.h"
@@ -36,11 +36,11 @@ static hc_status spoil(double *F, double *jac)
   return now.honest ? HC_NOT_FINITE : HC_OK;
 }
 
-hc_status __real_exact_eval(exact *e, const double *X, double *F, double *jac, contact_report *report);
-hc_status __wrap_exact_eval(exact *e, const double *X, double *F, double *jac, contact_report *report);
-hc_status __wrap_exact_eval(exact *e, const double *X, double *F, double *jac, contact_report *report)
+hc_status __real_exact_force_eval(exact_force *e, const double *X, double *F, double *jac, contact_report *report);
+hc_status __wrap_exact_force_eval(exact_force *e, const double *X, double *F, double *jac, contact_report *report);
+hc_status __wrap_exact_force_eval(exact_force *e, const double *X, double *F, double *jac, contact_report *report)
 {
-  hc_status st = __real_exact_eval(e, X, F, jac, report);
+  hc_status st = __real_exact_force_eval(e, X, F, jac, report);
   return strikes() ? spoil(F, jac) : st;
 }
 
@@ -132,7 +132,7 @@ static void poisoned_force(const char *const *set)
   hbm_solver_free(s);
 }
 
-static void exact_force(void **state)
+static void located_force(void **state)
 {
   (void)state;
   poisoned_force(located);
@@ -189,7 +189,7 @@ static void right_hand_side(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(exact_force), cmocka_unit_test(sampled_force),
+  const struct CMUnitTest tests[] = {cmocka_unit_test(located_force), cmocka_unit_test(sampled_force),
                                      cmocka_unit_test(right_hand_side)};
   small_watchdog(300);
   return cmocka_run_group_tests_name("faults.values", tests, NULL, NULL);

@@ -1,11 +1,11 @@
-/* exact_scenes.h - for the tests of exact.c: one evaluation, random contacts and motions of one or two coordinates,
- * those that graze, and the contact force sampled the slow way for independent u and v, with how far from the exact
- * one it may be. */
+/* exact_scenes.h - for the tests of exact_force.c: one evaluation, random contacts and motions of one or two
+ * coordinates, those that graze, and the contact force sampled the slow way for independent u and v, with how far
+ * from the exact one it may be. */
 #ifndef HC_TESTS_HBM_EXACT_SCENES_H
 #define HC_TESTS_HBM_EXACT_SCENES_H
 
-#include "hbm/exact.h"
-#include "hbm/series.h"
+#include "hbm/exact_force.h"
+#include "numerics/series.h"
 #include "tests/hbm/scenes.h"
 
 enum { EXACT_MAX_HARM = 60, EXACT_MAX_COEF = 2 * (2 * EXACT_MAX_HARM + 1), EXACT_MAX_PIECES = 2000 };
@@ -22,17 +22,17 @@ typedef struct evaluation {
 static inline void evaluate(int n_harm, int n_dof, int n_contacts, const moving_contact *c, const double *X,
                             evaluation *out, double *jac)
 {
-  exact *e;
-  assert_int_equal(exact_new(n_harm, n_dof, n_contacts, c, &e), HC_OK);
-  hc_status st = exact_eval(e, X, out->F, jac, &out->report);
-  if (st != HC_OK) fail_msg("exact_eval, H=%d: %s", n_harm, hc_status_text(st));
+  exact_force *e;
+  assert_int_equal(exact_force_new(n_harm, n_dof, n_contacts, c, &e), HC_OK);
+  hc_status st = exact_force_eval(e, X, out->F, jac, &out->report);
+  if (st != HC_OK) fail_msg("exact_force_eval, H=%d: %s", n_harm, hc_status_text(st));
   for (int j = n_contacts - 1; j >= 0; --j) {
-    const contact_piece *p = exact_pieces(e, j, &out->n_pieces[j]);
+    const contact_piece *p = exact_force_pieces(e, j, &out->n_pieces[j]);
     assert_true(out->n_pieces[j] <= EXACT_MAX_PIECES);
     if (j == 0) memcpy(out->piece, p, (size_t)out->n_pieces[0] * sizeof *p);
   }
-  exact_sliders(e, out->w);
-  exact_free(e);
+  exact_force_sliders(e, out->w);
+  exact_force_free(e);
 }
 
 static inline moving_contact contact_at(contact law, double angle_deg)
@@ -159,7 +159,7 @@ static inline void slow_sampled(int n_harm, int n_dof, const moving_contact *c, 
 }
 
 /* How far the sampled coefficients may be from the exact ones, s = 2 pi/N:
- *   sum      each kink, a jump of the force's slope <= force_size(1), costs s^2/12 of it (Euler-Maclaurin), with
+ *   sum      each kink, a jump of the force's derivative <= force_size(1), costs s^2/12 of it (Euler-Maclaurin), with
  *            1/pi in the coefficient
  *   slider   after slip the extremum of u -+ mu N/kt is missed by s^2/8 of its second derivative; after a touch w =
  *            u at a chord's root, off by s^2/8 (U'' + U' V''/v'), and by U' s at most: kt of that for as long as the
@@ -174,14 +174,14 @@ static inline double sampled_error(int n_harm, int n_dof, const moving_contact *
   contact_motion_of(n_harm, n_dof, c, X, &m);
   double s = 2 * PI / n_time, error = 0, projection = 0;
   for (int d = 0; d < n_dof; ++d) projection = fmax(projection, fabs(c->cu[d]) + fabs(c->cv[d]));
-  motion x = {n_harm, n_dof, {X, X + series_length(n_harm)}};
+  series_vector x = {n_harm, n_dof, {X, X + series_length(n_harm)}};
   for (int i = 0; i < e->n_pieces[0]; ++i) {
     const contact_piece *p = &e->piece[i];
     error += 2 * s * s / 12 / PI * force_size(c, &m, 1);
     double slider = s * s / 8 * force_size(c, &m, 2);
     bool touch = i ? e->piece[i - 1].to < p->from : e->report.regime == CONTACT_SEPARATES;
     if (touch) {
-      motion_node at = motion_at(&x, p->from);
+      series_node at = series_vector_at(&x, p->from);
       double dv = 0;
       for (int d = 0; d < n_dof; ++d) dv += c->cv[d] * at.d[1][d];
       dv -= s * m.V[2];
@@ -194,7 +194,7 @@ static inline double sampled_error(int n_harm, int n_dof, const moving_contact *
          (2 * error + 64 * (n_harm + 8) * DBL_EPSILON * force_size(c, &m, 0) + s * s / 8 * force_size(c, &m, 2) * s);
 }
 
-/* What rounding may do to exact coefficients: H + 8 terms each of some eps; transitions, off by eps/slope, move
+/* What rounding may do to exact coefficients: H + 8 terms each of some eps; transitions, off by eps/derivative, move
  * forces that are continuous. */
 static inline double exact_rounding(int n_harm, int n_dof, const moving_contact *c, const double *X)
 {

@@ -8,7 +8,7 @@
  * for j >= 1, hence |J_m| <= J ((1 + h)^m - h^m), and a tail falling like (1 + h) s/(2 pi). */
 #include "campaigns/scene_solvers.h"
 #include "hbm/aft.h"
-#include "hbm/series.h"
+#include "numerics/series.h"
 #include "tests/hbm/slow_aft.h"
 #include "tests/scene_parts.h"
 

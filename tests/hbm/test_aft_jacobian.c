@@ -2,7 +2,7 @@
  * both. */
 #include "campaigns/scene_solvers.h"
 #include "hbm/aft.h"
-#include "hbm/series.h"
+#include "numerics/series.h"
 #include "tests/hbm/slow_aft.h"
 
 enum { MAX_H = 50, MAX_COEF = 2 * MAX_H + 1 };

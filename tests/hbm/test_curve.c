@@ -46,7 +46,7 @@ static void check_linear_sweep(const scene *sc, double k, contact_regime regime,
   double damping = sc->damping / sc->mass,
          top = sc->force / (sc->mass * damping * sqrt(k / sc->mass - damping * damping / 4));
   double omega_top = sqrt(k / sc->mass - damping * damping / 2);
-  /* a maximum: an omega off by e costs x''/x e^2/2 = (2/damping)^2 e^2/2, and golden section cannot tell e where
+  /* a maximum: an omega off by e costs x''/x e^2/2 = (2/damping)^2 e^2/2, and no search can tell e where
    * that is below the rounding r of the amplitude: e <= (damping/2) sqrt(2 r), r the linear tolerance; the amplitude
    * is as good as that rounding, twice for the comparison */
   double rounding = linear_tolerance(sc, k, omega_top, 1) / top;

@@ -424,31 +424,31 @@ static void lift_off_by_rounding(void **state)
 static void refusals(void **state)
 {
   (void)state;
-  exact *e;
+  exact_force *e;
   moving_contact c = contact_at((contact){1, 1, 0.3, 0}, 45);
-  assert_int_equal(exact_new(0, 1, 1, &c, &e), HC_BAD_INPUT);
-  assert_int_equal(exact_new(HBM_MAX_HARMONICS + 1, 1, 1, &c, &e), HC_BAD_INPUT);
-  assert_int_equal(exact_new(3, 0, 1, &c, &e), HC_BAD_INPUT);
-  assert_int_equal(exact_new(3, MOTION_MAX_DOF + 1, 1, &c, &e), HC_BAD_INPUT);
-  assert_int_equal(exact_new(3, 1, -1, &c, &e), HC_BAD_INPUT);
-  exact_free(NULL);
+  assert_int_equal(exact_force_new(0, 1, 1, &c, &e), HC_BAD_INPUT);
+  assert_int_equal(exact_force_new(HBM_MAX_HARMONICS + 1, 1, 1, &c, &e), HC_BAD_INPUT);
+  assert_int_equal(exact_force_new(3, 0, 1, &c, &e), HC_BAD_INPUT);
+  assert_int_equal(exact_force_new(3, SERIES_MAX_DIM + 1, 1, &c, &e), HC_BAD_INPUT);
+  assert_int_equal(exact_force_new(3, 1, -1, &c, &e), HC_BAD_INPUT);
+  exact_force_free(NULL);
   static const double bad[] = {NAN, INFINITY, -INFINITY};
-  assert_int_equal(exact_new(3, 1, 1, &c, &e), HC_OK);
+  assert_int_equal(exact_force_new(3, 1, 1, &c, &e), HC_OK);
   for (int i = 0; i < 3; ++i)
     for (int k = 0; k < 7; ++k) {
       double X[7] = {1, 2, 3, 0, 0, 0, 0}, F[7], J[49];
       X[k] = bad[i];
-      assert_int_equal(exact_eval(e, X, F, J, NULL), HC_NOT_FINITE);
+      assert_int_equal(exact_force_eval(e, X, F, J, NULL), HC_NOT_FINITE);
     }
   double zero[7] = {0}, F[7] = {1, 1, 1, 1, 1, 1, 1}, J[49];
-  assert_int_equal(exact_eval(e, zero, F, J, NULL), HC_OK);
+  assert_int_equal(exact_force_eval(e, zero, F, J, NULL), HC_OK);
   for (int i = 0; i < 7; ++i) assert_true(F[i] == 0);
-  exact_free(e);
-  assert_int_equal(exact_new(3, 1, 0, NULL, &e), HC_OK);
+  exact_force_free(e);
+  assert_int_equal(exact_force_new(3, 1, 0, NULL, &e), HC_OK);
   contact_report report;
-  assert_int_equal(exact_eval(e, zero, F, J, &report), HC_OK);
+  assert_int_equal(exact_force_eval(e, zero, F, J, &report), HC_OK);
   assert_int_equal(report.regime, CONTACT_LINEAR);
-  exact_free(e);
+  exact_force_free(e);
 }
 
 static const struct CMUnitTest tests[] = {

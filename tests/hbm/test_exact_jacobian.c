@@ -1,8 +1,8 @@
 /* test_exact_jacobian.c - dF/dX of event-located forces against differences of F, for one and two coordinates. While
  * the order of states stays what it is F is smooth in X, and central differences D of steps h, 2h, 4h, extrapolated
  * twice, are good to h^6. Where it changes between the outermost points F is once differentiable at best, and such
- * columns are left out, as are those where the two extrapolations disagree (a slope near 0 at some transition makes
- * high derivatives large); fewer than 5 % are, which is asserted: the random motions are the same in every run.
+ * columns are left out, as are those where the two extrapolations disagree (a derivative near 0 at some transition
+ * makes high derivatives large); fewer than 5 % are, which is asserted: the random motions are the same in every run.
  * Across a change of states, dF/dX is checked to be continuous. */
 #include "tests/hbm/exact_scenes.h"
 

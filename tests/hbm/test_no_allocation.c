@@ -22,7 +22,7 @@
 
 #include "campaigns/scene_solvers.h"
 #include "hbm/aft.h"
-#include "hbm/exact.h"
+#include "hbm/exact_force.h"
 #include "hbm/hbm.h"
 #include "numerics/sundials_compat.h"
 
@@ -125,17 +125,17 @@ static void exact_force_allocates_nothing(void **state)
   uint64_t seed = 12;
   for (int n_dof = 1; n_dof <= 2; ++n_dof) {
     moving_contact c[2] = {{{100, 1000, 0.3, -5}, {0.7, 0.1}, {0.7, 0.2}}, {{100, 1000, 0.3, 1}, {0.7, 0}, {0, 0.7}}};
-    exact *e;
+    exact_force *e;
     int bad = 0;
-    assert_int_equal(exact_new(H, n_dof, 2, c, &e), HC_OK);
+    assert_int_equal(exact_force_new(H, n_dof, 2, c, &e), HC_OK);
     long before = allocations;
     for (int k = 0; k < 40; ++k) {
       random_motion(&seed, H, k % 3 ? 10 : 0.1, 2, X);
       random_motion(&seed, H, k % 3 ? 10 : 0.1, 2, X + N_COEF);
-      bad += exact_eval(e, X, F, k % 2 ? jac : NULL, k % 4 ? &report : NULL) != HC_OK;
+      bad += exact_force_eval(e, X, F, k % 2 ? jac : NULL, k % 4 ? &report : NULL) != HC_OK;
     }
     long after = allocations;
-    exact_free(e);
+    exact_force_free(e);
     assert_int_equal(bad, 0);
     assert_int_equal(after - before, 0);
   }

@@ -57,8 +57,8 @@ static outcome run_and_say(const scene *sc, const char *what)
  * oscillations, 2^10 is nearly smooth. Here: 2^6 and 2^7 are no clean curve (stuck in a corner of the response, or
  * many false turns); from 2^8 on it gets through, but restarted on a sample the turns grow in number with N: w
  * follows the sample it started on, at fixed angle, until the next one takes over, a sawtooth whose teeth shrink
- * like 1/N while their slopes stay. "Nearly smooth" is what longer steps see of it. At the interpolated touch the
- * slopes are right to 1/N, and false turns die out: 2 are left at N = 2^13. */
+ * like 1/N while their derivatives stay. "Nearly smooth" is what longer steps see of it. At the interpolated touch the
+ * derivatives are right to 1/N, and false turns die out: 2 are left at N = 2^13. */
 static void case_2_and_its_false_turning_points(void **state)
 {
   (void)state;
@@ -89,8 +89,8 @@ static void case_2_and_its_false_turning_points(void **state)
 }
 
 /* Case 1, Table 4: N = 5 fails in places, 2^4 is usable, 2^7 smooth. So it is. Peak with exact forces: 0.64957.
- * Kinks miss s^2/12 of the force's slope, s = 2 pi/N: 1.3 % at N = 16, of forces that are a part of the response; 2
- * % and 2e-3 (points, not the refined peak) are held. */
+ * Kinks miss s^2/12 of the force's derivative, s = 2 pi/N: 1.3 % at N = 16, of forces that are a part of the
+ * response; 2 % and 2e-3 (points, not the refined peak) are held. */
 static void case_1_needs_few_samples(void **state)
 {
   (void)state;

@@ -5,7 +5,7 @@
  * force itself. Found by `stress`. */
 #include "campaigns/scene_solvers.h"
 #include "hbm/aft.h"
-#include "hbm/exact.h"
+#include "hbm/exact_force.h"
 #include "tests/hbm/scenes.h"
 #include "tests/scene_parts.h"
 
@@ -32,11 +32,11 @@ static void exact_force_of_a_small_motion(void **state)
 {
   (void)state;
   scene sc = preloaded();
-  exact *e;
+  exact_force *e;
   double F[N_COEF];
   assert_int_equal(scene_exact(&sc, H, &e), HC_OK);
-  assert_int_equal(exact_eval(e, X, F, NULL, NULL), HC_OK);
-  exact_free(e);
+  assert_int_equal(exact_force_eval(e, X, F, NULL, NULL), HC_OK);
+  exact_force_free(e);
   check(F, 4 * N_COEF, "exact");
 }
 
@@ -53,7 +53,7 @@ static void sampled_force_of_a_small_motion(void **state)
 }
 
 /* Open for part of the period the preload is missing there: against samples, whose error is d^2/8 times the jumps of
- * the force's slope, d = 2 pi/N. */
+ * the force's derivative, d = 2 pi/N. */
 static void an_opening_takes_the_preload_away(void **state)
 {
   (void)state;
@@ -61,18 +61,18 @@ static void an_opening_takes_the_preload_away(void **state)
   scene sc = preloaded();
   const double large[N_COEF] = {0, 20, 0, 1, 0, 0, 0};
   contact_report report;
-  exact *e;
+  exact_force *e;
   aft *a;
   double F[N_COEF], G[N_COEF];
   assert_int_equal(scene_exact(&sc, H, &e), HC_OK);
-  assert_int_equal(exact_eval(e, large, F, NULL, &report), HC_OK);
+  assert_int_equal(exact_force_eval(e, large, F, NULL, &report), HC_OK);
   assert_int_equal(report.regime, CONTACT_SEPARATES);
   assert_int_equal(scene_aft(&sc, H, N, &a), HC_OK);
   assert_int_equal(aft_eval(a, large, G, NULL, NULL), HC_OK);
-  const double d = 2 * PI / N, slope = 1e8 * 22; /* at most kn |x'|; some ten transitions and stretches, each counted
+  const double d = 2 * PI / N, rate = 1e8 * 22; /* at most kn |x'|; some ten transitions and stretches, each counted
                                                     once */
-  for (int i = 0; i < N_COEF; ++i) CHECK_NEAR(F[i], G[i], 10 * slope * d * d / 8, "row %d", i);
-  exact_free(e);
+  for (int i = 0; i < N_COEF; ++i) CHECK_NEAR(F[i], G[i], 10 * rate * d * d / 8, "row %d", i);
+  exact_force_free(e);
   aft_free(a);
 }
 

@@ -43,7 +43,7 @@ static double special(const found *f, hbm_special_kind kind, int i)
 /* Before contact the response is linear whatever H is, |x| = F0/|Z|, and touches when |x| sin(alpha) = |gap|: a
  * quadratic in w^2, M^2 w^4 + (C^2 - 2 K M) w^2 + K^2 - (F0 sin/gap)^2 = 0. The pattern is bisected to 1e-11 of a
  * segment, shorter than 10 in omega. The orbit in Newton's tolerance 1e-10 of |x| would move it by 1e-10 |x|/(d|x|/d
- * omega), |x| = 7.07 and the slopes 1.3 and 3.7: below 6e-10. 1e-8 is what hbm.h promises. */
+ * omega), |x| = 7.07 and the derivatives 1.3 and 3.7: below 6e-10. 1e-8 is what hbm.h promises. */
 static void contact_sets_in_where_the_linear_response_grazes(void **state)
 {
   (void)state;
@@ -61,7 +61,7 @@ static void contact_sets_in_where_the_linear_response_grazes(void **state)
     assert_int_equal(f.at[0].before, CONTACT_LINEAR);
     assert_int_equal(f.at[0].after, CONTACT_SEPARATES);
     assert_int_equal(f.at[f.n - 1].after, CONTACT_LINEAR);
-    CHECK_NEAR(f.at[0].amplitude, 5 / sqrt(0.5), 1e-7, "amplitude at grazing"); /* slope 1.3 times 1e-8 */
+    CHECK_NEAR(f.at[0].amplitude, 5 / sqrt(0.5), 1e-7, "amplitude at grazing"); /* derivative 1.3 times 1e-8 */
     drop(&f);
   }
 }

@@ -19,12 +19,12 @@ static scene exact_scene(const char *name, int n_harm)
 /* Stretches of contact that the solution X consists of. */
 static int pieces_of(hbm_solver *s, const double *X)
 {
-  const exact *e;
+  const exact_force *e;
   contact_report report;
   int sum = 0;
   assert_int_equal(hbm_pattern_at(s, X, &e, &report), HC_OK);
   for (int j = 0, n; j < s->model->n_contacts; ++j) {
-    exact_pieces(e, j, &n);
+    exact_force_pieces(e, j, &n);
     sum += n;
   }
   return sum;

@@ -1,5 +1,5 @@
-/* test_integrate_exact.c - periods of the exact law by CVODE: against closed forms, its slope against differences,
- * and every way two things can happen at once. */
+/* test_integrate_exact.c - periods of the exact law by CVODE: against closed forms, its monodromy matrix against
+ * differences, and every way two things can happen at once. */
 #include "tests/check.h"
 
 #include <complex.h>
@@ -206,26 +206,26 @@ static void a_transition_at_the_end_of_the_period(void **state)
  * h^4 * 1e3. A slider that stuck where it touched has T and N vanish together; moved by h it slips over a stretch of
  * about h before it separates: an error h |h|, so Richardson's h there, h^2 * 1e2 being left. A slider slaved at the
  * start moves with x; its own column is zero. */
-static void check_slope(const char *what, scene sc, double omega, double length, const double *start, int periods,
-                        bool no_slip)
+static void check_monodromy(const char *what, scene sc, double omega, double length, const double *start, int periods,
+                            bool no_slip)
 {
   scaled_model m = exact_model(sc, omega, length);
   const int n = m.n_states;
   const double h = 1e-4;
-  double y[SCALED_MAX_STATES] = {0}, end[SCALED_MAX_STATES], slope[SCALED_MAX_STATES * SCALED_MAX_STATES];
+  double y[SCALED_MAX_STATES] = {0}, end[SCALED_MAX_STATES], monodromy[SCALED_MAX_STATES * SCALED_MAX_STATES];
   if (start) memcpy(y, start, sizeof *y * (size_t)n);
   integrator *in = integrator_of(&m);
   run(in, &m, y, periods);
   memcpy(end, y, sizeof end);
-  assert_int_equal(integrate_slope(in, &m, end, slope), HC_OK);
+  assert_int_equal(integrate_monodromy(in, &m, end, monodromy), HC_OK);
   double plain[SCALED_MAX_STATES], size = 1;
   memcpy(plain, y, sizeof plain);
   run(in, &m, plain, 1);
   for (int i = 0; i < n; ++i) CHECK_NEAR(end[i], plain[i], 0, "the same period");
-  for (int i = 0; i < n * n; ++i) size = fmax(size, fabs(slope[i]));
+  for (int i = 0; i < n * n; ++i) size = fmax(size, fabs(monodromy[i]));
   for (int q = 0; q < n; ++q) {
     double column = 0, diff[SCALED_MAX_STATES] = {0};
-    for (int i = 0; i < n; ++i) column += fabs(slope[i + q * n]);
+    for (int i = 0; i < n; ++i) column += fabs(monodromy[i + q * n]);
     if (q >= SCALED_W && column == 0) continue;
     const double smooth[] = {-1 / 12.0, 8 / 12.0, -8 / 12.0, 1 / 12.0}, kinked[] = {-1 / 4.0, 1, -1, 1 / 4.0};
     const double *weight = q < SCALED_W ? smooth : kinked, truncation = q < SCALED_W ? 1e3 * pow(h, 4) : 1e2 * h * h;
@@ -236,7 +236,7 @@ static void check_slope(const char *what, scene sc, double omega, double length,
       z[q] += by;
       for (int j = 0; j < m.n_contacts; ++j) { /* sliders without a column of their own stay where the law has them */
         double own = 0;
-        for (int i = 0; i < n; ++i) own += fabs(slope[i + (SCALED_W + j) * n]);
+        for (int i = 0; i < n; ++i) own += fabs(monodromy[i + (SCALED_W + j) * n]);
         const scaled_contact *c = &m.contact[j];
         const double g = c->sine * y[0] + c->law.gap, t = c->law.kt * (c->cosine * y[0] - y[SCALED_W + j]);
         const double s = g > 0 && c->law.slides ? (t > 0 ? 1 : -1) : 0;
@@ -247,28 +247,29 @@ static void check_slope(const char *what, scene sc, double omega, double length,
       for (int i = 0; i < n; ++i) diff[i] += weight[k] * z[i] / h;
     }
     for (int i = 0; i < n; ++i)
-      CHECK_NEAR(slope[i + q * n], diff[i], size * (100 * tol * 5 / 3 / h + truncation), "%s: d y%d / d y%d", what, i,
-                 q);
+      CHECK_NEAR(monodromy[i + q * n], diff[i], size * (100 * tol * 5 / 3 / h + truncation), "%s: d y%d / d y%d", what,
+                 i, q);
   }
   if (no_slip) { /* volume shrinks by the damping alone, in every phase without slip */
-    double det = slope[0] * slope[1 + n] - slope[1] * slope[n], damping = exp(-sc.damping / sc.mass * 2 * PI / omega);
+    double det = monodromy[0] * monodromy[1 + n] - monodromy[1] * monodromy[n],
+           damping = exp(-sc.damping / sc.mass * 2 * PI / omega);
     CHECK_NEAR(det, damping, 64 * DBL_EPSILON * size * size, "%s: determinant", what);
   }
   integrate_free(in);
 }
 
-static void slope_is_that_of_the_period(void **state)
+static void monodromy_is_that_of_the_period(void **state)
 {
   (void)state;
   const double high[] = {23 / 24.0, 0, 0.6};
-  check_slope("c2", scene_c2(), 9, 24, high, 100, true);
-  check_slope("c2", scene_c2(), 7, 10, NULL, 100, true);
-  check_slope("b10", scene_b10(), 7, 1, NULL, 100, false);
-  check_slope("a10", scene_a10(), 13, 0.7, NULL, 100, false);
+  check_monodromy("c2", scene_c2(), 9, 24, high, 100, true);
+  check_monodromy("c2", scene_c2(), 7, 10, NULL, 100, true);
+  check_monodromy("b10", scene_b10(), 7, 1, NULL, 100, false);
+  check_monodromy("a10", scene_a10(), 13, 0.7, NULL, 100, false);
   const double r2[] = {0.0724587530 / 0.299294926, 205.420778 / 708.5 / 0.299294926, 0.05123607 / 0.299294926};
-  check_slope("r2", scene_r2(), 708.5, 0.299294926, r2, 2, false);
-  check_slope("gap1, stuck", scene_gap1(), 7, 1, NULL, 50, true);
-  for (int i = 1; i < 6; ++i) check_slope("three", three_contacts(), 6 + 0.3 * i, 2, NULL, 10 * i, false);
+  check_monodromy("r2", scene_r2(), 708.5, 0.299294926, r2, 2, false);
+  check_monodromy("gap1, stuck", scene_gap1(), 7, 1, NULL, 50, true);
+  for (int i = 1; i < 6; ++i) check_monodromy("three", three_contacts(), 6 + 0.3 * i, 2, NULL, 10 * i, false);
 }
 
 /* Rows that rest reaches, and c2's upper branch from a state near it; damping makes what is left of the start
@@ -432,7 +433,7 @@ int main(void)
       cmocka_unit_test(two_contacts_are_one_of_double_stiffness),
       cmocka_unit_test(grazing_is_not_stepped_over),
       cmocka_unit_test(a_transition_at_the_end_of_the_period),
-      cmocka_unit_test(slope_is_that_of_the_period),
+      cmocka_unit_test(monodromy_is_that_of_the_period),
       cmocka_unit_test(steady_states_are_the_references),
       cmocka_unit_test(rest_stays_at_rest),
       cmocka_unit_test(any_start_follows_the_closed_form),

@@ -1,4 +1,4 @@
-/* test_law.c - law_regularised: values on the branches, the error orders it claims, its slopes, its limits. */
+/* test_law.c - law_regularised: values on the branches, the error orders it claims, its derivatives, its limits. */
 #include "tests/check.h"
 
 #include <float.h>
@@ -38,7 +38,7 @@ static void sign_follows_the_motion(void **state)
 
 /* integral of (kn width softplus(g/width) - kn max(g, 0)) dg = kn width^2 pi^2/6 (Bose integral): the second order
  * the header claims, with its constant. Trapezoid on [-45, 45] widths, step 1/64 width, the corner on a node: the
- * kink costs h^2/12 (jump of slope 1); what is beyond the ends is 2 exp(-45). */
+ * kink costs h^2/12 (jump of its derivative by 1); what is beyond the ends is 2 exp(-45). */
 static void softplus_errs_by_second_order(void **state)
 {
   (void)state;
@@ -55,11 +55,11 @@ static void softplus_errs_by_second_order(void **state)
 
 /* Central differences, step h: error h^2/6 |f'''| + eps |f|/h. f''' of N is <= kn/(6 sqrt 3 width^2) (largest of
  * softplus'''), of w' mu times that over eta. Points keep farther than h from the corners of max, where there is no
- * slope. */
-static void check_slopes(const law_regularised *c, double u, double v, double w)
+ * derivative. */
+static void check_derivatives(const law_regularised *c, double u, double v, double w)
 {
   const double h = 1e-5;
-  law_slope s = law_regularised_slope(c, u, v, w);
+  law_derivatives s = law_regularised_derivatives(c, u, v, w);
   law_value up = law_regularised_eval(c, u + h, v, w), um = law_regularised_eval(c, u - h, v, w);
   law_value vp = law_regularised_eval(c, u, v + h, w), vm = law_regularised_eval(c, u, v - h, w);
   law_value wp = law_regularised_eval(c, u, v, w + h), wm = law_regularised_eval(c, u, v, w - h);
@@ -75,7 +75,7 @@ static void check_slopes(const law_regularised *c, double u, double v, double w)
   CHECK_NEAR(-s.rate_u, (wp.rate - wm.rate) / (2 * h), tol_rate, "dw'/dw at %g %g %g", u, v, w);
 }
 
-static void slopes_are_the_derivatives(void **state)
+static void derivatives_are_those_of_the_values(void **state)
 {
   (void)state;
   law_regularised c = law_regularised_make(&steel, 0.5, 1e-2);
@@ -87,7 +87,7 @@ static void slopes_are_the_derivatives(void **state)
       double limit = c.mu * law_regularised_eval(&c, u, v, w).n;
       if (fabs(fabs(t) - limit) < 1e-3 || fabs(v + c.gap) > 38 * c.width) continue;
       stuck += fabs(t)<limit, forward += t> limit, backward += t < -limit;
-      check_slopes(&c, u, v, w);
+      check_derivatives(&c, u, v, w);
     }
   CHECK_LE(100, stuck, "points in stick");
   CHECK_LE(100, forward < backward ? forward : backward, "points in slip, each way");
@@ -102,7 +102,7 @@ static void limits(void **state)
   for (int i = 0; i < 3; ++i) {
     law_regularised c = law_regularised_make(&none[i], 1e-3, 1e-2);
     law_value l = law_regularised_eval(&c, 2, 1, 0);
-    law_slope s = law_regularised_slope(&c, 2, 1, 0);
+    law_derivatives s = law_regularised_derivatives(&c, 2, 1, 0);
     CHECK_LE(fabs(l.t) + fabs(l.rate) + fabs(s.t_u) + fabs(s.t_v) + fabs(s.rate_u) + fabs(s.rate_v), 0, "i=%d", i);
   }
   law_regularised sharp = law_regularised_make(&steel, 0, 1e-2);
@@ -120,7 +120,7 @@ int main(void)
       cmocka_unit_test(branches_are_exact),
       cmocka_unit_test(sign_follows_the_motion),
       cmocka_unit_test(softplus_errs_by_second_order),
-      cmocka_unit_test(slopes_are_the_derivatives),
+      cmocka_unit_test(derivatives_are_those_of_the_values),
       cmocka_unit_test(limits),
   };
   check_watchdog(60);

@@ -8,7 +8,7 @@
 #include "campaigns/stress/stress.h"
 #include "cases/fields.h"
 #include "compare/comparison.h"
-#include "hbm/exact.h"
+#include "hbm/exact_force.h"
 #include "tests/check.h"
 
 typedef enum spoil {
@@ -28,11 +28,11 @@ static spoil spoiled;
 static const double by = 1e-5; /* ten times what the checks let pass where they compare methods, 1e5 times where
                                   rounding is all there is */
 
-hc_status __real_exact_eval(exact *e, const double *X, double *F, double *jac, contact_report *report);
-hc_status __wrap_exact_eval(exact *e, const double *X, double *F, double *jac, contact_report *report);
-hc_status __wrap_exact_eval(exact *e, const double *X, double *F, double *jac, contact_report *report)
+hc_status __real_exact_force_eval(exact_force *e, const double *X, double *F, double *jac, contact_report *report);
+hc_status __wrap_exact_force_eval(exact_force *e, const double *X, double *F, double *jac, contact_report *report);
+hc_status __wrap_exact_force_eval(exact_force *e, const double *X, double *F, double *jac, contact_report *report)
 {
-  hc_status st = __real_exact_eval(e, X, F, jac, report);
+  hc_status st = __real_exact_force_eval(e, X, F, jac, report);
   if (spoiled == FORCE_SCALED && !jac) F[2] *= 1 + by; /* the sine: not what time reflection or a shift leaves alone */
   if (spoiled == FORCE_FIXED && !jac) F[2] += 10 * by * fabs(F[1]);
   return st;

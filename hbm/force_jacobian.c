@@ -1,9 +1,9 @@
-/* slope.c - see slope.h. */
-#include "hbm/slope.h"
+/* force_jacobian.c - see force_jacobian.h. */
+#include "hbm/force_jacobian.h"
 
 #include <stdlib.h>
 
-void slope_add(int n_harm, const double *k, int ld, double *jac)
+void force_jacobian_add(int n_harm, const double *k, int ld, double *jac)
 {
   jac[0] += k[0];
   for (int q = 1; q <= n_harm; ++q) {
@@ -25,7 +25,7 @@ void slope_add(int n_harm, const double *k, int ld, double *jac)
   }
 }
 
-void slope_subtract(int n_harm, const double *left, const double *right, double *jac)
+void force_jacobian_subtract(int n_harm, const double *left, const double *right, double *jac)
 {
   int n = series_length(n_harm);
   for (int q = 0; q < n; ++q)

@@ -5,21 +5,21 @@
 
 #include <stdbool.h>
 
-#include "hbm/transitions.h"
+#include "numerics/series_grid.h"
 
 typedef struct guard {
-  int n_dof, order; /* f = sum a[d] x_d^(order) + constant */
-  double a[MOTION_MAX_DOF], constant;
+  int dim, order; /* f = sum a[d] x_d^(order) + constant */
+  double a[SERIES_MAX_DIM], constant;
   double size;                   /* bound of |f - mean - constant| */
   double mean;                   /* of f without the constant */
   double bound1, bound2, bound3; /* of |f'|, |f''|, |f'''| */
   double noise; /* f is not told from 0 below this: rounding of f itself, and of the angles it is evaluated at */
 } guard;
 
-guard guard_make(const motion *m, int order, const double *a, double constant);
+guard guard_make(const series_vector *m, int order, const double *a, double constant);
 guard guard_negative(const guard *g);
 
-double guard_value(const guard *g, const motion_node *at);
+double guard_value(const guard *g, const series_node *at);
 
 /* Bounds of f over the whole period. */
 static inline double guard_lower(const guard *g) { return g->mean + g->constant - g->size; }
@@ -30,6 +30,7 @@ double guard_scale(const guard *g);
 
 /* f >= 0 at a (to rounding). The first angle in (a, b] where it becomes negative, with its node; false if there is
  * none. Excursions below 0 that are not distinguishable from rounding do not count. */
-bool crossing_first(const motion *m, const guard *g, const motion_node *a, const motion_node *b, motion_node *root);
+bool crossing_first(const series_vector *m, const guard *g, const series_node *a, const series_node *b,
+                    series_node *root);
 
 #endif

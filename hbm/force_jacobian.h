@@ -1,22 +1,23 @@
-/* slope.h - the Jacobian dF/dX of force harmonics when the force's stiffness along the orbit is piecewise constant.
+/* force_jacobian.h - the Jacobian dF/dX of force harmonics when the force's stiffness along the orbit is piecewise
+ * constant.
  *
  * With F(th) = k(th) x(th) + rest and k's own Fourier coefficients (mean k0, cosines C_m, sines S_m, m <= 2H)
  * products of two trigonometric functions become sums, so dF/dX is Toeplitz + Hankel in C and S (PHYSICS.md section
  * 6 of the specification; e.g. d(cos p row)/d(cos q) = (C_|p-q| + C_{p+q})/2 with C_0 = 2 k0). What a stuck slider
  * remembers is added by rank-1 terms. */
-#ifndef HC_SLOPE_H
-#define HC_SLOPE_H
+#ifndef HC_FORCE_JACOBIAN_H
+#define HC_FORCE_JACOBIAN_H
 
-#include "hbm/series.h"
+#include "numerics/series.h"
 
 /* Coefficients of the symbol k(th): the series convention with 2 n_harm harmonics. */
-static inline int slope_symbol_length(int n_harm) { return 4 * n_harm + 1; }
+static inline int force_jacobian_symbol_length(int n_harm) { return 4 * n_harm + 1; }
 
 /* jac[row + ld col], rows and columns 0 .. 2 n_harm, += the Toeplitz + Hankel matrix of symbol[4 n_harm + 1]
  * [force/length]. */
-void slope_add(int n_harm, const double *symbol, int ld, double *jac);
+void force_jacobian_add(int n_harm, const double *symbol, int ld, double *jac);
 
 /* jac -= left right^T, both [2 n_harm + 1]. */
-void slope_subtract(int n_harm, const double *left, const double *right, double *jac);
+void force_jacobian_subtract(int n_harm, const double *left, const double *right, double *jac);
 
 #endif

@@ -1,8 +1,8 @@
 /* test_crossing.c - the first angle where a trigonometric polynomial falls through 0: against dense sampling, and
  * against roots that are known. Here "noise" is what crossing.c says it cannot tell from 0, eps (16 scale + 32
  * sqrt(size bound2)), and what an evaluation may be off by: dips shallower than that are free to be seen or not. */
-#include "hbm/crossing.h"
-#include "hbm/series.h"
+#include "numerics/crossing.h"
+#include "numerics/series.h"
 #include "tests/hbm/scenes.h"
 
 enum { MAX_HARM = 200, MAX_COEF = 2 * MAX_HARM + 1 };
@@ -11,11 +11,11 @@ static double noise_of(const guard *g) { return DBL_EPSILON * (16 * guard_scale(
 
 /* A derivative of f at th in extended precision: an own evaluation, by turning z = exp(i h th) step by step (H long
  * double eps: 2e-17). */
-static long double slow_value(const motion *m, const guard *g, int derivative, long double th)
+static long double slow_value(const series_vector *m, const guard *g, int derivative, long double th)
 {
   long double f = derivative ? 0 : g->constant, c = cosl(th), s = sinl(th);
   int order = g->order + derivative;
-  for (int d = 0; d < m->n_dof; ++d) {
+  for (int d = 0; d < m->dim; ++d) {
     const double *X = m->X[d];
     long double ch = 1, sh = 0;
     if (order == 0) f += (long double)g->a[d] * X[0];
@@ -41,11 +41,11 @@ typedef struct outcome {
 } outcome;
 
 /* Over the whole turn from `from`, in `steps` intervals, as transitions.c does it. */
-static outcome search_turn(const motion *m, const guard *g, double from, int steps)
+static outcome search_turn(const series_vector *m, const guard *g, double from, int steps)
 {
-  motion_node a = motion_at(m, from), root;
+  series_node a = series_vector_at(m, from), root;
   for (int i = 1; i <= steps; ++i) {
-    motion_node b = motion_at(m, from + 2 * PI * i / steps);
+    series_node b = series_vector_at(m, from + 2 * PI * i / steps);
     if (crossing_first(m, g, &a, &b, &root)) {
       assert_true(root.th >= a.th && root.th <= b.th);
       return (outcome){true, root.th};
@@ -55,10 +55,10 @@ static outcome search_turn(const motion *m, const guard *g, double from, int ste
   return (outcome){false, 0};
 }
 
-/* A found root is one: f there is 0 to noise; beyond it, within what a slope or a curvature needs for that, f is
+/* A found root is one: f there is 0 to noise; beyond it, within what a derivative or a curvature needs for that, f is
  * below; before it nothing is. The last is seen by sampling 8 H + 64 times a turn and descending from each sample
  * that is a local minimum. Returns the deepest dip before `to`. */
-static double deepest_before(const motion *m, const guard *g, double from, double to, double *where)
+static double deepest_before(const series_vector *m, const guard *g, double from, double to, double *where)
 {
   int n = 8 * m->n_harm + 64;
   double step = 2 * PI / n, deepest = INFINITY;
@@ -94,12 +94,12 @@ static double deepest_before(const motion *m, const guard *g, double from, doubl
 
 /* What the polynomial's own evaluation may be off by at angles up to 4 pi: recurrences lose up to 2 H eps of |f'|'s
  * size. */
-static double slack_of(const motion *m, const guard *g)
+static double slack_of(const series_vector *m, const guard *g)
 {
   return 3 * noise_of(g) + 16 * DBL_EPSILON * (m->n_harm + 4) * (guard_scale(g) + sqrt(g->size * g->bound2));
 }
 
-static void check_search(const motion *m, const guard *g, double from, int steps, const char *what, int *n_found)
+static void check_search(const series_vector *m, const guard *g, double from, int steps, const char *what, int *n_found)
 {
   double slack = slack_of(m, g), where = 0;
   if (slow_value(m, g, 0, from) < slack) return; /* must start above 0 */
@@ -110,7 +110,7 @@ static void check_search(const motion *m, const guard *g, double from, int steps
   if (!o.found) return;
   ++*n_found;
   CHECK_LE((double)fabsl(slow_value(m, g, 0, o.root)), slack, "%s: f at the root %.17g", what, o.root);
-  /* f < 0 soon: within the distance where the largest slope it can have there would take it below -slack, doubled
+  /* f < 0 soon: within the distance where the largest derivative it can have there would take it below -slack, doubled
    * until it does */
   double ahead = 1e-12;
   while (ahead < 0.1 && slow_value(m, g, 0, o.root + ahead) >= 0) ahead *= 2;
@@ -129,7 +129,7 @@ static void random_polynomials(void **state)
       int H = orders[o], n_dof = 1 + trial % 2, order = trial / 2 % 2;
       random_motion(&seed, H, 1, trial % 5 * 0.75, X);
       random_motion(&seed, H, 1, 1, Y);
-      motion m = {H, n_dof, {X, Y}};
+      series_vector m = {H, n_dof, {X, Y}};
       double a[2] = {random_signed(&seed), random_signed(&seed)};
       guard g = guard_make(&m, order, a, 0);
       g.constant = 0.5 * (random_signed(&seed) + 0.6) * g.size;
@@ -163,7 +163,7 @@ static void grazing(void **state)
     for (int trial = 0; trial < (orders[o] <= 20 ? 30 : 6); ++trial) {
       int H = orders[o], order = trial % 2;
       random_motion(&seed, H, 1, 1 + trial % 3 * 0.75, X);
-      motion m = {H, 1, {X}};
+      series_vector m = {H, 1, {X}};
       double one = 1, low = 0;
       guard g = guard_make(&m, order, &one, 0);
       double deepest = deepest_before(&m, &g, 0, 2 * PI, &low);
@@ -206,7 +206,7 @@ static void roots_that_are_known(void **state)
       memset(X, 0, sizeof X);
       X[0] = 1;
       X[2 * h - 1] = -1;
-      motion m = {MAX_HARM, 1, {X}};
+      series_vector m = {MAX_HARM, 1, {X}};
       guard g = guard_make(&m, 0, &one, shifts[s]);
       double from = 1.1 / h;
       outcome o = search_turn(&m, &g, from, 32);
@@ -221,7 +221,7 @@ static void roots_that_are_known(void **state)
   memset(X, 0, sizeof X);
   X[2] = 0.75;
   X[6] = -0.25;
-  motion m = {3, 1, {X}};
+  series_vector m = {3, 1, {X}};
   for (int sign = -1; sign <= 1; sign += 2) {
     double a = sign;
     guard g = guard_make(&m, 0, &a, 0);
@@ -245,7 +245,7 @@ static void simple_roots_to_rounding(void **state)
     memset(X, 0, sizeof X);
     X[2 * h - 1] = cos(h * t0);
     X[2 * h] = sin(h * t0);
-    motion m = {MAX_HARM, 1, {X}};
+    series_vector m = {MAX_HARM, 1, {X}};
     guard g = guard_make(&m, 0, &one, 0);
     outcome o = search_turn(&m, &g, from, 32);
     assert_true(o.found);
@@ -261,7 +261,7 @@ static void constants_and_zero(void **state)
   for (int i = 0; i < 5; ++i)
     for (int order = 0; order <= 1; ++order) {
       memset(X, 0, sizeof X);
-      motion m = {i % 2 ? MAX_HARM : 1, 1, {X}};
+      series_vector m = {i % 2 ? MAX_HARM : 1, 1, {X}};
       double one = 1;
       guard g = guard_make(&m, order, &one, constants[i]);
       assert_false(search_turn(&m, &g, 0.3, 32).found);
@@ -275,7 +275,7 @@ static void constants_and_zero(void **state)
                              and nothing to search for long */
   X[0] = 1;
   for (int i = 1; i < MAX_COEF; ++i) X[i] = 1e-19;
-  motion m = {MAX_HARM, 1, {X}};
+  series_vector m = {MAX_HARM, 1, {X}};
   double one = 1;
   guard g = guard_make(&m, 0, &one, -1);
   assert_false(search_turn(&m, &g, 0.3, 32).found);
@@ -292,7 +292,7 @@ static void flat_minima(void **state)
       for (int step = 0; step < 2 * k; ++step) /* ((1 + cos)/2)^k = cos^2k(th/2): binomials */
         for (int j = step + 1; j > 0; --j) p[j] += p[j - 1];
       for (int h = 0; h <= k; ++h) X[h ? 2 * h - 1 : 0] = (h ? 2 : 1) * p[k - h] / pow(4, k);
-      motion m = {4, 1, {X}};
+      series_vector m = {4, 1, {X}};
       guard g = guard_make(&m, 0, &one, i * 1e-10);
       outcome o = search_turn(&m, &g, 0.3, 32);
       if (o.found != (i < 0)) fail_msg("k=%d shift %d: %s", k, i, o.found ? "found" : "not found");
@@ -300,7 +300,7 @@ static void flat_minima(void **state)
     }
 }
 
-/* motion_at and the bounds that proofs rest on. */
+/* series_vector_at and the bounds that proofs rest on. */
 static void nodes_and_bounds(void **state)
 {
   (void)state;
@@ -309,13 +309,13 @@ static void nodes_and_bounds(void **state)
   for (int H = 1; H <= MAX_HARM; H = H < 10 ? H + 3 : 3 * H) {
     random_motion(&seed, H, 1, 1, X);
     random_motion(&seed, H, 1, 2, Y);
-    motion m = {H, 2, {X, Y}};
+    series_vector m = {H, 2, {X, Y}};
     for (int order = 0; order <= 1; ++order) {
       double a[2] = {random_signed(&seed), random_signed(&seed)};
       guard g = guard_make(&m, order, a, random_signed(&seed)), down = guard_negative(&g);
       for (int i = 0; i < 50; ++i) {
         double th = 2 * PI * (1 + random_signed(&seed));
-        motion_node node = motion_at(&m, th);
+        series_node node = series_vector_at(&m, th);
         double f = (double)slow_value(&m, &g, 0, th);
         CHECK_NEAR(guard_value(&g, &node), f, slack_of(&m, &g), "H=%d order=%d", H, order);
         assert_true(guard_value(&down, &node) == -guard_value(&g, &node));
@@ -337,4 +337,4 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(constants_and_zero),
     cmocka_unit_test(flat_minima),
 };
-CHECK_MAIN("hbm.crossing", tests, 120)
+CHECK_MAIN("numerics.crossing", tests, 120)

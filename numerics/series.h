@@ -1,8 +1,8 @@
-/* series.h - real trigonometric polynomials, the language of the hbm folder:
+/* series.h - real trigonometric polynomials, mean first:
  *
  *     x(th) = X[0] + sum_{h=1..H} X[2h-1] cos(h th) + X[2h] sin(h th),      th = omega t [rad]
  *
- * stored as X[2H+1], mean first. Needs libm only, allocates nothing. */
+ * stored as X[2H+1]. Needs libm only, allocates nothing. */
 #ifndef HC_SERIES_H
 #define HC_SERIES_H
 

@@ -1,6 +1,6 @@
-/* test_slope.c - the Toeplitz + Hankel Jacobian against numerical quadrature of k(th) phi_p phi_q, and the rank-1
- * update. */
-#include "hbm/slope.h"
+/* test_force_jacobian.c - the Toeplitz + Hankel Jacobian against numerical quadrature of k(th) phi_p phi_q, and the
+ * rank-1 update. */
+#include "hbm/force_jacobian.h"
 #include "tests/hbm/scenes.h"
 
 enum { MAX_H = 25, MAX_N = 2 * MAX_H + 1, MAX_SYMBOL = 4 * MAX_H + 1 };
@@ -21,7 +21,7 @@ static void matrix_equals_quadrature(void **state)
   uint64_t seed = 4;
   for (size_t o = 0; o < sizeof orders / sizeof *orders; ++o) {
     int H = orders[o], n = 2 * H + 1, ld = n + 3 * (o % 2), points = 4 * H + 1;
-    assert_int_equal(slope_symbol_length(H), 2 * (2 * H) + 1);
+    assert_int_equal(force_jacobian_symbol_length(H), 2 * (2 * H) + 1);
     random_motion(&seed, 2 * H, 1, 0, symbol);
     double size = sum_abs(4 * H + 1, symbol);
     for (int t = 0; t < points; ++t) {
@@ -31,7 +31,7 @@ static void matrix_equals_quadrature(void **state)
       for (int i = 0; i < n; ++i) phi[i][t] = basis(i, th);
     }
     for (int i = 0; i < ld * n; ++i) jac[i] = 10 + i % 7; /* it adds */
-    slope_add(H, symbol, ld, jac);
+    force_jacobian_add(H, symbol, ld, jac);
     for (int q = 0; q < n; ++q)
       for (int p = 0; p < n; ++p) {
         double sum = 0;
@@ -54,7 +54,7 @@ static void rank_one_is_subtracted(void **state)
   random_motion(&seed, H, 1, 0, left);
   random_motion(&seed, H, 1, 0, right);
   for (int i = 0; i < N * N; ++i) jac[i] = before[i] = random_signed(&seed);
-  slope_subtract(H, left, right, jac);
+  force_jacobian_subtract(H, left, right, jac);
   for (int q = 0; q < N; ++q)
     for (int p = 0; p < N; ++p)
       CHECK_NEAR(jac[p + N * q], before[p + N * q] - left[p] * right[q], 2 * DBL_EPSILON, "row %d column %d", p, q);
@@ -62,4 +62,4 @@ static void rank_one_is_subtracted(void **state)
 
 static const struct CMUnitTest tests[] = {cmocka_unit_test(matrix_equals_quadrature),
                                           cmocka_unit_test(rank_one_is_subtracted)};
-CHECK_MAIN("hbm.slope", tests, 60)
+CHECK_MAIN("hbm.force_jacobian", tests, 60)

@@ -1,4 +1,5 @@
-/* test_slope.c - the slope of a period (regularised law): against differences of periods and against closed forms. */
+/* test_monodromy.c - the monodromy matrix of a period (regularised law): against differences of periods and against
+ * closed forms. */
 #include "tests/check.h"
 
 #include <string.h>
@@ -18,22 +19,22 @@ static integrator *make(int n, double tolerance)
 }
 
 /* Central differences of fourth order. */
-static void differences(integrator *in, const scaled_model *m, const double *y, double h, double *slope)
+static void differences(integrator *in, const scaled_model *m, const double *y, double h, double *monodromy)
 {
   static const double at[4] = {1, -1, 2, -2}, weight[4] = {8, -8, -1, 1};
-  memset(slope, 0, sizeof *slope * N * N);
+  memset(monodromy, 0, sizeof *monodromy * N * N);
   for (int j = 0; j < N; ++j)
     for (int k = 0; k < 4; ++k) {
       double z[N] = {y[0], y[1], y[2]};
       z[j] += at[k] * h;
       assert_int_equal(integrate_period(in, m, z, NULL, NULL), HC_OK);
-      for (int i = 0; i < N; ++i) slope[i + j * N] += weight[k] * z[i] / (12 * h);
+      for (int i = 0; i < N; ++i) monodromy[i + j * N] += weight[k] * z[i] / (12 * h);
     }
 }
 
-/* Every step errs by up to 1e-6 of the slopes (slope_tolerance); some 1300 steps, corners among them, add up like
- * independent errors to 4e-5. Allowed: 1e-4 (worst seen: 2.4e-5). The differences: a period at 1e-13 scatters by up
- * to 250 times that (timeint.c), over h = 1e-5 that is 4e-6. Their truncation has no bound here; that it is small
+/* Every step errs by up to 1e-6 of the variations (variation_tolerance); some 1300 steps, corners among them, add up
+ * like independent errors to 4e-5. Allowed: 1e-4 (worst seen: 2.4e-5). The differences: a period at 1e-13 scatters by
+ * up to 250 times that (timeint.c), over h = 1e-5 that is 4e-6. Their truncation has no bound here; that it is small
  * shows in the agreement. */
 static void compare(const scene *from, const char *name, double omega, double length, double regularisation)
 {
@@ -42,7 +43,7 @@ static void compare(const scene *from, const char *name, double omega, double le
   sc.transient.regularisation = regularisation;
   scene_scaled(&m, &sc, omega, length);
   integrator *fine = make(N, 1e-13);
-  double y[N] = {0.7, 0.5, 0.4}, want[N * N], slope[N * N], alone[2][2], apart = 0;
+  double y[N] = {0.7, 0.5, 0.4}, want[N * N], monodromy[N * N], alone[2][2], apart = 0;
   for (int i = 0; i < 50; ++i) assert_int_equal(integrate_period(fine, &m, y, NULL, NULL), HC_OK);
   differences(fine, &m, y, 1e-5, want);
   linear_free_motion(1, m.c, m.k, 2 * PI, alone);
@@ -52,9 +53,9 @@ static void compare(const scene *from, const char *name, double omega, double le
     integrator *in = make(N, tol);
     double z[N] = {y[0], y[1], y[2]}, plain[N] = {y[0], y[1], y[2]};
     assert_int_equal(integrate_period(in, &m, plain, NULL, NULL), HC_OK);
-    assert_int_equal(integrate_slope(in, &m, z, slope), HC_OK);
+    assert_int_equal(integrate_monodromy(in, &m, z, monodromy), HC_OK);
     for (int i = 0; i < N * N; ++i)
-      CHECK_NEAR(slope[i], want[i], 1e-4, "%s at %g, %g: slope[%d] at %g", name, omega, regularisation, i, tol);
+      CHECK_NEAR(monodromy[i], want[i], 1e-4, "%s at %g, %g: monodromy[%d] at %g", name, omega, regularisation, i, tol);
     /* both within 250 tolerances of the exact end: as good, if not the same bits */
     for (int i = 0; i < N; ++i)
       CHECK_NEAR(z[i], plain[i], 500 * tol, "%s at %g, %g: y[%d] at %g", name, omega, regularisation, i, tol);
@@ -63,7 +64,7 @@ static void compare(const scene *from, const char *name, double omega, double le
   integrate_free(fine);
 }
 
-static void slopes_are_differences(void **state)
+static void monodromy_is_the_difference_of_periods(void **state)
 {
   (void)state;
   scene c2 = scene_c2(), b10 = scene_b10(), a10 = scene_a10();
@@ -88,17 +89,17 @@ static void stuck_period_is_the_closed_form(void **state)
   scaled_model m;
   scene_scaled(&m, &sc, 10, 0.1);
   integrator *in = make(N, 1e-12);
-  double y[N] = {1, 0, 0.1}, slope[N * N], e[2][2], k = 190. / 100, by_w = 100 * sqrt(0.5) / 190;
-  assert_int_equal(integrate_slope(in, &m, y, slope), HC_OK);
+  double y[N] = {1, 0, 0.1}, monodromy[N * N], e[2][2], k = 190. / 100, by_w = 100 * sqrt(0.5) / 190;
+  assert_int_equal(integrate_monodromy(in, &m, y, monodromy), HC_OK);
   linear_free_motion(1, 0.04, k, 2 * PI, e);
   const double want[N * N] = {e[0][0], e[1][0], 0, e[0][1], e[1][1], 0, by_w * (1 - e[0][0]), -by_w * e[1][0], 1};
   const double bound = 1e-6 * (double)integrate_steps(in);
-  for (int i = 0; i < N * N; ++i) CHECK_NEAR(slope[i], want[i], bound, "slope[%d]", i);
-  CHECK_NEAR(det(slope), exp(-2 * PI * 0.04), 6 * bound, "no slip: Liouville");
+  for (int i = 0; i < N * N; ++i) CHECK_NEAR(monodromy[i], want[i], bound, "monodromy[%d]", i);
+  CHECK_NEAR(det(monodromy), exp(-2 * PI * 0.04), 6 * bound, "no slip: Liouville");
   integrate_free(in);
 }
 
-static void a_slope_leaves_no_trace(void **state)
+static void asking_for_it_leaves_no_trace(void **state)
 {
   (void)state;
   scene sc = scene_c2();
@@ -106,31 +107,31 @@ static void a_slope_leaves_no_trace(void **state)
   scene_scaled(&m, &sc, 7, 10);
   integrator *in = make(N, 1e-10);
   double y[N] = {0.8, 0.6, 0.5}, z[N] = {0.8, 0.6, 0.5}, w[N] = {0.8, 0.6, 0.5}, v[N] = {0.8, 0.6, 0.5},
-         slope[2][N * N];
+         monodromy[2][N * N];
   assert_int_equal(integrate_period(in, &m, y, NULL, NULL), HC_OK);
-  assert_int_equal(integrate_slope(in, &m, w, slope[0]), HC_OK);
+  assert_int_equal(integrate_monodromy(in, &m, w, monodromy[0]), HC_OK);
   assert_int_equal(integrate_period(in, &m, z, NULL, NULL), HC_OK);
-  assert_int_equal(integrate_slope(in, &m, v, slope[1]), HC_OK);
+  assert_int_equal(integrate_monodromy(in, &m, v, monodromy[1]), HC_OK);
   assert_memory_equal(y, z, sizeof y); /* whatever came before: the same bits */
   assert_memory_equal(w, v, sizeof w);
-  assert_memory_equal(slope[0], slope[1], sizeof slope[0]);
+  assert_memory_equal(monodromy[0], monodromy[1], sizeof monodromy[0]);
   m.f = NAN;
-  assert_int_equal(integrate_slope(in, &m, v, slope[1]), HC_NOT_FINITE);
+  assert_int_equal(integrate_monodromy(in, &m, v, monodromy[1]), HC_NOT_FINITE);
   assert_memory_equal(w, v, sizeof w); /* y stays on failure */
   scene_scaled(&m, &sc, 7, 10);
   double u[N] = {0.8, 0.6, 0.5};
-  assert_int_equal(integrate_slope(in, &m, u, slope[1]), HC_OK); /* and works again */
-  assert_memory_equal(slope[0], slope[1], sizeof slope[0]);
+  assert_int_equal(integrate_monodromy(in, &m, u, monodromy[1]), HC_OK); /* and works again */
+  assert_memory_equal(monodromy[0], monodromy[1], sizeof monodromy[0]);
   integrate_free(in);
 }
 
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(slopes_are_differences),
+      cmocka_unit_test(monodromy_is_the_difference_of_periods),
       cmocka_unit_test(stuck_period_is_the_closed_form),
-      cmocka_unit_test(a_slope_leaves_no_trace),
+      cmocka_unit_test(asking_for_it_leaves_no_trace),
   };
   check_watchdog(120);
-  return cmocka_run_group_tests_name("timeint.slope", tests, NULL, NULL);
+  return cmocka_run_group_tests_name("timeint.monodromy", tests, NULL, NULL);
 }

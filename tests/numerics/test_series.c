@@ -1,7 +1,7 @@
 /* test_series.c - trigonometric polynomials: values against direct sums, extrema against closed forms, root mean
  * square. eps = DBL_EPSILON throughout. The direct sums are long double (64-bit mantissa on x86): their own error is
  * 2000 times smaller. */
-#include "hbm/series.h"
+#include "numerics/series.h"
 #include "tests/hbm/scenes.h"
 
 enum { MAX_COEF = 2 * HBM_MAX_HARMONICS + 1 };
@@ -212,4 +212,4 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(the_lower_of_two_close_minima),
     cmocka_unit_test(rms_and_first_harmonic),
 };
-CHECK_MAIN("hbm.series", tests, 60)
+CHECK_MAIN("numerics.series", tests, 60)

@@ -1,9 +1,9 @@
 /* series.c - see series.h. */
-#include "hbm/series.h"
+#include "numerics/series.h"
 
 #include <math.h>
 
-#include "hbm/crossing.h"
+#include "numerics/crossing.h"
 
 static const double TWO_PI = 6.283185307179586476925;
 
@@ -26,12 +26,12 @@ series_jet series_at(int n_harm, const double *X, double c, double s)
 void series_extrema(int n_harm, const double *X, double *max, double *min)
 {
   const double one = 1;
-  motion m = {n_harm, 1, {X}};
+  series_vector m = {n_harm, 1, {X}};
   guard rising = guard_make(&m, 1, &one, 0), falling = guard_negative(&rising);
-  motion_node here = motion_at(&m, 0), root;
+  series_node here = series_vector_at(&m, 0), root;
   *max = *min = here.d[0][0];
-  for (int i = 1; i <= TRANSITIONS_GRID; ++i) {
-    motion_node next = motion_at(&m, TWO_PI * i / TRANSITIONS_GRID);
+  for (int i = 1; i <= SERIES_GRID; ++i) {
+    series_node next = series_vector_at(&m, TWO_PI * i / SERIES_GRID);
     /* between grid angles x' changes sign any number of times; every change is an extremum */
     for (bool up = here.d[1][0] > 0; crossing_first(&m, up ? &rising : &falling, &here, &next, &root); up = !up) {
       double x = root.d[0][0];

@@ -1,0 +1,184 @@
+/* roots.c - see roots.h. Proof: tests/numerics/test_roots.c. */
+#include "numerics/roots.h"
+
+#include <float.h>
+#include <math.h>
+
+static double at_least_rounding(double tolerance, double x) { return fmax(tolerance, 4 * DBL_EPSILON * fabs(x)); }
+
+static bool opposite(double fa, double fb) { return !isnan(fa) && !isnan(fb) && (fa > 0) != (fb > 0); }
+
+/* One more evaluation allowed? */
+static hc_status count(root_point *out)
+{
+  return out->evaluations++ < ROOTS_MAX_EVALUATIONS ? HC_OK : HC_NOT_CONVERGED;
+}
+
+static hc_status evaluate(root_function *f, void *self, double x, root_point *out, double *value)
+{
+  hc_status st = count(out);
+  if (st == HC_OK) st = f(self, x, value);
+  return st == HC_OK && isnan(*value) ? HC_NOT_FINITE : st;
+}
+
+/* a: the newest point; b: the end of the bracket on the other side; c: the point that a replaced as an end. */
+typedef struct bracket {
+  double a, fa, b, fb, c, fc;
+} bracket;
+
+static void replace_end(bracket *k, double x, double f)
+{
+  if ((f > 0) == (k->fa > 0)) k->c = k->a, k->fc = k->fa;
+  else k->c = k->b, k->fc = k->fb, k->b = k->a, k->fb = k->fa;
+  k->a = x, k->fa = f;
+}
+
+/* Part of the way from a to b at which to look next: where x, as the quadratic in f through the three points, has
+ * f = 0. Chandrupatla's condition: that quadratic is monotone over the bracket; else one half. */
+static double part_of_way(const bracket *k)
+{
+  double xi = (k->a - k->b) / (k->c - k->b), phi = (k->fa - k->fb) / (k->fc - k->fb);
+  if (!(phi * phi < xi && (1 - phi) * (1 - phi) < 1 - xi)) return 0.5;
+  return k->fa / (k->fb - k->fa) * (k->fc / (k->fb - k->fc)) +
+         (k->c - k->a) / (k->b - k->a) * (k->fa / (k->fc - k->fa)) * (k->fb / (k->fc - k->fb));
+}
+
+static void take_better_end(const bracket *k, root_point *out)
+{
+  bool a = fabs(k->fa) <= fabs(k->fb);
+  out->x = a ? k->a : k->b;
+  out->f = a ? k->fa : k->fb;
+}
+
+hc_status root_between(root_function *f, void *self, double a, double fa, double b, double fb, double tolerance,
+                       root_point *out)
+{
+  bracket k = {a, fa, b, fb, a, fa};
+  *out = (root_point){NAN, NAN, 0};
+  if (!isfinite(a) || !isfinite(b) || !opposite(fa, fb)) return HC_BAD_INPUT;
+  double part = isfinite(fa - fb) ? fa / (fa - fb) : 0.5; /* the secant */
+  for (;;) {
+    take_better_end(&k, out);
+    double width = fabs(k.b - k.a), wanted = at_least_rounding(tolerance, out->x);
+    if (width <= wanted) return HC_OK;
+    double least = fmin(0.5, 0.5 * wanted / width), value;
+    double x = k.a + fmin(fmax(part, least), 1 - least) * (k.b - k.a);
+    hc_status st = evaluate(f, self, x, out, &value);
+    if (st != HC_OK) return st;
+    replace_end(&k, x, value);
+    if (value == 0) {
+      out->x = x, out->f = 0;
+      return HC_OK;
+    }
+    part = part_of_way(&k);
+  }
+}
+
+hc_status root_between_newton(root_function_derivative *f, void *self, double a, double fa, double b, double fb,
+                              double tolerance, root_point *out)
+{
+  *out = (root_point){NAN, NAN, 0};
+  if (!isfinite(a) || !isfinite(b) || !opposite(fa, fb)) return HC_BAD_INPUT;
+  double part = fa / (fa - fb), x = a + (part > 0 && part < 1 ? part : 0.5) * (b - a);
+  double step = b - a, before = step; /* the last step and the one before it */
+  out->x = fabs(fa) <= fabs(fb) ? a : b;
+  out->f = fabs(fa) <= fabs(fb) ? fa : fb;
+  for (;;) {
+    double value, derivative;
+    hc_status st = count(out);
+    if (st == HC_OK) st = f(self, x, &value, &derivative);
+    if (st == HC_OK && isnan(value)) st = HC_NOT_FINITE;
+    if (st != HC_OK) return st;
+    out->x = x, out->f = value;
+    if (value == 0) return HC_OK;
+    if ((value > 0) == (fa > 0)) a = x;
+    else b = x;
+    double wanted = at_least_rounding(tolerance, x), next = x - value / derivative;
+    bool inside = (next - a) * (b - next) >= 0, slow = !(fabs(next - x) <= 0.5 * fabs(before));
+    if (!inside || slow) next = 0.5 * (a + b);
+    before = step;
+    step = next - x;
+    out->x = next;
+    if (fabs(step) <= wanted) return HC_OK;
+    x = next;
+  }
+}
+
+/* The three lowest points, f(x) <= f(w) <= f(v), between the ends a and b. */
+typedef struct valley {
+  double a, b, x, fx, w, fw, v, fv;
+} valley;
+
+/* Step from x to the lowest point of the parabola through the three; NaN where they lie on a line. */
+static double parabola_step(const valley *k)
+{
+  double r = (k->x - k->w) * (k->fx - k->fv), q = (k->x - k->v) * (k->fx - k->fw);
+  double p = (k->x - k->v) * q - (k->x - k->w) * r, twice = 2 * (q - r);
+  return twice != 0 ? -p / twice : NAN;
+}
+
+static void take_point(valley *k, double u, double fu)
+{
+  if (fu <= k->fx) {
+    if (u < k->x) k->b = k->x;
+    else k->a = k->x;
+    k->v = k->w, k->fv = k->fw;
+    k->w = k->x, k->fw = k->fx;
+    k->x = u, k->fx = fu;
+    return;
+  }
+  if (u < k->x) k->a = u;
+  else k->b = u;
+  if (fu <= k->fw || k->w == k->x) {
+    k->v = k->w, k->fv = k->fw;
+    k->w = u, k->fw = fu;
+  } else if (fu <= k->fv || k->v == k->x || k->v == k->w) {
+    k->v = u, k->fv = fu;
+  }
+}
+
+hc_status root_minimum(root_function *f, void *self, double a, double fa, double m, double fm, double b, double fb,
+                       double tolerance, root_point *out)
+{
+  const double golden = 0.38196601125010515; /* (3 - sqrt 5)/2 */
+  *out = (root_point){NAN, NAN, 0};
+  if (!(a < m && m < b && fm <= fa && fm <= fb)) return HC_BAD_INPUT;
+  valley k = {a, b, m, fm, fa <= fb ? a : b, fmin(fa, fb), fa <= fb ? b : a, fmax(fa, fb)};
+  double step = b - a, before = step; /* the last step and the one before it */
+  for (;;) {
+    out->x = k.x, out->f = k.fx;
+    double wanted = at_least_rounding(tolerance, k.x), least = 0.5 * wanted, fu;
+    if (fmax(k.x - k.a, k.b - k.x) <= wanted) return HC_OK;
+    double next = parabola_step(&k), u = k.x + next;
+    if (u > k.a && u < k.b && fabs(next) < 0.5 * fabs(before)) {
+      before = step;
+      /* not on an end, whose value is known */
+      if (u - k.a < wanted || k.b - u < wanted) next = copysign(least, 0.5 * (k.a + k.b) - k.x);
+    } else {
+      before = k.x >= 0.5 * (k.a + k.b) ? k.a - k.x : k.b - k.x;
+      next = golden * before;
+    }
+    step = fabs(next) >= least ? next : copysign(least, next);
+    u = k.x + step;
+    hc_status st = evaluate(f, self, u, out, &fu);
+    if (st != HC_OK) return st;
+    take_point(&k, u, fu);
+  }
+}
+
+hc_status root_change(root_predicate *beyond, void *self, double a, double b, double tolerance, root_point *out)
+{
+  *out = (root_point){b, 1, 0};
+  if (!isfinite(a) || !isfinite(b)) return HC_BAD_INPUT;
+  while (fabs(b - a) > at_least_rounding(tolerance, b)) {
+    double m = 0.5 * (a + b);
+    bool is_beyond = false;
+    hc_status st = count(out);
+    if (st == HC_OK) st = beyond(self, m, &is_beyond);
+    if (st != HC_OK) return st;
+    if (is_beyond) b = m;
+    else a = m;
+    out->x = b;
+  }
+  return HC_OK;
+}

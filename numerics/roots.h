@@ -1,0 +1,52 @@
+/* roots.h - roots and minima of a function of one variable between two ends. The function may fail, and may be
+ * costly: every evaluation is counted, and none is made at an end, whose values the caller has. libm only, nothing is
+ * allocated.
+ *
+ * What the searches have in common: HC_BAD_INPUT where the ends do not enclose what is searched for (an end or a value
+ * that is NaN included), HC_NOT_FINITE where the function is NaN, HC_NOT_CONVERGED after ROOTS_MAX_EVALUATIONS, else
+ * whatever status but HC_OK the function answers; *out then holds the best point so far. A tolerance is absolute; less
+ * than 4 roundings of x count as so many. */
+#ifndef HC_ROOTS_H
+#define HC_ROOTS_H
+
+#include <stdbool.h>
+
+#include "base/status.h"
+
+enum { ROOTS_MAX_EVALUATIONS = 200 };
+
+typedef struct root_point {
+  double x, f;     /* f(x) */
+  int evaluations; /* spent by the search */
+} root_point;
+
+/* *f = f(x); self is the caller's. */
+typedef hc_status root_function(void *self, double x, double *f);
+/* *f = f(x), *derivative = f'(x). */
+typedef hc_status root_function_derivative(void *self, double x, double *f, double *derivative);
+/* *beyond: does x lie beyond the change? */
+typedef hc_status root_predicate(void *self, double x, bool *beyond);
+
+/* Where f changes sign between a and b (either may be the greater), f(a) = fa and f(b) = fb: one is > 0, the other
+ * <= 0. Inverse quadratic interpolation where the last three points say that it holds, else bisection (Chandrupatla,
+ * Adv. Eng. Softw. 28 (1997) 145). The change lies within `tolerance` of out->x, unless out->f is 0. */
+hc_status root_between(root_function *f, void *self, double a, double fa, double b, double fb, double tolerance,
+                       root_point *out);
+
+/* The same with a derivative: Newton, and bisection where that would leave the bracket or converge more slowly. Ends
+ * with a Newton step of at most `tolerance`, which is not evaluated again: out->f is the value before it. */
+hc_status root_between_newton(root_function_derivative *f, void *self, double a, double fa, double b, double fb,
+                              double tolerance, root_point *out);
+
+/* A minimum of f between a and b (a < b), m between them being no higher than either end: f(m) = fm <= f(a) = fa,
+ * f(b) = fb. Parabolas through the three lowest points, else golden section (Brent 1973, ch. 5). out->x is within
+ * `tolerance` of a minimum of a function that has only one there; f being flat, less than sqrt(DBL_EPSILON) of x is
+ * not to be had where f'' x^2 is about as large as f. */
+hc_status root_minimum(root_function *f, void *self, double a, double fa, double m, double fm, double b, double fb,
+                       double tolerance, root_point *out);
+
+/* Where a predicate changes, false at a and true at b, by bisection. out->x lies beyond the change and within
+ * `tolerance` of it (b itself if nothing nearer does); out->f is 1. */
+hc_status root_change(root_predicate *beyond, void *self, double a, double b, double tolerance, root_point *out);
+
+#endif

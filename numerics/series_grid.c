@@ -1,0 +1,87 @@
+/* series_grid.c - see series_grid.h. */
+#include "numerics/series_grid.h"
+
+#include <math.h>
+#include <string.h>
+
+static const double TWO_PI = 6.283185307179586476925;
+
+enum { HALF = SERIES_GRID / 2 };
+
+void series_grid_table_fill(int n_harm, double *table)
+{
+  for (int h = 1; h <= n_harm; ++h)
+    for (int i = 0; i < HALF; ++i) {
+      double th = TWO_PI * (h * i % SERIES_GRID) / SERIES_GRID;
+      table[(h - 1) * SERIES_GRID + i] = cos(th);
+      table[(h - 1) * SERIES_GRID + HALF + i] = sin(th);
+    }
+}
+
+/* Sums over even harmonics, [0], and odd ones, [1], of x and two derivatives at the first half of the grid. */
+static void sum_harmonics(int n_harm, const double *X, const double *table, double sum[2][3][HALF])
+{
+  for (int i = 0; i < HALF; ++i) sum[0][0][i] = X[0];
+  for (int h = 1; h <= n_harm; ++h) {
+    const double *restrict c = table + (h - 1) * SERIES_GRID, *restrict s = c + HALF;
+    double *restrict x = sum[h & 1][0], *restrict d1 = sum[h & 1][1], *restrict d2 = sum[h & 1][2];
+    double a = X[2 * h - 1], b = X[2 * h], h1 = h, h2 = h1 * h1;
+    for (int i = 0; i < HALF; ++i) {
+      double even = a * c[i] + b * s[i], odd = b * c[i] - a * s[i];
+      x[i] += even;
+      d1[i] += h1 * odd;
+      d2[i] -= h2 * even;
+    }
+  }
+}
+
+static void fill_coordinate(series_grid *g, int d, const double *table)
+{
+  g->size[0][d] = fabs(g->m.X[d][0]);
+  g->size[1][d] = g->size[2][d] = 0;
+  for (int h = 1; h <= g->m.n_harm; ++h) {
+    double size = fabs(g->m.X[d][2 * h - 1]) + fabs(g->m.X[d][2 * h]);
+    g->size[0][d] += size;
+    g->size[1][d] += h * size;
+    g->size[2][d] += (double)h * h * size;
+  }
+  double sum[2][3][HALF] = {{{0}}};
+  sum_harmonics(g->m.n_harm, g->m.X[d], table, sum);
+  for (int k = 0; k < 3; ++k)
+    for (int i = 0; i < HALF; ++i) {
+      g->node[i].d[k][d] = sum[0][k][i] + sum[1][k][i];
+      g->node[i + HALF].d[k][d] = sum[0][k][i] - sum[1][k][i];
+    }
+}
+
+void series_grid_fill(series_grid *g, const series_vector *m, const double *table)
+{
+  g->m = *m;
+  for (int d = 0; d < m->dim; ++d) fill_coordinate(g, d, table);
+  memcpy(g->node + SERIES_GRID, g->node, SERIES_GRID * sizeof *g->node);
+  g->node[2 * SERIES_GRID] = g->node[0];
+  for (int i = 0; i <= 2 * SERIES_GRID; ++i) g->node[i].th = TWO_PI * i / SERIES_GRID;
+}
+
+series_node series_vector_at(const series_vector *m, double th)
+{
+  series_node node = {.th = th};
+  double c = cos(th), s = sin(th);
+  for (int d = 0; d < m->dim; ++d) {
+    const double *X = m->X[d];
+    double x = X[0], d1 = 0, d2 = 0, ch = 1, sh = 0;
+    for (int h = 1; h <= m->n_harm; ++h) {
+      double next = ch * c - sh * s;
+      sh = ch * s + sh * c;
+      ch = next;
+      double even = X[2 * h - 1] * ch + X[2 * h] * sh, odd = X[2 * h] * ch - X[2 * h - 1] * sh;
+      x += even;
+      d1 += h * odd;
+      d2 -= (double)h * h * even;
+    }
+    node.d[0][d] = x;
+    node.d[1][d] = d1;
+    node.d[2][d] = d2;
+  }
+  return node;
+}

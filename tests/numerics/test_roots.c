@@ -1,0 +1,340 @@
+/* test_roots.c - scalar searches against roots and minima known from mathematics, with functions that are smooth,
+ * flat, have a jump or a kink, fail or are NaN. */
+#include <float.h>
+#include <string.h>
+
+#include "numerics/roots.h"
+#include "tests/check.h"
+
+typedef struct watched { /* a function under search */
+  double (*f)(double), (*derivative)(double);
+  double a, b;         /* the ends: no evaluation is to be made there */
+  int calls, fails_at; /* the call that fails; 0: none */
+  double last;
+} watched;
+
+static hc_status value_of(void *self, double x, double *f)
+{
+  watched *w = self;
+  assert_true(x > fmin(w->a, w->b) && x < fmax(w->a, w->b));
+  w->last = x;
+  *f = w->f(x);
+  return ++w->calls == w->fails_at ? HC_STALLED : HC_OK;
+}
+
+static hc_status value_and_derivative_of(void *self, double x, double *f, double *derivative)
+{
+  watched *w = self;
+  *derivative = w->derivative(x);
+  return value_of(self, x, f);
+}
+
+static double cubic(double x) { return x * x * x - 2 * x - 5; } /* Wallis's */
+static double cubic_derivative(double x) { return 3 * x * x - 2; }
+static double fixed_cosine(double x) { return cos(x) - x; }
+static double fixed_cosine_derivative(double x) { return -sin(x) - 1; }
+static double growth(double x) { return exp(x) - 3; }
+static double saturated(double x) { return atan(50 * (x - 1.0 / 3)); }
+static double saturated_derivative(double x) { return 50 / (1 + 2500 * (x - 1.0 / 3) * (x - 1.0 / 3)); }
+static double flat(double x) { return pow(x - 0.7, 9); }
+static double flat_derivative(double x) { return 9 * pow(x - 0.7, 8); }
+static double jump(double x) { return x > 0.7 ? 1e9 : -1e-9; }
+static double pole(double x) { return x > 0.7 ? 1 / (x - 0.7) : x < 0.7 ? 1 / (x - 0.7) : INFINITY; }
+static double nothing(double x) { return 0 * x; }
+
+static const struct {
+  const char *name;
+  double (*f)(double), (*derivative)(double);
+  double a, b, root;
+  bool simple; /* the root is, and the function is smooth over the whole bracket */
+} cases[] = {
+    {"cubic", cubic, cubic_derivative, 2, 3, 2.0945514815423265914823865405793, true},
+    {"cos x = x", fixed_cosine, fixed_cosine_derivative, 0, 1, 0.73908513321516064165531208767387, true},
+    {"exp", growth, exp, -1, 4, 1.0986122886681096913952452369225, true},
+    {"atan", saturated, saturated_derivative, -2, 9, 1.0 / 3, false},
+    {"ninth power", flat, flat_derivative, 0, 1, 0.7, false},
+};
+enum { CASES = sizeof cases / sizeof *cases };
+
+/* A step is at least 4 roundings of x; the values near the root are known to some roundings of what they are made of,
+ * below 10 for the cubic at 2.09, divided by the derivative, 11: another rounding or so of x. Half of either is x's
+ * last bit. Flat: (x - 0.7)^9 is exact in sign. */
+static double reach(double tolerance, double root) { return tolerance + 8 * DBL_EPSILON * root; }
+
+static void roots_are_found_from_either_side(void **state)
+{
+  (void)state;
+  for (int i = 0; i < CASES; ++i)
+    for (int turned = 0; turned < 2; ++turned)
+      for (double tolerance = 1e-2; tolerance > 1e-17; tolerance /= 10) {
+        double a = turned ? cases[i].b : cases[i].a, b = turned ? cases[i].a : cases[i].b;
+        watched w = {.f = cases[i].f, .a = a, .b = b};
+        root_point root;
+        assert_int_equal(root_between(value_of, &w, a, w.f(a), b, w.f(b), tolerance, &root), HC_OK);
+        CHECK_NEAR(root.x, cases[i].root, reach(tolerance, cases[i].root), "%s to %g", cases[i].name, tolerance);
+        assert_true(root.f == w.f(root.x));
+        assert_int_equal(root.evaluations, w.calls);
+        /* the secant's order 1.6 multiplies the correct digits 1, 2, 3, 5, 8, 13, 21: seven, two that close the
+         * bracket, and as many again before it converges */
+        if (cases[i].simple) CHECK_LE(w.calls, 11, "%s to %g", cases[i].name, tolerance);
+      }
+}
+
+/* Interpolation is of no use: one half at each step, but for the secant at the start; one more for a rounding up, and
+ * one for the last step, which is as long as the tolerance allows. */
+static void jumps_and_poles_cost_a_bisection(void **state)
+{
+  (void)state;
+  double (*const f[])(double) = {jump, pole};
+  for (int i = 0; i < 2; ++i) {
+    for (int infinite = 0; infinite < 2; ++infinite) {
+      watched w = {.f = f[i], .a = -3, .b = 4};
+      root_point root;
+      double fb = infinite ? INFINITY : w.f(4);
+      assert_int_equal(root_between(value_of, &w, -3, w.f(-3), 4, fb, 1e-12, &root), HC_OK);
+      CHECK_NEAR(root.x, 0.7, 1e-12, "%d", i);
+      CHECK_LE(w.calls, log2(7 / 1e-12) + 3, "%d", i);
+    }
+  }
+}
+
+static double line(double x) { return x - 0.25; }
+static double line_derivative(double x) { return 1 + 0 * x; }
+
+static void a_straight_line_takes_one_evaluation(void **state)
+{
+  (void)state;
+  watched w = {.f = line, .derivative = line_derivative, .a = -0.75, .b = 2.25};
+  root_point root;
+  assert_int_equal(root_between(value_of, &w, -0.75, -1, 2.25, 2, 1e-9, &root), HC_OK);
+  assert_true(root.x == 0.25 && root.f == 0 && root.evaluations == 1);
+  hc_status st = root_between_newton(value_and_derivative_of, &w, -0.75, -1, 2.25, 2, 1e-9, &root);
+  assert_int_equal(st, HC_OK);
+  assert_true(root.x == 0.25 && root.f == 0 && root.evaluations == 1);
+}
+
+/* Twice the bracket's halving at worst: a Newton step is taken if it is at most half of the one before the last. */
+static void newton_needs_fewer_and_is_as_safe(void **state)
+{
+  (void)state;
+  for (int i = 0; i < CASES; ++i)
+    for (int turned = 0; turned < 2; ++turned) {
+      double a = turned ? cases[i].b : cases[i].a, b = turned ? cases[i].a : cases[i].b;
+      watched w = {.f = cases[i].f, .derivative = cases[i].derivative, .a = a, .b = b};
+      root_point root;
+      hc_status st = root_between_newton(value_and_derivative_of, &w, a, w.f(a), b, w.f(b), 1e-14, &root);
+      assert_int_equal(st, HC_OK);
+      /* ninth power: Newton's step is a ninth of what is left */
+      double off = reach(1e-14, cases[i].root) * (cases[i].f == flat ? 9 : 1);
+      CHECK_NEAR(root.x, cases[i].root, off, "%s", cases[i].name);
+      assert_int_equal(root.evaluations, w.calls);
+      /* order 2: 1, 2, 4, 8, 16 digits, and three before it converges */
+      CHECK_LE(w.calls, cases[i].simple ? 8 : 2 * log2((fabs(b - a)) / 1e-14), "%s", cases[i].name);
+    }
+}
+
+static double no_number(double x) { return NAN * x; }
+static double backwards(double x) { return -cubic_derivative(x); }
+
+/* A derivative that is 0, NaN or wrong in sign costs bisections and changes no answer. */
+static void newton_survives_a_bad_derivative(void **state)
+{
+  (void)state;
+  double (*const bad[])(double) = {nothing, no_number, backwards};
+  for (int i = 0; i < 3; ++i) {
+    watched w = {.f = cubic, .derivative = bad[i], .a = 2, .b = 3};
+    root_point root;
+    hc_status st = root_between_newton(value_and_derivative_of, &w, 2, cubic(2), 3, cubic(3), 1e-12, &root);
+    assert_int_equal(st, HC_OK);
+    CHECK_NEAR(root.x, cases[0].root, 1e-12, "%d", i);
+    CHECK_LE(w.calls, 2 * log2(1 / 1e-12), "%d", i);
+  }
+}
+
+/* 0 counts as not positive. At an end it is the answer if nothing between changes sign. */
+static void an_end_may_be_the_root(void **state)
+{
+  (void)state;
+  watched w = {.f = sin, .a = 0, .b = 1};
+  root_point root;
+  assert_int_equal(root_between(value_of, &w, 0, 0, 1, sin(1), 1e-9, &root), HC_OK);
+  CHECK_NEAR(root.x, 0, 1e-9, "at a");
+  w.a = 1, w.b = 0;
+  assert_int_equal(root_between(value_of, &w, 1, sin(1), 0, 0, 1e-9, &root), HC_OK);
+  CHECK_NEAR(root.x, 0, 1e-9, "at b");
+  w.a = PI, w.b = 7; /* 0 at a, below it at once, and back at 2 pi */
+  assert_int_equal(root_between(value_of, &w, PI, 0, 7, sin(7), 1e-9, &root), HC_OK);
+  CHECK_NEAR(root.x, 2 * PI, 1e-9, "beyond a");
+}
+
+static void what_is_no_bracket_is_refused(void **state)
+{
+  (void)state;
+  static const double bad[][4] = {{0, 1, 1, 2},    {0, -1, 1, -2},  {0, 0, 1, -1},       {0, NAN, 1, 1},
+                                  {0, -1, 1, NAN}, {NAN, -1, 1, 1}, {0, -1, INFINITY, 1}};
+  watched w = {.f = sin};
+  root_point root;
+  for (size_t i = 0; i < sizeof bad / sizeof *bad; ++i) {
+    const double *k = bad[i];
+    assert_int_equal(root_between(value_of, &w, k[0], k[1], k[2], k[3], 1e-9, &root), HC_BAD_INPUT);
+    hc_status st = root_between_newton(value_and_derivative_of, &w, k[0], k[1], k[2], k[3], 1e-9, &root);
+    assert_int_equal(st, HC_BAD_INPUT);
+  }
+  static const double no_valley[][6] = {
+      {0, 1, 1, 2, 2, 3}, {0, 3, 1, 2, 2, 1}, {0, 1, 0, 0, 1, 1}, {1, 1, 0.5, 0, 0, 1}, {0, 1, 0.5, NAN, 1, 1}};
+  for (size_t i = 0; i < sizeof no_valley / sizeof *no_valley; ++i) {
+    const double *v = no_valley[i];
+    assert_int_equal(root_minimum(value_of, &w, v[0], v[1], v[2], v[3], v[4], v[5], 1e-9, &root), HC_BAD_INPUT);
+  }
+  assert_int_equal(w.calls, 0);
+}
+
+static double holed(double x) { return x > 0.4 && x < 0.9 ? NAN : x - 0.7; }
+static double holed_derivative(double x) { return holed(x) * 0 + 1; }
+static double parabola(double x) { return (x - 0.7) * (x - 0.7) + 1e-3 * x; }
+
+/* The function's own status comes back at once, NaN is HC_NOT_FINITE, and what is known by then is kept. */
+static void a_failure_ends_the_search(void **state)
+{
+  (void)state;
+  root_point root;
+  for (int at = 1; at < 5; ++at) {
+    watched w = {.f = cubic, .derivative = cubic_derivative, .a = -9, .b = 9, .fails_at = at};
+    assert_int_equal(root_between(value_of, &w, -9, cubic(-9), 9, cubic(9), 1e-15, &root), HC_STALLED);
+    assert_int_equal(w.calls, at);
+    assert_int_equal(root.evaluations, at);
+    CHECK_LE(fabs(root.f), fabs(cubic(9)), "no worse than the ends");
+    assert_true(root.f == cubic(root.x));
+    w.calls = 0;
+    hc_status st = root_between_newton(value_and_derivative_of, &w, -9, cubic(-9), 9, cubic(9), 1e-15, &root);
+    assert_int_equal(st, HC_STALLED);
+    assert_int_equal(w.calls, at);
+    watched v = {.f = parabola, .a = -9, .b = 9, .fails_at = at};
+    st = root_minimum(value_of, &v, -9, parabola(-9), 0, parabola(0), 9, parabola(9), 1e-15, &root);
+    assert_int_equal(st, HC_STALLED);
+    CHECK_LE(root.f, parabola(0), "no worse than the start");
+    assert_true(root.x != v.last);
+  }
+  watched w = {.f = holed, .derivative = holed_derivative, .a = 0, .b = 1};
+  assert_int_equal(root_between(value_of, &w, 0, -0.7, 1, 0.3, 1e-9, &root), HC_NOT_FINITE);
+  assert_int_equal(root_between_newton(value_and_derivative_of, &w, 0, -0.7, 1, 0.3, 1e-9, &root), HC_NOT_FINITE);
+  assert_int_equal(root_minimum(value_of, &w, 0, 1, 0.5, 0, 1, 1, 1e-9, &root), HC_NOT_FINITE);
+}
+
+static double tiny_jump(double x) { return x > 1e-300 ? 1 : -1; }
+
+/* Next to 0 a rounding of x is no bound: 1000 halvings lead to 1e-300, 200 are made. */
+static void a_search_that_would_not_end_is_given_up(void **state)
+{
+  (void)state;
+  watched w = {.f = tiny_jump, .derivative = nothing, .a = -1, .b = 0.9};
+  root_point root;
+  assert_int_equal(root_between(value_of, &w, -1, -1, 0.9, 1, 0, &root), HC_NOT_CONVERGED);
+  assert_int_equal(w.calls, ROOTS_MAX_EVALUATIONS);
+  CHECK_LE(fabs(root.x), 1e-50, "the best so far");
+}
+
+static double cosh_at(double x) { return cosh(x - 1.25); }
+static double kink(double x) { return fabs(x - 0.3) + 0.2 * x; }
+static double quartic(double x) { return pow(x + 0.6, 4); }
+static double lopsided(double x) { return x - log(x); }
+static double terrace(double x) { return x < 0.5 ? 1 - x : 0.5; }
+
+/* f known to u |f| hides where its minimum lies to sqrt(2 u |f|/f''): 1.5e-8 of cosh and x - log x. */
+static void minima_are_found(void **state)
+{
+  (void)state;
+  static const struct {
+    double (*f)(double);
+    double a, m, b, lowest;
+    int at_most;
+  } at[] = {
+      /* order 1.3 of parabolas multiplies digits by 1.3 a step: 1e-8 from 1 takes 11; two more close the bracket;
+       * golden section would take log(range/1e-8)/log(1.618) = 41 */
+      {cosh_at, -1, 0.5, 3, 1.25, 16},
+      {lopsided, 0.1, 2, 9, 1, 20},
+      /* no parabola helps: at worst two steps for one of golden section */
+      {kink, -2, 0, 4, 0.3, 82},
+      {quartic, -3, 0, 1, -0.6, 82},
+  };
+  for (size_t i = 0; i < sizeof at / sizeof *at; ++i)
+    for (double tolerance = 1e-3; tolerance > 1e-8; tolerance /= 10) {
+      watched w = {.f = at[i].f, .a = at[i].a, .b = at[i].b};
+      root_point low;
+      hc_status st = root_minimum(value_of, &w, w.a, w.f(w.a), at[i].m, w.f(at[i].m), w.b, w.f(w.b), tolerance, &low);
+      assert_int_equal(st, HC_OK);
+      CHECK_NEAR(low.x, at[i].lowest, tolerance + 2e-8, "%zu to %g", i, tolerance);
+      assert_true(low.f == w.f(low.x));
+      assert_int_equal(low.evaluations, w.calls);
+      CHECK_LE(w.calls, at[i].at_most, "%zu to %g", i, tolerance);
+    }
+  watched w = {.f = terrace, .a = 0, .b = 1}; /* any place on the terrace is a minimum */
+  root_point low;
+  assert_int_equal(root_minimum(value_of, &w, 0, 1, 0.75, 0.5, 1, 0.5, 1e-6, &low), HC_OK);
+  assert_true(low.f == 0.5 && low.x >= 0.5);
+}
+
+static double cusp_at;
+static double cusp(double x) { return sqrt(fabs(x - cusp_at)) + (x > cusp_at ? 0.1 : 0); }
+
+/* No parabola fits a cusp, and the last point is anywhere in the last bracket: of 200 cusps some are next to its end.
+ * Golden section alone takes log(3/1e-4)/log(1.618) = 22, and each of its steps may follow a parabola in vain. */
+static void a_minimum_is_as_near_as_was_asked(void **state)
+{
+  (void)state;
+  double farthest = 0;
+  for (int i = 0; i < 200; ++i) {
+    root_point low;
+    watched w = {.f = cusp, .a = -1, .b = 2};
+    cusp_at = 0.3 + i / 500.0;
+    double m = cusp_at - 0.01;
+    hc_status st = root_minimum(value_of, &w, -1, cusp(-1), m, cusp(m), 2, cusp(2), 1e-4, &low);
+    assert_int_equal(st, HC_OK);
+    CHECK_NEAR(low.x, cusp_at, 1e-4, "%d", i);
+    CHECK_LE(w.calls, 44, "%d", i);
+    farthest = fmax(farthest, fabs(low.x - cusp_at));
+  }
+  CHECK_LE(2e-5, farthest, "the tolerance is put to use");
+}
+
+static hc_status beyond(void *self, double x, bool *is)
+{
+  watched *w = self;
+  *is = w->f(x) > 0;
+  return ++w->calls == w->fails_at ? HC_STALLED : HC_OK;
+}
+
+static void a_change_is_bisected(void **state)
+{
+  (void)state;
+  for (int turned = 0; turned < 2; ++turned) {
+    watched w = {.f = turned ? cos : jump}; /* cos x > 0 below pi/2 */
+    root_point change;
+    double a = turned ? 3 : 0, b = turned ? -1 : 1, at = turned ? PI / 2 : 0.7;
+    assert_int_equal(root_change(beyond, &w, a, b, 1e-9, &change), HC_OK);
+    assert_true(w.f(change.x) > 0);
+    CHECK_NEAR(change.x, at, 1e-9, "%d", turned);
+    assert_int_equal(w.calls, (int)ceil(log2(fabs(b - a) / 1e-9)));
+    assert_int_equal(change.evaluations, w.calls);
+    w.calls = 0, w.fails_at = 5;
+    assert_int_equal(root_change(beyond, &w, a, b, 1e-9, &change), HC_STALLED);
+    assert_int_equal(w.calls, 5);
+  }
+}
+
+static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(roots_are_found_from_either_side),
+    cmocka_unit_test(jumps_and_poles_cost_a_bisection),
+    cmocka_unit_test(newton_needs_fewer_and_is_as_safe),
+    cmocka_unit_test(newton_survives_a_bad_derivative),
+    cmocka_unit_test(an_end_may_be_the_root),
+    cmocka_unit_test(what_is_no_bracket_is_refused),
+    cmocka_unit_test(a_failure_ends_the_search),
+    cmocka_unit_test(a_search_that_would_not_end_is_given_up),
+    cmocka_unit_test(minima_are_found),
+    cmocka_unit_test(a_minimum_is_as_near_as_was_asked),
+    cmocka_unit_test(a_straight_line_takes_one_evaluation),
+    cmocka_unit_test(a_change_is_bisected),
+};
+
+CHECK_MAIN("numerics.roots", tests, 30)
