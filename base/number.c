@@ -102,13 +102,20 @@ static void shorten_exponent(char *text)
   memmove(zeros, zeros + n, strlen(zeros + n) + 1);
 }
 
+/* Digits alone after a sign? For a text that is a number as a whole. */
+static bool is_integer(const char *text, size_t length)
+{
+  for (size_t i = text[0] == '+' || text[0] == '-'; i < length; ++i)
+    if (text[i] < '0' || text[i] > '9') return false;
+  return true;
+}
+
 number_fault number_read_integer(const char *text, size_t length, int *value)
 {
   double x;
   number_fault fault = number_read(text, length, &x);
   if (fault != NUMBER_FINE) return fault;
-  const char *s = skip_sign(text);
-  if (s + digits(s) < text + length) return NUMBER_NOT_INTEGER;
+  if (!is_integer(text, length)) return NUMBER_NOT_INTEGER;
   if (!(x >= INT_MIN && x <= INT_MAX)) return NUMBER_TOO_LARGE;
   *value = (int)x;
   return NUMBER_FINE;

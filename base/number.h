@@ -1,6 +1,6 @@
 /* number.h - numbers as text, strictly and the same in every locale: reading a whole text as one finite number, and
  * the shortest text that reads back to the same bits. Safe from several threads; the host program's locale is
- * neither used nor changed. */
+ * neither used nor changed. A text need not be terminated: text[length] and what comes after is not looked at. */
 #ifndef HC_NUMBER_H
 #define HC_NUMBER_H
 

@@ -231,5 +231,5 @@ int cli_write(const cli_options *o, int n, table *const *tables)
   if (st == HC_OK) return 0;
   cli_say(o, "%s: %s", o->output ? o->output : "standard output",
           st == HC_IO && errno ? strerror(errno) : hc_status_text(st));
-  return EXIT_NO_SOLUTION;
+  return st == HC_BUG ? EXIT_BUG : EXIT_NO_SOLUTION;
 }

@@ -281,9 +281,10 @@ static int run(job *j)
   progress_end(w.bar);
   for (long i = 0; i < j->plan.scenes; ++i) j->there += j->results[i].there;
   if (st == HC_OK) return 0;
-  if (st == HC_BAD_INPUT) {
-    cli_say(&j->o, "%s: not the results of this seed and these --seconds, expected those or a new file",
-            j->plan.journal);
+  if (st == HC_BAD_INPUT || st == HC_UNSUPPORTED) {
+    cli_say(&j->o, "%s: %s, expected those or a new file", j->plan.journal,
+            st == HC_BAD_INPUT ? "not the results of this seed and these --seconds, or damaged"
+                               : "not the results of this version of hbmcheck with its checks and reasons");
     return EXIT_BAD_CASE;
   }
   if (st == HC_IO) cli_say(&j->o, "%s: %s", j->plan.journal, strerror(why_not));

@@ -39,6 +39,7 @@ static void usage(FILE *to)
 int main(int argc, char **argv)
 {
   signal(SIGPIPE, SIG_IGN);    /* a closed pipe is a write error like any other */
+  signal(SIGCHLD, SIG_DFL);    /* ignored by who started us, the exit codes of gnuplot and python3 would be lost */
   gsl_set_error_handler_off(); /* its default aborts; our code reads the statuses */
   progress_install_signals();
   if (argc < 2) {

@@ -3,18 +3,14 @@
  * The slider after a separation starts from the interpolated instant of contact, or (the paper's way) from the last
  * separated sample. Jacobian: dF_i = k_i dx_i - kt cos(alpha) dw, k_i by one more FFT, dw constant over a stick
  * interval (force_jacobian.h). FFTW does not normalise and uses exp(-i): the 2/N and the sign of the sine live in
- * to_series() and to_samples(), only there. Plans are ESTIMATE: planned in microseconds, and the same on every run.
- * Not here: the dynamic stiffness (system.c). */
+ * to_series() and to_samples(), only there. Not here: the dynamic stiffness (system.c). */
 #include "hbm/aft.h"
 
-#include <complex.h>
-#include <fftw3.h>
-#include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "hbm/fft_plan.h"
 #include "hbm/force_jacobian.h"
-#include "numerics/room.h"
 
 /* Where the slider's position came from: dw = by_x dx(th_i); by_x 0 when it depends on nothing. */
 typedef struct slider_origin {
@@ -45,18 +41,12 @@ typedef struct track {
   slider_origin origin; /* of w */
 } track;
 
-/* FFTW's planner is not thread-safe; this guards it for all our handles in a process. */
-static pthread_mutex_t planner = PTHREAD_MUTEX_INITIALIZER;
-
 static hc_status make_plans(aft *a)
 {
-  if (!hc_room_for(64 * (size_t)a->n_time)) return HC_NO_MEMORY;
-  pthread_mutex_lock(&planner);
-  a->to_time = fftw_plan_dft_c2r_1d(a->n_time, a->spec, a->x, FFTW_ESTIMATE);
-  a->to_freq_f = fftw_plan_dft_r2c_1d(a->n_time, a->f, a->spec, FFTW_ESTIMATE);
-  a->to_freq_k = fftw_plan_dft_r2c_1d(a->n_time, a->k, a->spec, FFTW_ESTIMATE);
-  pthread_mutex_unlock(&planner);
-  return a->to_time && a->to_freq_f && a->to_freq_k ? HC_OK : HC_NO_MEMORY;
+  hc_status st = fft_plan_to_samples(a->n_time, a->spec, a->x, &a->to_time);
+  if (st == HC_OK) st = fft_plan_to_spectrum(a->n_time, a->f, a->spec, &a->to_freq_f);
+  if (st == HC_OK) st = fft_plan_to_spectrum(a->n_time, a->k, a->spec, &a->to_freq_k);
+  return st;
 }
 
 static hc_status make_tables(aft *a)
@@ -104,11 +94,9 @@ void aft_free(aft *a)
 {
   if (!a) return;
   model_free(a->model);
-  pthread_mutex_lock(&planner);
-  fftw_destroy_plan(a->to_time); /* NULL is allowed */
-  fftw_destroy_plan(a->to_freq_f);
-  fftw_destroy_plan(a->to_freq_k);
-  pthread_mutex_unlock(&planner);
+  fft_plan_free(a->to_time);
+  fft_plan_free(a->to_freq_f);
+  fft_plan_free(a->to_freq_k);
   fftw_free(a->x);
   fftw_free(a->f);
   fftw_free(a->k);

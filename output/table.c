@@ -2,7 +2,6 @@
  * tests/output/test_table.c. */
 #include "output/table.h"
 
-#include <assert.h>
 #include <limits.h>
 #include <locale.h>
 #include <math.h>
@@ -29,24 +28,39 @@ static void leave_c_locale(locale_t c, locale_t before)
   freelocale(c);
 }
 
-static void check_columns(int n, const table_column *columns)
+/* Columns there, each of a kind that the writers know, under a name of its own? */
+static bool columns_are_sound(int n, const table_column *columns)
 {
-  assert(n > 0 && columns);
-  for (int i = 0; i < n; ++i)
-    for (int j = 0; j < i; ++j) assert(strcmp(columns[i].name, columns[j].name) != 0);
-  (void)columns; /* where assert is nothing */
+  if (n < 1 || !columns) return false;
+  for (int i = 0; i < n; ++i) {
+    table_kind kind = columns[i].kind;
+    if (kind != TABLE_TEXT && kind != TABLE_INTEGER && kind != TABLE_REAL) return false;
+    for (int j = 0; j < i; ++j)
+      if (!strcmp(columns[i].name, columns[j].name)) return false;
+  }
+  return true;
+}
+
+/* The first failure is kept: nothing is appended after it. */
+static void give_up(table *t, hc_status why)
+{
+  if (t->status == HC_OK) t->status = why;
 }
 
 table *table_new(const char *title, int n_columns, const table_column *columns)
 {
-  check_columns(n_columns, columns);
   table *t = calloc(1, sizeof *t);
   if (!t) return NULL;
+  t->title = utf8_clean(title ? title : "", true);
+  if (!t->title) give_up(t, HC_NO_MEMORY);
+  if (!columns_are_sound(n_columns, columns)) {
+    give_up(t, HC_BUG);
+    return t;
+  }
   t->n_columns = n_columns;
   t->columns = columns;
-  t->title = utf8_clean(title ? title : "", true);
   t->hidden = calloc((size_t)n_columns, sizeof *t->hidden);
-  t->failed = !t->title || !t->hidden;
+  if (!t->hidden) give_up(t, HC_NO_MEMORY);
   return t;
 }
 
@@ -79,10 +93,10 @@ static bool reserve(void **array, size_t n, size_t *room, size_t size)
 /* The next cell, appended as missing; NULL when that cannot be. */
 static table_cell *next_cell(table *t)
 {
-  if (!t || t->failed) return NULL;
+  if (!t || t->status != HC_OK) return NULL;
   void *cells = t->cells;
   if (t->n_cells >= INT_MAX || !reserve(&cells, t->n_cells, &t->cells_room, sizeof *t->cells)) {
-    t->failed = true;
+    give_up(t, HC_NO_MEMORY);
     return NULL;
   }
   t->cells = cells;
@@ -91,11 +105,14 @@ static table_cell *next_cell(table *t)
   return cell;
 }
 
-/* The same for a value of that kind, which has to be its column's. */
+/* The same for a value of that kind, which has to be its column's: the writers read the cell by the column's kind. */
 static table_cell *next_cell_of(table *t, table_kind kind)
 {
-  assert(!t || t->failed || t->columns[t->n_cells % (size_t)t->n_columns].kind == kind);
-  (void)kind; /* where assert is nothing */
+  if (!t || t->status != HC_OK) return NULL;
+  if (t->columns[t->n_cells % (size_t)t->n_columns].kind != kind) {
+    give_up(t, HC_BUG);
+    return NULL;
+  }
   return next_cell(t);
 }
 
@@ -105,7 +122,7 @@ void table_put_text(table *t, const char *value)
   if (!cell || !value) return;
   cell->as.text = utf8_clean(value, false);
   cell->there = cell->as.text != NULL;
-  if (!cell->there) t->failed = true;
+  if (!cell->there) give_up(t, HC_NO_MEMORY);
 }
 
 void table_put_integer(table *t, long value)
@@ -139,7 +156,7 @@ __attribute__((format(printf, 1, 0))) static char *print_to_memory(const char *f
 
 void table_note(table *t, const char *format, ...)
 {
-  if (!t || t->failed) return;
+  if (!t || t->status != HC_OK) return;
   va_list args;
   va_start(args, format);
   char *text = print_to_memory(format, args);
@@ -149,7 +166,7 @@ void table_note(table *t, const char *format, ...)
   void *notes = t->notes;
   if (!note || !reserve(&notes, t->n_notes, &t->notes_room, sizeof *t->notes)) {
     free(note);
-    t->failed = true;
+    give_up(t, HC_NO_MEMORY);
     return;
   }
   t->notes = notes;
@@ -167,7 +184,7 @@ void table_hide(table *t, const char *column)
     if (!strcmp(t->columns[i].name, column)) t->hidden[i] = true;
 }
 
-int table_rows(const table *t) { return t ? (int)(t->n_cells / (size_t)t->n_columns) : 0; }
+int table_rows(const table *t) { return t && t->n_columns ? (int)(t->n_cells / (size_t)t->n_columns) : 0; }
 
 void table_write_csv_text(const char *s, FILE *to)
 {
@@ -219,8 +236,9 @@ static void write_csv(const table *t, bool with_title, FILE *to)
 hc_status table_write(int n, table *const *tables, table_format format, FILE *to)
 {
   for (int k = 0; k < n; ++k) {
-    if (!tables[k] || tables[k]->failed) return HC_NO_MEMORY;
-    assert(tables[k]->n_cells % (size_t)tables[k]->n_columns == 0);
+    if (!tables[k]) return HC_NO_MEMORY;
+    if (tables[k]->status != HC_OK) return tables[k]->status;
+    if (tables[k]->n_cells % (size_t)tables[k]->n_columns != 0) return HC_BUG;
   }
   locale_t c, before;
   if (!enter_c_locale(&c, &before)) return HC_NO_MEMORY;

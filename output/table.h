@@ -19,13 +19,14 @@ typedef enum { FORMAT_TABLE, FORMAT_CSV, FORMAT_JSON } table_format;
 typedef struct table table;
 
 /* The columns must outlive the table; their names differ from each other. The title is copied and may be NULL.
- * Appending after a failed allocation, or to NULL, does nothing; table_write reports HC_NO_MEMORY then. */
+ * Appending after a failed allocation, or to NULL, does nothing; table_write reports HC_NO_MEMORY then. So it is with
+ * HC_BUG after a mistake of the caller's: no columns, two of one name, a value that is not of its column's kind. */
 table *table_new(const char *title, int n_columns, const table_column *columns);
 void table_free(table *t);
 
 /* A row is its values in column order. Each put fills the next cell, a new row starts by itself; the kind must be
- * the column's and the last row be full when written (asserted). Text is copied; csv and json keep its line breaks,
- * the table shows spaces. */
+ * the column's and the last row be full when written, else table_write answers HC_BUG. Text is copied; csv and json
+ * keep its line breaks, the table shows spaces. */
 void table_put_text(table *t, const char *value);
 void table_put_integer(table *t, long value);
 void table_put_real(table *t, double value);
@@ -53,7 +54,8 @@ int table_rows(const table *t);
  * [{column: value}, ...], ...,
  *        "notes": {"title": [...], ...}} with notes of the tables that have some. A title that is taken becomes
  *        "title (2)", no title "table".
- * HC_IO once the stream has failed; what is still in its buffer is for output_commit to check. */
+ * HC_NO_MEMORY and HC_BUG (see above): nothing is written if a table came to that before. HC_IO once the stream has
+ * failed; what is still in its buffer is for output_commit to check. */
 hc_status table_write(int n, table *const *tables, table_format format, FILE *to);
 
 #endif

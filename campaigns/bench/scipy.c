@@ -1,6 +1,7 @@
 /* scipy.c - see scipy.h: a child process, its lines read as they come, a limit on its time. */
 #include "campaigns/bench/scipy.h"
 
+#include <errno.h>
 #include <math.h>
 #include <poll.h>
 #include <signal.h>
@@ -80,13 +81,15 @@ static bool start(child *c, arguments *a)
   return ready;
 }
 
-/* Kills it if it still runs. Its exit code, or -1. */
+/* Kills it if it still runs. Its exit code; -1: a signal ended it, or this process ignores SIGCHLD, and then the system
+ * keeps no exit codes: waitpid waits for the end and fails with ECHILD. */
 static int finish(child *c)
 {
   int status = 0;
   close(c->from);
   if (!c->ended) kill(c->pid, SIGKILL);
-  while (waitpid(c->pid, &status, 0) < 0) continue;
+  while (waitpid(c->pid, &status, 0) < 0)
+    if (errno != EINTR) return -1;
   return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 

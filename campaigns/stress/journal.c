@@ -6,16 +6,43 @@
 #include <string.h>
 #include <unistd.h>
 
-enum { LINE = 128 + 96 * STRESS_N_CHECKS };
+enum { VERSION = 2, LINE = 128 + 96 * STRESS_N_CHECKS };
+
+/* What the columns and codes of a line mean: lists as in stress.h and status.h. */
+#define NAME_OF_CHECK(code, name, meaning)  " " name
+#define NAME_OF_REASON(code, name, meaning) " " #code
+#define NAME_OF_OUTCOME(code, name)         " " name
+#define NAME_OF_STATUS(code, text)          " " #code
+static const char *const lists[] = {
+    "# checks:" STRESS_CHECKS(NAME_OF_CHECK) "\n",
+    "# outcomes:" STRESS_OUTCOMES(NAME_OF_OUTCOME) "\n",
+    "# reasons:" STRESS_REASONS(NAME_OF_REASON) "\n",
+    "# statuses:" HC_STATUS_LIST(NAME_OF_STATUS) "\n",
+};
+enum { N_LISTS = sizeof lists / sizeof *lists };
 
 struct stress_journal {
   FILE *file;
 };
 
-static void heading(const stress_plan *plan, char text[LINE])
+static void write_heading(const stress_plan *plan, FILE *file)
 {
-  snprintf(text, LINE, "# hbmcheck stress 1, seed %lu, %.17g s, %d checks\n", plan->seed, plan->seconds,
-           STRESS_N_CHECKS);
+  fprintf(file, "# hbmcheck stress %d, seed %lu, %.17g s\n", VERSION, plan->seed, plan->seconds);
+  for (int i = 0; i < N_LISTS; ++i) fputs(lists[i], file);
+}
+
+/* Is it of this version, of this plan, with these lists? */
+static hc_status read_heading(const stress_plan *plan, FILE *file)
+{
+  char line[LINE], expected[LINE];
+  int version = 0;
+  if (!fgets(line, sizeof line, file)) return ferror(file) ? HC_IO : HC_BAD_INPUT;
+  snprintf(expected, sizeof expected, "# hbmcheck stress %d, seed %lu, %.17g s\n", VERSION, plan->seed, plan->seconds);
+  if (strcmp(line, expected) != 0)
+    return sscanf(line, "# hbmcheck stress %d,", &version) == 1 && version != VERSION ? HC_UNSUPPORTED : HC_BAD_INPUT;
+  for (int i = 0; i < N_LISTS; ++i)
+    if (!fgets(line, sizeof line, file) || strcmp(line, lists[i]) != 0) return ferror(file) ? HC_IO : HC_UNSUPPORTED;
+  return HC_OK;
 }
 
 /* The next number of the line; false: there is none. */
@@ -56,18 +83,24 @@ static bool parse(const char *line, stress_result *r)
   return r->there;
 }
 
-/* Read what is there; *end is where the last whole line ends. */
+/* Read what is there; *end is where the last whole line ends, 0: nothing is there. A line that has its newline and does
+ * not parse is none of ours. */
 static hc_status read_all(const stress_plan *plan, FILE *file, stress_result *results, long *there, long *end)
 {
-  char line[LINE], expected[LINE];
+  char line[LINE];
+  int first = getc(file);
   *end = 0;
-  if (!fgets(line, sizeof line, file)) return ferror(file) ? HC_IO : HC_OK;
-  heading(plan, expected);
-  if (strcmp(line, expected) != 0) return HC_BAD_INPUT;
+  if (first == EOF) return ferror(file) ? HC_IO : HC_OK;
+  ungetc(first, file);
+  hc_status st = read_heading(plan, file);
+  if (st != HC_OK) return st;
   *end = ftell(file);
   while (fgets(line, sizeof line, file)) {
     stress_result r;
-    if (!parse(line, &r)) break;
+    if (!parse(line, &r)) {
+      if (strchr(line, '\n')) return HC_BAD_INPUT;
+      break;
+    }
     *end = ftell(file);
     if (r.index < plan->first || r.index >= plan->first + plan->scenes) continue; /* of a longer run */
     stress_result *to = &results[r.index - plan->first];
@@ -77,21 +110,25 @@ static hc_status read_all(const stress_plan *plan, FILE *file, stress_result *re
   return ferror(file) ? HC_IO : HC_OK;
 }
 
+/* Ready to be written to: what is there taken over, half a line cut off, a heading at its beginning. */
+static hc_status start(const stress_plan *plan, FILE *file, stress_result *results, long *there)
+{
+  long end;
+  hc_status st = read_all(plan, file, results, there, &end);
+  if (st != HC_OK) return st;
+  if (fseek(file, end, SEEK_SET) != 0 || ftruncate(fileno(file), end) != 0) return HC_IO;
+  if (end == 0) write_heading(plan, file);
+  return fflush(file) == 0 && !ferror(file) ? HC_OK : HC_IO;
+}
+
 hc_status stress_journal_open(const stress_plan *plan, stress_result *results, long *there, stress_journal **out)
 {
-  long end = 0;
-  char text[LINE];
   *out = NULL;
   if (!plan->journal) return HC_OK;
   stress_journal *j = calloc(1, sizeof *j);
   if (!j) return HC_NO_MEMORY;
-  hc_status st = HC_OK;
   if (!(j->file = fopen(plan->journal, "r+")) && errno == ENOENT) j->file = fopen(plan->journal, "w+");
-  if (!j->file) st = HC_IO;
-  if (st == HC_OK) st = read_all(plan, j->file, results, there, &end);
-  if (st == HC_OK && (fseek(j->file, end, SEEK_SET) != 0 || ftruncate(fileno(j->file), end) != 0)) st = HC_IO;
-  heading(plan, text);
-  if (st == HC_OK && end == 0 && (fputs(text, j->file) == EOF || fflush(j->file) != 0)) st = HC_IO;
+  hc_status st = j->file ? start(plan, j->file, results, there) : HC_IO;
   if (st == HC_OK) {
     *out = j;
     return HC_OK;

@@ -1,8 +1,8 @@
-/* run.c - see stress.h. Threads take the next scene under the crew's lock; the calling thread watches. */
+/* run.c - see stress.h. Threads take the next scene under the workers' lock; the calling thread watches. */
 #include "campaigns/stress/journal.h"
 #include "campaigns/stress/scenes.h"
 #include "campaigns/stress/stress.h"
-#include "numerics/crew.h"
+#include "numerics/workers.h"
 
 enum { WATCH_MS = 50 };
 
@@ -10,33 +10,33 @@ typedef struct pool {
   const stress_plan *plan;
   stress_result *results;
   stress_journal *journal;
-  crew crew; /* its lock is of what follows, and of the journal */
+  workers workers; /* its lock is of what follows, and of the journal */
   long next, done;
 } pool;
 
 static stress_result *take(pool *p)
 {
   stress_result *r = NULL;
-  pthread_mutex_lock(&p->crew.lock);
+  pthread_mutex_lock(&p->workers.lock);
   while (p->next < p->plan->scenes && p->results[p->next].there) ++p->next;
-  if (p->next < p->plan->scenes && !crew_stopped(&p->crew)) r = &p->results[p->next++];
-  pthread_mutex_unlock(&p->crew.lock);
+  if (p->next < p->plan->scenes && !workers_stopped(&p->workers)) r = &p->results[p->next++];
+  pthread_mutex_unlock(&p->workers.lock);
   return r;
 }
 
 static hc_status keep(pool *p, const stress_result *r)
 {
-  pthread_mutex_lock(&p->crew.lock);
+  pthread_mutex_lock(&p->workers.lock);
   hc_status st = stress_journal_add(p->journal, r);
   ++p->done;
-  pthread_mutex_unlock(&p->crew.lock);
+  pthread_mutex_unlock(&p->workers.lock);
   return st;
 }
 
 static void *work(void *self)
 {
   pool *p = self;
-  const hc_monitor monitor = {crew_tick, &p->crew};
+  const hc_monitor monitor = {workers_tick, &p->workers};
   stress_scenes *scenes;
   hc_status st = stress_scenes_new(p->plan->seed, &scenes);
   for (stress_result *r; st == HC_OK && (r = take(p));) {
@@ -46,33 +46,34 @@ static void *work(void *self)
     if (st == HC_OK) st = keep(p, r);
   }
   stress_scenes_free(scenes);
-  if (st != HC_OK) crew_stop(&p->crew, st);
-  crew_leave(&p->crew);
+  if (st != HC_OK) workers_stop(&p->workers, st);
+  workers_leave(&p->workers);
   return NULL;
 }
 
 static void watch_over(pool *p, const stress_watch *watch)
 {
   for (bool running = true; running;) {
-    running = crew_wait(&p->crew, WATCH_MS);
-    pthread_mutex_lock(&p->crew.lock);
+    running = workers_wait(&p->workers, WATCH_MS);
+    pthread_mutex_lock(&p->workers.lock);
     long done = p->done;
-    pthread_mutex_unlock(&p->crew.lock);
-    if (watch->tick && !watch->tick(watch->self, done, p->plan->scenes) && running) crew_stop(&p->crew, HC_INTERRUPTED);
+    pthread_mutex_unlock(&p->workers.lock);
+    if (watch->tick && !watch->tick(watch->self, done, p->plan->scenes) && running)
+      workers_stop(&p->workers, HC_INTERRUPTED);
   }
 }
 
 hc_status stress_run(const stress_plan *plan, const stress_watch *watch, stress_result *results, long *resumed)
 {
   pool p = {.plan = plan, .results = results};
-  crew_init(&p.crew);
   for (long i = 0; i < plan->scenes; ++i) results[i] = (stress_result){.index = plan->first + i};
   hc_status st = stress_journal_open(plan, results, &p.done, &p.journal);
   *resumed = p.done;
+  if (st == HC_OK && (st = workers_init(&p.workers)) != HC_OK) stress_journal_close(p.journal);
   if (st != HC_OK) return st;
-  crew_start(&p.crew, plan->jobs, work, &p);
+  workers_start(&p.workers, plan->jobs, work, &p);
   watch_over(&p, watch);
-  hc_status worst = crew_join(&p.crew);
+  hc_status worst = workers_join(&p.workers);
   st = stress_journal_close(p.journal);
   return worst != HC_OK ? worst : st;
 }

@@ -103,8 +103,8 @@ typedef struct stress_watch {
 } stress_watch;
 
 /* The whole plan by several threads, into results[plan->scenes]. HC_INTERRUPTED keeps what is there; HC_BAD_INPUT:
- * the journal belongs to another plan or is none, HC_IO: it cannot be written (errno says why). *resumed: scenes
- * that the journal had. */
+ * the journal belongs to another plan, is none or is damaged, HC_UNSUPPORTED: it is of another version of this program,
+ * with other checks; HC_IO: it cannot be written (errno says why). *resumed: scenes that the journal had. */
 hc_status stress_run(const stress_plan *plan, const stress_watch *watch, stress_result *results, long *resumed);
 
 /* A scene as small and round as it gets with `kind` still a finding: contacts dropped, digits dropped, fewer

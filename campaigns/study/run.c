@@ -7,14 +7,14 @@
 #include <time.h>
 
 #include "campaigns/study/cluster.h"
-#include "numerics/crew.h"
+#include "numerics/workers.h"
 
 enum { WATCH_MS = 50, SERVE_MS = 1 };
 
 typedef struct pool {
   const study *s;
   study_store *store;
-  crew crew;               /* its lock is of `taken` and the counts */
+  workers workers;         /* its lock is of `taken` and the counts */
   pthread_mutex_t writing; /* of the store */
   bool lost;               /* under `writing`: a scene could not be kept, and no other is tried */
   unsigned char *taken;    /* [n_scenes] there already, or being computed */
@@ -24,10 +24,10 @@ typedef struct pool {
 static long take(pool *p)
 {
   long id = -1;
-  pthread_mutex_lock(&p->crew.lock);
+  pthread_mutex_lock(&p->workers.lock);
   while (p->next < p->s->n_scenes && p->taken[p->next]) ++p->next;
-  if (p->next < p->s->n_scenes && !crew_stopped(&p->crew)) p->taken[id = p->next++] = 1;
-  pthread_mutex_unlock(&p->crew.lock);
+  if (p->next < p->s->n_scenes && !workers_stopped(&p->workers)) p->taken[id = p->next++] = 1;
+  pthread_mutex_unlock(&p->workers.lock);
   return id;
 }
 
@@ -38,27 +38,27 @@ static hc_status keep(pool *p, const study_result *r)
   p->lost = st != HC_OK;
   pthread_mutex_unlock(&p->writing);
   if (st != HC_OK) return st;
-  pthread_mutex_lock(&p->crew.lock);
+  pthread_mutex_lock(&p->workers.lock);
   ++p->there, ++p->now;
-  pthread_mutex_unlock(&p->crew.lock);
+  pthread_mutex_unlock(&p->workers.lock);
   return HC_OK;
 }
 
 static void *work(void *self)
 {
   pool *p = self;
-  hc_monitor monitor = {crew_tick, &p->crew};
+  hc_monitor monitor = {workers_tick, &p->workers};
   for (long id; (id = take(p)) >= 0;) {
     study_result r;
     hc_status st = study_solve(p->s, id, &monitor, &r);
     if (st == HC_OK) st = keep(p, &r);
     study_result_clear(&r);
     if (st != HC_OK) {
-      crew_stop(&p->crew, st);
+      workers_stop(&p->workers, st);
       break;
     }
   }
-  crew_leave(&p->crew);
+  workers_leave(&p->workers);
   return NULL;
 }
 
@@ -77,7 +77,7 @@ static void keep_packed(void *self, const char *packed, size_t size)
   hc_status st = study_result_unpack(packed, size, &r);
   if (st == HC_OK) st = keep(self, &r);
   study_result_clear(&r);
-  if (st != HC_OK) crew_stop(&((pool *)self)->crew, st);
+  if (st != HC_OK) workers_stop(&((pool *)self)->workers, st);
 }
 
 /* ---- the calling thread ---- */
@@ -87,32 +87,45 @@ static void watch_over(pool *p, const study_watch *watch)
   const cluster_desk desk = {take_some, keep_packed, p};
   for (int beat = 0;; ++beat) {
     bool others = cluster_serve(&desk);
-    pthread_mutex_lock(&p->crew.lock);
+    pthread_mutex_lock(&p->workers.lock);
     long there = p->there, now = p->now;
-    bool own = p->crew.running > 0;
-    pthread_mutex_unlock(&p->crew.lock);
+    bool own = p->workers.running > 0;
+    pthread_mutex_unlock(&p->workers.lock);
     if (!own && !others) return;
     if (beat % (others ? WATCH_MS / SERVE_MS : 1) == 0 && watch->tick &&
         !watch->tick(watch->self, there, now, p->s->n_scenes))
-      crew_stop(&p->crew, HC_INTERRUPTED);
-    if (own) crew_wait(&p->crew, others ? SERVE_MS : WATCH_MS);
+      workers_stop(&p->workers, HC_INTERRUPTED);
+    if (own) workers_wait(&p->workers, others ? SERVE_MS : WATCH_MS);
     else nanosleep(&(struct timespec){.tv_nsec = SERVE_MS * 1000000L}, NULL);
   }
 }
 
+/* The locks and room for p->taken; what was made is freed again if it fails. */
+static hc_status pool_open(pool *p)
+{
+  hc_status st = workers_init(&p->workers);
+  if (st != HC_OK) return st;
+  if (pthread_mutex_init(&p->writing, NULL) == 0) {
+    if ((p->taken = malloc((size_t)p->s->n_scenes))) return HC_OK;
+    pthread_mutex_destroy(&p->writing);
+  }
+  workers_join(&p->workers);
+  return HC_NO_MEMORY;
+}
+
 hc_status study_run(const study *s, study_store *store, int jobs, const study_watch *watch, long *now, long *there)
 {
-  pool p = {.s = s, .store = store, .writing = PTHREAD_MUTEX_INITIALIZER};
-  crew_init(&p.crew);
+  pool p = {.s = s, .store = store};
   *now = *there = 0;
-  if (!(p.taken = malloc((size_t)s->n_scenes))) return HC_NO_MEMORY;
-  hc_status st = study_store_done(store, p.taken, &p.there);
-  if (st != HC_OK) crew_stop(&p.crew, st);
+  hc_status st = pool_open(&p);
+  if (st != HC_OK) return st;
+  if ((st = study_store_done(store, p.taken, &p.there)) != HC_OK) workers_stop(&p.workers, st);
   long left = s->n_scenes - p.there;
   if (left < jobs) jobs = left > 0 ? (int)left : 1;
-  crew_start(&p.crew, jobs, work, &p); /* also with nothing left: other processes want to hear it */
+  workers_start(&p.workers, jobs, work, &p); /* also with nothing left: other processes want to hear it */
   watch_over(&p, watch);
-  const hc_status worst = crew_join(&p.crew);
+  const hc_status worst = workers_join(&p.workers);
+  pthread_mutex_destroy(&p.writing);
   *now = p.now;
   *there = p.there;
   free(p.taken);

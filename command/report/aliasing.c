@@ -2,8 +2,6 @@
  * in 1e-9 of the state's `scale`, the largest |force|; a page of hundreds of states stays small. */
 #include "command/report/aliasing.h"
 
-#include <complex.h>
-#include <fftw3.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -12,7 +10,7 @@
 #include "compare/frequencies.h"
 #include "hbm/aft.h"
 #include "hbm/exact_force.h"
-#include "numerics/room.h"
+#include "hbm/fft_plan.h"
 #include "numerics/series.h"
 
 enum {
@@ -46,14 +44,13 @@ static hc_status workshop_open(workshop *w)
 {
   w->force = fftw_malloc(FINE * sizeof *w->force);
   w->spectrum = fftw_malloc((FINE / 2 + 1) * sizeof *w->spectrum);
-  if (!w->force || !w->spectrum || !hc_room_for(64 * (size_t)FINE)) return HC_NO_MEMORY;
-  w->plan = fftw_plan_dft_r2c_1d(FINE, w->force, w->spectrum, FFTW_ESTIMATE);
-  return w->plan ? HC_OK : HC_NO_MEMORY;
+  if (!w->force || !w->spectrum) return HC_NO_MEMORY;
+  return fft_plan_to_spectrum(FINE, w->force, w->spectrum, &w->plan);
 }
 
 static void workshop_close(workshop *w)
 {
-  if (w->plan) fftw_destroy_plan(w->plan);
+  fft_plan_free(w->plan);
   fftw_free(w->force);
   fftw_free(w->spectrum);
 }

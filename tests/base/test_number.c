@@ -1,9 +1,11 @@
 /* test_number.c - strict numbers: what is one, what is not, the same in a locale with a decimal comma, and back to
  * the same bits. */
+#define _DEFAULT_SOURCE /* MAP_ANONYMOUS */
 #include <errno.h>
 #include <float.h>
 #include <limits.h>
 #include <locale.h>
+#include <sys/mman.h>
 
 #include "base/number.h"
 #include "tests/cases/case_text.h"
@@ -141,6 +143,28 @@ static void written_numbers_come_back(void **state)
   }
 }
 
+/* Texts that end where a page ends, the next of which must not be read: a look at text[length] is a SIGSEGV. */
+static void nothing_is_read_beyond_the_end(void **state)
+{
+  (void)state;
+  static const char *const texts[] = {"5", "-", "+12", "1e5", "1.5", "1e", ".", "2147483648", "nan", "-inf", "x"};
+  const size_t page = (size_t)sysconf(_SC_PAGESIZE);
+  char *two = mmap(NULL, 2 * page, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  assert_true(two != MAP_FAILED && mprotect(two + page, page, PROT_NONE) == 0);
+  for (size_t i = 0; i < sizeof texts / sizeof *texts; ++i) {
+    const size_t n = strlen(texts[i]);
+    char *at = memcpy(two + page - n, texts[i], n);
+    double x = 0, y = 0;
+    int k = 0, m = 0;
+    assert_int_equal(number_read(at, n, &x), number_read(texts[i], n, &y));
+    assert_int_equal(number_read_integer(at, n, &k), number_read_integer(texts[i], n, &m));
+    assert_true(x == y && k == m);
+  }
+  double x;
+  assert_int_equal(number_read(two + page, 0, &x), NUMBER_NONE);
+  munmap(two, 2 * page);
+}
+
 static void errno_is_left_alone(void **state)
 {
   (void)state;
@@ -170,9 +194,13 @@ static void locale_does_not_matter(void **state)
 }
 
 static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(numbers_are_read_whole), cmocka_unit_test(what_is_no_number_says_why),
-    cmocka_unit_test(integers_are_digits),    cmocka_unit_test(written_numbers_come_back),
-    cmocka_unit_test(errno_is_left_alone),    cmocka_unit_test(locale_does_not_matter),
+    cmocka_unit_test(numbers_are_read_whole),
+    cmocka_unit_test(what_is_no_number_says_why),
+    cmocka_unit_test(integers_are_digits),
+    cmocka_unit_test(written_numbers_come_back),
+    cmocka_unit_test(errno_is_left_alone),
+    cmocka_unit_test(locale_does_not_matter),
+    cmocka_unit_test(nothing_is_read_beyond_the_end),
 };
 
 CHECK_MAIN("cases.number", tests, 60)

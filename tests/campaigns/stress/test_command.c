@@ -33,9 +33,9 @@ static void two_hundred_scenes_without_a_finding(void **state)
   expect("--scenes 200", 0, "200 scenes of seed 1 from 0 on: 0 findings, 0 scenes never classified");
 }
 
-/* Of a journal all but the times. */
+/* Of a journal's scenes all but the times. */
 #define UNTIMED                                                                                                        \
-  "awk '{o = $1; for (i = 3; i < NF; i += 6) o = o \" \" $i \" \" $(i + 1) \" \" $(i + 2) \" \" $(i + 3) \" \" "       \
+  "awk '!/^#/ {o = $1; for (i = 3; i < NF; i += 6) o = o \" \" $i \" \" $(i + 1) \" \" $(i + 2) \" \" $(i + 3) \" \" " \
   "$(i + 4); print o}'"
 
 /* Killed while it wrote, and gone on with: the same scenes with the same results as in one go. */
@@ -43,10 +43,10 @@ static void what_was_stopped_goes_on(void **state)
 {
   (void)state;
   static char whole[sizeof last.out];
-  expect("--seed 5 --scenes 12 --seconds 60 --jobs 1 --results %s/whole > /dev/null; wc -l < %s/whole", 0, "13");
+  expect("--seed 5 --scenes 12 --seconds 60 --jobs 1 --results %s/whole > /dev/null; grep -vc '#' %s/whole", 0, "12");
   expect(
-      "--seed 5 --scenes 5 --seconds 60 --jobs 1 --results %s/part > /dev/null; head -c -40 %s/part > %s/cut; wc -l < "
-      "%s/cut",
+      "--seed 5 --scenes 5 --seconds 60 --jobs 1 --results %s/part > /dev/null; head -c -40 %s/part > %s/cut; grep -vc "
+      "'#' %s/cut",
       0, "5");
   expect("--seed 5 --scenes 12 --seconds 60 --jobs 2 --results %s/cut > /dev/null; " UNTIMED " %s/cut | sort", 0,
          "11 1 0 0 ");
@@ -54,6 +54,40 @@ static void what_was_stopped_goes_on(void **state)
   expect("--seed 5 --scenes 1 --case > /dev/null; " UNTIMED " %s/whole | sort", 0, "11 1 0 0 ");
   assert_string_equal(last.out, whole);
   expect("--seed 6 --scenes 12 --seconds 60 --results %s/whole 2>&1", 2, "not the results of this seed");
+}
+
+/* A journal of one scene, changed by sed: exit 2 with the reason, and it is left as it was. */
+static void refuse_changed(const char *change, const char *words)
+{
+  char args[512];
+  snprintf(
+      args, sizeof args,
+      "--seed 5 --scenes 1 --case >/dev/null; cd %%s; sed '%s' one >changed; cmp -s one changed && exit 98; cp changed "
+      "kept; " HBMCHECK_COMMAND " stress -q --seed 5 --scenes 2 --seconds 60 --results changed 2>&1; c=$?; "
+      "cmp kept changed || exit 99; exit $c",
+      change);
+  expect(args, 2, words);
+}
+
+static void a_journal_that_does_not_fit_is_refused(void **state)
+{
+  (void)state;
+  expect("--seed 5 --scenes 1 --seconds 60 --results %s/one", 0, "1 scenes of seed 5 from 0 on");
+  static const char *const other[] = {"1s/stress 2/stress 1/",
+                                      "1s/stress 2/stress 3/",
+                                      "2s/ units/ other_units/",
+                                      "2s/ units energy/ energy units/",
+                                      "3s/ agreed explained/ explained agreed/",
+                                      "4s/ STRESS_SMOOTHED//",
+                                      "5s/ HC_IO//",
+                                      "5d"};
+  for (size_t i = 0; i < sizeof other / sizeof *other; ++i)
+    refuse_changed(other[i], "changed: not the results of this version of hbmcheck");
+  refuse_changed("1s/seed 5/seed 6/", "not the results of this seed");
+  refuse_changed("1s/60 s/61 s/", "not the results of this seed");
+  refuse_changed("1s/.*/precious notes/", "not the results of this seed");
+  refuse_changed("6s/ [.]$/ 1 ./", "or damaged");
+  refuse_changed("6s/  [0-9]/  9/", "or damaged"); /* an outcome beyond the list */
 }
 
 static void one_scene_is_printed_as_a_case_file(void **state)
@@ -95,6 +129,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(two_hundred_scenes_without_a_finding),
       cmocka_unit_test(what_was_stopped_goes_on),
+      cmocka_unit_test(a_journal_that_does_not_fit_is_refused),
       cmocka_unit_test(one_scene_is_printed_as_a_case_file),
       cmocka_unit_test(what_cannot_be_is_said),
   };

@@ -207,6 +207,10 @@ static void what_can_go_wrong(void **state)
   expect("printf '#!/bin/sh\\nexit 0\\n' >$D/bin/gnuplot; PATH=$D/bin $H frf " CASE2
          "-q --plot $D/old.svg 2>&1 >/dev/null",
          3, "no drawing");
+  /* SIGCHLD ignored by the parent: the exit code is known all the same */
+  expect("printf '#!/bin/sh\\nexit 6\\n' >$D/bin/gnuplot; env --ignore-signal=CHLD PATH=$D/bin $H frf " CASE2
+         "-q --plot $D/old.svg 2>&1 >/dev/null",
+         3, "gnuplot failed (6)");
   slurp("old.svg");
   assert_string_equal(text, "before\n");
   expect("$H frf " CASE2 "-q --plot $D/no/such.svg 2>&1 >/dev/null", 3, "No such file");

@@ -1,0 +1,84 @@
+/* test_scipy.c - the process of python3 that bench starts, with a shell script in its place ($PYTHON): what it prints is
+ * read, and the call ends also where exit codes cannot be had because SIGCHLD is ignored, as some parents leave it. */
+#include <signal.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "campaigns/bench/scipy.h"
+#include "tests/check.h"
+
+static char program[] = "/tmp/hbmcheck-scipy-XXXXXX";
+
+/* `script` as $PYTHON. */
+static void be_python(const char *script)
+{
+  FILE *to = fopen(program, "w");
+  assert_non_null(to);
+  fprintf(to, "#!/bin/sh\n%s\n", script);
+  assert_int_equal(fclose(to), 0);
+  assert_int_equal(chmod(program, 0700), 0);
+  setenv("PYTHON", program, 1);
+}
+
+/* Asked with a multiplier of 1/2: 30 periods. The script has the seconds that python3 has; a machine that does not start
+ * it in that time gives no runs, which is no failure. */
+static int asked(scipy_run *runs, char text[96])
+{
+  static const scene sc = {.mass = 1, .damping = 0.4, .stiffness = 40, .force = 1};
+  static const place_start at = {.omega = 6};
+  int n = -1;
+  assert_int_equal(scipy_lsoda(&sc, &at, 0.5, 1, NULL, runs, &n, text), HC_OK);
+  return n;
+}
+
+static void what_it_prints_is_read(void **state)
+{
+  (void)state;
+  scipy_run runs[SCIPY_MOST_RUNS];
+  char text[96];
+  be_python("echo '# scipy 0.0 python 0.0'; echo 1e-4 0.5 2 1.75");
+  if (asked(runs, text) == 0) return;
+  assert_true(runs[0].rtol == 1e-4 && runs[0].amplitude == 2 && runs[0].harmonic_1 == 1.75);
+  assert_true(runs[0].n == 1 && runs[0].seconds[0] == 0.5);
+  assert_non_null(strstr(text, "scipy 0.0 python 0.0, 30 periods"));
+}
+
+/* waitpid says ECHILD then; the watchdog ends a test that asks again for ever. */
+static void ignored_children_end_too(void **state)
+{
+  (void)state;
+  scipy_run runs[SCIPY_MOST_RUNS];
+  char text[96];
+  struct sigaction before, ignore = {.sa_handler = SIG_IGN};
+  be_python("echo 1e-4 0.5 2 1.75");
+  assert_int_equal(sigaction(SIGCHLD, &ignore, &before), 0);
+  int n = asked(runs, text);
+  assert_int_equal(sigaction(SIGCHLD, &before, NULL), 0);
+  assert_true(n == 0 || runs[0].amplitude == 2);
+}
+
+static void without_scipy_it_says_so(void **state)
+{
+  (void)state;
+  scipy_run runs[SCIPY_MOST_RUNS];
+  char text[96];
+  be_python("exit 69");
+  assert_int_equal(asked(runs, text), 0);
+  assert_non_null(strstr(text, "not found"));
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(what_it_prints_is_read),
+      cmocka_unit_test(ignored_children_end_too),
+      cmocka_unit_test(without_scipy_it_says_so),
+  };
+  check_watchdog(60);
+  int fd = mkstemp(program);
+  if (fd < 0) return 1;
+  close(fd);
+  int failed = cmocka_run_group_tests_name("bench.scipy", tests, NULL, NULL);
+  unlink(program);
+  return failed;
+}

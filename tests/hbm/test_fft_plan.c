@@ -1,0 +1,104 @@
+/* test_fft_plan.c - every call of FFTW's planner is made under one and the same lock, and the plans do what fft_plan.h
+ * says. The linker wraps the planner and the locks, so that the test sees what is held. */
+#include <pthread.h>
+
+#include "campaigns/scene_solvers.h"
+#include "hbm/aft.h"
+#include "hbm/fft_plan.h"
+#include "tests/check.h"
+
+static const pthread_mutex_t *held, *planner; /* the lock taken last, NULL: given back; the one of the first call */
+static int calls, unguarded;
+
+int __real_pthread_mutex_lock(pthread_mutex_t *lock);
+int __wrap_pthread_mutex_lock(pthread_mutex_t *lock);
+int __wrap_pthread_mutex_lock(pthread_mutex_t *lock)
+{
+  held = lock;
+  return __real_pthread_mutex_lock(lock);
+}
+
+int __real_pthread_mutex_unlock(pthread_mutex_t *lock);
+int __wrap_pthread_mutex_unlock(pthread_mutex_t *lock);
+int __wrap_pthread_mutex_unlock(pthread_mutex_t *lock)
+{
+  held = NULL;
+  return __real_pthread_mutex_unlock(lock);
+}
+
+static void note_call(void)
+{
+  if (!planner) planner = held;
+  unguarded += !held || held != planner;
+  ++calls;
+}
+
+fftw_plan __real_fftw_plan_dft_c2r_1d(int n, fftw_complex *from, double *to, unsigned flags);
+fftw_plan __wrap_fftw_plan_dft_c2r_1d(int n, fftw_complex *from, double *to, unsigned flags);
+fftw_plan __wrap_fftw_plan_dft_c2r_1d(int n, fftw_complex *from, double *to, unsigned flags)
+{
+  note_call();
+  return __real_fftw_plan_dft_c2r_1d(n, from, to, flags);
+}
+
+fftw_plan __real_fftw_plan_dft_r2c_1d(int n, double *from, fftw_complex *to, unsigned flags);
+fftw_plan __wrap_fftw_plan_dft_r2c_1d(int n, double *from, fftw_complex *to, unsigned flags);
+fftw_plan __wrap_fftw_plan_dft_r2c_1d(int n, double *from, fftw_complex *to, unsigned flags)
+{
+  note_call();
+  return __real_fftw_plan_dft_r2c_1d(n, from, to, flags);
+}
+
+void __real_fftw_destroy_plan(fftw_plan plan);
+void __wrap_fftw_destroy_plan(fftw_plan plan);
+void __wrap_fftw_destroy_plan(fftw_plan plan)
+{
+  note_call();
+  __real_fftw_destroy_plan(plan);
+}
+
+/* Three plans made and freed by a handle of aft.h, two by hand. */
+static void one_lock_guards_the_planner(void **state)
+{
+  (void)state;
+  static const scene no_contact = {.n_contacts = 0};
+  fftw_complex spectrum[3];
+  double samples[4];
+  fftw_plan there, back;
+  aft *a;
+  calls = unguarded = 0;
+  assert_int_equal(scene_aft(&no_contact, 1, 4, &a), HC_OK);
+  assert_int_equal(fft_plan_to_samples(4, spectrum, samples, &there), HC_OK);
+  assert_int_equal(fft_plan_to_spectrum(4, samples, spectrum, &back), HC_OK);
+  aft_free(a);
+  fft_plan_free(there);
+  fft_plan_free(back);
+  fft_plan_free(NULL);
+  assert_int_equal(calls, 2 * 5);
+  assert_int_equal(unguarded, 0);
+}
+
+/* 1 + 2 cos th - 6 sin th at four samples: 3, -5, -1, 7; sums of small integers and no others, so exact. */
+static void plans_transform_both_ways(void **state)
+{
+  (void)state;
+  static const double expected[4] = {3, -5, -1, 7};
+  fftw_complex spectrum[3] = {1, 1 + 3 * I, 0};
+  double samples[4];
+  fftw_plan there, back;
+  assert_int_equal(fft_plan_to_samples(4, spectrum, samples, &there), HC_OK);
+  assert_int_equal(fft_plan_to_spectrum(4, samples, spectrum, &back), HC_OK);
+  fftw_execute(there);
+  for (int i = 0; i < 4; ++i) assert_true(samples[i] == expected[i]);
+  fftw_execute(back);
+  assert_true(spectrum[0] == 4 && spectrum[1] == 4 + 12 * I && spectrum[2] == 0);
+  fft_plan_free(there);
+  fft_plan_free(back);
+}
+
+static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(one_lock_guards_the_planner),
+    cmocka_unit_test(plans_transform_both_ways),
+};
+
+CHECK_MAIN("hbm.fft_plan", tests, 60)
