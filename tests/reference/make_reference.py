@@ -12,6 +12,8 @@ import csv
 import os
 import sys
 
+sys.dont_write_bytecode = True      # leave nothing in the source tree
+
 import harmonic_balance
 import transient
 from contact_law import SCENES
