@@ -1,4 +1,4 @@
-/* scene.h - what is simulated and how, as plain data: one scene a case file (INTERFACE.md).
+/* scene.h - what is simulated and how, as plain data: one scene a case file (docs/interface.md, 1).
  *
  *     M x'' + C x' + K x + sum_j [ T_j cos(alpha_j) + (N_j - N0_j) sin(alpha_j) ] = F0 cos(omega t)
  *     u_j = x cos(alpha_j)   tangential motion        v_j = x sin(alpha_j)   normal motion
