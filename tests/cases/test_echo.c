@@ -172,7 +172,7 @@ static void the_papers_scenes_are_all_readable(void **state)
   assert_true(n >= 25);
 }
 
-/* Against shared/reference/README.md: M, K, F0, kt, kn, gap. */
+/* Against tests/reference/README.md: M, K, F0, kt, kn, gap. */
 static void reference_scenes_are_what_they_say(void **state)
 {
   (void)state;
