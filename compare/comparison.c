@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/constants.h"
 #include "compare/frequencies.h"
 #include "numerics/series.h"
 
@@ -43,7 +44,7 @@ static double waveform_distance(int n_harm, const double *X, const timeint_resul
   const double shift = tr->free_sliders > 0 ? X[0] - tr->mean : 0; /* a mean of its own history is no difference */
   double worst = 0;
   for (int i = 0; i < TIMEINT_WAVE; ++i) {
-    double th = 6.283185307179586476925 * i / TIMEINT_WAVE;
+    double th = TWO_PI * i / TIMEINT_WAVE;
     double d = fabs(series_at(n_harm, X, cos(th), sin(th)).x - tr->wave[i] - shift);
     if (!(d >= 0)) return NAN;
     if (d > worst) worst = d;

@@ -4,6 +4,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/ascending.h"
+
 void comparison_sweep(const scene *sc, const scene_list *asked, double *from, double *to)
 {
   double low = fmin(sc->omega_from, sc->omega_to), high = fmax(sc->omega_from, sc->omega_to);
@@ -14,12 +16,6 @@ void comparison_sweep(const scene *sc, const scene_list *asked, double *from, do
   bool up = sc->omega_from <= sc->omega_to;
   *from = up ? low : high;
   *to = up ? high : low;
-}
-
-static int ascending(const void *a, const void *b)
-{
-  double x = *(const double *)a, y = *(const double *)b;
-  return (x > y) - (x < y);
 }
 
 static void sort_unique(scene_list *list)

@@ -13,6 +13,7 @@
 #include <string.h>
 #include <time.h>
 
+#include "base/ascending.h"
 #include "cases/case_file.h"
 #include "hbm/aft.h"
 #include "hbm/exact_force.h"
@@ -206,17 +207,11 @@ static void measure(void)
     }
 }
 
-static int by_value(const void *a, const void *b)
-{
-  double x = *(const double *)a, y = *(const double *)b;
-  return (x > y) - (x < y);
-}
-
 static double quantile(const double *v, double at)
 {
   double sorted[MAX_ROUNDS];
   memcpy(sorted, v, (size_t)rounds * sizeof *v);
-  qsort(sorted, (size_t)rounds, sizeof *sorted, by_value);
+  qsort(sorted, (size_t)rounds, sizeof *sorted, ascending);
   return sorted[(int)lround(at * (rounds - 1))];
 }
 

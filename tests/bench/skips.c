@@ -8,6 +8,7 @@
 #include <string.h>
 #include <time.h>
 
+#include "base/ascending.h"
 #include "hbm/hbm.h"
 
 enum { MAX_REPEATS = 1001, MAX_WAYS = 4, N_GROUPS = 4 };
@@ -60,12 +61,6 @@ static scene with(scene sc, const way *w)
                        .accuracy = 1e-3,
                        .skip_linear = w->skip_linear};
   return sc;
-}
-
-static int ascending(const void *a, const void *b)
-{
-  double x = *(const double *)a, y = *(const double *)b;
-  return (x > y) - (x < y);
 }
 
 typedef struct result {
