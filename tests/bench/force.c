@@ -18,6 +18,7 @@
 #include "hbm/aft.h"
 #include "hbm/exact_force.h"
 #include "hbm/hbm.h"
+#include "tests/random.h"
 
 enum {
   MAX_CONFIGS = 256,
@@ -105,15 +106,12 @@ static void make_motions(const scene *sc, const bench_scene *b, int n_harm, moti
   *out = (motions){n_harm, 2 * n_harm + 1, NULL};
   out->X = calloc((size_t)VARIANTS * out->n_coef, sizeof(double));
   if (!out->X) die(b->name, HC_NO_MEMORY);
-  unsigned random = 1;
+  uint64_t seed = 1;
   for (int v = 0; v < VARIANTS; ++v) {
     double *X = out->X + (size_t)v * out->n_coef;
     if (v < OMEGAS) largest_at(s, &curve, b->omega[v], X);
     else memcpy(X, X - (size_t)OMEGAS * out->n_coef, (size_t)out->n_coef * sizeof *X);
-    for (int k = 0; k < out->n_coef && v >= OMEGAS; ++k) {
-      random = 1664525u * random + 1013904223u;
-      X[k] *= 1 + 1e-5 * (random / 4294967296.0 - 0.5);
-    }
+    for (int k = 0; k < out->n_coef && v >= OMEGAS; ++k) X[k] *= 1 + 0.5e-5 * random_signed(&seed);
   }
   hbm_curve_free(&curve);
   hbm_solver_free(s);

@@ -12,6 +12,7 @@
 
 #include "model/scene.h"
 #include "tests/check.h"
+#include "tests/random.h"
 
 typedef struct reference_scene {
   const char *name;
@@ -114,13 +115,6 @@ static inline int read_reference_peaks(reference_peak *row)
   }
   fclose(f);
   return n;
-}
-
-/* Uniform in [-1, 1): a 64-bit congruential sequence (Knuth's MMIX constants), upper 53 bits. */
-static inline double random_signed(uint64_t *seed)
-{
-  *seed = *seed * 6364136223846793005u + 1442695040888963407u;
-  return (double)(int64_t)(*seed) / 9223372036854775808.0;
 }
 
 /* A random motion X[2H+1] of size about `size`, harmonics decaying like 1/h^decay. */
