@@ -14,7 +14,7 @@
 
 #include <cmocka.h>
 
-#define PI 3.14159265358979323846
+#include "base/constants.h"
 
 /* value <= bound, or fail with both and the context printf-style; NaN fails. */
 #define CHECK_LE(value, bound, ...)                                                                                    \

@@ -176,13 +176,13 @@ static void mutants_are_read_or_refused(void **state)
     scene sc;
     case_error err;
     memcpy(text, good, sizeof good);
-    for (int k = draw_int(&s, 1, 4); k > 0; --k) {
-      char c = draw(&s) % 4 ? spice[draw_int(&s, 0, sizeof spice - 2)] : (char)draw_int(&s, 0, 255);
-      text[draw_int(&s, 0, sizeof good - 2)] = c;
+    for (int k = random_int(&s, 1, 4); k > 0; --k) {
+      char c = random_bits(&s) % 4 ? spice[random_int(&s, 0, sizeof spice - 2)] : (char)random_int(&s, 0, 255);
+      text[random_int(&s, 0, sizeof good - 2)] = c;
     }
-    hc_status st =
-        case_parse("f", text, (size_t)draw_int(&s, 0, 9) ? sizeof good - 1 : (size_t)draw_int(&s, 0, sizeof good - 1),
-                   0, NULL, &sc, &err);
+    hc_status st = case_parse(
+        "f", text, (size_t)random_int(&s, 0, 9) ? sizeof good - 1 : (size_t)random_int(&s, 0, sizeof good - 1), 0, NULL,
+        &sc, &err);
     if (st == HC_OK) ++fine;
     else ++bad, assert_int_equal(st, HC_BAD_INPUT), check_message(&err);
   }

@@ -10,6 +10,7 @@
 
 #include "tests/faults/shell.h"
 #include "tests/faults/small.h"
+#include "tests/random.h"
 
 enum { MOST_ARGUMENTS = 16, TEXT = 1 << 16 };
 
@@ -20,13 +21,6 @@ static double seconds(void)
   struct timespec t;
   clock_gettime(CLOCK_MONOTONIC, &t);
   return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
-static double drawn(void) /* 0..1 */
-{
-  static unsigned long long seed = 88172645463325252ull;
-  seed ^= seed << 13, seed ^= seed >> 7, seed ^= seed << 17;
-  return (double)(seed >> 11) / 9007199254740992.0;
 }
 
 static char *contents(const char *name, char *text)
@@ -93,6 +87,7 @@ static void try_with(const char *line, int moments)
   static char good[TEXT], result[TEXT], err[TEXT];
   static const int numbers[] = {SIGINT, SIGTERM, SIGHUP, SIGKILL};
   int stopped = 0;
+  uint64_t seed = 1;
   unlink("result");
   double began = seconds();
   int status = run(line, 0, 0);
@@ -102,7 +97,7 @@ static void try_with(const char *line, int moments)
   for (int i = 0; i < 4 * moments; ++i) {
     const int number = numbers[i % 4];
     unlink("result");
-    status = run(line, number, 1e-4 + 1.1 * long_as * drawn());
+    status = run(line, number, 1e-4 + 1.1 * long_as * random_unit(&seed));
     stopped += WIFSIGNALED(status) || WEXITSTATUS(status) == 3;
     if (honest(number, status, code, good)) continue;
     const char *there = contents("result", result);
@@ -157,9 +152,10 @@ static void study(void **state)
   expect("$H study many.yaml -q --results whole.sqlite --export csv -o whole.csv 2>&1", 0, "");
   const double long_as = seconds() - began;
   int stopped = 0;
+  uint64_t seed = 2;
   for (int i = 0; i < 4 * times; ++i) {
-    int status =
-        run("study many.yaml --jobs 2 --results killed.sqlite", numbers[i % 4], 0.01 + 0.3 * long_as * drawn());
+    int status = run("study many.yaml --jobs 2 --results killed.sqlite", numbers[i % 4],
+                     0.01 + 0.3 * long_as * random_unit(&seed));
     stopped += WIFSIGNALED(status) || WEXITSTATUS(status) == 3;
     if (!WIFSIGNALED(status) && WEXITSTATUS(status) != 0 && WEXITSTATUS(status) != 3)
       fail_msg("status %x", (unsigned)status);

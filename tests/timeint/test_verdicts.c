@@ -13,7 +13,7 @@ static scene exactly(scene sc)
 }
 
 static scene case2(void) { return exactly(scene_c2()); }
-static scene stiff(void) { return exactly(scene_paper(100, 100, 1e4, -5)); }
+static scene stiff(void) { return exactly(scene_c2kn1e4()); }
 
 /* Up from 4, where only the period-1 orbit is stable, to omega; the orbit followed by shooting, stable or not. */
 static timeint_state followed_to(timeint *ti, double from, double omega, timeint_result *r)
