@@ -6,9 +6,12 @@
 #include <errno.h>
 #include <fftw3.h>
 #include <kinsol/kinsol.h>
+#include <nvector/nvector_serial.h>
 #include <stdatomic.h>
 #include <stddef.h>
 #include <string.h>
+#include <sunlinsol/sunlinsol_dense.h>
+#include <sunmatrix/sunmatrix_dense.h>
 
 static atomic_long asked, refused;
 static long first; /* written while one thread runs */
@@ -65,17 +68,21 @@ char *strdup(const char *text)
 }
 
 /* Calls that crash without memory, by the linker's --wrap (CMakeLists.txt has the list, and numerics/room.h the
- * reason). */
-#define SHELTERED(type, name, parameters, arguments)                                                                   \
+ * reasons): some where one allocation fails, some of SUNDIALS 7 only where all do. */
+#define SHELTERED_IF(crashes, type, name, parameters, arguments)                                                       \
   type __real_##name parameters;                                                                                       \
   type __wrap_##name parameters;                                                                                       \
   type __wrap_##name parameters                                                                                        \
   {                                                                                                                    \
-    ++sheltered;                                                                                                       \
+    const int shelter = (crashes);                                                                                     \
+    sheltered += shelter;                                                                                              \
     type answer = __real_##name arguments;                                                                             \
-    --sheltered;                                                                                                       \
+    sheltered -= shelter;                                                                                              \
     return answer;                                                                                                     \
   }
+#define SHELTERED(type, name, parameters, arguments) SHELTERED_IF(true, type, name, parameters, arguments)
+#define SHELTERED_FROM_ALL(type, name, parameters, arguments)                                                          \
+  SHELTERED_IF(how == MEMORY_ALL_FROM, type, name, parameters, arguments)
 
 SHELTERED(fftw_plan, fftw_plan_dft_c2r_1d, (int n, fftw_complex *from, double *to, unsigned flags),
           (n, from, to, flags))
@@ -91,6 +98,14 @@ SHELTERED(int, CVodeSensInit, (void *cv, int n, int method, CVSensRhsFn f, N_Vec
 SHELTERED(N_Vector *, N_VCloneVectorArray, (int n, N_Vector v), (n, v))
 #if SUNDIALS_VERSION_MAJOR >= 7
 SHELTERED(SUNErrCode, SUNContext_Create, (SUNComm comm, SUNContext *ctx), (comm, ctx))
+SHELTERED_FROM_ALL(N_Vector, N_VNew_Serial, (sunindextype n, SUNContext ctx), (n, ctx))
+SHELTERED_FROM_ALL(SUNMatrix, SUNDenseMatrix, (sunindextype rows, sunindextype columns, SUNContext ctx),
+                   (rows, columns, ctx))
+SHELTERED_FROM_ALL(SUNLinearSolver, SUNLinSol_Dense, (N_Vector y, SUNMatrix a, SUNContext ctx), (y, a, ctx))
+SHELTERED_FROM_ALL(SUNLinearSolver, SUNLinSolNewEmpty, (SUNContext ctx), (ctx))
+SHELTERED_FROM_ALL(void *, KINCreate, (SUNContext ctx), (ctx))
+SHELTERED_FROM_ALL(void *, CVodeCreate, (int method, SUNContext ctx), (method, ctx))
+SHELTERED_FROM_ALL(int, CVodeRootInit, (void *cv, int n, CVRootFn g), (cv, n, g))
 #else
 SHELTERED(int, SUNContext_Create, (void *comm, SUNContext *ctx), (comm, ctx))
 #endif

@@ -10,7 +10,7 @@
 #include "tests/faults/memory.h"
 #include "tests/faults/small.h"
 
-enum { SECONDS = 60, DENSE = 12 /* first n tried one by one */, STRIDES = 6 /* then each n + n/STRIDES */, SHOWN = 8 };
+enum { SECONDS = 600, DENSE = 12 /* first n tried one by one */, STRIDES = 6 /* then each n + n/STRIDES */, SHOWN = 8 };
 
 typedef struct trial {
   const char *line;
