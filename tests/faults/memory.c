@@ -6,16 +6,19 @@
 #include <errno.h>
 #include <fftw3.h>
 #include <kinsol/kinsol.h>
+#include <malloc.h>
 #include <nvector/nvector_serial.h>
 #include <stdatomic.h>
 #include <stddef.h>
+#include <stdint.h>
 #include <string.h>
 #include <sunlinsol/sunlinsol_dense.h>
 #include <sunmatrix/sunmatrix_dense.h>
 
-static atomic_long asked, refused;
-static long first; /* written while one thread runs */
+static atomic_long asked, refused, in_use, peak; /* the last two: bytes since memory_fail */
+static long first;                               /* written while one thread runs; MEMORY_LIMIT: bytes */
 static memory_mode how;
+static atomic_bool limited; /* MEMORY_LIMIT: from the first call on that is sheltered else */
 static _Thread_local int sheltered;
 
 void memory_fail(long n, memory_mode mode)
@@ -24,16 +27,31 @@ void memory_fail(long n, memory_mode mode)
   how = mode;
   atomic_store(&asked, 0);
   atomic_store(&refused, 0);
+  atomic_store(&in_use, 0);
+  atomic_store(&peak, 0);
+  atomic_store(&limited, false);
+}
+
+/* What is in use now is where the limit counts from. */
+static void start_limit(void)
+{
+  if (atomic_exchange(&limited, true)) return;
+  atomic_store(&in_use, 0);
+  atomic_store(&peak, 0);
 }
 
 long memory_asked(void) { return atomic_load(&asked); }
 long memory_refused(void) { return atomic_load(&refused); }
+long memory_peak(void) { return atomic_load(&peak); }
 
-static bool refuse(void)
+/* Of an allocation of so many bytes more. */
+static bool refuse(size_t bytes)
 {
   if (sheltered) return false;
   long n = atomic_fetch_add(&asked, 1) + 1;
-  if (first == 0 || (how == MEMORY_ONE ? n != first : n < first)) return false;
+  if (first == 0 || (how == MEMORY_ONE && n != first) || (how == MEMORY_ALL_FROM && n < first)) return false;
+  if (how == MEMORY_LIMIT && !limited) return false;
+  if (how == MEMORY_LIMIT && bytes < (size_t)PTRDIFF_MAX && atomic_load(&in_use) + (long)bytes <= first) return false;
   atomic_fetch_add(&refused, 1);
   errno = ENOMEM;
   return true;
@@ -48,16 +66,38 @@ void *REAL(malloc)(size_t);
 void *REAL(calloc)(size_t, size_t);
 void *REAL(realloc)(void *, size_t);
 void *REAL(memalign)(size_t, size_t);
+void REAL(free)(void *);
 
-void *malloc(size_t n) { return refuse() ? NULL : REAL(malloc)(n); }
-void *calloc(size_t n, size_t size) { return refuse() ? NULL : REAL(calloc)(n, size); }
-void *realloc(void *p, size_t n) { return refuse() ? NULL : REAL(realloc)(p, n); }
-void *memalign(size_t align, size_t n);
-void *memalign(size_t align, size_t n) { return refuse() ? NULL : REAL(memalign)(align, n); }
-void *aligned_alloc(size_t align, size_t n) { return refuse() ? NULL : REAL(memalign)(align, n); }
-int posix_memalign(void **p, size_t align, size_t n)
+static void count(long bytes)
 {
-  return refuse() || !(*p = REAL(memalign)(align, n)) ? ENOMEM : 0;
+  const long now = atomic_fetch_add(&in_use, bytes) + bytes;
+  if (now > atomic_load(&peak)) atomic_store(&peak, now);
+}
+
+static void *counted(void *p)
+{
+  if (p) count((long)malloc_usable_size(p));
+  return p;
+}
+
+void *malloc(size_t n) { return refuse(n) ? NULL : counted(REAL(malloc)(n)); }
+void *calloc(size_t n, size_t size) { return refuse(n * size) ? NULL : counted(REAL(calloc)(n, size)); }
+void *realloc(void *p, size_t n)
+{
+  const size_t before = p ? malloc_usable_size(p) : 0;
+  if (refuse(n > before ? n - before : 0)) return NULL;
+  void *moved = REAL(realloc)(p, n);
+  if (moved || n == 0) count(-(long)before);
+  return counted(moved);
+}
+void *memalign(size_t align, size_t n);
+void *memalign(size_t align, size_t n) { return refuse(n) ? NULL : counted(REAL(memalign)(align, n)); }
+void *aligned_alloc(size_t align, size_t n) { return memalign(align, n); }
+int posix_memalign(void **p, size_t align, size_t n) { return (*p = memalign(align, n)) ? 0 : ENOMEM; }
+void free(void *p)
+{
+  if (p) count(-(long)malloc_usable_size(p));
+  REAL(free)(p);
 }
 
 char *strdup(const char *text)
@@ -68,16 +108,18 @@ char *strdup(const char *text)
 }
 
 /* Calls that crash without memory, by the linker's --wrap (CMakeLists.txt has the list, and numerics/room.h the
- * reasons): some where one allocation fails, some of SUNDIALS 7 only where all do. */
+ * reasons): some where one allocation fails, some of SUNDIALS 7 only where all do. Under a limit nothing is sheltered:
+ * hc_room_for has asked for more than such a call takes, and the call is not made. */
 #define SHELTERED_IF(crashes, type, name, parameters, arguments)                                                       \
   type __real_##name parameters;                                                                                       \
   type __wrap_##name parameters;                                                                                       \
   type __wrap_##name parameters                                                                                        \
   {                                                                                                                    \
-    const int shelter = (crashes);                                                                                     \
+    const int shelter = (crashes) && how != MEMORY_LIMIT;                                                              \
     sheltered += shelter;                                                                                              \
     type answer = __real_##name arguments;                                                                             \
     sheltered -= shelter;                                                                                              \
+    start_limit();                                                                                                     \
     return answer;                                                                                                     \
   }
 #define SHELTERED(type, name, parameters, arguments) SHELTERED_IF(true, type, name, parameters, arguments)
