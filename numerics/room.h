@@ -7,8 +7,8 @@
  *
  * What that buys: in tests/faults/test_memory.c, with memory getting scarce once a solver is being made, all limits
  * end in words and exit 3; without the question, 7 of its 8 tests see commands end by a signal at some of the 60 limits
- * tried with each (Debian 12: SUNDIALS 6.4.1, FFTW 3.3.10). What another thread takes between question and call, and the
- * kernel's killing of a process that it had promised memory, cannot be helped. */
+ * tried with each (Debian 12: SUNDIALS 6.4.1, FFTW 3.3.10). What another thread takes between question and call, and
+ * the kernel's killing of a process that it had promised memory, cannot be helped. */
 #ifndef HC_ROOM_H
 #define HC_ROOM_H
 

@@ -10,9 +10,9 @@
 
 typedef enum memory_mode { MEMORY_ONE, MEMORY_ALL_FROM, MEMORY_LIMIT } memory_mode;
 
-/* From here on the n-th allocation fails; or all from the n-th on; or, MEMORY_LIMIT, each by which there would be more than
- * n bytes more in use than when the first of these calls came back: somebody else has taken the memory meanwhile. n = 0:
- * none, but they are counted. */
+/* From here on the n-th allocation fails; or all from the n-th on; or, MEMORY_LIMIT, each by which there would be
+ * more than n bytes more in use than when the first sheltered call came back: somebody else has taken the memory
+ * meanwhile. n = 0: none, but they are counted. */
 void memory_fail(long n, memory_mode mode);
 
 long memory_asked(void); /* allocations since memory_fail */

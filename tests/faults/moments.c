@@ -1,5 +1,5 @@
-/* moments.c - see moments.h. The functions are wrapped by the linker (hbmcheck_moments in tests/CMakeLists.txt); pwrite64,
- * by which SQLite writes, is this program's own, and so comes before the C library's. */
+/* moments.c - see moments.h. The functions are wrapped by the linker (hbmcheck_moments in tests/CMakeLists.txt);
+ * pwrite64, by which SQLite writes, is this program's own, and so comes before the C library's. */
 #include "tests/faults/moments.h"
 
 #include <cvodes/cvodes.h>

@@ -56,8 +56,8 @@ static void wrong_places(void **state)
 /* Descriptor 3 writes into a pipe that nobody reads any more. */
 #define UNREAD "rm -f pipe; mkfifo pipe; exec 4<>pipe 3>pipe 4<&-; "
 
-/* With SIGPIPE as it is by default and ignored; where the reader leaves at once there may be nothing to say, but never a
- * signal. */
+/* With SIGPIPE as it is by default and ignored; where the reader leaves at once there may be nothing to say, but
+ * never a signal. */
 static void closed_pipe(void **state)
 {
   (void)state;

@@ -1,7 +1,7 @@
-/* test_signals.c - SIGINT, SIGTERM, SIGHUP and SIGKILL at moments of the work (moments.h) drawn from a fixed sequence: an
- * output file is as it was, whole, or says that it was stopped; the exit code is 3 with a remark, or that of a run that
- * was over before; the catchable ones leave no other file behind; a study that was killed again and again goes on to the
- * same export. */
+/* test_signals.c - SIGINT, SIGTERM, SIGHUP and SIGKILL at moments of the work (moments.h) drawn from a fixed
+ * sequence: an output file is as it was, whole, or says that it was stopped; the exit code is 3 with a remark, or
+ * that of a run that was over before; the catchable ones leave no other file behind; a study that was killed again
+ * and again goes on to the same export. */
 #include <dirent.h>
 #include <signal.h>
 #include <stdbool.h>
