@@ -299,11 +299,11 @@ static void print_machine(void)
 {
   char line[256] = "";
   FILE *f = fopen("/proc/cpuinfo", "r");
-  const char *model = "unknown";
+  const char *chip = "unknown";
   while (f && fgets(line, sizeof line, f))
     if (!strncmp(line, "model name", 10) && strchr(line, ':')) {
       line[strcspn(line, "\n")] = 0;
-      model = strchr(line, ':') + 2;
+      chip = strchr(line, ':') + 2;
       break;
     }
   if (f) fclose(f);
@@ -317,7 +317,7 @@ static void print_machine(void)
 #else
   printf(", NOT OPTIMISED; ");
 #endif
-  printf("CPU %s; %d rounds\n", model, rounds);
+  printf("CPU %s; %d rounds\n", chip, rounds);
 }
 
 int main(int argc, char **argv)
