@@ -84,7 +84,7 @@ static void try_alias_free(budgeter *b, const budget_case *from, chain *c)
   hbm_measures m;
   if (hbm_solve(b->alias_free, from->omega, b->X, &point) != HC_OK || hbm_measure(b->alias_free, b->X, &m) != HC_OK)
     return;
-  periodic_motion found = motion_of_series(&m, b->n_harm, b->X);
+  periodic_motion found = motion_of_solution(&m, b->n_harm, b->X);
   if (c->has_hx) {
     double old = motion_between(&c->h, &c->hx).waveform + motion_between(&c->hx, &c->orbit).waveform;
     if (!(motion_between(&c->h, &found).waveform + motion_between(&found, &c->orbit).waveform < old)) return;
@@ -106,7 +106,7 @@ static hc_status find_alias_free(budgeter *b, const budget_case *from, chain *c)
   double direct = motion_between(&c->h, &c->orbit).waveform;
   if (c->has_hx && motion_between(&c->h, &c->hx).waveform + motion_between(&c->hx, &c->orbit).waveform <= 3 * direct)
     return HC_OK;
-  motion_series(&c->orbit, from->n_harm, b->X);
+  motion_harmonics(&c->orbit, from->n_harm, b->X);
   if (!b->setup.hbm.keep_mean) b->X[0] = 0;
   try_alias_free(b, from, c);
   return HC_OK;
@@ -226,7 +226,7 @@ hc_status budgeter_run(budgeter *b, const budget_case *from, const hc_monitor *m
   chain *c = calloc(1, sizeof *c);
   if (!c) return HC_NO_MEMORY;
   hc_status st = HC_OK;
-  c->h = motion_of_series(from->hbm, from->n_harm, from->X);
+  c->h = motion_of_solution(from->hbm, from->n_harm, from->X);
   if ((c->has_orbit = from->orbit_status == HC_OK)) c->orbit = motion_of_transient(from->orbit);
   if ((c->has_transient = on_orbit(from))) c->transient = motion_of_transient(from->transient);
   if (c->has_orbit || c->has_transient) st = find_alias_free(b, from, c);

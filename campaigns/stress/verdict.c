@@ -11,6 +11,7 @@
 #include <math.h>
 
 #include "campaigns/stress/subject.h"
+#include "compare/motion.h"
 #include "compare/comparison.h"
 
 /* Largest share of the gate; above 1: beyond. */
@@ -24,14 +25,14 @@ static double known(double part) { return part > 0 ? part : 0; }
 
 static bool wrong(const comparison_row *r, const discrepancy *g, double *share)
 {
-  *share = share_of_gate(&r->errors, g, r->transient.free_sliders > 0);
+  *share = share_of_gate(&r->errors, g, motion_mean_is_free(&r->transient));
   bool orbit = r->orbit_status == HC_OK && !r->transient.left_orbit && budget_same_orbit(&r->transient, &r->orbit);
   switch (r->verdict) {
   case VERDICT_MATCH: {
     if (!(*share <= 1)) return true;
     double law = known(r->budget.waveform.regularisation) + known(r->budget.waveform.integration) +
                  known(r->budget.waveform.settling);
-    return orbit && !(r->orbit_error <= 1.01 * g->waveform + 1.01 * law);
+    return orbit && !(r->orbit_errors.waveform <= 1.01 * g->waveform + 1.01 * law);
   }
   case VERDICT_UNSTABLE:
     return r->orbit_status == HC_OK ? timeint_stability(&r->orbit) > 0 : hbm_stability_verdict(&r->stability) > 0;
