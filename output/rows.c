@@ -94,7 +94,6 @@ static const char *stable_text(const response_row *r)
   X(REAL,    "orbit_error",         true, r->orbit_errors.waveform)         \
   X(REAL,    "budget_sum",          r->budget.known, r->budget.amplitude.sum) \
   X(REAL,    "budget_observed",     r->budget.known, r->budget.amplitude.observed) \
-  X(TEXT,    "budget_holds",        r->budget.known, r->budget.holds ? "yes" : "no") \
   X(TEXT,    "largest_part",        largest_part(r) != NULL, largest_part(r))
 
 #define CURVE_COLUMNS(X)                                                    \

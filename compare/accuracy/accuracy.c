@@ -1,4 +1,4 @@
-/* accuracy.c - see budget.h: the table over truncation orders and sampling rates, and the orders it shows.
+/* accuracy.c - see accuracy.h: the table over truncation orders and sampling rates, and the orders it shows.
  *
  *     the curve with exact forces and most harmonics -> orbits to compare with, the peak (reference.h)
  *     each H: the curve with exact forces -> a solution next to each orbit -> each N: the same solution, from there;
