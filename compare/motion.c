@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-_Static_assert(TIMEINT_WAVE == MOTION_SAMPLES, "a transient's wave is taken as it is");
+_Static_assert((int)TIMEINT_WAVE == (int)MOTION_SAMPLES, "a transient's wave is taken as it is");
 
 periodic_motion motion_of_solution(const hbm_measures *m, int n_harm, const double *X)
 {
