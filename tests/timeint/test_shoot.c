@@ -187,6 +187,33 @@ static void few_periods_whatever_the_damping(void **state)
   }
 }
 
+/* The orbit of one period, run through k times: its multiplier is that of one period to the power k, and it is still
+ * reported as an orbit of one period. Both points are within 1e-9 of the orbit: a multiplier, of derivative 10 or less
+ * there as check_orbit allows, is off by 1e-8, its k-th power by k times that. */
+static void k_periods_multiply(void **state)
+{
+  (void)state;
+  const struct {
+    scene sc;
+    double omega;
+  } cases[] = {{scene_b10(), 7}, {scene_c2(), 6}, {scene_gap1(), 25}};
+  for (int i = 0; i < 3; ++i) {
+    timeint *ti = made(cases[i].sc, TRANSIENT_LAW_EXACT, TRANSIENT_STEADY_AUTO, TRANSIENT_START_REST);
+    timeint_state y = timeint_rest(ti);
+    timeint_result once, r;
+    assert_int_equal(timeint_steady(ti, cases[i].omega, &y, NULL, &once), HC_OK);
+    for (int k = 2; k <= 5; ++k) {
+      assert_int_equal(timeint_orbit(ti, cases[i].omega, k, &y, NULL, &r), HC_OK);
+      const double complex power = cpow(CMPLX(once.multiplier_re, once.multiplier_im), k);
+      CHECK_NEAR(r.multiplier, pow(once.multiplier, k), 1e-8 * k, "case %d, k = %d", i, k);
+      CHECK_NEAR(r.multiplier_re, creal(power), 1e-8 * k, "case %d, k = %d", i, k);
+      CHECK_NEAR(fabs(r.multiplier_im), fabs(cimag(power)), 1e-8 * k, "case %d, k = %d", i, k);
+      assert_int_equal(r.period_multiple, 1);
+    }
+    timeint_free(ti);
+  }
+}
+
 /* Stuck all period: the slider may rest anywhere in an interval. It is left where it is, the mean follows it, and
  * nothing else does. x = (steady) + kt c w/(K + kt c^2 + kn s^2) with w held. */
 static void a_free_slider_is_left_alone(void **state)
@@ -240,6 +267,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(finds_what_marching_finds),
       cmocka_unit_test(few_periods_whatever_the_damping),
+      cmocka_unit_test(k_periods_multiply),
       cmocka_unit_test(a_free_slider_is_left_alone),
       cmocka_unit_test(unstable_orbits_are_found_and_named),
   };
