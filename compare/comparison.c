@@ -39,22 +39,21 @@ hc_status comparison_orbit_start(hbm_solver *hbm, const double *X, double omega,
   return hbm_sliders(hbm, X, out->w);
 }
 
-double comparison_waveform_error(const hbm_measures *hbm, int n_harm, const double *X, const timeint_result *tr)
-{
-  const periodic_motion a = motion_of_series(hbm, n_harm, X), b = motion_of_transient(tr);
-  return motion_discrepancy(&a, &b).waveform;
-}
-
 static discrepancy errors_between(const hbm_measures *hbm, int n_harm, const double *X, const timeint_result *tr)
 {
-  const periodic_motion a = motion_of_series(hbm, n_harm, X), b = motion_of_transient(tr);
+  const periodic_motion a = motion_of_solution(hbm, n_harm, X), b = motion_of_transient(tr);
   return motion_discrepancy(&a, &b);
+}
+
+double comparison_waveform_error(const hbm_measures *hbm, int n_harm, const double *X, const timeint_result *tr)
+{
+  return errors_between(hbm, n_harm, X, tr).waveform;
 }
 
 /* Where a slider is free the mean is a matter of history, and not held against HBM. */
 static bool within_limits(const compare_setup *setup, const discrepancy *e, const timeint_result *tr)
 {
-  return gate_limits_hold(setup->limits, tr->omega, e, tr->free_sliders > 0);
+  return gate_limits_hold(setup->limits, tr->omega, e, motion_mean_is_free(tr));
 }
 
 /* Is the transient within the limits of any HBM solution at this omega? */
@@ -164,9 +163,8 @@ static void referee(runner *r, comparison_row *row, const double *X)
   if (same) row->orbit = *tr, row->orbit_status = HC_OK;
   else if ((row->orbit_status = comparison_orbit_start(r->hbm, X, row->omega, &state)) == HC_OK)
     row->orbit_status = timeint_orbit(r->exact, row->omega, 1, &state, r->monitor, &row->orbit);
-  row->orbit_error = NAN;
-  if (row->orbit_status != HC_OK) return;
-  row->orbit_error = comparison_waveform_error(&row->hbm, hbm_n_harmonics(r->hbm), X, &row->orbit);
+  if (row->orbit_status == HC_OK)
+    row->orbit_errors = errors_between(&row->hbm, hbm_n_harmonics(r->hbm), X, &row->orbit);
 }
 
 /* What the discrepancy is made of. */
@@ -220,7 +218,7 @@ static hc_status compare_at(runner *r, double omega)
                                .transient_status = HC_UNSUPPORTED,
                                .orbit_status = HC_UNSUPPORTED,
                                .errors = {NAN, NAN, NAN, NAN},
-                               .orbit_error = NAN,
+                               .orbit_errors = {NAN, NAN, NAN, NAN},
                                .budget = budget_nothing()};
   comparison_row row = none;
   row.hbm_status = hbm_curve_at(r->hbm, &r->out->curve, omega, &at);

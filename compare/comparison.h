@@ -45,10 +45,10 @@ typedef struct comparison_row {
   timeint_result transient;      /* valid when transient_status is HC_OK, HC_NOT_SETTLED or HC_APERIODIC */
   timeint_state transient_state; /* on the transient's orbit */
   hc_status orbit_status;
-  timeint_result orbit; /* the referee's, valid when orbit_status is HC_OK */
-  double orbit_error;   /* [1] waveform error of the HBM solution against that orbit, NaN without it */
-  error_budget budget;  /* what the discrepancy is made of */
-  discrepancy errors;   /* NaN where there is nothing to compare */
+  timeint_result orbit;     /* the referee's, valid when orbit_status is HC_OK */
+  discrepancy orbit_errors; /* of the HBM solution against that orbit, NaN without it */
+  error_budget budget;      /* what the discrepancy is made of */
+  discrepancy errors;       /* of the HBM solution against the transient, NaN where there is nothing to compare */
 } comparison_row;
 
 typedef struct comparison {

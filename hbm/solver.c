@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "model/periodic_motion.h"
 #include "numerics/series.h"
 
 double hbm_norm(int n, const double *v)
@@ -275,7 +276,7 @@ hc_status hbm_measure(hbm_solver *s, const double *X, hbm_measures *out)
   if (st != HC_OK) return st;
   int n_harm = s->sys.n_harm;
   series_extrema(n_harm, X, &out->max, &out->min);
-  out->amplitude = 0.5 * (out->max - out->min);
+  out->amplitude = motion_amplitude(out->max, out->min);
   out->rms = series_rms(n_harm, X);
   out->mean = X[0];
   out->harmonic_1 = series_harmonic_1(n_harm, X);

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/constants.h"
+#include "model/periodic_motion.h"
 #include "numerics/roots.h"
 
 void measure_begin(measure *me, const scaled_model *m)
@@ -128,7 +129,7 @@ void measure_report(const measure *me, const model *from, double length, timeint
   const double n = (double)TIMEINT_WAVE * me->periods;
   r->max = me->max * length;
   r->min = me->min * length;
-  r->amplitude = 0.5 * (me->max - me->min) * length;
+  r->amplitude = motion_amplitude(me->max, me->min) * length;
   r->mean = me->sum / n * length;
   r->rms = sqrt(me->sum_sq / n) * length;
   r->a1 = 2 * me->sum_cos / n * length;

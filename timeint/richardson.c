@@ -8,6 +8,7 @@
  * q(rho): generously, as it is the error of the first step. */
 #include <math.h>
 
+#include "model/periodic_motion.h"
 #include "timeint/internal.h"
 
 enum { LEVELS = 3 };
@@ -44,7 +45,7 @@ static void combine(timeint_result *r, const timeint_result *half, const timeint
   EXTRAPOLATED(b1);
   for (int i = 0; i < TIMEINT_WAVE; ++i) EXTRAPOLATED(wave[i]);
 #undef EXTRAPOLATED
-  r->amplitude = 0.5 * (r->max - r->min);
+  r->amplitude = motion_amplitude(r->max, r->min);
   r->harmonic_1 = hypot(r->a1, r->b1);
   r->regularisation_error = r->amplitude > 0 ? fabs(r->amplitude - first) / r->amplitude : 0;
 }

@@ -171,8 +171,8 @@ static hc_status measure_scipy(job *j, bench_place *p)
     bench_row row = empty_row(BENCH_SCIPY_LSODA, p->omega);
     row.tolerance = runs[i].rtol;
     row.outcome = BENCH_SOLVED;
-    row.error = fabs(runs[i].amplitude - ref->amplitude) / ref->amplitude;
-    row.error_harmonic_1 = fabs(runs[i].harmonic_1 - ref->harmonic_1) / ref->amplitude;
+    row.error = discrepancy_relative(runs[i].amplitude - ref->amplitude, ref->amplitude);
+    row.error_harmonic_1 = discrepancy_relative(runs[i].harmonic_1 - ref->harmonic_1, ref->amplitude);
     row.repeats = runs[i].n;
     trial_quartiles(runs[i].n, runs[i].seconds, &row.low, &row.seconds, &row.high);
     if (!(row.error <= 0.3)) row.outcome = BENCH_OTHER_ORBIT;

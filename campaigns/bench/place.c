@@ -143,7 +143,7 @@ static bool try_neighbour(finder *f, double omega, const double *X, const timein
   memcpy(start->X, X, (size_t)(2 * CURVE_HARMONICS + 1) * sizeof *X);
   if (hbm_solve(f->hbm, omega, start->X, &point) != HC_OK || hbm_measure(f->hbm, start->X, &m) != HC_OK) return false;
   if (exact_orbit(&f->sc, omega, TRANSIENT_STEADY_SHOOTING, 1e-9, monitor, &start->state, &r) != HC_OK) return false;
-  periodic_motion by_hbm = motion_of_series(&m, CURVE_HARMONICS, start->X), by_time = motion_of_transient(&r);
+  periodic_motion by_hbm = motion_of_solution(&m, CURVE_HARMONICS, start->X), by_time = motion_of_transient(&r);
   return near(&by_hbm, &by_time) && near(&by_time, &start->reference);
 }
 

@@ -90,7 +90,7 @@ static double solve(trial *t, const place_start *at, const hc_monitor *monitor, 
   }
   const double took = thread_seconds() - began;
   t->spent += took;
-  if (a->status == HC_OK) a->motion = t->hbm ? motion_of_series(&m, t->row->harmonics, X) : motion_of_transient(&r);
+  if (a->status == HC_OK) a->motion = t->hbm ? motion_of_solution(&m, t->row->harmonics, X) : motion_of_transient(&r);
   return took / t->batch;
 }
 
@@ -136,8 +136,8 @@ static void take(const answer *a, const place_start *at, double took, bench_row 
   motion_distance gap = motion_between(&a->motion, ref);
   if (!(gap.waveform <= other_orbit * ref->amplitude)) row->outcome = BENCH_OTHER_ORBIT;
   if (row->outcome != BENCH_SOLVED) return;
-  row->error = gap.amplitude / ref->amplitude;
-  row->error_harmonic_1 = gap.harmonic_1 / ref->amplitude;
+  row->error = discrepancy_relative(gap.amplitude, ref->amplitude);
+  row->error_harmonic_1 = discrepancy_relative(gap.harmonic_1, ref->amplitude);
   row->seconds = took;
 }
 

@@ -7,9 +7,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/constants.h"
 #include "campaigns/stress/subject.h"
 #include "compare/comparison.h"
+#include "compare/motion.h"
 
 static const double close_enough = 1e-6;
 
@@ -64,15 +64,10 @@ static double tolerance_of(const stress_orbit *o) { return fmax(close_enough, 3 
 /* HBM from an orbit found by time integration: is it a solution of HBM, too? Its harmonics from its wave. */
 static double confirm(stress_subject *s, const scene *sc, const stress_orbit *o)
 {
-  double guess[STRESS_COEFFICIENTS] = {0};
+  double guess[STRESS_COEFFICIENTS];
   stress_solution h;
-  guess[0] = o->r.mean;
-  for (int k = 1; k <= sc->hbm.harmonics; ++k)
-    for (int i = 0; i < TIMEINT_WAVE; ++i) {
-      double th = TWO_PI * k * i / TIMEINT_WAVE;
-      guess[2 * k - 1] += 2 * o->r.wave[i] * cos(th) / TIMEINT_WAVE;
-      guess[2 * k] += 2 * o->r.wave[i] * sin(th) / TIMEINT_WAVE;
-    }
+  const periodic_motion orbit = motion_of_transient(&o->r);
+  motion_harmonics(&orbit, sc->hbm.harmonics, guess);
   stress_solve(s, sc, s->omega, sc->hbm.harmonics, guess, &h);
   return h.status == HC_OK ? comparison_waveform_error(&h.m, h.n_harm, h.X, &o->r) : NAN;
 }

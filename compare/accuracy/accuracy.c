@@ -1,4 +1,4 @@
-/* accuracy.c - see budget.h: the table over truncation orders and sampling rates, and the orders it shows.
+/* accuracy.c - see accuracy.h: the table over truncation orders and sampling rates, and the orders it shows.
  *
  *     the curve with exact forces and most harmonics -> orbits to compare with, the peak (reference.h)
  *     each H: the curve with exact forces -> a solution next to each orbit -> each N: the same solution, from there;
@@ -91,7 +91,7 @@ static bool take(solutions *s, int i, hbm_solver *hbm, const double *X)
   hbm_measures m;
   if (hbm_measure(hbm, X, &m) != HC_OK) return false;
   memcpy(s->X + (size_t)i * s->n_coef, X, (size_t)s->n_coef * sizeof *X);
-  s->motion[i] = motion_of_series(&m, hbm_n_harmonics(hbm), X);
+  s->motion[i] = motion_of_solution(&m, hbm_n_harmonics(hbm), X);
   return s->there[i] = true;
 }
 
@@ -128,7 +128,7 @@ static hc_status assign(const job *j, traced *t, int first, int last, solutions 
     const double *X = at.X + (size_t)b * at.n_coef;
     s->iterations += at.points[b].iterations;
     taken[b] = hbm_measure(t->hbm, X, &m) != HC_OK; /* not to be had */
-    if (!taken[b]) found[b] = motion_of_series(&m, t->n_harm, X);
+    if (!taken[b]) found[b] = motion_of_solution(&m, t->n_harm, X);
   }
   while (st == HC_OK && nearest_pair(j, s, first, last, &at, found, taken, &i, &k)) {
     taken[k] = true;
@@ -195,10 +195,9 @@ static hc_status put_errors(const job *j, const solutions *s, const solutions *p
   for (int i = 0; i < s->n; ++i) {
     const double a = j->ref.targets[i].orbit.amplitude, got = s->motion[i].amplitude;
     if (!s->there[i]) continue;
-    e[row->solutions++] = got == a ? 0 : fabs(got - a) / a;
+    e[row->solutions++] = discrepancy_relative(got - a, a);
     row->worst = fmax(row->worst, e[row->solutions - 1]);
-    row->aliasing =
-        fmax(row->aliasing, got == plain->motion[i].amplitude ? 0 : fabs(got - plain->motion[i].amplitude) / a);
+    row->aliasing = fmax(row->aliasing, discrepancy_relative(got - plain->motion[i].amplitude, a));
   }
   if (row->solutions == 0) row->worst = row->aliasing = NAN;
   row->missing = s->n - row->solutions;
@@ -214,7 +213,7 @@ static hc_status put_curve(const job *j, traced *t, accuracy_row *row)
   row->status = t->status;
   row->peak_amplitude = curve.peak_amplitude;
   row->peak_omega = curve.peak_omega;
-  row->peak_error = fabs(curve.peak_amplitude - j->ref.peak_amplitude) / j->ref.peak_amplitude;
+  row->peak_error = discrepancy_relative(curve.peak_amplitude - j->ref.peak_amplitude, j->ref.peak_amplitude);
   row->peak_omega_error = fabs(curve.peak_omega - j->ref.peak_omega) / j->ref.peak_omega;
   row->turning_points = t->curve.turning_points;
   row->rejected = t->curve.rejected;

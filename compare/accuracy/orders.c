@@ -1,4 +1,4 @@
-/* orders.c - see budget.h: observed orders of convergence. */
+/* orders.c - see accuracy.h: observed orders of convergence. */
 #include <math.h>
 #include <stdlib.h>
 

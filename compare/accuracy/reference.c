@@ -38,7 +38,7 @@ static bool is_known(const reference *r, double omega, const periodic_motion *or
 static bool orbit_next_to(const comparison *c, timeint *ti, hbm_solver *hbm, const hbm_measures *m, const double *X,
                           double omega, const hc_monitor *monitor, periodic_motion *out)
 {
-  periodic_motion here = motion_of_series(m, hbm_n_harmonics(hbm), X);
+  periodic_motion here = motion_of_solution(m, hbm_n_harmonics(hbm), X);
   for (int i = 0; i < c->n_rows; ++i) {
     if (c->rows[i].omega != omega || c->rows[i].orbit_status != HC_OK) continue;
     *out = motion_of_transient(&c->rows[i].orbit);

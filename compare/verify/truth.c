@@ -8,6 +8,7 @@
 
 #include "compare/frequencies.h"
 #include "compare/gate_limits.h"
+#include "compare/motion.h"
 #include "compare/verify/solutions.h"
 
 enum { LEAST_HARMONICS = 20, ENOUGH_HARMONICS = 80, MOST_CHECKS = 20 };
@@ -113,7 +114,7 @@ static hc_status judge_point(truth *t, const verify_point *p, verify_row *row)
     row->branch = at.points[k].branch;
     row->nearest = s.q[t->data->quantity];
     row->amplitude = m.amplitude;
-    row->error = p->value == row->nearest ? 0 : fabs(p->value - row->nearest) / m.amplitude;
+    row->error = discrepancy_relative(p->value - row->nearest, m.amplitude);
     row->stable = stable_at(t, p->omega, at.X + (size_t)k * at.n_coef, &st);
     row->stable_too = row->stable > 0;
     for (int j = 0; j < at.n && row->stable < 0 && !row->stable_too; ++j)
@@ -147,7 +148,7 @@ static hc_status check_row(truth *t, const verify_row *row)
     if (found == HC_INTERRUPTED || found == HC_NO_MEMORY) st = found;
   }
   hbm_curve_free(&at);
-  if (found != HC_OK || (t->data->quantity == VERIFY_PEAK && orbit.free_sliders > 0)) {
+  if (found != HC_OK || (t->data->quantity == VERIFY_PEAK && motion_mean_is_free(&orbit))) {
     ++t->out->unchecked;
     return st;
   }

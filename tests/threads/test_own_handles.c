@@ -138,7 +138,7 @@ static void compare(record *r)
   put_curve(r, &c.curve);
   for (int i = 0; i < c.n_rows; ++i) {
     const comparison_row *row = &c.rows[i];
-    put_all(r, 4, (double[]){row->verdict, row->hbm.amplitude, row->orbit_error, row->stability.multiplier});
+    put_all(r, 4, (double[]){row->verdict, row->hbm.amplitude, row->orbit_errors.waveform, row->stability.multiplier});
     put_all(r, 4, (double[]){row->errors.amplitude, row->errors.harmonic_1, row->errors.mean, row->errors.waveform});
     put_transient(r, &row->transient);
   }
