@@ -78,6 +78,9 @@ static void curves(void **state)
   assert_int_equal(hbmcheck_solutions_coefficients(points, 0, 3, X, &n), HBMCHECK_OK);
   assert_int_equal(n, 7);
   assert_true(X[3] == 77);
+  X[7] = 78; /* room for eight */
+  assert_int_equal(hbmcheck_solutions_coefficients(points, 0, 8, X, &n), HBMCHECK_OK);
+  assert_true(X[3] != 77 && X[7] == 78);
   assert_int_equal(hbmcheck_solutions_coefficients(points, 0, 0, NULL, &n), HBMCHECK_OK);
   hbmcheck_curve_free(curve);
   hbmcheck_case_free(c);
