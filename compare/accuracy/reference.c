@@ -111,7 +111,7 @@ static bool climb(const scene *sc, timeint *ti, double omega, const timeint_stat
   const double low = fmin(sc->omega_from, sc->omega_to), high = fmax(sc->omega_from, sc->omega_to);
   const double width = fmin(sc->damping > 0 ? sc->damping / (2 * sc->mass) : omega, 0.1 * omega);
   climber c = {ti, state};
-  double d = 0.02 * width, f[3];
+  double d = 0.02 * width, f[3] = {NAN, NAN, NAN};
   if (minus_amplitude(&c, omega, &f[1]) != HC_OK) return false;
   root_point peak;
   if (enclose_peak(&c, low, high, &omega, &d, f)) /* flat: 2e-5 of the width are 2e-10 of the amplitude */
