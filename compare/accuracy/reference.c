@@ -113,7 +113,7 @@ static bool climb(const compare_setup *setup, timeint *ti, double omega, const t
   const model *m = setup->model;
   const double width = fmin(m->damping > 0 ? m->damping / (2 * m->mass) : omega, 0.1 * omega);
   climber c = {ti, state};
-  double d = 0.02 * width, f[3];
+  double d = 0.02 * width, f[3] = {NAN, NAN, NAN};
   if (minus_amplitude(&c, omega, &f[1]) != HC_OK) return false;
   root_point peak;
   if (enclose_peak(&c, low, high, &omega, &d, f)) /* flat: 2e-5 of the width are 2e-10 of the amplitude */
