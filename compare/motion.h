@@ -4,7 +4,7 @@
 
 #include "compare/discrepancy.h"
 #include "hbm/hbm.h"
-#include "timeint/timeint.h"
+#include "timeint/steady.h"
 
 typedef struct periodic_motion {
   double amplitude, harmonic_1, mean; /* [length] */

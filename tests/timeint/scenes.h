@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "cases/scene.h"
-#include "timeint/timeint.h"
+#include "timeint/steady.h"
 
 static inline scene scene_linear(double mass, double damping, double stiffness, double force)
 {

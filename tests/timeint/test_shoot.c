@@ -17,12 +17,12 @@ static timeint *made(scene sc, int law, int steady, int start)
 
 /* What was found lies within `closure` of the orbit, and a period carries it back to itself: marching one more
  * period from there moves it by at most twice that and the integration's own error. */
-static void check_orbit(timeint *ti, double omega, timeint_state y, const timeint_result *r, double tolerance)
+static void check_orbit(timeint *ti, double omega, scene_state y, const timeint_result *r, double tolerance)
 {
   timeint_result again;
   CHECK_LE(r->closure, tolerance, "closure at %g", omega);
-  timeint_state here = y;
-  assert_int_equal(timeint_orbit(ti, omega, 1, &y, NULL, &again), HC_OK);
+  scene_state here = y;
+  assert_int_equal(timeint_orbit(ti, omega, 1, y.all, NULL, &again), HC_OK);
   CHECK_NEAR(y.x, here.x, 3 * tolerance * r->amplitude, "x stays at %g", omega);
   CHECK_NEAR(again.amplitude, r->amplitude, 3 * tolerance * r->amplitude, "amplitude stays at %g", omega);
 }
@@ -41,9 +41,9 @@ static void finds_what_marching_finds(void **state)
       timeint_result waited, shot;
       timeint *march = made(cases[i].sc, law, TRANSIENT_STEADY_MARCH, TRANSIENT_START_REST);
       timeint *automatic = made(cases[i].sc, law, TRANSIENT_STEADY_AUTO, TRANSIENT_START_REST);
-      timeint_state y = timeint_rest(march), z = y;
-      assert_int_equal(timeint_steady(march, cases[i].omega, &y, NULL, &waited), HC_OK);
-      assert_int_equal(timeint_steady(automatic, cases[i].omega, &z, NULL, &shot), HC_OK);
+      scene_state y = {.x = 0}, z = y;
+      assert_int_equal(timeint_steady(march, cases[i].omega, y.all, NULL, &waited), HC_OK);
+      assert_int_equal(timeint_steady(automatic, cases[i].omega, z.all, NULL, &shot), HC_OK);
       const double tolerance = 2 * cases[i].sc.transient.tolerance;
       CHECK_NEAR(shot.amplitude, waited.amplitude, tolerance * waited.amplitude, "law %d case %d", law, i);
       CHECK_NEAR(shot.a1, waited.a1, tolerance * waited.amplitude, "law %d case %d a1", law, i);
@@ -70,13 +70,13 @@ static void few_periods_whatever_the_damping(void **state)
   for (int i = 0; i < 2; ++i) {
     timeint *ti = made(cases[i].sc, TRANSIENT_LAW_EXACT, TRANSIENT_STEADY_AUTO, TRANSIENT_START_UP);
     timeint_result r;
-    timeint_state y = timeint_rest(ti);
-    assert_int_equal(timeint_sweep(ti, cases[i].from, cases[i].omega, &y, NULL), HC_OK);
-    assert_int_equal(timeint_steady(ti, cases[i].omega, &y, NULL, &r), HC_OK);
+    scene_state y = {.x = 0};
+    assert_int_equal(timeint_sweep(ti, cases[i].from, cases[i].omega, y.all, NULL), HC_OK);
+    assert_int_equal(timeint_steady(ti, cases[i].omega, y.all, NULL, &r), HC_OK);
     timeint_free(ti);
     ti = made(cases[i].sc, TRANSIENT_LAW_EXACT, TRANSIENT_STEADY_AUTO, TRANSIENT_START_HBM);
     y.x *= 1.01;
-    assert_int_equal(timeint_steady(ti, cases[i].omega, &y, NULL, &r), HC_OK);
+    assert_int_equal(timeint_steady(ti, cases[i].omega, y.all, NULL, &r), HC_OK);
     CHECK_LE(r.periods, cases[i].most, "case %d", i);
     CHECK_LE(r.closure, 1e-9, "case %d", i);
     CHECK_LE(r.multiplier, 1, "case %d", i);
@@ -95,8 +95,8 @@ static void a_free_slider_is_left_alone(void **state)
     for (int i = 0; i < 3; ++i) {
       timeint *ti = made(sc, law, TRANSIENT_STEADY_SHOOTING, TRANSIENT_START_REST);
       timeint_result r;
-      timeint_state y = {.x = 0.15 + share * offset[i], .w = {offset[i]}};
-      assert_int_equal(timeint_orbit(ti, 12, 1, &y, NULL, &r), HC_OK);
+      scene_state y = {.x = 0.15 + share * offset[i], .w = {offset[i]}};
+      assert_int_equal(timeint_orbit(ti, 12, 1, y.all, NULL, &r), HC_OK);
       assert_int_equal(r.free_sliders, 1);
       CHECK_NEAR(r.amplitude, 0.216217353374, 1e-9, "law %d", law);
       CHECK_NEAR(r.mean, share * offset[i], 1e-9, "law %d offset %g", law, offset[i]);
@@ -120,15 +120,15 @@ static void unstable_orbits_are_found_and_named(void **state)
   for (int i = 0; i < 2; ++i)
     for (int way = 0; way < 4; ++way) {
       const double off_x = way & 1 ? 1.1 : 0.9, off_v = way & 2 ? 1.1 : 0.9;
-      timeint_state y = {.x = orbits[i].x * off_x, .v = orbits[i].v * off_v, .w = {orbits[i].w}};
-      assert_int_equal(timeint_orbit(ti, 9, 1, &y, NULL, &r), HC_OK);
+      scene_state y = {.x = orbits[i].x * off_x, .v = orbits[i].v * off_v, .w = {orbits[i].w}};
+      assert_int_equal(timeint_orbit(ti, 9, 1, y.all, NULL, &r), HC_OK);
       assert_int_equal(timeint_stability(&r), orbits[i].stable);
       CHECK_LE(r.closure, 1e-9, "orbit %d", i);
       CHECK_NEAR(y.x, orbits[i].x, 5e-3 * fabs(orbits[i].x), "orbit %d, to the digits above", i);
       if (orbits[i].stable < 0) CHECK_NEAR(r.multiplier_im, 0, 0, "a saddle");
     }
-  timeint_state far = {.x = 8, .v = 300};
-  assert_int_equal(timeint_orbit(ti, 9, 1, &far, NULL, &r), HC_NOT_CONVERGED);
+  scene_state far = {.x = 8, .v = 300};
+  assert_int_equal(timeint_orbit(ti, 9, 1, far.all, NULL, &r), HC_NOT_CONVERGED);
   timeint_free(ti);
 }
 

@@ -79,8 +79,11 @@ static void march(const scene *sc)
   done("scene_setup", scene_setup(sc, &setup));
   done("timeint_new", timeint_new(setup.model, &setup.transient, &ti));
   scene_setup_clear(&setup);
-  timeint_state y = timeint_rest(ti);
-  done("timeint_steady", timeint_steady(ti, 5, &y, NULL, &r));
+  double *y = malloc((size_t)timeint_n_states(ti) * sizeof *y);
+  done("malloc", y ? HC_OK : HC_NO_MEMORY);
+  timeint_rest(ti, y);
+  done("timeint_steady", timeint_steady(ti, 5, y, NULL, &r));
+  free(y);
   near("transient at omega = 5", r.amplitude, linear_amplitude(sc, 5), 10 * sc->transient.tolerance * r.amplitude);
   timeint_free(ti);
 }
