@@ -71,8 +71,8 @@ static void solve_transient(trial *t, const place_start *at, const hc_monitor *m
   const bool marches = t->sc.transient.steady == TRANSIENT_STEADY_MARCH;
   limit l = {monitor, thread_seconds() + (marches ? bench_longest : bench_longest_shot), false};
   hc_monitor limited = {tick_limit, &l};
-  timeint_state state = at->state;
-  a->status = timeint_steady(t->ti, at->omega, &state, &limited, r);
+  scene_state state = at->state;
+  a->status = timeint_steady(t->ti, at->omega, state.all, &limited, r);
   a->too_long = a->status == HC_INTERRUPTED && !l.stopped;
 }
 

@@ -53,7 +53,7 @@ void stress_solve(stress_subject *s, const scene *sc, double omega, int n_guess,
     if (guess) memcpy(out->X, guess, (size_t)(2 * n + 1) * sizeof *guess);
     out->status = guess ? hbm_solve(hbm, omega, out->X, &point) : hbm_solve_first(hbm, omega, out->X, &point);
     if (out->status == HC_OK) out->status = hbm_measure(hbm, out->X, &out->m);
-    if (out->status == HC_OK) out->status = comparison_orbit_start(hbm, out->X, omega, &out->start);
+    if (out->status == HC_OK) out->status = comparison_orbit_start(hbm, out->X, omega, out->start.all);
     if (out->status == HC_OK) out->stability_status = hbm_stability_at(hbm, omega, out->X, &out->stability);
   }
   hbm_solver_free(hbm);
@@ -64,7 +64,7 @@ void stress_shoot(stress_subject *s, const scene *sc, double omega, stress_orbit
 {
   timeint *ti = NULL;
   out->status = scene_timeint(sc, &ti);
-  if (out->status == HC_OK) out->status = timeint_orbit(ti, omega, 1, &out->state, &s->monitor, &out->r);
+  if (out->status == HC_OK) out->status = timeint_orbit(ti, omega, 1, out->state.all, &s->monitor, &out->r);
   timeint_free(ti);
   note_fatal(s, out->status);
 }

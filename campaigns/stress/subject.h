@@ -3,9 +3,10 @@
 #ifndef HC_STRESS_SUBJECT_H
 #define HC_STRESS_SUBJECT_H
 
+#include "campaigns/scene_solvers.h"
 #include "campaigns/stress/stress.h"
 #include "hbm/hbm.h"
-#include "timeint/timeint.h"
+#include "timeint/steady.h"
 
 enum { STRESS_MOST_HARMONICS = 100, STRESS_COEFFICIENTS = 2 * HBM_MAX_HARMONICS + 1 };
 
@@ -15,14 +16,14 @@ typedef struct stress_solution {
   int n_harm;
   double X[STRESS_COEFFICIENTS]; /* [2 n_harm + 1] [length] */
   hbm_measures m;
-  timeint_state start; /* on it, at t = 0 */
+  scene_state start; /* on it, at t = 0 */
   hbm_stability stability;
 } stress_solution;
 
 /* One orbit by time integration. */
 typedef struct stress_orbit {
   hc_status status;
-  timeint_state state;
+  scene_state state;
   timeint_result r;
 } stress_orbit;
 
