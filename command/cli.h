@@ -103,7 +103,7 @@ int cli_load_case(const cli_options *o, scene *sc);
 /* "hbmcheck COMMAND: ..." on stderr. */
 void cli_say(const cli_options *o, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/* Say which solver failed where and what to try; returns the exit code of INTERFACE.md. omega <= 0: at no particular
+/* Say which solver failed where and what to try; the exit code (docs/interface.md, 5). omega <= 0: at no particular
  * one. */
 int cli_solver_failed(const cli_options *o, const char *solver, hc_status st, double omega);
 

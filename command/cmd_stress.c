@@ -7,6 +7,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "base/ascending.h"
 #include "campaigns/stress/scenes.h"
 #include "campaigns/stress/stress.h"
 #include "cases/case_file.h"
@@ -63,12 +64,6 @@ typedef struct job {
 
 /* ---- telling ---- */
 
-static int by_size(const void *a, const void *b)
-{
-  double x = *(const double *)a, y = *(const double *)b;
-  return (x > y) - (x < y);
-}
-
 /* Errors of what agreed: their median and largest. */
 static void put_errors(const job *j, int kind, table *t)
 {
@@ -80,7 +75,7 @@ static void put_errors(const job *j, int kind, table *t)
     errors[n++] = c->error;
     if (c->error > largest) largest = c->error, at = j->results[i].index;
   }
-  if (n > 0) qsort(errors, (size_t)n, sizeof *errors, by_size);
+  if (n > 0) qsort(errors, (size_t)n, sizeof *errors, ascending);
   table_put_real(t, n > 0 ? errors[n / 2] : NAN);
   table_put_real(t, n > 0 ? largest : NAN);
   if (n > 0) table_put_integer(t, at);

@@ -17,6 +17,8 @@ struct budgeter {           /* from budgeter_new, to budgeter_free */
   int n_harm;               /* of alias_free */
   hbm_solver *alias_free;   /* exact forces; NULL until needed */
   timeint *finer, *coarser; /* the transient's law, stepped finer and coarser; NULL until needed */
+  double *state;            /* [n_states] where these start */
+  int n_states;             /* in a state of time integration */
   double X[2 * HBM_MAX_HARMONICS + 1];
 };
 
@@ -31,10 +33,15 @@ typedef struct chain {
 
 hc_status budgeter_new(const compare_setup *setup, budgeter **out)
 {
-  *out = calloc(1, sizeof **out);
-  if (!*out) return HC_NO_MEMORY;
-  (*out)->setup = *setup;
-  return HC_OK;
+  budgeter *b = calloc(1, sizeof *b);
+  *out = NULL;
+  if (!b) return HC_NO_MEMORY;
+  b->setup = *setup;
+  b->n_states = TIMEINT_W + setup->model->n_contacts;
+  b->state = calloc((size_t)b->n_states, sizeof *b->state);
+  if (b->state) *out = b;
+  else budgeter_free(b);
+  return *out ? HC_OK : HC_NO_MEMORY;
 }
 
 void budgeter_free(budgeter *b)
@@ -43,6 +50,7 @@ void budgeter_free(budgeter *b)
   hbm_solver_free(b->alias_free);
   timeint_free(b->finer);
   timeint_free(b->coarser);
+  free(b->state);
   free(b);
 }
 
@@ -121,7 +129,7 @@ static hc_status integrate_again(budgeter *b, timeint **ti, double tolerance, co
 {
   compare_setup setup = b->setup;
   timeint_result r;
-  timeint_state state = from->state;
+  memcpy(b->state, from->state, (size_t)b->n_states * sizeof *b->state);
   patience p = {.outer = monitor, .left = PATIENCE_PERIODS};
   hc_monitor bounded = {patience_tick, &p};
   *found = false;
@@ -129,7 +137,7 @@ static hc_status integrate_again(budgeter *b, timeint **ti, double tolerance, co
   setup.transient.steady = TRANSIENT_STEADY_SHOOTING; /* with transient.richardson, timeint_steady extrapolates as it
                                                       did for T */
   hc_status st = *ti ? HC_OK : timeint_new(setup.model, &setup.transient, ti);
-  if (st == HC_OK) st = timeint_steady(*ti, from->omega, &state, &bounded, &r);
+  if (st == HC_OK) st = timeint_steady(*ti, from->omega, b->state, &bounded, &r);
   if (st == HC_NO_MEMORY) return st;
   if (p.stopped) return HC_INTERRUPTED;
   if (st == HC_OK && budget_same_orbit(&r, from->transient)) *out = motion_of_transient(&r), *found = true;

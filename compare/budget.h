@@ -15,7 +15,7 @@
 
 #include "compare/compare_settings.h"
 #include "hbm/hbm.h"
-#include "timeint/timeint.h"
+#include "timeint/steady.h"
 
 #define BUDGET_PARTS(X) X(aliasing) X(truncation) X(regularisation) X(integration) X(settling)
 enum { BUDGET_N_PARTS = 5 };
@@ -46,7 +46,7 @@ typedef struct budget_case {
   const hbm_measures *hbm; /* of X */
   hc_status transient_status, orbit_status;
   const timeint_result *transient, *orbit; /* valid where the status is HC_OK */
-  timeint_state state;                     /* on the transient's orbit */
+  const double *state;                     /* [timeint_n_states] on the transient's orbit */
 } budget_case;
 
 /* Workspace for the solutions between h and T; one a thread. What it needs is made when it is needed. */

@@ -7,10 +7,12 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/constants.h"
 #include "compare/frequencies.h"
 #include "compare/gate_limits.h"
 #include "compare/motion.h"
 #include "numerics/series.h"
+#include "timeint/sweep.h"
 
 static const struct {
   const char *name, *meaning;
@@ -31,11 +33,14 @@ const char *comparison_verdict_text(const comparison_row *row, char text[24])
   return text;
 }
 
-hc_status comparison_orbit_start(hbm_solver *hbm, const double *X, double omega, timeint_state *out)
+const double *comparison_state(const comparison *c, int i) { return c->states + (size_t)i * (size_t)c->n_states; }
+
+hc_status comparison_orbit_start(hbm_solver *hbm, const double *X, double omega, double *state)
 {
   series_jet j = series_at(hbm_n_harmonics(hbm), X, 1, 0);
-  *out = (timeint_state){.x = j.x, .v = omega * j.d1};
-  return hbm_sliders(hbm, X, out->w);
+  state[TIMEINT_X] = j.x;
+  state[TIMEINT_V] = omega * j.d1;
+  return hbm_sliders(hbm, X, state + TIMEINT_W);
 }
 
 static discrepancy errors_between(const hbm_measures *hbm, int n_harm, const double *X, const timeint_result *tr)
@@ -68,15 +73,24 @@ static bool accounted_for(hbm_solver *hbm, const compare_setup *setup, const hbm
   return false;
 }
 
-static hc_status add_row(comparison *c, const comparison_row *row)
+static hc_status make_room(comparison *c)
 {
-  if (c->n_rows == c->cap) {
-    int cap = c->cap ? 2 * c->cap : 32;
-    comparison_row *rows = realloc(c->rows, (size_t)cap * sizeof *rows);
-    if (!rows) return HC_NO_MEMORY;
-    c->rows = rows;
-    c->cap = cap;
-  }
+  const int cap = c->cap ? 2 * c->cap : 32;
+  comparison_row *rows = realloc(c->rows, (size_t)cap * sizeof *rows);
+  if (!rows) return HC_NO_MEMORY;
+  c->rows = rows;
+  double *states = realloc(c->states, (size_t)cap * (size_t)c->n_states * sizeof *states);
+  if (!states) return HC_NO_MEMORY;
+  c->states = states;
+  c->cap = cap;
+  return HC_OK;
+}
+
+static hc_status add_row(comparison *c, const comparison_row *row, const double *state)
+{
+  hc_status st = c->n_rows == c->cap ? make_room(c) : HC_OK;
+  if (st != HC_OK) return st;
+  memcpy(c->states + (size_t)c->n_rows * (size_t)c->n_states, state, (size_t)c->n_states * sizeof *state);
   c->rows[c->n_rows++] = *row;
   ++c->count[row->verdict];
   return HC_OK;
@@ -91,21 +105,23 @@ typedef struct runner {
   budgeter *budgeter;
   const hc_monitor *monitor;
   comparison *out;
-  timeint_state swept; /* where a sweep start has come to */
+  double *swept;   /* [n_states] where a sweep start has come to */
+  double *state;   /* [n_states] of the row under way, on the transient's orbit */
+  double *scratch; /* [n_states] of what else is integrated for it */
   double swept_omega;
 } runner;
 
-/* The transient's state at the start of a row. HC_OK, or why the sweep up to here failed. */
-static hc_status start_state(runner *r, const comparison_row *row, const double *X, timeint_state *state)
+/* r->state at the start of a row. HC_OK, or why the sweep up to here failed. */
+static hc_status start_state(runner *r, const comparison_row *row, const double *X)
 {
   switch (r->setup->transient.start) {
-  case TRANSIENT_START_HBM: return comparison_orbit_start(r->hbm, X, row->omega, state);
-  case TRANSIENT_START_REST: *state = timeint_rest(r->ti); return HC_OK;
+  case TRANSIENT_START_HBM: return comparison_orbit_start(r->hbm, X, row->omega, r->state);
+  case TRANSIENT_START_REST: timeint_rest(r->ti, r->state); return HC_OK;
   default: break;
   }
-  hc_status st = timeint_sweep(r->ti, r->swept_omega, row->omega, &r->swept, r->monitor);
+  hc_status st = timeint_sweep(r->ti, r->swept_omega, row->omega, r->swept, r->monitor);
   r->swept_omega = row->omega;
-  *state = r->swept;
+  memcpy(r->state, r->swept, (size_t)r->out->n_states * sizeof *r->state);
   return st;
 }
 
@@ -119,10 +135,9 @@ static hc_status runs_next_to(runner *r, const comparison_row *row, const double
   if (r->setup->transient.start == TRANSIENT_START_HBM && row->transient.method != TIMEINT_BY_MARCHING)
     return *next = !row->transient.left_orbit, HC_OK;
   *next = true; /* also where there is no orbit: what differs is HBM */
-  timeint_state state;
   timeint_result restarted;
-  hc_status st = comparison_orbit_start(r->hbm, X, row->omega, &state);
-  if (st == HC_OK) st = timeint_orbit(r->ti, row->omega, 1, &state, r->monitor, &restarted);
+  hc_status st = comparison_orbit_start(r->hbm, X, row->omega, r->scratch);
+  if (st == HC_OK) st = timeint_orbit(r->ti, row->omega, 1, r->scratch, r->monitor, &restarted);
   if (st == HC_NO_MEMORY || st == HC_INTERRUPTED) return st; /* nothing is known */
   if (st != HC_OK) return HC_OK;
   const periodic_motion there = motion_of_transient(&restarted), here = motion_of_transient(&row->transient);
@@ -158,10 +173,9 @@ static void referee(runner *r, comparison_row *row, const double *X)
   const timeint_result *tr = &row->transient;
   bool same = t->law == TRANSIENT_LAW_EXACT && t->start == TRANSIENT_START_HBM && row->transient_status == HC_OK &&
               !tr->left_orbit && tr->period_multiple == 1 && tr->method == TIMEINT_BY_SHOOTING;
-  timeint_state state;
   if (same) row->orbit = *tr, row->orbit_status = HC_OK;
-  else if ((row->orbit_status = comparison_orbit_start(r->hbm, X, row->omega, &state)) == HC_OK)
-    row->orbit_status = timeint_orbit(r->exact, row->omega, 1, &state, r->monitor, &row->orbit);
+  else if ((row->orbit_status = comparison_orbit_start(r->hbm, X, row->omega, r->scratch)) == HC_OK)
+    row->orbit_status = timeint_orbit(r->exact, row->omega, 1, r->scratch, r->monitor, &row->orbit);
   if (row->orbit_status == HC_OK)
     row->orbit_errors = errors_between(&row->hbm, hbm_n_harmonics(r->hbm), X, &row->orbit);
 }
@@ -177,7 +191,7 @@ static hc_status account(runner *r, const hbm_curve *at, int k, comparison_row *
                             .transient = &row->transient,
                             .orbit_status = row->orbit_status,
                             .orbit = &row->orbit,
-                            .state = row->transient_state};
+                            .state = r->state};
   return row->hbm_status == HC_OK ? budgeter_run(r->budgeter, &from, r->monitor, &row->budget) : HC_OK;
 }
 
@@ -185,15 +199,14 @@ static hc_status account(runner *r, const hbm_curve *at, int k, comparison_row *
 static hc_status compare_solution(runner *r, const hbm_curve *at, int k, comparison_row *row)
 {
   const double *X = at->X + (size_t)k * at->n_coef;
-  timeint_state state;
   row->branch = at->points[k].branch;
   row->hbm_status = hbm_measure(r->hbm, X, &row->hbm);
   hc_status known = hbm_stability_at(r->hbm, row->omega, X, &row->stability);
   if (known == HC_NO_MEMORY) return known;
   if (known != HC_OK) row->stability.multiplier = NAN;
-  row->transient_status = start_state(r, row, X, &state);
+  row->transient_status = start_state(r, row, X);
   if (row->transient_status == HC_OK)
-    row->transient_status = timeint_steady(r->ti, row->omega, &state, r->monitor, &row->transient);
+    row->transient_status = timeint_steady(r->ti, row->omega, r->state, r->monitor, &row->transient);
   if (row->transient_status == HC_INTERRUPTED || row->transient_status == HC_NO_MEMORY) return row->transient_status;
   referee(r, row, X);
   if (row->orbit_status == HC_INTERRUPTED || row->orbit_status == HC_NO_MEMORY) return row->orbit_status;
@@ -203,7 +216,6 @@ static hc_status compare_solution(runner *r, const hbm_curve *at, int k, compari
       comparable && row->transient.period_multiple == 1 && accounted_for(r->hbm, r->setup, at, &row->transient);
   hc_status judged = judge(r, row, X, &row->verdict);
   if (judged != HC_OK) return judged;
-  row->transient_state = state;
   return account(r, at, k, row);
 }
 
@@ -224,14 +236,14 @@ static hc_status compare_at(runner *r, double omega)
   if (row.hbm_status == HC_OK && at.n == 0)
     row.hbm_status = r->out->curve.end != HC_OK ? r->out->curve.end : HC_NOT_CONVERGED;
   hc_status st = row.hbm_status == HC_NO_MEMORY         ? row.hbm_status
-                 : at.n == 0 || row.hbm_status != HC_OK ? add_row(r->out, &row)
+                 : at.n == 0 || row.hbm_status != HC_OK ? add_row(r->out, &row, r->state)
                                                         : HC_OK;
   for (int k = 0; k < at.n && st == HC_OK; ++k) {
     row = none;
     st = compare_solution(r, &at, k, &row);
     /* what was stopped inside may look like an answer */
     if (st == HC_OK && !hc_monitor_tick(r->monitor, 1)) st = HC_INTERRUPTED;
-    if (st == HC_OK) st = add_row(r->out, &row);
+    if (st == HC_OK) st = add_row(r->out, &row, r->state);
   }
   hbm_curve_free(&at);
   return st;
@@ -242,7 +254,7 @@ static void begin_sweep(runner *r)
   bool down = r->setup->transient.start == TRANSIENT_START_DOWN;
   double low = fmin(r->setup->omega_from, r->setup->omega_to), high = fmax(r->setup->omega_from, r->setup->omega_to);
   r->swept_omega = down ? high : low;
-  r->swept = timeint_rest(r->ti);
+  timeint_rest(r->ti, r->swept);
 }
 
 /* Part i of n of the whole work, for the monitor of the inner loops. */
@@ -282,12 +294,33 @@ hc_status comparison_referee(const compare_setup *setup, timeint **out)
   return timeint_new(own.model, &own.transient, out);
 }
 
+static hc_status make_states(runner *r)
+{
+  const size_t n = (size_t)(r->out->n_states = timeint_n_states(r->ti));
+  r->swept = calloc(n, sizeof *r->swept);
+  r->state = calloc(n, sizeof *r->state);
+  r->scratch = calloc(n, sizeof *r->scratch);
+  return r->swept && r->state && r->scratch ? HC_OK : HC_NO_MEMORY;
+}
+
+static void runner_clear(runner *r)
+{
+  free(r->scratch);
+  free(r->state);
+  free(r->swept);
+  budgeter_free(r->budgeter);
+  timeint_free(r->exact);
+  timeint_free(r->ti);
+  hbm_solver_free(r->hbm);
+}
+
 hc_status comparison_run(const compare_setup *setup, const hc_monitor *monitor, comparison *out)
 {
   *out = (comparison){0};
   runner r = {.setup = setup, .monitor = monitor, .out = out};
   hc_status st = hbm_solver_new(setup->model, &setup->hbm, &r.hbm);
   if (st == HC_OK) st = timeint_new(setup->model, &setup->transient, &r.ti);
+  if (st == HC_OK) st = make_states(&r);
   if (st == HC_OK) st = comparison_referee(setup, &r.exact);
   if (st == HC_OK) st = budgeter_new(setup, &r.budgeter);
   if (st == HC_OK) {
@@ -300,16 +333,14 @@ hc_status comparison_run(const compare_setup *setup, const hc_monitor *monitor, 
     if (summed != HC_OK) st = summed;
     if (st != HC_INTERRUPTED && st != HC_NO_MEMORY) st = compare_all(&r); /* as far as the curve goes */
   }
-  budgeter_free(r.budgeter);
-  timeint_free(r.exact);
-  timeint_free(r.ti);
-  hbm_solver_free(r.hbm);
+  runner_clear(&r);
   return st;
 }
 
 void comparison_clear(comparison *c)
 {
   hbm_curve_free(&c->curve);
+  free(c->states);
   free(c->rows);
   *c = (comparison){0};
 }

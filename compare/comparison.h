@@ -15,9 +15,9 @@
 #include "compare/discrepancy.h"
 #include "compare/response.h"
 #include "hbm/hbm.h"
-#include "timeint/timeint.h"
+#include "timeint/steady.h"
 
-/* Never a bare number: what a comparison can come to. Names are INTERFACE.md's. */
+/* Never a bare number: what a comparison can come to. Names: docs/interface.md, 4. */
 #define VERDICT_LIST(X)                                                                                                \
   X(VERDICT_MATCH, "match", "every error is within the gate")                                                          \
   X(VERDICT_DIFFERS, "differs", "same orbit, but an error is beyond the gate")                                         \
@@ -39,11 +39,10 @@ typedef struct comparison_row {
   int branch;           /* of the HBM solution; -1: HBM has none here */
   enum verdict verdict; /* `enum`, because C++ wants to know */
   hc_status hbm_status, transient_status;
-  hbm_stability stability;       /* of the HBM solution; multiplier NaN when unknown */
-  bool accounted;                /* the transient is within the gate of this or another HBM solution */
-  hbm_measures hbm;              /* valid when hbm_status is HC_OK */
-  timeint_result transient;      /* valid when transient_status is HC_OK, HC_NOT_SETTLED or HC_APERIODIC */
-  timeint_state transient_state; /* on the transient's orbit */
+  hbm_stability stability;  /* of the HBM solution; multiplier NaN when unknown */
+  bool accounted;           /* the transient is within the gate of this or another HBM solution */
+  hbm_measures hbm;         /* valid when hbm_status is HC_OK */
+  timeint_result transient; /* valid when transient_status is HC_OK, HC_NOT_SETTLED or HC_APERIODIC */
   hc_status orbit_status;
   timeint_result orbit;     /* the referee's, valid when orbit_status is HC_OK */
   discrepancy orbit_errors; /* of the HBM solution against that orbit, NaN without it */
@@ -57,6 +56,8 @@ typedef struct comparison {
   hbm_curve curve; /* the response curve behind the rows; its `end` says how far it came */
   int count[VERDICT_COUNT];
   response_summary summary; /* of that curve */
+  int n_states;             /* in a state of time integration */
+  double *states;           /* [cap][n_states] of each row: where the transient ended */
   int harmonics, samples;   /* in use: for auto, the most the curve needed; samples 0 for exact forces */
 } comparison;
 
@@ -72,7 +73,7 @@ const char *comparison_verdict_text(const comparison_row *row, char text[24]);
 /* Is it known where the transient went, and no HBM solution is there? */
 bool comparison_unaccounted(const comparison_row *row);
 
-/* Exit code of INTERFACE.md: 0 agreed; 1 a transient differs from every HBM solution, or has another period; 3
+/* Exit code (docs/interface.md, 5): 0 agreed; 1 a transient differs from every HBM solution, or has another period; 3
  * something could not be compared. */
 int comparison_exit_code(const comparison *c);
 
@@ -83,7 +84,10 @@ hc_status comparison_referee(const compare_setup *setup, timeint **out);
  * slider is free, set equal. */
 double comparison_waveform_error(const hbm_measures *hbm, int n_harm, const double *X, const timeint_result *tr);
 
-/* x(t), x'(t) and sliders at t = 0 of an HBM solution: where its transient starts. */
-hc_status comparison_orbit_start(hbm_solver *hbm, const double *X, double omega, timeint_state *out);
+/* A state on the transient's orbit of row i; meaningful where transient_status is HC_OK. */
+const double *comparison_state(const comparison *c, int i);
+
+/* state[timeint_n_states]: x(t), x'(t) and sliders at t = 0 of an HBM solution, where its transient starts. */
+hc_status comparison_orbit_start(hbm_solver *hbm, const double *X, double omega, double *state);
 
 #endif

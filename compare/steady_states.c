@@ -4,9 +4,11 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "compare/comparison.h"
 #include "compare/frequencies.h"
+#include "timeint/sweep.h"
 
 const char *steady_verdict_text(const steady_row *r, char text[24])
 {
@@ -29,6 +31,8 @@ typedef struct job {
   hbm_curve curve;
   const hc_monitor *monitor;
   steady_states *out;
+  double *state;   /* [n_states] on its way to the steady state of a row */
+  double *scratch; /* [n_states] of the exact law's orbit next to that */
 } job;
 
 static hc_status add_row(steady_states *s, const steady_row *row)
@@ -52,51 +56,55 @@ static hc_status add_failure(job *j, steady_stage stage, hc_status st, double om
   return st == HC_INTERRUPTED ? st : added;
 }
 
-/* The error of a regularised steady state at *state: by the exact law's orbit next to it, or by what Richardson's
+/* The error of a regularised steady state, j->state on it: by the exact law's orbit next to it, or by what Richardson's
  * extrapolation left. *st becomes HC_NO_MEMORY or HC_INTERRUPTED if that is why there is none. */
-static double regularisation_error(job *j, const timeint_state *state, const timeint_result *r, hc_status *st)
+static double regularisation_error(job *j, const timeint_result *r, hc_status *st)
 {
-  timeint_state start = *state;
   timeint_result orbit;
   if (!j->exact || r->method == TIMEINT_BY_CLOSED_FORM) return 0;
   if (j->setup->transient.richardson) return r->regularisation_error;
-  hc_status found = timeint_orbit(j->exact, r->omega, r->period_multiple, &start, j->monitor, &orbit);
+  memcpy(j->scratch, j->state, (size_t)timeint_n_states(j->ti) * sizeof *j->scratch);
+  hc_status found = timeint_orbit(j->exact, r->omega, r->period_multiple, j->scratch, j->monitor, &orbit);
   if (found == HC_NO_MEMORY || found == HC_INTERRUPTED) *st = found;
   if (found != HC_OK) return NAN;
   return budget_regularisation(r, &orbit);
 }
 
-/* To the steady state at omega from *state; not HC_OK only when there is no going on. */
-static hc_status settle(job *j, double omega, timeint_state *state, const char *start, hc_status without_hbm)
+/* j->state to the steady state at omega; not HC_OK only when there is no going on. */
+static hc_status settle(job *j, double omega, const char *start, hc_status without_hbm)
 {
   steady_row row = {.result = {.omega = omega}, .without_hbm = without_hbm, .from_regularisation = NAN};
   snprintf(row.start, sizeof row.start, "%s", start);
-  row.status = timeint_steady(j->ti, omega, state, j->monitor, &row.result);
-  if (row.status == HC_OK) row.from_regularisation = regularisation_error(j, state, &row.result, &row.status);
+  row.status = timeint_steady(j->ti, omega, j->state, j->monitor, &row.result);
+  if (row.status == HC_OK) row.from_regularisation = regularisation_error(j, &row.result, &row.status);
   if (row.status == HC_NO_MEMORY) return HC_NO_MEMORY;
   hc_status st = add_row(j->out, &row);
   return row.status == HC_INTERRUPTED ? HC_INTERRUPTED : st;
+}
+
+static hc_status settle_from_rest(job *j, double omega, hc_status without_hbm)
+{
+  timeint_rest(j->ti, j->state);
+  return settle(j, omega, "rest", without_hbm);
 }
 
 static hc_status settle_from_orbit(job *j, double omega, const hbm_curve *at, int k)
 {
   const double *X = at->X + (size_t)k * at->n_coef;
   char start[32];
-  timeint_state state;
-  hc_status st = comparison_orbit_start(j->hbm, X, omega, &state);
+  hc_status st = comparison_orbit_start(j->hbm, X, omega, j->state);
   if (st != HC_OK) return add_failure(j, STEADY_HBM, st, omega);
   snprintf(start, sizeof start, "hbm branch %d", at->points[k].branch);
-  return settle(j, omega, &state, start, HC_OK);
+  return settle(j, omega, start, HC_OK);
 }
 
 static hc_status from_hbm_orbits(job *j, double omega)
 {
   hbm_curve at = {0};
-  timeint_state rest = timeint_rest(j->ti);
   hc_status st = hbm_curve_at(j->hbm, &j->curve, omega, &at), why = st != HC_OK             ? st
                                                                     : j->curve.end != HC_OK ? j->curve.end
                                                                                             : HC_NOT_CONVERGED;
-  if (st != HC_NO_MEMORY) st = st != HC_OK || at.n == 0 ? settle(j, omega, &rest, "rest", why) : HC_OK;
+  if (st != HC_NO_MEMORY) st = st != HC_OK || at.n == 0 ? settle_from_rest(j, omega, why) : HC_OK;
   for (int k = 0; k < at.n && st == HC_OK; ++k) st = settle_from_orbit(j, omega, &at, k);
   hbm_curve_free(&at);
   return st;
@@ -106,13 +114,13 @@ static hc_status from_hbm_orbits(job *j, double omega)
 static hc_status swept(job *j, const number_list *at, bool up)
 {
   double here = up ? fmin(j->setup->omega_from, j->setup->omega_to) : fmax(j->setup->omega_from, j->setup->omega_to);
-  timeint_state state = timeint_rest(j->ti);
+  timeint_rest(j->ti, j->state);
   for (int i = 0; i < at->n; ++i) {
     double omega = at->v[up ? i : at->n - 1 - i];
-    hc_status st = timeint_sweep(j->ti, here, omega, &state, j->monitor);
+    hc_status st = timeint_sweep(j->ti, here, omega, j->state, j->monitor);
     if (st == HC_NO_MEMORY) return st;
     if (st != HC_OK) return add_failure(j, STEADY_SWEEP, st, omega); /* from nowhere there is no going on */
-    if ((st = settle(j, omega, &state, up ? "up" : "down", HC_OK)) != HC_OK) return st;
+    if ((st = settle(j, omega, up ? "up" : "down", HC_OK)) != HC_OK) return st;
     here = omega;
   }
   return HC_OK;
@@ -134,12 +142,13 @@ static hc_status run(job *j, const number_list *asked)
   hc_status st = timeint_new(j->setup->model, &j->setup->transient, &j->ti);
   if (st == HC_OK && j->setup->transient.law != TRANSIENT_LAW_EXACT) st = comparison_referee(j->setup, &j->exact);
   if (st != HC_OK) return st;
+  j->state = calloc((size_t)timeint_n_states(j->ti), sizeof *j->state);
+  j->scratch = calloc((size_t)timeint_n_states(j->ti), sizeof *j->scratch);
+  if (!j->state || !j->scratch) return HC_NO_MEMORY;
   if (start == TRANSIENT_START_UP || start == TRANSIENT_START_DOWN) return swept(j, asked, start == TRANSIENT_START_UP);
   if (start == TRANSIENT_START_HBM) st = trace(j, asked);
-  for (int i = 0; i < asked->n && st == HC_OK; ++i) {
-    timeint_state rest = timeint_rest(j->ti);
-    st = j->hbm ? from_hbm_orbits(j, asked->v[i]) : settle(j, asked->v[i], &rest, "rest", HC_OK);
-  }
+  for (int i = 0; i < asked->n && st == HC_OK; ++i)
+    st = j->hbm ? from_hbm_orbits(j, asked->v[i]) : settle_from_rest(j, asked->v[i], HC_OK);
   return st;
 }
 
@@ -153,6 +162,8 @@ hc_status steady_states_run(const compare_setup *setup, const hc_monitor *monito
   if (st == HC_OK) st = run(&j, &asked);
   hbm_curve_free(&j.curve);
   hbm_solver_free(j.hbm);
+  free(j.scratch);
+  free(j.state);
   timeint_free(j.exact);
   timeint_free(j.ti);
   return st;

@@ -3,9 +3,8 @@
 
 #include <math.h>
 
+#include "base/constants.h"
 #include "numerics/series.h"
-
-static const double two_pi = 6.283185307179586476925;
 
 periodic_motion motion_of_series(int n_harm, const double *X, double max, double min)
 {
@@ -18,7 +17,7 @@ periodic_motion motion_of_series(int n_harm, const double *X, double max, double
                        .b1 = n_harm > 0 ? X[2] : 0,
                        .harmonic_1 = series_harmonic_1(n_harm, X)};
   for (int i = 0; i < MOTION_SAMPLES; ++i) {
-    const double th = two_pi * i / MOTION_SAMPLES;
+    const double th = TWO_PI * i / MOTION_SAMPLES;
     m.samples[i] = series_at(n_harm, X, cos(th), sin(th)).x;
   }
   return m;
@@ -31,7 +30,7 @@ void motion_harmonics(const periodic_motion *m, int n_harm, double *X)
   for (int h = 1; h <= n_harm; ++h)
     for (int i = 0; i < MOTION_SAMPLES; ++i) {
       /* h i is reduced to one period before the cosine: a large angle would lose digits */
-      const double th = two_pi * (double)((long)h * i % MOTION_SAMPLES) / MOTION_SAMPLES;
+      const double th = TWO_PI * (double)((long)h * i % MOTION_SAMPLES) / MOTION_SAMPLES;
       X[2 * h - 1] += 2.0 / MOTION_SAMPLES * m->samples[i] * cos(th);
       X[2 * h] += 2.0 / MOTION_SAMPLES * m->samples[i] * sin(th);
     }

@@ -54,7 +54,7 @@ hc_status root_between(root_function *f, void *self, double a, double fa, double
                        root_point *out)
 {
   bracket k = {a, fa, b, fb, a, fa};
-  *out = (root_point){NAN, NAN, 0};
+  *out = (root_point){NAN, NAN, 0, NAN};
   if (!isfinite(a) || !isfinite(b) || !opposite(fa, fb)) return HC_BAD_INPUT;
   double part = isfinite(fa - fb) ? fa / (fa - fb) : 0.5; /* the secant */
   for (;;) {
@@ -77,7 +77,7 @@ hc_status root_between(root_function *f, void *self, double a, double fa, double
 hc_status root_between_newton(root_function_derivative *f, void *self, double a, double fa, double b, double fb,
                               double tolerance, root_point *out)
 {
-  *out = (root_point){NAN, NAN, 0};
+  *out = (root_point){NAN, NAN, 0, NAN};
   if (!isfinite(a) || !isfinite(b) || !opposite(fa, fb)) return HC_BAD_INPUT;
   double part = fa / (fa - fb), x = a + (part > 0 && part < 1 ? part : 0.5) * (b - a);
   double step = b - a, before = step; /* the last step and the one before it */
@@ -141,7 +141,7 @@ hc_status root_minimum(root_function *f, void *self, double a, double fa, double
                        double tolerance, root_point *out)
 {
   const double golden = 0.38196601125010515; /* (3 - sqrt 5)/2 */
-  *out = (root_point){NAN, NAN, 0};
+  *out = (root_point){NAN, NAN, 0, NAN};
   if (!(a < m && m < b && fm <= fa && fm <= fb)) return HC_BAD_INPUT;
   valley k = {a, b, m, fm, fa <= fb ? a : b, fmin(fa, fb), fa <= fb ? b : a, fmax(fa, fb)};
   double step = b - a, before = step; /* the last step and the one before it */
@@ -168,7 +168,7 @@ hc_status root_minimum(root_function *f, void *self, double a, double fa, double
 
 hc_status root_change(root_predicate *beyond, void *self, double a, double b, double tolerance, root_point *out)
 {
-  *out = (root_point){b, 1, 0};
+  *out = (root_point){b, 1, 0, a};
   if (!isfinite(a) || !isfinite(b)) return HC_BAD_INPUT;
   while (fabs(b - a) > at_least_rounding(tolerance, b)) {
     double m = 0.5 * (a + b);
@@ -176,9 +176,8 @@ hc_status root_change(root_predicate *beyond, void *self, double a, double b, do
     hc_status st = count(out);
     if (st == HC_OK) st = beyond(self, m, &is_beyond);
     if (st != HC_OK) return st;
-    if (is_beyond) b = m;
-    else a = m;
-    out->x = b;
+    if (is_beyond) out->x = b = m;
+    else out->before = a = m;
   }
   return HC_OK;
 }

@@ -3,9 +3,10 @@
 #define HC_BENCH_TRIAL_H
 
 #include "campaigns/bench/bench.h"
+#include "campaigns/scene_solvers.h"
 #include "compare/motion.h"
 #include "hbm/hbm.h"
-#include "timeint/timeint.h"
+#include "timeint/steady.h"
 
 enum { TRIAL_MOST_COEF = 2 * HBM_MAX_HARMONICS + 1 };
 
@@ -13,7 +14,7 @@ enum { TRIAL_MOST_COEF = 2 * HBM_MAX_HARMONICS + 1 };
 typedef struct place_start {
   double omega, neighbour;   /* [rad/time] */
   double X[TRIAL_MOST_COEF]; /* [length] HBM solution at the neighbour, as many harmonics as there are, then zeros */
-  timeint_state state;       /* on the exact orbit at the neighbour */
+  scene_state state;         /* on the exact orbit at the neighbour */
   periodic_motion reference; /* at omega */
 } place_start;
 
@@ -29,9 +30,6 @@ typedef struct trial {
 } trial;
 
 extern const double trial_slow; /* [s] of a solution: what takes longer is measured by its first run */
-
-/* Processor time of this thread [s]. */
-double trial_clock(void);
 
 /* Ready to run up to cap times, the first run done: errors and outcome are in the row. HC_INTERRUPTED, HC_NO_MEMORY;
  * what goes wrong with the method itself is the row's outcome. Free in any case. */

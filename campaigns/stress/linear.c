@@ -39,9 +39,9 @@ static stress_check hold(stress_subject *s, const scene *linear, double k)
 
   timeint *ti = NULL;
   timeint_result r;
-  timeint_state state = {.x = creal(z), .v = -s->omega * cimag(z)};
+  scene_state state = {.x = creal(z), .v = -s->omega * cimag(z)};
   hc_status st = scene_timeint(&sc, &ti);
-  if (st == HC_OK) st = timeint_steady(ti, s->omega, &state, &s->monitor, &r);
+  if (st == HC_OK) st = timeint_steady(ti, s->omega, state.all, &s->monitor, &r);
   timeint_free(ti);
   /* undamped, nothing settles */
   if (st != HC_OK) return sc.damping == 0 ? stress_agree(error, bound) : stress_refuse(s, st);

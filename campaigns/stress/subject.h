@@ -3,9 +3,10 @@
 #ifndef HC_STRESS_SUBJECT_H
 #define HC_STRESS_SUBJECT_H
 
+#include "campaigns/scene_solvers.h"
 #include "campaigns/stress/stress.h"
 #include "hbm/hbm.h"
-#include "timeint/timeint.h"
+#include "timeint/steady.h"
 
 enum { STRESS_MOST_HARMONICS = 100, STRESS_COEFFICIENTS = 2 * HBM_MAX_HARMONICS + 1 };
 
@@ -15,14 +16,14 @@ typedef struct stress_solution {
   int n_harm;
   double X[STRESS_COEFFICIENTS]; /* [2 n_harm + 1] [length] */
   hbm_measures m;
-  timeint_state start; /* on it, at t = 0 */
+  scene_state start; /* on it, at t = 0 */
   hbm_stability stability;
 } stress_solution;
 
 /* One orbit by time integration. */
 typedef struct stress_orbit {
   hc_status status;
-  timeint_state state;
+  scene_state state;
   timeint_result r;
 } stress_orbit;
 
@@ -44,7 +45,6 @@ void stress_subject_start(stress_subject *s, const scene *sc, double seconds, co
 
 /* The clock of a check starts now. */
 void stress_clock(stress_subject *s);
-double stress_processor_seconds(void); /* of this thread */
 
 /* HBM for sc (any variant of the subject's) at omega from guess[2 n_guess + 1], or from nothing where guess is NULL. */
 void stress_solve(stress_subject *s, const scene *sc, double omega, int n_guess, const double *guess,

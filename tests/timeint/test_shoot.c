@@ -112,7 +112,7 @@ static double nearest_eigenvalue(double phi[3][3], double complex lambda, double
  *   Exact law: 1e-6 by the differences in the slider (1e2 h^2 as in test_integrate_exact.c; those in X and P are
  *   nearer). Regularised law: each step of the variational equations errs by up to 1e-6 (variation_tolerance), and
  *   their errors, of either sign, add up like the root of their number. */
-static void check_orbit(const scene *sc, int law, timeint_state y, const timeint_result *r, double tolerance)
+static void check_orbit(const scene *sc, int law, scene_state y, const timeint_result *r, double tolerance)
 {
   const period_map map = map_of(*sc, law, r->omega, r->amplitude);
   const double z[3] = {y.x / r->amplitude, y.v / (r->omega * r->amplitude), y.w[0] / r->amplitude};
@@ -144,9 +144,9 @@ static void finds_what_marching_finds(void **state)
       timeint_result waited, shot;
       timeint *march = made(cases[i].sc, law, TRANSIENT_STEADY_MARCH, TRANSIENT_START_REST);
       timeint *automatic = made(cases[i].sc, law, TRANSIENT_STEADY_AUTO, TRANSIENT_START_REST);
-      timeint_state y = timeint_rest(march), z = y;
-      assert_int_equal(timeint_steady(march, cases[i].omega, &y, NULL, &waited), HC_OK);
-      assert_int_equal(timeint_steady(automatic, cases[i].omega, &z, NULL, &shot), HC_OK);
+      scene_state y = {.x = 0}, z = y;
+      assert_int_equal(timeint_steady(march, cases[i].omega, y.all, NULL, &waited), HC_OK);
+      assert_int_equal(timeint_steady(automatic, cases[i].omega, z.all, NULL, &shot), HC_OK);
       const double tolerance = 2 * cases[i].sc.transient.tolerance;
       CHECK_NEAR(shot.amplitude, waited.amplitude, tolerance * waited.amplitude, "law %d case %d", law, i);
       CHECK_NEAR(shot.a1, waited.a1, tolerance * waited.amplitude, "law %d case %d a1", law, i);
@@ -173,13 +173,13 @@ static void few_periods_whatever_the_damping(void **state)
   for (int i = 0; i < 2; ++i) {
     timeint *ti = made(cases[i].sc, TRANSIENT_LAW_EXACT, TRANSIENT_STEADY_AUTO, TRANSIENT_START_UP);
     timeint_result r;
-    timeint_state y = timeint_rest(ti);
-    assert_int_equal(timeint_sweep(ti, cases[i].from, cases[i].omega, &y, NULL), HC_OK);
-    assert_int_equal(timeint_steady(ti, cases[i].omega, &y, NULL, &r), HC_OK);
+    scene_state y = {.x = 0};
+    assert_int_equal(timeint_sweep(ti, cases[i].from, cases[i].omega, y.all, NULL), HC_OK);
+    assert_int_equal(timeint_steady(ti, cases[i].omega, y.all, NULL, &r), HC_OK);
     timeint_free(ti);
     ti = made(cases[i].sc, TRANSIENT_LAW_EXACT, TRANSIENT_STEADY_AUTO, TRANSIENT_START_HBM);
     y.x *= 1.01;
-    assert_int_equal(timeint_steady(ti, cases[i].omega, &y, NULL, &r), HC_OK);
+    assert_int_equal(timeint_steady(ti, cases[i].omega, y.all, NULL, &r), HC_OK);
     CHECK_LE(r.periods, cases[i].most, "case %d", i);
     CHECK_LE(r.closure, 1e-9, "case %d", i);
     CHECK_LE(r.multiplier, 1, "case %d", i);
@@ -199,11 +199,11 @@ static void k_periods_multiply(void **state)
   } cases[] = {{scene_b10(), 7}, {scene_c2(), 6}, {scene_gap1(), 25}};
   for (int i = 0; i < 3; ++i) {
     timeint *ti = made(cases[i].sc, TRANSIENT_LAW_EXACT, TRANSIENT_STEADY_AUTO, TRANSIENT_START_REST);
-    timeint_state y = timeint_rest(ti);
+    scene_state y = {.x = 0};
     timeint_result once, r;
-    assert_int_equal(timeint_steady(ti, cases[i].omega, &y, NULL, &once), HC_OK);
+    assert_int_equal(timeint_steady(ti, cases[i].omega, y.all, NULL, &once), HC_OK);
     for (int k = 2; k <= 5; ++k) {
-      assert_int_equal(timeint_orbit(ti, cases[i].omega, k, &y, NULL, &r), HC_OK);
+      assert_int_equal(timeint_orbit(ti, cases[i].omega, k, y.all, NULL, &r), HC_OK);
       const double complex power = cpow(CMPLX(once.multiplier_re, once.multiplier_im), k);
       CHECK_NEAR(r.multiplier, pow(once.multiplier, k), 1e-8 * k, "case %d, k = %d", i, k);
       CHECK_NEAR(r.multiplier_re, creal(power), 1e-8 * k, "case %d, k = %d", i, k);
@@ -225,8 +225,8 @@ static void a_free_slider_is_left_alone(void **state)
     for (int i = 0; i < 3; ++i) {
       timeint *ti = made(sc, law, TRANSIENT_STEADY_SHOOTING, TRANSIENT_START_REST);
       timeint_result r;
-      timeint_state y = {.x = 0.15 + share * offset[i], .w = {offset[i]}};
-      assert_int_equal(timeint_orbit(ti, 12, 1, &y, NULL, &r), HC_OK);
+      scene_state y = {.x = 0.15 + share * offset[i], .w = {offset[i]}};
+      assert_int_equal(timeint_orbit(ti, 12, 1, y.all, NULL, &r), HC_OK);
       assert_int_equal(r.free_sliders, 1);
       CHECK_NEAR(r.amplitude, 10 / hypot(190 - 12 * 12, 0.4 * 12), 1e-9, "law %d", law); /* F0/|k - w^2 + i C w| */
       CHECK_NEAR(r.mean, share * offset[i], 1e-9, "law %d offset %g", law, offset[i]);
@@ -250,15 +250,15 @@ static void unstable_orbits_are_found_and_named(void **state)
   for (int i = 0; i < 2; ++i)
     for (int way = 0; way < 4; ++way) {
       const double off_x = way & 1 ? 1.1 : 0.9, off_v = way & 2 ? 1.1 : 0.9;
-      timeint_state y = {.x = orbits[i].x * off_x, .v = orbits[i].v * off_v, .w = {orbits[i].w}};
-      assert_int_equal(timeint_orbit(ti, 9, 1, &y, NULL, &r), HC_OK);
+      scene_state y = {.x = orbits[i].x * off_x, .v = orbits[i].v * off_v, .w = {orbits[i].w}};
+      assert_int_equal(timeint_orbit(ti, 9, 1, y.all, NULL, &r), HC_OK);
       assert_int_equal(timeint_stability(&r), orbits[i].stable);
       check_orbit(&sc, TRANSIENT_LAW_EXACT, y, &r, 1e-9);
       CHECK_NEAR(y.x, orbits[i].x, 5e-3 * fabs(orbits[i].x), "orbit %d, to the digits above", i);
       if (orbits[i].stable < 0) CHECK_NEAR(r.multiplier_im, 0, 0, "a saddle");
     }
-  timeint_state far = {.x = 8, .v = 300};
-  assert_int_equal(timeint_orbit(ti, 9, 1, &far, NULL, &r), HC_NOT_CONVERGED);
+  scene_state far = {.x = 8, .v = 300};
+  assert_int_equal(timeint_orbit(ti, 9, 1, far.all, NULL, &r), HC_NOT_CONVERGED);
   timeint_free(ti);
 }
 

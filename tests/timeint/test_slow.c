@@ -16,10 +16,10 @@ static void bent_peak_is_climbed(void **state)
   scene sc = scene_r2();
   timeint *ti;
   assert_int_equal(scene_timeint(&sc, &ti), HC_OK);
-  timeint_state y = timeint_rest(ti);
+  scene_state y = {.x = 0};
   timeint_result r;
-  assert_int_equal(timeint_sweep(ti, 704, 708.5, &y, NULL), HC_OK);
-  assert_int_equal(timeint_steady(ti, 708.5, &y, NULL, &r), HC_OK);
+  assert_int_equal(timeint_sweep(ti, 704, 708.5, y.all, NULL), HC_OK);
+  assert_int_equal(timeint_steady(ti, 708.5, y.all, NULL, &r), HC_OK);
   CHECK_NEAR(r.amplitude, 0.299294926095, 1e-6 * 0.3, "amplitude");
   CHECK_NEAR(r.mean, -0.000611262701079, 1e-6 * 0.3, "mean");
   CHECK_LE(r.closure, 1e-7, "closure"); /* next to the fold |(I - Phi)^-1| is 3000, and a period scatters by 1000
@@ -43,12 +43,12 @@ static void distance_is_honest(void **state)
   int known = 0;
   for (int i = 0; i < 4; ++i) {
     timeint *ti;
-    timeint_state y = {.x = 1.01 * creal(X), .v = -omega * cimag(X)};
+    scene_state y = {.x = 1.01 * creal(X), .v = -omega * cimag(X)};
     timeint_result r;
     sc.transient.max_periods = allowed[i];
     sc.transient.steady = TRANSIENT_STEADY_MARCH;
     assert_int_equal(scene_timeint(&sc, &ti), HC_OK);
-    assert_int_equal(timeint_steady(ti, omega, &y, NULL, &r), i < 3 ? HC_NOT_SETTLED : HC_OK);
+    assert_int_equal(timeint_steady(ti, omega, y.all, NULL, &r), i < 3 ? HC_NOT_SETTLED : HC_OK);
     timeint_free(ti);
     double off = hypot(y.x - creal(X), y.v / omega + cimag(X)) / cabs(X);
     CHECK_LE(off, r.closure, "after %d", r.periods);

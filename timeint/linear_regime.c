@@ -1,19 +1,18 @@
-/* linear_forever.c - see linear_forever.h. Proof: tests/timeint/test_linear_forever.c. */
-#include "timeint/linear_forever.h"
+/* linear_regime.c - see linear_regime.h. Proof: tests/timeint/test_linear_regime.c. */
+#include "timeint/linear_regime.h"
 
 #include <complex.h>
 #include <math.h>
 
+#include "base/constants.h"
 #include "model/linear.h"
-#include "timeint/internal.h"
+#include "timeint/timeint_private.h"
 
-static const double two_pi = 6.283185307179586477;
-static const double margin = 1e-9; /* of what a guard is made of: far above the errors of an integration started at
-                                      the same state */
+static const double margin = 1e-9; /* of the sum of a guard's terms: far above the errors of an integration started
+                                      at the same state */
 static const double corner = 40; /* [width] beyond which softplus is exact to rounding: SOFT_END of law_regularised.c */
 
-typedef struct linear {  /* the oscillator that ti->y belongs to as long as nothing happens; lengths in units of
-                           ti->length */
+typedef struct linear {  /* the oscillator while no contact changes its state; lengths in units of ti->length */
   double k, center;      /* center: d/k                                */
   double complex steady; /* Z                                          */
   double free;           /* bound of |X - center - Re(Z e^{i theta})|  */
@@ -29,7 +28,7 @@ static linear linear_now(const timeint *ti)
   double d = 0;
   for (int j = 0; j < m->n_contacts; ++j) {
     const scaled_contact *c = &m->contact[j];
-    const double kt = c->law.slides ? c->law.kt : 0; /* without friction T = 0 */
+    const double kt = c->law.has_friction ? c->law.kt : 0; /* without friction T = 0 */
     if (!closed(c, x)) {
       d += c->preload * c->sine;
       continue;
@@ -44,29 +43,29 @@ static linear linear_now(const timeint *ti)
 }
 
 /* Is a + b X > 0 wherever |X - center| <= reach? Phrased so that NaN and infinity say no. */
-static bool stays(double a, double b, double center, double reach)
+static bool positive_within(double a, double b, double center, double reach)
 {
   double size = fabs(a) + fabs(b) * (fabs(center) + reach);
   return a + b * center - fabs(b) * reach > margin * size && isfinite(size);
 }
 
-/* Guards of separation, v + gap < 0, and of stick, v + gap > 0 and mu N -+ kt (u - w) > 0: contact_law.h, the first
- * clear of the corner. */
-static bool contact_stays(const scaled_contact *c, double x, double w, double center, double reach)
+/* Does the contact keep its state? Guards of separation, v + gap < 0, and of stick, v + gap > 0 and
+ * mu N -+ kt (u - w) > 0: contact_law.h; v + gap stays clear of the regularised corner. */
+static bool keeps_state(const scaled_contact *c, double x, double w, double center, double reach)
 {
   const law_regularised *law = &c->law;
   const double clear = corner * law->width;
   if (law->kn == 0) return true;     /* N = 0 always */
-  if (law->overstress) return false; /* a separated slider drags */
-  if (!closed(c, x)) return stays(-law->gap - clear, -c->sine, center, reach);
-  if (!stays(law->gap - clear, c->sine, center, reach)) return false;
-  if (!law->slides) return true;
+  if (law->overstress) return false; /* the slider of a separated contact acts on X as a dashpot */
+  if (!closed(c, x)) return positive_within(-law->gap - clear, -c->sine, center, reach);
+  if (!positive_within(law->gap - clear, c->sine, center, reach)) return false;
+  if (!law->has_friction) return true;
   const double n = law->mu * law->kn, t = law->kt;
-  return stays(n * law->gap + t * w, n * c->sine - t * c->cosine, center, reach) &&
-         stays(n * law->gap - t * w, n * c->sine + t * c->cosine, center, reach);
+  return positive_within(n * law->gap + t * w, n * c->sine - t * c->cosine, center, reach) &&
+         positive_within(n * law->gap - t * w, n * c->sine + t * c->cosine, center, reach);
 }
 
-bool linear_forever(const timeint *ti)
+bool linear_regime_is_final(const timeint *ti)
 {
   const scaled_model *m = &ti->scaled;
   const linear l = linear_now(ti);
@@ -74,16 +73,16 @@ bool linear_forever(const timeint *ti)
   if (!(l.k > 0) || !isfinite(fabs(l.center) + reach)) return false;
   if (!(m->c > 0) && !(l.free <= ti->how.tolerance * amplitude)) return false;
   for (int j = 0; j < m->n_contacts; ++j)
-    if (!contact_stays(&m->contact[j], ti->y[SCALED_X], ti->y[SCALED_W + j], l.center, reach)) return false;
+    if (!keeps_state(&m->contact[j], ti->y[SCALED_X], ti->y[SCALED_W + j], l.center, reach)) return false;
   return true;
 }
 
-/* The eigenvalue of X'' + c X' + k X = 0 that decays slowest, after a turn. */
-static double complex slowest(double c, double k)
+/* The multiplier, over 2 pi, of the slowest solution of X'' + c X' + k X = 0. */
+static double complex slowest_multiplier(double c, double k)
 {
   const double d = 0.25 * c * c - k;
-  if (d < 0) return cexp(two_pi * (-0.5 * c + I * sqrt(-d)));
-  return exp(-two_pi * k / (0.5 * c + sqrt(d))); /* k/a for a - sqrt(d): nothing cancels */
+  if (d < 0) return cexp(TWO_PI * (-0.5 * c + I * sqrt(-d)));
+  return exp(-TWO_PI * k / (0.5 * c + sqrt(d))); /* c/2 - sqrt(d) without cancellation */
 }
 
 static void fill_measures(const linear *l, double length, timeint_result *r)
@@ -97,14 +96,14 @@ static void fill_measures(const linear *l, double length, timeint_result *r)
   r->a1 = creal(l->steady) * length; /* Re(Z e^{i theta}) = Re Z cos - Im Z sin */
   r->b1 = -cimag(l->steady) * length;
   for (int i = 0; i < TIMEINT_WAVE; ++i) {
-    double theta = two_pi * i / TIMEINT_WAVE;
+    double theta = TWO_PI * i / TIMEINT_WAVE;
     r->wave[i] = l->center * length + r->a1 * cos(theta) + r->b1 * sin(theta);
   }
 }
 
 static void fill_stability(const scaled_model *m, double k, timeint_result *r)
 {
-  const double complex lambda = slowest(m->c, k);
+  const double complex lambda = slowest_multiplier(m->c, k);
   r->multiplier = r->contraction = cabs(lambda);
   r->multiplier_re = creal(lambda);
   r->multiplier_im = cimag(lambda);
@@ -112,7 +111,7 @@ static void fill_stability(const scaled_model *m, double k, timeint_result *r)
   r->closure = 0;
 }
 
-void linear_steady(timeint *ti, timeint_result *r)
+void linear_regime_steady(timeint *ti, timeint_result *r)
 {
   const scaled_model *m = &ti->scaled;
   const linear l = linear_now(ti);
@@ -124,8 +123,8 @@ void linear_steady(timeint *ti, timeint_result *r)
     const scaled_contact *c = &m->contact[j];
     if (closed(c, ti->y[SCALED_X])) {
       r->regime = CONTACT_STUCK;
-      r->free_sliders += c->law.slides;
-    } else if (c->law.slides) { /* it follows u: w' = (u - w) kt/eta */
+      r->free_sliders += c->law.has_friction;
+    } else if (c->law.has_friction) { /* separated: w' = (u - w) kt/eta */
       double lag = exact ? 0 : c->law.eta / c->law.kt;
       ti->y[SCALED_W + j] = c->cosine * (l.center + creal(l.steady / (1 + I * lag)));
     }

@@ -1,4 +1,4 @@
-/* test_linear_forever.c - the closed form against the table, against integration, and whether "for ever" is ever
+/* test_linear_regime_is_final.c - the closed form against the table, against integration, and whether "for ever" is ever
  * wrong, or useless. */
 #include "tests/check.h"
 
@@ -8,11 +8,12 @@
 
 #include "campaigns/scene_solvers.h"
 #include "model/linear.h"
+#include "tests/random.h"
 #include "tests/scene_parts.h"
 #include "tests/timeint/reference_rows.h"
 #include "tests/timeint/scenes.h"
-#include "timeint/internal.h"
-#include "timeint/linear_forever.h"
+#include "timeint/linear_regime.h"
+#include "timeint/timeint_private.h"
 
 /* A scene whose contacts are all as they are in static equilibrium (closed with a preload, open with a clearance),
  * sliders held at w:
@@ -43,10 +44,10 @@ static linear_case orbit_of(const scene *sc, double omega, const double *w)
 }
 
 /* On the orbit, and off it by (dx, dv). */
-static timeint_state state_of(const scene *sc, double omega, const double *w, double dx, double dv)
+static scene_state state_of(const scene *sc, double omega, const double *w, double dx, double dv)
 {
   const linear_case l = orbit_of(sc, omega, w);
-  timeint_state st = {.x = l.center + creal(l.z) + dx, .v = creal(I * omega * l.z) + dv};
+  scene_state st = {.x = l.center + creal(l.z) + dx, .v = creal(I * omega * l.z) + dv};
   for (int j = 0; j < sc->n_contacts; ++j) {
     double c, s;
     scene_direction(&sc->contacts[j], &c, &s);
@@ -62,13 +63,13 @@ static timeint *make(const scene *sc)
   return ti;
 }
 
-static bool asked(timeint *ti, double omega, const timeint_state *st)
+static bool asked(timeint *ti, double omega, const scene_state *st)
 {
-  assert_int_equal(timeint_begin(ti, omega, st), HC_OK);
-  return linear_forever(ti);
+  assert_int_equal(timeint_begin(ti, omega, st->all), HC_OK);
+  return linear_regime_is_final(ti);
 }
 
-static bool asked_once(const scene *sc, double omega, const timeint_state *st)
+static bool asked_once(const scene *sc, double omega, const scene_state *st)
 {
   timeint *ti = make(sc);
   bool yes = asked(ti, omega, st);
@@ -101,10 +102,10 @@ static void rows_of_the_table(void **state)
     for (int law = 0; law < 2; ++law) {
       sc.transient.law = law;
       timeint *ti = make(&sc);
-      timeint_state st = state_of(&sc, row->omega, w, 0, 0);
+      scene_state st = state_of(&sc, row->omega, w, 0, 0);
       timeint_result r;
       CHECK_LE(1, asked(ti, row->omega, &st), "case %d at %g", row->which, row->omega);
-      linear_steady(ti, &r);
+      linear_regime_steady(ti, &r);
       CHECK_NEAR(r.amplitude, row->amplitude, 1e-11 * row->amplitude, "case %d at %g", row->which, row->omega);
       CHECK_NEAR(r.harmonic_1, row->harmonic_1, 1e-11 * row->amplitude, "case %d at %g", row->which, row->omega);
       timeint_free(ti);
@@ -124,13 +125,13 @@ static void same_as_waiting(const scene *from, const char *name, double omega, c
   memset(&r, 0, sizeof r);
   const linear_case l = orbit_of(&sc, omega, w);
   const double size = cabs(l.z), tol = 2e-9 * size;
-  timeint_state st = state_of(&sc, omega, w, off * size, -off * size * omega), sm = st;
+  scene_state st = state_of(&sc, omega, w, off * size, -off * size * omega), sm = st;
   sc.transient.steady = TRANSIENT_STEADY_MARCH;
   timeint *ti = make(&sc), *waiting = make(&sc);
   CHECK_LE(1, asked(ti, omega, &st), "%s", name);
-  linear_steady(ti, &r);
-  st = timeint_now(ti);
-  assert_int_equal(timeint_steady(waiting, omega, &sm, NULL, &m), HC_OK);
+  linear_regime_steady(ti, &r);
+  timeint_get_state(ti, st.all);
+  assert_int_equal(timeint_steady(waiting, omega, sm.all, NULL, &m), HC_OK);
   CHECK_NEAR(r.mean, l.center, 1e-13 * size, "%s: mean = sum kt c w/k", name);
   CHECK_NEAR(r.amplitude, m.amplitude, tol, "%s", name);
   CHECK_NEAR(r.max, m.max, tol, "%s", name);
@@ -201,12 +202,12 @@ static void leaning(void **state)
     for (int law = 0; law < 2; ++law) {
       sc.transient.law = law;
       timeint *ti = make(&sc);
-      timeint_state st = {.x = center + creal(z), .v = -6 * cimag(z), .w = {5 * side}};
+      scene_state st = {.x = center + creal(z), .v = -6 * cimag(z), .w = {5 * side}};
       timeint_result r;
       CHECK_LE(1, asked(ti, 6, &st), "leaning %d", side);
-      linear_steady(ti, &r);
+      linear_regime_steady(ti, &r);
       CHECK_NEAR(r.mean, center, 1e-14 * fabs(center), "leaning %d", side);
-      double y[SCALED_MAX_STATES];
+      double y[SCENE_MAX_STATES];
       memcpy(y, ti->y, sizeof y);
       assert_int_equal(timeint_set_tolerance(ti, 1e-12), HC_OK);
       assert_int_equal(integrate_period(ti->in, &ti->scaled, y, NULL, NULL), HC_OK);
@@ -233,12 +234,12 @@ static hc_status look(void *self, const integrator *in, double theta0, double th
   (void)theta0;
   watched *w = self;
   const scaled_model *m = &w->ti->scaled;
-  double y[SCALED_MAX_STATES];
+  double y[SCENE_MAX_STATES];
   hc_status st = integrate_dense(in, theta1, 0, y);
   for (int j = 0; j < m->n_contacts && st == HC_OK; ++j) {
     bool closed = is_closed(m, j, y);
     if (m->contact[j].law.kn > 0 && closed != w->closed[j]) w->broken = true;
-    if (closed && integrate_slides(in, j, y)) w->broken = true;
+    if (closed && integrate_slips(in, j, y)) w->broken = true;
   }
   return st;
 }
@@ -249,53 +250,48 @@ enum { PERIODS = 20 };
 static bool something_happens(timeint *ti)
 {
   watched w = {.ti = ti};
-  const long switches = integrate_switches(ti->in);
+  const long switches = integrate_transitions(ti->in);
   for (int j = 0; j < ti->scaled.n_contacts; ++j) w.closed[j] = is_closed(&ti->scaled, j, ti->y);
   for (int i = 0; i < PERIODS; ++i) assert_int_equal(integrate_period(ti->in, &ti->scaled, ti->y, look, &w), HC_OK);
-  return w.broken || integrate_switches(ti->in) > switches;
+  return w.broken || integrate_transitions(ti->in) > switches;
 }
 
-static unsigned long long seed = 12345;
-static double uniform(double a, double b)
-{
-  seed = seed * 6364136223846793005ULL + 1442695040888963407ULL;
-  return a + (b - a) * (double)(seed >> 11) / 9007199254740992.0;
-}
+static double uniform(uint64_t *seed, double a, double b) { return a + (b - a) * random_unit(seed); }
 
 /* x, v and w between the orbit (0) and somewhere (1). */
-static timeint_state between(const timeint_state *a, const timeint_state *b, double t)
+static scene_state between(const scene_state *a, const scene_state *b, double t)
 {
-  timeint_state st = {.x = a->x + t * (b->x - a->x), .v = a->v + t * (b->v - a->v)};
+  scene_state st = {.x = a->x + t * (b->x - a->x), .v = a->v + t * (b->v - a->v)};
   for (int j = 0; j < SCENE_MAX_CONTACTS; ++j) st.w[j] = a->w[j] + t * (b->w[j] - a->w[j]);
   return st;
 }
 
 /* The farthest yes in a random direction from the orbit: nothing may happen from there, and the free motion must
  * decay by exp(-c/2 theta) sqrt((1 + zeta)/(1 - zeta)), < 1.1 here, of its bound, towards the closed form. */
-static bool farthest(const scene *sc, double omega, double reach)
+static bool farthest(uint64_t *seed, const scene *sc, double omega, double reach)
 {
   const double none[SCENE_MAX_CONTACTS] = {0};
   timeint *ti = make(sc);
   assert_int_equal(timeint_set_tolerance(ti, 1e-10), HC_OK);
   const double size = cabs(orbit_of(sc, omega, none).z);
-  timeint_state a = state_of(sc, omega, none, 0, 0), b = a;
-  b.x += uniform(-reach, reach) * size, b.v += uniform(-reach, reach) * size * omega;
-  for (int j = 0; j < sc->n_contacts; ++j) b.w[j] += uniform(-reach, reach) * size;
+  scene_state a = state_of(sc, omega, none, 0, 0), b = a;
+  b.x += uniform(seed, -reach, reach) * size, b.v += uniform(seed, -reach, reach) * size * omega;
+  for (int j = 0; j < sc->n_contacts; ++j) b.w[j] += uniform(seed, -reach, reach) * size;
   double low = 0, high = 1;
   bool yes = asked(ti, omega, &a);
   for (int i = 0; i < 40 && yes; ++i) {
     double t = i == 0 ? 1 : 0.5 * (low + high);
-    timeint_state st = between(&a, &b, t);
+    scene_state st = between(&a, &b, t);
     *(asked(ti, omega, &st) ? &low : &high) = t;
     if (low == 1) break;
   }
   if (yes) {
-    timeint_state st = between(&a, &b, low);
+    scene_state st = between(&a, &b, low);
     timeint_result r;
-    double end[SCALED_MAX_STATES], began[SCALED_MAX_STATES];
+    double end[SCENE_MAX_STATES], began[SCENE_MAX_STATES];
     assert_true(asked(ti, omega, &st));
     memcpy(began, ti->y, sizeof began);
-    linear_steady(ti, &r);
+    linear_regime_steady(ti, &r);
     memcpy(end, ti->y, sizeof end);
     memcpy(ti->y, began, sizeof began);
     assert_false(something_happens(ti));
@@ -315,6 +311,7 @@ static bool farthest(const scene *sc, double omega, double reach)
 static void never_wrong(void **state)
 {
   (void)state;
+  uint64_t seed = 12345;
   int yes = 0, all = 0;
   for (int law = 0; law < 2; ++law)
     for (int i = 0; i < 60; ++i) {
@@ -322,7 +319,7 @@ static void never_wrong(void **state)
       scene *sc = &scenes[i % 6];
       sc->transient.law = law;
       if (i % 2) sc->transient.regularisation = 1e-2;
-      yes += farthest(sc, uniform(3, 20), i % 4 < 2 ? 3 : 30);
+      yes += farthest(&seed, sc, uniform(&seed, 3, 20), i % 4 < 2 ? 3 : 30);
       ++all;
     }
   CHECK_LE(0.75 * all, yes, "orbits that are linear for ever"); /* 109 of 120; on the others something happens, or is
@@ -342,16 +339,16 @@ static void up_to_the_edge(const scene *from, const char *name, double omega, co
   double low = 1e-3 * from->force, high = 1e3 * from->force;
   for (int i = 0; i < 100; ++i) {
     sc.force = sqrt(low * high);
-    timeint_state st = state_of(&sc, omega, w, 0, 0);
+    scene_state st = state_of(&sc, omega, w, 0, 0);
     *(asked_once(&sc, omega, &st) ? &low : &high) = sc.force;
   }
   for (int above = 0; above < (law == TRANSIENT_LAW_EXACT ? 2 : 1); ++above) {
     sc.force = low * (1 + 1e-5 * above);
     timeint *ti = make(&sc);
-    timeint_state st = state_of(&sc, omega, w, 0, 0);
+    scene_state st = state_of(&sc, omega, w, 0, 0);
     CHECK_LE(asked(ti, omega, &st), !above, "%s at %g: the edge is at %g", name, omega, low);
     assert_int_equal(timeint_set_tolerance(ti, 1e-12), HC_OK);
-    double began[SCALED_MAX_STATES];
+    double began[SCENE_MAX_STATES];
     memcpy(began, ti->y, sizeof began);
     const bool happens = something_happens(ti);
     if (happens != above) print_error("%s at %g, law %d, %s %g\n", name, omega, law, above ? "above" : "below", low);
@@ -390,7 +387,7 @@ static void edges(void **state)
 static void obvious_ones(void **state)
 {
   (void)state;
-  const timeint_state rest = {0};
+  const scene_state rest = {0};
   scene r2 = scene_r2(), a10 = scene_a10(), c2 = scene_c2(), alone = scene_linear(1, 0.4, 40, 10);
   assert_true(asked_once(&r2, 700, &rest));
   assert_true(asked_once(&a10, 5, &rest));
@@ -398,9 +395,9 @@ static void obvious_ones(void **state)
   assert_true(asked_once(&alone, 6.3, &rest));
   assert_false(asked_once(&c2, 7, &rest));
   timeint *ti = make(&r2);
-  timeint_state st = rest;
+  scene_state st = rest;
   timeint_result r;
-  assert_int_equal(timeint_steady(ti, 700, &st, NULL, &r), HC_OK);
+  assert_int_equal(timeint_steady(ti, 700, st.all, NULL, &r), HC_OK);
   CHECK_NEAR(r.amplitude, cabs(linear_response(1.6, 0.4, 8e5, 100, 700)), 1e-14 * r.amplitude, "r2 from rest");
   assert_int_equal(r.periods, 0);
   assert_int_equal(r.steps, 0);
@@ -408,7 +405,7 @@ static void obvious_ones(void **state)
   ti = make(&c2); /* rings too much at first; the bound says yes once it has decayed to 2.9, from 4.2 by 0.73 a
                      period */
   assert_false(asked(ti, 4, &rest));
-  while (!linear_forever(ti) && ti->periods < 30) assert_int_equal(timeint_period(ti, false), HC_OK);
+  while (!linear_regime_is_final(ti) && ti->periods < 30) assert_int_equal(timeint_period(ti, false), HC_OK);
   CHECK_LE(ti->periods, 10, "c2 at 4 from rest");
   timeint_free(ti);
 }
@@ -417,10 +414,10 @@ static void undamped(void **state)
 {
   (void)state;
   const double none[SCENE_MAX_CONTACTS] = {0};
-  const timeint_state rest = {0};
+  const scene_state rest = {0};
   scene sc = scene_b10();
   sc.damping = 0;
-  timeint_state on = state_of(&sc, 9, none, 0, 0), off = state_of(&sc, 9, none, 1e-6, 0);
+  scene_state on = state_of(&sc, 9, none, 0, 0), off = state_of(&sc, 9, none, 1e-6, 0);
   assert_true(asked_once(&sc, 9, &on));
   assert_false(asked_once(&sc, 9, &off)); /* rings for ever */
   assert_false(asked_once(&sc, 9, &rest));
@@ -428,7 +425,7 @@ static void undamped(void **state)
   timeint_result r;
   timeint *ti = make(&sc);
   assert_true(asked(ti, 9, &rest));
-  linear_steady(ti, &r);
+  linear_regime_steady(ti, &r);
   CHECK_LE(fabs(r.amplitude) + fabs(r.mean) + fabs(r.rms), 0, "unloaded, at rest");
   CHECK_NEAR(r.multiplier, 1, 1e-15, "undamped");
   timeint_free(ti);
@@ -441,7 +438,7 @@ static void undamped(void **state)
 static void no_stiffness_and_no_number(void **state)
 {
   (void)state;
-  const timeint_state rest = {0};
+  const scene_state rest = {0};
   scene mass = scene_linear(1, 0.4, 0, 10);
   assert_false(asked_once(&mass, 9, &rest));
   scene all[] = {scene_a10(), scene_b10()};
@@ -452,7 +449,7 @@ static void no_stiffness_and_no_number(void **state)
       for (int at = 0; at < 2 + (i == 0); ++at) { /* i = 1: a separated slider is no matter */
         assert_true(asked(ti, 10, &rest));
         ti->y[at] = bad[b];
-        assert_false(linear_forever(ti));
+        assert_false(linear_regime_is_final(ti));
       }
     timeint_free(ti);
   }
@@ -466,12 +463,12 @@ static void multipliers(void **state)
   (void)state;
   for (double damping = 0.01; damping < 1000; damping *= 2) {
     scene sc = scene_linear(1, damping, 2, 1);
-    const timeint_state rest = {0};
+    const scene_state rest = {0};
     double e[2][2];
     timeint_result r;
     timeint *ti = make(&sc);
     assert_true(asked(ti, 1, &rest));
-    linear_steady(ti, &r);
+    linear_regime_steady(ti, &r);
     linear_free_motion(1, damping, 2, 2 * PI, e);
     const double det = exp(-2 * PI * damping);
     const double complex lambda = r.multiplier_re + I * r.multiplier_im;
@@ -496,5 +493,5 @@ int main(void)
       cmocka_unit_test(multipliers),
   };
   check_watchdog(300);
-  return cmocka_run_group_tests_name("timeint.linear_forever", tests, NULL, NULL);
+  return cmocka_run_group_tests_name("timeint.linear_regime", tests, NULL, NULL);
 }

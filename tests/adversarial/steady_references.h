@@ -1,7 +1,7 @@
-/* reference_scenes.h - the eight reference scenes with everything both solvers need, and the steady states they are
- * known to have. */
-#ifndef HC_TESTS_ADVERSARIAL_REFERENCE_H
-#define HC_TESTS_ADVERSARIAL_REFERENCE_H
+/* steady_references.h - the reference scenes with everything both solvers need, and the steady states they are known to
+ * have. */
+#ifndef HC_TESTS_STEADY_REFERENCES_H
+#define HC_TESTS_STEADY_REFERENCES_H
 
 #include "hbm/hbm.h"
 #include "tests/hbm/scenes.h"
@@ -45,10 +45,10 @@ static inline void read_steady_references(steady_reference *row)
 }
 
 /* The motion the solution X has at t = 0. */
-static inline timeint_state orbit_start(hbm_solver *s, int n_harm, const double *X, double omega)
+static inline scene_state orbit_start(hbm_solver *s, int n_harm, const double *X, double omega)
 {
   hbm_measures m;
-  timeint_state state = {.x = X[0]};
+  scene_state state = {.x = X[0]};
   assert_int_equal(hbm_measure(s, X, &m), HC_OK);
   for (int h = 1; h <= n_harm; ++h) {
     state.x += X[2 * h - 1];
