@@ -127,7 +127,7 @@ static hc_status make(const place_start *at, const hc_monitor *monitor, trial *t
   return hbm_solve(t->hbm, at->neighbour, t->X, &point) == HC_OK ? HC_OK : from_own_curve(at, monitor, t);
 }
 
-static void take(const answer *a, const place_start *at, double took, bench_row *row)
+static void record_answer(const answer *a, const place_start *at, double took, bench_row *row)
 {
   const periodic_motion *ref = &at->reference;
   row->status = a->status;
@@ -157,7 +157,7 @@ hc_status trial_start(const scene *sc, const place_start *at, bench_row *row, in
   }
   double took = solve(t, at, monitor, &a);
   if (a.status == HC_NO_MEMORY || (a.status == HC_INTERRUPTED && !a.too_long)) return a.status;
-  take(&a, at, took, row);
+  record_answer(&a, at, took, row);
   if (took > trial_slow && row->outcome == BENCH_SOLVED) t->seconds[t->runs++] = took; /* is the only one */
   if (took < shortest_run) t->batch = (int)fmin(ceil(shortest_run / fmax(took, 1e-7)), 1000);
   return HC_OK;

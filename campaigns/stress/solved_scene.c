@@ -1,5 +1,5 @@
-/* subject.c - see subject.h. */
-#include "campaigns/stress/subject.h"
+/* solved_scene.c - see solved_scene.h. */
+#include "campaigns/stress/solved_scene.h"
 
 #include <math.h>
 #include <string.h>
@@ -10,14 +10,14 @@
 
 static bool go_on(void *self, double done)
 {
-  stress_subject *s = self;
+  solved_scene *s = self;
   if (!hc_monitor_tick(s->outer, done)) s->fatal = HC_INTERRUPTED;
   return s->fatal == HC_OK && thread_seconds() < s->deadline;
 }
 
-void stress_clock(stress_subject *s) { s->deadline = thread_seconds() + s->seconds; }
+void stress_clock(solved_scene *s) { s->deadline = thread_seconds() + s->seconds; }
 
-void stress_subject_start(stress_subject *s, const scene *sc, double seconds, const hc_monitor *outer)
+void solved_scene_start(solved_scene *s, const scene *sc, double seconds, const hc_monitor *outer)
 {
   memset(s, 0, sizeof *s);
   s->asked = sc;
@@ -35,12 +35,12 @@ void stress_subject_start(stress_subject *s, const scene *sc, double seconds, co
   s->orbit.status = HC_NOT_CONVERGED; /* none yet */
 }
 
-static void note_fatal(stress_subject *s, hc_status st)
+static void note_fatal(solved_scene *s, hc_status st)
 {
   if (st == HC_NO_MEMORY) s->fatal = st;
 }
 
-void stress_solve(stress_subject *s, const scene *sc, double omega, int n_guess, const double *guess,
+void stress_solve(solved_scene *s, const scene *sc, double omega, int n_guess, const double *guess,
                   stress_solution *out)
 {
   hbm_solver *hbm = NULL;
@@ -60,7 +60,7 @@ void stress_solve(stress_subject *s, const scene *sc, double omega, int n_guess,
   note_fatal(s, out->status);
 }
 
-void stress_shoot(stress_subject *s, const scene *sc, double omega, stress_orbit *out)
+void stress_shoot(solved_scene *s, const scene *sc, double omega, stress_orbit *out)
 {
   timeint *ti = NULL;
   out->status = scene_timeint(sc, &ti);
@@ -87,7 +87,7 @@ stress_check stress_agree(double error, double bound)
   return stress_find(isnan(error) ? STRESS_INTERNAL : STRESS_DISAGREES, error, bound);
 }
 
-stress_check stress_refuse(stress_subject *s, hc_status st)
+stress_check stress_refuse(solved_scene *s, hc_status st)
 {
   stress_check c = {STRESS_REFUSED, STRESS_REFUSED_BY, st, NAN, NAN, 0};
   note_fatal(s, st);
@@ -131,13 +131,13 @@ const char *stress_outcome_name(stress_outcome outcome) { return outcomes[outcom
 
 hc_status stress_scene(const scene *sc, double seconds, const hc_monitor *monitor, stress_result *out)
 {
-  static stress_check (*const checks[STRESS_N_CHECKS])(stress_subject *) = {
+  static stress_check (*const checks[STRESS_N_CHECKS])(solved_scene *) = {
       stress_check_force,    stress_check_shift,     stress_check_reflection,  stress_check_free,
       stress_check_stuck,    stress_check_units,     stress_check_energy,      stress_check_sampled,
       stress_check_shooting, stress_check_stability, stress_check_regularised, stress_check_verdict};
-  stress_subject s;
+  solved_scene s;
   double start = thread_seconds();
-  stress_subject_start(&s, sc, seconds, monitor);
+  solved_scene_start(&s, sc, seconds, monitor);
   for (int k = 0; k < STRESS_N_CHECKS && s.fatal == HC_OK; ++k) {
     stress_clock(&s);
     double began = thread_seconds();

@@ -1,7 +1,7 @@
-/* subject.h - a scene under stress: its solutions by every method as the checks need them, and the words a check
+/* solved_scene.h - a scene under stress: its solutions by every method as the checks need them, and the words a check
  * ends with. */
-#ifndef HC_STRESS_SUBJECT_H
-#define HC_STRESS_SUBJECT_H
+#ifndef HC_STRESS_SOLVED_SCENE_H
+#define HC_STRESS_SOLVED_SCENE_H
 
 #include "campaigns/scene_solvers.h"
 #include "campaigns/stress/stress.h"
@@ -27,7 +27,7 @@ typedef struct stress_orbit {
   timeint_result r;
 } stress_orbit;
 
-typedef struct stress_subject {
+typedef struct solved_scene {
   const scene *asked; /* as it is                                   */
   scene exact;        /* with exact forces and the exact contact law */
   const scene *sc;    /* = &exact: what the checks work on           */
@@ -39,42 +39,42 @@ typedef struct stress_subject {
   stress_solution base; /* at the scene's own H, exact forces */
   stress_solution fine; /* with the most harmonics that were needed; base before STRESS_SHOOTING */
   stress_orbit orbit;   /* the exact law's, next to fine */
-} stress_subject;
+} solved_scene;
 
-void stress_subject_start(stress_subject *s, const scene *sc, double seconds, const hc_monitor *outer);
+void solved_scene_start(solved_scene *s, const scene *sc, double seconds, const hc_monitor *outer);
 
 /* The clock of a check starts now. */
-void stress_clock(stress_subject *s);
+void stress_clock(solved_scene *s);
 
-/* HBM for sc (any variant of the subject's) at omega from guess[2 n_guess + 1], or from nothing where guess is NULL. */
-void stress_solve(stress_subject *s, const scene *sc, double omega, int n_guess, const double *guess,
+/* HBM for sc (any variant of s->asked) at omega from guess[2 n_guess + 1], or from nothing where guess is NULL. */
+void stress_solve(solved_scene *s, const scene *sc, double omega, int n_guess, const double *guess,
                   stress_solution *out);
 
 /* The period-1 orbit next to out->state for sc, by shooting, with sc's law. */
-void stress_shoot(stress_subject *s, const scene *sc, double omega, stress_orbit *out);
+void stress_shoot(solved_scene *s, const scene *sc, double omega, stress_orbit *out);
 
 /* How a check ends. A NaN error agrees with nothing. */
 stress_check stress_skip(stress_reason why);
 stress_check stress_agree(double error, double bound);
 stress_check stress_explain(stress_reason why, double error, double bound);
 stress_check stress_find(stress_reason why, double error, double bound);
-stress_check stress_refuse(stress_subject *s, hc_status st); /* the words for a solver's status; a bug is a finding */
+stress_check stress_refuse(solved_scene *s, hc_status st); /* the words for a solver's status; a bug is a finding */
 
 /* |X - Y| / |Y|, of the vectors. */
 double stress_distance(int n_coef, const double *X, const double *Y);
 
 /* Each check once; later ones use what earlier ones found, in the order of STRESS_CHECKS. */
-stress_check stress_check_force(stress_subject *s);
-stress_check stress_check_shift(stress_subject *s);
-stress_check stress_check_reflection(stress_subject *s);
-stress_check stress_check_free(stress_subject *s);
-stress_check stress_check_stuck(stress_subject *s);
-stress_check stress_check_units(stress_subject *s);
-stress_check stress_check_energy(stress_subject *s);
-stress_check stress_check_sampled(stress_subject *s);
-stress_check stress_check_shooting(stress_subject *s);
-stress_check stress_check_stability(stress_subject *s);
-stress_check stress_check_regularised(stress_subject *s);
-stress_check stress_check_verdict(stress_subject *s);
+stress_check stress_check_force(solved_scene *s);
+stress_check stress_check_shift(solved_scene *s);
+stress_check stress_check_reflection(solved_scene *s);
+stress_check stress_check_free(solved_scene *s);
+stress_check stress_check_stuck(solved_scene *s);
+stress_check stress_check_units(solved_scene *s);
+stress_check stress_check_energy(solved_scene *s);
+stress_check stress_check_sampled(solved_scene *s);
+stress_check stress_check_shooting(solved_scene *s);
+stress_check stress_check_stability(solved_scene *s);
+stress_check stress_check_regularised(solved_scene *s);
+stress_check stress_check_verdict(solved_scene *s);
 
 #endif
