@@ -4,7 +4,7 @@
  *     Z_h = [ K - M h^2 omega^2      C h omega       ]      on (a_h, b_h);   Z_0 = K
  *           [    - C h omega     K - M h^2 omega^2   ]
  *
- * F: contact force harmonics. lambda = phi = 1 but for the ramps of start.c. Without harmonic 0 (the paper's mode)
+ * F: contact force harmonics. lambda = phi = 1 but for the ramps of first_solution.c. Without harmonic 0 (the paper's mode)
  * X[0] = 0 and row 0 is dropped. Vectors have 2H+1 entries, X[0] included; the unknowns are the n entries from
  * X[first] on. */
 #ifndef HC_SYSTEM_H
