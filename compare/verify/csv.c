@@ -9,6 +9,7 @@
 
 #include "base/message.h"
 #include "base/number.h"
+#include "base/utf8.h"
 
 static const double two_pi = 6.283185307179586476925;
 static const size_t most_bytes = (size_t)64 << 20; /* 640 a point */
