@@ -22,7 +22,7 @@ series_node series_vector_at(const series_vector *m, double th);
 typedef struct series_grid {
   series_vector m;
   double size[3][SERIES_MAX_DIM];        /* sums of |coefficients| of x, x', x'' */
-  series_node node[2 * SERIES_GRID + 1]; /* two periods: a walk that starts anywhere in the first never wraps */
+  series_node node[2 * SERIES_GRID + 1]; /* two periods: one that starts anywhere in the first lies in them */
 } series_grid;
 
 /* cos and sin of h th_i for half the grid, [n_harm][2][SERIES_GRID/2], filled once: half a period later odd harmonics

@@ -7,7 +7,7 @@
 
 #include "campaigns/scene_solvers.h"
 #include "compare/frequencies.h"
-#include "hbm/curve.h"
+#include "hbm/segment.h"
 
 static const double off_curve = 0.01; /* [1] farther than this share of the picture from the curve is another branch */
 

@@ -1,51 +1,10 @@
-/* curve.c - see curve.h. */
-#include "hbm/curve.h"
+/* segment.c - see segment.h. */
+#include "hbm/segment.h"
 
 #include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
-#include "hbm/solver.h"
+#include "numerics/norm.h"
 #include "numerics/roots.h"
-
-static hc_status grow(hbm_curve *c)
-{
-  size_t cap = c->cap ? 2 * (size_t)c->cap : 128, row = (size_t)c->n_coef * sizeof(double);
-  hbm_point *points = realloc(c->points, cap * sizeof *points);
-  if (points) c->points = points;
-  double *X = realloc(c->X, cap * row);
-  if (X) c->X = X;
-  double *dX = realloc(c->dX, cap * row);
-  if (dX) c->dX = dX;
-  if (!points || !X || !dX) return HC_NO_MEMORY;
-  c->cap = (int)cap;
-  return HC_OK;
-}
-
-hc_status hbm_curve_append(hbm_curve *c, int n_coef, const double *X, const double *dX, const hbm_point *point)
-{
-  c->n_coef = n_coef;
-  if (c->n == c->cap && grow(c) != HC_OK) return HC_NO_MEMORY;
-  size_t row = (size_t)n_coef * sizeof(double);
-  c->points[c->n] = *point;
-  memcpy(hbm_curve_X(c, c->n), X, row);
-  memcpy(hbm_curve_dX(c, c->n), dX, row);
-  ++c->n;
-  return HC_OK;
-}
-
-void hbm_curve_free(hbm_curve *c)
-{
-  free(c->points);
-  free(c->X);
-  free(c->dX);
-  *c = (hbm_curve){0};
-}
-
-void hbm_trim(const hbm_solver *s, int n_coef, double *X)
-{
-  for (int i = s->sys.n_coef; i < n_coef; ++i) X[i] = 0;
-}
 
 /* Inner product in the segment's metric. */
 static double inner(const hbm_segment *s, const double *aX, double a_omega, const double *bX, double b_omega)
@@ -74,7 +33,7 @@ hbm_segment hbm_segment_between(const hbm_curve *c, int k)
                    .omega0 = p->omega,
                    .omega1 = q->omega,
                    .omega_scale = c->omega_scale};
-  s.x_scale = fmax(hbm_norm(c->n_coef, s.X0), hbm_norm(c->n_coef, s.X1));
+  s.x_scale = fmax(norm_2(c->n_coef, s.X0), norm_2(c->n_coef, s.X1));
   if (!(s.x_scale > 0)) s.x_scale = 1;
   double t0 = sqrt(inner(&s, s.dX0, p->d_omega, s.dX0, p->d_omega)),
          t1 = sqrt(inner(&s, s.dX1, q->d_omega, s.dX1, q->d_omega));
@@ -109,16 +68,16 @@ static double omega_at(const hbm_segment *s, double t)
          t * t * r * s->d_omega1;
 }
 
-/* Where the interpolant passes omega. */
-typedef struct passage {
+/* Has the interpolant passed omega at t? For root_change. */
+typedef struct omega_passage {
   const hbm_segment *s;
   double omega;
   bool below; /* the side it comes from */
-} passage;
+} omega_passage;
 
 static hc_status has_passed(void *self, double t, bool *passed)
 {
-  const passage *p = self;
+  const omega_passage *p = self;
   *passed = (omega_at(p->s, t) - p->omega < 0) != p->below;
   return HC_OK;
 }
@@ -143,15 +102,16 @@ static int omega_extrema(const hbm_segment *s, double t[2])
   return n;
 }
 
-int hbm_segment_find(const hbm_segment *s, double omega, bool last, double sigma[3])
+/* Between neighbouring knots, which are the ends and the extrema, omega(sigma) is monotone. */
+int hbm_segment_find(const hbm_segment *s, double omega, bool include_end, double sigma[3])
 {
   double knot[4] = {0}, extrema[2];
-  int n_knots = 1, n = 0, n_ext = omega_extrema(s, extrema);
-  for (int i = 0; i < n_ext; ++i) knot[n_knots++] = extrema[i];
+  int n_knots = 1, n = 0, n_extrema = omega_extrema(s, extrema);
+  for (int i = 0; i < n_extrema; ++i) knot[n_knots++] = extrema[i];
   knot[n_knots++] = 1;
   for (int i = 0; i + 1 < n_knots; ++i) {
     double a = knot[i], b = knot[i + 1];
-    /* the ends are the points themselves, not the interpolant's rounding of them */
+    /* at the ends omega is that of the points; the interpolant's may differ from it by rounding */
     double fa = (i == 0 ? s->omega0 : omega_at(s, a)) - omega,
            fb = (i + 2 == n_knots ? s->omega1 : omega_at(s, b)) - omega;
     if (fa == 0) {
@@ -159,13 +119,13 @@ int hbm_segment_find(const hbm_segment *s, double omega, bool last, double sigma
       continue;
     }
     if (fb == 0) {
-      if (last && i + 2 == n_knots) sigma[n++] = b;
+      if (include_end && i + 2 == n_knots) sigma[n++] = b;
       continue;
     }
     if ((fa < 0) == (fb < 0)) continue;
-    passage p = {s, omega, fa < 0};
+    omega_passage p = {s, omega, fa < 0};
     root_point change;
-    root_change(has_passed, &p, a, b, 1e-15, &change); /* fifty times a cubic: nothing beside Newton's solve to come */
+    root_change(has_passed, &p, a, b, 1e-15, &change); /* some fifty times a cubic: little beside the solve to come */
     sigma[n++] = 0.5 * (change.before + change.x);
   }
   return n;
