@@ -1,5 +1,5 @@
-/* series_grid.h - several trigonometric polynomials at one angle or on a grid of angles, with two derivatives. libm only,
- * nothing is allocated. */
+/* series_grid.h - several trigonometric polynomials at one angle or on a grid of angles, with two derivatives. libm
+ * only, nothing is allocated. */
 #ifndef HC_SERIES_GRID_H
 #define HC_SERIES_GRID_H
 
