@@ -21,6 +21,22 @@ static inline double scene_stuck_stiffness(const scene_contact *c)
   return model_stuck_stiffness(&with);
 }
 
+/* The model of a scene with one contact, of stiffness k, as n equal contacts of stiffness k/n. To free with
+ * model_free. */
+static inline model *scene_split_model(const scene *sc, int n)
+{
+  model *m;
+  assert_int_equal(sc->n_contacts, 1);
+  assert_int_equal(model_new(n, &m), HC_OK);
+  m->mass = sc->mass, m->damping = sc->damping, m->stiffness = sc->stiffness, m->force = sc->force;
+  for (int j = 0; j < n; ++j) {
+    m->contacts[j] = scene_model_contact(&sc->contacts[0]);
+    m->contacts[j].law.kt /= n;
+    m->contacts[j].law.kn /= n;
+  }
+  return m;
+}
+
 /* Memory of this file for the contacts; that of the last 16 models made is valid. */
 static inline void scene_scaled(scaled_model *m, const scene *sc, double omega, double length)
 {

@@ -8,8 +8,8 @@ law_regularised law_regularised_make(const contact *c, double width, double rela
   return r;
 }
 
-/* Beyond |z| = 40 exp(-|z|) < 5e-18 is below rounding where it is added, and where it stands alone (z < -40) it is left
- * out: N/(kn width) is then 0 to 5e-18. That saves two exp in most evaluations and nothing can overflow. */
+/* For |z| > 40 exp(-|z|) < 5e-18: below rounding where it is added to z; for z < -40 it is all of N/(kn width), and is set
+ * to 0. This saves two exp in most evaluations, and no exp can overflow. */
 enum { SOFT_END = 40 };
 
 static double normal_force(const law_regularised *c, double v)
@@ -20,7 +20,7 @@ static double normal_force(const law_regularised *c, double v)
   return c->width > 0 ? c->kn * c->width * log1p(exp(g / c->width)) : 0.0 * g; /* NaN in, NaN out */
 }
 
-/* N - N0, without the difference (contact_normal_change). */
+/* N - N0, computed without cancellation (contact_normal_change). */
 static double normal_change(const law_regularised *c, double v)
 {
   double g = v + c->gap;
@@ -38,7 +38,7 @@ static double normal_stiffness(const law_regularised *c, double v)
   return c->width > 0 ? c->kn / (1.0 + exp(-g / c->width)) : 0.0;
 }
 
-/* How far the spring's force exceeds what friction holds, with the force's sign; 0 in stick. */
+/* The part of the spring's force beyond the friction limit, with the force's sign; 0 in stick. */
 static double excess_force(double t, double limit) { return t > limit ? t - limit : t < -limit ? t + limit : 0.0; }
 
 law_value law_regularised_eval(const law_regularised *c, double u, double v, double w)

@@ -1,4 +1,4 @@
-/* settle.c - see settle.h. Points lie in a ring; all quantities are computed from it when asked for. Proof:
+/* settle.c - see settle.h. The latest points are in a ring; all quantities are computed from it when asked for. Proof:
  * tests/timeint/test_settle.c. */
 #include "timeint/settle.h"
 
@@ -21,7 +21,7 @@ struct settle {       /* from settle_new, to settle_free */
   int d;              /* components of a point                                      */
   double *ring;       /* [CAPACITY][d]                                              */
   long n;             /* points pushed since settle_start                           */
-  long first;         /* of them, those not judged by                               */
+  long first;         /* of them, those before settle_restart: not used             */
   double contraction; /* a priori, capped                                           */
   int baseline;       /* B                                                          */
 };
@@ -65,12 +65,12 @@ void settle_push(settle *s, const double *z)
 
 int settle_baseline(const settle *s) { return s->baseline; }
 
-static double larger(double a, double b) { return b > a || isnan(b) ? b : a; } /* a NaN stays */
+static double larger(double a, double b) { return b > a || isnan(b) ? b : a; } /* NaN if either is */
 
 /* The point `ago` steps before the last. */
 static const double *point(const settle *s, int ago) { return s->ring + ((s->n - 1 - ago) % CAPACITY) * s->d; }
 
-/* |z_i - z_{i-m}| (largest component), i `ago` steps before the last; at least what rounding leaves of it. */
+/* |z_i - z_{i-m}| (largest component), i `ago` steps before the last, plus the rounding of that difference. */
 static double moved(const settle *s, int ago, int m)
 {
   const double *z = point(s, ago), *before = point(s, ago + m);
@@ -102,15 +102,15 @@ static double rate(const settle *s, int b, int k)
 
 double settle_rate(const settle *s) { return s->n > 2 * s->baseline ? rate(s, s->baseline, 1) : NAN; }
 
-/* Do drifts over k steps add up over b steps, as those along one direction do? */
+/* Is the drift over b steps nearly the sum of those over k steps, as it is along one direction? */
 static bool directed(const settle *s, int b, int k)
 {
   const int folds = b / k;
   return moved(s, 0, folds * k) >= 0.4 * folds * moved_most(s, 0, b, k);
 }
 
-/* Contraction per step along one direction, over the longest baseline that has one: the nearer to 1, the longer it
- * takes to tell. NaN: none has. */
+/* Contraction per step along one direction, over the longest baseline over which the drift keeps one: the nearer to 1
+ * the contraction is, the longer the baseline it needs. NaN: there is none. */
 static double measured_contraction(const settle *s, int k)
 {
   int b = s->baseline;
@@ -133,13 +133,14 @@ static double bound(const settle *s, int k, double rho)
 static settle_estimate estimate_cycle(const settle *s, int k)
 {
   settle_estimate e = {.distance = INFINITY, .contraction = measured_contraction(s, k)};
-  double rho = fmax(s->contraction, e.contraction); /* fmax leaves a NaN out */
+  double rho = fmax(s->contraction, e.contraction); /* fmax ignores a NaN */
   e.distance = bound(s, k, fmax(rho, DBL_MIN));
   return e;
 }
 
-/* The shortest k-cycle, k > 1, that the points keep to within goal while they change 100 times as much from one to
- * the next: near a fixed point about to be reached, or near a k/2-cycle, all is small together. 0: none. */
+/* The k of the shortest cycle that the points follow to within goal; k > 1 only if from one point to the next they
+ * change 100 times as much, since close to a fixed point, or to a cycle of k/2, the differences over all strides are
+ * small. 0: none. */
 static int find_cycle(const settle *s, double goal)
 {
   for (int k = 1; k <= SETTLE_MAX_MULTIPLE; ++k) {

@@ -1,24 +1,23 @@
 /* settle.h - has a sequence of states, one a period, reached a fixed point (or a k-cycle), and how far off is it?
- * Knows nothing of oscillators: points z_n of R^d under a contraction unknown, plus noise.
+ * Knows no mechanics: points z_n of R^d under an unknown contraction, plus noise.
  *
  * Near a fixed point z*, z_n - z* = e_n and |e_n| ~ rho^n. For any stride m,
  *     |z_n - z_{n-m}| >= |e_{n-m}| (1 - rho^m) >= |e_n| (1 - rho^m)       so       |e_n| <= D_m / (1 - rho^m),
- * D_m = max |z_i - z_{i-m}| over the latest i (multipliers are complex: single differences oscillate). Each m gives
- * a bound; small ones answer soonest, long ones are not drowned by noise, which 1/(1 - rho) would amplify. The
- * smallest is taken.
+ * D_m = max |z_i - z_{i-m}| over the latest i (multipliers are complex, so single differences oscillate). Each m gives a
+ * bound: short strides the soonest; in long ones the noise is divided by 1 - rho^m instead of 1 - rho. The smallest
+ * bound is used.
  *
  * rho: the larger of
- *   - the a-priori contraction, given by the caller (exp(-C T/2M): what damping alone does to the modulus of a
- *     complex pair, friction only adding to it); believed no closer to 1 than CAP, where 1000 periods could tell it
- *     from 1 no longer;
+ *   - the a-priori contraction, given by the caller (exp(-C T/2M): the modulus of a complex pair by damping alone;
+ *     friction makes it smaller), but no more than contraction_cap, since 1000 periods cannot tell a larger one from 1;
  *   - the measured one, where the drift keeps one direction over a baseline of B periods (or 2 B, 4 B ...): that is
- *     a real multiplier, and it may be the slow one of a split pair (near a fold). Then rho^B is the ratio of the
- *     largest drifts of the last B periods and of the B before. Drift without direction is rotation or noise; no
- *     rate can be measured from noise. (So a multiplier so near 1 that its drift drowns in noise goes unseen: very
- *     close to a fold the distance is then underestimated.)
- * Nothing is said before 2 B + 17 states are in. B = 2/(1 - rho) a priori: two e-folds, 16 to 512 periods.
- * Multipliers near -1, or near another root of 1, hide from D_m at multiples of k: so the drift D_1 itself must be
- * small too. */
+ *     a real multiplier, and may be the larger one of a pair that has become real (near a fold). Then rho^B is the
+ *     ratio of the largest drifts of the last B periods and of the B before. Drift without direction is rotation or
+ *     noise, and no rate is measured. (So a multiplier so near 1 that its drift is below the noise is not seen: very
+ *     close to a fold the distance is underestimated.)
+ * No estimate before 2 B + 17 states. B = 2/(1 - rho) a priori: two e-folds, 16 to 512 periods.
+ * A multiplier near a k-th root of 1 other than 1, such as -1, makes D_m small at multiples m of k though the states
+ * still move: so the drift D_1 must be small too. */
 #ifndef HC_TIMEINT_SETTLE_H
 #define HC_TIMEINT_SETTLE_H
 
@@ -41,7 +40,7 @@ void settle_free(settle *s);
 /* Forget all points. 0 <= contraction <= 1 a priori. */
 void settle_start(settle *s, double contraction);
 
-/* The map has changed a little, and so has its fixed point: judge by points pushed from now on (the last one stays). */
+/* The map has changed a little, and so has its fixed point: judge by the last point and those pushed from now on. */
 void settle_restart(settle *s);
 
 void settle_push(settle *s, const double *z);
@@ -50,9 +49,9 @@ void settle_push(settle *s, const double *z);
  * with one point. */
 double settle_drift(const settle *s);
 
-/* Contraction per step over the last 2 B: (largest drift of the last B)/(of the B before), to the power 1/B; 1 and
- * more where it does not fall, NaN before 2 B + 1 points. To be asked while the drift is far above the noise;
- * settle_judge does not rely on it. */
+/* Contraction per step over the last 2 B: (largest drift of the last B)/(of the B before), to the power 1/B; 1 or more
+ * where the drift does not fall, NaN before 2 B + 1 points. Meaningful while the drift is far above the noise;
+ * settle_judge does not use it. */
 double settle_rate(const settle *s);
 
 /* B, in steps. */

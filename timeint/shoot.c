@@ -251,6 +251,23 @@ static double nonlinear_part(const shoot *s, const double *z)
   return size > rounding ? fmax(norm(n, left) - rounding, 0) / size : 0;
 }
 
+/* The states in s->active[m] without those whose column of Phi is rounding: their multiplier is 0. How many are left. */
+static int drop_negligible_columns(shoot *s, int m)
+{
+  int kept = 0;
+  double largest = 0;
+  for (int i = 0; i < s->n * s->n; ++i) largest = fmax(largest, fabs(s->phi[i]));
+  for (int a = 0; a < m; ++a) {
+    const double *column = s->phi + (size_t)s->active[a] * (size_t)s->n;
+    double size = 0;
+    for (int i = 0; i < s->n; ++i) size = fmax(size, fabs(column[i]));
+    if (size > DBL_EPSILON * largest) s->active[kept++] = s->active[a];
+  }
+  return kept;
+}
+
+/* Sliders that the law ties to X leave columns of some 1e-20 with the regularised law. The QR iteration may fail to
+ * converge on many of these; it is then repeated without them. */
 static hc_status find_multiplier(shoot *s, shoot_report *r)
 {
   int m = 0;
@@ -260,6 +277,10 @@ static hc_status find_multiplier(shoot *s, shoot_report *r)
     else if (s->ti->scaled.contact[i - SCALED_W].law.has_friction) ++r->free_sliders;
   }
   hc_status st = floquet_multipliers(s->floquet, s->phi, 1, s->n, m, s->active, s->multipliers);
+  if (st == HC_NOT_CONVERGED) {
+    m = drop_negligible_columns(s, m);
+    st = floquet_multipliers(s->floquet, s->phi, 1, s->n, m, s->active, s->multipliers);
+  }
   r->multiplier = st == HC_OK ? floquet_largest(m, s->multipliers) : NAN;
   return st;
 }

@@ -58,7 +58,7 @@ static int real_turning_points(const scene *sampled)
 {
   scene sc = *sampled;
   sc.hbm.force = HBM_FORCE_EXACT;
-  outcome o = run(&sc, 3, 20);
+  outcome o = trace(&sc, 3, 20);
   assert_int_equal(o.status, HC_OK);
   return o.turning_points;
 }

@@ -1,5 +1,5 @@
 /* test_integrate_exact.c - periods of the exact law by CVODE: against closed forms, its monodromy matrix against
- * differences, and every way two things can happen at once. */
+ * differences, and transitions that coincide, graze or end the period. */
 #include "tests/check.h"
 
 #include <complex.h>
@@ -359,7 +359,8 @@ static void watched_period_is_the_same(void **state)
   integrate_free(in);
 }
 
-/* No force, at rest, also on the very edge of contacts: P is 0 for ever, which CVODE must not mind. */
+/* No force, at rest, also at the edge of contacts: the root function of P is not exactly 0 all the time, which would be
+ * an error to CVODE. */
 static void rest_stays_at_rest(void **state)
 {
   (void)state;

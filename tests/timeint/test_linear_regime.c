@@ -1,5 +1,5 @@
-/* test_linear_regime_is_final.c - the closed form against the table, against integration, and whether "for ever" is ever
- * wrong, or useless. */
+/* test_linear_regime.c - the closed form against the table and against integration. Where linear_regime_is_final says
+ * yes no contact changes its state; and it says yes up to where one does. */
 #include "tests/check.h"
 
 #include <complex.h>
@@ -16,10 +16,9 @@
 #include "timeint/timeint_private.h"
 
 /* A scene whose contacts are all as they are in static equilibrium (closed with a preload, open with a clearance),
- * sliders held at w:
- *     M x'' + C x' + k x = F0 cos(omega t) + d,   k = K + sum (kt c^2 + kn s^2),   d = sum kt c w        over the
- *                                                 closed ones;
- * without friction no kt. */
+ * sliders at rest at w:
+ *     M x'' + C x' + k x = F0 cos(omega t) + d,   k = K + sum (kt c^2 + kn s^2),   d = sum kt c w
+ * with sums over the closed contacts, and kt = 0 in those without friction. */
 typedef struct linear_case {
   double k, center;
   double complex z;
@@ -63,16 +62,16 @@ static timeint *make(const scene *sc)
   return ti;
 }
 
-static bool asked(timeint *ti, double omega, const scene_state *st)
+static bool is_final_from(timeint *ti, double omega, const scene_state *st)
 {
   assert_int_equal(timeint_begin(ti, omega, st->all), HC_OK);
   return linear_regime_is_final(ti);
 }
 
-static bool asked_once(const scene *sc, double omega, const scene_state *st)
+static bool is_final(const scene *sc, double omega, const scene_state *st)
 {
   timeint *ti = make(sc);
-  bool yes = asked(ti, omega, st);
+  bool yes = is_final_from(ti, omega, st);
   timeint_free(ti);
   return yes;
 }
@@ -104,7 +103,7 @@ static void rows_of_the_table(void **state)
       timeint *ti = make(&sc);
       scene_state st = state_of(&sc, row->omega, w, 0, 0);
       timeint_result r;
-      CHECK_LE(1, asked(ti, row->omega, &st), "case %d at %g", row->which, row->omega);
+      CHECK_LE(1, is_final_from(ti, row->omega, &st), "case %d at %g", row->which, row->omega);
       linear_regime_steady(ti, &r);
       CHECK_NEAR(r.amplitude, row->amplitude, 1e-11 * row->amplitude, "case %d at %g", row->which, row->omega);
       CHECK_NEAR(r.harmonic_1, row->harmonic_1, 1e-11 * row->amplitude, "case %d at %g", row->which, row->omega);
@@ -115,10 +114,10 @@ static void rows_of_the_table(void **state)
   CHECK_LE(80, n, "rows");
 }
 
-/* From off the orbit the closed form lands where waiting does: settled to 1e-9 of the amplitude, by its own word.
- * What the table of 512 instants adds to the sums is nothing here. */
-static void same_as_waiting(const scene *from, const char *name, double omega, const double *w, double off,
-                            int free_sliders)
+/* From a state off the orbit the closed form is where marching settles, which is within transient.tolerance, 1e-9 of the
+ * amplitude. The sums over 512 instants of a harmonic motion are exact. */
+static void same_as_marching(const scene *from, const char *name, double omega, const double *w, double off,
+                             int free_sliders)
 {
   scene sc = *from;
   timeint_result r, m;
@@ -127,11 +126,11 @@ static void same_as_waiting(const scene *from, const char *name, double omega, c
   const double size = cabs(l.z), tol = 2e-9 * size;
   scene_state st = state_of(&sc, omega, w, off * size, -off * size * omega), sm = st;
   sc.transient.steady = TRANSIENT_STEADY_MARCH;
-  timeint *ti = make(&sc), *waiting = make(&sc);
-  CHECK_LE(1, asked(ti, omega, &st), "%s", name);
+  timeint *ti = make(&sc), *march = make(&sc);
+  CHECK_LE(1, is_final_from(ti, omega, &st), "%s", name);
   linear_regime_steady(ti, &r);
   timeint_get_state(ti, st.all);
-  assert_int_equal(timeint_steady(waiting, omega, sm.all, NULL, &m), HC_OK);
+  assert_int_equal(timeint_steady(march, omega, sm.all, NULL, &m), HC_OK);
   CHECK_NEAR(r.mean, l.center, 1e-13 * size, "%s: mean = sum kt c w/k", name);
   CHECK_NEAR(r.amplitude, m.amplitude, tol, "%s", name);
   CHECK_NEAR(r.max, m.max, tol, "%s", name);
@@ -153,10 +152,11 @@ static void same_as_waiting(const scene *from, const char *name, double omega, c
   CHECK_NEAR(r.contraction, r.multiplier, 0, "%s", name);
   CHECK_LE(fabs(r.closure), 0, "%s", name);
   timeint_free(ti);
-  timeint_free(waiting);
+  timeint_free(march);
 }
 
-static scene scene_many(void) /* held and free sliders, contacts without friction, along and across the motion */
+static scene
+scene_many(void) /* sliders at rest and following x, contacts without friction, along and across the motion */
 {
   scene sc = scene_linear(1, 0.4, 40, 10);
   scene_add(&sc, 100, 200, 0.3, 0.5, 45);
@@ -175,22 +175,22 @@ static void measures(void **state)
   scene a10 = scene_a10(), b10 = scene_b10(), many = scene_many(), alone = scene_linear(2, 0.5, 50, 7);
   for (int law = 0; law < 2; ++law) {
     a10.transient.law = b10.transient.law = many.transient.law = alone.transient.law = law;
-    same_as_waiting(&a10, "a10", 12, held, 0.1, 1); /* mean = 100 cos 45 (-0.1)/190 */
-    same_as_waiting(&b10, "b10", 9, none, 0.5, 0);
-    same_as_waiting(&many, "many", 7, held, 0.2, 2);
-    same_as_waiting(&alone, "alone", 4, none, 30, 0);
+    same_as_marching(&a10, "a10", 12, held, 0.1, 1); /* mean = 100 cos 45 (-0.1)/190 */
+    same_as_marching(&b10, "b10", 9, none, 0.5, 0);
+    same_as_marching(&many, "many", 7, held, 0.2, 2);
+    same_as_marching(&alone, "alone", 4, none, 30, 0);
   }
   b10.transient.regularisation = 0.02; /* a slider that lags visibly; 40 widths of the corner leave it a fifth of the
                                           gap */
   b10.contacts[0].law.gap = -20;
   b10.transient.law = TRANSIENT_LAW_REGULARISED;
-  same_as_waiting(&b10, "b10, lagging", 9, none, 0.5, 0);
+  same_as_marching(&b10, "b10, lagging", 9, none, 0.5, 0);
 }
 
-/* A slider held far off leans on the other contact: one with a preload, that it keeps open (its N0 stays in the
- * equation), or one with a clearance, that it keeps closed: kn (x + gap). A period of some 500 steps of 1e-12,
- * relative to |x| < 4, ends where it began. */
-static void leaning(void **state)
+/* The force of a slider at rest far off keeps the other contact open although it has a preload (N0 stays in the
+ * equation), or closed although it has a clearance: kn (x + gap). A period of some 500 steps of 1e-12, relative to
+ * |x| < 4, ends where it began. */
+static void a_slider_keeps_another_contact_open_or_closed(void **state)
 {
   (void)state;
   for (int side = -1; side <= 1; side += 2) {
@@ -204,7 +204,7 @@ static void leaning(void **state)
       timeint *ti = make(&sc);
       scene_state st = {.x = center + creal(z), .v = -6 * cimag(z), .w = {5 * side}};
       timeint_result r;
-      CHECK_LE(1, asked(ti, 6, &st), "leaning %d", side);
+      CHECK_LE(1, is_final_from(ti, 6, &st), "leaning %d", side);
       linear_regime_steady(ti, &r);
       CHECK_NEAR(r.mean, center, 1e-14 * fabs(center), "leaning %d", side);
       double y[SCENE_MAX_STATES];
@@ -217,11 +217,11 @@ static void leaning(void **state)
   }
 }
 
-/* -- never wrong -- */
+/* -- a yes is right -- */
 
 typedef struct watched {
   const timeint *ti;
-  bool closed[SCENE_MAX_CONTACTS], broken;
+  bool closed[SCENE_MAX_CONTACTS], changed;
 } watched;
 
 static bool is_closed(const scaled_model *m, int j, const double *y)
@@ -229,7 +229,7 @@ static bool is_closed(const scaled_model *m, int j, const double *y)
   return m->contact[j].sine * y[SCALED_X] + m->contact[j].law.gap > 0;
 }
 
-static hc_status look(void *self, const integrator *in, double theta0, double theta1)
+static hc_status watch_contacts(void *self, const integrator *in, double theta0, double theta1)
 {
   (void)theta0;
   watched *w = self;
@@ -238,8 +238,8 @@ static hc_status look(void *self, const integrator *in, double theta0, double th
   hc_status st = integrate_dense(in, theta1, 0, y);
   for (int j = 0; j < m->n_contacts && st == HC_OK; ++j) {
     bool closed = is_closed(m, j, y);
-    if (m->contact[j].law.kn > 0 && closed != w->closed[j]) w->broken = true;
-    if (closed && integrate_slips(in, j, y)) w->broken = true;
+    if (m->contact[j].law.kn > 0 && closed != w->closed[j]) w->changed = true;
+    if (closed && integrate_slips(in, j, y)) w->changed = true;
   }
   return st;
 }
@@ -247,18 +247,19 @@ static hc_status look(void *self, const integrator *in, double theta0, double th
 enum { PERIODS = 20 };
 
 /* Does a contact change its state within PERIODS from ti->y? */
-static bool something_happens(timeint *ti)
+static bool state_changes(timeint *ti)
 {
   watched w = {.ti = ti};
-  const long switches = integrate_transitions(ti->in);
+  const long transitions = integrate_transitions(ti->in);
   for (int j = 0; j < ti->scaled.n_contacts; ++j) w.closed[j] = is_closed(&ti->scaled, j, ti->y);
-  for (int i = 0; i < PERIODS; ++i) assert_int_equal(integrate_period(ti->in, &ti->scaled, ti->y, look, &w), HC_OK);
-  return w.broken || integrate_transitions(ti->in) > switches;
+  for (int i = 0; i < PERIODS; ++i)
+    assert_int_equal(integrate_period(ti->in, &ti->scaled, ti->y, watch_contacts, &w), HC_OK);
+  return w.changed || integrate_transitions(ti->in) > transitions;
 }
 
 static double uniform(uint64_t *seed, double a, double b) { return a + (b - a) * random_unit(seed); }
 
-/* x, v and w between the orbit (0) and somewhere (1). */
+/* x, v and w between *a (t = 0) and *b (t = 1). */
 static scene_state between(const scene_state *a, const scene_state *b, double t)
 {
   scene_state st = {.x = a->x + t * (b->x - a->x), .v = a->v + t * (b->v - a->v)};
@@ -266,9 +267,10 @@ static scene_state between(const scene_state *a, const scene_state *b, double t)
   return st;
 }
 
-/* The farthest yes in a random direction from the orbit: nothing may happen from there, and the free motion must
- * decay by exp(-c/2 theta) sqrt((1 + zeta)/(1 - zeta)), < 1.1 here, of its bound, towards the closed form. */
-static bool farthest(uint64_t *seed, const scene *sc, double omega, double reach)
+/* The farthest state in a random direction from the orbit with a yes: no contact changes its state from there, and the
+ * free motion decays towards the closed form, by exp(-c/2 theta) of its bound times sqrt((1 + zeta)/(1 - zeta)), < 1.1
+ * here. False: not even the orbit has a yes. */
+static bool check_farthest(uint64_t *seed, const scene *sc, double omega, double reach)
 {
   const double none[SCENE_MAX_CONTACTS] = {0};
   timeint *ti = make(sc);
@@ -278,23 +280,23 @@ static bool farthest(uint64_t *seed, const scene *sc, double omega, double reach
   b.x += uniform(seed, -reach, reach) * size, b.v += uniform(seed, -reach, reach) * size * omega;
   for (int j = 0; j < sc->n_contacts; ++j) b.w[j] += uniform(seed, -reach, reach) * size;
   double low = 0, high = 1;
-  bool yes = asked(ti, omega, &a);
+  bool yes = is_final_from(ti, omega, &a);
   for (int i = 0; i < 40 && yes; ++i) {
     double t = i == 0 ? 1 : 0.5 * (low + high);
     scene_state st = between(&a, &b, t);
-    *(asked(ti, omega, &st) ? &low : &high) = t;
+    *(is_final_from(ti, omega, &st) ? &low : &high) = t;
     if (low == 1) break;
   }
   if (yes) {
     scene_state st = between(&a, &b, low);
     timeint_result r;
     double end[SCENE_MAX_STATES], began[SCENE_MAX_STATES];
-    assert_true(asked(ti, omega, &st));
+    assert_true(is_final_from(ti, omega, &st));
     memcpy(began, ti->y, sizeof began);
     linear_regime_steady(ti, &r);
     memcpy(end, ti->y, sizeof end);
     memcpy(ti->y, began, sizeof began);
-    assert_false(something_happens(ti));
+    assert_false(state_changes(ti));
     double k = ti->scaled.k;
     for (int j = 0; j < sc->n_contacts; ++j)
       if (is_closed(&ti->scaled, j, end)) k += scene_stuck_stiffness(&sc->contacts[j]) / (sc->mass * omega * omega);
@@ -308,7 +310,7 @@ static bool farthest(uint64_t *seed, const scene *sc, double omega, double reach
   return yes;
 }
 
-static void never_wrong(void **state)
+static void a_yes_is_right(void **state)
 {
   (void)state;
   uint64_t seed = 12345;
@@ -319,20 +321,19 @@ static void never_wrong(void **state)
       scene *sc = &scenes[i % 6];
       sc->transient.law = law;
       if (i % 2) sc->transient.regularisation = 1e-2;
-      yes += farthest(&seed, sc, uniform(&seed, 3, 20), i % 4 < 2 ? 3 : 30);
+      yes += check_farthest(&seed, sc, uniform(&seed, 3, 20), i % 4 < 2 ? 3 : 30);
       ++all;
     }
-  CHECK_LE(0.75 * all, yes, "orbits that are linear for ever"); /* 109 of 120; on the others something happens, or is
-                                                                   near */
+  CHECK_LE(0.75 * all, yes, "orbits with a yes"); /* 109 of 120; on the others a state changes, or nearly so */
 }
 
-/* -- not useless -- */
+/* -- a no is needed -- */
 
-/* On the orbit itself there is no free motion, and the range is exact. So for the exact law the largest force that
- * gets a yes is where something begins to happen: a margin of 1e-9 below it nothing does, 1e-5 above it something
- * does. For the regularised law 40 widths are given away: nothing happens up to there, and the motion is the closed
- * form to the integrator's errors. */
-static void up_to_the_edge(const scene *from, const char *name, double omega, const double *w, int law)
+/* On the orbit itself there is no free motion, and the range is exact. So for the exact law the largest force with a yes
+ * is that from which on a contact changes its state: up to the margin of 1e-9 below it none does, 1e-5 above it one does.
+ * For the regularised law the condition is stricter by 40 widths: no contact changes its state up to there, and the
+ * motion is the closed form to the integrator's errors. */
+static void check_up_to_the_edge(const scene *from, const char *name, double omega, const double *w, int law)
 {
   scene sc = *from;
   sc.transient.law = law;
@@ -340,19 +341,19 @@ static void up_to_the_edge(const scene *from, const char *name, double omega, co
   for (int i = 0; i < 100; ++i) {
     sc.force = sqrt(low * high);
     scene_state st = state_of(&sc, omega, w, 0, 0);
-    *(asked_once(&sc, omega, &st) ? &low : &high) = sc.force;
+    *(is_final(&sc, omega, &st) ? &low : &high) = sc.force;
   }
   for (int above = 0; above < (law == TRANSIENT_LAW_EXACT ? 2 : 1); ++above) {
     sc.force = low * (1 + 1e-5 * above);
     timeint *ti = make(&sc);
     scene_state st = state_of(&sc, omega, w, 0, 0);
-    CHECK_LE(asked(ti, omega, &st), !above, "%s at %g: the edge is at %g", name, omega, low);
+    CHECK_LE(is_final_from(ti, omega, &st), !above, "%s at %g: the edge is at %g", name, omega, low);
     assert_int_equal(timeint_set_tolerance(ti, 1e-12), HC_OK);
     double began[SCENE_MAX_STATES];
     memcpy(began, ti->y, sizeof began);
-    const bool happens = something_happens(ti);
-    if (happens != above) print_error("%s at %g, law %d, %s %g\n", name, omega, law, above ? "above" : "below", low);
-    assert_true(happens == above);
+    const bool changes = state_changes(ti);
+    if (changes != above) print_error("%s at %g, law %d, %s %g\n", name, omega, law, above ? "above" : "below", low);
+    assert_true(changes == above);
     if (!above)
       CHECK_NEAR(ti->y[SCALED_X], began[SCALED_X], 2e-8, "%s at %g, law %d: stays on the orbit", name, omega, law);
     timeint_free(ti);
@@ -372,28 +373,28 @@ static void edges(void **state)
       a10.transient.regularisation = b10.transient.regularisation = c2.transient.regularisation = coarse ? 1e-2 : 1e-4;
       gap1.transient.regularisation = many.transient.regularisation = smooth.transient.regularisation =
           coarse ? 1e-2 : 1e-4;
-      up_to_the_edge(&a10, "a10", 12, none, law);
-      up_to_the_edge(&a10, "a10, held", 12, held, law);
-      up_to_the_edge(&a10, "a10, held otherwise", 17, other, law);
-      up_to_the_edge(&b10, "b10", 5, none, law);
-      up_to_the_edge(&c2, "c2", 9, none, law);
-      up_to_the_edge(&gap1, "gap1", 15, none, law);
-      up_to_the_edge(&many, "many", 7, held, law);
-      up_to_the_edge(&smooth, "no friction", 10, none, law);
+      check_up_to_the_edge(&a10, "a10", 12, none, law);
+      check_up_to_the_edge(&a10, "a10, held", 12, held, law);
+      check_up_to_the_edge(&a10, "a10, held otherwise", 17, other, law);
+      check_up_to_the_edge(&b10, "b10", 5, none, law);
+      check_up_to_the_edge(&c2, "c2", 9, none, law);
+      check_up_to_the_edge(&gap1, "gap1", 15, none, law);
+      check_up_to_the_edge(&many, "many", 7, held, law);
+      check_up_to_the_edge(&smooth, "no friction", 10, none, law);
     }
 }
 
 /* From rest the free motion is as large as the steady one. */
-static void obvious_ones(void **state)
+static void from_rest(void **state)
 {
   (void)state;
   const scene_state rest = {0};
   scene r2 = scene_r2(), a10 = scene_a10(), c2 = scene_c2(), alone = scene_linear(1, 0.4, 40, 10);
-  assert_true(asked_once(&r2, 700, &rest));
-  assert_true(asked_once(&a10, 5, &rest));
-  assert_true(asked_once(&c2, 12, &rest));
-  assert_true(asked_once(&alone, 6.3, &rest));
-  assert_false(asked_once(&c2, 7, &rest));
+  assert_true(is_final(&r2, 700, &rest));
+  assert_true(is_final(&a10, 5, &rest));
+  assert_true(is_final(&c2, 12, &rest));
+  assert_true(is_final(&alone, 6.3, &rest));
+  assert_false(is_final(&c2, 7, &rest));
   timeint *ti = make(&r2);
   scene_state st = rest;
   timeint_result r;
@@ -402,9 +403,9 @@ static void obvious_ones(void **state)
   assert_int_equal(r.periods, 0);
   assert_int_equal(r.steps, 0);
   timeint_free(ti);
-  ti = make(&c2); /* rings too much at first; the bound says yes once it has decayed to 2.9, from 4.2 by 0.73 a
-                     period */
-  assert_false(asked(ti, 4, &rest));
+  ti = make(&c2); /* the free motion is too large at first; there is a yes once it has decayed to 2.9, from 4.2
+                     by 0.73 a period */
+  assert_false(is_final_from(ti, 4, &rest));
   while (!linear_regime_is_final(ti) && ti->periods < 30) assert_int_equal(timeint_period(ti, false), HC_OK);
   CHECK_LE(ti->periods, 10, "c2 at 4 from rest");
   timeint_free(ti);
@@ -418,21 +419,21 @@ static void undamped(void **state)
   scene sc = scene_b10();
   sc.damping = 0;
   scene_state on = state_of(&sc, 9, none, 0, 0), off = state_of(&sc, 9, none, 1e-6, 0);
-  assert_true(asked_once(&sc, 9, &on));
-  assert_false(asked_once(&sc, 9, &off)); /* rings for ever */
-  assert_false(asked_once(&sc, 9, &rest));
+  assert_true(is_final(&sc, 9, &on));
+  assert_false(is_final(&sc, 9, &off)); /* the free motion does not decay */
+  assert_false(is_final(&sc, 9, &rest));
   sc.force = 0;
   timeint_result r;
   timeint *ti = make(&sc);
-  assert_true(asked(ti, 9, &rest));
+  assert_true(is_final_from(ti, 9, &rest));
   linear_regime_steady(ti, &r);
   CHECK_LE(fabs(r.amplitude) + fabs(r.mean) + fabs(r.rms), 0, "unloaded, at rest");
   CHECK_NEAR(r.multiplier, 1, 1e-15, "undamped");
   timeint_free(ti);
   scene resonance = scene_linear(1, 0, 81, 10);
-  assert_false(asked_once(&resonance, 9, &rest));
+  assert_false(is_final(&resonance, 9, &rest));
   resonance.damping = 1e-6; /* it settles, after some million periods */
-  assert_true(asked_once(&resonance, 9, &rest));
+  assert_true(is_final(&resonance, 9, &rest));
 }
 
 static void no_stiffness_and_no_number(void **state)
@@ -440,14 +441,14 @@ static void no_stiffness_and_no_number(void **state)
   (void)state;
   const scene_state rest = {0};
   scene mass = scene_linear(1, 0.4, 0, 10);
-  assert_false(asked_once(&mass, 9, &rest));
+  assert_false(is_final(&mass, 9, &rest));
   scene all[] = {scene_a10(), scene_b10()};
   for (int i = 0; i < 2; ++i) {
     timeint *ti = make(&all[i]);
     const double bad[] = {NAN, INFINITY, -INFINITY, DBL_MAX, -DBL_MAX};
     for (size_t b = 0; b < sizeof bad / sizeof *bad; ++b)
-      for (int at = 0; at < 2 + (i == 0); ++at) { /* i = 1: a separated slider is no matter */
-        assert_true(asked(ti, 10, &rest));
+      for (int at = 0; at < 2 + (i == 0); ++at) { /* i = 1: the slider of a separated contact does not matter */
+        assert_true(is_final_from(ti, 10, &rest));
         ti->y[at] = bad[b];
         assert_false(linear_regime_is_final(ti));
       }
@@ -467,7 +468,7 @@ static void multipliers(void **state)
     double e[2][2];
     timeint_result r;
     timeint *ti = make(&sc);
-    assert_true(asked(ti, 1, &rest));
+    assert_true(is_final_from(ti, 1, &rest));
     linear_regime_steady(ti, &r);
     linear_free_motion(1, damping, 2, 2 * PI, e);
     const double det = exp(-2 * PI * damping);
@@ -484,10 +485,10 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(rows_of_the_table),
       cmocka_unit_test(measures),
-      cmocka_unit_test(leaning),
-      cmocka_unit_test(never_wrong),
+      cmocka_unit_test(a_slider_keeps_another_contact_open_or_closed),
+      cmocka_unit_test(a_yes_is_right),
       cmocka_unit_test(edges),
-      cmocka_unit_test(obvious_ones),
+      cmocka_unit_test(from_rest),
       cmocka_unit_test(undamped),
       cmocka_unit_test(no_stiffness_and_no_number),
       cmocka_unit_test(multipliers),

@@ -99,7 +99,7 @@ static void stuck_period_is_the_closed_form(void **state)
   integrate_free(in);
 }
 
-static void asking_for_it_leaves_no_trace(void **state)
+static void a_period_with_monodromy_does_not_affect_the_next(void **state)
 {
   (void)state;
   scene sc = scene_c2();
@@ -130,7 +130,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(monodromy_is_the_difference_of_periods),
       cmocka_unit_test(stuck_period_is_the_closed_form),
-      cmocka_unit_test(asking_for_it_leaves_no_trace),
+      cmocka_unit_test(a_period_with_monodromy_does_not_affect_the_next),
   };
   check_watchdog(120);
   return cmocka_run_group_tests_name("timeint.monodromy", tests, NULL, NULL);

@@ -1,4 +1,4 @@
-/* test_settle.c - the estimate against sequences whose limit is known: it must not say "settled" early, nor never. */
+/* test_settle.c - the estimate against sequences whose limit is known: settled neither too early nor never. */
 #include "tests/check.h"
 #include "tests/random.h"
 

@@ -1,5 +1,5 @@
-/* test_shoot.c - orbits as fixed points of the period map: few periods, the same orbit as marching finds, and what
- * cannot be. Both laws. */
+/* test_shoot.c - orbits as fixed points of the period map, with both laws: in few periods, the same orbit as marching
+ * finds, unstable ones too; refused where there is none next to the start. */
 #include "tests/check.h"
 
 #include <complex.h>
@@ -11,6 +11,7 @@
 #include "tests/timeint/oracle.h"
 #include "tests/timeint/scenes.h"
 #include "timeint/integrate.h"
+#include "timeint/timeint_private.h"
 
 static timeint *made(scene sc, int law, int steady, int start)
 {
@@ -130,7 +131,7 @@ static void check_orbit(const scene *sc, int law, scene_state y, const timeint_r
   integrate_free(map.in);
 }
 
-/* Shooting against waiting, with the same law, from the same start: one orbit. Each is within transient.tolerance of
+/* Shooting against marching, with the same law, from the same start: one orbit. Each is within transient.tolerance of
  * it. */
 static void finds_what_marching_finds(void **state)
 {
@@ -141,19 +142,19 @@ static void finds_what_marching_finds(void **state)
   } cases[] = {{scene_b10(), 7}, {scene_c2(), 6}, {scene_a10(), 13}, {scene_gap1(), 25}};
   for (int law = TRANSIENT_LAW_REGULARISED; law <= TRANSIENT_LAW_EXACT; ++law)
     for (int i = 0; i < 4; ++i) {
-      timeint_result waited, shot;
+      timeint_result marched, shot;
       timeint *march = made(cases[i].sc, law, TRANSIENT_STEADY_MARCH, TRANSIENT_START_REST);
       timeint *automatic = made(cases[i].sc, law, TRANSIENT_STEADY_AUTO, TRANSIENT_START_REST);
       scene_state y = {.x = 0}, z = y;
-      assert_int_equal(timeint_steady(march, cases[i].omega, y.all, NULL, &waited), HC_OK);
+      assert_int_equal(timeint_steady(march, cases[i].omega, y.all, NULL, &marched), HC_OK);
       assert_int_equal(timeint_steady(automatic, cases[i].omega, z.all, NULL, &shot), HC_OK);
       const double tolerance = 2 * cases[i].sc.transient.tolerance;
-      CHECK_NEAR(shot.amplitude, waited.amplitude, tolerance * waited.amplitude, "law %d case %d", law, i);
-      CHECK_NEAR(shot.a1, waited.a1, tolerance * waited.amplitude, "law %d case %d a1", law, i);
-      CHECK_NEAR(shot.b1, waited.b1, tolerance * waited.amplitude, "law %d case %d b1", law, i);
-      assert_int_equal(waited.method, TIMEINT_BY_MARCHING);
+      CHECK_NEAR(shot.amplitude, marched.amplitude, tolerance * marched.amplitude, "law %d case %d", law, i);
+      CHECK_NEAR(shot.a1, marched.a1, tolerance * marched.amplitude, "law %d case %d a1", law, i);
+      CHECK_NEAR(shot.b1, marched.b1, tolerance * marched.amplitude, "law %d case %d b1", law, i);
+      assert_int_equal(marched.method, TIMEINT_BY_MARCHING);
       assert_int_equal(shot.method, TIMEINT_BY_SHOOTING);
-      CHECK_LE(shot.periods, 0.7 * waited.periods, "law %d case %d periods", law, i);
+      CHECK_LE(shot.periods, 0.7 * marched.periods, "law %d case %d periods", law, i);
       check_orbit(&cases[i].sc, law, z, &shot, cases[i].sc.transient.tolerance);
       timeint_free(automatic);
       timeint_free(march);

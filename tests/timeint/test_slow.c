@@ -1,5 +1,5 @@
-/* test_slow.c - a scene that forgets 0.11 % a period (case 2 of the paper's table 10): neither settled early nor
- * never. */
+/* test_slow.c - a scene whose differences to the orbit shrink by 0.11 % a period (case 2 of the paper's table 10):
+ * settled neither too early nor never. */
 #include "tests/check.h"
 
 #include <complex.h>
@@ -33,7 +33,7 @@ static void bent_peak_is_climbed(void **state)
  * is no larger than the closure reported. That is INFINITY while no contraction could be measured, but not at the end,
  * and not at every stop before it. 1 % needs log(1e7)/0.00112 = 14400 periods to become 1e-9, and the
  * estimate at most 3 e-folds (2/(1 - e^-0.57), tests/timeint/test_settle.c) and 1056 periods more: 18100. */
-static void distance_is_honest(void **state)
+static void distance_is_no_larger_than_closure(void **state)
 {
   (void)state;
   scene sc = scene_r2();
@@ -61,7 +61,8 @@ static void distance_is_honest(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(bent_peak_is_climbed), cmocka_unit_test(distance_is_honest)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(bent_peak_is_climbed),
+                                     cmocka_unit_test(distance_is_no_larger_than_closure)};
   check_watchdog(400);
   return cmocka_run_group_tests_name("timeint.slow", tests, NULL, NULL);
 }

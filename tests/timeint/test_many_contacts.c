@@ -1,0 +1,162 @@
+/* test_many_contacts.c - n equal contacts of stiffness k/n are one of stiffness k: the same equations, the same orbit. n
+ * beyond what a case file lists. */
+#include "tests/check.h"
+
+#include <float.h>
+
+#include <gsl/gsl_errno.h>
+
+#include "tests/scene_parts.h"
+#include "tests/timeint/scenes.h"
+
+enum { MOST = 300 };
+
+static const int numbers[] = {17, 40};
+
+/* P' is a sum of 3 + 2 n terms, each of a few roundings, of k/n, itself rounded; added one after the other, n of them err
+ * by n roundings of their sum. |X|, |P|, |W| <= 1; T is at most kt (|u| + |w|), N - N0 at most kn (|v| + |gap|). */
+static void equations_are_those_of_one(void **state)
+{
+  (void)state;
+  const scene cases[] = {scene_b10(), scene_c2(), scene_a10()};
+  for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i)
+    for (size_t k = 0; k < sizeof numbers / sizeof *numbers; ++k) {
+      const scene *sc = &cases[i];
+      const int n = numbers[k];
+      scaled_contact contacts[MOST], single[1];
+      scaled_model many = {.contact = contacts}, one = {.contact = single};
+      model *split = scene_split_model(sc, n), *whole = scene_split_model(sc, 1);
+      scaled_make(&many, split, &sc->transient, 7, 5);
+      scaled_make(&one, whole, &sc->transient, 7, 5);
+      const scaled_contact *c = &one.contact[0];
+      const double size = fabs(one.f) + one.c + one.k + 2 * c->law.kt + c->law.kn * (1 + fabs(c->law.gap));
+      for (int trial = 0; trial < 200; ++trial) {
+        const double x = sin(12.9898 * trial), p = sin(78.233 * trial), w = sin(37.719 * trial);
+        double y[TIMEINT_W + MOST] = {x, p}, dy[TIMEINT_W + MOST], z[] = {x, p, w}, dz[3];
+        for (int j = 0; j < n; ++j) y[SCALED_W + j] = w;
+        assert_true(scaled_rhs(&many, trial, y, dy) && scaled_rhs(&one, trial, z, dz));
+        CHECK_NEAR(dy[SCALED_P], dz[SCALED_P], (n + 10) * DBL_EPSILON * size, "case %zu, %d contacts", i, n);
+      }
+      model_free(split);
+      model_free(whole);
+    }
+}
+
+/* The steady state at omega from the start (x, v, w), of the scene's contact split into n. */
+static timeint_result steady_state(const scene *sc, int n, double omega, const double start[3], double *y)
+{
+  timeint *ti;
+  timeint_result r;
+  model *m = scene_split_model(sc, n);
+  assert_int_equal(timeint_new(m, &sc->transient, &ti), HC_OK);
+  assert_int_equal(timeint_n_states(ti), TIMEINT_W + n);
+  y[TIMEINT_X] = start[0], y[TIMEINT_V] = start[1];
+  for (int j = 0; j < n; ++j) y[TIMEINT_W + j] = start[2];
+  assert_int_equal(timeint_steady(ti, omega, y, NULL, &r), HC_OK);
+  timeint_free(ti);
+  model_free(m);
+  return r;
+}
+
+/* Both are within transient.tolerance, relative to the amplitude, of one orbit: their equations differ by n roundings,
+ * which is nothing to that. A motion that is 1 off in (x, v/omega) at t = 0 is at most omega_stuck/omega off later (free
+ * motion, its energy never growing, in the stiffest state of the contact), and so is x at every instant. */
+static void check_same(const scene *sc, int n, double omega, const double start[3])
+{
+  double one_y[TIMEINT_W + 1], y[TIMEINT_W + MOST];
+  const timeint_result one = steady_state(sc, 1, omega, start, one_y), r = steady_state(sc, n, omega, start, y);
+  const double stiffest = sc->stiffness + scene_stuck_stiffness(&sc->contacts[0]);
+  const double stretch = fmax(1, sqrt(stiffest / sc->mass) / omega);
+  const double tol = 2 * stretch * sc->transient.tolerance * one.amplitude;
+  const char *law = sc->transient.law == TRANSIENT_LAW_EXACT ? "exact" : "regularised";
+  CHECK_LE(one.closure, sc->transient.tolerance, "%s, one contact", law);
+  CHECK_LE(r.closure, sc->transient.tolerance, "%s, %d contacts", law, n);
+  CHECK_NEAR(r.amplitude, one.amplitude, tol, "amplitude, %s, %d contacts", law, n);
+  CHECK_NEAR(r.mean, one.mean, tol, "mean, %s, %d contacts", law, n);
+  for (int i = 0; i < TIMEINT_WAVE; ++i) CHECK_NEAR(r.wave[i], one.wave[i], tol, "%s, %d contacts, %d", law, n, i);
+  for (int j = 0; j < n; ++j)
+    CHECK_NEAR(y[TIMEINT_W + j], one_y[TIMEINT_W], tol, "slider %d, %s, %d contacts", j, law, n);
+  assert_int_equal(r.method, one.method);
+  assert_int_equal(r.regime, one.regime);
+  assert_int_equal(r.period_multiple, one.period_multiple);
+  assert_int_equal(r.free_sliders, n * one.free_sliders);
+  assert_int_equal(r.switches, n * one.switches);
+}
+
+/* b10 slips and separates, c2 separates and sticks where it closes. Starts next to the orbits. */
+static void check_all(transient_steady steady, timeint_method method)
+{
+  const struct {
+    scene sc;
+    double start[3];
+  } cases[] = {{scene_b10(), {1.04, 7, 0.6}}, {scene_c2(), {8.06, 46.2, 5}}};
+  for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i)
+    for (int law = TRANSIENT_LAW_REGULARISED; law <= TRANSIENT_LAW_EXACT; ++law)
+      for (size_t k = 0; k < sizeof numbers / sizeof *numbers; ++k) {
+        scene sc = cases[i].sc;
+        double y[TIMEINT_W + 1];
+        sc.transient.law = law;
+        sc.transient.steady = steady;
+        check_same(&sc, numbers[k], 7, cases[i].start);
+        if (k == 0) assert_int_equal(steady_state(&sc, 1, 7, cases[i].start, y).method, method);
+      }
+}
+
+static void shooting(void **state)
+{
+  (void)state;
+  check_all(TRANSIENT_STEADY_SHOOTING, TIMEINT_BY_SHOOTING);
+}
+
+static void marching(void **state)
+{
+  (void)state;
+  check_all(TRANSIENT_STEADY_MARCH, TIMEINT_BY_MARCHING);
+}
+
+/* More transitions in a period than the 1000 that are chatter for few contacts. */
+static void more_transitions_than_few_contacts_may_have(void **state)
+{
+  (void)state;
+  const double start[] = {1.04, 7, 0.6};
+  double y[TIMEINT_W + MOST];
+  scene sc = scene_b10();
+  sc.transient.law = TRANSIENT_LAW_EXACT;
+  sc.transient.steady = TRANSIENT_STEADY_SHOOTING;
+  check_same(&sc, MOST, 7, start);
+  CHECK_LE(1001, steady_state(&sc, MOST, 7, start, y).switches, "transitions");
+}
+
+/* A sweep with the regularised law uses the exact law's integrator: it, too, has room for all contacts. */
+static void sweep(void **state)
+{
+  (void)state;
+  const int n = 17;
+  scene sc = scene_b10();
+  timeint *ti;
+  timeint_result swept, solved;
+  double y[TIMEINT_W + MOST];
+  model *m = scene_split_model(&sc, n);
+  assert_int_equal(timeint_new(m, &sc.transient, &ti), HC_OK);
+  timeint_rest(ti, y);
+  assert_int_equal(timeint_sweep(ti, 6.9, 7, y, NULL), HC_OK);
+  assert_int_equal(timeint_steady(ti, 7, y, NULL, &swept), HC_OK);
+  solved = steady_state(&sc, n, 7, (const double[]){1.04, 7, 0.6}, y);
+  CHECK_NEAR(swept.amplitude, solved.amplitude, 4 * sc.transient.tolerance * solved.amplitude, "amplitude");
+  timeint_free(ti);
+  model_free(m);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(equations_are_those_of_one),
+      cmocka_unit_test(shooting),
+      cmocka_unit_test(marching),
+      cmocka_unit_test(more_transitions_than_few_contacts_may_have),
+      cmocka_unit_test(sweep),
+  };
+  gsl_set_error_handler_off(); /* as the command does: eigenvalues that do not converge are a status */
+  check_watchdog(300);
+  return cmocka_run_group_tests_name("timeint.many_contacts", tests, NULL, NULL);
+}
