@@ -5,12 +5,12 @@
 #include <string.h>
 
 #include "campaigns/bench/bench.h"
-#include "command/cli.h"
+#include "command/commands.h"
 #include "command/plot/plot.h"
 #include "command/version.h"
 #include "output/progress.h"
 
-static const char doc[] =
+static const char help[] =
     "Run time against error for every method on CASE, at the largest stable response at each omega: harmonic balance "
     "with exact and sampled forces, "
     "time integration with the exact and the regularised law, by shooting and by marching; scipy's LSODA beside them "
@@ -23,15 +23,38 @@ static const char doc[] =
     "exit: 0 done  2 case file wrong  3 no stable orbit to compare with, or stopped  64 usage\n"
     "example: hbmcheck bench cases/paper/case2.yaml --at 9";
 
+typedef struct bench_command_options {
+  number_list at;   /* n = 0: where the response is largest */
+  int repeats;      /* 1..MAX_REPEATS */
+  bool alone;       /* --alone */
+  const char *plot; /* NULL: no drawing */
+} bench_command_options;
+
+enum { DEFAULT_REPEATS = 9, MAX_REPEATS = 1000 };
+
+enum { KEY_AT = CLI_OWN_KEY, KEY_REPEATS, KEY_ALONE, KEY_PLOT };
+
 static const struct argp_option options[] = {
-    {"at", CLI_AT, "LIST", 0,
+    {"at", KEY_AT, "LIST", 0,
      "Omegas, rad per unit time [of the case's compare frequencies the one where the response is largest]", 1},
-    {"repeats", CLI_REPEATS, "N", 0,
+    {"repeats", KEY_REPEATS, "N", 0,
      "Times each method is measured; those that take long less often, as the column says [9]", 1},
-    {"alone", CLI_ALONE, NULL, 0, "No other programs beside our methods", 1},
-    CLI_PLOT_OPTION,
+    {"alone", KEY_ALONE, NULL, 0, "No other programs beside our methods", 1},
+    CLI_PLOT_OPTION(KEY_PLOT),
     {0},
 };
+
+static error_t read_option(int key, char *text, struct argp_state *state)
+{
+  bench_command_options *own = state->input;
+  switch (key) {
+  case KEY_AT: cli_read_list(state, "at", text, &own->at); return 0;
+  case KEY_REPEATS: cli_read_integer(state, "repeats", text, 1, MAX_REPEATS, &own->repeats); return 0;
+  case KEY_ALONE: own->alone = true; return 0;
+  case KEY_PLOT: cli_read_plot(state, text, &own->plot); return 0;
+  default: return ARGP_ERR_UNKNOWN;
+  }
+}
 
 static const table_column columns[] = {
     {"omega", TABLE_REAL},
@@ -178,7 +201,7 @@ static void put_notes(table *t, const scene *sc, const bench *b)
   note_versions(t);
 }
 
-static int show(const cli_options *o, const scene *sc, const bench *b)
+static int write_tables(const cli_common *common, const scene *sc, const bench *b)
 {
   table *tables[2] = {table_new("Work and precision", N_COLUMNS, columns),
                       table_new("Cheapest way", N_WAY_COLUMNS, way_columns)};
@@ -188,36 +211,48 @@ static int show(const cli_options *o, const scene *sc, const bench *b)
     put_ways(tables[1], b, &b->places[i]);
     note_winners(tables[1], b, &b->places[i]);
   }
-  int code = cli_write(o, 2, tables);
+  int code = cli_write(common, 2, tables);
   for (int i = 0; i < 2; ++i) table_free(tables[i]);
   return code;
 }
 
-int cmd_bench(int argc, char **argv)
+static int run_bench(int argc, char **argv)
 {
-  cli_options o;
+  cli_common common;
+  bench_command_options own = {.repeats = DEFAULT_REPEATS};
   scene sc;
   bench b;
   double failed_at;
-  cli_parse(argc, argv, "bench", "CASE", doc, options, true, &o);
-  int code = cli_load_case(&o, &sc);
+  cli_parse(&cmd_bench, argc, argv, &own, &common);
+  cli_check_plot(&common, own.plot, false);
+  int code = cli_load_case(&common, common.arguments[0], &sc);
   if (code) return code;
-  bench_options how = {.at = o.at, .repeats = o.repeats ? o.repeats : 9, .alone = o.alone};
-  progress *bar = progress_start("benchmark", o.quiet);
+  bench_options how = {.at = own.at, .repeats = own.repeats, .alone = own.alone};
+  progress *bar = progress_start("benchmark", common.quiet);
   hc_monitor monitor = progress_monitor(bar);
   hc_status st = bench_run(&sc, &how, &monitor, &b, &failed_at);
   progress_end(bar);
   if (st == HC_NOT_CONVERGED) {
-    cli_say(
-        &o,
+    cli_message(
+        &common,
         "omega = %.10g: no stable orbit of the exact law next to a harmonic-balance solution, or none beside it; try "
         "another --at",
         failed_at);
     code = EXIT_NO_SOLUTION;
-  } else if (st != HC_OK) code = cli_solver_failed(&o, "the benchmark", st, failed_at);
-  int written = b.n_rows ? show(&o, &sc, &b) : 0;
-  plot_order drawing = {.path = o.plot};
-  if (o.plot && b.n_rows && !written) written = cli_plotted(&o, plot_bench(&drawing, &sc, &b), drawing.why);
+  } else if (st != HC_OK) code = cli_solver_failed(&common, CLI_BOTH, "the benchmark", st, failed_at);
+  int written = b.n_rows ? write_tables(&common, &sc, &b) : 0;
+  plot_order drawing = {.path = own.plot};
+  if (own.plot && b.n_rows && !written) written = cli_plotted(&common, plot_bench(&drawing, &sc, &b), drawing.why);
   bench_clear(&b);
   return code ? code : written;
 }
+
+const cli_command cmd_bench = {
+    .name = "bench",
+    .summary = "work-precision: run time against error for every method at one frequency",
+    .arguments = "CASE",
+    .help = help,
+    .options = options,
+    .read_option = read_option,
+    .run = run_bench,
+};

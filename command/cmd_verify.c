@@ -2,11 +2,11 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "command/cli.h"
+#include "command/commands.h"
 #include "compare/verify/verify.h"
 #include "output/progress.h"
 
-static const char doc[] =
+static const char help[] =
     "Hold another code's response curve of CASE, a file of columns, against harmonic balance with exact forces and "
     "many harmonics, itself held "
     "against time integration; a verdict for every point, and the suspected cause where they differ, found by making "
@@ -23,13 +23,30 @@ static const char doc[] =
     "example: hbmcheck verify cases/verify/case2.yaml --against cases/verify/no_static.csv --columns "
     "omega=1,harmonic_1=2";
 
+typedef struct verify_options {
+  const char *against, *columns, *quantity; /* NULL: not given */
+} verify_options;
+
+enum { KEY_AGAINST = CLI_OWN_KEY, KEY_COLUMNS, KEY_QUANTITY };
+
 static const struct argp_option options[] = {
-    {"against", CLI_AGAINST, "FILE", 0, "The curve to hold against ours", 1},
-    {"columns", CLI_COLUMNS, "NAME=COLUMN,...", 0,
+    {"against", KEY_AGAINST, "FILE", 0, "The curve to hold against ours", 1},
+    {"columns", KEY_COLUMNS, "NAME=COLUMN,...", 0,
      "Where its columns are: omega or frequency, and amplitude, harmonic_1, peak or value", 1},
-    {"quantity", CLI_QUANTITY, "amplitude|harmonic_1|peak", 0, "What the column named value is", 1},
+    {"quantity", KEY_QUANTITY, "amplitude|harmonic_1|peak", 0, "What the column named value is", 1},
     {0},
 };
+
+static error_t read_option(int key, char *text, struct argp_state *state)
+{
+  verify_options *own = state->input;
+  switch (key) {
+  case KEY_AGAINST: own->against = text; return 0;
+  case KEY_COLUMNS: own->columns = text; return 0;
+  case KEY_QUANTITY: own->quantity = text; return 0;
+  default: return ARGP_ERR_UNKNOWN;
+  }
+}
 
 static const table_column columns[] = {
     {"omega", TABLE_REAL},  {"value", TABLE_REAL}, {"nearest", TABLE_REAL}, {"branch", TABLE_INTEGER},
@@ -112,62 +129,73 @@ static void put_notes(table *t, const scene *sc, const verify_data *data, const 
                                                                            : "unknown");
 }
 
-static int show(const cli_options *o, const scene *sc, const verify_data *data, const verify_report *r)
+static int write_tables(const cli_common *common, const scene *sc, const verify_data *data, const verify_report *r)
 {
   table *tables[2] = {table_new("Points", N_COLUMNS, columns), table_new("Hypotheses", N_GUESS_COLUMNS, guess_columns)};
   for (int i = 0; i < r->n_rows; ++i) put_row(tables[0], &r->rows[i]);
   for (int i = 0; i < r->n_hypotheses && i < VERIFY_SHOWN; ++i)
     put_guess(tables[1], &r->hypotheses[i], r->truth_distance);
   put_notes(tables[0], sc, data, r);
-  int code = cli_write(o, r->n_hypotheses && o->format != FORMAT_CSV ? 2 : 1, tables);
+  int code = cli_write(common, r->n_hypotheses && common->format != FORMAT_CSV ? 2 : 1, tables);
   for (int i = 0; i < 2; ++i) table_free(tables[i]);
   return code;
 }
 
 /* The curve, as the options say. 0 or the exit code. */
-static int read_curve(const cli_options *o, verify_data *data)
+static int read_curve(const cli_common *common, const verify_options *own, verify_data *data)
 {
   verify_columns where;
   char words[VERIFY_TEXT];
-  if (!o->against || !o->curve_columns) {
-    cli_say(o, "no %s given, expected --against FILE --columns omega=1,amplitude=2",
-            o->against ? "--columns" : "--against");
+  if (!own->against || !own->columns) {
+    cli_message(common, "no %s given, expected --against FILE --columns omega=1,amplitude=2",
+                own->against ? "--columns" : "--against");
     return EXIT_USAGE;
   }
-  if (verify_columns_read(o->curve_columns, o->quantity, &where, words) != HC_OK) {
-    cli_say(o, "%s", words);
+  if (verify_columns_read(own->columns, own->quantity, &where, words) != HC_OK) {
+    cli_message(common, "%s", words);
     return EXIT_USAGE;
   }
-  hc_status st = verify_data_read(o->against, &where, data, words);
+  hc_status st = verify_data_read(own->against, &where, data, words);
   if (st == HC_OK) return 0;
   fprintf(stderr, "%s\n", words);
   return st == HC_NO_MEMORY ? EXIT_NO_SOLUTION : EXIT_BAD_CASE;
 }
 
-int cmd_verify(int argc, char **argv)
+static int run_verify(int argc, char **argv)
 {
-  cli_options o;
+  cli_common common;
+  verify_options own = {0};
   scene sc;
   verify_data data = {0};
   verify_report report = {0};
   int written = 0;
-  cli_parse(argc, argv, "verify", "CASE", doc, options, true, &o);
-  int code = cli_load_case(&o, &sc);
-  if (!code) code = read_curve(&o, &data);
+  cli_parse(&cmd_verify, argc, argv, &own, &common);
+  int code = cli_load_case(&common, common.arguments[0], &sc);
+  if (!code) code = read_curve(&common, &own, &data);
   if (!code) {
-    progress *bar = progress_start("verifying", o.quiet);
+    progress *bar = progress_start("verifying", common.quiet);
     hc_monitor monitor = progress_monitor(bar);
     compare_setup setup;
     hc_status st = scene_setup(&sc, &setup);
     if (st == HC_OK) st = verify_run(&setup, &data, &monitor, &report);
     scene_setup_clear(&setup);
     progress_end(bar);
-    code = st == HC_OK ? verify_exit_code(&report) : cli_solver_failed(&o, "the verification", st, 0);
+    code = st == HC_OK ? verify_exit_code(&report) : cli_solver_failed(&common, CLI_BOTH, "the verification", st, 0);
     if (code == EXIT_NO_SOLUTION && st == HC_OK)
-      cli_say(&o, "some points could not be judged; the notes of the table say why");
-    written = report.n_rows ? show(&o, &sc, &data, &report) : 0;
+      cli_message(&common, "some points could not be judged; the notes of the table say why");
+    written = report.n_rows ? write_tables(&common, &sc, &data, &report) : 0;
   }
   verify_clear(&report);
   verify_data_clear(&data);
   return code ? code : written;
 }
+
+const cli_command cmd_verify = {
+    .name = "verify",
+    .summary = "another code's response curve held against both, and the suspected cause where it is off",
+    .arguments = "CASE",
+    .help = help,
+    .options = options,
+    .read_option = read_option,
+    .run = run_verify,
+};
