@@ -1,5 +1,5 @@
 /* utf8.h - text in columns, without the locale a host program may have set. What is UTF-8 and what is a control
- * character: text/message.h. */
+ * character: base/message.h. */
 #ifndef HC_UTF8_H
 #define HC_UTF8_H
 

@@ -3,6 +3,8 @@
 
 #include <string.h>
 
+#include "base/constants.h"
+
 static const char *const force_names[] = {[HBM_FORCE_EXACT] = "exact", [HBM_FORCE_SAMPLED] = "sampled", NULL};
 static const char *const restart_names[] = {
     [HBM_RESTART_INTERPOLATED] = "interpolated", [HBM_RESTART_SAMPLE] = "sample", NULL};
@@ -82,7 +84,7 @@ static const field table[] = {
    .meaning = "from and to; downwards if from > to"},
   {"sweep", "frequency", "", FIELD_PAIR, .unit = "cycles/time", .flags = FIELD_OPEN | FIELD_NO_ECHO,
    SCENE(omega_from), WITHIN(0, INFINITY),
-   .scale = 6.283185307179586477, .rival = "omega", .meaning = "instead of omega = 2 pi frequency"},
+   .scale = TWO_PI, .rival = "omega", .meaning = "instead of omega = 2 pi frequency"},
 
   {"hbm", "harmonics", "H", FIELD_INTEGER, .unit = "1", .flags = FIELD_AUTO, SCENE(hbm.harmonics), .fallback = "5",
    WITHIN(1, HBM_MAX_HARMONICS), .meaning = "the highest harmonic kept"},

@@ -26,7 +26,7 @@ enum { FIELD_IN_CONTACT = 1, FIELD_AUTO = 2, FIELD_OPEN = 4, FIELD_NO_ECHO = 8 }
 
 typedef struct field {
   const char *section, *name; /* section is "" for the top level; path is section.name */
-  const char *symbol;         /* what PHYSICS.md and the paper call it, or ""; only ever suggested, never read */
+  const char *symbol;         /* what docs/theory.md and the paper call it, or ""; only ever suggested, never read */
   field_kind kind;
   unsigned flags;       /* FIELD_IN_CONTACT: offset is into scene_contact; FIELD_AUTO: `auto` is a value (HBM_AUTO);
                      FIELD_OPEN: low itself is out of range; FIELD_NO_ECHO: another field writes what it stored */

@@ -10,7 +10,7 @@ typedef struct suggestion { /* at most one is not NULL */
 } suggestion;
 
 /* The likeliest meaning of `key` in `section` ("" at the top level): a typing mistake (edit distance 1, or 2 in
- * longer words), the symbol of PHYSICS.md (kt, M, F0), the start of a name, or the right key of another section. */
+ * longer words), the symbol of docs/theory.md (kt, M, F0), the start of a name, or the right key of another section. */
 suggestion suggest_key(const char *section, const char *key, size_t length);
 
 /* The same for a whole path, "hbm.sample". */

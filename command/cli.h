@@ -80,7 +80,7 @@ void cli_message(const cli_common *common, const char *format, ...) __attribute_
 typedef enum cli_solver { CLI_HBM, CLI_TRANSIENT, CLI_BOTH } cli_solver;
 
 /* The message for a solver's failure: `what` failed, where, why, and what to try. omega <= 0: at no particular one.
- * Returns the exit code of docs/interface.md. */
+ * Returns the exit code (docs/interface.md, 5). */
 int cli_solver_failed(const cli_common *common, cli_solver solver, const char *what, hc_status st, double omega);
 
 /* The message for a file (NULL: standard output) that could not be written; errno as the failure left it. Returns the

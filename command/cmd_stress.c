@@ -7,6 +7,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "base/ascending.h"
 #include "campaigns/stress/scenes.h"
 #include "campaigns/stress/stress.h"
 #include "cases/case_file.h"
@@ -112,12 +113,6 @@ typedef struct stress_call {
 
 /* ---- tables ---- */
 
-static int by_value(const void *a, const void *b)
-{
-  double x = *(const double *)a, y = *(const double *)b;
-  return (x > y) - (x < y);
-}
-
 /* Median and largest error of the scenes where this check agreed, and the scene of the largest. */
 static void put_errors(const stress_call *call, int kind, table *t)
 {
@@ -129,7 +124,7 @@ static void put_errors(const stress_call *call, int kind, table *t)
     errors[n++] = c->error;
     if (c->error > largest) largest = c->error, at = call->results[i].index;
   }
-  if (n > 0) qsort(errors, (size_t)n, sizeof *errors, by_value);
+  if (n > 0) qsort(errors, (size_t)n, sizeof *errors, ascending);
   table_put_real(t, n > 0 ? errors[n / 2] : NAN);
   table_put_real(t, n > 0 ? largest : NAN);
   if (n > 0) table_put_integer(t, at);

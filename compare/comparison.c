@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/constants.h"
 #include "compare/frequencies.h"
 #include "compare/gate_limits.h"
 #include "compare/motion.h"

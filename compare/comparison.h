@@ -17,7 +17,7 @@
 #include "hbm/hbm.h"
 #include "timeint/timeint.h"
 
-/* Never a bare number: what a comparison can come to. Names are INTERFACE.md's. */
+/* Never a bare number: what a comparison can come to. Names: docs/interface.md, 4. */
 #define VERDICT_LIST(X)                                                                                                \
   X(VERDICT_MATCH, "match", "every error is within the gate")                                                          \
   X(VERDICT_DIFFERS, "differs", "same orbit, but an error is beyond the gate")                                         \
@@ -72,7 +72,7 @@ const char *comparison_verdict_text(const comparison_row *row, char text[24]);
 /* Is it known where the transient went, and no HBM solution is there? */
 bool comparison_unaccounted(const comparison_row *row);
 
-/* Exit code of INTERFACE.md: 0 agreed; 1 a transient differs from every HBM solution, or has another period; 3
+/* Exit code (docs/interface.md, 5): 0 agreed; 1 a transient differs from every HBM solution, or has another period; 3
  * something could not be compared. */
 int comparison_exit_code(const comparison *c);
 

@@ -4,6 +4,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/ascending.h"
+
 void comparison_sweep(double omega_from, double omega_to, const number_list *asked, double *from, double *to)
 {
   double low = fmin(omega_from, omega_to), high = fmax(omega_from, omega_to);
@@ -14,12 +16,6 @@ void comparison_sweep(double omega_from, double omega_to, const number_list *ask
   bool up = omega_from <= omega_to;
   *from = up ? low : high;
   *to = up ? high : low;
-}
-
-static int ascending(const void *a, const void *b)
-{
-  double x = *(const double *)a, y = *(const double *)b;
-  return (x > y) - (x < y);
 }
 
 static void sort_unique(number_list *list)

@@ -3,15 +3,14 @@
 
 #include <math.h>
 
+#include "base/constants.h"
 #include "numerics/series.h"
-
-static const double two_pi = 6.283185307179586476925;
 
 periodic_motion motion_of_series(const hbm_measures *m, int n_harm, const double *X)
 {
   periodic_motion out = {.amplitude = m->amplitude, .harmonic_1 = m->harmonic_1, .mean = X[0]};
   for (int i = 0; i < TIMEINT_WAVE; ++i) {
-    double th = two_pi * i / TIMEINT_WAVE;
+    double th = TWO_PI * i / TIMEINT_WAVE;
     out.wave[i] = series_at(n_harm, X, cos(th), sin(th)).x;
   }
   return out;
@@ -57,7 +56,7 @@ void motion_series(const periodic_motion *m, int n_harm, double *X)
   for (int i = 0; i < TIMEINT_WAVE; ++i) X[0] += m->wave[i] / TIMEINT_WAVE;
   for (int h = 1; h <= n_harm; ++h)
     for (int i = 0; i < TIMEINT_WAVE; ++i) {
-      double th = two_pi * (double)((long)h * i % TIMEINT_WAVE) / TIMEINT_WAVE; /* the angle is small: no digits lost */
+      double th = TWO_PI * (double)((long)h * i % TIMEINT_WAVE) / TIMEINT_WAVE; /* the angle is small: no digits lost */
       X[2 * h - 1] += 2.0 / TIMEINT_WAVE * m->wave[i] * cos(th);
       X[2 * h] += 2.0 / TIMEINT_WAVE * m->wave[i] * sin(th);
     }

@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/constants.h"
 #include "hbm/fft_plan.h"
 #include "hbm/force_jacobian.h"
 
@@ -64,7 +65,7 @@ static hc_status make_tables(aft *a)
   a->right = calloc((size_t)n_coef, sizeof(double));
   if (!a->w || !a->x || !a->f || !a->k || !a->spec || !a->root || !a->inv_step || !a->symbol || !a->left || !a->right)
     return HC_NO_MEMORY;
-  const double step = 6.283185307179586476925 / n;
+  const double step = TWO_PI / n;
   for (int i = 0; i < n; ++i) a->root[i] = cos(i * step) + I * sin(i * step);
   for (int h = 1; h <= a->n_harm; ++h) a->inv_step[h] = 1 / (a->root[h % n] - 1);
   return HC_OK;

@@ -12,10 +12,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/constants.h"
 #include "hbm/force_jacobian.h"
 #include "hbm/hbm_settings.h"
-
-static const double PI = 3.14159265358979323846;
+#include "numerics/series.h"
 
 struct exact_force {
   int n_harm, n_dof, n_coef, n_contacts, cap;
@@ -103,15 +103,11 @@ static void fill_indicator(exact_force *e, const contact_piece *p)
   double *I = e->indicator, middle = 0.5 * (p->from + p->to), half = 0.5 * (p->to - p->from);
   I[0] = half / PI;
   double cm = cos(middle), sm = sin(middle), cw = cos(half), sw = sin(half);
-  double cm_h = 1, sm_h = 0, cw_h = 1, sw_h = 0, next;
+  double cm_h = 1, sm_h = 0, cw_h = 1, sw_h = 0;
   bool whole = half >= PI;
   for (int h = 1; h <= 2 * e->n_harm; ++h) {
-    next = cm_h * cm - sm_h * sm;
-    sm_h = cm_h * sm + sm_h * cm;
-    cm_h = next;
-    next = cw_h * cw - sw_h * sw;
-    sw_h = cw_h * sw + sw_h * cw;
-    cw_h = next;
+    series_turn(cm, sm, &cm_h, &sm_h);
+    series_turn(cw, sw, &cw_h, &sw_h);
     double size = whole ? 0 : e->weight[h] * sw_h;
     I[2 * h - 1] = size * cm_h;
     I[2 * h] = size * sm_h;
@@ -158,8 +154,8 @@ static void add_openings(exact_force *e, int j, double *C)
   const double preload = contact_preload(&c->law);
   if (preload == 0) return;
   for (int i = 0; i < n || i == 0; ++i) {
-    contact_piece open = {.from = 0, .to = 2 * PI};
-    if (n > 0) open.from = p[i].to, open.to = i + 1 < n ? p[i + 1].from : p[0].from + 2 * PI;
+    contact_piece open = {.from = 0, .to = TWO_PI};
+    if (n > 0) open.from = p[i].to, open.to = i + 1 < n ? p[i + 1].from : p[0].from + TWO_PI;
     if (!(open.to > open.from)) continue;
     fill_indicator(e, &open);
     for (int d = 0; d < e->n_dof; ++d)
@@ -177,9 +173,7 @@ static void subtract_memory(exact_force *e, const moving_contact *c, const conta
   double cosine = cos(p->origin), sine = sin(p->origin), ch = 1, sh = 0;
   e->right[0] = 1;
   for (int h = 1; h <= e->n_harm; ++h) {
-    double next = ch * cosine - sh * sine;
-    sh = ch * sine + sh * cosine;
-    ch = next;
+    series_turn(cosine, sine, &ch, &sh);
     e->right[2 * h - 1] = ch;
     e->right[2 * h] = sh;
   }
@@ -218,7 +212,7 @@ static contact_regime regime_of(const contact_piece *p, int n)
     slips |= contact_slip_sign(p[i].state) != 0;
   }
   if (n == 0) return CONTACT_LINEAR;
-  if (touching < 2 * PI * (1 - 1e-15)) return CONTACT_SEPARATES;
+  if (touching < TWO_PI * (1 - 1e-15)) return CONTACT_SEPARATES;
   return slips ? CONTACT_SLIPS : CONTACT_STUCK;
 }
 
@@ -228,7 +222,7 @@ static int count_changes(const contact_piece *p, int n)
   int changes = 0;
   for (int i = 0; i < n; ++i) {
     const contact_piece *next = &p[(i + 1) % n];
-    bool meets = next->from == p[i].to || next->from == p[i].to - 2 * PI;
+    bool meets = next->from == p[i].to || next->from == p[i].to - TWO_PI;
     changes += meets ? next->state != p[i].state : 2;
   }
   return changes;
@@ -246,7 +240,7 @@ static double slider_at_zero(const exact_force *e, int j)
     v += c->cv[d] * zero->d[0][d];
   }
   for (int i = 0; i < e->n_pieces[j]; ++i) {
-    bool covers = p[i].from <= 0 || p[i].to >= 2 * PI;
+    bool covers = p[i].from <= 0 || p[i].to >= TWO_PI;
     if (!covers || !(c->law.kt > 0)) continue;
     int s = contact_slip_sign(p[i].state);
     return s ? u - s * c->law.mu * contact_normal(&c->law, v) / c->law.kt : p[i].held / c->law.kt;

@@ -2,8 +2,8 @@
  * constant.
  *
  * With F(th) = k(th) x(th) + rest and k's own Fourier coefficients (mean k0, cosines C_m, sines S_m, m <= 2H)
- * products of two trigonometric functions become sums, so dF/dX is Toeplitz + Hankel in C and S (PHYSICS.md section
- * 6 of the specification; e.g. d(cos p row)/d(cos q) = (C_|p-q| + C_{p+q})/2 with C_0 = 2 k0). What a stuck slider
+ * products of two trigonometric functions become sums, so dF/dX is Toeplitz + Hankel in C and S
+ * (docs/theory.md section 5; e.g. d(cos p row)/d(cos q) = (C_|p-q| + C_{p+q})/2 with C_0 = 2 k0). What a stuck slider
  * remembers is added by rank-1 terms. */
 #ifndef HC_FORCE_JACOBIAN_H
 #define HC_FORCE_JACOBIAN_H

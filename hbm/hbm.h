@@ -41,7 +41,7 @@ typedef struct hbm_curve {
 
 /* Measures of one solution. */
 typedef struct hbm_measures {
-  double amplitude, max, min, rms, mean, harmonic_1; /* [length], as INTERFACE.md defines them */
+  double amplitude, max, min, rms, mean, harmonic_1; /* [length], docs/interface.md, 3 */
   contact_report contact;
 } hbm_measures;
 

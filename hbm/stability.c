@@ -7,11 +7,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/ascending.h"
+#include "base/constants.h"
 #include "hbm/exact_force.h"
 #include "model/linear.h"
 #include "numerics/floquet.h"
-
-static const double TWO_PI = 6.283185307179586476925;
 
 struct stability {
   int cap;                     /* of boundary */
@@ -58,12 +58,6 @@ void stability_free(stability *s)
   free(s->active);
   free(s->lambda);
   free(s);
-}
-
-static int ascending(const void *a, const void *b)
-{
-  double x = *(const double *)a, y = *(const double *)b;
-  return (x > y) - (x < y);
 }
 
 static double wrap(double th) { return th >= TWO_PI ? th - TWO_PI : th; }

@@ -6,9 +6,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/constants.h"
 #include "numerics/crossing.h"
-
-static const double TWO_PI = 6.283185307179586476925;
 
 /* Everything about one contact while its period is walked through. */
 typedef struct walk {

@@ -23,7 +23,7 @@ typedef struct contact {
 
 typedef enum contact_state { CONTACT_SEPARATED, CONTACT_STICK, CONTACT_SLIP_PLUS, CONTACT_SLIP_MINUS } contact_state;
 
-/* The strongest thing that happens over a period, in the order of INTERFACE.md's `contact` column. */
+/* The strongest thing that happens over a period, in the order of the column `contact` (docs/interface.md, 3). */
 typedef enum contact_regime { CONTACT_LINEAR, CONTACT_STUCK, CONTACT_SLIPS, CONTACT_SEPARATES } contact_regime;
 const char *contact_regime_name(contact_regime regime); /* "linear", "stick", "slip", "separation" */
 

@@ -46,6 +46,28 @@ static int on_jacobian(N_Vector z, N_Vector r, SUNMatrix jac, void *self, N_Vect
   return nw->refusal == HC_OK ? 0 : 1;
 }
 
+/* The same for KINSOL. SUNDIALS 7 tells of a function that failed in a text that it allocates, and crashes where that
+ * fails, too (room.h). Out of memory therefore looks like a solution, at which KINSOL ends: a residual of 0, whatever
+ * the Jacobian. `refusal` keeps what happened. */
+static int kinsol_residual(N_Vector z, N_Vector r, void *self)
+{
+  newton *nw = self;
+  if (nw->refusal != HC_NO_MEMORY && on_residual(z, r, nw) == 0) return 0;
+  if (nw->refusal != HC_NO_MEMORY) return 1;
+  N_VConst(0.0, r);
+  return 0;
+}
+
+static int kinsol_jacobian(N_Vector z, N_Vector r, SUNMatrix jac, void *self, N_Vector t1, N_Vector t2)
+{
+  newton *nw = self;
+  if (nw->refusal != HC_NO_MEMORY && on_jacobian(z, r, jac, nw, t1, t2) == 0) return 0;
+  if (nw->refusal != HC_NO_MEMORY) return 1;
+  for (int i = 0; i < nw->problem.n; ++i)
+    for (int j = 0; j < nw->problem.n; ++j) SM_ELEMENT_D(jac, i, j) = i == j;
+  return 0;
+}
+
 static hc_status make_kinsol(newton *nw)
 {
   sunindextype n = nw->problem.n;
@@ -58,9 +80,9 @@ static hc_status make_kinsol(newton *nw)
   if (!(nw->kin = KINCreate(nw->ctx)) || !hc_room_for(0)) return HC_NO_MEMORY;
   int bad = HC_KINSOL_QUIET(nw->kin);
   bad |= KINSetUserData(nw->kin, nw);
-  bad |= KINInit(nw->kin, on_residual, nw->z);
+  bad |= KINInit(nw->kin, kinsol_residual, nw->z);
   bad |= KINSetLinearSolver(nw->kin, nw->ls, nw->jac);
-  bad |= KINSetJacFn(nw->kin, on_jacobian);
+  bad |= KINSetJacFn(nw->kin, kinsol_jacobian);
   bad |= KINSetMaxSetupCalls(nw->kin, 1);     /* full Newton */
   bad |= KINSetScaledStepTol(nw->kin, 1e-15); /* a stop for small steps is for us to judge */
   return bad ? HC_NO_MEMORY : HC_OK;
@@ -191,10 +213,12 @@ static hc_status attempt(newton *nw, int strategy, const newton_options *opt, ne
   int bad = KINSetFuncNormTol(nw->kin, opt->tolerance) | KINSetMaxNewtonStep(nw->kin, opt->max_step);
   bad |= KINSetNumMaxIters(nw->kin, opt->max_iterations);
   if (bad) return HC_BAD_INPUT;
+  nw->refusal = HC_OK;
   int flag = KINSol(nw->kin, nw->z, strategy, nw->z_scale, nw->r_scale);
   long iterations = 0;
   KINGetNumNonlinSolvIters(nw->kin, &iterations);
   report->iterations += (int)iterations;
+  if (nw->refusal == HC_NO_MEMORY) return HC_NO_MEMORY;
   return judge(nw, flag, opt, report);
 }
 

@@ -3,18 +3,15 @@
 
 #include <math.h>
 
+#include "base/constants.h"
 #include "numerics/crossing.h"
-
-static const double TWO_PI = 6.283185307179586476925;
 
 series_jet series_at(int n_harm, const double *X, double c, double s)
 {
   series_jet j = {X[0], 0, 0};
   double ch = 1, sh = 0;
   for (int h = 1; h <= n_harm; ++h) {
-    double next = ch * c - sh * s; /* cos(h th), sin(h th) by rotation */
-    sh = ch * s + sh * c;
-    ch = next;
+    series_turn(c, s, &ch, &sh);
     double even = X[2 * h - 1] * ch + X[2 * h] * sh, odd = X[2 * h] * ch - X[2 * h - 1] * sh;
     j.x += even;
     j.d1 += h * odd;

@@ -12,6 +12,15 @@ typedef struct series_jet {
 
 static inline int series_length(int n_harm) { return 2 * n_harm + 1; }
 
+/* From cos and sin of h th, in *ch and *sh, to those of (h + 1) th; c and s are those of th. From 1, 0 the error of the
+ * h-th turn is at most 3 h roundings (tests/numerics/test_series.c). */
+static inline void series_turn(double c, double s, double *ch, double *sh)
+{
+  double next = *ch * c - *sh * s;
+  *sh = *ch * s + *sh * c;
+  *ch = next;
+}
+
 /* x, x', x'' at the angle whose cosine and sine are c and s. Error: about n_harm rounding units of sum |X|. */
 series_jet series_at(int n_harm, const double *X, double c, double s);
 

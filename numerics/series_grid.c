@@ -4,7 +4,8 @@
 #include <math.h>
 #include <string.h>
 
-static const double TWO_PI = 6.283185307179586476925;
+#include "base/constants.h"
+#include "numerics/series.h"
 
 enum { HALF = SERIES_GRID / 2 };
 
@@ -71,9 +72,7 @@ series_node series_vector_at(const series_vector *m, double th)
     const double *X = m->X[d];
     double x = X[0], d1 = 0, d2 = 0, ch = 1, sh = 0;
     for (int h = 1; h <= m->n_harm; ++h) {
-      double next = ch * c - sh * s;
-      sh = ch * s + sh * c;
-      ch = next;
+      series_turn(c, s, &ch, &sh);
       double even = X[2 * h - 1] * ch + X[2 * h] * sh, odd = X[2 * h] * ch - X[2 * h - 1] * sh;
       x += even;
       d1 += h * odd;

@@ -19,14 +19,16 @@ static inline void hc_sundials_quiet_handler(int line, const char *func, const c
   (void)line, (void)func, (void)file, (void)msg, (void)code, (void)data, (void)ctx;
 }
 
-/* A context that prints nothing: errors are values here. Returns 0, or another number. */
+/* A context that prints nothing: errors are values here. Returns 0, or another number; *ctx is the caller's to free
+ * if it is not NULL. Room is asked for once more for the vectors, matrices and solvers that are made next (room.h). */
 static inline int hc_sundials_context(SUNContext *ctx)
 {
   if (!hc_room_for(0)) return 1;
   int err = SUNContext_Create(SUN_COMM_NULL, ctx);
   if (err) return err;
   SUNContext_ClearErrHandlers(*ctx);
-  return SUNContext_PushErrHandler(*ctx, hc_sundials_quiet_handler, NULL);
+  err = SUNContext_PushErrHandler(*ctx, hc_sundials_quiet_handler, NULL);
+  return err || hc_room_for(0) ? err : 1;
 }
 
 #define HC_KINSOL_QUIET(mem) 0

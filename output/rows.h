@@ -1,6 +1,6 @@
 /* rows.h - the columns of results, one table a kind, for everything that shows or keeps them: the commands, the
- * study. Names are INTERFACE.md's. A new column is a new line in rows.c and nothing else. Not here: how they are
- * written (show/table.h). */
+ * study. Names: docs/interface.md, 3. A new column is a new line in rows.c and nothing else. Not here: how they are
+ * written (output/table.h). */
 #ifndef HC_ROWS_H
 #define HC_ROWS_H
 

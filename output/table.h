@@ -1,5 +1,5 @@
 /* table.h - results as rows of named columns, written as an aligned table, csv (17 significant digits) or json.
- * Column names are INTERFACE.md's. A value that is not there (NaN, NULL) is empty in csv and table, null in json.
+ * Column names: docs/interface.md, 3. A value that is not there (NaN, NULL) is empty in csv and table, null in json.
  * Infinities are inf and -inf in csv and table, null in json. The decimal point is '.' whatever locale the host
  * program has set; text comes out as valid UTF-8. Not here: the file it goes to (output.h). */
 #ifndef HC_TABLE_H

@@ -3,6 +3,7 @@
 
 #include <math.h>
 
+#include "base/constants.h"
 #include "numerics/sundials_compat.h"
 
 void integrate_free(integrator *in)
@@ -85,7 +86,7 @@ hc_status integrate_check_end(integrator *in, double theta, int n)
 {
   double size = 0;
   for (int i = 0; i < n; ++i) size += fabs(NV_Ith_S(in->y, i));
-  if (theta > 6.2831853071795) return isfinite(size) ? HC_OK : HC_NOT_FINITE; /* 2 pi but for CVODE's 100 roundings */
+  if (theta > TWO_PI - 1e-13) return isfinite(size) ? HC_OK : HC_NOT_FINITE; /* CVODE: within 100 roundings */
   in->flag = CV_UNRECOGNIZED_ERR;
   return HC_INTEGRATOR;
 }

@@ -29,11 +29,11 @@
 #include <sunlinsol/sunlinsol_dense.h>
 #include <sunmatrix/sunmatrix_dense.h>
 
+#include "base/constants.h"
 #include "model/linear.h"
 #include "numerics/sundials_compat.h"
 #include "timeint/phase.h"
 
-static const double two_pi = 6.283185307179586477;
 static const double at_end = 64 * DBL_EPSILON; /* nearer to 2 pi CVODE would answer CV_TOO_CLOSE to a restart */
 
 enum {
@@ -169,7 +169,7 @@ static void vary_begin(exact *in)
 /* Into monodromy[n*n], with the rows of sliders that are tied to X. */
 static void vary_end(exact *in, double *monodromy)
 {
-  vary_to(in, two_pi);
+  vary_to(in, TWO_PI);
   memcpy(monodromy, in->monodromy, sizeof *monodromy * (size_t)(in->n * in->n));
   for (int j = 0; j < in->m->n_contacts; ++j) {
     double rest, by_x;
@@ -183,7 +183,7 @@ static void vary_end(exact *in, double *monodromy)
 static hc_status start(exact *in, double theta)
 {
   int flag = CVodeReInit(in->base.cv, theta, in->base.y);
-  if (flag == CV_SUCCESS) flag = CVodeSetStopTime(in->base.cv, two_pi);
+  if (flag == CV_SUCCESS) flag = CVodeSetStopTime(in->base.cv, TWO_PI);
   return integrate_translate(&in->base, flag);
 }
 
@@ -206,7 +206,7 @@ static hc_status transition(exact *in, double theta, int *count)
     in->phase = after;
     vary_held(in, &before);
   }
-  if (theta == two_pi) return HC_OK;
+  if (theta == TWO_PI) return HC_OK;
   hc_status st = integrate_add_counts(&in->base);
   return st == HC_OK ? start(in, theta) : st;
 }
@@ -216,12 +216,12 @@ static hc_status transition(exact *in, double theta, int *count)
 static hc_status run(exact *in, integrate_watch *watch, void *self, int *count)
 {
   sunrealtype theta = 0;
-  for (int still = 0; theta < two_pi;) {
+  for (int still = 0; theta < TWO_PI;) {
     sunrealtype before = theta;
-    int flag = CVode(in->base.cv, two_pi, in->base.y, &theta, watch ? CV_ONE_STEP : CV_NORMAL);
+    int flag = CVode(in->base.cv, TWO_PI, in->base.y, &theta, watch ? CV_ONE_STEP : CV_NORMAL);
     if (flag != CV_SUCCESS && flag != CV_TSTOP_RETURN && flag != CV_ROOT_RETURN)
       return integrate_translate(&in->base, flag);
-    if (two_pi - theta <= at_end * two_pi) theta = two_pi;
+    if (TWO_PI - theta <= at_end * TWO_PI) theta = TWO_PI;
     still = theta > before ? 0 : still + 1;
     if (still > MAX_TRANSITIONS) break;
     hc_status st = watch ? watch(self, &in->base, before, theta) : HC_OK;

@@ -13,9 +13,9 @@
 #include <sunlinsol/sunlinsol_dense.h>
 #include <sunmatrix/sunmatrix_dense.h>
 
+#include "base/constants.h"
 #include "numerics/sundials_compat.h"
 
-static const double two_pi = 6.283185307179586477;
 static const double variation_tolerance = 1e-6; /* of the variations' steps; they are about 1 */
 
 enum {
@@ -141,7 +141,7 @@ static hc_status start_period(regularised *in, bool varies)
 {
   int flag = CVodeReInit(in->base.cv, 0.0, in->base.y);
   if (flag == CV_SUCCESS) flag = varies ? start_variations(in) : CVodeSensToggleOff(in->base.cv);
-  if (flag == CV_SUCCESS) flag = CVodeSetStopTime(in->base.cv, two_pi);
+  if (flag == CV_SUCCESS) flag = CVodeSetStopTime(in->base.cv, TWO_PI);
   return integrate_translate(&in->base, flag);
 }
 
@@ -149,7 +149,7 @@ static hc_status start_period(regularised *in, bool varies)
 static hc_status run(regularised *in)
 {
   sunrealtype theta = 0;
-  int flag = CVode(in->base.cv, two_pi, in->base.y, &theta, CV_NORMAL);
+  int flag = CVode(in->base.cv, TWO_PI, in->base.y, &theta, CV_NORMAL);
   hc_status st = flag == CV_TSTOP_RETURN ? HC_OK : integrate_translate(&in->base, flag);
   return st == HC_OK ? integrate_check_end(&in->base, theta, in->n) : st;
 }
@@ -159,9 +159,9 @@ static hc_status run_watched(regularised *in, integrate_watch *watch, void *self
 {
   for (sunrealtype theta = 0;;) {
     sunrealtype before = theta;
-    int flag = CVode(in->base.cv, two_pi, in->base.y, &theta, CV_ONE_STEP);
+    int flag = CVode(in->base.cv, TWO_PI, in->base.y, &theta, CV_ONE_STEP);
     if (flag != CV_SUCCESS && flag != CV_TSTOP_RETURN) return integrate_translate(&in->base, flag);
-    bool last = flag == CV_TSTOP_RETURN || !(theta < two_pi);
+    bool last = flag == CV_TSTOP_RETURN || !(theta < TWO_PI);
     /* no step that stands still */
     hc_status st = last || !(theta > before) ? integrate_check_end(&in->base, theta, in->n) : HC_OK;
     if (st == HC_OK) st = watch(self, &in->base, before, theta);

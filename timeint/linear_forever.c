@@ -4,10 +4,10 @@
 #include <complex.h>
 #include <math.h>
 
+#include "base/constants.h"
 #include "model/linear.h"
 #include "timeint/internal.h"
 
-static const double two_pi = 6.283185307179586477;
 static const double margin = 1e-9; /* of what a guard is made of: far above the errors of an integration started at
                                       the same state */
 static const double corner = 40; /* [width] beyond which softplus is exact to rounding: SOFT_END of law_regularised.c */
@@ -82,8 +82,8 @@ bool linear_forever(const timeint *ti)
 static double complex slowest(double c, double k)
 {
   const double d = 0.25 * c * c - k;
-  if (d < 0) return cexp(two_pi * (-0.5 * c + I * sqrt(-d)));
-  return exp(-two_pi * k / (0.5 * c + sqrt(d))); /* k/a for a - sqrt(d): nothing cancels */
+  if (d < 0) return cexp(TWO_PI * (-0.5 * c + I * sqrt(-d)));
+  return exp(-TWO_PI * k / (0.5 * c + sqrt(d))); /* k/a for a - sqrt(d): nothing cancels */
 }
 
 static void fill_measures(const linear *l, double length, timeint_result *r)
@@ -97,7 +97,7 @@ static void fill_measures(const linear *l, double length, timeint_result *r)
   r->a1 = creal(l->steady) * length; /* Re(Z e^{i theta}) = Re Z cos - Im Z sin */
   r->b1 = -cimag(l->steady) * length;
   for (int i = 0; i < TIMEINT_WAVE; ++i) {
-    double theta = two_pi * i / TIMEINT_WAVE;
+    double theta = TWO_PI * i / TIMEINT_WAVE;
     r->wave[i] = l->center * length + r->a1 * cos(theta) + r->b1 * sin(theta);
   }
 }

@@ -5,9 +5,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/constants.h"
 #include "numerics/roots.h"
-
-static const double two_pi = 6.283185307179586477;
 
 void measure_begin(measure *me, const scaled_model *m)
 {
@@ -25,7 +24,7 @@ static void extend(measure *me, double x)
 
 static void take_instant(measure *me, double x)
 {
-  double theta = two_pi * me->next / TIMEINT_WAVE;
+  double theta = TWO_PI * me->next / TIMEINT_WAVE;
   me->sum += x;
   me->sum_sq += x * x;
   me->sum_cos += x * cos(theta);
@@ -102,7 +101,7 @@ hc_status measure_step(void *self, const integrator *in, double theta0, double t
 {
   measure *me = self;
   double y[SCALED_MAX_STATES], dy[SCALED_MAX_STATES];
-  for (double t; me->next < TIMEINT_WAVE && (t = two_pi * me->next / TIMEINT_WAVE) <= theta1;) {
+  for (double t; me->next < TIMEINT_WAVE && (t = TWO_PI * me->next / TIMEINT_WAVE) <= theta1;) {
     hc_status st = integrate_dense(in, t, 0, y);
     if (st != HC_OK) return st;
     take_instant(me, y[SCALED_X]);

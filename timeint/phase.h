@@ -8,7 +8,7 @@
  * phase lasts while
  *     down < X < up,  and P keeps its sign if some contact slips.
  *
- * At the ends (PHYSICS.md, 1): touch -> contact_on_touch; stick -> slip; closed -> separated; slip -> stick where P
+ * At the ends (docs/theory.md, 2): touch -> contact_on_touch; stick -> slip; closed -> separated; slip -> stick where P
  * changes sign.
  *  - A guard that vanishes where a phase begins, and then grows, is moved outwards by a rounding, so that it can
  *    still end the phase.

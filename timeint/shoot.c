@@ -128,11 +128,16 @@ static hc_status jacobian(void *self, const double *z, double *jac)
   return HC_OK;
 }
 
-/* Anderson's map u -> F^k(u). */
+/* Anderson's map u -> F^k(u). Out of memory is told as a fixed point, at which KINSOL ends: SUNDIALS 7 crashes where it
+ * has no memory to tell of a failure (room.h). */
 static int map(N_Vector u, N_Vector f, void *self)
 {
   shoot *s = self;
-  s->refusal = evaluate(s, NV_DATA_S(u));
+  if (s->refusal != HC_NO_MEMORY) s->refusal = evaluate(s, NV_DATA_S(u));
+  if (s->refusal == HC_NO_MEMORY) {
+    memcpy(NV_DATA_S(f), NV_DATA_S(u), sizeof(double) * (size_t)s->n);
+    return 0;
+  }
   memcpy(NV_DATA_S(f), s->f, sizeof(double) * (size_t)s->n);
   return s->refusal == HC_OK ? 0 : 1;
 }

@@ -4,7 +4,9 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
+
+#include "base/ascending.h"
+#include "base/thread_clock.h"
 
 #include "campaigns/scene_solvers.h"
 
@@ -13,13 +15,6 @@ const double trial_slow = 0.2;
 static const double shortest_run = 5e-4; /* [s] the clock is good to a microsecond */
 static const double other_orbit = 0.3;   /* [amplitude] of the waveform: few harmonics are some ten percent off,
                                           another orbit is elsewhere */
-
-double trial_clock(void)
-{
-  struct timespec t;
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 /* A monitor that also stops what takes too long. */
 typedef struct limit {
@@ -33,7 +28,7 @@ static bool tick_limit(void *self, double done)
   limit *l = self;
   (void)done;
   l->stopped = !hc_monitor_tick(l->outer, -1);
-  return !l->stopped && trial_clock() < l->until;
+  return !l->stopped && thread_seconds() < l->until;
 }
 
 static bool is_hbm(bench_method m) { return m == BENCH_HBM_EXACT || m == BENCH_HBM_SAMPLED; }
@@ -74,7 +69,7 @@ static void solve_hbm(trial *t, const place_start *at, double *X, hbm_measures *
 static void solve_transient(trial *t, const place_start *at, const hc_monitor *monitor, timeint_result *r, answer *a)
 {
   const bool marches = t->sc.transient.steady == TRANSIENT_STEADY_MARCH;
-  limit l = {monitor, trial_clock() + (marches ? bench_longest : bench_longest_shot), false};
+  limit l = {monitor, thread_seconds() + (marches ? bench_longest : bench_longest_shot), false};
   hc_monitor limited = {tick_limit, &l};
   timeint_state state = at->state;
   a->status = timeint_steady(t->ti, at->omega, &state, &limited, r);
@@ -88,12 +83,12 @@ static double solve(trial *t, const place_start *at, const hc_monitor *monitor, 
   hbm_measures m;
   timeint_result r;
   *a = (answer){.status = HC_OK};
-  const double began = trial_clock();
+  const double began = thread_seconds();
   for (int i = 0; i < t->batch; ++i) {
     if (t->hbm) solve_hbm(t, at, X, &m, a);
     else solve_transient(t, at, monitor, &r, a);
   }
-  const double took = trial_clock() - began;
+  const double took = thread_seconds() - began;
   t->spent += took;
   if (a->status == HC_OK) a->motion = t->hbm ? motion_of_series(&m, t->row->harmonics, X) : motion_of_transient(&r);
   return took / t->batch;
@@ -102,7 +97,7 @@ static double solve(trial *t, const place_start *at, const hc_monitor *monitor, 
 /* The method's own curve knows its solution at the neighbour: the largest there. */
 static hc_status from_own_curve(const place_start *at, const hc_monitor *monitor, trial *t)
 {
-  limit l = {monitor, trial_clock() + bench_longest_shot, false};
+  limit l = {monitor, thread_seconds() + bench_longest_shot, false};
   hc_monitor limited = {tick_limit, &l};
   hbm_curve curve = {0}, found = {0};
   hbm_measures m;
@@ -180,27 +175,21 @@ hc_status trial_run(trial *t, const place_start *at, const hc_monitor *monitor)
 
 hc_status trial_curve(trial *t, const hc_monitor *monitor)
 {
-  limit l = {monitor, trial_clock() + bench_longest, false};
+  limit l = {monitor, thread_seconds() + bench_longest, false};
   hc_monitor limited = {tick_limit, &l};
   double v[3], low, high;
   hc_status st = HC_OK;
   if (t->row->method != BENCH_HBM_EXACT || t->row->outcome != BENCH_SOLVED) return HC_OK;
   for (int i = 0; i < 3 && st == HC_OK; ++i) {
     hbm_curve curve = {0};
-    const double began = trial_clock();
+    const double began = thread_seconds();
     st = hbm_trace(t->hbm, t->sc.omega_from, t->sc.omega_to, &limited, &curve);
-    v[i] = trial_clock() - began;
+    v[i] = thread_seconds() - began;
     hbm_curve_free(&curve);
   }
   if (st == HC_OK) trial_quartiles(3, v, &low, &t->row->curve_seconds, &high);
   /* a curve that ends early has no time */
   return l.stopped || st == HC_NO_MEMORY ? (l.stopped ? HC_INTERRUPTED : st) : HC_OK;
-}
-
-static int ascending(const void *a, const void *b)
-{
-  double x = *(const double *)a, y = *(const double *)b;
-  return (x > y) - (x < y);
 }
 
 static double quantile(int n, const double *v, double at)

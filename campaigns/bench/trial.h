@@ -30,9 +30,6 @@ typedef struct trial {
 
 extern const double trial_slow; /* [s] of a solution: what takes longer is measured by its first run */
 
-/* Processor time of this thread [s]. */
-double trial_clock(void);
-
 /* Ready to run up to cap times, the first run done: errors and outcome are in the row. HC_INTERRUPTED, HC_NO_MEMORY;
  * what goes wrong with the method itself is the row's outcome. Free in any case. */
 hc_status trial_start(const scene *sc, const place_start *at, bench_row *row, int cap, const hc_monitor *monitor,

@@ -7,6 +7,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/constants.h"
 #include "campaigns/scene_solvers.h"
 #include "campaigns/stress/subject.h"
 #include "hbm/aft.h"
@@ -115,7 +116,7 @@ static double largest(const scene *sc, const force *f)
  * with S all stiffnesses, Xp = sum h^p |X_h|. Twice that for what the terms do to each other. */
 static double sampling(const scene *sc, const double *X, const force *f, int n_time, int h)
 {
-  double d = 6.283185307179586 / n_time, x0 = fabs(X[0]) + size(sc, X, 0), x1 = size(sc, X, 1), x2 = size(sc, X, 2);
+  double d = TWO_PI / n_time, x0 = fabs(X[0]) + size(sc, X, 0), x1 = size(sc, X, 1), x2 = size(sc, X, 2);
   double k = stiffness(sc);
   return 2 * d * d *
          (k * (x2 + 2 * h * x1 + h * h * x0) / 6 + h * h * preload(sc) / 6 + (f->transitions + 1) * k * x1 / 8 +

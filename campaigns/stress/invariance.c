@@ -47,7 +47,7 @@ static double in_other_units(stress_subject *s, double length, double force, dou
  * stay there. */
 stress_check stress_check_units(stress_subject *s)
 {
-  const double bound = 1e-10; /* what INTERFACE.md's tolerance of residuals allows a well-conditioned solution */
+  const double bound = 1e-10; /* what hbm.tolerance allows a well-conditioned solution */
   hc_status st;
   double binary = in_other_units(s, 0x1p-10, 0x1p6, 0x1p4, true, &st);
   if (st != s->base.status) return stress_find(STRESS_DISAGREES, NAN, NAN);

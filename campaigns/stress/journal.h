@@ -19,7 +19,8 @@ typedef struct stress_journal stress_journal;
 
 /* plan->journal, if any: its scenes that belong to the plan into results, *there of them. *out is NULL where there
  * is none to keep. HC_BAD_INPUT: it is no journal of this seed and these seconds, or is damaged; HC_UNSUPPORTED: its
- * version or its lists of names are not those of this program; HC_IO, HC_NO_MEMORY. A file refused is left as it was. */
+ * version or its lists of names are not those of this program; HC_IO, HC_NO_MEMORY. What is refused is left
+ * as it was. */
 hc_status stress_journal_open(const stress_plan *plan, stress_result *results, long *there, stress_journal **out);
 
 /* On disk when this returns HC_OK. */

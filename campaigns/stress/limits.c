@@ -7,6 +7,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/constants.h"
 #include "campaigns/stress/subject.h"
 #include "compare/comparison.h"
 
@@ -68,7 +69,7 @@ static double confirm(stress_subject *s, const scene *sc, const stress_orbit *o)
   guess[0] = o->r.mean;
   for (int k = 1; k <= sc->hbm.harmonics; ++k)
     for (int i = 0; i < TIMEINT_WAVE; ++i) {
-      double th = 6.283185307179586 * k * i / TIMEINT_WAVE;
+      double th = TWO_PI * k * i / TIMEINT_WAVE;
       guess[2 * k - 1] += 2 * o->r.wave[i] * cos(th) / TIMEINT_WAVE;
       guess[2 * k] += 2 * o->r.wave[i] * sin(th) / TIMEINT_WAVE;
     }

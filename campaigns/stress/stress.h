@@ -8,7 +8,7 @@
  *     refused     a solver said that it could not, and why; second worst
  *     finding     two methods say different things and nothing explains it: a fault of ours
  * or was skipped, having nothing to hold against each other. There is no fifth. Not here: how it is shown
- * (cli/cmd_stress.c). */
+ * (command/cmd_stress.c). */
 #ifndef HC_STRESS_H
 #define HC_STRESS_H
 

@@ -3,26 +3,19 @@
 
 #include <math.h>
 #include <string.h>
-#include <time.h>
 
+#include "base/thread_clock.h"
 #include "campaigns/scene_solvers.h"
 #include "compare/comparison.h"
-
-double stress_processor_seconds(void)
-{
-  struct timespec t;
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 static bool go_on(void *self, double done)
 {
   stress_subject *s = self;
   if (!hc_monitor_tick(s->outer, done)) s->fatal = HC_INTERRUPTED;
-  return s->fatal == HC_OK && stress_processor_seconds() < s->deadline;
+  return s->fatal == HC_OK && thread_seconds() < s->deadline;
 }
 
-void stress_clock(stress_subject *s) { s->deadline = stress_processor_seconds() + s->seconds; }
+void stress_clock(stress_subject *s) { s->deadline = thread_seconds() + s->seconds; }
 
 void stress_subject_start(stress_subject *s, const scene *sc, double seconds, const hc_monitor *outer)
 {
@@ -143,15 +136,15 @@ hc_status stress_scene(const scene *sc, double seconds, const hc_monitor *monito
       stress_check_stuck,    stress_check_units,     stress_check_energy,      stress_check_sampled,
       stress_check_shooting, stress_check_stability, stress_check_regularised, stress_check_verdict};
   stress_subject s;
-  double start = stress_processor_seconds();
+  double start = thread_seconds();
   stress_subject_start(&s, sc, seconds, monitor);
   for (int k = 0; k < STRESS_N_CHECKS && s.fatal == HC_OK; ++k) {
     stress_clock(&s);
-    double began = stress_processor_seconds();
+    double began = thread_seconds();
     out->check[k] = checks[k](&s);
-    out->check[k].seconds = stress_processor_seconds() - began;
+    out->check[k].seconds = thread_seconds() - began;
   }
-  out->seconds = stress_processor_seconds() - start;
+  out->seconds = thread_seconds() - start;
   out->there = s.fatal == HC_OK;
   return s.fatal;
 }

@@ -44,7 +44,6 @@ void stress_subject_start(stress_subject *s, const scene *sc, double seconds, co
 
 /* The clock of a check starts now. */
 void stress_clock(stress_subject *s);
-double stress_processor_seconds(void); /* of this thread */
 
 /* HBM for sc (any variant of the subject's) at omega from guess[2 n_guess + 1], or from nothing where guess is NULL. */
 void stress_solve(stress_subject *s, const scene *sc, double omega, int n_guess, const double *guess,

@@ -4,8 +4,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
+#include "base/thread_clock.h"
 #include "campaigns/scene_solvers.h"
 #include "compare/frequencies.h"
 
@@ -142,13 +142,6 @@ static hc_status solve_compare(const scene *sc, const hc_monitor *monitor, study
   }
   comparison_clear(&c);
   return st;
-}
-
-static double thread_seconds(void)
-{
-  struct timespec t;
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
 hc_status study_solve(const study *s, long id, const hc_monitor *monitor, study_result *out)

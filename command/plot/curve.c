@@ -7,55 +7,16 @@
 
 #include "campaigns/scene_solvers.h"
 #include "compare/frequencies.h"
+#include "hbm/curve.h"
 
-static const double off_curve =
-    0.01; /* [1] fraction of the drawing: a point farther from the curve is another branch */
+/* [1] A point farther from the curve than this fraction of the drawing is on another branch. */
+static const double off_curve = 0.01;
 
 /* ---- where the curve goes ---- */
 
-/* The curve is drawn with straight lines, so points are added: BETWEEN steps from one to the next, on the cubic through
- * both with the curve's own tangents. */
+/* The curve is drawn with straight lines, so points are added: BETWEEN steps from one to the next, on the cubic of
+ * hbm/curve.h. */
 enum { BETWEEN = 4 };
-
-static double chord(const hbm_curve *c, int k, int i, double *tangent)
-{
-  const double *X = c->X + (size_t)k * (size_t)c->n_coef;
-  double w0 = c->points[k].omega, w1 = c->points[k + 1].omega, a = i < 0 ? w0 : X[i], b = i < 0 ? w1 : X[i + c->n_coef];
-  tangent[0] = i < 0 ? c->points[k].d_omega : c->dX[(size_t)k * (size_t)c->n_coef + (size_t)i];
-  tangent[1] = i < 0 ? c->points[k + 1].d_omega : c->dX[(size_t)(k + 1) * (size_t)c->n_coef + (size_t)i];
-  return b - a;
-}
-
-/* Length of the step from k to k+1 in the parameter that the tangents are derivatives by: the chord projected on the
- * mean tangent, omega and coefficients together. */
-static double step_length(const hbm_curve *c, int k)
-{
-  double up = 0, down = 0, t[2];
-  for (int i = -1; i < c->n_coef; ++i) {
-    double d = chord(c, k, i, t), mean = 0.5 * (t[0] + t[1]), size = i < 0 ? c->omega_scale : 1;
-    up += d * mean / (size * size);
-    down += mean * mean / (size * size);
-  }
-  return down > 0 ? up / down : 0;
-}
-
-static double cubic(double a, double d, double t0, double t1, double s)
-{
-  double s2 = s * s, s3 = s2 * s;
-  return a + (3 * s2 - 2 * s3) * d + (s3 - 2 * s2 + s) * t0 + (s3 - s2) * t1;
-}
-
-/* The solution at the fraction `at` of the step from k to k+1, into X; its omega. */
-static double between(const hbm_curve *c, int k, double at, double *X)
-{
-  double t[2], h = step_length(c, k), d = chord(c, k, -1, t);
-  double omega = cubic(c->points[k].omega, d, h * t[0], h * t[1], at);
-  for (int i = 0; i < c->n_coef; ++i) {
-    d = chord(c, k, i, t);
-    X[i] = cubic(c->X[(size_t)k * (size_t)c->n_coef + (size_t)i], d, h * t[0], h * t[1], at);
-  }
-  return omega;
-}
 
 static hc_status measure_point(hbm_solver *s, double omega, const double *X, bool judge, curve_point *p)
 {
@@ -81,9 +42,11 @@ static hc_status sample_curve(hbm_solver *s, const hbm_curve *c, bool judge, cur
     st = measure_point(s, c->points[k].omega, c->X + (size_t)k * (size_t)c->n_coef, judge, &(*points)[BETWEEN * k]);
   for (int k = 0; k + 1 < c->n && st == HC_OK; ++k) {
     int here = (*points)[BETWEEN * k].stable, next = (*points)[BETWEEN * (k + 1)].stable;
+    const hbm_segment segment = hbm_segment_between(c, k);
     for (int i = 1; i < BETWEEN && st == HC_OK; ++i) {
       curve_point *p = &(*points)[BETWEEN * k + i];
-      double omega = between(c, k, (double)i / BETWEEN, X);
+      double omega;
+      hbm_segment_at(&segment, (double)i / BETWEEN, X, &omega, NULL, NULL);
       st = measure_point(s, omega, X, judge && here != next, p);
       /* equal at both ends, or unknown because an added point is not quite a solution: that of the nearer end */
       if (here == next || !p->stable) p->stable = 2 * i <= BETWEEN ? here : next;

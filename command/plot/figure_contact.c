@@ -2,12 +2,11 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/constants.h"
 #include "campaigns/scene_solvers.h"
 #include "command/plot/panels.h"
 #include "hbm/exact_force.h"
 #include "numerics/series.h"
-
-static const double two_pi = 6.28318530717958647692;
 
 enum { POINTS = 4096, EVERY = 8, MOST_DRAWN = 8 };
 
@@ -22,7 +21,7 @@ static const contact_piece *piece_at(const contact_piece *p, int n, double th)
 {
   for (int i = 0; i < n; ++i)
     for (int turn = -1; turn <= 1; ++turn)
-      if (th + turn * two_pi >= p[i].from && th + turn * two_pi <= p[i].to) return &p[i];
+      if (th + turn * TWO_PI >= p[i].from && th + turn * TWO_PI <= p[i].to) return &p[i];
   return NULL;
 }
 
@@ -32,7 +31,7 @@ static void compute_history(const model_contact *c, int n_harm, const double *X,
 {
   const double cosine = c->tangent, sine = c->normal;
   for (int i = 0; i <= POINTS; ++i) {
-    double th = two_pi * i / POINTS, x = series_at(n_harm, X, cos(th), sin(th)).x;
+    double th = TWO_PI * i / POINTS, x = series_at(n_harm, X, cos(th), sin(th)).x;
     const contact_piece *p = piece_at(pieces, n, th);
     out->u[i] = x * cosine;
     out->normal[i] = contact_normal(&c->law, x * sine);

@@ -1,10 +1,9 @@
 /* figure_waves.c - the motion over a period at one frequency; a figure of transient. */
 #include <math.h>
 
+#include "base/constants.h"
 #include "cases/scene.h"
 #include "command/plot/panels.h"
-
-static const double two_pi = 6.28318530717958647692;
 
 enum { MOST_WAVES = 12 };
 
@@ -58,7 +57,7 @@ hc_status panels_waves(plot_order *p, const scene *sc, const steady_states *foun
     high = fmax(high, r->result.max);
   }
   snprintf(about, sizeof about, "steady state at ω = %.8g rad/%s, period T = %.6g %s", omega, sc->unit_time,
-           two_pi / omega, sc->unit_time);
+           TWO_PI / omega, sc->unit_time);
   figure_title(&g, "set title", sc->title, about);
   figure_set(&g, "ylabel", "x [%s]", sc->unit_length);
   figure_below(&g, "t / T");

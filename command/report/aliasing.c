@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/constants.h"
 #include "campaigns/scene_solvers.h"
 #include "compare/frequencies.h"
 #include "hbm/aft.h"
@@ -26,7 +27,6 @@ enum {
 static const int harmonics[N_HARM] = {1, 3, 5, 10, 20};
 static const int samples[N_SAMPLES] = {16, 32, 64, 128, 256, 512, 1024, 2048, 4096};
 static const double factors[N_STIFF] = {0.1, 0.3, 1, 3, 10};
-static const double PI = 3.14159265358979323846;
 static const double force_step = 1e-4, harmonic_step = 1e-6, fold_step = 1e-9;
 
 /* Workspace, and the solution at hand. */
@@ -63,7 +63,7 @@ static double contact_at(const model_contact *c, int n, const contact_piece *p, 
   const double u = c->tangent * x, v = c->normal * x, normal = contact_normal(&c->law, v);
   double tangential = 0;
   for (int i = 0; i < n; ++i) {
-    double at = th < p[i].from ? th + 2 * PI : th;
+    double at = th < p[i].from ? th + TWO_PI : th;
     if (at < p[i].from || at > p[i].to) continue;
     int s = contact_slip_sign(p[i].state);
     tangential = s ? s * c->law.mu * normal : c->law.kt * u - p[i].held;
@@ -83,7 +83,7 @@ static hc_status find_truth(workshop *w)
   if (st != HC_OK) return st;
   w->scale = 0;
   for (int i = 0; i < FINE; ++i) {
-    double th = 2 * PI * i / FINE, x = series_at(w->n_harm, w->X, cos(th), sin(th)).x, f = 0;
+    double th = TWO_PI * i / FINE, x = series_at(w->n_harm, w->X, cos(th), sin(th)).x, f = 0;
     for (int j = 0, n; j < w->sc.n_contacts; ++j) {
       const contact_piece *p = exact_force_pieces(w->fine, j, &n);
       f += contact_at(&contacts[j], n, p, th, x);

@@ -6,7 +6,7 @@
  *
  * The page needs no network and no other file: page.html, page.css, page.js and the installed Chart.js are built
  * into the program (embed.cmake). Same input, same bytes: no date, no run times. Nothing is printed; not here:
- * options and files (cli/cmd_report.c). */
+ * options and files (command/cmd_report.c). */
 #ifndef HC_REPORT_REPORT_H
 #define HC_REPORT_REPORT_H
 

@@ -6,8 +6,9 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
+#include "base/ascending.h"
+#include "base/thread_clock.h"
 #include "compare/accuracy/reference.h"
 #include "compare/frequencies.h"
 
@@ -41,13 +42,6 @@ typedef struct job {
   reference ref;
   accuracy *out;
 } job;
-
-static double thread_seconds(void)
-{
-  struct timespec t;
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 /* ---- curves and solutions -------------------------------------------------------------------- */
 
@@ -186,12 +180,6 @@ static hc_status solve_sampled(const job *j, traced *t, const solutions *from, s
 }
 
 /* ---- a row ----------------------------------------------------------------------------------- */
-
-static int ascending(const void *a, const void *b)
-{
-  double x = *(const double *)a, y = *(const double *)b;
-  return (x > y) - (x < y);
-}
 
 static double median(int n, double *e)
 {

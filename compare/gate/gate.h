@@ -67,7 +67,7 @@ double gate_shown(const gate_check *c);
 /* Is check i the one nearest to its limit, or farthest beyond, of its quantity? */
 bool gate_is_worst(const gate_case *g, int i);
 
-/* INTERFACE.md's: 1 if a check failed, else 3 if one is an error, else 0. */
+/* Exit code (docs/interface.md, 5): 1 if a check failed, else 3 if one is an error, else 0. */
 int gate_exit_code(int n, const gate_case *cases);
 
 /* The checks as JUnit XML: a testsuite a case, a testcase a check, <failure> and <error>. No times and no dates:

@@ -7,10 +7,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/constants.h"
 #include "base/message.h"
 #include "base/number.h"
 
-static const double two_pi = 6.283185307179586476925;
 static const size_t most_bytes = (size_t)64 << 20; /* 640 a point */
 
 /* column: in characters from 1, as editors count */
@@ -192,7 +192,7 @@ static hc_status read_point(reader *r)
     return HC_BAD_INPUT;
   }
   hc_status st = read_number(r, r->omega, r->columns->cycles ? "a frequency" : "an omega", false,
-                             r->columns->cycles ? two_pi : 1, &p.omega);
+                             r->columns->cycles ? TWO_PI : 1, &p.omega);
   if (st == HC_OK) st = read_number(r, r->value, verify_quantity_name(r->columns->quantity), true, 1, &p.value);
   return st == HC_OK ? add_point(r, p) : st;
 }

@@ -6,7 +6,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double frequencies[VERIFY_FREQUENCIES] = {1, 6.283185307179586476925, 1 / 6.283185307179586476925};
+#include "base/ascending.h"
+#include "base/constants.h"
+
+static const double frequencies[VERIFY_FREQUENCIES] = {1, TWO_PI, 1 / TWO_PI};
 
 static const struct {
   double factor;
@@ -99,12 +102,6 @@ void verify_sample_clear(verify_sample *s)
 }
 
 /* ---- distances ---- */
-
-static int ascending(const void *a, const void *b)
-{
-  double x = *(const double *)a, y = *(const double *)b;
-  return (x > y) - (x < y);
-}
 
 static double geometric_mean(int n, const double *d)
 {

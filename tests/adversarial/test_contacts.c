@@ -25,8 +25,8 @@ static void grazing_to_an_ulp(void **state)
   (void)state;
   scene sc = load("grazing", NULL);
   const double amplitude = 5 * sqrt(2), low = grazing_omega(&sc, -1), high = grazing_omega(&sc, 1);
-  CHECK_NEAR(low, 5.0995831509, 1e-10, "specification");
-  CHECK_NEAR(high, 7.3371828168, 1e-10, "specification");
+  CHECK_NEAR(low, 5.0995831509, 1e-10, "theory.md, 11");
+  CHECK_NEAR(high, 7.3371828168, 1e-10, "theory.md, 11");
   const double omega[] = {nextafter(low, 0), low, nextafter(low, 9), nextafter(high, 0), high, nextafter(high, 9)};
   for (int i = 0; i < 6; ++i) {
     hbm_curve at = solutions(&sc, omega[i]);

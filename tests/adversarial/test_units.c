@@ -1,7 +1,7 @@
 /* test_units.c - a change of units changes no answer: lengths, forces and times of a scene multiplied, its answers
  * multiplied alike. Any absolute constant left in a solver shows here. */
 #include "campaigns/scene_solvers.h"
-#include "tests/adversarial/reference_scenes.h"
+#include "tests/adversarial/steady_references.h"
 
 typedef struct units {
   const char *what;

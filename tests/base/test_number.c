@@ -133,7 +133,7 @@ static void written_numbers_come_back(void **state)
   assert_string_equal(number_write(-0.0, text), "-0");
   uint64_t s = 4;
   for (int i = 0; i < 20000; ++i) {
-    uint64_t bits = draw(&s);
+    uint64_t bits = random_bits(&s);
     double x, back = 0;
     memcpy(&x, &bits, sizeof x);
     if (!isfinite(x)) continue;

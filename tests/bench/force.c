@@ -13,11 +13,13 @@
 #include <string.h>
 #include <time.h>
 
+#include "base/ascending.h"
 #include "campaigns/scene_solvers.h"
 #include "cases/case_file.h"
 #include "hbm/aft.h"
 #include "hbm/exact_force.h"
 #include "hbm/hbm.h"
+#include "tests/random.h"
 
 enum {
   MAX_CONFIGS = 256,
@@ -105,15 +107,12 @@ static void make_motions(const scene *sc, const bench_scene *b, int n_harm, moti
   *out = (motions){n_harm, 2 * n_harm + 1, NULL};
   out->X = calloc((size_t)VARIANTS * out->n_coef, sizeof(double));
   if (!out->X) die(b->name, HC_NO_MEMORY);
-  unsigned random = 1;
+  uint64_t seed = 1;
   for (int v = 0; v < VARIANTS; ++v) {
     double *X = out->X + (size_t)v * out->n_coef;
     if (v < OMEGAS) largest_at(s, &curve, b->omega[v], X);
     else memcpy(X, X - (size_t)OMEGAS * out->n_coef, (size_t)out->n_coef * sizeof *X);
-    for (int k = 0; k < out->n_coef && v >= OMEGAS; ++k) {
-      random = 1664525u * random + 1013904223u;
-      X[k] *= 1 + 1e-5 * (random / 4294967296.0 - 0.5);
-    }
+    for (int k = 0; k < out->n_coef && v >= OMEGAS; ++k) X[k] *= 1 + 0.5e-5 * random_signed(&seed);
   }
   hbm_curve_free(&curve);
   hbm_solver_free(s);
@@ -204,17 +203,11 @@ static void measure(void)
     }
 }
 
-static int by_value(const void *a, const void *b)
-{
-  double x = *(const double *)a, y = *(const double *)b;
-  return (x > y) - (x < y);
-}
-
 static double quantile(const double *v, double at)
 {
   double sorted[MAX_ROUNDS];
   memcpy(sorted, v, (size_t)rounds * sizeof *v);
-  qsort(sorted, (size_t)rounds, sizeof *sorted, by_value);
+  qsort(sorted, (size_t)rounds, sizeof *sorted, ascending);
   return sorted[(int)lround(at * (rounds - 1))];
 }
 
@@ -306,11 +299,11 @@ static void print_machine(void)
 {
   char line[256] = "";
   FILE *f = fopen("/proc/cpuinfo", "r");
-  const char *model = "unknown";
+  const char *chip = "unknown";
   while (f && fgets(line, sizeof line, f))
     if (!strncmp(line, "model name", 10) && strchr(line, ':')) {
       line[strcspn(line, "\n")] = 0;
-      model = strchr(line, ':') + 2;
+      chip = strchr(line, ':') + 2;
       break;
     }
   if (f) fclose(f);
@@ -324,7 +317,7 @@ static void print_machine(void)
 #else
   printf(", NOT OPTIMISED; ");
 #endif
-  printf("CPU %s; %d rounds\n", model, rounds);
+  printf("CPU %s; %d rounds\n", chip, rounds);
 }
 
 int main(int argc, char **argv)

@@ -9,6 +9,7 @@
 #include <string.h>
 #include <time.h>
 
+#include "base/ascending.h"
 #include "campaigns/scene_solvers.h"
 #include "compare/comparison.h"
 #include "tests/timeint/scenes.h"
@@ -27,16 +28,10 @@ static inline void must(hc_status st, const char *what)
   exit(3);
 }
 
-static inline int bench_ascending(const void *a, const void *b)
-{
-  double x = *(const double *)a, y = *(const double *)b;
-  return (x > y) - (x < y);
-}
-
 /* Sorts v. */
 static inline double median(int n, double *v)
 {
-  qsort(v, (size_t)n, sizeof *v, bench_ascending);
+  qsort(v, (size_t)n, sizeof *v, ascending);
   return n % 2 ? v[n / 2] : 0.5 * (v[n / 2 - 1] + v[n / 2]);
 }
 

@@ -8,8 +8,10 @@
 #include <string.h>
 #include <time.h>
 
+#include "base/ascending.h"
 #include "campaigns/scene_solvers.h"
 #include "hbm/hbm.h"
+#include "tests/reference_scenes.h"
 
 enum { MAX_REPEATS = 1001, MAX_WAYS = 4, N_GROUPS = 4 };
 
@@ -63,12 +65,6 @@ static scene with(scene sc, const way *w)
   return sc;
 }
 
-static int ascending(const void *a, const void *b)
-{
-  double x = *(const double *)a, y = *(const double *)b;
-  return (x > y) - (x < y);
-}
-
 typedef struct result {
   double ms[MAX_REPEATS];
   long evaluations, iterations;
@@ -119,24 +115,20 @@ int main(int argc, char **argv)
     fprintf(stderr, "usage: %s [REPEATS, 1..%d]\n", argv[0], MAX_REPEATS);
     return 64;
   }
-  static const struct {
-    const char *name;
-    double mass, stiffness, force, kt, kn, gap, from, to;
-  } scenes[] = {{"c2", 1, 40, 100, 100, 1000, -5, 3, 20},
-                {"a10", 1, 40, 10, 100, 200, 0.5, 3, 20},
-                {"r2", 1.6, 8e5, 100, 5e5, 7e5, -0.2, 600, 850}};
+  static const char *const names[] = {"c2", "a10", "r2"};
   printf("%-4s %-13s %-10s %3s %5s %5s %7s %6s %8s %8s %8s %6s\n", "case", "switch", "setting", "H", "N", "pts",
          "evals", "iter", "ms", "quarter", "3/4", "ratio");
-  for (size_t i = 0; i < sizeof scenes / sizeof *scenes; ++i) {
-    scene sc = {.mass = scenes[i].mass,
-                .damping = 0.4,
-                .stiffness = scenes[i].stiffness,
-                .force = scenes[i].force,
+  for (size_t i = 0; i < sizeof names / sizeof *names; ++i) {
+    const reference_scene *r = reference_scene_named(names[i]);
+    scene sc = {.mass = r->mass,
+                .damping = r->damping,
+                .stiffness = r->stiffness,
+                .force = r->force,
                 .n_contacts = 1,
-                .omega_from = scenes[i].from,
-                .omega_to = scenes[i].to};
-    sc.contacts[0] = (scene_contact){{scenes[i].kt, scenes[i].kn, 0.3, scenes[i].gap}, 45};
-    for (int g = 0; g < N_GROUPS; ++g) run_group(scenes[i].name, &sc, &groups[g], repeats);
+                .omega_from = r->omega_from,
+                .omega_to = r->omega_to};
+    sc.contacts[0] = (scene_contact){{r->kt, r->kn, REFERENCE_FRICTION, r->gap}, REFERENCE_ANGLE};
+    for (int g = 0; g < N_GROUPS; ++g) run_group(r->name, &sc, &groups[g], repeats);
   }
   return 0;
 }

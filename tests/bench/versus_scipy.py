@@ -1,7 +1,7 @@
 """Case 2 of the paper by scipy's LSODA, for versus_scipy.sh.
 usage: versus_scipy.py OMEGA X V [PERIODS] [RTOL]       prints: seconds of solve_ivp, amplitude over the last period, steps' right-hand sides
 
-The exact law, written plainly. Where this contact touches it sticks, and never slips (kt cos <= mu kn sin: PHYSICS of case 2), so that the force is
+The exact law, written plainly. Where this contact touches it sticks, and never slips (kt cos <= mu kn sin: docs/theory.md, 2), so that the force is
     x > xc:  kt cos^2 (x - xc) + kn (x sin + gap) sin          xc = -gap/sin: where it touches; the slider stays there
     else 0
 and no slider has to be integrated: LSODA gets the smallest system there is, and scalar code."""

@@ -1,5 +1,4 @@
-/* case_text.h - what the tests of the reader share: a smallest case, reading it, a random number generator of our
- * own. */
+/* case_text.h - what the tests of the reader share: a smallest case, and reading it. */
 #ifndef HC_TESTS_CASE_TEXT_H
 #define HC_TESTS_CASE_TEXT_H
 
@@ -7,6 +6,7 @@
 
 #include "cases/case_file.h"
 #include "tests/check.h"
+#include "tests/random.h"
 
 /* Three lines: what is appended starts on line 4. */
 #define SMALLEST                                                                                                       \
@@ -44,18 +44,6 @@ static inline void accepted(const char *text, const char *set, scene *sc)
   assert_int_equal(st, HC_OK);
   assert_string_equal(err.message, "");
 }
-
-/* xorshift64: the same numbers on every machine. */
-static inline uint64_t draw(uint64_t *state)
-{
-  *state ^= *state << 13, *state ^= *state >> 7, *state ^= *state << 17;
-  return *state;
-}
-static inline int draw_int(uint64_t *state, int low, int high)
-{
-  return low + (int)(draw(state) % (uint64_t)(high - low + 1));
-}
-static inline double draw_unit(uint64_t *state) { return (double)(draw(state) >> 11) * 0x1p-53; }
 
 /* One line, no control characters, not empty, terminated. */
 static inline void check_message(const case_error *err)

@@ -32,12 +32,12 @@ static void check_round_trip(const scene *sc)
 static double random_in(const field *f, uint64_t *s)
 {
   for (;;) {
-    double x = ldexp(draw_unit(s) + 0x1p-53, draw_int(s, -1070, 1020) / (draw(s) % 4 ? 40 : 1));
-    int what = draw_int(s, 0, 9);
+    double x = ldexp(random_unit(s) + 0x1p-53, random_int(s, -1070, 1020) / (random_bits(s) % 4 ? 40 : 1));
+    int what = random_int(s, 0, 9);
     if (what == 0) x = f->low;
     if (what == 1) x = f->high;
     if (what == 2) x = 0;
-    if (f->low > -INFINITY && f->high < INFINITY && what > 4) x = f->low + (f->high - f->low) * draw_unit(s);
+    if (f->low > -INFINITY && f->high < INFINITY && what > 4) x = f->low + (f->high - f->low) * random_unit(s);
     if (f->low < 0 && what % 2) x = -x;
     if (isfinite(x) && x >= f->low && x <= f->high && !(f->flags & FIELD_OPEN && x == f->low)) return x;
   }
@@ -46,9 +46,9 @@ static double random_in(const field *f, uint64_t *s)
 static void random_list(const field *f, number_list *list, uint64_t *s)
 {
   memset(list, 0, sizeof *list);
-  list->n = draw(s) % 8 ? draw_int(s, 1, 6) : NUMBER_LIST_MAX;
+  list->n = random_bits(s) % 8 ? random_int(s, 1, 6) : NUMBER_LIST_MAX;
   for (int i = 0; i < list->n; ++i)
-    list->v[i] = f->kind == FIELD_INTEGERS ? draw_int(s, (int)f->low, (int)f->high) : random_in(f, s);
+    list->v[i] = f->kind == FIELD_INTEGERS ? random_int(s, (int)f->low, (int)f->high) : random_in(f, s);
 }
 
 static void random_text(char *to, size_t size, uint64_t *s)
@@ -57,8 +57,8 @@ static void random_text(char *to, size_t size, uint64_t *s)
       "a", "Z", " ", "\"", "\\", "'", ":", "#", "%", "{", "]", "- ", "\xC3\xA9", "\xE2\x82\xAC", "\xF0\x9F\x98\x80",
       "~", "0", ","};
   memset(to, 0, size);
-  for (int n = draw_int(s, 0, 60); n > 0; --n) {
-    const char *p = pieces[draw(s) % (sizeof pieces / sizeof *pieces)];
+  for (int n = random_int(s, 0, 60); n > 0; --n) {
+    const char *p = pieces[random_bits(s) % (sizeof pieces / sizeof *pieces)];
     if (strlen(to) + strlen(p) < size) strcat(to, p);
   }
 }
@@ -71,12 +71,12 @@ static void random_field(const field *f, void *base, uint64_t *s)
   case FIELD_REAL: *(double *)to = random_in(f, s); break;
   case FIELD_PAIR: ((double *)to)[0] = random_in(f, s), ((double *)to)[1] = random_in(f, s); break;
   case FIELD_INTEGER:
-    *(int *)to = f->flags & FIELD_AUTO && draw(s) % 4 == 0 ? HBM_AUTO : draw_int(s, (int)f->low, (int)f->high);
+    *(int *)to = f->flags & FIELD_AUTO && random_bits(s) % 4 == 0 ? HBM_AUTO : random_int(s, (int)f->low, (int)f->high);
     break;
-  case FIELD_FLAG: *(bool *)to = draw(s) % 2; break;
+  case FIELD_FLAG: *(bool *)to = random_bits(s) % 2; break;
   case FIELD_CHOICE:
     while (f->choices[n]) ++n;
-    *(int *)to = draw_int(s, 0, n - 1);
+    *(int *)to = random_int(s, 0, n - 1);
     break;
   case FIELD_TEXT: random_text(to, f->size, s); break;
   default: random_list(f, to, s); break;
@@ -101,7 +101,7 @@ static void mend_gate_ranges(gate_ranges *r)
 static void random_scene(scene *sc, uint64_t *s)
 {
   field_defaults(sc);
-  sc->n_contacts = draw_int(s, 0, 3);
+  sc->n_contacts = random_int(s, 0, 3);
   for (int i = 0; i < field_count(); ++i) {
     const field *f = field_at(i);
     bool in_contact = f->flags & FIELD_IN_CONTACT;
@@ -109,7 +109,7 @@ static void random_scene(scene *sc, uint64_t *s)
     if (!in_contact && !(f->flags & FIELD_NO_ECHO)) random_field(f, sc, s);
   }
   mend_gate_ranges(&sc->gate.ranges);
-  if (draw(s) % 2) sc->compare.points = 20;
+  if (random_bits(s) % 2) sc->compare.points = 20;
   else memset(&sc->compare.omega, 0, sizeof sc->compare.omega);
   if (sc->hbm.samples != HBM_AUTO && sc->hbm.samples < 2 * sc->hbm.harmonics + 1)
     sc->hbm.samples = 2 * sc->hbm.harmonics + 1;
@@ -172,7 +172,7 @@ static void the_papers_scenes_are_all_readable(void **state)
   assert_true(n >= 25);
 }
 
-/* Against shared/reference/README.md: M, K, F0, kt, kn, gap. */
+/* Against tests/reference/README.md: M, K, F0, kt, kn, gap. */
 static void reference_scenes_are_what_they_say(void **state)
 {
   (void)state;

@@ -6,13 +6,19 @@
 #include <errno.h>
 #include <fftw3.h>
 #include <kinsol/kinsol.h>
+#include <malloc.h>
+#include <nvector/nvector_serial.h>
 #include <stdatomic.h>
 #include <stddef.h>
+#include <stdint.h>
 #include <string.h>
+#include <sunlinsol/sunlinsol_dense.h>
+#include <sunmatrix/sunmatrix_dense.h>
 
-static atomic_long asked, refused;
-static long first; /* written while one thread runs */
+static atomic_long asked, refused, in_use, peak; /* the last two: bytes since memory_fail */
+static long first;                               /* written while one thread runs; MEMORY_LIMIT: bytes */
 static memory_mode how;
+static atomic_bool limited; /* MEMORY_LIMIT: from the first call on that is sheltered else */
 static _Thread_local int sheltered;
 
 void memory_fail(long n, memory_mode mode)
@@ -21,16 +27,31 @@ void memory_fail(long n, memory_mode mode)
   how = mode;
   atomic_store(&asked, 0);
   atomic_store(&refused, 0);
+  atomic_store(&in_use, 0);
+  atomic_store(&peak, 0);
+  atomic_store(&limited, false);
+}
+
+/* What is in use now is where the limit counts from. */
+static void start_limit(void)
+{
+  if (atomic_exchange(&limited, true)) return;
+  atomic_store(&in_use, 0);
+  atomic_store(&peak, 0);
 }
 
 long memory_asked(void) { return atomic_load(&asked); }
 long memory_refused(void) { return atomic_load(&refused); }
+long memory_peak(void) { return atomic_load(&peak); }
 
-static bool refuse(void)
+/* Of an allocation of so many bytes more. */
+static bool refuse(size_t bytes)
 {
   if (sheltered) return false;
   long n = atomic_fetch_add(&asked, 1) + 1;
-  if (first == 0 || (how == MEMORY_ONE ? n != first : n < first)) return false;
+  if (first == 0 || (how == MEMORY_ONE && n != first) || (how == MEMORY_ALL_FROM && n < first)) return false;
+  if (how == MEMORY_LIMIT && !limited) return false;
+  if (how == MEMORY_LIMIT && bytes < (size_t)PTRDIFF_MAX && atomic_load(&in_use) + (long)bytes <= first) return false;
   atomic_fetch_add(&refused, 1);
   errno = ENOMEM;
   return true;
@@ -45,16 +66,38 @@ void *REAL(malloc)(size_t);
 void *REAL(calloc)(size_t, size_t);
 void *REAL(realloc)(void *, size_t);
 void *REAL(memalign)(size_t, size_t);
+void REAL(free)(void *);
 
-void *malloc(size_t n) { return refuse() ? NULL : REAL(malloc)(n); }
-void *calloc(size_t n, size_t size) { return refuse() ? NULL : REAL(calloc)(n, size); }
-void *realloc(void *p, size_t n) { return refuse() ? NULL : REAL(realloc)(p, n); }
-void *memalign(size_t align, size_t n);
-void *memalign(size_t align, size_t n) { return refuse() ? NULL : REAL(memalign)(align, n); }
-void *aligned_alloc(size_t align, size_t n) { return refuse() ? NULL : REAL(memalign)(align, n); }
-int posix_memalign(void **p, size_t align, size_t n)
+static void count(long bytes)
 {
-  return refuse() || !(*p = REAL(memalign)(align, n)) ? ENOMEM : 0;
+  const long now = atomic_fetch_add(&in_use, bytes) + bytes;
+  if (now > atomic_load(&peak)) atomic_store(&peak, now);
+}
+
+static void *counted(void *p)
+{
+  if (p) count((long)malloc_usable_size(p));
+  return p;
+}
+
+void *malloc(size_t n) { return refuse(n) ? NULL : counted(REAL(malloc)(n)); }
+void *calloc(size_t n, size_t size) { return refuse(n * size) ? NULL : counted(REAL(calloc)(n, size)); }
+void *realloc(void *p, size_t n)
+{
+  const size_t before = p ? malloc_usable_size(p) : 0;
+  if (refuse(n > before ? n - before : 0)) return NULL;
+  void *moved = REAL(realloc)(p, n);
+  if (moved || n == 0) count(-(long)before);
+  return counted(moved);
+}
+void *memalign(size_t align, size_t n);
+void *memalign(size_t align, size_t n) { return refuse(n) ? NULL : counted(REAL(memalign)(align, n)); }
+void *aligned_alloc(size_t align, size_t n) { return memalign(align, n); }
+int posix_memalign(void **p, size_t align, size_t n) { return (*p = memalign(align, n)) ? 0 : ENOMEM; }
+void free(void *p)
+{
+  if (p) count(-(long)malloc_usable_size(p));
+  REAL(free)(p);
 }
 
 char *strdup(const char *text)
@@ -65,17 +108,23 @@ char *strdup(const char *text)
 }
 
 /* Calls that crash without memory, by the linker's --wrap (CMakeLists.txt has the list, and numerics/room.h the
- * reason). */
-#define SHELTERED(type, name, parameters, arguments)                                                                   \
+ * reasons): some where one allocation fails, some of SUNDIALS 7 only where all do. Under a limit nothing is sheltered:
+ * hc_room_for has asked for more than such a call takes, and the call is not made. */
+#define SHELTERED_IF(crashes, type, name, parameters, arguments)                                                       \
   type __real_##name parameters;                                                                                       \
   type __wrap_##name parameters;                                                                                       \
   type __wrap_##name parameters                                                                                        \
   {                                                                                                                    \
-    ++sheltered;                                                                                                       \
+    const int shelter = (crashes) && how != MEMORY_LIMIT;                                                              \
+    sheltered += shelter;                                                                                              \
     type answer = __real_##name arguments;                                                                             \
-    --sheltered;                                                                                                       \
+    sheltered -= shelter;                                                                                              \
+    start_limit();                                                                                                     \
     return answer;                                                                                                     \
   }
+#define SHELTERED(type, name, parameters, arguments) SHELTERED_IF(true, type, name, parameters, arguments)
+#define SHELTERED_FROM_ALL(type, name, parameters, arguments)                                                          \
+  SHELTERED_IF(how == MEMORY_ALL_FROM, type, name, parameters, arguments)
 
 SHELTERED(fftw_plan, fftw_plan_dft_c2r_1d, (int n, fftw_complex *from, double *to, unsigned flags),
           (n, from, to, flags))
@@ -91,6 +140,14 @@ SHELTERED(int, CVodeSensInit, (void *cv, int n, int method, CVSensRhsFn f, N_Vec
 SHELTERED(N_Vector *, N_VCloneVectorArray, (int n, N_Vector v), (n, v))
 #if SUNDIALS_VERSION_MAJOR >= 7
 SHELTERED(SUNErrCode, SUNContext_Create, (SUNComm comm, SUNContext *ctx), (comm, ctx))
+SHELTERED_FROM_ALL(N_Vector, N_VNew_Serial, (sunindextype n, SUNContext ctx), (n, ctx))
+SHELTERED_FROM_ALL(SUNMatrix, SUNDenseMatrix, (sunindextype rows, sunindextype columns, SUNContext ctx),
+                   (rows, columns, ctx))
+SHELTERED_FROM_ALL(SUNLinearSolver, SUNLinSol_Dense, (N_Vector y, SUNMatrix a, SUNContext ctx), (y, a, ctx))
+SHELTERED_FROM_ALL(SUNLinearSolver, SUNLinSolNewEmpty, (SUNContext ctx), (ctx))
+SHELTERED_FROM_ALL(void *, KINCreate, (SUNContext ctx), (ctx))
+SHELTERED_FROM_ALL(void *, CVodeCreate, (int method, SUNContext ctx), (method, ctx))
+SHELTERED_FROM_ALL(int, CVodeRootInit, (void *cv, int n, CVRootFn g), (cv, n, g))
 #else
 SHELTERED(int, SUNContext_Create, (void *comm, SUNContext *ctx), (comm, ctx))
 #endif

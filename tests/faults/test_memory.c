@@ -1,8 +1,10 @@
-/* test_memory.c - the commands with allocation number n failing, n = 1, 2, ..., and with all from n on failing: they
+/* test_memory.c - the commands with allocation number n failing, n = 1, 2, ..., with all from n on failing, and with so
+ * many bytes and no more to be had once a solver is being made: they
  * end by themselves, leak nothing, and either write what an undisturbed run writes or say that memory ran out and
  * exit with 3; a file is not there, whole, or says itself what it lacks. Run with the argument "every" for each n
  * (ctest -C Thorough), else for the first ones and then in growing strides. */
 #include <dirent.h>
+#include <limits.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -10,7 +12,13 @@
 #include "tests/faults/memory.h"
 #include "tests/faults/small.h"
 
-enum { SECONDS = 60, DENSE = 12 /* first n tried one by one */, STRIDES = 6 /* then each n + n/STRIDES */, SHOWN = 8 };
+enum {
+  SECONDS = 600,
+  DENSE = 12 /* first n tried one by one */,
+  STRIDES = 6 /* then each n + n/STRIDES */,
+  SHOWN = 8,
+  LIMITS = 60
+};
 
 typedef struct trial {
   const char *line;
@@ -28,7 +36,7 @@ static int work(void *self)
   memory_fail(t->n, t->mode);
   int code = child_command(t->line);
   fflush(stdout);
-  *child_count = memory_asked();
+  *child_count = t->mode == MEMORY_LIMIT ? memory_peak() : memory_asked();
   memory_fail(0, MEMORY_ONE); /* looking for leaks takes memory, too */
   return code;
 }
@@ -66,8 +74,9 @@ static bool is_whole(const trial *t, const char *result, const char *good)
 static bool passes(const trial *t, int good_code, const char *good)
 {
   char what[300];
-  snprintf(what, sizeof what, "hbmcheck %s, allocation %ld%s", t->line, t->n,
-           t->mode == MEMORY_ONE ? "" : " and all after it");
+  static const char *const modes[] = {"allocation %ld", "allocation %ld and all after it", "%ld bytes and no more"};
+  int n = snprintf(what, sizeof what, "hbmcheck %s, ", t->line);
+  snprintf(what + n, sizeof what - (size_t)n, modes[t->mode], t->n);
   child_run(work, (void *)t, SECONDS, &now);
   const char *result = take_result();
   bool whole = result && is_whole(t, result, good), silent = !strstr(now.err, "memory");
@@ -79,6 +88,18 @@ static bool passes(const trial *t, int good_code, const char *good)
   print_error("result %s\n", !result ? "absent" : whole ? "whole" : "CHANGED");
   if (result && !whole) print_error("%.2000s\n", result);
   return false;
+}
+
+/* Limits spread over all that the command takes, and one that is no limit; how many are not passed. */
+static long try_limits(trial *t, int good_code, const char *good)
+{
+  long failed = 0;
+  t->mode = MEMORY_LIMIT;
+  t->n = LONG_MAX;
+  failed += !passes(t, good_code, good);
+  const long most = now.count, step = most / (every ? 20 * LIMITS : LIMITS) + 1;
+  for (t->n = 1; t->n <= most && failed < SHOWN; t->n += step) failed += !passes(t, good_code, good);
+  return failed;
 }
 
 static void try_one(const char *line, bool timed)
@@ -96,6 +117,7 @@ static void try_one(const char *line, bool timed)
   for (t.n = 1; t.n <= n && failed < SHOWN; t.n += every || t.n < DENSE ? 1 : 1 + t.n / STRIDES, ++tried)
     for (t.mode = MEMORY_ONE; t.mode <= MEMORY_ALL_FROM; ++t.mode) failed += !passes(&t, code, good);
   print_message("%ld of %ld allocations: hbmcheck %s\n", tried, n, line);
+  failed += try_limits(&t, code, good);
   assert_int_equal(failed, 0);
 }
 
@@ -161,10 +183,12 @@ static void describe(void **state)
   try("describe hbm.samples -q -o result");
 }
 
-/* at N one|all "ARG ...": that failure here and now, for a debugger. */
+/* at N one|all|limit "ARG ...": that failure here and now, for a debugger. */
 static int at_one(char **argv)
 {
-  memory_fail(strtol(argv[2], NULL, 10), !strcmp(argv[3], "all") ? MEMORY_ALL_FROM : MEMORY_ONE);
+  memory_fail(strtol(argv[2], NULL, 10), !strcmp(argv[3], "all")     ? MEMORY_ALL_FROM
+                                         : !strcmp(argv[3], "limit") ? MEMORY_LIMIT
+                                                                     : MEMORY_ONE);
   return child_command(argv[4]);
 }
 

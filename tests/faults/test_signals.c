@@ -1,33 +1,22 @@
-/* test_signals.c - SIGINT, SIGTERM, SIGHUP and SIGKILL at moments drawn from a fixed sequence: an output file is
- * absent, whole, or says that it was stopped; the exit code is 3 with a remark, or that of a run that was over
- * before; the catchable ones leave no other file behind; a study that was killed again and again goes on to the same
- * export. A signal that comes before main() has set its handlers kills, with nothing written. */
+/* test_signals.c - SIGINT, SIGTERM, SIGHUP and SIGKILL at moments of the work (moments.h) drawn from a fixed
+ * sequence: an output file is as it was, whole, or says that it was stopped; the exit code is 3 with a remark, or
+ * that of a run that was over before; the catchable ones leave no other file behind; a study that was killed again
+ * and again goes on to the same export. */
 #include <dirent.h>
-#include <fcntl.h>
 #include <signal.h>
 #include <stdbool.h>
-#include <time.h>
 
+#include "tests/faults/child.h"
+#include "tests/faults/moments.h"
 #include "tests/faults/shell.h"
 #include "tests/faults/small.h"
+#include "tests/random.h"
 
-enum { MOST_ARGUMENTS = 16, TEXT = 1 << 16 };
+enum { TEXT = 1 << 16, HANGS = 600 /* [s] of a child, to end hangs */ };
 
+static const char before[] = "what stood there before\n";
 static int times = 2; /* moments a command and signal; 20 with the argument "every" */
-
-static double seconds(void)
-{
-  struct timespec t;
-  clock_gettime(CLOCK_MONOTONIC, &t);
-  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
-static double drawn(void) /* 0..1 */
-{
-  static unsigned long long seed = 88172645463325252ull;
-  seed ^= seed << 13, seed ^= seed >> 7, seed ^= seed << 17;
-  return (double)(seed >> 11) / 9007199254740992.0;
-}
+static outcome o;
 
 static char *contents(const char *name, char *text)
 {
@@ -50,68 +39,69 @@ static int sweep_up(void)
   return n;
 }
 
-/* "hbmcheck LINE", signalled after so many seconds (0: never) -> wait status. Its stderr is in the file "err". */
-static int run(const char *line, int number, double after)
+typedef struct order {
+  const char *line;
+  int number;
+  long n;
+} order;
+
+static int obey(void *self)
 {
-  char text[500], *argv[MOST_ARGUMENTS + 1] = {(char *)"hbmcheck"};
-  int argc = 1, status;
-  snprintf(text, sizeof text, "%s", line);
-  for (char *word = strtok(text, " "); word && argc < MOST_ARGUMENTS; word = strtok(NULL, " ")) argv[argc++] = word;
-  pid_t child = fork();
-  assert_true(child >= 0);
-  if (child == 0) {
-    int err = open("err", O_WRONLY | O_CREAT | O_TRUNC, 0666), null = open("/dev/null", O_WRONLY);
-    if (err < 0 || null < 0 || dup2(err, 2) < 0 || dup2(null, 1) < 0) _exit(99);
-    execv(HBMCHECK_COMMAND, argv);
-    _exit(99);
-  }
-  if (after > 0) {
-    nanosleep(&(struct timespec){(time_t)after, (long)(fmod(after, 1) * 1e9)}, NULL);
-    kill(child, number);
-  }
-  assert_int_equal(waitpid(child, &status, 0), child);
-  return status;
+  const order *what = self;
+  if (what->number) signal(what->number, SIG_DFL); /* who started the tests may ignore it */
+  moments_expect(what->n, moments_raise, (void *)(size_t)&what->number);
+  return child_command(what->line);
 }
 
-/* Is that an honest end? `good`: what an undisturbed run writes to "result". */
-static bool honest(int number, int status, int good_code, const char *good)
+/* "hbmcheck LINE", signalled at its n-th moment (0: never) -> o. */
+static void run(const char *line, int number, long n)
 {
-  static char result[TEXT], err[TEXT];
+  order what = {line, number, n};
+  child_run(obey, &what, HANGS, &o);
+}
+
+static bool was_stopped(void) { return o.signal || o.code == 3; }
+
+/* Is that an honest end? `good`: what an undisturbed run writes to "result". */
+static bool honest(int number, int good_code, const char *good)
+{
+  static char result[TEXT];
   const char *there = contents("result", result);
-  const bool whole = there && !strcmp(there, good), nothing_beside = sweep_up() == 0;
-  if (!contents("err", err)) err[0] = 0;
-  if (WIFSIGNALED(status))
-    return WTERMSIG(status) == number && (whole || !there) && (nothing_beside || number == SIGKILL);
+  const bool whole = there && !strcmp(there, good), untouched = there && !strcmp(there, before),
+             nothing_beside = sweep_up() == 0;
+  if (o.signal) return o.signal == number && number == SIGKILL && (whole || untouched);
   if (!nothing_beside) return false;
-  if (WEXITSTATUS(status) == good_code && whole) return true;
-  return WEXITSTATUS(status) == 3 && strstr(err, "stopped") &&
-         (!there || whole || strstr(there, "STOPPED") || strstr(there, "stopped"));
+  if (o.code == good_code && whole) return true;
+  return o.code == 3 && strstr(o.err, "stopped") &&
+         (untouched || whole || (there && (strstr(there, "STOPPED") || strstr(there, "stopped"))));
 }
 
 static void try_with(const char *line, int moments)
 {
-  static char good[TEXT], result[TEXT], err[TEXT];
+  static char good[TEXT], result[TEXT];
   static const int numbers[] = {SIGINT, SIGTERM, SIGHUP, SIGKILL};
   int stopped = 0;
+  uint64_t seed = 1;
   unlink("result");
-  double began = seconds();
-  int status = run(line, 0, 0);
-  const double long_as = seconds() - began;
-  const int code = WEXITSTATUS(status);
-  assert_true(WIFEXITED(status) && code <= 1 && contents("result", good));
+  run(line, 0, 0);
+  const long whole = o.count;
+  const int code = o.code;
+  assert_true(o.signal == 0 && code >= 0 && code <= 1 && whole >= 10 && contents("result", good));
   for (int i = 0; i < 4 * moments; ++i) {
     const int number = numbers[i % 4];
-    unlink("result");
-    status = run(line, number, 1e-4 + 1.1 * long_as * drawn());
-    stopped += WIFSIGNALED(status) || WEXITSTATUS(status) == 3;
-    if (honest(number, status, code, good)) continue;
+    const long n = 1 + (long)((double)whole * random_unit(&seed));
+    small_file("result", before);
+    run(line, number, n);
+    stopped += was_stopped();
+    assert_true(number != SIGKILL || was_stopped());
+    if (honest(number, code, good)) continue;
     const char *there = contents("result", result);
-    print_error("hbmcheck %s\nsignal %d: status %x, result %.2000s\nerr %s\n", line, number, (unsigned)status,
-                there ? there : "absent", contents("err", err) ? err : "");
+    print_error("signal %d at moment %ld of %ld; result %.2000s\n", number, n, whole, there ? there : "absent");
+    child_show(&o, line);
     fail();
   }
-  print_message("%d of %d were stopped: hbmcheck %s\n", stopped, 4 * moments, line);
-  assert_true(stopped > 0);
+  print_message("%d of %d were stopped at one of %ld moments: hbmcheck %s\n", stopped, 4 * moments, whole, line);
+  assert_true(stopped > moments);
 }
 
 static void frf(void **state)
@@ -146,26 +136,25 @@ static void report(void **state)
   try_with("report small.yaml -o result --harmonics 1 --samples 16", times > 2 ? times : 1);
 }
 
-/* Each time a little is added, whatever ended it; then the export is that of an undisturbed run. */
+/* Each time a little is added, whatever ended it; then the export is that of an undisturbed run. The moments are drawn
+ * from the first ones, so that scenes are left for all runs: each of them is ended by its signal. */
 static void study(void **state)
 {
   (void)state;
   static const int numbers[] = {SIGINT, SIGTERM, SIGHUP, SIGKILL};
   small_file("many.yaml", "study: many\nbase: small.yaml\nrun: frf\nset: {compare.omega: [6.2, 6.8]}\n"
                           "vary: [{oscillator.damping: {from: 1, to: 3, count: 40}}, {hbm.harmonics: [2, 3, 4]}]\n");
-  double began = seconds();
-  expect("$H study many.yaml -q --results whole.sqlite --export csv -o whole.csv 2>&1", 0, "");
-  const double long_as = seconds() - began;
-  int stopped = 0;
+  run("study many.yaml -q --jobs 1 --results whole.sqlite --export csv -o whole.csv", 0, 0);
+  assert_int_equal(o.code, 0);
+  uint64_t seed = 2;
+  const double most = (double)o.count / (4 * times);
+  assert_true(most > 10);
   for (int i = 0; i < 4 * times; ++i) {
-    int status =
-        run("study many.yaml --jobs 2 --results killed.sqlite", numbers[i % 4], 0.01 + 0.3 * long_as * drawn());
-    stopped += WIFSIGNALED(status) || WEXITSTATUS(status) == 3;
-    if (!WIFSIGNALED(status) && WEXITSTATUS(status) != 0 && WEXITSTATUS(status) != 3)
-      fail_msg("status %x", (unsigned)status);
+    run("study many.yaml --jobs 2 --results killed.sqlite", numbers[i % 4], 1 + (long)(most * random_unit(&seed)));
+    if (numbers[i % 4] == SIGKILL ? o.signal == SIGKILL : o.code == 3) continue;
+    child_show(&o, "study many.yaml, to be stopped");
+    fail();
   }
-  assert_true(stopped > 0);
-  print_message("%d of %d were stopped: hbmcheck study\n", stopped, 4 * times);
   expect("$H study many.yaml -q --results killed.sqlite --export csv -o killed.csv 2>&1 && cmp whole.csv killed.csv", 0,
          "");
 }
@@ -178,7 +167,7 @@ int main(int argc, char **argv)
   };
   static char folder[] = "/tmp/hbmcheck-signals-XXXXXX";
   if (argc > 1 && !strcmp(argv[1], "every")) times = 20;
-  small_watchdog(times > 4 ? 1800 : 300);
+  small_watchdog(times > 4 ? 3000 : 300);
   setenv("H", HBMCHECK_COMMAND, 1);
   small_folder(folder);
   int failed = cmocka_run_group_tests_name("faults.signals", tests, NULL, NULL);

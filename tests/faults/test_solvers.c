@@ -310,7 +310,7 @@ static void failures_are_told(void **state)
   };
   static outcome o;
   for (size_t i = 0; i < sizeof all / sizeof *all; ++i) {
-    child_run(command, (void *)&all[i].o, 30, &o);
+    child_run(command, (void *)&all[i].o, 300, &o);
     bool said = true;
     for (int k = 0; k < 3; ++k) said = said && strstr(o.err, all[i].words[k]);
     if (o.code == 3 && said) continue;

@@ -9,7 +9,7 @@
 
 #include "tests/fuzz/fuzz.h"
 
-enum { LARGEST = 1 << 21, SMALL = 1500, SECONDS = 300 };
+enum { LARGEST = 1 << 21, SMALL = 1500, SECONDS = 1400 };
 
 /* Each input at the very end of a block of its own: a byte too far is the sanitizer's. */
 static void run(const char *text, size_t length)

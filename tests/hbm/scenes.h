@@ -1,6 +1,5 @@
-/* scenes.h - what the tests of hbm/ share: the eight reference scenes, the reference numbers of tests/reference/,
- * random motions, and contact forces of a sampled motion the slow way. Random numbers are a fixed sequence: every
- * run sees the same cases. */
+/* scenes.h - what the tests of hbm/ share: the reference scenes with settings, the reference numbers of
+ * tests/reference/, and random motions. */
 #ifndef HC_TESTS_HBM_SCENES_H
 #define HC_TESTS_HBM_SCENES_H
 
@@ -12,47 +11,29 @@
 
 #include "cases/scene.h"
 #include "tests/check.h"
-
-typedef struct reference_scene {
-  const char *name;
-  double mass, damping, stiffness, force, kt, kn, gap;
-  double omega_from, omega_to; /* a sweep that holds every reference frequency */
-} reference_scene;
-
-static const reference_scene reference_scenes[] = {
-    /* mu = 0.3, alpha = 45 deg in all */
-    {"a10", 1, 0.4, 40, 10, 100, 200, 0.5, 3, 20},        {"b10", 1, 0.4, 40, 10, 100, 200, -0.5, 3, 20},
-    {"c2", 1, 0.4, 40, 100, 100, 1000, -5, 3, 20},        {"c2kn1e4", 1, 0.4, 40, 100, 100, 1e4, -5, 3, 20},
-    {"c2kt1e4", 1, 0.4, 40, 100, 1e4, 1000, -5, 3, 20},   {"gap1", 1, 0.4, 40, 100, 100, 1000, 1, 3, 30},
-    {"r1", 1.6, 0.4, 8e5, 100, 5e5, 7e5, 0.3, 750, 1050}, {"r2", 1.6, 0.4, 8e5, 100, 5e5, 7e5, -0.2, 600, 850},
-};
-enum { N_REFERENCE_SCENES = sizeof reference_scenes / sizeof *reference_scenes };
+#include "tests/random.h"
+#include "tests/reference_scenes.h"
 
 /* A scene by its name, sampled with n_time samples, slider restart interpolated, continuation auto, tolerance 1e-10. */
 static inline scene scene_named(const char *name, int n_harm, bool keep_mean, int n_time)
 {
-  for (int i = 0; i < N_REFERENCE_SCENES; ++i) {
-    const reference_scene *r = &reference_scenes[i];
-    if (strcmp(r->name, name)) continue;
-    scene sc = {.mass = r->mass,
-                .damping = r->damping,
-                .stiffness = r->stiffness,
-                .force = r->force,
-                .n_contacts = 1,
-                .omega_from = r->omega_from,
-                .omega_to = r->omega_to};
-    sc.contacts[0] = (scene_contact){{r->kt, r->kn, 0.3, r->gap}, 45};
-    sc.hbm = (hbm_settings){.harmonics = n_harm,
-                            .keep_mean = keep_mean,
-                            .force = HBM_FORCE_SAMPLED,
-                            .samples = n_time,
-                            .restart = HBM_RESTART_INTERPOLATED,
-                            .continuation = HBM_CONTINUATION_AUTO,
-                            .tolerance = 1e-10};
-    return sc;
-  }
-  fail_msg("no scene %s", name);
-  abort();
+  const reference_scene *r = reference_scene_named(name);
+  scene sc = {.mass = r->mass,
+              .damping = r->damping,
+              .stiffness = r->stiffness,
+              .force = r->force,
+              .n_contacts = 1,
+              .omega_from = r->omega_from,
+              .omega_to = r->omega_to};
+  sc.contacts[0] = (scene_contact){{r->kt, r->kn, REFERENCE_FRICTION, r->gap}, REFERENCE_ANGLE};
+  sc.hbm = (hbm_settings){.harmonics = n_harm,
+                          .keep_mean = keep_mean,
+                          .force = HBM_FORCE_SAMPLED,
+                          .samples = n_time,
+                          .restart = HBM_RESTART_INTERPOLATED,
+                          .continuation = HBM_CONTINUATION_AUTO,
+                          .tolerance = 1e-10};
+  return sc;
 }
 
 /* A row of hbm_exact.csv. */
@@ -114,13 +95,6 @@ static inline int read_reference_peaks(reference_peak *row)
   }
   fclose(f);
   return n;
-}
-
-/* Uniform in [-1, 1): a 64-bit congruential sequence (Knuth's MMIX constants), upper 53 bits. */
-static inline double random_signed(uint64_t *seed)
-{
-  *seed = *seed * 6364136223846793005u + 1442695040888963407u;
-  return (double)(int64_t)(*seed) / 9223372036854775808.0;
 }
 
 /* A random motion X[2H+1] of size about `size`, harmonics decaying like 1/h^decay. */

@@ -14,6 +14,7 @@ typedef struct slow_aft {
   uint64_t pattern; /* hash of the states of all contacts at all samples of the first two periods and the last */
   double w[SCENE_MAX_CONTACTS]; /* slider at th = 0 */
   bool never_slips; /* some contact is stuck all through the last period: w depends on where the first one began */
+  bool rests;       /* some slider moves by rounding at most all through the last period, slipping or not */
   double moved;     /* largest change of w at th = 0 from the second period to the last */
 } slow_aft;
 
@@ -35,7 +36,7 @@ static inline char slow_clamp(const contact *c, double u, double normal, double 
 static inline void slow_contact(slow_aft *a, const scene *sc, int j, int n_time)
 {
   const contact *c = &sc->contacts[j].law;
-  double co, si, w = 0, second = 0;
+  double co, si, w = 0, second = 0, low = INFINITY, high = -INFINITY, size = 0;
   scene_direction(&sc->contacts[j], &co, &si);
   bool stuck = true;
   char before = c->kn * (si * a->x[n_time - 1] + c->gap) > 0 ? 's' : '0';
@@ -53,6 +54,7 @@ static inline void slow_contact(slow_aft *a, const scene *sc, int j, int n_time)
       if (period == 1 && i == 0) second = w;
       if (period < SLOW_PERIODS - 1) continue;
       stuck &= before == 's';
+      low = fmin(low, w), high = fmax(high, w), size = fmax(size, fabs(x));
       if (i == 0) {
         a->w[j] = w;
         a->moved = fmax(a->moved, fabs(w - second));
@@ -60,6 +62,7 @@ static inline void slow_contact(slow_aft *a, const scene *sc, int j, int n_time)
       a->f[i] += co * traction + si * (normal - fmax(c->kn * c->gap, 0));
     }
   a->never_slips |= stuck;
+  a->rests |= high - low <= 1e-12 * size;
 }
 
 /* F[2H+1] of the motion X[2H+1]. */
@@ -67,7 +70,7 @@ static inline void slow_force(slow_aft *a, const scene *sc, int n_harm, int n_ti
 {
   a->pattern = 14695981039346656037u;
   a->moved = 0;
-  a->never_slips = false;
+  a->never_slips = a->rests = false;
   assert_true(n_time <= SLOW_MAX_TIME);
   for (int i = 0; i < n_time; ++i) {
     a->x[i] = X[0];

@@ -49,7 +49,7 @@ static hc_status eval_once(const scene *sc, int n_harm, int n_time, const double
   return st;
 }
 
-/* Coefficients of k max(g + A cos th, 0), PHYSICS section 4 of the specification; sines are 0. */
+/* Coefficients of k max(g + A cos th, 0), docs/theory.md section 11; sines are 0. */
 static double unilateral(int h, double k, double g, double A)
 {
   double p = acos(-g / A);

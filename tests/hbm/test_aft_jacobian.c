@@ -80,7 +80,9 @@ static void jacobian_equals_central_differences(void **state)
  * move the samples around, so this holds for every N, and where th = 0 falls (amid stick, slip or separation) must
  * not matter. X rounds again when shifted, and a sample that sits on a change of state may change over: random ones
  * do not. Rounding: of F as ever; J's is that of its symbol and of its N/2 or less stick intervals, N steps of at
- * most an eps of the stiffness, and two rotations. The shifted X, off by 2 eps, moves F by that. */
+ * most an eps of the stiffness, and two rotations. The shifted X, off by 2 eps, moves F by that. A slider that has been
+ * pushed until friction just holds it (shakedown) touches its limit at one sample to rounding: that is a slip or not,
+ * with the same force and Jacobian, so states are not compared there. */
 static void whole_steps_only_rotate(void **state)
 {
   (void)state;
@@ -88,6 +90,7 @@ static void whole_steps_only_rotate(void **state)
     int H, N;
   } sizes[] = {{1, 5}, {1, 16}, {3, 7}, {7, 64}, {20, 101}};
   uint64_t seed = 10;
+  int told = 0;
   double X[MAX_COEF], Y[MAX_COEF], F[MAX_COEF], G[MAX_COEF], rotated[MAX_COEF], row[MAX_COEF];
   for (size_t i = 0; i < sizeof sizes / sizeof *sizes; ++i)
     for (int trial = 0; trial < 60; ++trial) {
@@ -123,9 +126,12 @@ static void whole_steps_only_rotate(void **state)
           CHECK_NEAR(shifted_jac[p + n * q], rotated[p], jac_tolerance, "H=%d N=%d trial %d, row %d column %d", H, N,
                      trial, p, q);
       }
+      if (slow.rests) continue;
       assert_int_equal(here.regime, there.regime);
       assert_int_equal(here.transitions, there.transitions);
+      ++told;
     }
+  CHECK_LE(100, told, "of 300 motions");
 }
 
 static const struct CMUnitTest tests[] = {cmocka_unit_test(jacobian_equals_central_differences),

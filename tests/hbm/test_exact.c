@@ -3,7 +3,7 @@
 #include "hbm/aft.h"
 #include "tests/hbm/exact_scenes.h"
 
-/* Series of k max(g + A cos th, 0), A > 0; PHYSICS.md section 4. */
+/* Series of k max(g + A cos th, 0), A > 0; docs/theory.md section 11. */
 static void spring_series(double k, double A, double g, int n_harm, double *F)
 {
   memset(F, 0, (size_t)series_length(n_harm) * sizeof *F);
@@ -45,13 +45,13 @@ static void closed_forms_themselves(void **state)
   (void)state;
   double F[7];
   spring_series(1, 1, -0.37, 3, F);
-  CHECK_NEAR(F[0], 0.155357649636024, 1e-15, "PHYSICS.md");
-  CHECK_NEAR(F[1], 0.269941284761418, 1e-15, "PHYSICS.md");
+  CHECK_NEAR(F[0], 0.155357649636024, 1e-15, "theory.md, 11");
+  CHECK_NEAR(F[1], 0.269941284761418, 1e-15, "theory.md, 11");
   jenkins_series(1, 0.4, 1, 3, F);
-  CHECK_NEAR(F[1], 0.373530039052331, 1e-15, "PHYSICS.md");
-  CHECK_NEAR(F[2], -0.305577490736439, 1e-15, "PHYSICS.md");
-  CHECK_NEAR(F[5], 0.0399204762231642, 1e-15, "PHYSICS.md");
-  CHECK_NEAR(F[6], 0.093710430492508, 1e-15, "PHYSICS.md");
+  CHECK_NEAR(F[1], 0.373530039052331, 1e-15, "theory.md, 11");
+  CHECK_NEAR(F[2], -0.305577490736439, 1e-15, "theory.md, 11");
+  CHECK_NEAR(F[5], 0.0399204762231642, 1e-15, "theory.md, 11");
+  CHECK_NEAR(F[6], 0.093710430492508, 1e-15, "theory.md, 11");
 }
 
 /* 1e-13 of k A: some eps for each of up to 50 terms. */

@@ -1,5 +1,5 @@
 /* test_special.c - grazing onsets, folds and period doublings of the paper's case 2: against a closed form, against
- * what a fold is, and against the values of the true orbit (PHYSICS 3.4: time integration and AUTO-07p), to which
+ * what a fold is, and against the values of the true orbit (docs/theory.md, 9: time integration and AUTO-07p), to which
  * truncation must tend. */
 #include "campaigns/scene_solvers.h"
 #include "hbm/hbm.h"
@@ -49,8 +49,8 @@ static void contact_sets_in_where_the_linear_response_grazes(void **state)
   (void)state;
   double b = 0.4 * 0.4 - 2 * 40, q = 100 * sqrt(0.5) / 5, c = 40 * 40 - q * q;
   double low = sqrt(0.5 * (-b - sqrt(b * b - 4 * c))), high = sqrt(0.5 * (-b + sqrt(b * b - 4 * c)));
-  CHECK_NEAR(low, 5.0995831509, 1e-10, "closed form against PHYSICS.md");
-  CHECK_NEAR(high, 7.3371828168, 1e-10, "closed form against PHYSICS.md");
+  CHECK_NEAR(low, 5.0995831509, 1e-10, "closed form against theory.md, 11");
+  CHECK_NEAR(high, 7.3371828168, 1e-10, "closed form against theory.md, 11");
   static const int harmonics[] = {1, 5, 20};
   static const char *names[] = {"c2", "c2kn1e4"};
   for (int q2 = 0; q2 < 6; ++q2) {

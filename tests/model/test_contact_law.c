@@ -87,16 +87,17 @@ static void touching_decides_by_the_velocities(void **state)
 
 /* For one slider position T = clamp(kt (u - w), +-mu N(v)), so |T1 - T2| <= kt |u1 - u2| + mu kn |v1 - v2| across
  * every transition, separation included. Rounding: each T is off by at most 3 eps (kt (|u| + |w|) + mu kn (|v| +
- * |gap|)), below 60 eps with the numbers drawn here; two of them make 120 eps. */
+ * |gap|)), below 60 eps with the numbers drawn here; two of them make 120 eps. Steps of 0.1 cross every limit often. */
 static void force_has_no_jump(void **state)
 {
   (void)state;
   uint64_t s = 1;
   int states[4] = {0};
   for (int i = 0; i < 20000; ++i) {
-    contact c = {.kt = 4 * draw_unit(&s), .kn = 4 * draw_unit(&s), .mu = draw_unit(&s), .gap = 2 * draw_unit(&s) - 1};
-    double w = 2 * draw_unit(&s) - 1, w1 = w, w2 = w, u = 2 * draw_unit(&s) - 1, v = 2 * draw_unit(&s) - 1;
-    double step = 1e-3, du = step * (2 * draw_unit(&s) - 1), dv = step * (2 * draw_unit(&s) - 1), t1, t2;
+    contact c = {
+        .kt = 4 * random_unit(&s), .kn = 4 * random_unit(&s), .mu = random_unit(&s), .gap = 2 * random_unit(&s) - 1};
+    double w = 2 * random_unit(&s) - 1, w1 = w, w2 = w, u = 2 * random_unit(&s) - 1, v = 2 * random_unit(&s) - 1;
+    double step = 0.1, du = step * (2 * random_unit(&s) - 1), dv = step * (2 * random_unit(&s) - 1), t1, t2;
     contact_state a = contact_step(&c, u, v, &w1, &t1), b = contact_step(&c, u + du, v + dv, &w2, &t2);
     CHECK_LE(fabs(t2 - t1), c.kt * fabs(du) + c.mu * c.kn * fabs(dv) + 120 * DBL_EPSILON, "i=%d", i);
     if (a != b) ++states[a];
@@ -113,8 +114,9 @@ static void guards_vanish_where_states_end(void **state)
   uint64_t s = 2;
   int slips = 0;
   for (int i = 0; i < 20000; ++i) {
-    contact c = {.kt = 0.5 + 3.5 * draw_unit(&s), .kn = 4 * draw_unit(&s), .mu = draw_unit(&s), .gap = draw_unit(&s)};
-    double w = 2 * draw_unit(&s) - 1, u = 2 * draw_unit(&s) - 1, v = 2 * draw_unit(&s) - 1, t;
+    contact c = {
+        .kt = 0.5 + 3.5 * random_unit(&s), .kn = 4 * random_unit(&s), .mu = random_unit(&s), .gap = random_unit(&s)};
+    double w = 2 * random_unit(&s) - 1, u = 2 * random_unit(&s) - 1, v = 2 * random_unit(&s) - 1, t;
     contact_state st = contact_step(&c, u, v, &w, &t);
     int sign = contact_slip_sign(st);
     double limit = c.mu * contact_normal(&c, v);
@@ -137,8 +139,8 @@ static void touching_agrees_with_the_step_after_it(void **state)
   uint64_t s = 3;
   int seen[4] = {0};
   for (int i = 0; i < 20000; ++i) {
-    contact c = {.kt = 4 * draw_unit(&s), .kn = 4 * draw_unit(&s), .mu = draw_unit(&s), .gap = 0};
-    double du = 2 * draw_unit(&s) - 1, dv = draw_unit(&s) + 0x1p-20, h = 0x1p-10, w = 0, t;
+    contact c = {.kt = 4 * random_unit(&s), .kn = 4 * random_unit(&s), .mu = random_unit(&s), .gap = 0};
+    double du = 2 * random_unit(&s) - 1, dv = random_unit(&s) + 0x1p-20, h = 0x1p-10, w = 0, t;
     if (fabs(c.kt * fabs(du) - c.mu * c.kn * dv) < 1e-12) continue;
     contact_state st = contact_on_touch(&c, du, dv);
     assert_int_equal(contact_step(&c, du * h, dv * h, &w, &t), st);

@@ -1,6 +1,8 @@
 /* test_newton.c - KINSOL behind newton.h: iterates against Heron's, refusals, stalls, singular matrices; nothing
  * hangs, nothing lies. Each problem counts its calls and fails the test when they run away: a loop inside KINSOL
  * would otherwise only meet the watchdog. */
+#include <kinsol/kinsol.h>
+
 #include "numerics/newton.h"
 #include "tests/hbm/scenes.h"
 
@@ -412,6 +414,64 @@ static void works_on_after_failures(void **state)
   newton_free(NULL);
 }
 
+/* Memory gone at the n-th evaluation, of the residual or of the Jacobian: told as such, z as it was, no evaluation
+ * after it, and no failure that KINSOL tells of: it would need memory for that. */
+typedef struct shortage {
+  long calls, last, failed; /* from call `last` on there is none; the first call that noticed */
+  bool in_jacobian;
+} shortage;
+
+static int last_flag; /* KINSOL's: the linker wraps KINSol */
+
+int __real_KINSol(void *kin, N_Vector z, int strategy, N_Vector z_scale, N_Vector r_scale);
+int __wrap_KINSol(void *kin, N_Vector z, int strategy, N_Vector z_scale, N_Vector r_scale);
+int __wrap_KINSol(void *kin, N_Vector z, int strategy, N_Vector z_scale, N_Vector r_scale)
+{
+  return last_flag = __real_KINSol(kin, z, strategy, z_scale, r_scale);
+}
+
+static bool runs_short(shortage *s, bool in_jacobian)
+{
+  if (++s->calls < s->last || s->in_jacobian != in_jacobian) return false;
+  if (!s->failed) s->failed = s->calls;
+  return true;
+}
+
+static hc_status short_residual(void *self, const double *z, double *r)
+{
+  shortage *s = self;
+  if (runs_short(s, false)) return HC_NO_MEMORY;
+  r[0] = z[0] * z[0] * z[0] - 8;
+  return HC_OK;
+}
+
+static hc_status short_jacobian(void *self, const double *z, double *jac)
+{
+  shortage *s = self;
+  if (runs_short(s, true)) return HC_NO_MEMORY;
+  jac[0] = 3 * z[0] * z[0];
+  return HC_OK;
+}
+
+static void out_of_memory_ends_it(void **state)
+{
+  (void)state;
+  for (int in_jacobian = 0; in_jacobian < 2; ++in_jacobian)
+    for (long last = 1; last <= 6; ++last) {
+      newton *nw;
+      newton_report report;
+      shortage s = {.last = last, .in_jacobian = in_jacobian};
+      const newton_problem problem = {1, &s, short_residual, short_jacobian};
+      double z = 5;
+      assert_int_equal(newton_new(&problem, &nw), HC_OK);
+      assert_int_equal(newton_solve(nw, &z, &plain, &report), HC_NO_MEMORY);
+      assert_true(z == 5);
+      assert_int_equal(s.calls, s.failed);
+      assert_true(last_flag >= 0);
+      newton_free(nw);
+    }
+}
+
 static const struct CMUnitTest tests[] = {
     cmocka_unit_test(quadratic_like_heron),
     cmocka_unit_test(weights_are_units),
@@ -427,5 +487,6 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(nan_is_refused),
     cmocka_unit_test(a_nan_jacobian_is_not_an_answer),
     cmocka_unit_test(works_on_after_failures),
+    cmocka_unit_test(out_of_memory_ends_it),
 };
 CHECK_MAIN("cases.newton", tests, 60)

@@ -8,6 +8,7 @@
 #include "output/table.h"
 #include "output/table_private.h"
 #include "tests/check.h"
+#include "tests/random.h"
 
 static const table_column columns[] = {
     {"omega", TABLE_REAL}, {"verdict", TABLE_TEXT}, {"steps", TABLE_INTEGER}, {"error", TABLE_REAL}};
@@ -294,13 +295,6 @@ static void long_text_is_cut_except_at_the_end(void **state)
   table_free(t);
 }
 
-static uint64_t next_bits(uint64_t *s) /* xorshift64 */
-{
-  *s ^= *s << 13;
-  *s ^= *s >> 7;
-  return *s ^= *s << 17;
-}
-
 enum { N_RANDOM = 20000 };
 
 /* All bit patterns are equally likely: every exponent, both signs; the first ones are the extremes. */
@@ -313,7 +307,7 @@ static table *random_table(double *values)
   for (int i = 0; i < N_RANDOM; ++i) {
     if (i < n_extreme) values[i] = extreme[i];
     else do {
-        uint64_t bits = next_bits(&s);
+        uint64_t bits = random_bits(&s);
         memcpy(&values[i], &bits, sizeof bits);
       } while (!isfinite(values[i]));
     table_put_real(t, values[i]);

@@ -1,11 +1,11 @@
-/* scenes.h - the reference scenes, as C. M, C, K of the paper; mu = 0.3, alpha = 45 degrees; options at their
- * defaults. */
+/* scenes.h - what the tests of timeint/ share: the reference scenes and others, settings at their defaults. */
 #ifndef HC_TESTS_SCENES_H
 #define HC_TESTS_SCENES_H
 
 #include <string.h>
 
 #include "cases/scene.h"
+#include "tests/reference_scenes.h"
 #include "timeint/timeint.h"
 
 static inline scene scene_linear(double mass, double damping, double stiffness, double force)
@@ -25,27 +25,21 @@ static inline void scene_add(scene *sc, double kt, double kn, double mu, double 
       (scene_contact){.law = {.kt = kt, .kn = kn, .mu = mu, .gap = gap}, .angle_deg = angle_deg};
 }
 
-static inline scene scene_paper(double force, double kt, double kn, double gap)
+static inline scene scene_reference(const char *name)
 {
-  scene sc = scene_linear(1, 0.4, 40, force);
-  scene_add(&sc, kt, kn, 0.3, gap, 45);
+  const reference_scene *r = reference_scene_named(name);
+  scene sc = scene_linear(r->mass, r->damping, r->stiffness, r->force);
+  scene_add(&sc, r->kt, r->kn, REFERENCE_FRICTION, r->gap, REFERENCE_ANGLE);
   return sc;
 }
 
-static inline scene scene_a10(void) { return scene_paper(10, 100, 200, 0.5); }
-static inline scene scene_b10(void) { return scene_paper(10, 100, 200, -0.5); }
-static inline scene scene_c2(void) { return scene_paper(100, 100, 1000, -5); }
-static inline scene scene_c2kt1e4(void) { return scene_paper(100, 1e4, 1000, -5); }
-static inline scene scene_gap1(void) { return scene_paper(100, 100, 1000, 1); }
-
-static inline scene scene_blade(double gap) /* slow: contraction 0.9989 a period */
-{
-  scene sc = scene_linear(1.6, 0.4, 8e5, 100);
-  scene_add(&sc, 5e5, 7e5, 0.3, gap, 45);
-  return sc;
-}
-
-static inline scene scene_r1(void) { return scene_blade(0.3); }
-static inline scene scene_r2(void) { return scene_blade(-0.2); }
+static inline scene scene_a10(void) { return scene_reference("a10"); }
+static inline scene scene_b10(void) { return scene_reference("b10"); }
+static inline scene scene_c2(void) { return scene_reference("c2"); }
+static inline scene scene_c2kn1e4(void) { return scene_reference("c2kn1e4"); }
+static inline scene scene_c2kt1e4(void) { return scene_reference("c2kt1e4"); }
+static inline scene scene_gap1(void) { return scene_reference("gap1"); }
+static inline scene scene_r1(void) { return scene_reference("r1"); }
+static inline scene scene_r2(void) { return scene_reference("r2"); }
 
 #endif

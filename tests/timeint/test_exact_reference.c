@@ -77,7 +77,7 @@ static void paper_scenes(void **state)
   both_ways("a10", scene_a10(), 3, 20);
   both_ways("b10", scene_b10(), 3, 20);
   both_ways("c2", scene_c2(), 3, 20);
-  both_ways("c2kn1e4", scene_paper(100, 100, 1e4, -5), 3, 20);
+  both_ways("c2kn1e4", scene_c2kn1e4(), 3, 20);
   both_ways("c2kt1e4", scene_c2kt1e4(), 3, 20);
   both_ways("gap1", scene_gap1(), 3, 30);
 }

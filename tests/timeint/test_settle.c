@@ -1,5 +1,6 @@
 /* test_settle.c - the estimate against sequences whose limit is known: it must not say "settled" early, nor never. */
 #include "tests/check.h"
+#include "tests/random.h"
 
 #include "timeint/settle.h"
 
@@ -21,15 +22,13 @@ static void step(const map *m, double *z)
 
 static double size(const double *z) { return fmax(fabs(z[0]), fabs(z[1])); }
 
-static double noise(unsigned *seed) { return (double)(*seed = *seed * 1664525u + 1013904223u) / 4294967296.0 - 0.5; }
-
 /* Steps until settled within goal, the true distance then in *distance; 0 if not within `most`. */
 static int settle_after(const map *m, double prior, double goal, double scatter, int most, double *distance,
                         settle_estimate *e)
 {
   settle *s;
   double z[2] = {1, 1};
-  unsigned seed = 1;
+  uint64_t seed = 1;
   assert_int_equal(settle_new(2, &s), HC_OK);
   settle_start(s, prior);
   int n = 0, done = 0;
@@ -44,7 +43,7 @@ static int settle_after(const map *m, double prior, double goal, double scatter,
                                                                          speed */
     done = e->multiple > 0;
     step(m, z);
-    z[0] += scatter * noise(&seed), z[1] += scatter * noise(&seed);
+    z[0] += 0.5 * scatter * random_signed(&seed), z[1] += 0.5 * scatter * random_signed(&seed);
     ++n;
   }
   settle_free(s);

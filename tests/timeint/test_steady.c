@@ -141,7 +141,8 @@ static void without_force(void **state)
   CHECK_LE(r.amplitude, 1e-12, "dies away");
 }
 
-/* PHYSICS: case 2 has period 2 at 5.55 and 5.56 (the 1e-4 law shifts frequencies by about 1e-3), period 1 at 5.08. */
+/* docs/theory.md, 9: case 2 has period 2 at 5.55 and 5.56 (the 1e-4 law shifts frequencies by about 1e-3), period 1
+ * at 5.08. */
 static void sub_harmonics(void **state)
 {
   (void)state;

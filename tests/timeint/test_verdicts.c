@@ -1,5 +1,5 @@
 /* test_verdicts.c - motions that are not of the forcing's period, on case 2 with the exact law: where the period-1
- * orbit loses its stability, and what the motion becomes. Figures: PHYSICS.md's fact 4 (as in docs/paper.md), from
+ * orbit loses its stability, and what the motion becomes. Figures: docs/theory.md section 9 (and docs/paper.md), from
  * another program and from AUTO. */
 #include "tests/check.h"
 
@@ -13,7 +13,7 @@ static scene exactly(scene sc)
 }
 
 static scene case2(void) { return exactly(scene_c2()); }
-static scene stiff(void) { return exactly(scene_paper(100, 100, 1e4, -5)); }
+static scene stiff(void) { return exactly(scene_c2kn1e4()); }
 
 /* Up from 4, where only the period-1 orbit is stable, to omega; the orbit followed by shooting, stable or not. */
 static timeint_state followed_to(timeint *ti, double from, double omega, timeint_result *r)

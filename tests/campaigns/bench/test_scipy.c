@@ -1,5 +1,6 @@
-/* test_scipy.c - the process of python3 that bench starts, with a shell script in its place ($PYTHON): what it prints is
- * read, and the call ends also where exit codes cannot be had because SIGCHLD is ignored, as some parents leave it. */
+/* test_scipy.c - the process of python3 that bench starts, with a shell script in its place ($PYTHON): what it prints
+ * is read, and the call ends also where exit codes cannot be had because SIGCHLD is ignored, as some parents leave
+ * it. */
 #include <signal.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -20,8 +21,8 @@ static void be_python(const char *script)
   setenv("PYTHON", program, 1);
 }
 
-/* Asked with a multiplier of 1/2: 30 periods. The script has the seconds that python3 has; a machine that does not start
- * it in that time gives no runs, which is no failure. */
+/* Asked with a multiplier of 1/2: 30 periods. The script has the seconds that python3 has; a machine that does not
+ * start it in that time gives no runs, which is no failure. */
 static int asked(scipy_run *runs, char text[96])
 {
   static const scene sc = {.mass = 1, .damping = 0.4, .stiffness = 40, .force = 1};

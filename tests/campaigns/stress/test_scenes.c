@@ -117,7 +117,7 @@ static void every_scene_is_a_case_file(void **state)
   stress_scenes_free(s);
 }
 
-/* By powers of two and back: the same bits. Every quantity by the dimensions of PHYSICS.md's equation. */
+/* By powers of two and back: the same bits. Every quantity by the dimensions of the equation (docs/theory.md, 1). */
 static void units_change_by_their_dimensions(void **state)
 {
   (void)state;

@@ -1,26 +1,29 @@
 /* test_command.c - hbmcheck study as people use it: killed and resumed, in one thread and in several, refused,
- * claimed. Runs the built hbmcheck (HBMCHECK_COMMAND) in a folder of its own. */
-#include <fcntl.h>
+ * claimed. Runs the built hbmcheck (HBMCHECK_COMMAND) in a folder of its own; what is stopped or held up at a certain
+ * place is the command in a child of the test (tests/faults/moments.h). */
 #include <signal.h>
 #include <stdbool.h>
 #include <string.h>
 #include <sys/wait.h>
-#include <time.h>
 
+#include "tests/faults/child.h"
+#include "tests/faults/moments.h"
 #include "tests/shell.h"
+
+enum { HANGS = 600 /* [s] of a child, to end hangs */ };
 
 static char folder[] = "/tmp/hbmcheck-command-XXXXXX";
 
-typedef struct outcome {
+typedef struct reply {
   int code;
   char *out;
-} outcome; /* out: to free */
+} reply; /* out: to free */
 
 /* Run "hbmcheck study ARGS" in the folder. */
-static outcome run(const char *args)
+static reply run(const char *args)
 {
   enum { MOST = 1 << 22 };
-  outcome o = {-1, malloc(MOST)};
+  reply o = {-1, malloc(MOST)};
   char line[1024];
   snprintf(line, sizeof line, "cd %s; %s study %s", folder, HBMCHECK_COMMAND, args);
   assert_non_null(o.out);
@@ -30,7 +33,7 @@ static outcome run(const char *args)
 
 static void expect(const char *args, int code, const char *fragment)
 {
-  outcome o = run(args);
+  reply o = run(args);
   shell_check(args, o.code, o.out, code, fragment);
   free(o.out);
 }
@@ -52,43 +55,51 @@ static void write_file(const char *name, const char *text)
   "  - {oscillator.mass: {from: 0.5, to: 2, count: " steps                                                             \
   "}}\n  - {oscillator.damping: {from: 0.1, to: 0.9, count: 20}}\n"
 
-/* Start the study and kill it after so many milliseconds; true if that was before its end. */
-static bool kill_after(const char *study, long ms)
+/* "hbmcheck study ARGS" in the folder, with `signal` at its n-th moment. */
+typedef struct order {
+  const char *args;
+  int signal;
+  long n;
+} order;
+
+static int obey(void *self)
 {
-  pid_t child = fork();
-  assert_true(child >= 0);
-  if (child == 0) {
-    int null = open("/dev/null", O_WRONLY);
-    if (chdir(folder) != 0 || null < 0) _exit(99);
-    dup2(null, 1);
-    execl(HBMCHECK_COMMAND, "hbmcheck", "study", study, "-q", "--jobs", "2", (char *)NULL);
-    _exit(99);
-  }
-  nanosleep(&(struct timespec){ms / 1000, ms % 1000 * 1000000L}, NULL);
-  kill(child, SIGKILL);
-  int status;
-  assert_int_equal(waitpid(child, &status, 0), child);
-  assert_true(WIFSIGNALED(status) || WEXITSTATUS(status) == 0); /* whatever a kill left behind, the next run takes it
-                                                                   up */
-  return WIFSIGNALED(status);
+  const order *o = self;
+  char line[256];
+  snprintf(line, sizeof line, "study %s", o->args);
+  if (chdir(folder) != 0) return 99;
+  if (o->signal) signal(o->signal, SIG_DFL); /* who started the tests may ignore it */
+  moments_expect(o->n, moments_raise, (void *)(size_t)&o->signal);
+  return child_command(line);
 }
 
-/* Ten kills at moments drawn from a fixed sequence; then every scene is there once, and the export is that of an
- * undisturbed run. */
+static outcome last;
+
+static void run_inside(const char *args, int signal, long n)
+{
+  order o = {args, signal, n};
+  child_run(obey, &o, HANGS, &last);
+}
+
+/* Ten kills at moments drawn from a fixed sequence, among SQLite's writes, too. An undisturbed run has 800 scenes and
+ * two moments or more in each; a tenth of these moments a run, halved by the ten that are killed on the average, leave
+ * scenes for all of them. Then every scene is there once, and the export is that of an undisturbed run. */
 static void killed_and_resumed(void **state)
 {
   (void)state;
   unsigned long long seed = 88172645463325252ull;
-  int killed = 0;
   write_file("k.yaml", MANY("kills", "40"));
-  expect("k.yaml -q --results whole.sqlite --jobs 1", 0, "800");
+  run_inside("k.yaml -q --results whole.sqlite --jobs 1", 0, 0);
+  assert_int_equal(last.code, 0);
+  const long whole = last.count;
+  assert_true(whole >= 2 * 800);
   for (int i = 0; i < 10; ++i) {
     seed ^= seed << 13, seed ^= seed >> 7, seed ^= seed << 17;
-    killed += kill_after("k.yaml", 5 + (long)(seed % 60));
+    run_inside("k.yaml -q --jobs 2", SIGKILL, 1 + (long)(seed % (unsigned long)(whole / 10)));
+    if (last.signal != SIGKILL) child_show(&last, "not killed");
+    assert_int_equal(last.signal, SIGKILL);
   }
-  print_message("%d of 10 runs were killed before their end\n", killed);
-  assert_true(killed > 0);
-  outcome a = run("k.yaml -q --export csv"), b = run("k.yaml -q --export csv --results whole.sqlite");
+  reply a = run("k.yaml -q --export csv"), b = run("k.yaml -q --export csv --results whole.sqlite");
   assert_int_equal(a.code, 0);
   assert_int_equal(b.code, 0);
   assert_string_equal(a.out, b.out);
@@ -107,9 +118,9 @@ static void threads_change_nothing(void **state)
   for (int i = 0; i < 2; ++i) {
     char args[128];
     snprintf(args, sizeof args, "t.yaml -q --results :memory: --export %s --jobs 1", formats[i]);
-    outcome a = run(args);
+    reply a = run(args);
     snprintf(args, sizeof args, "t.yaml -q --results :memory: --export %s --jobs 3", formats[i]);
-    outcome b = run(args);
+    reply b = run(args);
     assert_int_equal(a.code, 0);
     assert_true(strlen(a.out) > 1000);
     assert_string_equal(a.out, b.out);
@@ -118,27 +129,55 @@ static void threads_change_nothing(void **state)
   }
 }
 
-/* Shell words that wait for a file with something in it. */
-#define ONCE_THERE(name) "until [ -s " name " ]; do sleep 0.01; done; "
-
 static void stopped_by_a_signal(void **state)
 {
   (void)state;
   write_file("s.yaml", MANY("signals", "80"));
-  expect("s.yaml -q 2>&1 & " ONCE_THERE("s.sqlite") "kill -TERM $!; wait $!", 3,
-         "scenes are in s.sqlite; the same command goes on from there");
-  /* half an export would look like a whole one */
-  expect("s.yaml -q --export csv --fresh 2>/dev/null & sleep 0.1; kill -TERM $!; wait $!", 3, "");
+  run_inside("s.yaml -q", SIGTERM, 200);
+  shell_check("stopped", last.code, last.err, 3, "scenes are in s.sqlite; the same command goes on from there");
+  run_inside("s.yaml -q --export csv --fresh", SIGTERM, 200);
+  assert_int_equal(last.code, 3);
+  assert_string_equal(last.out, ""); /* half an export would look like a whole one */
   expect("s.yaml -q", 0, "1600");
+}
+
+/* A child that stands still, with its results file locked: tells so on one pipe, goes on when the other one closes. */
+typedef struct standstill {
+  int tells, waits;
+} standstill;
+
+static void stand_still(void *self)
+{
+  const standstill *s = self;
+  char byte = 0;
+  if (write(s->tells, &byte, 1) != 1 || read(s->waits, &byte, 1) != 0) _exit(99);
 }
 
 static void a_second_process_is_refused(void **state)
 {
   (void)state;
-  write_file("p.yaml", MANY("processes", "400"));
-  expect("p.yaml -q >/dev/null 2>&1 & " ONCE_THERE("p.sqlite") HBMCHECK_COMMAND
-         " study p.yaml -q 2>&1; code=$?; kill -TERM $!; wait $!; exit $code",
-         2, "p.sqlite: another hbmcheck is writing these results");
+  int there[2], go[2], status;
+  char byte;
+  write_file("p.yaml", MANY("processes", "10"));
+  assert_true(pipe(there) == 0 && pipe(go) == 0);
+  fflush(NULL);
+  pid_t child = fork();
+  assert_true(child >= 0);
+  if (child == 0) {
+    standstill s = {there[1], go[0]};
+    close(go[1]);
+    if (chdir(folder) != 0 || !freopen("/dev/null", "w", stdout)) _exit(99);
+    moments_expect(100, stand_still, &s);
+    _exit(child_command("study p.yaml -q --jobs 1"));
+  }
+  close(there[1]);
+  close(go[0]);
+  assert_int_equal(read(there[0], &byte, 1), 1);
+  expect("p.yaml -q 2>&1", 2, "p.sqlite: another hbmcheck is writing these results");
+  close(go[1]);
+  assert_int_equal(waitpid(child, &status, 0), child);
+  assert_true(WIFEXITED(status) && WEXITSTATUS(status) == 0);
+  close(there[0]);
 }
 
 static void changed_and_foreign(void **state)
@@ -226,7 +265,7 @@ static void long_claims_are_wrapped(void **state)
            "holds: SELECT 1}\n",
            text);
   write_file("l.yaml", file);
-  outcome o = run("l.yaml -q --results :memory: | sed -n '/^Claims/,$p'");
+  reply o = run("l.yaml -q --results :memory: | sed -n '/^Claims/,$p'");
   int words = 0;
   assert_int_equal(o.code, 0);
   for (const char *p = o.out; (p = strstr(p, "abcdefghi")); ++p) ++words;

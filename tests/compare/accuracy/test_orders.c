@@ -83,7 +83,7 @@ static scene case2(void)
 }
 
 /* Where contact restarts in stick, a slider restarted on a sample is off by up to a sample: order 1; at the
- * interpolated instant: order 2 (PHYSICS: 2e-3, 2e-4, 3e-5 against 2e-5, 4e-7, 5e-9 of the force, from 512 to
+ * interpolated instant: order 2 (docs/theory.md, 4: 2e-3, 2e-4, 3e-5 against 2e-5, 4e-7, 5e-9 of the force, from 512 to
  * 32768). The sum's own error is of order 2. Erratic, so the order of the envelope is asserted to half. */
 static void aliasing_of_case_2_is_of_first_or_second_order(void **state)
 {
@@ -107,7 +107,7 @@ static void aliasing_of_case_2_is_of_first_or_second_order(void **state)
   }
 }
 
-/* x's coefficients decay like 1/n^4, so what is left out of x itself is of order 3 and more (PHYSICS: peak H^-3,
+/* x's coefficients decay like 1/n^4, so what is left out of x itself is of order 3 and more (docs/theory.md, 3: H^-3,
  * |X1| H^-4). */
 static void truncation_of_case_2_is_of_third_order_or_more(void **state)
 {

@@ -106,7 +106,7 @@ int main(int argc, char **argv)
 {
   scene sc;
   case_error err;
-  alarm(60); /* a hang is a failure */
+  alarm(600); /* a hang is a failure */
   if (argc != 2) return 64;
   if (case_read(argv[1], 0, NULL, &sc, &err) != HC_OK) {
     puts(err.message);

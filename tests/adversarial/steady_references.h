@@ -1,7 +1,7 @@
-/* reference_scenes.h - the eight reference scenes with everything both solvers need, and the steady states they are
- * known to have. */
-#ifndef HC_TESTS_ADVERSARIAL_REFERENCE_H
-#define HC_TESTS_ADVERSARIAL_REFERENCE_H
+/* steady_references.h - the reference scenes with everything both solvers need, and the steady states they are known to
+ * have. */
+#ifndef HC_TESTS_STEADY_REFERENCES_H
+#define HC_TESTS_STEADY_REFERENCES_H
 
 #include "hbm/hbm.h"
 #include "tests/hbm/scenes.h"

@@ -1,0 +1,100 @@
+/* moments.c - see moments.h. The functions are wrapped by the linker (hbmcheck_moments in tests/CMakeLists.txt);
+ * pwrite64, by which SQLite writes, is this program's own, and so comes before the C library's. */
+#include "tests/faults/moments.h"
+
+#include <cvodes/cvodes.h>
+#include <pthread.h>
+#include <signal.h>
+#include <stdatomic.h>
+#include <stddef.h>
+#include <sys/syscall.h>
+#include <sys/types.h>
+#include <unistd.h>
+
+#include "campaigns/study/store.h"
+#include "hbm/exact_force.h"
+#include "numerics/workers.h"
+#include "output/output.h"
+#include "tests/faults/child.h"
+
+static atomic_long passed;
+static long expected; /* written while one thread runs, as are the next two */
+static void (*act)(void *);
+static void *acts_on;
+
+/* After a signal: threads beside the first one stand still until the command has stopped them. */
+static pthread_t first;
+static pthread_mutex_t gate = PTHREAD_MUTEX_INITIALIZER;
+static pthread_cond_t opened = PTHREAD_COND_INITIALIZER;
+static bool closed; /* under the gate's lock */
+
+void moments_expect(long n, void (*what)(void *self), void *self)
+{
+  expected = n;
+  act = what;
+  acts_on = self;
+  first = pthread_self();
+  atomic_store(&passed, 0);
+}
+
+static void set_gate(bool to)
+{
+  pthread_mutex_lock(&gate);
+  closed = to;
+  pthread_cond_broadcast(&opened);
+  pthread_mutex_unlock(&gate);
+}
+
+void moments_raise(void *self)
+{
+  const int number = *(const int *)self;
+  set_gate(true);
+  raise(number);
+}
+
+static void pass_gate(void)
+{
+  if (pthread_equal(first, pthread_self())) return;
+  pthread_mutex_lock(&gate);
+  while (closed) pthread_cond_wait(&opened, &gate);
+  pthread_mutex_unlock(&gate);
+}
+
+static void moment(void)
+{
+  long n = atomic_fetch_add(&passed, 1) + 1;
+  if (child_count) *child_count = n;
+  if (n == expected) act(acts_on);
+  pass_gate();
+}
+
+#define MOMENT(type, name, parameters, arguments)                                                                      \
+  type __real_##name parameters;                                                                                       \
+  type __wrap_##name parameters;                                                                                       \
+  type __wrap_##name parameters                                                                                        \
+  {                                                                                                                    \
+    moment();                                                                                                          \
+    return __real_##name arguments;                                                                                    \
+  }
+
+MOMENT(hc_status, exact_force_eval, (exact_force * e, const double *X, double *F, double *jac, contact_report *report),
+       (e, X, F, jac, report))
+MOMENT(int, CVode, (void *cv, sunrealtype to, N_Vector y, sunrealtype *t, int task), (cv, to, y, t, task))
+MOMENT(hc_status, output_open, (const char *path, output **out), (path, out))
+MOMENT(hc_status, output_commit, (output * o), (o))
+MOMENT(hc_status, study_store_put, (study_store * store, const study_result *r), (store, r))
+
+void __real_workers_stop(workers *w, hc_status why);
+void __wrap_workers_stop(workers *w, hc_status why);
+void __wrap_workers_stop(workers *w, hc_status why)
+{
+  __real_workers_stop(w, why);
+  set_gate(false);
+}
+
+ssize_t pwrite64(int fd, const void *bytes, size_t n, off_t at);
+ssize_t pwrite64(int fd, const void *bytes, size_t n, off_t at)
+{
+  moment();
+  return syscall(SYS_pwrite64, fd, bytes, n, at);
+}
