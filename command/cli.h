@@ -19,17 +19,18 @@ enum { CLI_MAX_SET = 256, CLI_MAX_ARGUMENTS = 64, CLI_MAX_JOBS = 1024 };
 /* The first key for a command's own options; those below are the common ones. */
 enum { CLI_OWN_KEY = 0x200 };
 
-/* A command: what it says of itself, its own options, and what it does. */
+/* A command: its help, its own options, and what it does. */
 typedef struct cli_command {
-  const char *name;                  /* "frf"                                                               */
-  const char *summary;               /* its line of hbmcheck --help                                         */
+  const char *name;                  /* "frf"                                                                   */
+  const char *summary;               /* its line of hbmcheck --help                                             */
   const char *arguments;             /* "CASE": one is required; "CASE...": one or more; "[FIELD]", "": none is */
-  const char *help;                  /* what it does, \v, columns, exit codes, an example                   */
-  const struct argp_option *options; /* its own, keys from CLI_OWN_KEY on; NULL for none                    */
-  error_t (*read_option)(int key, char *text, struct argp_state *state); /* one of its own options into state->input,
-                                                                            the command's own struct; other keys:
-                                                                            ARGP_ERR_UNKNOWN */
-  int (*run)(int argc, char **argv);                                     /* the exit code */
+  const char *help;                  /* what it does, \v, columns, exit codes, an example                       */
+  const struct argp_option *options; /* its own, keys from CLI_OWN_KEY on; NULL for none                        */
+  /* One of its own options, given with `text`, into state->input, the command's own struct. ARGP_ERR_UNKNOWN for other
+   * keys; NULL without options. */
+  error_t (*read_option)(int key, char *text, struct argp_state *state);
+  /* Parses the arguments with cli_parse and does the work. Returns the exit code. */
+  int (*run)(int argc, char **argv);
 } cli_command;
 
 /* What every command has. --help and --version never come back from cli_parse. */

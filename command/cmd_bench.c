@@ -74,12 +74,15 @@ static const table_column columns[] = {
     {"curve_seconds", TABLE_REAL},
     {"outcome", TABLE_TEXT},
 };
-static const table_column way_columns[] = {
+static const table_column cheapest_columns[] = {
     {"omega", TABLE_REAL},       {"accuracy", TABLE_REAL},      {"method", TABLE_TEXT},
     {"settings", TABLE_TEXT},    {"error_finer", TABLE_REAL},   {"seconds", TABLE_REAL},
     {"next_method", TABLE_TEXT}, {"next_settings", TABLE_TEXT}, {"times_faster", TABLE_REAL},
 };
-enum { N_COLUMNS = sizeof columns / sizeof *columns, N_WAY_COLUMNS = sizeof way_columns / sizeof *way_columns };
+enum {
+  N_COLUMNS = sizeof columns / sizeof *columns,
+  N_CHEAPEST_COLUMNS = sizeof cheapest_columns / sizeof *cheapest_columns
+};
 static const double accuracies[] = {1e-2, 1e-3, 1e-4, 1e-6, 1e-8};
 enum { N_ACCURACIES = sizeof accuracies / sizeof *accuracies };
 
@@ -89,7 +92,7 @@ static void put_count(table *t, int n)
   else table_put_missing(t);
 }
 
-/* Rounded: digits beyond the third are noise of the clock. */
+/* Rounded to three digits: those beyond are noise of the clock. */
 static void put_seconds(table *t, double s)
 {
   char text[32];
@@ -122,7 +125,7 @@ static void put_row(table *t, const bench_row *r)
   else table_put_text(t, bench_outcome_name(r->outcome));
 }
 
-static void put_ways(table *t, const bench *b, const bench_place *p)
+static void put_cheapest(table *t, const bench *b, const bench_place *p)
 {
   char text[BENCH_TEXT];
   for (int i = 0; i < N_ACCURACIES; ++i) {
@@ -139,7 +142,8 @@ static void put_ways(table *t, const bench *b, const bench_place *p)
   }
 }
 
-/* "omega = 9: hbm_exact to 1e-6; exact_shooting from 1e-7 to 1e-11; nothing beyond" */
+/* The fastest method for each accuracy, decade by decade: "hbm_exact from 1e-01 to 1e-06; exact_shooting from 1e-07 to
+ * 1e-11"; beyond the last one nothing was measured. */
 static void note_winners(table *t, const bench *b, const bench_place *p)
 {
   char text[512];
@@ -185,7 +189,7 @@ static void note_place(table *t, const bench_place *p)
   table_note(t, "omega = %.10g: scipy_lsoda: %s", p->omega, p->scipy);
 }
 
-static void put_notes(table *t, const scene *sc, const bench *b)
+static void note_bench(table *t, const scene *sc, const bench *b)
 {
   table_note(t, "%s", sc->title);
   for (int i = 0; i < b->n_places; ++i) note_place(t, &b->places[i]);
@@ -204,11 +208,11 @@ static void put_notes(table *t, const scene *sc, const bench *b)
 static int write_tables(const cli_common *common, const scene *sc, const bench *b)
 {
   table *tables[2] = {table_new("Work and precision", N_COLUMNS, columns),
-                      table_new("Cheapest way", N_WAY_COLUMNS, way_columns)};
+                      table_new("Cheapest way", N_CHEAPEST_COLUMNS, cheapest_columns)};
   for (int i = 0; i < b->n_rows; ++i) put_row(tables[0], &b->rows[i]);
-  put_notes(tables[0], sc, b);
+  note_bench(tables[0], sc, b);
   for (int i = 0; i < b->n_places; ++i) {
-    put_ways(tables[1], b, &b->places[i]);
+    put_cheapest(tables[1], b, &b->places[i]);
     note_winners(tables[1], b, &b->places[i]);
   }
   int code = cli_write(common, 2, tables);

@@ -55,7 +55,8 @@ static error_t read_option(int key, char *text, struct argp_state *state)
   }
 }
 
-/* The row that is farthest from what it should be, and what to do about it. */
+/* The row with the largest budget of the amplitude and what to do about it, and how many rows have no budget or one
+ * that does not explain the discrepancy. */
 static void note_worst(table *t, const scene *sc, const compare_setup *setup, const comparison *c)
 {
   const comparison_row *top = NULL;
@@ -76,12 +77,12 @@ static void note_worst(table *t, const scene *sc, const compare_setup *setup, co
                unknown == 1 ? "" : "s");
 }
 
-/* In csv and json, not on the screen. */
-static const char *const details[] = {"mean_error",           "from_integration", "from_settling",   "hbm_harmonic_1",
-                                      "transient_harmonic_1", "periods",          "orbit_amplitude", "orbit_multiplier",
-                                      "budget_sum",           "budget_observed"};
+/* Columns of csv and json that the screen has no room for. */
+static const char *const csv_only[] = {
+    "mean_error", "from_integration", "from_settling",    "hbm_harmonic_1", "transient_harmonic_1",
+    "periods",    "orbit_amplitude",  "orbit_multiplier", "budget_sum",     "budget_observed"};
 
-static void put_notes(table *t, const scene *sc, const compare_setup *setup, const comparison *c)
+static void note_comparison(table *t, const scene *sc, const compare_setup *setup, const comparison *c)
 {
   table_note(t, "%s", sc->title);
   char how[128];
@@ -117,7 +118,7 @@ static void print_failures(const cli_common *common, const comparison *c)
     cli_solver_failed(common, CLI_HBM, "the HBM response curve", c->curve.end, c->curve.points[c->curve.n - 1].omega);
 }
 
-static table *rows_table(const scene *sc, const compare_setup *setup, const comparison *c)
+static table *comparison_table(const scene *sc, const compare_setup *setup, const comparison *c)
 {
   int n_columns;
   const table_column *columns = rows_columns(ROWS_COMPARE, &n_columns);
@@ -127,8 +128,8 @@ static table *rows_table(const scene *sc, const compare_setup *setup, const comp
     rows_compare(&c->rows[i], cells);
     cli_put_row(t, ROWS_COMPARE, cells);
   }
-  for (size_t i = 0; i < sizeof details / sizeof *details; ++i) table_hide(t, details[i]);
-  put_notes(t, sc, setup, c);
+  for (size_t i = 0; i < sizeof csv_only / sizeof *csv_only; ++i) table_hide(t, csv_only[i]);
+  note_comparison(t, sc, setup, c);
   return t;
 }
 
@@ -152,7 +153,7 @@ static int run_compare(int argc, char **argv)
   compare_setup setup;
   hc_status st = scene_setup(&sc, &setup), tabled = HC_OK;
   if (st == HC_OK) st = comparison_run(&setup, &monitor, &c);
-  tables[0] = rows_table(&sc, &setup, &c);
+  tables[0] = comparison_table(&sc, &setup, &c);
   if (st != HC_OK) table_note(tables[0], "INCOMPLETE: %s", hc_status_text(st));
   if (st == HC_OK && (own.tables || own.lists.harmonics.n || own.lists.samples.n)) {
     tabled = compare_tables(&setup, &c, &monitor, tables + 1, &a);

@@ -45,6 +45,7 @@ static error_t read_option(int key, char *text, struct argp_state *state)
   }
 }
 
+/* A set: the coefficients for one number of samples. */
 enum { MAX_COEF = 2 * HBM_MAX_HARMONICS + 1, MAX_SETS = 17, EXACT = 0 };
 
 /* X[MAX_COEF] from --motion; the number of harmonics, or -1 after the message. */
@@ -86,7 +87,7 @@ static hc_status evaluate_exactly(const scene *sc, int n_harm, const double *X, 
   return st;
 }
 
-/* What each contact does and when; what no line covers is separated. */
+/* The pieces of the period in which each contact sticks or slips; in the rest it is separated. */
 static hc_status note_pattern(table *t, const scene *sc, int n_harm, const double *X)
 {
   static const char *const names[] = {"separated", "sticks", "slips forward", "slips backward"};
@@ -106,7 +107,8 @@ static hc_status note_pattern(table *t, const scene *sc, int n_harm, const doubl
   return st;
 }
 
-/* Coefficients for each sample count (EXACT: none) into F[set][MAX_COEF]. 0 or the exit code. */
+/* Coefficients for each number of samples n_time[n_sets] (EXACT: exact forces) into F[n_sets][MAX_COEF]. 0 or the exit
+ * code after the message. */
 static int evaluate(const cli_common *common, const scene *sc, int n_harm, const double *X, const int *n_time,
                     int n_sets, double (*F)[MAX_COEF])
 {

@@ -113,12 +113,14 @@ static int run_frf(int argc, char **argv)
     st = hbm_trace(s, from, to, &monitor, &curve);
     if (st != HC_OK) failed_at = curve.n ? curve.points[curve.n - 1].omega : from;
     hc_status at = own.at.n ? response_at(s, &curve, &own.at, &found, &failed_at) : HC_OK;
-    if (st == HC_OK) st = at; /* a curve that stops early is a failure also with --at: it might have come back */
+    if (st == HC_OK)
+      st = at; /* also with --at a curve that stops early is a
+    failure: it might have turned back to those omegas */
     hc_status shown = put_points(s, own.at.n ? &found : &curve, t);
     if (st == HC_OK) st = shown;
     note_curve(t, &sc, s, &curve);
     hc_status noted = own.at.n ? HC_OK : note_specials(t, s, &curve);
-    if (st == HC_OK && noted == HC_NO_MEMORY) st = noted; /* others are told in the note */
+    if (st == HC_OK && noted == HC_NO_MEMORY) st = noted; /* another failure to locate one is in the note */
     if (st != HC_OK && (curve.n == 0 || curve.end == HC_OK)) table_note(t, "INCOMPLETE: %s", hc_status_text(st));
   }
   progress_end(bar);

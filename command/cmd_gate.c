@@ -1,4 +1,4 @@
-/* cmd_gate.c - hbmcheck gate: the limits of case files held against what is found, for CI. */
+/* cmd_gate.c - hbmcheck gate: are the discrepancies of case files within the limits they set? For CI. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -75,7 +75,7 @@ typedef struct gate_call {
   output *junit; /* opened before anything runs: a name that cannot be written to is found at once */
 } gate_call;
 
-/* 0 or the exit code. */
+/* 0 or the exit code after the message. */
 static int read_cases(gate_call *call)
 {
   for (int i = 0; i < call->common.n_arguments; ++i) {

@@ -1,4 +1,4 @@
-/* cmd_stress.c - hbmcheck stress: random scenes, every method against every other. */
+/* cmd_stress.c - hbmcheck stress: random scenes, every method compared with every other. */
 #include <errno.h>
 #include <limits.h>
 #include <math.h>

@@ -1,5 +1,5 @@
-/* cmd_study.c - hbmcheck study: many scenes of one case, in parallel, kept as they come, and what a study claims
- * held against them. */
+/* cmd_study.c - hbmcheck study: many scenes of one case in parallel, their results kept as they come, and the study's
+ * claims checked against them. Under mpirun rank 0 hands out the scenes, keeps the results and writes. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -221,7 +221,7 @@ static bool scenes_done(void *self, long done, long now, long scenes)
   return hc_monitor_tick(&w->monitor, left_at_start > 0 ? (double)now / (double)left_at_start : 1);
 }
 
-/* 0 or the exit code after saying why. */
+/* Compute the scenes of one study that its results file does not have. 0 or the exit code after the message. */
 static int compute_study(study_call *call, study_entry *entry)
 {
   scene_progress w = {.bar = progress_start("study", call->common.quiet), .start = wall_seconds()};

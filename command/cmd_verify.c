@@ -1,4 +1,5 @@
-/* cmd_verify.c - hbmcheck verify: somebody else's response curve, point by point, and what may be wrong with it. */
+/* cmd_verify.c - hbmcheck verify: another code's response curve, point by point, and the suspected cause where it is
+ * off. */
 #include <math.h>
 #include <stdio.h>
 
@@ -52,13 +53,16 @@ static const table_column columns[] = {
     {"omega", TABLE_REAL},  {"value", TABLE_REAL}, {"nearest", TABLE_REAL}, {"branch", TABLE_INTEGER},
     {"stable", TABLE_TEXT}, {"error", TABLE_REAL}, {"verdict", TABLE_TEXT}, {"line", TABLE_INTEGER},
 };
-static const table_column guess_columns[] = {
+static const table_column hypothesis_columns[] = {
     {"cause", TABLE_TEXT},          {"distance", TABLE_REAL},     {"truth_distance", TABLE_REAL},
     {"harmonics", TABLE_INTEGER},   {"static", TABLE_TEXT},       {"samples", TABLE_INTEGER},
     {"slider_restart", TABLE_TEXT}, {"omega_factor", TABLE_REAL}, {"value_factor", TABLE_REAL},
     {"quantity", TABLE_TEXT},
 };
-enum { N_COLUMNS = sizeof columns / sizeof *columns, N_GUESS_COLUMNS = sizeof guess_columns / sizeof *guess_columns };
+enum {
+  N_COLUMNS = sizeof columns / sizeof *columns,
+  N_HYPOTHESIS_COLUMNS = sizeof hypothesis_columns / sizeof *hypothesis_columns
+};
 
 static void put_row(table *t, const verify_row *r)
 {
@@ -73,7 +77,7 @@ static void put_row(table *t, const verify_row *r)
   table_put_integer(t, r->line);
 }
 
-static void put_guess(table *t, const verify_hypothesis *h, double truth)
+static void put_hypothesis(table *t, const verify_hypothesis *h, double truth)
 {
   char words[VERIFY_TEXT];
   const verify_equations *e = &h->equations;
@@ -105,7 +109,7 @@ static void note_truth(table *t, const scene *sc, const verify_data *data, const
     table_note(t, "the truth's curve STOPPED at omega = %.10g: %s", r->curve_omega, hc_status_text(r->curve_end));
 }
 
-static const char *meaning(verdict v)
+static const char *meaning_for_point(verdict v)
 {
   switch (v) {
   case VERDICT_MATCH: return "on a stable solution, within the gate";
@@ -117,12 +121,12 @@ static const char *meaning(verdict v)
   }
 }
 
-static void put_notes(table *t, const scene *sc, const verify_data *data, const verify_report *r)
+static void note_verification(table *t, const scene *sc, const verify_data *data, const verify_report *r)
 {
   char text[VERIFY_TEXT];
   note_truth(t, sc, data, r);
   for (int v = 0; v < VERDICT_COUNT; ++v)
-    if (r->count[v]) table_note(t, "%d %s: %s", r->count[v], verdict_name((verdict)v), meaning((verdict)v));
+    if (r->count[v]) table_note(t, "%d %s: %s", r->count[v], verdict_name((verdict)v), meaning_for_point((verdict)v));
   table_note(t, "%s", verify_sentence(r, text));
   table_note(t, "cause: %s",
              r->causes || (r->status == HC_OK && verify_exit_code(r) == 0) ? verify_cause_words(r->causes, text)
@@ -131,17 +135,18 @@ static void put_notes(table *t, const scene *sc, const verify_data *data, const 
 
 static int write_tables(const cli_common *common, const scene *sc, const verify_data *data, const verify_report *r)
 {
-  table *tables[2] = {table_new("Points", N_COLUMNS, columns), table_new("Hypotheses", N_GUESS_COLUMNS, guess_columns)};
+  table *tables[2] = {table_new("Points", N_COLUMNS, columns),
+                      table_new("Hypotheses", N_HYPOTHESIS_COLUMNS, hypothesis_columns)};
   for (int i = 0; i < r->n_rows; ++i) put_row(tables[0], &r->rows[i]);
   for (int i = 0; i < r->n_hypotheses && i < VERIFY_SHOWN; ++i)
-    put_guess(tables[1], &r->hypotheses[i], r->truth_distance);
-  put_notes(tables[0], sc, data, r);
+    put_hypothesis(tables[1], &r->hypotheses[i], r->truth_distance);
+  note_verification(tables[0], sc, data, r);
   int code = cli_write(common, r->n_hypotheses && common->format != FORMAT_CSV ? 2 : 1, tables);
   for (int i = 0; i < 2; ++i) table_free(tables[i]);
   return code;
 }
 
-/* The curve, as the options say. 0 or the exit code. */
+/* The curve of --against, read as --columns and --quantity say. 0 or the exit code after the message. */
 static int read_curve(const cli_common *common, const verify_options *own, verify_data *data)
 {
   verify_columns where;

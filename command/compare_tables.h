@@ -12,8 +12,8 @@ typedef struct table_lists {
 /* The lists that were given in the place of the scene's. 0, or the exit code after the message. */
 int compare_lists(const cli_common *common, const table_lists *lists, scene *sc);
 
-/* The table of (H, N) and the one of orders into out[], which the caller frees; with what was found, whatever the
- * status. What they are made of into *a, to free with accuracy_clear in any case. */
+/* The table over (H, N) and the one of observed orders into out[], which the caller frees; on failure they have the
+ * rows found before. *a gets what they were made from, to be freed with accuracy_clear in any case. */
 hc_status compare_tables(const compare_setup *setup, const comparison *c, const hc_monitor *monitor, table *out[2],
                          accuracy *a);
 

@@ -24,9 +24,9 @@ static void usage(FILE *to)
 
 int main(int argc, char **argv)
 {
-  signal(SIGPIPE, SIG_IGN);    /* a closed pipe is a write error like any other */
-  signal(SIGCHLD, SIG_DFL);    /* ignored by who started us, the exit codes of gnuplot and python3 would be lost */
-  gsl_set_error_handler_off(); /* its default aborts; our code reads the statuses */
+  signal(SIGPIPE, SIG_IGN);    /* a closed pipe then is a write error, with a message and exit code 3 */
+  signal(SIGCHLD, SIG_DFL);    /* if our parent ignored it, waitpid could not tell how gnuplot and python3 ended */
+  gsl_set_error_handler_off(); /* GSL's default handler aborts; we check its statuses */
   progress_install_signals();
   if (argc < 2) {
     usage(stderr);

@@ -36,8 +36,8 @@ bool plot_can(const char *path);
  * besides is faint. `asked`: solutions to mark, or NULL. */
 hc_status plot_frf(plot_order *p, const scene *sc, hbm_solver *s, const hbm_curve *curve, const hbm_curve *asked);
 
-/* The same with the transients and their verdicts on it. a: beside it the discrepancy over samples and harmonics, or
- * NULL. */
+/* The same with the transients and their verdicts on it. a (or NULL): the discrepancy over samples and harmonics, in
+ * panels beside it. */
 hc_status plot_compare(plot_order *p, const scene *sc, const comparison *c, const accuracy *a);
 
 /* At one frequency the motion over a period, at several the amplitudes over the response curve. */
