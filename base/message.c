@@ -5,14 +5,16 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/utf8.h"
+
 void message_start(message *m, char *text, size_t size)
 {
   *m = (message){.text = text, .size = size};
   text[0] = '\0';
 }
 
-/* Cut on the start of a character, so that half of one is never shown. */
-static void close_full(message *m)
+/* End the text in "...", cut at the start of a character so that no part of one is left. */
+static void end_in_dots(message *m)
 {
   size_t end = m->used < m->size - 4 ? m->used : m->size - 4;
   while (end > 0 && ((unsigned char)m->text[end] & 0xC0) == 0x80) --end;
@@ -33,31 +35,8 @@ void message_add(message *m, const char *format, ...)
     m->used += (size_t)n;
   } else {
     m->used = m->size - 1;
-    close_full(m);
+    end_in_dots(m);
   }
-}
-
-size_t utf8_character(const char *text, size_t length, unsigned long *code)
-{
-  static const unsigned long smallest[] = {0, 0, 0x80, 0x800, 0x10000}; /* a shorter form would do: not UTF-8 */
-  unsigned char first = (unsigned char)text[0];
-  size_t n = first < 0x80 ? 1 : first < 0xC0 ? 0 : first < 0xE0 ? 2 : first < 0xF0 ? 3 : first < 0xF8 ? 4 : 0;
-  if (n == 0 || n > length) return 0;
-  *code = n == 1 ? first : first & (0x7Fu >> n);
-  for (size_t i = 1; i < n; ++i) {
-    unsigned char c = (unsigned char)text[i];
-    if ((c & 0xC0) != 0x80) return 0;
-    *code = *code << 6 | (c & 0x3F);
-  }
-  bool surrogate = *code >= 0xD800 && *code <= 0xDFFF;
-  return *code < smallest[n] || surrogate || *code > 0x10FFFF ? 0 : n;
-}
-
-bool utf8_is_control(unsigned long code)
-{
-  return code < 0x20 || (code >= 0x7F && code <= 0x9F) || (code >= 0x202A && code <= 0x202E) /* directions */
-         || code == 0x2028 || code == 0x2029 /* line ends */ || (code >= 0x2066 && code <= 0x2069) || code == 0xFEFF ||
-         code == 0xFFFE || code == 0xFFFF;
 }
 
 void message_add_input(message *m, const char *text, size_t length, size_t limit)

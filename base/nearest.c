@@ -4,7 +4,7 @@
 #include <stdbool.h>
 #include <string.h>
 
-enum { LONGEST = 40, FAR = NEAREST_FAR };
+enum { LONGEST = 40 }; /* letters of a word; a longer one is near to nothing */
 
 static int smallest(int a, int b) { return a < b ? a : b; }
 
@@ -14,7 +14,7 @@ static int distance(const char *a, size_t n, const char *b)
 {
   int row[3][LONGEST + 1]; /* the last two rows and the current one, [0..strlen(b)] */
   size_t m = strlen(b);
-  if (n > LONGEST || m > LONGEST) return FAR;
+  if (n > LONGEST || m > LONGEST) return NEAREST_FAR;
   int *before = row[0], *last = row[1], *now = row[2];
   for (size_t j = 0; j <= m; ++j) last[j] = before[j] = (int)j;
   for (size_t i = 1; i <= n; ++i) {
@@ -33,14 +33,14 @@ int nearest_distance(const char *key, size_t length, const char *name)
 {
   int d = distance(key, length, name), most = length < 6 ? 1 : 2;
   if (d <= most && (size_t)d < length) return d;
-  bool start = length >= 3 && length < strlen(name) && !memcmp(key, name, length);
-  return start ? 1 : FAR;
+  bool starts_name = length >= 3 && length < strlen(name) && !memcmp(key, name, length);
+  return starts_name ? 1 : NEAREST_FAR;
 }
 
 const char *nearest_word(const char *const *words, const char *key, size_t length)
 {
   const char *best = NULL;
-  int least = FAR;
+  int least = NEAREST_FAR;
   for (; *words; ++words) {
     int d = nearest_distance(key, length, *words);
     if (d < least) best = *words, least = d;

@@ -1,4 +1,4 @@
-/* nearest.h - which word was meant by one that is not known: edit distance. */
+/* nearest.h - which word was meant by one that is not known, by their edit distance. */
 #ifndef HC_NEAREST_H
 #define HC_NEAREST_H
 
@@ -8,7 +8,7 @@ enum { NEAREST_FAR = 1000 };
 
 /* How far key[length] is from `name`: 0..2 typing mistakes (insertions, deletions, replacements, swaps of
  * neighbours), 1 for the start of the name, else NEAREST_FAR. Words of less than 6 letters may have one mistake
- * only: every two of them are close. */
+ * only, since two replacements turn most of them into each other. */
 int nearest_distance(const char *key, size_t length, const char *name);
 
 /* The nearest of words[], which ends in NULL, or NULL if none is near. */

@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { LONGEST = 256 }; /* characters of a number; a double needs no more than 17 digits and an exponent */
+enum { LONGEST = 256 }; /* characters; 17 digits and an exponent are enough for any double */
 
 static size_t digits(const char *s)
 {
@@ -37,7 +37,7 @@ static bool is_decimal(const char *s)
   return *s == '\0';
 }
 
-/* nan, inf and infinity as C and YAML spell them: recognised only to say so. */
+/* nan, inf and infinity as C and YAML spell them. They are refused, with a message of their own. */
 static bool is_not_finite(const char *s)
 {
   static const char *const words[] = {"nan", "inf", "infinity"};
@@ -51,7 +51,7 @@ static bool is_not_finite(const char *s)
   return false;
 }
 
-/* strtod with a decimal point whatever the locale. Text that strtod does not take to its end counts as no number. */
+/* strtod with a decimal point whatever the locale. False if it stops before the end of the text. */
 static bool convert(const char *text, double *value)
 {
   locale_t c = newlocale(LC_ALL_MASK, "C", (locale_t)0), before = uselocale(c);
@@ -85,14 +85,14 @@ number_fault number_read(const char *text, size_t length, double *value)
   if (!terminate(text, length, copy)) return NUMBER_NONE;
   if (is_not_finite(copy)) return NUMBER_NOT_FINITE;
   if (!is_decimal(copy) || !convert(copy, &x)) return NUMBER_NONE;
-  errno = before; /* subnormal numbers set ERANGE, and are welcome */
+  errno = before; /* strtod sets ERANGE for subnormal numbers, which are accepted */
   if (!isfinite(x)) return NUMBER_TOO_LARGE;
   if (x == 0 && has_nonzero_digit(copy)) return NUMBER_TOO_SMALL;
   *value = x;
   return NUMBER_FINE;
 }
 
-/* e-09 -> e-9, e+20 -> e+20: printf's leading zero says nothing. */
+/* Without printf's leading zero of the exponent: e-09 -> e-9, e+20 stays. */
 static void shorten_exponent(char *text)
 {
   char *e = strchr(text, 'e'), *zeros = e ? e + 2 : NULL;
@@ -102,7 +102,7 @@ static void shorten_exponent(char *text)
   memmove(zeros, zeros + n, strlen(zeros + n) + 1);
 }
 
-/* Digits alone after a sign? For a text that is a number as a whole. */
+/* Of a text that is a number: is it digits alone, after a sign? */
 static bool is_integer(const char *text, size_t length)
 {
   for (size_t i = text[0] == '+' || text[0] == '-'; i < length; ++i)

@@ -9,9 +9,9 @@
 typedef enum number_fault {
   NUMBER_FINE,
   NUMBER_NONE,       /* not a number as a whole: empty, `12,5`, `0x10`, `1_000`, `5 m` */
-  NUMBER_NOT_FINITE, /* nan or inf                                                     */
-  NUMBER_TOO_LARGE,  /* a number no double (or int) can hold                           */
-  NUMBER_TOO_SMALL,  /* not zero, but a double makes it zero                           */
+  NUMBER_NOT_FINITE, /* nan or inf */
+  NUMBER_TOO_LARGE,  /* larger than any double (or int) */
+  NUMBER_TOO_SMALL,  /* not zero, but zero as a double */
   NUMBER_NOT_INTEGER /* an integer was asked for: `1.0` and `1e3` are not written as one */
 } number_fault;
 

@@ -1,4 +1,4 @@
-/* status.h - what a call can answer, in one list: code and words.
+/* status.h - every answer of a call that may fail: code and words, in one list.
  * Every fallible function of the library returns an hc_status; none prints, exits or sets errno for the caller. */
 #ifndef HC_STATUS_H
 #define HC_STATUS_H
@@ -44,7 +44,8 @@ static inline bool hc_monitor_tick(const hc_monitor *m, double done)
   return !m || !m->tick || m->tick(m->self, done);
 }
 
-/* The tick of a monitor around another one (self; may be NULL), for work whose progress says nothing of the whole. */
+/* The tick of a monitor whose self is another monitor or NULL: passes each tick on to that one, with the fraction
+ * unknown. For a part of the work whose own fraction is not that of the whole. */
 static inline bool hc_monitor_tick_aside(void *self, double done)
 {
   (void)done;

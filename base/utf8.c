@@ -4,9 +4,30 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/message.h"
-
 enum { REPLACEMENT = 0xfffd };
+
+size_t utf8_character(const char *text, size_t length, unsigned long *code)
+{
+  static const unsigned long smallest[] = {0, 0, 0x80, 0x800, 0x10000}; /* a shorter form would do: not UTF-8 */
+  unsigned char first = (unsigned char)text[0];
+  size_t n = first < 0x80 ? 1 : first < 0xC0 ? 0 : first < 0xE0 ? 2 : first < 0xF0 ? 3 : first < 0xF8 ? 4 : 0;
+  if (n == 0 || n > length) return 0;
+  *code = n == 1 ? first : first & (0x7Fu >> n);
+  for (size_t i = 1; i < n; ++i) {
+    unsigned char c = (unsigned char)text[i];
+    if ((c & 0xC0) != 0x80) return 0;
+    *code = *code << 6 | (c & 0x3F);
+  }
+  bool surrogate = *code >= 0xD800 && *code <= 0xDFFF;
+  return *code < smallest[n] || surrogate || *code > 0x10FFFF ? 0 : n;
+}
+
+bool utf8_is_control(unsigned long code)
+{
+  return code < 0x20 || (code >= 0x7F && code <= 0x9F) || (code >= 0x202A && code <= 0x202E) /* directions */
+         || code == 0x2028 || code == 0x2029 /* line ends */ || (code >= 0x2066 && code <= 0x2069) || code == 0xFEFF ||
+         code == 0xFFFE || code == 0xFFFF;
+}
 
 unsigned long utf8_next(const char **p)
 {
@@ -59,15 +80,13 @@ char *utf8_clean(const char *text, bool one_line)
     unsigned long code = utf8_next(&text);
     if (one_line && utf8_is_control(code)) {
       *to++ = ' ';
-      continue;
-    }
-    if (code == REPLACEMENT) {
+    } else if (code == REPLACEMENT) {
       memcpy(to, "\xef\xbf\xbd", 3);
       to += 3;
-      continue;
+    } else {
+      memcpy(to, from, (size_t)(text - from));
+      to += text - from;
     }
-    memcpy(to, from, (size_t)(text - from));
-    to += text - from;
   }
   while (one_line && to > clean && to[-1] == ' ') --to;
   *to = 0;

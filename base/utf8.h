@@ -1,17 +1,23 @@
-/* utf8.h - text in columns, without the locale a host program may have set. What is UTF-8 and what is a control
- * character: base/message.h. */
+/* utf8.h - characters of UTF-8 text and the terminal columns they take, whatever locale a host program has set. */
 #ifndef HC_UTF8_H
 #define HC_UTF8_H
 
 #include <stdbool.h>
 #include <stddef.h>
 
+/* Bytes of the UTF-8 character that starts text[length], length >= 1: 1..4, or 0 if there is none. *code: its code
+ * point. */
+size_t utf8_character(const char *text, size_t length, unsigned long *code);
+
+/* Characters a terminal may act on instead of showing, tab and line ends included. */
+bool utf8_is_control(unsigned long code);
+
 /* The code point at *p, which is moved past it. A byte that starts no valid sequence counts alone, as U+FFFD. **p
  * must not be 0. */
 unsigned long utf8_next(const char **p);
 
-/* Terminal columns of a code point: 0 combining, 2 east Asian wide and emoji, else 1. Approximate outside these
- * blocks. */
+/* Terminal columns of a code point: 0 combining, 2 east Asian wide and emoji, else 1, by blocks of the code: a few
+ * characters have another width. */
 int utf8_columns(unsigned long code);
 
 /* Columns of a whole text; control characters count as the space they are shown as. */

@@ -7,7 +7,18 @@
 #include "hbm/aft.h"
 #include "hbm/exact_force.h"
 #include "hbm/hbm.h"
-#include "timeint/timeint.h"
+#include "timeint/steady.h"
+#include "timeint/sweep.h"
+
+enum { SCENE_MAX_STATES = TIMEINT_W + SCENE_MAX_CONTACTS };
+
+/* A state of a scene's model, with room for as many contacts as a scene may have; `all` is what timeint.h takes. */
+typedef union scene_state {
+  struct {
+    double x, v, w[SCENE_MAX_CONTACTS];
+  };
+  double all[SCENE_MAX_STATES];
+} scene_state;
 
 hc_status scene_hbm_solver(const scene *sc, hbm_solver **out);
 hc_status scene_timeint(const scene *sc, timeint **out);

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/number.h"
+#include "base/utf8.h"
 
 static bool is_integer(const field *f) { return f->kind == FIELD_INTEGER || f->kind == FIELD_INTEGERS; }
 

@@ -3,6 +3,7 @@
  * depth); then the document. */
 #include <string.h>
 
+#include "base/utf8.h"
 #include "cases/case_reader.h"
 
 enum { DEEPEST = 16 }; /* a case file needs 4 */

@@ -13,7 +13,7 @@ static const char help[] =
     "frequency and branch."
     "\vAn error is |hbm - transient| / the transient's amplitude; the limits are the case's gate. from_aliasing, ... "
     "say what "
-    "it is made of; their sum is no less than the discrepancy, or budget_holds says no.\n"
+    "it is made of: one part a cause, all of them sizes.\n"
     "--tables adds a table over truncation orders and samples (largest amplitude discrepancy, peak, false turning "
     "points, cost) and one of "
     "observed orders; it takes seconds, and with csv they follow the first after a blank line. The screen shows the "
@@ -61,17 +61,14 @@ static void note_worst(table *t, const scene *sc, const compare_setup *setup, co
 {
   const comparison_row *top = NULL;
   char text[BUDGET_TEXT];
-  int doubtful = 0, unknown = 0;
+  int unknown = 0;
   for (int i = 0; i < c->n_rows; ++i) {
     const comparison_row *r = &c->rows[i];
-    doubtful += r->budget.known && !r->budget.holds;
     unknown += !r->budget.known;
     if (r->budget.known && (!top || r->budget.amplitude.sum > top->budget.amplitude.sum)) top = r;
   }
   if (top) budget_advice(&top->budget, setup, sc->gate.most.amplitude, c->harmonics, text);
   if (top) table_note(t, "largest budget, omega = %.10g, branch %d: %s", top->omega, top->branch, text);
-  if (doubtful)
-    table_note(t, "in %d row%s the parts do NOT account for what is observed", doubtful, doubtful == 1 ? "" : "s");
   if (unknown)
     table_note(t, "%d row%s without a budget: no periodic orbit was found next to the HBM solution", unknown,
                unknown == 1 ? "" : "s");

@@ -1,5 +1,5 @@
-/* parts.c - see parts.h. The solutions between the HBM solution and the transient are found first; then each measure
- * is split the same way. */
+/* budget.c - see budget.h. The solutions between the HBM solution and the transient are found first; then the distances
+ * between neighbours are taken, for each measure of discrepancy.h but the mean. */
 #include "compare/budget.h"
 
 #include <math.h>
@@ -10,31 +10,38 @@
 #include "compare/patience.h"
 
 static const double same_orbit = 0.05; /* [amplitude] */
-static const double finest = 1e-10;    /* below it the scatter of a period keeps Newton from closing, shoot.h */
+static const double finest = 1e-10;    /* transient.tolerance below which rounding keeps shooting from converging */
 
 struct budgeter {           /* from budgeter_new, to budgeter_free */
   compare_setup setup;      /* a copy */
   int n_harm;               /* of alias_free */
   hbm_solver *alias_free;   /* exact forces; NULL until needed */
   timeint *finer, *coarser; /* the transient's law, stepped finer and coarser; NULL until needed */
+  double *state;            /* [n_states] where these start */
+  int n_states;             /* in a state of time integration */
   double X[2 * HBM_MAX_HARMONICS + 1];
 };
 
-/* What stands between h and T, and which of it is there. */
+/* The solutions h, hx, O, T', T of budget.h, and which of them were found. */
 typedef struct chain {
   periodic_motion h, hx, orbit, finer, transient;
   bool has_hx, has_orbit, has_finer, has_transient;
-  bool finer_is_coarser; /* `finer` was not to be had: it is a coarser one, an error estimate and no link of the
-                            chain */
+  bool finer_is_coarser; /* T' was not found: `finer` is the transient stepped coarser instead, from which only the
+                            integration error is estimated */
   double settling;       /* [1] */
 } chain;
 
 hc_status budgeter_new(const compare_setup *setup, budgeter **out)
 {
-  *out = calloc(1, sizeof **out);
-  if (!*out) return HC_NO_MEMORY;
-  (*out)->setup = *setup;
-  return HC_OK;
+  budgeter *b = calloc(1, sizeof *b);
+  *out = NULL;
+  if (!b) return HC_NO_MEMORY;
+  b->setup = *setup;
+  b->n_states = TIMEINT_W + setup->model->n_contacts;
+  b->state = calloc((size_t)b->n_states, sizeof *b->state);
+  if (b->state) *out = b;
+  else budgeter_free(b);
+  return *out ? HC_OK : HC_NO_MEMORY;
 }
 
 void budgeter_free(budgeter *b)
@@ -43,6 +50,7 @@ void budgeter_free(budgeter *b)
   hbm_solver_free(b->alias_free);
   timeint_free(b->finer);
   timeint_free(b->coarser);
+  free(b->state);
   free(b);
 }
 
@@ -52,7 +60,6 @@ error_budget budget_nothing(void)
   return (error_budget){.amplitude = none, .harmonic_1 = none, .waveform = none};
 }
 
-/* |difference| / amplitude; no difference is no error, also where nothing moves. */
 bool budget_same_orbit(const timeint_result *a, const timeint_result *b)
 {
   periodic_motion ma = motion_of_transient(a), mb = motion_of_transient(b);
@@ -77,14 +84,15 @@ static hc_status need_alias_free(budgeter *b, int n_harm)
   return hbm_solver_new(setup.model, &setup.hbm, &b->alias_free);
 }
 
-/* The solution next to b->X into c->hx, if it is a better link between h and the orbit than the one that is there. */
+/* The solution with exact forces next to b->X becomes c->hx if there is none yet, or if it lies nearer to both h and
+ * the orbit (sum of the two distances). */
 static void try_alias_free(budgeter *b, const budget_case *from, chain *c)
 {
   hbm_point point;
   hbm_measures m;
   if (hbm_solve(b->alias_free, from->omega, b->X, &point) != HC_OK || hbm_measure(b->alias_free, b->X, &m) != HC_OK)
     return;
-  periodic_motion found = motion_of_series(&m, b->n_harm, b->X);
+  periodic_motion found = motion_of_solution(&m, b->n_harm, b->X);
   if (c->has_hx) {
     double old = motion_between(&c->h, &c->hx).waveform + motion_between(&c->hx, &c->orbit).waveform;
     if (!(motion_between(&c->h, &found).waveform + motion_between(&found, &c->orbit).waveform < old)) return;
@@ -93,7 +101,7 @@ static void try_alias_free(budgeter *b, const budget_case *from, chain *c)
   c->has_hx = true;
 }
 
-/* From h; and where that leads astray from the orbit's own harmonics. */
+/* From h. If that ends at another solution (h - hx - O three times as long as h - O), from the orbit's harmonics. */
 static hc_status find_alias_free(budgeter *b, const budget_case *from, chain *c)
 {
   c->hx = c->h;
@@ -106,7 +114,7 @@ static hc_status find_alias_free(budgeter *b, const budget_case *from, chain *c)
   double direct = motion_between(&c->h, &c->orbit).waveform;
   if (c->has_hx && motion_between(&c->h, &c->hx).waveform + motion_between(&c->hx, &c->orbit).waveform <= 3 * direct)
     return HC_OK;
-  motion_series(&c->orbit, from->n_harm, b->X);
+  motion_harmonics(&c->orbit, from->n_harm, b->X);
   if (!b->setup.hbm.keep_mean) b->X[0] = 0;
   try_alias_free(b, from, c);
   return HC_OK;
@@ -121,7 +129,7 @@ static hc_status integrate_again(budgeter *b, timeint **ti, double tolerance, co
 {
   compare_setup setup = b->setup;
   timeint_result r;
-  timeint_state state = from->state;
+  memcpy(b->state, from->state, (size_t)b->n_states * sizeof *b->state);
   patience p = {.outer = monitor, .left = PATIENCE_PERIODS};
   hc_monitor bounded = {patience_tick, &p};
   *found = false;
@@ -129,7 +137,7 @@ static hc_status integrate_again(budgeter *b, timeint **ti, double tolerance, co
   setup.transient.steady = TRANSIENT_STEADY_SHOOTING; /* with transient.richardson, timeint_steady extrapolates as it
                                                       did for T */
   hc_status st = *ti ? HC_OK : timeint_new(setup.model, &setup.transient, ti);
-  if (st == HC_OK) st = timeint_steady(*ti, from->omega, &state, &bounded, &r);
+  if (st == HC_OK) st = timeint_steady(*ti, from->omega, b->state, &bounded, &r);
   if (st == HC_NO_MEMORY) return st;
   if (p.stopped) return HC_INTERRUPTED;
   if (st == HC_OK && budget_same_orbit(&r, from->transient)) *out = motion_of_transient(&r), *found = true;
@@ -161,32 +169,40 @@ static void add_up(budget_parts *p)
 #undef ADD
 }
 
-/* The gaps between the links. */
+/* Distances between the solutions of a chain. */
 typedef struct links {
   motion_distance observed, direct, aliasing, truncation, regularisation, integration;
 } links;
 
-/* gap[6]: one measure of them, in their order. */
-static budget_parts split(const chain *c, bool exact_law, double settling, double unit, const double gap[6])
+/* The same in one measure [length]. */
+typedef struct gaps {
+  double observed, direct, aliasing, truncation, regularisation, integration;
+} gaps;
+
+/* The parts in one measure, relative to the amplitude `unit`. */
+static budget_parts split(const chain *c, bool exact_law, double settling, double unit, const gaps *g)
 {
   budget_parts p = budget_nothing().amplitude;
-  p.observed = discrepancy_relative(gap[0], unit);
-  if (c->has_hx) p.aliasing = discrepancy_relative(gap[2], unit), p.truncation = discrepancy_relative(gap[3], unit);
-  else p.aliasing = discrepancy_relative(gap[1], unit); /* without aliasing there is no such solution */
+  p.observed = discrepancy_relative(g->observed, unit);
+  if (c->has_hx) {
+    p.aliasing = discrepancy_relative(g->aliasing, unit);
+    p.truncation = discrepancy_relative(g->truncation, unit);
+  } else
+    p.aliasing = discrepancy_relative(g->direct, unit); /* exact forces have no solution here: h is there by aliasing */
   if (c->has_transient) {
-    p.regularisation = exact_law ? 0 : c->has_orbit ? discrepancy_relative(gap[4], unit) : NAN;
+    p.regularisation = exact_law ? 0 : c->has_orbit ? discrepancy_relative(g->regularisation, unit) : NAN;
     p.settling = settling;
     if (c->has_finer || c->finer_is_coarser)
-      p.integration = fmax(discrepancy_relative(gap[5], unit) - known(settling), 0);
+      p.integration = fmax(discrepancy_relative(g->integration, unit) - known(settling), 0);
   }
   add_up(&p);
   return p;
 }
 
-/* The chain with the links that are missing closed: each gap is between what is there. */
+/* Where a solution of the chain is missing, its neighbours are taken for each other: T for T', T' for O. */
 static links measure_links(const chain *c, bool exact_law)
 {
-  const periodic_motion *last = c->has_finer ? &c->finer : &c->transient; /* the end of the chain before integration */
+  const periodic_motion *last = c->has_finer ? &c->finer : &c->transient;
   const periodic_motion *orbit = c->has_transient && (exact_law || !c->has_orbit) ? last : &c->orbit;
   const periodic_motion *end = c->has_transient ? &c->transient : orbit;
   return (links){.observed = motion_between(&c->h, end),
@@ -197,19 +213,18 @@ static links measure_links(const chain *c, bool exact_law)
                  .integration = c->has_transient ? motion_between(&c->finer, &c->transient) : (motion_distance){0}};
 }
 
-static void settle_accounts(const chain *c, bool exact_law, error_budget *out)
+static void fill_budget(const chain *c, bool exact_law, error_budget *out)
 {
   const links l = measure_links(c, exact_law);
   const double unit = c->has_transient ? c->transient.amplitude : c->orbit.amplitude;
 #define GAPS(m)                                                                                                        \
-  (const double[6]){l.observed.m, l.direct.m, l.aliasing.m, l.truncation.m, l.regularisation.m, l.integration.m}
+  &(const gaps){l.observed.m, l.direct.m, l.aliasing.m, l.truncation.m, l.regularisation.m, l.integration.m}
   out->amplitude = split(c, exact_law, c->settling, unit, GAPS(amplitude));
   out->harmonic_1 = split(c, exact_law, c->settling, unit, GAPS(harmonic_1));
   out->waveform = split(c, exact_law, c->settling, unit, GAPS(waveform));
 #undef GAPS
   out->known = true;
   out->against_transient = c->has_transient;
-  out->holds = out->amplitude.sum >= out->amplitude.observed * (1 - 1e-9) - 1e-14;
 }
 
 /* Is the transient on the orbit next to h? */
@@ -226,13 +241,13 @@ hc_status budgeter_run(budgeter *b, const budget_case *from, const hc_monitor *m
   chain *c = calloc(1, sizeof *c);
   if (!c) return HC_NO_MEMORY;
   hc_status st = HC_OK;
-  c->h = motion_of_series(from->hbm, from->n_harm, from->X);
+  c->h = motion_of_solution(from->hbm, from->n_harm, from->X);
   if ((c->has_orbit = from->orbit_status == HC_OK)) c->orbit = motion_of_transient(from->orbit);
   if ((c->has_transient = on_orbit(from))) c->transient = motion_of_transient(from->transient);
   if (c->has_orbit || c->has_transient) st = find_alias_free(b, from, c);
   if (st == HC_OK && c->has_transient) st = find_finer(b, from, monitor, c);
   if (st == HC_OK && (c->has_orbit || c->has_transient))
-    settle_accounts(c, b->setup.transient.law == TRANSIENT_LAW_EXACT, out);
+    fill_budget(c, b->setup.transient.law == TRANSIENT_LAW_EXACT, out);
   free(c);
   return st;
 }

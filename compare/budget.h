@@ -1,22 +1,21 @@
-/* parts.h - what the discrepancy of one HBM solution is made of: one part a cause, each measured by taking that
- * cause alone away.
+/* budget.h - what the discrepancy of one HBM solution is made of. Each part is the distance between two solutions that
+ * differ in one cause only:
  *
  *     h     the HBM solution                    from_aliasing        |h - hx|
  *     hx    the same H, exact forces            from_truncation      |hx - O|
  *     O     the exact law's periodic orbit      from_regularisation  |O - T'|
- *     T'    the transient's law, finer steps    from_integration     |T' - T| beyond
+ *     T'    the transient's law, finer steps    from_integration     |T' - T| - from_settling, at least 0
  *     T     the transient                       from_settling        its estimated distance to its own orbit
  *
- * By the triangle inequality the parts' sum is at least |h - T|. They are sizes: two of opposite sign make the sum
- * larger than what is observed. A transient that is not on the orbit next to h has no part in this: what is
- * accounted for then is |h - O|. All are relative to the transient's amplitude (to O's without it). NaN: not there,
- * or could not be computed. */
-#ifndef HC_PARTS_H
-#define HC_PARTS_H
+ * The parts are sizes without signs: where two of opposite sign cancel, their sum is larger than |h - T|. Where the
+ * transient is not on the orbit next to h, the budget is that of |h - O|, and only the first two parts exist. All are
+ * relative to the transient's amplitude (to O's without it). NaN: not there, or could not be computed. */
+#ifndef HC_BUDGET_H
+#define HC_BUDGET_H
 
 #include "compare/compare_settings.h"
 #include "hbm/hbm.h"
-#include "timeint/timeint.h"
+#include "timeint/steady.h"
 
 #define BUDGET_PARTS(X) X(aliasing) X(truncation) X(regularisation) X(integration) X(settling)
 enum { BUDGET_N_PARTS = 5 };
@@ -34,7 +33,6 @@ typedef struct error_budget {
                                                    the period */
   bool known;                                   /* there is an observed discrepancy */
   bool against_transient;                       /* it is |h - T|; else |h - O| */
-  bool holds; /* in amplitude the sum is no less than what is observed, but for rounding */
 } error_budget;
 
 /* Nothing known. */
@@ -48,7 +46,7 @@ typedef struct budget_case {
   const hbm_measures *hbm; /* of X */
   hc_status transient_status, orbit_status;
   const timeint_result *transient, *orbit; /* valid where the status is HC_OK */
-  timeint_state state;                     /* on the transient's orbit */
+  const double *state;                     /* [timeint_n_states] on the transient's orbit */
 } budget_case;
 
 /* Workspace for the solutions between h and T; one a thread. What it needs is made when it is needed. */

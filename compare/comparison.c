@@ -12,6 +12,7 @@
 #include "compare/gate_limits.h"
 #include "compare/motion.h"
 #include "numerics/series.h"
+#include "timeint/sweep.h"
 
 static const struct {
   const char *name, *meaning;
@@ -32,29 +33,31 @@ const char *comparison_verdict_text(const comparison_row *row, char text[24])
   return text;
 }
 
-hc_status comparison_orbit_start(hbm_solver *hbm, const double *X, double omega, timeint_state *out)
+const double *comparison_state(const comparison *c, int i) { return c->states + (size_t)i * (size_t)c->n_states; }
+
+hc_status comparison_orbit_start(hbm_solver *hbm, const double *X, double omega, double *state)
 {
   series_jet j = series_at(hbm_n_harmonics(hbm), X, 1, 0);
-  *out = (timeint_state){.x = j.x, .v = omega * j.d1};
-  return hbm_sliders(hbm, X, out->w);
-}
-
-double comparison_waveform_error(const hbm_measures *hbm, int n_harm, const double *X, const timeint_result *tr)
-{
-  const periodic_motion a = motion_of_series(hbm, n_harm, X), b = motion_of_transient(tr);
-  return motion_discrepancy(&a, &b).waveform;
+  state[TIMEINT_X] = j.x;
+  state[TIMEINT_V] = omega * j.d1;
+  return hbm_sliders(hbm, X, state + TIMEINT_W);
 }
 
 static discrepancy errors_between(const hbm_measures *hbm, int n_harm, const double *X, const timeint_result *tr)
 {
-  const periodic_motion a = motion_of_series(hbm, n_harm, X), b = motion_of_transient(tr);
+  const periodic_motion a = motion_of_solution(hbm, n_harm, X), b = motion_of_transient(tr);
   return motion_discrepancy(&a, &b);
+}
+
+double comparison_waveform_error(const hbm_measures *hbm, int n_harm, const double *X, const timeint_result *tr)
+{
+  return errors_between(hbm, n_harm, X, tr).waveform;
 }
 
 /* Where a slider is free the mean is a matter of history, and not held against HBM. */
 static bool within_limits(const compare_setup *setup, const discrepancy *e, const timeint_result *tr)
 {
-  return gate_limits_hold(setup->limits, tr->omega, e, tr->free_sliders > 0);
+  return gate_limits_hold(setup->limits, tr->omega, e, motion_mean_is_free(tr));
 }
 
 /* Is the transient within the limits of any HBM solution at this omega? */
@@ -70,22 +73,31 @@ static bool accounted_for(hbm_solver *hbm, const compare_setup *setup, const hbm
   return false;
 }
 
-static hc_status add_row(comparison *c, const comparison_row *row)
+static hc_status make_room(comparison *c)
 {
-  if (c->n_rows == c->cap) {
-    int cap = c->cap ? 2 * c->cap : 32;
-    comparison_row *rows = realloc(c->rows, (size_t)cap * sizeof *rows);
-    if (!rows) return HC_NO_MEMORY;
-    c->rows = rows;
-    c->cap = cap;
-  }
+  const int cap = c->cap ? 2 * c->cap : 32;
+  comparison_row *rows = realloc(c->rows, (size_t)cap * sizeof *rows);
+  if (!rows) return HC_NO_MEMORY;
+  c->rows = rows;
+  double *states = realloc(c->states, (size_t)cap * (size_t)c->n_states * sizeof *states);
+  if (!states) return HC_NO_MEMORY;
+  c->states = states;
+  c->cap = cap;
+  return HC_OK;
+}
+
+static hc_status add_row(comparison *c, const comparison_row *row, const double *state)
+{
+  hc_status st = c->n_rows == c->cap ? make_room(c) : HC_OK;
+  if (st != HC_OK) return st;
+  memcpy(c->states + (size_t)c->n_rows * (size_t)c->n_states, state, (size_t)c->n_states * sizeof *state);
   c->rows[c->n_rows++] = *row;
   ++c->count[row->verdict];
   return HC_OK;
 }
 
-/* Everything the run needs at hand. */
-typedef struct runner {
+/* The settings and solvers of one comparison, and where its rows go. */
+typedef struct workspace {
   const compare_setup *setup;
   hbm_solver *hbm;
   timeint *ti;
@@ -93,21 +105,23 @@ typedef struct runner {
   budgeter *budgeter;
   const hc_monitor *monitor;
   comparison *out;
-  timeint_state swept; /* where a sweep start has come to */
+  double *swept;   /* [n_states] where a sweep start has come to */
+  double *state;   /* [n_states] of the row under way, on the transient's orbit */
+  double *scratch; /* [n_states] of what else is integrated for it */
   double swept_omega;
-} runner;
+} workspace;
 
-/* The transient's state at the start of a row. HC_OK, or why the sweep up to here failed. */
-static hc_status start_state(runner *r, const comparison_row *row, const double *X, timeint_state *state)
+/* w->state at the start of a row. HC_OK, or why the sweep up to here failed. */
+static hc_status start_state(workspace *w, const comparison_row *row, const double *X)
 {
-  switch (r->setup->transient.start) {
-  case TRANSIENT_START_HBM: return comparison_orbit_start(r->hbm, X, row->omega, state);
-  case TRANSIENT_START_REST: *state = timeint_rest(r->ti); return HC_OK;
+  switch (w->setup->transient.start) {
+  case TRANSIENT_START_HBM: return comparison_orbit_start(w->hbm, X, row->omega, w->state);
+  case TRANSIENT_START_REST: timeint_rest(w->ti, w->state); return HC_OK;
   default: break;
   }
-  hc_status st = timeint_sweep(r->ti, r->swept_omega, row->omega, &r->swept, r->monitor);
-  r->swept_omega = row->omega;
-  *state = r->swept;
+  hc_status st = timeint_sweep(w->ti, w->swept_omega, row->omega, w->swept, w->monitor);
+  w->swept_omega = row->omega;
+  memcpy(w->state, w->swept, (size_t)w->out->n_states * sizeof *w->state);
   return st;
 }
 
@@ -115,16 +129,15 @@ static hc_status start_state(runner *r, const comparison_row *row, const double 
  * come from elsewhere, that orbit is computed from the HBM solution, with the transient's own law, and the two are
  * held together: same law, same orbit, so that the difference is of the order of transient.tolerance, and anything
  * beyond `same` is another orbit. */
-static hc_status runs_next_to(runner *r, const comparison_row *row, const double *X, bool *next)
+static hc_status runs_next_to(workspace *w, const comparison_row *row, const double *X, bool *next)
 {
-  const double same = fmax(1e-6, 100 * r->setup->transient.tolerance);
-  if (r->setup->transient.start == TRANSIENT_START_HBM && row->transient.method != TIMEINT_BY_MARCHING)
+  const double same = fmax(1e-6, 100 * w->setup->transient.tolerance);
+  if (w->setup->transient.start == TRANSIENT_START_HBM && row->transient.method != TIMEINT_BY_MARCHING)
     return *next = !row->transient.left_orbit, HC_OK;
   *next = true; /* also where there is no orbit: what differs is HBM */
-  timeint_state state;
   timeint_result restarted;
-  hc_status st = comparison_orbit_start(r->hbm, X, row->omega, &state);
-  if (st == HC_OK) st = timeint_orbit(r->ti, row->omega, 1, &state, r->monitor, &restarted);
+  hc_status st = comparison_orbit_start(w->hbm, X, row->omega, w->scratch);
+  if (st == HC_OK) st = timeint_orbit(w->ti, row->omega, 1, w->scratch, w->monitor, &restarted);
   if (st == HC_NO_MEMORY || st == HC_INTERRUPTED) return st; /* nothing is known */
   if (st != HC_OK) return HC_OK;
   const periodic_motion there = motion_of_transient(&restarted), here = motion_of_transient(&row->transient);
@@ -139,38 +152,36 @@ static bool unstable(const comparison_row *row)
 }
 
 /* HC_NO_MEMORY, HC_INTERRUPTED: *out is not known. */
-static hc_status judge(runner *r, const comparison_row *row, const double *X, verdict *out)
+static hc_status judge(workspace *w, const comparison_row *row, const double *X, verdict *out)
 {
   if (row->transient_status == HC_NOT_SETTLED) return *out = VERDICT_NOT_SETTLED, HC_OK;
   if (row->transient_status == HC_APERIODIC && row->hbm_status == HC_OK) return *out = VERDICT_APERIODIC, HC_OK;
   if (row->transient_status != HC_OK || row->hbm_status != HC_OK) return *out = VERDICT_SOLVER_FAILED, HC_OK;
   if (row->transient.period_multiple > 1) return *out = VERDICT_PERIOD_K, HC_OK;
-  if (within_limits(r->setup, &row->errors, &row->transient)) return *out = VERDICT_MATCH, HC_OK;
+  if (within_limits(w->setup, &row->errors, &row->transient)) return *out = VERDICT_MATCH, HC_OK;
   if (unstable(row)) return *out = VERDICT_UNSTABLE, HC_OK;
   bool next = true;
-  hc_status st = runs_next_to(r, row, X, &next);
+  hc_status st = runs_next_to(w, row, X, &next);
   *out = next ? VERDICT_DIFFERS : VERDICT_OTHER_BRANCH;
   return st;
 }
 
 /* The orbit of the exact law next to the HBM solution; not computed again where the transient is just that. */
-static void referee(runner *r, comparison_row *row, const double *X)
+static void referee(workspace *w, comparison_row *row, const double *X)
 {
-  const transient_settings *t = &r->setup->transient;
+  const transient_settings *t = &w->setup->transient;
   const timeint_result *tr = &row->transient;
   bool same = t->law == TRANSIENT_LAW_EXACT && t->start == TRANSIENT_START_HBM && row->transient_status == HC_OK &&
               !tr->left_orbit && tr->period_multiple == 1 && tr->method == TIMEINT_BY_SHOOTING;
-  timeint_state state;
   if (same) row->orbit = *tr, row->orbit_status = HC_OK;
-  else if ((row->orbit_status = comparison_orbit_start(r->hbm, X, row->omega, &state)) == HC_OK)
-    row->orbit_status = timeint_orbit(r->exact, row->omega, 1, &state, r->monitor, &row->orbit);
-  row->orbit_error = NAN;
-  if (row->orbit_status != HC_OK) return;
-  row->orbit_error = comparison_waveform_error(&row->hbm, hbm_n_harmonics(r->hbm), X, &row->orbit);
+  else if ((row->orbit_status = comparison_orbit_start(w->hbm, X, row->omega, w->scratch)) == HC_OK)
+    row->orbit_status = timeint_orbit(w->exact, row->omega, 1, w->scratch, w->monitor, &row->orbit);
+  if (row->orbit_status == HC_OK)
+    row->orbit_errors = errors_between(&row->hbm, hbm_n_harmonics(w->hbm), X, &row->orbit);
 }
 
 /* What the discrepancy is made of. */
-static hc_status account(runner *r, const hbm_curve *at, int k, comparison_row *row)
+static hc_status account(workspace *w, const hbm_curve *at, int k, comparison_row *row)
 {
   const budget_case from = {.omega = row->omega,
                             .n_harm = at->points[k].harmonics,
@@ -180,38 +191,36 @@ static hc_status account(runner *r, const hbm_curve *at, int k, comparison_row *
                             .transient = &row->transient,
                             .orbit_status = row->orbit_status,
                             .orbit = &row->orbit,
-                            .state = row->transient_state};
-  return row->hbm_status == HC_OK ? budgeter_run(r->budgeter, &from, r->monitor, &row->budget) : HC_OK;
+                            .state = w->state};
+  return row->hbm_status == HC_OK ? budgeter_run(w->budgeter, &from, w->monitor, &row->budget) : HC_OK;
 }
 
 /* One HBM solution against the transient started from it. */
-static hc_status compare_solution(runner *r, const hbm_curve *at, int k, comparison_row *row)
+static hc_status compare_solution(workspace *w, const hbm_curve *at, int k, comparison_row *row)
 {
   const double *X = at->X + (size_t)k * at->n_coef;
-  timeint_state state;
   row->branch = at->points[k].branch;
-  row->hbm_status = hbm_measure(r->hbm, X, &row->hbm);
-  hc_status known = hbm_stability_at(r->hbm, row->omega, X, &row->stability);
+  row->hbm_status = hbm_measure(w->hbm, X, &row->hbm);
+  hc_status known = hbm_stability_at(w->hbm, row->omega, X, &row->stability);
   if (known == HC_NO_MEMORY) return known;
   if (known != HC_OK) row->stability.multiplier = NAN;
-  row->transient_status = start_state(r, row, X, &state);
+  row->transient_status = start_state(w, row, X);
   if (row->transient_status == HC_OK)
-    row->transient_status = timeint_steady(r->ti, row->omega, &state, r->monitor, &row->transient);
+    row->transient_status = timeint_steady(w->ti, row->omega, w->state, w->monitor, &row->transient);
   if (row->transient_status == HC_INTERRUPTED || row->transient_status == HC_NO_MEMORY) return row->transient_status;
-  referee(r, row, X);
+  referee(w, row, X);
   if (row->orbit_status == HC_INTERRUPTED || row->orbit_status == HC_NO_MEMORY) return row->orbit_status;
   bool comparable = row->hbm_status == HC_OK && row->transient_status == HC_OK;
-  if (comparable) row->errors = errors_between(&row->hbm, hbm_n_harmonics(r->hbm), X, &row->transient);
+  if (comparable) row->errors = errors_between(&row->hbm, hbm_n_harmonics(w->hbm), X, &row->transient);
   row->accounted =
-      comparable && row->transient.period_multiple == 1 && accounted_for(r->hbm, r->setup, at, &row->transient);
-  hc_status judged = judge(r, row, X, &row->verdict);
+      comparable && row->transient.period_multiple == 1 && accounted_for(w->hbm, w->setup, at, &row->transient);
+  hc_status judged = judge(w, row, X, &row->verdict);
   if (judged != HC_OK) return judged;
-  row->transient_state = state;
-  return account(r, at, k, row);
+  return account(w, at, k, row);
 }
 
 /* Every HBM solution at omega. */
-static hc_status compare_at(runner *r, double omega)
+static hc_status compare_at(workspace *w, double omega)
 {
   hbm_curve at = {0};
   const comparison_row none = {.omega = omega,
@@ -220,60 +229,60 @@ static hc_status compare_at(runner *r, double omega)
                                .transient_status = HC_UNSUPPORTED,
                                .orbit_status = HC_UNSUPPORTED,
                                .errors = {NAN, NAN, NAN, NAN},
-                               .orbit_error = NAN,
+                               .orbit_errors = {NAN, NAN, NAN, NAN},
                                .budget = budget_nothing()};
   comparison_row row = none;
-  row.hbm_status = hbm_curve_at(r->hbm, &r->out->curve, omega, &at);
+  row.hbm_status = hbm_curve_at(w->hbm, &w->out->curve, omega, &at);
   if (row.hbm_status == HC_OK && at.n == 0)
-    row.hbm_status = r->out->curve.end != HC_OK ? r->out->curve.end : HC_NOT_CONVERGED;
+    row.hbm_status = w->out->curve.end != HC_OK ? w->out->curve.end : HC_NOT_CONVERGED;
   hc_status st = row.hbm_status == HC_NO_MEMORY         ? row.hbm_status
-                 : at.n == 0 || row.hbm_status != HC_OK ? add_row(r->out, &row)
+                 : at.n == 0 || row.hbm_status != HC_OK ? add_row(w->out, &row, w->state)
                                                         : HC_OK;
   for (int k = 0; k < at.n && st == HC_OK; ++k) {
     row = none;
-    st = compare_solution(r, &at, k, &row);
+    st = compare_solution(w, &at, k, &row);
     /* what was stopped inside may look like an answer */
-    if (st == HC_OK && !hc_monitor_tick(r->monitor, 1)) st = HC_INTERRUPTED;
-    if (st == HC_OK) st = add_row(r->out, &row);
+    if (st == HC_OK && !hc_monitor_tick(w->monitor, 1)) st = HC_INTERRUPTED;
+    if (st == HC_OK) st = add_row(w->out, &row, w->state);
   }
   hbm_curve_free(&at);
   return st;
 }
 
-static void begin_sweep(runner *r)
+static void begin_sweep(workspace *w)
 {
-  bool down = r->setup->transient.start == TRANSIENT_START_DOWN;
-  double low = fmin(r->setup->omega_from, r->setup->omega_to), high = fmax(r->setup->omega_from, r->setup->omega_to);
-  r->swept_omega = down ? high : low;
-  r->swept = timeint_rest(r->ti);
+  bool down = w->setup->transient.start == TRANSIENT_START_DOWN;
+  double low = fmin(w->setup->omega_from, w->setup->omega_to), high = fmax(w->setup->omega_from, w->setup->omega_to);
+  w->swept_omega = down ? high : low;
+  timeint_rest(w->ti, w->swept);
 }
 
 /* Part i of n of the whole work, for the monitor of the inner loops. */
-typedef struct share {
+typedef struct progress_part {
   const hc_monitor *outer;
   double from, width;
-} share;
+} progress_part;
 
-static bool tick_share(void *self, double done)
+static bool tick_part(void *self, double done)
 {
-  const share *s = self;
+  const progress_part *s = self;
   return hc_monitor_tick(s->outer, s->from + s->width * (done > 0 ? done : 0));
 }
 
-static hc_status compare_all(runner *r)
+static hc_status compare_all(workspace *w)
 {
-  const hc_monitor *outer = r->monitor;
+  const hc_monitor *outer = w->monitor;
   number_list omega;
-  hc_status st = comparison_frequencies(&r->setup->compare, r->setup->omega_from, r->hbm, &r->out->curve, &omega);
-  begin_sweep(r);
+  hc_status st = comparison_frequencies(&w->setup->compare, w->setup->omega_from, w->hbm, &w->out->curve, &omega);
+  begin_sweep(w);
   for (int i = 0; i < omega.n && st == HC_OK; ++i) {
-    int at = r->setup->transient.start == TRANSIENT_START_DOWN ? omega.n - 1 - i : i;
-    share part = {outer, (double)i / omega.n, 1.0 / omega.n};
-    hc_monitor inner = {tick_share, &part};
-    r->monitor = &inner;
-    st = compare_at(r, omega.v[at]);
+    int at = w->setup->transient.start == TRANSIENT_START_DOWN ? omega.n - 1 - i : i;
+    progress_part part = {outer, (double)i / omega.n, 1.0 / omega.n};
+    hc_monitor inner = {tick_part, &part};
+    w->monitor = &inner;
+    st = compare_at(w, omega.v[at]);
   }
-  r->monitor = outer;
+  w->monitor = outer;
   return st;
 }
 
@@ -285,34 +294,53 @@ hc_status comparison_referee(const compare_setup *setup, timeint **out)
   return timeint_new(own.model, &own.transient, out);
 }
 
+static hc_status make_states(workspace *w)
+{
+  const size_t n = (size_t)(w->out->n_states = timeint_n_states(w->ti));
+  w->swept = calloc(n, sizeof *w->swept);
+  w->state = calloc(n, sizeof *w->state);
+  w->scratch = calloc(n, sizeof *w->scratch);
+  return w->swept && w->state && w->scratch ? HC_OK : HC_NO_MEMORY;
+}
+
+static void runner_clear(workspace *w)
+{
+  free(w->scratch);
+  free(w->state);
+  free(w->swept);
+  budgeter_free(w->budgeter);
+  timeint_free(w->exact);
+  timeint_free(w->ti);
+  hbm_solver_free(w->hbm);
+}
+
 hc_status comparison_run(const compare_setup *setup, const hc_monitor *monitor, comparison *out)
 {
   *out = (comparison){0};
-  runner r = {.setup = setup, .monitor = monitor, .out = out};
-  hc_status st = hbm_solver_new(setup->model, &setup->hbm, &r.hbm);
-  if (st == HC_OK) st = timeint_new(setup->model, &setup->transient, &r.ti);
-  if (st == HC_OK) st = comparison_referee(setup, &r.exact);
-  if (st == HC_OK) st = budgeter_new(setup, &r.budgeter);
+  workspace w = {.setup = setup, .monitor = monitor, .out = out};
+  hc_status st = hbm_solver_new(setup->model, &setup->hbm, &w.hbm);
+  if (st == HC_OK) st = timeint_new(setup->model, &setup->transient, &w.ti);
+  if (st == HC_OK) st = make_states(&w);
+  if (st == HC_OK) st = comparison_referee(setup, &w.exact);
+  if (st == HC_OK) st = budgeter_new(setup, &w.budgeter);
   if (st == HC_OK) {
     double from, to;
     comparison_sweep(setup->omega_from, setup->omega_to, &setup->compare.omega, &from, &to);
-    st = hbm_trace(r.hbm, from, to, monitor, &out->curve);
-    out->harmonics = hbm_n_harmonics(r.hbm);
-    out->samples = hbm_n_samples(r.hbm);
-    hc_status summed = response_summarise(r.hbm, &out->curve, &out->summary);
+    st = hbm_trace(w.hbm, from, to, monitor, &out->curve);
+    out->harmonics = hbm_n_harmonics(w.hbm);
+    out->samples = hbm_n_samples(w.hbm);
+    hc_status summed = response_summarise(w.hbm, &out->curve, &out->summary);
     if (summed != HC_OK) st = summed;
-    if (st != HC_INTERRUPTED && st != HC_NO_MEMORY) st = compare_all(&r); /* as far as the curve goes */
+    if (st != HC_INTERRUPTED && st != HC_NO_MEMORY) st = compare_all(&w); /* as far as the curve goes */
   }
-  budgeter_free(r.budgeter);
-  timeint_free(r.exact);
-  timeint_free(r.ti);
-  hbm_solver_free(r.hbm);
+  runner_clear(&w);
   return st;
 }
 
 void comparison_clear(comparison *c)
 {
   hbm_curve_free(&c->curve);
+  free(c->states);
   free(c->rows);
   *c = (comparison){0};
 }

@@ -15,7 +15,7 @@
 #include "compare/discrepancy.h"
 #include "compare/response.h"
 #include "hbm/hbm.h"
-#include "timeint/timeint.h"
+#include "timeint/steady.h"
 
 /* Never a bare number: what a comparison can come to. Names: docs/interface.md, 4. */
 #define VERDICT_LIST(X)                                                                                                \
@@ -39,16 +39,15 @@ typedef struct comparison_row {
   int branch;           /* of the HBM solution; -1: HBM has none here */
   enum verdict verdict; /* `enum`, because C++ wants to know */
   hc_status hbm_status, transient_status;
-  hbm_stability stability;       /* of the HBM solution; multiplier NaN when unknown */
-  bool accounted;                /* the transient is within the gate of this or another HBM solution */
-  hbm_measures hbm;              /* valid when hbm_status is HC_OK */
-  timeint_result transient;      /* valid when transient_status is HC_OK, HC_NOT_SETTLED or HC_APERIODIC */
-  timeint_state transient_state; /* on the transient's orbit */
+  hbm_stability stability;  /* of the HBM solution; multiplier NaN when unknown */
+  bool accounted;           /* the transient is within the gate of this or another HBM solution */
+  hbm_measures hbm;         /* valid when hbm_status is HC_OK */
+  timeint_result transient; /* valid when transient_status is HC_OK, HC_NOT_SETTLED or HC_APERIODIC */
   hc_status orbit_status;
-  timeint_result orbit; /* the referee's, valid when orbit_status is HC_OK */
-  double orbit_error;   /* [1] waveform error of the HBM solution against that orbit, NaN without it */
-  error_budget budget;  /* what the discrepancy is made of */
-  discrepancy errors;   /* NaN where there is nothing to compare */
+  timeint_result orbit;     /* the referee's, valid when orbit_status is HC_OK */
+  discrepancy orbit_errors; /* of the HBM solution against that orbit, NaN without it */
+  error_budget budget;      /* what the discrepancy is made of */
+  discrepancy errors;       /* of the HBM solution against the transient, NaN where there is nothing to compare */
 } comparison_row;
 
 typedef struct comparison {
@@ -57,6 +56,8 @@ typedef struct comparison {
   hbm_curve curve; /* the response curve behind the rows; its `end` says how far it came */
   int count[VERDICT_COUNT];
   response_summary summary; /* of that curve */
+  int n_states;             /* in a state of time integration */
+  double *states;           /* [cap][n_states] of each row: where the transient ended */
   int harmonics, samples;   /* in use: for auto, the most the curve needed; samples 0 for exact forces */
 } comparison;
 
@@ -83,7 +84,10 @@ hc_status comparison_referee(const compare_setup *setup, timeint **out);
  * slider is free, set equal. */
 double comparison_waveform_error(const hbm_measures *hbm, int n_harm, const double *X, const timeint_result *tr);
 
-/* x(t), x'(t) and sliders at t = 0 of an HBM solution: where its transient starts. */
-hc_status comparison_orbit_start(hbm_solver *hbm, const double *X, double omega, timeint_state *out);
+/* A state on the transient's orbit of row i; meaningful where transient_status is HC_OK. */
+const double *comparison_state(const comparison *c, int i);
+
+/* state[timeint_n_states]: x(t), x'(t) and sliders at t = 0 of an HBM solution, where its transient starts. */
+hc_status comparison_orbit_start(hbm_solver *hbm, const double *X, double omega, double *state);
 
 #endif

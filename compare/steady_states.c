@@ -4,9 +4,11 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "compare/comparison.h"
 #include "compare/frequencies.h"
+#include "timeint/sweep.h"
 
 const char *steady_verdict_text(const steady_row *r, char text[24])
 {
@@ -20,8 +22,8 @@ const char *steady_verdict_text(const steady_row *r, char text[24])
   return text;
 }
 
-/* Everything the run needs at hand. */
-typedef struct job {
+/* The settings and solvers of one run of steady states, and where its rows go. */
+typedef struct workspace {
   const compare_setup *setup;
   timeint *ti;
   timeint *exact;  /* to see what the regularisation costs; NULL where the law is the exact one already */
@@ -29,7 +31,9 @@ typedef struct job {
   hbm_curve curve;
   const hc_monitor *monitor;
   steady_states *out;
-} job;
+  double *state;   /* [n_states] on its way to the steady state of a row */
+  double *scratch; /* [n_states] of the exact law's orbit next to that */
+} workspace;
 
 static hc_status add_row(steady_states *s, const steady_row *row)
 {
@@ -45,101 +49,106 @@ static hc_status add_row(steady_states *s, const steady_row *row)
 }
 
 /* A row that came to nothing at that stage. */
-static hc_status add_failure(job *j, steady_stage stage, hc_status st, double omega)
+static hc_status add_failure(workspace *w, steady_stage stage, hc_status st, double omega)
 {
   steady_row row = {.status = st, .stage = stage, .result = {.omega = omega}};
-  hc_status added = add_row(j->out, &row);
+  hc_status added = add_row(w->out, &row);
   return st == HC_INTERRUPTED ? st : added;
 }
 
-/* The error of a regularised steady state at *state: by the exact law's orbit next to it, or by what Richardson's
+/* The error of a regularised steady state, w->state on it: by the exact law's orbit next to it, or by what Richardson's
  * extrapolation left. *st becomes HC_NO_MEMORY or HC_INTERRUPTED if that is why there is none. */
-static double regularisation_error(job *j, const timeint_state *state, const timeint_result *r, hc_status *st)
+static double regularisation_error(workspace *w, const timeint_result *r, hc_status *st)
 {
-  timeint_state start = *state;
   timeint_result orbit;
-  if (!j->exact || r->method == TIMEINT_BY_CLOSED_FORM) return 0;
-  if (j->setup->transient.richardson) return r->regularisation_error;
-  hc_status found = timeint_orbit(j->exact, r->omega, r->period_multiple, &start, j->monitor, &orbit);
+  if (!w->exact || r->method == TIMEINT_BY_CLOSED_FORM) return 0;
+  if (w->setup->transient.richardson) return r->regularisation_error;
+  memcpy(w->scratch, w->state, (size_t)timeint_n_states(w->ti) * sizeof *w->scratch);
+  hc_status found = timeint_orbit(w->exact, r->omega, r->period_multiple, w->scratch, w->monitor, &orbit);
   if (found == HC_NO_MEMORY || found == HC_INTERRUPTED) *st = found;
   if (found != HC_OK) return NAN;
   return budget_regularisation(r, &orbit);
 }
 
-/* To the steady state at omega from *state; not HC_OK only when there is no going on. */
-static hc_status settle(job *j, double omega, timeint_state *state, const char *start, hc_status without_hbm)
+/* w->state to the steady state at omega; not HC_OK only when there is no going on. */
+static hc_status settle(workspace *w, double omega, const char *start, hc_status without_hbm)
 {
   steady_row row = {.result = {.omega = omega}, .without_hbm = without_hbm, .from_regularisation = NAN};
   snprintf(row.start, sizeof row.start, "%s", start);
-  row.status = timeint_steady(j->ti, omega, state, j->monitor, &row.result);
-  if (row.status == HC_OK) row.from_regularisation = regularisation_error(j, state, &row.result, &row.status);
+  row.status = timeint_steady(w->ti, omega, w->state, w->monitor, &row.result);
+  if (row.status == HC_OK) row.from_regularisation = regularisation_error(w, &row.result, &row.status);
   if (row.status == HC_NO_MEMORY) return HC_NO_MEMORY;
-  hc_status st = add_row(j->out, &row);
+  hc_status st = add_row(w->out, &row);
   return row.status == HC_INTERRUPTED ? HC_INTERRUPTED : st;
 }
 
-static hc_status settle_from_orbit(job *j, double omega, const hbm_curve *at, int k)
+static hc_status settle_from_rest(workspace *w, double omega, hc_status without_hbm)
+{
+  timeint_rest(w->ti, w->state);
+  return settle(w, omega, "rest", without_hbm);
+}
+
+static hc_status settle_from_orbit(workspace *w, double omega, const hbm_curve *at, int k)
 {
   const double *X = at->X + (size_t)k * at->n_coef;
   char start[32];
-  timeint_state state;
-  hc_status st = comparison_orbit_start(j->hbm, X, omega, &state);
-  if (st != HC_OK) return add_failure(j, STEADY_HBM, st, omega);
+  hc_status st = comparison_orbit_start(w->hbm, X, omega, w->state);
+  if (st != HC_OK) return add_failure(w, STEADY_HBM, st, omega);
   snprintf(start, sizeof start, "hbm branch %d", at->points[k].branch);
-  return settle(j, omega, &state, start, HC_OK);
+  return settle(w, omega, start, HC_OK);
 }
 
-static hc_status from_hbm_orbits(job *j, double omega)
+static hc_status from_hbm_orbits(workspace *w, double omega)
 {
   hbm_curve at = {0};
-  timeint_state rest = timeint_rest(j->ti);
-  hc_status st = hbm_curve_at(j->hbm, &j->curve, omega, &at), why = st != HC_OK             ? st
-                                                                    : j->curve.end != HC_OK ? j->curve.end
+  hc_status st = hbm_curve_at(w->hbm, &w->curve, omega, &at), why = st != HC_OK             ? st
+                                                                    : w->curve.end != HC_OK ? w->curve.end
                                                                                             : HC_NOT_CONVERGED;
-  if (st != HC_NO_MEMORY) st = st != HC_OK || at.n == 0 ? settle(j, omega, &rest, "rest", why) : HC_OK;
-  for (int k = 0; k < at.n && st == HC_OK; ++k) st = settle_from_orbit(j, omega, &at, k);
+  if (st != HC_NO_MEMORY) st = st != HC_OK || at.n == 0 ? settle_from_rest(w, omega, why) : HC_OK;
+  for (int k = 0; k < at.n && st == HC_OK; ++k) st = settle_from_orbit(w, omega, &at, k);
   hbm_curve_free(&at);
   return st;
 }
 
 /* The asked omegas in the order a sweep meets them, from the sweep's end, the state carried along. */
-static hc_status swept(job *j, const number_list *at, bool up)
+static hc_status swept(workspace *w, const number_list *at, bool up)
 {
-  double here = up ? fmin(j->setup->omega_from, j->setup->omega_to) : fmax(j->setup->omega_from, j->setup->omega_to);
-  timeint_state state = timeint_rest(j->ti);
+  double here = up ? fmin(w->setup->omega_from, w->setup->omega_to) : fmax(w->setup->omega_from, w->setup->omega_to);
+  timeint_rest(w->ti, w->state);
   for (int i = 0; i < at->n; ++i) {
     double omega = at->v[up ? i : at->n - 1 - i];
-    hc_status st = timeint_sweep(j->ti, here, omega, &state, j->monitor);
+    hc_status st = timeint_sweep(w->ti, here, omega, w->state, w->monitor);
     if (st == HC_NO_MEMORY) return st;
-    if (st != HC_OK) return add_failure(j, STEADY_SWEEP, st, omega); /* from nowhere there is no going on */
-    if ((st = settle(j, omega, &state, up ? "up" : "down", HC_OK)) != HC_OK) return st;
+    if (st != HC_OK) return add_failure(w, STEADY_SWEEP, st, omega); /* from nowhere there is no going on */
+    if ((st = settle(w, omega, up ? "up" : "down", HC_OK)) != HC_OK) return st;
     here = omega;
   }
   return HC_OK;
 }
 
-static hc_status trace(job *j, const number_list *asked)
+static hc_status trace(workspace *w, const number_list *asked)
 {
   double from, to;
-  comparison_sweep(j->setup->omega_from, j->setup->omega_to, asked, &from, &to);
-  hc_status st = hbm_solver_new(j->setup->model, &j->setup->hbm, &j->hbm);
+  comparison_sweep(w->setup->omega_from, w->setup->omega_to, asked, &from, &to);
+  hc_status st = hbm_solver_new(w->setup->model, &w->setup->hbm, &w->hbm);
   if (st != HC_OK) return st;
-  st = hbm_trace(j->hbm, from, to, j->monitor, &j->curve);
+  st = hbm_trace(w->hbm, from, to, w->monitor, &w->curve);
   return st == HC_INTERRUPTED || st == HC_NO_MEMORY ? st : HC_OK; /* as far as the curve goes */
 }
 
-static hc_status run(job *j, const number_list *asked)
+static hc_status run(workspace *w, const number_list *asked)
 {
-  int start = j->setup->transient.start;
-  hc_status st = timeint_new(j->setup->model, &j->setup->transient, &j->ti);
-  if (st == HC_OK && j->setup->transient.law != TRANSIENT_LAW_EXACT) st = comparison_referee(j->setup, &j->exact);
+  int start = w->setup->transient.start;
+  hc_status st = timeint_new(w->setup->model, &w->setup->transient, &w->ti);
+  if (st == HC_OK && w->setup->transient.law != TRANSIENT_LAW_EXACT) st = comparison_referee(w->setup, &w->exact);
   if (st != HC_OK) return st;
-  if (start == TRANSIENT_START_UP || start == TRANSIENT_START_DOWN) return swept(j, asked, start == TRANSIENT_START_UP);
-  if (start == TRANSIENT_START_HBM) st = trace(j, asked);
-  for (int i = 0; i < asked->n && st == HC_OK; ++i) {
-    timeint_state rest = timeint_rest(j->ti);
-    st = j->hbm ? from_hbm_orbits(j, asked->v[i]) : settle(j, asked->v[i], &rest, "rest", HC_OK);
-  }
+  w->state = calloc((size_t)timeint_n_states(w->ti), sizeof *w->state);
+  w->scratch = calloc((size_t)timeint_n_states(w->ti), sizeof *w->scratch);
+  if (!w->state || !w->scratch) return HC_NO_MEMORY;
+  if (start == TRANSIENT_START_UP || start == TRANSIENT_START_DOWN) return swept(w, asked, start == TRANSIENT_START_UP);
+  if (start == TRANSIENT_START_HBM) st = trace(w, asked);
+  for (int i = 0; i < asked->n && st == HC_OK; ++i)
+    st = w->hbm ? from_hbm_orbits(w, asked->v[i]) : settle_from_rest(w, asked->v[i], HC_OK);
   return st;
 }
 
@@ -148,13 +157,15 @@ hc_status steady_states_run(const compare_setup *setup, const hc_monitor *monito
   *out = (steady_states){0};
   if (setup->compare.omega.n == 0) return HC_BAD_INPUT;
   number_list asked;
-  job j = {.setup = setup, .monitor = monitor, .out = out};
+  workspace w = {.setup = setup, .monitor = monitor, .out = out};
   hc_status st = comparison_frequencies(&setup->compare, setup->omega_from, NULL, &(hbm_curve){0}, &asked);
-  if (st == HC_OK) st = run(&j, &asked);
-  hbm_curve_free(&j.curve);
-  hbm_solver_free(j.hbm);
-  timeint_free(j.exact);
-  timeint_free(j.ti);
+  if (st == HC_OK) st = run(&w, &asked);
+  hbm_curve_free(&w.curve);
+  hbm_solver_free(w.hbm);
+  free(w.scratch);
+  free(w.state);
+  timeint_free(w.exact);
+  timeint_free(w.ti);
   return st;
 }
 

@@ -5,7 +5,7 @@
 
 #include "base/status.h"
 #include "compare/compare_settings.h"
-#include "timeint/timeint.h"
+#include "timeint/steady.h"
 
 /* A row can fail in one of three ways, so that a message can say which side it was. */
 typedef enum { STEADY_TRANSIENT, STEADY_SWEEP, STEADY_HBM } steady_stage;

@@ -1,9 +1,9 @@
-/* aft.c - contact force harmonics from displacement harmonics (alternating frequency/time).
- *   X -> x(th_i), th_i = 2 pi i/N -> u_i, v_i -> contact_step over the period until the slider closes -> F_i -> F
+/* aft.c - see aft.h.
+ *   X -> x(th_i), th_i = 2 pi i/N -> u_i, v_i -> two periods of contact_step, the first only settles w -> F_i -> F
  * The slider after a separation starts from the interpolated instant of contact, or (the paper's way) from the last
  * separated sample. Jacobian: dF_i = k_i dx_i - kt cos(alpha) dw, k_i by one more FFT, dw constant over a stick
- * interval (force_jacobian.h). FFTW does not normalise and uses exp(-i): the 2/N and the sign of the sine live in
- * to_series() and to_samples(), only there. Not here: the dynamic stiffness (system.c). */
+ * interval (force_jacobian.h). FFTW does not normalise and uses exp(-i): the 2/N and the sign of the sine are in
+ * to_series() and to_samples(), nowhere else. Not here: the dynamic stiffness (system.c). */
 #include "hbm/aft.h"
 
 #include <stdlib.h>
@@ -13,7 +13,7 @@
 #include "hbm/fft_plan.h"
 #include "hbm/force_jacobian.h"
 
-/* Where the slider's position came from: dw = by_x dx(th_i); by_x 0 when it depends on nothing. */
+/* What the slider's position depends on: dw = by_x dx(th_i), with by_x = 0 where the motion does not move it. */
 typedef struct slider_origin {
   int i;
   double by_x;
@@ -23,17 +23,17 @@ struct aft {
   model *model;
   int n_harm, n_time;
   hbm_restart restart;
-  double *w;          /* [n_contacts] sliders at th = 0                                                */
+  double *w;          /* [n_contacts] sliders at th = 0 */
   double *x, *f, *k;  /* [n_time]     displacement [length], force, its stiffness along the orbit */
-  fftw_complex *spec; /* [n_time/2+1] consumed by to_time (c2r overwrites its input)            */
+  fftw_complex *spec; /* [n_time/2+1] consumed by to_time (c2r overwrites its input) */
   fftw_plan to_time, to_freq_f, to_freq_k;
-  double complex *root;     /* [n_time]     exp(i th_i)                                                */
-  double complex *inv_step; /* [n_harm+1]   1/(exp(i h 2 pi/N) - 1), for sums over sample ranges       */
-  double *symbol;           /* [4H+1]       series of k                                                */
-  double *left, *right;     /* [2H+1]       one rank-1 term                                            */
+  double complex *root;     /* [n_time]     exp(i th_i) */
+  double complex *inv_step; /* [n_harm+1]   1/(exp(i h 2 pi/N) - 1), for sums over sample ranges */
+  double *symbol;           /* [4H+1]       series of k */
+  double *left, *right;     /* [2H+1]       one rank-1 term */
 };
 
-/* One contact's sweep over the samples. */
+/* One contact while its slider is followed over the samples. */
 typedef struct track {
   const model_contact *contact;
   double c, s;          /* u = c x, v = s x */
@@ -63,8 +63,8 @@ static hc_status make_tables(aft *a)
   a->symbol = calloc((size_t)force_jacobian_symbol_length(a->n_harm), sizeof(double));
   a->left = calloc((size_t)n_coef, sizeof(double));
   a->right = calloc((size_t)n_coef, sizeof(double));
-  if (!a->w || !a->x || !a->f || !a->k || !a->spec || !a->root || !a->inv_step || !a->symbol || !a->left || !a->right)
-    return HC_NO_MEMORY;
+  bool samples = a->x && a->f && a->k && a->spec && a->root, harmonics = a->inv_step && a->symbol;
+  if (!a->w || !samples || !harmonics || !a->left || !a->right) return HC_NO_MEMORY;
   const double step = TWO_PI / n;
   for (int i = 0; i < n; ++i) a->root[i] = cos(i * step) + I * sin(i * step);
   for (int h = 1; h <= a->n_harm; ++h) a->inv_step[h] = 1 / (a->root[h % n] - 1);
@@ -180,14 +180,14 @@ static void subtract_stick_interval(aft *a, const track *t, int first, int last,
   force_jacobian_subtract(a->n_harm, a->left, a->right, jac);
 }
 
-/* A pass over the period that only moves the slider. */
+/* The first pass over the period: it only moves the slider. */
 static void settle(const aft *a, track *t)
 {
   double force, stiffness;
   for (int i = 0; i < a->n_time; ++i) advance(a, t, i, &force, &stiffness);
 }
 
-/* The pass that counts: adds force and stiffness to f and k, and each stick interval's memory to jac. */
+/* The second pass: adds force and stiffness to f and k, and subtracts each stick interval's rank-1 term from jac. */
 static void record(aft *a, track *t, double *jac, contact_report *report)
 {
   int first = -1; /* of the stick interval under way */
@@ -195,11 +195,11 @@ static void record(aft *a, track *t, double *jac, contact_report *report)
   for (int i = 0; i < a->n_time; ++i) {
     contact_state before = t->state;
     double force, stiffness;
-    track old = *t;
+    track ended = *t; /* the stick interval that this sample may end */
     contact_state now = advance(a, t, i, &force, &stiffness);
     if (i == 0) a->w[t->contact - a->model->contacts] = t->w;
     if (first >= 0 && now != CONTACT_STICK) {
-      if (jac) subtract_stick_interval(a, &old, first, i - 1, jac);
+      if (jac) subtract_stick_interval(a, &ended, first, i - 1, jac);
       first = -1;
     }
     if (now == CONTACT_STICK && first < 0) first = i;
@@ -217,8 +217,8 @@ static void record(aft *a, track *t, double *jac, contact_report *report)
   if (regime > report->regime) report->regime = regime;
 }
 
-/* One step of the law maps w to the nearest point of an interval, and so does a whole period: the second pass
- * repeats itself. The check guards that argument (and rounding), not convergence. */
+/* One step of the law maps w to the nearest point of an interval, and so does a whole period: applied once more it
+ * changes nothing, so the slider is periodic in the second pass. That it is not can only be rounding or a defect. */
 static hc_status evaluate_contact(aft *a, int j, double size, double *jac, contact_report *report)
 {
   const model_contact *c = &a->model->contacts[j];

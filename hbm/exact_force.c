@@ -1,11 +1,11 @@
 /* exact_force.c - see exact_force.h.
  *   on a piece    T = kt u - held (stick) or s mu kn (v + gap) (slip s),   N = kn (v + gap)
  *   so            F_d(th) = sum_e K_de(th) x_e(th) + C_d(th),    K, C piecewise constant
- *   and           F = [Toeplitz + Hankel of K] X + C,   dF/dX = the same matrix - (harmonics of a stick piece) (d
- *                 held)^T
- * Moving a transition changes nothing to first order, since the force is continuous there. The harmonics of a
- * piece's indicator are written with its middle m and half width w, sin(h w) cos(h m), not as a difference of ends:
- * short pieces keep their relative accuracy. */
+ *   and           F     = [Toeplitz + Hankel of K] X + C
+ *                 dF/dX = [Toeplitz + Hankel of K] - sum over stick pieces (harmonics of the piece) (d held)^T
+ * Moving a transition changes nothing to first order, since the force is continuous there. The harmonics of a piece's
+ * indicator are written with its middle m and half width w, sin(h w) cos(h m). As a difference of values at its ends
+ * they would lose the relative accuracy of a short piece. */
 #include "hbm/exact_force.h"
 
 #include <math.h>
@@ -27,7 +27,7 @@ struct exact_force {
   double *weight;           /* [2H+1] 2/(pi h) */
   double *symbol;           /* [n_dof][n_dof][4H+1] series of K */
   double *left, *right;     /* [n_dof (2H+1)] one rank-1 term */
-  double *matrix;           /* [n_dof (2H+1)]^2 when the caller wants no Jacobian */
+  double *matrix;           /* [n_dof (2H+1)]^2 in the place of the caller's Jacobian where that is NULL */
   series_grid grid;
 };
 
@@ -55,8 +55,9 @@ hc_status exact_force_new(int n_harm, int n_dof, int n_contacts, const moving_co
   e->left = calloc(m, sizeof(double));
   e->right = calloc(m, sizeof(double));
   e->matrix = calloc(m * m, sizeof(double));
-  if (!e->contacts || !e->n_pieces || !e->pieces || !e->table || !e->indicator || !e->weight || !e->symbol ||
-      !e->left || !e->right || !e->matrix) {
+  bool orbit = e->contacts && e->n_pieces && e->pieces && e->table;
+  bool series = e->indicator && e->weight && e->symbol && e->left && e->right;
+  if (!orbit || !series || !e->matrix) {
     exact_force_free(e);
     return HC_NO_MEMORY;
   }
@@ -114,7 +115,7 @@ static void fill_indicator(exact_force *e, const contact_piece *p)
   }
 }
 
-/* Four at a time: as a loop of two its speed depends by a tenth on where the linker puts it. */
+/* to += scale from. Four at a time: the speed of a loop of two depends by a tenth on its alignment by the linker. */
 static void add_scaled(int n, double scale, const double *restrict from, double *restrict to)
 {
   int i = 0;
@@ -144,7 +145,7 @@ static void add_piece(exact_force *e, const moving_contact *c, const contact_pie
   }
 }
 
-/* C takes what is missing of a preload while the contact is open: the rest of it is balanced, and never enters
+/* While contact j is open its preload N0 is missing: C gets -N0 there. While it is closed, N - N0 is computed without N0
  * (contact_normal_change). */
 static void add_openings(exact_force *e, int j, double *C)
 {
@@ -164,7 +165,7 @@ static void add_openings(exact_force *e, int j, double *C)
 }
 
 /* jac -= (harmonics of cu on the piece) (d held/dX)^T. */
-static void subtract_memory(exact_force *e, const moving_contact *c, const contact_piece *p, double *jac)
+static void subtract_stick_piece(exact_force *e, const moving_contact *c, const contact_piece *p, double *jac)
 {
   int n = e->n_coef, any = 0;
   for (int d = 0; d < e->n_dof; ++d) any |= p->held_by_x[d] != 0;
@@ -187,13 +188,14 @@ static void subtract_memory(exact_force *e, const moving_contact *c, const conta
     }
 }
 
-static void subtract_memories(exact_force *e, double *jac)
+static void subtract_stick_pieces(exact_force *e, double *jac)
 {
   for (int j = 0; j < e->n_contacts; ++j)
     for (int i = 0; i < e->n_pieces[j]; ++i)
-      subtract_memory(e, &e->contacts[j], e->pieces + (size_t)j * e->cap + i, jac);
+      subtract_stick_piece(e, &e->contacts[j], e->pieces + (size_t)j * e->cap + i, jac);
 }
 
+/* The blocks (d, f) of the matrix from the symbols K_df. */
 static void assemble(const exact_force *e, double *matrix)
 {
   int n = e->n_coef, D = e->n_dof, symbol = force_jacobian_symbol_length(e->n_harm);
@@ -216,7 +218,8 @@ static contact_regime regime_of(const contact_piece *p, int n)
   return slips ? CONTACT_SLIPS : CONTACT_STUCK;
 }
 
-/* Changes of state over the period: every piece ends in another or in a separation, which ends in a piece. */
+/* Changes of state over the period. A piece is followed by another one (one change, or none if both are parts of the
+ * same state), or by a separation and then a piece (two). */
 static int count_changes(const contact_piece *p, int n)
 {
   int changes = 0;
@@ -228,7 +231,7 @@ static int count_changes(const contact_piece *p, int n)
   return changes;
 }
 
-/* Slider at th = 0: held by the piece that covers it, riding on the motion otherwise. */
+/* Slider at th = 0: from the piece that covers it; w = u while separated. */
 static double slider_at_zero(const exact_force *e, int j)
 {
   const moving_contact *c = &e->contacts[j];
@@ -258,7 +261,7 @@ static void fill_report(const exact_force *e, contact_report *report)
   }
 }
 
-/* F += (Toeplitz + Hankel) X with the matrix as it stands before memory terms. */
+/* F += matrix X, while the matrix is Toeplitz + Hankel only. */
 static void multiply(const exact_force *e, const double *matrix, const double *X, double *F)
 {
   int m = e->n_dof * e->n_coef;
@@ -289,7 +292,7 @@ hc_status exact_force_eval(exact_force *e, const double *X, double *F, double *j
   }
   assemble(e, matrix);
   multiply(e, matrix, X, F);
-  if (jac) subtract_memories(e, jac);
+  if (jac) subtract_stick_pieces(e, jac);
   if (report) fill_report(e, report);
   return HC_OK;
 }

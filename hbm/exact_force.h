@@ -1,7 +1,7 @@
-/* exact_force.h - contact force harmonics from displacement harmonics without sampling: no aliasing. Between
- * transitions the force is linear in the motion, so with the transitions located (transitions.h) its Fourier
- * integrals are elementary: everything comes from the coefficients of piecewise constant functions. libm only;
- * nothing is allocated after exact_force_new. */
+/* exact_force.h - contact force harmonics from displacement harmonics without sampling, hence without aliasing. Between
+ * transitions the force is linear in the motion. With the transitions located (transitions.h) its Fourier integrals
+ * follow from the Fourier coefficients of piecewise constant functions, in closed form. libm only; nothing is allocated
+ * after exact_force_new. */
 #ifndef HC_EXACT_FORCE_H
 #define HC_EXACT_FORCE_H
 

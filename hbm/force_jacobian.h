@@ -1,10 +1,12 @@
 /* force_jacobian.h - the Jacobian dF/dX of force harmonics when the force's stiffness along the orbit is piecewise
  * constant.
  *
- * With F(th) = k(th) x(th) + rest and k's own Fourier coefficients (mean k0, cosines C_m, sines S_m, m <= 2H)
- * products of two trigonometric functions become sums, so dF/dX is Toeplitz + Hankel in C and S
- * (docs/theory.md section 5; e.g. d(cos p row)/d(cos q) = (C_|p-q| + C_{p+q})/2 with C_0 = 2 k0). What a stuck slider
- * remembers is added by rank-1 terms. */
+ * F(th) = k(th) x(th) + rest, with k's own Fourier coefficients (mean k0, cosines C_m, sines S_m, m <= 2H). Products
+ * of two trigonometric functions become sums, so dF/dX is Toeplitz + Hankel in C and S: for example
+ *
+ *     d(cosine p of F)/d(cosine q of x) = (C_|p-q| + C_{p+q})/2,      C_0 = 2 k0
+ *
+ * The position of a stuck slider depends on the motion at another angle: that is a rank-1 term to subtract. */
 #ifndef HC_FORCE_JACOBIAN_H
 #define HC_FORCE_JACOBIAN_H
 

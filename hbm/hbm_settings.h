@@ -23,7 +23,7 @@ typedef struct hbm_settings {
   hbm_restart restart; /* where the slider of a sampled force starts after a separation */
   hbm_continuation continuation;
   double tolerance; /* [1] of the residual, relative to the forces that make it up */
-  double accuracy;  /* [1] what auto harmonics and samples aim at: error relative to the solution */
+  double accuracy;  /* [1] largest error that auto harmonics and samples allow, relative to the solution */
   bool skip_linear; /* points where nothing happens at the contacts come from the closed form */
 } hbm_settings;
 

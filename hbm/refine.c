@@ -69,5 +69,6 @@ int refine_next_harmonics(int n_harm, bool up)
   enum { RUNGS = sizeof ladder / sizeof *ladder };
   int i = 0;
   while (i + 1 < RUNGS && ladder[i] < n_harm) ++i;
-  return ladder[up ? (i + 1 < RUNGS ? i + 1 : i) : (i > 0 ? i - 1 : 0)];
+  if (up) return ladder[i + 1 < RUNGS ? i + 1 : i];
+  return ladder[i > 0 ? i - 1 : 0];
 }

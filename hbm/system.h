@@ -4,7 +4,7 @@
  *     Z_h = [ K - M h^2 omega^2      C h omega       ]      on (a_h, b_h);   Z_0 = K
  *           [    - C h omega     K - M h^2 omega^2   ]
  *
- * F: contact force harmonics. lambda = phi = 1 but for the ramps of start.c. Without harmonic 0 (the paper's mode)
+ * F: contact force harmonics. lambda = phi = 1 but for the ramps of first_solution.c. Without harmonic 0 (the paper's mode)
  * X[0] = 0 and row 0 is dropped. Vectors have 2H+1 entries, X[0] included; the unknowns are the n entries from
  * X[first] on. */
 #ifndef HC_SYSTEM_H
@@ -22,17 +22,18 @@ typedef struct hbm_system {
   aft *sampled; /* the one of these two that hbm.force asks for; the other is NULL */
   exact_force *located;
   double *X, *F, *dF; /* the last evaluation: where, force [n_coef], Jacobian [n_coef][n_coef] by columns */
-  double *rows;       /* [n_coef] a full right-hand side, before row 0 is dropped or not */
-  bool evaluated;     /* X, F, dF and report belong together */
   contact_report report;
-  long evaluations;
+  bool evaluated;   /* X, F, dF and report belong together */
+  double *rows;     /* [n_coef] residual or its derivative with row 0, which may have to be dropped */
+  long evaluations; /* of the contact force */
 } hbm_system;
 
-/* n_time: samples per period, for sampled forces only. */
+/* n_time: samples per period, for sampled forces only. HC_BAD_INPUT, HC_NO_MEMORY: to be cleared all the same. */
 hc_status hbm_system_init(hbm_system *sys, const model *m, const hbm_settings *how, int n_harm, int n_time);
 void hbm_system_clear(hbm_system *sys);
 
-/* Contact force and its Jacobian at X into sys->F, sys->dF; free if X is where it was evaluated last. */
+/* Contact force and its Jacobian at X into sys->F, sys->dF; nothing to do if X is where it was evaluated last. Errors of
+ * aft_eval and exact_force_eval. */
 hc_status hbm_system_contact(hbm_system *sys, const double *X);
 
 /* R[n] at X[n_coef]. HC_NOT_FINITE rather than a NaN. */
@@ -44,8 +45,8 @@ void hbm_system_jacobian(const hbm_system *sys, double omega, int ld, double *ja
 /* dR/domega [n] at X. */
 void hbm_system_domega(hbm_system *sys, double omega, const double *X, double *dR);
 
-/* What a residual is judged against [force]: the sizes of the forces it is made of, not of their sum. Near resonance
- * K X and M omega^2 X cancel, and a good answer would look bad. At the X of the last residual. */
+/* What a residual is compared with [force]: the sum of the sizes of the forces it is made of, at the X of the last
+ * residual. The size of their sum would be too small: near resonance K X and M omega^2 X cancel. */
 double hbm_system_scale(const hbm_system *sys, double omega);
 
 #endif

@@ -3,14 +3,13 @@
  *
  * Every guard of the contact law (model/contact_law.h) is linear in the motion, so it is a trigonometric polynomial
  * f(th) plus a constant:
- *     contact   g   = v + gap
- *     stick(s)  q_s = mu kn (v + gap) - s (kt u - held),   held = kt w          slip(s) starts where q_s falls
- *                                                          through 0
- *     slip(s)   r_s = s kt u' - mu kn v'                                        stick starts where r_s falls through
- *               0
+ *     contact   g   = v + gap                                                separation where g falls through 0
+ *     stick(s)  q_s = mu kn (v + gap) - s (kt u - held),   held = kt w       slip(s) where q_s falls through 0
+ *     slip(s)   r_s = s kt u' - mu kn v'                                     stick where r_s falls through 0
+ *
  * A crossing is searched between neighbouring angles of a grid. No crossing is missed, double roots (grazing)
  * included: an interval is dismissed only if max|f''| proves it empty, else it is divided at its extremum or in the
- * middle. */
+ * middle (numerics/crossing.h). */
 #ifndef HC_TRANSITIONS_H
 #define HC_TRANSITIONS_H
 
@@ -27,15 +26,16 @@ typedef struct moving_contact {
 /* A stretch of the period in one state. */
 typedef struct contact_piece {
   double from, to;                  /* [rad] from < to <= from + 2 pi */
-  contact_state state;              /* never CONTACT_SEPARATED: what is not covered is separated */
+  contact_state state;              /* never CONTACT_SEPARATED: an angle that no piece covers is separated */
   double held;                      /* [force] kt w while stuck */
   double origin;                    /* [rad] where the slider came to rest: d held = sum held_by_x[d] dx_d(origin) */
-  double held_by_x[SERIES_MAX_DIM]; /* [force/length] all 0 when held depends on nothing */
-  int transitions;                  /* changes of state since the walk began: a guard against chatter */
+  double held_by_x[SERIES_MAX_DIM]; /* [force/length] all 0 where the motion does not change held */
+  int transitions;                  /* changes of state in the search so far, to recognise chatter */
 } contact_piece;
 
-/* The pieces of one period, ascending, into piece[cap]; *n of them. The slider starts at w = 0 where contact never
- * breaks. HC_CHATTER: more than cap pieces. HC_NOT_CLOSED: the slider did not repeat itself. */
+/* The pieces of one period, ascending, into piece[cap]; *n of them. Where contact is never lost the slider starts at
+ * w = 0, which is as good as any other start. HC_CHATTER: more than cap pieces, or 64 (H + 1) changes of state.
+ * HC_NOT_CLOSED: the slider is not where it was a period before. HC_NOT_FINITE: mu kn or more overflows. */
 hc_status transitions_find(const series_grid *grid, const moving_contact *c, int cap, contact_piece *piece, int *n);
 
 #endif

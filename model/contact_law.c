@@ -14,7 +14,7 @@ contact_state contact_step(const contact *c, double u, double v, double *w, doub
   if (fabs(*t) <= limit) return CONTACT_STICK;
   double s = *t > 0 ? 1 : -1;
   *t = s * limit;
-  *w = u - *t / c->kt; /* kt > 0 here: kt = 0 makes the predictor 0 */
+  *w = u - *t / c->kt; /* kt > 0: with kt = 0 the predictor is 0, which sticks */
   return s > 0 ? CONTACT_SLIP_PLUS : CONTACT_SLIP_MINUS;
 }
 

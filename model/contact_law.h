@@ -15,15 +15,16 @@
 #include <math.h>
 
 typedef struct contact {
-  double kt;  /* [force/length] >= 0  tangential stiffness                   */
-  double kn;  /* [force/length] >= 0  normal stiffness                       */
-  double mu;  /* [1] >= 0             friction coefficient                   */
-  double gap; /* [length]             > 0: preload N0 = kn gap; < 0: clearance */
+  double kt;  /* [force/length] >= 0, tangential stiffness */
+  double kn;  /* [force/length] >= 0, normal stiffness */
+  double mu;  /* [1] >= 0, friction coefficient */
+  double gap; /* [length] > 0: preload N0 = kn gap; < 0: clearance */
 } contact;
 
 typedef enum contact_state { CONTACT_SEPARATED, CONTACT_STICK, CONTACT_SLIP_PLUS, CONTACT_SLIP_MINUS } contact_state;
 
-/* The strongest thing that happens over a period, in the order of the column `contact` (docs/interface.md, 3). */
+/* What happens to a contact over a period, in ascending order: it never touches, sticks all the time, slips but stays
+ * in contact, separates and touches. The `contact` column of tables shows the largest of all contacts. */
 typedef enum contact_regime { CONTACT_LINEAR, CONTACT_STUCK, CONTACT_SLIPS, CONTACT_SEPARATES } contact_regime;
 const char *contact_regime_name(contact_regime regime); /* "linear", "stick", "slip", "separation" */
 
@@ -40,26 +41,27 @@ static inline double contact_normal(const contact *c, double v)
 /* +1 while slipping forward, -1 backward, 0 otherwise. */
 static inline int contact_slip_sign(contact_state st) { return (st == CONTACT_SLIP_PLUS) - (st == CONTACT_SLIP_MINUS); }
 
-/* N - N0 [force], what of the normal force moves the mass. Never their difference: under a preload a million times
- * the forcing nothing but rounding would be left of it. */
+/* N - N0 [force], the part of the normal force that moves the mass. It is not computed as a difference: under a preload
+ * a million times the forcing that would be rounding error only. */
 static inline double contact_normal_change(const contact *c, double v)
 {
   if (!(c->gap > 0)) return contact_normal(c, v);
   return v + c->gap > 0 ? c->kn * v : -contact_preload(c);
 }
 
-/* One step of the law from slider position *w to motion (u, v): elastic predictor, Coulomb corrector. Exact if u -+
- * mu N/kt is monotone over the step. *w moves; *t gets the tangential force. Returns the state at the end. */
+/* One step of the law from slider position *w to motion (u, v): elastic predictor, Coulomb corrector. Exact if u -
+ * mu N/kt and u + mu N/kt are monotone over the step. *w becomes the new position, *t the tangential force. Returns
+ * the state at the end. */
 contact_state contact_step(const contact *c, double u, double v, double *w, double *t);
 
-/* State just after v + gap rises through 0, from the velocities there (dv > 0): slips with sign s if s kt du > mu kn
- * dv. */
+/* State just after v + gap rises through 0, from the velocities du and dv > 0 there: it slips with sign s if
+ * s kt du > mu kn dv, else it sticks. */
 contact_state contact_on_touch(const contact *c, double du, double dv);
 
 /* Guards of the exact law: each is positive inside the state and reaches 0 where it ends.
- *   contact:   v + gap
- *   stick:     mu N - s kt (u - w)      for s = +1 and -1
- *   slip(s):   s kt du - mu kn dv  */
+ *   contact   v + gap
+ *   stick     mu N - s kt (u - w)     for s = +1 and -1
+ *   slip(s)   s kt du - mu kn dv */
 static inline double contact_guard_stick(const contact *c, int s, double u, double v, double w)
 {
   return c->mu * contact_normal(c, v) - s * c->kt * (u - w);

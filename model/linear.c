@@ -6,13 +6,13 @@
 void linear_free_motion(double mass, double damping, double stiffness, double t, double e[2][2])
 {
   double a = 0.5 * damping / mass, d = a * a - stiffness / mass, w = sqrt(fabs(d)), co, si;
-  if (w * t <= 1e-8) { /* critical */
+  if (w * t <= 1e-8) { /* critical damping */
     co = exp(-a * t);
     si = t * co;
   } else if (d < 0) {
     co = exp(-a * t) * cos(w * t);
     si = exp(-a * t) * sin(w * t) / w;
-  } else { /* cosh and sinh with the decay inside: neither overflows on its own */
+  } else { /* exp(-a t) times cosh and sinh, as exponentials that decay: cosh alone could overflow */
     double slow = exp((w - a) * t), fast = exp(-(w + a) * t);
     co = 0.5 * (slow + fast);
     si = 0.5 * (slow - fast) / w;

@@ -1,12 +1,12 @@
 /* linear.h - the linear oscillator in closed form: M x'' + C x' + k x = F cos(omega t). libm only.
- * Every contact phase of the exact law is one, and so is whatever has no contact. */
+ * In each contact state of the exact law the model is one. */
 #ifndef HC_LINEAR_H
 #define HC_LINEAR_H
 
 #include <complex.h>
 
 /* e[row][column]: (x, x') after time t of M x'' + C x' + k x = 0 from (1, 0) and from (0, 1). k >= 0; k = 0 is a
- * free mass. Accurate in all damping regimes, nothing overflows: cosh and sinh carry their decay inside. */
+ * free mass. Accurate for underdamped, critically damped and overdamped motion; nothing overflows. */
 void linear_free_motion(double mass, double damping, double stiffness, double t, double e[2][2]);
 
 /* X of the steady state x = Re X exp(i omega t); infinite at an undamped resonance. */

@@ -30,7 +30,7 @@ typedef struct model {
  * HC_BAD_INPUT for a negative number, HC_NO_MEMORY: *out is NULL. */
 hc_status model_new(int n_contacts, model **out);
 
-/* The same again, in memory of its own. HC_NO_MEMORY: *out is NULL. */
+/* A copy in memory of its own. HC_NO_MEMORY: *out is NULL. */
 hc_status model_copy(const model *m, model **out);
 
 void model_free(model *m); /* NULL is allowed */

@@ -1,6 +1,6 @@
 /* crossing.c - see crossing.h. An interval is proved free of crossings by the bound of f'', or proved monotone by
- * it, or proved convex by the bound of f'''; else it is halved. The proofs hold at once wherever the motion is
- * smooth on the scale of the interval. */
+ * it, or proved convex by the bound of f'''; else it is halved. No halving is needed where the motion is smooth on the
+ * scale of the interval. */
 #include "numerics/crossing.h"
 
 #include <float.h>
@@ -51,13 +51,13 @@ static double guard_derivative(const guard *g, const series_node *at, int k)
 
 double guard_value(const guard *g, const series_node *at) { return guard_derivative(g, at, 0) + g->constant; }
 
-typedef struct search {
+typedef struct guarded_motion {
   const series_vector *m;
   const guard *g;
-} search;
+} guarded_motion;
 
 /* Root of f in [a, b], f falling through 0 once: Newton kept inside by bisection. */
-static series_node falling_root(const search *s, series_node a, series_node b)
+static series_node falling_root(const guarded_motion *s, series_node a, series_node b)
 {
   double fa = guard_value(s->g, &a), fb = guard_value(s->g, &b);
   if (!(fa > 0)) return a;
@@ -67,7 +67,7 @@ static series_node falling_root(const search *s, series_node a, series_node b)
     if (f > 0) a = x;
     else b = x;
     double next = x.th - f / derivative;
-    /* first: at the root, next may be an end of the bracket */
+    /* before the bracket is looked at: at the root, next may be an end of it */
     if (fabs(next - x.th) <= 2 * DBL_EPSILON * (1 + fabs(x.th))) break;
     bool inside = next > a.th && next < b.th;
     if (!inside) next = 0.5 * (a.th + b.th);
@@ -80,7 +80,7 @@ static series_node falling_root(const search *s, series_node a, series_node b)
 }
 
 /* Minimum of f in [a, b], f convex there with f'(a) < 0 < f'(b). */
-static series_node minimum(const search *s, series_node a, series_node b)
+static series_node minimum(const guarded_motion *s, series_node a, series_node b)
 {
   double da = guard_derivative(s->g, &a, 1), db = guard_derivative(s->g, &b, 1);
   series_node x = series_vector_at(s->m, a.th + (b.th - a.th) * da / (da - db));
@@ -89,10 +89,9 @@ static series_node minimum(const search *s, series_node a, series_node b)
     if (derivative < 0) a = x;
     else b = x;
     double next = x.th;
-    if (s->g->order == 0)
-      next -= derivative / guard_derivative(s->g, &x, 2); /* no third derivative at hand for order 1 */
-    bool newton = s->g->order == 0;
-    if (newton && fabs(next - x.th) <= 1e-9) break; /* f is stationary: an error e costs f'' e^2/2 */
+    bool newton = s->g->order == 0; /* order 1 would need a third derivative of the motion, which a node has not */
+    if (newton) next -= derivative / guard_derivative(s->g, &x, 2);
+    if (newton && fabs(next - x.th) <= 1e-9) break; /* f is stationary: an error e of the angle makes f'' e^2/2 in f */
     if (!newton || !(next > a.th && next < b.th)) next = 0.5 * (a.th + b.th);
     if (fabs(next - x.th) <= 1e-9) break;
     x = series_vector_at(s->m, next);
@@ -100,11 +99,20 @@ static series_node minimum(const search *s, series_node a, series_node b)
   return x;
 }
 
-/* fmin and fmax are calls, for the sake of NaN */
+/* fmin and fmax are function calls, since they treat NaN specially; nothing here is NaN. */
 static inline double lesser(double x, double y) { return x < y ? x : y; }
 static inline double greater(double x, double y) { return x > y ? x : y; }
 
-static bool find(const search *s, series_node a, series_node b, int depth, series_node *root)
+/* Is f'' > 0 between a and b by the bound of f'''? Order 0 only. */
+static bool is_convex(const guard *g, const series_node *a, const series_node *b)
+{
+  double least = lesser(guard_derivative(g, a, 2), guard_derivative(g, b, 2));
+  return least - 0.5 * g->bound3 * (b->th - a->th) > 0;
+}
+
+/* crossing_first by at most `depth` halvings; at the last, ends of different sign are taken for one crossing, and ends
+ * of the same sign for none. */
+static bool find_first(const guarded_motion *s, series_node a, series_node b, int depth, series_node *root)
 {
   const guard *g = s->g;
   double fa = guard_value(g, &a), fb = guard_value(g, &b), width = b.th - a.th;
@@ -112,17 +120,16 @@ static bool find(const search *s, series_node a, series_node b, int depth, serie
     *root = a;
     return true;
   }
-  double sag = g->bound2 * width * width / 8;
+  double sag = g->bound2 * width * width / 8; /* f is at most this far from its chord */
   if (lesser(fa, fb) > sag) return false;
-  double da = guard_derivative(g, &a, 1), db = guard_derivative(g, &b, 1), bend = 0.5 * g->bound2 * width;
+  double da = guard_derivative(g, &a, 1), db = guard_derivative(g, &b, 1), change = 0.5 * g->bound2 * width;
   bool below = fb < -g->noise;
-  bool falls = greater(da, db) + bend<0, rises = lesser(da, db) - bend> 0;
+  bool falls = greater(da, db)<-change, rises = lesser(da, db)> change;
   if (falls || rises || sag <= g->noise || depth == 0) {
     if (below) *root = falling_root(s, a, b);
     return below;
   }
-  if (g->order == 0 && lesser(guard_derivative(g, &a, 2), guard_derivative(g, &b, 2)) - 0.5 * g->bound3 * width > 0 &&
-      !below) {
+  if (g->order == 0 && !below && is_convex(g, &a, &b)) {
     if (da >= 0 || db <= 0) return false; /* convex and monotone, both ends above */
     series_node low = minimum(s, a, b);
     if (guard_value(g, &low) >= -g->noise) return false;
@@ -130,14 +137,14 @@ static bool find(const search *s, series_node a, series_node b, int depth, serie
     return true;
   }
   series_node middle = series_vector_at(s->m, 0.5 * (a.th + b.th));
-  return find(s, a, middle, depth - 1, root) || find(s, middle, b, depth - 1, root);
+  return find_first(s, a, middle, depth - 1, root) || find_first(s, middle, b, depth - 1, root);
 }
 
 bool crossing_first(const series_vector *m, const guard *g, const series_node *a, const series_node *b,
                     series_node *root)
 {
   double width = b->th - a->th, sag = g->bound2 * width * width / 8;
-  if (guard_value(g, a) > sag && guard_value(g, b) > sag) return false; /* nearly always: before anything is copied */
-  search s = {m, g};
-  return find(&s, *a, *b, MAX_DEPTH, root);
+  if (guard_value(g, a) > sag && guard_value(g, b) > sag) return false; /* the usual case, before nodes are copied */
+  guarded_motion s = {m, g};
+  return find_first(&s, *a, *b, MAX_DEPTH, root);
 }

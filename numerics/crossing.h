@@ -7,17 +7,18 @@
 
 #include "numerics/series_grid.h"
 
+/* f(th) = sum a[d] x_d^(order)(th) + constant, order 0 or 1: of values or of first derivatives. */
 typedef struct guard {
-  int dim, order; /* f = sum a[d] x_d^(order) + constant */
+  int dim, order;
   double a[SERIES_MAX_DIM], constant;
   double size;                   /* bound of |f - mean - constant| */
   double mean;                   /* of f without the constant */
   double bound1, bound2, bound3; /* of |f'|, |f''|, |f'''| */
-  double noise; /* f is not told from 0 below this: rounding of f itself, and of the angles it is evaluated at */
+  double noise;                  /* |f| below this is not distinguished from 0: rounding of f and of its angle */
 } guard;
 
 guard guard_make(const series_vector *m, int order, const double *a, double constant);
-guard guard_negative(const guard *g);
+guard guard_negative(const guard *g); /* of -f */
 
 double guard_value(const guard *g, const series_node *at);
 
@@ -25,11 +26,11 @@ double guard_value(const guard *g, const series_node *at);
 static inline double guard_lower(const guard *g) { return g->mean + g->constant - g->size; }
 static inline double guard_upper(const guard *g) { return g->mean + g->constant + g->size; }
 
-/* The size of what f is made of: rounding errors are relative to it. */
+/* Bound of the terms that f is the sum of: rounding errors of f are relative to it. */
 double guard_scale(const guard *g);
 
-/* f >= 0 at a (to rounding). The first angle in (a, b] where it becomes negative, with its node; false if there is
- * none. Excursions below 0 that are not distinguishable from rounding do not count. */
+/* The first angle in (a, b] where f, >= 0 at a (to rounding), becomes negative, with its node in *root; false if there
+ * is none. Excursions below 0 by less than `noise` do not count. */
 bool crossing_first(const series_vector *m, const guard *g, const series_node *a, const series_node *b,
                     series_node *root);
 

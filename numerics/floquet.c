@@ -1,4 +1,4 @@
-/* floquet.c - see floquet.h. Two by two by the quadratic formula without cancellation, larger ones by GSL's Francis
+/* floquet.c - see floquet.h. 2 x 2 matrices by the quadratic formula without cancellation, larger ones by GSL's Francis
  * QR. */
 #include "numerics/floquet.h"
 
@@ -6,11 +6,11 @@
 #include <math.h>
 #include <stdlib.h>
 
-struct floquet { /* GSL's workspaces know their size: one set a size, 3..n */
+struct floquet { /* a workspace of GSL serves one size of matrix: there is one for each size 3..n */
   int n;
   gsl_eigen_nonsymm_workspace **work; /* [n + 1] */
-  double *matrix;              /* [n][n] for any size; ours, because gsl_matrix_alloc leaks when half of it fails */
-  gsl_vector_complex **values; /* [n + 1] */
+  gsl_vector_complex **values;        /* [n + 1] */
+  double *matrix; /* [n][n] for all sizes; gsl_matrix_alloc would leak where its second half fails */
 };
 
 static hc_status make_sizes(floquet *f)
@@ -96,8 +96,8 @@ hc_status floquet_multipliers(floquet *f, const double *phi, int row, int column
 
 double complex floquet_largest(int m, const double complex *lambda)
 {
-  double complex most = 0;
+  double complex largest = 0;
   for (int i = 0; i < m; ++i)
-    if (!(cabs(lambda[i]) <= cabs(most))) most = lambda[i];
-  return most;
+    if (!(cabs(lambda[i]) <= cabs(largest))) largest = lambda[i]; /* NaN counts as larger */
+  return largest;
 }

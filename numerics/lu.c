@@ -60,7 +60,7 @@ int lu_sign(int n, const double *a, const int *pivot)
   return sign;
 }
 
-typedef struct content {
+typedef struct content { /* of our SUNLinearSolver */
   int n, pivot[];
 } content;
 
@@ -73,8 +73,8 @@ static SUNLinearSolver_Type type(SUNLinearSolver ls)
 static int setup(SUNLinearSolver ls, SUNMatrix a)
 {
   content *c = ls->content;
-  return lu_factor(c->n, SUNDenseMatrix_Data(a), c->pivot) ? 0 : 1; /* positive: recoverable, KINSOL says
-                                                                       KIN_LSETUP_FAIL */
+  const int recoverable = 1; /* KINSOL then returns KIN_LSETUP_FAIL */
+  return lu_factor(c->n, SUNDenseMatrix_Data(a), c->pivot) ? 0 : recoverable;
 }
 
 static int solve(SUNLinearSolver ls, SUNMatrix a, N_Vector x, N_Vector b, sunrealtype tolerance)

@@ -1,7 +1,8 @@
-/* newton.c - KINSOL behind newton.h. KINSOL's habits that matter here: a NaN residual is "success" for KIN_NONE and
- * an endless loop for KIN_LINESEARCH, so residuals are refused by a positive return; the default longest step is
- * 1000 |z0|, useless from z = 0; the Jacobian is kept for 10 iterations unless told otherwise; KIN_STEP_LT_STPTOL is
- * positive and may be a stall. */
+/* newton.c - see newton.h. What KINSOL does, and what is done about it:
+ *   a NaN residual is "success" for KIN_NONE and an endless loop for KIN_LINESEARCH   a positive return refuses z
+ *   the default longest step is 1000 |z0|, which is 0 from z = 0                      max_step is always set
+ *   the Jacobian is kept for 10 iterations                                            one setup an iteration
+ *   KIN_STEP_LT_STPTOL is positive, and may be a stall                                the residual is evaluated again */
 #include "numerics/newton.h"
 
 #include <kinsol/kinsol.h>
@@ -84,7 +85,7 @@ static hc_status make_kinsol(newton *nw)
   bad |= KINSetLinearSolver(nw->kin, nw->ls, nw->jac);
   bad |= KINSetJacFn(nw->kin, kinsol_jacobian);
   bad |= KINSetMaxSetupCalls(nw->kin, 1);     /* full Newton */
-  bad |= KINSetScaledStepTol(nw->kin, 1e-15); /* a stop for small steps is for us to judge */
+  bad |= KINSetScaledStepTol(nw->kin, 1e-15); /* small steps are no convergence: the residual decides */
   return bad ? HC_NO_MEMORY : HC_OK;
 }
 
@@ -129,7 +130,7 @@ static double weighted_max(int n, const double *weight, const double *v)
   return max;
 }
 
-/* Evaluate and factor at z, with the residual in r. */
+/* Residual into r, and factors of the Jacobian, at nw->z; nw->factored: it is regular. */
 static hc_status factor_here(newton *nw)
 {
   if (on_residual(nw->z, nw->r, nw) || on_jacobian(nw->z, nw->r, nw->jac, nw, NULL, NULL)) return nw->refusal;
@@ -159,8 +160,8 @@ hc_status newton_backsolve(newton *nw, double *x)
   return HC_OK;
 }
 
-/* One Newton step from a converged z, kept unless it made the residual worse than acceptable. Leaves the factors
- * behind. */
+/* One Newton step from a converged z, taken back if the residual grows and is not far below the tolerance. Leaves the
+ * factors at the z before the step. */
 static hc_status polish(newton *nw, const newton_options *opt, newton_report *report)
 {
   int n = nw->problem.n;
@@ -169,10 +170,10 @@ static hc_status polish(newton *nw, const newton_options *opt, newton_report *re
   if (st != HC_OK) return st;
   double before = weighted_max(n, opt->r_scale, r);
   report->residual = before;
-  /* a solution all the same */
-  if (!nw->factored || SUNLinSolSolve(nw->ls, nw->jac, nw->step, nw->r, 0) != 0) return HC_OK;
+  bool solved = nw->factored && SUNLinSolSolve(nw->ls, nw->jac, nw->step, nw->r, 0) == 0;
+  if (!solved) return HC_OK; /* a singular Jacobian: z is a solution all the same */
   double length = weighted_max(n, opt->z_scale, step);
-  if (!(length <= opt->max_step)) return HC_OK; /* nearly singular: no better answer to be had this way */
+  if (!(length <= opt->max_step)) return HC_OK; /* a nearly singular one: the step would not improve z */
   for (int i = 0; i < n; ++i) z[i] -= step[i];
   ++report->iterations;
   double after = on_residual(nw->z, nw->r, nw) ? NAN : weighted_max(n, opt->r_scale, r);
@@ -184,8 +185,8 @@ static hc_status polish(newton *nw, const newton_options *opt, newton_report *re
   return on_residual(nw->z, nw->r, nw) ? nw->refusal : HC_OK;
 }
 
-/* KINSOL's word, and ours. */
-static hc_status judge(newton *nw, int flag, const newton_options *opt, newton_report *report)
+/* The status of a solve: from KINSOL's flag, and from the residual evaluated again at its z. */
+static hc_status check_answer(newton *nw, int flag, const newton_options *opt, newton_report *report)
 {
   hc_status refusal = nw->refusal;
   bool finite = on_residual(nw->z, nw->r, nw) == 0;
@@ -206,7 +207,8 @@ static hc_status judge(newton *nw, int flag, const newton_options *opt, newton_r
   }
 }
 
-static hc_status attempt(newton *nw, int strategy, const newton_options *opt, newton_report *report)
+/* A solve from nw->start by KINSOL's strategy. */
+static hc_status solve_from_start(newton *nw, int strategy, const newton_options *opt, newton_report *report)
 {
   size_t bytes = (size_t)nw->problem.n * sizeof(double);
   memcpy(N_VGetArrayPointer(nw->z), nw->start, bytes);
@@ -219,7 +221,7 @@ static hc_status attempt(newton *nw, int strategy, const newton_options *opt, ne
   KINGetNumNonlinSolvIters(nw->kin, &iterations);
   report->iterations += (int)iterations;
   if (nw->refusal == HC_NO_MEMORY) return HC_NO_MEMORY;
-  return judge(nw, flag, opt, report);
+  return check_answer(nw, flag, opt, report);
 }
 
 hc_status newton_solve(newton *nw, double *z, const newton_options *opt, newton_report *report)
@@ -230,8 +232,8 @@ hc_status newton_solve(newton *nw, double *z, const newton_options *opt, newton_
   memcpy(nw->start, z, bytes);
   memcpy(N_VGetArrayPointer(nw->z_scale), opt->z_scale, bytes);
   memcpy(N_VGetArrayPointer(nw->r_scale), opt->r_scale, bytes);
-  hc_status st = attempt(nw, KIN_NONE, opt, report);
-  if (st != HC_OK && st != HC_NO_MEMORY) st = attempt(nw, KIN_LINESEARCH, opt, report);
+  hc_status st = solve_from_start(nw, KIN_NONE, opt, report);
+  if (st != HC_OK && st != HC_NO_MEMORY) st = solve_from_start(nw, KIN_LINESEARCH, opt, report);
   if (st == HC_OK) st = polish(nw, opt, report);
   if (st == HC_OK) memcpy(z, N_VGetArrayPointer(nw->z), bytes);
   return st;

@@ -1,6 +1,6 @@
-/* newton.h - full Newton by KINSOL for a square system r(z) = 0, with the answer checked by us. Memory is made once
- * and reused by every solve; nothing is allocated in a solve, but for the message SUNDIALS 7 composes and frees when
- * KINSol fails. One handle a thread. */
+/* newton.h - full Newton by KINSOL for a square system r(z) = 0, with the answer checked by us. Memory is allocated
+ * once and reused: a solve allocates nothing, except that SUNDIALS 7 composes and frees a message when KINSol fails.
+ * A handle serves one thread. */
 #ifndef HC_NEWTON_H
 #define HC_NEWTON_H
 
@@ -11,14 +11,15 @@ typedef struct newton newton;
 typedef struct newton_problem {
   int n;
   void *self;
-  hc_status (*residual)(void *self, const double *z, double *r);   /* anything but HC_OK: z is refused */
-  hc_status (*jacobian)(void *self, const double *z, double *jac); /* jac[row + n col], at the z of the last residual */
+  hc_status (*residual)(void *self, const double *z, double *r); /* r(z); anything but HC_OK refuses z */
+  hc_status (*jacobian)(void *self, const double *z,
+                        double *jac); /* dr/dz, jac[row + n col], at the last residual's z */
 } newton_problem;
 
 typedef struct newton_options {
   const double *z_scale, *r_scale; /* [n] weights: z_scale z and r_scale r are of order 1 */
   double tolerance;                /* largest |r_scale r| accepted */
-  double max_step;                 /* longest Newton step, 2-norm of z_scale dz; KINSOL takes less than 1 for 1 */
+  double max_step;                 /* longest Newton step, 2-norm of z_scale dz; KINSOL treats less than 1 as 1 */
   int max_iterations;
 } newton_options;
 
@@ -31,9 +32,9 @@ hc_status newton_new(const newton_problem *problem, newton **out);
 void newton_free(newton *nw);
 
 /* Solve from *z. First plain Newton, then, if that fails, with KINSOL's line search from the same start. A converged
- * z gets one more Newton step: the tolerance is relative to forces that may nearly cancel, so the error in z may
- * still be large against it. HC_OK; HC_STALLED, HC_NOT_CONVERGED, HC_SINGULAR, HC_NOT_FINITE, HC_NO_MEMORY: *z is
- * then as it was given. */
+ * z gets one more Newton step, since its error may be much larger than the tolerance: that is relative to forces that
+ * may nearly cancel. HC_OK; HC_STALLED, HC_NOT_CONVERGED, HC_SINGULAR, HC_NOT_FINITE, HC_NO_MEMORY: *z is then as it
+ * was given. */
 hc_status newton_solve(newton *nw, double *z, const newton_options *opt, newton_report *report);
 
 /* x := J(z)^-1 x with the Jacobian of the last solve's end. HC_SINGULAR, also after a solve that failed. */

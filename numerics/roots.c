@@ -8,15 +8,15 @@ static double at_least_rounding(double tolerance, double x) { return fmax(tolera
 
 static bool opposite(double fa, double fb) { return !isnan(fa) && !isnan(fb) && (fa > 0) != (fb > 0); }
 
-/* One more evaluation allowed? */
-static hc_status count(root_point *out)
+/* HC_NOT_CONVERGED if no more evaluation is allowed. */
+static hc_status count_evaluation(root_point *out)
 {
   return out->evaluations++ < ROOTS_MAX_EVALUATIONS ? HC_OK : HC_NOT_CONVERGED;
 }
 
 static hc_status evaluate(root_function *f, void *self, double x, root_point *out, double *value)
 {
-  hc_status st = count(out);
+  hc_status st = count_evaluation(out);
   if (st == HC_OK) st = f(self, x, value);
   return st == HC_OK && isnan(*value) ? HC_NOT_FINITE : st;
 }
@@ -43,7 +43,7 @@ static double part_of_way(const bracket *k)
          (k->c - k->a) / (k->b - k->a) * (k->fa / (k->fc - k->fa)) * (k->fb / (k->fc - k->fb));
 }
 
-static void take_better_end(const bracket *k, root_point *out)
+static void report_better_end(const bracket *k, root_point *out)
 {
   bool a = fabs(k->fa) <= fabs(k->fb);
   out->x = a ? k->a : k->b;
@@ -54,11 +54,11 @@ hc_status root_between(root_function *f, void *self, double a, double fa, double
                        root_point *out)
 {
   bracket k = {a, fa, b, fb, a, fa};
-  *out = (root_point){NAN, NAN, 0};
+  *out = (root_point){NAN, NAN, 0, NAN};
   if (!isfinite(a) || !isfinite(b) || !opposite(fa, fb)) return HC_BAD_INPUT;
   double part = isfinite(fa - fb) ? fa / (fa - fb) : 0.5; /* the secant */
   for (;;) {
-    take_better_end(&k, out);
+    report_better_end(&k, out);
     double width = fabs(k.b - k.a), wanted = at_least_rounding(tolerance, out->x);
     if (width <= wanted) return HC_OK;
     double least = fmin(0.5, 0.5 * wanted / width), value;
@@ -77,7 +77,7 @@ hc_status root_between(root_function *f, void *self, double a, double fa, double
 hc_status root_between_newton(root_function_derivative *f, void *self, double a, double fa, double b, double fb,
                               double tolerance, root_point *out)
 {
-  *out = (root_point){NAN, NAN, 0};
+  *out = (root_point){NAN, NAN, 0, NAN};
   if (!isfinite(a) || !isfinite(b) || !opposite(fa, fb)) return HC_BAD_INPUT;
   double part = fa / (fa - fb), x = a + (part > 0 && part < 1 ? part : 0.5) * (b - a);
   double step = b - a, before = step; /* the last step and the one before it */
@@ -85,7 +85,7 @@ hc_status root_between_newton(root_function_derivative *f, void *self, double a,
   out->f = fabs(fa) <= fabs(fb) ? fa : fb;
   for (;;) {
     double value, derivative;
-    hc_status st = count(out);
+    hc_status st = count_evaluation(out);
     if (st == HC_OK) st = f(self, x, &value, &derivative);
     if (st == HC_OK && isnan(value)) st = HC_NOT_FINITE;
     if (st != HC_OK) return st;
@@ -94,7 +94,7 @@ hc_status root_between_newton(root_function_derivative *f, void *self, double a,
     if ((value > 0) == (fa > 0)) a = x;
     else b = x;
     double wanted = at_least_rounding(tolerance, x), next = x - value / derivative;
-    bool inside = (next - a) * (b - next) >= 0, slow = !(fabs(next - x) <= 0.5 * fabs(before));
+    bool inside = (next - a) * (b - next) >= 0, slow = !(fabs(next - x) <= 0.5 * fabs(before)); /* slow if NaN */
     if (!inside || slow) next = 0.5 * (a + b);
     before = step;
     step = next - x;
@@ -117,7 +117,8 @@ static double parabola_step(const valley *k)
   return twice != 0 ? -p / twice : NAN;
 }
 
-static void take_point(valley *k, double u, double fu)
+/* A new point, in the place of an end and of one of the three lowest points. */
+static void insert_point(valley *k, double u, double fu)
 {
   if (fu <= k->fx) {
     if (u < k->x) k->b = k->x;
@@ -141,7 +142,7 @@ hc_status root_minimum(root_function *f, void *self, double a, double fa, double
                        double tolerance, root_point *out)
 {
   const double golden = 0.38196601125010515; /* (3 - sqrt 5)/2 */
-  *out = (root_point){NAN, NAN, 0};
+  *out = (root_point){NAN, NAN, 0, NAN};
   if (!(a < m && m < b && fm <= fa && fm <= fb)) return HC_BAD_INPUT;
   valley k = {a, b, m, fm, fa <= fb ? a : b, fmin(fa, fb), fa <= fb ? b : a, fmax(fa, fb)};
   double step = b - a, before = step; /* the last step and the one before it */
@@ -152,7 +153,7 @@ hc_status root_minimum(root_function *f, void *self, double a, double fa, double
     double next = parabola_step(&k), u = k.x + next;
     if (u > k.a && u < k.b && fabs(next) < 0.5 * fabs(before)) {
       before = step;
-      /* not on an end, whose value is known */
+      /* next to an end, whose value is known: a least step towards the middle instead */
       if (u - k.a < wanted || k.b - u < wanted) next = copysign(least, 0.5 * (k.a + k.b) - k.x);
     } else {
       before = k.x >= 0.5 * (k.a + k.b) ? k.a - k.x : k.b - k.x;
@@ -162,23 +163,22 @@ hc_status root_minimum(root_function *f, void *self, double a, double fa, double
     u = k.x + step;
     hc_status st = evaluate(f, self, u, out, &fu);
     if (st != HC_OK) return st;
-    take_point(&k, u, fu);
+    insert_point(&k, u, fu);
   }
 }
 
 hc_status root_change(root_predicate *beyond, void *self, double a, double b, double tolerance, root_point *out)
 {
-  *out = (root_point){b, 1, 0};
+  *out = (root_point){b, 1, 0, a};
   if (!isfinite(a) || !isfinite(b)) return HC_BAD_INPUT;
   while (fabs(b - a) > at_least_rounding(tolerance, b)) {
     double m = 0.5 * (a + b);
     bool is_beyond = false;
-    hc_status st = count(out);
+    hc_status st = count_evaluation(out);
     if (st == HC_OK) st = beyond(self, m, &is_beyond);
     if (st != HC_OK) return st;
-    if (is_beyond) b = m;
-    else a = m;
-    out->x = b;
+    if (is_beyond) out->x = b = m;
+    else out->before = a = m;
   }
   return HC_OK;
 }

@@ -18,6 +18,7 @@ enum { ROOTS_MAX_EVALUATIONS = 200 };
 typedef struct root_point {
   double x, f;     /* f(x) */
   int evaluations; /* spent by the search */
+  double before;   /* of root_change: the nearest point seen on this side of the change */
 } root_point;
 
 /* *f = f(x); self is the caller's. */

@@ -6,10 +6,12 @@
 #ifndef HC_SERIES_H
 #define HC_SERIES_H
 
+/* Value, d/dth, d2/dth2. */
 typedef struct series_jet {
   double x, d1, d2;
-} series_jet; /* value, d/dth, d2/dth2 */
+} series_jet;
 
+/* Coefficients of n_harm harmonics. */
 static inline int series_length(int n_harm) { return 2 * n_harm + 1; }
 
 /* From cos and sin of h th, in *ch and *sh, to those of (h + 1) th; c and s are those of th. From 1, 0 the error of the

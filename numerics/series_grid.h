@@ -1,5 +1,5 @@
-/* series_grid.h - several trigonometric polynomials at one angle or on a grid of angles, with two derivatives. libm only,
- * nothing is allocated. */
+/* series_grid.h - several trigonometric polynomials at one angle or on a grid of angles, with two derivatives. libm
+ * only, nothing is allocated. */
 #ifndef HC_SERIES_GRID_H
 #define HC_SERIES_GRID_H
 
@@ -22,7 +22,7 @@ series_node series_vector_at(const series_vector *m, double th);
 typedef struct series_grid {
   series_vector m;
   double size[3][SERIES_MAX_DIM];        /* sums of |coefficients| of x, x', x'' */
-  series_node node[2 * SERIES_GRID + 1]; /* two periods: a walk that starts anywhere in the first never wraps */
+  series_node node[2 * SERIES_GRID + 1]; /* two periods: one that starts anywhere in the first lies in them */
 } series_grid;
 
 /* cos and sin of h th_i for half the grid, [n_harm][2][SERIES_GRID/2], filled once: half a period later odd harmonics

@@ -1,5 +1,5 @@
-/* sundials_compat.h - the few places where SUNDIALS 6.4 and 7.x differ. Included by hbm/ and timeint/, by nothing
- * else. */
+/* sundials_compat.h - the few places where SUNDIALS 6.4 and 7.x differ. For the files that call SUNDIALS: newton.c here
+ * and the integrators of timeint/. */
 #ifndef HC_SUNDIALS_COMPAT_H
 #define HC_SUNDIALS_COMPAT_H
 

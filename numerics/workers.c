@@ -14,11 +14,11 @@ hc_status workers_init(workers *w)
   return HC_NO_MEMORY;
 }
 
-void workers_start(workers *w, int jobs, void *(*work)(void *), void *self)
+void workers_start(workers *w, int threads, void *(*work)(void *), void *self)
 {
-  w->threads = calloc((size_t)jobs, sizeof *w->threads);
+  w->threads = calloc((size_t)threads, sizeof *w->threads);
   pthread_mutex_lock(&w->lock);
-  while (w->threads && w->n < jobs && pthread_create(&w->threads[w->n], NULL, work, self) == 0) ++w->n;
+  while (w->threads && w->n < threads && pthread_create(&w->threads[w->n], NULL, work, self) == 0) ++w->n;
   w->running = w->n;
   pthread_mutex_unlock(&w->lock);
   if (w->n == 0) workers_stop(w, HC_NO_MEMORY);
@@ -54,9 +54,9 @@ bool workers_wait(workers *w, int ms)
   if (until.tv_nsec >= 1000000000L) until.tv_nsec -= 1000000000L, ++until.tv_sec;
   pthread_mutex_lock(&w->lock);
   if (w->running > 0) pthread_cond_timedwait(&w->changed, &w->lock, &until);
-  bool some = w->running > 0;
+  bool at_work = w->running > 0;
   pthread_mutex_unlock(&w->lock);
-  return some;
+  return at_work;
 }
 
 hc_status workers_join(workers *w)

@@ -1,6 +1,6 @@
-/* workers.h - several threads that take one piece of work after another until there is none left or they are told to
- * stop, and the calling thread, which waits for them and may stop them. Which pieces there are, and where results go,
- * is the caller's: its own data that the threads share goes under the lock as well. */
+/* workers.h - several threads at work on the same list of tasks until none is left or they are told to stop, and the
+ * calling thread, which waits for them and may stop them. The tasks and their results are the caller's: its data that
+ * the threads share are read and written under the lock as well. */
 #ifndef HC_WORKERS_H
 #define HC_WORKERS_H
 
@@ -12,8 +12,8 @@
 typedef struct workers {
   pthread_mutex_t lock;
   pthread_cond_t changed; /* a thread has ended */
-  int running;            /* threads at work; under the lock */
-  hc_status worst;        /* why they were stopped first, else HC_OK; under the lock */
+  int running;            /* threads that have not left; under the lock */
+  hc_status worst;        /* why they were stopped, by the first call that did; else HC_OK; under the lock */
   atomic_bool stop;
   pthread_t *threads; /* [n] started */
   int n;
@@ -22,19 +22,19 @@ typedef struct workers {
 /* Locks made, no thread started. HC_NO_MEMORY: the system has no more locks, nothing is to be freed. */
 hc_status workers_init(workers *w);
 
-/* Start up to `jobs` threads of work(self), each of which calls workers_leave at its end. Where not one could be
- * started, they are stopped with HC_NO_MEMORY. */
-void workers_start(workers *w, int jobs, void *(*work)(void *), void *self);
+/* Start up to `threads` threads of work(self), each of which calls workers_leave at its end; fewer if the system has no
+ * more. If not one could be started, the workers are stopped with HC_NO_MEMORY. */
+void workers_start(workers *w, int threads, void *(*work)(void *), void *self);
 void workers_leave(workers *w);
 
-/* From any thread. The first reason is kept. */
+/* From any thread. The status of the first call is kept in `worst`. */
 void workers_stop(workers *w, hc_status why);
 static inline bool workers_stopped(workers *w) { return atomic_load(&w->stop); }
 
-/* A tick that goes on until they are stopped; self is the workers. */
+/* The tick of an hc_monitor whose self is the workers: false once they are stopped. */
 bool workers_tick(void *self, double done);
 
-/* Waits `ms` at most, less if a thread ends; returns whether some are still at work. */
+/* Waits `ms` milliseconds at most, less if a thread leaves; returns whether some have not left. */
 bool workers_wait(workers *w, int ms);
 
 /* Waits until all threads, if any, have ended, and frees what workers_init made; returns `worst`. */

@@ -91,10 +91,9 @@ static const char *stable_text(const response_row *r)
   X(INTEGER, "periods",             has_transient(r), r->transient.periods) \
   X(REAL,    "orbit_amplitude",     has_orbit(r), r->orbit.amplitude)       \
   X(REAL,    "orbit_multiplier",    has_orbit(r), r->orbit.multiplier)      \
-  X(REAL,    "orbit_error",         true, r->orbit_error)                   \
+  X(REAL,    "orbit_error",         true, r->orbit_errors.waveform)         \
   X(REAL,    "budget_sum",          r->budget.known, r->budget.amplitude.sum) \
   X(REAL,    "budget_observed",     r->budget.known, r->budget.amplitude.observed) \
-  X(TEXT,    "budget_holds",        r->budget.known, r->budget.holds ? "yes" : "no") \
   X(TEXT,    "largest_part",        largest_part(r) != NULL, largest_part(r))
 
 #define CURVE_COLUMNS(X)                                                    \

@@ -1,5 +1,5 @@
-/* random.h - the random numbers of the tests: splitmix64 (Steele, Lea, Flood 2014), all 64 bits good, any seed good. The
- * seed is the caller's and stands in the test, so that every run and every machine sees the same cases. */
+/* random.h - the random numbers of the tests: splitmix64 (Steele, Lea, Flood 2014), all 64 bits good, any seed good.
+ * The seed is the caller's and stands in the test, so that every run and every machine sees the same cases. */
 #ifndef HC_TESTS_RANDOM_H
 #define HC_TESTS_RANDOM_H
 

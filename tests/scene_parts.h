@@ -5,6 +5,8 @@
 
 #include "campaigns/scene_solvers.h"
 #include "tests/check.h"
+#include "timeint/integrate_exact.h"
+#include "timeint/integrate_regularised.h"
 #include "timeint/measure.h"
 #include "timeint/scaled.h"
 
@@ -19,12 +21,24 @@ static inline double scene_stuck_stiffness(const scene_contact *c)
   return model_stuck_stiffness(&with);
 }
 
+/* Memory of this file for the contacts; that of the last 16 models made is valid. */
 static inline void scene_scaled(scaled_model *m, const scene *sc, double omega, double length)
 {
+  static scaled_contact contacts[16][SCENE_MAX_CONTACTS];
+  static int made;
   model *from;
+  m->contact = contacts[made++ % 16];
   assert_int_equal(scene_model(sc, &from), HC_OK);
   scaled_make(m, from, &sc->transient, omega, length);
   model_free(from);
+}
+
+/* A measure with memory for the states of any scene; measure_free frees it. */
+static inline measure scene_measure(void)
+{
+  measure me;
+  assert_int_equal(measure_make(&me, SCENE_MAX_STATES), HC_OK);
+  return me;
 }
 
 static inline void scene_measure_report(const measure *me, const scene *sc, double length, timeint_result *r)

@@ -1,4 +1,4 @@
-/* integrate.c - see integrate.h: hands each call to the law's integrator, and keeps what both are made of. */
+/* integrate.c - see integrate.h: passes each call to the law's integrator; the parts that both laws' are made of. */
 #include "timeint/integrate_private.h"
 
 #include <math.h>
@@ -19,8 +19,8 @@ hc_status integrate_tolerance(integrator *in, double tolerance)
 static hc_status period(integrator *in, const scaled_model *m, double *y, double *monodromy, integrate_watch *watch,
                         void *self)
 {
-  if (!in->ready && !hc_room_for(0)) return HC_NO_MEMORY;
-  in->ready = true;
+  if (!in->called && !hc_room_for(0)) return HC_NO_MEMORY;
+  in->called = true;
   return in->does->period(in, m, y, monodromy, watch, self);
 }
 
@@ -38,11 +38,11 @@ hc_status integrate_dense(const integrator *in, double theta, int order, double 
 {
   return in->does->dense(in, theta, order, y);
 }
-bool integrate_slides(const integrator *in, int j, const double *y) { return in->does->slides(in, j, y); }
+bool integrate_slips(const integrator *in, int j, const double *y) { return in->does->slips(in, j, y); }
 
 long integrate_steps(const integrator *in) { return in->steps; }
 long integrate_rhs(const integrator *in) { return in->rhs; }
-long integrate_switches(const integrator *in) { return in->switches; }
+long integrate_transitions(const integrator *in) { return in->transitions; }
 int integrate_flag(const integrator *in) { return in->flag; }
 
 int integrate_first_flag(const int *flags, size_t n)

@@ -1,13 +1,14 @@
-/* integrate.h - CVODE for one period of the forcing at a time; every flag of CVODE ends here.
+/* integrate.h - CVODE for one period of the forcing at a time; every flag of CVODE is translated to an hc_status here.
  *
- * A period is the phase theta = 0 .. 2 pi, and CVODE starts afresh in each. That costs the start at order 1
- * (README.md has the figure), and buys two things: theta never grows, so 20 000 periods lose no accuracy; and one
- * period is a function of the state alone, the same bits in giving the same bits out, so that successive states
- * converge to a fixed point of it. Had the step history been kept, each period would be cut into other steps, and
- * the drift would level off at their error.
+ * A period is the phase theta = 0 .. 2 pi, and CVODE starts afresh in each. The cost is a start at order 1 (README.md
+ * has the figure). The gain: theta never exceeds 2 pi, so 20 000 periods lose no accuracy; and one period is a function
+ * of the state alone, the same bits in giving the same bits out, so that successive states converge to a fixed point
+ * of it. With the step history kept, each period would be cut into other steps, and the drift would level off at their
+ * error.
  *
- * Two contact laws, one face: integrate_regularised.c follows scaled.h as it stands; integrate_exact.c follows the
- * exact law, one smooth right-hand side a contact phase, from transition to transition. */
+ * One interface for two contact laws. integrate_regularised.h integrates the equations of scaled.h as they stand.
+ * integrate_exact.h integrates the exact law event-driven: one smooth right-hand side for each set of contact states,
+ * from one change of state (transition) to the next. */
 #ifndef HC_TIMEINT_INTEGRATE_H
 #define HC_TIMEINT_INTEGRATE_H
 
@@ -20,37 +21,33 @@ typedef struct integrator integrator;
  * law ends a step. */
 typedef hc_status integrate_watch(void *self, const integrator *in, double theta0, double theta1);
 
-/* An integrator of n_states equations, in steps whose error is `tolerance` of the states (and of 1, for states near
- * 0). */
-hc_status integrate_new_regularised(int n_states, double tolerance, integrator **out);
-hc_status integrate_new_exact(int n_states, double tolerance, integrator **out);
 void integrate_free(integrator *in);
 
 /* Another tolerance from the next period on; allocates nothing. */
 hc_status integrate_tolerance(integrator *in, double tolerance);
 
-/* Carry y[n_states] through one period of *m. `watch` may be NULL. On failure y is left where it was.
- * Exact law: HC_CHATTER after too many transitions. */
+/* Carry y[n_states] through one period of *m. `watch` may be NULL. On failure y is unchanged. HC_INTEGRATOR,
+ * HC_NOT_FINITE, HC_NO_MEMORY, what `watch` answers; exact law: HC_CHATTER after too many transitions. */
 hc_status integrate_period(integrator *in, const scaled_model *m, double *y, integrate_watch *watch, void *self);
 
 /* As integrate_period, with monodromy[n_states * n_states], by columns: d y[i](2 pi) / d y[j](0) at [i + j n_states];
- * on a periodic orbit it is the monodromy matrix. From the variational equations along the way; the contact forces are
- * continuous, so transitions add nothing (saltation is the identity). A slider that the law ties to x at theta = 0
- * (slipping, separated) has a column of zeros. */
+ * on a periodic orbit it is the monodromy matrix. It comes from the variational equations, integrated along with y. The
+ * contact forces are continuous, so the saltation matrix of a transition is the identity. A slider that the law ties to
+ * x at theta = 0 (slipping, separated) has a column of zeros. */
 hc_status integrate_monodromy(integrator *in, const scaled_model *m, double *y, double *monodromy);
 
 /* Inside a watch: the state (order 0) or its derivative (order 1) at theta0 <= theta <= theta1, from the step's own
  * polynomial, as good as the step itself. y[n_states]. */
 hc_status integrate_dense(const integrator *in, double theta, int order, double *y);
 
-/* Inside a watch: does contact j slide, at the state y of the step's end? */
-bool integrate_slides(const integrator *in, int j, const double *y);
+/* Inside a watch: does contact j slip, at the state y of the step's end? */
+bool integrate_slips(const integrator *in, int j, const double *y);
 
 /* Steps, right-hand sides and transitions since the integrator was made, and the last flag CVODE gave other than
  * success. */
 long integrate_steps(const integrator *in);
 long integrate_rhs(const integrator *in);
-long integrate_switches(const integrator *in);
+long integrate_transitions(const integrator *in);
 int integrate_flag(const integrator *in);
 
 #endif

@@ -1,22 +1,24 @@
-/* integrate_exact.c - see integrate.h. X and P by CVODE, one smooth right-hand side a phase (phase.h), from
- * transition to transition; the sliders follow from the phase. Adams: nothing here is stiff but a huge damping.
+/* integrate_exact.c - see integrate_exact.h.
  *
  * Root functions, always four, so that a period allocates nothing:
  *     up - X,  X - down                      end the phase where they fall through 0
- *     P                                      ends it if some contact slips
+ *     P                                      ends the phase if some contact slips
  *     P'                                     ends nothing
- * P and P' are there to be looked at: in a step whose ends lie inside the phase X can only leave it beyond a turning
- * point; CVODE goes for that root of P, finds X outside there, and takes the crossing before it. P' does the same
- * for two roots of P in one step. So nothing that lasts longer than CVODE's root tolerance (100 roundings of theta)
- * is stepped over, unless P has four roots in one step. In a phase that nothing can end all four are 1. None is ever
- * exactly 0: a function that stays 0 is an error or a warning to CVODE, depending on when.
+ * P is a root function also where nothing slips, and P' always, so that no end is stepped over. If both ends of a step
+ * lie inside the phase, X can have left it only around a turning point, a root of P. CVODE's search for that root
+ * evaluates all functions next to it, where X is outside, and so returns the crossing, which comes first. Two turning
+ * points in one step leave the sign of P as it was; the search for the root of P' between them separates them in the
+ * same way. So an excursion longer than CVODE's root tolerance (100 roundings of theta) is found, unless P has four
+ * roots in one step.
+ * In a phase that nothing can end all four functions are 1. None is ever exactly 0: CVODE answers a function that stays
+ * 0 with an error or a warning.
  *
- * A transition located within dtheta makes an error of order dtheta^2, the force being continuous; CVODE's 1e-13
- * leaves nothing to polish.
+ * A transition found with an error dtheta changes the state by order dtheta^2 only, since the force is continuous;
+ * CVODE's dtheta is 1e-13, so the transition needs no refinement.
  *
- * Monodromy: between transitions the variations obey a linear equation with constant coefficients, so they are carried
- * along in closed form. */
-#include "timeint/integrate_private.h"
+ * Monodromy: between transitions the variations obey a linear equation with constant coefficients; they are advanced by
+ * its closed-form solution. */
+#include "timeint/integrate_exact.h"
 
 #include <float.h>
 #include <math.h>
@@ -32,32 +34,34 @@
 #include "base/constants.h"
 #include "model/linear.h"
 #include "numerics/sundials_compat.h"
+#include "timeint/integrate_private.h"
 #include "timeint/phase.h"
 
 static const double at_end = 64 * DBL_EPSILON; /* nearer to 2 pi CVODE would answer CV_TOO_CLOSE to a restart */
 
 enum {
-  MAX_STEPS = 1000000,   /* between transitions: a thousand times what a hard period takes */
-  MAX_TRANSITIONS = 1000 /* per period: 16 contacts that open, slip, stick, slip, stick and close make 96 an
-                            oscillation */
+  MAX_STEPS = 1000000,            /* between transitions: a thousand times what a hard period takes */
+  MAX_TRANSITIONS = 1000,         /* per period, or that many per contact if it is more: one that closes, slips, */
+  MAX_TRANSITIONS_A_CONTACT = 60, /* sticks, slips, sticks and opens makes 6 an oscillation                      */
+  MAX_STANDSTILLS = 1000          /* returns of CVODE in succession that do not advance theta */
 };
 
 enum { ROOT_UP, ROOT_DOWN, ROOT_TURN, ROOT_BEND, ROOTS };
 
-typedef struct exact { /* from integrate_new_exact, to integrate_free; not shared between threads */
+typedef struct event_driven { /* from integrate_new_exact, to integrate_free; not shared between threads */
   integrator base;
-  int n; /* number of states                                              */
+  int n; /* number of states */
   double tolerance;
-  const scaled_model *m; /* of the period under way; the caller's                         */
-  phase phase;           /* now                                                           */
-  bool varies;           /* the monodromy is asked for                                        */
-  double varied;         /* theta up to which `monodromy` has come                            */
-  double monodromy[SCALED_MAX_STATES * SCALED_MAX_STATES]; /* by columns; rows of W while stuck */
-} exact;
+  const scaled_model *m; /* of the period under way; the caller's */
+  phase phase, before;   /* now; before the last transition */
+  bool varies;           /* the monodromy is asked for */
+  double varied;         /* theta up to which `monodromy` has come */
+  double *monodromy;     /* [n][n] by columns; a slider's row is valid while its contact sticks */
+} event_driven;
 
 static int rhs(sunrealtype theta, N_Vector y, N_Vector dy, void *self)
 {
-  exact *in = self;
+  event_driven *in = self;
   const double *z = NV_DATA_S(y);
   double *dz = NV_DATA_S(dy);
   dz[SCALED_X] = z[SCALED_P];
@@ -71,7 +75,7 @@ static int jacobian(sunrealtype theta, N_Vector y, N_Vector dy, SUNMatrix jac, v
                     N_Vector t3)
 {
   (void)theta, (void)y, (void)dy, (void)t1, (void)t2, (void)t3;
-  const exact *in = self;
+  const event_driven *in = self;
   double *a = SM_DATA_D(jac);
   a[0] = 0, a[1] = -in->phase.k; /* by X */
   a[2] = 1, a[3] = -in->m->c;    /* by P */
@@ -83,7 +87,7 @@ static double never_zero(double g) { return g != 0 ? g : -1e-100; }
 
 static int roots(sunrealtype theta, N_Vector y, sunrealtype *g, void *self)
 {
-  const exact *in = self;
+  const event_driven *in = self;
   const phase *ph = &in->phase;
   const double *z = NV_DATA_S(y);
   for (int i = 0; i < ROOTS; ++i) g[i] = 1;
@@ -97,7 +101,7 @@ static int roots(sunrealtype theta, N_Vector y, sunrealtype *g, void *self)
 
 /* What fails here is memory, whatever the flag: CVodeSetLinearSolver's CVLS_MEM_FAIL is the number of
  * CV_CONV_FAILURE. */
-static hc_status make_cvode(exact *in)
+static hc_status make_cvode(event_driven *in)
 {
   int falls[ROOTS] = {[ROOT_UP] = -1, [ROOT_DOWN] = -1}; /* 0: either way */
   N_VConst(0.0, in->base.y);
@@ -122,116 +126,122 @@ static hc_status make_cvode(exact *in)
 
 static void release(integrator *base)
 {
+  event_driven *in = (event_driven *)base;
+  free(in->phase.contact);
+  free(in->before.contact);
+  free(in->monodromy);
   integrate_free_parts(base);
   free(base);
 }
 
-/* Variations from in->varied to theta: dX'' + c dX' + k dX = sum_j share_j dW_j, a column at a time. The response to
- * a constant force 1 from rest is (1 - e00)/k in X and e01 in P. */
-static void vary_to(exact *in, double theta)
+/* Variations from in->varied to theta in the phase *ph: dX'' + c dX' + k dX = sum_j (dP'/dW_j) dW_j, a column at a time.
+ * The response to a constant force 1 from rest is (1 - e00)/k in X and e01 in P. */
+static void advance_variations(event_driven *in, const phase *ph, double theta)
 {
-  const phase *ph = &in->phase;
   const double span = theta - in->varied, c = in->m->c;
   double e[2][2];
   linear_free_motion(1, c, ph->k, span, e);
   const double step = ph->k != 0 ? (1 - e[0][0]) / ph->k : c != 0 ? (span - e[0][1]) / c : 0.5 * span * span;
   for (int q = 0; q < in->n; ++q) {
     double *z = in->monodromy + q * in->n, pull = 0, x = z[SCALED_X], p = z[SCALED_P];
-    for (int j = 0; j < in->m->n_contacts; ++j) pull += phase_share(ph, j) * z[SCALED_W + j];
+    for (int j = 0; j < in->m->n_contacts; ++j) pull += phase_slider_stiffness(ph, j) * z[SCALED_W + j];
     z[SCALED_X] = e[0][0] * x + e[0][1] * p + step * pull;
     z[SCALED_P] = e[1][0] * x + e[1][1] * p + e[0][1] * pull;
   }
   in->varied = theta;
 }
 
-/* Sliders that have just come to rest. */
-static void vary_held(exact *in, const phase *before)
+/* Rows of the sliders that stick now and did not in *before (NULL: none did). */
+static void start_stick_variations(event_driven *in, const phase *before)
 {
   for (int j = 0; j < in->m->n_contacts; ++j) {
     const phase_contact *pc = &in->phase.contact[j];
     if (pc->state != CONTACT_STICK || (before && before->contact[j].state == CONTACT_STICK)) continue;
     for (int q = 0; q < in->n; ++q) {
       double *z = in->monodromy + q * in->n;
-      z[SCALED_W + j] = pc->own ? (q == SCALED_W + j ? 1.0 : 0.0) : pc->held_by_x * z[SCALED_X];
+      z[SCALED_W + j] = pc->since_start ? (q == SCALED_W + j ? 1.0 : 0.0) : pc->rest_by_x * z[SCALED_X];
     }
   }
 }
 
-static void vary_begin(exact *in)
+static void start_variations(event_driven *in)
 {
-  memset(in->monodromy, 0, sizeof in->monodromy);
+  memset(in->monodromy, 0, sizeof *in->monodromy * (size_t)(in->n * in->n));
   in->monodromy[SCALED_X] = 1;
   in->monodromy[SCALED_P + in->n] = 1;
   in->varied = 0;
-  vary_held(in, NULL);
+  start_stick_variations(in, NULL);
 }
 
 /* Into monodromy[n*n], with the rows of sliders that are tied to X. */
-static void vary_end(exact *in, double *monodromy)
+static void finish_variations(event_driven *in, double *monodromy)
 {
-  vary_to(in, TWO_PI);
+  advance_variations(in, &in->phase, TWO_PI);
   memcpy(monodromy, in->monodromy, sizeof *monodromy * (size_t)(in->n * in->n));
   for (int j = 0; j < in->m->n_contacts; ++j) {
     double rest, by_x;
     phase_slider(&in->phase, j, &rest, &by_x);
-    if (phase_share(&in->phase, j) != 0) continue;
+    if (phase_slider_stiffness(&in->phase, j) != 0) continue;
     for (int q = 0; q < in->n; ++q) monodromy[SCALED_W + j + q * in->n] = by_x * monodromy[SCALED_X + q * in->n];
   }
 }
 
 /* CVODE from theta on, in the phase as it is. */
-static hc_status start(exact *in, double theta)
+static hc_status start(event_driven *in, double theta)
 {
   int flag = CVodeReInit(in->base.cv, theta, in->base.y);
   if (flag == CV_SUCCESS) flag = CVodeSetStopTime(in->base.cv, TWO_PI);
   return integrate_translate(&in->base, flag);
 }
 
+static int most_transitions(const event_driven *in)
+{
+  const int by_contacts = MAX_TRANSITIONS_A_CONTACT * in->m->n_contacts;
+  return by_contacts > MAX_TRANSITIONS ? by_contacts : MAX_TRANSITIONS;
+}
+
 /* CVODE stopped on a root at theta. */
-static hc_status transition(exact *in, double theta, int *count)
+static hc_status pass_root(event_driven *in, double theta, int *count)
 {
   int info[ROOTS] = {0};
   int flag = CVodeGetRootInfo(in->base.cv, info);
   if (flag != CV_SUCCESS) return integrate_translate(&in->base, flag);
   const int way = info[ROOT_TURN] ? info[ROOT_TURN] : info[ROOT_UP] ? 1 : info[ROOT_DOWN] ? -1 : 0;
   if (!way) return HC_OK;
-  const phase before = in->phase;
+  phase_copy(&in->before, &in->phase);
   const int n = phase_next(&in->phase, NV_DATA_S(in->base.y)[SCALED_X], way, info[ROOT_TURN] != 0);
   if (!n) return HC_OK;
-  if ((*count += n) > MAX_TRANSITIONS) return HC_CHATTER;
+  if ((*count += n) > most_transitions(in)) return HC_CHATTER;
   if (in->varies) {
-    phase after = in->phase;
-    in->phase = before;
-    vary_to(in, theta);
-    in->phase = after;
-    vary_held(in, &before);
+    advance_variations(in, &in->before, theta);
+    start_stick_variations(in, &in->before);
   }
   if (theta == TWO_PI) return HC_OK;
   hc_status st = integrate_add_counts(&in->base);
   return st == HC_OK ? start(in, theta) : st;
 }
 
-/* To the end of the period. Unwatched, CVODE returns at roots only; the steps are the same. At tout == tstop 6.4
- * says CV_SUCCESS, 7 says CV_TSTOP_RETURN. */
-static hc_status run(exact *in, integrate_watch *watch, void *self, int *count)
+/* From theta = 0 to the end of the period. Unwatched, CVODE returns at roots only; the steps are the same. At tout ==
+ * tstop version 6.4 says CV_SUCCESS, 7 says CV_TSTOP_RETURN. */
+static hc_status integrate_to_end(event_driven *in, integrate_watch *watch, void *self, int *count)
 {
   sunrealtype theta = 0;
-  for (int still = 0; theta < TWO_PI;) {
+  for (int standstills = 0; theta < TWO_PI;) {
     sunrealtype before = theta;
     int flag = CVode(in->base.cv, TWO_PI, in->base.y, &theta, watch ? CV_ONE_STEP : CV_NORMAL);
     if (flag != CV_SUCCESS && flag != CV_TSTOP_RETURN && flag != CV_ROOT_RETURN)
       return integrate_translate(&in->base, flag);
     if (TWO_PI - theta <= at_end * TWO_PI) theta = TWO_PI;
-    still = theta > before ? 0 : still + 1;
-    if (still > MAX_TRANSITIONS) break;
+    standstills = theta > before ? 0 : standstills + 1;
+    if (standstills > MAX_STANDSTILLS) break;
     hc_status st = watch ? watch(self, &in->base, before, theta) : HC_OK;
-    if (st == HC_OK && flag == CV_ROOT_RETURN) st = transition(in, theta, count);
+    if (st == HC_OK && flag == CV_ROOT_RETURN) st = pass_root(in, theta, count);
     if (st != HC_OK) return st;
   }
   return integrate_check_end(&in->base, theta, 2);
 }
 
-static void take_state(const exact *in, double *y)
+static void copy_state(const event_driven *in, double *y)
 {
   memcpy(y, NV_DATA_S(in->base.y), 2 * sizeof *y);
   for (int j = 0; j < in->m->n_contacts; ++j) {
@@ -244,7 +254,7 @@ static void take_state(const exact *in, double *y)
 static hc_status period(integrator *base, const scaled_model *m, double *y, double *monodromy, integrate_watch *watch,
                         void *self)
 {
-  exact *in = (exact *)base;
+  event_driven *in = (event_driven *)base;
   if (m->n_states != in->n) return HC_BUG;
   in->m = m;
   in->base.not_finite = false;
@@ -252,22 +262,22 @@ static hc_status period(integrator *base, const scaled_model *m, double *y, doub
   base->flag = CV_SUCCESS;
   int count = phase_begin(&in->phase, m, y);
   if (count < 0) return HC_NOT_FINITE;
-  if (monodromy) vary_begin(in);
+  if (monodromy) start_variations(in);
   memcpy(NV_DATA_S(in->base.y), y, 2 * sizeof *y);
   hc_status st = start(in, 0);
-  if (st == HC_OK) st = run(in, watch, self, &count);
+  if (st == HC_OK) st = integrate_to_end(in, watch, self, &count);
   hc_status counted = integrate_add_counts(&in->base);
-  base->switches += count;
+  base->transitions += count;
   if (st == HC_OK) st = counted;
   if (st != HC_OK) return st;
-  take_state(in, y);
-  if (monodromy) vary_end(in, monodromy);
+  copy_state(in, y);
+  if (monodromy) finish_variations(in, monodromy);
   return HC_OK;
 }
 
 static hc_status dense(const integrator *base, double theta, int order, double *y)
 {
-  const exact *in = (const exact *)base;
+  const event_driven *in = (const event_driven *)base;
   if (CVodeGetDky(in->base.cv, theta, order, in->base.dky) != CV_SUCCESS) return HC_BUG; /* theta outside the step */
   memcpy(y, NV_DATA_S(in->base.dky), 2 * sizeof *y);
   for (int j = 0; j < in->m->n_contacts; ++j) {
@@ -278,24 +288,35 @@ static hc_status dense(const integrator *base, double theta, int order, double *
   return HC_OK;
 }
 
-static bool slides(const integrator *base, int j, const double *y)
+static bool slips(const integrator *base, int j, const double *y)
 {
-  (void)y; /* the phase knows */
-  return contact_slip_sign(((const exact *)base)->phase.contact[j].state) != 0;
+  (void)y; /* the phase has the contact's state */
+  return contact_slip_sign(((const event_driven *)base)->phase.contact[j].state) != 0;
 }
 
-static const integrator_class class = {.period = period, .dense = dense, .slides = slides, .free = release};
+/* One contact more than there are: calloc of nothing may answer NULL. */
+static hc_status make_memory(event_driven *in)
+{
+  const size_t n = (size_t)in->n, contacts = n - SCALED_W + 1;
+  in->phase.contact = calloc(contacts, sizeof *in->phase.contact);
+  in->before.contact = calloc(contacts, sizeof *in->before.contact);
+  in->monodromy = calloc(n * n, sizeof *in->monodromy);
+  return in->phase.contact && in->before.contact && in->monodromy ? HC_OK : HC_NO_MEMORY;
+}
+
+static const integrator_class class = {.period = period, .dense = dense, .slips = slips, .free = release};
 
 hc_status integrate_new_exact(int n_states, double tolerance, integrator **out)
 {
   *out = NULL;
-  if (n_states < SCALED_W || n_states > SCALED_MAX_STATES) return HC_BAD_INPUT;
-  exact *in = calloc(1, sizeof *in); /* zeroed, so free works half-built */
+  if (n_states < SCALED_W) return HC_BAD_INPUT;
+  event_driven *in = calloc(1, sizeof *in); /* zeroed, so free works half-built */
   if (!in) return HC_NO_MEMORY;
   in->base.does = &class;
   in->n = n_states;
   in->tolerance = tolerance;
-  hc_status st = integrate_make_parts(&in->base, 2, CV_ADAMS);
+  hc_status st = make_memory(in);
+  if (st == HC_OK) st = integrate_make_parts(&in->base, 2, CV_ADAMS);
   if (st == HC_OK) st = make_cvode(in);
   if (st == HC_OK) {
     *out = &in->base;

@@ -1,4 +1,4 @@
-/* integrate_private.h - what the two integrators share; for integrate*.c alone. */
+/* integrate_private.h - what the two integrators share (integrate.c); for integrate*.c alone. */
 #ifndef HC_TIMEINT_INTEGRATE_PRIVATE_H
 #define HC_TIMEINT_INTEGRATE_PRIVATE_H
 
@@ -15,21 +15,21 @@ typedef struct integrator_class {
   /* monodromy, watch: or NULL */
   hc_status (*period)(integrator *, const scaled_model *, double *y, double *monodromy, integrate_watch *, void *self);
   hc_status (*dense)(const integrator *, double theta, int order, double *y);
-  bool (*slides)(const integrator *, int j, const double *y);
+  bool (*slips)(const integrator *, int j, const double *y);
   void (*free)(integrator *);
 } integrator_class;
 
 struct integrator { /* the first member of each kind */
   const integrator_class *does;
-  long steps, rhs, switches; /* of all finished periods            */
-  int flag;                  /* CVODE's last flag other than success */
-  bool not_finite;           /* the right-hand side was, in the period under way */
-  SUNContext ctx;            /* made first, freed last, this integrator's alone */
-  N_Vector y, dky;           /* [n] what CVODE integrates; dense output */
-  SUNMatrix jac;             /* [n][n] */
+  long steps, rhs, transitions; /* of all finished periods */
+  int flag;                     /* CVODE's last flag other than success */
+  bool not_finite;              /* a right-hand side was not finite in the period under way */
+  SUNContext ctx;               /* made first, freed last, this integrator's alone */
+  N_Vector y, dky;              /* [n] what CVODE integrates; dense output */
+  SUNMatrix jac;                /* [n][n] */
   SUNLinearSolver ls;
   void *cv;
-  bool ready; /* CVODE has been called: it allocates the first time, and crashes if it cannot (room.h) */
+  bool called; /* CVODE has been called: its first call allocates, and crashes if it cannot (sundials_compat.h) */
 };
 
 /* From the context to CVODE's memory, for n equations by `method` (CV_ADAMS, CV_BDF), and back; freeing works
@@ -37,11 +37,11 @@ struct integrator { /* the first member of each kind */
 hc_status integrate_make_parts(integrator *in, int n, int method);
 void integrate_free_parts(integrator *in);
 
-/* A flag of CVODE's in our words; remembered unless it is success. */
+/* The status for a flag of CVODE's; the flag is kept for integrate_flag unless it is success. */
 hc_status integrate_translate(integrator *in, int flag);
 
-/* CVODE's success is believed where it came to: HC_OK if theta is the end of the period and y[n] finite, else
- * HC_INTEGRATOR, HC_NOT_FINITE. */
+/* What CVODE calls success is checked: HC_OK if theta is the end of the period and y[n] finite, else HC_INTEGRATOR,
+ * HC_NOT_FINITE. */
 hc_status integrate_check_end(integrator *in, double theta, int n);
 
 /* Steps and right-hand sides since CVODE was last started, added to the counts. */

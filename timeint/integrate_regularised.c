@@ -1,8 +1,7 @@
-/* integrate_regularised.c - see integrate.h. BDF with the analytic dense Jacobian of model.c: the sliding slider is
- * stiff (its rate is 1/regularisation). Everything is made in integrate_new; a period allocates nothing. The columns of
- * the monodromy matrix are CVODES' forward sensitivities to y(0), switched off in periods without; a period with them
- * takes other steps of the same tolerance: y is as good, but not the same bits. */
-#include "timeint/integrate_private.h"
+/* integrate_regularised.c - see integrate_regularised.h. Everything is made in integrate_new_regularised; a period
+ * allocates nothing. The columns of the monodromy matrix are CVODES' forward sensitivities to y(0), switched off in
+ * periods without; a period with them takes other steps of the same tolerance: y is as good, but not the same bits. */
+#include "timeint/integrate_regularised.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -15,6 +14,7 @@
 
 #include "base/constants.h"
 #include "numerics/sundials_compat.h"
+#include "timeint/integrate_private.h"
 
 static const double variation_tolerance = 1e-6; /* of the variations' steps; they are about 1 */
 
@@ -29,7 +29,8 @@ typedef struct regularised { /* from integrate_new_regularised, to integrate_fre
   int n;                 /* number of states                                                  */
   const scaled_model *m; /* of the period under way; the caller's                             */
   N_Vector *s;           /* [n][n] d y / d y_j(0), j = 0..n-1: CVODES calls them sensitivities */
-  double *here;          /* [n][n] the Jacobian where their right-hand side is wanted         */
+  double *jacobian;      /* [n][n] d y' / d y where their right-hand side is wanted            */
+  double *s_tolerance;   /* [n] absolute tolerance of each s_j, which CVODES copies            */
 } regularised;
 
 static int rhs(sunrealtype theta, N_Vector y, N_Vector dy, void *self)
@@ -55,13 +56,13 @@ static int variation_rhs(int n, sunrealtype theta, N_Vector y, N_Vector dy, N_Ve
 {
   (void)theta, (void)dy, (void)t1, (void)t2;
   regularised *in = self;
-  scaled_jacobian(in->m, NV_DATA_S(y), in->here);
+  scaled_jacobian(in->m, NV_DATA_S(y), in->jacobian);
   for (int j = 0; j < n; ++j) {
     const double *from = NV_DATA_S(s[j]);
     double *to = NV_DATA_S(ds[j]);
     memset(to, 0, sizeof *to * (size_t)n);
     for (int k = 0; k < n; ++k)
-      for (int i = 0; i < n; ++i) to[i] += in->here[i + k * n] * from[k];
+      for (int i = 0; i < n; ++i) to[i] += in->jacobian[i + k * n] * from[k];
   }
   return 0;
 }
@@ -88,22 +89,21 @@ static hc_status make_cvode(regularised *in, double tolerance)
   return integrate_first_flag(flags, sizeof flags / sizeof *flags) == CV_SUCCESS ? HC_OK : HC_NO_MEMORY;
 }
 
-/* Their errors are watched, too, if loosely: without that a step may leap over a corner that hardly moves y and put
- * the monodromy matrix off by 4e-3 (measured; with it 3e-5 at worst), which costs Newton a step and hides a fold.
- * Staggered: y is solved for first, then all variations; solving for both at once was measured as dear, and no
- * better. */
+/* The error test includes the variations, with a coarse tolerance. Without them a step may pass over a corner that
+ * hardly changes y and put the monodromy matrix off by 4e-3 (measured; with them 3e-5 at worst), which costs Newton a
+ * step and can hide a fold. CV_STAGGERED: y is solved for first, then all variations; solving for both at once
+ * (CV_SIMULTANEOUS) cost as much and was no more accurate. */
 static hc_status make_variations(regularised *in)
 {
-  double absolute[SCALED_MAX_STATES];
   for (int j = 0; j < in->n; ++j) {
     N_VConst(0.0, in->s[j]);
-    absolute[j] = variation_tolerance;
+    in->s_tolerance[j] = variation_tolerance;
   }
   if (!hc_room_for(0)) return HC_NO_MEMORY;
   int flag = CVodeSensInit(in->base.cv, in->n, CV_STAGGERED, variation_rhs, in->s); /* first: the other calls need it */
   if (flag != CV_SUCCESS) return HC_NO_MEMORY;
   const int flags[] = {
-      CVodeSensSStolerances(in->base.cv, variation_tolerance, absolute),
+      CVodeSensSStolerances(in->base.cv, variation_tolerance, in->s_tolerance),
       CVodeSetSensErrCon(in->base.cv, 1),
       CVodeSensToggleOff(in->base.cv),
   };
@@ -115,15 +115,17 @@ static hc_status make_parts(regularised *in)
   hc_status st = integrate_make_parts(&in->base, in->n, CV_BDF);
   if (st != HC_OK) return st;
   in->s = N_VCloneVectorArray(in->n, in->base.y); /* room: asked for above */
-  in->here = calloc((size_t)in->n * (size_t)in->n, sizeof *in->here);
-  return in->s && in->here ? HC_OK : HC_NO_MEMORY;
+  in->jacobian = calloc((size_t)in->n * (size_t)in->n, sizeof *in->jacobian);
+  in->s_tolerance = calloc((size_t)in->n, sizeof *in->s_tolerance);
+  return in->s && in->jacobian && in->s_tolerance ? HC_OK : HC_NO_MEMORY;
 }
 
 static void release(integrator *base)
 {
   regularised *in = (regularised *)base;
   if (in->s) N_VDestroyVectorArray(in->s, in->n);
-  free(in->here);
+  free(in->jacobian);
+  free(in->s_tolerance);
   integrate_free_parts(base);
   free(base);
 }
@@ -146,7 +148,7 @@ static hc_status start_period(regularised *in, bool varies)
 }
 
 /* To the end of the period in one call. At tout == tstop 6.4 says CV_SUCCESS, 7 says CV_TSTOP_RETURN. */
-static hc_status run(regularised *in)
+static hc_status integrate_unwatched(regularised *in)
 {
   sunrealtype theta = 0;
   int flag = CVode(in->base.cv, TWO_PI, in->base.y, &theta, CV_NORMAL);
@@ -155,21 +157,21 @@ static hc_status run(regularised *in)
 }
 
 /* The same steps, one call each. */
-static hc_status run_watched(regularised *in, integrate_watch *watch, void *self)
+static hc_status integrate_watched(regularised *in, integrate_watch *watch, void *self)
 {
   for (sunrealtype theta = 0;;) {
     sunrealtype before = theta;
     int flag = CVode(in->base.cv, TWO_PI, in->base.y, &theta, CV_ONE_STEP);
     if (flag != CV_SUCCESS && flag != CV_TSTOP_RETURN) return integrate_translate(&in->base, flag);
     bool last = flag == CV_TSTOP_RETURN || !(theta < TWO_PI);
-    /* no step that stands still */
+    /* a step that does not advance theta ends here too: HC_INTEGRATOR */
     hc_status st = last || !(theta > before) ? integrate_check_end(&in->base, theta, in->n) : HC_OK;
     if (st == HC_OK) st = watch(self, &in->base, before, theta);
     if (st != HC_OK || last) return st;
   }
 }
 
-static hc_status take_monodromy(regularised *in, double *monodromy)
+static hc_status copy_monodromy(regularised *in, double *monodromy)
 {
   sunrealtype theta;
   int flag = CVodeGetSens(in->base.cv, &theta, in->s);
@@ -187,10 +189,10 @@ static hc_status period(integrator *base, const scaled_model *m, double *y, doub
   base->flag = CV_SUCCESS;
   memcpy(NV_DATA_S(in->base.y), y, bytes);
   hc_status st = start_period(in, monodromy != NULL);
-  if (st == HC_OK) st = watch ? run_watched(in, watch, self) : run(in);
+  if (st == HC_OK) st = watch ? integrate_watched(in, watch, self) : integrate_unwatched(in);
   hc_status counted = integrate_add_counts(&in->base);
   if (st == HC_OK) st = counted;
-  if (st == HC_OK && monodromy) st = take_monodromy(in, monodromy);
+  if (st == HC_OK && monodromy) st = copy_monodromy(in, monodromy);
   if (st == HC_OK) memcpy(y, NV_DATA_S(in->base.y), bytes);
   return st;
 }
@@ -203,12 +205,12 @@ static hc_status dense(const integrator *base, double theta, int order, double *
   return HC_OK;
 }
 
-static bool slides(const integrator *base, int j, const double *y)
+static bool slips(const integrator *base, int j, const double *y)
 {
-  return scaled_slides(((const regularised *)base)->m, j, y);
+  return scaled_slips(((const regularised *)base)->m, j, y);
 }
 
-static const integrator_class class = {.period = period, .dense = dense, .slides = slides, .free = release};
+static const integrator_class class = {.period = period, .dense = dense, .slips = slips, .free = release};
 
 hc_status integrate_new_regularised(int n_states, double tolerance, integrator **out)
 {

@@ -4,7 +4,7 @@
 law_regularised law_regularised_make(const contact *c, double width, double relaxation)
 {
   law_regularised r = {.kt = c->kt, .kn = c->kn, .mu = c->mu, .gap = c->gap, .width = width, .eta = relaxation * c->kt};
-  r.slides = c->kt > 0 && c->kn > 0 && c->mu > 0;
+  r.has_friction = c->kt > 0 && c->kn > 0 && c->mu > 0;
   return r;
 }
 
@@ -44,7 +44,7 @@ static double excess_force(double t, double limit) { return t > limit ? t - limi
 law_value law_regularised_eval(const law_regularised *c, double u, double v, double w)
 {
   law_value r = {.n = normal_force(c, v), .change = normal_change(c, v)};
-  if (!c->slides) return r;
+  if (!c->has_friction) return r;
   r.t = c->kt * (u - w);
   double excess = excess_force(r.t, c->mu * r.n);
   r.rate = excess / c->eta;
@@ -55,7 +55,7 @@ law_value law_regularised_eval(const law_regularised *c, double u, double v, dou
 law_derivatives law_regularised_derivatives(const law_regularised *c, double u, double v, double w)
 {
   law_derivatives r = {.n_v = normal_stiffness(c, v)};
-  if (!c->slides) return r;
+  if (!c->has_friction) return r;
   r.t_u = c->kt;
   double excess = excess_force(c->kt * (u - w), c->mu * normal_force(c, v));
   if (excess == 0) return r;

@@ -7,13 +7,14 @@
  *     T  = S, limited to +-mu N                        what reaches the mass; `overstress`: T = S, the dashpot's
  *                                                      force eta w' included
  *
- * width -> 0, eta -> 0 give the exact law. |S| <= mu N sticks exactly, w does not move. Normal: second order in
- * width (a bump as wide as width, as high as kn width). Tangential, overstress: first order in eta, everywhere the
- * slider moves; a separated contact drags like a dashpot eta. Tangential, limited: T is exact in slip and
- * separation. w trails by eta w'/kt, which is 0 again where a slip ends (second order), but not where a contact
- * closes and sticks (first order, of eta u'/kt at that instant). Measured figures: README.md. Written in the
- * tangential motion u and the normal motion v [length]; how they come from the degrees of freedom is the caller's
- * business. Any consistent units. Needs libm only, allocates nothing, keeps no state, cannot fail. */
+ * width -> 0, eta -> 0 give the exact law. Where |S| <= mu N the contact sticks exactly, w is at rest. Errors:
+ *   normal                   second order in width: N is off by at most kn width, over a range of some widths
+ *   tangential, overstress   first order in eta wherever w moves; a separated contact acts like a dashpot eta
+ *   tangential, limited      T is exact in slip and separation; w lags by eta w'/kt, which is 0 where a slip ends
+ *                            (second order), but not where a contact closes and sticks (first order: eta u'/kt then)
+ * Measured figures: README.md. Written in the tangential motion u and the normal motion v [length]; the caller derives
+ * them from the degrees of freedom. Any consistent units. Needs libm only, allocates nothing, keeps no state, cannot
+ * fail. */
 #ifndef HC_LAW_REGULARISED_H
 #define HC_LAW_REGULARISED_H
 
@@ -24,9 +25,9 @@
 typedef struct law_regularised {
   double kt, kn, mu, gap; /* as in contact_law.h */
   double width;           /* [length] >= 0 of the corner in N; 0 is the exact corner */
-  double eta;             /* [force time/length] > 0 where `slides` */
+  double eta;             /* [force time/length] > 0 where has_friction */
   bool overstress;        /* the dashpot's force reaches the mass; law_regularised_make says no */
-  bool slides; /* kt, kn and mu all > 0; otherwise the exact law has T = 0, which is what is returned, w' = 0 */
+  bool has_friction;      /* kt, kn and mu all > 0; otherwise T = 0, as in the exact law, and w' = 0 */
 } law_regularised;
 
 typedef struct law_value {
@@ -39,7 +40,7 @@ typedef struct law_derivatives {
   double n_v, t_u, t_v, rate_u, rate_v;
 } law_derivatives;
 
-/* The law of `c`, its slider relaxing at the rate kt/eta = 1/relaxation [1/time] once it slides. width >= 0,
+/* The law of `c`, its slider relaxing at the rate kt/eta = 1/relaxation [1/time] while it slips. width >= 0,
  * relaxation > 0. */
 law_regularised law_regularised_make(const contact *c, double width, double relaxation);
 

@@ -1,27 +1,25 @@
-/* march.c - the steady state by waiting for it.
- *
- * A period is marched after another: the first in the finest steps of CVODE (timeint_final_tolerance), to see how
- * much the state moves; the next ones in steps as coarse as that allows, and in finer ones as it moves less. Only in
- * the finest is the orbit judged (settle.h), and its period or k periods measured. */
+/* march.c - see march.h. The first period is integrated with the finest tolerance of CVODE (timeint_final_tolerance), to
+ * see how much the state moves; the next ones with a tolerance as coarse as that allows, and a finer one as the state
+ * moves less. Only with the finest is the orbit judged (settle.h), and its period or k periods measured. */
+#include "timeint/march.h"
+
 #include <math.h>
-#include <string.h>
 
-#include "timeint/internal.h"
+#include "timeint/timeint_private.h"
 
-/* Coarse steps are 3 to 5 times as cheap, and lose nothing while the state is farther off than they put it: by up to
- * 250 times the tolerance a period, which adds up over 1/(1 - rho) periods to at least 1/sqrt(1 - rho) times that.
- * Hence drift sqrt(1 - rho)/1000. (A start on the orbit must not be thrown off it.) */
+/* Coarse steps cost a third to a fifth, and lose nothing while the state is farther from the orbit than their error puts
+ * it: up to 250 times the tolerance a period, which adds up over 1/(1 - rho) periods to at least 1/sqrt(1 - rho) times
+ * that. Hence drift sqrt(1 - rho)/1000: a start on the orbit keeps the finest tolerance and stays on it. */
 static const double coarsest = 1e-8, drift_over_tolerance = 1e3, refine_by = 0.1;
-enum { STAY = 20 }; /* baselines at one tolerance at most, lest a scatter larger than thought keep it */
+enum { MOST_BASELINES = 20 }; /* at one tolerance: if the scatter is larger than expected, drift never falls below it */
 
 static void push(timeint *ti)
 {
-  double z[SCALED_MAX_STATES];
-  timeint_point(ti, z);
-  settle_push(ti->settle, z);
+  timeint_point(ti, ti->point[0]);
+  settle_push(ti->settle, ti->point[0]);
 }
 
-static hc_status march_one(timeint *ti, bool measured)
+static hc_status one_period(timeint *ti, bool measured)
 {
   hc_status st = timeint_period(ti, measured);
   if (st == HC_OK) push(ti);
@@ -30,7 +28,7 @@ static hc_status march_one(timeint *ti, bool measured)
 
 /* How a march is going. */
 typedef struct progress {
-  int since;          /* periods at this tolerance */
+  int periods;        /* at this tolerance */
   double contraction; /* measured while the drift was last far above the scatter, NaN before */
   double amplitude;   /* of the last measurement, INFINITY before; the size of the state also counts its mean */
 } progress;
@@ -44,7 +42,7 @@ static double coarsest_allowed(const timeint *ti)
 
 static hc_status use_tolerance(timeint *ti, progress *p, double tolerance)
 {
-  p->since = 0;
+  p->periods = 0;
   settle_restart(ti->settle); /* another tolerance has another fixed point */
   return timeint_set_tolerance(ti, tolerance);
 }
@@ -57,14 +55,14 @@ static hc_status start(timeint *ti, progress *p)
   return use_tolerance(ti, p, timeint_final_tolerance(ti));
 }
 
-/* After each period: coarser steps after the first, finer ones once the state moves too little for these. */
-static hc_status adapt(timeint *ti, progress *p)
+/* After each period: a coarser tolerance after the first, a finer one once the state moves too little for the present. */
+static hc_status adapt_tolerance(timeint *ti, progress *p)
 {
   const double allowed = coarsest_allowed(ti), finest = timeint_final_tolerance(ti);
   if (ti->periods == 1) return allowed > finest ? use_tolerance(ti, p, allowed) : HC_OK;
   bool far = allowed >= ti->tolerance && allowed > finest;
   if (far) p->contraction = settle_rate(ti->settle);
-  if (ti->tolerance <= finest || (far && ++p->since < STAY * settle_baseline(ti->settle))) return HC_OK;
+  if (ti->tolerance <= finest || (far && ++p->periods < MOST_BASELINES * settle_baseline(ti->settle))) return HC_OK;
   return use_tolerance(ti, p, fmax(finest, refine_by * ti->tolerance));
 }
 
@@ -73,7 +71,7 @@ static hc_status measure_orbit(timeint *ti, int k, progress *p, timeint_result *
 {
   measure_begin(&ti->measure, &ti->scaled);
   for (int i = 0; i < k; ++i) {
-    hc_status st = march_one(ti, true);
+    hc_status st = one_period(ti, true);
     if (st != HC_OK) return st;
   }
   measure_report(&ti->measure, ti->model, ti->length, r);
@@ -85,16 +83,17 @@ static hc_status measure_orbit(timeint *ti, int k, progress *p, timeint_result *
   return HC_OK;
 }
 
-/* Is it worth measuring? `amplitude`: the best known; a guess will do, as the measured one decides. */
+/* k if the states seem to have settled to a cycle of k periods, to be measured; else 0. `amplitude`: the best known; an
+ * estimate suffices, since measure_orbit judges by the measured one. */
 static int seems_settled(const timeint *ti, double amplitude)
 {
   if (ti->tolerance > timeint_final_tolerance(ti)) return 0;
   const double goal = ti->how.tolerance * amplitude;
-  if (!(settle_drift(ti->settle) <= 2 * goal)) return 0; /* cheap, and necessary */
+  if (!(settle_drift(ti->settle) <= 2 * goal)) return 0; /* a necessary condition that costs little */
   return settle_judge(ti->settle, goal).multiple;
 }
 
-hc_status timeint_march(timeint *ti, const hc_monitor *monitor, timeint_result *r)
+hc_status march_to_steady_state(timeint *ti, const hc_monitor *monitor, timeint_result *r)
 {
   const int most = ti->how.max_periods;
   progress p;
@@ -102,7 +101,7 @@ hc_status timeint_march(timeint *ti, const hc_monitor *monitor, timeint_result *
   r->method = TIMEINT_BY_MARCHING;
   while (st == HC_OK && ti->periods < most - 1) {
     if (!hc_monitor_tick(monitor, (double)ti->periods / most)) return HC_INTERRUPTED;
-    if ((st = march_one(ti, false)) != HC_OK || (st = adapt(ti, &p)) != HC_OK) return st;
+    if ((st = one_period(ti, false)) != HC_OK || (st = adapt_tolerance(ti, &p)) != HC_OK) return st;
     int k = seems_settled(ti, fmin(p.amplitude, timeint_size(ti)));
     if (k == 0 || ti->periods + k > most) continue;
     if ((st = measure_orbit(ti, k, &p, r)) != HC_OK || r->period_multiple > 0) return st;

@@ -3,17 +3,31 @@
 
 #include <float.h>
 #include <math.h>
-#include <string.h>
+#include <stdlib.h>
 
 #include "base/constants.h"
+#include "model/periodic_motion.h"
 #include "numerics/roots.h"
+
+hc_status measure_make(measure *me, int n_states)
+{
+  const size_t n = (size_t)n_states;
+  *me = (measure){
+      .end = calloc(n, sizeof(double)), .end_rate = calloc(n, sizeof(double)), .inside = calloc(n, sizeof(double))};
+  return me->end && me->end_rate && me->inside ? HC_OK : HC_NO_MEMORY;
+}
+
+void measure_free(measure *me)
+{
+  free(me->end);
+  free(me->end_rate);
+  free(me->inside);
+}
 
 void measure_begin(measure *me, const scaled_model *m)
 {
-  memset(me, 0, sizeof *me);
-  me->m = m;
-  me->max = -INFINITY;
-  me->min = INFINITY;
+  *me = (measure){
+      .m = m, .max = -INFINITY, .min = INFINITY, .end = me->end, .end_rate = me->end_rate, .inside = me->inside};
 }
 
 static void extend(measure *me, double x)
@@ -22,7 +36,7 @@ static void extend(measure *me, double x)
   if (x < me->min) me->min = x;
 }
 
-static void take_instant(measure *me, double x)
+static void add_instant(measure *me, double x)
 {
   double theta = TWO_PI * me->next / TIMEINT_WAVE;
   me->sum += x;
@@ -32,23 +46,22 @@ static void take_instant(measure *me, double x)
   me->wave[me->next++] = x;
 }
 
-/* At the end of a step, and at the start of a period (`in` NULL): where the next step begins. */
-static void take_end(measure *me, const integrator *in, double theta, const double *y)
+/* Where the next step begins: state y, P' = a. */
+static void begin_step(measure *me, const double *y, double a)
 {
-  double dy[SCALED_MAX_STATES];
-  scaled_rhs(me->m, theta, y, dy); /* finite: CVODE has just been here */
-  memcpy(me->y, y, sizeof *y * (size_t)me->m->n_states);
-  me->a = dy[SCALED_P];
-  extend(me, y[SCALED_X]);
-  for (int j = 0; j < me->m->n_contacts; ++j) me->slides = me->slides || (in && integrate_slides(in, j, y));
+  me->x = y[SCALED_X];
+  me->p = y[SCALED_P];
+  me->a = a;
+  extend(me, me->x);
 }
 
 void measure_period(measure *me, const double *y)
 {
   ++me->periods;
   me->next = 0;
-  take_end(me, NULL, 0, y);
-  take_instant(me, y[SCALED_X]);
+  scaled_rhs(me->m, 0, y, me->end_rate); /* not finite: then CVODE fails in its first step */
+  begin_step(me, y, me->end_rate[SCALED_P]);
+  add_instant(me, y[SCALED_X]);
 }
 
 /* P's derivative of the given order (0: P itself) by CVODE's dense output. */
@@ -77,50 +90,55 @@ static hc_status find_root(const integrator *in, int order, double t0, double f0
   return st == HC_OK ? integrate_dense(in, found.x, 0, y) : st;
 }
 
-static hc_status take_peak(measure *me, const integrator *in, double t0, double p0, double t1, double p1)
+/* The peak of x between t0, where P = p0, and t1, where P = p1, if P changes sign. */
+static hc_status add_peak(measure *me, const integrator *in, double t0, double p0, double t1, double p1)
 {
-  double y[SCALED_MAX_STATES], t;
-  if ((p0 > 0) == (p1 > 0)) return HC_OK; /* p = 0 at an end was taken as a step's end */
-  hc_status st = find_root(in, 0, t0, p0, t1, p1, y, &t);
-  if (st == HC_OK) extend(me, y[SCALED_X]);
+  double t;
+  if ((p0 > 0) == (p1 > 0)) return HC_OK; /* P = 0 at an end of the step: begin_step has x there */
+  hc_status st = find_root(in, 0, t0, p0, t1, p1, me->inside, &t);
+  if (st == HC_OK) extend(me, me->inside[SCALED_X]);
   return st;
 }
 
-/* Peaks of x between me->y at t0 and y, a at t1: where P changes sign, at most twice in a step. */
-static hc_status take_peaks(measure *me, const integrator *in, double t0, double t1, const double *y, double a)
+/* The peaks of x in the step from t0, where it began, to t1, where P = p1 and P' = a1: P changes sign at most twice. */
+static hc_status add_peaks(measure *me, const integrator *in, double t0, double t1, double p1, double a1)
 {
-  double p0 = me->y[SCALED_P], p1 = y[SCALED_P], mid[SCALED_MAX_STATES], t;
-  bool turns = (p0 > 0) == (p1 > 0) && (me->a > 0) != (a > 0) && (me->a > 0) != (p0 > 0);
-  if (!turns) return take_peak(me, in, t0, p0, t1, p1);
-  hc_status st = find_root(in, 1, t0, me->a, t1, a, mid, &t); /* P comes nearest to 0 here */
-  if (st == HC_OK) st = take_peak(me, in, t0, p0, t, mid[SCALED_P]);
-  return st == HC_OK ? take_peak(me, in, t, mid[SCALED_P], t1, p1) : st;
+  const double p0 = me->p;
+  double t;
+  bool turns = (p0 > 0) == (p1 > 0) && (me->a > 0) != (a1 > 0) && (me->a > 0) != (p0 > 0);
+  if (!turns) return add_peak(me, in, t0, p0, t1, p1);
+  hc_status st = find_root(in, 1, t0, me->a, t1, a1, me->inside, &t); /* P comes nearest to 0 here */
+  const double p = me->inside[SCALED_P];
+  if (st == HC_OK) st = add_peak(me, in, t0, p0, t, p);
+  return st == HC_OK ? add_peak(me, in, t, p, t1, p1) : st;
 }
 
 hc_status measure_step(void *self, const integrator *in, double theta0, double theta1)
 {
   measure *me = self;
-  double y[SCALED_MAX_STATES], dy[SCALED_MAX_STATES];
+  double *y = me->end;
   for (double t; me->next < TIMEINT_WAVE && (t = TWO_PI * me->next / TIMEINT_WAVE) <= theta1;) {
-    hc_status st = integrate_dense(in, t, 0, y);
+    hc_status st = integrate_dense(in, t, 0, me->inside);
     if (st != HC_OK) return st;
-    take_instant(me, y[SCALED_X]);
+    add_instant(me, me->inside[SCALED_X]);
   }
   hc_status st = integrate_dense(in, theta1, 0, y);
   if (st != HC_OK) return st;
-  scaled_rhs(me->m, theta1, y, dy);
-  if ((st = take_peaks(me, in, theta0, theta1, y, dy[SCALED_P])) != HC_OK) return st;
-  take_end(me, in, theta1, y);
+  scaled_rhs(me->m, theta1, y, me->end_rate); /* finite: CVODE has just been here */
+  const double a = me->end_rate[SCALED_P];
+  if ((st = add_peaks(me, in, theta0, theta1, y[SCALED_P], a)) != HC_OK) return st;
+  begin_step(me, y, a);
+  for (int j = 0; j < me->m->n_contacts; ++j) me->slips = me->slips || integrate_slips(in, j, y);
   return HC_OK;
 }
 
 /* The strongest thing contact c does while its motion covers [min, max]. */
-static contact_regime regime_of(const model_contact *c, double min, double max, bool slides)
+static contact_regime regime_of(const model_contact *c, double min, double max, bool slips)
 {
   const double sine = c->normal;
   if (!(c->law.kn > 0) || !(sine * max + c->law.gap > 0)) return CONTACT_LINEAR; /* never touched */
   if (sine * min + c->law.gap < 0) return CONTACT_SEPARATES;
-  return slides ? CONTACT_SLIPS : CONTACT_STUCK;
+  return slips ? CONTACT_SLIPS : CONTACT_STUCK;
 }
 
 void measure_report(const measure *me, const model *from, double length, timeint_result *r)
@@ -128,7 +146,7 @@ void measure_report(const measure *me, const model *from, double length, timeint
   const double n = (double)TIMEINT_WAVE * me->periods;
   r->max = me->max * length;
   r->min = me->min * length;
-  r->amplitude = 0.5 * (me->max - me->min) * length;
+  r->amplitude = motion_amplitude(me->max, me->min) * length;
   r->mean = me->sum / n * length;
   r->rms = sqrt(me->sum_sq / n) * length;
   r->a1 = 2 * me->sum_cos / n * length;
@@ -137,7 +155,7 @@ void measure_report(const measure *me, const model *from, double length, timeint
   for (int i = 0; i < TIMEINT_WAVE; ++i) r->wave[i] = me->wave[i] * length;
   r->regime = CONTACT_LINEAR;
   for (int j = 0; j < from->n_contacts; ++j) {
-    contact_regime one = regime_of(&from->contacts[j], r->min, r->max, me->slides);
+    contact_regime one = regime_of(&from->contacts[j], r->min, r->max, me->slips);
     if (one > r->regime) r->regime = one;
   }
 }

@@ -1,29 +1,35 @@
 /* measure.h - what is reported of one or several successive periods, from CVODE's dense output.
  *
- * Peaks: roots of v, bracketed inside each step (a pair of them by an extremum of v of the other sign), refined to
- * rounding; x there errs by second order in the root. The wave: x at TIMEINT_WAVE equispaced instants. Mean, rms and
- * first harmonic are sums over these; x has a continuous second derivative, its harmonics fall like h^-4, so what
- * folds over from 512 and up is below 512^-4 = 1.5e-11 of x. */
+ * Peaks: roots of v, bracketed inside each step (two roots in one step by the extremum of v between them) and refined
+ * to rounding; the error of x there is of second order in that of the root. The wave: x at TIMEINT_WAVE equispaced
+ * instants. Mean, rms and first harmonic are sums over these; x has a continuous second derivative, its harmonics fall
+ * like h^-4, so the aliases of harmonics from 512 on are below 512^-4 = 1.5e-11 of x. */
 #ifndef HC_TIMEINT_MEASURE_H
 #define HC_TIMEINT_MEASURE_H
 
 #include "timeint/integrate.h"
-#include "timeint/timeint.h"
+#include "timeint/steady.h"
 
 typedef struct measure { /* lengths in units of the model's L, until measure_report */
   const scaled_model *m;
-  int periods;                    /* begun so far                                            */
-  int next;                       /* index of the next instant of the wave                   */
-  double y[SCALED_MAX_STATES], a; /* state and P' at the end of the last step         */
+  int periods;    /* begun so far                                            */
+  int next;       /* index of the next instant of the wave                   */
+  double x, p, a; /* X, P, P' at the end of the last step                    */
   double max, min;
   double sum, sum_sq, sum_cos, sum_sin; /* over the instants                         */
-  bool slides;                          /* some contact slid at the end of some step               */
+  bool slips;                           /* some contact slipped at the end of some step            */
   double wave[TIMEINT_WAVE];
+  double *end, *end_rate, *inside; /* [n_states] a state at a step's end, its derivative, a state inside a step */
 } measure;
 
+/* Memory for models of n_states equations. HC_NO_MEMORY; measure_free in any case. */
+hc_status measure_make(measure *me, int n_states);
+void measure_free(measure *me);
+
+/* *m stays the caller's, unchanged until the last period. */
 void measure_begin(measure *me, const scaled_model *m);
 
-/* y: state at the start of a period. Then hand measure_step and me to integrate_period. */
+/* y: state at the start of a period. Then integrate_period(..., measure_step, me). */
 void measure_period(measure *me, const double *y);
 hc_status measure_step(void *self, const integrator *in, double theta0, double theta1);
 

@@ -3,6 +3,7 @@
 
 #include <float.h>
 #include <math.h>
+#include <string.h>
 
 static const double rounding = 16 * DBL_EPSILON; /* of sums of a few terms, relative to their sizes */
 
@@ -36,31 +37,31 @@ void phase_slider(const phase *ph, int j, double *rest, double *by_x)
   const phase_contact *pc = &ph->contact[j];
   *rest = 0;
   *by_x = mc->cosine;
-  if (!mc->law.slides || pc->state == CONTACT_SEPARATED) return;
+  if (!mc->law.has_friction || pc->state == CONTACT_SEPARATED) return;
   if (pc->state != CONTACT_STICK) {
     slipping_slider(mc, contact_slip_sign(pc->state), rest, by_x);
     return;
   }
-  *rest = pc->held;
+  *rest = pc->rest;
   *by_x = 0;
 }
 
-double phase_share(const phase *ph, int j)
+double phase_slider_stiffness(const phase *ph, int j)
 {
   const scaled_contact *mc = &ph->m->contact[j];
-  return mc->law.slides && ph->contact[j].state == CONTACT_STICK ? mc->law.kt * mc->cosine : 0.0;
+  return mc->law.has_friction && ph->contact[j].state == CONTACT_STICK ? mc->law.kt * mc->cosine : 0.0;
 }
 
-static void stick(phase_contact *pc, double held, double held_by_x)
+static void stick(phase_contact *pc, double rest, double rest_by_x)
 {
   pc->state = CONTACT_STICK;
-  pc->own = false;
-  pc->held = held;
-  pc->held_by_x = held_by_x;
+  pc->since_start = false;
+  pc->rest = rest;
+  pc->rest_by_x = rest_by_x;
 }
 
-/* From slip(sign) at x. The guard s kt u' - mu kn v' vanishes there, and it is kt times the rate of u - s mu N/kt:
- * that the instant moves with the state changes nothing, dw = du - s mu dN/kt. */
+/* From slip(sign) at x. The guard s kt u' - mu kn v' vanishes there, and it is kt times the rate of u - s mu N/kt, so a
+ * change of the instant has no effect on w to first order: dw = du - s mu dN/kt. */
 static void stick_from_slip(phase_contact *pc, const scaled_contact *mc, int sign, double x)
 {
   double rest, by_x;
@@ -68,14 +69,14 @@ static void stick_from_slip(phase_contact *pc, const scaled_contact *mc, int sig
   stick(pc, rest + by_x * x, by_x);
 }
 
-/* Where v + gap rises through 0, at the instant t*: w = u(t*), so dw = du + u' dt* with dt* = -dv/v'. u and v being
- * proportional to X that is cos dX - cos P (sin dX)/(sin P) = 0: the slider comes to rest at the same place always.
- * The velocities enter contact_on_touch as ratios only. */
+/* v + gap rises through 0 at the instant t*: w = u(t*), so dw = du + u' dt* with dt* = -dv/v'. u and v are proportional
+ * to X, so that is cos dX - cos P (sin dX)/(sin P) = 0: the slider comes to rest at the same place whatever the motion.
+ * Only the ratio of the velocities enters contact_on_touch. */
 static void touch(phase_contact *pc, const scaled_contact *mc)
 {
   const contact law = law_of(mc);
   stick(pc, mc->cosine * pc->up, 0);
-  if (mc->law.slides) pc->state = contact_on_touch(&law, mc->cosine, mc->sine);
+  if (mc->law.has_friction) pc->state = contact_on_touch(&law, mc->cosine, mc->sine);
 }
 
 /* Where the guard of stick against slip(sign) vanishes; it is linear in X. */
@@ -85,8 +86,8 @@ static void bound_by_slip(phase_contact *pc, const scaled_contact *mc, int sign,
   const double u = mc->cosine * x, v = mc->sine * x;
   const double falls = contact_guard_slip(&law, sign, mc->cosine, mc->sine); /* minus the guard's derivative to X */
   if (!(fabs(falls) > rounding * (law.kt * mc->cosine + law.mu * law.kn * mc->sine))) return; /* constant */
-  const double at = x + contact_guard_stick(&law, sign, u, v, pc->held) / falls;
-  const bool with_separation = fabs(at - edge) <= guard_noise(&law, u, v, pc->held) / fabs(falls);
+  const double at = x + contact_guard_stick(&law, sign, u, v, pc->rest) / falls;
+  const bool with_separation = fabs(at - edge) <= guard_noise(&law, u, v, pc->rest) / fabs(falls);
   if (falls > 0 && at < pc->up) {
     pc->up = at;
     pc->after_up = slip(sign);
@@ -107,12 +108,12 @@ static void bound(phase_contact *pc, const scaled_contact *mc, double x)
   }
   pc->down = edge;
   pc->after_down = CONTACT_SEPARATED;
-  if (pc->state != CONTACT_STICK || !mc->law.slides) return;
+  if (pc->state != CONTACT_STICK || !mc->law.has_friction) return;
   bound_by_slip(pc, mc, 1, x, edge);
   bound_by_slip(pc, mc, -1, x, edge);
 }
 
-/* Does contact j end at x, moving on? If so it is in its next state. */
+/* Does the state of contact j end at x, P having the sign ph->way? If so the contact is in its next state. */
 static bool cross(phase *ph, int j, double x)
 {
   phase_contact *pc = &ph->contact[j];
@@ -129,8 +130,8 @@ static bool cross(phase *ph, int j, double x)
   return false;
 }
 
-/* Every contact in the state it has just after x. Ends: moving one way, a contact passes at most stick, slip,
- * separated in this order, or separated, stick, slip. */
+/* Every contact in the state it has just after x. The inner loop ends: while X moves one way, a contact passes at most
+ * through stick, slip, separated in this order, or separated, stick, slip. */
 static int cross_all(phase *ph, double x)
 {
   int n = 0;
@@ -153,11 +154,11 @@ static void add_contact(phase *ph, int j)
   }
   const double friction = contact_slip_sign(pc->state) * law->mu * mc->cosine, n0 = law->kn * law->gap;
   ph->k += (mc->sine + friction) * law->kn * mc->sine;
-  ph->d += friction * n0 + (law->gap > 0 ? 0 : mc->sine * n0); /* the preload is balanced: left out, not added and
-                                                                  taken away */
-  const double share = phase_share(ph, j);
-  ph->k += share * mc->cosine;
-  ph->d -= share * pc->held;
+  ph->d += friction * n0 + (law->gap > 0 ? 0 : mc->sine * n0); /* N - N0: N0 is left out, not added and
+                                                                  subtracted */
+  const double kt = phase_slider_stiffness(ph, j);
+  ph->k += kt * mc->cosine;
+  ph->d -= kt * pc->rest;
 }
 
 /* Coefficients and ends from the contacts' states. */
@@ -174,7 +175,7 @@ static void gather(phase *ph, double x)
     ph->down = fmax(ph->down, ph->contact[j].down);
     ph->slips = ph->slips || contact_slip_sign(ph->contact[j].state);
   }
-  ph->up = fmax(ph->up, x + blur(x)); /* on a guard, and leaving it */
+  ph->up = fmax(ph->up, x + blur(x)); /* x on a guard, moving away from it */
   ph->down = fmin(ph->down, x - blur(x));
 }
 
@@ -193,6 +194,14 @@ int phase_next(phase *ph, double x, int way, bool turned)
   return n;
 }
 
+void phase_copy(phase *to, const phase *from)
+{
+  phase_contact *own = to->contact;
+  memcpy(own, from->contact, sizeof *own * (size_t)from->m->n_contacts);
+  *to = *from;
+  to->contact = own;
+}
+
 /* P' at theta = 0 by the law itself. */
 static double force_at_start(const scaled_model *m, const double *y)
 {
@@ -201,7 +210,7 @@ static double force_at_start(const scaled_model *m, const double *y)
     const scaled_contact *mc = &m->contact[j];
     const contact law = law_of(mc);
     double w = y[SCALED_W + j], t = 0, v = mc->sine * y[SCALED_X];
-    if (mc->law.slides) contact_step(&law, mc->cosine * y[SCALED_X], v, &w, &t);
+    if (mc->law.has_friction) contact_step(&law, mc->cosine * y[SCALED_X], v, &w, &t);
     force -= t * mc->cosine + contact_normal_change(&law, v) * mc->sine;
   }
   return force;
@@ -214,10 +223,10 @@ static void classify(phase_contact *pc, const scaled_contact *mc, double x, doub
   *pc = (phase_contact){.state = CONTACT_SEPARATED};
   if (!(contact_normal(&law, v) > 0)) return;
   stick(pc, w, 0);
-  if (!mc->law.slides) return;
+  if (!mc->law.has_friction) return;
   const int sign = u > w ? 1 : -1;
-  pc->own = contact_guard_stick(&law, sign, u, v, w) > guard_noise(&law, u, v, w);
-  if (pc->own) return;
+  pc->since_start = contact_guard_stick(&law, sign, u, v, w) > guard_noise(&law, u, v, w);
+  if (pc->since_start) return;
   stick_from_slip(pc, mc, sign, x);
   if (contact_guard_slip(&law, sign, way * mc->cosine, way * mc->sine) > 0) pc->state = slip(sign);
 }

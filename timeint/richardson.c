@@ -1,14 +1,18 @@
-/* richardson.c - measures at no regularisation from those at rho, rho/2, rho/4.
+/* richardson.c - see richardson.h. Measures q at regularisations rho, rho/2, rho/4:
  *
- *     q(rho) = q0 + a rho + b rho^2 + ...       A = 2 q(rho/2) - q(rho),  B = 2 q(rho/4) - q(rho/2),  q0 ~ (4 B -
- *                                               A)/3
+ *     q(rho) = q0 + a rho + b rho^2 + ...
+ *     A = 2 q(rho/2) - q(rho),  B = 2 q(rho/4) - q(rho/2),  q0 ~ (4 B - A)/3
  *
  * Both orders are eliminated, since which of the two leads depends on whether contact returns in stick (a) or in
- * slip (a = 0, b); README.md has the figures. What the second step changed, |q0 - B|, estimates what is left of
- * q(rho): generously, as it is the error of the first step. */
+ * slip (a = 0, b); README.md has the figures. The change by the second step, |q0 - B|, is the error of the first, and
+ * serves as an upper estimate of the error left. */
+#include "timeint/richardson.h"
+
 #include <math.h>
 
-#include "timeint/internal.h"
+#include "model/periodic_motion.h"
+#include "timeint/orbit.h"
+#include "timeint/timeint_private.h"
 
 enum { LEVELS = 3 };
 static const double same_orbit = 0.2; /* [size] the largest regularisation, 0.1, moves an orbit by some percent */
@@ -26,10 +30,10 @@ static hc_status solve_at(timeint *ti, double regularisation, int k, const hc_mo
   const double size = timeint_size(ti) / ti->length;
   ti->how.regularisation = regularisation;
   scaled_make(&ti->scaled, ti->model, &ti->how, ti->omega, ti->length);
-  hc_status st = shoot_newton(ti->shoot, k, size, timeint_goal(ti), monitor, &found);
+  hc_status st = shoot_newton(ti->shoot, k, size, orbit_goal(ti), monitor, &found);
   /* another orbit: nothing to extrapolate from */
   if (st == HC_OK && !(found.moved <= same_orbit * size)) st = HC_NOT_CONVERGED;
-  return st == HC_OK ? timeint_report(ti, k, TIMEINT_BY_SHOOTING, &found, r) : st;
+  return st == HC_OK ? orbit_report(ti, k, TIMEINT_BY_SHOOTING, &found, r) : st;
 }
 
 static void combine(timeint_result *r, const timeint_result *half, const timeint_result *quarter)
@@ -44,12 +48,12 @@ static void combine(timeint_result *r, const timeint_result *half, const timeint
   EXTRAPOLATED(b1);
   for (int i = 0; i < TIMEINT_WAVE; ++i) EXTRAPOLATED(wave[i]);
 #undef EXTRAPOLATED
-  r->amplitude = 0.5 * (r->max - r->min);
+  r->amplitude = motion_amplitude(r->max, r->min);
   r->harmonic_1 = hypot(r->a1, r->b1);
   r->regularisation_error = r->amplitude > 0 ? fabs(r->amplitude - first) / r->amplitude : 0;
 }
 
-hc_status timeint_extrapolate(timeint *ti, const hc_monitor *monitor, timeint_result *r)
+hc_status richardson_extrapolate(timeint *ti, const hc_monitor *monitor, timeint_result *r)
 {
   const double rho = ti->how.regularisation;
   if (!ti->how.richardson || ti->how.law == TRANSIENT_LAW_EXACT) return HC_OK;

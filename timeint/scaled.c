@@ -28,7 +28,6 @@ static void make_contact(scaled_contact *sc, const model *m, const transient_set
 
 void scaled_make(scaled_model *m, const model *from, const transient_settings *how, double omega, double length)
 {
-  memset(m, 0, sizeof *m);
   m->n_contacts = from->n_contacts;
   m->n_states = SCALED_W + from->n_contacts;
   m->k = from->stiffness / (from->mass * omega * omega);
@@ -72,7 +71,7 @@ void scaled_jacobian(const scaled_model *m, const double *y, double *jac)
   }
 }
 
-bool scaled_slides(const scaled_model *m, int j, const double *y)
+bool scaled_slips(const scaled_model *m, int j, const double *y)
 {
   const scaled_contact *c = &m->contact[j];
   if (!(c->sine * y[SCALED_X] + c->law.gap > 0)) return false;

@@ -11,14 +11,14 @@
  *
  * For the exact law the corner's width is 0, and X', P' of scaled_rhs are then exact for any state whose slider obeys
  * |T| <= mu N; the sliders' own motion is integrate_exact.c's. */
-#ifndef HC_TIMEINT_MODEL_H
-#define HC_TIMEINT_MODEL_H
+#ifndef HC_TIMEINT_SCALED_H
+#define HC_TIMEINT_SCALED_H
 
 #include "model/model.h"
 #include "timeint/law_regularised.h"
-#include "timeint/timeint.h"
+#include "timeint/transient_settings.h"
 
-enum { SCALED_X, SCALED_P, SCALED_W, SCALED_MAX_STATES = SCALED_W + TIMEINT_MAX_CONTACTS }; /* order of the states */
+enum { SCALED_X, SCALED_P, SCALED_W }; /* order of the states: X, P, then W_j of contact j at SCALED_W + j */
 
 typedef struct scaled_contact {
   law_regularised law; /* without dimensions */
@@ -29,10 +29,11 @@ typedef struct scaled_contact {
 typedef struct scaled_model {
   int n_contacts, n_states; /* n_states = 2 + n_contacts */
   double k, c, f;
-  scaled_contact contact[TIMEINT_MAX_CONTACTS];
+  scaled_contact *contact; /* [n_contacts], memory of whoever owns the scaled_model */
 } scaled_model;
 
-/* The equations of *from at omega [rad/time] > 0, in lengths L = length > 0. */
+/* The equations of *from at omega [rad/time] > 0, in lengths L = length > 0. m->contact points at memory for
+ * from->n_contacts contacts; it is filled, and everything else in *m is set. */
 void scaled_make(scaled_model *m, const model *from, const transient_settings *how, double omega, double length);
 
 /* dy[n_states] at phase theta and state y[n_states]. Answers whether all of it is finite. */
@@ -41,7 +42,7 @@ bool scaled_rhs(const scaled_model *m, double theta, const double *y, double *dy
 /* jac[n_states * n_states], column by column: d dy[i] / d y[j] at jac[i + j n_states]. */
 void scaled_jacobian(const scaled_model *m, const double *y, double *jac);
 
-/* Does contact j slide at y: in contact and |T| > mu N? */
-bool scaled_slides(const scaled_model *m, int j, const double *y);
+/* Does contact j slip at y: in contact and |T| > mu N? */
+bool scaled_slips(const scaled_model *m, int j, const double *y);
 
 #endif

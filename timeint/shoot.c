@@ -1,4 +1,5 @@
-/* shoot.c - see shoot.h. Newton itself is numerics/newton.h; here is the map, evaluated once a point. */
+/* shoot.c - see shoot.h. Newton itself is numerics/newton.h. Here is the period map, integrated once at each point: the
+ * residual and the Jacobian are asked for one after the other, and come from the same periods. */
 #include "timeint/shoot.h"
 
 #include <float.h>
@@ -12,28 +13,30 @@
 #include "numerics/floquet.h"
 #include "numerics/newton.h"
 #include "numerics/sundials_compat.h"
-#include "timeint/internal.h"
+#include "timeint/timeint_private.h"
 
-enum {
-  MAX_N = SCALED_MAX_STATES,
-  NEWTON_ITERATIONS = 12,
-  ANDERSON_ITERATIONS = 100,
-  ANDERSON_DEPTH = 4,
-  LAST_STEPS = 4
-};
+enum { NEWTON_ITERATIONS = 12, ANDERSON_ITERATIONS = 100, ANDERSON_DEPTH = 4, LAST_STEPS = 4 };
 
 struct shoot { /* from shoot_new, to shoot_free */
   timeint *ti;
   int n, k;
   const hc_monitor *monitor;
-  double z[MAX_N], f[MAX_N];         /* the last point, and F^k of it */
-  double phi[MAX_N * MAX_N];         /* [n][n] column by column, dF^k/dz there */
-  double start[MAX_N], first[MAX_N]; /* where the solve began, and F^k of that */
-  bool known, begun;                 /* z, f, phi hold; start, first hold */
+  double *z, *f;                 /* [n] the last point, and F^k of it */
+  double *phi;                   /* [n][n] column by column, dF^k/dz there */
+  double *start, *first;         /* [n] where the solve began, and F^k of that */
+  bool known, begun;             /* z, f, phi are valid; start, first are valid */
+  double *before;                /* [n] ti->y when the solve began */
+  double *iterate, *step, *best; /* [n] of a solve; Newton's step from there; the iterate nearest to the orbit */
+  double *ones;                  /* [n] 1: weights of Newton's unknowns and residuals */
+  double *vector, *other;        /* [n] for what one function needs */
+  double *one_period, *product;  /* [n][n] monodromy matrix of one period out of k; a copy of phi */
+  double complex *multipliers;   /* [n] */
+  int *active;                   /* [n] the states that are not free sliders */
+  double *memory;                /* of all the doubles above */
   newton *newton;
   floquet *floquet;
   SUNContext ctx; /* of what follows */
-  N_Vector u, ones;
+  N_Vector u, weights;
   void *kin; /* Anderson's */
   hc_status refusal;
 };
@@ -45,11 +48,11 @@ static double norm(int n, const double *a)
   return sqrt(sum);
 }
 
-static double apart(int n, const double *a, const double *b)
+static double distance(int n, const double *a, const double *b)
 {
-  double d[MAX_N];
-  for (int i = 0; i < n; ++i) d[i] = a[i] - b[i];
-  return norm(n, d);
+  double sum = 0;
+  for (int i = 0; i < n; ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
+  return sqrt(sum);
 }
 
 /* c = a b */
@@ -63,20 +66,19 @@ static void multiply(int n, const double *a, const double *b, double *c)
     }
 }
 
-/* k periods from s->f on, with their monodromy matrix. */
-static hc_status run_periods(shoot *s)
+/* s->f becomes F^k(s->f), s->phi the monodromy matrix of these k periods. */
+static hc_status integrate_k_periods(shoot *s)
 {
-  double one[MAX_N * MAX_N], before[MAX_N * MAX_N];
-  const size_t bytes = sizeof *one * (size_t)(s->n * s->n);
+  const size_t bytes = sizeof *s->phi * (size_t)(s->n * s->n);
   for (int i = 0; i < s->k; ++i) {
     if (s->ti->periods >= s->ti->how.max_periods - s->k) return HC_NOT_SETTLED; /* k are kept for the report */
     if (!hc_monitor_tick(s->monitor, -1)) return HC_INTERRUPTED;
-    hc_status st = integrate_monodromy(s->ti->in, &s->ti->scaled, s->f, i == 0 ? s->phi : one);
+    hc_status st = integrate_monodromy(s->ti->in, &s->ti->scaled, s->f, i == 0 ? s->phi : s->one_period);
     if (st != HC_OK) return st;
     ++s->ti->periods;
     if (i == 0) continue;
-    memcpy(before, s->phi, bytes);
-    multiply(s->n, one, before, s->phi);
+    memcpy(s->product, s->phi, bytes);
+    multiply(s->n, s->one_period, s->product, s->phi);
   }
   return HC_OK;
 }
@@ -88,7 +90,7 @@ static hc_status evaluate(shoot *s, const double *z)
   if (s->known && memcmp(s->z, z, bytes) == 0) return HC_OK;
   memcpy(s->z, z, bytes);
   memcpy(s->f, z, bytes);
-  hc_status st = run_periods(s);
+  hc_status st = integrate_k_periods(s);
   s->known = st == HC_OK;
   if (s->known && !s->begun) {
     memcpy(s->start, z, bytes);
@@ -98,7 +100,7 @@ static hc_status evaluate(shoot *s, const double *z)
   return st;
 }
 
-/* Does slider i - SCALED_W repeat itself wherever it is? */
+/* Is state i a slider at a fixed point of F^k wherever it is? */
 static bool is_free(const shoot *s, int i)
 {
   /* cppcheck-suppress arrayIndexOutOfBoundsCond; it takes SCALED_W, 2, for the number of states */
@@ -122,15 +124,15 @@ static hc_status jacobian(void *self, const double *z, double *jac)
   hc_status st = evaluate(s, z);
   if (st != HC_OK) return st;
   for (int i = 0; i < s->n; ++i) {
-    bool stays = is_free(s, i);
-    for (int j = 0; j < s->n; ++j) jac[i + j * s->n] = (i == j) - (stays ? 0 : s->phi[i + j * s->n]);
+    const bool fixed = is_free(s, i); /* its equation becomes: stay where the start is */
+    for (int j = 0; j < s->n; ++j) jac[i + j * s->n] = (i == j) - (fixed ? 0 : s->phi[i + j * s->n]);
   }
   return HC_OK;
 }
 
 /* Anderson's map u -> F^k(u). Out of memory is told as a fixed point, at which KINSOL ends: SUNDIALS 7 crashes where it
  * has no memory to tell of a failure (room.h). */
-static int map(N_Vector u, N_Vector f, void *self)
+static int period_map(N_Vector u, N_Vector f, void *self)
 {
   shoot *s = self;
   if (s->refusal != HC_NO_MEMORY) s->refusal = evaluate(s, NV_DATA_S(u));
@@ -146,16 +148,33 @@ static hc_status make_anderson(shoot *s)
 {
   if (hc_sundials_context(&s->ctx)) return HC_NO_MEMORY;
   s->u = N_VNew_Serial(s->n, s->ctx);
-  s->ones = N_VNew_Serial(s->n, s->ctx);
-  s->kin = s->u && s->ones ? KINCreate(s->ctx) : NULL;
+  s->weights = N_VNew_Serial(s->n, s->ctx);
+  s->kin = s->u && s->weights ? KINCreate(s->ctx) : NULL;
   if (!s->kin || !hc_room_for(0)) return HC_NO_MEMORY;
-  N_VConst(1, s->ones);
+  N_VConst(1, s->weights);
   int bad = HC_KINSOL_QUIET(s->kin);
   bad |= KINSetUserData(s->kin, s);
   bad |= KINSetNumMaxIters(s->kin, ANDERSON_ITERATIONS);
   bad |= KINSetMAA(s->kin, ANDERSON_DEPTH < s->n ? ANDERSON_DEPTH : s->n); /* before KINInit, which makes room for it */
-  bad |= KINInit(s->kin, map, s->u);
+  bad |= KINInit(s->kin, period_map, s->u);
   return bad ? HC_NO_MEMORY : HC_OK;
+}
+
+static hc_status make_memory(shoot *s)
+{
+  double **const vectors[] = {&s->z,    &s->f,    &s->start, &s->first,  &s->before, &s->iterate,
+                              &s->step, &s->best, &s->ones,  &s->vector, &s->other};
+  double **const matrices[] = {&s->phi, &s->one_period, &s->product};
+  const size_t n = (size_t)s->n, n_vectors = sizeof vectors / sizeof *vectors,
+               n_matrices = sizeof matrices / sizeof *matrices;
+  s->memory = calloc(n_vectors * n + n_matrices * n * n, sizeof *s->memory);
+  s->multipliers = calloc(n, sizeof *s->multipliers);
+  s->active = calloc(n, sizeof *s->active);
+  if (!s->memory || !s->multipliers || !s->active) return HC_NO_MEMORY;
+  for (size_t i = 0; i < n_vectors; ++i) *vectors[i] = s->memory + i * n;
+  for (size_t i = 0; i < n_matrices; ++i) *matrices[i] = s->memory + n_vectors * n + i * n * n;
+  for (int i = 0; i < s->n; ++i) s->ones[i] = 1;
+  return HC_OK;
 }
 
 hc_status shoot_new(timeint *ti, shoot **out)
@@ -166,7 +185,8 @@ hc_status shoot_new(timeint *ti, shoot **out)
   s->ti = ti;
   s->n = SCALED_W + ti->model->n_contacts;
   const newton_problem problem = {.n = s->n, .self = s, .residual = residual, .jacobian = jacobian};
-  hc_status st = newton_new(&problem, &s->newton);
+  hc_status st = make_memory(s);
+  if (st == HC_OK) st = newton_new(&problem, &s->newton);
   if (st == HC_OK) st = floquet_new(s->n, &s->floquet);
   if (st == HC_OK) st = make_anderson(s);
   if (st == HC_OK) {
@@ -184,28 +204,34 @@ void shoot_free(shoot *s)
   floquet_free(s->floquet);
   if (s->kin) KINFree(&s->kin);
   if (s->u) N_VDestroy(s->u);
-  if (s->ones) N_VDestroy(s->ones);
+  if (s->weights) N_VDestroy(s->weights);
   if (s->ctx) SUNContext_Free(&s->ctx);
+  free(s->active);
+  free(s->multipliers);
+  free(s->memory);
   free(s);
 }
 
 static void begin(shoot *s, int k, const hc_monitor *monitor)
 {
+  const size_t bytes = sizeof *s->before * (size_t)s->n;
+  memcpy(s->before, s->ti->y, bytes);
+  memcpy(s->iterate, s->ti->y, bytes);
   s->k = k;
   s->monitor = monitor;
   s->known = s->begun = false;
 }
 
-/* What k periods scatter by: up to 250 times CVODE's tolerance with the regularised law (timeint.c), 400 seen next
- * to a fold (r2 at 708.5), and the rounding of some thousand steps. */
+/* The scatter of F^k: up to 250 times CVODE's tolerance with the regularised law (timeint.c), 400 seen next to a fold
+ * (r2 at 708.5), and the rounding of some thousand steps. */
 static double scatter(const shoot *s)
 {
   const double of_steps = s->ti->how.law == TRANSIENT_LAW_EXACT ? 50 : 1000;
   return s->k * fmax(of_steps * s->ti->tolerance, 2e4 * DBL_EPSILON);
 }
 
-/* A residual r is an error of about r/(1 - rho): a tenth of the goal times that, but no less than what periods
- * scatter by. Newton's last step goes below; what is left is judged by finish(). */
+/* The residual at which Newton stops. A residual r is a distance of about r/(1 - rho) from the orbit: hence a tenth of
+ * the goal times 1 - rho, but no less than the scatter of periods. finish() judges what is left. */
 static double small_residual(const shoot *s, double goal)
 {
   return fmax(0.1 * goal * (1 - fmin(s->ti->contraction, 1)), scatter(s));
@@ -215,7 +241,7 @@ static double small_residual(const shoot *s, double goal)
 static double nonlinear_part(const shoot *s, const double *z)
 {
   const int n = s->n;
-  double e[MAX_N], left[MAX_N];
+  double *e = s->vector, *left = s->other;
   for (int i = 0; i < n; ++i) e[i] = s->start[i] - z[i];
   for (int i = 0; i < n; ++i) {
     left[i] = s->first[i] - s->f[i]; /* F(z*) is z*, and nearer to F(z0)'s own errors */
@@ -227,20 +253,19 @@ static double nonlinear_part(const shoot *s, const double *z)
 
 static hc_status find_multiplier(shoot *s, shoot_report *r)
 {
-  double complex lambda[MAX_N];
-  int active[MAX_N], m = 0;
+  int m = 0;
   r->free_sliders = 0;
   for (int i = 0; i < s->n; ++i) {
-    if (!is_free(s, i)) active[m++] = i;
-    else if (s->ti->scaled.contact[i - SCALED_W].law.slides) ++r->free_sliders;
+    if (!is_free(s, i)) s->active[m++] = i;
+    else if (s->ti->scaled.contact[i - SCALED_W].law.has_friction) ++r->free_sliders;
   }
-  hc_status st = floquet_multipliers(s->floquet, s->phi, 1, s->n, m, active, lambda);
-  r->multiplier = st == HC_OK ? floquet_largest(m, lambda) : NAN;
+  hc_status st = floquet_multipliers(s->floquet, s->phi, 1, s->n, m, s->active, s->multipliers);
+  r->multiplier = st == HC_OK ? floquet_largest(m, s->multipliers) : NAN;
   return st;
 }
 
-/* Newton's step from z into step[n], and its length. */
-static hc_status next_step(shoot *s, const double *z, double *step, double *length)
+/* Newton's step from z into step[n], and its length [L]. */
+static hc_status newton_step(shoot *s, const double *z, double *step, double *length)
 {
   hc_status st = newton_factor_at(s->newton, z);
   if (st != HC_OK) return st;
@@ -250,11 +275,11 @@ static hc_status next_step(shoot *s, const double *z, double *step, double *leng
   return st;
 }
 
-/* No orbit can be found to better than this: the scatter of periods, seen through (I - Phi)^-1 (Frobenius norm,
- * factors of the last step). */
+/* [L] No orbit can be found to better than this: the scatter of periods times |(I - Phi)^-1| (Frobenius norm, factors
+ * of the last step). */
 static double attainable(shoot *s)
 {
-  double sum = 0, column[MAX_N];
+  double sum = 0, *column = s->vector;
   for (int j = 0; j < s->n; ++j) {
     for (int i = 0; i < s->n; ++i) column[i] = i == j;
     if (newton_backsolve(s->newton, column) != HC_OK) return INFINITY;
@@ -263,69 +288,70 @@ static double attainable(shoot *s)
   return sqrt(sum) * scatter(s);
 }
 
-/* From z, next to the orbit, as near to it as the goal asks or the scatter of periods allows; then what there is to
- * say of it. */
-static hc_status finish(shoot *s, double *z, double goal, shoot_report *r)
+/* From s->iterate, next to the orbit: further Newton steps until it is as near as the goal asks or the scatter of
+ * periods allows; ti->y and *r are then those of the nearest point. */
+static hc_status finish(shoot *s, double goal, shoot_report *r)
 {
-  double step[MAX_N], best[MAX_N] = {0};
+  const size_t bytes = sizeof *s->best * (size_t)s->n;
+  double *z = s->iterate;
   hc_status st = HC_OK;
   for (int tries = 0; tries < LAST_STEPS && st == HC_OK; ++tries) {
     double length;
-    if ((st = next_step(s, z, step, &length)) != HC_OK) break;
-    if (length < r->distance) memcpy(best, z, sizeof best), r->distance = length;
+    if ((st = newton_step(s, z, s->step, &length)) != HC_OK) break;
+    if (length < r->distance) memcpy(s->best, z, bytes), r->distance = length;
     if (r->distance <= goal) break;
-    for (int i = 0; i < s->n; ++i) z[i] -= step[i];
+    for (int i = 0; i < s->n; ++i) z[i] -= s->step[i];
   }
-  if (st == HC_OK && r->distance < INFINITY) st = evaluate(s, best);
+  if (st == HC_OK && r->distance < INFINITY) st = evaluate(s, s->best);
   if (st != HC_OK || !(r->distance < INFINITY)) return st != HC_OK ? st : HC_NOT_CONVERGED;
-  r->moved = apart(s->n, s->start, best);
-  r->nonlinear = nonlinear_part(s, best);
+  r->moved = distance(s->n, s->start, s->best);
+  r->nonlinear = nonlinear_part(s, s->best);
   if ((st = find_multiplier(s, r)) != HC_OK) return st;
-  memcpy(s->ti->y, best, sizeof *best * (size_t)s->n);
+  memcpy(s->ti->y, s->best, bytes);
   return r->distance <= fmax(goal, attainable(s)) ? HC_OK : HC_NOT_CONVERGED;
 }
 
 hc_status shoot_newton(shoot *s, int k, double reach, double goal, const hc_monitor *monitor, shoot_report *report)
 {
-  double z[MAX_N], ones[MAX_N], before[MAX_N];
   newton_report iterations;
-  memcpy(before, s->ti->y, sizeof before);
-  memcpy(z, before, sizeof z);
-  for (int i = 0; i < s->n; ++i) ones[i] = 1;
   begin(s, k, monitor);
-  const newton_options options = {.z_scale = ones,
-                                  .r_scale = ones,
+  const newton_options options = {.z_scale = s->ones,
+                                  .r_scale = s->ones,
                                   .tolerance = small_residual(s, goal),
                                   .max_step = reach,
                                   .max_iterations = NEWTON_ITERATIONS};
   *report = (shoot_report){.distance = INFINITY, .moved = INFINITY, .nonlinear = INFINITY, .multiplier = NAN};
-  hc_status st = newton_solve(s->newton, z, &options, &iterations);
-  if (st == HC_OK) st = finish(s, z, goal, report);
-  if (st != HC_OK) memcpy(s->ti->y, before, sizeof before);
+  hc_status st = newton_solve(s->newton, s->iterate, &options, &iterations);
+  if (st == HC_OK) st = finish(s, goal, report);
+  if (st != HC_OK) memcpy(s->ti->y, s->before, sizeof *s->before * (size_t)s->n);
   return st;
 }
 
 hc_status shoot_anderson(shoot *s, int k, double goal, const hc_monitor *monitor, shoot_report *report)
 {
-  double before[MAX_N], z[MAX_N];
-  memcpy(before, s->ti->y, sizeof before);
+  const size_t bytes = sizeof *s->before * (size_t)s->n;
   begin(s, k, monitor);
   *report = (shoot_report){.distance = INFINITY, .moved = INFINITY, .nonlinear = INFINITY, .multiplier = NAN};
   s->refusal = HC_OK;
   if (KINSetFuncNormTol(s->kin, small_residual(s, goal)) != KIN_SUCCESS) return HC_BAD_INPUT;
-  memcpy(NV_DATA_S(s->u), before, sizeof *before * (size_t)s->n);
-  int flag = KINSol(s->kin, s->u, KIN_FP, s->ones, s->ones);
-  memcpy(z, NV_DATA_S(s->u), sizeof *z * (size_t)s->n);
+  memcpy(NV_DATA_S(s->u), s->before, bytes);
+  int flag = KINSol(s->kin, s->u, KIN_FP, s->weights, s->weights);
+  memcpy(s->iterate, NV_DATA_S(s->u), bytes);
   if (s->refusal != HC_OK) return s->refusal;
   if (flag == KIN_MEM_FAIL) return HC_NO_MEMORY;
-  hc_status st = finish(s, z, goal, report); /* whatever KINSOL says: the answer is judged by us */
-  if (st != HC_OK) memcpy(s->ti->y, before, sizeof before);
+  hc_status st = finish(s, goal, report); /* whatever KINSOL says: finish() judges the iterate itself */
+  if (st != HC_OK) memcpy(s->ti->y, s->before, bytes);
   return st;
 }
 
-void shoot_direction(const shoot *s, double *z)
+bool shoot_found_no_orbit(hc_status st)
 {
-  double next[MAX_N];
+  return st == HC_SINGULAR || st == HC_STALLED || st == HC_NOT_CONVERGED || st == HC_CHATTER || st == HC_NOT_SETTLED;
+}
+
+void shoot_direction(shoot *s, double *z)
+{
+  double *next = s->vector;
   for (int i = 0; i < s->n; ++i) z[i] = 1 / sqrt(s->n);
   for (int step = 0; step < 64; ++step) {
     for (int i = 0; i < s->n; ++i) {

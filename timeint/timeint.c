@@ -1,11 +1,18 @@
-/* timeint.c - makes and frees the handle, and carries states in and out of the model's units (internal.h, scaled.h). */
+/* timeint.c - see timeint.h and timeint_private.h: makes the handle; converts states between the model's units and those
+ * of scaled.h; one period of the motion. */
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
-#include "timeint/internal.h"
+#include "timeint/integrate_exact.h"
+#include "timeint/integrate_regularised.h"
+#include "timeint/shoot.h"
+#include "timeint/timeint_private.h"
 
 static const double pi = 3.14159265358979323846;
+
+enum { MOST_STATES = 40000 }; /* their square, the size of a monodromy matrix (13 GB), is an int */
 
 static bool positive(double a) { return a > 0 && a <= DBL_MAX; } /* not NaN, not infinite */
 static bool not_negative(double a) { return a >= 0 && a <= DBL_MAX; }
@@ -20,19 +27,31 @@ static hc_status check_input(const model *m, const transient_settings *how)
 {
   if (!positive(m->mass) || !not_negative(m->damping) || !not_negative(m->stiffness) || !isfinite(m->force))
     return HC_BAD_INPUT;
-  if (m->n_contacts > TIMEINT_MAX_CONTACTS) return HC_BAD_INPUT;
   for (int j = 0; j < m->n_contacts; ++j)
     if (!contact_ok(&m->contacts[j])) return HC_BAD_INPUT;
   if (!positive(how->regularisation) || !positive(how->tolerance) || how->max_periods < 1) return HC_BAD_INPUT;
   return HC_OK;
 }
 
+static hc_status make_memory(timeint *ti)
+{
+  double **const vectors[] = {&ti->y,        &ti->saved,    &ti->direction, &ti->neighbour, &ti->separation,
+                              &ti->point[0], &ti->point[1], &ti->point[2],  &ti->past};
+  const size_t n = (size_t)ti->n, n_vectors = sizeof vectors / sizeof *vectors;
+  ti->memory = calloc((n_vectors - 1 + SETTLE_MAX_MULTIPLE) * n, sizeof *ti->memory);
+  ti->scaled.contact = calloc(n, sizeof *ti->scaled.contact); /* two more than needed, so never nothing */
+  if (!ti->memory || !ti->scaled.contact) return HC_NO_MEMORY;
+  for (size_t i = 0; i < n_vectors; ++i) *vectors[i] = ti->memory + i * n; /* the ring is the last */
+  return measure_make(&ti->measure, ti->n);
+}
+
 static hc_status make_parts(timeint *ti)
 {
-  const int n = SCALED_W + ti->model->n_contacts;
+  const int n = ti->n;
   const bool exact = ti->how.law == TRANSIENT_LAW_EXACT;
-  hc_status st = (exact ? integrate_new_exact : integrate_new_regularised)(n, ti->tolerance, &ti->in);
-  if (st == HC_OK && !exact) st = integrate_new_exact(n, ti->tolerance, &ti->sweeper);
+  hc_status st = make_memory(ti);
+  if (st == HC_OK) st = (exact ? integrate_new_exact : integrate_new_regularised)(n, ti->tolerance, &ti->in);
+  if (st == HC_OK && !exact) st = integrate_new_exact(n, ti->tolerance, &ti->exact);
   if (st == HC_OK) st = settle_new(n, &ti->settle);
   return st == HC_OK ? shoot_new(ti, &ti->shoot) : st;
 }
@@ -42,9 +61,11 @@ hc_status timeint_new(const model *m, const transient_settings *how, timeint **o
   *out = NULL;
   hc_status st = check_input(m, how);
   if (st != HC_OK) return st;
+  if (m->n_contacts > MOST_STATES - SCALED_W) return HC_NO_MEMORY;
   timeint *ti = calloc(1, sizeof *ti); /* zeroed, so free works half-built */
   if (!ti) return HC_NO_MEMORY;
   ti->how = *how;
+  ti->n = SCALED_W + m->n_contacts;
   ti->tolerance = timeint_final_tolerance(ti);
   if ((st = model_copy(m, &ti->model)) == HC_OK && (st = make_parts(ti)) == HC_OK) {
     *out = ti;
@@ -59,19 +80,23 @@ void timeint_free(timeint *ti)
   if (!ti) return;
   shoot_free(ti->shoot);
   settle_free(ti->settle);
-  integrate_free(ti->sweeper);
+  integrate_free(ti->exact);
   integrate_free(ti->in);
+  measure_free(&ti->measure);
+  free(ti->scaled.contact);
+  free(ti->memory);
   model_free(ti->model);
   free(ti);
 }
 
-timeint_state timeint_rest(const timeint *ti)
+int timeint_n_states(const timeint *ti) { return ti->n; }
+
+void timeint_rest(const timeint *ti, double *state) /* static equilibrium is x = 0 in every model */
 {
-  (void)ti; /* static equilibrium is x = 0 in every model */
-  return (timeint_state){0};
+  for (int i = 0; i < ti->n; ++i) state[i] = 0;
 }
 
-/* An unloaded, unmoved oscillator still needs a unit: a gap, or 1. */
+/* The unit of length for an oscillator at rest without force: the largest gap, or 1. */
 static double any_length(const model *m)
 {
   double length = 0;
@@ -87,14 +112,14 @@ static void set_length(timeint *ti, double length)
   scaled_make(&ti->scaled, ti->model, &ti->how, ti->omega, length);
 }
 
-static bool state_ok(const timeint *ti, const timeint_state *state)
+static bool state_ok(const timeint *ti, const double *state)
 {
-  bool ok = isfinite(state->x) && isfinite(state->v);
-  for (int j = 0; j < ti->model->n_contacts; ++j) ok = ok && isfinite(state->w[j]);
+  bool ok = true;
+  for (int i = 0; i < ti->n; ++i) ok = ok && isfinite(state[i]);
   return ok;
 }
 
-hc_status timeint_begin(timeint *ti, double omega, const timeint_state *state)
+hc_status timeint_begin(timeint *ti, double omega, const double *state)
 {
   const model *m = ti->model;
   if (!positive(omega) || !state_ok(ti, state)) return HC_BAD_INPUT;
@@ -103,15 +128,16 @@ hc_status timeint_begin(timeint *ti, double omega, const timeint_state *state)
   ti->periods = 0;
   ti->steps0 = integrate_steps(ti->in);
   ti->rhs0 = integrate_rhs(ti->in);
-  /* No response is smaller than the force over all that resists it, but at an antiresonance, which one mass has not. */
+  /* No response is smaller than the force over the sum of all that resists it, but at an antiresonance, and a single
+   * mass has none. */
   ti->least_length = fabs(m->force) / (model_max_stiffness(m) + m->mass * omega * omega + m->damping * omega);
-  double length = fmax(ti->least_length, hypot(state->x, state->v / omega));
+  double length = fmax(ti->least_length, hypot(state[TIMEINT_X], state[TIMEINT_V] / omega));
   if (!(length > 0)) length = any_length(m);
   if (!(ti->least_length > 0)) ti->least_length = length;
   ti->length = length;
-  ti->y[SCALED_X] = state->x / length;
-  ti->y[SCALED_P] = state->v / (omega * length);
-  for (int j = 0; j < m->n_contacts; ++j) ti->y[SCALED_W + j] = state->w[j] / length;
+  ti->y[SCALED_X] = state[TIMEINT_X] / length;
+  ti->y[SCALED_P] = state[TIMEINT_V] / (omega * length);
+  for (int j = 0; j < m->n_contacts; ++j) ti->y[SCALED_W + j] = state[TIMEINT_W + j] / length;
   scaled_make(&ti->scaled, m, &ti->how, omega, length);
   return HC_OK;
 }
@@ -122,10 +148,11 @@ hc_status timeint_set_tolerance(timeint *ti, double tolerance)
   return integrate_tolerance(ti->in, tolerance);
 }
 
-/* The size is known to a factor of 4: CVODE's absolute tolerance is in units of length, and needs no better. */
+/* The unit stays within a factor of 4 of the motion's size. CVODE's absolute tolerance is in this unit, and needs to be
+ * in proportion to the motion to no better than that. */
 static void follow_length(timeint *ti)
 {
-  double size = fmax(timeint_size(ti), ti->least_length);
+  double size = timeint_motion_size(ti);
   if (size > 4 * ti->length || size < 0.25 * ti->length) set_length(ti, size);
 }
 
@@ -135,21 +162,25 @@ hc_status timeint_period(timeint *ti, bool measured)
   hc_status st = integrate_period(ti->in, &ti->scaled, ti->y, measured ? measure_step : NULL, &ti->measure);
   if (st != HC_OK) return st;
   ++ti->periods;
-  if (!measured) follow_length(ti); /* a measurement is in one unit */
+  if (!measured) follow_length(ti); /* all periods of a measurement are in one unit */
   return HC_OK;
 }
 
-timeint_state timeint_now(const timeint *ti)
+void timeint_get_state(const timeint *ti, double *state)
 {
-  timeint_state s = {.x = ti->y[SCALED_X] * ti->length, .v = ti->y[SCALED_P] * ti->length * ti->omega};
+  state[TIMEINT_X] = ti->y[SCALED_X] * ti->length;
+  state[TIMEINT_V] = ti->y[SCALED_P] * ti->length * ti->omega;
   for (int j = 0; j < ti->model->n_contacts; ++j) {
     const scaled_contact *c = &ti->scaled.contact[j];
-    s.w[j] = c->law.slides ? ti->y[SCALED_W + j] * ti->length : c->cosine * s.x;
+    state[TIMEINT_W + j] = c->law.has_friction ? ti->y[SCALED_W + j] * ti->length : c->cosine * state[TIMEINT_X];
   }
-  return s;
 }
 
+void timeint_save(timeint *ti) { memcpy(ti->saved, ti->y, sizeof *ti->y * (size_t)ti->n); }
+void timeint_restore(timeint *ti) { memcpy(ti->y, ti->saved, sizeof *ti->y * (size_t)ti->n); }
+
 double timeint_size(const timeint *ti) { return hypot(ti->y[SCALED_X], ti->y[SCALED_P]) * ti->length; }
+double timeint_motion_size(const timeint *ti) { return fmax(timeint_size(ti), ti->least_length); }
 
 void timeint_point(const timeint *ti, double *z)
 {
@@ -159,14 +190,15 @@ void timeint_point(const timeint *ti, double *z)
   z[SCALED_P] = ti->y[SCALED_P] * ti->length;
   for (int j = 0; j < m->n_contacts; ++j) {
     const scaled_contact *c = &m->contact[j];
-    z[SCALED_W + j] = c->law.slides ? c->law.kt * c->cosine / stiffest * ti->y[SCALED_W + j] * ti->length : 0.0;
+    z[SCALED_W + j] = c->law.has_friction ? c->law.kt * c->cosine / stiffest * ti->y[SCALED_W + j] * ti->length : 0.0;
   }
 }
 
-/* Measured: restarting CVODE each period, the states of a settled orbit scatter by 20 to 250 times its tolerance
- * (corners make its error jump with the step sequence). A scatter of s a period adds up to s/sqrt(2 (1 - rho)) in a
- * slowly contracting orbit. Hence tolerance/1000, times sqrt(1 - rho), and not below 1e-14, where rounding takes
- * over; never above 1e-6, where steps leap over whole contacts. */
+/* Measured: with CVODE restarted each period, the states of a settled orbit scatter by 20 to 250 times its tolerance,
+ * since each period is cut into other steps, and the error at a corner depends on where the step that contains it
+ * begins. A scatter of s a period adds up to s/sqrt(2 (1 - rho)) where the contraction rho is close to 1. Hence
+ * tolerance/1000, times sqrt(1 - rho), and not below 1e-14, where rounding is larger; never above 1e-6, where steps pass
+ * over whole contacts. */
 double timeint_final_tolerance(const timeint *ti)
 {
   double wanted = 1e-3 * ti->how.tolerance * sqrt(1 - fmin(ti->contraction, 1));

@@ -1,10 +1,12 @@
-/* timeint.h - the steady state of a model at one frequency by time integration with CVODE.
+/* timeint.h - time integration of a model with CVODE: the handle and its states. The way into this folder: steady.h has
+ * steady states and orbits, sweep.h carries a state to another frequency.
  *
  *     x' = v,   M v' = F0 cos(omega t) - C v - K x - sum_j [ T_j cos(alpha_j) + (N_j - N0_j) sin(alpha_j) ]
  *
  * with the contact law of model/contact_law.h, exact or regularised (law_regularised.h) as transient.law says.
- * Phase: t = 0 is the forcing's maximum; every state handed in or out is at a whole number of forcing periods.
- * Handles are opaque, one a thread. Not here: harmonic balance, verdicts. */
+ * A state is an array of timeint_n_states doubles, memory of the caller: x [length], v [length/time], and the slider w_j
+ * [length] of contact j. Phase: t = 0 is the forcing's maximum; every state passed in or out is at a whole number of
+ * forcing periods. Handles are opaque, one a thread. Not here: harmonic balance, verdicts. */
 #ifndef HC_TIMEINT_H
 #define HC_TIMEINT_H
 
@@ -12,83 +14,19 @@
 #include "model/model.h"
 #include "timeint/transient_settings.h"
 
-enum { TIMEINT_WAVE = 512, TIMEINT_MAX_CONTACTS = 16 };
+enum { TIMEINT_X, TIMEINT_V, TIMEINT_W }; /* where in a state x and v are, and the slider of contact 0 */
 
 typedef struct timeint timeint;
 
-/* How a steady state was reached. */
-typedef enum timeint_method {
-  TIMEINT_BY_CLOSED_FORM, /* no contact changes its state any more: nothing to integrate             */
-  TIMEINT_BY_SHOOTING,    /* Newton on the period map                                                 */
-  TIMEINT_BY_ANDERSON,    /* accelerated iteration of the period map                                  */
-  TIMEINT_BY_MARCHING     /* waited for                                                               */
-} timeint_method;
-const char *timeint_method_name(timeint_method method); /* "closed_form", "shooting", "anderson", "march" */
-
-/* State at a whole number of periods. w[j]: slider of contact j [length]. */
-typedef struct timeint_state {
-  double x, v, w[TIMEINT_MAX_CONTACTS];
-} timeint_state;
-
-typedef struct timeint_result {
-  double omega;               /* [rad/time] */
-  double amplitude, max, min; /* [length] amplitude = (max - min)/2, peaks from dense output */
-  double rms, mean;           /* [length] rms of x (mean included) over the reported period */
-  double a1, b1, harmonic_1;  /* [length] x ~ a1 cos(omega t) + b1 sin(omega t); harmonic_1 = hypot(a1, b1) */
-  double closure;             /* [1] estimated distance to the periodic orbit, drift/(1 - contraction), relative to the
-                     amplitude; may be INFINITY, and more than transient.tolerance where the integration's own
-                     errors, seen through 1/(1 - contraction), allow no less */
-  double contraction;  /* [1] measured contraction per period of the drift, or NaN when it could not be measured */
-  int periods;         /* forcing periods integrated, all included */
-  int period_multiple; /* of the orbit found, 1 unless a sub-harmonic was found (k <= 16: measures cover k periods,
-                          wave the last); 0 not settled */
-  long steps;          /* CVODE steps, all included */
-  long rhs;            /* right-hand side evaluations */
-  timeint_method method;
-  double multiplier; /* [1] modulus of the orbit's largest Floquet multiplier over its period_multiple periods; NaN:
-                        not known */
-  double multiplier_re, multiplier_im;
-  int free_sliders; /* contacts stuck all the time: where their sliders rest, and with them the mean, is a matter of
-                       history */
-  int switches;     /* contact transitions in the reported periods; exact law only */
-  bool left_orbit;  /* the orbit next to the start is unstable; what is reported is where the motion went */
-  double lyapunov;  /* [1/period] mean rate at which neighbours drift apart; NaN where it was not asked */
-  double regularisation_error; /* [1] of the amplitude, relative; estimated with transient.richardson, else NaN */
-  contact_regime regime;       /* strongest thing that happened in the reported period */
-  int cvode_flag;              /* CVODE's own flag when the status is HC_INTEGRATOR */
-  double wave[TIMEINT_WAVE];   /* [length] x at t = i T / TIMEINT_WAVE of the reported period */
-} timeint_result;
-
-/* A workspace for m and how its steady states are found (both copied). HC_BAD_INPUT, HC_NO_MEMORY: *out is NULL. */
+/* A workspace for m and how its steady states are found (both copied). Everything is allocated here.
+ * HC_BAD_INPUT, HC_NO_MEMORY: *out is NULL. */
 hc_status timeint_new(const model *m, const transient_settings *how, timeint **out);
 void timeint_free(timeint *ti);
 
-/* The state of rest in static equilibrium: x = v = w = 0. */
-timeint_state timeint_rest(const timeint *ti);
+/* Doubles in a state: 2 + the model's contacts. */
+int timeint_n_states(const timeint *ti);
 
-/* From *state at omega to the steady state as its settings say; *state becomes a point on the
- * orbit, *result its measures. transient.richardson: the measures are extrapolated to no regularisation. `auto`:
- * where the motion goes. With start: hbm the state is taken for a point next to an orbit: that orbit is the answer
- * if it is stable; if not, the motion leaves it (left_orbit). `shooting`: the period-1 orbit next to *state, stable
- * or not. HC_OK settled; HC_NOT_SETTLED after max_periods, HC_APERIODIC when nothing repeats within 16 periods and
- * neighbours drift apart (in both the result is the last period); HC_INTEGRATOR, HC_NOT_FINITE, HC_CHATTER;
- * HC_NOT_CONVERGED, HC_SINGULAR, HC_STALLED from shooting alone; HC_INTERRUPTED. */
-hc_status timeint_steady(timeint *ti, double omega, timeint_state *state, const hc_monitor *monitor,
-                         timeint_result *result);
-
-/* The orbit of k forcing periods next to *state by Newton on the period map, stable or not, whatever
- * transient.steady_state says; the multiplier tells which. Errors as timeint_steady with shooting. 1 <= k <= 16; the
- * orbit may be a shorter one run through several times. */
-hc_status timeint_orbit(timeint *ti, double omega, int k, timeint_state *state, const hc_monitor *monitor,
-                        timeint_result *result);
-
-/* Stable by its multiplier: +1; -1 not; 0 unknown, or within 1e-9 of the border. */
-int timeint_stability(const timeint_result *result);
-
-/* As on a shaker: carry *state from omega_from to omega_to in frequency steps small enough to stay on a branch,
- * partially settling at each; with the exact law whatever the settings', and does not settle at omega_to (call
- * timeint_steady for that). */
-hc_status timeint_sweep(timeint *ti, double omega_from, double omega_to, timeint_state *state,
-                        const hc_monitor *monitor);
+/* state[timeint_n_states]: rest in static equilibrium, x = v = w_j = 0. */
+void timeint_rest(const timeint *ti, double *state);
 
 #endif

@@ -33,7 +33,7 @@ static const family families[] = {
 enum { N_FAMILIES = sizeof families / sizeof *families };
 
 /* The work on one place. */
-typedef struct job {
+typedef struct workspace {
   const scene *sc;
   const bench_options *options;
   const hc_monitor *outer;
@@ -43,13 +43,13 @@ typedef struct job {
   place_start start;
   trial *trials;
   bench *out;
-} job;
+} workspace;
 
 static bool tick(void *self, double done)
 {
-  const job *j = self;
+  const workspace *w = self;
   (void)done;
-  return hc_monitor_tick(j->outer, j->from + j->width * j->done);
+  return hc_monitor_tick(w->outer, w->from + w->width * w->done);
 }
 
 static hc_status add_row(bench *b, const bench_row *row)
@@ -109,16 +109,16 @@ static bool hopeless(const bench_row *rows, int i)
 }
 
 /* All rows once: what they find; and the curves. */
-static hc_status first_round(job *j, bench_place *p)
+static hc_status first_round(workspace *w, bench_place *p)
 {
-  bench_row *rows = j->out->rows + p->first;
+  bench_row *rows = w->out->rows + p->first;
   hc_status st = HC_OK;
   for (int i = 0; i < p->n && st == HC_OK; ++i) {
-    j->done = 0.1 + 0.5 * i / p->n;
+    w->done = 0.1 + 0.5 * i / p->n;
     if (hopeless(rows, i)) rows[i].outcome = BENCH_TOO_LONG;
-    else if (!hc_monitor_tick(&j->monitor, -1)) st = HC_INTERRUPTED;
-    else if ((st = trial_start(j->sc, &j->start, &rows[i], j->options->repeats, &j->monitor, &j->trials[i])) == HC_OK)
-      st = trial_curve(&j->trials[i], &j->monitor);
+    else if (!hc_monitor_tick(&w->monitor, -1)) st = HC_INTERRUPTED;
+    else if ((st = trial_start(w->sc, &w->start, &rows[i], w->options->repeats, &w->monitor, &w->trials[i])) == HC_OK)
+      st = trial_curve(&w->trials[i], &w->monitor);
   }
   return st;
 }
@@ -130,69 +130,69 @@ static bool has_enough(const trial *t, const bench_row *row)
   return t->runs >= fewest && t->spent > enough; /* spent: the first run included */
 }
 
-static hc_status rounds(job *j, const bench_place *p)
+static hc_status rounds(workspace *w, const bench_place *p)
 {
-  const int n = j->options->repeats;
+  const int n = w->options->repeats;
   hc_status st = HC_OK;
   for (int round = 0; round < n && st == HC_OK; ++round)
     for (int i = 0; i < p->n && st == HC_OK; ++i) {
-      j->done = 0.6 + 0.3 * (round * p->n + i) / ((double)n * p->n);
-      if (!hc_monitor_tick(&j->monitor, -1)) st = HC_INTERRUPTED;
-      else if (!has_enough(&j->trials[i], &j->out->rows[p->first + i]))
-        st = trial_run(&j->trials[i], &j->start, &j->monitor);
+      w->done = 0.6 + 0.3 * (round * p->n + i) / ((double)n * p->n);
+      if (!hc_monitor_tick(&w->monitor, -1)) st = HC_INTERRUPTED;
+      else if (!has_enough(&w->trials[i], &w->out->rows[p->first + i]))
+        st = trial_run(&w->trials[i], &w->start, &w->monitor);
     }
   return st;
 }
 
-static hc_status measure_ours(job *j, bench_place *p)
+static hc_status measure_ours(workspace *w, bench_place *p)
 {
   hc_status st = HC_OK;
-  p->first = j->out->n_rows;
-  for (int i = 0; i < N_FAMILIES && st == HC_OK; ++i) st = add_family(j->out, &families[i], p->omega);
-  p->n = j->out->n_rows - p->first;
-  if (st == HC_OK && !(j->trials = calloc((size_t)p->n, sizeof *j->trials))) st = HC_NO_MEMORY;
-  if (st == HC_OK) st = first_round(j, p);
-  if (st == HC_OK) st = rounds(j, p);
-  for (int i = 0; j->trials && i < p->n; ++i) trial_finish(&j->trials[i]);
-  free(j->trials);
-  j->trials = NULL;
+  p->first = w->out->n_rows;
+  for (int i = 0; i < N_FAMILIES && st == HC_OK; ++i) st = add_family(w->out, &families[i], p->omega);
+  p->n = w->out->n_rows - p->first;
+  if (st == HC_OK && !(w->trials = calloc((size_t)p->n, sizeof *w->trials))) st = HC_NO_MEMORY;
+  if (st == HC_OK) st = first_round(w, p);
+  if (st == HC_OK) st = rounds(w, p);
+  for (int i = 0; w->trials && i < p->n; ++i) trial_finish(&w->trials[i]);
+  free(w->trials);
+  w->trials = NULL;
   return st;
 }
 
 /* The runs of scipy, as rows. */
-static hc_status measure_scipy(job *j, bench_place *p)
+static hc_status measure_scipy(workspace *w, bench_place *p)
 {
   scipy_run runs[SCIPY_MOST_RUNS];
   int n = 0;
-  j->done = 0.9;
-  hc_status st = scipy_lsoda(j->sc, &j->start, p->multiplier, j->options->repeats, &j->monitor, runs, &n, p->scipy);
-  const periodic_motion *ref = &j->start.reference;
+  w->done = 0.9;
+  hc_status st = scipy_lsoda(w->sc, &w->start, p->multiplier, w->options->repeats, &w->monitor, runs, &n, p->scipy);
+  const periodic_motion *ref = &w->start.reference;
   for (int i = 0; i < n && (st == HC_OK || st == HC_INTERRUPTED); ++i) {
     bench_row row = empty_row(BENCH_SCIPY_LSODA, p->omega);
     row.tolerance = runs[i].rtol;
     row.outcome = BENCH_SOLVED;
-    row.error = fabs(runs[i].amplitude - ref->amplitude) / ref->amplitude;
-    row.error_harmonic_1 = fabs(runs[i].harmonic_1 - ref->harmonic_1) / ref->amplitude;
+    row.error = discrepancy_relative(runs[i].amplitude - ref->amplitude, ref->amplitude);
+    row.error_harmonic_1 = discrepancy_relative(runs[i].harmonic_1 - ref->harmonic_1, ref->amplitude);
     row.repeats = runs[i].n;
     trial_quartiles(runs[i].n, runs[i].seconds, &row.low, &row.seconds, &row.high);
     if (!(row.error <= 0.3)) row.outcome = BENCH_OTHER_ORBIT;
-    if (add_row(j->out, &row) != HC_OK) st = HC_NO_MEMORY;
+    if (add_row(w->out, &row) != HC_OK) st = HC_NO_MEMORY;
     else ++p->n;
   }
   return st;
 }
 
-static hc_status bench_at(job *j, finder *f, double omega)
+static hc_status bench_at(workspace *w, finder *f, double omega)
 {
-  bench_place *p = &j->out->places[j->out->n_places];
-  j->done = 0;
-  hc_status st = finder_place(f, omega, &j->monitor, p, &j->start);
+  bench_place *p = &w->out->places[w->out->n_places];
+  w->done = 0;
+  hc_status st = finder_place(f, omega, &w->monitor, p, &w->start);
   if (st != HC_OK) return st;
-  ++j->out->n_places;
+  ++w->out->n_places;
   snprintf(p->scipy, sizeof p->scipy, "not asked for");
-  st = measure_ours(j, p);
-  if (st == HC_OK && !j->options->alone) st = measure_scipy(j, p);
-  bench_judge(p->n, j->out->rows + p->first, p->floor);
+  st = measure_ours(w, p);
+  if (st == HC_OK && !w->options->alone) st = measure_scipy(w, p);
+  bench_judge(p->n, w->out->rows + p->first, p->floor);
   return st;
 }
 
@@ -207,10 +207,10 @@ hc_status bench_run(const scene *sc, const bench_options *options, const hc_moni
   hc_status st = finder_start(sc, &at, monitor, &f);
   if (st == HC_OK && at.n == 0 && (st = finder_default(&f, &at.v[0])) == HC_OK) at.n = 1;
   for (int i = 0; i < at.n && st == HC_OK; ++i) {
-    job j = {
+    workspace w = {
         .sc = &f.sc, .options = options, .outer = monitor, .from = (double)i / at.n, .width = 1.0 / at.n, .out = out};
-    j.monitor = (hc_monitor){tick, &j};
-    st = bench_at(&j, &f, at.v[i]);
+    w.monitor = (hc_monitor){tick, &w};
+    st = bench_at(&w, &f, at.v[i]);
     if (st != HC_OK) *failed_at = at.v[i];
   }
   finder_free(&f);

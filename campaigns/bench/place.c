@@ -56,23 +56,23 @@ hc_status finder_default(finder *f, double *omega)
 
 /* The exact law's orbit next to *state, which moves there. */
 static hc_status exact_orbit(const scene *sc, double omega, transient_steady steady, double tolerance,
-                             const hc_monitor *monitor, timeint_state *state, timeint_result *r)
+                             const hc_monitor *monitor, scene_state *state, timeint_result *r)
 {
   scene own = *sc;
   timeint *ti = NULL;
-  timeint_state y = *state;
+  scene_state y = *state;
   own.transient.law = TRANSIENT_LAW_EXACT;
   own.transient.tolerance = tolerance;
   own.transient.steady = steady;
   hc_status st = scene_timeint(&own, &ti);
-  if (st == HC_OK) st = timeint_steady(ti, omega, &y, monitor, r);
+  if (st == HC_OK) st = timeint_steady(ti, omega, y.all, monitor, r);
   timeint_free(ti);
   if (st == HC_OK) *state = y;
   return st;
 }
 
 /* By shooting, at the tightest decade of tolerance at which rounding lets it converge. */
-static hc_status tightest_orbit(const scene *sc, double omega, const hc_monitor *monitor, timeint_state *state,
+static hc_status tightest_orbit(const scene *sc, double omega, const hc_monitor *monitor, scene_state *state,
                                 timeint_result *r, double *floor)
 {
   hc_status st = HC_NOT_CONVERGED;
@@ -84,7 +84,7 @@ static hc_status tightest_orbit(const scene *sc, double omega, const hc_monitor 
 }
 
 /* Where that was a coarse one: by waiting, from there. */
-static hc_status wait_for(const scene *sc, double omega, const hc_monitor *monitor, timeint_state *state,
+static hc_status wait_for(const scene *sc, double omega, const hc_monitor *monitor, scene_state *state,
                           timeint_result *r, double *floor)
 {
   timeint_result waited;
@@ -98,7 +98,7 @@ static hc_status wait_for(const scene *sc, double omega, const hc_monitor *monit
 }
 
 /* Of the curve's solutions at omega, by size: the largest whose orbit is stable. */
-static hc_status largest_stable(finder *f, double omega, const hc_monitor *monitor, double *X, timeint_state *state,
+static hc_status largest_stable(finder *f, double omega, const hc_monitor *monitor, double *X, scene_state *state,
                                 timeint_result *best, double *floor)
 {
   hbm_curve at = {0};
@@ -111,8 +111,8 @@ static hc_status largest_stable(finder *f, double omega, const hc_monitor *monit
     timeint_result r;
     double floor_k;
     if (hbm_measure(f->hbm, Xk, &m) != HC_OK || m.amplitude < 0.9 * best->amplitude) continue;
-    timeint_state y;
-    hc_status found = comparison_orbit_start(f->hbm, Xk, omega, &y);
+    scene_state y = {.x = 0};
+    hc_status found = comparison_orbit_start(f->hbm, Xk, omega, y.all);
     if (found == HC_OK) found = tightest_orbit(&f->sc, omega, monitor, &y, &r, &floor_k);
     if (found == HC_INTERRUPTED || found == HC_NO_MEMORY) st = found;
     if (found != HC_OK || timeint_stability(&r) <= 0 || r.amplitude <= best->amplitude) continue;
@@ -131,8 +131,8 @@ static bool near(const periodic_motion *a, const periodic_motion *b)
 }
 
 /* The same branch at omega: both sides of it. */
-static bool try_neighbour(finder *f, double omega, const double *X, const timeint_state *state,
-                          const hc_monitor *monitor, place_start *start)
+static bool try_neighbour(finder *f, double omega, const double *X, const scene_state *state, const hc_monitor *monitor,
+                          place_start *start)
 {
   hbm_point point;
   hbm_measures m;
@@ -143,7 +143,7 @@ static bool try_neighbour(finder *f, double omega, const double *X, const timein
   memcpy(start->X, X, (size_t)(2 * CURVE_HARMONICS + 1) * sizeof *X);
   if (hbm_solve(f->hbm, omega, start->X, &point) != HC_OK || hbm_measure(f->hbm, start->X, &m) != HC_OK) return false;
   if (exact_orbit(&f->sc, omega, TRANSIENT_STEADY_SHOOTING, 1e-9, monitor, &start->state, &r) != HC_OK) return false;
-  periodic_motion by_hbm = motion_of_series(&m, CURVE_HARMONICS, start->X), by_time = motion_of_transient(&r);
+  periodic_motion by_hbm = motion_of_solution(&m, CURVE_HARMONICS, start->X), by_time = motion_of_transient(&r);
   return near(&by_hbm, &by_time) && near(&by_time, &start->reference);
 }
 
@@ -151,7 +151,7 @@ hc_status finder_place(finder *f, double omega, const hc_monitor *monitor, bench
 {
   double X[TRIAL_MOST_COEF], distance = first_distance;
   timeint_result r;
-  timeint_state state;
+  scene_state state = {.x = 0};
   *place = (bench_place){.omega = omega};
   *start = (place_start){.omega = omega};
   hc_status st = largest_stable(f, omega, monitor, X, &state, &r, &place->floor);

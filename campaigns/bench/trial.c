@@ -71,8 +71,8 @@ static void solve_transient(trial *t, const place_start *at, const hc_monitor *m
   const bool marches = t->sc.transient.steady == TRANSIENT_STEADY_MARCH;
   limit l = {monitor, thread_seconds() + (marches ? bench_longest : bench_longest_shot), false};
   hc_monitor limited = {tick_limit, &l};
-  timeint_state state = at->state;
-  a->status = timeint_steady(t->ti, at->omega, &state, &limited, r);
+  scene_state state = at->state;
+  a->status = timeint_steady(t->ti, at->omega, state.all, &limited, r);
   a->too_long = a->status == HC_INTERRUPTED && !l.stopped;
 }
 
@@ -90,7 +90,7 @@ static double solve(trial *t, const place_start *at, const hc_monitor *monitor, 
   }
   const double took = thread_seconds() - began;
   t->spent += took;
-  if (a->status == HC_OK) a->motion = t->hbm ? motion_of_series(&m, t->row->harmonics, X) : motion_of_transient(&r);
+  if (a->status == HC_OK) a->motion = t->hbm ? motion_of_solution(&m, t->row->harmonics, X) : motion_of_transient(&r);
   return took / t->batch;
 }
 
@@ -127,7 +127,7 @@ static hc_status make(const place_start *at, const hc_monitor *monitor, trial *t
   return hbm_solve(t->hbm, at->neighbour, t->X, &point) == HC_OK ? HC_OK : from_own_curve(at, monitor, t);
 }
 
-static void take(const answer *a, const place_start *at, double took, bench_row *row)
+static void record_answer(const answer *a, const place_start *at, double took, bench_row *row)
 {
   const periodic_motion *ref = &at->reference;
   row->status = a->status;
@@ -136,8 +136,8 @@ static void take(const answer *a, const place_start *at, double took, bench_row 
   motion_distance gap = motion_between(&a->motion, ref);
   if (!(gap.waveform <= other_orbit * ref->amplitude)) row->outcome = BENCH_OTHER_ORBIT;
   if (row->outcome != BENCH_SOLVED) return;
-  row->error = gap.amplitude / ref->amplitude;
-  row->error_harmonic_1 = gap.harmonic_1 / ref->amplitude;
+  row->error = discrepancy_relative(gap.amplitude, ref->amplitude);
+  row->error_harmonic_1 = discrepancy_relative(gap.harmonic_1, ref->amplitude);
   row->seconds = took;
 }
 
@@ -157,7 +157,7 @@ hc_status trial_start(const scene *sc, const place_start *at, bench_row *row, in
   }
   double took = solve(t, at, monitor, &a);
   if (a.status == HC_NO_MEMORY || (a.status == HC_INTERRUPTED && !a.too_long)) return a.status;
-  take(&a, at, took, row);
+  record_answer(&a, at, took, row);
   if (took > trial_slow && row->outcome == BENCH_SOLVED) t->seconds[t->runs++] = took; /* is the only one */
   if (took < shortest_run) t->batch = (int)fmin(ceil(shortest_run / fmax(took, 1e-7)), 1000);
   return HC_OK;

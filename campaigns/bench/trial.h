@@ -3,9 +3,10 @@
 #define HC_BENCH_TRIAL_H
 
 #include "campaigns/bench/bench.h"
+#include "campaigns/scene_solvers.h"
 #include "compare/motion.h"
 #include "hbm/hbm.h"
-#include "timeint/timeint.h"
+#include "timeint/steady.h"
 
 enum { TRIAL_MOST_COEF = 2 * HBM_MAX_HARMONICS + 1 };
 
@@ -13,7 +14,7 @@ enum { TRIAL_MOST_COEF = 2 * HBM_MAX_HARMONICS + 1 };
 typedef struct place_start {
   double omega, neighbour;   /* [rad/time] */
   double X[TRIAL_MOST_COEF]; /* [length] HBM solution at the neighbour, as many harmonics as there are, then zeros */
-  timeint_state state;       /* on the exact orbit at the neighbour */
+  scene_state state;         /* on the exact orbit at the neighbour */
   periodic_motion reference; /* at omega */
 } place_start;
 

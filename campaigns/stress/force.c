@@ -9,7 +9,7 @@
 
 #include "base/constants.h"
 #include "campaigns/scene_solvers.h"
-#include "campaigns/stress/subject.h"
+#include "campaigns/stress/solved_scene.h"
 #include "hbm/aft.h"
 #include "hbm/exact_force.h"
 #include "numerics/series.h"
@@ -124,21 +124,21 @@ static double sampling(const scene *sc, const double *X, const force *f, int n_t
 }
 
 /* The coefficient that comes nearest to its bound, or is farthest beyond. */
-static void hold_samples(const scene *sc, const double *X, const force *f, const double *sampled, int n_time,
-                         double *error, double *bound)
+static void worst_coefficient(const scene *sc, const double *X, const force *f, const double *sampled, int n_time,
+                              double *error, double *bound)
 {
   double worst = -1;
   for (int i = f->free ? 1 : 0; i < 2 * sc->hbm.harmonics + 1; ++i) {
     double e = fabs(f->F[i] - sampled[i]), b = sampling(sc, X, f, n_time, (i + 1) / 2) + rounding(sc, X),
-           share = e == 0 ? 0 : e / b;
-    if (share <= worst) continue;
+           ratio = e == 0 ? 0 : e / b;
+    if (ratio <= worst) continue;
     *error = e == 0 ? 0 : e / largest(sc, f);
     *bound = e == 0 ? 0 : b / largest(sc, f);
-    worst = isnan(share) ? INFINITY : share;
+    worst = isnan(ratio) ? INFINITY : ratio;
   }
 }
 
-stress_check stress_check_force(stress_subject *s)
+stress_check stress_check_force(solved_scene *s)
 {
   const scene *sc = s->sc;
   double X[STRESS_COEFFICIENTS], error = 0, bound = 0;
@@ -154,12 +154,12 @@ stress_check stress_check_force(stress_subject *s)
     if (st == HC_OK) st = aft_eval(a, X, sampled, NULL, NULL);
     aft_free(a);
     if (st != HC_OK) return stress_refuse(s, st);
-    hold_samples(sc, X, &f, sampled, samples[i], &error, &bound);
+    worst_coefficient(sc, X, &f, sampled, samples[i], &error, &bound);
   }
   return stress_agree(error, bound);
 }
 
-stress_check stress_check_shift(stress_subject *s)
+stress_check stress_check_shift(solved_scene *s)
 {
   const scene *sc = s->sc;
   const double later = 2.0; /* [rad] */
@@ -188,7 +188,7 @@ stress_check stress_check_shift(stress_subject *s)
 /* A stuck or separated contact pushes back by where the mass is, whichever way it goes; friction does not. Where the
  * motion slips, the scene is given so much friction that a contact which closes never slips; if it slips still
  * (preloaded), there is nothing to check. */
-stress_check stress_check_reflection(stress_subject *s)
+stress_check stress_check_reflection(solved_scene *s)
 {
   scene sc = *s->sc;
   double X[STRESS_COEFFICIENTS], backwards[STRESS_COEFFICIENTS];

@@ -3,11 +3,11 @@
 #include <string.h>
 
 #include "campaigns/stress/scenes.h"
-#include "campaigns/stress/subject.h"
+#include "campaigns/stress/solved_scene.h"
 
 /* How much more than its data a solution moves: every datum is moved by `nudge`, up and down in turn, and HBM solved
  * again. */
-static double sensitivity(stress_subject *s, const stress_solution *from)
+static double sensitivity(solved_scene *s, const stress_solution *from)
 {
   const double nudge = 1e-9;
   scene sc = *s->sc;
@@ -28,7 +28,7 @@ static double sensitivity(stress_subject *s, const stress_solution *from)
 
 /* The distance of the same solution in other units, back in ours. From nothing, or from our own solution. NaN: *st
  * says what failed. */
-static double in_other_units(stress_subject *s, double length, double force, double time, bool from_nothing,
+static double in_other_units(solved_scene *s, double length, double force, double time, bool from_nothing,
                              hc_status *st)
 {
   const scene sc = stress_in_units(s->sc, length, force, time);
@@ -45,7 +45,7 @@ static double in_other_units(stress_subject *s, double length, double force, dou
 /* Powers of two change no mantissa: not even the path of a failing Newton iteration may differ, from nothing.
  * Inches, pounds and minutes round every datum, and can lead an iteration elsewhere; from our own solution they must
  * stay there. */
-stress_check stress_check_units(stress_subject *s)
+stress_check stress_check_units(solved_scene *s)
 {
   const double bound = 1e-10; /* what hbm.tolerance allows a well-conditioned solution */
   hc_status st;
@@ -67,7 +67,7 @@ stress_check stress_check_units(stress_subject *s)
  * where nothing slips. It holds for the truncated equations as it does for the oscillator: the force is the exact
  * one of the truncated motion, which is a motion like any other. Bound: the residual's tolerance, relative to each
  * harmonic's forces, times how far they go. */
-stress_check stress_check_energy(stress_subject *s)
+stress_check stress_check_energy(solved_scene *s)
 {
   const scene *sc = s->sc;
   const stress_solution *b = &s->base;

@@ -46,7 +46,7 @@ static hc_status read_heading(const stress_plan *plan, FILE *file)
 }
 
 /* The next number of the line; false: there is none. */
-static bool take(const char **at, double *x)
+static bool read_number(const char **at, double *x)
 {
   char *end;
   *x = strtod(*at, &end);
@@ -56,10 +56,10 @@ static bool take(const char **at, double *x)
 }
 
 /* The next one, a code 0 .. n-1. */
-static bool take_code(const char **at, int n, int *code)
+static bool read_code(const char **at, int n, int *code)
 {
   double x;
-  if (!take(at, &x) || !(x >= 0 && x < n)) return false;
+  if (!read_number(at, &x) || !(x >= 0 && x < n)) return false;
   *code = (int)x;
   return true;
 }
@@ -67,15 +67,15 @@ static bool take_code(const char **at, int n, int *code)
 static bool parse(const char *line, stress_result *r)
 {
   double index;
-  if (!take(&line, &index) || !(index >= 0 && index < 1e15) || !take(&line, &r->seconds)) return false;
+  if (!read_number(&line, &index) || !(index >= 0 && index < 1e15) || !read_number(&line, &r->seconds)) return false;
   r->index = (long)index;
   for (int k = 0; k < STRESS_N_CHECKS; ++k) {
     stress_check c = {STRESS_SKIPPED, STRESS_NO_REASON, HC_OK, 0, 0, 0};
     int outcome, reason, status;
-    if (!take_code(&line, STRESS_N_OUTCOMES, &outcome) || !take_code(&line, STRESS_N_REASONS, &reason) ||
-        !take_code(&line, HC_BUG + 1, &status))
+    if (!read_code(&line, STRESS_N_OUTCOMES, &outcome) || !read_code(&line, STRESS_N_REASONS, &reason) ||
+        !read_code(&line, HC_BUG + 1, &status))
       return false;
-    if (!take(&line, &c.error) || !take(&line, &c.bound) || !take(&line, &c.seconds)) return false;
+    if (!read_number(&line, &c.error) || !read_number(&line, &c.bound) || !read_number(&line, &c.seconds)) return false;
     c.outcome = (stress_outcome)outcome, c.reason = (stress_reason)reason, c.status = (hc_status)status;
     r->check[k] = c;
   }

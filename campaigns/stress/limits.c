@@ -7,15 +7,15 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/constants.h"
-#include "campaigns/stress/subject.h"
+#include "campaigns/stress/solved_scene.h"
 #include "compare/comparison.h"
+#include "compare/motion.h"
 
 static const double close_enough = 1e-6;
 
 /* ---- samples ---- */
 
-stress_check stress_check_sampled(stress_subject *s)
+stress_check stress_check_sampled(solved_scene *s)
 {
   const stress_solution *b = &s->base;
   if (b->status != HC_OK) return stress_refuse(s, b->status);
@@ -52,7 +52,7 @@ stress_check stress_check_sampled(stress_subject *s)
 /* ---- harmonics ---- */
 
 /* The exact law's orbit from an HBM solution, and how far that is from it. NaN: no orbit. */
-static double shoot_from(stress_subject *s, const stress_solution *h, stress_orbit *orbit)
+static double shoot_from(solved_scene *s, const stress_solution *h, stress_orbit *orbit)
 {
   orbit->state = h->start;
   stress_shoot(s, s->sc, s->omega, orbit);
@@ -62,24 +62,19 @@ static double shoot_from(stress_subject *s, const stress_solution *h, stress_orb
 static double tolerance_of(const stress_orbit *o) { return fmax(close_enough, 3 * o->r.closure); }
 
 /* HBM from an orbit found by time integration: is it a solution of HBM, too? Its harmonics from its wave. */
-static double confirm(stress_subject *s, const scene *sc, const stress_orbit *o)
+static double confirm(solved_scene *s, const scene *sc, const stress_orbit *o)
 {
-  double guess[STRESS_COEFFICIENTS] = {0};
+  double guess[STRESS_COEFFICIENTS];
   stress_solution h;
-  guess[0] = o->r.mean;
-  for (int k = 1; k <= sc->hbm.harmonics; ++k)
-    for (int i = 0; i < TIMEINT_WAVE; ++i) {
-      double th = TWO_PI * k * i / TIMEINT_WAVE;
-      guess[2 * k - 1] += 2 * o->r.wave[i] * cos(th) / TIMEINT_WAVE;
-      guess[2 * k] += 2 * o->r.wave[i] * sin(th) / TIMEINT_WAVE;
-    }
+  const periodic_motion orbit = motion_of_transient(&o->r);
+  motion_harmonics(&orbit, sc->hbm.harmonics, guess);
   stress_solve(s, sc, s->omega, sc->hbm.harmonics, guess, &h);
   return h.status == HC_OK ? comparison_waveform_error(&h.m, h.n_harm, h.X, &o->r) : NAN;
 }
 
 /* Does the stuck mass oscillate too fast for n harmonics? Its ringing after each impact is what they would have to
  * follow. */
-static bool beyond_harmonics(const stress_subject *s, int n)
+static bool beyond_harmonics(const solved_scene *s, int n)
 {
   return sqrt(scene_max_stiffness(s->sc) / s->sc->mass) > 0.1 * n * s->omega;
 }
@@ -93,7 +88,7 @@ static double moved(const stress_solution *h, const stress_solution *finer, doub
 }
 
 /* Harmonics are doubled until HBM and the orbit next to it meet. */
-stress_check stress_check_shooting(stress_subject *s)
+stress_check stress_check_shooting(solved_scene *s)
 {
   if (s->base.status != HC_OK) return stress_refuse(s, s->base.status);
   /* another equation */
@@ -137,7 +132,7 @@ static double multiplier_error(const stress_solution *h, const stress_orbit *o)
 /* Multipliers are those of an orbit and change with it, and at once where a transition appears: beyond a thousandth
  * they must come nearer with twice the harmonics (slowly, where a short hard contact is beyond them all), or the two
  * orbits run through different transitions. */
-stress_check stress_check_stability(stress_subject *s)
+stress_check stress_check_stability(solved_scene *s)
 {
   const double bound = 1e-3;
   if (s->base.status != HC_OK) return stress_refuse(s, s->base.status);
@@ -163,7 +158,7 @@ stress_check stress_check_stability(stress_subject *s)
 
 /* ---- regularisation ---- */
 
-static double regularised(stress_subject *s, double regularisation, stress_orbit *o)
+static double regularised(solved_scene *s, double regularisation, stress_orbit *o)
 {
   scene sc = *s->sc;
   sc.transient.law = TRANSIENT_LAW_REGULARISED;
@@ -176,7 +171,7 @@ static double regularised(stress_subject *s, double regularisation, stress_orbit
 
 /* First order in the regularisation, second in places, and never known beforehand which: less of it must come
  * nearer. */
-stress_check stress_check_regularised(stress_subject *s)
+stress_check stress_check_regularised(solved_scene *s)
 {
   if (s->orbit.status != HC_OK) return stress_skip(STRESS_NO_ORBIT);
   static const double less[] = {1e-4, 1e-5, 1e-6, 1e-7};

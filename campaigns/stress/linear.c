@@ -10,7 +10,7 @@
 #include <string.h>
 
 #include "campaigns/scene_solvers.h"
-#include "campaigns/stress/subject.h"
+#include "campaigns/stress/solved_scene.h"
 #include "model/linear.h"
 
 static double condition(const scene *sc, double k, double omega)
@@ -22,7 +22,7 @@ static double condition(const scene *sc, double k, double omega)
 static double off(double a1, double b1, double complex z) { return hypot(a1 - creal(z), b1 + cimag(z)) / cabs(z); }
 
 /* HBM by Newton from a guess that is off by two fifths, and the transient from there. */
-static stress_check hold(stress_subject *s, const scene *linear, double k)
+static stress_check check_linear(solved_scene *s, const scene *linear, double k)
 {
   scene sc = *linear;
   const double complex z = linear_response(sc.mass, sc.damping, k, sc.force, s->omega);
@@ -39,9 +39,9 @@ static stress_check hold(stress_subject *s, const scene *linear, double k)
 
   timeint *ti = NULL;
   timeint_result r;
-  timeint_state state = {.x = creal(z), .v = -s->omega * cimag(z)};
+  scene_state state = {.x = creal(z), .v = -s->omega * cimag(z)};
   hc_status st = scene_timeint(&sc, &ti);
-  if (st == HC_OK) st = timeint_steady(ti, s->omega, &state, &s->monitor, &r);
+  if (st == HC_OK) st = timeint_steady(ti, s->omega, state.all, &s->monitor, &r);
   timeint_free(ti);
   /* undamped, nothing settles */
   if (st != HC_OK) return sc.damping == 0 ? stress_agree(error, bound) : stress_refuse(s, st);
@@ -51,17 +51,17 @@ static stress_check hold(stress_subject *s, const scene *linear, double k)
                                  : stress_agree(fmax(error, r.method == TIMEINT_BY_CLOSED_FORM ? transient : 0), bound);
 }
 
-stress_check stress_check_free(stress_subject *s)
+stress_check stress_check_free(solved_scene *s)
 {
   scene sc = *s->sc;
   double reach = cabs(linear_response(sc.mass, sc.damping, sc.stiffness, sc.force, s->omega));
   if (!(reach < 1e150)) return stress_skip(STRESS_NOT_APPLICABLE); /* an undamped resonance */
   for (int j = 0; j < sc.n_contacts; ++j) sc.contacts[j].law.gap = -3 * reach;
-  return hold(s, &sc, sc.stiffness);
+  return check_linear(s, &sc, sc.stiffness);
 }
 
 /* kt c |x| <= mu kn (gap + s x) for |x| up to three times the response, with mu at least 1. */
-stress_check stress_check_stuck(stress_subject *s)
+stress_check stress_check_stuck(solved_scene *s)
 {
   scene sc = *s->sc;
   const double k = scene_max_stiffness(&sc), reach = cabs(linear_response(sc.mass, sc.damping, k, sc.force, s->omega));
@@ -71,5 +71,5 @@ stress_check stress_check_stuck(stress_subject *s)
     c->mu = fmax(c->mu, 1);
     c->gap = 10 * reach * (1 + c->kt / (c->mu * c->kn));
   }
-  return hold(s, &sc, k);
+  return check_linear(s, &sc, k);
 }

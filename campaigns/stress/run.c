@@ -14,7 +14,7 @@ typedef struct pool {
   long next, done;
 } pool;
 
-static stress_result *take(pool *p)
+static stress_result *next_result(pool *p)
 {
   stress_result *r = NULL;
   pthread_mutex_lock(&p->workers.lock);
@@ -24,7 +24,7 @@ static stress_result *take(pool *p)
   return r;
 }
 
-static hc_status keep(pool *p, const stress_result *r)
+static hc_status store_result(pool *p, const stress_result *r)
 {
   pthread_mutex_lock(&p->workers.lock);
   hc_status st = stress_journal_add(p->journal, r);
@@ -39,11 +39,11 @@ static void *work(void *self)
   const hc_monitor monitor = {workers_tick, &p->workers};
   stress_scenes *scenes;
   hc_status st = stress_scenes_new(p->plan->seed, &scenes);
-  for (stress_result *r; st == HC_OK && (r = take(p));) {
+  for (stress_result *r; st == HC_OK && (r = next_result(p));) {
     scene sc;
     st = stress_scenes_at(scenes, r->index, &sc);
     if (st == HC_OK) st = stress_scene(&sc, p->plan->seconds, &monitor, r);
-    if (st == HC_OK) st = keep(p, r);
+    if (st == HC_OK) st = store_result(p, r);
   }
   stress_scenes_free(scenes);
   if (st != HC_OK) workers_stop(&p->workers, st);

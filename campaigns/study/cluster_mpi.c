@@ -49,7 +49,7 @@ static void receive_result(const cluster_desk *desk, const MPI_Status *from)
   char *packed = malloc((size_t)size + 1);
   if (!packed) MPI_Abort(MPI_COMM_WORLD, 1); /* what is kept is kept; the study goes on from there */
   MPI_Recv(packed, size, MPI_BYTE, from->MPI_SOURCE, TAG_RESULT, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
-  desk->keep(desk->self, packed, (size_t)size);
+  desk->store(desk->self, packed, (size_t)size);
   free(packed);
 }
 
@@ -57,7 +57,7 @@ static void answer(const cluster_desk *desk, int rank)
 {
   long ids[HANDFUL];
   MPI_Recv(NULL, 0, MPI_BYTE, rank, TAG_ASK, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
-  int n = desk->take(desk->self, HANDFUL, ids);
+  int n = desk->next_scenes(desk->self, HANDFUL, ids);
   MPI_Send(ids, n, MPI_LONG, rank, TAG_SCENES, MPI_COMM_WORLD);
   if (n == 0) --at_work;
 }

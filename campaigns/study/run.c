@@ -21,7 +21,7 @@ typedef struct pool {
   long next, there, now;
 } pool;
 
-static long take(pool *p)
+static long next_scene(pool *p)
 {
   long id = -1;
   pthread_mutex_lock(&p->workers.lock);
@@ -31,7 +31,7 @@ static long take(pool *p)
   return id;
 }
 
-static hc_status keep(pool *p, const study_result *r)
+static hc_status store_result(pool *p, const study_result *r)
 {
   pthread_mutex_lock(&p->writing);
   hc_status st = p->lost ? HC_IO : study_store_put(p->store, r);
@@ -48,10 +48,10 @@ static void *work(void *self)
 {
   pool *p = self;
   hc_monitor monitor = {workers_tick, &p->workers};
-  for (long id; (id = take(p)) >= 0;) {
+  for (long id; (id = next_scene(p)) >= 0;) {
     study_result r;
     hc_status st = study_solve(p->s, id, &monitor, &r);
-    if (st == HC_OK) st = keep(p, &r);
+    if (st == HC_OK) st = store_result(p, &r);
     study_result_clear(&r);
     if (st != HC_OK) {
       workers_stop(&p->workers, st);
@@ -64,18 +64,18 @@ static void *work(void *self)
 
 /* ---- other processes ---- */
 
-static int take_some(void *self, int most, long *ids)
+static int next_scenes(void *self, int most, long *ids)
 {
   int n = 0;
-  while (n < most && (ids[n] = take(self)) >= 0) ++n;
+  while (n < most && (ids[n] = next_scene(self)) >= 0) ++n;
   return n;
 }
 
-static void keep_packed(void *self, const char *packed, size_t size)
+static void store_packed(void *self, const char *packed, size_t size)
 {
   study_result r;
   hc_status st = study_result_unpack(packed, size, &r);
-  if (st == HC_OK) st = keep(self, &r);
+  if (st == HC_OK) st = store_result(self, &r);
   study_result_clear(&r);
   if (st != HC_OK) workers_stop(&((pool *)self)->workers, st);
 }
@@ -84,7 +84,7 @@ static void keep_packed(void *self, const char *packed, size_t size)
 
 static void watch_over(pool *p, const study_watch *watch)
 {
-  const cluster_desk desk = {take_some, keep_packed, p};
+  const cluster_desk desk = {next_scenes, store_packed, p};
   for (int beat = 0;; ++beat) {
     bool others = cluster_serve(&desk);
     pthread_mutex_lock(&p->workers.lock);

@@ -7,7 +7,7 @@
 
 #include "campaigns/scene_solvers.h"
 #include "compare/frequencies.h"
-#include "hbm/curve.h"
+#include "hbm/segment.h"
 
 /* [1] A point farther from the curve than this fraction of the drawing is on another branch. */
 static const double off_curve = 0.01;

@@ -51,11 +51,10 @@ static void advise_on_error(const report_data *d, FILE *to)
 {
   const comparison *c = &d->comparison;
   const comparison_row *top = NULL;
-  int doubtful = 0, unknown = 0;
+  int unknown = 0;
   char text[BUDGET_TEXT];
   for (int i = 0; i < c->n_rows; ++i) {
     const comparison_row *r = &c->rows[i];
-    doubtful += r->budget.known && !r->budget.holds;
     unknown += !r->budget.known;
     if (r->budget.known && (!top || r->budget.amplitude.sum > top->budget.amplitude.sum)) top = r;
   }
@@ -65,9 +64,6 @@ static void advise_on_error(const report_data *d, FILE *to)
                 budget_advice(&top->budget, &d->setup, d->sc->gate.most.amplitude, c->harmonics, text));
     fputs("</li>\n", to);
   }
-  if (doubtful)
-    fprintf(to, "<li class=\"bad\">In %d row%s the parts do not account for what is observed: look there first.</li>\n",
-            doubtful, doubtful == 1 ? "" : "s");
   if (unknown)
     fprintf(
         to,

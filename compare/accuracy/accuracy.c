@@ -1,4 +1,4 @@
-/* accuracy.c - see budget.h: the table over truncation orders and sampling rates, and the orders it shows.
+/* accuracy.c - see accuracy.h: the table over truncation orders and sampling rates, and the orders it shows.
  *
  *     the curve with exact forces and most harmonics -> orbits to compare with, the peak (reference.h)
  *     each H: the curve with exact forces -> a solution next to each orbit -> each N: the same solution, from there;
@@ -34,30 +34,30 @@ typedef struct solutions {
   long iterations;
 } solutions;
 
-typedef struct job {
+typedef struct workspace {
   const compare_setup *setup;
   const comparison *c;
   const hc_monitor *monitor;
   int n_harm, n_samples, *harmonics, *samples; /* ascending, each once */
   reference ref;
   accuracy *out;
-} job;
+} workspace;
 
 /* ---- curves and solutions -------------------------------------------------------------------- */
 
-static hc_status trace(const job *j, int n_harm, int samples, traced *t)
+static hc_status trace(const workspace *w, int n_harm, int samples, traced *t)
 {
-  compare_setup setup = *j->setup;
+  compare_setup setup = *w->setup;
   double from, to, began = thread_seconds();
   number_list none = {0};
   *t = (traced){.n_harm = n_harm};
   setup.hbm.harmonics = n_harm;
   setup.hbm.force = samples == EXACT ? HBM_FORCE_EXACT : HBM_FORCE_SAMPLED;
   if (samples != EXACT) setup.hbm.samples = samples;
-  comparison_sweep(setup.omega_from, setup.omega_to, j->setup->compare.omega.n ? &j->setup->compare.omega : &none,
+  comparison_sweep(setup.omega_from, setup.omega_to, w->setup->compare.omega.n ? &w->setup->compare.omega : &none,
                    &from, &to);
   hc_status st = hbm_solver_new(setup.model, &setup.hbm, &t->hbm);
-  t->status = st == HC_OK ? hbm_trace(t->hbm, from, to, j->monitor, &t->curve) : st;
+  t->status = st == HC_OK ? hbm_trace(t->hbm, from, to, w->monitor, &t->curve) : st;
   t->seconds = thread_seconds() - began;
   return t->status == HC_INTERRUPTED || t->status == HC_NO_MEMORY ? t->status : HC_OK; /* as far as the curve goes */
 }
@@ -86,24 +86,24 @@ static void solutions_free(solutions *s)
   *s = (solutions){0};
 }
 
-static bool take(solutions *s, int i, hbm_solver *hbm, const double *X)
+static bool keep_solution(solutions *s, int i, hbm_solver *hbm, const double *X)
 {
   hbm_measures m;
   if (hbm_measure(hbm, X, &m) != HC_OK) return false;
   memcpy(s->X + (size_t)i * s->n_coef, X, (size_t)s->n_coef * sizeof *X);
-  s->motion[i] = motion_of_series(&m, hbm_n_harmonics(hbm), X);
+  s->motion[i] = motion_of_solution(&m, hbm_n_harmonics(hbm), X);
   return s->there[i] = true;
 }
 
 /* The nearest pair of a target without solution and a solution of *at not taken yet; false when there is no more. */
-static bool nearest_pair(const job *j, const solutions *s, int first, int last, const hbm_curve *at,
+static bool nearest_pair(const workspace *w, const solutions *s, int first, int last, const hbm_curve *at,
                          const periodic_motion *found, const bool *taken, int *i, int *k)
 {
   double least = INFINITY;
   for (int a = first; a < last; ++a)
     for (int b = 0; b < at->n; ++b) {
       if (s->there[a] || taken[b]) continue;
-      double d = motion_between(&found[b], &j->ref.targets[a].orbit).waveform;
+      double d = motion_between(&found[b], &w->ref.targets[a].orbit).waveform;
       if (d < least) {
         least = d;
         *i = a;
@@ -115,10 +115,10 @@ static bool nearest_pair(const job *j, const solutions *s, int first, int last, 
 
 /* The targets first..last-1, of one frequency, get the solutions of the curve there: each at most one, the nearest
  * pairs first. */
-static hc_status assign(const job *j, traced *t, int first, int last, solutions *s)
+static hc_status assign(const workspace *w, traced *t, int first, int last, solutions *s)
 {
   hbm_curve at = {0};
-  hc_status st = hbm_curve_at(t->hbm, &t->curve, j->ref.targets[first].omega, &at);
+  hc_status st = hbm_curve_at(t->hbm, &t->curve, w->ref.targets[first].omega, &at);
   periodic_motion *found = calloc((size_t)at.n + 1, sizeof *found);
   bool *taken = calloc((size_t)at.n + 1, sizeof *taken);
   int i, k;
@@ -128,11 +128,11 @@ static hc_status assign(const job *j, traced *t, int first, int last, solutions 
     const double *X = at.X + (size_t)b * at.n_coef;
     s->iterations += at.points[b].iterations;
     taken[b] = hbm_measure(t->hbm, X, &m) != HC_OK; /* not to be had */
-    if (!taken[b]) found[b] = motion_of_series(&m, t->n_harm, X);
+    if (!taken[b]) found[b] = motion_of_solution(&m, t->n_harm, X);
   }
-  while (st == HC_OK && nearest_pair(j, s, first, last, &at, found, taken, &i, &k)) {
+  while (st == HC_OK && nearest_pair(w, s, first, last, &at, found, taken, &i, &k)) {
     taken[k] = true;
-    take(s, i, t->hbm, at.X + (size_t)k * at.n_coef);
+    keep_solution(s, i, t->hbm, at.X + (size_t)k * at.n_coef);
   }
   free(found);
   free(taken);
@@ -140,22 +140,22 @@ static hc_status assign(const job *j, traced *t, int first, int last, solutions 
   return st;
 }
 
-static hc_status solve_exact(const job *j, traced *t, solutions *s)
+static hc_status solve_exact(const workspace *w, traced *t, solutions *s)
 {
-  hc_status st = solutions_new(j->ref.n, 2 * t->n_harm + 1, s);
-  for (int first = 0, last; first < j->ref.n && st == HC_OK; first = last) {
-    for (last = first; last < j->ref.n && j->ref.targets[last].omega == j->ref.targets[first].omega;) ++last;
-    st = assign(j, t, first, last, s);
+  hc_status st = solutions_new(w->ref.n, 2 * t->n_harm + 1, s);
+  for (int first = 0, last; first < w->ref.n && st == HC_OK; first = last) {
+    for (last = first; last < w->ref.n && w->ref.targets[last].omega == w->ref.targets[first].omega;) ++last;
+    st = assign(w, t, first, last, s);
   }
   return st;
 }
 
 /* Two starts that came to the same solution: the one that came from farther away has none of its own. */
-static void drop_doubles(const job *j, const solutions *from, solutions *s)
+static void drop_doubles(const workspace *w, const solutions *from, solutions *s)
 {
   for (int a = 0; a < s->n; ++a)
     for (int b = 0; b < s->n; ++b) {
-      if (a == b || !s->there[a] || !s->there[b] || j->ref.targets[a].omega != j->ref.targets[b].omega) continue;
+      if (a == b || !s->there[a] || !s->there[b] || w->ref.targets[a].omega != w->ref.targets[b].omega) continue;
       if (!(motion_between(&s->motion[a], &s->motion[b]).waveform <= 1e-6 * s->motion[b].amplitude)) continue;
       double da = motion_between(&s->motion[a], &from->motion[a]).waveform,
              db = motion_between(&s->motion[b], &from->motion[b]).waveform;
@@ -164,7 +164,7 @@ static void drop_doubles(const job *j, const solutions *from, solutions *s)
 }
 
 /* The sampled solutions, each from the one with exact forces. */
-static hc_status solve_sampled(const job *j, traced *t, const solutions *from, solutions *s)
+static hc_status solve_sampled(const workspace *w, traced *t, const solutions *from, solutions *s)
 {
   hc_status st = solutions_new(from->n, from->n_coef, s);
   double X[2 * HBM_MAX_HARMONICS + 1];
@@ -172,10 +172,10 @@ static hc_status solve_sampled(const job *j, traced *t, const solutions *from, s
     hbm_point point = {0};
     if (!from->there[i]) continue;
     memcpy(X, from->X + (size_t)i * from->n_coef, (size_t)from->n_coef * sizeof *X);
-    if (hbm_solve(t->hbm, j->ref.targets[i].omega, X, &point) == HC_OK) take(s, i, t->hbm, X);
+    if (hbm_solve(t->hbm, w->ref.targets[i].omega, X, &point) == HC_OK) keep_solution(s, i, t->hbm, X);
     s->iterations += point.iterations;
   }
-  if (st == HC_OK) drop_doubles(j, from, s);
+  if (st == HC_OK) drop_doubles(w, from, s);
   return st;
 }
 
@@ -187,18 +187,17 @@ static double median(int n, double *e)
   return n == 0 ? NAN : n % 2 ? e[n / 2] : 0.5 * (e[n / 2 - 1] + e[n / 2]);
 }
 
-static hc_status put_errors(const job *j, const solutions *s, const solutions *plain, accuracy_row *row)
+static hc_status put_errors(const workspace *w, const solutions *s, const solutions *plain, accuracy_row *row)
 {
   double *e = calloc((size_t)s->n + 1, sizeof *e);
   if (!e) return HC_NO_MEMORY;
   row->worst = row->aliasing = s->n ? 0 : NAN;
   for (int i = 0; i < s->n; ++i) {
-    const double a = j->ref.targets[i].orbit.amplitude, got = s->motion[i].amplitude;
+    const double a = w->ref.targets[i].orbit.amplitude, got = s->motion[i].amplitude;
     if (!s->there[i]) continue;
-    e[row->solutions++] = got == a ? 0 : fabs(got - a) / a;
+    e[row->solutions++] = discrepancy_relative(got - a, a);
     row->worst = fmax(row->worst, e[row->solutions - 1]);
-    row->aliasing =
-        fmax(row->aliasing, got == plain->motion[i].amplitude ? 0 : fabs(got - plain->motion[i].amplitude) / a);
+    row->aliasing = fmax(row->aliasing, discrepancy_relative(got - plain->motion[i].amplitude, a));
   }
   if (row->solutions == 0) row->worst = row->aliasing = NAN;
   row->missing = s->n - row->solutions;
@@ -207,15 +206,15 @@ static hc_status put_errors(const job *j, const solutions *s, const solutions *p
   return HC_OK;
 }
 
-static hc_status put_curve(const job *j, traced *t, accuracy_row *row)
+static hc_status put_curve(const workspace *w, traced *t, accuracy_row *row)
 {
   response_summary curve = {.peak_amplitude = NAN, .peak_omega = NAN};
   hc_status st = t->hbm ? response_summarise(t->hbm, &t->curve, &curve) : HC_OK;
   row->status = t->status;
   row->peak_amplitude = curve.peak_amplitude;
   row->peak_omega = curve.peak_omega;
-  row->peak_error = fabs(curve.peak_amplitude - j->ref.peak_amplitude) / j->ref.peak_amplitude;
-  row->peak_omega_error = fabs(curve.peak_omega - j->ref.peak_omega) / j->ref.peak_omega;
+  row->peak_error = discrepancy_relative(curve.peak_amplitude - w->ref.peak_amplitude, w->ref.peak_amplitude);
+  row->peak_omega_error = fabs(curve.peak_omega - w->ref.peak_omega) / w->ref.peak_omega;
   row->turning_points = t->curve.turning_points;
   row->rejected = t->curve.rejected;
   row->iterations = t->curve.iterations;
@@ -223,24 +222,24 @@ static hc_status put_curve(const job *j, traced *t, accuracy_row *row)
   return st;
 }
 
-static hc_status put_row(const job *j, traced *t, int samples, const solutions *s, const solutions *plain,
+static hc_status put_row(const workspace *w, traced *t, int samples, const solutions *s, const solutions *plain,
                          int true_turns, double began)
 {
-  accuracy_row *row = &j->out->rows[j->out->n_rows];
+  accuracy_row *row = &w->out->rows[w->out->n_rows];
   *row = (accuracy_row){.harmonics = t->n_harm, .samples = samples, .possible = true};
-  hc_status st = put_curve(j, t, row);
+  hc_status st = put_curve(w, t, row);
   if (st != HC_OK) return st;
   row->iterations += s->iterations;
   row->false_turning_points = row->turning_points > true_turns ? row->turning_points - true_turns : 0;
-  st = put_errors(j, s, plain, row);
+  st = put_errors(w, s, plain, row);
   row->seconds = t->seconds + thread_seconds() - began;
-  if (st == HC_OK) ++j->out->n_rows;
+  if (st == HC_OK) ++w->out->n_rows;
   return st;
 }
 
-static void put_impossible(const job *j, int n_harm, int samples)
+static void put_impossible(const workspace *w, int n_harm, int samples)
 {
-  j->out->rows[j->out->n_rows++] = (accuracy_row){.harmonics = n_harm,
+  w->out->rows[w->out->n_rows++] = (accuracy_row){.harmonics = n_harm,
                                                   .samples = samples,
                                                   .status = HC_BAD_INPUT,
                                                   .worst = NAN,
@@ -253,32 +252,32 @@ static void put_impossible(const job *j, int n_harm, int samples)
                                                   .seconds = NAN};
 }
 
-static hc_status sampled_row(const job *j, int n_harm, int samples, const solutions *plain, int true_turns)
+static hc_status sampled_row(const workspace *w, int n_harm, int samples, const solutions *plain, int true_turns)
 {
   traced t;
   solutions s = {0};
   if (samples < 2 * n_harm + 2) {
-    put_impossible(j, n_harm, samples);
+    put_impossible(w, n_harm, samples);
     return HC_OK;
   }
-  hc_status st = trace(j, n_harm, samples, &t);
+  hc_status st = trace(w, n_harm, samples, &t);
   double began = thread_seconds();
-  if (st == HC_OK) st = solve_sampled(j, &t, plain, &s);
-  if (st == HC_OK) st = put_row(j, &t, samples, &s, plain, true_turns, began);
+  if (st == HC_OK) st = solve_sampled(w, &t, plain, &s);
+  if (st == HC_OK) st = put_row(w, &t, samples, &s, plain, true_turns, began);
   solutions_free(&s);
   drop_trace(&t);
   return st;
 }
 
 /* All rows of one H; its curve with exact forces is there. */
-static hc_status rows_of(const job *j, traced *t)
+static hc_status rows_of(const workspace *w, traced *t)
 {
   solutions plain;
   double began = thread_seconds();
-  hc_status st = solve_exact(j, t, &plain);
-  if (st == HC_OK) st = put_row(j, t, EXACT, &plain, &plain, t->curve.turning_points, began);
-  for (int i = 0; i < j->n_samples && st == HC_OK; ++i)
-    st = sampled_row(j, t->n_harm, j->samples[i], &plain, t->curve.turning_points);
+  hc_status st = solve_exact(w, t, &plain);
+  if (st == HC_OK) st = put_row(w, t, EXACT, &plain, &plain, t->curve.turning_points, began);
+  for (int i = 0; i < w->n_samples && st == HC_OK; ++i)
+    st = sampled_row(w, t->n_harm, w->samples[i], &plain, t->curve.turning_points);
   solutions_free(&plain);
   return st;
 }
@@ -296,80 +295,81 @@ static int whole_numbers(const number_list *list, int *out)
   return n;
 }
 
-static void put_order(job *j, const char *quantity, int n_harm, int n, const double *x, const double *e, double floor)
+static void put_order(workspace *w, const char *quantity, int n_harm, int n, const double *x, const double *e,
+                      double floor)
 {
   order_fit fit = order_fit_to(n, x, e, floor);
   if (fit.points > 1)
-    j->out->orders[j->out->n_orders++] =
+    w->out->orders[w->out->n_orders++] =
         (order_row){.quantity = quantity, .harmonics = n_harm, .omega = NAN, .fit = fit};
 }
 
 /* Of the aliasing in N for each H, and of the truncation in H with exact forces. */
-static void put_orders(job *j)
+static void put_orders(workspace *w)
 {
   double x[NUMBER_LIST_MAX], e[NUMBER_LIST_MAX], h[NUMBER_LIST_MAX], truncation[NUMBER_LIST_MAX];
   int n = 0, n_h = 0;
-  for (int i = 0; i < j->out->n_rows; ++i) {
-    const accuracy_row *row = &j->out->rows[i];
+  for (int i = 0; i < w->out->n_rows; ++i) {
+    const accuracy_row *row = &w->out->rows[i];
     if (row->samples == EXACT) h[n_h] = row->harmonics, truncation[n_h++] = row->worst;
     else x[n] = row->samples, e[n++] = row->aliasing;
-    bool last = i + 1 == j->out->n_rows || j->out->rows[i + 1].harmonics != row->harmonics;
-    if (last) put_order(j, "samples", row->harmonics, n, x, e, 1e2 * j->setup->hbm.tolerance), n = 0;
+    bool last = i + 1 == w->out->n_rows || w->out->rows[i + 1].harmonics != row->harmonics;
+    if (last) put_order(w, "samples", row->harmonics, n, x, e, 1e2 * w->setup->hbm.tolerance), n = 0;
   }
-  put_order(j, "harmonics", 0, n_h, h, truncation, floor_of_orbits);
+  put_order(w, "harmonics", 0, n_h, h, truncation, floor_of_orbits);
 }
 
-static hc_status all_rows(job *j)
+static hc_status all_rows(workspace *w)
 {
-  int most = j->harmonics[j->n_harm - 1] > LEAST_REFERENCE ? j->harmonics[j->n_harm - 1] : LEAST_REFERENCE;
+  int most = w->harmonics[w->n_harm - 1] > LEAST_REFERENCE ? w->harmonics[w->n_harm - 1] : LEAST_REFERENCE;
   traced finest, t = {0};
-  hc_status st = trace(j, most, EXACT, &finest);
+  hc_status st = trace(w, most, EXACT, &finest);
   if (st == HC_OK && !finest.hbm) st = finest.status;
-  if (st == HC_OK) st = reference_make(j->setup, j->c, finest.hbm, &finest.curve, j->monitor, &j->ref);
-  for (int i = 0; i < j->n_harm && st == HC_OK; ++i) {
-    bool again = j->harmonics[i] == most; /* solved already */
-    if (!hc_monitor_tick(j->monitor, (double)i / j->n_harm)) st = HC_INTERRUPTED;
-    if (st == HC_OK && !again) st = trace(j, j->harmonics[i], EXACT, &t);
-    if (st == HC_OK) st = rows_of(j, again ? &finest : &t);
+  if (st == HC_OK) st = reference_make(w->setup, w->c, finest.hbm, &finest.curve, w->monitor, &w->ref);
+  for (int i = 0; i < w->n_harm && st == HC_OK; ++i) {
+    bool again = w->harmonics[i] == most; /* solved already */
+    if (!hc_monitor_tick(w->monitor, (double)i / w->n_harm)) st = HC_INTERRUPTED;
+    if (st == HC_OK && !again) st = trace(w, w->harmonics[i], EXACT, &t);
+    if (st == HC_OK) st = rows_of(w, again ? &finest : &t);
     if (!again) drop_trace(&t);
   }
   drop_trace(&finest);
   return st;
 }
 
-static void put_reference(const job *j)
+static void put_reference(const workspace *w)
 {
-  accuracy *out = j->out;
-  out->orbits = j->ref.n;
-  for (int i = 0; i < j->ref.n; ++i)
-    out->frequencies += i == 0 || j->ref.targets[i].omega != j->ref.targets[i - 1].omega;
-  out->peak_harmonics = j->ref.harmonics;
-  out->peak_by_orbit = j->ref.peak_by_orbit;
-  out->peak_amplitude = j->ref.peak_amplitude;
-  out->peak_omega = j->ref.peak_omega;
+  accuracy *out = w->out;
+  out->orbits = w->ref.n;
+  for (int i = 0; i < w->ref.n; ++i)
+    out->frequencies += i == 0 || w->ref.targets[i].omega != w->ref.targets[i - 1].omega;
+  out->peak_harmonics = w->ref.harmonics;
+  out->peak_by_orbit = w->ref.peak_by_orbit;
+  out->peak_amplitude = w->ref.peak_amplitude;
+  out->peak_omega = w->ref.peak_omega;
 }
 
 hc_status accuracy_run(const compare_setup *setup, const comparison *c, const hc_monitor *monitor, accuracy *out)
 {
   int harmonics[NUMBER_LIST_MAX], samples[NUMBER_LIST_MAX];
   *out = (accuracy){0};
-  job j = {.setup = setup, .c = c, .monitor = monitor, .harmonics = harmonics, .samples = samples, .out = out};
-  j.n_harm = whole_numbers(&setup->compare.harmonics, harmonics);
-  j.n_samples = whole_numbers(&setup->compare.samples, samples);
-  if (j.n_harm == 0) return HC_OK;
-  if (harmonics[0] < 1 || harmonics[j.n_harm - 1] > HBM_MAX_HARMONICS) return HC_BAD_INPUT;
-  out->rows = calloc((size_t)j.n_harm * (size_t)(j.n_samples + 1), sizeof *out->rows);
-  out->orders = calloc((size_t)j.n_harm + 2, sizeof *out->orders);
+  workspace w = {.setup = setup, .c = c, .monitor = monitor, .harmonics = harmonics, .samples = samples, .out = out};
+  w.n_harm = whole_numbers(&setup->compare.harmonics, harmonics);
+  w.n_samples = whole_numbers(&setup->compare.samples, samples);
+  if (w.n_harm == 0) return HC_OK;
+  if (harmonics[0] < 1 || harmonics[w.n_harm - 1] > HBM_MAX_HARMONICS) return HC_BAD_INPUT;
+  out->rows = calloc((size_t)w.n_harm * (size_t)(w.n_samples + 1), sizeof *out->rows);
+  out->orders = calloc((size_t)w.n_harm + 2, sizeof *out->orders);
   if (!out->rows || !out->orders) return HC_NO_MEMORY;
-  hc_status st = all_rows(&j);
-  put_orders(&j);
-  put_reference(&j);
+  hc_status st = all_rows(&w);
+  put_orders(&w);
+  put_reference(&w);
   if (st == HC_OK) {
     order_row regularisation;
     st = order_of_regularisation(setup, c, monitor, &regularisation);
     if (regularisation.fit.points > 1) out->orders[out->n_orders++] = regularisation;
   }
-  reference_clear(&j.ref);
+  reference_clear(&w.ref);
   return st;
 }
 

@@ -1,10 +1,8 @@
-/* budget.h - where a discrepancy comes from, and how fast it goes away: the way into this folder.
- *
- * Per HBM solution its parts, one a cause: parts.h. Over truncation orders H and sampling rates N, what each pair
- * costs and is worth: accuracy_run. How fast an error falls with N, H and the regularisation: order_fit. Nothing is
- * printed; not here: verdicts. */
-#ifndef HC_BUDGET_H
-#define HC_BUDGET_H
+/* accuracy.h - error and cost of harmonic balance over truncation orders H and sampling rates N (accuracy_run), and the
+ * orders at which its errors fall with N, H and the regularisation (order_fit). The header of this folder. Nothing is
+ * printed. Not here: what the discrepancy of one solution is made of (compare/budget.h), verdicts. */
+#ifndef HC_ACCURACY_H
+#define HC_ACCURACY_H
 
 #include "base/status.h"
 #include "compare/budget.h"
@@ -20,11 +18,10 @@ typedef struct order_fit {
 
 enum { ORDER_MOST_POINTS = 512 };
 
-/* x ascending > 0, larger is finer; error e >= 0 [1], NaN where there is none. What counts is the envelope, the
- * largest error at this x or a finer one: an aliasing error is erratic and may be small by luck. Only the asymptotic
- * part is used: errors below 0.1 and above `floor`, and from the x on that gives the narrowest 95 % interval for the
- * order, at least three points: coarse points that bend the line are worth less than nothing. n <=
- * ORDER_MOST_POINTS. */
+/* x[n] ascending > 0, larger is finer; error e[n] >= 0 [1], NaN where there is none; n <= ORDER_MOST_POINTS. The line
+ * is fitted to the envelope, the largest error at this x or a finer one, since an aliasing error is erratic and may be
+ * small by chance. Points are used where the envelope is below 0.1 and above `floor`; of these the k finest, k >= 3,
+ * that give the narrowest 95 % interval for the order, so that coarse points before the asymptotic range are left out. */
 order_fit order_fit_to(int n, const double *x, const double *e, double floor);
 
 /* One pair (H, N), over the frequencies of the comparison and the referee's orbits there. NaN: not known. */

@@ -1,6 +1,7 @@
-/* orders.c - see budget.h: observed orders of convergence. */
+/* orders.c - see accuracy.h: observed orders of convergence. */
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include <gsl/gsl_cdf.h>
 #include <gsl/gsl_fit.h>
@@ -67,8 +68,9 @@ static const comparison_row *most_regularised(const comparison *c)
   return top && top->orbit_status == HC_OK ? top : NULL;
 }
 
-/* Amplitude error of the orbit next to `row`'s at that regularisation; NaN where it is not to be had. */
-static hc_status error_at(const compare_setup *setup, double regularisation, const comparison_row *row,
+/* Amplitude error of the orbit next to `row`'s at that regularisation; NaN where it is not to be had. `state`, next to
+ * that orbit, moves onto it. */
+static hc_status error_at(const compare_setup *setup, double regularisation, const comparison_row *row, double *state,
                           const hc_monitor *monitor, double *e)
 {
   compare_setup other = *setup;
@@ -80,8 +82,7 @@ static hc_status error_at(const compare_setup *setup, double regularisation, con
   other.transient.regularisation = regularisation;
   hc_status st = timeint_new(other.model, &other.transient, &ti);
   if (st == HC_OK) {
-    timeint_state state = row->transient_state;
-    st = timeint_orbit(ti, row->omega, 1, &state, &bounded, &r);
+    st = timeint_orbit(ti, row->omega, 1, state, &bounded, &r);
     if (st == HC_OK) *e = budget_regularisation(&r, &row->orbit);
   }
   timeint_free(ti);
@@ -95,11 +96,15 @@ hc_status order_of_regularisation(const compare_setup *setup, const comparison *
   *out = (order_row){.quantity = "regularisation", .omega = row ? row->omega : NAN, .fit = no_fit};
   if (!row) return HC_OK;
   double x[LEVELS], e[LEVELS], rho = setup->transient.regularisation;
-  hc_status st = HC_OK;
+  const size_t bytes = (size_t)c->n_states * sizeof(double);
+  double *state = malloc(bytes);
+  hc_status st = state ? HC_OK : HC_NO_MEMORY;
   for (int i = 0; i < LEVELS && st == HC_OK; ++i, rho /= 4) {
     x[i] = 1 / rho;
-    st = error_at(setup, rho, row, monitor, &e[i]);
+    memcpy(state, comparison_state(c, (int)(row - c->rows)), bytes);
+    st = error_at(setup, rho, row, state, monitor, &e[i]);
   }
+  free(state);
   if (st == HC_OK) out->fit = order_fit_to(LEVELS, x, e, 100 * setup->transient.tolerance);
   if (out->fit.points) { /* in the regularisation, from coarse to fine */
     out->fit.from = 1 / out->fit.from;

@@ -5,6 +5,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "numerics/roots.h"
 
@@ -35,26 +36,24 @@ static bool is_known(const reference *r, double omega, const periodic_motion *or
 }
 
 /* The orbit next to a solution: of the comparison's rows, else by shooting. False: none. */
-static bool orbit_next_to(const comparison *c, timeint *ti, hbm_solver *hbm, const hbm_measures *m, const double *X,
-                          double omega, const hc_monitor *monitor, periodic_motion *out)
+static bool orbit_next_to(const comparison *c, timeint *ti, double *state, hbm_solver *hbm, const hbm_measures *m,
+                          const double *X, double omega, const hc_monitor *monitor, periodic_motion *out)
 {
-  periodic_motion here = motion_of_series(m, hbm_n_harmonics(hbm), X);
+  periodic_motion here = motion_of_solution(m, hbm_n_harmonics(hbm), X);
   for (int i = 0; i < c->n_rows; ++i) {
     if (c->rows[i].omega != omega || c->rows[i].orbit_status != HC_OK) continue;
     *out = motion_of_transient(&c->rows[i].orbit);
     if (motion_between(&here, out).waveform <= reusable * out->amplitude) return true;
   }
   timeint_result r;
-  timeint_state state;
-  if (comparison_orbit_start(hbm, X, omega, &state) != HC_OK ||
-      timeint_orbit(ti, omega, 1, &state, monitor, &r) != HC_OK)
+  if (comparison_orbit_start(hbm, X, omega, state) != HC_OK || timeint_orbit(ti, omega, 1, state, monitor, &r) != HC_OK)
     return false;
   *out = motion_of_transient(&r);
   return true;
 }
 
-static hc_status targets_at(const comparison *c, timeint *ti, hbm_solver *hbm, const hbm_curve *curve, double omega,
-                            const hc_monitor *monitor, reference *r)
+static hc_status targets_at(const comparison *c, timeint *ti, double *state, hbm_solver *hbm, const hbm_curve *curve,
+                            double omega, const hc_monitor *monitor, reference *r)
 {
   hbm_curve at = {0};
   hc_status st = hbm_curve_at(hbm, curve, omega, &at) == HC_NO_MEMORY ? HC_NO_MEMORY : HC_OK;
@@ -62,7 +61,7 @@ static hc_status targets_at(const comparison *c, timeint *ti, hbm_solver *hbm, c
     const double *X = at.X + (size_t)k * at.n_coef;
     hbm_measures m;
     periodic_motion orbit;
-    if (hbm_measure(hbm, X, &m) != HC_OK || !orbit_next_to(c, ti, hbm, &m, X, omega, monitor, &orbit)) continue;
+    if (hbm_measure(hbm, X, &m) != HC_OK || !orbit_next_to(c, ti, state, hbm, &m, X, omega, monitor, &orbit)) continue;
     if (!is_known(r, omega, &orbit)) st = add_target(r, omega, &orbit);
   }
   hbm_curve_free(&at);
@@ -71,7 +70,8 @@ static hc_status targets_at(const comparison *c, timeint *ti, hbm_solver *hbm, c
 
 typedef struct climber {
   timeint *ti;
-  const timeint_state *state; /* next to an orbit */
+  const double *state; /* [n_states] next to an orbit */
+  double *here;        /* [n_states] on it */
 } climber;
 
 /* Of the orbit at omega next to the climber's state. */
@@ -79,8 +79,8 @@ static hc_status minus_amplitude(void *self, double omega, double *value)
 {
   const climber *c = self;
   timeint_result r;
-  timeint_state here = *c->state;
-  hc_status st = timeint_orbit(c->ti, omega, 1, &here, NULL, &r);
+  memcpy(c->here, c->state, (size_t)timeint_n_states(c->ti) * sizeof *c->here);
+  hc_status st = timeint_orbit(c->ti, omega, 1, c->here, NULL, &r);
   *value = st == HC_OK ? -r.amplitude : NAN;
   return st;
 }
@@ -106,14 +106,14 @@ static bool enclose_peak(climber *c, double low, double high, double *omega, dou
   return false;
 }
 
-/* From omega on, where *state is next to an orbit. False: *out is untouched. */
-static bool climb(const compare_setup *setup, timeint *ti, double omega, const timeint_state *state, reference *out)
+/* From omega on, where states[0..n_states) is next to an orbit. False: *out is untouched. */
+static bool climb(const compare_setup *setup, timeint *ti, double omega, double *states, reference *out)
 {
   const double low = fmin(setup->omega_from, setup->omega_to), high = fmax(setup->omega_from, setup->omega_to);
   const model *m = setup->model;
   const double width = fmin(m->damping > 0 ? m->damping / (2 * m->mass) : omega, 0.1 * omega);
-  climber c = {ti, state};
-  double d = 0.02 * width, f[3];
+  climber c = {ti, states, states + timeint_n_states(ti)};
+  double d = 0.02 * width, f[3] = {NAN, NAN, NAN};
   if (minus_amplitude(&c, omega, &f[1]) != HC_OK) return false;
   root_point peak;
   if (enclose_peak(&c, low, high, &omega, &d, f)) /* flat: 2e-5 of the width are 2e-10 of the amplitude */
@@ -125,7 +125,8 @@ static bool climb(const compare_setup *setup, timeint *ti, double omega, const t
   return out->peak_by_orbit = true;
 }
 
-static void find_peak(const compare_setup *setup, timeint *ti, hbm_solver *hbm, const hbm_curve *curve, reference *out)
+static void find_peak(const compare_setup *setup, timeint *ti, double *states, hbm_solver *hbm, const hbm_curve *curve,
+                      reference *out)
 {
   hbm_curve peak = {0};
   hbm_measures m;
@@ -133,8 +134,7 @@ static void find_peak(const compare_setup *setup, timeint *ti, hbm_solver *hbm, 
   if (curve->n > 0 && hbm_curve_peak(hbm, curve, &peak) == HC_OK && peak.n > 0 &&
       hbm_measure(hbm, peak.X, &m) == HC_OK) {
     double omega = peak.points[0].omega;
-    timeint_state state;
-    if (comparison_orbit_start(hbm, peak.X, omega, &state) != HC_OK || !climb(setup, ti, omega, &state, out))
+    if (comparison_orbit_start(hbm, peak.X, omega, states) != HC_OK || !climb(setup, ti, omega, states, out))
       out->peak_amplitude = m.amplitude, out->peak_omega = omega;
   }
   hbm_curve_free(&peak);
@@ -144,14 +144,17 @@ hc_status reference_make(const compare_setup *setup, const comparison *c, hbm_so
                          const hc_monitor *monitor, reference *out)
 {
   timeint *ti = NULL;
+  double *states = NULL; /* [2][n_states] */
   *out = (reference){.harmonics = hbm_n_harmonics(hbm)};
   hc_status st = comparison_referee(setup, &ti);
+  if (st == HC_OK && !(states = calloc(2 * (size_t)timeint_n_states(ti), sizeof *states))) st = HC_NO_MEMORY;
   for (int i = 0; i < c->n_rows && st == HC_OK; ++i) {
     if (i > 0 && c->rows[i].omega == c->rows[i - 1].omega) continue;
     if (!hc_monitor_tick(monitor, -1)) st = HC_INTERRUPTED;
-    else st = targets_at(c, ti, hbm, curve, c->rows[i].omega, monitor, out);
+    else st = targets_at(c, ti, states, hbm, curve, c->rows[i].omega, monitor, out);
   }
-  if (st == HC_OK) find_peak(setup, ti, hbm, curve, out);
+  if (st == HC_OK) find_peak(setup, ti, states, hbm, curve, out);
+  free(states);
   timeint_free(ti);
   return st;
 }

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "compare/gate_limits.h"
+#include "compare/motion.h"
 
 /* clang-format off */
 static const struct quantity { const char *name; size_t offset; } quantities[] = {
@@ -77,20 +78,13 @@ __attribute__((format(printf, 3, 4))) static void not_passed(gate_check *c, gate
 
 /* ---- one HBM solution ---- */
 
-static discrepancy errors_against_orbit(const comparison_row *r)
-{
-  const double a = r->orbit.amplitude;
-  return (discrepancy){.amplitude = discrepancy_relative(r->hbm.amplitude - a, a),
-                       .harmonic_1 = discrepancy_relative(r->hbm.harmonic_1 - r->orbit.harmonic_1, a),
-                       .mean = discrepancy_relative(r->hbm.mean - r->orbit.mean, a),
-                       .waveform = r->orbit_error};
-}
-
-static void hold(judge *j, const comparison_row *r, const discrepancy *errors, bool mean_is_free, const char *against)
+/* A check for each quantity of the discrepancy from `motion`, which is the transient or the orbit. */
+static void check_errors(judge *j, const comparison_row *r, const discrepancy *errors, const timeint_result *motion,
+                         const char *against)
 {
   const discrepancy most = gate_limits_at(j->setup->limits, r->omega);
   for (int q = 0; q < N_QUANTITIES; ++q) {
-    if (q == MEAN && mean_is_free) continue;
+    if (q == MEAN && motion_mean_is_free(motion)) continue;
     gate_check c = check_of(r, quantities[q].name, against);
     c.allowed = at(&most, q);
     c.found = at(errors, q);
@@ -117,8 +111,7 @@ static void judge_transient(judge *j, const comparison_row *r)
 static void judge_orbit(judge *j, const comparison_row *r)
 {
   if (r->orbit_status == HC_OK) {
-    const discrepancy errors = errors_against_orbit(r);
-    hold(j, r, &errors, r->orbit.free_sliders > 0, "orbit");
+    check_errors(j, r, &r->orbit_errors, &r->orbit, "orbit");
     return;
   }
   gate_check c = check_of(r, "orbit", NULL);
@@ -131,7 +124,7 @@ static void judge_solution(judge *j, const comparison_row *r)
   gate_check lost = check_of(r, "solution", NULL);
   switch (r->verdict) {
   case VERDICT_MATCH:
-  case VERDICT_DIFFERS: hold(j, r, &r->errors, r->transient.free_sliders > 0, "transient"); return;
+  case VERDICT_DIFFERS: check_errors(j, r, &r->errors, &r->transient, "transient"); return;
   case VERDICT_UNSTABLE:
   case VERDICT_OTHER_BRANCH:
   case VERDICT_PERIOD_K:

@@ -10,6 +10,7 @@
 #include "base/constants.h"
 #include "base/message.h"
 #include "base/number.h"
+#include "base/utf8.h"
 
 static const size_t most_bytes = (size_t)64 << 20; /* 640 a point */
 

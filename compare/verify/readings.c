@@ -43,7 +43,7 @@ static bool differs(const verify_row *r)
 }
 
 /* At most `most` of the n rows that differ or not, evenly spread, appended. */
-static void take(const verify_row **rows, int n, bool off, int most, verify_sample *out)
+static void choose_rows(const verify_row **rows, int n, bool off, int most, verify_sample *out)
 {
   int there = 0, seen = 0, taken = 0;
   for (int i = 0; i < n; ++i) there += differs(rows[i]) == off;
@@ -81,8 +81,8 @@ hc_status verify_sample_new(const verify_report *r, verify_quantity quantity, ve
   if (rows && numbers && out->differs) {
     for (int i = 0; i < r->n_rows; ++i) rows[i] = &r->rows[i];
     qsort(rows, (size_t)r->n_rows, sizeof *rows, by_omega);
-    take(rows, r->n_rows, true, MOST_DIFFERING, out);
-    take(rows, r->n_rows, false, MOST_MATCHING, out);
+    choose_rows(rows, r->n_rows, true, MOST_DIFFERING, out);
+    choose_rows(rows, r->n_rows, false, MOST_MATCHING, out);
     sort(out);
     free(rows);
     return HC_OK;

@@ -67,7 +67,7 @@ static bool same_equations(const verify_equations *a, const verify_equations *b)
          a->samples == b->samples && a->restart == b->restart;
 }
 
-static void keep(search *s, const verify_hypothesis *h)
+static void keep_hypothesis(search *s, const verify_hypothesis *h)
 {
   verify_report *out = s->out;
   for (int i = 0; i < out->n_hypotheses; ++i) {
@@ -108,13 +108,13 @@ static void note_likely(search *s, const verify_equations *e, double score)
 }
 
 /* The best reading of the points for these solutions. */
-static double hold(search *s, const verify_equations *e, int frequency, const verify_solutions *of)
+static double compare_readings(search *s, const verify_equations *e, int frequency, const verify_solutions *of)
 {
   const unsigned otherwise = e->harmonics < s->out->harmonics ? CAUSE_HARMONICS : 0;
   const verify_hypothesis given = {.equations = *e, .causes = causes_of(s, e, frequency)};
   verify_hypothesis h = given, rough = given;
   verify_read_best(&s->points, of, frequency, otherwise, s->floor, &h);
-  keep(s, &h);
+  keep_hypothesis(s, &h);
   if (!e->samples) return h.score;
   s->points.part = 0; /* some points fit to rounding, and others' solutions were not found: that is a likely one, too */
   verify_read_best(&s->points, of, frequency, otherwise, 0, &rough);
@@ -149,7 +149,7 @@ static hc_status try_exact(search *s, int harmonics, bool keep_mean)
     st = solutions_at(s, &e, f, of);
     if (st == HC_OK && !many) o->matters[f] = verify_apart(&s->points, of, &s->many[keep_mean][f]) > s->out->gate;
     if (st == HC_OK && many && keep_mean && f == 0) s->out->truth_distance = verify_read_plain(&s->points, of);
-    if (st == HC_OK) o->score = fmin(o->score, hold(s, &e, f, of));
+    if (st == HC_OK) o->score = fmin(o->score, compare_readings(s, &e, f, of));
     verify_solutions_clear(&own);
   }
   return st == HC_OK && !tick(s) ? HC_INTERRUPTED : st;
@@ -163,7 +163,7 @@ static hc_status try_linear(search *s, verify_contact kind)
     verify_solutions of = {0};
     if (!s->scaled[f]) continue;
     st = solutions_at(s, &e, f, &of);
-    if (st == HC_OK) hold(s, &e, f, &of);
+    if (st == HC_OK) compare_readings(s, &e, f, &of);
     verify_solutions_clear(&of);
   }
   return st;
@@ -207,7 +207,7 @@ static hc_status try_sampled(search *s, const order *o, int frequency, int low, 
       if (e.samples < low || e.samples > high || !possible(e.harmonics, e.samples)) continue;
       verify_solutions of = {0};
       st = verify_solutions_near(s->setup, &e, &near, omega, &of);
-      if (st == HC_OK) hold(s, &e, frequency, &of);
+      if (st == HC_OK) compare_readings(s, &e, frequency, &of);
       verify_solutions_clear(&of);
       if (st == HC_OK && !tick(s)) st = HC_INTERRUPTED;
     }
@@ -269,7 +269,7 @@ static hc_status try_curves(search *s, int frequency)
   for (int i = 0; i < n && st == HC_OK && !explained(s); ++i) {
     verify_solutions of = {0};
     st = solutions_at(s, &top[i], frequency, &of);
-    if (st == HC_OK) hold(s, &top[i], frequency, &of);
+    if (st == HC_OK) compare_readings(s, &top[i], frequency, &of);
     verify_solutions_clear(&of);
   }
   return st;

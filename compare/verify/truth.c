@@ -8,6 +8,7 @@
 
 #include "compare/frequencies.h"
 #include "compare/gate_limits.h"
+#include "compare/motion.h"
 #include "compare/verify/solutions.h"
 
 enum { LEAST_HARMONICS = 20, ENOUGH_HARMONICS = 80, MOST_CHECKS = 20 };
@@ -41,6 +42,7 @@ typedef struct truth {
   verify_report *out;
   hbm_solver *hbm;
   timeint *referee;
+  double *state; /* [n_states] of the referee's */
   hbm_curve curve;
   double from, to;
 } truth;
@@ -113,7 +115,7 @@ static hc_status judge_point(truth *t, const verify_point *p, verify_row *row)
     row->branch = at.points[k].branch;
     row->nearest = s.q[t->data->quantity];
     row->amplitude = m.amplitude;
-    row->error = p->value == row->nearest ? 0 : fabs(p->value - row->nearest) / m.amplitude;
+    row->error = discrepancy_relative(p->value - row->nearest, m.amplitude);
     row->stable = stable_at(t, p->omega, at.X + (size_t)k * at.n_coef, &st);
     row->stable_too = row->stable > 0;
     for (int j = 0; j < at.n && row->stable < 0 && !row->stable_too; ++j)
@@ -141,13 +143,12 @@ static hc_status check_row(truth *t, const verify_row *row)
   hc_status st = solve_at(t, row->omega, &at), found = HC_NOT_CONVERGED;
   int k = st == HC_OK ? nearest_of(t, &at, row->value, &m) : -1;
   if (k >= 0) {
-    timeint_state state;
-    found = comparison_orbit_start(t->hbm, at.X + (size_t)k * at.n_coef, row->omega, &state);
-    if (found == HC_OK) found = timeint_orbit(t->referee, row->omega, 1, &state, t->monitor, &orbit);
+    found = comparison_orbit_start(t->hbm, at.X + (size_t)k * at.n_coef, row->omega, t->state);
+    if (found == HC_OK) found = timeint_orbit(t->referee, row->omega, 1, t->state, t->monitor, &orbit);
     if (found == HC_INTERRUPTED || found == HC_NO_MEMORY) st = found;
   }
   hbm_curve_free(&at);
-  if (found != HC_OK || (t->data->quantity == VERIFY_PEAK && orbit.free_sliders > 0)) {
+  if (found != HC_OK || (t->data->quantity == VERIFY_PEAK && motion_mean_is_free(&orbit))) {
     ++t->out->unchecked;
     return st;
   }
@@ -217,6 +218,7 @@ hc_status verify_truth(const compare_setup *setup, const verify_data *data, cons
   out->rows = calloc((size_t)data->n, sizeof *out->rows);
   verify_window(setup, data, &t.from, &t.to);
   hc_status st = out->rows ? comparison_referee(setup, &t.referee) : HC_NO_MEMORY;
+  if (st == HC_OK && !(t.state = calloc((size_t)timeint_n_states(t.referee), sizeof *t.state))) st = HC_NO_MEMORY;
   int harmonics = 2 * setup->hbm.harmonics; /* 0 for auto */
   harmonics = harmonics < LEAST_HARMONICS     ? LEAST_HARMONICS
               : harmonics > HBM_MAX_HARMONICS ? HBM_MAX_HARMONICS
@@ -227,6 +229,7 @@ hc_status verify_truth(const compare_setup *setup, const verify_data *data, cons
   }
   hbm_curve_free(&t.curve);
   hbm_solver_free(t.hbm);
+  free(t.state);
   timeint_free(t.referee);
   return st;
 }

@@ -45,10 +45,10 @@ static inline void read_steady_references(steady_reference *row)
 }
 
 /* The motion the solution X has at t = 0. */
-static inline timeint_state orbit_start(hbm_solver *s, int n_harm, const double *X, double omega)
+static inline scene_state orbit_start(hbm_solver *s, int n_harm, const double *X, double omega)
 {
   hbm_measures m;
-  timeint_state state = {.x = X[0]};
+  scene_state state = {.x = X[0]};
   assert_int_equal(hbm_measure(s, X, &m), HC_OK);
   for (int h = 1; h <= n_harm; ++h) {
     state.x += X[2 * h - 1];

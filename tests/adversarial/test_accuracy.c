@@ -58,8 +58,8 @@ static void judge_row(hbm_solver *s, timeint *ti, const hbm_curve *curve, const 
   int k = nearest(s, &at, r, &distance);
   CHECK_LE(distance, 1e-2, "%s %s at %g: no solution is the row's", r->name, r->sweep, r->omega);
   const double *X = at.X + (size_t)k * at.n_coef;
-  timeint_state start = orbit_start(s, n_harm, X, r->omega);
-  assert_int_equal(timeint_orbit(ti, r->omega, 1, &start, NULL, &tr), HC_OK);
+  scene_state start = orbit_start(s, n_harm, X, r->omega);
+  assert_int_equal(timeint_orbit(ti, r->omega, 1, start.all, NULL, &tr), HC_OK);
   double off = hypot(X[1] - tr.a1, X[2] - tr.b1) / tr.amplitude,
          ruler = fabs(tr.amplitude - r->amplitude) / r->amplitude;
   assert_true(isfinite(off) && isfinite(ruler));

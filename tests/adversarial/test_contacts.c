@@ -166,9 +166,9 @@ static void gap_0_vibrates_at_its_bilinear_frequency(void **state)
   timeint *ti;
   timeint_result r;
   const double omega = 2 * 8 * 24 / (8.0 + 24);
-  timeint_state y = {.x = 0, .v = 1};
+  scene_state y = {.x = 0, .v = 1};
   assert_int_equal(scene_timeint(&sc, &ti), HC_OK);
-  assert_int_equal(timeint_steady(ti, omega, &y, NULL, &r), HC_NOT_SETTLED);
+  assert_int_equal(timeint_steady(ti, omega, y.all, NULL, &r), HC_NOT_SETTLED);
   CHECK_NEAR(y.x * omega, 0, 1e-9, "x after a period");
   CHECK_NEAR(y.v, 1, 1e-9, "velocity after a period");
   timeint_free(ti);

@@ -124,7 +124,7 @@ static void sampled_forces(void **state)
   hbm_with(HBM_FORCE_SAMPLED, 3);
 }
 
-static timeint_state in_units_state(timeint_state y, int n, const units *u)
+static scene_state in_units_state(scene_state y, int n, const units *u)
 {
   y.x *= u->length;
   y.v *= u->length / u->time;
@@ -148,11 +148,11 @@ static double orbits_apart(timeint *a, timeint *b, run *from, const reference_sc
   double worst = 0;
   assert_int_equal(hbm_curve_at(from->s, &from->curve, omega, &at), HC_OK);
   for (int k = 0; k < at.n; ++k) {
-    timeint_state y = orbit_start(from->s, 10, at.X + (size_t)k * at.n_coef, omega), z = in_units_state(y, 1, u);
+    scene_state y = orbit_start(from->s, 10, at.X + (size_t)k * at.n_coef, omega), z = in_units_state(y, 1, u);
     timeint_result p, q;
-    hc_status st = timeint_orbit(a, omega, 1, &y, NULL, &p); /* an HBM solution of 10 harmonics may have no orbit
+    hc_status st = timeint_orbit(a, omega, 1, y.all, NULL, &p); /* an HBM solution of 10 harmonics may have no orbit
                                                                 next to it */
-    assert_int_equal(timeint_orbit(b, omega / u->time, 1, &z, NULL, &q), st);
+    assert_int_equal(timeint_orbit(b, omega / u->time, 1, z.all, NULL, &q), st);
     if (st != HC_OK) continue;
     double d = fabs(q.amplitude / u->length - p.amplitude);
     for (int i = 0; i < TIMEINT_WAVE; ++i) d = fmax(d, fabs(q.wave[i] / u->length - p.wave[i]));

@@ -57,7 +57,7 @@ static void harmonics_of(const bench_case *c)
 {
   double X[2 * HBM_MAX_HARMONICS + 1] = {0}, e[LEVELS][MEASURES];
   hbm_measures m;
-  timeint_state start;
+  scene_state start;
   largest_solution(&c->sc, c->omega, X, &m, &start);
   timeint_result ref = reference_orbit(c->sc, c->omega, start);
   for (int i = 0; i < LEVELS; ++i) {
@@ -79,7 +79,7 @@ static void errors_of_transient(const timeint_result *r, const timeint_result *r
 }
 
 /* At tolerance 1e-11, or where rounding does not allow that, 1e-10. */
-static timeint_result regularised_orbit(scene sc, double omega, timeint_state start, double regularisation,
+static timeint_result regularised_orbit(scene sc, double omega, scene_state start, double regularisation,
                                         bool richardson)
 {
   hc_status st = HC_NOT_CONVERGED;
@@ -93,9 +93,9 @@ static timeint_result regularised_orbit(scene sc, double omega, timeint_state st
                                       .max_periods = 20000};
   for (; st == HC_NOT_CONVERGED && sc.transient.tolerance < 2e-10; sc.transient.tolerance *= 10) {
     timeint *ti = NULL;
-    timeint_state y = start;
+    scene_state y = start;
     must(scene_timeint(&sc, &ti), "transient");
-    st = timeint_steady(ti, omega, &y, NULL, &r);
+    st = timeint_steady(ti, omega, y.all, NULL, &r);
     timeint_free(ti);
     if (st == HC_OK && sc.transient.tolerance > 1.5e-11)
       fprintf(stderr, "regularisation %.0e: at tolerance %.0e\n", regularisation, sc.transient.tolerance);
@@ -106,7 +106,7 @@ static timeint_result regularised_orbit(scene sc, double omega, timeint_state st
 
 static void regularisation_of(const bench_case *c, bool richardson)
 {
-  timeint_state start = hbm_start(&c->sc, c->omega);
+  scene_state start = hbm_start(&c->sc, c->omega);
   timeint_result ref = reference_orbit(c->sc, c->omega, start);
   double e[DECADES][MEASURES];
   for (int i = 0; i < DECADES; ++i) {

@@ -51,7 +51,7 @@ static inline scene with_hbm(scene sc, int harmonics, double from, double to)
 }
 
 /* The HBM solution of largest amplitude at omega, into X[2H+1]; *start: x, v and sliders there at t = 0. */
-static inline void largest_solution(const scene *sc, double omega, double *X, hbm_measures *best, timeint_state *start)
+static inline void largest_solution(const scene *sc, double omega, double *X, hbm_measures *best, scene_state *start)
 {
   hbm_solver *s = NULL;
   hbm_curve curve = {0}, at = {0};
@@ -67,24 +67,24 @@ static inline void largest_solution(const scene *sc, double omega, double *X, hb
     memcpy(X, at.X + (size_t)k * at.n_coef, (size_t)at.n_coef * sizeof *X);
   }
   if (best->amplitude < 0) must(HC_NOT_CONVERGED, "no HBM solution");
-  must(comparison_orbit_start(s, X, omega, start), "HBM solution");
+  must(comparison_orbit_start(s, X, omega, start->all), "HBM solution");
   hbm_curve_free(&at);
   hbm_curve_free(&curve);
   hbm_solver_free(s);
 }
 
 /* x, v and sliders at t = 0 of that solution. */
-static inline timeint_state hbm_start(const scene *sc, double omega)
+static inline scene_state hbm_start(const scene *sc, double omega)
 {
   double X[2 * HBM_MAX_HARMONICS + 1];
   hbm_measures m;
-  timeint_state start;
+  scene_state start;
   largest_solution(sc, omega, X, &m, &start);
   return start;
 }
 
 /* With tolerance `tolerance` and the exact law, from *state, which becomes a point on the orbit. */
-static inline hc_status exact_orbit(scene sc, double omega, int steady, double tolerance, timeint_state *state,
+static inline hc_status exact_orbit(scene sc, double omega, int steady, double tolerance, scene_state *state,
                                     timeint_result *r)
 {
   timeint *ti = NULL;
@@ -94,20 +94,20 @@ static inline hc_status exact_orbit(scene sc, double omega, int steady, double t
                                       .regularisation = 1e-4,
                                       .max_periods = 200000};
   must(scene_timeint(&sc, &ti), "reference");
-  hc_status st = timeint_steady(ti, omega, state, NULL, r);
+  hc_status st = timeint_steady(ti, omega, state->all, NULL, r);
   timeint_free(ti);
   return st;
 }
 
 /* The exact law's orbit next to `start`, by shooting at tolerance 1e-13. Where rounding does not allow that, at the
  * tightest decade it does; and if that is coarser than 1e-11, by waiting from there, to 1e-12. */
-static inline timeint_result reference_orbit(scene sc, double omega, timeint_state start)
+static inline timeint_result reference_orbit(scene sc, double omega, scene_state start)
 {
   hc_status st = HC_NOT_CONVERGED;
   timeint_result r;
   int decade = -14;
   while (st == HC_NOT_CONVERGED && decade < -6) {
-    timeint_state y = start;
+    scene_state y = start;
     st = exact_orbit(sc, omega, TRANSIENT_STEADY_SHOOTING, pow(10, ++decade), &y, &r);
     if (st == HC_OK) start = y;
   }

@@ -36,7 +36,7 @@ typedef struct bench_case {
   const char *name;
   scene sc;
   double omega;
-  timeint_state start;
+  scene_state start;
   double amplitude;
 } bench_case;
 
@@ -57,11 +57,11 @@ static bool tick(void *until, double done)
 
 static void run(trial *t, const bench_case *c, int round)
 {
-  timeint_state y = c->start;
+  scene_state y = c->start;
   double began = cpu_ms(),
          until = began + (t->sc.transient.steady == TRANSIENT_STEADY_MARCH ? longest_march : longest_shot);
   hc_monitor monitor = {tick, &until};
-  t->status = timeint_steady(t->ti, c->omega, &y, &monitor, &t->r);
+  t->status = timeint_steady(t->ti, c->omega, y.all, &monitor, &t->r);
   t->ms[round] = cpu_ms() - began;
   t->error = t->status == HC_OK ? fabs(t->r.amplitude / c->amplitude - 1) : NAN;
 }
@@ -147,12 +147,12 @@ static void print_periods(const bench_case *c, int law, int most)
 {
   scene sc = c->sc;
   timeint *ti = NULL;
-  timeint_state y = c->start;
+  scene_state y = c->start;
   timeint_result r;
   sc.transient = (transient_settings){
       .law = law, .regularisation = 1e-4, .tolerance = 1e-9, .start = TRANSIENT_START_HBM, .max_periods = 20000};
   must(scene_timeint(&sc, &ti), c->name);
-  must(timeint_steady(ti, c->omega, &y, NULL, &r), c->name);
+  must(timeint_steady(ti, c->omega, y.all, NULL, &r), c->name);
   printf(
       "%s at %g from the HBM orbit (H = 5) to 1e-9, %s law: %d periods integrated by %s (asked: at most %d), closure "
       "%.1e\n",

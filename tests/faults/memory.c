@@ -50,6 +50,9 @@ static bool refuse(size_t bytes)
   if (sheltered) return false;
   long n = atomic_fetch_add(&asked, 1) + 1;
   if (first == 0 || (how == MEMORY_ONE && n != first) || (how == MEMORY_ALL_FROM && n < first)) return false;
+#if defined __SANITIZE_ADDRESS__
+  if (how == MEMORY_LIMIT) return false;
+#endif
   if (how == MEMORY_LIMIT && !limited) return false;
   if (how == MEMORY_LIMIT && bytes < (size_t)PTRDIFF_MAX && atomic_load(&in_use) + (long)bytes <= first) return false;
   atomic_fetch_add(&refused, 1);
@@ -68,6 +71,13 @@ void *REAL(realloc)(void *, size_t);
 void *REAL(memalign)(size_t, size_t);
 void REAL(free)(void *);
 
+#if defined                                                                                                            \
+    __SANITIZE_ADDRESS__ /* calls free before it is ready for us: bytes are not counted, and there is no limit */
+#define SIZE_OF(p) ((size_t)0)
+#else
+#define SIZE_OF(p) malloc_usable_size(p)
+#endif
+
 static void count(long bytes)
 {
   const long now = atomic_fetch_add(&in_use, bytes) + bytes;
@@ -76,7 +86,7 @@ static void count(long bytes)
 
 static void *counted(void *p)
 {
-  if (p) count((long)malloc_usable_size(p));
+  if (p) count((long)SIZE_OF(p));
   return p;
 }
 
@@ -84,7 +94,7 @@ void *malloc(size_t n) { return refuse(n) ? NULL : counted(REAL(malloc)(n)); }
 void *calloc(size_t n, size_t size) { return refuse(n * size) ? NULL : counted(REAL(calloc)(n, size)); }
 void *realloc(void *p, size_t n)
 {
-  const size_t before = p ? malloc_usable_size(p) : 0;
+  const size_t before = p ? SIZE_OF(p) : 0;
   if (refuse(n > before ? n - before : 0)) return NULL;
   void *moved = REAL(realloc)(p, n);
   if (moved || n == 0) count(-(long)before);
@@ -94,11 +104,13 @@ void *memalign(size_t align, size_t n);
 void *memalign(size_t align, size_t n) { return refuse(n) ? NULL : counted(REAL(memalign)(align, n)); }
 void *aligned_alloc(size_t align, size_t n) { return memalign(align, n); }
 int posix_memalign(void **p, size_t align, size_t n) { return (*p = memalign(align, n)) ? 0 : ENOMEM; }
+#if !defined __SANITIZE_ADDRESS__
 void free(void *p)
 {
-  if (p) count(-(long)malloc_usable_size(p));
+  if (p) count(-(long)SIZE_OF(p));
   REAL(free)(p);
 }
+#endif
 
 char *strdup(const char *text)
 {

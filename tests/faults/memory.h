@@ -12,7 +12,7 @@ typedef enum memory_mode { MEMORY_ONE, MEMORY_ALL_FROM, MEMORY_LIMIT } memory_mo
 
 /* From here on the n-th allocation fails; or all from the n-th on; or, MEMORY_LIMIT, each by which there would be
  * more than n bytes more in use than when the first sheltered call came back: somebody else has taken the memory
- * meanwhile. n = 0: none, but they are counted. */
+ * meanwhile. n = 0: none, but they are counted. Under the address sanitizer there is no limit. */
 void memory_fail(long n, memory_mode mode);
 
 long memory_asked(void); /* allocations since memory_fail */

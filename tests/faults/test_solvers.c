@@ -168,7 +168,7 @@ static void kinsol_lies(void **state)
 /* Of the two laws, 0 regularised, 1 exact: what is right, and a start next to the orbit: from rest it would take a
  * hundred periods. */
 static double right_amplitude[2];
-static timeint_state near_orbit[2];
+static scene_state near_orbit[2];
 
 static void find_orbits(void)
 {
@@ -177,11 +177,11 @@ static void find_orbits(void)
     timeint *ti;
     timeint_result r;
     assert_int_equal(scene_timeint(&sc, &ti), HC_OK);
-    near_orbit[law] = timeint_rest(ti);
-    assert_int_equal(timeint_steady(ti, 6.5, &near_orbit[law], NULL, &r), HC_OK);
+    near_orbit[law] = (scene_state){.x = 0};
+    assert_int_equal(timeint_steady(ti, 6.5, near_orbit[law].all, NULL, &r), HC_OK);
     near_orbit[law].x *= 1.001;
-    timeint_state start = near_orbit[law];
-    assert_int_equal(timeint_steady(ti, 6.5, &start, NULL, &r), HC_OK);
+    scene_state start = near_orbit[law];
+    assert_int_equal(timeint_steady(ti, 6.5, start.all, NULL, &r), HC_OK);
     right_amplitude[law] = r.amplitude;
     timeint_free(ti);
   }
@@ -194,12 +194,12 @@ static hc_status steady_with(int law, fault f, fault *which, timeint_result *r)
   timeint *ti;
   timeint_result again;
   assert_int_equal(scene_timeint(&sc, &ti), HC_OK);
-  timeint_state y = near_orbit[law], start = y;
+  scene_state y = near_orbit[law], start = y;
   *which = f;
-  hc_status st = timeint_steady(ti, 6.5, &y, NULL, r);
+  hc_status st = timeint_steady(ti, 6.5, y.all, NULL, r);
   const long calls = which->calls;
   *which = (fault){0};
-  assert_int_equal(timeint_steady(ti, 6.5, &start, NULL, &again), HC_OK);
+  assert_int_equal(timeint_steady(ti, 6.5, start.all, NULL, &again), HC_OK);
   /* transient.tolerance, of the amplitude, is the distance to the orbit that a settled motion may have, on either
    * side */
   CHECK_NEAR(again.amplitude, right_amplitude[law], 0, "%s asked again", small_doing);

@@ -6,6 +6,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/utf8.h"
 #include "cases/fields.h"
 #include "tests/fuzz/fuzz.h"
 

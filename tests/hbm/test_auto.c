@@ -1,7 +1,6 @@
 /* test_auto.c - hbm.harmonics: auto and hbm.samples: auto keep hbm.accuracy, what they cost, and every switch that
  * saves work changes nothing else. */
 #include "campaigns/scene_solvers.h"
-#include "hbm/curve.h"
 #include "hbm/hbm.h"
 #include "tests/hbm/scenes.h"
 

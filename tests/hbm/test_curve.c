@@ -197,7 +197,7 @@ static void from_the_other_end(void **state)
       }
 }
 
-/* Arc-length only takes the same curve. */
+/* Arc-length only takes the same curve: every row of these scenes at H = 5 with harmonic 0. */
 static void arclength_only(void **state)
 {
   (void)state;
@@ -207,7 +207,11 @@ static void arclength_only(void **state)
     sc.hbm.continuation = HBM_CONTINUATION_ARCLENGTH;
     traced t = trace(&sc, sc.omega_from, sc.omega_to, names[i]);
     assert_true(t.status == HC_OK && t.curve.arclength);
-    check_rows(&t, names[i], 5, true, false);
+    int listed = 0;
+    for (int j = 0; j < n_rows; ++j)
+      listed += !strcmp(rows[j].name, names[i]) && rows[j].n_harm == 5 && rows[j].keep_mean;
+    assert_true(listed >= 7); /* reference frequencies of a scene, test_exact_reference.c */
+    assert_int_equal(check_rows(&t, names[i], 5, true, false), listed);
     drop(&t);
   }
 }

@@ -43,7 +43,8 @@ static double special(const found *f, hbm_special_kind kind, int i)
 /* Before contact the response is linear whatever H is, |x| = F0/|Z|, and touches when |x| sin(alpha) = |gap|: a
  * quadratic in w^2, M^2 w^4 + (C^2 - 2 K M) w^2 + K^2 - (F0 sin/gap)^2 = 0. The pattern is bisected to 1e-11 of a
  * segment, shorter than 10 in omega. The orbit in Newton's tolerance 1e-10 of |x| would move it by 1e-10 |x|/(d|x|/d
- * omega), |x| = 7.07 and the derivatives 1.3 and 3.7: below 6e-10. 1e-8 is what hbm.h promises. */
+ * omega), |x| = 7.07 and the derivatives 1.3 and 3.7: below 6e-10. special_points.h promises 1e-9 of omega, which is
+ * less than 1e-8. */
 static void contact_sets_in_where_the_linear_response_grazes(void **state)
 {
   (void)state;
@@ -80,8 +81,8 @@ static hbm_stability stability_of_solution(found *f, const hbm_curve *at, int i)
   return st;
 }
 
-/* A fold has two more solutions on one side than on the other, at any distance. hbm.h promises 1e-9 of omega, so
- * 1e-8 away is beyond doubt. Near it the two multipliers next to +1 are 1 -+ a sqrt(d): from d = 1e-3 to 1e-5 they
+/* A fold has two more solutions on one side than on the other, at any distance. special_points.h promises 1e-9 of
+ * omega, so a frequency 1e-8 of omega away is certainly on its side. Near it the two multipliers next to +1 are 1 -+ a sqrt(d): from d = 1e-3 to 1e-5 they
  * come 10 times nearer to each other, to the d/sqrt(d) = 3 % of the next order. Their mean misses 1 because the
  * multiplier belongs to the orbit of the untruncated equations, by O(H^-3) as the transitions are: the fold of H is
  * 4e-5 from that of 2H (9.20954, 9.209579, 9.209580 at H = 10, 20, 40), and a sqrt(4e-5) is what that costs at most. */

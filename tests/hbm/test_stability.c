@@ -5,7 +5,7 @@
 
 #include "campaigns/scene_solvers.h"
 #include "hbm/hbm.h"
-#include "hbm/solver.h"
+#include "hbm/hbm_solver_impl.h"
 #include "tests/hbm/scenes.h"
 #include "tests/scene_parts.h"
 
@@ -22,7 +22,7 @@ static int pieces_of(hbm_solver *s, const double *X)
   const exact_force *e;
   contact_report report;
   int sum = 0;
-  assert_int_equal(hbm_pattern_at(s, X, &e, &report), HC_OK);
+  assert_int_equal(hbm_located_orbit(s, X, &e, &report), HC_OK);
   for (int j = 0, n; j < s->model->n_contacts; ++j) {
     exact_force_pieces(e, j, &n);
     sum += n;

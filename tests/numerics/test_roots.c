@@ -312,7 +312,8 @@ static void a_change_is_bisected(void **state)
     root_point change;
     double a = turned ? 3 : 0, b = turned ? -1 : 1, at = turned ? PI / 2 : 0.7;
     assert_int_equal(root_change(beyond, &w, a, b, 1e-9, &change), HC_OK);
-    assert_true(w.f(change.x) > 0);
+    assert_true(w.f(change.x) > 0 && w.f(change.before) <= 0);
+    CHECK_LE(fabs(change.x - change.before), 1e-9, "%d", turned);
     CHECK_NEAR(change.x, at, 1e-9, "%d", turned);
     assert_int_equal(w.calls, (int)ceil(log2(fabs(b - a) / 1e-9)));
     assert_int_equal(change.evaluations, w.calls);

@@ -6,7 +6,7 @@
 #include <pthread.h>
 #include <string.h>
 
-#include "hbmcheck.h"
+#include "library/hbmcheck.h"
 
 enum { THREADS = 4, ROUNDS = 2, MOST_NUMBERS = 1 << 16 };
 
@@ -27,8 +27,9 @@ static void put_all(record *r, int n, const double *v)
   for (int i = 0; i < n; ++i) put(r, v[i]);
 }
 
-/* Case 2 of the paper, changed by up to two assignments; through the reader, which has a locale to hold on to. */
-static scene case2(const char *first, const char *second)
+/* Case 2 of the paper, changed by up to two assignments; through the reader, which has a locale to hold on to. NULL:
+ * not read. */
+static hbmcheck_case *case2(const char *first, const char *second)
 {
   static const char text[] =
       "oscillator: {mass: 1.0, damping: 0.4, stiffness: 40}\n"
@@ -38,111 +39,97 @@ static scene case2(const char *first, const char *second)
       "sweep: {omega: [3, 20]}\n"
       "compare: {omega: [5, 7]}\n";
   const char *set[] = {first, second};
-  case_error err;
-  scene sc;
-  memset(&sc, 0, sizeof sc);
-  if (case_parse("case 2", text, sizeof text - 1, (first != NULL) + (second != NULL), set, &sc, &err) != HC_OK)
-    print_error("%s\n", err.message);
-  return sc;
+  char message[512];
+  hbmcheck_case *c;
+  if (hbmcheck_case_parse("case 2", text, sizeof text - 1, (first != NULL) + (second != NULL), set, message,
+                          sizeof message, &c) != HBMCHECK_OK)
+    print_error("%s\n", message);
+  return c;
 }
 
-static void put_curve(record *r, const hbm_curve *c)
+static void put_solution(record *r, const hbmcheck_solutions *list, int k)
 {
-  put(r, c->n);
-  put(r, c->turning_points);
-  put(r, (double)c->evaluations);
-  for (int i = 0; i < c->n; ++i) {
-    const hbm_point *p = &c->points[i];
-    put_all(r, 4, (double[]){p->omega, p->residual, p->branch, p->iterations});
-  }
-  put_all(r, c->n * c->n_coef, c->X);
-}
-
-static void put_transient(record *r, const timeint_result *t)
-{
-  put_all(r, 8, (double[]){t->amplitude, t->max, t->min, t->rms, t->mean, t->a1, t->b1, t->closure});
-  put_all(r, 4, (double[]){t->multiplier, t->periods, (double)t->steps, (double)t->rhs});
-  put_all(r, TIMEINT_WAVE, t->wave);
-}
-
-static void trace(record *r, const scene *sc)
-{
-  hbm_solver *s;
-  hbm_curve curve = {0};
-  hbm_special specials[16];
+  hbmcheck_solution s;
+  double X[64];
   int n = 0;
-  compare_setup setup;
-  assert_int_equal(scene_setup(sc, &setup), HC_OK);
-  hc_status st = hbm_solver_new(setup.model, &setup.hbm, &s);
-  scene_setup_clear(&setup);
-  if (st == HC_OK) st = hbm_trace(s, sc->omega_from, sc->omega_to, NULL, &curve);
-  if (st == HC_OK) st = hbm_specials(s, &curve, 16, specials, &n); /* stability: eigenvalues by GSL */
+  hbmcheck_solutions_get(list, k, &s);
+  hbmcheck_solutions_coefficients(list, k, 64, X, &n);
+  put_all(r, 5, (double[]){s.omega, s.amplitude, s.rms, s.residual, s.multiplier});
+  put_all(r, 3, (double[]){s.branch, s.iterations, s.stable});
+  put_all(r, n < 64 ? n : 64, X);
+}
+
+/* c, and what is found, are freed. */
+static void trace(record *r, hbmcheck_case *c)
+{
+  hbmcheck_curve *curve = NULL;
+  hbmcheck_special specials[16];
+  hbmcheck_summary whole = {0};
+  int n = 0;
+  hbmcheck_status st = hbmcheck_curve_trace(c, NULL, &curve); /* stability: eigenvalues by GSL */
+  if (st == HBMCHECK_OK) st = hbmcheck_curve_specials(curve, 16, specials, &n);
+  if (st == HBMCHECK_OK) st = hbmcheck_curve_summary(curve, &whole);
   put(r, st);
-  put_curve(r, &curve);
+  put_all(r, 3, (double[]){whole.turning_points, (double)whole.evaluations, whole.peak_amplitude});
+  const hbmcheck_solutions *points = hbmcheck_curve_points(curve);
+  for (int k = 0; k < hbmcheck_solutions_count(points); ++k) put_solution(r, points, k);
   for (int i = 0; i < n && i < 16; ++i) put_all(r, 2, (double[]){specials[i].omega, specials[i].amplitude});
-  hbm_curve_free(&curve);
-  hbm_solver_free(s);
+  hbmcheck_curve_free(curve);
+  hbmcheck_case_free(c);
 }
 
-static void settle(record *r, const scene *sc)
+/* c is freed. */
+static void settle(record *r, hbmcheck_case *c)
 {
-  timeint *ti;
-  timeint_result result;
-  timeint_state y;
-  memset(&result, 0, sizeof result);
-  memset(&y, 0, sizeof y); /* at rest */
-  compare_setup setup;
-  assert_int_equal(scene_setup(sc, &setup), HC_OK);
-  hc_status st = timeint_new(setup.model, &setup.transient, &ti);
-  scene_setup_clear(&setup);
-  if (st == HC_OK) st = timeint_steady(ti, 7, &y, NULL, &result);
-  put(r, st);
-  put_all(r, 3, (double[]){y.x, y.v, y.w[0]});
-  put_transient(r, &result);
-  timeint_free(ti);
+  const double omega = 7;
+  hbmcheck_transient *t = NULL;
+  hbmcheck_steady s;
+  double wave[1024];
+  int n = 0;
+  hbmcheck_status st = hbmcheck_transient_run(c, 1, &omega, NULL, &t);
+  if (st == HBMCHECK_OK) st = hbmcheck_transient_get(t, 0, &s);
+  if (st == HBMCHECK_OK) st = hbmcheck_transient_wave(t, 0, 1024, wave, &n);
+  put(r, st == HBMCHECK_OK ? s.status : st);
+  if (st == HBMCHECK_OK) {
+    put_all(r, 7, (double[]){s.amplitude, s.max, s.min, s.rms, s.mean, s.harmonic_1, s.closure});
+    put_all(r, 4, (double[]){s.multiplier, s.periods, (double)s.steps, s.from_regularisation});
+    put_all(r, n < 1024 ? n : 1024, wave);
+  }
+  hbmcheck_transient_free(t);
+  hbmcheck_case_free(c);
 }
 
-static void trace_exact(record *r)
-{
-  scene sc = case2(NULL, NULL);
-  trace(r, &sc);
-}
+static void trace_exact(record *r) { trace(r, case2(NULL, NULL)); }
 
 static void trace_sampled(record *r) /* the one with FFTW's planner */
 {
-  scene sc = case2("hbm.force=sampled", "sweep.omega=4,7");
-  trace(r, &sc);
+  trace(r, case2("hbm.force=sampled", "sweep.omega=4,7"));
 }
 
 static void settle_regularised(record *r) /* what is wanted is many steps, not good ones */
 {
-  scene sc = case2("transient.regularisation=1e-2", "transient.tolerance=1e-6");
-  settle(r, &sc);
+  settle(r, case2("transient.regularisation=1e-2", "transient.tolerance=1e-6"));
 }
 
-static void settle_exact(record *r)
-{
-  scene sc = case2("transient.law=exact", "transient.steady_state=march");
-  settle(r, &sc);
-}
+static void settle_exact(record *r) { settle(r, case2("transient.law=exact", "transient.steady_state=march")); }
 
 static void compare(record *r)
 {
-  scene sc = case2(NULL, NULL);
-  comparison c;
-  compare_setup setup;
-  assert_int_equal(scene_setup(&sc, &setup), HC_OK);
-  put(r, comparison_run(&setup, NULL, &c));
-  scene_setup_clear(&setup);
-  put(r, c.n_rows);
-  put_curve(r, &c.curve);
-  for (int i = 0; i < c.n_rows; ++i) {
-    const comparison_row *row = &c.rows[i];
-    put_all(r, 4, (double[]){row->verdict, row->hbm.amplitude, row->orbit_error, row->stability.multiplier});
-    put_all(r, 4, (double[]){row->errors.amplitude, row->errors.harmonic_1, row->errors.mean, row->errors.waveform});
-    put_transient(r, &row->transient);
+  hbmcheck_case *c = case2(NULL, NULL);
+  hbmcheck_comparison *both = NULL;
+  put(r, hbmcheck_comparison_run(c, 0, NULL, NULL, &both));
+  const int n = hbmcheck_comparison_count(both);
+  put(r, n);
+  for (int k = 0; k < n; ++k) {
+    hbmcheck_row row;
+    hbmcheck_comparison_get(both, k, &row);
+    put_all(r, 4, (double[]){row.verdict, row.hbm_amplitude, row.orbit_error, row.multiplier});
+    put_all(r, 4, (double[]){row.amplitude_error, row.harmonic_1_error, row.mean_error, row.waveform_error});
+    put_all(r, 3, (double[]){row.transient_amplitude, row.orbit_amplitude, row.from_aliasing});
+    put_all(r, 4, (double[]){row.from_truncation, row.from_regularisation, row.from_integration, row.from_settling});
   }
-  comparison_clear(&c);
+  hbmcheck_comparison_free(both);
+  hbmcheck_case_free(c);
 }
 
 static void (*const jobs[])(record *) = {trace_exact, trace_sampled, settle_regularised, settle_exact, compare};
@@ -172,13 +159,13 @@ static void *work(void *self)
 }
 
 /* What is compared must be results: each job's first number is its status, and a failure would repeat itself
- * faithfully. */
+ * faithfully. A comparison has 15 numbers a row. */
 static int run_alone(void **state)
 {
   (void)state;
   for (int j = 0; j < JOBS; ++j) {
     jobs[j](&alone[j]);
-    if (alone[j].v[0] != HC_OK || alone[j].n < 100 || alone[j].n > MOST_NUMBERS) {
+    if (alone[j].v[0] != HBMCHECK_OK || alone[j].n < 2 + 2 * 15 || alone[j].n > MOST_NUMBERS) {
       print_error("job %d alone: status %g, %d numbers\n", j, alone[j].v[0], alone[j].n);
       return -1;
     }

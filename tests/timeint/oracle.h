@@ -13,8 +13,8 @@ enum { SCAN = 4000 };
 typedef enum { APART, STUCK, PLUS, MINUS } how;
 typedef struct oracle {
   const scaled_model *m;
-  how state[TIMEINT_MAX_CONTACTS];
-  double held[TIMEINT_MAX_CONTACTS];
+  how state[SCENE_MAX_CONTACTS];
+  double held[SCENE_MAX_CONTACTS];
   double theta, x, p;
   int events;
 } oracle;
@@ -32,7 +32,7 @@ static inline void oracle_move(const oracle *o, double theta, double *x, double 
     double normal = c->sine + slip_of(o->state[j]) * c->law.mu * c->cosine;
     k += normal * c->law.kn * c->sine;
     d += normal * c->law.kn * c->law.gap;
-    if (o->state[j] != STUCK || !c->law.slides) continue;
+    if (o->state[j] != STUCK || !c->law.has_friction) continue;
     k += c->law.kt * c->cosine * c->cosine;
     d -= c->law.kt * c->cosine * o->held[j];
   }
@@ -52,10 +52,10 @@ static inline how oracle_next(const oracle *o, int j, double x, double p)
   if (!(c->law.kn > 0)) return APART;
   if (o->state[j] == APART) {
     if (!(g > 0)) return APART;
-    return c->law.slides && c->law.kt * c->cosine > c->law.mu * c->law.kn * c->sine ? PLUS : STUCK;
+    return c->law.has_friction && c->law.kt * c->cosine > c->law.mu * c->law.kn * c->sine ? PLUS : STUCK;
   }
   if (g < 0) return APART;
-  if (!c->law.slides) return STUCK;
+  if (!c->law.has_friction) return STUCK;
   double s = slip_of(o->state[j]), t = c->law.kt * (u - o->held[j]),
          rate = (s * c->law.kt * c->cosine - c->law.mu * c->law.kn * c->sine) * p;
   if (s != 0) return rate < 0 ? STUCK : o->state[j];
@@ -109,7 +109,7 @@ static inline void oracle_period(oracle *o)
 static inline double oracle_slider(const oracle *o, int j)
 {
   const scaled_contact *c = &o->m->contact[j];
-  if (o->state[j] == APART || !c->law.slides) return c->cosine * o->x;
+  if (o->state[j] == APART || !c->law.has_friction) return c->cosine * o->x;
   if (o->state[j] == STUCK) return o->held[j];
   return c->cosine * o->x - slip_of(o->state[j]) * c->law.mu * c->law.kn * (c->sine * o->x + c->law.gap) / c->law.kt;
 }

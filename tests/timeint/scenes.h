@@ -6,6 +6,7 @@
 
 #include "cases/scene.h"
 #include "tests/reference_scenes.h"
+#include "timeint/steady.h"
 #include "timeint/timeint.h"
 
 static inline scene scene_linear(double mass, double damping, double stiffness, double force)

@@ -69,9 +69,9 @@ static void marching_allocates_nothing(void **state)
   count c = {0};
   hc_monitor monitor = {.tick = tick, .self = &c};
   timeint *ti = made(TRANSIENT_STEADY_MARCH);
-  timeint_state y = timeint_rest(ti);
+  scene_state y = {.x = 0};
   timeint_result r;
-  assert_int_equal(timeint_steady(ti, 7, &y, &monitor, &r), HC_OK);
+  assert_int_equal(timeint_steady(ti, 7, y.all, &monitor, &r), HC_OK);
   CHECK_LE(50, c.ticks, "enough periods");
   assert_int_equal(c.at_fifty - c.at_three, 0);
   timeint_free(ti);
@@ -83,14 +83,14 @@ static void shooting_and_sweeping_allocate_nothing(void **state)
   (void)state;
   if (!COUNTED) skip();
   timeint *ti = made(TRANSIENT_STEADY_AUTO);
-  timeint_state y = timeint_rest(ti);
+  scene_state y = {.x = 0};
   timeint_result r;
-  assert_int_equal(timeint_steady(ti, 7, &y, NULL, &r), HC_OK);
-  assert_int_equal(timeint_sweep(ti, 7, 7.01, &y, NULL), HC_OK); /* CVODE makes itself ready in the first period of
+  assert_int_equal(timeint_steady(ti, 7, y.all, NULL, &r), HC_OK);
+  assert_int_equal(timeint_sweep(ti, 7, 7.01, y.all, NULL), HC_OK); /* CVODE makes itself ready in the first period of
                                                                     each law */
   long settled = allocations;
-  assert_int_equal(timeint_sweep(ti, 7.01, 7.2, &y, NULL), HC_OK);
-  assert_int_equal(timeint_steady(ti, 7.2, &y, NULL, &r), HC_OK);
+  assert_int_equal(timeint_sweep(ti, 7.01, 7.2, y.all, NULL), HC_OK);
+  assert_int_equal(timeint_steady(ti, 7.2, y.all, NULL, &r), HC_OK);
   assert_int_equal(r.method, TIMEINT_BY_SHOOTING);
   assert_int_equal(allocations - settled, 0);
   timeint_free(ti);

@@ -43,12 +43,12 @@ static void follow(const scene *sc, const char *name, const char *sweep, double 
   timeint_result r;
   int seen = 0;
   assert_int_equal(scene_timeint(sc, &ti), HC_OK);
-  timeint_state y = timeint_rest(ti);
+  scene_state y = {.x = 0};
   for (int i = 0; i < n_rows; ++i) {
     const row *want = &rows[i];
     if (strcmp(want->name, name) || strcmp(want->sweep, sweep)) continue;
-    assert_int_equal(timeint_sweep(ti, from, want->omega, &y, NULL), HC_OK);
-    assert_int_equal(timeint_steady(ti, from = want->omega, &y, NULL, &r), HC_OK);
+    assert_int_equal(timeint_sweep(ti, from, want->omega, y.all, NULL), HC_OK);
+    assert_int_equal(timeint_steady(ti, from = want->omega, y.all, NULL, &r), HC_OK);
     CHECK_NEAR(r.amplitude, want->amplitude, 1e-8 * want->amplitude, "%s %s amplitude at %g", name, sweep, want->omega);
     CHECK_NEAR(r.harmonic_1, want->harmonic_1, 1e-8 * want->amplitude, "%s %s harmonic_1 at %g", name, sweep,
                want->omega);

@@ -32,7 +32,7 @@ static void linear_period_is_the_closed_form(void **state)
   for (double tol = 1e-6; tol > 1e-14; tol *= 1e-2) {
     integrator *in;
     assert_int_equal(integrate_new_regularised(m.n_states, tol, &in), HC_OK);
-    double y[SCALED_MAX_STATES] = {0};
+    double y[SCENE_MAX_STATES] = {0};
     assert_int_equal(integrate_period(in, &m, y, NULL, NULL), HC_OK);
     double bound = (double)integrate_steps(in) * tol * 2.5; /* |states| <= 2.5: the tolerance is relative, too */
     CHECK_NEAR(y[0], creal(linear_state(&m, 2 * PI)), bound, "x at %g", tol);
@@ -49,7 +49,7 @@ typedef struct seen {
 static hc_status look(void *self, const integrator *in, double theta0, double theta1)
 {
   seen *s = self;
-  double y[SCALED_MAX_STATES], mid = 0.5 * (theta0 + theta1);
+  double y[SCENE_MAX_STATES], mid = 0.5 * (theta0 + theta1);
   CHECK_LE(fabs(theta0 - s->last), 0, "steps follow each other");
   s->last = theta1;
   hc_status st = integrate_dense(in, mid, 0, y);
@@ -67,7 +67,7 @@ static void watched_period_is_the_same(void **state)
   scene_scaled(&m, &sc, 5, 1);
   integrator *in;
   assert_int_equal(integrate_new_regularised(m.n_states, 1e-10, &in), HC_OK);
-  double y[SCALED_MAX_STATES] = {0}, z[SCALED_MAX_STATES] = {0};
+  double y[SCENE_MAX_STATES] = {0}, z[SCENE_MAX_STATES] = {0};
   seen s = {.m = &m};
   assert_int_equal(integrate_period(in, &m, y, NULL, NULL), HC_OK);
   long steps = integrate_steps(in);
@@ -89,7 +89,7 @@ static void a_period_has_no_memory(void **state)
   scene_scaled(&other, &sc, 8, 3);
   integrator *in;
   assert_int_equal(integrate_new_regularised(m.n_states, 1e-10, &in), HC_OK);
-  double y[SCALED_MAX_STATES] = {0.8, 0.6, 0.5}, z[SCALED_MAX_STATES] = {0.8, 0.6, 0.5}, w[SCALED_MAX_STATES] = {0};
+  double y[SCENE_MAX_STATES] = {0.8, 0.6, 0.5}, z[SCENE_MAX_STATES] = {0.8, 0.6, 0.5}, w[SCENE_MAX_STATES] = {0};
   assert_int_equal(integrate_period(in, &m, y, NULL, NULL), HC_OK);
   assert_int_equal(integrate_period(in, &other, w, NULL, NULL), HC_OK);
   assert_int_equal(integrate_period(in, &m, z, NULL, NULL), HC_OK);
@@ -104,7 +104,7 @@ static void failures_are_reported(void **state)
   scaled_model m;
   scene_scaled(&m, &sc, 7, 10);
   integrator *in;
-  double y[SCALED_MAX_STATES] = {0.5, 0, 0};
+  double y[SCENE_MAX_STATES] = {0.5, 0, 0};
   assert_int_equal(integrate_new_regularised(m.n_states, 1e-30, &in), HC_OK); /* no double is that good */
   assert_int_equal(integrate_period(in, &m, y, NULL, NULL), HC_INTEGRATOR);
   assert_int_equal(integrate_flag(in), CV_TOO_MUCH_ACC);

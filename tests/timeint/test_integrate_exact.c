@@ -46,7 +46,7 @@ static void follows_oracle(const char *what, scene sc, double omega, double leng
   for (int j = 0; j < m.n_contacts; ++j)
     o.state[j] = m.contact[j].law.kn > 0 && m.contact[j].law.gap > 0 ? STUCK : APART;
   integrator *in = integrator_of(&m);
-  double y[SCALED_MAX_STATES] = {0};
+  double y[SCENE_MAX_STATES] = {0};
   for (int i = 0; i < periods; ++i) {
     run(in, &m, y, 1);
     oracle_period(&o);
@@ -55,7 +55,7 @@ static void follows_oracle(const char *what, scene sc, double omega, double leng
     CHECK_NEAR(y[SCALED_P], o.p, bound, "%s p in period %d", what, i);
     for (int j = 0; j < m.n_contacts; ++j)
       CHECK_NEAR(y[SCALED_W + j], oracle_slider(&o, j), bound, "%s w%d in period %d", what, j, i);
-    assert_int_equal(integrate_switches(in), o.events);
+    assert_int_equal(integrate_transitions(in), o.events);
   }
   integrate_free(in);
 }
@@ -114,15 +114,15 @@ static void bilinear_contacts_need_no_friction(void **state)
     scaled_model m = exact_model(one(100, kt[i], kn, mu, -3, 45), 7, 10),
                  plain = exact_model(one(100, 0, kn + kt[i], 0, -3, 45), 7, 10);
     integrator *in = integrator_of(&m), *ref = integrator_of(&plain);
-    double y[SCALED_MAX_STATES] = {0}, z[SCALED_MAX_STATES] = {0};
+    double y[SCENE_MAX_STATES] = {0}, z[SCENE_MAX_STATES] = {0};
     for (int n = 0; n < 20; ++n) {
       run(in, &m, y, 1);
       run(ref, &plain, z, 1);
       CHECK_NEAR(y[0], z[0], 5 * 200 * tol * (n + 1), "x, kt %g", kt[i]);
       CHECK_NEAR(y[1], z[1], 5 * 200 * tol * (n + 1), "p, kt %g", kt[i]);
     }
-    assert_true(integrate_switches(in) >= integrate_switches(ref) && integrate_switches(ref) > 20);
-    if (i != 1) assert_int_equal(integrate_switches(in), integrate_switches(ref));
+    assert_true(integrate_transitions(in) >= integrate_transitions(ref) && integrate_transitions(ref) > 20);
+    if (i != 1) assert_int_equal(integrate_transitions(in), integrate_transitions(ref));
     integrate_free(in);
     integrate_free(ref);
   }
@@ -135,14 +135,14 @@ static void two_contacts_are_one_of_double_stiffness(void **state)
   scene_add(&twin, 100, 200, 0.3, -0.5, 45);
   scaled_model m = exact_model(twin, 7, 1), s = exact_model(single, 7, 1);
   integrator *in = integrator_of(&m), *ref = integrator_of(&s);
-  double y[SCALED_MAX_STATES] = {0}, z[SCALED_MAX_STATES] = {0};
+  double y[SCENE_MAX_STATES] = {0}, z[SCENE_MAX_STATES] = {0};
   run(in, &m, y, 20);
   run(ref, &s, z, 20);
   CHECK_NEAR(y[0], z[0], 20 * 200 * tol, "x");
   CHECK_NEAR(y[1], z[1], 20 * 200 * tol, "p");
   CHECK_NEAR(y[2], y[3], 0, "both sliders");
   CHECK_NEAR(y[2], z[2], 20 * 200 * tol, "w");
-  assert_int_equal(integrate_switches(in), 2 * integrate_switches(ref));
+  assert_int_equal(integrate_transitions(in), 2 * integrate_transitions(ref));
   CHECK_LE((double)integrate_steps(in), 1.05 * (double)integrate_steps(ref), "one restart for both");
   integrate_free(in);
   integrate_free(ref);
@@ -161,12 +161,12 @@ static void grazing_is_not_stepped_over(void **state)
       for (int sign = -1; sign <= 1; sign += 2) {
         const double d = sign * (k < 7 ? pow(10, -3 - k) : 1e-10);
         scaled_model m = exact_model(one(100, 100, 200, 0.3, -cabs(X) * (1 - d) * sqrt(0.5), 45), omega, cabs(X));
-        double y[SCALED_MAX_STATES] = {creal(X) / cabs(X), creal(I * X) / cabs(X), 0};
+        double y[SCENE_MAX_STATES] = {creal(X) / cabs(X), creal(I * X) / cabs(X), 0};
         integrator *in = integrator_of(&m);
         run(in, &m, y, 1);
         /* slips or, its kt cos > mu kn sin, also sticks back */
-        const long want = d < 0 ? 0 : integrate_switches(in) == 4 ? 4 : 2;
-        CHECK_NEAR((double)integrate_switches(in), (double)want, 0, "d %g omega %g", d, omega);
+        const long want = d < 0 ? 0 : integrate_transitions(in) == 4 ? 4 : 2;
+        CHECK_NEAR((double)integrate_transitions(in), (double)want, 0, "d %g omega %g", d, omega);
         integrate_free(in);
       }
   }
@@ -178,21 +178,21 @@ static void a_transition_at_the_end_of_the_period(void **state)
 {
   (void)state;
   scaled_model m = exact_model(one(100, 300, 200, 0.3, -0.5, 45), 7.3, 10);
-  const double start[SCALED_MAX_STATES] = {0.02, -0.578, 0}; /* ends at its largest X, rising */
+  const double start[SCENE_MAX_STATES] = {0.02, -0.578, 0}; /* ends at its largest X, rising */
   m.contact[0].law.gap = -100;
   integrator *in = integrator_of(&m);
-  double end[SCALED_MAX_STATES];
+  double end[SCENE_MAX_STATES];
   memcpy(end, start, sizeof end);
   run(in, &m, end, 1);
   int touched = 0, n = 0;
   for (double off = 0; off<1e-10; off = off> 0 ? 1.3 * off : 1e-17)
     for (int sign = -1; sign <= 1; sign += 2, ++n) {
-      double y[SCALED_MAX_STATES];
+      double y[SCENE_MAX_STATES];
       memcpy(y, start, sizeof y);
       m.contact[0].law.gap = -m.contact[0].sine * (end[0] + sign * off);
-      long before = integrate_switches(in);
+      long before = integrate_transitions(in);
       run(in, &m, y, 1);
-      touched += integrate_switches(in) > before;
+      touched += integrate_transitions(in) > before;
       CHECK_NEAR(y[0], end[0], tol, "x, off %g", off); /* a few steps more, or a root in the last one */
       CHECK_NEAR(y[1], end[1], tol, "p, off %g", off);
       run(in, &m, y, 1); /* and from there */
@@ -212,26 +212,26 @@ static void check_monodromy(const char *what, scene sc, double omega, double len
   scaled_model m = exact_model(sc, omega, length);
   const int n = m.n_states;
   const double h = 1e-4;
-  double y[SCALED_MAX_STATES] = {0}, end[SCALED_MAX_STATES], monodromy[SCALED_MAX_STATES * SCALED_MAX_STATES];
+  double y[SCENE_MAX_STATES] = {0}, end[SCENE_MAX_STATES], monodromy[SCENE_MAX_STATES * SCENE_MAX_STATES];
   if (start) memcpy(y, start, sizeof *y * (size_t)n);
   integrator *in = integrator_of(&m);
   run(in, &m, y, periods);
   memcpy(end, y, sizeof end);
   assert_int_equal(integrate_monodromy(in, &m, end, monodromy), HC_OK);
-  double plain[SCALED_MAX_STATES], size = 1;
+  double plain[SCENE_MAX_STATES], size = 1;
   memcpy(plain, y, sizeof plain);
   run(in, &m, plain, 1);
   for (int i = 0; i < n; ++i) CHECK_NEAR(end[i], plain[i], 0, "the same period");
   for (int i = 0; i < n * n; ++i) size = fmax(size, fabs(monodromy[i]));
   for (int q = 0; q < n; ++q) {
-    double column = 0, diff[SCALED_MAX_STATES] = {0};
+    double column = 0, diff[SCENE_MAX_STATES] = {0};
     for (int i = 0; i < n; ++i) column += fabs(monodromy[i + q * n]);
     if (q >= SCALED_W && column == 0) continue;
     const double smooth[] = {-1 / 12.0, 8 / 12.0, -8 / 12.0, 1 / 12.0}, kinked[] = {-1 / 4.0, 1, -1, 1 / 4.0};
     const double *weight = q < SCALED_W ? smooth : kinked, truncation = q < SCALED_W ? 1e3 * pow(h, 4) : 1e2 * h * h;
     for (int k = 0; k < 4; ++k) {
       const double by = (k < 2 ? 2 - k : 1 - k) * h; /* 2, 1, -1, -2 */
-      double z[SCALED_MAX_STATES];
+      double z[SCENE_MAX_STATES];
       memcpy(z, y, sizeof z);
       z[q] += by;
       for (int j = 0; j < m.n_contacts; ++j) { /* sliders without a column of their own stay where the law has them */
@@ -239,7 +239,7 @@ static void check_monodromy(const char *what, scene sc, double omega, double len
         for (int i = 0; i < n; ++i) own += fabs(monodromy[i + (SCALED_W + j) * n]);
         const scaled_contact *c = &m.contact[j];
         const double g = c->sine * y[0] + c->law.gap, t = c->law.kt * (c->cosine * y[0] - y[SCALED_W + j]);
-        const double s = g > 0 && c->law.slides ? (t > 0 ? 1 : -1) : 0;
+        const double s = g > 0 && c->law.has_friction ? (t > 0 ? 1 : -1) : 0;
         if (own == 0 && q == SCALED_X)
           z[SCALED_W + j] += (c->cosine - (s != 0 ? s * c->law.mu * c->law.kn * c->sine / c->law.kt : 0)) * by;
       }
@@ -291,9 +291,9 @@ static void steady_states_are_the_references(void **state)
     const double length = r->amplitude;
     scaled_model m = exact_model(*sc, r->omega, length);
     integrator *in = integrator_of(&m);
-    double y[SCALED_MAX_STATES] = {rows[i].x0 / length, 0, 0.7 * rows[i].x0 / length};
+    double y[SCENE_MAX_STATES] = {rows[i].x0 / length, 0, 0.7 * rows[i].x0 / length};
     run(in, &m, y, 400);
-    static measure me;
+    measure me = scene_measure();
     timeint_result result = {0};
     measure_begin(&me, &m);
     measure_period(&me, y);
@@ -301,9 +301,10 @@ static void steady_states_are_the_references(void **state)
     scene_measure_report(&me, sc, length, &result);
     CHECK_NEAR(result.amplitude, r->amplitude, 1e-8 * r->amplitude, "case %d omega %g", r->which, r->omega);
     CHECK_NEAR(result.harmonic_1, r->harmonic_1, 1e-8 * r->amplitude, "case %d omega %g", r->which, r->omega);
-    long before = integrate_switches(in);
+    long before = integrate_transitions(in);
     run(in, &m, y, 1);
-    assert_true(r->events == 0 ? integrate_switches(in) == before : integrate_switches(in) > before);
+    assert_true(r->events == 0 ? integrate_transitions(in) == before : integrate_transitions(in) > before);
+    measure_free(&me);
     integrate_free(in);
   }
 }
@@ -323,8 +324,7 @@ static hc_status look(void *self, const integrator *in, double theta0, double th
   s->last = theta1;
   double way[SCENE_MAX_CONTACTS] = {0};
   for (int i = 0; i <= 4; ++i) {
-    double theta = theta0 + (theta1 - theta0) * i / 4, y[SCALED_MAX_STATES], dy[SCALED_MAX_STATES],
-           law[SCALED_MAX_STATES];
+    double theta = theta0 + (theta1 - theta0) * i / 4, y[SCENE_MAX_STATES], dy[SCENE_MAX_STATES], law[SCENE_MAX_STATES];
     assert_int_equal(integrate_dense(in, theta, 0, y), HC_OK);
     assert_int_equal(integrate_dense(in, theta, 1, dy), HC_OK);
     scaled_rhs(s->m, theta, y, law);
@@ -344,7 +344,7 @@ static void watched_period_is_the_same(void **state)
   (void)state;
   scaled_model m = exact_model(three_contacts(), 7, 2), other = exact_model(three_contacts(), 8, 3);
   integrator *in = integrator_of(&m);
-  double y[SCALED_MAX_STATES] = {0}, z[SCALED_MAX_STATES] = {0}, w[SCALED_MAX_STATES] = {0};
+  double y[SCENE_MAX_STATES] = {0}, z[SCENE_MAX_STATES] = {0}, w[SCENE_MAX_STATES] = {0};
   seen s = {.m = &m};
   run(in, &m, y, 1);
   long steps = integrate_steps(in);
@@ -367,7 +367,7 @@ static void rest_stays_at_rest(void **state)
   for (int i = 0; i < 3; ++i) {
     scaled_model m = exact_model(one(0, 100, 200, 0.3, gap[i], 45), 7, 1);
     integrator *in = integrator_of(&m);
-    double y[SCALED_MAX_STATES] = {0};
+    double y[SCENE_MAX_STATES] = {0};
     run(in, &m, y, 5);
     CHECK_NEAR(fabs(y[0]) + fabs(y[1]) + fabs(y[2]), 0, 0, "gap %g", gap[i]);
     integrate_free(in);
@@ -386,7 +386,7 @@ static void any_start_follows_the_closed_form(void **state)
     scaled_model m = exact_model(cases[k], 3.1, 2);
     integrator *in = integrator_of(&m);
     for (int i = 0; i < 300; ++i) {
-      double y[SCALED_MAX_STATES] = {1.5 * sin(12.9898 * i), 3 * sin(78.233 * i), 0};
+      double y[SCENE_MAX_STATES] = {1.5 * sin(12.9898 * i), 3 * sin(78.233 * i), 0};
       y[2] = m.contact[0].cosine * y[0];
       const bool open = m.contact[0].sine * y[0] + m.contact[0].law.gap <= 0;
       oracle o = {.m = &m, .x = y[0], .p = y[1], .state = {open ? APART : STUCK}, .held = {y[2]}};
@@ -404,7 +404,7 @@ static void failures_are_reported(void **state)
   (void)state;
   scaled_model m = exact_model(scene_c2(), 7, 10);
   integrator *in;
-  double y[SCALED_MAX_STATES] = {0.5, 0, 0};
+  double y[SCENE_MAX_STATES] = {0.5, 0, 0};
   assert_int_equal(integrate_new_exact(m.n_states, 1e-30, &in), HC_OK); /* no double is that good */
   assert_int_equal(integrate_period(in, &m, y, NULL, NULL), HC_INTEGRATOR);
   assert_int_equal(integrate_flag(in), CV_TOO_MUCH_ACC);
@@ -416,7 +416,7 @@ static void failures_are_reported(void **state)
     scaled_model broken = m;
     broken.f = bad[i];
     assert_int_equal(integrate_period(in, &broken, y, NULL, NULL), HC_NOT_FINITE);
-    double z[SCALED_MAX_STATES] = {0, bad[i], 0};
+    double z[SCENE_MAX_STATES] = {0, bad[i], 0};
     assert_int_equal(integrate_period(in, &m, z, NULL, NULL), HC_NOT_FINITE);
   }
   integrate_free(in);

@@ -25,17 +25,16 @@ static void free_vibration(void **state)
   scene sc = scene_linear(1, 0, s * s, 0);
   scaled_model m;
   integrator *in;
-  measure *me = calloc(1, sizeof *me);
-  assert_non_null(me);
+  measure me = scene_measure();
   scene_scaled(&m, &sc, 1, 1);
   assert_int_equal(integrate_new_regularised(m.n_states, 1e-13, &in), HC_OK);
-  double y[SCALED_MAX_STATES] = {p, s * q};
-  measure_begin(me, &m);
-  measure_period(me, y);
-  assert_int_equal(integrate_period(in, &m, y, measure_step, me), HC_OK);
+  double y[SCENE_MAX_STATES] = {p, s * q};
+  measure_begin(&me, &m);
+  measure_period(&me, y);
+  assert_int_equal(integrate_period(in, &m, y, measure_step, &me), HC_OK);
   timeint_result r;
-  scene_measure_report(me, &sc, 10, &r); /* L = 10: lengths come out ten times as large */
-  double complex X = 10 * (p - I * q);   /* x = Re(X e^{i s theta}) */
+  scene_measure_report(&me, &sc, 10, &r); /* L = 10: lengths come out ten times as large */
+  double complex X = 10 * (p - I * q);    /* x = Re(X e^{i s theta}) */
   CHECK_NEAR(r.max, 10, 10 * tol, "highest peak");
   CHECK_NEAR(r.min, -10, 10 * tol, "lowest");
   CHECK_NEAR(r.amplitude, 10, 10 * tol, "amplitude");
@@ -46,15 +45,15 @@ static void free_vibration(void **state)
   for (int i = 0; i < TIMEINT_WAVE; ++i)
     CHECK_NEAR(r.wave[i], creal(X * cexp(I * s * 2 * PI * i / TIMEINT_WAVE)), 10 * tol, "wave[%d]", i);
   integrate_free(in);
-  free(me);
+  measure_free(&me);
 }
 
 /* alpha = 30: v = x/2, so a gap g is touched at x = -2 g. */
-static contact_regime regime(double gap, double min, double max, bool slides)
+static contact_regime regime(double gap, double min, double max, bool slips)
 {
   scene sc = scene_linear(1, 0, 1, 1);
   scene_add(&sc, 1, 1, 1, gap, 30);
-  measure me = {.periods = 1, .min = min, .max = max, .slides = slides};
+  measure me = {.periods = 1, .min = min, .max = max, .slips = slips};
   timeint_result r;
   scene_measure_report(&me, &sc, 1, &r);
   return r.regime;

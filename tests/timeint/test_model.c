@@ -36,10 +36,10 @@ static void check_jacobian(const scaled_model *m, const double *y)
 {
   const double h = 1e-5;
   const int n = m->n_states;
-  double jac[SCALED_MAX_STATES * SCALED_MAX_STATES];
+  double jac[SCENE_MAX_STATES * SCENE_MAX_STATES];
   scaled_jacobian(m, y, jac);
   for (int j = 0; j < n; ++j) {
-    double yp[SCALED_MAX_STATES], ym[SCALED_MAX_STATES], fp[SCALED_MAX_STATES], fm[SCALED_MAX_STATES];
+    double yp[SCENE_MAX_STATES], ym[SCENE_MAX_STATES], fp[SCENE_MAX_STATES], fm[SCENE_MAX_STATES];
     memcpy(yp, y, sizeof yp), memcpy(ym, y, sizeof ym);
     yp[j] += h, ym[j] -= h;
     scaled_rhs(m, 0.3, yp, fp), scaled_rhs(m, 0.3, ym, fm);
@@ -59,7 +59,7 @@ static bool off_corners(const scaled_model *m, const double *y)
 {
   for (int j = 0; j < m->n_contacts; ++j) {
     const scaled_contact *c = &m->contact[j];
-    if (!c->law.slides) continue;
+    if (!c->law.has_friction) continue;
     double u = c->cosine * y[SCALED_X], v = c->sine * y[SCALED_X];
     double s = fabs(c->law.kt * (u - y[SCALED_W + j])), limit = c->law.mu * law_regularised_eval(&c->law, u, v, 0).n;
     if (fabs(s - limit) < 1e-4 * (c->law.kt + c->law.kn)) return false;
@@ -81,7 +81,7 @@ static void jacobian_is_the_derivative(void **state)
   int tried = 0;
   for (int both = 0; both < 2; ++both)
     for (int i = 0; i < 400; ++i) {
-      double y[SCALED_MAX_STATES] = {2 * sin(1.1 * i), cos(2.0 * i), 2 * sin(0.7 * i), 2 * cos(0.9 * i), 0.1, 0.2};
+      double y[SCENE_MAX_STATES] = {2 * sin(1.1 * i), cos(2.0 * i), 2 * sin(0.7 * i), 2 * cos(0.9 * i), 0.1, 0.2};
       for (int j = 0; j < m.n_contacts; ++j) m.contact[j].law.overstress = both;
       if (!off_corners(&m, y)) continue;
       check_jacobian(&m, y);

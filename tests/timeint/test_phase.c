@@ -22,7 +22,7 @@ static scaled_model with(double kt, double kn, double mu, double gap, double ang
 
 static contact_state begin(const scaled_model *m, double x, double p, double w, phase *ph)
 {
-  const double y[SCALED_MAX_STATES] = {x, p, w};
+  const double y[SCENE_MAX_STATES] = {x, p, w};
   assert_true(phase_begin(ph, m, y) >= 0);
   return ph->contact[0].state;
 }
@@ -33,16 +33,17 @@ static void a_period_begins_in_any_state(void **state)
   (void)state;
   const double r = sqrt(2);
   scaled_model m = with(4, 4, 0.5, 1, 45);
-  phase ph;
+  phase_contact states[3];
+  phase ph = {.contact = states};
   assert_int_equal(begin(&m, -1.5 * r, 1, 0, &ph), CONTACT_SEPARATED);
   CHECK_NEAR(ph.up, -r, 4 * eps, "v + gap = 0");
   assert_int_equal(begin(&m, 0, 1, 0.3, &ph), CONTACT_STICK);
-  assert_true(ph.contact[0].own);
+  assert_true(ph.contact[0].since_start);
   assert_int_equal(begin(&m, 0, 1, -0.7, &ph), CONTACT_SLIP_PLUS); /* T would be 2.8 > 2, and u outruns the limit */
   assert_int_equal(begin(&m, 0, -1, -0.7, &ph), CONTACT_STICK); /* moving back: on the limit, w = u - mu N/kt = -1/2 */
-  assert_false(ph.contact[0].own);
-  CHECK_NEAR(ph.contact[0].held, -0.5, 4 * eps, "drawn to the limit");
-  CHECK_NEAR(ph.contact[0].held_by_x, 0.5 / r, 4 * eps, "cos - mu kn sin/kt");
+  assert_false(ph.contact[0].since_start);
+  CHECK_NEAR(ph.contact[0].rest, -0.5, 4 * eps, "drawn to the limit");
+  CHECK_NEAR(ph.contact[0].rest_by_x, 0.5 / r, 4 * eps, "cos - mu kn sin/kt");
   assert_int_equal(begin(&m, 0, -1, 0.7, &ph), CONTACT_SLIP_MINUS);
   assert_int_equal(begin(&m, -r, 1, -1, &ph), CONTACT_SLIP_PLUS); /* touching now: kt cos > mu kn sin */
   assert_int_equal(begin(&m, -r, -1, -1, &ph), CONTACT_SEPARATED);
@@ -71,16 +72,17 @@ static void bounds_and_force_are_those_of_the_law(void **state)
     const scaled_contact *mc = &m.contact[0];
     const contact law = {mc->law.kt, mc->law.kn, mc->law.mu, mc->law.gap};
     const double x = 2 * any() - 1, p = 2 * any() - 1, w = 2 * any() - 1;
-    phase ph;
+    phase_contact states[3];
+    phase ph = {.contact = states};
     contact_state st = begin(&m, x, p, w, &ph);
-    double rest, by_x, dy[SCALED_MAX_STATES];
+    double rest, by_x, dy[SCENE_MAX_STATES];
     phase_slider(&ph, 0, &rest, &by_x);
-    const double y[SCALED_MAX_STATES] = {x, p, rest + by_x * x};
+    const double y[SCENE_MAX_STATES] = {x, p, rest + by_x * x};
     scaled_rhs(&m, 0, y, dy);
     const double size = 10 + 50 + 8 * 3 + 8 * 3;
     CHECK_NEAR(phase_force(&ph, 1, x, p), dy[SCALED_P], 8 * eps * size, "P' in state %d of contact %d", st, i);
     slipping += contact_slip_sign(st) != 0;
-    if (st != CONTACT_STICK || !ph.contact[0].own) continue;
+    if (st != CONTACT_STICK || !ph.contact[0].since_start) continue;
     ++stuck;
     for (int side = 0; side < 2; ++side) {
       const double end = side ? ph.up : ph.down, inside = isfinite(end) ? 0.999 * end + 0.001 * x : x;
@@ -107,7 +109,8 @@ static void a_slipping_contact_goes_round(void **state)
   (void)state;
   const double r = sqrt(2), tol = 16 * eps;
   scaled_model m = with(4, 4, 0.5, -1, 45);
-  phase ph;
+  phase_contact states[3];
+  phase ph = {.contact = states};
   assert_int_equal(begin(&m, 0, 1, 0, &ph), CONTACT_SEPARATED);
   assert_int_equal(phase_next(&ph, ph.up, 1, false), 1);
   assert_int_equal(ph.contact[0].state, CONTACT_SLIP_PLUS);
@@ -115,8 +118,8 @@ static void a_slipping_contact_goes_round(void **state)
   assert_int_equal(phase_next(&ph, 1.5 * r, 1, true), 0); /* no turn: P was rounded to the other side of 0 */
   assert_int_equal(phase_next(&ph, 2 * r, -1, true), 1);
   assert_int_equal(ph.contact[0].state, CONTACT_STICK);
-  CHECK_NEAR(ph.contact[0].held, 1.5, tol, "w");
-  CHECK_NEAR(ph.contact[0].held_by_x, 0.5 / r, tol, "dw/dx");
+  CHECK_NEAR(ph.contact[0].rest, 1.5, tol, "w");
+  CHECK_NEAR(ph.contact[0].rest_by_x, 0.5 / r, tol, "dw/dx");
   assert_true(ph.up > 2 * r); /* it sticks on its limit: coming back it slips on at the same x, to rounding */
   CHECK_NEAR(ph.up, 2 * r, 64 * eps, "up");
   CHECK_NEAR(ph.down, 4 / 3.0 * r, tol, "slip backwards");
@@ -134,7 +137,8 @@ static void a_sticking_contact_separates_only(void **state)
   for (int i = 0; i < 2000; ++i) {
     const double kn = 0.1 + any(), mu = any(), kt = i % 2 ? mu * kn : mu * kn * any(), gap = 2 * any() - 1;
     scaled_model m = with(kt, kn, mu, gap, 45);
-    phase ph;
+    phase_contact states[3];
+    phase ph = {.contact = states};
     assert_int_equal(begin(&m, -3, 1, 0, &ph), CONTACT_SEPARATED);
     const double over = ph.up + 1e-13 * any(); /* as located */
     assert_int_equal(phase_next(&ph, over, 1, false), 1);
@@ -151,7 +155,8 @@ static void a_sticking_contact_separates_only(void **state)
 static void degenerate_contacts(void **state)
 {
   (void)state;
-  phase ph;
+  phase_contact states[3];
+  phase ph = {.contact = states};
   scaled_model m = with(4, 4, 0.5, 1, 0); /* constant N = 4: slips where |4(x - w)| = 2 */
   assert_int_equal(begin(&m, 0, 1, 0.1, &ph), CONTACT_STICK);
   CHECK_NEAR(ph.up, 0.6, 4 * eps, "alpha 0");
@@ -176,7 +181,7 @@ static void degenerate_contacts(void **state)
     double rest, by_x;
     phase_slider(&ph, 0, &rest, &by_x);
     CHECK_NEAR(rest + by_x, smooth[i].contact[0].cosine, 0, "w = u");
-    CHECK_NEAR(phase_share(&ph, 0), 0, 0, "no traction");
+    CHECK_NEAR(phase_slider_stiffness(&ph, 0), 0, 0, "no traction");
     assert_int_equal(phase_next(&ph, ph.down, -1, false), 1);
     assert_int_equal(phase_next(&ph, ph.up, 1, false), 1);
     assert_int_equal(ph.contact[0].state, CONTACT_STICK);
@@ -193,8 +198,9 @@ static void several_at_once(void **state)
   sc.transient.law = TRANSIENT_LAW_EXACT;
   scaled_model m;
   scene_scaled(&m, &sc, 1, 1);
-  const double y[SCALED_MAX_STATES] = {0, 1, 0, 0, 0};
-  phase ph;
+  const double y[SCENE_MAX_STATES] = {0, 1, 0, 0, 0};
+  phase_contact states[3];
+  phase ph = {.contact = states};
   assert_int_equal(phase_begin(&ph, &m, y), 0);
   const double edge = ph.up;
   assert_int_equal(phase_next(&ph, edge, -1, true), 0);

@@ -20,15 +20,15 @@ static void follow(const scene *sc, int which, int sweep, double omega)
 {
   timeint *ti;
   assert_int_equal(scene_timeint(sc, &ti), HC_OK);
-  timeint_state y = timeint_rest(ti);
+  scene_state y = {.x = 0};
   timeint_result r;
   int rows = 0;
   for (size_t i = 0; i < sizeof reference_rows / sizeof *reference_rows; ++i) {
     const reference_row *row = &reference_rows[i];
     if (row->which != which || row->sweep != sweep) continue;
     const char *way = sweep == REF_UP ? "up" : "down";
-    assert_int_equal(timeint_sweep(ti, omega, row->omega, &y, NULL), HC_OK);
-    assert_int_equal(timeint_steady(ti, omega = row->omega, &y, NULL, &r), HC_OK);
+    assert_int_equal(timeint_sweep(ti, omega, row->omega, y.all, NULL), HC_OK);
+    assert_int_equal(timeint_steady(ti, omega = row->omega, y.all, NULL, &r), HC_OK);
     CHECK_NEAR(r.amplitude, row->amplitude, allowed(sc, row) * row->amplitude, "%s %s amplitude at %g", names[which],
                way, omega);
     CHECK_NEAR(r.harmonic_1, row->harmonic_1, allowed(sc, row) * row->amplitude, "%s %s harmonic_1 at %g", names[which],

@@ -9,13 +9,13 @@
 
 static const double b10_exact = 1.40757735095, c2_exact = 9.45555672271; /* |X1| at omega 7 */
 
-static double harmonic_1(scene sc, double regularisation, timeint_state y)
+static double harmonic_1(scene sc, double regularisation, scene_state y)
 {
   timeint *ti;
   timeint_result r;
   sc.transient.regularisation = regularisation;
   assert_int_equal(scene_timeint(&sc, &ti), HC_OK);
-  assert_int_equal(timeint_steady(ti, 7, &y, NULL, &r), HC_OK);
+  assert_int_equal(timeint_steady(ti, 7, y.all, NULL, &r), HC_OK);
   timeint_free(ti);
   return r.harmonic_1;
 }
@@ -26,7 +26,7 @@ static double harmonic_1(scene sc, double regularisation, timeint_state y)
 static void slip_is_second_order(void **state)
 {
   (void)state;
-  timeint_state y = {.x = 1.04, .v = 7, .w = {0.6}};
+  scene_state y = {.x = 1.04, .v = 7, .w = {0.6}};
   double e1 = harmonic_1(scene_b10(), 1e-1, y) / b10_exact - 1, e2 = harmonic_1(scene_b10(), 1e-2, y) / b10_exact - 1;
   double e3 = harmonic_1(scene_b10(), 1e-3, y) / b10_exact - 1, e4 = harmonic_1(scene_b10(), 1e-4, y) / b10_exact - 1;
   CHECK_NEAR(log10(e1 / e2), 2, 0.15, "%g %g", e1, e2);
@@ -39,7 +39,7 @@ static void slip_is_second_order(void **state)
 static void closing_in_stick_is_first_order(void **state)
 {
   (void)state;
-  timeint_state y = {.x = 8.06, .v = 46.2, .w = {5}};
+  scene_state y = {.x = 8.06, .v = 46.2, .w = {5}};
   double e2 = harmonic_1(scene_c2(), 1e-2, y) / c2_exact - 1, e3 = harmonic_1(scene_c2(), 1e-3, y) / c2_exact - 1;
   double e4 = harmonic_1(scene_c2(), 1e-4, y) / c2_exact - 1;
   CHECK_NEAR(log10(e2 / e3), 1, 0.05, "%g %g", e2, e3);
@@ -50,12 +50,12 @@ static timeint_result solved(scene sc, double regularisation, bool richardson)
 {
   timeint *ti;
   timeint_result r;
-  timeint_state y = {.x = 8.06, .v = 46.2, .w = {5}};
+  scene_state y = {.x = 8.06, .v = 46.2, .w = {5}};
   sc.transient.regularisation = regularisation;
   sc.transient.richardson = richardson;
   sc.transient.tolerance = 1e-11;
   assert_int_equal(scene_timeint(&sc, &ti), HC_OK);
-  assert_int_equal(timeint_steady(ti, 7, &y, NULL, &r), HC_OK);
+  assert_int_equal(timeint_steady(ti, 7, y.all, NULL, &r), HC_OK);
   timeint_free(ti);
   return r;
 }
@@ -89,18 +89,17 @@ static double with_overstress(double eta)
   scene_scaled(&m, &sc, 7, 1.4);
   m.contact[0].law.overstress = true;
   integrator *in;
-  measure *me = calloc(1, sizeof *me);
-  double y[SCALED_MAX_STATES] = {1.04 / 1.4, 1 / 1.4, 0.6 / 1.4};
-  assert_non_null(me);
+  measure me = scene_measure();
+  double y[SCENE_MAX_STATES] = {1.04 / 1.4, 1 / 1.4, 0.6 / 1.4};
   assert_int_equal(integrate_new_regularised(m.n_states, 1e-11, &in), HC_OK);
   for (int i = 0; i < 200; ++i) assert_int_equal(integrate_period(in, &m, y, NULL, NULL), HC_OK);
-  measure_begin(me, &m);
-  measure_period(me, y);
-  assert_int_equal(integrate_period(in, &m, y, measure_step, me), HC_OK);
+  measure_begin(&me, &m);
+  measure_period(&me, y);
+  assert_int_equal(integrate_period(in, &m, y, measure_step, &me), HC_OK);
   timeint_result r;
-  scene_measure_report(me, &sc, 1.4, &r);
+  scene_measure_report(&me, &sc, 1.4, &r);
   integrate_free(in);
-  free(me);
+  measure_free(&me);
   return r.harmonic_1;
 }
 

@@ -2,8 +2,15 @@
  * cannot be. Both laws. */
 #include "tests/check.h"
 
+#include <complex.h>
+
+#include <gsl/gsl_eigen.h>
+
 #include "campaigns/scene_solvers.h"
+#include "tests/scene_parts.h"
+#include "tests/timeint/oracle.h"
 #include "tests/timeint/scenes.h"
+#include "timeint/integrate.h"
 
 static timeint *made(scene sc, int law, int steady, int start)
 {
@@ -15,16 +22,112 @@ static timeint *made(scene sc, int law, int steady, int start)
   return ti;
 }
 
-/* What was found lies within `closure` of the orbit, and a period carries it back to itself: marching one more
- * period from there moves it by at most twice that and the integration's own error. */
-static void check_orbit(timeint *ti, double omega, timeint_state y, const timeint_result *r, double tolerance)
+/* ---- the period map once more, not by the solver under test ---- */
+
+/* One period of a scene's motion, in units of length. Exact law: in closed form (oracle.h). Regularised: by CVODE at
+ * 1e-13, four digits tighter than any orbit here is integrated at. */
+typedef struct period_map {
+  scaled_model m;
+  double length, omega; /* [length], [rad/time] */
+  integrator *in;       /* of the regularised law, else NULL */
+} period_map;
+
+static period_map map_of(scene sc, int law, double omega, double length)
 {
-  timeint_result again;
-  CHECK_LE(r->closure, tolerance, "closure at %g", omega);
-  timeint_state here = y;
-  assert_int_equal(timeint_orbit(ti, omega, 1, &y, NULL, &again), HC_OK);
-  CHECK_NEAR(y.x, here.x, 3 * tolerance * r->amplitude, "x stays at %g", omega);
-  CHECK_NEAR(again.amplitude, r->amplitude, 3 * tolerance * r->amplitude, "amplitude stays at %g", omega);
+  period_map map = {.length = length, .omega = omega};
+  sc.transient.law = law;
+  scene_scaled(&map.m, &sc, omega, length);
+  if (law == TRANSIENT_LAW_REGULARISED)
+    assert_int_equal(integrate_new_regularised(map.m.n_states, 1e-13, &map.in), HC_OK);
+  return map;
+}
+
+static double limit_of(const scaled_contact *c, double x) { return c->law.mu * c->law.kn * (c->sine * x + c->law.gap); }
+
+/* The contact's state at theta = 0. A traction within 1e-7 of its limit (the orbit is good for 1e-9) slips if it would
+ * grow. */
+static how state_at(const scaled_contact *c, const double *z)
+{
+  const double limit = limit_of(c, z[SCALED_X]), t = c->law.kt * (c->cosine * z[SCALED_X] - z[SCALED_W]);
+  if (limit <= 0) return APART;
+  if (t >= limit - 1e-7 * c->law.kt && z[SCALED_P] > 0) return PLUS;
+  return t <= -limit + 1e-7 * c->law.kt && z[SCALED_P] < 0 ? MINUS : STUCK;
+}
+
+/* z[3] -> its image, for a scene of one contact. `begins`: the state at theta = 0, exact law only. */
+static void apply(const period_map *map, how begins, double *z)
+{
+  if (map->in) {
+    assert_int_equal(integrate_period(map->in, &map->m, z, NULL, NULL), HC_OK);
+    return;
+  }
+  oracle o = {.m = &map->m, .x = z[SCALED_X], .p = z[SCALED_P], .state = {begins}, .held = {z[SCALED_W]}};
+  oracle_period(&o);
+  z[SCALED_X] = o.x;
+  z[SCALED_P] = o.p;
+  z[SCALED_W] = oracle_slider(&o, 0);
+}
+
+/* Its derivatives at z, phi[3][3] by rows, by central differences with Richardson's extrapolation: of h^2 for X and P,
+ * of h for the slider, which enters with |h| where T and N vanish together. */
+static void differentiate(const period_map *map, const double *z, double h, double phi[3][3])
+{
+  static const double smooth[] = {-1 / 12.0, 8 / 12.0, -8 / 12.0, 1 / 12.0}, kinked[] = {-1 / 4.0, 1, -1, 1 / 4.0};
+  static const int at[] = {2, 1, -1, -2};
+  const how begins = state_at(&map->m.contact[0], z);
+  for (int q = 0; q < 3; ++q)
+    for (int k = 0; k < 4; ++k) {
+      double y[3] = {z[0], z[1], z[2]};
+      y[q] += at[k] * h;
+      apply(map, begins, y);
+      for (int i = 0; i < 3; ++i)
+        phi[i][q] = (k ? phi[i][q] : 0) + (q < SCALED_W || map->in ? smooth : kinked)[k] * y[i] / h;
+    }
+}
+
+/* Of its eigenvalues (by GSL) the one nearest to lambda or its conjugate, and the largest modulus. */
+static double nearest_eigenvalue(double phi[3][3], double complex lambda, double *largest)
+{
+  double off = INFINITY, work[9];
+  memcpy(work, phi, sizeof work);
+  gsl_matrix_view matrix = gsl_matrix_view_array(work, 3, 3);
+  gsl_vector_complex *eigen = gsl_vector_complex_alloc(3);
+  gsl_eigen_nonsymm_workspace *space = gsl_eigen_nonsymm_alloc(3);
+  assert_int_equal(gsl_eigen_nonsymm(&matrix.matrix, eigen, space), 0);
+  *largest = 0;
+  for (size_t i = 0; i < 3; ++i) {
+    const gsl_complex e = gsl_vector_complex_get(eigen, i);
+    off = fmin(off, hypot(GSL_REAL(e) - creal(lambda), fabs(GSL_IMAG(e)) - fabs(cimag(lambda))));
+    *largest = fmax(*largest, hypot(GSL_REAL(e), GSL_IMAG(e)));
+  }
+  gsl_eigen_nonsymm_free(space);
+  gsl_vector_complex_free(eigen);
+  return off;
+}
+
+/* Is y on an orbit whose multiplier is *r's?
+ * - timeint.h promises the orbit z* within `tolerance` of the amplitude: |F(y) - y| <= |F(y) - F(z*)| + |z* - y| <=
+ *   (|Phi| + 1) tolerance, in units of the amplitude, Phi the derivative of the period map F.
+ * - A multiplier is off by what the two Phi differ by, times the condition of the eigenvalue, for which 10 is allowed.
+ *   Exact law: 1e-6 by the differences in the slider (1e2 h^2 as in test_integrate_exact.c; those in X and P are
+ *   nearer). Regularised law: each step of the variational equations errs by up to 1e-6 (variation_tolerance), and
+ *   their errors, of either sign, add up like the root of their number. */
+static void check_orbit(const scene *sc, int law, scene_state y, const timeint_result *r, double tolerance)
+{
+  const period_map map = map_of(*sc, law, r->omega, r->amplitude);
+  const double z[3] = {y.x / r->amplitude, y.v / (r->omega * r->amplitude), y.w[0] / r->amplitude};
+  double image[3] = {z[0], z[1], z[2]}, phi[3][3], norm = 0, largest;
+  CHECK_LE(r->closure, tolerance, "closure at %g", r->omega);
+  apply(&map, state_at(&map.m.contact[0], z), image);
+  differentiate(&map, z, law == TRANSIENT_LAW_EXACT ? 1e-4 : 1e-5, phi);
+  for (int i = 0; i < 9; ++i) norm = hypot(norm, phi[i / 3][i % 3]);
+  for (int i = 0; i < 3; ++i)
+    CHECK_NEAR(image[i], z[i], (norm + 1) * tolerance, "law %d, state %d after a period at %g", law, i, r->omega);
+  const double of_phi = law == TRANSIENT_LAW_EXACT ? 1e-6 : 1e-6 * sqrt((double)r->steps / r->periods);
+  const double off = nearest_eigenvalue(phi, CMPLX(r->multiplier_re, r->multiplier_im), &largest);
+  CHECK_LE(off, 10 * of_phi, "law %d: multiplier %g at %g", law, r->multiplier, r->omega);
+  CHECK_NEAR(largest, r->multiplier, 10 * of_phi, "law %d: none is larger at %g", law, r->omega);
+  integrate_free(map.in);
 }
 
 /* Shooting against waiting, with the same law, from the same start: one orbit. Each is within transient.tolerance of
@@ -41,9 +144,9 @@ static void finds_what_marching_finds(void **state)
       timeint_result waited, shot;
       timeint *march = made(cases[i].sc, law, TRANSIENT_STEADY_MARCH, TRANSIENT_START_REST);
       timeint *automatic = made(cases[i].sc, law, TRANSIENT_STEADY_AUTO, TRANSIENT_START_REST);
-      timeint_state y = timeint_rest(march), z = y;
-      assert_int_equal(timeint_steady(march, cases[i].omega, &y, NULL, &waited), HC_OK);
-      assert_int_equal(timeint_steady(automatic, cases[i].omega, &z, NULL, &shot), HC_OK);
+      scene_state y = {.x = 0}, z = y;
+      assert_int_equal(timeint_steady(march, cases[i].omega, y.all, NULL, &waited), HC_OK);
+      assert_int_equal(timeint_steady(automatic, cases[i].omega, z.all, NULL, &shot), HC_OK);
       const double tolerance = 2 * cases[i].sc.transient.tolerance;
       CHECK_NEAR(shot.amplitude, waited.amplitude, tolerance * waited.amplitude, "law %d case %d", law, i);
       CHECK_NEAR(shot.a1, waited.a1, tolerance * waited.amplitude, "law %d case %d a1", law, i);
@@ -51,7 +154,7 @@ static void finds_what_marching_finds(void **state)
       assert_int_equal(waited.method, TIMEINT_BY_MARCHING);
       assert_int_equal(shot.method, TIMEINT_BY_SHOOTING);
       CHECK_LE(shot.periods, 0.7 * waited.periods, "law %d case %d periods", law, i);
-      check_orbit(automatic, cases[i].omega, z, &shot, cases[i].sc.transient.tolerance);
+      check_orbit(&cases[i].sc, law, z, &shot, cases[i].sc.transient.tolerance);
       timeint_free(automatic);
       timeint_free(march);
     }
@@ -70,16 +173,43 @@ static void few_periods_whatever_the_damping(void **state)
   for (int i = 0; i < 2; ++i) {
     timeint *ti = made(cases[i].sc, TRANSIENT_LAW_EXACT, TRANSIENT_STEADY_AUTO, TRANSIENT_START_UP);
     timeint_result r;
-    timeint_state y = timeint_rest(ti);
-    assert_int_equal(timeint_sweep(ti, cases[i].from, cases[i].omega, &y, NULL), HC_OK);
-    assert_int_equal(timeint_steady(ti, cases[i].omega, &y, NULL, &r), HC_OK);
+    scene_state y = {.x = 0};
+    assert_int_equal(timeint_sweep(ti, cases[i].from, cases[i].omega, y.all, NULL), HC_OK);
+    assert_int_equal(timeint_steady(ti, cases[i].omega, y.all, NULL, &r), HC_OK);
     timeint_free(ti);
     ti = made(cases[i].sc, TRANSIENT_LAW_EXACT, TRANSIENT_STEADY_AUTO, TRANSIENT_START_HBM);
     y.x *= 1.01;
-    assert_int_equal(timeint_steady(ti, cases[i].omega, &y, NULL, &r), HC_OK);
+    assert_int_equal(timeint_steady(ti, cases[i].omega, y.all, NULL, &r), HC_OK);
     CHECK_LE(r.periods, cases[i].most, "case %d", i);
     CHECK_LE(r.closure, 1e-9, "case %d", i);
     CHECK_LE(r.multiplier, 1, "case %d", i);
+    timeint_free(ti);
+  }
+}
+
+/* The orbit of one period, run through k times: its multiplier is that of one period to the power k, and it is still
+ * reported as an orbit of one period. Both points are within 1e-9 of the orbit: a multiplier, of derivative 10 or less
+ * there as check_orbit allows, is off by 1e-8, its k-th power by k times that. */
+static void k_periods_multiply(void **state)
+{
+  (void)state;
+  const struct {
+    scene sc;
+    double omega;
+  } cases[] = {{scene_b10(), 7}, {scene_c2(), 6}, {scene_gap1(), 25}};
+  for (int i = 0; i < 3; ++i) {
+    timeint *ti = made(cases[i].sc, TRANSIENT_LAW_EXACT, TRANSIENT_STEADY_AUTO, TRANSIENT_START_REST);
+    scene_state y = {.x = 0};
+    timeint_result once, r;
+    assert_int_equal(timeint_steady(ti, cases[i].omega, y.all, NULL, &once), HC_OK);
+    for (int k = 2; k <= 5; ++k) {
+      assert_int_equal(timeint_orbit(ti, cases[i].omega, k, y.all, NULL, &r), HC_OK);
+      const double complex power = cpow(CMPLX(once.multiplier_re, once.multiplier_im), k);
+      CHECK_NEAR(r.multiplier, pow(once.multiplier, k), 1e-8 * k, "case %d, k = %d", i, k);
+      CHECK_NEAR(r.multiplier_re, creal(power), 1e-8 * k, "case %d, k = %d", i, k);
+      CHECK_NEAR(fabs(r.multiplier_im), fabs(cimag(power)), 1e-8 * k, "case %d, k = %d", i, k);
+      assert_int_equal(r.period_multiple, 1);
+    }
     timeint_free(ti);
   }
 }
@@ -95,10 +225,10 @@ static void a_free_slider_is_left_alone(void **state)
     for (int i = 0; i < 3; ++i) {
       timeint *ti = made(sc, law, TRANSIENT_STEADY_SHOOTING, TRANSIENT_START_REST);
       timeint_result r;
-      timeint_state y = {.x = 0.15 + share * offset[i], .w = {offset[i]}};
-      assert_int_equal(timeint_orbit(ti, 12, 1, &y, NULL, &r), HC_OK);
+      scene_state y = {.x = 0.15 + share * offset[i], .w = {offset[i]}};
+      assert_int_equal(timeint_orbit(ti, 12, 1, y.all, NULL, &r), HC_OK);
       assert_int_equal(r.free_sliders, 1);
-      CHECK_NEAR(r.amplitude, 0.216217353374, 1e-9, "law %d", law);
+      CHECK_NEAR(r.amplitude, 10 / hypot(190 - 12 * 12, 0.4 * 12), 1e-9, "law %d", law); /* F0/|k - w^2 + i C w| */
       CHECK_NEAR(r.mean, share * offset[i], 1e-9, "law %d offset %g", law, offset[i]);
       CHECK_NEAR(y.w[0], offset[i], 1e-15, "law %d offset %g", law, offset[i]);
       timeint_free(ti);
@@ -120,15 +250,15 @@ static void unstable_orbits_are_found_and_named(void **state)
   for (int i = 0; i < 2; ++i)
     for (int way = 0; way < 4; ++way) {
       const double off_x = way & 1 ? 1.1 : 0.9, off_v = way & 2 ? 1.1 : 0.9;
-      timeint_state y = {.x = orbits[i].x * off_x, .v = orbits[i].v * off_v, .w = {orbits[i].w}};
-      assert_int_equal(timeint_orbit(ti, 9, 1, &y, NULL, &r), HC_OK);
+      scene_state y = {.x = orbits[i].x * off_x, .v = orbits[i].v * off_v, .w = {orbits[i].w}};
+      assert_int_equal(timeint_orbit(ti, 9, 1, y.all, NULL, &r), HC_OK);
       assert_int_equal(timeint_stability(&r), orbits[i].stable);
-      CHECK_LE(r.closure, 1e-9, "orbit %d", i);
+      check_orbit(&sc, TRANSIENT_LAW_EXACT, y, &r, 1e-9);
       CHECK_NEAR(y.x, orbits[i].x, 5e-3 * fabs(orbits[i].x), "orbit %d, to the digits above", i);
       if (orbits[i].stable < 0) CHECK_NEAR(r.multiplier_im, 0, 0, "a saddle");
     }
-  timeint_state far = {.x = 8, .v = 300};
-  assert_int_equal(timeint_orbit(ti, 9, 1, &far, NULL, &r), HC_NOT_CONVERGED);
+  scene_state far = {.x = 8, .v = 300};
+  assert_int_equal(timeint_orbit(ti, 9, 1, far.all, NULL, &r), HC_NOT_CONVERGED);
   timeint_free(ti);
 }
 
@@ -137,6 +267,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(finds_what_marching_finds),
       cmocka_unit_test(few_periods_whatever_the_damping),
+      cmocka_unit_test(k_periods_multiply),
       cmocka_unit_test(a_free_slider_is_left_alone),
       cmocka_unit_test(unstable_orbits_are_found_and_named),
   };

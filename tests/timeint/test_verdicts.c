@@ -16,14 +16,14 @@ static scene case2(void) { return exactly(scene_c2()); }
 static scene stiff(void) { return exactly(scene_c2kn1e4()); }
 
 /* Up from 4, where only the period-1 orbit is stable, to omega; the orbit followed by shooting, stable or not. */
-static timeint_state followed_to(timeint *ti, double from, double omega, timeint_result *r)
+static scene_state followed_to(timeint *ti, double from, double omega, timeint_result *r)
 {
-  timeint_state y = timeint_rest(ti);
-  assert_int_equal(timeint_sweep(ti, from, from, &y, NULL), HC_OK);
+  scene_state y = {.x = 0};
+  assert_int_equal(timeint_sweep(ti, from, from, y.all, NULL), HC_OK);
   for (double at = from; at != omega;) {
     double step = 5e-3 * (omega > from ? 1 : -1);
     at = fabs(omega - at) <= fabs(step) ? omega : at + step;
-    assert_int_equal(timeint_orbit(ti, at, 1, &y, NULL, r), HC_OK);
+    assert_int_equal(timeint_orbit(ti, at, 1, y.all, NULL, r), HC_OK);
   }
   return y;
 }
@@ -34,7 +34,7 @@ static double doubling(const scene *sc, double from, double low, double high)
   timeint *ti;
   timeint_result r;
   double at[2] = {low, high}, f[2];
-  timeint_state y;
+  scene_state y;
   assert_int_equal(scene_timeint(sc, &ti), HC_OK);
   for (int i = 0; i < 2; ++i) {
     y = followed_to(ti, from, at[i], &r);
@@ -43,7 +43,7 @@ static double doubling(const scene *sc, double from, double low, double high)
   assert_true((f[0] < 0) != (f[1] < 0));
   for (int i = 0; i < 30 && fabs(at[1] - at[0]) > 1e-8; ++i) {
     double next = at[1] - f[1] * (at[1] - at[0]) / (f[1] - f[0]);
-    assert_int_equal(timeint_orbit(ti, next, 1, &y, NULL, &r), HC_OK);
+    assert_int_equal(timeint_orbit(ti, next, 1, y.all, NULL, &r), HC_OK);
     at[0] = at[1], f[0] = f[1];
     at[1] = next, f[1] = r.multiplier_re + 1;
   }
@@ -70,8 +70,8 @@ static void period_1_above(void **state)
   timeint_result r;
   sc.transient.start = TRANSIENT_START_HBM;
   assert_int_equal(scene_timeint(&sc, &ti), HC_OK);
-  timeint_state y = followed_to(ti, 6.5, 6.05, &r);
-  assert_int_equal(timeint_steady(ti, 6.05, &y, NULL, &r), HC_OK);
+  scene_state y = followed_to(ti, 6.5, 6.05, &r);
+  assert_int_equal(timeint_steady(ti, 6.05, y.all, NULL, &r), HC_OK);
   assert_int_equal(r.period_multiple, 1);
   assert_int_equal(timeint_stability(&r), 1);
   assert_false(r.left_orbit);
@@ -84,10 +84,10 @@ static void becomes(const scene *sc, double omega, int multiple, bool aperiodic)
   timeint *ti;
   timeint_result r;
   assert_int_equal(scene_timeint(sc, &ti), HC_OK);
-  timeint_state y = followed_to(ti, 6.5, omega, &r);
+  scene_state y = followed_to(ti, 6.5, omega, &r);
   assert_int_equal(timeint_stability(&r), -1);
   y.x *= 1.001;
-  hc_status st = timeint_steady(ti, omega, &y, NULL, &r);
+  hc_status st = timeint_steady(ti, omega, y.all, NULL, &r);
   assert_int_equal(st, aperiodic ? HC_APERIODIC : HC_OK);
   assert_int_equal(r.period_multiple, multiple);
   assert_true(r.left_orbit);
@@ -124,9 +124,9 @@ static void swept_up_to_period_4(void **state)
   timeint_result r;
   sc.transient.start = TRANSIENT_START_UP;
   assert_int_equal(scene_timeint(&sc, &ti), HC_OK);
-  timeint_state y = timeint_rest(ti);
-  assert_int_equal(timeint_sweep(ti, 4, 5.11, &y, NULL), HC_OK);
-  assert_int_equal(timeint_steady(ti, 5.11, &y, NULL, &r), HC_OK);
+  scene_state y = {.x = 0};
+  assert_int_equal(timeint_sweep(ti, 4, 5.11, y.all, NULL), HC_OK);
+  assert_int_equal(timeint_steady(ti, 5.11, y.all, NULL, &r), HC_OK);
   assert_int_equal(r.period_multiple, 4);
   timeint_free(ti);
 }

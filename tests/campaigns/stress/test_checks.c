@@ -72,11 +72,11 @@ hc_status __wrap_timeint_new(const model *m, const transient_settings *how, time
   return __real_timeint_new(m, how, out);
 }
 
-hc_status __real_timeint_orbit(timeint *ti, double omega, int k, timeint_state *state, const hc_monitor *monitor,
+hc_status __real_timeint_orbit(timeint *ti, double omega, int k, double *state, const hc_monitor *monitor,
                                timeint_result *r);
-hc_status __wrap_timeint_orbit(timeint *ti, double omega, int k, timeint_state *state, const hc_monitor *monitor,
+hc_status __wrap_timeint_orbit(timeint *ti, double omega, int k, double *state, const hc_monitor *monitor,
                                timeint_result *r);
-hc_status __wrap_timeint_orbit(timeint *ti, double omega, int k, timeint_state *state, const hc_monitor *monitor,
+hc_status __wrap_timeint_orbit(timeint *ti, double omega, int k, double *state, const hc_monitor *monitor,
                                timeint_result *r)
 {
   hc_status st = __real_timeint_orbit(ti, omega, k, state, monitor, r);

@@ -26,10 +26,10 @@ static made *start(int n)
   m->c.curve.points = &m->point;
   for (int i = 0; i < n; ++i) {
     comparison_row *r = &m->rows[i];
-    *r = (comparison_row){.omega = 7, .branch = i, .verdict = VERDICT_MATCH, .accounted = true, .orbit_error = 1e-4};
+    *r = (comparison_row){.omega = 7, .branch = i, .verdict = VERDICT_MATCH, .accounted = true};
     r->transient.amplitude = r->orbit.amplitude = r->hbm.amplitude = 2;
     r->transient.period_multiple = r->orbit.period_multiple = 1;
-    r->errors = (discrepancy){1e-4, 1e-4, 1e-4, 1e-4};
+    r->errors = r->orbit_errors = (discrepancy){1e-4, 1e-4, 1e-4, 1e-4};
   }
   return m;
 }
@@ -129,13 +129,18 @@ static void an_unstable_solution_is_held_against_its_orbit(void **state)
   assert_int_equal(judged(m), 0);
   assert_int_equal(m->g.n, 5);
   assert_string_equal(find(m, 0, "waveform")->against, "orbit");
-  r->hbm.amplitude = 2.01; /* 5e-3 off */
+  r->orbit_errors.amplitude = 2e-3; /* its limit: 1e-3 */
   assert_int_equal(judged(m), 1);
-  CHECK_NEAR(find(m, 0, "amplitude")->found, 5e-3, 1e-12, "relative to the orbit");
-  r->hbm.amplitude = 2, r->orbit_error = 6e-3;
+  assert_true(find(m, 0, "amplitude")->found == 2e-3);
+  r->orbit_errors.amplitude = 1e-4, r->orbit_errors.waveform = 6e-3; /* its limit: 5e-3 */
   assert_int_equal(judged(m), 1);
-  r->orbit_error = 1e-4, r->hbm.mean = 1, r->orbit.free_sliders = 1;
+  r->orbit_errors.waveform = 1e-4, r->orbit_errors.mean = 1;
+  assert_int_equal(judged(m), 1);
+  r->orbit.free_sliders = 1; /* means are not compared then; the transient's sliders have no say in it */
   assert_int_equal(judged(m), 0);
+  r->orbit.free_sliders = 0, r->transient.free_sliders = 1;
+  assert_int_equal(judged(m), 1);
+  r->orbit_errors.mean = 1e-4;
   r->orbit_status = HC_NOT_CONVERGED;
   assert_int_equal(judged(m), 3);
   assert_non_null(strstr(find(m, 0, "orbit")->reason, hc_status_text(HC_NOT_CONVERGED)));

@@ -1,0 +1,165 @@
+/* hbm_solver.c - see hbm_solver.h: makes, resizes and frees a solver, and measures a solution. How it is found:
+ * corrector.c from a guess, first_solution.c without one. */
+#include "hbm/hbm_solver.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "hbm/corrector.h"
+#include "hbm/first_solution.h"
+#include "hbm/hbm_solver_impl.h"
+#include "model/periodic_motion.h"
+#include "numerics/norm.h"
+#include "numerics/series.h"
+
+static hc_status make_workspace(hbm_solver *s)
+{
+  size_t m = (size_t)s->sys.n_coef + 1;
+  double **const arrays[] = {&s->X, &s->z, &s->z_scale, &s->r_scale, &s->normal, &s->anchor};
+  for (size_t i = 0; i < sizeof arrays / sizeof *arrays; ++i)
+    if (!(*arrays[i] = calloc(m, sizeof(double)))) return HC_NO_MEMORY;
+  return hbm_corrector_new(s);
+}
+
+static hc_status make_orbit(hbm_solver *s)
+{
+  if (!s->sys.sampled) return HC_OK;
+  return exact_force_new_of_model(s->sys.n_harm, s->model, &s->orbit);
+}
+
+/* Of auto: where it starts, and the fewest harmonics of the finer equations: with less than 14 a short contact does
+ * not show in the error of H = 1. */
+enum { AUTO_FIRST_HARMONICS = 3, AUTO_FIRST_SAMPLES = 64, AUTO_FEWEST_FINER = 14 };
+
+/* The finer equations by which auto estimates the error: twice the harmonics, twice the samples. */
+static hc_status make_refinements(hbm_solver *s, int n_time)
+{
+  const hbm_settings *how = &s->how;
+  int n_harm = s->sys.n_harm, twice = n_harm > HBM_MAX_HARMONICS / 2 ? HBM_MAX_HARMONICS : 2 * n_harm;
+  if (twice < AUTO_FEWEST_FINER) twice = AUTO_FEWEST_FINER;
+  hc_status st = HC_OK;
+  if (how->harmonics == HBM_AUTO)
+    st = refinement_new(s->model, how, twice, n_time < 4 * twice ? 4 * twice : n_time, &s->finer_harmonics);
+  if (st == HC_OK && how->samples == HBM_AUTO && s->sys.sampled)
+    st = refinement_new(s->model, how, n_harm, 2 * n_time, &s->finer_samples);
+  return st;
+}
+
+static hc_status make_equations(hbm_solver *s, int n_harm, int n_time)
+{
+  hc_status st = hbm_system_init(&s->sys, s->model, &s->how, n_harm, n_time);
+  s->n_time = n_time;
+  if (st == HC_OK) st = make_workspace(s);
+  if (st == HC_OK) st = make_orbit(s);
+  return st == HC_OK ? make_refinements(s, n_time) : st;
+}
+
+static void free_equations(hbm_solver *s)
+{
+  newton_free(s->fixed);
+  newton_free(s->plane);
+  exact_force_free(s->orbit);
+  refinement_free(s->finer_harmonics);
+  refinement_free(s->finer_samples);
+  hbm_system_clear(&s->sys);
+  double *const arrays[] = {s->X, s->z, s->z_scale, s->r_scale, s->normal, s->anchor};
+  for (size_t i = 0; i < sizeof arrays / sizeof *arrays; ++i) free(arrays[i]);
+  *s = (hbm_solver){.model = s->model, .how = s->how, .monodromy = s->monodromy, .step_scale = s->step_scale};
+}
+
+hc_status hbm_solver_resize(hbm_solver *s, int n_harm, int n_time)
+{
+  long evaluations = s->sys.evaluations; /* counted over the solver's life */
+  free_equations(s);
+  hc_status st = make_equations(s, n_harm, n_time);
+  s->sys.evaluations = evaluations;
+  return st;
+}
+
+hc_status hbm_solver_new(const model *m, const hbm_settings *how, hbm_solver **out)
+{
+  *out = NULL;
+  hbm_solver *s = calloc(1, sizeof *s);
+  if (!s) return HC_NO_MEMORY;
+  int n_harm = how->harmonics == HBM_AUTO ? AUTO_FIRST_HARMONICS : how->harmonics, n_time = how->samples;
+  if (n_time == HBM_AUTO)
+    for (n_time = AUTO_FIRST_SAMPLES; n_time < 4 * n_harm; n_time *= 2) {}
+  s->how = *how;
+  s->step_scale = 1;
+  hc_status st = model_copy(m, &s->model);
+  if (st == HC_OK) st = monodromy_new(m->n_contacts, &s->monodromy);
+  if (st == HC_OK) st = make_equations(s, n_harm, n_time);
+  if (st == HC_OK) {
+    *out = s;
+    return HC_OK;
+  }
+  hbm_solver_free(s);
+  return st;
+}
+
+void hbm_solver_free(hbm_solver *s)
+{
+  if (!s) return;
+  free_equations(s);
+  monodromy_free(s->monodromy);
+  model_free(s->model);
+  free(s);
+}
+
+void hbm_truncate(const hbm_solver *s, int n_coef, double *X)
+{
+  for (int i = s->sys.n_coef; i < n_coef; ++i) X[i] = 0;
+}
+
+int hbm_n_harmonics(const hbm_solver *s) { return s->sys.n_harm; }
+
+int hbm_n_samples(const hbm_solver *s) { return s->sys.sampled ? s->n_time : 0; }
+
+hc_status hbm_solve(hbm_solver *s, double omega, double *X, hbm_point *point)
+{
+  double size = norm_2(s->sys.n_coef, X);
+  if (size != 0) return hbm_solve_fixed(s, omega, size, X, point);
+  hc_status st = hbm_solve_first(s, omega, X, point); /* a zero guess gives no size to scale the unknowns with */
+  if (st != HC_OK) memset(X, 0, (size_t)s->sys.n_coef * sizeof(double));
+  return st;
+}
+
+hc_status hbm_solve_first(hbm_solver *s, double omega, double *X, hbm_point *point)
+{
+  return hbm_first_solution(s, omega, NULL, X, point);
+}
+
+hc_status hbm_measure(hbm_solver *s, const double *X, hbm_measures *out)
+{
+  hc_status st = hbm_system_contact(&s->sys, X);
+  if (st != HC_OK) return st;
+  int n_harm = s->sys.n_harm;
+  series_extrema(n_harm, X, &out->max, &out->min);
+  out->amplitude = motion_amplitude(out->max, out->min);
+  out->rms = series_rms(n_harm, X);
+  out->mean = X[0];
+  out->harmonic_1 = series_harmonic_1(n_harm, X);
+  out->contact = s->sys.report;
+  return HC_OK;
+}
+
+hc_status hbm_sliders(hbm_solver *s, const double *X, double *w)
+{
+  hc_status st = hbm_system_contact(&s->sys, X);
+  if (st != HC_OK) return st;
+  if (s->sys.sampled) aft_sliders(s->sys.sampled, w);
+  else exact_force_sliders(s->sys.located, w);
+  return HC_OK;
+}
+
+hc_status hbm_located_orbit(hbm_solver *s, const double *X, const exact_force **orbit, contact_report *report)
+{
+  if (s->orbit) {
+    *orbit = s->orbit;
+    return exact_force_eval(s->orbit, X, s->X, NULL, report); /* s->X gets the force, which is not needed */
+  }
+  *orbit = s->sys.located;
+  hc_status st = hbm_system_contact(&s->sys, X);
+  if (st == HC_OK) *report = s->sys.report;
+  return st;
+}

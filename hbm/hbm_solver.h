@@ -1,0 +1,59 @@
+/* hbm_solver.h - a solver of the harmonic-balance equations of one model, and a solution at a fixed omega.
+ *
+ *     R(X, omega) = 0,      X[2H+1] [length]: mean, then cosine and sine of each harmonic (numerics/series.h)
+ *
+ * R is system.h's; the solution is KINSOL's (corrector.h). A solver serves one thread and is opaque; nothing is
+ * printed. */
+#ifndef HC_HBM_SOLVER_H
+#define HC_HBM_SOLVER_H
+
+#include "base/status.h"
+#include "hbm/contact_report.h"
+#include "hbm/hbm_settings.h"
+#include "model/model.h"
+
+typedef struct hbm_solver hbm_solver;
+
+/* A workspace for m and how it is to be solved (both copied). HC_BAD_INPUT, HC_NO_MEMORY: *out is NULL. */
+hc_status hbm_solver_new(const model *m, const hbm_settings *how, hbm_solver **out);
+void hbm_solver_free(hbm_solver *s); /* NULL is allowed */
+
+int hbm_n_harmonics(const hbm_solver *s); /* in use now; after a trace with auto, the most the curve needed */
+int hbm_n_samples(const hbm_solver *s);   /* per period, in use now; 0 where forces are exact */
+
+/* One solution, beside its harmonics. */
+typedef struct hbm_point {
+  double omega;    /* [rad/time] */
+  double residual; /* [1] |R|, largest component, relative to the forces that make it up */
+  double d_omega;  /* [rad/time] tangent of the curve with respect to its parameter, beside hbm_curve's dX */
+  int branch;      /* turning points passed since the start of the curve */
+  int iterations;  /* Newton iterations spent on this point; 0: taken from the linear closed form */
+  int harmonics;   /* kept at this point: changes along the curve for hbm.harmonics: auto */
+  double error;    /* [1] estimated relative error for auto harmonics or samples, NaN when a number was given */
+} hbm_point;
+
+/* Solve at a fixed omega from the guess X[2H+1]; X is the solution on HC_OK and untouched otherwise. A guess of zeros
+ * is none: solved as by hbm_solve_first. Errors of newton_solve and of the contact force. */
+hc_status hbm_solve(hbm_solver *s, double omega, double *X, hbm_point *point);
+
+/* Solve at a fixed omega without a guess: from the linear response, else by ramping the force, else by ramping the
+ * contact. X[2H+1] is overwritten, and no solution unless HC_OK. */
+hc_status hbm_solve_first(hbm_solver *s, double omega, double *X, hbm_point *point);
+
+/* Measures of one solution x over its period. */
+typedef struct hbm_measures {
+  double amplitude;  /* [length] (max - min)/2 */
+  double max, min;   /* [length] */
+  double rms;        /* [length] mean included */
+  double mean;       /* [length] X[0] */
+  double harmonic_1; /* [length] |X[1] + i X[2]| */
+  contact_report contact;
+} hbm_measures;
+
+/* Errors of the contact force. */
+hc_status hbm_measure(hbm_solver *s, const double *X, hbm_measures *out);
+
+/* w[n_contacts] [length]: the sliders at t = 0 of the motion X. Errors of the contact force. */
+hc_status hbm_sliders(hbm_solver *s, const double *X, double *w);
+
+#endif

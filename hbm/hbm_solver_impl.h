@@ -1,0 +1,39 @@
+/* hbm_solver_impl.h - what a solver consists of; seen by the files of this folder and by nobody else. */
+#ifndef HC_HBM_SOLVER_IMPL_H
+#define HC_HBM_SOLVER_IMPL_H
+
+#include "hbm/hbm_solver.h"
+#include "hbm/monodromy.h"
+#include "hbm/refine.h"
+#include "hbm/system.h"
+#include "numerics/newton.h"
+
+struct hbm_solver {      /* from hbm_solver_new, to hbm_solver_free; not shared between threads */
+  model *model;          /* a copy: the caller may drop theirs */
+  hbm_settings how;      /* a copy */
+  hbm_system sys;        /* the equations */
+  int n_time;            /* samples per period, for sampled forces */
+  newton *fixed, *plane; /* the two forms of corrector.h */
+  exact_force *orbit;    /* locates the transitions of a solution of sampled equations; NULL when sys does */
+  monodromy *monodromy;
+  refinement *finer_harmonics; /* tells auto the error of this many harmonics; NULL where the settings give a number */
+  refinement *finer_samples;   /* the same of samples */
+  double step_scale;           /* of hbm_scale_steps */
+  double omega;                /* of the fixed form */
+  double *X;                   /* [n_coef]  harmonics of a callback's unknowns */
+  double *z;                   /* [n+1]     unknowns of a solve */
+  double *z_scale, *r_scale;   /* [n+1]     weights for KINSOL */
+  double *normal, *anchor;     /* [n+1]     of the plane form; the metric's weights are included in normal */
+};
+
+/* Other numbers of harmonics and samples from here on. The solver is unusable, but may be freed, unless HC_OK. */
+hc_status hbm_solver_resize(hbm_solver *s, int n_harm, int n_time);
+
+/* Zero what X[n_coef] has beyond the harmonics the solver keeps now. */
+void hbm_truncate(const hbm_solver *s, int n_coef, double *X);
+
+/* The event-located orbit of X: *orbit is an exact evaluator of the solver's own, evaluated at X, *report what it
+ * found. Errors of exact_force_eval. */
+hc_status hbm_located_orbit(hbm_solver *s, const double *X, const exact_force **orbit, contact_report *report);
+
+#endif

@@ -1,0 +1,19 @@
+/* special_points.h - where a response curve changes its nature. */
+#ifndef HC_HBM_SPECIAL_POINTS_H
+#define HC_HBM_SPECIAL_POINTS_H
+
+#include "hbm/response_curve.h"
+
+typedef enum hbm_special_kind { HBM_TURNING_POINT, HBM_PERIOD_DOUBLING, HBM_CONTACT_CHANGE } hbm_special_kind;
+typedef struct hbm_special {
+  hbm_special_kind kind;
+  double omega, amplitude;      /* [rad/time], [length] */
+  int branch;                   /* as in hbm_point; a turning point belongs to the branch that it ends */
+  contact_regime before, after; /* along the curve; the same where only the number of transitions changes */
+} hbm_special;
+
+/* All of them in the curve's order, located to 1e-9 of omega or better, into out[cap]; *n is how many there are,
+ * which may exceed cap. One that could not be located makes the status, and leaves the others in place. */
+hc_status hbm_specials(hbm_solver *s, const hbm_curve *curve, int cap, hbm_special *out, int *n);
+
+#endif

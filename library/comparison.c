@@ -1,0 +1,100 @@
+/* comparison.c - see hbmcheck.h: both sides at the same frequencies, and the gate. */
+#include <math.h>
+#include <stdlib.h>
+
+#include "compare/comparison.h"
+#include "compare/gate/gate.h"
+#include "library/inside.h"
+
+struct hbmcheck_comparison {
+  comparison found;
+  hc_status end;      /* of the run */
+  hbmcheck_gate gate; /* valid when end is HC_OK */
+};
+
+static hbmcheck_row row_of(const comparison_row *r)
+{
+  const bool hbm = r->branch >= 0 && r->hbm_status == HC_OK;
+  const budget_parts *parts = &r->budget.amplitude;
+  return (hbmcheck_row){.omega = r->omega,
+                        .verdict = (hbmcheck_verdict)r->verdict,
+                        .hbm_status = public_status(r->hbm_status),
+                        .transient_status = public_status(r->transient_status),
+                        .orbit_status = public_status(r->orbit_status),
+                        .branch = r->branch,
+                        .stable = hbm ? hbm_stability_verdict(&r->stability) : 0,
+                        .period_multiple = r->transient_status == HC_OK ? r->transient.period_multiple : 0,
+                        .accounted = r->accounted,
+                        .multiplier = hbm ? r->stability.multiplier : NAN,
+                        .hbm_amplitude = hbm ? r->hbm.amplitude : NAN,
+                        .transient_amplitude = has_motion(r->transient_status) ? r->transient.amplitude : NAN,
+                        .orbit_amplitude = r->orbit_status == HC_OK ? r->orbit.amplitude : NAN,
+                        .amplitude_error = r->errors.amplitude,
+                        .harmonic_1_error = r->errors.harmonic_1,
+                        .mean_error = r->errors.mean,
+                        .waveform_error = r->errors.waveform,
+                        .orbit_error = r->orbit_errors.waveform,
+                        .from_aliasing = parts->aliasing,
+                        .from_truncation = parts->truncation,
+                        .from_regularisation = parts->regularisation,
+                        .from_integration = parts->integration,
+                        .from_settling = parts->settling};
+}
+
+/* The gate's checks, of which the totals are kept. */
+static hc_status judge(const compare_setup *setup, const comparison *found, hbmcheck_gate *out)
+{
+  gate_case g;
+  hc_status st = gate_judge("", setup, found, &g);
+  *out = (hbmcheck_gate){.checks = g.n, .failed = g.failures, .errors = g.errors, .exit_code = gate_exit_code(1, &g)};
+  gate_clear(&g);
+  return st;
+}
+
+hbmcheck_status hbmcheck_comparison_run(const hbmcheck_case *c, int n, const double *omega,
+                                        const hbmcheck_monitor *monitor, hbmcheck_comparison **out)
+{
+  scene sc;
+  compare_setup setup;
+  const hc_monitor inner = library_monitor(monitor);
+  if (out) *out = NULL;
+  if (!c || !out || !library_scene(c, n, omega, &sc)) return HBMCHECK_BAD_INPUT;
+  hbmcheck_comparison *run = calloc(1, sizeof *run);
+  if (!run) return HBMCHECK_NO_MEMORY;
+  hc_status st = scene_setup(&sc, &setup);
+  if (st == HC_OK) st = comparison_run(&setup, &inner, &run->found);
+  if (st == HC_OK) st = judge(&setup, &run->found, &run->gate);
+  run->end = st;
+  scene_setup_clear(&setup);
+  if (has_result(st)) *out = run;
+  else hbmcheck_comparison_free(run);
+  return public_status(st);
+}
+
+int hbmcheck_comparison_count(const hbmcheck_comparison *c) { return c ? c->found.n_rows : 0; }
+
+hbmcheck_status hbmcheck_comparison_get(const hbmcheck_comparison *c, int k, hbmcheck_row *out)
+{
+  if (!c || !out || k < 0 || k >= c->found.n_rows) return HBMCHECK_BAD_INPUT;
+  *out = row_of(&c->found.rows[k]);
+  return HBMCHECK_OK;
+}
+
+int hbmcheck_comparison_exit_code(const hbmcheck_comparison *c)
+{
+  return c && c->end == HC_OK ? comparison_exit_code(&c->found) : 3;
+}
+
+hbmcheck_status hbmcheck_comparison_gate(const hbmcheck_comparison *c, hbmcheck_gate *out)
+{
+  if (!c || !out) return HBMCHECK_BAD_INPUT;
+  if (c->end == HC_OK) *out = c->gate;
+  return public_status(c->end);
+}
+
+void hbmcheck_comparison_free(hbmcheck_comparison *c)
+{
+  if (!c) return;
+  comparison_clear(&c->found);
+  free(c);
+}

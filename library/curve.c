@@ -1,0 +1,187 @@
+/* curve.c - see hbmcheck.h: HBM solutions, and the response curve they lie on. */
+#include <math.h>
+#include <stdlib.h>
+
+#include "compare/response.h"
+#include "hbm/hbm.h"
+#include "library/inside.h"
+
+struct hbmcheck_solutions {
+  hbm_curve curve;         /* points and coefficients */
+  int n;                   /* solutions that have been measured: the first n of the curve's */
+  hbmcheck_solution *list; /* [n] */
+};
+
+struct hbmcheck_curve {
+  hbm_solver *solver; /* as the trace left it: with the harmonics and samples that the curve needs */
+  hbmcheck_solutions points;
+};
+
+/* ---- HBM solutions ---- */
+
+static hbmcheck_solution solution_of(const response_row *r)
+{
+  const hbm_measures *m = &r->measures;
+  return (hbmcheck_solution){.omega = r->point.omega,
+                             .amplitude = m->amplitude,
+                             .max = m->max,
+                             .min = m->min,
+                             .rms = m->rms,
+                             .mean = m->mean,
+                             .harmonic_1 = m->harmonic_1,
+                             .multiplier = r->stability_known ? r->stability.multiplier : NAN,
+                             .residual = r->point.residual,
+                             .stable = r->stability_known ? hbm_stability_verdict(&r->stability) : 0,
+                             .branch = r->point.branch,
+                             .harmonics = r->point.harmonics,
+                             .iterations = r->point.iterations,
+                             .contact = (hbmcheck_contact)m->contact.regime};
+}
+
+/* Measure every point of s->curve. On failure those before it are kept. */
+static hc_status measure_solutions(hbm_solver *solver, hbmcheck_solutions *s)
+{
+  if (s->curve.n == 0) return HC_OK;
+  s->list = malloc((size_t)s->curve.n * sizeof *s->list);
+  if (!s->list) return HC_NO_MEMORY;
+  for (int k = 0; k < s->curve.n; ++k) {
+    response_row r;
+    hc_status st = response_row_of(solver, &s->curve, k, &r);
+    if (st != HC_OK) return st;
+    s->list[s->n++] = solution_of(&r);
+  }
+  return HC_OK;
+}
+
+/* Measure what a search that ended with `st` has found, and say how it ended as a whole. */
+static hc_status finish_search(hbm_solver *solver, hc_status st, hbmcheck_solutions *s)
+{
+  if (!has_result(st)) return st;
+  hc_status measured = measure_solutions(solver, s);
+  return st == HC_OK || measured == HC_NO_MEMORY ? measured : st;
+}
+
+static bool has_solution(const hbmcheck_solutions *s, int k) { return s && k >= 0 && k < s->n; }
+
+int hbmcheck_solutions_count(const hbmcheck_solutions *s) { return s ? s->n : 0; }
+
+hbmcheck_status hbmcheck_solutions_get(const hbmcheck_solutions *s, int k, hbmcheck_solution *out)
+{
+  if (!out || !has_solution(s, k)) return HBMCHECK_BAD_INPUT;
+  *out = s->list[k];
+  return HBMCHECK_OK;
+}
+
+hbmcheck_status hbmcheck_solutions_coefficients(const hbmcheck_solutions *s, int k, int cap, double *X, int *n)
+{
+  if (!n || !has_solution(s, k) || cap < 0 || (cap > 0 && !X)) return HBMCHECK_BAD_INPUT;
+  *n = 2 * s->list[k].harmonics + 1;
+  library_copy(*n, s->curve.X + (size_t)k * (size_t)s->curve.n_coef, cap, X);
+  return HBMCHECK_OK;
+}
+
+static void clear_solutions(hbmcheck_solutions *s)
+{
+  hbm_curve_free(&s->curve);
+  free(s->list);
+}
+
+void hbmcheck_solutions_free(hbmcheck_solutions *s)
+{
+  if (!s) return;
+  clear_solutions(s);
+  free(s);
+}
+
+/* ---- HBM response curve ---- */
+
+static hc_status trace(const scene *sc, const hbmcheck_monitor *monitor, hbmcheck_curve *curve)
+{
+  const hc_monitor inner = library_monitor(monitor);
+  compare_setup setup;
+  hc_status st = scene_setup(sc, &setup);
+  if (st == HC_OK) st = hbm_solver_new(setup.model, &setup.hbm, &curve->solver);
+  if (st == HC_OK) {
+    st = hbm_trace(curve->solver, setup.omega_from, setup.omega_to, &inner, &curve->points.curve);
+    st = finish_search(curve->solver, st, &curve->points);
+  }
+  scene_setup_clear(&setup);
+  return st;
+}
+
+hbmcheck_status hbmcheck_curve_trace(const hbmcheck_case *c, const hbmcheck_monitor *monitor, hbmcheck_curve **out)
+{
+  if (out) *out = NULL;
+  if (!c || !out) return HBMCHECK_BAD_INPUT;
+  hbmcheck_curve *curve = calloc(1, sizeof *curve);
+  if (!curve) return HBMCHECK_NO_MEMORY;
+  hc_status st = trace(&c->sc, monitor, curve);
+  if (has_result(st)) *out = curve;
+  else hbmcheck_curve_free(curve);
+  return public_status(st);
+}
+
+const hbmcheck_solutions *hbmcheck_curve_points(const hbmcheck_curve *curve) { return curve ? &curve->points : NULL; }
+
+hbmcheck_status hbmcheck_curve_at(hbmcheck_curve *curve, double omega, hbmcheck_solutions **out)
+{
+  if (out) *out = NULL;
+  if (!curve || !out || !is_omega(omega)) return HBMCHECK_BAD_INPUT;
+  hbmcheck_solutions *s = calloc(1, sizeof *s);
+  if (!s) return HBMCHECK_NO_MEMORY;
+  hc_status st = hbm_curve_at(curve->solver, &curve->points.curve, omega, &s->curve);
+  st = finish_search(curve->solver, st, s);
+  if (st == HC_OK) st = curve->points.curve.end; /* beyond where it stops there may be more */
+  if (has_result(st)) *out = s;
+  else hbmcheck_solutions_free(s);
+  return public_status(st);
+}
+
+hbmcheck_status hbmcheck_curve_specials(hbmcheck_curve *curve, int cap, hbmcheck_special *out, int *n)
+{
+  if (!curve || !n || cap < 0 || (cap > 0 && !out)) return HBMCHECK_BAD_INPUT;
+  int found;
+  hbm_special *list = calloc(cap > 0 ? (size_t)cap : 1, sizeof *list);
+  if (!list) return HBMCHECK_NO_MEMORY;
+  hc_status st = hbm_specials(curve->solver, &curve->points.curve, cap, list, &found);
+  for (int i = 0; has_result(st) && i < cap && i < found; ++i)
+    out[i] = (hbmcheck_special){.omega = list[i].omega,
+                                .amplitude = list[i].amplitude,
+                                .branch = list[i].branch,
+                                .kind = (hbmcheck_special_kind)list[i].kind,
+                                .before = (hbmcheck_contact)list[i].before,
+                                .after = (hbmcheck_contact)list[i].after};
+  if (has_result(st)) *n = found;
+  free(list);
+  return public_status(st);
+}
+
+hbmcheck_status hbmcheck_curve_summary(hbmcheck_curve *curve, hbmcheck_summary *out)
+{
+  if (!curve || !out) return HBMCHECK_BAD_INPUT;
+  response_summary r;
+  hc_status st = response_summarise(curve->solver, &curve->points.curve, &r);
+  if (st == HC_OK)
+    *out = (hbmcheck_summary){.peak_omega = r.peak_omega,
+                              .peak_amplitude = r.peak_amplitude,
+                              .peak_harmonic_1 = r.peak_harmonic_1,
+                              .points = r.points,
+                              .turning_points = r.turning_points,
+                              .harmonics = r.harmonics,
+                              .samples = r.samples,
+                              .rejected = r.rejected,
+                              .iterations = r.iterations,
+                              .evaluations = r.evaluations,
+                              .reached_end = r.reached_end,
+                              .left_at_start = r.left_at_start,
+                              .inaccurate = curve->points.curve.inaccurate};
+  return public_status(st);
+}
+
+void hbmcheck_curve_free(hbmcheck_curve *curve)
+{
+  if (!curve) return;
+  clear_solutions(&curve->points);
+  hbm_solver_free(curve->solver);
+  free(curve);
+}

@@ -1,0 +1,36 @@
+/* inside.h - what the parts of the C API share: a case, and how arguments and statuses come in and go out. */
+#ifndef HC_LIBRARY_INSIDE_H
+#define HC_LIBRARY_INSIDE_H
+
+#include <math.h>
+#include <stdbool.h>
+
+#include "base/status.h"
+#include "cases/scene.h"
+#include "library/hbmcheck.h"
+
+struct hbmcheck_case {
+  scene sc;
+};
+
+/* The public statuses have the values of the inner ones (hbmcheck.c). */
+static inline hbmcheck_status public_status(hc_status st) { return (hbmcheck_status)st; }
+
+/* Is there a result to hand over after st? If not, *out stays NULL. */
+static inline bool has_result(hc_status st) { return st != HC_BAD_INPUT && st != HC_NO_MEMORY; }
+
+/* Has a transient that ended with st been measured? */
+static inline bool has_motion(hc_status st) { return st == HC_OK || st == HC_NOT_SETTLED || st == HC_APERIODIC; }
+
+static inline bool is_omega(double omega) { return isfinite(omega) && omega > 0; }
+
+/* *m, which may be NULL, must live as long as the answer. */
+hc_monitor library_monitor(const hbmcheck_monitor *m);
+
+/* The scene of c with omega[n] for its compare.omega; n = 0: as it is. false: that is not a list of omegas. */
+bool library_scene(const hbmcheck_case *c, int n, const double *omega, scene *out);
+
+/* The first of the n values `from`, as many as there is room for. */
+void library_copy(int n, const double *from, int cap, double *to);
+
+#endif

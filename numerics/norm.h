@@ -1,0 +1,15 @@
+/* norm.h - Euclidean norm. libm only. */
+#ifndef HC_NORM_H
+#define HC_NORM_H
+
+#include <math.h>
+
+/* sqrt(sum v[i]^2), not protected against overflow of the squares. */
+static inline double norm_2(int n, const double *v)
+{
+  double sum = 0;
+  for (int i = 0; i < n; ++i) sum += v[i] * v[i];
+  return sqrt(sum);
+}
+
+#endif

@@ -1,0 +1,129 @@
+/* test_memory.c - each allocation of our own code fails in turn: every call answers HBMCHECK_NO_MEMORY, hands over
+ * nothing, and leaks nothing (the address sanitizer sees to that); without a failure it is HBMCHECK_OK. */
+#include "tests/library/case2.h"
+
+#include <stdbool.h>
+
+static long asked, refused_one; /* refused_one: which allocation fails; 0: none */
+
+static bool refuse(void) { return ++asked == refused_one; }
+
+void *__real_malloc(size_t);
+void *__real_calloc(size_t, size_t);
+void *__real_realloc(void *, size_t);
+void *__wrap_malloc(size_t n);
+void *__wrap_calloc(size_t n, size_t size);
+void *__wrap_realloc(void *p, size_t n);
+void *__wrap_malloc(size_t n) { return refuse() ? NULL : __real_malloc(n); }
+void *__wrap_calloc(size_t n, size_t size) { return refuse() ? NULL : __real_calloc(n, size); }
+void *__wrap_realloc(void *p, size_t n) { return refuse() ? NULL : __real_realloc(p, n); }
+
+/* What is tried: HBMCHECK_OK and everything freed, or a status and nothing handed over. */
+typedef struct material {
+  hbmcheck_case *c;
+  hbmcheck_curve *curve;
+} material;
+typedef hbmcheck_status (*attempt)(material *m);
+
+static hbmcheck_status parse(material *m)
+{
+  (void)m;
+  hbmcheck_case *c;
+  char message[64];
+  hbmcheck_status st = hbmcheck_case_parse("x", case2_text, strlen(case2_text), 0, NULL, message, sizeof message, &c);
+  if ((st == HBMCHECK_OK) != (c != NULL) || (st == HBMCHECK_OK) != !*message) return HBMCHECK_BUG;
+  hbmcheck_case_free(c);
+  return st;
+}
+
+static hbmcheck_status trace(material *m)
+{
+  hbmcheck_curve *curve;
+  hbmcheck_status st = hbmcheck_curve_trace(m->c, NULL, &curve);
+  if ((st == HBMCHECK_OK) != (curve != NULL)) return HBMCHECK_BUG;
+  hbmcheck_curve_free(curve);
+  return st;
+}
+
+static hbmcheck_status solve_at(material *m)
+{
+  hbmcheck_solutions *at;
+  hbmcheck_status st = hbmcheck_curve_at(m->curve, 4.5, &at);
+  if ((st == HBMCHECK_OK) != (at != NULL)) return HBMCHECK_BUG;
+  hbmcheck_solutions_free(at);
+  return st;
+}
+
+static hbmcheck_status specials(material *m)
+{
+  hbmcheck_special out[4];
+  int n = -1;
+  hbmcheck_status st = hbmcheck_curve_specials(m->curve, 4, out, &n);
+  return (st == HBMCHECK_OK) == (n >= 0) ? st : HBMCHECK_BUG;
+}
+
+static hbmcheck_status summary(material *m)
+{
+  hbmcheck_summary s = {.points = -1};
+  hbmcheck_status st = hbmcheck_curve_summary(m->curve, &s);
+  return (st == HBMCHECK_OK) == (s.points >= 0) ? st : HBMCHECK_BUG;
+}
+
+static hbmcheck_status settle(material *m)
+{
+  hbmcheck_transient *t;
+  hbmcheck_status st = hbmcheck_transient_run(m->c, 1, (double[]){5.2}, NULL, &t);
+  if ((st == HBMCHECK_OK) != (t != NULL)) return HBMCHECK_BUG;
+  hbmcheck_transient_free(t);
+  return st;
+}
+
+static hbmcheck_status compare(material *m)
+{
+  hbmcheck_comparison *both;
+  hbmcheck_status st = hbmcheck_comparison_run(m->c, 1, (double[]){5.6}, NULL, &both);
+  if ((st == HBMCHECK_OK) != (both != NULL)) return HBMCHECK_BUG;
+  hbmcheck_comparison_free(both);
+  return st;
+}
+
+/* Every allocation, or `most` of them where there are more, spread evenly; the first and the last ones included. */
+static void without(material *m, const char *name, attempt try, int most)
+{
+  refused_one = asked = 0;
+  assert_int_equal(try(m), HBMCHECK_OK);
+  const long n = asked, tries = n < most ? n : most;
+  assert_true(n > 0);
+  for (long i = 0; i < tries; ++i) {
+    refused_one = tries > 1 ? 1 + i * (n - 1) / (tries - 1) : 1;
+    asked = 0;
+    hbmcheck_status st = try(m);
+    if (st != HBMCHECK_NO_MEMORY)
+      fail_msg("%s without allocation %ld of %ld: %s", name, refused_one, n, hbmcheck_status_text(st));
+  }
+  refused_one = asked = 0;
+  assert_int_equal(try(m), HBMCHECK_OK); /* and all is well again */
+}
+
+static void every_call(void **state)
+{
+  (void)state;
+  material m = {.c = CASE2("sweep.omega=3,6", "hbm.harmonics=3")};
+  assert_int_equal(hbmcheck_curve_trace(m.c, NULL, &m.curve), HBMCHECK_OK);
+  without(&m, "hbmcheck_case_parse", parse, 100);
+  without(&m, "hbmcheck_curve_trace", trace, 100);
+  without(&m, "hbmcheck_curve_at", solve_at, 100);
+  without(&m, "hbmcheck_curve_specials", specials, 100);
+  without(&m, "hbmcheck_curve_summary", summary, 100);
+  without(&m, "hbmcheck_transient_run", settle, 40);
+  without(&m, "hbmcheck_comparison_run", compare, 40);
+  hbmcheck_curve_free(m.curve);
+  hbmcheck_case_free(m.c);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {cmocka_unit_test(every_call)};
+  check_watchdog(300);
+  return cmocka_run_group_tests_name("library.memory", tests, NULL, NULL);
+}

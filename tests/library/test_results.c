@@ -1,0 +1,384 @@
+/* test_results.c - what the C API hands out are the numbers of those it calls, bit for bit and each in its place; what
+ * was not computed is NaN. The scenes show every verdict's side: stable, unstable, period k, aperiodic, failed. */
+#include "tests/library/case2.h"
+
+#include "cases/case_file.h"
+#include "compare/gate/gate.h"
+#include "compare/response.h"
+#include "compare/steady_states.h"
+
+/* The same real number, or both NaN. */
+static void same(double a, double b, int line)
+{
+  if (!(a == b || (isnan(a) && isnan(b)))) fail_msg("line %d: %.17g, expected %.17g", line, a, b);
+}
+#define SAME(a, b) same(a, b, __LINE__)
+
+/* The inner form of CASE2(set...). */
+static compare_setup setup_of(scene *sc, const char *const *set)
+{
+  compare_setup setup;
+  case_error err;
+  int n = 0;
+  while (set[n]) ++n;
+  assert_int_equal(case_parse("case 2", case2_text, strlen(case2_text), n, set, sc, &err), HC_OK);
+  assert_int_equal(scene_setup(sc, &setup), HC_OK);
+  return setup;
+}
+
+static void check_solution(const hbmcheck_solutions *list, hbm_solver *s, const hbm_curve *curve, int k)
+{
+  hbmcheck_solution found;
+  response_row r;
+  double X[2 * HBM_MAX_HARMONICS + 1];
+  int n = 0;
+  assert_int_equal(response_row_of(s, curve, k, &r), HC_OK);
+  assert_int_equal(hbmcheck_solutions_get(list, k, &found), HBMCHECK_OK);
+  SAME(found.omega, r.point.omega);
+  SAME(found.amplitude, r.measures.amplitude);
+  SAME(found.max, r.measures.max);
+  SAME(found.min, r.measures.min);
+  SAME(found.rms, r.measures.rms);
+  SAME(found.mean, r.measures.mean);
+  SAME(found.harmonic_1, r.measures.harmonic_1);
+  SAME(found.multiplier, r.stability.multiplier);
+  SAME(found.residual, r.point.residual);
+  assert_int_equal(found.stable, hbm_stability_verdict(&r.stability));
+  assert_int_equal(found.branch, r.point.branch);
+  assert_int_equal(found.harmonics, r.point.harmonics);
+  assert_int_equal(found.iterations, r.point.iterations);
+  assert_string_equal(hbmcheck_contact_name(found.contact), contact_regime_name(r.measures.contact.regime));
+  assert_int_equal(hbmcheck_solutions_coefficients(list, k, 2 * HBM_MAX_HARMONICS + 1, X, &n), HBMCHECK_OK);
+  assert_int_equal(n, 2 * r.point.harmonics + 1);
+  assert_memory_equal(X, curve->X + (size_t)k * (size_t)curve->n_coef, (size_t)n * sizeof *X);
+}
+
+static void check_specials(hbmcheck_curve *curve, hbm_solver *s, const hbm_curve *c)
+{
+  hbm_special expected[32];
+  hbmcheck_special found[32];
+  int n_expected = 0, n = 0, again = 0;
+  assert_int_equal(hbm_specials(s, c, 32, expected, &n_expected), HC_OK);
+  assert_int_equal(hbmcheck_curve_specials(curve, 32, found, &n), HBMCHECK_OK);
+  assert_int_equal(n, n_expected);
+  assert_in_range(n, 4, 32); /* two turns, two changes of the contact */
+  for (int i = 0; i < n; ++i) {
+    SAME(found[i].omega, expected[i].omega);
+    SAME(found[i].amplitude, expected[i].amplitude);
+    assert_int_equal(found[i].branch, expected[i].branch);
+    assert_int_equal(found[i].kind, expected[i].kind);
+    assert_int_equal(found[i].before, expected[i].before);
+    assert_int_equal(found[i].after, expected[i].after);
+  }
+  found[1].omega = -1; /* room for one: the second is not written */
+  assert_int_equal(hbmcheck_curve_specials(curve, 1, found, &again), HBMCHECK_OK);
+  assert_int_equal(again, n);
+  SAME(found[0].omega, expected[0].omega);
+  SAME(found[1].omega, -1);
+  assert_int_equal(hbmcheck_curve_specials(curve, 0, NULL, &again), HBMCHECK_OK);
+  assert_int_equal(again, n);
+}
+
+static void check_summary(hbmcheck_curve *curve, hbm_solver *s, const hbm_curve *c)
+{
+  hbmcheck_summary found;
+  response_summary r;
+  assert_int_equal(response_summarise(s, c, &r), HC_OK);
+  assert_int_equal(hbmcheck_curve_summary(curve, &found), HBMCHECK_OK);
+  SAME(found.peak_omega, r.peak_omega);
+  SAME(found.peak_amplitude, r.peak_amplitude);
+  SAME(found.peak_harmonic_1, r.peak_harmonic_1);
+  assert_int_equal(found.points, r.points);
+  assert_int_equal(found.turning_points, r.turning_points);
+  assert_int_equal(found.harmonics, r.harmonics);
+  assert_int_equal(found.samples, r.samples);
+  assert_int_equal(found.rejected, r.rejected);
+  assert_int_equal(found.iterations, r.iterations);
+  assert_int_equal(found.evaluations, r.evaluations);
+  assert_int_equal(found.reached_end, r.reached_end);
+  assert_int_equal(found.left_at_start, r.left_at_start);
+  assert_int_equal(found.inaccurate, c->inaccurate);
+}
+
+static void check_curve(const char *const *set)
+{
+  scene sc;
+  compare_setup setup = setup_of(&sc, set);
+  hbm_solver *s;
+  hbm_curve expected = {0}, at = {0};
+  hbmcheck_case *c = case2_with(set);
+  hbmcheck_curve *curve;
+  hbmcheck_solutions *three;
+  assert_int_equal(hbm_solver_new(setup.model, &setup.hbm, &s), HC_OK);
+  assert_int_equal(hbm_trace(s, setup.omega_from, setup.omega_to, NULL, &expected), HC_OK);
+  assert_int_equal(hbmcheck_curve_trace(c, NULL, &curve), HBMCHECK_OK);
+  hbmcheck_case_free(c); /* results do not need it any more */
+  const hbmcheck_solutions *points = hbmcheck_curve_points(curve);
+  assert_int_equal(hbmcheck_solutions_count(points), expected.n);
+  for (int k = 0; k < expected.n; ++k) check_solution(points, s, &expected, k);
+  assert_int_equal(hbm_curve_at(s, &expected, 8, &at), HC_OK);
+  assert_int_equal(hbmcheck_curve_at(curve, 8, &three), HBMCHECK_OK);
+  assert_int_equal(at.n, 3); /* two stable solutions and an unstable one between them */
+  assert_int_equal(hbmcheck_solutions_count(three), 3);
+  for (int k = 0; k < 3; ++k) check_solution(three, s, &at, k);
+  hbmcheck_solutions_free(three);
+  assert_int_equal(hbmcheck_curve_at(curve, 21, &three), HBMCHECK_OK); /* beyond the sweep: none */
+  assert_int_equal(hbmcheck_solutions_count(three), 0);
+  hbmcheck_solutions_free(three);
+  check_specials(curve, s, &expected);
+  check_summary(curve, s, &expected);
+  hbmcheck_curve_free(curve);
+  hbm_curve_free(&at);
+  hbm_curve_free(&expected);
+  hbm_solver_free(s);
+  scene_setup_clear(&setup);
+}
+
+static void curve(void **state)
+{
+  (void)state;
+  check_curve((const char *[]){"hbm.harmonics=7", NULL});
+  check_curve((const char *[]){"hbm.harmonics=auto", "hbm.accuracy=1e-3", NULL});
+  check_curve((const char *[]){"hbm.harmonics=5", "hbm.force=sampled", "hbm.samples=2048", NULL});
+}
+
+/* Nearly rigid and without harmonic 0 the fold is beyond 4 times the start: the curve is cut where it left the sweep
+ * (hbm.trace.a_branch_that_leaves). */
+static void curve_that_leaves(void **state)
+{
+  (void)state;
+  hbmcheck_case *c =
+      CASE2("sweep.omega=8.5,3", "hbm.harmonics=1", "hbm.static=false", "contacts[0].normal_stiffness=1e7");
+  hbmcheck_curve *curve;
+  hbmcheck_summary whole;
+  assert_int_equal(hbmcheck_curve_trace(c, NULL, &curve), HBMCHECK_OK);
+  assert_int_equal(hbmcheck_curve_summary(curve, &whole), HBMCHECK_OK);
+  assert_int_equal(whole.reached_end, 0);
+  assert_int_equal(whole.left_at_start, 1);
+  assert_int_equal(whole.turning_points, 1);
+  hbmcheck_curve_free(curve);
+  hbmcheck_case_free(c);
+}
+
+static void check_steady(const hbmcheck_transient *t, const steady_states *all, int k)
+{
+  hbmcheck_steady found;
+  double wave[TIMEINT_WAVE];
+  const steady_row *row = &all->rows[k];
+  const timeint_result *r = &row->result;
+  const bool settled = row->status == HC_OK,
+             moves = settled || row->status == HC_NOT_SETTLED || row->status == HC_APERIODIC;
+  int n = -1;
+  assert_int_equal(hbmcheck_transient_get(t, k, &found), HBMCHECK_OK);
+  assert_int_equal(found.status, row->status);
+  assert_int_equal(found.without_hbm, row->without_hbm);
+  SAME(found.omega, r->omega);
+  SAME(found.amplitude, moves ? r->amplitude : NAN);
+  SAME(found.max, moves ? r->max : NAN);
+  SAME(found.min, moves ? r->min : NAN);
+  SAME(found.rms, moves ? r->rms : NAN);
+  SAME(found.mean, moves ? r->mean : NAN);
+  SAME(found.harmonic_1, moves ? r->harmonic_1 : NAN);
+  SAME(found.closure, moves ? r->closure : NAN);
+  SAME(found.multiplier, settled ? r->multiplier : NAN);
+  SAME(found.from_regularisation, settled ? row->from_regularisation : NAN);
+  assert_int_equal(found.stable, settled ? timeint_stability(r) : 0);
+  assert_int_equal(found.period_multiple, settled ? r->period_multiple : 0);
+  assert_int_equal(found.periods, r->periods);
+  assert_int_equal(found.steps, r->steps);
+  assert_int_equal(found.free_sliders, r->free_sliders);
+  assert_int_equal(found.left_orbit, r->left_orbit);
+  assert_int_equal(found.contact, r->regime);
+  assert_int_equal(hbmcheck_transient_wave(t, k, TIMEINT_WAVE, wave, &n), HBMCHECK_OK);
+  assert_int_equal(n, moves ? TIMEINT_WAVE : 0);
+  assert_memory_equal(wave, r->wave, (size_t)n * sizeof *wave);
+}
+
+/* What the scenes are to show at least once. */
+static struct {
+  bool aperiodic, period_4, unstable, not_settled, at_rest;
+} seen;
+
+static void look(const steady_row *row)
+{
+  seen.aperiodic |= row->status == HC_APERIODIC;
+  seen.period_4 |= row->status == HC_OK && row->result.period_multiple == 4;
+  seen.unstable |= row->status == HC_OK && timeint_stability(&row->result) < 0;
+  seen.not_settled |= row->status == HC_NOT_SETTLED;
+  seen.at_rest |= row->without_hbm != HC_OK;
+}
+
+static void check_transient(const char *const *set, int n, const double *omega)
+{
+  scene sc;
+  compare_setup setup = setup_of(&sc, set);
+  hbmcheck_case *c = case2_with(set);
+  hbmcheck_transient *t;
+  steady_states expected;
+  setup.compare.omega.n = n;
+  memcpy(setup.compare.omega.v, omega, (size_t)n * sizeof *omega);
+  assert_int_equal(steady_states_run(&setup, NULL, &expected), HC_OK);
+  assert_int_equal(hbmcheck_transient_run(c, n, omega, NULL, &t), HBMCHECK_OK);
+  hbmcheck_case_free(c);
+  assert_int_equal(hbmcheck_transient_count(t), expected.n);
+  for (int k = 0; k < expected.n; ++k) check_steady(t, &expected, k), look(&expected.rows[k]);
+  hbmcheck_transient_free(t);
+  steady_states_clear(&expected);
+  scene_setup_clear(&setup);
+}
+
+/* Case 2: period 4 at 5.11, aperiodic at 5.3 (docs/transient.md), where shooting finds the unstable orbit; from rest
+ * nothing settles in two periods; where the HBM curve stops before omega (natural continuation, at the fold), the start
+ * is at rest. */
+static void transient(void **state)
+{
+  (void)state;
+  check_transient((const char *[]){"hbm.harmonics=10", NULL}, 3, (double[]){5.11, 5.3, 8});
+  check_transient(
+      (const char *[]){"transient.start=rest", "transient.max_periods=2", "transient.steady_state=march", NULL}, 1,
+      (double[]){8});
+  check_transient((const char *[]){"hbm.harmonics=10", "transient.steady_state=shooting", NULL}, 1, (double[]){5.3});
+  check_transient((const char *[]){"transient.law=regularised", "transient.tolerance=1e-6", NULL}, 1, (double[]){7});
+  check_transient((const char *[]){"hbm.continuation=natural", NULL}, 1, (double[]){12});
+  assert_true(seen.aperiodic && seen.period_4 && seen.unstable && seen.not_settled && seen.at_rest);
+}
+
+static void check_row(const hbmcheck_comparison *both, const comparison *all, int k)
+{
+  const comparison_row *r = &all->rows[k];
+  const bool hbm = r->branch >= 0 && r->hbm_status == HC_OK, orbit = r->orbit_status == HC_OK;
+  const bool moves =
+      r->transient_status == HC_OK || r->transient_status == HC_NOT_SETTLED || r->transient_status == HC_APERIODIC;
+  hbmcheck_row found;
+  assert_int_equal(hbmcheck_comparison_get(both, k, &found), HBMCHECK_OK);
+  SAME(found.omega, r->omega);
+  assert_string_equal(hbmcheck_verdict_name(found.verdict), verdict_name(r->verdict));
+  assert_int_equal(found.hbm_status, r->hbm_status);
+  assert_int_equal(found.transient_status, r->transient_status);
+  assert_int_equal(found.orbit_status, r->orbit_status);
+  assert_int_equal(found.branch, r->branch);
+  assert_int_equal(found.stable, hbm ? hbm_stability_verdict(&r->stability) : 0);
+  assert_int_equal(found.period_multiple, r->transient_status == HC_OK ? r->transient.period_multiple : 0);
+  assert_int_equal(found.accounted, r->accounted);
+  SAME(found.multiplier, hbm ? r->stability.multiplier : NAN);
+  SAME(found.hbm_amplitude, hbm ? r->hbm.amplitude : NAN);
+  SAME(found.transient_amplitude, moves ? r->transient.amplitude : NAN);
+  SAME(found.orbit_amplitude, orbit ? r->orbit.amplitude : NAN);
+  SAME(found.amplitude_error, r->errors.amplitude);
+  SAME(found.harmonic_1_error, r->errors.harmonic_1);
+  SAME(found.mean_error, r->errors.mean);
+  SAME(found.waveform_error, r->errors.waveform);
+  SAME(found.orbit_error, r->orbit_errors.waveform);
+  SAME(found.from_aliasing, r->budget.amplitude.aliasing);
+  SAME(found.from_truncation, r->budget.amplitude.truncation);
+  SAME(found.from_regularisation, r->budget.amplitude.regularisation);
+  SAME(found.from_integration, r->budget.amplitude.integration);
+  SAME(found.from_settling, r->budget.amplitude.settling);
+}
+
+static void check_comparison(const char *const *set, int exit_code, int gate_code)
+{
+  scene sc;
+  compare_setup setup = setup_of(&sc, set);
+  hbmcheck_case *c = case2_with(set);
+  hbmcheck_comparison *both;
+  hbmcheck_gate gate;
+  comparison expected;
+  gate_case judged;
+  assert_int_equal(comparison_run(&setup, NULL, &expected), HC_OK);
+  assert_int_equal(gate_judge("case 2", &setup, &expected, &judged), HC_OK);
+  assert_int_equal(hbmcheck_comparison_run(c, 0, NULL, NULL, &both), HBMCHECK_OK);
+  hbmcheck_case_free(c);
+  assert_int_equal(hbmcheck_comparison_count(both), expected.n_rows);
+  for (int k = 0; k < expected.n_rows; ++k) check_row(both, &expected, k);
+  assert_int_equal(hbmcheck_comparison_exit_code(both), exit_code);
+  assert_int_equal(comparison_exit_code(&expected), exit_code);
+  assert_int_equal(hbmcheck_comparison_gate(both, &gate), HBMCHECK_OK);
+  assert_int_equal(gate.checks, judged.n);
+  assert_int_equal(gate.failed, judged.failures);
+  assert_int_equal(gate.errors, judged.errors);
+  assert_int_equal(gate.exit_code, gate_code);
+  hbmcheck_comparison_free(both);
+  gate_clear(&judged);
+  comparison_clear(&expected);
+  scene_setup_clear(&setup);
+}
+
+/* Agreement (0); without the mean, a difference (1); natural continuation, which cannot pass the fold, so that there is
+ * no solution at 12 (3); a transient of another period, and none (1); from rest nothing settles in two periods (3). */
+static void comparison_and_gate(void **state)
+{
+  (void)state;
+  check_comparison((const char *[]){"compare.omega=6,8", "hbm.harmonics=20", NULL}, 0, 0);
+  check_comparison((const char *[]){"compare.omega=6.5,8", "hbm.static=false", NULL}, 1, 1);
+  check_comparison((const char *[]){"compare.omega=6,12", "hbm.harmonics=10", "hbm.continuation=natural", NULL}, 3, 3);
+  check_comparison((const char *[]){"compare.omega=5.11,5.3", "hbm.harmonics=10", NULL}, 1, 1);
+  check_comparison((const char *[]){"compare.omega=8", "hbm.harmonics=10", "transient.start=rest",
+                                    "transient.max_periods=2", "transient.steady_state=march", NULL},
+                   3, 3);
+  check_comparison((const char *[]){"compare.points=3", "hbm.harmonics=20", "sweep.omega=10,20", NULL}, 0, 0);
+}
+
+/* Frequencies given in the call take the place of the case's. */
+static void omegas_of_the_call(void **state)
+{
+  (void)state;
+  hbmcheck_case *c = CASE2("compare.omega=5,6");
+  hbmcheck_comparison *both;
+  hbmcheck_row row;
+  assert_int_equal(hbmcheck_comparison_run(c, 1, (double[]){4}, NULL, &both), HBMCHECK_OK);
+  assert_int_equal(hbmcheck_comparison_count(both), 1);
+  assert_int_equal(hbmcheck_comparison_get(both, 0, &row), HBMCHECK_OK);
+  SAME(row.omega, 4);
+  hbmcheck_comparison_free(both);
+  hbmcheck_case_free(c);
+}
+
+/* The same case from a file, from memory, and what is wrong with it in words. */
+static void cases_and_messages(void **state)
+{
+  (void)state;
+  const char *const set[] = {"hbm.harmonic=3"};
+  char message[512], cut[9];
+  hbmcheck_case *c;
+  assert_int_equal(hbmcheck_case_read(SOURCE_DIR "/cases/paper/case2.yaml", 0, NULL, message, sizeof message, &c),
+                   HBMCHECK_OK);
+  assert_string_equal(message, "");
+  hbmcheck_case_free(c);
+  assert_int_equal(hbmcheck_case_parse("two", case2_text, strlen(case2_text), 1, set, message, sizeof message, &c),
+                   HBMCHECK_BAD_INPUT);
+  assert_null(c);
+  assert_non_null(strstr(message, "hbm.harmonics")); /* a suggestion */
+  assert_int_equal(hbmcheck_case_parse("two", "mass: 1", 7, 0, NULL, cut, sizeof cut, &c), HBMCHECK_BAD_INPUT);
+  assert_string_equal(cut, "two:1:1:");
+  assert_int_equal(hbmcheck_case_parse("two", "mass: 1", 7, 0, NULL, NULL, 0, &c), HBMCHECK_BAD_INPUT);
+  assert_int_equal(hbmcheck_case_read("no/such/file.yaml", 0, NULL, message, sizeof message, &c), HBMCHECK_IO);
+  assert_null(c);
+  assert_non_null(strstr(message, "no/such/file.yaml"));
+}
+
+/* The numbers and the text of the version say the same. */
+static void version(void **state)
+{
+  (void)state;
+  char text[32];
+  snprintf(text, sizeof text, "%d.%d.%d", HBMCHECK_VERSION_MAJOR, HBMCHECK_VERSION_MINOR, HBMCHECK_VERSION_PATCH);
+  assert_string_equal(text, HBMCHECK_VERSION);
+  assert_string_equal(hbmcheck_version(), HBMCHECK_VERSION);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(curve),
+      cmocka_unit_test(curve_that_leaves),
+      cmocka_unit_test(transient),
+
+      cmocka_unit_test(comparison_and_gate),
+      cmocka_unit_test(omegas_of_the_call),
+      cmocka_unit_test(cases_and_messages),
+      cmocka_unit_test(version),
+  };
+  check_watchdog(300);
+  return cmocka_run_group_tests_name("library.results", tests, NULL, NULL);
+}

@@ -1,0 +1,497 @@
+/* test_linear_regime_is_final.c - the closed form against the table, against integration, and whether "for ever" is ever
+ * wrong, or useless. */
+#include "tests/check.h"
+
+#include <complex.h>
+#include <float.h>
+#include <string.h>
+
+#include "campaigns/scene_solvers.h"
+#include "model/linear.h"
+#include "tests/random.h"
+#include "tests/scene_parts.h"
+#include "tests/timeint/reference_rows.h"
+#include "tests/timeint/scenes.h"
+#include "timeint/linear_regime.h"
+#include "timeint/timeint_private.h"
+
+/* A scene whose contacts are all as they are in static equilibrium (closed with a preload, open with a clearance),
+ * sliders held at w:
+ *     M x'' + C x' + k x = F0 cos(omega t) + d,   k = K + sum (kt c^2 + kn s^2),   d = sum kt c w        over the
+ *                                                 closed ones;
+ * without friction no kt. */
+typedef struct linear_case {
+  double k, center;
+  double complex z;
+} linear_case;
+
+static bool frictional(const contact *c) { return c->kt > 0 && c->kn > 0 && c->mu > 0; }
+
+static linear_case orbit_of(const scene *sc, double omega, const double *w)
+{
+  linear_case l = {.k = sc->stiffness};
+  double d = 0, c, s;
+  for (int j = 0; j < sc->n_contacts; ++j) {
+    const contact *law = &sc->contacts[j].law;
+    scene_direction(&sc->contacts[j], &c, &s);
+    if (!(law->gap > 0)) continue;
+    l.k += law->kn * s * s + (frictional(law) ? law->kt * c * c : 0);
+    d += frictional(law) ? law->kt * c * w[j] : 0;
+  }
+  l.center = d / l.k;
+  l.z = linear_response(sc->mass, sc->damping, l.k, sc->force, omega);
+  return l;
+}
+
+/* On the orbit, and off it by (dx, dv). */
+static scene_state state_of(const scene *sc, double omega, const double *w, double dx, double dv)
+{
+  const linear_case l = orbit_of(sc, omega, w);
+  scene_state st = {.x = l.center + creal(l.z) + dx, .v = creal(I * omega * l.z) + dv};
+  for (int j = 0; j < sc->n_contacts; ++j) {
+    double c, s;
+    scene_direction(&sc->contacts[j], &c, &s);
+    st.w[j] = sc->contacts[j].law.gap > 0 ? w[j] : c * st.x;
+  }
+  return st;
+}
+
+static timeint *make(const scene *sc)
+{
+  timeint *ti;
+  assert_int_equal(scene_timeint(sc, &ti), HC_OK);
+  return ti;
+}
+
+static bool asked(timeint *ti, double omega, const scene_state *st)
+{
+  assert_int_equal(timeint_begin(ti, omega, st->all), HC_OK);
+  return linear_regime_is_final(ti);
+}
+
+static bool asked_once(const scene *sc, double omega, const scene_state *st)
+{
+  timeint *ti = make(sc);
+  bool yes = asked(ti, omega, st);
+  timeint_free(ti);
+  return yes;
+}
+
+/* In the middle of where a stuck slider may rest, were x centred: -T <= mu N at the lowest x, T <= mu N at the
+ * highest. */
+static double middle(const scene *sc, double omega)
+{
+  const double none[SCENE_MAX_CONTACTS] = {0};
+  const contact *law = &sc->contacts[0].law;
+  const double a = cabs(orbit_of(sc, omega, none).z) * sqrt(0.5), n = law->mu * law->kn / law->kt;
+  double high = n * (law->gap - a) - a, low = a - n * (law->gap + a); /* of w */
+  return 0.5 * (fmin(high, fabs(low)) + low);
+}
+
+/* The table has 12 digits: 5e-12 at worst, of a number that begins with 1. */
+static void rows_of_the_table(void **state)
+{
+  (void)state;
+  const scene scenes[REF_CASES] = {scene_a10(), scene_b10(), scene_c2(), scene_c2kt1e4(), scene_gap1()};
+  int n = 0;
+  for (size_t i = 0; i < sizeof reference_rows / sizeof *reference_rows; ++i) {
+    const reference_row *row = &reference_rows[i];
+    if (row->events > 0) continue;
+    scene sc = scenes[row->which];
+    const double w[SCENE_MAX_CONTACTS] = {sc.contacts[0].law.gap > 0 ? middle(&sc, row->omega) : 0};
+    for (int law = 0; law < 2; ++law) {
+      sc.transient.law = law;
+      timeint *ti = make(&sc);
+      scene_state st = state_of(&sc, row->omega, w, 0, 0);
+      timeint_result r;
+      CHECK_LE(1, asked(ti, row->omega, &st), "case %d at %g", row->which, row->omega);
+      linear_regime_steady(ti, &r);
+      CHECK_NEAR(r.amplitude, row->amplitude, 1e-11 * row->amplitude, "case %d at %g", row->which, row->omega);
+      CHECK_NEAR(r.harmonic_1, row->harmonic_1, 1e-11 * row->amplitude, "case %d at %g", row->which, row->omega);
+      timeint_free(ti);
+      ++n;
+    }
+  }
+  CHECK_LE(80, n, "rows");
+}
+
+/* From off the orbit the closed form lands where waiting does: settled to 1e-9 of the amplitude, by its own word.
+ * What the table of 512 instants adds to the sums is nothing here. */
+static void same_as_waiting(const scene *from, const char *name, double omega, const double *w, double off,
+                            int free_sliders)
+{
+  scene sc = *from;
+  timeint_result r, m;
+  memset(&r, 0, sizeof r);
+  const linear_case l = orbit_of(&sc, omega, w);
+  const double size = cabs(l.z), tol = 2e-9 * size;
+  scene_state st = state_of(&sc, omega, w, off * size, -off * size * omega), sm = st;
+  sc.transient.steady = TRANSIENT_STEADY_MARCH;
+  timeint *ti = make(&sc), *waiting = make(&sc);
+  CHECK_LE(1, asked(ti, omega, &st), "%s", name);
+  linear_regime_steady(ti, &r);
+  timeint_get_state(ti, st.all);
+  assert_int_equal(timeint_steady(waiting, omega, sm.all, NULL, &m), HC_OK);
+  CHECK_NEAR(r.mean, l.center, 1e-13 * size, "%s: mean = sum kt c w/k", name);
+  CHECK_NEAR(r.amplitude, m.amplitude, tol, "%s", name);
+  CHECK_NEAR(r.max, m.max, tol, "%s", name);
+  CHECK_NEAR(r.min, m.min, tol, "%s", name);
+  CHECK_NEAR(r.mean, m.mean, tol, "%s", name);
+  CHECK_NEAR(r.rms, m.rms, tol, "%s", name);
+  CHECK_NEAR(r.a1, m.a1, 2 * tol, "%s", name);
+  CHECK_NEAR(r.b1, m.b1, 2 * tol, "%s", name);
+  CHECK_NEAR(r.harmonic_1, m.harmonic_1, 2 * tol, "%s", name);
+  for (int i = 0; i < TIMEINT_WAVE; ++i) CHECK_NEAR(r.wave[i], m.wave[i], tol, "%s: wave[%d]", name, i);
+  CHECK_NEAR(st.x, sm.x, tol, "%s", name);
+  CHECK_NEAR(st.v, sm.v, tol * omega, "%s", name);
+  for (int j = 0; j < sc.n_contacts; ++j) CHECK_NEAR(st.w[j], sm.w[j], 2 * tol, "%s: w[%d]", name, j);
+  assert_int_equal(r.regime, m.regime);
+  assert_int_equal(r.period_multiple, 1);
+  assert_int_equal(r.method, TIMEINT_BY_CLOSED_FORM);
+  assert_int_equal(r.free_sliders, free_sliders);
+  CHECK_NEAR(r.multiplier, exp(-PI * sc.damping / (sc.mass * omega)), 1e-15, "%s", name);
+  CHECK_NEAR(r.contraction, r.multiplier, 0, "%s", name);
+  CHECK_LE(fabs(r.closure), 0, "%s", name);
+  timeint_free(ti);
+  timeint_free(waiting);
+}
+
+static scene scene_many(void) /* held and free sliders, contacts without friction, along and across the motion */
+{
+  scene sc = scene_linear(1, 0.4, 40, 10);
+  scene_add(&sc, 100, 200, 0.3, 0.5, 45);
+  scene_add(&sc, 50, 100, 0.4, -0.5, 30);
+  scene_add(&sc, 50, 100, 0.4, 0.4, 0);
+  scene_add(&sc, 0, 30, 0.4, 0.6, 60);
+  scene_add(&sc, 70, 30, 0, 0.7, 90);
+  scene_add(&sc, 50, 0, 0.4, 0.7, 20);
+  return sc;
+}
+
+static void measures(void **state)
+{
+  (void)state;
+  const double none[SCENE_MAX_CONTACTS] = {0}, held[SCENE_MAX_CONTACTS] = {-0.1, 0, 0.05};
+  scene a10 = scene_a10(), b10 = scene_b10(), many = scene_many(), alone = scene_linear(2, 0.5, 50, 7);
+  for (int law = 0; law < 2; ++law) {
+    a10.transient.law = b10.transient.law = many.transient.law = alone.transient.law = law;
+    same_as_waiting(&a10, "a10", 12, held, 0.1, 1); /* mean = 100 cos 45 (-0.1)/190 */
+    same_as_waiting(&b10, "b10", 9, none, 0.5, 0);
+    same_as_waiting(&many, "many", 7, held, 0.2, 2);
+    same_as_waiting(&alone, "alone", 4, none, 30, 0);
+  }
+  b10.transient.regularisation = 0.02; /* a slider that lags visibly; 40 widths of the corner leave it a fifth of the
+                                          gap */
+  b10.contacts[0].law.gap = -20;
+  b10.transient.law = TRANSIENT_LAW_REGULARISED;
+  same_as_waiting(&b10, "b10, lagging", 9, none, 0.5, 0);
+}
+
+/* A slider held far off leans on the other contact: one with a preload, that it keeps open (its N0 stays in the
+ * equation), or one with a clearance, that it keeps closed: kn (x + gap). A period of some 500 steps of 1e-12,
+ * relative to |x| < 4, ends where it began. */
+static void leaning(void **state)
+{
+  (void)state;
+  for (int side = -1; side <= 1; side += 2) {
+    scene sc = scene_linear(1, 0.4, 40, 10);
+    scene_add(&sc, 100, 1000, 1, 1, 0);
+    scene_add(&sc, 0, 10, 0, -0.5 * side, 90);
+    const double k = 40 + 100 + (side > 0 ? 10 : 0), center = (100 * 5 * side + 10 * 0.5) / k;
+    const double complex z = linear_response(1, 0.4, k, 10, 6);
+    for (int law = 0; law < 2; ++law) {
+      sc.transient.law = law;
+      timeint *ti = make(&sc);
+      scene_state st = {.x = center + creal(z), .v = -6 * cimag(z), .w = {5 * side}};
+      timeint_result r;
+      CHECK_LE(1, asked(ti, 6, &st), "leaning %d", side);
+      linear_regime_steady(ti, &r);
+      CHECK_NEAR(r.mean, center, 1e-14 * fabs(center), "leaning %d", side);
+      double y[SCENE_MAX_STATES];
+      memcpy(y, ti->y, sizeof y);
+      assert_int_equal(timeint_set_tolerance(ti, 1e-12), HC_OK);
+      assert_int_equal(integrate_period(ti->in, &ti->scaled, y, NULL, NULL), HC_OK);
+      for (int i = 0; i < 3; ++i) CHECK_NEAR(y[i], ti->y[i], 2e-9, "leaning %d: y[%d]", side, i);
+      timeint_free(ti);
+    }
+  }
+}
+
+/* -- never wrong -- */
+
+typedef struct watched {
+  const timeint *ti;
+  bool closed[SCENE_MAX_CONTACTS], broken;
+} watched;
+
+static bool is_closed(const scaled_model *m, int j, const double *y)
+{
+  return m->contact[j].sine * y[SCALED_X] + m->contact[j].law.gap > 0;
+}
+
+static hc_status look(void *self, const integrator *in, double theta0, double theta1)
+{
+  (void)theta0;
+  watched *w = self;
+  const scaled_model *m = &w->ti->scaled;
+  double y[SCENE_MAX_STATES];
+  hc_status st = integrate_dense(in, theta1, 0, y);
+  for (int j = 0; j < m->n_contacts && st == HC_OK; ++j) {
+    bool closed = is_closed(m, j, y);
+    if (m->contact[j].law.kn > 0 && closed != w->closed[j]) w->broken = true;
+    if (closed && integrate_slips(in, j, y)) w->broken = true;
+  }
+  return st;
+}
+
+enum { PERIODS = 20 };
+
+/* Does a contact change its state within PERIODS from ti->y? */
+static bool something_happens(timeint *ti)
+{
+  watched w = {.ti = ti};
+  const long switches = integrate_transitions(ti->in);
+  for (int j = 0; j < ti->scaled.n_contacts; ++j) w.closed[j] = is_closed(&ti->scaled, j, ti->y);
+  for (int i = 0; i < PERIODS; ++i) assert_int_equal(integrate_period(ti->in, &ti->scaled, ti->y, look, &w), HC_OK);
+  return w.broken || integrate_transitions(ti->in) > switches;
+}
+
+static double uniform(uint64_t *seed, double a, double b) { return a + (b - a) * random_unit(seed); }
+
+/* x, v and w between the orbit (0) and somewhere (1). */
+static scene_state between(const scene_state *a, const scene_state *b, double t)
+{
+  scene_state st = {.x = a->x + t * (b->x - a->x), .v = a->v + t * (b->v - a->v)};
+  for (int j = 0; j < SCENE_MAX_CONTACTS; ++j) st.w[j] = a->w[j] + t * (b->w[j] - a->w[j]);
+  return st;
+}
+
+/* The farthest yes in a random direction from the orbit: nothing may happen from there, and the free motion must
+ * decay by exp(-c/2 theta) sqrt((1 + zeta)/(1 - zeta)), < 1.1 here, of its bound, towards the closed form. */
+static bool farthest(uint64_t *seed, const scene *sc, double omega, double reach)
+{
+  const double none[SCENE_MAX_CONTACTS] = {0};
+  timeint *ti = make(sc);
+  assert_int_equal(timeint_set_tolerance(ti, 1e-10), HC_OK);
+  const double size = cabs(orbit_of(sc, omega, none).z);
+  scene_state a = state_of(sc, omega, none, 0, 0), b = a;
+  b.x += uniform(seed, -reach, reach) * size, b.v += uniform(seed, -reach, reach) * size * omega;
+  for (int j = 0; j < sc->n_contacts; ++j) b.w[j] += uniform(seed, -reach, reach) * size;
+  double low = 0, high = 1;
+  bool yes = asked(ti, omega, &a);
+  for (int i = 0; i < 40 && yes; ++i) {
+    double t = i == 0 ? 1 : 0.5 * (low + high);
+    scene_state st = between(&a, &b, t);
+    *(asked(ti, omega, &st) ? &low : &high) = t;
+    if (low == 1) break;
+  }
+  if (yes) {
+    scene_state st = between(&a, &b, low);
+    timeint_result r;
+    double end[SCENE_MAX_STATES], began[SCENE_MAX_STATES];
+    assert_true(asked(ti, omega, &st));
+    memcpy(began, ti->y, sizeof began);
+    linear_regime_steady(ti, &r);
+    memcpy(end, ti->y, sizeof end);
+    memcpy(ti->y, began, sizeof began);
+    assert_false(something_happens(ti));
+    double k = ti->scaled.k;
+    for (int j = 0; j < sc->n_contacts; ++j)
+      if (is_closed(&ti->scaled, j, end)) k += scene_stuck_stiffness(&sc->contacts[j]) / (sc->mass * omega * omega);
+    double left = 1.1 * hypot(began[0] - end[0], (began[1] - end[1]) / sqrt(k)) * pow(r.multiplier, PERIODS) + 1e-6;
+    CHECK_NEAR(ti->y[0], end[0], left, "X");
+    CHECK_NEAR(ti->y[1], end[1], left * sqrt(k), "P");
+    for (int j = 0; j < sc->n_contacts; ++j)
+      if (frictional(&sc->contacts[j].law)) CHECK_NEAR(ti->y[SCALED_W + j], end[SCALED_W + j], left, "W");
+  }
+  timeint_free(ti);
+  return yes;
+}
+
+static void never_wrong(void **state)
+{
+  (void)state;
+  uint64_t seed = 12345;
+  int yes = 0, all = 0;
+  for (int law = 0; law < 2; ++law)
+    for (int i = 0; i < 60; ++i) {
+      scene scenes[] = {scene_a10(), scene_b10(), scene_c2(), scene_gap1(), scene_many(), scene_c2kt1e4()};
+      scene *sc = &scenes[i % 6];
+      sc->transient.law = law;
+      if (i % 2) sc->transient.regularisation = 1e-2;
+      yes += farthest(&seed, sc, uniform(&seed, 3, 20), i % 4 < 2 ? 3 : 30);
+      ++all;
+    }
+  CHECK_LE(0.75 * all, yes, "orbits that are linear for ever"); /* 109 of 120; on the others something happens, or is
+                                                                   near */
+}
+
+/* -- not useless -- */
+
+/* On the orbit itself there is no free motion, and the range is exact. So for the exact law the largest force that
+ * gets a yes is where something begins to happen: a margin of 1e-9 below it nothing does, 1e-5 above it something
+ * does. For the regularised law 40 widths are given away: nothing happens up to there, and the motion is the closed
+ * form to the integrator's errors. */
+static void up_to_the_edge(const scene *from, const char *name, double omega, const double *w, int law)
+{
+  scene sc = *from;
+  sc.transient.law = law;
+  double low = 1e-3 * from->force, high = 1e3 * from->force;
+  for (int i = 0; i < 100; ++i) {
+    sc.force = sqrt(low * high);
+    scene_state st = state_of(&sc, omega, w, 0, 0);
+    *(asked_once(&sc, omega, &st) ? &low : &high) = sc.force;
+  }
+  for (int above = 0; above < (law == TRANSIENT_LAW_EXACT ? 2 : 1); ++above) {
+    sc.force = low * (1 + 1e-5 * above);
+    timeint *ti = make(&sc);
+    scene_state st = state_of(&sc, omega, w, 0, 0);
+    CHECK_LE(asked(ti, omega, &st), !above, "%s at %g: the edge is at %g", name, omega, low);
+    assert_int_equal(timeint_set_tolerance(ti, 1e-12), HC_OK);
+    double began[SCENE_MAX_STATES];
+    memcpy(began, ti->y, sizeof began);
+    const bool happens = something_happens(ti);
+    if (happens != above) print_error("%s at %g, law %d, %s %g\n", name, omega, law, above ? "above" : "below", low);
+    assert_true(happens == above);
+    if (!above)
+      CHECK_NEAR(ti->y[SCALED_X], began[SCALED_X], 2e-8, "%s at %g, law %d: stays on the orbit", name, omega, law);
+    timeint_free(ti);
+  }
+}
+
+static void edges(void **state)
+{
+  (void)state;
+  const double none[SCENE_MAX_CONTACTS] = {0}, held[SCENE_MAX_CONTACTS] = {-0.1, 0, 0.05},
+               other[SCENE_MAX_CONTACTS] = {0.1, 0, -0.05};
+  scene a10 = scene_a10(), b10 = scene_b10(), c2 = scene_c2(), gap1 = scene_gap1(), many = scene_many();
+  scene smooth = scene_a10(); /* mu kn sin > kt cos: separation ends it, not slip */
+  smooth.contacts[0].law.mu = 0;
+  for (int law = 0; law < 2; ++law)
+    for (int coarse = 0; coarse < 2; ++coarse) {
+      a10.transient.regularisation = b10.transient.regularisation = c2.transient.regularisation = coarse ? 1e-2 : 1e-4;
+      gap1.transient.regularisation = many.transient.regularisation = smooth.transient.regularisation =
+          coarse ? 1e-2 : 1e-4;
+      up_to_the_edge(&a10, "a10", 12, none, law);
+      up_to_the_edge(&a10, "a10, held", 12, held, law);
+      up_to_the_edge(&a10, "a10, held otherwise", 17, other, law);
+      up_to_the_edge(&b10, "b10", 5, none, law);
+      up_to_the_edge(&c2, "c2", 9, none, law);
+      up_to_the_edge(&gap1, "gap1", 15, none, law);
+      up_to_the_edge(&many, "many", 7, held, law);
+      up_to_the_edge(&smooth, "no friction", 10, none, law);
+    }
+}
+
+/* From rest the free motion is as large as the steady one. */
+static void obvious_ones(void **state)
+{
+  (void)state;
+  const scene_state rest = {0};
+  scene r2 = scene_r2(), a10 = scene_a10(), c2 = scene_c2(), alone = scene_linear(1, 0.4, 40, 10);
+  assert_true(asked_once(&r2, 700, &rest));
+  assert_true(asked_once(&a10, 5, &rest));
+  assert_true(asked_once(&c2, 12, &rest));
+  assert_true(asked_once(&alone, 6.3, &rest));
+  assert_false(asked_once(&c2, 7, &rest));
+  timeint *ti = make(&r2);
+  scene_state st = rest;
+  timeint_result r;
+  assert_int_equal(timeint_steady(ti, 700, st.all, NULL, &r), HC_OK);
+  CHECK_NEAR(r.amplitude, cabs(linear_response(1.6, 0.4, 8e5, 100, 700)), 1e-14 * r.amplitude, "r2 from rest");
+  assert_int_equal(r.periods, 0);
+  assert_int_equal(r.steps, 0);
+  timeint_free(ti);
+  ti = make(&c2); /* rings too much at first; the bound says yes once it has decayed to 2.9, from 4.2 by 0.73 a
+                     period */
+  assert_false(asked(ti, 4, &rest));
+  while (!linear_regime_is_final(ti) && ti->periods < 30) assert_int_equal(timeint_period(ti, false), HC_OK);
+  CHECK_LE(ti->periods, 10, "c2 at 4 from rest");
+  timeint_free(ti);
+}
+
+static void undamped(void **state)
+{
+  (void)state;
+  const double none[SCENE_MAX_CONTACTS] = {0};
+  const scene_state rest = {0};
+  scene sc = scene_b10();
+  sc.damping = 0;
+  scene_state on = state_of(&sc, 9, none, 0, 0), off = state_of(&sc, 9, none, 1e-6, 0);
+  assert_true(asked_once(&sc, 9, &on));
+  assert_false(asked_once(&sc, 9, &off)); /* rings for ever */
+  assert_false(asked_once(&sc, 9, &rest));
+  sc.force = 0;
+  timeint_result r;
+  timeint *ti = make(&sc);
+  assert_true(asked(ti, 9, &rest));
+  linear_regime_steady(ti, &r);
+  CHECK_LE(fabs(r.amplitude) + fabs(r.mean) + fabs(r.rms), 0, "unloaded, at rest");
+  CHECK_NEAR(r.multiplier, 1, 1e-15, "undamped");
+  timeint_free(ti);
+  scene resonance = scene_linear(1, 0, 81, 10);
+  assert_false(asked_once(&resonance, 9, &rest));
+  resonance.damping = 1e-6; /* it settles, after some million periods */
+  assert_true(asked_once(&resonance, 9, &rest));
+}
+
+static void no_stiffness_and_no_number(void **state)
+{
+  (void)state;
+  const scene_state rest = {0};
+  scene mass = scene_linear(1, 0.4, 0, 10);
+  assert_false(asked_once(&mass, 9, &rest));
+  scene all[] = {scene_a10(), scene_b10()};
+  for (int i = 0; i < 2; ++i) {
+    timeint *ti = make(&all[i]);
+    const double bad[] = {NAN, INFINITY, -INFINITY, DBL_MAX, -DBL_MAX};
+    for (size_t b = 0; b < sizeof bad / sizeof *bad; ++b)
+      for (int at = 0; at < 2 + (i == 0); ++at) { /* i = 1: a separated slider is no matter */
+        assert_true(asked(ti, 10, &rest));
+        ti->y[at] = bad[b];
+        assert_false(linear_regime_is_final(ti));
+      }
+    timeint_free(ti);
+  }
+}
+
+/* lambda^2 - trace lambda + det = 0 of the free motion's matrix over a period; the larger of the two. Overdamped,
+ * linear_free_motion takes the slow rate as a difference of two numbers of the size of C/2: an ulp of them, over 2
+ * pi, is C 7e-16. */
+static void multipliers(void **state)
+{
+  (void)state;
+  for (double damping = 0.01; damping < 1000; damping *= 2) {
+    scene sc = scene_linear(1, damping, 2, 1);
+    const scene_state rest = {0};
+    double e[2][2];
+    timeint_result r;
+    timeint *ti = make(&sc);
+    assert_true(asked(ti, 1, &rest));
+    linear_regime_steady(ti, &r);
+    linear_free_motion(1, damping, 2, 2 * PI, e);
+    const double det = exp(-2 * PI * damping);
+    const double complex lambda = r.multiplier_re + I * r.multiplier_im;
+    CHECK_LE(cabs(lambda * lambda - (e[0][0] + e[1][1]) * lambda + det), 4e-15 * (1 + damping), "C = %g", damping);
+    CHECK_NEAR(r.multiplier, cabs(lambda), 1e-15, "C = %g", damping);
+    CHECK_LE(sqrt(det), r.multiplier * (1 + 1e-12), "C = %g: the larger one", damping);
+    timeint_free(ti);
+  }
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(rows_of_the_table),
+      cmocka_unit_test(measures),
+      cmocka_unit_test(leaning),
+      cmocka_unit_test(never_wrong),
+      cmocka_unit_test(edges),
+      cmocka_unit_test(obvious_ones),
+      cmocka_unit_test(undamped),
+      cmocka_unit_test(no_stiffness_and_no_number),
+      cmocka_unit_test(multipliers),
+  };
+  check_watchdog(300);
+  return cmocka_run_group_tests_name("timeint.linear_regime", tests, NULL, NULL);
+}

@@ -1,0 +1,63 @@
+/* orbit.c - see orbit.h. */
+#include "timeint/orbit.h"
+
+#include <math.h>
+
+#include "timeint/timeint_private.h"
+
+static const double same_state = 1e-6; /* [size] a state that returns as near is the same, but for integration errors */
+
+double orbit_goal(const timeint *ti)
+{
+  return fmax(ti->how.tolerance * (timeint_motion_size(ti) / ti->length), 100 * ti->tolerance);
+}
+
+hc_status orbit_find(timeint *ti, int k, double reach, const hc_monitor *monitor, timeint_method *method,
+                     shoot_report *found)
+{
+  *method = TIMEINT_BY_SHOOTING;
+  hc_status st = shoot_newton(ti->shoot, k, reach, orbit_goal(ti), monitor, found);
+  if (!shoot_found_no_orbit(st)) return st;
+  *method = TIMEINT_BY_ANDERSON;
+  hc_status second = shoot_anderson(ti->shoot, k, orbit_goal(ti), monitor, found);
+  return second == HC_OK || second == HC_INTERRUPTED ? second : st;
+}
+
+/* The number of periods after which an orbit of k repeats itself: the smallest divisor d of k with returned[d] =
+ * |F^d(z) - z| as small as integration errors leave it. */
+static int shortest_period(int k, double size, const double *returned)
+{
+  for (int d = 1; d < k; ++d)
+    if (k % d == 0 && returned[d] <= same_state * size) return d;
+  return k;
+}
+
+static double relative_closure(const timeint *ti, double distance, double amplitude)
+{
+  if (amplitude > 0) return distance * ti->length / amplitude;
+  return distance > 0 ? INFINITY : 0;
+}
+
+hc_status orbit_report(timeint *ti, int k, timeint_method method, const shoot_report *found, timeint_result *r)
+{
+  double returned[SETTLE_MAX_MULTIPLE + 1];
+  const long transitions = integrate_transitions(ti->in);
+  const double x = ti->y[SCALED_X], p = ti->y[SCALED_P];
+  measure_begin(&ti->measure, &ti->scaled);
+  for (int i = 0; i < k; ++i) {
+    hc_status st = timeint_period(ti, true);
+    if (st != HC_OK) return st;
+    returned[i + 1] = fmax(fabs(ti->y[SCALED_X] - x), fabs(ti->y[SCALED_P] - p));
+  }
+  measure_report(&ti->measure, ti->model, ti->length, r);
+  r->method = method;
+  r->switches = (int)(integrate_transitions(ti->in) - transitions);
+  r->period_multiple = shortest_period(k, timeint_size(ti) / ti->length, returned);
+  r->closure = relative_closure(ti, found->distance, r->amplitude);
+  r->multiplier = cabs(found->multiplier);
+  r->multiplier_re = creal(found->multiplier);
+  r->multiplier_im = cimag(found->multiplier);
+  r->contraction = pow(r->multiplier, 1.0 / k);
+  r->free_sliders = found->free_sliders;
+  return HC_OK;
+}

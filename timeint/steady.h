@@ -1,0 +1,67 @@
+/* steady.h - the steady state of a model at one frequency, and the periodic orbit next to a state. */
+#ifndef HC_TIMEINT_STEADY_H
+#define HC_TIMEINT_STEADY_H
+
+#include "timeint/timeint.h"
+
+enum { TIMEINT_WAVE = 512 };
+
+/* How a steady state was reached. */
+typedef enum timeint_method {
+  TIMEINT_BY_CLOSED_FORM, /* no contact changes its state any more: nothing to integrate */
+  TIMEINT_BY_SHOOTING,    /* Newton on the period map */
+  TIMEINT_BY_ANDERSON,    /* accelerated iteration of the period map */
+  TIMEINT_BY_MARCHING     /* period after period until the state repeats itself */
+} timeint_method;
+const char *timeint_method_name(timeint_method method); /* "closed_form", "shooting", "anderson", "march" */
+
+typedef struct timeint_result {
+  double omega;               /* [rad/time] */
+  double amplitude, max, min; /* [length] amplitude = (max - min)/2, peaks from dense output */
+  double rms, mean;           /* [length] rms of x (mean included) over the reported period */
+  double a1, b1, harmonic_1;  /* [length] x ~ a1 cos(omega t) + b1 sin(omega t); harmonic_1 = hypot(a1, b1) */
+  double closure;             /* [1] estimated distance to the periodic orbit, drift/(1 - contraction), relative to the
+                                 amplitude; may be INFINITY, and more than transient.tolerance where the integration's
+                                 own errors, times 1/(1 - contraction), allow no less */
+  double contraction;         /* [1] measured contraction per period of the drift; NaN: could not be measured */
+  int periods;                /* forcing periods integrated, all included */
+  int period_multiple;        /* of the orbit found, 1 unless a sub-harmonic was found (k <= 16: measures cover k
+                                 periods, wave the last); 0 not settled */
+  long steps;                 /* CVODE steps, all included */
+  long rhs;                   /* right-hand side evaluations */
+  timeint_method method;
+  double multiplier; /* [1] modulus of the orbit's largest Floquet multiplier over its period_multiple periods; NaN:
+                        not known */
+  double multiplier_re, multiplier_im;
+  int free_sliders; /* contacts that stick all the time: where their sliders rest, and with them the mean, depends on
+                       the start */
+  int switches;     /* contact transitions in the reported periods; exact law only */
+  bool left_orbit;  /* the orbit next to the start is unstable; reported is the one the motion went to from there */
+  double lyapunov;  /* [1/period] mean rate at which neighbours drift apart; NaN where it was not measured */
+  double regularisation_error; /* [1] of the amplitude, relative; estimated with transient.richardson, else NaN */
+  contact_regime regime;       /* strongest regime of any contact in the reported period */
+  int cvode_flag;              /* CVODE's own flag when the status is HC_INTEGRATOR */
+  double wave[TIMEINT_WAVE];   /* [length] x at t = i T / TIMEINT_WAVE of the reported period */
+} timeint_result;
+
+/* From `state` at omega to the steady state as the settings say; `state` becomes a point on the orbit, *result its
+ * measures. transient.richardson: the measures are extrapolated to no regularisation.
+ *     auto      where the motion goes. With start: hbm the state is taken for a point next to an orbit: that orbit is
+ *               the answer if it is stable; if not, the motion leaves it (left_orbit).
+ *     shooting  the period-1 orbit next to the state, stable or not.
+ *     march     period after period.
+ * HC_OK: settled. HC_NOT_SETTLED after max_periods, HC_APERIODIC when nothing repeats within 16 periods and neighbours
+ * drift apart: in both *result is the last period. HC_INTEGRATOR, HC_NOT_FINITE, HC_CHATTER; HC_NOT_CONVERGED,
+ * HC_SINGULAR, HC_STALLED from shooting alone; HC_BAD_INPUT, HC_NO_MEMORY, HC_INTERRUPTED. */
+hc_status timeint_steady(timeint *ti, double omega, double *state, const hc_monitor *monitor, timeint_result *result);
+
+/* The orbit of k forcing periods next to `state` by Newton on the period map, stable or not, whatever
+ * transient.steady_state says; the multiplier tells which. Errors as timeint_steady with shooting. 1 <= k <= 16; the
+ * orbit may be a shorter one run through several times. */
+hc_status timeint_orbit(timeint *ti, double omega, int k, double *state, const hc_monitor *monitor,
+                        timeint_result *result);
+
+/* Stable by its multiplier: +1; -1 not; 0 unknown, or within 1e-9 of the border. */
+int timeint_stability(const timeint_result *result);
+
+#endif
