@@ -147,6 +147,7 @@ static void options_belong_to_their_command(void **state)
   expect("frf " CASE2 "--motion 0,8,0 2>&1", 64, "motion");
   expect("describe --at 6 2>&1", 64, "--at");
   expect("describe hbm.samples --format csv -q", 0, "samples");
+  expect("describe -q", 0, "hbm: harmonic balance");
   expect("gate " CASE2 "--plot x.svg 2>&1", 64, "plot");
   expect("stress --case --seed 3 --first 7", 0, "oscillator");
   expect("bench " CASE2 "--repeats 1001 2>&1", 64, "1..1000");
