@@ -1,4 +1,4 @@
-/* advice.c - a budget in words: how much, mostly why, and what to do about it. */
+/* advice.c - a budget in words: its sum, its largest part, and the setting that makes that part smaller. */
 #include <math.h>
 #include <stdio.h>
 

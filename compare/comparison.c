@@ -54,7 +54,7 @@ double comparison_waveform_error(const hbm_measures *hbm, int n_harm, const doub
   return errors_between(hbm, n_harm, X, tr).waveform;
 }
 
-/* Where a slider is free the mean is a matter of history, and not held against HBM. */
+/* The mean is not compared where a slider never slips. */
 static bool within_limits(const compare_setup *setup, const discrepancy *e, const timeint_result *tr)
 {
   return gate_limits_hold(setup->limits, tr->omega, e, motion_mean_is_free(tr));

@@ -27,7 +27,7 @@ static void sort_unique(number_list *list)
   list->n = n;
 }
 
-/* length[k]: way along the drawn curve from its start to point k. */
+/* length[k]: arc length of the plotted curve from its start to point k. */
 static hc_status drawn_lengths(hbm_solver *hbm, const hbm_curve *c, double *amplitude, double *length)
 {
   double top = 0, span = fabs(c->points[c->n - 1].omega - c->points[0].omega);

@@ -1,4 +1,4 @@
-/* patience.h - a monitor that gives up after so many ticks, and knows whether it was that or a request to stop. */
+/* patience.h - a monitor that stops after a number of ticks; `stopped` tells a request to stop from that. */
 #ifndef HC_PATIENCE_H
 #define HC_PATIENCE_H
 
@@ -10,7 +10,7 @@ typedef struct patience {
   bool stopped; /* on request */
 } patience;
 
-/* Newton on the period map takes 4 to 15 periods, a tick each; what takes longer does not arrive. */
+/* Newton on the period map takes 4 to 15 periods, a tick each, where it converges. */
 enum { PATIENCE_PERIODS = 40 };
 
 static inline bool patience_tick(void *self, double done)

@@ -1,11 +1,11 @@
-/* response.h - what is said about an HBM response curve: a row a solution, and the curve as a whole. */
+/* response.h - what is reported of an HBM response curve: one row for each solution, and a summary of the curve. */
 #ifndef HC_RESPONSE_H
 #define HC_RESPONSE_H
 
 #include "compare/compare_settings.h"
 #include "hbm/hbm.h"
 
-/* One solution, with what one wants to know of it. */
+/* One solution, its measures and its stability. */
 typedef struct response_row {
   hbm_point point;
   hbm_measures measures;
@@ -20,7 +20,7 @@ hc_status response_row_of(hbm_solver *s, const hbm_curve *c, int k, response_row
 hc_status response_at(hbm_solver *s, const hbm_curve *curve, const number_list *at, hbm_curve *found,
                       double *failed_at);
 
-/* A whole curve in a few numbers; the peak is NaN where there is none. */
+/* A summary of the whole curve; the peak is NaN where there is none. */
 typedef struct response_summary {
   int harmonics, samples, points, rejected, turning_points; /* samples: 0 for exact forces */
   long iterations, evaluations;

@@ -1,4 +1,4 @@
-/* steady_states.h - the steady states of a scene by time integration at the frequencies of compare.omega, from where
+/* steady_states.h - the steady states of a model by time integration at the frequencies of compare.omega, from where
  * transient.start says: on each HBM solution's orbit, at rest, or swept from an end of the sweep, as on a shaker. */
 #ifndef HC_STEADY_STATES_H
 #define HC_STEADY_STATES_H

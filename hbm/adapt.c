@@ -1,5 +1,5 @@
 /* adapt.c - see adapt.h. Harmonics change along the curve, as far as the last point needs. Samples do not: the curve
- * of sampled equations turns elsewhere for another N, so one that needs more samples starts again with twice as many. */
+ * of sampled equations turns elsewhere for another N, so one that needs more starts again with twice as many. */
 #include "hbm/adapt.h"
 
 #include <math.h>

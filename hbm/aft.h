@@ -9,8 +9,8 @@
 
 typedef struct aft aft;
 
-/* A workspace for the contacts of m (copied), n_harm >= 1 harmonics and n_time >= 2 n_harm + 1 samples a period, even or
- * odd. HC_BAD_INPUT, HC_NO_MEMORY: *out is NULL. */
+/* A workspace for the contacts of m (copied), n_harm >= 1 harmonics and n_time >= 2 n_harm + 1 samples a period, even
+ * or odd. HC_BAD_INPUT, HC_NO_MEMORY: *out is NULL. */
 hc_status aft_new(const model *m, hbm_restart restart, int n_harm, int n_time, aft **out);
 void aft_free(aft *a);
 

@@ -61,7 +61,7 @@ static void fill_chord(path *p)
   for (int i = 0; i < p->curve->n_coef; ++i) p->chord[i] = p->X[i] - X0[i];
 }
 
-/* Turn the trial's tangent forward. Returns cos of the angle to the last tangent; *forward: the step went along both. */
+/* Turn the trial's tangent forward. Returns cos of the angle to the last one; *forward: the step goes along both. */
 static double orient(path *p, bool *forward)
 {
   const hbm_curve *c = p->curve;

@@ -145,8 +145,8 @@ static void add_piece(exact_force *e, const moving_contact *c, const contact_pie
   }
 }
 
-/* While contact j is open its preload N0 is missing: C gets -N0 there. While it is closed, N - N0 is computed without N0
- * (contact_normal_change). */
+/* While contact j is open its preload N0 is missing: C gets -N0 there. While it is closed, N - N0 is computed without
+ * N0 (contact_normal_change). */
 static void add_openings(exact_force *e, int j, double *C)
 {
   const moving_contact *c = &e->contacts[j];

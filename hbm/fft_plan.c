@@ -7,8 +7,8 @@
 
 static pthread_mutex_t planner = PTHREAD_MUTEX_INITIALIZER;
 
-/* FFTW's planner aborts if an allocation of its own fails. What it allocates grows with n, so room for 64 n bytes is asked
- * for. */
+/* FFTW's planner aborts if an allocation of its own fails. What it allocates grows with n, so room for 64 n bytes is
+ * asked for. */
 static bool room_for_plan(int n) { return hc_room_for(64 * (size_t)n); }
 
 hc_status fft_plan_to_samples(int n, fftw_complex *spectrum, double *samples, fftw_plan *plan)

@@ -1,7 +1,7 @@
-/* refine.h - the error of a solution by truncation or sampling, estimated by one Newton step on finer equations. With R'
- * the residual of twice the harmonics (or samples), J' its Jacobian and X the solution padded with zeros,
- * X - J'^-1 R'(X) is their solution to second order, so |J'^-1 R'(X)| / |X| estimates the relative error of X, low
- * harmonics included. The difference of solutions for H and H + 1 is no estimate: convergence in H is not monotone. */
+/* refine.h - the error of a solution by truncation or sampling, estimated by one Newton step on finer equations. With
+ * R' the residual of twice the harmonics (or samples), J' its Jacobian and X the solution padded with zeros, X - J'^-1
+ * R'(X) is their solution to second order, so |J'^-1 R'(X)| / |X| estimates the relative error of X, low harmonics
+ * included. The difference of solutions for H and H + 1 is no estimate: convergence in H is not monotone. */
 #ifndef HC_REFINE_H
 #define HC_REFINE_H
 

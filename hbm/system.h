@@ -4,8 +4,8 @@
  *     Z_h = [ K - M h^2 omega^2      C h omega       ]      on (a_h, b_h);   Z_0 = K
  *           [    - C h omega     K - M h^2 omega^2   ]
  *
- * F: contact force harmonics. lambda = phi = 1 but for the ramps of first_solution.c. Without harmonic 0 (the paper's mode)
- * X[0] = 0 and row 0 is dropped. Vectors have 2H+1 entries, X[0] included; the unknowns are the n entries from
+ * F: contact force harmonics. lambda = phi = 1 but for the ramps of first_solution.c. Without harmonic 0 (the paper's
+ * mode) X[0] = 0 and row 0 is dropped. Vectors have 2H+1 entries, X[0] included; the unknowns are the n entries from
  * X[first] on. */
 #ifndef HC_SYSTEM_H
 #define HC_SYSTEM_H
@@ -32,8 +32,8 @@ typedef struct hbm_system {
 hc_status hbm_system_init(hbm_system *sys, const model *m, const hbm_settings *how, int n_harm, int n_time);
 void hbm_system_clear(hbm_system *sys);
 
-/* Contact force and its Jacobian at X into sys->F, sys->dF; nothing to do if X is where it was evaluated last. Errors of
- * aft_eval and exact_force_eval. */
+/* Contact force and its Jacobian at X into sys->F, sys->dF; nothing to do if X is where it was evaluated last. Errors
+ * of aft_eval and exact_force_eval. */
 hc_status hbm_system_contact(hbm_system *sys, const double *X);
 
 /* R[n] at X[n_coef]. HC_NOT_FINITE rather than a NaN. */

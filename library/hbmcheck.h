@@ -6,10 +6,10 @@
  *     N_j = max(kn (v_j + gap), 0), N0_j = max(kn gap, 0)
  *     T_j: a spring kt behind a Coulomb slider, |T_j| <= mu N_j
  *
- *     hbmcheck_case_read   -> hbmcheck_case    what a case file says: oscillator, contacts, sweep, settings, limits
- *     hbmcheck_curve_trace -> hbmcheck_curve       its HBM response curve; hbmcheck_curve_at: solutions at an omega
- *     hbmcheck_transient_run -> hbmcheck_transient   its steady states by time integration
- *     hbmcheck_comparison_run -> hbmcheck_comparison   both at the same frequencies, with verdicts
+ *     hbmcheck_case_read       what a case file says: oscillator, contacts, sweep, settings, limits
+ *     hbmcheck_curve_trace     its HBM response curve; hbmcheck_curve_at: every solution at an omega
+ *     hbmcheck_transient_run   its steady states by time integration
+ *     hbmcheck_comparison_run  both at the same frequencies, with verdicts
  *
  * Units: any consistent set; [length], [force], [time] are the case's. omega is in rad per unit time.
  * Handles: opaque; each has its _free, which takes NULL. A result owns its memory and outlives the case. Pointers to
@@ -68,7 +68,8 @@ const char *hbmcheck_status_text(hbmcheck_status status);
 
 /* Long work calls tick now and then, in the thread that does the work: done is the fraction finished, 0..1, or
  * negative where it is not known. Answer 0 to stop: the work returns HBMCHECK_INTERRUPTED. Anything else: go on.
- * To stop at Ctrl-C, let the signal handler set a flag and tick look at it. A monitor may be NULL, and so may tick. */
+ * To stop at Ctrl-C, let the signal handler set a flag and tick look at it. tick must return: memory is lost if it
+ * jumps or throws out of the library. A monitor may be NULL, and so may tick. */
 typedef struct hbmcheck_monitor {
   int (*tick)(void *self, double done);
   void *self; /* the caller's, handed to tick */
@@ -85,7 +86,8 @@ typedef struct hbmcheck_case hbmcheck_case;
 hbmcheck_status hbmcheck_case_read(const char *path, int n_set, const char *const *set, char *message, size_t size,
                                    hbmcheck_case **out);
 
-/* The same from text[length]; name stands for the file in messages. No HBMCHECK_IO. */
+/* The same from text[length]; name stands for the file in messages. HBMCHECK_OK; HBMCHECK_BAD_INPUT,
+ * HBMCHECK_NO_MEMORY: *out is NULL. */
 hbmcheck_status hbmcheck_case_parse(const char *name, const char *text, size_t length, int n_set,
                                     const char *const *set, char *message, size_t size, hbmcheck_case **out);
 
@@ -223,10 +225,11 @@ typedef struct hbmcheck_steady {
 typedef struct hbmcheck_transient hbmcheck_transient;
 
 /* The steady states of c at omega[n], each > 0 and finite, 0 <= n <= HBMCHECK_MAX_OMEGAS; n = 0: at the case's own
- * compare.omega (omega may be NULL then). Each starts where the case's transient.start says: on each HBM solution's
- * orbit (one steady state a solution), at rest, or swept from an end of the sweep. HBMCHECK_OK also where single states
- * failed: they say so. HBMCHECK_BAD_INPUT (also: n = 0 and the case has no compare.omega), HBMCHECK_NO_MEMORY: *out is
- * NULL. HBMCHECK_INTERRUPTED. */
+ * compare.omega (omega may be NULL then). Equal ones count once; results are in ascending order, in descending order
+ * for transient.start: down. Each starts where transient.start says: on each HBM solution's orbit (one steady state a
+ * solution), at rest, or swept from an end of the sweep. HBMCHECK_OK also where single states failed: they say so.
+ * HBMCHECK_BAD_INPUT (also: n = 0 and the case has no compare.omega), HBMCHECK_NO_MEMORY: *out is NULL.
+ * HBMCHECK_INTERRUPTED. */
 hbmcheck_status hbmcheck_transient_run(const hbmcheck_case *c, int n, const double *omega,
                                        const hbmcheck_monitor *monitor, hbmcheck_transient **out);
 
@@ -274,8 +277,8 @@ typedef struct hbmcheck_row {
   double multiplier;                /* [1] modulus of the HBM solution's largest Floquet multiplier; NaN: not known */
   double hbm_amplitude;             /* [length] NaN: no HBM solution */
   double transient_amplitude;       /* [length] NaN: no transient */
-  double
-      orbit_amplitude; /* [length] of the exact law's orbit next to the HBM solution, stable or not; NaN: not found */
+  /* [length] of the exact law's periodic orbit next to the HBM solution, stable or not; NaN: not found */
+  double orbit_amplitude;
   double amplitude_error;  /* [1] |difference of (max - min)/2| */
   double harmonic_1_error; /* [1] |difference of |a1 + i b1|| */
   double mean_error;       /* [1] |difference of the means| */

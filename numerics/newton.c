@@ -2,7 +2,7 @@
  *   a NaN residual is "success" for KIN_NONE and an endless loop for KIN_LINESEARCH   a positive return refuses z
  *   the default longest step is 1000 |z0|, which is 0 from z = 0                      max_step is always set
  *   the Jacobian is kept for 10 iterations                                            one setup an iteration
- *   KIN_STEP_LT_STPTOL is positive, and may be a stall                                the residual is evaluated again */
+ *   KIN_STEP_LT_STPTOL is positive, and may be a stall                                the residual decides */
 #include "numerics/newton.h"
 
 #include <kinsol/kinsol.h>

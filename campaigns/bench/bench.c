@@ -10,8 +10,7 @@
 #include "campaigns/bench/scipy.h"
 
 enum { MOST_SETTINGS = 8, MOST_ROWS = 128, FEWEST = 3 };
-static const double enough = 0.25; /* [s] a row that has taken as long is repeated no more, once it has been FEWEST
-                                      times */
+static const double enough = 0.25; /* [s] a row measured FEWEST times and for as long is repeated no more */
 
 /* A method's settings: every a with every b. a: harmonics or regularisation, b: samples or tolerance; 0 is none. */
 typedef struct family {
@@ -32,13 +31,13 @@ static const family families[] = {
 };
 enum { N_FAMILIES = sizeof families / sizeof *families };
 
-/* The work on one place. */
+/* What the functions below have at hand: the settings, one frequency's start and its trials, the result. */
 typedef struct workspace {
   const scene *sc;
   const bench_options *options;
   const hc_monitor *outer;
-  double from, width, done; /* of the whole work: where this place begins, its share, and how much of the share is
-                               done */
+  double from, width,
+      done; /* [1] progress: where this frequency begins, its part of the whole, the part of that done */
   hc_monitor monitor;
   place_start start;
   trial *trials;
@@ -96,7 +95,8 @@ static hc_status add_family(bench *b, const family *f, double omega)
   return st;
 }
 
-/* Marching, did a row with no finer settings take too long? (Shooting's time goes up and down with luck.) */
+/* Of a row that marches: did one with settings no finer take too long? Not asked of shooting, whose time does not rise
+ * with finer settings. */
 static bool hopeless(const bench_row *rows, int i)
 {
   if (rows[i].method != BENCH_EXACT_MARCHING && rows[i].method != BENCH_REGULARISED_MARCHING) return false;

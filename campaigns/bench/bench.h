@@ -1,5 +1,4 @@
-/* bench.h - work against precision: what every method costs at one frequency, and how far off it is. The way into
- * this folder.
+/* bench.h - work against precision: time and error of every method at one frequency. The header of this folder.
  *
  *     reference    the exact law's periodic orbit at omega, by shooting as tight as rounding allows
  *     error        |amplitude - reference's| / reference's amplitude; error_harmonic_1 likewise of |a1 + i b1|
@@ -52,12 +51,12 @@ typedef struct bench_row {
   bench_outcome outcome;
   hc_status status;
   double error, error_harmonic_1; /* [1] NaN unless solved */
-  double error_finer; /* [1] the largest error at these or finer settings of the method: what one may count on, and
-                         not luck */
+  double error_finer;        /* [1] the largest error at these or finer settings of the method: a coarse setting that is
+                         accurate by chance does not count */
   double seconds, low, high; /* [s] median and quartiles over `repeats` */
   int repeats;
   double curve_seconds; /* [s] hbm_exact: the whole response curve; else NaN */
-  bool front;           /* no row is both as near and as fast, and better in one: by error_finer */
+  bool front;           /* Pareto front: no row has error_finer and seconds no larger, and one of them smaller */
 } bench_row;
 
 /* One frequency. */

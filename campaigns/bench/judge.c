@@ -1,4 +1,5 @@
-/* judge.c - which rows are worth their time: names, settings, the Pareto front, the cheapest way. No solver here. */
+/* judge.c - the Pareto front of error and time, the cheapest row within an accuracy; names and settings in words. No
+ * solver here. */
 #include <math.h>
 #include <stdio.h>
 

@@ -71,7 +71,7 @@ static hc_status exact_orbit(const scene *sc, double omega, transient_steady ste
   return st;
 }
 
-/* By shooting, at the tightest decade of tolerance at which rounding lets it converge. */
+/* By shooting, at the smallest power of ten as tolerance at which it converges in spite of rounding. */
 static hc_status tightest_orbit(const scene *sc, double omega, const hc_monitor *monitor, scene_state *state,
                                 timeint_result *r, double *floor)
 {
@@ -83,7 +83,7 @@ static hc_status tightest_orbit(const scene *sc, double omega, const hc_monitor 
   return st;
 }
 
-/* Where that was a coarse one: by waiting, from there. */
+/* Where shooting stopped at a coarse tolerance: the orbit by marching, from there. */
 static hc_status wait_for(const scene *sc, double omega, const hc_monitor *monitor, scene_state *state,
                           timeint_result *r, double *floor)
 {

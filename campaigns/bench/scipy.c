@@ -58,8 +58,8 @@ static void fill(arguments *a, const char *python, const scene *sc, const place_
   }
 }
 
-/* Its standard error goes nowhere: a message of Python's is none of ours. Signals are as they were for a program
- * started afresh. */
+/* Its standard error goes to /dev/null, so that messages of Python's are not taken for ours. Signals are handled as in
+ * a new program. */
 static bool start(child *c, arguments *a)
 {
   int ends[2];

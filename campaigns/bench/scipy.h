@@ -1,5 +1,5 @@
-/* scipy.h - the same steady state by scipy's LSODA, as many people compute it: a process of python3 runs the script
- * in scipy_script.c. */
+/* scipy.h - the same steady state by scipy's LSODA without events, which is a usual way: python3 runs the script in
+ * scipy_script.c as a process. */
 #ifndef HC_BENCH_SCIPY_H
 #define HC_BENCH_SCIPY_H
 

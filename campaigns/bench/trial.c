@@ -16,7 +16,7 @@ static const double shortest_run = 5e-4; /* [s] the clock is good to a microseco
 static const double other_orbit = 0.3;   /* [amplitude] of the waveform: few harmonics are some ten percent off,
                                           another orbit is elsewhere */
 
-/* A monitor that also stops what takes too long. */
+/* A monitor that also stops at a limit of processor time. */
 typedef struct limit {
   const hc_monitor *outer;
   double until;
@@ -94,7 +94,7 @@ static double solve(trial *t, const place_start *at, const hc_monitor *monitor, 
   return took / t->batch;
 }
 
-/* The method's own curve knows its solution at the neighbour: the largest there. */
+/* Start from the largest solution at the neighbour on the method's own curve. */
 static hc_status from_own_curve(const place_start *at, const hc_monitor *monitor, trial *t)
 {
   limit l = {monitor, thread_seconds() + bench_longest_shot, false};

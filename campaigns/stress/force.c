@@ -1,8 +1,8 @@
 /* force.c - checks of the contact force alone: one motion, no equation to solve.
  *
  * The motion has the scene's H harmonics, falling like 1/h^2, and is large enough to cross the widest gap. A slider
- * stuck all period may rest anywhere, and where it does rest depends on where the walk over the period began: there
- * the mean force is left out. */
+ * stuck all period may rest anywhere, and the two evaluations may leave it at different places: there the mean force is
+ * not compared. */
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -62,7 +62,7 @@ static double size(const scene *sc, const double *X, int p)
   return sum;
 }
 
-/* Most force per displacement of x, in whatever state the contacts are. */
+/* A bound of |d force/d x| over all states of the contacts. */
 static double stiffness(const scene *sc)
 {
   double k = 0;
@@ -113,7 +113,7 @@ static double largest(const scene *sc, const force *f)
  *     kinks           jumps of f' of at most S X1, d^2/8 each
  *     the slider      comes to rest between samples, off by at most |w''| d^2/8, w'' made of u'' and (mu kn/kt) v'';
  *                     stays so all period: S X2 d^2/4
- * with S all stiffnesses, Xp = sum h^p |X_h|. Twice that for what the terms do to each other. */
+ * with S all stiffnesses, Xp = sum h^p |X_h|. The bound is twice their sum, for products of these errors. */
 static double sampling(const scene *sc, const double *X, const force *f, int n_time, int h)
 {
   double d = TWO_PI / n_time, x0 = fabs(X[0]) + size(sc, X, 0), x1 = size(sc, X, 1), x2 = size(sc, X, 2);
@@ -185,9 +185,9 @@ stress_check stress_check_shift(solved_scene *s)
   return stress_agree(error, error == 0 ? 0 : rounding(sc, X) / largest(sc, &f));
 }
 
-/* A stuck or separated contact pushes back by where the mass is, whichever way it goes; friction does not. Where the
- * motion slips, the scene is given so much friction that a contact which closes never slips; if it slips still
- * (preloaded), there is nothing to check. */
+/* The force of a contact that sticks or is separated depends on x alone, so that the reversed motion has the reversed
+ * force; slip breaks this. Where the motion slips, the scene is given so much friction that a contact which closes
+ * never slips; where it slips still (preloaded contacts), the check is skipped. */
 stress_check stress_check_reflection(solved_scene *s)
 {
   scene sc = *s->sc;

@@ -1,12 +1,12 @@
-/* invariance.c - checks of what no choice of ours may change: units, and the balance of work. */
+/* invariance.c - checks of units, which no result may depend on, and of the balance of work over a period. */
 #include <math.h>
 #include <string.h>
 
 #include "campaigns/stress/scenes.h"
 #include "campaigns/stress/solved_scene.h"
 
-/* How much more than its data a solution moves: every datum is moved by `nudge`, up and down in turn, and HBM solved
- * again. */
+/* The condition of a solution: its relative change over that of its data, each datum changed by `nudge`, up or down in
+ * turn. At least 1; INFINITY where HBM then fails. */
 static double sensitivity(solved_scene *s, const stress_solution *from)
 {
   const double nudge = 1e-9;
@@ -63,10 +63,9 @@ stress_check stress_check_units(solved_scene *s)
                             : stress_find(STRESS_DISAGREES, decimal, allowed);
 }
 
-/* Work per period, divided by pi:   F0 b1 = C omega sum h^2 (a_h^2 + b_h^2) + contacts,   contacts >= 0, and = 0
- * where nothing slips. It holds for the truncated equations as it does for the oscillator: the force is the exact
- * one of the truncated motion, which is a motion like any other. Bound: the residual's tolerance, relative to each
- * harmonic's forces, times how far they go. */
+/* Work per period, divided by pi:   F0 b1 = C omega sum h^2 (a_h^2 + b_h^2) + contacts,   contacts >= 0, and = 0 where
+ * nothing slips. It holds for the truncated equations, too, since their force is the exact one of the truncated motion.
+ * Bound: the residual's tolerance, relative to each harmonic's forces, times the displacements they act along. */
 stress_check stress_check_energy(solved_scene *s)
 {
   const scene *sc = s->sc;

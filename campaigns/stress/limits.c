@@ -1,9 +1,8 @@
 /* limits.c - checks that one method tends to another: samples to exact forces, harmonics to the orbit,
  * regularisation to the exact law.
  *
- * Close enough means 1e-6 of the amplitude (the sum of the two tolerances where those are larger). What is farther
- * off must come nearer when the cause is halved, or say by how much it is off when its own estimate is asked; else
- * it is a finding. */
+ * Differences up to 1e-6 of the amplitude (or the two tolerances together, where that is more) agree. A larger one must
+ * shrink when its cause is made smaller, or lie within the method's own error estimate; else it is a finding. */
 #include <math.h>
 #include <string.h>
 
@@ -61,7 +60,7 @@ static double shoot_from(solved_scene *s, const stress_solution *h, stress_orbit
 
 static double tolerance_of(const stress_orbit *o) { return fmax(close_enough, 3 * o->r.closure); }
 
-/* HBM from an orbit found by time integration: is it a solution of HBM, too? Its harmonics from its wave. */
+/* How far HBM ends from an orbit found by time integration when it starts from that orbit's own harmonics. */
 static double confirm(solved_scene *s, const scene *sc, const stress_orbit *o)
 {
   double guess[STRESS_COEFFICIENTS];
@@ -72,14 +71,14 @@ static double confirm(solved_scene *s, const scene *sc, const stress_orbit *o)
   return h.status == HC_OK ? comparison_waveform_error(&h.m, h.n_harm, h.X, &o->r) : NAN;
 }
 
-/* Does the stuck mass oscillate too fast for n harmonics? Its ringing after each impact is what they would have to
- * follow. */
+/* Is the natural frequency of the stuck mass above a tenth of the n-th harmonic's? After each impact the mass
+ * oscillates at that frequency, and n harmonics do not resolve it. */
 static bool beyond_harmonics(const solved_scene *s, int n)
 {
   return sqrt(scene_max_stiffness(s->sc) / s->sc->mass) > 0.1 * n * s->omega;
 }
 
-/* How far doubling the harmonics moves the waveform, in units of the orbit's amplitude. */
+/* A bound of the change of the waveform by doubling the harmonics, relative to the orbit's amplitude. */
 static double moved(const stress_solution *h, const stress_solution *finer, double amplitude)
 {
   double sum = 0;
@@ -129,9 +128,9 @@ static double multiplier_error(const stress_solution *h, const stress_orbit *o)
   return fabs(h->stability.multiplier - o->r.multiplier) / fmax(1, o->r.multiplier);
 }
 
-/* Multipliers are those of an orbit and change with it, and at once where a transition appears: beyond a thousandth
- * they must come nearer with twice the harmonics (slowly, where a short hard contact is beyond them all), or the two
- * orbits run through different transitions. */
+/* A multiplier changes with the orbit, and by a jump where a transition appears or disappears. A difference above 1e-3
+ * is explained if it shrinks with twice the harmonics (to 0.8: slowly where a contact is short and stiff), or if the
+ * two orbits have different numbers of transitions. */
 stress_check stress_check_stability(solved_scene *s)
 {
   const double bound = 1e-3;
@@ -169,8 +168,8 @@ static double regularised(solved_scene *s, double regularisation, stress_orbit *
   return hypot(o->r.a1 - s->orbit.r.a1, o->r.b1 - s->orbit.r.b1) / s->orbit.r.amplitude;
 }
 
-/* First order in the regularisation, second in places, and never known beforehand which: less of it must come
- * nearer. */
+/* The error is of first or second order in the regularisation, which of them is not known beforehand: with a tenth of
+ * it, the difference must fall to a quarter or less. */
 stress_check stress_check_regularised(solved_scene *s)
 {
   if (s->orbit.status != HC_OK) return stress_skip(STRESS_NO_ORBIT);

@@ -36,7 +36,7 @@ enum {
 enum { KN, KT, MU, ANGLE, GAP, PER_CONTACT };
 enum { MOST_CONTACTS = 4, DIMENSIONS = CONTACT + MOST_CONTACTS * PER_CONTACT, MOST_OSCILLATIONS = 500 };
 
-static const double special = 0.05; /* share of a range that goes to its special point */
+static const double special = 0.05; /* part of a range's draws that go to its special point */
 
 struct stress_scenes {
   unsigned long seed;
@@ -82,7 +82,7 @@ static void point(stress_scenes *s, long index, double p[DIMENSIONS])
 
 static double geometric(double u, double from, double to) { return from * pow(to / from, u); }
 
-/* u beyond the share of the special point, spread over 0..1 again. */
+/* u beyond the part of the special point, mapped to 0..1 again. */
 static double beyond(double u) { return (u - special) / (1 - special); }
 
 static double angle(double u)
@@ -146,7 +146,7 @@ hc_status stress_scenes_at(stress_scenes *s, long index, scene *out)
   sc.hbm.keep_mean = p[KEEP_MEAN] < 0.8;
   sc.hbm.force = p[SAMPLED] < 0.3 ? HBM_FORCE_SAMPLED : HBM_FORCE_EXACT;
   sc.transient.law = p[LAW] < 0.5 ? TRANSIENT_LAW_REGULARISED : TRANSIENT_LAW_EXACT;
-  sc.transient.max_periods = 300; /* no verdict is got by waiting longer, only time spent */
+  sc.transient.max_periods = 300; /* a motion that has not settled by then is no check of anything */
   *out = sc;
   return HC_OK;
 }

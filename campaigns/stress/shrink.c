@@ -1,4 +1,4 @@
-/* shrink.c - a finding made small: the fewest contacts, harmonics and digits with which it still is one. */
+/* shrink.c - stress_shrink: the fewest contacts, harmonics and digits with which a finding is still one. */
 #include <stdio.h>
 #include <string.h>
 

@@ -1,14 +1,14 @@
-/* stress.h - random scenes, every method held against every other. The way into this folder.
+/* stress.h - random scenes, every method compared with every other. The header of this folder.
  *
  * A scene is a point of a Sobol sequence (scenes.h): seed and index make it again. On each, every check of
- * STRESS_CHECKS holds two ways to the same answer against each other and ends in one of four ways:
+ * STRESS_CHECKS compares two ways to the same answer and has one of these outcomes:
  *     agreed      within a bound that is derived where the check is
  *     explained   beyond it, for a reason that was itself computed (STRESS_REASONS): the difference shrinks with the
  *                 harmonics as it must, the scene is so ill-conditioned that it must differ by that much, ...
- *     refused     a solver said that it could not, and why; second worst
- *     finding     two methods say different things and nothing explains it: a fault of ours
- * or was skipped, having nothing to hold against each other. There is no fifth. Not here: how it is shown
- * (command/cmd_stress.c). */
+ *     refused     a solver failed, with its status
+ *     finding     two methods differ and no reason was found: an error of this program
+ *     skipped     there was nothing to compare
+ * Not here: how it is shown (command/cmd_stress.c). */
 #ifndef HC_STRESS_H
 #define HC_STRESS_H
 
@@ -107,8 +107,8 @@ typedef struct stress_watch {
  * with other checks; HC_IO: it cannot be written (errno says why). *resumed: scenes that the journal had. */
 hc_status stress_run(const stress_plan *plan, const stress_watch *watch, stress_result *results, long *resumed);
 
-/* A scene as small and round as it gets with `kind` still a finding: contacts dropped, digits dropped, fewer
- * harmonics. In place. */
+/* Simplify *sc while the check `kind` still ends in a finding: fewer contacts, fewer harmonics, numbers of one to three
+ * digits. */
 hc_status stress_shrink(scene *sc, stress_kind kind, double seconds, const hc_monitor *monitor);
 
 #endif

@@ -1,12 +1,11 @@
-/* verdict.c - the check that matters most: what `compare` tells its user, held against all that is known of the
- * scene by now.
+/* verdict.c - the verdicts of `compare`, checked against what the other checks have found of the scene.
  *
- *     match                 the HBM solution lies within the gate of the exact law's motion, but for what the
- *                           regularised law is said to cost
+ *     match                 all discrepancies are within the gate, and the waveform is within it of the exact law's
+ *                           orbit, too, but for the budget's error of the transient
  *     unstable              the orbit next to the HBM solution is unstable by time integration
- *     differs, other_branch, period_k, aperiodic, not_settled, solver_failed
- *                           say by themselves that there is no agreement: explained. But an orbit that HBM meets to
- *                           a hundredth of the gate, and that is stable, is no `differs` */
+ *     differs, other_branch some discrepancy is beyond the gate
+ *     period_k              k is 2 or more
+ * What is true of its verdict ends as agreed (match), refused (solver_failed) or explained (all others). */
 #include <math.h>
 
 #include "campaigns/stress/solved_scene.h"

@@ -1,4 +1,4 @@
-/* claims.h - what a study file claims, held against its results by SQL. The queries can read and nothing else. */
+/* claims.h - the claims of a study file, checked against its results by SQL. The queries cannot write. */
 #ifndef HC_STUDY_CLAIMS_H
 #define HC_STUDY_CLAIMS_H
 

@@ -6,8 +6,8 @@
 
 #include "campaigns/study/solve.h"
 
-/* Once, first: how many processes there are, and which this one is. false: started in several copies by a program
- * this build knows nothing of; each would do the same. */
+/* Once, first: how many processes there are, and which this one is. false: several copies were started by mpirun, but
+ * this build has no MPI, and each would compute the whole study. */
 bool cluster_start(int *rank, int *size);
 void cluster_end(void);
 
@@ -22,7 +22,7 @@ typedef struct cluster_desk {
   void *self;
 } cluster_desk;
 
-/* Answer whoever asks now; never waits for long. true: some process is still at work. */
+/* Answer the processes that are asking now; does not wait for others. true: some process is still at work. */
 bool cluster_serve(const cluster_desk *desk);
 
 /* The other ranks' side: compute what rank 0 hands out until there is no more. */

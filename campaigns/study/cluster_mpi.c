@@ -90,7 +90,7 @@ static bool compute(const study *s, long id, const hc_monitor *monitor)
 void cluster_work(const study *s, const hc_monitor *monitor)
 {
   bool good = true;
-  for (int n = 1; n > 0;) { /* also after an interrupt, until rank 0 has no more: it counts on hearing from everybody */
+  for (int n = 1; n > 0;) { /* also after an interrupt: rank 0 waits until every rank was told that there is no more */
     long ids[HANDFUL];
     MPI_Status answer;
     MPI_Send(NULL, 0, MPI_BYTE, 0, TAG_ASK, MPI_COMM_WORLD);

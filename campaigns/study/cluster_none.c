@@ -1,4 +1,4 @@
-/* cluster_none.c - cluster.h for a build without MPI: one process, and a warning for who starts several. */
+/* cluster_none.c - cluster.h for a build without MPI: one process, and a refusal where several are started. */
 #include <stdlib.h>
 
 #include "campaigns/study/cluster.h"

@@ -1,6 +1,6 @@
 /* run.c - see run.h. Threads take the next scene's number under one lock and hand the result to the store under
- * another; the calling thread watches, and answers other processes (cluster.h). The order in which scenes are kept
- * differs from run to run, what is kept does not. */
+ * another; the calling thread watches, and answers other processes (cluster.h). Scenes are stored in another order in
+ * each run, with the same results. */
 #include "campaigns/study/run.h"
 
 #include <stdlib.h>
@@ -122,7 +122,7 @@ hc_status study_run(const study *s, study_store *store, int jobs, const study_wa
   if ((st = study_store_done(store, p.taken, &p.there)) != HC_OK) workers_stop(&p.workers, st);
   long left = s->n_scenes - p.there;
   if (left < jobs) jobs = left > 0 ? (int)left : 1;
-  workers_start(&p.workers, jobs, work, &p); /* also with nothing left: other processes want to hear it */
+  workers_start(&p.workers, jobs, work, &p); /* also with nothing left: other processes wait to be told so */
   watch_over(&p, watch);
   const hc_status worst = workers_join(&p.workers);
   pthread_mutex_destroy(&p.writing);

@@ -18,7 +18,7 @@ rows_kind study_rows(const study *s)
   }
 }
 
-/* The first failure is the one that is told. omega <= 0: at no particular one. */
+/* The first failure is the one that is reported. omega <= 0: it is of no single frequency. */
 static void fail_with(study_result *r, const char *what, hc_status st, double omega)
 {
   if (r->failed) return;

@@ -1,7 +1,7 @@
 /* store.c - see store.h. Opening and refusing; the tables themselves: store_table.c.
  *
  * What is checked, in this order, before the first byte is written: the lock; SQLite's own first bytes and our
- * application id in them, read as a plain file, so that nobody else's file is even opened as a database; its
+ * application id in them, read as a plain file, so that no other file is ever opened as a database; its
  * integrity; schema, program version and fingerprint. */
 #include "campaigns/study/store_private.h"
 

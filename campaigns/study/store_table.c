@@ -86,7 +86,7 @@ void store_unprepare(study_store *st)
   sqlite3_finalize(st->put_row);
 }
 
-/* False: no memory for the text; the column would be NULL, and nobody the wiser. */
+/* False: no memory for the text. Unchecked, the column would be stored as NULL. */
 static bool bind_cell(sqlite3_stmt *q, int i, const row_cell *c)
 {
   if (!c->there) return sqlite3_bind_null(q, i) == SQLITE_OK;

@@ -14,7 +14,7 @@
 
 enum { LEAST_REFERENCE = 20, EXACT = 0 };
 
-static const double floor_of_orbits = 1e-8; /* [1] ten times what the referee's orbits are good for */
+static const double floor_of_orbits = 1e-8; /* [1] ten times the error of the referee's orbits */
 
 /* A curve and its price. */
 typedef struct traced {
@@ -150,7 +150,7 @@ static hc_status solve_exact(const workspace *w, traced *t, solutions *s)
   return st;
 }
 
-/* Two starts that came to the same solution: the one that came from farther away has none of its own. */
+/* Where two starts converged to the same solution, the one that came from farther away is dropped. */
 static void drop_doubles(const workspace *w, const solutions *from, solutions *s)
 {
   for (int a = 0; a < s->n; ++a)

@@ -1,6 +1,6 @@
-/* reference.c - see reference.h. The peak is looked for on the exact law's orbits themselves, by shooting, from the
- * peak of a curve that is near: three frequencies around it, then a search between them. Harmonic balance would have
- * to keep 160 harmonics for 1e-8 of it. */
+/* reference.c - see reference.h. The peak is that of the exact law's orbits, by shooting: three frequencies that
+ * enclose it, from the peak of the curve by harmonic balance, then a minimum search between them. By harmonic balance
+ * alone it would take 160 harmonics to know it to 1e-8. */
 #include "compare/accuracy/reference.h"
 
 #include <math.h>
@@ -11,8 +11,8 @@
 
 enum { PEAK_LEVELS = 6 };
 
-static const double reusable = 0.01; /* [amplitude] an orbit that near to a solution of the fine curve is the one
-                                        next to it */
+static const double reusable = 0.01; /* [amplitude] an orbit within this of a solution of the fine curve is taken as
+                                        the one next to it */
 
 static hc_status add_target(reference *r, double omega, const periodic_motion *orbit)
 {

@@ -1,4 +1,4 @@
-/* reference.h - what a table's rows are held against: the exact law's orbits at the compared frequencies, and the
+/* reference.h - what a table's rows are compared with: the exact law's orbits at the compared frequencies, and the
  * peak of its response. */
 #ifndef HC_REFERENCE_H
 #define HC_REFERENCE_H

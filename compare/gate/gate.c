@@ -192,7 +192,7 @@ void gate_clear(gate_case *g)
   *g = (gate_case){0};
 }
 
-/* ---- telling ---- */
+/* ---- what is shown ---- */
 
 double gate_shown(const gate_check *c)
 {
@@ -213,11 +213,10 @@ bool gate_is_worst(const gate_case *g, int i)
   for (int k = 0; k < g->n; ++k) {
     const gate_check *other = &g->checks[k];
     if (k == i || strcmp(other->quantity, c->quantity)) continue;
-    /* what is noise decides nothing */
+    /* as shown: what is below GATE_SLACK counts as 0, so that noise does not rank */
     double mine = gate_shown(c) / c->allowed, theirs = gate_shown(other) / other->allowed;
     if (theirs > mine || (!(mine > theirs) && k < i))
-      return false; /* of equals, and of those without numbers, the
-                                                                       first */
+      return false; /* of equal ones, and of those without numbers, the first is the worst */
   }
   return true;
 }

@@ -1,5 +1,4 @@
-/* gate.h - is this HBM result right, within the limits its case file sets? Pass or fail, for machines. The way into
- * this folder.
+/* gate.h - is this HBM result within the limits of its case file? Pass or fail, for scripts. The header of this folder.
  *
  * What each HBM solution of a comparison is held against:
  *     verdict match, differs                          the transient, which runs next to it
@@ -8,13 +7,12 @@
  *                                                     must match some HBM solution at its omega
  *     not_settled, solver_failed                      nothing: an error, and so is an orbit that was not found, and
  *                                                     a curve that stopped
- * The mean is not held against anything where a slider is free: it is a matter of history there. The limits:
- * gate_limits_at.
+ * The mean is not checked where a slider never slips: it depends on the history there, not on the equations alone. The
+ * limits: gate_limits_at.
  *
- * A number passes if found <= allowed (1 + GATE_SLACK); costs, being whole numbers, if found <= allowed. Both sides
- * are converged far beyond that, so what rounding does on another machine flips no verdict unless a limit is set to
- * a hair's breadth of what is found. Nothing is printed. Not here: how the two sides are compared
- * (compare/comparison.h). */
+ * A number passes if found <= allowed (1 + GATE_SLACK); costs, being whole numbers, if found <= allowed. Rounding on
+ * another machine changes numbers by far less than GATE_SLACK, so it changes a verdict only where a limit is equal to
+ * what is found within that. Nothing is printed. Not here: how the two sides are compared (compare/comparison.h). */
 #ifndef HC_GATE_H
 #define HC_GATE_H
 

@@ -3,7 +3,7 @@
  *
  * Fields are separated by semicolons, tabs, commas or blanks, whichever of these the first line has, in that order.
  * '#' starts a line of remarks; blank lines are skipped; a first line without a number is a header. CRLF and a byte
- * order mark are welcome; quotes are not known. */
+ * order mark are accepted; quotes have no meaning. */
 #ifndef HC_VERIFY_CSV_H
 #define HC_VERIFY_CSV_H
 

@@ -58,7 +58,7 @@ static void choose_rows(const verify_row **rows, int n, bool off, int most, veri
   }
 }
 
-/* Few enough for the plainest way of sorting. */
+/* Insertion sort by omega: there are at most MOST_DIFFERING + MOST_MATCHING. */
 static void sort(verify_sample *s)
 {
   for (int i = 1; i < s->n; ++i)
@@ -111,8 +111,8 @@ static double geometric_mean(int n, const double *d)
   return exp(sum / n);
 }
 
-/* What a part of them is within: half would not do, since where nothing happens at the contacts points fit whatever
- * was done there. */
+/* The distance that a part of them, nine of ten, is within. The median would not do: where the contacts do nothing,
+ * points fit any hypothesis about them. */
 static double within(int n, double *d, double part)
 {
   if (n == 0) return 0;

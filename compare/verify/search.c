@@ -1,10 +1,9 @@
-/* search.c - see search.h. In three stages, each only if the one before left something to explain:
+/* search.c - see search.h. In three stages, each only if no hypothesis of the one before is within the gate:
  *   exact    every number of harmonics with and without harmonic 0, and the linear limits, with every reading of the
  *            columns
  *   sampled  for the likeliest of these, every number of samples, from their solutions by Newton
  *   curves   the likeliest of the sampled along their own curves, which have solutions that no exact one is near to
- * What fits within the gate explains all that a verdict sees. A number of harmonics counts as a cause where the gate
- * sees it. */
+ * A number of harmonics counts as a cause where its solutions are farther than the gate from those of many. */
 #include "compare/verify/search.h"
 
 #include <math.h>
@@ -27,7 +26,7 @@ enum {
   USUAL_HARMONICS = 10
 };
 
-/* Exact equations: what is known of one number of harmonics, with or without harmonic 0. */
+/* The equations with exact forces and one number of harmonics, with or without harmonic 0. */
 typedef struct order {
   int harmonics;
   bool keep_mean;
@@ -215,8 +214,9 @@ static hc_status try_sampled(search *s, const order *o, int frequency, int low, 
   return st;
 }
 
-/* The orders whose samples are worth trying. With or without harmonic 0, if exact forces tell which, all of them;
- * else for both the case's own, many, and the two nearest. Numbers of s->orders. */
+/* The orders for which all numbers of samples are tried, as indices into s->orders. Where exact forces fit CLEARLY
+ * better with harmonic 0 than without, or the other way, all orders of that kind; else of both kinds the case's own
+ * number of harmonics, the largest, and the two that fit best. */
 static int choose_bases(const search *s, int bases[MOST_BASES])
 {
   int n = 0;
@@ -259,7 +259,7 @@ static hc_status try_bases(search *s, int frequency)
   return st;
 }
 
-/* Sampled equations have solutions that no exact one is near to. */
+/* The likeliest sampled equations along their own curves: Newton from exact solutions misses what is near none. */
 static hc_status try_curves(search *s, int frequency)
 {
   const int n = s->n_likely;
@@ -292,7 +292,7 @@ static hc_status try_everything(search *s)
   return st;
 }
 
-/* Another reading of the frequencies makes sense if it brings the points that differ to the sweep. */
+/* Another reading of the frequencies is tried if all points that differ are then within a factor 2 of the sweep. */
 static void choose_frequencies(search *s)
 {
   double low = fmin(s->setup->omega_from, s->setup->omega_to) / 2,

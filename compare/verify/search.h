@@ -5,7 +5,7 @@
 
 #include "compare/verify/verify.h"
 
-enum { VERIFY_LEAST_DIFFERING = 3 }; /* fewer points lie on anything */
+enum { VERIFY_LEAST_DIFFERING = 3 }; /* fewer points are met by many hypotheses, and tell none from another */
 
 /* out->rows are judged already; fills out->hypotheses, best first, and truth_distance. */
 hc_status verify_search(const compare_setup *setup, const verify_data *data, const hc_monitor *monitor,

@@ -1,4 +1,4 @@
-/* solutions.h - what equations that somebody may have solved have for solutions at given omegas; private to
+/* solutions.h - the solutions, at given omegas, of equations that the other program may have solved; private to
  * compare/verify/. */
 #ifndef HC_VERIFY_SOLUTIONS_H
 #define HC_VERIFY_SOLUTIONS_H

@@ -1,5 +1,6 @@
-/* truth.c - see truth.h. The number of harmonics starts at LEAST, or twice the case's, and is doubled until the
- * exact law's orbits agree to a tenth of the gate, so that what a verdict is worth is known and not hoped for. */
+/* truth.c - see truth.h. The number of harmonics starts at LEAST_HARMONICS, or twice the case's, and is doubled until
+ * the solutions are within a tenth of the gate of the exact law's orbits: a verdict is then wrong only for points
+ * within that of the limit. */
 #include "compare/verify/truth.h"
 
 #include <math.h>
@@ -49,7 +50,7 @@ typedef struct truth {
 
 /* ---- one point ---- */
 
-/* *st becomes HC_NO_MEMORY if that is why nobody knows. */
+/* +1, -1, or 0: unknown. *st becomes HC_NO_MEMORY if that is why. */
 static int stable_at(truth *t, double omega, const double *X, hc_status *st)
 {
   hbm_stability s;
@@ -74,7 +75,7 @@ static int nearest_of(truth *t, const hbm_curve *at, double value, hbm_measures 
   return best;
 }
 
-/* Every solution at omega; where the curve did not come, one by itself. HC_NO_MEMORY. */
+/* Every solution of the curve at omega; where the curve ended before, one found without it. HC_NO_MEMORY. */
 static hc_status solve_at(truth *t, double omega, hbm_curve *at)
 {
   if (omega < fmin(t->from, t->to) || omega > fmax(t->from, t->to)) return HC_OK;
@@ -128,7 +129,7 @@ static hc_status judge_point(truth *t, const verify_point *p, verify_row *row)
 
 /* ---- the referee ---- */
 
-/* What the orbit next to the row's solution has for the quantity. A mean that is a matter of history is left out. */
+/* The file's quantity, of the orbit next to the row's solution. */
 static double orbit_quantity(const truth *t, const timeint_result *orbit)
 {
   if (t->data->quantity == VERIFY_HARMONIC_1) return orbit->harmonic_1;

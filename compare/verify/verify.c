@@ -1,6 +1,6 @@
-/* verify.c - see verify.h. Here: the order of things, and what can be told from verdicts alone, which is whether the
- * points run along the right branch. A curve that shows unstable branches beside the stable ones is a whole curve;
- * one that shows them alone was led astray. */
+/* verify.c - see verify.h. Here: the order of the steps, and the causes that follow from the verdicts alone: points on
+ * an unstable branch, and points that change the branch. A curve with unstable branches beside the stable ones is the
+ * whole curve; one with unstable points where a stable branch exists, and none on that, followed the wrong branch. */
 #include "compare/verify/verify.h"
 
 #include <math.h>
@@ -9,7 +9,8 @@
 #include "compare/verify/search.h"
 #include "compare/verify/truth.h"
 
-/* Unstable where there is something stable, and no point on that: over all of the stretch in question. */
+/* Are there points on an unstable branch where a stable one exists, and none on a stable one between the first and the
+ * last of them? */
 static bool only_unstable(const verify_report *r)
 {
   double low = INFINITY, high = -INFINITY;
@@ -26,6 +27,7 @@ static bool only_unstable(const verify_report *r)
   return low <= high;
 }
 
+/* Do the omegas ascend or descend strictly, one value each? */
 static bool one_value_each(const verify_report *r)
 {
   double way = r->n_rows > 1 ? r->rows[1].omega - r->rows[0].omega : 0;
@@ -34,7 +36,8 @@ static bool one_value_each(const verify_report *r)
   return true;
 }
 
-/* Runs on a stable branch whose neighbours before and after are on another one that goes on all the while. */
+/* Stretches of points on one stable branch, between points on another that exists along all of the stretch, get the
+ * verdict other_branch. True if there are any. */
 static bool mark_hops(verify_report *r)
 {
   bool any = false;

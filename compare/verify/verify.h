@@ -1,13 +1,12 @@
-/* verify.h - somebody else's response curve held against ours, and why it is off: the way into this folder.
+/* verify.h - a response curve of another program compared with ours, and the likely cause of what differs. The header
+ * of this folder.
  *
- *     truth       the solutions of harmonic balance with exact forces and many harmonics at the file's omegas,
- *                 themselves held against the exact law's periodic orbits (the referee of comparison.h) at some of
- *                 them
+ *     truth       the solutions of harmonic balance with exact forces and many harmonics at the file's omegas, compared
+ *                 at some of them with the exact law's periodic orbits (the referee of comparison.h)
  *     verdict     per point, against the nearest of those solutions: match, differs, unstable, other_branch,
  *                 solver_failed
- *     hypotheses  our own harmonic balance, spoiled as people spoil theirs, and the curve read as people misread
- *     columns: the one that the
- *                 points lie on names the cause
+ *     hypotheses  our own harmonic balance with usual mistakes in it, and usual misreadings of the columns: the one that
+ *                 the points lie on names the cause
  *
  * What is not connected to the branch that begins at the sweep's first omega is not seen. Nothing is printed. */
 #ifndef HC_VERIFY_H
@@ -18,7 +17,7 @@
 #include "compare/comparison.h"
 #include "compare/verify/csv.h"
 
-/* One bit each: what can have been done to a curve. Words for scripts, and for people. */
+/* One bit each: a mistake, its word in csv and json, its meaning, its remedy. */
 #define VERIFY_CAUSE_LIST(X)                                                                                           \
   X(CAUSE_NO_STATIC, "no_static_harmonic", "harmonic 0 is missing", "keep harmonic 0")                                 \
   X(CAUSE_HARMONICS, "too_few_harmonics", "too few harmonics", "keep more harmonics")                                  \
@@ -52,7 +51,7 @@ const char *verify_cause_words(unsigned causes, char text[VERIFY_TEXT]);
 
 typedef enum verify_contact { VERIFY_CONTACT_AS_IT_IS, VERIFY_CONTACT_NONE, VERIFY_CONTACT_STUCK } verify_contact;
 
-/* Equations that somebody may have solved. */
+/* Equations that the other program may have solved. */
 typedef struct verify_equations {
   verify_contact contact;
   bool keep_mean;
@@ -81,7 +80,7 @@ typedef struct verify_row {
   double nearest;   /* the quantity of that; NaN: none */
   double amplitude; /* [length] of that */
   int stable;       /* +1, -1, 0 unknown */
-  bool stable_too;  /* a stable solution exists at omega */
+  bool stable_too;  /* some solution at omega is stable */
   double error;     /* [1] |value - nearest|/amplitude */
   verdict verdict;
 } verify_row;

@@ -33,13 +33,14 @@ static scene one_contact(double kt, double kn, double mu, double gap, double ang
   return sc;
 }
 
-/* What one evaluation in a workspace of its own tells. */
-typedef struct told {
+/* What one evaluation in a workspace of its own finds besides the force. */
+typedef struct aft_result {
   contact_report report;
   double w[SCENE_MAX_CONTACTS]; /* sliders at th = 0 */
-} told;
+} aft_result;
 
-static hc_status eval_once(const scene *sc, int n_harm, int n_time, const double *X, double *F, double *jac, told *out)
+static hc_status eval_once(const scene *sc, int n_harm, int n_time, const double *X, double *F, double *jac,
+                           aft_result *out)
 {
   aft *a;
   hc_status st = scene_aft(sc, n_harm, n_time, &a);
@@ -75,7 +76,7 @@ static void unilateral_spring(void **state)
         int N = sizes[i];
         double gap = gaps[j], shift = k * 0.37, X[2 * H + 1] = {0, A}, Y[2 * H + 1], F[2 * H + 1], G[2 * H + 1];
         scene sc = one_contact(2, kn, 0.3, gap, 90);
-        told got;
+        aft_result got;
         shift_motion(H, X, shift, Y);
         assert_int_equal(eval_once(&sc, H, N, Y, F, NULL, &got), HC_OK);
         shift_motion(H, F, -shift, G);
@@ -131,7 +132,7 @@ static void jenkins_element(void **state)
     for (int j = 0; j < 8; ++j) {
       int N = sizes[i];
       double s = 2 * PI / N, shift = j * s / 8, X[2 * H + 1] = {0, A}, Y[2 * H + 1], F[2 * H + 1], G[2 * H + 1];
-      told got;
+      aft_result got;
       shift_motion(H, X, shift, Y);
       assert_int_equal(eval_once(&sc, H, N, Y, F, NULL, &got), HC_OK);
       shift_motion(H, F, -shift, G);
@@ -221,7 +222,7 @@ static void agrees_with_the_slow_way(void **state)
       scene sc = random_contacts(&seed, 1 + trial % 4);
       sc.hbm.restart = trial % 2 ? HBM_RESTART_SAMPLE : HBM_RESTART_INTERPOLATED;
       random_motion(&seed, H, 1, trial % 3, X);
-      told got;
+      aft_result got;
       assert_int_equal(eval_once(&sc, H, N, X, F, NULL, &got), HC_OK);
       slow_force(&slow, &sc, H, N, X, slowF);
       double tolerance = slow_tolerance(&sc, H, N, X);
@@ -239,8 +240,8 @@ static void agrees_with_the_slow_way(void **state)
 
 /* A step of the law maps w to the nearest point of an interval (or to a constant, after a separation). Such maps are
  * closed under composition, so a period is one too, and applying it twice is applying it once: a second period finds
- * the slider settled, whatever the motion. Exactly in exact arithmetic; the clamp's ends carry a few eps. aft.c
- * relies on it and answers HC_NOT_CLOSED if it fails. */
+ * the slider settled, whatever the motion. That is exact but for rounding: the clamp's ends have errors of a few eps.
+ * aft.c relies on it and returns HC_NOT_CLOSED if it fails. */
 static void the_slider_closes_in_one_pass(void **state)
 {
   (void)state;
@@ -277,7 +278,7 @@ static void contacts_add(void **state)
     scene sc = random_contacts(&seed, trial % 10 ? 4 : SCENE_MAX_CONTACTS);
     double stiffness = 0;
     random_motion(&seed, H, 1, 1, X);
-    told all, single;
+    aft_result all, single;
     assert_int_equal(eval_once(&sc, H, N, X, F, jac, &all), HC_OK);
     memset(sum, 0, sizeof sum);
     memset(jac_sum, 0, sizeof jac_sum);
@@ -311,7 +312,7 @@ static void linear_motions(void **state)
   (void)state;
   enum { H = 3, N = 16, N_COEF = 2 * H + 1 };
   double X[N_COEF] = {0.1, 0.5, -0.2, 0.1, 0, 0, 0.05}, F[N_COEF], jac[N_COEF * N_COEF];
-  told got;
+  aft_result got;
   scene sc = one_contact(2, 3, 0.3, -5, 45); /* |v| < 1: apart */
   for (int n = 0; n <= 1; ++n) {
     sc.n_contacts = n;

@@ -4,10 +4,10 @@
 #include "hbm/hbm.h"
 #include "tests/hbm/scenes.h"
 
-typedef struct run {
+typedef struct solved_curve {
   hbm_solver *s;
   hbm_curve c;
-} run;
+} solved_curve;
 
 static scene exact_scene(const char *name, int n_harm)
 {
@@ -18,9 +18,9 @@ static scene exact_scene(const char *name, int n_harm)
   return sc;
 }
 
-static run traced(const scene *sc)
+static solved_curve traced(const scene *sc)
 {
-  run r = {0};
+  solved_curve r = {0};
   assert_int_equal(scene_hbm_solver(sc, &r.s), HC_OK);
   hc_status st = hbm_trace(r.s, sc->omega_from, sc->omega_to, NULL, &r.c);
   if (st != HC_OK)
@@ -31,7 +31,7 @@ static run traced(const scene *sc)
   return r;
 }
 
-static void drop(run *r)
+static void free_curve(solved_curve *r)
 {
   hbm_curve_free(&r->c);
   hbm_solver_free(r->s);
@@ -39,7 +39,7 @@ static void drop(run *r)
 
 /* Largest distance, relative to the solution, of a's solutions at omega from the nearest of b's; infinite where they
  * are not equally many. */
-static double distance_at(const run *a, const run *b, double omega)
+static double distance_at(const solved_curve *a, const solved_curve *b, double omega)
 {
   hbm_curve at = {0}, bt = {0};
   double worst = 0;
@@ -76,7 +76,7 @@ static void frequencies(const scene *sc, double omega[FREQUENCIES])
   for (int i = 0; i < FREQUENCIES; ++i) omega[i] = from + (to - from) * (i + 0.37) / FREQUENCIES;
 }
 
-static double worst_distance(const run *a, const run *b, const double *omega, int n)
+static double worst_distance(const solved_curve *a, const solved_curve *b, const double *omega, int n)
 {
   double worst = 0;
   for (int i = 0; i < n; ++i) worst = fmax(worst, distance_at(a, b, omega[i]));
@@ -84,7 +84,7 @@ static double worst_distance(const run *a, const run *b, const double *omega, in
 }
 
 /* The most harmonics' point of an auto curve. */
-static double hardest(const run *r)
+static double hardest(const solved_curve *r)
 {
   int k = 0;
   for (int i = 1; i < r->c.n; ++i)
@@ -105,13 +105,13 @@ static void auto_harmonics_keep_the_accuracy(void **state)
   static const double accuracies[] = {1e-2, 1e-3, 1e-4};
   for (size_t q = 0; q < sizeof names / sizeof *names; ++q) {
     scene sc = exact_scene(names[q], 60);
-    run reference = traced(&sc);
+    solved_curve reference = traced(&sc);
     double omega[FREQUENCIES + 1];
     frequencies(&sc, omega);
     for (int a = 0; a < 3; ++a) {
       sc.hbm.harmonics = HBM_AUTO;
       sc.hbm.accuracy = accuracies[a];
-      run r = traced(&sc);
+      solved_curve r = traced(&sc);
       assert_false(r.c.inaccurate);
       CHECK_LE(worst_distance(&r, &reference, omega, FREQUENCIES), 3 * accuracies[a], "%s, accuracy %g, H=%d", names[q],
                accuracies[a], hbm_n_harmonics(r.s));
@@ -121,19 +121,19 @@ static void auto_harmonics_keep_the_accuracy(void **state)
       int need = 0;
       for (size_t i = 0; i < sizeof ladder / sizeof *ladder && !need; ++i) {
         sc.hbm.harmonics = ladder[i];
-        run fixed = {0};
+        solved_curve fixed = {0};
         assert_int_equal(scene_hbm_solver(&sc, &fixed.s), HC_OK);
         if (hbm_trace(fixed.s, sc.omega_from, sc.omega_to, NULL, &fixed.c) == HC_OK &&
             worst_distance(&fixed, &reference, omega, FREQUENCIES + 1) <= accuracies[a])
           need = ladder[i];
-        drop(&fixed);
+        free_curve(&fixed);
       }
       print_message("%-5s accuracy %g: H up to %d, needed %d\n", names[q], accuracies[a], hbm_n_harmonics(r.s), need);
       assert_true(need > 0);
       assert_true(hbm_n_harmonics(r.s) <= 3 * need);
-      drop(&r);
+      free_curve(&r);
     }
-    drop(&reference);
+    free_curve(&reference);
   }
 }
 
@@ -146,7 +146,7 @@ static void harmonics_follow_the_curve(void **state)
   for (size_t q = 0; q < sizeof names / sizeof *names; ++q) {
     scene sc = exact_scene(names[q], HBM_AUTO);
     sc.hbm.accuracy = 1e-3;
-    run r = traced(&sc);
+    solved_curve r = traced(&sc);
     sc.hbm.harmonics = 60;
     hbm_solver *fine = NULL;
     assert_int_equal(scene_hbm_solver(&sc, &fine), HC_OK);
@@ -177,7 +177,7 @@ static void harmonics_follow_the_curve(void **state)
     assert_int_equal(hbm_n_harmonics(r.s), most);
     assert_int_equal(r.c.n_coef, 2 * most + 1);
     hbm_solver_free(fine);
-    drop(&r);
+    free_curve(&r);
   }
 }
 
@@ -189,7 +189,7 @@ static void auto_samples_keep_the_accuracy(void **state)
   static const double accuracies[] = {1e-2, 1e-3, 1e-4};
   for (size_t q = 0; q < sizeof names / sizeof *names; ++q) {
     scene sc = exact_scene(names[q], 5);
-    run reference = traced(&sc);
+    solved_curve reference = traced(&sc);
     double omega[FREQUENCIES];
     frequencies(&sc, omega);
     sc.hbm.force = HBM_FORCE_SAMPLED;
@@ -197,16 +197,16 @@ static void auto_samples_keep_the_accuracy(void **state)
     int before = 0;
     for (int a = 0; a < 3; ++a) {
       sc.hbm.accuracy = accuracies[a];
-      run r = traced(&sc);
+      solved_curve r = traced(&sc);
       assert_false(r.c.inaccurate);
       double worst = worst_distance(&r, &reference, omega, FREQUENCIES);
       print_message("%-5s accuracy %g: %d samples, worst %.1e\n", names[q], accuracies[a], hbm_n_samples(r.s), worst);
       CHECK_LE(worst, 3 * accuracies[a], "%s, accuracy %g, N=%d", names[q], accuracies[a], hbm_n_samples(r.s));
       assert_true(hbm_n_samples(r.s) >= before);
       before = hbm_n_samples(r.s);
-      drop(&r);
+      free_curve(&r);
     }
-    drop(&reference);
+    free_curve(&reference);
   }
 }
 
@@ -220,22 +220,22 @@ static void shortcuts_change_no_solution(void **state)
     scene sc = exact_scene(names[q], 7);
     double omega[FREQUENCIES];
     frequencies(&sc, omega);
-    run plain = traced(&sc);
+    solved_curve plain = traced(&sc);
     sc.hbm.skip_linear = false;
-    run solved = traced(&sc);
+    solved_curve solved = traced(&sc);
     assert_true(plain.c.linear > 0);
     assert_int_equal(solved.c.linear, 0);
     assert_true(solved.c.iterations > plain.c.iterations);
     CHECK_LE(worst_distance(&plain, &solved, omega, FREQUENCIES), 1e-9, "%s: skip_linear", names[q]);
     sc.hbm.skip_linear = true;
     sc.hbm.continuation = HBM_CONTINUATION_ARCLENGTH;
-    run arc = traced(&sc);
+    solved_curve arc = traced(&sc);
     assert_true(arc.c.arclength);
     assert_int_equal(arc.c.turning_points, plain.c.turning_points);
     CHECK_LE(worst_distance(&arc, &plain, omega, FREQUENCIES), 1e-9, "%s: arc-length", names[q]);
-    drop(&plain);
-    drop(&solved);
-    drop(&arc);
+    free_curve(&plain);
+    free_curve(&solved);
+    free_curve(&arc);
   }
 }
 
@@ -250,7 +250,7 @@ static void every_switch_can_be_turned_off(void **state)
   sc.hbm.samples = 256;
   sc.hbm.skip_linear = false;
   sc.hbm.continuation = HBM_CONTINUATION_NATURAL;
-  run r = traced(&sc);
+  solved_curve r = traced(&sc);
   assert_false(r.c.arclength);
   assert_int_equal(r.c.linear, 0);
   assert_int_equal(hbm_n_harmonics(r.s), 5);
@@ -261,12 +261,12 @@ static void every_switch_can_be_turned_off(void **state)
     assert_true(isnan(r.c.points[k].error));
     assert_true(r.c.points[k].iterations > 0);
   }
-  drop(&r);
+  free_curve(&r);
   sc.hbm.samples = HBM_AUTO; /* one auto without the other */
   r = traced(&sc);
   assert_int_equal(r.c.n_coef, 11);
   assert_true(isfinite(r.c.points[r.c.n - 2].error));
-  drop(&r);
+  free_curve(&r);
 }
 
 static const struct CMUnitTest tests[] = {

@@ -54,7 +54,7 @@ static void check_linear_sweep(const scene *sc, double k, contact_regime regime,
   CHECK_NEAR(peak.points[0].omega, omega_top, 4 * damping / 2 * sqrt(2 * rounding) + 1e-7 * fabs(to - from), "%s: peak",
              what);
   hbm_curve_free(&peak);
-  drop(&t);
+  free_traced(&t);
 }
 
 /* No contact; preloaded and never slipping (a10 with 1 N: 0.18 at resonance, below mu kn gap/(kt cos + mu kn sin) =
@@ -173,7 +173,7 @@ static void reference_rows_and_peaks(void **state)
           fail_msg("%s H=%d static=%d: %s", r->name, orders[o], keep_mean, hc_status_text(t.status));
         n_checked += check_rows(&t, r->name, orders[o], keep_mean, false);
         if (!(hard && !keep_mean)) n_tops += check_peak(&t, r->name, orders[o], keep_mean);
-        drop(&t);
+        free_traced(&t);
       }
   print_message("%d rows, %d peaks\n", n_checked, n_tops);
   assert_true(n_checked == 516 && n_tops == 43);
@@ -193,7 +193,7 @@ static void from_the_other_end(void **state)
           fail_msg("%s H=%d static=%d, downwards: %s%s", names[i], n_harm, keep_mean, hc_status_text(t.status),
                    t.curve.left_at_start ? ", turned back" : "");
         assert_true(check_rows(&t, names[i], n_harm, keep_mean, true) > 8);
-        drop(&t);
+        free_traced(&t);
       }
 }
 
@@ -212,7 +212,7 @@ static void arclength_only(void **state)
       listed += !strcmp(rows[j].name, names[i]) && rows[j].n_harm == 5 && rows[j].keep_mean;
     assert_true(listed >= 7); /* reference frequencies of a scene, test_exact_reference.c */
     assert_int_equal(check_rows(&t, names[i], 5, true, false), listed);
-    drop(&t);
+    free_traced(&t);
   }
 }
 

@@ -167,7 +167,7 @@ static void reference_rows_and_peaks(void **state)
         traced t = whole(&sc, r->omega_from, r->omega_to, r->name);
         n_checked += check_rows(&t, r->name, orders[o], keep_mean, false);
         n_tops += check_peak(&t, r->name, orders[o], keep_mean);
-        drop(&t);
+        free_traced(&t);
       }
   print_message("%d rows, %d peaks\n", n_checked, n_tops);
   assert_true(n_checked == 542 && n_tops == 45);
@@ -188,7 +188,7 @@ static void from_the_other_end(void **state)
         if (!strcmp(r->name, "c2kn1e4") && !keep_mean) continue;
         traced t = whole(&sc, r->omega_to, r->omega_from, r->name);
         n_checked += check_rows(&t, r->name, orders[o], keep_mean, true);
-        drop(&t);
+        free_traced(&t);
       }
   assert_int_equal(n_checked, 542 - 21);
 }
@@ -233,8 +233,8 @@ static void stiff_contacts_from_both_ends(void **state)
           hbm_curve_free(&a);
           hbm_curve_free(&b);
         }
-        drop(&up);
-        drop(&down);
+        free_traced(&up);
+        free_traced(&down);
       }
 }
 

@@ -1,5 +1,5 @@
 /* test_fft_plan.c - every call of FFTW's planner is made under one and the same lock, and the plans do what fft_plan.h
- * says. The linker wraps the planner and the locks, so that the test sees what is held. */
+ * promises. The linker wraps the planner and the locks, so that the test sees which lock is held. */
 #include <pthread.h>
 
 #include "campaigns/scene_solvers.h"
@@ -7,7 +7,7 @@
 #include "hbm/fft_plan.h"
 #include "tests/check.h"
 
-static const pthread_mutex_t *held, *planner; /* the lock taken last, NULL: given back; the one of the first call */
+static const pthread_mutex_t *held, *planner; /* the lock held now, or NULL; the lock held at the first call */
 static int calls, unguarded;
 
 int __real_pthread_mutex_lock(pthread_mutex_t *lock);

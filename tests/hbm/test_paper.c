@@ -18,7 +18,7 @@ static bool tick(void *self, double done)
   return ++*(int *)self < 20000;
 }
 
-static outcome run(const scene *sc, double from, double to)
+static outcome trace(const scene *sc, double from, double to)
 {
   hbm_solver *s;
   hbm_curve c = {0};
@@ -45,9 +45,9 @@ static scene paper_scene(const char *name, int n_time, int restart)
   return sc;
 }
 
-static outcome run_and_say(const scene *sc, const char *what)
+static outcome trace_and_print(const scene *sc, const char *what)
 {
-  outcome o = run(sc, 3, 20);
+  outcome o = trace(sc, 3, 20);
   print_message("%s, N = %d: %s at %.4f, %d points, %d turning points, peak %.4f\n", what, sc->hbm.samples,
                 hc_status_text(o.status), o.last, o.points, o.turning_points, o.peak);
   return o;
@@ -82,12 +82,12 @@ static void case_2_and_its_false_turning_points(void **state)
   assert_int_equal(real, 2); /* the grazing turn and the fold */
   for (int p = 6; p <= 7; ++p) {
     scene sc = paper_scene("c2", 1 << p, HBM_RESTART_SAMPLE);
-    outcome o = run_and_say(&sc, "case 2, restart on a sample");
+    outcome o = trace_and_print(&sc, "case 2, restart on a sample");
     assert_true(spoiled(&o, real));
   }
   for (int p = 8; p <= 10; ++p) {
     scene sc = paper_scene("c2", 1 << p, HBM_RESTART_SAMPLE);
-    on_sample[p] = run_and_say(&sc, "case 2, restart on a sample");
+    on_sample[p] = trace_and_print(&sc, "case 2, restart on a sample");
     assert_int_equal(on_sample[p].status, HC_OK);
     assert_true(on_sample[p].arclength && on_sample[p].turning_points > real);
     assert_int_equal(on_sample[p].turning_points % 2, real % 2); /* a false turn comes with its way back */
@@ -98,7 +98,7 @@ static void case_2_and_its_false_turning_points(void **state)
   assert_true(on_sample[10].turning_points > on_sample[8].turning_points);
   for (int p = 10; p <= 13; ++p) {
     scene sc = paper_scene("c2", 1 << p, HBM_RESTART_INTERPOLATED);
-    at_touch[p] = run_and_say(&sc, "case 2, restart at the touch");
+    at_touch[p] = trace_and_print(&sc, "case 2, restart at the touch");
     assert_int_equal(at_touch[p].status, HC_OK);
   }
   assert_true(at_touch[10].turning_points < on_sample[10].turning_points);
@@ -117,12 +117,12 @@ static void case_1_needs_few_samples(void **state)
   for (int natural = 0; natural <= 1; ++natural) {
     scene sc = paper_scene("a10", 5, HBM_RESTART_SAMPLE);
     sc.hbm.continuation = natural ? HBM_CONTINUATION_NATURAL : HBM_CONTINUATION_AUTO;
-    outcome o = run_and_say(&sc, natural ? "case 1, natural" : "case 1");
+    outcome o = trace_and_print(&sc, natural ? "case 1, natural" : "case 1");
     if (natural) assert_int_not_equal(o.status, HC_OK);
     else assert_true(spoiled(&o, real));
     for (int p = 4; p <= 7; ++p) {
       sc.hbm.samples = 1 << p;
-      o = run_and_say(&sc, natural ? "case 1, natural" : "case 1");
+      o = trace_and_print(&sc, natural ? "case 1, natural" : "case 1");
       assert_int_equal(o.status, HC_OK);
       assert_int_equal(o.turning_points, real);
       CHECK_NEAR(o.peak, peak, (p == 7 ? 2e-3 : 2e-2) * peak, "N=%d", 1 << p);
@@ -141,7 +141,7 @@ static void case_b_needs_arclength_and_case_a_does_not(void **state)
       scene a = paper_scene("a10", 1024, HBM_RESTART_SAMPLE), b = paper_scene("b10", 1024, HBM_RESTART_SAMPLE);
       a.force = b.force = force;
       a.hbm.continuation = b.hbm.continuation = natural ? HBM_CONTINUATION_NATURAL : HBM_CONTINUATION_AUTO;
-      outcome oa = run(&a, 3, 20), ob = run(&b, 3, 20);
+      outcome oa = trace(&a, 3, 20), ob = trace(&b, 3, 20);
       if (oa.status != HC_OK || oa.turning_points)
         fail_msg("case A, %d N: %s, %d turns", force, hc_status_text(oa.status), oa.turning_points);
       if (force == 1) assert_true(ob.status == HC_OK && ob.turning_points == 0);
@@ -168,7 +168,7 @@ static void stiffer_contacts_need_more_samples(void **state)
     sc.contacts[0].law.kn = runs[i].kn;
     char what[40];
     snprintf(what, sizeof what, "kn = %g", runs[i].kn);
-    outcome o = run_and_say(&sc, what);
+    outcome o = trace_and_print(&sc, what);
     assert_true(spoiled(&o, real_turning_points(&sc)) != runs[i].clean);
   }
 }

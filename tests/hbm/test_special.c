@@ -26,7 +26,7 @@ static found find(const char *name, int n_harm)
   return f;
 }
 
-static void drop(found *f)
+static void free_found(found *f)
 {
   hbm_curve_free(&f->c);
   hbm_solver_free(f->s);
@@ -63,7 +63,7 @@ static void contact_sets_in_where_the_linear_response_grazes(void **state)
     assert_int_equal(f.at[0].after, CONTACT_SEPARATES);
     assert_int_equal(f.at[f.n - 1].after, CONTACT_LINEAR);
     CHECK_NEAR(f.at[0].amplitude, 5 / sqrt(0.5), 1e-7, "amplitude at grazing"); /* derivative 1.3 times 1e-8 */
-    drop(&f);
+    free_found(&f);
   }
 }
 
@@ -82,10 +82,11 @@ static hbm_stability stability_of_solution(found *f, const hbm_curve *at, int i)
 }
 
 /* A fold has two more solutions on one side than on the other, at any distance. special_points.h promises 1e-9 of
- * omega, so a frequency 1e-8 of omega away is certainly on its side. Near it the two multipliers next to +1 are 1 -+ a sqrt(d): from d = 1e-3 to 1e-5 they
- * come 10 times nearer to each other, to the d/sqrt(d) = 3 % of the next order. Their mean misses 1 because the
- * multiplier belongs to the orbit of the untruncated equations, by O(H^-3) as the transitions are: the fold of H is
- * 4e-5 from that of 2H (9.20954, 9.209579, 9.209580 at H = 10, 20, 40), and a sqrt(4e-5) is what that costs at most. */
+ * omega, so a frequency 1e-8 of omega away is certainly on its side. Near it the two multipliers next to +1 are 1 -+ a
+ * sqrt(d): from d = 1e-3 to 1e-5 they come 10 times nearer to each other, to the d/sqrt(d) = 3 % of the next order.
+ * Their mean misses 1 because the multiplier belongs to the orbit of the untruncated equations, by O(H^-3) as the
+ * transitions are: the fold of H is 4e-5 from that of 2H (9.20954, 9.209579, 9.209580 at H = 10, 20, 40), and a
+ * sqrt(4e-5) is what that costs at most. */
 static void a_fold_is_where_two_solutions_and_multiplier_one_meet(void **state)
 {
   (void)state;
@@ -116,7 +117,7 @@ static void a_fold_is_where_two_solutions_and_multiplier_one_meet(void **state)
   }
   CHECK_NEAR(split[0] / split[1], 10, 0.5, "square root law");
   CHECK_LE(split[1], 0.1, "multipliers meet");
-  drop(&f);
+  free_found(&f);
 }
 
 /* The orbit's error falls like H^-4, so the doubling's does, on the whole: over the two doublings of H from 10 to
@@ -140,7 +141,7 @@ static void doublings_tend_to_those_of_the_true_orbit(void **state)
       CHECK_NEAR(stability_of_solution(&f, &at, 0).re, -1, 1e-6, "H=%d", harmonics[q]);
       hbm_curve_free(&at);
     }
-    drop(&f);
+    free_found(&f);
   }
   CHECK_LE(low[2], 2e-5, "5.106167 at H = 40");
   CHECK_LE(high[2], 2e-5, "5.569782 at H = 40");
@@ -160,7 +161,7 @@ static void the_doubling_of_a_stiff_contact(void **state)
     found f = find("c2kn1e4", q ? 80 : 40);
     miss[q] = fabs(special(&f, HBM_PERIOD_DOUBLING, 1) - 6.036792);
     assert_true(isnan(special(&f, HBM_PERIOD_DOUBLING, 2)));
-    drop(&f);
+    free_found(&f);
   }
   CHECK_LE(miss[1], 1e-4, "H = 80");
   CHECK_LE(miss[1], miss[0] / 8, "H = 40 to 80");
@@ -202,10 +203,10 @@ static void every_stretch_is_as_stable_as_it_should_be(void **state)
     }
     hbm_curve_free(&here);
   }
-  drop(&f);
+  free_found(&f);
 }
 
-/* More specials than room: counted all the same, the first ones kept. */
+/* More special points than fit: all are counted, the first ones kept. */
 static void too_little_room_keeps_the_first(void **state)
 {
   (void)state;
@@ -221,7 +222,7 @@ static void too_little_room_keeps_the_first(void **state)
   hbm_curve empty = {0};
   assert_int_equal(hbm_specials(f.s, &empty, 2, few, &n), HC_OK);
   assert_int_equal(n, 0);
-  drop(&f);
+  free_found(&f);
 }
 
 static const struct CMUnitTest tests[] = {

@@ -16,7 +16,7 @@ static scene exact_scene(const char *name, int n_harm)
   return sc;
 }
 
-/* Stretches of contact that the solution X consists of. */
+/* Number of pieces of contact that the solution X consists of. */
 static int pieces_of(hbm_solver *s, const double *X)
 {
   const exact_force *e;
@@ -376,9 +376,9 @@ static void two_contacts_against_differences_of_the_period_map(void **state)
   }
 }
 
-/* Held by friction, after slipping from w = 0 until it just is: the slider is one of a family, its multiplier 1 is
- * nobody's, and what is left is the stuck oscillator, exp(lambda T) with M lambda^2 + C lambda + K' = 0. Found by
- * `stress`: "unknown" was said of orbits that are stable. */
+/* Shakedown: the slider slipped from w = 0 until friction just holds it. Where it rests is one of a family of places,
+ * so its multiplier is 1 and is left out; the others are those of the stuck oscillator, exp(lambda T) with M lambda^2
+ * + C lambda + K' = 0. A stress campaign found the case: the verdict was "unknown" for orbits that are stable. */
 static void a_slider_shaken_down_is_held(void **state)
 {
   (void)state;

@@ -72,7 +72,7 @@ static void turning_points_are_real(void **state)
                     c->turning_points);
       wrong += bad;
       aft_free(a);
-      drop(&t);
+      free_traced(&t);
     }
   assert_int_equal(wrong, 0);
 }
@@ -99,24 +99,22 @@ static void natural_continuation_stops_at_the_fold(void **state)
       print_message("b10 H=%d static=%d: fold at %.6f, natural stops at %.6f: %s\n", orders[o], keep_mean, fold, last,
                     hc_status_text(t.status));
       assert_int_not_equal(t.status, HC_OK);
-      assert_int_not_equal(t.status, HC_INTERRUPTED); /* a loop */
+      assert_int_not_equal(t.status, HC_INTERRUPTED); /* that would be a loop */
       assert_false(c->arclength);
       CHECK_NEAR(last, fold, 2e-3 * fold, "H=%d static=%d", orders[o], keep_mean);
-      drop(&t);
-      drop(&whole);
+      free_traced(&t);
+      free_traced(&whole);
       sc = scene_named("a10", orders[o], false, 1024);
       sc.hbm.continuation = HBM_CONTINUATION_NATURAL;
       t = trace(&sc, 3, 20, "a10, natural");
       assert_int_equal(t.status, HC_OK);
       assert_true(t.curve.points[t.curve.n - 1].omega == 20 && !t.curve.arclength && t.curve.turning_points == 0);
-      drop(&t);
+      free_traced(&t);
     }
 }
 
-/* Case 2 from 8.5 down: the separated branch ends grazing at 7.337 (closed form 7.3371828168, H = 1 or not: the
- * motion is still linear there), and turns up to a fold beyond 8.5, back past the start. */
-/* Down from 8.5 on the separated branch of c2: round the grazing turn, up past the start to the fold at 9.21, and
- * down to the end. */
+/* Case 2 from 8.5 down on the separated branch. It ends grazing at 7.337 (closed form 7.3371828168 for any H: the
+ * motion is still linear there), turns up past the start to the fold at 9.21, then down to the end of the sweep. */
 static void a_branch_that_turns_back(void **state)
 {
   (void)state;
@@ -133,7 +131,7 @@ static void a_branch_that_turns_back(void **state)
   assert_int_equal(at.n, 3);
   check_linear_point(&sc, 40, at.X, 8, "the branch it came on");
   hbm_curve_free(&at);
-  drop(&t);
+  free_traced(&t);
 }
 
 /* Nearly rigid and without harmonic 0 the fold is beyond 4 times the start: the curve is cut where it left the
@@ -149,7 +147,7 @@ static void a_branch_that_leaves(void **state)
   assert_int_equal(t.status, HC_OK);
   assert_true(c->left_at_start && c->turning_points == 1 && c->points[c->n - 1].omega == 8.5);
   for (int k = 0; k < c->n; ++k) CHECK_LE(c->points[k].omega, 8.5, "point %d", k);
-  drop(&t);
+  free_traced(&t);
 }
 
 static void interruption_keeps_points(void **state)
@@ -158,7 +156,7 @@ static void interruption_keeps_points(void **state)
   scene sc = scene_named("c2", 5, true, 256);
   traced whole = trace(&sc, 3, 20, "c2");
   for (int stop = 1; stop <= 40; stop += 13) {
-    clock_ watch = {.stop = stop};
+    tick_counter watch = {.stop = stop};
     hc_monitor monitor = {tick, &watch};
     hbm_curve c = {0};
     assert_int_equal(hbm_trace(whole.s, 3, 20, &monitor, &c), HC_INTERRUPTED);
@@ -170,11 +168,11 @@ static void interruption_keeps_points(void **state)
     for (int i = 0; i < c.n * c.n_coef; ++i) assert_true(c.X[i] == whole.curve.X[i]); /* the same points, bit by bit */
     hbm_curve_free(&c);
   }
-  drop(&whole);
+  free_traced(&whole);
 }
 
-/* Hard scenes with rough sampling: whatever happens there is a reason, no point lies outside (check_curve), and it
- * comes to an end. */
+/* Hard scenes with few samples: the trace ends, its status is one of the method's, and no point lies outside
+ * (check_curve). */
 static void always_an_end_with_a_reason(void **state)
 {
   (void)state;
@@ -196,7 +194,7 @@ static void always_an_end_with_a_reason(void **state)
       sc.contacts[2].law.gap *= -0.5;
     }
     double low = 0.05 + 2 * fabs(random_signed(&seed)), high = low + 25 * fabs(random_signed(&seed));
-    clock_ watch = {.stop = 4000}; /* a rough staircase may go on for long: that is an end, too */
+    tick_counter watch = {.stop = 4000}; /* a curve with a false turn at every sample may be longer: stopped here */
     hc_monitor monitor = {tick, &watch};
     hbm_solver *s;
     hbm_curve c = {0};
@@ -223,7 +221,7 @@ static void sweeps_that_make_no_sense(void **state)
 {
   (void)state;
   scene sc = scene_named("b10", 1, true, 64);
-  traced t = trace(&sc, 6, 6, "a point"); /* one frequency is a sweep, too */
+  traced t = trace(&sc, 6, 6, "a point"); /* one frequency is allowed */
   assert_true(t.status == HC_OK && t.curve.n == 1 && t.curve.points[0].omega == 6);
   assert_int_equal(hbm_trace(t.s, 3, 20, NULL, &t.curve), HC_BAD_INPUT); /* not empty */
   assert_int_equal(t.curve.n, 1);
@@ -231,13 +229,13 @@ static void sweeps_that_make_no_sense(void **state)
   for (int i = 0; i < 4; ++i)
     for (int end = 0; end < 2; ++end) {
       hbm_curve c = {0};
-      clock_ watch = {.stop = 1000};
+      tick_counter watch = {.stop = 1000};
       hc_monitor monitor = {tick, &watch};
       hc_status st = hbm_trace(t.s, end ? 3 : bad[i], end ? bad[i] : 3, &monitor, &c);
       hbm_curve_free(&c);
       if (st != HC_BAD_INPUT) fail_msg("a sweep with an end at %g: %s", bad[i], hc_status_text(st));
     }
-  drop(&t);
+  free_traced(&t);
   hbm_solver *s = t.s;
   sc.hbm.samples = 2;
   assert_int_equal(scene_hbm_solver(&sc, &s), HC_BAD_INPUT);
@@ -265,7 +263,7 @@ static void solving_from_nonsense(void **state)
     assert_int_not_equal(hbm_solve(s, bad[i], X, &point), HC_OK);
     assert_memory_equal(X, before, sizeof X);
   }
-  double X[N_COEF] = {0}; /* from nothing at all */
+  double X[N_COEF] = {0}; /* no guess */
   assert_int_equal(hbm_solve(s, 4, X, &point), HC_OK);
   check_linear_point(&sc, 40, X, 4, "apart"); /* 4.16 < 5 sqrt 2 */
   hbm_solver_free(s);

@@ -1,4 +1,4 @@
-/* traced.h - a response curve with what must hold for every one of them, and the linear response in closed form. */
+/* traced.h - a response curve, what must hold for every one of them, and the linear response in closed form. */
 #ifndef HC_TESTS_HBM_TRACED_H
 #define HC_TESTS_HBM_TRACED_H
 
@@ -9,15 +9,15 @@
 #include "tests/hbm/scenes.h"
 
 /* A monitor that stops the work after so many ticks. */
-typedef struct clock_ {
-  int ticks, stop;
-  double last;
-  bool outside;
-} clock_;
+typedef struct tick_counter {
+  int ticks, stop; /* so far; the one that is answered by false */
+  double last;     /* fraction done */
+  bool outside;    /* some fraction was not in 0..1 */
+} tick_counter;
 
 static inline bool tick(void *self, double done)
 {
-  clock_ *c = self;
+  tick_counter *c = self;
   c->outside |= !(done >= 0 && done <= 1);
   c->last = done;
   return ++c->ticks < c->stop;
@@ -29,9 +29,9 @@ typedef struct traced {
   hc_status status;
 } traced;
 
-/* What holds for every curve, however it ended: a reason, frequencies above 0 and inside the sweep (or within a
- * factor 4 behind its start, where a branch that turned back is followed for a while), finite points, branches
- * counted. */
+/* What holds for every curve, whatever its end: frequencies are above 0 and inside the sweep (or within a factor 4
+ * beyond its start, where a branch that turned back is followed), points are finite, branches are counted, and a curve
+ * that ended with HC_OK ended on a limit of the sweep. */
 static inline void check_curve(const hbm_curve *c, double from, double to, const char *what)
 {
   double low = from < to ? from / 4 : to, high = from < to ? to : 4 * from;
@@ -40,8 +40,8 @@ static inline void check_curve(const hbm_curve *c, double from, double to, const
     const hbm_point *p = &c->points[k];
     if (!(p->omega > 0 && p->omega >= low && p->omega <= high))
       fail_msg("%s: point %d of %d at omega %.17g", what, k, c->n, p->omega);
-    CHECK_LE(p->residual, 1e-9, "%s: point %d", what, k); /* 10 times hbm.tolerance: against the forces at the
-                                                             answer, not the guess */
+    /* 10 times hbm.tolerance: relative to the forces at the answer, not to those at the guess */
+    CHECK_LE(p->residual, 1e-9, "%s: point %d", what, k);
     for (int i = 0; i < n_coef; ++i)
       assert_true(isfinite(c->X[(size_t)k * n_coef + i]) && isfinite(c->dX[(size_t)k * n_coef + i]));
     if (k) turns += (p->d_omega > 0) != (p[-1].d_omega > 0);
@@ -51,11 +51,11 @@ static inline void check_curve(const hbm_curve *c, double from, double to, const
   if (c->end == HC_OK && c->n) assert_true(c->points[c->n - 1].omega == (c->left_at_start ? from : to));
 }
 
-/* Curves here have some hundred points: 5000 steps are a loop, and then the status is HC_INTERRUPTED. */
+/* Curves here have some hundred points. After 5000 steps the curve is in a loop: the status is HC_INTERRUPTED. */
 static inline traced trace(const scene *sc, double from, double to, const char *what)
 {
   traced t = {0};
-  clock_ watch = {.stop = 5000};
+  tick_counter watch = {.stop = 5000};
   hc_monitor monitor = {tick, &watch};
   assert_int_equal(scene_hbm_solver(sc, &t.s), HC_OK);
   t.status = hbm_trace(t.s, from, to, &monitor, &t.curve);
@@ -64,7 +64,7 @@ static inline traced trace(const scene *sc, double from, double to, const char *
   return t;
 }
 
-static inline void drop(traced *t)
+static inline void free_traced(traced *t)
 {
   hbm_curve_free(&t->curve);
   hbm_solver_free(t->s);

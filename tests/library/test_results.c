@@ -319,16 +319,18 @@ static void comparison_and_gate(void **state)
   check_comparison((const char *[]){"compare.points=3", "hbm.harmonics=20", "sweep.omega=10,20", NULL}, 0, 0);
 }
 
-/* Frequencies given in the call take the place of the case's. */
+/* Frequencies given in the call take the place of the case's; each once, ascending. */
 static void omegas_of_the_call(void **state)
 {
   (void)state;
   hbmcheck_case *c = CASE2("compare.omega=5,6");
   hbmcheck_comparison *both;
   hbmcheck_row row;
-  assert_int_equal(hbmcheck_comparison_run(c, 1, (double[]){4}, NULL, &both), HBMCHECK_OK);
-  assert_int_equal(hbmcheck_comparison_count(both), 1);
+  assert_int_equal(hbmcheck_comparison_run(c, 3, (double[]){4, 3.5, 4}, NULL, &both), HBMCHECK_OK);
+  assert_int_equal(hbmcheck_comparison_count(both), 2);
   assert_int_equal(hbmcheck_comparison_get(both, 0, &row), HBMCHECK_OK);
+  SAME(row.omega, 3.5);
+  assert_int_equal(hbmcheck_comparison_get(both, 1, &row), HBMCHECK_OK);
   SAME(row.omega, 4);
   hbmcheck_comparison_free(both);
   hbmcheck_case_free(c);

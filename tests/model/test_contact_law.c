@@ -131,8 +131,9 @@ static void guards_vanish_where_states_end(void **state)
   assert_true(contact_guard_slip(&law, 1, 1, 1) == 2 && contact_guard_slip(&law, -1, 1, 1) == -6);
 }
 
-/* A small step h after touching, u = u0 + du h, v = -gap + dv h, w = u0, is in the state that on_touch foretold.
- * kt du h and mu kn dv h scale alike, so only draws within rounding of equality could differ; those are left out. */
+/* A small step h after touching, u = u0 + du h, v = -gap + dv h, w = u0, is in the state that contact_on_touch
+ * predicts. kt du h and mu kn dv h scale alike, so only draws within rounding of equality could differ; those are left
+ * out. */
 static void touching_agrees_with_the_step_after_it(void **state)
 {
   (void)state;

@@ -1,6 +1,6 @@
 /* test_crossing.c - the first angle where a trigonometric polynomial falls through 0: against dense sampling, and
- * against roots that are known. Here "noise" is what crossing.c says it cannot tell from 0, eps (16 scale + 32
- * sqrt(size bound2)), and what an evaluation may be off by: dips shallower than that are free to be seen or not. */
+ * against roots that are known. Here "noise" is what crossing.c does not distinguish from 0, eps (16 scale +
+ * 32 sqrt(size bound2)), which is also the error of an evaluation: dips shallower than that may be found or not. */
 #include "numerics/crossing.h"
 #include "numerics/series.h"
 #include "tests/hbm/scenes.h"

@@ -36,7 +36,7 @@ static void lu_times(int n, const double *f, const int *pivot, const double *x, 
 /* The computed x solves (A + E) x = b with |E| <= gamma_3n |L||U| (Higham, Accuracy and Stability, theorem 9.4),
  * gamma_m = m u/(1 - m u), u = eps/2. Multiplying by the pivot's reciprocal rounds each entry of L once more and the
  * reciprocal itself: 3n + 2. With partial pivoting |L| <= 1, so the right-hand side is at most n growth eps max|A|
- * |x|_1 times 3/2: the bound is not vacuous, which the second check says; the growth of random matrices is about
+ * |x|_1 times 3/2: the second check makes sure that the bound is not vacuous; the growth of random matrices is about
  * n^(2/3), never n. b - A x is formed in long double, 2^-11 of what is tested. */
 static void solves_within_the_bound_of_rounding_theory(void **state)
 {

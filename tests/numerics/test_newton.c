@@ -177,7 +177,7 @@ static void starts_at_the_root(void **state)
   newton_free(nw);
 }
 
-/* Whatever goes wrong, z is as it was given, bit by bit. */
+/* A solve that fails leaves z as it was given, bit by bit. */
 static hc_status fails_untouched(newton *nw, int n, const double *start, const newton_options *opt,
                                  newton_report *report)
 {
@@ -339,13 +339,13 @@ static void refusals_are_passed_on(void **state)
   CHECK_NEAR(z, exp(-1), 4 * DBL_EPSILON, "root");
   /* at the start itself: both strategies */
   assert_int_equal(fails_untouched(nw, 1, (double[]){-1}, &plain, &report), HC_NOT_FINITE);
-  p.limit = 0.1; /* no root within: whichever way it goes there, the refusal is the reason */
+  p.limit = 0.1; /* the root lies beyond: every way to it is refused */
   assert_int_not_equal(fails_untouched(nw, 1, (double[]){0.05}, &plain, &report), HC_OK);
   newton_free(nw);
 }
 
-/* Only the start is allowed: each step of both strategies is refused, however short. The reason given must come out,
- * not another. */
+/* Only the start is allowed: each step of both strategies is refused, however short. The solve must return the
+ * status of the refusal. */
 static hc_status start_only_residual(void *self, const double *z, double *r)
 {
   count(self);
@@ -364,7 +364,7 @@ static void the_reason_of_a_refusal_survives(void **state)
   newton_free(nw);
 }
 
-/* A NaN the problem did not refuse itself must not pass for convergence, nor send the line search round for ever. */
+/* A NaN that the problem did not refuse must not count as convergence, nor keep the line search in a loop. */
 static void nan_is_refused(void **state)
 {
   (void)state;

@@ -65,9 +65,9 @@ static void roots_are_found_from_either_side(void **state)
 {
   (void)state;
   for (int i = 0; i < CASES; ++i)
-    for (int turned = 0; turned < 2; ++turned)
+    for (int swapped = 0; swapped < 2; ++swapped)
       for (double tolerance = 1e-2; tolerance > 1e-17; tolerance /= 10) {
-        double a = turned ? cases[i].b : cases[i].a, b = turned ? cases[i].a : cases[i].b;
+        double a = swapped ? cases[i].b : cases[i].a, b = swapped ? cases[i].a : cases[i].b;
         watched w = {.f = cases[i].f, .a = a, .b = b};
         root_point root;
         assert_int_equal(root_between(value_of, &w, a, w.f(a), b, w.f(b), tolerance, &root), HC_OK);
@@ -118,8 +118,8 @@ static void newton_needs_fewer_and_is_as_safe(void **state)
 {
   (void)state;
   for (int i = 0; i < CASES; ++i)
-    for (int turned = 0; turned < 2; ++turned) {
-      double a = turned ? cases[i].b : cases[i].a, b = turned ? cases[i].a : cases[i].b;
+    for (int swapped = 0; swapped < 2; ++swapped) {
+      double a = swapped ? cases[i].b : cases[i].a, b = swapped ? cases[i].a : cases[i].b;
       watched w = {.f = cases[i].f, .derivative = cases[i].derivative, .a = a, .b = b};
       root_point root;
       hc_status st = root_between_newton(value_and_derivative_of, &w, a, w.f(a), b, w.f(b), 1e-14, &root);
@@ -307,14 +307,14 @@ static hc_status beyond(void *self, double x, bool *is)
 static void a_change_is_bisected(void **state)
 {
   (void)state;
-  for (int turned = 0; turned < 2; ++turned) {
-    watched w = {.f = turned ? cos : jump}; /* cos x > 0 below pi/2 */
+  for (int swapped = 0; swapped < 2; ++swapped) {
+    watched w = {.f = swapped ? cos : jump}; /* cos x > 0 below pi/2 */
     root_point change;
-    double a = turned ? 3 : 0, b = turned ? -1 : 1, at = turned ? PI / 2 : 0.7;
+    double a = swapped ? 3 : 0, b = swapped ? -1 : 1, at = swapped ? PI / 2 : 0.7;
     assert_int_equal(root_change(beyond, &w, a, b, 1e-9, &change), HC_OK);
     assert_true(w.f(change.x) > 0 && w.f(change.before) <= 0);
-    CHECK_LE(fabs(change.x - change.before), 1e-9, "%d", turned);
-    CHECK_NEAR(change.x, at, 1e-9, "%d", turned);
+    CHECK_LE(fabs(change.x - change.before), 1e-9, "%d", swapped);
+    CHECK_NEAR(change.x, at, 1e-9, "%d", swapped);
     assert_int_equal(w.calls, (int)ceil(log2(fabs(b - a) / 1e-9)));
     assert_int_equal(change.evaluations, w.calls);
     w.calls = 0, w.fails_at = 5;

@@ -6,7 +6,7 @@
 #include "numerics/workers.h"
 #include "tests/check.h"
 
-enum { PIECES = 500, JOBS = 4 };
+enum { TASKS = 500, THREADS = 4 };
 
 static int lock_error, condition_error, thread_error; /* what the next calls answer; 0: what they do */
 
@@ -33,7 +33,7 @@ int __wrap_pthread_create(pthread_t *thread, const pthread_attr_t *how, void *(*
 
 typedef struct task {
   workers workers; /* its lock is of what follows */
-  int next, done[PIECES], stop_at;
+  int next, done[TASKS], stop_at;
 } task;
 
 static void *work(void *self)
@@ -41,7 +41,7 @@ static void *work(void *self)
   task *t = self;
   for (;;) {
     pthread_mutex_lock(&t->workers.lock);
-    int i = t->next < PIECES && workers_tick(&t->workers, 0) ? t->next++ : -1;
+    int i = t->next < TASKS && workers_tick(&t->workers, 0) ? t->next++ : -1;
     if (i >= 0) ++t->done[i];
     pthread_mutex_unlock(&t->workers.lock);
     if (i < 0) break;
@@ -51,11 +51,11 @@ static void *work(void *self)
   return NULL;
 }
 
-static hc_status run(task *t, int stop_at)
+static hc_status run_workers(task *t, int stop_at)
 {
   *t = (task){.stop_at = stop_at};
   assert_int_equal(workers_init(&t->workers), HC_OK);
-  workers_start(&t->workers, JOBS, work, t);
+  workers_start(&t->workers, THREADS, work, t);
   while (workers_wait(&t->workers, 1000)) continue;
   assert_int_equal(t->workers.running, 0);
   return workers_join(&t->workers);
@@ -65,8 +65,8 @@ static void each_piece_is_done_once(void **state)
 {
   (void)state;
   static task t;
-  assert_int_equal(run(&t, PIECES), HC_OK);
-  for (int i = 0; i < PIECES; ++i) assert_int_equal(t.done[i], 1);
+  assert_int_equal(run_workers(&t, TASKS), HC_OK);
+  for (int i = 0; i < TASKS; ++i) assert_int_equal(t.done[i], 1);
 }
 
 /* Stopped at the first piece: each of the threads can have one more in hand by then, and gives another reason. */
@@ -74,9 +74,9 @@ static void the_first_reason_is_kept(void **state)
 {
   (void)state;
   static task t;
-  hc_status st = run(&t, 0);
+  hc_status st = run_workers(&t, 0);
   assert_true(st == HC_IO || st == HC_STALLED);
-  assert_true(t.next <= JOBS);
+  assert_true(t.next <= THREADS);
   assert_int_equal(workers_init(&t.workers), HC_OK);
   workers_stop(&t.workers, HC_NOT_FINITE);
   workers_stop(&t.workers, HC_IO);
@@ -93,7 +93,7 @@ static void what_the_system_lacks_is_a_status(void **state)
   lock_error = 0, condition_error = EAGAIN;
   assert_int_equal(workers_init(&t.workers), HC_NO_MEMORY);
   condition_error = 0, thread_error = EAGAIN;
-  assert_int_equal(run(&t, PIECES), HC_NO_MEMORY);
+  assert_int_equal(run_workers(&t, TASKS), HC_NO_MEMORY);
   assert_int_equal(t.next, 0);
   thread_error = 0;
 }
