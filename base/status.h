@@ -22,7 +22,7 @@
   X(HC_NOT_SETTLED, "the transient did not reach a steady state within the allowed periods")                           \
   X(HC_APERIODIC, "the motion never repeats: neighbouring motions drift apart")                                        \
   X(HC_INTERRUPTED, "stopped on request")                                                                              \
-  X(HC_UNSUPPORTED, "this version cannot do that yet")                                                                 \
+  X(HC_UNSUPPORTED, "a file was written by another version of hbmcheck")                                               \
   X(HC_BUG, "internal error: please report it")
 
 #define HC_STATUS_ENUM(code, text) code,

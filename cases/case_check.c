@@ -1,9 +1,12 @@
-/* case_check.c - what no field can be wrong about alone. Blames the field that was given last. */
+/* case_check.c - rules across several fields. The message is about the field of them that was given last. */
 #include <string.h>
 
 #include "cases/case_reader.h"
 
-static const field *named(const char *section, const char *name) { return field_find(section, name, strlen(name)); }
+static const field *field_named(const char *section, const char *name)
+{
+  return field_find(section, name, strlen(name));
+}
 
 /* Assignments come after the file, later ones after earlier ones; within the file, and for defaults, a goes first. */
 static case_place last_given(const case_reader *r, const field *a, const field *b)
@@ -17,7 +20,7 @@ static hc_status check_sweep(case_reader *r)
 {
   if (r->sc.omega_from != r->sc.omega_to) return HC_OK;
   message_add(
-      case_blame(r, last_given(r, named("sweep", "omega"), named("sweep", "frequency"))),
+      case_blame(r, last_given(r, field_named("sweep", "omega"), field_named("sweep", "frequency"))),
       "the sweep ends where it starts, expected FROM and TO to differ (single frequencies: compare.omega, or --at)");
   return HC_BAD_INPUT;
 }
@@ -28,17 +31,17 @@ static hc_status check_samples(case_reader *r)
   if (h->force != HBM_FORCE_SAMPLED || h->samples == HBM_AUTO || h->harmonics == HBM_AUTO ||
       h->samples >= 2 * h->harmonics + 1)
     return HC_OK;
-  message_add(case_blame(r, last_given(r, named("hbm", "samples"), named("hbm", "harmonics"))),
+  message_add(case_blame(r, last_given(r, field_named("hbm", "samples"), field_named("hbm", "harmonics"))),
               "%d samples cannot tell %d harmonics apart, expected hbm.samples >= %d", h->samples, h->harmonics,
               2 * h->harmonics + 1);
   return HC_BAD_INPUT;
 }
 
-/* Limits of ranges are as many as there are ranges, and there is something to a range. */
+/* Ranges are pairs FROM <= TO; each list of limits has one for every range; there are no ranges without limits. */
 static hc_status check_gate_ranges(case_reader *r)
 {
   static const char *const limits[] = {"range_amplitude", "range_harmonic_1", "range_mean", "range_waveform"};
-  const field *ranges = named("gate", "ranges");
+  const field *ranges = field_named("gate", "ranges");
   const number_list *omega = &r->sc.gate.ranges.omega;
   int longest = 0;
   for (int i = 0; i < omega->n; i += 2) {
@@ -51,7 +54,7 @@ static hc_status check_gate_ranges(case_reader *r)
     return HC_BAD_INPUT;
   }
   for (size_t k = 0; k < sizeof limits / sizeof *limits; ++k) {
-    const field *f = named("gate", limits[k]);
+    const field *f = field_named("gate", limits[k]);
     int n = ((const number_list *)field_look(f, &r->sc))->n;
     if (n > longest) longest = n;
     if (n == 0 || n == omega->n / 2) continue;
@@ -66,7 +69,7 @@ static hc_status check_gate_ranges(case_reader *r)
   return HC_BAD_INPUT;
 }
 
-/* Contacts of the file are whole; one that an assignment appended may still lack something. */
+/* A contact appended by --set must have got every required field; contacts of the file were checked when read. */
 static hc_status check_contacts(case_reader *r)
 {
   for (int j = 0; j < r->sc.n_contacts; ++j)

@@ -15,7 +15,7 @@ static const char *expected(const field *f, char text[128])
 
 static bool either_of_two(const field *f) { return !f->fallback && f->rival; }
 
-static void say_default(const field *f, FILE *to)
+static void write_default(const field *f, FILE *to)
 {
   if (either_of_two(f)) fprintf(to, "required, unless %s is given", f->rival);
   else if (!f->fallback) fputs("required", to);
@@ -24,14 +24,14 @@ static void say_default(const field *f, FILE *to)
 }
 
 /* Two lines in the list of everything. */
-static void describe_line(const field *f, FILE *to)
+static void describe_briefly(const field *f, FILE *to)
 {
   char text[128];
   fprintf(to, "%s%s", *f->section ? "  " : "", f->name);
   if (*f->unit) fprintf(to, " [%s]", f->unit);
   fprintf(to, ": %s; ", expected(f, text));
   fputs(f->fallback ? "default " : "", to);
-  say_default(f, to);
+  write_default(f, to);
   fprintf(to, "\n      %s%s%s\n", *f->symbol ? f->symbol : "", *f->symbol ? ", " : "", f->meaning);
 }
 
@@ -39,7 +39,7 @@ static void describe_section(const field_section *s, FILE *to)
 {
   if (*s->name) fprintf(to, "%s: %s\n", s->name, s->meaning);
   for (int i = 0; i < field_count(); ++i)
-    if (!strcmp(field_at(i)->section, s->name)) describe_line(field_at(i), to);
+    if (!strcmp(field_at(i)->section, s->name)) describe_briefly(field_at(i), to);
 }
 
 static void describe_all(FILE *to)
@@ -59,7 +59,7 @@ static void describe_field(const field *f, FILE *to)
   if (*f->symbol) fprintf(to, "  symbol    %s\n", f->symbol);
   if (*f->unit) fprintf(to, "  unit      [%s]\n", f->unit);
   fprintf(to, "  expected  %s\n  default   ", expected(f, text));
-  say_default(f, to);
+  write_default(f, to);
   if (f->rival && !either_of_two(f)) fprintf(to, "\n  instead   %s.%s", f->section, f->rival);
   const char *example = f->fallback && *f->fallback ? f->fallback : f->choices ? f->choices[0] : "VALUE";
   fprintf(to, "\n  set it    --set '%s=%s'\n", field_path(f, 0, path), example);
@@ -76,7 +76,7 @@ static bool is_path(const field *f, const char *asked)
   return !strcmp(plain, path);
 }
 
-static hc_status unknown(const char *asked, case_error *err)
+static hc_status unknown_field(const char *asked, case_error *err)
 {
   message m;
   message_start(&m, err->message, sizeof err->message);
@@ -104,6 +104,6 @@ hc_status case_describe(const char *asked, FILE *to, case_error *err)
     if (n++) putc('\n', to);
     describe_field(f, to);
   }
-  if (n == 0) return unknown(asked, err);
+  if (n == 0) return unknown_field(asked, err);
   return ferror(to) ? HC_IO : HC_OK;
 }

@@ -16,7 +16,8 @@ static bool choices_are_known(const scene *sc)
   return sc->n_contacts >= 0 && sc->n_contacts <= SCENE_MAX_CONTACTS;
 }
 
-/* Of two rivals the one that holds is written: a list that is not empty, else the other. */
+/* Of two rivals (compare.omega, compare.points) the one in force is written: the list if it is not empty, else the
+ * other. */
 static bool is_written(const field *f, const scene *sc)
 {
   if (f->flags & FIELD_NO_ECHO) return false;

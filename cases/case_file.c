@@ -34,7 +34,7 @@ bool case_suggest(message *m, suggestion s, const char *section, int j)
   return s.f || s.s;
 }
 
-static hc_status whole_file(case_reader *r, const char *words)
+static hc_status file_failed(case_reader *r, const char *words)
 {
   message_add(case_blame(r, (case_place){0}), "%s, expected a %s file", words, r->noun);
   return HC_IO;
@@ -77,7 +77,7 @@ hc_status case_reader_scene(case_reader *r, const char *text, size_t length)
   return st;
 }
 
-static hc_status read_all(case_reader *r, const char *text, size_t length, int n_set)
+static hc_status read_scene(case_reader *r, const char *text, size_t length, int n_set)
 {
   hc_status st = case_reader_scene(r, text, length);
   for (int k = 1; k <= n_set && st == HC_OK; ++k) st = case_set_apply(r, k);
@@ -91,7 +91,7 @@ hc_status case_parse(const char *name, const char *text, size_t length, int n_se
 {
   case_reader r;
   case_reader_start(&r, name, set, err);
-  hc_status st = read_all(&r, text, length, n_set);
+  hc_status st = read_scene(&r, text, length, n_set);
   if (st == HC_OK) *out = r.sc;
   return st;
 }
@@ -100,10 +100,10 @@ hc_status case_parse(const char *name, const char *text, size_t length, int n_se
 static hc_status read_stream(case_reader *r, FILE *from, char **text, size_t *length)
 {
   struct stat info;
-  if (fstat(fileno(from), &info) == 0 && S_ISDIR(info.st_mode)) return whole_file(r, "a directory");
+  if (fstat(fileno(from), &info) == 0 && S_ISDIR(info.st_mode)) return file_failed(r, "a directory");
   if (!(*text = malloc(CASE_LARGEST + 1))) return out_of_memory(r);
   *length = fread(*text, 1, CASE_LARGEST + 1, from);
-  return ferror(from) ? whole_file(r, "cannot be read") : HC_OK;
+  return ferror(from) ? file_failed(r, "cannot be read") : HC_OK;
 }
 
 static hc_status cannot_open(case_reader *r, int error)
@@ -133,7 +133,7 @@ hc_status case_read(const char *path, int n_set, const char *const *set, scene *
   size_t length = 0;
   case_reader_start(&r, !strcmp(path, "-") ? "<stdin>" : path, set, err);
   hc_status st = case_reader_slurp(&r, &text, &length);
-  if (st == HC_OK) st = read_all(&r, text, length, n_set);
+  if (st == HC_OK) st = read_scene(&r, text, length, n_set);
   if (st == HC_OK) *out = r.sc;
   free(text);
   return st;

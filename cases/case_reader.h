@@ -14,7 +14,7 @@
 
 enum { CASE_LARGEST = 1 << 20 }; /* bytes of a case file; a real one has a few thousand */
 
-/* Where something was said: the set-th assignment, counted from 1, or for set = 0 a line and column of the file.
+/* Where something was given: the set-th assignment, counted from 1, or for set = 0 a line and column of the file.
  * line = 0: nowhere. */
 typedef struct case_place {
   int set;
@@ -22,24 +22,25 @@ typedef struct case_place {
 } case_place;
 
 typedef struct case_reader {
-  const char *name;         /* of the file, for messages                                         */
-  const char *noun;         /* "case", or what else such a file is, for messages                 */
-  const char *required;     /* what it cannot do without, in words                               */
-  const char *const *set;   /* the assignments                                                   */
-  int set_now;              /* the one being applied, from 1; 0 while the file is read           */
-  case_place here;          /* where the path being resolved or the value being set stands       */
-  case_place end;           /* of the file's text; line = 0 before it is known                   */
-  scene sc;                 /* filled as reading goes on                                         */
-  case_place at[FIELD_MAX]; /* [field_index] where each field was last given; for contacts' fields, in the contact
-                               being read */
-  case_place contact_at[SCENE_MAX_CONTACTS];          /* where each contact appeared                  */
-  unsigned long long contact_has[SCENE_MAX_CONTACTS]; /* bit field_index: the field has been given    */
-  message msg;                                        /* the one message */
+  const char *name;       /* of the file, for messages                               */
+  const char *noun;       /* "case", or what else such a file is, for messages       */
+  const char *required;   /* the keys it must have, in words                         */
+  const char *const *set; /* the assignments                                         */
+  int set_now;            /* the one being applied, from 1; 0 while the file is read */
+  case_place here;        /* of the path being resolved or the value being set       */
+  case_place end;         /* of the file's text; line = 0 before it is known         */
+  scene sc;               /* as far as it has been read                              */
+  /* [field_index] where each field was last given; of contacts' fields, in the contact being read */
+  case_place at[FIELD_MAX];
+  /* where each contact appeared; bit field_index: that field of it has been given */
+  case_place contact_at[SCENE_MAX_CONTACTS];
+  unsigned long long contact_has[SCENE_MAX_CONTACTS];
+  message msg; /* the first mistake */
 } case_reader;
 
 static inline bool case_given(const case_reader *r, const field *f) { return r->at[field_index(f)].line > 0; }
-/* libyaml ends a last line that has no end of its own, and then stands on a line that is not there: its end is
- * meant. */
+/* Where a mark of libyaml stands. If the last line has no line end, libyaml's mark may stand on a line after it, which
+ * the file does not have: then r->end. */
 static inline case_place case_place_of(const case_reader *r, yaml_mark_t mark)
 {
   if (r->set_now == 0 && r->end.line > 0 && mark.line + 1 > r->end.line) return r->end;
@@ -66,7 +67,7 @@ bool case_suggest(message *m, suggestion s, const char *section, int j);
  * HC_OK. */
 hc_status yaml_text_load(case_reader *r, const char *text, size_t length, yaml_document_t *doc);
 
-/* What a node says, and what it is in words: "a mapping", "a list", "a single value", "empty". */
+/* The text of a scalar node, and what a node is in words: "a mapping", "a list", "a single value", "empty". */
 static inline const char *yaml_node_text(const yaml_node_t *n) { return (const char *)n->data.scalar.value; }
 const char *yaml_node_what(const yaml_node_t *n);
 field_item yaml_node_item(const yaml_node_t *n); /* of a scalar */
@@ -99,8 +100,7 @@ hc_status case_find_target(case_reader *r, const char *path, size_t length, case
 void *case_target_base(case_reader *r, case_target t);
 void case_target_given(case_reader *r, case_target t);
 
-/* Of two ways to say the same (sweep.omega, sweep.frequency) the one not given now, if f has one, goes back to its
- * default. */
+/* f is being given: its rival (sweep.frequency is sweep.omega's), if it has one, goes back to its default. */
 void case_drop_rival(case_reader *r, const field *f);
 
 /* Apply assignment number k, from 1. */

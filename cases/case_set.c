@@ -1,8 +1,8 @@
 /* case_set.c - assignments PATH=VALUE on top of a case file.
- *   hbm.samples=2048   title=Any text   sweep.omega=[3,20] or 3,20   contacts[0].gap=-1   contacts[0]={...}
- *                      contacts=[...]
- * An index one past the last contact appends one. A field with a rival (sweep.omega, sweep.frequency) takes its
- * place. */
+ *   hbm.samples=2048   title=Any text   sweep.omega=[3,20] or 3,20
+ *   contacts[0].gap=-1   contacts[0]={...}   contacts=[...]
+ * An index one past the last contact appends one. Of two rivals (sweep.omega, sweep.frequency) the one
+ * assigned last counts. */
 #include <string.h>
 
 #include "cases/case_reader.h"

@@ -13,7 +13,7 @@ static bool is_list(const field *f)
   return f->kind == FIELD_PAIR || f->kind == FIELD_REALS || f->kind == FIELD_INTEGERS;
 }
 
-static void say_range(const field *f, message *m)
+static void add_range(const field *f, message *m)
 {
   char low[NUMBER_TEXT], high[NUMBER_TEXT];
   if (isinf(f->low)) return;
@@ -22,7 +22,7 @@ static void say_range(const field *f, message *m)
   else message_add(m, " %s..%s", low, number_write(f->high, high));
 }
 
-static void say_choices(const field *f, message *m)
+static void add_choices(const field *f, message *m)
 {
   for (int i = 0; f->choices[i]; ++i) {
     const char *before = i == 0 ? "" : f->choices[i + 1] ? ", " : " or ";
@@ -39,12 +39,12 @@ void field_expected(const field *f, message *m)
                                       [FIELD_INTEGERS] = "a list of integers"};
   switch (f->kind) {
   case FIELD_FLAG: message_add(m, "true or false"); return;
-  case FIELD_CHOICE: say_choices(f, m); return;
+  case FIELD_CHOICE: add_choices(f, m); return;
   case FIELD_TEXT: message_add(m, "text of at most %zu bytes", f->size - 1); return;
   default: break;
   }
   message_add(m, "%s", nouns[f->kind]);
-  say_range(f, m);
+  add_range(f, m);
   if (f->flags & FIELD_AUTO) message_add(m, " or auto");
   if (f->kind == FIELD_PAIR) message_add(m, ", [FROM, TO]");
 }
@@ -235,8 +235,7 @@ void field_reset(const field *f, void *base)
   if (!f->fallback || !*f->fallback) return;
   message_start(&m, words, sizeof words);
   field_split(f, f->fallback, strlen(f->fallback), &v);
-  field_store(f, base, &v, &m, &bad); /* cannot refuse: tests/cases/test_fields.c holds every default against its
-                                         range */
+  field_store(f, base, &v, &m, &bad); /* never false: tests/cases/test_fields.c checks every default's range */
 }
 
 static void reset_all(void *base, unsigned in_contact)

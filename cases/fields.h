@@ -22,21 +22,25 @@ typedef enum field_kind {
   FIELD_INTEGERS /* number_list of integers                             */
 } field_kind;
 
-enum { FIELD_IN_CONTACT = 1, FIELD_AUTO = 2, FIELD_OPEN = 4, FIELD_NO_ECHO = 8 };
+enum {
+  FIELD_IN_CONTACT = 1, /* offset is into scene_contact, not into scene */
+  FIELD_AUTO = 2,       /* `auto` is a value, HBM_AUTO */
+  FIELD_OPEN = 4,       /* low itself is out of range */
+  FIELD_NO_ECHO = 8     /* not echoed: another field writes what this one stored */
+};
 
 typedef struct field {
   const char *section, *name; /* section is "" for the top level; path is section.name */
   const char *symbol;         /* what docs/theory.md and the paper call it, or ""; only ever suggested, never read */
   field_kind kind;
-  unsigned flags;       /* FIELD_IN_CONTACT: offset is into scene_contact; FIELD_AUTO: `auto` is a value (HBM_AUTO);
-                     FIELD_OPEN: low itself is out of range; FIELD_NO_ECHO: another field writes what it stored */
-  const char *unit;     /* in terms of force, length, time; "1" for pure numbers, "" where there is none */
-  size_t offset, size;  /* in bytes; size only for FIELD_TEXT */
-  const char *fallback; /* the default as one would write it; "" for nothing at all; NULL: the field is required */
-  double low, high;     /* range, of each entry in lists */
-  double scale;         /* stored = scale * written; 0 counts as 1 */
+  unsigned flags;             /* FIELD_IN_CONTACT, ... */
+  const char *unit;           /* in terms of force, length, time; "1" for pure numbers, "" where there is none */
+  size_t offset, size;        /* in bytes; size only for FIELD_TEXT */
+  const char *fallback;       /* the default as it is written in a file; "": empty; NULL: the field is required */
+  double low, high;           /* range, of each entry in lists */
+  double scale;               /* stored = scale * written; 0 counts as 1 */
   const char *const *choices; /* in the order of the enum, ending in NULL */
-  const char *rival;          /* the other way, in the same section, to say the same: never both in one file; or NULL */
+  const char *rival; /* field of the same section that gives the same quantity: never both in one file; or NULL */
   const char *meaning;
 } field;
 
@@ -80,11 +84,10 @@ typedef struct field_value {
  * (" is `12,5`, expected a number > 0") and *bad is the entry at fault, or -1 for the value as a whole. */
 bool field_store(const field *f, void *base, const field_value *v, message *m, int *bad);
 
-/* text[length] as --set and the defaults write it: `5`, `sampled`, `[1, 3, 5]` or `1,3,5` for lists. Points into
- * text. */
+/* v from text[length] of --set or a default: `5`, `sampled`, `[1, 3, 5]` or `1,3,5` for lists. v points into text. */
 void field_split(const field *f, const char *text, size_t length, field_value *v);
 
-/* The stored value as one writes it in a case file; reads back to the same bits. */
+/* The stored value as text of a case file; reads back to the same bits. */
 void field_write(const field *f, const void *base, FILE *to);
 
 /* Back to the default; a required field keeps what it has. */

@@ -49,6 +49,6 @@ hc_status scene_setup(const scene *sc, compare_setup *out)
 
 void scene_setup_clear(compare_setup *setup)
 {
-  model_free((model *)setup->model); /* const for those who compute; made above */
+  model_free((model *)setup->model); /* const in compare_setup, but made by scene_setup */
   setup->model = NULL;
 }

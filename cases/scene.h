@@ -1,5 +1,5 @@
 /* scene.h - what a case file says, as plain data: one scene a case file (docs/interface.md). It owns no memory: copy
- * it freely. Those who compute get their parts of it: the model and their settings (scene_setup).
+ * it freely. Solvers get parts of it: the model and their settings (scene_setup).
  * Names, units, defaults, ranges and meanings of the fields are in fields.c and nowhere else. */
 #ifndef HC_SCENE_H
 #define HC_SCENE_H

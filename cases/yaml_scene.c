@@ -219,7 +219,7 @@ static int section_index(const field_section *s)
   return i;
 }
 
-static hc_status read_top(case_reader *r, yaml_document_t *doc, const yaml_node_pair_t *pair, case_place *given)
+static hc_status read_top_level(case_reader *r, yaml_document_t *doc, const yaml_node_pair_t *pair, case_place *given)
 {
   const yaml_node_t *key = yaml_document_get_node(doc, pair->key);
   yaml_node_t *value = yaml_document_get_node(doc, pair->value);
@@ -244,7 +244,7 @@ hc_status yaml_scene_read(case_reader *r, yaml_document_t *doc, const yaml_node_
     return HC_BAD_INPUT;
   }
   for (yaml_node_pair_t *p = root->data.mapping.pairs.start; p < root->data.mapping.pairs.top; ++p) {
-    hc_status st = read_top(r, doc, p, given);
+    hc_status st = read_top_level(r, doc, p, given);
     if (st != HC_OK) return st;
   }
   return check_sections(r, given, root);

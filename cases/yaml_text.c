@@ -53,7 +53,7 @@ static hc_status check_characters(case_reader *r, const char *text, size_t lengt
 static hc_status parser_failed(case_reader *r, const yaml_parser_t *p)
 {
   message *m = case_blame(r, case_place_of(r, p->problem_mark));
-  if (p->error == YAML_MEMORY_ERROR || p->error == YAML_NO_ERROR) { /* libyaml forgets to say so in places */
+  if (p->error == YAML_MEMORY_ERROR || p->error == YAML_NO_ERROR) { /* without memory libyaml sometimes sets no error */
     message_add(m, "out of memory");
     return HC_NO_MEMORY;
   }
@@ -64,12 +64,12 @@ static hc_status parser_failed(case_reader *r, const yaml_parser_t *p)
   return HC_BAD_INPUT;
 }
 
-typedef struct guard {
+typedef struct nesting {
   int depth, documents;
-} guard;
+} nesting;
 
 /* What a case file has no use for, or NULL if the event is welcome. */
-static const char *objection(const yaml_event_t *e, guard *g)
+static const char *objection(const yaml_event_t *e, nesting *g)
 {
   const yaml_char_t *anchor = NULL, *tag = NULL;
   switch (e->type) {
@@ -94,7 +94,7 @@ static const char *objection(const yaml_event_t *e, guard *g)
 
 static hc_status check_events(case_reader *r, yaml_parser_t *p)
 {
-  guard g = {0};
+  nesting g = {0};
   for (bool more = true; more;) {
     yaml_event_t e;
     if (!yaml_parser_parse(p, &e)) return parser_failed(r, p);
@@ -111,7 +111,7 @@ static hc_status check_events(case_reader *r, yaml_parser_t *p)
   return HC_BAD_INPUT;
 }
 
-static hc_status load(case_reader *r, yaml_parser_t *p, yaml_document_t *doc)
+static hc_status load_document(case_reader *r, yaml_parser_t *p, yaml_document_t *doc)
 {
   return yaml_parser_load(p, doc) ? HC_OK : parser_failed(r, p);
 }
@@ -136,7 +136,7 @@ hc_status yaml_text_load(case_reader *r, const char *text, size_t length, yaml_d
     if (!yaml_parser_initialize(&p)) return out_of_memory(r);
     yaml_parser_set_encoding(&p, YAML_UTF8_ENCODING);
     yaml_parser_set_input_string(&p, (const unsigned char *)text, length);
-    st = pass == 0 ? check_events(r, &p) : load(r, &p, doc);
+    st = pass == 0 ? check_events(r, &p) : load_document(r, &p, doc);
     yaml_parser_delete(&p);
   }
   return st;

@@ -2,27 +2,30 @@
 #include "command/cli.h"
 
 #include <errno.h>
-#include <limits.h>
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "base/number.h"
 #include "cases/case_file.h"
 #include "command/plot/plot.h"
 #include "output/output.h"
 
+enum { KEY_SET = 0x100, KEY_FORMAT };
+
 static const struct argp_option common_options[] = {
-    {"set", CLI_SET, "PATH=VALUE", 0,
+    {"set", KEY_SET, "PATH=VALUE", 0,
      "Set a field of the case, e.g. hbm.harmonics=10 or contacts[0].gap=-1; may be repeated", 10},
-    {"format", CLI_FORMAT, "table|csv|json", 0, "Form of the result (csv: 17 significant digits) [table]", 10},
+    {"format", KEY_FORMAT, "table|csv|json", 0, "Form of the result (csv: 17 significant digits) [table]", 10},
     {"output", 'o', "FILE", 0, "Write the result to FILE, whole or not at all, instead of standard output", 10},
     {"quiet", 'q', NULL, 0, "No progress, no remarks", 10},
     {0},
 };
 
-/* A list "5,7,9" of numbers, each strictly read. */
-static void read_list(struct argp_state *state, const char *option, const char *text, number_list *out)
+/* ---- values of options ---- */
+
+void cli_read_list(struct argp_state *state, const char *option, const char *text, number_list *out)
 {
   out->n = 0;
   for (const char *at = text;;) {
@@ -36,8 +39,19 @@ static void read_list(struct argp_state *state, const char *option, const char *
   }
 }
 
-static void read_format(struct argp_state *state, const char *option, const char *text, bool table_too,
-                        table_format *out)
+void cli_read_integer(struct argp_state *state, const char *option, const char *text, int low, int high, int *out)
+{
+  if (number_read_integer(text, strlen(text), out) != NUMBER_FINE || *out < low || *out > high)
+    argp_error(state, "--%s: '%s' is unknown; expected an integer %d..%d", option, text, low, high);
+}
+
+void cli_read_positive(struct argp_state *state, const char *option, const char *text, double *out)
+{
+  if (number_read(text, strlen(text), out) != NUMBER_FINE || !(*out > 0))
+    argp_error(state, "--%s: '%s' is unknown; expected a number > 0", option, text);
+}
+
+void cli_read_format(struct argp_state *state, const char *option, const char *text, bool table_too, table_format *out)
 {
   if (table_too && !strcmp(text, "table")) *out = FORMAT_TABLE;
   else if (!strcmp(text, "csv")) *out = FORMAT_CSV;
@@ -45,126 +59,118 @@ static void read_format(struct argp_state *state, const char *option, const char
   else argp_error(state, "--%s: '%s' is unknown; expected %scsv or json", option, text, table_too ? "table, " : "");
 }
 
-static void read_integer(struct argp_state *state, const char *option, const char *text, int low, int high, int *out)
+void cli_read_plot(struct argp_state *state, char *text, const char **out)
 {
-  if (number_read_integer(text, strlen(text), out) != NUMBER_FINE || *out < low || *out > high)
-    argp_error(state, "--%s: '%s' is unknown; expected an integer %d..%d", option, text, low, high);
+  if (!plot_can(text))
+    argp_error(state, "--plot: '%s' has an unknown ending; expected a name ending in " PLOT_ENDINGS ", or -", text);
+  *out = text;
 }
 
-static error_t on_option(int key, char *arg, struct argp_state *state)
+/* ---- the arguments of a command ---- */
+
+/* What the parsers work on: argp's parser for the common options gets all of it, the command's own one gets `own`. */
+typedef struct parse_input {
+  cli_common *common;
+  int max_arguments;
+  void *own;
+} parse_input;
+
+static void add_argument(cli_common *common, int max_arguments, const char *text, struct argp_state *state)
 {
-  cli_options *o = state->input;
+  if (common->n_arguments == max_arguments) argp_error(state, "'%s' is one argument too many", text);
+  common->arguments[common->n_arguments++] = text;
+}
+
+static void add_assignment(cli_common *common, const char *text, struct argp_state *state)
+{
+  if (common->n_set == CLI_MAX_SET) argp_error(state, "--set may be given at most %d times", CLI_MAX_SET);
+  common->set[common->n_set++] = text;
+}
+
+static error_t read_common_option(int key, char *text, struct argp_state *state)
+{
+  parse_input *input = state->input;
+  cli_common *common = input->common;
   switch (key) {
-  case CLI_SET:
-    if (o->n_set == CLI_MAX_SET) argp_error(state, "--set may be given at most %d times", CLI_MAX_SET);
-    o->set[o->n_set++] = arg;
-    return 0;
-  case CLI_FORMAT: read_format(state, "format", arg, true, &o->format); return 0;
-  case 'o': o->output = arg; return 0;
-  case 'q': o->quiet = true; return 0;
-  case CLI_AT: read_list(state, "at", arg, &o->at); return 0;
-  case CLI_HARMONICS: read_list(state, "harmonics", arg, &o->harmonics); return 0;
-  case CLI_SAMPLES: read_list(state, "samples", arg, &o->samples); return 0;
-  case CLI_MOTION: o->motion = arg; return 0;
-  case CLI_JOBS: read_integer(state, "jobs", arg, 1, CLI_MAX_JOBS, &o->jobs); return 0;
-  case CLI_REPEATS: read_integer(state, "repeats", arg, 1, CLI_MAX_REPEATS, &o->repeats); return 0;
-  case CLI_SCENES: read_integer(state, "scenes", arg, 1, CLI_MAX_SCENES, &o->scenes); return 0;
-  case CLI_SEED: read_integer(state, "seed", arg, 0, INT_MAX, &o->seed); return 0;
-  case CLI_FIRST: read_integer(state, "first", arg, 0, CLI_MAX_SCENES, &o->first); return 0;
-  case CLI_SECONDS:
-    if (number_read(arg, strlen(arg), &o->seconds) != NUMBER_FINE || !(o->seconds > 0))
-      argp_error(state, "--seconds: '%s' is unknown; expected a number > 0", arg);
-    return 0;
-  case CLI_CASE: o->one_case = true; return 0;
-  case CLI_FINDINGS: o->findings = arg; return 0;
-  case CLI_ALONE: o->alone = true; return 0;
-  case CLI_JUNIT: o->junit = arg; return 0;
-  case CLI_AGAINST: o->against = arg; return 0;
-  case CLI_COLUMNS: o->curve_columns = arg; return 0;
-  case CLI_QUANTITY: o->quantity = arg; return 0;
-  case CLI_ALL: o->all = true; return 0;
-  case CLI_PLOT:
-    if (!plot_can(arg))
-      argp_error(state, "--plot: '%s' has an unknown ending; expected a name ending in " PLOT_ENDINGS ", or -", arg);
-    o->plot = arg;
-    return 0;
-  case CLI_PLOT_Y: o->plot_y = arg; return 0;
-  case CLI_RESULTS: o->results = arg; return 0;
-  case CLI_TABLES: o->tables = true; return 0;
-  case CLI_FRESH: o->fresh = true; return 0;
-  case CLI_TIMINGS: o->timings = true; return 0;
-  case CLI_EXPORT:
-    o->export = true;
-    read_format(state, "export", arg, false, &o->export_format);
-    return 0;
-  case ARGP_KEY_ARG:
-    if (o->n_arguments == (o->several ? CLI_MAX_ARGUMENTS : 1)) argp_error(state, "'%s' is one argument too many", arg);
-    o->arguments[o->n_arguments++] = arg;
-    if (!o->argument) o->argument = arg;
-    return 0;
+  case ARGP_KEY_INIT: state->child_inputs[0] = input->own; return 0;
+  case ARGP_KEY_ARG: add_argument(common, input->max_arguments, text, state); return 0;
+  case KEY_SET: add_assignment(common, text, state); return 0;
+  case KEY_FORMAT: cli_read_format(state, "format", text, true, &common->format); return 0;
+  case 'o': common->output = text; return 0;
+  case 'q': common->quiet = true; return 0;
   default: return ARGP_ERR_UNKNOWN;
   }
 }
 
-void cli_parse(int argc, char **argv, const char *command, const char *args, const char *doc,
-               const struct argp_option *own, bool needs_argument, cli_options *o)
+void cli_parse(const cli_command *self, int argc, char **argv, void *own, cli_common *common)
 {
-  struct argp_option options[16] = {{0}};
-  int n = 0;
-  for (; own && (own[n].name || own[n].key); ++n) options[n] = own[n];
-  memcpy(options + n, common_options, sizeof common_options);
-  struct argp argp = {options, on_option, args, doc, NULL, NULL, NULL};
+  const struct argp own_argp = {self->options, self->read_option, NULL, NULL, NULL, NULL, NULL};
+  const struct argp_child children[] = {{&own_argp, 0, NULL, 0}, {0}};
+  const struct argp argp = {common_options, read_common_option, self->arguments, self->help, children, NULL, NULL};
+  const bool several = strstr(self->arguments, "...") != NULL;
+  const bool required = *self->arguments && *self->arguments != '[';
+  parse_input input = {common, several ? CLI_MAX_ARGUMENTS : 1, own};
   char name[64];
-  *o = (cli_options){.command = command, .seed = -1, .several = strstr(args, "...") != NULL};
-  snprintf(name, sizeof name, "hbmcheck %s", command);
+  *common = (cli_common){.command = self->name};
+  snprintf(name, sizeof name, "hbmcheck %s", self->name);
   argv[0] = name;
   argp_err_exit_status = EXIT_USAGE;
-  error_t failed = argp_parse(&argp, argc, argv, 0, NULL, o); /* of what is left to us only ENOMEM: usage makes it
-                                                                 exit */
+  error_t failed = argp_parse(&argp, argc, argv, 0, NULL, &input); /* wrong usage exits: what is left is ENOMEM */
+  argv[0] = (char *)"hbmcheck";
   if (failed) {
-    fprintf(stderr, "%s: %s\n", name, failed == ENOMEM ? hc_status_text(HC_NO_MEMORY) : strerror(failed));
+    cli_message(common, "%s", failed == ENOMEM ? hc_status_text(HC_NO_MEMORY) : strerror(failed));
     exit(failed == ENOMEM ? EXIT_NO_SOLUTION : EXIT_BUG);
   }
-  argv[0] = (char *)"hbmcheck";
-  if (needs_argument && !o->argument) {
-    fprintf(stderr, "%s: no %s given\nTry 'hbmcheck %s --help'.\n", name, args, command);
-    exit(EXIT_USAGE);
-  }
-  bool for_programs = (o->format != FORMAT_TABLE || o->export) && !o->output;
-  if (o->plot && !strcmp(o->plot, "-") && for_programs) {
-    fprintf(stderr, "%s: --plot - would mix a drawing into %s; give one of them a file\n", name,
-            o->format == FORMAT_TABLE ? "the export" : "csv or json");
+  if (required && common->n_arguments == 0) {
+    cli_message(common, "no %s given\nTry 'hbmcheck %s --help'.", self->arguments, self->name);
     exit(EXIT_USAGE);
   }
 }
 
-int cli_plotted(const cli_options *o, hc_status st, const char *why)
+void cli_check_plot(const cli_common *common, const char *plot, bool exporting)
 {
-  if (st != HC_OK) cli_say(o, "no drawing: %s", why);
-  return st == HC_OK ? 0 : EXIT_NO_SOLUTION;
+  const bool screen = common->format == FORMAT_TABLE;
+  if (!plot || strcmp(plot, "-") || common->output || (screen && !exporting)) return;
+  cli_message(common, "--plot - would mix a drawing into %s; give one of them a file",
+              screen ? "the export" : "csv or json");
+  exit(EXIT_USAGE);
 }
 
-void cli_say(const cli_options *o, const char *format, ...)
+int cli_processors(void)
+{
+  long online = sysconf(_SC_NPROCESSORS_ONLN);
+  return online < 1 ? 1 : online > CLI_MAX_JOBS ? CLI_MAX_JOBS : (int)online;
+}
+
+/* ---- messages and exit codes ---- */
+
+void cli_message(const cli_common *common, const char *format, ...)
 {
   va_list args;
   va_start(args, format);
-  fprintf(stderr, "hbmcheck %s: ", o->command);
+  fprintf(stderr, "hbmcheck %s: ", common->command);
   vfprintf(stderr, format, args);
   fputc('\n', stderr);
   va_end(args);
 }
 
-int cli_load_case(const cli_options *o, scene *sc)
+int cli_plotted(const cli_common *common, hc_status st, const char *why)
+{
+  if (st == HC_OK) return 0;
+  cli_message(common, "no drawing: %s", why);
+  return EXIT_NO_SOLUTION;
+}
+
+int cli_load_case(const cli_common *common, const char *path, scene *sc)
 {
   case_error err = {{0}};
-  hc_status st = case_read(o->argument, o->n_set, o->set, sc, &err);
+  hc_status st = case_read(path, common->n_set, common->set, sc, &err);
   if (st == HC_OK) return 0;
   fprintf(stderr, "%s\n", err.message[0] ? err.message : hc_status_text(st));
   return st == HC_NO_MEMORY ? EXIT_NO_SOLUTION : EXIT_BAD_CASE;
 }
 
-/* What a person can try next. */
-static const char *advice(hc_status st)
+static const char *hbm_advice(hc_status st)
 {
   switch (st) {
   case HC_STALLED:
@@ -172,30 +178,59 @@ static const char *advice(hc_status st)
   case HC_SINGULAR:
   case HC_STEP_TOO_SMALL:
     return "try --set hbm.continuation=auto, --set hbm.force=exact, or a sweep from the other end";
-  case HC_TOO_MANY_POINTS: return "try --set hbm.force=exact: false turning points come from too few samples";
-  case HC_INTEGRATOR:
-    return "try a larger --set transient.regularisation=... or a tighter --set transient.tolerance=...";
-  case HC_NOT_SETTLED: return "try a larger --set transient.max_periods=... or --set transient.start=hbm";
-  case HC_NOT_FINITE: return "the motion grew without bound: is the scene damped?";
-  case HC_UNSUPPORTED: return "transient.law: exact and transient.steady_state: shooting are not there yet";
-  default: return "see README.md, 'When it says no'";
+  case HC_TOO_MANY_POINTS:
+    return "try --set hbm.force=exact (too few samples make false turning points), or a narrower --set sweep.omega=...";
+  case HC_NOT_CLOSED: return "try the other --set hbm.force=..., exact or sampled";
+  case HC_CHATTER: return "try --set hbm.force=sampled, which counts no transitions";
+  case HC_NOT_FINITE: return "numbers became too large: is the scene damped?";
+  default: return NULL;
   }
 }
 
-int cli_solver_failed(const cli_options *o, const char *solver, hc_status st, double omega)
+static const char *transient_advice(hc_status st)
 {
-  if (st == HC_INTERRUPTED) {
-    cli_say(o, "%s: stopped on request; what was found is kept", solver);
-    return EXIT_NO_SOLUTION;
+  switch (st) {
+  case HC_STALLED:
+  case HC_NOT_CONVERGED:
+  case HC_SINGULAR: return "try --set transient.steady_state=march, which needs no Newton iteration";
+  case HC_CHATTER: return "try --set transient.law=regularised, which counts no transitions";
+  case HC_INTEGRATOR:
+    return "try a larger --set transient.regularisation=..., a tighter --set transient.tolerance=..., or the other "
+           "--set transient.law=..., exact or regularised";
+  case HC_NOT_SETTLED: return "try a larger --set transient.max_periods=... or --set transient.start=hbm";
+  case HC_NOT_FINITE: return "the motion grew without bound: is the scene damped?";
+  default: return NULL;
   }
-  if (st == HC_NO_MEMORY) {
-    cli_say(o, "%s", hc_status_text(st));
-    return EXIT_NO_SOLUTION;
-  }
-  if (omega > 0) cli_say(o, "%s stopped at omega = %.10g: %s; %s", solver, omega, hc_status_text(st), advice(st));
-  else cli_say(o, "%s: %s; %s", solver, hc_status_text(st), advice(st));
+}
+
+/* What a person can try next; NULL where no setting helps. */
+static const char *advice_for(cli_solver solver, hc_status st)
+{
+  const char *hbm = solver == CLI_TRANSIENT ? NULL : hbm_advice(st);
+  const char *transient = solver == CLI_HBM ? NULL : transient_advice(st);
+  if (hbm && transient) return "hbmcheck frf and hbmcheck transient on the same case tell which side it is";
+  return hbm ? hbm : transient;
+}
+
+int cli_solver_failed(const cli_common *common, cli_solver solver, const char *what, hc_status st, double omega)
+{
+  const char *advice = advice_for(solver, st);
+  char where[48] = "";
+  if (omega > 0) snprintf(where, sizeof where, " stopped at omega = %.10g", omega);
+  if (st == HC_INTERRUPTED) cli_message(common, "%s: stopped on request; what was found is kept", what);
+  else if (st == HC_NO_MEMORY) cli_message(common, "%s", hc_status_text(st));
+  else cli_message(common, "%s%s: %s%s%s", what, where, hc_status_text(st), advice ? "; " : "", advice ? advice : "");
   return EXIT_NO_SOLUTION;
 }
+
+int cli_file_failed(const cli_common *common, const char *path, hc_status st)
+{
+  const char *why = st == HC_IO && errno ? strerror(errno) : hc_status_text(st);
+  cli_message(common, "%s: %s", path ? path : "standard output", why);
+  return st == HC_BUG ? EXIT_BUG : EXIT_NO_SOLUTION;
+}
+
+/* ---- results ---- */
 
 const char *cli_hbm_settings(const scene *sc, int n_harm, int n_time, char *text, size_t size)
 {
@@ -219,17 +254,14 @@ void cli_put_row(table *t, rows_kind kind, const row_cell *cells)
   }
 }
 
-int cli_write(const cli_options *o, int n, table *const *tables)
+int cli_write(const cli_common *common, int n, table *const *tables)
 {
   output *out = NULL;
-  hc_status st = output_open(o->output, &out);
+  hc_status st = output_open(common->output, &out);
   if (st == HC_OK) {
-    st = table_write(n, tables, o->format, output_stream(out));
+    st = table_write(n, tables, common->format, output_stream(out));
     if (st == HC_OK) st = output_commit(out);
     else output_abandon(out);
   }
-  if (st == HC_OK) return 0;
-  cli_say(o, "%s: %s", o->output ? o->output : "standard output",
-          st == HC_IO && errno ? strerror(errno) : hc_status_text(st));
-  return st == HC_BUG ? EXIT_BUG : EXIT_NO_SOLUTION;
+  return st == HC_OK ? 0 : cli_file_failed(common, common->output, st);
 }

@@ -1,5 +1,6 @@
-/* cli.h - what the commands share: options, exit codes, and the one place where a failure is put into words.
- * A command is a function (argc, argv) -> exit code; results go to stdout or --output, everything else to stderr. */
+/* cli.h - what the commands share: the options every command has, readers for the values of their own options, exit
+ * codes, and the one place where a failure is put into words. Results go to stdout or --output, everything else to
+ * stderr. The commands are listed in commands.h; command/README.md says how to add one, and where an option goes. */
 #ifndef HC_CLI_H
 #define HC_CLI_H
 
@@ -13,123 +14,90 @@
 
 enum { EXIT_AGREED = 0, EXIT_DISAGREED = 1, EXIT_BAD_CASE = 2, EXIT_NO_SOLUTION = 3, EXIT_USAGE = 64, EXIT_BUG = 70 };
 
-enum {
-  CLI_MAX_SET = 256,
-  CLI_MAX_ARGUMENTS = 64,
-  CLI_MAX_JOBS = 1024,
-  CLI_MAX_REPEATS = 1000,
-  CLI_MAX_SCENES = 100000000
-};
+enum { CLI_MAX_SET = 256, CLI_MAX_ARGUMENTS = 64, CLI_MAX_JOBS = 1024 };
 
-typedef struct cli_options {
-  const char *command;  /* "frf", for messages */
-  const char *argument; /* CASE, or what stands in its place; NULL if absent */
-  int n_set;
-  const char *set[CLI_MAX_SET];
-  table_format format;
-  const char *output;
-  bool quiet;
-  number_list at;                 /* --at; n = 0 when absent */
-  number_list harmonics, samples; /* --harmonics, --samples; n = 0 when absent */
-  const char *motion;             /* --motion */
-  bool several;                   /* more than one argument may be given: argument is the first of */
+/* The first key for a command's own options; those below are the common ones. */
+enum { CLI_OWN_KEY = 0x200 };
+
+/* A command: its help, its own options, and what it does. */
+typedef struct cli_command {
+  const char *name;                  /* "frf"                                                                   */
+  const char *summary;               /* its line of hbmcheck --help                                             */
+  const char *arguments;             /* "CASE": one is required; "CASE...": one or more; "[FIELD]", "": none is */
+  const char *help;                  /* what it does, \v, columns, exit codes, an example                       */
+  const struct argp_option *options; /* its own, keys from CLI_OWN_KEY on; NULL for none                        */
+  /* One of its own options, given with `text`, into state->input, the command's own struct. ARGP_ERR_UNKNOWN for other
+   * keys; NULL without options. */
+  error_t (*read_option)(int key, char *text, struct argp_state *state);
+  /* Parses the arguments with cli_parse and does the work. Returns the exit code. */
+  int (*run)(int argc, char **argv);
+} cli_command;
+
+/* What every command has. --help and --version never come back from cli_parse. */
+typedef struct cli_common {
+  const char *command; /* "frf", for messages */
   int n_arguments;
-  const char *arguments[CLI_MAX_ARGUMENTS];
-  int jobs;                                       /* --jobs; 0 when absent */
-  const char *results;                            /* --results; NULL when absent */
-  bool tables;                                    /* --tables */
-  int repeats;                                    /* --repeats; 0 when absent */
-  bool alone;                                     /* --alone */
-  const char *against, *curve_columns, *quantity; /* --against, --columns, --quantity; NULL when absent */
-  const char *junit;                              /* --junit; NULL when absent */
-  bool all;                                       /* --all */
-  const char *plot, *plot_y;                      /* --plot, --plot-y; NULL when absent */
-  bool fresh, timings;                            /* --fresh, --timings */
-  int scenes, seed, first;                        /* --scenes, 0 when absent; --seed, -1 when absent; --first */
-  double seconds;                                 /* --seconds; 0 when absent */
-  bool one_case;                                  /* --case */
-  const char *findings;                           /* --findings; NULL when absent */
-  bool export;                                    /* --export was given, in export_format */
-  table_format export_format;
-} cli_options;
+  const char *arguments[CLI_MAX_ARGUMENTS]; /* CASE, or what stands in its place; arguments[0] is NULL without any */
+  int n_set;
+  const char *set[CLI_MAX_SET]; /* --set */
+  table_format format;          /* --format */
+  const char *output;           /* --output; NULL: standard output */
+  bool quiet;                   /* --quiet */
+} cli_common;
 
-/* Keys of the options that only some commands have. */
-enum {
-  CLI_AT = 0x100,
-  CLI_HARMONICS,
-  CLI_SAMPLES,
-  CLI_MOTION,
-  CLI_SET,
-  CLI_FORMAT,
-  CLI_JOBS,
-  CLI_RESULTS,
-  CLI_FRESH,
-  CLI_EXPORT,
-  CLI_TIMINGS,
-  CLI_TABLES,
-  CLI_REPEATS,
-  CLI_ALONE,
-  CLI_JUNIT,
-  CLI_ALL,
-  CLI_PLOT,
-  CLI_PLOT_Y,
-  CLI_AGAINST,
-  CLI_COLUMNS,
-  CLI_QUANTITY,
-  CLI_SCENES,
-  CLI_SEED,
-  CLI_FIRST,
-  CLI_SECONDS,
-  CLI_CASE,
-  CLI_FINDINGS
-};
+/* Parse a command's arguments: the common options into *common, its own by self->read_option into *own (NULL without
+ * options). Does not return on --help, --version or wrong usage (exit 64). */
+void cli_parse(const cli_command *self, int argc, char **argv, void *own, cli_common *common);
 
-/* What the commands that can draw share. */
+/* Values of options, for read_option. What cannot be read ends the program with a message (exit 64). */
+void cli_read_list(struct argp_state *state, const char *option, const char *text, number_list *out); /* all > 0 */
+void cli_read_integer(struct argp_state *state, const char *option, const char *text, int low, int high, int *out);
+void cli_read_positive(struct argp_state *state, const char *option, const char *text, double *out);
+void cli_read_format(struct argp_state *state, const char *option, const char *text, bool table_too, table_format *out);
+void cli_read_plot(struct argp_state *state, char *text, const char **out); /* checks the file's ending */
+
+/* --plot, the same in every command that can draw. */
 /* clang-format off */
-#define CLI_PLOT_OPTION \
-  {"plot", CLI_PLOT, "FILE", 0, \
+#define CLI_PLOT_OPTION(key) \
+  {"plot", key, "FILE", 0, \
    "Draw the result with gnuplot, too: FILE ends in .svg, .png or .pdf; - draws with letters, here. Exit 3 if only " \
    "that fails", 2}
 /* clang-format on */
 
-/* Parse a command's arguments; does not return on --help, --version or wrong usage (exit 64). `own`: the command's
- * options, or NULL. `args` ending in "..." takes several arguments. */
-void cli_parse(int argc, char **argv, const char *command, const char *args, const char *doc,
-               const struct argp_option *own, bool needs_argument, cli_options *o);
+/* Right after cli_parse in a command that can draw: --plot - while csv, json or an export goes to standard output ends
+ * the program with a message (exit 64). plot may be NULL. */
+void cli_check_plot(const cli_common *common, const char *plot, bool exporting);
 
-/* Read the case with --set applied. 0, or the exit code after saying why. */
-int cli_load_case(const cli_options *o, scene *sc);
+/* Scenes computed at a time by default: the processors that are online, 1..CLI_MAX_JOBS. */
+int cli_processors(void);
+
+/* Read the case with --set applied. 0, or the exit code after the message. */
+int cli_load_case(const cli_common *common, const char *path, scene *sc);
 
 /* "hbmcheck COMMAND: ..." on stderr. */
-void cli_say(const cli_options *o, const char *format, ...) __attribute__((format(printf, 2, 3)));
+void cli_message(const cli_common *common, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/* Say which solver failed where and what to try; the exit code (docs/interface.md, 5). omega <= 0: at no particular
- * one. */
-int cli_solver_failed(const cli_options *o, const char *solver, hc_status st, double omega);
+/* Whose settings the advice in a message is about. */
+typedef enum cli_solver { CLI_HBM, CLI_TRANSIENT, CLI_BOTH } cli_solver;
 
-/* Append a row of that kind. */
+/* The message for a solver's failure: `what` failed, where, why, and what to try. omega <= 0: at no particular one.
+ * Returns the exit code (docs/interface.md, 5). */
+int cli_solver_failed(const cli_common *common, cli_solver solver, const char *what, hc_status st, double omega);
+
+/* The message for a file (NULL: standard output) that could not be written; errno as the failure left it. Returns the
+ * exit code. */
+int cli_file_failed(const cli_common *common, const char *path, hc_status st);
+
+/* Append a row of that kind to the table. */
 void cli_put_row(table *t, rows_kind kind, const row_cell *cells);
 
 /* Write the tables to stdout or --output, whole or not at all. 0 or the exit code. Frees nothing. */
-int cli_write(const cli_options *o, int n, table *const *tables);
+int cli_write(const cli_common *common, int n, table *const *tables);
 
-/* What came of a drawing: 0, or the exit code after saying that it is missing and why. */
-int cli_plotted(const cli_options *o, hc_status st, const char *why);
+/* After a drawing that ended with st: 0, or the exit code after the message that there is none and why. */
+int cli_plotted(const cli_common *common, hc_status st, const char *why);
 
-/* "H = 10, exact forces" or "H = 10 WITHOUT harmonic 0, 1024 samples", with the numbers in use for auto. Returns
- * text. */
+/* "H = 10, exact forces" or "H = 10 WITHOUT harmonic 0, 1024 samples"; for auto the numbers in use. Returns text. */
 const char *cli_hbm_settings(const scene *sc, int n_harm, int n_time, char *text, size_t size);
-
-int cmd_frf(int argc, char **argv);
-int cmd_transient(int argc, char **argv);
-int cmd_compare(int argc, char **argv);
-int cmd_study(int argc, char **argv);
-int cmd_bench(int argc, char **argv);
-int cmd_gate(int argc, char **argv);
-int cmd_verify(int argc, char **argv);
-int cmd_report(int argc, char **argv);
-int cmd_stress(int argc, char **argv);
-int cmd_contact(int argc, char **argv);
-int cmd_describe(int argc, char **argv);
 
 #endif

@@ -5,12 +5,12 @@
 #include <string.h>
 
 #include "campaigns/bench/bench.h"
-#include "command/cli.h"
+#include "command/commands.h"
 #include "command/plot/plot.h"
 #include "command/version.h"
 #include "output/progress.h"
 
-static const char doc[] =
+static const char help[] =
     "Run time against error for every method on CASE, at the largest stable response at each omega: harmonic balance "
     "with exact and sampled forces, "
     "time integration with the exact and the regularised law, by shooting and by marching; scipy's LSODA beside them "
@@ -23,15 +23,38 @@ static const char doc[] =
     "exit: 0 done  2 case file wrong  3 no stable orbit to compare with, or stopped  64 usage\n"
     "example: hbmcheck bench cases/paper/case2.yaml --at 9";
 
+typedef struct bench_command_options {
+  number_list at;   /* n = 0: where the response is largest */
+  int repeats;      /* 1..MAX_REPEATS */
+  bool alone;       /* --alone */
+  const char *plot; /* NULL: no drawing */
+} bench_command_options;
+
+enum { DEFAULT_REPEATS = 9, MAX_REPEATS = 1000 };
+
+enum { KEY_AT = CLI_OWN_KEY, KEY_REPEATS, KEY_ALONE, KEY_PLOT };
+
 static const struct argp_option options[] = {
-    {"at", CLI_AT, "LIST", 0,
+    {"at", KEY_AT, "LIST", 0,
      "Omegas, rad per unit time [of the case's compare frequencies the one where the response is largest]", 1},
-    {"repeats", CLI_REPEATS, "N", 0,
+    {"repeats", KEY_REPEATS, "N", 0,
      "Times each method is measured; those that take long less often, as the column says [9]", 1},
-    {"alone", CLI_ALONE, NULL, 0, "No other programs beside our methods", 1},
-    CLI_PLOT_OPTION,
+    {"alone", KEY_ALONE, NULL, 0, "No other programs beside our methods", 1},
+    CLI_PLOT_OPTION(KEY_PLOT),
     {0},
 };
+
+static error_t read_option(int key, char *text, struct argp_state *state)
+{
+  bench_command_options *own = state->input;
+  switch (key) {
+  case KEY_AT: cli_read_list(state, "at", text, &own->at); return 0;
+  case KEY_REPEATS: cli_read_integer(state, "repeats", text, 1, MAX_REPEATS, &own->repeats); return 0;
+  case KEY_ALONE: own->alone = true; return 0;
+  case KEY_PLOT: cli_read_plot(state, text, &own->plot); return 0;
+  default: return ARGP_ERR_UNKNOWN;
+  }
+}
 
 static const table_column columns[] = {
     {"omega", TABLE_REAL},
@@ -51,12 +74,15 @@ static const table_column columns[] = {
     {"curve_seconds", TABLE_REAL},
     {"outcome", TABLE_TEXT},
 };
-static const table_column way_columns[] = {
+static const table_column cheapest_columns[] = {
     {"omega", TABLE_REAL},       {"accuracy", TABLE_REAL},      {"method", TABLE_TEXT},
     {"settings", TABLE_TEXT},    {"error_finer", TABLE_REAL},   {"seconds", TABLE_REAL},
     {"next_method", TABLE_TEXT}, {"next_settings", TABLE_TEXT}, {"times_faster", TABLE_REAL},
 };
-enum { N_COLUMNS = sizeof columns / sizeof *columns, N_WAY_COLUMNS = sizeof way_columns / sizeof *way_columns };
+enum {
+  N_COLUMNS = sizeof columns / sizeof *columns,
+  N_CHEAPEST_COLUMNS = sizeof cheapest_columns / sizeof *cheapest_columns
+};
 static const double accuracies[] = {1e-2, 1e-3, 1e-4, 1e-6, 1e-8};
 enum { N_ACCURACIES = sizeof accuracies / sizeof *accuracies };
 
@@ -66,7 +92,7 @@ static void put_count(table *t, int n)
   else table_put_missing(t);
 }
 
-/* Rounded: digits beyond the third are noise of the clock. */
+/* Rounded to three digits: those beyond are noise of the clock. */
 static void put_seconds(table *t, double s)
 {
   char text[32];
@@ -99,7 +125,7 @@ static void put_row(table *t, const bench_row *r)
   else table_put_text(t, bench_outcome_name(r->outcome));
 }
 
-static void put_ways(table *t, const bench *b, const bench_place *p)
+static void put_cheapest(table *t, const bench *b, const bench_place *p)
 {
   char text[BENCH_TEXT];
   for (int i = 0; i < N_ACCURACIES; ++i) {
@@ -116,7 +142,8 @@ static void put_ways(table *t, const bench *b, const bench_place *p)
   }
 }
 
-/* "omega = 9: hbm_exact to 1e-6; exact_shooting from 1e-7 to 1e-11; nothing beyond" */
+/* The fastest method for each accuracy, decade by decade: "hbm_exact from 1e-01 to 1e-06; exact_shooting from 1e-07 to
+ * 1e-11"; beyond the last one nothing was measured. */
 static void note_winners(table *t, const bench *b, const bench_place *p)
 {
   char text[512];
@@ -162,7 +189,7 @@ static void note_place(table *t, const bench_place *p)
   table_note(t, "omega = %.10g: scipy_lsoda: %s", p->omega, p->scipy);
 }
 
-static void put_notes(table *t, const scene *sc, const bench *b)
+static void note_bench(table *t, const scene *sc, const bench *b)
 {
   table_note(t, "%s", sc->title);
   for (int i = 0; i < b->n_places; ++i) note_place(t, &b->places[i]);
@@ -178,46 +205,58 @@ static void put_notes(table *t, const scene *sc, const bench *b)
   note_versions(t);
 }
 
-static int show(const cli_options *o, const scene *sc, const bench *b)
+static int write_tables(const cli_common *common, const scene *sc, const bench *b)
 {
   table *tables[2] = {table_new("Work and precision", N_COLUMNS, columns),
-                      table_new("Cheapest way", N_WAY_COLUMNS, way_columns)};
+                      table_new("Cheapest way", N_CHEAPEST_COLUMNS, cheapest_columns)};
   for (int i = 0; i < b->n_rows; ++i) put_row(tables[0], &b->rows[i]);
-  put_notes(tables[0], sc, b);
+  note_bench(tables[0], sc, b);
   for (int i = 0; i < b->n_places; ++i) {
-    put_ways(tables[1], b, &b->places[i]);
+    put_cheapest(tables[1], b, &b->places[i]);
     note_winners(tables[1], b, &b->places[i]);
   }
-  int code = cli_write(o, 2, tables);
+  int code = cli_write(common, 2, tables);
   for (int i = 0; i < 2; ++i) table_free(tables[i]);
   return code;
 }
 
-int cmd_bench(int argc, char **argv)
+static int run_bench(int argc, char **argv)
 {
-  cli_options o;
+  cli_common common;
+  bench_command_options own = {.repeats = DEFAULT_REPEATS};
   scene sc;
   bench b;
   double failed_at;
-  cli_parse(argc, argv, "bench", "CASE", doc, options, true, &o);
-  int code = cli_load_case(&o, &sc);
+  cli_parse(&cmd_bench, argc, argv, &own, &common);
+  cli_check_plot(&common, own.plot, false);
+  int code = cli_load_case(&common, common.arguments[0], &sc);
   if (code) return code;
-  bench_options how = {.at = o.at, .repeats = o.repeats ? o.repeats : 9, .alone = o.alone};
-  progress *bar = progress_start("benchmark", o.quiet);
+  bench_options how = {.at = own.at, .repeats = own.repeats, .alone = own.alone};
+  progress *bar = progress_start("benchmark", common.quiet);
   hc_monitor monitor = progress_monitor(bar);
   hc_status st = bench_run(&sc, &how, &monitor, &b, &failed_at);
   progress_end(bar);
   if (st == HC_NOT_CONVERGED) {
-    cli_say(
-        &o,
+    cli_message(
+        &common,
         "omega = %.10g: no stable orbit of the exact law next to a harmonic-balance solution, or none beside it; try "
         "another --at",
         failed_at);
     code = EXIT_NO_SOLUTION;
-  } else if (st != HC_OK) code = cli_solver_failed(&o, "the benchmark", st, failed_at);
-  int written = b.n_rows ? show(&o, &sc, &b) : 0;
-  plot_order drawing = {.path = o.plot};
-  if (o.plot && b.n_rows && !written) written = cli_plotted(&o, plot_bench(&drawing, &sc, &b), drawing.why);
+  } else if (st != HC_OK) code = cli_solver_failed(&common, CLI_BOTH, "the benchmark", st, failed_at);
+  int written = b.n_rows ? write_tables(&common, &sc, &b) : 0;
+  plot_order drawing = {.path = own.plot};
+  if (own.plot && b.n_rows && !written) written = cli_plotted(&common, plot_bench(&drawing, &sc, &b), drawing.why);
   bench_clear(&b);
   return code ? code : written;
 }
+
+const cli_command cmd_bench = {
+    .name = "bench",
+    .summary = "work-precision: run time against error for every method at one frequency",
+    .arguments = "CASE",
+    .help = help,
+    .options = options,
+    .read_option = read_option,
+    .run = run_bench,
+};

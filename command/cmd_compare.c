@@ -1,13 +1,13 @@
-/* cmd_compare.c - hbmcheck compare: the main job. */
+/* cmd_compare.c - hbmcheck compare: harmonic balance and time integration at the same frequencies. */
 #include <stdio.h>
 
-#include "command/cli.h"
+#include "command/commands.h"
 #include "command/compare_tables.h"
 #include "command/plot/plot.h"
 #include "compare/comparison.h"
 #include "output/progress.h"
 
-static const char doc[] =
+static const char help[] =
     "Solve CASE by harmonic balance and by time integration at the same frequencies; report how far apart they are, "
     "and a verdict for every "
     "frequency and branch."
@@ -22,18 +22,41 @@ static const char doc[] =
     "compared  64 usage\n"
     "example: hbmcheck compare cases/paper/case2.yaml --set hbm.static=false";
 
+typedef struct compare_options {
+  number_list at;    /* n = 0: the case's */
+  bool tables;       /* --tables */
+  table_lists lists; /* one that is not empty implies tables */
+  const char *plot;  /* NULL: no drawing */
+} compare_options;
+
+enum { KEY_AT = CLI_OWN_KEY, KEY_TABLES, KEY_HARMONICS, KEY_SAMPLES, KEY_PLOT };
+
 static const struct argp_option options[] = {
-    {"at", CLI_AT, "LIST", 0, "Omegas, rad per unit time [compare.omega, else compare.points over the sweep]", 1},
-    {"tables", CLI_TABLES, NULL, 0, "Also the tables over truncation orders and samples, and observed orders", 1},
-    {"harmonics", CLI_HARMONICS, "LIST", 0,
+    {"at", KEY_AT, "LIST", 0, "Omegas, rad per unit time [compare.omega, else compare.points over the sweep]", 1},
+    {"tables", KEY_TABLES, NULL, 0, "Also the tables over truncation orders and samples, and observed orders", 1},
+    {"harmonics", KEY_HARMONICS, "LIST", 0,
      "Truncation orders of the tables, 1..200 [compare.harmonics]; implies --tables", 1},
-    {"samples", CLI_SAMPLES, "LIST", 0,
+    {"samples", KEY_SAMPLES, "LIST", 0,
      "Samples per period of the tables, at least 2 H + 2 [compare.samples]; implies --tables", 1},
-    CLI_PLOT_OPTION,
+    CLI_PLOT_OPTION(KEY_PLOT),
     {0},
 };
 
-/* The row that is farthest from what it should be, and what to do about it. */
+static error_t read_option(int key, char *text, struct argp_state *state)
+{
+  compare_options *own = state->input;
+  switch (key) {
+  case KEY_AT: cli_read_list(state, "at", text, &own->at); return 0;
+  case KEY_TABLES: own->tables = true; return 0;
+  case KEY_HARMONICS: cli_read_list(state, "harmonics", text, &own->lists.harmonics); return 0;
+  case KEY_SAMPLES: cli_read_list(state, "samples", text, &own->lists.samples); return 0;
+  case KEY_PLOT: cli_read_plot(state, text, &own->plot); return 0;
+  default: return ARGP_ERR_UNKNOWN;
+  }
+}
+
+/* The row with the largest budget of the amplitude and what to do about it, and how many rows have no budget or one
+ * that does not explain the discrepancy. */
 static void note_worst(table *t, const scene *sc, const compare_setup *setup, const comparison *c)
 {
   const comparison_row *top = NULL;
@@ -51,12 +74,12 @@ static void note_worst(table *t, const scene *sc, const compare_setup *setup, co
                unknown == 1 ? "" : "s");
 }
 
-/* In csv and json, not on the screen. */
-static const char *const details[] = {"mean_error",           "from_integration", "from_settling",   "hbm_harmonic_1",
-                                      "transient_harmonic_1", "periods",          "orbit_amplitude", "orbit_multiplier",
-                                      "budget_sum",           "budget_observed"};
+/* Columns of csv and json that the screen has no room for. */
+static const char *const csv_only[] = {
+    "mean_error", "from_integration", "from_settling",    "hbm_harmonic_1", "transient_harmonic_1",
+    "periods",    "orbit_amplitude",  "orbit_multiplier", "budget_sum",     "budget_observed"};
 
-static void put_notes(table *t, const scene *sc, const compare_setup *setup, const comparison *c)
+static void note_comparison(table *t, const scene *sc, const compare_setup *setup, const comparison *c)
 {
   table_note(t, "%s", sc->title);
   char how[128];
@@ -80,19 +103,19 @@ static void put_notes(table *t, const scene *sc, const compare_setup *setup, con
   note_worst(t, sc, setup, c);
 }
 
-static void say_failures(const cli_options *o, const comparison *c)
+static void print_failures(const cli_common *common, const comparison *c)
 {
   for (int i = 0; i < c->n_rows; ++i) {
     const comparison_row *r = &c->rows[i];
-    if (r->hbm_status != HC_OK) cli_solver_failed(o, "harmonic balance", r->hbm_status, r->omega);
+    if (r->hbm_status != HC_OK) cli_solver_failed(common, CLI_HBM, "harmonic balance", r->hbm_status, r->omega);
     else if (r->transient_status != HC_OK && r->transient_status != HC_APERIODIC)
-      cli_solver_failed(o, "time integration", r->transient_status, r->omega);
+      cli_solver_failed(common, CLI_TRANSIENT, "time integration", r->transient_status, r->omega);
   }
   if (c->curve.end != HC_OK && c->curve.n)
-    cli_solver_failed(o, "the HBM response curve", c->curve.end, c->curve.points[c->curve.n - 1].omega);
+    cli_solver_failed(common, CLI_HBM, "the HBM response curve", c->curve.end, c->curve.points[c->curve.n - 1].omega);
 }
 
-static table *rows_table(const scene *sc, const compare_setup *setup, const comparison *c)
+static table *comparison_table(const scene *sc, const compare_setup *setup, const comparison *c)
 {
   int n_columns;
   const table_column *columns = rows_columns(ROWS_COMPARE, &n_columns);
@@ -102,47 +125,59 @@ static table *rows_table(const scene *sc, const compare_setup *setup, const comp
     rows_compare(&c->rows[i], cells);
     cli_put_row(t, ROWS_COMPARE, cells);
   }
-  for (size_t i = 0; i < sizeof details / sizeof *details; ++i) table_hide(t, details[i]);
-  put_notes(t, sc, setup, c);
+  for (size_t i = 0; i < sizeof csv_only / sizeof *csv_only; ++i) table_hide(t, csv_only[i]);
+  note_comparison(t, sc, setup, c);
   return t;
 }
 
-int cmd_compare(int argc, char **argv)
+static int run_compare(int argc, char **argv)
 {
-  cli_options o;
+  cli_common common;
+  compare_options own = {0};
   scene sc;
   comparison c = {0};
   accuracy a = {0};
   table *tables[3] = {NULL};
   int n_tables = 1;
-  cli_parse(argc, argv, "compare", "CASE", doc, options, true, &o);
-  int code = cli_load_case(&o, &sc);
-  if (!code) code = compare_lists(&o, &sc);
+  cli_parse(&cmd_compare, argc, argv, &own, &common);
+  cli_check_plot(&common, own.plot, false);
+  int code = cli_load_case(&common, common.arguments[0], &sc);
+  if (!code) code = compare_lists(&common, &own.lists, &sc);
   if (code) return code;
-  if (o.at.n) sc.compare.omega = o.at;
-  progress *bar = progress_start("comparing", o.quiet);
+  if (own.at.n) sc.compare.omega = own.at;
+  progress *bar = progress_start("comparing", common.quiet);
   hc_monitor monitor = progress_monitor(bar);
   compare_setup setup;
   hc_status st = scene_setup(&sc, &setup), tabled = HC_OK;
   if (st == HC_OK) st = comparison_run(&setup, &monitor, &c);
-  tables[0] = rows_table(&sc, &setup, &c);
+  tables[0] = comparison_table(&sc, &setup, &c);
   if (st != HC_OK) table_note(tables[0], "INCOMPLETE: %s", hc_status_text(st));
-  if (st == HC_OK && (o.tables || o.harmonics.n || o.samples.n)) {
+  if (st == HC_OK && (own.tables || own.lists.harmonics.n || own.lists.samples.n)) {
     tabled = compare_tables(&setup, &c, &monitor, tables + 1, &a);
     n_tables = 3;
   }
   progress_end(bar);
-  if (st != HC_OK) code = cli_solver_failed(&o, "the comparison", st, 0);
+  if (st != HC_OK) code = cli_solver_failed(&common, CLI_BOTH, "the comparison", st, 0);
   else code = comparison_exit_code(&c);
-  if (tabled != HC_OK) code = cli_solver_failed(&o, "the tables", tabled, 0);
-  say_failures(&o, &c);
-  int written = c.n_rows ? cli_write(&o, n_tables, tables) : 0;
-  plot_order drawing = {.path = o.plot};
-  if (o.plot && c.n_rows && !written)
-    written = cli_plotted(&o, plot_compare(&drawing, &sc, &c, n_tables > 1 ? &a : NULL), drawing.why);
+  if (tabled != HC_OK) code = cli_solver_failed(&common, CLI_BOTH, "the tables", tabled, 0);
+  print_failures(&common, &c);
+  int written = c.n_rows ? cli_write(&common, n_tables, tables) : 0;
+  plot_order drawing = {.path = own.plot};
+  if (own.plot && c.n_rows && !written)
+    written = cli_plotted(&common, plot_compare(&drawing, &sc, &c, n_tables > 1 ? &a : NULL), drawing.why);
   for (int i = 0; i < n_tables; ++i) table_free(tables[i]);
   accuracy_clear(&a);
   comparison_clear(&c);
   scene_setup_clear(&setup);
   return code ? code : written;
 }
+
+const cli_command cmd_compare = {
+    .name = "compare",
+    .summary = "harmonic balance and time integration at the same frequencies: discrepancies and verdicts",
+    .arguments = "CASE",
+    .help = help,
+    .options = options,
+    .read_option = read_option,
+    .run = run_compare,
+};

@@ -1,12 +1,12 @@
 /* cmd_frf.c - hbmcheck frf: the response curve, or every solution at given frequencies. */
 #include "campaigns/scene_solvers.h"
-#include "command/cli.h"
+#include "command/commands.h"
 #include "command/plot/plot.h"
 #include "compare/frequencies.h"
 #include "compare/response.h"
 #include "output/progress.h"
 
-static const char doc[] =
+static const char help[] =
     "The harmonic-balance response curve of CASE, turning points included, or every solution of that curve at the "
     "omegas of --at. The curve is the branch that begins "
     "at the sweep's first omega; what is not connected to it (try the sweep the other way) is not seen."
@@ -16,11 +16,28 @@ static const char doc[] =
     "usage\n"
     "example: hbmcheck frf cases/paper/case2.yaml --at 8,9 --set hbm.harmonics=5";
 
+typedef struct frf_options {
+  number_list at;   /* n = 0: the whole curve */
+  const char *plot; /* NULL: no drawing */
+} frf_options;
+
+enum { KEY_AT = CLI_OWN_KEY, KEY_PLOT };
+
 static const struct argp_option options[] = {
-    {"at", CLI_AT, "LIST", 0, "Only the solutions at these omegas, rad per unit time", 1},
-    CLI_PLOT_OPTION,
+    {"at", KEY_AT, "LIST", 0, "Only the solutions at these omegas, rad per unit time", 1},
+    CLI_PLOT_OPTION(KEY_PLOT),
     {0},
 };
+
+static error_t read_option(int key, char *text, struct argp_state *state)
+{
+  frf_options *own = state->input;
+  switch (key) {
+  case KEY_AT: cli_read_list(state, "at", text, &own->at); return 0;
+  case KEY_PLOT: cli_read_plot(state, text, &own->plot); return 0;
+  default: return ARGP_ERR_UNKNOWN;
+  }
+}
 
 static hc_status put_points(hbm_solver *s, const hbm_curve *c, table *t)
 {
@@ -74,43 +91,57 @@ static hc_status note_specials(table *t, hbm_solver *s, const hbm_curve *c)
   return st;
 }
 
-int cmd_frf(int argc, char **argv)
+static int run_frf(int argc, char **argv)
 {
-  cli_options o;
+  cli_common common;
+  frf_options own = {0};
   scene sc;
-  cli_parse(argc, argv, "frf", "CASE", doc, options, true, &o);
-  int code = cli_load_case(&o, &sc), n_columns;
+  cli_parse(&cmd_frf, argc, argv, &own, &common);
+  cli_check_plot(&common, own.plot, false);
+  int code = cli_load_case(&common, common.arguments[0], &sc), n_columns;
   if (code) return code;
   hbm_solver *s = NULL;
   hbm_curve curve = {0}, found = {0};
   double from, to, failed_at = 0;
   const table_column *columns = rows_columns(ROWS_FRF, &n_columns);
   table *t = table_new("Response curve", n_columns, columns);
-  progress *bar = progress_start("harmonic balance", o.quiet);
+  progress *bar = progress_start("harmonic balance", common.quiet);
   hc_monitor monitor = progress_monitor(bar);
-  comparison_sweep(sc.omega_from, sc.omega_to, &o.at, &from, &to);
+  comparison_sweep(sc.omega_from, sc.omega_to, &own.at, &from, &to);
   hc_status st = scene_hbm_solver(&sc, &s);
   if (st == HC_OK) {
     st = hbm_trace(s, from, to, &monitor, &curve);
     if (st != HC_OK) failed_at = curve.n ? curve.points[curve.n - 1].omega : from;
-    hc_status at = o.at.n ? response_at(s, &curve, &o.at, &found, &failed_at) : HC_OK;
-    if (st == HC_OK) st = at; /* a curve that stops early is a failure also with --at: it might have come back */
-    hc_status shown = put_points(s, o.at.n ? &found : &curve, t);
+    hc_status at = own.at.n ? response_at(s, &curve, &own.at, &found, &failed_at) : HC_OK;
+    if (st == HC_OK)
+      st = at; /* also with --at a curve that stops early is a
+    failure: it might have turned back to those omegas */
+    hc_status shown = put_points(s, own.at.n ? &found : &curve, t);
     if (st == HC_OK) st = shown;
     note_curve(t, &sc, s, &curve);
-    hc_status noted = o.at.n ? HC_OK : note_specials(t, s, &curve);
-    if (st == HC_OK && noted == HC_NO_MEMORY) st = noted; /* others are told in the note */
+    hc_status noted = own.at.n ? HC_OK : note_specials(t, s, &curve);
+    if (st == HC_OK && noted == HC_NO_MEMORY) st = noted; /* another failure to locate one is in the note */
     if (st != HC_OK && (curve.n == 0 || curve.end == HC_OK)) table_note(t, "INCOMPLETE: %s", hc_status_text(st));
   }
   progress_end(bar);
-  code = st == HC_OK ? 0 : cli_solver_failed(&o, "harmonic balance", st, failed_at);
-  int written = s ? cli_write(&o, 1, &t) : 0;
-  plot_order drawing = {.path = o.plot};
-  if (o.plot && s && !written)
-    written = cli_plotted(&o, plot_frf(&drawing, &sc, s, &curve, o.at.n ? &found : NULL), drawing.why);
+  code = st == HC_OK ? 0 : cli_solver_failed(&common, CLI_HBM, "harmonic balance", st, failed_at);
+  int written = s ? cli_write(&common, 1, &t) : 0;
+  plot_order drawing = {.path = own.plot};
+  if (own.plot && s && !written)
+    written = cli_plotted(&common, plot_frf(&drawing, &sc, s, &curve, own.at.n ? &found : NULL), drawing.why);
   table_free(t);
   hbm_curve_free(&found);
   hbm_curve_free(&curve);
   hbm_solver_free(s);
   return code ? code : written;
 }
+
+const cli_command cmd_frf = {
+    .name = "frf",
+    .summary = "the harmonic-balance response curve, or every solution at given frequencies",
+    .arguments = "CASE",
+    .help = help,
+    .options = options,
+    .read_option = read_option,
+    .run = run_frf,
+};

@@ -1,17 +1,16 @@
-/* cmd_gate.c - hbmcheck gate: the limits of case files held against what is found, for CI. */
-#include <errno.h>
+/* cmd_gate.c - hbmcheck gate: are the discrepancies of case files within the limits they set? For CI. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/number.h"
-#include "command/cli.h"
+#include "command/commands.h"
 #include "compare/gate/gate.h"
 #include "output/output.h"
 #include "output/progress.h"
 
-static const char doc[] =
+static const char help[] =
     "Compare harmonic balance with time integration on every CASE, and hold what is found against the limits under "
     "its gate: a table of what was "
     "allowed and what was found, and an exit code."
@@ -26,84 +25,98 @@ static const char doc[] =
     "usage\n"
     "example: hbmcheck gate cases/paper/case2.yaml --junit gate.xml";
 
+typedef struct gate_options {
+  number_list at;    /* n = 0: each case's */
+  const char *junit; /* NULL: not written */
+  bool all;          /* --all */
+} gate_options;
+
+enum { KEY_JUNIT = CLI_OWN_KEY, KEY_ALL, KEY_AT };
+
 static const struct argp_option options[] = {
-    {"junit", CLI_JUNIT, "FILE", 0, "Also write every check as JUnit XML to FILE, whole or not at all", 1},
-    {"all", CLI_ALL, NULL, 0, "Show every check in the table [the worst of each quantity, and all that do not pass]",
+    {"junit", KEY_JUNIT, "FILE", 0, "Also write every check as JUnit XML to FILE, whole or not at all", 1},
+    {"all", KEY_ALL, NULL, 0, "Show every check in the table [the worst of each quantity, and all that do not pass]",
      1},
-    {"at", CLI_AT, "LIST", 0, "Omegas, rad per unit time, for every case [each case's compare.omega or compare.points]",
+    {"at", KEY_AT, "LIST", 0, "Omegas, rad per unit time, for every case [each case's compare.omega or compare.points]",
      1},
     {0},
 };
 
-/* Limits and findings are numbers for machines; for people text, because costs and discrepancies stand in one
- * column. */
-#define COLUMNS(number)                                                                                                \
-  {"case", TABLE_TEXT}, {"omega", TABLE_REAL}, {"branch", TABLE_INTEGER}, {"verdict", TABLE_TEXT},                     \
-      {"quantity", TABLE_TEXT}, {"against", TABLE_TEXT}, {"allowed", number}, {"found", number},                       \
-      {"result", TABLE_TEXT},                                                                                          \
-  {                                                                                                                    \
-    "reason", TABLE_TEXT                                                                                               \
+static error_t read_option(int key, char *text, struct argp_state *state)
+{
+  gate_options *own = state->input;
+  switch (key) {
+  case KEY_AT: cli_read_list(state, "at", text, &own->at); return 0;
+  case KEY_JUNIT: own->junit = text; return 0;
+  case KEY_ALL: own->all = true; return 0;
+  default: return ARGP_ERR_UNKNOWN;
   }
+}
+
+/* allowed and found: numbers in csv and json; on the screen texts, because a column of numbers has one notation and these
+ * range from discrepancies to costs. */
+/* clang-format off */
+#define COLUMNS(number) \
+  {"case", TABLE_TEXT}, {"omega", TABLE_REAL}, {"branch", TABLE_INTEGER}, {"verdict", TABLE_TEXT}, \
+  {"quantity", TABLE_TEXT}, {"against", TABLE_TEXT}, {"allowed", number}, {"found", number}, \
+  {"result", TABLE_TEXT}, {"reason", TABLE_TEXT}
+/* clang-format on */
 static const table_column columns[] = {COLUMNS(TABLE_REAL)}, columns_for_people[] = {COLUMNS(TABLE_TEXT)};
 enum { N_COLUMNS = sizeof columns / sizeof *columns };
 
-typedef struct job {
-  cli_options o;
-  int n;         /* cases read */
-  scene *scenes; /* [n_arguments] */
-  gate_case *cases;
-  output *junit; /* opened before anything runs: a wrong name is found at once */
-} job;
+/* One call of the command. */
+typedef struct gate_call {
+  cli_common common;
+  gate_options own;
+  scene *scenes;    /* [n_arguments] */
+  gate_case *cases; /* [n_arguments], of which n_judged are filled */
+  int n_judged;
+  output *junit; /* opened before anything runs: a name that cannot be written to is found at once */
+} gate_call;
 
-/* 0 or the exit code. */
-static int read_cases(job *j)
+/* 0 or the exit code after the message. */
+static int read_cases(gate_call *call)
 {
-  for (int i = 0; i < j->o.n_arguments; ++i) {
-    j->o.argument = j->o.arguments[i];
-    int code = cli_load_case(&j->o, &j->scenes[i]);
+  for (int i = 0; i < call->common.n_arguments; ++i) {
+    int code = cli_load_case(&call->common, call->common.arguments[i], &call->scenes[i]);
     if (code) return code;
-    if (j->o.at.n) j->scenes[i].compare.omega = j->o.at;
+    if (call->own.at.n) call->scenes[i].compare.omega = call->own.at;
   }
   return 0;
 }
 
-static int junit_failed(const job *j, hc_status st)
+static int open_junit(gate_call *call)
 {
-  cli_say(&j->o, "%s: %s", j->o.junit, st == HC_IO && errno ? strerror(errno) : hc_status_text(st));
-  return EXIT_NO_SOLUTION;
-}
-
-static int open_junit(job *j)
-{
-  if (!j->o.junit) return 0;
-  if (j->o.output && !strcmp(j->o.junit, j->o.output)) {
-    cli_say(&j->o, "--junit and --output name the same file, %s", j->o.junit);
+  if (!call->own.junit) return 0;
+  if (call->common.output && !strcmp(call->own.junit, call->common.output)) {
+    cli_message(&call->common, "--junit and --output name the same file, %s", call->own.junit);
     return EXIT_USAGE;
   }
-  hc_status st = output_open(j->o.junit, &j->junit);
-  return st == HC_OK ? 0 : junit_failed(j, st);
+  hc_status st = output_open(call->own.junit, &call->junit);
+  return st == HC_OK ? 0 : cli_file_failed(&call->common, call->own.junit, st);
 }
 
-static int run_cases(job *j)
+static int judge_cases(gate_call *call)
 {
-  for (; j->n < j->o.n_arguments; ++j->n) {
-    progress *bar = progress_start(j->o.arguments[j->n], j->o.quiet);
+  for (; call->n_judged < call->common.n_arguments; ++call->n_judged) {
+    progress *bar = progress_start(call->common.arguments[call->n_judged], call->common.quiet);
     hc_monitor monitor = progress_monitor(bar);
     compare_setup setup;
-    hc_status st = scene_setup(&j->scenes[j->n], &setup);
-    if (st == HC_OK) st = gate_run(j->o.arguments[j->n], &setup, &monitor, &j->cases[j->n]);
+    hc_status st = scene_setup(&call->scenes[call->n_judged], &setup);
+    if (st == HC_OK)
+      st = gate_run(call->common.arguments[call->n_judged], &setup, &monitor, &call->cases[call->n_judged]);
     scene_setup_clear(&setup);
     progress_end(bar);
     if (st == HC_OK) continue;
-    if (st == HC_INTERRUPTED) cli_say(&j->o, "stopped on request: nothing is written, half a gate is none");
-    else cli_solver_failed(&j->o, j->o.arguments[j->n], st, 0);
-    gate_clear(&j->cases[j->n]);
+    if (st == HC_INTERRUPTED) cli_message(&call->common, "stopped on request: nothing is written, half a gate is none");
+    else cli_solver_failed(&call->common, CLI_BOTH, call->common.arguments[call->n_judged], st, 0);
+    gate_clear(&call->cases[call->n_judged]);
     return EXIT_NO_SOLUTION;
   }
   return 0;
 }
 
-/* ---- telling ---- */
+/* ---- results ---- */
 
 static void put_number(table *t, double x, bool people)
 {
@@ -127,14 +140,14 @@ static void put_check(table *t, const gate_case *g, const gate_check *c, bool pe
   table_put_text(t, *c->reason ? c->reason : NULL);
 }
 
-static table *checks_table(const job *j)
+static table *checks_table(const gate_call *call)
 {
-  const bool people = j->o.format == FORMAT_TABLE;
+  const bool people = call->common.format == FORMAT_TABLE;
   table *t = table_new("Gate", N_COLUMNS, people ? columns_for_people : columns);
-  for (int i = 0; i < j->n; ++i) {
-    const gate_case *g = &j->cases[i];
+  for (int i = 0; i < call->n_judged; ++i) {
+    const gate_case *g = &call->cases[i];
     for (int k = 0; k < g->n; ++k)
-      if (!people || j->o.all || g->checks[k].result != GATE_PASS || gate_is_worst(g, k))
+      if (!people || call->own.all || g->checks[k].result != GATE_PASS || gate_is_worst(g, k))
         put_check(t, g, &g->checks[k], people);
     table_note(t, "%s: %d checks, %d passed, %d failed, %d could not be made", g->name, g->n,
                g->n - g->failures - g->errors, g->failures, g->errors);
@@ -142,38 +155,50 @@ static table *checks_table(const job *j)
   return t;
 }
 
-static int write_junit(job *j)
+static int write_junit(gate_call *call)
 {
-  if (!j->junit) return 0;
-  hc_status st = gate_write_junit(j->n, j->cases, output_stream(j->junit));
-  if (st == HC_OK) st = output_commit(j->junit);
-  else output_abandon(j->junit);
-  j->junit = NULL;
-  return st == HC_OK ? 0 : junit_failed(j, st);
+  if (!call->junit) return 0;
+  hc_status st = gate_write_junit(call->n_judged, call->cases, output_stream(call->junit));
+  if (st == HC_OK) st = output_commit(call->junit);
+  else output_abandon(call->junit);
+  call->junit = NULL;
+  return st == HC_OK ? 0 : cli_file_failed(&call->common, call->own.junit, st);
 }
 
-/* Both are written, even if one of them fails. */
-static int tell(job *j)
+/* The table and the JUnit file: each is written even if the other one fails. */
+static int write_results(gate_call *call)
 {
-  table *t = checks_table(j);
-  int shown = cli_write(&j->o, 1, &t), reported = write_junit(j), code = gate_exit_code(j->n, j->cases);
+  table *t = checks_table(call);
+  int shown = cli_write(&call->common, 1, &t), reported = write_junit(call),
+      code = gate_exit_code(call->n_judged, call->cases);
   table_free(t);
   return code ? code : shown ? shown : reported;
 }
 
-int cmd_gate(int argc, char **argv)
+static int run_gate(int argc, char **argv)
 {
-  job j = {.n = 0};
-  cli_parse(argc, argv, "gate", "CASE...", doc, options, true, &j.o);
-  j.scenes = calloc((size_t)j.o.n_arguments, sizeof *j.scenes);
-  j.cases = calloc((size_t)j.o.n_arguments, sizeof *j.cases);
-  int code = j.scenes && j.cases ? read_cases(&j) : cli_solver_failed(&j.o, "gate", HC_NO_MEMORY, 0);
-  if (!code) code = open_junit(&j);
-  if (!code) code = run_cases(&j);
-  if (!code) code = tell(&j);
-  output_abandon(j.junit);
-  for (int i = 0; i < j.n; ++i) gate_clear(&j.cases[i]);
-  free(j.cases);
-  free(j.scenes);
+  gate_call call = {.n_judged = 0};
+  cli_parse(&cmd_gate, argc, argv, &call.own, &call.common);
+  call.scenes = calloc((size_t)call.common.n_arguments, sizeof *call.scenes);
+  call.cases = calloc((size_t)call.common.n_arguments, sizeof *call.cases);
+  int code = call.scenes && call.cases ? read_cases(&call)
+                                       : cli_solver_failed(&call.common, CLI_BOTH, "gate", HC_NO_MEMORY, 0);
+  if (!code) code = open_junit(&call);
+  if (!code) code = judge_cases(&call);
+  if (!code) code = write_results(&call);
+  output_abandon(call.junit);
+  for (int i = 0; i < call.n_judged; ++i) gate_clear(&call.cases[i]);
+  free(call.cases);
+  free(call.scenes);
   return code;
 }
+
+const cli_command cmd_gate = {
+    .name = "gate",
+    .summary = "the accuracy gate for CI: case files with limits, a table of verdicts, JUnit, an exit code",
+    .arguments = "CASE...",
+    .help = help,
+    .options = options,
+    .read_option = read_option,
+    .run = run_gate,
+};

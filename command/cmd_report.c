@@ -1,17 +1,16 @@
 /* cmd_report.c - hbmcheck report: the comparison as one HTML page. */
-#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "command/cli.h"
+#include "command/commands.h"
 #include "command/compare_tables.h"
 #include "command/report/report.h"
 #include "command/version.h"
 #include "output/output.h"
 #include "output/progress.h"
 
-static const char doc[] =
+static const char help[] =
     "Write one self-contained HTML page about CASE: verdict and error budget in words, interactive plots, the tables, "
     "what aliasing does to this "
     "case, and the resolved case and versions to make it again. It opens from disk and needs no network."
@@ -21,12 +20,30 @@ static const char doc[] =
     "something could not be compared  64 usage\n"
     "example: hbmcheck report cases/paper/case2.yaml --output case2.html";
 
+typedef struct report_options {
+  number_list at; /* n = 0: the case's */
+  table_lists lists;
+} report_options;
+
+enum { KEY_AT = CLI_OWN_KEY, KEY_HARMONICS, KEY_SAMPLES };
+
 static const struct argp_option options[] = {
-    {"at", CLI_AT, "LIST", 0, "Omegas, rad per unit time [compare.omega, else compare.points over the sweep]", 1},
-    {"harmonics", CLI_HARMONICS, "LIST", 0, "Truncation orders of the tables, 1..200 [compare.harmonics]", 1},
-    {"samples", CLI_SAMPLES, "LIST", 0, "Samples per period of the tables, at least 2 H + 2 [compare.samples]", 1},
+    {"at", KEY_AT, "LIST", 0, "Omegas, rad per unit time [compare.omega, else compare.points over the sweep]", 1},
+    {"harmonics", KEY_HARMONICS, "LIST", 0, "Truncation orders of the tables, 1..200 [compare.harmonics]", 1},
+    {"samples", KEY_SAMPLES, "LIST", 0, "Samples per period of the tables, at least 2 H + 2 [compare.samples]", 1},
     {0},
 };
+
+static error_t read_option(int key, char *text, struct argp_state *state)
+{
+  report_options *own = state->input;
+  switch (key) {
+  case KEY_AT: cli_read_list(state, "at", text, &own->at); return 0;
+  case KEY_HARMONICS: cli_read_list(state, "harmonics", text, &own->lists.harmonics); return 0;
+  case KEY_SAMPLES: cli_read_list(state, "samples", text, &own->lists.samples); return 0;
+  default: return ARGP_ERR_UNKNOWN;
+  }
+}
 
 /* "case2.html" for cases/paper/case2.yaml, into text[size]. */
 static const char *name_of_page(const char *path, char *text, size_t size)
@@ -39,8 +56,8 @@ static const char *name_of_page(const char *path, char *text, size_t size)
   return text;
 }
 
-/* One word of a shell's command line. */
-static void put_word(FILE *to, const char *word)
+/* One word of a command line, in quotes where the shell needs them. */
+static void write_word(FILE *to, const char *word)
 {
   static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./=,:+@%";
   putc(' ', to);
@@ -56,34 +73,34 @@ static void put_word(FILE *to, const char *word)
   putc('\'', to);
 }
 
-static void put_list(FILE *to, const char *option, const number_list *list)
+static void write_list(FILE *to, const char *option, const number_list *list)
 {
   if (list->n) fprintf(to, " --%s ", option);
   for (int i = 0; i < list->n; ++i) fprintf(to, "%s%.15g", i ? "," : "", list->v[i]);
 }
 
-/* What a person types to have this page again. */
-static void put_command(FILE *to, const cli_options *o)
+/* The command line that makes this page again. */
+static void write_command(FILE *to, const cli_common *common, const report_options *own)
 {
   fputs("hbmcheck report", to);
-  put_word(to, o->argument);
-  put_list(to, "at", &o->at);
-  put_list(to, "harmonics", &o->harmonics);
-  put_list(to, "samples", &o->samples);
-  for (int i = 0; i < o->n_set; ++i) {
+  write_word(to, common->arguments[0]);
+  write_list(to, "at", &own->at);
+  write_list(to, "harmonics", &own->lists.harmonics);
+  write_list(to, "samples", &own->lists.samples);
+  for (int i = 0; i < common->n_set; ++i) {
     fputs(" --set", to);
-    put_word(to, o->set[i]);
+    write_word(to, common->set[i]);
   }
 }
 
-/* The texts of a report_origin, each in memory of its own; NULL: out of memory. */
-static char *text_of(const cli_options *o)
+/* The command line, or with own = NULL the versions, as a report_origin has them: to be freed; NULL: out of memory. */
+static char *origin_text(const cli_common *common, const report_options *own)
 {
   char *text = NULL;
   size_t size = 0;
   FILE *to = open_memstream(&text, &size);
   if (!to) return NULL;
-  if (o) put_command(to, o);
+  if (own) write_command(to, common, own);
   else cli_print_version(to, NULL);
   bool whole = !ferror(to);
   if (fclose(to) == 0 && whole) return text;
@@ -101,9 +118,9 @@ static void describe_settings(const report_data *d, char *text, size_t size)
            t->tolerance);
 }
 
-static hc_status write_page(const cli_options *o, const report_data *d, const char *path)
+static hc_status write_page(const cli_common *common, const report_options *own, const report_data *d, const char *path)
 {
-  char settings[256], *command = text_of(o), *versions = text_of(NULL);
+  char settings[256], *command = origin_text(common, own), *versions = origin_text(common, NULL);
   output *out = NULL;
   describe_settings(d, settings, sizeof settings);
   hc_status st = command && versions ? output_open(path, &out) : HC_NO_MEMORY;
@@ -119,48 +136,57 @@ static hc_status write_page(const cli_options *o, const report_data *d, const ch
 
 static void announce(void *bar, const char *stage) { progress_relabel(bar, stage); }
 
-/* 0, or the exit code after saying why there is no page. */
-static int refuse(const cli_options *o)
+/* Can there be a page at all? 0, or the exit code after the message. */
+static int check_possible(const cli_common *common)
 {
-  if (o->format != FORMAT_TABLE) {
-    cli_say(o, "a report is HTML: --format does not apply; hbmcheck compare has csv and json");
+  if (common->format != FORMAT_TABLE) {
+    cli_message(common, "a report is HTML: --format does not apply; hbmcheck compare has csv and json");
     return EXIT_USAGE;
   }
   if (!report_has_charts()) {
-    cli_say(o, "built without Chart.js, which draws the plots: install it (Debian: libjs-chart.js) and build again");
+    cli_message(common,
+                "built without Chart.js, which draws the plots: install it (Debian: libjs-chart.js) and build again");
     return EXIT_USAGE;
   }
   return 0;
 }
 
-int cmd_report(int argc, char **argv)
+static int run_report(int argc, char **argv)
 {
-  cli_options o;
+  cli_common common;
+  report_options own = {0};
   scene sc;
   report_data d;
   char name[512];
-  cli_parse(argc, argv, "report", "CASE", doc, options, true, &o);
-  int code = refuse(&o);
-  if (!code) code = cli_load_case(&o, &sc);
-  if (!code) code = compare_lists(&o, &sc);
+  cli_parse(&cmd_report, argc, argv, &own, &common);
+  int code = check_possible(&common);
+  if (!code) code = cli_load_case(&common, common.arguments[0], &sc);
+  if (!code) code = compare_lists(&common, &own.lists, &sc);
   if (code) return code;
-  if (o.at.n) sc.compare.omega = o.at;
-  const char *path = o.output ? o.output : name_of_page(o.argument, name, sizeof name);
-  progress *bar = progress_start("comparing", o.quiet);
+  if (own.at.n) sc.compare.omega = own.at;
+  const char *path = common.output ? common.output : name_of_page(common.arguments[0], name, sizeof name);
+  progress *bar = progress_start("comparing", common.quiet);
   hc_monitor monitor = progress_monitor(bar);
   hc_status st = report_gather(&sc, &monitor, announce, bar, &d);
   progress_end(bar);
   if (st == HC_INTERRUPTED) {
-    cli_say(&o, "stopped on request; no page was written");
+    cli_message(&common, "stopped on request; no page was written");
     code = EXIT_NO_SOLUTION;
-  } else if (st != HC_OK) code = cli_solver_failed(&o, "the report", st, 0);
-  else if ((st = write_page(&o, &d, path)) == HC_OK) {
+  } else if (st != HC_OK) code = cli_solver_failed(&common, CLI_BOTH, "the report", st, 0);
+  else if ((st = write_page(&common, &own, &d, path)) == HC_OK) {
     code = comparison_exit_code(&d.comparison);
-    if (!o.quiet) cli_say(&o, "wrote %s", path);
-  } else {
-    cli_say(&o, "%s: %s", path, st == HC_IO && errno ? strerror(errno) : hc_status_text(st));
-    code = EXIT_NO_SOLUTION;
-  }
+    if (!common.quiet) cli_message(&common, "wrote %s", path);
+  } else code = cli_file_failed(&common, path, st);
   report_clear(&d);
   return code;
 }
+
+const cli_command cmd_report = {
+    .name = "report",
+    .summary = "one self-contained HTML page: verdict in words, plots, tables, what aliasing does",
+    .arguments = "CASE",
+    .help = help,
+    .options = options,
+    .read_option = read_option,
+    .run = run_report,
+};

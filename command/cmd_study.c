@@ -1,6 +1,5 @@
-/* cmd_study.c - hbmcheck study: many scenes of one case, in parallel, kept as they come, and what a study claims
- * held against them. */
-#include <errno.h>
+/* cmd_study.c - hbmcheck study: many scenes of one case in parallel, their results kept as they come, and the study's
+ * claims checked against them. Under mpirun rank 0 hands out the scenes, keeps the results and writes. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,12 +12,12 @@
 #include "campaigns/study/cluster.h"
 #include "campaigns/study/report.h"
 #include "campaigns/study/run.h"
-#include "command/cli.h"
+#include "command/commands.h"
 #include "command/plot/plot.h"
 #include "output/output.h"
 #include "output/progress.h"
 
-static const char doc[] =
+static const char help[] =
     "Compute every scene of each STUDY (a YAML file: a base case, and what varies) in parallel, keep the results in "
     "an SQLite file, and hold what the "
     "study claims against them. Killed or stopped at any moment, the same command goes on where it was."
@@ -27,41 +26,74 @@ static const char doc[] =
     "stopped before the end  64 usage\n"
     "example: hbmcheck study gaps.yaml --jobs 4 --export csv --output gaps.csv";
 
+typedef struct study_options {
+  int jobs;            /* 0: not given */
+  const char *results; /* NULL: not given */
+  bool fresh, timings; /* --fresh, --timings */
+  bool exporting;      /* --export was given, in export_format */
+  table_format export_format;
+  const char *plot, *plot_y; /* NULL: not given */
+} study_options;
+
+enum { KEY_JOBS = CLI_OWN_KEY, KEY_RESULTS, KEY_FRESH, KEY_EXPORT, KEY_TIMINGS, KEY_PLOT, KEY_PLOT_Y };
+
 static const struct argp_option options[] = {
-    {"jobs", CLI_JOBS, "N", 0, "Scenes computed at a time [the processors that are online]", 1},
-    {"results", CLI_RESULTS, "FILE", 0,
+    {"jobs", KEY_JOBS, "N", 0, "Scenes computed at a time [the processors that are online]", 1},
+    {"results", KEY_RESULTS, "FILE", 0,
      "SQLite file of the results, or a folder for it; :memory: keeps nothing [STUDY's name with .sqlite, here]", 1},
-    {"fresh", CLI_FRESH, NULL, 0, "Throw away what the results file has, and start again", 1},
-    {"export", CLI_EXPORT, "csv|json", 0, "Write every scene with its rows instead of the summary", 1},
-    {"timings", CLI_TIMINGS, NULL, 0, "Export the seconds each scene took, too", 1},
-    CLI_PLOT_OPTION,
-    {"plot-y", CLI_PLOT_Y, "NAME", 0,
+    {"fresh", KEY_FRESH, NULL, 0, "Throw away what the results file has, and start again", 1},
+    {"export", KEY_EXPORT, "csv|json", 0, "Write every scene with its rows instead of the summary", 1},
+    {"timings", KEY_TIMINGS, NULL, 0, "Export the seconds each scene took, too", 1},
+    CLI_PLOT_OPTION(KEY_PLOT),
+    {"plot-y", KEY_PLOT_Y, "NAME", 0,
      "What to draw: a column of scenes, or of rows, then the largest of each scene [peak_amplitude, or amplitude]", 2},
     {0},
 };
 
-enum { MOST_PATH = 4096, PLAIN_WIDTH = 150, LEAST_WIDTH = 60 };
+static error_t read_option(int key, char *text, struct argp_state *state)
+{
+  study_options *own = state->input;
+  switch (key) {
+  case KEY_JOBS: cli_read_integer(state, "jobs", text, 1, CLI_MAX_JOBS, &own->jobs); return 0;
+  case KEY_RESULTS: own->results = text; return 0;
+  case KEY_FRESH: own->fresh = true; return 0;
+  case KEY_EXPORT:
+    own->exporting = true;
+    cli_read_format(state, "export", text, false, &own->export_format);
+    return 0;
+  case KEY_TIMINGS: own->timings = true; return 0;
+  case KEY_PLOT: cli_read_plot(state, text, &own->plot); return 0;
+  case KEY_PLOT_Y: own->plot_y = text; return 0;
+  default: return ARGP_ERR_UNKNOWN;
+  }
+}
+
+enum { MAX_PATH = 4096, DEFAULT_WIDTH = 150, MIN_WIDTH = 60 };
 
 enum { SUMMARY, VERDICTS, CLAIMS /* and STUDY_CLAIM_TABLES of them */, N_TABLES = CLAIMS + STUDY_CLAIM_TABLES };
 
-/* One study of the command line. */
-typedef struct task {
+/* One study of the command line, and how far it came. */
+typedef struct study_entry {
   study *s;
-  char results[MOST_PATH];
+  char results[MAX_PATH];
   study_store *store; /* rank 0 only */
-  long now, there;
+  long computed_now, computed;
   double wall; /* [s] */
-} task;
+} study_entry;
 
-typedef struct job {
-  cli_options o;
-  int rank, size, n, jobs;
-  task tasks[CLI_MAX_ARGUMENTS];
+/* One call of the command. */
+typedef struct study_call {
+  cli_common common;
+  study_options own;
+  int rank, n_ranks; /* of this process, and of how many; 0 and 1 without MPI */
+  int jobs;          /* scenes computed at a time by this process */
+  int n_studies;
+  study_entry studies[CLI_MAX_ARGUMENTS]; /* [n_studies] */
   table *tables[N_TABLES];
   study_claims_tally claims;
   long scenes;
   double seconds, exact_seconds, wall; /* of all studies */
-} job;
+} study_call;
 
 static double wall_seconds(void)
 {
@@ -70,10 +102,10 @@ static double wall_seconds(void)
   return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-/* Say it once, however many processes there are. */
-static int wrong(const job *j, hc_status st, const case_error *err)
+/* The message for a study or results file that is wrong, printed by rank 0 only. Returns the exit code. */
+static int study_failed(const study_call *call, hc_status st, const case_error *err)
 {
-  if (j->rank == 0) fprintf(stderr, "%s\n", err->message[0] ? err->message : hc_status_text(st));
+  if (call->rank == 0) fprintf(stderr, "%s\n", err->message[0] ? err->message : hc_status_text(st));
   return st == HC_NO_MEMORY ? EXIT_NO_SOLUTION : EXIT_BAD_CASE;
 }
 
@@ -85,127 +117,133 @@ static bool is_folder(const char *path)
   return stat(path, &info) == 0 && S_ISDIR(info.st_mode);
 }
 
-/* The study's name with .sqlite, here or in the folder of --results. */
-static void name_results(const cli_options *o, task *t)
+/* The file of --results; without, the study's name with .sqlite, here or in the folder of --results. */
+static void name_results(const study_options *own, study_entry *entry)
 {
-  const char *name = t->s->name, *slash = strrchr(name, '/'),
+  const char *name = entry->s->name, *slash = strrchr(name, '/'),
              *stem = !strcmp(name, "<stdin>") ? "study"
                      : slash                  ? slash + 1
                                               : name;
   const char *dot = strrchr(stem, '.');
   int length = (int)(dot && dot > stem ? (size_t)(dot - stem) : strlen(stem));
-  bool folder = o->results && is_folder(o->results);
-  if (o->results && !folder) snprintf(t->results, sizeof t->results, "%s", o->results);
+  bool folder = own->results && is_folder(own->results);
+  if (own->results && !folder) snprintf(entry->results, sizeof entry->results, "%s", own->results);
   else
-    snprintf(t->results, sizeof t->results, "%s%s%.*s.sqlite", folder ? o->results : "", folder ? "/" : "", length,
-             stem);
+    snprintf(entry->results, sizeof entry->results, "%s%s%.*s.sqlite", folder ? own->results : "", folder ? "/" : "",
+             length, stem);
 }
 
-static int check_names(const job *j)
+/* No two studies in one results file. 0 or the exit code. */
+static int check_names(const study_call *call)
 {
-  for (int i = 0; i < j->n; ++i)
+  for (int i = 0; i < call->n_studies; ++i)
     for (int k = 0; k < i; ++k) {
-      if (strcmp(j->tasks[i].results, j->tasks[k].results) || !strcmp(j->tasks[i].results, ":memory:")) continue;
-      if (j->rank == 0)
-        cli_say(&j->o,
-                "%s and %s would share the results file %s; run them one by one, or give a folder or names that differ",
-                j->tasks[k].s->name, j->tasks[i].s->name, j->tasks[i].results);
+      if (strcmp(call->studies[i].results, call->studies[k].results) || !strcmp(call->studies[i].results, ":memory:"))
+        continue;
+      if (call->rank == 0)
+        cli_message(
+            &call->common,
+            "%s and %s would share the results file %s; run them one by one, or give a folder or names that differ",
+            call->studies[k].s->name, call->studies[i].s->name, call->studies[i].results);
       return EXIT_USAGE;
     }
   return 0;
 }
 
-static int read_studies(job *j)
+static int read_studies(study_call *call)
 {
-  const cli_options *o = &j->o;
-  for (int i = 0; i < o->n_arguments; ++i) {
+  const cli_common *common = &call->common;
+  for (int i = 0; i < common->n_arguments; ++i) {
     case_error err = {{0}};
-    hc_status st = study_read(o->arguments[i], o->n_set, o->set, &j->tasks[i].s, &err);
+    hc_status st = study_read(common->arguments[i], common->n_set, common->set, &call->studies[i].s, &err);
     if (st == HC_OK) {
-      ++j->n;
-      st = study_claims_check(j->tasks[i].s, &err);
+      ++call->n_studies;
+      st = study_claims_check(call->studies[i].s, &err);
     }
-    if (st != HC_OK) return wrong(j, st, &err);
-    name_results(o, &j->tasks[i]);
-    plot_order drawing = {.path = o->plot};
-    if (o->plot && plot_study_check(&drawing, j->tasks[i].s, o->plot_y) != HC_OK) {
-      if (j->rank == 0) cli_say(o, "%s", drawing.why);
+    if (st != HC_OK) return study_failed(call, st, &err);
+    name_results(&call->own, &call->studies[i]);
+    plot_order drawing = {.path = call->own.plot};
+    if (call->own.plot && plot_study_check(&drawing, call->studies[i].s, call->own.plot_y) != HC_OK) {
+      if (call->rank == 0) cli_message(common, "%s", drawing.why);
       return EXIT_USAGE;
     }
   }
-  return check_names(j);
+  return check_names(call);
 }
 
-static int open_stores(job *j)
+static int open_stores(study_call *call)
 {
-  for (int i = 0; i < j->n; ++i) {
+  for (int i = 0; i < call->n_studies; ++i) {
     case_error err = {{0}};
-    hc_status st =
-        study_store_open(j->tasks[i].s, j->tasks[i].results, HBMCHECK_VERSION, j->o.fresh, &j->tasks[i].store, &err);
-    if (st != HC_OK) return wrong(j, st, &err);
+    hc_status st = study_store_open(call->studies[i].s, call->studies[i].results, HBMCHECK_VERSION, call->own.fresh,
+                                    &call->studies[i].store, &err);
+    if (st != HC_OK) return study_failed(call, st, &err);
   }
   return 0;
 }
 
-static int check_usage(job *j, bool lonely)
+/* Options that do not go together. 0 or the exit code. */
+static int check_usage(const study_call *call, bool without_mpi)
 {
-  const cli_options *o = &j->o;
+  const study_options *own = &call->own;
+  const bool several = call->common.n_arguments > 1;
   const char *fault = NULL;
-  if (lonely)
+  if (without_mpi)
     fault =
         "started in several copies by mpirun, but built without MPI (cmake -DHBMCHECK_MPI=ON): each would do the same";
-  else if (o->export && o->n_arguments > 1) fault = "--export takes one study at a time";
-  else if (j->size > 1 && o->jobs > 1)
+  else if (own->exporting && several) fault = "--export takes one study at a time";
+  else if (call->n_ranks > 1 && own->jobs > 1)
     fault = "under mpirun every process computes one scene at a time: give mpirun more processes instead of --jobs";
-  else if (o->plot && o->n_arguments > 1) fault = "--plot draws one study at a time";
-  else if (o->plot_y && !o->plot) fault = "--plot-y goes with --plot";
-  else if (o->timings && !o->export) fault = "--timings goes with --export";
-  if (fault && j->rank == 0) cli_say(o, "%s", fault);
-  long online = sysconf(_SC_NPROCESSORS_ONLN);
-  j->jobs = o->jobs ? o->jobs : j->size > 1 || online < 1 ? 1 : online > CLI_MAX_JOBS ? CLI_MAX_JOBS : (int)online;
+  else if (own->plot && several) fault = "--plot draws one study at a time";
+  else if (own->plot_y && !own->plot) fault = "--plot-y goes with --plot";
+  else if (own->timings && !own->exporting) fault = "--timings goes with --export";
+  if (fault && call->rank == 0) cli_message(&call->common, "%s", fault);
   return fault ? EXIT_USAGE : 0;
 }
 
 /* ---- running ---- */
 
-typedef struct watcher {
+/* The progress of one study: a line with the number of scenes done. */
+typedef struct scene_progress {
   progress *bar;
   hc_monitor monitor;
-  double start;
-} watcher;
+  double start; /* [s] */
+} scene_progress;
 
-static bool watch(void *self, long done, long now, long scenes)
+static bool scenes_done(void *self, long done, long now, long scenes)
 {
-  watcher *w = self;
+  scene_progress *w = self;
   char label[96];
   double elapsed = wall_seconds() - w->start;
-  long left = scenes - done + now; /* when it started */
+  long left_at_start = scenes - done + now;
   snprintf(label, sizeof label, "%ld of %ld scenes, %.3g/s", done, scenes, elapsed > 0 ? (double)now / elapsed : 0.0);
   progress_relabel(w->bar, label);
-  return hc_monitor_tick(&w->monitor, left > 0 ? (double)now / (double)left : 1);
+  return hc_monitor_tick(&w->monitor, left_at_start > 0 ? (double)now / (double)left_at_start : 1);
 }
 
-/* 0 or the exit code after saying why. */
-static int run_task(job *j, task *t)
+/* Compute the scenes of one study that its results file does not have. 0 or the exit code after the message. */
+static int compute_study(study_call *call, study_entry *entry)
 {
-  watcher w = {.bar = progress_start("study", j->o.quiet), .start = wall_seconds()};
+  scene_progress w = {.bar = progress_start("study", call->common.quiet), .start = wall_seconds()};
   w.monitor = progress_monitor(w.bar);
-  study_watch watching = {watch, &w};
-  hc_status st = study_run(t->s, t->store, j->jobs, &watching, &t->now, &t->there);
+  study_watch watching = {scenes_done, &w};
+  hc_status st = study_run(entry->s, entry->store, call->jobs, &watching, &entry->computed_now, &entry->computed);
   progress_end(w.bar);
-  t->wall = wall_seconds() - w.start;
+  entry->wall = wall_seconds() - w.start;
   if (st == HC_OK) return 0;
-  if (st == HC_IO) cli_say(&j->o, "%s: a scene could not be kept: %s", t->results, study_store_error(t->store));
-  else if (st == HC_NO_MEMORY) cli_say(&j->o, "%s", hc_status_text(st));
-  if (!strcmp(t->results, ":memory:"))
-    cli_say(&j->o, "stopped: %ld of %ld scenes were done and are lost with :memory:", t->there, t->s->n_scenes);
+  if (st == HC_IO)
+    cli_message(&call->common, "%s: a scene could not be kept: %s", entry->results, study_store_error(entry->store));
+  else if (st == HC_NO_MEMORY) cli_message(&call->common, "%s", hc_status_text(st));
+  if (!strcmp(entry->results, ":memory:"))
+    cli_message(&call->common, "stopped: %ld of %ld scenes were done and are lost with :memory:", entry->computed,
+                entry->s->n_scenes);
   else
-    cli_say(&j->o, "stopped: %ld of %ld scenes are in %s; the same command goes on from there", t->there,
-            t->s->n_scenes, t->results);
+    cli_message(&call->common, "stopped: %ld of %ld scenes are in %s; the same command goes on from there",
+                entry->computed, entry->s->n_scenes, entry->results);
   return EXIT_NO_SOLUTION;
 }
 
-/* ---- telling ---- */
+/* ---- results ---- */
 
 static const table_column summary_columns[] = {
     {"run", TABLE_TEXT},       {"scenes", TABLE_INTEGER},   {"computed", TABLE_INTEGER}, {"done", TABLE_INTEGER},
@@ -213,185 +251,202 @@ static const table_column summary_columns[] = {
     {"results", TABLE_TEXT},   {"study", TABLE_TEXT},
 };
 
-static double rounded(double seconds) { return (double)(long)(seconds * 1000 + 0.5) / 1000; }
+static double to_milliseconds(double seconds) { return (double)(long)(seconds * 1000 + 0.5) / 1000; }
 
-static int summarise(job *j, const task *t, bool *any_failed)
+/* The study's rows in the tables of studies and of verdicts. 0 or the exit code. */
+static int put_summary(study_call *call, const study_entry *entry, bool *any_failed)
 {
   study_summary sum;
-  table *to = j->tables[SUMMARY];
-  hc_status st = study_summarise(t->s, t->store, &sum);
-  if (st == HC_OK) st = study_verdicts(t->s, t->store, j->tables[VERDICTS]);
+  table *to = call->tables[SUMMARY];
+  hc_status st = study_summarise(entry->s, entry->store, &sum);
+  if (st == HC_OK) st = study_verdicts(entry->s, entry->store, call->tables[VERDICTS]);
   if (st != HC_OK) {
-    cli_say(&j->o, "%s: %s", t->results, st == HC_NO_MEMORY ? hc_status_text(st) : study_store_error(t->store));
+    cli_message(&call->common, "%s: %s", entry->results,
+                st == HC_NO_MEMORY ? hc_status_text(st) : study_store_error(entry->store));
     return st == HC_NO_MEMORY ? EXIT_NO_SOLUTION : EXIT_BAD_CASE;
   }
-  table_put_text(to, study_kind_name(t->s->kind));
-  table_put_integer(to, t->s->n_scenes);
-  table_put_integer(to, t->now);
+  table_put_text(to, study_kind_name(entry->s->kind));
+  table_put_integer(to, entry->s->n_scenes);
+  table_put_integer(to, entry->computed_now);
   table_put_integer(to, sum.done);
   table_put_integer(to, sum.failed);
-  table_put_real(to, rounded(sum.seconds));
-  table_put_real(to, rounded(sum.exact_seconds));
-  table_put_real(to, rounded(t->wall));
-  table_put_text(to, t->results);
-  table_put_text(to, t->s->title);
+  table_put_real(to, to_milliseconds(sum.seconds));
+  table_put_real(to, to_milliseconds(sum.exact_seconds));
+  table_put_real(to, to_milliseconds(entry->wall));
+  table_put_text(to, entry->results);
+  table_put_text(to, entry->s->title);
   if (sum.failed)
-    table_note(to, "%s: %ld failed, the first of them scene %ld: %s", t->s->title, sum.failed, sum.first_failed,
+    table_note(to, "%s: %ld failed, the first of them scene %ld: %s", entry->s->title, sum.failed, sum.first_failed,
                sum.reason);
-  *any_failed |= sum.failed > 0 && !t->s->may_fail;
-  j->scenes += t->s->n_scenes;
-  j->seconds += sum.seconds;
-  j->exact_seconds += sum.exact_seconds;
-  j->wall += t->wall;
+  *any_failed |= sum.failed > 0 && !entry->s->may_fail;
+  call->scenes += entry->s->n_scenes;
+  call->seconds += sum.seconds;
+  call->exact_seconds += sum.exact_seconds;
+  call->wall += entry->wall;
   return 0;
 }
 
-static int hold_claims(job *j, const task *t)
+/* What the study claims against its results, into the tables of claims. 0 or the exit code. */
+static int check_claims(study_call *call, const study_entry *entry)
 {
   case_error err = {{0}};
-  progress *quiet = progress_start("claims", j->o.quiet);
-  hc_monitor monitor = progress_monitor(quiet);
-  hc_status st = study_claims_run(t->s, t->store, &monitor, j->tables + CLAIMS, &j->claims, &err);
-  progress_end(quiet);
-  if (st == HC_INTERRUPTED) return cli_solver_failed(&j->o, "the claims", st, 0);
-  return st == HC_OK ? 0 : wrong(j, st, &err);
+  progress *bar = progress_start("claims", call->common.quiet);
+  hc_monitor monitor = progress_monitor(bar);
+  hc_status st = study_claims_run(entry->s, entry->store, &monitor, call->tables + CLAIMS, &call->claims, &err);
+  progress_end(bar);
+  if (st == HC_INTERRUPTED) return cli_solver_failed(&call->common, CLI_BOTH, "the claims", st, 0);
+  return st == HC_OK ? 0 : study_failed(call, st, &err);
 }
 
-static int write_export(const job *j)
+static int write_export(const study_call *call)
 {
   output *out = NULL;
-  const task *t = &j->tasks[0];
-  hc_status st = output_open(j->o.output, &out);
+  const study_entry *entry = &call->studies[0];
+  hc_status st = output_open(call->common.output, &out);
   if (st == HC_OK) {
-    st = study_export(t->s, t->store, j->o.export_format, j->o.timings, output_stream(out));
+    st = study_export(entry->s, entry->store, call->own.export_format, call->own.timings, output_stream(out));
     if (st == HC_OK) st = output_commit(out);
     else output_abandon(out);
   }
-  if (st == HC_OK) return 0;
-  cli_say(&j->o, "%s: %s", j->o.output ? j->o.output : "standard output",
-          st == HC_IO && errno ? strerror(errno) : hc_status_text(st));
-  return EXIT_NO_SOLUTION;
+  return st == HC_OK ? 0 : cli_file_failed(&call->common, call->common.output, st);
 }
 
-/* The tables that have something to say. */
-static int write_tables(const job *j)
+/* The summary and the tables that have rows; with --export these go to stderr, and the export where they would. */
+static int write_tables(const study_call *call)
 {
   table *shown[N_TABLES];
   int n = 0;
   for (int i = 0; i < N_TABLES; ++i)
-    if (i == SUMMARY || table_rows(j->tables[i]) > 0) shown[n++] = j->tables[i];
-  if (!j->o.export) return cli_write(&j->o, n, shown);
-  if (!j->o.quiet) table_write(n, shown, FORMAT_TABLE, stderr);
-  return write_export(j);
+    if (i == SUMMARY || table_rows(call->tables[i]) > 0) shown[n++] = call->tables[i];
+  if (!call->own.exporting) return cli_write(&call->common, n, shown);
+  if (!call->common.quiet) table_write(n, shown, FORMAT_TABLE, stderr);
+  return write_export(call);
 }
 
-/* The terminal's width; where there is none, what COLUMNS says, or a width for files. */
-static int page_width(const job *j)
+/* Columns of the terminal; where the results do not go to one, what COLUMNS says, or DEFAULT_WIDTH. */
+static int page_width(const study_call *call)
 {
   struct winsize size;
-  const char *told = getenv("COLUMNS");
-  int width = told ? (int)strtol(told, NULL, 10) : 0;
-  if (!j->o.output && isatty(STDOUT_FILENO) && ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0)
+  const char *columns = getenv("COLUMNS");
+  int width = columns ? (int)strtol(columns, NULL, 10) : 0;
+  if (!call->common.output && isatty(STDOUT_FILENO) && ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0)
     width = size.ws_col;
-  return width >= LEAST_WIDTH ? width : width > 0 ? LEAST_WIDTH : PLAIN_WIDTH;
+  return width >= MIN_WIDTH ? width : width > 0 ? MIN_WIDTH : DEFAULT_WIDTH;
 }
 
-static void make_tables(job *j)
+static void make_tables(study_call *call)
 {
   static const char *const titles[STUDY_CLAIM_TABLES] = {
       "Claims", "Claims, with the settings of their source and with ours",
       "Seconds, as the source reports them, and here with its settings and with ours"};
   int n;
-  j->tables[SUMMARY] = table_new("Studies", sizeof summary_columns / sizeof *summary_columns, summary_columns);
+  call->tables[SUMMARY] = table_new("Studies", sizeof summary_columns / sizeof *summary_columns, summary_columns);
   const table_column *columns = study_verdict_columns(&n);
-  j->tables[VERDICTS] = table_new("Verdicts", n, columns);
+  call->tables[VERDICTS] = table_new("Verdicts", n, columns);
   for (int i = 0; i < STUDY_CLAIM_TABLES; ++i) {
     columns = study_claims_columns(i, &n);
-    j->tables[CLAIMS + i] = table_new(titles[i], n, columns);
-    if (i != STUDY_SECONDS) table_wrap(j->tables[CLAIMS + i], page_width(j));
+    call->tables[CLAIMS + i] = table_new(titles[i], n, columns);
+    if (i != STUDY_SECONDS) table_wrap(call->tables[CLAIMS + i], page_width(call));
   }
 }
 
-static void say_totals(const job *j)
+static void note_totals(const study_call *call)
 {
   static const char *const with[STUDY_ANSWERS] = {"", " with the settings of their source", " with ours"};
-  const study_claims_tally *c = &j->claims;
-  if (j->n > 1)
-    table_note(j->tables[SUMMARY],
+  const study_claims_tally *c = &call->claims;
+  if (call->n_studies > 1)
+    table_note(call->tables[SUMMARY],
                "%d studies, %ld scenes: %.3g s of processor time, %.3g s of it with exact forces; %.3g s on the clock",
-               j->n, j->scenes, j->seconds, j->exact_seconds, j->wall);
+               call->n_studies, call->scenes, call->seconds, call->exact_seconds, call->wall);
   for (int k = 0; k < STUDY_ANSWERS; ++k)
     if (c->agree[k] + c->disagree[k] + c->unsaid[k] > 0)
-      table_note(j->tables[CLAIMS + (k == STUDY_PLAIN ? STUDY_CLAIMS : STUDY_SIDES)],
+      table_note(call->tables[CLAIMS + (k == STUDY_PLAIN ? STUDY_CLAIMS : STUDY_SIDES)],
                  "%d claims agree%s, %d do not, of %d it cannot be said", c->agree[k], with[k], c->disagree[k],
                  c->unsaid[k]);
 }
 
-static int tell(job *j, int n_run)
+/* The tables, export and drawing of the first n_run studies. Returns the exit code. */
+static int write_results(study_call *call, int n_run)
 {
   int code = 0;
   bool any_failed = false;
-  make_tables(j);
+  make_tables(call);
   for (int i = 0; i < n_run && !code; ++i) {
-    code = summarise(j, &j->tasks[i], &any_failed);
-    if (!code && j->tasks[i].there == j->tasks[i].s->n_scenes) code = hold_claims(j, &j->tasks[i]);
+    code = put_summary(call, &call->studies[i], &any_failed);
+    if (!code && call->studies[i].computed == call->studies[i].s->n_scenes)
+      code = check_claims(call, &call->studies[i]);
   }
-  say_totals(j);
-  if (!code) code = write_tables(j);
-  plot_order drawing = {.path = j->o.plot};
+  note_totals(call);
+  if (!code) code = write_tables(call);
+  plot_order drawing = {.path = call->own.plot};
   int drawn = 0;
-  if (!code && j->o.plot && n_run > 0)
-    drawn = cli_plotted(&j->o, plot_study(&drawing, j->tasks[0].s, j->tasks[0].store, j->o.plot_y), drawing.why);
-  for (int i = 0; i < N_TABLES; ++i) table_free(j->tables[i]);
-  return code ? code : j->claims.unexpected ? EXIT_DISAGREED : any_failed ? EXIT_NO_SOLUTION : drawn;
+  if (!code && call->own.plot && n_run > 0)
+    drawn = cli_plotted(
+        &call->common, plot_study(&drawing, call->studies[0].s, call->studies[0].store, call->own.plot_y), drawing.why);
+  for (int i = 0; i < N_TABLES; ++i) table_free(call->tables[i]);
+  return code ? code : call->claims.unexpected ? EXIT_DISAGREED : any_failed ? EXIT_NO_SOLUTION : drawn;
 }
 
-/* Rank 0: run, then tell. A study that was stopped is not told of with --export: half of it would look like all. */
-static int lead(job *j)
+/* Rank 0 computes the studies and writes the results. A study that was stopped is not exported: half of it would look
+ * like all of it. */
+static int run_rank_0(study_call *call)
 {
   int stopped = 0, n = 0;
-  for (; n < j->n && !stopped; ++n) {
+  for (; n < call->n_studies && !stopped; ++n) {
     cluster_agree(0);
-    stopped = run_task(j, &j->tasks[n]);
+    stopped = compute_study(call, &call->studies[n]);
   }
-  if (stopped && n < j->n) cluster_agree(stopped);
-  if (stopped && j->o.export) return stopped;
-  int code = tell(j, n);
+  if (stopped && n < call->n_studies) cluster_agree(stopped);
+  if (stopped && call->own.exporting) return stopped;
+  int code = write_results(call, n);
   return stopped ? stopped : code;
 }
 
-static bool go_on(void *self, double done)
+static bool not_interrupted(void *self, double done)
 {
   (void)self, (void)done;
   return !progress_interrupted();
 }
 
-static void follow(const job *j)
+/* The other ranks compute the scenes that rank 0 hands out. */
+static void run_other_rank(const study_call *call)
 {
-  hc_monitor monitor = {go_on, NULL};
-  for (int n = 0; n < j->n && cluster_agree(0) == 0; ++n) cluster_work(j->tasks[n].s, &monitor);
+  hc_monitor monitor = {not_interrupted, NULL};
+  for (int n = 0; n < call->n_studies && cluster_agree(0) == 0; ++n) cluster_work(call->studies[n].s, &monitor);
 }
 
-int cmd_study(int argc, char **argv)
+static int run_study(int argc, char **argv)
 {
-  job *j = calloc(1, sizeof *j);
-  if (!j) {
+  study_call *call = calloc(1, sizeof *call);
+  if (!call) {
     fprintf(stderr, "hbmcheck study: %s\n", hc_status_text(HC_NO_MEMORY));
     return EXIT_NO_SOLUTION;
   }
-  bool lonely = !cluster_start(&j->rank, &j->size);
-  cli_parse(argc, argv, "study", "STUDY...", doc, options, true, &j->o);
-  int code = check_usage(j, lonely);
-  if (!code) code = read_studies(j);
-  if (!code && j->rank == 0) code = open_stores(j);
+  bool without_mpi = !cluster_start(&call->rank, &call->n_ranks);
+  cli_parse(&cmd_study, argc, argv, &call->own, &call->common);
+  cli_check_plot(&call->common, call->own.plot, call->own.exporting);
+  call->jobs = call->own.jobs ? call->own.jobs : call->n_ranks > 1 ? 1 : cli_processors();
+  int code = check_usage(call, without_mpi);
+  if (!code) code = read_studies(call);
+  if (!code && call->rank == 0) code = open_stores(call);
   int agreed = cluster_agree(code);
-  if (!agreed && j->rank == 0) code = lead(j);
-  else if (!agreed) follow(j);
-  for (int i = 0; i < j->n; ++i) {
-    study_store_close(j->tasks[i].store);
-    study_free(j->tasks[i].s);
+  if (!agreed && call->rank == 0) code = run_rank_0(call);
+  else if (!agreed) run_other_rank(call);
+  for (int i = 0; i < call->n_studies; ++i) {
+    study_store_close(call->studies[i].store);
+    study_free(call->studies[i].s);
   }
-  free(j);
+  free(call);
   cluster_end();
   return code;
 }
+
+const cli_command cmd_study = {
+    .name = "study",
+    .summary = "many scenes in parallel, kept as they come, and claims held against them",
+    .arguments = "STUDY...",
+    .help = help,
+    .options = options,
+    .read_option = read_option,
+    .run = run_study,
+};

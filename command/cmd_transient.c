@@ -1,10 +1,10 @@
 /* cmd_transient.c - hbmcheck transient: the steady state by CVODE at given frequencies. */
-#include "command/cli.h"
+#include "command/commands.h"
 #include "command/plot/plot.h"
 #include "compare/steady_states.h"
 #include "output/progress.h"
 
-static const char doc[] =
+static const char help[] =
     "The steady state of CASE by time integration (CVODE) at the omegas of --at. It starts where transient.start "
     "says: on each HBM solution's "
     "orbit (hbm), at rest, or swept from an end of the sweep, as on a shaker (up, down)."
@@ -12,43 +12,64 @@ static const char doc[] =
     "exit: 0 all settled  2 case file wrong  3 one did not (which and why on stderr)  64 usage\n"
     "example: hbmcheck transient cases/paper/case2.yaml --at 8,9 --set transient.start=up";
 
+typedef struct transient_options {
+  number_list at;   /* n = 0: the case's */
+  const char *plot; /* NULL: no drawing */
+} transient_options;
+
+enum { KEY_AT = CLI_OWN_KEY, KEY_PLOT };
+
 static const struct argp_option options[] = {
-    {"at", CLI_AT, "LIST", 0, "Omegas, rad per unit time [compare.omega of the case]", 1},
-    CLI_PLOT_OPTION,
+    {"at", KEY_AT, "LIST", 0, "Omegas, rad per unit time [compare.omega of the case]", 1},
+    CLI_PLOT_OPTION(KEY_PLOT),
     {0},
 };
 
-static void show(const cli_options *o, const steady_row *r, table *t, int *code)
+static error_t read_option(int key, char *text, struct argp_state *state)
+{
+  transient_options *own = state->input;
+  switch (key) {
+  case KEY_AT: cli_read_list(state, "at", text, &own->at); return 0;
+  case KEY_PLOT: cli_read_plot(state, text, &own->plot); return 0;
+  default: return ARGP_ERR_UNKNOWN;
+  }
+}
+
+/* The row's cells into the table, and the message if it has no steady state. 0 or the exit code. */
+static int put_row(const cli_common *common, const steady_row *r, table *t)
 {
   static const char *const stages[] = {[STEADY_TRANSIENT] = "time integration",
                                        [STEADY_SWEEP] = "the frequency sweep",
                                        [STEADY_HBM] = "harmonic balance"};
   row_cell cells[ROWS_MOST];
-  if (r->without_hbm != HC_OK && !o->quiet)
-    cli_say(o, "no HBM solution at omega = %.10g (%s): starting at rest", r->result.omega,
-            hc_status_text(r->without_hbm));
-  if (r->status == HC_INTERRUPTED) return;
+  if (r->without_hbm != HC_OK && !common->quiet)
+    cli_message(common, "no HBM solution at omega = %.10g (%s): starting at rest", r->result.omega,
+                hc_status_text(r->without_hbm));
+  if (r->status == HC_INTERRUPTED) return 0;
   if (r->stage == STEADY_TRANSIENT) {
     rows_transient(r, cells);
     cli_put_row(t, ROWS_TRANSIENT, cells);
   }
-  if (r->status != HC_OK && r->status != HC_APERIODIC)
-    *code = cli_solver_failed(o, stages[r->stage], r->status, r->result.omega);
+  if (r->status == HC_OK || r->status == HC_APERIODIC) return 0;
+  return cli_solver_failed(common, r->stage == STEADY_HBM ? CLI_HBM : CLI_TRANSIENT, stages[r->stage], r->status,
+                           r->result.omega);
 }
 
-int cmd_transient(int argc, char **argv)
+static int run_transient(int argc, char **argv)
 {
-  cli_options o;
+  cli_common common;
+  transient_options own = {0};
   scene sc;
-  cli_parse(argc, argv, "transient", "CASE", doc, options, true, &o);
-  int code = cli_load_case(&o, &sc), n_columns;
+  cli_parse(&cmd_transient, argc, argv, &own, &common);
+  cli_check_plot(&common, own.plot, false);
+  int code = cli_load_case(&common, common.arguments[0], &sc), n_columns;
   if (code) return code;
-  if (o.at.n) sc.compare.omega = o.at;
+  if (own.at.n) sc.compare.omega = own.at;
   if (sc.compare.omega.n == 0) {
-    cli_say(&o, "at which omega? give --at LIST, or compare.omega in the case");
+    cli_message(&common, "at which omega? give --at LIST, or compare.omega in the case");
     return EXIT_USAGE;
   }
-  progress *bar = progress_start("time integration", o.quiet);
+  progress *bar = progress_start("time integration", common.quiet);
   hc_monitor monitor = progress_monitor(bar);
   steady_states found = {0};
   compare_setup setup;
@@ -58,15 +79,29 @@ int cmd_transient(int argc, char **argv)
   progress_end(bar);
   const table_column *columns = rows_columns(ROWS_TRANSIENT, &n_columns);
   table *t = table_new("Steady states", n_columns, columns);
-  for (int i = 0; i < found.n; ++i) show(&o, &found.rows[i], t, &code);
+  for (int i = 0; i < found.n; ++i) {
+    int row_code = put_row(&common, &found.rows[i], t);
+    if (row_code) code = row_code;
+  }
   if (st != HC_OK) {
     table_note(t, "INCOMPLETE: %s", hc_status_text(st));
-    code = cli_solver_failed(&o, "time integration", st, 0);
+    code = cli_solver_failed(&common, CLI_TRANSIENT, "time integration", st, 0);
   }
-  int written = st == HC_OK || found.n ? cli_write(&o, 1, &t) : 0;
-  plot_order drawing = {.path = o.plot};
-  if (o.plot && found.n && !written) written = cli_plotted(&o, plot_transient(&drawing, &sc, &found), drawing.why);
+  int written = st == HC_OK || found.n ? cli_write(&common, 1, &t) : 0;
+  plot_order drawing = {.path = own.plot};
+  if (own.plot && found.n && !written)
+    written = cli_plotted(&common, plot_transient(&drawing, &sc, &found), drawing.why);
   table_free(t);
   steady_states_clear(&found);
   return code ? code : written;
 }
+
+const cli_command cmd_transient = {
+    .name = "transient",
+    .summary = "the steady state by time integration at given frequencies",
+    .arguments = "CASE",
+    .help = help,
+    .options = options,
+    .read_option = read_option,
+    .run = run_transient,
+};

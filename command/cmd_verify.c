@@ -1,12 +1,13 @@
-/* cmd_verify.c - hbmcheck verify: somebody else's response curve, point by point, and what may be wrong with it. */
+/* cmd_verify.c - hbmcheck verify: another code's response curve, point by point, and the suspected cause where it is
+ * off. */
 #include <math.h>
 #include <stdio.h>
 
-#include "command/cli.h"
+#include "command/commands.h"
 #include "compare/verify/verify.h"
 #include "output/progress.h"
 
-static const char doc[] =
+static const char help[] =
     "Hold another code's response curve of CASE, a file of columns, against harmonic balance with exact forces and "
     "many harmonics, itself held "
     "against time integration; a verdict for every point, and the suspected cause where they differ, found by making "
@@ -23,25 +24,45 @@ static const char doc[] =
     "example: hbmcheck verify cases/verify/case2.yaml --against cases/verify/no_static.csv --columns "
     "omega=1,harmonic_1=2";
 
+typedef struct verify_options {
+  const char *against, *columns, *quantity; /* NULL: not given */
+} verify_options;
+
+enum { KEY_AGAINST = CLI_OWN_KEY, KEY_COLUMNS, KEY_QUANTITY };
+
 static const struct argp_option options[] = {
-    {"against", CLI_AGAINST, "FILE", 0, "The curve to hold against ours", 1},
-    {"columns", CLI_COLUMNS, "NAME=COLUMN,...", 0,
+    {"against", KEY_AGAINST, "FILE", 0, "The curve to hold against ours", 1},
+    {"columns", KEY_COLUMNS, "NAME=COLUMN,...", 0,
      "Where its columns are: omega or frequency, and amplitude, harmonic_1, peak or value", 1},
-    {"quantity", CLI_QUANTITY, "amplitude|harmonic_1|peak", 0, "What the column named value is", 1},
+    {"quantity", KEY_QUANTITY, "amplitude|harmonic_1|peak", 0, "What the column named value is", 1},
     {0},
 };
+
+static error_t read_option(int key, char *text, struct argp_state *state)
+{
+  verify_options *own = state->input;
+  switch (key) {
+  case KEY_AGAINST: own->against = text; return 0;
+  case KEY_COLUMNS: own->columns = text; return 0;
+  case KEY_QUANTITY: own->quantity = text; return 0;
+  default: return ARGP_ERR_UNKNOWN;
+  }
+}
 
 static const table_column columns[] = {
     {"omega", TABLE_REAL},  {"value", TABLE_REAL}, {"nearest", TABLE_REAL}, {"branch", TABLE_INTEGER},
     {"stable", TABLE_TEXT}, {"error", TABLE_REAL}, {"verdict", TABLE_TEXT}, {"line", TABLE_INTEGER},
 };
-static const table_column guess_columns[] = {
+static const table_column hypothesis_columns[] = {
     {"cause", TABLE_TEXT},          {"distance", TABLE_REAL},     {"truth_distance", TABLE_REAL},
     {"harmonics", TABLE_INTEGER},   {"static", TABLE_TEXT},       {"samples", TABLE_INTEGER},
     {"slider_restart", TABLE_TEXT}, {"omega_factor", TABLE_REAL}, {"value_factor", TABLE_REAL},
     {"quantity", TABLE_TEXT},
 };
-enum { N_COLUMNS = sizeof columns / sizeof *columns, N_GUESS_COLUMNS = sizeof guess_columns / sizeof *guess_columns };
+enum {
+  N_COLUMNS = sizeof columns / sizeof *columns,
+  N_HYPOTHESIS_COLUMNS = sizeof hypothesis_columns / sizeof *hypothesis_columns
+};
 
 static void put_row(table *t, const verify_row *r)
 {
@@ -56,7 +77,7 @@ static void put_row(table *t, const verify_row *r)
   table_put_integer(t, r->line);
 }
 
-static void put_guess(table *t, const verify_hypothesis *h, double truth)
+static void put_hypothesis(table *t, const verify_hypothesis *h, double truth)
 {
   char words[VERIFY_TEXT];
   const verify_equations *e = &h->equations;
@@ -88,7 +109,7 @@ static void note_truth(table *t, const scene *sc, const verify_data *data, const
     table_note(t, "the truth's curve STOPPED at omega = %.10g: %s", r->curve_omega, hc_status_text(r->curve_end));
 }
 
-static const char *meaning(verdict v)
+static const char *meaning_for_point(verdict v)
 {
   switch (v) {
   case VERDICT_MATCH: return "on a stable solution, within the gate";
@@ -100,74 +121,86 @@ static const char *meaning(verdict v)
   }
 }
 
-static void put_notes(table *t, const scene *sc, const verify_data *data, const verify_report *r)
+static void note_verification(table *t, const scene *sc, const verify_data *data, const verify_report *r)
 {
   char text[VERIFY_TEXT];
   note_truth(t, sc, data, r);
   for (int v = 0; v < VERDICT_COUNT; ++v)
-    if (r->count[v]) table_note(t, "%d %s: %s", r->count[v], verdict_name((verdict)v), meaning((verdict)v));
+    if (r->count[v]) table_note(t, "%d %s: %s", r->count[v], verdict_name((verdict)v), meaning_for_point((verdict)v));
   table_note(t, "%s", verify_sentence(r, text));
   table_note(t, "cause: %s",
              r->causes || (r->status == HC_OK && verify_exit_code(r) == 0) ? verify_cause_words(r->causes, text)
                                                                            : "unknown");
 }
 
-static int show(const cli_options *o, const scene *sc, const verify_data *data, const verify_report *r)
+static int write_tables(const cli_common *common, const scene *sc, const verify_data *data, const verify_report *r)
 {
-  table *tables[2] = {table_new("Points", N_COLUMNS, columns), table_new("Hypotheses", N_GUESS_COLUMNS, guess_columns)};
+  table *tables[2] = {table_new("Points", N_COLUMNS, columns),
+                      table_new("Hypotheses", N_HYPOTHESIS_COLUMNS, hypothesis_columns)};
   for (int i = 0; i < r->n_rows; ++i) put_row(tables[0], &r->rows[i]);
   for (int i = 0; i < r->n_hypotheses && i < VERIFY_SHOWN; ++i)
-    put_guess(tables[1], &r->hypotheses[i], r->truth_distance);
-  put_notes(tables[0], sc, data, r);
-  int code = cli_write(o, r->n_hypotheses && o->format != FORMAT_CSV ? 2 : 1, tables);
+    put_hypothesis(tables[1], &r->hypotheses[i], r->truth_distance);
+  note_verification(tables[0], sc, data, r);
+  int code = cli_write(common, r->n_hypotheses && common->format != FORMAT_CSV ? 2 : 1, tables);
   for (int i = 0; i < 2; ++i) table_free(tables[i]);
   return code;
 }
 
-/* The curve, as the options say. 0 or the exit code. */
-static int read_curve(const cli_options *o, verify_data *data)
+/* The curve of --against, read as --columns and --quantity say. 0 or the exit code after the message. */
+static int read_curve(const cli_common *common, const verify_options *own, verify_data *data)
 {
   verify_columns where;
   char words[VERIFY_TEXT];
-  if (!o->against || !o->curve_columns) {
-    cli_say(o, "no %s given, expected --against FILE --columns omega=1,amplitude=2",
-            o->against ? "--columns" : "--against");
+  if (!own->against || !own->columns) {
+    cli_message(common, "no %s given, expected --against FILE --columns omega=1,amplitude=2",
+                own->against ? "--columns" : "--against");
     return EXIT_USAGE;
   }
-  if (verify_columns_read(o->curve_columns, o->quantity, &where, words) != HC_OK) {
-    cli_say(o, "%s", words);
+  if (verify_columns_read(own->columns, own->quantity, &where, words) != HC_OK) {
+    cli_message(common, "%s", words);
     return EXIT_USAGE;
   }
-  hc_status st = verify_data_read(o->against, &where, data, words);
+  hc_status st = verify_data_read(own->against, &where, data, words);
   if (st == HC_OK) return 0;
   fprintf(stderr, "%s\n", words);
   return st == HC_NO_MEMORY ? EXIT_NO_SOLUTION : EXIT_BAD_CASE;
 }
 
-int cmd_verify(int argc, char **argv)
+static int run_verify(int argc, char **argv)
 {
-  cli_options o;
+  cli_common common;
+  verify_options own = {0};
   scene sc;
   verify_data data = {0};
   verify_report report = {0};
   int written = 0;
-  cli_parse(argc, argv, "verify", "CASE", doc, options, true, &o);
-  int code = cli_load_case(&o, &sc);
-  if (!code) code = read_curve(&o, &data);
+  cli_parse(&cmd_verify, argc, argv, &own, &common);
+  int code = cli_load_case(&common, common.arguments[0], &sc);
+  if (!code) code = read_curve(&common, &own, &data);
   if (!code) {
-    progress *bar = progress_start("verifying", o.quiet);
+    progress *bar = progress_start("verifying", common.quiet);
     hc_monitor monitor = progress_monitor(bar);
     compare_setup setup;
     hc_status st = scene_setup(&sc, &setup);
     if (st == HC_OK) st = verify_run(&setup, &data, &monitor, &report);
     scene_setup_clear(&setup);
     progress_end(bar);
-    code = st == HC_OK ? verify_exit_code(&report) : cli_solver_failed(&o, "the verification", st, 0);
+    code = st == HC_OK ? verify_exit_code(&report) : cli_solver_failed(&common, CLI_BOTH, "the verification", st, 0);
     if (code == EXIT_NO_SOLUTION && st == HC_OK)
-      cli_say(&o, "some points could not be judged; the notes of the table say why");
-    written = report.n_rows ? show(&o, &sc, &data, &report) : 0;
+      cli_message(&common, "some points could not be judged; the notes of the table say why");
+    written = report.n_rows ? write_tables(&common, &sc, &data, &report) : 0;
   }
   verify_clear(&report);
   verify_data_clear(&data);
   return code ? code : written;
 }
+
+const cli_command cmd_verify = {
+    .name = "verify",
+    .summary = "another code's response curve held against both, and the suspected cause where it is off",
+    .arguments = "CASE",
+    .help = help,
+    .options = options,
+    .read_option = read_option,
+    .run = run_verify,
+};

@@ -3,21 +3,22 @@
 
 #include <math.h>
 
-int compare_lists(const cli_options *o, scene *sc)
+int compare_lists(const cli_common *common, const table_lists *lists, scene *sc)
 {
   static const double most_samples = 1 << 24;
-  for (int i = 0; i < o->harmonics.n; ++i)
-    if (o->harmonics.v[i] != floor(o->harmonics.v[i]) || o->harmonics.v[i] > HBM_MAX_HARMONICS) {
-      cli_say(o, "--harmonics: %g is not a whole number 1..%d", o->harmonics.v[i], HBM_MAX_HARMONICS);
+  for (int i = 0; i < lists->harmonics.n; ++i)
+    if (lists->harmonics.v[i] != floor(lists->harmonics.v[i]) || lists->harmonics.v[i] > HBM_MAX_HARMONICS) {
+      cli_message(common, "--harmonics: %g is not a whole number 1..%d", lists->harmonics.v[i], HBM_MAX_HARMONICS);
       return EXIT_USAGE;
     }
-  for (int i = 0; i < o->samples.n; ++i)
-    if (o->samples.v[i] != floor(o->samples.v[i]) || o->samples.v[i] < 3 || o->samples.v[i] > most_samples) {
-      cli_say(o, "--samples: %g is not a whole number 3..%.0f", o->samples.v[i], most_samples);
+  for (int i = 0; i < lists->samples.n; ++i)
+    if (lists->samples.v[i] != floor(lists->samples.v[i]) || lists->samples.v[i] < 3 ||
+        lists->samples.v[i] > most_samples) {
+      cli_message(common, "--samples: %g is not a whole number 3..%.0f", lists->samples.v[i], most_samples);
       return EXIT_USAGE;
     }
-  if (o->harmonics.n) sc->compare.harmonics = o->harmonics;
-  if (o->samples.n) sc->compare.samples = o->samples;
+  if (lists->harmonics.n) sc->compare.harmonics = lists->harmonics;
+  if (lists->samples.n) sc->compare.samples = lists->samples;
   return 0;
 }
 

@@ -1,4 +1,4 @@
-# Bash completion of hbmcheck: commands, their options (asked of the command itself), the fields of --set, case files.
+# Bash completion of hbmcheck: commands, their options and the fields of --set (all asked of hbmcheck itself), case files.
 _hbmcheck_fields()
 {
   hbmcheck describe 2>/dev/null | awk '/^[a-z]+:/ {section = $1; sub(/:.*/, "", section); if (section == "contacts") section = "contacts[0]"}
@@ -8,10 +8,9 @@ _hbmcheck_fields()
 _hbmcheck()
 {
   local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD - 1]} command=${COMP_WORDS[1]}
-  local commands="compare frf transient study bench gate verify report stress contact describe"
   COMPREPLY=()
   if [ "$COMP_CWORD" -eq 1 ]; then
-    mapfile -t COMPREPLY < <(compgen -W "$commands --help --version" -- "$word")
+    mapfile -t COMPREPLY < <(compgen -W "$(hbmcheck --help 2>/dev/null | awk '/^  [a-z]/ {print $1}') --help --version" -- "$word")
     return
   fi
   case $before in

@@ -1,4 +1,4 @@
-/* version.h - what this binary is made of. */
+/* version.h - the versions of hbmcheck and of the libraries it runs with. */
 #ifndef HC_CLI_VERSION_H
 #define HC_CLI_VERSION_H
 

@@ -51,8 +51,7 @@ static char *follow_links(const char *path)
   return NULL;
 }
 
-/* Opens a new file in the target's folder. The name is short whatever the target's is, so it cannot be too long on
- * its own. */
+/* Opens a new file in the target's folder, under a short name: one made from the target's could be too long. */
 static int open_beside(output *o)
 {
   for (int i = 0; i < MAX_TRIES; ++i) {
@@ -74,13 +73,13 @@ static int open_beside(output *o)
 /* A file descriptor to write to, or -1 and errno. `old` is what stands at `path`, NULL if nothing does. */
 static int open_regular(output *o, const char *path, const struct stat *old)
 {
-  if (old && access(path, W_OK) != 0) return -1; /* a rename would not mind that it is read-only; its owner does */
+  /* rename would replace a read-only file, too */
+  if (old && access(path, W_OK) != 0) return -1;
   o->target = follow_links(path);
   if (!o->target) return -1;
   int fd = open_beside(o);
-  if (fd >= 0 && old)
-    fchmod(fd, old->st_mode & 0777); /* fails on a file system without permissions: nothing to keep
-                                                          there */
+  /* fails on a file system without permissions, which has none to keep */
+  if (fd >= 0 && old) fchmod(fd, old->st_mode & 0777);
   return fd;
 }
 
@@ -136,7 +135,7 @@ hc_status output_open(const char *path, output **out)
 
 FILE *output_stream(output *o) { return o->stream; }
 
-/* Everything handed to the kernel, which took it? Closes all but standard output. */
+/* Was everything written and accepted by the kernel? Closes the stream unless it is standard output. */
 static bool finish_stream(output *o)
 {
   FILE *stream = o->stream;
@@ -144,7 +143,7 @@ static bool finish_stream(output *o)
   errno = 0;
   bool flushed = (stream == stdout ? fflush(stream) : fclose(stream)) == 0;
   o->stream = NULL;
-  if (lost && errno == 0) errno = EIO; /* the failing write was long ago */
+  if (lost && errno == 0) errno = EIO; /* the errno of the write that failed is lost */
   return flushed && !lost;
 }
 

@@ -11,7 +11,7 @@
 
 #include "base/utf8.h"
 
-enum { LINE_ROOM = 512, SHOW_LEFT_AFTER = 1 /* [s] before that an estimate is noise */ };
+enum { LINE_ROOM = 512, MIN_ELAPSED = 1 /* [s] below that an estimate is noise */ };
 static const double interval = 0.1; /* [s] between two drawings */
 
 struct progress {
@@ -37,7 +37,7 @@ void progress_install_signals(void)
 
 int progress_interrupted(void) { return stop_signal; }
 
-static double now(void)
+static double clock_seconds(void)
 {
   struct timespec t;
   clock_gettime(CLOCK_MONOTONIC, &t);
@@ -45,7 +45,7 @@ static double now(void)
 }
 
 /* "12 s", "3 min", "5 h" */
-static void print_duration(char *text, size_t size, double seconds)
+static void write_duration(char *text, size_t size, double seconds)
 {
   if (seconds < 99.5) snprintf(text, size, "%.0f s", seconds);
   else if (seconds < 99.5 * 60) snprintf(text, size, "%.0f min", seconds / 60);
@@ -54,21 +54,21 @@ static void print_duration(char *text, size_t size, double seconds)
 }
 
 /* "  37 %  12 s left", "  12 s" when unknown, or nothing to say yet */
-static void print_tail(char *tail, size_t size, double done, double elapsed)
+static void write_tail(char *tail, size_t size, double done, double elapsed)
 {
   char time[32];
   double part = done < 1 ? done : 1;
   bool known = done >= 0; /* NaN is unknown too */
   int n = known ? snprintf(tail, size, "  %.0f %%", 100 * part) : snprintf(tail, size, "%s", "");
-  if (elapsed < SHOW_LEFT_AFTER || part == 0) return;
-  print_duration(time, sizeof time, known ? elapsed * (1 - part) / part : elapsed);
+  if (elapsed < MIN_ELAPSED || part == 0) return;
+  write_duration(time, sizeof time, known ? elapsed * (1 - part) / part : elapsed);
   snprintf(tail + n, size - (size_t)n, known ? "  %s left" : "  %s", time);
 }
 
 void progress_line(char *line, size_t size, const char *label, double done, double elapsed, int columns)
 {
   char tail[64];
-  print_tail(tail, sizeof tail, done, elapsed);
+  write_tail(tail, sizeof tail, done, elapsed);
   int width, room = columns - (int)strlen(tail);
   size_t bytes = utf8_fit(label, room > 0 ? room : 0, &width);
   while (bytes > 0 && bytes + strlen(tail) >= size) bytes = utf8_fit(label, --width, &width);
@@ -81,10 +81,10 @@ static int terminal_columns(void)
   return ioctl(STDERR_FILENO, TIOCGWINSZ, &w) == 0 && w.ws_col > 0 ? w.ws_col : 80;
 }
 
-static void draw(progress *p, double done)
+static void draw_line(progress *p, double done)
 {
   char line[LINE_ROOM];
-  p->drawn = now();
+  p->drawn = clock_seconds();
   /* a full line would wrap */
   progress_line(line, sizeof line, p->label, done, p->drawn - p->start, terminal_columns() - 1);
   fprintf(stderr, "\r%s\033[K", line);
@@ -102,20 +102,20 @@ progress *progress_start(const char *label, bool quiet)
   progress *p = calloc(1, sizeof *p);
   if (!p) return NULL;
   if (may_draw(quiet)) p->label = utf8_clean(label, true);
-  p->start = now();
-  if (p->label) draw(p, -1);
+  p->start = clock_seconds();
+  if (p->label) draw_line(p, -1);
   return p;
 }
 
-static bool tick(void *self, double done)
+static bool tick_progress(void *self, double done)
 {
   progress *p = self;
   if (stop_signal) return false;
-  if (p && p->label && now() - p->drawn >= interval) draw(p, done);
+  if (p && p->label && clock_seconds() - p->drawn >= interval) draw_line(p, done);
   return true;
 }
 
-hc_monitor progress_monitor(progress *p) { return (hc_monitor){tick, p}; }
+hc_monitor progress_monitor(progress *p) { return (hc_monitor){tick_progress, p}; }
 
 void progress_relabel(progress *p, const char *label)
 {

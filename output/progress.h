@@ -1,5 +1,5 @@
-/* progress.h - a line on the terminal while long work goes on, and the way out of it: SIGINT, SIGTERM and SIGHUP ask
- * it to stop. For the command line only: the library has neither signals nor a terminal. */
+/* progress.h - a line on the terminal during long work, and signals that stop it: SIGINT, SIGTERM and SIGHUP. For the
+ * command line only: the library handles no signals and prints nothing. */
 #ifndef HC_PROGRESS_H
 #define HC_PROGRESS_H
 
@@ -17,7 +17,7 @@ void progress_install_signals(void);
 /* The signal that asked to stop, 0 for none. Any thread may ask. */
 int progress_interrupted(void);
 
-/* Draws "label" and from then on, at most 10 times a second, "label  37 %  12 s left" on stderr, if that is a
+/* Draws "label" and then, at most 10 times a second, "label  37 %  12 s left" on stderr, if that is a
  * terminal, TERM is neither unset nor dumb, and not quiet. No colour. Never fails: NULL (out of memory) is a
  * progress that draws nothing and still minds signals. */
 progress *progress_start(const char *label, bool quiet);

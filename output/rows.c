@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* What a row says about itself, for the lists below. */
+/* Questions about a row, for the lists below. */
 static bool settled(const steady_row *r) { return r->status == HC_OK; }
 static bool measured(const steady_row *r)
 {
@@ -21,8 +21,8 @@ static bool has_transient(const comparison_row *r)
 }
 static const char *largest_part(const comparison_row *r)
 {
-  double share;
-  return budget_largest(&r->budget, &share);
+  double fraction;
+  return budget_largest(&r->budget, &fraction);
 }
 static const char *curve_text(const accuracy_row *r)
 {
@@ -142,26 +142,26 @@ static const char *stable_text(const response_row *r)
   X(INTEGER, "points",          true, r->fit.points)
 /* clang-format on */
 
-static void put_REAL(row_cell *c, bool there, double value)
+static void fill_REAL(row_cell *c, bool there, double value)
 {
   *c = (row_cell){.kind = TABLE_REAL, .there = there && !isnan(value)};
   if (c->there) c->as.real = value;
 }
 
-static void put_INTEGER(row_cell *c, bool there, long value)
+static void fill_INTEGER(row_cell *c, bool there, long value)
 {
   *c = (row_cell){.kind = TABLE_INTEGER, .there = there};
   if (there) c->as.integer = value;
 }
 
-static void put_TEXT(row_cell *c, bool there, const char *value)
+static void fill_TEXT(row_cell *c, bool there, const char *value)
 {
   *c = (row_cell){.kind = TABLE_TEXT, .there = there};
   if (there) snprintf(c->as.text, sizeof c->as.text, "%s", value);
 }
 
 #define COLUMN(kind, name, there, value) {name, TABLE_##kind},
-#define PUT(kind, name, there, value)    put_##kind(cells++, there, value);
+#define FILL(kind, name, there, value)   fill_##kind(cells++, there, value);
 
 static const table_column frf_columns[] = {FRF_COLUMNS(COLUMN)};
 static const table_column transient_columns[] = {TRANSIENT_COLUMNS(COLUMN)};
@@ -198,9 +198,9 @@ const table_column *rows_columns(rows_kind kind, int *n)
   }
 }
 
-void rows_frf(const response_row *r, row_cell *cells) { FRF_COLUMNS(PUT) }
-void rows_transient(const steady_row *r, row_cell *cells) { TRANSIENT_COLUMNS(PUT) }
-void rows_compare(const comparison_row *r, row_cell *cells) { COMPARE_COLUMNS(PUT) }
-void rows_curve(const response_summary *r, row_cell *cells) { CURVE_COLUMNS(PUT) }
-void rows_accuracy(const accuracy_row *r, row_cell *cells) { ACCURACY_COLUMNS(PUT) }
-void rows_order(const order_row *r, row_cell *cells) { ORDER_COLUMNS(PUT) }
+void rows_frf(const response_row *r, row_cell *cells) { FRF_COLUMNS(FILL) }
+void rows_transient(const steady_row *r, row_cell *cells) { TRANSIENT_COLUMNS(FILL) }
+void rows_compare(const comparison_row *r, row_cell *cells) { COMPARE_COLUMNS(FILL) }
+void rows_curve(const response_summary *r, row_cell *cells) { CURVE_COLUMNS(FILL) }
+void rows_accuracy(const accuracy_row *r, row_cell *cells) { ACCURACY_COLUMNS(FILL) }
+void rows_order(const order_row *r, row_cell *cells) { ORDER_COLUMNS(FILL) }

@@ -28,7 +28,7 @@ static void leave_c_locale(locale_t c, locale_t before)
   freelocale(c);
 }
 
-/* Columns there, each of a kind that the writers know, under a name of its own? */
+/* At least one column, all of a known kind, no two of one name? */
 static bool columns_are_sound(int n, const table_column *columns)
 {
   if (n < 1 || !columns) return false;
@@ -77,7 +77,7 @@ void table_free(table *t)
   free(t);
 }
 
-/* Room for one more of `size` bytes in *array, which holds n. */
+/* Memory for one more element of `size` bytes in *array of n. */
 static bool reserve(void **array, size_t n, size_t *room, size_t size)
 {
   if (n < *room) return true;
@@ -90,7 +90,7 @@ static bool reserve(void **array, size_t n, size_t *room, size_t size)
   return true;
 }
 
-/* The next cell, appended as missing; NULL when that cannot be. */
+/* The next cell, appended as missing; NULL if the table failed before or memory runs out. */
 static table_cell *next_cell(table *t)
 {
   if (!t || t->status != HC_OK) return NULL;
@@ -139,7 +139,7 @@ void table_put_real(table *t, double value)
 
 void table_put_missing(table *t) { next_cell(t); }
 
-/* printf into memory of its own, '.' for the decimal point. */
+/* printf into new memory, with '.' for the decimal point. */
 __attribute__((format(printf, 1, 0))) static char *print_to_memory(const char *format, va_list args)
 {
   locale_t c, before;
@@ -211,7 +211,7 @@ static void write_csv_cell(const table *t, int row, int column, FILE *to)
   switch (t->columns[column].kind) {
   case TABLE_TEXT: table_write_csv_text(cell->as.text, to); break;
   case TABLE_INTEGER: fprintf(to, "%ld", cell->as.integer); break;
-  case TABLE_REAL: fprintf(to, "%.17g", cell->as.real); break; /* inf and -inf as they should be */
+  case TABLE_REAL: fprintf(to, "%.17g", cell->as.real); break; /* inf and -inf, too */
   }
 }
 

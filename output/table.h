@@ -35,12 +35,11 @@ void table_put_missing(table *t);
  * "notes" in json. */
 void table_note(table *t, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/* In the format table, carry words over to further lines so that no line is longer than `width`, as far as that
- * goes; nothing is cut then. */
+/* In the format table, carry words over to further lines instead of cutting texts, so that no line is longer than
+ * `width`; longer only where the columns cannot be narrowed to it. */
 void table_wrap(table *t, int width);
 
-/* In the format table, leave that column out: a line that does not fit the screen is not read. csv and json have it
- * all the same. */
+/* In the format table, leave that column out, so that lines fit the screen. csv and json have it. */
 void table_hide(table *t, const char *column);
 
 /* Full rows so far. */

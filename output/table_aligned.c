@@ -13,21 +13,23 @@
 
 enum { SIGNIFICANT = 7, MAX_DIGITS = 11, MAX_EXPONENT = SIGNIFICANT - 1, MAX_TEXT_WIDTH = 60, NUMBER_ROOM = 40 };
 
-typedef struct {
+typedef struct column_style {
   bool scientific;
-  int decimals, width;
-} column_style; /* width in terminal columns */
-typedef struct {
-  FILE *to;
-  int spaces;
-  bool begun;
-} line; /* spaces: owed before the next visible character; begun:
-                                                              has a cell */
+  int decimals;
+  int width; /* in terminal columns */
+} column_style;
 
-static void put_spaces(line *l, int n) { l->spaces += n; }
+/* The line being written. */
+typedef struct line_writer {
+  FILE *to;
+  int spaces; /* owed before the next visible character */
+  bool begun; /* has a cell */
+} line_writer;
+
+static void owe_spaces(line_writer *l, int n) { l->spaces += n; }
 
 /* The first `bytes` of a text; control characters become spaces. */
-static void put_bytes(line *l, const char *s, size_t bytes)
+static void write_bytes(line_writer *l, const char *s, size_t bytes)
 {
   for (const char *end = s + bytes; s < end;) {
     const char *from = s;
@@ -41,7 +43,7 @@ static void put_bytes(line *l, const char *s, size_t bytes)
   }
 }
 
-static void end_line(line *l)
+static void end_line(line_writer *l)
 {
   l->spaces = 0;
   l->begun = false;
@@ -107,17 +109,17 @@ static void choose_style(const table *t, int column, column_style *style)
 }
 
 /* A text in a column of that many; too long, it ends in an ellipsis. */
-static void put_text(line *l, const char *text, int columns)
+static void write_fitted(line_writer *l, const char *text, int columns)
 {
   int width = utf8_width(text);
   if (width <= columns) {
-    put_bytes(l, text, strlen(text));
+    write_bytes(l, text, strlen(text));
   } else {
-    put_bytes(l, text, utf8_fit(text, columns - 1, &width));
-    put_bytes(l, "\xe2\x80\xa6", 3);
+    write_bytes(l, text, utf8_fit(text, columns - 1, &width));
+    write_bytes(l, "\xe2\x80\xa6", 3);
     width += 1;
   }
-  put_spaces(l, columns - width);
+  owe_spaces(l, columns - width);
 }
 
 static int last_shown(const table *t)
@@ -127,43 +129,43 @@ static int last_shown(const table *t)
   return last;
 }
 
-static void put_cell(line *l, const table *t, int column, const column_style *style, const char *text)
+static void write_cell(line_writer *l, const table *t, int column, const column_style *style, const char *text)
 {
   bool number = t->columns[column].kind != TABLE_TEXT;
   if (t->hidden[column]) return;
-  if (l->begun) put_spaces(l, 2);
+  if (l->begun) owe_spaces(l, 2);
   l->begun = true;
-  if (number) put_spaces(l, style->width - utf8_width(text));
-  if (number || column == last_shown(t)) put_bytes(l, text, strlen(text));
-  else put_text(l, text, style->width);
+  if (number) owe_spaces(l, style->width - utf8_width(text));
+  if (number || column == last_shown(t)) write_bytes(l, text, strlen(text));
+  else write_fitted(l, text, style->width);
 }
 
-static void put_line(line *l, const char *text)
+static void write_line(line_writer *l, const char *text)
 {
-  put_bytes(l, text, strlen(text));
+  write_bytes(l, text, strlen(text));
   end_line(l);
 }
 
 hc_status table_write_aligned(const table *t, FILE *to)
 {
-  line l = {.to = to};
+  line_writer l = {.to = to};
   column_style *styles = calloc((size_t)t->n_columns, sizeof *styles);
   if (!styles) return HC_NO_MEMORY;
-  if (*t->title) put_line(&l, t->title);
+  if (*t->title) write_line(&l, t->title);
   for (int j = 0; j < t->n_columns; ++j) {
     choose_style(t, j, &styles[j]);
-    put_cell(&l, t, j, &styles[j], t->columns[j].name);
+    write_cell(&l, t, j, &styles[j], t->columns[j].name);
   }
   end_line(&l);
   for (int i = 0; i < table_rows(t); ++i) {
     for (int j = 0; j < t->n_columns; ++j) {
       char room[NUMBER_ROOM];
-      put_cell(&l, t, j, &styles[j], cell_text(t, i, j, &styles[j], room));
+      write_cell(&l, t, j, &styles[j], cell_text(t, i, j, &styles[j], room));
     }
     end_line(&l);
   }
   if (t->n_notes) end_line(&l);
-  for (size_t i = 0; i < t->n_notes; ++i) put_line(&l, t->notes[i]);
+  for (size_t i = 0; i < t->n_notes; ++i) write_line(&l, t->notes[i]);
   free(styles);
   return HC_OK;
 }

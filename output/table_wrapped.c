@@ -26,8 +26,9 @@ static int widest(const table *t, const wrapped *w, int column)
   return width;
 }
 
-/* What the widest columns have too much is taken from them until the line fits, or nothing more can be taken. */
-static void share_width(const table *t, const wrapped *w)
+/* Each column as wide as its widest text; then the widest ones are narrowed until the line fits, none below
+ * NARROWEST. */
+static void narrow_columns(const table *t, const wrapped *w)
 {
   int total = BETWEEN * (t->n_columns - 1);
   for (int j = 0; j < t->n_columns; ++j) total += w->widths[j] = widest(t, w, j);
@@ -42,7 +43,7 @@ static void share_width(const table *t, const wrapped *w)
 
 /* Bytes of the next line of *rest, which is moved past them and past the spaces before them; where it starts goes
  * into *from. */
-static size_t next_piece(const char **rest, int width, const char **from)
+static size_t next_part(const char **rest, int width, const char **from)
 {
   int own;
   *from = *rest + strspn(*rest, " ");
@@ -83,7 +84,7 @@ static void write_row(const table *t, const wrapped *w, int row, FILE *to)
     int spaces = 0;
     for (int j = 0; j < t->n_columns; ++j) {
       const char *from;
-      size_t n = next_piece(&w->rest[j], w->widths[j], &from);
+      size_t n = next_part(&w->rest[j], w->widths[j], &from);
       int own = width_of(from, n);
       if (n) fprintf(to, "%*s%.*s", spaces, "", (int)n, from);
       spaces = (n ? 0 : spaces) + w->widths[j] - own + BETWEEN;
@@ -109,7 +110,7 @@ static char *cell_text(const table *t, int row, int column)
   return utf8_clean(cell->there && kind == TABLE_TEXT ? cell->as.text : number, true);
 }
 
-static bool fill(const table *t, const wrapped *w)
+static bool copy_texts(const table *t, const wrapped *w)
 {
   if (!w->texts || !w->widths || !w->rest) return false;
   for (int j = 0; j < t->n_columns; ++j)
@@ -124,13 +125,13 @@ hc_status table_write_wrapped(const table *t, FILE *to)
 {
   size_t columns = (size_t)t->n_columns, cells = columns * ((size_t)table_rows(t) + 1);
   wrapped w = {calloc(cells, sizeof *w.texts), calloc(columns, sizeof *w.widths), calloc(columns, sizeof *w.rest)};
-  bool good = fill(t, &w);
+  bool good = copy_texts(t, &w);
   if (good) {
-    share_width(t, &w);
-    bool airy = !fits_on_lines(t, &w);
+    narrow_columns(t, &w);
+    bool spaced = !fits_on_lines(t, &w);
     if (*t->title) fprintf(to, "%s\n", t->title);
     for (int i = 0; i <= table_rows(t); ++i) {
-      if (airy && i > 1) putc('\n', to);
+      if (spaced && i > 1) putc('\n', to);
       write_row(t, &w, i, to);
     }
     if (t->n_notes) putc('\n', to);

@@ -9,14 +9,16 @@
 #include "compare/frequencies.h"
 #include "hbm/segment.h"
 
-static const double off_curve = 0.01; /* [1] farther than this share of the picture from the curve is another branch */
+/* [1] A point farther from the curve than this fraction of the drawing is on another branch. */
+static const double off_curve = 0.01;
 
 /* ---- where the curve goes ---- */
 
-/* With more points where it is bent: between two, the cubic of hbm/curve.h. */
+/* The curve is drawn with straight lines, so points are added: BETWEEN steps from one to the next, on the cubic of
+ * hbm/curve.h. */
 enum { BETWEEN = 4 };
 
-static hc_status add(hbm_solver *s, double omega, const double *X, bool judge, curve_point *p)
+static hc_status measure_point(hbm_solver *s, double omega, const double *X, bool judge, curve_point *p)
 {
   hbm_measures m;
   hbm_stability floquet;
@@ -27,7 +29,8 @@ static hc_status add(hbm_solver *s, double omega, const double *X, bool judge, c
   return HC_OK;
 }
 
-/* points[BETWEEN (n - 1) + 1]; between two points of like stability it is theirs, else each has its own. */
+/* points[BETWEEN (n - 1) + 1]. Points added between two of equal stability have theirs; between others the stability
+ * of each is computed. */
 static hc_status sample_curve(hbm_solver *s, const hbm_curve *c, bool judge, curve_point **points, int *n)
 {
   hc_status st = HC_OK;
@@ -36,7 +39,7 @@ static hc_status sample_curve(hbm_solver *s, const hbm_curve *c, bool judge, cur
   double *X = malloc((size_t)(c->n_coef > 0 ? c->n_coef : 1) * sizeof *X);
   if (!*points || !X) st = HC_NO_MEMORY;
   for (int k = 0; k < c->n && st == HC_OK; ++k)
-    st = add(s, c->points[k].omega, c->X + (size_t)k * (size_t)c->n_coef, judge, &(*points)[BETWEEN * k]);
+    st = measure_point(s, c->points[k].omega, c->X + (size_t)k * (size_t)c->n_coef, judge, &(*points)[BETWEEN * k]);
   for (int k = 0; k + 1 < c->n && st == HC_OK; ++k) {
     int here = (*points)[BETWEEN * k].stable, next = (*points)[BETWEEN * (k + 1)].stable;
     const hbm_segment segment = hbm_segment_between(c, k);
@@ -44,8 +47,8 @@ static hc_status sample_curve(hbm_solver *s, const hbm_curve *c, bool judge, cur
       curve_point *p = &(*points)[BETWEEN * k + i];
       double omega;
       hbm_segment_at(&segment, (double)i / BETWEEN, X, &omega, NULL, NULL);
-      st = add(s, omega, X, judge && here != next, p);
-      /* off the solution itself it may be unknown */
+      st = measure_point(s, omega, X, judge && here != next, p);
+      /* equal at both ends, or unknown because an added point is not quite a solution: that of the nearer end */
       if (here == next || !p->stable) p->stable = 2 * i <= BETWEEN ? here : next;
     }
   }
@@ -58,7 +61,7 @@ static hc_status sample_curve(hbm_solver *s, const hbm_curve *c, bool judge, cur
 
 static double sq(double x) { return x * x; }
 
-/* Distance of p from the segment a b, in shares of the picture. */
+/* Distance of p from the segment a b, in fractions of the drawing's width and height. */
 static double distance(const curve_point *p, const curve_point *a, const curve_point *b, double wide, double high)
 {
   double bx = (b->omega - a->omega) / wide, by = (b->amplitude - a->amplitude) / high,
@@ -75,7 +78,7 @@ static bool on_curve(const curve_shape *c, const curve_point *p, double wide, do
   return false;
 }
 
-/* Keeps what is not on the curve, with gaps where it was. */
+/* Drops the points of `other` that lie on the curve; a gap stands where some were dropped. */
 static void keep_other(curve_shape *c)
 {
   int kept = 0;
@@ -90,7 +93,7 @@ static void keep_other(curve_shape *c)
   c->n_other = kept;
 }
 
-/* A curve that cannot be had is not drawn; only running out of memory matters. */
+/* The sweep from the other end. If it fails nothing of it is drawn; the only error is HC_NO_MEMORY. */
 static hc_status trace_other(const scene *sc, double from, double to, curve_shape *out)
 {
   hbm_solver *s = NULL;
@@ -147,28 +150,29 @@ void curve_shape_clear(curve_shape *c)
 
 /* ---- drawn ---- */
 
-static const struct run {
+static const struct stability_look {
   const char *name, *title, *look, *quiet;
   int stable;
-} runs[] = {
+} stabilities[] = {
     {"stable", "harmonic balance: stable", "lw 2.2 dt 1 lc rgb '#0072B2'", "lw 1.4 dt 1 lc rgb '#999999'", 1},
     {"unstable", "unstable", "lw 1.8 dt (10,6) lc rgb '#0072B2'", "lw 1.4 dt (5,4) lc rgb '#999999'", -1},
     {"unknown", "stability unknown", "lw 1.6 dt 3 lc rgb '#0072B2'", "lw 1.2 dt 3 lc rgb '#999999'", 0},
 };
-enum { N_RUNS = sizeof runs / sizeof *runs };
+enum { N_STABILITIES = sizeof stabilities / sizeof *stabilities };
 
 static const struct special_look {
   const char *name, *title, *look;
   hbm_special_kind kind;
-} marks[] = {
+} special_looks[] = {
     {"turning", "turning point", "pt 11 ps 0.9 lc rgb '#000000'", HBM_TURNING_POINT},
     {"doubling", "period doubling", "pt 13 ps 0.9 lc rgb '#000000'", HBM_PERIOD_DOUBLING},
     {"change", "contact changes", "pt 4 ps 0.7 lw 1 lc rgb '#000000'", HBM_CONTACT_CHANGE},
 };
-enum { N_MARKS = sizeof marks / sizeof *marks };
+enum { N_SPECIAL_LOOKS = sizeof special_looks / sizeof *special_looks };
 
-/* The segments that end or begin in a point of that kind belong to it, mixed ones to the kind of their first point. */
-static int put_run(figure *g, const curve_shape *c, int stable)
+/* The points of one stability, as data for lines. A segment between two stabilities is drawn as its first point's, so
+ * the point after the last of a stability is written too. */
+static int write_points_of(figure *g, const curve_shape *c, int stable)
 {
   int n = 0;
   for (int k = 0; k < c->n; ++k) {
@@ -180,36 +184,37 @@ static int put_run(figure *g, const curve_shape *c, int stable)
   return n;
 }
 
-static int count_run(const curve_shape *c, int stable)
+static int count_points_of(const curve_shape *c, int stable)
 {
   int n = 0;
   for (int k = 0; k < c->n; ++k) n += c->points[k].stable == stable;
   return n;
 }
 
-static bool is_mark(const hbm_special *p, hbm_special_kind kind)
+static bool is_drawn_as(const hbm_special *p, hbm_special_kind kind)
 {
   return p->kind == kind && (kind != HBM_CONTACT_CHANGE || p->before != p->after);
 }
 
-static int count_marks(const curve_shape *c, hbm_special_kind kind)
+static int count_specials(const curve_shape *c, hbm_special_kind kind)
 {
   int n = 0;
-  for (int i = 0; i < c->n_special; ++i) n += is_mark(&c->special[i], kind);
+  for (int i = 0; i < c->n_special; ++i) n += is_drawn_as(&c->special[i], kind);
   return n;
 }
 
 void curve_shape_data(figure *g, const curve_shape *c)
 {
-  for (int r = 0; r < N_RUNS; ++r) {
-    figure_block(g, runs[r].name);
-    put_run(g, c, runs[r].stable);
+  for (int r = 0; r < N_STABILITIES; ++r) {
+    figure_block(g, stabilities[r].name);
+    write_points_of(g, c, stabilities[r].stable);
     figure_block_end(g);
   }
-  for (int m = 0; m < N_MARKS; ++m) {
-    figure_block(g, marks[m].name);
+  for (int m = 0; m < N_SPECIAL_LOOKS; ++m) {
+    figure_block(g, special_looks[m].name);
     for (int i = 0; i < c->n_special; ++i)
-      if (is_mark(&c->special[i], marks[m].kind)) figure_point(g, c->special[i].omega, c->special[i].amplitude);
+      if (is_drawn_as(&c->special[i], special_looks[m].kind))
+        figure_point(g, c->special[i].omega, c->special[i].amplitude);
     figure_block_end(g);
   }
   figure_block(g, "other");
@@ -226,15 +231,17 @@ void curve_shape_items(figure *g, const curve_shape *c, bool quiet)
   if (c->n_other > 1)
     figure_item(g, "$other using 1:2 with lines", figure_look(g, "lw 3 dt 1 lc rgb '#c8c8c8'", 5, look),
                 "other branch, from the sweep's other end");
-  for (int r = 0; r < N_RUNS; ++r) {
-    if (count_run(c, runs[r].stable) == 0) continue;
-    snprintf(what, sizeof what, "$%s using 1:2 with lines", runs[r].name);
-    figure_item(g, what, figure_look(g, quiet ? runs[r].quiet : runs[r].look, r, look), "%s", runs[r].title);
+  for (int r = 0; r < N_STABILITIES; ++r) {
+    if (count_points_of(c, stabilities[r].stable) == 0) continue;
+    snprintf(what, sizeof what, "$%s using 1:2 with lines", stabilities[r].name);
+    figure_item(g, what, figure_look(g, quiet ? stabilities[r].quiet : stabilities[r].look, r, look), "%s",
+                stabilities[r].title);
   }
-  for (int m = 0; m < N_MARKS && !quiet; ++m) {
-    if (count_marks(c, marks[m].kind) == 0) continue;
-    snprintf(what, sizeof what, "$%s using 1:2 with points", marks[m].name);
-    figure_item(g, what, g->letters ? figure_look(g, "", 20 + m, look) : marks[m].look, "%s", marks[m].title);
+  for (int m = 0; m < N_SPECIAL_LOOKS && !quiet; ++m) {
+    if (count_specials(c, special_looks[m].kind) == 0) continue;
+    snprintf(what, sizeof what, "$%s using 1:2 with points", special_looks[m].name);
+    figure_item(g, what, g->letters ? figure_look(g, "", 20 + m, look) : special_looks[m].look, "%s",
+                special_looks[m].title);
   }
 }
 
@@ -242,12 +249,12 @@ void curve_shape_axes(figure *g, const scene *sc, const curve_shape *c)
 {
   figure_below(g, "%s [rad/%s]", g->letters ? "omega" : "ω", sc->unit_time);
   figure_set(g, "ylabel", "amplitude of x [%s]", sc->unit_length);
-  figure_say(g, "set xrange [%.10g:%.10g]\nset yrange [0:*]\n", c->low, c->high);
+  figure_script(g, "set xrange [%.10g:%.10g]\nset yrange [0:*]\n", c->low, c->high);
 }
 
 bool curve_shape_window(const curve_shape *c, curve_window *out)
 {
-  static const double small = 0.12, margin = 0.4; /* share of the sweep; of the part */
+  static const double small = 0.12, margin = 0.4; /* fractions: of the sweep; of the part */
   curve_window w = {INFINITY, -INFINITY, INFINITY, -INFINITY};
   double top = 0;
   for (int i = 0; i < c->n_special; ++i) {

@@ -14,28 +14,32 @@ enum { CURVE_MOST_SPECIALS = 256 };
 typedef struct curve_shape {
   int n, n_other;
   curve_point *points; /* [n] along the curve */
-  curve_point *other;  /* [n_other] of the sweep from its other end, as far as they are not on it; NaN omega: a gap */
+  curve_point *other;  /* [n_other] of the sweep from its other end, without those on the curve; NaN omega: a gap */
   int n_special;
   hbm_special special[CURVE_MOST_SPECIALS];
   int harmonics, samples; /* in use */
   double low, high;       /* [rad/time] the sweep */
 } curve_shape;
 
-/* Of a curve that is there. */
+/* Of a curve that was computed. */
 hc_status curve_shape_of(const scene *sc, hbm_solver *s, const hbm_curve *curve, curve_shape *out);
-/* Of the scene's own sweep, widened to `asked`. HC_OK also where the curve stops early or there is none at all. */
+/* Computes the curve over the scene's sweep, widened to `asked`. HC_OK or HC_NO_MEMORY: a curve that stops early is
+ * drawn as far as it goes. */
 hc_status curve_shape_trace(const scene *sc, const number_list *asked, curve_shape *out);
 void curve_shape_clear(curve_shape *c);
 
-/* Its data, before the plot; then its items. Quiet: thin and grey, without marks, to draw something else on. */
+/* First its data blocks, then in the plot command its items. quiet: thin and grey and without special points, as the
+ * background of something else. */
 void curve_shape_data(figure *g, const curve_shape *c);
 void curve_shape_items(figure *g, const curve_shape *c, bool quiet);
 /* Axes and ranges of amplitude over omega. */
 void curve_shape_axes(figure *g, const scene *sc, const curve_shape *c);
-/* All that happens on the curve happens in a small part of the sweep: that part, to be drawn beside the whole. */
+/* The part of the sweep and of the amplitudes that holds all special points, to be drawn beside the whole. */
 typedef struct curve_window {
-  double low, high, least, most;
+  double low, high;   /* [rad/time] */
+  double least, most; /* [length] amplitudes */
 } curve_window;
+/* False: there are no special points, or their part is not small against the sweep. */
 bool curve_shape_window(const curve_shape *c, curve_window *out);
 /* "H = 10, exact forces" */
 const char *curve_shape_settings(const scene *sc, const curve_shape *c, char text[96]);

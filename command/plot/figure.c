@@ -37,12 +37,12 @@ bool plot_can(const char *path)
 
 /* ---- the terminal ---- */
 
-/* As wide as the terminal, or as COLUMNS says; a bit less high, so that the prompt does not push it out. */
+/* As wide as the terminal, or as COLUMNS says; two lines less high, so that the prompt leaves all of it visible. */
 static void set_letters(figure *g)
 {
   struct winsize size;
-  const char *told = getenv("COLUMNS");
-  int width = told ? (int)strtol(told, NULL, 10) : 0, height = 0;
+  const char *columns = getenv("COLUMNS");
+  int width = columns ? (int)strtol(columns, NULL, 10) : 0, height = 0;
   if (isatty(STDOUT_FILENO) && ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0) {
     width = size.ws_col;
     height = size.ws_row - 2;
@@ -50,27 +50,28 @@ static void set_letters(figure *g)
   if (width <= 0) width = PLAIN_WIDTH;
   width = width < LEAST_WIDTH ? LEAST_WIDTH : width > MOST_WIDTH ? MOST_WIDTH : width;
   if (height <= 0 || height > width / 2) height = width > 2 * PLAIN_HEIGHT ? PLAIN_HEIGHT : width / 2;
-  figure_say(g, "set terminal dumb enhanced mono size %d,%d\n", width, height < LEAST_HEIGHT ? LEAST_HEIGHT : height);
+  figure_script(g, "set terminal dumb enhanced mono size %d,%d\n", width,
+                height < LEAST_HEIGHT ? LEAST_HEIGHT : height);
 }
 
 static void set_terminal(figure *g, int width, int height)
 {
   const char *path = g->order->path;
-  figure_say(g, "set encoding utf8\n");
+  figure_script(g, "set encoding utf8\n");
   if (g->letters) set_letters(g);
   else if (ends_in(path, ".svg"))
-    figure_say(g, "set terminal svg enhanced size %d,%d font 'sans,13' background rgb 'white'\n", width, height);
+    figure_script(g, "set terminal svg enhanced size %d,%d font 'sans,13' background rgb 'white'\n", width, height);
   else if (ends_in(path, ".png"))
-    figure_say(g,
-               "set terminal pngcairo enhanced size %d,%d font 'sans,10' fontscale 1.5 linewidth 1.5 pointscale 1.5 "
-               "background rgb 'white'\n",
-               3 * width / 2, 3 * height / 2);
+    figure_script(g,
+                  "set terminal pngcairo enhanced size %d,%d font 'sans,10' fontscale 1.5 linewidth 1.5 pointscale 1.5 "
+                  "background rgb 'white'\n",
+                  3 * width / 2, 3 * height / 2);
   else
-    figure_say(g, "set terminal pdfcairo enhanced size %.2fin,%.2fin font 'sans,10' background rgb 'white'\n",
-               width / 90.0, height / 90.0);
-  figure_say(g, "set border lw 0.8\nset tics nomirror out\nset key noautotitle Left reverse samplen 3\n");
+    figure_script(g, "set terminal pdfcairo enhanced size %.2fin,%.2fin font 'sans,10' background rgb 'white'\n",
+                  width / 90.0, height / 90.0);
+  figure_script(g, "set border lw 0.8\nset tics nomirror out\nset key noautotitle Left reverse samplen 3\n");
   if (!g->letters)
-    figure_say(g, "set grid lw 0.7 lc rgb '#d5d5d5' dt 1\nset key outside below center horizontal width 1\n");
+    figure_script(g, "set grid lw 0.7 lc rgb '#d5d5d5' dt 1\nset key outside below center horizontal width 1\n");
 }
 
 hc_status figure_open(figure *g, plot_order *p, int width, int height)
@@ -84,9 +85,9 @@ hc_status figure_open(figure *g, plot_order *p, int width, int height)
   return HC_OK;
 }
 
-/* ---- to where it belongs ---- */
+/* ---- the drawing to its file ---- */
 
-static hc_status copy(FILE *drawing, FILE *to)
+static hc_status copy_stream(FILE *drawing, FILE *to)
 {
   char buffer[4096];
   rewind(drawing);
@@ -95,13 +96,13 @@ static hc_status copy(FILE *drawing, FILE *to)
   return ferror(drawing) ? HC_IO : HC_OK;
 }
 
-static hc_status deliver(figure *g, FILE *drawing)
+static hc_status write_drawing(figure *g, FILE *drawing)
 {
   output *out = NULL;
   plot_order *p = g->order;
   hc_status st = output_open(g->letters ? NULL : p->path, &out);
   if (st == HC_OK) {
-    st = copy(drawing, output_stream(out));
+    st = copy_stream(drawing, output_stream(out));
     if (st == HC_OK) st = output_commit(out);
     else output_abandon(out);
   }
@@ -111,7 +112,7 @@ static hc_status deliver(figure *g, FILE *drawing)
   return st;
 }
 
-static hc_status draw(figure *g)
+static hc_status run_script(figure *g)
 {
   FILE *drawing = tmpfile();
   if (!drawing) {
@@ -119,7 +120,7 @@ static hc_status draw(figure *g)
     return HC_IO;
   }
   hc_status st = gnuplot_run(g->script, g->length, drawing, g->order->why, PLOT_WHY);
-  if (st == HC_OK) st = deliver(g, drawing);
+  if (st == HC_OK) st = write_drawing(g, drawing);
   fclose(drawing);
   return st;
 }
@@ -130,15 +131,15 @@ hc_status figure_close(figure *g, hc_status st)
   bool lost = ferror(g->to) != 0;
   lost |= fclose(g->to) != 0 || !g->script;
   if (st == HC_OK && lost) st = HC_NO_MEMORY;
-  if (st == HC_OK) st = draw(g);
+  if (st == HC_OK) st = run_script(g);
   if (st != HC_OK && !g->order->why[0]) snprintf(g->order->why, PLOT_WHY, "%s", hc_status_text(st));
   free(g->script);
   return st;
 }
 
-/* ---- words ---- */
+/* ---- script and texts ---- */
 
-void figure_say(figure *g, const char *format, ...)
+void figure_script(figure *g, const char *format, ...)
 {
   va_list args;
   va_start(args, format);
@@ -146,9 +147,9 @@ void figure_say(figure *g, const char *format, ...)
   va_end(args);
 }
 
-/* Inside double quotes: letters, digits, blanks and harmless marks as they are, all else in octal; the markup's own
- * signs after a backslash. */
-static void put_escaped(FILE *to, const char *text)
+/* For a string in double quotes: letters, digits, spaces and some punctuation as they are, all else in octal; the
+ * characters of gnuplot's markup with a backslash before. */
+static void write_escaped(FILE *to, const char *text)
 {
   char *clean = utf8_clean(text, true);
   for (const char *c = clean ? clean : ""; *c; ++c) {
@@ -160,12 +161,12 @@ static void put_escaped(FILE *to, const char *text)
   free(clean);
 }
 
-static void put_text(FILE *to, const char *format, va_list args)
+static void write_quoted(FILE *to, const char *format, va_list args)
 {
   char text[MOST_TEXT];
   vsnprintf(text, sizeof text, format, args);
   fputc('"', to);
-  put_escaped(to, text);
+  write_escaped(to, text);
   fputc('"', to);
 }
 
@@ -173,7 +174,7 @@ void figure_text(figure *g, const char *format, ...)
 {
   va_list args;
   va_start(args, format);
-  put_text(g->to, format, args);
+  write_quoted(g->to, format, args);
   va_end(args);
 }
 
@@ -182,7 +183,7 @@ void figure_set(figure *g, const char *command, const char *format, ...)
   va_list args;
   va_start(args, format);
   fprintf(g->to, "set %s ", command);
-  put_text(g->to, format, args);
+  write_quoted(g->to, format, args);
   fputc('\n', g->to);
   va_end(args);
 }
@@ -194,52 +195,52 @@ void figure_below(figure *g, const char *format, ...)
   va_start(args, format);
   vsnprintf(text, sizeof text, format, args);
   va_end(args);
-  figure_say(g, "set xlabel \"");
-  put_escaped(g->to, text);
-  figure_say(g, g->letters ? "\"\n" : "\\n{/*0.4  }\"\n");
+  figure_script(g, "set xlabel \"");
+  write_escaped(g->to, text);
+  figure_script(g, g->letters ? "\"\n" : "\\n{/*0.4  }\"\n");
 }
 
 void figure_title(figure *g, const char *command, const char *title, const char *about)
 {
   bool small = !g->letters && utf8_width(title) > LONG_TITLE;
-  figure_say(g, "%s \"%s", command, small ? "{/*0.75 " : "");
-  put_escaped(g->to, title);
-  figure_say(g, "%s", small ? "}" : "");
-  figure_say(g, g->letters ? "\\n" : "\\n{/*0.85 ");
-  put_escaped(g->to, about);
-  figure_say(g, g->letters ? "\"\n" : "}\"\n");
+  figure_script(g, "%s \"%s", command, small ? "{/*0.75 " : "");
+  write_escaped(g->to, title);
+  figure_script(g, "%s", small ? "}" : "");
+  figure_script(g, g->letters ? "\\n" : "\\n{/*0.85 ");
+  write_escaped(g->to, about);
+  figure_script(g, g->letters ? "\"\n" : "}\"\n");
 }
 
 /* ---- data ---- */
 
-void figure_block(figure *g, const char *name) { figure_say(g, "$%s << EOD\n", name); }
+void figure_block(figure *g, const char *name) { figure_script(g, "$%s << EOD\n", name); }
 
 void figure_point(figure *g, double x, double y)
 {
-  if (isfinite(x) && isfinite(y)) figure_say(g, "%.10g %.10g\n", x, y);
+  if (isfinite(x) && isfinite(y)) figure_script(g, "%.10g %.10g\n", x, y);
 }
 
-void figure_gap(figure *g) { figure_say(g, "\n"); }
+void figure_gap(figure *g) { figure_script(g, "\n"); }
 
-void figure_block_end(figure *g) { figure_say(g, "EOD\n"); }
+void figure_block_end(figure *g) { figure_script(g, "EOD\n"); }
 
 void figure_item(figure *g, const char *what, const char *look, const char *title, ...)
 {
   va_list args;
-  figure_say(g, "%s%s %s", g->items++ ? ", \\\n  " : "plot ", what, look);
+  figure_script(g, "%s%s %s", g->items++ ? ", \\\n  " : "plot ", what, look);
   if (!title) {
-    figure_say(g, " notitle");
+    figure_script(g, " notitle");
     return;
   }
-  figure_say(g, " title ");
+  figure_script(g, " title ");
   va_start(args, title);
-  put_text(g->to, title, args);
+  write_quoted(g->to, title, args);
   va_end(args);
 }
 
 void figure_draw(figure *g)
 {
-  figure_say(g, "\n");
+  figure_script(g, "\n");
   g->items = 0;
 }
 
@@ -280,7 +281,7 @@ const char *figure_mark(const figure *g, int n, double width, char text[FIGURE_L
 
 void figure_log(figure *g, const char *axis)
 {
-  figure_say(g, "set logscale %s\nset format %s '%s'\n", axis, axis, g->letters ? "%.0e" : "10^{%T}");
+  figure_script(g, "set logscale %s\nset format %s '%s'\n", axis, axis, g->letters ? "%.0e" : "10^{%T}");
 }
 
 const char *figure_unit(const scene *sc, const char *unit, char text[FIGURE_UNIT])
@@ -306,21 +307,23 @@ const char *figure_unit(const scene *sc, const char *unit, char text[FIGURE_UNIT
   return text;
 }
 
-/* Light is small. The scale darkens evenly, so it reads the same in grey; numbers are white where it is dark. */
+/* Small values are light. The palette darkens evenly, so the map reads the same in grey; the numbers in cells are white
+ * on the darker half. */
 void figure_heat(figure *g, const char *label, bool logarithmic, double low, double high)
 {
   if (!(high > low)) high = low + (low != 0 ? 1e-6 * fabs(low) : 1); /* one value only */
-  figure_say(g, "set palette defined (0 '#fdf6e3', 0.35 '#f0a860', 0.7 '#a8325a', 1 '#2a0a4a')\nset cblabel ");
+  figure_script(g, "set palette defined (0 '#fdf6e3', 0.35 '#f0a860', 0.7 '#a8325a', 1 '#2a0a4a')\nset cblabel ");
   figure_text(g, "%s", label);
-  figure_say(g, "\nunset key\nunset grid\nset tics scale 0\nset autoscale noextend\n%s",
-             logarithmic ? "set logscale cb\nset format cb '10^{%T}'\n" : "");
-  figure_say(g, "low = %.10g\nhigh = %.10g\n", low, high);
-  figure_say(g, "set cbrange [low:high]\nshare(v) = %s\n",
-             logarithmic ? "log(v/low)/log(high/low)" : "(v - low)/(high - low)");
-  figure_say(g,
-             "half = 0.5\nplot $cells using 1:2:($1-half):($1+half):($2-half):($2+half):3 with boxxyerror fill solid "
-             "noborder lc palette, \\\n");
-  figure_say(g,
-             "  $cells using (share($3) < 0.5 ? $1 : NaN):2:(sprintf('%%.3g', $3)) with labels tc rgb 'black', \\\n");
-  figure_say(g, "  $cells using (share($3) < 0.5 ? NaN : $1):2:(sprintf('%%.3g', $3)) with labels tc rgb 'white'\n");
+  figure_script(g, "\nunset key\nunset grid\nset tics scale 0\nset autoscale noextend\n%s",
+                logarithmic ? "set logscale cb\nset format cb '10^{%T}'\n" : "");
+  figure_script(g, "low = %.10g\nhigh = %.10g\n", low, high);
+  figure_script(g, "set cbrange [low:high]\nfraction(v) = %s\n",
+                logarithmic ? "log(v/low)/log(high/low)" : "(v - low)/(high - low)");
+  figure_script(
+      g, "half = 0.5\nplot $cells using 1:2:($1-half):($1+half):($2-half):($2+half):3 with boxxyerror fill solid "
+         "noborder lc palette, \\\n");
+  figure_script(
+      g, "  $cells using (fraction($3) < 0.5 ? $1 : NaN):2:(sprintf('%%.3g', $3)) with labels tc rgb 'black', \\\n");
+  figure_script(g,
+                "  $cells using (fraction($3) < 0.5 ? NaN : $1):2:(sprintf('%%.3g', $3)) with labels tc rgb 'white'\n");
 }

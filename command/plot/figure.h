@@ -1,4 +1,4 @@
-/* figure.h - a gnuplot script in the making: the terminal, texts that are text whatever they say, data, looks. Every
+/* figure.h - a gnuplot script as it is written: the terminal, texts, data, looks of lines. Every
  * text that comes from outside goes through figure_text: what gnuplot or its markup could act on is written as an
  * octal escape, so a title can neither end its string nor run anything. Data blocks have our own names. A write that
  * failed is reported by figure_close. */
@@ -21,16 +21,16 @@ typedef struct figure {
 
 /* A drawing of about width x height points of 1/90 inch. */
 hc_status figure_open(figure *g, plot_order *p, int width, int height);
-/* Draws it where the order says; frees whatever `st` was, and answers it if it was not HC_OK. */
+/* With st = HC_OK draws it to order->path; otherwise returns st. Frees the figure in any case. */
 hc_status figure_close(figure *g, hc_status st);
 
-/* Gnuplot's own words. */
-void figure_say(figure *g, const char *format, ...) __attribute__((format(printf, 2, 3)));
-/* A text in quotes. */
+/* Append to the script. */
+void figure_script(figure *g, const char *format, ...) __attribute__((format(printf, 2, 3)));
+/* Append a text as a quoted string, escaped. */
 void figure_text(figure *g, const char *format, ...) __attribute__((format(printf, 2, 3)));
 /* "set COMMAND TEXT" */
 void figure_set(figure *g, const char *command, const char *format, ...) __attribute__((format(printf, 3, 4)));
-/* The label under the drawing, with air between it and the legend. */
+/* The label of the x axis, with a space between it and the legend. */
 void figure_below(figure *g, const char *format, ...) __attribute__((format(printf, 2, 3)));
 /* Title and, smaller and below it, what is drawn. `command` is "set title", or "set multiplot ... title". */
 void figure_title(figure *g, const char *command, const char *title, const char *about);

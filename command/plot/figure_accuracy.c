@@ -5,14 +5,14 @@
 #include "command/plot/panels.h"
 
 enum { EXACT = 0 };                  /* samples of exact forces */
-static const double no_less = 1e-17; /* [1] what an error of nothing is taken for where it must have a logarithm */
+static const double no_less = 1e-17; /* [1] drawn for an error of 0, which has no logarithm */
 
-/* What was varied: each once, in the order of the rows; exact forces after all samples. */
-typedef struct grid {
+/* The H and N of the rows, each once and in their order. */
+typedef struct accuracy_grid {
   int n_harm, n_time;
   int harmonics[NUMBER_LIST_MAX], samples[NUMBER_LIST_MAX];
-  bool exact;
-} grid;
+  bool exact; /* a column for exact forces, after those for samples */
+} accuracy_grid;
 
 static void add_once(int *list, int *n, int value)
 {
@@ -21,9 +21,9 @@ static void add_once(int *list, int *n, int value)
   if (*n < NUMBER_LIST_MAX) list[(*n)++] = value;
 }
 
-static grid grid_of(const accuracy *a)
+static accuracy_grid accuracy_grid_of(const accuracy *a)
 {
-  grid q = {0};
+  accuracy_grid q = {0};
   for (int i = 0; i < a->n_rows; ++i) {
     add_once(q.harmonics, &q.n_harm, a->rows[i].harmonics);
     if (a->rows[i].samples == EXACT) q.exact = true;
@@ -39,8 +39,8 @@ static const accuracy_row *row_at(const accuracy *a, int harmonics, int samples)
   return NULL;
 }
 
-/* Errors of exactly nothing cannot be drawn on a logarithmic scale, and are left out. */
-static void put_error(figure *g, double x, const double *e)
+/* An error of 0 has no place on a logarithmic scale and is left out. */
+static void write_error(figure *g, double x, const double *e)
 {
   if (e && *e > 0) figure_point(g, x, *e);
 }
@@ -50,10 +50,10 @@ static const double *worst_of(const accuracy_row *r)
   return r && r->possible && r->status == HC_OK ? &r->worst : NULL;
 }
 
-/* ---- slopes to compare with ---- */
+/* ---- lines of a known order ---- */
 
-/* x^-order through (x0, e0) as far as x1: $guide<order>. */
-static void put_guide(figure *g, int order, double x0, double x1, double e0)
+/* Data block $guide<order>: e0 (x/x0)^-order from x0 to x1. */
+static void write_order_line(figure *g, int order, double x0, double x1, double e0)
 {
   char name[24];
   snprintf(name, sizeof name, "guide%d", order);
@@ -65,7 +65,7 @@ static void put_guide(figure *g, int order, double x0, double x1, double e0)
   figure_block_end(g);
 }
 
-static void guide_item(figure *g, int order, const char *of, int look)
+static void order_line_item(figure *g, int order, const char *of, int look)
 {
   static const char *const looks[] = {"lw 1.2 dt 3 lc rgb '#888888'", "lw 1.2 dt 5 lc rgb '#888888'"};
   char what[64], text[FIGURE_LOOK];
@@ -79,7 +79,7 @@ static void guide_item(figure *g, int order, const char *of, int look)
 
 /* ---- the panels ---- */
 
-static void over_samples(figure *g, const accuracy *a, const grid *q)
+static void panel_over_samples(figure *g, const accuracy *a, const accuracy_grid *q)
 {
   double top = 0;
   for (int h = 0; h < q->n_harm; ++h) {
@@ -89,55 +89,57 @@ static void over_samples(figure *g, const accuracy *a, const grid *q)
     for (int i = 0; i < q->n_time; ++i) {
       const accuracy_row *r = row_at(a, q->harmonics[h], q->samples[i]);
       if (!worst_of(r)) continue;
-      put_error(g, q->samples[i], &r->aliasing);
+      write_error(g, q->samples[i], &r->aliasing);
       if (i == 0 && isfinite(r->aliasing)) top = fmax(top, r->aliasing);
     }
     figure_block_end(g);
   }
-  put_guide(g, 1, q->samples[0], q->samples[q->n_time - 1], 2 * top);
-  put_guide(g, 2, q->samples[0], q->samples[q->n_time - 1], 2 * top);
-  figure_say(g, "set title 'Aliasing: sampled against exact forces'\nset ylabel 'largest relative amplitude error'\n");
+  write_order_line(g, 1, q->samples[0], q->samples[q->n_time - 1], 2 * top);
+  write_order_line(g, 2, q->samples[0], q->samples[q->n_time - 1], 2 * top);
+  figure_script(g,
+                "set title 'Aliasing: sampled against exact forces'\nset ylabel 'largest relative amplitude error'\n");
   figure_below(g, "samples per period N");
   figure_log(g, "y");
-  figure_say(g, "set logscale x 2\nset format x '%%.0f'\nset xrange [%g:%g]\nset yrange [*:*]\n", q->samples[0] / 1.3,
-             q->samples[q->n_time - 1] * 1.3);
+  figure_script(g, "set logscale x 2\nset format x '%%.0f'\nset xrange [%g:%g]\nset yrange [*:*]\n",
+                q->samples[0] / 1.3, q->samples[q->n_time - 1] * 1.3);
   for (int h = 0; h < q->n_harm; ++h) {
     char what[64], look[FIGURE_LOOK];
     snprintf(what, sizeof what, "$n%d using 1:2 with linespoints", h);
     figure_item(g, what, figure_mark(g, h, 1.6, look), "H = %d", q->harmonics[h]);
   }
-  guide_item(g, 1, "N", 0);
-  guide_item(g, 2, "N", 1);
+  order_line_item(g, 1, "N", 0);
+  order_line_item(g, 2, "N", 1);
   figure_draw(g);
 }
 
-static void put_over_harmonics(figure *g, const accuracy *a, const grid *q, const char *name, int samples, double *top)
+static void write_errors_over_harmonics(figure *g, const accuracy *a, const accuracy_grid *q, const char *name,
+                                        int samples, double *top)
 {
   figure_block(g, name);
   for (int h = 0; h < q->n_harm; ++h) {
     const double *e = worst_of(row_at(a, q->harmonics[h], samples));
-    put_error(g, q->harmonics[h], e);
+    write_error(g, q->harmonics[h], e);
     if (h == 0 && e && isfinite(*e)) *top = fmax(*top, *e);
   }
   figure_block_end(g);
 }
 
-static void over_harmonics(figure *g, const accuracy *a, const grid *q)
+static void panel_over_harmonics(figure *g, const accuracy *a, const accuracy_grid *q)
 {
   double top = 0, first = q->harmonics[0], last = q->harmonics[q->n_harm - 1];
   char name[64], look[FIGURE_LOOK];
-  put_over_harmonics(g, a, q, "hexact", EXACT, &top);
+  write_errors_over_harmonics(g, a, q, "hexact", EXACT, &top);
   for (int i = 0; i < q->n_time; ++i) {
     snprintf(name, sizeof name, "h%d", i);
-    put_over_harmonics(g, a, q, name, q->samples[i], &top);
+    write_errors_over_harmonics(g, a, q, name, q->samples[i], &top);
   }
-  put_guide(g, 2, first, last, 2 * top);
-  put_guide(g, 4, first, last, 2 * top);
+  write_order_line(g, 2, first, last, 2 * top);
+  write_order_line(g, 4, first, last, 2 * top);
   figure_below(g, "harmonics H");
-  figure_say(
+  figure_script(
       g, "set title 'Discrepancy from time integration, over H'\nset logscale x 10\nset format x '%%.0f'\nset xtics (");
-  for (int h = 0; h < q->n_harm; ++h) figure_say(g, "%s%d", h ? ", " : "", q->harmonics[h]);
-  figure_say(g, ")\nset xrange [%g:%g]\n", first / 1.15, last * 1.15);
+  for (int h = 0; h < q->n_harm; ++h) figure_script(g, "%s%d", h ? ", " : "", q->harmonics[h]);
+  figure_script(g, ")\nset xrange [%g:%g]\n", first / 1.15, last * 1.15);
   if (q->exact)
     figure_item(g, "$hexact using 1:2 with linespoints",
                 g->letters ? "lt 1 pt 1" : "lw 2.4 dt 1 pt 7 ps 1 lc rgb '#000000'", "exact forces");
@@ -145,13 +147,13 @@ static void over_harmonics(figure *g, const accuracy *a, const grid *q)
     snprintf(name, sizeof name, "$h%d using 1:2 with linespoints", i);
     figure_item(g, name, figure_mark(g, i + 1, 1.4, look), "N = %d", q->samples[i]);
   }
-  guide_item(g, 2, "H", 0);
-  guide_item(g, 4, "H", 1);
+  order_line_item(g, 2, "H", 0);
+  order_line_item(g, 4, "H", 1);
   figure_draw(g);
-  figure_say(g, "set xtics autofreq\n");
+  figure_script(g, "set xtics autofreq\n");
 }
 
-static void heat(figure *g, const accuracy *a, const grid *q)
+static void panel_heat(figure *g, const accuracy *a, const accuracy_grid *q)
 {
   int columns = q->n_time + q->exact;
   double low = INFINITY, high = 0;
@@ -160,36 +162,36 @@ static void heat(figure *g, const accuracy *a, const grid *q)
     for (int i = 0; i < columns; ++i) {
       const double *e = worst_of(row_at(a, q->harmonics[h], i < q->n_time ? q->samples[i] : EXACT));
       if (!e || !isfinite(*e)) continue;
-      figure_say(g, "%d %d %.6g\n", i, h, fmax(*e, no_less));
+      figure_script(g, "%d %d %.6g\n", i, h, fmax(*e, no_less));
       low = fmin(low, fmax(*e, no_less));
       high = fmax(high, *e);
     }
   figure_block_end(g);
-  figure_say(
+  figure_script(
       g, "unset logscale x\nunset logscale y\nset format x '%%s'\nset format y '%%s'\nset title 'Discrepancy from time "
          "integration, over N and H'\n");
   figure_below(g, "samples per period N");
-  figure_say(g, "set ylabel 'harmonics H'\nset xrange [-0.5:%g]\nset yrange [-0.5:%g]\nset xtics (", columns - 0.5,
-             q->n_harm - 0.5);
+  figure_script(g, "set ylabel 'harmonics H'\nset xrange [-0.5:%g]\nset yrange [-0.5:%g]\nset xtics (", columns - 0.5,
+                q->n_harm - 0.5);
   for (int i = 0; i < columns; ++i) {
-    if (i < q->n_time) figure_say(g, "%s'%d' %d", i ? ", " : "", q->samples[i], i);
-    else figure_say(g, "%s'exact' %d", i ? ", " : "", i);
+    if (i < q->n_time) figure_script(g, "%s'%d' %d", i ? ", " : "", q->samples[i], i);
+    else figure_script(g, "%s'exact' %d", i ? ", " : "", i);
   }
-  figure_say(g, ")\nset ytics (");
-  for (int h = 0; h < q->n_harm; ++h) figure_say(g, "%s'%d' %d", h ? ", " : "", q->harmonics[h], h);
-  figure_say(g, ")\n");
+  figure_script(g, ")\nset ytics (");
+  for (int h = 0; h < q->n_harm; ++h) figure_script(g, "%s'%d' %d", h ? ", " : "", q->harmonics[h], h);
+  figure_script(g, ")\n");
   figure_heat(g, "largest relative amplitude error", true, low, high);
 }
 
 void panels_accuracy(figure *g, const accuracy *a)
 {
-  grid q = grid_of(a);
+  accuracy_grid q = accuracy_grid_of(a);
   bool any = false;
   for (int i = 0; i < a->n_rows; ++i) any |= worst_of(&a->rows[i]) && isfinite(a->rows[i].worst);
   if (!any || q.n_time == 0 || q.n_harm == 0) return;
-  over_samples(g, a, &q);
-  over_harmonics(g, a, &q);
-  if (!g->letters) heat(g, a, &q); /* its numbers are in the table already */
+  panel_over_samples(g, a, &q);
+  panel_over_harmonics(g, a, &q);
+  if (!g->letters) panel_heat(g, a, &q); /* as letters it would repeat the table */
 }
 
 void panels_begin(figure *g, int rows, int columns, const char *title, const char *about)
@@ -201,5 +203,5 @@ void panels_begin(figure *g, int rows, int columns, const char *title, const cha
 
 void panels_end(figure *g)
 {
-  if (!g->letters) figure_say(g, "unset multiplot\n");
+  if (!g->letters) figure_script(g, "unset multiplot\n");
 }

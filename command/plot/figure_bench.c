@@ -1,4 +1,4 @@
-/* figure_bench.c - work against precision: error over time, what nothing beats joined by a line. */
+/* figure_bench.c - work against precision: error over time, and the front of results that no other beats in both. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -6,8 +6,8 @@
 
 enum { MOST_PLACES = 4 };
 
-/* Shapes apart from each other in grey: filled for harmonic balance, open for ours by time integration, crosses for
- * others. */
+/* Shapes that differ in grey, too: filled for harmonic balance, open for our time integration, crosses for other
+ * programs. */
 static const char *const looks[BENCH_METHODS] = {
     [BENCH_HBM_EXACT] = "pt 7 ps 1.1 lc rgb '#0072B2'",
     [BENCH_HBM_SAMPLED] = "pt 5 ps 0.7 lc rgb '#56B4E9'",
@@ -19,15 +19,18 @@ static const char *const looks[BENCH_METHODS] = {
     [BENCH_SCIPY_LSODA] = "pt 2 ps 1.1 lw 1.6 lc rgb '#000000'",
 };
 
-static bool shown(const bench_row *r)
+static bool is_drawn(const bench_row *r)
 {
   return r->outcome == BENCH_SOLVED && r->repeats > 0 && r->seconds > 0 && isfinite(r->error_finer);
 }
 
-/* What lies below what the reference is good for stands on that border. */
-static double height(const bench_row *r, const bench_place *p) { return fmax(r->error_finer, fmax(p->floor, 1e-16)); }
+/* Not below the accuracy of the reference, which limits what can be measured. */
+static double drawn_error(const bench_row *r, const bench_place *p)
+{
+  return fmax(r->error_finer, fmax(p->floor, 1e-16));
+}
 
-static int put_method(figure *g, const bench *b, const bench_place *p, int place, int method)
+static int write_method(figure *g, const bench *b, const bench_place *p, int place, int method)
 {
   char name[32];
   int n = 0;
@@ -35,8 +38,8 @@ static int put_method(figure *g, const bench *b, const bench_place *p, int place
   figure_block(g, name);
   for (int i = p->first; i < p->first + p->n; ++i) {
     const bench_row *r = &b->rows[i];
-    if (r->method != (bench_method)method || !shown(r)) continue;
-    figure_point(g, r->seconds, height(r, p));
+    if (r->method != (bench_method)method || !is_drawn(r)) continue;
+    figure_point(g, r->seconds, drawn_error(r, p));
     ++n;
   }
   figure_block_end(g);
@@ -49,16 +52,16 @@ static int by_time(const void *a, const void *b)
   return x[0] != y[0] ? (x[0] > y[0]) - (x[0] < y[0]) : (x[1] < y[1]) - (x[1] > y[1]);
 }
 
-static hc_status put_front(figure *g, const bench *b, const bench_place *p, int place)
+static hc_status write_front(figure *g, const bench *b, const bench_place *p, int place)
 {
   char name[32];
   int n = 0;
   double(*at)[2] = malloc((size_t)(p->n > 0 ? p->n : 1) * sizeof *at);
   if (!at) return HC_NO_MEMORY;
   for (int i = p->first; i < p->first + p->n; ++i) {
-    if (!b->rows[i].front || !shown(&b->rows[i])) continue;
+    if (!b->rows[i].front || !is_drawn(&b->rows[i])) continue;
     at[n][0] = b->rows[i].seconds;
-    at[n++][1] = height(&b->rows[i], p);
+    at[n++][1] = drawn_error(&b->rows[i], p);
   }
   qsort(at, (size_t)n, sizeof *at, by_time);
   snprintf(name, sizeof name, "front%d", place);
@@ -86,9 +89,9 @@ static hc_status place_panel(figure *g, const scene *sc, const bench *b, int pla
 {
   const bench_place *p = &b->places[place];
   int count[BENCH_METHODS];
-  hc_status st = put_front(g, b, p, place);
+  hc_status st = write_front(g, b, p, place);
   if (st != HC_OK) return st;
-  for (int m = 0; m < BENCH_METHODS; ++m) count[m] = put_method(g, b, p, place, m);
+  for (int m = 0; m < BENCH_METHODS; ++m) count[m] = write_method(g, b, p, place, m);
   figure_set(g, "title", "ω = %.8g rad/%s", p->omega, sc->unit_time);
   place_items(g, place, count);
   figure_draw(g);
@@ -101,7 +104,7 @@ hc_status plot_bench(plot_order *p, const scene *sc, const bench *b)
   int n = 0, at[MOST_PLACES];
   for (int k = 0; k < b->n_places && n < MOST_PLACES; ++k) {
     bool any = false;
-    for (int i = b->places[k].first; i < b->places[k].first + b->places[k].n; ++i) any |= shown(&b->rows[i]);
+    for (int i = b->places[k].first; i < b->places[k].first + b->places[k].n; ++i) any |= is_drawn(&b->rows[i]);
     if (any) at[n++] = k;
   }
   if (n == 0) {

@@ -10,11 +10,11 @@
 
 enum { POINTS = 4096, EVERY = 8, MOST_DRAWN = 8 };
 
-/* Along one period. */
-typedef struct walk {
-  double u[POINTS + 1], normal[POINTS + 1], t[POINTS + 1];
+/* One contact along one period. */
+typedef struct contact_history {
+  double u[POINTS + 1], normal[POINTS + 1], t[POINTS + 1]; /* u [length], N and T [force] */
   contact_state state[POINTS + 1];
-} walk;
+} contact_history;
 
 /* The piece at th, or NULL: separated. A piece may begin before 0 or end after 2 pi. */
 static const contact_piece *piece_at(const contact_piece *p, int n, double th)
@@ -25,9 +25,9 @@ static const contact_piece *piece_at(const contact_piece *p, int n, double th)
   return NULL;
 }
 
-/* The exact law, from the pieces that exact.c found: stuck, T = kt u - held; slipping, T = +-mu N. */
-static void walk_contact(const model_contact *c, int n_harm, const double *X, const contact_piece *pieces, int n,
-                         walk *out)
+/* The exact law, from the pieces that exact_force.h found: sticking, T = kt u - held; slipping, T = +-mu N. */
+static void compute_history(const model_contact *c, int n_harm, const double *X, const contact_piece *pieces, int n,
+                            contact_history *out)
 {
   const double cosine = c->tangent, sine = c->normal;
   for (int i = 0; i <= POINTS; ++i) {
@@ -49,8 +49,8 @@ enum { N_PHASES = sizeof phases / sizeof *phases };
 
 static int phase_of(contact_state st) { return st == CONTACT_STICK ? 0 : st == CONTACT_SEPARATED ? 2 : 1; }
 
-/* $stick3, ...: the loop of contact j where it does that. What happens; 0: never. */
-static int put_phase(figure *g, const walk *w, int j, int phase)
+/* Data block $stick3, ...: the loop of contact j in that phase. Returns the number of points; 0: never in it. */
+static int write_phase(figure *g, const contact_history *w, int j, int phase)
 {
   char name[24];
   int n = 0;
@@ -69,13 +69,13 @@ static int put_phase(figure *g, const walk *w, int j, int phase)
   return n;
 }
 
-static void put_forces(figure *g, const walk *w, const contact *c, int j)
+static void write_forces(figure *g, const contact_history *w, const contact *c, int j)
 {
   char name[24];
   snprintf(name, sizeof name, "forces%d", j);
   figure_block(g, name);
   for (int i = 0; i <= POINTS; i += EVERY)
-    figure_say(g, "%.10g %.10g %.10g %.10g\n", (double)i / POINTS, w->t[i], w->normal[i], c->mu * w->normal[i]);
+    figure_script(g, "%.10g %.10g %.10g %.10g\n", (double)i / POINTS, w->t[i], w->normal[i], c->mu * w->normal[i]);
   figure_block_end(g);
 }
 
@@ -110,7 +110,7 @@ static void force_items(figure *g, int n)
   }
 }
 
-static void widen(double *closed, const walk *w)
+static void widen_to_closed(double *closed, const contact_history *w)
 {
   for (int i = 0; i <= POINTS; ++i) {
     if (w->state[i] == CONTACT_SEPARATED) continue;
@@ -119,38 +119,38 @@ static void widen(double *closed, const walk *w)
   }
 }
 
-/* The contacts walked through the motion, their data written. */
-static hc_status put_contacts(figure *g, const scene *sc, int n, int n_harm, const double *X, int there[][N_PHASES],
-                              double closed[2])
+/* The data blocks of n contacts under the motion X; there[j][phase]: points of the loop in that phase. */
+static hc_status write_contacts(figure *g, const scene *sc, int n, int n_harm, const double *X, int there[][N_PHASES],
+                                double closed[2])
 {
   double F[2 * HBM_MAX_HARMONICS + 1];
   exact_force *e = NULL;
-  walk *w = malloc(sizeof *w);
+  contact_history *w = malloc(sizeof *w);
   hc_status st = w ? scene_exact(sc, n_harm, &e) : HC_NO_MEMORY;
   if (st == HC_OK) st = exact_force_eval(e, X, F, NULL, NULL);
   for (int j = 0, pieces; j < n && st == HC_OK; ++j) {
     const contact_piece *p = exact_force_pieces(e, j, &pieces);
     const model_contact c = scene_model_contact(&sc->contacts[j]);
-    walk_contact(&c, n_harm, X, p, pieces, w);
-    for (int k = 0; k < N_PHASES; ++k) there[j][k] = put_phase(g, w, j, k);
-    widen(closed, w);
-    put_forces(g, w, &sc->contacts[j].law, j);
+    compute_history(&c, n_harm, X, p, pieces, w);
+    for (int k = 0; k < N_PHASES; ++k) there[j][k] = write_phase(g, w, j, k);
+    widen_to_closed(closed, w);
+    write_forces(g, w, &sc->contacts[j].law, j);
   }
   exact_force_free(e);
   free(w);
   return st;
 }
 
-/* The loop is where the contact is closed; far away from there nothing happens. */
+/* The range of u while the contact is closed, with a margin: while it is open T = 0. */
 static void set_window(figure *g, const double *closed)
 {
   double wide = closed[1] - closed[0];
-  if (wide > 0) figure_say(g, "set xrange [%.10g:%.10g]\n", closed[0] - 0.5 * wide, closed[1] + 0.25 * wide);
+  if (wide > 0) figure_script(g, "set xrange [%.10g:%.10g]\n", closed[0] - 0.5 * wide, closed[1] + 0.25 * wide);
 }
 
 static void loops_and_forces(figure *g, const scene *sc, int n, int there[][N_PHASES], const double *closed)
 {
-  figure_say(
+  figure_script(
       g, "set title 'Hysteresis'\nset offsets graph 0.05, graph 0.05, graph 0.05, graph 0.05\nset zeroaxis lw 0.8 dt 1 "
          "lc rgb '#999999'\n");
   figure_below(g, "tangential motion u [%s]", sc->unit_length);
@@ -159,7 +159,7 @@ static void loops_and_forces(figure *g, const scene *sc, int n, int there[][N_PH
   for (int j = 0; j < n; ++j) loop_items(g, j, there[j], n == 1);
   figure_draw(g);
   figure_below(g, "t / T");
-  figure_say(g, "set title 'Forces over the period'\nset xrange [0:1]\nset offsets 0, 0, graph 0.03, graph 0.03\n");
+  figure_script(g, "set title 'Forces over the period'\nset xrange [0:1]\nset offsets 0, 0, graph 0.03, graph 0.03\n");
   figure_set(g, "ylabel", "force [%s]", sc->unit_force);
   force_items(g, n);
   figure_draw(g);
@@ -176,7 +176,7 @@ hc_status plot_contact(plot_order *p, const scene *sc, int n_harm, const double 
     return HC_BAD_INPUT;
   }
   hc_status st = figure_open(&g, p, 1100, 500);
-  if (st == HC_OK) st = put_contacts(&g, sc, n, n_harm, X, there, closed);
+  if (st == HC_OK) st = write_contacts(&g, sc, n, n_harm, X, there, closed);
   if (st == HC_OK) {
     if (n < sc->n_contacts)
       snprintf(about, sizeof about, "exact law along the given motion; contacts 0 to %d of %d", n - 1, sc->n_contacts);

@@ -8,7 +8,7 @@
 
 enum { WIDTH = 800, HEIGHT = 540 };
 
-/* Open shapes for what is as it should be, filled ones and crosses for what is not; no two alike without colour. */
+/* Open shapes where both sides agree, filled ones and crosses where not; all can be told apart without colour. */
 static const struct verdict_look {
   const char *name, *look;
 } looks[] = {
@@ -24,7 +24,7 @@ static const struct verdict_look {
 };
 enum { N_LOOKS = sizeof looks / sizeof *looks, MOST_VERDICTS = 16 };
 
-static int look_of(const char *name)
+static int verdict_look_of(const char *name)
 {
   for (int i = 0; i < N_LOOKS; ++i)
     if (!strcmp(looks[i].name, name)) return i;
@@ -49,18 +49,18 @@ static void verdict_items(figure *g, const verdicts *v, const char *of)
 {
   for (int i = 0; i < v->n; ++i) {
     char what[64], look[FIGURE_LOOK];
-    int k = look_of(v->name[i]);
+    int k = verdict_look_of(v->name[i]);
     snprintf(what, sizeof what, "$verdict%d using 1:2 with points", i);
     figure_item(g, what, g->letters ? figure_look(g, "", 10 + k, look) : looks[k].look, "%s: %s (%d)", of, v->name[i],
                 v->count[i]);
   }
 }
 
-/* What is drawn, in this order. */
+/* What is drawn on the axes, from back to front. */
 typedef struct layers {
   const curve_shape *shape;
   bool quiet; /* the curve is background */
-  bool asked, flights;
+  bool asked, departures;
   const verdicts *v;
   const char *of; /* whose verdicts */
 } layers;
@@ -72,8 +72,8 @@ static void draw_layers(figure *g, const layers *l)
   if (l->asked)
     figure_item(g, "$asked using 1:2 with points", figure_look(g, "pt 6 ps 1.2 lw 1.6 lc rgb '#D55E00'", 8, look),
                 "solutions asked for");
-  if (l->flights && !g->letters)
-    figure_item(g, "$flights using 1:2:(0):3 with vectors filled head size character 0.9,20",
+  if (l->departures && !g->letters)
+    figure_item(g, "$departures using 1:2:(0):3 with vectors filled head size character 0.9,20",
                 "lw 0.8 dt 1 lc rgb '#999999'", "where the transient went");
   if (l->v) verdict_items(g, l->v, l->of);
   figure_draw(g);
@@ -81,19 +81,19 @@ static void draw_layers(figure *g, const layers *l)
 
 static void detail_panel(figure *g, const curve_window *w, const layers *l)
 {
-  figure_say(g, "set title 'Where the contact changes'\nset xrange [%.10g:%.10g]\nset yrange [%.10g:%.10g]\n", w->low,
-             w->high, w->least, w->most);
+  figure_script(g, "set title 'Where the contact changes'\nset xrange [%.10g:%.10g]\nset yrange [%.10g:%.10g]\n",
+                w->low, w->high, w->least, w->most);
   draw_layers(g, l);
 }
 
-/* The curve in a drawing of its own, or the whole and its detail side by side. */
+/* The whole curve; beside it its detail, if it has a small part with all special points. */
 static void response_panels(figure *g, const scene *sc, const layers *l, const char *about)
 {
   curve_window w;
   bool detail = curve_shape_window(l->shape, &w);
   if (detail) panels_begin(g, 1, 2, sc->title, about);
   else figure_title(g, "set title", sc->title, about);
-  if (detail && !g->letters) figure_say(g, "set title 'Whole sweep'\n");
+  if (detail && !g->letters) figure_script(g, "set title 'Whole sweep'\n");
   curve_shape_axes(g, sc, l->shape);
   draw_layers(g, l);
   if (!detail) return;
@@ -109,7 +109,7 @@ static int response_width(const curve_shape *shape)
 
 /* ---- frf ---- */
 
-static hc_status put_asked(figure *g, hbm_solver *s, const hbm_curve *asked)
+static hc_status write_asked(figure *g, hbm_solver *s, const hbm_curve *asked)
 {
   hc_status st = HC_OK;
   figure_block(g, "asked");
@@ -133,7 +133,7 @@ hc_status plot_frf(plot_order *p, const scene *sc, hbm_solver *s, const hbm_curv
   }
   hc_status st = curve_shape_of(sc, s, curve, &shape);
   if (st == HC_OK) st = figure_open(&g, p, response_width(&shape), HEIGHT);
-  if (st == HC_OK) st = put_asked(&g, s, asked);
+  if (st == HC_OK) st = write_asked(&g, s, asked);
   if (st == HC_OK) {
     layers l = {.shape = &shape, .asked = asked && asked->n > 0};
     curve_shape_data(&g, &shape);
@@ -152,14 +152,14 @@ static bool has_transient(const comparison_row *r)
 
 static bool has_hbm(const comparison_row *r) { return r->branch >= 0 && r->hbm_status == HC_OK; }
 
-/* What is said of an HBM solution that the transient left stands at that solution; all else stands where the
- * transient is. */
+/* Is the verdict drawn at the HBM solution? It is where the transient left that solution or has no result; all others
+ * are drawn at the transient. */
 static bool stands_at_hbm(const comparison_row *r)
 {
   return has_hbm(r) && (r->verdict == VERDICT_UNSTABLE || r->verdict == VERDICT_OTHER_BRANCH || !has_transient(r));
 }
 
-static void put_verdicts(figure *g, const comparison *c, verdicts *v)
+static void write_verdicts(figure *g, const comparison *c, verdicts *v)
 {
   char name[24];
   *v = (verdicts){0};
@@ -178,15 +178,15 @@ static void put_verdicts(figure *g, const comparison *c, verdicts *v)
   }
 }
 
-/* From an HBM solution to where the transient went from it. */
-static int put_flights(figure *g, const comparison *c)
+/* Arrows from an HBM solution to the transient that started on it and left. Returns how many. */
+static int write_departures(figure *g, const comparison *c)
 {
   int n = 0;
-  figure_block(g, "flights");
+  figure_block(g, "departures");
   for (int i = 0; i < c->n_rows; ++i) {
     const comparison_row *r = &c->rows[i];
     if (!stands_at_hbm(r) || !has_transient(r)) continue;
-    figure_say(g, "%.10g %.10g %.10g\n", r->omega, r->hbm.amplitude, r->transient.amplitude - r->hbm.amplitude);
+    figure_script(g, "%.10g %.10g %.10g\n", r->omega, r->hbm.amplitude, r->transient.amplitude - r->hbm.amplitude);
     ++n;
   }
   figure_block_end(g);
@@ -199,7 +199,7 @@ static void all_panels(figure *g, const scene *sc, const layers *l, const accura
   curve_window w;
   bool detail = curve_shape_window(l->shape, &w);
   panels_begin(g, 2, detail ? 3 : 2, sc->title, about);
-  if (!g->letters) figure_say(g, "set title 'Response'\n");
+  if (!g->letters) figure_script(g, "set title 'Response'\n");
   curve_shape_axes(g, sc, l->shape);
   draw_layers(g, l);
   if (detail) detail_panel(g, &w, l);
@@ -223,8 +223,8 @@ hc_status plot_compare(plot_order *p, const scene *sc, const comparison *c, cons
   int width = !all ? response_width(&shape) : curve_shape_window(&shape, &w) ? 1900 : 1300;
   if (st == HC_OK) st = figure_open(&g, p, width, all ? 1040 : HEIGHT);
   if (st == HC_OK) {
-    layers l = {.shape = &shape, .flights = put_flights(&g, c) > 0, .v = &v, .of = "transient"};
-    put_verdicts(&g, c, &v);
+    layers l = {.shape = &shape, .departures = write_departures(&g, c) > 0, .v = &v, .of = "transient"};
+    write_verdicts(&g, c, &v);
     curve_shape_data(&g, &shape);
     curve_shape_settings(sc, &shape, settings);
     if (all) all_panels(&g, sc, &l, a, settings);
@@ -242,7 +242,7 @@ static bool measured(const steady_row *r)
          (r->status == HC_OK || r->status == HC_NOT_SETTLED || r->status == HC_APERIODIC);
 }
 
-static void put_steady(figure *g, const steady_states *s, verdicts *v)
+static void write_steady(figure *g, const steady_states *s, verdicts *v)
 {
   char name[24];
   *v = (verdicts){0};
@@ -272,7 +272,7 @@ static hc_status plot_points(plot_order *p, const scene *sc, const steady_states
   if (st == HC_OK) {
     layers l = {.shape = &shape, .quiet = true, .v = &v, .of = "time integration"};
     curve_shape_data(&g, &shape);
-    put_steady(&g, s, &v);
+    write_steady(&g, s, &v);
     snprintf(about, sizeof about, "time integration; harmonic balance, %s", curve_shape_settings(sc, &shape, settings));
     response_panels(&g, sc, &l, about);
   }

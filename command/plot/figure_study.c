@@ -58,7 +58,7 @@ static hc_status choose_measure(plot_order *p, const char *asked, chart *c)
   return HC_BAD_INPUT;
 }
 
-/* Names are columns of ours by now; nothing of the user's is in the query. */
+/* c->measure was found among our own column names: the query holds no text of the user's. */
 static hc_status read_values(plot_order *p, study_store *store, chart *c)
 {
   sqlite3 *db = study_store_readonly(store);
@@ -104,7 +104,8 @@ static const study_field *scale_of(const study_axis *a)
   return NULL;
 }
 
-/* The first axis that is a scale of three and more, else a scale, else the first that varies. */
+/* c->x: the first axis with a scale of three or more values, else the first with a scale, else the first that
+ * varies. */
 static void choose_axes(chart *c)
 {
   const study *s = c->s;
@@ -162,7 +163,7 @@ static bool is_log_measure(const chart *c, double *low, double *high)
   return *low > 0 && *high >= 100 * *low;
 }
 
-/* ---- words ---- */
+/* ---- labels ---- */
 
 static const char *measure_unit(const chart *c, char unit[FIGURE_UNIT])
 {
@@ -187,7 +188,7 @@ static const char *measure_unit(const chart *c, char unit[FIGURE_UNIT])
   return "1";
 }
 
-static void put_measure(const chart *c, char text[TEXT])
+static void measure_label(const chart *c, char text[TEXT])
 {
   char unit[FIGURE_UNIT];
   snprintf(text, TEXT, "%s%s [%s]", c->of_rows ? "largest " : "", c->measure, measure_unit(c, unit));
@@ -254,7 +255,7 @@ static long first_of_line(const chart *c, long line)
   return line / stride * stride * c->s->axes[c->x].n + line % stride;
 }
 
-static void put_line(figure *g, const chart *c, long line)
+static void write_line(figure *g, const chart *c, long line)
 {
   char name[32];
   snprintf(name, sizeof name, "line%ld", line);
@@ -263,50 +264,50 @@ static void put_line(figure *g, const chart *c, long line)
     double x = i, y = c->value[first_of_line(c, line) + i * stride_of(c)];
     if (c->scale) number_of(c->scale, i, &x);
     if (isfinite(y)) figure_point(g, x, y);
-    else figure_gap(g); /* nothing is drawn across what is not known */
+    else figure_gap(g); /* no line across a scene without a value */
   }
   figure_block_end(g);
 }
 
-static void put_tics(figure *g, const char *command, const study_axis *a, const study_field *scale, int most)
+static void write_tics(figure *g, const char *command, const study_axis *a, const study_field *scale, int most)
 {
   char text[TEXT];
   int every = a->n > most ? (a->n + most - 1) / most : 1;
-  figure_say(g, "set %s (", command);
+  figure_script(g, "set %s (", command);
   for (int i = 0; i < a->n; i += every) {
-    figure_say(g, "%s", i ? ", " : "");
+    figure_script(g, "%s", i ? ", " : "");
     figure_text(g, "%s", value_text(a, scale, i, text));
-    figure_say(g, " %d", i);
+    figure_script(g, " %d", i);
   }
-  figure_say(g, ")\n");
+  figure_script(g, ")\n");
 }
 
 static void draw_lines(figure *g, chart *c)
 {
   const study_axis *a = &c->s->axes[c->x];
   char text[TEXT], look[FIGURE_LOOK], what[64];
-  for (long l = 0; l < c->drawn; ++l) put_line(g, c, l);
-  put_measure(c, text);
+  for (long l = 0; l < c->drawn; ++l) write_line(g, c, l);
+  measure_label(c, text);
   figure_set(g, "ylabel", "%s", text);
   figure_below(g, "%s", axis_text(c->s, a, c->scale, text));
   if (!c->scale) {
-    put_tics(g, "xtics", a, NULL, 12);
-    figure_say(g, "set xrange [-0.5:%g]\n%s", a->n - 0.5, a->n > 3 ? "set xtics rotate by 20 right\n" : "");
+    write_tics(g, "xtics", a, NULL, 12);
+    figure_script(g, "set xrange [-0.5:%g]\n%s", a->n - 0.5, a->n > 3 ? "set xtics rotate by 20 right\n" : "");
   } else if (is_log_axis(c->scale, a->n)) {
     double first = 1, last = 1;
     number_of(c->scale, 0, &first);
     number_of(c->scale, a->n - 1, &last);
-    figure_say(g, "set logscale x\nset format x '%%g'\nset xrange [%.10g:%.10g]\n", fmin(first, last) / 1.15,
-               fmax(first, last) * 1.15);
+    figure_script(g, "set logscale x\nset format x '%%g'\nset xrange [%.10g:%.10g]\n", fmin(first, last) / 1.15,
+                  fmax(first, last) * 1.15);
     if (a->n <= 12) {
-      figure_say(g, "set xtics (");
-      for (int i = 0; i < a->n; ++i) figure_say(g, "%s%s", i ? ", " : "", value_text(a, c->scale, i, text));
-      figure_say(g, ")\n");
+      figure_script(g, "set xtics (");
+      for (int i = 0; i < a->n; ++i) figure_script(g, "%s%s", i ? ", " : "", value_text(a, c->scale, i, text));
+      figure_script(g, ")\n");
     }
   }
   double low, high;
   if (is_log_measure(c, &low, &high)) figure_log(g, "y");
-  figure_say(g, "set offsets graph 0.02, graph 0.02, 0, 0\n");
+  figure_script(g, "set offsets graph 0.02, graph 0.02, 0, 0\n");
   for (long l = 0; l < c->drawn; ++l) {
     snprintf(what, sizeof what, "$line%ld using 1:2 with linespoints", l);
     line_text(c, first_of_line(c, l), text);
@@ -326,14 +327,14 @@ static void draw_heat(figure *g, chart *c)
   figure_block(g, "cells");
   for (long id = 0; id < c->s->n_scenes; ++id)
     if (isfinite(c->value[id]))
-      figure_say(g, "%d %d %.8g\n", study_index(c->s, id, c->x), study_index(c->s, id, c->heat), c->value[id]);
+      figure_script(g, "%d %d %.8g\n", study_index(c->s, id, c->x), study_index(c->s, id, c->heat), c->value[id]);
   figure_block_end(g);
   figure_below(g, "%s", axis_text(c->s, ax, c->scale, text));
   figure_set(g, "ylabel", "%s", axis_text(c->s, ay, sy, text));
-  put_tics(g, "xtics", ax, c->scale, MOST_HEAT_LABELS);
-  put_tics(g, "ytics", ay, sy, MOST_HEAT_LABELS);
-  figure_say(g, "set xrange [-0.5:%g]\nset yrange [-0.5:%g]\n", ax->n - 0.5, ay->n - 0.5);
-  put_measure(c, text);
+  write_tics(g, "xtics", ax, c->scale, MOST_HEAT_LABELS);
+  write_tics(g, "ytics", ay, sy, MOST_HEAT_LABELS);
+  figure_script(g, "set xrange [-0.5:%g]\nset yrange [-0.5:%g]\n", ax->n - 0.5, ay->n - 0.5);
+  measure_label(c, text);
   bool logarithmic = is_log_measure(c, &low, &high);
   figure_heat(g, text, logarithmic, low, high);
 }

@@ -7,13 +7,13 @@
 
 enum { MOST_WAVES = 12 };
 
-static bool measured(const steady_row *r)
+static bool has_wave(const steady_row *r)
 {
   return r->stage == STEADY_TRANSIENT &&
          (r->status == HC_OK || r->status == HC_NOT_SETTLED || r->status == HC_APERIODIC);
 }
 
-static void put_wave(figure *g, int n, const timeint_result *r)
+static void write_wave(figure *g, int n, const timeint_result *r)
 {
   char name[24];
   snprintf(name, sizeof name, "wave%d", n);
@@ -30,7 +30,7 @@ static bool closes_at(const scene *sc, int j, double low, double high, double *x
   return *x >= low && *x <= high;
 }
 
-static void touch_items(figure *g, const scene *sc, double low, double high)
+static void closing_items(figure *g, const scene *sc, double low, double high)
 {
   char what[64], look[FIGURE_LOOK];
   double x;
@@ -51,8 +51,8 @@ hc_status panels_waves(plot_order *p, const scene *sc, const steady_states *foun
   if (st != HC_OK) return figure_close(&g, st);
   for (int i = 0; i < found->n && n < MOST_WAVES; ++i) {
     const steady_row *r = &found->rows[i];
-    if (!measured(r)) continue;
-    put_wave(&g, n++, &r->result);
+    if (!has_wave(r)) continue;
+    write_wave(&g, n++, &r->result);
     low = fmin(low, r->result.min);
     high = fmax(high, r->result.max);
   }
@@ -61,16 +61,16 @@ hc_status panels_waves(plot_order *p, const scene *sc, const steady_states *foun
   figure_title(&g, "set title", sc->title, about);
   figure_set(&g, "ylabel", "x [%s]", sc->unit_length);
   figure_below(&g, "t / T");
-  figure_say(&g, "set xrange [0:1]\n");
+  figure_script(&g, "set xrange [0:1]\n");
   n = 0;
   for (int i = 0; i < found->n && n < MOST_WAVES; ++i) {
     const steady_row *r = &found->rows[i];
-    if (!measured(r)) continue;
+    if (!has_wave(r)) continue;
     snprintf(name, sizeof name, "$wave%d using 1:2 with lines", n);
     figure_item(&g, name, figure_line(&g, n, 2, look), "start: %s; %s", r->start, steady_verdict_text(r, word));
     ++n;
   }
-  touch_items(&g, sc, low, high);
+  closing_items(&g, sc, low, high);
   figure_draw(&g);
   return figure_close(&g, HC_OK);
 }

@@ -14,8 +14,8 @@ extern char **environ;
 
 enum { WORDS = 400 };
 
-/* Its last words, in one line. */
-static void complain(FILE *words, int status, char *why, size_t size)
+/* How gnuplot ended and what it wrote to stderr, in one line. */
+static void describe_failure(FILE *words, int status, char *why, size_t size)
 {
   char text[WORDS];
   message m;
@@ -32,9 +32,9 @@ static void complain(FILE *words, int status, char *why, size_t size)
   message_add_input(&m, text + begin, n - begin, WORDS);
 }
 
-/* Started with these as its three streams, broken pipes as lethal as by default, and without its user's settings. An
- * errno. */
-static int start(FILE *script, FILE *drawing, FILE *words, pid_t *pid)
+/* Starts gnuplot with these as its three streams, the default action for SIGPIPE, and without the user's settings.
+ * Returns 0 or an errno. */
+static int start_gnuplot(FILE *script, FILE *drawing, FILE *words, pid_t *pid)
 {
   char name[] = "gnuplot", settings[] = "--default-settings", *argv[] = {name, settings, NULL};
   posix_spawn_file_actions_t streams;
@@ -58,10 +58,10 @@ static int start(FILE *script, FILE *drawing, FILE *words, pid_t *pid)
   return bad;
 }
 
-static hc_status run(FILE *script, FILE *drawing, FILE *words, char *why, size_t size)
+static hc_status start_and_wait(FILE *script, FILE *drawing, FILE *words, char *why, size_t size)
 {
   pid_t pid;
-  int status, bad = start(script, drawing, words, &pid);
+  int status, bad = start_gnuplot(script, drawing, words, &pid);
   if (bad == ENOENT) {
     snprintf(why, size, "gnuplot is not installed, or not in PATH: try apt install gnuplot-nox");
     return HC_IO;
@@ -76,7 +76,7 @@ static hc_status run(FILE *script, FILE *drawing, FILE *words, char *why, size_t
       return HC_IO;
     }
   if (WIFEXITED(status) && WEXITSTATUS(status) == 0 && lseek(fileno(drawing), 0, SEEK_END) > 0) return HC_OK;
-  complain(words, status, why, size);
+  describe_failure(words, status, why, size);
   return HC_IO;
 }
 
@@ -85,7 +85,7 @@ hc_status gnuplot_run(const char *script, size_t length, FILE *drawing, char *wh
   FILE *in = tmpfile(), *words = tmpfile();
   hc_status st = HC_IO;
   if (in && words && fwrite(script, 1, length, in) == length && fflush(in) == 0 && lseek(fileno(in), 0, SEEK_SET) == 0)
-    st = run(in, drawing, words, why, size);
+    st = start_and_wait(in, drawing, words, why, size);
   else snprintf(why, size, "no temporary file: %s", strerror(errno));
   if (in) fclose(in);
   if (words) fclose(words);

@@ -1,5 +1,5 @@
-/* gnuplot.h - a script drawn by gnuplot as a child process, without a shell: the script comes from a file without a
- * name, so does the drawing go to one, and there is no pipe that could fill up or break. */
+/* gnuplot.h - a script drawn by gnuplot as a child process, without a shell: script and drawing are temporary files,
+ * so no pipe can fill up or break. */
 #ifndef HC_PLOT_GNUPLOT_H
 #define HC_PLOT_GNUPLOT_H
 

@@ -5,7 +5,7 @@
 
 #include "command/plot/figure.h"
 
-/* Panels row by row; in a drawing of letters one below the other, each a page. */
+/* Several plots in one drawing, row by row; in a drawing of letters one below the other. */
 void panels_begin(figure *g, int rows, int columns, const char *title, const char *about);
 void panels_end(figure *g);
 

@@ -4,8 +4,8 @@
  *     file, whole or not at all
  *
  * The ending of the file's name says what it becomes; "-" is a drawing of letters on standard output. Solid, dashed
- * and dotted lines and shapes tell things apart, colours only help. Nothing is printed but that drawing. Not here:
- * what the numbers mean. */
+ * and dotted lines and shapes tell things apart, colours only help. Prints nothing but the drawing of letters.
+ * Not here: what the numbers mean. */
 #ifndef HC_PLOT_H
 #define HC_PLOT_H
 
@@ -20,13 +20,13 @@
 
 enum { PLOT_WHY = 768 };
 
-/* What is drawn where. */
+/* Where to draw, and why not. */
 typedef struct plot_order {
   const char *path;   /* "curve.svg", or "-" */
   char why[PLOT_WHY]; /* when the answer is not HC_OK: what is wrong and what to do, one line */
 } plot_order;
 
-/* Can that be drawn to, going by the name? */
+/* Does the name have an ending that can be drawn, or is it "-"? */
 bool plot_can(const char *path);
 
 /* All of these: HC_OK, HC_NO_MEMORY, HC_BAD_INPUT (there is nothing to draw) or HC_IO (no gnuplot, or the file could
@@ -36,8 +36,8 @@ bool plot_can(const char *path);
  * besides is faint. `asked`: solutions to mark, or NULL. */
 hc_status plot_frf(plot_order *p, const scene *sc, hbm_solver *s, const hbm_curve *curve, const hbm_curve *asked);
 
-/* The same with the transients and their verdicts on it. a: beside it the discrepancy over samples and harmonics, or
- * NULL. */
+/* The same with the transients and their verdicts on it. a (or NULL): the discrepancy over samples and harmonics, in
+ * panels beside it. */
 hc_status plot_compare(plot_order *p, const scene *sc, const comparison *c, const accuracy *a);
 
 /* At one frequency the motion over a period, at several the amplitudes over the response curve. */

@@ -29,18 +29,18 @@ static const int samples[N_SAMPLES] = {16, 32, 64, 128, 256, 512, 1024, 2048, 40
 static const double factors[N_STIFF] = {0.1, 0.3, 1, 3, 10};
 static const double force_step = 1e-4, harmonic_step = 1e-6, fold_step = 1e-9;
 
-/* Workspace, and the solution at hand. */
-typedef struct workshop {
-  scene sc;               /* with the factor and H at hand */
-  exact_force *fine;      /* as many harmonics as exact forces go to */
+/* Memory for the force of one solution, and that solution. */
+typedef struct force_workspace {
+  scene sc;               /* with the stiffness factor and H of that solution */
+  exact_force *fine;      /* with HBM_MAX_HARMONICS harmonics */
   double *force;          /* [FINE] */
   fftw_complex *spectrum; /* [FINE/2+1] true harmonics of the force, F_h = (a_h - i b_h) for h > 0 */
   fftw_plan plan;
   int n_harm;
   double omega, X[MOST_COEF], scale; /* scale: largest |force| */
-} workshop;
+} force_workspace;
 
-static hc_status workshop_open(workshop *w)
+static hc_status workspace_open(force_workspace *w)
 {
   w->force = fftw_malloc(FINE * sizeof *w->force);
   w->spectrum = fftw_malloc((FINE / 2 + 1) * sizeof *w->spectrum);
@@ -48,14 +48,14 @@ static hc_status workshop_open(workshop *w)
   return fft_plan_to_spectrum(FINE, w->force, w->spectrum, &w->plan);
 }
 
-static void workshop_close(workshop *w)
+static void workspace_close(force_workspace *w)
 {
   fft_plan_free(w->plan);
   fftw_free(w->force);
   fftw_free(w->spectrum);
 }
 
-/* ---- the truth ------------------------------------------------------------------------------- */
+/* ---- the true harmonics ---------------------------------------------------------------------- */
 
 /* Force of one contact at the angle th, from its pieces. */
 static double contact_at(const model_contact *c, int n, const contact_piece *p, double th, double x)
@@ -71,9 +71,9 @@ static double contact_at(const model_contact *c, int n, const contact_piece *p, 
   return c->tangent * tangential + c->normal * (normal - contact_preload(&c->law));
 }
 
-/* The force at FINE times, from the pieces the last evaluation found; its harmonics, those that have closed forms
- * from these. */
-static hc_status find_truth(workshop *w)
+/* The force at FINE times, from the pieces of the exact evaluation, and its harmonics: by closed forms up to
+ * HBM_MAX_HARMONICS, beyond from the FINE samples. */
+static hc_status find_true_harmonics(force_workspace *w)
 {
   double X[MOST_COEF] = {0}, F[MOST_COEF];
   model_contact contacts[SCENE_MAX_CONTACTS];
@@ -122,7 +122,7 @@ static json_t *list_of_numbers(int n, const double *v)
 }
 
 /* The amplitude of the sampled equations' solution next to X; NaN: none was found there. */
-static double sampled_amplitude(const workshop *w, int n)
+static double sampled_amplitude(const force_workspace *w, int n)
 {
   scene sc = w->sc;
   hbm_solver *s = NULL;
@@ -140,7 +140,7 @@ static double sampled_amplitude(const workshop *w, int n)
 }
 
 /* One N: amplitude; sampled minus true, cosine and sine parts [2 H + 1]; |F_{N-h}| and |F_{N+h}|, h = 0..H. */
-static json_t *sampled_state(const workshop *w, int n)
+static json_t *sampled_state(const force_workspace *w, int n)
 {
   double F[MOST_COEF];
   aft *a = NULL;
@@ -160,9 +160,9 @@ static json_t *sampled_state(const workshop *w, int n)
                    folds);
 }
 
-static json_t *state_of(workshop *w, double amplitude)
+static json_t *state_of(force_workspace *w, double amplitude)
 {
-  if (find_truth(w) != HC_OK) return json_null();
+  if (find_true_harmonics(w) != HC_OK) return json_null();
   /* no contact, or one that does nothing */
   if (!(w->scale > 0)) return json_pack("{s:o, s:i}", "amplitude", number(amplitude), "scale", 0);
   json_t *force = json_array(), *truth = json_array(), *sampled = json_array();
@@ -180,7 +180,7 @@ static json_t *state_of(workshop *w, double amplitude)
 /* ---- the states ------------------------------------------------------------------------------ */
 
 /* Of the curve's solutions at omega the one with the largest amplitude, into w->X; NaN: there is none. */
-static double largest_solution(workshop *w, hbm_solver *s, const hbm_curve *curve, double omega)
+static double largest_solution(force_workspace *w, hbm_solver *s, const hbm_curve *curve, double omega)
 {
   hbm_curve at = {0};
   double largest = NAN;
@@ -197,8 +197,8 @@ static double largest_solution(workshop *w, hbm_solver *s, const hbm_curve *curv
 }
 
 /* All omegas of one stiffness and H, appended to states[omega]. */
-static hc_status put_states(workshop *w, int n_omega, const double *omega, const hc_monitor *monitor,
-                            json_t *const *states)
+static hc_status append_states(force_workspace *w, int n_omega, const double *omega, const hc_monitor *monitor,
+                               json_t *const *states)
 {
   hbm_solver *s = NULL;
   hbm_curve curve = {0};
@@ -217,7 +217,7 @@ static hc_status put_states(workshop *w, int n_omega, const double *omega, const
   return st == HC_INTERRUPTED || st == HC_NO_MEMORY ? st : HC_OK;
 }
 
-static void set_scene(workshop *w, const scene *sc, double factor, int n_harm)
+static void set_scene(force_workspace *w, const scene *sc, double factor, int n_harm)
 {
   w->sc = *sc;
   w->n_harm = n_harm;
@@ -226,25 +226,25 @@ static void set_scene(workshop *w, const scene *sc, double factor, int n_harm)
   for (int j = 0; j < sc->n_contacts; ++j) w->sc.contacts[j].law.kn *= factor;
 }
 
-/* The monitor of a part of the work: how far the whole is stands still meanwhile. */
-typedef struct standstill {
+/* The monitor of one state: while it is computed, the progress of all states stays where it is. */
+typedef struct frozen_progress {
   const hc_monitor *whole;
   double done;
-} standstill;
+} frozen_progress;
 
-static bool tick_standing(void *self, double done)
+static bool tick_frozen(void *self, double done)
 {
-  const standstill *s = self;
+  const frozen_progress *s = self;
   (void)done;
   return hc_monitor_tick(s->whole, s->done);
 }
 
 /* states[omega][kn][H]. */
-static hc_status all_states(const scene *sc, workshop *w, int n_omega, const double *omega, const hc_monitor *monitor,
-                            json_t *states)
+static hc_status all_states(const scene *sc, force_workspace *w, int n_omega, const double *omega,
+                            const hc_monitor *monitor, json_t *states)
 {
-  standstill at = {monitor, 0};
-  hc_monitor inner = {tick_standing, &at};
+  frozen_progress at = {monitor, 0};
+  hc_monitor inner = {tick_frozen, &at};
   for (int i = 0; i < n_omega; ++i) json_array_append_new(states, json_array());
   for (int k = 0; k < N_STIFF; ++k) {
     json_t *row[ALIASING_MOST_OMEGAS];
@@ -255,7 +255,7 @@ static hc_status all_states(const scene *sc, workshop *w, int n_omega, const dou
       set_scene(w, sc, factors[k], harmonics[h]);
       exact_force_free(w->fine);
       hc_status st = scene_exact(&w->sc, HBM_MAX_HARMONICS, &w->fine);
-      if (st == HC_OK) st = put_states(w, n_omega, omega, &inner, row);
+      if (st == HC_OK) st = append_states(w, n_omega, omega, &inner, row);
       if (st != HC_OK) return st;
     }
   }
@@ -265,10 +265,10 @@ static hc_status all_states(const scene *sc, workshop *w, int n_omega, const dou
 hc_status aliasing_states(const scene *sc, int n_omega, const double *omega, int first, const hc_monitor *monitor,
                           json_t **out)
 {
-  workshop *w = calloc(1, sizeof *w);
+  force_workspace *w = calloc(1, sizeof *w);
   json_t *states = json_array();
   *out = NULL;
-  hc_status st = w && states ? workshop_open(w) : HC_NO_MEMORY;
+  hc_status st = w && states ? workspace_open(w) : HC_NO_MEMORY;
   if (st == HC_OK) st = all_states(sc, w, n_omega, omega, monitor, states);
   if (st == HC_OK) {
     *out = json_pack("{s:o, s:i, s:o, s:o, s:o, s:o, s:[f, f, f], s:O}", "omega", list_of_numbers(n_omega, omega),
@@ -281,7 +281,7 @@ hc_status aliasing_states(const scene *sc, int n_omega, const double *omega, int
   json_decref(states);
   if (w) {
     exact_force_free(w->fine);
-    workshop_close(w);
+    workspace_close(w);
   }
   free(w);
   return st;

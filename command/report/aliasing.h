@@ -1,5 +1,5 @@
-/* aliasing.h - what sampling does to the contact force, as states a page can move between: over omega, N, H and
- * normal stiffness.
+/* aliasing.h - what sampling does to the contact force, as precomputed states that the page shows one at a time: over
+ * omega, N, H and normal stiffness.
  *
  *     each (kn, H, omega): the HBM solution X with exact forces and largest amplitude; its contact force over a
  *     period; its true harmonics F
@@ -17,7 +17,7 @@
 enum { ALIASING_MOST_OMEGAS = 4 };
 
 /* The states at omega[n_omega], n_omega <= ALIASING_MOST_OMEGAS, of which omega[first] is shown first, as JSON into
- * *out: see page.js, "aliasing", for who reads it. A state without solution is null. HC_INTERRUPTED, HC_NO_MEMORY:
+ * *out, read by page.js, "aliasing". A state without solution is null. HC_INTERRUPTED, HC_NO_MEMORY:
  * *out is NULL. */
 hc_status aliasing_states(const scene *sc, int n_omega, const double *omega, int first, const hc_monitor *monitor,
                           json_t **out);

@@ -11,9 +11,11 @@ typedef struct asset {
 
 extern const unsigned char asset_page_bytes[], asset_style_bytes[], asset_script_bytes[], asset_aliasing_bytes[],
     asset_start_bytes[], asset_chart_bytes[];
-extern const asset asset_page, asset_style;                   /* page.html, page.css */
-extern const asset asset_script, asset_aliasing, asset_start; /* page.js, aliasing.js, start.js: one script, in this
-                                                                 order */
-extern const asset asset_chart; /* Chart.js with its licence notice; length 0: was not installed */
+/* page.html, page.css */
+extern const asset asset_page, asset_style;
+/* page.js, aliasing.js, start.js: one script, in this order */
+extern const asset asset_script, asset_aliasing, asset_start;
+/* Chart.js with its licence notice; length 0: it was not installed */
+extern const asset asset_chart;
 
 #endif

@@ -8,8 +8,8 @@
 #include "compare/frequencies.h"
 #include "compare/response.h"
 
-static const double shorter_steps = 0.35; /* a curve drawn with straight lines needs more points than one that is
-                                             only followed */
+/* [1] of the step that continuation needs: drawn with straight lines, the curve needs more points. */
+static const double shorter_steps = 0.35;
 
 static json_t *number(double value) { return isfinite(value) ? json_real(value) : json_null(); }
 
@@ -20,7 +20,7 @@ static void append(json_t *columns, const char *name, json_t *value)
   json_array_append_new(list, value);
 }
 
-static void put_point(json_t *columns, const response_row *r)
+static void append_point(json_t *columns, const response_row *r)
 {
   int stable = r->stability_known ? hbm_stability_verdict(&r->stability) : 0;
   append(columns, "omega", number(r->point.omega));
@@ -32,12 +32,12 @@ static void put_point(json_t *columns, const response_row *r)
   append(columns, "contact", json_string(contact_regime_name(r->measures.contact.regime)));
 }
 
-static void put_specials(hbm_solver *s, const hbm_curve *c, json_t *list)
+static void append_specials(hbm_solver *s, const hbm_curve *c, json_t *list)
 {
   enum { MOST = 64 };
   hbm_special special[MOST];
   int n = 0;
-  hbm_specials(s, c, MOST, special, &n); /* what was located is shown */
+  hbm_specials(s, c, MOST, special, &n); /* if one cannot be located, those before it are shown */
   for (int i = 0; i < n && i < MOST; ++i) {
     const hbm_special *p = &special[i];
     char text[96];
@@ -52,8 +52,8 @@ static void put_specials(hbm_solver *s, const hbm_curve *c, json_t *list)
 }
 
 /* The curve of sc over the comparison's frequencies; specials may be NULL. */
-static hc_status trace(const scene *sc, const comparison *c, const hc_monitor *monitor, json_t *columns,
-                       json_t *specials)
+static hc_status append_curve(const scene *sc, const comparison *c, const hc_monitor *monitor, json_t *columns,
+                              json_t *specials)
 {
   hbm_solver *s = NULL;
   hbm_curve curve = {0};
@@ -66,16 +66,16 @@ static hc_status trace(const scene *sc, const comparison *c, const hc_monitor *m
   if (st == HC_OK) st = hbm_trace(s, from, to, monitor, &curve);
   for (int k = 0; k < curve.n; ++k) {
     response_row row;
-    if (response_row_of(s, &curve, k, &row) == HC_OK) put_point(columns, &row);
+    if (response_row_of(s, &curve, k, &row) == HC_OK) append_point(columns, &row);
   }
-  if (s && specials) put_specials(s, &curve, specials);
+  if (s && specials) append_specials(s, &curve, specials);
   hbm_curve_free(&curve);
   hbm_solver_free(s);
   return st == HC_INTERRUPTED || st == HC_NO_MEMORY ? st : HC_OK;
 }
 
 /* What the rows of the comparison found, on either side. */
-static void put_rows(const comparison *c, json_t *hbm, json_t *transient)
+static void append_rows(const comparison *c, json_t *hbm, json_t *transient)
 {
   for (int i = 0; i < c->n_rows; ++i) {
     const comparison_row *r = &c->rows[i];
@@ -101,11 +101,11 @@ hc_status curve_json(const scene *sc, const comparison *c, const hc_monitor *mon
 {
   json_t *curve = json_object(), *other = json_object(), *specials = json_array(), *hbm = json_array(),
          *transient = json_array();
-  scene turned = *sc; /* harmonic 0 the other way */
-  turned.hbm.keep_mean = !sc->hbm.keep_mean;
-  hc_status st = trace(sc, c, monitor, curve, specials);
-  if (st == HC_OK) st = trace(&turned, c, monitor, other, NULL);
-  put_rows(c, hbm, transient);
+  scene other_mean = *sc; /* with harmonic 0 dropped if *sc keeps it, and the other way round */
+  other_mean.hbm.keep_mean = !sc->hbm.keep_mean;
+  hc_status st = append_curve(sc, c, monitor, curve, specials);
+  if (st == HC_OK) st = append_curve(&other_mean, c, monitor, other, NULL);
+  append_rows(c, hbm, transient);
   *out = json_pack("{s:o, s:o, s:b, s:o, s:o, s:o}", "curve", curve, "turned", other, "mean_kept",
                    (int)sc->hbm.keep_mean, "specials", specials, "hbm", hbm, "transient", transient);
   if (st == HC_OK && !*out) st = HC_NO_MEMORY;

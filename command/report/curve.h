@@ -8,8 +8,9 @@
 #include "cases/scene.h"
 #include "compare/comparison.h"
 
-/* {curve, without_mean: columns of points; specials; hbm, transient: what the rows found}: see page.js, "response",
- * for who reads it. HC_INTERRUPTED, HC_NO_MEMORY; a curve that stops early is shown as far as it goes. */
+/* {curve: columns of points; turned: the same, with harmonic 0 dropped if the scene keeps it, else kept; specials; hbm,
+ * transient: the rows' results}, read by page.js, "response". A curve that stops early is shown as far as it goes.
+ * HC_INTERRUPTED, HC_NO_MEMORY. */
 hc_status curve_json(const scene *sc, const comparison *c, const hc_monitor *monitor, json_t **out);
 
 #endif

@@ -82,7 +82,7 @@ static bool is_among(const char *name, const char *const *list)
   return false;
 }
 
-static void put_cell(FILE *to, const row_cell *c)
+static void write_cell(FILE *to, const row_cell *c)
 {
   if (!c->there) fputs("<td></td>", to);
   else if (c->kind == TABLE_TEXT) html_cell_text(to, c->as.text);
@@ -104,7 +104,7 @@ void html_rows(FILE *to, const char *caption, rows_kind kind, int n, const void 
     fill(rows, i, cells);
     html_row(to);
     for (int j = 0; j < n_columns; ++j)
-      if (!is_among(columns[j].name, without)) put_cell(to, &cells[j]);
+      if (!is_among(columns[j].name, without)) write_cell(to, &cells[j]);
     fputs("</tr>", to);
   }
   html_table_end(to);

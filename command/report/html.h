@@ -14,7 +14,7 @@ void html_text(FILE *to, const char *text);
 /* the same, formatted; at most 511 bytes */
 void html_printf(FILE *to, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/* A table: html_table(to, class), html_head for each column, html_row before each row, one cell after another,
+/* A table: html_table(to, caption), html_head for each column, html_row before each row, one cell after another,
  * html_table_end. */
 void html_table(FILE *to, const char *caption);
 void html_head(FILE *to, const char *name);

@@ -15,22 +15,22 @@ typedef struct page {
   hc_status status;
 } page;
 
-static void put_asset(FILE *to, const asset *a) { fwrite(a->bytes, 1, a->length, to); }
+static void write_asset(FILE *to, const asset *a) { fwrite(a->bytes, 1, a->length, to); }
 
 /* ---- plain pieces ---------------------------------------------------------------------------- */
 
-static void put_title(page *p) { html_text(p->to, p->d->sc->title[0] ? p->d->sc->title : "untitled case"); }
-static void put_style(page *p) { put_asset(p->to, &asset_style); }
-static void put_script(page *p)
+static void write_title(page *p) { html_text(p->to, p->d->sc->title[0] ? p->d->sc->title : "untitled case"); }
+static void write_style(page *p) { write_asset(p->to, &asset_style); }
+static void write_script(page *p)
 {
-  put_asset(p->to, &asset_script);
-  put_asset(p->to, &asset_aliasing);
-  put_asset(p->to, &asset_start);
+  write_asset(p->to, &asset_script);
+  write_asset(p->to, &asset_aliasing);
+  write_asset(p->to, &asset_start);
 }
-static void put_chart(page *p) { put_asset(p->to, &asset_chart); }
+static void write_chart(page *p) { write_asset(p->to, &asset_chart); }
 
 /* "3.9.1" from the notice that Chart.js begins with. */
-static void put_chart_version(page *p)
+static void write_chart_version(page *p)
 {
   static const char before[] = "Chart.js v";
   char notice[256] = {0};
@@ -39,14 +39,14 @@ static void put_chart_version(page *p)
   if (at) fprintf(p->to, "%.*s", (int)strspn(at + strlen(before), "0123456789."), at + strlen(before));
 }
 
-static void put_settings(page *p) { html_text(p->to, p->origin->settings); }
-static void put_command(page *p) { html_text(p->to, p->origin->command); }
-static void put_versions(page *p) { html_text(p->to, p->origin->versions); }
-static void put_verdict(page *p) { words_verdict(p->d, p->to); }
-static void put_advice(page *p) { words_what_to_do(p->d, p->to); }
-static void put_gate(page *p) { words_gate(p->d, p->to); }
+static void write_settings(page *p) { html_text(p->to, p->origin->settings); }
+static void write_command(page *p) { html_text(p->to, p->origin->command); }
+static void write_versions(page *p) { html_text(p->to, p->origin->versions); }
+static void write_verdict(page *p) { words_verdict(p->d, p->to); }
+static void write_advice(page *p) { words_what_to_do(p->d, p->to); }
+static void write_gate(page *p) { words_gate(p->d, p->to); }
 
-static void put_case(page *p)
+static void write_case(page *p)
 {
   char *text = NULL;
   size_t size = 0;
@@ -70,26 +70,26 @@ static void fill_accuracy(const void *rows, int i, row_cell *cells)
 }
 static void fill_order(const void *rows, int i, row_cell *cells) { rows_order((const order_row *)rows + i, cells); }
 
-static void put_compare(page *p)
+static void write_compare(page *p)
 {
   html_rows(p->to, "Every column, as hbmcheck compare prints it", ROWS_COMPARE, p->d->comparison.n_rows,
             p->d->comparison.rows, fill_compare, NULL);
 }
 
-static void put_accuracy(page *p)
+static void write_accuracy(page *p)
 {
   static const char *const without[] = {"seconds", NULL}; /* the same input is to give the same page */
   html_rows(p->to, "Samples and truncation order: errors relative to the exact transient's orbits", ROWS_ACCURACY,
             p->d->accuracy.n_rows, p->d->accuracy.rows, fill_accuracy, without);
 }
 
-static void put_orders(page *p)
+static void write_orders(page *p)
 {
   html_rows(p->to, "Observed orders: error ~ quantity^-order (regularisation^order)", ROWS_ORDER,
             p->d->accuracy.n_orders, p->d->accuracy.orders, fill_order, NULL);
 }
 
-static void put_budget_row(FILE *to, const comparison_row *r, const scene *sc)
+static void write_budget_row(FILE *to, const comparison_row *r, const scene *sc)
 {
   char text[24];
   const budget_parts *b = &r->budget.amplitude;
@@ -110,7 +110,7 @@ static void put_budget_row(FILE *to, const comparison_row *r, const scene *sc)
   fputs("</tr>", to);
 }
 
-static void put_budget(page *p)
+static void write_budget(page *p)
 {
   static const char *const heads[] = {"omega",          "branch", "verdict", "hbm_amplitude", "transient_amplitude",
                                       "amplitude_error"};
@@ -123,11 +123,11 @@ static void put_budget(page *p)
 #undef HEAD
   html_head(p->to, "sum");
   fputs("</tr></thead><tbody>", p->to);
-  for (int i = 0; i < p->d->comparison.n_rows; ++i) put_budget_row(p->to, &p->d->comparison.rows[i], p->d->sc);
+  for (int i = 0; i < p->d->comparison.n_rows; ++i) write_budget_row(p->to, &p->d->comparison.rows[i], p->d->sc);
   html_table_end(p->to);
 }
 
-static void put_specials(page *p)
+static void write_specials(page *p)
 {
   size_t i;
   const json_t *special;
@@ -187,7 +187,7 @@ static json_t *accuracy_json(const accuracy *a)
   return list;
 }
 
-static void put_data(page *p)
+static void write_data(page *p)
 {
   const scene *sc = p->d->sc;
   json_t *data = json_pack("{s:{s:s, s:s, s:s}, s:f, s:O, s:O, s:o, s:o}", "units", "length", sc->unit_length, "force",
@@ -202,21 +202,21 @@ static void put_data(page *p)
 
 static const struct piece {
   const char *name;
-  void (*put)(page *p);
+  void (*write)(page *p);
 } pieces[] = {
-    {"title", put_title},       {"style", put_style},       {"script", put_script},
-    {"chart", put_chart},       {"settings", put_settings}, {"command", put_command},
-    {"versions", put_versions}, {"verdict", put_verdict},   {"advice", put_advice},
-    {"gate", put_gate},         {"case", put_case},         {"compare", put_compare},
-    {"accuracy", put_accuracy}, {"orders", put_orders},     {"budget", put_budget},
-    {"specials", put_specials}, {"data", put_data},         {"chart_version", put_chart_version},
+    {"title", write_title},       {"style", write_style},       {"script", write_script},
+    {"chart", write_chart},       {"settings", write_settings}, {"command", write_command},
+    {"versions", write_versions}, {"verdict", write_verdict},   {"advice", write_advice},
+    {"gate", write_gate},         {"case", write_case},         {"compare", write_compare},
+    {"accuracy", write_accuracy}, {"orders", write_orders},     {"budget", write_budget},
+    {"specials", write_specials}, {"data", write_data},         {"chart_version", write_chart_version},
 };
 
-static void put_piece(page *p, const char *name, size_t length)
+static void write_piece(page *p, const char *name, size_t length)
 {
   for (size_t i = 0; i < sizeof pieces / sizeof *pieces; ++i)
     if (strlen(pieces[i].name) == length && !memcmp(pieces[i].name, name, length)) {
-      pieces[i].put(p);
+      pieces[i].write(p);
       return;
     }
   p->status = HC_BUG; /* page.html names a piece that is not there */
@@ -228,7 +228,7 @@ hc_status report_write(const report_data *d, const report_origin *origin, FILE *
   const char *at = (const char *)asset_page.bytes, *open, *close; /* an asset ends in a zero beyond its length */
   while ((open = strstr(at, "{{")) && (close = strstr(open, "}}"))) {
     fwrite(at, 1, (size_t)(open - at), to);
-    put_piece(&p, open + 2, (size_t)(close - open - 2));
+    write_piece(&p, open + 2, (size_t)(close - open - 2));
     at = close + 2;
   }
   fputs(at, to);

@@ -10,23 +10,23 @@
 bool report_has_charts(void) { return asset_chart.length > 0; }
 
 /* The comparison's frequencies at which some HBM solution meets a contact's nonlinearity, ascending; how many. */
-static int busy_omegas(const comparison *c, double all[NUMBER_LIST_MAX])
+static int nonlinear_omegas(const comparison *c, double all[NUMBER_LIST_MAX])
 {
   int n = 0;
   for (int i = 0; i < c->n_rows && n < NUMBER_LIST_MAX; ++i) {
     const comparison_row *r = &c->rows[i];
-    bool busy = r->branch >= 0 && r->hbm_status == HC_OK && r->hbm.contact.regime != CONTACT_LINEAR;
-    if (busy && (n == 0 || r->omega != all[n - 1])) all[n++] = r->omega;
+    bool nonlinear = r->branch >= 0 && r->hbm_status == HC_OK && r->hbm.contact.regime != CONTACT_LINEAR;
+    if (nonlinear && (n == 0 || r->omega != all[n - 1])) all[n++] = r->omega;
   }
   return n;
 }
 
-/* Of those the one nearest to the peak, and others spread over the rest, ascending; how many. *first: where the
- * nearest one is. */
+/* Of those the one nearest to the peak, and others spread over the rest, ascending; how many. *first: the index of the
+ * nearest. */
 static int choose_omegas(const comparison *c, double *omega, int *first)
 {
   double all[NUMBER_LIST_MAX];
-  int n = busy_omegas(c, all), peak = 0, chosen = 0, step = (n + ALIASING_MOST_OMEGAS - 1) / ALIASING_MOST_OMEGAS;
+  int n = nonlinear_omegas(c, all), peak = 0, chosen = 0, step = (n + ALIASING_MOST_OMEGAS - 1) / ALIASING_MOST_OMEGAS;
   for (int i = 1; i < n; ++i)
     if (fabs(all[i] - c->summary.peak_omega) < fabs(all[peak] - c->summary.peak_omega)) peak = i;
   *first = 0;
@@ -47,7 +47,7 @@ static hc_status gather_aliasing(const scene *sc, const hc_monitor *monitor, rep
   return HC_OK;
 }
 
-static void say(void (*announce)(void *, const char *), void *self, const char *stage)
+static void announce_stage(void (*announce)(void *, const char *), void *self, const char *stage)
 {
   if (announce) announce(self, stage);
 }
@@ -56,17 +56,17 @@ hc_status report_gather(const scene *sc, const hc_monitor *monitor, void (*annou
                         void *self, report_data *out)
 {
   *out = (report_data){.sc = sc};
-  say(announce, self, "comparing");
+  announce_stage(announce, self, "comparing");
   hc_status st = scene_setup(sc, &out->setup);
   if (st == HC_OK) st = comparison_run(&out->setup, monitor, &out->comparison);
   if (st != HC_OK) return st;
-  say(announce, self, "response curve");
+  announce_stage(announce, self, "response curve");
   st = curve_json(sc, &out->comparison, monitor, &out->response);
   if (st != HC_OK) return st;
-  say(announce, self, "aliasing");
+  announce_stage(announce, self, "aliasing");
   st = gather_aliasing(sc, monitor, out);
   if (st != HC_OK) return st;
-  say(announce, self, "samples and truncation orders");
+  announce_stage(announce, self, "samples and truncation orders");
   out->tabled = accuracy_run(&out->setup, &out->comparison, monitor, &out->accuracy);
   return out->tabled == HC_INTERRUPTED || out->tabled == HC_NO_MEMORY ? out->tabled : HC_OK;
 }

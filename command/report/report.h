@@ -5,7 +5,7 @@
  *     (report_write)
  *
  * The page needs no network and no other file: page.html, page.css, page.js and the installed Chart.js are built
- * into the program (embed.cmake). Same input, same bytes: no date, no run times. Nothing is printed; not here:
+ * into the program (embed.cmake). Same input, same bytes: no dates, no seconds. Nothing is printed; not here:
  * options and files (command/cmd_report.c). */
 #ifndef HC_REPORT_REPORT_H
 #define HC_REPORT_REPORT_H
@@ -23,19 +23,19 @@ typedef struct report_data {
   compare_setup setup; /* made from it */
   comparison comparison;
   accuracy accuracy;
-  hc_status tabled; /* how the tables ended; what was found is shown */
+  hc_status tabled; /* status of the tables; the rows found are shown whatever it is */
   json_t *response; /* the curve and what stands on it (curve.h) */
   json_t *aliasing; /* precomputed states (aliasing.h); JSON null without contacts */
 } report_data;
 
-/* Words about how the page came to be, for its last section. All UTF-8, escaped here. */
+/* How the page was made, for its last section. UTF-8; escaped by report_write. */
 typedef struct report_origin {
   const char *command;  /* the line that makes it again */
   const char *versions; /* of the program and its libraries, lines */
   const char *settings; /* a sentence: "Harmonic balance: H = 10, exact forces. Time integration: ..." */
 } report_origin;
 
-/* Was Chart.js there when this was built? Without it there is no report. */
+/* Was Chart.js installed when this was built? Without it no report can be written. */
 bool report_has_charts(void);
 
 /* Everything the page shows. announce(self, "tables") before each stage; may be NULL. HC_INTERRUPTED, HC_NO_MEMORY,

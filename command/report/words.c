@@ -5,9 +5,9 @@
 
 #include "command/report/html.h"
 
-static void item(FILE *to, const char *class) { fprintf(to, "<li class=\"%s\">", class); }
+static void open_item(FILE *to, const char *class) { fprintf(to, "<li class=\"%s\">", class); }
 
-static void count_verdicts(const comparison *c, FILE *to)
+static void list_verdicts(const comparison *c, FILE *to)
 {
   fputs("<ul class=\"verdicts\">\n", to);
   for (int v = 0; v < VERDICT_COUNT; ++v) {
@@ -42,12 +42,12 @@ void words_verdict(const report_data *d, FILE *to)
     html_text(to, hc_status_text(c->curve.end));
     fputs(".</p>\n", to);
   }
-  count_verdicts(c, to);
+  list_verdicts(c, to);
 }
 
 /* ---- what to do ------------------------------------------------------------------------------ */
 
-static void say_worst(const report_data *d, FILE *to)
+static void advise_on_error(const report_data *d, FILE *to)
 {
   const comparison *c = &d->comparison;
   const comparison_row *top = NULL;
@@ -59,7 +59,7 @@ static void say_worst(const report_data *d, FILE *to)
     if (r->budget.known && (!top || r->budget.amplitude.sum > top->budget.amplitude.sum)) top = r;
   }
   if (top) {
-    item(to, top->budget.amplitude.sum <= d->sc->gate.most.amplitude ? "good" : "bad");
+    open_item(to, top->budget.amplitude.sum <= d->sc->gate.most.amplitude ? "good" : "bad");
     html_printf(to, "Largest error at omega = %.8g, branch %d: %s.", top->omega, top->branch,
                 budget_advice(&top->budget, &d->setup, d->sc->gate.most.amplitude, c->harmonics, text));
     fputs("</li>\n", to);
@@ -90,7 +90,7 @@ static int enough_harmonics(const accuracy *a, double limit)
   return enough;
 }
 
-static void say_harmonics(const report_data *d, FILE *to)
+static void advise_on_harmonics(const report_data *d, FILE *to)
 {
   const accuracy *a = &d->accuracy;
   const double limit = d->sc->gate.most.amplitude;
@@ -104,7 +104,7 @@ static void say_harmonics(const report_data *d, FILE *to)
   for (int i = 0; i < a->n_rows; ++i)
     if (a->rows[i].samples == 0) last = &a->rows[i];
   if (!last) return;
-  item(to, row && kept >= enough ? "good" : kept > last->harmonics ? "open" : "bad");
+  open_item(to, row && kept >= enough ? "good" : kept > last->harmonics ? "open" : "bad");
   html_printf(to, "Harmonics: %d kept. ", kept);
   if (row)
     html_printf(
@@ -120,14 +120,14 @@ static void say_harmonics(const report_data *d, FILE *to)
   fputs("</li>\n", to);
 }
 
-static bool samples_do(const accuracy_row *r, const accuracy_row *plain, double limit)
+static bool samples_suffice(const accuracy_row *r, const accuracy_row *plain, double limit)
 {
   return r->possible && r->aliasing <= limit && r->missing <= plain->missing;
 }
 
 /* For the number of harmonics of the table next to the one kept: the fewest samples from which on aliasing stays
  * below the limit. */
-static void say_samples(const report_data *d, FILE *to)
+static void advise_on_samples(const report_data *d, FILE *to)
 {
   const accuracy *a = &d->accuracy;
   const accuracy_row *plain = NULL, *enough = NULL, *most = NULL;
@@ -138,12 +138,12 @@ static void say_samples(const report_data *d, FILE *to)
     const accuracy_row *r = &a->rows[i];
     if (r->harmonics != plain->harmonics || r->samples == 0) continue;
     if (!most) most = r;
-    if (!samples_do(r, plain, d->sc->gate.most.amplitude)) break;
+    if (!samples_suffice(r, plain, d->sc->gate.most.amplitude)) break;
     enough = r;
   }
   if (!most) return;
   const bool sampled = d->sc->hbm.force == HBM_FORCE_SAMPLED;
-  item(to, enough && (!sampled || d->comparison.samples >= enough->samples) ? "good" : "bad");
+  open_item(to, enough && (!sampled || d->comparison.samples >= enough->samples) ? "good" : "bad");
   if (!enough)
     html_printf(to, "Sampling: not even %d samples a period are enough at H = %d (aliasing %.2g %%): use exact forces.",
                 most->samples, plain->harmonics, 100 * most->aliasing);
@@ -163,11 +163,11 @@ static void say_samples(const report_data *d, FILE *to)
 void words_what_to_do(const report_data *d, FILE *to)
 {
   fputs("<ul class=\"advice\">\n", to);
-  say_worst(d, to);
-  say_harmonics(d, to);
-  say_samples(d, to);
+  advise_on_error(d, to);
+  advise_on_harmonics(d, to);
+  advise_on_samples(d, to);
   if (d->tabled != HC_OK) {
-    item(to, "open");
+    open_item(to, "open");
     html_printf(to, "The tables over H and N ended early: %s.", hc_status_text(d->tabled));
     fputs("</li>\n", to);
   }

@@ -4,8 +4,8 @@
 
 #include "command/report/report.h"
 
-void words_verdict(const report_data *d, FILE *to);    /* the whole, in a sentence, and what the verdicts mean */
-void words_what_to_do(const report_data *d, FILE *to); /* worst point; harmonics and samples that are enough */
+void words_verdict(const report_data *d, FILE *to);    /* does it agree, in a sentence; how many of each verdict */
+void words_what_to_do(const report_data *d, FILE *to); /* worst point; harmonics and samples that suffice */
 void words_gate(const report_data *d, FILE *to);       /* table: allowed, worst found, where */
 
 #endif

@@ -18,6 +18,7 @@ offers() {
 }
 
 for command in $(hbmcheck --help | awk '/^  [a-z]/ {print $1}'); do offers "${command%?}" -- "$command"; done
+offers co -- compare contact # not derived from the help, as above: the list may not be empty
 offers compare --ta -- --tables
 offers frf --set hbm.ha -- hbm.harmonics=
 offers frf --set contacts -- 'contacts[0].gap=' 'contacts[0].friction='

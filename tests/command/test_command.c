@@ -140,11 +140,35 @@ static void mistakes_are_named(void **state)
   expect("describe hbm.sample 2>&1", 64, "samples");
 }
 
+/* Each command takes its own options and the common ones, and no other's. */
+static void options_belong_to_their_command(void **state)
+{
+  (void)state;
+  expect("frf " CASE2 "--motion 0,8,0 2>&1", 64, "motion");
+  expect("describe --at 6 2>&1", 64, "--at");
+  expect("describe hbm.samples --format csv -q", 0, "samples");
+  expect("describe -q", 0, "hbm: harmonic balance");
+  expect("gate " CASE2 "--plot x.svg 2>&1", 64, "plot");
+  expect("stress --case --seed 3 --first 7", 0, "oscillator");
+  expect("bench " CASE2 "--repeats 1001 2>&1", 64, "1..1000");
+  expect("frf " CASE2 "--at 6 --format csv --plot - 2>&1", 64, "--plot - would mix a drawing into csv or json");
+  expect("contact " CASE2 "--motion 0,8,0 --set hbm.force=sampled --set hbm.samples=auto 2>&1", 3, "hbm.samples=N");
+}
+
+/* The advice names settings of the side that failed. */
+static void advice_is_about_the_side_that_failed(void **state)
+{
+  (void)state;
+  expect("frf " CASE2 "-q --set hbm.continuation=natural 2>&1 >/dev/null", 3, "try --set hbm.continuation=auto");
+  expect("transient " CASE2 "--at 6.5 -q --set transient.max_periods=3 2>&1 >/dev/null", 3,
+         "try a larger --set transient.max_periods=");
+}
+
 static void help_works_everywhere(void **state)
 {
   (void)state;
-  static const char *const commands[] = {"compare", "frf",    "transient", "study",   "bench",
-                                         "gate",    "verify", "report",    "contact", "describe"};
+  static const char *const commands[] = {"compare", "frf",    "transient", "study",   "bench",   "gate",
+                                         "verify",  "stress", "report",    "contact", "describe"};
   for (size_t i = 0; i < sizeof commands / sizeof *commands; ++i) {
     char args[64];
     int lines = 0;
@@ -186,6 +210,8 @@ int main(void)
       cmocka_unit_test(verdicts_reach_the_exit_code),
       cmocka_unit_test(dropping_the_mean_costs_what_it_costs),
       cmocka_unit_test(mistakes_are_named),
+      cmocka_unit_test(options_belong_to_their_command),
+      cmocka_unit_test(advice_is_about_the_side_that_failed),
       cmocka_unit_test(agreement_is_not_claimed_lightly),
       cmocka_unit_test(leaving_a_saddle_is_not_chaos),
       cmocka_unit_test(stability_is_said_or_unknown),

@@ -1,0 +1,18 @@
+/* commands.h - every command, in the order in which hbmcheck --help lists them. This list declares them and fills
+ * main's table: a new command is a new name here and its definition, const cli_command cmd_NAME, in cmd_NAME.c
+ * (command/README.md goes through it step by step). */
+#ifndef HC_COMMANDS_H
+#define HC_COMMANDS_H
+
+#include "command/cli.h"
+
+/* clang-format off */
+#define COMMANDS(X) \
+  X(compare) X(frf) X(transient) X(study) X(bench) X(gate) X(verify) X(stress) X(report) X(contact) X(describe)
+/* clang-format on */
+
+#define COMMANDS_DECLARE(name) extern const cli_command cmd_##name;
+COMMANDS(COMMANDS_DECLARE)
+#undef COMMANDS_DECLARE
+
+#endif
