@@ -1,4 +1,4 @@
-/* hbm_solver_impl.h - what a solver consists of; seen by the files of this folder and by nobody else. */
+/* hbm_solver_impl.h - what a solver consists of; for the files of this folder only. */
 #ifndef HC_HBM_SOLVER_IMPL_H
 #define HC_HBM_SOLVER_IMPL_H
 

@@ -18,7 +18,7 @@ struct monodromy {
   double *boundary;            /* [cap] [rad] every angle at which a contact changes state, ascending */
   double *phi;                 /* [n_states][n_states] by rows */
   double *share;               /* [n_states] */
-  const contact_piece **piece; /* [n_states] of each contact, on the stretch at hand; NULL while separated */
+  const contact_piece **piece; /* [n_states] of each contact, on the current stretch; NULL while separated */
   int *active;                 /* [n_states] the initial states that the multipliers are made of */
   double complex *lambda;      /* [n_states] */
   floquet *floquet;

@@ -20,10 +20,10 @@ typedef struct path {
   int orientation;            /* sign of det [dR/dX dR/domega; tangent]: the same all along the curve */
   int first_outside;          /* index of the first point outside the sweep behind its start; 0 while inside */
   int droppable_points;       /* points in a row whose highest harmonics could be dropped; negative after dropping them
-                                 was tried in vain: wait longer */
+                                 failed, so that more points are waited for */
   bool more_samples;          /* start again with twice as many: these do not meet hbm.accuracy */
   bool may_come_from_above;   /* a first solution may be looked for by following the curve down from high omega */
-  int points_at_last_corner;  /* number of points when a step round a corner was last tried in vain */
+  int points_at_last_corner;  /* number of points when a step round a corner last failed */
   int flat_steps;             /* accepted in a row on flat curve while correcting in planes */
   double *X, *dX, omega, d_omega;       /* prediction, then corrected point (the trial), and its tangent */
   double *X_predicted, omega_predicted; /* the prediction as it was */

@@ -10,8 +10,7 @@ typedef struct hbm_stability {
   double flip;        /* product of (1 + multiplier): changes sign at a period doubling */
   double fold;        /* product of (1 - multiplier): changes sign at a turning point */
   double determinant; /* product of all multipliers */
-  bool agrees;        /* sign det dR/dX, the truncated equations' own fold test, says the same as `fold`. With few
-                         harmonics it need not. */
+  bool agrees;        /* det dR/dX has the sign of `fold`; it need not where few harmonics move the turning point */
 } hbm_stability;
 
 /* Floquet multipliers of the solution X at omega. The orbit's transitions are located exactly also where forces are

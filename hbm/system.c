@@ -1,5 +1,5 @@
-/* system.c - see system.h for the equations. The contact force comes from aft.c or exact_force.c; nothing else here
- * knows how. */
+/* system.c - see system.h for the equations. The contact force comes from aft.c or exact_force.c; what follows is the
+ * same for both. */
 #include "hbm/system.h"
 
 #include <math.h>

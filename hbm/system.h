@@ -28,7 +28,8 @@ typedef struct hbm_system {
   long evaluations; /* of the contact force */
 } hbm_system;
 
-/* n_time: samples per period, for sampled forces only. HC_BAD_INPUT, HC_NO_MEMORY: to be cleared all the same. */
+/* n_time: samples per period, for sampled forces only. HC_BAD_INPUT, HC_NO_MEMORY: *sys
+ * still has to be cleared. */
 hc_status hbm_system_init(hbm_system *sys, const model *m, const hbm_settings *how, int n_harm, int n_time);
 void hbm_system_clear(hbm_system *sys);
 

@@ -4,8 +4,8 @@
  *
  * What the searches have in common: HC_BAD_INPUT where the ends do not enclose what is searched for (an end or a value
  * that is NaN included), HC_NOT_FINITE where the function is NaN, HC_NOT_CONVERGED after ROOTS_MAX_EVALUATIONS, else
- * whatever status but HC_OK the function answers; *out then holds the best point so far. A tolerance is absolute; less
- * than 4 roundings of x count as so many. */
+ * the status of the function if that is not HC_OK; *out then holds the best point so far. A tolerance is absolute; less
+ * than 4 roundings of x count as 4 roundings. */
 #ifndef HC_ROOTS_H
 #define HC_ROOTS_H
 
@@ -41,8 +41,8 @@ hc_status root_between_newton(root_function_derivative *f, void *self, double a,
 
 /* A minimum of f between a and b (a < b), m between them being no higher than either end: f(m) = fm <= f(a) = fa,
  * f(b) = fb. Parabolas through the three lowest points, else golden section (Brent 1973, ch. 5). out->x is within
- * `tolerance` of a minimum of a function that has only one there; f being flat, less than sqrt(DBL_EPSILON) of x is
- * not to be had where f'' x^2 is about as large as f. */
+ * `tolerance` of a minimum of a function that has only one there; f being flat, the
+ * error is at least about sqrt(DBL_EPSILON) of x where f'' x^2 is about as large as f. */
 hc_status root_minimum(root_function *f, void *self, double a, double fa, double m, double fm, double b, double fb,
                        double tolerance, root_point *out);
 
