@@ -72,10 +72,10 @@ static inline const char *yaml_node_text(const yaml_node_t *n) { return (const c
 const char *yaml_node_what(const yaml_node_t *n);
 field_item yaml_node_item(const yaml_node_t *n); /* of a scalar */
 
-/* The node as it was written; NULL, or the node that cannot be part of any value. */
+/* v from a scalar or a list of scalars. NULL, or the node (a mapping, a list in a list) that cannot be a value. */
 const yaml_node_t *yaml_node_value(yaml_document_t *doc, const yaml_node_t *node, field_value *v);
 
-/* Keys must be plain words; false with the message made. */
+/* Is the key a scalar? false with the message made. */
 bool yaml_check_key(case_reader *r, const yaml_node_t *key);
 hc_status yaml_duplicate_key(case_reader *r, const yaml_node_t *key, case_place first);
 

@@ -67,7 +67,7 @@ void field_expected(const field *f, message *m);
 static inline void *field_place(const field *f, void *base) { return (char *)base + f->offset; }
 static inline const void *field_look(const field *f, const void *base) { return (const char *)base + f->offset; }
 
-/* A value as it was written, before it means anything. */
+/* A value as it was written, not yet read as a number or a choice. */
 typedef struct field_item {
   const char *text;
   size_t length;

@@ -9,7 +9,6 @@ const char *yaml_node_what(const yaml_node_t *n)
   return n->type == YAML_SEQUENCE_NODE ? "a list" : n->data.scalar.length > 0 ? "a single value" : "empty";
 }
 
-/* Keys must be plain words; false with the message made. */
 bool yaml_check_key(case_reader *r, const yaml_node_t *key)
 {
   if (key->type == YAML_SCALAR_NODE) return true;
@@ -56,7 +55,6 @@ field_item yaml_node_item(const yaml_node_t *n)
                       .column = n->start_mark.column + 1};
 }
 
-/* The node as it was written; NULL, or the node that cannot be part of any value. */
 const yaml_node_t *yaml_node_value(yaml_document_t *doc, const yaml_node_t *node, field_value *v)
 {
   v->list = node->type == YAML_SEQUENCE_NODE;

@@ -143,7 +143,7 @@ static void put_cheapest(table *t, const bench *b, const bench_place *p)
 }
 
 /* The fastest method for each accuracy, decade by decade: "hbm_exact from 1e-01 to 1e-06; exact_shooting from 1e-07 to
- * 1e-11"; beyond the last one nothing was measured. */
+ * 1e-11"; no method reached what is beyond. */
 static void note_winners(table *t, const bench *b, const bench_place *p)
 {
   char text[512];

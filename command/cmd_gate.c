@@ -53,8 +53,8 @@ static error_t read_option(int key, char *text, struct argp_state *state)
   }
 }
 
-/* allowed and found: numbers in csv and json; on the screen texts, because a column of numbers has one notation and these
- * range from discrepancies to costs. */
+/* allowed and found: numbers in csv and json; on the screen texts, because a column of numbers has one notation and
+ * these range from discrepancies to costs. */
 /* clang-format off */
 #define COLUMNS(number) \
   {"case", TABLE_TEXT}, {"omega", TABLE_REAL}, {"branch", TABLE_INTEGER}, {"verdict", TABLE_TEXT}, \

@@ -70,7 +70,7 @@ static int open_beside(output *o)
   return -1;
 }
 
-/* A file descriptor to write to, or -1 and errno. `old` is what stands at `path`, NULL if nothing does. */
+/* A file descriptor to write to, or -1 and errno. `old`: the file that is at `path`, or NULL. */
 static int open_regular(output *o, const char *path, const struct stat *old)
 {
   /* rename would replace a read-only file, too */

@@ -45,16 +45,16 @@ void table_hide(table *t, const char *column);
 /* Full rows so far. */
 int table_rows(const table *t);
 
-/* All tables of one command. table: one after another, each under its title; 7 significant digits, a column in one
- * notation with its decimal points aligned.
- *        A text of more than 60 columns is cut with an ellipsis unless it is the row's last.
- * csv:   RFC 4180 quoting, lines end in \n, blank-line separated, "# title" first when n > 1. Empty text is "" in
- * quotes: not missing. json:  for n = 1 {"rows": [{column: value}, ...], "notes": [...]}; else one object {"title":
- * [{column: value}, ...], ...,
- *        "notes": {"title": [...], ...}} with notes of the tables that have some. A title that is taken becomes
- *        "title (2)", no title "table".
- * HC_NO_MEMORY and HC_BUG (see above): nothing is written if a table came to that before. HC_IO once the stream has
- * failed; what is still in its buffer is for output_commit to check. */
+/* All tables of one command.
+ * table: one after another, each under its title; 7 significant digits, a column in one notation with its decimal
+ *        points aligned. A text of more than 60 columns is cut with an ellipsis unless it is the row's last.
+ * csv:   RFC 4180 quoting, lines end in \n, tables separated by a blank line, "# title" first when n > 1. Empty text is
+ *        "" in quotes: not missing.
+ * json:  for n = 1 {"rows": [{column: value}, ...], "notes": [...]}; else one object {"title": [{column: value}, ...],
+ *        ..., "notes": {"title": [...], ...}} with the notes of the tables that have some. A second table of one title
+ *        has the key "title (2)", one without a title "table".
+ * HC_NO_MEMORY or HC_BUG (see above) if a table came to that before; then nothing is written. HC_IO once the stream has
+ * failed; a failure of what is still in its buffer is found by output_commit. */
 hc_status table_write(int n, table *const *tables, table_format format, FILE *to);
 
 #endif

@@ -1,7 +1,7 @@
-/* figure.h - a gnuplot script as it is written: the terminal, texts, data, looks of lines. Every
- * text that comes from outside goes through figure_text: what gnuplot or its markup could act on is written as an
- * octal escape, so a title can neither end its string nor run anything. Data blocks have our own names. A write that
- * failed is reported by figure_close. */
+/* figure.h - a gnuplot script as it is written: the terminal, texts, data, looks of lines. Every text that comes from
+ * outside goes through figure_text, which writes what gnuplot or its markup could act on as octal escapes: a title can
+ * neither end its string nor run anything. The names of data blocks are our own. A write that failed is reported by
+ * figure_close. */
 #ifndef HC_PLOT_FIGURE_H
 #define HC_PLOT_FIGURE_H
 
@@ -52,7 +52,7 @@ void figure_draw(figure *g);
 enum { FIGURE_LOOK = 96 };
 const char *figure_line(const figure *g, int n, double width, char text[FIGURE_LOOK]);
 const char *figure_mark(const figure *g, int n, double width, char text[FIGURE_LOOK]);
-/* The look itself, or for drawings of letters line type n. */
+/* `look`, or in a drawing of letters line type n. In text, which is returned. */
 const char *figure_look(const figure *g, const char *look, int n, char text[FIGURE_LOOK]);
 
 /* Logarithmic, with powers of ten as its labels. axis: "x" or "y" */

@@ -29,8 +29,8 @@ typedef struct plot_order {
 /* Does the name have an ending that can be drawn, or is it "-"? */
 bool plot_can(const char *path);
 
-/* All of these: HC_OK, HC_NO_MEMORY, HC_BAD_INPUT (there is nothing to draw) or HC_IO (no gnuplot, or the file could
- * not be written). */
+/* Each of these returns HC_OK, HC_NO_MEMORY, HC_BAD_INPUT (there is nothing to draw) or HC_IO (no gnuplot, or the file
+ * could not be written). */
 
 /* The response curve with its stability and where it changes its nature; what the sweep from the other end finds
  * besides is faint. `asked`: solutions to mark, or NULL. */

@@ -198,7 +198,7 @@ static void write_data(page *p)
   json_decref(data);
 }
 
-/* ---- the whole ------------------------------------------------------------------------------- */
+/* ---- the page ------------------------------------------------------------------------------- */
 
 static const struct piece {
   const char *name;
