@@ -88,8 +88,8 @@ static void few_periods_whatever_the_damping(void **state)
   }
 }
 
-/* Stuck all period: the slider may rest anywhere in an interval. It stays where it is; the mean depends on it, and nothing
- * else does. x = (steady) + kt c w/(K + kt c^2 + kn s^2) with w at rest. */
+/* Stuck all period: the slider may rest anywhere in an interval. It stays where it is; the mean depends on it, and
+ * nothing else does. x = (steady) + kt c w/(K + kt c^2 + kn s^2) with w at rest. */
 static void a_free_slider_is_left_alone(void **state)
 {
   (void)state;
