@@ -1,5 +1,5 @@
-/* attract.c - see attract.h. The motion is integrated in stretches, each twice as long as the last; after each the orbit
- * is looked for to which it converges.
+/* attract.c - see attract.h. The motion is integrated in stretches, each twice as long as the last; after each the
+ * orbit is looked for to which it converges.
  *
  * A stretch is integrated with a coarse tolerance, since Newton makes the orbit accurate. Then, if the last state is
  * within `near` of the state k periods ago, the orbit of k periods next to it is computed (shoot.h). The motion goes to
@@ -118,8 +118,8 @@ static hc_status try_orbit(approach *a, int k, bool *found_it, timeint_result *r
 }
 
 /* The same for each k in turn whose return is less than half as far as those of all before. Not only the nearest: the
- * multiples of a cycle return as near as the cycle itself, and next to a period doubling there is an orbit of k periods,
- * now unstable, and one of 2 k. */
+ * multiples of a cycle return as near as the cycle itself, and next to a period doubling there is an orbit of k
+ * periods, now unstable, and one of 2 k. */
 static hc_status try_orbits(approach *a, bool *found_it, timeint_result *r)
 {
   double within = 2 * near * timeint_motion_size(a->ti);
@@ -133,7 +133,8 @@ static hc_status try_orbits(approach *a, bool *found_it, timeint_result *r)
 }
 
 /* One period of the motion and of a neighbour at ti->y + d, d = ti->separation; d becomes their difference afterwards,
- * scaled to its old length, and *log_growth the log of the factor by which it grew. */
+ * scaled to its old length, and *log_growth the log of the factor by which it grew, no less than log(DBL_EPSILON):
+ * the two may have met. */
 static hc_status integrate_neighbours(timeint *ti, double *log_growth)
 {
   const int n = ti->n;
@@ -145,7 +146,7 @@ static hc_status integrate_neighbours(timeint *ti, double *log_growth)
   ti->periods += 2;
   for (int i = 0; i < n; ++i) size += (other[i] - ti->y[i]) * (other[i] - ti->y[i]);
   size = sqrt(size);
-  *log_growth = log(fmax(size / separation, DBL_EPSILON)); /* 0 / .. if the two have met */
+  *log_growth = log(fmax(size / separation, DBL_EPSILON));
   for (int i = 0; i < n && size > 0; ++i) d[i] = (other[i] - ti->y[i]) * (separation / size);
   return isfinite(size) && isfinite(*log_growth) ? HC_OK : HC_NOT_FINITE;
 }

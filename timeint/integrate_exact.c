@@ -134,8 +134,8 @@ static void release(integrator *base)
   free(base);
 }
 
-/* Variations from in->varied to theta in the phase *ph: dX'' + c dX' + k dX = sum_j (dP'/dW_j) dW_j, a column at a time.
- * The response to a constant force 1 from rest is (1 - e00)/k in X and e01 in P. */
+/* Variations from in->varied to theta in the phase *ph: dX'' + c dX' + k dX = sum_j (dP'/dW_j) dW_j, a column at a
+ * time. The response to a constant force 1 from rest is (1 - e00)/k in X and e01 in P. */
 static void advance_variations(event_driven *in, const phase *ph, double theta)
 {
   const double span = theta - in->varied, c = in->m->c;

@@ -1,6 +1,6 @@
-/* integrate_exact.h - the integrator (integrate.h) of the exact law, event-driven: while no contact changes its state the
- * equations are linear (phase.h); CVODE carries X and P to the next change and starts afresh there. Sliders follow from
- * the contact states. Adams: nothing here is stiff but a huge damping. */
+/* integrate_exact.h - the integrator (integrate.h) of the exact law, event-driven: while no contact changes its
+ * state the equations are linear (phase.h); CVODE carries X and P to the next change and starts afresh there.
+ * Sliders follow from the contact states. Adams: nothing here is stiff but a huge damping. */
 #ifndef HC_TIMEINT_INTEGRATE_EXACT_H
 #define HC_TIMEINT_INTEGRATE_EXACT_H
 

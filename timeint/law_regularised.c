@@ -8,8 +8,8 @@ law_regularised law_regularised_make(const contact *c, double width, double rela
   return r;
 }
 
-/* For |z| > 40 exp(-|z|) < 5e-18: below rounding where it is added to z; for z < -40 it is all of N/(kn width), and is set
- * to 0. This saves two exp in most evaluations, and no exp can overflow. */
+/* For |z| > 40 exp(-|z|) < 5e-18: below rounding where it is added to z; for z < -40 it is all of N/(kn width), and
+ * is set to 0. This saves two exp in most evaluations, and no exp can overflow. */
 enum { SOFT_END = 40 };
 
 static double normal_force(const law_regularised *c, double v)

@@ -1,15 +1,16 @@
-/* march.c - see march.h. The first period is integrated with the finest tolerance of CVODE (timeint_final_tolerance), to
- * see how much the state moves; the next ones with a tolerance as coarse as that allows, and a finer one as the state
- * moves less. Only with the finest is the orbit judged (settle.h), and its period or k periods measured. */
+/* march.c - see march.h. The first period is integrated with the finest tolerance of CVODE
+ * (timeint_final_tolerance), to see how much the state moves; the next ones with a tolerance as coarse as that
+ * allows, and a finer one as the state moves less. Only with the finest is the orbit judged (settle.h), and its
+ * period or k periods measured. */
 #include "timeint/march.h"
 
 #include <math.h>
 
 #include "timeint/timeint_private.h"
 
-/* Coarse steps cost a third to a fifth, and lose nothing while the state is farther from the orbit than their error puts
- * it: up to 250 times the tolerance a period, which adds up over 1/(1 - rho) periods to at least 1/sqrt(1 - rho) times
- * that. Hence drift sqrt(1 - rho)/1000: a start on the orbit keeps the finest tolerance and stays on it. */
+/* Coarse steps cost a third to a fifth, and lose nothing while the state is farther from the orbit than their error
+ * puts it: up to 250 times the tolerance a period, which adds up over 1/(1 - rho) periods to at least 1/sqrt(1 -
+ * rho) times that. Hence drift sqrt(1 - rho)/1000: a start on the orbit keeps the finest tolerance and stays on it. */
 static const double coarsest = 1e-8, drift_over_tolerance = 1e3, refine_by = 0.1;
 enum { MOST_BASELINES = 20 }; /* at one tolerance: if the scatter is larger than expected, drift never falls below it */
 
@@ -55,7 +56,8 @@ static hc_status start(timeint *ti, progress *p)
   return use_tolerance(ti, p, timeint_final_tolerance(ti));
 }
 
-/* After each period: a coarser tolerance after the first, a finer one once the state moves too little for the present. */
+/* After each period: a coarser tolerance after the first, a finer one once the state moves too little for the
+ * present. */
 static hc_status adapt_tolerance(timeint *ti, progress *p)
 {
   const double allowed = coarsest_allowed(ti), finest = timeint_final_tolerance(ti);

@@ -1,5 +1,5 @@
-/* phase.h - a phase: a stretch of a motion of the exact law (model/contact_law.h) in which no contact changes its state;
- * its equations, and which X or P ends it. libm only.
+/* phase.h - a phase: a stretch of a motion of the exact law (model/contact_law.h) in which no contact changes its
+ * state; its equations, and which X or P ends it. libm only.
  *
  * In a phase every contact sticks, slips one way or is separated, and the equation of scaled.h is linear:
  *     P' = f cos(theta) - c P - k X - d            k, d constant

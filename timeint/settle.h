@@ -3,8 +3,8 @@
  *
  * Near a fixed point z*, z_n - z* = e_n and |e_n| ~ rho^n. For any stride m,
  *     |z_n - z_{n-m}| >= |e_{n-m}| (1 - rho^m) >= |e_n| (1 - rho^m)       so       |e_n| <= D_m / (1 - rho^m),
- * D_m = max |z_i - z_{i-m}| over the latest i (multipliers are complex, so single differences oscillate). Each m gives a
- * bound: short strides the soonest; in long ones the noise is divided by 1 - rho^m instead of 1 - rho. The smallest
+ * D_m = max |z_i - z_{i-m}| over the latest i (multipliers are complex, so single differences oscillate). Each m gives
+ * a bound: short strides the soonest; in long ones the noise is divided by 1 - rho^m instead of 1 - rho. The smallest
  * bound is used.
  *
  * rho: the larger of

@@ -251,7 +251,8 @@ static double nonlinear_part(const shoot *s, const double *z)
   return size > rounding ? fmax(norm(n, left) - rounding, 0) / size : 0;
 }
 
-/* The states in s->active[m] without those whose column of Phi is rounding: their multiplier is 0. How many are left. */
+/* The states in s->active[m] without those whose column of Phi is rounding: their multiplier is 0. How many are
+ * left. */
 static int drop_negligible_columns(shoot *s, int m)
 {
   int kept = 0;

@@ -1,12 +1,11 @@
 /* shoot.h - a periodic orbit as a fixed point of the period map: z = F^k(z), F one period of the forcing.
  *
  * Newton (KINSOL): z - F^k(z) = 0 with the Jacobian I - Phi, Phi the monodromy matrix from the variational equations.
- * Quadratic where F is smooth, which it is unless the orbit grazes a transition; the number of periods it takes does not
- * depend on the damping. The slider of a contact that sticks all the time is at a fixed point of F wherever it is: its
- * row of Phi is that of the identity. It stays where the start put it and is counted as free; the rest of the orbit is
- * unique given that.
- * Anderson (KINSOL's fixed point) needs no Phi: used where Newton fails.
- * Works on ti->y in the unit of length ti->length, at CVODE's present tolerance. */
+ * Quadratic where F is smooth, which it is unless the orbit grazes a transition; the number of periods it takes does
+ * not depend on the damping. The slider of a contact that sticks all the time is at a fixed point of F wherever it
+ * is: its row of Phi is that of the identity. It stays where the start put it and is counted as free; the rest of
+ * the orbit is unique given that. Anderson (KINSOL's fixed point) needs no Phi: used where Newton fails. Works on
+ * ti->y in the unit of length ti->length, at CVODE's present tolerance. */
 #ifndef HC_TIMEINT_SHOOT_H
 #define HC_TIMEINT_SHOOT_H
 
@@ -28,10 +27,11 @@ typedef struct shoot_report {
 hc_status shoot_new(timeint *ti, shoot **out);
 void shoot_free(shoot *s);
 
-/* From ti->y to the orbit of k periods, Newton steps no longer than `reach` [L]; ti->y becomes a point on it. On failure
- * ti->y is unchanged. goal [L]: the distance from the orbit at which to stop; where the scatter of integrated periods,
- * times |(I - Phi)^-1|, is larger, that distance; report->distance says how far it came. HC_SINGULAR, HC_STALLED,
- * HC_NOT_CONVERGED; HC_NOT_SETTLED after max_periods; what integrate_monodromy answers; HC_INTERRUPTED. */
+/* From ti->y to the orbit of k periods, Newton steps no longer than `reach` [L]; ti->y becomes a point on it. On
+ * failure ti->y is unchanged. goal [L]: the distance from the orbit at which to stop; where the scatter of
+ * integrated periods, times |(I - Phi)^-1|, is larger, that distance; report->distance says how far it came.
+ * HC_SINGULAR, HC_STALLED, HC_NOT_CONVERGED; HC_NOT_SETTLED after max_periods; what integrate_monodromy answers;
+ * HC_INTERRUPTED. */
 hc_status shoot_newton(shoot *s, int k, double reach, double goal, const hc_monitor *monitor, shoot_report *report);
 hc_status shoot_anderson(shoot *s, int k, double goal, const hc_monitor *monitor, shoot_report *report);
 

@@ -1,14 +1,15 @@
 /* sweep.c - see sweep.h.
  *
- * Frequency advances in relative steps of at most 1 %. At each the state moves to the stable orbit next to it, by Newton
- * on the period map or by the closed form: in a slow sweep it would be on that orbit all the time. Where there is none,
- * the branch has ended or become unstable, and the state is integrated until it has settled to a percent of its size, or
- * for MAX_FOLDS e-folds. The distance it moved is that by which its orbit moved: the frequency step grows while that is
- * little and shrinks when it is much (where the curve is steep: near resonance, towards a fold), to no less than a tenth
- * of the half width of a resonance. All this with the exact law, whatever the settings' law: the branches of the two
- * differ by the regularisation only, the exact law costs a tenth, and the steady state reported at the end of a sweep is
- * solved with the settings' own. An aperiodic state changes from period to period at one frequency too; the sweep then
- * goes on in small steps. That a branch has ended is not detected: the state leaves it, as on the shaker. */
+ * Frequency advances in relative steps of at most 1 %. At each the state moves to the stable orbit next to it, by
+ * Newton on the period map or by the closed form: in a slow sweep it would be on that orbit all the time. Where
+ * there is none, the branch has ended or become unstable, and the state is integrated until it has settled to a
+ * percent of its size, or for MAX_FOLDS e-folds. The distance it moved is that by which its orbit moved: the
+ * frequency step grows while that is little and shrinks when it is much (where the curve is steep: near resonance,
+ * towards a fold), to no less than a tenth of the half width of a resonance. All this with the exact law, whatever
+ * the settings' law: the branches of the two differ by the regularisation only, the exact law costs a tenth, and the
+ * steady state reported at the end of a sweep is solved with the settings' own. An aperiodic state changes from
+ * period to period at one frequency too; the sweep then goes on in small steps. That a branch has ended is not
+ * detected: the state leaves it, as on the shaker. */
 #include "timeint/sweep.h"
 
 #include <complex.h>
@@ -36,8 +37,8 @@ static double relative_distance(const timeint *ti, const double *a, const double
 }
 
 /* Estimated distance of the state from its orbit, from its changes over the last two periods. Multipliers come as a
- * complex pair lambda, so the difference to the orbit in (x, v/omega), read as a complex number, is multiplied by lambda
- * each period: moves[1]/moves[0] = lambda, and |moves[1]/(1 - lambda)| is left. (settle.h has a bound.) */
+ * complex pair lambda, so the difference to the orbit in (x, v/omega), read as a complex number, is multiplied by
+ * lambda each period: moves[1]/moves[0] = lambda, and |moves[1]/(1 - lambda)| is left. (settle.h has a bound.) */
 static double distance_left(const double complex moves[2], double move, double slow)
 {
   double turn = cabs(1 - moves[1] / moves[0]);

@@ -1,5 +1,5 @@
-/* timeint.c - see timeint.h and timeint_private.h: makes the handle; converts states between the model's units and those
- * of scaled.h; one period of the motion. */
+/* timeint.c - see timeint.h and timeint_private.h: makes the handle; converts states between the model's units and
+ * those of scaled.h; one period of the motion. */
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
@@ -197,8 +197,8 @@ void timeint_point(const timeint *ti, double *z)
 /* Measured: with CVODE restarted each period, the states of a settled orbit scatter by 20 to 250 times its tolerance,
  * since each period is cut into other steps, and the error at a corner depends on where the step that contains it
  * begins. A scatter of s a period adds up to s/sqrt(2 (1 - rho)) where the contraction rho is close to 1. Hence
- * tolerance/1000, times sqrt(1 - rho), and not below 1e-14, where rounding is larger; never above 1e-6, where steps pass
- * over whole contacts. */
+ * tolerance/1000, times sqrt(1 - rho), and not below 1e-14, where rounding is larger; never above 1e-6, where steps
+ * pass over whole contacts. */
 double timeint_final_tolerance(const timeint *ti)
 {
   double wanted = 1e-3 * ti->how.tolerance * sqrt(1 - fmin(ti->contraction, 1));

@@ -4,9 +4,9 @@
  *     x' = v,   M v' = F0 cos(omega t) - C v - K x - sum_j [ T_j cos(alpha_j) + (N_j - N0_j) sin(alpha_j) ]
  *
  * with the contact law of model/contact_law.h, exact or regularised (law_regularised.h) as transient.law says.
- * A state is an array of timeint_n_states doubles, memory of the caller: x [length], v [length/time], and the slider w_j
- * [length] of contact j. Phase: t = 0 is the forcing's maximum; every state passed in or out is at a whole number of
- * forcing periods. Handles are opaque, one a thread. Not here: harmonic balance, verdicts. */
+ * A state is an array of timeint_n_states doubles, memory of the caller: x [length], v [length/time], and the slider
+ * w_j [length] of contact j. Phase: t = 0 is the forcing's maximum; every state passed in or out is at a whole
+ * number of forcing periods. Handles are opaque, one a thread. Not here: harmonic balance, verdicts. */
 #ifndef HC_TIMEINT_H
 #define HC_TIMEINT_H
 

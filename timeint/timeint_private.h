@@ -38,8 +38,8 @@ struct timeint {          /* from timeint_new, to timeint_free; not shared betwe
   double *memory;      /* of all the arrays above                                                       */
 };
 
-/* Equations, unit of length and a-priori contraction for omega; y from state[n]. HC_BAD_INPUT unless omega and the state
- * are finite, omega > 0. */
+/* Equations, unit of length and a-priori contraction for omega; y from state[n]. HC_BAD_INPUT unless omega and the
+ * state are finite, omega > 0. */
 hc_status timeint_begin(timeint *ti, double omega, const double *state);
 
 /* Another tolerance of CVODE's from the next period on. */

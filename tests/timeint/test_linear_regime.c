@@ -114,8 +114,8 @@ static void rows_of_the_table(void **state)
   CHECK_LE(80, n, "rows");
 }
 
-/* From a state off the orbit the closed form is where marching settles, which is within transient.tolerance, 1e-9 of the
- * amplitude. The sums over 512 instants of a harmonic motion are exact. */
+/* From a state off the orbit the closed form is where marching settles, which is within transient.tolerance, 1e-9 of
+ * the amplitude. The sums over 512 instants of a harmonic motion are exact. */
 static void same_as_marching(const scene *from, const char *name, double omega, const double *w, double off,
                              int free_sliders)
 {
@@ -329,10 +329,10 @@ static void a_yes_is_right(void **state)
 
 /* -- a no is needed -- */
 
-/* On the orbit itself there is no free motion, and the range is exact. So for the exact law the largest force with a yes
- * is that from which on a contact changes its state: up to the margin of 1e-9 below it none does, 1e-5 above it one does.
- * For the regularised law the condition is stricter by 40 widths: no contact changes its state up to there, and the
- * motion is the closed form to the integrator's errors. */
+/* On the orbit itself there is no free motion, and the range is exact. So for the exact law the largest force with a
+ * yes is that from which on a contact changes its state: up to the margin of 1e-9 below it none does, 1e-5 above it
+ * one does. For the regularised law the condition is stricter by 40 widths: no contact changes its state up to
+ * there, and the motion is the closed form to the integrator's errors. */
 static void check_up_to_the_edge(const scene *from, const char *name, double omega, const double *w, int law)
 {
   scene sc = *from;

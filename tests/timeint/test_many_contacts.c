@@ -1,5 +1,5 @@
-/* test_many_contacts.c - n equal contacts of stiffness k/n are one of stiffness k: the same equations, the same orbit. n
- * beyond what a case file lists. */
+/* test_many_contacts.c - n equal contacts of stiffness k/n are one of stiffness k: the same equations, the same
+ * orbit. n beyond what a case file lists. */
 #include "tests/check.h"
 
 #include <float.h>
@@ -13,8 +13,9 @@ enum { MOST = 300 };
 
 static const int numbers[] = {17, 40};
 
-/* P' is a sum of 3 + 2 n terms, each of a few roundings, of k/n, itself rounded; added one after the other, n of them err
- * by n roundings of their sum. |X|, |P|, |W| <= 1; T is at most kt (|u| + |w|), N - N0 at most kn (|v| + |gap|). */
+/* P' is a sum of 3 + 2 n terms, each of a few roundings, of k/n, itself rounded; added one after the other, n of
+ * them err by n roundings of their sum. |X|, |P|, |W| <= 1; T is at most kt (|u| + |w|), N - N0 at most kn (|v| +
+ * |gap|). */
 static void equations_are_those_of_one(void **state)
 {
   (void)state;
@@ -59,8 +60,8 @@ static timeint_result steady_state(const scene *sc, int n, double omega, const d
 }
 
 /* Both are within transient.tolerance, relative to the amplitude, of one orbit: their equations differ by n roundings,
- * which is nothing to that. A motion that is 1 off in (x, v/omega) at t = 0 is at most omega_stuck/omega off later (free
- * motion, its energy never growing, in the stiffest state of the contact), and so is x at every instant. */
+ * which is nothing to that. A motion that is 1 off in (x, v/omega) at t = 0 is at most omega_stuck/omega off later
+ * (free motion, its energy never growing, in the stiffest state of the contact), and so is x at every instant. */
 static void check_same(const scene *sc, int n, double omega, const double start[3])
 {
   double one_y[TIMEINT_W + 1], y[TIMEINT_W + MOST];

@@ -215,8 +215,8 @@ static void k_periods_multiply(void **state)
   }
 }
 
-/* Stuck all period: the slider may rest anywhere in an interval. It is left where it is, the mean follows it, and
- * nothing else does. x = (steady) + kt c w/(K + kt c^2 + kn s^2) with w held. */
+/* Stuck all period: the slider may rest anywhere in an interval. It stays where it is; the mean depends on it, and
+ * nothing else does. x = (steady) + kt c w/(K + kt c^2 + kn s^2) with w at rest. */
 static void a_free_slider_is_left_alone(void **state)
 {
   (void)state;
