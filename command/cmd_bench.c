@@ -125,7 +125,7 @@ static void put_row(table *t, const bench_row *r)
   else table_put_text(t, bench_outcome_name(r->outcome));
 }
 
-static void put_cheapest(table *t, const bench *b, const bench_place *p)
+static void put_cheapest(table *t, const bench *b, const bench_frequency *p)
 {
   char text[BENCH_TEXT];
   for (int i = 0; i < N_ACCURACIES; ++i) {
@@ -144,7 +144,7 @@ static void put_cheapest(table *t, const bench *b, const bench_place *p)
 
 /* The fastest method for each accuracy, decade by decade: "hbm_exact from 1e-01 to 1e-06; exact_shooting from 1e-07 to
  * 1e-11"; no method reached what is beyond. */
-static void note_winners(table *t, const bench *b, const bench_place *p)
+static void note_winners(table *t, const bench *b, const bench_frequency *p)
 {
   char text[512];
   size_t n = 0;
@@ -179,7 +179,7 @@ static void note_versions(table *t)
   table_note(t, "%s", versions);
 }
 
-static void note_place(table *t, const bench_place *p)
+static void note_place(table *t, const bench_frequency *p)
 {
   table_note(
       t,
@@ -192,7 +192,7 @@ static void note_place(table *t, const bench_place *p)
 static void note_bench(table *t, const scene *sc, const bench *b)
 {
   table_note(t, "%s", sc->title);
-  for (int i = 0; i < b->n_places; ++i) note_place(t, &b->places[i]);
+  for (int i = 0; i < b->n_frequencies; ++i) note_place(t, &b->frequencies[i]);
   table_note(
       t, "seconds: processor time of one solution and its measures; curve_seconds: the whole response curve over the "
          "sweep");
@@ -211,9 +211,9 @@ static int write_tables(const cli_common *common, const scene *sc, const bench *
                       table_new("Cheapest way", N_CHEAPEST_COLUMNS, cheapest_columns)};
   for (int i = 0; i < b->n_rows; ++i) put_row(tables[0], &b->rows[i]);
   note_bench(tables[0], sc, b);
-  for (int i = 0; i < b->n_places; ++i) {
-    put_cheapest(tables[1], b, &b->places[i]);
-    note_winners(tables[1], b, &b->places[i]);
+  for (int i = 0; i < b->n_frequencies; ++i) {
+    put_cheapest(tables[1], b, &b->frequencies[i]);
+    note_winners(tables[1], b, &b->frequencies[i]);
   }
   int code = cli_write(common, 2, tables);
   for (int i = 0; i < 2; ++i) table_free(tables[i]);

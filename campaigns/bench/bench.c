@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "campaigns/bench/place.h"
+#include "campaigns/bench/finder.h"
 #include "campaigns/bench/scipy.h"
 
 enum { MOST_SETTINGS = 8, MOST_ROWS = 128, FEWEST = 3 };
@@ -31,7 +31,7 @@ static const family families[] = {
 };
 enum { N_FAMILIES = sizeof families / sizeof *families };
 
-/* What the functions below have at hand: the settings, one frequency's start and its trials, the result. */
+/* What the functions below have at hand: the settings, one frequency's start and its methods, the result. */
 typedef struct workspace {
   const scene *sc;
   const bench_options *options;
@@ -39,8 +39,8 @@ typedef struct workspace {
   double from, width,
       done; /* [1] progress: where this frequency begins, its part of the whole, the part of that done */
   hc_monitor monitor;
-  place_start start;
-  trial *trials;
+  bench_start start;
+  timed_method *methods;
   bench *out;
 } workspace;
 
@@ -109,7 +109,7 @@ static bool hopeless(const bench_row *rows, int i)
 }
 
 /* All rows once: what they find; and the curves. */
-static hc_status first_round(workspace *w, bench_place *p)
+static hc_status first_round(workspace *w, bench_frequency *p)
 {
   bench_row *rows = w->out->rows + p->first;
   hc_status st = HC_OK;
@@ -117,20 +117,21 @@ static hc_status first_round(workspace *w, bench_place *p)
     w->done = 0.1 + 0.5 * i / p->n;
     if (hopeless(rows, i)) rows[i].outcome = BENCH_TOO_LONG;
     else if (!hc_monitor_tick(&w->monitor, -1)) st = HC_INTERRUPTED;
-    else if ((st = trial_start(w->sc, &w->start, &rows[i], w->options->repeats, &w->monitor, &w->trials[i])) == HC_OK)
-      st = trial_curve(&w->trials[i], &w->monitor);
+    else if ((st = timed_method_start(w->sc, &w->start, &rows[i], w->options->repeats, &w->monitor, &w->methods[i])) ==
+             HC_OK)
+      st = timed_method_curve(&w->methods[i], &w->monitor);
   }
   return st;
 }
 
-static bool has_enough(const trial *t, const bench_row *row)
+static bool has_enough(const timed_method *t, const bench_row *row)
 {
   if (row->outcome != BENCH_SOLVED || t->runs == t->cap) return true;
-  int fewest = row->seconds > trial_slow ? 1 : FEWEST;
+  int fewest = row->seconds > timed_method_slow ? 1 : FEWEST;
   return t->runs >= fewest && t->spent > enough; /* spent: the first run included */
 }
 
-static hc_status rounds(workspace *w, const bench_place *p)
+static hc_status rounds(workspace *w, const bench_frequency *p)
 {
   const int n = w->options->repeats;
   hc_status st = HC_OK;
@@ -138,29 +139,29 @@ static hc_status rounds(workspace *w, const bench_place *p)
     for (int i = 0; i < p->n && st == HC_OK; ++i) {
       w->done = 0.6 + 0.3 * (round * p->n + i) / ((double)n * p->n);
       if (!hc_monitor_tick(&w->monitor, -1)) st = HC_INTERRUPTED;
-      else if (!has_enough(&w->trials[i], &w->out->rows[p->first + i]))
-        st = trial_run(&w->trials[i], &w->start, &w->monitor);
+      else if (!has_enough(&w->methods[i], &w->out->rows[p->first + i]))
+        st = timed_method_run(&w->methods[i], &w->start, &w->monitor);
     }
   return st;
 }
 
-static hc_status measure_ours(workspace *w, bench_place *p)
+static hc_status measure_ours(workspace *w, bench_frequency *p)
 {
   hc_status st = HC_OK;
   p->first = w->out->n_rows;
   for (int i = 0; i < N_FAMILIES && st == HC_OK; ++i) st = add_family(w->out, &families[i], p->omega);
   p->n = w->out->n_rows - p->first;
-  if (st == HC_OK && !(w->trials = calloc((size_t)p->n, sizeof *w->trials))) st = HC_NO_MEMORY;
+  if (st == HC_OK && !(w->methods = calloc((size_t)p->n, sizeof *w->methods))) st = HC_NO_MEMORY;
   if (st == HC_OK) st = first_round(w, p);
   if (st == HC_OK) st = rounds(w, p);
-  for (int i = 0; w->trials && i < p->n; ++i) trial_finish(&w->trials[i]);
-  free(w->trials);
-  w->trials = NULL;
+  for (int i = 0; w->methods && i < p->n; ++i) timed_method_finish(&w->methods[i]);
+  free(w->methods);
+  w->methods = NULL;
   return st;
 }
 
 /* The runs of scipy, as rows. */
-static hc_status measure_scipy(workspace *w, bench_place *p)
+static hc_status measure_scipy(workspace *w, bench_frequency *p)
 {
   scipy_run runs[SCIPY_MOST_RUNS];
   int n = 0;
@@ -174,7 +175,7 @@ static hc_status measure_scipy(workspace *w, bench_place *p)
     row.error = discrepancy_relative(runs[i].amplitude - ref->amplitude, ref->amplitude);
     row.error_harmonic_1 = discrepancy_relative(runs[i].harmonic_1 - ref->harmonic_1, ref->amplitude);
     row.repeats = runs[i].n;
-    trial_quartiles(runs[i].n, runs[i].seconds, &row.low, &row.seconds, &row.high);
+    timed_method_quartiles(runs[i].n, runs[i].seconds, &row.low, &row.seconds, &row.high);
     if (!(row.error <= 0.3)) row.outcome = BENCH_OTHER_ORBIT;
     if (add_row(w->out, &row) != HC_OK) st = HC_NO_MEMORY;
     else ++p->n;
@@ -184,11 +185,11 @@ static hc_status measure_scipy(workspace *w, bench_place *p)
 
 static hc_status bench_at(workspace *w, finder *f, double omega)
 {
-  bench_place *p = &w->out->places[w->out->n_places];
+  bench_frequency *p = &w->out->frequencies[w->out->n_frequencies];
   w->done = 0;
-  hc_status st = finder_place(f, omega, &w->monitor, p, &w->start);
+  hc_status st = finder_frequency(f, omega, &w->monitor, p, &w->start);
   if (st != HC_OK) return st;
-  ++w->out->n_places;
+  ++w->out->n_frequencies;
   snprintf(p->scipy, sizeof p->scipy, "not asked for");
   st = measure_ours(w, p);
   if (st == HC_OK && !w->options->alone) st = measure_scipy(w, p);

@@ -60,18 +60,18 @@ typedef struct bench_row {
 } bench_row;
 
 /* One frequency. */
-typedef struct bench_place {
+typedef struct bench_frequency {
   double omega, neighbour;      /* [rad/time] */
   double amplitude, multiplier; /* of the reference: [length], [1] a period */
   double floor;                 /* [1] errors below are taken for it: the reference is no better */
   int first, n;                 /* its rows */
   char scipy[96];               /* version, or why there is no scipy_lsoda */
-} bench_place;
+} bench_frequency;
 
 typedef struct bench {
-  int n_rows, cap, n_places;
+  int n_rows, cap, n_frequencies;
   bench_row *rows;
-  bench_place places[NUMBER_LIST_MAX];
+  bench_frequency frequencies[NUMBER_LIST_MAX];
 } bench;
 
 typedef struct bench_options {
@@ -86,7 +86,7 @@ hc_status bench_run(const scene *sc, const bench_options *options, const hc_moni
                     double *failed_at);
 void bench_clear(bench *b);
 
-/* error_finer and front of the n rows of one place. */
+/* error_finer and front of the n rows of one frequency. */
 void bench_judge(int n, bench_row *rows, double floor);
 
 /* The fastest of the solved rows whose error_finer is within accuracy, or NULL; *second is the fastest of the other

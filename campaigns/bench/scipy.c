@@ -41,7 +41,7 @@ static void add(arguments *a, double value)
   ++a->n;
 }
 
-static void fill(arguments *a, const char *python, const scene *sc, const place_start *at, int periods, int repeats)
+static void fill(arguments *a, const char *python, const scene *sc, const bench_start *at, int periods, int repeats)
 {
   *a = (arguments){.n = 3};
   a->argv[0] = (char *)(size_t)python;
@@ -155,7 +155,7 @@ static int run(const char *python, arguments *a, const hc_monitor *monitor, scip
   return finish(&c);
 }
 
-hc_status scipy_lsoda(const scene *sc, const place_start *at, double multiplier, int repeats, const hc_monitor *monitor,
+hc_status scipy_lsoda(const scene *sc, const bench_start *at, double multiplier, int repeats, const hc_monitor *monitor,
                       scipy_run *runs, int *n, char text[96])
 {
   const char *asked = getenv("PYTHON"),

@@ -3,7 +3,7 @@
 #ifndef HC_BENCH_SCIPY_H
 #define HC_BENCH_SCIPY_H
 
-#include "campaigns/bench/trial.h"
+#include "campaigns/bench/timed_method.h"
 
 enum { SCIPY_MOST_RUNS = 8, SCIPY_MOST_REPEATS = 32 };
 
@@ -17,7 +17,7 @@ typedef struct scipy_run {
  * Into runs, *n of them, and words for people in text[96]: versions, or why there is nothing. No python3 or scipy is
  * HC_OK with *n = 0. $PYTHON says which python3. It gets a few seconds; what it did until then counts.
  * HC_INTERRUPTED. */
-hc_status scipy_lsoda(const scene *sc, const place_start *at, double multiplier, int repeats, const hc_monitor *monitor,
+hc_status scipy_lsoda(const scene *sc, const bench_start *at, double multiplier, int repeats, const hc_monitor *monitor,
                       scipy_run *runs, int *n, char text[96]);
 
 extern const char scipy_script[];

@@ -4,7 +4,7 @@
 
 #include "command/plot/panels.h"
 
-enum { MOST_PLACES = 4 };
+enum { MOST_FREQUENCIES = 4 };
 
 /* Shapes that differ in grey, too: filled for harmonic balance, open for our time integration, crosses for other
  * programs. */
@@ -25,16 +25,16 @@ static bool is_drawn(const bench_row *r)
 }
 
 /* Not below the accuracy of the reference, which limits what can be measured. */
-static double drawn_error(const bench_row *r, const bench_place *p)
+static double drawn_error(const bench_row *r, const bench_frequency *p)
 {
   return fmax(r->error_finer, fmax(p->floor, 1e-16));
 }
 
-static int write_method(figure *g, const bench *b, const bench_place *p, int place, int method)
+static int write_method(figure *g, const bench *b, const bench_frequency *p, int k_omega, int method)
 {
   char name[32];
   int n = 0;
-  snprintf(name, sizeof name, "p%dm%d", place, method);
+  snprintf(name, sizeof name, "p%dm%d", k_omega, method);
   figure_block(g, name);
   for (int i = p->first; i < p->first + p->n; ++i) {
     const bench_row *r = &b->rows[i];
@@ -52,7 +52,7 @@ static int by_time(const void *a, const void *b)
   return x[0] != y[0] ? (x[0] > y[0]) - (x[0] < y[0]) : (x[1] < y[1]) - (x[1] > y[1]);
 }
 
-static hc_status write_front(figure *g, const bench *b, const bench_place *p, int place)
+static hc_status write_front(figure *g, const bench *b, const bench_frequency *p, int k_omega)
 {
   char name[32];
   int n = 0;
@@ -64,7 +64,7 @@ static hc_status write_front(figure *g, const bench *b, const bench_place *p, in
     at[n++][1] = drawn_error(&b->rows[i], p);
   }
   qsort(at, (size_t)n, sizeof *at, by_time);
-  snprintf(name, sizeof name, "front%d", place);
+  snprintf(name, sizeof name, "front%d", k_omega);
   figure_block(g, name);
   for (int i = 0; i < n; ++i) figure_point(g, at[i][0], at[i][1]);
   figure_block_end(g);
@@ -72,28 +72,28 @@ static hc_status write_front(figure *g, const bench *b, const bench_place *p, in
   return HC_OK;
 }
 
-static void place_items(figure *g, int place, const int *count)
+static void put_items(figure *g, int k_omega, const int *count)
 {
   char what[64], look[FIGURE_LOOK];
-  snprintf(what, sizeof what, "$front%d using 1:2 with steps", place);
+  snprintf(what, sizeof what, "$front%d using 1:2 with steps", k_omega);
   figure_item(g, what, figure_look(g, "lw 3 dt 1 lc rgb '#bbbbbb'", 0, look), "nothing is nearer and faster");
   for (int m = 0; m < BENCH_METHODS; ++m) {
     if (!count[m]) continue;
-    snprintf(what, sizeof what, "$p%dm%d using 1:2 with points", place, m);
+    snprintf(what, sizeof what, "$p%dm%d using 1:2 with points", k_omega, m);
     figure_item(g, what, g->letters ? figure_look(g, "", m + 1, look) : looks[m], "%s",
                 bench_method_name((bench_method)m));
   }
 }
 
-static hc_status place_panel(figure *g, const scene *sc, const bench *b, int place)
+static hc_status put_panel(figure *g, const scene *sc, const bench *b, int k_omega)
 {
-  const bench_place *p = &b->places[place];
+  const bench_frequency *p = &b->frequencies[k_omega];
   int count[BENCH_METHODS];
-  hc_status st = write_front(g, b, p, place);
+  hc_status st = write_front(g, b, p, k_omega);
   if (st != HC_OK) return st;
-  for (int m = 0; m < BENCH_METHODS; ++m) count[m] = write_method(g, b, p, place, m);
+  for (int m = 0; m < BENCH_METHODS; ++m) count[m] = write_method(g, b, p, k_omega, m);
   figure_set(g, "title", "ω = %.8g rad/%s", p->omega, sc->unit_time);
-  place_items(g, place, count);
+  put_items(g, k_omega, count);
   figure_draw(g);
   return HC_OK;
 }
@@ -101,10 +101,11 @@ static hc_status place_panel(figure *g, const scene *sc, const bench *b, int pla
 hc_status plot_bench(plot_order *p, const scene *sc, const bench *b)
 {
   figure g = {0};
-  int n = 0, at[MOST_PLACES];
-  for (int k = 0; k < b->n_places && n < MOST_PLACES; ++k) {
+  int n = 0, at[MOST_FREQUENCIES];
+  for (int k = 0; k < b->n_frequencies && n < MOST_FREQUENCIES; ++k) {
     bool any = false;
-    for (int i = b->places[k].first; i < b->places[k].first + b->places[k].n; ++i) any |= is_drawn(&b->rows[i]);
+    for (int i = b->frequencies[k].first; i < b->frequencies[k].first + b->frequencies[k].n; ++i)
+      any |= is_drawn(&b->rows[i]);
     if (any) at[n++] = k;
   }
   if (n == 0) {
@@ -115,12 +116,12 @@ hc_status plot_bench(plot_order *p, const scene *sc, const bench *b)
   hc_status st = figure_open(&g, p, columns * 700, rows * 520);
   if (st == HC_OK) {
     panels_begin(&g, rows, columns, sc->title,
-                 n < b->n_places ? "work and precision at the first frequencies" : "work and precision");
+                 n < b->n_frequencies ? "work and precision at the first frequencies" : "work and precision");
     figure_below(&g, "processor time of one solution [s]");
     figure_set(&g, "ylabel", "relative error of the amplitude, at these or finer settings");
     figure_log(&g, "x");
     figure_log(&g, "y");
-    for (int k = 0; k < n && st == HC_OK; ++k) st = place_panel(&g, sc, b, at[k]);
+    for (int k = 0; k < n && st == HC_OK; ++k) st = put_panel(&g, sc, b, at[k]);
     panels_end(&g);
   }
   return figure_close(&g, st);

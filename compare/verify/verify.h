@@ -5,8 +5,8 @@
  *                 at some of them with the exact law's periodic orbits (the referee of comparison.h)
  *     verdict     per point, against the nearest of those solutions: match, differs, unstable, other_branch,
  *                 solver_failed
- *     hypotheses  our own harmonic balance with usual mistakes in it, and usual misreadings of the columns: the one that
- *                 the points lie on names the cause
+ *     hypotheses  our own harmonic balance with usual mistakes in it, and usual misreadings of the columns: the one
+ *                 that the points lie on names the cause
  *
  * What is not connected to the branch that begins at the sweep's first omega is not seen. Nothing is printed. */
 #ifndef HC_VERIFY_H

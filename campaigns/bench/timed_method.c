@@ -1,5 +1,5 @@
-/* trial.c - see trial.h. */
-#include "campaigns/bench/trial.h"
+/* timed_method.c - see timed_method.h. */
+#include "campaigns/bench/timed_method.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -11,7 +11,7 @@
 #include "campaigns/scene_solvers.h"
 
 const double bench_longest = 1.5, bench_longest_shot = 0.3;
-const double trial_slow = 0.2;
+const double timed_method_slow = 0.2;
 static const double shortest_run = 5e-4; /* [s] the clock is good to a microsecond */
 static const double other_orbit = 0.3;   /* [amplitude] of the waveform: few harmonics are some ten percent off,
                                           another orbit is elsewhere */
@@ -58,7 +58,7 @@ typedef struct answer {
   bool too_long;
 } answer;
 
-static void solve_hbm(trial *t, const place_start *at, double *X, hbm_measures *m, answer *a)
+static void solve_hbm(timed_method *t, const bench_start *at, double *X, hbm_measures *m, answer *a)
 {
   hbm_point point;
   memcpy(X, t->X, sizeof t->X);
@@ -66,7 +66,8 @@ static void solve_hbm(trial *t, const place_start *at, double *X, hbm_measures *
   if (a->status == HC_OK) a->status = hbm_measure(t->hbm, X, m);
 }
 
-static void solve_transient(trial *t, const place_start *at, const hc_monitor *monitor, timeint_result *r, answer *a)
+static void solve_transient(timed_method *t, const bench_start *at, const hc_monitor *monitor, timeint_result *r,
+                            answer *a)
 {
   const bool marches = t->sc.transient.steady == TRANSIENT_STEADY_MARCH;
   limit l = {monitor, thread_seconds() + (marches ? bench_longest : bench_longest_shot), false};
@@ -77,9 +78,9 @@ static void solve_transient(trial *t, const place_start *at, const hc_monitor *m
 }
 
 /* A batch of solutions; the time of one. */
-static double solve(trial *t, const place_start *at, const hc_monitor *monitor, answer *a)
+static double solve(timed_method *t, const bench_start *at, const hc_monitor *monitor, answer *a)
 {
-  double X[TRIAL_MOST_COEF];
+  double X[BENCH_MOST_COEF];
   hbm_measures m;
   timeint_result r;
   *a = (answer){.status = HC_OK};
@@ -95,7 +96,7 @@ static double solve(trial *t, const place_start *at, const hc_monitor *monitor, 
 }
 
 /* Start from the largest solution at the neighbour on the method's own curve. */
-static hc_status from_own_curve(const place_start *at, const hc_monitor *monitor, trial *t)
+static hc_status from_own_curve(const bench_start *at, const hc_monitor *monitor, timed_method *t)
 {
   limit l = {monitor, thread_seconds() + bench_longest_shot, false};
   hc_monitor limited = {tick_limit, &l};
@@ -117,7 +118,7 @@ static hc_status from_own_curve(const place_start *at, const hc_monitor *monitor
 
 /* Workspace and start. The neighbour's solution with these settings is next to that with many harmonics, or on the
  * method's own curve. */
-static hc_status make(const place_start *at, const hc_monitor *monitor, trial *t)
+static hc_status make(const bench_start *at, const hc_monitor *monitor, timed_method *t)
 {
   hbm_point point;
   if (!is_hbm(t->row->method)) return scene_timeint(&t->sc, &t->ti);
@@ -127,7 +128,7 @@ static hc_status make(const place_start *at, const hc_monitor *monitor, trial *t
   return hbm_solve(t->hbm, at->neighbour, t->X, &point) == HC_OK ? HC_OK : from_own_curve(at, monitor, t);
 }
 
-static void record_answer(const answer *a, const place_start *at, double took, bench_row *row)
+static void record_answer(const answer *a, const bench_start *at, double took, bench_row *row)
 {
   const periodic_motion *ref = &at->reference;
   row->status = a->status;
@@ -141,11 +142,11 @@ static void record_answer(const answer *a, const place_start *at, double took, b
   row->seconds = took;
 }
 
-hc_status trial_start(const scene *sc, const place_start *at, bench_row *row, int cap, const hc_monitor *monitor,
-                      trial *t)
+hc_status timed_method_start(const scene *sc, const bench_start *at, bench_row *row, int cap, const hc_monitor *monitor,
+                             timed_method *t)
 {
   answer a;
-  *t = (trial){
+  *t = (timed_method){
       .row = row, .sc = settings_of(sc, row), .cap = cap, .batch = 1, .seconds = calloc((size_t)cap, sizeof(double))};
   if (!t->seconds) return HC_NO_MEMORY;
   hc_status st = make(at, monitor, t);
@@ -158,12 +159,12 @@ hc_status trial_start(const scene *sc, const place_start *at, bench_row *row, in
   double took = solve(t, at, monitor, &a);
   if (a.status == HC_NO_MEMORY || (a.status == HC_INTERRUPTED && !a.too_long)) return a.status;
   record_answer(&a, at, took, row);
-  if (took > trial_slow && row->outcome == BENCH_SOLVED) t->seconds[t->runs++] = took; /* is the only one */
+  if (took > timed_method_slow && row->outcome == BENCH_SOLVED) t->seconds[t->runs++] = took; /* is the only one */
   if (took < shortest_run) t->batch = (int)fmin(ceil(shortest_run / fmax(took, 1e-7)), 1000);
   return HC_OK;
 }
 
-hc_status trial_run(trial *t, const place_start *at, const hc_monitor *monitor)
+hc_status timed_method_run(timed_method *t, const bench_start *at, const hc_monitor *monitor)
 {
   answer a;
   if (t->row->outcome != BENCH_SOLVED || t->runs == t->cap) return HC_OK;
@@ -173,7 +174,7 @@ hc_status trial_run(trial *t, const place_start *at, const hc_monitor *monitor)
   return a.status;
 }
 
-hc_status trial_curve(trial *t, const hc_monitor *monitor)
+hc_status timed_method_curve(timed_method *t, const hc_monitor *monitor)
 {
   limit l = {monitor, thread_seconds() + bench_longest, false};
   hc_monitor limited = {tick_limit, &l};
@@ -187,19 +188,19 @@ hc_status trial_curve(trial *t, const hc_monitor *monitor)
     v[i] = thread_seconds() - began;
     hbm_curve_free(&curve);
   }
-  if (st == HC_OK) trial_quartiles(3, v, &low, &t->row->curve_seconds, &high);
+  if (st == HC_OK) timed_method_quartiles(3, v, &low, &t->row->curve_seconds, &high);
   /* a curve that ends early has no time */
   return l.stopped || st == HC_NO_MEMORY ? (l.stopped ? HC_INTERRUPTED : st) : HC_OK;
 }
 
 static double quantile(int n, const double *v, double at)
 {
-  double place = at * (n - 1);
-  int i = (int)place;
-  return i + 1 < n ? v[i] + (place - i) * (v[i + 1] - v[i]) : v[n - 1];
+  double rank = at * (n - 1);
+  int i = (int)rank;
+  return i + 1 < n ? v[i] + (rank - i) * (v[i + 1] - v[i]) : v[n - 1];
 }
 
-void trial_quartiles(int n, double *v, double *low, double *median, double *high)
+void timed_method_quartiles(int n, double *v, double *low, double *median, double *high)
 {
   qsort(v, (size_t)n, sizeof *v, ascending);
   *low = quantile(n, v, 0.25);
@@ -207,14 +208,14 @@ void trial_quartiles(int n, double *v, double *low, double *median, double *high
   *high = quantile(n, v, 0.75);
 }
 
-void trial_finish(trial *t)
+void timed_method_finish(timed_method *t)
 {
   if (t->row && t->seconds && t->runs > 0) {
     t->row->repeats = t->runs;
-    trial_quartiles(t->runs, t->seconds, &t->row->low, &t->row->seconds, &t->row->high);
+    timed_method_quartiles(t->runs, t->seconds, &t->row->low, &t->row->seconds, &t->row->high);
   }
   free(t->seconds);
   hbm_solver_free(t->hbm);
   timeint_free(t->ti);
-  *t = (trial){0};
+  *t = (timed_method){0};
 }

@@ -1,5 +1,5 @@
-/* place.c - see place.h. */
-#include "campaigns/bench/place.h"
+/* finder.c - see finder.h. */
+#include "campaigns/bench/finder.h"
 
 #include <float.h>
 #include <math.h>
@@ -132,7 +132,7 @@ static bool near(const periodic_motion *a, const periodic_motion *b)
 
 /* The same branch at omega: both sides of it. */
 static bool try_neighbour(finder *f, double omega, const double *X, const scene_state *state, const hc_monitor *monitor,
-                          place_start *start)
+                          bench_start *start)
 {
   hbm_point point;
   hbm_measures m;
@@ -147,25 +147,25 @@ static bool try_neighbour(finder *f, double omega, const double *X, const scene_
   return near(&by_hbm, &by_time) && near(&by_time, &start->reference);
 }
 
-hc_status finder_place(finder *f, double omega, const hc_monitor *monitor, bench_place *place, place_start *start)
+hc_status finder_frequency(finder *f, double omega, const hc_monitor *monitor, bench_frequency *at, bench_start *start)
 {
-  double X[TRIAL_MOST_COEF], distance = first_distance;
+  double X[BENCH_MOST_COEF], distance = first_distance;
   timeint_result r;
   scene_state state = {.x = 0};
-  *place = (bench_place){.omega = omega};
-  *start = (place_start){.omega = omega};
-  hc_status st = largest_stable(f, omega, monitor, X, &state, &r, &place->floor);
-  if (st == HC_OK) st = wait_for(&f->sc, omega, monitor, &state, &r, &place->floor);
+  *at = (bench_frequency){.omega = omega};
+  *start = (bench_start){.omega = omega};
+  hc_status st = largest_stable(f, omega, monitor, X, &state, &r, &at->floor);
+  if (st == HC_OK) st = wait_for(&f->sc, omega, monitor, &state, &r, &at->floor);
   if (st != HC_OK) return st;
   start->reference = motion_of_transient(&r);
-  place->amplitude = r.amplitude;
-  place->multiplier = r.multiplier;
+  at->amplitude = r.amplitude;
+  at->multiplier = r.multiplier;
   /* towards the middle of the sweep first */
   if (omega > 0.5 * (f->sc.omega_from + f->sc.omega_to)) distance = -distance;
   for (int i = 0; i < TRIES; ++i) {
     if (!hc_monitor_tick(monitor, -1)) return HC_INTERRUPTED;
     if (try_neighbour(f, omega * (1 + distance), X, &state, monitor, start)) {
-      place->neighbour = start->neighbour;
+      at->neighbour = start->neighbour;
       return HC_OK;
     }
     distance *= i % 2 ? -0.25 : -1;

@@ -1,11 +1,11 @@
-/* place.h - where methods are compared: a frequency, the reference orbit there, and the solutions next to it from
- * which all methods start. */
-#ifndef HC_BENCH_PLACE_H
-#define HC_BENCH_PLACE_H
+/* finder.h - finds what methods are compared with at a frequency: the reference orbit there, and the solutions at a
+ * neighbouring frequency from which all methods start. */
+#ifndef HC_BENCH_FINDER_H
+#define HC_BENCH_FINDER_H
 
-#include "campaigns/bench/trial.h"
+#include "campaigns/bench/timed_method.h"
 
-/* Looks for places: the response curve by harmonic balance, and the exact law's orbits next to it. */
+/* The response curve by harmonic balance, and the exact law's orbits next to it. */
 typedef struct finder {
   scene sc; /* with harmonics and forces of the curve */
   hbm_solver *hbm;
@@ -20,6 +20,6 @@ void finder_free(finder *f);
 hc_status finder_default(finder *f, double *omega);
 
 /* The largest stable response at omega. HC_NOT_CONVERGED: there is none, or no neighbour of it. */
-hc_status finder_place(finder *f, double omega, const hc_monitor *monitor, bench_place *place, place_start *start);
+hc_status finder_frequency(finder *f, double omega, const hc_monitor *monitor, bench_frequency *at, bench_start *start);
 
 #endif

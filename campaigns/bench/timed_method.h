@@ -1,0 +1,52 @@
+/* timed_method.h - one method with one choice of settings, ready to solve at a frequency, and timed as often as needed.
+ * */
+#ifndef HC_BENCH_TIMED_METHOD_H
+#define HC_BENCH_TIMED_METHOD_H
+
+#include "campaigns/bench/bench.h"
+#include "campaigns/scene_solvers.h"
+#include "compare/motion.h"
+#include "hbm/hbm.h"
+#include "timeint/steady.h"
+
+enum { BENCH_MOST_COEF = 2 * HBM_MAX_HARMONICS + 1 };
+
+/* What all methods start from at one frequency. */
+typedef struct bench_start {
+  double omega, neighbour;   /* [rad/time] */
+  double X[BENCH_MOST_COEF]; /* [length] HBM solution at the neighbour, as many harmonics as there are, then zeros */
+  scene_state state;         /* on the exact orbit at the neighbour */
+  periodic_motion reference; /* at omega */
+} bench_start;
+
+typedef struct timed_method {
+  bench_row *row; /* the caller's; settings are read, outcome and errors written */
+  scene sc;
+  hbm_solver *hbm; /* one of the two */
+  timeint *ti;
+  double X[BENCH_MOST_COEF]; /* the HBM method's own solution at the neighbour */
+  double *seconds;           /* [cap] of each run */
+  int runs, cap, batch;      /* batch: solutions a run, so that a run is long enough for the clock */
+  double spent;              /* [s] */
+} timed_method;
+
+extern const double timed_method_slow; /* [s] of a solution: what takes longer is measured by its first run */
+
+/* Ready to run up to cap times, the first run done: errors and outcome are in the row. HC_INTERRUPTED, HC_NO_MEMORY;
+ * what goes wrong with the method itself is the row's outcome. Free in any case. */
+hc_status timed_method_start(const scene *sc, const bench_start *at, bench_row *row, int cap, const hc_monitor *monitor,
+                             timed_method *t);
+
+/* Once more, timed. */
+hc_status timed_method_run(timed_method *t, const bench_start *at, const hc_monitor *monitor);
+
+/* hbm_exact: what the whole curve takes, into the row; left at NaN when it takes too long. */
+hc_status timed_method_curve(timed_method *t, const hc_monitor *monitor);
+
+/* Median and quartiles of the runs into the row; frees. */
+void timed_method_finish(timed_method *t);
+
+/* Median and quartiles of v[n], which is sorted. */
+void timed_method_quartiles(int n, double *v, double *low, double *median, double *high);
+
+#endif
