@@ -43,7 +43,7 @@ static const field_section sections[] = {
 #define TEXT(member)                                                                                                   \
   .kind = FIELD_TEXT, .unit = "", .offset = offsetof(scene, member), .size = sizeof((scene *)0)->member
 #define CHOICE(names, member)                                                                                          \
-  .kind = FIELD_CHOICE, .unit = "", .choices = names, .offset = offsetof(scene, member),                               \
+  .kind = FIELD_CHOICE, .unit = "", .choices = (names), .offset = offsetof(scene, member),                             \
   .size = sizeof((scene *)0)->member
 #define WITHIN(a, b) .low = (a), .high = (b)
 #define UNBOUNDED    WITHIN(-INFINITY, INFINITY)

@@ -38,6 +38,7 @@ static const struct argp_option options[] = {
     {0},
 };
 
+/* NOLINTNEXTLINE(readability-non-const-parameter): the signature is argp's */
 static error_t read_option(int key, char *text, struct argp_state *state)
 {
   verify_options *own = state->input;

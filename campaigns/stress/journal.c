@@ -6,6 +6,8 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/number.h"
+
 enum { VERSION = 2, LINE = 128 + 96 * STRESS_N_CHECKS };
 
 /* What the columns and codes of a line mean: lists as in stress.h and status.h. */
@@ -34,12 +36,17 @@ static void write_heading(const stress_plan *plan, FILE *file)
 /* Is it of this version, of this plan, with these lists? */
 static hc_status read_heading(const stress_plan *plan, FILE *file)
 {
+  static const char begin[] = "# hbmcheck stress ";
   char line[LINE], expected[LINE];
-  int version = 0;
   if (!fgets(line, sizeof line, file)) return ferror(file) ? HC_IO : HC_BAD_INPUT;
   snprintf(expected, sizeof expected, "# hbmcheck stress %d, seed %lu, %.17g s\n", VERSION, plan->seed, plan->seconds);
-  if (strcmp(line, expected) != 0)
-    return sscanf(line, "# hbmcheck stress %d,", &version) == 1 && version != VERSION ? HC_UNSUPPORTED : HC_BAD_INPUT;
+  if (strcmp(line, expected) != 0) {
+    const char *number = line + sizeof begin - 1;
+    int version = VERSION;
+    if (strncmp(line, begin, sizeof begin - 1) != 0) return HC_BAD_INPUT;
+    number_read_integer(number, strcspn(number, ","), &version); /* what is no number leaves VERSION */
+    return version != VERSION ? HC_UNSUPPORTED : HC_BAD_INPUT;
+  }
   for (int i = 0; i < N_LISTS; ++i)
     if (!fgets(line, sizeof line, file) || strcmp(line, lists[i]) != 0) return ferror(file) ? HC_IO : HC_UNSUPPORTED;
   return HC_OK;

@@ -106,13 +106,14 @@ static bool enclose_peak(climber *c, double low, double high, double *omega, dou
   return false;
 }
 
-/* From omega on, where states[0..n_states) is next to an orbit. False: *out is untouched. */
-static bool climb(const compare_setup *setup, timeint *ti, double omega, double *states, reference *out)
+/* From omega on, where state[n_states] is next to an orbit; scratch[n_states]. False: *out is untouched. */
+static bool climb(const compare_setup *setup, timeint *ti, double omega, const double *state, double *scratch,
+                  reference *out)
 {
   const double low = fmin(setup->omega_from, setup->omega_to), high = fmax(setup->omega_from, setup->omega_to);
   const model *m = setup->model;
   const double width = fmin(m->damping > 0 ? m->damping / (2 * m->mass) : omega, 0.1 * omega);
-  climber c = {ti, states, states + timeint_n_states(ti)};
+  climber c = {ti, state, scratch};
   double d = 0.02 * width, f[3] = {NAN, NAN, NAN};
   if (minus_amplitude(&c, omega, &f[1]) != HC_OK) return false;
   root_point peak;
@@ -134,7 +135,8 @@ static void find_peak(const compare_setup *setup, timeint *ti, double *states, h
   if (curve->n > 0 && hbm_curve_peak(hbm, curve, &peak) == HC_OK && peak.n > 0 &&
       hbm_measure(hbm, peak.X, &m) == HC_OK) {
     double omega = peak.points[0].omega;
-    if (comparison_orbit_start(hbm, peak.X, omega, states) != HC_OK || !climb(setup, ti, omega, states, out))
+    if (comparison_orbit_start(hbm, peak.X, omega, states) != HC_OK ||
+        !climb(setup, ti, omega, states, states + timeint_n_states(ti), out))
       out->peak_amplitude = m.amplitude, out->peak_omega = omega;
   }
   hbm_curve_free(&peak);
