@@ -106,19 +106,17 @@ static bool enclose_peak(climber *c, double low, double high, double *omega, dou
   return false;
 }
 
-/* From omega on, where state[n_states] is next to an orbit; scratch[n_states]. False: *out is untouched. */
-static bool climb(const compare_setup *setup, timeint *ti, double omega, const double *state, double *scratch,
-                  reference *out)
+/* From omega on, where c->state is next to an orbit. False: *out is untouched. */
+static bool climb(const compare_setup *setup, climber *c, double omega, reference *out)
 {
   const double low = fmin(setup->omega_from, setup->omega_to), high = fmax(setup->omega_from, setup->omega_to);
   const model *m = setup->model;
   const double width = fmin(m->damping > 0 ? m->damping / (2 * m->mass) : omega, 0.1 * omega);
-  climber c = {ti, state, scratch};
   double d = 0.02 * width, f[3] = {NAN, NAN, NAN};
-  if (minus_amplitude(&c, omega, &f[1]) != HC_OK) return false;
+  if (minus_amplitude(c, omega, &f[1]) != HC_OK) return false;
   root_point peak;
-  if (enclose_peak(&c, low, high, &omega, &d, f)) /* flat: 2e-5 of the width are 2e-10 of the amplitude */
-    root_minimum(minus_amplitude, &c, omega - d, f[0], omega, f[1], omega + d, f[2], 2e-5 * width, &peak);
+  if (enclose_peak(c, low, high, &omega, &d, f)) /* flat: 2e-5 of the width are 2e-10 of the amplitude */
+    root_minimum(minus_amplitude, c, omega - d, f[0], omega, f[1], omega + d, f[2], 2e-5 * width, &peak);
   else peak = (root_point){.x = omega, .f = f[1]};
   if (isnan(peak.f)) return false;
   out->peak_amplitude = -peak.f; /* the highest found, also where an orbit in between is missing */
@@ -135,8 +133,8 @@ static void find_peak(const compare_setup *setup, timeint *ti, double *states, h
   if (curve->n > 0 && hbm_curve_peak(hbm, curve, &peak) == HC_OK && peak.n > 0 &&
       hbm_measure(hbm, peak.X, &m) == HC_OK) {
     double omega = peak.points[0].omega;
-    if (comparison_orbit_start(hbm, peak.X, omega, states) != HC_OK ||
-        !climb(setup, ti, omega, states, states + timeint_n_states(ti), out))
+    climber c = {ti, states, states + timeint_n_states(ti)};
+    if (comparison_orbit_start(hbm, peak.X, omega, states) != HC_OK || !climb(setup, &c, omega, out))
       out->peak_amplitude = m.amplitude, out->peak_omega = omega;
   }
   hbm_curve_free(&peak);
