@@ -74,36 +74,6 @@ hc_status root_between(root_function *f, void *self, double a, double fa, double
   }
 }
 
-hc_status root_between_newton(root_function_derivative *f, void *self, double a, double fa, double b, double fb,
-                              double tolerance, root_point *out)
-{
-  *out = (root_point){NAN, NAN, 0, NAN};
-  if (!isfinite(a) || !isfinite(b) || !opposite(fa, fb)) return HC_BAD_INPUT;
-  double part = fa / (fa - fb), x = a + (part > 0 && part < 1 ? part : 0.5) * (b - a);
-  double step = b - a, before = step; /* the last step and the one before it */
-  out->x = fabs(fa) <= fabs(fb) ? a : b;
-  out->f = fabs(fa) <= fabs(fb) ? fa : fb;
-  for (;;) {
-    double value, derivative;
-    hc_status st = count_evaluation(out);
-    if (st == HC_OK) st = f(self, x, &value, &derivative);
-    if (st == HC_OK && isnan(value)) st = HC_NOT_FINITE;
-    if (st != HC_OK) return st;
-    out->x = x, out->f = value;
-    if (value == 0) return HC_OK;
-    if ((value > 0) == (fa > 0)) a = x;
-    else b = x;
-    double wanted = at_least_rounding(tolerance, x), next = x - value / derivative;
-    bool inside = (next - a) * (b - next) >= 0, slow = !(fabs(next - x) <= 0.5 * fabs(before)); /* slow if NaN */
-    if (!inside || slow) next = 0.5 * (a + b);
-    before = step;
-    step = next - x;
-    out->x = next;
-    if (fabs(step) <= wanted) return HC_OK;
-    x = next;
-  }
-}
-
 /* The three lowest points, f(x) <= f(w) <= f(v), between the ends a and b. */
 typedef struct valley {
   double a, b, x, fx, w, fw, v, fv;

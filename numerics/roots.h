@@ -23,8 +23,6 @@ typedef struct root_point {
 
 /* *f = f(x); self is the caller's. */
 typedef hc_status root_function(void *self, double x, double *f);
-/* *f = f(x), *derivative = f'(x). */
-typedef hc_status root_function_derivative(void *self, double x, double *f, double *derivative);
 /* *beyond: does x lie beyond the change? */
 typedef hc_status root_predicate(void *self, double x, bool *beyond);
 
@@ -33,11 +31,6 @@ typedef hc_status root_predicate(void *self, double x, bool *beyond);
  * Adv. Eng. Softw. 28 (1997) 145). The change lies within `tolerance` of out->x, unless out->f is 0. */
 hc_status root_between(root_function *f, void *self, double a, double fa, double b, double fb, double tolerance,
                        root_point *out);
-
-/* The same with a derivative: Newton, and bisection where that would leave the bracket or converge more slowly. Ends
- * with a Newton step of at most `tolerance`, which is not evaluated again: out->f is the value before it. */
-hc_status root_between_newton(root_function_derivative *f, void *self, double a, double fa, double b, double fb,
-                              double tolerance, root_point *out);
 
 /* A minimum of f between a and b (a < b), m between them being no higher than either end: f(m) = fm <= f(a) = fa,
  * f(b) = fb. Parabolas through the three lowest points, else golden section (Brent 1973, ch. 5). out->x is within

@@ -15,7 +15,7 @@ static const double off_curve = 0.01;
 /* ---- where the curve goes ---- */
 
 /* The curve is drawn with straight lines, so points are added: BETWEEN steps from one to the next, on the cubic of
- * hbm/curve.h. */
+ * hbm/segment.h. */
 enum { BETWEEN = 4 };
 
 static hc_status measure_point(hbm_solver *s, double omega, const double *X, bool judge, curve_point *p)

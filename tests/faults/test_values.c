@@ -1,5 +1,5 @@
 /* test_values.c - NaN and infinity at the n-th evaluation of the contact force (hbm/exact_force.c, hbm/aft.c) or of the
- * right-hand side of the regularised law (timeint/model.c), with the status of a good evaluation or the one it owes:
+ * right-hand side of the regularised law (timeint/scaled.c), with the status of a good evaluation or the one it owes:
  * no hang, no wrong answer, and the handle is not poisoned: asked again it answers what a new one answers, bit for
  * bit. */
 #include "campaigns/scene_solvers.h"

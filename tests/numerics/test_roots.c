@@ -7,7 +7,7 @@
 #include "tests/check.h"
 
 typedef struct watched { /* a function under search */
-  double (*f)(double), (*derivative)(double);
+  double (*f)(double);
   double a, b;         /* the ends: no evaluation is to be made there */
   int calls, fails_at; /* the call that fails; 0: none */
   double last;
@@ -22,37 +22,25 @@ static hc_status value_of(void *self, double x, double *f)
   return ++w->calls == w->fails_at ? HC_STALLED : HC_OK;
 }
 
-static hc_status value_and_derivative_of(void *self, double x, double *f, double *derivative)
-{
-  watched *w = self;
-  *derivative = w->derivative(x);
-  return value_of(self, x, f);
-}
-
 static double cubic(double x) { return x * x * x - 2 * x - 5; } /* Wallis's */
-static double cubic_derivative(double x) { return 3 * x * x - 2; }
 static double fixed_cosine(double x) { return cos(x) - x; }
-static double fixed_cosine_derivative(double x) { return -sin(x) - 1; }
 static double growth(double x) { return exp(x) - 3; }
 static double saturated(double x) { return atan(50 * (x - 1.0 / 3)); }
-static double saturated_derivative(double x) { return 50 / (1 + 2500 * (x - 1.0 / 3) * (x - 1.0 / 3)); }
 static double flat(double x) { return pow(x - 0.7, 9); }
-static double flat_derivative(double x) { return 9 * pow(x - 0.7, 8); }
 static double jump(double x) { return x > 0.7 ? 1e9 : -1e-9; }
 static double pole(double x) { return x > 0.7 ? 1 / (x - 0.7) : x < 0.7 ? 1 / (x - 0.7) : INFINITY; }
-static double nothing(double x) { return 0 * x; }
 
 static const struct {
   const char *name;
-  double (*f)(double), (*derivative)(double);
+  double (*f)(double);
   double a, b, root;
   bool simple; /* the root is, and the function is smooth over the whole bracket */
 } cases[] = {
-    {"cubic", cubic, cubic_derivative, 2, 3, 2.0945514815423265914823865405793, true},
-    {"cos x = x", fixed_cosine, fixed_cosine_derivative, 0, 1, 0.73908513321516064165531208767387, true},
-    {"exp", growth, exp, -1, 4, 1.0986122886681096913952452369225, true},
-    {"atan", saturated, saturated_derivative, -2, 9, 1.0 / 3, false},
-    {"ninth power", flat, flat_derivative, 0, 1, 0.7, false},
+    {"cubic", cubic, 2, 3, 2.0945514815423265914823865405793, true},
+    {"cos x = x", fixed_cosine, 0, 1, 0.73908513321516064165531208767387, true},
+    {"exp", growth, -1, 4, 1.0986122886681096913952452369225, true},
+    {"atan", saturated, -2, 9, 1.0 / 3, false},
+    {"ninth power", flat, 0, 1, 0.7, false},
 };
 enum { CASES = sizeof cases / sizeof *cases };
 
@@ -99,56 +87,14 @@ static void jumps_and_poles_cost_a_bisection(void **state)
 }
 
 static double line(double x) { return x - 0.25; }
-static double line_derivative(double x) { return 1 + 0 * x; }
 
 static void a_straight_line_takes_one_evaluation(void **state)
 {
   (void)state;
-  watched w = {.f = line, .derivative = line_derivative, .a = -0.75, .b = 2.25};
+  watched w = {.f = line, .a = -0.75, .b = 2.25};
   root_point root;
   assert_int_equal(root_between(value_of, &w, -0.75, -1, 2.25, 2, 1e-9, &root), HC_OK);
   assert_true(root.x == 0.25 && root.f == 0 && root.evaluations == 1);
-  hc_status st = root_between_newton(value_and_derivative_of, &w, -0.75, -1, 2.25, 2, 1e-9, &root);
-  assert_int_equal(st, HC_OK);
-  assert_true(root.x == 0.25 && root.f == 0 && root.evaluations == 1);
-}
-
-/* Twice the bracket's halving at worst: a Newton step is taken if it is at most half of the one before the last. */
-static void newton_needs_fewer_and_is_as_safe(void **state)
-{
-  (void)state;
-  for (int i = 0; i < CASES; ++i)
-    for (int swapped = 0; swapped < 2; ++swapped) {
-      double a = swapped ? cases[i].b : cases[i].a, b = swapped ? cases[i].a : cases[i].b;
-      watched w = {.f = cases[i].f, .derivative = cases[i].derivative, .a = a, .b = b};
-      root_point root;
-      hc_status st = root_between_newton(value_and_derivative_of, &w, a, w.f(a), b, w.f(b), 1e-14, &root);
-      assert_int_equal(st, HC_OK);
-      /* ninth power: Newton's step is a ninth of what is left */
-      double off = reach(1e-14, cases[i].root) * (cases[i].f == flat ? 9 : 1);
-      CHECK_NEAR(root.x, cases[i].root, off, "%s", cases[i].name);
-      assert_int_equal(root.evaluations, w.calls);
-      /* order 2: 1, 2, 4, 8, 16 digits, and three before it converges */
-      CHECK_LE(w.calls, cases[i].simple ? 8 : 2 * log2((fabs(b - a)) / 1e-14), "%s", cases[i].name);
-    }
-}
-
-static double no_number(double x) { return NAN * x; }
-static double backwards(double x) { return -cubic_derivative(x); }
-
-/* A derivative that is 0, NaN or wrong in sign costs bisections and changes no answer. */
-static void newton_survives_a_bad_derivative(void **state)
-{
-  (void)state;
-  double (*const bad[])(double) = {nothing, no_number, backwards};
-  for (int i = 0; i < 3; ++i) {
-    watched w = {.f = cubic, .derivative = bad[i], .a = 2, .b = 3};
-    root_point root;
-    hc_status st = root_between_newton(value_and_derivative_of, &w, 2, cubic(2), 3, cubic(3), 1e-12, &root);
-    assert_int_equal(st, HC_OK);
-    CHECK_NEAR(root.x, cases[0].root, 1e-12, "%d", i);
-    CHECK_LE(w.calls, 2 * log2(1 / 1e-12), "%d", i);
-  }
 }
 
 /* 0 counts as not positive. At an end it is the answer if nothing between changes sign. */
@@ -177,8 +123,6 @@ static void what_is_no_bracket_is_refused(void **state)
   for (size_t i = 0; i < sizeof bad / sizeof *bad; ++i) {
     const double *k = bad[i];
     assert_int_equal(root_between(value_of, &w, k[0], k[1], k[2], k[3], 1e-9, &root), HC_BAD_INPUT);
-    hc_status st = root_between_newton(value_and_derivative_of, &w, k[0], k[1], k[2], k[3], 1e-9, &root);
-    assert_int_equal(st, HC_BAD_INPUT);
   }
   static const double no_valley[][6] = {
       {0, 1, 1, 2, 2, 3}, {0, 3, 1, 2, 2, 1}, {0, 1, 0, 0, 1, 1}, {1, 1, 0.5, 0, 0, 1}, {0, 1, 0.5, NAN, 1, 1}};
@@ -190,7 +134,6 @@ static void what_is_no_bracket_is_refused(void **state)
 }
 
 static double holed(double x) { return x > 0.4 && x < 0.9 ? NAN : x - 0.7; }
-static double holed_derivative(double x) { return holed(x) * 0 + 1; }
 static double parabola(double x) { return (x - 0.7) * (x - 0.7) + 1e-3 * x; }
 
 /* The function's own status comes back at once, NaN is HC_NOT_FINITE, and what is known by then is kept. */
@@ -199,25 +142,20 @@ static void a_failure_ends_the_search(void **state)
   (void)state;
   root_point root;
   for (int at = 1; at < 5; ++at) {
-    watched w = {.f = cubic, .derivative = cubic_derivative, .a = -9, .b = 9, .fails_at = at};
+    watched w = {.f = cubic, .a = -9, .b = 9, .fails_at = at};
     assert_int_equal(root_between(value_of, &w, -9, cubic(-9), 9, cubic(9), 1e-15, &root), HC_STALLED);
     assert_int_equal(w.calls, at);
     assert_int_equal(root.evaluations, at);
     CHECK_LE(fabs(root.f), fabs(cubic(9)), "no worse than the ends");
     assert_true(root.f == cubic(root.x));
-    w.calls = 0;
-    hc_status st = root_between_newton(value_and_derivative_of, &w, -9, cubic(-9), 9, cubic(9), 1e-15, &root);
-    assert_int_equal(st, HC_STALLED);
-    assert_int_equal(w.calls, at);
     watched v = {.f = parabola, .a = -9, .b = 9, .fails_at = at};
-    st = root_minimum(value_of, &v, -9, parabola(-9), 0, parabola(0), 9, parabola(9), 1e-15, &root);
+    hc_status st = root_minimum(value_of, &v, -9, parabola(-9), 0, parabola(0), 9, parabola(9), 1e-15, &root);
     assert_int_equal(st, HC_STALLED);
     CHECK_LE(root.f, parabola(0), "no worse than the start");
     assert_true(root.x != v.last);
   }
-  watched w = {.f = holed, .derivative = holed_derivative, .a = 0, .b = 1};
+  watched w = {.f = holed, .a = 0, .b = 1};
   assert_int_equal(root_between(value_of, &w, 0, -0.7, 1, 0.3, 1e-9, &root), HC_NOT_FINITE);
-  assert_int_equal(root_between_newton(value_and_derivative_of, &w, 0, -0.7, 1, 0.3, 1e-9, &root), HC_NOT_FINITE);
   assert_int_equal(root_minimum(value_of, &w, 0, 1, 0.5, 0, 1, 1, 1e-9, &root), HC_NOT_FINITE);
 }
 
@@ -227,7 +165,7 @@ static double tiny_jump(double x) { return x > 1e-300 ? 1 : -1; }
 static void a_search_that_would_not_end_is_given_up(void **state)
 {
   (void)state;
-  watched w = {.f = tiny_jump, .derivative = nothing, .a = -1, .b = 0.9};
+  watched w = {.f = tiny_jump, .a = -1, .b = 0.9};
   root_point root;
   assert_int_equal(root_between(value_of, &w, -1, -1, 0.9, 1, 0, &root), HC_NOT_CONVERGED);
   assert_int_equal(w.calls, ROOTS_MAX_EVALUATIONS);
@@ -326,8 +264,6 @@ static void a_change_is_bisected(void **state)
 static const struct CMUnitTest tests[] = {
     cmocka_unit_test(roots_are_found_from_either_side),
     cmocka_unit_test(jumps_and_poles_cost_a_bisection),
-    cmocka_unit_test(newton_needs_fewer_and_is_as_safe),
-    cmocka_unit_test(newton_survives_a_bad_derivative),
     cmocka_unit_test(an_end_may_be_the_root),
     cmocka_unit_test(what_is_no_bracket_is_refused),
     cmocka_unit_test(a_failure_ends_the_search),
