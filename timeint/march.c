@@ -1,4 +1,4 @@
-/* march.c - see march.h. The first period is integrated with the finest tolerance of CVODE
+/* march.c - see march.c - see march.h. The first period is integrated with the finest tolerance of CVODE
  * (timeint_final_tolerance), to see how much the state moves; the next ones with a tolerance as coarse as that
  * allows, and a finer one as the state moves less. Only with the finest is the orbit judged (settle.h), and its
  * period or k periods measured. */
@@ -28,11 +28,11 @@ static hc_status one_period(timeint *ti, bool measured)
 }
 
 /* How a march is going. */
-typedef struct progress {
+typedef struct march {
   int periods;        /* at this tolerance */
   double contraction; /* measured while the drift was last far above the scatter, NaN before */
   double amplitude;   /* of the last measurement, INFINITY before; the size of the state also counts its mean */
-} progress;
+} march;
 
 /* The coarsest steps that a state moving as this one does allows. */
 static double coarsest_allowed(const timeint *ti)
@@ -41,35 +41,35 @@ static double coarsest_allowed(const timeint *ti)
   return fmax(fmin(moves / drift_over_tolerance, coarsest), timeint_final_tolerance(ti));
 }
 
-static hc_status use_tolerance(timeint *ti, progress *p, double tolerance)
+static hc_status use_tolerance(timeint *ti, march *m, double tolerance)
 {
-  p->periods = 0;
+  m->periods = 0;
   settle_restart(ti->settle); /* another tolerance has another fixed point */
   return timeint_set_tolerance(ti, tolerance);
 }
 
-static hc_status start(timeint *ti, progress *p)
+static hc_status start(timeint *ti, march *m)
 {
-  *p = (progress){.contraction = NAN, .amplitude = INFINITY};
+  *m = (march){.contraction = NAN, .amplitude = INFINITY};
   settle_start(ti->settle, ti->contraction);
   push(ti);
-  return use_tolerance(ti, p, timeint_final_tolerance(ti));
+  return use_tolerance(ti, m, timeint_final_tolerance(ti));
 }
 
 /* After each period: a coarser tolerance after the first, a finer one once the state moves too little for the
  * present. */
-static hc_status adapt_tolerance(timeint *ti, progress *p)
+static hc_status adapt_tolerance(timeint *ti, march *m)
 {
   const double allowed = coarsest_allowed(ti), finest = timeint_final_tolerance(ti);
-  if (ti->periods == 1) return allowed > finest ? use_tolerance(ti, p, allowed) : HC_OK;
+  if (ti->periods == 1) return allowed > finest ? use_tolerance(ti, m, allowed) : HC_OK;
   bool far = allowed >= ti->tolerance && allowed > finest;
-  if (far) p->contraction = settle_rate(ti->settle);
-  if (ti->tolerance <= finest || (far && ++p->periods < MOST_BASELINES * settle_baseline(ti->settle))) return HC_OK;
-  return use_tolerance(ti, p, fmax(finest, refine_by * ti->tolerance));
+  if (far) m->contraction = settle_rate(ti->settle);
+  if (ti->tolerance <= finest || (far && ++m->periods < MOST_BASELINES * settle_baseline(ti->settle))) return HC_OK;
+  return use_tolerance(ti, m, fmax(finest, refine_by * ti->tolerance));
 }
 
 /* The next k periods into *r, and how near the orbit they are. */
-static hc_status measure_orbit(timeint *ti, int k, progress *p, timeint_result *r)
+static hc_status measure_orbit(timeint *ti, int k, march *m, timeint_result *r)
 {
   measure_begin(&ti->measure, &ti->scaled);
   for (int i = 0; i < k; ++i) {
@@ -79,9 +79,9 @@ static hc_status measure_orbit(timeint *ti, int k, progress *p, timeint_result *
   measure_report(&ti->measure, ti->model, ti->length, r);
   settle_estimate e = settle_judge(ti->settle, ti->how.tolerance * r->amplitude);
   r->closure = e.distance / r->amplitude;
-  r->contraction = isnan(e.contraction) ? p->contraction : e.contraction;
+  r->contraction = isnan(e.contraction) ? m->contraction : e.contraction;
   r->period_multiple = e.multiple;
-  p->amplitude = r->amplitude;
+  m->amplitude = r->amplitude;
   return HC_OK;
 }
 
@@ -98,16 +98,16 @@ static int seems_settled(const timeint *ti, double amplitude)
 hc_status march_to_steady_state(timeint *ti, const hc_monitor *monitor, timeint_result *r)
 {
   const int most = ti->how.max_periods;
-  progress p;
-  hc_status st = start(ti, &p);
+  march m;
+  hc_status st = start(ti, &m);
   r->method = TIMEINT_BY_MARCHING;
   while (st == HC_OK && ti->periods < most - 1) {
     if (!hc_monitor_tick(monitor, (double)ti->periods / most)) return HC_INTERRUPTED;
-    if ((st = one_period(ti, false)) != HC_OK || (st = adapt_tolerance(ti, &p)) != HC_OK) return st;
-    int k = seems_settled(ti, fmin(p.amplitude, timeint_size(ti)));
+    if ((st = one_period(ti, false)) != HC_OK || (st = adapt_tolerance(ti, &m)) != HC_OK) return st;
+    int k = seems_settled(ti, fmin(m.amplitude, timeint_size(ti)));
     if (k == 0 || ti->periods + k > most) continue;
-    if ((st = measure_orbit(ti, k, &p, r)) != HC_OK || r->period_multiple > 0) return st;
+    if ((st = measure_orbit(ti, k, &m, r)) != HC_OK || r->period_multiple > 0) return st;
   }
-  if (st == HC_OK && ti->periods < most) st = measure_orbit(ti, 1, &p, r);
+  if (st == HC_OK && ti->periods < most) st = measure_orbit(ti, 1, &m, r);
   return st == HC_OK && r->period_multiple == 0 ? HC_NOT_SETTLED : st;
 }
