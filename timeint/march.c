@@ -1,4 +1,4 @@
-/* march.c - see march.c - see march.h. The first period is integrated with the finest tolerance of CVODE
+/* march.c - see march.h. The first period is integrated with the finest tolerance of CVODE
  * (timeint_final_tolerance), to see how much the state moves; the next ones with a tolerance as coarse as that
  * allows, and a finer one as the state moves less. Only with the finest is the orbit judged (settle.h), and its
  * period or k periods measured. */
