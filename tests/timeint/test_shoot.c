@@ -125,7 +125,7 @@ static void check_orbit(const scene *sc, int law, scene_state y, const timeint_r
   for (int i = 0; i < 3; ++i)
     CHECK_NEAR(image[i], z[i], (norm + 1) * tolerance, "law %d, state %d after a period at %g", law, i, r->omega);
   const double of_phi = law == TRANSIENT_LAW_EXACT ? 1e-6 : 1e-6 * sqrt((double)r->steps / r->periods);
-  const double off = nearest_eigenvalue(phi, CMPLX(r->multiplier_re, r->multiplier_im), &largest);
+  const double off = nearest_eigenvalue(phi, r->multiplier_re + I * r->multiplier_im, &largest);
   CHECK_LE(off, 10 * of_phi, "law %d: multiplier %g at %g", law, r->multiplier, r->omega);
   CHECK_NEAR(largest, r->multiplier, 10 * of_phi, "law %d: none is larger at %g", law, r->omega);
   integrate_free(map.in);
@@ -205,7 +205,7 @@ static void k_periods_multiply(void **state)
     assert_int_equal(timeint_steady(ti, cases[i].omega, y.all, NULL, &once), HC_OK);
     for (int k = 2; k <= 5; ++k) {
       assert_int_equal(timeint_orbit(ti, cases[i].omega, k, y.all, NULL, &r), HC_OK);
-      const double complex power = cpow(CMPLX(once.multiplier_re, once.multiplier_im), k);
+      const double complex power = cpow(once.multiplier_re + I * once.multiplier_im, k);
       CHECK_NEAR(r.multiplier, pow(once.multiplier, k), 1e-8 * k, "case %d, k = %d", i, k);
       CHECK_NEAR(r.multiplier_re, creal(power), 1e-8 * k, "case %d, k = %d", i, k);
       CHECK_NEAR(fabs(r.multiplier_im), fabs(cimag(power)), 1e-8 * k, "case %d, k = %d", i, k);
