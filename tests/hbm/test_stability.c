@@ -404,12 +404,51 @@ static void a_slider_shaken_down_is_held(void **state)
   hbm_solver_free(s);
 }
 
+/* Between the turning point of H harmonics, where det dR/dX changes sign, and the orbit whose multiplier is 1, the two
+ * contradict each other, and the verdict is "unknown". Past the turning point det dR/dX has the other sign. */
+static void the_determinant_has_its_say(void **state)
+{
+  (void)state;
+  scene sc = exact_scene("c2", 3);
+  hbm_solver *s;
+  hbm_curve curve = {0};
+  hbm_special at[32];
+  int n, contradictions = 0, checked = 0;
+  assert_int_equal(scene_hbm_solver(&sc, &s), HC_OK);
+  assert_int_equal(hbm_trace(s, 3, 20, NULL, &curve), HC_OK);
+  assert_int_equal(hbm_specials(s, &curve, 32, at, &n), HC_OK);
+  assert_true(n <= 32);
+  for (int i = 0; i < n; ++i) {
+    if (at[i].kind != HBM_TURNING_POINT) continue;
+    for (double d = 1e-1; d > 1e-7; d *= 0.5)
+      for (int side = -1; side <= 1; side += 2) {
+        hbm_curve found = {0};
+        assert_int_equal(hbm_curve_at(s, &curve, at[i].omega + side * d, &found), HC_OK);
+        for (int k = 0; k < found.n; ++k) {
+          hbm_stability st;
+          assert_int_equal(hbm_stability_at(s, found.points[k].omega, hbm_curve_X(&found, k), &st), HC_OK);
+          bool agrees = (found.points[k].branch % 2 == 0) == (st.fold > 0);
+          assert_int_equal(st.agrees, agrees);
+          if (!agrees) assert_int_equal(hbm_stability_verdict(&st), 0);
+          contradictions += !agrees;
+          ++checked;
+        }
+        hbm_curve_free(&found);
+      }
+  }
+  print_message("%d of %d contradict\n", contradictions, checked);
+  assert_true(contradictions > 0 && contradictions < checked);
+  hbm_curve_free(&curve);
+  hbm_solver_free(s);
+}
+
 static const struct CMUnitTest tests[] = {
     cmocka_unit_test(a_linear_oscillator_has_the_exponentials_of_its_eigenvalues),
     cmocka_unit_test(without_slip_the_determinant_is_that_of_the_damping),
     cmocka_unit_test(slipping_orbits_against_differences_of_the_period_map),
     cmocka_unit_test(two_contacts_against_differences_of_the_period_map),
     cmocka_unit_test(a_slider_shaken_down_is_held),
+    cmocka_unit_test(the_determinant_has_its_say),
 };
 
 CHECK_MAIN("hbm.stability", tests, 200)

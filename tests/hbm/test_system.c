@@ -1,0 +1,37 @@
+/* test_system.c - what residuals are compared with: the sizes of the forces, added by hand. */
+#include "campaigns/scene_solvers.h"
+#include "hbm/hbm.h"
+#include "hbm/hbm_solver_impl.h"
+#include "tests/hbm/scenes.h"
+#include "tests/scene_parts.h"
+
+/* Inertia, damping, spring and forcing of each harmonic count in full, also at resonance, K = M omega^2, where their
+ * sum is small; and so does the contact force. In units of their own size each: 4 roundings a harmonic. */
+static void forces_add_up_and_never_cancel(void **state)
+{
+  (void)state;
+  scene sc = scene_named("c2", 2, true, 64);
+  sc.hbm.force = HBM_FORCE_EXACT;
+  sc.mass = 2, sc.damping = 0.5, sc.stiffness = 18, sc.force = 7;
+  const double X[] = {-0.1, 0.3, -0.4, 0.06, 0.08}, omega = 3; /* |a + i b| = 0.5 and 0.1 */
+  const double inertia = 2 * 9 * 0.5 + 2 * 36 * 0.1, damper = 0.5 * 3 * 0.5 + 0.5 * 6 * 0.1,
+               spring = 18 * (0.1 + 0.5 + 0.1);
+  double R[5];
+  hbm_solver *s;
+  sc.contacts[0].law.gap = 9; /* closed all the time, and stuck: F = (kt cos^2 + kn sin^2) x */
+  assert_int_equal(scene_hbm_solver(&sc, &s), HC_OK);
+  const double held = scene_stuck_stiffness(&sc.contacts[0]) * (0.1 + 0.5 + 0.1);
+  assert_int_equal(hbm_system_residual(&s->sys, omega, X, R), HC_OK);
+  const double scale = inertia + damper + spring + held + 7;
+  CHECK_NEAR(hbm_system_scale(&s->sys, omega), scale, 16 * DBL_EPSILON * scale, "closed and stuck");
+  hbm_solver_free(s);
+  sc.contacts[0].law.gap = -9; /* never closed */
+  assert_int_equal(scene_hbm_solver(&sc, &s), HC_OK);
+  assert_int_equal(hbm_system_residual(&s->sys, omega, X, R), HC_OK);
+  CHECK_NEAR(hbm_system_scale(&s->sys, omega), scale - held, 16 * DBL_EPSILON * scale, "never closed");
+  hbm_solver_free(s);
+}
+
+static const struct CMUnitTest tests[] = {cmocka_unit_test(forces_add_up_and_never_cancel)};
+
+CHECK_MAIN("hbm.system", tests, 20)
