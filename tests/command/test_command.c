@@ -134,6 +134,8 @@ static void mistakes_are_named(void **state)
   expect("frf " CASE2 "--at 5,,6 2>&1", 64, "--at");
   expect("frf 2>&1", 64, "CASE");
   expect("fry 2>&1", 64, "not a command");
+  expect("frf a.yaml b.yaml 2>&1", 64, "one argument too many");
+  expect("stress a.yaml 2>&1", 64, "one argument too many");
   expect("2>&1", 64, "usage");
   expect("contact " CASE2 "--motion 0,1 2>&1", 64, "odd number");
   expect("contact " CASE2 "--motion 0,x,1 2>&1", 64, "'x'");
