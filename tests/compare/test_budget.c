@@ -183,6 +183,34 @@ static void more_regularisation_is_regularisation(void **state)
   expect_cause("regularisation", &sc, 1e-4);
 }
 
+/* The exact law with loose steps, against the same with fine ones, whose own error is 1e-12: its tolerance 1e-9 is a
+ * millionth of the loose one, which is off by 2e-6 and less. Rounding of the amplitudes, 1e-15, is nothing beside. */
+static void integration_is_the_distance_to_fine_steps(void **state)
+{
+  (void)state;
+  scene sc = known_scene(20);
+  comparison loose, fine;
+  int seen = 0;
+  sc.transient.steady = TRANSIENT_STEADY_SHOOTING;
+  sc.transient.tolerance = 1e-3;
+  assert_int_equal(scene_comparison_run(&sc, NULL, &loose), HC_OK);
+  sc.transient.tolerance = 1e-9;
+  assert_int_equal(scene_comparison_run(&sc, NULL, &fine), HC_OK);
+  assert_int_equal(loose.n_rows, fine.n_rows);
+  for (int k = 0; k < loose.n_rows; ++k) {
+    const comparison_row *row = &loose.rows[k];
+    if (!row->budget.known || row->transient.method == TIMEINT_BY_CLOSED_FORM) continue;
+    double T = row->transient.amplitude, off = fabs(fine.rows[k].transient.amplitude - T) / T;
+    assert_true(row->budget.against_transient && off > 1e-8);
+    CHECK_LE(row->budget.amplitude.settling, 1e-3 * off, "omega %g", row->omega);
+    CHECK_NEAR(row->budget.amplitude.integration, off, 0.01 * off, "omega %g, branch %d", row->omega, row->branch);
+    ++seen;
+  }
+  assert_true(seen >= 4);
+  comparison_clear(&fine);
+  comparison_clear(&loose);
+}
+
 /* Waiting with a loose tolerance: CVODE's steps and the distance left are the error, and H = 40 leaves 1e-6 for the
  * rest. */
 static void a_loose_tolerance_is_integration_or_settling(void **state)
@@ -239,6 +267,7 @@ int main(void)
       cmocka_unit_test(fewer_samples_are_aliasing),
       cmocka_unit_test(fewer_harmonics_are_truncation),
       cmocka_unit_test(more_regularisation_is_regularisation),
+      cmocka_unit_test(integration_is_the_distance_to_fine_steps),
       cmocka_unit_test(a_loose_tolerance_is_integration_or_settling),
       cmocka_unit_test(one_cause_is_accounted_for_in_full),
       cmocka_unit_test(two_causes_may_cancel_but_seldom),
