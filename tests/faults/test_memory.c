@@ -147,6 +147,9 @@ static void compare(void **state)
   try("compare small.yaml -q -o result --set transient.law=exact");
   try_one("compare small.yaml -q -o result --format json --tables --set transient.law=exact --harmonics 1 --samples 16",
           true);
+  /* other_branch, which it takes one more orbit to tell from differs */
+  try("compare " SOURCE_DIR "/cases/paper/case2.yaml -q -o result --format csv --at 8 --set hbm.harmonics=2 --set "
+      "transient.law=exact --set transient.start=rest");
 }
 
 static void contact_force(void **state)

@@ -116,6 +116,11 @@ static void limits_may_differ_in_ranges(void **state)
               find(m, 2, "amplitude")->allowed == 1e-5);
   assert_true(find(m, 1, "amplitude")->result == GATE_PASS && find(m, 1, "mean")->allowed == 1e-3 &&
               m->g.failures == 2);
+  m->rows[0].omega = 12, m->rows[1].omega = 9, m->rows[2].omega = 12.01; /* at both upper ends; above */
+  g->omega.v[2] = 9.5;
+  judged(m);
+  assert_true(find(m, 0, "amplitude")->allowed == 1e-5 && find(m, 1, "amplitude")->allowed == 1e-2 &&
+              find(m, 2, "amplitude")->allowed == 1e-3);
   end(m);
 }
 

@@ -32,6 +32,10 @@ static void the_shipped_example_is_named(void **state)
   expect(EXAMPLE "-q --format csv", 1, "omega,value,nearest,branch,stable,error,verdict,line\n");
   expect(EXAMPLE "-q --format csv", 1, "# cause: no_static_harmonic\n");
   expect(EXAMPLE "-q --format json", 1, "\"cause\": \"no_static_harmonic\"");
+  const outcome *o = run(EXAMPLE "-q");
+  const char *held = strstr(o->out, "truth held against time integration");
+  assert_non_null(held);
+  assert_null(strstr(held, " 0.0e+00 off")); /* truncated series are off by something */
 }
 
 /* Our own curve, as frf writes it: branches, unstable points and remarks included. */

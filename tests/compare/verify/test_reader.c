@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "compare/verify/csv.h"
+#include "compare/verify/search.h"
 #include "tests/check.h"
 
 static const double two_pi = 2 * PI;
@@ -170,9 +171,26 @@ static void columns_say_what_they_mean(void **state)
   unclear("omega=1,rms=2", NULL, "unknown");
 }
 
+/* A hypothesis fits if it takes nine tenths of the distance away; one that is no number does not. */
+static void a_tenth_of_the_distance_is_a_fit(void **state)
+{
+  (void)state;
+  static verify_report r;
+  r.truth_distance = 1;
+  assert_false(verify_fits(&r)); /* no hypothesis */
+  r.n_hypotheses = 1;
+  r.hypotheses[0].distance = 0.099;
+  assert_true(verify_fits(&r));
+  r.hypotheses[0].distance = 0.101;
+  assert_false(verify_fits(&r));
+  r.hypotheses[0].distance = NAN;
+  assert_false(verify_fits(&r));
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
+      cmocka_unit_test(a_tenth_of_the_distance_is_a_fit),
       cmocka_unit_test(files_as_people_have_them),
       cmocka_unit_test(cycles_become_radians),
       cmocka_unit_test(mistakes_have_a_place),
