@@ -154,6 +154,7 @@ static hc_status check_row(truth *t, const verify_row *row)
     return st;
   }
   double error = fabs(orbit_quantity(t, &orbit) - row->nearest);
+  if (isnan(error)) return ++t->out->unchecked, st;
   ++t->out->checked;
   if (error > 0) t->out->checked_error = fmax(t->out->checked_error, error / orbit.amplitude);
   return st;
