@@ -37,6 +37,16 @@ static hc_status check_samples(case_reader *r)
   return HC_BAD_INPUT;
 }
 
+/* The regularised law has no closed form. */
+static hc_status check_method(case_reader *r)
+{
+  const transient_settings *t = &r->sc.transient;
+  if (t->method != TRANSIENT_METHOD_CLOSED_FORM || t->law == TRANSIENT_LAW_EXACT) return HC_OK;
+  message_add(case_blame(r, last_given(r, field_named("transient", "method"), field_named("transient", "law"))),
+              "only the exact law has a closed form, expected transient.law: exact with transient.method: closed_form");
+  return HC_BAD_INPUT;
+}
+
 /* Ranges are pairs FROM <= TO; each list of limits has one for every range; there are no ranges without limits. */
 static hc_status check_gate_ranges(case_reader *r)
 {
@@ -89,6 +99,7 @@ hc_status case_check(case_reader *r)
   hc_status st = check_contacts(r);
   if (st == HC_OK) st = check_sweep(r);
   if (st == HC_OK) st = check_samples(r);
+  if (st == HC_OK) st = check_method(r);
   if (st == HC_OK) st = check_gate_ranges(r);
   return st;
 }

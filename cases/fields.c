@@ -14,6 +14,8 @@ static const char *const continuation_names[] = {[HBM_CONTINUATION_AUTO] = "auto
                                                  NULL};
 static const char *const law_names[] = {
     [TRANSIENT_LAW_REGULARISED] = "regularised", [TRANSIENT_LAW_EXACT] = "exact", NULL};
+static const char *const method_names[] = {
+    [TRANSIENT_METHOD_CVODE] = "cvode", [TRANSIENT_METHOD_CLOSED_FORM] = "closed_form", NULL};
 static const char *const steady_names[] = {[TRANSIENT_STEADY_AUTO] = "auto",
                                            [TRANSIENT_STEADY_MARCH] = "march",
                                            [TRANSIENT_STEADY_SHOOTING] = "shooting",
@@ -107,6 +109,10 @@ static const field table[] = {
 
   {"transient", "law", "", CHOICE(law_names, transient.law), .fallback = "regularised",
    .meaning = "contact law that is integrated"},
+  {"transient", "method", "", CHOICE(method_names, transient.method), .fallback = "cvode",
+   .meaning = "integration by CVODE, or the exact law in closed form"},
+  {"transient", "scout", "", FIELD_FLAG, .unit = "", SCENE(transient.scout), .fallback = "true",
+   .meaning = "look for orbits in closed form first, and confirm them by CVODE; false: CVODE alone"},
   {"transient", "regularisation", "eta", FIELD_REAL, .unit = "1", SCENE(transient.regularisation),
    .fallback = "1e-4", WITHIN(1e-8, 1e-1), .meaning = "of the contact law's corners; the error vanishes with it"},
   {"transient", "richardson", "", FIELD_FLAG, .unit = "", SCENE(transient.richardson), .fallback = "false",

@@ -1,4 +1,4 @@
-/* integrate.h - CVODE for one period of the forcing at a time; every flag of CVODE is translated to an hc_status here.
+/* integrate.h - one period of the forcing at a time, by CVODE or in closed form.
  *
  * A period is the phase theta = 0 .. 2 pi, and CVODE starts afresh in each. The cost is a start at order 1 (README.md
  * has the figure). The gain: theta never exceeds 2 pi, so 20 000 periods lose no accuracy; and one period is a function
@@ -6,9 +6,9 @@
  * of it. With the step history kept, each period would be cut into other steps, and the drift would level off at their
  * error.
  *
- * One interface for two contact laws. integrate_regularised.h integrates the equations of scaled.h as they stand.
- * integrate_exact.h integrates the exact law event-driven: one smooth right-hand side for each set of contact states,
- * from one change of state (transition) to the next. */
+ * One interface, three ways. integrate_regularised.h: the equations of scaled.h as they stand, by CVODE.
+ * integrate_exact.h: the exact law by CVODE, event-driven: one smooth right-hand side for each set of contact states,
+ * from one change of state (transition) to the next. integrate_closed.h: the same law in closed form, no CVODE. */
 #ifndef HC_TIMEINT_INTEGRATE_H
 #define HC_TIMEINT_INTEGRATE_H
 
@@ -39,6 +39,13 @@ hc_status integrate_monodromy(integrator *in, const scaled_model *m, double *y, 
 /* Inside a watch: the state (order 0) or its derivative (order 1) at theta0 <= theta <= theta1, from the step's own
  * polynomial, as good as the step itself. y[n_states]. */
 hc_status integrate_dense(const integrator *in, double theta, int order, double *y);
+
+/* Inside a watch: X at the angles theta + i step, i = 0..count-1, all in the step. */
+hc_status integrate_samples(const integrator *in, double theta, double step, int count, double *x);
+
+/* Inside a watch: the integrals of X, X cos(theta), X sin(theta) over the step, to rounding; false if this integrator
+ * cannot tell. */
+bool integrate_fourier(const integrator *in, double out[3]);
 
 /* Inside a watch: does contact j slip, at the state y of the step's end? */
 bool integrate_slips(const integrator *in, int j, const double *y);

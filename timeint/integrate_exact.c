@@ -16,8 +16,7 @@
  * A transition found with an error dtheta changes the state by order dtheta^2 only, since the force is continuous;
  * CVODE's dtheta is 1e-13, so the transition needs no refinement.
  *
- * Monodromy: between transitions the variations obey a linear equation with constant coefficients; they are advanced by
- * its closed-form solution. */
+ * The monodromy matrix is variations.h's. */
 #include "timeint/integrate_exact.h"
 
 #include <float.h>
@@ -32,10 +31,10 @@
 #include <sunmatrix/sunmatrix_dense.h>
 
 #include "base/constants.h"
-#include "model/linear.h"
 #include "numerics/sundials_compat.h"
-#include "timeint/integrate_private.h"
+#include "timeint/integrate_cvode.h"
 #include "timeint/phase.h"
+#include "timeint/variations.h"
 
 static const double at_end = 64 * DBL_EPSILON; /* nearer to 2 pi CVODE would answer CV_TOO_CLOSE to a restart */
 
@@ -49,14 +48,13 @@ enum {
 enum { ROOT_UP, ROOT_DOWN, ROOT_TURN, ROOT_BEND, ROOTS };
 
 typedef struct event_driven { /* from integrate_new_exact, to integrate_free; not shared between threads */
-  integrator base;
+  cvode_integrator base;
   int n; /* number of states */
   double tolerance;
   const scaled_model *m; /* of the period under way; the caller's */
   phase phase, before;   /* now; before the last transition */
   bool varies;           /* the monodromy is asked for */
-  double varied;         /* theta up to which `monodromy` has come */
-  double *monodromy;     /* [n][n] by columns; a slider's row is valid while its contact sticks */
+  variations variations;
 } event_driven;
 
 static int rhs(sunrealtype theta, N_Vector y, N_Vector dy, void *self)
@@ -129,61 +127,9 @@ static void release(integrator *base)
   event_driven *in = (event_driven *)base;
   free(in->phase.contact);
   free(in->before.contact);
-  free(in->monodromy);
-  integrate_free_parts(base);
+  free(in->variations.matrix);
+  integrate_free_parts(&in->base);
   free(base);
-}
-
-/* Variations from in->varied to theta in the phase *ph: dX'' + c dX' + k dX = sum_j (dP'/dW_j) dW_j, a column at a
- * time. The response to a constant force 1 from rest is (1 - e00)/k in X and e01 in P. */
-static void advance_variations(event_driven *in, const phase *ph, double theta)
-{
-  const double span = theta - in->varied, c = in->m->c;
-  double e[2][2];
-  linear_free_motion(1, c, ph->k, span, e);
-  const double step = ph->k != 0 ? (1 - e[0][0]) / ph->k : c != 0 ? (span - e[0][1]) / c : 0.5 * span * span;
-  for (int q = 0; q < in->n; ++q) {
-    double *z = in->monodromy + q * in->n, pull = 0, x = z[SCALED_X], p = z[SCALED_P];
-    for (int j = 0; j < in->m->n_contacts; ++j) pull += phase_slider_stiffness(ph, j) * z[SCALED_W + j];
-    z[SCALED_X] = e[0][0] * x + e[0][1] * p + step * pull;
-    z[SCALED_P] = e[1][0] * x + e[1][1] * p + e[0][1] * pull;
-  }
-  in->varied = theta;
-}
-
-/* Rows of the sliders that stick now and did not in *before (NULL: none did). */
-static void start_stick_variations(event_driven *in, const phase *before)
-{
-  for (int j = 0; j < in->m->n_contacts; ++j) {
-    const phase_contact *pc = &in->phase.contact[j];
-    if (pc->state != CONTACT_STICK || (before && before->contact[j].state == CONTACT_STICK)) continue;
-    for (int q = 0; q < in->n; ++q) {
-      double *z = in->monodromy + q * in->n;
-      z[SCALED_W + j] = pc->since_start ? (q == SCALED_W + j ? 1.0 : 0.0) : pc->rest_by_x * z[SCALED_X];
-    }
-  }
-}
-
-static void start_variations(event_driven *in)
-{
-  memset(in->monodromy, 0, sizeof *in->monodromy * (size_t)(in->n * in->n));
-  in->monodromy[SCALED_X] = 1;
-  in->monodromy[SCALED_P + in->n] = 1;
-  in->varied = 0;
-  start_stick_variations(in, NULL);
-}
-
-/* Into monodromy[n*n], with the rows of sliders that are tied to X. */
-static void finish_variations(event_driven *in, double *monodromy)
-{
-  advance_variations(in, &in->phase, TWO_PI);
-  memcpy(monodromy, in->monodromy, sizeof *monodromy * (size_t)(in->n * in->n));
-  for (int j = 0; j < in->m->n_contacts; ++j) {
-    double rest, by_x;
-    phase_slider(&in->phase, j, &rest, &by_x);
-    if (phase_slider_stiffness(&in->phase, j) != 0) continue;
-    for (int q = 0; q < in->n; ++q) monodromy[SCALED_W + j + q * in->n] = by_x * monodromy[SCALED_X + q * in->n];
-  }
 }
 
 /* CVODE from theta on, in the phase as it is. */
@@ -213,8 +159,8 @@ static hc_status pass_root(event_driven *in, double theta, int *count)
   if (!n) return HC_OK;
   if ((*count += n) > most_transitions(in)) return HC_CHATTER;
   if (in->varies) {
-    advance_variations(in, &in->before, theta);
-    start_stick_variations(in, &in->before);
+    variations_advance(&in->variations, &in->before, theta);
+    variations_stick(&in->variations, &in->phase, &in->before);
   }
   if (theta == TWO_PI) return HC_OK;
   hc_status st = integrate_add_counts(&in->base);
@@ -234,21 +180,11 @@ static hc_status integrate_to_end(event_driven *in, integrate_watch *watch, void
     if (TWO_PI - theta <= at_end * TWO_PI) theta = TWO_PI;
     standstills = theta > before ? 0 : standstills + 1;
     if (standstills > MAX_STANDSTILLS) break;
-    hc_status st = watch ? watch(self, &in->base, before, theta) : HC_OK;
+    hc_status st = watch ? watch(self, &in->base.base, before, theta) : HC_OK;
     if (st == HC_OK && flag == CV_ROOT_RETURN) st = pass_root(in, theta, count);
     if (st != HC_OK) return st;
   }
   return integrate_check_end(&in->base, theta, 2);
-}
-
-static void copy_state(const event_driven *in, double *y)
-{
-  memcpy(y, NV_DATA_S(in->base.y), 2 * sizeof *y);
-  for (int j = 0; j < in->m->n_contacts; ++j) {
-    double rest, by_x;
-    phase_slider(&in->phase, j, &rest, &by_x);
-    y[SCALED_W + j] = rest + by_x * y[SCALED_X];
-  }
 }
 
 static hc_status period(integrator *base, const scaled_model *m, double *y, double *monodromy, integrate_watch *watch,
@@ -257,21 +193,22 @@ static hc_status period(integrator *base, const scaled_model *m, double *y, doub
   event_driven *in = (event_driven *)base;
   if (m->n_states != in->n) return HC_BUG;
   in->m = m;
-  in->base.not_finite = false;
   in->varies = monodromy != NULL;
-  base->flag = CV_SUCCESS;
+  hc_status st = integrate_begin_period(&in->base);
+  if (st != HC_OK) return st;
   int count = phase_begin(&in->phase, m, y);
   if (count < 0) return HC_NOT_FINITE;
-  if (monodromy) start_variations(in);
+  if (monodromy) variations_begin(&in->variations, &in->phase);
   memcpy(NV_DATA_S(in->base.y), y, 2 * sizeof *y);
-  hc_status st = start(in, 0);
+  st = start(in, 0);
   if (st == HC_OK) st = integrate_to_end(in, watch, self, &count);
   hc_status counted = integrate_add_counts(&in->base);
   base->transitions += count;
   if (st == HC_OK) st = counted;
   if (st != HC_OK) return st;
-  copy_state(in, y);
-  if (monodromy) finish_variations(in, monodromy);
+  memcpy(y, NV_DATA_S(in->base.y), 2 * sizeof *y);
+  phase_set_sliders(&in->phase, 0, y);
+  if (monodromy) variations_end(&in->variations, &in->phase, monodromy);
   return HC_OK;
 }
 
@@ -280,11 +217,7 @@ static hc_status dense(const integrator *base, double theta, int order, double *
   const event_driven *in = (const event_driven *)base;
   if (CVodeGetDky(in->base.cv, theta, order, in->base.dky) != CV_SUCCESS) return HC_BUG; /* theta outside the step */
   memcpy(y, NV_DATA_S(in->base.dky), 2 * sizeof *y);
-  for (int j = 0; j < in->m->n_contacts; ++j) {
-    double rest, by_x;
-    phase_slider(&in->phase, j, &rest, &by_x);
-    y[SCALED_W + j] = (order == 0 ? rest : 0) + by_x * y[SCALED_X];
-  }
+  phase_set_sliders(&in->phase, order, y);
   return HC_OK;
 }
 
@@ -300,11 +233,17 @@ static hc_status make_memory(event_driven *in)
   const size_t n = (size_t)in->n, contacts = n - SCALED_W + 1;
   in->phase.contact = calloc(contacts, sizeof *in->phase.contact);
   in->before.contact = calloc(contacts, sizeof *in->before.contact);
-  in->monodromy = calloc(n * n, sizeof *in->monodromy);
-  return in->phase.contact && in->before.contact && in->monodromy ? HC_OK : HC_NO_MEMORY;
+  in->variations = (variations){.n = in->n, .matrix = calloc(n * n, sizeof(double))};
+  return in->phase.contact && in->before.contact && in->variations.matrix ? HC_OK : HC_NO_MEMORY;
 }
 
-static const integrator_class class = {.period = period, .dense = dense, .slips = slips, .free = release};
+static const integrator_class class = {.period = period,
+                                       .dense = dense,
+                                       .samples = integrate_dense_samples,
+                                       .fourier = integrate_no_fourier,
+                                       .slips = slips,
+                                       .tolerance = integrate_cvode_tolerance,
+                                       .free = release};
 
 hc_status integrate_new_exact(int n_states, double tolerance, integrator **out)
 {
@@ -312,16 +251,16 @@ hc_status integrate_new_exact(int n_states, double tolerance, integrator **out)
   if (n_states < SCALED_W) return HC_BAD_INPUT;
   event_driven *in = calloc(1, sizeof *in); /* zeroed, so free works half-built */
   if (!in) return HC_NO_MEMORY;
-  in->base.does = &class;
+  in->base.base.does = &class;
   in->n = n_states;
   in->tolerance = tolerance;
   hc_status st = make_memory(in);
   if (st == HC_OK) st = integrate_make_parts(&in->base, 2, CV_ADAMS);
   if (st == HC_OK) st = make_cvode(in);
   if (st == HC_OK) {
-    *out = &in->base;
+    *out = &in->base.base;
     return HC_OK;
   }
-  release(&in->base);
+  release(&in->base.base);
   return st;
 }

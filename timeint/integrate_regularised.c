@@ -14,7 +14,7 @@
 
 #include "base/constants.h"
 #include "numerics/sundials_compat.h"
-#include "timeint/integrate_private.h"
+#include "timeint/integrate_cvode.h"
 
 static const double variation_tolerance = 1e-6; /* of the variations' steps; they are about 1 */
 
@@ -25,7 +25,7 @@ enum {
 };
 
 typedef struct regularised { /* from integrate_new_regularised, to integrate_free; not shared between threads */
-  integrator base;
+  cvode_integrator base;
   int n;                 /* number of states                                                  */
   const scaled_model *m; /* of the period under way; the caller's                             */
   N_Vector *s;           /* [n][n] d y / d y_j(0), j = 0..n-1: CVODES calls them sensitivities */
@@ -126,7 +126,7 @@ static void release(integrator *base)
   if (in->s) N_VDestroyVectorArray(in->s, in->n);
   free(in->jacobian);
   free(in->s_tolerance);
-  integrate_free_parts(base);
+  integrate_free_parts(&in->base);
   free(base);
 }
 
@@ -166,7 +166,7 @@ static hc_status integrate_watched(regularised *in, integrate_watch *watch, void
     bool last = flag == CV_TSTOP_RETURN || !(theta < TWO_PI);
     /* a step that does not advance theta ends here too: HC_INTEGRATOR */
     hc_status st = last || !(theta > before) ? integrate_check_end(&in->base, theta, in->n) : HC_OK;
-    if (st == HC_OK) st = watch(self, &in->base, before, theta);
+    if (st == HC_OK) st = watch(self, &in->base.base, before, theta);
     if (st != HC_OK || last) return st;
   }
 }
@@ -185,10 +185,10 @@ static hc_status period(integrator *base, const scaled_model *m, double *y, doub
   regularised *in = (regularised *)base;
   const size_t bytes = sizeof *y * (size_t)in->n;
   in->m = m;
-  in->base.not_finite = false;
-  base->flag = CV_SUCCESS;
+  hc_status st = integrate_begin_period(&in->base);
+  if (st != HC_OK) return st;
   memcpy(NV_DATA_S(in->base.y), y, bytes);
-  hc_status st = start_period(in, monodromy != NULL);
+  st = start_period(in, monodromy != NULL);
   if (st == HC_OK) st = watch ? integrate_watched(in, watch, self) : integrate_unwatched(in);
   hc_status counted = integrate_add_counts(&in->base);
   if (st == HC_OK) st = counted;
@@ -210,22 +210,28 @@ static bool slips(const integrator *base, int j, const double *y)
   return scaled_slips(((const regularised *)base)->m, j, y);
 }
 
-static const integrator_class class = {.period = period, .dense = dense, .slips = slips, .free = release};
+static const integrator_class class = {.period = period,
+                                       .dense = dense,
+                                       .samples = integrate_dense_samples,
+                                       .fourier = integrate_no_fourier,
+                                       .slips = slips,
+                                       .tolerance = integrate_cvode_tolerance,
+                                       .free = release};
 
 hc_status integrate_new_regularised(int n_states, double tolerance, integrator **out)
 {
   *out = NULL;
   regularised *in = calloc(1, sizeof *in); /* zeroed, so free works half-built */
   if (!in) return HC_NO_MEMORY;
-  in->base.does = &class;
+  in->base.base.does = &class;
   in->n = n_states;
   hc_status st = make_parts(in);
   if (st == HC_OK) st = make_cvode(in, tolerance);
   if (st == HC_OK) st = make_variations(in);
   if (st == HC_OK) {
-    *out = &in->base;
+    *out = &in->base.base;
     return HC_OK;
   }
-  release(&in->base);
+  release(&in->base.base);
   return st;
 }

@@ -12,13 +12,21 @@
 hc_status measure_make(measure *me, int n_states)
 {
   const size_t n = (size_t)n_states;
-  *me = (measure){
-      .end = calloc(n, sizeof(double)), .end_rate = calloc(n, sizeof(double)), .inside = calloc(n, sizeof(double))};
-  return me->end && me->end_rate && me->inside ? HC_OK : HC_NO_MEMORY;
+  *me = (measure){.end = calloc(n, sizeof(double)),
+                  .end_rate = calloc(n, sizeof(double)),
+                  .inside = calloc(n, sizeof(double)),
+                  .circle = calloc((size_t)TIMEINT_WAVE * 2, sizeof(double))};
+  if (!me->end || !me->end_rate || !me->inside || !me->circle) return HC_NO_MEMORY;
+  for (int i = 0; i < TIMEINT_WAVE; ++i) {
+    me->circle[2 * i] = cos(TWO_PI * i / TIMEINT_WAVE);
+    me->circle[2 * i + 1] = sin(TWO_PI * i / TIMEINT_WAVE);
+  }
+  return HC_OK;
 }
 
 void measure_free(measure *me)
 {
+  free(me->circle);
   free(me->end);
   free(me->end_rate);
   free(me->inside);
@@ -26,8 +34,13 @@ void measure_free(measure *me)
 
 void measure_begin(measure *me, const scaled_model *m)
 {
-  *me = (measure){
-      .m = m, .max = -INFINITY, .min = INFINITY, .end = me->end, .end_rate = me->end_rate, .inside = me->inside};
+  *me = (measure){.m = m,
+                  .max = -INFINITY,
+                  .min = INFINITY,
+                  .circle = me->circle,
+                  .end = me->end,
+                  .end_rate = me->end_rate,
+                  .inside = me->inside};
 }
 
 static void extend(measure *me, double x)
@@ -36,14 +49,38 @@ static void extend(measure *me, double x)
   if (x < me->min) me->min = x;
 }
 
-static void add_instant(measure *me, double x)
+/* Sums over the instants of a whole period. */
+static void add_sums(measure *me)
 {
-  double theta = TWO_PI * me->next / TIMEINT_WAVE;
-  me->sum += x;
-  me->sum_sq += x * x;
-  me->sum_cos += x * cos(theta);
-  me->sum_sin += x * sin(theta);
-  me->wave[me->next++] = x;
+  for (int i = 0; i < TIMEINT_WAVE; ++i) {
+    const double x = me->wave[i];
+    me->sum += x;
+    me->sum_sq += x * x;
+    me->sum_cos += x * me->circle[2 * i];
+    me->sum_sin += x * me->circle[2 * i + 1];
+  }
+}
+
+/* The instants of the wave from me->next to theta1. */
+static hc_status add_instants(measure *me, const integrator *in, double theta1)
+{
+  const double step = TWO_PI / TIMEINT_WAVE;
+  int last = me->next;
+  while (last < TIMEINT_WAVE && TWO_PI * last / TIMEINT_WAVE <= theta1) ++last;
+  const int count = last - me->next;
+  if (count == 0) return HC_OK;
+  hc_status st = integrate_samples(in, TWO_PI * me->next / TIMEINT_WAVE, step, count, me->wave + me->next);
+  me->next = last;
+  if (st == HC_OK && last == TIMEINT_WAVE) add_sums(me);
+  return st;
+}
+
+/* Integrals over the step, where the integrator has them. */
+static void add_integrals(measure *me, const integrator *in)
+{
+  double step[3] = {0};
+  me->no_integrals = me->no_integrals || !integrate_fourier(in, step);
+  for (int i = 0; i < 3; ++i) me->integral[i] += step[i];
 }
 
 /* Where the next step begins: state y, P' = a. */
@@ -58,10 +95,10 @@ static void begin_step(measure *me, const double *y, double a)
 void measure_period(measure *me, const double *y)
 {
   ++me->periods;
-  me->next = 0;
+  me->wave[0] = y[SCALED_X];
+  me->next = 1;
   scaled_rhs(me->m, 0, y, me->end_rate); /* not finite: then CVODE fails in its first step */
   begin_step(me, y, me->end_rate[SCALED_P]);
-  add_instant(me, y[SCALED_X]);
 }
 
 /* P's derivative of the given order (0: P itself) by CVODE's dense output. */
@@ -117,12 +154,10 @@ hc_status measure_step(void *self, const integrator *in, double theta0, double t
 {
   measure *me = self;
   double *y = me->end;
-  for (double t; me->next < TIMEINT_WAVE && (t = TWO_PI * me->next / TIMEINT_WAVE) <= theta1;) {
-    hc_status st = integrate_dense(in, t, 0, me->inside);
-    if (st != HC_OK) return st;
-    add_instant(me, me->inside[SCALED_X]);
-  }
-  hc_status st = integrate_dense(in, theta1, 0, y);
+  hc_status st = add_instants(me, in, theta1);
+  if (st != HC_OK) return st;
+  add_integrals(me, in);
+  st = integrate_dense(in, theta1, 0, y);
   if (st != HC_OK) return st;
   scaled_rhs(me->m, theta1, y, me->end_rate); /* finite: CVODE has just been here */
   const double a = me->end_rate[SCALED_P];
@@ -147,10 +182,11 @@ void measure_report(const measure *me, const model *from, double length, timeint
   r->max = me->max * length;
   r->min = me->min * length;
   r->amplitude = motion_amplitude(me->max, me->min) * length;
-  r->mean = me->sum / n * length;
   r->rms = sqrt(me->sum_sq / n) * length;
-  r->a1 = 2 * me->sum_cos / n * length;
-  r->b1 = 2 * me->sum_sin / n * length;
+  const double span = TWO_PI * me->periods;
+  r->mean = (me->no_integrals ? me->sum / n : me->integral[0] / span) * length;
+  r->a1 = 2 * (me->no_integrals ? me->sum_cos / n : me->integral[1] / span) * length;
+  r->b1 = 2 * (me->no_integrals ? me->sum_sin / n : me->integral[2] / span) * length;
   r->harmonic_1 = hypot(r->a1, r->b1);
   for (int i = 0; i < TIMEINT_WAVE; ++i) r->wave[i] = me->wave[i] * length;
   r->regime = CONTACT_LINEAR;

@@ -1,9 +1,10 @@
-/* measure.h - what is reported of one or several successive periods, from CVODE's dense output.
+/* measure.h - what is reported of one or several successive periods, from the integrator's dense output.
  *
  * Peaks: roots of v, bracketed inside each step (two roots in one step by the extremum of v between them) and refined
  * to rounding; the error of x there is of second order in that of the root. The wave: x at TIMEINT_WAVE equispaced
  * instants. Mean, rms and first harmonic are sums over these; x has a continuous second derivative, its harmonics fall
- * like h^-4, so the aliases of harmonics from 512 on are below 512^-4 = 1.5e-11 of x. */
+ * like h^-4, so the aliases of harmonics from 512 on are below 512^-4 = 1.5e-11 of x; where the integrator has the
+ * integrals themselves (closed form), mean and first harmonic are these. */
 #ifndef HC_TIMEINT_MEASURE_H
 #define HC_TIMEINT_MEASURE_H
 
@@ -17,8 +18,11 @@ typedef struct measure { /* lengths in units of the model's L, until measure_rep
   double x, p, a; /* X, P, P' at the end of the last step                    */
   double max, min;
   double sum, sum_sq, sum_cos, sum_sin; /* over the instants                         */
+  double integral[3];                   /* of X, X cos, X sin; wrong where no_integrals */
+  bool no_integrals;                    /* the integrator does not have them */
   bool slips;                           /* some contact slipped at the end of some step            */
   double wave[TIMEINT_WAVE];
+  double *circle;                  /* [TIMEINT_WAVE][2] cos and sin of the instants */
   double *end, *end_rate, *inside; /* [n_states] a state at a step's end, its derivative, a state inside a step */
 } measure;
 

@@ -1,6 +1,7 @@
 /* orbit.c - see orbit.h. */
 #include "timeint/orbit.h"
 
+#include <float.h>
 #include <math.h>
 
 #include "timeint/timeint_private.h"
@@ -10,6 +11,15 @@ static const double same_state = 1e-6; /* [size] a state that returns as near is
 double orbit_goal(const timeint *ti)
 {
   return fmax(ti->how.tolerance * (timeint_motion_size(ti) / ti->length), 100 * ti->tolerance);
+}
+
+/* Up to 250 times CVODE's tolerance with the regularised law (timeint.c), 400 seen next to a fold (r2 at 708.5), and the
+ * rounding of some thousand steps; in closed form of some ten. */
+double orbit_scatter(const timeint *ti, int k)
+{
+  if (ti->how.method == TRANSIENT_METHOD_CLOSED_FORM) return k * 200 * DBL_EPSILON;
+  const double of_steps = ti->how.law == TRANSIENT_LAW_EXACT ? 50 : 1000;
+  return k * fmax(of_steps * ti->tolerance, 2e4 * DBL_EPSILON);
 }
 
 hc_status orbit_find(timeint *ti, int k, double reach, const hc_monitor *monitor, timeint_method *method,
@@ -38,7 +48,7 @@ static double relative_closure(const timeint *ti, double distance, double amplit
   return distance > 0 ? INFINITY : 0;
 }
 
-hc_status orbit_report(timeint *ti, int k, timeint_method method, const shoot_report *found, timeint_result *r)
+hc_status orbit_measure(timeint *ti, int k, timeint_result *r)
 {
   double returned[SETTLE_MAX_MULTIPLE + 1];
   const long transitions = integrate_transitions(ti->in);
@@ -50,14 +60,25 @@ hc_status orbit_report(timeint *ti, int k, timeint_method method, const shoot_re
     returned[i + 1] = fmax(fabs(ti->y[SCALED_X] - x), fabs(ti->y[SCALED_P] - p));
   }
   measure_report(&ti->measure, ti->model, ti->length, r);
-  r->method = method;
   r->switches = (int)(integrate_transitions(ti->in) - transitions);
   r->period_multiple = shortest_period(k, timeint_size(ti) / ti->length, returned);
+  return HC_OK;
+}
+
+void orbit_fill(const timeint *ti, int k, timeint_method method, const shoot_report *found, timeint_result *r)
+{
+  r->method = method;
   r->closure = relative_closure(ti, found->distance, r->amplitude);
   r->multiplier = cabs(found->multiplier);
   r->multiplier_re = creal(found->multiplier);
   r->multiplier_im = cimag(found->multiplier);
   r->contraction = pow(r->multiplier, 1.0 / k);
   r->free_sliders = found->free_sliders;
-  return HC_OK;
+}
+
+hc_status orbit_report(timeint *ti, int k, timeint_method method, const shoot_report *found, timeint_result *r)
+{
+  hc_status st = orbit_measure(ti, k, r);
+  if (st == HC_OK) orbit_fill(ti, k, method, found, r);
+  return st;
 }

@@ -46,6 +46,15 @@ void phase_slider(const phase *ph, int j, double *rest, double *by_x)
   *by_x = 0;
 }
 
+void phase_set_sliders(const phase *ph, int order, double *y)
+{
+  for (int j = 0; j < ph->m->n_contacts; ++j) {
+    double rest, by_x;
+    phase_slider(ph, j, &rest, &by_x);
+    y[SCALED_W + j] = (order == 0 ? rest : 0) + by_x * y[SCALED_X];
+  }
+}
+
 double phase_slider_stiffness(const phase *ph, int j)
 {
   const scaled_contact *mc = &ph->m->contact[j];

@@ -8,9 +8,11 @@
  * serves as an upper estimate of the error left. */
 #include "timeint/richardson.h"
 
+#include <complex.h>
 #include <math.h>
 
 #include "model/periodic_motion.h"
+#include "timeint/confirm.h"
 #include "timeint/orbit.h"
 #include "timeint/timeint_private.h"
 
@@ -23,13 +25,18 @@ static double extrapolate(double q1, double q2, double q3)
   return (4 * b - a) / 3;
 }
 
-/* The same orbit at another regularisation, from where it was. */
+/* The same orbit at another regularisation, from where it was; *r: of the orbit so far, then of this one. */
 static hc_status solve_at(timeint *ti, double regularisation, int k, const hc_monitor *monitor, timeint_result *r)
 {
   shoot_report found;
   const double size = timeint_size(ti) / ti->length;
   ti->how.regularisation = regularisation;
   scaled_make(&ti->scaled, ti->model, &ti->how, ti->omega, ti->length);
+  if (ti->scout) {
+    found = (shoot_report){.multiplier = r->multiplier_re + I * r->multiplier_im, .free_sliders = r->free_sliders};
+    const hc_status confirmed = confirm_orbit(ti->confirm, k, monitor, &found, r);
+    if (!shoot_found_no_orbit(confirmed)) return confirmed;
+  }
   hc_status st = shoot_newton(ti->shoot, k, size, orbit_goal(ti), monitor, &found);
   /* another orbit: nothing to extrapolate from */
   if (st == HC_OK && !(found.moved <= same_orbit * size)) st = HC_NOT_CONVERGED;
@@ -64,7 +71,7 @@ hc_status richardson_extrapolate(timeint *ti, const hc_monitor *monitor, timeint
   timeint_result at[LEVELS - 1];
   hc_status st = timeint_set_tolerance(ti, timeint_final_tolerance(ti));
   for (int i = 0; i < LEVELS - 1 && st == HC_OK; ++i)
-    st = solve_at(ti, rho / (2 << i), r->period_multiple, monitor, &at[i]);
+    at[i] = *r, st = solve_at(ti, rho / (2 << i), r->period_multiple, monitor, &at[i]);
   if (st == HC_OK) combine(r, &at[0], &at[1]);
   ti->how.regularisation = rho;
   scaled_make(&ti->scaled, ti->model, &ti->how, ti->omega, ti->length);

@@ -12,7 +12,9 @@
 
 #include "numerics/floquet.h"
 #include "numerics/newton.h"
+#include "numerics/norm.h"
 #include "numerics/sundials_compat.h"
+#include "timeint/orbit.h"
 #include "timeint/timeint_private.h"
 
 enum { NEWTON_ITERATIONS = 12, ANDERSON_ITERATIONS = 100, ANDERSON_DEPTH = 4, LAST_STEPS = 4 };
@@ -40,13 +42,6 @@ struct shoot { /* from shoot_new, to shoot_free */
   void *kin; /* Anderson's */
   hc_status refusal;
 };
-
-static double norm(int n, const double *a)
-{
-  double sum = 0;
-  for (int i = 0; i < n; ++i) sum += a[i] * a[i];
-  return sqrt(sum);
-}
 
 static double distance(int n, const double *a, const double *b)
 {
@@ -222,19 +217,11 @@ static void begin(shoot *s, int k, const hc_monitor *monitor)
   s->known = s->begun = false;
 }
 
-/* The scatter of F^k: up to 250 times CVODE's tolerance with the regularised law (timeint.c), 400 seen next to a fold
- * (r2 at 708.5), and the rounding of some thousand steps. */
-static double scatter(const shoot *s)
-{
-  const double of_steps = s->ti->how.law == TRANSIENT_LAW_EXACT ? 50 : 1000;
-  return s->k * fmax(of_steps * s->ti->tolerance, 2e4 * DBL_EPSILON);
-}
-
 /* The residual at which Newton stops. A residual r is a distance of about r/(1 - rho) from the orbit: hence a tenth of
  * the goal times 1 - rho, but no less than the scatter of periods. finish() judges what is left. */
 static double small_residual(const shoot *s, double goal)
 {
-  return fmax(0.1 * goal * (1 - fmin(s->ti->contraction, 1)), scatter(s));
+  return fmax(0.1 * goal * (1 - fmin(s->ti->contraction, 1)), orbit_scatter(s->ti, s->k));
 }
 
 /* |F^k(z0) - z* - Phi (z0 - z*)| / |z0 - z*|, z* = z. */
@@ -247,8 +234,8 @@ static double nonlinear_part(const shoot *s, const double *z)
     left[i] = s->first[i] - s->f[i]; /* F(z*) is z*, and nearer to F(z0)'s own errors */
     for (int j = 0; j < n; ++j) left[i] -= s->phi[i + j * n] * e[j];
   }
-  const double size = norm(n, e), rounding = 1e3 * s->ti->tolerance;
-  return size > rounding ? fmax(norm(n, left) - rounding, 0) / size : 0;
+  const double size = norm_2(n, e), rounding = 1e3 * s->ti->tolerance;
+  return size > rounding ? fmax(norm_2(n, left) - rounding, 0) / size : 0;
 }
 
 /* The states in s->active[m] without those whose column of Phi is rounding: their multiplier is 0. How many are
@@ -293,21 +280,20 @@ static hc_status newton_step(shoot *s, const double *z, double *step, double *le
   if (st != HC_OK) return st;
   for (int i = 0; i < s->n; ++i) step[i] = z[i] - s->f[i];
   st = newton_backsolve(s->newton, step);
-  *length = norm(s->n, step);
+  *length = norm_2(s->n, step);
   return st;
 }
 
-/* [L] No orbit can be found to better than this: the scatter of periods times |(I - Phi)^-1| (Frobenius norm, factors
- * of the last step). */
+/* shoot_report.attainable: Frobenius norm, factors of the last step. */
 static double attainable(shoot *s)
 {
   double sum = 0, *column = s->vector;
   for (int j = 0; j < s->n; ++j) {
     for (int i = 0; i < s->n; ++i) column[i] = i == j;
     if (newton_backsolve(s->newton, column) != HC_OK) return INFINITY;
-    sum += norm(s->n, column) * norm(s->n, column);
+    sum += norm_2(s->n, column) * norm_2(s->n, column);
   }
-  return sqrt(sum) * scatter(s);
+  return sqrt(sum) * orbit_scatter(s->ti, s->k);
 }
 
 /* From s->iterate, next to the orbit: further Newton steps until it is as near as the goal asks or the scatter of
@@ -330,7 +316,8 @@ static hc_status finish(shoot *s, double goal, shoot_report *r)
   r->nonlinear = nonlinear_part(s, s->best);
   if ((st = find_multiplier(s, r)) != HC_OK) return st;
   memcpy(s->ti->y, s->best, bytes);
-  return r->distance <= fmax(goal, attainable(s)) ? HC_OK : HC_NOT_CONVERGED;
+  r->attainable = attainable(s);
+  return r->distance <= fmax(goal, r->attainable) ? HC_OK : HC_NOT_CONVERGED;
 }
 
 hc_status shoot_newton(shoot *s, int k, double reach, double goal, const hc_monitor *monitor, shoot_report *report)
@@ -380,7 +367,7 @@ void shoot_direction(shoot *s, double *z)
       next[i] = 0;
       for (int j = 0; j < s->n; ++j) next[i] += (is_free(s, i) ? 0 : s->phi[i + j * s->n]) * z[j];
     }
-    double size = norm(s->n, next);
+    double size = norm_2(s->n, next);
     if (!(size > 0)) return;
     for (int i = 0; i < s->n; ++i) z[i] = next[i] / size;
   }

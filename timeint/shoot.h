@@ -16,9 +16,10 @@
 typedef struct shoot shoot;
 
 typedef struct shoot_report {
-  double distance;  /* [L] |(I - Phi)^-1 (F^k(z) - z)|: how far the orbit still is, to first order */
-  double moved;     /* [L] from the start to the orbit */
-  double nonlinear; /* [1] |F^k(z0) - z* - Phi (z0 - z*)| / |z0 - z*|, z0 the start: 0 where F^k is linear between
+  double distance;   /* [L] |(I - Phi)^-1 (F^k(z) - z)|: how far the orbit still is, to first order */
+  double attainable; /* [L] no orbit can be found to better than this: the scatter of periods times |(I - Phi)^-1| */
+  double moved;      /* [L] from the start to the orbit */
+  double nonlinear;  /* [1] |F^k(z0) - z* - Phi (z0 - z*)| / |z0 - z*|, z0 the start: 0 where F^k is linear between
                        z0 and z* */
   double complex multiplier; /* the largest, free sliders left out */
   int free_sliders;

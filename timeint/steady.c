@@ -1,4 +1,5 @@
-/* steady.c - see steady.h. Which way to the steady state, in the order of what they cost:
+/* steady.c - see steady.h. With a scout (scout.h) the way is its own, and CVODE confirms where it leads. Without, or
+ * where that fails, in the order of what they cost:
  *     1. no contact changes its state from here on: the closed form (linear_regime.h)
  *     2. Newton on the period map, or where it fails Anderson's acceleration of it (orbit.h)
  *     3. a stretch of periods, longer each time, and again from 1 (attract.h)
@@ -13,6 +14,7 @@
 #include "timeint/march.h"
 #include "timeint/orbit.h"
 #include "timeint/richardson.h"
+#include "timeint/scout.h"
 #include "timeint/timeint_private.h"
 
 /* [size] With one harmonic an HBM orbit is some ten percent of the motion off; an orbit farther away is another. */
@@ -119,16 +121,23 @@ static hc_status to_attractor(timeint *ti, const hc_monitor *monitor, timeint_re
   return ti->how.start == TRANSIENT_START_HBM ? from_orbit(ti, monitor, r) : attract(ti, FIRST_STRETCH, monitor, r);
 }
 
+static hc_status by_itself(timeint *ti, const hc_monitor *monitor, timeint_result *r)
+{
+  switch (ti->how.steady) {
+  case TRANSIENT_STEADY_MARCH: return march_to_steady_state(ti, monitor, r);
+  case TRANSIENT_STEADY_SHOOTING: return to_nearest_orbit(ti, 1, monitor, r);
+  default: return to_attractor(ti, monitor, r);
+  }
+}
+
 hc_status timeint_steady(timeint *ti, double omega, double *state, const hc_monitor *monitor, timeint_result *result)
 {
+  bool done = false;
   clear_result(result, omega);
   hc_status st = timeint_begin(ti, omega, state);
   if (st != HC_OK) return st;
-  switch (ti->how.steady) {
-  case TRANSIENT_STEADY_MARCH: st = march_to_steady_state(ti, monitor, result); break;
-  case TRANSIENT_STEADY_SHOOTING: st = to_nearest_orbit(ti, 1, monitor, result); break;
-  default: st = to_attractor(ti, monitor, result);
-  }
+  if (ti->scout && ti->how.steady != TRANSIENT_STEADY_MARCH) st = scout_steady(ti, 0, state, monitor, result, &done);
+  if (st == HC_OK && !done) st = by_itself(ti, monitor, result);
   if (st == HC_OK) st = richardson_extrapolate(ti, monitor, result);
   timeint_get_state(ti, state); /* on failure, the last one that was reached */
   fill_counts(ti, result);
@@ -142,7 +151,9 @@ hc_status timeint_orbit(timeint *ti, double omega, int k, double *state, const h
   if (k < 1 || k > SETTLE_MAX_MULTIPLE) return HC_BAD_INPUT;
   hc_status st = timeint_begin(ti, omega, state);
   if (st != HC_OK) return st;
-  st = to_nearest_orbit(ti, k, monitor, result);
+  bool done = false;
+  if (ti->scout) st = scout_steady(ti, k, state, monitor, result, &done);
+  if (st == HC_OK && !done) st = to_nearest_orbit(ti, k, monitor, result);
   timeint_get_state(ti, state);
   fill_counts(ti, result);
   return st;

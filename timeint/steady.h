@@ -25,6 +25,7 @@ typedef struct timeint_result {
                                  own errors, times 1/(1 - contraction), allow no less */
   double contraction;         /* [1] measured contraction per period of the drift; NaN: could not be measured */
   int periods;                /* forcing periods integrated, all included */
+  int scouted;                /* forcing periods followed in closed form beforehand (transient.scout) */
   int period_multiple;        /* of the orbit found, 1 unless a sub-harmonic was found (k <= 16: measures cover k
                                  periods, wave the last); 0 not settled */
   long steps;                 /* CVODE steps, all included */

@@ -183,6 +183,7 @@ static void swap_law(timeint *ti, transient_law law)
 hc_status timeint_sweep(timeint *ti, double omega_from, double omega_to, double *state, const hc_monitor *monitor)
 {
   const transient_law law = ti->how.law;
+  if (ti->scout) return timeint_sweep(ti->scout, omega_from, omega_to, state, monitor);
   if (law == TRANSIENT_LAW_EXACT) return sweep_with_this_law(ti, omega_from, omega_to, state, monitor);
   swap_law(ti, TRANSIENT_LAW_EXACT);
   hc_status st = sweep_with_this_law(ti, omega_from, omega_to, state, monitor);

@@ -5,8 +5,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "timeint/confirm.h"
+#include "timeint/integrate_closed.h"
 #include "timeint/integrate_exact.h"
 #include "timeint/integrate_regularised.h"
+#include "timeint/scout.h"
 #include "timeint/shoot.h"
 #include "timeint/timeint_private.h"
 
@@ -29,14 +32,15 @@ static hc_status check_input(const model *m, const transient_settings *how)
     return HC_BAD_INPUT;
   for (int j = 0; j < m->n_contacts; ++j)
     if (!contact_ok(&m->contacts[j])) return HC_BAD_INPUT;
+  if (how->method == TRANSIENT_METHOD_CLOSED_FORM && how->law != TRANSIENT_LAW_EXACT) return HC_BAD_INPUT;
   if (!positive(how->regularisation) || !positive(how->tolerance) || how->max_periods < 1) return HC_BAD_INPUT;
   return HC_OK;
 }
 
 static hc_status make_memory(timeint *ti)
 {
-  double **const vectors[] = {&ti->y,        &ti->saved,    &ti->direction, &ti->neighbour, &ti->separation,
-                              &ti->point[0], &ti->point[1], &ti->point[2],  &ti->past};
+  double **const vectors[] = {&ti->y,           &ti->saved,    &ti->direction, &ti->neighbour, &ti->separation,
+                              &ti->scout_state, &ti->point[0], &ti->point[1],  &ti->point[2],  &ti->past};
   const size_t n = (size_t)ti->n, n_vectors = sizeof vectors / sizeof *vectors;
   ti->memory = calloc((n_vectors - 1 + SETTLE_MAX_MULTIPLE) * n, sizeof *ti->memory);
   ti->scaled.contact = calloc(n, sizeof *ti->scaled.contact); /* two more than needed, so never nothing */
@@ -48,12 +52,16 @@ static hc_status make_memory(timeint *ti)
 static hc_status make_parts(timeint *ti)
 {
   const int n = ti->n;
-  const bool exact = ti->how.law == TRANSIENT_LAW_EXACT;
+  const bool exact = ti->how.law == TRANSIENT_LAW_EXACT, closed = ti->how.method == TRANSIENT_METHOD_CLOSED_FORM;
   hc_status st = make_memory(ti);
-  if (st == HC_OK) st = (exact ? integrate_new_exact : integrate_new_regularised)(n, ti->tolerance, &ti->in);
-  if (st == HC_OK && !exact) st = integrate_new_exact(n, ti->tolerance, &ti->exact);
+  if (st == HC_OK)
+    st = (closed  ? integrate_new_closed
+          : exact ? integrate_new_exact
+                  : integrate_new_regularised)(n, ti->tolerance, &ti->in);
+  if (st == HC_OK && !exact && !ti->how.scout) st = integrate_new_exact(n, ti->tolerance, &ti->exact);
   if (st == HC_OK) st = settle_new(n, &ti->settle);
-  return st == HC_OK ? shoot_new(ti, &ti->shoot) : st;
+  if (st == HC_OK) st = shoot_new(ti, &ti->shoot);
+  return st == HC_OK ? scout_new(ti) : st;
 }
 
 hc_status timeint_new(const model *m, const transient_settings *how, timeint **out)
@@ -78,6 +86,8 @@ hc_status timeint_new(const model *m, const transient_settings *how, timeint **o
 void timeint_free(timeint *ti)
 {
   if (!ti) return;
+  confirm_free(ti->confirm);
+  timeint_free(ti->scout);
   shoot_free(ti->shoot);
   settle_free(ti->settle);
   integrate_free(ti->exact);
@@ -201,6 +211,7 @@ void timeint_point(const timeint *ti, double *z)
  * pass over whole contacts. */
 double timeint_final_tolerance(const timeint *ti)
 {
+  if (ti->how.method == TRANSIENT_METHOD_CLOSED_FORM) return 1e-14; /* of rounding alone */
   double wanted = 1e-3 * ti->how.tolerance * sqrt(1 - fmin(ti->contraction, 1));
   return fmin(fmax(wanted, 1e-14), 1e-6);
 }

@@ -16,9 +16,11 @@ struct timeint {          /* from timeint_new, to timeint_free; not shared betwe
   transient_settings how; /* a copy                                                                     */
   int n;                  /* number of states, 2 + contacts                                             */
   integrator *in;
-  integrator *exact; /* of the exact law, for sweeps, where `in` is not; else NULL                      */
+  integrator *exact; /* of the exact law, for sweeps, where `in` is not and there is no scout; else NULL */
   settle *settle;
   struct shoot *shoot;
+  timeint *scout;          /* of the same model, in closed form; NULL without transient.scout           */
+  struct confirm *confirm; /* with a scout                                                              */
   measure measure;
   scaled_model scaled; /* the equations at omega in units of length                                     */
   double omega;        /* [rad/time]                                                                    */
@@ -31,6 +33,7 @@ struct timeint {          /* from timeint_new, to timeint_free; not shared betwe
   double *y;           /* [n] the state                                                                 */
   double *saved;       /* [n] y before a Newton solve whose answer may be rejected                      */
   double *direction;   /* [n] in which an unstable orbit is left                                        */
+  double *scout_state; /* [n] of the scout's orbit, in the model's units                                */
   double *neighbour;   /* [n] state of a second motion, drawn along with the first                      */
   double *separation;  /* [n] neighbour - y at the beginning of a period                                */
   double *point[3];    /* [n] states as timeint_point has them                                          */

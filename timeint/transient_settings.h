@@ -6,6 +6,7 @@
 #include <stdbool.h>
 
 typedef enum transient_law { TRANSIENT_LAW_REGULARISED, TRANSIENT_LAW_EXACT } transient_law;
+typedef enum transient_method { TRANSIENT_METHOD_CVODE, TRANSIENT_METHOD_CLOSED_FORM } transient_method;
 typedef enum transient_steady {
   TRANSIENT_STEADY_AUTO,
   TRANSIENT_STEADY_MARCH,
@@ -20,8 +21,10 @@ typedef enum transient_start {
 
 typedef struct transient_settings {
   transient_law law;
-  double regularisation; /* [1] */
-  bool richardson;       /* extrapolate to no regularisation */
+  transient_method method; /* closed form: exact law only */
+  bool scout;              /* orbits are looked for in closed form, and confirmed by `method` */
+  double regularisation;   /* [1] */
+  bool richardson;         /* extrapolate to no regularisation */
   transient_steady steady;
   transient_start start;
   double tolerance; /* [1] relative distance to the periodic orbit */

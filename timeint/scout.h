@@ -1,0 +1,18 @@
+/* scout.h - where a motion goes, found in closed form at microseconds a period, then confirmed by CVODE
+ * (transient.scout). The scout is a handle of its own: the same model and settings, the exact law in closed form. What
+ * is reported are CVODE's periods; the scout decides which orbit, of how many periods, or that there is none. */
+#ifndef HC_TIMEINT_SCOUT_H
+#define HC_TIMEINT_SCOUT_H
+
+#include "timeint/steady.h"
+
+/* ti->scout for ti, if its settings ask for one. HC_NO_MEMORY. */
+hc_status scout_new(timeint *ti);
+
+/* From state[n] to the steady state (orbit_of 0) or to the orbit of orbit_of periods next to it, as timeint_steady and
+ * timeint_orbit do without a scout, from a timeint_begin on. !*done: the scout found nothing that CVODE's periods
+ * confirm; *r is then as it was, and the motion at `state` again. */
+hc_status scout_steady(timeint *ti, int orbit_of, const double *state, const hc_monitor *monitor, timeint_result *r,
+                       bool *done);
+
+#endif
