@@ -149,6 +149,7 @@ static int run_compare(int argc, char **argv)
   hc_monitor monitor = progress_monitor(bar);
   compare_setup setup;
   hc_status st = scene_setup(&sc, &setup), tabled = HC_OK;
+  setup.spare = common.format == FORMAT_TABLE && !own.plot; /* the screen does not show from_integration */
   if (st == HC_OK) st = comparison_run(&setup, &monitor, &c);
   tables[0] = comparison_table(&sc, &setup, &c);
   if (st != HC_OK) table_note(tables[0], "INCOMPLETE: %s", hc_status_text(st));

@@ -10,6 +10,7 @@
 #include "compare/patience.h"
 
 static const double same_orbit = 0.05; /* [amplitude] */
+static const double negligible = 1e-2; /* of the discrepancy: a part that no remark would name */
 static const double finest = 1e-10;    /* transient.tolerance below which rounding keeps shooting from converging */
 
 struct budgeter {           /* from budgeter_new, to budgeter_free */
@@ -122,8 +123,7 @@ static hc_status find_alias_free(budgeter *b, const budget_case *from, chain *c)
 
 /* ---- T': the transient without its integration error ----------------------------------------- */
 
-/* The orbit next to the transient's with transient.tolerance = tolerance. HC_OK also if there was none: then
- * !*found. */
+/* The transient's orbit with transient.tolerance = tolerance. HC_OK also if there was none: then !*found. */
 static hc_status integrate_again(budgeter *b, timeint **ti, double tolerance, const budget_case *from,
                                  const hc_monitor *monitor, periodic_motion *out, bool *found)
 {
@@ -134,14 +134,21 @@ static hc_status integrate_again(budgeter *b, timeint **ti, double tolerance, co
   hc_monitor bounded = {patience_tick, &p};
   *found = false;
   setup.transient.tolerance = tolerance;
-  setup.transient.steady = TRANSIENT_STEADY_SHOOTING; /* with transient.richardson, timeint_steady extrapolates as it
-                                                      did for T */
   hc_status st = *ti ? HC_OK : timeint_new(setup.model, &setup.transient, ti);
-  if (st == HC_OK) st = timeint_steady(*ti, from->omega, b->state, &bounded, &r);
+  if (st == HC_OK) st = timeint_again(*ti, from->omega, from->transient->period_multiple, b->state, &bounded, &r);
   if (st == HC_NO_MEMORY) return st;
   if (p.stopped) return HC_INTERRUPTED;
   if (st == HC_OK && budget_same_orbit(&r, from->transient)) *out = motion_of_transient(&r), *found = true;
   return HC_OK;
+}
+
+/* Could the integration's error be seen beside the other parts, or is it asked for? Its size is expected to be what
+ * the integration itself says. */
+static bool integration_matters(const budgeter *b, const budget_case *from, const chain *c)
+{
+  const timeint_result *tr = from->transient;
+  const double whole = motion_between(&c->h, &c->transient).waveform, expected = tr->closure + tr->attainable;
+  return !b->setup.spare || !(expected * tr->amplitude <= negligible * whole);
 }
 
 static hc_status find_finer(budgeter *b, const budget_case *from, const hc_monitor *monitor, chain *c)
@@ -150,6 +157,7 @@ static hc_status find_finer(budgeter *b, const budget_case *from, const hc_monit
   c->settling = from->transient->closure;
   c->finer = c->transient;
   if ((c->has_finer = from->transient->method == TIMEINT_BY_CLOSED_FORM)) return HC_OK;
+  if (!integration_matters(b, from, c)) return HC_OK;
   const double fine = fmin(finest, 0.1 * tolerance);
   hc_status st = integrate_again(b, &b->finer, fine, from, monitor, &c->finer, &c->has_finer);
   if (st != HC_OK || c->has_finer) return st;

@@ -26,6 +26,7 @@ typedef struct compare_setup {
   transient_settings transient;
   compare_settings compare;
   const gate_limits *limits; /* what is within them is a match */
+  bool spare;                /* leave out parts of the budget that nobody asks for and no verdict depends on */
 } compare_setup;
 
 #endif

@@ -177,7 +177,7 @@ static hc_status neighbours_drift_apart(timeint *ti, const hc_monitor *monitor, 
 
 static hc_status report_aperiodic(timeint *ti, timeint_result *r)
 {
-  const shoot_report none = {.distance = INFINITY, .multiplier = NAN};
+  const shoot_report none = {.distance = INFINITY, .attainable = INFINITY, .multiplier = NAN};
   const double rate = r->lyapunov;
   hc_status st = orbit_report(ti, 1, TIMEINT_BY_MARCHING, &none, r);
   r->period_multiple = 0;

@@ -108,7 +108,7 @@ static void fill_stability(const scaled_model *m, double k, timeint_result *r)
   r->multiplier_re = creal(lambda);
   r->multiplier_im = cimag(lambda);
   r->period_multiple = 1;
-  r->closure = 0;
+  r->closure = r->attainable = 0;
 }
 
 void linear_regime_steady(timeint *ti, timeint_result *r)

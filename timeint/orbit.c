@@ -69,6 +69,7 @@ void orbit_fill(const timeint *ti, int k, timeint_method method, const shoot_rep
 {
   r->method = method;
   r->closure = relative_closure(ti, found->distance, r->amplitude);
+  r->attainable = relative_closure(ti, found->attainable, r->amplitude);
   r->multiplier = cabs(found->multiplier);
   r->multiplier_re = creal(found->multiplier);
   r->multiplier_im = cimag(found->multiplier);

@@ -3,6 +3,7 @@
 
 #include <complex.h>
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "timeint/confirm.h"
@@ -11,7 +12,34 @@
 #include "timeint/timeint_private.h"
 
 static const double scout_tolerance = 1e-12;
-static const double near = 0.02; /* [size] of the scout's orbit from the one CVODE finds by itself */
+static const double near = 0.02;       /* [size] of the scout's orbit from the one CVODE finds by itself */
+static const double same_orbit = 1e-9; /* [length] of two scouted states, relative to their size */
+
+/* Orbits confirmed lately: another start at the same frequency often leads to one of them, and nothing is integrated
+ * twice. Those of a handle have the same settings. */
+enum { REMEMBERED = 2 };
+struct memory {
+  int next; /* to be overwritten */
+  struct confirmed {
+    int k; /* 0: empty */
+    double omega;
+    double *scouted, *state; /* [n] where the scout was, where CVODE ended; in the model's units */
+    timeint_result result;
+  } orbit[REMEMBERED];
+  double *states; /* of the orbits */
+};
+
+static hc_status make_memory(timeint *ti)
+{
+  const size_t n = (size_t)ti->n;
+  struct memory *m = ti->confirmed = calloc(1, sizeof *m);
+  if (!m || !(m->states = calloc(2 * REMEMBERED * n, sizeof *m->states))) return HC_NO_MEMORY;
+  for (size_t i = 0; i < REMEMBERED; ++i) {
+    m->orbit[i].scouted = m->states + 2 * i * n;
+    m->orbit[i].state = m->states + (2 * i + 1) * n;
+  }
+  return HC_OK;
+}
 
 hc_status scout_new(timeint *ti)
 {
@@ -19,10 +47,50 @@ hc_status scout_new(timeint *ti)
   transient_settings how = ti->how;
   how.law = TRANSIENT_LAW_EXACT;
   how.method = TRANSIENT_METHOD_CLOSED_FORM;
-  how.scout = how.richardson = false;
+  how.scout = how.richardson = false; /* so a scout has no scout */
   how.tolerance = fmin(how.tolerance, scout_tolerance);
   hc_status st = timeint_new(ti->model, &how, &ti->scout);
-  return st == HC_OK ? confirm_new(ti, &ti->confirm) : st;
+  if (st == HC_OK) st = confirm_new(ti, &ti->confirm);
+  return st == HC_OK ? make_memory(ti) : st;
+}
+
+void scout_free(timeint *ti)
+{
+  if (ti->confirmed) free(ti->confirmed->states);
+  free(ti->confirmed);
+  confirm_free(ti->confirm);
+  timeint_free(ti->scout);
+}
+
+static bool same_state(int n, const double *a, const double *b)
+{
+  double apart = 0, size = 0;
+  for (int i = 0; i < n; ++i) apart = fmax(apart, fabs(a[i] - b[i])), size = fmax(size, fabs(a[i]));
+  return apart <= same_orbit * size;
+}
+
+/* The orbit through the scouted state, if it is remembered; else NULL. */
+static const struct confirmed *recall(const timeint *ti, int k, const double *scouted)
+{
+  for (int i = 0; i < REMEMBERED; ++i) {
+    const struct confirmed *c = &ti->confirmed->orbit[i];
+    if (c->k == k && c->omega == ti->omega && same_state(TIMEINT_W, c->scouted, scouted) &&
+        same_state(ti->n - TIMEINT_W, c->scouted + TIMEINT_W, scouted + TIMEINT_W))
+      return c;
+  }
+  return NULL;
+}
+
+static void remember(timeint *ti, int k, const double *scouted, const timeint_result *r)
+{
+  struct memory *m = ti->confirmed;
+  struct confirmed *c = &m->orbit[m->next];
+  m->next = (m->next + 1) % REMEMBERED;
+  c->k = k;
+  c->omega = ti->omega;
+  c->result = *r;
+  memcpy(c->scouted, scouted, sizeof *scouted * (size_t)ti->n);
+  timeint_get_state(ti, c->state);
 }
 
 /* What a result says of its orbit. */
@@ -43,24 +111,34 @@ static hc_status shoot_beside(timeint *ti, int k, bool stable, const hc_monitor 
   return st == HC_OK ? orbit_report(ti, k, TIMEINT_BY_SHOOTING, &found, r) : st;
 }
 
-static hc_status confirm_scouted(timeint *ti, const timeint_result *scouted, bool stable, const hc_monitor *monitor,
-                                 timeint_result *r)
+static hc_status confirm_scouted(timeint *ti, const double *seen, const timeint_result *scouted, bool stable,
+                                 const hc_monitor *monitor, timeint_result *r)
 {
   const int k = scouted->period_multiple;
+  const bool left_orbit = r->left_orbit;
+  const int periods = r->scouted;
   shoot_report found = report_of(scouted);
   if (linear_regime_is_final(ti)) {
     linear_regime_steady(ti, r);
     return HC_OK;
   }
+  const struct confirmed *known = recall(ti, k, seen);
+  if (known) {
+    *r = known->result;
+    r->left_orbit = left_orbit;
+    r->scouted = periods;
+    return timeint_begin(ti, ti->omega, known->state);
+  }
   hc_status st = confirm_orbit(ti->confirm, k, monitor, &found, r);
   if (shoot_found_no_orbit(st)) st = shoot_beside(ti, k, stable, monitor, r);
+  if (st == HC_OK) remember(ti, k, seen, r);
   return st;
 }
 
 /* One period of CVODE's where the scout found none that repeats. */
 static hc_status report_unsettled(timeint *ti, const timeint_result *scouted, hc_status why, timeint_result *r)
 {
-  const shoot_report none = {.distance = INFINITY, .multiplier = NAN};
+  const shoot_report none = {.distance = INFINITY, .attainable = INFINITY, .multiplier = NAN};
   hc_status st = orbit_report(ti, 1, TIMEINT_BY_MARCHING, &none, r);
   r->period_multiple = 0;
   r->lyapunov = scouted->lyapunov;
@@ -84,11 +162,25 @@ hc_status scout_steady(timeint *ti, int orbit_of, const double *state, const hc_
     st = timeint_begin(ti, ti->omega, seen);
     if (st == HC_OK) st = timeint_set_tolerance(ti, timeint_final_tolerance(ti));
     r->left_orbit = scouted.left_orbit;
-    if (st == HC_OK && why == HC_OK) st = confirm_scouted(ti, &scouted, orbit_of == 0, monitor, r);
+    if (st == HC_OK && why == HC_OK) st = confirm_scouted(ti, seen, &scouted, orbit_of == 0, monitor, r);
     else if (st == HC_OK) st = report_unsettled(ti, &scouted, why, r);
     if (!shoot_found_no_orbit(st) || why != HC_OK) return st;
   }
   *done = false;
   r->left_orbit = false;
   return timeint_begin(ti, ti->omega, state);
+}
+
+hc_status scout_confirm(timeint *ti, int k, const hc_monitor *monitor, timeint_result *r, bool *done)
+{
+  shoot_report found = {.distance = INFINITY, .multiplier = NAN};
+  *done = true;
+  if (linear_regime_is_final(ti)) {
+    linear_regime_steady(ti, r);
+    return HC_OK;
+  }
+  hc_status st = timeint_set_tolerance(ti, timeint_final_tolerance(ti));
+  if (st == HC_OK) st = confirm_orbit(ti->confirm, k, monitor, &found, r);
+  *done = !shoot_found_no_orbit(st);
+  return *done ? st : HC_OK;
 }

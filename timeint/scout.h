@@ -6,13 +6,19 @@
 
 #include "timeint/steady.h"
 
-/* ti->scout for ti, if its settings ask for one. HC_NO_MEMORY. */
+/* ti->scout for ti, if its settings ask for one, and what else is needed with it. HC_NO_MEMORY; scout_free in any
+ * case. */
 hc_status scout_new(timeint *ti);
+void scout_free(timeint *ti);
 
 /* From state[n] to the steady state (orbit_of 0) or to the orbit of orbit_of periods next to it, as timeint_steady and
  * timeint_orbit do without a scout, from a timeint_begin on. !*done: the scout found nothing that CVODE's periods
  * confirm; *r is then as it was, and the motion at `state` again. */
 hc_status scout_steady(timeint *ti, int orbit_of, const double *state, const hc_monitor *monitor, timeint_result *r,
                        bool *done);
+
+/* The orbit of k periods next to ti->y, without looking for it. !*done: CVODE's periods do not confirm that there is
+ * one; the motion is where it was. */
+hc_status scout_confirm(timeint *ti, int k, const hc_monitor *monitor, timeint_result *r, bool *done);
 
 #endif

@@ -45,7 +45,8 @@ static void clear_result(timeint_result *r, double omega)
 {
   memset(r, 0, sizeof *r);
   r->omega = omega;
-  r->amplitude = r->max = r->min = r->rms = r->mean = r->a1 = r->b1 = r->harmonic_1 = r->closure = r->contraction = NAN;
+  r->amplitude = r->max = r->min = r->rms = r->mean = r->a1 = r->b1 = r->harmonic_1 = r->closure = r->attainable =
+      r->contraction = NAN;
   r->multiplier = r->multiplier_re = r->multiplier_im = r->lyapunov = r->regularisation_error = NAN;
   for (int i = 0; i < TIMEINT_WAVE; ++i) r->wave[i] = NAN;
 }
@@ -154,6 +155,22 @@ hc_status timeint_orbit(timeint *ti, double omega, int k, double *state, const h
   bool done = false;
   if (ti->scout) st = scout_steady(ti, k, state, monitor, result, &done);
   if (st == HC_OK && !done) st = to_nearest_orbit(ti, k, monitor, result);
+  timeint_get_state(ti, state);
+  fill_counts(ti, result);
+  return st;
+}
+
+hc_status timeint_again(timeint *ti, double omega, int k, double *state, const hc_monitor *monitor,
+                        timeint_result *result)
+{
+  bool done = false;
+  clear_result(result, omega);
+  if (k < 1 || k > SETTLE_MAX_MULTIPLE) return HC_BAD_INPUT;
+  hc_status st = timeint_begin(ti, omega, state);
+  if (st != HC_OK) return st;
+  if (ti->scout) st = scout_confirm(ti, k, monitor, result, &done);
+  if (st == HC_OK && !done) st = to_nearest_orbit(ti, k, monitor, result);
+  if (st == HC_OK) st = richardson_extrapolate(ti, monitor, result);
   timeint_get_state(ti, state);
   fill_counts(ti, result);
   return st;

@@ -23,6 +23,8 @@ typedef struct timeint_result {
   double closure;             /* [1] estimated distance to the periodic orbit, drift/(1 - contraction), relative to the
                                  amplitude; may be INFINITY, and more than transient.tolerance where the integration's
                                  own errors, times 1/(1 - contraction), allow no less */
+  double attainable;          /* [1] the distance that integration errors allow at best, relative to the amplitude; NaN:
+                                 not known */
   double contraction;         /* [1] measured contraction per period of the drift; NaN: could not be measured */
   int periods;                /* forcing periods integrated, all included */
   int scouted;                /* forcing periods followed in closed form beforehand (transient.scout) */
@@ -60,6 +62,12 @@ hc_status timeint_steady(timeint *ti, double omega, double *state, const hc_moni
  * transient.steady_state says; the multiplier tells which. Errors as timeint_steady with shooting. 1 <= k <= 16; the
  * orbit may be a shorter one run through several times. */
 hc_status timeint_orbit(timeint *ti, double omega, int k, double *state, const hc_monitor *monitor,
+                        timeint_result *result);
+
+/* The orbit of k periods through a state that lies next to it already, as that of the same equations integrated with
+ * another tolerance does: neither looked for nor scouted. transient.richardson as in timeint_steady. Errors as
+ * timeint_orbit. */
+hc_status timeint_again(timeint *ti, double omega, int k, double *state, const hc_monitor *monitor,
                         timeint_result *result);
 
 /* Stable by its multiplier: +1; -1 not; 0 unknown, or within 1e-9 of the border. */

@@ -5,7 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "timeint/confirm.h"
 #include "timeint/integrate_closed.h"
 #include "timeint/integrate_exact.h"
 #include "timeint/integrate_regularised.h"
@@ -86,8 +85,7 @@ hc_status timeint_new(const model *m, const transient_settings *how, timeint **o
 void timeint_free(timeint *ti)
 {
   if (!ti) return;
-  confirm_free(ti->confirm);
-  timeint_free(ti->scout);
+  scout_free(ti);
   shoot_free(ti->shoot);
   settle_free(ti->settle);
   integrate_free(ti->exact);

@@ -19,8 +19,9 @@ struct timeint {          /* from timeint_new, to timeint_free; not shared betwe
   integrator *exact; /* of the exact law, for sweeps, where `in` is not and there is no scout; else NULL */
   settle *settle;
   struct shoot *shoot;
-  timeint *scout;          /* of the same model, in closed form; NULL without transient.scout           */
-  struct confirm *confirm; /* with a scout                                                              */
+  timeint *scout;           /* of the same model, in closed form; NULL without transient.scout           */
+  struct confirm *confirm;  /* with a scout                                                              */
+  struct memory *confirmed; /* with a scout: orbits found lately (scout.c)                              */
   measure measure;
   scaled_model scaled; /* the equations at omega in units of length                                     */
   double omega;        /* [rad/time]                                                                    */

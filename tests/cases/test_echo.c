@@ -114,6 +114,7 @@ static void random_scene(scene *sc, uint64_t *s)
   if (sc->hbm.samples != HBM_AUTO && sc->hbm.samples < 2 * sc->hbm.harmonics + 1)
     sc->hbm.samples = 2 * sc->hbm.harmonics + 1;
   if (sc->omega_from == sc->omega_to) sc->omega_to = sc->omega_from > 1 ? 1 : 2;
+  if (sc->transient.method == TRANSIENT_METHOD_CLOSED_FORM) sc->transient.law = TRANSIENT_LAW_EXACT;
 }
 
 static void random_scenes_come_back_bit_for_bit(void **state)

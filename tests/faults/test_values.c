@@ -146,26 +146,31 @@ static void sampled_force(void **state)
 
 /* ---- time integration ---- */
 
-static const char *const smoothly[] = {"transient.regularisation=0.01", "transient.tolerance=1e-4", NULL};
+static const char *const smoothly[] = {"transient.regularisation=0.01", "transient.tolerance=1e-4",
+                                       "transient.scout=false", NULL};
 
-static hc_status settled(timeint *ti, scene_state from, timeint_result *r)
+/* By a handle of its own: one that has found an orbit remembers it. */
+static hc_status settled(const scene *sc, scene_state from, timeint_result *r)
 {
-  return timeint_steady(ti, 6.5, from.all, NULL, r);
+  timeint *ti;
+  assert_int_equal(scene_timeint(sc, &ti), HC_OK);
+  hc_status st = timeint_steady(ti, 6.5, from.all, NULL, r);
+  timeint_free(ti);
+  return st;
 }
 
-static void right_hand_side(void **state)
+static void right_hand_side_of(scene sc)
 {
-  (void)state;
-  scene sc = small_scene(smoothly);
   timeint *ti;
   timeint_result right, r;
   assert_int_equal(scene_timeint(&sc, &ti), HC_OK);
   scene_state orbit = {.x = 0};
   now = (poison){0};
   assert_int_equal(timeint_steady(ti, 6.5, orbit.all, NULL, &r), HC_OK);
+  timeint_free(ti);
   orbit.x *= 1.001; /* next to it: from rest it would take a hundred periods */
   now = (poison){0};
-  assert_int_equal(settled(ti, orbit, &right), HC_OK);
+  assert_int_equal(settled(&sc, orbit, &right), HC_OK);
   const long most = now.calls, at[] = {1, 2, 3, 10, 100, most / 2, most - 1, most};
   static const double values[] = {NAN, INFINITY, -INFINITY};
   for (int i = 0; i < 8; ++i)
@@ -173,7 +178,7 @@ static void right_hand_side(void **state)
       for (int how = 0; how < 4; ++how) {
         now = (poison){.at = at[i], .stays = how & 1, .value = values[k], .honest = how & 2};
         doing("regularised law");
-        hc_status st = settled(ti, orbit, &r);
+        hc_status st = settled(&sc, orbit, &r);
         const bool lasting = now.stays && at[i] < most - 1; /* the last ones belong to measuring a step that CVODE
                                                                has finished */
         if (lasting && st == HC_OK) fail_msg("%s ended well", small_doing);
@@ -181,16 +186,28 @@ static void right_hand_side(void **state)
         now = (poison){0};
         /* twice the tolerance */
         if (st == HC_OK) CHECK_NEAR(r.amplitude, right.amplitude, 2e-4 * right.amplitude, "%s", small_doing);
-        assert_int_equal(settled(ti, orbit, &r), HC_OK);
+        assert_int_equal(settled(&sc, orbit, &r), HC_OK);
         assert_true(r.amplitude == right.amplitude && r.closure == right.closure);
       }
-  timeint_free(ti);
 }
 
+static void right_hand_side(void **state)
+{
+  (void)state;
+  right_hand_side_of(small_scene(smoothly));
+}
+
+static void right_hand_side_with_a_scout(void **state)
+{
+  (void)state;
+  scene sc = small_scene(smoothly);
+  sc.transient.scout = true;
+  right_hand_side_of(sc);
+}
 int main(void)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(located_force), cmocka_unit_test(sampled_force),
-                                     cmocka_unit_test(right_hand_side)};
+                                     cmocka_unit_test(right_hand_side), cmocka_unit_test(right_hand_side_with_a_scout)};
   small_watchdog(300);
   return cmocka_run_group_tests_name("faults.values", tests, NULL, NULL);
 }

@@ -68,7 +68,7 @@ hc_status __real_timeint_new(const model *m, const transient_settings *how, time
 hc_status __wrap_timeint_new(const model *m, const transient_settings *how, timeint **out);
 hc_status __wrap_timeint_new(const model *m, const transient_settings *how, timeint **out)
 {
-  regularised = how->law == TRANSIENT_LAW_REGULARISED;
+  if (how->method == TRANSIENT_METHOD_CVODE) regularised = how->law == TRANSIENT_LAW_REGULARISED; /* else a scout */
   return __real_timeint_new(m, how, out);
 }
 
