@@ -22,6 +22,11 @@ typedef struct periodic_motion {
 
 static inline double motion_amplitude(double max, double min) { return 0.5 * (max - min); }
 
+/* How far off a motion is by the reckoning of whoever computed it, before it is held against another; NaN: not known. */
+typedef struct motion_error {
+  double amplitude, harmonic_1, waveform; /* [length] as in motion_distance */
+} motion_error;
+
 /* Of the series X[2 n_harm + 1], whose extrema the caller has from series_extrema. */
 periodic_motion motion_of_series(int n_harm, const double *X, double max, double min);
 

@@ -119,11 +119,11 @@ static hc_status try_orbit(confirm *c, int k, const hc_monitor *monitor, double 
   return isfinite(*length) ? HC_OK : HC_NOT_FINITE;
 }
 
-hc_status confirm_orbit(confirm *c, int k, const hc_monitor *monitor, shoot_report *found, timeint_result *r)
+hc_status confirm_orbit(confirm *c, int k, double goal, const hc_monitor *monitor, shoot_report *found,
+                        timeint_result *r)
 {
   timeint *ti = c->ti;
   const size_t bytes = sizeof *c->z * (size_t)c->n;
-  const double goal = orbit_goal(ti);
   double length = INFINITY, last = INFINITY;
   memcpy(c->before, ti->y, bytes);
   hc_status st = make_matrix(c, k);

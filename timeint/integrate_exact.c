@@ -33,6 +33,7 @@
 #include "base/constants.h"
 #include "numerics/sundials_compat.h"
 #include "timeint/integrate_cvode.h"
+#include "timeint/modal_motion.h"
 #include "timeint/phase.h"
 #include "timeint/variations.h"
 
@@ -55,6 +56,8 @@ typedef struct event_driven { /* from integrate_new_exact, to integrate_free; no
   phase phase, before;   /* now; before the last transition */
   bool varies;           /* the monodromy is asked for */
   variations variations;
+  double theta, begun[2]; /* where the watched step under way began, and X, P there */
+  double ends;            /* where it ends */
 } event_driven;
 
 static int rhs(sunrealtype theta, N_Vector y, N_Vector dy, void *self)
@@ -167,11 +170,18 @@ static hc_status pass_root(event_driven *in, double theta, int *count)
   return st == HC_OK ? start(in, theta) : st;
 }
 
+static void begin_step(event_driven *in, double theta)
+{
+  in->theta = theta;
+  memcpy(in->begun, NV_DATA_S(in->base.y), sizeof in->begun);
+}
+
 /* From theta = 0 to the end of the period. Unwatched, CVODE returns at roots only; the steps are the same. At tout ==
  * tstop version 6.4 says CV_SUCCESS, 7 says CV_TSTOP_RETURN. */
 static hc_status integrate_to_end(event_driven *in, integrate_watch *watch, void *self, int *count)
 {
   sunrealtype theta = 0;
+  begin_step(in, 0);
   for (int standstills = 0; theta < TWO_PI;) {
     sunrealtype before = theta;
     int flag = CVode(in->base.cv, TWO_PI, in->base.y, &theta, watch ? CV_ONE_STEP : CV_NORMAL);
@@ -180,7 +190,9 @@ static hc_status integrate_to_end(event_driven *in, integrate_watch *watch, void
     if (TWO_PI - theta <= at_end * TWO_PI) theta = TWO_PI;
     standstills = theta > before ? 0 : standstills + 1;
     if (standstills > MAX_STANDSTILLS) break;
+    in->ends = theta;
     hc_status st = watch ? watch(self, &in->base.base, before, theta) : HC_OK;
+    begin_step(in, theta);
     if (st == HC_OK && flag == CV_ROOT_RETURN) st = pass_root(in, theta, count);
     if (st != HC_OK) return st;
   }
@@ -221,6 +233,19 @@ static hc_status dense(const integrator *base, double theta, int order, double *
   return HC_OK;
 }
 
+/* The motion of the step solves the phase's linear equation, and so its integrals follow from its ends. */
+static bool fourier(const integrator *base, double out[3])
+{
+  const event_driven *in = (const event_driven *)base;
+  const mode one = mode_make(in->m->c, in->phase.k);
+  double d = -in->phase.d, x[2] = {in->begun[0], NV_Ith_S(in->base.y, 0)},
+         p[2] = {in->begun[1], NV_Ith_S(in->base.y, 1)};
+  double complex f = in->m->f;
+  const modal_motion motion = {.n = 1, .theta = in->theta, .mode = &one, .q = x, .p = p, .d = &d, .f = &f};
+  const modal_point from = {.q = x, .p = p}, to = {.tau = in->ends - in->theta, .q = x + 1, .p = p + 1};
+  return modal_fourier(&motion, 0, &from, &to, out);
+}
+
 static bool slips(const integrator *base, int j, const double *y)
 {
   (void)y; /* the phase has the contact's state */
@@ -240,7 +265,7 @@ static hc_status make_memory(event_driven *in)
 static const integrator_class class = {.period = period,
                                        .dense = dense,
                                        .samples = integrate_dense_samples,
-                                       .fourier = integrate_no_fourier,
+                                       .fourier = fourier,
                                        .slips = slips,
                                        .tolerance = integrate_cvode_tolerance,
                                        .free = release};

@@ -34,7 +34,7 @@ static hc_status solve_at(timeint *ti, double regularisation, int k, const hc_mo
   scaled_make(&ti->scaled, ti->model, &ti->how, ti->omega, ti->length);
   if (ti->scout) {
     found = (shoot_report){.multiplier = r->multiplier_re + I * r->multiplier_im, .free_sliders = r->free_sliders};
-    const hc_status confirmed = confirm_orbit(ti->confirm, k, monitor, &found, r);
+    const hc_status confirmed = confirm_orbit(ti->confirm, k, orbit_goal(ti), monitor, &found, r);
     if (!shoot_found_no_orbit(confirmed)) return confirmed;
   }
   hc_status st = shoot_newton(ti->shoot, k, size, orbit_goal(ti), monitor, &found);

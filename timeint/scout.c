@@ -62,11 +62,11 @@ void scout_free(timeint *ti)
   timeint_free(ti->scout);
 }
 
-static bool same_state(int n, const double *a, const double *b)
+static bool same_state(int n, const double *a, const double *b, double within)
 {
   double apart = 0, size = 0;
   for (int i = 0; i < n; ++i) apart = fmax(apart, fabs(a[i] - b[i])), size = fmax(size, fabs(a[i]));
-  return apart <= same_orbit * size;
+  return apart <= within * size;
 }
 
 /* The orbit through the scouted state, if it is remembered; else NULL. */
@@ -74,9 +74,18 @@ static const struct confirmed *recall(const timeint *ti, int k, const double *sc
 {
   for (int i = 0; i < REMEMBERED; ++i) {
     const struct confirmed *c = &ti->confirmed->orbit[i];
-    if (c->k == k && c->omega == ti->omega && same_state(TIMEINT_W, c->scouted, scouted) &&
-        same_state(ti->n - TIMEINT_W, c->scouted + TIMEINT_W, scouted + TIMEINT_W))
+    if (c->k == k && c->omega == ti->omega && same_state(TIMEINT_W, c->scouted, scouted, same_orbit) &&
+        same_state(ti->n - TIMEINT_W, c->scouted + TIMEINT_W, scouted + TIMEINT_W, same_orbit))
       return c;
+  }
+  return NULL;
+}
+
+motion_error *scout_prediction(timeint *ti, const double *state)
+{
+  for (int i = 0; i < REMEMBERED; ++i) {
+    struct confirmed *c = &ti->confirmed->orbit[i];
+    if (c->k > 0 && c->omega == ti->omega && same_state(ti->n, c->state, state, 1e-14)) return &c->result.predicted;
   }
   return NULL;
 }
@@ -129,7 +138,7 @@ static hc_status confirm_scouted(timeint *ti, const double *seen, const timeint_
     r->scouted = periods;
     return timeint_begin(ti, ti->omega, known->state);
   }
-  hc_status st = confirm_orbit(ti->confirm, k, monitor, &found, r);
+  hc_status st = confirm_orbit(ti->confirm, k, orbit_goal(ti), monitor, &found, r);
   if (shoot_found_no_orbit(st)) st = shoot_beside(ti, k, stable, monitor, r);
   if (st == HC_OK) remember(ti, k, seen, r);
   return st;
@@ -157,6 +166,9 @@ hc_status scout_steady(timeint *ti, int orbit_of, const double *state, const hc_
                               : timeint_steady(ti->scout, ti->omega, seen, monitor, &scouted);
   r->scouted = scouted.periods;
   if (st == HC_INTERRUPTED || st == HC_NO_MEMORY) return st;
+  const bool orbit_wanted = orbit_of > 0 || ti->how.steady == TRANSIENT_STEADY_SHOOTING;
+  if (orbit_wanted && shoot_found_no_orbit(st) && st != HC_CHATTER)
+    return st; /* where there is none, CVODE finds none */
   if (st == HC_OK || st == HC_NOT_SETTLED || st == HC_APERIODIC) {
     const hc_status why = st;
     st = timeint_begin(ti, ti->omega, seen);
@@ -180,7 +192,7 @@ hc_status scout_confirm(timeint *ti, int k, const hc_monitor *monitor, timeint_r
     return HC_OK;
   }
   hc_status st = timeint_set_tolerance(ti, timeint_final_tolerance(ti));
-  if (st == HC_OK) st = confirm_orbit(ti->confirm, k, monitor, &found, r);
+  if (st == HC_OK) st = confirm_orbit(ti->confirm, k, orbit_goal(ti), monitor, &found, r);
   *done = !shoot_found_no_orbit(st);
   return *done ? st : HC_OK;
 }

@@ -21,4 +21,7 @@ hc_status scout_steady(timeint *ti, int orbit_of, const double *state, const hc_
  * one; the motion is where it was. */
 hc_status scout_confirm(timeint *ti, int k, const hc_monitor *monitor, timeint_result *r, bool *done);
 
+/* The prediction of the remembered orbit through `state`, to be read or filled; NULL: not remembered. */
+motion_error *scout_prediction(timeint *ti, const double *state);
+
 #endif

@@ -2,6 +2,7 @@
 #ifndef HC_TIMEINT_STEADY_H
 #define HC_TIMEINT_STEADY_H
 
+#include "model/periodic_motion.h"
 #include "timeint/timeint.h"
 
 enum { TIMEINT_WAVE = 512 };
@@ -42,6 +43,7 @@ typedef struct timeint_result {
   bool left_orbit;  /* the orbit next to the start is unstable; reported is the one the motion went to from there */
   double lyapunov;  /* [1/period] mean rate at which neighbours drift apart; NaN where it was not measured */
   double regularisation_error; /* [1] of the amplitude, relative; estimated with transient.richardson, else NaN */
+  motion_error predicted;      /* [length] what timeint_predict expects; NaN before */
   contact_regime regime;       /* strongest regime of any contact in the reported period */
   int cvode_flag;              /* CVODE's own flag when the status is HC_INTEGRATOR */
   double wave[TIMEINT_WAVE];   /* [length] x at t = i T / TIMEINT_WAVE of the reported period */
@@ -69,6 +71,14 @@ hc_status timeint_orbit(timeint *ti, double omega, int k, double *state, const h
  * timeint_orbit. */
 hc_status timeint_again(timeint *ti, double omega, int k, double *state, const hc_monitor *monitor,
                         timeint_result *result);
+
+/* r->predicted: the error that the time integration itself expects in the measures of *r, the last result of this handle
+ * to which `state` belongs. From its own equations only:
+ *     integration     distance from the orbit, and the scatter of periods times |(I - Phi)^-1|
+ *     regularisation  twice the change by half of it: it is of first order, or better
+ * With a scout that is one plain period of the regularised law, none of the exact. HC_OK, also where nothing can be said
+ * (NaN); HC_NO_MEMORY, HC_INTERRUPTED. */
+hc_status timeint_predict(timeint *ti, const double *state, const hc_monitor *monitor, timeint_result *r);
 
 /* Stable by its multiplier: +1; -1 not; 0 unknown, or within 1e-9 of the border. */
 int timeint_stability(const timeint_result *result);
