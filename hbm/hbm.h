@@ -6,6 +6,7 @@
  * continuation.h     the response curve over a range of omega
  * response_curve.h   its points
  * between.h          every solution at an omega between the points, and the peak
+ * predict.h          how far off a solution expects to be
  * stability.h        Floquet multipliers of a solution
  * special_points.h   turning points, period doublings and contact changes of a curve
  *
@@ -16,6 +17,7 @@
 #include "hbm/between.h"
 #include "hbm/continuation.h"
 #include "hbm/hbm_solver.h"
+#include "hbm/predict.h"
 #include "hbm/response_curve.h"
 #include "hbm/special_points.h"
 #include "hbm/stability.h"

@@ -61,6 +61,8 @@ static void free_equations(hbm_solver *s)
   exact_force_free(s->orbit);
   refinement_free(s->finer_harmonics);
   refinement_free(s->finer_samples);
+  refinement_free(s->exact_finer);
+  free(s->improved);
   hbm_system_clear(&s->sys);
   double *const arrays[] = {s->X, s->z, s->z_scale, s->r_scale, s->normal, s->anchor};
   for (size_t i = 0; i < sizeof arrays / sizeof *arrays; ++i) free(arrays[i]);

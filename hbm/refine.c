@@ -1,11 +1,13 @@
 /* refine.c - see refine.h. */
 #include "hbm/refine.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "numerics/lu.h"
+#include "numerics/norm.h"
 #include "numerics/series.h"
 
 struct refinement {
@@ -47,20 +49,42 @@ void refinement_free(refinement *r)
   free(r);
 }
 
+int refinement_harmonics(const refinement *r) { return r->sys.n_harm; }
+
+hc_status refinement_step(refinement *r, double omega, double *Y, double *step)
+{
+  const int n = r->sys.n;
+  *step = INFINITY;
+  hc_status st = hbm_system_residual(&r->sys, omega, Y, r->R);
+  if (st != HC_OK) return st;
+  hbm_system_jacobian(&r->sys, omega, n, r->jac);
+  if (!lu_factor(n, r->jac, r->pivot)) return HC_SINGULAR;
+  lu_solve(n, r->jac, r->pivot, r->R);
+  const double size = norm_2(n, r->R);
+  if (!isfinite(size)) return HC_NOT_FINITE;
+  for (int i = 0; i < n; ++i) Y[i + r->sys.first] -= r->R[i];
+  *step = size;
+  return HC_OK;
+}
+
+double refinement_rounding(refinement *r, double omega)
+{
+  const int n = r->sys.n;
+  const double force = DBL_EPSILON * hbm_system_scale(&r->sys, omega);
+  for (int i = 0; i < n; ++i) r->R[i] = force;
+  lu_solve(n, r->jac, r->pivot, r->R);
+  const double size = norm_2(n, r->R);
+  return isfinite(size) ? size : INFINITY;
+}
+
 double refinement_error(refinement *r, double omega, int n_harm, const double *X)
 {
-  int n = r->sys.n;
-  double size = 0, step = 0;
+  double step;
   memset(r->X, 0, (size_t)r->sys.n_coef * sizeof(double));
   memcpy(r->X, X, (size_t)series_length(n_harm) * sizeof(double));
-  if (hbm_system_residual(&r->sys, omega, r->X, r->R) != HC_OK) return INFINITY;
-  hbm_system_jacobian(&r->sys, omega, n, r->jac);
-  if (!lu_factor(n, r->jac, r->pivot)) return INFINITY;
-  lu_solve(n, r->jac, r->pivot, r->R);
-  for (int i = 0; i < n; ++i) step += r->R[i] * r->R[i];
-  for (int i = 0; i < r->sys.n_coef; ++i) size += r->X[i] * r->X[i];
-  double error = size > 0 ? sqrt(step / size) : 0;
-  return isfinite(error) ? error : INFINITY;
+  const double size = norm_2(r->sys.n_coef, r->X);
+  if (refinement_step(r, omega, r->X, &step) != HC_OK) return INFINITY;
+  return size > 0 ? step / size : 0;
 }
 
 int refine_next_harmonics(int n_harm, bool up)

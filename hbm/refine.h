@@ -13,6 +13,16 @@ typedef struct refinement refinement;
 hc_status refinement_new(const model *m, const hbm_settings *how, int n_harm, int n_time, refinement **out);
 void refinement_free(refinement *r);
 
+int refinement_harmonics(const refinement *r);
+
+/* Y[2 n' + 1] := Y - J'^-1 R'(Y), n' = refinement_harmonics; *step [length] = |J'^-1 R'|. Errors of the contact force,
+ * HC_SINGULAR, HC_NOT_FINITE: Y is as it was. */
+hc_status refinement_step(refinement *r, double omega, double *Y, double *step);
+
+/* [length] How far rounding may move what the last step came to: |J'^-1 s|, where each s_i is one rounding of the sum of
+ * all forces. INFINITY rather than a NaN. */
+double refinement_rounding(refinement *r, double omega);
+
 /* Relative error of X[2 n_harm + 1], a solution with n_harm <= its own harmonics; infinite where it cannot be told. */
 double refinement_error(refinement *r, double omega, int n_harm, const double *X);
 

@@ -141,7 +141,7 @@ static void exact_force_allocates_nothing(void **state)
   }
 }
 
-/* Solving, measuring, and failing to solve: from 1e30 away, which ends in both strategies. */
+/* Solving, measuring, predicting, and failing to solve: from 1e30 away, which ends in both strategies. */
 static void solving_with(int force)
 {
   enum { H = 10, N_COEF = 2 * H + 1 };
@@ -150,15 +150,18 @@ static void solving_with(int force)
   hbm_solver *s;
   hbm_point point;
   hbm_measures m;
+  motion_error e;
   double X[N_COEF], Y[N_COEF] = {0};
   assert_int_equal(scene_hbm_solver(&sc, &s), HC_OK);
   assert_int_equal(hbm_solve_first(s, 6, X, &point), HC_OK);
   assert_int_equal(hbm_solve(s, 6.01, X, &point), HC_OK);
+  assert_int_equal(hbm_predict(s, 6.01, X, &e), HC_OK);
   long good = 0, wild = 0; /* allocations: in all good solves, most in one wild */
   int bad = 0, failed = 0;
   for (int k = 0; k < 50; ++k) {
     long before = allocations;
     bad += hbm_solve(s, 6 + 0.01 * k, X, &point) != HC_OK || hbm_measure(s, X, &m) != HC_OK;
+    bad += hbm_predict(s, 6 + 0.01 * k, X, &e) != HC_OK;
     good += allocations - before;
     Y[0] = 1e3;
     for (int i = 1; i < N_COEF; ++i) Y[i] = (i * 7919 % 13 - 6) * 1e2;

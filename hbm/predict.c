@@ -1,0 +1,110 @@
+/* predict.c - see predict.h. Proof: tests/hbm/test_predict.c. */
+#include "hbm/predict.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "hbm/hbm_solver_impl.h"
+#include "numerics/series.h"
+
+enum {
+  FEWEST_FINER = 14, /* with less a short contact does not show in the error of H = 1 */
+  MOST_STEPS = 10    /* of Newton: one or two but near turning points and for stiff contacts */
+};
+
+static const double converged = 0.02; /* a step this small beside what all came to changes the error by as little */
+static const double roundings = 4;    /* a motion and its measures take a few */
+
+/* The amplitude and the first harmonic of two motions may agree by chance, where an error passes through 0 as omega or H
+ * changes; what they are off by is then of the size of what the finer equations leave out, an eighth of the waveform's
+ * error or less. The worst seen is 0.03 of it, along c2. */
+static const double least_share = 0.04;
+
+static int finer_harmonics(int n_harm)
+{
+  if (n_harm > HBM_MAX_HARMONICS / 2) return n_harm / 2;
+  return 2 * n_harm > FEWEST_FINER ? 2 * n_harm : FEWEST_FINER;
+}
+
+/* What is made at the first call; freed with the equations. */
+static hc_status need_finer(hbm_solver *s)
+{
+  if (s->exact_finer) return HC_OK;
+  const int n_harm = finer_harmonics(s->sys.n_harm);
+  hbm_settings how = s->how;
+  how.force = HBM_FORCE_EXACT;
+  how.keep_mean = true;
+  if (!s->improved) s->improved = calloc((size_t)series_length(n_harm), sizeof *s->improved);
+  return s->improved ? refinement_new(s->model, &how, n_harm, 0, &s->exact_finer) : HC_NO_MEMORY;
+}
+
+/* |Y - X| [length], Y[2n+1] and X[2 n_harm + 1] both padded with zeros. */
+static double distance(int n_harm, const double *X, int n, const double *Y)
+{
+  const int most = series_length(n > n_harm ? n : n_harm);
+  double sum = 0;
+  for (int i = 0; i < most; ++i) {
+    const double d = (i < series_length(n) ? Y[i] : 0) - (i < series_length(n_harm) ? X[i] : 0);
+    sum += d * d;
+  }
+  return sqrt(sum);
+}
+
+/* Newton on the finer equations from s->improved. *least [length]: what the error is whatever the distance of where
+ * Newton came to: rounding; and where it did not come to anything, the longest step: there may be no such
+ * solution. */
+static hc_status improve(hbm_solver *s, double omega, const double *X, double *least)
+{
+  const int n_harm = s->sys.n_harm, n = refinement_harmonics(s->exact_finer);
+  double last, longest = 0;
+  *least = 0;
+  bool found = false;
+  for (int k = 0; k < MOST_STEPS && !found; ++k) {
+    const hc_status st = refinement_step(s->exact_finer, omega, s->improved, &last);
+    if (st != HC_OK && k == 0) return st;
+    if (st != HC_OK) break;
+    if (k == 0) *least = roundings * refinement_rounding(s->exact_finer, omega);
+    longest = fmax(longest, last);
+    found = last <= *least || (k > 0 && last <= converged * distance(n_harm, X, n, s->improved));
+  }
+  if (!found) *least += longest;
+  return HC_OK;
+}
+
+static periodic_motion measured(int n_harm, const double *X)
+{
+  double max, min;
+  series_extrema(n_harm, X, &max, &min);
+  return motion_of_series(n_harm, X, max, min);
+}
+
+/* What n harmonics leave out is added. Of sampled forces and n < H all of the distance may be aliasing, which more
+ * harmonics do not mend. */
+static double extrapolation(const hbm_solver *s, int n)
+{
+  const double ratio = (double)s->sys.n_harm / n;
+  return s->sys.sampled && ratio > 1 ? 1 : 1 / fabs(1 - ratio * ratio * ratio);
+}
+
+hc_status hbm_predict(hbm_solver *s, double omega, const double *X, motion_error *out)
+{
+  *out = (motion_error){NAN, NAN, NAN};
+  hc_status st = need_finer(s);
+  if (st != HC_OK) return st;
+  const int n_harm = s->sys.n_harm, n = refinement_harmonics(s->exact_finer);
+  double least;
+  memset(s->improved, 0, (size_t)series_length(n) * sizeof *s->improved);
+  memcpy(s->improved, X, (size_t)series_length(n < n_harm ? n : n_harm) * sizeof *s->improved);
+  st = improve(s, omega, X, &least);
+  if (st != HC_OK) return st;
+  const periodic_motion ours = measured(n_harm, X), better = measured(n, s->improved);
+  const motion_distance d = motion_between(&ours, &better);
+  const double factor = extrapolation(s, n), waveform = factor * d.waveform;
+  *out = (motion_error){.amplitude = fmax(factor * d.amplitude, least_share * waveform) + least,
+                        .harmonic_1 = fmax(factor * d.harmonic_1, least_share * waveform) + least,
+                        .waveform = waveform + least};
+  const double sum = out->amplitude + out->harmonic_1 + out->waveform;
+  if (isnan(sum)) *out = (motion_error){NAN, NAN, NAN};
+  return isnan(sum) ? HC_NOT_FINITE : HC_OK;
+}
