@@ -13,7 +13,9 @@ static const char help[] =
     "frequency and branch."
     "\vAn error is |hbm - transient| / the transient's amplitude; the limits are the case's gate. from_aliasing, ... "
     "say what "
-    "it is made of: one part a cause, all of them sizes.\n"
+    "it is made of: one part a cause, all of them sizes. hbm_predicted and transient_predicted are the errors in "
+    "amplitude that each side expects of itself before it sees the other; more than three times both is said to be "
+    "unexpected.\n"
     "--tables adds a table over truncation orders and samples (largest amplitude discrepancy, peak, false turning "
     "points, cost) and one of "
     "observed orders; it takes seconds, and with csv they follow the first after a blank line. The screen shows the "
@@ -75,9 +77,31 @@ static void note_worst(table *t, const scene *sc, const compare_setup *setup, co
 }
 
 /* Columns of csv and json that the screen has no room for. */
-static const char *const csv_only[] = {
-    "mean_error", "from_integration", "from_settling",    "hbm_harmonic_1", "transient_harmonic_1",
-    "periods",    "orbit_amplitude",  "orbit_multiplier", "budget_sum",     "budget_observed"};
+static const char *const csv_only[] = {"mean_error",
+                                       "from_integration",
+                                       "from_settling",
+                                       "hbm_harmonic_1",
+                                       "transient_harmonic_1",
+                                       "periods",
+                                       "orbit_amplitude",
+                                       "orbit_multiplier",
+                                       "budget_sum",
+                                       "budget_observed",
+                                       "hbm_predicted_harmonic_1",
+                                       "hbm_predicted_waveform",
+                                       "transient_predicted_harmonic_1",
+                                       "transient_predicted_waveform",
+                                       "unexpected"};
+
+/* What neither side expected, a line a row: under the table and in json. */
+static void note_unexpected(table *t, const comparison *c)
+{
+  char text[COMPARISON_UNEXPECTED_TEXT];
+  for (int i = 0; i < c->n_rows; ++i)
+    if (c->rows[i].unexpected)
+      table_note(t, "UNEXPECTED at omega = %.10g, branch %d: %s", c->rows[i].omega, c->rows[i].branch,
+                 comparison_unexpected_text(&c->rows[i], text));
+}
 
 static void note_comparison(table *t, const scene *sc, const compare_setup *setup, const comparison *c)
 {
@@ -101,6 +125,7 @@ static void note_comparison(table *t, const scene *sc, const compare_setup *setu
   for (int v = 0; v < VERDICT_COUNT; ++v)
     if (c->count[v]) table_note(t, "%d %s: %s", c->count[v], verdict_name((verdict)v), verdict_meaning((verdict)v));
   note_worst(t, sc, setup, c);
+  note_unexpected(t, c);
 }
 
 static void print_failures(const cli_common *common, const comparison *c)
@@ -113,6 +138,15 @@ static void print_failures(const cli_common *common, const comparison *c)
   }
   if (c->curve.end != HC_OK && c->curve.n)
     cli_solver_failed(common, CLI_HBM, "the HBM response curve", c->curve.end, c->curve.points[c->curve.n - 1].omega);
+}
+
+static void warn_unexpected(const cli_common *common, const comparison *c)
+{
+  char text[COMPARISON_UNEXPECTED_TEXT];
+  for (int i = 0; i < c->n_rows; ++i)
+    if (c->rows[i].unexpected)
+      cli_message(common, "at omega = %.10g, branch %d: %s", c->rows[i].omega, c->rows[i].branch,
+                  comparison_unexpected_text(&c->rows[i], text));
 }
 
 static table *comparison_table(const scene *sc, const compare_setup *setup, const comparison *c)
@@ -162,6 +196,7 @@ static int run_compare(int argc, char **argv)
   else code = comparison_exit_code(&c);
   if (tabled != HC_OK) code = cli_solver_failed(&common, CLI_BOTH, "the tables", tabled, 0);
   print_failures(&common, &c);
+  warn_unexpected(&common, &c);
   int written = c.n_rows ? cli_write(&common, n_tables, tables) : 0;
   plot_order drawing = {.path = own.plot};
   if (own.plot && c.n_rows && !written)

@@ -195,6 +195,24 @@ static hc_status account(workspace *w, const hbm_curve *at, int k, comparison_ro
   return row->hbm_status == HC_OK ? budgeter_run(w->budgeter, &from, w->monitor, &row->budget) : HC_OK;
 }
 
+/* Relative to the amplitude of the motion it is about. */
+static discrepancy relative_prediction(const motion_error *e, double amplitude)
+{
+  return (discrepancy){.amplitude = discrepancy_relative(e->amplitude, amplitude),
+                       .harmonic_1 = discrepancy_relative(e->harmonic_1, amplitude),
+                       .mean = NAN,
+                       .waveform = discrepancy_relative(e->waveform, amplitude)};
+}
+
+/* What HBM expects of X: known before the transient is. */
+static hc_status predict_solution(workspace *w, const double *X, comparison_row *row)
+{
+  motion_error e;
+  hc_status st = row->hbm_status == HC_OK ? hbm_predict(w->hbm, row->omega, X, &e) : row->hbm_status;
+  if (st == HC_OK) row->hbm_predicted = relative_prediction(&e, row->hbm.amplitude);
+  return st == HC_NO_MEMORY ? st : HC_OK;
+}
+
 /* One HBM solution against the transient started from it. */
 static hc_status compare_solution(workspace *w, const hbm_curve *at, int k, comparison_row *row)
 {
@@ -204,10 +222,13 @@ static hc_status compare_solution(workspace *w, const hbm_curve *at, int k, comp
   hc_status known = hbm_stability_at(w->hbm, row->omega, X, &row->stability);
   if (known == HC_NO_MEMORY) return known;
   if (known != HC_OK) row->stability.multiplier = NAN;
+  if ((known = predict_solution(w, X, row)) != HC_OK) return known;
   row->transient_status = start_state(w, row, X);
   if (row->transient_status == HC_OK)
     row->transient_status = timeint_steady(w->ti, row->omega, w->state, w->monitor, &row->transient);
   if (row->transient_status == HC_INTERRUPTED || row->transient_status == HC_NO_MEMORY) return row->transient_status;
+  if (row->transient_status == HC_OK)
+    row->transient_predicted = relative_prediction(&row->transient.predicted, row->transient.amplitude);
   referee(w, row, X);
   if (row->orbit_status == HC_INTERRUPTED || row->orbit_status == HC_NO_MEMORY) return row->orbit_status;
   bool comparable = row->hbm_status == HC_OK && row->transient_status == HC_OK;
@@ -216,6 +237,7 @@ static hc_status compare_solution(workspace *w, const hbm_curve *at, int k, comp
       comparable && row->transient.period_multiple == 1 && accounted_for(w->hbm, w->setup, at, &row->transient);
   hc_status judged = judge(w, row, X, &row->verdict);
   if (judged != HC_OK) return judged;
+  row->unexpected = comparison_unexpected(row);
   return account(w, at, k, row);
 }
 
@@ -230,6 +252,8 @@ static hc_status compare_at(workspace *w, double omega)
                                .orbit_status = HC_UNSUPPORTED,
                                .errors = {NAN, NAN, NAN, NAN},
                                .orbit_errors = {NAN, NAN, NAN, NAN},
+                               .hbm_predicted = {NAN, NAN, NAN, NAN},
+                               .transient_predicted = {NAN, NAN, NAN, NAN},
                                .budget = budget_nothing()};
   comparison_row row = none;
   row.hbm_status = hbm_curve_at(w->hbm, &w->out->curve, omega, &at);
@@ -349,6 +373,33 @@ bool comparison_unaccounted(const comparison_row *row)
 {
   bool known = row->transient_status == HC_OK || row->transient_status == HC_APERIODIC;
   return known && row->hbm_status == HC_OK && !row->accounted;
+}
+
+/* False where one of the three is NaN. */
+static bool beyond(double observed, double hbm, double transient)
+{
+  return observed > COMPARISON_SLACK * (hbm + transient);
+}
+
+bool comparison_unexpected(const comparison_row *row)
+{
+  const discrepancy *h = &row->hbm_predicted, *t = &row->transient_predicted;
+  const bool one_orbit = row->verdict == VERDICT_MATCH || row->verdict == VERDICT_DIFFERS;
+  return one_orbit && row->transient.period_multiple == 1 &&
+         (beyond(row->errors.amplitude, h->amplitude, t->amplitude) ||
+          beyond(row->errors.waveform, h->waveform, t->waveform));
+}
+
+const char *comparison_unexpected_text(const comparison_row *row, char text[COMPARISON_UNEXPECTED_TEXT])
+{
+  const discrepancy *h = &row->hbm_predicted, *t = &row->transient_predicted, *e = &row->errors;
+  const bool amplitude = beyond(e->amplitude, h->amplitude, t->amplitude);
+  snprintf(text, COMPARISON_UNEXPECTED_TEXT,
+           "observed %s error %.2g is above what both predicted (HBM %.2g, transient %.2g): something is wrong that "
+           "neither expected",
+           amplitude ? "amplitude" : "waveform", amplitude ? e->amplitude : e->waveform,
+           amplitude ? h->amplitude : h->waveform, amplitude ? t->amplitude : t->waveform);
+  return text;
 }
 
 int comparison_exit_code(const comparison *c)

@@ -5,7 +5,8 @@
  * solution's own orbit. Beside it stands the referee: the periodic orbit of the exact contact law next to the HBM
  * solution, stable or not, found by shooting. What the HBM solution should be is that orbit; what a machine does is
  * the transient. An error is |hbm - transient| / the transient's amplitude. Phases are never aligned: the forcing
- * fixes them. */
+ * fixes them. How far off each side is by its own reckoning is asked before the two meet (as in ASME V&V 20): a
+ * discrepancy beyond both is a mistake of one of them. */
 #ifndef HC_COMPARISON_H
 #define HC_COMPARISON_H
 
@@ -48,6 +49,10 @@ typedef struct comparison_row {
   discrepancy orbit_errors; /* of the HBM solution against that orbit, NaN without it */
   error_budget budget;      /* what the discrepancy is made of */
   discrepancy errors;       /* of the HBM solution against the transient, NaN where there is nothing to compare */
+  /* What each side expects of itself, relative to its own amplitude, before it sees the other; `mean` is not predicted.
+   * NaN: not known. */
+  discrepancy hbm_predicted, transient_predicted;
+  bool unexpected; /* comparison_unexpected() */
 } comparison_row;
 
 typedef struct comparison {
@@ -72,6 +77,17 @@ const char *comparison_verdict_text(const comparison_row *row, char text[24]);
 
 /* Is it known where the transient went, and no HBM solution is there? */
 bool comparison_unaccounted(const comparison_row *row);
+
+/* Both sides ran on one orbit (match or differs, period 1) and differ in amplitude or waveform by more than
+ * COMPARISON_SLACK times what both predicted together: something is wrong that neither expected. False where a
+ * prediction is not known. */
+enum { COMPARISON_SLACK = 3 };
+bool comparison_unexpected(const comparison_row *row);
+
+/* "observed amplitude error 0.02 is above what both predicted (HBM 1e-05, transient 2e-06): something is wrong that neither
+ * expected". One line in text[COMPARISON_UNEXPECTED_TEXT], which is returned; of a row that is unexpected. */
+enum { COMPARISON_UNEXPECTED_TEXT = 192 };
+const char *comparison_unexpected_text(const comparison_row *row, char text[COMPARISON_UNEXPECTED_TEXT]);
 
 /* Exit code (docs/interface.md, 5): 0 agreed; 1 a transient differs from every HBM solution, or has another period; 3
  * something could not be compared. */

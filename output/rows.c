@@ -13,6 +13,10 @@ static bool measured(const steady_row *r)
 {
   return r->status == HC_OK || r->status == HC_NOT_SETTLED || r->status == HC_APERIODIC;
 }
+static bool prediction_known(const comparison_row *r)
+{
+  return !isnan(r->hbm_predicted.amplitude) && !isnan(r->transient_predicted.amplitude);
+}
 static bool has_hbm(const comparison_row *r) { return r->branch >= 0 && r->hbm_status == HC_OK; }
 static bool has_orbit(const comparison_row *r) { return r->orbit_status == HC_OK; }
 static bool has_transient(const comparison_row *r)
@@ -94,7 +98,14 @@ static const char *stable_text(const response_row *r)
   X(REAL,    "orbit_error",         true, r->orbit_errors.waveform)         \
   X(REAL,    "budget_sum",          r->budget.known, r->budget.amplitude.sum) \
   X(REAL,    "budget_observed",     r->budget.known, r->budget.amplitude.observed) \
-  X(TEXT,    "largest_part",        largest_part(r) != NULL, largest_part(r))
+  X(TEXT,    "largest_part",        largest_part(r) != NULL, largest_part(r)) \
+  X(REAL,    "hbm_predicted",       true, r->hbm_predicted.amplitude)       \
+  X(REAL,    "transient_predicted", true, r->transient_predicted.amplitude) \
+  X(REAL,    "hbm_predicted_harmonic_1", true, r->hbm_predicted.harmonic_1) \
+  X(REAL,    "hbm_predicted_waveform", true, r->hbm_predicted.waveform)     \
+  X(REAL,    "transient_predicted_harmonic_1", true, r->transient_predicted.harmonic_1) \
+  X(REAL,    "transient_predicted_waveform", true, r->transient_predicted.waveform) \
+  X(TEXT,    "unexpected",          prediction_known(r), r->unexpected ? "yes" : "no")
 
 #define CURVE_COLUMNS(X)                                                    \
   X(INTEGER, "harmonics",       true, r->harmonics)                         \
