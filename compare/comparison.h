@@ -84,8 +84,8 @@ bool comparison_unaccounted(const comparison_row *row);
 enum { COMPARISON_SLACK = 3 };
 bool comparison_unexpected(const comparison_row *row);
 
-/* "observed amplitude error 0.02 is above what both predicted (HBM 1e-05, transient 2e-06): something is wrong that neither
- * expected". One line in text[COMPARISON_UNEXPECTED_TEXT], which is returned; of a row that is unexpected. */
+/* "observed amplitude error 0.02 is above what both predicted (HBM 1e-05, transient 2e-06): something is wrong that
+ * neither expected". One line in text[COMPARISON_UNEXPECTED_TEXT], which is returned; of a row that is unexpected. */
 enum { COMPARISON_UNEXPECTED_TEXT = 192 };
 const char *comparison_unexpected_text(const comparison_row *row, char text[COMPARISON_UNEXPECTED_TEXT]);
 
