@@ -213,6 +213,15 @@ static hc_status predict_solution(workspace *w, const double *X, comparison_row 
   return st == HC_NO_MEMORY ? st : HC_OK;
 }
 
+/* What the transient, w->state on its orbit, expects of itself: HBM does not enter. */
+static hc_status predict_transient(workspace *w, comparison_row *row)
+{
+  timeint_result *tr = &row->transient;
+  hc_status st = row->transient_status == HC_OK ? timeint_predict(w->ti, w->state, w->monitor, tr) : HC_OK;
+  if (row->transient_status == HC_OK) row->transient_predicted = relative_prediction(&tr->predicted, tr->amplitude);
+  return st;
+}
+
 /* One HBM solution against the transient started from it. */
 static hc_status compare_solution(workspace *w, const hbm_curve *at, int k, comparison_row *row)
 {
@@ -227,8 +236,7 @@ static hc_status compare_solution(workspace *w, const hbm_curve *at, int k, comp
   if (row->transient_status == HC_OK)
     row->transient_status = timeint_steady(w->ti, row->omega, w->state, w->monitor, &row->transient);
   if (row->transient_status == HC_INTERRUPTED || row->transient_status == HC_NO_MEMORY) return row->transient_status;
-  if (row->transient_status == HC_OK)
-    row->transient_predicted = relative_prediction(&row->transient.predicted, row->transient.amplitude);
+  if ((known = predict_transient(w, row)) != HC_OK) return known;
   referee(w, row, X);
   if (row->orbit_status == HC_INTERRUPTED || row->orbit_status == HC_NO_MEMORY) return row->orbit_status;
   bool comparable = row->hbm_status == HC_OK && row->transient_status == HC_OK;

@@ -14,6 +14,9 @@ static const double enough = 0.05;               /* [change] to which half the r
 static const double coarsest = 1e-8;             /* CVODE's tolerance for it */
 static const double per_change = 1e-4; /* that tolerance, relative to the change: it scatters by 250 times itself */
 
+/* Of the waveform's change: amplitude and first harmonic may agree by chance. */
+static const double least_share = 0.04;
+
 static periodic_motion motion_of(const timeint_result *r)
 {
   periodic_motion m = {.amplitude = r->amplitude,
@@ -73,7 +76,8 @@ static hc_status regularisation(timeint *ti, const double *state, const hc_monit
   if (st != HC_OK) return HC_OK;
   const periodic_motion whole = motion_of(r), less = motion_of(&half);
   const motion_distance d = motion_between(&whole, &less);
-  *out = (motion_error){2 * d.amplitude, 2 * d.harmonic_1, 2 * d.waveform};
+  const double least = least_share * d.waveform;
+  *out = (motion_error){2 * fmax(d.amplitude, least), 2 * fmax(d.harmonic_1, least), 2 * d.waveform};
   return HC_OK;
 }
 

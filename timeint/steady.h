@@ -42,7 +42,6 @@ typedef struct timeint_result {
   int switches;     /* contact transitions in the reported periods; exact law only */
   bool left_orbit;  /* the orbit next to the start is unstable; reported is the one the motion went to from there */
   double lyapunov;  /* [1/period] mean rate at which neighbours drift apart; NaN where it was not measured */
-  motion_error predicted;      /* [length] how far off it expects to be, from its own runs; NaN: not known */
   double regularisation_error; /* [1] of the amplitude, relative; estimated with transient.richardson, else NaN */
   motion_error predicted;      /* [length] what timeint_predict expects; NaN before */
   contact_regime regime;       /* strongest regime of any contact in the reported period */
