@@ -134,7 +134,7 @@ static hc_status confirm_scouted(timeint *ti, const double *seen, const timeint_
   const struct confirmed *known = recall(ti, k, seen);
   if (known) {
     *r = known->result;
-    r->left_orbit = left_orbit;
+    r->left_orbit = left_orbit; /* of this start; the switches are the orbit's */
     r->scouted = periods;
     return timeint_begin(ti, ti->omega, known->state);
   }
@@ -165,6 +165,7 @@ hc_status scout_steady(timeint *ti, int orbit_of, const double *state, const hc_
   hc_status st = orbit_of > 0 ? timeint_orbit(ti->scout, ti->omega, orbit_of, seen, monitor, &scouted)
                               : timeint_steady(ti->scout, ti->omega, seen, monitor, &scouted);
   r->scouted = scouted.periods;
+  r->scout_switches = st == HC_OK ? scouted.switches : -1;
   if (st == HC_INTERRUPTED || st == HC_NO_MEMORY) return st;
   const bool orbit_wanted = orbit_of > 0 || ti->how.steady == TRANSIENT_STEADY_SHOOTING;
   if (orbit_wanted && shoot_found_no_orbit(st) && st != HC_CHATTER)

@@ -45,6 +45,7 @@ static void clear_result(timeint_result *r, double omega)
 {
   memset(r, 0, sizeof *r);
   r->omega = omega;
+  r->scout_switches = -1;
   r->amplitude = r->max = r->min = r->rms = r->mean = r->a1 = r->b1 = r->harmonic_1 = r->closure = r->attainable =
       r->contraction = NAN;
   r->multiplier = r->multiplier_re = r->multiplier_im = r->lyapunov = r->regularisation_error = NAN;

@@ -37,11 +37,13 @@ typedef struct timeint_result {
   double multiplier; /* [1] modulus of the orbit's largest Floquet multiplier over its period_multiple periods; NaN:
                         not known */
   double multiplier_re, multiplier_im;
-  int free_sliders; /* contacts that stick all the time: where their sliders rest, and with them the mean, depends on
+  int free_sliders;   /* contacts that stick all the time: where their sliders rest, and with them the mean, depends on
                        the start */
-  int switches;     /* contact transitions in the reported periods; exact law only */
-  bool left_orbit;  /* the orbit next to the start is unstable; reported is the one the motion went to from there */
-  double lyapunov;  /* [1/period] mean rate at which neighbours drift apart; NaN where it was not measured */
+  int switches;       /* contact transitions in the reported periods; exact law only */
+  int scout_switches; /* the same of the scout's orbit, whose multiplier is reported; -1: there was no scout. They differ
+                         next to a grazing shorter than integration errors */
+  bool left_orbit;    /* the orbit next to the start is unstable; reported is the one the motion went to from there */
+  double lyapunov;    /* [1/period] mean rate at which neighbours drift apart; NaN where it was not measured */
   double regularisation_error; /* [1] of the amplitude, relative; estimated with transient.richardson, else NaN */
   motion_error predicted;      /* [length] what timeint_predict expects; NaN before */
   contact_regime regime;       /* strongest regime of any contact in the reported period */

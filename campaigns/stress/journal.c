@@ -8,7 +8,7 @@
 
 #include "base/number.h"
 
-enum { VERSION = 2, LINE = 128 + 96 * STRESS_N_CHECKS };
+enum { VERSION = 3, LINE = 128 + 96 * STRESS_N_CHECKS };
 
 /* What the columns and codes of a line mean: lists as in stress.h and status.h. */
 #define NAME_OF_CHECK(code, name, meaning)  " " name

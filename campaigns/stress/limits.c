@@ -149,7 +149,9 @@ stress_check stress_check_stability(solved_scene *s)
   const double better =
       finer.status == HC_OK && finer.stability_status == HC_OK ? multiplier_error(&finer, &s->orbit) : NAN;
   if (better <= fmax(bound, 0.8 * error)) return stress_explain(STRESS_TRUNCATED, error, better);
-  if (s->fine.m.contact.transitions != s->orbit.r.switches) return stress_explain(STRESS_OTHER_EVENTS, error, better);
+  const int events = s->fine.m.contact.transitions, scouted = s->orbit.r.scout_switches;
+  if (events != s->orbit.r.switches || (scouted >= 0 && events != scouted))
+    return stress_explain(STRESS_OTHER_EVENTS, error, better);
   if (far > close_enough && beyond_harmonics(s, sc.hbm.harmonics))
     return stress_explain(STRESS_UNRESOLVED, error, better);
   return stress_find(STRESS_DISAGREES, error, bound);

@@ -33,6 +33,7 @@ void solved_scene_start(solved_scene *s, const scene *sc, double seconds, const 
   stress_solve(s, s->sc, s->omega, 0, NULL, &s->base);
   s->fine = s->base;
   s->orbit.status = HC_NOT_CONVERGED; /* none yet */
+  s->predicted = stress_skip(STRESS_NO_ORBIT);
 }
 
 static void note_fatal(solved_scene *s, hc_status st)
@@ -134,7 +135,8 @@ hc_status stress_scene(const scene *sc, double seconds, const hc_monitor *monito
   static stress_check (*const checks[STRESS_N_CHECKS])(solved_scene *) = {
       stress_check_force,    stress_check_shift,     stress_check_reflection,  stress_check_free,
       stress_check_stuck,    stress_check_units,     stress_check_energy,      stress_check_sampled,
-      stress_check_shooting, stress_check_stability, stress_check_regularised, stress_check_verdict};
+      stress_check_shooting, stress_check_stability, stress_check_regularised, stress_check_closed,
+      stress_check_verdict,  stress_check_predicted};
   solved_scene s;
   double start = thread_seconds();
   solved_scene_start(&s, sc, seconds, monitor);

@@ -34,11 +34,12 @@ typedef struct solved_scene {
   double omega;
   double seconds, deadline; /* allowed for one check; when this one ends, by the thread's processor time */
   const hc_monitor *outer;
-  hc_monitor monitor;   /* outer's, and the deadline */
-  hc_status fatal;      /* HC_OK; HC_INTERRUPTED by outer, HC_NO_MEMORY: nothing further is worth anything */
-  stress_solution base; /* at the scene's own H, exact forces */
-  stress_solution fine; /* with the most harmonics that were needed; base before STRESS_SHOOTING */
-  stress_orbit orbit;   /* the exact law's, next to fine */
+  hc_monitor monitor;     /* outer's, and the deadline */
+  hc_status fatal;        /* HC_OK; HC_INTERRUPTED by outer, HC_NO_MEMORY: nothing further is worth anything */
+  stress_solution base;   /* at the scene's own H, exact forces */
+  stress_solution fine;   /* with the most harmonics that were needed; base before STRESS_SHOOTING */
+  stress_orbit orbit;     /* the exact law's, next to fine */
+  stress_check predicted; /* of the comparison that STRESS_VERDICT made */
 } solved_scene;
 
 void solved_scene_start(solved_scene *s, const scene *sc, double seconds, const hc_monitor *outer);
@@ -75,6 +76,8 @@ stress_check stress_check_sampled(solved_scene *s);
 stress_check stress_check_shooting(solved_scene *s);
 stress_check stress_check_stability(solved_scene *s);
 stress_check stress_check_regularised(solved_scene *s);
+stress_check stress_check_closed(solved_scene *s);
 stress_check stress_check_verdict(solved_scene *s);
+stress_check stress_check_predicted(solved_scene *s);
 
 #endif

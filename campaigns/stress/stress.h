@@ -30,7 +30,9 @@
   X(STRESS_SHOOTING, "hbm_shooting", "HBM with more and more harmonics tends to the orbit of the exact law")           \
   X(STRESS_STABILITY, "multipliers", "the orbit's Floquet multiplier by HBM's own orbit and by time integration")      \
   X(STRESS_REGULARISED, "shooting_regularised", "the regularised law's orbit tends to the exact law's")                \
-  X(STRESS_VERDICT, "verdict", "what compare says, held against all that is known by now")
+  X(STRESS_CLOSED, "closed_form", "the exact law in closed form and by CVODE alone: the same orbits and motions")      \
+  X(STRESS_VERDICT, "verdict", "what compare says, held against all that is known by now")                             \
+  X(STRESS_PREDICTED, "prediction", "what compare found, against what both sides said beforehand they would be off")
 
 #define STRESS_REASONS(X)                                                                                              \
   X(STRESS_NO_REASON, "", "")                                                                                          \
@@ -47,6 +49,7 @@
   X(STRESS_REFUSED_BY, "refused", "a solver gave up and said why")                                                     \
   X(STRESS_TOO_DEAR, "too_dear", "given up after the time allowed for one check")                                      \
   X(STRESS_SAID_SO, "said_so", "compare says that the two differ, or why they cannot be compared")                     \
+  X(STRESS_UNEXPECTED, "unexpected", "compare itself says that neither side expected so much")                         \
   X(STRESS_DISAGREES, "disagrees", "two methods differ, and nothing explains it")                                      \
   X(STRESS_WRONG_VERDICT, "wrong_verdict", "compare says what is known not to be so")                                  \
   X(STRESS_INTERNAL, "internal", "an internal error, or a number that is none")

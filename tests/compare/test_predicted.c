@@ -1,5 +1,5 @@
 /* test_predicted.c - what both sides expect of themselves, and that a discrepancy beyond it is said to be unexpected.
- * The linker gives this program hbm_predict and timeint_steady by other names, so that each side says what it is told
+ * The linker gives this program hbm_predict and timeint_predict by other names, so that each side says what it is told
  * to. */
 #include <string.h>
 
@@ -23,15 +23,12 @@ hc_status __wrap_hbm_predict(hbm_solver *s, double omega, const double *X, motio
   return st;
 }
 
-hc_status __real_timeint_steady(timeint *ti, double omega, double *state, const hc_monitor *monitor,
-                                timeint_result *result);
-hc_status __wrap_timeint_steady(timeint *ti, double omega, double *state, const hc_monitor *monitor,
-                                timeint_result *result);
-hc_status __wrap_timeint_steady(timeint *ti, double omega, double *state, const hc_monitor *monitor,
-                                timeint_result *result)
+hc_status __real_timeint_predict(timeint *ti, const double *state, const hc_monitor *monitor, timeint_result *r);
+hc_status __wrap_timeint_predict(timeint *ti, const double *state, const hc_monitor *monitor, timeint_result *r);
+hc_status __wrap_timeint_predict(timeint *ti, const double *state, const hc_monitor *monitor, timeint_result *r)
 {
-  hc_status st = __real_timeint_steady(ti, omega, state, monitor, result);
-  if (stub.told) result->predicted = stub.transient;
+  hc_status st = __real_timeint_predict(ti, state, monitor, r);
+  if (stub.told) r->predicted = stub.transient;
   return st;
 }
 
