@@ -55,6 +55,21 @@ void budgeter_free(budgeter *b)
   free(b);
 }
 
+static void count(const timeint *ti, long *periods, long *closed_form)
+{
+  long cvode = 0, closed = 0;
+  if (ti) timeint_count(ti, &cvode, &closed);
+  *periods += cvode;
+  *closed_form += closed;
+}
+
+void budgeter_count(const budgeter *b, long *solves, long *periods, long *closed_form)
+{
+  if (b->alias_free) *solves += hbm_solves(b->alias_free);
+  count(b->finer, periods, closed_form);
+  count(b->coarser, periods, closed_form);
+}
+
 error_budget budget_nothing(void)
 {
   const budget_parts none = {NAN, NAN, NAN, NAN, NAN, NAN, NAN};

@@ -54,6 +54,9 @@ typedef struct budgeter budgeter;
 hc_status budgeter_new(const compare_setup *setup, budgeter **out);
 void budgeter_free(budgeter *b);
 
+/* Adds what it has solved and integrated so far. */
+void budgeter_count(const budgeter *b, long *hbm_solves, long *periods, long *closed_form);
+
 /* HC_OK, also where parts could not be had; HC_INTERRUPTED, HC_NO_MEMORY. */
 hc_status budgeter_run(budgeter *b, const budget_case *from, const hc_monitor *monitor, error_budget *out);
 

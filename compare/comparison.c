@@ -335,6 +335,19 @@ static hc_status make_states(workspace *w)
   return w->swept && w->state && w->scratch ? HC_OK : HC_NO_MEMORY;
 }
 
+static void count_cost(workspace *w, comparison_cost *cost)
+{
+  timeint *const both[] = {w->ti, w->exact};
+  *cost = (comparison_cost){.hbm_solves = hbm_solves(w->hbm)};
+  for (int i = 0; i < 2; ++i) {
+    long cvode, closed;
+    timeint_count(both[i], &cvode, &closed);
+    cost->periods += cvode;
+    cost->closed_form += closed;
+  }
+  budgeter_count(w->budgeter, &cost->hbm_solves, &cost->periods, &cost->closed_form);
+}
+
 static void runner_clear(workspace *w)
 {
   free(w->scratch);
@@ -364,6 +377,7 @@ hc_status comparison_run(const compare_setup *setup, const hc_monitor *monitor, 
     hc_status summed = response_summarise(w.hbm, &out->curve, &out->summary);
     if (summed != HC_OK) st = summed;
     if (st != HC_INTERRUPTED && st != HC_NO_MEMORY) st = compare_all(&w); /* as far as the curve goes */
+    count_cost(&w, &out->cost);
   }
   runner_clear(&w);
   return st;

@@ -55,6 +55,13 @@ typedef struct comparison_row {
   bool unexpected; /* comparison_unexpected() */
 } comparison_row;
 
+/* What a comparison took: nothing is solved twice. */
+typedef struct comparison_cost {
+  long hbm_solves;  /* systems that Newton was put to, the curve's included */
+  long periods;     /* forcing periods integrated by CVODE */
+  long closed_form; /* and in closed form */
+} comparison_cost;
+
 typedef struct comparison {
   int n_rows, cap;
   comparison_row *rows;
@@ -63,7 +70,8 @@ typedef struct comparison {
   response_summary summary; /* of that curve */
   int n_states;             /* in a state of time integration */
   double *states;           /* [cap][n_states] of each row: where the transient ended */
-  int harmonics, samples;   /* in use: for auto, the most the curve needed; samples 0 for exact forces */
+  comparison_cost cost;
+  int harmonics, samples; /* in use: for auto, the most the curve needed; samples 0 for exact forces */
 } comparison;
 
 /* Compare at the frequencies of *setup (compare.omega, or compare.points chosen along the response curve). Rows found

@@ -101,6 +101,7 @@ static hc_status check_residual(hbm_solver *s, double omega, const newton_report
 
 hc_status hbm_solve_fixed(hbm_solver *s, double omega, double x_scale, double *X, hbm_point *point)
 {
+  ++s->solves;
   hc_status st = set_scales(s, omega, x_scale, X);
   if (st != HC_OK) return st;
   s->omega = omega;
@@ -119,6 +120,7 @@ hc_status hbm_solve_fixed(hbm_solver *s, double omega, double x_scale, double *X
 hc_status hbm_solve_plane(hbm_solver *s, const double *normal, double x_scale, double omega_scale, double *X,
                           double *omega, hbm_point *point)
 {
+  ++s->solves;
   hc_status st = set_scales(s, *omega, x_scale, X);
   if (st != HC_OK) return st;
   int n = s->sys.n;

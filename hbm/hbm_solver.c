@@ -165,3 +165,5 @@ hc_status hbm_located_orbit(hbm_solver *s, const double *X, const exact_force **
   if (st == HC_OK) *report = s->sys.report;
   return st;
 }
+
+long hbm_solves(const hbm_solver *s) { return s->solves; }

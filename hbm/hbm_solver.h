@@ -21,6 +21,9 @@ void hbm_solver_free(hbm_solver *s); /* NULL is allowed */
 int hbm_n_harmonics(const hbm_solver *s); /* in use now; after a trace with auto, the most the curve needed */
 int hbm_n_samples(const hbm_solver *s);   /* per period, in use now; 0 where forces are exact */
 
+/* Systems that Newton was put to since the solver was made. */
+long hbm_solves(const hbm_solver *s);
+
 /* One solution, beside its harmonics. */
 typedef struct hbm_point {
   double omega;    /* [rad/time] */

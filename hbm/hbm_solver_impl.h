@@ -20,6 +20,7 @@ struct hbm_solver {      /* from hbm_solver_new, to hbm_solver_free; not shared 
   refinement *finer_samples;   /* the same of samples */
   refinement *exact_finer;     /* hbm_predict's equations; NULL until it is asked */
   double *improved;            /* their solution next to the one asked about */
+  long solves;                 /* of either form, since it was made */
   double step_scale;           /* of hbm_scale_steps */
   double omega;                /* of the fixed form */
   double *X;                   /* [n_coef]  harmonics of a callback's unknowns */

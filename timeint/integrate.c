@@ -12,11 +12,13 @@ hc_status integrate_tolerance(integrator *in, double tolerance) { return in->doe
 
 hc_status integrate_period(integrator *in, const scaled_model *m, double *y, integrate_watch *watch, void *self)
 {
+  ++in->periods;
   return in->does->period(in, m, y, NULL, watch, self);
 }
 
 hc_status integrate_monodromy(integrator *in, const scaled_model *m, double *y, double *monodromy)
 {
+  ++in->periods;
   return in->does->period(in, m, y, monodromy, NULL, NULL);
 }
 
@@ -33,6 +35,7 @@ hc_status integrate_samples(const integrator *in, double theta, double step, int
 bool integrate_fourier(const integrator *in, double out[3]) { return in->does->fourier(in, out); }
 bool integrate_slips(const integrator *in, int j, const double *y) { return in->does->slips(in, j, y); }
 
+long integrate_periods(const integrator *in) { return in->periods; }
 long integrate_steps(const integrator *in) { return in->steps; }
 long integrate_rhs(const integrator *in) { return in->rhs; }
 long integrate_transitions(const integrator *in) { return in->transitions; }

@@ -50,6 +50,9 @@ bool integrate_fourier(const integrator *in, double out[3]);
 /* Inside a watch: does contact j slip, at the state y of the step's end? */
 bool integrate_slips(const integrator *in, int j, const double *y);
 
+/* Periods begun since the integrator was made. */
+long integrate_periods(const integrator *in);
+
 /* Steps, right-hand sides and transitions since the integrator was made, and the last flag CVODE gave other than
  * success. */
 long integrate_steps(const integrator *in);

@@ -18,6 +18,7 @@ typedef struct integrator_class {
 struct integrator { /* the first member of each kind */
   const integrator_class *does;
   long steps, rhs, transitions; /* of all finished periods */
+  long periods;                 /* begun */
   int flag;                     /* CVODE's last flag other than success */
 };
 

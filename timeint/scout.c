@@ -69,6 +69,11 @@ static bool same_state(int n, const double *a, const double *b, double within)
   return apart <= within * size;
 }
 
+void timeint_forget(timeint *ti)
+{
+  for (int i = 0; ti->confirmed && i < REMEMBERED; ++i) ti->confirmed->orbit[i].k = 0;
+}
+
 /* The orbit through the scouted state, if it is remembered; else NULL. */
 static const struct confirmed *recall(const timeint *ti, int k, const double *scouted)
 {

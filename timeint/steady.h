@@ -82,6 +82,10 @@ hc_status timeint_again(timeint *ti, double omega, int k, double *state, const h
  * (NaN); HC_NO_MEMORY, HC_INTERRUPTED. */
 hc_status timeint_predict(timeint *ti, const double *state, const hc_monitor *monitor, timeint_result *r);
 
+/* With a scout a handle remembers the orbits it found last, and gives them again to a start that leads to one of them.
+ * Forget them: the next is integrated whatever it is. */
+void timeint_forget(timeint *ti);
+
 /* Stable by its multiplier: +1; -1 not; 0 unknown, or within 1e-9 of the border. */
 int timeint_stability(const timeint_result *result);
 

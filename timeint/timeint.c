@@ -97,6 +97,14 @@ void timeint_free(timeint *ti)
   free(ti);
 }
 
+void timeint_count(const timeint *ti, long *by_cvode, long *closed_form)
+{
+  const bool closed = ti->how.method == TRANSIENT_METHOD_CLOSED_FORM;
+  const long own = integrate_periods(ti->in);
+  *by_cvode = (closed ? 0 : own) + (ti->exact ? integrate_periods(ti->exact) : 0);
+  *closed_form = (closed ? own : 0) + (ti->scout ? integrate_periods(ti->scout->in) : 0);
+}
+
 int timeint_n_states(const timeint *ti) { return ti->n; }
 
 void timeint_rest(const timeint *ti, double *state) /* static equilibrium is x = 0 in every model */

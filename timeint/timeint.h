@@ -23,6 +23,9 @@ typedef struct timeint timeint;
 hc_status timeint_new(const model *m, const transient_settings *how, timeint **out);
 void timeint_free(timeint *ti);
 
+/* Periods integrated since the handle was made: by CVODE, and in closed form. */
+void timeint_count(const timeint *ti, long *by_cvode, long *closed_form);
+
 /* Doubles in a state: 2 + the model's contacts. */
 int timeint_n_states(const timeint *ti);
 

@@ -23,8 +23,11 @@ typedef struct family {
 static const family families[] = {
     {BENCH_HBM_EXACT, 7, {1, 3, 5, 10, 20, 40, 80}, 1, {0}},
     {BENCH_HBM_SAMPLED, 5, {1, 5, 10, 20, 40}, 5, {64, 256, 1024, 4096, 16384}},
+    {BENCH_CLOSED_SHOOTING, 1, {0}, 1, {1e-11}},
+    {BENCH_EXACT_SCOUTED, 1, {0}, 5, {1e-3, 1e-5, 1e-7, 1e-9, 1e-11}},
     {BENCH_EXACT_SHOOTING, 1, {0}, 5, {1e-3, 1e-5, 1e-7, 1e-9, 1e-11}},
     {BENCH_EXACT_MARCHING, 1, {0}, 5, {1e-3, 1e-5, 1e-7, 1e-9, 1e-11}},
+    {BENCH_REGULARISED_SCOUTED, 5, {1e-2, 1e-3, 1e-4, 1e-5, 1e-6}, 3, {1e-4, 1e-6, 1e-8}},
     {BENCH_REGULARISED_SHOOTING, 5, {1e-2, 1e-3, 1e-4, 1e-5, 1e-6}, 3, {1e-4, 1e-6, 1e-8}},
     {BENCH_REGULARISED_MARCHING, 4, {1e-2, 1e-3, 1e-4, 1e-5}, 3, {1e-4, 1e-6, 1e-8}},
     {BENCH_REGULARISED_RICHARDSON, 2, {1e-1, 1e-2}, 3, {1e-4, 1e-6, 1e-8}},

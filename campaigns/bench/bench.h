@@ -17,8 +17,12 @@
 #define BENCH_METHOD_LIST(X)                                                                                           \
   X(BENCH_HBM_EXACT, "hbm_exact", "harmonic balance, exact forces")                                                    \
   X(BENCH_HBM_SAMPLED, "hbm_sampled", "harmonic balance, sampled forces")                                              \
+  X(BENCH_CLOSED_SHOOTING, "closed_shooting", "the exact law in closed form, shooting")                                \
+  X(BENCH_EXACT_SCOUTED, "exact_scouted", "time integration, exact law, the closed form's orbit confirmed")            \
   X(BENCH_EXACT_SHOOTING, "exact_shooting", "time integration, exact law, shooting")                                   \
   X(BENCH_EXACT_MARCHING, "exact_marching", "time integration, exact law, marching")                                   \
+  X(BENCH_REGULARISED_SCOUTED, "regularised_scouted",                                                                  \
+    "time integration, regularised law, from the closed form's orbit and with its matrix")                             \
   X(BENCH_REGULARISED_SHOOTING, "regularised_shooting", "time integration, regularised law, shooting")                 \
   X(BENCH_REGULARISED_MARCHING, "regularised_marching", "time integration, regularised law, marching")                 \
   X(BENCH_REGULARISED_RICHARDSON, "regularised_richardson",                                                            \

@@ -45,6 +45,8 @@ static scene settings_of(const scene *sc, const bench_row *r)
   s.transient.law = r->regularisation > 0 ? TRANSIENT_LAW_REGULARISED : TRANSIENT_LAW_EXACT;
   if (r->regularisation > 0) s.transient.regularisation = r->regularisation;
   s.transient.tolerance = r->tolerance;
+  s.transient.method = r->method == BENCH_CLOSED_SHOOTING ? TRANSIENT_METHOD_CLOSED_FORM : TRANSIENT_METHOD_CVODE;
+  s.transient.scout = r->method == BENCH_EXACT_SCOUTED || r->method == BENCH_REGULARISED_SCOUTED;
   s.transient.richardson = r->method == BENCH_REGULARISED_RICHARDSON;
   bool marches = r->method == BENCH_EXACT_MARCHING || r->method == BENCH_REGULARISED_MARCHING;
   s.transient.steady = marches ? TRANSIENT_STEADY_MARCH : TRANSIENT_STEADY_SHOOTING;
@@ -73,6 +75,7 @@ static void solve_transient(timed_method *t, const bench_start *at, const hc_mon
   limit l = {monitor, thread_seconds() + (marches ? bench_longest : bench_longest_shot), false};
   hc_monitor limited = {tick_limit, &l};
   scene_state state = at->state;
+  timeint_forget(t->ti); /* the same solution is asked for again and again */
   a->status = timeint_steady(t->ti, at->omega, state.all, &limited, r);
   a->too_long = a->status == HC_INTERRUPTED && !l.stopped;
 }
