@@ -239,10 +239,16 @@ static hc_status come_from_above(path *p, const hc_monitor *monitor)
   return st;
 }
 
+static hc_status start_of_ramp(path *p)
+{
+  double size = hbm_ramp_start(p->s->ramp, p->s->model, p->s->sys.n_harm, p->X);
+  return hbm_solve_fixed(p->s, p->from, size, p->X, &p->point);
+}
+
 static hc_status first_point(path *p, const hc_monitor *monitor)
 {
   hbm_curve *c = p->curve;
-  hc_status st = hbm_first_solution(p->s, p->from, monitor, p->X, &p->point);
+  hc_status st = p->s->ramp ? start_of_ramp(p) : hbm_first_solution(p->s, p->from, monitor, p->X, &p->point);
   bool no_solution = st != HC_OK && st != HC_NO_MEMORY && st != HC_INTERRUPTED;
   if (no_solution && p->may_come_from_above) st = come_from_above(p, monitor);
   if (st == HC_OK) st = hbm_tangent_fixed(p->s, p->X, p->dX);
@@ -358,6 +364,7 @@ static hc_status trace(hbm_solver *s, double from, double to, bool may_come_from
   do {
     path p = start;
     p.resolution = fmin(curve->omega_scale, fmax(0.5 * s->model->damping / s->model->mass, 1e-6 * from));
+    if (s->ramp) p.resolution = curve->omega_scale;
     st = trace_once(&p, monitor, &more_samples);
     if (more_samples && (st = hbm_solver_resize(s, s->sys.n_harm, 2 * s->n_time)) != HC_OK) break;
   } while (more_samples);
@@ -373,7 +380,7 @@ hc_status hbm_trace(hbm_solver *s, double from, double to, const hc_monitor *mon
 {
   bool in_range = from > 0 && to > 0 && isfinite(from) && isfinite(to);
   if (!in_range || curve->n) return HC_BAD_INPUT;
-  return trace(s, from, to, true, monitor, curve);
+  return trace(s, from, to, !s->ramp, monitor, curve);
 }
 
 void hbm_scale_steps(hbm_solver *s, double scale) { s->step_scale = scale > 0 && scale <= 1 ? scale : 1; }

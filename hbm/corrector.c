@@ -27,18 +27,33 @@ static void unpack(const hbm_solver *s, const double *z, double *X, double *omeg
   *omega = z[s->sys.n];
 }
 
+/* omega at a place of the curve: the place itself, or, on a ramp, the ramp's; the equations become those there. */
+static double omega_at(hbm_solver *s, double place)
+{
+  if (!s->ramp) return place;
+  hbm_ramp_set(s->ramp, place, &s->sys);
+  return s->ramp->omega;
+}
+
+/* dR/dplace [n] at X. */
+static void by_place(hbm_solver *s, double place, const double *X, double *dR)
+{
+  if (s->ramp) hbm_ramp_derivative(s->ramp, place, &s->sys, X, dR);
+  else hbm_system_domega(&s->sys, place, X, dR);
+}
+
 static hc_status fixed_residual(void *self, const double *z, double *r)
 {
   hbm_solver *s = self;
   unpack_harmonics(s, z, s->X);
-  return hbm_system_residual(&s->sys, s->omega, s->X, r);
+  return hbm_system_residual(&s->sys, omega_at(s, s->omega), s->X, r);
 }
 
 static hc_status fixed_jacobian(void *self, const double *z, double *jac)
 {
   hbm_solver *s = self;
   (void)z; /* the z of the last residual: newton.h promises it */
-  hbm_system_jacobian(&s->sys, s->omega, s->sys.n, jac);
+  hbm_system_jacobian(&s->sys, omega_at(s, s->omega), s->sys.n, jac);
   return HC_OK;
 }
 
@@ -50,7 +65,7 @@ static hc_status plane_residual(void *self, const double *z, double *r)
   unpack_harmonics(s, z, s->X);
   r[n] = 0;
   for (int i = 0; i <= n; ++i) r[n] += s->normal[i] * (z[i] - s->anchor[i]);
-  return hbm_system_residual(&s->sys, z[n], s->X, r);
+  return hbm_system_residual(&s->sys, omega_at(s, z[n]), s->X, r);
 }
 
 static hc_status plane_jacobian(void *self, const double *z, double *jac)
@@ -58,8 +73,8 @@ static hc_status plane_jacobian(void *self, const double *z, double *jac)
   hbm_solver *s = self;
   int n = s->sys.n;
   size_t ld = (size_t)n + 1;
-  hbm_system_jacobian(&s->sys, z[n], n + 1, jac);
-  hbm_system_domega(&s->sys, z[n], s->X, jac + ld * n);
+  hbm_system_jacobian(&s->sys, omega_at(s, z[n]), n + 1, jac);
+  by_place(s, z[n], s->X, jac + ld * n);
   for (int i = 0; i <= n; ++i) jac[n + ld * i] = s->normal[i];
   return HC_OK;
 }
@@ -77,7 +92,7 @@ static hc_status set_scales(hbm_solver *s, double omega, double x_scale, const d
 {
   hc_status st = hbm_system_contact(&s->sys, X);
   if (st != HC_OK) return st;
-  double force = hbm_system_scale(&s->sys, omega);
+  double force = hbm_system_scale(&s->sys, omega_at(s, omega));
   if (!(force > 0)) force = 1; /* no forcing and no motion: the residual is 0 whatever the weight */
   if (!(x_scale > 0)) x_scale = 1;
   for (int i = 0; i < s->sys.n; ++i) {
@@ -90,7 +105,7 @@ static hc_status set_scales(hbm_solver *s, double omega, double x_scale, const d
 /* KINSOL weighted the residual by the forces at the guess; here it is weighed against those at the answer. */
 static hc_status check_residual(hbm_solver *s, double omega, const newton_report *report, hbm_point *point)
 {
-  double force = hbm_system_scale(&s->sys, omega);
+  double force = hbm_system_scale(&s->sys, omega_at(s, omega));
   point->omega = omega;
   point->iterations = report->iterations;
   point->harmonics = s->sys.n_harm;
@@ -142,7 +157,7 @@ hc_status hbm_solve_plane(hbm_solver *s, const double *normal, double x_scale, d
 
 hc_status hbm_tangent_fixed(hbm_solver *s, const double *X, double *dX)
 {
-  hbm_system_domega(&s->sys, s->omega, X, s->z);
+  by_place(s, s->omega, X, s->z);
   hc_status st = newton_backsolve(s->fixed, s->z);
   dX[0] = 0;
   for (int i = 0; i < s->sys.n; ++i) dX[i + s->sys.first] = -s->z[i];

@@ -4,7 +4,8 @@
  *     plane   R(X, omega) = 0 and normal . (z - anchor) = 0,  z = (X, omega)    (paper eq. 15-16) n + 1 unknowns
  *
  * The paper is [1] in README.md. normal = D t for a tangent t, where D is the metric of the curve: 1/x_scale^2 on the
- * harmonics, 1/omega_scale^2 on omega. X has 2H+1 entries; the unknowns are its n last ones (system.h). */
+ * harmonics, 1/omega_scale^2 on omega. X has 2H+1 entries; the unknowns are its n last ones (system.h). While a ramp is
+ * followed the place on it stands for omega in all of these. */
 #ifndef HC_HBM_CORRECTOR_H
 #define HC_HBM_CORRECTOR_H
 

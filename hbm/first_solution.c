@@ -1,57 +1,79 @@
-/* first_solution.c - see first_solution.h. The linear response is the first guess. Where Newton fails from there, a
- * ramp follows the solution from a system whose solution is known to the model's: phi of system.h from 0 to 1 (no
- * forcing, X = 0), then lambda (no contacts, linear response). Its step is halved where Newton fails. */
+/* first_solution.c - see first_solution.h. The linear response is the first guess. Where Newton fails from there, the
+ * solution is followed along a ramp (ramp.h) to the model's equations, first of the damping, then of the force, as a
+ * response curve is followed along omega: by steps of arc length, through turning points and round corners. The end of
+ * a ramp is solved once more with the equations as they are. */
 #include "hbm/first_solution.h"
 
-#include <math.h>
 #include <string.h>
 
+#include "hbm/continuation.h"
 #include "hbm/corrector.h"
 #include "hbm/hbm_solver_impl.h"
 #include "hbm/linear_solution.h"
 #include "numerics/norm.h"
 
-/* A ramp that arrives takes 10 to 60 solves; one that approaches a turning point of its own never arrives. */
-enum { RAMP_MAX_SOLVES = 200 };
+/* The monitor of a ramp: one tick a step. */
+typedef struct ramp_watch {
+  const hc_monitor *outer;
+  int left;     /* steps */
+  bool stopped; /* on request */
+} ramp_watch;
 
-/* Follow *factor from 0 to 1 at fixed omega from the solution X at 0; *factor is 1 again afterwards. */
-static hc_status ramp(hbm_solver *s, double *factor, double omega, double x_scale, const hc_monitor *monitor, double *X,
-                      hbm_point *point)
+static bool watch_step(void *self, double done)
 {
-  double reached = 0, step = 0.1;
-  hc_status st = HC_OK;
-  int iterations = 0;
-  for (int solves = 0; reached < 1 && step > 1e-4 && solves < RAMP_MAX_SOLVES; ++solves) {
-    if (!hc_monitor_tick(monitor, -1)) {
-      st = HC_INTERRUPTED;
-      break;
-    }
-    *factor = fmin(1, reached + step);
-    s->sys.evaluated = false;
-    st = hbm_solve_fixed(s, omega, fmax(x_scale, norm_2(s->sys.n_coef, X)), X, point);
-    iterations += point->iterations;
-    if (st == HC_OK) {
-      reached = *factor;
-      step *= 1.5;
-    } else step *= 0.5;
-  }
-  *factor = 1;
-  s->sys.evaluated = false;
-  point->iterations = iterations;
-  return reached == 1 ? HC_OK : st;
+  ramp_watch *w = self;
+  (void)done; /* of the ramp, not of the work */
+  w->stopped = !hc_monitor_tick(w->outer, -1);
+  return !w->stopped && w->left-- > 0;
 }
+
+/* The curve along the ramp. Equations stay as fine as they are, and nothing that is true of omega alone is used. */
+static hc_status trace_ramp(hbm_solver *s, const hbm_ramp *ramp, const hc_monitor *monitor, hbm_curve *curve)
+{
+  const hbm_settings how = s->how;
+  const double step_scale = s->step_scale;
+  refinement *const harmonics = s->finer_harmonics, *const samples = s->finer_samples;
+  s->how.harmonics = s->sys.n_harm;
+  s->how.skip_linear = false;
+  s->how.continuation = HBM_CONTINUATION_AUTO;
+  s->finer_harmonics = s->finer_samples = NULL;
+  s->step_scale = 1;
+  s->ramp = ramp;
+  hc_status st = hbm_trace(s, ramp->from, 1, monitor, curve);
+  s->ramp = NULL;
+  hbm_ramp_leave(&s->sys);
+  s->step_scale = step_scale;
+  s->finer_harmonics = harmonics;
+  s->finer_samples = samples;
+  s->how = how;
+  return st == HC_OK && curve->left_at_start ? HC_NOT_CONVERGED : st;
+}
+
+static hc_status follow_ramp(hbm_solver *s, hbm_ramp_kind kind, double omega, const hc_monitor *monitor, double *X,
+                             hbm_point *point)
+{
+  const hbm_ramp ramp = hbm_ramp_of(kind, s->model, omega);
+  ramp_watch watch = {.outer = monitor, .left = ramp.most_steps};
+  const hc_monitor step = {watch_step, &watch};
+  hbm_curve curve = {0};
+  hc_status st = trace_ramp(s, &ramp, &step, &curve);
+  if (st == HC_INTERRUPTED && !watch.stopped) st = HC_NOT_CONVERGED;
+  if (st == HC_OK) {
+    memcpy(X, hbm_curve_X(&curve, curve.n - 1), (size_t)s->sys.n_coef * sizeof(double));
+    st = hbm_solve_fixed(s, omega, norm_2(s->sys.n_coef, X), X, point);
+    point->iterations += curve.iterations;
+  }
+  hbm_curve_free(&curve);
+  return st;
+}
+
+static bool goes_on(hc_status st) { return st != HC_OK && st != HC_INTERRUPTED && st != HC_NO_MEMORY; }
 
 hc_status hbm_first_solution(hbm_solver *s, double omega, const hc_monitor *monitor, double *X, hbm_point *point)
 {
-  const model *m = s->sys.model;
-  int n_coef = s->sys.n_coef;
-  double size = hbm_linear_response(m, omega, s->sys.n_harm, X);
+  double size = hbm_linear_response(s->model, omega, s->sys.n_harm, X);
   hc_status st = hbm_solve_fixed(s, omega, size, X, point);
-  if (st == HC_OK) return HC_OK;
-  memset(X, 0, (size_t)n_coef * sizeof(double));
-  st = ramp(s, &s->sys.force_factor, omega, size / 100, monitor, X, point);
-  if (st == HC_OK || st == HC_INTERRUPTED) return st;
-  const model apart = {.mass = m->mass, .damping = m->damping, .stiffness = m->stiffness, .force = m->force};
-  size = hbm_linear_response(&apart, omega, s->sys.n_harm, X);
-  return ramp(s, &s->sys.contact_factor, omega, size, monitor, X, point);
+  if (goes_on(st)) st = follow_ramp(s, HBM_RAMP_DAMPING, omega, monitor, X, point);
+  if (goes_on(st)) st = follow_ramp(s, HBM_RAMP_FORCE, omega, monitor, X, point);
+  return st;
 }

@@ -5,7 +5,7 @@
 #include "hbm/hbm_solver.h"
 
 /* hbm_solve_first that a monitor may stop: a solution X[2H+1] at omega, whatever X is at first. HC_OK, HC_INTERRUPTED,
- * or why the last ramp ended. */
+ * HC_NO_MEMORY, or why the last ramp ended. */
 hc_status hbm_first_solution(hbm_solver *s, double omega, const hc_monitor *monitor, double *X, hbm_point *point);
 
 #endif

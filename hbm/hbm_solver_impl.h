@@ -4,6 +4,7 @@
 
 #include "hbm/hbm_solver.h"
 #include "hbm/monodromy.h"
+#include "hbm/ramp.h"
 #include "hbm/refine.h"
 #include "hbm/system.h"
 #include "numerics/newton.h"
@@ -21,8 +22,9 @@ struct hbm_solver {      /* from hbm_solver_new, to hbm_solver_free; not shared 
   refinement *exact_finer;     /* hbm_predict's equations; NULL until it is asked */
   double *improved;            /* their solution next to the one asked about */
   long solves;                 /* of either form, since it was made */
+  const hbm_ramp *ramp;        /* the one that is followed; NULL: none is */
   double step_scale;           /* of hbm_scale_steps */
-  double omega;                /* of the fixed form */
+  double omega;                /* of the fixed form; on a ramp, the place */
   double *X;                   /* [n_coef]  harmonics of a callback's unknowns */
   double *z;                   /* [n+1]     unknowns of a solve */
   double *z_scale, *r_scale;   /* [n+1]     weights for KINSOL */

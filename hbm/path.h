@@ -10,7 +10,8 @@
 typedef struct path {
   hbm_solver *s;
   hbm_curve *curve;
-  double from, to, direction; /* [rad/time] the sweep; direction: sign of to - from */
+  double from, to, direction; /* [rad/time] the sweep; direction: sign of to - from. On a ramp, here and below, places
+                                 on it stand for omega */
   double resolution;          /* [rad/time] width of the narrowest feature in omega: the linear resonance's half width,
                                  C/2M */
   double step;                /* [1] arc length to the next prediction */

@@ -10,12 +10,7 @@
 
 hc_status hbm_system_init(hbm_system *sys, const model *m, const hbm_settings *how, int n_harm, int n_time)
 {
-  *sys = (hbm_system){.model = m,
-                      .how = *how,
-                      .n_harm = n_harm,
-                      .n_coef = series_length(n_harm),
-                      .contact_factor = 1,
-                      .force_factor = 1};
+  *sys = (hbm_system){.model = m, .how = *how, .n_harm = n_harm, .n_coef = series_length(n_harm), .force_factor = 1};
   sys->first = how->keep_mean ? 0 : 1;
   sys->n = sys->n_coef - sys->first;
   size_t n = (size_t)sys->n_coef;
@@ -53,18 +48,20 @@ hc_status hbm_system_contact(hbm_system *sys, const double *X)
   return HC_OK;
 }
 
+static double damping(const hbm_system *sys) { return sys->model->damping + sys->more_damping; }
+
 hc_status hbm_system_residual(hbm_system *sys, double omega, const double *X, double *R)
 {
   hc_status st = hbm_system_contact(sys, X);
   if (st != HC_OK) return st;
   const model *m = sys->model;
   double *full = sys->rows;
-  full[0] = m->stiffness * X[0] + sys->contact_factor * sys->F[0];
+  full[0] = m->stiffness * X[0] + sys->F[0];
   for (int h = 1; h <= sys->n_harm; ++h) {
-    double k = m->stiffness - m->mass * h * h * omega * omega, c = m->damping * h * omega;
+    double k = m->stiffness - m->mass * h * h * omega * omega, c = damping(sys) * h * omega;
     double a = X[2 * h - 1], b = X[2 * h];
-    full[2 * h - 1] = k * a + c * b + sys->contact_factor * sys->F[2 * h - 1];
-    full[2 * h] = k * b - c * a + sys->contact_factor * sys->F[2 * h];
+    full[2 * h - 1] = k * a + c * b + sys->F[2 * h - 1];
+    full[2 * h] = k * b - c * a + sys->F[2 * h];
   }
   full[1] -= sys->force_factor * m->force;
   memcpy(R, full + sys->first, (size_t)sys->n * sizeof(double));
@@ -79,11 +76,11 @@ void hbm_system_jacobian(const hbm_system *sys, double omega, int ld, double *ja
   for (int col = 0; col < sys->n; ++col) {
     const double *from = sys->dF + (size_t)sys->n_coef * (col + sys->first) + sys->first;
     double *to = jac + (size_t)ld * col;
-    for (int row = 0; row < sys->n; ++row) to[row] = sys->contact_factor * from[row];
+    for (int row = 0; row < sys->n; ++row) to[row] = from[row];
   }
   if (sys->first == 0) jac[0] += m->stiffness;
   for (int h = 1; h <= sys->n_harm; ++h) {
-    double k = m->stiffness - m->mass * h * h * omega * omega, c = m->damping * h * omega;
+    double k = m->stiffness - m->mass * h * h * omega * omega, c = damping(sys) * h * omega;
     size_t a = (size_t)(2 * h - 1 - sys->first), b = a + 1, n = (size_t)ld;
     jac[a + n * a] += k;
     jac[b + n * b] += k;
@@ -98,7 +95,7 @@ void hbm_system_domega(hbm_system *sys, double omega, const double *X, double *d
   double *full = sys->rows;
   full[0] = 0;
   for (int h = 1; h <= sys->n_harm; ++h) {
-    double dk = -2 * m->mass * h * h * omega, dc = m->damping * h;
+    double dk = -2 * m->mass * h * h * omega, dc = damping(sys) * h;
     full[2 * h - 1] = dk * X[2 * h - 1] + dc * X[2 * h];
     full[2 * h] = dk * X[2 * h] - dc * X[2 * h - 1];
   }
@@ -110,9 +107,9 @@ double hbm_system_scale(const hbm_system *sys, double omega)
   const model *m = sys->model;
   double sum = fabs(m->stiffness * sys->X[0]), force = fabs(sys->F[0]);
   for (int h = 1; h <= sys->n_harm; ++h) {
-    double z = m->stiffness + m->mass * h * h * omega * omega + m->damping * h * omega;
+    double z = m->stiffness + m->mass * h * h * omega * omega + damping(sys) * h * omega;
     sum += z * hypot(sys->X[2 * h - 1], sys->X[2 * h]);
     force += hypot(sys->F[2 * h - 1], sys->F[2 * h]);
   }
-  return sum + sys->contact_factor * force + sys->force_factor * m->force;
+  return sum + force + sys->force_factor * m->force;
 }

@@ -1,10 +1,10 @@
 /* system.h - the harmonic-balance equations of a model, and their derivatives.
  *
- *     R(X, omega) = Z(omega) X + lambda F(X) - phi F0 e_1 = 0
- *     Z_h = [ K - M h^2 omega^2      C h omega       ]      on (a_h, b_h);   Z_0 = K
- *           [    - C h omega     K - M h^2 omega^2   ]
+ *     R(X, omega) = Z(omega) X + F(X) - phi F0 e_1 = 0
+ *     Z_h = [ K - M h^2 omega^2    (C + D) h omega   ]      on (a_h, b_h);   Z_0 = K
+ *           [ - (C + D) h omega   K - M h^2 omega^2  ]
  *
- * F: contact force harmonics. lambda = phi = 1 but for the ramps of first_solution.c. Without harmonic 0 (the paper's
+ * F: contact force harmonics. phi = 1 and D = 0 but on a ramp (ramp.h). Without harmonic 0 (the paper's
  * mode) X[0] = 0 and row 0 is dropped. Vectors have 2H+1 entries, X[0] included; the unknowns are the n entries from
  * X[first] on. */
 #ifndef HC_SYSTEM_H
@@ -18,7 +18,7 @@ typedef struct hbm_system {
   hbm_settings how;   /* a copy */
   int n_harm, n_coef; /* harmonics; 2 n_harm + 1 */
   int first, n;       /* first unknown in X (0, or 1 without harmonic 0); number of unknowns */
-  double contact_factor /* lambda */, force_factor /* phi */;
+  double force_factor /* phi */, more_damping /* D [force time/length] */;
   aft *sampled; /* the one of these two that hbm.force asks for; the other is NULL */
   exact_force *located;
   double *X, *F, *dF; /* the last evaluation: where, force [n_coef], Jacobian [n_coef][n_coef] by columns */
