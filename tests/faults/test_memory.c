@@ -133,6 +133,22 @@ static void frf(void **state)
       "hbm.force=sampled --set hbm.accuracy=0.01");
 }
 
+/* A curve's first point from a ramp: the linear response is no guess there (tests/hbm/test_first_solution.c). */
+static void first_point_from_a_ramp(void **state)
+{
+  (void)state;
+  small_file(
+      "ramp.yaml",
+      "{oscillator: {mass: 1.8113, damping: 0, stiffness: 178.109}, forcing: {amplitude: 2.48831e-5},\n"
+      " sweep: {omega: [18.9741, 18.975]}, hbm: {harmonics: 2}, contacts: [\n"
+      "  {tangential_stiffness: 2.78082e+7, normal_stiffness: 2652.15, friction: 1.22005, angle_deg: 60.3603,\n"
+      "   gap: -8.35954},\n"
+      "  {tangential_stiffness: 1.89802e+6, normal_stiffness: 1.80238e+7, friction: 2.77875, angle_deg: 53.1828,\n"
+      "   gap: 0}]}\n");
+  try("frf ramp.yaml -q -o result");
+  unlink("ramp.yaml");
+}
+
 static void transient(void **state)
 {
   (void)state;
@@ -198,8 +214,11 @@ static int at_one(char **argv)
 int main(int argc, char **argv)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(frf),  cmocka_unit_test(transient), cmocka_unit_test(compare), cmocka_unit_test(contact_force),
-      cmocka_unit_test(gate), cmocka_unit_test(study),     cmocka_unit_test(verify),  cmocka_unit_test(describe),
+      cmocka_unit_test(frf),           cmocka_unit_test(first_point_from_a_ramp),
+      cmocka_unit_test(transient),     cmocka_unit_test(compare),
+      cmocka_unit_test(contact_force), cmocka_unit_test(gate),
+      cmocka_unit_test(study),         cmocka_unit_test(verify),
+      cmocka_unit_test(describe),
   };
   static char folder[] = "/tmp/hbmcheck-memory-XXXXXX";
   every = argc > 1 && !strcmp(argv[1], "every");
