@@ -29,12 +29,12 @@ static hc_status run(solved_scene *s, transient_method method, int multiple, str
   return out->status = st;
 }
 
-/* How far apart two orbits are, and how far CVODE's own errors let them be: its distance from the orbit, and the scatter
- * of its periods through (I - Phi)^-1. */
+/* How far apart two orbits are, and how far their own errors let them be: the distance from the orbit, and the scatter
+ * of periods through (I - Phi)^-1, CVODE's and that of rounding. */
 static double apart(const stress_orbit *closed, const stress_orbit *cvode, double *bound)
 {
   const periodic_motion a = motion_of_transient(&closed->r), b = motion_of_transient(&cvode->r);
-  const double errors = cvode->r.closure + closed->r.closure + cvode->r.attainable;
+  const double errors = cvode->r.closure + closed->r.closure + cvode->r.attainable + closed->r.attainable;
   *bound = fmax(least, errors >= 0 ? 3 * errors : 0);
   return motion_discrepancy(&a, &b).waveform;
 }
