@@ -1,7 +1,8 @@
 /* first_solution.c - see first_solution.h. The linear response is the first guess. Where Newton fails from there, the
  * solution is followed along a ramp (ramp.h) to the model's equations, first of the damping, then of the force, as a
  * response curve is followed along omega: by steps of arc length, through turning points and round corners. The end of
- * a ramp is solved once more with the equations as they are. */
+ * a ramp is solved once more with the equations as they are. Sampled equations are first asked for the solution next to
+ * that with exact forces, found in the same way. */
 #include "hbm/first_solution.h"
 
 #include <string.h>
@@ -67,12 +68,32 @@ static hc_status follow_ramp(hbm_solver *s, hbm_ramp_kind kind, double omega, co
   return st;
 }
 
+/* Sampled equations from the solution with exact forces: a path along those has no false turning points, and costs as
+ * little as the samples are many. */
+static hc_status from_exact_forces(hbm_solver *s, double omega, const hc_monitor *monitor, double *X, hbm_point *point)
+{
+  hbm_settings how = s->how;
+  hbm_solver *exact;
+  how.force = HBM_FORCE_EXACT;
+  how.harmonics = s->sys.n_harm;
+  hc_status st = hbm_solver_new(s->model, &how, &exact);
+  if (st != HC_OK) return st;
+  st = hbm_first_solution(exact, omega, monitor, X, point);
+  const int iterations = point->iterations;
+  if (st == HC_OK) st = hbm_solve_fixed(s, omega, norm_2(s->sys.n_coef, X), X, point);
+  point->iterations += iterations;
+  s->solves += exact->solves;
+  hbm_solver_free(exact);
+  return st;
+}
+
 static bool goes_on(hc_status st) { return st != HC_OK && st != HC_INTERRUPTED && st != HC_NO_MEMORY; }
 
 hc_status hbm_first_solution(hbm_solver *s, double omega, const hc_monitor *monitor, double *X, hbm_point *point)
 {
   double size = hbm_linear_response(s->model, omega, s->sys.n_harm, X);
   hc_status st = hbm_solve_fixed(s, omega, size, X, point);
+  if (goes_on(st) && s->how.force == HBM_FORCE_SAMPLED) st = from_exact_forces(s, omega, monitor, X, point);
   if (goes_on(st)) st = follow_ramp(s, HBM_RAMP_DAMPING, omega, monitor, X, point);
   if (goes_on(st)) st = follow_ramp(s, HBM_RAMP_FORCE, omega, monitor, X, point);
   return st;
