@@ -3,6 +3,7 @@
 
 #include <float.h>
 #include <math.h>
+#include <stdbool.h>
 
 void linear_free_motion(double mass, double damping, double stiffness, double t, double e[2][2])
 {
@@ -17,7 +18,7 @@ void linear_free_motion(double mass, double damping, double stiffness, double t,
     co = exp(-a * t) * cosh(w * t);
     si = exp(-a * t) * sinh(w * t) / w;
   } else { /* exp(-a t) times cosh and sinh, as exponentials that decay: cosh alone could overflow */
-    double slow = exp((w - a) * t), fast = exp(-(w + a) * t);
+    double slow = exp(-stiffness / mass / (a + w) * t), fast = exp(-(w + a) * t); /* w - a is a difference: c large */
     co = 0.5 * (slow + fast);
     si = 0.5 * (slow - fast) / w;
   }
@@ -41,13 +42,14 @@ static double step_series(double c, double k, double t)
 
 double linear_step_response(double c, double k, double t)
 {
-  if (fabs(k) * t * t > 0.5) {
+  const bool far_apart = c * t > 4 && c * c > 8 * k; /* the roots, which are real */
+  if (fabs(k) * t * t > 0.5 && !far_apart) {
     double e[2][2];
     linear_free_motion(1, c, k, t, e);
     return (1 - e[0][0]) / k;
   }
-  if (c * t <= 4) return step_series(c, k, t);
-  /* the roots are real and far apart, and the slow one is not a difference */
+  if (!far_apart) return step_series(c, k, t);
+  /* the slow root is not a difference, nor is what it does */
   const double root = sqrt(0.25 * c * c - k), fast = -0.5 * c - root, slow = -k / (0.5 * c + root);
   const double by_slow = slow != 0 ? expm1(slow * t) / slow : t;
   return (by_slow - expm1(fast * t) / fast) / (slow - fast);
