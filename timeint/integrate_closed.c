@@ -53,8 +53,9 @@ static void begin_segment(closed_form *in, double theta, double x, double p)
       (modal_motion){.n = 1, .theta = theta, .mode = &in->mode, .q = &in->q, .p = &in->p, .d = &in->d, .f = &in->f};
 }
 
-/* What ends the segment: the ends of the phase, and P = 0 where a contact slips or the period is watched. numbers[i]:
- * which one guard i is. */
+/* What ends the segment: the ends of the phase, and P = 0 where a contact slips or the period is watched. P has the sign
+ * of the phase's way; where it has not, since X crossed an end where it turns, by rounding behind the turn, the segment
+ * ends at once. numbers[i]: which one guard i is. */
 static int find_guards(const closed_form *in, bool watched, modal_guard *guards, int *numbers)
 {
   static const double up = -1, down = 1;
@@ -69,21 +70,29 @@ static int find_guards(const closed_form *in, bool watched, modal_guard *guards,
     guards[n++] = (modal_guard){.by_q = &down, .constant = -ph->down, .noise = DBL_EPSILON * fmax(1, fabs(ph->down))};
   }
   if (ph->slips || watched) {
-    const bool rises = in->p > 0 || (in->p == 0 && ph->way > 0);
     numbers[n] = GUARD_TURN;
-    guards[n++] = (modal_guard){.by_p = rises ? &down : &up, .noise = DBL_EPSILON};
+    guards[n++] = (modal_guard){.by_p = ph->way > 0 ? &down : &up, .noise = DBL_EPSILON};
   }
   return n;
+}
+
+/* The sign of P from the end of the segment on. Where P = 0 ended it, in->end.p becomes 0, but not where P was behind
+ * that from the beginning: next to a turn X is flat, and a rounding of X is 1e-8 of P. */
+static int way_on(closed_form *in, int guard)
+{
+  double *p = &in->end.p[0];
+  if (guard != GUARD_TURN) return guard == GUARD_UP ? 1 : -1;
+  if (in->end.tau == 0 && *p * in->phase.way < 0) return -in->phase.way;
+  *p = 0;
+  return in->end.a[0] > 0 ? 1 : -1;
 }
 
 /* The phase after the segment has ended at theta on that guard; *count transitions so far. */
 static hc_status pass(closed_form *in, int guard, double theta, bool varies, int *count)
 {
   const int most = (int)fmax(MAX_TRANSITIONS, MAX_TRANSITIONS_A_CONTACT * (double)in->m->n_contacts);
-  const bool turned = guard == GUARD_TURN;
-  const int way = guard == GUARD_UP ? 1 : guard == GUARD_DOWN ? -1 : in->end.a[0] > 0 ? 1 : -1;
   phase_copy(&in->before, &in->phase);
-  const int n = phase_next(&in->phase, in->end.q[0], way, turned);
+  const int n = phase_next(&in->phase, in->end.q[0], way_on(in, guard), guard == GUARD_TURN);
   if (!n) return HC_OK;
   if ((*count += n) > most) return HC_CHATTER;
   if (varies) {
@@ -111,8 +120,7 @@ static hc_status run(closed_form *in, bool varies, integrate_watch *watch, void 
     hc_status st = watch && theta > begun ? watch(self, &in->base, begun, theta) : HC_OK;
     if (st == HC_OK && hit >= 0) st = pass(in, numbers[hit], theta, varies, count);
     if (st != HC_OK) return st;
-    const double p = hit >= 0 && numbers[hit] == GUARD_TURN ? 0 : in->end.p[0];
-    begin_segment(in, theta, in->end.q[0], p);
+    begin_segment(in, theta, in->end.q[0], in->end.p[0]);
   }
   return HC_OK;
 }
