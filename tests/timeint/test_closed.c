@@ -1,0 +1,554 @@
+/* test_closed.c - the exact law in closed form (integrate_closed.h): against the oracle, against CVODE's event-driven
+ * periods, its monodromy matrix against differences, the table of reference, and what must not break it. */
+#include "tests/check.h"
+
+#include <complex.h>
+#include <float.h>
+#include <string.h>
+
+#include "model/linear.h"
+#include "tests/random.h"
+#include "tests/scene_parts.h"
+#include "tests/timeint/oracle.h"
+#include "tests/timeint/scenes.h"
+#include "timeint/integrate.h"
+#include "timeint/integrate_closed.h"
+#include "timeint/measure.h"
+
+static scaled_model exact_model(scene sc, double omega, double length)
+{
+  sc.transient.law = TRANSIENT_LAW_EXACT;
+  scaled_model m;
+  scene_scaled(&m, &sc, omega, length);
+  return m;
+}
+
+static integrator *closed_of(const scaled_model *m)
+{
+  integrator *in;
+  assert_int_equal(integrate_new_closed(m->n_states, 1, &in), HC_OK);
+  return in;
+}
+
+static integrator *cvode_of(const scaled_model *m)
+{
+  integrator *in;
+  assert_int_equal(integrate_new_exact(m->n_states, 1e-13, &in), HC_OK);
+  return in;
+}
+
+static void run(integrator *in, const scaled_model *m, double *y, int periods)
+{
+  for (int i = 0; i < periods; ++i) assert_int_equal(integrate_period(in, m, y, NULL, NULL), HC_OK);
+}
+
+static scene one(double force, double kt, double kn, double mu, double gap, double angle)
+{
+  scene sc = scene_linear(1, 0.4, 40, force);
+  scene_add(&sc, kt, kn, mu, gap, angle);
+  return sc;
+}
+
+static scene three_contacts(void)
+{
+  scene sc = scene_linear(1, 0.4, 40, 60);
+  scene_add(&sc, 100, 200, 0.3, -0.5, 45);
+  scene_add(&sc, 80, 50, 0.5, 1.2, 20);
+  scene_add(&sc, 300, 400, 0.1, -2, 70);
+  return sc;
+}
+
+/* From rest (w = 0: stuck if touching). The oracle adds up the roundings of 4000 small steps and leaves a slip's limit
+ * at a slack of 1e-13: 1e-11 a period, of which the damping leaves 5 or fewer. */
+static double follows_oracle(const char *what, scene sc, double omega, double length, int periods)
+{
+  scaled_model m = exact_model(sc, omega, length);
+  oracle o = {.m = &m};
+  for (int j = 0; j < m.n_contacts; ++j)
+    o.state[j] = m.contact[j].law.kn > 0 && m.contact[j].law.gap > 0 ? STUCK : APART;
+  integrator *in = closed_of(&m);
+  double y[SCENE_MAX_STATES] = {0}, worst = 0;
+  for (int i = 0; i < periods; ++i) {
+    run(in, &m, y, 1);
+    oracle_period(&o);
+    const double bound = 5e-11;
+    worst = fmax(worst, fmax(fabs(y[SCALED_X] - o.x), fabs(y[SCALED_P] - o.p)));
+    CHECK_NEAR(y[SCALED_X], o.x, bound, "%s x in period %d", what, i);
+    CHECK_NEAR(y[SCALED_P], o.p, bound, "%s p in period %d", what, i);
+    for (int j = 0; j < m.n_contacts; ++j)
+      CHECK_NEAR(y[SCALED_W + j], oracle_slider(&o, j), bound, "%s w%d in period %d", what, j, i);
+    assert_int_equal(integrate_transitions(in), o.events);
+  }
+  integrate_free(in);
+  return worst;
+}
+
+static void scenes_follow_the_oracle(void **state)
+{
+  (void)state;
+  double worst = 0;
+#define FOLLOW(...) worst = fmax(worst, follows_oracle(__VA_ARGS__))
+  FOLLOW("linear", scene_linear(1, 0.4, 40, 100), 7, 10, 20);
+  FOLLOW("c2", scene_c2(), 7, 10, 20);
+  FOLLOW("c2kn1e4", scene_c2kn1e4(), 7, 10, 20);
+  FOLLOW("b10", scene_b10(), 7, 1, 20);
+  FOLLOW("a10", scene_a10(), 13, 0.7, 20);
+  FOLLOW("c2kt1e4", scene_c2kt1e4(), 7, 10, 20);
+  FOLLOW("gap1", scene_gap1(), 9, 10, 20);
+  FOLLOW("r1", scene_r1(), 930, 0.3, 200);
+  FOLLOW("r2", scene_r2(), 708.5, 0.3, 200); /* first touch after 150 periods */
+  FOLLOW("three", three_contacts(), 7, 2, 20);
+  FOLLOW("alpha 0", one(100, 100, 200, 0.3, 0.5, 0), 9, 2, 20);
+  FOLLOW("alpha 0, apart", one(100, 100, 200, 0.3, -0.5, 0), 9, 2, 5);
+  FOLLOW("alpha 90", one(100, 100, 200, 0.3, -0.5, 90), 9, 2, 20);
+  FOLLOW("mu 0", one(100, 100, 200, 0, -0.5, 45), 9, 2, 20);
+  FOLLOW("kt 0", one(100, 0, 200, 0.3, 0.5, 45), 9, 2, 20);
+  FOLLOW("kn 0", one(100, 100, 0, 0.3, 0.5, 45), 9, 2, 5);
+  FOLLOW("gap 0, sticks", one(100, 50, 200, 0.3, 0, 45), 9, 2, 20);
+  FOLLOW("gap 0, slips", one(100, 300, 200, 0.3, 0, 45), 9, 2, 20);
+#undef FOLLOW
+  print_message("worst: %.2g\n", worst);
+}
+
+static scene random_scene(uint64_t *seed)
+{
+  static const double angles[] = {0, 15, 30, 45, 60, 80, 90};
+  scene sc = scene_linear(1, pow(10, -2 + 2 * random_unit(seed)), 40, 100);
+  const int n = random_int(seed, 1, 5);
+  for (int j = 0; j < n; ++j) {
+    const double kt = random_int(seed, 0, 9) ? 1000 * random_unit(seed) : 0;
+    const double kn = random_int(seed, 0, 9) ? 1000 * random_unit(seed) : 0;
+    const double mu = random_int(seed, 0, 9) ? random_unit(seed) : 0;
+    const double gap = random_int(seed, 0, 9) ? 4 * random_signed(seed) : 0;
+    scene_add(&sc, kt, kn, mu, gap, angles[random_int(seed, 0, 6)]);
+  }
+  return sc;
+}
+
+/* A random state whose sliders obey |T| <= mu N: a period from anywhere ends at one. */
+static void random_state(const scaled_model *m, integrator *in, double *y, uint64_t *seed)
+{
+  for (int i = 0; i < m->n_states; ++i) y[i] = 2 * random_signed(seed);
+  run(in, m, y, 1);
+}
+
+/* One period, and its matrix, against CVODE's: 200 steps of 1e-13 of the motion's size, which a stiff phase (rates of 30)
+ * may carry on 30 times larger. The matrix changes with the transitions' angles, whose error is that of X over P: 1e-10
+ * where P is some 1e-3. As many transitions. */
+static void random_scenes_follow_cvode(void **state)
+{
+  (void)state;
+  uint64_t seed = 19;
+  double worst = 0, worst_matrix = 0;
+  int transitions = 0;
+  for (int trial = 0; trial < 1000; ++trial) {
+    scaled_model m = exact_model(random_scene(&seed), 2 + 10 * random_unit(&seed), 1 + 4 * random_unit(&seed));
+    integrator *in = closed_of(&m), *ref = cvode_of(&m);
+    double y[SCENE_MAX_STATES], z[SCENE_MAX_STATES], fx[2][SCENE_MAX_STATES * SCENE_MAX_STATES], size = 1, apart = 0;
+    const int n = m.n_states;
+    random_state(&m, in, y, &seed);
+    for (int i = 0; i < n; ++i) z[i] = y[i], size = fmax(size, fabs(y[i]));
+    const long was = integrate_transitions(in);
+    assert_int_equal(integrate_monodromy(in, &m, y, fx[0]), HC_OK);
+    assert_int_equal(integrate_monodromy(ref, &m, z, fx[1]), HC_OK);
+    transitions += (int)(integrate_transitions(in) - was);
+    for (int i = 0; i < n; ++i) apart = fmax(apart, fabs(y[i] - z[i]) / size);
+    worst = fmax(worst, apart);
+    CHECK_LE(apart, 200 * 1e-13 * 30, "trial %d", trial);
+    double most = 1, off = 0;
+    for (int i = 0; i < n * n; ++i) most = fmax(most, fabs(fx[1][i])), off = fmax(off, fabs(fx[0][i] - fx[1][i]));
+    worst_matrix = fmax(worst_matrix, off / most);
+    CHECK_LE(off, 1e-7 * most, "matrix, trial %d", trial);
+    assert_int_equal(integrate_transitions(in) - was, integrate_transitions(ref));
+    integrate_free(in);
+    integrate_free(ref);
+  }
+  print_message("worst: %.2g, of the matrix %.2g; %d transitions\n", worst, worst_matrix, transitions);
+}
+
+/* What the period ends at, watched by a measure or not; the measures into *r if watched. */
+static void period_of(const scene *sc, const scaled_model *m, integrator *in, double *y, timeint_result *r)
+{
+  measure me = scene_measure();
+  measure_begin(&me, m);
+  measure_period(&me, y);
+  assert_int_equal(integrate_period(in, m, y, measure_step, &me), HC_OK);
+  scene_measure_report(&me, sc, 1, r);
+  measure_free(&me);
+}
+
+/* Watched, a period is cut at the turns too: the same but for roundings of it (1e-12 of the motion where P = 30). Peaks,
+ * mean, first harmonic and wave against CVODE's dense output, good to some 1e-11 of the motion at 1e-13; sums over
+ * 512 instants err by the motion's corners 512^-2 here, where the period does not close, so integrals are compared
+ * with sums over the intervals: the trapezoidal rule with its end correction, h^4/720 of the third derivative's
+ * jump. */
+static void measures_are_those_of_the_motion(void **state)
+{
+  (void)state;
+  uint64_t seed = 29;
+  double worst = 0, worst_mean = 0;
+  for (int trial = 0; trial < 200; ++trial) {
+    scene sc = random_scene(&seed);
+    scaled_model m = exact_model(sc, 3 + 9 * random_unit(&seed), 3);
+    integrator *in = closed_of(&m), *ref = cvode_of(&m);
+    double y[SCENE_MAX_STATES], z[SCENE_MAX_STATES], w[SCENE_MAX_STATES], rate[SCENE_MAX_STATES], size = 1;
+    timeint_result got = {0}, want = {0};
+    random_state(&m, in, y, &seed);
+    memcpy(z, y, sizeof z);
+    memcpy(w, y, sizeof w);
+    scaled_rhs(&m, 0, y, rate);
+    const double x0 = y[SCALED_X], p0 = y[SCALED_P];
+    run(in, &m, w, 1);
+    period_of(&sc, &m, in, y, &got);
+    period_of(&sc, &m, ref, z, &want);
+    for (int i = 0; i < m.n_states; ++i) size = fmax(size, fabs(y[i]));
+    size = fmax(size, fmax(got.max, -got.min));
+    for (int i = 0; i < m.n_states; ++i) CHECK_NEAR(y[i], w[i], 1e-12 * size, "watched or not, trial %d", trial);
+    const double bound = 200 * 1e-13 * 30 * size;
+    CHECK_NEAR(got.max, want.max, bound, "max, trial %d", trial);
+    CHECK_NEAR(got.min, want.min, bound, "min, trial %d", trial);
+    CHECK_NEAR(got.rms, want.rms, bound, "rms, trial %d", trial);
+    assert_int_equal(got.regime, want.regime);
+    for (int i = 0; i < TIMEINT_WAVE; ++i) {
+      worst = fmax(worst, fabs(got.wave[i] - want.wave[i]) / size);
+      CHECK_NEAR(got.wave[i], want.wave[i], bound, "wave[%d], trial %d", i, trial);
+    }
+    const double h = 2 * PI / TIMEINT_WAVE, n = TIMEINT_WAVE;
+    double sum = 0, co = 0, si = 0;
+    for (int i = 0; i < TIMEINT_WAVE; ++i) {
+      sum += got.wave[i], co += got.wave[i] * cos(i * h), si += got.wave[i] * sin(i * h);
+    }
+    const double jump = y[SCALED_X] - x0, turn = y[SCALED_P] - p0; /* trapezoid: half of each end; minus h^2/12 [f'] */
+    sum += 0.5 * jump - h / 12 * turn;
+    co += 0.5 * jump - h / 12 * turn;
+    si += -h / 12 * jump; /* f' = X cos + P sin */
+    double stiff = m.k;
+    for (int j = 0; j < m.n_contacts; ++j) {
+      const scaled_contact *c = &m.contact[j];
+      stiff += c->law.kt * c->cosine * c->cosine + c->law.kn * (c->sine + c->law.mu * c->cosine) * c->sine;
+    }
+    /* of each of the force's corners, and of the ends, at most h^4/384 of a third derivative's jump, stiff * P */
+    const double error = pow(h, 4) / 384 * 2 * (1 + pow(stiff, 1.5)) * size / (2 * PI) + 1e-13 * size;
+    worst_mean = fmax(worst_mean, fabs(got.mean - sum / n) / error);
+    CHECK_NEAR(got.mean, sum / n, error, "mean, trial %d", trial);
+    CHECK_NEAR(got.a1, 2 * co / n, 2 * error, "a1, trial %d", trial);
+    CHECK_NEAR(got.b1, 2 * si / n, 2 * error, "b1, trial %d", trial);
+    integrate_free(in);
+    integrate_free(ref);
+  }
+  print_message("worst: wave %.2g, mean %.2g of its bound\n", worst, worst_mean);
+}
+
+/* On the orbit X = A cos(theta - phi) of a contact that sticks, or is separated, the end of that state is put at A, and
+ * some roundings to either side: crossed or not, nothing may change by more than a slip or touch of sqrt(eps) rad
+ * does, (1e-8)^3. So for 3 periods. */
+static void ends_at_a_turn(void **state)
+{
+  (void)state;
+  for (int trial = 0; trial < 300; ++trial) {
+    const bool apart = trial % 2;
+    const double angle = apart ? 45 : 0;
+    scaled_model m = exact_model(one(100, 100 + trial, 200, 0.3, 0.5, angle), 5 + 0.03 * trial, 1);
+    scaled_contact *c = &m.contact[0];
+    const double k = m.k + (apart ? 0 : c->law.kt);
+    const double complex X = linear_response(1, m.c, k, m.f, 1);
+    const double gap = apart ? -c->sine * cabs(X) : c->law.kt * cabs(X) / (c->law.mu * c->law.kn);
+    integrator *in = closed_of(&m);
+    for (int off = -40; off <= 40; ++off) {
+      c->law.gap = gap * (1 + 0.25 * off * DBL_EPSILON);
+      c->preload = apart ? 0 : c->law.kn * c->law.gap;
+      double y[3] = {creal(X), -cimag(X), apart ? c->cosine * creal(X) : 0}, watched[3];
+      memcpy(watched, y, sizeof y);
+      run(in, &m, y, 3);
+      scene sc = one(100, 100 + trial, 200, 0.3, 0.5, angle);
+      timeint_result r = {0};
+      for (int i = 0; i < 3; ++i) period_of(&sc, &m, in, watched, &r);
+      CHECK_NEAR(y[0], creal(X), 1e-12 * cabs(X), "X, trial %d, %d roundings", trial, off);
+      CHECK_NEAR(y[1], -cimag(X), 1e-12 * cabs(X), "P, trial %d, %d roundings", trial, off);
+      CHECK_NEAR(watched[0], creal(X), 1e-12 * cabs(X), "X watched, trial %d, %d roundings", trial, off);
+      CHECK_NEAR(watched[1], -cimag(X), 1e-12 * cabs(X), "P watched, trial %d, %d roundings", trial, off);
+      CHECK_NEAR(r.amplitude, cabs(X), 1e-12 * cabs(X), "amplitude, trial %d, %d roundings", trial, off);
+      CHECK_NEAR(r.harmonic_1, cabs(X), 1e-12 * cabs(X), "harmonic_1, trial %d, %d roundings", trial, off);
+    }
+    integrate_free(in);
+  }
+}
+
+/* The contact's edge where the separated motion ends its period, to a few roundings: the transition falls on 2 pi,
+ * before, after, or just does not happen. */
+static void a_transition_at_the_end_of_the_period(void **state)
+{
+  (void)state;
+  scaled_model m = exact_model(one(100, 300, 200, 0.3, -0.5, 45), 7.3, 10);
+  const double start[SCENE_MAX_STATES] = {0.02, -0.578, 0}; /* ends at its largest X, rising */
+  m.contact[0].law.gap = -100;
+  integrator *in = closed_of(&m);
+  double end[SCENE_MAX_STATES];
+  memcpy(end, start, sizeof end);
+  run(in, &m, end, 1);
+  int touched = 0, n = 0;
+  for (double off = 0; off<1e-10; off = off> 0 ? 1.3 * off : 1e-17)
+    for (int sign = -1; sign <= 1; sign += 2, ++n) {
+      double y[SCENE_MAX_STATES], monodromy[9];
+      memcpy(y, start, sizeof y);
+      m.contact[0].law.gap = -m.contact[0].sine * (end[0] + sign * off);
+      long before = integrate_transitions(in);
+      assert_int_equal(integrate_monodromy(in, &m, y, monodromy), HC_OK);
+      touched += integrate_transitions(in) > before;
+      CHECK_NEAR(y[0], end[0], 1e-13, "x, off %g", off);
+      CHECK_NEAR(y[1], end[1], 1e-9, "p, off %g", off); /* in contact for 1e-10/|P| */
+      run(in, &m, y, 1);                                /* and from there */
+    }
+  assert_true(touched > n / 3 && touched < n);
+  integrate_free(in);
+}
+
+/* d y(2 pi)/d y_q(0) by central differences with Richardson's h^4: roundings of a period, some 100 of size, over h;
+ * truncation as in test_integrate_exact.c. A slider tied to X moves with it. */
+static void check_monodromy(const char *what, scene sc, double omega, double length, const double *start, int periods,
+                            bool no_slip)
+{
+  scaled_model m = exact_model(sc, omega, length);
+  const int n = m.n_states;
+  const double h = 1e-4;
+  double y[SCENE_MAX_STATES] = {0}, end[SCENE_MAX_STATES], monodromy[SCENE_MAX_STATES * SCENE_MAX_STATES], size = 1;
+  double plain[SCENE_MAX_STATES];
+  if (start) memcpy(y, start, sizeof *y * (size_t)n);
+  integrator *in = closed_of(&m);
+  run(in, &m, y, periods);
+  memcpy(end, y, sizeof end);
+  memcpy(plain, y, sizeof plain);
+  assert_int_equal(integrate_monodromy(in, &m, end, monodromy), HC_OK);
+  run(in, &m, plain, 1);
+  for (int i = 0; i < n; ++i) CHECK_NEAR(end[i], plain[i], 0, "the same period");
+  for (int i = 0; i < n * n; ++i) size = fmax(size, fabs(monodromy[i]));
+  for (int q = 0; q < n; ++q) {
+    double column = 0, diff[SCENE_MAX_STATES] = {0};
+    for (int i = 0; i < n; ++i) column += fabs(monodromy[i + q * n]);
+    if (q >= SCALED_W && column == 0) continue;
+    const double smooth[] = {-1 / 12.0, 8 / 12.0, -8 / 12.0, 1 / 12.0}, kinked[] = {-1 / 4.0, 1, -1, 1 / 4.0};
+    const double *weight = q < SCALED_W ? smooth : kinked, truncation = q < SCALED_W ? 1e3 * pow(h, 4) : 1e2 * h * h;
+    for (int k = 0; k < 4; ++k) {
+      const double by = (k < 2 ? 2 - k : 1 - k) * h; /* 2, 1, -1, -2 */
+      double z[SCENE_MAX_STATES];
+      memcpy(z, y, sizeof z);
+      z[q] += by;
+      for (int j = 0; j < m.n_contacts; ++j) {
+        double own = 0;
+        for (int i = 0; i < n; ++i) own += fabs(monodromy[i + (SCALED_W + j) * n]);
+        const scaled_contact *c = &m.contact[j];
+        const double g = c->sine * y[0] + c->law.gap, t = c->law.kt * (c->cosine * y[0] - y[SCALED_W + j]);
+        const double s = g > 0 && c->law.has_friction ? (t > 0 ? 1 : -1) : 0;
+        if (own == 0 && q == SCALED_X)
+          z[SCALED_W + j] += (c->cosine - (s != 0 ? s * c->law.mu * c->law.kn * c->sine / c->law.kt : 0)) * by;
+      }
+      run(in, &m, z, 1);
+      for (int i = 0; i < n; ++i) diff[i] += weight[k] * z[i] / h;
+    }
+    for (int i = 0; i < n; ++i)
+      CHECK_NEAR(monodromy[i + q * n], diff[i], size * (100 * DBL_EPSILON / h + truncation), "%s: d y%d / d y%d", what,
+                 i, q);
+  }
+  if (no_slip) { /* volume shrinks by the damping alone, in every phase without slip */
+    double det = monodromy[0] * monodromy[1 + n] - monodromy[1] * monodromy[n],
+           damping = exp(-sc.damping / sc.mass * 2 * PI / omega);
+    CHECK_NEAR(det, damping, 64 * DBL_EPSILON * size * size, "%s: determinant", what);
+  }
+  integrate_free(in);
+}
+
+static void monodromy_is_that_of_the_period(void **state)
+{
+  (void)state;
+  const double high[] = {23 / 24.0, 0, 0.6};
+  check_monodromy("c2", scene_c2(), 9, 24, high, 100, true);
+  check_monodromy("c2", scene_c2(), 7, 10, NULL, 100, true);
+  check_monodromy("b10", scene_b10(), 7, 1, NULL, 100, false);
+  check_monodromy("a10", scene_a10(), 13, 0.7, NULL, 100, false);
+  const double r2[] = {0.0724587530 / 0.299294926, 205.420778 / 708.5 / 0.299294926, 0.05123607 / 0.299294926};
+  check_monodromy("r2", scene_r2(), 708.5, 0.299294926, r2, 2, false);
+  check_monodromy("gap1, stuck", scene_gap1(), 7, 1, NULL, 50, true);
+  for (int i = 1; i < 6; ++i) check_monodromy("three", three_contacts(), 6 + 0.3 * i, 2, NULL, 10 * i, false);
+}
+
+typedef struct row {
+  char name[16], sweep[8], digits[4][32];
+  double omega, amplitude, harmonic_1, mean;
+  int events;
+} row;
+
+enum { MAX_ROWS = 256 };
+static row rows[MAX_ROWS];
+static int n_rows;
+
+static int read_rows(void **state)
+{
+  (void)state;
+  char line[512];
+  FILE *f = fopen(SOURCE_DIR "/tests/reference/transient_exact.csv", "r");
+  if (!f || !fgets(line, sizeof line, f)) return -1;
+  while (n_rows < MAX_ROWS && fgets(line, sizeof line, f)) {
+    row *r = &rows[n_rows];
+    int n = sscanf(line, "%15[^,],%7[^,],%lf,%31[^,],%*[^,],%*[^,],%31[^,],%31[^,],%d", r->name, r->sweep, &r->omega,
+                   r->digits[0], r->digits[1], r->digits[2], &r->events);
+    if (n != 7) return -1;
+    r->amplitude = atof(r->digits[0]), r->harmonic_1 = atof(r->digits[1]), r->mean = atof(r->digits[2]);
+    ++n_rows;
+  }
+  fclose(f);
+  return n_rows == 134 ? 0 : -1;
+}
+
+/* Half a unit of the last digit printed: the table has 12 significant ones, or fewer where the rest are 0. */
+static double half_a_digit(double x) { return x != 0 ? 0.5 * pow(10, floor(log10(fabs(x))) - 11) : 0; }
+
+/* The table's numbers as far as they are printed, and 1e-12 of the amplitude: ours, at transient.tolerance 1e-12. The
+ * mean where it is unique (test_exact_reference.c). */
+static double follow(const scene *sc, const char *name, const char *sweep, double from)
+{
+  timeint *ti;
+  timeint_result r;
+  int seen = 0;
+  double worst = 0;
+  assert_int_equal(scene_timeint(sc, &ti), HC_OK);
+  scene_state y = {.x = 0};
+  for (int i = 0; i < n_rows; ++i) {
+    const row *want = &rows[i];
+    if (strcmp(want->name, name) || strcmp(want->sweep, sweep)) continue;
+    assert_int_equal(timeint_sweep(ti, from, want->omega, y.all, NULL), HC_OK);
+    assert_int_equal(timeint_steady(ti, from = want->omega, y.all, NULL, &r), HC_OK);
+    const double ours = 1e-12 * want->amplitude;
+    worst = fmax(worst, fabs(r.amplitude - want->amplitude) / (half_a_digit(want->amplitude) + ours));
+    worst = fmax(worst, fabs(r.harmonic_1 - want->harmonic_1) / (half_a_digit(want->harmonic_1) + ours));
+    CHECK_NEAR(r.amplitude, want->amplitude, half_a_digit(want->amplitude) + ours, "%s %s amplitude at %g", name, sweep,
+               want->omega);
+    CHECK_NEAR(r.harmonic_1, want->harmonic_1, half_a_digit(want->harmonic_1) + ours, "%s %s harmonic_1 at %g", name,
+               sweep, want->omega);
+    if (r.free_sliders == 0)
+      CHECK_NEAR(r.mean, want->mean, half_a_digit(want->mean) + ours, "%s %s mean at %g", name, sweep, want->omega);
+    /* 3: touch, separation, and a slip of no length where traction and limit vanish together (reference/README.md) */
+    assert_int_equal(r.switches, want->events == 3 ? 2 : want->events);
+    assert_int_equal(r.period_multiple, 1);
+    assert_true(r.scouted == 0 && r.cvode_flag == 0);
+    CHECK_LE(r.multiplier, 1, "%s %s is stable at %g", name, sweep, want->omega);
+    ++seen;
+  }
+  timeint_free(ti);
+  CHECK_LE(4, seen, "%s %s", name, sweep);
+  return worst;
+}
+
+static void every_row_of_the_reference(void **state)
+{
+  (void)state;
+  double worst = 0;
+  for (int i = 0; i < N_REFERENCE_SCENES; ++i) {
+    const reference_scene *of = &reference_scenes[i];
+    const bool blade = of->stiffness > 1000;
+    scene sc = scene_reference(of->name);
+    sc.transient.law = TRANSIENT_LAW_EXACT;
+    sc.transient.method = TRANSIENT_METHOD_CLOSED_FORM;
+    sc.transient.start = TRANSIENT_START_UP;
+    sc.transient.tolerance = 1e-12;
+    worst = fmax(worst, follow(&sc, of->name, "up", blade ? 600 : 3));
+    worst = fmax(worst, follow(&sc, of->name, "down", blade ? 1100 : of->omega_to));
+  }
+  print_message("worst: %.2f of the table's digits and 1e-12\n", worst);
+}
+
+/* No force, at rest, also at the edge of contacts. */
+static void rest_stays_at_rest(void **state)
+{
+  (void)state;
+  const double gap[] = {0.5, 0, -0.5};
+  for (int i = 0; i < 3; ++i)
+    for (int angle = 0; angle <= 90; angle += 45) {
+      scaled_model m = exact_model(one(0, 100, 200, 0.3, gap[i], angle), 7, 1);
+      integrator *in = closed_of(&m);
+      double y[SCENE_MAX_STATES] = {0};
+      run(in, &m, y, 5);
+      CHECK_NEAR(fabs(y[0]) + fabs(y[1]) + fabs(y[2]), 0, 0, "gap %g", gap[i]);
+      integrate_free(in);
+    }
+}
+
+/* No spring of the mass's own; damping up to 1e4 times critical: soft and resonant phases, roots far apart. */
+static void soft_and_overdamped_scenes_follow_cvode(void **state)
+{
+  (void)state;
+  const double damping[] = {0, 1e-3, 4, 100, 1e4}, stiffness[] = {0, 1e-6, 49, 49.01};
+  long most = 0;
+  for (int i = 0; i < 5; ++i)
+    for (int j = 0; j < 4; ++j) {
+      scene sc = one(100, 300, 200, 0.3, -0.5, 45);
+      sc.damping = damping[i], sc.stiffness = stiffness[j];
+      scaled_model m = exact_model(sc, 7, 100 / (49 + 7 * damping[i]));
+      integrator *in = closed_of(&m), *ref = cvode_of(&m);
+      double y[SCENE_MAX_STATES] = {0}, z[SCENE_MAX_STATES] = {0};
+      for (int p = 0; p < 5; ++p) {
+        const long before = integrate_rhs(in);
+        run(in, &m, y, 1);
+        run(ref, &m, z, 1);
+        most = integrate_rhs(in) - before > most ? integrate_rhs(in) - before : most;
+        const double size = 1 + fabs(y[0]) + fabs(y[1]);
+        for (int s = 0; s < m.n_states; ++s)
+          CHECK_NEAR(y[s], z[s], 200 * 1e-12 * (p + 1) * size, "y%d, damping %g stiffness %g period %d", s, damping[i],
+                     stiffness[j], p);
+      }
+      integrate_free(in);
+      integrate_free(ref);
+    }
+  print_message("at most %ld evaluations a period\n", most);
+  CHECK_LE((double)most, 20000, "evaluations");
+}
+
+static void failures_are_reported(void **state)
+{
+  (void)state;
+  scaled_model m = exact_model(scene_c2(), 7, 10);
+  integrator *in = closed_of(&m);
+  const double bad[] = {NAN, INFINITY, -INFINITY, DBL_MAX};
+  double monodromy[9];
+  for (int i = 0; i < 4; ++i) {
+    double y[SCENE_MAX_STATES] = {0.5, 0, 0.3};
+    scaled_model broken = m;
+    broken.f = bad[i];
+    if (i < 3) {
+      assert_int_equal(integrate_period(in, &broken, y, NULL, NULL), HC_NOT_FINITE);
+      assert_int_equal(integrate_monodromy(in, &broken, y, monodromy), HC_NOT_FINITE);
+      assert_true(y[0] == 0.5 && y[1] == 0 && y[2] == 0.3); /* the state stays */
+    }
+    for (int s = 0; s < 3; ++s) {
+      double z[SCENE_MAX_STATES] = {0.5, 0, 0.3};
+      z[s] = bad[i];
+      const hc_status st = integrate_period(in, &m, z, NULL, NULL);
+      if (i < 3) assert_int_equal(st, HC_NOT_FINITE);
+      assert_true(st == HC_NOT_FINITE || isfinite(z[0] + z[1] + z[2]));
+    }
+    assert_int_equal(integrate_period(in, &m, y, NULL, NULL), HC_OK); /* and works again */
+  }
+  scaled_model other = exact_model(three_contacts(), 7, 2);
+  double y[SCENE_MAX_STATES] = {0};
+  assert_int_equal(integrate_period(in, &other, y, NULL, NULL), HC_BUG);
+  integrate_free(in);
+  assert_int_equal(integrate_new_closed(1, 1, &in), HC_BAD_INPUT);
+  assert_null(in);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(scenes_follow_the_oracle),
+      cmocka_unit_test(random_scenes_follow_cvode),
+      cmocka_unit_test(soft_and_overdamped_scenes_follow_cvode),
+      cmocka_unit_test(measures_are_those_of_the_motion),
+      cmocka_unit_test(ends_at_a_turn),
+      cmocka_unit_test(a_transition_at_the_end_of_the_period),
+      cmocka_unit_test(monodromy_is_that_of_the_period),
+      cmocka_unit_test(every_row_of_the_reference),
+      cmocka_unit_test(rest_stays_at_rest),
+      cmocka_unit_test(failures_are_reported),
+  };
+  check_watchdog(120);
+  return cmocka_run_group_tests_name("timeint.closed", tests, read_rows, NULL);
+}
