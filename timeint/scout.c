@@ -144,6 +144,7 @@ static hc_status confirm_scouted(timeint *ti, const double *seen, const timeint_
     return timeint_begin(ti, ti->omega, known->state);
   }
   hc_status st = confirm_orbit(ti->confirm, k, orbit_goal(ti), monitor, &found, r);
+  r->contraction = scouted->contraction; /* its multiplier may be that of several times k periods */
   if (shoot_found_no_orbit(st)) st = shoot_beside(ti, k, stable, monitor, r);
   if (st == HC_OK) remember(ti, k, seen, r);
   return st;
