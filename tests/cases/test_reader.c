@@ -178,6 +178,12 @@ static const mistake extra[] = {
     /* across fields */
     {"hbm: {samples: 10, force: sampled}",
      "f:4:16: ", "10 samples cannot tell 5 harmonics apart, expected hbm.samples >= 11"},
+    {"transient: {method: closed_form}",
+     "f:4:21: ", "only the exact law has a closed form, expected transient.law: exact"},
+    {"transient: {law: regularised, method: closed_form}", "f:4:39: ", "only the exact law has a closed form"},
+    {"transient: {method: closed_form, law: regularised}", "f:4:21: ", "only the exact law has a closed form"},
+    {"transient: {method: closed}", "f:4:21: ", "closed_form"},
+    {"transient: {scout: maybe}", "f:4:20: ", "true"},
     {"hbm:\n  harmonics: 8\n  samples: 16\n  force: sampled", "f:6:12: ", "expected hbm.samples >= 17"},
     /* not YAML, or more of it than a case needs */
     {"title: a: b", "f:4:9: ", "not YAML: mapping values are not allowed"},

@@ -55,6 +55,16 @@ static void verdicts_reach_the_exit_code(void **state)
   expect("transient " CASE2 "--at 6.5 -q --set transient.max_periods=3 2>&1 >/dev/null", 3, "omega = 6.5");
 }
 
+static void the_closed_form_is_of_the_exact_law(void **state)
+{
+  (void)state;
+  expect("transient " CASE2 "--at 6.5 -q --set transient.method=closed_form 2>&1", 2,
+         "--set transient.method=closed_form: only the exact law has a closed form");
+  expect("transient " CASE2 "--at 6.5 -q --set transient.method=closed_form --set transient.law=exact", 0, "8.87144");
+  expect("transient " CASE2 "--at 6.5 -q --set transient.scout=false --set transient.law=exact", 0, "8.87144");
+  expect("compare " CASE2 "--at 6.5 -q --set transient.method=closed_form --set transient.law=exact", 0, "match");
+}
+
 /* Not agreed unless everything asked for was compared and every transient is accounted for by some HBM solution. */
 static void agreement_is_not_claimed_lightly(void **state)
 {
@@ -213,6 +223,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(columns_are_the_interface),
+      cmocka_unit_test(the_closed_form_is_of_the_exact_law),
       cmocka_unit_test(verdicts_reach_the_exit_code),
       cmocka_unit_test(dropping_the_mean_costs_what_it_costs),
       cmocka_unit_test(mistakes_are_named),

@@ -54,13 +54,15 @@ static bool tick(void *self, double done)
 /* More contacts than a case file lists: what is allocated is for as many as the model has. */
 enum { CONTACTS = 17 };
 
-static timeint *made(transient_steady steady)
+static timeint *made(transient_steady steady, bool scout, transient_law law)
 {
   scene sc = scene_b10();
   model *m = scene_split_model(&sc, CONTACTS);
   timeint *ti;
   long before = allocations;
   sc.transient.steady = steady;
+  sc.transient.scout = scout;
+  sc.transient.law = law;
   assert_int_equal(timeint_new(m, &sc.transient, &ti), HC_OK);
   CHECK_LE(10, allocations - before, "the counter counts SUNDIALS, too");
   model_free(m);
@@ -73,7 +75,7 @@ static void marching_allocates_nothing(void **state)
   if (!COUNTED) skip();
   count c = {0};
   hc_monitor monitor = {.tick = tick, .self = &c};
-  timeint *ti = made(TRANSIENT_STEADY_MARCH);
+  timeint *ti = made(TRANSIENT_STEADY_MARCH, false, TRANSIENT_LAW_REGULARISED);
   double y[TIMEINT_W + CONTACTS] = {0};
   timeint_result r;
   assert_int_equal(timeint_steady(ti, 7, y, &monitor, &r), HC_OK);
@@ -87,7 +89,7 @@ static void shooting_and_sweeping_allocate_nothing(void **state)
 {
   (void)state;
   if (!COUNTED) skip();
-  timeint *ti = made(TRANSIENT_STEADY_AUTO);
+  timeint *ti = made(TRANSIENT_STEADY_AUTO, false, TRANSIENT_LAW_REGULARISED);
   double y[TIMEINT_W + CONTACTS] = {1.04, 7}; /* next to the orbit */
   timeint_result r;
   assert_int_equal(timeint_steady(ti, 7, y, NULL, &r), HC_OK);
@@ -101,10 +103,31 @@ static void shooting_and_sweeping_allocate_nothing(void **state)
   timeint_free(ti);
 }
 
+/* From rest: marching in closed form, its Newton, CVODE's periods that confirm it. */
+static void a_scout_allocates_nothing(void **state)
+{
+  (void)state;
+  if (!COUNTED) skip();
+  for (int law = 0; law < 2; ++law) {
+    timeint *ti = made(TRANSIENT_STEADY_AUTO, true, law ? TRANSIENT_LAW_EXACT : TRANSIENT_LAW_REGULARISED);
+    timeint_result r;
+    for (int i = 0; i < 3; ++i) {
+      double y[TIMEINT_W + CONTACTS] = {0};
+      const long before = allocations;
+      assert_int_equal(timeint_steady(ti, 7 + 0.1 * i, y, NULL, &r), HC_OK);
+      CHECK_LE(5, r.scouted, "scouted");
+      assert_int_equal(r.method, TIMEINT_BY_SHOOTING);
+      if (i > 0) assert_int_equal(allocations - before, 0); /* CVODE makes itself ready in the first period */
+    }
+    timeint_free(ti);
+  }
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(marching_allocates_nothing),
-                                     cmocka_unit_test(shooting_and_sweeping_allocate_nothing)};
+                                     cmocka_unit_test(shooting_and_sweeping_allocate_nothing),
+                                     cmocka_unit_test(a_scout_allocates_nothing)};
   check_watchdog(120);
   return cmocka_run_group_tests_name("timeint.allocation", tests, NULL, NULL);
 }
