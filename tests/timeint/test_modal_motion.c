@@ -381,6 +381,22 @@ static void guards_that_vanish_together_or_at_once(void **state)
   assert_true(together > 300 && at_once > 300 && grown > 300);
 }
 
+/* q = cosh(tau), g = C - q: g'' grows in the step, so that C - q'' tau^2/2 of the beginning passes 0 later than g. */
+static void a_mode_that_is_driven_away(void **state)
+{
+  (void)state;
+  const double by = -1;
+  made m = {.q = {1}};
+  m.mode[0] = mode_make(0, -1);
+  m.motion = (modal_motion){.n = 1, .mode = m.mode, .q = m.q, .p = m.p, .d = m.d, .f = m.f};
+  for (double constant = 1.01; constant < 1.6; constant += 0.02) {
+    const modal_guard g = {.by_q = &by, .constant = constant, .noise = DBL_EPSILON};
+    const crossing c = cross(&m, 2 * PI, 1, &g);
+    assert_int_equal(c.first, 0);
+    CHECK_NEAR(c.tau, acosh(constant), 8 * DBL_EPSILON / sinh(acosh(constant)), "constant %g", constant);
+  }
+}
+
 /* A guard below 0 at the beginning; no guard; no span; no number. */
 static void ends_of_the_range(void **state)
 {
@@ -502,6 +518,7 @@ int main(void)
       cmocka_unit_test(no_random_crossing_is_missed),
       cmocka_unit_test(grazes),
       cmocka_unit_test(guards_that_vanish_together_or_at_once),
+      cmocka_unit_test(a_mode_that_is_driven_away),
       cmocka_unit_test(ends_of_the_range),
       cmocka_unit_test(samples_are_the_motion),
       cmocka_unit_test(integrals_are_those_of_the_motion),
