@@ -113,6 +113,7 @@ static void random_scene(scene *sc, uint64_t *s)
   else memset(&sc->compare.omega, 0, sizeof sc->compare.omega);
   if (sc->hbm.samples != HBM_AUTO && sc->hbm.samples < 2 * sc->hbm.harmonics + 1)
     sc->hbm.samples = 2 * sc->hbm.harmonics + 1;
+  if (sc->transient.law != TRANSIENT_LAW_EXACT) sc->transient.method = TRANSIENT_METHOD_CVODE;
   if (sc->omega_from == sc->omega_to) sc->omega_to = sc->omega_from > 1 ? 1 : 2;
   if (sc->transient.method == TRANSIENT_METHOD_CLOSED_FORM) sc->transient.law = TRANSIENT_LAW_EXACT;
 }
