@@ -53,9 +53,9 @@ static void begin_segment(closed_form *in, double theta, double x, double p)
       (modal_motion){.n = 1, .theta = theta, .mode = &in->mode, .q = &in->q, .p = &in->p, .d = &in->d, .f = &in->f};
 }
 
-/* What ends the segment: the ends of the phase, and P = 0 where a contact slips or the period is watched. P has the sign
- * of the phase's way; where it has not, since X crossed an end where it turns, by rounding behind the turn, the segment
- * ends at once. numbers[i]: which one guard i is. */
+/* What ends the segment: the ends of the phase, and P = 0 where a contact slips or the period is watched. P has the
+ * sign of the phase's way; where it has not, since X crossed an end where it turns, by rounding behind the turn, the
+ * segment ends at once. numbers[i]: which one guard i is. */
 static int find_guards(const closed_form *in, bool watched, modal_guard *guards, int *numbers)
 {
   static const double up = -1, down = 1;

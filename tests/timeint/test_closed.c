@@ -132,7 +132,7 @@ static void random_state(const scaled_model *m, integrator *in, double *y, uint6
   run(in, m, y, 1);
 }
 
-/* One period, and its matrix, against CVODE's: 200 steps of 1e-13 of the motion's size, which a stiff phase (rates of 30)
+/* One period, and its matrix, against CVODE's: 200 steps of 1e-13 of the motion's size, which a stiff phase (rates 30)
  * may carry on 30 times larger. The matrix changes with the transitions' angles, whose error is that of X over P: 1e-10
  * where P is some 1e-3. As many transitions. */
 static void random_scenes_follow_cvode(void **state)
@@ -177,9 +177,9 @@ static void period_of(const scene *sc, const scaled_model *m, integrator *in, do
   measure_free(&me);
 }
 
-/* Watched, a period is cut at the turns too: the same but for roundings of it (1e-12 of the motion where P = 30). Peaks,
- * mean, first harmonic and wave against CVODE's dense output, good to some 1e-11 of the motion at 1e-13; sums over
- * 512 instants err by the motion's corners 512^-2 here, where the period does not close, so integrals are compared
+/* Watched, a period is cut at the turns too: the same but for roundings of it (1e-12 of the motion where P = 30).
+ * Peaks, mean, first harmonic and wave against CVODE's dense output, good to some 1e-11 of the motion at 1e-13; sums
+ * over 512 instants err by the motion's corners 512^-2 here, where the period does not close, so integrals are compared
  * with sums over the intervals: the trapezoidal rule with its end correction, h^4/720 of the third derivative's
  * jump. */
 static void measures_are_those_of_the_motion(void **state)

@@ -178,7 +178,8 @@ static double guard_noise(const made *m, const modal_guard *g, double span)
   return noise;
 }
 
-/* Where the guard is below -2 noise for the first time (it may pass -noise in a step), by SCAN points and then bisection: INFINITY if at none. */
+/* Where the guard is below -2 noise for the first time (it may pass -noise in a step), by SCAN points and
+ * then bisection: INFINITY if at none. */
 static double scanned_root(const made *m, const modal_guard *g, double span)
 {
   double slope, low = 0, high = INFINITY;

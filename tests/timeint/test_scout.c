@@ -247,8 +247,8 @@ static void an_interrupt_is_heeded(void **state)
 }
 
 /* confirm_orbit from a state off the orbit, or with the matrix of another model: CVODE's periods decide. Confirmed is
- * what closes; to |I - Phi| |(I - Phi)^-1| < 100 of the tolerance where the matrix is another's. Or it is not confirmed,
- * and the motion is where it was. */
+ * what closes; to |I - Phi| |(I - Phi)^-1| < 100 of the tolerance where the matrix is another's. Or it is not
+ * confirmed, and the motion is where it was. */
 static void a_spoiled_orbit(void **state)
 {
   (void)state;
