@@ -26,7 +26,8 @@ struct memory {
     double *scouted, *state; /* [n] where the scout was, where CVODE ended; in the model's units */
     timeint_result result;
   } orbit[REMEMBERED];
-  double *states; /* of the orbits */
+  double *states;           /* of the orbits */
+  timeint_result untouched; /* a result before the scout's orbit was tried */
 };
 
 static hc_status make_memory(timeint *ti)
@@ -161,12 +162,27 @@ static hc_status report_unsettled(timeint *ti, const timeint_result *scouted, hc
   return st == HC_OK ? why : st;
 }
 
+/* Back to where the motion was before the scout's orbit was tried; what that took stays counted. */
+static hc_status begin_again(timeint *ti, const double *state, const timeint_result *untouched, timeint_result *r)
+{
+  const int periods = ti->periods, scouted = r->scouted;
+  const long steps = ti->steps0, rhs = ti->rhs0;
+  *r = *untouched;
+  r->scouted = scouted;
+  hc_status st = timeint_begin(ti, ti->omega, state);
+  ti->periods = periods;
+  ti->steps0 = steps;
+  ti->rhs0 = rhs;
+  return st;
+}
+
 hc_status scout_steady(timeint *ti, int orbit_of, const double *state, const hc_monitor *monitor, timeint_result *r,
                        bool *done)
 {
-  timeint_result scouted;
+  timeint_result scouted, *untouched = &ti->confirmed->untouched;
   double *seen = ti->scout_state;
   *done = true;
+  *untouched = *r;
   memcpy(seen, state, sizeof *seen * (size_t)ti->n);
   hc_status st = orbit_of > 0 ? timeint_orbit(ti->scout, ti->omega, orbit_of, seen, monitor, &scouted)
                               : timeint_steady(ti->scout, ti->omega, seen, monitor, &scouted);
@@ -186,8 +202,7 @@ hc_status scout_steady(timeint *ti, int orbit_of, const double *state, const hc_
     if (!shoot_found_no_orbit(st) || why != HC_OK) return st;
   }
   *done = false;
-  r->left_orbit = false;
-  return timeint_begin(ti, ti->omega, state);
+  return begin_again(ti, state, untouched, r);
 }
 
 hc_status scout_confirm(timeint *ti, int k, const hc_monitor *monitor, timeint_result *r, bool *done)

@@ -35,7 +35,8 @@ typedef struct timeint_result {
   long rhs;                   /* right-hand side evaluations */
   timeint_method method;
   double multiplier; /* [1] modulus of the orbit's largest Floquet multiplier over its period_multiple periods; NaN:
-                        not known */
+                        not known. Of an orbit that was scouted: the exact law's beside it, also where the law is
+                        regularised */
   double multiplier_re, multiplier_im;
   int free_sliders;   /* contacts that stick all the time: where their sliders rest, and with them the mean, depends on
                        the start */

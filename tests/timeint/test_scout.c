@@ -7,6 +7,7 @@
 #include "campaigns/scene_solvers.h"
 #include "tests/timeint/scenes.h"
 #include "timeint/confirm.h"
+#include "timeint/orbit.h"
 #include "timeint/timeint_private.h"
 
 typedef struct found {
@@ -271,7 +272,7 @@ static void a_spoiled_orbit(void **state)
       double before[3];
       memcpy(before, ti->y, sizeof before);
       shoot_report report = {.multiplier = 0.5};
-      hc_status st = confirm_orbit(ti->confirm, 1, NULL, &report, &r);
+      hc_status st = confirm_orbit(ti->confirm, 1, orbit_goal(ti), NULL, &report, &r);
       if (st == HC_OK) {
         CHECK_NEAR(r.amplitude, at.r.amplitude, 100 * 1e-9 * at.r.amplitude, "off %g, %g", off, factor);
         ++confirmed;

@@ -1,0 +1,96 @@
+/* test_once.c - nothing is solved twice: what the comparison of case 2 takes, counted. The counts are exact; a change
+ * that raises one solves something again, or takes longer steps to fail. */
+#include "cases/case_file.h"
+#include "compare/comparison.h"
+#include "tests/check.h"
+
+enum { ROWS = 10, AT_ANOTHER = 2, LINEAR = 3 }; /* of the rows: from unstable solutions; where nothing touches */
+
+static comparison compared(int n_set, const char *const *set, bool spare)
+{
+  scene sc;
+  case_error err;
+  compare_setup setup;
+  comparison c;
+  assert_int_equal(case_read(SOURCE_DIR "/cases/paper/case2.yaml", n_set, set, &sc, &err), HC_OK);
+  assert_int_equal(scene_setup(&sc, &setup), HC_OK);
+  setup.spare = spare;
+  assert_int_equal(comparison_run(&setup, NULL, &c), HC_OK);
+  scene_setup_clear(&setup);
+  assert_int_equal(c.n_rows, ROWS);
+  return c;
+}
+
+/* What the rows themselves say they took. */
+static int reported(const comparison *c)
+{
+  int periods = 0;
+  for (int i = 0; i < c->n_rows; ++i) periods += c->rows[i].transient.periods;
+  return periods;
+}
+
+/* The exact law: one period of CVODE's for each orbit, and that only once: the referee is the transient, a second
+ * solution's motion goes to the first's orbit. The unstable solutions have orbits of their own beside them. */
+static void exact_law(void **state)
+{
+  (void)state;
+  static const char *const exact[] = {"transient.law=exact"};
+  comparison c = compared(1, exact, true);
+  assert_int_equal(reported(&c), ROWS - LINEAR - AT_ANOTHER);
+  assert_int_equal(c.cost.periods, ROWS - LINEAR);
+  comparison_clear(&c);
+}
+
+/* The regularised law: at most three periods an orbit, one for the prediction, one for the exact law's orbit beside. */
+static void regularised_law(void **state)
+{
+  (void)state;
+  comparison c = compared(0, NULL, true);
+  const int orbits = ROWS - LINEAR - AT_ANOTHER;
+  CHECK_LE(reported(&c), 3 * orbits, "transients");
+  CHECK_LE(c.cost.periods, reported(&c) + orbits + ROWS - LINEAR, "with predictions and referees");
+  CHECK_LE(2 * orbits, reported(&c), "each is confirmed");
+  comparison_clear(&c);
+}
+
+/* What csv shows in addition: the same orbits with finer steps, two periods each. */
+static void finer_steps_only_where_shown(void **state)
+{
+  (void)state;
+  comparison spare = compared(0, NULL, true), full = compared(0, NULL, false);
+  const int orbits = ROWS - LINEAR - AT_ANOTHER;
+  CHECK_LE(spare.cost.periods + orbits, full.cost.periods, "finer steps");
+  CHECK_LE(full.cost.periods, spare.cost.periods + 2 * orbits, "two periods each");
+  assert_true(spare.cost.hbm_solves == full.cost.hbm_solves);
+  for (int i = 0; i < ROWS; ++i) {
+    assert_int_equal(spare.rows[i].verdict, full.rows[i].verdict);
+    assert_true(spare.rows[i].transient.amplitude == full.rows[i].transient.amplitude);
+    assert_true(isnan(spare.rows[i].budget.amplitude.integration) ||
+                full.rows[i].transient.method == TIMEINT_BY_CLOSED_FORM);
+  }
+  comparison_clear(&spare);
+  comparison_clear(&full);
+}
+
+/* HBM: the curve, and what lies between its points; nothing for budgets and verdicts. */
+static void systems_solved(void **state)
+{
+  (void)state;
+  comparison c = compared(0, NULL, false);
+  CHECK_LE(c.cost.hbm_solves, c.curve.n + c.curve.rejected + 12 * ROWS, "Newton solves");
+  print_message("case 2: %ld HBM solves, %d points, %d rejected; %ld periods by CVODE, %ld in closed form\n",
+                c.cost.hbm_solves, c.curve.n, c.curve.rejected, c.cost.periods, c.cost.closed_form);
+  comparison_clear(&c);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(exact_law),
+      cmocka_unit_test(regularised_law),
+      cmocka_unit_test(finer_steps_only_where_shown),
+      cmocka_unit_test(systems_solved),
+  };
+  check_watchdog(60);
+  return cmocka_run_group_tests_name("compare.once", tests, NULL, NULL);
+}
