@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "hbm/hbm_solver_impl.h"
+#include "numerics/norm.h"
 #include "numerics/series.h"
 
 enum {
@@ -14,7 +15,10 @@ enum {
 };
 
 static const double converged = 0.02; /* a step this small beside what all came to changes the error by as little */
-static const double roundings = 4;    /* a motion and its measures take a few */
+/* [size of X] Newton that has not converged after steps as long has no such solution to come to; one that far away is
+ * another: beyond a fold of theirs the finer equations have none next to X, and no number bounds what X is off. */
+static const double lost = 0.1, another = 0.3;
+static const double roundings = 4; /* a motion and its measures take a few */
 
 /* The amplitude and the first harmonic of two motions may agree by chance, where an error passes through 0 as omega or H
  * changes; what they are off by is then of the size of what the finer equations leave out, an eighth of the waveform's
@@ -52,8 +56,8 @@ static double distance(int n_harm, const double *X, int n, const double *Y)
 }
 
 /* Newton on the finer equations from s->improved. *least [length]: what the error is whatever the distance of where
- * Newton came to: rounding; and where it did not come to anything, the longest step: there may be no such
- * solution. */
+ * Newton came to: rounding; where it did not come to anything, the longest step, or without bound if that was long: there
+ * is no such solution. */
 static hc_status improve(hbm_solver *s, double omega, const double *X, double *least)
 {
   const int n_harm = s->sys.n_harm, n = refinement_harmonics(s->exact_finer);
@@ -69,6 +73,8 @@ static hc_status improve(hbm_solver *s, double omega, const double *X, double *l
     found = last <= *least || (k > 0 && last <= converged * distance(n_harm, X, n, s->improved));
   }
   if (!found) *least += longest;
+  const double far = fmax(found ? 0 : longest, distance(n_harm, X, n, s->improved));
+  if (!(far <= (found ? another : lost) * norm_2(series_length(n_harm), X))) *least = INFINITY;
   return HC_OK;
 }
 
