@@ -1,9 +1,10 @@
 /* aft.c - see aft.h.
- *   X -> x(th_i), th_i = 2 pi i/N -> u_i, v_i -> two periods of contact_step, the first only settles w -> F_i -> F
- * The slider after a separation starts from the interpolated instant of contact, or (the paper's way) from the last
- * separated sample. Jacobian: dF_i = k_i dx_i - kt cos(alpha) dw, k_i by one more FFT, dw constant over a stick
- * interval (force_jacobian.h). FFTW does not normalise and uses exp(-i): the 2/N and the sign of the sine are in
- * to_series() and to_samples(), nowhere else. Not here: the dynamic stiffness (system.c). */
+ *   X -> x(th_i), th_i = 2 pi i/N -> u_i, v_i -> two periods of the contact law, the first only settles w -> F_i -> F
+ * The contacts are followed by slider.c: the slider after a separation starts from the interpolated instant of contact,
+ * or (the paper's way) from the last separated sample. Jacobian, only when it is asked for: dF_i = k_i dx_i - kt
+ * cos(alpha) dw, k_i by one more FFT, dw constant over a stick interval (force_jacobian.h). FFTW does not normalise and
+ * uses exp(-i): the 2/N and the sign of the sine are in to_series() and to_samples(), nowhere else. Not here: the
+ * dynamic stiffness (system.c). */
 #include "hbm/aft.h"
 
 #include <stdlib.h>
@@ -12,35 +13,24 @@
 #include "base/constants.h"
 #include "hbm/fft_plan.h"
 #include "hbm/force_jacobian.h"
-
-/* What the slider's position depends on: dw = by_x dx(th_i), with by_x = 0 where the motion does not move it. */
-typedef struct slider_origin {
-  int i;
-  double by_x;
-} slider_origin;
+#include "hbm/slider.h"
 
 struct aft {
   model *model;
   int n_harm, n_time;
   hbm_restart restart;
-  double *w;          /* [n_contacts] sliders at th = 0 */
   double *x, *f, *k;  /* [n_time]     displacement [length], force, its stiffness along the orbit */
+  double *part;       /* [n_time]     force of one contact */
   fftw_complex *spec; /* [n_time/2+1] consumed by to_time (c2r overwrites its input) */
   fftw_plan to_time, to_freq_f, to_freq_k;
   double complex *root;     /* [n_time]     exp(i th_i) */
   double complex *inv_step; /* [n_harm+1]   1/(exp(i h 2 pi/N) - 1), for sums over sample ranges */
   double *symbol;           /* [4H+1]       series of k */
   double *left, *right;     /* [2H+1]       one rank-1 term */
+  stretch *stretches;       /* [n_contacts][n_time] of the last evaluation, the first n_stretches[j] of each filled */
+  stretch *settling;        /* [n_time] */
+  int *n_stretches;         /* [n_contacts] */
 };
-
-/* One contact while its slider is followed over the samples. */
-typedef struct track {
-  const model_contact *contact;
-  double c, s;          /* u = c x, v = s x */
-  double w;             /* slider */
-  contact_state state;  /* at the sample before */
-  slider_origin origin; /* of w */
-} track;
 
 static hc_status make_plans(aft *a)
 {
@@ -53,18 +43,22 @@ static hc_status make_plans(aft *a)
 static hc_status make_tables(aft *a)
 {
   int n = a->n_time, n_coef = series_length(a->n_harm);
-  a->w = calloc((size_t)a->model->n_contacts + 1, sizeof(double));
   a->x = fftw_alloc_real((size_t)n);
   a->f = fftw_alloc_real((size_t)n);
   a->k = fftw_alloc_real((size_t)n);
+  a->part = fftw_alloc_real((size_t)n);
   a->spec = fftw_alloc_complex((size_t)n / 2 + 1);
   a->root = malloc((size_t)n * sizeof *a->root);
   a->inv_step = malloc(((size_t)a->n_harm + 1) * sizeof *a->inv_step);
   a->symbol = calloc((size_t)force_jacobian_symbol_length(a->n_harm), sizeof(double));
   a->left = calloc((size_t)n_coef, sizeof(double));
   a->right = calloc((size_t)n_coef, sizeof(double));
-  bool samples = a->x && a->f && a->k && a->spec && a->root, harmonics = a->inv_step && a->symbol;
-  if (!a->w || !samples || !harmonics || !a->left || !a->right) return HC_NO_MEMORY;
+  a->stretches = malloc(((size_t)a->model->n_contacts * (size_t)n + 1) * sizeof *a->stretches); /* few are used */
+  a->settling = malloc((size_t)n * sizeof *a->settling);
+  a->n_stretches = calloc((size_t)a->model->n_contacts + 1, sizeof *a->n_stretches);
+  bool samples = a->x && a->f && a->k && a->part && a->spec && a->root, harmonics = a->inv_step && a->symbol;
+  bool tracks = a->stretches && a->settling && a->n_stretches;
+  if (!tracks || !samples || !harmonics || !a->left || !a->right) return HC_NO_MEMORY;
   const double step = TWO_PI / n;
   for (int i = 0; i < n; ++i) a->root[i] = cos(i * step) + I * sin(i * step);
   for (int h = 1; h <= a->n_harm; ++h) a->inv_step[h] = 1 / (a->root[h % n] - 1);
@@ -101,13 +95,16 @@ void aft_free(aft *a)
   fftw_free(a->x);
   fftw_free(a->f);
   fftw_free(a->k);
+  fftw_free(a->part);
   fftw_free(a->spec);
-  free(a->w);
   free(a->root);
   free(a->inv_step);
   free(a->symbol);
   free(a->left);
   free(a->right);
+  free(a->stretches);
+  free(a->settling);
+  free(a->n_stretches);
   free(a);
 }
 
@@ -134,39 +131,67 @@ static void to_series(aft *a, fftw_plan plan, int n_harm, double *out)
   }
 }
 
-/* On entering contact at sample i after a separated one. Interpolated: w = u on the straight line between the
- * samples where v + gap = 0, which for u = c x and v = s x is -gap c/s, whatever the samples. Else w stays the last
- * separated sample's u. */
-static void restart_slider(const aft *a, track *t, int i)
+/* ---- the force ------------------------------------------------------------------------------- */
+
+static contact_regime regime_of(int n, const stretch *s)
 {
-  int before = i ? i - 1 : a->n_time - 1;
-  bool interpolated = a->restart == HBM_RESTART_INTERPOLATED;
-  t->w = interpolated ? -t->contact->law.gap * t->c / t->s : t->c * a->x[before];
-  t->origin = (slider_origin){before, interpolated ? 0 : t->c};
+  bool separates = false, slips = false, touches = false;
+  for (int k = 0; k < n; ++k) {
+    separates |= s[k].state == CONTACT_SEPARATED;
+    slips |= contact_slip_sign(s[k].state) != 0;
+    touches |= s[k].state != CONTACT_SEPARATED;
+  }
+  if (separates) return touches ? CONTACT_SEPARATES : CONTACT_LINEAR;
+  return slips ? CONTACT_SLIPS : CONTACT_STUCK;
 }
 
-/* Advance to sample i: the force of this contact there, and the stiffness dF_i/dx_i at fixed w. */
-static contact_state advance(const aft *a, track *t, int i, double *force, double *stiffness)
+/* One step of the law maps w to the nearest point of an interval, and so does a whole period: applied once more it
+ * changes nothing, so the slider is periodic in the second. That it is not can only be rounding or a defect. */
+static hc_status evaluate_contact(aft *a, int j, double size, contact_report *report)
 {
-  const contact *law = &t->contact->law;
-  double u = t->c * a->x[i], v = t->s * a->x[i], traction;
-  if (t->state == CONTACT_SEPARATED && contact_normal(law, v) > 0) restart_slider(a, t, i);
-  t->state = contact_step(law, u, v, &t->w, &traction);
-  int slip = contact_slip_sign(t->state);
-  if (slip) t->origin = (slider_origin){i, t->c - slip * law->mu * law->kn * t->s / law->kt};
-  *force = traction * t->c + contact_normal_change(law, v) * t->s;
-  if (t->state == CONTACT_SEPARATED) *stiffness = 0;
-  else *stiffness = (slip ? slip * law->mu * law->kn * t->s : law->kt * t->c) * t->c + law->kn * t->s * t->s;
-  return t->state;
+  stretch *s = a->stretches + (size_t)j * (size_t)a->n_time;
+  double *f = j == 0 ? a->f : a->part, *again = a->k; /* k is made afterwards, if at all */
+  slider_report found = slider_follow(&a->model->contacts[j], a->restart, a->n_time, a->x, f, again, s, a->settling);
+  a->n_stretches[j] = found.n_stretches;
+  for (int i = 0; i < a->n_time && j > 0; ++i) a->f[i] += a->part[i];
+  contact_regime regime = regime_of(found.n_stretches, s);
+  if (regime > report->regime) report->regime = regime;
+  report->transitions += found.transitions;
+  return fabs(found.w - found.settled) <= 1e-12 * (fabs(found.settled) + size) ? HC_OK : HC_NOT_CLOSED;
 }
+
+hc_status aft_eval(aft *a, const double *X, double *F, double *jac, contact_report *report)
+{
+  contact_report local;
+  if (!report) report = &local;
+  *report = (contact_report){.regime = CONTACT_LINEAR};
+  double size = 0; /* bounds |x| */
+  for (int i = 0; i < series_length(a->n_harm); ++i) size += fabs(X[i]);
+  if (!isfinite(size)) return HC_NOT_FINITE;
+  to_samples(a, X);
+  if (a->model->n_contacts == 0) memset(a->f, 0, (size_t)a->n_time * sizeof(double));
+  hc_status st = HC_OK;
+  for (int j = 0; j < a->model->n_contacts && st == HC_OK; ++j) st = evaluate_contact(a, j, size, report);
+  if (st != HC_OK) return st;
+  to_series(a, a->to_freq_f, a->n_harm, F);
+  if (jac) aft_jacobian(a, jac);
+  return HC_OK;
+}
+
+void aft_sliders(const aft *a, double *w)
+{
+  for (int j = 0; j < a->model->n_contacts; ++j) w[j] = a->stretches[(size_t)j * (size_t)a->n_time].w;
+}
+
+/* ---- its Jacobian ---------------------------------------------------------------------------- */
 
 /* Series of kt cos(alpha) over the samples first..last: geometric sums, minus their rank-1 effect on jac. */
-static void subtract_stick_interval(aft *a, const track *t, int first, int last, double *jac)
+static void subtract_stick_interval(aft *a, const model_contact *c, const slider_origin *o, int first, int last,
+                                    double *jac)
 {
-  const slider_origin *o = &t->origin;
   if (o->by_x == 0) return;
   int n = a->n_time;
-  double weight = t->contact->law.kt * t->c / n;
+  double weight = c->law.kt * c->tangent / n;
   a->left[0] = weight * (last - first + 1);
   a->right[0] = o->by_x;
   for (int h = 1; h <= a->n_harm; ++h) {
@@ -180,80 +205,35 @@ static void subtract_stick_interval(aft *a, const track *t, int first, int last,
   force_jacobian_subtract(a->n_harm, a->left, a->right, jac);
 }
 
-/* The first pass over the period: it only moves the slider. */
-static void settle(const aft *a, track *t)
+/* dF_i/dx_i at fixed w. */
+static double stiffness_in(const model_contact *c, contact_state state)
 {
-  double force, stiffness;
-  for (int i = 0; i < a->n_time; ++i) advance(a, t, i, &force, &stiffness);
+  const contact *law = &c->law;
+  int slip = contact_slip_sign(state);
+  if (state == CONTACT_SEPARATED) return 0;
+  return (slip ? slip * law->mu * law->kn * c->normal : law->kt * c->tangent) * c->tangent +
+         law->kn * c->normal * c->normal;
 }
 
-/* The second pass: adds force and stiffness to f and k, and subtracts each stick interval's rank-1 term from jac. */
-static void record(aft *a, track *t, double *jac, contact_report *report)
-{
-  int first = -1; /* of the stick interval under way */
-  bool separates = false, slips = false, touches = false;
-  for (int i = 0; i < a->n_time; ++i) {
-    contact_state before = t->state;
-    double force, stiffness;
-    track ended = *t; /* the stick interval that this sample may end */
-    contact_state now = advance(a, t, i, &force, &stiffness);
-    if (i == 0) a->w[t->contact - a->model->contacts] = t->w;
-    if (first >= 0 && now != CONTACT_STICK) {
-      if (jac) subtract_stick_interval(a, &ended, first, i - 1, jac);
-      first = -1;
-    }
-    if (now == CONTACT_STICK && first < 0) first = i;
-    a->f[i] += force;
-    a->k[i] += stiffness;
-    separates |= now == CONTACT_SEPARATED;
-    slips |= contact_slip_sign(now) != 0;
-    touches |= now != CONTACT_SEPARATED;
-    report->transitions += now != before;
-  }
-  if (first >= 0 && jac) subtract_stick_interval(a, t, first, a->n_time - 1, jac);
-  contact_regime regime = separates ? (touches ? CONTACT_SEPARATES : CONTACT_LINEAR)
-                          : slips   ? CONTACT_SLIPS
-                                    : CONTACT_STUCK;
-  if (regime > report->regime) report->regime = regime;
-}
-
-/* One step of the law maps w to the nearest point of an interval, and so does a whole period: applied once more it
- * changes nothing, so the slider is periodic in the second pass. That it is not can only be rounding or a defect. */
-static hc_status evaluate_contact(aft *a, int j, double size, double *jac, contact_report *report)
+/* Adds the stiffness of contact j to k, and subtracts each stick interval's rank-1 term from jac. */
+static void differentiate_contact(aft *a, int j, double *jac)
 {
   const model_contact *c = &a->model->contacts[j];
-  track t = {.contact = c, .c = c->tangent, .s = c->normal, .state = CONTACT_STICK};
-  if (!(contact_normal(&t.contact->law, t.s * a->x[a->n_time - 1]) > 0)) t.state = CONTACT_SEPARATED;
-  settle(a, &t);
-  double w = t.w;
-  record(a, &t, jac, report);
-  return fabs(t.w - w) <= 1e-12 * (fabs(w) + size) ? HC_OK : HC_NOT_CLOSED;
+  const stretch *s = a->stretches + (size_t)j * (size_t)a->n_time;
+  for (int m = 0; m < a->n_stretches[j]; ++m) {
+    int end = m + 1 < a->n_stretches[j] ? s[m + 1].first : a->n_time;
+    double stiffness = stiffness_in(c, s[m].state);
+    for (int i = s[m].first; i < end; ++i) a->k[i] += stiffness;
+    if (s[m].state == CONTACT_STICK) subtract_stick_interval(a, c, &s[m].origin, s[m].first, end - 1, jac);
+  }
 }
 
-hc_status aft_eval(aft *a, const double *X, double *F, double *jac, contact_report *report)
+void aft_jacobian(aft *a, double *jac)
 {
-  contact_report local;
-  if (!report) report = &local;
-  *report = (contact_report){.regime = CONTACT_LINEAR};
   int n_coef = series_length(a->n_harm);
-  double size = 0; /* bounds |x| */
-  for (int i = 0; i < n_coef; ++i) size += fabs(X[i]);
-  if (!isfinite(size)) return HC_NOT_FINITE;
-  to_samples(a, X);
-  memset(a->f, 0, (size_t)a->n_time * sizeof(double));
   memset(a->k, 0, (size_t)a->n_time * sizeof(double));
-  if (jac) memset(jac, 0, (size_t)n_coef * n_coef * sizeof(double));
-  hc_status st = HC_OK;
-  for (int j = 0; j < a->model->n_contacts && st == HC_OK; ++j) st = evaluate_contact(a, j, size, jac, report);
-  if (st != HC_OK) return st;
-  to_series(a, a->to_freq_f, a->n_harm, F);
-  if (!jac) return HC_OK;
+  memset(jac, 0, (size_t)n_coef * n_coef * sizeof(double));
+  for (int j = 0; j < a->model->n_contacts; ++j) differentiate_contact(a, j, jac);
   to_series(a, a->to_freq_k, 2 * a->n_harm, a->symbol);
   force_jacobian_add(a->n_harm, a->symbol, n_coef, jac);
-  return HC_OK;
-}
-
-void aft_sliders(const aft *a, double *w)
-{
-  if (a->model->n_contacts) memcpy(w, a->w, (size_t)a->model->n_contacts * sizeof *w);
 }

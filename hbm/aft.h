@@ -20,7 +20,10 @@ void aft_free(aft *a);
  * Allocates nothing. report may be NULL. */
 hc_status aft_eval(aft *a, const double *X, double *F, double *jac, contact_report *report);
 
-/* w[n_contacts] [length]: each contact's slider at th = 0 in the last evaluation. */
+/* dF/dX as above, at the last evaluation, which ended with HC_OK. */
+void aft_jacobian(aft *a, double *jac);
+
+/* w[n_contacts] [length]: each contact's slider at th = 0 in the last evaluation, which ended with HC_OK. */
 void aft_sliders(const aft *a, double *w);
 
 #endif

@@ -40,9 +40,10 @@ hc_status hbm_system_contact(hbm_system *sys, const double *X)
   if (sys->evaluated && memcmp(X, sys->X, bytes) == 0) return HC_OK;
   sys->evaluated = false;
   ++sys->evaluations;
-  hc_status st = sys->sampled ? aft_eval(sys->sampled, X, sys->F, sys->dF, &sys->report)
+  hc_status st = sys->sampled ? aft_eval(sys->sampled, X, sys->F, NULL, &sys->report)
                               : exact_force_eval(sys->located, X, sys->F, sys->dF, &sys->report);
   if (st != HC_OK) return st;
+  sys->differentiated = !sys->sampled;
   memcpy(sys->X, X, bytes);
   sys->evaluated = true;
   return HC_OK;
@@ -70,9 +71,11 @@ hc_status hbm_system_residual(hbm_system *sys, double omega, const double *X, do
   return isfinite(sum) ? HC_OK : HC_NOT_FINITE;
 }
 
-void hbm_system_jacobian(const hbm_system *sys, double omega, int ld, double *jac)
+void hbm_system_jacobian(hbm_system *sys, double omega, int ld, double *jac)
 {
   const model *m = sys->model;
+  if (!sys->differentiated) aft_jacobian(sys->sampled, sys->dF);
+  sys->differentiated = true;
   for (int col = 0; col < sys->n; ++col) {
     const double *from = sys->dF + (size_t)sys->n_coef * (col + sys->first) + sys->first;
     double *to = jac + (size_t)ld * col;

@@ -23,9 +23,10 @@ typedef struct hbm_system {
   exact_force *located;
   double *X, *F, *dF; /* the last evaluation: where, force [n_coef], Jacobian [n_coef][n_coef] by columns */
   contact_report report;
-  bool evaluated;   /* X, F, dF and report belong together */
-  double *rows;     /* [n_coef] residual or its derivative with row 0, which may have to be dropped */
-  long evaluations; /* of the contact force */
+  bool evaluated;      /* X, F and report belong together */
+  bool differentiated; /* and so does dF: of sampled forces it is made when it is asked for first */
+  double *rows;        /* [n_coef] residual or its derivative with row 0, which may have to be dropped */
+  long evaluations;    /* of the contact force */
 } hbm_system;
 
 /* n_time: samples per period, for sampled forces only. HC_BAD_INPUT, HC_NO_MEMORY: *sys
@@ -33,15 +34,15 @@ typedef struct hbm_system {
 hc_status hbm_system_init(hbm_system *sys, const model *m, const hbm_settings *how, int n_harm, int n_time);
 void hbm_system_clear(hbm_system *sys);
 
-/* Contact force and its Jacobian at X into sys->F, sys->dF; nothing to do if X is where it was evaluated last. Errors
- * of aft_eval and exact_force_eval. */
+/* Contact force at X into sys->F; nothing to do if X is where it was evaluated last. Errors of aft_eval and
+ * exact_force_eval. */
 hc_status hbm_system_contact(hbm_system *sys, const double *X);
 
 /* R[n] at X[n_coef]. HC_NOT_FINITE rather than a NaN. */
 hc_status hbm_system_residual(hbm_system *sys, double omega, const double *X, double *R);
 
 /* dR/dX into jac[row + ld col], n x n, at the X of the last residual. */
-void hbm_system_jacobian(const hbm_system *sys, double omega, int ld, double *jac);
+void hbm_system_jacobian(hbm_system *sys, double omega, int ld, double *jac);
 
 /* dR/domega [n] at X. */
 void hbm_system_domega(hbm_system *sys, double omega, const double *X, double *dR);
