@@ -183,6 +183,7 @@ static int run_compare(int argc, char **argv)
   hc_monitor monitor = progress_monitor(bar);
   compare_setup setup;
   hc_status st = scene_setup(&sc, &setup), tabled = HC_OK;
+  setup.jobs = cli_processors();
   setup.spare = common.format == FORMAT_TABLE && !own.plot; /* the screen does not show from_integration */
   if (st == HC_OK) st = comparison_run(&setup, &monitor, &c);
   tables[0] = comparison_table(&sc, &setup, &c);

@@ -167,7 +167,7 @@ static int run_report(int argc, char **argv)
   const char *path = common.output ? common.output : name_of_page(common.arguments[0], name, sizeof name);
   progress *bar = progress_start("comparing", common.quiet);
   hc_monitor monitor = progress_monitor(bar);
-  hc_status st = report_gather(&sc, &monitor, announce, bar, &d);
+  hc_status st = report_gather(&sc, cli_processors(), &monitor, announce, bar, &d);
   progress_end(bar);
   if (st == HC_INTERRUPTED) {
     cli_message(&common, "stopped on request; no page was written");

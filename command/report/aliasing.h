@@ -17,9 +17,9 @@
 enum { ALIASING_MOST_OMEGAS = 4 };
 
 /* The states at omega[n_omega], n_omega <= ALIASING_MOST_OMEGAS, of which omega[first] is shown first, as JSON into
- * *out, read by page.js, "aliasing". A state without solution is null. HC_INTERRUPTED, HC_NO_MEMORY:
- * *out is NULL. */
-hc_status aliasing_states(const scene *sc, int n_omega, const double *omega, int first, const hc_monitor *monitor,
-                          json_t **out);
+ * *out, read by page.js, "aliasing". A state without solution is null. By so many threads, with the same states
+ * whatever their number; only the calling one ticks *monitor. HC_INTERRUPTED, HC_NO_MEMORY: *out is NULL. */
+hc_status aliasing_states(const scene *sc, int n_omega, const double *omega, int first, int jobs,
+                          const hc_monitor *monitor, json_t **out);
 
 #endif

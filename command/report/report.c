@@ -42,7 +42,8 @@ static hc_status gather_aliasing(const scene *sc, const hc_monitor *monitor, rep
 {
   double omega[ALIASING_MOST_OMEGAS];
   int first, n = choose_omegas(&out->comparison, omega, &first);
-  if (n > 0 && sc->n_contacts > 0) return aliasing_states(sc, n, omega, first, monitor, &out->aliasing);
+  if (n > 0 && sc->n_contacts > 0)
+    return aliasing_states(sc, n, omega, first, out->setup.jobs, monitor, &out->aliasing);
   out->aliasing = json_null();
   return HC_OK;
 }
@@ -52,12 +53,13 @@ static void announce_stage(void (*announce)(void *, const char *), void *self, c
   if (announce) announce(self, stage);
 }
 
-hc_status report_gather(const scene *sc, const hc_monitor *monitor, void (*announce)(void *self, const char *stage),
-                        void *self, report_data *out)
+hc_status report_gather(const scene *sc, int jobs, const hc_monitor *monitor,
+                        void (*announce)(void *self, const char *stage), void *self, report_data *out)
 {
   *out = (report_data){.sc = sc};
   announce_stage(announce, self, "comparing");
   hc_status st = scene_setup(sc, &out->setup);
+  out->setup.jobs = jobs;
   if (st == HC_OK) st = comparison_run(&out->setup, monitor, &out->comparison);
   if (st != HC_OK) return st;
   announce_stage(announce, self, "response curve");

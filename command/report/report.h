@@ -38,10 +38,11 @@ typedef struct report_origin {
 /* Was Chart.js installed when this was built? Without it no report can be written. */
 bool report_has_charts(void);
 
-/* Everything the page shows. announce(self, "tables") before each stage; may be NULL. HC_INTERRUPTED, HC_NO_MEMORY,
- * or what kept the comparison or the curve from being made at all. Free with report_clear in any case. */
-hc_status report_gather(const scene *sc, const hc_monitor *monitor, void (*announce)(void *self, const char *stage),
-                        void *self, report_data *out);
+/* Everything the page shows, by so many threads; the same whatever their number. announce(self, "tables") before each
+ * stage; may be NULL. HC_INTERRUPTED, HC_NO_MEMORY, or what kept the comparison or the curve from being made at all.
+ * Free with report_clear in any case. */
+hc_status report_gather(const scene *sc, int jobs, const hc_monitor *monitor,
+                        void (*announce)(void *self, const char *stage), void *self, report_data *out);
 void report_clear(report_data *d);
 
 /* The page. HC_IO once the stream has failed, HC_NO_MEMORY. */

@@ -1,8 +1,8 @@
 /* accuracy.c - see accuracy.h: the table over truncation orders and sampling rates, and the orders it shows.
  *
  *     the curve with exact forces and most harmonics -> orbits to compare with, the peak (reference.h)
- *     each H: the curve with exact forces -> a solution next to each orbit -> each N: the same solution, from there;
- *     and the curve */
+ *     each H: the curve with exact forces -> a solution next to each orbit
+ *     each H and N: the same solutions, from there; and the curve. Independent of each other, so by threads */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -11,6 +11,7 @@
 #include "base/thread_clock.h"
 #include "compare/accuracy/reference.h"
 #include "compare/frequencies.h"
+#include "numerics/workers.h"
 
 enum { LEAST_REFERENCE = 20, EXACT = 0 };
 
@@ -34,18 +35,27 @@ typedef struct solutions {
   long iterations;
 } solutions;
 
+/* What the sampled rows of one H start from. */
+typedef struct plain_solutions {
+  int n_harm, turning_points; /* with exact forces */
+  solutions s;
+} plain_solutions;
+
 typedef struct workspace {
   const compare_setup *setup;
   const comparison *c;
-  const hc_monitor *monitor;
+  const hc_monitor *monitor;                   /* the calling thread's */
   int n_harm, n_samples, *harmonics, *samples; /* ascending, each once */
   reference ref;
-  accuracy *out;
+  plain_solutions plain[NUMBER_LIST_MAX]; /* [n_harm] */
+  bool *there;                            /* [n_harm (n_samples + 1)] rows that are whole */
+  accuracy_row *rows;                     /* of each H that with exact forces, then the samples */
+  order_row regularisation;
 } workspace;
 
 /* ---- curves and solutions -------------------------------------------------------------------- */
 
-static hc_status trace(const workspace *w, int n_harm, int samples, traced *t)
+static hc_status trace(const workspace *w, int n_harm, int samples, const hc_monitor *monitor, traced *t)
 {
   compare_setup setup = *w->setup;
   double from, to, began = thread_seconds();
@@ -57,7 +67,7 @@ static hc_status trace(const workspace *w, int n_harm, int samples, traced *t)
   comparison_sweep(setup.omega_from, setup.omega_to, w->setup->compare.omega.n ? &w->setup->compare.omega : &none,
                    &from, &to);
   hc_status st = hbm_solver_new(setup.model, &setup.hbm, &t->hbm);
-  t->status = st == HC_OK ? hbm_trace(t->hbm, from, to, w->monitor, &t->curve) : st;
+  t->status = st == HC_OK ? hbm_trace(t->hbm, from, to, monitor, &t->curve) : st;
   t->seconds = thread_seconds() - began;
   return t->status == HC_INTERRUPTED || t->status == HC_NO_MEMORY ? t->status : HC_OK; /* as far as the curve goes */
 }
@@ -222,63 +232,64 @@ static hc_status put_curve(const workspace *w, traced *t, accuracy_row *row)
   return st;
 }
 
-static hc_status put_row(const workspace *w, traced *t, int samples, const solutions *s, const solutions *plain,
-                         int true_turns, double began)
+static hc_status make_row(const workspace *w, traced *t, int samples, const solutions *s, const plain_solutions *plain,
+                          double began, accuracy_row *row)
 {
-  accuracy_row *row = &w->out->rows[w->out->n_rows];
   *row = (accuracy_row){.harmonics = t->n_harm, .samples = samples, .possible = true};
   hc_status st = put_curve(w, t, row);
   if (st != HC_OK) return st;
   row->iterations += s->iterations;
-  row->false_turning_points = row->turning_points > true_turns ? row->turning_points - true_turns : 0;
-  st = put_errors(w, s, plain, row);
+  row->false_turning_points =
+      row->turning_points > plain->turning_points ? row->turning_points - plain->turning_points : 0;
+  st = put_errors(w, s, &plain->s, row);
   row->seconds = t->seconds + thread_seconds() - began;
-  if (st == HC_OK) ++w->out->n_rows;
   return st;
 }
 
-static void put_impossible(const workspace *w, int n_harm, int samples)
+static accuracy_row impossible_row(int n_harm, int samples)
 {
-  w->out->rows[w->out->n_rows++] = (accuracy_row){.harmonics = n_harm,
-                                                  .samples = samples,
-                                                  .status = HC_BAD_INPUT,
-                                                  .worst = NAN,
-                                                  .median = NAN,
-                                                  .aliasing = NAN,
-                                                  .peak_amplitude = NAN,
-                                                  .peak_omega = NAN,
-                                                  .peak_error = NAN,
-                                                  .peak_omega_error = NAN,
-                                                  .seconds = NAN};
+  return (accuracy_row){.harmonics = n_harm,
+                        .samples = samples,
+                        .status = HC_BAD_INPUT,
+                        .worst = NAN,
+                        .median = NAN,
+                        .aliasing = NAN,
+                        .peak_amplitude = NAN,
+                        .peak_omega = NAN,
+                        .peak_error = NAN,
+                        .peak_omega_error = NAN,
+                        .seconds = NAN};
 }
 
-static hc_status sampled_row(const workspace *w, int n_harm, int samples, const solutions *plain, int true_turns)
+/* The row of the i-th H with exact forces, and the solutions that the sampled ones start from. */
+static hc_status exact_row(workspace *w, int i, traced *t)
+{
+  const int at = i * (w->n_samples + 1);
+  plain_solutions *plain = &w->plain[i];
+  double began = thread_seconds();
+  plain->n_harm = t->n_harm;
+  plain->turning_points = t->curve.turning_points;
+  hc_status st = solve_exact(w, t, &plain->s);
+  if (st == HC_OK) st = make_row(w, t, EXACT, &plain->s, plain, began, &w->rows[at]);
+  w->there[at] = st == HC_OK;
+  return st;
+}
+
+static hc_status sampled_row(const workspace *w, int samples, const plain_solutions *plain, const hc_monitor *monitor,
+                             accuracy_row *row)
 {
   traced t;
   solutions s = {0};
-  if (samples < 2 * n_harm + 2) {
-    put_impossible(w, n_harm, samples);
+  if (samples < 2 * plain->n_harm + 2) {
+    *row = impossible_row(plain->n_harm, samples);
     return HC_OK;
   }
-  hc_status st = trace(w, n_harm, samples, &t);
+  hc_status st = trace(w, plain->n_harm, samples, monitor, &t);
   double began = thread_seconds();
-  if (st == HC_OK) st = solve_sampled(w, &t, plain, &s);
-  if (st == HC_OK) st = put_row(w, &t, samples, &s, plain, true_turns, began);
+  if (st == HC_OK) st = solve_sampled(w, &t, &plain->s, &s);
+  if (st == HC_OK) st = make_row(w, &t, samples, &s, plain, began, row);
   solutions_free(&s);
   drop_trace(&t);
-  return st;
-}
-
-/* All rows of one H; its curve with exact forces is there. */
-static hc_status rows_of(const workspace *w, traced *t)
-{
-  solutions plain;
-  double began = thread_seconds();
-  hc_status st = solve_exact(w, t, &plain);
-  if (st == HC_OK) st = put_row(w, t, EXACT, &plain, &plain, t->curve.turning_points, began);
-  for (int i = 0; i < w->n_samples && st == HC_OK; ++i)
-    st = sampled_row(w, t->n_harm, w->samples[i], &plain, t->curve.turning_points);
-  solutions_free(&plain);
   return st;
 }
 
@@ -295,51 +306,63 @@ static int whole_numbers(const number_list *list, int *out)
   return n;
 }
 
-static void put_order(workspace *w, const char *quantity, int n_harm, int n, const double *x, const double *e,
+static void put_order(accuracy *out, const char *quantity, int n_harm, int n, const double *x, const double *e,
                       double floor)
 {
   order_fit fit = order_fit_to(n, x, e, floor);
   if (fit.points > 1)
-    w->out->orders[w->out->n_orders++] =
-        (order_row){.quantity = quantity, .harmonics = n_harm, .omega = NAN, .fit = fit};
+    out->orders[out->n_orders++] = (order_row){.quantity = quantity, .harmonics = n_harm, .omega = NAN, .fit = fit};
 }
 
 /* Of the aliasing in N for each H, and of the truncation in H with exact forces. */
-static void put_orders(workspace *w)
+static void put_orders(const workspace *w, accuracy *out)
 {
   double x[NUMBER_LIST_MAX], e[NUMBER_LIST_MAX], h[NUMBER_LIST_MAX], truncation[NUMBER_LIST_MAX];
   int n = 0, n_h = 0;
-  for (int i = 0; i < w->out->n_rows; ++i) {
-    const accuracy_row *row = &w->out->rows[i];
+  for (int i = 0; i < out->n_rows; ++i) {
+    const accuracy_row *row = &out->rows[i];
     if (row->samples == EXACT) h[n_h] = row->harmonics, truncation[n_h++] = row->worst;
     else x[n] = row->samples, e[n++] = row->aliasing;
-    bool last = i + 1 == w->out->n_rows || w->out->rows[i + 1].harmonics != row->harmonics;
-    if (last) put_order(w, "samples", row->harmonics, n, x, e, 1e2 * w->setup->hbm.tolerance), n = 0;
+    bool last = i + 1 == out->n_rows || out->rows[i + 1].harmonics != row->harmonics;
+    if (last) put_order(out, "samples", row->harmonics, n, x, e, 1e2 * w->setup->hbm.tolerance), n = 0;
   }
-  put_order(w, "harmonics", 0, n_h, h, truncation, floor_of_orbits);
+  put_order(out, "harmonics", 0, n_h, h, truncation, floor_of_orbits);
+  if (w->regularisation.fit.points > 1) out->orders[out->n_orders++] = w->regularisation;
 }
 
-static hc_status all_rows(workspace *w)
+/* The orbits to compare with, and the rows with exact forces. */
+static hc_status exact_rows(workspace *w)
 {
   int most = w->harmonics[w->n_harm - 1] > LEAST_REFERENCE ? w->harmonics[w->n_harm - 1] : LEAST_REFERENCE;
   traced finest, t = {0};
-  hc_status st = trace(w, most, EXACT, &finest);
+  hc_status st = trace(w, most, EXACT, w->monitor, &finest);
   if (st == HC_OK && !finest.hbm) st = finest.status;
   if (st == HC_OK) st = reference_make(w->setup, w->c, finest.hbm, &finest.curve, w->monitor, &w->ref);
   for (int i = 0; i < w->n_harm && st == HC_OK; ++i) {
     bool again = w->harmonics[i] == most; /* solved already */
-    if (!hc_monitor_tick(w->monitor, (double)i / w->n_harm)) st = HC_INTERRUPTED;
-    if (st == HC_OK && !again) st = trace(w, w->harmonics[i], EXACT, &t);
-    if (st == HC_OK) st = rows_of(w, again ? &finest : &t);
+    if (!hc_monitor_tick(w->monitor, -1)) st = HC_INTERRUPTED;
+    if (st == HC_OK && !again) st = trace(w, w->harmonics[i], EXACT, w->monitor, &t);
+    if (st == HC_OK) st = exact_row(w, i, again ? &finest : &t);
     if (!again) drop_trace(&t);
   }
   drop_trace(&finest);
   return st;
 }
 
-static void put_reference(const workspace *w)
+/* The tasks: the sampled rows, those with most harmonics first, since they take longest; then the regularisation. */
+static hc_status do_task(void *self, int task, const hc_monitor *monitor)
 {
-  accuracy *out = w->out;
+  workspace *w = self;
+  if (task == w->n_harm * w->n_samples) return order_of_regularisation(w->setup, w->c, monitor, &w->regularisation);
+  const int i = w->n_harm - 1 - task / w->n_samples, k = task % w->n_samples;
+  const int at = i * (w->n_samples + 1) + 1 + k;
+  hc_status st = sampled_row(w, w->samples[k], &w->plain[i], monitor, &w->rows[at]);
+  w->there[at] = st == HC_OK;
+  return st;
+}
+
+static void put_reference(const workspace *w, accuracy *out)
+{
   out->orbits = w->ref.n;
   for (int i = 0; i < w->ref.n; ++i)
     out->frequencies += i == 0 || w->ref.targets[i].omega != w->ref.targets[i - 1].omega;
@@ -349,27 +372,42 @@ static void put_reference(const workspace *w)
   out->peak_omega = w->ref.peak_omega;
 }
 
+/* The rows that are there move together, in their order. */
+static void put_rows(const workspace *w, accuracy *out)
+{
+  for (int i = 0; i < w->n_harm * (w->n_samples + 1); ++i)
+    if (w->there[i]) out->rows[out->n_rows++] = out->rows[i];
+}
+
+static void workspace_clear(workspace *w)
+{
+  for (int i = 0; i < w->n_harm; ++i) solutions_free(&w->plain[i].s);
+  reference_clear(&w->ref);
+  free(w->there);
+}
+
 hc_status accuracy_run(const compare_setup *setup, const comparison *c, const hc_monitor *monitor, accuracy *out)
 {
   int harmonics[NUMBER_LIST_MAX], samples[NUMBER_LIST_MAX];
   *out = (accuracy){0};
-  workspace w = {.setup = setup, .c = c, .monitor = monitor, .harmonics = harmonics, .samples = samples, .out = out};
+  const hc_monitor aside = {hc_monitor_tick_aside, (void *)monitor}; /* how far it is the tasks tell */
+  workspace w = {.setup = setup, .c = c, .monitor = &aside, .harmonics = harmonics, .samples = samples};
   w.n_harm = whole_numbers(&setup->compare.harmonics, harmonics);
   w.n_samples = whole_numbers(&setup->compare.samples, samples);
   if (w.n_harm == 0) return HC_OK;
   if (harmonics[0] < 1 || harmonics[w.n_harm - 1] > HBM_MAX_HARMONICS) return HC_BAD_INPUT;
-  out->rows = calloc((size_t)w.n_harm * (size_t)(w.n_samples + 1), sizeof *out->rows);
+  const size_t most_rows = (size_t)w.n_harm * (size_t)(w.n_samples + 1);
+  out->rows = w.rows = calloc(most_rows, sizeof *out->rows);
   out->orders = calloc((size_t)w.n_harm + 2, sizeof *out->orders);
-  if (!out->rows || !out->orders) return HC_NO_MEMORY;
-  hc_status st = all_rows(&w);
-  put_orders(&w);
-  put_reference(&w);
-  if (st == HC_OK) {
-    order_row regularisation;
-    st = order_of_regularisation(setup, c, monitor, &regularisation);
-    if (regularisation.fit.points > 1) out->orders[out->n_orders++] = regularisation;
+  w.there = calloc(most_rows, sizeof *w.there);
+  hc_status st = out->rows && out->orders && w.there ? exact_rows(&w) : HC_NO_MEMORY;
+  if (st == HC_OK) st = workers_run(setup->jobs, w.n_harm * w.n_samples + 1, do_task, &w, monitor);
+  if (out->rows && out->orders && w.there) {
+    put_rows(&w, out);
+    put_orders(&w, out);
+    put_reference(&w, out);
   }
-  reference_clear(&w.ref);
+  workspace_clear(&w);
   return st;
 }
 

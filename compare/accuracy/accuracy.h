@@ -38,7 +38,7 @@ typedef struct accuracy_row {
   int turning_points, false_turning_points; /* more than with exact forces, same H */
   int rejected;                             /* steps of the continuation */
   long iterations, evaluations;
-  double seconds; /* of processor time */
+  double seconds; /* of the processor time of the thread that made the row */
 } accuracy_row;
 
 typedef struct order_row {
@@ -61,7 +61,8 @@ typedef struct accuracy {
 
 /* The tables of the scene's compare.harmonics and compare.samples over the frequencies of *c, a comparison of the
  * same scene whose orbits are used again. Each solution is computed once; the sampled ones start from those with
- * exact forces. HC_INTERRUPTED, HC_NO_MEMORY; rows found until then are kept. Free with accuracy_clear in any case. */
+ * exact forces. By setup->jobs threads, with the same rows whatever their number; only the calling one ticks *monitor.
+ * HC_INTERRUPTED, HC_NO_MEMORY; rows found until then are kept. Free with accuracy_clear in any case. */
 hc_status accuracy_run(const compare_setup *setup, const comparison *c, const hc_monitor *monitor, accuracy *out);
 void accuracy_clear(accuracy *a);
 
