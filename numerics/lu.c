@@ -40,13 +40,12 @@ void lu_solve(int n, const double *restrict a, const int *pivot, double *restric
     x[pivot[k]] = swap;
   }
   for (int k = 0; k < n; ++k) {
-    const double *col = a + (size_t)n * k;
-    for (int i = k + 1; i < n; ++i) x[i] -= x[k] * col[i];
+    const double *restrict col = a + (size_t)n * k, xk = x[k];
+    for (int i = k + 1; i < n; ++i) x[i] -= xk * col[i];
   }
   for (int k = n - 1; k >= 0; --k) {
-    const double *col = a + (size_t)n * k;
-    x[k] /= col[k];
-    for (int i = 0; i < k; ++i) x[i] -= x[k] * col[i];
+    const double *restrict col = a + (size_t)n * k, xk = x[k] /= col[k];
+    for (int i = 0; i < k; ++i) x[i] -= xk * col[i];
   }
 }
 

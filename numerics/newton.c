@@ -69,6 +69,13 @@ static int kinsol_jacobian(N_Vector z, N_Vector r, SUNMatrix jac, void *self, N_
   return 0;
 }
 
+/* KINSOL clears the matrix before each Jacobian, which writes every entry. */
+static int keep_entries(SUNMatrix jac)
+{
+  (void)jac;
+  return 0;
+}
+
 static hc_status make_kinsol(newton *nw)
 {
   sunindextype n = nw->problem.n;
@@ -77,6 +84,7 @@ static hc_status make_kinsol(newton *nw)
   for (size_t i = 0; i < sizeof vectors / sizeof *vectors; ++i)
     if (!(*vectors[i] = N_VNew_Serial(n, nw->ctx))) return HC_NO_MEMORY;
   if (!(nw->jac = SUNDenseMatrix(n, n, nw->ctx))) return HC_NO_MEMORY;
+  nw->jac->ops->zero = keep_entries;
   if (!(nw->ls = lu_sundials_solver(nw->problem.n, nw->ctx))) return HC_NO_MEMORY;
   if (!(nw->kin = KINCreate(nw->ctx)) || !hc_room_for(0)) return HC_NO_MEMORY;
   int bad = HC_KINSOL_QUIET(nw->kin);

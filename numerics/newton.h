@@ -13,7 +13,7 @@ typedef struct newton_problem {
   void *self;
   hc_status (*residual)(void *self, const double *z, double *r); /* r(z); anything but HC_OK refuses z */
   hc_status (*jacobian)(void *self, const double *z,
-                        double *jac); /* dr/dz, jac[row + n col], at the last residual's z */
+                        double *jac); /* dr/dz, jac[row + n col], all of it, at the last residual's z */
 } newton_problem;
 
 typedef struct newton_options {

@@ -98,10 +98,87 @@ static void what_the_system_lacks_is_a_status(void **state)
   thread_error = 0;
 }
 
+/* ---- workers_run ----------------------------------------------------------------------------- */
+
+typedef struct listed {
+  atomic_int done[TASKS];
+  int fails_at, waits_at;
+} listed;
+
+static hc_status do_listed(void *self, int i, const hc_monitor *monitor)
+{
+  listed *l = self;
+  atomic_fetch_add(&l->done[i], 1);
+  while (i == l->waits_at)
+    if (!hc_monitor_tick(monitor, 0.5)) return HC_INTERRUPTED;
+  return i == l->fails_at ? HC_STALLED : HC_OK;
+}
+
+static hc_status run_list(listed *l, int jobs, int fails_at, int waits_at, const hc_monitor *monitor)
+{
+  *l = (listed){.fails_at = fails_at, .waits_at = waits_at};
+  return workers_run(jobs, TASKS, do_listed, l, monitor);
+}
+
+/* By the calling thread, by several, and by more than there are tasks. */
+static void each_listed_task_is_done_once(void **state)
+{
+  (void)state;
+  static listed l;
+  static const int jobs[] = {0, 1, 2, THREADS, TASKS + 1};
+  for (int k = 0; k < 5; ++k) {
+    assert_int_equal(run_list(&l, jobs[k], -1, -1, NULL), HC_OK);
+    for (int i = 0; i < TASKS; ++i) assert_int_equal(l.done[i], 1);
+  }
+  assert_int_equal(workers_run(THREADS, 0, do_listed, &l, NULL), HC_OK);
+}
+
+static void a_failed_task_ends_the_list(void **state)
+{
+  (void)state;
+  static listed l;
+  assert_int_equal(run_list(&l, 1, 7, -1, NULL), HC_STALLED);
+  assert_int_equal(l.done[7], 1);
+  assert_int_equal(l.done[8], 0);
+  assert_int_equal(run_list(&l, THREADS, 7, 3, NULL), HC_STALLED); /* one under way is told to stop */
+  thread_error = EAGAIN;
+  assert_int_equal(run_list(&l, THREADS, -1, -1, NULL), HC_NO_MEMORY);
+  thread_error = 0;
+}
+
+typedef struct asked {
+  pthread_t caller;
+  int times;
+  double last;
+} asked;
+
+static bool stop_third_time(void *self, double done)
+{
+  asked *a = self;
+  assert_true(pthread_equal(a->caller, pthread_self()));
+  assert_true(done >= a->last && done < 1);
+  a->last = done;
+  return ++a->times < 3;
+}
+
+/* A task that would wait for ever; the calling thread alone is asked, and told a part that never falls. */
+static void the_caller_can_stop_the_list(void **state)
+{
+  (void)state;
+  static listed l;
+  for (int jobs = 1; jobs <= THREADS; ++jobs) {
+    asked a = {.caller = pthread_self()};
+    hc_monitor monitor = {stop_third_time, &a};
+    assert_int_equal(run_list(&l, jobs, -1, 1, &monitor), HC_INTERRUPTED);
+    assert_true(a.times >= 3);
+    assert_int_equal(l.done[0], 1);
+  }
+}
+
 static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(each_piece_is_done_once),
-    cmocka_unit_test(the_first_reason_is_kept),
-    cmocka_unit_test(what_the_system_lacks_is_a_status),
+    cmocka_unit_test(each_piece_is_done_once),           cmocka_unit_test(the_first_reason_is_kept),
+    cmocka_unit_test(what_the_system_lacks_is_a_status), cmocka_unit_test(each_listed_task_is_done_once),
+    cmocka_unit_test(a_failed_task_ends_the_list),       cmocka_unit_test(the_caller_can_stop_the_list),
 };
 
 CHECK_MAIN("numerics.workers", tests, 60)
