@@ -116,16 +116,15 @@ static void to_samples(aft *a, const double *X)
   fftw_execute(a->to_time);
 }
 
-/* The first n_harm harmonics of the samples behind plan. Above N/2 a harmonic reads its alias, as the sampled sums
- * themselves do. */
+/* The first n_harm <= 2 H < N harmonics of the samples behind plan. Above N/2 a harmonic reads its alias, as the sampled
+ * sums themselves do. */
 static void to_series(aft *a, fftw_plan plan, int n_harm, double *out)
 {
   int n = a->n_time;
   fftw_execute(plan);
   out[0] = creal(a->spec[0]) / n;
   for (int h = 1; h <= n_harm; ++h) {
-    int m = h % n;
-    double complex z = m <= n / 2 ? a->spec[m] : conj(a->spec[n - m]);
+    double complex z = h <= n / 2 ? a->spec[h] : conj(a->spec[n - h]);
     out[2 * h - 1] = 2 * creal(z) / n;
     out[2 * h] = -2 * cimag(z) / n;
   }
@@ -190,13 +189,16 @@ static void subtract_stick_interval(aft *a, const model_contact *c, const slider
                                     double *jac)
 {
   if (o->by_x == 0) return;
-  int n = a->n_time;
+  int n = a->n_time, at_first = 0, at_end = 0, at_origin = 0; /* h times the sample, modulo n */
   double weight = c->law.kt * c->tangent / n;
   a->left[0] = weight * (last - first + 1);
   a->right[0] = o->by_x;
   for (int h = 1; h <= a->n_harm; ++h) {
-    double complex sum = (a->root[(long)h * (last + 1) % n] - a->root[(long)h * first % n]) * a->inv_step[h];
-    double complex right = o->by_x * a->root[(long)h * o->i % n];
+    if ((at_first += first) >= n) at_first -= n;
+    if ((at_end += last + 1) >= n) at_end -= n;
+    if ((at_origin += o->i) >= n) at_origin -= n;
+    double complex sum = (a->root[at_end] - a->root[at_first]) * a->inv_step[h];
+    double complex right = o->by_x * a->root[at_origin];
     a->left[2 * h - 1] = 2 * weight * creal(sum);
     a->left[2 * h] = 2 * weight * cimag(sum);
     a->right[2 * h - 1] = creal(right);
