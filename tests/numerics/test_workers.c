@@ -156,7 +156,7 @@ static bool stop_third_time(void *self, double done)
 {
   asked *a = self;
   assert_true(pthread_equal(a->caller, pthread_self()));
-  assert_true(done >= a->last && done < 1);
+  assert_true(done >= a->last && done <= 1);
   a->last = done;
   return ++a->times < 3;
 }
