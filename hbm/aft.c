@@ -116,8 +116,8 @@ static void to_samples(aft *a, const double *X)
   fftw_execute(a->to_time);
 }
 
-/* The first n_harm <= 2 H < N harmonics of the samples behind plan. Above N/2 a harmonic reads its alias, as the sampled
- * sums themselves do. */
+/* The first n_harm <= 2 H < N harmonics of the samples behind plan. Above N/2 a harmonic reads its alias, as the
+ * sampled sums themselves do. */
 static void to_series(aft *a, fftw_plan plan, int n_harm, double *out)
 {
   int n = a->n_time;

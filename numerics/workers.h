@@ -42,8 +42,8 @@ hc_status workers_join(workers *w);
 
 /* The tasks 0 .. n-1, begun in this order, by up to `jobs` threads while the calling one watches; by the calling thread
  * itself if jobs <= 1. A task gets a monitor to ask whether to go on; `monitor` is ticked by the calling thread only,
- * with the part of the tasks that is done. HC_OK: all are done; HC_INTERRUPTED, or what a task returned: those not begun
- * are not done, and those under way were told to stop. */
+ * with the part of the tasks that is done. HC_OK: all are done; HC_INTERRUPTED, or what a task returned: those not
+ * begun are not done, and those under way were told to stop. */
 typedef hc_status (*workers_task)(void *self, int task, const hc_monitor *monitor);
 hc_status workers_run(int jobs, int n, workers_task task, void *self, const hc_monitor *monitor);
 
