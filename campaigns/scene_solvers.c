@@ -1,5 +1,6 @@
 /* scene_solvers.c - see scene_solvers.h. */
 #include "campaigns/scene_solvers.h"
+#include "compare/first_guess.h"
 
 #include <stddef.h>
 
@@ -8,7 +9,7 @@ hc_status scene_hbm_solver(const scene *sc, hbm_solver **out)
   model *m;
   *out = NULL;
   hc_status st = scene_model(sc, &m);
-  if (st == HC_OK) st = hbm_solver_new(m, &sc->hbm, out);
+  if (st == HC_OK) st = guided_hbm_solver_new(m, &sc->hbm, out);
   model_free(m);
   return st;
 }

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "compare/first_guess.h"
 #include "compare/motion.h"
 #include "compare/patience.h"
 
@@ -97,7 +98,7 @@ static hc_status need_alias_free(budgeter *b, int n_harm)
   hbm_solver_free(b->alias_free);
   setup.hbm.force = HBM_FORCE_EXACT;
   setup.hbm.harmonics = b->n_harm = n_harm;
-  return hbm_solver_new(setup.model, &setup.hbm, &b->alias_free);
+  return guided_hbm_solver_new(setup.model, &setup.hbm, &b->alias_free);
 }
 
 /* The solution with exact forces next to b->X becomes c->hx if there is none yet, or if it lies nearer to both h and

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "base/constants.h"
+#include "compare/first_guess.h"
 #include "compare/frequencies.h"
 #include "compare/gate_limits.h"
 #include "compare/motion.h"
@@ -363,7 +364,7 @@ hc_status comparison_run(const compare_setup *setup, const hc_monitor *monitor, 
 {
   *out = (comparison){0};
   workspace w = {.setup = setup, .monitor = monitor, .out = out};
-  hc_status st = hbm_solver_new(setup->model, &setup->hbm, &w.hbm);
+  hc_status st = guided_hbm_solver_new(setup->model, &setup->hbm, &w.hbm);
   if (st == HC_OK) st = timeint_new(setup->model, &setup->transient, &w.ti);
   if (st == HC_OK) st = make_states(&w);
   if (st == HC_OK) st = comparison_referee(setup, &w.exact);

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "compare/comparison.h"
+#include "compare/first_guess.h"
 #include "compare/frequencies.h"
 #include "timeint/sweep.h"
 
@@ -130,7 +131,7 @@ static hc_status trace(workspace *w, const number_list *asked)
 {
   double from, to;
   comparison_sweep(w->setup->omega_from, w->setup->omega_to, asked, &from, &to);
-  hc_status st = hbm_solver_new(w->setup->model, &w->setup->hbm, &w->hbm);
+  hc_status st = guided_hbm_solver_new(w->setup->model, &w->setup->hbm, &w->hbm);
   if (st != HC_OK) return st;
   st = hbm_trace(w->hbm, from, to, w->monitor, &w->curve);
   return st == HC_INTERRUPTED || st == HC_NO_MEMORY ? st : HC_OK; /* as far as the curve goes */

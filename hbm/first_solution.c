@@ -1,5 +1,5 @@
-/* first_solution.c - see first_solution.h. The linear response is the first guess. Where Newton fails from there, the
- * solution is followed along a ramp (ramp.h) to the model's equations, first of the damping, then of the force, as a
+/* first_solution.c - see first_solution.h. The linear response is the first guess; where Newton fails from there, the
+ * guess of whoever the solver was given to ask; where that is none, the solution is followed along a ramp (ramp.h) to the model's equations, first of the damping, then of the force, as a
  * response curve is followed along omega: by steps of arc length, through turning points and round corners. The end of
  * a ramp is solved once more with the equations as they are. Sampled equations are first asked for the solution next to
  * that with exact forces, found in the same way. */
@@ -87,12 +87,21 @@ static hc_status from_exact_forces(hbm_solver *s, double omega, const hc_monitor
   return st;
 }
 
+static hc_status from_guess(hbm_solver *s, double omega, const hc_monitor *monitor, double *X, hbm_point *point)
+{
+  hc_status st = s->guess.ask(s->guess.self, s->model, omega, s->sys.n_harm, monitor, X);
+  if (st != HC_OK) return st;
+  if (!s->how.keep_mean) X[0] = 0;
+  return hbm_solve_fixed(s, omega, norm_2(s->sys.n_coef, X), X, point);
+}
+
 static bool goes_on(hc_status st) { return st != HC_OK && st != HC_INTERRUPTED && st != HC_NO_MEMORY; }
 
 hc_status hbm_first_solution(hbm_solver *s, double omega, const hc_monitor *monitor, double *X, hbm_point *point)
 {
   double size = hbm_linear_response(s->model, omega, s->sys.n_harm, X);
   hc_status st = hbm_solve_fixed(s, omega, size, X, point);
+  if (goes_on(st) && s->guess.ask) st = from_guess(s, omega, monitor, X, point);
   if (goes_on(st) && s->how.force == HBM_FORCE_SAMPLED) st = from_exact_forces(s, omega, monitor, X, point);
   if (goes_on(st)) st = follow_ramp(s, HBM_RAMP_DAMPING, omega, monitor, X, point);
   if (goes_on(st)) st = follow_ramp(s, HBM_RAMP_FORCE, omega, monitor, X, point);

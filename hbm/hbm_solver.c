@@ -66,7 +66,13 @@ static void free_equations(hbm_solver *s)
   hbm_system_clear(&s->sys);
   double *const arrays[] = {s->X, s->z, s->z_scale, s->r_scale, s->normal, s->anchor};
   for (size_t i = 0; i < sizeof arrays / sizeof *arrays; ++i) free(arrays[i]);
-  *s = (hbm_solver){.model = s->model, .how = s->how, .monodromy = s->monodromy, .step_scale = s->step_scale};
+  *s = (hbm_solver){.model = s->model,
+                    .how = s->how,
+                    .monodromy = s->monodromy,
+                    .ramp = s->ramp,
+                    .guess = s->guess,
+                    .solves = s->solves,
+                    .step_scale = s->step_scale};
 }
 
 hc_status hbm_solver_resize(hbm_solver *s, int n_harm, int n_time)
@@ -105,7 +111,14 @@ void hbm_solver_free(hbm_solver *s)
   free_equations(s);
   monodromy_free(s->monodromy);
   model_free(s->model);
+  if (s->guess.free) s->guess.free(s->guess.self);
   free(s);
+}
+
+void hbm_solver_take_guess(hbm_solver *s, const hbm_guess *g)
+{
+  if (s->guess.free) s->guess.free(s->guess.self);
+  s->guess = *g;
 }
 
 void hbm_truncate(const hbm_solver *s, int n_coef, double *X)

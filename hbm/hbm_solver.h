@@ -21,6 +21,17 @@ void hbm_solver_free(hbm_solver *s); /* NULL is allowed */
 int hbm_n_harmonics(const hbm_solver *s); /* in use now; after a trace with auto, the most the curve needed */
 int hbm_n_samples(const hbm_solver *s);   /* per period, in use now; 0 where forces are exact */
 
+/* Somebody who knows where a solution may be: ask() fills X[2 n_harm + 1] [length] with a guess for omega; HC_NO_MEMORY
+ * and HC_INTERRUPTED are passed on, any other failure means there is none. */
+typedef struct hbm_guess {
+  hc_status (*ask)(void *self, const model *m, double omega, int n_harm, const hc_monitor *monitor, double *X);
+  void (*free)(void *self);
+  void *self;
+} hbm_guess;
+
+/* From now on *g is asked where Newton fails from the linear response; the solver's own, freed with it. */
+void hbm_solver_take_guess(hbm_solver *s, const hbm_guess *g);
+
 /* Systems that Newton was put to since the solver was made. */
 long hbm_solves(const hbm_solver *s);
 

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 
 #include "compare/response.h"
+#include "compare/first_guess.h"
 #include "hbm/hbm.h"
 #include "library/inside.h"
 
@@ -100,7 +101,7 @@ static hc_status trace(const scene *sc, const hbmcheck_monitor *monitor, hbmchec
   const hc_monitor inner = library_monitor(monitor);
   compare_setup setup;
   hc_status st = scene_setup(sc, &setup);
-  if (st == HC_OK) st = hbm_solver_new(setup.model, &setup.hbm, &curve->solver);
+  if (st == HC_OK) st = guided_hbm_solver_new(setup.model, &setup.hbm, &curve->solver);
   if (st == HC_OK) {
     st = hbm_trace(curve->solver, setup.omega_from, setup.omega_to, &inner, &curve->points.curve);
     st = finish_search(curve->solver, st, &curve->points);

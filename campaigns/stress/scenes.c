@@ -137,14 +137,16 @@ hc_status stress_scenes_at(stress_scenes *s, long index, scene *out)
   for (int j = 0; j < sc.n_contacts; ++j) sc.contacts[j] = contact_at(p + CONTACT + j * PER_CONTACT);
   double omega = frequency(p, &sc);
   sc.force = force_at(p, &sc, omega);
-  sc.omega_from = 0.8 * omega;
-  sc.omega_to = 1.2 * omega;
   sc.compare.omega = (number_list){1, {omega}};
   sc.hbm.harmonics = (int)geometric(p[HARMONICS], 1, 50.999);
   sc.hbm.samples = (int)geometric(p[SAMPLES], 16, 16384.999);
   if (sc.hbm.samples < 2 * sc.hbm.harmonics + 1) sc.hbm.samples = 2 * sc.hbm.harmonics + 1;
   sc.hbm.keep_mean = p[KEEP_MEAN] < 0.8;
   sc.hbm.force = p[SAMPLED] < 0.3 ? HBM_FORCE_SAMPLED : HBM_FORCE_EXACT;
+  /* between the two ends a sampled curve may have thousands of false turning points, which only cost time */
+  const double reach = sc.hbm.force == HBM_FORCE_SAMPLED ? 0.02 : 0.2;
+  sc.omega_from = (1 - reach) * omega;
+  sc.omega_to = (1 + reach) * omega;
   sc.transient.law = p[LAW] < 0.5 ? TRANSIENT_LAW_REGULARISED : TRANSIENT_LAW_EXACT;
   sc.transient.max_periods = 300; /* a motion that has not settled by then is no check of anything */
   *out = sc;

@@ -10,6 +10,7 @@
 #include "base/ascending.h"
 #include "base/thread_clock.h"
 #include "compare/accuracy/reference.h"
+#include "compare/first_guess.h"
 #include "compare/frequencies.h"
 #include "numerics/workers.h"
 
@@ -66,7 +67,7 @@ static hc_status trace(const workspace *w, int n_harm, int samples, const hc_mon
   if (samples != EXACT) setup.hbm.samples = samples;
   comparison_sweep(setup.omega_from, setup.omega_to, w->setup->compare.omega.n ? &w->setup->compare.omega : &none,
                    &from, &to);
-  hc_status st = hbm_solver_new(setup.model, &setup.hbm, &t->hbm);
+  hc_status st = guided_hbm_solver_new(setup.model, &setup.hbm, &t->hbm);
   t->status = st == HC_OK ? hbm_trace(t->hbm, from, to, monitor, &t->curve) : st;
   t->seconds = thread_seconds() - began;
   return t->status == HC_INTERRUPTED || t->status == HC_NO_MEMORY ? t->status : HC_OK; /* as far as the curve goes */

@@ -1,5 +1,6 @@
 /* solutions.c - see solutions.h. */
 #include "compare/verify/solutions.h"
+#include "compare/first_guess.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -80,7 +81,7 @@ hc_status verify_solutions_of(const compare_setup *setup, const verify_equations
   hbm_solver *hbm = NULL;
   hbm_curve curve = {0};
   hc_status st = start(out, n, 2 * e->harmonics + 1);
-  if (st == HC_OK) st = hbm_solver_new(own.model, &own.hbm, &hbm);
+  if (st == HC_OK) st = guided_hbm_solver_new(own.model, &own.hbm, &hbm);
   if (st == HC_OK) st = hbm_trace(hbm, from, to, monitor, &curve);
   if (st != HC_INTERRUPTED && st != HC_NO_MEMORY && hbm) st = HC_OK; /* as far as it came */
   for (int i = 0; i < n && st == HC_OK; ++i) {
@@ -117,7 +118,7 @@ hc_status verify_solutions_near(const compare_setup *setup, const verify_equatio
   double *X = malloc((size_t)near->n_coef * sizeof *X);
   hc_status st = start(out, near->n, near->n_coef);
   if (!X) st = HC_NO_MEMORY;
-  if (st == HC_OK) st = hbm_solver_new(own.model, &own.hbm, &hbm);
+  if (st == HC_OK) st = guided_hbm_solver_new(own.model, &own.hbm, &hbm);
   for (int i = 0; i < near->n && st == HC_OK; ++i) {
     bool close = i > 0 && omega[i] - omega[i - 1] <= close_omegas * omega[i];
     for (int k = near->first[i]; k < near->first[i + 1] && st == HC_OK; ++k)

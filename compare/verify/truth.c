@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "compare/first_guess.h"
 #include "compare/frequencies.h"
 #include "compare/gate_limits.h"
 #include "compare/motion.h"
@@ -200,7 +201,7 @@ static hc_status with_harmonics(truth *t, int harmonics)
   t->curve = (hbm_curve){0};
   hbm_solver_free(t->hbm);
   t->hbm = NULL;
-  hc_status st = hbm_solver_new(own.model, &own.hbm, &t->hbm);
+  hc_status st = guided_hbm_solver_new(own.model, &own.hbm, &t->hbm);
   if (st != HC_OK) return st;
   st = hbm_trace(t->hbm, t->from, t->to, t->monitor, &t->curve);
   t->curve.n_coef = 2 * harmonics + 1;

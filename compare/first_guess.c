@@ -1,0 +1,67 @@
+/* first_guess.c - see first_guess.h. */
+#include "compare/first_guess.h"
+
+#include <stdlib.h>
+
+#include "compare/motion.h"
+#include "timeint/steady.h"
+
+enum { MOST_PERIODS = 200 }; /* some milliseconds in closed form */
+
+typedef struct guide { /* made with the first question, freed with the solver */
+  timeint *ti;
+  double *state; /* [n_states] */
+} guide;
+
+static hc_status make(guide *g, const model *m)
+{
+  const transient_settings how = {.law = TRANSIENT_LAW_EXACT,
+                                  .method = TRANSIENT_METHOD_CLOSED_FORM,
+                                  .regularisation = 1,
+                                  .steady = TRANSIENT_STEADY_AUTO,
+                                  .start = TRANSIENT_START_REST,
+                                  .tolerance = 1e-6,
+                                  .max_periods = MOST_PERIODS};
+  hc_status st = timeint_new(m, &how, &g->ti);
+  if (st == HC_OK && !(g->state = calloc((size_t)timeint_n_states(g->ti), sizeof *g->state))) st = HC_NO_MEMORY;
+  return st;
+}
+
+/* Where the motion goes from rest, or, where that has more periods than one or none, the orbit of one next to it. */
+static hc_status ask(void *self, const model *m, double omega, int n_harm, const hc_monitor *monitor, double *X)
+{
+  guide *g = self;
+  timeint_result r;
+  hc_status st = g->state ? HC_OK : make(g, m);
+  if (st != HC_OK) return st;
+  timeint_rest(g->ti, g->state);
+  st = timeint_steady(g->ti, omega, g->state, monitor, &r);
+  if (st == HC_NO_MEMORY || st == HC_INTERRUPTED) return st;
+  if (st != HC_OK || r.period_multiple != 1) st = timeint_orbit(g->ti, omega, 1, g->state, monitor, &r);
+  if (st != HC_OK) return st;
+  const periodic_motion motion = motion_of_transient(&r);
+  motion_harmonics(&motion, n_harm, X);
+  return HC_OK;
+}
+
+static void release(void *self)
+{
+  guide *g = self;
+  timeint_free(g->ti);
+  free(g->state);
+  free(g);
+}
+
+hc_status guided_hbm_solver_new(const model *m, const hbm_settings *how, hbm_solver **out)
+{
+  hc_status st = hbm_solver_new(m, how, out);
+  if (st != HC_OK) return st;
+  guide *g = calloc(1, sizeof *g);
+  if (!g) {
+    hbm_solver_free(*out);
+    *out = NULL;
+    return HC_NO_MEMORY;
+  }
+  hbm_solver_take_guess(*out, &(hbm_guess){.ask = ask, .free = release, .self = g});
+  return HC_OK;
+}
