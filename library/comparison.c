@@ -38,7 +38,10 @@ static hbmcheck_row row_of(const comparison_row *r)
                         .from_truncation = parts->truncation,
                         .from_regularisation = parts->regularisation,
                         .from_integration = parts->integration,
-                        .from_settling = parts->settling};
+                        .from_settling = parts->settling,
+                        .hbm_predicted = r->hbm_predicted.amplitude,
+                        .transient_predicted = r->transient_predicted.amplitude,
+                        .unexpected = r->unexpected};
 }
 
 /* The gate's checks, of which the totals are kept. */

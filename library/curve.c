@@ -2,8 +2,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "compare/response.h"
 #include "compare/first_guess.h"
+#include "compare/response.h"
 #include "hbm/hbm.h"
 #include "library/inside.h"
 

@@ -286,6 +286,9 @@ typedef struct hbmcheck_row {
   double orbit_error;      /* [1] largest |difference of x| to the orbit; NaN: not found */
   /* [1] what the difference in amplitude is made of: each measured by taking that cause alone away; NaN: not known */
   double from_aliasing, from_truncation, from_regularisation, from_integration, from_settling;
+  /* [1] of its own amplitude: the error each side expects of itself, before it sees the other; NaN: not known */
+  double hbm_predicted, transient_predicted;
+  int unexpected; /* 1: the discrepancy is above three times what both predicted: something is wrong */
 } hbmcheck_row;
 
 /* The gate: every number of the comparison against the limits of the case. */

@@ -9,6 +9,8 @@
 #include "model/periodic_motion.h"
 #include "numerics/roots.h"
 
+static const double longest_quintic = 0.2; /* [rad] 0.2^7/100800 = 1e-10 of the sixth derivative, for one step */
+
 hc_status measure_make(measure *me, int n_states)
 {
   const size_t n = (size_t)n_states;
@@ -75,11 +77,34 @@ static hc_status add_instants(measure *me, const integrator *in, double theta1)
   return st;
 }
 
-/* Integrals over the step, where the integrator has them. */
-static void add_integrals(measure *me, const integrator *in)
+/* Integral over h of what has the values, first and second derivatives g[end][3] at its two ends: of the quintic through
+ * them, off by h^7 g/100800. */
+static double integral_of(double h, double g[2][3])
+{
+  return h / 2 * (g[0][0] + g[1][0]) + h * h / 10 * (g[0][1] - g[1][1]) + h * h * h / 120 * (g[0][2] + g[1][2]);
+}
+
+/* Integrals of X, X cos, X sin over the step from theta0, where it began, to theta1 at the state y, P' = a: the
+ * integrator's, or from both ends. Not over a step so long that this is not as good as the step itself: then sums over
+ * the instants must do. */
+static void add_integrals(measure *me, const integrator *in, double theta0, double theta1, const double *y, double a)
 {
   double step[3] = {0};
-  me->no_integrals = me->no_integrals || !integrate_fourier(in, step);
+  const double h = theta1 - theta0, ends[2][3] = {{me->x, me->p, me->a}, {y[SCALED_X], y[SCALED_P], a}};
+  if (!integrate_fourier(in, step)) {
+    double plain[2][3], by_cos[2][3], by_sin[2][3];
+    me->no_integrals = me->no_integrals || h > longest_quintic;
+    for (int i = 0; i < 2; ++i) {
+      const double co = cos(i ? theta1 : theta0), si = sin(i ? theta1 : theta0);
+      const double x = ends[i][0], p = ends[i][1], bend = ends[i][2] - x;
+      for (int k = 0; k < 3; ++k) plain[i][k] = ends[i][k];
+      by_cos[i][0] = x * co, by_cos[i][1] = p * co - x * si, by_cos[i][2] = bend * co - 2 * p * si;
+      by_sin[i][0] = x * si, by_sin[i][1] = p * si + x * co, by_sin[i][2] = bend * si + 2 * p * co;
+    }
+    step[0] = integral_of(h, plain);
+    step[1] = integral_of(h, by_cos);
+    step[2] = integral_of(h, by_sin);
+  }
   for (int i = 0; i < 3; ++i) me->integral[i] += step[i];
 }
 
@@ -156,11 +181,11 @@ hc_status measure_step(void *self, const integrator *in, double theta0, double t
   double *y = me->end;
   hc_status st = add_instants(me, in, theta1);
   if (st != HC_OK) return st;
-  add_integrals(me, in);
   st = integrate_dense(in, theta1, 0, y);
   if (st != HC_OK) return st;
   scaled_rhs(me->m, theta1, y, me->end_rate); /* finite: CVODE has just been here */
   const double a = me->end_rate[SCALED_P];
+  add_integrals(me, in, theta0, theta1, y, a);
   if ((st = add_peaks(me, in, theta0, theta1, y[SCALED_P], a)) != HC_OK) return st;
   begin_step(me, y, a);
   for (int j = 0; j < me->m->n_contacts; ++j) me->slips = me->slips || integrate_slips(in, j, y);

@@ -50,6 +50,7 @@ stress_check stress_check_units(solved_scene *s)
   const double bound = 1e-10; /* what hbm.tolerance allows a well-conditioned solution */
   hc_status st;
   double binary = in_other_units(s, 0x1p-10, 0x1p6, 0x1p4, true, &st);
+  if (st == HC_INTERRUPTED || s->base.status == HC_INTERRUPTED) return stress_refuse(s, HC_INTERRUPTED);
   if (st != s->base.status) return stress_find(STRESS_DISAGREES, NAN, NAN);
   if (st != HC_OK) return stress_refuse(s, st);
   if (!(binary <= bound)) return stress_agree(binary, bound);

@@ -7,6 +7,7 @@
 #include "base/thread_clock.h"
 #include "campaigns/scene_solvers.h"
 #include "compare/comparison.h"
+#include "hbm/first_solution.h"
 
 static bool go_on(void *self, double done)
 {
@@ -52,7 +53,8 @@ void stress_solve(solved_scene *s, const scene *sc, double omega, int n_guess, c
     out->n_harm = hbm_n_harmonics(hbm);
     int n = n_guess < out->n_harm ? n_guess : out->n_harm;
     if (guess) memcpy(out->X, guess, (size_t)(2 * n + 1) * sizeof *guess);
-    out->status = guess ? hbm_solve(hbm, omega, out->X, &point) : hbm_solve_first(hbm, omega, out->X, &point);
+    out->status =
+        guess ? hbm_solve(hbm, omega, out->X, &point) : hbm_first_solution(hbm, omega, &s->monitor, out->X, &point);
     if (out->status == HC_OK) out->status = hbm_measure(hbm, out->X, &out->m);
     if (out->status == HC_OK) out->status = comparison_orbit_start(hbm, out->X, omega, out->start.all);
     if (out->status == HC_OK) out->stability_status = hbm_stability_at(hbm, omega, out->X, &out->stability);

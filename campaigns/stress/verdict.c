@@ -54,13 +54,13 @@ static stress_check row_check(solved_scene *s, const comparison_row *r)
 }
 
 /* The amplitude's discrepancy of a row beside what both sides said it would be, or s->predicted if that is worse. Rows
- * in which no contact does anything are left out: rounding against rounding. */
+ * in which no contact changes its state are left out: linear motions, rounding against rounding. */
 static void hold_prediction(solved_scene *s, const comparison_row *r)
 {
   const double said = r->hbm_predicted.amplitude + r->transient_predicted.amplitude;
   const bool one_orbit = r->verdict == VERDICT_MATCH || r->verdict == VERDICT_DIFFERS;
-  if (!one_orbit || r->transient.period_multiple != 1) return;
-  if (r->hbm.contact.regime == CONTACT_LINEAR) {
+  if (!one_orbit || r->transient.period_multiple != 1 || isnan(said)) return;
+  if (r->hbm.contact.regime <= CONTACT_STUCK) {
     if (s->predicted.outcome == STRESS_SKIPPED) s->predicted = stress_skip(STRESS_NOT_APPLICABLE);
     return;
   }

@@ -1,10 +1,11 @@
 /* solutions.c - see solutions.h. */
 #include "compare/verify/solutions.h"
-#include "compare/first_guess.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include "compare/first_guess.h"
 
 static const double close_omegas = 0.1; /* [1] a step that Newton may take in one go */
 

@@ -107,11 +107,22 @@ static scene scene_of(const refused_scene *r)
   return sc;
 }
 
+/* Without a guess: what is tested are the ramps (tests/compare/test_first_guess.c has the guess). */
+static hc_status unguided_solver(const scene *sc, hbm_solver **out)
+{
+  model *m;
+  hc_status st = scene_model(sc, &m);
+  assert_int_equal(st, HC_OK);
+  st = hbm_solver_new(m, &sc->hbm, out);
+  model_free(m);
+  return st;
+}
+
 static hbm_solver *solver_of(const refused_scene *r)
 {
   const scene sc = scene_of(r);
   hbm_solver *s;
-  assert_int_equal(scene_hbm_solver(&sc, &s), HC_OK);
+  assert_int_equal(unguided_solver(&sc, &s), HC_OK);
   return s;
 }
 
@@ -273,7 +284,7 @@ static void settings_for_curves_do_not_reach_ramps(void **state)
       sc.hbm.skip_linear = true;
       sc.hbm.continuation = HBM_CONTINUATION_NATURAL;
     }
-    assert_int_equal(scene_hbm_solver(&sc, &s), HC_OK);
+    assert_int_equal(unguided_solver(&sc, &s), HC_OK);
     if (other) hbm_scale_steps(s, 0.1);
     assert_int_equal(hbm_solve_first(s, r->omega, X[other], &point), HC_OK);
     iterations[other] = point.iterations;
@@ -295,7 +306,7 @@ static void no_ramp_where_the_linear_response_is_a_guess(void **state)
   hbm_solver *s;
   tick_counter watch = {.stop = 1};
   const hc_monitor monitor = {tick_any, &watch};
-  assert_int_equal(scene_hbm_solver(&sc, &s), HC_OK);
+  assert_int_equal(unguided_solver(&sc, &s), HC_OK);
   assert_int_equal(hbm_first_solution(s, 6, &monitor, X, &point), HC_OK);
   assert_int_equal(watch.ticks, 0); /* a ramp ticks at each step */
   hbm_solver_free(s);

@@ -274,6 +274,9 @@ static void check_row(const hbmcheck_comparison *both, const comparison *all, in
   SAME(found.from_regularisation, r->budget.amplitude.regularisation);
   SAME(found.from_integration, r->budget.amplitude.integration);
   SAME(found.from_settling, r->budget.amplitude.settling);
+  SAME(found.hbm_predicted, r->hbm_predicted.amplitude);
+  SAME(found.transient_predicted, r->transient_predicted.amplitude);
+  assert_int_equal(found.unexpected, r->unexpected);
 }
 
 static void check_comparison(const char *const *set, int exit_code, int gate_code)

@@ -53,11 +53,13 @@ hc_status __wrap_hbm_solve(hbm_solver *s, double omega, double *X, hbm_point *po
   return st;
 }
 
-hc_status __real_hbm_solve_first(hbm_solver *s, double omega, double *X, hbm_point *point);
-hc_status __wrap_hbm_solve_first(hbm_solver *s, double omega, double *X, hbm_point *point);
-hc_status __wrap_hbm_solve_first(hbm_solver *s, double omega, double *X, hbm_point *point)
+hc_status __real_hbm_first_solution(hbm_solver *s, double omega, const hc_monitor *monitor, double *X,
+                                    hbm_point *point);
+hc_status __wrap_hbm_first_solution(hbm_solver *s, double omega, const hc_monitor *monitor, double *X,
+                                    hbm_point *point);
+hc_status __wrap_hbm_first_solution(hbm_solver *s, double omega, const hc_monitor *monitor, double *X, hbm_point *point)
 {
-  hc_status st = __real_hbm_solve_first(s, omega, X, point);
+  hc_status st = __real_hbm_first_solution(s, omega, monitor, X, point);
   spoil_solution(X);
   return st;
 }

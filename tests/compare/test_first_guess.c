@@ -1,0 +1,164 @@
+/* test_first_guess.c - a first solution from a steady state in closed form: asked for where the linear response is no
+ * guess, and only there; what becomes of answers and refusals. */
+#include "compare/first_guess.h"
+
+#include <string.h>
+
+#include "campaigns/scene_solvers.h"
+#include "hbm/first_solution.h"
+#include "tests/check.h"
+#include "tests/hbm/scenes.h"
+#include "timeint/steady.h"
+
+/* Somebody to ask: counts, and answers as told. */
+typedef struct oracle {
+  int asked, freed;
+  hc_status answer;
+  double X[64];
+} oracle;
+
+static hc_status ask(void *self, const model *m, double omega, int n_harm, const hc_monitor *monitor, double *X)
+{
+  oracle *o = self;
+  assert_true(m->mass > 0 && omega > 0 && n_harm > 0);
+  (void)monitor;
+  ++o->asked;
+  if (o->answer == HC_OK) memcpy(X, o->X, (size_t)(2 * n_harm + 1) * sizeof *X);
+  return o->answer;
+}
+
+static void release(void *self) { ++((oracle *)self)->freed; }
+
+/* Little impacts on a stiff contact, which the linear response knows nothing of. */
+static scene impacts(void)
+{
+  scene sc = scene_named("c2", 7, true, 64);
+  sc.hbm.force = HBM_FORCE_EXACT;
+  sc.contacts[0].law = (contact){100, 1e6, 0.3, -0.5};
+  sc.damping = 0.05;
+  return sc;
+}
+
+static hbm_solver *plain(const scene *sc)
+{
+  model *m;
+  hbm_solver *s;
+  assert_int_equal(scene_model(sc, &m), HC_OK);
+  assert_int_equal(hbm_solver_new(m, &sc->hbm, &s), HC_OK);
+  model_free(m);
+  return s;
+}
+
+static void not_asked_where_the_linear_response_will_do(void **state)
+{
+  (void)state;
+  oracle o = {.answer = HC_BUG};
+  double X[64];
+  hbm_point point;
+  const scene sc = scene_named("c2", 7, true, 64);
+  hbm_solver *s = plain(&sc);
+  hbm_solver_take_guess(s, &(hbm_guess){ask, release, &o});
+  assert_int_equal(hbm_solve_first(s, 12, X, &point), HC_OK);
+  assert_int_equal(o.asked, 0);
+  hbm_solver_free(s);
+  assert_int_equal(o.freed, 1);
+}
+
+/* A frequency at which Newton fails from the linear response. */
+static double hard_omega(void)
+{
+  const scene sc = impacts();
+  for (double omega = 3; omega < 30; omega += 0.25) {
+    oracle o = {.answer = HC_INTERRUPTED};
+    double X[64];
+    hbm_point point;
+    hbm_solver *s = plain(&sc);
+    hbm_solver_take_guess(s, &(hbm_guess){ask, release, &o});
+    const hc_status st = hbm_solve_first(s, omega, X, &point);
+    hbm_solver_free(s);
+    if (o.asked == 1) {
+      assert_int_equal(st, HC_INTERRUPTED); /* passed on, and no ramp */
+      return omega;
+    }
+  }
+  fail_msg("the linear response is a guess everywhere");
+  return 0;
+}
+
+static void refusals_lead_to_ramps_or_out(void **state)
+{
+  (void)state;
+  const scene sc = impacts();
+  const double omega = hard_omega();
+  static const hc_status answers[] = {HC_NOT_SETTLED, HC_NOT_CONVERGED, HC_CHATTER, HC_NO_MEMORY};
+  for (int i = 0; i < 4; ++i) {
+    oracle o = {.answer = answers[i]};
+    double X[64];
+    hbm_point point;
+    hbm_solver *s = plain(&sc);
+    hbm_solver_take_guess(s, &(hbm_guess){ask, release, &o});
+    const hc_status st = hbm_solve_first(s, omega, X, &point);
+    assert_int_equal(o.asked, 1);
+    assert_int_equal(st, answers[i] == HC_NO_MEMORY ? HC_NO_MEMORY : HC_OK);
+    hbm_solver_free(s);
+    assert_int_equal(o.freed, 1);
+  }
+}
+
+/* A guess that is a solution is where Newton stays. */
+static void a_guess_is_where_newton_begins(void **state)
+{
+  (void)state;
+  const scene sc = impacts();
+  const double omega = hard_omega();
+  oracle o = {.answer = HC_NOT_SETTLED};
+  double X[64];
+  hbm_point point;
+  hbm_solver *s = plain(&sc);
+  assert_int_equal(hbm_solve_first(s, omega, o.X, &point), HC_OK);
+  o.answer = HC_OK;
+  hbm_solver_take_guess(s, &(hbm_guess){ask, release, &o});
+  const long before = hbm_solves(s);
+  assert_int_equal(hbm_solve_first(s, omega, X, &point), HC_OK);
+  assert_int_equal(o.asked, 1);
+  assert_true(hbm_solves(s) == before + 2); /* from the linear response, from the guess */
+  for (int i = 0; i < 15; ++i) CHECK_NEAR(X[i], o.X[i], 1e-8, "X[%d]", i);
+  hbm_solver_free(s);
+}
+
+/* The guess of compare/: a solution of harmonic balance, near the motion from rest, with fewer systems to solve than a
+ * ramp takes. */
+static void the_motion_from_rest_is_a_guess(void **state)
+{
+  (void)state;
+  const scene sc = impacts();
+  int solved = 0, cheaper = 0;
+  for (double omega = 3; omega < 30; omega += 0.25) {
+    double X[64], Y[64];
+    hbm_point point;
+    hbm_solver *guided, *alone = plain(&sc);
+    assert_int_equal(scene_hbm_solver(&sc, &guided), HC_OK);
+    const hc_status st = hbm_solve_first(guided, omega, X, &point);
+    if (st == HC_OK) {
+      ++solved;
+      CHECK_LE(point.residual, 1e-9, "residual at %g", omega);
+      if (hbm_solve_first(alone, omega, Y, &point) == HC_OK && hbm_solves(guided) < hbm_solves(alone)) ++cheaper;
+    }
+    hbm_solver_free(guided);
+    hbm_solver_free(alone);
+  }
+  CHECK_LE(100, solved, "frequencies with a first solution");
+  CHECK_LE(1, cheaper, "frequencies where the guess spares a ramp");
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(not_asked_where_the_linear_response_will_do),
+      cmocka_unit_test(refusals_lead_to_ramps_or_out),
+      cmocka_unit_test(a_guess_is_where_newton_begins),
+      cmocka_unit_test(the_motion_from_rest_is_a_guess),
+  };
+  check_watchdog(120);
+  return cmocka_run_group_tests_name("compare.first_guess", tests, NULL, NULL);
+}
