@@ -62,6 +62,8 @@ hc_status guided_hbm_solver_new(const model *m, const hbm_settings *how, hbm_sol
     *out = NULL;
     return HC_NO_MEMORY;
   }
-  hbm_solver_take_guess(*out, &(hbm_guess){.ask = ask, .free = release, .self = g});
+  const hbm_guess guess = {.ask = ask, .free = release, .self = g};
+  hbm_solver_take_guess(*out, &guess);
+  /* cppcheck-suppress memleak; the solver frees it */
   return HC_OK;
 }

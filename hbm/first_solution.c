@@ -1,8 +1,9 @@
 /* first_solution.c - see first_solution.h. The linear response is the first guess; where Newton fails from there, the
- * guess of whoever the solver was given to ask; where that is none, the solution is followed along a ramp (ramp.h) to the model's equations, first of the damping, then of the force, as a
- * response curve is followed along omega: by steps of arc length, through turning points and round corners. The end of
- * a ramp is solved once more with the equations as they are. Sampled equations are first asked for the solution next to
- * that with exact forces, found in the same way. */
+ * guess of whoever the solver was given to ask; where that is none, the solution is followed along a ramp
+ * (ramp.h) to the model's equations, first of the damping, then of the force, as a response curve is followed
+ * along omega: by steps of arc length, through turning points and round corners. The end of a ramp is solved once
+ * more with the equations as they are. Sampled equations are first asked for the solution next to that with exact
+ * forces, found in the same way. */
 #include "hbm/first_solution.h"
 
 #include <string.h>

@@ -10,6 +10,8 @@
 #include "numerics/series.h"
 
 enum {
+  MOST_FINER = 100,  /* some milliseconds */
+  STRIDE = 20,       /* harmonics between two sizes of the workspace, which is remade with each */
   FEWEST_FINER = 14, /* with less a short contact does not show in the error of H = 1 */
   MOST_STEPS = 10    /* of Newton: one or two but near turning points and for stiff contacts */
 };
@@ -20,22 +22,31 @@ static const double converged = 0.02; /* a step this small beside what all came 
 static const double lost = 0.1, another = 0.3;
 static const double roundings = 4; /* a motion and its measures take a few */
 
-/* The amplitude and the first harmonic of two motions may agree by chance, where an error passes through 0 as omega or H
- * changes; what they are off by is then of the size of what the finer equations leave out, an eighth of the waveform's
- * error or less. The worst seen is 0.03 of it, along c2. */
+/* The amplitude and the first harmonic of two motions may agree by chance, where an error passes through 0 as omega or
+ * H changes; what they are off by is then of the size of what the finer equations leave out, an eighth of the
+ * waveform's error or less. The worst seen is 0.03 of it, along c2. */
 static const double least_share = 0.04;
 
-static int finer_harmonics(int n_harm)
+/* Twice the harmonics, and more where these do not reach the natural frequency of the mass on its stuck contacts, at
+ * which it swings after each impact: up to there errors hardly fall with the harmonics, and twice as many say
+ * nothing. */
+static int finer_harmonics(const model *m, int n_harm, double omega)
 {
   if (n_harm > HBM_MAX_HARMONICS / 2) return n_harm / 2;
-  return 2 * n_harm > FEWEST_FINER ? 2 * n_harm : FEWEST_FINER;
+  const int twice = 2 * n_harm > FEWEST_FINER ? 2 * n_harm : FEWEST_FINER;
+  const double own = ceil(sqrt(model_max_stiffness(m) / m->mass) / (STRIDE * omega)) * STRIDE;
+  return own > twice ? (int)fmin(own, fmax(MOST_FINER, twice)) : twice;
 }
 
 /* What is made at the first call; freed with the equations. */
-static hc_status need_finer(hbm_solver *s)
+static hc_status need_finer(hbm_solver *s, double omega)
 {
-  if (s->exact_finer) return HC_OK;
-  const int n_harm = finer_harmonics(s->sys.n_harm);
+  const int n_harm = finer_harmonics(s->model, s->sys.n_harm, omega);
+  if (s->exact_finer && refinement_harmonics(s->exact_finer) == n_harm) return HC_OK;
+  refinement_free(s->exact_finer);
+  free(s->improved);
+  s->exact_finer = NULL;
+  s->improved = NULL;
   hbm_settings how = s->how;
   how.force = HBM_FORCE_EXACT;
   how.keep_mean = true;
@@ -56,8 +67,8 @@ static double distance(int n_harm, const double *X, int n, const double *Y)
 }
 
 /* Newton on the finer equations from s->improved. *least [length]: what the error is whatever the distance of where
- * Newton came to: rounding; where it did not come to anything, the longest step, or without bound if that was long: there
- * is no such solution. */
+ * Newton came to: rounding; where it did not come to anything, the longest step, or without bound if that was long:
+ * there is no such solution. */
 static hc_status improve(hbm_solver *s, double omega, const double *X, double *least)
 {
   const int n_harm = s->sys.n_harm, n = refinement_harmonics(s->exact_finer);
@@ -89,14 +100,14 @@ static periodic_motion measured(int n_harm, const double *X)
  * harmonics do not mend. */
 static double extrapolation(const hbm_solver *s, int n)
 {
-  const double ratio = (double)s->sys.n_harm / n;
+  const double ratio = fmax((double)s->sys.n_harm / n, n > s->sys.n_harm ? 0.5 : 0);
   return s->sys.sampled && ratio > 1 ? 1 : 1 / fabs(1 - ratio * ratio * ratio);
 }
 
 hc_status hbm_predict(hbm_solver *s, double omega, const double *X, motion_error *out)
 {
   *out = (motion_error){NAN, NAN, NAN};
-  hc_status st = need_finer(s);
+  hc_status st = need_finer(s, omega);
   if (st != HC_OK) return st;
   const int n_harm = s->sys.n_harm, n = refinement_harmonics(s->exact_finer);
   double least;

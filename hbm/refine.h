@@ -19,8 +19,8 @@ int refinement_harmonics(const refinement *r);
  * HC_SINGULAR, HC_NOT_FINITE: Y is as it was. */
 hc_status refinement_step(refinement *r, double omega, double *Y, double *step);
 
-/* [length] How far rounding may move what the last step came to: |J'^-1 s|, where each s_i is one rounding of the sum of
- * all forces. INFINITY rather than a NaN. */
+/* [length] How far rounding may move what the last step came to: |J'^-1 s|, where each s_i is one rounding of the sum
+ * of all forces. INFINITY rather than a NaN. */
 double refinement_rounding(refinement *r, double omega);
 
 /* Relative error of X[2 n_harm + 1], a solution with n_harm <= its own harmonics; infinite where it cannot be told. */

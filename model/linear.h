@@ -6,7 +6,8 @@
 #include <complex.h>
 
 /* e[row][column]: (x, x') after time t of M x'' + C x' + k x = 0 from (1, 0) and from (0, 1). k = 0 is a
- * free mass, k < 0 drives it away. Accurate for underdamped, critically damped and overdamped motion; nothing overflows. */
+ * free mass, k < 0 drives it away. Accurate for underdamped, critically damped and overdamped motion; nothing
+ * overflows. */
 void linear_free_motion(double mass, double damping, double stiffness, double t, double e[2][2]);
 
 /* x after time t >= 0 of x'' + c x' + k x = 1 from rest; c >= 0. Accurate also where c and k are 0 or nearly. */

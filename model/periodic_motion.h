@@ -22,7 +22,8 @@ typedef struct periodic_motion {
 
 static inline double motion_amplitude(double max, double min) { return 0.5 * (max - min); }
 
-/* How far off a motion is by the reckoning of whoever computed it, before it is held against another; NaN: not known. */
+/* How far off a motion is by the reckoning of whoever computed it, before it is held against another; NaN: not
+ * known. */
 typedef struct motion_error {
   double amplitude, harmonic_1, waveform; /* [length] as in motion_distance */
 } motion_error;

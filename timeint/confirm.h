@@ -15,9 +15,10 @@ typedef struct confirm confirm;
 hc_status confirm_new(timeint *ti, confirm **out);
 void confirm_free(confirm *c);
 
-/* From ti->y to within goal [L] of the orbit of k periods next to it; its measures into *r, found->distance from it, found->attainable;
- * found's multiplier and free sliders are the caller's. HC_NOT_CONVERGED if the steps do not contract, HC_SINGULAR;
- * HC_NOT_SETTLED after max_periods; what integration answers; HC_INTERRUPTED. ti->y is then where it was. */
+/* From ti->y to within goal [L] of the orbit of k periods next to it; its measures into *r, found->distance from it,
+ * found->attainable; found's multiplier and free sliders are the caller's. HC_NOT_CONVERGED if the steps do not
+ * contract, HC_SINGULAR; HC_NOT_SETTLED after max_periods; what integration answers; HC_INTERRUPTED. ti->y is then
+ * where it was. */
 hc_status confirm_orbit(confirm *c, int k, double goal, const hc_monitor *monitor, shoot_report *found,
                         timeint_result *r);
 

@@ -77,8 +77,8 @@ static hc_status add_instants(measure *me, const integrator *in, double theta1)
   return st;
 }
 
-/* Integral over h of what has the values, first and second derivatives g[end][3] at its two ends: of the quintic through
- * them, off by h^7 g/100800. */
+/* Integral over h of what has the values, first and second derivatives g[end][3] at its two ends: of the quintic
+ * through them, off by h^7/100800 of the sixth derivative. */
 static double integral_of(double h, double g[2][3])
 {
   return h / 2 * (g[0][0] + g[1][0]) + h * h / 10 * (g[0][1] - g[1][1]) + h * h * h / 120 * (g[0][2] + g[1][2]);

@@ -3,8 +3,8 @@
  * Peaks: roots of v, bracketed inside each step (two roots in one step by the extremum of v between them) and refined
  * to rounding; the error of x there is of second order in that of the root. The wave: x at TIMEINT_WAVE equispaced
  * instants; rms is a sum over these. Mean and first harmonic are integrals, step by step: the integrator's own where a
- * step solves a linear equation, else of the quintic through both ends of a step. Sums over the instants would alias: x has
- * a continuous second derivative, its harmonics fall like h^-4, but with a factor that a stiff contact makes large
+ * step solves a linear equation, else of the quintic through both ends of a step. Sums over the instants would alias: x
+ * has a continuous second derivative, its harmonics fall like h^-4, but with a factor that a stiff contact makes large
  * (1e-9 of x on case 2 with kn = 1e4, 1e-6 with kn = 4e6 times the spring). */
 #ifndef HC_TIMEINT_MEASURE_H
 #define HC_TIMEINT_MEASURE_H

@@ -8,10 +8,10 @@
  * E the free motion, s and r the responses from rest to 1 and to e^{i tau}. Written from rest, nothing is large where a
  * mode is soft (k near 0) or resonant (k near 1, c near 0).
  *
- * A guard is a linear function of the state plus a constant; transitions are its roots. Between two points it is bounded
- * by its second derivative: with y = q' (or q''), y'' + c y' + k y is at most |f|, so sqrt(y'^2 + |k| y^2) grows by at
- * most |f| a unit of theta (and, where k < 0, by the factor e^(sqrt(-k) h) over h). The search steps only as far as that
- * bound lets the guard stay positive: no root is missed but an excursion below -noise. */
+ * A guard is a linear function of the state plus a constant; transitions are its roots. Between two points it is
+ * bounded by its second derivative: with y = q' (or q''), y'' + c y' + k y is at most |f|, so sqrt(y'^2 + |k| y^2)
+ * grows by at most |f| a unit of theta (and, where k < 0, by the factor e^(sqrt(-k) h) over h). The search steps only
+ * as far as that bound lets the guard stay positive: no root is missed but an excursion below -noise. */
 #ifndef HC_MODAL_MOTION_H
 #define HC_MODAL_MOTION_H
 

@@ -13,8 +13,8 @@ double orbit_goal(const timeint *ti)
   return fmax(ti->how.tolerance * (timeint_motion_size(ti) / ti->length), 100 * ti->tolerance);
 }
 
-/* Up to 250 times CVODE's tolerance with the regularised law (timeint.c), 400 seen next to a fold (r2 at 708.5), and the
- * rounding of some thousand steps; in closed form of some ten. */
+/* Up to 250 times CVODE's tolerance with the regularised law (timeint.c), 400 seen next to a fold (r2 at 708.5), and
+ * the rounding of some thousand steps; in closed form of some ten. */
 double orbit_scatter(const timeint *ti, int k)
 {
   if (ti->how.method == TRANSIENT_METHOD_CLOSED_FORM) return k * 200 * DBL_EPSILON;

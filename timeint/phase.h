@@ -68,7 +68,8 @@ static inline double phase_force(const phase *ph, double cosine, double x, doubl
 /* W_j = *rest + *by_x X. */
 void phase_slider(const phase *ph, int j, double *rest, double *by_x);
 
-/* The sliders' part of y[n_states], X and P being there: their places (order 0) or velocities (order 1: X is then X'). */
+/* The sliders' part of y[n_states], X and P being there: their places (order 0) or velocities (order 1: X is then
+ * X'). */
 void phase_set_sliders(const phase *ph, int order, double *y);
 
 /* dP'/dW_j: kt cos of a stuck contact; 0 in the other states. */

@@ -41,8 +41,8 @@ typedef struct timeint_result {
   int free_sliders;   /* contacts that stick all the time: where their sliders rest, and with them the mean, depends on
                        the start */
   int switches;       /* contact transitions in the reported periods; exact law only */
-  int scout_switches; /* the same of the scout's orbit, whose multiplier is reported; -1: there was no scout. They differ
-                         next to a grazing shorter than integration errors */
+  int scout_switches; /* the same of the scout's orbit, whose multiplier is reported; -1: there was no scout. They
+                         differ next to a grazing shorter than integration errors */
   bool left_orbit;    /* the orbit next to the start is unstable; reported is the one the motion went to from there */
   double lyapunov;    /* [1/period] mean rate at which neighbours drift apart; NaN where it was not measured */
   double regularisation_error; /* [1] of the amplitude, relative; estimated with transient.richardson, else NaN */
@@ -75,12 +75,12 @@ hc_status timeint_orbit(timeint *ti, double omega, int k, double *state, const h
 hc_status timeint_again(timeint *ti, double omega, int k, double *state, const hc_monitor *monitor,
                         timeint_result *result);
 
-/* r->predicted: the error that the time integration itself expects in the measures of *r, the last result of this handle
- * to which `state` belongs. From its own equations only:
+/* r->predicted: the error that the time integration itself expects in the measures of *r, the last result of this
+ * handle to which `state` belongs. From its own equations only:
  *     integration     distance from the orbit, and the scatter of periods times |(I - Phi)^-1|
  *     regularisation  twice the change by half of it: it is of first order, or better
- * With a scout that is one plain period of the regularised law, none of the exact. HC_OK, also where nothing can be said
- * (NaN); HC_NO_MEMORY, HC_INTERRUPTED. */
+ * With a scout that is one plain period of the regularised law, none of the exact. HC_OK, also where nothing can be
+ * said (NaN); HC_NO_MEMORY, HC_INTERRUPTED. */
 hc_status timeint_predict(timeint *ti, const double *state, const hc_monitor *monitor, timeint_result *r);
 
 /* With a scout a handle remembers the orbits it found last, and gives them again to a start that leads to one of them.
