@@ -73,8 +73,8 @@ static void a_journal_that_does_not_fit_is_refused(void **state)
 {
   (void)state;
   expect("--seed 5 --scenes 1 --seconds 60 --results %s/one", 0, "1 scenes of seed 5 from 0 on");
-  static const char *const other[] = {"1s/stress 2/stress 1/",
-                                      "1s/stress 2/stress 3/",
+  static const char *const other[] = {"1s/stress 3/stress 1/",
+                                      "1s/stress 3/stress 4/",
                                       "2s/ units/ other_units/",
                                       "2s/ units energy/ energy units/",
                                       "3s/ agreed explained/ explained agreed/",
