@@ -159,6 +159,8 @@ SHELTERED_FROM_ALL(SUNLinearSolver, SUNLinSol_Dense, (N_Vector y, SUNMatrix a, S
 SHELTERED_FROM_ALL(SUNLinearSolver, SUNLinSolNewEmpty, (SUNContext ctx), (ctx))
 SHELTERED_FROM_ALL(void *, KINCreate, (SUNContext ctx), (ctx))
 SHELTERED_FROM_ALL(void *, CVodeCreate, (int method, SUNContext ctx), (method, ctx))
+SHELTERED(int, KINSol, (void *kin, N_Vector u, int strategy, N_Vector u_scale, N_Vector f_scale),
+          (kin, u, strategy, u_scale, f_scale))
 SHELTERED_FROM_ALL(int, CVodeRootInit, (void *cv, int n, CVRootFn g), (cv, n, g))
 #else
 SHELTERED(int, SUNContext_Create, (void *comm, SUNContext *ctx), (comm, ctx))

@@ -2,6 +2,7 @@
  * SUNDIALS' included, passes through here and is counted. */
 #include "tests/check.h"
 
+#include "numerics/sundials_compat.h"
 #include "tests/scene_parts.h"
 #include "tests/timeint/scenes.h"
 
@@ -103,6 +104,10 @@ static void shooting_and_sweeping_allocate_nothing(void **state)
   timeint_free(ti);
 }
 
+/* SUNDIALS 7 allocates, and frees, a message in each KINSol call that fails; Newton calls it twice, for each of the few
+ * orbits that a motion on its way is tried for. */
+enum { MESSAGES = SUNDIALS_VERSION_MAJOR >= 7 ? 12 : 0 };
+
 /* From rest: marching in closed form, its Newton, CVODE's periods that confirm it. */
 static void a_scout_allocates_nothing(void **state)
 {
@@ -117,7 +122,8 @@ static void a_scout_allocates_nothing(void **state)
       assert_int_equal(timeint_steady(ti, 7 + 0.1 * i, y, NULL, &r), HC_OK);
       CHECK_LE(5, r.scouted, "scouted");
       assert_int_equal(r.method, TIMEINT_BY_SHOOTING);
-      if (i > 0) assert_int_equal(allocations - before, 0); /* CVODE makes itself ready in the first period */
+      const long made = allocations - before;
+      if (i > 0) CHECK_LE(made, MESSAGES, "allocations"); /* CVODE makes itself ready in the first period */
     }
     timeint_free(ti);
   }
