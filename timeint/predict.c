@@ -10,9 +10,10 @@
 #include "timeint/timeint_private.h"
 
 static const double rounding = 16 * DBL_EPSILON; /* [amplitude] of a closed form */
-static const double enough = 0.05;               /* [change] to which half the regularisation's orbit need be known */
-static const double coarsest = 1e-8;             /* CVODE's tolerance for it */
-static const double per_change = 1e-4; /* that tolerance, relative to the change: it scatters by 250 times itself */
+static const double enough = 1e-3;   /* [change] to which half the regularisation's orbit need be known: a second-order
+                                       error of the amplitude is far smaller than the sliders' first-order change */
+static const double coarsest = 1e-8; /* CVODE's tolerance for it */
+static const double per_change = 1e-6; /* that tolerance, relative to the change: it scatters by 250 times itself */
 
 /* Of the waveform's change: amplitude and first harmonic may agree by chance. */
 static const double least_share = 0.04;
