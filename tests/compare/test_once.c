@@ -41,7 +41,8 @@ static void exact_law(void **state)
   comparison_clear(&c);
 }
 
-/* The regularised law: at most three periods an orbit, one or two for the prediction, one for the exact law's orbit beside. */
+/* The regularised law: at most three periods an orbit, one or two for the prediction, one for the exact law's orbit
+ * beside. */
 static void regularised_law(void **state)
 {
   (void)state;
