@@ -7,7 +7,7 @@ set logscale xy
 set format x "10^{%T}"; set format y "10^{%T}"
 set xlabel "processor time of one solution [s]"
 set grid lc rgb "#dddddd"
-set xrange [8e-6:3]; set yrange [1e-15:1e-1] # the lowest three decades are the key's
+set xrange [8e-6:3]; set yrange [1e-20:1e-1] # the lowest seven decades are the key's
 set key bottom left Left reverse samplen 3
 rows(method, file) = "< awk -F, '/^omega,accuracy/ {exit} $2 == \"".method."\" && $16 == \"solved\"' ".file
 set style line 1 pt 1 ps 0.9 lw 1.5 lc rgb "#777777"
