@@ -12,4 +12,12 @@ static inline double norm_2(int n, const double *v)
   return sqrt(sum);
 }
 
+/* norm_2 of a - b. */
+static inline double distance_2(int n, const double *a, const double *b)
+{
+  double sum = 0;
+  for (int i = 0; i < n; ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
+  return sqrt(sum);
+}
+
 #endif

@@ -5,11 +5,14 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "numerics/floquet.h"
 #include "numerics/lu.h"
 #include "numerics/norm.h"
 #include "timeint/orbit.h"
 #include "timeint/timeint_private.h"
 
+static const double next_to = 0.2;   /* [size] the largest regularisation, 0.1, moves an orbit by some percent: one
+                                        farther away is another, of which the scout's multiplier says nothing */
 static const double contracts = 0.3; /* a Newton step no shorter than that part of the last one leads nowhere */
 enum { MOST_STEPS = 8 };
 
@@ -53,16 +56,6 @@ void confirm_free(confirm *c)
   free(c);
 }
 
-static void multiply(int n, const double *a, const double *b, double *c)
-{
-  for (int j = 0; j < n; ++j)
-    for (int i = 0; i < n; ++i) {
-      double sum = 0;
-      for (int q = 0; q < n; ++q) sum += a[i + q * n] * b[q + j * n];
-      c[i + j * n] = sum;
-    }
-}
-
 static bool is_unit_row(const confirm *c, int i)
 {
   for (int j = 0; j < c->n; ++j)
@@ -83,7 +76,7 @@ static hc_status make_matrix(confirm *c, int k)
     if (st != HC_OK) return st;
     if (i == 0) continue;
     memcpy(c->product, c->phi, bytes);
-    multiply(c->n, c->one_period, c->product, c->phi);
+    floquet_product(c->n, c->one_period, c->product, c->phi);
   }
   for (int i = 0; i < c->n; ++i) {
     const bool stays = i >= SCALED_W && is_unit_row(c, i);
@@ -125,6 +118,7 @@ hc_status confirm_orbit(confirm *c, int k, double goal, const hc_monitor *monito
   timeint *ti = c->ti;
   const size_t bytes = sizeof *c->z * (size_t)c->n;
   double length = INFINITY, last = INFINITY;
+  const double size = timeint_motion_size(ti) / ti->length;
   memcpy(c->before, ti->y, bytes);
   hc_status st = make_matrix(c, k);
   if (st == HC_OK) found->attainable = attainable(c, k);
@@ -138,6 +132,7 @@ hc_status confirm_orbit(confirm *c, int k, double goal, const hc_monitor *monito
       break;
     }
     for (int i = 0; i < c->n; ++i) c->z[i] -= c->step[i];
+    if (!(distance_2(c->n, c->z, c->before) <= next_to * size)) st = HC_NOT_CONVERGED;
     last = length;
   }
   if (st != HC_OK) memcpy(ti->y, c->before, bytes);

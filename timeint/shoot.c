@@ -43,24 +43,6 @@ struct shoot { /* from shoot_new, to shoot_free */
   hc_status refusal;
 };
 
-static double distance(int n, const double *a, const double *b)
-{
-  double sum = 0;
-  for (int i = 0; i < n; ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
-  return sqrt(sum);
-}
-
-/* c = a b */
-static void multiply(int n, const double *a, const double *b, double *c)
-{
-  for (int j = 0; j < n; ++j)
-    for (int i = 0; i < n; ++i) {
-      double sum = 0;
-      for (int q = 0; q < n; ++q) sum += a[i + q * n] * b[q + j * n];
-      c[i + j * n] = sum;
-    }
-}
-
 /* s->f becomes F^k(s->f), s->phi the monodromy matrix of these k periods. */
 static hc_status integrate_k_periods(shoot *s)
 {
@@ -73,7 +55,7 @@ static hc_status integrate_k_periods(shoot *s)
     ++s->ti->periods;
     if (i == 0) continue;
     memcpy(s->product, s->phi, bytes);
-    multiply(s->n, s->one_period, s->product, s->phi);
+    floquet_product(s->n, s->one_period, s->product, s->phi);
   }
   return HC_OK;
 }
@@ -312,7 +294,7 @@ static hc_status finish(shoot *s, double goal, shoot_report *r)
   }
   if (st == HC_OK && r->distance < INFINITY) st = evaluate(s, s->best);
   if (st != HC_OK || !(r->distance < INFINITY)) return st != HC_OK ? st : HC_NOT_CONVERGED;
-  r->moved = distance(s->n, s->start, s->best);
+  r->moved = distance_2(s->n, s->start, s->best);
   r->nonlinear = nonlinear_part(s, s->best);
   if ((st = find_multiplier(s, r)) != HC_OK) return st;
   memcpy(s->ti->y, s->best, bytes);

@@ -10,19 +10,24 @@
 static const double least = 1e-9; /* [1] of the amplitude: transient.tolerance */
 enum { ALONE_EVERY = 16, MOST_PERIODS = 300 };
 
-/* timeint_orbit of `multiple` periods from out->state, or timeint_steady where that is 0. */
-static hc_status run(solved_scene *s, transient_method method, int multiple, stress_orbit *out)
+static hc_status make(const solved_scene *s, transient_method method, bool scout, timeint **ti)
 {
   scene sc = s->exact;
-  timeint *ti = NULL;
   sc.transient.method = method;
-  sc.transient.scout = false;
+  sc.transient.scout = scout;
   sc.transient.richardson = false;
   sc.transient.steady = TRANSIENT_STEADY_AUTO;
   sc.transient.start = TRANSIENT_START_REST;
   sc.transient.tolerance = least;
   sc.transient.max_periods = MOST_PERIODS;
-  hc_status st = scene_timeint(&sc, &ti);
+  return scene_timeint(&sc, ti);
+}
+
+/* timeint_orbit of `multiple` periods from out->state, or timeint_steady where that is 0. */
+static hc_status run(solved_scene *s, transient_method method, int multiple, stress_orbit *out)
+{
+  timeint *ti;
+  hc_status st = make(s, method, false, &ti);
   if (st == HC_OK && multiple > 0) st = timeint_orbit(ti, s->omega, multiple, out->state.all, &s->monitor, &out->r);
   else if (st == HC_OK) st = timeint_steady(ti, s->omega, out->state.all, &s->monitor, &out->r);
   timeint_free(ti);
@@ -33,13 +38,8 @@ static hc_status run(solved_scene *s, transient_method method, int multiple, str
 /* CVODE's period from out->state on, and the measures of the orbit it closes. */
 static hc_status confirm_by_cvode(solved_scene *s, stress_orbit *out)
 {
-  scene sc = s->exact;
-  timeint *ti = NULL;
-  sc.transient.method = TRANSIENT_METHOD_CVODE;
-  sc.transient.scout = true;
-  sc.transient.richardson = false;
-  sc.transient.tolerance = least;
-  hc_status st = scene_timeint(&sc, &ti);
+  timeint *ti;
+  hc_status st = make(s, TRANSIENT_METHOD_CVODE, true, &ti);
   if (st == HC_OK) st = timeint_again(ti, s->omega, 1, out->state.all, &s->monitor, &out->r);
   timeint_free(ti);
   if (st == HC_NO_MEMORY) s->fatal = st;
