@@ -6,36 +6,21 @@
  * that orbit if it is stable, next to the state, and the map between the two is linear enough for the distance to
  * shrink: |F(z) - z* - Phi (z - z*)| <= (1 - rho)/2 |z - z*|. Otherwise another stretch follows.
  *
- * A motion next to no such orbit is tested for chaos: the mean rate at which two neighbours drift apart (the largest
- * Lyapunov exponent, the distance reset after each period) over BATCHES times BATCH periods, against its own scatter
- * over the batches. Not before FOLDS times the periods in which damping reduces a difference by e: next to a saddle
- * neighbours drift apart as well, for a while. */
+ * A motion next to no such orbit is tested for chaos: chaos.h. */
 #include "timeint/attract.h"
 
-#include <float.h>
 #include <math.h>
 #include <stddef.h>
 
+#include "timeint/chaos.h"
 #include "timeint/linear_regime.h"
 #include "timeint/march.h"
 #include "timeint/orbit.h"
 #include "timeint/timeint_private.h"
 
-static const double coarse = 1e-9;        /* CVODE's tolerance in a stretch, if the final one is not coarser */
-static const double near = 0.02;          /* [size] between a state and its return: the orbit is then looked for */
-static const double slowest_chaos = 1e-3; /* [1/period] a rate below 1 in a thousand periods cannot be told from 0 */
-static const double shortest_leap = 0.1;  /* [size] the largest change over one period is no less in chaos: a motion
-                                             with smaller changes is leaving a saddle, or settling */
-static const double separation = 1e-5;    /* [L] of the two neighbours: far above the scatter of a period at the final
-                                             tolerance, far below the motion */
-enum {
-  LYAPUNOV_AFTER = 500, /* periods */
-  FOLDS = 6,
-  BATCHES = 16,
-  BATCH = 40,                                   /* periods */
-  LYAPUNOV_PERIODS = 2 * (BATCHES + 1) * BATCH, /* of both neighbours; the first batch only turns their difference */
-  MOST_FAILURES = 6                             /* of Newton; then marching decides */
-};
+static const double coarse = 1e-9; /* CVODE's tolerance in a stretch, if the final one is not coarser */
+static const double near = 0.02;   /* [size] between a state and its return: the orbit is then looked for */
+enum { MOST_FAILURES = 6 };        /* of Newton; then marching decides */
 
 /* The motion on its way; the ring of its latest states is ti->past. */
 typedef struct approach {
@@ -132,49 +117,6 @@ static hc_status try_orbits(approach *a, bool *found_it, timeint_result *r)
   return st;
 }
 
-/* One period of the motion and of a neighbour at ti->y + d, d = ti->separation; d becomes their difference afterwards,
- * scaled to its old length, and *log_growth the log of the factor by which it grew, no less than log(DBL_EPSILON):
- * the two may have met. */
-static hc_status integrate_neighbours(timeint *ti, double *log_growth)
-{
-  const int n = ti->n;
-  double *d = ti->separation, *other = ti->neighbour, size = 0;
-  for (int i = 0; i < n; ++i) other[i] = ti->y[i] + d[i];
-  hc_status st = integrate_period(ti->in, &ti->scaled, ti->y, NULL, NULL);
-  if (st == HC_OK) st = integrate_period(ti->in, &ti->scaled, other, NULL, NULL);
-  if (st != HC_OK) return st;
-  ti->periods += 2;
-  for (int i = 0; i < n; ++i) size += (other[i] - ti->y[i]) * (other[i] - ti->y[i]);
-  size = sqrt(size);
-  *log_growth = log(fmax(size / separation, DBL_EPSILON));
-  for (int i = 0; i < n && size > 0; ++i) d[i] = (other[i] - ti->y[i]) * (separation / size);
-  return isfinite(size) && isfinite(*log_growth) ? HC_OK : HC_NOT_FINITE;
-}
-
-/* Do neighbours drift apart, by more than the scatter of the batches' means (three standard errors)? */
-static hc_status neighbours_drift_apart(timeint *ti, const hc_monitor *monitor, bool *yes, double *rate)
-{
-  double mean = 0, square = 0, leap = 0, one;
-  for (int i = 0; i < ti->n; ++i) ti->separation[i] = i == SCALED_X ? separation : 0;
-  for (int b = -1; b < BATCHES; ++b) { /* the first one only turns d into the direction of growth */
-    double sum = 0;
-    for (int i = 0; i < BATCH; ++i) {
-      if (!hc_monitor_tick(monitor, (double)ti->periods / ti->how.max_periods)) return HC_INTERRUPTED;
-      const double x = ti->y[SCALED_X], p = ti->y[SCALED_P];
-      hc_status st = integrate_neighbours(ti, &one);
-      if (st != HC_OK) return st;
-      leap = fmax(leap, hypot(ti->y[SCALED_X] - x, ti->y[SCALED_P] - p) / hypot(x, p));
-      sum += one / BATCH;
-    }
-    if (b < 0) continue;
-    mean += sum / BATCHES;
-    square += sum * sum / BATCHES;
-  }
-  *rate = mean;
-  *yes = leap > shortest_leap && mean > slowest_chaos && mean > 3 * sqrt(fmax(square - mean * mean, 0) / (BATCHES - 1));
-  return HC_OK;
-}
-
 static hc_status report_aperiodic(timeint *ti, timeint_result *r)
 {
   const shoot_report none = {.distance = INFINITY, .attainable = INFINITY, .multiplier = NAN};
@@ -185,14 +127,10 @@ static hc_status report_aperiodic(timeint *ti, timeint_result *r)
   return st == HC_OK ? HC_APERIODIC : st;
 }
 
-/* Is the motion aperiodic? Asked once the transient has died out, if enough periods are left; then it is reported. */
-static hc_status try_chaos(approach *a, bool *chaos, timeint_result *r)
+/* Is the motion aperiodic? Then it is reported. */
+static hc_status try_chaos(timeint *ti, const hc_monitor *monitor, bool *chaos, timeint_result *r)
 {
-  timeint *ti = a->ti;
-  const bool died_out = ti->periods > fmax(LYAPUNOV_AFTER, FOLDS / (1 - ti->contraction));
-  *chaos = false;
-  if (!died_out || ti->periods + LYAPUNOV_PERIODS >= ti->how.max_periods) return HC_OK;
-  hc_status st = neighbours_drift_apart(ti, a->monitor, chaos, &r->lyapunov);
+  hc_status st = chaos_test(ti, monitor, chaos, &r->lyapunov);
   return st == HC_OK && *chaos ? report_aperiodic(ti, r) : st;
 }
 
@@ -213,7 +151,7 @@ hc_status attract(timeint *ti, int first, const hc_monitor *monitor, timeint_res
       return HC_OK;
     }
     if ((st = try_orbits(&a, &done, r)) != HC_OK || done) return st;
-    if ((st = try_chaos(&a, &done, r)) != HC_OK || done) return st;
+    if ((st = try_chaos(ti, monitor, &done, r)) != HC_OK || done) return st;
     if (a.failures >= MOST_FAILURES) break;
   }
   return march_to_steady_state(ti, monitor, r);

@@ -4,7 +4,7 @@
 law_regularised law_regularised_make(const contact *c, double width, double relaxation)
 {
   law_regularised r = {.kt = c->kt, .kn = c->kn, .mu = c->mu, .gap = c->gap, .width = width, .eta = relaxation * c->kt};
-  r.has_friction = c->kt > 0 && c->kn > 0 && c->mu > 0;
+  r.has_friction = contact_has_friction(c);
   return r;
 }
 
