@@ -156,6 +156,8 @@ static hc_status evaluate_contact(aft *a, int j, double size, contact_report *re
   contact_regime regime = regime_of(found.n_stretches, s);
   if (regime > report->regime) report->regime = regime;
   report->transitions += found.transitions;
+  const model_contact *c = &a->model->contacts[j];
+  report->free_sliders += regime == CONTACT_STUCK && contact_has_friction(&c->law) && c->tangent != 0;
   return fabs(found.w - found.settled) <= 1e-12 * (fabs(found.settled) + size) ? HC_OK : HC_NOT_CLOSED;
 }
 

@@ -7,6 +7,8 @@
 typedef struct contact_report {
   contact_regime regime; /* the largest of all contacts */
   int transitions;       /* changes of state in the period, all contacts */
+  int free_sliders;      /* contacts with friction that stick all the time: where their sliders rest, and with them the
+                            mean, depends on the history, not on the equations alone */
 } contact_report;
 
 #endif

@@ -9,7 +9,8 @@
  *             x'''' h^4/384. The next step is chosen to keep e at TOLERANCE.
  *
  * `auto` steps naturally until the curve gets steep or Newton fails, then by arc-length, and returns when the curve
- * is flat again. It goes on from a point only forward along its own tangent, so it cannot retrace its path. */
+ * is flat again. It goes on from a point only forward along its own tangent, so it cannot retrace its path.
+ * `fixed_step` has none of this: fixed_step.c. */
 #include "hbm/continuation.h"
 
 #include <math.h>
@@ -19,6 +20,7 @@
 #include "hbm/adapt.h"
 #include "hbm/corrector.h"
 #include "hbm/first_solution.h"
+#include "hbm/fixed_step.h"
 #include "hbm/linear_solution.h"
 #include "hbm/path.h"
 #include "hbm/segment_solutions.h"
@@ -34,8 +36,13 @@ static const double LINEAR_NEAR = 1e-2;      /* the linear response counts as th
 static const double STEEP = 0.2, FLAT = 0.6; /* flatness below which natural steps end, above which they are resumed */
 enum { MAX_POINTS = 200000, FLAT_STEPS = 6 };
 
-static bool natural_allowed(const path *p) { return p->s->how.continuation != HBM_CONTINUATION_ARCLENGTH; }
+static bool steps_are_fixed(const hbm_solver *s) { return s->how.continuation == HBM_CONTINUATION_FIXED_STEP; }
 static bool arclength_allowed(const path *p) { return p->s->how.continuation != HBM_CONTINUATION_NATURAL; }
+
+static bool natural_allowed(const path *p)
+{
+  return p->s->how.continuation == HBM_CONTINUATION_AUTO || p->s->how.continuation == HBM_CONTINUATION_NATURAL;
+}
 
 static void switch_to_arclength(path *p)
 {
@@ -304,6 +311,7 @@ static hc_status recover(path *p, hc_status step_status, bool *done)
 static hc_status follow(path *p, const hc_monitor *monitor)
 {
   hbm_curve *c = p->curve;
+  const hbm_solver *s = p->s;
   hc_status st = first_point(p, monitor);
   if (st == HC_OK) st = adapt_to_accuracy(p);
   bool done = p->from == p->to;
@@ -311,8 +319,9 @@ static hc_status follow(path *p, const hc_monitor *monitor)
     if (c->n >= MAX_POINTS) return HC_TOO_MANY_POINTS;
     if (!hc_monitor_tick(monitor, progress(p))) return HC_INTERRUPTED;
     bool accepted;
-    hc_status step_status = trial_step(p, &accepted);
-    if (step_status == HC_NO_MEMORY) return HC_NO_MEMORY;
+    hc_status step_status = steps_are_fixed(s) ? fixed_step(p, &accepted) : trial_step(p, &accepted);
+    bool no_other_step = !accepted && steps_are_fixed(s);
+    if (step_status == HC_NO_MEMORY || no_other_step) return step_status;
     st = accepted ? accept_trial(p, &done) : recover(p, step_status, &done);
   }
   return st;
@@ -379,7 +388,8 @@ static hc_status trace(hbm_solver *s, double from, double to, bool may_come_from
 hc_status hbm_trace(hbm_solver *s, double from, double to, const hc_monitor *monitor, hbm_curve *curve)
 {
   bool in_range = from > 0 && to > 0 && isfinite(from) && isfinite(to);
-  if (!in_range || curve->n) return HC_BAD_INPUT;
+  bool adapts = s->finer_harmonics || s->finer_samples;
+  if (!in_range || curve->n || (adapts && steps_are_fixed(s))) return HC_BAD_INPUT;
   return trace(s, from, to, !s->ramp, monitor, curve);
 }
 

@@ -120,7 +120,7 @@ hc_status hbm_solve_fixed(hbm_solver *s, double omega, double x_scale, double *X
   hc_status st = set_scales(s, omega, x_scale, X);
   if (st != HC_OK) return st;
   s->omega = omega;
-  newton_options opt = {s->z_scale, s->r_scale, s->how.tolerance, 3.0, MAX_NEWTON_ITERATIONS};
+  newton_options opt = {s->z_scale, s->r_scale, s->how.tolerance, 3.0, MAX_NEWTON_ITERATIONS, false};
   newton_report report;
   pack(s, X, omega, s->z);
   st = newton_solve(s->fixed, s->z, &opt, &report);
@@ -132,8 +132,8 @@ hc_status hbm_solve_fixed(hbm_solver *s, double omega, double x_scale, double *X
   return st;
 }
 
-hc_status hbm_solve_plane(hbm_solver *s, const double *normal, double x_scale, double omega_scale, double *X,
-                          double *omega, hbm_point *point)
+static hc_status solve_plane(hbm_solver *s, const double *normal, double x_scale, double omega_scale,
+                             int max_iterations, bool plain, double *X, double *omega, hbm_point *point)
 {
   ++s->solves;
   hc_status st = set_scales(s, *omega, x_scale, X);
@@ -144,7 +144,7 @@ hc_status hbm_solve_plane(hbm_solver *s, const double *normal, double x_scale, d
   memcpy(s->normal, normal, (size_t)(n + 1) * sizeof(double));
   pack(s, X, *omega, s->anchor);
   memcpy(s->z, s->anchor, (size_t)(n + 1) * sizeof(double));
-  newton_options opt = {s->z_scale, s->r_scale, s->how.tolerance, 1.0, MAX_NEWTON_ITERATIONS};
+  newton_options opt = {s->z_scale, s->r_scale, s->how.tolerance, 1.0, max_iterations, plain};
   newton_report report;
   st = newton_solve(s->plane, s->z, &opt, &report);
   if (st != HC_OK) {
@@ -153,6 +153,18 @@ hc_status hbm_solve_plane(hbm_solver *s, const double *normal, double x_scale, d
   }
   if ((st = check_residual(s, s->z[n], &report, point)) == HC_OK) unpack(s, s->z, X, omega);
   return st;
+}
+
+hc_status hbm_solve_plane(hbm_solver *s, const double *normal, double x_scale, double omega_scale, double *X,
+                          double *omega, hbm_point *point)
+{
+  return solve_plane(s, normal, x_scale, omega_scale, MAX_NEWTON_ITERATIONS, false, X, omega, point);
+}
+
+hc_status hbm_solve_plane_plainly(hbm_solver *s, const double *normal, double x_scale, double omega_scale, double *X,
+                                  double *omega, hbm_point *point)
+{
+  return solve_plane(s, normal, x_scale, omega_scale, s->how.iterations, true, X, omega, point);
 }
 
 hc_status hbm_tangent_fixed(hbm_solver *s, const double *X, double *dX)

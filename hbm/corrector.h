@@ -21,6 +21,10 @@ hc_status hbm_solve_fixed(hbm_solver *s, double omega, double x_scale, double *X
 hc_status hbm_solve_plane(hbm_solver *s, const double *normal, double x_scale, double omega_scale, double *X,
                           double *omega, hbm_point *point);
 
+/* The plane form by plain Newton: at most hbm.iterations of them, no line search. Errors of hbm_solve_plane. */
+hc_status hbm_solve_plane_plainly(hbm_solver *s, const double *normal, double x_scale, double omega_scale, double *X,
+                                  double *omega, hbm_point *point);
+
 /* dX/domega [2H+1] at X, the end of the last fixed solve; (dX, d_omega) along the curve, with normal . (dX, d_omega) =
  * 1, at the end of the last plane solve. HC_SINGULAR. */
 hc_status hbm_tangent_fixed(hbm_solver *s, const double *X, double *dX);

@@ -251,12 +251,20 @@ static double slider_at_zero(const exact_force *e, int j)
   return u;
 }
 
+static bool has_slider(const moving_contact *c, int n_dof)
+{
+  bool moves = false;
+  for (int d = 0; d < n_dof; ++d) moves |= c->cu[d] != 0;
+  return moves && contact_has_friction(&c->law);
+}
+
 static void fill_report(const exact_force *e, contact_report *report)
 {
   *report = (contact_report){.regime = CONTACT_LINEAR};
   for (int j = 0; j < e->n_contacts; ++j) {
     contact_regime regime = regime_of(e->pieces + (size_t)j * e->cap, e->n_pieces[j]);
     if (regime > report->regime) report->regime = regime;
+    report->free_sliders += regime == CONTACT_STUCK && has_slider(&e->contacts[j], e->n_dof);
     report->transitions += count_changes(e->pieces + (size_t)j * e->cap, e->n_pieces[j]);
   }
 }

@@ -12,7 +12,8 @@ typedef enum hbm_restart { HBM_RESTART_INTERPOLATED, HBM_RESTART_SAMPLE } hbm_re
 typedef enum hbm_continuation {
   HBM_CONTINUATION_AUTO,
   HBM_CONTINUATION_NATURAL,
-  HBM_CONTINUATION_ARCLENGTH
+  HBM_CONTINUATION_ARCLENGTH,
+  HBM_CONTINUATION_FIXED_STEP
 } hbm_continuation;
 
 typedef struct hbm_settings {
@@ -22,6 +23,8 @@ typedef struct hbm_settings {
   int samples;         /* per period, >= 2 harmonics + 1, or HBM_AUTO */
   hbm_restart restart; /* where the slider of a sampled force starts after a separation */
   hbm_continuation continuation;
+  double step;      /* [1] arc length from point to point, for fixed_step (fixed_step.c) */
+  int iterations;   /* the most that Newton may take at a point, for fixed_step */
   double tolerance; /* [1] of the residual, relative to the forces that make it up */
   double accuracy;  /* [1] largest error that auto harmonics and samples allow, relative to the solution */
   bool skip_linear; /* points where nothing happens at the contacts come from the closed form */

@@ -241,7 +241,7 @@ hc_status newton_solve(newton *nw, double *z, const newton_options *opt, newton_
   memcpy(N_VGetArrayPointer(nw->z_scale), opt->z_scale, bytes);
   memcpy(N_VGetArrayPointer(nw->r_scale), opt->r_scale, bytes);
   hc_status st = solve_from_start(nw, KIN_NONE, opt, report);
-  if (st != HC_OK && st != HC_NO_MEMORY) st = solve_from_start(nw, KIN_LINESEARCH, opt, report);
+  if (st != HC_OK && st != HC_NO_MEMORY && !opt->plain) st = solve_from_start(nw, KIN_LINESEARCH, opt, report);
   if (st == HC_OK) st = polish(nw, opt, report);
   if (st == HC_OK) memcpy(z, N_VGetArrayPointer(nw->z), bytes);
   return st;

@@ -4,6 +4,8 @@
 #ifndef HC_NEWTON_H
 #define HC_NEWTON_H
 
+#include <stdbool.h>
+
 #include "base/status.h"
 
 typedef struct newton newton;
@@ -21,6 +23,7 @@ typedef struct newton_options {
   double tolerance;                /* largest |r_scale r| accepted */
   double max_step;                 /* longest Newton step, 2-norm of z_scale dz; KINSOL treats less than 1 as 1 */
   int max_iterations;
+  bool plain; /* no line search where plain Newton fails */
 } newton_options;
 
 typedef struct newton_report {
@@ -33,8 +36,8 @@ void newton_free(newton *nw);
 
 /* Solve from *z. First plain Newton, then, if that fails, with KINSOL's line search from the same start. A converged
  * z gets one more Newton step, since its error may be much larger than the tolerance: that is relative to forces that
- * may nearly cancel. HC_OK; HC_STALLED, HC_NOT_CONVERGED, HC_SINGULAR, HC_NOT_FINITE, HC_NO_MEMORY: *z is then as it
- * was given. */
+ * may nearly cancel. With `plain` there is no line search. HC_OK; HC_STALLED, HC_NOT_CONVERGED,
+ * HC_SINGULAR, HC_NOT_FINITE, HC_NO_MEMORY: *z is then as it was given. */
 hc_status newton_solve(newton *nw, double *z, const newton_options *opt, newton_report *report);
 
 /* x := J(z)^-1 x with the Jacobian of the last solve's end. HC_SINGULAR, also after a solve that failed. */
