@@ -1,16 +1,48 @@
 /* output.c - see output.h. The file beside is opened with O_EXCL under a name of our own, not with mkstemp: then the
  * kernel applies the umask and default ACLs, where reading the umask would disturb other threads. Not here: signals;
- * the main program abandons. Proof: tests/output/test_output.c. */
+ * the main program abandons, or ends after output_abandon_all. Proof: tests/output/test_output.c. */
 #include "output/output.h"
 
 #include <errno.h>
 #include <fcntl.h>
+#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-enum { MAX_LINKS = 40, MAX_LINK_TEXT = 4096, MAX_TRIES = 10000 };
+#include "output/same_file.h"
+
+enum { MAX_TRIES = 10000, MOST_BESIDE = 8 };
+
+/* The files beside that exist now, for output_abandon_all: a signal handler gets no argument, so they are in a fixed
+ * place. More than these many at a time are not removed by it. */
+static _Atomic(char *) all_beside[MOST_BESIDE];
+
+static void remember(char *beside)
+{
+  for (int i = 0; i < MOST_BESIDE; ++i) {
+    char *none = NULL;
+    if (atomic_compare_exchange_strong(&all_beside[i], &none, beside)) return;
+  }
+}
+
+/* Before the text of that name is freed. */
+static void forget(char *beside)
+{
+  for (int i = 0; i < MOST_BESIDE; ++i) {
+    char *this = beside;
+    if (atomic_compare_exchange_strong(&all_beside[i], &this, NULL)) return;
+  }
+}
+
+void output_abandon_all(void)
+{
+  for (int i = 0; i < MOST_BESIDE; ++i) {
+    const char *beside = atomic_load(&all_beside[i]);
+    if (beside) unlink(beside);
+  }
+}
 
 struct output {
   FILE *stream;
@@ -18,50 +50,18 @@ struct output {
   char *beside; /* what is written until then; set only while it exists */
 };
 
-/* `name` in the folder of `path`, or just `name` if absolute. */
-static char *in_folder_of(const char *path, const char *name)
-{
-  const char *slash = strrchr(path, '/');
-  size_t folder = slash && *name != '/' ? (size_t)(slash - path) + 1 : 0, length = strlen(name);
-  char *joined = malloc(folder + length + 1);
-  if (!joined) return NULL;
-  memcpy(joined, path, folder);
-  memcpy(joined + folder, name, length + 1);
-  return joined;
-}
-
-/* Where the links at the end of `path` lead, whether or not anything is there. */
-static char *follow_links(const char *path)
-{
-  char *at = strdup(path);
-  for (int links = 0; at; ++links) {
-    char text[MAX_LINK_TEXT];
-    ssize_t n = readlink(at, text, sizeof text);
-    if (n < 0) return at; /* no link, or nothing there */
-    if (links == MAX_LINKS || n == (ssize_t)sizeof text) {
-      free(at);
-      errno = ELOOP;
-      return NULL;
-    }
-    text[n] = 0;
-    char *next = in_folder_of(at, text);
-    free(at);
-    at = next;
-  }
-  return NULL;
-}
-
 /* Opens a new file in the target's folder, under a short name: one made from the target's could be too long. */
 static int open_beside(output *o)
 {
   for (int i = 0; i < MAX_TRIES; ++i) {
     char name[64];
     snprintf(name, sizeof name, ".hbmcheck-%ld-%d", (long)getpid(), i);
-    char *beside = in_folder_of(o->target, name);
+    char *beside = file_beside(o->target, name);
     if (!beside) return -1;
     int fd = open(beside, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (fd >= 0) {
       o->beside = beside;
+      remember(beside);
       return fd;
     }
     free(beside);
@@ -75,7 +75,7 @@ static int open_regular(output *o, const char *path, const struct stat *old)
 {
   /* rename would replace a read-only file, too */
   if (old && access(path, W_OK) != 0) return -1;
-  o->target = follow_links(path);
+  o->target = file_follow_links(path);
   if (!o->target) return -1;
   int fd = open_beside(o);
   /* fails on a file system without permissions, which has none to keep */
@@ -92,6 +92,7 @@ static bool is_standard_output(const struct stat *st)
 static FILE *open_stream(output *o, const char *path)
 {
   struct stat st;
+  if (path && !strcmp(path, "-")) path = NULL;
   bool exists = path && stat(path, &st) == 0;
   if (!path || (exists && is_standard_output(&st))) return stdout;
   if (!*path) {
@@ -112,7 +113,10 @@ static void discard(output *o)
 {
   int why = errno;
   if (o->stream && o->stream != stdout) fclose(o->stream);
-  if (o->beside) unlink(o->beside);
+  if (o->beside) {
+    unlink(o->beside);
+    forget(o->beside);
+  }
   free(o->beside);
   free(o->target);
   free(o);
@@ -151,6 +155,7 @@ hc_status output_commit(output *o)
 {
   bool good = finish_stream(o);
   if (good && o->beside && (good = rename(o->beside, o->target) == 0)) {
+    forget(o->beside);
     free(o->beside);
     o->beside = NULL;
   }

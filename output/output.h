@@ -12,7 +12,7 @@
 
 typedef struct output output;
 
-/* path = NULL is standard output: flushed and checked by the commit, not closed.
+/* path = NULL or "-" is standard output: flushed and checked by the commit, not closed.
  * HC_IO (a directory, no such folder, not writable; errno says which) or HC_NO_MEMORY, with *out = NULL. */
 hc_status output_open(const char *path, output **out);
 FILE *output_stream(output *o);
@@ -21,5 +21,9 @@ FILE *output_stream(output *o);
 hc_status output_commit(output *o);
 /* o = NULL does nothing. */
 void output_abandon(output *o);
+
+/* Removes what is being written beside the names asked for, for a signal handler that then ends the program: nothing
+ * else works on an output after it. Async-signal-safe. */
+void output_abandon_all(void);
 
 #endif

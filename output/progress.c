@@ -1,6 +1,7 @@
 /* progress.c - see progress.h. Proof: tests/output/test_progress.c. */
 #include "output/progress.h"
 
+#include <errno.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -10,6 +11,7 @@
 #include <unistd.h>
 
 #include "base/utf8.h"
+#include "output/output.h"
 
 enum { LINE_ROOM = 512, MIN_ELAPSED = 1 /* [s] below that an estimate is noise */ };
 static const double interval = 0.1; /* [s] between two drawings */
@@ -19,15 +21,54 @@ struct progress {
   double start, drawn; /* [s] on the monotonic clock */
 };
 
-/* The command line's only variable outside a function: a signal handler gets no argument, so what it leaves behind
- * has to be at a fixed place. Written by the handler alone, never cleared. */
-static volatile sig_atomic_t stop_signal;
+static const struct timespec patience = {.tv_nsec = 700000000}; /* for the work to end by itself */
 
-static void on_signal(int number) { stop_signal = number; }
+/* Variables outside a function: a signal handler gets no argument, so what it needs has to be at a fixed place. */
+static volatile sig_atomic_t stop_signal; /* written by the handler alone, never cleared */
+static volatile sig_atomic_t line_drawn;  /* the progress line stands on the terminal */
+static volatile sig_atomic_t stop_code;   /* exit code when patience is over */
+static volatile sig_atomic_t child;       /* process id, 0: none */
+static timer_t out_of_patience;           /* made before the handlers are installed */
+static bool can_wait;                     /* it was */
 
-void progress_install_signals(void)
+/* Ends the program wherever it is: async-signal-safe calls only. */
+static void stop_at_once(int number)
+{
+  static const char erase[] = "\r\033[K",
+                    words[] = "hbmcheck: stopped on request; what was under way is lost, files are whole or as they "
+                              "were\n";
+  (void)number;
+  if (child > 0) kill(child, SIGKILL);
+  output_abandon_all();
+  ssize_t said = line_drawn ? write(STDERR_FILENO, erase, sizeof erase - 1) : 0;
+  if (said >= 0) said = write(STDERR_FILENO, words, sizeof words - 1);
+  (void)said; /* or not: nothing more can be done */
+  _exit(stop_code);
+}
+
+static void on_signal(int number)
+{
+  if (!stop_signal && can_wait) {
+    const int before = errno;
+    const struct itimerspec once = {.it_value = patience};
+    struct sigaction end = {.sa_handler = stop_at_once};
+    sigemptyset(&end.sa_mask);
+    if (sigaction(SIGALRM, &end, NULL) == 0) timer_settime(out_of_patience, 0, &once, NULL);
+    errno = before;
+  }
+  stop_signal = number;
+}
+
+void progress_install_signals(int exit_code)
 {
   static const int numbers[] = {SIGINT, SIGTERM, SIGHUP};
+  struct sigevent alarm = {.sigev_notify = SIGEV_SIGNAL, .sigev_signo = SIGALRM};
+  sigset_t heard;
+  sigemptyset(&heard);
+  sigaddset(&heard, SIGALRM);
+  stop_code = exit_code;
+  can_wait =
+      timer_create(CLOCK_MONOTONIC, &alarm, &out_of_patience) == 0 && sigprocmask(SIG_UNBLOCK, &heard, NULL) == 0;
   for (int i = 0; i < 3; ++i) {
     struct sigaction old, action = {.sa_handler = on_signal, .sa_flags = SA_RESTART | (int)SA_RESETHAND};
     sigemptyset(&action.sa_mask);
@@ -36,6 +77,8 @@ void progress_install_signals(void)
 }
 
 int progress_interrupted(void) { return stop_signal; }
+
+void progress_child(pid_t pid) { child = (sig_atomic_t)pid; }
 
 static double clock_seconds(void)
 {
@@ -87,6 +130,7 @@ static void draw_line(progress *p, double done)
   p->drawn = clock_seconds();
   /* a full line would wrap */
   progress_line(line, sizeof line, p->label, done, p->drawn - p->start, terminal_columns() - 1);
+  line_drawn = true;
   fprintf(stderr, "\r%s\033[K", line);
   fflush(stderr);
 }
@@ -131,6 +175,7 @@ void progress_end(progress *p)
   if (p->label) {
     fputs("\r\033[K", stderr);
     fflush(stderr);
+    line_drawn = false;
   }
   free(p->label);
   free(p);

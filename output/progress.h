@@ -1,18 +1,27 @@
 /* progress.h - a line on the terminal during long work, and signals that stop it: SIGINT, SIGTERM and SIGHUP. For the
- * command line only: the library handles no signals and prints nothing. */
+ * command line only: the library handles no signals and prints nothing.
+ *
+ *     a signal -> ticks answer false, the work ends by itself and says what it has found
+ *              -> 0.7 s later, where no tick came (reading a pipe, inside one long evaluation, waiting for gnuplot):
+ *                 the program ends at once, files whole or as they were */
 #ifndef HC_PROGRESS_H
 #define HC_PROGRESS_H
 
 #include <stdbool.h>
 #include <stddef.h>
+#include <sys/types.h>
 
 #include "base/status.h"
 
 typedef struct progress progress;
 
-/* From now on the first SIGINT, SIGTERM or SIGHUP makes every tick answer false; the second of its kind kills. A
- * signal that was ignored (nohup) stays ignored. Call once, early. */
-void progress_install_signals(void);
+/* From now on the first SIGINT, SIGTERM or SIGHUP makes every tick answer false, and 0.7 s later ends the program with
+ * exit_code, a message and without its child and files beside (output.h); the second of its kind kills. A signal that
+ * was ignored (nohup) stays ignored. Call once, early. */
+void progress_install_signals(int exit_code);
+
+/* The process that is waited for, and is not to outlive this one; 0 when there is none any more. */
+void progress_child(pid_t pid);
 
 /* The signal that asked to stop, 0 for none. Any thread may ask. */
 int progress_interrupted(void);

@@ -1,11 +1,14 @@
 /* rows.c - see rows.h. Each list is written once and expanded twice: to the columns, and to the function that fills
  * a row.
- *   X(kind, name, is it there, value)   with r the row */
+ *   X(kind, name, is it there, value)   with r the row; C(...): only where the sweep is in cycles per time */
 #include "output/rows.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
+
+#include "base/constants.h"
+#include "compare/motion.h"
 
 /* Questions about a row, for the lists below. */
 static bool settled(const steady_row *r) { return r->status == HC_OK; }
@@ -17,6 +20,7 @@ static bool prediction_known(const comparison_row *r)
 {
   return !isnan(r->hbm_predicted.amplitude) && !isnan(r->transient_predicted.amplitude);
 }
+static const char *yes_no(bool yes) { return yes ? "yes" : "no"; }
 static bool has_hbm(const comparison_row *r) { return r->branch >= 0 && r->hbm_status == HC_OK; }
 static bool has_orbit(const comparison_row *r) { return r->orbit_status == HC_OK; }
 static bool has_transient(const comparison_row *r)
@@ -39,8 +43,9 @@ static const char *stable_text(const response_row *r)
 }
 
 /* clang-format off */
-#define FRF_COLUMNS(X)                                                      \
+#define FRF_COLUMNS(X, C)                                                   \
   X(REAL,    "omega",      true, r->point.omega)                            \
+  C(REAL,    "frequency",  true, r->point.omega / TWO_PI)                   \
   X(INTEGER, "branch",     true, r->point.branch)                           \
   X(REAL,    "amplitude",  true, r->measures.amplitude)                     \
   X(REAL,    "max",        true, r->measures.max)                           \
@@ -52,10 +57,12 @@ static const char *stable_text(const response_row *r)
   X(REAL,    "multiplier", r->stability_known, r->stability.multiplier)     \
   X(TEXT,    "contact",    true, contact_regime_name(r->measures.contact.regime)) \
   X(INTEGER, "iterations", true, r->point.iterations)                       \
-  X(REAL,    "residual",   true, r->point.residual)
+  X(REAL,    "residual",   true, r->point.residual)                         \
+  X(TEXT,    "mean_free",  true, yes_no(r->measures.contact.free_sliders > 0))
 
-#define TRANSIENT_COLUMNS(X)                                                \
+#define TRANSIENT_COLUMNS(X, C)                                             \
   X(REAL,    "omega",      true, r->result.omega)                           \
+  C(REAL,    "frequency",  true, r->result.omega / TWO_PI)                  \
   X(TEXT,    "verdict",    true, steady_verdict_text(r, (char[24]){0}))     \
   X(REAL,    "amplitude",  measured(r), r->result.amplitude)                \
   X(REAL,    "max",        measured(r), r->result.max)                      \
@@ -73,10 +80,12 @@ static const char *stable_text(const response_row *r)
   X(REAL,    "multiplier", settled(r), r->result.multiplier)                \
   X(INTEGER, "free_sliders", settled(r), r->result.free_sliders)            \
   X(REAL,    "lyapunov",   measured(r), r->result.lyapunov)                 \
-  X(REAL,    "from_regularisation", settled(r), r->from_regularisation)
+  X(REAL,    "from_regularisation", settled(r), r->from_regularisation)     \
+  X(TEXT,    "mean_free",  settled(r), yes_no(motion_mean_is_free(&r->result)))
 
-#define COMPARE_COLUMNS(X)                                                  \
+#define COMPARE_COLUMNS(X, C)                                               \
   X(REAL,    "omega",               true, r->omega)                         \
+  C(REAL,    "frequency",           true, r->omega / TWO_PI)                \
   X(INTEGER, "branch",              r->branch >= 0, r->branch)              \
   X(TEXT,    "verdict",             true, comparison_verdict_text(r, (char[24]){0})) \
   X(REAL,    "hbm_amplitude",       has_hbm(r), r->hbm.amplitude)           \
@@ -105,9 +114,10 @@ static const char *stable_text(const response_row *r)
   X(REAL,    "hbm_predicted_waveform", true, r->hbm_predicted.waveform)     \
   X(REAL,    "transient_predicted_harmonic_1", true, r->transient_predicted.harmonic_1) \
   X(REAL,    "transient_predicted_waveform", true, r->transient_predicted.waveform) \
-  X(TEXT,    "unexpected",          prediction_known(r), r->unexpected ? "yes" : "no")
+  X(TEXT,    "unexpected",          prediction_known(r), yes_no(r->unexpected)) \
+  X(TEXT,    "mean_free",           has_hbm(r), yes_no(comparison_mean_free(r)))
 
-#define CURVE_COLUMNS(X)                                                    \
+#define CURVE_COLUMNS(X, C)                                                 \
   X(INTEGER, "harmonics",       true, r->harmonics)                         \
   X(INTEGER, "samples",         r->samples > 0, r->samples)                 \
   X(INTEGER, "points",          true, r->points)                            \
@@ -117,12 +127,13 @@ static const char *stable_text(const response_row *r)
   X(INTEGER, "evaluations",     true, r->evaluations)                       \
   X(REAL,    "peak_amplitude",  true, r->peak_amplitude)                    \
   X(REAL,    "peak_omega",      true, r->peak_omega)                        \
+  C(REAL,    "peak_frequency",  true, r->peak_omega / TWO_PI)               \
   X(REAL,    "peak_harmonic_1", true, r->peak_harmonic_1)                   \
   X(INTEGER, "reached_end",     true, r->reached_end)                       \
   X(INTEGER, "arclength",       true, r->arclength)                         \
   X(INTEGER, "left_at_start",   true, r->left_at_start)
 
-#define ACCURACY_COLUMNS(X)                                                 \
+#define ACCURACY_COLUMNS(X, C)                                              \
   X(INTEGER, "harmonics",       true, r->harmonics)                         \
   X(TEXT,    "force",           true, r->samples > 0 ? "sampled" : "exact") \
   X(INTEGER, "samples",         r->samples > 0, r->samples)                 \
@@ -131,6 +142,7 @@ static const char *stable_text(const response_row *r)
   X(REAL,    "aliasing",        true, r->aliasing)                          \
   X(REAL,    "peak_amplitude",  true, r->peak_amplitude)                    \
   X(REAL,    "peak_omega",      true, r->peak_omega)                        \
+  C(REAL,    "peak_frequency",  true, r->peak_omega / TWO_PI)               \
   X(REAL,    "peak_amplitude_error", true, r->peak_error)                   \
   X(REAL,    "peak_omega_error", true, r->peak_omega_error)                 \
   X(INTEGER, "turning_points",  r->possible, r->turning_points)             \
@@ -142,10 +154,11 @@ static const char *stable_text(const response_row *r)
   X(REAL,    "seconds",         true, r->seconds)                           \
   X(TEXT,    "curve",           true, curve_text(r))
 
-#define ORDER_COLUMNS(X)                                                    \
+#define ORDER_COLUMNS(X, C)                                                 \
   X(TEXT,    "quantity",        true, r->quantity)                          \
   X(INTEGER, "harmonics",       r->harmonics > 0, r->harmonics)             \
   X(REAL,    "omega",           true, r->omega)                             \
+  C(REAL,    "frequency",       true, r->omega / TWO_PI)                    \
   X(REAL,    "order",           true, r->fit.order)                         \
   X(REAL,    "spread",          true, r->fit.spread)                        \
   X(REAL,    "from",            true, r->fit.from)                          \
@@ -173,45 +186,52 @@ static void fill_TEXT(row_cell *c, bool there, const char *value)
 
 #define COLUMN(kind, name, there, value) {name, TABLE_##kind},
 #define FILL(kind, name, there, value)   fill_##kind(cells++, there, value);
+#define NONE(kind, name, there, value)
 
-static const table_column frf_columns[] = {FRF_COLUMNS(COLUMN)};
-static const table_column transient_columns[] = {TRANSIENT_COLUMNS(COLUMN)};
-static const table_column compare_columns[] = {COMPARE_COLUMNS(COLUMN)};
-static const table_column curve_columns[] = {CURVE_COLUMNS(COLUMN)};
-static const table_column accuracy_columns[] = {ACCURACY_COLUMNS(COLUMN)};
-static const table_column order_columns[] = {ORDER_COLUMNS(COLUMN)};
+typedef struct columns {
+  const table_column *columns;
+  int n;
+} columns;
 
-enum {
-  N_FRF = sizeof frf_columns / sizeof *frf_columns,
-  N_TRANSIENT = sizeof transient_columns / sizeof *transient_columns
-};
-enum {
-  N_COMPARE = sizeof compare_columns / sizeof *compare_columns,
-  N_CURVE = sizeof curve_columns / sizeof *curve_columns
-};
-enum {
-  N_ACCURACY = sizeof accuracy_columns / sizeof *accuracy_columns,
-  N_ORDER = sizeof order_columns / sizeof *order_columns
-};
-_Static_assert((int)N_ACCURACY <= (int)ROWS_MOST && (int)N_ORDER <= (int)ROWS_MOST, "callers keep ROWS_MOST cells");
-_Static_assert((int)N_FRF <= (int)ROWS_MOST && (int)N_TRANSIENT <= (int)ROWS_MOST, "callers keep ROWS_MOST cells");
-_Static_assert((int)N_COMPARE <= (int)ROWS_MOST && (int)N_CURVE <= (int)ROWS_MOST, "callers keep ROWS_MOST cells");
+#define COLUMNS_OF(name, LIST)                                                                                         \
+  static const table_column name##_plain[] = {LIST(COLUMN, NONE)}, name##_in_cycles[] = {LIST(COLUMN, COLUMN)};        \
+  _Static_assert(sizeof name##_in_cycles / sizeof *name##_in_cycles <= ROWS_MOST, "callers keep ROWS_MOST cells")
+COLUMNS_OF(frf, FRF_COLUMNS);
+COLUMNS_OF(transient, TRANSIENT_COLUMNS);
+COLUMNS_OF(compare, COMPARE_COLUMNS);
+COLUMNS_OF(curve, CURVE_COLUMNS);
+COLUMNS_OF(accuracy, ACCURACY_COLUMNS);
+COLUMNS_OF(order, ORDER_COLUMNS);
 
-const table_column *rows_columns(rows_kind kind, int *n)
+/* [rows_kind][in cycles] */
+/* clang-format off */
+#define BOTH(name) \
+  {{name##_plain, sizeof name##_plain / sizeof *name##_plain}, \
+   {name##_in_cycles, sizeof name##_in_cycles / sizeof *name##_in_cycles}}
+/* clang-format on */
+static const columns all[][2] = {
+    [ROWS_FRF] = BOTH(frf),     [ROWS_TRANSIENT] = BOTH(transient), [ROWS_COMPARE] = BOTH(compare),
+    [ROWS_CURVE] = BOTH(curve), [ROWS_ACCURACY] = BOTH(accuracy),   [ROWS_ORDER] = BOTH(order)};
+
+const table_column *rows_columns(rows_kind kind, bool in_cycles, int *n)
 {
-  switch (kind) {
-  case ROWS_FRF: *n = N_FRF; return frf_columns;
-  case ROWS_TRANSIENT: *n = N_TRANSIENT; return transient_columns;
-  case ROWS_COMPARE: *n = N_COMPARE; return compare_columns;
-  case ROWS_ACCURACY: *n = N_ACCURACY; return accuracy_columns;
-  case ROWS_ORDER: *n = N_ORDER; return order_columns;
-  default: *n = N_CURVE; return curve_columns;
-  }
+  const columns *c = &all[kind][in_cycles];
+  *n = c->n;
+  return c->columns;
 }
 
-void rows_frf(const response_row *r, row_cell *cells) { FRF_COLUMNS(FILL) }
-void rows_transient(const steady_row *r, row_cell *cells) { TRANSIENT_COLUMNS(FILL) }
-void rows_compare(const comparison_row *r, row_cell *cells) { COMPARE_COLUMNS(FILL) }
-void rows_curve(const response_summary *r, row_cell *cells) { CURVE_COLUMNS(FILL) }
-void rows_accuracy(const accuracy_row *r, row_cell *cells) { ACCURACY_COLUMNS(FILL) }
-void rows_order(const order_row *r, row_cell *cells) { ORDER_COLUMNS(FILL) }
+#define ROWS(name, row, LIST)                                                                                          \
+  void rows_##name(const row *r, bool in_cycles, row_cell *cells)                                                      \
+  {                                                                                                                    \
+    if (in_cycles) {                                                                                                   \
+      LIST(FILL, FILL)                                                                                                 \
+    } else {                                                                                                           \
+      LIST(FILL, NONE)                                                                                                 \
+    }                                                                                                                  \
+  }
+ROWS(frf, response_row, FRF_COLUMNS)
+ROWS(transient, steady_row, TRANSIENT_COLUMNS)
+ROWS(compare, comparison_row, COMPARE_COLUMNS)
+ROWS(curve, response_summary, CURVE_COLUMNS)
+ROWS(accuracy, accuracy_row, ACCURACY_COLUMNS)
+ROWS(order, order_row, ORDER_COLUMNS)

@@ -24,15 +24,15 @@ typedef struct row_cell {
   } as;
 } row_cell;
 
-/* The columns of a kind, *n of them; constant. */
-const table_column *rows_columns(rows_kind kind, int *n);
+/* The columns of a kind, *n of them; constant. in_cycles: frequencies in cycles per time stand beside the omegas. */
+const table_column *rows_columns(rows_kind kind, bool in_cycles, int *n);
 
 /* One row: cells[n] in the columns' order. A real that is not a number is not there. Cannot fail. */
-void rows_frf(const response_row *r, row_cell *cells);
-void rows_transient(const steady_row *r, row_cell *cells);
-void rows_compare(const comparison_row *r, row_cell *cells);
-void rows_curve(const response_summary *r, row_cell *cells);
-void rows_accuracy(const accuracy_row *r, row_cell *cells);
-void rows_order(const order_row *r, row_cell *cells);
+void rows_frf(const response_row *r, bool in_cycles, row_cell *cells);
+void rows_transient(const steady_row *r, bool in_cycles, row_cell *cells);
+void rows_compare(const comparison_row *r, bool in_cycles, row_cell *cells);
+void rows_curve(const response_summary *r, bool in_cycles, row_cell *cells);
+void rows_accuracy(const accuracy_row *r, bool in_cycles, row_cell *cells);
+void rows_order(const order_row *r, bool in_cycles, row_cell *cells);
 
 #endif

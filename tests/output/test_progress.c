@@ -196,7 +196,7 @@ static int fate(int (*work)(void), void (*sigint)(int))
   if (child == 0) {
     signal(SIGINT, sigint);
     signal(SIGTERM, SIG_DFL);
-    progress_install_signals();
+    progress_install_signals(3);
     _exit(work());
   }
   int status = 0;

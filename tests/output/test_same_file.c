@@ -1,0 +1,106 @@
+/* test_same_file.c - one file under several names is known as one, two files are two. */
+#include <errno.h>
+#include <fcntl.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "output/same_file.h"
+#include "tests/check.h"
+
+static char folder[] = "/tmp/hbmcheck-same-XXXXXX";
+
+static bool same(const char *a, const char *b)
+{
+  file_identity one, two;
+  assert_true(file_identify(a, -1, &one) && file_identify(b, -1, &two));
+  const bool found = file_same(&one, &two);
+  assert_int_equal(found, file_same(&two, &one));
+  file_forget(&one);
+  file_forget(&two);
+  return found;
+}
+
+static void make(const char *name)
+{
+  FILE *to = fopen(name, "w");
+  assert_non_null(to);
+  assert_int_equal(fclose(to), 0);
+}
+
+static void files_that_are_there(void **state)
+{
+  (void)state;
+  make("a");
+  make("b");
+  assert_int_equal(mkdir("d", 0777) | symlink("a", "soft") | symlink("soft", "softer") | link("a", "hard"), 0);
+  assert_true(same("a", "a") && same("a", "./a") && same("a", "d/../a") && same("soft", "a") && same("softer", "hard"));
+  assert_false(same("a", "b") || same("softer", "b"));
+  assert_false(same("a", "new")); /* one is there, the other is not */
+}
+
+static void files_to_come(void **state)
+{
+  (void)state;
+  char whole[128];
+  snprintf(whole, sizeof whole, "%s/new", folder);
+  assert_int_equal(symlink("new", "to_new") | symlink("../new", "d/up") | symlink(".", "here"), 0);
+  assert_true(same("new", "./new") && same("new", "here/new") && same("new", whole));
+  assert_true(same("to_new", "new") && same("d/up", "to_new"));
+  assert_false(same("new", "newer") || same("new", "d/new"));
+  assert_false(same("missing/new", "missing/new")); /* no folder: nothing will be written there */
+}
+
+static void what_is_no_regular_file(void **state)
+{
+  (void)state;
+  assert_int_equal(mkfifo("pipe", 0666) | symlink("circle", "circle"), 0);
+  assert_false(same("/dev/null", "/dev/null") || same("pipe", "pipe") || same("d", "d") || same("", ""));
+  assert_false(same("circle", "circle"));
+  errno = 0;
+  assert_null(file_follow_links("circle"));
+  assert_int_equal(errno, ELOOP);
+}
+
+static void open_descriptors(void **state)
+{
+  (void)state;
+  int fd = open("a", O_RDONLY);
+  file_identity open_one, named;
+  assert_true(fd >= 0 && file_identify(NULL, fd, &open_one) && file_identify("soft", -1, &named));
+  assert_true(file_same(&open_one, &named));
+  close(fd);
+  assert_true(file_identify(NULL, fd, &open_one));
+  assert_false(file_same(&open_one, &open_one)); /* closed: no file */
+}
+
+static void right_in_a_folder(void **state)
+{
+  (void)state;
+  assert_true(file_is_in("d/x", "d") && file_is_in("d/x", "./here/d") && file_is_in("x", ".") && file_is_in("/x", "/"));
+  assert_false(file_is_in("x", "d") || file_is_in("d/x", ".") || file_is_in("missing/x", "missing"));
+}
+
+static int make_folder(void **state)
+{
+  (void)state;
+  return mkdtemp(folder) && chdir(folder) == 0 ? 0 : -1;
+}
+
+static int remove_folder(void **state)
+{
+  char line[64];
+  (void)state;
+  snprintf(line, sizeof line, "cd / && rm -r %s", folder);
+  return system(line);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(files_that_are_there),    cmocka_unit_test(files_to_come),
+      cmocka_unit_test(what_is_no_regular_file), cmocka_unit_test(open_descriptors),
+      cmocka_unit_test(right_in_a_folder),
+  };
+  check_watchdog(20);
+  return cmocka_run_group_tests_name("output.same_file", tests, make_folder, remove_folder);
+}
