@@ -1,4 +1,5 @@
 /* case_check.c - rules across several fields. The message is about the field of them that was given last. */
+#include <stdbool.h>
 #include <string.h>
 
 #include "cases/case_reader.h"
@@ -37,6 +38,19 @@ static hc_status check_samples(case_reader *r)
   return HC_BAD_INPUT;
 }
 
+/* What adapts along the curve drops points and goes back, which fixed steps do not. */
+static hc_status check_fixed_step(case_reader *r)
+{
+  const hbm_settings *h = &r->sc.hbm;
+  bool samples = h->force == HBM_FORCE_SAMPLED && h->samples == HBM_AUTO, harmonics = h->harmonics == HBM_AUTO;
+  if (h->continuation != HBM_CONTINUATION_FIXED_STEP || !(samples || harmonics)) return HC_OK;
+  const char *name = harmonics ? "harmonics" : "samples";
+  message_add(case_blame(r, last_given(r, field_named("hbm", "continuation"), field_named("hbm", name))),
+              "hbm.%s: auto adapts the step, too, expected a number of %s with hbm.continuation: fixed_step", name,
+              name);
+  return HC_BAD_INPUT;
+}
+
 /* The regularised law has no closed form. */
 static hc_status check_method(case_reader *r)
 {
@@ -52,28 +66,27 @@ static hc_status check_gate_ranges(case_reader *r)
 {
   static const char *const limits[] = {"range_amplitude", "range_harmonic_1", "range_mean", "range_waveform"};
   const field *ranges = field_named("gate", "ranges");
-  const number_list *omega = &r->sc.gate.ranges.omega;
+  const number_list *ends = &r->sc.gate.ranges.ends;
   int longest = 0;
-  for (int i = 0; i < omega->n; i += 2) {
-    if (i + 1 < omega->n && omega->v[i] <= omega->v[i + 1]) continue;
+  for (int i = 0; i < ends->n; i += 2) {
+    if (i + 1 < ends->n && ends->v[i] <= ends->v[i + 1]) continue;
     message *m = case_blame(r, r->at[field_index(ranges)]);
-    if (i + 1 == omega->n)
-      message_add(m, "gate.ranges ends in a single %.10g, expected FROM, TO, FROM, TO, ...", omega->v[i]);
-    else
-      message_add(m, "gate.ranges has a range from %.10g to %.10g, expected FROM <= TO", omega->v[i], omega->v[i + 1]);
+    if (i + 1 == ends->n)
+      message_add(m, "gate.ranges ends in a single %.10g, expected FROM, TO, FROM, TO, ...", ends->v[i]);
+    else message_add(m, "gate.ranges has a range from %.10g to %.10g, expected FROM <= TO", ends->v[i], ends->v[i + 1]);
     return HC_BAD_INPUT;
   }
   for (size_t k = 0; k < sizeof limits / sizeof *limits; ++k) {
     const field *f = field_named("gate", limits[k]);
     int n = ((const number_list *)field_look(f, &r->sc))->n;
     if (n > longest) longest = n;
-    if (n == 0 || n == omega->n / 2) continue;
+    if (n == 0 || n == ends->n / 2) continue;
     message_add(case_blame(r, last_given(r, f, ranges)),
                 "gate.%s has %d limit%s for %d range%s in gate.ranges, expected one for each", limits[k], n,
-                n == 1 ? "" : "s", omega->n / 2, omega->n == 2 ? "" : "s");
+                n == 1 ? "" : "s", ends->n / 2, ends->n == 2 ? "" : "s");
     return HC_BAD_INPUT;
   }
-  if (omega->n == 0 || longest > 0) return HC_OK;
+  if (ends->n == 0 || longest > 0) return HC_OK;
   message_add(case_blame(r, r->at[field_index(ranges)]),
               "gate.ranges without limits, expected gate.range_amplitude or another gate.range_... too");
   return HC_BAD_INPUT;
@@ -96,9 +109,11 @@ static hc_status check_contacts(case_reader *r)
 
 hc_status case_check(case_reader *r)
 {
+  r->sc.gate.ranges.in_cycles = r->sc.in_cycles;
   hc_status st = check_contacts(r);
   if (st == HC_OK) st = check_sweep(r);
   if (st == HC_OK) st = check_samples(r);
+  if (st == HC_OK) st = check_fixed_step(r);
   if (st == HC_OK) st = check_method(r);
   if (st == HC_OK) st = check_gate_ranges(r);
   return st;

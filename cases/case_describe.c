@@ -13,11 +13,11 @@ static const char *expected(const field *f, char text[128])
   return text;
 }
 
-static bool either_of_two(const field *f) { return !f->fallback && f->rival; }
+static bool either_of_two(const field *f) { return !f->fallback && field_rival(f, 0); }
 
 static void write_default(const field *f, FILE *to)
 {
-  if (either_of_two(f)) fprintf(to, "required, unless %s is given", f->rival);
+  if (either_of_two(f)) fprintf(to, "required, unless %s is given", field_rival(f, 0)->name);
   else if (!f->fallback) fputs("required", to);
   else if (*f->fallback) fputs(f->fallback, to);
   else fputs(f->kind == FIELD_TEXT ? "the file's name" : "none", to);
@@ -60,7 +60,9 @@ static void describe_field(const field *f, FILE *to)
   if (*f->unit) fprintf(to, "  unit      [%s]\n", f->unit);
   fprintf(to, "  expected  %s\n  default   ", expected(f, text));
   write_default(f, to);
-  if (f->rival && !either_of_two(f)) fprintf(to, "\n  instead   %s.%s", f->section, f->rival);
+  const field *rival;
+  for (int i = 0; !either_of_two(f) && (rival = field_rival(f, i)) != NULL; ++i)
+    fprintf(to, "%s%s.%s", i ? ", " : "\n  instead   ", rival->section, rival->name);
   const char *example = f->fallback && *f->fallback ? f->fallback : f->choices ? f->choices[0] : "VALUE";
   fprintf(to, "\n  set it    --set '%s=%s'\n", field_path(f, 0, path), example);
 }

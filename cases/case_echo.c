@@ -16,14 +16,17 @@ static bool choices_are_known(const scene *sc)
   return sc->n_contacts >= 0 && sc->n_contacts <= SCENE_MAX_CONTACTS;
 }
 
-/* Of two rivals (compare.omega, compare.points) the one in force is written: the list if it is not empty, else the
- * other. */
+/* Of rivals the one in force is written: of those that give the sweep the one that did; else the list if it is not
+ * empty (compare.omega), else the other (compare.points). */
 static bool is_written(const field *f, const scene *sc)
 {
   if (f->flags & FIELD_NO_ECHO) return false;
+  if (f->in_cycles) return (f->scale != 0) == sc->in_cycles;
   if (f->kind == FIELD_REALS || f->kind == FIELD_INTEGERS) return ((const number_list *)field_look(f, sc))->n > 0;
-  const field *rival = f->rival ? field_find(f->section, f->rival, strlen(f->rival)) : NULL;
-  return !rival || !is_written(rival, sc);
+  const field *rival;
+  for (int i = 0; (rival = field_rival(f, i)) != NULL; ++i)
+    if (is_written(rival, sc)) return false;
+  return true;
 }
 
 static void write_contact(const scene_contact *c, FILE *to)

@@ -100,8 +100,8 @@ hc_status case_find_target(case_reader *r, const char *path, size_t length, case
 void *case_target_base(case_reader *r, case_target t);
 void case_target_given(case_reader *r, case_target t);
 
-/* f is being given: its rival (sweep.frequency is sweep.omega's), if it has one, goes back to its default. */
-void case_drop_rival(case_reader *r, const field *f);
+/* f is being given: its rivals (sweep.frequency is sweep.omega's) go back to their defaults. */
+void case_drop_rivals(case_reader *r, const field *f);
 
 /* Apply assignment number k, from 1. */
 hc_status case_set_apply(case_reader *r, int k);

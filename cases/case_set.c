@@ -1,8 +1,8 @@
 /* case_set.c - assignments PATH=VALUE on top of a case file.
  *   hbm.samples=2048   title=Any text   sweep.omega=[3,20] or 3,20
  *   contacts[0].gap=-1   contacts[0]={...}   contacts=[...]
- * An index one past the last contact appends one. Of two rivals (sweep.omega, sweep.frequency) the one
- * assigned last counts. */
+ * An index one past the last contact appends one. Of rivals (sweep.omega, sweep.frequency) the one assigned last
+ * counts. */
 #include <string.h>
 
 #include "cases/case_reader.h"
@@ -91,12 +91,13 @@ void case_target_given(case_reader *r, case_target t)
   else r->at[field_index(t.f)] = r->here;
 }
 
-void case_drop_rival(case_reader *r, const field *f)
+void case_drop_rivals(case_reader *r, const field *f)
 {
-  const field *rival = f->rival ? field_find(f->section, f->rival, strlen(f->rival)) : NULL;
-  if (!rival) return;
-  field_reset(rival, &r->sc);
-  r->at[field_index(rival)] = (case_place){0};
+  const field *rival;
+  for (int i = 0; (rival = field_rival(f, i)) != NULL; ++i) {
+    field_reset(rival, &r->sc);
+    r->at[field_index(rival)] = (case_place){0};
+  }
 }
 
 static hc_status set_field(case_reader *r, case_target t, const char *text)
@@ -107,7 +108,7 @@ static hc_status set_field(case_reader *r, case_target t, const char *text)
   int bad;
   message_start(&why, why_text, sizeof why_text);
   void *base = case_target_base(r, t);
-  case_drop_rival(r, t.f);
+  case_drop_rivals(r, t.f);
   field_split(t.f, text, strlen(text), &v);
   if (!field_store(t.f, base, &v, &why, &bad)) {
     message_add(case_blame(r, r->here), "%s%s", field_path(t.f, t.contact, path), why.text);

@@ -192,8 +192,11 @@ bool field_store(const field *f, void *base, const field_value *v, message *m, i
   case FIELD_FLAG: return store_flag(f, to, v, m);
   case FIELD_CHOICE: return store_choice(f, to, v, m);
   case FIELD_TEXT: return store_text(f, to, v, m);
-  default: return store_list(f, to, v, m, bad);
+  default: break;
   }
+  if (!store_list(f, to, v, m, bad)) return false;
+  if (f->in_cycles) *(bool *)((char *)base + f->in_cycles) = f->scale != 0;
+  return true;
 }
 
 static void trim(const char **text, size_t *length)
@@ -272,11 +275,15 @@ static void write_number(double x, FILE *to)
   fputs(number_write(x, text), to);
 }
 
-static void write_list(const double *v, int n, FILE *to)
+/* As it was written: divided by a scale of 2 pi and multiplied again, a double comes back to the bit (tests/cases/
+ * test_echo.c: random scenes). */
+static double unscaled(double x, double scale) { return scale != 0 ? x / scale : x; }
+
+static void write_list(const double *v, int n, double scale, FILE *to)
 {
   for (int i = 0; i < n; ++i) {
     fputs(i == 0 ? "[" : ", ", to);
-    write_number(v[i], to);
+    write_number(unscaled(v[i], scale), to);
   }
   putc(']', to);
 }
@@ -293,7 +300,7 @@ void field_write(const field *f, const void *base, FILE *to)
   case FIELD_FLAG: fputs(*(const bool *)at ? "true" : "false", to); return;
   case FIELD_CHOICE: fputs(f->choices[choice_at(at)], to); return;
   case FIELD_TEXT: write_text(at, to); return;
-  case FIELD_PAIR: write_list(at, 2, to); return;
-  default: write_list(((const number_list *)at)->v, ((const number_list *)at)->n, to); return;
+  case FIELD_PAIR: write_list(at, 2, f->scale, to); return;
+  default: write_list(((const number_list *)at)->v, ((const number_list *)at)->n, f->scale, to); return;
   }
 }

@@ -11,6 +11,7 @@ static const char *const restart_names[] = {
 static const char *const continuation_names[] = {[HBM_CONTINUATION_AUTO] = "auto",
                                                  [HBM_CONTINUATION_NATURAL] = "natural",
                                                  [HBM_CONTINUATION_ARCLENGTH] = "arclength",
+                                                 [HBM_CONTINUATION_FIXED_STEP] = "fixed_step",
                                                  NULL};
 static const char *const law_names[] = {
     [TRANSIENT_LAW_REGULARISED] = "regularised", [TRANSIENT_LAW_EXACT] = "exact", NULL};
@@ -25,6 +26,9 @@ static const char *const start_names[] = {[TRANSIENT_START_HBM] = "hbm",
                                           [TRANSIENT_START_UP] = "up",
                                           [TRANSIENT_START_DOWN] = "down",
                                           NULL};
+
+static const char *const nonlinear_names[] = {
+    [GATE_NONLINEAR_ANY] = "any", [GATE_NONLINEAR_REQUIRED] = "required", NULL};
 
 static const field_section sections[] = {
     {"", "one scene a file"},
@@ -51,6 +55,7 @@ static const field_section sections[] = {
 #define UNBOUNDED    WITHIN(-INFINITY, INFINITY)
 #define NOT_NEGATIVE WITHIN(0, INFINITY)
 #define POSITIVE     .flags = FIELD_OPEN, WITHIN(0, INFINITY)
+#define GIVES_SWEEP  .group = "sweep", .in_cycles = offsetof(scene, in_cycles)
 #define MOST_SAMPLES 16777216 /* 2^24: sizes in bytes stay far inside an int */
 
 /* clang-format off */
@@ -82,11 +87,11 @@ static const field table[] = {
   {"contacts", "gap", "g", FIELD_REAL, .unit = "length", CONTACT(law.gap), .fallback = "0", UNBOUNDED,
    .meaning = "> 0: preload, N0 = kn gap; < 0: clearance"},
 
-  {"sweep", "omega", "", FIELD_PAIR, .unit = "rad/time", SCENE(omega_from), POSITIVE, .rival = "frequency",
+  {"sweep", "omega", "", FIELD_PAIR, .unit = "rad/time", SCENE(omega_from), POSITIVE, GIVES_SWEEP,
    .meaning = "from and to; downwards if from > to"},
-  {"sweep", "frequency", "", FIELD_PAIR, .unit = "cycles/time", .flags = FIELD_OPEN | FIELD_NO_ECHO,
-   SCENE(omega_from), WITHIN(0, INFINITY),
-   .scale = TWO_PI, .rival = "omega", .meaning = "instead of omega = 2 pi frequency"},
+  {"sweep", "frequency", "", FIELD_PAIR, .unit = "cycles/time", SCENE(omega_from), POSITIVE, GIVES_SWEEP,
+   .scale = TWO_PI,
+   .meaning = "instead of omega = 2 pi frequency; then --at, gate.ranges and all results are in cycles, too"},
 
   {"hbm", "harmonics", "H", FIELD_INTEGER, .unit = "1", .flags = FIELD_AUTO, SCENE(hbm.harmonics), .fallback = "5",
    WITHIN(1, HBM_MAX_HARMONICS), .meaning = "the highest harmonic kept"},
@@ -99,7 +104,11 @@ static const field table[] = {
   {"hbm", "slider_restart", "", CHOICE(restart_names, hbm.restart), .fallback = "interpolated",
    .meaning = "where the slider starts after a separation; for the sampled force"},
   {"hbm", "continuation", "", CHOICE(continuation_names, hbm.continuation), .fallback = "auto",
-   .meaning = "how the response curve is followed"},
+   .meaning = "how the response curve is followed; fixed_step: as by a simple code"},
+  {"hbm", "step", "", FIELD_REAL, .unit = "1", SCENE(hbm.step), .fallback = "0.02", .flags = FIELD_OPEN, WITHIN(0, 1),
+   .meaning = "for fixed_step: arc length from point to point (docs/theory.md, section 6)"},
+  {"hbm", "iterations", "", FIELD_INTEGER, .unit = "1", SCENE(hbm.iterations), .fallback = "20", WITHIN(1, 1000),
+   .meaning = "for fixed_step: the most that Newton may take at a point"},
   {"hbm", "tolerance", "", FIELD_REAL, .unit = "1", SCENE(hbm.tolerance), .fallback = "1e-10", WITHIN(1e-14, 1e-2),
    .meaning = "of the residual, relative to the forces that make it up"},
   {"hbm", "accuracy", "", FIELD_REAL, .unit = "1", SCENE(hbm.accuracy), .fallback = "1e-4", WITHIN(1e-12, 1e-1),
@@ -127,9 +136,12 @@ static const field table[] = {
    WITHIN(1, 1e7), .meaning = "forcing periods before the answer is not_settled"},
 
   {"compare", "omega", "", FIELD_REALS, .unit = "rad/time", SCENE(compare.omega),
-   .fallback = "", POSITIVE, .rival = "points", .meaning = "the frequencies at which to compare"},
+   .fallback = "", POSITIVE, .group = "where", .meaning = "the frequencies at which to compare"},
+  {"compare", "frequency", "", FIELD_REALS, .unit = "cycles/time", .flags = FIELD_OPEN | FIELD_NO_ECHO,
+   SCENE(compare.omega), .fallback = "", WITHIN(0, INFINITY), .scale = TWO_PI, .group = "where",
+   .meaning = "the same in cycles, instead of omega = 2 pi frequency"},
   {"compare", "points", "", FIELD_INTEGER, .unit = "1", SCENE(compare.points), .fallback = "20",
-   WITHIN(1, NUMBER_LIST_MAX), .rival = "omega",
+   WITHIN(1, NUMBER_LIST_MAX), .group = "where",
    .meaning = "instead: how many frequencies, spread over the sweep, dense at peaks"},
   {"compare", "harmonics", "", FIELD_INTEGERS, .unit = "1", SCENE(compare.harmonics), .fallback = "[1, 3, 5, 10]",
    WITHIN(1, HBM_MAX_HARMONICS), .meaning = "truncation orders of the table that compare --tables prints"},
@@ -144,8 +156,10 @@ static const field table[] = {
    .meaning = "of harmonic 0"},
   {"gate", "waveform", "", FIELD_REAL, .unit = "1", SCENE(gate.most.waveform), .fallback = "5e-3", POSITIVE,
    .meaning = "anywhere in the period"},
-  {"gate", "ranges", "", FIELD_REALS, .unit = "rad/time", SCENE(gate.ranges.omega), .fallback = "", POSITIVE,
-   .meaning = "FROM, TO, FROM, TO, ...: where the limits below hold; the last range counts"},
+  {"gate", "nonlinear", "", CHOICE(nonlinear_names, gate.nonlinear), .fallback = "any",
+   .meaning = "required: fail if no contact changes its state at any frequency; any: only say so"},
+  {"gate", "ranges", "", FIELD_REALS, .unit = "rad/time", SCENE(gate.ranges.ends), .fallback = "", POSITIVE,
+   .meaning = "FROM, TO, ...: where the limits below hold, the last range first; in the sweep's unit"},
   {"gate", "range_amplitude", "", FIELD_REALS, .unit = "1", SCENE(gate.ranges.amplitude), .fallback = "", POSITIVE,
    .meaning = "instead of amplitude in the ranges: a limit for each; none: as elsewhere"},
   {"gate", "range_harmonic_1", "", FIELD_REALS, .unit = "1", SCENE(gate.ranges.harmonic_1), .fallback = "", POSITIVE,
@@ -171,6 +185,16 @@ int field_count(void) { return COUNT; }
 const field *field_at(int i) { return &table[i]; }
 
 int field_index(const field *f) { return (int)(f - table); }
+
+const field *field_rival(const field *f, int i)
+{
+  for (int k = 0; k < COUNT && f->group; ++k) {
+    const field *other = &table[k];
+    if (other == f || !other->group || strcmp(other->section, f->section) || strcmp(other->group, f->group)) continue;
+    if (i-- == 0) return other;
+  }
+  return NULL;
+}
 
 const field_section *field_section_at(int i) { return i < SECTIONS ? &sections[i] : NULL; }
 

@@ -40,7 +40,10 @@ typedef struct field {
   double low, high;           /* range, of each entry in lists */
   double scale;               /* stored = scale * written; 0 counts as 1 */
   const char *const *choices; /* in the order of the enum, ending in NULL */
-  const char *rival; /* field of the same section that gives the same quantity: never both in one file; or NULL */
+  size_t in_cycles; /* offset in a scene of the bool that becomes true if this field gave the sweep and has a scale, and
+                        false if it has none; 0: of no concern to it */
+  const char *group; /* the fields of a section with one group give the same quantity, each in its own way: never two of
+                        them in one file; or NULL */
   const char *meaning;
 } field;
 
@@ -53,7 +56,8 @@ enum { FIELD_MAX = 64, FIELD_PATH = 64 }; /* rows at most, asserted; characters 
 int field_count(void);
 const field *field_at(int i); /* 0 <= i < field_count(), in the order of the echo, sections together */
 int field_index(const field *f);
-const field_section *field_section_at(int i); /* NULL past the last one; the first is the top level, named "" */
+const field *field_rival(const field *f, int i); /* the i-th other field of its group; NULL past the last one */
+const field_section *field_section_at(int i);    /* NULL past the last one; the first is the top level, named "" */
 const field_section *field_find_section(const char *name, size_t length);
 const field *field_find(const char *section, const char *name, size_t length); /* NULL if there is none */
 

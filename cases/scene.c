@@ -2,6 +2,20 @@
 #include "cases/scene.h"
 
 #include <stddef.h>
+#include <stdio.h>
+
+#include "base/constants.h"
+
+double scene_omega(const scene *sc, double given) { return sc->in_cycles ? TWO_PI * given : given; }
+
+double scene_frequency(const scene *sc, double omega) { return sc->in_cycles ? omega / TWO_PI : omega; }
+
+const char *scene_where(const scene *sc, double omega, char text[SCENE_WHERE])
+{
+  if (sc->in_cycles) snprintf(text, SCENE_WHERE, "frequency = %.10g (omega = %.10g)", omega / TWO_PI, omega);
+  else snprintf(text, SCENE_WHERE, "omega = %.10g", omega);
+  return text;
+}
 
 model_contact scene_model_contact(const scene_contact *c)
 {

@@ -25,11 +25,21 @@ typedef struct scene {
   int n_contacts;
   scene_contact contacts[SCENE_MAX_CONTACTS];
   double omega_from, omega_to; /* [rad/time] > 0, from != to; from > to sweeps downwards */
+  bool in_cycles; /* the sweep was given as sweep.frequency: --at, gate.ranges and results are in cycles/time, too */
   hbm_settings hbm;
   transient_settings transient;
   compare_settings compare;
   gate_limits gate;
 } scene;
+
+/* [rad/time] of a frequency as the scene's user gives it, and back. */
+double scene_omega(const scene *sc, double given);
+double scene_frequency(const scene *sc, double omega);
+
+/* "omega = 7", or "frequency = 345 (omega = 2167.698935)" where the sweep is in cycles; in text[SCENE_WHERE], which is
+ * returned. */
+enum { SCENE_WHERE = 64 };
+const char *scene_where(const scene *sc, double omega, char text[SCENE_WHERE]);
 
 /* The contact with its direction. */
 model_contact scene_model_contact(const scene_contact *c);

@@ -91,13 +91,22 @@ hc_status yaml_scene_value(case_reader *r, yaml_document_t *doc, const field *f,
   return HC_BAD_INPUT;
 }
 
+/* The first rival of f that has been given, or NULL. */
+static const field *given_rival(const case_reader *r, const field *f)
+{
+  const field *rival;
+  for (int i = 0; (rival = field_rival(f, i)) != NULL; ++i)
+    if (case_given(r, rival)) return rival;
+  return NULL;
+}
+
 static hc_status check_rival(case_reader *r, const field *f, const yaml_node_t *key)
 {
-  const field *rival = f->rival ? field_find(f->section, f->rival, strlen(f->rival)) : NULL;
-  if (!rival || !case_given(r, rival)) return HC_OK;
+  const field *rival = given_rival(r, f);
+  if (!rival) return HC_OK;
   message_add(case_blame(r, case_place_of(r, key->start_mark)),
-              "both `%s` (line %zu) and `%s` in `%s`, expected one of them", f->rival, r->at[field_index(rival)].line,
-              f->name, f->section);
+              "both `%s` (line %zu) and `%s` in `%s`, expected one of them", rival->name,
+              r->at[field_index(rival)].line, f->name, f->section);
   return HC_BAD_INPUT;
 }
 
@@ -116,14 +125,14 @@ static hc_status read_field(case_reader *r, yaml_document_t *doc, const field *f
 static hc_status check_missing(case_reader *r, const field_section *s, const yaml_node_t *node, int j)
 {
   for (int i = 0; i < field_count(); ++i) {
-    const field *f = field_at(i), *rival = f->rival ? field_find(f->section, f->rival, strlen(f->rival)) : NULL;
-    if (strcmp(f->section, s->name) || f->fallback || case_given(r, f) || (rival && case_given(r, rival))) continue;
+    const field *f = field_at(i), *rival = field_rival(f, 0);
+    if (strcmp(f->section, s->name) || f->fallback || case_given(r, f) || given_rival(r, f)) continue;
     message *m = case_blame(r, case_place_of(r, node->start_mark));
     message_add(m, "missing key `%s` in `%s", f->name, s->name);
     if (j >= 0) message_add(m, "[%d]", j);
     message_add(m, "`, expected ");
     field_expected(f, m);
-    if (rival) message_add(m, ", or `%s`", f->rival);
+    if (rival) message_add(m, ", or `%s`", rival->name);
     return HC_BAD_INPUT;
   }
   return HC_OK;
@@ -197,7 +206,7 @@ static hc_status check_sections(case_reader *r, const case_place *given, const y
     message *m = NULL;
     for (int j = 0; j < field_count() && given[i].line == 0; ++j) {
       const field *f = field_at(j);
-      if (strcmp(f->section, s->name) || f->fallback || f->flags & (FIELD_IN_CONTACT | FIELD_NO_ECHO)) continue;
+      if (strcmp(f->section, s->name) || f->fallback || f->flags & FIELD_IN_CONTACT || f->scale != 0) continue;
       if (!m)
         message_add(m = case_blame(r, case_place_of(r, root->start_mark)), "missing section `%s`, expected `%s: {",
                     s->name, s->name);

@@ -2,11 +2,14 @@
 #include "command/cli.h"
 
 #include <errno.h>
+#include <float.h>
+#include <math.h>
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
+#include "base/constants.h"
 #include "base/number.h"
 #include "cases/case_file.h"
 #include "command/plot/plot.h"
@@ -102,6 +105,12 @@ static error_t read_common_option(int key, char *text, struct argp_state *state)
   }
 }
 
+/* `usage` is a command's "CASE...". */
+static const char *what_arguments_are(const char *usage)
+{
+  return !strncmp(usage, "CASE", 4) ? "the case file" : !strncmp(usage, "STUDY", 5) ? "the study" : NULL;
+}
+
 void cli_parse(const cli_command *self, int argc, char **argv, void *own, cli_common *common)
 {
   const struct argp own_argp = {self->options, self->read_option, NULL, NULL, NULL, NULL, NULL};
@@ -111,7 +120,7 @@ void cli_parse(const cli_command *self, int argc, char **argv, void *own, cli_co
   const bool required = *self->arguments && *self->arguments != '[';
   parse_input input = {common, several ? CLI_MAX_ARGUMENTS : *self->arguments ? 1 : 0, own};
   char name[64];
-  *common = (cli_common){.command = self->name};
+  *common = (cli_common){.command = self->name, .argument_is = what_arguments_are(self->arguments)};
   snprintf(name, sizeof name, "hbmcheck %s", self->name);
   argv[0] = name;
   argp_err_exit_status = EXIT_USAGE;
@@ -161,13 +170,51 @@ int cli_plotted(const cli_common *common, hc_status st, const char *why)
   return EXIT_NO_SOLUTION;
 }
 
-int cli_load_case(const cli_common *common, const char *path, scene *sc)
+int cli_load_case(cli_common *common, const char *path, scene *sc)
 {
-  case_error err = {{0}};
-  hc_status st = case_read(path, common->n_set, common->set, sc, &err);
+  case_error err;
+  return cli_load_case_saying(common, path, sc, &err);
+}
+
+int cli_load_case_saying(cli_common *common, const char *path, scene *sc, case_error *err)
+{
+  *err = (case_error){{0}};
+  common->scene = sc;
+  hc_status st = case_read(path, common->n_set, common->set, sc, err);
   if (st == HC_OK) return 0;
-  fprintf(stderr, "%s\n", err.message[0] ? err.message : hc_status_text(st));
+  if (!err->message[0]) snprintf(err->message, sizeof err->message, "%s", hc_status_text(st));
+  fprintf(stderr, "%s\n", err->message);
   return st == HC_NO_MEMORY ? EXIT_NO_SOLUTION : EXIT_BAD_CASE;
+}
+
+/* A frequency typed in the other unit lies far outside the sweep: the hint shows it in that unit, if it fits there. */
+static void warn_outside(const cli_common *common, const scene *sc, double omega, int more)
+{
+  const double low = fmin(sc->omega_from, sc->omega_to), high = fmax(sc->omega_from, sc->omega_to);
+  const double other = sc->in_cycles ? omega / TWO_PI : omega * TWO_PI;
+  char at[SCENE_WHERE], others[32] = "", hint[128] = "";
+  if (more) snprintf(others, sizeof others, " and %d more", more);
+  if (other >= low && other <= high)
+    snprintf(hint, sizeof hint, "; frequencies here are in %s per %s", sc->in_cycles ? "cycles" : "rad", sc->unit_time);
+  cli_message(common, "%s%s: outside the sweep from %.10g to %.10g%s, which is widened to it%s",
+              scene_where(sc, omega, at), others, scene_frequency(sc, low), scene_frequency(sc, high),
+              sc->in_cycles ? " cycles" : "", hint);
+}
+
+void cli_take_frequencies(const cli_common *common, const number_list *at, scene *sc)
+{
+  const double low = fmin(sc->omega_from, sc->omega_to), high = fmax(sc->omega_from, sc->omega_to);
+  const double rounding = 8 * DBL_EPSILON; /* of 2 pi times an end of the sweep */
+  double first = NAN;
+  int outside = 0;
+  number_list *omega = &sc->compare.omega;
+  if (at->n) *omega = *at;
+  for (int i = 0; i < omega->n; ++i) {
+    if (at->n) omega->v[i] = scene_omega(sc, omega->v[i]);
+    if (omega->v[i] >= low * (1 - rounding) && omega->v[i] <= high * (1 + rounding)) continue;
+    if (outside++ == 0) first = omega->v[i];
+  }
+  if (outside && !common->quiet) warn_outside(common, sc, first, outside - 1);
 }
 
 static const char *hbm_advice(hc_status st)
@@ -215,11 +262,13 @@ static const char *advice_for(cli_solver solver, hc_status st)
 int cli_solver_failed(const cli_common *common, cli_solver solver, const char *what, hc_status st, double omega)
 {
   const char *advice = advice_for(solver, st);
-  char where[48] = "";
-  if (omega > 0) snprintf(where, sizeof where, " stopped at omega = %.10g", omega);
+  char at[SCENE_WHERE] = "";
+  if (omega > 0) scene_where(common->scene, omega, at);
   if (st == HC_INTERRUPTED) cli_message(common, "%s: stopped on request; what was found is kept", what);
   else if (st == HC_NO_MEMORY) cli_message(common, "%s", hc_status_text(st));
-  else cli_message(common, "%s%s: %s%s%s", what, where, hc_status_text(st), advice ? "; " : "", advice ? advice : "");
+  else
+    cli_message(common, "%s%s%s: %s%s%s", what, *at ? " stopped at " : "", at, hc_status_text(st), advice ? "; " : "",
+                advice ? advice : "");
   return EXIT_NO_SOLUTION;
 }
 
@@ -242,10 +291,18 @@ const char *cli_hbm_settings(const scene *sc, int n_harm, int n_time, char *text
   return text;
 }
 
-void cli_put_row(table *t, rows_kind kind, const row_cell *cells)
+int cli_columns(bool in_cycles, int n, const table_column *columns, table_column *out)
+{
+  int kept = 0;
+  for (int i = 0; i < n; ++i)
+    if (in_cycles || strcmp(columns[i].name, "frequency")) out[kept++] = columns[i];
+  return kept;
+}
+
+void cli_put_row(const cli_common *common, table *t, rows_kind kind, const row_cell *cells)
 {
   int n;
-  rows_columns(kind, &n);
+  rows_columns(kind, common->scene->in_cycles, &n);
   for (int i = 0; i < n; ++i) {
     if (!cells[i].there) table_put_missing(t);
     else if (cells[i].kind == TABLE_TEXT) table_put_text(t, cells[i].as.text);

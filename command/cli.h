@@ -8,6 +8,7 @@
 #include <stdbool.h>
 
 #include "base/status.h"
+#include "cases/case_file.h"
 #include "cases/scene.h"
 #include "output/rows.h"
 #include "output/table.h"
@@ -37,17 +38,22 @@ typedef struct cli_command {
 typedef struct cli_common {
   const char *command; /* "frf", for messages */
   int n_arguments;
+  const char *argument_is;                  /* what they are, "the case file"; NULL: no files */
   const char *arguments[CLI_MAX_ARGUMENTS]; /* CASE, or what stands in its place; arguments[0] is NULL without any */
   int n_set;
   const char *set[CLI_MAX_SET]; /* --set */
   table_format format;          /* --format */
   const char *output;           /* --output; NULL: standard output */
   bool quiet;                   /* --quiet */
+  const scene *scene;           /* the case at work, for messages; NULL before cli_load_case */
 } cli_common;
 
 /* Parse a command's arguments: the common options into *common, its own by self->read_option into *own (NULL without
  * options). Does not return on --help, --version or wrong usage (exit 64). */
 void cli_parse(const cli_command *self, int argc, char **argv, void *own, cli_common *common);
+
+/* What --at takes, in its help. */
+#define CLI_FREQUENCIES "omegas, rad per unit time (cycles, where the case has sweep.frequency)"
 
 /* Values of options, for read_option. What cannot be read ends the program with a message (exit 64). */
 void cli_read_list(struct argp_state *state, const char *option, const char *text, number_list *out); /* all > 0 */
@@ -71,8 +77,14 @@ void cli_check_plot(const cli_common *common, const char *plot, bool exporting);
 /* Scenes computed at a time by default: the processors that are online, 1..CLI_MAX_JOBS. */
 int cli_processors(void);
 
-/* Read the case with --set applied. 0, or the exit code after the message. */
-int cli_load_case(const cli_common *common, const char *path, scene *sc);
+/* Read the case with --set applied; sc is common->scene from then on. 0, or the exit code after the message. */
+int cli_load_case(cli_common *common, const char *path, scene *sc);
+/* The same, with the message kept in err, too. */
+int cli_load_case_saying(cli_common *common, const char *path, scene *sc, case_error *err);
+
+/* The frequencies of --at, if there are any, into compare.omega of the case: they are cycles per time where its sweep
+ * is. Frequencies outside the sweep are warned of. */
+void cli_take_frequencies(const cli_common *common, const number_list *at, scene *sc);
 
 /* "hbmcheck COMMAND: ..." on stderr. */
 void cli_message(const cli_common *common, const char *format, ...) __attribute__((format(printf, 2, 3)));
@@ -88,8 +100,11 @@ int cli_solver_failed(const cli_common *common, cli_solver solver, const char *w
  * exit code. */
 int cli_file_failed(const cli_common *common, const char *path, hc_status st);
 
+/* columns[n] into out[n], how many: all of them, or where frequencies are not in cycles all but `frequency`. */
+int cli_columns(bool in_cycles, int n, const table_column *columns, table_column *out);
+
 /* Append a row of that kind to the table. */
-void cli_put_row(table *t, rows_kind kind, const row_cell *cells);
+void cli_put_row(const cli_common *common, table *t, rows_kind kind, const row_cell *cells);
 
 /* Write the tables to stdout or --output, whole or not at all. 0 or the exit code. Frees nothing. */
 int cli_write(const cli_common *common, int n, table *const *tables);

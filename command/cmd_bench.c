@@ -6,6 +6,7 @@
 
 #include "campaigns/bench/bench.h"
 #include "command/commands.h"
+#include "command/files.h"
 #include "command/plot/plot.h"
 #include "command/version.h"
 #include "output/progress.h"
@@ -57,27 +58,17 @@ static error_t read_option(int key, char *text, struct argp_state *state)
 }
 
 static const table_column columns[] = {
-    {"omega", TABLE_REAL},
-    {"method", TABLE_TEXT},
-    {"harmonics", TABLE_INTEGER},
-    {"samples", TABLE_INTEGER},
-    {"regularisation", TABLE_REAL},
-    {"tolerance", TABLE_REAL},
-    {"error", TABLE_REAL},
-    {"error_harmonic_1", TABLE_REAL},
-    {"error_finer", TABLE_REAL},
-    {"seconds", TABLE_REAL},
-    {"low", TABLE_REAL},
-    {"high", TABLE_REAL},
-    {"repeats", TABLE_INTEGER},
-    {"front", TABLE_TEXT},
-    {"curve_seconds", TABLE_REAL},
-    {"outcome", TABLE_TEXT},
+    {"omega", TABLE_REAL},         {"frequency", TABLE_REAL},  {"method", TABLE_TEXT},
+    {"harmonics", TABLE_INTEGER},  {"samples", TABLE_INTEGER}, {"regularisation", TABLE_REAL},
+    {"tolerance", TABLE_REAL},     {"error", TABLE_REAL},      {"error_harmonic_1", TABLE_REAL},
+    {"error_finer", TABLE_REAL},   {"seconds", TABLE_REAL},    {"low", TABLE_REAL},
+    {"high", TABLE_REAL},          {"repeats", TABLE_INTEGER}, {"front", TABLE_TEXT},
+    {"curve_seconds", TABLE_REAL}, {"outcome", TABLE_TEXT},
 };
 static const table_column cheapest_columns[] = {
-    {"omega", TABLE_REAL},       {"accuracy", TABLE_REAL},      {"method", TABLE_TEXT},
-    {"settings", TABLE_TEXT},    {"error_finer", TABLE_REAL},   {"seconds", TABLE_REAL},
-    {"next_method", TABLE_TEXT}, {"next_settings", TABLE_TEXT}, {"times_faster", TABLE_REAL},
+    {"omega", TABLE_REAL},         {"frequency", TABLE_REAL},    {"accuracy", TABLE_REAL}, {"method", TABLE_TEXT},
+    {"settings", TABLE_TEXT},      {"error_finer", TABLE_REAL},  {"seconds", TABLE_REAL},  {"next_method", TABLE_TEXT},
+    {"next_settings", TABLE_TEXT}, {"times_faster", TABLE_REAL},
 };
 enum {
   N_COLUMNS = sizeof columns / sizeof *columns,
@@ -104,9 +95,15 @@ static void put_seconds(table *t, double s)
   table_put_real(t, strtod(text, NULL));
 }
 
-static void put_row(table *t, const bench_row *r)
+static void put_omega(table *t, const scene *sc, double omega)
 {
-  table_put_real(t, r->omega);
+  table_put_real(t, omega);
+  if (sc->in_cycles) table_put_real(t, scene_frequency(sc, omega));
+}
+
+static void put_row(table *t, const scene *sc, const bench_row *r)
+{
+  put_omega(t, sc, r->omega);
   table_put_text(t, bench_method_name(r->method));
   put_count(t, r->harmonics);
   put_count(t, r->samples);
@@ -125,12 +122,12 @@ static void put_row(table *t, const bench_row *r)
   else table_put_text(t, bench_outcome_name(r->outcome));
 }
 
-static void put_cheapest(table *t, const bench *b, const bench_frequency *p)
+static void put_cheapest(table *t, const scene *sc, const bench *b, const bench_frequency *p)
 {
   char text[BENCH_TEXT];
   for (int i = 0; i < N_ACCURACIES; ++i) {
     const bench_row *second, *best = bench_cheapest(p->n, b->rows + p->first, accuracies[i], &second);
-    table_put_real(t, p->omega);
+    put_omega(t, sc, p->omega);
     table_put_real(t, accuracies[i]);
     table_put_text(t, best ? bench_method_name(best->method) : "none");
     table_put_text(t, best ? bench_settings(best, text) : NULL);
@@ -144,7 +141,7 @@ static void put_cheapest(table *t, const bench *b, const bench_frequency *p)
 
 /* The fastest method for each accuracy, decade by decade: "hbm_exact from 1e-01 to 1e-06; exact_shooting from 1e-07 to
  * 1e-11"; no method reached what is beyond. */
-static void note_winners(table *t, const bench *b, const bench_frequency *p)
+static void note_winners(table *t, const scene *sc, const bench *b, const bench_frequency *p)
 {
   char text[512];
   size_t n = 0;
@@ -161,7 +158,7 @@ static void note_winners(table *t, const bench *b, const bench_frequency *p)
     if (!best) break;
     last = best;
   }
-  if (n) table_note(t, "fastest at omega = %.10g: %s", p->omega, text);
+  if (n) table_note(t, "fastest at %s: %s", scene_where(sc, p->omega, (char[SCENE_WHERE]){0}), text);
 }
 
 static void note_versions(table *t)
@@ -179,20 +176,22 @@ static void note_versions(table *t)
   table_note(t, "%s", versions);
 }
 
-static void note_place(table *t, const bench_frequency *p)
+static void note_place(table *t, const scene *sc, const bench_frequency *p)
 {
-  table_note(
-      t,
-      "omega = %.10g: reference amplitude %.12g, good to %.0e, Floquet multiplier %.4g; all start from the solutions "
-      "at omega = %.10g",
-      p->omega, p->amplitude, p->floor, p->multiplier, p->neighbour);
-  table_note(t, "omega = %.10g: scipy_lsoda: %s", p->omega, p->scipy);
+  char here[SCENE_WHERE], beside[SCENE_WHERE];
+  scene_where(sc, p->omega, here);
+  scene_where(sc, p->neighbour, beside);
+  table_note(t,
+             "%s: reference amplitude %.12g, good to %.0e, Floquet multiplier %.4g; all start from the solutions "
+             "at %s",
+             here, p->amplitude, p->floor, p->multiplier, beside);
+  table_note(t, "%s: scipy_lsoda: %s", here, p->scipy);
 }
 
 static void note_bench(table *t, const scene *sc, const bench *b)
 {
   table_note(t, "%s", sc->title);
-  for (int i = 0; i < b->n_frequencies; ++i) note_place(t, &b->frequencies[i]);
+  for (int i = 0; i < b->n_frequencies; ++i) note_place(t, sc, &b->frequencies[i]);
   table_note(
       t, "seconds: processor time of one solution and its measures; curve_seconds: the whole response curve over the "
          "sweep");
@@ -207,13 +206,15 @@ static void note_bench(table *t, const scene *sc, const bench *b)
 
 static int write_tables(const cli_common *common, const scene *sc, const bench *b)
 {
-  table *tables[2] = {table_new("Work and precision", N_COLUMNS, columns),
-                      table_new("Cheapest way", N_CHEAPEST_COLUMNS, cheapest_columns)};
-  for (int i = 0; i < b->n_rows; ++i) put_row(tables[0], &b->rows[i]);
+  table_column own[N_COLUMNS], cheapest[N_CHEAPEST_COLUMNS];
+  const int n = cli_columns(sc->in_cycles, N_COLUMNS, columns, own),
+            n_cheapest = cli_columns(sc->in_cycles, N_CHEAPEST_COLUMNS, cheapest_columns, cheapest);
+  table *tables[2] = {table_new("Work and precision", n, own), table_new("Cheapest way", n_cheapest, cheapest)};
+  for (int i = 0; i < b->n_rows; ++i) put_row(tables[0], sc, &b->rows[i]);
   note_bench(tables[0], sc, b);
   for (int i = 0; i < b->n_frequencies; ++i) {
-    put_cheapest(tables[1], b, &b->frequencies[i]);
-    note_winners(tables[1], b, &b->frequencies[i]);
+    put_cheapest(tables[1], sc, b, &b->frequencies[i]);
+    note_winners(tables[1], sc, b, &b->frequencies[i]);
   }
   int code = cli_write(common, 2, tables);
   for (int i = 0; i < 2; ++i) table_free(tables[i]);
@@ -229,19 +230,21 @@ static int run_bench(int argc, char **argv)
   double failed_at;
   cli_parse(&cmd_bench, argc, argv, &own, &common);
   cli_check_plot(&common, own.plot, false);
-  int code = cli_load_case(&common, common.arguments[0], &sc);
+  int code = cli_check_files(&common, 1, &(cli_file){"--plot", own.plot, CLI_OUTPUT});
+  if (!code) code = cli_load_case(&common, common.arguments[0], &sc);
   if (code) return code;
+  cli_take_frequencies(&common, &own.at, &sc);
+  if (own.at.n) own.at = sc.compare.omega;
   bench_options how = {.at = own.at, .repeats = own.repeats, .alone = own.alone};
   progress *bar = progress_start("benchmark", common.quiet);
   hc_monitor monitor = progress_monitor(bar);
   hc_status st = bench_run(&sc, &how, &monitor, &b, &failed_at);
   progress_end(bar);
   if (st == HC_NOT_CONVERGED) {
-    cli_message(
-        &common,
-        "omega = %.10g: no stable orbit of the exact law next to a harmonic-balance solution, or none beside it; try "
-        "another --at",
-        failed_at);
+    cli_message(&common,
+                "%s: no stable orbit of the exact law next to a harmonic-balance solution, or none beside it; try "
+                "another --at",
+                scene_where(&sc, failed_at, (char[SCENE_WHERE]){0}));
     code = EXIT_NO_SOLUTION;
   } else if (st != HC_OK) code = cli_solver_failed(&common, CLI_BOTH, "the benchmark", st, failed_at);
   int written = b.n_rows ? write_tables(&common, &sc, &b) : 0;

@@ -3,6 +3,7 @@
 
 #include "command/commands.h"
 #include "command/compare_tables.h"
+#include "command/files.h"
 #include "command/plot/plot.h"
 #include "compare/comparison.h"
 #include "output/progress.h"
@@ -34,7 +35,7 @@ typedef struct compare_options {
 enum { KEY_AT = CLI_OWN_KEY, KEY_TABLES, KEY_HARMONICS, KEY_SAMPLES, KEY_PLOT };
 
 static const struct argp_option options[] = {
-    {"at", KEY_AT, "LIST", 0, "Omegas, rad per unit time [compare.omega, else compare.points over the sweep]", 1},
+    {"at", KEY_AT, "LIST", 0, "At these " CLI_FREQUENCIES " [compare.omega, else compare.points over the sweep]", 1},
     {"tables", KEY_TABLES, NULL, 0, "Also the tables over truncation orders and samples, and observed orders", 1},
     {"harmonics", KEY_HARMONICS, "LIST", 0,
      "Truncation orders of the tables, 1..200 [compare.harmonics]; implies --tables", 1},
@@ -62,7 +63,7 @@ static error_t read_option(int key, char *text, struct argp_state *state)
 static void note_worst(table *t, const scene *sc, const compare_setup *setup, const comparison *c)
 {
   const comparison_row *top = NULL;
-  char text[BUDGET_TEXT];
+  char text[BUDGET_TEXT], at[SCENE_WHERE];
   int unknown = 0;
   for (int i = 0; i < c->n_rows; ++i) {
     const comparison_row *r = &c->rows[i];
@@ -70,7 +71,7 @@ static void note_worst(table *t, const scene *sc, const compare_setup *setup, co
     if (r->budget.known && (!top || r->budget.amplitude.sum > top->budget.amplitude.sum)) top = r;
   }
   if (top) budget_advice(&top->budget, setup, sc->gate.most.amplitude, c->harmonics, text);
-  if (top) table_note(t, "largest budget, omega = %.10g, branch %d: %s", top->omega, top->branch, text);
+  if (top) table_note(t, "largest budget, %s, branch %d: %s", scene_where(sc, top->omega, at), top->branch, text);
   if (unknown)
     table_note(t, "%d row%s without a budget: no periodic orbit was found next to the HBM solution", unknown,
                unknown == 1 ? "" : "s");
@@ -94,13 +95,26 @@ static const char *const csv_only[] = {"mean_error",
                                        "unexpected"};
 
 /* What neither side expected, a line a row: under the table and in json. */
-static void note_unexpected(table *t, const comparison *c)
+static void note_unexpected(table *t, const scene *sc, const comparison *c)
 {
-  char text[COMPARISON_UNEXPECTED_TEXT];
+  char text[COMPARISON_UNEXPECTED_TEXT], at[SCENE_WHERE];
   for (int i = 0; i < c->n_rows; ++i)
     if (c->rows[i].unexpected)
-      table_note(t, "UNEXPECTED at omega = %.10g, branch %d: %s", c->rows[i].omega, c->rows[i].branch,
+      table_note(t, "UNEXPECTED at %s, branch %d: %s", scene_where(sc, c->rows[i].omega, at), c->rows[i].branch,
                  comparison_unexpected_text(&c->rows[i], text));
+}
+
+/* Means that are a matter of history. */
+static void note_mean(table *t, const comparison *c)
+{
+  int n = 0;
+  for (int i = 0; i < c->n_rows; ++i) n += comparison_mean_free(&c->rows[i]);
+  if (n == 0) table_hide(t, "mean_free");
+  else
+    table_note(t,
+               "%d row%s without a mean to compare (mean_free): a slider that never slips rests where the history "
+               "left it, and the mean, max, min and rms with it",
+               n, n == 1 ? "" : "s");
 }
 
 static void note_comparison(table *t, const scene *sc, const compare_setup *setup, const comparison *c)
@@ -115,7 +129,8 @@ static void note_comparison(table *t, const scene *sc, const compare_setup *setu
   table_note(t, "gate: amplitude %g, harmonic_1 %g, mean %g, waveform %g of the transient's amplitude",
              sc->gate.most.amplitude, sc->gate.most.harmonic_1, sc->gate.most.mean, sc->gate.most.waveform);
   if (c->curve.end != HC_OK && c->curve.n)
-    table_note(t, "the HBM curve STOPPED at omega = %.10g: %s", c->curve.points[c->curve.n - 1].omega,
+    table_note(t, "the HBM curve STOPPED at %s: %s",
+               scene_where(sc, c->curve.points[c->curve.n - 1].omega, (char[SCENE_WHERE]){0}),
                hc_status_text(c->curve.end));
   int unaccounted = 0;
   for (int i = 0; i < c->n_rows; ++i) unaccounted += comparison_unaccounted(&c->rows[i]);
@@ -125,7 +140,9 @@ static void note_comparison(table *t, const scene *sc, const compare_setup *setu
   for (int v = 0; v < VERDICT_COUNT; ++v)
     if (c->count[v]) table_note(t, "%d %s: %s", c->count[v], verdict_name((verdict)v), verdict_meaning((verdict)v));
   note_worst(t, sc, setup, c);
-  note_unexpected(t, c);
+  note_unexpected(t, sc, c);
+  note_mean(t, c);
+  if (!comparison_nonlinear(c)) table_note(t, COMPARISON_LINEAR, c->n_rows);
 }
 
 static void print_failures(const cli_common *common, const comparison *c)
@@ -142,25 +159,25 @@ static void print_failures(const cli_common *common, const comparison *c)
 
 static void warn_unexpected(const cli_common *common, const comparison *c)
 {
-  char text[COMPARISON_UNEXPECTED_TEXT];
+  char text[COMPARISON_UNEXPECTED_TEXT], at[SCENE_WHERE];
   for (int i = 0; i < c->n_rows; ++i)
     if (c->rows[i].unexpected)
-      cli_message(common, "at omega = %.10g, branch %d: %s", c->rows[i].omega, c->rows[i].branch,
+      cli_message(common, "at %s, branch %d: %s", scene_where(common->scene, c->rows[i].omega, at), c->rows[i].branch,
                   comparison_unexpected_text(&c->rows[i], text));
 }
 
-static table *comparison_table(const scene *sc, const compare_setup *setup, const comparison *c)
+static table *comparison_table(const cli_common *common, const compare_setup *setup, const comparison *c)
 {
   int n_columns;
-  const table_column *columns = rows_columns(ROWS_COMPARE, &n_columns);
+  const table_column *columns = rows_columns(ROWS_COMPARE, common->scene->in_cycles, &n_columns);
   table *t = table_new("HBM against time integration", n_columns, columns);
   for (int i = 0; i < c->n_rows; ++i) {
     row_cell cells[ROWS_MOST];
-    rows_compare(&c->rows[i], cells);
-    cli_put_row(t, ROWS_COMPARE, cells);
+    rows_compare(&c->rows[i], common->scene->in_cycles, cells);
+    cli_put_row(common, t, ROWS_COMPARE, cells);
   }
   for (size_t i = 0; i < sizeof csv_only / sizeof *csv_only; ++i) table_hide(t, csv_only[i]);
-  note_comparison(t, sc, setup, c);
+  note_comparison(t, common->scene, setup, c);
   return t;
 }
 
@@ -175,10 +192,11 @@ static int run_compare(int argc, char **argv)
   int n_tables = 1;
   cli_parse(&cmd_compare, argc, argv, &own, &common);
   cli_check_plot(&common, own.plot, false);
-  int code = cli_load_case(&common, common.arguments[0], &sc);
+  int code = cli_check_files(&common, 1, &(cli_file){"--plot", own.plot, CLI_OUTPUT});
+  if (!code) code = cli_load_case(&common, common.arguments[0], &sc);
   if (!code) code = compare_lists(&common, &own.lists, &sc);
   if (code) return code;
-  if (own.at.n) sc.compare.omega = own.at;
+  cli_take_frequencies(&common, &own.at, &sc);
   progress *bar = progress_start("comparing", common.quiet);
   hc_monitor monitor = progress_monitor(bar);
   compare_setup setup;
@@ -186,10 +204,10 @@ static int run_compare(int argc, char **argv)
   setup.jobs = cli_processors();
   setup.spare = common.format == FORMAT_TABLE && !own.plot; /* the screen does not show from_integration */
   if (st == HC_OK) st = comparison_run(&setup, &monitor, &c);
-  tables[0] = comparison_table(&sc, &setup, &c);
+  tables[0] = comparison_table(&common, &setup, &c);
   if (st != HC_OK) table_note(tables[0], "INCOMPLETE: %s", hc_status_text(st));
   if (st == HC_OK && (own.tables || own.lists.harmonics.n || own.lists.samples.n)) {
-    tabled = compare_tables(&setup, &c, &monitor, tables + 1, &a);
+    tabled = compare_tables(&common, &setup, &c, &monitor, tables + 1, &a);
     n_tables = 3;
   }
   progress_end(bar);
@@ -198,6 +216,7 @@ static int run_compare(int argc, char **argv)
   if (tabled != HC_OK) code = cli_solver_failed(&common, CLI_BOTH, "the tables", tabled, 0);
   print_failures(&common, &c);
   warn_unexpected(&common, &c);
+  if (c.n_rows && !common.quiet && !comparison_nonlinear(&c)) cli_message(&common, COMPARISON_LINEAR, c.n_rows);
   int written = c.n_rows ? cli_write(&common, n_tables, tables) : 0;
   plot_order drawing = {.path = own.plot};
   if (own.plot && c.n_rows && !written)

@@ -7,6 +7,7 @@
 #include "base/number.h"
 #include "campaigns/scene_solvers.h"
 #include "command/commands.h"
+#include "command/files.h"
 #include "command/plot/plot.h"
 #include "hbm/aft.h"
 #include "hbm/exact_force.h"
@@ -162,7 +163,8 @@ static int run_contact(int argc, char **argv)
   double X[MAX_COEF] = {0};
   cli_parse(&cmd_contact, argc, argv, &own, &common);
   cli_check_plot(&common, own.plot, false);
-  int code = cli_load_case(&common, common.arguments[0], &sc);
+  int code = cli_check_files(&common, 1, &(cli_file){"--plot", own.plot, CLI_OUTPUT});
+  if (!code) code = cli_load_case(&common, common.arguments[0], &sc);
   if (code) return code;
   int n_harm = read_motion(&common, own.motion, X);
   if (n_harm < 0) return EXIT_USAGE;

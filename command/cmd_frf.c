@@ -1,6 +1,10 @@
 /* cmd_frf.c - hbmcheck frf: the response curve, or every solution at given frequencies. */
+#include <stdio.h>
+
+#include "base/constants.h"
 #include "campaigns/scene_solvers.h"
 #include "command/commands.h"
+#include "command/files.h"
 #include "command/plot/plot.h"
 #include "compare/frequencies.h"
 #include "compare/response.h"
@@ -24,7 +28,7 @@ typedef struct frf_options {
 enum { KEY_AT = CLI_OWN_KEY, KEY_PLOT };
 
 static const struct argp_option options[] = {
-    {"at", KEY_AT, "LIST", 0, "Only the solutions at these omegas, rad per unit time", 1},
+    {"at", KEY_AT, "LIST", 0, "Only the solutions at these " CLI_FREQUENCIES, 1},
     CLI_PLOT_OPTION(KEY_PLOT),
     {0},
 };
@@ -39,16 +43,19 @@ static error_t read_option(int key, char *text, struct argp_state *state)
   }
 }
 
-static hc_status put_points(hbm_solver *s, const hbm_curve *c, table *t)
+static hc_status put_points(const cli_common *common, hbm_solver *s, const hbm_curve *c, table *t)
 {
+  bool free = false;
   for (int k = 0; k < c->n; ++k) {
     response_row row;
     row_cell cells[ROWS_MOST];
     hc_status st = response_row_of(s, c, k, &row);
     if (st != HC_OK) return st;
-    rows_frf(&row, cells);
-    cli_put_row(t, ROWS_FRF, cells);
+    free |= row.measures.contact.free_sliders > 0;
+    rows_frf(&row, common->scene->in_cycles, cells);
+    cli_put_row(common, t, ROWS_FRF, cells);
   }
+  if (!free) table_hide(t, "mean_free");
   return HC_OK;
 }
 
@@ -62,14 +69,22 @@ static void note_curve(table *t, const scene *sc, const hbm_solver *s, const hbm
     table_note(t, "hbm.accuracy %g was NOT met everywhere with the most harmonics or samples that auto takes",
                sc->hbm.accuracy);
   if (c->n == 0) return;
-  double last = c->points[c->n - 1].omega;
-  if (c->left_at_start)
-    table_note(t, "the branch turned back and left the sweep where it began, at omega = %.10g", last);
-  else if (c->end == HC_OK) table_note(t, "reached the end of the sweep, omega = %.10g", last);
-  else table_note(t, "STOPPED at omega = %.10g: %s", last, hc_status_text(c->end));
+  char last[SCENE_WHERE];
+  scene_where(sc, c->points[c->n - 1].omega, last);
+  if (c->left_at_start) table_note(t, "the branch turned back and left the sweep where it began, at %s", last);
+  else if (c->end == HC_OK) table_note(t, "reached the end of the sweep, %s", last);
+  else table_note(t, "STOPPED at %s: %s", last, hc_status_text(c->end));
 }
 
-static hc_status note_specials(table *t, hbm_solver *s, const hbm_curve *c)
+/* "omega = 9.2095785410", or "frequency = 1.4657502 (omega = ...)" where the sweep is in cycles. */
+static const char *precisely(const scene *sc, double omega, char text[SCENE_WHERE])
+{
+  if (sc->in_cycles) snprintf(text, SCENE_WHERE, "frequency = %.10f (omega = %.10f)", omega / TWO_PI, omega);
+  else snprintf(text, SCENE_WHERE, "omega = %.10f", omega);
+  return text;
+}
+
+static hc_status note_specials(table *t, const scene *sc, hbm_solver *s, const hbm_curve *c)
 {
   enum { SHOWN = 24 };
   hbm_special special[SHOWN];
@@ -77,14 +92,15 @@ static hc_status note_specials(table *t, hbm_solver *s, const hbm_curve *c)
   hc_status st = hbm_specials(s, c, SHOWN, special, &n);
   for (int i = 0; i < n && i < SHOWN; ++i) {
     const hbm_special *p = &special[i];
+    char where[SCENE_WHERE];
+    precisely(sc, p->omega, where);
     const char *from = contact_regime_name(p->before), *to = contact_regime_name(p->after);
-    if (p->kind == HBM_TURNING_POINT)
-      table_note(t, "turning point at omega = %.10f, amplitude %.9g", p->omega, p->amplitude);
+    if (p->kind == HBM_TURNING_POINT) table_note(t, "turning point at %s, amplitude %.9g", where, p->amplitude);
     else if (p->kind == HBM_PERIOD_DOUBLING)
-      table_note(t, "period doubling at omega = %.10f, amplitude %.9g", p->omega, p->amplitude);
+      table_note(t, "period doubling at %s, amplitude %.9g", where, p->amplitude);
     else if (p->before != p->after)
-      table_note(t, "contact goes from %s to %s at omega = %.10f, amplitude %.9g", from, to, p->omega, p->amplitude);
-    else table_note(t, "contact pattern changes (%s) at omega = %.10f, amplitude %.9g", to, p->omega, p->amplitude);
+      table_note(t, "contact goes from %s to %s at %s, amplitude %.9g", from, to, where, p->amplitude);
+    else table_note(t, "contact pattern changes (%s) at %s, amplitude %.9g", to, where, p->amplitude);
   }
   if (n > SHOWN) table_note(t, "and %d more", n - SHOWN);
   if (st != HC_OK) table_note(t, "at least one more was noticed but not located: %s", hc_status_text(st));
@@ -98,28 +114,32 @@ static int run_frf(int argc, char **argv)
   scene sc;
   cli_parse(&cmd_frf, argc, argv, &own, &common);
   cli_check_plot(&common, own.plot, false);
-  int code = cli_load_case(&common, common.arguments[0], &sc), n_columns;
+  int code = cli_check_files(&common, 1, &(cli_file){"--plot", own.plot, CLI_OUTPUT}), n_columns;
+  if (!code) code = cli_load_case(&common, common.arguments[0], &sc);
   if (code) return code;
   hbm_solver *s = NULL;
   hbm_curve curve = {0}, found = {0};
   double from, to, failed_at = 0;
-  const table_column *columns = rows_columns(ROWS_FRF, &n_columns);
+  const table_column *columns = rows_columns(ROWS_FRF, sc.in_cycles, &n_columns);
   table *t = table_new("Response curve", n_columns, columns);
   progress *bar = progress_start("harmonic balance", common.quiet);
   hc_monitor monitor = progress_monitor(bar);
-  comparison_sweep(sc.omega_from, sc.omega_to, &own.at, &from, &to);
+  if (!own.at.n) sc.compare.omega.n = 0; /* those of the case are for the comparison */
+  cli_take_frequencies(&common, &own.at, &sc);
+  const number_list *at = &sc.compare.omega; /* n = 0: the whole curve */
+  comparison_sweep(sc.omega_from, sc.omega_to, at, &from, &to);
   hc_status st = scene_hbm_solver(&sc, &s);
   if (st == HC_OK) {
     st = hbm_trace(s, from, to, &monitor, &curve);
     if (st != HC_OK) failed_at = curve.n ? curve.points[curve.n - 1].omega : from;
-    hc_status at = own.at.n ? response_at(s, &curve, &own.at, &found, &failed_at) : HC_OK;
+    hc_status solved = at->n ? response_at(s, &curve, at, &found, &failed_at) : HC_OK;
     if (st == HC_OK)
-      st = at; /* also with --at a curve that stops early is a
+      st = solved; /* also with --at a curve that stops early is a
     failure: it might have turned back to those omegas */
-    hc_status shown = put_points(s, own.at.n ? &found : &curve, t);
+    hc_status shown = put_points(&common, s, at->n ? &found : &curve, t);
     if (st == HC_OK) st = shown;
     note_curve(t, &sc, s, &curve);
-    hc_status noted = own.at.n ? HC_OK : note_specials(t, s, &curve);
+    hc_status noted = at->n ? HC_OK : note_specials(t, &sc, s, &curve);
     if (st == HC_OK && noted == HC_NO_MEMORY) st = noted; /* another failure to locate one is in the note */
     if (st != HC_OK && (curve.n == 0 || curve.end == HC_OK)) table_note(t, "INCOMPLETE: %s", hc_status_text(st));
   }
@@ -128,7 +148,7 @@ static int run_frf(int argc, char **argv)
   int written = s ? cli_write(&common, 1, &t) : 0;
   plot_order drawing = {.path = own.plot};
   if (own.plot && s && !written)
-    written = cli_plotted(&common, plot_frf(&drawing, &sc, s, &curve, own.at.n ? &found : NULL), drawing.why);
+    written = cli_plotted(&common, plot_frf(&drawing, &sc, s, &curve, at->n ? &found : NULL), drawing.why);
   table_free(t);
   hbm_curve_free(&found);
   hbm_curve_free(&curve);

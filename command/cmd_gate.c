@@ -6,6 +6,7 @@
 
 #include "base/number.h"
 #include "command/commands.h"
+#include "command/files.h"
 #include "compare/gate/gate.h"
 #include "output/output.h"
 #include "output/progress.h"
@@ -20,7 +21,7 @@ static const char help[] =
     "gate.iterations and "
     "gate.evaluations of the response curve (hbmcheck describe gate).\n"
     "A number passes up to 1.000001 times its limit, so that rounding decides nothing. Every case is read before "
-    "anything runs.\n"
+    "anything runs; what is wrong in one is in the JUnit file, too.\n"
     "exit: 0 all within  1 something is not  2 a case file is wrong  3 something could not be compared or written  64 "
     "usage\n"
     "example: hbmcheck gate cases/paper/case2.yaml --junit gate.xml";
@@ -37,8 +38,8 @@ static const struct argp_option options[] = {
     {"junit", KEY_JUNIT, "FILE", 0, "Also write every check as JUnit XML to FILE, whole or not at all", 1},
     {"all", KEY_ALL, NULL, 0, "Show every check in the table [the worst of each quantity, and all that do not pass]",
      1},
-    {"at", KEY_AT, "LIST", 0, "Omegas, rad per unit time, for every case [each case's compare.omega or compare.points]",
-     1},
+    {"at", KEY_AT, "LIST", 0,
+     "At these " CLI_FREQUENCIES ", in every case [each case's compare.omega or compare.points]", 1},
     {0},
 };
 
@@ -57,8 +58,8 @@ static error_t read_option(int key, char *text, struct argp_state *state)
  * these range from discrepancies to costs. */
 /* clang-format off */
 #define COLUMNS(number) \
-  {"case", TABLE_TEXT}, {"omega", TABLE_REAL}, {"branch", TABLE_INTEGER}, {"verdict", TABLE_TEXT}, \
-  {"quantity", TABLE_TEXT}, {"against", TABLE_TEXT}, {"allowed", number}, {"found", number}, \
+  {"case", TABLE_TEXT}, {"omega", TABLE_REAL}, {"frequency", TABLE_REAL}, {"branch", TABLE_INTEGER}, \
+  {"verdict", TABLE_TEXT}, {"quantity", TABLE_TEXT}, {"against", TABLE_TEXT}, {"allowed", number}, {"found", number}, \
   {"result", TABLE_TEXT}, {"reason", TABLE_TEXT}
 /* clang-format on */
 static const table_column columns[] = {COLUMNS(TABLE_REAL)}, columns_for_people[] = {COLUMNS(TABLE_TEXT)};
@@ -68,30 +69,33 @@ enum { N_COLUMNS = sizeof columns / sizeof *columns };
 typedef struct gate_call {
   cli_common common;
   gate_options own;
-  scene *scenes;    /* [n_arguments] */
-  gate_case *cases; /* [n_arguments], of which n_judged are filled */
+  scene *scenes;      /* [n_arguments] */
+  gate_case *cases;   /* [n_arguments], of which n_judged are filled */
+  case_error *errors; /* [n_arguments] what is wrong with the case file, or empty */
   int n_judged;
+  bool in_cycles; /* the sweep of one of them is */
+  table_column columns[N_COLUMNS];
   output *junit; /* opened before anything runs: a name that cannot be written to is found at once */
 } gate_call;
 
-/* 0 or the exit code after the message. */
+/* Every case, however many are wrong. 0 or the exit code after the messages. */
 static int read_cases(gate_call *call)
 {
+  int wrong = 0;
   for (int i = 0; i < call->common.n_arguments; ++i) {
-    int code = cli_load_case(&call->common, call->common.arguments[i], &call->scenes[i]);
-    if (code) return code;
-    if (call->own.at.n) call->scenes[i].compare.omega = call->own.at;
+    int code = cli_load_case_saying(&call->common, call->common.arguments[i], &call->scenes[i], &call->errors[i]);
+    if (code == EXIT_NO_SOLUTION) return code;
+    if (code) wrong = code;
+    if (code) continue;
+    cli_take_frequencies(&call->common, &call->own.at, &call->scenes[i]);
+    call->in_cycles |= call->scenes[i].in_cycles;
   }
-  return 0;
+  return wrong;
 }
 
 static int open_junit(gate_call *call)
 {
   if (!call->own.junit) return 0;
-  if (call->common.output && !strcmp(call->own.junit, call->common.output)) {
-    cli_message(&call->common, "--junit and --output name the same file, %s", call->own.junit);
-    return EXIT_USAGE;
-  }
   hc_status st = output_open(call->own.junit, &call->junit);
   return st == HC_OK ? 0 : cli_file_failed(&call->common, call->own.junit, st);
 }
@@ -102,7 +106,8 @@ static int judge_cases(gate_call *call)
     progress *bar = progress_start(call->common.arguments[call->n_judged], call->common.quiet);
     hc_monitor monitor = progress_monitor(bar);
     compare_setup setup;
-    hc_status st = scene_setup(&call->scenes[call->n_judged], &setup);
+    call->common.scene = &call->scenes[call->n_judged];
+    hc_status st = scene_setup(call->common.scene, &setup);
     if (st == HC_OK)
       st = gate_run(call->common.arguments[call->n_judged], &setup, &monitor, &call->cases[call->n_judged]);
     scene_setup_clear(&setup);
@@ -125,10 +130,13 @@ static void put_number(table *t, double x, bool people)
   else table_put_real(t, x);
 }
 
-static void put_check(table *t, const gate_case *g, const gate_check *c, bool people)
+/* `of`: the check's case. */
+static void put_check(const gate_call *call, table *t, int of, const gate_check *c, bool people)
 {
-  table_put_text(t, g->name);
+  const scene *sc = &call->scenes[of];
+  table_put_text(t, call->cases[of].name);
   table_put_real(t, c->omega);
+  if (call->in_cycles) table_put_real(t, sc->in_cycles ? scene_frequency(sc, c->omega) : NAN);
   if (c->branch >= 0) table_put_integer(t, c->branch);
   else table_put_missing(t);
   table_put_text(t, *c->verdict ? c->verdict : NULL);
@@ -140,29 +148,51 @@ static void put_check(table *t, const gate_case *g, const gate_check *c, bool pe
   table_put_text(t, *c->reason ? c->reason : NULL);
 }
 
-static table *checks_table(const gate_call *call)
+static bool wants_attention(const gate_check *c) { return c->result == GATE_FAIL || c->result == GATE_ERROR; }
+
+static table *checks_table(gate_call *call)
 {
   const bool people = call->common.format == FORMAT_TABLE;
-  table *t = table_new("Gate", N_COLUMNS, people ? columns_for_people : columns);
+  const int n = cli_columns(call->in_cycles, N_COLUMNS, people ? columns_for_people : columns, call->columns);
+  table *t = table_new("Gate", n, call->columns);
   for (int i = 0; i < call->n_judged; ++i) {
     const gate_case *g = &call->cases[i];
     for (int k = 0; k < g->n; ++k)
-      if (!people || call->own.all || g->checks[k].result != GATE_PASS || gate_is_worst(g, k))
-        put_check(t, g, &g->checks[k], people);
-    table_note(t, "%s: %d checks, %d passed, %d failed, %d could not be made", g->name, g->n,
-               g->n - g->failures - g->errors, g->failures, g->errors);
+      if (!people || call->own.all || wants_attention(&g->checks[k]) || gate_is_worst(g, k))
+        put_check(call, t, i, &g->checks[k], people);
+    table_note(t, "%s: %d checks, %d passed, %d failed, %d could not be made, %d not applicable", g->name, g->n,
+               g->n - g->failures - g->errors - g->not_applicable, g->failures, g->errors, g->not_applicable);
+    if (g->linear) table_note(t, "%s: " COMPARISON_LINEAR, g->name, g->n_rows);
   }
   return t;
 }
 
-static int write_junit(gate_call *call)
+/* After writing ended with st. 0 or the exit code after the message. */
+static int close_junit(gate_call *call, hc_status st)
 {
-  if (!call->junit) return 0;
-  hc_status st = gate_write_junit(call->n_judged, call->cases, output_stream(call->junit));
   if (st == HC_OK) st = output_commit(call->junit);
   else output_abandon(call->junit);
   call->junit = NULL;
   return st == HC_OK ? 0 : cli_file_failed(&call->common, call->own.junit, st);
+}
+
+static int write_junit(gate_call *call)
+{
+  return call->junit ? close_junit(call, gate_write_junit(call->n_judged, call->cases, output_stream(call->junit))) : 0;
+}
+
+/* Where a case file is wrong: the JUnit file with its message, so that CI shows why nothing was judged. Returns the
+ * exit code, which is that of the wrong file even if this one cannot be written. */
+static int report_unread(gate_call *call, int code)
+{
+  const char *wrong[CLI_MAX_ARGUMENTS];
+  for (int i = 0; i < call->common.n_arguments; ++i)
+    wrong[i] = *call->errors[i].message ? call->errors[i].message : NULL;
+  if (open_junit(call) != 0 || !call->junit) return code;
+  hc_status st =
+      gate_write_junit_unread(call->common.n_arguments, call->common.arguments, wrong, output_stream(call->junit));
+  close_junit(call, st);
+  return code;
 }
 
 /* The table and the JUnit file: each is written even if the other one fails. */
@@ -181,13 +211,17 @@ static int run_gate(int argc, char **argv)
   cli_parse(&cmd_gate, argc, argv, &call.own, &call.common);
   call.scenes = calloc((size_t)call.common.n_arguments, sizeof *call.scenes);
   call.cases = calloc((size_t)call.common.n_arguments, sizeof *call.cases);
-  int code = call.scenes && call.cases ? read_cases(&call)
-                                       : cli_solver_failed(&call.common, CLI_BOTH, "gate", HC_NO_MEMORY, 0);
+  int code = cli_check_files(&call.common, 1, &(cli_file){"--junit", call.own.junit, CLI_OUTPUT});
+  call.errors = calloc((size_t)call.common.n_arguments, sizeof *call.errors);
+  if (!code && !(call.scenes && call.cases && call.errors))
+    code = cli_solver_failed(&call.common, CLI_BOTH, "gate", HC_NO_MEMORY, 0);
+  if (!code && (code = read_cases(&call)) == EXIT_BAD_CASE) code = report_unread(&call, code);
   if (!code) code = open_junit(&call);
   if (!code) code = judge_cases(&call);
   if (!code) code = write_results(&call);
   output_abandon(call.junit);
   for (int i = 0; i < call.n_judged; ++i) gate_clear(&call.cases[i]);
+  free(call.errors);
   free(call.cases);
   free(call.scenes);
   return code;

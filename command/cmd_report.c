@@ -5,6 +5,7 @@
 
 #include "command/commands.h"
 #include "command/compare_tables.h"
+#include "command/files.h"
 #include "command/report/report.h"
 #include "command/version.h"
 #include "output/output.h"
@@ -28,7 +29,7 @@ typedef struct report_options {
 enum { KEY_AT = CLI_OWN_KEY, KEY_HARMONICS, KEY_SAMPLES };
 
 static const struct argp_option options[] = {
-    {"at", KEY_AT, "LIST", 0, "Omegas, rad per unit time [compare.omega, else compare.points over the sweep]", 1},
+    {"at", KEY_AT, "LIST", 0, "At these " CLI_FREQUENCIES " [compare.omega, else compare.points over the sweep]", 1},
     {"harmonics", KEY_HARMONICS, "LIST", 0, "Truncation orders of the tables, 1..200 [compare.harmonics]", 1},
     {"samples", KEY_SAMPLES, "LIST", 0, "Samples per period of the tables, at least 2 H + 2 [compare.samples]", 1},
     {0},
@@ -160,11 +161,12 @@ static int run_report(int argc, char **argv)
   char name[512];
   cli_parse(&cmd_report, argc, argv, &own, &common);
   int code = check_possible(&common);
+  const char *path = common.output ? common.output : name_of_page(common.arguments[0], name, sizeof name);
+  if (!code) code = cli_check_files(&common, !common.output, &(cli_file){"the page", path, CLI_OUTPUT});
   if (!code) code = cli_load_case(&common, common.arguments[0], &sc);
   if (!code) code = compare_lists(&common, &own.lists, &sc);
   if (code) return code;
-  if (own.at.n) sc.compare.omega = own.at;
-  const char *path = common.output ? common.output : name_of_page(common.arguments[0], name, sizeof name);
+  cli_take_frequencies(&common, &own.at, &sc);
   progress *bar = progress_start("comparing", common.quiet);
   hc_monitor monitor = progress_monitor(bar);
   hc_status st = report_gather(&sc, cli_processors(), &monitor, announce, bar, &d);

@@ -5,13 +5,13 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 #include "base/ascending.h"
 #include "campaigns/stress/scenes.h"
 #include "campaigns/stress/stress.h"
 #include "cases/case_file.h"
 #include "command/commands.h"
+#include "command/stress_files.h"
 #include "output/output.h"
 #include "output/progress.h"
 
@@ -350,9 +350,10 @@ static int run_stress(int argc, char **argv)
     cli_message(&call.common, "--set has no case file to set anything in");
     return EXIT_USAGE;
   }
-  if (call.own.one_case) return print_case(&call);
-  if (call.own.findings && mkdir(call.own.findings, 0777) != 0 && errno != EEXIST)
-    return cli_file_failed(&call.common, call.own.findings, HC_IO);
+  int refused = stress_check_files(&call.common, &call.own.plan, call.own.findings);
+  if (!refused && call.own.one_case) return print_case(&call);
+  if (!refused) refused = stress_make_folder(&call.common, call.own.findings);
+  if (refused) return refused;
   if (!(call.results = calloc((size_t)call.own.plan.scenes, sizeof *call.results)))
     return cli_solver_failed(&call.common, CLI_BOTH, "stress", HC_NO_MEMORY, 0);
   int stopped = classify_scenes(&call), code = stopped && call.classified == 0 ? stopped : write_tables(&call);

@@ -13,6 +13,7 @@
 #include "campaigns/study/report.h"
 #include "campaigns/study/run.h"
 #include "command/commands.h"
+#include "command/files.h"
 #include "command/plot/plot.h"
 #include "output/output.h"
 #include "output/progress.h"
@@ -68,7 +69,7 @@ static error_t read_option(int key, char *text, struct argp_state *state)
   }
 }
 
-enum { MAX_PATH = 4096, DEFAULT_WIDTH = 150, MIN_WIDTH = 60 };
+enum { MAX_PATH = 4096, BESIDE_PATH = MAX_PATH + 8, FILES_EACH = 4, DEFAULT_WIDTH = 150, MIN_WIDTH = 60 };
 
 enum { SUMMARY, VERDICTS, CLAIMS /* and STUDY_CLAIM_TABLES of them */, N_TABLES = CLAIMS + STUDY_CLAIM_TABLES };
 
@@ -76,7 +77,8 @@ enum { SUMMARY, VERDICTS, CLAIMS /* and STUDY_CLAIM_TABLES of them */, N_TABLES 
 typedef struct study_entry {
   study *s;
   char results[MAX_PATH];
-  study_store *store; /* rank 0 only */
+  char beside[2][BESIDE_PATH]; /* what SQLite keeps next to it while it is open */
+  study_store *store;          /* rank 0 only */
   long computed_now, computed;
   double wall; /* [s] */
 } study_entry;
@@ -89,6 +91,7 @@ typedef struct study_call {
   int jobs;          /* scenes computed at a time by this process */
   int n_studies;
   study_entry studies[CLI_MAX_ARGUMENTS]; /* [n_studies] */
+  cli_file files[CLI_MAX_ARGUMENTS * FILES_EACH + 1];
   table *tables[N_TABLES];
   study_claims_tally claims;
   long scenes;
@@ -169,6 +172,28 @@ static int read_studies(study_call *call)
     }
   }
   return check_names(call);
+}
+
+/* What a study reads and keeps, into list[FILES_EACH]. */
+static void list_files(study_entry *entry, cli_file *list)
+{
+  static const char *const endings[] = {"-wal", "-shm"};
+  const bool kept = strcmp(entry->results, ":memory:") != 0;
+  list[0] = (cli_file){"the base case", entry->s->base_name, CLI_INPUT};
+  list[1] = (cli_file){"the results file", kept ? entry->results : NULL, CLI_RESULTS};
+  for (int i = 0; i < 2; ++i) {
+    snprintf(entry->beside[i], BESIDE_PATH, "%s%s", entry->results, endings[i]);
+    list[2 + i] = (cli_file){"the results file's companion", kept ? entry->beside[i] : NULL, CLI_RESULTS};
+  }
+}
+
+/* No file in two roles. 0 or the exit code. */
+static int check_files(study_call *call)
+{
+  int n = 0;
+  for (int i = 0; i < call->n_studies; ++i, n += FILES_EACH) list_files(&call->studies[i], call->files + n);
+  call->files[n++] = (cli_file){"--plot", call->own.plot, CLI_OUTPUT};
+  return cli_check_files(&call->common, n, call->files);
 }
 
 static int open_stores(study_call *call)
@@ -428,6 +453,7 @@ static int run_study(int argc, char **argv)
   call->jobs = call->own.jobs ? call->own.jobs : call->n_ranks > 1 ? 1 : cli_processors();
   int code = check_usage(call, without_mpi);
   if (!code) code = read_studies(call);
+  if (!code && call->rank == 0) code = check_files(call);
   if (!code && call->rank == 0) code = open_stores(call);
   int agreed = cluster_agree(code);
   if (!agreed && call->rank == 0) code = run_rank_0(call);

@@ -1,6 +1,8 @@
 /* cmd_transient.c - hbmcheck transient: the steady state by CVODE at given frequencies. */
 #include "command/commands.h"
+#include "command/files.h"
 #include "command/plot/plot.h"
+#include "compare/motion.h"
 #include "compare/steady_states.h"
 #include "output/progress.h"
 
@@ -20,7 +22,7 @@ typedef struct transient_options {
 enum { KEY_AT = CLI_OWN_KEY, KEY_PLOT };
 
 static const struct argp_option options[] = {
-    {"at", KEY_AT, "LIST", 0, "Omegas, rad per unit time [compare.omega of the case]", 1},
+    {"at", KEY_AT, "LIST", 0, "At these " CLI_FREQUENCIES " [compare.omega of the case]", 1},
     CLI_PLOT_OPTION(KEY_PLOT),
     {0},
 };
@@ -43,12 +45,12 @@ static int put_row(const cli_common *common, const steady_row *r, table *t)
                                        [STEADY_HBM] = "harmonic balance"};
   row_cell cells[ROWS_MOST];
   if (r->without_hbm != HC_OK && !common->quiet)
-    cli_message(common, "no HBM solution at omega = %.10g (%s): starting at rest", r->result.omega,
-                hc_status_text(r->without_hbm));
+    cli_message(common, "no HBM solution at %s (%s): starting at rest",
+                scene_where(common->scene, r->result.omega, (char[SCENE_WHERE]){0}), hc_status_text(r->without_hbm));
   if (r->status == HC_INTERRUPTED) return 0;
   if (r->stage == STEADY_TRANSIENT) {
-    rows_transient(r, cells);
-    cli_put_row(t, ROWS_TRANSIENT, cells);
+    rows_transient(r, common->scene->in_cycles, cells);
+    cli_put_row(common, t, ROWS_TRANSIENT, cells);
   }
   if (r->status == HC_OK || r->status == HC_APERIODIC) return 0;
   return cli_solver_failed(common, r->stage == STEADY_HBM ? CLI_HBM : CLI_TRANSIENT, stages[r->stage], r->status,
@@ -62,11 +64,12 @@ static int run_transient(int argc, char **argv)
   scene sc;
   cli_parse(&cmd_transient, argc, argv, &own, &common);
   cli_check_plot(&common, own.plot, false);
-  int code = cli_load_case(&common, common.arguments[0], &sc), n_columns;
+  int code = cli_check_files(&common, 1, &(cli_file){"--plot", own.plot, CLI_OUTPUT}), n_columns;
+  if (!code) code = cli_load_case(&common, common.arguments[0], &sc);
   if (code) return code;
-  if (own.at.n) sc.compare.omega = own.at;
+  cli_take_frequencies(&common, &own.at, &sc);
   if (sc.compare.omega.n == 0) {
-    cli_message(&common, "at which omega? give --at LIST, or compare.omega in the case");
+    cli_message(&common, "at which frequencies? give --at LIST, or compare.omega in the case");
     return EXIT_USAGE;
   }
   progress *bar = progress_start("time integration", common.quiet);
@@ -77,12 +80,15 @@ static int run_transient(int argc, char **argv)
   if (st == HC_OK) st = steady_states_run(&setup, &monitor, &found);
   scene_setup_clear(&setup);
   progress_end(bar);
-  const table_column *columns = rows_columns(ROWS_TRANSIENT, &n_columns);
+  const table_column *columns = rows_columns(ROWS_TRANSIENT, sc.in_cycles, &n_columns);
   table *t = table_new("Steady states", n_columns, columns);
+  bool free = false;
   for (int i = 0; i < found.n; ++i) {
+    free |= found.rows[i].status == HC_OK && motion_mean_is_free(&found.rows[i].result);
     int row_code = put_row(&common, &found.rows[i], t);
     if (row_code) code = row_code;
   }
+  if (!free) table_hide(t, "mean_free");
   if (st != HC_OK) {
     table_note(t, "INCOMPLETE: %s", hc_status_text(st));
     code = cli_solver_failed(&common, CLI_TRANSIENT, "time integration", st, 0);

@@ -4,6 +4,7 @@
 #include <stdio.h>
 
 #include "command/commands.h"
+#include "command/files.h"
 #include "compare/verify/verify.h"
 #include "output/progress.h"
 
@@ -12,12 +13,16 @@ static const char help[] =
     "many harmonics, itself held "
     "against time integration; a verdict for every point, and the suspected cause where they differ, found by making "
     "the mistake ourselves."
-    "\vFILE: fields separated by comma, semicolon, tab or blanks; # starts a remark; a header is welcome; any order, "
-    "several branches. "
+    "\vFILE: fields separated by comma, semicolon, tab or blanks; # starts a remark; any order, several branches. "
+    "Without --columns the header says what is what: omega or frequency, and a quantity. "
     "COLUMN is a number from 1 or a name in the header. omega is in rad per unit time, frequency in cycles per unit "
-    "time; amplitude = "
-    "(max - min)/2 of x, harmonic_1 = |a1 + i b1|, peak = max |x|. A point matches within the case's gate.amplitude "
-    "or gate.harmonic_1. With csv "
+    "time.\n"
+    "QUANTITY: amplitude = (max - min)/2 of x, double_amplitude, peak = max |x|, max, min, mean, rms, norm = "
+    "sqrt(X0^2 + sum (a_k^2 + b_k^2)), harmonic_K = |a_K + i b_K|, velocity and acceleration = (max - min)/2 of x' "
+    "and x'', velocity_harmonic_K, acceleration_harmonic_K; dB_ before any: 20 log10 of it. docs/verify.md has the "
+    "formulas and all causes.\n"
+    "A point matches within the case's gate.amplitude, gate.harmonic_1 or gate.mean. Where a slider never slips the "
+    "mean is open, and what contains it is not compared. With csv "
     "only the points are written, with the cause in the remarks before them.\n"
     "exit: 0 every point matches  1 some do not, or run along the wrong branch  2 a file is wrong  3 could not be "
     "judged  64 usage\n"
@@ -33,8 +38,8 @@ enum { KEY_AGAINST = CLI_OWN_KEY, KEY_COLUMNS, KEY_QUANTITY };
 static const struct argp_option options[] = {
     {"against", KEY_AGAINST, "FILE", 0, "The curve to hold against ours", 1},
     {"columns", KEY_COLUMNS, "NAME=COLUMN,...", 0,
-     "Where its columns are: omega or frequency, and amplitude, harmonic_1, peak or value", 1},
-    {"quantity", KEY_QUANTITY, "amplitude|harmonic_1|peak", 0, "What the column named value is", 1},
+     "Where its columns are: omega or frequency, and value or a QUANTITY [as the header names them]", 1},
+    {"quantity", KEY_QUANTITY, "QUANTITY", 0, "What the column named value is, or which column is meant", 1},
     {0},
 };
 
@@ -60,27 +65,35 @@ static const table_column hypothesis_columns[] = {
     {"slider_restart", TABLE_TEXT}, {"omega_factor", TABLE_REAL}, {"value_factor", TABLE_REAL},
     {"quantity", TABLE_TEXT},
 };
+static const table_column summary_columns[] = {
+    {"cause", TABLE_TEXT},          {"nearest_guess", TABLE_TEXT},   {"quantity", TABLE_TEXT},
+    {"points", TABLE_INTEGER},      {"match", TABLE_INTEGER},        {"differs", TABLE_INTEGER},
+    {"unstable", TABLE_INTEGER},    {"other_branch", TABLE_INTEGER}, {"solver_failed", TABLE_INTEGER},
+    {"skipped", TABLE_INTEGER},     {"left_out", TABLE_INTEGER},     {"reversals", TABLE_INTEGER},
+    {"truth_distance", TABLE_REAL}, {"noise", TABLE_REAL},           {"sentence", TABLE_TEXT},
+};
 enum {
+  N_SUMMARY_COLUMNS = sizeof summary_columns / sizeof *summary_columns,
   N_COLUMNS = sizeof columns / sizeof *columns,
   N_HYPOTHESIS_COLUMNS = sizeof hypothesis_columns / sizeof *hypothesis_columns
 };
 
-static void put_row(table *t, const verify_row *r)
+static void put_row(table *t, const verify_quantity *q, const verify_row *r)
 {
   table_put_real(t, r->omega);
-  table_put_real(t, r->value);
-  table_put_real(t, r->nearest);
+  table_put_real(t, verify_quantity_to_column(q, r->value));
+  table_put_real(t, verify_quantity_to_column(q, r->nearest));
   if (r->branch >= 0) table_put_integer(t, r->branch);
   else table_put_missing(t);
   table_put_text(t, r->branch < 0 ? NULL : r->stable > 0 ? "yes" : r->stable < 0 ? "no" : "unknown");
   table_put_real(t, r->error);
-  table_put_text(t, verdict_name(r->verdict));
+  table_put_text(t, r->skipped ? "skipped" : verdict_name(r->verdict));
   table_put_integer(t, r->line);
 }
 
 static void put_hypothesis(table *t, const verify_hypothesis *h, double truth)
 {
-  char words[VERIFY_TEXT];
+  char words[VERIFY_TEXT], name[VERIFY_QUANTITY_TEXT];
   const verify_equations *e = &h->equations;
   const bool linear = e->contact != VERIFY_CONTACT_AS_IT_IS;
   table_put_text(t, verify_cause_words(h->causes, words));
@@ -94,14 +107,15 @@ static void put_hypothesis(table *t, const verify_hypothesis *h, double truth)
   table_put_text(t, !e->samples ? NULL : e->restart == HBM_RESTART_SAMPLE ? "sample" : "interpolated");
   table_put_real(t, h->omega_factor);
   table_put_real(t, h->value_factor);
-  table_put_text(t, verify_quantity_name(h->quantity));
+  table_put_text(t, verify_quantity_name(&h->quantity, name));
 }
 
 static void note_truth(table *t, const scene *sc, const verify_data *data, const verify_report *r)
 {
+  char name[VERIFY_QUANTITY_TEXT];
   table_note(t, "%s", sc->title);
   table_note(t, "truth: H = %d, exact forces, harmonic 0 kept; gate: %s %g", r->harmonics,
-             verify_quantity_name(data->quantity), r->gate);
+             verify_quantity_name(&data->quantity, name), r->gate);
   if (r->checked)
     table_note(t, "truth held against time integration at %d points: %.1e off at most", r->checked, r->checked_error);
   if (r->unchecked) table_note(t, "at %d points time integration found no orbit next to the truth", r->unchecked);
@@ -122,28 +136,72 @@ static const char *meaning_for_point(verdict v)
   }
 }
 
+static const char *machine_cause(const verify_report *r, char text[VERIFY_TEXT])
+{
+  const bool known = r->causes || (r->status == HC_OK && verify_exit_code(r) == 0);
+  return known ? verify_cause_words(r->causes, text) : "unknown";
+}
+
+static void note_what_was_not_compared(table *t, const verify_report *r)
+{
+  if (r->skipped)
+    table_note(t, "%d points not compared: the mean is free where a slider never slips, and the quantity contains it",
+               r->skipped);
+  if (r->left_out) table_note(t, "%d points at omega <= 0 left out", r->left_out);
+  if (r->reversals > VERIFY_USUAL_REVERSALS)
+    table_note(t, "the curve reverses %d times: its program wandered; each point is judged by itself", r->reversals);
+}
+
 static void note_verification(table *t, const scene *sc, const verify_data *data, const verify_report *r)
 {
   char text[VERIFY_TEXT];
   note_truth(t, sc, data, r);
   for (int v = 0; v < VERDICT_COUNT; ++v)
     if (r->count[v]) table_note(t, "%d %s: %s", r->count[v], verdict_name((verdict)v), meaning_for_point((verdict)v));
+  note_what_was_not_compared(t, r);
   table_note(t, "%s", verify_sentence(r, text));
-  table_note(t, "cause: %s",
-             r->causes || (r->status == HC_OK && verify_exit_code(r) == 0) ? verify_cause_words(r->causes, text)
-                                                                           : "unknown");
+  table_note(t, "cause: %s", machine_cause(r, text));
+  if (r->nearest_guess) table_note(t, "nearest guess: %s", verify_cause_words(r->nearest_guess, text));
 }
 
+static void put_summary(table *t, const verify_data *data, const verify_report *r)
+{
+  char text[VERIFY_TEXT], name[VERIFY_QUANTITY_TEXT];
+  table_put_text(t, machine_cause(r, text));
+  table_put_text(t, r->nearest_guess ? verify_cause_words(r->nearest_guess, text) : NULL);
+  table_put_text(t, verify_quantity_name(&data->quantity, name));
+  table_put_integer(t, r->n_rows);
+  table_put_integer(t, r->count[VERDICT_MATCH]);
+  table_put_integer(t, r->count[VERDICT_DIFFERS]);
+  table_put_integer(t, r->count[VERDICT_UNSTABLE]);
+  table_put_integer(t, r->count[VERDICT_OTHER_BRANCH]);
+  table_put_integer(t, r->count[VERDICT_SOLVER_FAILED]);
+  table_put_integer(t, r->skipped);
+  table_put_integer(t, r->left_out);
+  table_put_integer(t, r->reversals);
+  table_put_real(t, r->truth_distance);
+  table_put_real(t, r->noise);
+  table_put_text(t, verify_sentence(r, text));
+}
+
+/* Points and what came out; the table on a screen has no summary, since the remarks say it, csv the points alone. */
 static int write_tables(const cli_common *common, const scene *sc, const verify_data *data, const verify_report *r)
 {
-  table *tables[2] = {table_new("Points", N_COLUMNS, columns),
-                      table_new("Hypotheses", N_HYPOTHESIS_COLUMNS, hypothesis_columns)};
-  for (int i = 0; i < r->n_rows; ++i) put_row(tables[0], &r->rows[i]);
+  table *points = table_new("Points", N_COLUMNS, columns),
+        *hypotheses = table_new("Hypotheses", N_HYPOTHESIS_COLUMNS, hypothesis_columns),
+        *summary = table_new("Summary", N_SUMMARY_COLUMNS, summary_columns), *tables[3] = {points};
+  int n = 1;
+  for (int i = 0; i < r->n_rows; ++i) put_row(points, &data->quantity, &r->rows[i]);
   for (int i = 0; i < r->n_hypotheses && i < VERIFY_SHOWN; ++i)
-    put_hypothesis(tables[1], &r->hypotheses[i], r->truth_distance);
-  note_verification(tables[0], sc, data, r);
-  int code = cli_write(common, r->n_hypotheses && common->format != FORMAT_CSV ? 2 : 1, tables);
-  for (int i = 0; i < 2; ++i) table_free(tables[i]);
+    put_hypothesis(hypotheses, &r->hypotheses[i], r->truth_distance);
+  put_summary(summary, data, r);
+  note_verification(points, sc, data, r);
+  if (r->n_hypotheses && common->format != FORMAT_CSV) tables[n++] = hypotheses;
+  if (common->format == FORMAT_JSON) tables[n++] = summary;
+  int code = cli_write(common, n, tables);
+  table_free(points);
+  table_free(hypotheses);
+  table_free(summary);
   return code;
 }
 
@@ -152,9 +210,8 @@ static int read_curve(const cli_common *common, const verify_options *own, verif
 {
   verify_columns where;
   char words[VERIFY_TEXT];
-  if (!own->against || !own->columns) {
-    cli_message(common, "no %s given, expected --against FILE --columns omega=1,amplitude=2",
-                own->against ? "--columns" : "--against");
+  if (!own->against) {
+    cli_message(common, "no --against given, expected --against FILE");
     return EXIT_USAGE;
   }
   if (verify_columns_read(own->columns, own->quantity, &where, words) != HC_OK) {
@@ -176,7 +233,8 @@ static int run_verify(int argc, char **argv)
   verify_report report = {0};
   int written = 0;
   cli_parse(&cmd_verify, argc, argv, &own, &common);
-  int code = cli_load_case(&common, common.arguments[0], &sc);
+  int code = cli_check_files(&common, 1, &(cli_file){"the curve", own.against, CLI_INPUT});
+  if (!code) code = cli_load_case(&common, common.arguments[0], &sc);
   if (!code) code = read_curve(&common, &own, &data);
   if (!code) {
     progress *bar = progress_start("verifying", common.quiet);

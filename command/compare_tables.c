@@ -22,7 +22,7 @@ int compare_lists(const cli_common *common, const table_lists *lists, scene *sc)
   return 0;
 }
 
-static void note_accuracy(table *t, const accuracy *a)
+static void note_accuracy(table *t, const scene *sc, const accuracy *a)
 {
   table_note(
       t,
@@ -30,7 +30,7 @@ static void note_accuracy(table *t, const accuracy *a)
       "is next to",
       a->orbits, a->frequencies);
   if (isfinite(a->peak_amplitude))
-    table_note(t, "peak: %.10g at omega = %.8g, %s", a->peak_amplitude, a->peak_omega,
+    table_note(t, "peak: %.10g at %s, %s", a->peak_amplitude, scene_where(sc, a->peak_omega, (char[SCENE_WHERE]){0}),
                a->peak_by_orbit ? "of the exact transient's orbits"
                                 : "of the curve with exact forces and most harmonics");
   table_note(
@@ -39,29 +39,29 @@ static void note_accuracy(table *t, const accuracy *a)
       "H");
 }
 
-static table *accuracy_table(const accuracy *a)
+static table *accuracy_table(const cli_common *common, const accuracy *a)
 {
   int n;
-  const table_column *columns = rows_columns(ROWS_ACCURACY, &n);
+  const table_column *columns = rows_columns(ROWS_ACCURACY, common->scene->in_cycles, &n);
   table *t = table_new("Samples and truncation order", n, columns);
   for (int i = 0; i < a->n_rows; ++i) {
     row_cell cells[ROWS_MOST];
-    rows_accuracy(&a->rows[i], cells);
-    cli_put_row(t, ROWS_ACCURACY, cells);
+    rows_accuracy(&a->rows[i], common->scene->in_cycles, cells);
+    cli_put_row(common, t, ROWS_ACCURACY, cells);
   }
-  note_accuracy(t, a);
+  note_accuracy(t, common->scene, a);
   return t;
 }
 
-static table *order_table(const accuracy *a)
+static table *order_table(const cli_common *common, const accuracy *a)
 {
   int n;
-  const table_column *columns = rows_columns(ROWS_ORDER, &n);
+  const table_column *columns = rows_columns(ROWS_ORDER, common->scene->in_cycles, &n);
   table *t = table_new("Observed orders", n, columns);
   for (int i = 0; i < a->n_orders; ++i) {
     row_cell cells[ROWS_MOST];
-    rows_order(&a->orders[i], cells);
-    cli_put_row(t, ROWS_ORDER, cells);
+    rows_order(&a->orders[i], common->scene->in_cycles, cells);
+    cli_put_row(common, t, ROWS_ORDER, cells);
   }
   table_note(t,
              "error ~ quantity^-order (regularisation^order), least squares over the asymptotic part of its envelope; "
@@ -69,12 +69,12 @@ static table *order_table(const accuracy *a)
   return t;
 }
 
-hc_status compare_tables(const compare_setup *setup, const comparison *c, const hc_monitor *monitor, table *out[2],
-                         accuracy *a)
+hc_status compare_tables(const cli_common *common, const compare_setup *setup, const comparison *c,
+                         const hc_monitor *monitor, table *out[2], accuracy *a)
 {
   hc_status st = accuracy_run(setup, c, monitor, a);
-  out[0] = accuracy_table(a);
-  out[1] = order_table(a);
+  out[0] = accuracy_table(common, a);
+  out[1] = order_table(common, a);
   for (int i = 0; i < 2 && st != HC_OK; ++i) table_note(out[i], "INCOMPLETE: %s", hc_status_text(st));
   return st;
 }

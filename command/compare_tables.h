@@ -14,7 +14,7 @@ int compare_lists(const cli_common *common, const table_lists *lists, scene *sc)
 
 /* The table over (H, N) and the one of observed orders into out[], which the caller frees; on failure they have the
  * rows found before. *a gets what they were made from, to be freed with accuracy_clear in any case. */
-hc_status compare_tables(const compare_setup *setup, const comparison *c, const hc_monitor *monitor, table *out[2],
-                         accuracy *a);
+hc_status compare_tables(const cli_common *common, const compare_setup *setup, const comparison *c,
+                         const hc_monitor *monitor, table *out[2], accuracy *a);
 
 #endif

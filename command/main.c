@@ -27,7 +27,7 @@ int main(int argc, char **argv)
   signal(SIGPIPE, SIG_IGN);    /* a closed pipe then is a write error, with a message and exit code 3 */
   signal(SIGCHLD, SIG_DFL);    /* if our parent ignored it, waitpid could not tell how gnuplot and python3 ended */
   gsl_set_error_handler_off(); /* GSL's default handler aborts; we check its statuses */
-  progress_install_signals();
+  progress_install_signals(EXIT_NO_SOLUTION);
   if (argc < 2) {
     usage(stderr);
     return EXIT_USAGE;

@@ -86,6 +86,16 @@ const char *comparison_verdict_text(const comparison_row *row, char text[24]);
 /* Is it known where the transient went, and no HBM solution is there? */
 bool comparison_unaccounted(const comparison_row *row);
 
+/* Is the mean of what the row's HBM solution was held against, or, where that is not known, of the solution itself,
+ * open: a slider never slips, and where it rests is a matter of history? Such means are not compared. */
+bool comparison_mean_free(const comparison_row *row);
+
+/* Does a contact change its state, in any row, on either side? If not, two linear responses were compared. */
+bool comparison_nonlinear(const comparison *c);
+#define COMPARISON_LINEAR /* the remark, with the number of rows */                                                    \
+  "nothing nonlinear was compared: no contact changes its state in any of the %d rows; are the gap's sign, the angle " \
+  "in degrees and the force right?"
+
 /* Both sides ran on one orbit (match or differs, period 1) and differ in amplitude or waveform by more than
  * COMPARISON_SLACK times what both predicted together: something is wrong that neither expected. False where a
  * prediction is not known. */

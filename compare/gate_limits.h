@@ -11,13 +11,18 @@
 
 /* Other limits in parts of the sweep. Where ranges overlap the last one holds. */
 typedef struct gate_ranges {
-  number_list omega;                                 /* [rad/time] from, to, from, to, ..., ends included */
+  number_list ends; /* from, to, from, to, ..., ends included, in [rad/time], or cycles per time where in_cycles */
+  bool in_cycles;
   number_list amplitude, harmonic_1, mean, waveform; /* [1] one a range; n = 0: as outside the ranges */
 } gate_ranges;
+
+/* Must a contact change its state at some frequency? Else a linear response passes, with a remark. */
+typedef enum gate_nonlinear { GATE_NONLINEAR_ANY, GATE_NONLINEAR_REQUIRED } gate_nonlinear;
 
 typedef struct gate_limits {
   discrepancy most; /* [1] largest relative discrepancy */
   gate_ranges ranges;
+  gate_nonlinear nonlinear;
   int iterations, evaluations; /* most for the response curve; 0: no limit */
 } gate_limits;
 

@@ -1,6 +1,7 @@
 /* motion.c - see motion.h. */
 #include "compare/motion.h"
 
+#include <math.h>
 #include <string.h>
 
 _Static_assert((int)TIMEINT_WAVE == (int)MOTION_SAMPLES, "a transient's wave is taken as it is");
@@ -32,6 +33,6 @@ discrepancy motion_discrepancy(const periodic_motion *a, const periodic_motion *
   const motion_distance d = motion_between(a, b);
   return (discrepancy){.amplitude = discrepancy_relative(d.amplitude, b->amplitude),
                        .harmonic_1 = discrepancy_relative(d.harmonic_1, b->amplitude),
-                       .mean = discrepancy_relative(d.mean, b->amplitude),
+                       .mean = a->mean_free || b->mean_free ? NAN : discrepancy_relative(d.mean, b->amplitude),
                        .waveform = discrepancy_relative(d.waveform, b->amplitude)};
 }

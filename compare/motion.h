@@ -17,7 +17,7 @@ periodic_motion motion_of_transient(const timeint_result *r);
 /* Does a slider of this transient never slip, so that its mean depends on its history? Such means are not compared. */
 bool motion_mean_is_free(const timeint_result *r);
 
-/* motion_between(a, b) relative to b's amplitude. */
+/* motion_between(a, b) relative to b's amplitude; of the mean NaN where that of one of them is free. */
 discrepancy motion_discrepancy(const periodic_motion *a, const periodic_motion *b);
 
 #endif

@@ -41,7 +41,8 @@ static hbmcheck_row row_of(const comparison_row *r)
                         .from_settling = parts->settling,
                         .hbm_predicted = r->hbm_predicted.amplitude,
                         .transient_predicted = r->transient_predicted.amplitude,
-                        .unexpected = r->unexpected};
+                        .unexpected = r->unexpected,
+                        .mean_free = comparison_mean_free(r)};
 }
 
 /* The gate's checks, of which the totals are kept. */
@@ -49,7 +50,11 @@ static hc_status judge(const compare_setup *setup, const comparison *found, hbmc
 {
   gate_case g;
   hc_status st = gate_judge("", setup, found, &g);
-  *out = (hbmcheck_gate){.checks = g.n, .failed = g.failures, .errors = g.errors, .exit_code = gate_exit_code(1, &g)};
+  *out = (hbmcheck_gate){.checks = g.n,
+                         .failed = g.failures,
+                         .errors = g.errors,
+                         .exit_code = gate_exit_code(1, &g),
+                         .not_applicable = g.not_applicable};
   gate_clear(&g);
   return st;
 }

@@ -36,7 +36,8 @@ static hbmcheck_solution solution_of(const response_row *r)
                              .branch = r->point.branch,
                              .harmonics = r->point.harmonics,
                              .iterations = r->point.iterations,
-                             .contact = (hbmcheck_contact)m->contact.regime};
+                             .contact = (hbmcheck_contact)m->contact.regime,
+                             .mean_free = m->contact.free_sliders > 0};
 }
 
 /* Measure every point of s->curve. On failure those before it are kept. */

@@ -122,6 +122,7 @@ typedef struct hbmcheck_solution {
   int harmonics;            /* H kept at this point: changes along the curve for hbm.harmonics: auto */
   int iterations;           /* of Newton; 0: taken from the linear closed form */
   hbmcheck_contact contact; /* what happens at the contacts */
+  int mean_free;            /* 1: a slider never slips, and mean, max, min and rms depend on the history */
 } hbmcheck_solution;
 
 /* Several solutions in the order of the curve they lie on. */
@@ -281,7 +282,7 @@ typedef struct hbmcheck_row {
   double orbit_amplitude;
   double amplitude_error;  /* [1] |difference of (max - min)/2| */
   double harmonic_1_error; /* [1] |difference of |a1 + i b1|| */
-  double mean_error;       /* [1] |difference of the means| */
+  double mean_error;       /* [1] |difference of the means|; NaN where mean_free */
   double waveform_error;   /* [1] largest |difference of x| over the period. These four: NaN: nothing to compare */
   double orbit_error;      /* [1] largest |difference of x| to the orbit; NaN: not found */
   /* [1] what the difference in amplitude is made of: each measured by taking that cause alone away; NaN: not known */
@@ -289,14 +290,16 @@ typedef struct hbmcheck_row {
   /* [1] of its own amplitude: the error each side expects of itself, before it sees the other; NaN: not known */
   double hbm_predicted, transient_predicted;
   int unexpected; /* 1: the discrepancy is above three times what both predicted: something is wrong */
+  int mean_free;  /* 1: a slider never slips: the mean depends on the history and was not compared */
 } hbmcheck_row;
 
 /* The gate: every number of the comparison against the limits of the case. */
 typedef struct hbmcheck_gate {
-  int checks;    /* made */
-  int failed;    /* of them beyond the limit */
-  int errors;    /* of them without anything to hold the number against */
-  int exit_code; /* 0: all within; 1: something failed; 3: else, something could not be compared */
+  int checks;         /* made */
+  int failed;         /* of them beyond the limit */
+  int errors;         /* of them without anything to hold the number against */
+  int exit_code;      /* 0: all within; 1: something failed; 3: else, something could not be compared */
+  int not_applicable; /* of them about a mean that a slider which never slips leaves open */
 } hbmcheck_gate;
 
 typedef struct hbmcheck_comparison hbmcheck_comparison;

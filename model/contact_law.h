@@ -13,6 +13,7 @@
 #define HC_CONTACT_LAW_H
 
 #include <math.h>
+#include <stdbool.h>
 
 typedef struct contact {
   double kt;  /* [force/length] >= 0, tangential stiffness */
@@ -27,6 +28,9 @@ typedef enum contact_state { CONTACT_SEPARATED, CONTACT_STICK, CONTACT_SLIP_PLUS
  * in contact, separates and touches. The `contact` column of tables shows the largest of all contacts. */
 typedef enum contact_regime { CONTACT_LINEAR, CONTACT_STUCK, CONTACT_SLIPS, CONTACT_SEPARATES } contact_regime;
 const char *contact_regime_name(contact_regime regime); /* "linear", "stick", "slip", "separation" */
+
+/* Can it resist a tangential motion? Without friction T = 0, and there is no slider. */
+static inline bool contact_has_friction(const contact *c) { return c->kt > 0 && c->kn > 0 && c->mu > 0; }
 
 /* Static normal force [force]. */
 static inline double contact_preload(const contact *c) { return c->gap > 0 ? c->kn * c->gap : 0.0; }

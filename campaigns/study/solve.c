@@ -29,7 +29,7 @@ static void fail_with(study_result *r, const char *what, hc_status st, double om
 
 static hc_status make_rows(study_result *r, rows_kind kind, int n)
 {
-  rows_columns(kind, &r->n_columns);
+  rows_columns(kind, r->in_cycles, &r->n_columns);
   r->rows = calloc((size_t)n * (size_t)r->n_columns + 1, sizeof *r->rows);
   return r->rows ? HC_OK : HC_NO_MEMORY;
 }
@@ -39,7 +39,7 @@ static row_cell *next_row(study_result *r) { return r->rows + (size_t)r->n_rows+
 static void put_curve(study_result *r, const response_summary *summary)
 {
   r->has_curve = true;
-  rows_curve(summary, r->curve);
+  rows_curve(summary, r->in_cycles, r->curve);
 }
 
 static hc_status put_solutions(hbm_solver *s, const scene *sc, const hbm_curve *curve, study_result *r)
@@ -54,7 +54,7 @@ static hc_status put_solutions(hbm_solver *s, const scene *sc, const hbm_curve *
     response_row row;
     hc_status one = response_row_of(s, &found, k, &row);
     if (one == HC_NO_MEMORY) st = one;
-    else if (one == HC_OK) rows_frf(&row, next_row(r));
+    else if (one == HC_OK) rows_frf(&row, r->in_cycles, next_row(r));
     else fail_with(r, "harmonic balance", one, found.points[k].omega);
   }
   hbm_curve_free(&found);
@@ -107,7 +107,7 @@ static hc_status solve_transient(const scene *sc, const hc_monitor *monitor, stu
   if (st == HC_OK) st = make_rows(r, ROWS_TRANSIENT, found.n);
   for (int i = 0; i < found.n && st == HC_OK; ++i) {
     const steady_row *row = &found.rows[i];
-    if (row->stage == STEADY_TRANSIENT) rows_transient(row, next_row(r));
+    if (row->stage == STEADY_TRANSIENT) rows_transient(row, r->in_cycles, next_row(r));
     if (row->status == HC_NO_MEMORY) st = row->status;
     else if (row->status != HC_OK) fail_with(r, stages[row->stage], row->status, row->result.omega);
   }
@@ -137,7 +137,7 @@ static hc_status solve_compare(const scene *sc, const hc_monitor *monitor, study
     if (st != HC_OK) fail_with(r, "the comparison", st, 0);
     else put_curve(r, &c.summary);
     st = make_rows(r, ROWS_COMPARE, c.n_rows);
-    for (int i = 0; i < c.n_rows && st == HC_OK; ++i) rows_compare(&c.rows[i], next_row(r));
+    for (int i = 0; i < c.n_rows && st == HC_OK; ++i) rows_compare(&c.rows[i], r->in_cycles, next_row(r));
     tell_failures(&c, r);
   }
   comparison_clear(&c);
@@ -149,8 +149,8 @@ hc_status study_solve(const study *s, long id, const hc_monitor *monitor, study_
   scene sc;
   case_error err = {{0}};
   double start = thread_seconds();
-  *out = (study_result){.id = id};
-  rows_columns(study_rows(s), &out->n_columns);
+  *out = (study_result){.id = id, .in_cycles = study_in_cycles(s)};
+  rows_columns(study_rows(s), out->in_cycles, &out->n_columns);
   hc_status st = study_scene(s, id, &sc, &err);
   if (st != HC_OK) {
     out->failed = true;

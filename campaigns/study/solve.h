@@ -10,6 +10,7 @@ typedef struct study_result {
   bool failed; /* something could not be solved: reason says what; what was found all the same is there */
   char reason[STUDY_TEXT];
   double seconds; /* of this thread's processor time */
+  bool in_cycles; /* study_in_cycles */
   bool has_curve;
   row_cell curve[ROWS_MOST];
   int n_rows, n_columns; /* columns of the study's kind */

@@ -30,7 +30,7 @@ static void apply(case_reader *r, const study_field *sf, const study_value *valu
   case_target t = {.f = sf->f, .contact = sf->contact};
   r->here = (case_place){.line = value->line, .column = value->column};
   void *base = case_target_base(r, t);
-  case_drop_rival(r, sf->f);
+  case_drop_rivals(r, sf->f);
   message_start(&why, words, sizeof words);
   field_split(sf->f, value->text, strlen(value->text), &v);
   field_store(sf->f, base, &v, &why, &bad);
@@ -49,6 +49,17 @@ hc_status study_scene(const study *s, long id, scene *out, case_error *err)
   hc_status st = case_check(&r);
   if (st == HC_OK) *out = r.sc;
   return st;
+}
+
+bool study_in_cycles(const study *s)
+{
+  bool any = s->base.in_cycles;
+  for (int a = 0; a < s->n_axes; ++a)
+    for (int k = 0; k < s->axes[a].n_fields; ++k) {
+      const field *f = s->axes[a].fields[k].f;
+      any |= f->in_cycles && f->scale != 0;
+    }
+  return any;
 }
 
 /* FNV-1a, 64 bits. The end of a text counts: "ab", "c" is not "a", "bc". */
@@ -118,5 +129,6 @@ void study_free(study *s)
   free(s->claims);
   free(s->views);
   free(s->name);
+  free(s->base_name);
   free(s);
 }

@@ -54,7 +54,8 @@ typedef struct study_view {
 } study_view;
 
 typedef struct study {
-  char *name; /* of the file, for messages */
+  char *name;      /* of the file, for messages */
+  char *base_name; /* of the base case's file; NULL: the case stands in the study */
   char title[STUDY_TEXT];
   study_kind kind;
   scene base; /* with `set` and --set applied */
@@ -78,6 +79,9 @@ hc_status study_scene(const study *s, long id, scene *out, case_error *err);
 
 /* Which value of axis `axis` scene id has, 0..n-1. */
 int study_index(const study *s, long id, int axis);
+
+/* Do results have columns of frequencies in cycles per time? If the base's sweep, or any that varies, is in cycles. */
+bool study_in_cycles(const study *s);
 
 /* "frf", "transient", "compare" */
 const char *study_kind_name(study_kind kind);

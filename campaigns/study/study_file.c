@@ -80,9 +80,11 @@ hc_status study_read_text(study_reader *q, const char *what, const yaml_node_t *
 /* Is this the field, or another way to say the same? */
 static bool clashes(const char *path, const field *f, const char *own)
 {
-  char rival[FIELD_PATH] = "";
-  if (f->rival) field_path(field_find(f->section, f->rival, strlen(f->rival)), -1, rival);
-  return !strcmp(path, own) || !strcmp(path, rival);
+  const field *rival;
+  char other[FIELD_PATH];
+  for (int i = 0; (rival = field_rival(f, i)) != NULL; ++i)
+    if (!strcmp(path, field_path(rival, -1, other))) return true;
+  return !strcmp(path, own);
 }
 
 static hc_status note_given(study_reader *q, const char *path, case_place at)
@@ -126,7 +128,7 @@ static hc_status set_one(study_reader *q, const yaml_node_pair_t *pair)
   if (!t.f && t.contact < 0) return yaml_scene_contacts(&q->r, &q->doc, value);
   void *base = case_target_base(&q->r, t);
   if (!t.f) return yaml_scene_contact(&q->r, &q->doc, value, t.contact);
-  case_drop_rival(&q->r, t.f);
+  case_drop_rivals(&q->r, t.f);
   st = yaml_scene_value(&q->r, &q->doc, t.f, t.contact, base, value);
   if (st == HC_OK) case_target_given(&q->r, t);
   return st;
@@ -181,7 +183,7 @@ static hc_status read_base(study_reader *q, const yaml_node_t *node)
   case_error inner = {{0}};
   hc_status st = study_read_text(q, "base", node, &name);
   if (st != HC_OK) return st;
-  char *path = beside(q->r.name, name.text);
+  char *path = q->s->base_name = beside(q->r.name, name.text);
   st = path ? case_read(path, 0, NULL, &q->r.sc, &inner) : study_no_memory(q);
   if (path && st == HC_IO) message_add(study_blame(q, node), "the base case: %s", inner.message);
   else if (path && st != HC_OK) {
@@ -189,7 +191,6 @@ static hc_status read_base(study_reader *q, const yaml_node_t *node)
     message_add(&q->r.msg, "%s", inner.message); /* its own file, line and column */
   }
   if (st == HC_OK) memset(q->r.contact_has, 0xff, sizeof q->r.contact_has);
-  free(path);
   free(name.text);
   return st;
 }

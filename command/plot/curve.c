@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/constants.h"
 #include "campaigns/scene_solvers.h"
 #include "compare/frequencies.h"
 #include "hbm/segment.h"
@@ -245,11 +246,19 @@ void curve_shape_items(figure *g, const curve_shape *c, bool quiet)
   }
 }
 
+hc_status curve_figure_open(figure *g, plot_order *p, const scene *sc, int width, int height)
+{
+  hc_status st = figure_open(g, p, width, height);
+  if (sc->in_cycles) g->x_unit = TWO_PI;
+  return st;
+}
+
 void curve_shape_axes(figure *g, const scene *sc, const curve_shape *c)
 {
-  figure_below(g, "%s [rad/%s]", g->letters ? "omega" : "ω", sc->unit_time);
+  if (sc->in_cycles) figure_below(g, "frequency [cycles/%s]", sc->unit_time);
+  else figure_below(g, "%s [rad/%s]", g->letters ? "omega" : "ω", sc->unit_time);
   figure_set(g, "ylabel", "amplitude of x [%s]", sc->unit_length);
-  figure_script(g, "set xrange [%.10g:%.10g]\nset yrange [0:*]\n", c->low, c->high);
+  figure_script(g, "set xrange [%.10g:%.10g]\nset yrange [0:*]\n", c->low / g->x_unit, c->high / g->x_unit);
 }
 
 bool curve_shape_window(const curve_shape *c, curve_window *out)

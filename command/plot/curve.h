@@ -28,6 +28,9 @@ hc_status curve_shape_of(const scene *sc, hbm_solver *s, const hbm_curve *curve,
 hc_status curve_shape_trace(const scene *sc, const number_list *asked, curve_shape *out);
 void curve_shape_clear(curve_shape *c);
 
+/* figure_open for a drawing over frequency: in cycles per time where the scene's sweep is. */
+hc_status curve_figure_open(figure *g, plot_order *p, const scene *sc, int width, int height);
+
 /* First its data blocks, then in the plot command its items. quiet: thin and grey and without special points, as the
  * background of something else. */
 void curve_shape_data(figure *g, const curve_shape *c);

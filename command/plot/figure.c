@@ -76,7 +76,7 @@ static void set_terminal(figure *g, int width, int height)
 
 hc_status figure_open(figure *g, plot_order *p, int width, int height)
 {
-  *g = (figure){.order = p, .letters = !strcmp(p->path, "-")};
+  *g = (figure){.order = p, .letters = !strcmp(p->path, "-"), .x_unit = 1};
   snprintf(p->why, sizeof p->why, "%s", hc_status_text(HC_NO_MEMORY));
   g->to = open_memstream(&g->script, &g->length);
   if (!g->to) return HC_NO_MEMORY;
@@ -217,7 +217,7 @@ void figure_block(figure *g, const char *name) { figure_script(g, "$%s << EOD\n"
 
 void figure_point(figure *g, double x, double y)
 {
-  if (isfinite(x) && isfinite(y)) figure_script(g, "%.10g %.10g\n", x, y);
+  if (isfinite(x) && isfinite(y)) figure_script(g, "%.10g %.10g\n", x / g->x_unit, y);
 }
 
 void figure_gap(figure *g) { figure_script(g, "\n"); }

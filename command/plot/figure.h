@@ -16,7 +16,8 @@ typedef struct figure {
   FILE *to;     /* the script so far */
   char *script;
   size_t length;
-  int items; /* of the plot command being written */
+  int items;     /* of the plot command being written */
+  double x_unit; /* figure_point divides x by it; 1 from figure_open on */
 } figure;
 
 /* A drawing of about width x height points of 1/90 inch. */
@@ -35,7 +36,7 @@ void figure_below(figure *g, const char *format, ...) __attribute__((format(prin
 /* Title and, smaller and below it, what is drawn. `command` is "set title", or "set multiplot ... title". */
 void figure_title(figure *g, const char *command, const char *title, const char *about);
 
-/* $name << EOD ... EOD; a point only where both are numbers; a gap interrupts a line. */
+/* $name << EOD ... EOD; a point (x / x_unit, y) only where both are numbers; a gap interrupts a line. */
 void figure_block(figure *g, const char *name);
 void figure_point(figure *g, double x, double y);
 void figure_gap(figure *g);

@@ -95,7 +95,8 @@ static hc_status put_panel(figure *g, const scene *sc, const bench *b, int k_ome
   hc_status st = write_front(g, b, p, k_omega);
   if (st != HC_OK) return st;
   for (int m = 0; m < BENCH_METHODS; ++m) count[m] = write_method(g, b, p, k_omega, m);
-  figure_set(g, "title", "ω = %.8g rad/%s", p->omega, sc->unit_time);
+  if (sc->in_cycles) figure_set(g, "title", "%.8g cycles/%s", scene_frequency(sc, p->omega), sc->unit_time);
+  else figure_set(g, "title", "ω = %.8g rad/%s", p->omega, sc->unit_time);
   put_items(g, k_omega, count);
   figure_draw(g);
   return HC_OK;

@@ -82,7 +82,7 @@ static void draw_layers(figure *g, const layers *l)
 static void detail_panel(figure *g, const curve_window *w, const layers *l)
 {
   figure_script(g, "set title 'Where the contact changes'\nset xrange [%.10g:%.10g]\nset yrange [%.10g:%.10g]\n",
-                w->low, w->high, w->least, w->most);
+                w->low / g->x_unit, w->high / g->x_unit, w->least, w->most);
   draw_layers(g, l);
 }
 
@@ -132,7 +132,7 @@ hc_status plot_frf(plot_order *p, const scene *sc, hbm_solver *s, const hbm_curv
     return HC_BAD_INPUT;
   }
   hc_status st = curve_shape_of(sc, s, curve, &shape);
-  if (st == HC_OK) st = figure_open(&g, p, response_width(&shape), HEIGHT);
+  if (st == HC_OK) st = curve_figure_open(&g, p, sc, response_width(&shape), HEIGHT);
   if (st == HC_OK) st = write_asked(&g, s, asked);
   if (st == HC_OK) {
     layers l = {.shape = &shape, .asked = asked && asked->n > 0};
@@ -186,7 +186,8 @@ static int write_departures(figure *g, const comparison *c)
   for (int i = 0; i < c->n_rows; ++i) {
     const comparison_row *r = &c->rows[i];
     if (!stands_at_hbm(r) || !has_transient(r)) continue;
-    figure_script(g, "%.10g %.10g %.10g\n", r->omega, r->hbm.amplitude, r->transient.amplitude - r->hbm.amplitude);
+    figure_script(g, "%.10g %.10g %.10g\n", r->omega / g->x_unit, r->hbm.amplitude,
+                  r->transient.amplitude - r->hbm.amplitude);
     ++n;
   }
   figure_block_end(g);
@@ -221,7 +222,7 @@ hc_status plot_compare(plot_order *p, const scene *sc, const comparison *c, cons
   }
   hc_status st = curve_shape_trace(sc, &sc->compare.omega, &shape);
   int width = !all ? response_width(&shape) : curve_shape_window(&shape, &w) ? 1900 : 1300;
-  if (st == HC_OK) st = figure_open(&g, p, width, all ? 1040 : HEIGHT);
+  if (st == HC_OK) st = curve_figure_open(&g, p, sc, width, all ? 1040 : HEIGHT);
   if (st == HC_OK) {
     layers l = {.shape = &shape, .departures = write_departures(&g, c) > 0, .v = &v, .of = "transient"};
     write_verdicts(&g, c, &v);
@@ -268,7 +269,7 @@ static hc_status plot_points(plot_order *p, const scene *sc, const steady_states
   verdicts v;
   char settings[96], about[160];
   hc_status st = curve_shape_trace(sc, &sc->compare.omega, &shape);
-  if (st == HC_OK) st = figure_open(&g, p, response_width(&shape), HEIGHT);
+  if (st == HC_OK) st = curve_figure_open(&g, p, sc, response_width(&shape), HEIGHT);
   if (st == HC_OK) {
     layers l = {.shape = &shape, .quiet = true, .v = &v, .of = "time integration"};
     curve_shape_data(&g, &shape);

@@ -24,19 +24,19 @@ typedef struct chart {
 
 /* ---- the measure ---- */
 
-static bool is_number_column(rows_kind kind, const char *name)
+static bool is_number_column(rows_kind kind, bool in_cycles, const char *name)
 {
   int n;
-  const table_column *columns = rows_columns(kind, &n);
+  const table_column *columns = rows_columns(kind, in_cycles, &n);
   for (int i = 0; i < n; ++i)
     if (!strcmp(columns[i].name, name)) return columns[i].kind != TABLE_TEXT;
   return false;
 }
 
-static void name_columns(plot_order *p, rows_kind kind)
+static void name_columns(plot_order *p, rows_kind kind, bool in_cycles)
 {
   int n;
-  const table_column *columns = rows_columns(kind, &n);
+  const table_column *columns = rows_columns(kind, in_cycles, &n);
   for (int i = 0; i < n; ++i) {
     size_t used = strlen(p->why);
     if (columns[i].kind != TABLE_TEXT && used + 48 < sizeof p->why)
@@ -48,13 +48,14 @@ static hc_status choose_measure(plot_order *p, const char *asked, chart *c)
 {
   bool curve = c->s->kind != STUDY_TRANSIENT;
   c->measure = asked ? asked : curve ? "peak_amplitude" : "amplitude";
-  if (!strcmp(c->measure, "seconds") || (curve && is_number_column(ROWS_CURVE, c->measure))) return HC_OK;
-  c->of_rows = is_number_column(study_rows(c->s), c->measure);
+  if (!strcmp(c->measure, "seconds") || (curve && is_number_column(ROWS_CURVE, study_in_cycles(c->s), c->measure)))
+    return HC_OK;
+  c->of_rows = is_number_column(study_rows(c->s), study_in_cycles(c->s), c->measure);
   if (c->of_rows) return HC_OK;
   snprintf(p->why, sizeof p->why, "--plot-y: '%.40s' is no measure of this study; expected seconds",
            asked ? asked : "");
-  if (curve) name_columns(p, ROWS_CURVE);
-  name_columns(p, study_rows(c->s));
+  if (curve) name_columns(p, ROWS_CURVE, study_in_cycles(c->s));
+  name_columns(p, study_rows(c->s), study_in_cycles(c->s));
   return HC_BAD_INPUT;
 }
 
@@ -185,6 +186,8 @@ static const char *measure_unit(const chart *c, char unit[FIGURE_UNIT])
   if (!strcmp(c->measure, "seconds")) return "s";
   if (!strcmp(c->measure, "omega") || !strcmp(c->measure, "peak_omega"))
     return figure_unit(&c->s->base, "rad/time", unit);
+  if (!strcmp(c->measure, "frequency") || !strcmp(c->measure, "peak_frequency"))
+    return figure_unit(&c->s->base, "cycles/time", unit);
   return "1";
 }
 

@@ -56,7 +56,8 @@ hc_status panels_waves(plot_order *p, const scene *sc, const steady_states *foun
     low = fmin(low, r->result.min);
     high = fmax(high, r->result.max);
   }
-  snprintf(about, sizeof about, "steady state at ω = %.8g rad/%s, period T = %.6g %s", omega, sc->unit_time,
+  snprintf(about, sizeof about, "steady state at %s%.8g %s/%s, period T = %.6g %s",
+           sc->in_cycles ? "" : "ω = ", scene_frequency(sc, omega), sc->in_cycles ? "cycles" : "rad", sc->unit_time,
            TWO_PI / omega, sc->unit_time);
   figure_title(&g, "set title", sc->title, about);
   figure_set(&g, "ylabel", "x [%s]", sc->unit_length);

@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include "base/message.h"
+#include "output/progress.h"
 
 extern char **environ;
 
@@ -70,11 +71,15 @@ static hc_status start_and_wait(FILE *script, FILE *drawing, FILE *words, char *
     snprintf(why, size, "gnuplot could not be started: %s", strerror(bad));
     return bad == ENOMEM ? HC_NO_MEMORY : HC_IO;
   }
-  while (waitpid(pid, &status, 0) < 0)
-    if (errno != EINTR) {
-      snprintf(why, size, "gnuplot: %s", strerror(errno));
-      return HC_IO;
-    }
+  progress_child(pid);
+  int gone;
+  do gone = waitpid(pid, &status, 0);
+  while (gone < 0 && errno == EINTR);
+  progress_child(0);
+  if (gone < 0) {
+    snprintf(why, size, "gnuplot: %s", strerror(errno));
+    return HC_IO;
+  }
   if (WIFEXITED(status) && WEXITSTATUS(status) == 0 && lseek(fileno(drawing), 0, SEEK_END) > 0) return HC_OK;
   describe_failure(words, status, why, size);
   return HC_IO;

@@ -60,32 +60,35 @@ static void write_case(page *p)
 
 /* ---- tables ---------------------------------------------------------------------------------- */
 
-static void fill_compare(const void *rows, int i, row_cell *cells)
+static void fill_compare(const void *rows, int i, bool in_cycles, row_cell *cells)
 {
-  rows_compare((const comparison_row *)rows + i, cells);
+  rows_compare((const comparison_row *)rows + i, in_cycles, cells);
 }
-static void fill_accuracy(const void *rows, int i, row_cell *cells)
+static void fill_accuracy(const void *rows, int i, bool in_cycles, row_cell *cells)
 {
-  rows_accuracy((const accuracy_row *)rows + i, cells);
+  rows_accuracy((const accuracy_row *)rows + i, in_cycles, cells);
 }
-static void fill_order(const void *rows, int i, row_cell *cells) { rows_order((const order_row *)rows + i, cells); }
+static void fill_order(const void *rows, int i, bool in_cycles, row_cell *cells)
+{
+  rows_order((const order_row *)rows + i, in_cycles, cells);
+}
 
 static void write_compare(page *p)
 {
-  html_rows(p->to, "Every column, as hbmcheck compare prints it", ROWS_COMPARE, p->d->comparison.n_rows,
-            p->d->comparison.rows, fill_compare, NULL);
+  html_rows(p->to, "Every column, as hbmcheck compare prints it", ROWS_COMPARE, p->d->sc->in_cycles,
+            p->d->comparison.n_rows, p->d->comparison.rows, fill_compare, NULL);
 }
 
 static void write_accuracy(page *p)
 {
   static const char *const without[] = {"seconds", NULL}; /* the same input is to give the same page */
   html_rows(p->to, "Samples and truncation order: errors relative to the exact transient's orbits", ROWS_ACCURACY,
-            p->d->accuracy.n_rows, p->d->accuracy.rows, fill_accuracy, without);
+            p->d->sc->in_cycles, p->d->accuracy.n_rows, p->d->accuracy.rows, fill_accuracy, without);
 }
 
 static void write_orders(page *p)
 {
-  html_rows(p->to, "Observed orders: error ~ quantity^-order (regularisation^order)", ROWS_ORDER,
+  html_rows(p->to, "Observed orders: error ~ quantity^-order (regularisation^order)", ROWS_ORDER, p->d->sc->in_cycles,
             p->d->accuracy.n_orders, p->d->accuracy.orders, fill_order, NULL);
 }
 

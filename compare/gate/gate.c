@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/constants.h"
 #include "compare/gate_limits.h"
 #include "compare/motion.h"
 
@@ -24,7 +25,12 @@ static double at(const discrepancy *d, int q)
   return *(const double *)(const void *)((const char *)d + quantities[q].offset);
 }
 
-const char *gate_result_name(gate_result r) { return r == GATE_PASS ? "pass" : r == GATE_FAIL ? "fail" : "error"; }
+const char *gate_result_name(gate_result r)
+{
+  static const char *const names[] = {
+      [GATE_PASS] = "pass", [GATE_FAIL] = "fail", [GATE_ERROR] = "error", [GATE_NOT_APPLICABLE] = "not_applicable"};
+  return names[r];
+}
 
 static bool within(double found, double allowed) { return found <= allowed * (1 + GATE_SLACK); } /* NaN is not */
 
@@ -51,6 +57,7 @@ static void add(judge *j, const gate_check *check)
   g->checks[g->n++] = *check;
   g->failures += check->result == GATE_FAIL;
   g->errors += check->result == GATE_ERROR;
+  g->not_applicable += check->result == GATE_NOT_APPLICABLE;
 }
 
 /* A check of row, or of the curve for NULL, that has passed so far. */
@@ -84,11 +91,12 @@ static void check_errors(judge *j, const comparison_row *r, const discrepancy *e
 {
   const discrepancy most = gate_limits_at(j->setup->limits, r->omega);
   for (int q = 0; q < N_QUANTITIES; ++q) {
-    if (q == MEAN && motion_mean_is_free(motion)) continue;
     gate_check c = check_of(r, quantities[q].name, against);
     c.allowed = at(&most, q);
     c.found = at(errors, q);
-    if (isnan(c.found)) not_passed(&c, GATE_ERROR, "it is not a number");
+    if (q == MEAN && motion_mean_is_free(motion))
+      not_passed(&c, GATE_NOT_APPLICABLE, "not applicable: a slider never slips, and the mean depends on the history");
+    else if (isnan(c.found)) not_passed(&c, GATE_ERROR, "it is not a number");
     else if (!within(c.found, c.allowed)) c.result = GATE_FAIL;
     add(j, &c);
   }
@@ -168,12 +176,33 @@ static void judge_curve(judge *j)
 
 /* ---- the case ---- */
 
+static void judge_nonlinearity(judge *j)
+{
+  gate_check c = check_of(NULL, "nonlinear", "limit");
+  j->out->n_rows = j->c->n_rows;
+  j->out->linear = j->c->n_rows > 0 && !comparison_nonlinear(j->c);
+  if (j->setup->limits->nonlinear != GATE_NONLINEAR_REQUIRED) return;
+  if (j->out->linear) not_passed(&c, GATE_FAIL, COMPARISON_LINEAR, j->c->n_rows);
+  add(j, &c);
+}
+
 hc_status gate_judge(const char *name, const compare_setup *setup, const comparison *c, gate_case *out)
 {
-  *out = (gate_case){.name = name};
+  *out = (gate_case){.name = name, .in_cycles = setup->limits->ranges.in_cycles};
   judge j = {setup, c, out, HC_OK};
   for (int i = 0; i < c->n_rows; ++i) judge_solution(&j, &c->rows[i]);
   judge_curve(&j);
+  judge_nonlinearity(&j);
+  return j.st;
+}
+
+/* The comparison as a whole failed. */
+static hc_status judge_failure(hc_status failure, gate_case *out)
+{
+  judge j = {.out = out, .st = HC_OK};
+  gate_check c = check_of(NULL, "comparison", NULL);
+  not_passed(&c, GATE_ERROR, "it could not be made: %s", hc_status_text(failure));
+  add(&j, &c);
   return j.st;
 }
 
@@ -185,7 +214,8 @@ hc_status gate_run(const char *name, const compare_setup *setup, const hc_monito
   hc_status st = comparison_run(&spare, monitor, &c);
   hc_status judged = gate_judge(name, setup, &c, out);
   comparison_clear(&c);
-  return st != HC_OK ? st : judged;
+  if (st == HC_INTERRUPTED || st == HC_NO_MEMORY) return st;
+  return st != HC_OK && judged == HC_OK ? judge_failure(st, out) : judged;
 }
 
 void gate_clear(gate_case *g)
@@ -195,6 +225,13 @@ void gate_clear(gate_case *g)
 }
 
 /* ---- what is shown ---- */
+
+const char *gate_place(const gate_case *g, double omega, char text[GATE_PLACE])
+{
+  if (g->in_cycles) snprintf(text, GATE_PLACE, "frequency %.10g", omega / TWO_PI);
+  else snprintf(text, GATE_PLACE, "omega %.10g", omega);
+  return text;
+}
 
 double gate_shown(const gate_check *c)
 {
@@ -215,6 +252,9 @@ bool gate_is_worst(const gate_case *g, int i)
   for (int k = 0; k < g->n; ++k) {
     const gate_check *other = &g->checks[k];
     if (k == i || strcmp(other->quantity, c->quantity)) continue;
+    const bool idle = c->result == GATE_NOT_APPLICABLE, other_idle = other->result == GATE_NOT_APPLICABLE;
+    if (idle && !other_idle) return false;
+    if (other_idle && !idle) continue;
     /* as shown: what is below GATE_SLACK counts as 0, so that noise does not rank */
     double mine = gate_shown(c) / c->allowed, theirs = gate_shown(other) / other->allowed;
     if (theirs > mine || (!(mine > theirs) && k < i))

@@ -7,7 +7,8 @@
  *                                                     must match some HBM solution at its omega
  *     not_settled, solver_failed                      nothing: an error, and so is an orbit that was not found, and
  *                                                     a curve that stopped
- * The mean is not checked where a slider never slips: it depends on the history there, not on the equations alone. The
+ * The mean is not applicable where a slider never slips: it depends on the history there, not on the equations alone.
+ * If no contact changes its state in any row, the case is linear, which gate.nonlinear: required does not let pass. The
  * limits: gate_limits_at.
  *
  * A number passes if found <= allowed (1 + GATE_SLACK); costs, being whole numbers, if found <= allowed. Rounding on
@@ -16,6 +17,7 @@
 #ifndef HC_GATE_H
 #define HC_GATE_H
 
+#include <stdbool.h>
 #include <stdio.h>
 
 #include "base/status.h"
@@ -24,9 +26,9 @@
 
 #define GATE_SLACK 1e-6 /* [1] of the limit */
 
-/* GATE_ERROR: there was nothing to hold it against */
-typedef enum gate_result { GATE_PASS, GATE_FAIL, GATE_ERROR } gate_result;
-const char *gate_result_name(gate_result r); /* "pass", "fail", "error" */
+/* GATE_ERROR: there was nothing to hold it against; GATE_NOT_APPLICABLE: the quantity has no value to be held to */
+typedef enum gate_result { GATE_PASS, GATE_FAIL, GATE_ERROR, GATE_NOT_APPLICABLE } gate_result;
+const char *gate_result_name(gate_result r); /* "pass", "fail", "error", "not_applicable" */
 
 enum { GATE_REASON = 160 };
 
@@ -36,7 +38,7 @@ typedef struct gate_check {
   char verdict[24];      /* of the comparison's row, empty for the curve */
   const char *quantity;  /* "amplitude", "harmonic_1", "mean", "waveform", "transient" (matched by some HBM
                            solution?), "orbit" and "solution" (errors only), of the curve: "curve" (an error),
-                           "iterations", "evaluations" */
+                           "iterations", "evaluations", "nonlinear" */
   const char *against;   /* "transient", "orbit" or "limit"; NULL: nothing */
   double allowed, found; /* NaN where there are none */
   gate_result result;
@@ -47,22 +49,31 @@ typedef struct gate_case {
   const char *name; /* the caller's: of the case file */
   int n, cap;
   gate_check *checks; /* [n] in the order of the comparison's rows, the curve last */
-  int failures, errors;
+  int failures, errors, not_applicable;
+  int n_rows;     /* of the comparison */
+  bool linear;    /* no contact changed its state in any of them */
+  bool in_cycles; /* of the limits: frequencies are named in cycles per time */
 } gate_case;
 
-/* Compare, then judge. HC_OK whatever the checks say; HC_INTERRUPTED, HC_NO_MEMORY and other ends of the whole
- * comparison else, with what was found kept. Free with gate_clear in any case. */
+/* Compare, then judge. HC_OK whatever the checks say, and where a solver could not even begin: then a check
+ * "comparison" is the error. HC_INTERRUPTED or HC_NO_MEMORY else, with what was found kept. Free with gate_clear in any
+ * case. */
 hc_status gate_run(const char *name, const compare_setup *setup, const hc_monitor *monitor, gate_case *out);
 
 /* The second half: the checks of a comparison of setup. HC_NO_MEMORY. */
 hc_status gate_judge(const char *name, const compare_setup *setup, const comparison *c, gate_case *out);
 void gate_clear(gate_case *g);
 
+/* "omega 7", or "frequency 345" in cycles, in text[GATE_PLACE], which is returned. */
+enum { GATE_PLACE = 32 };
+const char *gate_place(const gate_case *g, double omega, char text[GATE_PLACE]);
+
 /* What was found, as it is shown: to 3 digits, or as many more as it takes to be on the right side of the limit; 0
  * below GATE_SLACK of it. */
 double gate_shown(const gate_check *c);
 
-/* Is check i the one nearest to its limit, or farthest beyond, of its quantity? */
+/* Is check i the one nearest to its limit, or farthest beyond, of its quantity? One that is not applicable is so only
+ * where all of its quantity are. */
 bool gate_is_worst(const gate_case *g, int i);
 
 /* Exit code (docs/interface.md, 5): 1 if a check failed, else 3 if one is an error, else 0. */
@@ -71,5 +82,9 @@ int gate_exit_code(int n, const gate_case *cases);
 /* The checks as JUnit XML: a testsuite a case, a testcase a check, <failure> and <error>. No times and no dates:
  * equal results are equal bytes. HC_IO, HC_NO_MEMORY. */
 hc_status gate_write_junit(int n, const gate_case *cases, FILE *to);
+
+/* The same where a case file is wrong, so that none was judged: a testsuite with one testcase for each of names[n], an
+ * <error> with the message wrong[i], or <skipped> where that is NULL. HC_IO, HC_NO_MEMORY. */
+hc_status gate_write_junit_unread(int n, const char *const *names, const char *const *wrong, FILE *to);
 
 #endif

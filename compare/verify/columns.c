@@ -6,19 +6,11 @@
 #include "base/nearest.h"
 #include "base/number.h"
 #include "compare/verify/csv.h"
+#include "compare/verify/fields.h"
 
-static const char *const quantities[] = {"amplitude", "harmonic_1", "peak", "max", "rms"};
-static const char *const names[] = {"omega", "frequency", "amplitude", "harmonic_1", "peak", "value", NULL};
-
-const char *verify_quantity_name(verify_quantity q) { return quantities[q]; }
-
-/* One of the three that can be asked for, or -1. */
-static int quantity_of(const char *text, size_t length)
-{
-  for (int q = VERIFY_AMPLITUDE; q <= VERIFY_PEAK; ++q)
-    if (strlen(quantities[q]) == length && !memcmp(quantities[q], text, length)) return q;
-  return -1;
-}
+static const char *const names[] = {
+    "omega", "frequency", "amplitude", "double_amplitude", "harmonic_1",   "peak", "max",   "min",
+    "mean",  "rms",       "norm",      "velocity",         "acceleration", "dB",   "value", NULL};
 
 static bool is(const char *word, const char *text, size_t length)
 {
@@ -47,7 +39,7 @@ static hc_status unknown(const char *text, size_t length, message *m)
   const char *near = nearest_word(names, text, length);
   message_add(m, "--columns: '");
   message_add_input(m, text, length, 60);
-  message_add(m, "' is unknown, expected omega or frequency, and amplitude, harmonic_1, peak or value");
+  message_add(m, "' is unknown, expected omega or frequency, and value or one of %s", verify_quantity_names);
   if (near) message_add(m, "; did you mean %s?", near);
   return HC_BAD_INPUT;
 }
@@ -68,42 +60,50 @@ static hc_status read_one(const char *text, size_t length, verify_columns *out, 
   }
   size_t n = (size_t)(equals - text);
   bool cycles = is("frequency", text, n), first = cycles || is("omega", text, n), value = is("value", text, n);
-  int q = quantity_of(text, n);
-  if (!first && !value && q < 0) return unknown(text, n, m);
+  verify_quantity q;
+  const bool named = !first && !value && verify_quantity_read(text, n, &q);
+  if (!first && !value && !named) return unknown(text, n, m);
   if (first ? s->omega : s->value) {
     message_add(m, "--columns: a second column of %s, expected one", first ? "frequencies" : "values");
     return HC_BAD_INPUT;
   }
   if (first) s->omega = true, out->cycles = cycles;
   else s->value = true, s->needs_quantity = value;
-  if (q >= 0) out->quantity = (verify_quantity)q;
+  if (named) out->quantity = q;
   return read_place(equals + 1, length - n - 1, first ? &out->omega : &out->value, m);
+}
+
+static hc_status read_list(const char *text, verify_columns *out, seen *s, message *m)
+{
+  for (const char *at = text;; ++at) {
+    size_t length = strcspn(at, ",");
+    hc_status st = read_one(at, length, out, s, m);
+    if (st != HC_OK || !*(at += length)) return st;
+  }
 }
 
 hc_status verify_columns_read(const char *text, const char *quantity, verify_columns *out, char *words)
 {
   message m;
   seen s = {0};
+  verify_quantity asked = {0};
+  char name[VERIFY_QUANTITY_TEXT];
   message_start(&m, words, VERIFY_TEXT);
-  *out = (verify_columns){0};
-  for (const char *at = text;; ++at) {
-    size_t length = strcspn(at, ",");
-    hc_status st = read_one(at, length, out, &s, &m);
-    if (st != HC_OK) return st;
-    at += length;
-    if (!*at) break;
-  }
-  int q = quantity ? quantity_of(quantity, strlen(quantity)) : -1;
-  if (!s.omega || !s.value)
+  *out = (verify_columns){.by_header = !text, .quantity_given = quantity};
+  if (text && read_list(text, out, &s, &m) != HC_OK) return HC_BAD_INPUT;
+  if (text && (!s.omega || !s.value))
     message_add(&m, "--columns: no column of %s, expected a list like omega=1,amplitude=2",
                 s.omega ? "values" : "frequencies");
-  else if (quantity && q < 0) message_add(&m, "--quantity: expected amplitude, harmonic_1 or peak");
-  else if (!quantity && s.needs_quantity)
-    message_add(&m, "--columns: value is what? Add --quantity amplitude, harmonic_1 or peak");
-  else if (quantity && !s.needs_quantity && (verify_quantity)q != out->quantity)
+  else if (quantity && !verify_quantity_read(quantity, strlen(quantity), &asked)) {
+    message_add(&m, "--quantity: '");
+    message_add_input(&m, quantity, strlen(quantity), 60);
+    message_add(&m, "' is unknown, expected one of %s", verify_quantity_names);
+  } else if (!quantity && s.needs_quantity)
+    message_add(&m, "--columns: value is what? Add --quantity with one of %s", verify_quantity_names);
+  else if (quantity && text && !s.needs_quantity && !verify_quantity_same(&asked, &out->quantity))
     message_add(&m, "--quantity %s contradicts --columns %s; name that column value, or leave --quantity out", quantity,
-                quantities[out->quantity]);
+                verify_quantity_name(&out->quantity, name));
   if (m.used) return HC_BAD_INPUT;
-  if (quantity) out->quantity = (verify_quantity)q;
+  if (quantity) out->quantity = asked;
   return HC_OK;
 }

@@ -10,21 +10,15 @@
 #include "base/constants.h"
 #include "base/message.h"
 #include "base/number.h"
-#include "base/utf8.h"
+#include "compare/verify/fields.h"
+#include "compare/verify/header.h"
 
 static const size_t most_bytes = (size_t)64 << 20; /* 640 a point */
-
-/* column: in characters from 1, as editors count */
-typedef struct field {
-  const char *text;
-  size_t length;
-  int column;
-} field;
 
 typedef struct reader {
   const char *name;
   message *m;
-  const verify_columns *columns;
+  verify_columns columns;
   verify_data *out;
   int cap;
   char separator; /* 0: not known yet; ' ' is any blanks */
@@ -43,52 +37,25 @@ static hc_status blame(reader *r, int column)
 
 /* ---- a line into fields ---- */
 
-static bool blank(char c) { return c == ' ' || c == '\t'; }
-
-static char separator_of(const char *text, size_t length)
-{
-  for (const char *s = ";\t,"; *s; ++s)
-    if (memchr(text, *s, length)) return *s;
-  return ' ';
-}
-
-static int column_of(const char *text, const char *at)
-{
-  int column = 1;
-  unsigned long code;
-  for (size_t n; text < at; text += n, ++column)
-    if ((n = utf8_character(text, (size_t)(at - text), &code)) == 0) n = 1;
-  return column;
-}
-
-static void trim(field *f)
-{
-  while (f->length && blank(f->text[0])) ++f->text, --f->length;
-  while (f->length && blank(f->text[f->length - 1])) --f->length;
-}
-
 static hc_status split(reader *r, const char *text, size_t length)
 {
-  const char *at = text, *end = text + length;
-  r->n_fields = 0;
-  for (;;) {
-    const char *stop = at;
-    if (r->separator == ' ')
-      while (at < end && blank(*at)) stop = ++at;
-    if (r->separator == ' ' && at == end) return HC_OK;
-    while (stop < end && (r->separator == ' ' ? !blank(*stop) : *stop != r->separator)) ++stop;
-    if (r->n_fields == VERIFY_MOST_FIELDS) {
-      blame(r, column_of(text, at));
-      message_add(r->m, "one field too many, expected at most %d", VERIFY_MOST_FIELDS);
-      return HC_BAD_INPUT;
-    }
-    field *f = &r->fields[r->n_fields++];
-    *f = (field){at, (size_t)(stop - at), 0};
-    trim(f);
-    f->column = column_of(text, f->text);
-    if (stop == end) return HC_OK;
-    at = stop + (r->separator != ' ');
+  int column = 1;
+  switch (fields_split(text, length, r->separator, r->fields, &r->n_fields, &column)) {
+  case FIELDS_FINE: return HC_OK;
+  case FIELDS_TOO_MANY:
+    blame(r, column);
+    message_add(r->m, "one field too many, expected at most %d", VERIFY_MOST_FIELDS);
+    break;
+  case FIELDS_OPEN_QUOTE:
+    blame(r, column);
+    message_add(r->m, "a quote that is not closed, expected \" at the end of the field");
+    break;
+  case FIELDS_AFTER_QUOTE:
+    blame(r, column);
+    message_add(r->m, "text behind the closing quote, expected the next field");
+    break;
   }
+  return HC_BAD_INPUT;
 }
 
 /* ---- the header ---- */
@@ -116,7 +83,7 @@ static hc_status find_column(reader *r, const verify_column *c, bool header, int
   int found = c->number && c->number <= r->n_fields ? 1 : 0;
   *at = c->number - 1;
   for (int i = 0; i < r->n_fields && !c->number && header; ++i) {
-    if (r->fields[i].length != strlen(c->header) || memcmp(r->fields[i].text, c->header, r->fields[i].length)) continue;
+    if (!field_is(&r->fields[i], c->header)) continue;
     ++found;
     *at = i;
   }
@@ -135,8 +102,23 @@ static hc_status find_column(reader *r, const verify_column *c, bool header, int
 
 static hc_status begin(reader *r, bool header)
 {
-  hc_status st = find_column(r, &r->columns->omega, header, &r->omega);
-  if (st == HC_OK) st = find_column(r, &r->columns->value, header, &r->value);
+  message words;
+  char text[VERIFY_TEXT];
+  message_start(&words, text, sizeof text);
+  if (r->columns.by_header && !header) {
+    blame(r, 1);
+    message_add(r->m, "no header, expected one that names omega and amplitude, or --columns omega=1,amplitude=2");
+    return HC_BAD_INPUT;
+  }
+  if (r->columns.by_header &&
+      !header_recognise(r->n_fields, r->fields, r->columns.quantity_given, &r->columns, &words)) {
+    blame(r, 1);
+    message_add(r->m, "%s", text);
+    return HC_BAD_INPUT;
+  }
+  r->out->quantity = r->columns.quantity;
+  hc_status st = find_column(r, &r->columns.omega, header, &r->omega);
+  if (st == HC_OK) st = find_column(r, &r->columns.value, header, &r->value);
   r->first_line = r->line;
   r->first_fields = r->n_fields;
   return st;
@@ -144,8 +126,27 @@ static hc_status begin(reader *r, bool header)
 
 /* ---- points ---- */
 
-/* scale times the number, which must be finite too. */
-static hc_status read_number(reader *r, int index, const char *what, bool zero, double scale, double *value)
+/* "12,5": digits, one comma, digits. */
+static bool decimal_comma(const field *f)
+{
+  size_t comma = 0, commas = 0;
+  for (size_t i = 0; i < f->length; ++i)
+    if (f->text[i] == ',') comma = i, ++commas;
+  double ignored;
+  return commas == 1 && comma > 0 && number_read(f->text, comma, &ignored) == NUMBER_FINE &&
+         number_read(f->text + comma + 1, f->length - comma - 1, &ignored) == NUMBER_FINE;
+}
+
+static void blame_number(reader *r, const field *f, const char *fault, const char *expected)
+{
+  blame(r, f->column);
+  message_add(r->m, "'");
+  message_add_input(r->m, f->text, f->length, 40);
+  message_add(r->m, "' %s, expected %s like 12.5 or 1.25e1%s", fault, expected,
+              decimal_comma(f) ? "; a decimal comma? Write points" : "");
+}
+
+static hc_status read_number(reader *r, int index, const char *what, double *value)
 {
   static const char *const faults[] = {[NUMBER_NONE] = "is not a number",
                                        [NUMBER_NOT_FINITE] = "is not finite",
@@ -154,14 +155,25 @@ static hc_status read_number(reader *r, int index, const char *what, bool zero, 
                                        [NUMBER_NOT_INTEGER] = "is not an integer"};
   const field *f = &r->fields[index];
   number_fault fault = number_read(f->text, f->length, value);
-  if (fault == NUMBER_FINE) *value *= scale;
-  if (fault == NUMBER_FINE && !isfinite(*value)) fault = NUMBER_TOO_LARGE;
-  if (fault == NUMBER_FINE && (*value > 0 || (zero && *value == 0))) return HC_OK;
-  blame(r, f->column);
-  message_add(r->m, "'");
-  message_add_input(r->m, f->text, f->length, 40);
-  message_add(r->m, "' %s, expected %s, a number %s 0 like 12.5 or 1.25e1",
-              fault == NUMBER_FINE ? "is too small" : faults[fault], what, zero ? ">=" : ">");
+  if (fault == NUMBER_FINE) return HC_OK;
+  blame_number(r, f, faults[fault], what);
+  return HC_BAD_INPUT;
+}
+
+/* The columns' numbers become omega in rad per time and the quantity, which must be in range. */
+static hc_status convert(reader *r, verify_point *p)
+{
+  const verify_quantity *q = &r->columns.quantity;
+  const field *value = &r->fields[r->value];
+  if (!verify_quantity_signed(q) && !(p->value >= 0)) {
+    blame_number(r, value, "is too small", "a number >= 0");
+    if (!q->decibel) message_add(r->m, "; is it in dB? Name it dB, or dB_ and the quantity");
+    return HC_BAD_INPUT;
+  }
+  if (r->columns.cycles) p->omega *= TWO_PI;
+  p->value = verify_quantity_from_column(q, p->value);
+  if (isfinite(p->omega) && isfinite(p->value)) return HC_OK;
+  blame_number(r, isfinite(p->omega) ? value : &r->fields[r->omega], "is too large", "a number");
   return HC_BAD_INPUT;
 }
 
@@ -186,17 +198,22 @@ static hc_status add_point(reader *r, verify_point p)
 static hc_status read_point(reader *r)
 {
   verify_point p = {.line = r->line};
+  char name[VERIFY_QUANTITY_TEXT];
   if (r->n_fields != r->first_fields) {
     blame(r, 1);
-    message_add(r->m, "%d field%s, expected %d as in line %ld", r->n_fields, r->n_fields == 1 ? "" : "s",
-                r->first_fields, r->first_line);
+    message_add(r->m, "%d field%s, expected %d as in line %ld%s", r->n_fields, r->n_fields == 1 ? "" : "s",
+                r->first_fields, r->first_line,
+                r->separator == ',' && r->n_fields == 2 * r->first_fields ? "; decimal commas? Write points" : "");
     return HC_BAD_INPUT;
   }
-  hc_status st = read_number(r, r->omega, r->columns->cycles ? "a frequency" : "an omega", false,
-                             r->columns->cycles ? TWO_PI : 1, &p.omega);
-  if (st == HC_OK) st = read_number(r, r->value, verify_quantity_name(r->columns->quantity), true, 1, &p.value);
+  hc_status st = read_number(r, r->omega, r->columns.cycles ? "a frequency" : "an omega", &p.omega);
+  if (st == HC_OK) st = read_number(r, r->value, verify_quantity_name(&r->columns.quantity, name), &p.value);
+  if (st == HC_OK) st = convert(r, &p);
+  if (st == HC_OK && !(p.omega > 0)) return ++r->out->left_out, HC_OK;
   return st == HC_OK ? add_point(r, p) : st;
 }
+
+static bool blank(char c) { return c == ' ' || c == '\t'; }
 
 static hc_status read_line(reader *r, const char *text, size_t length)
 {
@@ -204,7 +221,7 @@ static hc_status read_line(reader *r, const char *text, size_t length)
   while (first < length && blank(text[first])) ++first;
   if (first == length || text[first] == '#') return HC_OK;
   bool fresh = !r->separator;
-  if (fresh) r->separator = separator_of(text, length);
+  if (fresh) r->separator = fields_separator(text, length);
   hc_status st = split(r, text, length);
   bool header = st == HC_OK && fresh && is_header(r);
   if (st == HC_OK && fresh) st = begin(r, header);
@@ -227,8 +244,8 @@ static hc_status read_lines(reader *r, const char *text, size_t length)
   if (st != HC_OK || r->out->n >= VERIFY_LEAST_POINTS) return st;
   r->line += r->line == 0;
   blame(r, 1);
-  message_add(r->m, "%d point%s in the file, expected at least %d", r->out->n, r->out->n == 1 ? "" : "s",
-              VERIFY_LEAST_POINTS);
+  message_add(r->m, "%d point%s in the file%s, expected at least %d", r->out->n, r->out->n == 1 ? "" : "s",
+              r->out->left_out ? " at omega > 0" : "", VERIFY_LEAST_POINTS);
   return HC_BAD_INPUT;
 }
 
@@ -266,7 +283,7 @@ hc_status verify_data_read(const char *path, const verify_columns *columns, veri
     message_add(&m, "%s", hc_status_text(HC_NO_MEMORY));
     return HC_NO_MEMORY;
   }
-  *r = (reader){.name = path, .m = &m, .columns = columns, .out = out};
+  *r = (reader){.name = path, .m = &m, .columns = *columns, .out = out};
   errno = 0;
   FILE *from = fopen(path, "r");
   hc_status st = from ? read_all(from, &text, &length) : errno == ENOMEM ? HC_NO_MEMORY : HC_IO;

@@ -1,33 +1,19 @@
 /* csv.h - a response curve from a text file of columns: strict, every mistake is one message FILE:LINE:COLUMN: what
  * is wrong, what was expected.
  *
- * Fields are separated by semicolons, tabs, commas or blanks, whichever of these the first line has, in that order.
- * '#' starts a line of remarks; blank lines are skipped; a first line without a number is a header. CRLF and a byte
- * order mark are accepted; quotes have no meaning. */
+ * Fields are split as fields.h says. '#' starts a line of remarks; blank lines are skipped; a first line without a
+ * number is a header. CRLF and a byte order mark are accepted. Points at omega <= 0, to which a continuation may
+ * wander, are counted and left out. */
 #ifndef HC_VERIFY_CSV_H
 #define HC_VERIFY_CSV_H
 
 #include <stdbool.h>
 
 #include "base/status.h"
+#include "compare/verify/causes.h"
+#include "compare/verify/quantity.h"
 
-enum {
-  VERIFY_TEXT = 1024,
-  VERIFY_MOST_POINTS = 100000,
-  VERIFY_LEAST_POINTS = 3,
-  VERIFY_MOST_FIELDS = 256,
-  VERIFY_NAME = 64
-};
-
-typedef enum verify_quantity {
-  VERIFY_AMPLITUDE,  /* (max - min)/2 */
-  VERIFY_HARMONIC_1, /* |a1 + i b1| */
-  VERIFY_PEAK,       /* max |x| */
-  VERIFY_MAX,        /* what follows is nothing one can ask for: hypotheses */
-  VERIFY_RMS,
-  VERIFY_QUANTITIES
-} verify_quantity;
-const char *verify_quantity_name(verify_quantity q);
+enum { VERIFY_MOST_POINTS = 100000, VERIFY_LEAST_POINTS = 3, VERIFY_NAME = 64 };
 
 /* Where a column is: by number, or by its name in the header. */
 typedef struct verify_column {
@@ -36,13 +22,15 @@ typedef struct verify_column {
 } verify_column;
 
 typedef struct verify_columns {
+  bool by_header; /* the file's own names say which columns are meant (header.h) */
   verify_column omega, value;
-  bool cycles; /* the first is a frequency in cycles per time: times 2 pi */
+  bool cycles;         /* the first is a frequency in cycles per time: times 2 pi */
+  bool quantity_given; /* with by_header: by --quantity */
   verify_quantity quantity;
 } verify_columns;
 
 typedef struct verify_point {
-  double omega, value; /* [rad/time], [length] */
+  double omega, value; /* [rad/time] > 0; the quantity, not in dB */
   long line;           /* in the file, from 1 */
 } verify_point;
 
@@ -50,10 +38,11 @@ typedef struct verify_data {
   verify_quantity quantity;
   int n;
   verify_point *points; /* [n] in the file's order */
+  int left_out;         /* points at omega <= 0 */
 } verify_data;
 
-/* "omega=1,amplitude=2", NAME=NUMBER or NAME=HEADER; names: omega or frequency, and amplitude, harmonic_1, peak or
- * value. `quantity`: what value is, NULL if not told. HC_BAD_INPUT with message[VERIFY_TEXT]. */
+/* "omega=1,amplitude=2", NAME=NUMBER or NAME=HEADER; names: omega or frequency, and a quantity or `value`. `quantity`:
+ * what value is, NULL if not told. `text` NULL: by the file's header. HC_BAD_INPUT with message[VERIFY_TEXT]. */
 hc_status verify_columns_read(const char *text, const char *quantity, verify_columns *out, char *message);
 
 /* HC_OK, or HC_BAD_INPUT, HC_IO, HC_NO_MEMORY with message[VERIFY_TEXT]. Free with verify_data_clear in any case. */

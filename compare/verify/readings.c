@@ -13,16 +13,16 @@ static const double frequencies[VERIFY_FREQUENCIES] = {1, TWO_PI, 1 / TWO_PI};
 
 static const struct {
   double factor;
-  unsigned cause;
+  verify_causes cause;
 } factors[] = {
     {1, 0},
-    {2, CAUSE_TWICE},
-    {0.5, CAUSE_HALF},
-    {0.70710678118654752440, CAUSE_RMS},
-    {1e3, CAUSE_LENGTH},
-    {1e-3, CAUSE_LENGTH},
-    {1e2, CAUSE_LENGTH},
-    {1e-2, CAUSE_LENGTH},
+    {2, VERIFY_BIT(CAUSE_TWICE)},
+    {0.5, VERIFY_BIT(CAUSE_HALF)},
+    {0.70710678118654752440, VERIFY_BIT(CAUSE_RMS)},
+    {1e3, VERIFY_BIT(CAUSE_LENGTH)},
+    {1e-3, VERIFY_BIT(CAUSE_LENGTH)},
+    {1e2, VERIFY_BIT(CAUSE_LENGTH)},
+    {1e-2, VERIFY_BIT(CAUSE_LENGTH)},
 };
 enum { FACTORS = sizeof factors / sizeof *factors, MOST_DIFFERING = 48, MOST_MATCHING = 16 };
 
@@ -39,7 +39,7 @@ static int by_omega(const void *a, const void *b)
 
 static bool differs(const verify_row *r)
 {
-  return r->verdict == VERDICT_DIFFERS || r->verdict == VERDICT_SOLVER_FAILED;
+  return !r->skipped && (r->verdict == VERDICT_DIFFERS || r->verdict == VERDICT_SOLVER_FAILED);
 }
 
 /* At most `most` of the n rows that differ or not, evenly spread, appended. */
@@ -70,12 +70,12 @@ static void sort(verify_sample *s)
     }
 }
 
-hc_status verify_sample_new(const verify_report *r, verify_quantity quantity, verify_sample *out)
+hc_status verify_sample_new(const verify_report *r, const verify_quantity *quantity, verify_sample *out)
 {
   enum { MOST = MOST_DIFFERING + MOST_MATCHING };
   const verify_row **rows = malloc((size_t)r->n_rows * sizeof *rows + 1);
   double *numbers = calloc(4 * MOST, sizeof *numbers);
-  *out = (verify_sample){.omega = numbers, .quantity = quantity, .part = 0.9};
+  *out = (verify_sample){.omega = numbers, .quantity = *quantity, .part = 0.9};
   if (numbers) out->value = numbers + MOST, out->scratch = numbers + 2 * MOST;
   out->differs = calloc(MOST, sizeof *out->differs);
   if (rows && numbers && out->differs) {
@@ -121,20 +121,20 @@ static double within(int n, double *d, double part)
   return d[(int)ceil(part * n - 1e-9) - 1];
 }
 
-static double relative(double a, double b)
+static double relative(double a, double b, double least)
 {
-  double d = fabs(a - b), scale = fmax(fabs(a), fabs(b));
+  double d = fabs(a - b), scale = fmax(fmax(fabs(a), fabs(b)), least);
   return d == 0 ? 0 : d <= scale ? d / scale : 1; /* NaN is as far as can be */
 }
 
-static double distance(const verify_sample *p, const verify_solutions *s, verify_quantity q, double factor)
+static double distance(const verify_sample *p, const verify_solutions *s, int q, double factor)
 {
   int off = 0, on = 0;
   double *far = p->scratch, *near = p->scratch + p->n;
   for (int i = 0; i < p->n; ++i) {
     double least = 1;
     for (int k = s->first[i]; k < s->first[i + 1]; ++k)
-      least = fmin(least, relative(p->value[i], factor * s->of[k].q[q]));
+      least = fmin(least, relative(p->value[i], factor * s->of[k].q[q], factor * s->of[k].scale[q]));
     if (p->differs[i]) far[off++] = least;
     else near[on++] = least;
   }
@@ -142,47 +142,42 @@ static double distance(const verify_sample *p, const verify_solutions *s, verify
   return fmax(of_far, of_near);
 }
 
-static int bits(unsigned causes)
-{
-  int n = 0;
-  for (; causes; causes &= causes - 1) ++n;
-  return n;
-}
-
-void verify_read_best(const verify_sample *p, const verify_solutions *s, int frequency, unsigned otherwise,
+void verify_read_best(const verify_sample *p, const verify_solutions *s, int frequency, verify_causes otherwise,
                       double floor, verify_hypothesis *h)
 {
-  const unsigned given = h->causes | (frequency ? CAUSE_FREQUENCY : 0);
+  const verify_causes given = h->causes | (frequency ? VERIFY_BIT(CAUSE_FREQUENCY) : 0);
   h->omega_factor = frequencies[frequency];
   h->score = INFINITY;
   for (int f = 0; f < FACTORS; ++f)
-    for (int q = 0; q < VERIFY_QUANTITIES; ++q) {
-      bool other = q != (int)p->quantity;
-      if (q == VERIFY_RMS && factors[f].cause == CAUSE_RMS) continue;
-      unsigned causes = given | factors[f].cause | (q == VERIFY_RMS ? CAUSE_RMS : other ? CAUSE_QUANTITY : 0);
+    for (int i = 0; i < VERIFY_READINGS; ++i) {
+      verify_quantity q;
+      verify_causes of_reading;
+      if (!verify_reading(i, &p->quantity, &q, &of_reading)) continue;
+      if ((of_reading & factors[f].cause) || (of_reading && factors[f].cause == VERIFY_BIT(CAUSE_RMS))) continue;
+      verify_causes causes = given | factors[f].cause | of_reading;
       if (!causes && !(causes = otherwise)) continue; /* the truth as it stands is no hypothesis */
-      double d = distance(p, s, (verify_quantity)q, factors[f].factor), score = fmax(d, floor) * pow(3, bits(causes));
+      double d = distance(p, s, i, factors[f].factor), score = fmax(d, floor) * pow(3, verify_cause_count(causes));
       if (!(score < h->score)) continue;
       h->score = score;
       h->distance = d;
       h->causes = causes;
       h->value_factor = factors[f].factor;
-      h->quantity = (verify_quantity)q;
+      h->quantity = q;
     }
 }
 
-double verify_read_plain(const verify_sample *p, const verify_solutions *s) { return distance(p, s, p->quantity, 1); }
+double verify_read_plain(const verify_sample *p, const verify_solutions *s) { return distance(p, s, 0, 1); }
 
 double verify_apart(const verify_sample *p, const verify_solutions *a, const verify_solutions *b)
 {
-  const verify_quantity q = p->quantity;
   int n = 0;
   for (int i = 0; i < p->n; ++i) {
     if (!p->differs[i]) continue;
     double worst = a->first[i] < a->first[i + 1] ? 0 : 1;
     for (int k = a->first[i]; k < a->first[i + 1]; ++k) {
       double least = 1;
-      for (int j = b->first[i]; j < b->first[i + 1]; ++j) least = fmin(least, relative(a->of[k].q[q], b->of[j].q[q]));
+      for (int j = b->first[i]; j < b->first[i + 1]; ++j)
+        least = fmin(least, relative(a->of[k].q[0], b->of[j].q[0], b->of[j].scale[0]));
       worst = fmax(worst, least);
     }
     p->scratch[n++] = worst;

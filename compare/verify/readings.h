@@ -20,13 +20,13 @@ typedef struct verify_sample {
 } verify_sample;
 
 /* HC_NO_MEMORY. */
-hc_status verify_sample_new(const verify_report *r, verify_quantity quantity, verify_sample *out);
+hc_status verify_sample_new(const verify_report *r, const verify_quantity *quantity, verify_sample *out);
 void verify_sample_clear(verify_sample *s);
 
 /* The best reading of the values for the solutions s, at the sample's omegas read as `frequency`: h with its
  * equations and their causes given gets the rest. `otherwise`: the cause where nothing else is one. Distances below
  * `floor` are all the same. */
-void verify_read_best(const verify_sample *p, const verify_solutions *s, int frequency, unsigned otherwise,
+void verify_read_best(const verify_sample *p, const verify_solutions *s, int frequency, verify_causes otherwise,
                       double floor, verify_hypothesis *h);
 
 /* How far the points are as they stand. */

@@ -81,15 +81,17 @@ static void keep_hypothesis(search *s, const verify_hypothesis *h)
   if (at < VERIFY_HYPOTHESES - 1 || h->score < out->hypotheses[at].score) out->hypotheses[at] = *h;
 }
 
-static unsigned causes_of(const search *s, const verify_equations *e, int frequency)
+static verify_causes causes_of(const search *s, const verify_equations *e, int frequency)
 {
-  unsigned causes = (e->keep_mean ? 0u : CAUSE_NO_STATIC) | (e->samples ? CAUSE_SAMPLES : 0u);
-  if (e->contact != VERIFY_CONTACT_AS_IT_IS) return e->contact == VERIFY_CONTACT_NONE ? CAUSE_NO_CONTACT : CAUSE_STUCK;
-  if (e->samples && e->restart == HBM_RESTART_SAMPLE) causes |= CAUSE_SLIDER;
+  verify_causes causes =
+      (e->keep_mean ? 0 : VERIFY_BIT(CAUSE_NO_STATIC)) | (e->samples ? VERIFY_BIT(CAUSE_SAMPLES) : 0);
+  if (e->contact != VERIFY_CONTACT_AS_IT_IS)
+    return VERIFY_BIT(e->contact == VERIFY_CONTACT_NONE ? CAUSE_NO_CONTACT : CAUSE_STUCK);
+  if (e->samples && e->restart == HBM_RESTART_SAMPLE) causes |= VERIFY_BIT(CAUSE_SLIDER);
   for (int i = 0; i < s->n_orders; ++i)
     if (s->orders[i].harmonics == e->harmonics && s->orders[i].keep_mean == e->keep_mean &&
         s->orders[i].matters[frequency])
-      causes |= CAUSE_HARMONICS;
+      causes |= VERIFY_BIT(CAUSE_HARMONICS);
   return causes;
 }
 
@@ -109,7 +111,7 @@ static void note_likely(search *s, const verify_equations *e, double score)
 /* The best reading of the points for these solutions. */
 static double compare_readings(search *s, const verify_equations *e, int frequency, const verify_solutions *of)
 {
-  const unsigned otherwise = e->harmonics < s->out->harmonics ? CAUSE_HARMONICS : 0;
+  const verify_causes otherwise = e->harmonics < s->out->harmonics ? VERIFY_BIT(CAUSE_HARMONICS) : 0;
   const verify_hypothesis given = {.equations = *e, .causes = causes_of(s, e, frequency)};
   verify_hypothesis h = given, rough = given;
   verify_read_best(&s->points, of, frequency, otherwise, s->floor, &h);
@@ -130,7 +132,7 @@ static hc_status solutions_at(search *s, const verify_equations *e, int frequenc
     number_list ends = {.n = 2, .v = {omega[0], omega[s->points.n - 1]}};
     comparison_sweep(s->setup->omega_from, s->setup->omega_to, &ends, &from, &to);
   }
-  return verify_solutions_of(s->setup, e, from, to, s->points.n, omega, s->monitor, out);
+  return verify_solutions_of(s->setup, e, &s->points.quantity, from, to, s->points.n, omega, s->monitor, out);
 }
 
 /* ---- stage 1 ---- */
@@ -316,7 +318,7 @@ hc_status verify_search(const compare_setup *setup, const verify_data *data, con
       .setup = setup, .monitor = monitor, .out = out, .floor = out->gate / 10, .expected = 2 * HARMONICS_TRIED};
   s->own = setup->hbm.harmonics == HBM_AUTO ? USUAL_HARMONICS : setup->hbm.harmonics;
   verify_window(setup, data, &s->from, &s->to);
-  hc_status st = verify_sample_new(out, data->quantity, &s->points);
+  hc_status st = verify_sample_new(out, &data->quantity, &s->points);
   out->n_hypotheses = 0;
   out->truth_distance = NAN;
   if (st == HC_OK) {

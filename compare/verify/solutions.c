@@ -26,13 +26,50 @@ compare_setup verify_setup(const compare_setup *setup, const verify_equations *e
   return own;
 }
 
-void verify_quantities(const hbm_measures *m, verify_solution *out)
+static const struct {
+  verify_quantity quantity;
+  int cause;
+} readings[VERIFY_READINGS] = {
+    {{.kind = KIND_AMPLITUDE}, 0}, /* in the place of what the file says */
+    {{.kind = KIND_AMPLITUDE}, CAUSE_QUANTITY},
+    {{.kind = KIND_HARMONIC, .harmonic = 1}, CAUSE_QUANTITY},
+    {{.kind = KIND_PEAK}, CAUSE_QUANTITY},
+    {{.kind = KIND_MAX}, CAUSE_QUANTITY},
+    {{.kind = KIND_RMS}, CAUSE_RMS},
+    {{.kind = KIND_RMS_ALTERNATING}, CAUSE_RMS_ALTERNATING},
+    {{.kind = KIND_RMS_NLVIB}, CAUSE_RMS_NLVIB},
+    {{.kind = KIND_NORM}, CAUSE_NORM},
+    {{.kind = KIND_NORM_ALTERNATING}, CAUSE_NORM},
+    {{.kind = KIND_SUM_OF_MODULI}, CAUSE_SUM},
+    {{.kind = KIND_SUM_WITH_MEAN}, CAUSE_SUM},
+    {{.kind = KIND_PEAK_OF_HARMONIC}, CAUSE_QUANTITY},
+    {{.kind = KIND_COSINE}, CAUSE_COSINE},
+    {{.kind = KIND_SINE}, CAUSE_SINE},
+    {{.kind = KIND_VELOCITY}, CAUSE_VELOCITY},
+    {{.kind = KIND_ACCELERATION}, CAUSE_ACCELERATION},
+};
+
+bool verify_reading(int i, const verify_quantity *asked, verify_quantity *out, verify_causes *causes)
 {
-  *out = (verify_solution){{[VERIFY_AMPLITUDE] = m->amplitude,
-                            [VERIFY_HARMONIC_1] = m->harmonic_1,
-                            [VERIFY_PEAK] = fmax(m->max, -m->min),
-                            [VERIFY_MAX] = m->max,
-                            [VERIFY_RMS] = m->rms}};
+  *out = i == 0 ? *asked : readings[i].quantity;
+  *causes = i == 0 ? 0 : VERIFY_BIT(readings[i].cause);
+  return i == 0 || out->kind != asked->kind || out->harmonic != asked->harmonic;
+}
+
+/* Every reading of the motion X of those measures. */
+static verify_solution read_all(const verify_quantity *asked, double omega, const hbm_measures *m, int n_harm,
+                                const double *X)
+{
+  const verify_motion motion = {.omega = omega, .max = m->max, .min = m->min, .n_harm = n_harm, .X = X};
+  verify_solution s;
+  for (int i = 0; i < VERIFY_READINGS; ++i) {
+    verify_quantity q;
+    verify_causes ignored;
+    verify_reading(i, asked, &q, &ignored);
+    s.q[i] = verify_quantity_of(&q, &motion);
+    s.scale[i] = verify_quantity_scale(&q, &motion);
+  }
+  return s;
 }
 
 static hc_status reserve(verify_solutions *s)
@@ -48,47 +85,52 @@ static hc_status reserve(verify_solutions *s)
   return HC_OK;
 }
 
+static bool same_solution(const verify_solutions *s, int k, const double *X, double amplitude)
+{
+  const double *other = s->X + (size_t)k * s->n_coef;
+  double most = 0;
+  for (int i = 0; i < s->n_coef; ++i) most = fmax(most, fabs(X[i] - other[i]));
+  return most <= 1e-8 * amplitude;
+}
+
 /* X, measured, among the solutions at the omega that began with number `from`; not twice. */
-static hc_status add(verify_solutions *s, hbm_solver *hbm, int from, const double *X)
+static hc_status add(verify_solutions *s, hbm_solver *hbm, double omega, int from, const double *X)
 {
   hbm_measures m;
-  verify_solution now;
   if (hbm_measure(hbm, X, &m) != HC_OK) return HC_OK;
-  verify_quantities(&m, &now);
-  for (int k = from; k < s->count; ++k) {
-    bool same = true;
-    for (int q = 0; q < VERIFY_QUANTITIES && same; ++q) same = fabs(now.q[q] - s->of[k].q[q]) <= 1e-8 * m.amplitude;
-    if (same) return HC_OK;
-  }
+  for (int k = from; k < s->count; ++k)
+    if (same_solution(s, k, X, m.amplitude)) return HC_OK;
   hc_status st = reserve(s);
   if (st != HC_OK) return st;
-  s->of[s->count] = now;
+  s->of[s->count] = read_all(&s->asked, omega, &m, s->n_coef / 2, X);
   memcpy(s->X + (size_t)s->count * s->n_coef, X, (size_t)s->n_coef * sizeof *X);
   ++s->count;
   return HC_OK;
 }
 
-static hc_status start(verify_solutions *s, int n, int n_coef)
+static hc_status start(verify_solutions *s, const verify_quantity *asked, int n, int n_coef)
 {
-  *s = (verify_solutions){.n = n, .n_coef = n_coef, .first = calloc((size_t)n + 1, sizeof *s->first)};
+  *s = (verify_solutions){.asked = *asked, .n = n, .n_coef = n_coef, .first = calloc((size_t)n + 1, sizeof *s->first)};
   return s->first ? HC_OK : HC_NO_MEMORY;
 }
 
-hc_status verify_solutions_of(const compare_setup *setup, const verify_equations *e, double from, double to, int n,
-                              const double *omega, const hc_monitor *monitor, verify_solutions *out)
+hc_status verify_solutions_of(const compare_setup *setup, const verify_equations *e, const verify_quantity *asked,
+                              double from, double to, int n, const double *omega, const hc_monitor *monitor,
+                              verify_solutions *out)
 {
   model linear;
   const compare_setup own = verify_setup(setup, e, &linear);
   hbm_solver *hbm = NULL;
   hbm_curve curve = {0};
-  hc_status st = start(out, n, 2 * e->harmonics + 1);
+  hc_status st = start(out, asked, n, 2 * e->harmonics + 1);
   if (st == HC_OK) st = guided_hbm_solver_new(own.model, &own.hbm, &hbm);
   if (st == HC_OK) st = hbm_trace(hbm, from, to, monitor, &curve);
   if (st != HC_INTERRUPTED && st != HC_NO_MEMORY && hbm) st = HC_OK; /* as far as it came */
   for (int i = 0; i < n && st == HC_OK; ++i) {
     hbm_curve at = {0};
     if (hbm_curve_at(hbm, &curve, omega[i], &at) == HC_NO_MEMORY) st = HC_NO_MEMORY;
-    for (int k = 0; k < at.n && st == HC_OK; ++k) st = add(out, hbm, out->first[i], at.X + (size_t)k * at.n_coef);
+    for (int k = 0; k < at.n && st == HC_OK; ++k)
+      st = add(out, hbm, omega[i], out->first[i], at.X + (size_t)k * at.n_coef);
     out->first[i + 1] = out->count;
     hbm_curve_free(&at);
     if (!hc_monitor_tick(monitor, -1)) st = HC_INTERRUPTED;
@@ -106,7 +148,7 @@ static hc_status solve_from(verify_solutions *s, hbm_solver *hbm, int i, double 
   if (s->count - s->first[i] >= VERIFY_MOST_SOLUTIONS) return HC_OK;
   memcpy(X, from->X + (size_t)k * from->n_coef, (size_t)s->n_coef * sizeof *X);
   hc_status st = hbm_solve(hbm, omega, X, &point);
-  if (st == HC_OK) return add(s, hbm, s->first[i], X);
+  if (st == HC_OK) return add(s, hbm, omega, s->first[i], X);
   return st == HC_NO_MEMORY ? st : HC_OK;
 }
 
@@ -117,7 +159,7 @@ hc_status verify_solutions_near(const compare_setup *setup, const verify_equatio
   const compare_setup own = verify_setup(setup, e, &linear);
   hbm_solver *hbm = NULL;
   double *X = malloc((size_t)near->n_coef * sizeof *X);
-  hc_status st = start(out, near->n, near->n_coef);
+  hc_status st = start(out, &near->asked, near->n, near->n_coef);
   if (!X) st = HC_NO_MEMORY;
   if (st == HC_OK) st = guided_hbm_solver_new(own.model, &own.hbm, &hbm);
   for (int i = 0; i < near->n && st == HC_OK; ++i) {

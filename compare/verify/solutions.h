@@ -5,14 +5,21 @@
 
 #include "compare/verify/verify.h"
 
+enum { VERIFY_READINGS = 17 }; /* quantities that a column may hold instead of what the file says, that one first */
+
 enum { VERIFY_MOST_SOLUTIONS = 16 }; /* at one omega from guesses; sampled equations may have many */
 
 typedef struct verify_solution {
-  double q[VERIFY_QUANTITIES];
-} verify_solution; /* [length] */
+  double q[VERIFY_READINGS], scale[VERIFY_READINGS]; /* the quantities, and what their differences are measured by */
+} verify_solution;
+
+/* Reading number i of a file that says it holds *asked; *cause gets the bit of what is wrong with it then, 0 of none.
+ * False: this one is no other than an earlier one. */
+bool verify_reading(int i, const verify_quantity *asked, verify_quantity *out, verify_causes *causes);
 
 /* Solutions first[i] .. first[i+1]-1 are those at omega[i]. */
 typedef struct verify_solutions {
+  verify_quantity asked;
   int n, n_coef; /* omegas; 2H+1 */
   int *first;    /* [n+1] */
   int count, cap;
@@ -23,12 +30,11 @@ typedef struct verify_solutions {
 /* *setup with these equations for its own. Without contact, or with all of it stuck, its model is *linear. */
 compare_setup verify_setup(const compare_setup *setup, const verify_equations *e, model *linear);
 
-void verify_quantities(const hbm_measures *m, verify_solution *out);
-
 /* Along their response curve from `from` to `to`, as far as it comes. A solution that is not found is none.
  * HC_INTERRUPTED, HC_NO_MEMORY, or why there are no such equations. */
-hc_status verify_solutions_of(const compare_setup *setup, const verify_equations *e, double from, double to, int n,
-                              const double *omega, const hc_monitor *monitor, verify_solutions *out);
+hc_status verify_solutions_of(const compare_setup *setup, const verify_equations *e, const verify_quantity *asked,
+                              double from, double to, int n, const double *omega, const hc_monitor *monitor,
+                              verify_solutions *out);
 
 /* By Newton from the solutions `near` of equations with as many harmonics at the same omegas, and from those at the
  * omega before if that is close: sampled equations from exact ones, at a small part of what their curve would cost.

@@ -31,10 +31,11 @@ void verify_window(const compare_setup *setup, const verify_data *data, double *
   comparison_sweep(setup->omega_from, setup->omega_to, &ends, from, to);
 }
 
-double verify_gate(const compare_setup *setup, verify_quantity q)
+double verify_gate(const compare_setup *setup, const verify_quantity *q)
 {
   const discrepancy *most = &setup->limits->most;
-  return q == VERIFY_HARMONIC_1 ? most->harmonic_1 : most->amplitude;
+  if (q->kind == KIND_MEAN) return most->mean;
+  return q->kind == KIND_HARMONIC && q->harmonic == 1 ? most->harmonic_1 : most->amplitude;
 }
 
 typedef struct truth {
@@ -60,17 +61,45 @@ static int stable_at(truth *t, double omega, const double *X, hc_status *st)
   return known == HC_OK ? hbm_stability_verdict(&s) : 0;
 }
 
+/* A solution as the file's quantity is taken of it. */
+typedef struct measured {
+  double value, scale;
+  bool mean_free;
+} measured;
+
+/* A slider that never slips rests where the history left it. Of several contacts only the strongest state is known:
+ * where that is stick, none slips. */
+static bool mean_is_free(const model *m, const contact_report *r)
+{
+  bool held = false;
+  for (int j = 0; j < m->n_contacts; ++j) {
+    const contact *c = &m->contacts[j].law;
+    held |= c->kt > 0 && c->mu > 0 && m->contacts[j].tangent != 0;
+  }
+  return held && r->regime == CONTACT_STUCK;
+}
+
+static hc_status measure_solution(truth *t, double omega, const double *X, measured *out)
+{
+  hbm_measures m;
+  hc_status st = hbm_measure(t->hbm, X, &m);
+  if (st != HC_OK) return st;
+  const verify_motion motion = {.omega = omega, .max = m.max, .min = m.min, .n_harm = t->curve.n_coef / 2, .X = X};
+  const verify_quantity *q = &t->data->quantity;
+  *out = (measured){verify_quantity_of(q, &motion), verify_quantity_scale(q, &motion),
+                    mean_is_free(t->setup->model, &m.contact)};
+  return HC_OK;
+}
+
 /* The nearest of the solutions *at to the row's value, or -1; its measures into *nearest. */
-static int nearest_of(truth *t, const hbm_curve *at, double value, hbm_measures *nearest)
+static int nearest_of(truth *t, const hbm_curve *at, const verify_row *row, measured *nearest)
 {
   int best = -1;
   double least = INFINITY;
   for (int k = 0; k < at->n; ++k) {
-    hbm_measures m;
-    verify_solution s;
-    if (hbm_measure(t->hbm, at->X + (size_t)k * at->n_coef, &m) != HC_OK) continue;
-    verify_quantities(&m, &s);
-    double d = fabs(s.q[t->data->quantity] - value);
+    measured m;
+    if (measure_solution(t, row->omega, at->X + (size_t)k * at->n_coef, &m) != HC_OK) continue;
+    double d = fabs(m.value - row->value);
     if (d < least) least = d, best = k, *nearest = m;
   }
   return best;
@@ -100,8 +129,7 @@ static hc_status solve_at(truth *t, double omega, hbm_curve *at)
 static hc_status judge_point(truth *t, const verify_point *p, verify_row *row)
 {
   hbm_curve at = {0};
-  hbm_measures m;
-  verify_solution s;
+  measured m;
   *row = (verify_row){.omega = p->omega,
                       .value = p->value,
                       .line = p->line,
@@ -110,19 +138,22 @@ static hc_status judge_point(truth *t, const verify_point *p, verify_row *row)
                       .error = NAN,
                       .verdict = VERDICT_SOLVER_FAILED};
   hc_status st = solve_at(t, p->omega, &at);
-  int k = st == HC_OK ? nearest_of(t, &at, p->value, &m) : -1;
+  int k = st == HC_OK ? nearest_of(t, &at, row, &m) : -1;
   if (k >= 0 && at.points) {
-    verify_quantities(&m, &s);
     row->solutions = at.n;
     row->branch = at.points[k].branch;
-    row->nearest = s.q[t->data->quantity];
-    row->amplitude = m.amplitude;
-    row->error = discrepancy_relative(p->value - row->nearest, m.amplitude);
+    row->nearest = m.value;
+    row->scale = m.scale;
+    row->skipped = m.mean_free && verify_quantity_of_mean(&t->data->quantity);
+    row->error = row->skipped ? NAN : discrepancy_relative(p->value - row->nearest, m.scale);
     row->stable = stable_at(t, p->omega, at.X + (size_t)k * at.n_coef, &st);
     row->stable_too = row->stable > 0;
     for (int j = 0; j < at.n && row->stable < 0 && !row->stable_too; ++j)
       row->stable_too = j != k && stable_at(t, p->omega, at.X + (size_t)j * at.n_coef, &st) > 0;
-    row->verdict = !(row->error <= t->out->gate) ? VERDICT_DIFFERS : row->stable < 0 ? VERDICT_UNSTABLE : VERDICT_MATCH;
+    row->verdict = row->skipped                    ? VERDICT_MATCH
+                   : !(row->error <= t->out->gate) ? VERDICT_DIFFERS
+                   : row->stable < 0               ? VERDICT_UNSTABLE
+                                                   : VERDICT_MATCH;
   }
   hbm_curve_free(&at);
   return st;
@@ -130,34 +161,43 @@ static hc_status judge_point(truth *t, const verify_point *p, verify_row *row)
 
 /* ---- the referee ---- */
 
-/* The file's quantity, of the orbit next to the row's solution. */
+/* The file's quantity, of the orbit next to the row's solution, by as many harmonics as its samples tell apart. */
 static double orbit_quantity(const truth *t, const timeint_result *orbit)
 {
-  if (t->data->quantity == VERIFY_HARMONIC_1) return orbit->harmonic_1;
-  return t->data->quantity == VERIFY_PEAK ? fmax(orbit->max, -orbit->min) : orbit->amplitude;
+  enum { HARMONICS = 200 };
+  double X[2 * HARMONICS + 1];
+  const periodic_motion wave = motion_of_transient(orbit);
+  const verify_quantity *q = &t->data->quantity;
+  motion_harmonics(&wave, HARMONICS, X);
+  X[0] = orbit->mean;
+  X[1] = orbit->a1;
+  X[2] = orbit->b1;
+  const verify_motion motion = {
+      .omega = orbit->omega, .max = orbit->max, .min = orbit->min, .n_harm = HARMONICS, .X = X};
+  return q->kind == KIND_RMS ? orbit->rms : verify_quantity_of(q, &motion);
 }
 
 static hc_status check_row(truth *t, const verify_row *row)
 {
   hbm_curve at = {0};
-  hbm_measures m;
+  measured m;
   timeint_result orbit;
   hc_status st = solve_at(t, row->omega, &at), found = HC_NOT_CONVERGED;
-  int k = st == HC_OK ? nearest_of(t, &at, row->value, &m) : -1;
+  int k = st == HC_OK ? nearest_of(t, &at, row, &m) : -1;
   if (k >= 0) {
     found = comparison_orbit_start(t->hbm, at.X + (size_t)k * at.n_coef, row->omega, t->state);
     if (found == HC_OK) found = timeint_orbit(t->referee, row->omega, 1, t->state, t->monitor, &orbit);
     if (found == HC_INTERRUPTED || found == HC_NO_MEMORY) st = found;
   }
   hbm_curve_free(&at);
-  if (found != HC_OK || (t->data->quantity == VERIFY_PEAK && motion_mean_is_free(&orbit))) {
+  if (found != HC_OK || (verify_quantity_of_mean(&t->data->quantity) && motion_mean_is_free(&orbit))) {
     ++t->out->unchecked;
     return st;
   }
   double error = fabs(orbit_quantity(t, &orbit) - row->nearest);
   if (isnan(error)) return ++t->out->unchecked, st;
   ++t->out->checked;
-  if (error > 0) t->out->checked_error = fmax(t->out->checked_error, error / orbit.amplitude);
+  if (error > 0) t->out->checked_error = fmax(t->out->checked_error, error / row->scale);
   return st;
 }
 
@@ -171,7 +211,7 @@ static hc_status check(truth *t)
   out->checked_error = 0;
   for (int i = 0; i < n && st == HC_OK; ++i) {
     const verify_row *row = &out->rows[n > 1 ? (int)((long)i * (out->n_rows - 1) / (n - 1)) : 0];
-    if (row->branch >= 0) st = check_row(t, row);
+    if (row->branch >= 0 && !row->skipped) st = check_row(t, row);
     if (!hc_monitor_tick(t->monitor, -1)) st = HC_INTERRUPTED;
   }
   return st;
@@ -217,7 +257,7 @@ hc_status verify_truth(const compare_setup *setup, const verify_data *data, cons
                        verify_report *out)
 {
   truth t = {.setup = setup, .data = data, .monitor = monitor, .out = out};
-  out->gate = verify_gate(setup, data->quantity);
+  out->gate = verify_gate(setup, &data->quantity);
   out->rows = calloc((size_t)data->n, sizeof *out->rows);
   verify_window(setup, data, &t.from, &t.to);
   hc_status st = out->rows ? comparison_referee(setup, &t.referee) : HC_NO_MEMORY;

@@ -55,24 +55,37 @@ static bool mark_hops(verify_report *r)
   return any;
 }
 
+/* How often omega turns back along the file, as along a curve with folds. */
+static int reversals(const verify_data *d)
+{
+  int n = 0;
+  double way = 0;
+  for (int i = 1; i < d->n; ++i) {
+    const double step = d->points[i].omega - d->points[i - 1].omega;
+    n += step * way < 0;
+    if (step != 0) way = step;
+  }
+  return n;
+}
+
 static int differing(const verify_report *r)
 {
   int n = 0;
   for (int i = 0; i < r->n_rows; ++i)
-    n += r->rows[i].verdict == VERDICT_DIFFERS || r->rows[i].verdict == VERDICT_SOLVER_FAILED;
+    n += !r->rows[i].skipped && (r->rows[i].verdict == VERDICT_DIFFERS || r->rows[i].verdict == VERDICT_SOLVER_FAILED);
   return n;
 }
 
 hc_status verify_run(const compare_setup *setup, const verify_data *data, const hc_monitor *monitor, verify_report *out)
 {
-  *out = (verify_report){.truth_distance = NAN};
+  *out = (verify_report){.truth_distance = NAN, .noise = NAN, .left_out = data->left_out, .reversals = reversals(data)};
   hc_status st = verify_truth(setup, data, monitor, out);
   int off = differing(out);
-  if (off == 0 && mark_hops(out)) out->causes = CAUSE_OTHER_BRANCH;
-  else if (off == 0 && only_unstable(out)) out->causes = CAUSE_UNSTABLE;
+  if (off == 0 && mark_hops(out)) out->causes = VERIFY_BIT(CAUSE_OTHER_BRANCH);
+  else if (off == 0 && only_unstable(out)) out->causes = VERIFY_BIT(CAUSE_UNSTABLE);
   if (st == HC_OK && off >= VERIFY_LEAST_DIFFERING) st = verify_search(setup, data, monitor, out);
   if (verify_fits(out)) out->causes = out->hypotheses[0].causes;
-  for (int i = 0; i < out->n_rows; ++i) ++out->count[out->rows[i].verdict];
+  for (int i = 0; i < out->n_rows; ++i) ++*(out->rows[i].skipped ? &out->skipped : &out->count[out->rows[i].verdict]);
   return out->status = st;
 }
 

@@ -5,24 +5,6 @@
 #include "base/message.h"
 #include "compare/verify/search.h"
 
-static const struct {
-  const char *word, *meaning, *remedy;
-} causes[] = {
-#define VERIFY_CAUSE_WORDS(code, word, meaning, remedy) {word, meaning, remedy},
-    VERIFY_CAUSE_LIST(VERIFY_CAUSE_WORDS)
-#undef VERIFY_CAUSE_WORDS
-};
-
-const char *verify_cause_words(unsigned bits, char text[VERIFY_TEXT])
-{
-  message m;
-  message_start(&m, text, VERIFY_TEXT);
-  for (int i = 0; i < VERIFY_CAUSES; ++i)
-    if (bits & (1u << i)) message_add(&m, "%s%s", m.used ? "+" : "", causes[i].word);
-  if (!m.used) message_add(&m, "none");
-  return text;
-}
-
 /* "42 %" or "2e-06". */
 static void add_distance(message *m, double d)
 {
@@ -40,27 +22,26 @@ static void add_settings(message *m, const verify_hypothesis *h)
   if (e->samples)
     message_add(m, ", N = %d%s", e->samples, e->restart == HBM_RESTART_SAMPLE ? ", hbm.slider_restart: sample" : "");
   if (h->omega_factor != 1) message_add(m, "; true omega = %.6g x the file's", h->omega_factor);
-  if (h->causes & CAUSE_QUANTITY || h->value_factor != 1) {
-    message_add(m, "; values = ");
-    if (h->value_factor != 1) message_add(m, "%.6g x ", h->value_factor);
-    message_add(m, "%s", verify_quantity_name(h->quantity));
-  }
+  char name[VERIFY_QUANTITY_TEXT];
+  if (h->value_factor != 1) message_add(m, "; values = %.6g x ", h->value_factor);
+  else message_add(m, "; values = ");
+  message_add(m, "%s", verify_quantity_name(&h->quantity, name));
 }
 
-static void add_causes(message *m, unsigned bits)
+static void add_causes(message *m, verify_causes bits)
 {
   const char *before = "suspected cause: ";
   for (int i = 0; i < VERIFY_CAUSES; ++i)
-    if (bits & (1u << i)) {
-      message_add(m, "%s%s", before, causes[i].meaning);
+    if (bits & VERIFY_BIT(i)) {
+      message_add(m, "%s%s", before, verify_cause_meaning(i));
       before = ", and ";
     }
 }
 
-static void add_remedies(message *m, unsigned bits)
+static void add_remedies(message *m, verify_causes bits)
 {
   for (int i = 0; i < VERIFY_CAUSES; ++i)
-    if (bits & (1u << i)) message_add(m, "; %s", causes[i].remedy);
+    if (bits & VERIFY_BIT(i)) message_add(m, "; %s", verify_cause_remedy(i));
 }
 
 static void say_match(message *m, const verify_report *r)

@@ -87,14 +87,14 @@ static void random_field(const field *f, void *base, uint64_t *s)
 static void mend_gate_ranges(gate_ranges *r)
 {
   number_list *limits[] = {&r->amplitude, &r->harmonic_1, &r->mean, &r->waveform};
-  if (r->omega.n % 2) r->omega.v[--r->omega.n] = 0;
-  for (int i = 0; i < r->omega.n; i += 2)
-    if (r->omega.v[i] > r->omega.v[i + 1]) r->omega.v[i + 1] = r->omega.v[i];
+  if (r->ends.n % 2) r->ends.v[--r->ends.n] = 0;
+  for (int i = 0; i < r->ends.n; i += 2)
+    if (r->ends.v[i] > r->ends.v[i + 1]) r->ends.v[i + 1] = r->ends.v[i];
   for (int k = 0; k < 4; ++k) {
-    for (; limits[k]->n < r->omega.n / 2; ++limits[k]->n) limits[k]->v[limits[k]->n] = 1e-3;
-    for (; limits[k]->n > r->omega.n / 2; --limits[k]->n) limits[k]->v[limits[k]->n - 1] = 0;
+    for (; limits[k]->n < r->ends.n / 2; ++limits[k]->n) limits[k]->v[limits[k]->n] = 1e-3;
+    for (; limits[k]->n > r->ends.n / 2; --limits[k]->n) limits[k]->v[limits[k]->n - 1] = 0;
   }
-  if (r->omega.n > 2) memset(limits[r->omega.n % 3], 0, sizeof *limits[0]); /* not every limit need differ there */
+  if (r->ends.n > 2) memset(limits[r->ends.n % 3], 0, sizeof *limits[0]); /* not every limit need differ there */
 }
 
 /* Any scene a reader could have made. Of compare's rivals one is at its default, and the samples suffice. */
@@ -107,10 +107,15 @@ static void random_scene(scene *sc, uint64_t *s)
     bool in_contact = f->flags & FIELD_IN_CONTACT;
     for (int j = 0; in_contact && j < sc->n_contacts; ++j) random_field(f, &sc->contacts[j], s);
     if (!in_contact && !(f->flags & FIELD_NO_ECHO)) random_field(f, sc, s);
+    if (f->scale != 0 && !(f->flags & FIELD_NO_ECHO)) { /* as the reader stores it */
+      sc->omega_from *= f->scale, sc->omega_to *= f->scale;
+    }
   }
   mend_gate_ranges(&sc->gate.ranges);
   if (random_bits(s) % 2) sc->compare.points = 20;
   else memset(&sc->compare.omega, 0, sizeof sc->compare.omega);
+  bool adapts = sc->hbm.harmonics == HBM_AUTO || sc->hbm.samples == HBM_AUTO;
+  if (adapts && sc->hbm.continuation == HBM_CONTINUATION_FIXED_STEP) sc->hbm.continuation = HBM_CONTINUATION_AUTO;
   if (sc->hbm.samples != HBM_AUTO && sc->hbm.samples < 2 * sc->hbm.harmonics + 1)
     sc->hbm.samples = 2 * sc->hbm.harmonics + 1;
   if (sc->transient.law != TRANSIENT_LAW_EXACT) sc->transient.method = TRANSIENT_METHOD_CVODE;

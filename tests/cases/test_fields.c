@@ -33,6 +33,7 @@ static void defaults_are_those_of_the_interface(void **state)
   assert_true(sc.hbm.harmonics == 5 && sc.hbm.keep_mean && sc.hbm.samples == 1024 &&
               sc.hbm.restart == HBM_RESTART_INTERPOLATED);
   assert_true(sc.hbm.continuation == HBM_CONTINUATION_AUTO && sc.hbm.tolerance == 1e-10);
+  assert_true(sc.hbm.step == 0.02 && sc.hbm.iterations == 20);
   assert_true(sc.transient.law == TRANSIENT_LAW_REGULARISED && sc.transient.regularisation == 1e-4 &&
               sc.transient.tolerance == 1e-9);
   assert_true(sc.transient.steady == TRANSIENT_STEADY_AUTO && sc.transient.start == TRANSIENT_START_HBM &&
@@ -58,10 +59,13 @@ static void rows_are_sound(void **state)
     assert_int_equal((f->flags & FIELD_IN_CONTACT) != 0, !strcmp(f->section, "contacts"));
     if (f->kind != FIELD_TEXT && f->kind != FIELD_FLAG && f->kind != FIELD_CHOICE)
       assert_true(f->low < f->high && *f->unit);
-    if (!f->rival) continue;
-    const field *rival = field_find(f->section, f->rival, strlen(f->rival));
-    assert_non_null(rival);
-    assert_string_equal(rival->rival, f->name);
+    assert_int_equal(f->group != NULL, field_rival(f, 0) != NULL);
+    const field *rival;
+    for (int k = 0; (rival = field_rival(f, k)) != NULL; ++k) {
+      assert_ptr_not_equal(rival, f);
+      assert_string_equal(rival->section, f->section);
+      assert_string_equal(rival->group, f->group);
+    }
   }
 }
 

@@ -144,7 +144,12 @@ static const mistake extra[] = {
     {"hbm: {static: 1}", "f:4:15: ", "expected true or false"},
     {"hbm: {static: 'true'}", "f:4:15: ", "(in quotes it is text)"},
     {"hbm: {force: Exact}", "f:4:14: ", "hbm.force is `Exact`, expected exact or sampled"},
-    {"hbm: {continuation: newton}", "f:4:21: ", "expected auto, natural or arclength"},
+    {"hbm: {continuation: newton}", "f:4:21: ", "expected auto, natural, arclength or fixed_step"},
+    {"hbm: {continuation: fixed_step, harmonics: auto}", "f:4:21: ",
+     "hbm.harmonics: auto adapts the step, too, expected a number of harmonics with hbm.continuation: fixed_step"},
+    {"hbm: {samples: auto, force: sampled, continuation: fixed_step}", "f:4:52: ", "expected a number of samples"},
+    {"hbm: {step: 0}", "f:4:13: ", "hbm.step is `0`"},
+    {"hbm: {iterations: 0}", "f:4:19: ", "1..1000"},
     /* ranges */
     {"hbm: {harmonics: 0}", "f:4:18: ", "hbm.harmonics is `0`, expected an integer 1..200 or auto"},
     {"hbm: {harmonics: 201}", "f:4:18: ", "1..200"},

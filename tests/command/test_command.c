@@ -38,7 +38,7 @@ static void columns_are_the_interface(void **state)
          "mean_error,waveform_error");
   expect("compare " CASE2 "--at 6 --format csv -q", 0,
          ",largest_part,hbm_predicted,transient_predicted,hbm_predicted_harmonic_1,hbm_predicted_waveform,"
-         "transient_predicted_harmonic_1,transient_predicted_waveform,unexpected\n");
+         "transient_predicted_harmonic_1,transient_predicted_waveform,unexpected,mean_free\n");
   expect("compare " CASE2 "--at 6 --format json -q", 0, "\"hbm_predicted_waveform\": 0.00");
   expect("contact " CASE2 "--motion 0,8,0 --samples 64 --format csv", 0, "harmonic,cos,sin,cos_64,sin_64");
   expect("contact " CASE2 "--motion 0,8,0", 0, "contact 0: sticks from 5.79649035"); /* 2 pi - arccos(5 sqrt(2)/8) */

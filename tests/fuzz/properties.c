@@ -147,7 +147,7 @@ void scene_is_in_range(const scene *sc)
   must(sc->omega_from != sc->omega_to, "the sweep stands still");
   must(h->force != HBM_FORCE_SAMPLED || !both_told || h->samples >= 2 * h->harmonics + 1, "%d samples for %d harmonics",
        h->samples, h->harmonics);
-  must(sc->gate.ranges.omega.n % 2 == 0, "half a range");
+  must(sc->gate.ranges.ends.n % 2 == 0, "half a range");
 }
 
 void scene_echoes(const scene *sc)

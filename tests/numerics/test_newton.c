@@ -15,7 +15,7 @@ typedef struct probe {
 } probe;
 
 static const double ones[2] = {1, 1};
-static const newton_options plain = {ones, ones, 1e-12, 100, 50};
+static const newton_options plain = {ones, ones, 1e-12, 100, 50, false};
 
 static void count(probe *p)
 {
@@ -92,12 +92,13 @@ static void weights_are_units(void **state)
   newton *nw = make(&p, 2, heron_residual, heron_jacobian);
   double z[2] = {1.5, 1.5}, z_scale[2] = {1024, 1024}, r_scale[2] = {1 / 4096.0, 1 / 4096.0};
   newton_report report;
-  newton_options loose = {z_scale, r_scale, 1e-4, 1e6, 50}; /* |r| <= 0.41: one Heron step from 1.5 gives 2e-2; then
+  newton_options loose = {z_scale, r_scale, 1e-4, 1e6,
+                          50,      false}; /* |r| <= 0.41: one Heron step from 1.5 gives 2e-2; then
                                                                one polishing step */
   assert_int_equal(newton_solve(nw, z, &loose, &report), HC_OK);
   CHECK_LE(report.residual, 1e-4, "judged with its weight");
   CHECK_LE(fabs(z[0] - sqrt(2)), 3e-6, "start 8.6e-2 off, Heron: e'= e^2/(2x) = 2.5e-3, then 2.2e-6");
-  newton_options strict = {z_scale, r_scale, 1e-15, 1e6, 50}; /* |r| <= 4e-12 */
+  newton_options strict = {z_scale, r_scale, 1e-15, 1e6, 50, false}; /* |r| <= 4e-12 */
   z[0] = z[1] = 1.5;
   assert_int_equal(newton_solve(nw, z, &strict, &report), HC_OK);
   CHECK_NEAR(z[0], sqrt(2), 80 * DBL_EPSILON, "root");

@@ -157,7 +157,28 @@ static void wrong_limits_are_named_before_anything_runs(void **state)
   expect("@/ranges.yaml @/ok.yaml --junit @/w.xml 2>&1", 2,
          "/ranges.yaml:6:15: gate.range_mean has 2 limits for 1 range");
   expect("@/ok.yaml @/bad.yaml --junit @/w.xml 2>/dev/null | wc -c", 0, "0\n"); /* not a row of the case that is fine */
-  assert_false(exists("w.xml"));
+}
+
+/* A CI page that only says that there is no report sends people to the log: the message is in the report. */
+static void a_wrong_case_file_is_in_the_junit(void **state)
+{
+  (void)state;
+  put_case("ok.yaml", SMALL);
+  put_case("a&b <c>.yaml", SMALL "gate: {'x<y & \"z\"': 1}\n");
+  expect("@/ok.yaml '@/a&b <c>.yaml' @/none.yaml --junit @/u.xml 2>&1", 2,
+         "a&b <c>.yaml:4:8: unknown key `x<y & \"z\"`");
+  expect("@/ok.yaml '@/a&b <c>.yaml' @/none.yaml --junit @/u.xml 2>&1", 2, "/none.yaml: cannot be opened");
+  expect("'@/a&b <c>.yaml' --junit @/none/u.xml 2>&1", 2, "none/u.xml: No such file");
+  if (!*XMLLINT) skip();
+  check_counts("u.xml", 3, 0, 2);
+  assert_int_equal(counted("u.xml", "number(/testsuites/@skipped)"), 1);
+  assert_int_equal(counted("u.xml", "count(//testsuite[1][@skipped=1]/testcase/skipped)"), 1);
+  assert_int_equal(counted("u.xml",
+                           "count(//testsuite[2]/testcase/error[contains(@message, \"/a&b <c>.yaml:4:8: unknown "
+                           "key `x<y & \") and contains(., \"unknown key\")])"),
+                   1);
+  assert_int_equal(
+      counted("u.xml", "count(//testsuite[3]/testcase/error[contains(@message, \"/none.yaml: cannot be\")])"), 1);
 }
 
 static void several_cases_are_several_suites(void **state)
@@ -221,6 +242,7 @@ int main(void)
       cmocka_unit_test(unstable_solutions_are_held_against_their_orbits),
       cmocka_unit_test(limits_are_those_of_the_case),
       cmocka_unit_test(wrong_limits_are_named_before_anything_runs),
+      cmocka_unit_test(a_wrong_case_file_is_in_the_junit),
       cmocka_unit_test(several_cases_are_several_suites),
       cmocka_unit_test(what_cannot_be_compared_is_an_error),
       cmocka_unit_test(junit_is_written_whole_or_not_at_all),

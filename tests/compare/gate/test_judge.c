@@ -75,7 +75,10 @@ static void every_quantity_has_its_limit(void **state)
   }
   m->rows[0].errors.mean = 1, m->rows[0].transient.free_sliders = 1; /* the mean is history */
   assert_int_equal(judged(m), 0);
-  assert_int_equal(m->g.n, 3);
+  assert_int_equal(m->g.n, 4);
+  assert_int_equal(m->g.not_applicable, 1);
+  assert_int_equal(find(m, 0, "mean")->result, GATE_NOT_APPLICABLE);
+  assert_non_null(strstr(find(m, 0, "mean")->reason, "not applicable: a slider never slips"));
   m->rows[0].errors.amplitude = NAN;
   assert_int_equal(judged(m), 3);
   end(m);
@@ -107,7 +110,7 @@ static void limits_may_differ_in_ranges(void **state)
   (void)state;
   made *m = start(3);
   gate_ranges *g = &m->sc.gate.ranges;
-  *g = (gate_ranges){.omega = {4, {7, 9, 8, 12}}, .amplitude = {2, {1e-2, 1e-5}}};
+  *g = (gate_ranges){.ends = {4, {7, 9, 8, 12}}, .amplitude = {2, {1e-2, 1e-5}}};
   /* below; at the lower end; in both: the last one counts */
   m->rows[0].omega = 6.99, m->rows[1].omega = 7, m->rows[2].omega = 8;
   for (int i = 0; i < 3; ++i) m->rows[i].errors.amplitude = 2e-3;
@@ -117,7 +120,7 @@ static void limits_may_differ_in_ranges(void **state)
   assert_true(find(m, 1, "amplitude")->result == GATE_PASS && find(m, 1, "mean")->allowed == 1e-3 &&
               m->g.failures == 2);
   m->rows[0].omega = 12, m->rows[1].omega = 9, m->rows[2].omega = 12.01; /* at both upper ends; above */
-  g->omega.v[2] = 9.5;
+  g->ends.v[2] = 9.5;
   judged(m);
   assert_true(find(m, 0, "amplitude")->allowed == 1e-5 && find(m, 1, "amplitude")->allowed == 1e-2 &&
               find(m, 2, "amplitude")->allowed == 1e-3);
@@ -255,6 +258,32 @@ static void junit_escapes_what_it_is_given(void **state)
   end(m);
 }
 
+/* Settings that no case file can hold, so that harmonic balance cannot even begin. */
+static void a_comparison_that_cannot_begin_is_an_error(void **state)
+{
+  (void)state;
+  scene sc;
+  compare_setup setup;
+  gate_case g;
+  char *text = NULL;
+  size_t size;
+  memset(&sc, 0, sizeof sc);
+  sc.mass = sc.damping = sc.stiffness = sc.force = sc.omega_from = 1;
+  sc.omega_to = 2;
+  sc.hbm.harmonics = HBM_MAX_HARMONICS + 1;
+  assert_int_equal(scene_setup(&sc, &setup), HC_OK);
+  assert_int_equal(gate_run("no.yaml", &setup, NULL, &g), HC_OK);
+  FILE *to = open_memstream(&text, &size);
+  assert_int_equal(gate_write_junit(1, &g, to), HC_OK);
+  fclose(to);
+  assert_int_equal(gate_exit_code(1, &g), 3);
+  assert_non_null(strstr(text, "<error message=\"it could not be made: an argument is outside its documented range\" "
+                               "type=\"comparison\">"));
+  free(text);
+  gate_clear(&g);
+  scene_setup_clear(&setup);
+}
+
 static const struct CMUnitTest tests[] = {
     cmocka_unit_test(every_quantity_has_its_limit),
     cmocka_unit_test(rounding_at_the_limit_decides_nothing),
@@ -265,6 +294,7 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(costs_are_whole_numbers_with_limits),
     cmocka_unit_test(one_check_of_a_quantity_is_the_worst),
     cmocka_unit_test(junit_escapes_what_it_is_given),
+    cmocka_unit_test(a_comparison_that_cannot_begin_is_an_error),
 };
 
 CHECK_MAIN("gate.judge", tests, 60)

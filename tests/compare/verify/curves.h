@@ -18,7 +18,7 @@ typedef struct spoiling {
   int harmonics, samples; /* 0: the case's, exact forces */
   bool slider_on_sample;
   double omega_factor, value_factor; /* file's = factor times ours; 0: 1 */
-  int said, meant;                   /* verify_quantity: what the column is called, what it holds */
+  verify_kind said, meant;           /* what the column is called, what it holds; KIND_HARMONIC: of harmonic 1 */
   bool no_contact;
   int branch;   /* -1: unstable only where there is a choice; 1: all; 0: as swept upwards; 2: hops */
   double noise; /* [1] relative, alternating in sign */
@@ -47,9 +47,11 @@ static inline scene curve_spoil(const scene *sc, const spoiling *how)
   return own;
 }
 
-static inline double curve_value(const hbm_measures *m, int quantity)
+static inline double curve_value(double omega, const hbm_measures *m, int n_coef, const double *X, verify_kind kind)
 {
-  return quantity == VERIFY_HARMONIC_1 ? m->harmonic_1 : quantity == VERIFY_PEAK ? fmax(m->max, -m->min) : m->amplitude;
+  const verify_quantity q = {.kind = kind, .harmonic = 1};
+  const verify_motion motion = {.omega = omega, .max = m->max, .min = m->min, .n_harm = n_coef / 2, .X = X};
+  return verify_quantity_of(&q, &motion);
 }
 
 /* Which of the solutions at one omega this curve has: bit k for the k-th along the curve, which is upper, unstable,
@@ -68,7 +70,8 @@ static inline verify_data curve_make(const scene *sc, const spoiling *how, doubl
   const scene own = curve_spoil(sc, how);
   hbm_solver *hbm;
   hbm_curve curve = {0};
-  verify_data d = {.quantity = (verify_quantity)how->said, .points = calloc(CURVE_ROOM, sizeof *d.points)};
+  verify_data d = {.quantity = {.kind = how->said, .harmonic = how->said == KIND_HARMONIC},
+                   .points = calloc(CURVE_ROOM, sizeof *d.points)};
   assert_int_equal(scene_hbm_solver(&own, &hbm), HC_OK);
   assert_int_equal(hbm_trace(hbm, own.omega_from, own.omega_to, NULL, &curve), HC_OK);
   for (int i = 0; i < n; ++i) {
@@ -79,8 +82,8 @@ static inline verify_data curve_make(const scene *sc, const spoiling *how, doubl
     for (int k = 0; k < at.n && d.n < CURVE_ROOM; ++k) {
       if (!(curve_wanted(how->branch, at.n, i) & (1u << k))) continue;
       assert_int_equal(hbm_measure(hbm, at.X + (size_t)k * at.n_coef, &m), HC_OK);
-      double value = curve_value(&m, how->meant) * (how->value_factor > 0 ? how->value_factor : 1) *
-                     (1 + (i % 2 ? how->noise : -how->noise));
+      double value = curve_value(omega, &m, at.n_coef, at.X + (size_t)k * at.n_coef, how->meant) *
+                     (how->value_factor > 0 ? how->value_factor : 1) * (1 + (i % 2 ? how->noise : -how->noise));
       d.points[d.n++] = (verify_point){omega * (how->omega_factor > 0 ? how->omega_factor : 1), value, i + 1};
     }
     hbm_curve_free(&at);

@@ -1,5 +1,6 @@
 /* test_reader.c - files of columns as people have them, and what is said about those that are wrong:
  * FILE:LINE:COLUMN, what, expected what. */
+#include <math.h>
 #include <string.h>
 
 #include "compare/verify/csv.h"
@@ -8,19 +9,25 @@
 
 static const double two_pi = 2 * PI;
 
-/* The file `text` read with `columns`; HC_OK or not, the message in *words. */
-static hc_status read_text(const char *text, size_t length, const char *columns, verify_data *d,
-                           char words[VERIFY_TEXT])
+/* The file `text` read with --columns and --quantity; HC_OK or not, the message in *words. */
+static hc_status read_text_as(const char *text, size_t length, const char *columns, const char *quantity,
+                              verify_data *d, char words[VERIFY_TEXT])
 {
   char path[] = "/tmp/hbmcheck-verify-XXXXXX";
   verify_columns where;
   int fd = mkstemp(path);
   assert_true(fd >= 0 && write(fd, text, length) == (ssize_t)length);
   close(fd);
-  assert_int_equal(verify_columns_read(columns, "amplitude", &where, words), HC_OK);
+  assert_int_equal(verify_columns_read(columns, quantity, &where, words), HC_OK);
   hc_status st = verify_data_read(path, &where, d, words);
   unlink(path);
   return st;
+}
+
+static hc_status read_text(const char *text, size_t length, const char *columns, verify_data *d,
+                           char words[VERIFY_TEXT])
+{
+  return read_text_as(text, length, columns, "amplitude", d, words);
 }
 
 /* Three points (5, 1), (6, 2), (7, 3), whatever the file looks like. */
@@ -53,8 +60,128 @@ static void files_as_people_have_them(void **state)
   reads("  5   1\n 6\t2  \n+7 3\n", "omega=1,amplitude=2");
   reads("5\t\t1\n6\tx y\t2\n7\t\t3\n", "omega=1,amplitude=3");
   reads("omega,branch,amplitude\n5,0,1\n6,1,2\n7,2,3\n", "amplitude=amplitude,omega=omega");
+  reads("\"w, forced\",\"A \"\"x\"\"\"\n\"5\",1\n6, \"2\" \n7,3\n", "omega=1,value=2");
   reads("\"ascii quotes are part of a name\",w\n1,5\n2,6\n3,7\n", "omega=2,value=1");
   reads("5 1\n6 2\n7 3", "value=2,omega=1");
+}
+
+/* Without --columns: what a header calls the three points' columns. */
+static void plain_names_need_no_columns(void **state)
+{
+  (void)state;
+  static const struct {
+    const char *header, *quantity, *found; /* --quantity, NULL: none; what the values are taken for */
+    double omega;                          /* [rad/time] of the first point, 5 in the file */
+  } list[] = {
+      {"omega,amplitude", NULL, "amplitude", 5},
+      {"W,AMP", NULL, "amplitude", 5},
+      {"\"omega [rad/s]\",\"|X1|\"", NULL, "harmonic_1", 5},
+      {"Frequency [Hz],rms", NULL, "rms", 10 * PI},
+      {"Frequency [rad/s],Peak", NULL, "peak", 5},
+      {"Hz,H3", NULL, "harmonic_3", 10 * PI},
+      {"freq,x_rms", NULL, "rms", 10 * PI},
+      {"f,norm", NULL, "norm", 10 * PI},
+      {"w;acceleration_harmonic_1", NULL, "acceleration_harmonic_1", 5},
+      {"omega,dB", NULL, "dB_amplitude", 5},
+      {"omega,velocity (dB)", NULL, "dB_velocity", 5},
+      {"omega,amplitude,rms,max", "rms", "rms", 5},
+      {"omega,value", "norm", "norm", 5},
+      {"frequency,omega,max", NULL, "max", 5}, /* side by side they say the same */
+  };
+  for (size_t i = 0; i < sizeof list / sizeof *list; ++i) {
+    char text[256], row[3][64] = {{0}}, words[VERIFY_TEXT], name[VERIFY_QUANTITY_TEXT];
+    const char separator = strchr(list[i].header, ';') ? ';' : ',';
+    int columns = 1;
+    for (const char *c = list[i].header; *c; ++c) columns += *c == separator;
+    for (int k = 0; k < 3; ++k)
+      for (int c = 0; c < columns; ++c)
+        snprintf(row[k] + strlen(row[k]), 16, "%s%d", c ? (separator == ';' ? ";" : ",") : "", 5 + k);
+    snprintf(text, sizeof text, "%s\n%s\n%s\n%s\n", list[i].header, row[0], row[1], row[2]);
+    verify_data d;
+    if (read_text_as(text, strlen(text), NULL, list[i].quantity, &d, words) != HC_OK) {
+      print_error("%s\nin: %s\n", words, text);
+      fail();
+    }
+    assert_string_equal(verify_quantity_name(&d.quantity, name), list[i].found);
+    CHECK_NEAR(d.points[0].omega, list[i].omega, 1e-14, "%s", list[i].header);
+    verify_data_clear(&d);
+  }
+}
+
+static void ambiguous_names_need_columns(void **state)
+{
+  (void)state;
+  static const struct {
+    const char *text, *fragment;
+  } list[] = {
+      {"omega,amplitude,rms\n5,1,1\n", "more than one column of values among 'omega', 'amplitude', 'rms'"},
+      {"omega,thing\n5,1\n", "no column named like values among 'omega', 'thing'"},
+      {"time,amplitude\n5,1\n", "no column named like frequencies"},
+      {"omega [Hz],amplitude\n5,1\n", "no column named like frequencies"},
+      {"5,1\n6,2\n7,3\n", "no header"},
+  };
+  for (size_t i = 0; i < sizeof list / sizeof *list; ++i) {
+    verify_data d;
+    char words[VERIFY_TEXT];
+    assert_int_equal(read_text_as(list[i].text, strlen(list[i].text), NULL, NULL, &d, words), HC_BAD_INPUT);
+    if (!strstr(words, list[i].fragment) || !strstr(words, "expected")) {
+      print_error("'%s', expected '%s'\n", words, list[i].fragment);
+      fail();
+    }
+    assert_non_null(strstr(words, "--columns"));
+    verify_data_clear(&d);
+  }
+}
+
+/* 20 log10 of 10 is 20 dB; and 0 and below are numbers in dB. */
+static void decibels_become_numbers(void **state)
+{
+  (void)state;
+  verify_data d;
+  char words[VERIFY_TEXT];
+  const char text[] = "1 20\n2 0\n3 -40\n0 7\n-1 7\n";
+  assert_int_equal(read_text_as(text, strlen(text), "omega=1,dB=2", NULL, &d, words), HC_OK);
+  assert_int_equal(d.n, 3);
+  assert_int_equal(d.left_out, 2); /* omega <= 0 */
+  CHECK_NEAR(d.points[0].value, 10, 1e-14, "20 dB");
+  CHECK_NEAR(d.points[1].value, 1, 0, "0 dB");
+  CHECK_NEAR(d.points[2].value, 0.01, 1e-17, "-40 dB");
+  verify_data_clear(&d);
+}
+
+/* x = 0.5 + 3 cos - 4 sin, omega = 2: by hand. max and min are 0.5 +- 5. */
+static void quantities_by_hand(void **state)
+{
+  (void)state;
+  static const double X[] = {0.5, 3, -4};
+  static const struct {
+    const char *name;
+    double value;
+  } list[] = {
+      {"amplitude", 5},
+      {"double_amplitude", 10},
+      {"peak", 5.5},
+      {"max", 5.5},
+      {"min", -4.5},
+      {"mean", 0.5},
+      {"rms", 3.570714214271425},  /* sqrt(0.25 + 12.5) */
+      {"norm", 5.024937810560445}, /* sqrt(25.25) */
+      {"harmonic_0", 0.5},
+      {"harmonic_1", 5},
+      {"harmonic_2", 0},
+      {"velocity", 10},
+      {"acceleration", 20},
+      {"velocity_harmonic_1", 10},
+      {"acceleration_harmonic_1", 20},
+  };
+  const verify_motion m = verify_motion_of(2, 1, X);
+  for (size_t i = 0; i < sizeof list / sizeof *list; ++i) {
+    verify_quantity q;
+    char name[VERIFY_QUANTITY_TEXT];
+    assert_true(verify_quantity_read(list[i].name, strlen(list[i].name), &q));
+    CHECK_NEAR(verify_quantity_of(&q, &m), list[i].value, 4e-15 * (1 + fabs(list[i].value)), "%s", list[i].name);
+    assert_string_equal(verify_quantity_name(&q, name), list[i].name);
+  }
 }
 
 static void cycles_become_radians(void **state)
@@ -97,8 +224,11 @@ static void mistakes_have_a_place(void **state)
   REFUSED("5,1\n6,inf\n7,3\n", "omega=1,value=2", ":2:3: ", "not finite");
   REFUSED("5,1\n6,1e999\n7,3\n", "omega=1,value=2", ":2:3: ", "too large");
   REFUSED("5,1\n6,-2\n7,3\n", "omega=1,value=2", ":2:3: ", "too small");
-  REFUSED("5,1\n0,2\n7,3\n", "omega=1,value=2", ":2:1: ", "too small");
-  REFUSED("5,1\n  -6,2\n7,3\n", "omega=1,value=2", ":2:3: ", "too small");
+  REFUSED("5,1\n0,2\n7,3\n", "omega=1,value=2", ":3:1: ", "2 points in the file at omega > 0");
+  REFUSED("5;1\n6;2,5\n7;3\n", "omega=1,value=2", ":2:3: ", "a decimal comma?");
+  REFUSED("w,A\n5,5,1,5\n6,2\n7,3\n", "omega=1,value=2", ":2:1: ", "decimal commas?");
+  REFUSED("\"w,A\n5,1\n6,2\n7,3\n", "omega=1,value=2", ":1:1: ", "not closed");
+  REFUSED("\"w\"a,A\n5,1\n6,2\n7,3\n", "omega=1,value=2", ":1:4: ", "behind the closing quote");
   REFUSED("5,1\n6,2,9\n7,3\n", "omega=1,value=2", ":2:1: ", "3 fields, expected 2 as in line 1");
   REFUSED("w,A\n5\n6,2\n7,3\n", "omega=1,value=2", ":2:1: ", "1 field");
   REFUSED("w,A\n5,1\n6,2\n7,3\n", "omega=1,value=3", ":1:1: ", "no column 3");
@@ -162,13 +292,15 @@ static void columns_say_what_they_mean(void **state)
   unclear("omega=1,frequency=2,peak=3", NULL, "a second column of frequencies");
   unclear("omega=1,amplitude=2,peak=3", NULL, "a second column of values");
   unclear("omega=1,value=2", NULL, "--quantity");
-  unclear("omega=1,value=2", "size", "expected amplitude, harmonic_1 or peak");
+  unclear("omega=1,value=2", "size", "'size' is unknown, expected one of amplitude, double_amplitude, peak");
+  unclear("omega=1,value=2", "harmonic_201", "unknown");
+  unclear("omega=1,value=2", "harmonic_-1", "unknown");
+  unclear("omega=1,value=2", "dBamplitude", "unknown");
   unclear("omega=1,amplitude=2", "peak", "contradicts");
   unclear("omega=0,amplitude=2", NULL, "'0' is no column");
   unclear("omega=1.5,amplitude=2", NULL, "'1.5' is no column");
   unclear("omega=,amplitude=2", NULL, "'' is no column");
   unclear("omega=1,amplitude=2,", NULL, "NAME=COLUMN");
-  unclear("omega=1,rms=2", NULL, "unknown");
 }
 
 /* A hypothesis fits if it takes nine tenths of the distance away; one that is no number does not. */
@@ -192,6 +324,10 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(a_tenth_of_the_distance_is_a_fit),
       cmocka_unit_test(files_as_people_have_them),
+      cmocka_unit_test(plain_names_need_no_columns),
+      cmocka_unit_test(ambiguous_names_need_columns),
+      cmocka_unit_test(decibels_become_numbers),
+      cmocka_unit_test(quantities_by_hand),
       cmocka_unit_test(cycles_become_radians),
       cmocka_unit_test(mistakes_have_a_place),
       cmocka_unit_test(limits_hold),

@@ -1,0 +1,101 @@
+/* causes.h - what may be wrong with a curve: one bit each, its word in csv and json, its meaning, its remedy. */
+#ifndef HC_VERIFY_CAUSES_H
+#define HC_VERIFY_CAUSES_H
+
+#include <stdint.h>
+
+/* clang-format off */
+#define VERIFY_CAUSE_LIST(X) \
+  /* the equations */ \
+  X(CAUSE_NO_STATIC, "no_static_harmonic", "harmonic 0 is missing", "keep harmonic 0") \
+  X(CAUSE_ODD_ONLY, "odd_harmonics_only", "even harmonics are missing", "keep even harmonics, 0 included") \
+  X(CAUSE_HARMONICS, "too_few_harmonics", "too few harmonics", "keep more harmonics") \
+  X(CAUSE_SAMPLES, "too_few_samples", "too few samples", "take more samples per period, or exact forces") \
+  X(CAUSE_SLIDER, "slider_restart", "the slider restarts on a sample after a separation", \
+    "restart it at the interpolated instant of touch") \
+  X(CAUSE_SINGLE_PASS, "single_pass", "the slider is followed over one period only", \
+    "follow it over two periods, and keep the second") \
+  X(CAUSE_SLIDER_ZEROED, "slider_zeroed", "the slider is put to zero by a separation", \
+    "while separated the slider is where the contact is: w = u") \
+  X(CAUSE_SLIDER_KEPT, "slider_kept", "the slider is kept over a separation", \
+    "while separated the slider is where the contact is: w = u") \
+  X(CAUSE_NO_SEPARATION, "no_separation", "the contacts do not separate", "N = max(kn (v + gap), 0)") \
+  X(CAUSE_CONSTANT_N, "constant_normal_force", "the normal force does not change with the motion", \
+    "the limit of friction is mu N with N = max(kn (v + gap), 0)") \
+  X(CAUSE_PRELOAD_ADDED, "preload_not_subtracted", "the preload acts on the mass", \
+    "x is measured from the static equilibrium: the mass feels N - N0") \
+  X(CAUSE_CONTACT_FACTOR, "contact_force_factor", "the contact force is off by a factor", \
+    "is its Fourier sum divided by N/2, and by N for harmonic 0?") \
+  X(CAUSE_MEAN_FACTOR, "mean_factor", "harmonic 0 of the contact force is off by a factor", \
+    "divide its Fourier sum by N, those of the other harmonics by N/2") \
+  X(CAUSE_NO_CONTACT, "no_contact", "the contacts are missing", \
+    "is the gap's sign right, and the contact force in the equations?") \
+  X(CAUSE_STUCK, "always_stuck", "the contacts neither slip nor separate", \
+    "is the contact force nonlinear in the equations?") \
+  /* the case's numbers */ \
+  X(CAUSE_FORCE, "wrong_force", "the forcing has another amplitude", "compare the forcing with the case's") \
+  X(CAUSE_MASS, "wrong_mass", "the mass is another", "compare the mass with the case's") \
+  X(CAUSE_DAMPING, "wrong_damping", "the damping is another", "compare the damping with the case's") \
+  X(CAUSE_STIFFNESS, "wrong_stiffness", "the stiffness is another", "compare the stiffness with the case's") \
+  X(CAUSE_KT, "wrong_tangential_stiffness", "the tangential stiffness is another", "compare it with the case's") \
+  X(CAUSE_KN, "wrong_normal_stiffness", "the normal stiffness is another", "compare it with the case's") \
+  X(CAUSE_FRICTION, "wrong_friction", "the friction coefficient is another", "compare it with the case's") \
+  X(CAUSE_GAP, "wrong_gap", "the gap is another", "compare the gap with the case's") \
+  X(CAUSE_GAP_SIGN, "gap_sign", "the gap has the other sign", "here gap > 0 is a preload, gap < 0 a clearance") \
+  X(CAUSE_ANGLE_COMPLEMENT, "angle_complement", "the angle is counted from the other axis", \
+    "here it is the one between the motion and the contact's tangent") \
+  X(CAUSE_ANGLE_UNIT, "angle_unit", "degrees and radians are mixed up", "give the angle in degrees") \
+  X(CAUSE_EXCHANGED, "stiffnesses_exchanged", "kt and kn are exchanged", "exchange them") \
+  X(CAUSE_NO_FRICTION, "no_friction", "there is no friction", "give the friction coefficient") \
+  X(CAUSE_NO_KT, "no_tangential_stiffness", "there is no tangential force", "give the tangential stiffness") \
+  /* the columns */ \
+  X(CAUSE_FREQUENCY, "frequency_unit", "rad per time and cycles per time are mixed up", \
+    "name the column omega or frequency as it is") \
+  X(CAUSE_TWICE, "peak_to_peak", "the values are twice as large, as from peak to peak", "halve them") \
+  X(CAUSE_HALF, "half_amplitude", "the values are half as large, as of one-sided coefficients", "double them") \
+  X(CAUSE_RMS, "rms", "the values are root mean squares", "name the column rms") \
+  X(CAUSE_RMS_ALTERNATING, "rms_without_mean", "the values are root mean squares without the mean", \
+    "give amplitudes, or root mean squares with the mean and name the column rms") \
+  X(CAUSE_RMS_NLVIB, "norm_over_root_2", "the values are norms of all harmonics divided by the root of 2", \
+    "multiply them by it and name the column norm") \
+  X(CAUSE_NORM, "norm", "the values are norms of all harmonics", "name the column norm") \
+  X(CAUSE_SUM, "sum_of_moduli", "the values are sums of the harmonics' moduli", \
+    "harmonics do not peak at one time: evaluate x(t) and give (max - min)/2") \
+  X(CAUSE_COSINE, "cosine_only", "the values are |a1|", "give |a1 + i b1|") \
+  X(CAUSE_SINE, "sine_only", "the values are |b1|", "give |a1 + i b1|") \
+  X(CAUSE_VELOCITY, "velocity", "the values are velocities", "name the column velocity") \
+  X(CAUSE_ACCELERATION, "acceleration", "the values are accelerations", "name the column acceleration") \
+  X(CAUSE_DECIBEL, "decibel", "the values are in dB", "name the column dB, or dB_ and its quantity") \
+  X(CAUSE_LENGTH, "length_unit", "the values are in another unit of length", "give them in the case's unit") \
+  X(CAUSE_QUANTITY, "other_quantity", "the values are another quantity", "name the column by what it holds") \
+  X(CAUSE_VALUE_SCALE, "value_scale", "all values are off by one factor", "give them in the case's units") \
+  X(CAUSE_OMEGA_SCALE, "omega_scale", "all frequencies are off by one factor", "give them in the case's units") \
+  X(CAUSE_OMEGA_OFFSET, "frequency_offset", "all frequencies are a little off", "calibrate the frequency axis") \
+  /* the points */ \
+  X(CAUSE_OUTLIER, "outlier", "few points are far off and the others are right", "look at these points alone") \
+  X(CAUSE_NOISE, "noise", "the points scatter around the truth", \
+    "say how much a measured curve scatters: --noise") \
+  X(CAUSE_UNSTABLE, "unstable_branch", "the points run along an unstable branch", \
+    "follow the stable ones: no motion stays there") \
+  X(CAUSE_OTHER_BRANCH, "other_branch", "the points hop to another stable branch and back", \
+    "start each point from its neighbour's solution")
+/* clang-format on */
+#define VERIFY_CAUSE_NUMBER(code, word, meaning, remedy) code,
+enum { VERIFY_CAUSE_LIST(VERIFY_CAUSE_NUMBER) VERIFY_CAUSES };
+#undef VERIFY_CAUSE_NUMBER
+
+typedef uint64_t verify_causes; /* bits */
+#define VERIFY_BIT(cause) ((verify_causes)1 << (cause))
+
+const char *verify_cause_word(int cause);
+const char *verify_cause_meaning(int cause);
+const char *verify_cause_remedy(int cause);
+
+/* The words of all bits, joined by '+', "none" for none: in text[VERIFY_TEXT], which is returned. */
+enum { VERIFY_TEXT = 1024 };
+const char *verify_cause_words(verify_causes causes, char text[VERIFY_TEXT]);
+
+/* How many there are. */
+int verify_cause_count(verify_causes causes);
+
+#endif

@@ -1,0 +1,103 @@
+/* test_frequency.c - frequencies in the unit of the sweep everywhere, and a word where they lie outside it. */
+#include <math.h>
+#include <stdlib.h>
+
+#include "tests/shell.h"
+
+#define CASE2  SOURCE_DIR "/cases/paper/case2.yaml "
+#define CYCLES "--set sweep.frequency=0.5,3.2 "
+
+/* `arguments` of hbmcheck give this exit code and say `fragment`; what they say into out[]. */
+static char out[1 << 18];
+static void expect(const char *arguments, int code, const char *fragment)
+{
+  char line[1024];
+  snprintf(line, sizeof line, "%s %s", HBMCHECK_COMMAND, arguments);
+  shell_check(line, shell_read(line, out, sizeof out), out, code, fragment);
+}
+
+/* Column `index` of the first row of csv after its header, in out[]. */
+static double cell(int index)
+{
+  const char *at = out;
+  while (*at == '#') at = strchr(at, '\n') + 1;
+  at = strchr(at, '\n') + 1;
+  for (int i = 0; i < index; ++i) at = strchr(at, ',') + 1;
+  return strtod(at, NULL);
+}
+
+static void at_is_in_cycles_where_the_sweep_is(void **state)
+{
+  (void)state;
+  const double two_pi = 8 * atan(1);
+  expect("frf " CASE2 CYCLES "--at 1 --format csv -q", 0, "omega,frequency,branch,amplitude");
+  assert_true(cell(0) == two_pi && cell(1) == 1);
+  double amplitude = cell(3);
+  expect("frf " CASE2 "--at 6.28318530717958647693 --format csv -q", 0, "omega,branch,amplitude");
+  CHECK_LE(fabs(cell(2) - amplitude), 1e-8 * amplitude, "solved from neighbours of two sweeps, to hbm.tolerance");
+  expect("transient " CASE2 CYCLES "--at 1 --format csv -q", 0, "omega,frequency,verdict");
+  assert_true(cell(0) == two_pi && cell(1) == 1);
+  expect("compare " CASE2 CYCLES "--at 1 --format csv -q", 0, "omega,frequency,branch,verdict");
+  assert_true(cell(0) == two_pi && cell(1) == 1);
+  expect("gate " CASE2 CYCLES "--at 1 --format csv -q", 0, "case,omega,frequency,branch");
+  assert_true(cell(1) == two_pi && cell(2) == 1);
+  expect("gate " CASE2 CYCLES "--at 1 -q -o /dev/null --junit /dev/stdout", 0, "name=\"frequency 1 branch 0: mean\"");
+  expect("compare " CASE2 CYCLES "--at 1 --tables --harmonics 5 --samples 64 --format csv -q", 0, ",peak_frequency,");
+}
+
+/* The paper's blade between 250 and 500 cycles: 345 is a frequency there, not 345 rad per time. */
+static void cycles_are_not_taken_for_radians(void **state)
+{
+  (void)state;
+  expect("frf " SOURCE_DIR "/cases/paper/table10_case2.yaml --set sweep.frequency=250,500 --at 345 --format csv -q", 0,
+         "omega,frequency");
+  CHECK_LE(fabs(cell(0) - 2167.69893097696), 1e-11, "2 pi 345"); /* half a digit of what is written here */
+}
+
+static void compare_takes_frequencies_too(void **state)
+{
+  (void)state;
+  expect("compare " CASE2 "--set compare.frequency=1 --format csv -q", 0, "omega,branch");
+  assert_true(cell(0) == 8 * atan(1));
+  expect("frf " CASE2 "--set compare.frequency=1 --set compare.omega=5 --at 6 --format csv -q", 0, "\n6,");
+  expect("compare " CASE2 "--set compare.frequency=0 2>&1", 2, "compare.frequency has the entry `0`, expected");
+}
+
+/* A limit of 1e-9 in a range that holds omega 6.28 = frequency 1 only if it is read in cycles. */
+static void the_gates_ranges_are_in_the_sweeps_unit(void **state)
+{
+  (void)state;
+#define TIGHT "--set gate.ranges=0.9,1.1 --set gate.range_amplitude=1e-9 "
+  expect("gate " CASE2 CYCLES TIGHT "--at 1 -q", 1, "fail");
+  expect("gate " CASE2 TIGHT "--at 6.28318530717958647693 -q", 0, "pass");
+}
+
+static void what_is_said_is_in_cycles(void **state)
+{
+  (void)state;
+  /* grazing at omega 5.0995831509 (closed form): 5.0995831509/(2 pi) */
+  expect("frf " CASE2 CYCLES "-q", 0, "frequency = 0.8116238662 (omega = 5.0995831509)");
+  expect("frf " CASE2 CYCLES "-q --set hbm.continuation=natural 2>&1 >/dev/null", 3, "stopped at frequency = 1.46");
+  expect("frf " CASE2 CYCLES "--at 1 -q --plot - ", 0, "frequency [cycles/s]");
+}
+
+static void outside_the_sweep_is_warned_of(void **state)
+{
+  (void)state;
+  expect("frf " CASE2 "--at 25 2>&1 >/dev/null", 0, "omega = 25: outside the sweep from 3 to 20, which is widened");
+  expect("compare " CASE2 "--at 5,25,2.5 2>&1 >/dev/null", 0, "omega = 25 and 1 more: outside the sweep");
+  expect("frf " CASE2 "--at 1.2 2>&1 >/dev/null", 0, "frequencies here are in rad per s");
+  expect("frf " CASE2 "--set sweep.frequency=1,3 --at 6.5 2>&1 >/dev/null", 0, "frequencies here are in cycles per s");
+  expect("frf " CASE2 "--at 3,20 2>&1 >/dev/null", 0, "");
+  assert_string_equal(out, ""); /* the ends belong to the sweep */
+  expect("frf " CASE2 CYCLES "--at 0.5,3.2 2>&1 >/dev/null", 0, "");
+  assert_string_equal(out, "");
+}
+
+static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(at_is_in_cycles_where_the_sweep_is), cmocka_unit_test(cycles_are_not_taken_for_radians),
+    cmocka_unit_test(compare_takes_frequencies_too),      cmocka_unit_test(the_gates_ranges_are_in_the_sweeps_unit),
+    cmocka_unit_test(what_is_said_is_in_cycles),          cmocka_unit_test(outside_the_sweep_is_warned_of),
+};
+
+CHECK_MAIN("command.frequency", tests, 300)
