@@ -5,35 +5,91 @@
 #include <stdlib.h>
 #include <string.h>
 
-hc_status model_new(int n_contacts, model **out)
+/* Numbers in the block: three matrices, two vectors a load and a contact, one a response. */
+static size_t block_length(const model *m)
+{
+  const size_t n = (size_t)m->n;
+  return n * (3 * n + 2 * (size_t)m->n_loads + 2 * (size_t)m->n_contacts + (size_t)m->n_responses);
+}
+
+static double *take(double **next, size_t length)
+{
+  double *taken = *next;
+  *next += length;
+  return taken;
+}
+
+/* Every pointer into the block, in one order. */
+static void divide_block(model *m)
+{
+  double *next = m->numbers;
+  const size_t n = (size_t)m->n;
+  m->mass = take(&next, n * n);
+  m->damping = take(&next, n * n);
+  m->stiffness = take(&next, n * n);
+  for (int i = 0; i < m->n_loads; ++i) {
+    m->loads[i].cosine = take(&next, n);
+    m->loads[i].sine = take(&next, n);
+  }
+  for (int j = 0; j < m->n_contacts; ++j) {
+    m->contacts[j].tangent = take(&next, n);
+    m->contacts[j].normal = take(&next, n);
+  }
+  m->responses = take(&next, n * (size_t)m->n_responses);
+}
+
+hc_status model_new(int n, int n_loads, int n_contacts, int n_responses, model **out)
 {
   *out = NULL;
-  if (n_contacts < 0) return HC_BAD_INPUT;
+  if (n < 1 || n_loads < 0 || n_contacts < 0 || n_responses < 0) return HC_BAD_INPUT;
   model *m = calloc(1, sizeof *m);
   if (!m) return HC_NO_MEMORY;
+  m->n = n;
+  m->n_loads = n_loads;
   m->n_contacts = n_contacts;
-  if (n_contacts > 0 && !(m->contacts = calloc((size_t)n_contacts, sizeof *m->contacts))) {
-    free(m);
+  m->n_responses = n_responses;
+  m->numbers = calloc(block_length(m), sizeof *m->numbers);
+  m->loads = calloc((size_t)n_loads + 1, sizeof *m->loads);
+  m->contacts = calloc((size_t)n_contacts + 1, sizeof *m->contacts);
+  if (!m->numbers || !m->loads || !m->contacts) {
+    model_free(m);
     return HC_NO_MEMORY;
   }
+  divide_block(m);
   *out = m;
+  return HC_OK;
+}
+
+hc_status model_oscillator(double mass, double damping, double stiffness, double force, int n_contacts, model **out)
+{
+  hc_status st = model_new(1, 1, n_contacts, 1, out);
+  if (st != HC_OK) return st;
+  model *m = *out;
+  *m->mass = mass;
+  *m->damping = damping;
+  *m->stiffness = stiffness;
+  m->loads[0].harmonic = 1;
+  *m->loads[0].cosine = force;
+  *m->responses = 1;
   return HC_OK;
 }
 
 hc_status model_copy(const model *m, model **out)
 {
-  hc_status st = model_new(m->n_contacts, out);
+  hc_status st = model_new(m->n, m->n_loads, m->n_contacts, m->n_responses, out);
   if (st != HC_OK) return st;
-  model_contact *contacts = (*out)->contacts;
-  **out = *m;
-  (*out)->contacts = contacts;
-  if (contacts) memcpy(contacts, m->contacts, (size_t)m->n_contacts * sizeof *contacts);
+  model *copy = *out;
+  memcpy(copy->numbers, m->numbers, block_length(m) * sizeof *m->numbers);
+  for (int i = 0; i < m->n_loads; ++i) copy->loads[i].harmonic = m->loads[i].harmonic;
+  for (int j = 0; j < m->n_contacts; ++j) copy->contacts[j].law = m->contacts[j].law;
   return HC_OK;
 }
 
 void model_free(model *m)
 {
   if (!m) return;
+  free(m->numbers);
+  free(m->loads);
   free(m->contacts);
   free(m);
 }
@@ -45,14 +101,23 @@ void model_direction(double angle_deg, double *tangent, double *normal)
   *normal = angle_deg == 0 ? 0.0 : sin(angle_deg * deg);
 }
 
+bool model_is_oscillator(const model *m)
+{
+  const bool one = m->n == 1 && m->n_loads == 1 && m->loads[0].harmonic == 1 && *m->loads[0].sine == 0;
+  return one && m->n_responses == 1 && *m->responses == 1;
+}
+
+double model_force(const model *m) { return *m->loads[0].cosine; }
+
 double model_stuck_stiffness(const model_contact *c)
 {
-  return c->law.kt * c->tangent * c->tangent + c->law.kn * c->normal * c->normal;
+  const double t = *c->tangent, n = *c->normal;
+  return c->law.kt * t * t + c->law.kn * n * n;
 }
 
 double model_max_stiffness(const model *m)
 {
-  double k = m->stiffness;
+  double k = *m->stiffness;
   for (int j = 0; j < m->n_contacts; ++j) k += model_stuck_stiffness(&m->contacts[j]);
   return k;
 }

@@ -1,34 +1,51 @@
-/* model.h - what is simulated: one mass on a spring and a damper, and any number of contacts in parallel on it.
+/* model.h - what is simulated: a structure of n degrees of freedom, and contacts between them.
  *
- *     M x'' + C x' + K x + sum_j [ t_j T_j + n_j (N_j - N0_j) ] = F0 cos(omega t)
- *     u_j = t_j x   tangential motion        v_j = n_j x   normal motion        (t_j, n_j: directions)
+ *     M x'' + C x' + K x + sum_j [ t_j T_j + n_j (N_j - N0_j) ] = sum_k p_k cos(k omega t) + q_k sin(k omega t)
+ *     u_j = t_j . x   tangential motion        v_j = n_j . x   normal motion        (t_j, n_j: directions in x)
+ *     response r = r . x                                                            (what is reported of the motion)
  *
- * x [length] is measured from the static equilibrium; the contact law (T, N) is contact_law.h's. Any consistent set of
- * units. A model owns its memory. Solvers read it and never change it. How it is solved stands in hbm/hbm_settings.h
- * and timeint/transient_settings.h. Source: Colonna et al. 2025, eq. 1-12 ([1] in README.md). */
+ * x [length] is measured from where the structure rests without its static loads (k = 0); the contact law (T, N) is
+ * contact_law.h's. Any consistent set of units. M is symmetric and positive definite; C and K are any real matrices,
+ * and K may be singular. A model owns its memory. Solvers read it and never change it. How it is solved stands in
+ * hbm/hbm_settings.h and timeint/transient_settings.h. Source: Colonna et al. 2025, eq. 1-12 ([1] in README.md), for
+ * n = 1; Krack and Gross, Harmonic Balance for Nonlinear Vibration Problems, Springer 2019, chapter 3, for more. */
 #ifndef HC_MODEL_H
 #define HC_MODEL_H
+
+#include <stdbool.h>
 
 #include "base/status.h"
 #include "model/contact_law.h"
 
 typedef struct model_contact {
   contact law;
-  double tangent, normal; /* [1] direction: u = tangent x, v = normal x */
+  double *tangent, *normal; /* [n] [1] u = tangent . x, v = normal . x; all 0 where the contact has no such direction */
 } model_contact;
 
+/* cosine cos(k omega t) + sine sin(k omega t), k = harmonic >= 0: one load for each k. */
+typedef struct model_load {
+  int harmonic;
+  double *cosine, *sine; /* [n] [force] */
+} model_load;
+
 typedef struct model {
-  double mass;      /* M [force time^2/length] > 0 */
-  double damping;   /* C [force time/length] */
-  double stiffness; /* K [force/length] */
-  double force;     /* F0 [force] */
+  int n;                              /* degrees of freedom >= 1 */
+  double *mass, *damping, *stiffness; /* [n][n] by columns: M [force time^2/length], C [force time/length], K */
+  int n_loads;
+  model_load *loads; /* [n_loads], no two of one harmonic */
   int n_contacts;
-  model_contact *contacts; /* [n_contacts], the model's own; NULL if there are none */
+  model_contact *contacts; /* [n_contacts] */
+  int n_responses;
+  double *responses; /* [n_responses][n] [1] */
+  double *numbers;   /* the block that all vectors and matrices are in */
 } model;
 
-/* A model with room for n_contacts >= 0 contacts, everything 0, to fill in and to free with model_free.
- * HC_BAD_INPUT for a negative number, HC_NO_MEMORY: *out is NULL. */
-hc_status model_new(int n_contacts, model **out);
+/* A model of that size with everything 0, to fill in and to free with model_free. HC_BAD_INPUT for n < 1 or any other
+ * number < 0, HC_NO_MEMORY: *out is NULL. */
+hc_status model_new(int n, int n_loads, int n_contacts, int n_responses, model **out);
+
+/* One degree of freedom: M x'' + C x' + K x under F0 cos(omega t), its response x; the contacts are to be filled in. */
+hc_status model_oscillator(double mass, double damping, double stiffness, double force, int n_contacts, model **out);
 
 /* A copy in memory of its own. HC_NO_MEMORY: *out is NULL. */
 hc_status model_copy(const model *m, model **out);
@@ -38,10 +55,14 @@ void model_free(model *m); /* NULL is allowed */
 /* (tangent, normal) = (cos, sin) of the angle [deg] between x and the contact's tangent, exact at 0 and 90 degrees. */
 void model_direction(double angle_deg, double *tangent, double *normal);
 
-/* Stiffness [force/length] that x sees of a contact while it sticks: kt t^2 + kn n^2. */
+/* Is it one mass under F0 cos(omega t), and F0; of these only is model_max_stiffness. */
+bool model_is_oscillator(const model *m);
+double model_force(const model *m);
+
+/* Stiffness [force/length] that x sees of an oscillator's contact while it sticks: kt t^2 + kn n^2. */
 double model_stuck_stiffness(const model_contact *c);
 
-/* Largest stiffness [force/length] that x can see: K and every contact stuck. */
+/* Largest stiffness [force/length] that an oscillator's x can see: K and every contact stuck. */
 double model_max_stiffness(const model *m);
 
 #endif
