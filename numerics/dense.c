@@ -1,0 +1,104 @@
+/* dense.c - see dense.h. LAPACK's Fortran interface is called as it is: LAPACKE would only add memory of its own. Every
+ * CHARACTER argument has its length behind the others. */
+#include "numerics/dense.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+void dsygvd_(const int *type, const char *job, const char *half, const int *n, double *a, const int *lda, double *b,
+             const int *ldb, double *w, double *work, const int *lwork, int *iwork, const int *liwork, int *info,
+             size_t job_length, size_t half_length);
+void dgeqp3_(const int *m, const int *n, double *a, const int *lda, int *pivot, double *tau, double *work,
+             const int *lwork, int *info);
+void dorgqr_(const int *m, const int *n, const int *k, double *a, const int *lda, const double *tau, double *work,
+             const int *lwork, int *info);
+void zgetrf_(const int *m, const int *n, double complex *a, const int *lda, int *pivot, int *info);
+void zgetrs_(const char *transposed, const int *n, const int *columns, const double complex *a, const int *lda,
+             const int *pivot, double complex *b, const int *ldb, int *info, size_t transposed_length);
+
+/* OpenBLAS, where it stands in for the reference BLAS, may start threads: one is what this program is built for. The
+ * symbol is missing elsewhere. */
+void openblas_set_num_threads(int threads) __attribute__((weak));
+
+__attribute__((constructor)) static void keep_to_one_thread(void)
+{
+  if (openblas_set_num_threads) openblas_set_num_threads(1);
+}
+
+static size_t square(int n) { return (size_t)n * (size_t)n; }
+
+hc_status dense_modes(int n, const double *K, const double *M, double *lambda, double *phi)
+{
+  const int type = 1, work_length = 1 + 6 * n + 2 * n * n, integer_length = 3 + 5 * n;
+  double *work = malloc(((size_t)work_length + square(n)) * sizeof *work), *mass = work ? work + work_length : NULL;
+  int *integers = malloc((size_t)integer_length * sizeof *integers), info = 0;
+  hc_status st = work && integers ? HC_OK : HC_NO_MEMORY;
+  if (st == HC_OK) {
+    memcpy(phi, K, square(n) * sizeof *phi);
+    memcpy(mass, M, square(n) * sizeof *mass);
+    dsygvd_(&type, "V", "L", &n, phi, &n, mass, &n, lambda, work, &work_length, integers, &integer_length, &info, 1, 1);
+    if (info > n) st = HC_SINGULAR;
+    else if (info != 0) st = HC_NOT_CONVERGED;
+  }
+  free(work);
+  free(integers);
+  return st;
+}
+
+/* QR with column pivoting of A[rows][n] in place; then tau[], the pivots from 0, and how many diagonal entries of R
+ * count. */
+static hc_status pivoted_qr(int n, int rows, double *A, double tolerance, int *pivot, double *tau, double *work,
+                            int work_length, int *rank)
+{
+  int info = 0;
+  const int most = rows < n ? rows : n;
+  memset(pivot, 0, (size_t)rows * sizeof *pivot); /* 0: free to move */
+  dgeqp3_(&n, &rows, A, &n, pivot, tau, work, &work_length, &info);
+  if (info != 0) return HC_BUG;
+  for (int i = 0; i < rows; ++i) --pivot[i];
+  *rank = 0;
+  while (*rank < most && fabs(A[(size_t)*rank * (size_t)(n + 1)]) > tolerance * fabs(A[0])) ++*rank;
+  return HC_OK;
+}
+
+hc_status dense_span(int n, int rows, const double *const *row, double tolerance, int *rank, int *pivot, double *basis,
+                     double *triangle)
+{
+  const int wide = rows > n ? rows : n, work_length = 3 * wide + 1 + 32 * wide, most = rows < n ? rows : n;
+  double *A = calloc((size_t)wide * (size_t)n, sizeof *A), *tau = calloc((size_t)wide, sizeof *tau),
+         *work = calloc((size_t)work_length, sizeof *work);
+  int info = 0;
+  hc_status st = A && tau && work ? HC_OK : HC_NO_MEMORY;
+  for (int i = 0; i < rows && st == HC_OK; ++i) memcpy(A + (size_t)i * (size_t)n, row[i], (size_t)n * sizeof *A);
+  if (st == HC_OK) st = pivoted_qr(n, rows, A, tolerance, pivot, tau, work, work_length, rank);
+  if (st == HC_OK) {
+    for (int c = 0; c < *rank; ++c)
+      for (int r = 0; r < *rank; ++r)
+        triangle[(size_t)c * (size_t)*rank + (size_t)r] = r <= c ? A[(size_t)c * (size_t)n + (size_t)r] : 0;
+    memcpy(basis, A, (size_t)most * (size_t)n * sizeof *basis);
+    dorgqr_(&n, &n, &most, basis, &n, tau, work, &work_length, &info);
+    if (info != 0) st = HC_BUG;
+  }
+  free(A);
+  free(tau);
+  free(work);
+  return st;
+}
+
+hc_status dense_factor_complex(int n, double complex *A, int *pivot)
+{
+  int info = 0;
+  zgetrf_(&n, &n, A, &n, pivot, &info);
+  if (info != 0) return HC_SINGULAR;
+  for (int i = 0; i < n; ++i)
+    if (!isfinite(cabs(A[(size_t)i * (size_t)(n + 1)]))) return HC_SINGULAR;
+  return HC_OK;
+}
+
+void dense_solve_complex(int n, const double complex *A, const int *pivot, bool transposed, int columns,
+                         double complex *B)
+{
+  int info = 0;
+  zgetrs_(transposed ? "T" : "N", &n, &columns, A, &n, pivot, B, &n, &info, 1);
+}
