@@ -30,7 +30,7 @@ hc_status scene_aft(const scene *sc, int n_harm, int n_time, aft **out)
   model *m;
   *out = NULL;
   hc_status st = scene_model(sc, &m);
-  if (st == HC_OK) st = aft_new(m, sc->hbm.restart, n_harm, n_time, out);
+  if (st == HC_OK) st = aft_new_of_model(m, sc->hbm.restart, n_harm, n_time, out);
   model_free(m);
   return st;
 }

@@ -17,10 +17,10 @@ const char *scene_where(const scene *sc, double omega, char text[SCENE_WHERE])
   return text;
 }
 
-model_contact scene_model_contact(const scene_contact *c)
+moving_contact scene_moving_contact(const scene_contact *c)
 {
-  model_contact out = {.law = c->law};
-  model_direction(c->angle_deg, &out.tangent, &out.normal);
+  moving_contact out = {.law = c->law};
+  model_direction(c->angle_deg, &out.cu[0], &out.cv[0]);
   return out;
 }
 
@@ -28,23 +28,21 @@ double scene_max_stiffness(const scene *sc)
 {
   double k = sc->stiffness;
   for (int j = 0; j < sc->n_contacts; ++j) {
-    const model_contact c = scene_model_contact(&sc->contacts[j]);
-    k += model_stuck_stiffness(&c);
+    const moving_contact c = scene_moving_contact(&sc->contacts[j]);
+    k += moving_contact_stuck_stiffness(&c);
   }
   return k;
 }
 
 hc_status scene_model(const scene *sc, model **out)
 {
-  hc_status st = model_new(sc->n_contacts, out);
-  if (st != HC_OK) return st;
-  model *m = *out;
-  m->mass = sc->mass;
-  m->damping = sc->damping;
-  m->stiffness = sc->stiffness;
-  m->force = sc->force;
-  for (int j = 0; j < sc->n_contacts; ++j) m->contacts[j] = scene_model_contact(&sc->contacts[j]);
-  return HC_OK;
+  hc_status st = model_oscillator(sc->mass, sc->damping, sc->stiffness, sc->force, sc->n_contacts, out);
+  for (int j = 0; j < sc->n_contacts && st == HC_OK; ++j) {
+    model_contact *c = &(*out)->contacts[j];
+    c->law = sc->contacts[j].law;
+    model_direction(sc->contacts[j].angle_deg, c->tangent, c->normal);
+  }
+  return st;
 }
 
 hc_status scene_setup(const scene *sc, compare_setup *out)

@@ -8,6 +8,7 @@
 #include "compare/compare_settings.h"
 #include "compare/gate_limits.h"
 #include "hbm/hbm_settings.h"
+#include "hbm/moving_contact.h"
 #include "model/model.h"
 #include "timeint/transient_settings.h"
 
@@ -41,8 +42,8 @@ double scene_frequency(const scene *sc, double omega);
 enum { SCENE_WHERE = 64 };
 const char *scene_where(const scene *sc, double omega, char text[SCENE_WHERE]);
 
-/* The contact with its direction. */
-model_contact scene_model_contact(const scene_contact *c);
+/* The contact with its direction to x. */
+moving_contact scene_moving_contact(const scene_contact *c);
 
 /* Largest stiffness [force/length] that x can see: K and every contact stuck. */
 double scene_max_stiffness(const scene *sc);

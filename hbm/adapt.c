@@ -7,7 +7,6 @@
 
 #include "hbm/corrector.h"
 #include "numerics/norm.h"
-#include "numerics/series.h"
 
 enum { POINTS_BEFORE_DROPPING = 4 };
 
@@ -78,7 +77,7 @@ static hc_status change_harmonics(path *p, int n_harm)
 /* Size, relative to X, of what X has in the harmonics that the next lower rung of the ladder would drop. */
 static double droppable_size(const path *p, const double *X)
 {
-  int n = p->s->sys.n_coef, kept = series_length(refine_next_harmonics(p->s->sys.n_harm, false));
+  int n = p->s->sys.n_coef, kept = hbm_system_length(&p->s->sys, refine_next_harmonics(p->s->sys.n_harm, false));
   return norm_2(n - kept, X + kept) / path_size(p);
 }
 
@@ -134,7 +133,7 @@ hc_status adapt_finish(hbm_solver *s, hbm_curve *c)
 {
   int most = 1, before = c->n_coef;
   for (int k = 0; k < c->n; ++k) most = c->points[k].harmonics > most ? c->points[k].harmonics : most;
-  int n = series_length(most);
+  int n = hbm_system_length(&s->sys, most);
   for (int k = 0; k < c->n; ++k) {
     memmove(c->X + (size_t)k * n, c->X + (size_t)k * before, (size_t)n * sizeof(double));
     memmove(c->dX + (size_t)k * n, c->dX + (size_t)k * before, (size_t)n * sizeof(double));

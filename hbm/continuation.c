@@ -25,7 +25,6 @@
 #include "hbm/path.h"
 #include "hbm/segment_solutions.h"
 #include "numerics/norm.h"
-#include "numerics/series.h"
 
 static const double TOLERANCE = 1e-4; /* [1] of interpolation, relative to |X| */
 static const double STEP_FIRST = 0.02, STEP_MAX = 0.5, STEP_MIN = 1e-11;
@@ -232,10 +231,9 @@ static hc_status trace(hbm_solver *s, double from, double to, bool may_come_from
  * there, and Newton converges from the linear response. */
 static hc_status come_from_above(path *p, const hc_monitor *monitor)
 {
-  const model *m = p->s->model;
   const hc_monitor aside = {hc_monitor_tick_aside, (void *)monitor};
   hbm_curve down = {0};
-  double high = FAR * fmax(p->from, sqrt(model_max_stiffness(m) / m->mass));
+  double high = FAR * fmax(p->from, p->s->sys.scales.highest);
   hc_status st = trace(p->s, high, p->from, false, &aside, &down);
   if (st == HC_OK && down.left_at_start) st = HC_NOT_CONVERGED;
   if (st == HC_OK) {
@@ -248,7 +246,7 @@ static hc_status come_from_above(path *p, const hc_monitor *monitor)
 
 static hc_status start_of_ramp(path *p)
 {
-  double size = hbm_ramp_start(p->s->ramp, p->s->model, p->s->sys.n_harm, p->X);
+  double size = hbm_ramp_start(p->s->ramp, &p->s->sys, p->X);
   return hbm_solve_fixed(p->s, p->from, size, p->X, &p->point);
 }
 
@@ -366,13 +364,13 @@ static hc_status trace(hbm_solver *s, double from, double to, bool may_come_from
                       .direction = to >= from ? 1 : -1,
                       .may_come_from_above = may_come_from_above};
   bool adapts = s->how.harmonics == HBM_AUTO, more_samples;
-  curve->n_coef = adapts ? series_length(REFINE_MOST_HARMONICS) : s->sys.n_coef;
+  curve->n_coef = adapts ? hbm_system_length(&s->sys, REFINE_MOST_HARMONICS) : s->sys.n_coef;
   curve->omega_scale = fmax(fabs(to - from) / 4, 1e-3 * from);
   long before = s->sys.evaluations;
   hc_status st;
   do {
     path p = start;
-    p.resolution = fmin(curve->omega_scale, fmax(0.5 * s->model->damping / s->model->mass, 1e-6 * from));
+    p.resolution = fmin(curve->omega_scale, fmax(s->sys.scales.half_width, 1e-6 * from));
     if (s->ramp) p.resolution = curve->omega_scale;
     st = trace_once(&p, monitor, &more_samples);
     if (more_samples && (st = hbm_solver_resize(s, s->sys.n_harm, 2 * s->n_time)) != HC_OK) break;

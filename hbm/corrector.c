@@ -17,7 +17,7 @@ static void pack(const hbm_solver *s, const double *X, double omega, double *z)
 
 static void unpack_harmonics(const hbm_solver *s, const double *z, double *X)
 {
-  X[0] = 0;
+  for (int i = 0; i < s->sys.first; ++i) X[i] = 0;
   memcpy(X + s->sys.first, z, (size_t)s->sys.n * sizeof(double));
 }
 
@@ -171,7 +171,7 @@ hc_status hbm_tangent_fixed(hbm_solver *s, const double *X, double *dX)
 {
   by_place(s, s->omega, X, s->z);
   hc_status st = newton_backsolve(s->fixed, s->z);
-  dX[0] = 0;
+  for (int i = 0; i < s->sys.first; ++i) dX[i] = 0;
   for (int i = 0; i < s->sys.n; ++i) dX[i + s->sys.first] = -s->z[i];
   return st;
 }

@@ -1,5 +1,5 @@
 /* exact_force.c - see exact_force.h.
- *   on a piece    T = kt u - held (stick) or s mu kn (v + gap) (slip s),   N = kn (v + gap)
+ *   on a piece    T = kt u - held (stick) or s mu N (slip s),   N = kn (v + gap) + load
  *   so            F_d(th) = sum_e K_de(th) x_e(th) + C_d(th),    K, C piecewise constant
  *   and           F     = [Toeplitz + Hankel of K] X + C
  *                 dF/dX = [Toeplitz + Hankel of K] - sum over stick pieces (harmonics of the piece) (d held)^T
@@ -86,14 +86,10 @@ void exact_force_free(exact_force *e)
 
 hc_status exact_force_new_of_model(int n_harm, const model *m, exact_force **out)
 {
-  moving_contact *contacts = calloc((size_t)m->n_contacts + 1, sizeof *contacts);
+  moving_contact *contacts;
   *out = NULL;
-  if (!contacts) return HC_NO_MEMORY;
-  for (int j = 0; j < m->n_contacts; ++j) {
-    const model_contact *c = &m->contacts[j];
-    contacts[j] = (moving_contact){.law = c->law, .cu = {c->tangent}, .cv = {c->normal}};
-  }
-  hc_status st = exact_force_new(n_harm, 1, m->n_contacts, contacts, out);
+  hc_status st = moving_contacts_of_model(m, &contacts);
+  if (st == HC_OK) st = exact_force_new(n_harm, 1, m->n_contacts, contacts, out);
   free(contacts);
   return st;
 }
@@ -134,7 +130,7 @@ static void add_piece(exact_force *e, const moving_contact *c, const contact_pie
   const contact *law = &c->law;
   int s = contact_slip_sign(p->state), symbol = force_jacobian_symbol_length(e->n_harm);
   double traction_v = s * law->mu * law->kn, traction_u = s ? 0 : law->kt,
-         traction_0 = s ? traction_v * law->gap : -p->held;
+         traction_0 = s ? traction_v * law->gap + s * law->mu * law->load : -p->held;
   const double clearance = law->gap > 0 ? 0 : law->kn * law->gap;
   for (int d = 0; d < e->n_dof; ++d) {
     for (int f = 0; f < e->n_dof; ++f) {
@@ -251,20 +247,13 @@ static double slider_at_zero(const exact_force *e, int j)
   return u;
 }
 
-static bool has_slider(const moving_contact *c, int n_dof)
-{
-  bool moves = false;
-  for (int d = 0; d < n_dof; ++d) moves |= c->cu[d] != 0;
-  return moves && contact_has_friction(&c->law);
-}
-
 static void fill_report(const exact_force *e, contact_report *report)
 {
   *report = (contact_report){.regime = CONTACT_LINEAR};
   for (int j = 0; j < e->n_contacts; ++j) {
     contact_regime regime = regime_of(e->pieces + (size_t)j * e->cap, e->n_pieces[j]);
     if (regime > report->regime) report->regime = regime;
-    report->free_sliders += regime == CONTACT_STUCK && has_slider(&e->contacts[j], e->n_dof);
+    report->free_sliders += regime == CONTACT_STUCK && moving_contact_has_slider(&e->contacts[j], e->n_dof);
     report->transitions += count_changes(e->pieces + (size_t)j * e->cap, e->n_pieces[j]);
   }
 }

@@ -7,7 +7,6 @@
 
 #include "hbm/contact_report.h"
 #include "hbm/transitions.h"
-#include "model/model.h"
 
 typedef struct exact_force exact_force;
 
@@ -15,7 +14,7 @@ typedef struct exact_force exact_force;
 hc_status exact_force_new(int n_harm, int n_dof, int n_contacts, const moving_contact *contacts, exact_force **out);
 void exact_force_free(exact_force *e);
 
-/* The same for the contacts of a model (copied), moved by its one coordinate x. */
+/* The same for the contacts of an oscillator (copied), moved by its x. */
 hc_status exact_force_new_of_model(int n_harm, const model *m, exact_force **out);
 
 /* F[n_dof (2H+1)] [force]: for each coordinate d the harmonics of sum_j cu_jd T_j + cv_jd (N_j - N0_j), at X (same

@@ -54,7 +54,7 @@ static hc_status trace_ramp(hbm_solver *s, const hbm_ramp *ramp, const hc_monito
 static hc_status follow_ramp(hbm_solver *s, hbm_ramp_kind kind, double omega, const hc_monitor *monitor, double *X,
                              hbm_point *point)
 {
-  const hbm_ramp ramp = hbm_ramp_of(kind, s->model, omega);
+  const hbm_ramp ramp = hbm_ramp_of(kind, &s->sys, omega);
   ramp_watch watch = {.outer = monitor, .left = ramp.most_steps};
   const hc_monitor step = {watch_step, &watch};
   hbm_curve curve = {0};
@@ -92,7 +92,7 @@ static hc_status from_guess(hbm_solver *s, double omega, const hc_monitor *monit
 {
   hc_status st = s->guess.ask(s->guess.self, s->model, omega, s->sys.n_harm, monitor, X);
   if (st != HC_OK) return st;
-  if (!s->how.keep_mean) X[0] = 0;
+  for (int i = 0; i < s->sys.first; ++i) X[i] = 0;
   return hbm_solve_fixed(s, omega, norm_2(s->sys.n_coef, X), X, point);
 }
 
@@ -100,7 +100,7 @@ static bool goes_on(hc_status st) { return st != HC_OK && st != HC_INTERRUPTED &
 
 hc_status hbm_first_solution(hbm_solver *s, double omega, const hc_monitor *monitor, double *X, hbm_point *point)
 {
-  double size = hbm_linear_response(s->model, omega, s->sys.n_harm, X);
+  double size = hbm_linear_response(&s->sys, omega, X);
   hc_status st = hbm_solve_fixed(s, omega, size, X, point);
   if (goes_on(st) && s->guess.ask) st = from_guess(s, omega, monitor, X, point);
   if (goes_on(st) && s->how.force == HBM_FORCE_SAMPLED) st = from_exact_forces(s, omega, monitor, X, point);

@@ -18,13 +18,14 @@ static hc_status make_workspace(hbm_solver *s)
   double **const arrays[] = {&s->X, &s->z, &s->z_scale, &s->r_scale, &s->normal, &s->anchor};
   for (size_t i = 0; i < sizeof arrays / sizeof *arrays; ++i)
     if (!(*arrays[i] = calloc(m, sizeof(double)))) return HC_NO_MEMORY;
+  if (!(s->x = calloc((size_t)series_length(HBM_MAX_HARMONICS), sizeof *s->x))) return HC_NO_MEMORY;
   return hbm_corrector_new(s);
 }
 
 static hc_status make_orbit(hbm_solver *s)
 {
-  if (!s->sys.sampled) return HC_OK;
-  return exact_force_new_of_model(s->sys.n_harm, s->model, &s->orbit);
+  if (s->how.force == HBM_FORCE_EXACT) return HC_OK;
+  return contact_forces_new(s->model, s->sys.linear, HBM_FORCE_EXACT, s->how.restart, s->sys.n_harm, 0, &s->orbit);
 }
 
 /* Of auto: where it starts, and the fewest harmonics of the finer equations: with less than 14 a short contact does
@@ -40,7 +41,7 @@ static hc_status make_refinements(hbm_solver *s, int n_time)
   hc_status st = HC_OK;
   if (how->harmonics == HBM_AUTO)
     st = refinement_new(s->model, how, twice, n_time < 4 * twice ? 4 * twice : n_time, &s->finer_harmonics);
-  if (st == HC_OK && how->samples == HBM_AUTO && s->sys.sampled)
+  if (st == HC_OK && how->samples == HBM_AUTO && how->force == HBM_FORCE_SAMPLED)
     st = refinement_new(s->model, how, n_harm, 2 * n_time, &s->finer_samples);
   return st;
 }
@@ -58,13 +59,13 @@ static void free_equations(hbm_solver *s)
 {
   newton_free(s->fixed);
   newton_free(s->plane);
-  exact_force_free(s->orbit);
+  contact_forces_free(s->orbit);
   refinement_free(s->finer_harmonics);
   refinement_free(s->finer_samples);
   refinement_free(s->exact_finer);
   free(s->improved);
   hbm_system_clear(&s->sys);
-  double *const arrays[] = {s->X, s->z, s->z_scale, s->r_scale, s->normal, s->anchor};
+  double *const arrays[] = {s->X, s->x, s->z, s->z_scale, s->r_scale, s->normal, s->anchor};
   for (size_t i = 0; i < sizeof arrays / sizeof *arrays; ++i) free(arrays[i]);
   *s = (hbm_solver){.model = s->model,
                     .how = s->how,
@@ -95,7 +96,7 @@ hc_status hbm_solver_new(const model *m, const hbm_settings *how, hbm_solver **o
   s->how = *how;
   s->step_scale = 1;
   hc_status st = model_copy(m, &s->model);
-  if (st == HC_OK) st = monodromy_new(m->n_contacts, &s->monodromy);
+  if (st == HC_OK) st = monodromy_new(s->model, &s->monodromy);
   if (st == HC_OK) st = make_equations(s, n_harm, n_time);
   if (st == HC_OK) {
     *out = s;
@@ -128,7 +129,9 @@ void hbm_truncate(const hbm_solver *s, int n_coef, double *X)
 
 int hbm_n_harmonics(const hbm_solver *s) { return s->sys.n_harm; }
 
-int hbm_n_samples(const hbm_solver *s) { return s->sys.sampled ? s->n_time : 0; }
+int hbm_n_coefficients(const hbm_solver *s) { return s->sys.n_coef; }
+
+int hbm_n_samples(const hbm_solver *s) { return s->how.force == HBM_FORCE_SAMPLED ? s->n_time : 0; }
 
 hc_status hbm_solve(hbm_solver *s, double omega, double *X, hbm_point *point)
 {
@@ -144,16 +147,48 @@ hc_status hbm_solve_first(hbm_solver *s, double omega, double *X, hbm_point *poi
   return hbm_first_solution(s, omega, NULL, X, point);
 }
 
+static void measure_series(int n_harm, const double *x, hbm_measures *out)
+{
+  series_extrema(n_harm, x, &out->max, &out->min);
+  out->amplitude = motion_amplitude(out->max, out->min);
+  out->rms = series_rms(n_harm, x);
+  out->mean = x[0];
+  out->harmonic_1 = series_harmonic_1(n_harm, x);
+}
+
 hc_status hbm_measure(hbm_solver *s, const double *X, hbm_measures *out)
 {
   hc_status st = hbm_system_contact(&s->sys, X);
   if (st != HC_OK) return st;
-  int n_harm = s->sys.n_harm;
-  series_extrema(n_harm, X, &out->max, &out->min);
-  out->amplitude = motion_amplitude(out->max, out->min);
-  out->rms = series_rms(n_harm, X);
-  out->mean = X[0];
-  out->harmonic_1 = series_harmonic_1(n_harm, X);
+  hbm_system_response(&s->sys, s->sys.n_harm, X, s->x);
+  measure_series(s->sys.n_harm, s->x, out);
+  out->contact = s->sys.report;
+  return HC_OK;
+}
+
+hc_status hbm_response(hbm_solver *s, double omega, const double *X, int r, double *x)
+{
+  const int dim = s->sys.dim;
+  if (r < 0 || r >= s->model->n_responses) return HC_BAD_INPUT;
+  hc_status st = condensation_at(s->sys.linear, omega, 0);
+  for (int h = 0; h <= s->sys.n_harm && st == HC_OK; ++h) {
+    const double *a = X + (h ? (2 * h - 1) * dim : 0), *b = a + dim;
+    double complex z;
+    condensation_response(s->sys.linear, h, r, 1, s->sys.block, &z);
+    for (int d = 0; d < dim; ++d) z += s->sys.block[d] * (h ? a[d] - I * b[d] : a[d]);
+    x[h ? 2 * h - 1 : 0] = creal(z);
+    if (h) x[2 * h] = -cimag(z);
+  }
+  if (!s->how.keep_mean) x[0] = 0;
+  return st;
+}
+
+hc_status hbm_measure_response(hbm_solver *s, double omega, const double *X, int r, hbm_measures *out)
+{
+  hc_status st = hbm_response(s, omega, X, r, s->x);
+  if (st == HC_OK) st = hbm_system_contact(&s->sys, X);
+  if (st != HC_OK) return st;
+  measure_series(s->sys.n_harm, s->x, out);
   out->contact = s->sys.report;
   return HC_OK;
 }
@@ -162,18 +197,17 @@ hc_status hbm_sliders(hbm_solver *s, const double *X, double *w)
 {
   hc_status st = hbm_system_contact(&s->sys, X);
   if (st != HC_OK) return st;
-  if (s->sys.sampled) aft_sliders(s->sys.sampled, w);
-  else exact_force_sliders(s->sys.located, w);
+  contact_forces_sliders(s->sys.contacts, w);
   return HC_OK;
 }
 
-hc_status hbm_located_orbit(hbm_solver *s, const double *X, const exact_force **orbit, contact_report *report)
+hc_status hbm_located_orbit(hbm_solver *s, const double *X, const contact_forces **orbit, contact_report *report)
 {
   if (s->orbit) {
     *orbit = s->orbit;
-    return exact_force_eval(s->orbit, X, s->X, NULL, report); /* s->X gets the force, which is not needed */
+    return contact_forces_eval(s->orbit, X, s->X, report); /* s->X gets the force, which is not needed */
   }
-  *orbit = s->sys.located;
+  *orbit = s->sys.contacts;
   hc_status st = hbm_system_contact(&s->sys, X);
   if (st == HC_OK) *report = s->sys.report;
   return st;

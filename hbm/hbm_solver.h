@@ -1,6 +1,9 @@
 /* hbm_solver.h - a solver of the harmonic-balance equations of one model, and a solution at a fixed omega.
  *
- *     R(X, omega) = 0,      X[2H+1] [length]: mean, then cosine and sine of each harmonic (numerics/series.h)
+ *     R(X, omega) = 0,      X[n] [length]: mean, then cosine and sine of each harmonic (numerics/series.h)
+ *
+ * of x for an oscillator, n = 2H+1; of a structure, for every coefficient its coordinates (condensation.h), n =
+ * hbm_n_coefficients.
  *
  * R is system.h's; the solution is KINSOL's (corrector.h). A solver serves one thread and is opaque; nothing is
  * printed. */
@@ -20,6 +23,7 @@ void hbm_solver_free(hbm_solver *s); /* NULL is allowed */
 
 int hbm_n_harmonics(const hbm_solver *s); /* in use now; after a trace with auto, the most the curve needed */
 int hbm_n_samples(const hbm_solver *s);   /* per period, in use now; 0 where forces are exact */
+int hbm_n_coefficients(const hbm_solver *s); /* entries of X, with the harmonics in use now */
 
 /* Somebody who knows where a solution may be: ask() fills X[2 n_harm + 1] [length] with a guess for omega; HC_NO_MEMORY
  * and HC_INTERRUPTED are passed on, any other failure means there is none. */
@@ -64,8 +68,14 @@ typedef struct hbm_measures {
   contact_report contact;
 } hbm_measures;
 
-/* Errors of the contact force. */
+/* Of the first response. Errors of the contact force. */
 hc_status hbm_measure(hbm_solver *s, const double *X, hbm_measures *out);
+
+/* Response r of the model, counted from 0, of the solution X at omega: its series x[2H+1], or its measures.
+ * HC_BAD_INPUT: there is no such response; errors of the contact force; HC_NOT_FINITE: the rest of the structure
+ * resonates undamped. */
+hc_status hbm_response(hbm_solver *s, double omega, const double *X, int r, double *x);
+hc_status hbm_measure_response(hbm_solver *s, double omega, const double *X, int r, hbm_measures *out);
 
 /* w[n_contacts] [length]: the sliders at t = 0 of the motion X. Errors of the contact force. */
 hc_status hbm_sliders(hbm_solver *s, const double *X, double *w);

@@ -15,7 +15,7 @@ struct hbm_solver {      /* from hbm_solver_new, to hbm_solver_free; not shared 
   hbm_system sys;        /* the equations */
   int n_time;            /* samples per period, for sampled forces */
   newton *fixed, *plane; /* the two forms of corrector.h */
-  exact_force *orbit;    /* locates the transitions of a solution of sampled equations; NULL when sys does */
+  contact_forces *orbit; /* locates the transitions of a solution of sampled equations; NULL when sys does */
   monodromy *monodromy;
   refinement *finer_harmonics; /* tells auto the error of this many harmonics; NULL where the settings give a number */
   refinement *finer_samples;   /* the same of samples */
@@ -27,6 +27,7 @@ struct hbm_solver {      /* from hbm_solver_new, to hbm_solver_free; not shared 
   double step_scale;           /* of hbm_scale_steps */
   double omega;                /* of the fixed form; on a ramp, the place */
   double *X;                   /* [n_coef]  harmonics of a callback's unknowns */
+  double *x;                   /* [2 HBM_MAX_HARMONICS + 1] series of a response */
   double *z;                   /* [n+1]     unknowns of a solve */
   double *z_scale, *r_scale;   /* [n+1]     weights for KINSOL */
   double *normal, *anchor;     /* [n+1]     of the plane form; the metric's weights are included in normal */
@@ -39,7 +40,7 @@ hc_status hbm_solver_resize(hbm_solver *s, int n_harm, int n_time);
 void hbm_truncate(const hbm_solver *s, int n_coef, double *X);
 
 /* The event-located orbit of X: *orbit is an exact evaluator of the solver's own, evaluated at X, *report what it
- * found. Errors of exact_force_eval. */
-hc_status hbm_located_orbit(hbm_solver *s, const double *X, const exact_force **orbit, contact_report *report);
+ * found. Errors of contact_forces_eval. */
+hc_status hbm_located_orbit(hbm_solver *s, const double *X, const contact_forces **orbit, contact_report *report);
 
 #endif

@@ -1,17 +1,27 @@
 /* linear_solution.h - the response in closed form where nothing happens at the contacts: each is as the static state
- * leaves it, stuck where it is preloaded (gap > 0), apart otherwise.
+ * leaves it, stuck where it is pressed on, apart otherwise.
  *
- *     x = Re [ F0 / (K' - M omega^2 + i C omega) exp(i omega t) ],      K' = K + stiffness of the stuck contacts */
+ *     (S_h + K') q_h + constant = phi p_h,      K' = sum over stuck contacts of kt t t^T + kn n n^T
+ *     oscillator:    x = Re [ F0 / (K + K' - M omega^2 + i C omega) exp(i omega t) ]
+ *
+ * The static state is that of the loads of harmonic 0 with all contacts stuck or apart, found by trying: from those that
+ * are preloaded (gap > 0) or, under such loads, from all. */
 #ifndef HC_HBM_LINEAR_SOLUTION_H
 #define HC_HBM_LINEAR_SOLUTION_H
 
 #include "hbm/hbm_solver.h"
+#include "hbm/system.h"
 
-/* Harmonics X[2H+1] of that response at omega. Returns their norm. */
-double hbm_linear_response(const model *m, double omega, int n_harm, double *X);
+/* Room for a system's. HC_NO_MEMORY. */
+hc_status hbm_linear_room_new(const model *m, int dim, hbm_linear_room **out);
+void hbm_linear_room_free(hbm_linear_room *room); /* NULL is allowed */
+
+/* Harmonics X[n_coef] of that response at omega, with the system's phi and D. Returns their norm; X is a guess of the
+ * right order of magnitude where there is no such response. */
+double hbm_linear_response(hbm_system *sys, double omega, double *X);
 
 /* If the linear response is near the guess X (to `near` of its size) and satisfies the equations, it becomes X, with
- * its derivative by omega in dX, both [2H+1], and *point. Otherwise false, and X, dX and *point are untouched. */
+ * its derivative by omega in dX, both [n_coef], and *point. Otherwise false, and X, dX and *point are untouched. */
 bool hbm_linear_point(hbm_solver *s, double omega, double near, double *X, double *dX, hbm_point *point);
 
 #endif

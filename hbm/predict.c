@@ -30,18 +30,18 @@ static const double least_share = 0.04;
 /* Twice the harmonics, and more where these do not reach the natural frequency of the mass on its stuck contacts, at
  * which it swings after each impact: up to there errors hardly fall with the harmonics, and twice as many say
  * nothing. */
-static int finer_harmonics(const model *m, int n_harm, double omega)
+static int finer_harmonics(double highest, int n_harm, double omega)
 {
   if (n_harm > HBM_MAX_HARMONICS / 2) return n_harm / 2;
   const int twice = 2 * n_harm > FEWEST_FINER ? 2 * n_harm : FEWEST_FINER;
-  const double own = ceil(sqrt(model_max_stiffness(m) / m->mass) / (STRIDE * omega)) * STRIDE;
+  const double own = ceil(highest / (STRIDE * omega)) * STRIDE;
   return own > twice ? (int)fmin(own, fmax(MOST_FINER, twice)) : twice;
 }
 
 /* What is made at the first call; freed with the equations. */
 static hc_status need_finer(hbm_solver *s, double omega)
 {
-  const int n_harm = finer_harmonics(s->model, s->sys.n_harm, omega);
+  const int n_harm = finer_harmonics(s->sys.scales.highest, s->sys.n_harm, omega);
   if (s->exact_finer && refinement_harmonics(s->exact_finer) == n_harm) return HC_OK;
   refinement_free(s->exact_finer);
   free(s->improved);
@@ -50,17 +50,17 @@ static hc_status need_finer(hbm_solver *s, double omega)
   hbm_settings how = s->how;
   how.force = HBM_FORCE_EXACT;
   how.keep_mean = true;
-  if (!s->improved) s->improved = calloc((size_t)series_length(n_harm), sizeof *s->improved);
+  if (!s->improved) s->improved = calloc((size_t)hbm_system_length(&s->sys, n_harm), sizeof *s->improved);
   return s->improved ? refinement_new(s->model, &how, n_harm, 0, &s->exact_finer) : HC_NO_MEMORY;
 }
 
-/* |Y - X| [length], Y[2n+1] and X[2 n_harm + 1] both padded with zeros. */
-static double distance(int n_harm, const double *X, int n, const double *Y)
+/* |Y - X| [length], Y of n harmonics and X of the solver's, both padded with zeros. */
+static double distance(const hbm_solver *s, const double *X, int n, const double *Y)
 {
-  const int most = series_length(n > n_harm ? n : n_harm);
+  const int length = hbm_system_length(&s->sys, n), most = length > s->sys.n_coef ? length : s->sys.n_coef;
   double sum = 0;
   for (int i = 0; i < most; ++i) {
-    const double d = (i < series_length(n) ? Y[i] : 0) - (i < series_length(n_harm) ? X[i] : 0);
+    const double d = (i < length ? Y[i] : 0) - (i < s->sys.n_coef ? X[i] : 0);
     sum += d * d;
   }
   return sqrt(sum);
@@ -71,7 +71,7 @@ static double distance(int n_harm, const double *X, int n, const double *Y)
  * there is no such solution. */
 static hc_status improve(hbm_solver *s, double omega, const double *X, double *least)
 {
-  const int n_harm = s->sys.n_harm, n = refinement_harmonics(s->exact_finer);
+  const int n = refinement_harmonics(s->exact_finer);
   double last, longest = 0;
   *least = 0;
   bool found = false;
@@ -81,19 +81,21 @@ static hc_status improve(hbm_solver *s, double omega, const double *X, double *l
     if (st != HC_OK) break;
     if (k == 0) *least = roundings * refinement_rounding(s->exact_finer, omega);
     longest = fmax(longest, last);
-    found = last <= *least || (k > 0 && last <= converged * distance(n_harm, X, n, s->improved));
+    found = last <= *least || (k > 0 && last <= converged * distance(s, X, n, s->improved));
   }
   if (!found) *least += longest;
-  const double far = fmax(found ? 0 : longest, distance(n_harm, X, n, s->improved));
-  if (!(far <= (found ? another : lost) * norm_2(series_length(n_harm), X))) *least = INFINITY;
+  const double far = fmax(found ? 0 : longest, distance(s, X, n, s->improved));
+  if (!(far <= (found ? another : lost) * norm_2(s->sys.n_coef, X))) *least = INFINITY;
   return HC_OK;
 }
 
-static periodic_motion measured(int n_harm, const double *X)
+/* The first response's motion; x[2 n_harm + 1] is room. */
+static periodic_motion measured(const hbm_solver *s, int n_harm, const double *X, double *x)
 {
   double max, min;
-  series_extrema(n_harm, X, &max, &min);
-  return motion_of_series(n_harm, X, max, min);
+  hbm_system_response(&s->sys, n_harm, X, x);
+  series_extrema(n_harm, x, &max, &min);
+  return motion_of_series(n_harm, x, max, min);
 }
 
 /* What n harmonics leave out is added. Of sampled forces and n < H all of the distance may be aliasing, which more
@@ -101,7 +103,7 @@ static periodic_motion measured(int n_harm, const double *X)
 static double extrapolation(const hbm_solver *s, int n)
 {
   const double ratio = fmax((double)s->sys.n_harm / n, n > s->sys.n_harm ? 0.5 : 0);
-  return s->sys.sampled && ratio > 1 ? 1 : 1 / fabs(1 - ratio * ratio * ratio);
+  return s->how.force == HBM_FORCE_SAMPLED && ratio > 1 ? 1 : 1 / fabs(1 - ratio * ratio * ratio);
 }
 
 hc_status hbm_predict(hbm_solver *s, double omega, const double *X, motion_error *out)
@@ -111,11 +113,11 @@ hc_status hbm_predict(hbm_solver *s, double omega, const double *X, motion_error
   if (st != HC_OK) return st;
   const int n_harm = s->sys.n_harm, n = refinement_harmonics(s->exact_finer);
   double least;
-  memset(s->improved, 0, (size_t)series_length(n) * sizeof *s->improved);
-  memcpy(s->improved, X, (size_t)series_length(n < n_harm ? n : n_harm) * sizeof *s->improved);
+  memset(s->improved, 0, (size_t)hbm_system_length(&s->sys, n) * sizeof *s->improved);
+  memcpy(s->improved, X, (size_t)hbm_system_length(&s->sys, n < n_harm ? n : n_harm) * sizeof *s->improved);
   st = improve(s, omega, X, &least);
   if (st != HC_OK) return st;
-  const periodic_motion ours = measured(n_harm, X), better = measured(n, s->improved);
+  const periodic_motion ours = measured(s, n_harm, X, s->x), better = measured(s, n, s->improved, s->x);
   const motion_distance d = motion_between(&ours, &better);
   const double factor = extrapolation(s, n), waveform = factor * d.waveform;
   *out = (motion_error){.amplitude = fmax(factor * d.amplitude, least_share * waveform) + least,

@@ -19,24 +19,40 @@ static const double least_force = 1e-4, least_damping = 1e-9; /* [1] of the whol
  * more than 246, the longest 806. One step in three is rejected. */
 enum { MOST_DAMPING_STEPS = 1500, MOST_FORCE_STEPS = 2000 };
 
-hbm_ramp hbm_ramp_of(hbm_ramp_kind kind, const model *m, double omega)
+/* [force/length] The stiffness of the stuck structure's fastest mode, for the mean of the masses. */
+static double stiffest(const hbm_system *sys)
+{
+  const model *m = sys->model;
+  double mass = 0;
+  if (model_is_oscillator(m)) return model_max_stiffness(m);
+  for (int i = 0; i < m->n; ++i) mass += m->mass[(size_t)i * (size_t)(m->n + 1)] / m->n;
+  return mass * sys->scales.highest * sys->scales.highest;
+}
+
+/* Of C; n = 1: C itself. */
+static double mean_damping(const model *m)
+{
+  double sum = 0;
+  for (int i = 0; i < m->n; ++i) sum += m->damping[(size_t)i * (size_t)(m->n + 1)];
+  return sum / m->n;
+}
+
+hbm_ramp hbm_ramp_of(hbm_ramp_kind kind, const hbm_system *sys, double omega)
 {
   hbm_ramp r = {.kind = kind, .omega = omega, .from = least_force, .most_steps = MOST_FORCE_STEPS};
   if (kind == HBM_RAMP_FORCE) return r;
   r.from = 2;
   r.most_steps = MOST_DAMPING_STEPS;
-  r.most = 10 * model_max_stiffness(m) / omega;
+  r.most = 10 * stiffest(sys) / omega;
   /* D falls by the same factor over equal parts of the ramp, until it is small beside C */
-  r.rate = fmax(1, -log(fmax(m->damping / r.most, least_damping)));
+  r.rate = fmax(1, -log(fmax(mean_damping(sys->model) / r.most, least_damping)));
   return r;
 }
 
-double hbm_ramp_start(const hbm_ramp *r, const model *m, int n_harm, double *X)
+double hbm_ramp_start(const hbm_ramp *r, hbm_system *sys, double *X)
 {
-  model at_start = *m;
-  if (r->kind == HBM_RAMP_DAMPING) at_start.damping += r->most;
-  else at_start.force *= r->from;
-  return hbm_linear_response(&at_start, r->omega, n_harm, X);
+  hbm_ramp_set(r, r->from, sys);
+  return hbm_linear_response(sys, r->omega, X);
 }
 
 void hbm_ramp_set(const hbm_ramp *r, double p, hbm_system *sys)
@@ -51,16 +67,13 @@ void hbm_ramp_leave(hbm_system *sys)
   sys->force_factor = 1;
 }
 
-void hbm_ramp_derivative(const hbm_ramp *r, double p, const hbm_system *sys, const double *X, double *dR)
+void hbm_ramp_derivative(const hbm_ramp *r, double p, hbm_system *sys, const double *X, double *dR)
 {
-  double *full = sys->rows;
-  memset(full, 0, (size_t)sys->n_coef * sizeof(double));
-  if (r->kind == HBM_RAMP_DAMPING) {
-    double by_p = r->most * r->rate * exp(r->rate * (p - 1)) / expm1(r->rate);
-    for (int h = 1; h <= sys->n_harm; ++h) {
-      full[2 * h - 1] = by_p * h * r->omega * X[2 * h];
-      full[2 * h] = -by_p * h * r->omega * X[2 * h - 1];
-    }
-  } else full[1] = -sys->model->force;
-  memcpy(dR, full + sys->first, (size_t)sys->n * sizeof(double));
+  if (r->kind == HBM_RAMP_FORCE) {
+    hbm_system_dforce(sys, r->omega, dR);
+    return;
+  }
+  const double by_p = r->most * r->rate * exp(r->rate * (p - 1)) / expm1(r->rate);
+  hbm_system_ddamping(sys, r->omega, X, dR);
+  for (int i = 0; i < sys->n; ++i) dR[i] *= by_p;
 }

@@ -19,16 +19,16 @@ typedef struct hbm_ramp {
   int most_steps;    /* a ramp that takes more is given up */
 } hbm_ramp;
 
-hbm_ramp hbm_ramp_of(hbm_ramp_kind kind, const model *m, double omega);
+hbm_ramp hbm_ramp_of(hbm_ramp_kind kind, const hbm_system *sys, double omega);
 
-/* A guess X[2 n_harm + 1] for the start of the ramp: the linear response. Returns its norm. */
-double hbm_ramp_start(const hbm_ramp *r, const model *m, int n_harm, double *X);
+/* A guess X[n_coef] for the start of the ramp, the linear response there; *sys is left there. Returns its norm. */
+double hbm_ramp_start(const hbm_ramp *r, hbm_system *sys, double *X);
 
 /* The equations become those at p; hbm_ramp_leave: the model's own. */
 void hbm_ramp_set(const hbm_ramp *r, double p, hbm_system *sys);
 void hbm_ramp_leave(hbm_system *sys);
 
 /* dR/dp [n] at X and p. */
-void hbm_ramp_derivative(const hbm_ramp *r, double p, const hbm_system *sys, const double *X, double *dR);
+void hbm_ramp_derivative(const hbm_ramp *r, double p, hbm_system *sys, const double *X, double *dR);
 
 #endif

@@ -8,7 +8,6 @@
 
 #include "numerics/lu.h"
 #include "numerics/norm.h"
-#include "numerics/series.h"
 
 struct refinement {
   hbm_system sys;
@@ -81,7 +80,7 @@ double refinement_error(refinement *r, double omega, int n_harm, const double *X
 {
   double step;
   memset(r->X, 0, (size_t)r->sys.n_coef * sizeof(double));
-  memcpy(r->X, X, (size_t)series_length(n_harm) * sizeof(double));
+  memcpy(r->X, X, (size_t)hbm_system_length(&r->sys, n_harm) * sizeof(double));
   const double size = norm_2(r->sys.n_coef, r->X);
   if (refinement_step(r, omega, r->X, &step) != HC_OK) return INFINITY;
   return size > 0 ? step / size : 0;

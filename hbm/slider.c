@@ -13,14 +13,14 @@
 
 enum { BLOCK = 16 }; /* samples looked at before asking whether one of them ends the stretch */
 
-/* One contact: its law and direction in one place, what the loops need beside x. */
+/* One contact: its law and motion in one place, what the loops need. */
 typedef struct followed {
   const contact *law;
   hbm_restart restart;
-  double c, s; /* u = c x, v = s x */
-  double kt, kn, mu, gap;
-  double shift; /* N - N0 = kn (v + shift) while in contact */
-  double apart; /* [force] of a separated contact */
+  slider_motion m;
+  double kt, kn, mu, gap; /* N = kn (v + gap) */
+  double shift;           /* N - N0 = kn (v + shift) while in contact */
+  double apart;           /* [force] of a separated contact */
 } followed;
 
 typedef struct slider {
@@ -29,103 +29,130 @@ typedef struct slider {
   slider_origin origin; /* of w */
 } slider;
 
-static followed followed_contact(const model_contact *m, hbm_restart restart)
+static followed followed_contact(const contact *law, hbm_restart restart, const slider_motion *m)
 {
-  const contact *law = &m->law;
-  followed k = {law, restart, m->tangent, m->normal, law->kt, law->kn, law->mu, law->gap, law->gap, 0};
+  followed k = {law, restart, *m, law->kt, law->kn, law->mu, law->gap, law->gap, 0};
   if (law->gap > 0) k.shift = 0;
-  k.apart = 0 - contact_preload(law) * k.s;
+  k.apart = 0 - contact_preload(law) * k.m.of_n;
+  if (law->load > 0) k.kn = 1, k.gap = law->load, k.m.s = k.m.of_n = 0; /* N = load, whatever the motion */
   return k;
 }
 
-/* ---- does the stretch go on at x? ------------------------------------------------------------ */
+/* ---- does the stretch go on, at one sample of along and across? ------------------------------- */
 
-static inline bool stays_apart(const followed *k, double x) { return !(k->kn * (k->s * x + k->gap) > 0); }
-
-static inline bool goes_on_sticking(const followed *k, double w, double x, double *f)
+static inline bool stays_apart(const followed *k, double across)
 {
-  double v = k->s * x, n = k->kn * (v + k->gap), t = k->kt * (k->c * x - w);
-  *f = t * k->c + k->kn * (v + k->shift) * k->s;
+  return !(k->kn * (k->m.s * across + k->gap) > 0);
+}
+
+static inline bool goes_on_sticking(const followed *k, double w, double along, double across, double *f)
+{
+  double v = k->m.s * across, n = k->kn * (v + k->gap), t = k->kt * (k->m.c * along - w);
+  *f = t * k->m.of_t + k->kn * (v + k->shift) * k->m.of_n;
   return (n > 0) & (fabs(t) <= k->mu * n);
 }
 
-static inline double slipped_to(const followed *k, double sign, double x)
+static inline double slipped_to(const followed *k, double sign, double along, double across)
 {
-  return k->c * x - sign * (k->mu * (k->kn * (k->s * x + k->gap))) / k->kt;
+  return k->m.c * along - sign * (k->mu * (k->kn * (k->m.s * across + k->gap))) / k->kt;
 }
 
-static inline bool goes_on_slipping(const followed *k, double sign, double before, double x, double *f)
+static inline bool goes_on_slipping(const followed *k, double sign, double w, double along, double across, double *f)
 {
-  double v = k->s * x, n = k->kn * (v + k->gap), limit = k->mu * n;
-  double t = k->kt * (k->c * x - slipped_to(k, sign, before));
-  *f = sign * limit * k->c + k->kn * (v + k->shift) * k->s;
+  double v = k->m.s * across, n = k->kn * (v + k->gap), limit = k->mu * n;
+  double t = k->kt * (k->m.c * along - w);
+  *f = sign * limit * k->m.of_t + k->kn * (v + k->shift) * k->m.of_n;
   return (n > 0) & (sign * t > limit);
 }
 
 /* ---- to the end of the stretch that has begun before sample i: where the next one begins, or n ---------- */
 
-static int follow_separated(const followed *of, int n, const double *restrict x, double *restrict f, int i)
+static int follow_separated(const followed *of, int n, double *restrict f, int i)
 {
   const followed k = *of;
+  const double *restrict across = k.m.across;
   for (long ends = 0; i + BLOCK <= n; i += BLOCK) {
     for (int j = i; j < i + BLOCK; ++j) {
       f[j] = k.apart;
-      ends |= stays_apart(&k, x[j]) ? 0L : 1L;
+      ends |= stays_apart(&k, across[j]) ? 0L : 1L;
     }
     if (ends) break;
   }
-  for (; i < n && stays_apart(&k, x[i]); ++i) f[i] = k.apart;
+  for (; i < n && stays_apart(&k, across[i]); ++i) f[i] = k.apart;
   return i;
 }
 
-static int follow_stick(const followed *of, double w, int n, const double *restrict x, double *restrict f, int i)
+static int follow_stick(const followed *of, double w, int n, double *restrict f, int i)
 {
   const followed k = *of;
+  const double *along = k.m.along, *across = k.m.across;
   for (long ends = 0; i + BLOCK <= n; i += BLOCK) {
-    for (int j = i; j < i + BLOCK; ++j) ends |= goes_on_sticking(&k, w, x[j], &f[j]) ? 0L : 1L;
+    for (int j = i; j < i + BLOCK; ++j) ends |= goes_on_sticking(&k, w, along[j], across[j], &f[j]) ? 0L : 1L;
     if (ends) break;
   }
-  while (i < n && goes_on_sticking(&k, w, x[i], &f[i])) ++i;
+  while (i < n && goes_on_sticking(&k, w, along[i], across[i], &f[i])) ++i;
   return i;
 }
 
-static int follow_slip(const followed *of, double sign, int n, const double *restrict x, double *restrict f, int i)
+static int follow_slip(const followed *of, double sign, int n, double *restrict f, int i)
 {
   const followed k = *of;
+  const double *along = k.m.along, *across = k.m.across;
   for (long ends = 0; i + BLOCK <= n; i += BLOCK) {
-    for (int j = i; j < i + BLOCK; ++j) ends |= goes_on_slipping(&k, sign, x[j - 1], x[j], &f[j]) ? 0L : 1L;
+    for (int j = i; j < i + BLOCK; ++j) {
+      const double w = slipped_to(&k, sign, along[j - 1], across[j - 1]);
+      ends |= goes_on_slipping(&k, sign, w, along[j], across[j], &f[j]) ? 0L : 1L;
+    }
     if (ends) break;
   }
-  while (i < n && goes_on_slipping(&k, sign, x[i - 1], x[i], &f[i])) ++i;
+  while (i < n &&
+         goes_on_slipping(&k, sign, slipped_to(&k, sign, along[i - 1], across[i - 1]), along[i], across[i], &f[i]))
+    ++i;
   return i;
 }
 
 /* ---- stretch by stretch ---------------------------------------------------------------------- */
 
-/* On entering contact at sample i after a separated one. Interpolated: w = u on the straight line between the
- * samples where v + gap = 0, which for u = c x and v = s x is -gap c/s, whatever the samples. Else w stays the last
- * separated sample's u. */
-static void restart_slider(const followed *k, int n, const double *x, int i, slider *t)
+/* On entering contact at sample i after a separated one. Interpolated: w = u on the straight line between the samples
+ * where v + gap = 0, else u of the last separated sample. Where u and v are one motion, that is -gap c/s, whatever the
+ * samples. */
+static void restart_slider(const followed *k, int n, int i, slider *t)
 {
-  int before = i ? i - 1 : n - 1;
-  bool interpolated = k->restart == HBM_RESTART_INTERPOLATED;
-  t->w = interpolated ? -k->gap * k->c / k->s : k->c * x[before];
-  t->origin = (slider_origin){before, interpolated ? 0 : k->c};
+  const slider_motion *m = &k->m;
+  const int before = i ? i - 1 : n - 1;
+  const bool interpolated = k->restart == HBM_RESTART_INTERPOLATED;
+  t->origin = (slider_origin){.i = before};
+  if (interpolated && m->along == m->across) {
+    t->w = -k->gap * m->c / m->s;
+    return;
+  }
+  const double g0 = m->s * m->across[before] + k->gap, g1 = m->s * m->across[i] + k->gap,
+               part = interpolated ? -g0 / (g1 - g0) : 0, u0 = m->c * m->along[before],
+               step = m->c * m->along[i] - u0;
+  t->w = u0 + part * step;
+  t->origin.by_along[0] = m->c * (1 - part);
+  t->origin.by_along[1] = m->c * part;
+  if (!interpolated) return;
+  const double by_part = step / ((g1 - g0) * (g1 - g0)); /* d part = (g0 dg1 - g1 dg0)/(g1 - g0)^2 */
+  t->origin.by_across[0] = -by_part * g1 * m->s;
+  t->origin.by_across[1] = by_part * g0 * m->s;
 }
 
 /* From sample i, the first of a stretch, to its end: where the next one begins. */
-static int follow_stretch(const followed *k, int n, const double *x, double *f, int i, slider *t, stretch *out)
+static int follow_stretch(const followed *k, int n, double *f, int i, slider *t, stretch *out)
 {
-  double u = k->c * x[i], v = k->s * x[i], traction;
-  if (t->state == CONTACT_SEPARATED && contact_normal(k->law, v) > 0) restart_slider(k, n, x, i, t);
+  const slider_motion *m = &k->m;
+  double u = m->c * m->along[i], v = m->s * m->across[i], traction;
+  if (t->state == CONTACT_SEPARATED && contact_normal(k->law, v) > 0) restart_slider(k, n, i, t);
   t->state = contact_step(k->law, u, v, &t->w, &traction);
-  f[i] = traction * k->c + contact_normal_change(k->law, v) * k->s;
+  f[i] = traction * m->of_t + contact_normal_change(k->law, v) * m->of_n;
   *out = (stretch){i, t->state, t->w, t->origin};
-  if (t->state == CONTACT_STICK) return follow_stick(k, t->w, n, x, f, i + 1);
+  if (t->state == CONTACT_STICK) return follow_stick(k, t->w, n, f, i + 1);
   const int slip = contact_slip_sign(t->state);
-  const int next = slip ? follow_slip(k, slip, n, x, f, i + 1) : follow_separated(k, n, x, f, i + 1);
-  t->w = slip ? slipped_to(k, slip, x[next - 1]) : k->c * x[next - 1];
-  if (slip) t->origin = (slider_origin){next - 1, k->c - slip * k->mu * k->kn * k->s / k->kt};
+  const int next = slip ? follow_slip(k, slip, n, f, i + 1) : follow_separated(k, n, f, i + 1);
+  const double along = m->along[next - 1], across = m->across[next - 1];
+  t->w = slip ? slipped_to(k, slip, along, across) : m->c * along;
+  if (slip) t->origin = (slider_origin){next - 1, {m->c}, {-slip * k->mu * k->kn * m->s / k->kt}};
   return next;
 }
 
@@ -137,23 +164,23 @@ static bool same_from_here(const stretch *a, const stretch *b)
 }
 
 /* The first period; how many stretches. */
-static int settle(const followed *k, int n, const double *x, double *f, slider *t, stretch *out)
+static int settle(const followed *k, int n, double *f, slider *t, stretch *out)
 {
   int count = 0;
-  for (int i = 0; i < n;) i = follow_stretch(k, n, x, f, i, t, &out[count++]);
+  for (int i = 0; i < n;) i = follow_stretch(k, n, f, i, t, &out[count++]);
   return count;
 }
 
 /* The second, where it differs from the first, whose force is in f. `again` gets the second's force: blocks write past
  * the end of a stretch. */
-static int settle_again(const followed *k, int n, const double *x, double *f, double *again, slider *t,
-                        const stretch *first, int n_first, stretch *out)
+static int settle_again(const followed *k, int n, double *f, double *again, slider *t, const stretch *first,
+                        int n_first, stretch *out)
 {
   const slider end_of_first = *t;
   int count = 0, m = 0, i = 0; /* first[m] has the last sample followed */
   bool met = false;
   while (i < n && !met) {
-    i = follow_stretch(k, n, x, again, i, t, &out[count++]);
+    i = follow_stretch(k, n, again, i, t, &out[count++]);
     while (m + 1 < n_first && first[m + 1].first < i) ++m;
     met = same_from_here(&out[count - 1], &first[m]);
   }
@@ -165,17 +192,17 @@ static int settle_again(const followed *k, int n, const double *x, double *f, do
   return count + rest;
 }
 
-slider_report slider_follow(const model_contact *c, hbm_restart restart, int n, const double *x, double *f,
+slider_report slider_follow(const contact *law, hbm_restart restart, int n, const slider_motion *m, double *f,
                             double *again, stretch *stretches, stretch *settling)
 {
-  const followed k = followed_contact(c, restart);
+  const followed k = followed_contact(law, restart, m);
   slider_report found;
   slider t = {.state = CONTACT_STICK};
-  if (!(contact_normal(&c->law, k.s * x[n - 1]) > 0)) t.state = CONTACT_SEPARATED;
-  int n_first = settle(&k, n, x, f, &t, settling);
+  if (!(contact_normal(law, k.m.s * m->across[n - 1]) > 0)) t.state = CONTACT_SEPARATED;
+  int n_first = settle(&k, n, f, &t, settling);
   contact_state before = t.state;
   found.settled = t.w;
-  found.n_stretches = settle_again(&k, n, x, f, again, &t, settling, n_first, stretches);
+  found.n_stretches = settle_again(&k, n, f, again, &t, settling, n_first, stretches);
   found.transitions = found.n_stretches - 1 + (stretches[0].state != before);
   found.w = t.w;
   return found;

@@ -6,12 +6,20 @@
 #include <stdbool.h>
 
 #include "hbm/hbm_settings.h"
-#include "model/model.h"
+#include "model/contact_law.h"
 
-/* What the slider's position depends on: dw = by_x dx(th_i), with by_x = 0 where the motion does not move it. */
+/* What moves a contact, sample by sample, and what its force does in turn. With one coordinate both are x. */
+typedef struct slider_motion {
+  const double *along, *across; /* [n] [length] u = c along, v = s across */
+  double c, s;                  /* [1] */
+  double of_t, of_n;            /* [1] the force: of_t T + of_n (N - N0) */
+} slider_motion;
+
+/* What the slider's position depends on: dw = sum_k by_along[k] d along(th_i+k) + by_across[k] d across(th_i+k), all 0
+ * where the motion does not move it. Sample n is sample 0. */
 typedef struct slider_origin {
   int i;
-  double by_x;
+  double by_along[2], by_across[2];
 } slider_origin;
 
 /* Samples of one state: from `first` to the next stretch, or to the end of the period. */
@@ -28,10 +36,10 @@ typedef struct slider_report {
   double w, settled; /* [length] slider at the end of the period and of the one before: to compare */
 } slider_report;
 
-/* x[n] [length]: samples of the periodic motion. f[n] [force]: t T + n (N - N0) at each; stretches[n]: room, the first
- * of them filled; again[n], settling[n]: room, overwritten. Exactly the second of two periods that begin with w = 0,
- * but the second is followed only until it is where the first was. Cannot fail, allocates nothing. */
-slider_report slider_follow(const model_contact *c, hbm_restart restart, int n, const double *x, double *f,
+/* f[n] [force] at each sample of the periodic motion m; stretches[n]: room, the first of them filled; again[n],
+ * settling[n]: room, overwritten. Exactly the second of two periods that begin with w = 0, but the second is followed
+ * only until it is where the first was. Cannot fail, allocates nothing. */
+slider_report slider_follow(const contact *law, hbm_restart restart, int n, const slider_motion *m, double *f,
                             double *again, stretch *stretches, stretch *settling);
 
 #endif

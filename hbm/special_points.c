@@ -37,7 +37,7 @@ typedef struct detector {
 
 static hc_status evaluate_tests(detector *d, double omega, double d_omega, const double *X, test_values *v)
 {
-  const exact_force *orbit;
+  const contact_forces *orbit;
   contact_report report;
   hbm_stability stability;
   hc_status st = hbm_located_orbit(d->s, X, &orbit, &report);

@@ -8,7 +8,7 @@
 
 hc_status hbm_stability_at(hbm_solver *s, double omega, const double *X, hbm_stability *out)
 {
-  const exact_force *orbit;
+  const contact_forces *orbit;
   contact_report report;
   int det_sign;
   hc_status st = hbm_located_orbit(s, X, &orbit, &report);

@@ -1,36 +1,49 @@
-/* system.c - see system.h for the equations. The contact force comes from aft.c or exact_force.c; what follows is the
- * same for both. */
+/* system.c - see system.h for the equations. */
 #include "hbm/system.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "numerics/series.h"
+#include "hbm/linear_solution.h"
+
+static bool loads_are_kept(const model *m, int n_harm)
+{
+  for (int l = 0; l < m->n_loads; ++l)
+    if (m->loads[l].harmonic > n_harm) return false;
+  return true;
+}
 
 hc_status hbm_system_init(hbm_system *sys, const model *m, const hbm_settings *how, int n_harm, int n_time)
 {
-  *sys = (hbm_system){.model = m, .how = *how, .n_harm = n_harm, .n_coef = series_length(n_harm), .force_factor = 1};
-  sys->first = how->keep_mean ? 0 : 1;
+  *sys = (hbm_system){.model = m, .how = *how, .n_harm = n_harm, .force_factor = 1};
+  if (n_harm < 1 || n_harm > HBM_MAX_HARMONICS || !loads_are_kept(m, n_harm)) return HC_BAD_INPUT;
+  hc_status st = model_find_scales(m, &sys->scales);
+  if (st == HC_OK) st = condensation_new(m, n_harm, &sys->linear);
+  if (st != HC_OK) return st;
+  sys->dim = condensation_dim(sys->linear);
+  sys->n_coef = hbm_system_length(sys, n_harm);
+  sys->first = how->keep_mean ? 0 : sys->dim;
   sys->n = sys->n_coef - sys->first;
-  size_t n = (size_t)sys->n_coef;
+  size_t n = (size_t)sys->n_coef, dim = (size_t)sys->dim;
   sys->X = calloc(n, sizeof(double));
   sys->F = calloc(n, sizeof(double));
-  sys->dF = calloc(n * n, sizeof(double));
   sys->rows = calloc(n, sizeof(double));
-  if (!sys->X || !sys->F || !sys->dF || !sys->rows) return HC_NO_MEMORY;
-  if (how->force == HBM_FORCE_SAMPLED) return aft_new(m, how->restart, n_harm, n_time, &sys->sampled);
-  return exact_force_new_of_model(n_harm, m, &sys->located);
+  sys->block = calloc(dim * dim, sizeof *sys->block);
+  if (!sys->X || !sys->F || !sys->rows || !sys->block) return HC_NO_MEMORY;
+  if ((st = hbm_linear_room_new(m, sys->dim, &sys->room)) != HC_OK) return st;
+  return contact_forces_new(m, sys->linear, how->force, how->restart, n_harm, n_time, &sys->contacts);
 }
 
 void hbm_system_clear(hbm_system *sys)
 {
-  aft_free(sys->sampled);
-  exact_force_free(sys->located);
+  condensation_free(sys->linear);
+  contact_forces_free(sys->contacts);
+  hbm_linear_room_free(sys->room);
   free(sys->X);
   free(sys->F);
-  free(sys->dF);
   free(sys->rows);
+  free(sys->block);
   *sys = (hbm_system){0};
 }
 
@@ -40,79 +53,154 @@ hc_status hbm_system_contact(hbm_system *sys, const double *X)
   if (sys->evaluated && memcmp(X, sys->X, bytes) == 0) return HC_OK;
   sys->evaluated = false;
   ++sys->evaluations;
-  hc_status st = sys->sampled ? aft_eval(sys->sampled, X, sys->F, NULL, &sys->report)
-                              : exact_force_eval(sys->located, X, sys->F, sys->dF, &sys->report);
+  hc_status st = contact_forces_eval(sys->contacts, X, sys->F, &sys->report);
   if (st != HC_OK) return st;
-  sys->differentiated = !sys->sampled;
   memcpy(sys->X, X, bytes);
   sys->evaluated = true;
   return HC_OK;
 }
 
-static double damping(const hbm_system *sys) { return sys->model->damping + sys->more_damping; }
-
-hc_status hbm_system_residual(hbm_system *sys, double omega, const double *X, double *R)
+void hbm_system_response(const hbm_system *sys, int n_harm, const double *X, double *x)
 {
-  hc_status st = hbm_system_contact(sys, X);
-  if (st != HC_OK) return st;
-  const model *m = sys->model;
-  double *full = sys->rows;
-  full[0] = m->stiffness * X[0] + sys->F[0];
-  for (int h = 1; h <= sys->n_harm; ++h) {
-    double k = m->stiffness - m->mass * h * h * omega * omega, c = damping(sys) * h * omega;
-    double a = X[2 * h - 1], b = X[2 * h];
-    full[2 * h - 1] = k * a + c * b + sys->F[2 * h - 1];
-    full[2 * h] = k * b - c * a + sys->F[2 * h];
+  const double *row = condensation_first_response(sys->linear);
+  for (int c = 0; c < series_length(n_harm); ++c) {
+    x[c] = 0;
+    for (int d = 0; d < sys->dim; ++d) x[c] += row[d] * X[(size_t)c * (size_t)sys->dim + (size_t)d];
   }
-  full[1] -= sys->force_factor * m->force;
-  memcpy(R, full + sys->first, (size_t)sys->n * sizeof(double));
+}
+
+/* Where the cosines and the sines of harmonic h begin in X; of harmonic 0, the means. */
+static size_t cosines(const hbm_system *sys, int h) { return (size_t)sys->dim * (size_t)(h ? 2 * h - 1 : 0); }
+static size_t sines(const hbm_system *sys, int h) { return (size_t)sys->dim * (size_t)(2 * h); }
+
+/* rows of harmonic h += B X, B[dim][dim] complex. */
+static void multiply_block(hbm_system *sys, const double complex *B, int h, const double *X)
+{
+  const int dim = sys->dim;
+  const double *a = X + cosines(sys, h), *b = X + sines(sys, h);
+  double *of_a = sys->rows + cosines(sys, h), *of_b = sys->rows + sines(sys, h);
+  for (int e = 0; e < dim; ++e)
+    for (int d = 0; d < dim; ++d) {
+      const double re = creal(B[(size_t)e * (size_t)dim + (size_t)d]),
+                   im = cimag(B[(size_t)e * (size_t)dim + (size_t)d]);
+      if (h == 0) {
+        of_a[d] += re * a[e];
+        continue;
+      }
+      of_a[d] += re * a[e] + im * b[e];
+      of_b[d] += re * b[e] - im * a[e];
+    }
+}
+
+/* rows of harmonic h -= factor p, a complex amplitude a - i b. */
+static void subtract_load(hbm_system *sys, const double complex *p, int h, double factor)
+{
+  for (int d = 0; d < sys->dim; ++d) {
+    sys->rows[cosines(sys, h) + (size_t)d] -= factor * creal(p[d]);
+    if (h) sys->rows[sines(sys, h) + (size_t)d] += factor * cimag(p[d]);
+  }
+}
+
+static hc_status drop_means(const hbm_system *sys, double *R)
+{
+  memcpy(R, sys->rows + sys->first, (size_t)sys->n * sizeof(double));
   double sum = 0;
   for (int i = 0; i < sys->n; ++i) sum += R[i];
   return isfinite(sum) ? HC_OK : HC_NOT_FINITE;
 }
 
+hc_status hbm_system_residual(hbm_system *sys, double omega, const double *X, double *R)
+{
+  hc_status st = hbm_system_contact(sys, X);
+  if (st == HC_OK) st = condensation_at(sys->linear, omega, sys->more_damping);
+  if (st != HC_OK) return st;
+  memset(sys->rows, 0, (size_t)sys->n_coef * sizeof(double));
+  for (int h = 0; h <= sys->n_harm; ++h) multiply_block(sys, condensation_stiffness(sys->linear, h), h, X);
+  for (int i = 0; i < sys->n_coef; ++i) sys->rows[i] += sys->F[i];
+  for (int l = 0; l < sys->model->n_loads; ++l)
+    subtract_load(sys, condensation_load(sys->linear, l), sys->model->loads[l].harmonic, sys->force_factor);
+  return drop_means(sys, R);
+}
+
+static void add_block(const hbm_system *sys, const double complex *S, int h, int ld, double *jac)
+{
+  const size_t dim = (size_t)sys->dim, n = (size_t)ld;
+  if (h == 0 && sys->first) return;
+  const size_t a = cosines(sys, h) - (size_t)sys->first, b = sines(sys, h) - (size_t)sys->first;
+  for (size_t e = 0; e < dim; ++e)
+    for (size_t d = 0; d < dim; ++d) {
+      const double re = creal(S[e * dim + d]), im = cimag(S[e * dim + d]);
+      jac[a + d + n * (a + e)] += re;
+      if (h == 0) continue;
+      jac[b + d + n * (b + e)] += re;
+      jac[a + d + n * (b + e)] += im;
+      jac[b + d + n * (a + e)] -= im;
+    }
+}
+
 void hbm_system_jacobian(hbm_system *sys, double omega, int ld, double *jac)
 {
-  const model *m = sys->model;
-  if (!sys->differentiated) aft_jacobian(sys->sampled, sys->dF);
-  sys->differentiated = true;
+  const double *dF = contact_forces_jacobian(sys->contacts);
   for (int col = 0; col < sys->n; ++col) {
-    const double *from = sys->dF + (size_t)sys->n_coef * (col + sys->first) + sys->first;
-    double *to = jac + (size_t)ld * col;
+    const double *from = dF + (size_t)sys->n_coef * (size_t)(col + sys->first) + sys->first;
+    double *to = jac + (size_t)ld * (size_t)col;
     for (int row = 0; row < sys->n; ++row) to[row] = from[row];
   }
-  if (sys->first == 0) jac[0] += m->stiffness;
-  for (int h = 1; h <= sys->n_harm; ++h) {
-    double k = m->stiffness - m->mass * h * h * omega * omega, c = damping(sys) * h * omega;
-    size_t a = (size_t)(2 * h - 1 - sys->first), b = a + 1, n = (size_t)ld;
-    jac[a + n * a] += k;
-    jac[b + n * b] += k;
-    jac[a + n * b] += c;
-    jac[b + n * a] -= c;
+  if (condensation_at(sys->linear, omega, sys->more_damping) != HC_OK) return; /* it was, in the residual */
+  for (int h = 0; h <= sys->n_harm; ++h) add_block(sys, condensation_stiffness(sys->linear, h), h, ld, jac);
+}
+
+static void differentiate(hbm_system *sys, condensation_change (*by)(const condensation *, int), const double *X,
+                          double *dR)
+{
+  memset(sys->rows, 0, (size_t)sys->n_coef * sizeof(double));
+  for (int h = 0; h <= sys->n_harm; ++h) {
+    condensation_stiffness_change(sys->linear, h, by(sys->linear, h), sys->block);
+    multiply_block(sys, sys->block, h, X);
   }
+  for (int l = 0; l < sys->model->n_loads && sys->model->n > 1; ++l) {
+    const int h = sys->model->loads[l].harmonic;
+    condensation_load_change(sys->linear, l, by(sys->linear, h), sys->block);
+    subtract_load(sys, sys->block, h, sys->force_factor);
+  }
+  drop_means(sys, dR);
 }
 
 void hbm_system_domega(hbm_system *sys, double omega, const double *X, double *dR)
 {
-  const model *m = sys->model;
-  double *full = sys->rows;
-  full[0] = 0;
-  for (int h = 1; h <= sys->n_harm; ++h) {
-    double dk = -2 * m->mass * h * h * omega, dc = damping(sys) * h;
-    full[2 * h - 1] = dk * X[2 * h - 1] + dc * X[2 * h];
-    full[2 * h] = dk * X[2 * h] - dc * X[2 * h - 1];
-  }
-  memcpy(dR, full + sys->first, (size_t)sys->n * sizeof(double));
+  if (condensation_at(sys->linear, omega, sys->more_damping) == HC_OK)
+    differentiate(sys, condensation_by_omega, X, dR);
+}
+
+void hbm_system_ddamping(hbm_system *sys, double omega, const double *X, double *dR)
+{
+  if (condensation_at(sys->linear, omega, sys->more_damping) == HC_OK)
+    differentiate(sys, condensation_by_damping, X, dR);
+}
+
+void hbm_system_dforce(hbm_system *sys, double omega, double *dR)
+{
+  memset(sys->rows, 0, (size_t)sys->n_coef * sizeof(double));
+  for (int l = 0; l < sys->model->n_loads && condensation_at(sys->linear, omega, sys->more_damping) == HC_OK; ++l)
+    subtract_load(sys, condensation_load(sys->linear, l), sys->model->loads[l].harmonic, 1);
+  drop_means(sys, dR);
 }
 
 double hbm_system_scale(const hbm_system *sys, double omega)
 {
-  const model *m = sys->model;
-  double sum = fabs(m->stiffness * sys->X[0]), force = fabs(sys->F[0]);
-  for (int h = 1; h <= sys->n_harm; ++h) {
-    double z = m->stiffness + m->mass * h * h * omega * omega + damping(sys) * h * omega;
-    sum += z * hypot(sys->X[2 * h - 1], sys->X[2 * h]);
-    force += hypot(sys->F[2 * h - 1], sys->F[2 * h]);
+  const int dim = sys->dim;
+  double sum = 0, force = 0;
+  if (condensation_at(sys->linear, omega, sys->more_damping) != HC_OK) return NAN;
+  for (int h = 0; h <= sys->n_harm; ++h) {
+    const double *size = condensation_sizes(sys->linear, h), *a = sys->X + cosines(sys, h),
+                 *b = sys->X + sines(sys, h), *fa = sys->F + cosines(sys, h), *fb = sys->F + sines(sys, h);
+    for (int e = 0; e < dim; ++e) {
+      const double x = h ? hypot(a[e], b[e]) : fabs(a[e]);
+      for (int d = 0; d < dim; ++d) sum += size[(size_t)e * (size_t)dim + (size_t)d] * x;
+      force += h ? hypot(fa[e], fb[e]) : fabs(fa[e]);
+    }
   }
-  return sum + force + sys->force_factor * m->force;
+  for (int l = 0; l < sys->model->n_loads; ++l)
+    for (int d = 0; d < dim; ++d) force += sys->force_factor * cabs(condensation_load(sys->linear, l)[d]);
+  return sum + force;
 }

@@ -45,12 +45,12 @@ static guard make_guard(const scan *w, int order, double of_u, double of_v, doub
 static void make_guards(scan *w)
 {
   const contact *law = &w->c->law;
-  double friction = law->mu * law->kn;
-  w->normal = make_guard(w, 0, 0, 1, law->gap);
-  w->friction = friction > 0 && law->kt > 0;
+  const double friction = law->mu * law->kn, always_closed = 1;
+  w->normal = make_guard(w, 0, 0, law->load > 0 ? 0 : 1, law->load > 0 ? always_closed : law->gap);
+  w->friction = contact_has_friction(law);
   if (!w->friction) return;
   for (int s = 1; s >= -1; s -= 2) {
-    w->stick[sign_index(s)] = make_guard(w, 0, -s * law->kt, friction, friction * law->gap);
+    w->stick[sign_index(s)] = make_guard(w, 0, -s * law->kt, friction, friction * law->gap + law->mu * law->load);
     w->slip[sign_index(s)] = make_guard(w, 1, s * law->kt, -friction, 0);
   }
 }
@@ -271,7 +271,7 @@ hc_status transitions_find(const series_grid *grid, const moving_contact *c, int
 {
   scan w = {.grid = grid, .c = c, .piece = piece, .cap = cap};
   *n = 0;
-  if (!(c->law.kn > 0)) return HC_OK;
+  if (!(c->law.kn > 0 || c->law.load > 0)) return HC_OK;
   make_guards(&w);
   bool finite = !w.friction || isfinite(guard_scale(&w.stick[0]) + guard_scale(&w.slip[0]));
   if (!finite) return HC_NOT_FINITE;

@@ -4,7 +4,7 @@
  * Every guard of the contact law (model/contact_law.h) is linear in the motion, so it is a trigonometric polynomial
  * f(th) plus a constant:
  *     contact   g   = v + gap                                                separation where g falls through 0
- *     stick(s)  q_s = mu kn (v + gap) - s (kt u - held),   held = kt w       slip(s) where q_s falls through 0
+ *     stick(s)  q_s = mu N - s (kt u - held),   held = kt w                  slip(s) where q_s falls through 0
  *     slip(s)   r_s = s kt u' - mu kn v'                                     stick where r_s falls through 0
  *
  * A crossing is searched between neighbouring angles of a grid. No crossing is missed, double roots (grazing)
@@ -14,14 +14,8 @@
 #define HC_TRANSITIONS_H
 
 #include "base/status.h"
-#include "model/contact_law.h"
+#include "hbm/moving_contact.h"
 #include "numerics/series_grid.h"
-
-/* A contact and how the coordinates move it: u = sum cu[d] x_d, v = sum cv[d] x_d. */
-typedef struct moving_contact {
-  contact law;
-  double cu[SERIES_MAX_DIM], cv[SERIES_MAX_DIM];
-} moving_contact;
 
 /* A stretch of the period in one state. */
 typedef struct contact_piece {

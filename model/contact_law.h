@@ -2,7 +2,7 @@
  * vanish. Written in the tangential motion u(t) and the normal motion v(t) [length]; how they come from the degrees
  * of freedom is the caller's business. Needs libm only, allocates nothing, keeps no state, cannot fail.
  *
- *     N = max(kn (v + gap), 0)        N0 = max(kn gap, 0)
+ *     N = max(kn (v + gap), 0) + load     N0 = max(kn gap, 0) + load     load = 0 where kn > 0
  *     stick      T = kt (u - w), |T| <= mu N, w constant
  *     slip(s)    T = s mu N, s = +1 or -1, w = u - s mu N / kt
  *     separated  T = 0, N = 0, w = u
@@ -20,6 +20,7 @@ typedef struct contact {
   double kn;  /* [force/length] >= 0, normal stiffness */
   double mu;  /* [1] >= 0, friction coefficient */
   double gap; /* [length] > 0: preload N0 = kn gap; < 0: clearance */
+  double load; /* [force] >= 0, N of a contact without a normal spring (kn = 0): a Jenkins element */
 } contact;
 
 typedef enum contact_state { CONTACT_SEPARATED, CONTACT_STICK, CONTACT_SLIP_PLUS, CONTACT_SLIP_MINUS } contact_state;
@@ -30,16 +31,19 @@ typedef enum contact_regime { CONTACT_LINEAR, CONTACT_STUCK, CONTACT_SLIPS, CONT
 const char *contact_regime_name(contact_regime regime); /* "linear", "stick", "slip", "separation" */
 
 /* Can it resist a tangential motion? Without friction T = 0, and there is no slider. */
-static inline bool contact_has_friction(const contact *c) { return c->kt > 0 && c->kn > 0 && c->mu > 0; }
+static inline bool contact_has_friction(const contact *c)
+{
+  return c->kt > 0 && (c->kn > 0 || c->load > 0) && c->mu > 0;
+}
 
-/* Static normal force [force]. */
+/* Static force [force] of the normal spring: N0 without `load`, which does not change and moves nothing. */
 static inline double contact_preload(const contact *c) { return c->gap > 0 ? c->kn * c->gap : 0.0; }
 
 /* Normal force [force] at normal motion v. */
 static inline double contact_normal(const contact *c, double v)
 {
   double g = v + c->gap;
-  return g > 0 ? c->kn * g : 0.0;
+  return (g > 0 ? c->kn * g : 0.0) + c->load;
 }
 
 /* +1 while slipping forward, -1 backward, 0 otherwise. */
@@ -49,7 +53,7 @@ static inline int contact_slip_sign(contact_state st) { return (st == CONTACT_SL
  * a million times the forcing that would be rounding error only. */
 static inline double contact_normal_change(const contact *c, double v)
 {
-  if (!(c->gap > 0)) return contact_normal(c, v);
+  if (!(c->gap > 0)) return v + c->gap > 0 ? c->kn * (v + c->gap) : 0.0;
   return v + c->gap > 0 ? c->kn * v : -contact_preload(c);
 }
 

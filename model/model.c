@@ -79,9 +79,21 @@ hc_status model_copy(const model *m, model **out)
   hc_status st = model_new(m->n, m->n_loads, m->n_contacts, m->n_responses, out);
   if (st != HC_OK) return st;
   model *copy = *out;
-  memcpy(copy->numbers, m->numbers, block_length(m) * sizeof *m->numbers);
-  for (int i = 0; i < m->n_loads; ++i) copy->loads[i].harmonic = m->loads[i].harmonic;
-  for (int j = 0; j < m->n_contacts; ++j) copy->contacts[j].law = m->contacts[j].law;
+  const size_t vector = (size_t)m->n * sizeof(double), matrix = (size_t)m->n * vector;
+  memcpy(copy->mass, m->mass, matrix);
+  memcpy(copy->damping, m->damping, matrix);
+  memcpy(copy->stiffness, m->stiffness, matrix);
+  for (int i = 0; i < m->n_loads; ++i) {
+    copy->loads[i].harmonic = m->loads[i].harmonic;
+    memcpy(copy->loads[i].cosine, m->loads[i].cosine, vector);
+    memcpy(copy->loads[i].sine, m->loads[i].sine, vector);
+  }
+  for (int j = 0; j < m->n_contacts; ++j) {
+    copy->contacts[j].law = m->contacts[j].law;
+    memcpy(copy->contacts[j].tangent, m->contacts[j].tangent, vector);
+    memcpy(copy->contacts[j].normal, m->contacts[j].normal, vector);
+  }
+  memcpy(copy->responses, m->responses, (size_t)m->n_responses * vector);
   return HC_OK;
 }
 

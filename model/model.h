@@ -37,7 +37,7 @@ typedef struct model {
   model_contact *contacts; /* [n_contacts] */
   int n_responses;
   double *responses; /* [n_responses][n] [1] */
-  double *numbers;   /* the block that all vectors and matrices are in */
+  double *numbers;   /* of model_new, the block that all vectors and matrices are in */
 } model;
 
 /* A model of that size with everything 0, to fill in and to free with model_free. HC_BAD_INPUT for n < 1 or any other

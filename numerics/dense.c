@@ -46,6 +46,14 @@ hc_status dense_modes(int n, const double *K, const double *M, double *lambda, d
   return st;
 }
 
+/* a/|a|, or 0. */
+static void copy_unit(int n, const double *a, double *unit)
+{
+  double sum = 0;
+  for (int i = 0; i < n; ++i) sum += a[i] * a[i];
+  for (int i = 0; i < n; ++i) unit[i] = sum > 0 ? a[i] / sqrt(sum) : 0;
+}
+
 /* QR with column pivoting of A[rows][n] in place; then tau[], the pivots from 0, and how many diagonal entries of R
  * count. */
 static hc_status pivoted_qr(int n, int rows, double *A, double tolerance, int *pivot, double *tau, double *work,
@@ -70,7 +78,7 @@ hc_status dense_span(int n, int rows, const double *const *row, double tolerance
          *work = calloc((size_t)work_length, sizeof *work);
   int info = 0;
   hc_status st = A && tau && work ? HC_OK : HC_NO_MEMORY;
-  for (int i = 0; i < rows && st == HC_OK; ++i) memcpy(A + (size_t)i * (size_t)n, row[i], (size_t)n * sizeof *A);
+  for (int i = 0; i < rows && st == HC_OK; ++i) copy_unit(n, row[i], A + (size_t)i * (size_t)n);
   if (st == HC_OK) st = pivoted_qr(n, rows, A, tolerance, pivot, tau, work, work_length, rank);
   if (st == HC_OK) {
     for (int c = 0; c < *rank; ++c)

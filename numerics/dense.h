@@ -16,7 +16,7 @@ hc_status dense_modes(int n, const double *K, const double *M, double *lambda, d
 /* Which of `rows` vectors row_i[n] span what all of them span, and what they leave out: pivot[0..rank-1] are their
  * numbers, a choice that is as independent as it easily can be; basis[n][n] is orthonormal, its first `rank` columns
  * span the same as the vectors, the others what is orthogonal to them all. triangle[rank][rank], upper: the chosen
- * vectors are basis triangle. A vector counts as dependent within `tolerance` of the longest.
+ * vectors, made as long as 1, are basis triangle. One counts as dependent where no more than `tolerance` of it is new.
  * row[i] is vector i; triangle has room for [rows][rows], at most n wide. HC_NO_MEMORY. */
 hc_status dense_span(int n, int rows, const double *const *row, double tolerance, int *rank, int *pivot, double *basis,
                      double *triangle);

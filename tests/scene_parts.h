@@ -17,8 +17,8 @@ static inline void scene_direction(const scene_contact *c, double *tangent, doub
 
 static inline double scene_stuck_stiffness(const scene_contact *c)
 {
-  const model_contact with = scene_model_contact(c);
-  return model_stuck_stiffness(&with);
+  const moving_contact with = scene_moving_contact(c);
+  return moving_contact_stuck_stiffness(&with);
 }
 
 /* The model of a scene with one contact, of stiffness k, as n equal contacts of stiffness k/n. To free with
@@ -27,10 +27,10 @@ static inline model *scene_split_model(const scene *sc, int n)
 {
   model *m;
   assert_int_equal(sc->n_contacts, 1);
-  assert_int_equal(model_new(n, &m), HC_OK);
-  m->mass = sc->mass, m->damping = sc->damping, m->stiffness = sc->stiffness, m->force = sc->force;
+  assert_int_equal(model_oscillator(sc->mass, sc->damping, sc->stiffness, sc->force, n, &m), HC_OK);
   for (int j = 0; j < n; ++j) {
-    m->contacts[j] = scene_model_contact(&sc->contacts[0]);
+    m->contacts[j].law = sc->contacts[0].law;
+    scene_direction(&sc->contacts[0], m->contacts[j].tangent, m->contacts[j].normal);
     m->contacts[j].law.kt /= n;
     m->contacts[j].law.kn /= n;
   }

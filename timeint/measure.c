@@ -195,7 +195,7 @@ hc_status measure_step(void *self, const integrator *in, double theta0, double t
 /* The strongest thing contact c does while its motion covers [min, max]. */
 static contact_regime regime_of(const model_contact *c, double min, double max, bool slips)
 {
-  const double sine = c->normal;
+  const double sine = *c->normal;
   if (!(c->law.kn > 0) || !(sine * max + c->law.gap > 0)) return CONTACT_LINEAR; /* never touched */
   if (sine * min + c->law.gap < 0) return CONTACT_SEPARATES;
   return slips ? CONTACT_SLIPS : CONTACT_STUCK;

@@ -9,18 +9,18 @@
 static double corner_width(const model *m, const transient_settings *how, const contact *law)
 {
   if (how->law == TRANSIENT_LAW_EXACT) return 0;
-  double length = fabs(m->force) / model_max_stiffness(m);
+  double length = fabs(model_force(m)) / model_max_stiffness(m);
   return how->regularisation * fmax(fabs(law->gap), length);
 }
 
 static void make_contact(scaled_contact *sc, const model *m, const transient_settings *how, const model_contact *from,
                          double omega, double length)
 {
-  const double unit = m->mass * omega * omega; /* [force/length] */
+  const double unit = *m->mass * omega * omega; /* [force/length] */
   contact law = {
       .kt = from->law.kt / unit, .kn = from->law.kn / unit, .mu = from->law.mu, .gap = from->law.gap / length};
-  sc->cosine = from->tangent;
-  sc->sine = from->normal;
+  sc->cosine = *from->tangent;
+  sc->sine = *from->normal;
   if (sc->cosine == 0) law.kt = 0; /* u = 0 always: the tangential spring does no work */
   sc->law = law_regularised_make(&law, corner_width(m, how, &from->law) / length, how->regularisation);
   sc->preload = contact_preload(&law);
@@ -30,9 +30,9 @@ void scaled_make(scaled_model *m, const model *from, const transient_settings *h
 {
   m->n_contacts = from->n_contacts;
   m->n_states = SCALED_W + from->n_contacts;
-  m->k = from->stiffness / (from->mass * omega * omega);
-  m->c = from->damping / (from->mass * omega);
-  m->f = from->force / (from->mass * omega * omega * length);
+  m->k = *from->stiffness / (*from->mass * omega * omega);
+  m->c = *from->damping / (*from->mass * omega);
+  m->f = model_force(from) / (*from->mass * omega * omega * length);
   for (int j = 0; j < from->n_contacts; ++j) make_contact(&m->contact[j], from, how, &from->contacts[j], omega, length);
 }
 

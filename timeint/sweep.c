@@ -92,7 +92,7 @@ static hc_status settle_by_marching(timeint *ti, const hc_monitor *monitor, doub
 /* Half the width of a linear resonance at half its power, relative to omega. */
 static double half_width(const timeint *ti)
 {
-  return fmax(0.5 * ti->model->damping / (ti->model->mass * ti->omega), 1e-6);
+  return fmax(0.5 * *ti->model->damping / (*ti->model->mass * ti->omega), 1e-6);
 }
 
 static double least_step(const timeint *ti) { return fmin(smallest_step, 0.1 * half_width(ti)); }

@@ -22,12 +22,14 @@ static bool not_negative(double a) { return a >= 0 && a <= DBL_MAX; }
 static bool contact_ok(const model_contact *c)
 {
   return not_negative(c->law.kt) && not_negative(c->law.kn) && not_negative(c->law.mu) && isfinite(c->law.gap) &&
-         isfinite(c->tangent) && isfinite(c->normal);
+         isfinite(*c->tangent) && isfinite(*c->normal);
 }
 
 static hc_status check_input(const model *m, const transient_settings *how)
 {
-  if (!positive(m->mass) || !not_negative(m->damping) || !not_negative(m->stiffness) || !isfinite(m->force))
+  if (!model_is_oscillator(m)) return HC_UNSUPPORTED;
+  const bool inert = positive(*m->mass) && not_negative(*m->damping);
+  if (!inert || !not_negative(*m->stiffness) || !isfinite(model_force(m)))
     return HC_BAD_INPUT;
   for (int j = 0; j < m->n_contacts; ++j)
     if (!contact_ok(&m->contacts[j])) return HC_BAD_INPUT;
@@ -140,13 +142,13 @@ hc_status timeint_begin(timeint *ti, double omega, const double *state)
   const model *m = ti->model;
   if (!positive(omega) || !state_ok(ti, state)) return HC_BAD_INPUT;
   ti->omega = omega;
-  ti->contraction = exp(-pi * m->damping / (m->mass * omega));
+  ti->contraction = exp(-pi * *m->damping / (*m->mass * omega));
   ti->periods = 0;
   ti->steps0 = integrate_steps(ti->in);
   ti->rhs0 = integrate_rhs(ti->in);
   /* No response is smaller than the force over the sum of all that resists it, but at an antiresonance, and a single
    * mass has none. */
-  ti->least_length = fabs(m->force) / (model_max_stiffness(m) + m->mass * omega * omega + m->damping * omega);
+  ti->least_length = fabs(model_force(m)) / (model_max_stiffness(m) + *m->mass * omega * omega + *m->damping * omega);
   double length = fmax(ti->least_length, hypot(state[TIMEINT_X], state[TIMEINT_V] / omega));
   if (!(length > 0)) length = any_length(m);
   if (!(ti->least_length > 0)) ti->least_length = length;
@@ -201,7 +203,7 @@ double timeint_motion_size(const timeint *ti) { return fmax(timeint_size(ti), ti
 void timeint_point(const timeint *ti, double *z)
 {
   const scaled_model *m = &ti->scaled;
-  const double stiffest = model_max_stiffness(ti->model) / (ti->model->mass * ti->omega * ti->omega);
+  const double stiffest = model_max_stiffness(ti->model) / (*ti->model->mass * ti->omega * ti->omega);
   z[SCALED_X] = ti->y[SCALED_X] * ti->length;
   z[SCALED_P] = ti->y[SCALED_P] * ti->length;
   for (int j = 0; j < m->n_contacts; ++j) {

@@ -52,8 +52,8 @@ static void fill(arguments *a, const char *python, const scene *sc, const bench_
   for (size_t i = 0; i < sizeof head / sizeof *head; ++i) add(a, head[i]);
   for (int j = 0; j < sc->n_contacts; ++j) {
     const contact *law = &sc->contacts[j].law;
-    const model_contact c = scene_model_contact(&sc->contacts[j]);
-    const double own[] = {at->state.w[j], law->kt, law->kn, law->mu, law->gap, c.tangent, c.normal};
+    const moving_contact c = scene_moving_contact(&sc->contacts[j]);
+    const double own[] = {at->state.w[j], law->kt, law->kn, law->mu, law->gap, c.cu[0], c.cv[0]};
     for (size_t i = 0; i < sizeof own / sizeof *own; ++i) add(a, own[i]);
   }
 }

@@ -26,8 +26,8 @@ static void make_motion(const scene *sc, double *X)
   double reach = 0;
   memset(X, 0, STRESS_COEFFICIENTS * sizeof *X);
   for (int j = 0; j < sc->n_contacts; ++j) {
-    const model_contact c = scene_model_contact(&sc->contacts[j]);
-    reach = fmax(reach, fabs(c.law.gap) / fmax(c.normal, 0.05));
+    const moving_contact c = scene_moving_contact(&sc->contacts[j]);
+    reach = fmax(reach, fabs(c.law.gap) / fmax(c.cv[0], 0.05));
   }
   if (reach == 0) reach = 1;
   X[0] = 0.1 * reach;
@@ -67,8 +67,8 @@ static double stiffness(const scene *sc)
 {
   double k = 0;
   for (int j = 0; j < sc->n_contacts; ++j) {
-    const model_contact c = scene_model_contact(&sc->contacts[j]);
-    k += model_stuck_stiffness(&c) + c.law.mu * c.law.kn * c.normal * c.tangent;
+    const moving_contact c = scene_moving_contact(&sc->contacts[j]);
+    k += moving_contact_stuck_stiffness(&c) + c.law.mu * c.law.kn * c.cv[0] * c.cu[0];
   }
   return k;
 }
@@ -77,8 +77,8 @@ static double preload(const scene *sc)
 {
   double sum = 0;
   for (int j = 0; j < sc->n_contacts; ++j) {
-    const model_contact c = scene_model_contact(&sc->contacts[j]);
-    sum += fabs(c.law.gap) * c.law.kn * (c.normal + c.law.mu * c.tangent);
+    const moving_contact c = scene_moving_contact(&sc->contacts[j]);
+    sum += fabs(c.law.gap) * c.law.kn * (c.cv[0] + c.law.mu * c.cu[0]);
   }
   return sum;
 }

@@ -26,10 +26,10 @@ static const contact_piece *piece_at(const contact_piece *p, int n, double th)
 }
 
 /* The exact law, from the pieces that exact_force.h found: sticking, T = kt u - held; slipping, T = +-mu N. */
-static void compute_history(const model_contact *c, int n_harm, const double *X, const contact_piece *pieces, int n,
+static void compute_history(const moving_contact *c, int n_harm, const double *X, const contact_piece *pieces, int n,
                             contact_history *out)
 {
-  const double cosine = c->tangent, sine = c->normal;
+  const double cosine = c->cu[0], sine = c->cv[0];
   for (int i = 0; i <= POINTS; ++i) {
     double th = TWO_PI * i / POINTS, x = series_at(n_harm, X, cos(th), sin(th)).x;
     const contact_piece *p = piece_at(pieces, n, th);
@@ -130,7 +130,7 @@ static hc_status write_contacts(figure *g, const scene *sc, int n, int n_harm, c
   if (st == HC_OK) st = exact_force_eval(e, X, F, NULL, NULL);
   for (int j = 0, pieces; j < n && st == HC_OK; ++j) {
     const contact_piece *p = exact_force_pieces(e, j, &pieces);
-    const model_contact c = scene_model_contact(&sc->contacts[j]);
+    const moving_contact c = scene_moving_contact(&sc->contacts[j]);
     compute_history(&c, n_harm, X, p, pieces, w);
     for (int k = 0; k < N_PHASES; ++k) there[j][k] = write_phase(g, w, j, k);
     widen_to_closed(closed, w);

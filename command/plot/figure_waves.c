@@ -25,8 +25,8 @@ static void write_wave(figure *g, int n, const timeint_result *r)
 /* Where contact j closes, if the motions pass there: x sin(alpha) + gap = 0. */
 static bool closes_at(const scene *sc, int j, double low, double high, double *x)
 {
-  const model_contact c = scene_model_contact(&sc->contacts[j]);
-  *x = c.normal > 0 ? -c.law.gap / c.normal : NAN;
+  const moving_contact c = scene_moving_contact(&sc->contacts[j]);
+  *x = c.cv[0] > 0 ? -c.law.gap / c.cv[0] : NAN;
   return *x >= low && *x <= high;
 }
 

@@ -91,9 +91,9 @@ static void grid_close(fine_grid *g)
 /* ---- the true harmonics ---------------------------------------------------------------------- */
 
 /* Force of one contact at the angle th, from its pieces. */
-static double contact_at(const model_contact *c, int n, const contact_piece *p, double th, double x)
+static double contact_at(const moving_contact *c, int n, const contact_piece *p, double th, double x)
 {
-  const double u = c->tangent * x, v = c->normal * x, normal = contact_normal(&c->law, v);
+  const double u = c->cu[0] * x, v = c->cv[0] * x, normal = contact_normal(&c->law, v);
   double tangential = 0;
   for (int i = 0; i < n; ++i) {
     double at = th < p[i].from ? th + TWO_PI : th;
@@ -101,7 +101,7 @@ static double contact_at(const model_contact *c, int n, const contact_piece *p, 
     int s = contact_slip_sign(p[i].state);
     tangential = s ? s * c->law.mu * normal : c->law.kt * u - p[i].held;
   }
-  return c->tangent * tangential + c->normal * (normal - contact_preload(&c->law));
+  return c->cu[0] * tangential + c->cv[0] * (normal - contact_preload(&c->law));
 }
 
 /* The force at FINE times, from the pieces of the exact evaluation, and its harmonics: by closed forms up to
@@ -109,8 +109,8 @@ static double contact_at(const model_contact *c, int n, const contact_piece *p, 
 static hc_status find_true_harmonics(force_workspace *w)
 {
   double X[MOST_COEF] = {0}, F[MOST_COEF];
-  model_contact contacts[SCENE_MAX_CONTACTS];
-  for (int j = 0; j < w->sc.n_contacts; ++j) contacts[j] = scene_model_contact(&w->sc.contacts[j]);
+  moving_contact contacts[SCENE_MAX_CONTACTS];
+  for (int j = 0; j < w->sc.n_contacts; ++j) contacts[j] = scene_moving_contact(&w->sc.contacts[j]);
   memcpy(X, w->X, (size_t)(2 * w->n_harm + 1) * sizeof *X);
   hc_status st = exact_force_eval(w->fine, X, F, NULL, NULL);
   if (st != HC_OK) return st;

@@ -111,7 +111,7 @@ static bool climb(const compare_setup *setup, climber *c, double omega, referenc
 {
   const double low = fmin(setup->omega_from, setup->omega_to), high = fmax(setup->omega_from, setup->omega_to);
   const model *m = setup->model;
-  const double width = fmin(m->damping > 0 ? m->damping / (2 * m->mass) : omega, 0.1 * omega);
+  const double width = fmin(*m->damping > 0 ? *m->damping / (2 * *m->mass) : omega, 0.1 * omega);
   double d = 0.02 * width, f[3] = {NAN, NAN, NAN};
   if (minus_amplitude(c, omega, &f[1]) != HC_OK) return false;
   root_point peak;

@@ -9,7 +9,7 @@
 
 static const double close_omegas = 0.1; /* [1] a step that Newton may take in one go */
 
-compare_setup verify_setup(const compare_setup *setup, const verify_equations *e, model *linear)
+compare_setup verify_setup(const compare_setup *setup, const verify_equations *e, model *linear, double *stiffness)
 {
   const model *m = setup->model;
   compare_setup own = *setup;
@@ -20,8 +20,10 @@ compare_setup verify_setup(const compare_setup *setup, const verify_equations *e
   own.hbm.restart = e->restart;
   own.hbm.continuation = HBM_CONTINUATION_AUTO;
   if (e->contact == VERIFY_CONTACT_AS_IT_IS) return own;
-  *linear = (model){.mass = m->mass, .damping = m->damping, .stiffness = m->stiffness, .force = m->force};
-  if (e->contact == VERIFY_CONTACT_STUCK) linear->stiffness = model_max_stiffness(m);
+  *linear = *m; /* its vectors are m's */
+  linear->n_contacts = 0;
+  *stiffness = e->contact == VERIFY_CONTACT_STUCK ? model_max_stiffness(m) : *m->stiffness;
+  linear->stiffness = stiffness;
   own.model = linear;
   return own;
 }
@@ -119,7 +121,8 @@ hc_status verify_solutions_of(const compare_setup *setup, const verify_equations
                               verify_solutions *out)
 {
   model linear;
-  const compare_setup own = verify_setup(setup, e, &linear);
+  double stiffness;
+  const compare_setup own = verify_setup(setup, e, &linear, &stiffness);
   hbm_solver *hbm = NULL;
   hbm_curve curve = {0};
   hc_status st = start(out, asked, n, 2 * e->harmonics + 1);
@@ -156,7 +159,8 @@ hc_status verify_solutions_near(const compare_setup *setup, const verify_equatio
                                 const double *omega, verify_solutions *out)
 {
   model linear;
-  const compare_setup own = verify_setup(setup, e, &linear);
+  double stiffness;
+  const compare_setup own = verify_setup(setup, e, &linear, &stiffness);
   hbm_solver *hbm = NULL;
   double *X = malloc((size_t)near->n_coef * sizeof *X);
   hc_status st = start(out, &near->asked, near->n, near->n_coef);

@@ -27,8 +27,9 @@ typedef struct verify_solutions {
   double *X;           /* [count][n_coef] */
 } verify_solutions;
 
-/* *setup with these equations for its own. Without contact, or with all of it stuck, its model is *linear. */
-compare_setup verify_setup(const compare_setup *setup, const verify_equations *e, model *linear);
+/* *setup with these equations for its own. Without contact, or with all of it stuck, its model is *linear
+ * with that stiffness. */
+compare_setup verify_setup(const compare_setup *setup, const verify_equations *e, model *linear, double *stiffness);
 
 /* Along their response curve from `from` to `to`, as far as it comes. A solution that is not found is none.
  * HC_INTERRUPTED, HC_NO_MEMORY, or why there are no such equations. */

@@ -74,7 +74,7 @@ static bool mean_is_free(const model *m, const contact_report *r)
   bool held = false;
   for (int j = 0; j < m->n_contacts; ++j) {
     const contact *c = &m->contacts[j].law;
-    held |= c->kt > 0 && c->mu > 0 && m->contacts[j].tangent != 0;
+    held |= c->kt > 0 && c->mu > 0 && *m->contacts[j].tangent != 0;
   }
   return held && r->regime == CONTACT_STUCK;
 }
@@ -236,7 +236,8 @@ static hc_status with_harmonics(truth *t, int harmonics)
 {
   const verify_equations e = {.keep_mean = true, .harmonics = harmonics};
   model linear;
-  const compare_setup own = verify_setup(t->setup, &e, &linear);
+  double stiffness;
+  const compare_setup own = verify_setup(t->setup, &e, &linear, &stiffness);
   hbm_curve_free(&t->curve);
   t->curve = (hbm_curve){0};
   hbm_solver_free(t->hbm);

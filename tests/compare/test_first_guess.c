@@ -20,7 +20,7 @@ typedef struct oracle {
 static hc_status ask(void *self, const model *m, double omega, int n_harm, const hc_monitor *monitor, double *X)
 {
   oracle *o = self;
-  assert_true(m->mass > 0 && omega > 0 && n_harm > 0);
+  assert_true(*m->mass > 0 && omega > 0 && n_harm > 0);
   (void)monitor;
   ++o->asked;
   if (o->answer == HC_OK) memcpy(X, o->X, (size_t)(2 * n_harm + 1) * sizeof *X);

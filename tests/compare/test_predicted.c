@@ -39,7 +39,8 @@ hc_status __wrap_hbm_solver_new(const model *m, const hbm_settings *how, hbm_sol
 hc_status __wrap_hbm_solver_new(const model *m, const hbm_settings *how, hbm_solver **out)
 {
   model wrong = *m;
-  wrong.damping *= 1 + damping_error;
+  double damping = *m->damping * (1 + damping_error);
+  wrong.damping = &damping;
   return __real_hbm_solver_new(&wrong, how, out);
 }
 

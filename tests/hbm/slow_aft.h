@@ -123,8 +123,10 @@ static inline scene random_contacts(uint64_t *seed, int n_contacts)
   scene sc = {.mass = 1, .stiffness = 1, .n_contacts = n_contacts};
   for (int j = 0; j < n_contacts; ++j) {
     double pick = random_signed(seed);
-    contact law = {pow(10, 1.5 * random_signed(seed)), pow(10, 1.5 * random_signed(seed)),
-                   0.5 + 0.5 * random_signed(seed), random_signed(seed)};
+    contact law = {.kt = pow(10, 1.5 * random_signed(seed))};
+    law.kn = pow(10, 1.5 * random_signed(seed));
+    law.mu = 0.5 + 0.5 * random_signed(seed);
+    law.gap = random_signed(seed);
     if (pick < -0.9) law.mu = 0;
     if (pick > 0.9) law.kt = 0;
     sc.contacts[j] = (scene_contact){law, angles[(int)(2.999999 * (1 + random_signed(seed)))]};

@@ -29,7 +29,7 @@ static double kink_error(int h, int n_time, double J1, double J)
 static scene one_contact(double kt, double kn, double mu, double gap, double angle_deg)
 {
   scene sc = {.mass = 1, .stiffness = 1, .n_contacts = 1};
-  sc.contacts[0] = (scene_contact){{kt, kn, mu, gap}, angle_deg};
+  sc.contacts[0] = (scene_contact){{.kt = kt, .kn = kn, .mu = mu, .gap = gap}, angle_deg};
   return sc;
 }
 

@@ -191,7 +191,7 @@ static void either_ramp_ends_on_a_solution(void **state)
     for (int kind = HBM_RAMP_DAMPING; kind <= HBM_RAMP_FORCE; ++kind) {
       if (kind == HBM_RAMP_FORCE && has_no_gap(&refused[i])) continue;
       hbm_solver *s = solver_of(&refused[i]);
-      const hbm_ramp ramp = hbm_ramp_of((hbm_ramp_kind)kind, s->model, refused[i].omega);
+      const hbm_ramp ramp = hbm_ramp_of((hbm_ramp_kind)kind, &s->sys, refused[i].omega);
       hbm_curve curve = {0};
       s->ramp = &ramp;
       hc_status st = hbm_trace(s, ramp.from, 1, NULL, &curve);
@@ -212,7 +212,7 @@ static void derivative_along_a_ramp(void **state)
   const double X[5] = {-0.1, 2, -3, 0.6, 0.8};
   hbm_solver *s = solver_of(r);
   for (int kind = HBM_RAMP_DAMPING; kind <= HBM_RAMP_FORCE; ++kind) {
-    const hbm_ramp ramp = hbm_ramp_of((hbm_ramp_kind)kind, s->model, r->omega);
+    const hbm_ramp ramp = hbm_ramp_of((hbm_ramp_kind)kind, &s->sys, r->omega);
     double before[5], after[5], dR[5], largest = 0;
     hbm_ramp_set(&ramp, places[kind] - h, &s->sys);
     assert_int_equal(hbm_system_residual(&s->sys, r->omega, X, before), HC_OK);
@@ -237,7 +237,7 @@ static void a_ramp_ends_at_the_model(void **state)
   (void)state;
   hbm_solver *s = solver_of(&refused[0]);
   for (int kind = HBM_RAMP_DAMPING; kind <= HBM_RAMP_FORCE; ++kind) {
-    const hbm_ramp ramp = hbm_ramp_of((hbm_ramp_kind)kind, s->model, refused[0].omega);
+    const hbm_ramp ramp = hbm_ramp_of((hbm_ramp_kind)kind, &s->sys, refused[0].omega);
     hbm_ramp_set(&ramp, 1, &s->sys);
     assert_true(s->sys.more_damping == 0 && s->sys.force_factor == 1);
     hbm_ramp_set(&ramp, ramp.from, &s->sys);

@@ -19,12 +19,12 @@ static scene exact_scene(const char *name, int n_harm)
 /* Number of pieces of contact that the solution X consists of. */
 static int pieces_of(hbm_solver *s, const double *X)
 {
-  const exact_force *e;
+  const contact_forces *e;
   contact_report report;
   int sum = 0;
   assert_int_equal(hbm_located_orbit(s, X, &e, &report), HC_OK);
   for (int j = 0, n; j < s->model->n_contacts; ++j) {
-    exact_force_pieces(e, j, &n);
+    contact_forces_pieces(e, j, &n);
     sum += n;
   }
   return sum;

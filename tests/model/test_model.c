@@ -15,11 +15,10 @@ enum { H = 5, N_COEF = 2 * H + 1, MANY = 40 };
 static model *case_2_in_parts(int n)
 {
   model *m;
-  assert_int_equal(model_new(n, &m), HC_OK);
-  m->mass = 1, m->damping = 0.4, m->stiffness = 40, m->force = 100;
+  assert_int_equal(model_oscillator(1, 0.4, 40, 100, n, &m), HC_OK);
   for (int j = 0; j < n; ++j) {
     m->contacts[j].law = (contact){.kt = 100.0 / n, .kn = 1000.0 / n, .mu = 0.3, .gap = -5};
-    model_direction(45, &m->contacts[j].tangent, &m->contacts[j].normal);
+    model_direction(45, m->contacts[j].tangent, m->contacts[j].normal);
   }
   return m;
 }
@@ -29,20 +28,27 @@ static void a_copy_is_its_own(void **state)
   (void)state;
   model *m = case_2_in_parts(3), *copy;
   assert_int_equal(model_copy(m, &copy), HC_OK);
-  assert_true(copy->contacts != m->contacts && copy->n_contacts == 3 && copy->mass == 1 && copy->force == 100);
-  assert_memory_equal(copy->contacts, m->contacts, 3 * sizeof *m->contacts);
+  assert_true(copy->contacts != m->contacts && copy->n_contacts == 3 && *copy->mass == 1 && model_force(copy) == 100);
+  for (int j = 0; j < 3; ++j) {
+    const model_contact *a = &m->contacts[j], *b = &copy->contacts[j];
+    assert_true(b->tangent != a->tangent && *b->tangent == *a->tangent && *b->normal == *a->normal);
+    assert_memory_equal(&b->law, &a->law, sizeof a->law);
+  }
   m->contacts[1].law.gap = 7;
   model_free(m);
   assert_true(copy->contacts[1].law.gap == -5);
   model_free(copy);
-  assert_int_equal(model_new(0, &m), HC_OK);
+  assert_int_equal(model_new(2, 0, 0, 0, &m), HC_OK);
   assert_int_equal(model_copy(m, &copy), HC_OK);
-  assert_true(copy->n_contacts == 0 && copy->contacts == NULL);
+  assert_true(copy->n_contacts == 0 && copy->n == 2 && copy->stiffness[3] == 0);
   model_free(copy);
   model_free(m);
   model_free(NULL);
-  assert_int_equal(model_new(-1, &m), HC_BAD_INPUT);
-  assert_null(m);
+  const int wrong[][4] = {{0, 1, 1, 1}, {1, -1, 1, 1}, {1, 1, -1, 1}, {1, 1, 1, -1}};
+  for (int i = 0; i < 4; ++i) {
+    assert_int_equal(model_new(wrong[i][0], wrong[i][1], wrong[i][2], wrong[i][3], &m), HC_BAD_INPUT);
+    assert_null(m);
+  }
 }
 
 /* kt c^2 + kn s^2, all contacts and K: (100 + 1000)/2 + 40, each of MANY terms rounded a few times. */
@@ -70,7 +76,7 @@ static void forces_of_many_are_those_of_one(void **state)
     exact_force_sliders(e, w);
     for (int j = 1; j < m->n_contacts; ++j) assert_true(w[j] == w[0]);
     assert_int_equal(report.transitions, 2 * m->n_contacts);
-    assert_int_equal(aft_new(m, HBM_RESTART_INTERPOLATED, H, 256, &a), HC_OK);
+    assert_int_equal(aft_new_of_model(m, HBM_RESTART_INTERPOLATED, H, 256, &a), HC_OK);
     assert_int_equal(aft_eval(a, X, G[i], NULL, NULL), HC_OK);
     exact_force_free(e);
     aft_free(a);

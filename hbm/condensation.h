@@ -1,0 +1,63 @@
+/* condensation.h - a structure seen from the coordinates q that its contacts move in. Only they enter the nonlinear
+ * part, so they alone are solved for, whatever n is; the rest is linear and follows.
+ *
+ *     x = P q + Y y        every contact's direction d has d . Y = 0, so u and v are combinations of q alone
+ *     [ Z_qq  Z_qy ] [q]   [p_q]   [F]          Z = K - h^2 omega^2 M + i h omega (C + D Mu),   Mu = n M/trace M
+ *     [ Z_yq  Z_yy ] [y] = [p_y] - [0]          (all of it P^T Z P, P^T Z Y, ...)
+ *     S q + F = p,    S = Z_qq - Z_qy Z_yy^-1 Z_yq,    p = p_q - Z_qy Z_yy^-1 p_y,    y = Z_yy^-1 (p_y - Z_yq q)
+ *
+ * for each harmonic h, as complex amplitudes a - i b. q are motions of the contacts themselves, as many as are
+ * independent, and the first response; or all of x, where that is no more. With one degree of freedom q = x and there
+ * is no rest. The rest's coordinates y are its modes with q held; where K and M are symmetric and C is diagonal in
+ * them, a harmonic costs n dim^2, else an LU of the rest. Nothing is dropped. Source: Krack and Gross, Harmonic Balance
+ * for Nonlinear Vibration Problems, Springer 2019, section 4.1; modes with q held: Craig and Bampton 1968. */
+#ifndef HC_HBM_CONDENSATION_H
+#define HC_HBM_CONDENSATION_H
+
+#include <complex.h>
+
+#include "model/model.h"
+
+typedef struct condensation condensation;
+
+/* Of m, which must live as long, for harmonics 0..n_harm. HC_NO_MEMORY; HC_SINGULAR: the structure can move without
+ * any contact, spring or mode of its own that holds it, or M is not positive definite. */
+hc_status condensation_new(const model *m, int n_harm, condensation **out);
+void condensation_free(condensation *c); /* NULL is allowed */
+
+/* How many coordinates q there are. */
+int condensation_dim(const condensation *c);
+
+/* [dim] The directions of contact j in q: u = tangent . q, v = normal . q. */
+const double *condensation_tangent(const condensation *c, int j);
+const double *condensation_normal(const condensation *c, int j);
+
+/* [dim] The first response in q: it is one of the directions that q is made of. */
+const double *condensation_first_response(const condensation *c);
+
+/* Everything below is of this omega and of a damping of D = more_damping more. HC_NOT_FINITE: the rest resonates
+ * undamped there. */
+hc_status condensation_at(condensation *c, double omega, double more_damping);
+
+/* S of harmonic h, [dim][dim] by columns, and what its entries are sums of, by their sizes. */
+const double complex *condensation_stiffness(const condensation *c, int h);
+const double *condensation_sizes(const condensation *c, int h);
+
+/* p [dim] of load number i of the model, cosine - i sine. */
+const double complex *condensation_load(const condensation *c, int i);
+
+/* dS and dp of harmonic h and load i where Z changes by dZ = (alpha M + beta C): by omega,
+ * alpha = -2 h^2 omega + i h D n/trace M, beta = i h; by D, alpha = i h omega n/trace M, beta = 0. */
+typedef struct condensation_change {
+  double complex alpha, beta;
+} condensation_change;
+condensation_change condensation_by_omega(const condensation *c, int h);
+condensation_change condensation_by_damping(const condensation *c, int h);
+void condensation_stiffness_change(const condensation *c, int h, condensation_change by, double complex *dS);
+void condensation_load_change(const condensation *c, int i, condensation_change by, double complex *dp);
+
+/* Harmonic h of direction d in x, response r: row . q + rest. row[dim]; factor: of the loads. */
+void condensation_response(const condensation *c, int h, int r, double factor, double complex *row,
+                           double complex *rest);
+
+#endif

@@ -1,0 +1,24 @@
+/* condensation_basis.h - the coordinates of condensation.h, and the structure's matrices in them; private to hbm/. */
+#ifndef HC_HBM_CONDENSATION_BASIS_H
+#define HC_HBM_CONDENSATION_BASIS_H
+
+#include <stdbool.h>
+
+#include "model/model.h"
+
+typedef struct condensation_basis {
+  int n, dim, rest;   /* dim + rest = n */
+  bool diagonal;      /* M, C and K of the rest are */
+  double *T;          /* [n][n] by columns: x = T (q, y) */
+  double *M, *C, *K;  /* [n][n] by columns: T^T M T, ... */
+  double *directions; /* [n_contacts][2][dim]: tangent and normal in q */
+  double *loads;      /* [n_loads][2][n]: T^T of cosine and sine */
+  double *responses;  /* [n_responses][n]: T^T of each */
+} condensation_basis;
+
+/* HC_NO_MEMORY; HC_SINGULAR: what is left when all contacts are held can move freely, or M is not positive definite.
+ * condensation_basis_clear in any case. */
+hc_status condensation_basis_make(const model *m, condensation_basis *out);
+void condensation_basis_clear(condensation_basis *b);
+
+#endif

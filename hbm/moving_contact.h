@@ -1,0 +1,27 @@
+/* moving_contact.h - a contact and the one or two coordinates that move it, for evaluators of its force. */
+#ifndef HC_MOVING_CONTACT_H
+#define HC_MOVING_CONTACT_H
+
+#include "base/status.h"
+#include "model/model.h"
+#include "numerics/series_grid.h"
+
+/* u = sum cu[d] x_d, v = sum cv[d] x_d. */
+typedef struct moving_contact {
+  contact law;
+  double cu[SERIES_MAX_DIM], cv[SERIES_MAX_DIM];
+} moving_contact;
+
+/* The contacts of an oscillator, in memory to free: *out is never NULL on HC_OK. HC_NO_MEMORY: it is. */
+hc_status moving_contacts_of_model(const model *m, moving_contact **out);
+
+/* Stiffness [force/length] that the first coordinate sees of it while it sticks: kt cu^2 + kn cv^2. */
+static inline double moving_contact_stuck_stiffness(const moving_contact *c)
+{
+  return c->law.kt * c->cu[0] * c->cu[0] + c->law.kn * c->cv[0] * c->cv[0];
+}
+
+/* Does it have a slider that the motion pulls at? */
+bool moving_contact_has_slider(const moving_contact *c, int n_dof);
+
+#endif

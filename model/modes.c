@@ -1,0 +1,60 @@
+/* modes.c - see modes.h. */
+#include "model/modes.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "numerics/dense.h"
+
+static void add_outer(int n, double k, const double *d, double *K)
+{
+  for (int col = 0; col < n && k != 0; ++col)
+    for (int row = 0; row < n; ++row) K[(size_t)col * (size_t)n + (size_t)row] += k * d[row] * d[col];
+}
+
+hc_status model_modes(const model *m, bool stuck, double *omega2, double *phi)
+{
+  const size_t n = (size_t)m->n;
+  double *K = malloc(n * n * sizeof *K);
+  if (!K) return HC_NO_MEMORY;
+  for (size_t col = 0; col < n; ++col)
+    for (size_t row = 0; row < n; ++row)
+      K[col * n + row] = 0.5 * (m->stiffness[col * n + row] + m->stiffness[row * n + col]);
+  for (int j = 0; j < m->n_contacts && stuck; ++j) {
+    const model_contact *c = &m->contacts[j];
+    if (contact_has_friction(&c->law)) add_outer(m->n, c->law.kt, c->tangent, K);
+    add_outer(m->n, c->law.kn, c->normal, K);
+  }
+  hc_status st = dense_modes(m->n, K, m->mass, omega2, phi);
+  free(K);
+  return st;
+}
+
+static double modal_damping(const model *m, const double *phi)
+{
+  double c = 0;
+  for (int col = 0; col < m->n; ++col)
+    for (int row = 0; row < m->n; ++row)
+      c += phi[row] * m->damping[(size_t)col * (size_t)m->n + (size_t)row] * phi[col];
+  return c;
+}
+
+hc_status model_find_scales(const model *m, model_scales *out)
+{
+  if (model_is_oscillator(m)) {
+    *out = (model_scales){sqrt(model_max_stiffness(m) / *m->mass), 0.5 * *m->damping / *m->mass};
+    return HC_OK;
+  }
+  const size_t n = (size_t)m->n;
+  double *omega2 = malloc(n * sizeof *omega2), *phi = malloc(n * n * sizeof *phi);
+  hc_status st = omega2 && phi ? model_modes(m, true, omega2, phi) : HC_NO_MEMORY;
+  if (st == HC_OK) {
+    *out = (model_scales){sqrt(fmax(omega2[n - 1], 0)), INFINITY};
+    for (size_t i = 0; i < n; ++i) out->half_width = fmin(out->half_width, 0.5 * modal_damping(m, phi + i * n));
+    out->half_width = fmax(out->half_width, 0);
+  }
+  free(omega2);
+  free(phi);
+  return st;
+}
