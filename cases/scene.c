@@ -5,6 +5,7 @@
 #include <stdio.h>
 
 #include "base/constants.h"
+#include "cases/structure_model.h"
 
 double scene_omega(const scene *sc, double given) { return sc->in_cycles ? TWO_PI * given : given; }
 
@@ -17,33 +18,34 @@ const char *scene_where(const scene *sc, double omega, char text[SCENE_WHERE])
   return text;
 }
 
-model_contact scene_model_contact(const scene_contact *c)
-{
-  model_contact out = {.law = c->law};
-  model_direction(c->angle_deg, &out.tangent, &out.normal);
-  return out;
-}
-
 double scene_max_stiffness(const scene *sc)
 {
   double k = sc->stiffness;
   for (int j = 0; j < sc->n_contacts; ++j) {
-    const model_contact c = scene_model_contact(&sc->contacts[j]);
-    k += model_stuck_stiffness(&c);
+    double t, n;
+    model_direction(sc->contacts[j].angle_deg, &t, &n);
+    k += model_stuck_stiffness(&(model_contact){sc->contacts[j].law, &t, &n});
   }
   return k;
 }
 
+int scene_contact_count(const scene *sc) { return sc->structure ? sc->structure->n_contacts : sc->n_contacts; }
+
+const scene_contact *scene_contact_at(const scene *sc, int j)
+{
+  return sc->structure ? &sc->structure->contacts[j].given : &sc->contacts[j];
+}
+
 hc_status scene_model(const scene *sc, model **out)
 {
-  hc_status st = model_new(sc->n_contacts, out);
+  if (sc->structure) return structure_model(sc->structure, out);
+  hc_status st = model_oscillator(sc->mass, sc->damping, sc->stiffness, sc->force, sc->n_contacts, out);
   if (st != HC_OK) return st;
   model *m = *out;
-  m->mass = sc->mass;
-  m->damping = sc->damping;
-  m->stiffness = sc->stiffness;
-  m->force = sc->force;
-  for (int j = 0; j < sc->n_contacts; ++j) m->contacts[j] = scene_model_contact(&sc->contacts[j]);
+  for (int j = 0; j < sc->n_contacts; ++j) {
+    m->contacts[j].law = sc->contacts[j].law;
+    model_direction(sc->contacts[j].angle_deg, m->contacts[j].tangent, m->contacts[j].normal);
+  }
   return HC_OK;
 }
 
