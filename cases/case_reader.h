@@ -105,6 +105,13 @@ typedef struct case_target {
   case_list list;
   int index; /* in the list; -1: all of it, or no list */
 } case_target;
+static inline case_target case_target_of(const field *f, int index)
+{
+  const case_list list = f->flags & FIELD_IN_CONTACT ? CASE_CONTACTS
+                         : f->flags & FIELD_IN_LOAD  ? CASE_LOADS
+                                                     : CASE_NO_LIST;
+  return (case_target){f, list, index};
+}
 hc_status case_find_target(case_reader *r, const char *path, size_t length, case_target *t);
 
 /* What t.f is stored in (fields.h): the scene, its structure, or the contact or load of t; an oscillator's contact is
