@@ -98,7 +98,7 @@ static hc_status check_contacts(case_reader *r)
   for (int j = 0; j < r->sc.n_contacts; ++j)
     for (int i = 0; i < field_count(); ++i) {
       const field *f = field_at(i);
-      if (!(f->flags & FIELD_IN_CONTACT) || f->fallback || r->contact_has[j] >> i & 1) continue;
+      if (!(f->flags & FIELD_IN_CONTACT) || f->fallback || r->contact_has[j] & case_field_bit(f)) continue;
       message *m = case_blame(r, r->contact_at[j]);
       message_add(m, "this appends a contact without `%s`, expected contacts[%d].%s=VALUE too: ", f->name, j, f->name);
       field_expected(f, m);
@@ -110,7 +110,7 @@ static hc_status check_contacts(case_reader *r)
 hc_status case_check(case_reader *r)
 {
   r->sc.gate.ranges.in_cycles = r->sc.in_cycles;
-  hc_status st = check_contacts(r);
+  hc_status st = r->sc.structure ? case_check_structure(r) : check_contacts(r);
   if (st == HC_OK) st = check_sweep(r);
   if (st == HC_OK) st = check_samples(r);
   if (st == HC_OK) st = check_fixed_step(r);

@@ -67,6 +67,9 @@ static void describe_field(const field *f, FILE *to)
   fprintf(to, "\n  set it    --set '%s=%s'\n", field_path(f, 0, path), example);
 }
 
+/* Of a section without the brackets of a list: forcing[] is forcing, too. */
+static int stem_length(const char *section) { return (int)strcspn(section, "["); }
+
 /* contacts.gap, contacts[].gap and contacts[3].gap are one field. */
 static bool is_path(const field *f, const char *asked)
 {
@@ -74,8 +77,8 @@ static bool is_path(const field *f, const char *asked)
   char path[FIELD_PATH], plain[FIELD_PATH];
   int cut = close ? (int)(open - asked) : (int)strlen(asked);
   snprintf(plain, sizeof plain, "%.*s%s", cut, asked, close ? close + 1 : "");
-  snprintf(path, sizeof path, "%s%s%s", f->section, *f->section ? "." : "", f->name);
-  return !strcmp(plain, path);
+  snprintf(path, sizeof path, "%.*s%s%s", stem_length(f->section), f->section, *f->section ? "." : "", f->name);
+  return !strcmp(plain, path) && (!open || field_is_in_list(f));
 }
 
 static hc_status unknown_field(const char *asked, case_error *err)
@@ -97,10 +100,16 @@ hc_status case_describe(const char *asked, FILE *to, case_error *err)
 {
   err->message[0] = '\0';
   if (!asked) describe_all(to);
-  const field_section *s = asked ? field_find_section(asked, strlen(asked)) : NULL;
-  if (s) describe_section(s, to);
-  int n = !asked || s;
-  for (int i = 0; i < field_count() && asked && !s; ++i) {
+  int n = !asked;
+  const field_section *s;
+  for (int i = 1; asked && (s = field_section_at(i)) != NULL; ++i) {
+    const int stem = stem_length(s->name);
+    if (strcmp(s->name, asked) && (strncmp(s->name, asked, (size_t)stem) || asked[stem])) continue;
+    if (n++) putc('\n', to);
+    describe_section(s, to);
+  }
+  bool sections = n > 0;
+  for (int i = 0; i < field_count() && !sections; ++i) {
     const field *f = field_at(i);
     if (!is_path(f, asked) && strcmp(f->name, asked) && strcmp(f->symbol, asked)) continue;
     if (n++) putc('\n', to);

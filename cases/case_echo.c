@@ -2,13 +2,14 @@
 #include <string.h>
 
 #include "cases/case_file.h"
+#include "cases/echo_structure.h"
 #include "cases/fields.h"
 
 static bool choices_are_known(const scene *sc)
 {
   for (int i = 0; i < field_count(); ++i) {
     const field *f = field_at(i);
-    if (f->kind != FIELD_CHOICE) continue;
+    if (f->kind != FIELD_CHOICE || f->flags & FIELD_ELSEWHERE) continue;
     int n = 0, value = *(const int *)field_look(f, sc);
     while (f->choices[n]) ++n;
     if (value < 0 || value >= n) return false;
@@ -20,7 +21,7 @@ static bool choices_are_known(const scene *sc)
  * empty (compare.omega), else the other (compare.points). */
 static bool is_written(const field *f, const scene *sc)
 {
-  if (f->flags & FIELD_NO_ECHO) return false;
+  if (f->flags & (FIELD_NO_ECHO | FIELD_STRUCTURE | FIELD_IN_CONTACT)) return false; /* those have ways of their own */
   if (f->in_cycles) return (f->scale != 0) == sc->in_cycles;
   if (f->kind == FIELD_REALS || f->kind == FIELD_INTEGERS) return ((const number_list *)field_look(f, sc))->n > 0;
   const field *rival;
@@ -34,7 +35,7 @@ static void write_contact(const scene_contact *c, FILE *to)
   const char *before = "  - ";
   for (int i = 0; i < field_count(); ++i) {
     const field *f = field_at(i);
-    if (!(f->flags & FIELD_IN_CONTACT)) continue;
+    if (!(f->flags & FIELD_IN_CONTACT) || f->flags & FIELD_STRUCTURE) continue;
     fprintf(to, "%s%s: ", before, f->name);
     field_write(f, c, to);
     putc('\n', to);
@@ -44,10 +45,12 @@ static void write_contact(const scene_contact *c, FILE *to)
 
 static void write_section(const field_section *s, const scene *sc, FILE *to)
 {
-  if (*s->name) fprintf(to, "%s:\n", s->name);
+  bool begun = !*s->name;
   for (int i = 0; i < field_count(); ++i) {
     const field *f = field_at(i);
     if (strcmp(f->section, s->name) || !is_written(f, sc)) continue;
+    if (!begun) fprintf(to, "%s:\n", s->name);
+    begun = true;
     fprintf(to, "%s%s: ", *s->name ? "  " : "", f->name);
     field_write(f, sc, to);
     putc('\n', to);
@@ -59,6 +62,7 @@ hc_status case_echo(const scene *sc, FILE *to)
   if (!choices_are_known(sc)) return HC_BAD_INPUT;
   const field_section *s;
   for (int i = 0; (s = field_section_at(i)) != NULL; ++i) {
+    if (sc->structure && echo_structure(sc->structure, s->name, to)) continue;
     if (strcmp(s->name, "contacts")) {
       write_section(s, sc, to);
       continue;

@@ -12,7 +12,7 @@ message *case_blame(case_reader *r, case_place place)
 {
   message *m = &r->msg;
   message_start(m, m->text, m->size);
-  if (place.set > 0) {
+  if (place.set > 0 && r->set) {
     message_add(m, "--set ");
     message_add_input(m, r->set[place.set - 1], strlen(r->set[place.set - 1]), 120);
     message_add(m, ": ");
@@ -40,7 +40,7 @@ static hc_status file_failed(case_reader *r, const char *words)
   return HC_IO;
 }
 
-static hc_status out_of_memory(case_reader *r)
+hc_status case_out_of_memory(case_reader *r)
 {
   message_add(case_blame(r, (case_place){0}), "out of memory");
   return HC_NO_MEMORY;
@@ -86,14 +86,27 @@ static hc_status read_scene(case_reader *r, const char *text, size_t length, int
   return st;
 }
 
+void case_clear(scene *sc)
+{
+  structure_free(sc->structure);
+  sc->structure = NULL;
+}
+
+hc_status case_reader_take(case_reader *r, hc_status st, scene *out)
+{
+  if (st == HC_OK) *out = r->sc;
+  else if (r->owns_structure) structure_free(r->sc.structure);
+  r->sc.structure = NULL;
+  r->owns_structure = false;
+  return st;
+}
+
 hc_status case_parse(const char *name, const char *text, size_t length, int n_set, const char *const *set, scene *out,
                      case_error *err)
 {
   case_reader r;
   case_reader_start(&r, name, set, err);
-  hc_status st = read_scene(&r, text, length, n_set);
-  if (st == HC_OK) *out = r.sc;
-  return st;
+  return case_reader_take(&r, read_scene(&r, text, length, n_set), out);
 }
 
 /* At most one byte more than allowed: then it is too large. */
@@ -101,7 +114,7 @@ static hc_status read_stream(case_reader *r, FILE *from, char **text, size_t *le
 {
   struct stat info;
   if (fstat(fileno(from), &info) == 0 && S_ISDIR(info.st_mode)) return file_failed(r, "a directory");
-  if (!(*text = malloc(CASE_LARGEST + 1))) return out_of_memory(r);
+  if (!(*text = malloc(CASE_LARGEST + 1))) return case_out_of_memory(r);
   *length = fread(*text, 1, CASE_LARGEST + 1, from);
   return ferror(from) ? file_failed(r, "cannot be read") : HC_OK;
 }
@@ -109,7 +122,7 @@ static hc_status read_stream(case_reader *r, FILE *from, char **text, size_t *le
 static hc_status cannot_open(case_reader *r, int error)
 {
   char words[128];
-  if (error == ENOMEM) return out_of_memory(r);
+  if (error == ENOMEM) return case_out_of_memory(r);
   if (strerror_r(error, words, sizeof words)) snprintf(words, sizeof words, "error %d", error);
   message_add(case_blame(r, (case_place){0}), "cannot be opened: %s", words);
   return HC_IO;
@@ -134,7 +147,6 @@ hc_status case_read(const char *path, int n_set, const char *const *set, scene *
   case_reader_start(&r, !strcmp(path, "-") ? "<stdin>" : path, set, err);
   hc_status st = case_reader_slurp(&r, &text, &length);
   if (st == HC_OK) st = read_scene(&r, text, length, n_set);
-  if (st == HC_OK) *out = r.sc;
   free(text);
-  return st;
+  return case_reader_take(&r, st, out);
 }

@@ -16,13 +16,16 @@ typedef struct case_error {
 } case_error; /* one line, no newline; empty when all is well */
 
 /* Read `path` ("-" is standard input), apply the n_set assignments "PATH=VALUE" in order, then check what depends on
- * several fields. HC_OK and *out filled, or HC_BAD_INPUT / HC_IO / HC_NO_MEMORY, err filled and *out untouched.
+ * several fields. HC_OK and *out filled, to be cleared with case_clear, or HC_BAD_INPUT / HC_IO / HC_NO_MEMORY, err filled and *out untouched.
  * Messages about an assignment start with "--set PATH=VALUE: ". */
 hc_status case_read(const char *path, int n_set, const char *const *set, scene *out, case_error *err);
 
 /* The same from memory; `name` stands for the file in messages. */
 hc_status case_parse(const char *name, const char *text, size_t length, int n_set, const char *const *set, scene *out,
                      case_error *err);
+
+/* Free what a scene that was read has: its structure. Copies of the scene share it, and are to be forgotten. */
+void case_clear(scene *sc);
 
 /* Write the resolved scene as a case file that reads back to the same scene, bit for bit. */
 hc_status case_echo(const scene *sc, FILE *to);

@@ -9,17 +9,11 @@
 
 #include "base/status.h"
 #include "cases/case_file.h"
+#include "cases/case_place.h"
 #include "cases/fields.h"
 #include "cases/suggest.h"
 
 enum { CASE_LARGEST = 1 << 20 }; /* bytes of a case file; a real one has a few thousand */
-
-/* Where something was given: the set-th assignment, counted from 1, or for set = 0 a line and column of the file.
- * line = 0: nowhere. */
-typedef struct case_place {
-  int set;
-  size_t line, column;
-} case_place;
 
 typedef struct case_reader {
   const char *name;       /* of the file, for messages                               */
@@ -30,13 +24,17 @@ typedef struct case_reader {
   case_place here;        /* of the path being resolved or the value being set       */
   case_place end;         /* of the file's text; line = 0 before it is known         */
   scene sc;               /* as far as it has been read                              */
+  bool owns_structure;    /* or shares it with the scene it was started from         */
   /* [field_index] where each field was last given; of contacts' fields, in the contact being read */
   case_place at[FIELD_MAX];
-  /* where each contact appeared; bit field_index: that field of it has been given */
+  /* where each contact of an oscillator appeared; case_field_bit: that field of it has been given */
   case_place contact_at[SCENE_MAX_CONTACTS];
   unsigned long long contact_has[SCENE_MAX_CONTACTS];
   message msg; /* the first mistake */
 } case_reader;
+
+/* Of the fields of contacts, which stand together in the table. */
+static inline unsigned long long case_field_bit(const field *f) { return 1ull << field_index(f) % 64; }
 
 static inline bool case_given(const case_reader *r, const field *f) { return r->at[field_index(f)].line > 0; }
 /* Where a mark of libyaml stands. If the last line has no line end, libyaml's mark may stand on a line after it, which
@@ -55,6 +53,9 @@ hc_status case_reader_slurp(case_reader *r, char **text, size_t *length);
 
 /* The scene of text[length], before assignments and case_check. */
 hc_status case_reader_scene(case_reader *r, const char *text, size_t length);
+
+/* After reading ended with st: r's scene into *out, its structure with it, or nothing kept. Returns st. */
+hc_status case_reader_take(case_reader *r, hc_status st, scene *out);
 
 /* Start the message with "FILE:LINE:COLUMN: " or "--set PATH=VALUE: " and return it for the rest. */
 message *case_blame(case_reader *r, case_place place);
@@ -84,29 +85,59 @@ hc_status yaml_scene_read(case_reader *r, yaml_document_t *doc, const yaml_node_
 hc_status yaml_scene_contacts(case_reader *r, yaml_document_t *doc, yaml_node_t *node);
 hc_status yaml_scene_contact(case_reader *r, yaml_document_t *doc, yaml_node_t *node, int j);
 
-/* The value of one field, of contact j if it is one of a contact's, into base (fields.h). */
+/* One key of a section, or of contact or load j, given once and not beside a rival, into base (fields.h). */
+hc_status yaml_scene_field(case_reader *r, yaml_document_t *doc, const field *f, int j, void *base,
+                           const yaml_node_pair_t *pair);
+hc_status yaml_unknown_key(case_reader *r, const yaml_node_t *key, const char *section);
+
+/* No field of contacts (FIELD_IN_CONTACT) or of loads (FIELD_IN_LOAD) has been given yet: the next one begins. */
+void yaml_forget_fields(case_reader *r, unsigned of);
+
+/* The value of one field, of contact or load j if it is one of theirs, into base (fields.h). */
 hc_status yaml_scene_value(case_reader *r, yaml_document_t *doc, const field *f, int j, void *base,
                            const yaml_node_t *node);
 
-/* What a path "hbm.samples" or "contacts[0].gap" names; f = NULL: a contact, or with contact = -1 all contacts. */
+/* What a path names: a field "hbm.samples", "contacts[0].gap", "contacts[joint].gap", "forcing[0].amplitude"; or with
+ * f = NULL a list, "contacts", "forcing", or with an index an entry of it. */
+typedef enum case_list { CASE_NO_LIST, CASE_CONTACTS, CASE_LOADS } case_list;
 typedef struct case_target {
   const field *f;
-  int contact; /* -1 outside contacts */
+  case_list list;
+  int index; /* in the list; -1: all of it, or no list */
 } case_target;
+static inline case_target case_target_of(const field *f, int index)
+{
+  const case_list list = f->flags & FIELD_IN_CONTACT ? CASE_CONTACTS
+                         : f->flags & FIELD_IN_LOAD  ? CASE_LOADS
+                                                     : CASE_NO_LIST;
+  return (case_target){f, list, index};
+}
 hc_status case_find_target(case_reader *r, const char *path, size_t length, case_target *t);
 
-/* The scene, or the contact of t, which is appended if it is the one past the last; then note that t.f was given at
- * r->here. */
+/* What t.f is stored in (fields.h): the scene, its structure, or the contact or load of t; an oscillator's contact is
+ * appended if it is the one past the last. NULL, with the message made: out of memory, for a structure that is shared
+ * is copied first. Then note that t.f was given at r->here. */
 void *case_target_base(case_reader *r, case_target t);
 void case_target_given(case_reader *r, case_target t);
 
-/* f is being given: its rivals (sweep.frequency is sweep.omega's) go back to their defaults. */
-void case_drop_rivals(case_reader *r, const field *f);
+/* t.f of `base` is being given: its rivals (sweep.frequency is sweep.omega's) go back to their defaults. */
+void case_drop_rivals(case_reader *r, const field *f, void *base);
+
+/* What t names, from a document; r->here is where. */
+hc_status case_target_read(case_reader *r, yaml_document_t *doc, case_target t, yaml_node_t *node);
+
+/* r's structure is its own from now on: copied if it was shared. HC_NO_MEMORY with the message made. */
+hc_status case_own_structure(case_reader *r);
+
+hc_status case_out_of_memory(case_reader *r);
 
 /* Apply assignment number k, from 1. */
 hc_status case_set_apply(case_reader *r, int k);
 
 /* What depends on several fields, once all of them are known. */
 hc_status case_check(case_reader *r);
+
+/* The same of a structure, whose damping matrix is made here. */
+hc_status case_check_structure(case_reader *r);
 
 #endif

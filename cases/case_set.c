@@ -1,11 +1,12 @@
 /* case_set.c - assignments PATH=VALUE on top of a case file.
  *   hbm.samples=2048   title=Any text   sweep.omega=[3,20] or 3,20
- *   contacts[0].gap=-1   contacts[0]={...}   contacts=[...]
+ *   contacts[0].gap=-1   contacts[joint].gap=-1   contacts[0]={...}   contacts=[...]   forcing[0].amplitude=3
+ *   structure.damping.modal=0.02   structure.mass=mass.mtx
  * An index one past the last contact appends one. Of rivals (sweep.omega, sweep.frequency) the one assigned last
  * counts. */
 #include <string.h>
 
-#include "cases/case_reader.h"
+#include "cases/yaml_structure.h"
 
 static hc_status unknown_path(case_reader *r, const char *path, size_t length)
 {
@@ -38,35 +39,88 @@ static int read_index(const char *s, const char *stop, const char **end)
   return index;
 }
 
-static hc_status find_in_contacts(case_reader *r, const char *path, size_t length, case_target *t)
+/* "[joint]": a contact by its name, -1 if it is none. */
+static int read_name(const case_reader *r, const char *s, const char *stop, const char **end)
 {
-  const char *stop = path + length, *s = path + 8;
-  *t = (case_target){.contact = -1};
+  const char *close = s < stop && *s == '[' ? memchr(s, ']', (size_t)(stop - s)) : NULL;
+  if (!close || !r->sc.structure) return -1;
+  *end = close + 1;
+  return structure_contact_named(r->sc.structure, s + 1, (size_t)(close - s - 1));
+}
+
+static int list_length(const case_reader *r, case_list list)
+{
+  return list == CASE_LOADS ? r->sc.structure->n_loads : scene_contact_count(&r->sc);
+}
+
+/* An entry one past the last is new, but a structure's has no field yet: it is to be given as a whole. */
+static hc_status check_index(case_reader *r, case_target t)
+{
+  const int n = list_length(r, t.list);
+  const bool one_more = !(r->sc.structure ? t.f != NULL : n == SCENE_MAX_CONTACTS);
+  if (t.index < n + one_more) return HC_OK;
+  message *m = case_blame(r, r->here);
+  message_add(m, "the case has %d %s, expected an index 0..%d%s", n, t.list == CASE_LOADS ? "loads" : "contacts",
+              n - 1 + one_more, one_more ? " (the last one appends)" : "");
+  return HC_BAD_INPUT;
+}
+
+/* A list and what follows: nothing, an index or name, a field of that entry. */
+static hc_status find_in_list(case_reader *r, const char *path, size_t length, case_list list, case_target *t)
+{
+  const char *stop = path + length, *s = path + (list == CASE_LOADS ? 7 : 8);
+  *t = (case_target){.list = list, .index = -1};
   if (s == stop) return HC_OK;
-  t->contact = read_index(s, stop, &s);
-  if (t->contact < 0) return unknown_path(r, path, length);
+  const char *bracket = s;
+  t->index = read_index(bracket, stop, &s);
+  if (t->index < 0 && list == CASE_CONTACTS) t->index = read_name(r, bracket, stop, &s);
+  if (t->index < 0) return unknown_path(r, path, length);
   if (s < stop) {
-    t->f = *s == '.' ? field_find("contacts", s + 1, (size_t)(stop - s - 1)) : NULL;
+    const char *section = list == CASE_LOADS ? "forcing[]" : "contacts";
+    t->f = *s == '.' ? field_find(section, s + 1, (size_t)(stop - s - 1)) : NULL;
     if (!t->f) return unknown_path(r, path, length);
   }
-  int last = r->sc.n_contacts < SCENE_MAX_CONTACTS ? r->sc.n_contacts : SCENE_MAX_CONTACTS - 1;
-  if (t->contact <= last) return HC_OK;
-  message_add(case_blame(r, r->here), "the case has %d contacts, expected an index 0..%d%s", r->sc.n_contacts, last,
-              last == r->sc.n_contacts ? " (the last one appends)" : "");
+  return check_index(r, *t);
+}
+
+/* A structure has no field of an oscillator, and an oscillator none of a structure. */
+static hc_status check_kind(case_reader *r, const field *f, const char *path, size_t length)
+{
+  const bool structure = r->sc.structure != NULL;
+  const bool of_oscillator = !strcmp(f->section, "oscillator") || !strcmp(f->section, "forcing");
+  if (structure ? !of_oscillator : !(f->flags & FIELD_STRUCTURE)) return HC_OK;
+  message *m = case_blame(r, r->here);
+  message_add(m, "`");
+  message_add_input(m, path, length, 60);
+  message_add(m, structure ? "` is an oscillator's, and the case has a structure, expected "
+                           : "` is a structure's, and the case has an oscillator, expected a field of that");
+  if (structure) message_add(m, *f->section == 'f' ? "forcing[0].%s" : "structure.%s", f->name);
   return HC_BAD_INPUT;
+}
+
+static bool begins_list(const char *path, size_t length, const char *word)
+{
+  const size_t n = strlen(word);
+  return length >= n && !memcmp(path, word, n) && (length == n || path[n] == '[');
 }
 
 hc_status case_find_target(case_reader *r, const char *path, size_t length, case_target *t)
 {
-  *t = (case_target){.contact = -1};
-  if (length >= 8 && !memcmp(path, "contacts", 8) && (length == 8 || path[8] == '['))
-    return find_in_contacts(r, path, length, t);
-  const char *dot = memchr(path, '.', length);
-  const field_section *s = dot ? field_find_section(path, (size_t)(dot - path)) : field_section_at(0);
-  const char *name = dot ? dot + 1 : path;
-  if (s) t->f = field_find(s->name, name, (size_t)(path + length - name));
-  if (t->f && t->f->flags & FIELD_IN_CONTACT) t->f = NULL; /* contacts.gap: of which one? */
-  return t->f ? HC_OK : unknown_path(r, path, length);
+  *t = (case_target){.index = -1};
+  hc_status st = HC_OK;
+  if (begins_list(path, length, "contacts")) {
+    st = find_in_list(r, path, length, CASE_CONTACTS, t);
+  } else if (r->sc.structure && begins_list(path, length, "forcing")) {
+    st = find_in_list(r, path, length, CASE_LOADS, t);
+  } else {
+    const char *dot = memchr(path, '.', length);
+    const field_section *s = dot ? field_find_section(path, (size_t)(dot - path)) : field_section_at(0);
+    const char *name = dot ? dot + 1 : path;
+    if (s) t->f = field_find(s->name, name, (size_t)(path + length - name));
+    if (t->f && field_is_in_list(t->f)) t->f = NULL; /* contacts.gap: of which one? */
+    if (!t->f) st = unknown_path(r, path, length);
+  }
+  return st == HC_OK && t->f ? check_kind(r, t->f, path, length) : st;
 }
 
 static void append_contact_if_new(case_reader *r, int j)
@@ -78,24 +132,45 @@ static void append_contact_if_new(case_reader *r, int j)
   r->sc.n_contacts = j + 1;
 }
 
+hc_status case_own_structure(case_reader *r)
+{
+  if (r->owns_structure || !r->sc.structure) return HC_OK;
+  scene_structure *own = structure_copy(r->sc.structure);
+  if (!own) return case_out_of_memory(r);
+  r->sc.structure = own;
+  r->owns_structure = true;
+  return HC_OK;
+}
+
 void *case_target_base(case_reader *r, case_target t)
 {
-  if (t.contact < 0) return &r->sc;
-  append_contact_if_new(r, t.contact);
-  return &r->sc.contacts[t.contact];
+  const bool in_structure = r->sc.structure && (t.list != CASE_NO_LIST || t.f->flags & FIELD_STRUCTURE);
+  if (in_structure && case_own_structure(r) != HC_OK) return NULL;
+  if (t.list == CASE_LOADS) return &r->sc.structure->loads[t.index];
+  if (t.list == CASE_CONTACTS && in_structure) return &r->sc.structure->contacts[t.index].given;
+  if (in_structure) return r->sc.structure;
+  if (t.list == CASE_NO_LIST) return &r->sc;
+  append_contact_if_new(r, t.index);
+  return &r->sc.contacts[t.index];
 }
 
 void case_target_given(case_reader *r, case_target t)
 {
-  if (t.contact >= 0) r->contact_has[t.contact] |= 1ull << field_index(t.f);
+  scene_structure *s = r->sc.structure;
+  if (s && t.list == CASE_LOADS) s->loads[t.index].place = r->here;
+  else if (s && t.list == CASE_CONTACTS) s->contacts[t.index].place = r->here;
+  else if (t.list == CASE_CONTACTS) r->contact_has[t.index] |= case_field_bit(t.f);
   else r->at[field_index(t.f)] = r->here;
+  if (!(t.f->flags & FIELD_IN_STRUCTURE)) return;
+  s->how = t.f->kind == FIELD_REAL ? STRUCTURE_DAMPING_MODAL : STRUCTURE_DAMPING_RAYLEIGH;
+  s->damping.place = r->here;
 }
 
-void case_drop_rivals(case_reader *r, const field *f)
+void case_drop_rivals(case_reader *r, const field *f, void *base)
 {
   const field *rival;
   for (int i = 0; (rival = field_rival(f, i)) != NULL; ++i) {
-    field_reset(rival, &r->sc);
+    field_reset(rival, base);
     r->at[field_index(rival)] = (case_place){0};
   }
 }
@@ -108,28 +183,57 @@ static hc_status set_field(case_reader *r, case_target t, const char *text)
   int bad;
   message_start(&why, why_text, sizeof why_text);
   void *base = case_target_base(r, t);
-  case_drop_rivals(r, t.f);
+  if (!base) return HC_NO_MEMORY;
+  case_drop_rivals(r, t.f, base);
   field_split(t.f, text, strlen(text), &v);
   if (!field_store(t.f, base, &v, &why, &bad)) {
-    message_add(case_blame(r, r->here), "%s%s", field_path(t.f, t.contact, path), why.text);
+    message_add(case_blame(r, r->here), "%s%s", field_path(t.f, t.index, path), why.text);
     return HC_BAD_INPUT;
   }
   case_target_given(r, t);
   return HC_OK;
 }
 
-static hc_status set_contacts(case_reader *r, case_target t, const char *text)
+/* A list of contacts or loads, or an entry of one. */
+static hc_status read_list(case_reader *r, yaml_document_t *doc, case_target t, yaml_node_t *node)
+{
+  if (t.list == CASE_LOADS && t.index < 0) return yaml_loads_read(r, doc, node);
+  if (t.list == CASE_LOADS) return yaml_load_read(r, doc, node, t.index);
+  if (r->sc.structure && t.index < 0) return yaml_contacts_read(r, doc, node);
+  if (r->sc.structure) return yaml_contact_read(r, doc, node, t.index);
+  if (t.index < 0) return yaml_scene_contacts(r, doc, node);
+  case_target_base(r, t);
+  return yaml_scene_contact(r, doc, node, t.index);
+}
+
+static hc_status read_value(case_reader *r, yaml_document_t *doc, case_target t, yaml_node_t *node)
+{
+  void *base = case_target_base(r, t);
+  if (!base) return HC_NO_MEMORY;
+  case_drop_rivals(r, t.f, base);
+  const hc_status st = yaml_scene_value(r, doc, t.f, t.index, base, node);
+  if (st == HC_OK) case_target_given(r, t);
+  return st;
+}
+
+hc_status case_target_read(case_reader *r, yaml_document_t *doc, case_target t, yaml_node_t *node)
+{
+  if (t.f && t.f->kind != FIELD_PART && !(t.f->flags & FIELD_IN_STRUCTURE)) return read_value(r, doc, t, node);
+  hc_status st = case_own_structure(r);
+  if (st != HC_OK) return st;
+  if (!t.f) return read_list(r, doc, t, node);
+  if (t.list == CASE_NO_LIST) return yaml_structure_part(r, doc, t.f, node);
+  st = yaml_entry_part(r, doc, t.f, t.index, node);
+  if (st == HC_OK) case_target_given(r, t);
+  return st;
+}
+
+static hc_status set_document(case_reader *r, case_target t, const char *text)
 {
   yaml_document_t doc;
   hc_status st = yaml_text_load(r, text, strlen(text), &doc);
   if (st != HC_OK) return st;
-  yaml_node_t *root = yaml_document_get_root_node(&doc);
-  if (t.contact < 0) {
-    st = yaml_scene_contacts(r, &doc, root);
-  } else {
-    case_target_base(r, t);
-    st = yaml_scene_contact(r, &doc, root, t.contact);
-  }
+  st = case_target_read(r, &doc, t, yaml_document_get_root_node(&doc));
   yaml_document_delete(&doc);
   return st;
 }
@@ -149,5 +253,6 @@ hc_status case_set_apply(case_reader *r, int k)
   while (length > 0 && path[length - 1] == ' ') --length;
   hc_status st = case_find_target(r, path, length, &t);
   if (st != HC_OK) return st;
-  return t.f ? set_field(r, t, equals + 1) : set_contacts(r, t, equals + 1);
+  const bool plain = t.f && t.f->kind != FIELD_PART && !(t.f->flags & FIELD_IN_STRUCTURE);
+  return plain ? set_field(r, t, equals + 1) : set_document(r, t, equals + 1);
 }

@@ -40,6 +40,7 @@ void field_expected(const field *f, message *m)
   switch (f->kind) {
   case FIELD_FLAG: message_add(m, "true or false"); return;
   case FIELD_CHOICE: add_choices(f, m); return;
+  case FIELD_PART: message_add(m, "%s", f->expects); return;
   case FIELD_TEXT: message_add(m, "text of at most %zu bytes", f->size - 1); return;
   default: break;
   }
@@ -233,6 +234,7 @@ void field_reset(const field *f, void *base)
   message m;
   field_value v;
   int bad;
+  if (f->kind == FIELD_PART) return;
   if (f->kind == FIELD_REALS || f->kind == FIELD_INTEGERS) memset(field_place(f, base), 0, sizeof(number_list));
   if (f->kind == FIELD_TEXT) memset(field_place(f, base), 0, f->size);
   if (!f->fallback || !*f->fallback) return;
@@ -241,10 +243,10 @@ void field_reset(const field *f, void *base)
   field_store(f, base, &v, &m, &bad); /* never false: tests/cases/test_fields.c checks every default's range */
 }
 
-static void reset_all(void *base, unsigned in_contact)
+static void reset_all(void *base, unsigned where)
 {
   for (int i = 0; i < field_count(); ++i)
-    if ((field_at(i)->flags & FIELD_IN_CONTACT) == in_contact) field_reset(field_at(i), base);
+    if ((field_at(i)->flags & FIELD_ELSEWHERE) == where) field_reset(field_at(i), base);
 }
 
 void field_defaults(scene *sc)
@@ -258,6 +260,8 @@ void field_contact_defaults(scene_contact *c)
   memset(c, 0, sizeof *c);
   reset_all(c, FIELD_IN_CONTACT);
 }
+
+void field_load_defaults(structure_load *load) { reset_all(load, FIELD_IN_LOAD); }
 
 static void write_text(const char *text, FILE *to)
 {
@@ -301,6 +305,7 @@ void field_write(const field *f, const void *base, FILE *to)
   case FIELD_CHOICE: fputs(f->choices[choice_at(at)], to); return;
   case FIELD_TEXT: write_text(at, to); return;
   case FIELD_PAIR: write_list(at, 2, f->scale, to); return;
+  case FIELD_PART: return;
   default: write_list(((const number_list *)at)->v, ((const number_list *)at)->n, f->scale, to); return;
   }
 }

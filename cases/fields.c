@@ -34,8 +34,10 @@ static const field_section sections[] = {
     {"", "one scene a file"},
     {"units", "labels for plots and tables; any consistent set of units will do"},
     {"oscillator", "M x'' + C x' + K x + contact forces = F0 cos(omega t)"},
-    {"forcing", "F0 cos(omega t)"},
-    {"contacts", "a list, one entry a contact, in parallel on the same mass; none: a linear oscillator"},
+    {"structure", "instead of oscillator: M, C, K as matrices; DOFs go by name or by number from 1"},
+    {"forcing", "F0 cos(omega t), where there is one DOF"},
+    {"forcing[]", "a list of loads, with structure: amplitude cos(harmonic omega t + phase) each"},
+    {"contacts", "a list, one entry a contact, all at once on the same mass or structure; none: a linear one"},
     {"sweep", "the frequencies of the response curve"},
     {"hbm", "harmonic balance"},
     {"transient", "integration in time"},
@@ -46,6 +48,10 @@ static const field_section sections[] = {
 /* Shorthands for the rows below. */
 #define SCENE(member)   .offset = offsetof(scene, member)
 #define CONTACT(member) .flags = FIELD_IN_CONTACT, .offset = offsetof(scene_contact, member)
+#define LOAD(member)    .flags = FIELD_IN_LOAD | FIELD_STRUCTURE, .offset = offsetof(structure_load, member)
+#define STRUCTURE(member)                                                                                              \
+  .flags = FIELD_IN_STRUCTURE | FIELD_STRUCTURE | FIELD_NO_ECHO, .offset = offsetof(scene_structure, member)
+#define PART(within, words) FIELD_PART, .flags = (within) | FIELD_STRUCTURE, .expects = (words)
 #define TEXT(member)                                                                                                   \
   .kind = FIELD_TEXT, .unit = "", .offset = offsetof(scene, member), .size = sizeof((scene *)0)->member
 #define CHOICE(names, member)                                                                                          \
@@ -73,9 +79,37 @@ static const field table[] = {
   {"oscillator", "stiffness", "K", FIELD_REAL, .unit = "force/length", SCENE(stiffness), NOT_NEGATIVE,
    .meaning = "of the linear spring, without contacts"},
 
+  {"structure", "mass", "M", PART(0, "a matrix: rows, a diagonal, or a Matrix Market file"),
+   .unit = "force time^2/length", .meaning = "symmetric and positive definite; its size is the number of DOFs"},
+  {"structure", "stiffness", "K", PART(0, "a matrix: rows, a diagonal, or a Matrix Market file"),
+   .unit = "force/length", .meaning = "without contacts, which may have to hold what K does not"},
+  {"structure", "damping", "C", PART(0, "a matrix as above, {rayleigh: ...} or {modal: ...}"),
+   .unit = "force time/length", .meaning = "any matrix, or what is said of it by one of the two below"},
+  {"structure", "damping.rayleigh", "", FIELD_PAIR, .unit = "1/time, time", STRUCTURE(rayleigh), .fallback = "",
+   UNBOUNDED, .group = "damping", .meaning = "alpha and beta of C = alpha M + beta K"},
+  {"structure", "damping.modal", "", FIELD_REAL, .unit = "1", STRUCTURE(modal), .fallback = "", NOT_NEGATIVE,
+   .group = "damping", .meaning = "of critical, for every mode of M and K; or a list, one a mode"},
+  {"structure", "names", "", PART(0, "a list of names, one a DOF"), .unit = "", .fallback = "",
+   .meaning = "of the DOFs"},
+  {"structure", "nodes", "", PART(0, "a csv file dof,node,direction, or a list of such entries"), .unit = "",
+   .fallback = "", .meaning = "then {node: 17, direction: y} means a DOF, too"},
+
   {"forcing", "amplitude", "F0", FIELD_REAL, .unit = "force", SCENE(force), NOT_NEGATIVE,
    .meaning = "of the force F0 cos(omega t)"},
 
+  {"forcing[]", "dof", "", PART(FIELD_IN_LOAD, "a DOF"), .unit = "", .fallback = "", .meaning = "where it acts"},
+  {"forcing[]", "direction", "", PART(FIELD_IN_LOAD, "factors of DOFs such as {tip: 1, root: -0.5}"), .unit = "1",
+   .fallback = "", .meaning = "instead of dof, where it acts on several"},
+  {"forcing[]", "amplitude", "", FIELD_REAL, .unit = "force", LOAD(amplitude), UNBOUNDED,
+   .meaning = "of amplitude cos(harmonic omega t + phase)"},
+  {"forcing[]", "phase_deg", "", FIELD_REAL, .unit = "deg", LOAD(phase_deg), .fallback = "0", UNBOUNDED,
+   .meaning = "ahead of cos(harmonic omega t)"},
+  {"forcing[]", "harmonic", "", FIELD_INTEGER, .unit = "1", LOAD(harmonic), .fallback = "1",
+   WITHIN(0, HBM_MAX_HARMONICS), .meaning = "of omega; 0: a static load"},
+
+  {"contacts", "name", "", FIELD_TEXT, .unit = "", .flags = FIELD_IN_CONTACT | FIELD_STRUCTURE,
+   .offset = offsetof(scene_contact, name), .size = SCENE_NAME, .fallback = "",
+   .meaning = "then contacts[NAME] means it, too"},
   {"contacts", "tangential_stiffness", "kt", FIELD_REAL, .unit = "force/length", CONTACT(law.kt), NOT_NEGATIVE,
    .meaning = "of the spring along the contact, in series with the slider"},
   {"contacts", "normal_stiffness", "kn", FIELD_REAL, .unit = "force/length", CONTACT(law.kn), NOT_NEGATIVE,
@@ -83,9 +117,19 @@ static const field table[] = {
   {"contacts", "friction", "mu", FIELD_REAL, .unit = "1", CONTACT(law.mu), NOT_NEGATIVE,
    .meaning = "Coulomb's coefficient: |T| <= mu N"},
   {"contacts", "angle_deg", "alpha", FIELD_REAL, .unit = "deg", CONTACT(angle_deg), WITHIN(0, 90),
-   .meaning = "from x to the contact's tangent: u = x cos(alpha), v = x sin(alpha)"},
+   .meaning = "from x to the tangent: u = x cos(alpha), v = x sin(alpha); of one DOF"},
+  {"contacts", "tangent", "", PART(FIELD_IN_CONTACT, "a DOF, or factors of DOFs such as {tip: 1, root: -1}"),
+   .unit = "1", .fallback = "", .meaning = "u = tangent . x; none: a spring across the contact alone"},
+  {"contacts", "normal", "", PART(FIELD_IN_CONTACT, "a DOF, or factors of DOFs such as {tip: 1, root: -1}"),
+   .unit = "1", .fallback = "", .meaning = "v = normal . x; none: N = preload, constant"},
   {"contacts", "gap", "g", FIELD_REAL, .unit = "length", CONTACT(law.gap), .fallback = "0", UNBOUNDED,
-   .meaning = "> 0: preload, N0 = kn gap; < 0: clearance"},
+   .group = "preload", .meaning = "> 0: preload, N0 = kn gap; < 0: clearance"},
+  {"contacts", "preload", "", FIELD_REAL, .unit = "force", .flags = FIELD_IN_CONTACT | FIELD_STRUCTURE,
+   .offset = offsetof(scene_contact, preload), .fallback = "0", NOT_NEGATIVE, .group = "preload",
+   .meaning = "instead of gap = preload/kn; without normal: N itself"},
+
+  {"", "response", "", PART(0, "a list of DOFs or directions such as [tip, {tip: 1, root: -1}]"), .unit = "",
+   .fallback = "", .meaning = "what is reported of a structure, first one first; none: the forced DOF"},
 
   {"sweep", "omega", "", FIELD_PAIR, .unit = "rad/time", SCENE(omega_from), POSITIVE, GIVES_SWEEP,
    .meaning = "from and to; downwards if from > to"},
@@ -221,9 +265,9 @@ const char *field_path(const field *f, int j, char path[FIELD_PATH])
 {
   message m;
   message_start(&m, path, FIELD_PATH);
-  message_add(&m, "%s", f->section);
-  if (f->flags & FIELD_IN_CONTACT && j >= 0) message_add(&m, "[%d]", j);
-  else if (f->flags & FIELD_IN_CONTACT) message_add(&m, "[]");
+  message_add(&m, "%.*s", (int)strcspn(f->section, "["), f->section);
+  if (field_is_in_list(f) && j >= 0) message_add(&m, "[%d]", j);
+  else if (field_is_in_list(f)) message_add(&m, "[]");
   message_add(&m, "%s%s", *f->section ? "." : "", f->name);
   return path;
 }

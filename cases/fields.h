@@ -9,28 +9,33 @@
 #include <stdio.h>
 
 #include "base/message.h"
-#include "cases/scene.h"
+#include "cases/structure.h"
 
 typedef enum field_kind {
-  FIELD_REAL,    /* double                                             */
-  FIELD_INTEGER, /* int                                                */
-  FIELD_FLAG,    /* bool                                               */
-  FIELD_CHOICE,  /* an enum as large as an int: an index into choices    */
-  FIELD_TEXT,    /* char[size]                                         */
-  FIELD_PAIR,    /* double[2], from and to                             */
-  FIELD_REALS,   /* number_list                                         */
-  FIELD_INTEGERS /* number_list of integers                             */
+  FIELD_REAL,     /* double                                             */
+  FIELD_INTEGER,  /* int                                                */
+  FIELD_FLAG,     /* bool                                               */
+  FIELD_CHOICE,   /* an enum as large as an int: an index into choices    */
+  FIELD_TEXT,     /* char[size]                                         */
+  FIELD_PAIR,     /* double[2], from and to                             */
+  FIELD_REALS,    /* number_list                                        */
+  FIELD_INTEGERS, /* number_list of integers                            */
+  FIELD_PART      /* of a structure, in a form of its own: yaml_structure.h reads it, echo_structure.c writes it */
 } field_kind;
 
 enum {
-  FIELD_IN_CONTACT = 1, /* offset is into scene_contact, not into scene */
-  FIELD_AUTO = 2,       /* `auto` is a value, HBM_AUTO */
-  FIELD_OPEN = 4,       /* low itself is out of range */
-  FIELD_NO_ECHO = 8     /* not echoed: another field writes what this one stored */
+  FIELD_IN_CONTACT = 1,    /* offset is into scene_contact, not into scene */
+  FIELD_AUTO = 2,          /* `auto` is a value, HBM_AUTO */
+  FIELD_OPEN = 4,          /* low itself is out of range */
+  FIELD_NO_ECHO = 8,       /* not echoed: another field writes what this one stored */
+  FIELD_IN_LOAD = 16,      /* offset is into structure_load */
+  FIELD_IN_STRUCTURE = 32, /* offset is into scene_structure */
+  FIELD_STRUCTURE = 64     /* with `structure` only, not with `oscillator` */
 };
+enum { FIELD_ELSEWHERE = FIELD_IN_CONTACT | FIELD_IN_LOAD | FIELD_IN_STRUCTURE }; /* offset is not into scene */
 
 typedef struct field {
-  const char *section, *name; /* section is "" for the top level; path is section.name */
+  const char *section, *name; /* section is "" for the top level; path is section.name; loads' is "forcing[]" */
   const char *symbol;         /* what docs/theory.md and the paper call it, or ""; only ever suggested, never read */
   field_kind kind;
   unsigned flags;             /* FIELD_IN_CONTACT, ... */
@@ -44,6 +49,7 @@ typedef struct field {
                         false if it has none; 0: of no concern to it */
   const char *group; /* the fields of a section with one group give the same quantity, each in its own way: never two of
                         them in one file; or NULL */
+  const char *expects; /* what may stand there, in words, for FIELD_PART */
   const char *meaning;
 } field;
 
@@ -51,7 +57,7 @@ typedef struct field_section {
   const char *name, *meaning;
 } field_section;
 
-enum { FIELD_MAX = 64, FIELD_PATH = 64 }; /* rows at most, asserted; characters of a path */
+enum { FIELD_MAX = 96, FIELD_PATH = 64 }; /* rows at most, asserted; characters of a path */
 
 int field_count(void);
 const field *field_at(int i); /* 0 <= i < field_count(), in the order of the echo, sections together */
@@ -61,13 +67,17 @@ const field_section *field_section_at(int i);    /* NULL past the last one; the 
 const field_section *field_find_section(const char *name, size_t length);
 const field *field_find(const char *section, const char *name, size_t length); /* NULL if there is none */
 
-/* "hbm.samples", "title", "contacts[2].gap"; j < 0 gives "contacts[].gap". Returns path. */
+/* "hbm.samples", "title", "contacts[2].gap", "forcing[0].phase_deg"; j < 0 gives "contacts[].gap". Returns path. */
 const char *field_path(const field *f, int j, char path[FIELD_PATH]);
 
 /* What may stand there, in words: "a number > 0", "an integer 1..200 or auto", "true or false". */
 void field_expected(const field *f, message *m);
 
-/* Where the field lives: base is the scene, or the scene_contact for a field in a contact. */
+/* Is it one of those of a contact or a load, of which a list has many? */
+static inline bool field_is_in_list(const field *f) { return f->flags & (FIELD_IN_CONTACT | FIELD_IN_LOAD); }
+
+/* Where the field lives: base is the scene; or the scene_contact, structure_load or scene_structure that the flags
+ * tell. Not for FIELD_PART. */
 static inline void *field_place(const field *f, void *base) { return (char *)base + f->offset; }
 static inline const void *field_look(const field *f, const void *base) { return (const char *)base + f->offset; }
 
@@ -100,5 +110,6 @@ void field_reset(const field *f, void *base);
 /* Everything at its default, no contacts; required fields are zero. */
 void field_defaults(scene *sc);
 void field_contact_defaults(scene_contact *c);
+void field_load_defaults(structure_load *load); /* those of the table; its direction stays */
 
 #endif

@@ -5,6 +5,7 @@
 #include <stdio.h>
 
 #include "base/constants.h"
+#include "cases/structure_model.h"
 
 double scene_omega(const scene *sc, double given) { return sc->in_cycles ? TWO_PI * given : given; }
 
@@ -34,15 +35,24 @@ double scene_max_stiffness(const scene *sc)
   return k;
 }
 
+int scene_contact_count(const scene *sc) { return sc->structure ? sc->structure->n_contacts : sc->n_contacts; }
+
+const scene_contact *scene_contact_at(const scene *sc, int j)
+{
+  return sc->structure ? &sc->structure->contacts[j].given : &sc->contacts[j];
+}
+
 hc_status scene_model(const scene *sc, model **out)
 {
+  if (sc->structure) return structure_model(sc->structure, out);
   hc_status st = model_oscillator(sc->mass, sc->damping, sc->stiffness, sc->force, sc->n_contacts, out);
-  for (int j = 0; j < sc->n_contacts && st == HC_OK; ++j) {
-    model_contact *c = &(*out)->contacts[j];
-    c->law = sc->contacts[j].law;
-    model_direction(sc->contacts[j].angle_deg, c->tangent, c->normal);
+  if (st != HC_OK) return st;
+  model *m = *out;
+  for (int j = 0; j < sc->n_contacts; ++j) {
+    m->contacts[j].law = sc->contacts[j].law;
+    model_direction(sc->contacts[j].angle_deg, m->contacts[j].tangent, m->contacts[j].normal);
   }
-  return st;
+  return HC_OK;
 }
 
 hc_status scene_setup(const scene *sc, compare_setup *out)

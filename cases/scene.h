@@ -1,5 +1,6 @@
-/* scene.h - what a case file says, as plain data: one scene a case file (docs/interface.md). It owns no memory: copy
- * it freely. Solvers get parts of it: the model and their settings (scene_setup).
+/* scene.h - what a case file says, as plain data: one scene a case file (docs/interface.md). Copy it freely: of its
+ * parts only the structure has memory, which copies share, and which belongs to whoever read the case (case_clear,
+ * case_file.h). Solvers get parts of it: the model and their settings (scene_setup).
  * Names, units, defaults, ranges and meanings of the fields are in fields.c and nowhere else. */
 #ifndef HC_SCENE_H
 #define HC_SCENE_H
@@ -12,15 +13,24 @@
 #include "model/model.h"
 #include "timeint/transient_settings.h"
 
-enum { SCENE_MAX_CONTACTS = 16 /* in a case file; a model takes any number */, SCENE_MAX_TEXT = 128 };
+enum {
+  SCENE_MAX_CONTACTS = 16 /* of an oscillator in a case file; others have any number */,
+  SCENE_MAX_TEXT = 128,
+  SCENE_NAME = 32
+};
+
+typedef struct scene_structure scene_structure; /* structure.h */
 
 typedef struct scene_contact {
   contact law;
   double angle_deg; /* [deg] 0..90, of the contact's tangent to x */
+  double preload;   /* [force] >= 0, of a structure's contact: kn gap, or its constant normal force without normal */
+  char name[SCENE_NAME]; /* of a structure's contact, or "" */
 } scene_contact;
 
 typedef struct scene {
   char title[SCENE_MAX_TEXT], unit_length[16], unit_force[16], unit_time[16];
+  scene_structure *structure; /* NULL: an oscillator, of which alone the numbers down to the contacts speak */
   double mass, damping, stiffness;
   double force; /* forcing.amplitude F0 [force] */
   int n_contacts;
@@ -45,8 +55,12 @@ const char *scene_where(const scene *sc, double omega, char text[SCENE_WHERE]);
 /* The contact with its direction to x. */
 moving_contact scene_moving_contact(const scene_contact *c);
 
-/* Largest stiffness [force/length] that x can see: K and every contact stuck. */
+/* Largest stiffness [force/length] that an oscillator's x can see: K and every contact stuck. */
 double scene_max_stiffness(const scene *sc);
+
+/* The contacts, of an oscillator or a structure. */
+int scene_contact_count(const scene *sc);
+const scene_contact *scene_contact_at(const scene *sc, int j);
 
 /* The model of the scene, to free with model_free. HC_NO_MEMORY: *out is NULL. */
 hc_status scene_model(const scene *sc, model **out);

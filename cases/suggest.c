@@ -25,6 +25,7 @@ suggestion suggest_key(const char *section, const char *key, size_t length)
   for (int i = 0; i < field_count(); ++i) {
     const field *f = field_at(i);
     bool here = !strcmp(f->section, section);
+    if (!here && f->flags & FIELD_STRUCTURE) continue; /* few cases have one */
     int d = field_nearness(key, length, f), cost = 2 * d + !here;
     if (cost < best_cost && (here ? d : 2 * d) <= 2) best = (suggestion){.f = f}, best_cost = cost;
   }
@@ -41,6 +42,7 @@ suggestion suggest_path(const char *path, size_t length)
   if (index) stem = (size_t)(index - path);
   suggestion section = suggest_key("", path, stem);
   const char *name = section.s ? section.s->name : "";
+  if (index && !strcmp(name, "forcing")) name = "forcing[]";
   const field *f = field_find(name, path + dot, length - dot);
   if (f) return (suggestion){.f = f};
   return suggest_key(name, path + dot, length - dot);

@@ -1,7 +1,7 @@
 /* yaml_scene.c - from a YAML document to a scene, every key through the table of fields. The first mistake ends it. */
 #include <string.h>
 
-#include "cases/case_reader.h"
+#include "cases/yaml_structure.h"
 
 const char *yaml_node_what(const yaml_node_t *n)
 {
@@ -17,7 +17,7 @@ bool yaml_check_key(case_reader *r, const yaml_node_t *key)
   return false;
 }
 
-static hc_status unknown_key(case_reader *r, const yaml_node_t *key, const char *section)
+hc_status yaml_unknown_key(case_reader *r, const yaml_node_t *key, const char *section)
 {
   const char *text = yaml_node_text(key);
   size_t length = key->data.scalar.length;
@@ -30,8 +30,10 @@ static hc_status unknown_key(case_reader *r, const yaml_node_t *key, const char 
   const field_section *s;
   int n = 0;
   for (int i = 0; i < field_count(); ++i)
-    if (!strcmp(field_at(i)->section, section)) message_add(m, "%s %s", n++ ? "," : "", field_at(i)->name);
-  for (int i = 1; !*section && (s = field_section_at(i)) != NULL; ++i) message_add(m, ", %s", s->name);
+    if (!strcmp(field_at(i)->section, section) && !strchr(field_at(i)->name, '.'))
+      message_add(m, "%s %s", n++ ? "," : "", field_at(i)->name);
+  for (int i = 1; !*section && (s = field_section_at(i)) != NULL; ++i)
+    if (!strchr(s->name, '[')) message_add(m, ", %s", s->name);
   if (length > 0 && text[0] >= '0' && text[0] <= '9')
     message_add(m, " (a comma ends a value: the decimal sign is a point)");
   return HC_BAD_INPUT;
@@ -110,9 +112,8 @@ static hc_status check_rival(case_reader *r, const field *f, const yaml_node_t *
   return HC_BAD_INPUT;
 }
 
-/* One key of a section, or of the top level. */
-static hc_status read_field(case_reader *r, yaml_document_t *doc, const field *f, int j, void *base,
-                            const yaml_node_pair_t *pair)
+hc_status yaml_scene_field(case_reader *r, yaml_document_t *doc, const field *f, int j, void *base,
+                           const yaml_node_pair_t *pair)
 {
   const yaml_node_t *key = yaml_document_get_node(doc, pair->key), *value = yaml_document_get_node(doc, pair->value);
   if (case_given(r, f)) return yaml_duplicate_key(r, key, r->at[field_index(f)]);
@@ -126,7 +127,8 @@ static hc_status check_missing(case_reader *r, const field_section *s, const yam
 {
   for (int i = 0; i < field_count(); ++i) {
     const field *f = field_at(i), *rival = field_rival(f, 0);
-    if (strcmp(f->section, s->name) || f->fallback || case_given(r, f) || given_rival(r, f)) continue;
+    if (strcmp(f->section, s->name) || f->fallback || f->flags & FIELD_STRUCTURE) continue;
+    if (case_given(r, f) || given_rival(r, f)) continue;
     message *m = case_blame(r, case_place_of(r, node->start_mark));
     message_add(m, "missing key `%s` in `%s", f->name, s->name);
     if (j >= 0) message_add(m, "[%d]", j);
@@ -138,7 +140,16 @@ static hc_status check_missing(case_reader *r, const field_section *s, const yam
   return HC_OK;
 }
 
-/* A section that is a mapping, or one contact of the list of them. */
+static hc_status of_structure(case_reader *r, const yaml_node_t *key)
+{
+  message *m = case_blame(r, case_place_of(r, key->start_mark));
+  message_add(m, "`");
+  message_add_input(m, yaml_node_text(key), key->data.scalar.length, 60);
+  message_add(m, "` is for a structure, expected `structure` instead of `oscillator` with it");
+  return HC_BAD_INPUT;
+}
+
+/* A section that is a mapping, or one contact of an oscillator. */
 static hc_status read_section(case_reader *r, yaml_document_t *doc, const field_section *s, int j, void *base,
                               const yaml_node_t *node)
 {
@@ -157,20 +168,21 @@ static hc_status read_section(case_reader *r, yaml_document_t *doc, const field_
     const yaml_node_t *key = yaml_document_get_node(doc, p->key);
     if (!yaml_check_key(r, key)) return HC_BAD_INPUT;
     const field *f = field_find(s->name, yaml_node_text(key), key->data.scalar.length);
-    st = f ? read_field(r, doc, f, j, base, p) : unknown_key(r, key, s->name);
+    if (f && f->flags & FIELD_STRUCTURE) return of_structure(r, key);
+    st = f ? yaml_scene_field(r, doc, f, j, base, p) : yaml_unknown_key(r, key, s->name);
   }
   return st == HC_OK ? check_missing(r, s, node, j) : st;
 }
 
-static void forget_contact_fields(case_reader *r)
+void yaml_forget_fields(case_reader *r, unsigned of)
 {
   for (int i = 0; i < field_count(); ++i)
-    if (field_at(i)->flags & FIELD_IN_CONTACT) r->at[i] = (case_place){0};
+    if (field_at(i)->flags & of) r->at[i] = (case_place){0};
 }
 
 hc_status yaml_scene_contact(case_reader *r, yaml_document_t *doc, yaml_node_t *node, int j)
 {
-  forget_contact_fields(r);
+  yaml_forget_fields(r, FIELD_IN_CONTACT);
   field_contact_defaults(&r->sc.contacts[j]);
   r->contact_has[j] = ~0ull; /* what is missing is found here and now */
   r->contact_at[j] = case_place_of(r, node->start_mark);
@@ -199,31 +211,59 @@ hc_status yaml_scene_contacts(case_reader *r, yaml_document_t *doc, yaml_node_t 
   return HC_OK;
 }
 
+/* Does a case do without the section? A structure has neither mass nor force as an oscillator has. */
+static bool may_be_missing(const case_reader *r, const field_section *s)
+{
+  return r->sc.structure && (!strcmp(s->name, "oscillator") || !strcmp(s->name, "forcing"));
+}
+
 static hc_status check_sections(case_reader *r, const case_place *given, const yaml_node_t *root)
 {
   const field_section *s;
   for (int i = 1; (s = field_section_at(i)) != NULL; ++i) {
     message *m = NULL;
-    for (int j = 0; j < field_count() && given[i].line == 0; ++j) {
+    for (int j = 0; j < field_count() && given[i].line == 0 && !may_be_missing(r, s); ++j) {
       const field *f = field_at(j);
-      if (strcmp(f->section, s->name) || f->fallback || f->flags & FIELD_IN_CONTACT || f->scale != 0) continue;
+      if (strcmp(f->section, s->name) || f->fallback || f->scale != 0) continue;
+      if (f->flags & (FIELD_ELSEWHERE | FIELD_STRUCTURE)) continue;
       if (!m)
         message_add(m = case_blame(r, case_place_of(r, root->start_mark)), "missing section `%s`, expected `%s: {",
                     s->name, s->name);
       else message_add(m, ", ");
       message_add(m, "%s: ...", f->name);
     }
-    if (m) message_add(m, "}`");
+    if (m) message_add(m, "}`%s", !strcmp(s->name, "oscillator") ? ", or `structure`" : "");
     if (m) return HC_BAD_INPUT;
   }
   return HC_OK;
 }
 
-static int section_index(const field_section *s)
+static int section_index(const char *name)
 {
   int i = 0;
-  while (field_section_at(i) != s) ++i;
+  while (strcmp(field_section_at(i)->name, name)) ++i;
   return i;
+}
+
+/* What a section holds, wherever it stands. */
+static hc_status read_section_value(case_reader *r, yaml_document_t *doc, const field_section *s, yaml_node_t *value)
+{
+  const bool contacts = !strcmp(s->name, "contacts");
+  if (!strcmp(s->name, "structure")) return yaml_structure_read(r, doc, value);
+  if (r->sc.structure && contacts) return yaml_contacts_read(r, doc, value);
+  if (r->sc.structure && !strcmp(s->name, "forcing")) return yaml_loads_read(r, doc, value);
+  if (contacts) return yaml_scene_contacts(r, doc, value);
+  return read_section(r, doc, s, -1, &r->sc, value);
+}
+
+static hc_status check_either(case_reader *r, const case_place *given)
+{
+  const case_place a = given[section_index("oscillator")], b = given[section_index("structure")];
+  if (a.line == 0 || b.line == 0) return HC_OK;
+  const bool a_last = a.line > b.line || (a.line == b.line && a.column > b.column);
+  message_add(case_blame(r, a_last ? a : b), "both `%s` (line %zu) and `%s`, expected one of them",
+              a_last ? "structure" : "oscillator", a_last ? b.line : a.line, a_last ? "oscillator" : "structure");
+  return HC_BAD_INPUT;
 }
 
 static hc_status read_top_level(case_reader *r, yaml_document_t *doc, const yaml_node_pair_t *pair, case_place *given)
@@ -232,14 +272,29 @@ static hc_status read_top_level(case_reader *r, yaml_document_t *doc, const yaml
   yaml_node_t *value = yaml_document_get_node(doc, pair->value);
   if (!yaml_check_key(r, key)) return HC_BAD_INPUT;
   const field *f = field_find("", yaml_node_text(key), key->data.scalar.length);
-  if (f) return read_field(r, doc, f, -1, &r->sc, pair);
+  if (f && f->kind == FIELD_PART) { /* response */
+    if (case_given(r, f)) return yaml_duplicate_key(r, key, r->at[field_index(f)]);
+    r->at[field_index(f)] = case_place_of(r, value->start_mark);
+    return r->sc.structure ? yaml_structure_part(r, doc, f, value) : of_structure(r, key);
+  }
+  if (f) return yaml_scene_field(r, doc, f, -1, &r->sc, pair);
   const field_section *s = field_find_section(yaml_node_text(key), key->data.scalar.length);
-  if (!s) return unknown_key(r, key, "");
-  case_place *at = &given[section_index(s)];
+  if (!s || strchr(s->name, '[')) return yaml_unknown_key(r, key, "");
+  case_place *at = &given[section_index(s->name)];
   if (at->line > 0) return yaml_duplicate_key(r, key, *at);
   *at = case_place_of(r, key->start_mark);
-  if (!strcmp(s->name, "contacts")) return yaml_scene_contacts(r, doc, value);
-  return read_section(r, doc, s, -1, &r->sc, value);
+  hc_status st = check_either(r, given);
+  return st == HC_OK ? read_section_value(r, doc, s, value) : st;
+}
+
+/* The first pair with the key `structure`, or NULL. */
+static const yaml_node_pair_t *find_structure(yaml_document_t *doc, const yaml_node_t *root)
+{
+  for (yaml_node_pair_t *p = root->data.mapping.pairs.start; p < root->data.mapping.pairs.top; ++p) {
+    const yaml_node_t *key = yaml_document_get_node(doc, p->key);
+    if (key->type == YAML_SCALAR_NODE && !strcmp(yaml_node_text(key), "structure")) return p;
+  }
+  return NULL;
 }
 
 hc_status yaml_scene_read(case_reader *r, yaml_document_t *doc, const yaml_node_t *root)
@@ -250,9 +305,9 @@ hc_status yaml_scene_read(case_reader *r, yaml_document_t *doc, const yaml_node_
                 "the case is %s, expected a mapping with `oscillator`, `forcing` and `sweep`", yaml_node_what(root));
     return HC_BAD_INPUT;
   }
-  for (yaml_node_pair_t *p = root->data.mapping.pairs.start; p < root->data.mapping.pairs.top; ++p) {
-    hc_status st = read_top_level(r, doc, p, given);
-    if (st != HC_OK) return st;
-  }
-  return check_sections(r, given, root);
+  const yaml_node_pair_t *structure = find_structure(doc, root);
+  hc_status st = structure ? read_top_level(r, doc, structure, given) : HC_OK;
+  for (yaml_node_pair_t *p = root->data.mapping.pairs.start; p < root->data.mapping.pairs.top && st == HC_OK; ++p)
+    if (p != structure) st = read_top_level(r, doc, p, given);
+  return st == HC_OK ? check_sections(r, given, root) : st;
 }

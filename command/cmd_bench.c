@@ -225,7 +225,7 @@ static int run_bench(int argc, char **argv)
 {
   cli_common common;
   bench_command_options own = {.repeats = DEFAULT_REPEATS};
-  scene sc;
+  scene sc = {.structure = NULL};
   bench b;
   double failed_at;
   cli_parse(&cmd_bench, argc, argv, &own, &common);
@@ -251,6 +251,7 @@ static int run_bench(int argc, char **argv)
   plot_order drawing = {.path = own.plot};
   if (own.plot && b.n_rows && !written) written = cli_plotted(&common, plot_bench(&drawing, &sc, &b), drawing.why);
   bench_clear(&b);
+  case_clear(&sc);
   return code ? code : written;
 }
 

@@ -185,7 +185,7 @@ static int run_compare(int argc, char **argv)
 {
   cli_common common;
   compare_options own = {0};
-  scene sc;
+  scene sc = {.structure = NULL};
   comparison c = {0};
   accuracy a = {0};
   table *tables[3] = {NULL};
@@ -195,7 +195,10 @@ static int run_compare(int argc, char **argv)
   int code = cli_check_files(&common, 1, &(cli_file){"--plot", own.plot, CLI_OUTPUT});
   if (!code) code = cli_load_case(&common, common.arguments[0], &sc);
   if (!code) code = compare_lists(&common, &own.lists, &sc);
-  if (code) return code;
+  if (code) {
+    case_clear(&sc);
+    return code;
+  }
   cli_take_frequencies(&common, &own.at, &sc);
   progress *bar = progress_start("comparing", common.quiet);
   hc_monitor monitor = progress_monitor(bar);
@@ -225,6 +228,7 @@ static int run_compare(int argc, char **argv)
   accuracy_clear(&a);
   comparison_clear(&c);
   scene_setup_clear(&setup);
+  case_clear(&sc);
   return code ? code : written;
 }
 

@@ -155,42 +155,50 @@ static int write_table(const cli_common *common, const scene *sc, int n_harm, co
   return code;
 }
 
-static int run_contact(int argc, char **argv)
+/* The forces of the given motion, once the case is read. */
+static int put_forces(const cli_common *common, const contact_options *own, const scene *sc)
 {
-  cli_common common;
-  contact_options own = {0};
-  scene sc;
   double X[MAX_COEF] = {0};
-  cli_parse(&cmd_contact, argc, argv, &own, &common);
-  cli_check_plot(&common, own.plot, false);
-  int code = cli_check_files(&common, 1, &(cli_file){"--plot", own.plot, CLI_OUTPUT});
-  if (!code) code = cli_load_case(&common, common.arguments[0], &sc);
-  if (code) return code;
-  int n_harm = read_motion(&common, own.motion, X);
+  int code;
+  int n_harm = read_motion(common, own->motion, X);
   if (n_harm < 0) return EXIT_USAGE;
-  if (sc.hbm.force == HBM_FORCE_SAMPLED && sc.hbm.samples == HBM_AUTO) {
-    cli_message(&common, "hbm.samples: auto chooses along a response curve, and there is none here; try --set "
-                         "hbm.samples=N, or --set hbm.force=exact");
+  if (sc->hbm.force == HBM_FORCE_SAMPLED && sc->hbm.samples == HBM_AUTO) {
+    cli_message(common, "hbm.samples: auto chooses along a response curve, and there is none here; try --set "
+                        "hbm.samples=N, or --set hbm.force=exact");
     return EXIT_NO_SOLUTION;
   }
-  if (n_harm < sc.hbm.harmonics) n_harm = sc.hbm.harmonics; /* auto is 0: the motion's own */
+  if (n_harm < sc->hbm.harmonics) n_harm = sc->hbm.harmonics; /* auto is 0: the motion's own */
   if (n_harm < 1) n_harm = 1;
-  int n_time[MAX_SETS] = {sc.hbm.force == HBM_FORCE_EXACT ? EXACT : sc.hbm.samples}, n_sets = 1;
-  for (int i = 0; i < own.samples.n; ++i) {
-    double n = own.samples.v[i];
+  int n_time[MAX_SETS] = {sc->hbm.force == HBM_FORCE_EXACT ? EXACT : sc->hbm.samples}, n_sets = 1;
+  for (int i = 0; i < own->samples.n; ++i) {
+    double n = own->samples.v[i];
     if (n_sets == MAX_SETS || n != floor(n) || n > 1 << 24) {
-      cli_message(&common, "--samples takes at most %d whole numbers", MAX_SETS - 1);
+      cli_message(common, "--samples takes at most %d whole numbers", MAX_SETS - 1);
       return EXIT_USAGE;
     }
     n_time[n_sets++] = (int)n;
   }
   double(*F)[MAX_COEF] = calloc(MAX_SETS, sizeof *F);
-  if (!F) return cli_solver_failed(&common, CLI_HBM, "the contact force", HC_NO_MEMORY, 0);
-  code = evaluate(&common, &sc, n_harm, X, n_time, n_sets, F);
-  if (!code) code = write_table(&common, &sc, n_harm, X, n_time, n_sets, F);
-  plot_order drawing = {.path = own.plot};
-  if (!code && own.plot) code = cli_plotted(&common, plot_contact(&drawing, &sc, n_harm, X), drawing.why);
+  if (!F) return cli_solver_failed(common, CLI_HBM, "the contact force", HC_NO_MEMORY, 0);
+  code = evaluate(common, sc, n_harm, X, n_time, n_sets, F);
+  if (!code) code = write_table(common, sc, n_harm, X, n_time, n_sets, F);
+  plot_order drawing = {.path = own->plot};
+  if (!code && own->plot) code = cli_plotted(common, plot_contact(&drawing, sc, n_harm, X), drawing.why);
   free(F);
+  return code;
+}
+
+static int run_contact(int argc, char **argv)
+{
+  cli_common common;
+  contact_options own = {0};
+  scene sc = {.structure = NULL};
+  cli_parse(&cmd_contact, argc, argv, &own, &common);
+  cli_check_plot(&common, own.plot, false);
+  int code = cli_check_files(&common, 1, &(cli_file){"--plot", own.plot, CLI_OUTPUT});
+  if (!code) code = cli_load_case(&common, common.arguments[0], &sc);
+  if (!code) code = put_forces(&common, &own, &sc);
+  case_clear(&sc);
   return code;
 }
 

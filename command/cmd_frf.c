@@ -111,7 +111,7 @@ static int run_frf(int argc, char **argv)
 {
   cli_common common;
   frf_options own = {0};
-  scene sc;
+  scene sc = {.structure = NULL};
   cli_parse(&cmd_frf, argc, argv, &own, &common);
   cli_check_plot(&common, own.plot, false);
   int code = cli_check_files(&common, 1, &(cli_file){"--plot", own.plot, CLI_OUTPUT}), n_columns;
@@ -153,6 +153,7 @@ static int run_frf(int argc, char **argv)
   hbm_curve_free(&found);
   hbm_curve_free(&curve);
   hbm_solver_free(s);
+  case_clear(&sc);
   return code ? code : written;
 }
 

@@ -223,6 +223,7 @@ static int run_gate(int argc, char **argv)
   for (int i = 0; i < call.n_judged; ++i) gate_clear(&call.cases[i]);
   free(call.errors);
   free(call.cases);
+  for (int i = 0; call.scenes && i < call.common.n_arguments; ++i) case_clear(&call.scenes[i]);
   free(call.scenes);
   return code;
 }

@@ -156,7 +156,7 @@ static int run_report(int argc, char **argv)
 {
   cli_common common;
   report_options own = {0};
-  scene sc;
+  scene sc = {.structure = NULL};
   report_data d;
   char name[512];
   cli_parse(&cmd_report, argc, argv, &own, &common);
@@ -165,7 +165,10 @@ static int run_report(int argc, char **argv)
   if (!code) code = cli_check_files(&common, !common.output, &(cli_file){"the page", path, CLI_OUTPUT});
   if (!code) code = cli_load_case(&common, common.arguments[0], &sc);
   if (!code) code = compare_lists(&common, &own.lists, &sc);
-  if (code) return code;
+  if (code) {
+    case_clear(&sc);
+    return code;
+  }
   cli_take_frequencies(&common, &own.at, &sc);
   progress *bar = progress_start("comparing", common.quiet);
   hc_monitor monitor = progress_monitor(bar);
@@ -180,6 +183,7 @@ static int run_report(int argc, char **argv)
     if (!common.quiet) cli_message(&common, "wrote %s", path);
   } else code = cli_file_failed(&common, path, st);
   report_clear(&d);
+  case_clear(&sc);
   return code;
 }
 

@@ -61,7 +61,7 @@ static int run_transient(int argc, char **argv)
 {
   cli_common common;
   transient_options own = {0};
-  scene sc;
+  scene sc = {.structure = NULL};
   cli_parse(&cmd_transient, argc, argv, &own, &common);
   cli_check_plot(&common, own.plot, false);
   int code = cli_check_files(&common, 1, &(cli_file){"--plot", own.plot, CLI_OUTPUT}), n_columns;
@@ -70,6 +70,7 @@ static int run_transient(int argc, char **argv)
   cli_take_frequencies(&common, &own.at, &sc);
   if (sc.compare.omega.n == 0) {
     cli_message(&common, "at which frequencies? give --at LIST, or compare.omega in the case");
+    case_clear(&sc);
     return EXIT_USAGE;
   }
   progress *bar = progress_start("time integration", common.quiet);
@@ -99,6 +100,7 @@ static int run_transient(int argc, char **argv)
     written = cli_plotted(&common, plot_transient(&drawing, &sc, &found), drawing.why);
   table_free(t);
   steady_states_clear(&found);
+  case_clear(&sc);
   return code ? code : written;
 }
 

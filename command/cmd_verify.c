@@ -228,7 +228,7 @@ static int run_verify(int argc, char **argv)
 {
   cli_common common;
   verify_options own = {0};
-  scene sc;
+  scene sc = {.structure = NULL};
   verify_data data = {0};
   verify_report report = {0};
   int written = 0;
@@ -251,6 +251,7 @@ static int run_verify(int argc, char **argv)
   }
   verify_clear(&report);
   verify_data_clear(&data);
+  case_clear(&sc);
   return code ? code : written;
 }
 

@@ -129,4 +129,8 @@ hbmcheck_status hbmcheck_case_parse(const char *name, const char *text, size_t l
   return new_case(name, text, length, n_set, set, message, size, out);
 }
 
-void hbmcheck_case_free(hbmcheck_case *c) { free(c); }
+void hbmcheck_case_free(hbmcheck_case *c)
+{
+  if (c) case_clear(&c->sc);
+  free(c);
+}

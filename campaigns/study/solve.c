@@ -161,6 +161,7 @@ hc_status study_solve(const study *s, long id, const hc_monitor *monitor, study_
   else if (s->kind == STUDY_TRANSIENT) st = solve_transient(&sc, monitor, out);
   else st = solve_compare(&sc, monitor, out);
   out->seconds = thread_seconds() - start;
+  case_clear(&sc);
   return st;
 }
 

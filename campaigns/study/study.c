@@ -21,20 +21,22 @@ int study_index(const study *s, long id, int axis)
 }
 
 /* The value was accepted when the file was read. */
-static void apply(case_reader *r, const study_field *sf, const study_value *value)
+static hc_status apply(case_reader *r, const study_field *sf, const study_value *value)
 {
   field_value v;
   message why;
   char words[16];
   int bad;
-  case_target t = {.f = sf->f, .contact = sf->contact};
+  const case_target t = case_target_of(sf->f, sf->contact);
   r->here = (case_place){.line = value->line, .column = value->column};
   void *base = case_target_base(r, t);
-  case_drop_rivals(r, sf->f);
+  if (!base) return HC_NO_MEMORY;
+  case_drop_rivals(r, sf->f, base);
   message_start(&why, words, sizeof words);
   field_split(sf->f, value->text, strlen(value->text), &v);
   field_store(sf->f, base, &v, &why, &bad);
   case_target_given(r, t);
+  return HC_OK;
 }
 
 hc_status study_scene(const study *s, long id, scene *out, case_error *err)
@@ -43,12 +45,12 @@ hc_status study_scene(const study *s, long id, scene *out, case_error *err)
   case_reader_start(&r, s->name, NULL, err);
   r.sc = s->base;
   memset(r.contact_has, 0xff, sizeof r.contact_has); /* the base is whole */
+  hc_status st = HC_OK;
   for (int a = 0; a < s->n_axes; ++a)
-    for (int k = 0; k < s->axes[a].n_fields; ++k)
-      apply(&r, &s->axes[a].fields[k], &s->axes[a].fields[k].values[study_index(s, id, a)]);
-  hc_status st = case_check(&r);
-  if (st == HC_OK) *out = r.sc;
-  return st;
+    for (int k = 0; k < s->axes[a].n_fields && st == HC_OK; ++k)
+      st = apply(&r, &s->axes[a].fields[k], &s->axes[a].fields[k].values[study_index(s, id, a)]);
+  if (st == HC_OK) st = case_check(&r);
+  return case_reader_take(&r, st, out);
 }
 
 bool study_in_cycles(const study *s)
@@ -125,6 +127,7 @@ void study_free(study *s)
     free(s->views[i].name.text);
     free(s->views[i].query.text);
   }
+  case_clear(&s->base);
   free(s->axes);
   free(s->claims);
   free(s->views);

@@ -23,7 +23,7 @@ typedef struct study_value {
 
 typedef struct study_field {
   const field *f;
-  int contact; /* -1 outside contacts */
+  int contact; /* its number, or that of the load; -1 outside such lists */
   char path[FIELD_PATH];
   size_t line, column;
   study_value *values; /* [axis.n] */

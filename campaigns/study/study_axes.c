@@ -103,7 +103,7 @@ static hc_status range_value(study_reader *q, const study_field *sf, const range
                              study_value *out)
 {
   char text[NUMBER_TEXT], words[256];
-  scene scratch = q->r.sc;
+  scene scratch; /* as room for a value of a contact or structure, too: its place in those is inside this */
   message why;
   int bad;
   double x = range_at(g, i);
@@ -111,8 +111,7 @@ static hc_status range_value(study_reader *q, const study_field *sf, const range
   number_write(x, text);
   field_value v = {.n = 1, .item[0] = {.text = text, .length = strlen(text)}};
   message_start(&why, words, sizeof words);
-  void *base = sf->contact >= 0 ? (void *)&scratch.contacts[sf->contact] : (void *)&scratch;
-  if (!field_store(sf->f, base, &v, &why, &bad)) {
+  if (!field_store(sf->f, &scratch, &v, &why, &bad)) {
     message_add(study_blame(q, node), "%s%s (value %d of %d of the range)", sf->path, why.text, i + 1, g->count);
     return HC_BAD_INPUT;
   }
@@ -153,9 +152,8 @@ static char *canonical(study_reader *q, const field *f, const yaml_node_t *node)
 
 static hc_status list_value(study_reader *q, const study_field *sf, const yaml_node_t *node, study_value *out)
 {
-  scene scratch = q->r.sc;
-  void *base = sf->contact >= 0 ? (void *)&scratch.contacts[sf->contact] : (void *)&scratch;
-  hc_status st = yaml_scene_value(&q->r, &q->doc, sf->f, sf->contact, base, node);
+  scene scratch; /* as in range_value */
+  hc_status st = yaml_scene_value(&q->r, &q->doc, sf->f, sf->contact, &scratch, node);
   if (st != HC_OK) return st;
   *out = (study_value){canonical(q, sf->f, node), node->start_mark.line + 1, node->start_mark.column + 1};
   return out->text ? HC_OK : study_no_memory(q);
@@ -205,17 +203,18 @@ static hc_status read_field(study_reader *q, study_axis *a, const yaml_node_pair
   case_target t;
   study_field *sf = &a->fields[a->n_fields];
   const yaml_node_t *key = study_node(q, pair->key);
-  int contacts = q->r.sc.n_contacts;
+  int contacts = scene_contact_count(&q->r.sc);
   hc_status st = study_give(q, key, &t, sf->path);
   if (st != HC_OK) return st;
-  if (!t.f || t.contact >= contacts) {
-    message_add(study_blame(q, key),
-                "`%s` cannot vary, expected a field of a contact that the base case has, such as contacts[0].gap",
-                sf->path);
+  if (!t.f || t.f->kind == FIELD_PART || (t.list == CASE_CONTACTS && t.index >= contacts)) {
+    message_add(
+        study_blame(q, key),
+        "`%s` cannot vary, expected a number or choice, or one of a contact that the base case has, such as contacts[0].gap",
+        sf->path);
     return HC_BAD_INPUT;
   }
   sf->f = t.f;
-  sf->contact = t.contact;
+  sf->contact = t.index;
   sf->line = key->start_mark.line + 1;
   sf->column = key->start_mark.column + 1;
   ++a->n_fields;

@@ -104,8 +104,9 @@ hc_status study_give(study_reader *q, const yaml_node_t *key, case_target *t, ch
   q->r.here = case_place_of(&q->r, key->start_mark);
   hc_status st = case_find_target(&q->r, yaml_node_text(key), key->data.scalar.length, t);
   if (st != HC_OK) return st;
-  if (t->f) field_path(t->f, t->contact, path);
-  else snprintf(path, FIELD_PATH, t->contact < 0 ? "contacts" : "contacts[%d]", t->contact);
+  const char *list = t->list == CASE_LOADS ? "forcing" : "contacts";
+  if (t->f) field_path(t->f, t->index, path);
+  else snprintf(path, FIELD_PATH, t->index < 0 ? "%s" : "%s[%d]", list, t->index);
   for (int i = 0; i < q->n_given; ++i) {
     if (!(t->f ? clashes(q->given[i].path, t->f, path) : !strcmp(q->given[i].path, path))) continue;
     message *m = case_blame(&q->r, q->r.here);
@@ -124,14 +125,7 @@ static hc_status set_one(study_reader *q, const yaml_node_pair_t *pair)
   char path[FIELD_PATH];
   yaml_node_t *value = study_node(q, pair->value);
   hc_status st = study_give(q, study_node(q, pair->key), &t, path);
-  if (st != HC_OK) return st;
-  if (!t.f && t.contact < 0) return yaml_scene_contacts(&q->r, &q->doc, value);
-  void *base = case_target_base(&q->r, t);
-  if (!t.f) return yaml_scene_contact(&q->r, &q->doc, value, t.contact);
-  case_drop_rivals(&q->r, t.f);
-  st = yaml_scene_value(&q->r, &q->doc, t.f, t.contact, base, value);
-  if (st == HC_OK) case_target_given(&q->r, t);
-  return st;
+  return st == HC_OK ? case_target_read(&q->r, &q->doc, t, value) : st;
 }
 
 static hc_status read_set(study_reader *q, const yaml_node_t *node)
@@ -158,7 +152,7 @@ static hc_status apply_options(study_reader *q, int n_set)
     if ((st = case_set_apply(&q->r, k)) != HC_OK) break;
     while (*text == ' ') ++text;
     if (case_find_target(&q->r, text, strcspn(text, "= "), &t) == HC_OK && t.f)
-      st = note_given(q, field_path(t.f, t.contact, path), (case_place){.set = k, .line = 1, .column = 1});
+      st = note_given(q, field_path(t.f, t.index, path), (case_place){.set = k, .line = 1, .column = 1});
   }
   q->r.set_now = 0;
   return st;
@@ -185,6 +179,7 @@ static hc_status read_base(study_reader *q, const yaml_node_t *node)
   if (st != HC_OK) return st;
   char *path = q->s->base_name = beside(q->r.name, name.text);
   st = path ? case_read(path, 0, NULL, &q->r.sc, &inner) : study_no_memory(q);
+  q->r.owns_structure = path && st == HC_OK;
   if (path && st == HC_IO) message_add(study_blame(q, node), "the base case: %s", inner.message);
   else if (path && st != HC_OK) {
     message_start(&q->r.msg, q->r.msg.text, q->r.msg.size);
@@ -288,7 +283,7 @@ static hc_status read_study(study_reader *q, const yaml_node_t *root, int n_set)
   if (st == HC_OK) st = study_read_axes(q, value[KEY_VARY]);
   if (st == HC_OK && value[KEY_VIEWS]) st = study_read_views(q, value[KEY_VIEWS]);
   if (st == HC_OK && value[KEY_CLAIMS]) st = study_read_claims(q, value[KEY_CLAIMS]);
-  q->s->base = q->r.sc;
+  q->s->base = q->r.sc; /* and its structure, in any case */
   return st == HC_OK ? study_take_fingerprint(q->s) : st;
 }
 

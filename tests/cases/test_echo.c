@@ -104,6 +104,7 @@ static void random_scene(scene *sc, uint64_t *s)
   sc->n_contacts = random_int(s, 0, 3);
   for (int i = 0; i < field_count(); ++i) {
     const field *f = field_at(i);
+    if (f->flags & FIELD_STRUCTURE) continue;
     bool in_contact = f->flags & FIELD_IN_CONTACT;
     for (int j = 0; in_contact && j < sc->n_contacts; ++j) random_field(f, &sc->contacts[j], s);
     if (!in_contact && !(f->flags & FIELD_NO_ECHO)) random_field(f, sc, s);

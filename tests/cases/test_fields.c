@@ -55,9 +55,14 @@ static void rows_are_sound(void **state)
     assert_ptr_equal(field_find(f->section, f->name, strlen(f->name)), f); /* unique */
     assert_true(!*f->section || field_find_section(f->section, strlen(f->section)));
     assert_true(strlen(f->meaning) > 0);
-    assert_true(f->offset < (f->flags & FIELD_IN_CONTACT ? sizeof(scene_contact) : sizeof(scene)));
+    assert_true(f->offset < (f->flags & FIELD_IN_CONTACT     ? sizeof(scene_contact)
+                             : f->flags & FIELD_IN_LOAD      ? sizeof(structure_load)
+                             : f->flags & FIELD_IN_STRUCTURE ? sizeof(scene_structure)
+                                                             : sizeof(scene)));
     assert_int_equal((f->flags & FIELD_IN_CONTACT) != 0, !strcmp(f->section, "contacts"));
-    if (f->kind != FIELD_TEXT && f->kind != FIELD_FLAG && f->kind != FIELD_CHOICE)
+    assert_int_equal((f->flags & FIELD_IN_LOAD) != 0, !strcmp(f->section, "forcing[]"));
+    assert_int_equal(f->kind == FIELD_PART, f->expects != NULL);
+    if (f->kind != FIELD_TEXT && f->kind != FIELD_FLAG && f->kind != FIELD_CHOICE && f->kind != FIELD_PART)
       assert_true(f->low < f->high && *f->unit);
     assert_int_equal(f->group != NULL, field_rival(f, 0) != NULL);
     const field *rival;

@@ -139,6 +139,7 @@ void scene_is_in_range(const scene *sc)
   must(sc->n_contacts >= 0 && sc->n_contacts <= SCENE_MAX_CONTACTS, "%d contacts", sc->n_contacts);
   for (int i = 0; i < field_count(); ++i) {
     const field *f = field_at(i);
+    if (f->flags & FIELD_STRUCTURE) continue;
     if (!(f->flags & FIELD_IN_CONTACT)) field_is_in_range(f, sc);
     for (int j = 0; f->flags & FIELD_IN_CONTACT && j < sc->n_contacts; ++j) field_is_in_range(f, &sc->contacts[j]);
   }

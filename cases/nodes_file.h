@@ -1,0 +1,16 @@
+/* nodes_file.h - which degree of freedom moves which node of a mesh in which direction: a csv file of lines
+ * dof,node,direction, that line itself the first. */
+#ifndef HC_NODES_FILE_H
+#define HC_NODES_FILE_H
+
+#include "base/message.h"
+#include "cases/structure.h"
+
+/* One more node of s, which is known not to be there yet. HC_NO_MEMORY. */
+hc_status nodes_add(scene_structure *s, int dof, int node, char direction);
+
+/* The file at `path` into s->nodes. HC_BAD_INPUT with "PATH:LINE:COLUMN: ..." in m, HC_IO with words that are to follow
+ * the file's name ("cannot be opened: ..."), HC_NO_MEMORY. */
+hc_status nodes_file_read(const char *path, scene_structure *s, message *m);
+
+#endif

@@ -1,0 +1,177 @@
+/* structure_check.c - see structure_check.h. */
+#include "cases/structure_check.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "numerics/dense.h"
+#include "numerics/lu.h"
+
+#define AT(A, i, j) ((A)[(size_t)(i) + (size_t)n * (size_t)(j)])
+
+bool structure_unsymmetric(int n, const double *A, int *row, int *column)
+{
+  const double tolerance = 1e-10;
+  for (int j = 0; j < n; ++j)
+    for (int i = j + 1; i < n; ++i) {
+      if (fabs(AT(A, i, j) - AT(A, j, i)) <= tolerance * sqrt(fabs(AT(A, i, i)) * fabs(AT(A, j, j)))) continue;
+      if (AT(A, i, j) == AT(A, j, i)) continue; /* of infinite products, too */
+      *row = i, *column = j;
+      return true;
+    }
+  return false;
+}
+
+/* Cholesky, by columns: what is left of a pivot is compared with what rounding makes of 0. */
+static int factor(int n, double *L)
+{
+  for (int k = 0; k < n; ++k) {
+    double pivot = AT(L, k, k);
+    for (int p = 0; p < k; ++p) pivot -= AT(L, k, p) * AT(L, k, p);
+    if (!(pivot > n * DBL_EPSILON * AT(L, k, k))) return k + 1;
+    AT(L, k, k) = sqrt(pivot);
+    for (int p = 0; p < k; ++p) {
+      const double factor = AT(L, k, p);
+      for (int i = k + 1; i < n && factor != 0; ++i) AT(L, i, k) -= AT(L, i, p) * factor;
+    }
+    for (int i = k + 1; i < n; ++i) AT(L, i, k) /= AT(L, k, k);
+  }
+  return 0;
+}
+
+hc_status structure_not_definite(int n, const double *M, int *order)
+{
+  const size_t square = (size_t)n * (size_t)n;
+  double *L = malloc(square * sizeof *L);
+  *order = 0;
+  if (!L) return HC_NO_MEMORY;
+  memcpy(L, M, square * sizeof *L);
+  *order = factor(n, L);
+  free(L);
+  return HC_OK;
+}
+
+/* ---- what nothing holds ---- */
+
+/* A += stiffness direction direction^T, scaled by d on both sides. */
+static void add_spring(int n, double *A, const double *d, double stiffness, const double *direction)
+{
+  for (int j = 0; j < n && stiffness != 0; ++j)
+    for (int i = 0; i < n && direction[j] != 0; ++i)
+      AT(A, i, j) += stiffness * (direction[i] * d[i]) * (direction[j] * d[j]);
+}
+
+/* K and the stuck contacts in coordinates in which all masses are alike, so that units of translations and rotations
+ * do not count: D K D, D = diag(M)^-1/2. */
+static void stuck_stiffness(const scene_structure *s, const double *d, double *A)
+{
+  const int n = s->n;
+  for (int j = 0; j < n; ++j)
+    for (int i = 0; i < n; ++i) AT(A, i, j) = d[i] * AT(s->stiffness.v, i, j) * d[j];
+  for (int j = 0; j < s->n_contacts; ++j) {
+    const structure_contact *c = &s->contacts[j];
+    const bool holds = c->given.law.mu > 0 && (c->given.law.kn > 0 || c->given.preload > 0);
+    add_spring(n, A, d, holds ? c->given.law.kt : 0, c->tangent);
+    add_spring(n, A, d, c->given.law.kn, c->normal);
+  }
+}
+
+static double largest(int n, const double *x)
+{
+  double most = 0;
+  for (int i = 0; i < n; ++i) most = fmax(most, fabs(x[i]));
+  return most;
+}
+
+/* Largest sum of the absolute values of a row. */
+static double row_norm(int n, const double *A)
+{
+  double most = 0;
+  for (int i = 0; i < n; ++i) {
+    double sum = 0;
+    for (int j = 0; j < n; ++j) sum += fabs(AT(A, i, j));
+    most = fmax(most, sum);
+  }
+  return most;
+}
+
+/* Inverse iteration on A + shift: from anywhere it tends to the motion that A resists least, and grows by 1/shift a
+ * step where A does not resist at all. The growth of the last step is returned. */
+static double least_held(int n, const double *lu, const int *pivot, double *x)
+{
+  double growth = 0;
+  for (int i = 0; i < n; ++i) x[i] = 1 + 0.37 * sin(7.0 * i + 1); /* of no symmetry */
+  for (int step = 0; step < 4; ++step) {
+    const double before = largest(n, x);
+    for (int i = 0; i < n; ++i) x[i] /= before;
+    lu_solve(n, lu, pivot, x);
+    growth = largest(n, x);
+  }
+  return growth;
+}
+
+hc_status structure_free_motion(const scene_structure *s, double *x, bool *free_motion)
+{
+  const int n = s->n;
+  double *A = malloc((size_t)n * ((size_t)n + 1) * sizeof *A), *d = A ? A + (size_t)n * (size_t)n : NULL;
+  int *pivot = malloc((size_t)n * sizeof *pivot);
+  *free_motion = false;
+  if (A && pivot) {
+    for (int i = 0; i < n; ++i) d[i] = 1 / sqrt(AT(s->mass.v, i, i));
+    stuck_stiffness(s, d, A);
+    const double scale = row_norm(n, A), rounding = n * DBL_EPSILON * scale;
+    for (int i = 0; i < n; ++i) AT(A, i, i) += scale > 0 ? rounding / 8 : 1;
+    if (scale == 0) *free_motion = true;
+    else *free_motion = lu_factor(n, A, pivot) && !(least_held(n, A, pivot, x) * rounding < 1);
+    for (int i = 0; i < n; ++i) x[i] = scale == 0 ? d[i] : x[i] * d[i];
+    const double most = largest(n, x);
+    for (int i = 0; i < n; ++i) x[i] /= most;
+  }
+  const bool failed = !A || !pivot;
+  free(A);
+  free(pivot);
+  return failed ? HC_NO_MEMORY : HC_OK;
+}
+
+/* ---- damping ---- */
+
+/* C = M Phi diag(2 z omega) Phi^T M. `room` is [2][n][n]. */
+static hc_status modal_damping(scene_structure *s, double *lambda, double *room)
+{
+  const int n = s->n;
+  const size_t square = (size_t)n * (size_t)n;
+  double *phi = room, *momentum = room + square; /* M phi of a mode in each column */
+  const hc_status st = dense_modes(n, s->stiffness.v, s->mass.v, lambda, phi);
+  if (st != HC_OK) return st;
+  const double rounding = n * DBL_EPSILON * fmax(fabs(lambda[0]), fabs(lambda[n - 1]));
+  memset(momentum, 0, square * sizeof *momentum);
+  memset(s->damping.v, 0, square * sizeof *s->damping.v);
+  for (int k = 0; k < n; ++k) {
+    if (lambda[k] < -rounding) return HC_BAD_INPUT;
+    for (int j = 0; j < n; ++j)
+      for (int i = 0; i < n; ++i) AT(momentum, i, k) += AT(s->mass.v, i, j) * AT(phi, j, k);
+    const double z = s->how == STRUCTURE_DAMPING_MODAL ? s->modal : s->ratios[k];
+    const double c = 2 * z * sqrt(fmax(lambda[k], 0));
+    for (int j = 0; j < n; ++j)
+      for (int i = 0; i < n; ++i) AT(s->damping.v, i, j) += c * AT(momentum, i, k) * AT(momentum, j, k);
+  }
+  return HC_OK;
+}
+
+hc_status structure_resolve_damping(scene_structure *s)
+{
+  const size_t n = (size_t)s->n, square = n * n;
+  if (s->how == STRUCTURE_DAMPING_MATRIX) return HC_OK;
+  if (!s->damping.v && !(s->damping.v = malloc(square * sizeof *s->damping.v))) return HC_NO_MEMORY;
+  if (s->how == STRUCTURE_DAMPING_RAYLEIGH) {
+    for (size_t i = 0; i < square; ++i)
+      s->damping.v[i] = s->rayleigh[0] * s->mass.v[i] + s->rayleigh[1] * s->stiffness.v[i];
+    return HC_OK;
+  }
+  double *room = malloc((2 * square + n) * sizeof *room);
+  const hc_status st = room ? modal_damping(s, room + 2 * square, room) : HC_NO_MEMORY;
+  free(room);
+  return st;
+}

@@ -1,0 +1,89 @@
+/* structure_model.c - see structure_model.h. */
+#include "cases/structure_model.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/constants.h"
+
+contact structure_contact_law(const structure_contact *c)
+{
+  contact law = c->given.law;
+  if (c->given.preload > 0 && law.kn > 0) law.gap = c->given.preload / law.kn;
+  if (!(law.kn > 0)) law.load = c->given.preload;
+  return law;
+}
+
+void structure_cosine_sine(double angle_deg, double *cosine, double *sine)
+{
+  static const double quarter_cosines[] = {1, 0, -1, 0};
+  const double angle = remainder(angle_deg, 360); /* exact, -180..180 */
+  const int quarter = ((int)rint(angle / 90) + 4) % 4;
+  if (angle == 90 * rint(angle / 90)) {
+    *cosine = quarter_cosines[quarter];
+    *sine = quarter_cosines[(quarter + 3) % 4];
+    return;
+  }
+  *cosine = cos(angle * (PI / 180));
+  *sine = sin(angle * (PI / 180));
+}
+
+/* The loads of the model: one for every harmonic there is, in ascending order; returns how many. */
+static int harmonics(const scene_structure *s, int *harmonic)
+{
+  int n = 0;
+  for (int k = 0; k <= HBM_MAX_HARMONICS; ++k)
+    for (int i = 0; i < s->n_loads; ++i)
+      if (s->loads[i].harmonic == k && (n == 0 || harmonic[n - 1] != k)) harmonic[n++] = k;
+  return n;
+}
+
+static void add_load(model_load *to, int n, const structure_load *load)
+{
+  double cosine, sine;
+  structure_cosine_sine(load->phase_deg, &cosine, &sine);
+  for (int i = 0; i < n; ++i) {
+    to->cosine[i] += load->amplitude * cosine * load->direction[i];
+    if (load->harmonic > 0) to->sine[i] -= load->amplitude * sine * load->direction[i];
+  }
+}
+
+static void set_responses(const scene_structure *s, model *m)
+{
+  const size_t n = (size_t)s->n;
+  int first = 0, most = 0;
+  for (int i = 0; i < s->n_responses; ++i)
+    memcpy(m->responses + n * (size_t)i, s->responses[i].direction, n * sizeof(double));
+  if (s->n_responses > 0) return;
+  while (first < s->n_loads && s->loads[first].harmonic == 0) ++first;
+  for (int i = 1; i < s->n && first < s->n_loads; ++i)
+    if (fabs(s->loads[first].direction[i]) > fabs(s->loads[first].direction[most])) most = i;
+  m->responses[most] = 1;
+}
+
+hc_status structure_model(const scene_structure *s, model **out)
+{
+  int harmonic[HBM_MAX_HARMONICS + 1];
+  const int n_loads = harmonics(s, harmonic);
+  const size_t bytes = (size_t)s->n * sizeof(double), square = (size_t)s->n * bytes;
+  hc_status st = model_new(s->n, n_loads, s->n_contacts, s->n_responses > 0 ? s->n_responses : 1, out);
+  if (st != HC_OK) return st;
+  model *m = *out;
+  memcpy(m->mass, s->mass.v, square);
+  memcpy(m->damping, s->damping.v, square);
+  memcpy(m->stiffness, s->stiffness.v, square);
+  for (int l = 0; l < n_loads; ++l) {
+    m->loads[l].harmonic = harmonic[l];
+    for (int i = 0; i < s->n_loads; ++i)
+      if (s->loads[i].harmonic == harmonic[l]) add_load(&m->loads[l], s->n, &s->loads[i]);
+  }
+  for (int j = 0; j < s->n_contacts; ++j) {
+    const structure_contact *c = &s->contacts[j];
+    m->contacts[j].law = structure_contact_law(c);
+    memcpy(m->contacts[j].tangent, c->tangent, bytes);
+    memcpy(m->contacts[j].normal, c->normal, bytes);
+    if (c->by_angle) model_direction(c->given.angle_deg, m->contacts[j].tangent, m->contacts[j].normal);
+  }
+  set_responses(s, m);
+  return HC_OK;
+}
