@@ -2,6 +2,7 @@
 #include "cases/structure_model.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "base/constants.h"
@@ -48,17 +49,32 @@ static void add_load(model_load *to, int n, const structure_load *load)
   }
 }
 
-static void set_responses(const scene_structure *s, model *m)
+/* The response where the case names none. */
+static int forced_dof(const scene_structure *s)
 {
-  const size_t n = (size_t)s->n;
   int first = 0, most = 0;
-  for (int i = 0; i < s->n_responses; ++i)
-    memcpy(m->responses + n * (size_t)i, s->responses[i].direction, n * sizeof(double));
-  if (s->n_responses > 0) return;
   while (first < s->n_loads && s->loads[first].harmonic == 0) ++first;
   for (int i = 1; i < s->n && first < s->n_loads; ++i)
     if (fabs(s->loads[first].direction[i]) > fabs(s->loads[first].direction[most])) most = i;
-  m->responses[most] = 1;
+  return most;
+}
+
+static void set_responses(const scene_structure *s, model *m)
+{
+  const size_t n = (size_t)s->n;
+  for (int i = 0; i < s->n_responses; ++i)
+    memcpy(m->responses + n * (size_t)i, s->responses[i].direction, n * sizeof(double));
+  if (s->n_responses == 0) m->responses[forced_dof(s)] = 1;
+}
+
+int structure_response_count(const scene_structure *s) { return s->n_responses > 0 ? s->n_responses : 1; }
+
+const char *structure_response_name(const scene_structure *s, int r, char *text, size_t size)
+{
+  char name[STRUCTURE_WORD];
+  if (s->n_responses > 0) return structure_direction_name(s, s->responses[r].direction, text, size);
+  snprintf(text, size, "%s", structure_dof_name(s, forced_dof(s), name));
+  return text;
 }
 
 hc_status structure_model(const scene_structure *s, model **out)

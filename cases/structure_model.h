@@ -10,6 +10,10 @@
  * the first load with a harmonic >= 1 acts on most, or else the first one. HC_NO_MEMORY: *out is NULL. */
 hc_status structure_model(const scene_structure *s, model **out);
 
+/* How many responses its model has, and the name of one: that of its direction, into text[size], which is returned. */
+int structure_response_count(const scene_structure *s);
+const char *structure_response_name(const scene_structure *s, int r, char *text, size_t size);
+
 /* The contact's law: its gap from a preload given instead, or its constant normal force. */
 contact structure_contact_law(const structure_contact *c);
 

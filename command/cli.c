@@ -299,10 +299,15 @@ int cli_columns(bool in_cycles, int n, const table_column *columns, table_column
   return kept;
 }
 
+unsigned cli_extra_columns(const scene *sc)
+{
+  return (sc->in_cycles ? ROWS_IN_CYCLES : 0u) | (sc->structure ? ROWS_RESPONSES : 0u);
+}
+
 void cli_put_row(const cli_common *common, table *t, rows_kind kind, const row_cell *cells)
 {
   int n;
-  rows_columns(kind, common->scene->in_cycles, &n);
+  rows_columns(kind, kind == ROWS_FRF ? cli_extra_columns(common->scene) : common->scene->in_cycles, &n);
   for (int i = 0; i < n; ++i) {
     if (!cells[i].there) table_put_missing(t);
     else if (cells[i].kind == TABLE_TEXT) table_put_text(t, cells[i].as.text);

@@ -103,6 +103,9 @@ int cli_file_failed(const cli_common *common, const char *path, hc_status st);
 /* columns[n] into out[n], how many: all of them, or where frequencies are not in cycles all but `frequency`. */
 int cli_columns(bool in_cycles, int n, const table_column *columns, table_column *out);
 
+/* The columns of rows.h that only some cases have, for this one. */
+unsigned cli_extra_columns(const scene *sc);
+
 /* Append a row of that kind to the table. */
 void cli_put_row(const cli_common *common, table *t, rows_kind kind, const row_cell *cells);
 

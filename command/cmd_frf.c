@@ -3,6 +3,7 @@
 
 #include "base/constants.h"
 #include "campaigns/scene_solvers.h"
+#include "cases/structure_model.h"
 #include "command/commands.h"
 #include "command/files.h"
 #include "command/plot/plot.h"
@@ -43,17 +44,30 @@ static error_t read_option(int key, char *text, struct argp_state *state)
   }
 }
 
+/* A row for each response of point k. */
+static hc_status put_point(const cli_common *common, hbm_solver *s, const hbm_curve *c, int k, bool *free, table *t)
+{
+  const scene_structure *of = common->scene->structure;
+  const int n = of ? structure_response_count(of) : 1;
+  response_row row;
+  row_cell cells[ROWS_MOST];
+  hc_status st = response_row_of(s, c, k, &row);
+  for (int r = 0; r < n && st == HC_OK; ++r) {
+    if (r > 0) st = response_row_turn(s, c, k, r, &row);
+    if (of) structure_response_name(of, r, row.response, sizeof row.response);
+    *free |= row.measures.contact.free_sliders > 0;
+    rows_frf(&row, cli_extra_columns(common->scene), cells);
+    cli_put_row(common, t, ROWS_FRF, cells);
+  }
+  return st;
+}
+
 static hc_status put_points(const cli_common *common, hbm_solver *s, const hbm_curve *c, table *t)
 {
   bool free = false;
   for (int k = 0; k < c->n; ++k) {
-    response_row row;
-    row_cell cells[ROWS_MOST];
-    hc_status st = response_row_of(s, c, k, &row);
+    hc_status st = put_point(common, s, c, k, &free, t);
     if (st != HC_OK) return st;
-    free |= row.measures.contact.free_sliders > 0;
-    rows_frf(&row, common->scene->in_cycles, cells);
-    cli_put_row(common, t, ROWS_FRF, cells);
   }
   if (!free) table_hide(t, "mean_free");
   return HC_OK;
@@ -120,7 +134,7 @@ static int run_frf(int argc, char **argv)
   hbm_solver *s = NULL;
   hbm_curve curve = {0}, found = {0};
   double from, to, failed_at = 0;
-  const table_column *columns = rows_columns(ROWS_FRF, sc.in_cycles, &n_columns);
+  const table_column *columns = rows_columns(ROWS_FRF, cli_extra_columns(&sc), &n_columns);
   table *t = table_new("Response curve", n_columns, columns);
   progress *bar = progress_start("harmonic balance", common.quiet);
   hc_monitor monitor = progress_monitor(bar);

@@ -14,6 +14,11 @@ hc_status response_row_of(hbm_solver *s, const hbm_curve *c, int k, response_row
   return known == HC_NO_MEMORY ? known : st;
 }
 
+hc_status response_row_turn(hbm_solver *s, const hbm_curve *c, int k, int r, response_row *row)
+{
+  return hbm_measure_response(s, row->point.omega, c->X + (size_t)k * (size_t)c->n_coef, r, &row->measures);
+}
+
 hc_status response_at(hbm_solver *s, const hbm_curve *curve, const number_list *at, hbm_curve *found, double *failed_at)
 {
   hc_status worst = HC_OK;

@@ -6,14 +6,21 @@
 #include "hbm/hbm.h"
 
 /* One solution, its measures and its stability. */
+enum { RESPONSE_NAME = 32 };
+
 typedef struct response_row {
+  char response[RESPONSE_NAME]; /* of a structure: which, in words; empty for an oscillator */
   hbm_point point;
   hbm_measures measures;
   bool stability_known;
   hbm_stability stability; /* valid when known */
 } response_row;
 
+/* Point k of the curve, by its first response. */
 hc_status response_row_of(hbm_solver *s, const hbm_curve *c, int k, response_row *out);
+
+/* *row becomes that of response r of the model, counted from 0: its measures. Errors of hbm_measure_response. */
+hc_status response_row_turn(hbm_solver *s, const hbm_curve *c, int k, int r, response_row *row);
 
 /* All solutions at the asked frequencies, appended to *found. A frequency without any is a failure, the first of
  * which is returned with its omega, unless the curve says the branch never goes there. */

@@ -1,6 +1,7 @@
 /* rows.c - see rows.h. Each list is written once and expanded twice: to the columns, and to the function that fills
  * a row.
- *   X(kind, name, is it there, value)   with r the row; C(...): only where the sweep is in cycles per time */
+ *   X(kind, name, is it there, value)   with r the row; C(...): only where the sweep is in cycles per time; R(...): only
+ *   where the model is a structure */
 #include "output/rows.h"
 
 #include <math.h>
@@ -43,10 +44,11 @@ static const char *stable_text(const response_row *r)
 }
 
 /* clang-format off */
-#define FRF_COLUMNS(X, C)                                                   \
+#define FRF_COLUMNS(X, C, R)                                                   \
   X(REAL,    "omega",      true, r->point.omega)                            \
   C(REAL,    "frequency",  true, r->point.omega / TWO_PI)                   \
   X(INTEGER, "branch",     true, r->point.branch)                           \
+  R(TEXT,    "response",   true, r->response)                               \
   X(REAL,    "amplitude",  true, r->measures.amplitude)                     \
   X(REAL,    "max",        true, r->measures.max)                           \
   X(REAL,    "min",        true, r->measures.min)                           \
@@ -60,7 +62,7 @@ static const char *stable_text(const response_row *r)
   X(REAL,    "residual",   true, r->point.residual)                         \
   X(TEXT,    "mean_free",  true, yes_no(r->measures.contact.free_sliders > 0))
 
-#define TRANSIENT_COLUMNS(X, C)                                             \
+#define TRANSIENT_COLUMNS(X, C, R)                                             \
   X(REAL,    "omega",      true, r->result.omega)                           \
   C(REAL,    "frequency",  true, r->result.omega / TWO_PI)                  \
   X(TEXT,    "verdict",    true, steady_verdict_text(r, (char[24]){0}))     \
@@ -83,7 +85,7 @@ static const char *stable_text(const response_row *r)
   X(REAL,    "from_regularisation", settled(r), r->from_regularisation)     \
   X(TEXT,    "mean_free",  settled(r), yes_no(motion_mean_is_free(&r->result)))
 
-#define COMPARE_COLUMNS(X, C)                                               \
+#define COMPARE_COLUMNS(X, C, R)                                               \
   X(REAL,    "omega",               true, r->omega)                         \
   C(REAL,    "frequency",           true, r->omega / TWO_PI)                \
   X(INTEGER, "branch",              r->branch >= 0, r->branch)              \
@@ -117,7 +119,7 @@ static const char *stable_text(const response_row *r)
   X(TEXT,    "unexpected",          prediction_known(r), yes_no(r->unexpected)) \
   X(TEXT,    "mean_free",           has_hbm(r), yes_no(comparison_mean_free(r)))
 
-#define CURVE_COLUMNS(X, C)                                                 \
+#define CURVE_COLUMNS(X, C, R)                                                 \
   X(INTEGER, "harmonics",       true, r->harmonics)                         \
   X(INTEGER, "samples",         r->samples > 0, r->samples)                 \
   X(INTEGER, "points",          true, r->points)                            \
@@ -133,7 +135,7 @@ static const char *stable_text(const response_row *r)
   X(INTEGER, "arclength",       true, r->arclength)                         \
   X(INTEGER, "left_at_start",   true, r->left_at_start)
 
-#define ACCURACY_COLUMNS(X, C)                                              \
+#define ACCURACY_COLUMNS(X, C, R)                                              \
   X(INTEGER, "harmonics",       true, r->harmonics)                         \
   X(TEXT,    "force",           true, r->samples > 0 ? "sampled" : "exact") \
   X(INTEGER, "samples",         r->samples > 0, r->samples)                 \
@@ -154,7 +156,7 @@ static const char *stable_text(const response_row *r)
   X(REAL,    "seconds",         true, r->seconds)                           \
   X(TEXT,    "curve",           true, curve_text(r))
 
-#define ORDER_COLUMNS(X, C)                                                 \
+#define ORDER_COLUMNS(X, C, R)                                                 \
   X(TEXT,    "quantity",        true, r->quantity)                          \
   X(INTEGER, "harmonics",       r->harmonics > 0, r->harmonics)             \
   X(REAL,    "omega",           true, r->omega)                             \
@@ -194,8 +196,11 @@ typedef struct columns {
 } columns;
 
 #define COLUMNS_OF(name, LIST)                                                                                         \
-  static const table_column name##_plain[] = {LIST(COLUMN, NONE)}, name##_in_cycles[] = {LIST(COLUMN, COLUMN)};        \
-  _Static_assert(sizeof name##_in_cycles / sizeof *name##_in_cycles <= ROWS_MOST, "callers keep ROWS_MOST cells")
+  static const table_column name##_plain[] = {LIST(COLUMN, NONE, NONE)},                                               \
+                            name##_in_cycles[] = {LIST(COLUMN, COLUMN, NONE)},                                         \
+                            name##_responses[] = {LIST(COLUMN, NONE, COLUMN)},                                         \
+                            name##_both[] = {LIST(COLUMN, COLUMN, COLUMN)};                                            \
+  _Static_assert(sizeof name##_both / sizeof *name##_both <= ROWS_MOST, "callers keep ROWS_MOST cells")
 COLUMNS_OF(frf, FRF_COLUMNS);
 COLUMNS_OF(transient, TRANSIENT_COLUMNS);
 COLUMNS_OF(compare, COMPARE_COLUMNS);
@@ -203,30 +208,32 @@ COLUMNS_OF(curve, CURVE_COLUMNS);
 COLUMNS_OF(accuracy, ACCURACY_COLUMNS);
 COLUMNS_OF(order, ORDER_COLUMNS);
 
-/* [rows_kind][in cycles] */
+/* [rows_kind][rows_extra] */
 /* clang-format off */
-#define BOTH(name) \
-  {{name##_plain, sizeof name##_plain / sizeof *name##_plain}, \
-   {name##_in_cycles, sizeof name##_in_cycles / sizeof *name##_in_cycles}}
+#define LENGTH(list) sizeof(list) / sizeof *(list)
+#define ALL(name) \
+  {{name##_plain, LENGTH(name##_plain)}, {name##_in_cycles, LENGTH(name##_in_cycles)}, \
+   {name##_responses, LENGTH(name##_responses)}, {name##_both, LENGTH(name##_both)}}
 /* clang-format on */
-static const columns all[][2] = {
-    [ROWS_FRF] = BOTH(frf),     [ROWS_TRANSIENT] = BOTH(transient), [ROWS_COMPARE] = BOTH(compare),
-    [ROWS_CURVE] = BOTH(curve), [ROWS_ACCURACY] = BOTH(accuracy),   [ROWS_ORDER] = BOTH(order)};
+static const columns all[][4] = {
+    [ROWS_FRF] = ALL(frf),     [ROWS_TRANSIENT] = ALL(transient), [ROWS_COMPARE] = ALL(compare),
+    [ROWS_CURVE] = ALL(curve), [ROWS_ACCURACY] = ALL(accuracy),   [ROWS_ORDER] = ALL(order)};
 
-const table_column *rows_columns(rows_kind kind, bool in_cycles, int *n)
+const table_column *rows_columns(rows_kind kind, unsigned extra, int *n)
 {
-  const columns *c = &all[kind][in_cycles];
+  const columns *c = &all[kind][extra];
   *n = c->n;
   return c->columns;
 }
 
 #define ROWS(name, row, LIST)                                                                                          \
-  void rows_##name(const row *r, bool in_cycles, row_cell *cells)                                                      \
+  void rows_##name(const row *r, unsigned extra, row_cell *cells)                                                      \
   {                                                                                                                    \
-    if (in_cycles) {                                                                                                   \
-      LIST(FILL, FILL)                                                                                                 \
-    } else {                                                                                                           \
-      LIST(FILL, NONE)                                                                                                 \
+    switch (extra) {                                                                                                   \
+    case ROWS_IN_CYCLES: LIST(FILL, FILL, NONE) break;                                                                 \
+    case ROWS_RESPONSES: LIST(FILL, NONE, FILL) break;                                                                 \
+    case ROWS_IN_CYCLES | ROWS_RESPONSES: LIST(FILL, FILL, FILL) break;                                                \
+    default: LIST(FILL, NONE, NONE) break;                                                                             \
     }                                                                                                                  \
   }
 ROWS(frf, response_row, FRF_COLUMNS)

@@ -12,6 +12,9 @@
 
 typedef enum { ROWS_FRF, ROWS_TRANSIENT, ROWS_COMPARE, ROWS_CURVE, ROWS_ACCURACY, ROWS_ORDER } rows_kind;
 
+/* Columns that only some cases have: frequencies in cycles per time beside the omegas; the name of the response. */
+enum { ROWS_IN_CYCLES = 1, ROWS_RESPONSES = 2 };
+
 enum { ROWS_MOST = 48, ROWS_TEXT = 32 }; /* columns of a kind, asserted; bytes of a text, the end included */
 
 typedef struct row_cell {
@@ -24,15 +27,15 @@ typedef struct row_cell {
   } as;
 } row_cell;
 
-/* The columns of a kind, *n of them; constant. in_cycles: frequencies in cycles per time stand beside the omegas. */
-const table_column *rows_columns(rows_kind kind, bool in_cycles, int *n);
+/* The columns of a kind, *n of them; constant. extra: a sum of ROWS_IN_CYCLES and ROWS_RESPONSES. */
+const table_column *rows_columns(rows_kind kind, unsigned extra, int *n);
 
 /* One row: cells[n] in the columns' order. A real that is not a number is not there. Cannot fail. */
-void rows_frf(const response_row *r, bool in_cycles, row_cell *cells);
-void rows_transient(const steady_row *r, bool in_cycles, row_cell *cells);
-void rows_compare(const comparison_row *r, bool in_cycles, row_cell *cells);
-void rows_curve(const response_summary *r, bool in_cycles, row_cell *cells);
-void rows_accuracy(const accuracy_row *r, bool in_cycles, row_cell *cells);
-void rows_order(const order_row *r, bool in_cycles, row_cell *cells);
+void rows_frf(const response_row *r, unsigned extra, row_cell *cells);
+void rows_transient(const steady_row *r, unsigned extra, row_cell *cells);
+void rows_compare(const comparison_row *r, unsigned extra, row_cell *cells);
+void rows_curve(const response_summary *r, unsigned extra, row_cell *cells);
+void rows_accuracy(const accuracy_row *r, unsigned extra, row_cell *cells);
+void rows_order(const order_row *r, unsigned extra, row_cell *cells);
 
 #endif
