@@ -65,6 +65,8 @@ static void in_the_section(void **state)
       {STRUCTURE("mass: [1, 1], stiffness: [[1, 2], [0, 1]], damping: {modal: 0}"),
        "f:1:38: ", "is not symmetric, as modal"},
       {STRUCTURE("mass: [1, 1], stiffness: [1, -1], damping: {modal: 0}"), "f:1:64: ", "a mode of structure.mass and"},
+      {STRUCTURE("mass: [1, 1], stiffness: [1, 1e10], damping: {rayleigh: [0, 1e300]}"),
+       "f:1:69: ", "structure.damping becomes too large to be held"},
       /* names and nodes */
       {STRUCTURE("mass: [1, 1]" DC ", names: [a]"), "f:1:70: ", "structure.names has 1 names, expected 2, one a DOF"},
       {STRUCTURE("mass: [1, 1]" DC ", names: [a, a]"), "f:1:74: ", "name 2 of structure.names is there twice"},
@@ -111,6 +113,7 @@ static void in_loads_contacts_and_responses(void **state)
       {"forcing: [{dof: 1, amplitude: 1, harmonic: -1}]",
        "7:44: ", "forcing[0].harmonic is `-1`, expected an integer 0..200"},
       {"forcing: [{dof: 1, amplitude: 1, harmonic: 0, phase_deg: 3}]", "7:11: ", "forcing[0] is a static load"},
+      {"forcing: [{direction: {1: 1e10}, amplitude: 1e300}]", "7:11: ", "forcing[0] is too large to be held"},
       {"forcing: [{dof: 1, amplitud: 1}]",
        "7:20: ", "unknown key `amplitud` in `forcing[]`, did you mean `amplitude`?"},
       {"contacts: {}", "7:11: ", "contacts is a mapping, expected a list of contacts"},

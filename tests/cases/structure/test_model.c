@@ -125,10 +125,10 @@ static void degrees_of_freedom_go_by_name_number_or_node(void **state)
   char text[1024];
   const char *tail = "response: [tip, {node: 18, direction: x}, {tip: 1, 2: -1}]\n";
   const char *loads = "forcing: [{node: 17, direction: y, amplitude: 3}]\n";
-  snprintf(
-      text, sizeof text,
-      "%s%sstructure:\n  names: [tip, root]\n  nodes: %s\n  damping: [0, 0]\n  stiffness: [1, 1]\n  mass: [1, 1]\n" SWEEP,
-      tail, loads, f.path);
+  snprintf(text, sizeof text,
+           "%s%sstructure:\n  names: [tip, root]\n  nodes: %s\n  damping: [0, 0]\n  stiffness: [1, 1]\n"
+           "  mass: [1, 1]\n" SWEEP,
+           tail, loads, f.path);
   model *a = model_of(text, NULL);
   const double responses[] = {1, 0, 0, 1, 1, -1};
   assert_int_equal(a->n_responses, 3);
@@ -201,12 +201,13 @@ static void what_contacts_hold_is_held(void **state)
       "structure:\n  mass: [1, 0.05]\n  stiffness: [1000, 0]\n  damping: [0.3, 0.2]\n" SWEEP
       "contacts: [{tangential_stiffness: 400, friction: 0.3, preload: 3, tangent: {1: 1, 2: -1}}]\n";
   model_free(model_of(text, NULL));
-  refused(text, "contacts[0].friction=0", "f:2:3: ", "nothing holds the motion {2: 1}");
-  refused(text, "contacts[0].preload=0", "f:2:3: ", "nothing holds the motion {2: 1}");
-  refused(text, "contacts=[]", "f:2:3: ", "nothing holds the motion {2: 1}: neither structure.stiffness nor a contact");
-  refused(
-      "structure: {names: [a, b, c], mass: [1, 1, 1], damping: [0, 0, 0], stiffness: [[1, -1, 0], [-1, 2, -1], [0, -1, 1]]}\n" SWEEP,
-      NULL, "f:1:12: ", "nothing holds the motion {a: 1, b: 1, c: 1}");
+  refused(text, "contacts[0].friction=0", "--set contacts[0].friction=0: ", "nothing holds the motion {2: 1}");
+  refused(text, "contacts[0].preload=0", "--set contacts[0].preload=0: ", "nothing holds the motion {2: 1}");
+  refused(text, "contacts=[]",
+          "--set contacts=[]: ", "nothing holds the motion {2: 1}: neither structure.stiffness nor a contact");
+  refused("structure: {names: [a, b, c], mass: [1, 1, 1], damping: [0, 0, 0], "
+          "stiffness: [[1, -1, 0], [-1, 2, -1], [0, -1, 1]]}\n" SWEEP,
+          NULL, "f:1:12: ", "nothing holds the motion {a: 1, b: 1, c: 1}");
   refused("structure: {mass: [1, 1], damping: [0, 0], stiffness: [0, 0]}\n" SWEEP, NULL,
           "f:1:12: ", "nothing holds the motion");
   /* stiff and soft together is not free: a spread of 1e12 is that of a fine mesh */
