@@ -24,6 +24,12 @@ static hc_status check_damping(case_reader *r)
     return HC_BAD_INPUT;
   }
   const hc_status st = structure_resolve_damping(s);
+  const size_t square = (size_t)s->n * (size_t)s->n;
+  for (size_t k = 0; k < square && st == HC_OK; ++k) {
+    if (isfinite(s->damping.v[k])) continue;
+    message_add(case_blame(r, s->damping.place), "structure.damping becomes too large to be held, expected less of it");
+    return HC_BAD_INPUT;
+  }
   if (st == HC_OK) return st;
   if (st == HC_NO_MEMORY) return case_out_of_memory(r);
   message_add(
@@ -41,7 +47,14 @@ static hc_status check_damping(case_reader *r)
 static hc_status check_loads(case_reader *r)
 {
   const scene_structure *s = r->sc.structure;
+  double sum = 0; /* of the largest entries: what any entry of a load of the model can become */
   for (int i = 0; i < s->n_loads; ++i) {
+    double most = 0;
+    for (int k = 0; k < s->n; ++k) most = fmax(most, fabs(s->loads[i].amplitude * s->loads[i].direction[k]));
+    if (!isfinite(sum += most)) {
+      message_add(case_blame(r, s->loads[i].place), "forcing[%d] is too large to be held, expected less", i);
+      return HC_BAD_INPUT;
+    }
     if (s->loads[i].harmonic > 0 || s->loads[i].phase_deg == 0) continue;
     message_add(case_blame(r, s->loads[i].place),
                 "forcing[%d] is a static load (harmonic 0) with a phase, expected none", i);

@@ -16,8 +16,9 @@ typedef struct case_error {
 } case_error; /* one line, no newline; empty when all is well */
 
 /* Read `path` ("-" is standard input), apply the n_set assignments "PATH=VALUE" in order, then check what depends on
- * several fields. HC_OK and *out filled, to be cleared with case_clear, or HC_BAD_INPUT / HC_IO / HC_NO_MEMORY, err filled and *out untouched.
- * Messages about an assignment start with "--set PATH=VALUE: ". */
+ * several fields. HC_OK and *out filled, to be cleared with case_clear; or HC_BAD_INPUT / HC_IO / HC_NO_MEMORY, err
+ * filled and *out untouched. Messages about an assignment start with "--set PATH=VALUE: ", those about a file that the
+ * case names with its place there. */
 hc_status case_read(const char *path, int n_set, const char *const *set, scene *out, case_error *err);
 
 /* The same from memory; `name` stands for the file in messages. */

@@ -161,6 +161,7 @@ void case_target_given(case_reader *r, case_target t)
   else if (s && t.list == CASE_CONTACTS) s->contacts[t.index].place = r->here;
   else if (t.list == CASE_CONTACTS) r->contact_has[t.index] |= case_field_bit(t.f);
   else r->at[field_index(t.f)] = r->here;
+  if (s) s->place = r->here; /* what it is wrong about as a whole, it is from here on */
   if (!(t.f->flags & FIELD_IN_STRUCTURE)) return;
   s->how = t.f->kind == FIELD_REAL ? STRUCTURE_DAMPING_MODAL : STRUCTURE_DAMPING_RAYLEIGH;
   s->damping.place = r->here;
@@ -221,6 +222,7 @@ hc_status case_target_read(case_reader *r, yaml_document_t *doc, case_target t, 
   if (t.f && t.f->kind != FIELD_PART && !(t.f->flags & FIELD_IN_STRUCTURE)) return read_value(r, doc, t, node);
   hc_status st = case_own_structure(r);
   if (st != HC_OK) return st;
+  if (r->sc.structure) r->sc.structure->place = r->here;
   if (!t.f) return read_list(r, doc, t, node);
   if (t.list == CASE_NO_LIST) return yaml_structure_part(r, doc, t.f, node);
   st = yaml_entry_part(r, doc, t.f, t.index, node);

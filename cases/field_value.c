@@ -37,10 +37,13 @@ void field_expected(const field *f, message *m)
                                       [FIELD_PAIR] = "two numbers",
                                       [FIELD_REALS] = "a list of numbers",
                                       [FIELD_INTEGERS] = "a list of integers"};
+  if (f->expects) {
+    message_add(m, "%s", f->expects);
+    return;
+  }
   switch (f->kind) {
   case FIELD_FLAG: message_add(m, "true or false"); return;
   case FIELD_CHOICE: add_choices(f, m); return;
-  case FIELD_PART: message_add(m, "%s", f->expects); return;
   case FIELD_TEXT: message_add(m, "text of at most %zu bytes", f->size - 1); return;
   default: break;
   }

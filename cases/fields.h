@@ -49,7 +49,7 @@ typedef struct field {
                         false if it has none; 0: of no concern to it */
   const char *group; /* the fields of a section with one group give the same quantity, each in its own way: never two of
                         them in one file; or NULL */
-  const char *expects; /* what may stand there, in words, for FIELD_PART */
+  const char *expects; /* what may stand there, in words, where kind and range do not say it: all of FIELD_PART */
   const char *meaning;
 } field;
 

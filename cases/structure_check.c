@@ -16,8 +16,7 @@ bool structure_unsymmetric(int n, const double *A, int *row, int *column)
   const double tolerance = 1e-10;
   for (int j = 0; j < n; ++j)
     for (int i = j + 1; i < n; ++i) {
-      if (fabs(AT(A, i, j) - AT(A, j, i)) <= tolerance * sqrt(fabs(AT(A, i, i)) * fabs(AT(A, j, j)))) continue;
-      if (AT(A, i, j) == AT(A, j, i)) continue; /* of infinite products, too */
+      if (fabs(AT(A, i, j) - AT(A, j, i)) <= tolerance * sqrt(fabs(AT(A, i, i))) * sqrt(fabs(AT(A, j, j)))) continue;
       *row = i, *column = j;
       return true;
     }

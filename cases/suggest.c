@@ -34,8 +34,8 @@ suggestion suggest_key(const char *section, const char *key, size_t length)
 
 suggestion suggest_path(const char *path, size_t length)
 {
-  size_t dot = length;
-  while (dot > 0 && path[dot - 1] != '.') --dot;
+  const char *point = memchr(path, '.', length); /* the first: structure.damping.modal */
+  const size_t dot = point ? (size_t)(point - path) + 1 : 0;
   if (dot == 0) return suggest_key("", path, length);
   size_t stem = dot - 1;
   const char *index = memchr(path, '[', stem);

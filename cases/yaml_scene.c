@@ -256,16 +256,6 @@ static hc_status read_section_value(case_reader *r, yaml_document_t *doc, const 
   return read_section(r, doc, s, -1, &r->sc, value);
 }
 
-static hc_status check_either(case_reader *r, const case_place *given)
-{
-  const case_place a = given[section_index("oscillator")], b = given[section_index("structure")];
-  if (a.line == 0 || b.line == 0) return HC_OK;
-  const bool a_last = a.line > b.line || (a.line == b.line && a.column > b.column);
-  message_add(case_blame(r, a_last ? a : b), "both `%s` (line %zu) and `%s`, expected one of them",
-              a_last ? "structure" : "oscillator", a_last ? b.line : a.line, a_last ? "oscillator" : "structure");
-  return HC_BAD_INPUT;
-}
-
 static hc_status read_top_level(case_reader *r, yaml_document_t *doc, const yaml_node_pair_t *pair, case_place *given)
 {
   const yaml_node_t *key = yaml_document_get_node(doc, pair->key);
@@ -283,18 +273,26 @@ static hc_status read_top_level(case_reader *r, yaml_document_t *doc, const yaml
   case_place *at = &given[section_index(s->name)];
   if (at->line > 0) return yaml_duplicate_key(r, key, *at);
   *at = case_place_of(r, key->start_mark);
-  hc_status st = check_either(r, given);
-  return st == HC_OK ? read_section_value(r, doc, s, value) : st;
+  return read_section_value(r, doc, s, value);
 }
 
-/* The first pair with the key `structure`, or NULL. */
-static const yaml_node_pair_t *find_structure(yaml_document_t *doc, const yaml_node_t *root)
+/* The first pair with that key, or NULL. */
+static const yaml_node_pair_t *find_key(yaml_document_t *doc, const yaml_node_t *root, const char *name)
 {
   for (yaml_node_pair_t *p = root->data.mapping.pairs.start; p < root->data.mapping.pairs.top; ++p) {
     const yaml_node_t *key = yaml_document_get_node(doc, p->key);
-    if (key->type == YAML_SCALAR_NODE && !strcmp(yaml_node_text(key), "structure")) return p;
+    if (key->type == YAML_SCALAR_NODE && !strcmp(yaml_node_text(key), name)) return p;
   }
   return NULL;
+}
+
+static hc_status refuse_both(case_reader *r, yaml_document_t *doc, const yaml_node_pair_t *a, const yaml_node_pair_t *b)
+{
+  const yaml_node_pair_t *first = a < b ? a : b, *last = a < b ? b : a;
+  const yaml_node_t *before = yaml_document_get_node(doc, first->key), *key = yaml_document_get_node(doc, last->key);
+  message_add(case_blame(r, case_place_of(r, key->start_mark)), "both `%s` (line %zu) and `%s`, expected one of them",
+              yaml_node_text(before), case_place_of(r, before->start_mark).line, yaml_node_text(key));
+  return HC_BAD_INPUT;
 }
 
 hc_status yaml_scene_read(case_reader *r, yaml_document_t *doc, const yaml_node_t *root)
@@ -305,7 +303,8 @@ hc_status yaml_scene_read(case_reader *r, yaml_document_t *doc, const yaml_node_
                 "the case is %s, expected a mapping with `oscillator`, `forcing` and `sweep`", yaml_node_what(root));
     return HC_BAD_INPUT;
   }
-  const yaml_node_pair_t *structure = find_structure(doc, root);
+  const yaml_node_pair_t *structure = find_key(doc, root, "structure"), *oscillator = find_key(doc, root, "oscillator");
+  if (structure && oscillator) return refuse_both(r, doc, oscillator, structure);
   hc_status st = structure ? read_top_level(r, doc, structure, given) : HC_OK;
   for (yaml_node_pair_t *p = root->data.mapping.pairs.start; p < root->data.mapping.pairs.top && st == HC_OK; ++p)
     if (p != structure) st = read_top_level(r, doc, p, given);

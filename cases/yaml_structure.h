@@ -1,5 +1,6 @@
 /* yaml_structure.h - `structure`, its list of loads, its contacts and its responses, from a YAML document into
- * r->sc.structure. Matrices: yaml_matrix.c; degrees of freedom and directions: yaml_direction.c; lists: yaml_lists.c. */
+ * r->sc.structure. Matrices: yaml_matrix.c; degrees of freedom and directions: yaml_direction.c; lists: yaml_lists.c.
+ */
 #ifndef HC_YAML_STRUCTURE_H
 #define HC_YAML_STRUCTURE_H
 

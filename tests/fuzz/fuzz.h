@@ -1,4 +1,4 @@
-/* fuzz.h - what the four fuzz targets share: the properties that hold for any input, beyond not crashing. A property
+/* fuzz.h - what the fuzz targets share: the properties that hold for any input, beyond not crashing. A property
  * that does not hold ends the process with its words on stderr: a finding for libFuzzer, a failure for ctest.
  * Targets: README.md. */
 #ifndef HC_TESTS_FUZZ_H
@@ -34,6 +34,9 @@ void place_is_inside(const char *words, const char *name, const char *text, size
 
 /* Every field is finite and within the range that `hbmcheck describe` tells, and fields go together. */
 void scene_is_in_range(const scene *sc);
+
+/* The same bits, their structures' too. */
+bool scenes_are_same(const scene *a, const scene *b);
 
 /* case_echo's text reads back to the same scene, bit for bit. */
 void scene_echoes(const scene *sc);

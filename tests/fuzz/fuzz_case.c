@@ -40,5 +40,6 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
   lines_are_what_they_seem(text, size);
   scene_is_in_range(&sc);
   scene_echoes(&sc);
+  case_clear(&sc);
   return 0;
 }

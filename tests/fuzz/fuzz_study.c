@@ -58,7 +58,9 @@ static void scene_is_what_set_makes(const study *s, long id)
   must(st == by_set, "scene %ld: %s, by --set %s\n%s", id, err.message, other.message, text);
   if (st == HC_OK) {
     scene_is_in_range(&ours);
-    must(!memcmp(&ours, &theirs, sizeof ours), "scene %ld is not what --set makes of\n%s", id, text);
+    must(scenes_are_same(&ours, &theirs), "scene %ld is not what --set makes of\n%s", id, text);
+    case_clear(&ours);
+    case_clear(&theirs);
   } else {
     must(st == HC_BAD_INPUT && scene_is_marked(&ours), "scene %ld, status %d: %s", id, (int)st, err.message);
     message_is_clean(err.message, sizeof err.message);

@@ -1,0 +1,130 @@
+/* test_assignments.c - --set on the parts of a structure. */
+#include <math.h>
+
+#include "tests/cases/structure/structure_text.h"
+
+#define LISTS                                                                                                          \
+  "forcing: [{dof: tip, amplitude: 1}]\n"                                                                              \
+  "contacts: [{name: joint, tangential_stiffness: 200, friction: 1, preload: 5, tangent: root}, "                      \
+  "{normal_stiffness: 4, gap: 2, normal: tip}]\n"
+
+/* Setting it is writing it in the file. */
+static void is_as_if(const char *set, const char *from, const char *to)
+{
+  static const char text[] = TWO_NAMED LISTS;
+  char other[1024];
+  const char *at = strstr(text, from);
+  assert_non_null(at);
+  snprintf(other, sizeof other, "%.*s%s%s", (int)(at - text), text, to, at + strlen(from));
+  model *a = model_of(text, set), *b = model_of(other, NULL);
+  same_models(a, b);
+  model_free(a);
+  model_free(b);
+}
+
+static void every_part_can_be_set(void **state)
+{
+  (void)state;
+  is_as_if("structure.damping.modal=0.02", "modal: 0.01", "modal: 0.02");
+  is_as_if("structure.damping.modal=[0.02, 0.03]", "modal: 0.01", "modal: [0.02, 0.03]");
+  is_as_if("structure.damping.rayleigh=[0.5, 1e-3]", "modal: 0.01", "rayleigh: [0.5, 1e-3]");
+  is_as_if("structure.damping={rayleigh: [0.5, 1e-3]}", "modal: 0.01", "rayleigh: [0.5, 1e-3]");
+  is_as_if("structure.damping=[3, 4]", "{modal: 0.01}", "[3, 4]");
+  is_as_if("structure.mass=[3, 4]", "[1, 0.02]", "[3, 4]");
+  is_as_if("structure.stiffness=[[3, 1], [1, 4]]", "[[680, -40], [-40, 40]]", "[[3, 1], [1, 4]]");
+  is_as_if("forcing[0].amplitude=3", "amplitude: 1", "amplitude: 3");
+  is_as_if("forcing[0].phase_deg=30", "amplitude: 1", "amplitude: 1, phase_deg: 30");
+  is_as_if("forcing[0].harmonic=3", "amplitude: 1", "amplitude: 1, harmonic: 3");
+  is_as_if("forcing[0].dof=root", "dof: tip", "dof: root");
+  is_as_if("forcing[0].direction={tip: 1, root: -2}", "dof: tip", "direction: {tip: 1, root: -2}");
+  is_as_if("forcing=[]", "[{dof: tip, amplitude: 1}]", "[]");
+  is_as_if("forcing[1]={dof: root, amplitude: 7}", "amplitude: 1}", "amplitude: 1}, {dof: root, amplitude: 7}");
+  is_as_if("contacts[0].friction=0.2", "friction: 1", "friction: 0.2");
+  is_as_if("contacts[joint].friction=0.2", "friction: 1", "friction: 0.2");
+  is_as_if("contacts[joint].tangent={tip: 1, root: -1}", "tangent: root", "tangent: {tip: 1, root: -1}");
+  is_as_if("contacts[1].preload=3", "gap: 2", "preload: 3");
+  is_as_if("contacts[1].gap=-3", "gap: 2", "gap: -3");
+  is_as_if("contacts[2]={normal_stiffness: 1, normal: root}", "normal: tip}",
+           "normal: tip}, {normal_stiffness: 1, normal: root}");
+  is_as_if("contacts[joint]={normal_stiffness: 1, normal: root}",
+           "{name: joint, tangential_stiffness: 200, friction: 1, preload: 5, tangent: root}",
+           "{normal_stiffness: 1, normal: root}");
+  is_as_if("response=[root]", LISTS, LISTS "response: [root]\n");
+  is_as_if("structure.names=[root, tip]", LISTS, LISTS); /* what has been read stays where it was */
+}
+
+static void mistakes_name_the_assignment(void **state)
+{
+  (void)state;
+  static const struct {
+    const char *set, *words;
+  } all[] = {
+      {"structure.damping.modal=-1", "structure.damping.modal is `-1`, expected a number >= 0"},
+      {"structure.damping.modal=[1]", "structure.damping.modal has 1 entries, expected one number, or 2"},
+      {"structure.damping.modl=1", "did you mean `structure.damping.modal`?"},
+      {"structure.mass=[1]", "structure.mass has 1 entries, expected 2"},
+      {"structure.mass=[1, -1]", "structure.mass is not positive definite"},
+      {"structure=[1]", "`structure` is a section, expected one of its fields"},
+      {"oscillator.mass=1",
+       "`oscillator.mass` is an oscillator's, and the case has a structure, expected structure.mass"},
+      {"forcing.amplitude=1",
+       "`forcing.amplitude` is an oscillator's, and the case has a structure, expected forcing[0]"},
+      {"forcing[1].amplitude=1", "the case has 1 loads, expected an index 0..0"},
+      {"forcing[2]={dof: 1, amplitude: 1}", "the case has 1 loads, expected an index 0..1 (the last one appends)"},
+      {"forcing[0].amplitud=1", "did you mean `forcing[0].amplitude`?"},
+      {"forcing[0].amplitude=x", "forcing[0].amplitude is `x`, expected a number"},
+      {"forcing[0].dof=tp", "no DOF `tp`, did you mean `tip`?"},
+      {"contacts[2].friction=1", "the case has 2 contacts, expected an index 0..1"},
+      {"contacts[jont].friction=1", "unknown field `contacts[jont].friction`"},
+      {"contacts[0].normal_stiffness=1", "contacts[0] has a normal_stiffness, but no normal to act along"},
+      {"contacts[1].friction=1", "contacts[1] has friction, but no tangent to act along"},
+      {"contacts[1].name=joint", "contacts[1] is named `joint` like contacts[0], expected different names"},
+      {"contacts[1].name=a b", "contacts[1] is named `a b`, expected a name"},
+      {"response=[]", "response is an empty list"},
+      {"response=[tip, {tip: 1}]", "response 2 is response 1 again"},
+  };
+  for (size_t i = 0; i < sizeof all / sizeof *all; ++i) {
+    char start[256];
+    snprintf(start, sizeof start, "--set %s: ", all[i].set);
+    refused(TWO_NAMED LISTS, all[i].set, start, all[i].words);
+  }
+  refused(SMALLEST, "structure.damping.modal=1", "--set structure.damping.modal=1: ",
+          "`structure.damping.modal` is a structure's, and the case has an oscillator");
+  refused(SMALLEST, "response=[1]", "--set response=[1]: ", "`response` is a structure's");
+  refused(SMALLEST "contacts: [" CONTACT_1 "]\n", "contacts[0].preload=1",
+          "--set contacts[0].preload=1: ", "is a structure's");
+  refused(SMALLEST, "forcing[0].amplitude=1", "--set forcing[0].amplitude=1: ", "unknown field");
+}
+
+static void a_preload_needs_a_stiffness_that_can_hold_it(void **state)
+{
+  (void)state;
+  static const char text[] = TWO_NAMED "contacts: [{normal_stiffness: 1e-10, preload: 1, normal: tip}]\n";
+  model_free(model_of(text, NULL));
+  refused(text, "contacts[0].preload=1e300", "--set contacts[0].preload=1e300: ", "preload/normal_stiffness too large");
+}
+
+static void a_copy_is_changed_without_its_original(void **state)
+{
+  (void)state;
+  scene sc;
+  accepted(TWO_NAMED LISTS, NULL, &sc);
+  scene_structure *copy = structure_copy(sc.structure);
+  assert_non_null(copy);
+  copy->mass.v[0] = copy->contacts[0].tangent[0] = copy->loads[0].direction[1] = 7;
+  copy->names[0][0] = 'x';
+  assert_true(sc.structure->mass.v[0] == 1 && sc.structure->contacts[0].tangent[0] == 0);
+  assert_true(sc.structure->loads[0].direction[1] == 0);
+  assert_string_equal(sc.structure->names[0], "tip");
+  structure_free(copy);
+  case_clear(&sc);
+}
+
+static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(every_part_can_be_set),
+    cmocka_unit_test(mistakes_name_the_assignment),
+    cmocka_unit_test(a_preload_needs_a_stiffness_that_can_hold_it),
+    cmocka_unit_test(a_copy_is_changed_without_its_original),
+};
+
+CHECK_MAIN("structure.assignments", tests, 60)

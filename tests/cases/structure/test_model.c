@@ -1,0 +1,245 @@
+/* test_model.c - from the case file of a structure to its model. */
+#include <math.h>
+
+#include "base/constants.h"
+#include "cases/structure_model.h"
+#include "tests/cases/structure/structure_text.h"
+
+static void matrices_are_by_columns(void **state)
+{
+  (void)state;
+  model *m = model_of("structure:\n  mass: [[2, 0.5], [0.5, 1]]\n  stiffness: [[1, 2], [3, 4]]\n"
+                      "  damping: [[5, 6], [7, 8]]\n" SWEEP,
+                      NULL);
+  const double mass[] = {2, 0.5, 0.5, 1}, stiffness[] = {1, 3, 2, 4}, damping[] = {5, 7, 6, 8};
+  assert_memory_equal(m->mass, mass, sizeof mass);
+  assert_memory_equal(m->stiffness, stiffness, sizeof stiffness);
+  assert_memory_equal(m->damping, damping, sizeof damping);
+  assert_int_equal(m->n_loads, 0);
+  assert_int_equal(m->n_contacts, 0);
+  assert_true(m->n_responses == 1 && m->responses[0] == 1 && m->responses[1] == 0); /* no force: the first DOF */
+  model_free(m);
+}
+
+/* One degree of freedom in every way it can be written. */
+static void one_degree_of_freedom_is_the_oscillator_to_the_bit(void **state)
+{
+  (void)state;
+  static const char *const laws[] = {"angle_deg: 45", "angle_deg: 0", "angle_deg: 90"};
+  for (size_t i = 0; i < sizeof laws / sizeof *laws; ++i) {
+    char old[512], new[512];
+    const char *numbers = "tangential_stiffness: 100.7, normal_stiffness: 1000.3, friction: 0.3, gap: -0.7";
+    snprintf(old, sizeof old,
+             "oscillator: {mass: 1.1, damping: 0.4, stiffness: 40.3}\nforcing: {amplitude: 100.9}\n" SWEEP
+             "contacts: [{%s, %s}]\n",
+             numbers, laws[i]);
+    model *a = model_of(old, NULL), *b;
+    static const char *const matrices[] = {"mass: [[1.1]], damping: [[0.4]], stiffness: [[40.3]]",
+                                           "mass: [1.1], damping: [0.4], stiffness: [40.3]",
+                                           "mass: 1.1, damping: 0.4, stiffness: 40.3"};
+    static const char *const loads[] = {"{amplitude: 100.9}", "[{dof: 1, amplitude: 100.9}]", "[{amplitude: 100.9}]",
+                                        "[{direction: {1: 1}, amplitude: 100.9, phase_deg: 0, harmonic: 1}]"};
+    for (size_t k = 0; k < 12; ++k) {
+      snprintf(new, sizeof new, "structure: {%s}\nforcing: %s\n" SWEEP "contacts: [{%s, %s}]\n", matrices[k % 3],
+               loads[k / 3], numbers, laws[i]);
+      b = model_of(new, NULL);
+      same_models(a, b);
+      assert_true(model_is_oscillator(b));
+      model_free(b);
+    }
+    model_free(a);
+  }
+}
+
+static void contacts_have_directions_and_laws(void **state)
+{
+  (void)state;
+  model *m = model_of(TWO "contacts:\n"
+                          "  - {tangential_stiffness: 200, normal_stiffness: 300, friction: 0.3, gap: 0.1,\n"
+                          "     tangent: {1: 1, 2: -1}, normal: {2: 1}}\n"
+                          "  - {tangential_stiffness: 20, friction: 1, preload: 5, tangent: 1}\n"
+                          "  - {normal_stiffness: 30, gap: -0.25, normal: {1: 1}}\n"
+                          "  - {normal_stiffness: 4, preload: 3, normal: {1: 0.5, 2: 2}}\n",
+                      NULL);
+  const double tangents[4][2] = {{1, -1}, {1, 0}, {0, 0}, {0, 0}}, normals[4][2] = {{0, 1}, {0, 0}, {1, 0}, {0.5, 2}};
+  const contact laws[] = {{.kt = 200, .kn = 300, .mu = 0.3, .gap = 0.1},
+                          {.kt = 20, .mu = 1, .load = 5},
+                          {.kn = 30, .gap = -0.25},
+                          {.kn = 4, .gap = 0.75}};
+  assert_int_equal(m->n_contacts, 4);
+  for (int j = 0; j < 4; ++j) {
+    assert_memory_equal(m->contacts[j].tangent, tangents[j], sizeof tangents[j]);
+    assert_memory_equal(m->contacts[j].normal, normals[j], sizeof normals[j]);
+    assert_memory_equal(&m->contacts[j].law, &laws[j], sizeof laws[j]);
+  }
+  model_free(m);
+}
+
+static void loads_of_a_harmonic_are_summed(void **state)
+{
+  (void)state;
+  model *m = model_of(TWO "forcing:\n"
+                          "  - {dof: 1, amplitude: 3, phase_deg: 90, harmonic: 2}\n"
+                          "  - {dof: 2, amplitude: -10, harmonic: 0}\n"
+                          "  - {direction: {1: 2, 2: -0.5}, amplitude: 4, harmonic: 2}\n"
+                          "  - {dof: 2, amplitude: 5, phase_deg: -450}\n"
+                          "  - {dof: 1, amplitude: 2, phase_deg: 30, harmonic: 7}\n",
+                      NULL);
+  const double cosines[4][2] = {{0, -10}, {0, 0}, {8, -2}, {2 * cos(PI / 6), 0}};
+  const double sines[4][2] = {{0, 0}, {0, 5}, {-3, 0}, {-2 * sin(PI / 6), 0}};
+  const int harmonics[] = {0, 1, 2, 7};
+  assert_int_equal(m->n_loads, 4);
+  for (int i = 0; i < 4; ++i) {
+    assert_int_equal(m->loads[i].harmonic, harmonics[i]);
+    for (int k = 0; k < 2; ++k) {
+      CHECK_LE(fabs(m->loads[i].cosine[k] - cosines[i][k]), i == 3 ? 4e-16 : 0, "cosine %d %d", i, k);
+      CHECK_LE(fabs(m->loads[i].sine[k] - sines[i][k]), i == 3 ? 4e-16 : 0, "sine %d %d", i, k);
+    }
+  }
+  assert_true(m->responses[0] == 1 && m->responses[1] == 0); /* of the first load that moves: dof 1 */
+  model_free(m);
+}
+
+static void quarters_of_a_turn_are_exact(void **state)
+{
+  (void)state;
+  double c, s;
+  for (int k = -9; k <= 9; ++k) {
+    static const double cosines[] = {1, 0, -1, 0}, sines[] = {0, 1, 0, -1};
+    structure_cosine_sine(90.0 * k, &c, &s);
+    assert_true(c == cosines[(k + 12) % 4] && s == sines[(k + 12) % 4]);
+  }
+  for (double a = -720; a < 720; a += 7.3) {
+    structure_cosine_sine(a, &c, &s);
+    /* a pi/180 rounds to 3 eps of up to 12.6, and cos and sin change by as much */
+    CHECK_LE(fabs(c - cos(a * (PI / 180))), 1e-14, "cos %g", a);
+    CHECK_LE(fabs(s - sin(a * (PI / 180))), 1e-14, "sin %g", a);
+  }
+}
+
+static void degrees_of_freedom_go_by_name_number_or_node(void **state)
+{
+  (void)state;
+  static const char nodes[] = "dof,node,direction\n\n 1 , 17, y\r\nroot,18,x\n";
+  const own_file f = write_file("nodes.csv", nodes, sizeof nodes - 1);
+  char text[1024];
+  const char *tail = "response: [tip, {node: 18, direction: x}, {tip: 1, 2: -1}]\n";
+  const char *loads = "forcing: [{node: 17, direction: y, amplitude: 3}]\n";
+  snprintf(text, sizeof text,
+           "%s%sstructure:\n  names: [tip, root]\n  nodes: %s\n  damping: [0, 0]\n  stiffness: [1, 1]\n"
+           "  mass: [1, 1]\n" SWEEP,
+           tail, loads, f.path);
+  model *a = model_of(text, NULL);
+  const double responses[] = {1, 0, 0, 1, 1, -1};
+  assert_int_equal(a->n_responses, 3);
+  assert_memory_equal(a->responses, responses, sizeof responses);
+  assert_true(a->n_loads == 1 && a->loads[0].cosine[0] == 3 && a->loads[0].cosine[1] == 0);
+  snprintf(text, sizeof text,
+           "structure:\n  names: [tip, root]\n  nodes: [[tip, 17, y], [2, 18, x]]\n  damping: [0, 0]\n"
+           "  stiffness: [1, 1]\n  mass: [1, 1]\n" SWEEP "%s%s",
+           tail, loads);
+  model *b = model_of(text, NULL);
+  same_models(a, b);
+  model_free(a);
+  model_free(b);
+  remove_file(&f);
+}
+
+static void files_of_matrices_lie_beside_the_case(void **state)
+{
+  (void)state;
+  static const char mtx[] = "%%MatrixMarket matrix coordinate real symmetric\n2 2 3\n1 1 680\n2 1 -40\n2 2 40\n";
+  const own_file f = write_file("k.mtx", mtx, sizeof mtx - 1);
+  static const char text[] =
+      "structure: {mass: [1, 0.02], stiffness: k.mtx, damping: [[0.1, -0.05], [-0.05, 0.05]]}\n" SWEEP;
+  char name[128];
+  scene sc;
+  case_error err;
+  snprintf(name, sizeof name, "%s/case.yaml", f.folder);
+  if (case_parse(name, text, strlen(text), 0, NULL, &sc, &err) != HC_OK) fail_msg("%s", err.message);
+  model *a, *b = model_of(TWO, NULL);
+  assert_int_equal(scene_model(&sc, &a), HC_OK);
+  same_models(a, b);
+  model_free(a);
+  model_free(b);
+  case_clear(&sc);
+  remove_file(&f);
+}
+
+/* Phi^T C Phi must be diag(2 z omega): held against M, K and an independent closed form for n = 2. */
+static void modal_damping_damps_every_mode_as_asked(void **state)
+{
+  (void)state;
+  static const char text[] =
+      "structure:\n  mass: [2, 2]\n  stiffness: [[30, -10], [-10, 30]]\n  damping: {modal: %s}\n" SWEEP;
+  static const char *const values[] = {"0.02", "[0.02, 0.02]", "[0.01, 0.03]"};
+  for (int k = 0; k < 3; ++k) {
+    char full[512];
+    snprintf(full, sizeof full, text, values[k]);
+    model *m = model_of(full, NULL);
+    /* modes (1, 1) and (1, -1): omega^2 = 10 and 20; along them C has 2 z omega M */
+    const double z1 = k == 2 ? 0.01 : 0.02, z2 = k == 2 ? 0.03 : 0.02;
+    const double along_1 = m->damping[0] + m->damping[1], along_2 = m->damping[0] - m->damping[1];
+    CHECK_LE(fabs(along_1 - 2 * z1 * sqrt(10) * 2), 1e-14, "%s", values[k]); /* some roundings of 0.25 */
+    CHECK_LE(fabs(along_2 - 2 * z2 * sqrt(20) * 2), 1e-14, "%s", values[k]);
+    assert_true(fabs(m->damping[1] - m->damping[2]) < 1e-15 && fabs(m->damping[0] - m->damping[3]) < 1e-14);
+    model_free(m);
+  }
+  model *m = model_of("structure:\n  mass: [2, 4]\n  stiffness: [[30, -10], [-10, 30]]\n"
+                      "  damping: {rayleigh: [0.5, 0.25]}\n" SWEEP,
+                      NULL);
+  const double rayleigh[] = {8.5, -2.5, -2.5, 9.5};
+  assert_memory_equal(m->damping, rayleigh, sizeof rayleigh);
+  model_free(m);
+}
+
+/* A free damper on a blade is held by contacts alone; with its tangential springs gone it slides away. */
+static void what_contacts_hold_is_held(void **state)
+{
+  (void)state;
+  static const char text[] =
+      "structure:\n  mass: [1, 0.05]\n  stiffness: [1000, 0]\n  damping: [0.3, 0.2]\n" SWEEP
+      "contacts: [{tangential_stiffness: 400, friction: 0.3, preload: 3, tangent: {1: 1, 2: -1}}]\n";
+  model_free(model_of(text, NULL));
+  refused(text, "contacts[0].friction=0", "--set contacts[0].friction=0: ", "nothing holds the motion {2: 1}");
+  refused(text, "contacts[0].preload=0", "--set contacts[0].preload=0: ", "nothing holds the motion {2: 1}");
+  refused(text, "contacts=[]",
+          "--set contacts=[]: ", "nothing holds the motion {2: 1}: neither structure.stiffness nor a contact");
+  refused("structure: {names: [a, b, c], mass: [1, 1, 1], damping: [0, 0, 0], "
+          "stiffness: [[1, -1, 0], [-1, 2, -1], [0, -1, 1]]}\n" SWEEP,
+          NULL, "f:1:12: ", "nothing holds the motion {a: 1, b: 1, c: 1}");
+  refused("structure: {mass: [1, 1], damping: [0, 0], stiffness: [0, 0]}\n" SWEEP, NULL,
+          "f:1:12: ", "nothing holds the motion");
+  /* stiff and soft together is not free: a spread of 1e12 is that of a fine mesh */
+  model_free(model_of("structure: {mass: [1, 1, 1], damping: [0, 0, 0], stiffness: [1e12, 1, 1e6]}\n" SWEEP, NULL));
+}
+
+static void names_of_responses(void **state)
+{
+  (void)state;
+  scene sc;
+  char text[64];
+  accepted(TWO_NAMED "response: [tip, {root: -1, tip: 1}, {tip: 0.5, 2: 2}, {2: -1}]\n", NULL, &sc);
+  static const char *const names[] = {"tip", "tip-root", "0.5*tip+2*root", "-root"};
+  for (int i = 0; i < 4; ++i)
+    assert_string_equal(structure_direction_name(sc.structure, sc.structure->responses[i].direction, text, sizeof text),
+                        names[i]);
+  assert_string_equal(structure_direction_name(sc.structure, sc.structure->responses[2].direction, text, 10),
+                      "0.5*ti...");
+  case_clear(&sc);
+}
+
+static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(matrices_are_by_columns),
+    cmocka_unit_test(one_degree_of_freedom_is_the_oscillator_to_the_bit),
+    cmocka_unit_test(contacts_have_directions_and_laws),
+    cmocka_unit_test(loads_of_a_harmonic_are_summed),
+    cmocka_unit_test(quarters_of_a_turn_are_exact),
+    cmocka_unit_test(degrees_of_freedom_go_by_name_number_or_node),
+    cmocka_unit_test(files_of_matrices_lie_beside_the_case),
+    cmocka_unit_test(modal_damping_damps_every_mode_as_asked),
+    cmocka_unit_test(what_contacts_hold_is_held),
+    cmocka_unit_test(names_of_responses),
+};
+
+CHECK_MAIN("structure.model", tests, 60)

@@ -1,0 +1,62 @@
+/* fuzz_matrix.c - bytes as a Matrix Market file: read, finite, and the same again when written as an array; or refused
+ * with a place. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/message.h"
+#include "base/number.h"
+#include "cases/matrix_file.h"
+#include "tests/fuzz/fuzz.h"
+
+enum { WORDS = 512, LARGE = 50 /* rows: what is larger is zeros for the most part, and takes long to write */ };
+
+static hc_status parse(const char *text, size_t size, int expected, int *n, double **v, char words[WORDS])
+{
+  message m;
+  message_start(&m, words, WORDS);
+  return matrix_file_parse("f", text, size, expected, n, v, &m);
+}
+
+static void array_reads_back(int n, const double *v)
+{
+  char *text = NULL, number[NUMBER_TEXT], words[WORDS];
+  size_t length = 0;
+  double *back;
+  int rows;
+  FILE *to = open_memstream(&text, &length);
+  must(to != NULL, "out of memory");
+  fprintf(to, "%%%%MatrixMarket matrix array real general\n%d %d\n", n, n);
+  for (int i = 0; i < n * n; ++i) fprintf(to, "%s\n", number_write(v[i], number));
+  must(fclose(to) == 0, "out of memory");
+  must(parse(text, length, n, &rows, &back, words) == HC_OK, "written as an array it is refused: %s", words);
+  must(rows == n && !memcmp(v, back, (size_t)(n * n) * sizeof *v), "written as an array it is another matrix:\n%s",
+       text);
+  free(back);
+  free(text);
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+  char words[WORDS];
+  double *v;
+  int n;
+  const char *text = size ? (const char *)data : "";
+  const hc_status st = parse(text, size, 0, &n, &v, words);
+  if (st != HC_OK) {
+    ++fuzz_refused;
+    must(st == HC_BAD_INPUT, "status %d: %s", (int)st, words);
+    must(!v && n == 0, "refused, but there is a matrix");
+    message_is_clean(words, sizeof words);
+    place_is_inside(words, "f", text, size, false);
+    return 0;
+  }
+  ++fuzz_accepted;
+  must(!*words, "read, with a message: %s", words);
+  must(v && n >= 1 && n <= MATRIX_MOST_ROWS, "%d rows", n);
+  for (int i = 0; n <= LARGE && i < n * n; ++i) must(isfinite(v[i]), "entry %d is %g", i, v[i]);
+  if (n <= LARGE) array_reads_back(n, v);
+  free(v);
+  must(parse(text, size, n + 1, &n, &v, words) == HC_BAD_INPUT, "read as a larger one, too");
+  return 0;
+}
