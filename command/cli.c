@@ -10,8 +10,10 @@
 #include <unistd.h>
 
 #include "base/constants.h"
+#include "base/nearest.h"
 #include "base/number.h"
 #include "cases/case_file.h"
+#include "command/mistyped.h"
 #include "command/plot/plot.h"
 #include "output/output.h"
 
@@ -56,10 +58,13 @@ void cli_read_positive(struct argp_state *state, const char *option, const char 
 
 void cli_read_format(struct argp_state *state, const char *option, const char *text, bool table_too, table_format *out)
 {
+  static const char *const formats[] = {"table", "csv", "json", NULL};
   if (table_too && !strcmp(text, "table")) *out = FORMAT_TABLE;
   else if (!strcmp(text, "csv")) *out = FORMAT_CSV;
   else if (!strcmp(text, "json")) *out = FORMAT_JSON;
-  else argp_error(state, "--%s: '%s' is unknown; expected %scsv or json", option, text, table_too ? "table, " : "");
+  else
+    argp_error(state, "--%s: '%s' is unknown; expected %scsv or json%s", option, text, table_too ? "table, " : "",
+               nearest_hint(formats + !table_too, text, (char[NEAREST_HINT]){0}));
 }
 
 void cli_read_plot(struct argp_state *state, char *text, const char **out)
@@ -111,6 +116,17 @@ static const char *what_arguments_are(const char *usage)
   return !strncmp(usage, "CASE", 4) ? "the case file" : !strncmp(usage, "STUDY", 5) ? "the study" : NULL;
 }
 
+/* "--tabels" ends the program with what was meant; argp, which only knows that it is not known, is not asked then. */
+static void refuse_mistyped(const cli_command *self, int argc, char **argv)
+{
+  int length;
+  const char *meant, *name = mistyped_option(argc, argv, self->options, common_options, &length, &meant);
+  if (!name) return;
+  fprintf(stderr, "hbmcheck %s: unrecognized option '--%.*s', did you mean '--%s'?\nTry 'hbmcheck %s --help'.\n",
+          self->name, length, name, meant, self->name);
+  exit(EXIT_USAGE);
+}
+
 void cli_parse(const cli_command *self, int argc, char **argv, void *own, cli_common *common)
 {
   const struct argp own_argp = {self->options, self->read_option, NULL, NULL, NULL, NULL, NULL};
@@ -122,6 +138,7 @@ void cli_parse(const cli_command *self, int argc, char **argv, void *own, cli_co
   char name[64];
   *common = (cli_common){.command = self->name, .argument_is = what_arguments_are(self->arguments)};
   snprintf(name, sizeof name, "hbmcheck %s", self->name);
+  refuse_mistyped(self, argc, argv);
   argv[0] = name;
   argp_err_exit_status = EXIT_USAGE;
   error_t failed = argp_parse(&argp, argc, argv, 0, NULL, &input); /* wrong usage exits: what is left is ENOMEM */

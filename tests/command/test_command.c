@@ -156,6 +156,21 @@ static void mistakes_are_named(void **state)
   expect("describe hbm.sample 2>&1", 64, "samples");
 }
 
+/* What is nearly right is answered with what was meant; what is near to nothing is not guessed. */
+static void nearly_right_words_get_a_suggestion(void **state)
+{
+  (void)state;
+  expect("comapre " CASE2 "2>&1", 64, "'comapre' is not a command, did you mean 'compare'?");
+  expect("transiet " CASE2 "2>&1", 64, "did you mean 'transient'?");
+  expect("xyzzy 2>&1", 64, "'xyzzy' is not a command\n\nusage");
+  expect("frf " CASE2 "--formt csv 2>&1", 64, "unrecognized option '--formt', did you mean '--format'?");
+  expect("compare " CASE2 "--tabels 2>&1", 64, "did you mean '--tables'?");
+  expect("compare " CASE2 "--xyzzy 2>&1", 64, "unrecognized option '--xyzzy'\n");
+  expect("frf " CASE2 "--set --formt=1 2>&1", 2, "--set --formt=1"); /* a value, not an option */
+  expect("frf " CASE2 "--format cvs 2>&1", 64, "expected table, csv or json, did you mean 'csv'?");
+  expect("frf " CASE2 "--set hbm.force=exakt 2>&1", 2, "expected exact or sampled, did you mean `exact`?");
+}
+
 /* Each command takes its own options and the common ones, and no other's. */
 static void options_belong_to_their_command(void **state)
 {
@@ -195,6 +210,8 @@ static void help_works_everywhere(void **state)
     CHECK_LE(lines, 50, "%s --help is a screen", commands[i]);
   }
   expect("--help", 0, "compare");
+  expect("help frf", 0, "Usage: hbmcheck frf [OPTION...] CASE");
+  expect("help fry 2>&1", 64, "did you mean 'frf'?");
   expect("--version", 0, "SUNDIALS");
 }
 
@@ -227,6 +244,7 @@ int main(void)
       cmocka_unit_test(verdicts_reach_the_exit_code),
       cmocka_unit_test(dropping_the_mean_costs_what_it_costs),
       cmocka_unit_test(mistakes_are_named),
+      cmocka_unit_test(nearly_right_words_get_a_suggestion),
       cmocka_unit_test(options_belong_to_their_command),
       cmocka_unit_test(advice_is_about_the_side_that_failed),
       cmocka_unit_test(agreement_is_not_claimed_lightly),
