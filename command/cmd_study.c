@@ -363,6 +363,7 @@ static void make_tables(study_call *call)
 {
   static const char *const titles[STUDY_CLAIM_TABLES] = {
       "Claims", "Claims, with the settings of their source and with ours",
+      "Claims that the continuation decides, in fixed steps of arc length with the settings of their source",
       "Seconds, as the source reports them, and here with its settings and with ours"};
   int n;
   call->tables[SUMMARY] = table_new("Studies", sizeof summary_columns / sizeof *summary_columns, summary_columns);
@@ -377,7 +378,9 @@ static void make_tables(study_call *call)
 
 static void note_totals(const study_call *call)
 {
-  static const char *const with[STUDY_ANSWERS] = {"", " with the settings of their source", " with ours"};
+  static const char *const with[STUDY_ANSWERS] = {"", " with the settings of their source", " with ours",
+                                                  " in fixed steps"};
+  static const int shown_in[STUDY_ANSWERS] = {STUDY_CLAIMS, STUDY_SIDES, STUDY_SIDES, STUDY_STEPS};
   const study_claims_tally *c = &call->claims;
   if (call->n_studies > 1)
     table_note(call->tables[SUMMARY],
@@ -385,9 +388,8 @@ static void note_totals(const study_call *call)
                call->n_studies, call->scenes, call->seconds, call->exact_seconds, call->wall);
   for (int k = 0; k < STUDY_ANSWERS; ++k)
     if (c->agree[k] + c->disagree[k] + c->unsaid[k] > 0)
-      table_note(call->tables[CLAIMS + (k == STUDY_PLAIN ? STUDY_CLAIMS : STUDY_SIDES)],
-                 "%d claims agree%s, %d do not, of %d it cannot be said", c->agree[k], with[k], c->disagree[k],
-                 c->unsaid[k]);
+      table_note(call->tables[CLAIMS + shown_in[k]], "%d claims agree%s, %d do not, of %d it cannot be said",
+                 c->agree[k], with[k], c->disagree[k], c->unsaid[k]);
 }
 
 /* The tables, export and drawing of the first n_run studies. Returns the exit code. */
