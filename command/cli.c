@@ -7,6 +7,7 @@
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include "base/constants.h"
@@ -17,13 +18,14 @@
 #include "command/plot/plot.h"
 #include "output/output.h"
 
-enum { KEY_SET = 0x100, KEY_FORMAT };
+enum { KEY_SET = 0x100, KEY_FORMAT, KEY_WIDE };
 
 static const struct argp_option common_options[] = {
     {"set", KEY_SET, "PATH=VALUE", 0,
      "Set a field of the case, e.g. hbm.harmonics=10 or contacts[0].gap=-1; may be repeated", 10},
     {"format", KEY_FORMAT, "table|csv|json", 0, "Form of the result (csv: 17 significant digits) [table]", 10},
     {"output", 'o', "FILE", 0, "Write the result to FILE, whole or not at all, instead of standard output", 10},
+    {"wide", KEY_WIDE, NULL, 0, "Every column in the table [those that fit the terminal, or 100 letters]", 10},
     {"quiet", 'q', NULL, 0, "No progress, no remarks", 10},
     {0},
 };
@@ -105,6 +107,7 @@ static error_t read_common_option(int key, char *text, struct argp_state *state)
   case KEY_SET: add_assignment(common, text, state); return 0;
   case KEY_FORMAT: cli_read_format(state, "format", text, true, &common->format); return 0;
   case 'o': common->output = text; return 0;
+  case KEY_WIDE: common->wide = true; return 0;
   case 'q': common->quiet = true; return 0;
   default: return ARGP_ERR_UNKNOWN;
   }
@@ -328,10 +331,28 @@ void cli_put_row(const cli_common *common, table *t, rows_kind kind, const row_c
   }
 }
 
+int cli_width(const cli_common *common)
+{
+  enum { LEAST = 40, USUAL = 100 };
+  struct winsize size;
+  const char *columns = getenv("COLUMNS");
+  int width = columns ? (int)strtol(columns, NULL, 10) : 0;
+  if (!common->output && isatty(STDOUT_FILENO) && ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0)
+    width = size.ws_col;
+  return width <= 0 ? USUAL : width < LEAST ? LEAST : width;
+}
+
+static void fit_to_screen(const cli_common *common, table *t)
+{
+  if (common->wide) table_show_all(t);
+  else table_fit(t, cli_width(common));
+}
+
 int cli_write(const cli_common *common, int n, table *const *tables)
 {
   output *out = NULL;
   hc_status st = output_open(common->output, &out);
+  for (int i = 0; i < n; ++i) fit_to_screen(common, tables[i]);
   if (st == HC_OK) {
     st = table_write(n, tables, common->format, output_stream(out));
     if (st == HC_OK) st = output_commit(out);

@@ -56,6 +56,7 @@ static hc_status put_points(const cli_common *common, hbm_solver *s, const hbm_c
     cli_put_row(common, t, ROWS_FRF, cells);
   }
   if (!free) table_hide(t, "mean_free");
+  table_spare(t, rows_spare(ROWS_FRF, common->scene->in_cycles));
   return HC_OK;
 }
 

@@ -3,7 +3,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/ioctl.h>
 #include <sys/stat.h>
 #include <time.h>
 #include <unistd.h>
@@ -69,7 +68,7 @@ static error_t read_option(int key, char *text, struct argp_state *state)
   }
 }
 
-enum { MAX_PATH = 4096, BESIDE_PATH = MAX_PATH + 8, FILES_EACH = 4, DEFAULT_WIDTH = 150, MIN_WIDTH = 60 };
+enum { MAX_PATH = 4096, BESIDE_PATH = MAX_PATH + 8, FILES_EACH = 4 };
 
 enum { SUMMARY, VERDICTS, CLAIMS /* and STUDY_CLAIM_TABLES of them */, N_TABLES = CLAIMS + STUDY_CLAIM_TABLES };
 
@@ -276,6 +275,8 @@ static const table_column summary_columns[] = {
     {"results", TABLE_TEXT},   {"study", TABLE_TEXT},
 };
 
+static const char *const spare_columns[] = {"exact_s", "computing_s", "computed", "wall_s", NULL};
+
 static double to_milliseconds(double seconds) { return (double)(long)(seconds * 1000 + 0.5) / 1000; }
 
 /* The study's rows in the tables of studies and of verdicts. 0 or the exit code. */
@@ -348,17 +349,6 @@ static int write_tables(const study_call *call)
   return write_export(call);
 }
 
-/* Columns of the terminal; where the results do not go to one, what COLUMNS says, or DEFAULT_WIDTH. */
-static int page_width(const study_call *call)
-{
-  struct winsize size;
-  const char *columns = getenv("COLUMNS");
-  int width = columns ? (int)strtol(columns, NULL, 10) : 0;
-  if (!call->common.output && isatty(STDOUT_FILENO) && ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0)
-    width = size.ws_col;
-  return width >= MIN_WIDTH ? width : width > 0 ? MIN_WIDTH : DEFAULT_WIDTH;
-}
-
 static void make_tables(study_call *call)
 {
   static const char *const titles[STUDY_CLAIM_TABLES] = {
@@ -367,12 +357,13 @@ static void make_tables(study_call *call)
       "Seconds, as the source reports them, and here with its settings and with ours"};
   int n;
   call->tables[SUMMARY] = table_new("Studies", sizeof summary_columns / sizeof *summary_columns, summary_columns);
+  table_spare(call->tables[SUMMARY], spare_columns);
   const table_column *columns = study_verdict_columns(&n);
   call->tables[VERDICTS] = table_new("Verdicts", n, columns);
   for (int i = 0; i < STUDY_CLAIM_TABLES; ++i) {
     columns = study_claims_columns(i, &n);
     call->tables[CLAIMS + i] = table_new(titles[i], n, columns);
-    if (i != STUDY_SECONDS) table_wrap(call->tables[CLAIMS + i], page_width(call));
+    if (i != STUDY_SECONDS) table_wrap(call->tables[CLAIMS + i], cli_width(&call->common));
   }
 }
 

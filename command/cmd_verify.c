@@ -72,6 +72,9 @@ static const table_column summary_columns[] = {
     {"skipped", TABLE_INTEGER},     {"left_out", TABLE_INTEGER},     {"reversals", TABLE_INTEGER},
     {"truth_distance", TABLE_REAL}, {"noise", TABLE_REAL},           {"sentence", TABLE_TEXT},
 };
+static const char *const spare_hypothesis_columns[] = {"slider_restart", "omega_factor",   "value_factor",
+                                                       "static",         "truth_distance", "quantity",
+                                                       "samples",        "harmonics",      NULL};
 enum {
   N_SUMMARY_COLUMNS = sizeof summary_columns / sizeof *summary_columns,
   N_COLUMNS = sizeof columns / sizeof *columns,
@@ -194,6 +197,7 @@ static int write_tables(const cli_common *common, const scene *sc, const verify_
   for (int i = 0; i < r->n_rows; ++i) put_row(points, &data->quantity, &r->rows[i]);
   for (int i = 0; i < r->n_hypotheses && i < VERIFY_SHOWN; ++i)
     put_hypothesis(hypotheses, &r->hypotheses[i], r->truth_distance);
+  table_spare(hypotheses, spare_hypothesis_columns);
   put_summary(summary, data, r);
   note_verification(points, sc, data, r);
   if (r->n_hypotheses && common->format != FORMAT_CSV) tables[n++] = hypotheses;

@@ -27,6 +27,9 @@ typedef struct row_cell {
 /* The columns of a kind, *n of them; constant. in_cycles: frequencies in cycles per time stand beside the omegas. */
 const table_column *rows_columns(rows_kind kind, bool in_cycles, int *n);
 
+/* For table_spare (rows_spare.c): which of them a narrow screen does without, the first ones first. */
+const char *const *rows_spare(rows_kind kind, bool in_cycles);
+
 /* One row: cells[n] in the columns' order. A real that is not a number is not there. Cannot fail. */
 void rows_frf(const response_row *r, bool in_cycles, row_cell *cells);
 void rows_transient(const steady_row *r, bool in_cycles, row_cell *cells);
