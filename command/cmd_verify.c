@@ -2,7 +2,9 @@
  * off. */
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
+#include "base/number.h"
 #include "command/commands.h"
 #include "command/files.h"
 #include "compare/verify/verify.h"
@@ -22,7 +24,8 @@ static const char help[] =
     "velocity and acceleration = (max - min)/2 of x' and x'', velocity_harmonic_K, acceleration_harmonic_K; dB_ before any: 20 log10 of it. docs/verify.md has the "
     "formulas and all causes.\n"
     "A point matches within the case's gate.amplitude, gate.harmonic_1 or gate.mean. Where a slider never slips the "
-    "mean is open, and what contains it is not compared. With csv "
+    "mean is open, and what contains it is not compared. With --noise S, points match that are within the gate and 4 S, "
+    "and on the average of m neighbours, up to 25, within the gate and 4 S/sqrt(m). With csv "
     "only the points are written, with the cause in the remarks before them.\n"
     "exit: 0 every point matches  1 some do not, or run along the wrong branch  2 a file is wrong  3 could not be "
     "judged  64 usage\n"
@@ -30,16 +33,18 @@ static const char help[] =
     "omega=1,harmonic_1=2";
 
 typedef struct verify_options {
-  const char *against, *columns, *quantity; /* NULL: not given */
+  const char *against, *columns, *quantity, *noise; /* NULL: not given */
 } verify_options;
 
-enum { KEY_AGAINST = CLI_OWN_KEY, KEY_COLUMNS, KEY_QUANTITY };
+enum { KEY_AGAINST = CLI_OWN_KEY, KEY_COLUMNS, KEY_QUANTITY, KEY_NOISE };
 
 static const struct argp_option options[] = {
     {"against", KEY_AGAINST, "FILE", 0, "The curve to hold against ours", 1},
     {"columns", KEY_COLUMNS, "NAME=COLUMN,...", 0,
      "Where its columns are: omega or frequency, and value or a QUANTITY [as the header names them]", 1},
     {"quantity", KEY_QUANTITY, "QUANTITY", 0, "What the column named value is, or which column is meant", 1},
+    {"noise", KEY_NOISE, "S", 0,
+     "A measured curve: its values scatter by S, a standard deviation relative to the amplitude, such as 1e-2 [0]", 1},
     {0},
 };
 
@@ -51,6 +56,7 @@ static error_t read_option(int key, char *text, struct argp_state *state)
   case KEY_AGAINST: own->against = text; return 0;
   case KEY_COLUMNS: own->columns = text; return 0;
   case KEY_QUANTITY: own->quantity = text; return 0;
+  case KEY_NOISE: own->noise = text; return 0;
   default: return ARGP_ERR_UNKNOWN;
   }
 }
@@ -151,6 +157,8 @@ static void note_what_was_not_compared(table *t, const verify_report *r)
     table_note(t, "%d points not compared: the mean is free where a slider never slips, and the quantity contains it",
                r->skipped);
   if (r->left_out) table_note(t, "%d points at omega <= 0 left out", r->left_out);
+  if (r->noise_said > 0 && !isnan(r->noise))
+    table_note(t, "the points scatter around the truth by %.1e; said: %g", r->noise, r->noise_said);
   if (r->reversals > VERIFY_USUAL_REVERSALS)
     table_note(t, "the curve reverses %d times: its program wandered; each point is judged by itself", r->reversals);
 }
@@ -222,7 +230,14 @@ static int read_curve(const cli_common *common, const verify_options *own, verif
     cli_message(common, "%s", words);
     return EXIT_USAGE;
   }
+  double noise = 0;
+  if (own->noise &&
+      (number_read(own->noise, strlen(own->noise), &noise) != NUMBER_FINE || !(noise >= 0) || noise > 1)) {
+    cli_message(common, "--noise: '%.40s' is no scatter, expected a number from 0 to 1 such as 1e-2", own->noise);
+    return EXIT_USAGE;
+  }
   hc_status st = verify_data_read(own->against, &where, data, words);
+  data->noise = noise;
   if (st == HC_OK) return 0;
   fprintf(stderr, "%s\n", words);
   return st == HC_NO_MEMORY ? EXIT_NO_SOLUTION : EXIT_BAD_CASE;

@@ -76,7 +76,7 @@
   X(CAUSE_NOISE, "noise", "the points scatter around the truth", \
     "say how much a measured curve scatters: --noise") \
   X(CAUSE_UNSTABLE, "unstable_branch", "the points run along an unstable branch", \
-    "follow the stable ones: no motion stays there") \
+    "no motion stays there: follow a stable one where there is one") \
   X(CAUSE_OTHER_BRANCH, "other_branch", "the points hop to another stable branch and back", \
     "start each point from its neighbour's solution")
 /* clang-format on */

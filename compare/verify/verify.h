@@ -4,7 +4,7 @@
  *     truth       the solutions of harmonic balance with exact forces and many harmonics at the file's omegas, compared
  *                 at some of them with the exact law's periodic orbits (the referee of comparison.h)
  *     verdict     per point, against the nearest of those solutions: match, differs, unstable, other_branch,
- *                 solver_failed
+ *                 solver_failed; what the points tell by themselves: outliers, noise, the wrong branch
  *     hypotheses  our own harmonic balance with usual mistakes in it, and usual misreadings of the columns: the one
  *                 that the points lie on names the cause
  *
@@ -77,7 +77,8 @@ typedef struct verify_report {
   hc_status status;                                /* of verify_run */
   verify_causes causes;                            /* suspected; 0: none, or none found */
   verify_causes nearest_guess;                     /* where no cause is sure; 0: none */
-  double noise;                                    /* [1] scatter around the truth per point; NaN: not estimated */
+  double noise;      /* [1] standard deviation from point to point around the truth; NaN: not estimated */
+  double noise_said; /* [1] what the values are said to scatter by */
 } verify_report;
 
 /* HC_INTERRUPTED, HC_NO_MEMORY, or why there is no truth; rows found until then are kept. verify_clear in any case. */

@@ -77,6 +77,8 @@ static void mistakes_are_named(void **state)
   expect("verify cases/verify/case2.yaml --against /nonexistent.csv --columns omega=1,amplitude=2 2>&1", 2,
          "/nonexistent.csv: ");
   expect("verify /nonexistent.yaml --against /dev/null --columns omega=1,amplitude=2 2>&1", 2, "/nonexistent.yaml: ");
+  expect(EXAMPLE "--noise 2 2>&1", 64, "--noise: '2' is no scatter, expected a number from 0 to 1");
+  expect(EXAMPLE "--noise -1 2>&1", 64, "is no scatter");
   expect("verify --help", 0, "example");
   expect("--help", 0, "verify");
 }
