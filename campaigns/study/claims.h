@@ -11,7 +11,7 @@ typedef struct study_claims_tally {
   int unexpected; /* not as `expect` says */
 } study_claims_tally;
 
-/* Claims answered once; claims answered with the settings of their source and with ours; those of them that are answered
+/* Claims answered once; those answered with the settings of their source and with ours; those of them that are answered
  * in fixed steps too; seconds, where a claim has some. */
 enum { STUDY_CLAIMS, STUDY_SIDES, STUDY_STEPS, STUDY_SECONDS, STUDY_CLAIM_TABLES };
 const table_column *study_claims_columns(int which, int *n);
