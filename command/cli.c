@@ -16,6 +16,7 @@
 #include "cases/case_file.h"
 #include "command/mistyped.h"
 #include "command/plot/plot.h"
+#include "compare/advice.h"
 #include "output/output.h"
 
 enum { KEY_SET = 0x100, KEY_FORMAT, KEY_WIDE };
@@ -237,58 +238,29 @@ void cli_take_frequencies(const cli_common *common, const number_list *at, scene
   if (outside && !common->quiet) warn_outside(common, sc, first, outside - 1);
 }
 
-static const char *hbm_advice(hc_status st)
+/* What a person can try next; "" where no setting helps. */
+static const char *advice_for(const scene *sc, cli_solver solver, hc_status st, char text[ADVICE_TEXT])
 {
-  switch (st) {
-  case HC_STALLED:
-  case HC_NOT_CONVERGED:
-  case HC_SINGULAR:
-  case HC_STEP_TOO_SMALL:
-    return "try --set hbm.continuation=auto, --set hbm.force=exact, or a sweep from the other end";
-  case HC_TOO_MANY_POINTS:
-    return "try --set hbm.force=exact (too few samples make false turning points), or a narrower --set sweep.omega=...";
-  case HC_NOT_CLOSED: return "try the other --set hbm.force=..., exact or sampled";
-  case HC_CHATTER: return "try --set hbm.force=sampled, which counts no transitions";
-  case HC_NOT_FINITE: return "numbers became too large: is the scene damped?";
-  default: return NULL;
-  }
-}
-
-static const char *transient_advice(hc_status st)
-{
-  switch (st) {
-  case HC_STALLED:
-  case HC_NOT_CONVERGED:
-  case HC_SINGULAR: return "try --set transient.steady_state=march, which needs no Newton iteration";
-  case HC_CHATTER: return "try --set transient.law=regularised, which counts no transitions";
-  case HC_INTEGRATOR:
-    return "try a larger --set transient.regularisation=..., a tighter --set transient.tolerance=..., or the other "
-           "--set transient.law=..., exact or regularised";
-  case HC_NOT_SETTLED: return "try a larger --set transient.max_periods=... or --set transient.start=hbm";
-  case HC_NOT_FINITE: return "the motion grew without bound: is the scene damped?";
-  default: return NULL;
-  }
-}
-
-/* What a person can try next; NULL where no setting helps. */
-static const char *advice_for(cli_solver solver, hc_status st)
-{
-  const char *hbm = solver == CLI_TRANSIENT ? NULL : hbm_advice(st);
-  const char *transient = solver == CLI_HBM ? NULL : transient_advice(st);
-  if (hbm && transient) return "hbmcheck frf and hbmcheck transient on the same case tell which side it is";
-  return hbm ? hbm : transient;
+  char other[ADVICE_TEXT];
+  text[0] = 0;
+  if (!sc) return text;
+  if (solver != CLI_TRANSIENT) advice_for_hbm(&sc->hbm, st, text);
+  if (solver == CLI_HBM || !*advice_for_transient(&sc->transient, st, other)) return text;
+  snprintf(text, ADVICE_TEXT, "%s",
+           *text ? "hbmcheck frf and hbmcheck transient on the same case tell which side it is" : other);
+  return text;
 }
 
 int cli_solver_failed(const cli_common *common, cli_solver solver, const char *what, hc_status st, double omega)
 {
-  const char *advice = advice_for(solver, st);
-  char at[SCENE_WHERE] = "";
+  char advice[ADVICE_TEXT], at[SCENE_WHERE] = "";
   if (omega > 0) scene_where(common->scene, omega, at);
+  advice_for(common->scene, solver, st, advice);
   if (st == HC_INTERRUPTED) cli_message(common, "%s: stopped on request; what was found is kept", what);
   else if (st == HC_NO_MEMORY) cli_message(common, "%s", hc_status_text(st));
   else
-    cli_message(common, "%s%s%s: %s%s%s", what, *at ? " stopped at " : "", at, hc_status_text(st), advice ? "; " : "",
-                advice ? advice : "");
+    cli_message(common, "%s%s%s: %s%s%s", what, *at ? " stopped at " : "", at, hc_status_text(st), *advice ? "; " : "",
+                advice);
   return EXIT_NO_SOLUTION;
 }
 
