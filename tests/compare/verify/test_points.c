@@ -157,8 +157,9 @@ static void the_order_of_the_points_does_not_matter(void **state)
   assert_int_equal(verify_exit_code(&r), 0);
   assert_true(r.reversals > VERIFY_USUAL_REVERSALS);
   verify_clear(&r);
-  add_noise(&shuffled, 1e-2);
-  r = judged(&sc, &shuffled, "noise");
+  for (int i = 0; i < shuffled.n; ++i) shuffled.points[i].value *= 1 + 0.05 * sin(3 * shuffled.points[i].omega);
+  r = judged(&sc, &shuffled, "none"); /* smooth in omega, although not in the file: no noise */
+  assert_int_equal(verify_exit_code(&r), 1);
   verify_clear(&r);
   verify_data_clear(&d);
   verify_data_clear(&shuffled);
