@@ -192,6 +192,7 @@ hc_status verify_truth(const compare_setup *setup, const verify_data *data, cons
     st = with_harmonics(&t, harmonics);
     again = out->checked_error > 0.1 * out->gate && 2 * harmonics <= ENOUGH_HARMONICS;
   }
+  if (st == HC_OK && data->with_line) st = truth_line(&t);
   hbm_curve_free(&t.curve);
   hbm_solver_free(t.hbm);
   free(t.state);

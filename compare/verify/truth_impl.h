@@ -1,5 +1,6 @@
 /* truth_impl.h - what the files of the truth share: truth.c (the curve, and each point against it), steep.c (points
- * where the curve turns), referee.c (the curve against time integration). */
+ * where the curve turns), referee.c (the curve against time integration),
+ * line.c (the curve as it is drawn). */
 #ifndef HC_VERIFY_TRUTH_IMPL_H
 #define HC_VERIFY_TRUTH_IMPL_H
 
@@ -41,5 +42,8 @@ hc_status truth_look_around(truth *t, verify_row *row);
 /* At most MOST_CHECKS points, spread over the file: out->checked, unchecked, checked_error. HC_INTERRUPTED,
  * HC_NO_MEMORY. */
 hc_status truth_check(truth *t);
+
+/* out->line. HC_NO_MEMORY, or why it cannot be measured. */
+hc_status truth_line(truth *t);
 
 #endif

@@ -48,6 +48,7 @@ hc_status verify_run(const compare_setup *setup, const verify_data *data, const 
 void verify_clear(verify_report *r)
 {
   free(r->rows);
+  free(r->line);
   *r = (verify_report){0};
 }
 
@@ -56,4 +57,10 @@ int verify_exit_code(const verify_report *r)
   if (r->causes || r->count[VERDICT_DIFFERS] > 0 || r->count[VERDICT_OTHER_BRANCH] > 0) return 1;
   if (r->count[VERDICT_SOLVER_FAILED] > 0 || r->n_rows == 0) return 3;
   return r->checked > 0 && r->checked_error <= r->gate ? 0 : 3;
+}
+
+const char *verify_word(const verify_report *r, char text[VERIFY_TEXT])
+{
+  const bool known = r->causes || (r->status == HC_OK && verify_exit_code(r) == 0);
+  return known ? verify_cause_words(r->causes, text) : "unknown";
 }

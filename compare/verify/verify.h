@@ -56,11 +56,19 @@ typedef struct verify_row {
   verdict verdict;
 } verify_row;
 
+/* A point of the truth's curve. */
+typedef struct verify_line {
+  double omega, value; /* [rad/time]; the file's quantity, not in dB */
+  int stable;          /* +1, -1, 0 unknown */
+} verify_line;
+
 enum { VERIFY_USUAL_REVERSALS = 8, VERIFY_SHOWN = 3, VERIFY_HYPOTHESES = 512 };
 
 typedef struct verify_report {
   int n_rows;
-  verify_row *rows;         /* as far as they were done */
+  verify_row *rows; /* as far as they were done */
+  int n_line;
+  verify_line *line;        /* [n_line] along the truth's curve, if data->with_line */
   int count[VERDICT_COUNT]; /* of the rows that are not skipped */
   int skipped;
   int left_out;           /* points at omega <= 0 */
@@ -88,6 +96,10 @@ void verify_clear(verify_report *r);
 
 /* The cause in a sentence, or that there is none: in text[VERIFY_TEXT], which is returned. */
 const char *verify_sentence(const verify_report *r, char text[VERIFY_TEXT]);
+
+/* The causes' words for scripts: "none" where every point is right, "unknown" where no cause is sure. In
+ * text[VERIFY_TEXT], which is returned. */
+const char *verify_word(const verify_report *r, char text[VERIFY_TEXT]);
 
 /* 0 every point lies on a solution and on the right one; 1 not; 3 some could not be judged. */
 int verify_exit_code(const verify_report *r);

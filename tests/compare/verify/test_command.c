@@ -32,6 +32,8 @@ static void the_shipped_example_is_named(void **state)
   expect(EXAMPLE "-q --format csv", 1, "omega,value,nearest,branch,stable,error,verdict,line\n");
   expect(EXAMPLE "-q --format csv", 1, "# cause: no_static_harmonic\n");
   expect(EXAMPLE "-q --format json", 1, "\"cause\": \"no_static_harmonic\"");
+  expect(EXAMPLE "-q --format csv --set sweep.frequency=0.5,3", 1,
+         "omega,frequency,value,nearest,branch,stable,error,verdict,line\n4,0.63661977236758138,");
   const outcome *o = run(EXAMPLE "-q");
   const char *held = strstr(o->out, "truth held against time integration");
   assert_non_null(held);
