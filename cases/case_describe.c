@@ -1,8 +1,7 @@
 /* case_describe.c - the table of fields as text for a terminal of 100 columns. */
 #include <string.h>
 
-#include "cases/case_file.h"
-#include "cases/fields.h"
+#include "cases/case_values.h"
 #include "cases/suggest.h"
 
 static const char *expected(const field *f, char text[128])
@@ -67,17 +66,6 @@ static void describe_field(const field *f, FILE *to)
   fprintf(to, "\n  set it    --set '%s=%s'\n", field_path(f, 0, path), example);
 }
 
-/* contacts.gap, contacts[].gap and contacts[3].gap are one field. */
-static bool is_path(const field *f, const char *asked)
-{
-  const char *open = strchr(asked, '['), *close = open ? strchr(open, ']') : NULL;
-  char path[FIELD_PATH], plain[FIELD_PATH];
-  int cut = close ? (int)(open - asked) : (int)strlen(asked);
-  snprintf(plain, sizeof plain, "%.*s%s", cut, asked, close ? close + 1 : "");
-  snprintf(path, sizeof path, "%s%s%s", f->section, *f->section ? "." : "", f->name);
-  return !strcmp(plain, path);
-}
-
 static hc_status unknown_field(const char *asked, case_error *err)
 {
   message m;
@@ -102,7 +90,7 @@ hc_status case_describe(const char *asked, FILE *to, case_error *err)
   int n = !asked || s;
   for (int i = 0; i < field_count() && asked && !s; ++i) {
     const field *f = field_at(i);
-    if (!is_path(f, asked) && strcmp(f->name, asked) && strcmp(f->symbol, asked)) continue;
+    if (!case_field_asked(f, asked)) continue;
     if (n++) putc('\n', to);
     describe_field(f, to);
   }

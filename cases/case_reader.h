@@ -9,17 +9,11 @@
 
 #include "base/status.h"
 #include "cases/case_file.h"
+#include "cases/case_values.h"
 #include "cases/fields.h"
 #include "cases/suggest.h"
 
 enum { CASE_LARGEST = 1 << 20 }; /* bytes of a case file; a real one has a few thousand */
-
-/* Where something was given: the set-th assignment, counted from 1, or for set = 0 a line and column of the file.
- * line = 0: nowhere. */
-typedef struct case_place {
-  int set;
-  size_t line, column;
-} case_place;
 
 typedef struct case_reader {
   const char *name;       /* of the file, for messages                               */
@@ -35,6 +29,8 @@ typedef struct case_reader {
   /* where each contact appeared; bit field_index: that field of it has been given */
   case_place contact_at[SCENE_MAX_CONTACTS];
   unsigned long long contact_has[SCENE_MAX_CONTACTS];
+  /* where each field of each contact was last given */
+  case_place contact_field_at[SCENE_MAX_CONTACTS][FIELD_MAX];
   message msg; /* the first mistake */
 } case_reader;
 

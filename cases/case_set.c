@@ -74,6 +74,7 @@ static void append_contact_if_new(case_reader *r, int j)
   if (j < r->sc.n_contacts) return;
   field_contact_defaults(&r->sc.contacts[j]);
   r->contact_has[j] = 0;
+  memset(r->contact_field_at[j], 0, sizeof r->contact_field_at[j]);
   r->contact_at[j] = r->here;
   r->sc.n_contacts = j + 1;
 }
@@ -87,8 +88,12 @@ void *case_target_base(case_reader *r, case_target t)
 
 void case_target_given(case_reader *r, case_target t)
 {
-  if (t.contact >= 0) r->contact_has[t.contact] |= 1ull << field_index(t.f);
-  else r->at[field_index(t.f)] = r->here;
+  if (t.contact < 0) {
+    r->at[field_index(t.f)] = r->here;
+    return;
+  }
+  r->contact_has[t.contact] |= 1ull << field_index(t.f);
+  r->contact_field_at[t.contact][field_index(t.f)] = r->here;
 }
 
 void case_drop_rivals(case_reader *r, const field *f)

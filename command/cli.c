@@ -24,9 +24,9 @@ enum { KEY_SET = 0x100, KEY_FORMAT, KEY_WIDE };
 static const struct argp_option common_options[] = {
     {"set", KEY_SET, "PATH=VALUE", 0,
      "Set a field of the case, e.g. hbm.harmonics=10 or contacts[0].gap=-1; may be repeated", 10},
-    {"format", KEY_FORMAT, "table|csv|json", 0, "Form of the result (csv: 17 significant digits) [table]", 10},
+    {"format", KEY_FORMAT, "table|csv|json", 0, "Form of the result [table]", 10},
     {"output", 'o', "FILE", 0, "Write the result to FILE, whole or not at all, instead of standard output", 10},
-    {"wide", KEY_WIDE, NULL, 0, "Every column in the table [those that fit the terminal, or 100 letters]", 10},
+    {"wide", KEY_WIDE, NULL, 0, "Every column in the table [those that fit]", 10},
     {"quiet", 'q', NULL, 0, "No progress, no remarks", 10},
     {0},
 };

@@ -171,19 +171,17 @@ static void advise_on_samples(const report_data *d, FILE *to)
   }
   if (!most) return;
   const bool sampled = d->sc->hbm.force == HBM_FORCE_SAMPLED;
-  open_item(to, enough && (!sampled || d->comparison.samples >= enough->samples) ? "good" : "bad");
+  open_item(to, !sampled || (enough && d->comparison.samples >= enough->samples) ? "good" : "bad");
   if (!enough)
-    html_printf(to, "Sampling: not even %d samples a period are enough at H = %d (aliasing %.2g %%): use exact forces.",
-                most->samples, plain->harmonics, 100 * most->aliasing);
+    html_printf(to, "Sampling: not even %d samples a period are enough at H = %d (aliasing %.2g %%): %s.",
+                most->samples, plain->harmonics, 100 * most->aliasing,
+                sampled ? "use exact forces" : "the exact forces in use need none");
   else
     html_printf(to, "Sampling: %d samples a period are enough at H = %d (aliasing %.2g %%); exact forces need none.",
                 enough->samples, plain->harmonics, 100 * enough->aliasing);
   if (enough && enough->false_turning_points)
-    html_printf(
-        to,
-        " But the curve sampled so has %d turning points that are not the oscillator's: follow curves with exact "
-        "forces.",
-        enough->false_turning_points);
+    html_printf(to, " But the curve sampled so has %d turning points that are not the oscillator's%s.",
+                enough->false_turning_points, sampled ? ": follow curves with exact forces" : "");
   if (sampled) html_printf(to, " In use: %d samples.", d->comparison.samples);
   fputs("</li>\n", to);
 }

@@ -238,6 +238,16 @@ static void what_is_not_unique_is_said(void **state)
   expect_words(CASE2 SMALL "--set contacts[0].gap=100", 0, words);
 }
 
+/* Exact forces are not advised to who has them. */
+static void advice_on_samples_knows_the_forces_in_use(void **state)
+{
+  (void)state;
+  static const char *const in_use[] = {"Sampling: not even 32 samples", "the exact forces in use need none.", NULL},
+                           *const advised[] = {"Sampling: not even 32 samples", ": use exact forces.", NULL};
+  expect_words(CASE2 " --at 8 --harmonics 5 --samples 32 -q", 0, in_use);
+  expect_words(CASE2 " --at 8 --harmonics 5 --samples 32 -q --set hbm.force=sampled --set hbm.samples=64", 0, advised);
+}
+
 /* Exit codes are compare's; a page that could not be written leaves what was there. */
 static void failures_touch_no_file(void **state)
 {
@@ -304,6 +314,7 @@ int main(void)
       cmocka_unit_test(disagreement_is_said),
       cmocka_unit_test(cycles_are_spoken_where_the_sweep_is_in_cycles),
       cmocka_unit_test(what_is_not_unique_is_said),
+      cmocka_unit_test(advice_on_samples_knows_the_forces_in_use),
   };
   check_watchdog(600);
   return HAVE_CHARTJS ? cmocka_run_group_tests_name("compare_report.page", with, NULL, NULL)
