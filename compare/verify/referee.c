@@ -1,8 +1,10 @@
 /* referee.c - the truth at some of the points against the exact law's periodic orbits next to it. */
 #include <math.h>
+#include <string.h>
 
 #include "compare/first_guess.h"
 #include "compare/motion.h"
+#include "compare/verify/acceleration.h"
 #include "compare/verify/truth_impl.h"
 
 enum { MOST_CHECKS = 20 };
@@ -20,6 +22,10 @@ static double orbit_quantity(const truth *t, const timeint_result *orbit)
   X[2] = orbit->b1;
   const verify_motion motion = {
       .omega = orbit->omega, .max = orbit->max, .min = orbit->min, .n_harm = HARMONICS, .X = X};
+  if (q->kind == KIND_ACCELERATION) {
+    memset(t->room, 0, (size_t)t->setup->model->n_contacts * sizeof *t->room);
+    return acceleration_amplitude(t->setup->model, &motion, t->room);
+  }
   return q->kind == KIND_RMS ? orbit->rms : verify_quantity_of(q, &motion);
 }
 

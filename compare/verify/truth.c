@@ -10,6 +10,7 @@
 #include "compare/first_guess.h"
 #include "compare/frequencies.h"
 #include "compare/gate_limits.h"
+#include "compare/verify/acceleration.h"
 #include "compare/verify/solutions.h"
 #include "compare/verify/truth_impl.h"
 
@@ -67,8 +68,14 @@ hc_status truth_measure(truth *t, double omega, const double *X, measured *out)
   if (st != HC_OK) return st;
   const verify_motion motion = {.omega = omega, .max = m.max, .min = m.min, .n_harm = t->curve.n_coef / 2, .X = X};
   const verify_quantity *q = &t->data->quantity;
-  *out = (measured){verify_quantity_of(q, &motion), verify_quantity_scale(q, &motion),
-                    mean_is_free(t->setup->model, &m.contact)};
+  const bool mean_free = mean_is_free(t->setup->model, &m.contact);
+  if (q->kind == KIND_ACCELERATION) {
+    st = hbm_sliders(t->hbm, X, t->room);
+    const double amplitude = st == HC_OK ? acceleration_amplitude(t->setup->model, &motion, t->room) : NAN;
+    *out = (measured){amplitude, amplitude, mean_free};
+    return st;
+  }
+  *out = (measured){verify_quantity_of(q, &motion), verify_quantity_scale(q, &motion), mean_free};
   return HC_OK;
 }
 
@@ -184,6 +191,7 @@ hc_status verify_truth(const compare_setup *setup, const verify_data *data, cons
   verify_window(setup, data, &t.from, &t.to);
   hc_status st = out->rows ? comparison_referee(setup, &t.referee) : HC_NO_MEMORY;
   if (st == HC_OK && !(t.state = calloc((size_t)timeint_n_states(t.referee), sizeof *t.state))) st = HC_NO_MEMORY;
+  if (st == HC_OK && !(t.room = calloc(acceleration_room(setup->model), sizeof *t.room))) st = HC_NO_MEMORY;
   int harmonics = 2 * setup->hbm.harmonics; /* 0 for auto */
   harmonics = harmonics < LEAST_HARMONICS     ? LEAST_HARMONICS
               : harmonics > HBM_MAX_HARMONICS ? HBM_MAX_HARMONICS
@@ -196,6 +204,7 @@ hc_status verify_truth(const compare_setup *setup, const verify_data *data, cons
   hbm_curve_free(&t.curve);
   hbm_solver_free(t.hbm);
   free(t.state);
+  free(t.room);
   timeint_free(t.referee);
   return st;
 }

@@ -16,6 +16,7 @@ typedef struct truth {
   double *state; /* [n_states] of the referee's */
   hbm_curve curve;
   double from, to;
+  double *room; /* acceleration_room */
 } truth;
 
 /* A solution as the file's quantity is taken of it. */
