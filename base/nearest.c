@@ -2,6 +2,7 @@
 #include "base/nearest.h"
 
 #include <stdbool.h>
+#include <stdio.h>
 #include <string.h>
 
 enum { LONGEST = 40 }; /* letters of a word; a longer one is near to nothing */
@@ -46,4 +47,11 @@ const char *nearest_word(const char *const *words, const char *key, size_t lengt
     if (d < least) best = *words, least = d;
   }
   return best;
+}
+
+const char *nearest_hint(const char *const *words, const char *key, char hint[NEAREST_HINT])
+{
+  const char *near = nearest_word(words, key, strlen(key));
+  snprintf(hint, NEAREST_HINT, near ? ", did you mean '%s'?" : "", near);
+  return hint;
 }

@@ -14,4 +14,9 @@ int nearest_distance(const char *key, size_t length, const char *name);
 /* The nearest of words[], which ends in NULL, or NULL if none is near. */
 const char *nearest_word(const char *const *words, const char *key, size_t length);
 
+/* ", did you mean 'compare'?" for a message that ends in what is not known; "" where none of words[] is near. Returns
+ * hint. */
+enum { NEAREST_HINT = 64 };
+const char *nearest_hint(const char *const *words, const char *key, char hint[NEAREST_HINT]);
+
 #endif

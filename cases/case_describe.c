@@ -1,8 +1,7 @@
 /* case_describe.c - the table of fields as text for a terminal of 100 columns. */
 #include <string.h>
 
-#include "cases/case_file.h"
-#include "cases/fields.h"
+#include "cases/case_values.h"
 #include "cases/suggest.h"
 
 static const char *expected(const field *f, char text[128])
@@ -70,17 +69,6 @@ static void describe_field(const field *f, FILE *to)
 /* Of a section without the brackets of a list: forcing[] is forcing, too. */
 static int stem_length(const char *section) { return (int)strcspn(section, "["); }
 
-/* contacts.gap, contacts[].gap and contacts[3].gap are one field. */
-static bool is_path(const field *f, const char *asked)
-{
-  const char *open = strchr(asked, '['), *close = open ? strchr(open, ']') : NULL;
-  char path[FIELD_PATH], plain[FIELD_PATH];
-  int cut = close ? (int)(open - asked) : (int)strlen(asked);
-  snprintf(plain, sizeof plain, "%.*s%s", cut, asked, close ? close + 1 : "");
-  snprintf(path, sizeof path, "%.*s%s%s", stem_length(f->section), f->section, *f->section ? "." : "", f->name);
-  return !strcmp(plain, path) && (!open || field_is_in_list(f));
-}
-
 static hc_status unknown_field(const char *asked, case_error *err)
 {
   message m;
@@ -111,7 +99,7 @@ hc_status case_describe(const char *asked, FILE *to, case_error *err)
   bool sections = n > 0;
   for (int i = 0; i < field_count() && !sections; ++i) {
     const field *f = field_at(i);
-    if (!is_path(f, asked) && strcmp(f->name, asked) && strcmp(f->symbol, asked)) continue;
+    if (!case_field_asked(f, asked)) continue;
     if (n++) putc('\n', to);
     describe_field(f, to);
   }

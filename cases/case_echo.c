@@ -1,9 +1,8 @@
 /* case_echo.c - the resolved scene as a case file, one field a line, through the table of fields. */
 #include <string.h>
 
-#include "cases/case_file.h"
+#include "cases/case_values.h"
 #include "cases/echo_structure.h"
-#include "cases/fields.h"
 
 static bool choices_are_known(const scene *sc)
 {
@@ -19,14 +18,14 @@ static bool choices_are_known(const scene *sc)
 
 /* Of rivals the one in force is written: of those that give the sweep the one that did; else the list if it is not
  * empty (compare.omega), else the other (compare.points). */
-static bool is_written(const field *f, const scene *sc)
+bool case_field_counts(const field *f, const scene *sc)
 {
   if (f->flags & (FIELD_NO_ECHO | FIELD_STRUCTURE | FIELD_IN_CONTACT)) return false; /* those have ways of their own */
   if (f->in_cycles) return (f->scale != 0) == sc->in_cycles;
   if (f->kind == FIELD_REALS || f->kind == FIELD_INTEGERS) return ((const number_list *)field_look(f, sc))->n > 0;
   const field *rival;
   for (int i = 0; (rival = field_rival(f, i)) != NULL; ++i)
-    if (is_written(rival, sc)) return false;
+    if (case_field_counts(rival, sc)) return false;
   return true;
 }
 
@@ -48,7 +47,7 @@ static void write_section(const field_section *s, const scene *sc, FILE *to)
   bool begun = !*s->name;
   for (int i = 0; i < field_count(); ++i) {
     const field *f = field_at(i);
-    if (strcmp(f->section, s->name) || !is_written(f, sc)) continue;
+    if (strcmp(f->section, s->name) || !case_field_counts(f, sc)) continue;
     if (!begun) fprintf(to, "%s:\n", s->name);
     begun = true;
     fprintf(to, "%s%s: ", *s->name ? "  " : "", f->name);

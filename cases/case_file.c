@@ -139,7 +139,8 @@ hc_status case_reader_slurp(case_reader *r, char **text, size_t *length)
   return st;
 }
 
-hc_status case_read(const char *path, int n_set, const char *const *set, scene *out, case_error *err)
+hc_status case_read_placed(const char *path, int n_set, const char *const *set, scene *out, case_places *places,
+                           case_error *err)
 {
   case_reader r;
   char *text = NULL;
@@ -147,6 +148,15 @@ hc_status case_read(const char *path, int n_set, const char *const *set, scene *
   case_reader_start(&r, !strcmp(path, "-") ? "<stdin>" : path, set, err);
   hc_status st = case_reader_slurp(&r, &text, &length);
   if (st == HC_OK) st = read_scene(&r, text, length, n_set);
+  if (st == HC_OK && places) {
+    memcpy(places->field, r.at, sizeof r.at);
+    memcpy(places->contact, r.contact_field_at, sizeof r.contact_field_at);
+  }
   free(text);
   return case_reader_take(&r, st, out);
+}
+
+hc_status case_read(const char *path, int n_set, const char *const *set, scene *out, case_error *err)
+{
+  return case_read_placed(path, n_set, set, out, NULL, err);
 }

@@ -10,6 +10,7 @@
 #include "base/status.h"
 #include "cases/case_file.h"
 #include "cases/case_place.h"
+#include "cases/case_values.h"
 #include "cases/fields.h"
 #include "cases/suggest.h"
 
@@ -30,6 +31,8 @@ typedef struct case_reader {
   /* where each contact of an oscillator appeared; case_field_bit: that field of it has been given */
   case_place contact_at[SCENE_MAX_CONTACTS];
   unsigned long long contact_has[SCENE_MAX_CONTACTS];
+  /* where each field of each contact was last given */
+  case_place contact_field_at[SCENE_MAX_CONTACTS][FIELD_MAX];
   message msg; /* the first mistake */
 } case_reader;
 

@@ -128,6 +128,7 @@ static void append_contact_if_new(case_reader *r, int j)
   if (j < r->sc.n_contacts) return;
   field_contact_defaults(&r->sc.contacts[j]);
   r->contact_has[j] = 0;
+  memset(r->contact_field_at[j], 0, sizeof r->contact_field_at[j]);
   r->contact_at[j] = r->here;
   r->sc.n_contacts = j + 1;
 }
@@ -159,8 +160,10 @@ void case_target_given(case_reader *r, case_target t)
   scene_structure *s = r->sc.structure;
   if (s && t.list == CASE_LOADS) s->loads[t.index].place = r->here;
   else if (s && t.list == CASE_CONTACTS) s->contacts[t.index].place = r->here;
-  else if (t.list == CASE_CONTACTS) r->contact_has[t.index] |= case_field_bit(t.f);
-  else r->at[field_index(t.f)] = r->here;
+  else if (t.list == CASE_CONTACTS) {
+    r->contact_has[t.index] |= case_field_bit(t.f);
+    r->contact_field_at[t.index][field_index(t.f)] = r->here;
+  } else r->at[field_index(t.f)] = r->here;
   if (s) s->place = r->here; /* what it is wrong about as a whole, it is from here on */
   if (!(t.f->flags & FIELD_IN_STRUCTURE)) return;
   s->how = t.f->kind == FIELD_REAL ? STRUCTURE_DAMPING_MODAL : STRUCTURE_DAMPING_RAYLEIGH;

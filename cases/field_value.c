@@ -3,6 +3,7 @@
 
 #include <string.h>
 
+#include "base/nearest.h"
 #include "base/number.h"
 #include "base/utf8.h"
 
@@ -167,7 +168,11 @@ static bool store_choice(const field *f, void *to, const field_value *v, message
       memcpy(to, &i, sizeof i);
       return true;
     }
-  return refuse(f, v, -1, NULL, m);
+  const field_item *it = &v->item[0];
+  const char *near = nearest_word(f->choices, it->text, it->length);
+  refuse(f, v, -1, NULL, m);
+  if (near) message_add(m, ", did you mean `%s`?", near);
+  return false;
 }
 
 static bool store_text(const field *f, void *to, const field_value *v, message *m)

@@ -186,7 +186,9 @@ hc_status yaml_scene_contact(case_reader *r, yaml_document_t *doc, yaml_node_t *
   field_contact_defaults(&r->sc.contacts[j]);
   r->contact_has[j] = ~0ull; /* what is missing is found here and now */
   r->contact_at[j] = case_place_of(r, node->start_mark);
-  return read_section(r, doc, field_find_section("contacts", 8), j, &r->sc.contacts[j], node);
+  hc_status st = read_section(r, doc, field_find_section("contacts", 8), j, &r->sc.contacts[j], node);
+  memcpy(r->contact_field_at[j], r->at, sizeof r->at);
+  return st;
 }
 
 hc_status yaml_scene_contacts(case_reader *r, yaml_document_t *doc, yaml_node_t *node)

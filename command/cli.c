@@ -7,21 +7,26 @@
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include "base/constants.h"
+#include "base/nearest.h"
 #include "base/number.h"
 #include "cases/case_file.h"
+#include "command/mistyped.h"
 #include "command/plot/plot.h"
+#include "compare/advice.h"
 #include "output/output.h"
 
-enum { KEY_SET = 0x100, KEY_FORMAT };
+enum { KEY_SET = 0x100, KEY_FORMAT, KEY_WIDE };
 
 static const struct argp_option common_options[] = {
     {"set", KEY_SET, "PATH=VALUE", 0,
      "Set a field of the case, e.g. hbm.harmonics=10 or contacts[0].gap=-1; may be repeated", 10},
-    {"format", KEY_FORMAT, "table|csv|json", 0, "Form of the result (csv: 17 significant digits) [table]", 10},
+    {"format", KEY_FORMAT, "table|csv|json", 0, "Form of the result [table]", 10},
     {"output", 'o', "FILE", 0, "Write the result to FILE, whole or not at all, instead of standard output", 10},
+    {"wide", KEY_WIDE, NULL, 0, "Every column in the table [those that fit]", 10},
     {"quiet", 'q', NULL, 0, "No progress, no remarks", 10},
     {0},
 };
@@ -56,10 +61,13 @@ void cli_read_positive(struct argp_state *state, const char *option, const char 
 
 void cli_read_format(struct argp_state *state, const char *option, const char *text, bool table_too, table_format *out)
 {
+  static const char *const formats[] = {"table", "csv", "json", NULL};
   if (table_too && !strcmp(text, "table")) *out = FORMAT_TABLE;
   else if (!strcmp(text, "csv")) *out = FORMAT_CSV;
   else if (!strcmp(text, "json")) *out = FORMAT_JSON;
-  else argp_error(state, "--%s: '%s' is unknown; expected %scsv or json", option, text, table_too ? "table, " : "");
+  else
+    argp_error(state, "--%s: '%s' is unknown; expected %scsv or json%s", option, text, table_too ? "table, " : "",
+               nearest_hint(formats + !table_too, text, (char[NEAREST_HINT]){0}));
 }
 
 void cli_read_plot(struct argp_state *state, char *text, const char **out)
@@ -100,6 +108,7 @@ static error_t read_common_option(int key, char *text, struct argp_state *state)
   case KEY_SET: add_assignment(common, text, state); return 0;
   case KEY_FORMAT: cli_read_format(state, "format", text, true, &common->format); return 0;
   case 'o': common->output = text; return 0;
+  case KEY_WIDE: common->wide = true; return 0;
   case 'q': common->quiet = true; return 0;
   default: return ARGP_ERR_UNKNOWN;
   }
@@ -109,6 +118,17 @@ static error_t read_common_option(int key, char *text, struct argp_state *state)
 static const char *what_arguments_are(const char *usage)
 {
   return !strncmp(usage, "CASE", 4) ? "the case file" : !strncmp(usage, "STUDY", 5) ? "the study" : NULL;
+}
+
+/* "--tabels" ends the program with what was meant; argp, which only knows that it is not known, is not asked then. */
+static void refuse_mistyped(const cli_command *self, int argc, char **argv)
+{
+  int length;
+  const char *meant, *name = mistyped_option(argc, argv, self->options, common_options, &length, &meant);
+  if (!name) return;
+  fprintf(stderr, "hbmcheck %s: unrecognized option '--%.*s', did you mean '--%s'?\nTry 'hbmcheck %s --help'.\n",
+          self->name, length, name, meant, self->name);
+  exit(EXIT_USAGE);
 }
 
 void cli_parse(const cli_command *self, int argc, char **argv, void *own, cli_common *common)
@@ -122,6 +142,7 @@ void cli_parse(const cli_command *self, int argc, char **argv, void *own, cli_co
   char name[64];
   *common = (cli_common){.command = self->name, .argument_is = what_arguments_are(self->arguments)};
   snprintf(name, sizeof name, "hbmcheck %s", self->name);
+  refuse_mistyped(self, argc, argv);
   argv[0] = name;
   argp_err_exit_status = EXIT_USAGE;
   error_t failed = argp_parse(&argp, argc, argv, 0, NULL, &input); /* wrong usage exits: what is left is ENOMEM */
@@ -217,58 +238,29 @@ void cli_take_frequencies(const cli_common *common, const number_list *at, scene
   if (outside && !common->quiet) warn_outside(common, sc, first, outside - 1);
 }
 
-static const char *hbm_advice(hc_status st)
+/* What a person can try next; "" where no setting helps. */
+static const char *advice_for(const scene *sc, cli_solver solver, hc_status st, char text[ADVICE_TEXT])
 {
-  switch (st) {
-  case HC_STALLED:
-  case HC_NOT_CONVERGED:
-  case HC_SINGULAR:
-  case HC_STEP_TOO_SMALL:
-    return "try --set hbm.continuation=auto, --set hbm.force=exact, or a sweep from the other end";
-  case HC_TOO_MANY_POINTS:
-    return "try --set hbm.force=exact (too few samples make false turning points), or a narrower --set sweep.omega=...";
-  case HC_NOT_CLOSED: return "try the other --set hbm.force=..., exact or sampled";
-  case HC_CHATTER: return "try --set hbm.force=sampled, which counts no transitions";
-  case HC_NOT_FINITE: return "numbers became too large: is the scene damped?";
-  default: return NULL;
-  }
-}
-
-static const char *transient_advice(hc_status st)
-{
-  switch (st) {
-  case HC_STALLED:
-  case HC_NOT_CONVERGED:
-  case HC_SINGULAR: return "try --set transient.steady_state=march, which needs no Newton iteration";
-  case HC_CHATTER: return "try --set transient.law=regularised, which counts no transitions";
-  case HC_INTEGRATOR:
-    return "try a larger --set transient.regularisation=..., a tighter --set transient.tolerance=..., or the other "
-           "--set transient.law=..., exact or regularised";
-  case HC_NOT_SETTLED: return "try a larger --set transient.max_periods=... or --set transient.start=hbm";
-  case HC_NOT_FINITE: return "the motion grew without bound: is the scene damped?";
-  default: return NULL;
-  }
-}
-
-/* What a person can try next; NULL where no setting helps. */
-static const char *advice_for(cli_solver solver, hc_status st)
-{
-  const char *hbm = solver == CLI_TRANSIENT ? NULL : hbm_advice(st);
-  const char *transient = solver == CLI_HBM ? NULL : transient_advice(st);
-  if (hbm && transient) return "hbmcheck frf and hbmcheck transient on the same case tell which side it is";
-  return hbm ? hbm : transient;
+  char other[ADVICE_TEXT];
+  text[0] = 0;
+  if (!sc) return text;
+  if (solver != CLI_TRANSIENT) advice_for_hbm(&sc->hbm, st, text);
+  if (solver == CLI_HBM || !*advice_for_transient(&sc->transient, st, other)) return text;
+  snprintf(text, ADVICE_TEXT, "%s",
+           *text ? "hbmcheck frf and hbmcheck transient on the same case tell which side it is" : other);
+  return text;
 }
 
 int cli_solver_failed(const cli_common *common, cli_solver solver, const char *what, hc_status st, double omega)
 {
-  const char *advice = advice_for(solver, st);
-  char at[SCENE_WHERE] = "";
+  char advice[ADVICE_TEXT], at[SCENE_WHERE] = "";
   if (omega > 0) scene_where(common->scene, omega, at);
+  advice_for(common->scene, solver, st, advice);
   if (st == HC_INTERRUPTED) cli_message(common, "%s: stopped on request; what was found is kept", what);
   else if (st == HC_NO_MEMORY) cli_message(common, "%s", hc_status_text(st));
   else
-    cli_message(common, "%s%s%s: %s%s%s", what, *at ? " stopped at " : "", at, hc_status_text(st), advice ? "; " : "",
-                advice ? advice : "");
+    cli_message(common, "%s%s%s: %s%s%s", what, *at ? " stopped at " : "", at, hc_status_text(st), *advice ? "; " : "",
+                advice);
   return EXIT_NO_SOLUTION;
 }
 
@@ -316,10 +308,28 @@ void cli_put_row(const cli_common *common, table *t, rows_kind kind, const row_c
   }
 }
 
+int cli_width(const cli_common *common)
+{
+  enum { LEAST = 40, USUAL = 100 };
+  struct winsize size;
+  const char *columns = getenv("COLUMNS");
+  int width = columns ? (int)strtol(columns, NULL, 10) : 0;
+  if (!common->output && isatty(STDOUT_FILENO) && ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0)
+    width = size.ws_col;
+  return width <= 0 ? USUAL : width < LEAST ? LEAST : width;
+}
+
+static void fit_to_screen(const cli_common *common, table *t)
+{
+  if (common->wide) table_show_all(t);
+  else table_fit(t, cli_width(common));
+}
+
 int cli_write(const cli_common *common, int n, table *const *tables)
 {
   output *out = NULL;
   hc_status st = output_open(common->output, &out);
+  for (int i = 0; i < n; ++i) fit_to_screen(common, tables[i]);
   if (st == HC_OK) {
     st = table_write(n, tables, common->format, output_stream(out));
     if (st == HC_OK) st = output_commit(out);

@@ -45,6 +45,7 @@ typedef struct cli_common {
   table_format format;          /* --format */
   const char *output;           /* --output; NULL: standard output */
   bool quiet;                   /* --quiet */
+  bool wide;                    /* --wide */
   const scene *scene;           /* the case at work, for messages; NULL before cli_load_case */
 } cli_common;
 
@@ -109,7 +110,12 @@ unsigned cli_extra_columns(const scene *sc);
 /* Append a row of that kind to the table. */
 void cli_put_row(const cli_common *common, table *t, rows_kind kind, const row_cell *cells);
 
-/* Write the tables to stdout or --output, whole or not at all. 0 or the exit code. Frees nothing. */
+/* How long a line on the screen may be: the terminal's columns; where results do not go to one, what COLUMNS says, or
+ * 100. At least 40. */
+int cli_width(const cli_common *common);
+
+/* Write the tables to stdout or --output, whole or not at all; in the format table within cli_width, or with --wide
+ * every column. 0 or the exit code. Frees nothing. */
 int cli_write(const cli_common *common, int n, table *const *tables);
 
 /* After a drawing that ended with st: 0, or the exit code after the message that there is none and why. */

@@ -74,6 +74,10 @@ enum {
   N_COLUMNS = sizeof columns / sizeof *columns,
   N_CHEAPEST_COLUMNS = sizeof cheapest_columns / sizeof *cheapest_columns
 };
+/* In cycles from the beginning on, else without omega. */
+static const char *const spare_columns[] = {"omega",   "low",   "high",  "curve_seconds", "error_harmonic_1",
+                                            "repeats", "error", "front", "outcome",       NULL},
+                         *const spare_cheapest_columns[] = {"omega", "error_finer", "next_settings", NULL};
 static const double accuracies[] = {1e-2, 1e-3, 1e-4, 1e-6, 1e-8};
 enum { N_ACCURACIES = sizeof accuracies / sizeof *accuracies };
 
@@ -210,6 +214,9 @@ static int write_tables(const cli_common *common, const scene *sc, const bench *
   const int n = cli_columns(sc->in_cycles, N_COLUMNS, columns, own),
             n_cheapest = cli_columns(sc->in_cycles, N_CHEAPEST_COLUMNS, cheapest_columns, cheapest);
   table *tables[2] = {table_new("Work and precision", n, own), table_new("Cheapest way", n_cheapest, cheapest)};
+  for (int i = 0; i < 2 && b->n_frequencies == 1; ++i) table_hide(tables[i], "omega"); /* the remarks have it */
+  table_spare(tables[0], spare_columns + !sc->in_cycles);
+  table_spare(tables[1], spare_cheapest_columns + !sc->in_cycles);
   for (int i = 0; i < b->n_rows; ++i) put_row(tables[0], sc, &b->rows[i]);
   note_bench(tables[0], sc, b);
   for (int i = 0; i < b->n_frequencies; ++i) {

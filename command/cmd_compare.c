@@ -20,7 +20,7 @@ static const char help[] =
     "--tables adds a table over truncation orders and samples (largest amplitude discrepancy, peak, false turning "
     "points, cost) and one of "
     "observed orders; it takes seconds, and with csv they follow the first after a blank line. The screen shows the "
-    "main columns, csv and json all of them.\n"
+    "columns that fit; --wide, csv and json have all of them.\n"
     "exit: 0 agreed  1 a transient differs from every HBM solution  2 case file wrong  3 something could not be "
     "compared  64 usage\n"
     "example: hbmcheck compare cases/paper/case2.yaml --set hbm.static=false";
@@ -76,23 +76,6 @@ static void note_worst(table *t, const scene *sc, const compare_setup *setup, co
     table_note(t, "%d row%s without a budget: no periodic orbit was found next to the HBM solution", unknown,
                unknown == 1 ? "" : "s");
 }
-
-/* Columns of csv and json that the screen has no room for. */
-static const char *const csv_only[] = {"mean_error",
-                                       "from_integration",
-                                       "from_settling",
-                                       "hbm_harmonic_1",
-                                       "transient_harmonic_1",
-                                       "periods",
-                                       "orbit_amplitude",
-                                       "orbit_multiplier",
-                                       "budget_sum",
-                                       "budget_observed",
-                                       "hbm_predicted_harmonic_1",
-                                       "hbm_predicted_waveform",
-                                       "transient_predicted_harmonic_1",
-                                       "transient_predicted_waveform",
-                                       "unexpected"};
 
 /* What neither side expected, a line a row: under the table and in json. */
 static void note_unexpected(table *t, const scene *sc, const comparison *c)
@@ -176,7 +159,7 @@ static table *comparison_table(const cli_common *common, const compare_setup *se
     rows_compare(&c->rows[i], common->scene->in_cycles, cells);
     cli_put_row(common, t, ROWS_COMPARE, cells);
   }
-  for (size_t i = 0; i < sizeof csv_only / sizeof *csv_only; ++i) table_hide(t, csv_only[i]);
+  table_spare(t, rows_spare(ROWS_COMPARE, common->scene->in_cycles));
   note_comparison(t, common->scene, setup, c);
   return t;
 }
@@ -205,7 +188,7 @@ static int run_compare(int argc, char **argv)
   compare_setup setup;
   hc_status st = scene_setup(&sc, &setup), tabled = HC_OK;
   setup.jobs = cli_processors();
-  setup.spare = common.format == FORMAT_TABLE && !own.plot; /* the screen does not show from_integration */
+  setup.spare = common.format == FORMAT_TABLE && !common.wide && !own.plot; /* from_integration is not shown */
   if (st == HC_OK) st = comparison_run(&setup, &monitor, &c);
   tables[0] = comparison_table(&common, &setup, &c);
   if (st != HC_OK) table_note(tables[0], "INCOMPLETE: %s", hc_status_text(st));

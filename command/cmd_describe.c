@@ -1,35 +1,258 @@
-/* cmd_describe.c - hbmcheck describe: what a case file may say, from the table of fields. */
+/* cmd_describe.c - hbmcheck describe: what a case file may say, from the table of fields; with --case what one says,
+ * where each value is from, and what follows from them before anything is solved. */
+#include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
 
-#include "cases/case_file.h"
+#include "cases/case_values.h"
 #include "command/commands.h"
+#include "command/files.h"
 #include "output/output.h"
 
 static const char help[] =
-    "What a case file may say: every field, or one FIELD or section, with unit, default, range and meaning."
-    "\vexample: hbmcheck describe hbm.samples";
+    "What a case file may say: every field, or one FIELD or section, with unit, default, range and meaning. With "
+    "--case what that file says: every value, where it is from, and natural frequencies and preloads that follow."
+    "\vColumns: default is empty where the field is required, low and high where there is no such end; from = default, "
+    "file or --set, and where a field of several is in force, the others have no value.\n"
+    "exit: 0 done  2 case file wrong  64 usage, or no such field\n"
+    "example: hbmcheck describe hbm.samples\n"
+    "example: hbmcheck describe --case cases/paper/case2.yaml --format json";
 
-static int run_describe(int argc, char **argv)
+typedef struct describe_options {
+  const char *case_file; /* NULL: not given */
+} describe_options;
+
+enum { KEY_CASE = CLI_OWN_KEY };
+
+static const struct argp_option options[] = {
+    {"case", KEY_CASE, "CASE", 0, "Also the values of this case file, with --set, and what follows from them", 1},
+    {0},
+};
+
+/* NOLINTNEXTLINE(readability-non-const-parameter): the signature is argp's */
+static error_t read_option(int key, char *text, struct argp_state *state)
 {
-  cli_common common;
+  describe_options *own = state->input;
+  if (key != KEY_CASE) return ARGP_ERR_UNKNOWN;
+  own->case_file = text;
+  return 0;
+}
+
+/* ---- the table of fields ---- */
+
+static const table_column field_columns[] = {
+    {"field", TABLE_TEXT},    {"symbol", TABLE_TEXT},   {"unit", TABLE_TEXT},    {"kind", TABLE_TEXT},
+    {"expected", TABLE_TEXT}, {"choices", TABLE_TEXT},  {"low", TABLE_REAL},     {"high", TABLE_REAL},
+    {"default", TABLE_TEXT},  {"required", TABLE_TEXT}, {"meaning", TABLE_TEXT},
+};
+#define COUNT(a) ((int)(sizeof(a) / sizeof *(a)))
+
+static const char *kind_name(field_kind kind)
+{
+  static const char *const names[] = {
+      [FIELD_REAL] = "number", [FIELD_INTEGER] = "integer", [FIELD_FLAG] = "flag",     [FIELD_CHOICE] = "choice",
+      [FIELD_TEXT] = "text",   [FIELD_PAIR] = "pair",       [FIELD_REALS] = "numbers", [FIELD_INTEGERS] = "integers"};
+  return names[kind];
+}
+
+static const char *text_or_nothing(const char *text) { return text && *text ? text : NULL; }
+
+/* "exact|sampled"; NULL where nothing is chosen. */
+static const char *choices_of(const field *f, char text[128])
+{
+  message m;
+  message_start(&m, text, 128);
+  for (int i = 0; f->choices && f->choices[i]; ++i) message_add(&m, "%s%s", i ? "|" : "", f->choices[i]);
+  return f->kind == FIELD_CHOICE ? text : NULL;
+}
+
+static void put_field(table *t, const field *f)
+{
+  char path[FIELD_PATH], expected[128], choices[128];
+  const bool ranged = f->kind != FIELD_FLAG && f->kind != FIELD_CHOICE && f->kind != FIELD_TEXT;
+  message m;
+  message_start(&m, expected, sizeof expected);
+  field_expected(f, &m);
+  table_put_text(t, field_path(f, -1, path));
+  table_put_text(t, text_or_nothing(f->symbol));
+  table_put_text(t, text_or_nothing(f->unit));
+  table_put_text(t, kind_name(f->kind));
+  table_put_text(t, expected);
+  table_put_text(t, choices_of(f, choices));
+  table_put_real(t, ranged && isfinite(f->low) ? f->low : NAN);
+  table_put_real(t, ranged && isfinite(f->high) ? f->high : NAN);
+  table_put_text(t, f->fallback);
+  table_put_text(t, f->fallback || field_rival(f, 0) ? "no" : "yes");
+  table_put_text(t, f->meaning);
+}
+
+static int write_fields(const cli_common *common)
+{
+  table *t = table_new("Fields", COUNT(field_columns), field_columns);
+  for (int i = 0; i < field_count(); ++i)
+    if (case_field_asked(field_at(i), common->arguments[0])) put_field(t, field_at(i));
+  int code = cli_write(common, 1, &t);
+  table_free(t);
+  return code;
+}
+
+/* ---- one case ---- */
+
+static const table_column value_columns[] = {
+    {"field", TABLE_TEXT},   {"value", TABLE_TEXT},   {"unit", TABLE_TEXT},
+    {"from", TABLE_TEXT},    {"line", TABLE_INTEGER}, {"column", TABLE_INTEGER},
+    {"default", TABLE_TEXT}, {"symbol", TABLE_TEXT},  {"meaning", TABLE_TEXT},
+};
+static const char *const spare_value_columns[] = {"meaning", "column", "symbol", "default", NULL};
+static const table_column derived_columns[] = {
+    {"quantity", TABLE_TEXT}, {"value", TABLE_REAL}, {"unit", TABLE_TEXT}, {"meaning", TABLE_TEXT}};
+
+/* The value of f as a case file would have it, text without its quotes; nothing where the field does not count. */
+static hc_status put_text_of(table *t, const field *f, const void *base, bool counts)
+{
+  char *text = NULL;
+  size_t size;
+  if (!counts || f->kind == FIELD_TEXT) {
+    table_put_text(t, counts ? field_look(f, base) : NULL);
+    return HC_OK;
+  }
+  FILE *to = open_memstream(&text, &size);
+  if (to) field_write(f, base, to);
+  const bool written = to && fclose(to) == 0;
+  table_put_text(t, written ? text : NULL);
+  free(text);
+  return written ? HC_OK : HC_NO_MEMORY;
+}
+
+static void put_place(table *t, case_place at, bool counts)
+{
+  const bool in_file = counts && at.line > 0 && at.set == 0;
+  table_put_text(t, !counts ? NULL : at.line == 0 ? "default" : in_file ? "file" : "--set");
+  if (in_file) table_put_integer(t, (long)at.line);
+  else table_put_missing(t);
+  if (in_file) table_put_integer(t, (long)at.column);
+  else table_put_missing(t);
+}
+
+/* What is shown of one case. */
+typedef struct described {
+  const scene *sc;
+  const case_places *places;
+  const char *asked; /* NULL: everything */
+} described;
+
+/* j: the contact, if f is one of a contact's; else -1. */
+static hc_status put_value(table *t, const described *d, const field *f, int j)
+{
+  char path[FIELD_PATH];
+  const bool counts = j >= 0 || case_field_counts(f, d->sc);
+  if (!case_field_asked(f, d->asked)) return HC_OK;
+  table_put_text(t, field_path(f, j, path));
+  hc_status st = put_text_of(t, f, j >= 0 ? (const void *)&d->sc->contacts[j] : d->sc, counts);
+  table_put_text(t, text_or_nothing(f->unit));
+  put_place(t, case_field_place(d->places, f, j), counts);
+  table_put_text(t, f->fallback);
+  table_put_text(t, text_or_nothing(f->symbol));
+  table_put_text(t, f->meaning);
+  return st;
+}
+
+/* In the order of the table of fields, contact after contact. */
+static hc_status put_values(table *t, const described *d)
+{
+  hc_status st = HC_OK;
+  for (int i = 0, end; i < field_count() && st == HC_OK; i = end) {
+    const bool in_contact = field_at(i)->flags & FIELD_IN_CONTACT;
+    for (end = i + 1; in_contact && end < field_count() && field_at(end)->flags & FIELD_IN_CONTACT;) ++end;
+    for (int j = in_contact ? 0 : -1; j < (in_contact ? d->sc->n_contacts : 0); ++j)
+      for (int k = i; k < end && st == HC_OK; ++k) st = put_value(t, d, field_at(k), j);
+  }
+  return st;
+}
+
+static void put_derived(table *t, const scene *sc)
+{
+  case_derived all[CASE_DERIVED_MAX];
+  const int n = case_derive(sc, all);
+  for (int i = 0; i < n; ++i) {
+    table_put_text(t, all[i].name);
+    table_put_real(t, all[i].value);
+    table_put_text(t, all[i].unit);
+    table_put_text(t, all[i].meaning);
+  }
+}
+
+static int write_values(const cli_common *common, const described *d)
+{
+  table *tables[2] = {table_new("Values", COUNT(value_columns), value_columns),
+                      table_new("Derived", COUNT(derived_columns), derived_columns)};
+  hc_status st = put_values(tables[0], d);
+  table_spare(tables[0], spare_value_columns);
+  table_note(tables[0], "%s", d->sc->title);
+  put_derived(tables[1], d->sc);
+  int code = st == HC_OK ? cli_write(common, 2, tables) : cli_file_failed(common, common->output, st);
+  for (int i = 0; i < 2; ++i) table_free(tables[i]);
+  return code;
+}
+
+static int describe_case(const cli_common *common, const char *path)
+{
+  case_error err = {{0}};
+  scene sc;
+  case_places *places = malloc(sizeof *places);
+  hc_status st = places ? case_read_placed(path, common->n_set, common->set, &sc, places, &err) : HC_NO_MEMORY;
+  const described d = {&sc, places, common->arguments[0]};
+  int code = st == HC_OK ? write_values(common, &d) : st == HC_NO_MEMORY ? EXIT_NO_SOLUTION : EXIT_BAD_CASE;
+  if (st != HC_OK) fprintf(stderr, "%s\n", err.message[0] ? err.message : hc_status_text(st));
+  free(places);
+  return code;
+}
+
+/* ---- for people ---- */
+
+/* case_describe to `path`, or with NULL to nowhere: is there such a field? 0 or the exit code after the message. */
+static int write_text(const cli_common *common, const char *path)
+{
   case_error err = {{0}};
   output *out = NULL;
-  cli_parse(&cmd_describe, argc, argv, NULL, &common);
-  hc_status st = output_open(common.output, &out);
+  hc_status st = output_open(path, &out);
   if (st == HC_OK) {
-    st = case_describe(common.arguments[0], output_stream(out), &err);
+    st = case_describe(common->arguments[0], output_stream(out), &err);
     if (st == HC_OK) st = output_commit(out);
     else output_abandon(out);
   }
   if (st == HC_OK) return 0;
-  cli_message(&common, "%s", err.message[0] ? err.message : hc_status_text(st));
-  return st == HC_BAD_INPUT ? EXIT_USAGE : EXIT_NO_SOLUTION;
+  if (!err.message[0]) return cli_file_failed(common, path, st);
+  const bool is_file = access(common->arguments[0], F_OK) == 0;
+  cli_message(common, "%s%s%s", err.message, is_file ? "; what that file says: hbmcheck describe --case " : "",
+              is_file ? common->arguments[0] : "");
+  return EXIT_USAGE;
+}
+
+static int run_describe(int argc, char **argv)
+{
+  cli_common common;
+  describe_options own = {0};
+  cli_parse(&cmd_describe, argc, argv, &own, &common);
+  int code = cli_check_files(&common, 1, &(cli_file){"the case file", own.case_file, CLI_INPUT});
+  if (code) return code;
+  if (common.n_set && !own.case_file) {
+    cli_message(&common, "--set has no case file to set anything in; expected --case CASE, too");
+    return EXIT_USAGE;
+  }
+  if (common.format == FORMAT_TABLE && !own.case_file) return write_text(&common, common.output);
+  if (common.arguments[0] && (code = write_text(&common, "/dev/null")) != 0) return code;
+  return own.case_file ? describe_case(&common, own.case_file) : write_fields(&common);
 }
 
 const cli_command cmd_describe = {
     .name = "describe",
-    .summary = "what a case file may say",
+    .summary = "what a case file may say, or with --case what one says and where each value is from",
     .arguments = "[FIELD]",
     .help = help,
+    .options = options,
+    .read_option = read_option,
     .run = run_describe,
 };

@@ -70,6 +70,7 @@ static hc_status put_points(const cli_common *common, hbm_solver *s, const hbm_c
     if (st != HC_OK) return st;
   }
   if (!free) table_hide(t, "mean_free");
+  table_spare(t, rows_spare(ROWS_FRF, common->scene->in_cycles));
   return HC_OK;
 }
 

@@ -63,6 +63,7 @@ static error_t read_option(int key, char *text, struct argp_state *state)
   {"result", TABLE_TEXT}, {"reason", TABLE_TEXT}
 /* clang-format on */
 static const table_column columns[] = {COLUMNS(TABLE_REAL)}, columns_for_people[] = {COLUMNS(TABLE_TEXT)};
+static const char *const spare_columns[] = {"against", "verdict", "allowed", "branch", "case", NULL};
 enum { N_COLUMNS = sizeof columns / sizeof *columns };
 
 /* One call of the command. */
@@ -73,7 +74,8 @@ typedef struct gate_call {
   gate_case *cases;   /* [n_arguments], of which n_judged are filled */
   case_error *errors; /* [n_arguments] what is wrong with the case file, or empty */
   int n_judged;
-  bool in_cycles; /* the sweep of one of them is */
+  bool in_cycles;   /* the sweep of one of them is */
+  bool short_names; /* their names differ without their folders, too: so they stand on the screen */
   table_column columns[N_COLUMNS];
   output *junit; /* opened before anything runs: a name that cannot be written to is found at once */
 } gate_call;
@@ -130,11 +132,25 @@ static void put_number(table *t, double x, bool people)
   else table_put_real(t, x);
 }
 
+static const char *without_folder(const char *path)
+{
+  const char *slash = strrchr(path, '/');
+  return slash ? slash + 1 : path;
+}
+
+static bool names_differ(const gate_call *call)
+{
+  for (int i = 0; i < call->n_judged; ++i)
+    for (int k = 0; k < i; ++k)
+      if (!strcmp(without_folder(call->cases[i].name), without_folder(call->cases[k].name))) return false;
+  return true;
+}
+
 /* `of`: the check's case. */
 static void put_check(const gate_call *call, table *t, int of, const gate_check *c, bool people)
 {
   const scene *sc = &call->scenes[of];
-  table_put_text(t, call->cases[of].name);
+  table_put_text(t, people && call->short_names ? without_folder(call->cases[of].name) : call->cases[of].name);
   table_put_real(t, c->omega);
   if (call->in_cycles) table_put_real(t, sc->in_cycles ? scene_frequency(sc, c->omega) : NAN);
   if (c->branch >= 0) table_put_integer(t, c->branch);
@@ -155,6 +171,10 @@ static table *checks_table(gate_call *call)
   const bool people = call->common.format == FORMAT_TABLE;
   const int n = cli_columns(call->in_cycles, N_COLUMNS, people ? columns_for_people : columns, call->columns);
   table *t = table_new("Gate", n, call->columns);
+  table_wrap(t, cli_width(&call->common)); /* the reasons are sentences */
+  table_spare(t, spare_columns);
+  if (call->n_judged == 1 && !call->common.wide) table_hide(t, "case"); /* the remark below has it */
+  call->short_names = !call->common.wide && names_differ(call);
   for (int i = 0; i < call->n_judged; ++i) {
     const gate_case *g = &call->cases[i];
     for (int k = 0; k < g->n; ++k)

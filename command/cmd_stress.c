@@ -100,6 +100,7 @@ static const table_column scene_columns[] = {
     {"scene", TABLE_INTEGER}, {"check", TABLE_TEXT}, {"outcome", TABLE_TEXT}, {"reason", TABLE_TEXT},
     {"error", TABLE_REAL},    {"bound", TABLE_REAL}, {"why", TABLE_TEXT},
 };
+static const char *const spare_columns[] = {"holds", "seconds", "median_error", "scene", NULL};
 #define COUNT(a) ((int)(sizeof(a) / sizeof *(a)))
 
 /* One call of the command. */
@@ -135,6 +136,7 @@ static void put_errors(const stress_call *call, int kind, table *t)
 static table *checks_table(stress_call *call)
 {
   table *t = table_new("Checks", COUNT(check_columns), check_columns);
+  table_spare(t, spare_columns);
   for (int k = 0; k < STRESS_N_CHECKS; ++k) {
     long count[STRESS_N_OUTCOMES] = {0};
     double seconds = 0;
@@ -162,6 +164,7 @@ static const char *meaning_of(const stress_check *c)
 static table *reasons_table(const stress_call *call)
 {
   table *t = table_new("Reasons", COUNT(reason_columns), reason_columns);
+  table_wrap(t, cli_width(&call->common));
   for (int k = 0; k < STRESS_N_CHECKS; ++k)
     for (int o = 0; o < STRESS_N_OUTCOMES; ++o)
       for (int r = 0; r < STRESS_N_REASONS; ++r)
@@ -201,6 +204,7 @@ static void put_scene(table *t, long index, int kind, const stress_check *c)
 static table *scenes_table(const stress_call *call)
 {
   table *t = table_new(call->own.all ? "Scenes" : "Findings", COUNT(scene_columns), scene_columns);
+  table_wrap(t, cli_width(&call->common));
   for (long i = 0; i < call->own.plan.scenes; ++i)
     for (int k = 0; k < STRESS_N_CHECKS && call->results[i].there; ++k)
       if (call->own.all || call->results[i].check[k].outcome == STRESS_FINDING)

@@ -3,7 +3,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/ioctl.h>
 #include <sys/stat.h>
 #include <time.h>
 #include <unistd.h>
@@ -69,7 +68,7 @@ static error_t read_option(int key, char *text, struct argp_state *state)
   }
 }
 
-enum { MAX_PATH = 4096, BESIDE_PATH = MAX_PATH + 8, FILES_EACH = 4, DEFAULT_WIDTH = 150, MIN_WIDTH = 60 };
+enum { MAX_PATH = 4096, BESIDE_PATH = MAX_PATH + 8, FILES_EACH = 4 };
 
 enum { SUMMARY, VERDICTS, CLAIMS /* and STUDY_CLAIM_TABLES of them */, N_TABLES = CLAIMS + STUDY_CLAIM_TABLES };
 
@@ -276,6 +275,8 @@ static const table_column summary_columns[] = {
     {"results", TABLE_TEXT},   {"study", TABLE_TEXT},
 };
 
+static const char *const spare_columns[] = {"exact_s", "computing_s", "computed", "wall_s", NULL};
+
 static double to_milliseconds(double seconds) { return (double)(long)(seconds * 1000 + 0.5) / 1000; }
 
 /* The study's rows in the tables of studies and of verdicts. 0 or the exit code. */
@@ -348,36 +349,29 @@ static int write_tables(const study_call *call)
   return write_export(call);
 }
 
-/* Columns of the terminal; where the results do not go to one, what COLUMNS says, or DEFAULT_WIDTH. */
-static int page_width(const study_call *call)
-{
-  struct winsize size;
-  const char *columns = getenv("COLUMNS");
-  int width = columns ? (int)strtol(columns, NULL, 10) : 0;
-  if (!call->common.output && isatty(STDOUT_FILENO) && ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0)
-    width = size.ws_col;
-  return width >= MIN_WIDTH ? width : width > 0 ? MIN_WIDTH : DEFAULT_WIDTH;
-}
-
 static void make_tables(study_call *call)
 {
   static const char *const titles[STUDY_CLAIM_TABLES] = {
       "Claims", "Claims, with the settings of their source and with ours",
+      "Claims that the continuation decides, in fixed steps of arc length with the settings of their source",
       "Seconds, as the source reports them, and here with its settings and with ours"};
   int n;
   call->tables[SUMMARY] = table_new("Studies", sizeof summary_columns / sizeof *summary_columns, summary_columns);
+  table_spare(call->tables[SUMMARY], spare_columns);
   const table_column *columns = study_verdict_columns(&n);
   call->tables[VERDICTS] = table_new("Verdicts", n, columns);
   for (int i = 0; i < STUDY_CLAIM_TABLES; ++i) {
     columns = study_claims_columns(i, &n);
     call->tables[CLAIMS + i] = table_new(titles[i], n, columns);
-    if (i != STUDY_SECONDS) table_wrap(call->tables[CLAIMS + i], page_width(call));
+    if (i != STUDY_SECONDS) table_wrap(call->tables[CLAIMS + i], cli_width(&call->common));
   }
 }
 
 static void note_totals(const study_call *call)
 {
-  static const char *const with[STUDY_ANSWERS] = {"", " with the settings of their source", " with ours"};
+  static const char *const with[STUDY_ANSWERS] = {"", " with the settings of their source", " with ours",
+                                                  " in fixed steps"};
+  static const int shown_in[STUDY_ANSWERS] = {STUDY_CLAIMS, STUDY_SIDES, STUDY_SIDES, STUDY_STEPS};
   const study_claims_tally *c = &call->claims;
   if (call->n_studies > 1)
     table_note(call->tables[SUMMARY],
@@ -385,9 +379,8 @@ static void note_totals(const study_call *call)
                call->n_studies, call->scenes, call->seconds, call->exact_seconds, call->wall);
   for (int k = 0; k < STUDY_ANSWERS; ++k)
     if (c->agree[k] + c->disagree[k] + c->unsaid[k] > 0)
-      table_note(call->tables[CLAIMS + (k == STUDY_PLAIN ? STUDY_CLAIMS : STUDY_SIDES)],
-                 "%d claims agree%s, %d do not, of %d it cannot be said", c->agree[k], with[k], c->disagree[k],
-                 c->unsaid[k]);
+      table_note(call->tables[CLAIMS + shown_in[k]], "%d claims agree%s, %d do not, of %d it cannot be said",
+                 c->agree[k], with[k], c->disagree[k], c->unsaid[k]);
 }
 
 /* The tables, export and drawing of the first n_run studies. Returns the exit code. */

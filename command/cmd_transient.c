@@ -90,6 +90,7 @@ static int run_transient(int argc, char **argv)
     if (row_code) code = row_code;
   }
   if (!free) table_hide(t, "mean_free");
+  table_spare(t, rows_spare(ROWS_TRANSIENT, sc.in_cycles));
   if (st != HC_OK) {
     table_note(t, "INCOMPLETE: %s", hc_status_text(st));
     code = cli_solver_failed(&common, CLI_TRANSIENT, "time integration", st, 0);

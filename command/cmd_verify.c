@@ -2,9 +2,12 @@
  * off. */
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
+#include "base/number.h"
 #include "command/commands.h"
 #include "command/files.h"
+#include "command/plot/plot.h"
 #include "compare/verify/verify.h"
 #include "output/progress.h"
 
@@ -18,11 +21,13 @@ static const char help[] =
     "COLUMN is a number from 1 or a name in the header. omega is in rad per unit time, frequency in cycles per unit "
     "time.\n"
     "QUANTITY: amplitude = (max - min)/2 of x, double_amplitude, peak = max |x|, max, min, mean, rms, norm = "
-    "sqrt(X0^2 + sum (a_k^2 + b_k^2)), harmonic_K = |a_K + i b_K|, velocity and acceleration = (max - min)/2 of x' "
-    "and x'', velocity_harmonic_K, acceleration_harmonic_K; dB_ before any: 20 log10 of it. docs/verify.md has the "
+    "sqrt(X0^2 + sum (a_k^2 + b_k^2)), norm_over_root_2 (NLvib's rms), harmonic_K = |a_K + i b_K|, "
+    "velocity and acceleration = (max - min)/2 of x' and x'', velocity_harmonic_K, acceleration_harmonic_K; dB_ before "
+    "any: 20 log10 of it. docs/verify.md has the "
     "formulas and all causes.\n"
     "A point matches within the case's gate.amplitude, gate.harmonic_1 or gate.mean. Where a slider never slips the "
-    "mean is open, and what contains it is not compared. With csv "
+    "mean is open, and what contains it is not compared. With --noise S, points match that are within the gate "
+    "and 4 S, and on the average of m neighbours, up to 25, within the gate and 4 S/sqrt(m). With csv "
     "only the points are written, with the cause in the remarks before them.\n"
     "exit: 0 every point matches  1 some do not, or run along the wrong branch  2 a file is wrong  3 could not be "
     "judged  64 usage\n"
@@ -30,16 +35,19 @@ static const char help[] =
     "omega=1,harmonic_1=2";
 
 typedef struct verify_options {
-  const char *against, *columns, *quantity; /* NULL: not given */
+  const char *against, *columns, *quantity, *noise, *plot; /* NULL: not given */
 } verify_options;
 
-enum { KEY_AGAINST = CLI_OWN_KEY, KEY_COLUMNS, KEY_QUANTITY };
+enum { KEY_AGAINST = CLI_OWN_KEY, KEY_COLUMNS, KEY_QUANTITY, KEY_NOISE, KEY_PLOT };
 
 static const struct argp_option options[] = {
     {"against", KEY_AGAINST, "FILE", 0, "The curve to hold against ours", 1},
     {"columns", KEY_COLUMNS, "NAME=COLUMN,...", 0,
      "Where its columns are: omega or frequency, and value or a QUANTITY [as the header names them]", 1},
     {"quantity", KEY_QUANTITY, "QUANTITY", 0, "What the column named value is, or which column is meant", 1},
+    {"noise", KEY_NOISE, "S", 0,
+     "A measured curve: its values scatter by S, a standard deviation relative to the amplitude, such as 1e-2 [0]", 1},
+    CLI_PLOT_OPTION(KEY_PLOT),
     {0},
 };
 
@@ -51,13 +59,16 @@ static error_t read_option(int key, char *text, struct argp_state *state)
   case KEY_AGAINST: own->against = text; return 0;
   case KEY_COLUMNS: own->columns = text; return 0;
   case KEY_QUANTITY: own->quantity = text; return 0;
+  case KEY_NOISE: own->noise = text; return 0;
+  case KEY_PLOT: cli_read_plot(state, text, &own->plot); return 0;
   default: return ARGP_ERR_UNKNOWN;
   }
 }
 
 static const table_column columns[] = {
-    {"omega", TABLE_REAL},  {"value", TABLE_REAL}, {"nearest", TABLE_REAL}, {"branch", TABLE_INTEGER},
-    {"stable", TABLE_TEXT}, {"error", TABLE_REAL}, {"verdict", TABLE_TEXT}, {"line", TABLE_INTEGER},
+    {"omega", TABLE_REAL},   {"frequency", TABLE_REAL}, {"value", TABLE_REAL},
+    {"nearest", TABLE_REAL}, {"branch", TABLE_INTEGER}, {"stable", TABLE_TEXT},
+    {"error", TABLE_REAL},   {"verdict", TABLE_TEXT},   {"line", TABLE_INTEGER},
 };
 static const table_column hypothesis_columns[] = {
     {"cause", TABLE_TEXT},          {"distance", TABLE_REAL},     {"truth_distance", TABLE_REAL},
@@ -72,15 +83,19 @@ static const table_column summary_columns[] = {
     {"skipped", TABLE_INTEGER},     {"left_out", TABLE_INTEGER},     {"reversals", TABLE_INTEGER},
     {"truth_distance", TABLE_REAL}, {"noise", TABLE_REAL},           {"sentence", TABLE_TEXT},
 };
+static const char *const spare_hypothesis_columns[] = {"slider_restart", "omega_factor",   "value_factor",
+                                                       "static",         "truth_distance", "quantity",
+                                                       "samples",        "harmonics",      NULL};
 enum {
   N_SUMMARY_COLUMNS = sizeof summary_columns / sizeof *summary_columns,
   N_COLUMNS = sizeof columns / sizeof *columns,
   N_HYPOTHESIS_COLUMNS = sizeof hypothesis_columns / sizeof *hypothesis_columns
 };
 
-static void put_row(table *t, const verify_quantity *q, const verify_row *r)
+static void put_row(table *t, const scene *sc, const verify_quantity *q, const verify_row *r)
 {
   table_put_real(t, r->omega);
+  if (sc->in_cycles) table_put_real(t, scene_frequency(sc, r->omega));
   table_put_real(t, verify_quantity_to_column(q, r->value));
   table_put_real(t, verify_quantity_to_column(q, r->nearest));
   if (r->branch >= 0) table_put_integer(t, r->branch);
@@ -136,18 +151,14 @@ static const char *meaning_for_point(verdict v)
   }
 }
 
-static const char *machine_cause(const verify_report *r, char text[VERIFY_TEXT])
-{
-  const bool known = r->causes || (r->status == HC_OK && verify_exit_code(r) == 0);
-  return known ? verify_cause_words(r->causes, text) : "unknown";
-}
-
 static void note_what_was_not_compared(table *t, const verify_report *r)
 {
   if (r->skipped)
     table_note(t, "%d points not compared: the mean is free where a slider never slips, and the quantity contains it",
                r->skipped);
   if (r->left_out) table_note(t, "%d points at omega <= 0 left out", r->left_out);
+  if (r->noise_said > 0 && !isnan(r->noise))
+    table_note(t, "the points scatter around the truth by %.1e; said: %g", r->noise, r->noise_said);
   if (r->reversals > VERIFY_USUAL_REVERSALS)
     table_note(t, "the curve reverses %d times: its program wandered; each point is judged by itself", r->reversals);
 }
@@ -160,14 +171,14 @@ static void note_verification(table *t, const scene *sc, const verify_data *data
     if (r->count[v]) table_note(t, "%d %s: %s", r->count[v], verdict_name((verdict)v), meaning_for_point((verdict)v));
   note_what_was_not_compared(t, r);
   table_note(t, "%s", verify_sentence(r, text));
-  table_note(t, "cause: %s", machine_cause(r, text));
+  table_note(t, "cause: %s", verify_word(r, text));
   if (r->nearest_guess) table_note(t, "nearest guess: %s", verify_cause_words(r->nearest_guess, text));
 }
 
 static void put_summary(table *t, const verify_data *data, const verify_report *r)
 {
   char text[VERIFY_TEXT], name[VERIFY_QUANTITY_TEXT];
-  table_put_text(t, machine_cause(r, text));
+  table_put_text(t, verify_word(r, text));
   table_put_text(t, r->nearest_guess ? verify_cause_words(r->nearest_guess, text) : NULL);
   table_put_text(t, verify_quantity_name(&data->quantity, name));
   table_put_integer(t, r->n_rows);
@@ -187,13 +198,16 @@ static void put_summary(table *t, const verify_data *data, const verify_report *
 /* Points and what came out; the table on a screen has no summary, since the remarks say it, csv the points alone. */
 static int write_tables(const cli_common *common, const scene *sc, const verify_data *data, const verify_report *r)
 {
-  table *points = table_new("Points", N_COLUMNS, columns),
+  table_column own[N_COLUMNS];
+  const int n_columns = cli_columns(sc->in_cycles, N_COLUMNS, columns, own);
+  table *points = table_new("Points", n_columns, own),
         *hypotheses = table_new("Hypotheses", N_HYPOTHESIS_COLUMNS, hypothesis_columns),
         *summary = table_new("Summary", N_SUMMARY_COLUMNS, summary_columns), *tables[3] = {points};
   int n = 1;
-  for (int i = 0; i < r->n_rows; ++i) put_row(points, &data->quantity, &r->rows[i]);
+  for (int i = 0; i < r->n_rows; ++i) put_row(points, sc, &data->quantity, &r->rows[i]);
   for (int i = 0; i < r->n_hypotheses && i < VERIFY_SHOWN; ++i)
     put_hypothesis(hypotheses, &r->hypotheses[i], r->truth_distance);
+  table_spare(hypotheses, spare_hypothesis_columns);
   put_summary(summary, data, r);
   note_verification(points, sc, data, r);
   if (r->n_hypotheses && common->format != FORMAT_CSV) tables[n++] = hypotheses;
@@ -218,7 +232,14 @@ static int read_curve(const cli_common *common, const verify_options *own, verif
     cli_message(common, "%s", words);
     return EXIT_USAGE;
   }
+  double noise = 0;
+  if (own->noise &&
+      (number_read(own->noise, strlen(own->noise), &noise) != NUMBER_FINE || !(noise >= 0) || noise > 1)) {
+    cli_message(common, "--noise: '%.40s' is no scatter, expected a number from 0 to 1 such as 1e-2", own->noise);
+    return EXIT_USAGE;
+  }
   hc_status st = verify_data_read(own->against, &where, data, words);
+  data->noise = noise;
   if (st == HC_OK) return 0;
   fprintf(stderr, "%s\n", words);
   return st == HC_NO_MEMORY ? EXIT_NO_SOLUTION : EXIT_BAD_CASE;
@@ -233,13 +254,16 @@ static int run_verify(int argc, char **argv)
   verify_report report = {0};
   int written = 0;
   cli_parse(&cmd_verify, argc, argv, &own, &common);
-  int code = cli_check_files(&common, 1, &(cli_file){"the curve", own.against, CLI_INPUT});
+  cli_check_plot(&common, own.plot, false);
+  const cli_file files[] = {{"the curve", own.against, CLI_INPUT}, {"--plot", own.plot, CLI_OUTPUT}};
+  int code = cli_check_files(&common, 2, files);
   if (!code) code = cli_load_case(&common, common.arguments[0], &sc);
   if (!code) code = read_curve(&common, &own, &data);
   if (!code) {
     progress *bar = progress_start("verifying", common.quiet);
     hc_monitor monitor = progress_monitor(bar);
     compare_setup setup;
+    data.with_line = own.plot;
     hc_status st = scene_setup(&sc, &setup);
     if (st == HC_OK) st = verify_run(&setup, &data, &monitor, &report);
     scene_setup_clear(&setup);
@@ -248,6 +272,9 @@ static int run_verify(int argc, char **argv)
     if (code == EXIT_NO_SOLUTION && st == HC_OK)
       cli_message(&common, "some points could not be judged; the notes of the table say why");
     written = report.n_rows ? write_tables(&common, &sc, &data, &report) : 0;
+    plot_order drawing = {.path = own.plot};
+    if (own.plot && st != HC_NO_MEMORY && !written)
+      written = cli_plotted(&common, plot_verify(&drawing, &sc, &data, &report), drawing.why);
   }
   verify_clear(&report);
   verify_data_clear(&data);

@@ -49,6 +49,7 @@ static table *accuracy_table(const cli_common *common, const accuracy *a)
     rows_accuracy(&a->rows[i], common->scene->in_cycles, cells);
     cli_put_row(common, t, ROWS_ACCURACY, cells);
   }
+  table_spare(t, rows_spare(ROWS_ACCURACY, common->scene->in_cycles));
   note_accuracy(t, common->scene, a);
   return t;
 }

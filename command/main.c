@@ -1,9 +1,11 @@
 /* main.c - hbmcheck COMMAND ...: finds the command (commands.h) and hands it its arguments. */
 #include <gsl/gsl_errno.h>
 #include <signal.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <string.h>
 
+#include "base/nearest.h"
 #include "command/commands.h"
 #include "command/version.h"
 #include "output/progress.h"
@@ -13,6 +15,10 @@ static const cli_command *const commands[] = {COMMANDS(ADDRESS_OF)};
 #undef ADDRESS_OF
 enum { N_COMMANDS = sizeof commands / sizeof *commands };
 
+#define NAME_OF(name) #name,
+static const char *const names[] = {COMMANDS(NAME_OF) "help", NULL};
+#undef NAME_OF
+
 static void usage(FILE *to)
 {
   fputs("usage: hbmcheck COMMAND [OPTION...] CASE\n\n", to);
@@ -20,6 +26,22 @@ static void usage(FILE *to)
   fputs("\nhbmcheck COMMAND --help tells more. Start with: hbmcheck compare cases/paper/case2.yaml\n"
         "exit: 0 agreed  1 disagreed  2 case file wrong  3 could not  64 usage  70 a bug\n",
         to);
+}
+
+static const cli_command *find_command(const char *name)
+{
+  for (int i = 0; i < N_COMMANDS; ++i)
+    if (!strcmp(name, commands[i]->name)) return commands[i];
+  return NULL;
+}
+
+static int unknown_command(const char *asked)
+{
+  char hint[NEAREST_HINT];
+  fprintf(stderr, "hbmcheck: '%s' is not a command%s\n", asked, nearest_hint(names, asked, hint));
+  fputs(*hint ? "Try 'hbmcheck --help'.\n" : "\n", stderr);
+  if (!*hint) usage(stderr);
+  return EXIT_USAGE;
 }
 
 int main(int argc, char **argv)
@@ -32,7 +54,7 @@ int main(int argc, char **argv)
     usage(stderr);
     return EXIT_USAGE;
   }
-  if (!strcmp(argv[1], "--help") || !strcmp(argv[1], "help")) {
+  if (!strcmp(argv[1], "--help") || (!strcmp(argv[1], "help") && argc == 2)) {
     usage(stdout);
     return 0;
   }
@@ -40,9 +62,9 @@ int main(int argc, char **argv)
     cli_print_version(stdout, NULL);
     return 0;
   }
-  for (int i = 0; i < N_COMMANDS; ++i)
-    if (!strcmp(argv[1], commands[i]->name)) return commands[i]->run(argc - 1, argv + 1);
-  fprintf(stderr, "hbmcheck: '%s' is not a command\n\n", argv[1]);
-  usage(stderr);
-  return EXIT_USAGE;
+  const bool help = !strcmp(argv[1], "help"); /* help NAME is NAME --help */
+  const char *name = argv[help ? 2 : 1];
+  const cli_command *command = find_command(name);
+  char *ask[] = {argv[0], "--help", NULL};
+  return !command ? unknown_command(name) : help ? command->run(2, ask) : command->run(argc - 1, argv + 1);
 }

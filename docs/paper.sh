@@ -15,7 +15,8 @@ awk -v tables="$tables" '
   }
   /^<!-- end -->$/ { inside = 0 }
   !inside { print }
-  /^<!-- claims -->$/ { inside = 1; part("Claims", "Seconds") }
+  /^<!-- claims -->$/ { inside = 1; part("Claims, with", "Claims that") }
+  /^<!-- steps -->$/ { inside = 1; part("Claims that", "Seconds") }
   /^<!-- seconds -->$/ { inside = 1; part("Seconds", "") }
   /^<!-- studies -->$/ { inside = 1; part("Studies", "Claims") }
 ' docs/paper.md >"$page"

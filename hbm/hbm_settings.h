@@ -5,6 +5,7 @@
 
 #include <stdbool.h>
 
+#define HBM_LEAST_ACCURACY 1e-12
 enum { HBM_MAX_HARMONICS = 200, HBM_AUTO = 0 /* in the place of a number of harmonics or samples */ };
 
 typedef enum hbm_force { HBM_FORCE_EXACT, HBM_FORCE_SAMPLED } hbm_force;

@@ -184,6 +184,23 @@ void table_hide(table *t, const char *column)
     if (!strcmp(t->columns[i].name, column)) t->hidden[i] = true;
 }
 
+void table_spare(table *t, const char *const *spare)
+{
+  if (t) t->spare = spare;
+}
+
+void table_fit(table *t, int width)
+{
+  if (t) t->fit = width > 0 ? width : 0;
+}
+
+void table_show_all(table *t)
+{
+  if (!t || !t->hidden) return;
+  memset(t->hidden, 0, (size_t)t->n_columns * sizeof *t->hidden);
+  t->spare = NULL;
+}
+
 int table_rows(const table *t) { return t && t->n_columns ? (int)(t->n_cells / (size_t)t->n_columns) : 0; }
 
 void table_write_csv_text(const char *s, FILE *to)

@@ -39,8 +39,18 @@ void table_note(table *t, const char *format, ...) __attribute__((format(printf,
  * `width`; longer only where the columns cannot be narrowed to it. */
 void table_wrap(table *t, int width);
 
-/* In the format table, leave that column out, so that lines fit the screen. csv and json have it. */
+/* In the format table, leave that column out. csv and json have it. */
 void table_hide(table *t, const char *column);
+
+/* In the format table, what lines longer than `width` lose: the columns of `spare`, NULL at the end, one after the
+ * other until the rest fits, with a remark that says so; empty ones go first. If that does not do, the rest stands in
+ * blocks under each other, each of which begins with the first column. A table that is wrapped loses columns of `spare`
+ * only where words would have to be broken. The list must outlive the table; NULL: nothing to lose. */
+void table_spare(table *t, const char *const *spare);
+void table_fit(table *t, int width); /* 0: as long as they are, the default */
+
+/* In the format table, every column, also those that were hidden or to spare. */
+void table_show_all(table *t);
 
 /* Full rows so far. */
 int table_rows(const table *t);

@@ -2,7 +2,7 @@
  * header. A column of reals is written in one notation, so that its decimal points stand under each other: fixed
  * with as many decimals as its values need for 7 significant digits each, or scientific when that would take more
  * than 11 digits. An exact zero is "0". Spaces are written only once something follows them, so no line ends in one.
- * Proof: tests/output/test_table.c. */
+ * Lines that are too long lose columns to spare, then are broken into blocks. Proof: tests/output/test_table.c. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -11,13 +11,28 @@
 #include "base/utf8.h"
 #include "output/table_private.h"
 
-enum { SIGNIFICANT = 7, MAX_DIGITS = 11, MAX_EXPONENT = SIGNIFICANT - 1, MAX_TEXT_WIDTH = 60, NUMBER_ROOM = 40 };
+enum {
+  SIGNIFICANT = 7,
+  MAX_DIGITS = 11,
+  MAX_EXPONENT = SIGNIFICANT - 1,
+  MAX_TEXT_WIDTH = 60,
+  NUMBER_ROOM = 40,
+  BETWEEN = 2 /* columns */
+};
 
 typedef struct column_style {
   bool scientific;
   int decimals;
   int width; /* in terminal columns */
 } column_style;
+
+/* A table as it will look. */
+typedef struct layout {
+  const table *t;
+  column_style *style; /* [n_columns] */
+  bool *shown;         /* [n_columns] */
+  int first, last;     /* columns shown: the first one begins every block, the last one's texts are never cut */
+} layout;
 
 /* The line being written. */
 typedef struct line_writer {
@@ -122,22 +137,50 @@ static void write_fitted(line_writer *l, const char *text, int columns)
   owe_spaces(l, columns - width);
 }
 
-static int last_shown(const table *t)
+static void find_ends(layout *l)
 {
-  int last = t->n_columns - 1;
-  while (last > 0 && t->hidden[last]) --last;
-  return last;
+  l->first = 0;
+  l->last = l->t->n_columns - 1;
+  while (l->first < l->last && !l->shown[l->first]) ++l->first;
+  while (l->last > l->first && !l->shown[l->last]) --l->last;
 }
 
-static void write_cell(line_writer *l, const table *t, int column, const column_style *style, const char *text)
+static int shown_width(const layout *l)
 {
-  bool number = t->columns[column].kind != TABLE_TEXT;
-  if (t->hidden[column]) return;
-  if (l->begun) owe_spaces(l, 2);
-  l->begun = true;
-  if (number) owe_spaces(l, style->width - utf8_width(text));
-  if (number || column == last_shown(t)) write_bytes(l, text, strlen(text));
-  else write_fitted(l, text, style->width);
+  int width = -BETWEEN;
+  for (int j = 0; j < l->t->n_columns; ++j)
+    if (l->shown[j]) width += l->style[j].width + BETWEEN;
+  return width;
+}
+
+static bool is_empty(const table *t, int column)
+{
+  for (int i = 0; i < table_rows(t); ++i)
+    if (table_at(t, i, column)->there) return false;
+  return true;
+}
+
+static bool too_long(const layout *l) { return l->t->fit > 0 && shown_width(l) > l->t->fit; }
+
+/* Empty columns go first. */
+static void lose_what_can_be_spared(const layout *l)
+{
+  for (int only_empty = 1; only_empty >= 0; --only_empty)
+    for (const char *const *name = l->t->spare; name && *name && too_long(l); ++name)
+      for (int j = 0; j < l->t->n_columns; ++j)
+        if (!strcmp(l->t->columns[j].name, *name) && (!only_empty || is_empty(l->t, j))) l->shown[j] = false;
+}
+
+static void write_cell(line_writer *w, const layout *l, int column, const char *text)
+{
+  const column_style *style = &l->style[column];
+  bool number = l->t->columns[column].kind != TABLE_TEXT;
+  if (!l->shown[column]) return;
+  if (w->begun) owe_spaces(w, BETWEEN);
+  w->begun = true;
+  if (number) owe_spaces(w, style->width - utf8_width(text));
+  if (number || column == l->last) write_bytes(w, text, strlen(text));
+  else write_fitted(w, text, style->width);
 }
 
 static void write_line(line_writer *l, const char *text)
@@ -146,26 +189,66 @@ static void write_line(line_writer *l, const char *text)
   end_line(l);
 }
 
+/* The columns from..to-1, and before them the first one of all. row -1: the header. */
+static void write_row(line_writer *w, const layout *l, int row, int from, int to)
+{
+  for (int j = l->first; j < to; ++j) {
+    char room[NUMBER_ROOM];
+    if (j > l->first && j < from) continue;
+    write_cell(w, l, j, row < 0 ? l->t->columns[j].name : cell_text(l->t, row, j, &l->style[j], room));
+  }
+  end_line(w);
+}
+
+/* Where the block ends that begins at `from`: it has one column at least, beside the first one of all. */
+static int end_of_block(const layout *l, int from)
+{
+  int width = l->style[l->first].width, to = from > l->first ? from : l->first + 1;
+  for (int n = 0; to <= l->last; ++to) {
+    if (!l->shown[to]) continue;
+    width += BETWEEN + l->style[to].width;
+    if (n++ > 0 && l->t->fit > 0 && width > l->t->fit) break;
+  }
+  return to;
+}
+
+static void write_blocks(line_writer *w, const layout *l)
+{
+  for (int from = l->first, to; from <= l->last; from = to) {
+    to = end_of_block(l, from);
+    if (from > l->first) end_line(w);
+    for (int row = -1; row < table_rows(l->t); ++row) write_row(w, l, row, from, to);
+  }
+}
+
+static void write_notes(line_writer *w, const layout *l, int lost)
+{
+  char text[64];
+  if (l->t->n_notes || lost) end_line(w);
+  for (size_t i = 0; i < l->t->n_notes; ++i) write_line(w, l->t->notes[i]);
+  snprintf(text, sizeof text, TABLE_SHOWN, table_shown(l->t, l->shown), l->t->n_columns);
+  if (lost) write_line(w, text);
+}
+
 hc_status table_write_aligned(const table *t, FILE *to)
 {
-  line_writer l = {.to = to};
-  column_style *styles = calloc((size_t)t->n_columns, sizeof *styles);
-  if (!styles) return HC_NO_MEMORY;
-  if (*t->title) write_line(&l, t->title);
-  for (int j = 0; j < t->n_columns; ++j) {
-    choose_style(t, j, &styles[j]);
-    write_cell(&l, t, j, &styles[j], t->columns[j].name);
-  }
-  end_line(&l);
-  for (int i = 0; i < table_rows(t); ++i) {
+  const size_t n = (size_t)t->n_columns;
+  line_writer w = {.to = to};
+  layout l = {.t = t, .style = calloc(n, sizeof *l.style), .shown = calloc(n, sizeof *l.shown)};
+  const bool good = l.style && l.shown;
+  if (good) {
+    if (*t->title) write_line(&w, t->title);
     for (int j = 0; j < t->n_columns; ++j) {
-      char room[NUMBER_ROOM];
-      write_cell(&l, t, j, &styles[j], cell_text(t, i, j, &styles[j], room));
+      choose_style(t, j, &l.style[j]);
+      l.shown[j] = !t->hidden[j];
     }
-    end_line(&l);
+    const int wanted = table_shown(t, l.shown);
+    lose_what_can_be_spared(&l);
+    find_ends(&l);
+    write_blocks(&w, &l);
+    write_notes(&w, &l, wanted - table_shown(t, l.shown));
   }
-  if (t->n_notes) end_line(&l);
-  for (size_t i = 0; i < t->n_notes; ++i) write_line(&l, t->notes[i]);
-  free(styles);
-  return HC_OK;
+  free(l.style);
+  free(l.shown);
+  return good ? HC_OK : HC_NO_MEMORY;
 }

@@ -20,15 +20,27 @@ struct table {
   size_t n_cells, cells_room;  /* a row after another; n_cells is a multiple of n_columns between rows */
   table_cell *cells;
   size_t n_notes, notes_room;
-  char **notes;     /* one line each */
-  bool *hidden;     /* [n_columns] left out of the aligned format */
-  int wrap;         /* columns of the terminal to fit into, 0: each row is one line */
-  hc_status status; /* HC_OK, or what went wrong first: nothing is appended any more */
+  char **notes;             /* one line each */
+  bool *hidden;             /* [n_columns] left out of the aligned format */
+  int wrap;                 /* columns of the terminal to fit into, 0: each row is one line */
+  int fit;                  /* longest line of the aligned format, 0: any */
+  const char *const *spare; /* columns it may lose to fit, the first ones first; NULL: none */
+  hc_status status;         /* HC_OK, or what went wrong first: nothing is appended any more */
 };
 
 static inline const table_cell *table_at(const table *t, int row, int column)
 {
   return &t->cells[(size_t)row * (size_t)t->n_columns + (size_t)column];
+}
+
+/* The remark of a table that lost some of its columns: how many are shown, of how many. */
+#define TABLE_SHOWN "%d of %d columns shown; --wide shows all"
+
+static inline int table_shown(const table *t, const bool *shown)
+{
+  int n = 0;
+  for (int j = 0; j < t->n_columns; ++j) n += shown[j];
+  return n;
 }
 
 /* Called with the C locale in force; HC_OK or HC_NO_MEMORY: whether the stream failed is the caller's to ask. */

@@ -1,6 +1,6 @@
 /* table_wrapped.c - a table of texts for people, too long for one line each: columns of a width that fits the
- * terminal, words carried over to the next line, an empty line between rows where any takes more than one. A number
- * is a text like any other. */
+ * terminal, words carried over to the next line, an empty line after a row that takes more than one. A number is a
+ * text like any other. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -9,12 +9,20 @@
 
 enum { NARROWEST = 8, BETWEEN = 2 };
 
-/* [rows + 1][columns], the header first; [columns] */
 typedef struct wrapped {
-  char **texts;
-  int *widths;
+  char **texts; /* [rows + 1][columns], the header first */
+  int *widths;  /* [columns] */
+  int *words;   /* [columns] the longest word of each, header included */
+  bool *shown;  /* [columns] */
   const char **rest;
 } wrapped;
+
+static int width_of(const char *text, size_t bytes)
+{
+  int width = 0;
+  for (const char *end = text + bytes; text < end;) width += utf8_columns(utf8_next(&text));
+  return width;
+}
 
 static int widest(const table *t, const wrapped *w, int column)
 {
@@ -26,19 +34,62 @@ static int widest(const table *t, const wrapped *w, int column)
   return width;
 }
 
-/* Each column as wide as its widest text; then the widest ones are narrowed until the line fits, none below
- * NARROWEST. */
+static int longest_word(const table *t, const wrapped *w, int column)
+{
+  int longest = 0;
+  for (int i = 0; i <= table_rows(t); ++i)
+    for (const char *at = w->texts[i * t->n_columns + column]; *at; at += strspn(at, " ")) {
+      const size_t bytes = strcspn(at, " ");
+      const int own = width_of(at, bytes);
+      if (own > longest) longest = own;
+      at += bytes;
+    }
+  return longest;
+}
+
+/* The widest column that is wider than it has to be: than its longest word, or else, once no such one is left, than
+ * NARROWEST. -1: none is. */
+static int column_to_narrow(const table *t, const wrapped *w)
+{
+  int whole = -1, any = -1;
+  for (int j = 0; j < t->n_columns; ++j) {
+    if (!w->shown[j] || w->widths[j] <= NARROWEST) continue;
+    if (any < 0 || w->widths[j] > w->widths[any]) any = j;
+    if (w->widths[j] > w->words[j] && (whole < 0 || w->widths[j] > w->widths[whole])) whole = j;
+  }
+  return whole >= 0 ? whole : any;
+}
+
+static int total_of(const table *t, const wrapped *w, const int *widths)
+{
+  int total = -BETWEEN;
+  for (int j = 0; j < t->n_columns; ++j)
+    if (w->shown[j]) total += BETWEEN + widths[j];
+  return total;
+}
+
+/* Columns to spare go, one after the other, while the words of the others do not fit side by side. */
+static void lose_what_can_be_spared(const table *t, const wrapped *w)
+{
+  for (const char *const *name = t->spare; name && *name && total_of(t, w, w->words) > t->wrap; ++name)
+    for (int j = 0; j < t->n_columns; ++j)
+      if (!strcmp(t->columns[j].name, *name)) w->shown[j] = false;
+}
+
+static void measure_columns(const table *t, const wrapped *w)
+{
+  for (int j = 0; j < t->n_columns; ++j) {
+    w->shown[j] = !t->hidden[j];
+    w->widths[j] = widest(t, w, j);
+    w->words[j] = longest_word(t, w, j);
+  }
+}
+
+/* From each as wide as its widest text, one after the other is narrowed until the line fits. */
 static void narrow_columns(const table *t, const wrapped *w)
 {
-  int total = BETWEEN * (t->n_columns - 1);
-  for (int j = 0; j < t->n_columns; ++j) total += w->widths[j] = widest(t, w, j);
-  for (; total > t->wrap; --total) {
-    int most = 0;
-    for (int j = 1; j < t->n_columns; ++j)
-      if (w->widths[j] > w->widths[most]) most = j;
-    if (w->widths[most] <= NARROWEST) return;
-    --w->widths[most];
-  }
+  int total = total_of(t, w, w->widths);
+  for (int j; total > t->wrap && (j = column_to_narrow(t, w)) >= 0; --total) --w->widths[j];
 }
 
 /* Bytes of the next line of *rest, which is moved past them and past the spaces before them; where it starts goes
@@ -70,34 +121,25 @@ static bool anything_left(const table *t, const wrapped *w)
   return false;
 }
 
-static int width_of(const char *text, size_t bytes)
+/* Returns how many lines it takes. */
+static int write_row(const table *t, const wrapped *w, int row, FILE *to)
 {
-  int width = 0;
-  for (const char *end = text + bytes; text < end;) width += utf8_columns(utf8_next(&text));
-  return width;
-}
-
-static void write_row(const table *t, const wrapped *w, int row, FILE *to)
-{
-  for (int j = 0; j < t->n_columns; ++j) w->rest[j] = w->texts[row * t->n_columns + j];
+  for (int j = 0; j < t->n_columns; ++j) w->rest[j] = !w->shown[j] ? "" : w->texts[row * t->n_columns + j];
+  int lines = 0;
   do {
     int spaces = 0;
     for (int j = 0; j < t->n_columns; ++j) {
       const char *from;
+      if (!w->shown[j]) continue;
       size_t n = next_part(&w->rest[j], w->widths[j], &from);
       int own = width_of(from, n);
       if (n) fprintf(to, "%*s%.*s", spaces, "", (int)n, from);
       spaces = (n ? 0 : spaces) + w->widths[j] - own + BETWEEN;
     }
     putc('\n', to);
+    ++lines;
   } while (anything_left(t, w));
-}
-
-static bool fits_on_lines(const table *t, const wrapped *w)
-{
-  for (int j = 0; j < t->n_columns; ++j)
-    if (widest(t, w, j) > w->widths[j]) return false;
-  return true;
+  return lines;
 }
 
 static char *cell_text(const table *t, int row, int column)
@@ -112,7 +154,7 @@ static char *cell_text(const table *t, int row, int column)
 
 static bool copy_texts(const table *t, const wrapped *w)
 {
-  if (!w->texts || !w->widths || !w->rest) return false;
+  if (!w->texts || !w->widths || !w->words || !w->shown || !w->rest) return false;
   for (int j = 0; j < t->n_columns; ++j)
     if (!(w->texts[j] = strdup(t->columns[j].name))) return false;
   for (int i = 0; i < table_rows(t); ++i)
@@ -124,22 +166,29 @@ static bool copy_texts(const table *t, const wrapped *w)
 hc_status table_write_wrapped(const table *t, FILE *to)
 {
   size_t columns = (size_t)t->n_columns, cells = columns * ((size_t)table_rows(t) + 1);
-  wrapped w = {calloc(cells, sizeof *w.texts), calloc(columns, sizeof *w.widths), calloc(columns, sizeof *w.rest)};
+  wrapped w = {calloc(cells, sizeof *w.texts), calloc(columns, sizeof *w.widths), calloc(columns, sizeof *w.words),
+               calloc(columns, sizeof *w.shown), calloc(columns, sizeof *w.rest)};
   bool good = copy_texts(t, &w);
   if (good) {
+    measure_columns(t, &w);
+    const int wanted = table_shown(t, w.shown);
+    lose_what_can_be_spared(t, &w);
+    const int shown = table_shown(t, w.shown);
     narrow_columns(t, &w);
-    bool spaced = !fits_on_lines(t, &w);
     if (*t->title) fprintf(to, "%s\n", t->title);
-    for (int i = 0; i <= table_rows(t); ++i) {
-      if (spaced && i > 1) putc('\n', to);
-      write_row(t, &w, i, to);
+    for (int i = 0, lines = 1; i <= table_rows(t); ++i) {
+      if (i > 1 && lines > 1) putc('\n', to);
+      lines = write_row(t, &w, i, to);
     }
-    if (t->n_notes) putc('\n', to);
+    if (t->n_notes || shown < wanted) putc('\n', to);
     for (size_t i = 0; i < t->n_notes; ++i) fprintf(to, "%s\n", t->notes[i]);
+    if (shown < wanted) fprintf(to, TABLE_SHOWN "\n", shown, t->n_columns);
   }
   for (size_t i = 0; w.texts && i < cells; ++i) free(w.texts[i]);
   free(w.texts);
   free(w.widths);
+  free(w.words);
+  free(w.shown);
   free(w.rest);
   return good ? HC_OK : HC_NO_MEMORY;
 }

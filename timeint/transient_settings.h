@@ -5,6 +5,11 @@
 
 #include <stdbool.h>
 
+/* The ends of their ranges that advice must know. */
+#define TRANSIENT_LEAST_TOLERANCE     1e-13
+#define TRANSIENT_MOST_REGULARISATION 1e-1
+enum { TRANSIENT_MOST_PERIODS = 10000000 };
+
 typedef enum transient_law { TRANSIENT_LAW_REGULARISED, TRANSIENT_LAW_EXACT } transient_law;
 typedef enum transient_method { TRANSIENT_METHOD_CVODE, TRANSIENT_METHOD_CLOSED_FORM } transient_method;
 typedef enum transient_steady {

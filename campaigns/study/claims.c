@@ -16,15 +16,20 @@ const table_column *study_claims_columns(int which, int *n)
   static const table_column sides[] = {{"source", TABLE_TEXT},      {"says", TABLE_TEXT},
                                        {"paper_found", TABLE_TEXT}, {"paper_holds", TABLE_TEXT},
                                        {"ours_found", TABLE_TEXT},  {"ours_holds", TABLE_TEXT}};
+  static const table_column steps[] = {{"source", TABLE_TEXT},           {"says", TABLE_TEXT},
+                                       {"fixed_step_found", TABLE_TEXT}, {"fixed_step_holds", TABLE_TEXT},
+                                       {"paper_holds", TABLE_TEXT},      {"ours_holds", TABLE_TEXT}};
   static const table_column seconds[] = {{"source", TABLE_TEXT},
                                          {"reported_s", TABLE_REAL},
                                          {"paper_s", TABLE_REAL},
                                          {"ours_s", TABLE_REAL},
                                          {"says", TABLE_TEXT}};
-  *n = which == STUDY_SIDES     ? sizeof sides / sizeof *sides
-       : which == STUDY_SECONDS ? sizeof seconds / sizeof *seconds
-                                : sizeof plain / sizeof *plain;
-  return which == STUDY_SIDES ? sides : which == STUDY_SECONDS ? seconds : plain;
+  switch (which) {
+  case STUDY_SIDES: *n = sizeof sides / sizeof *sides; return sides;
+  case STUDY_STEPS: *n = sizeof steps / sizeof *steps; return steps;
+  case STUDY_SECONDS: *n = sizeof seconds / sizeof *seconds; return seconds;
+  default: *n = sizeof plain / sizeof *plain; return plain;
+  }
 }
 
 static hc_status blame(const study *s, const study_value *query, const char *what, const char *why, case_error *err)
@@ -149,26 +154,37 @@ static hc_status answer(const study *s, sqlite3 *db, const study_answer *a, said
   return st == HC_OK ? evaluate(s, db, &a->seconds, "seconds", to->seconds, err) : st;
 }
 
+/* As what `expect` can be. */
+static study_expectation verdict_of(const said *a)
+{
+  return !strcmp(a->holds, "1")   ? STUDY_EXPECT_AGREE
+         : !strcmp(a->holds, "0") ? STUDY_EXPECT_DISAGREE
+                                  : STUDY_EXPECT_UNSAID;
+}
+
+static void put_verdict(const said *a, table *t)
+{
+  static const char *const words[] = {[STUDY_EXPECT_AGREE] = "agrees",
+                                      [STUDY_EXPECT_DISAGREE] = "does not agree",
+                                      [STUDY_EXPECT_UNSAID] = "cannot be said"};
+  if (a->there) table_put_text(t, words[verdict_of(a)]);
+  else table_put_missing(t);
+}
+
 /* Count the verdict, and put it with its evidence. */
 static void put_answer(const study_claim *c, int which, const said *a, table *t, study_claims_tally *tally)
 {
-  if (!a->there) {
-    table_put_text(t, *a->found ? a->found : NULL);
-    table_put_missing(t);
-    return;
-  }
-  bool agrees = !strcmp(a->holds, "1"), disagrees = !strcmp(a->holds, "0");
-  study_expectation expect = c->answers[which].expect;
-  ++*(agrees ? &tally->agree[which] : disagrees ? &tally->disagree[which] : &tally->unsaid[which]);
-  table_put_text(t, c->answers[which].found.text ? a->found : NULL);
-  table_put_text(t, agrees ? "agrees" : disagrees ? "does not agree" : "cannot be said");
-  if (expect == STUDY_EXPECT_NOTHING || (expect == STUDY_EXPECT_AGREE ? agrees : disagrees)) return;
+  static const char *const with[STUDY_ANSWERS] = {"", " with the source's settings", " with ours", " in fixed steps"};
+  table_put_text(t, *a->found ? a->found : NULL);
+  put_verdict(a, t);
+  if (!a->there) return;
+  study_expectation expect = c->answers[which].expect, is = verdict_of(a);
+  ++*(is == STUDY_EXPECT_AGREE      ? &tally->agree[which]
+      : is == STUDY_EXPECT_DISAGREE ? &tally->disagree[which]
+                                    : &tally->unsaid[which]);
+  if (expect == STUDY_EXPECT_NOTHING || expect == is) return;
   ++tally->unexpected;
-  table_note(t, "not as expected%s: %s: %s",
-             which == STUDY_PAPER  ? " with the source's settings"
-             : which == STUDY_OURS ? " with ours"
-                                   : "",
-             c->source.text ? c->source.text : "a claim", c->says.text);
+  table_note(t, "not as expected%s: %s: %s", with[which], c->source.text ? c->source.text : "a claim", c->says.text);
 }
 
 static void put_seconds(const char *text, table *t)
@@ -189,6 +205,12 @@ static void put_claim(const study_claim *c, const said a[STUDY_ANSWERS], table *
     table_put_text(t[STUDY_SIDES], c->source.text);
     table_put_text(t[STUDY_SIDES], c->says.text);
     for (int k = STUDY_PAPER; k <= STUDY_OURS; ++k) put_answer(c, k, &a[k], t[STUDY_SIDES], tally);
+  }
+  if (a[STUDY_FIXED_STEP].there) {
+    table_put_text(t[STUDY_STEPS], c->source.text);
+    table_put_text(t[STUDY_STEPS], c->says.text);
+    put_answer(c, STUDY_FIXED_STEP, &a[STUDY_FIXED_STEP], t[STUDY_STEPS], tally);
+    for (int k = STUDY_PAPER; k <= STUDY_OURS; ++k) put_verdict(&a[k], t[STUDY_STEPS]);
   }
   if (!(c->seconds >= 0) && !*a[STUDY_PAPER].seconds && !*a[STUDY_OURS].seconds) return;
   table_put_text(t[STUDY_SECONDS], c->source.text);

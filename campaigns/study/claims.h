@@ -5,15 +5,15 @@
 #include "campaigns/study/store.h"
 #include "output/table.h"
 
-/* Verdicts by kind of answer (STUDY_PLAIN, STUDY_PAPER, STUDY_OURS). */
+/* Verdicts by kind of answer (STUDY_PLAIN, ...). */
 typedef struct study_claims_tally {
   int agree[STUDY_ANSWERS], disagree[STUDY_ANSWERS], unsaid[STUDY_ANSWERS];
   int unexpected; /* not as `expect` says */
 } study_claims_tally;
 
-/* Claims answered once; claims answered with the settings of their source and with ours; seconds, where a claim has
- * some. */
-enum { STUDY_CLAIMS, STUDY_SIDES, STUDY_SECONDS, STUDY_CLAIM_TABLES };
+/* Claims answered once; those answered with the settings of their source and with ours; those of them that are answered
+ * in fixed steps too; seconds, where a claim has some. */
+enum { STUDY_CLAIMS, STUDY_SIDES, STUDY_STEPS, STUDY_SECONDS, STUDY_CLAIM_TABLES };
 const table_column *study_claims_columns(int which, int *n);
 
 /* Can every query be run? Held against empty tables, before anything is computed. HC_BAD_INPUT with

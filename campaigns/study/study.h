@@ -13,7 +13,7 @@
 enum { STUDY_MOST_SCENES = 1000000, STUDY_TEXT = 256, STUDY_MOST_FIELDS = 512 /* set or varied */ };
 
 typedef enum { STUDY_FRF, STUDY_TRANSIENT, STUDY_COMPARE } study_kind;
-typedef enum { STUDY_EXPECT_NOTHING, STUDY_EXPECT_AGREE, STUDY_EXPECT_DISAGREE } study_expectation;
+typedef enum { STUDY_EXPECT_NOTHING, STUDY_EXPECT_AGREE, STUDY_EXPECT_DISAGREE, STUDY_EXPECT_UNSAID } study_expectation;
 
 /* One value as --set would be given it, numbers in their shortest form; where it stands in the study file. */
 typedef struct study_value {
@@ -40,8 +40,9 @@ typedef struct study_answer {
   study_expectation expect;
 } study_answer;
 
-/* A claim is answered once (STUDY_PLAIN), or with the settings of its source and with ours side by side. */
-enum { STUDY_PLAIN, STUDY_PAPER, STUDY_OURS, STUDY_ANSWERS };
+/* A claim is answered once (STUDY_PLAIN), or with the settings of its source and with ours side by side; and, where the
+ * continuation decides, with the source's settings followed in fixed steps (hbm.continuation: fixed_step). */
+enum { STUDY_PLAIN, STUDY_PAPER, STUDY_OURS, STUDY_FIXED_STEP, STUDY_ANSWERS };
 typedef struct study_claim {
   study_value source, says, reported; /* reported: seconds that the source gives */
   double seconds;                     /* the same as a number, NaN if not given */

@@ -16,10 +16,11 @@ enum {
   CLAIM_SECONDS,
   CLAIM_PAPER,
   CLAIM_OURS,
+  CLAIM_FIXED_STEP,
   N_CLAIM_KEYS
 };
-static const char *const claim_keys[] = {"source",  "says",  "found", "holds", "expect",
-                                         "seconds", "paper", "ours",  NULL};
+static const char *const claim_keys[] = {"source",  "says",  "found", "holds",      "expect",
+                                         "seconds", "paper", "ours",  "fixed_step", NULL};
 enum { ANSWER_FOUND, ANSWER_HOLDS, ANSWER_EXPECT, ANSWER_SECONDS, N_ANSWER_KEYS };
 static const char *const answer_keys[] = {"found", "holds", "expect", "seconds", NULL};
 
@@ -28,9 +29,10 @@ static hc_status read_expectation(study_reader *q, const yaml_node_t *node, stud
   const char *text = node->type == YAML_SCALAR_NODE ? yaml_node_text(node) : "";
   a->expect = !strcmp(text, "agree")      ? STUDY_EXPECT_AGREE
               : !strcmp(text, "disagree") ? STUDY_EXPECT_DISAGREE
+              : !strcmp(text, "unsaid")   ? STUDY_EXPECT_UNSAID
                                           : STUDY_EXPECT_NOTHING;
   if (a->expect != STUDY_EXPECT_NOTHING) return HC_OK;
-  message_add(study_blame(q, node), "expect is not known, expected agree or disagree");
+  message_add(study_blame(q, node), "expect is not known, expected agree, disagree or unsaid");
   return HC_BAD_INPUT;
 }
 
@@ -82,7 +84,9 @@ static hc_status read_entry(study_reader *q, int k, const yaml_node_t *value, st
   case CLAIM_HOLDS: return study_read_text(q, claim_keys[k], value, &plain->holds);
   case CLAIM_EXPECT: return read_expectation(q, value, plain);
   case CLAIM_SECONDS: return read_seconds(q, value, c);
-  default: return read_answer(q, claim_keys[k], value, &c->answers[k == CLAIM_PAPER ? STUDY_PAPER : STUDY_OURS]);
+  case CLAIM_PAPER: return read_answer(q, claim_keys[k], value, &c->answers[STUDY_PAPER]);
+  case CLAIM_OURS: return read_answer(q, claim_keys[k], value, &c->answers[STUDY_OURS]);
+  default: return read_answer(q, claim_keys[k], value, &c->answers[STUDY_FIXED_STEP]);
   }
 }
 
@@ -91,7 +95,7 @@ static hc_status check_claim(study_reader *q, const yaml_node_t *node, const stu
                              const case_place seen[N_CLAIM_KEYS])
 {
   bool plain = c->answers[STUDY_PLAIN].holds.text != NULL,
-       sided = seen[CLAIM_PAPER].line > 0 || seen[CLAIM_OURS].line > 0;
+       sided = seen[CLAIM_PAPER].line > 0 || seen[CLAIM_OURS].line > 0 || seen[CLAIM_FIXED_STEP].line > 0;
   const char *lacks = !c->says.text ? "says" : !plain && !sided ? "holds" : NULL;
   if (lacks) {
     message_add(study_blame(q, node), "missing key `%s` in a claim, expected %s", lacks,
@@ -101,7 +105,8 @@ static hc_status check_claim(study_reader *q, const yaml_node_t *node, const stu
   if (!sided) return HC_OK;
   for (int k = CLAIM_FOUND; k <= CLAIM_EXPECT; ++k) {
     if (seen[k].line == 0) continue;
-    message_add(case_blame(&q->r, seen[k]), "`%s` beside `paper` or `ours`, expected it within them", claim_keys[k]);
+    message_add(case_blame(&q->r, seen[k]), "`%s` beside `paper`, `ours` or `fixed_step`, expected it within them",
+                claim_keys[k]);
     return HC_BAD_INPUT;
   }
   return HC_OK;

@@ -5,56 +5,9 @@
 
 #include "command/plot/curve.h"
 #include "command/plot/panels.h"
+#include "command/plot/verdicts.h"
 
 enum { WIDTH = 800, HEIGHT = 540 };
-
-/* Open shapes where both sides agree, filled ones and crosses where not; all can be told apart without colour. */
-static const struct verdict_look {
-  const char *name, *look;
-} looks[] = {
-    {"match", "pt 6 ps 1.2 lw 1.6 lc rgb '#D55E00'"},
-    {"settled", "pt 6 ps 1.2 lw 1.6 lc rgb '#D55E00'"},
-    {"differs", "pt 5 ps 1.0 lc rgb '#000000'"},
-    {"other_branch", "pt 8 ps 1.2 lw 1.6 lc rgb '#009E73'"},
-    {"unstable", "pt 2 ps 1.1 lw 1.8 lc rgb '#000000'"},
-    {"aperiodic", "pt 3 ps 1.2 lw 1.4 lc rgb '#CC79A7'"},
-    {"not_settled", "pt 1 ps 1.2 lw 1.8 lc rgb '#E69F00'"},
-    {"solver_failed", "pt 10 ps 1.2 lw 1.6 lc rgb '#555555'"},
-    {"period_k", "pt 12 ps 1.3 lw 1.6 lc rgb '#CC79A7'"},
-};
-enum { N_LOOKS = sizeof looks / sizeof *looks, MOST_VERDICTS = 16 };
-
-static int verdict_look_of(const char *name)
-{
-  for (int i = 0; i < N_LOOKS; ++i)
-    if (!strcmp(looks[i].name, name)) return i;
-  return N_LOOKS - 1; /* period_2, period_3, ... */
-}
-
-/* Points by verdict, in order of appearance. */
-typedef struct verdicts {
-  int n, count[MOST_VERDICTS];
-  char name[MOST_VERDICTS][24];
-} verdicts;
-
-static int verdict_place(verdicts *v, const char *name)
-{
-  int i = 0;
-  while (i < v->n && strcmp(v->name[i], name)) ++i;
-  if (i == v->n && v->n < MOST_VERDICTS) snprintf(v->name[v->n++], sizeof v->name[0], "%s", name);
-  return i < MOST_VERDICTS ? i : MOST_VERDICTS - 1;
-}
-
-static void verdict_items(figure *g, const verdicts *v, const char *of)
-{
-  for (int i = 0; i < v->n; ++i) {
-    char what[64], look[FIGURE_LOOK];
-    int k = verdict_look_of(v->name[i]);
-    snprintf(what, sizeof what, "$verdict%d using 1:2 with points", i);
-    figure_item(g, what, g->letters ? figure_look(g, "", 10 + k, look) : looks[k].look, "%s: %s (%d)", of, v->name[i],
-                v->count[i]);
-  }
-}
 
 /* What is drawn on the axes, from back to front. */
 typedef struct layers {
@@ -75,7 +28,7 @@ static void draw_layers(figure *g, const layers *l)
   if (l->departures && !g->letters)
     figure_item(g, "$departures using 1:2:(0):3 with vectors filled head size character 0.9,20",
                 "lw 0.8 dt 1 lc rgb '#999999'", "where the transient went");
-  if (l->v) verdict_items(g, l->v, l->of);
+  if (l->v) verdicts_items(g, l->v, l->of);
   figure_draw(g);
 }
 
@@ -163,14 +116,14 @@ static void write_verdicts(figure *g, const comparison *c, verdicts *v)
 {
   char name[24];
   *v = (verdicts){0};
-  for (int i = 0; i < c->n_rows; ++i) ++v->count[verdict_place(v, comparison_verdict_text(&c->rows[i], name))];
+  for (int i = 0; i < c->n_rows; ++i) ++v->count[verdicts_place(v, comparison_verdict_text(&c->rows[i], name))];
   for (int k = 0; k < v->n; ++k) {
     char block[24];
     snprintf(block, sizeof block, "verdict%d", k);
     figure_block(g, block);
     for (int i = 0; i < c->n_rows; ++i) {
       const comparison_row *r = &c->rows[i];
-      if (verdict_place(v, comparison_verdict_text(r, name)) != k) continue;
+      if (verdicts_place(v, comparison_verdict_text(r, name)) != k) continue;
       if (stands_at_hbm(r)) figure_point(g, r->omega, r->hbm.amplitude);
       else if (has_transient(r)) figure_point(g, r->omega, r->transient.amplitude);
     }
@@ -248,14 +201,14 @@ static void write_steady(figure *g, const steady_states *s, verdicts *v)
   char name[24];
   *v = (verdicts){0};
   for (int i = 0; i < s->n; ++i)
-    if (measured(&s->rows[i])) ++v->count[verdict_place(v, steady_verdict_text(&s->rows[i], name))];
+    if (measured(&s->rows[i])) ++v->count[verdicts_place(v, steady_verdict_text(&s->rows[i], name))];
   for (int k = 0; k < v->n; ++k) {
     char block[24];
     snprintf(block, sizeof block, "verdict%d", k);
     figure_block(g, block);
     for (int i = 0; i < s->n; ++i) {
       const steady_row *r = &s->rows[i];
-      if (measured(r) && verdict_place(v, steady_verdict_text(r, name)) == k)
+      if (measured(r) && verdicts_place(v, steady_verdict_text(r, name)) == k)
         figure_point(g, r->result.omega, r->result.amplitude);
     }
     figure_block_end(g);

@@ -14,6 +14,7 @@
 #include "compare/accuracy/accuracy.h"
 #include "compare/comparison.h"
 #include "compare/steady_states.h"
+#include "compare/verify/verify.h"
 #include "hbm/hbm.h"
 
 #define PLOT_ENDINGS ".svg, .png or .pdf"
@@ -55,5 +56,8 @@ hc_status plot_study_check(plot_order *p, const study *s, const char *measure);
 
 /* Error over time, a panel each frequency. */
 hc_status plot_bench(plot_order *p, const scene *sc, const bench *b);
+
+/* Another program's curve over ours, each point by its verdict; the report holds ours (verify_data.with_line). */
+hc_status plot_verify(plot_order *p, const scene *sc, const verify_data *data, const verify_report *r);
 
 #endif

@@ -1,174 +1,309 @@
-/* ---- 5 aliasing: between precomputed states --------------------------------------------------------------------------------------- */
+/* ---- 5 aliasing: sliders, the state they stand on, words and table --------------------------------------------- */
 
 const alias = data.aliasing;
 
-/* |F_h| from a list [a0, a1, b1, ...] of integers in `step` of the scale. */
-function sizes(list, unit) {
-  const out = [Math.abs(list[0]) * unit];
-  for (let h = 1; 2 * h < list.length; h++) out.push(Math.hypot(list[2 * h - 1], list[2 * h]) * unit);
+/* Parameters with a slider: the member of the model or of its contacts, and factors on the case's value. All contacts
+ * change together. */
+const parameters = [
+  {id: 'kn', name: 'normal stiffness', unit: () => units.force + '/' + units.length, of: 'contacts'},
+  {id: 'gap', name: 'gap', unit: () => units.length, of: 'contacts'},
+  {id: 'mu', name: 'friction', unit: () => '', of: 'contacts'},
+  {id: 'damping', name: 'damping', unit: () => units.force + ' ' + units.time + '/' + units.length, of: 'model'},
+  {id: 'force', name: 'force', unit: () => units.force, of: 'model'}
+];
+const factors = {
+  kn: [0.1, 0.2, 0.3, 0.5, 0.7, 1, 1.5, 2, 3, 5, 10],
+  gap: [0, 0.1, 0.25, 0.5, 0.75, 1, 1.25, 1.5, 2, 3],
+  mu: [0, 0.25, 0.5, 0.75, 1, 1.5, 2, 3, 5],
+  damping: [0.25, 0.5, 0.75, 1, 1.5, 2, 3, 5, 10],
+  force: [0.1, 0.2, 0.3, 0.5, 0.75, 1, 1.5, 2, 3, 5]
+};
+const gapShifts = [-1, -0.5, -0.2, -0.1, 0, 0.1, 0.2, 0.5, 1]; /* of F0/K, where the case's gap is 0 */
+
+const firstOf = p => (p.of === 'model' ? alias.model[p.id] : alias.model.contacts[0][p.id]);
+
+/* What a slider's position makes of a value of the case, and its position in the case. */
+function moved(p, position, value) {
+  const shift = alias.model.force / alias.model.stiffness;
+  if (p.id === 'gap' && !firstOf(p)) return value + gapShifts[position] * shift;
+  return value * factors[p.id][position];
+}
+const positionsOf = p => (p.id === 'gap' && !firstOf(p) ? gapShifts : factors[p.id]);
+const homeOf = p => positionsOf(p).indexOf(p.id === 'gap' && !firstOf(p) ? 0 : 1);
+
+/* The case with its parameters changed: positions {kn, gap, ...}. */
+function modelAt(positions) {
+  const model = Object.assign({}, alias.model, {contacts: alias.model.contacts.map(k => Object.assign({}, k))});
+  for (const p of parameters)
+    for (const owner of p.of === 'model' ? [model] : model.contacts)
+      owner[p.id] = moved(p, positions[p.id], owner[p.id]);
+  for (const k of model.contacts) {
+    k.c = Math.cos((k.angle_deg * Math.PI) / 180);
+    k.s = Math.sin((k.angle_deg * Math.PI) / 180);
+  }
+  return model;
+}
+
+/* ---- states: found when a slider first gets there, and kept ----------------------------------------------------- */
+
+const kept = new Map();
+function keep(key, make) {
+  const text = JSON.stringify(key);
+  if (!kept.has(text)) kept.set(text, make());
+  return kept.get(text);
+}
+
+/* Response curves of sampled equations are followed up to this many samples times unknowns. */
+const mostSampledWork = 8000;
+const mostPoints = 1500;
+
+const curveOf = (model, H, N) => keep([model, H, N], () => traceCurve(model, H, N, mostPoints));
+
+/* Of the curve's solutions at omega the one with the largest amplitude: {X, amplitude, touches}, or null. `touches`:
+ * the motion touches a contact. */
+function largestAt(model, H, N, omega) {
+  return keep([model, H, N, omega], () => {
+    const found = solutionsOn(model, curveOf(model, H, N), omega, N).map(X => ({X, amplitude: amplitudeOf(X)}));
+    if (!found.length) return null;
+    const top = found.reduce((a, b) => (b.amplitude > a.amplitude ? b : a));
+    return Object.assign(top, {touches: touchesIn(model, top.X, N)});
+  });
+}
+
+const touchesIn = (model, X, N) => (piecesOf(model, X, N) || []).some(p => p.piece.state !== APART);
+
+/* The solution of the sampled equations that Newton finds from the exact ones': {amplitude, touches}, or null. */
+function nextSampled(model, H, N, omega) {
+  return keep([model, H, N, omega, 'next'], () => {
+    const exact = largestAt(model, H, 0, omega);
+    const X = exact && N >= samplesNeeded(H) ? solveAt(model, exact.X, omega, N) : null;
+    return X && {amplitude: amplitudeOf(X), touches: touchesIn(model, X, N)};
+  });
+}
+
+const samplesNeeded = H => 2 * H + 2;
+const numbersTo = n => Array.from({length: n + 1}, (_, i) => i);
+const sizeOf = ([a, b]) => Math.hypot(a, b);
+
+/* The force at n times of the period, and its largest size. */
+function forceOver(model, X, n) {
+  const pieces = piecesOf(model, X, 0);
+  return numbersTo(n).map(i => {
+    const th = (TURN * (i % n)) / n;
+    const x = motionAt(X, th).x;
+    const here = pieces.filter(p => p.piece.from <= th && th < p.piece.to);
+    return here.reduce((f, p) => f + p.stiffness * x + p.constant, 0);
+  });
+}
+
+/* Where the sliders stand. With a solution that touches: `harmonics` true [a, b] and `sampled` ones, `scale` the
+ * largest force, `amplitude` of the sampled solution. */
+function aliasState() {
+  const positions = Object.fromEntries(parameters.map(p => [p.id, +$('alias-' + p.id).value]));
+  const omega = alias.omega[+$('alias-omega').value];
+  const H = alias.harmonics[+$('alias-h').value];
+  const N = alias.samples[+$('alias-n').value];
+  const model = modelAt(positions);
+  const at = {omega, H, N, model, positions, look: +$('alias-look').value};
+  at.inCase = parameters.every(p => positions[p.id] === homeOf(p));
+  at.solution = largestAt(model, H, 0, omega);
+  if (!at.solution || !at.solution.touches) return at;
+  return Object.assign(at, keep([model, H, N, omega, 'force'], () => forcesAt(model, at.solution.X, H, N)));
+}
+
+const shownHarmonics = 80;
+
+function forcesAt(model, X, H, N) {
+  const force = forceOver(model, X, 256);
+  const pieces = piecesOf(model, X, 0);
+  const harmonics = forceHarmonics(pieces, 0, X, numbersTo(shownHarmonics));
+  const scale = Math.max(...forceOver(model, X, 2048).map(Math.abs));
+  const out = {force, harmonics, scale, pieces};
+  if (N < samplesNeeded(H)) return out;
+  out.sampled = forceHarmonics(piecesOf(model, X, N), N, X, numbersTo(H));
+  out.difference = out.sampled.map(([a, b], h) => [a - harmonics[h][0], b - harmonics[h][1]]);
+  out.folds = forceHarmonics(pieces, 0, X, numbersTo(H).flatMap(h => [N - h, N + h])).map(sizeOf);
   return out;
 }
 
-/* The state the sliders stand on. true: |F_h|; sampled: |F_h| from N samples, h <= H; null where there is none. */
-function aliasState() {
-  const i = +$('alias-omega').value, k = +$('alias-k').value, h = +$('alias-h').value, n = +$('alias-n').value;
-  const state = alias.states[i][k][h], at = {omega: alias.omega[i], factor: alias.factors[k], H: alias.harmonics[h], N: alias.samples[n], state, row: alias.states[i][k]};
-  if (!state || !state.scale) return at;
-  at.trueParts = state.true.map(v => v * alias.steps[1] * state.scale);
-  at.trueSizes = sizes(state.true, alias.steps[1] * state.scale);
-  at.force = state.force.map(v => v * alias.steps[0] * state.scale);
-  const s = state.sampled[n];
-  if (!s) return at;
-  at.difference = s.difference.map(v => v * alias.steps[2] * state.scale);
-  at.sampledParts = at.difference.map((d, j) => d + at.trueParts[j]);
-  at.sampledSizes = sizes(at.sampledParts, 1);
-  at.folds = s.folds.map(v => v * alias.steps[2] * state.scale);
-  at.amplitude = s.amplitude;
-  return at;
+const foldOf = (h, N) => Math.min(h % N, N - (h % N)); /* where harmonic h lands */
+
+/* ---- words ------------------------------------------------------------------------------------------------------- */
+
+const length = v => show(v) + ' ' + units.length;
+const valueOf = (p, position) => (show(moved(p, position, firstOf(p)), 4) + ' ' + p.unit()).trim();
+
+function placeWords(at) {
+  const changed = parameters.filter(p => at.positions[p.id] !== homeOf(p));
+  const texts = changed.map(p => p.name + ' ' + valueOf(p, at.positions[p.id]));
+  return ['At ' + where(at.omega, 6), 'H = ' + at.H].concat(texts).join(', ') + ': ';
 }
 
-const foldOf = (h, N) => { const r = h % N; return Math.min(r, N - r); };  /* where harmonic h lands */
-const series = (parts, th) => { let f = parts[0]; for (let h = 1; 2 * h < parts.length; h++) f += parts[2 * h - 1] * Math.cos(h * th) + parts[2 * h] * Math.sin(h * th); return f; };
-
-/* |F_j| of a true harmonic as far as it is known: from the spectrum, or among what folds first. */
-function trueSize(at, j) {
-  if (j < at.trueSizes.length) return at.trueSizes[j];
-  if (at.folds && Math.abs(j - at.N) <= at.H) return at.folds[2 * Math.abs(j - at.N) + (j > at.N ? 1 : 0)];
-  return null;
+/* Where on the curve contacts touch: "between omega 5.1 and 8.9", or null. */
+function workingRange(at) {
+  const touching = curveOf(at.model, at.H, 0).filter(p => p.works).map(p => p.omega);
+  if (!touching.length) return null;
+  return [Math.min(...touching), Math.max(...touching)];
 }
 
-function forceSets(at) {
-  const n = at.force.length, fine = at.force.map((f, i) => ({x: i / n, y: f})).concat([{x: 1, y: at.force[0]}]);
-  const sets = [line('true force', fine, colours[0])], step = Math.max(1, n / at.N);
-  const rebuilt = parts => Array.from({length: n + 1}, (_, i) => ({x: i / n, y: series(parts, 2 * Math.PI * i / n)}));
-  sets.push(line('its true harmonics 0..H', rebuilt(at.trueParts.slice(0, 2 * at.H + 1)), colours[2], {borderWidth: 1.5, borderDash: [5, 3]}));
-  if (at.sampledParts) sets.push(line('sampled harmonics 0..H', rebuilt(at.sampledParts), colours[4], {borderWidth: 1.5, borderDash: [2, 3]}));
-  const dots = [];
-  for (let i = 0; i <= n; i += step) dots.push({x: i / n, y: at.force[i % n]});
-  sets.push(marks(at.N > n ? 'samples (every ' + at.N / n + 'th drawn)' : 'samples', dots, colours[1], 'circle', {pointRadius: at.N > 64 ? 2 : 4, order: -1}));
-  return sets;
-}
-
-function spectrumSets(at) {
-  const floor = alias.steps[1] * at.state.scale * .5, look = +$('alias-look').value;
-  const bar = (label, values, colour) => ({type: 'bar', label, data: values.map((y, x) => ({x, y: y > floor ? y : NaN})), base: floor, backgroundColor: colour, barPercentage: 1, categoryPercentage: .85, grouped: true, maxBarThickness: 9});
-  const lands = h => h > at.H && foldOf(h, at.N) <= at.H;
-  const sets = [bar('true', at.trueSizes, at.trueSizes.map((v, h) => foldOf(h, at.N) === look && h !== look ? colours[4] : lands(h) ? colours[1] : h <= at.H ? colours[0] : colours[7] + '90'))];
-  if (at.sampledSizes) sets.push(bar('from ' + at.N + ' samples', at.sampledSizes, colours[2]));
-  return sets;
-}
-
-function foldSets(at) {
-  const most = Math.min(2 * at.N + at.H, 8 * at.N), points = [], lands = [], looked = [], look = +$('alias-look').value;
-  for (let j = 0; j <= 5; j++) if (j * at.N / 2 <= most) points.push({x: j * at.N / 2, y: j % 2 ? at.N / 2 : 0});
-  if (points.length && points[points.length - 1].x < most) points.push({x: most, y: foldOf(most, at.N)});
-  for (let m = 0; m <= 2; m++)
-    for (let h = -at.H; h <= at.H; h++) {
-      const j = m * at.N + h;
-      if (j < 0 || j > most) continue;
-      (Math.abs(h) === look ? looked : lands).push({x: j, y: Math.abs(h), size: trueSize(at, j)});
-    }
-  return [line('where true harmonic h lands', points, colours[7], {borderWidth: 1}), marks('lands on a kept harmonic', lands, colours[1], 'circle', {pointRadius: 3}),
-    marks('lands on harmonic ' + look, looked, colours[4], 'circle', {pointRadius: 6, order: -1}),
-    line('H, the last one kept', [{x: 0, y: at.H}, {x: most, y: at.H}], colours[2], {borderWidth: 1, borderDash: [4, 4]})];
-}
-
-function effectSets(at) {
-  const points = alias.samples.map((n, i) => ({x: n, y: at.state.sampled[i] && at.state.sampled[i].amplitude !== null ? at.state.sampled[i].amplitude : NaN}));
-  const ends = [alias.samples[0], alias.samples[alias.samples.length - 1]], sets = [line('sampled', points, colours[1], {pointRadius: 4})];
-  sets.push(line('exact forces, same H', ends.map(x => ({x, y: at.state.amplitude})), colours[2], {borderDash: [5, 4], borderWidth: 1.5}));
-  const rows = data.response.transient.filter(t => t.omega === at.omega || Math.abs(t.omega - at.omega) < 1e-6 * at.omega);
-  if (at.factor === 1 && rows.length) {
-    const top = Math.max(...rows.map(t => t.amplitude));
-    sets.push(line('time integration', ends.map(x => ({x, y: top})), colours[0], {borderDash: [1, 3]}));
+/* A number of harmonics with which the branch is there, or 0. */
+function harmonicsWithBranch(at) {
+  for (const H of alias.harmonics.filter(h => h > at.H)) {
+    const other = largestAt(at.model, H, 0, at.omega);
+    if (other && other.touches) return H;
   }
-  sets.push(marks('N = ' + at.N, at.amplitude === null || at.amplitude === undefined ? [] : [{x: at.N, y: at.amplitude}], colours[4], 'circle', {pointRadius: 8, borderWidth: 2, backgroundColor: 'transparent', order: -1}));
-  return sets;
+  return 0;
 }
 
-/* ---- words and table -------------------------------------------------------------------------------------------------------------- */
+/* The curve sampled N times, as far as it is followed. */
+function sampledLargest(model, H, N, omega) {
+  return N < samplesNeeded(H) || N * (2 * H + 1) > mostSampledWork ? null : largestAt(model, H, N, omega);
+}
+
+/* The largest motion touches nothing. Is that so, or has the truncation lost the branch that does? */
+function idleWords(at) {
+  const range = workingRange(at);
+  const alone = 'the only motion has amplitude ' + length(at.solution.amplitude) + ' and touches no contact';
+  if (!range) return alone + ', nor does any on this response curve: nothing to sample.';
+  const ends = range.map(w => show(along(w), 4)).join(' and ');
+  let text = alone + '. The branch on which contacts work lies between ' + alongName + ' ' + ends + ' with this H. ';
+  const more = harmonicsWithBranch(at);
+  if (more) {
+    const lost = largestAt(at.model, more, 0, at.omega).amplitude;
+    text += 'With H = ' + more + ' it reaches this ' + alongName + ', amplitude ' + length(lost) + ': ';
+    text += 'truncation, not sampling, has lost it. ';
+  } else text += 'More harmonics do not bring it here. ';
+  const gained = sampledLargest(at.model, at.H, at.N, at.omega);
+  if (gained && gained.touches) {
+    text += 'With ' + at.N + ' samples it comes back, amplitude ' + length(gained.amplitude) + ': ';
+    text += more ? 'right to be there, but by accident, and only as right as this H is.' : 'sampling has made it up.';
+  }
+  return text.trim();
+}
+
+/* The sampled equations' solution beside the exact ones'. */
+function effectWords(at) {
+  const next = nextSampled(at.model, at.H, at.N, at.omega);
+  const gone = 'The sampled equations have lost this branch here: ';
+  if (!next) return gone + 'Newton, started on the true solution, finds none of theirs.';
+  const true_ = at.solution.amplitude;
+  const other = 'what Newton finds from it has amplitude ' + length(next.amplitude) + ' and touches nothing.';
+  if (!next.touches) return gone + other;
+  const off = percent(Math.abs(next.amplitude - true_) / true_);
+  return 'The amplitude comes out as ' + show(next.amplitude) + ' instead of ' + length(true_) + ': ' + off + ' off.';
+}
 
 function aliasWords(at) {
-  const where = 'At omega ' + show(at.omega, 6) + ', H = ' + at.H + ': ';
-  if (!at.state) return where + 'no solution on this stiffness\'s response curve.';
-  if (!at.state.scale) return where + 'no contact does anything at this stiffness: nothing to sample.';
-  if (!at.sampledParts) return where + at.N + ' samples cannot tell ' + at.H + ' harmonics apart: at least ' + (2 * at.H + 2) + ' are needed.';
-  const worst = Math.max(...sizes(at.difference, 1)) / at.state.scale;
-  const force = at.N + ' samples miss the harmonics of the contact force by up to ' + percent(worst) + ' of the largest force. ';
-  if (at.amplitude === null) return where + force + 'The sampled equations have no solution next to the true one.';
-  return where + force + 'The amplitude comes out as ' + show(at.amplitude) + ' instead of ' + show(at.state.amplitude) + ' ' + units.length + ': ' + percent(Math.abs(at.amplitude - at.state.amplitude) / at.state.amplitude) + ' off.';
+  const place = placeWords(at);
+  if (!at.solution) return place + 'the response curve has no solution here, or it could not be followed so far.';
+  if (!at.solution.touches) return place + idleWords(at);
+  if (!at.sampled) {
+    const enough = 'at least ' + samplesNeeded(at.H) + ' are needed.';
+    return place + at.N + ' samples cannot tell ' + at.H + ' harmonics apart: ' + enough;
+  }
+  const worst = percent(Math.max(...at.difference.map(sizeOf)) / at.scale);
+  const force = at.N + ' samples miss the harmonics of the contact force by up to ' + worst + ' of the largest force. ';
+  return place + force + effectWords(at);
+}
+
+/* good, bad or open: is the sampled amplitude within the gate? */
+function aliasVerdict(at) {
+  const next = at.sampled && nextSampled(at.model, at.H, at.N, at.omega);
+  if (!next || !next.touches) return 'open';
+  const true_ = at.solution.amplitude;
+  return Math.abs(next.amplitude - true_) <= data.gate * true_ ? 'good' : 'bad';
 }
 
 function aliasTable(at) {
   const box = $('alias-table');
   box.textContent = '';
-  if (!at.sampledParts) return;
-  const table = document.createElement('table'), look = +$('alias-look').value;
-  const add = (row, tag, text) => { const c = document.createElement(tag); c.textContent = text; row.append(c); };
-  table.createCaption().textContent = 'Sizes of force harmonics [' + units.force + ']. What folds onto h comes from N - h, N + h, 2N - h, ...; the first two are usually most of it.';
+  if (!at.sampled) return;
+  const table = document.createElement('table');
+  const addTo = (row, tag, text) => row.append(Object.assign(document.createElement(tag), {textContent: text}));
+  table.createCaption().textContent =
+    'Sizes of force harmonics [' + units.force + ']. What folds onto h comes from N - h, N + h, 2N - h, ...; ' +
+    'the first two are usually most of it.';
+  const heads = ['h', 'true |F(h)|', 'sampled |F(h)|', '|sampled - true|', 'of the largest force'];
+  heads.push('folds from N - h', '|F(N - h)|', 'and from N + h', '|F(N + h)|');
   const head = table.createTHead().insertRow();
-  for (const text of ['h', 'true |F(h)|', 'sampled |F(h)|', '|sampled - true|', 'of the largest force', 'folds from N - h', '|F(N - h)|', 'and from N + h', '|F(N + h)|']) add(head, 'th', text);
-  const body = table.createTBody(), difference = sizes(at.difference, 1);
+  heads.forEach(text => addTo(head, 'th', text));
+  const body = table.createTBody();
   for (let h = 0; h <= at.H; h++) {
     const row = body.insertRow();
-    if (h === look) row.className = 'looked';
-    const texts = [h, show(at.trueSizes[h]), show(at.sampledSizes[h]), show(difference[h], 3), percent(difference[h] / at.state.scale), at.N - h, show(at.folds[2 * h], 3), h ? at.N + h : '', h ? show(at.folds[2 * h + 1], 3) : ''];
-    texts.forEach(text => add(row, 'td', text));
+    if (h === at.look) row.className = 'looked';
+    const off = sizeOf(at.difference[h]);
+    const cells = [h, show(sizeOf(at.harmonics[h])), show(sizeOf(at.sampled[h])), show(off, 3)];
+    cells.push(percent(off / at.scale));
+    cells.push(at.N - h, show(at.folds[2 * h], 3), h ? at.N + h : '', h ? show(at.folds[2 * h + 1], 3) : '');
+    cells.forEach(text => addTo(row, 'td', text));
   }
   box.append(table);
 }
 
-/* ---- drawing ---------------------------------------------------------------------------------------------------------------------- */
+/* ---- the sliders ------------------------------------------------------------------------------------------------- */
 
-function redraw(name, datasets, homes) {
-  const chart = charts[name], hidden = chart.data.datasets.map((set, i) => chart.isDatasetVisible(i) ? null : set.tag).filter(tag => tag !== null);
-  datasets.forEach((set, i) => { set.tag = i; });
-  chart.data.datasets = datasets;
-  datasets.forEach((set, i) => chart.setDatasetVisibility(i, !hidden.includes(i)));
-  for (const axisName of Object.keys(homes)) setHome(chart, axisName, homes[axisName][0], homes[axisName][1]);
-  chart.update();
-}
-
-function fillLook(at) {
-  const look = $('alias-look'), before = Math.min(look.value === '' ? 1 : +look.value, at.H);
+function fillLook(H) {
+  const look = $('alias-look');
+  const before = Math.min(look.value === '' ? 1 : +look.value, H);
   look.textContent = '';
-  for (let h = 0; h <= at.H; h++) look.append(new Option(h === 0 ? '0 (mean)' : String(h), h));
+  for (let h = 0; h <= H; h++) look.append(new Option(h === 0 ? '0 (mean)' : String(h), h));
   look.value = before;
 }
 
+function nameSlider(id, text) {
+  $('alias-' + id + '-value').textContent = text;
+  $('alias-' + id).setAttribute('aria-valuetext', text);
+}
+
+function nameSliders() {
+  nameSlider('n', alias.samples[+$('alias-n').value]);
+  nameSlider('h', alias.harmonics[+$('alias-h').value]);
+  for (const p of parameters) {
+    const position = +$('alias-' + p.id).value;
+    const home = position === homeOf(p) ? ' (the case)' : '';
+    nameSlider(p.id, valueOf(p, position) + home);
+  }
+}
+
+let aliasShown = null; /* the state that the plots draw */
+
 function drawAliasing() {
-  let at = aliasState();
-  fillLook(at);
-  $('alias-n-value').textContent = at.N;
-  $('alias-h-value').textContent = at.H;
-  $('alias-k-value').textContent = show(alias.kn * at.factor, 4) + ' ' + units.force + '/' + units.length + (at.factor === 1 ? ' (the case)' : ' (case \u00d7 ' + at.factor + ')');
-  for (const [id, text] of [['alias-n', at.N], ['alias-h', at.H], ['alias-k', $('alias-k-value').textContent]]) $(id).setAttribute('aria-valuetext', text);
-  const words = $('alias-words');
-  words.textContent = aliasWords(at);
-  words.className = 'verdict ' + (!at.sampledParts || at.amplitude === null ? 'open' : Math.abs(at.amplitude - at.state.amplitude) <= data.gate * at.state.amplitude ? 'good' : 'bad');
-  aliasTable(at);
-  if (!at.trueSizes) { for (const name of ['force', 'spectrum', 'fold', 'effect']) redraw(name, [], {}); return; }
-  const last = Math.min(at.trueSizes.length - 1, Math.max(24, Math.min(2 * at.N + at.H, 4 * at.H + 20)));
-  redraw('force', forceSets(at), {y: [undefined, undefined], x: [0, 1]});
-  redraw('spectrum', spectrumSets(at), {x: [-.6, last + .6], y: [alias.steps[1] * at.state.scale * .5, 2 * at.state.scale]});
-  redraw('fold', foldSets(at), {x: [0, 2 * at.N + at.H], y: [0, Math.min(at.N / 2, 2 * at.H + 6)]});
-  redraw('effect', effectSets(at), {});
+  fillLook(alias.harmonics[+$('alias-h').value]);
+  nameSliders();
+  aliasShown = aliasState();
+  $('alias-words').textContent = aliasWords(aliasShown);
+  $('alias-words').className = 'verdict ' + aliasVerdict(aliasShown);
+  aliasTable(aliasShown);
+  drawAliasPlots(aliasShown);
+}
+
+function setSlider(id, positions, home) {
+  const slider = $('alias-' + id);
+  slider.max = positions.length - 1;
+  slider.value = home;
+}
+
+function resetSliders() {
+  for (const p of parameters) setSlider(p.id, positionsOf(p), homeOf(p));
 }
 
 function startAliasing() {
-  if (!alias) { $('aliasing-none').hidden = false; $('aliasing-body').hidden = true; return; }
-  alias.omega.forEach((w, i) => $('alias-omega').append(new Option(show(w, 6), i)));
+  $('aliasing-none').hidden = !!alias;
+  $('aliasing-body').hidden = !alias;
+  if (!alias) return;
+  alias.omega.forEach((w, i) => $('alias-omega').append(new Option(show(along(w), 6), i)));
   $('alias-omega').value = alias.first;
-  for (const [id, n, at] of [['alias-n', alias.samples.length, 0], ['alias-h', alias.harmonics.length, 2], ['alias-k', alias.factors.length, alias.factors.indexOf(1)]]) {
-    $(id).max = n - 1;
-    $(id).value = at;
-  }
-  const y = '|F| [' + units.force + ']';
-  plot('force', 'scatter', [], {x: axis('time / period [1]', 'linear', {min: 0, max: 1}), y: axis('contact force [' + units.force + ']')}, item => item.dataset.label + ': ' + show(item.raw.y) + ' at ' + show(item.raw.x, 4) + ' of the period');
-  plot('spectrum', 'bar', [], {x: axis('harmonic', 'linear', {ticks: {precision: 0, callback: v => Number.isInteger(v) ? v : ''}, grid: {color: grid, offset: false}}), y: axis(y, 'logarithmic')}, item => [item.dataset.label + ' |F(' + item.raw.x + ')| = ' + show(item.raw.y, 5)].concat(item.datasetIndex === 0 && item.raw.x > alias.harmonics[+$('alias-h').value] ? ['with N samples it looks like harmonic ' + foldOf(item.raw.x, alias.samples[+$('alias-n').value])] : []));
-  plot('fold', 'scatter', [], {x: axis('true harmonic', 'linear', {min: 0}), y: axis('lands on harmonic', 'linear', {min: 0})}, item => 'true harmonic ' + show(item.raw.x) + ' looks like ' + show(item.raw.y) + (item.raw.size === undefined || item.raw.size === null ? '' : ', size ' + show(item.raw.size, 3) + ' ' + units.force));
-  plot('effect', 'scatter', [], {x: axis('samples per period N', 'logarithmic', Object.assign({min: alias.samples[0] / 1.3, max: alias.samples[alias.samples.length - 1] * 1.3}, ticksAt(alias.samples))), y: axis('amplitude [' + units.length + ']')}, item => item.dataset.label + (item.dataset.showLine && item.datasetIndex > 0 ? '' : ', N = ' + item.raw.x) + ': ' + show(item.raw.y) + ' ' + units.length);
-  for (const id of ['alias-omega', 'alias-look']) $(id).addEventListener('change', drawAliasing);
-  for (const id of ['alias-n', 'alias-h', 'alias-k']) $(id).addEventListener('input', drawAliasing);
+  $('alias-omega-name').textContent = data.cycles ? 'Frequency' : 'Omega';
+  setSlider('n', alias.samples, 0);
+  setSlider('h', alias.harmonics, 2);
+  resetSliders();
+  for (const p of parameters) $('alias-' + p.id).closest('label').hidden = !firstOf(p) && p.id !== 'gap';
+  for (const id of ['omega', 'look']) $('alias-' + id).addEventListener('change', drawAliasing);
+  for (const id of ['n', 'h', ...parameters.map(p => p.id)]) $('alias-' + id).addEventListener('input', drawAliasing);
+  $('alias-reset').addEventListener('click', () => {
+    resetSliders();
+    drawAliasing();
+  });
+  startAliasPlots();
   drawAliasing();
 }

@@ -9,12 +9,11 @@ typedef struct asset {
   size_t length;
 } asset;
 
-extern const unsigned char asset_page_bytes[], asset_style_bytes[], asset_script_bytes[], asset_aliasing_bytes[],
-    asset_start_bytes[], asset_chart_bytes[];
+extern const unsigned char asset_page_bytes[], asset_style_bytes[], asset_script_bytes[], asset_chart_bytes[];
 /* page.html, page.css */
 extern const asset asset_page, asset_style;
-/* page.js, aliasing.js, start.js: one script, in this order */
-extern const asset asset_script, asset_aliasing, asset_start;
+/* plots.js to start.js, in the order of CMakeLists.txt: one script */
+extern const asset asset_script;
 /* Chart.js with its licence notice; length 0: it was not installed */
 extern const asset asset_chart;
 

@@ -27,6 +27,7 @@ static void append_point(json_t *columns, const response_row *r)
   append(columns, "amplitude", number(r->measures.amplitude));
   append(columns, "harmonic_1", number(r->measures.harmonic_1));
   append(columns, "mean", number(r->measures.mean));
+  append(columns, "mean_free", json_integer(r->measures.contact.free_sliders > 0));
   append(columns, "branch", json_integer(r->point.branch));
   append(columns, "stable", json_integer(stable));
   append(columns, "contact", json_string(contact_regime_name(r->measures.contact.regime)));
@@ -74,40 +75,34 @@ static hc_status append_curve(const scene *sc, const comparison *c, const hc_mon
   return st == HC_INTERRUPTED || st == HC_NO_MEMORY ? st : HC_OK;
 }
 
-/* What the rows of the comparison found, on either side. */
-static void append_rows(const comparison *c, json_t *hbm, json_t *transient)
+/* What time integration came to in the rows of the comparison. */
+static json_t *transient_rows(const comparison *c)
 {
+  json_t *list = json_array();
   for (int i = 0; i < c->n_rows; ++i) {
     const comparison_row *r = &c->rows[i];
     char text[24];
     bool moved =
         r->transient_status == HC_OK || r->transient_status == HC_NOT_SETTLED || r->transient_status == HC_APERIODIC;
+    if (!moved) continue;
     comparison_verdict_text(r, text);
-    if (r->branch >= 0 && r->hbm_status == HC_OK)
-      json_array_append_new(hbm, json_pack("{s:f, s:o, s:o, s:o, s:i, s:s, s:o}", "omega", r->omega, "amplitude",
-                                           number(r->hbm.amplitude), "harmonic_1", number(r->hbm.harmonic_1), "mean",
-                                           number(r->hbm.mean), "branch", r->branch, "verdict", text, "error",
-                                           number(r->errors.amplitude)));
-    if (moved)
-      json_array_append_new(transient,
-                            json_pack("{s:f, s:o, s:o, s:o, s:i, s:s, s:o}", "omega", r->omega, "amplitude",
-                                      number(r->transient.amplitude), "harmonic_1", number(r->transient.harmonic_1),
-                                      "mean", number(r->transient.mean), "branch", r->branch, "verdict", text, "error",
-                                      number(r->errors.amplitude)));
+    json_array_append_new(list, json_pack("{s:f, s:o, s:o, s:o, s:b, s:i, s:s, s:o}", "omega", r->omega, "amplitude",
+                                          number(r->transient.amplitude), "harmonic_1", number(r->transient.harmonic_1),
+                                          "mean", number(r->transient.mean), "mean_free", (int)comparison_mean_free(r),
+                                          "branch", r->branch, "verdict", text, "error", number(r->errors.amplitude)));
   }
+  return list;
 }
 
 hc_status curve_json(const scene *sc, const comparison *c, const hc_monitor *monitor, json_t **out)
 {
-  json_t *curve = json_object(), *other = json_object(), *specials = json_array(), *hbm = json_array(),
-         *transient = json_array();
+  json_t *curve = json_object(), *other = json_object(), *specials = json_array();
   scene other_mean = *sc; /* with harmonic 0 dropped if *sc keeps it, and the other way round */
   other_mean.hbm.keep_mean = !sc->hbm.keep_mean;
   hc_status st = append_curve(sc, c, monitor, curve, specials);
   if (st == HC_OK) st = append_curve(&other_mean, c, monitor, other, NULL);
-  append_rows(c, hbm, transient);
-  *out = json_pack("{s:o, s:o, s:b, s:o, s:o, s:o}", "curve", curve, "turned", other, "mean_kept",
-                   (int)sc->hbm.keep_mean, "specials", specials, "hbm", hbm, "transient", transient);
+  *out = json_pack("{s:o, s:o, s:b, s:o, s:o}", "curve", curve, "turned", other, "mean_kept", (int)sc->hbm.keep_mean,
+                   "specials", specials, "transient", transient_rows(c));
   if (st == HC_OK && !*out) st = HC_NO_MEMORY;
   return st;
 }

@@ -8,8 +8,8 @@
 #include "cases/scene.h"
 #include "compare/comparison.h"
 
-/* {curve: columns of points; turned: the same, with harmonic 0 dropped if the scene keeps it, else kept; specials; hbm,
- * transient: the rows' results}, read by page.js, "response". A curve that stops early is shown as far as it goes.
+/* {curve: columns of points; turned: the same, with harmonic 0 dropped if the scene keeps it, else kept; specials;
+ * transient: the rows' results}, read by response.js. A curve that stops early is shown as far as it goes.
  * HC_INTERRUPTED, HC_NO_MEMORY. */
 hc_status curve_json(const scene *sc, const comparison *c, const hc_monitor *monitor, json_t **out);
 

@@ -1,12 +1,17 @@
-# embed.cmake - files as bytes in a C source: cmake -DOUTPUT=assets.c -DNAMES=a;b -DFILES=x;y -DCHART_VERSION=3.9.1 -P embed.cmake
-# An empty file name gives an empty asset. Each is `const unsigned char NAME[]` with its length, as assets.h declares them.
+# embed.cmake - files as bytes in a C source: cmake -DOUTPUT=assets.c "-DNAMES=a;b;b" "-DFILES=x;y;z" -P embed.cmake
+# A name that is given several times gets all its files, one after another; an empty file name gives an empty asset. Each is
+# `const unsigned char NAME[]` with its length, as assets.h declares them.
 set(text "/* Made by embed.cmake. */\n#include \"command/report/assets.h\"\n")
-foreach(name file IN ZIP_LISTS NAMES FILES)
-  if(EXISTS "${file}")
-    file(READ "${file}" hex HEX)
-  else()
-    set(hex "")
-  endif()
+set(all ${NAMES})
+list(REMOVE_DUPLICATES all)
+foreach(name IN LISTS all)
+  set(hex "")
+  foreach(of file IN ZIP_LISTS NAMES FILES)
+    if(of STREQUAL name AND EXISTS "${file}")
+      file(READ "${file}" more HEX)
+      string(APPEND hex "${more}")
+    endif()
+  endforeach()
   string(LENGTH "${hex}" length)
   math(EXPR length "${length} / 2")
   string(REGEX REPLACE "([0-9a-f][0-9a-f])" "0x\\1," bytes "${hex}")

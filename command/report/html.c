@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { DECADES = 12, JSON_DIGITS = 9 };
+enum { DECADES = 12, JSON_DIGITS = 12 };
 
 void html_text(FILE *to, const char *text)
 {

@@ -21,12 +21,7 @@ static void write_asset(FILE *to, const asset *a) { fwrite(a->bytes, 1, a->lengt
 
 static void write_title(page *p) { html_text(p->to, p->d->sc->title[0] ? p->d->sc->title : "untitled case"); }
 static void write_style(page *p) { write_asset(p->to, &asset_style); }
-static void write_script(page *p)
-{
-  write_asset(p->to, &asset_script);
-  write_asset(p->to, &asset_aliasing);
-  write_asset(p->to, &asset_start);
-}
+static void write_script(page *p) { write_asset(p->to, &asset_script); }
 static void write_chart(page *p) { write_asset(p->to, &asset_chart); }
 
 /* "3.9.1" from the notice that Chart.js begins with. */
@@ -98,6 +93,7 @@ static void write_budget_row(FILE *to, const comparison_row *r, const scene *sc)
   const budget_parts *b = &r->budget.amplitude;
   html_row(to);
   html_cell_number(to, r->omega);
+  if (sc->in_cycles) html_cell_number(to, scene_frequency(sc, r->omega));
   html_cell_number(to, r->branch >= 0 ? r->branch : NAN);
   html_cell_text(to, comparison_verdict_text(r, text));
   html_cell_number(to, r->branch >= 0 && r->hbm_status == HC_OK ? r->hbm.amplitude : NAN);
@@ -115,12 +111,13 @@ static void write_budget_row(FILE *to, const comparison_row *r, const scene *sc)
 
 static void write_budget(page *p)
 {
-  static const char *const heads[] = {"omega",          "branch", "verdict", "hbm_amplitude", "transient_amplitude",
-                                      "amplitude_error"};
+  static const char *const heads[] = {"branch", "verdict", "hbm_amplitude", "transient_amplitude", "amplitude_error"};
   html_table(
       p->to,
       "Verdict and error budget of the amplitude, relative; bars: 1e-12 to 1, logarithmic; red: beyond the gate");
-  for (int i = 0; i < 6; ++i) html_head(p->to, heads[i]);
+  html_head(p->to, "omega");
+  if (p->d->sc->in_cycles) html_head(p->to, "frequency");
+  for (int i = 0; i < 5; ++i) html_head(p->to, heads[i]);
 #define HEAD(part) html_head(p->to, "from_" #part);
   BUDGET_PARTS(HEAD)
 #undef HEAD
@@ -142,6 +139,7 @@ static void write_specials(page *p)
   html_table(p->to, "What happens on the curve, in its order");
   html_head(p->to, "what");
   html_head(p->to, "omega");
+  if (p->d->sc->in_cycles) html_head(p->to, "frequency");
   html_head(p->to, "amplitude");
   html_head(p->to, "branch");
   fputs("</tr></thead><tbody>", p->to);
@@ -149,7 +147,9 @@ static void write_specials(page *p)
   {
     html_row(p->to);
     html_cell_text(p->to, json_string_value(json_object_get(special, "what")));
-    fprintf(p->to, "<td>%.10f</td>", json_number_value(json_object_get(special, "omega")));
+    double omega = json_number_value(json_object_get(special, "omega"));
+    fprintf(p->to, "<td>%.10f</td>", omega);
+    if (p->d->sc->in_cycles) fprintf(p->to, "<td>%.10f</td>", scene_frequency(p->d->sc, omega));
     html_cell_number(p->to, json_number_value(json_object_get(special, "amplitude")));
     html_cell_number(p->to, (double)json_integer_value(json_object_get(special, "branch")));
     fputs("</tr>", p->to);
@@ -193,10 +193,10 @@ static json_t *accuracy_json(const accuracy *a)
 static void write_data(page *p)
 {
   const scene *sc = p->d->sc;
-  json_t *data = json_pack("{s:{s:s, s:s, s:s}, s:f, s:O, s:O, s:o, s:o}", "units", "length", sc->unit_length, "force",
-                           sc->unit_force, "time", sc->unit_time, "gate", sc->gate.most.amplitude, "response",
-                           p->d->response, "aliasing", p->d->aliasing, "budget", budget_json(&p->d->comparison),
-                           "accuracy", accuracy_json(&p->d->accuracy));
+  json_t *data = json_pack("{s:{s:s, s:s, s:s}, s:b, s:f, s:O, s:O, s:o, s:o}", "units", "length", sc->unit_length,
+                           "force", sc->unit_force, "time", sc->unit_time, "cycles", (int)sc->in_cycles, "gate",
+                           sc->gate.most.amplitude, "response", p->d->response, "aliasing", p->d->aliasing, "budget",
+                           budget_json(&p->d->comparison), "accuracy", accuracy_json(&p->d->accuracy));
   if (!data || html_json(p->to, data) != HC_OK) p->status = HC_NO_MEMORY;
   json_decref(data);
 }

@@ -9,13 +9,13 @@
 
 bool report_has_charts(void) { return asset_chart.length > 0; }
 
-/* The comparison's frequencies at which some HBM solution meets a contact's nonlinearity, ascending; how many. */
+/* The comparison's frequencies at which a contact changes its state in some HBM solution, ascending; how many. */
 static int nonlinear_omegas(const comparison *c, double all[NUMBER_LIST_MAX])
 {
   int n = 0;
   for (int i = 0; i < c->n_rows && n < NUMBER_LIST_MAX; ++i) {
     const comparison_row *r = &c->rows[i];
-    bool nonlinear = r->branch >= 0 && r->hbm_status == HC_OK && r->hbm.contact.regime != CONTACT_LINEAR;
+    bool nonlinear = r->branch >= 0 && r->hbm_status == HC_OK && r->hbm.contact.regime > CONTACT_STUCK;
     if (nonlinear && (n == 0 || r->omega != all[n - 1])) all[n++] = r->omega;
   }
   return n;

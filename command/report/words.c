@@ -5,6 +5,13 @@
 
 #include "command/report/html.h"
 
+/* "omega = 7", or with the frequency where the sweep is in cycles. */
+static void write_where(const report_data *d, double omega, FILE *to)
+{
+  char text[SCENE_WHERE];
+  html_text(to, scene_where(d->sc, omega, text));
+}
+
 static void open_item(FILE *to, const char *class) { fprintf(to, "<li class=\"%s\">", class); }
 
 static void list_verdicts(const comparison *c, FILE *to)
@@ -17,6 +24,23 @@ static void list_verdicts(const comparison *c, FILE *to)
     fputs("</li>\n", to);
   }
   fputs("</ul>\n", to);
+}
+
+/* What was not compared though it might seem so. */
+static void list_remarks(const report_data *d, FILE *to)
+{
+  const comparison *c = &d->comparison;
+  int n = 0;
+  for (int i = 0; i < c->n_rows; ++i) n += comparison_mean_free(&c->rows[i]);
+  if (n)
+    fprintf(to,
+            "<p>%d row%s without a mean to compare (<code>mean_free</code>): a slider that never slips rests where the "
+            "history left it, and the mean, max, min and rms with it.</p>\n",
+            n, n == 1 ? "" : "s");
+  if (c->n_rows == 0 || comparison_nonlinear(c)) return;
+  fputs("<p class=\"verdict open\"><strong>Linear.</strong> ", to);
+  html_printf(to, COMPARISON_LINEAR, c->n_rows);
+  fputs("</p>\n", to);
 }
 
 void words_verdict(const report_data *d, FILE *to)
@@ -37,11 +61,13 @@ void words_verdict(const report_data *d, FILE *to)
     fprintf(to, "<p>%d transient%s no solution of this response curve within the gate.</p>\n", missing,
             missing == 1 ? " matches" : "s match");
   if (c->curve.end != HC_OK && c->curve.n) {
-    fprintf(to, "<p class=\"verdict open\">The response curve <strong>stopped</strong> at omega = %.8g: ",
-            c->curve.points[c->curve.n - 1].omega);
+    fputs("<p class=\"verdict open\">The response curve <strong>stopped</strong> at ", to);
+    write_where(d, c->curve.points[c->curve.n - 1].omega, to);
+    fputs(": ", to);
     html_text(to, hc_status_text(c->curve.end));
     fputs(".</p>\n", to);
   }
+  list_remarks(d, to);
   list_verdicts(c, to);
 }
 
@@ -60,7 +86,9 @@ static void advise_on_error(const report_data *d, FILE *to)
   }
   if (top) {
     open_item(to, top->budget.amplitude.sum <= d->sc->gate.most.amplitude ? "good" : "bad");
-    html_printf(to, "Largest error at omega = %.8g, branch %d: %s.", top->omega, top->branch,
+    fputs("Largest error at ", to);
+    write_where(d, top->omega, to);
+    html_printf(to, ", branch %d: %s.", top->branch,
                 budget_advice(&top->budget, &d->setup, d->sc->gate.most.amplitude, c->harmonics, text));
     fputs("</li>\n", to);
   }
@@ -143,19 +171,17 @@ static void advise_on_samples(const report_data *d, FILE *to)
   }
   if (!most) return;
   const bool sampled = d->sc->hbm.force == HBM_FORCE_SAMPLED;
-  open_item(to, enough && (!sampled || d->comparison.samples >= enough->samples) ? "good" : "bad");
+  open_item(to, !sampled || (enough && d->comparison.samples >= enough->samples) ? "good" : "bad");
   if (!enough)
-    html_printf(to, "Sampling: not even %d samples a period are enough at H = %d (aliasing %.2g %%): use exact forces.",
-                most->samples, plain->harmonics, 100 * most->aliasing);
+    html_printf(to, "Sampling: not even %d samples a period are enough at H = %d (aliasing %.2g %%): %s.",
+                most->samples, plain->harmonics, 100 * most->aliasing,
+                sampled ? "use exact forces" : "the exact forces in use need none");
   else
     html_printf(to, "Sampling: %d samples a period are enough at H = %d (aliasing %.2g %%); exact forces need none.",
                 enough->samples, plain->harmonics, 100 * enough->aliasing);
   if (enough && enough->false_turning_points)
-    html_printf(
-        to,
-        " But the curve sampled so has %d turning points that are not the oscillator's: follow curves with exact "
-        "forces.",
-        enough->false_turning_points);
+    html_printf(to, " But the curve sampled so has %d turning points that are not the oscillator's%s.",
+                enough->false_turning_points, sampled ? ": follow curves with exact forces" : "");
   if (sampled) html_printf(to, " In use: %d samples.", d->comparison.samples);
   fputs("</li>\n", to);
 }
@@ -176,31 +202,52 @@ void words_what_to_do(const report_data *d, FILE *to)
 
 /* ---- the gate -------------------------------------------------------------------------------- */
 
-void words_gate(const report_data *d, FILE *to)
+enum { MEASURES = 4, MEAN = 2 };
+
+typedef struct worst_errors {
+  double error[MEASURES], omega[MEASURES]; /* NaN: not compared */
+  bool mean_free;                          /* the mean of a row compared is a matter of history */
+} worst_errors;
+
+static worst_errors find_worst(const comparison *c)
 {
-  static const char *const names[] = {"amplitude", "harmonic_1", "mean", "waveform"};
-  const double limits[] = {d->sc->gate.most.amplitude, d->sc->gate.most.harmonic_1, d->sc->gate.most.mean,
-                           d->sc->gate.most.waveform};
-  double worst[4] = {NAN, NAN, NAN, NAN}, where[4] = {NAN, NAN, NAN, NAN};
-  for (int i = 0; i < d->comparison.n_rows; ++i) {
-    const comparison_row *r = &d->comparison.rows[i];
+  worst_errors w = {.error = {NAN, NAN, NAN, NAN}, .omega = {NAN, NAN, NAN, NAN}};
+  for (int i = 0; i < c->n_rows; ++i) {
+    const comparison_row *r = &c->rows[i];
     const double errors[] = {r->errors.amplitude, r->errors.harmonic_1, r->errors.mean, r->errors.waveform};
     /* elsewhere the two are not the same motion */
     if (r->verdict != VERDICT_MATCH && r->verdict != VERDICT_DIFFERS) continue;
-    for (int k = 0; k < 4; ++k)
-      if (errors[k] > worst[k] || isnan(worst[k])) worst[k] = errors[k], where[k] = r->omega;
+    w.mean_free |= comparison_mean_free(r);
+    for (int k = 0; k < MEASURES; ++k)
+      if (errors[k] > w.error[k] || isnan(w.error[k])) w.error[k] = errors[k], w.omega[k] = r->omega;
   }
+  return w;
+}
+
+static const char *within(const worst_errors *w, int k, double limit)
+{
+  if (isnan(w->error[k])) return k == MEAN && w->mean_free ? "not compared: a matter of history" : "not compared";
+  return w->error[k] <= limit ? "yes" : "no";
+}
+
+void words_gate(const report_data *d, FILE *to)
+{
+  static const char *const names[] = {"amplitude", "harmonic_1", "mean", "waveform"};
+  const discrepancy *most = &d->sc->gate.most;
+  const double limits[] = {most->amplitude, most->harmonic_1, most->mean, most->waveform};
+  const char *const heads[] = {"measure", "allowed", "largest found", d->sc->in_cycles ? "at frequency" : "at omega",
+                               "within"};
+  const worst_errors w = find_worst(&d->comparison);
   html_table(to, "The gate: largest relative error allowed and found, where both sides are on the same orbit");
-  static const char *const heads[] = {"measure", "allowed", "largest found", "at omega", "within"};
   for (int k = 0; k < 5; ++k) html_head(to, heads[k]);
   fputs("</tr></thead><tbody>", to);
-  for (int k = 0; k < 4; ++k) {
+  for (int k = 0; k < MEASURES; ++k) {
     html_row(to);
     html_cell_text(to, names[k]);
     html_cell_number(to, limits[k]);
-    html_cell_bar(to, worst[k], limits[k]);
-    html_cell_number(to, where[k]);
-    html_cell_text(to, isnan(worst[k]) ? "not compared" : worst[k] <= limits[k] ? "yes" : "no");
+    html_cell_bar(to, w.error[k], limits[k]);
+    html_cell_number(to, d->sc->in_cycles ? scene_frequency(d->sc, w.omega[k]) : w.omega[k]);
+    html_cell_text(to, within(&w, k, limits[k]));
     fputs("</tr>", to);
   }
   html_table_end(to);

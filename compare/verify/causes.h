@@ -57,7 +57,7 @@
   X(CAUSE_RMS_ALTERNATING, "rms_without_mean", "the values are root mean squares without the mean", \
     "give amplitudes, or root mean squares with the mean and name the column rms") \
   X(CAUSE_RMS_NLVIB, "norm_over_root_2", "the values are norms of all harmonics divided by the root of 2", \
-    "multiply them by it and name the column norm") \
+    "name the column norm_over_root_2") \
   X(CAUSE_NORM, "norm", "the values are norms of all harmonics", "name the column norm") \
   X(CAUSE_SUM, "sum_of_moduli", "the values are sums of the harmonics' moduli", \
     "harmonics do not peak at one time: evaluate x(t) and give (max - min)/2") \
@@ -76,7 +76,7 @@
   X(CAUSE_NOISE, "noise", "the points scatter around the truth", \
     "say how much a measured curve scatters: --noise") \
   X(CAUSE_UNSTABLE, "unstable_branch", "the points run along an unstable branch", \
-    "follow the stable ones: no motion stays there") \
+    "no motion stays there: follow a stable one where there is one") \
   X(CAUSE_OTHER_BRANCH, "other_branch", "the points hop to another stable branch and back", \
     "start each point from its neighbour's solution")
 /* clang-format on */

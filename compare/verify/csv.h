@@ -39,6 +39,8 @@ typedef struct verify_data {
   int n;
   verify_point *points; /* [n] in the file's order */
   int left_out;         /* points at omega <= 0 */
+  double noise;         /* [1] standard deviation of a value, relative to its scale, as of a measured curve; 0: none */
+  bool with_line;       /* the report is to hold the truth's curve, for a drawing */
 } verify_data;
 
 /* "omega=1,amplitude=2", NAME=NUMBER or NAME=HEADER; names: omega or frequency, and a quantity or `value`. `quantity`:

@@ -19,8 +19,8 @@ static const struct {
 };
 
 const char verify_quantity_names[] =
-    "amplitude, double_amplitude, peak, max, min, mean, rms, norm, harmonic_K, velocity, acceleration, "
-    "velocity_harmonic_K, acceleration_harmonic_K, or dB of one like dB_harmonic_1";
+    "amplitude, double_amplitude, peak, max, min, mean, rms, norm, norm_over_root_2, harmonic_K, velocity, "
+    "acceleration, velocity_harmonic_K, acceleration_harmonic_K, or dB of one like dB_harmonic_1";
 
 /* ---- names ---- */
 

@@ -20,13 +20,13 @@
   X(KIND_MEAN, "mean", true, "X0")                                                                                     \
   X(KIND_RMS, "rms", true, "sqrt(X0^2 + sum (a_k^2 + b_k^2)/2)")                                                       \
   X(KIND_NORM, "norm", true, "sqrt(X0^2 + sum (a_k^2 + b_k^2))")                                                       \
+  X(KIND_RMS_NLVIB, "norm_over_root_2", true, "sqrt((X0^2 + sum (a_k^2 + b_k^2))/2)")                                  \
   X(KIND_VELOCITY, "velocity", false, "(max x' - min x')/2")                                                           \
   X(KIND_ACCELERATION, "acceleration", false, "(max x'' - min x'')/2")                                                 \
   X(KIND_HARMONIC, "harmonic_", false, "|a_K + i b_K|")                                                                \
   X(KIND_VELOCITY_HARMONIC, "velocity_harmonic_", false, "K omega |a_K + i b_K|")                                      \
   X(KIND_ACCELERATION_HARMONIC, "acceleration_harmonic_", false, "K^2 omega^2 |a_K + i b_K|")                          \
   X(KIND_RMS_ALTERNATING, "rms without mean", false, "sqrt(sum (a_k^2 + b_k^2)/2)")                                    \
-  X(KIND_RMS_NLVIB, "norm/sqrt(2)", true, "sqrt((X0^2 + sum (a_k^2 + b_k^2))/2)")                                      \
   X(KIND_NORM_ALTERNATING, "norm without mean", false, "sqrt(sum (a_k^2 + b_k^2))")                                    \
   X(KIND_SUM_OF_MODULI, "sum of moduli", false, "sum |a_k + i b_k|")                                                   \
   X(KIND_SUM_WITH_MEAN, "sum of moduli with mean", true, "|X0| + sum |a_k + i b_k|")                                   \

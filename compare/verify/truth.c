@@ -10,10 +10,11 @@
 #include "compare/first_guess.h"
 #include "compare/frequencies.h"
 #include "compare/gate_limits.h"
-#include "compare/motion.h"
+#include "compare/verify/acceleration.h"
 #include "compare/verify/solutions.h"
+#include "compare/verify/truth_impl.h"
 
-enum { LEAST_HARMONICS = 20, ENOUGH_HARMONICS = 80, MOST_CHECKS = 20 };
+enum { LEAST_HARMONICS = 20, ENOUGH_HARMONICS = 80 };
 static const double far = 7; /* a little over 2 pi: mixed units are seen from there */
 
 void verify_window(const compare_setup *setup, const verify_data *data, double *from, double *to)
@@ -38,34 +39,15 @@ double verify_gate(const compare_setup *setup, const verify_quantity *q)
   return q->kind == KIND_HARMONIC && q->harmonic == 1 ? most->harmonic_1 : most->amplitude;
 }
 
-typedef struct truth {
-  const compare_setup *setup;
-  const verify_data *data;
-  const hc_monitor *monitor;
-  verify_report *out;
-  hbm_solver *hbm;
-  timeint *referee;
-  double *state; /* [n_states] of the referee's */
-  hbm_curve curve;
-  double from, to;
-} truth;
-
 /* ---- one point ---- */
 
-/* +1, -1, or 0: unknown. *st becomes HC_NO_MEMORY if that is why. */
-static int stable_at(truth *t, double omega, const double *X, hc_status *st)
+int truth_stable(truth *t, double omega, const double *X, hc_status *st)
 {
   hbm_stability s;
   hc_status known = hbm_stability_at(t->hbm, omega, X, &s);
   if (known == HC_NO_MEMORY) *st = known;
   return known == HC_OK ? hbm_stability_verdict(&s) : 0;
 }
-
-/* A solution as the file's quantity is taken of it. */
-typedef struct measured {
-  double value, scale;
-  bool mean_free;
-} measured;
 
 /* A slider that never slips rests where the history left it. Of several contacts only the strongest state is known:
  * where that is stick, none slips. */
@@ -79,34 +61,38 @@ static bool mean_is_free(const model *m, const contact_report *r)
   return held && r->regime == CONTACT_STUCK;
 }
 
-static hc_status measure_solution(truth *t, double omega, const double *X, measured *out)
+hc_status truth_measure(truth *t, double omega, const double *X, measured *out)
 {
   hbm_measures m;
   hc_status st = hbm_measure(t->hbm, X, &m);
   if (st != HC_OK) return st;
   const verify_motion motion = {.omega = omega, .max = m.max, .min = m.min, .n_harm = t->curve.n_coef / 2, .X = X};
   const verify_quantity *q = &t->data->quantity;
-  *out = (measured){verify_quantity_of(q, &motion), verify_quantity_scale(q, &motion),
-                    mean_is_free(t->setup->model, &m.contact)};
+  const bool mean_free = mean_is_free(t->setup->model, &m.contact);
+  if (q->kind == KIND_ACCELERATION) {
+    st = hbm_sliders(t->hbm, X, t->room);
+    const double amplitude = st == HC_OK ? acceleration_amplitude(t->setup->model, &motion, t->room) : NAN;
+    *out = (measured){amplitude, amplitude, mean_free};
+    return st;
+  }
+  *out = (measured){verify_quantity_of(q, &motion), verify_quantity_scale(q, &motion), mean_free};
   return HC_OK;
 }
 
-/* The nearest of the solutions *at to the row's value, or -1; its measures into *nearest. */
-static int nearest_of(truth *t, const hbm_curve *at, const verify_row *row, measured *nearest)
+int truth_nearest(truth *t, const hbm_curve *at, const verify_row *row, measured *nearest)
 {
   int best = -1;
   double least = INFINITY;
   for (int k = 0; k < at->n; ++k) {
     measured m;
-    if (measure_solution(t, row->omega, at->X + (size_t)k * at->n_coef, &m) != HC_OK) continue;
+    if (truth_measure(t, row->omega, at->X + (size_t)k * at->n_coef, &m) != HC_OK) continue;
     double d = fabs(m.value - row->value);
     if (d < least) least = d, best = k, *nearest = m;
   }
   return best;
 }
 
-/* Every solution of the curve at omega; where the curve ended before, one found without it. HC_NO_MEMORY. */
-static hc_status solve_at(truth *t, double omega, hbm_curve *at)
+hc_status truth_at(truth *t, double omega, hbm_curve *at)
 {
   if (omega < fmin(t->from, t->to) || omega > fmax(t->from, t->to)) return HC_OK;
   if (hbm_curve_at(t->hbm, &t->curve, omega, at) == HC_NO_MEMORY) return HC_NO_MEMORY;
@@ -129,7 +115,7 @@ static hc_status solve_at(truth *t, double omega, hbm_curve *at)
 static hc_status judge_point(truth *t, const verify_point *p, verify_row *row)
 {
   hbm_curve at = {0};
-  measured m;
+  measured m = {0};
   *row = (verify_row){.omega = p->omega,
                       .value = p->value,
                       .line = p->line,
@@ -137,8 +123,8 @@ static hc_status judge_point(truth *t, const verify_point *p, verify_row *row)
                       .nearest = NAN,
                       .error = NAN,
                       .verdict = VERDICT_SOLVER_FAILED};
-  hc_status st = solve_at(t, p->omega, &at);
-  int k = st == HC_OK ? nearest_of(t, &at, row, &m) : -1;
+  hc_status st = truth_at(t, p->omega, &at);
+  int k = st == HC_OK ? truth_nearest(t, &at, row, &m) : -1;
   if (k >= 0 && at.points) {
     row->solutions = at.n;
     row->branch = at.points[k].branch;
@@ -146,74 +132,17 @@ static hc_status judge_point(truth *t, const verify_point *p, verify_row *row)
     row->scale = m.scale;
     row->skipped = m.mean_free && verify_quantity_of_mean(&t->data->quantity);
     row->error = row->skipped ? NAN : discrepancy_relative(p->value - row->nearest, m.scale);
-    row->stable = stable_at(t, p->omega, at.X + (size_t)k * at.n_coef, &st);
+    row->stable = truth_stable(t, p->omega, at.X + (size_t)k * at.n_coef, &st);
+    if (!row->skipped && !(row->error <= t->out->gate) && st == HC_OK) st = truth_look_around(t, row);
     row->stable_too = row->stable > 0;
     for (int j = 0; j < at.n && row->stable < 0 && !row->stable_too; ++j)
-      row->stable_too = j != k && stable_at(t, p->omega, at.X + (size_t)j * at.n_coef, &st) > 0;
+      row->stable_too = j != k && truth_stable(t, p->omega, at.X + (size_t)j * at.n_coef, &st) > 0;
     row->verdict = row->skipped                    ? VERDICT_MATCH
                    : !(row->error <= t->out->gate) ? VERDICT_DIFFERS
                    : row->stable < 0               ? VERDICT_UNSTABLE
                                                    : VERDICT_MATCH;
   }
   hbm_curve_free(&at);
-  return st;
-}
-
-/* ---- the referee ---- */
-
-/* The file's quantity, of the orbit next to the row's solution, by as many harmonics as its samples tell apart. */
-static double orbit_quantity(const truth *t, const timeint_result *orbit)
-{
-  enum { HARMONICS = 200 };
-  double X[2 * HARMONICS + 1];
-  const periodic_motion wave = motion_of_transient(orbit);
-  const verify_quantity *q = &t->data->quantity;
-  motion_harmonics(&wave, HARMONICS, X);
-  X[0] = orbit->mean;
-  X[1] = orbit->a1;
-  X[2] = orbit->b1;
-  const verify_motion motion = {
-      .omega = orbit->omega, .max = orbit->max, .min = orbit->min, .n_harm = HARMONICS, .X = X};
-  return q->kind == KIND_RMS ? orbit->rms : verify_quantity_of(q, &motion);
-}
-
-static hc_status check_row(truth *t, const verify_row *row)
-{
-  hbm_curve at = {0};
-  measured m;
-  timeint_result orbit;
-  hc_status st = solve_at(t, row->omega, &at), found = HC_NOT_CONVERGED;
-  int k = st == HC_OK ? nearest_of(t, &at, row, &m) : -1;
-  if (k >= 0) {
-    found = comparison_orbit_start(t->hbm, at.X + (size_t)k * at.n_coef, row->omega, t->state);
-    if (found == HC_OK) found = timeint_orbit(t->referee, row->omega, 1, t->state, t->monitor, &orbit);
-    if (found == HC_INTERRUPTED || found == HC_NO_MEMORY) st = found;
-  }
-  hbm_curve_free(&at);
-  if (found != HC_OK || (verify_quantity_of_mean(&t->data->quantity) && motion_mean_is_free(&orbit))) {
-    ++t->out->unchecked;
-    return st;
-  }
-  double error = fabs(orbit_quantity(t, &orbit) - row->nearest);
-  if (isnan(error)) return ++t->out->unchecked, st;
-  ++t->out->checked;
-  if (error > 0) t->out->checked_error = fmax(t->out->checked_error, error / row->scale);
-  return st;
-}
-
-/* At most MOST_CHECKS points, spread over the file. */
-static hc_status check(truth *t)
-{
-  verify_report *out = t->out;
-  hc_status st = HC_OK;
-  int n = out->n_rows < MOST_CHECKS ? out->n_rows : MOST_CHECKS;
-  out->checked = out->unchecked = 0;
-  out->checked_error = 0;
-  for (int i = 0; i < n && st == HC_OK; ++i) {
-    const verify_row *row = &out->rows[n > 1 ? (int)((long)i * (out->n_rows - 1) / (n - 1)) : 0];
-    if (row->branch >= 0 && !row->skipped) st = check_row(t, row);
-    if (!hc_monitor_tick(t->monitor, -1)) st = HC_INTERRUPTED;
-  }
   return st;
 }
 
@@ -251,7 +180,7 @@ static hc_status with_harmonics(truth *t, int harmonics)
   t->out->curve_omega = t->curve.n ? t->curve.points[t->curve.n - 1].omega : t->from;
   if (st == HC_INTERRUPTED || st == HC_NO_MEMORY) return st;
   st = judge_all(t);
-  return st == HC_OK ? check(t) : st;
+  return st == HC_OK ? truth_check(t) : st;
 }
 
 hc_status verify_truth(const compare_setup *setup, const verify_data *data, const hc_monitor *monitor,
@@ -263,6 +192,7 @@ hc_status verify_truth(const compare_setup *setup, const verify_data *data, cons
   verify_window(setup, data, &t.from, &t.to);
   hc_status st = out->rows ? comparison_referee(setup, &t.referee) : HC_NO_MEMORY;
   if (st == HC_OK && !(t.state = calloc((size_t)timeint_n_states(t.referee), sizeof *t.state))) st = HC_NO_MEMORY;
+  if (st == HC_OK && !(t.room = calloc(acceleration_room(setup->model), sizeof *t.room))) st = HC_NO_MEMORY;
   int harmonics = 2 * setup->hbm.harmonics; /* 0 for auto */
   harmonics = harmonics < LEAST_HARMONICS     ? LEAST_HARMONICS
               : harmonics > HBM_MAX_HARMONICS ? HBM_MAX_HARMONICS
@@ -271,9 +201,11 @@ hc_status verify_truth(const compare_setup *setup, const verify_data *data, cons
     st = with_harmonics(&t, harmonics);
     again = out->checked_error > 0.1 * out->gate && 2 * harmonics <= ENOUGH_HARMONICS;
   }
+  if (st == HC_OK && data->with_line) st = truth_line(&t);
   hbm_curve_free(&t.curve);
   hbm_solver_free(t.hbm);
   free(t.state);
+  free(t.room);
   timeint_free(t.referee);
   return st;
 }

@@ -4,7 +4,7 @@
  *     truth       the solutions of harmonic balance with exact forces and many harmonics at the file's omegas, compared
  *                 at some of them with the exact law's periodic orbits (the referee of comparison.h)
  *     verdict     per point, against the nearest of those solutions: match, differs, unstable, other_branch,
- *                 solver_failed
+ *                 solver_failed; what the points tell by themselves: outliers, noise, the wrong branch
  *     hypotheses  our own harmonic balance with usual mistakes in it, and usual misreadings of the columns: the one
  *                 that the points lie on names the cause
  *
@@ -56,11 +56,19 @@ typedef struct verify_row {
   verdict verdict;
 } verify_row;
 
+/* A point of the truth's curve. */
+typedef struct verify_line {
+  double omega, value; /* [rad/time]; the file's quantity, not in dB */
+  int stable;          /* +1, -1, 0 unknown */
+} verify_line;
+
 enum { VERIFY_USUAL_REVERSALS = 8, VERIFY_SHOWN = 3, VERIFY_HYPOTHESES = 512 };
 
 typedef struct verify_report {
   int n_rows;
-  verify_row *rows;         /* as far as they were done */
+  verify_row *rows; /* as far as they were done */
+  int n_line;
+  verify_line *line;        /* [n_line] along the truth's curve, if data->with_line */
   int count[VERDICT_COUNT]; /* of the rows that are not skipped */
   int skipped;
   int left_out;           /* points at omega <= 0 */
@@ -77,7 +85,8 @@ typedef struct verify_report {
   hc_status status;                                /* of verify_run */
   verify_causes causes;                            /* suspected; 0: none, or none found */
   verify_causes nearest_guess;                     /* where no cause is sure; 0: none */
-  double noise;                                    /* [1] scatter around the truth per point; NaN: not estimated */
+  double noise;      /* [1] standard deviation from point to point around the truth; NaN: not estimated */
+  double noise_said; /* [1] what the values are said to scatter by */
 } verify_report;
 
 /* HC_INTERRUPTED, HC_NO_MEMORY, or why there is no truth; rows found until then are kept. verify_clear in any case. */
@@ -87,6 +96,10 @@ void verify_clear(verify_report *r);
 
 /* The cause in a sentence, or that there is none: in text[VERIFY_TEXT], which is returned. */
 const char *verify_sentence(const verify_report *r, char text[VERIFY_TEXT]);
+
+/* The causes' words for scripts: "none" where every point is right, "unknown" where no cause is sure. In
+ * text[VERIFY_TEXT], which is returned. */
+const char *verify_word(const verify_report *r, char text[VERIFY_TEXT]);
 
 /* 0 every point lies on a solution and on the right one; 1 not; 3 some could not be judged. */
 int verify_exit_code(const verify_report *r);

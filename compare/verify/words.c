@@ -3,6 +3,7 @@
 #include <stdio.h>
 
 #include "base/message.h"
+#include "compare/verify/points.h"
 #include "compare/verify/search.h"
 
 /* "42 %" or "2e-06". */
@@ -77,6 +78,7 @@ const char *verify_sentence(const verify_report *r, char text[VERIFY_TEXT])
   else if (!r->causes) say_unexplained(&m, r);
   else {
     add_causes(&m, r->causes);
+    points_say(&m, r);
     if (verify_fits(r)) {
       message_add(&m, " (");
       add_settings(&m, &r->hypotheses[0]);

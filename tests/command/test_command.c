@@ -156,6 +156,69 @@ static void mistakes_are_named(void **state)
   expect("describe hbm.sample 2>&1", 64, "samples");
 }
 
+/* What is nearly right is answered with what was meant; what is near to nothing is not guessed. */
+static void nearly_right_words_get_a_suggestion(void **state)
+{
+  (void)state;
+  expect("comapre " CASE2 "2>&1", 64, "'comapre' is not a command, did you mean 'compare'?");
+  expect("transiet " CASE2 "2>&1", 64, "did you mean 'transient'?");
+  expect("xyzzy 2>&1", 64, "'xyzzy' is not a command\n\nusage");
+  expect("frf " CASE2 "--formt csv 2>&1", 64, "unrecognized option '--formt', did you mean '--format'?");
+  expect("compare " CASE2 "--tabels 2>&1", 64, "did you mean '--tables'?");
+  expect("compare " CASE2 "--xyzzy 2>&1", 64, "unrecognized option '--xyzzy'\n");
+  expect("frf " CASE2 "--set --formt=1 2>&1", 2, "--set --formt=1"); /* a value, not an option */
+  expect("frf " CASE2 "--format cvs 2>&1", 64, "expected table, csv or json, did you mean 'csv'?");
+  expect("frf " CASE2 "--set hbm.force=exakt 2>&1", 2, "expected exact or sampled, did you mean `exact`?");
+}
+
+static int longest_line(const char *text)
+{
+  int longest = 0;
+  for (const char *end; *text; text = *end ? end + 1 : end) {
+    end = text + strcspn(text, "\n");
+    if (end - text > longest) longest = (int)(end - text);
+  }
+  return longest;
+}
+
+/* Rows end at an empty line; the remarks after it are sentences, which may be longer. */
+static void rows_fit(const char *environment, const char *args, int width)
+{
+  char line[512];
+  outcome o = {0};
+  snprintf(line, sizeof line, "%s %s %s", environment, HBMCHECK_COMMAND, args);
+  o.code = shell_read(line, o.out, sizeof o.out);
+  CHECK_LE(o.code, 1, "%s", args);
+  char *end = strstr(o.out, "\n\n");
+  if (end) *end = 0;
+  CHECK_LE(longest_line(o.out), width, "%s %s:\n%s", environment, args, o.out);
+}
+
+/* 100 columns where there is no terminal and COLUMNS says nothing. */
+static void tables_fit_the_screen(void **state)
+{
+  (void)state;
+  static const char *const commands[] = {
+      "compare " CASE2 "-q",
+      "compare " CASE2 "-q --set sweep.frequency=[0.7,2] --set compare.points=12",
+      "compare " CASE2 "--at 6 --tables -q",
+      "frf " CASE2 "-q",
+      "transient " CASE2 "--at 6,9 -q",
+      "gate " CASE2 "-q",
+      "gate " CASE2 "cases/paper/case1.yaml --at 6 -q",
+      "verify cases/verify/case2.yaml --against cases/verify/no_static.csv --columns omega=1,harmonic_1=2 -q",
+      "contact " CASE2 "--motion 0,8,0 --samples 32,64,256,1024 -q",
+      "stress --scenes 2 -q",
+      "study cases/paper/studies/guideline3.yaml --results :memory: -q"};
+  for (size_t i = 0; i < sizeof commands / sizeof *commands; ++i) {
+    rows_fit("env -u COLUMNS", commands[i], 100);
+    rows_fit("COLUMNS=60", commands[i], 60);
+  }
+  expect("compare " CASE2 "--at 6 -q", 0, " columns shown; --wide shows all");
+  expect("compare " CASE2 "--at 6 -q --wide", 0, "  from_integration  from_settling  ");
+  expect("compare " CASE2 "--at 6 -q --format csv", 0, ",from_integration,from_settling,");
+}
+
 /* Each command takes its own options and the common ones, and no other's. */
 static void options_belong_to_their_command(void **state)
 {
@@ -195,6 +258,8 @@ static void help_works_everywhere(void **state)
     CHECK_LE(lines, 50, "%s --help is a screen", commands[i]);
   }
   expect("--help", 0, "compare");
+  expect("help frf", 0, "Usage: hbmcheck frf [OPTION...] CASE");
+  expect("help fry 2>&1", 64, "did you mean 'frf'?");
   expect("--version", 0, "SUNDIALS");
 }
 
@@ -227,6 +292,8 @@ int main(void)
       cmocka_unit_test(verdicts_reach_the_exit_code),
       cmocka_unit_test(dropping_the_mean_costs_what_it_costs),
       cmocka_unit_test(mistakes_are_named),
+      cmocka_unit_test(nearly_right_words_get_a_suggestion),
+      cmocka_unit_test(tables_fit_the_screen),
       cmocka_unit_test(options_belong_to_their_command),
       cmocka_unit_test(advice_is_about_the_side_that_failed),
       cmocka_unit_test(agreement_is_not_claimed_lightly),

@@ -254,6 +254,7 @@ static void advice_names_cause_and_remedy(void **state)
   setup.hbm.keep_mean = false;
   assert_string_equal(budget_advice(&b, &setup, 1e-3, 3, text), "0.81 %: truncation (99 %); use hbm.static: true");
   b.amplitude.aliasing = 1, b.amplitude.sum = 1.008;
+  setup.hbm.force = HBM_FORCE_SAMPLED;
   assert_string_equal(budget_advice(&b, &setup, 1e-3, 3, text), "1e+02 %: aliasing (99 %); use hbm.force: exact");
   b.amplitude = (budget_parts){.truncation = 1e-5, .sum = 1e-5};
   assert_string_equal(budget_advice(&b, &setup, 1e-3, 3, text), "0.001 %: truncation (100 %); within the gate");

@@ -70,6 +70,77 @@ static void hidden_columns_are_for_machines(void **state)
   table_free(t);
 }
 
+/* Lines too long lose what can be spared, the empty ones and then the first ones first, and say so; what is left is
+ * broken into blocks that begin with the first column; --wide has all of it, csv always. */
+static void lines_fit_the_screen(void **state)
+{
+  (void)state;
+  static const char *const spare[] = {"verdict", "error", "no such column", NULL}, *const none[] = {NULL};
+  table *t = table_new(NULL, 4, columns);
+  put(t, 5, "match", 1200, 1.25e-6);
+  put(t, 6, "match", 1300, NAN);
+  table_spare(t, spare);
+  expect(1, &t, FORMAT_TABLE,
+         "omega  verdict  steps       error\n    5  match     1200  0.00000125\n    6  match     1300\n");
+  table_fit(t, 33); /* as long as the longest line */
+  expect(1, &t, FORMAT_TABLE,
+         "omega  verdict  steps       error\n    5  match     1200  0.00000125\n    6  match     1300\n");
+  table_fit(t, 32);
+  expect(
+      1, &t, FORMAT_TABLE,
+      "omega  steps       error\n    5   1200  0.00000125\n    6   1300\n\n3 of 4 columns shown; --wide shows all\n");
+  expect(1, &t, FORMAT_CSV, "omega,verdict,steps,error\n5,match,1200,1.2500000000000001e-06\n6,match,1300,\n");
+  table_spare(t, none);
+  expect(1, &t, FORMAT_TABLE,
+         "omega  verdict  steps\n    5  match     1200\n    6  match     1300\n"
+         "\n"
+         "omega       error\n    5  0.00000125\n    6\n");
+  table_fit(t, 3); /* nothing is that narrow: two columns a block */
+  expect(1, &t, FORMAT_TABLE,
+         "omega  verdict\n    5  match\n    6  match\n\nomega  steps\n    5   1200\n    6   1300\n\n"
+         "omega       error\n    5  0.00000125\n    6\n");
+  table_fit(t, 0);
+  table_hide(t, "omega");
+  table_hide(t, "error");
+  table_show_all(t);
+  expect(1, &t, FORMAT_TABLE,
+         "omega  verdict  steps       error\n    5  match     1200  0.00000125\n    6  match     1300\n");
+  table_free(t);
+}
+
+static void empty_columns_are_spared_first(void **state)
+{
+  (void)state;
+  static const char *const spare[] = {"verdict", "error", NULL};
+  table *t = table_new(NULL, 4, columns);
+  put(t, 5, "match", 1200, NAN);
+  table_spare(t, spare);
+  table_fit(t, 27);
+  expect(1, &t, FORMAT_TABLE,
+         "omega  verdict  steps\n    5  match     1200\n\n3 of 4 columns shown; --wide shows all\n");
+  table_free(t);
+}
+
+/* Words are not broken while anything else can be narrowed, and hidden columns take no room. */
+static void wrapped_columns_keep_their_words(void **state)
+{
+  (void)state;
+  table *t = table_new(NULL, 2, two_texts);
+  table_put_text(t, "cases/bracket.yaml");
+  table_put_text(t, "one two three four five");
+  table_put_text(t, "x");
+  table_put_text(t, "y");
+  table_put_text(t, "z");
+  table_put_text(t, NULL);
+  table_wrap(t, 30);
+  expect(1, &t, FORMAT_TABLE,
+         "a                   b\ncases/bracket.yaml  one two\n                    three four\n"
+         "                    five\n\nx                   y\nz\n");
+  table_hide(t, "a");
+  expect(1, &t, FORMAT_TABLE, "b\none two three four five\ny\n\n");
+  table_free(t);
+}
+
 static void table_is_aligned(void **state)
 {
   (void)state;
@@ -454,6 +525,9 @@ static void misuse_is_a_bug(void **state)
 
 static const struct CMUnitTest tests[] = {
     cmocka_unit_test(hidden_columns_are_for_machines),
+    cmocka_unit_test(lines_fit_the_screen),
+    cmocka_unit_test(empty_columns_are_spared_first),
+    cmocka_unit_test(wrapped_columns_keep_their_words),
     cmocka_unit_test(table_is_aligned),
     cmocka_unit_test(csv_is_exact),
     cmocka_unit_test(json_is_exact),

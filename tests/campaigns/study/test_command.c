@@ -252,6 +252,27 @@ static void claims_have_two_sides(void **state)
   expect("u.yaml -q --results :memory:", 1, "not as expected with ours: s: x");
 }
 
+/* A third answer, in fixed steps, has a table of its own with the verdicts of the other two beside it. What cannot be
+ * said can be what is expected. */
+static void claims_are_answered_in_fixed_steps(void **state)
+{
+  (void)state;
+  write_file("f.yaml", "study: f\n" LINEAR
+                       "run: frf\nvary: [{oscillator.mass: [1, 4]}]\nclaims:\n  - source: text\n    says: it fails\n"
+                       "    paper: {holds: SELECT NULL, expect: unsaid}\n"
+                       "    ours: {holds: SELECT 0, expect: disagree}\n"
+                       "    fixed_step: {found: SELECT 'stops', holds: SELECT 1, expect: agree}\n"
+                       "  - {says: only there, fixed_step: {holds: SELECT 0}}\n");
+  expect("f.yaml -q --results :memory: --format csv", 0,
+         "source,says,fixed_step_found,fixed_step_holds,paper_holds,ours_holds\n"
+         "text,it fails,stops,agrees,cannot be said,does not agree\n,only there,,does not agree,,\n");
+  expect("f.yaml -q --results :memory:", 0, "1 claims agree in fixed steps, 1 do not, of 0 it cannot be said");
+  expect("f.yaml -q --results :memory:", 0, "0 claims agree with ours, 1 do not, of 0 it cannot be said");
+  write_file("x.yaml", "study: x\n" LINEAR "run: frf\nvary: [{oscillator.mass: [1, 4]}]\nclaims:\n"
+                       "  - {source: s, says: y, fixed_step: {holds: SELECT 1, expect: unsaid}}\n");
+  expect("x.yaml -q --results :memory:", 1, "not as expected in fixed steps: s: y");
+}
+
 /* Long texts are carried over, not cut; no line is longer than the page. */
 static void long_claims_are_wrapped(void **state)
 {
@@ -311,11 +332,12 @@ static void usage_is_checked(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(killed_and_resumed),    cmocka_unit_test(threads_change_nothing),
-      cmocka_unit_test(stopped_by_a_signal),   cmocka_unit_test(a_second_process_is_refused),
-      cmocka_unit_test(changed_and_foreign),   cmocka_unit_test(claims_are_held),
-      cmocka_unit_test(claims_have_two_sides), cmocka_unit_test(long_claims_are_wrapped),
-      cmocka_unit_test(a_failure_is_a_row),    cmocka_unit_test(usage_is_checked),
+      cmocka_unit_test(killed_and_resumed),      cmocka_unit_test(threads_change_nothing),
+      cmocka_unit_test(stopped_by_a_signal),     cmocka_unit_test(a_second_process_is_refused),
+      cmocka_unit_test(changed_and_foreign),     cmocka_unit_test(claims_are_held),
+      cmocka_unit_test(claims_have_two_sides),   cmocka_unit_test(claims_are_answered_in_fixed_steps),
+      cmocka_unit_test(long_claims_are_wrapped), cmocka_unit_test(a_failure_is_a_row),
+      cmocka_unit_test(usage_is_checked),
   };
   char clean[128];
   check_watchdog(300);

@@ -8,7 +8,10 @@
   " --headless=new --no-sandbox --disable-gpu --disable-dev-shm-usage --no-first-run --enable-logging=stderr "         \
   "--virtual-time-budget=30000 "
 
-static void open_page(const char *folder, const char *set, int code)
+#define DARK "--blink-settings=preferredColorScheme=0" /* a reader whose scheme is dark */
+
+/* `scheme`: DARK, or "". */
+static void open_page(const char *folder, const char *set, int code, const char *scheme)
 {
   char args[1024], path[96];
   size_t length;
@@ -16,8 +19,8 @@ static void open_page(const char *folder, const char *set, int code)
   outcome o = run_program(HBMCHECK_COMMAND, args);
   assert_int_equal(o.code, code);
   snprintf(args, sizeof args,
-           HEADLESS "--user-data-dir=%s/profile --dump-dom 'file://%s/page.html#selftest' >%s/dom 2>%s/log", folder,
-           folder, folder, folder);
+           HEADLESS "%s --user-data-dir=%s/profile --dump-dom 'file://%s/page.html#selftest' >%s/dom 2>%s/log", scheme,
+           folder, folder, folder, folder);
   run_program(CHROMIUM, args);
   snprintf(path, sizeof path, "%s/dom", folder);
   char *dom = contents(path, &length);
@@ -36,10 +39,15 @@ static void every_plot_is_drawn_and_every_control_works(void **state)
   static const struct {
     const char *set;
     int code;
-  } pages[] = {{"", 0},
-               {"--set contacts=[]", 0},
-               {"--set hbm.static=false", 1},
-               {"--set 'title=</script><b>x' --set 'units.length=<i>'", 0}};
+    const char *scheme;
+  } pages[] = {{"", 0, DARK},
+               {"--set contacts=[]", 0, ""},
+               {"--set contacts[0].gap=100", 0, ""}, /* no mean to draw, nothing to sample */
+               {"--set hbm.static=false", 1, ""},
+               {"--set hbm.slider_restart=sample --set contacts[0].gap=0 --set contacts[0].friction=1", 0, ""},
+               {"--set contacts[0].gap=1", 0, ""}, /* preloaded: slip and separation */
+               {"--set sweep.frequency=0.5,3.2 --at 1,1.2", 0, ""},
+               {"--set 'title=</script><b>x' --set 'units.length=<i>'", 0, ""}};
   char folder[64], line[128];
   (void)state;
   if (!CHROMIUM[0]) {
@@ -51,7 +59,8 @@ static void every_plot_is_drawn_and_every_control_works(void **state)
     skip();
   }
   make_folder(folder);
-  for (size_t i = 0; i < sizeof pages / sizeof *pages; ++i) open_page(folder, pages[i].set, pages[i].code);
+  for (size_t i = 0; i < sizeof pages / sizeof *pages; ++i)
+    open_page(folder, pages[i].set, pages[i].code, pages[i].scheme);
   snprintf(line, sizeof line, "-rf %s", folder);
   run_program("rm", line);
 }

@@ -81,7 +81,9 @@ static void check_data(const char *page)
   assert_true(turns > 5);
   assert_int_equal(json_array_size(json_object_get(aliasing, "omega")), 2);
   assert_int_equal(json_array_size(json_object_get(aliasing, "samples")), 9);
-  assert_int_equal(json_array_size(json_array_get(json_array_get(json_object_get(aliasing, "states"), 0), 4)), 5);
+  const json_t *checks = json_object_get(aliasing, "checks");
+  assert_int_equal(json_array_size(json_array_get(json_object_get(checks, "states"), 0)), 5);
+  assert_int_equal(json_array_size(json_object_get(checks, "spots")), 5);
   json_decref(data);
 }
 
@@ -129,9 +131,9 @@ static void sampled_mean_is_what_folds_onto_it(void **state)
   expect(args, 0, "");
   char *page = contents(path, &length);
   json_t *data = data_of(page), *aliasing = json_object_get(data, "aliasing");
-  /* omega 9, the case's kn, H = 5 */
-  json_t *one = json_array_get(json_array_get(json_array_get(json_object_get(aliasing, "states"), 1), 2), 2);
-  json_t *truth = json_object_get(one, "true"), *sampled = json_array_get(json_object_get(one, "sampled"), 1);
+  /* omega 9, H = 5, 32 samples */
+  json_t *one = json_array_get(json_array_get(json_object_get(json_object_get(aliasing, "checks"), "states"), 1), 2);
+  json_t *truth = json_object_get(one, "true"), *sampled = json_array_get(json_object_get(one, "sampled"), 0);
   json_t *difference = json_object_get(sampled, "difference"), *folds = json_object_get(sampled, "folds");
   double off = json_integer_value(json_array_get(difference, 0)) * 1e-9,
          first = json_integer_value(json_array_get(truth, 2 * 32 - 1)) * 1e-6, most = 0;
@@ -192,6 +194,60 @@ static void linear_cases_have_a_page(void **state)
   }
 }
 
+/* A page of these settings holds these words. */
+static void expect_words(const char *set, int code, const char *const *words)
+{
+  char folder[64], args[512], path[96];
+  size_t length;
+  make_folder(folder);
+  snprintf(path, sizeof path, "%s/page.html", folder);
+  snprintf(args, sizeof args, "report %s -o %s 2>&1", set, path);
+  expect(args, code, "");
+  char *page = contents(path, &length);
+  for (; *words; ++words)
+    if (!strstr(page, *words)) {
+      print_error("%s: the page does not say '%s'\n", set, *words);
+      fail();
+    }
+  free(page);
+  unlink(path);
+  rmdir(folder);
+}
+
+static void cycles_are_spoken_where_the_sweep_is_in_cycles(void **state)
+{
+  (void)state;
+  static const char *const words[] = {
+      "\"cycles\":true", "<th scope=\"col\">at frequency</th>", "Largest error at frequency = 1.2 (omega = 7.5398",
+      /* of the budget, of the curve's events */
+      "<th scope=\"col\">omega</th><th scope=\"col\">frequency</th><th scope=\"col\">branch",
+      "<th scope=\"col\">omega</th><th scope=\"col\">frequency</th><th scope=\"col\">amplitude", "--at 1,1.2", NULL};
+  expect_words(CASE2 " --set sweep.frequency=0.5,3.2 --at 1,1.2 --harmonics 1,5 --samples 32 -q", 0, words);
+}
+
+/* Preloaded so much that the slider never slips: where it rests is a matter of history. */
+static void what_is_not_unique_is_said(void **state)
+{
+  (void)state;
+  static const char *const words[] = {"2 rows without a mean to compare (<code>mean_free</code>)",
+                                      "not compared: a matter of history",
+                                      "\"mean_free\":[1",
+                                      "\"mean_free\":true",
+                                      "<strong>Linear.</strong> nothing nonlinear was compared",
+                                      NULL};
+  expect_words(CASE2 SMALL "--set contacts[0].gap=100", 0, words);
+}
+
+/* Exact forces are not advised to who has them. */
+static void advice_on_samples_knows_the_forces_in_use(void **state)
+{
+  (void)state;
+  static const char *const in_use[] = {"Sampling: not even 32 samples", "the exact forces in use need none.", NULL},
+                           *const advised[] = {"Sampling: not even 32 samples", ": use exact forces.", NULL};
+  expect_words(CASE2 " --at 8 --harmonics 5 --samples 32 -q", 0, in_use);
+  expect_words(CASE2 " --at 8 --harmonics 5 --samples 32 -q --set hbm.force=sampled --set hbm.samples=64", 0, advised);
+}
+
 /* Exit codes are compare's; a page that could not be written leaves what was there. */
 static void failures_touch_no_file(void **state)
 {
@@ -250,9 +306,15 @@ int main(void)
 {
   static const struct CMUnitTest without[] = {cmocka_unit_test(missing_charts_are_named)};
   static const struct CMUnitTest with[] = {
-      cmocka_unit_test(page_is_small_and_complete), cmocka_unit_test(sampled_mean_is_what_folds_onto_it),
-      cmocka_unit_test(hostile_titles_are_text),    cmocka_unit_test(linear_cases_have_a_page),
-      cmocka_unit_test(failures_touch_no_file),     cmocka_unit_test(disagreement_is_said),
+      cmocka_unit_test(page_is_small_and_complete),
+      cmocka_unit_test(sampled_mean_is_what_folds_onto_it),
+      cmocka_unit_test(hostile_titles_are_text),
+      cmocka_unit_test(linear_cases_have_a_page),
+      cmocka_unit_test(failures_touch_no_file),
+      cmocka_unit_test(disagreement_is_said),
+      cmocka_unit_test(cycles_are_spoken_where_the_sweep_is_in_cycles),
+      cmocka_unit_test(what_is_not_unique_is_said),
+      cmocka_unit_test(advice_on_samples_knows_the_forces_in_use),
   };
   check_watchdog(600);
   return HAVE_CHARTJS ? cmocka_run_group_tests_name("compare_report.page", with, NULL, NULL)

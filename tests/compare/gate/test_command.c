@@ -124,9 +124,9 @@ static void unstable_solutions_are_held_against_their_orbits(void **state)
   assert_int_equal(o.code, 1);
   const char *row = strstr(o.out, ",1,unstable,amplitude,orbit,0.001,"), *fail_at = row ? strstr(row, ",fail,") : NULL;
   assert_true(fail_at && fail_at < strchr(row, '\n'));
-  expect(CASE2 "--at 9 --set hbm.harmonics=1 --set transient.start=up", 1,
+  expect(CASE2 "--at 9 --set hbm.harmonics=1 --set transient.start=up --format csv", 1,
          "the transient runs elsewhere, and no HBM solution");
-  expect(CASE2 "--at 5.56 --junit @/p.xml", 1,
+  expect(CASE2 "--at 5.56 --junit @/p.xml --format csv", 1,
          "the transient repeats only after 2 forcing periods: no HBM solution is what happens");
   if (*XMLLINT) check_counts("p.xml", 1, 1, 0); /* the HBM solution itself is right */
 }
@@ -198,9 +198,11 @@ static void several_cases_are_several_suites(void **state)
 static void what_cannot_be_compared_is_an_error(void **state)
 {
   (void)state;
-  expect(CASE2 "--at 6.5 --set transient.max_periods=3 --junit @/e.xml 2>&1", 3, "did not reach a steady state");
+  expect(CASE2 "--at 6.5 --set transient.max_periods=3 --junit @/e.xml --format csv", 3,
+         "did not reach a steady state");
   if (*XMLLINT) check_counts("e.xml", 1, 0, 1);
-  expect(CASE2 "--set hbm.continuation=natural --set compare.omega=5 2>&1", 3, "the HBM curve stopped at omega = 9.2");
+  expect(CASE2 "--set hbm.continuation=natural --set compare.omega=5 --format csv", 3,
+         "the HBM curve stopped at omega = 9.2");
 }
 
 static void junit_is_written_whole_or_not_at_all(void **state)

@@ -32,6 +32,8 @@ static void the_shipped_example_is_named(void **state)
   expect(EXAMPLE "-q --format csv", 1, "omega,value,nearest,branch,stable,error,verdict,line\n");
   expect(EXAMPLE "-q --format csv", 1, "# cause: no_static_harmonic\n");
   expect(EXAMPLE "-q --format json", 1, "\"cause\": \"no_static_harmonic\"");
+  expect(EXAMPLE "-q --format csv --set sweep.frequency=0.5,3", 1,
+         "omega,frequency,value,nearest,branch,stable,error,verdict,line\n4,0.63661977236758138,");
   const outcome *o = run(EXAMPLE "-q");
   const char *held = strstr(o->out, "truth held against time integration");
   assert_non_null(held);
@@ -77,6 +79,8 @@ static void mistakes_are_named(void **state)
   expect("verify cases/verify/case2.yaml --against /nonexistent.csv --columns omega=1,amplitude=2 2>&1", 2,
          "/nonexistent.csv: ");
   expect("verify /nonexistent.yaml --against /dev/null --columns omega=1,amplitude=2 2>&1", 2, "/nonexistent.yaml: ");
+  expect(EXAMPLE "--noise 2 2>&1", 64, "--noise: '2' is no scatter, expected a number from 0 to 1");
+  expect(EXAMPLE "--noise -1 2>&1", 64, "is no scatter");
   expect("verify --help", 0, "example");
   expect("--help", 0, "verify");
 }

@@ -1,0 +1,17 @@
+/* advice.h - what to change in a case: after a solver failed, and (budget_advice, budget.h) about a discrepancy. Every
+ * setting that hbmcheck ever advises comes from here, and none that is so already. */
+#ifndef HC_ADVICE_H
+#define HC_ADVICE_H
+
+#include "base/status.h"
+#include "hbm/hbm_settings.h"
+#include "timeint/transient_settings.h"
+
+enum { ADVICE_TEXT = 320 };
+
+/* "try --set hbm.force=exact or a sweep from the other end", what may mend this failure of harmonic balance (of time
+ * integration); "" where no setting does, or all that might are in force. Returns text. */
+const char *advice_for_hbm(const hbm_settings *how, hc_status failure, char text[ADVICE_TEXT]);
+const char *advice_for_transient(const transient_settings *how, hc_status failure, char text[ADVICE_TEXT]);
+
+#endif

@@ -1,0 +1,119 @@
+/* test_advice.c - what is advised is never what is set already: every failure of either side under every combination of
+ * the settings that advice names, and budgets at the ends of the settings' ranges. */
+#include <string.h>
+
+#include "compare/advice.h"
+#include "compare/budget.h"
+#include "tests/check.h"
+
+/* `advised` in the text only where it would change something; the text is "" or begins as advice does. */
+static void check(const char *text, const char *advised, bool so_already, int failure)
+{
+  if (so_already && strstr(text, advised)) fail_msg("%s: '%s' is so already", hc_status_text((hc_status)failure), text);
+}
+
+static void hbm_is_never_advised_what_it_has(void **state)
+{
+  (void)state;
+  char text[ADVICE_TEXT];
+  for (int failure = HC_OK; failure <= HC_BUG; ++failure)
+    for (int i = 0; i < 4 * 2 * 2; ++i) {
+      const hbm_settings how = {.continuation = (hbm_continuation)(i % 4),
+                                .force = (hbm_force)(i / 4 % 2),
+                                .tolerance = i / 8 ? 1e-14 : 1e-10,
+                                .step = 0.02};
+      advice_for_hbm(&how, (hc_status)failure, text);
+      check(text, "hbm.continuation=auto", how.continuation == HBM_CONTINUATION_AUTO, failure);
+      check(text, "hbm.force=exact", how.force == HBM_FORCE_EXACT, failure);
+      check(text, "hbm.force=sampled", how.force == HBM_FORCE_SAMPLED, failure);
+      check(text, "hbm.tolerance=1e-10", how.tolerance == 1e-10, failure);
+      check(text, "hbm.step", how.continuation != HBM_CONTINUATION_FIXED_STEP, failure);
+      CHECK_LE((int)strlen(text), ADVICE_TEXT - 2, "%s", text);
+    }
+}
+
+static void the_transient_is_never_advised_what_it_has(void **state)
+{
+  (void)state;
+  char text[ADVICE_TEXT];
+  for (int failure = HC_OK; failure <= HC_BUG; ++failure)
+    for (int i = 0; i < 2 * 3 * 4 * 2; ++i) {
+      const bool ends = i / 24;
+      const transient_settings how = {.law = (transient_law)(i % 2),
+                                      .steady = (transient_steady)(i / 2 % 3),
+                                      .start = (transient_start)(i / 6 % 4),
+                                      .regularisation = ends ? TRANSIENT_MOST_REGULARISATION : 1e-4,
+                                      .tolerance = ends ? TRANSIENT_LEAST_TOLERANCE : 1e-9,
+                                      .max_periods = ends ? TRANSIENT_MOST_PERIODS : 20000};
+      advice_for_transient(&how, (hc_status)failure, text);
+      check(text, "law=exact", how.law == TRANSIENT_LAW_EXACT, failure);
+      check(text, "law=regularised", how.law == TRANSIENT_LAW_REGULARISED, failure);
+      check(text, "steady_state=march", how.steady == TRANSIENT_STEADY_MARCH, failure);
+      check(text, "start=hbm", how.start == TRANSIENT_START_HBM, failure);
+      check(text, "transient.regularisation", ends || how.law == TRANSIENT_LAW_EXACT, failure);
+      check(text, "transient.tolerance", ends, failure);
+      check(text, "transient.max_periods", ends, failure);
+    }
+}
+
+static void advice_is_a_sentence(void **state)
+{
+  (void)state;
+  char text[ADVICE_TEXT];
+  hbm_settings hbm = {.continuation = HBM_CONTINUATION_NATURAL, .force = HBM_FORCE_SAMPLED, .tolerance = 1e-10};
+  assert_string_equal(advice_for_hbm(&hbm, HC_NOT_CONVERGED, text),
+                      "try --set hbm.continuation=auto, --set hbm.force=exact or a sweep from the other end");
+  hbm.continuation = HBM_CONTINUATION_AUTO, hbm.force = HBM_FORCE_EXACT;
+  assert_string_equal(advice_for_hbm(&hbm, HC_NOT_CONVERGED, text), "try a sweep from the other end");
+  assert_string_equal(advice_for_hbm(&hbm, HC_BUG, text), "");
+  transient_settings tr = {.start = TRANSIENT_START_HBM, .max_periods = TRANSIENT_MOST_PERIODS};
+  assert_string_equal(advice_for_transient(&tr, HC_NOT_SETTLED, text), "");
+  tr.law = TRANSIENT_LAW_EXACT, tr.method = TRANSIENT_METHOD_CLOSED_FORM;
+  assert_string_equal(advice_for_transient(&tr, HC_CHATTER, text),
+                      "try --set transient.law=regularised --set transient.method=cvode, which count no transitions");
+}
+
+static void expect_remedy(const compare_setup *setup, int n_harm, budget_parts parts, const char *remedy)
+{
+  char text[BUDGET_TEXT];
+  error_budget b = budget_nothing();
+  b.known = true;
+  b.amplitude = parts;
+  budget_advice(&b, setup, 1e-3, n_harm, text);
+  const char *said = strchr(text, ';');
+  assert_string_equal(said ? said + 2 : "", remedy);
+}
+
+static void budgets_are_never_advised_what_is_set(void **state)
+{
+  (void)state;
+  compare_setup setup = {.hbm = {.harmonics = 5, .keep_mean = true, .accuracy = 1e-4},
+                         .transient = {.tolerance = 1e-9}};
+  /* the largest part alone is within the goal, the sum is not: 5 harmonics are no advice to one who has them */
+  expect_remedy(&setup, 5, (budget_parts){.truncation = 9e-4, .regularisation = 2e-4, .sum = 1.1e-3},
+                "use hbm.harmonics >= 6");
+  expect_remedy(&setup, HBM_MAX_HARMONICS, (budget_parts){.truncation = 1, .sum = 1}, "200 harmonics are the most");
+  setup.hbm.harmonics = HBM_AUTO;
+  expect_remedy(&setup, 5, (budget_parts){.truncation = 1, .sum = 1}, "use hbm.accuracy <= 1e-05");
+  setup.hbm.accuracy = HBM_LEAST_ACCURACY;
+  expect_remedy(&setup, 5, (budget_parts){.truncation = 1, .sum = 1}, "");
+  expect_remedy(&setup, 5, (budget_parts){.aliasing = 1, .sum = 1}, "");
+  expect_remedy(&setup, 5, (budget_parts){.regularisation = 1, .sum = 1}, "use transient.law: exact");
+  setup.transient.law = TRANSIENT_LAW_EXACT;
+  expect_remedy(&setup, 5, (budget_parts){.regularisation = 1, .sum = 1}, "");
+  expect_remedy(&setup, 5, (budget_parts){.settling = 1, .sum = 1}, "use transient.tolerance <= 1e-10");
+  setup.transient.tolerance = TRANSIENT_LEAST_TOLERANCE;
+  expect_remedy(&setup, 5, (budget_parts){.settling = 1, .sum = 1}, "");
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(hbm_is_never_advised_what_it_has),
+      cmocka_unit_test(the_transient_is_never_advised_what_it_has),
+      cmocka_unit_test(advice_is_a_sentence),
+      cmocka_unit_test(budgets_are_never_advised_what_is_set),
+  };
+  check_watchdog(60);
+  return cmocka_run_group_tests_name("compare.advice", tests, NULL, NULL);
+}

@@ -1,0 +1,82 @@
+/* test_peers.c - curves that NLvib and tmdsimpy computed (cases/verify/README.md), in their own quantities: right ones
+ * match at every point, folds included, and what is wrong with the others is named. */
+#include <string.h>
+
+#include "tests/shell.h"
+
+#define CASE2     "cases/verify/case2.yaml"
+#define CLEARANCE "cases/verify/unilateral.yaml"
+#define PRELOADED "cases/verify/unilateral.yaml --set 'contacts[0].gap=0.5'"
+
+typedef struct peer {
+  const char *scene, *file, *quantity;
+  int code;
+  const char *said;
+} peer;
+
+static void judged(int n, const peer *p)
+{
+  static char out[262144];
+  for (int i = 0; i < n; ++i) {
+    char line[1024];
+    snprintf(line, sizeof line, "%s verify %s -q --format csv --against cases/verify/%s --quantity %s",
+             HBMCHECK_COMMAND, p[i].scene, p[i].file, p[i].quantity);
+    const int code = shell_read(line, out, sizeof out);
+    shell_check(line, code, out, p[i].code, p[i].said);
+  }
+}
+#define JUDGED(list) judged(sizeof list / sizeof *list, list)
+
+static void right_curves_match(void **state)
+{
+  (void)state;
+  static const peer list[] = {
+      {CASE2, "nlvib_case2.csv", "norm_over_root_2", 0, "# cause: none"},
+      {CASE2, "nlvib_case2.csv", "harmonic_1", 0, "# cause: none"},
+      {CASE2, "tmdsimpy_case2.csv", "norm", 0, "# cause: none"},
+      {CASE2, "tmdsimpy_case2.csv", "harmonic_1", 0, "# cause: none"},
+      {CLEARANCE, "nlvib_clearance.csv", "norm_over_root_2", 0, "# cause: none"},
+      {CLEARANCE, "tmdsimpy_clearance.csv", "norm", 0, "# cause: none"},
+      {CLEARANCE, "tmdsimpy_clearance.csv", "harmonic_1", 0, "# cause: none"},
+      {PRELOADED, "nlvib_preloaded.csv", "norm_over_root_2", 0, "# cause: none"},
+      {PRELOADED, "tmdsimpy_preloaded.csv", "norm", 0, "# cause: none"},
+  };
+  JUDGED(list);
+}
+
+static void wrong_curves_are_named(void **state)
+{
+  (void)state;
+  static const peer list[] = {
+      {CASE2, "nlvib_case2_n32.csv", "norm_over_root_2", 1, "# cause: too_few_samples\n"},
+      {CASE2, "nlvib_case2_n32.csv", "norm_over_root_2", 1, "H = 10, N = 32; "},
+      {CASE2, "nlvib_case2_n32.csv", "harmonic_1", 1, "# cause: too_few_samples\n"},
+      /* the right curve under another name */
+      {CASE2, "nlvib_case2.csv --columns omega=1,value=2", "rms", 1, "# cause: norm_over_root_2\n"},
+  };
+  JUDGED(list);
+}
+
+static void wandered_curves_are_judged(void **state)
+{
+  (void)state;
+  static const peer list[] = {
+      {CASE2, "tmdsimpy_case2_wandered.csv", "norm", 1, "# 67 points at omega <= 0 left out"},
+      {CASE2, "tmdsimpy_case2_wandered.csv", "norm", 1, "H = 5, N = 128; "},
+      {CASE2, "tmdsimpy_case2_wandered.csv", "norm", 1, "# cause: too_few_harmonics+too_few_samples\n"},
+      {CLEARANCE, "nlvib_wandered.csv", "norm_over_root_2", 0, "# the curve reverses 155 times: its program wandered"},
+      {CLEARANCE, "nlvib_wandered.csv", "norm_over_root_2", 0, "# cause: none"},
+  };
+  JUDGED(list);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(right_curves_match),
+      cmocka_unit_test(wrong_curves_are_named),
+      cmocka_unit_test(wandered_curves_are_judged),
+  };
+  check_watchdog(300);
+  return cmocka_run_group_tests_name("verify.peers", tests, NULL, NULL);
+}

@@ -1,0 +1,181 @@
+/* test_points.c - what points tell by themselves: noise, outliers, and branches; on curves of our own harmonic balance,
+ * spoiled here. */
+#include "tests/compare/verify/curves.h"
+#include "tests/random.h"
+#include "tests/scene_runs.h"
+
+static const char case2[] = "cases/paper/case2.yaml";
+enum { POINTS = 61 };
+
+/* A right curve of case 2, as swept upwards. */
+static verify_data right_curve(const scene *sc)
+{
+  const spoiling how = {.harmonics = 20};
+  return curve_make(sc, &how, 4, 14, POINTS);
+}
+
+/* Normal noise of this standard deviation: the sum of 12 uniform numbers of variance 1/12. */
+static void add_noise(verify_data *d, double sigma)
+{
+  uint64_t seed = 7;
+  for (int i = 0; i < d->n; ++i) {
+    double sum = -6;
+    for (int k = 0; k < 12; ++k) sum += random_unit(&seed);
+    d->points[i].value *= 1 + sigma * sum;
+  }
+}
+
+static verify_report judged(const scene *sc, const verify_data *d, const char *cause)
+{
+  verify_report r;
+  char words[VERIFY_TEXT];
+  assert_int_equal(scene_verify_run(sc, d, NULL, &r), HC_OK);
+  if (strcmp(verify_cause_words(r.causes, words), cause)) {
+    print_error("%s, expected %s\n", verify_sentence(&r, words), cause);
+    fail();
+  }
+  return r;
+}
+
+/* A standard deviation estimated from n = 59 second differences of 61 points: by the median of moduli its relative
+ * deviation is 1.17/sqrt(n) for independent ones, here at most 3 times the variance as each point is in three: 26 %,
+ * and 3 of them are allowed. */
+static void noise_is_named_and_estimated(void **state)
+{
+  (void)state;
+  const scene sc = curve_scene(case2);
+  for (double sigma = 3e-3; sigma < 0.1; sigma *= 3) {
+    verify_data d = right_curve(&sc);
+    add_noise(&d, sigma);
+    verify_report r = judged(&sc, &d, "noise");
+    char text[VERIFY_TEXT];
+    CHECK_NEAR(r.noise / sigma, 1, 0.78, "sigma = %g", sigma);
+    assert_non_null(strstr(verify_sentence(&r, text), "from one to the next"));
+    assert_int_equal(verify_exit_code(&r), 1);
+    verify_clear(&r);
+    verify_data_clear(&d);
+  }
+}
+
+/* With the noise said the curve is right; with a tenth of it, not. */
+static void noise_that_is_said_is_allowed(void **state)
+{
+  (void)state;
+  const scene sc = curve_scene(case2);
+  verify_data d = right_curve(&sc);
+  add_noise(&d, 1e-2);
+  d.noise = 1e-2;
+  verify_report r = judged(&sc, &d, "none");
+  assert_int_equal(verify_exit_code(&r), 0);
+  verify_clear(&r);
+  d.noise = 1e-3;
+  r = judged(&sc, &d, "noise");
+  assert_int_equal(verify_exit_code(&r), 1);
+  verify_clear(&r);
+  verify_data_clear(&d);
+}
+
+/* 3 % too high at every point is within four standard deviations of 1 %, but not on the average of 25. */
+static void noise_does_not_hide_an_offset(void **state)
+{
+  (void)state;
+  const scene sc = curve_scene(case2);
+  verify_data d = right_curve(&sc);
+  add_noise(&d, 1e-2);
+  for (int i = 0; i < d.n; ++i) d.points[i].value *= 1.03;
+  d.noise = 1e-2;
+  verify_report r;
+  assert_int_equal(scene_verify_run(&sc, &d, NULL, &r), HC_OK);
+  assert_false(r.causes & VERIFY_BIT(CAUSE_NOISE));
+  assert_true(r.count[VERDICT_DIFFERS] > POINTS / 2);
+  assert_int_equal(verify_exit_code(&r), 1);
+  verify_clear(&r);
+  verify_data_clear(&d);
+}
+
+static void outliers_are_named(void **state)
+{
+  (void)state;
+  const scene sc = curve_scene(case2);
+  char text[VERIFY_TEXT];
+  verify_data d = right_curve(&sc);
+  d.points[20].value *= 1.3;
+  verify_report r = judged(&sc, &d, "outlier");
+  assert_int_equal(r.count[VERDICT_DIFFERS], 1);
+  assert_non_null(strstr(verify_sentence(&r, text), "(line 21: 30 % off)"));
+  assert_int_equal(verify_exit_code(&r), 1);
+  verify_clear(&r);
+  d.points[50].value *= 0.5; /* 10, 31 and 51 too: four of 61 */
+  d.points[9].value *= 1.1;
+  d.points[30].value *= 1.2;
+  r = judged(&sc, &d, "outlier");
+  assert_non_null(strstr(verify_sentence(&r, text), "line 31: 20 % off, ...)"));
+  verify_clear(&r);
+  d.points[31].value *= 1.2; /* two beside each other are no outliers */
+  assert_int_equal(scene_verify_run(&sc, &d, NULL, &r), HC_OK);
+  assert_false(r.causes & VERIFY_BIT(CAUSE_OUTLIER));
+  verify_clear(&r);
+  verify_data_clear(&d);
+}
+
+/* A little off is no outlier, and few points tell nothing. */
+static void a_little_off_is_no_outlier(void **state)
+{
+  (void)state;
+  const scene sc = curve_scene(case2);
+  verify_data d = right_curve(&sc);
+  d.points[20].value *= 1.01;
+  verify_report r = judged(&sc, &d, "none");
+  assert_int_equal(verify_exit_code(&r), 1);
+  verify_clear(&r);
+  verify_data_clear(&d);
+}
+
+/* In [5.12, 5.55] case 2 has an unstable solution and no other. */
+static void nothing_but_unstable_points_fail(void **state)
+{
+  (void)state;
+  const scene sc = curve_scene(case2);
+  const spoiling how = {.harmonics = 20};
+  verify_data d = curve_make(&sc, &how, 5.12, 5.55, 11);
+  verify_report r = judged(&sc, &d, "unstable_branch");
+  assert_int_equal(r.count[VERDICT_UNSTABLE], 11);
+  assert_int_equal(verify_exit_code(&r), 1);
+  verify_clear(&r);
+  verify_data_clear(&d);
+}
+
+/* Forth and back over the resonance, in steps that turn back again and again: no neighbours in the file are neighbours
+ * in omega, and each point is right. */
+static void the_order_of_the_points_does_not_matter(void **state)
+{
+  (void)state;
+  const scene sc = curve_scene(case2);
+  verify_data d = right_curve(&sc), shuffled = right_curve(&sc);
+  for (int i = 0; i < d.n; ++i) shuffled.points[i] = d.points[i * 17 % POINTS];
+  verify_report r = judged(&sc, &shuffled, "none");
+  assert_int_equal(verify_exit_code(&r), 0);
+  assert_true(r.reversals > VERIFY_USUAL_REVERSALS);
+  verify_clear(&r);
+  for (int i = 0; i < shuffled.n; ++i) shuffled.points[i].value *= 1 + 0.05 * sin(3 * shuffled.points[i].omega);
+  r = judged(&sc, &shuffled, "none"); /* smooth in omega, although not in the file: no noise */
+  assert_int_equal(verify_exit_code(&r), 1);
+  verify_clear(&r);
+  verify_data_clear(&d);
+  verify_data_clear(&shuffled);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(noise_is_named_and_estimated),
+      cmocka_unit_test(noise_that_is_said_is_allowed),
+      cmocka_unit_test(noise_does_not_hide_an_offset),
+      cmocka_unit_test(outliers_are_named),
+      cmocka_unit_test(a_little_off_is_no_outlier),
+      cmocka_unit_test(nothing_but_unstable_points_fail),
+      cmocka_unit_test(the_order_of_the_points_does_not_matter),
+  };
+  check_watchdog(300);
+  return cmocka_run_group_tests_name("verify.points", tests, NULL, NULL);
+}
