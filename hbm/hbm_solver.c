@@ -8,6 +8,7 @@
 #include "hbm/corrector.h"
 #include "hbm/first_solution.h"
 #include "hbm/hbm_solver_impl.h"
+#include "hbm/linear_solution.h"
 #include "model/periodic_motion.h"
 #include "numerics/norm.h"
 #include "numerics/series.h"
@@ -192,6 +193,8 @@ hc_status hbm_measure_response(hbm_solver *s, double omega, const double *X, int
   out->contact = s->sys.report;
   return HC_OK;
 }
+
+hc_status hbm_preloads(hbm_solver *s, double *N) { return hbm_linear_rest(&s->sys, N); }
 
 hc_status hbm_sliders(hbm_solver *s, const double *X, double *w)
 {

@@ -77,6 +77,10 @@ hc_status hbm_measure(hbm_solver *s, const double *X, hbm_measures *out);
 hc_status hbm_response(hbm_solver *s, double omega, const double *X, int r, double *x);
 hc_status hbm_measure_response(hbm_solver *s, double omega, const double *X, int r, hbm_measures *out);
 
+/* N[n_contacts] [force]: the contacts' normal forces at rest, under the static loads alone. HC_SINGULAR: nothing holds
+ * the structure there. */
+hc_status hbm_preloads(hbm_solver *s, double *N);
+
 /* w[n_contacts] [length]: the sliders at t = 0 of the motion X. Errors of the contact force. */
 hc_status hbm_sliders(hbm_solver *s, const double *X, double *w);
 

@@ -140,13 +140,19 @@ static hc_status solve_static(const hbm_system *sys)
   return HC_OK;
 }
 
-static bool contact_is_closed(const hbm_system *sys, int j)
+/* Normal motion of contact j at rest, q_0 being in r->z. */
+static double rest_motion(const hbm_system *sys, int j)
 {
-  const contact *law = &sys->model->contacts[j].law;
   const double *n = condensation_normal(sys->linear, j);
   double v = 0;
   for (int d = 0; d < sys->dim; ++d) v += n[d] * creal(sys->room->z[d]);
-  return law->load > 0 || v + law->gap > 0;
+  return v;
+}
+
+static bool contact_is_closed(const hbm_system *sys, int j)
+{
+  const contact *law = &sys->model->contacts[j].law;
+  return law->load > 0 || rest_motion(sys, j) + law->gap > 0;
 }
 
 /* Which contacts are stuck in the static state, and its q_0 into X. */
@@ -174,6 +180,17 @@ static hc_status find_static_state(const hbm_system *sys, double *X)
   }
   add_stuck_stiffness(sys);
   return HC_OK;
+}
+
+hc_status hbm_linear_rest(hbm_system *sys, double *N)
+{
+  const double any = 1; /* at rest omega matters nowhere */
+  hc_status st = condensation_at(sys->linear, any, 0);
+  memset(sys->room->z, 0, (size_t)sys->dim * sizeof *sys->room->z);
+  if (st == HC_OK) st = find_static_state(sys, sys->rows);
+  for (int j = 0; j < sys->model->n_contacts && st == HC_OK; ++j)
+    N[j] = contact_normal(&sys->model->contacts[j].law, rest_motion(sys, j));
+  return st;
 }
 
 static hc_status structure_response(const hbm_system *sys, double omega, double *X)

@@ -20,6 +20,10 @@ void hbm_linear_room_free(hbm_linear_room *room); /* NULL is allowed */
  * right order of magnitude where there is no such response. */
 double hbm_linear_response(hbm_system *sys, double omega, double *X);
 
+/* N[n_contacts] [force] of each contact at rest, under the loads of harmonic 0. HC_SINGULAR: nothing holds the structure
+ * there. */
+hc_status hbm_linear_rest(hbm_system *sys, double *N);
+
 /* If the linear response is near the guess X (to `near` of its size) and satisfies the equations, it becomes X, with
  * its derivative by omega in dX, both [n_coef], and *point. Otherwise false, and X, dX and *point are untouched. */
 bool hbm_linear_point(hbm_solver *s, double omega, double near, double *X, double *dX, hbm_point *point);

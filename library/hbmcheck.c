@@ -105,6 +105,10 @@ static hbmcheck_status new_case(const char *name, const char *text, size_t lengt
   if (!c) return HBMCHECK_NO_MEMORY;
   hc_status st =
       text ? case_parse(name, text, length, n_set, set, &c->sc, &err) : case_read(name, n_set, set, &c->sc, &err);
+  if (st == HC_OK && c->sc.structure) {
+    snprintf(err.message, sizeof err.message, "%s: a structure, and this interface knows `oscillator` alone", name);
+    st = HC_BAD_INPUT;
+  }
   say(message, size, err.message);
   if (st == HC_OK) *out = c;
   else hbmcheck_case_free(c);

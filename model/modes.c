@@ -31,7 +31,7 @@ hc_status model_modes(const model *m, bool stuck, double *omega2, double *phi)
   return st;
 }
 
-static double modal_damping(const model *m, const double *phi)
+double model_modal_damping(const model *m, const double *phi)
 {
   double c = 0;
   for (int col = 0; col < m->n; ++col)
@@ -51,7 +51,7 @@ hc_status model_find_scales(const model *m, model_scales *out)
   hc_status st = omega2 && phi ? model_modes(m, true, omega2, phi) : HC_NO_MEMORY;
   if (st == HC_OK) {
     *out = (model_scales){sqrt(fmax(omega2[n - 1], 0)), INFINITY};
-    for (size_t i = 0; i < n; ++i) out->half_width = fmin(out->half_width, 0.5 * modal_damping(m, phi + i * n));
+    for (size_t i = 0; i < n; ++i) out->half_width = fmin(out->half_width, 0.5 * model_modal_damping(m, phi + i * n));
     out->half_width = fmax(out->half_width, 0);
   }
   free(omega2);

@@ -9,6 +9,9 @@
  * HC_NO_MEMORY; HC_SINGULAR if M is not positive definite; HC_NOT_CONVERGED. */
 hc_status model_modes(const model *m, bool stuck, double *omega2, double *phi);
 
+/* phi^T C phi [1/time] of a mode with phi^T M phi = 1: twice its damping ratio times omega. */
+double model_modal_damping(const model *m, const double *phi);
+
 /* What steps in omega are measured by. */
 typedef struct model_scales {
   double highest;    /* [rad/time] the highest natural frequency, contacts stuck */

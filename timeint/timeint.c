@@ -27,7 +27,7 @@ static bool contact_ok(const model_contact *c)
 
 static hc_status check_input(const model *m, const transient_settings *how)
 {
-  if (!model_is_oscillator(m)) return HC_UNSUPPORTED;
+  if (!model_is_oscillator(m)) return HC_BAD_INPUT;
   const bool inert = positive(*m->mass) && not_negative(*m->damping);
   if (!inert || !not_negative(*m->stiffness) || !isfinite(model_force(m)))
     return HC_BAD_INPUT;

@@ -1,0 +1,125 @@
+/* cmd_modes.c - hbmcheck modes: natural frequencies and damping, contacts apart and stuck, and the preloads. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "base/constants.h"
+#include "campaigns/scene_solvers.h"
+#include "command/commands.h"
+#include "command/files.h"
+#include "model/modes.h"
+
+static const char help[] =
+    "Natural frequencies and damping ratios of CASE with all contacts apart and with all of them stuck, side by side, "
+    "and each contact at rest under the static loads."
+    "\vContact stiffnesses are chosen so that the stuck frequencies are those of the bonded structure, as measured or "
+    "from a finite-element model. A damping ratio is that of the mode's own shape, phi' C phi/(2 omega) with "
+    "phi' M phi = 1; where the damping couples modes this is an estimate. The symmetric part of the stiffness "
+    "counts.\nexit: 0 done  2 case file wrong  3 could not  64 usage\nexample: hbmcheck modes cases/paper/case2.yaml";
+
+static const table_column mode_columns[] = {
+    {"mode", TABLE_INTEGER},       {"omega_open", TABLE_REAL},  {"frequency_open", TABLE_REAL},
+    {"damping_open", TABLE_REAL},  {"omega_stuck", TABLE_REAL}, {"frequency_stuck", TABLE_REAL},
+    {"damping_stuck", TABLE_REAL},
+};
+static const table_column contact_columns[] = {
+    {"contact", TABLE_INTEGER}, {"name", TABLE_TEXT},     {"at_rest", TABLE_TEXT},
+    {"preload", TABLE_REAL},    {"friction_limit", TABLE_REAL},
+};
+enum {
+  N_MODE_COLUMNS = sizeof mode_columns / sizeof *mode_columns,
+  N_CONTACT_COLUMNS = sizeof contact_columns / sizeof *contact_columns
+};
+
+/* One linear limit: [n] each. */
+typedef struct limit {
+  double *omega2, *phi;
+} limit;
+
+static hc_status limit_make(const model *m, bool stuck, limit *out)
+{
+  const size_t n = (size_t)m->n;
+  *out = (limit){.omega2 = malloc(n * sizeof *out->omega2), .phi = malloc(n * n * sizeof *out->phi)};
+  return out->omega2 && out->phi ? model_modes(m, stuck, out->omega2, out->phi) : HC_NO_MEMORY;
+}
+
+static void limit_clear(limit *l)
+{
+  free(l->omega2);
+  free(l->phi);
+}
+
+/* A mode with omega^2 < 0 is driven away and has no frequency; one with 0 to rounding is free. */
+static void put_limit(table *t, const model *m, const limit *l, int i)
+{
+  const double omega = sqrt(l->omega2[i]), c = model_modal_damping(m, l->phi + (size_t)i * (size_t)m->n);
+  table_put_real(t, omega);
+  table_put_real(t, omega / TWO_PI);
+  table_put_real(t, omega > 0 ? c / (2 * omega) : NAN);
+}
+
+static hc_status put_modes(const model *m, table *t)
+{
+  limit open = {0}, stuck = {0};
+  hc_status st = limit_make(m, false, &open);
+  if (st == HC_OK) st = limit_make(m, true, &stuck);
+  for (int i = 0; i < m->n && st == HC_OK; ++i) {
+    table_put_integer(t, i + 1);
+    put_limit(t, m, &open, i);
+    put_limit(t, m, &stuck, i);
+  }
+  if (st == HC_OK && open.omega2[0] < 0) table_note(t, "mode 1 is driven away with the contacts open: no frequency");
+  limit_clear(&open);
+  limit_clear(&stuck);
+  return st;
+}
+
+static hc_status put_contacts(const scene *sc, const model *m, table *t)
+{
+  double *N = calloc((size_t)m->n_contacts + 1, sizeof *N);
+  hbm_solver *s = NULL;
+  hc_status st = N ? scene_hbm_solver(sc, &s) : HC_NO_MEMORY;
+  if (st == HC_OK) st = hbm_preloads(s, N);
+  for (int j = 0; j < m->n_contacts && st == HC_OK; ++j) {
+    const char *name = scene_contact_at(sc, j)->name;
+    table_put_integer(t, j);
+    table_put_text(t, *name ? name : NULL);
+    table_put_text(t, N[j] > 0 ? "closed" : "open");
+    table_put_real(t, N[j]);
+    table_put_real(t, m->contacts[j].law.mu * N[j]);
+  }
+  hbm_solver_free(s);
+  free(N);
+  return st;
+}
+
+static int run_modes(int argc, char **argv)
+{
+  cli_common common;
+  scene sc = {.structure = NULL};
+  cli_parse(&cmd_modes, argc, argv, NULL, &common);
+  int code = cli_check_files(&common, 0, NULL);
+  if (!code) code = cli_load_case(&common, common.arguments[0], &sc);
+  if (code) return code;
+  model *m = NULL;
+  table *tables[] = {table_new("Modes", N_MODE_COLUMNS, mode_columns),
+                     table_new("Contacts at rest", N_CONTACT_COLUMNS, contact_columns)};
+  hc_status st = scene_model(&sc, &m);
+  if (st == HC_OK) st = put_modes(m, tables[0]);
+  if (st == HC_OK) st = put_contacts(&sc, m, tables[1]);
+  if (st != HC_OK) code = cli_solver_failed(&common, CLI_HBM, "modes", st, 0);
+  else code = cli_write(&common, m->n_contacts ? 2 : 1, tables);
+  for (int i = 0; i < 2; ++i) table_free(tables[i]);
+  model_free(m);
+  case_clear(&sc);
+  return code;
+}
+
+const cli_command cmd_modes = {
+    .name = "modes",
+    .summary = "natural frequencies and damping, contacts open and stuck, and the preloads",
+    .arguments = "CASE",
+    .help = help,
+    .takes_structures = true,
+    .run = run_modes,
+};
