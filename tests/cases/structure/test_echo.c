@@ -1,5 +1,6 @@
 /* test_echo.c - an echoed structure reads back to the same bits, whatever its files were. */
-#include "cases/structure_check.h"
+#include <dirent.h>
+
 #include "tests/cases/structure/structure_text.h"
 
 static char *echoed(const scene *sc)
@@ -100,8 +101,32 @@ static void random_structures_come_back_bit_for_bit(void **state)
   }
 }
 
+static void the_cases_of_structures_are_all_readable(void **state)
+{
+  (void)state;
+  const char *folder = SOURCE_DIR "/cases/structures";
+  DIR *dir = opendir(folder);
+  int n = 0;
+  assert_non_null(dir);
+  for (struct dirent *e; (e = readdir(dir)) != NULL;) {
+    char path[1024];
+    scene sc;
+    case_error err;
+    if (!strstr(e->d_name, ".yaml")) continue;
+    snprintf(path, sizeof path, "%s/%s", folder, e->d_name);
+    if (case_read(path, 0, NULL, &sc, &err) != HC_OK) fail_msg("%s", err.message);
+    assert_non_null(sc.structure);
+    check_round_trip(&sc);
+    case_clear(&sc);
+    ++n;
+  }
+  closedir(dir);
+  assert_int_equal(n, 9);
+}
+
 static const struct CMUnitTest tests[] = {
     cmocka_unit_test(every_form_comes_back),
+    cmocka_unit_test(the_cases_of_structures_are_all_readable),
     cmocka_unit_test(random_structures_come_back_bit_for_bit),
 };
 
