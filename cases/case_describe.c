@@ -19,7 +19,7 @@ static void write_default(const field *f, FILE *to)
   if (either_of_two(f)) fprintf(to, "required, unless %s is given", field_rival(f, 0)->name);
   else if (!f->fallback) fputs("required", to);
   else if (*f->fallback) fputs(f->fallback, to);
-  else fputs(f->kind == FIELD_TEXT ? "the file's name" : "none", to);
+  else fputs(!strcmp(f->name, "title") ? "the file's name" : "none", to);
 }
 
 /* Two lines in the list of everything. */

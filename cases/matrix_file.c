@@ -94,7 +94,7 @@ static bool is_word(const word *w, const char *name) /* in any case of letters *
 {
   for (size_t i = 0; i < w->length; ++i) {
     const char c = w->text[i] >= 'A' && w->text[i] <= 'Z' ? (char)(w->text[i] | 0x20) : w->text[i];
-    if (c != name[i]) return false; /* at its end, too */
+    if (!name[i] || c != name[i]) return false;
   }
   return name[w->length] == '\0';
 }

@@ -136,26 +136,37 @@ hc_status structure_free_motion(const scene_structure *s, double *x, bool *free_
 
 /* ---- damping ---- */
 
-/* C = M Phi diag(2 z omega) Phi^T M. `room` is [2][n][n]. */
-static hc_status modal_damping(scene_structure *s, double *lambda, double *room)
+/* y += M x; the columns of a mass matrix are zeros for the most part. */
+static void add_product(int n, const double *M, const double *x, double *y)
+{
+  for (int j = 0; j < n; ++j) {
+    int first = 0, last = n - 1;
+    while (first < n && AT(M, first, j) == 0) ++first;
+    while (last > first && AT(M, last, j) == 0) --last;
+    for (int i = first; i <= last; ++i) y[i] += AT(M, i, j) * x[j];
+  }
+}
+
+/* C = M Phi diag(2 z omega) Phi^T M, one mode after the other. `room` is [n][n + 2]. */
+static hc_status modal_damping(scene_structure *s, double *room)
 {
   const int n = s->n;
-  const size_t square = (size_t)n * (size_t)n;
-  double *phi = room, *momentum = room + square; /* M phi of a mode in each column */
+  double *C = s->damping.v, *phi = room, *lambda = room + (size_t)n * (size_t)n, *momentum = lambda + n;
   const hc_status st = dense_modes(n, s->stiffness.v, s->mass.v, lambda, phi);
   if (st != HC_OK) return st;
   const double rounding = n * DBL_EPSILON * fmax(fabs(lambda[0]), fabs(lambda[n - 1]));
-  memset(momentum, 0, square * sizeof *momentum);
-  memset(s->damping.v, 0, square * sizeof *s->damping.v);
+  if (lambda[0] < -rounding) return HC_BAD_INPUT; /* they ascend */
+  memset(C, 0, (size_t)n * (size_t)n * sizeof *C);
   for (int k = 0; k < n; ++k) {
-    if (lambda[k] < -rounding) return HC_BAD_INPUT;
-    for (int j = 0; j < n; ++j)
-      for (int i = 0; i < n; ++i) AT(momentum, i, k) += AT(s->mass.v, i, j) * AT(phi, j, k);
     const double z = s->how == STRUCTURE_DAMPING_MODAL ? s->modal : s->ratios[k];
     const double c = 2 * z * sqrt(fmax(lambda[k], 0));
-    for (int j = 0; j < n; ++j)
-      for (int i = 0; i < n; ++i) AT(s->damping.v, i, j) += c * AT(momentum, i, k) * AT(momentum, j, k);
+    memset(momentum, 0, (size_t)n * sizeof *momentum);
+    add_product(n, s->mass.v, phi + (size_t)n * (size_t)k, momentum);
+    for (int j = 0; j < n && c != 0; ++j)
+      for (int i = j; i < n; ++i) AT(C, i, j) += c * momentum[j] * momentum[i];
   }
+  for (int j = 0; j < n; ++j)
+    for (int i = 0; i < j; ++i) AT(C, i, j) = AT(C, j, i);
   return HC_OK;
 }
 
@@ -169,8 +180,8 @@ hc_status structure_resolve_damping(scene_structure *s)
       s->damping.v[i] = s->rayleigh[0] * s->mass.v[i] + s->rayleigh[1] * s->stiffness.v[i];
     return HC_OK;
   }
-  double *room = malloc((2 * square + n) * sizeof *room);
-  const hc_status st = room ? modal_damping(s, room + 2 * square, room) : HC_NO_MEMORY;
+  double *room = malloc((square + 2 * n) * sizeof *room);
+  const hc_status st = room ? modal_damping(s, room) : HC_NO_MEMORY;
   free(room);
   return st;
 }

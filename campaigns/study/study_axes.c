@@ -206,11 +206,11 @@ static hc_status read_field(study_reader *q, study_axis *a, const yaml_node_pair
   int contacts = scene_contact_count(&q->r.sc);
   hc_status st = study_give(q, key, &t, sf->path);
   if (st != HC_OK) return st;
-  if (!t.f || t.f->kind == FIELD_PART || (t.list == CASE_CONTACTS && t.index >= contacts)) {
-    message_add(
-        study_blame(q, key),
-        "`%s` cannot vary, expected a number or choice, or one of a contact that the base case has, such as contacts[0].gap",
-        sf->path);
+  const bool part = t.f && t.f->kind == FIELD_PART;
+  if (!t.f || part || (t.list == CASE_CONTACTS && t.index >= contacts)) {
+    message_add(study_blame(q, key), "`%s` cannot vary, expected %s", sf->path,
+                part ? "a number, a choice or a flag, such as structure.damping.modal"
+                     : "a field of a contact that the base case has, such as contacts[0].gap");
     return HC_BAD_INPUT;
   }
   sf->f = t.f;

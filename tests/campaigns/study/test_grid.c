@@ -1,4 +1,5 @@
 /* test_grid.c - the grid of a study: lists, ranges and fields that go together, against values worked out by hand. */
+#include "cases/structure.h"
 #include "tests/campaigns/study/study_text.h"
 
 static scene scene_of(const study *s, long id)
@@ -138,6 +139,47 @@ static void the_largest_study(void **state)
   study_free(s);
 }
 
+#define STRUCTURE_CASE                                                                                                 \
+  "case:\n  structure: {mass: [1, 2], stiffness: [3, 4], damping: {modal: 0.01}, names: [tip, root]}\n"                \
+  "  forcing: [{dof: tip, amplitude: 1}]\n  sweep: {omega: [3, 9]}\n"                                                  \
+  "  contacts: [{name: joint, tangential_stiffness: 10, friction: 0.3, preload: 1, tangent: root}]\n"
+
+/* Every scene has a structure of its own; the base keeps what it had. */
+static void structures_vary_too(void **state)
+{
+  (void)state;
+  study *s = good_study("study: t\n" STRUCTURE_CASE "set: {\"contacts[joint].preload\": 7}\n"
+                        "vary:\n  - structure.damping.modal: [0.02, 0.03]\n  - {\"contacts[joint].friction\": [0, 1], "
+                        "\"forcing[0].amplitude\": [5, 6]}\n");
+  assert_int_equal(s->n_scenes, 4);
+  for (long id = 0; id < 4; ++id) {
+    scene sc = scene_of(s, id);
+    const scene_structure *own = sc.structure;
+    assert_true(own != s->base.structure);
+    CHECK_NEAR(own->modal, id / 2 ? 0.03 : 0.02, 0, "scene %ld", id);
+    CHECK_NEAR(own->damping.v[3], 2 * own->modal * sqrt(4.0 / 2) * 2, 1e-15, "scene %ld", id);
+    CHECK_NEAR(own->contacts[0].given.law.mu, (double)(id % 2), 0, "scene %ld", id);
+    CHECK_NEAR(own->contacts[0].given.preload, 7, 0, "scene %ld", id);
+    CHECK_NEAR(own->loads[0].amplitude, 5.0 + (double)(id % 2), 0, "scene %ld", id);
+    case_clear(&sc);
+  }
+  CHECK_NEAR(s->base.structure->modal, 0.01, 0, "base");
+  CHECK_NEAR(s->base.structure->contacts[0].given.law.mu, 0.3, 0, "base");
+  study_free(s);
+}
+
+static void parts_of_structures_do_not_vary(void **state)
+{
+  (void)state;
+  case_error err;
+  assert_null(study_from_text("study: t\n" STRUCTURE_CASE "vary: [{structure.mass: [1, 2]}]\n", 0, NULL, &err));
+  assert_non_null(strstr(err.message, "`structure.mass` cannot vary"));
+  assert_null(study_from_text("study: t\n" STRUCTURE_CASE "vary: [{forcing.amplitude: [1, 2]}]\n", 0, NULL, &err));
+  assert_non_null(strstr(err.message, "is an oscillator's, and the case has a structure"));
+  assert_null(study_from_text("study: t\n" STRUCTURE_CASE "vary: [{\"contacts[1].friction\": [1]}]\n", 0, NULL, &err));
+  assert_non_null(strstr(err.message, "the case has 1 contacts, expected an index 0..0"));
+}
+
 static const struct CMUnitTest tests[] = {
     cmocka_unit_test(the_last_axis_is_the_fastest),
     cmocka_unit_test(ranges_hit_what_one_expects),
@@ -146,5 +188,7 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(a_scene_may_be_impossible),
     cmocka_unit_test(the_fingerprint_is_of_what_is_computed),
     cmocka_unit_test(the_largest_study),
+    cmocka_unit_test(structures_vary_too),
+    cmocka_unit_test(parts_of_structures_do_not_vary),
 };
 CHECK_MAIN("study.grid", tests, 60)

@@ -1,5 +1,6 @@
 /* test_echo.c - an echoed structure reads back to the same bits, whatever its files were. */
-#include "cases/structure_check.h"
+#include <dirent.h>
+
 #include "tests/cases/structure/structure_text.h"
 
 static char *echoed(const scene *sc)
@@ -46,7 +47,8 @@ static void every_form_comes_back(void **state)
       "structure: {mass: 1.1, stiffness: 40, damping: 0.4}\nforcing: {amplitude: 100}\n" SWEEP
       "contacts: [{tangential_stiffness: 100, normal_stiffness: 1000, friction: 0.3, angle_deg: 0, gap: -5}]\n",
       "structure: {mass: [1, 1], stiffness: [3, 4], damping: {modal: [0.1, 0.2]}, nodes: [[1, 17, x], [2, -3, z]]}\n"
-      "forcing: [{node: 17, direction: x, amplitude: -0.1, phase_deg: 1e-3}, {dof: 2, amplitude: 1, harmonic: 0}]\n" SWEEP
+      "forcing: [{node: 17, direction: x, amplitude: -0.1, phase_deg: 1e-3}, {dof: 2, amplitude: 1, harmonic: 0}]\n"
+      SWEEP
       "response: [2, {1: 0.1, 2: -3}]\n",
       TWO_NAMED "contacts:\n  - {name: \"a\\\"\", tangential_stiffness: 200, friction: 1, preload: 5, tangent: root}\n"
                 "  - {normal_stiffness: 3, preload: 0.1, normal: tip}\n"
@@ -100,8 +102,32 @@ static void random_structures_come_back_bit_for_bit(void **state)
   }
 }
 
+static void the_cases_of_structures_are_all_readable(void **state)
+{
+  (void)state;
+  const char *folder = SOURCE_DIR "/cases/structures";
+  DIR *dir = opendir(folder);
+  int n = 0;
+  assert_non_null(dir);
+  for (struct dirent *e; (e = readdir(dir)) != NULL;) {
+    char path[1024];
+    scene sc;
+    case_error err;
+    if (!strstr(e->d_name, ".yaml")) continue;
+    snprintf(path, sizeof path, "%s/%s", folder, e->d_name);
+    if (case_read(path, 0, NULL, &sc, &err) != HC_OK) fail_msg("%s", err.message);
+    assert_non_null(sc.structure);
+    check_round_trip(&sc);
+    case_clear(&sc);
+    ++n;
+  }
+  closedir(dir);
+  assert_int_equal(n, 9);
+}
+
 static const struct CMUnitTest tests[] = {
     cmocka_unit_test(every_form_comes_back),
+    cmocka_unit_test(the_cases_of_structures_are_all_readable),
     cmocka_unit_test(random_structures_come_back_bit_for_bit),
 };
 
