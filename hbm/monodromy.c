@@ -1,6 +1,5 @@
-/* monodromy.c - see monodromy.h. The state is (dx, dx', dheld_1, ..., dheld_n), velocities by the phase where x has
- * more than one entry; dheld_j counts only while contact j is stuck. Row i of phi is state i, column q the initial
- * state q. */
+/* monodromy.c - see monodromy.h. The state is (dx, dx', dheld_1, ..., dheld_n); dheld_j counts only while contact j
+ * is stuck. Row i of phi is state i, column q the initial state q. */
 #include "hbm/monodromy.h"
 
 #include <complex.h>
@@ -238,7 +237,7 @@ hc_status monodromy_stability(monodromy *w, const model *m, const contact_forces
     for (int j = 0; j < m->n_contacts; ++j) w->piece[j] = piece_at(orbit, j, 0.5 * (a + b));
     if (a == 0) n_active = collect_initial_sliders(w, m, orbit, n_active, a);
     set_sliders(w, m, orbit, a);
-    if (w->flow) st = stretch_flow_advance(w->flow, omega, w->piece, b - a, w->phi);
+    if (w->flow) st = stretch_flow_advance(w->flow, w->piece, (b - a) / omega, w->phi);
     else advance_oscillator(w, m, (b - a) / omega);
   }
   if (st == HC_OK) st = floquet_multipliers(w->floquet, w->phi, n_states, 1, n_active, w->active, w->lambda);

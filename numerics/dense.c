@@ -13,6 +13,9 @@ void dgeqp3_(const int *m, const int *n, double *a, const int *lda, int *pivot, 
              const int *lwork, int *info);
 void dorgqr_(const int *m, const int *n, const int *k, double *a, const int *lda, const double *tau, double *work,
              const int *lwork, int *info);
+void dgeev_(const char *left, const char *right, const int *n, double *a, const int *lda, double *re, double *im, double *vl,
+            const int *ldvl, double *vr, const int *ldvr, double *work, const int *lwork, int *info, size_t left_length,
+            size_t right_length);
 void zgetrf_(const int *m, const int *n, double complex *a, const int *lda, int *pivot, int *info);
 void zgetrs_(const char *transposed, const int *n, const int *columns, const double complex *a, const int *lda,
              const int *pivot, double complex *b, const int *ldb, int *info, size_t transposed_length);
@@ -92,6 +95,24 @@ hc_status dense_span(int n, int rows, const double *const *row, double tolerance
   free(tau);
   free(work);
   return st;
+}
+
+hc_status dense_eigen(int n, double *A, double complex *lambda, double complex *V)
+{
+  const int work_length = 8 * n, one = 1;
+  const size_t rows = (size_t)n;
+  double *re = malloc((2 * rows + square(n) + (size_t)work_length) * sizeof *re), *im = re + rows, *vectors = im + rows;
+  int info = 0;
+  if (!re) return HC_NO_MEMORY;
+  dgeev_("N", "V", &n, A, &n, re, im, NULL, &one, vectors, &n, vectors + square(n), &work_length, &info, 1, 1);
+  for (size_t k = 0; k < rows && info == 0; ++k) { /* of a pair: real parts, then imaginary parts of its first */
+    const bool first = im[k] > 0, second = im[k] < 0;
+    const double *x = vectors + (second ? k - 1 : k) * rows, *y = x + rows;
+    lambda[k] = re[k] + I * im[k];
+    for (size_t i = 0; i < rows; ++i) V[k * rows + i] = first ? x[i] + I * y[i] : second ? x[i] - I * y[i] : x[i];
+  }
+  free(re);
+  return info == 0 ? HC_OK : HC_NOT_CONVERGED;
 }
 
 hc_status dense_factor_complex(int n, double complex *A, int *pivot)

@@ -21,6 +21,10 @@ hc_status dense_modes(int n, const double *K, const double *M, double *lambda, d
 hc_status dense_span(int n, int rows, const double *const *row, double tolerance, int *rank, int *pivot, double *basis,
                      double *triangle);
 
+/* Eigenvalues lambda[n] and eigenvectors, the columns of V[n][n], of the real A[n][n], which is overwritten.
+ * HC_NO_MEMORY, HC_NOT_CONVERGED. */
+hc_status dense_eigen(int n, double *A, double complex *lambda, double complex *V);
+
 /* LU factors with partial pivoting of A[n][n], in its place; pivot[n]. HC_SINGULAR for a pivot that is 0 or not
  * finite. */
 hc_status dense_factor_complex(int n, double complex *A, int *pivot);
