@@ -161,8 +161,8 @@ static void fill_stiffness(condensation *c, int h, condensation_change dynamic)
     for (int d = 0; d < dim; ++d) {
       const size_t at = entry(c, d, e), to = ((size_t)h * (size_t)dim + (size_t)e) * (size_t)dim + (size_t)d;
       double complex sum = Z_at(c, dynamic, at);
-      double size = fabs(c->basis.K[at]) + cabs(dynamic.alpha) * fabs(c->basis.M[at]) +
-                    cabs(dynamic.beta) * fabs(c->basis.C[at]);
+      double size =
+          fabs(c->basis.K[at]) + cabs(dynamic.alpha) * fabs(c->basis.M[at]) + cabs(dynamic.beta) * fabs(c->basis.C[at]);
       for (int i = 0; i < rest; ++i) {
         const double complex part = Z_at(c, dynamic, entry(c, d, dim + i)) * by_q[(size_t)e * (size_t)rest + (size_t)i];
         sum -= part;
@@ -279,8 +279,8 @@ void condensation_load_change(const condensation *c, int l, condensation_change 
     else
       for (int k = 0; k < rest; ++k) inner += change_at(c, by, entry(c, dim + i, dim + k)) * y[k];
     for (int d = 0; d < dim; ++d)
-      dp[d] += c->by_y[start + (size_t)d * (size_t)rest + (size_t)i] * inner -
-               change_at(c, by, entry(c, d, dim + i)) * y[i];
+      dp[d] +=
+          c->by_y[start + (size_t)d * (size_t)rest + (size_t)i] * inner - change_at(c, by, entry(c, d, dim + i)) * y[i];
   }
 }
 

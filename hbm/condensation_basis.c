@@ -126,8 +126,7 @@ static hc_status choose_coordinates(const model *m, condensation_basis *b)
 static void copy_block(int n, const double *A, int from, int size, double *B)
 {
   for (int j = 0; j < size; ++j)
-    memcpy(B + (size_t)j * (size_t)size, A + (size_t)from + (size_t)(from + j) * (size_t)n,
-           (size_t)size * sizeof *B);
+    memcpy(B + (size_t)j * (size_t)size, A + (size_t)from + (size_t)(from + j) * (size_t)n, (size_t)size * sizeof *B);
 }
 
 /* Y := Y phi, then P := P - Y lambda^-1 (Y^T K P): static forces of q move no y. */
@@ -225,7 +224,8 @@ static void transform_vectors(const model *m, condensation_basis *b)
     transform(b, m->n, m->loads[l].cosine, b->loads + (size_t)(2 * l) * n);
     transform(b, m->n, m->loads[l].sine, b->loads + (size_t)(2 * l + 1) * n);
   }
-  for (int r = 0; r < m->n_responses; ++r) transform(b, m->n, m->responses + (size_t)r * n, b->responses + (size_t)r * n);
+  for (int r = 0; r < m->n_responses; ++r)
+    transform(b, m->n, m->responses + (size_t)r * n, b->responses + (size_t)r * n);
 }
 
 /* Rounding in a direction would couple what has nothing to do with each other. */

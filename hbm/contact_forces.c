@@ -19,8 +19,8 @@ typedef struct group {
   combination of[2]; /* [n_dof] of an oscillator empty: its coordinate is q */
   bool across_only;  /* the one coordinate is v */
   exact_force *located;
-  aft *sampled;      /* one of the two */
-  double *jac;       /* [n_dof (2H+1)]^2 */
+  aft *sampled; /* one of the two */
+  double *jac;  /* [n_dof (2H+1)]^2 */
   bool differentiated;
 } group;
 

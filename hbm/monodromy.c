@@ -223,7 +223,8 @@ static void summarise(int m, const double complex *lambda, hbm_stability *out)
   out->determinant = creal(all);
 }
 
-hc_status monodromy_stability(monodromy *w, const model *m, const contact_forces *orbit, double omega, hbm_stability *out)
+hc_status monodromy_stability(monodromy *w, const model *m, const contact_forces *orbit, double omega,
+                              hbm_stability *out)
 {
   const int n_states = w->n_states, n = collect_boundaries(w, orbit, m->n_contacts);
   int n_active = 0;

@@ -40,10 +40,7 @@ static followed followed_contact(const contact *law, hbm_restart restart, const 
 
 /* ---- does the stretch go on, at one sample of along and across? ------------------------------- */
 
-static inline bool stays_apart(const followed *k, double across)
-{
-  return !(k->kn * (k->m.s * across + k->gap) > 0);
-}
+static inline bool stays_apart(const followed *k, double across) { return !(k->kn * (k->m.s * across + k->gap) > 0); }
 
 static inline bool goes_on_sticking(const followed *k, double w, double along, double across, double *f)
 {
@@ -127,8 +124,7 @@ static void restart_slider(const followed *k, int n, int i, slider *t)
     return;
   }
   const double g0 = m->s * m->across[before] + k->gap, g1 = m->s * m->across[i] + k->gap,
-               part = interpolated ? -g0 / (g1 - g0) : 0, u0 = m->c * m->along[before],
-               step = m->c * m->along[i] - u0;
+               part = interpolated ? -g0 / (g1 - g0) : 0, u0 = m->c * m->along[before], step = m->c * m->along[i] - u0;
   t->w = u0 + part * step;
   t->origin.by_along[0] = m->c * (1 - part);
   t->origin.by_along[1] = m->c * part;

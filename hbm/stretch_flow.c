@@ -1,6 +1,6 @@
 /* stretch_flow.c - see stretch_flow.h. With y = V^-1 (dx, dx') and b = V^-1 (0, M^-1 t_j):
  *     y(t) = e^(lambda t) y(0) + (e^(lambda t) - 1)/lambda b dheld
- * Velocities are divided by a frequency of the structure's, so that both halves of a state are of one size. */
+ * Of a complex pair one is followed; the other's share is conjugate. Velocities are divided by a frequency of the structure's, so that both halves of a state are of one size. */
 #include "hbm/stretch_flow.h"
 
 #include <complex.h>
@@ -19,8 +19,9 @@ enum { MOST_STATES = 32 }; /* combinations of contact states that are kept; more
 typedef struct decomposition {
   char *key;              /* [n_contacts] contact_state + 1 of each */
   bool usable;            /* else by the matrix exponential */
-  double complex *lambda; /* [2n] */
-  double complex *V, *W;  /* [2n][2n] by columns; W: V^-1 by rows */
+  int n;                  /* eigenvalues that are followed: real ones and those of positive imaginary part */
+  double complex *lambda; /* [n] */
+  double *V, *W;          /* [n][2][2n] columns of V, twice those of pairs, and rows of V^-1: real, imaginary parts */
 } decomposition;
 
 struct stretch_flow {
@@ -33,9 +34,10 @@ struct stretch_flow {
   double *A;              /* [2n][2n] by columns */
   int kept, oldest;
   decomposition known[MOST_STATES];
-  int *pivot;                   /* [2n] */
-  double complex *work;         /* [2n][2n] */
-  double complex *y, *moved;    /* [2n] one column; [2n] */
+  int *pivot;                          /* [2n] */
+  double complex *work;                /* [3][2n][2n] and [2n] */
+  double complex *growth, *sum;        /* [2n] e^(lambda t) and its integral, over a stretch */
+  double *x, *moved;                   /* [2n] a column before and after */
   gsl_matrix *augmented, *exponential; /* [n_states]^2, for what has no eigenvectors; made when needed */
 };
 
@@ -93,10 +95,13 @@ hc_status stretch_flow_new(const model *m, stretch_flow **out)
   f->key = calloc(contacts + 1, sizeof *f->key);
   f->A = calloc(4 * n * n, sizeof *f->A);
   f->pivot = calloc(2 * n, sizeof *f->pivot);
-  f->work = calloc(4 * n * n, sizeof *f->work);
-  f->y = calloc(4 * n, sizeof *f->y);
-  f->moved = f->y ? f->y + 2 * n : NULL;
-  const bool linear = f->by_K && f->by_C && f->along && f->across, room = f->key && f->A && f->pivot && f->work && f->y;
+  f->work = calloc(12 * n * n + 2 * n, sizeof *f->work);
+  f->growth = calloc(4 * n, sizeof *f->growth);
+  f->sum = f->growth ? f->growth + 2 * n : NULL;
+  f->x = calloc(4 * n, sizeof *f->x);
+  f->moved = f->x ? f->x + 2 * n : NULL;
+  const bool linear = f->by_K && f->by_C && f->along && f->across,
+             room = f->key && f->A && f->pivot && f->work && f->growth && f->x;
   hc_status st = linear && room ? divide_by_mass(m, f) : HC_NO_MEMORY;
   if (st == HC_OK) f->unit = middle_frequency(f);
   if (st == HC_OK) *out = f;
@@ -125,7 +130,8 @@ void stretch_flow_free(stretch_flow *f)
   free(f->A);
   free(f->pivot);
   free(f->work);
-  free(f->y);
+  free(f->growth);
+  free(f->x);
   if (f->augmented) gsl_matrix_free(f->augmented);
   if (f->exponential) gsl_matrix_free(f->exponential);
   free(f);
@@ -169,36 +175,55 @@ static void fill_A(stretch_flow *f, const contact_piece *const *piece)
 
 /* ---- its eigenvectors --------------------------------------------------------------------------------- */
 
-/* W = V^-1 by rows, that is, V^-T by columns. The norm of W times that of V bounds what rounding is multiplied by. */
-static bool invert(stretch_flow *f, decomposition *d)
+/* W = V^-T. The norm of W times that of V bounds what rounding is multiplied by. */
+static bool invert(stretch_flow *f, const double complex *V, double complex *lu, double complex *W)
 {
   const double most = 1e8;
   const size_t ld = (size_t)f->moving;
   double size_V = 0, size_W = 0;
-  memcpy(f->work, d->V, ld * ld * sizeof *f->work);
-  if (dense_factor_complex(f->moving, f->work, f->pivot) != HC_OK) return false;
-  for (size_t i = 0; i < ld * ld; ++i) d->W[i] = i % (ld + 1) == 0;
-  dense_solve_complex(f->moving, f->work, f->pivot, true, f->moving, d->W);
-  for (size_t i = 0; i < ld * ld; ++i) size_V = fmax(size_V, cabs(d->V[i])), size_W = fmax(size_W, cabs(d->W[i]));
+  memcpy(lu, V, ld * ld * sizeof *lu);
+  if (dense_factor_complex(f->moving, lu, f->pivot) != HC_OK) return false;
+  for (size_t i = 0; i < ld * ld; ++i) W[i] = i % (ld + 1) == 0;
+  dense_solve_complex(f->moving, lu, f->pivot, true, f->moving, W);
+  for (size_t i = 0; i < ld * ld; ++i) size_V = fmax(size_V, cabs(V[i])), size_W = fmax(size_W, cabs(W[i]));
   return size_V * size_W < most; /* false for NaN */
+}
+
+/* The eigenvalues that are followed, with their columns of V and of W. */
+static void keep_halves(size_t ld, const double complex *lambda, const double complex *V, const double complex *W,
+                        decomposition *d)
+{
+  d->n = 0;
+  for (size_t k = 0; k < ld; ++k) {
+    if (cimag(lambda[k]) < 0) continue;
+    const double shares = cimag(lambda[k]) > 0 ? 2 : 1;
+    double *v = d->V + (size_t)d->n * 2 * ld, *w = d->W + (size_t)d->n * 2 * ld;
+    for (size_t i = 0; i < ld; ++i) {
+      v[i] = shares * creal(V[k * ld + i]), v[ld + i] = shares * cimag(V[k * ld + i]);
+      w[i] = creal(W[k * ld + i]), w[ld + i] = cimag(W[k * ld + i]);
+    }
+    d->lambda[d->n++] = lambda[k];
+  }
 }
 
 static hc_status decompose(stretch_flow *f, const contact_piece *const *piece, decomposition *d)
 {
   const size_t ld = (size_t)f->moving, contacts = (size_t)f->m->n_contacts;
+  double complex *V = f->work, *lu = V + ld * ld, *W = lu + ld * ld, *lambda = W + ld * ld;
   forget(d);
   d->key = malloc(contacts + 1);
   d->lambda = malloc(ld * sizeof *d->lambda);
-  d->V = malloc(ld * ld * sizeof *d->V);
-  d->W = malloc(ld * ld * sizeof *d->W);
+  d->V = malloc(2 * ld * ld * sizeof *d->V);
+  d->W = malloc(2 * ld * ld * sizeof *d->W);
   if (!d->key || !d->lambda || !d->V || !d->W) {
     forget(d);
     return HC_NO_MEMORY;
   }
   memcpy(d->key, f->key, contacts);
   fill_A(f, piece);
-  hc_status st = dense_eigen(f->moving, f->A, d->lambda, d->V);
-  d->usable = st == HC_OK && invert(f, d);
+  hc_status st = dense_eigen(f->moving, f->A, lambda, V);
+  d->usable = st == HC_OK && invert(f, V, lu, W);
+  if (d->usable) keep_halves(ld, lambda, V, W, d);
   return st == HC_NOT_CONVERGED ? HC_OK : st;
 }
 
@@ -237,38 +262,62 @@ static bool is_stuck(const stretch_flow *f, const contact_piece *const *piece, i
   return piece[j] && !contact_slip_sign(piece[j]->state) && contact_has_friction(&f->m->contacts[j].law);
 }
 
-/* Column q of phi: its (dx, dx') over the stretch. */
-static void advance_column(stretch_flow *f, const decomposition *d, const contact_piece *const *piece, double duration,
-                           double *phi, int q)
+/* (0, M^-1 sum t_j dheld_j) of column q of phi into force[n]; false if it is 0. */
+static bool pull_of(const stretch_flow *f, const contact_piece *const *piece, const double *phi, int q, double *force)
+{
+  bool any = false;
+  memset(force, 0, (size_t)f->n * sizeof *force);
+  for (int j = 0; j < f->m->n_contacts; ++j) {
+    const double held = phi[(size_t)(f->moving + j) * (size_t)f->n_states + (size_t)q];
+    if (held == 0 || !is_stuck(f, piece, j)) continue;
+    for (int i = 0; i < f->n; ++i) force[i] += f->along[(size_t)j * (size_t)f->n + (size_t)i] * held / f->unit;
+    any = true;
+  }
+  return any;
+}
+
+static double dot(size_t n, const double *restrict a, const double *restrict b)
+{
+  double sum[4] = {0};
+  size_t i = 0;
+  for (; i + 4 <= n; i += 4)
+    for (size_t k = 0; k < 4; ++k) sum[k] += a[i + k] * b[i + k];
+  for (; i < n; ++i) sum[0] += a[i] * b[i];
+  return (sum[0] + sum[1]) + (sum[2] + sum[3]);
+}
+
+/* Column q of phi: its (dx, dx') over the stretch, whose growth and sum are known. */
+static void advance_column(stretch_flow *f, const decomposition *d, const contact_piece *const *piece, double *phi,
+                           int q)
 {
   const size_t n = (size_t)f->n, ld = (size_t)f->moving, states = (size_t)f->n_states;
-  double *column = phi + q;
-  double force[2] = {0, 0};
-  for (int j = 0; j < f->m->n_contacts; ++j)
-    if (is_stuck(f, piece, j)) force[0] += fabs(column[(ld + (size_t)j) * states]);
-  for (size_t k = 0; k < ld; ++k) {
-    const double complex *row = d->W + k * ld;
-    double complex sum = 0, pull = 0;
-    for (size_t i = 0; i < n; ++i)
-      sum += row[i] * column[i * states] + row[n + i] * (column[(n + i) * states] / f->unit);
-    for (int j = 0; j < f->m->n_contacts && force[0] > 0; ++j) {
-      const double held = column[(ld + (size_t)j) * states];
-      if (held == 0 || !is_stuck(f, piece, j)) continue;
-      for (size_t i = 0; i < n; ++i) pull += row[n + i] * (f->along[(size_t)j * n + i] * held / f->unit);
-    }
-    f->y[k] = sum * cexp(d->lambda[k] * duration) + (pull != 0 ? pull * integral(d->lambda[k], duration) : 0);
+  double *restrict moved = f->moved, *force = (double *)f->work, *column = phi + q;
+  const bool pulled = pull_of(f, piece, phi, q, force);
+  for (size_t i = 0; i < ld; ++i) f->x[i] = column[i * states] / (i >= n ? f->unit : 1);
+  memset(moved, 0, ld * sizeof *moved);
+  for (int k = 0; k < d->n; ++k) {
+    const double *w = d->W + (size_t)k * 2 * ld, *restrict v = d->V + (size_t)k * 2 * ld;
+    double complex y = (dot(ld, w, f->x) + I * dot(ld, w + ld, f->x)) * f->growth[k];
+    if (pulled) y += (dot(n, w + n, force) + I * dot(n, w + ld + n, force)) * f->sum[k];
+    const double re = creal(y), im = cimag(y);
+    for (size_t i = 0; i < ld; ++i) moved[i] += v[i] * re - v[ld + i] * im;
   }
-  for (size_t i = 0; i < ld; ++i) f->moved[i] = 0;
-  for (size_t k = 0; k < ld; ++k)
-    for (size_t i = 0; i < ld; ++i) f->moved[i] += d->V[k * ld + i] * f->y[k];
-  for (size_t i = 0; i < n; ++i) {
-    column[i * states] = creal(f->moved[i]);
-    column[(n + i) * states] = creal(f->moved[n + i]) * f->unit;
+  for (size_t i = 0; i < ld; ++i) column[i * states] = moved[i] * (i >= n ? f->unit : 1);
+}
+
+static void advance_by_eigenvectors(stretch_flow *f, const decomposition *d, const contact_piece *const *piece,
+                                    double duration, double *phi)
+{
+  for (int k = 0; k < d->n; ++k) {
+    f->growth[k] = cexp(d->lambda[k] * duration);
+    f->sum[k] = integral(d->lambda[k], duration);
   }
+  for (int q = 0; q < f->n_states; ++q) advance_column(f, d, piece, phi, q);
 }
 
 /* By the exponential of A, augmented by the dheld, which are constant. */
-static hc_status advance_by_exponential(stretch_flow *f, const contact_piece *const *piece, double duration, double *phi)
+static hc_status advance_by_exponential(stretch_flow *f, const contact_piece *const *piece, double duration,
+                                        double *phi)
 {
   const size_t n = (size_t)f->n, ld = (size_t)f->moving, states = (size_t)f->n_states;
   if (!f->augmented) f->augmented = gsl_matrix_alloc(states, states);
@@ -289,7 +338,7 @@ static hc_status advance_by_exponential(stretch_flow *f, const contact_piece *co
         sum += gsl_matrix_get(f->exponential, i, k) * phi[k * states + q] / (k >= n && k < ld ? f->unit : 1);
       f->moved[i] = sum;
     }
-    for (size_t i = 0; i < ld; ++i) phi[i * states + q] = creal(f->moved[i]) * (i >= n ? f->unit : 1);
+    for (size_t i = 0; i < ld; ++i) phi[i * states + q] = f->moved[i] * (i >= n ? f->unit : 1);
   }
   return HC_OK;
 }
@@ -299,7 +348,7 @@ hc_status stretch_flow_advance(stretch_flow *f, const contact_piece *const *piec
   const decomposition *d;
   hc_status st = find(f, piece, &d);
   if (st == HC_OK && !d->usable) st = advance_by_exponential(f, piece, duration, phi);
-  for (int q = 0; q < f->n_states && st == HC_OK && d->usable; ++q) advance_column(f, d, piece, duration, phi, q);
+  else if (st == HC_OK) advance_by_eigenvectors(f, d, piece, duration, phi);
   if (st == HC_OK && !isfinite(phi[0])) st = HC_NOT_FINITE;
   return st;
 }

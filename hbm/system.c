@@ -168,8 +168,7 @@ static void differentiate(hbm_system *sys, condensation_change (*by)(const conde
 
 void hbm_system_domega(hbm_system *sys, double omega, const double *X, double *dR)
 {
-  if (condensation_at(sys->linear, omega, sys->more_damping) == HC_OK)
-    differentiate(sys, condensation_by_omega, X, dR);
+  if (condensation_at(sys->linear, omega, sys->more_damping) == HC_OK) differentiate(sys, condensation_by_omega, X, dR);
 }
 
 void hbm_system_ddamping(hbm_system *sys, double omega, const double *X, double *dR)
@@ -192,8 +191,8 @@ double hbm_system_scale(const hbm_system *sys, double omega)
   double sum = 0, force = 0;
   if (condensation_at(sys->linear, omega, sys->more_damping) != HC_OK) return NAN;
   for (int h = 0; h <= sys->n_harm; ++h) {
-    const double *size = condensation_sizes(sys->linear, h), *a = sys->X + cosines(sys, h),
-                 *b = sys->X + sines(sys, h), *fa = sys->F + cosines(sys, h), *fb = sys->F + sines(sys, h);
+    const double *size = condensation_sizes(sys->linear, h), *a = sys->X + cosines(sys, h), *b = sys->X + sines(sys, h),
+                 *fa = sys->F + cosines(sys, h), *fb = sys->F + sines(sys, h);
     for (int e = 0; e < dim; ++e) {
       const double x = h ? hypot(a[e], b[e]) : fabs(a[e]);
       for (int d = 0; d < dim; ++d) sum += size[(size_t)e * (size_t)dim + (size_t)d] * x;

@@ -13,9 +13,9 @@ void dgeqp3_(const int *m, const int *n, double *a, const int *lda, int *pivot, 
              const int *lwork, int *info);
 void dorgqr_(const int *m, const int *n, const int *k, double *a, const int *lda, const double *tau, double *work,
              const int *lwork, int *info);
-void dgeev_(const char *left, const char *right, const int *n, double *a, const int *lda, double *re, double *im, double *vl,
-            const int *ldvl, double *vr, const int *ldvr, double *work, const int *lwork, int *info, size_t left_length,
-            size_t right_length);
+void dgeev_(const char *left, const char *right, const int *n, double *a, const int *lda, double *re, double *im,
+            double *vl, const int *ldvl, double *vr, const int *ldvr, double *work, const int *lwork, int *info,
+            size_t left_length, size_t right_length);
 void zgetrf_(const int *m, const int *n, double complex *a, const int *lda, int *pivot, int *info);
 void zgetrs_(const char *transposed, const int *n, const int *columns, const double complex *a, const int *lda,
              const int *pivot, double complex *b, const int *ldb, int *info, size_t transposed_length);
