@@ -1,5 +1,5 @@
 /* test_memory.c - reading a structure with the n-th allocation failing, for each n: out of memory is said, the scene is
- * left alone, and nothing leaks (the address sanitizer's to see). Only our own allocations fail: the linker wraps them. */
+ * left alone, and nothing leaks (that is for the address sanitizer to see). The linker wraps our own allocations. */
 #include "tests/cases/structure/structure_text.h"
 
 static long asked, failing; /* failing = 0: none */
