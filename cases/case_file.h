@@ -28,7 +28,8 @@ hc_status case_parse(const char *name, const char *text, size_t length, int n_se
 /* Free what a scene that was read has: its structure. Copies of the scene share it, and are to be forgotten. */
 void case_clear(scene *sc);
 
-/* Write the resolved scene as a case file that reads back to the same scene, bit for bit. */
+/* Write the resolved scene as a case file that reads back to the same scene, bit for bit. Matrices stand in it whatever
+ * files they came from: full ones of more than some 150 rows make it larger than a case file may be. */
 hc_status case_echo(const scene *sc, FILE *to);
 
 /* Describe one field or section, or all (asked = NULL), as text for a terminal: name, unit, default, range, meaning.

@@ -6,6 +6,7 @@
  * counts. */
 #include <string.h>
 
+#include "base/nearest.h"
 #include "cases/yaml_structure.h"
 
 static hc_status unknown_path(case_reader *r, const char *path, size_t length)
@@ -39,13 +40,29 @@ static int read_index(const char *s, const char *stop, const char **end)
   return index;
 }
 
-/* "[joint]": a contact by its name, -1 if it is none. */
-static int read_name(const case_reader *r, const char *s, const char *stop, const char **end)
+/* "[joint]" at s, with *end behind it: the contact of that name. *index = -1 if it is no word in brackets. */
+static hc_status read_name(case_reader *r, const char *s, const char *stop, const char **end, int *index)
 {
+  const scene_structure *own = r->sc.structure;
   const char *close = s < stop && *s == '[' ? memchr(s, ']', (size_t)(stop - s)) : NULL;
-  if (!close || !r->sc.structure) return -1;
+  *index = -1;
+  if (!close || !own || close == s + 1 || (s[1] >= '0' && s[1] <= '9') || s[1] == '-') return HC_OK;
   *end = close + 1;
-  return structure_contact_named(r->sc.structure, s + 1, (size_t)(close - s - 1));
+  const size_t length = (size_t)(close - s - 1);
+  *index = structure_contact_named(own, s + 1, length);
+  if (*index >= 0) return HC_OK;
+  int near = -1, least = NEAREST_FAR;
+  for (int j = 0; j < own->n_contacts; ++j) {
+    const char *name = own->contacts[j].given.name;
+    const int d = *name ? nearest_distance(s + 1, length, name) : NEAREST_FAR;
+    if (d < least) near = j, least = d;
+  }
+  message *m = case_blame(r, r->here);
+  message_add(m, "no contact is named `");
+  message_add_input(m, s + 1, length, 60);
+  if (near >= 0) message_add(m, "`, did you mean `%s`?", own->contacts[near].given.name);
+  else message_add(m, "`, expected an index or a name that the case gives");
+  return HC_BAD_INPUT;
 }
 
 static int list_length(const case_reader *r, case_list list)
@@ -73,7 +90,9 @@ static hc_status find_in_list(case_reader *r, const char *path, size_t length, c
   if (s == stop) return HC_OK;
   const char *bracket = s;
   t->index = read_index(bracket, stop, &s);
-  if (t->index < 0 && list == CASE_CONTACTS) t->index = read_name(r, bracket, stop, &s);
+  hc_status st = HC_OK;
+  if (t->index < 0 && list == CASE_CONTACTS) st = read_name(r, bracket, stop, &s, &t->index);
+  if (st != HC_OK) return st;
   if (t->index < 0) return unknown_path(r, path, length);
   if (s < stop) {
     const char *section = list == CASE_LOADS ? "forcing[]" : "contacts";

@@ -200,10 +200,10 @@ int cli_load_case(cli_common *common, const char *path, scene *sc)
 }
 
 /* Time integration, and with it every comparison, knows one degree of freedom. */
-static int refuse_structure(const cli_common *common, const char *path, scene *sc, case_error *err)
+int cli_refuse_structure(const cli_common *common, const char *path, scene *sc, case_error *err)
 {
   snprintf(err->message, sizeof err->message,
-           "%s: a structure, and hbmcheck %s knows `oscillator` alone; frf, modes and describe take structures", path,
+           "%s: a structure, and hbmcheck %s knows `oscillator` alone; frf, modes and study (run: frf) take structures", path,
            common->command);
   fprintf(stderr, "%s\n", err->message);
   case_clear(sc);
@@ -215,7 +215,7 @@ int cli_load_case_saying(cli_common *common, const char *path, scene *sc, case_e
   *err = (case_error){{0}};
   common->scene = sc;
   hc_status st = case_read(path, common->n_set, common->set, sc, err);
-  if (st == HC_OK && sc->structure && !common->takes_structures) return refuse_structure(common, path, sc, err);
+  if (st == HC_OK && sc->structure && !common->takes_structures) return cli_refuse_structure(common, path, sc, err);
   if (st == HC_OK) return 0;
   if (!err->message[0]) snprintf(err->message, sizeof err->message, "%s", hc_status_text(st));
   fprintf(stderr, "%s\n", err->message);

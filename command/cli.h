@@ -85,6 +85,9 @@ int cli_load_case(cli_common *common, const char *path, scene *sc);
 /* The same, with the message kept in err, too. */
 int cli_load_case_saying(cli_common *common, const char *path, scene *sc, case_error *err);
 
+/* A message that this command knows `oscillator` alone, in err, too; clears the case. Returns the exit code. */
+int cli_refuse_structure(const cli_common *common, const char *path, scene *sc, case_error *err);
+
 /* The frequencies of --at, if there are any, into compare.omega of the case: they are cycles per time where its sweep
  * is. Frequencies outside the sweep are warned of. */
 void cli_take_frequencies(const cli_common *common, const number_list *at, scene *sc);

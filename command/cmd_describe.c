@@ -148,7 +148,7 @@ static hc_status put_value(table *t, const described *d, const field *f, int j)
 {
   char path[FIELD_PATH];
   const bool counts = j >= 0 || case_field_counts(f, d->sc);
-  if (!case_field_asked(f, d->asked)) return HC_OK;
+  if (f->flags & FIELD_STRUCTURE || !case_field_asked(f, d->asked)) return HC_OK; /* an oscillator has none */
   table_put_text(t, field_path(f, j, path));
   hc_status st = put_text_of(t, f, j >= 0 ? (const void *)&d->sc->contacts[j] : d->sc, counts);
   table_put_text(t, text_or_nothing(f->unit));
@@ -200,11 +200,13 @@ static int write_values(const cli_common *common, const described *d)
 static int describe_case(const cli_common *common, const char *path)
 {
   case_error err = {{0}};
-  scene sc;
+  scene sc = {.structure = NULL};
   case_places *places = malloc(sizeof *places);
   hc_status st = places ? case_read_placed(path, common->n_set, common->set, &sc, places, &err) : HC_NO_MEMORY;
   const described d = {&sc, places, common->arguments[0]};
-  int code = st == HC_OK ? write_values(common, &d) : st == HC_NO_MEMORY ? EXIT_NO_SOLUTION : EXIT_BAD_CASE;
+  int code = st == HC_NO_MEMORY ? EXIT_NO_SOLUTION : EXIT_BAD_CASE;
+  if (st == HC_OK && sc.structure) code = cli_refuse_structure(common, path, &sc, &err);
+  else if (st == HC_OK) code = write_values(common, &d);
   if (st != HC_OK) fprintf(stderr, "%s\n", err.message[0] ? err.message : hc_status_text(st));
   free(places);
   return code;

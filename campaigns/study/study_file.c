@@ -299,9 +299,9 @@ static hc_status read_study(study_reader *q, const yaml_node_t *root, int n_set)
 /* YAML's own trap: in braces a bracket begins a list, in the middle of a word too. */
 static void hint_at_brackets(study_reader *q, const char *text, size_t length)
 {
-  static const char word[] = "contacts[";
-  for (size_t i = 0; i + sizeof word <= length; ++i) {
-    if (memcmp(text + i, word, sizeof word - 1)) continue;
+  static const char *const words[] = {"contacts[", "forcing["};
+  for (size_t i = 0; i + strlen(words[0]) < length; ++i) {
+    if (memcmp(text + i, words[0], strlen(words[0])) && memcmp(text + i, words[1], strlen(words[1]))) continue;
     message_add(&q->r.msg, " (in braces quote an indexed name: {\"contacts[0].gap\": ...})");
     return;
   }

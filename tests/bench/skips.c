@@ -127,7 +127,8 @@ int main(int argc, char **argv)
                 .n_contacts = 1,
                 .omega_from = r->omega_from,
                 .omega_to = r->omega_to};
-    sc.contacts[0] = (scene_contact){{r->kt, r->kn, REFERENCE_FRICTION, r->gap}, REFERENCE_ANGLE};
+    sc.contacts[0] = (scene_contact){.law = {.kt = r->kt, .kn = r->kn, .mu = REFERENCE_FRICTION, .gap = r->gap},
+                                     .angle_deg = REFERENCE_ANGLE};
     for (int g = 0; g < N_GROUPS; ++g) run_group(r->name, &sc, &groups[g], repeats);
   }
   return 0;

@@ -172,11 +172,14 @@ static void parts_of_structures_do_not_vary(void **state)
 {
   (void)state;
   case_error err;
-  assert_null(study_from_text("study: t\nrun: frf\n" STRUCTURE_CASE "vary: [{structure.mass: [1, 2]}]\n", 0, NULL, &err));
+  assert_null(
+      study_from_text("study: t\nrun: frf\n" STRUCTURE_CASE "vary: [{structure.mass: [1, 2]}]\n", 0, NULL, &err));
   assert_non_null(strstr(err.message, "`structure.mass` cannot vary"));
-  assert_null(study_from_text("study: t\nrun: frf\n" STRUCTURE_CASE "vary: [{forcing.amplitude: [1, 2]}]\n", 0, NULL, &err));
+  assert_null(
+      study_from_text("study: t\nrun: frf\n" STRUCTURE_CASE "vary: [{forcing.amplitude: [1, 2]}]\n", 0, NULL, &err));
   assert_non_null(strstr(err.message, "is an oscillator's, and the case has a structure"));
-  assert_null(study_from_text("study: t\nrun: frf\n" STRUCTURE_CASE "vary: [{\"contacts[1].friction\": [1]}]\n", 0, NULL, &err));
+  assert_null(study_from_text("study: t\nrun: frf\n" STRUCTURE_CASE "vary: [{\"contacts[1].friction\": [1]}]\n", 0,
+                              NULL, &err));
   assert_non_null(strstr(err.message, "the case has 1 contacts, expected an index 0..0"));
 }
 

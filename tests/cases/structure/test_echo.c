@@ -47,8 +47,7 @@ static void every_form_comes_back(void **state)
       "structure: {mass: 1.1, stiffness: 40, damping: 0.4}\nforcing: {amplitude: 100}\n" SWEEP
       "contacts: [{tangential_stiffness: 100, normal_stiffness: 1000, friction: 0.3, angle_deg: 0, gap: -5}]\n",
       "structure: {mass: [1, 1], stiffness: [3, 4], damping: {modal: [0.1, 0.2]}, nodes: [[1, 17, x], [2, -3, z]]}\n"
-      "forcing: [{node: 17, direction: x, amplitude: -0.1, phase_deg: 1e-3}, {dof: 2, amplitude: 1, harmonic: 0}]\n"
-      SWEEP
+      "forcing: [{node: 17, direction: x, amplitude: -0.1, phase_deg: 1e-3}, {dof: 2, amplitude: 1}]\n" SWEEP
       "response: [2, {1: 0.1, 2: -3}]\n",
       TWO_NAMED "contacts:\n  - {name: \"a\\\"\", tangential_stiffness: 200, friction: 1, preload: 5, tangent: root}\n"
                 "  - {normal_stiffness: 3, preload: 0.1, normal: tip}\n"
