@@ -54,26 +54,22 @@ hc_status structure_not_definite(int n, const double *M, int *order)
 
 /* ---- what nothing holds ---- */
 
-/* A += stiffness direction direction^T, scaled by d on both sides. */
-static void add_spring(int n, double *A, const double *d, double stiffness, const double *direction)
+/* A += stiffness direction direction^T */
+static void add_spring(int n, double *A, double stiffness, const double *direction)
 {
   for (int j = 0; j < n && stiffness != 0; ++j)
-    for (int i = 0; i < n && direction[j] != 0; ++i)
-      AT(A, i, j) += stiffness * (direction[i] * d[i]) * (direction[j] * d[j]);
+    for (int i = 0; i < n && direction[j] != 0; ++i) AT(A, i, j) += stiffness * direction[i] * direction[j];
 }
 
-/* K and the stuck contacts in coordinates in which all masses are alike, so that units of translations and rotations
- * do not count: D K D, D = diag(M)^-1/2. */
-static void stuck_stiffness(const scene_structure *s, const double *d, double *A)
+/* K with every contact stuck that can hold. */
+static void stuck_stiffness(const scene_structure *s, double *A)
 {
-  const int n = s->n;
-  for (int j = 0; j < n; ++j)
-    for (int i = 0; i < n; ++i) AT(A, i, j) = d[i] * AT(s->stiffness.v, i, j) * d[j];
+  memcpy(A, s->stiffness.v, (size_t)s->n * (size_t)s->n * sizeof *A);
   for (int j = 0; j < s->n_contacts; ++j) {
     const structure_contact *c = &s->contacts[j];
     const bool holds = c->given.law.mu > 0 && (c->given.law.kn > 0 || c->given.preload > 0);
-    add_spring(n, A, d, holds ? c->given.law.kt : 0, c->tangent);
-    add_spring(n, A, d, c->given.law.kn, c->normal);
+    add_spring(s->n, A, holds ? c->given.law.kt : 0, c->tangent);
+    add_spring(s->n, A, c->given.law.kn, c->normal);
   }
 }
 
@@ -84,15 +80,25 @@ static double largest(int n, const double *x)
   return most;
 }
 
-/* Largest sum of the absolute values of a row. */
-static double row_norm(int n, const double *A)
+static double row_sum(int n, const double *A, int i)
+{
+  double sum = 0;
+  for (int j = 0; j < n; ++j) sum += fabs(AT(A, i, j));
+  return sum;
+}
+
+/* A := D A D with rows of the order of 1, so that neither units nor stiff contacts hide a spring that is soft. Returns
+ * the largest row sum, 0 for a matrix of zeros. */
+static double equilibrate(int n, double *A, double *d)
 {
   double most = 0;
   for (int i = 0; i < n; ++i) {
-    double sum = 0;
-    for (int j = 0; j < n; ++j) sum += fabs(AT(A, i, j));
-    most = fmax(most, sum);
+    const double sum = row_sum(n, A, i);
+    d[i] = sum > 0 ? 1 / sqrt(sum) : 1;
   }
+  for (int j = 0; j < n; ++j)
+    for (int i = 0; i < n; ++i) AT(A, i, j) *= d[i] * d[j];
+  for (int i = 0; i < n; ++i) most = fmax(most, row_sum(n, A, i));
   return most;
 }
 
@@ -118,13 +124,11 @@ hc_status structure_free_motion(const scene_structure *s, double *x, bool *free_
   int *pivot = malloc((size_t)n * sizeof *pivot);
   *free_motion = false;
   if (A && pivot) {
-    for (int i = 0; i < n; ++i) d[i] = 1 / sqrt(AT(s->mass.v, i, i));
-    stuck_stiffness(s, d, A);
-    const double scale = row_norm(n, A), rounding = n * DBL_EPSILON * scale;
-    for (int i = 0; i < n; ++i) AT(A, i, i) += scale > 0 ? rounding / 8 : 1;
-    if (scale == 0) *free_motion = true;
-    else *free_motion = lu_factor(n, A, pivot) && !(least_held(n, A, pivot, x) * rounding < 1);
-    for (int i = 0; i < n; ++i) x[i] = scale == 0 ? d[i] : x[i] * d[i];
+    stuck_stiffness(s, A);
+    const double scale = equilibrate(n, A, d), rounding = n * DBL_EPSILON * scale;
+    for (int i = 0; i < n; ++i) x[i] = 1, AT(A, i, i) += rounding / 8;
+    *free_motion = scale == 0 || !lu_factor(n, A, pivot) || !(least_held(n, A, pivot, x) * rounding < 1);
+    for (int i = 0; i < n; ++i) x[i] *= d[i];
     const double most = largest(n, x);
     for (int i = 0; i < n; ++i) x[i] /= most;
   }

@@ -14,8 +14,9 @@ bool structure_unsymmetric(int n, const double *A, int *i, int *j);
  * minor that is not positive. HC_NO_MEMORY. */
 hc_status structure_not_definite(int n, const double *M, int *order);
 
-/* A motion x[n], largest entry 1, that neither K nor any contact resists: *free_motion = true if there is one. The stiffness
- * then is singular to rounding with every contact stuck, kt t t^T + kn n n^T each where it can hold. HC_NO_MEMORY. */
+/* A motion x[n], largest entry 1, that neither K nor any contact resists: *free_motion = true if there is one. The
+ * stiffness then is singular to rounding with every contact stuck, kt t t^T + kn n n^T each where it can hold.
+ * HC_NO_MEMORY. */
 hc_status structure_free_motion(const scene_structure *s, double *x, bool *free_motion);
 
 /* s->damping.v from the kind of damping: alpha M + beta K; or for modal damping M Phi diag(2 z omega) Phi^T M, the

@@ -212,6 +212,9 @@ static void what_contacts_hold_is_held(void **state)
           "f:1:12: ", "nothing holds the motion");
   /* stiff and soft together is not free: a spread of 1e12 is that of a fine mesh */
   model_free(model_of("structure: {mass: [1, 1, 1], damping: [0, 0, 0], stiffness: [1e12, 1, 1e6]}\n" SWEEP, NULL));
+  model_free(model_of(
+      "structure: {mass: [1, 1e-9, 1], damping: [0, 0, 0], stiffness: [[1e20, 1, 0], [1, 1, 0], [0, 0, 1e-9]]}\n" SWEEP,
+      NULL)); /* walls and units */
 }
 
 static void names_of_responses(void **state)
