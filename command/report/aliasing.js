@@ -146,9 +146,11 @@ function workingRange(at) {
   return [Math.min(...touching), Math.max(...touching)];
 }
 
-/* A number of harmonics with which the branch is there, or 0. */
+const mostTried = 10;
+
+/* A number of harmonics, up to mostTried, with which the branch is there, or 0. */
 function harmonicsWithBranch(at) {
-  for (const H of alias.harmonics.filter(h => h > at.H)) {
+  for (const H of alias.harmonics.filter(h => h > at.H && h <= mostTried)) {
     const other = largestAt(at.model, H, 0, at.omega);
     if (other && other.touches) return H;
   }
@@ -163,8 +165,9 @@ function sampledLargest(model, H, N, omega) {
 /* The largest motion touches nothing. Is that so, or has the truncation lost the branch that does? */
 function idleWords(at) {
   const range = workingRange(at);
-  const alone = 'the only motion has amplitude ' + length(at.solution.amplitude) + ' and touches no contact';
-  if (!range) return alone + ', nor does any on this response curve: nothing to sample.';
+  const size = length(at.solution.amplitude);
+  const alone = 'the only motion on this response curve has amplitude ' + size + ' and touches no contact';
+  if (!range) return alone + ', nor does any at another ' + alongName + ': nothing to sample.';
   const ends = range.map(w => show(along(w), 4)).join(' and ');
   let text = alone + '. The branch on which contacts work lies between ' + alongName + ' ' + ends + ' with this H. ';
   const more = harmonicsWithBranch(at);
@@ -172,7 +175,7 @@ function idleWords(at) {
     const lost = largestAt(at.model, more, 0, at.omega).amplitude;
     text += 'With H = ' + more + ' it reaches this ' + alongName + ', amplitude ' + length(lost) + ': ';
     text += 'truncation, not sampling, has lost it. ';
-  } else text += 'More harmonics do not bring it here. ';
+  } else if (at.H < mostTried) text += 'More harmonics, up to ' + mostTried + ', do not bring it here. ';
   const gained = sampledLargest(at.model, at.H, at.N, at.omega);
   if (gained && gained.touches) {
     text += 'With ' + at.N + ' samples it comes back, amplitude ' + length(gained.amplitude) + ': ';
@@ -195,7 +198,8 @@ function effectWords(at) {
 
 function aliasWords(at) {
   const place = placeWords(at);
-  if (!at.solution) return place + 'the response curve has no solution here, or it could not be followed so far.';
+  const left = 'the response curve leaves the sweep before it comes here, or could not be followed so far.';
+  if (!at.solution) return place + left;
   if (!at.solution.touches) return place + idleWords(at);
   if (!at.sampled) {
     const enough = 'at least ' + samplesNeeded(at.H) + ' are needed.';
