@@ -34,6 +34,16 @@ double scene_max_stiffness(const scene *sc)
   return k;
 }
 
+bool scene_adrift(const scene *sc)
+{
+  bool held = sc->stiffness > 0;
+  for (int j = 0; j < sc->n_contacts; ++j) {
+    const model_contact c = scene_model_contact(&sc->contacts[j]);
+    held |= c.law.gap > 0 && model_stuck_stiffness(&c) > 0;
+  }
+  return !held;
+}
+
 hc_status scene_model(const scene *sc, model **out)
 {
   hc_status st = model_new(sc->n_contacts, out);

@@ -47,6 +47,13 @@ model_contact scene_model_contact(const scene_contact *c);
 /* Largest stiffness [force/length] that x can see: K and every contact stuck. */
 double scene_max_stiffness(const scene *sc);
 
+/* Does nothing hold the mass while no contact touches? That is so with stiffness 0 and no contact under a preload; its
+ * mean is then undetermined. */
+bool scene_adrift(const scene *sc);
+#define SCENE_ADRIFT                                                                                                   \
+  "the mean is undetermined while nothing touches: oscillator.stiffness is 0 and no contact has a gap > 0 that gives " \
+  "it a stiffness"
+
 /* The model of the scene, to free with model_free. HC_NO_MEMORY: *out is NULL. */
 hc_status scene_model(const scene *sc, model **out);
 

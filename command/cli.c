@@ -244,6 +244,8 @@ static const char *advice_for(const scene *sc, cli_solver solver, hc_status st, 
   char other[ADVICE_TEXT];
   text[0] = 0;
   if (!sc) return text;
+  const bool failed_at_mean = solver == CLI_TRANSIENT ? st == HC_NOT_SETTLED : st == HC_SINGULAR && sc->hbm.keep_mean;
+  if (failed_at_mean && scene_adrift(sc)) return snprintf(text, ADVICE_TEXT, "%s", SCENE_ADRIFT), text;
   if (solver != CLI_TRANSIENT) advice_for_hbm(&sc->hbm, st, text);
   if (solver == CLI_HBM || !*advice_for_transient(&sc->transient, st, other)) return text;
   snprintf(text, ADVICE_TEXT, "%s",
