@@ -1,5 +1,5 @@
-/* continuation.js - the response curve of evaluator.js' equations by arc length, and the solutions on it. A plain one:
- * what the page needs of hbm/continuation.c. Nothing of the page. */
+/* continuation.js - the response curve of evaluator.js' equations with exact forces by arc length, and the solutions on
+ * it. A plain one: what the page needs of hbm/continuation.c. Nothing of the page. */
 
 const linearSolution = (model, H, omega) => {
   const X = new Float64Array(2 * H + 1);
@@ -12,17 +12,17 @@ const linearSolution = (model, H, omega) => {
 
 /* A solution where the sweep begins: Newton from the one without contact; else with so much more damping that no
  * contact matters, which is then taken away. */
-function firstSolution(model, H, samples) {
+function firstSolution(model, H) {
   const omega = model.from;
-  const direct = solveAt(model, linearSolution(model, H, omega), omega, samples);
+  const direct = solveAt(model, linearSolution(model, H, omega), omega, 0);
   if (direct) return direct;
   const stiffest = model.contacts.reduce((sum, k) => sum + k.kt + k.kn, model.stiffness + model.mass * omega * omega);
   const damped = more => Object.assign({}, model, {damping: model.damping + more});
   let more = (10 * stiffest) / omega;
-  let X = solveAt(damped(more), linearSolution(damped(more), H, omega), omega, samples);
+  let X = solveAt(damped(more), linearSolution(damped(more), H, omega), omega, 0);
   for (let factor = 0.5; X && factor < 0.999; ) {
     const last = more * omega < 1e-6 * stiffest;
-    const next = solveAt(damped(last ? 0 : more * factor), X, omega, samples);
+    const next = solveAt(damped(last ? 0 : more * factor), X, omega, 0);
     if (next && last) return next;
     if (next) [X, more, factor] = [next, more * factor, Math.max(0.5, factor * factor)];
     else factor = Math.sqrt(factor);
@@ -54,11 +54,11 @@ function tangentAt(now, scale, width, before) {
 }
 
 /* The solution in the plane through y normal to the tangent; as newton gives it. */
-function correct(model, y, tangent, scale, width, samples) {
+function correct(model, y, tangent, scale, width) {
   const n = y.length - 1;
   const system = z => {
     const omega = z[n] * width;
-    const now = omega > 0 ? equations(model, z.subarray(0, n).map(v => v * scale), omega, samples) : null;
+    const now = omega > 0 ? equations(model, z.subarray(0, n).map(v => v * scale), omega, 0) : null;
     if (!now) return null;
     const R = new Float64Array(n + 1);
     R.set(now.R);
@@ -80,14 +80,14 @@ function hasLeft(model, omega) {
 
 /* The response curve by arc length, turning points and all, as far as it goes: points {X, omega, works}, `works` where
  * a contact changes its state. */
-function traceCurve(model, H, samples, most) {
+function traceCurve(model, H, most) {
   const width = model.to - model.from;
-  const first = firstSolution(model, H, samples);
+  const first = firstSolution(model, H);
   const points = [];
   if (!first) return points;
   const n = first.length;
   const put = (X, omega, now) => points.push({X, omega, works: works(now.pieces)});
-  let now = equations(model, first, model.from, samples);
+  let now = equations(model, first, model.from, 0);
   let tangent = new Float64Array(n + 1).fill(1, n); /* towards the end of the sweep */
   let step = 0.01;
   put(first, model.from, now);
@@ -97,7 +97,7 @@ function traceCurve(model, H, samples, most) {
     const t = tangentAt(now, scale, width, tangent);
     if (!t) break;
     const y = t.map((v, j) => (j < n ? X[j] / scale : omega / width) + step * v);
-    const found = correct(model, y, t, scale, width, samples);
+    const found = correct(model, y, t, scale, width);
     const next = found && tangentAt(found.at.now, scale, width, t);
     const turn = next ? next.reduce((sum, v, j) => sum + v * t[j], 0) : -1;
     if (turn < (step > 1e-4 ? 0.8 : -0.5)) {
@@ -113,14 +113,14 @@ function traceCurve(model, H, samples, most) {
 }
 
 /* The solutions at omega between the points of a curve. */
-function solutionsOn(model, points, omega, samples) {
+function solutionsOn(model, points, omega) {
   const out = [];
   for (let i = 1; i < points.length; i++) {
     const [a, b] = [points[i - 1], points[i]];
     if (a.omega === omega && i === 1) out.push(a.X);
     if ((a.omega - omega) * (b.omega - omega) > 0 || a.omega === omega) continue;
     const part = (omega - a.omega) / (b.omega - a.omega);
-    const X = solveAt(model, a.X.map((x, j) => x + part * (b.X[j] - x)), omega, samples);
+    const X = solveAt(model, a.X.map((x, j) => x + part * (b.X[j] - x)), omega, 0);
     if (X) out.push(X);
   }
   return out;

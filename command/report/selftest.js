@@ -204,12 +204,12 @@ function tryEvaluator() {
   const home = Object.fromEntries(parameters.map(p => [p.id, homeOf(p)]));
   const near = (a, b) => Math.abs(a - b) <= 1e-7 * Math.abs(b);
   const model = modelAt(home);
-  const shown = largestAt(model, 5, 0, alias.omega[alias.first]);
+  const shown = largestAt(model, 5, alias.omega[alias.first]);
   if (shown) [0, 64].forEach(N => tryDerivatives(model, shown.X, alias.omega[alias.first], N));
   states.forEach((row, i) =>
     row.forEach((state, j) => {
       const [omega, H] = [alias.omega[i], alias.harmonics[j]];
-      const found = largestAt(model, H, 0, omega);
+      const found = largestAt(model, H, omega);
       const name = 'at ' + where(omega) + ', H = ' + H + ', ';
       trial.check(!state === !found, name + 'both or neither find a solution');
       if (!state || !found) return;
@@ -222,7 +222,7 @@ function tryEvaluator() {
     const p = parameters.find(q => q.id === spot.parameter);
     const position = positionsOf(p).findIndex(f => near(f, spot.factor));
     if (position < 0) continue; /* a gap of 0 is moved, not multiplied */
-    const found = largestAt(modelAt(Object.assign({}, home, {[p.id]: position})), spot.harmonics, 0, spot.omega);
+    const found = largestAt(modelAt(Object.assign({}, home, {[p.id]: position})), spot.harmonics, spot.omega);
     const text = found ? String(found.amplitude) : 'none';
     const same = found ? near(found.amplitude, spot.amplitude) : spot.amplitude === null;
     trial.check(same, p.name + ' times ' + spot.factor + ': ' + text + ' is ' + spot.amplitude);
@@ -265,10 +265,13 @@ function tryWords() {
   alias.omega.forEach((omega, i) => {
     trial.set('alias-omega', i);
     const {model} = aliasShown;
-    const [few, many] = [least, 10].map(H => largestAt(model, H, 0, omega));
+    const [few, many] = [least, 10].map(H => largestAt(model, H, omega));
     const isLost = few && many && !few.touches && many.touches;
     const text = $('alias-words').textContent;
     trial.check(!isLost || /truncation, not sampling, has lost it/.test(text), 'the lost branch is explained: ' + text);
+    const gained = isLost && nextSampled(model, least, alias.samples[0], omega);
+    const said = /have gained one/.test(text);
+    trial.check(said === !!(gained && gained.touches), 'a branch that sampling gained is told: ' + text);
   });
   trial.set('alias-omega', alias.first);
   trial.set('alias-h', 2, 'input');
