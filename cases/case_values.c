@@ -33,7 +33,7 @@ bool case_field_asked(const field *f, const char *asked)
 {
   if (!asked) return true;
   if (field_find_section(asked, strlen(asked))) return !strcmp(f->section, asked);
-  return is_path(f, asked) || !strcmp(f->name, asked) || !strcmp(f->symbol, asked);
+  return is_path(f, asked) || !strcmp(f->name, asked) || (*asked && !strcmp(f->symbol, asked));
 }
 
 typedef struct list {

@@ -42,6 +42,16 @@ const scene_contact *scene_contact_at(const scene *sc, int j)
   return sc->structure ? &sc->structure->contacts[j].given : &sc->contacts[j];
 }
 
+bool scene_adrift(const scene *sc)
+{
+  bool held = sc->structure || sc->stiffness > 0; /* of a structure the reader sees to it */
+  for (int j = 0; j < sc->n_contacts; ++j) {
+    const moving_contact c = scene_moving_contact(&sc->contacts[j]);
+    held |= c.law.gap > 0 && moving_contact_stuck_stiffness(&c) > 0;
+  }
+  return !held;
+}
+
 hc_status scene_model(const scene *sc, model **out)
 {
   if (sc->structure) return structure_model(sc->structure, out);

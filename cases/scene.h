@@ -62,6 +62,13 @@ double scene_max_stiffness(const scene *sc);
 int scene_contact_count(const scene *sc);
 const scene_contact *scene_contact_at(const scene *sc, int j);
 
+/* Does nothing hold the mass while no contact touches? That is so with stiffness 0 and no contact under a preload; its
+ * mean is then undetermined. */
+bool scene_adrift(const scene *sc);
+#define SCENE_ADRIFT                                                                                                   \
+  "the mean is undetermined while nothing touches: oscillator.stiffness is 0 and no contact has a gap > 0 that gives " \
+  "it a stiffness"
+
 /* The model of the scene, to free with model_free. HC_NO_MEMORY: *out is NULL. */
 hc_status scene_model(const scene *sc, model **out);
 

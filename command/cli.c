@@ -50,13 +50,13 @@ void cli_read_list(struct argp_state *state, const char *option, const char *tex
 void cli_read_integer(struct argp_state *state, const char *option, const char *text, int low, int high, int *out)
 {
   if (number_read_integer(text, strlen(text), out) != NUMBER_FINE || *out < low || *out > high)
-    argp_error(state, "--%s: '%s' is unknown; expected an integer %d..%d", option, text, low, high);
+    argp_error(state, "--%s: '%s' is not an integer %d..%d", option, text, low, high);
 }
 
 void cli_read_positive(struct argp_state *state, const char *option, const char *text, double *out)
 {
   if (number_read(text, strlen(text), out) != NUMBER_FINE || !(*out > 0))
-    argp_error(state, "--%s: '%s' is unknown; expected a number > 0", option, text);
+    argp_error(state, "--%s: '%s' is not a number > 0", option, text);
 }
 
 void cli_read_format(struct argp_state *state, const char *option, const char *text, bool table_too, table_format *out)
@@ -154,7 +154,8 @@ void cli_parse(const cli_command *self, int argc, char **argv, void *own, cli_co
     exit(failed == ENOMEM ? EXIT_NO_SOLUTION : EXIT_BUG);
   }
   if (required && common->n_arguments == 0) {
-    cli_message(common, "no %s given\nTry 'hbmcheck %s --help'.", self->arguments, self->name);
+    cli_message(common, "no %.*s given\nTry 'hbmcheck %s --help'.", (int)strcspn(self->arguments, "."), self->arguments,
+                self->name);
     exit(EXIT_USAGE);
   }
 }
@@ -258,6 +259,10 @@ static const char *advice_for(const scene *sc, cli_solver solver, hc_status st, 
   char other[ADVICE_TEXT];
   text[0] = 0;
   if (!sc) return text;
+  const bool failed_at_mean = solver == CLI_TRANSIENT ? st == HC_NOT_SETTLED : st == HC_SINGULAR && sc->hbm.keep_mean;
+  if (failed_at_mean && scene_adrift(sc)) return snprintf(text, ADVICE_TEXT, "%s", SCENE_ADRIFT), text;
+  if (st == HC_NOT_FINITE) /* of neither side's settings */
+    return snprintf(text, ADVICE_TEXT, "%s", advice_on_size(sc->damping)), text;
   if (solver != CLI_TRANSIENT) advice_for_hbm(&sc->hbm, st, text);
   if (solver == CLI_HBM || !*advice_for_transient(&sc->transient, st, other)) return text;
   snprintf(text, ADVICE_TEXT, "%s",

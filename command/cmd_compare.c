@@ -125,6 +125,7 @@ static void note_comparison(table *t, const scene *sc, const compare_setup *setu
   note_worst(t, sc, setup, c);
   note_unexpected(t, sc, c);
   note_mean(t, c);
+  if (scene_adrift(sc)) table_note(t, "%s", SCENE_ADRIFT);
   if (!comparison_nonlinear(c)) table_note(t, COMPARISON_LINEAR, c->n_rows);
 }
 

@@ -64,7 +64,7 @@ static int read_motion(const cli_common *common, const char *motion, double *X)
       return -1;
     }
     if (number_read(at, length, &X[n]) != NUMBER_FINE) {
-      cli_message(common, "--motion: '%.*s' is not a number", (int)length, at);
+      cli_message(common, "--motion: '%.*s' is not a finite number", (int)length, at);
       return -1;
     }
     ++n;
@@ -171,11 +171,11 @@ static int put_forces(const cli_common *common, const contact_options *own, cons
   if (n_harm < 1) n_harm = 1;
   int n_time[MAX_SETS] = {sc->hbm.force == HBM_FORCE_EXACT ? EXACT : sc->hbm.samples}, n_sets = 1;
   for (int i = 0; i < own->samples.n; ++i) {
+    static const double most = 1 << 24;
     double n = own->samples.v[i];
-    if (n_sets == MAX_SETS || n != floor(n) || n > 1 << 24) {
-      cli_message(common, "--samples takes at most %d whole numbers", MAX_SETS - 1);
-      return EXIT_USAGE;
-    }
+    if (n_sets == MAX_SETS) cli_message(common, "--samples takes at most %d numbers", MAX_SETS - 1);
+    else if (n != floor(n) || n > most) cli_message(common, "--samples: %.15g is not a whole number 3..%.0f", n, most);
+    if (n_sets == MAX_SETS || n != floor(n) || n > most) return EXIT_USAGE;
     n_time[n_sets++] = (int)n;
   }
   double(*F)[MAX_COEF] = calloc(MAX_SETS, sizeof *F);

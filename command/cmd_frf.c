@@ -83,6 +83,7 @@ static void note_curve(table *t, const scene *sc, const hbm_solver *s, const hbm
   if (c->inaccurate)
     table_note(t, "hbm.accuracy %g was NOT met everywhere with the most harmonics or samples that auto takes",
                sc->hbm.accuracy);
+  if (sc->hbm.keep_mean && scene_adrift(sc)) table_note(t, "%s", SCENE_ADRIFT);
   if (c->n == 0) return;
   char last[SCENE_WHERE];
   scene_where(sc, c->points[c->n - 1].omega, last);

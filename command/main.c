@@ -1,4 +1,5 @@
 /* main.c - hbmcheck COMMAND ...: finds the command (commands.h) and hands it its arguments. */
+#include <errno.h>
 #include <gsl/gsl_errno.h>
 #include <signal.h>
 #include <stdbool.h>
@@ -26,6 +27,14 @@ static void usage(FILE *to)
   fputs("\nhbmcheck COMMAND --help tells more. Start with: hbmcheck compare cases/paper/case2.yaml\n"
         "exit: 0 agreed  1 disagreed  2 case file wrong  3 could not  64 usage  70 a bug\n",
         to);
+}
+
+/* The exit code once all of it is on standard output. */
+static int written(const char *what)
+{
+  if (fflush(stdout) == 0 && !ferror(stdout)) return 0;
+  fprintf(stderr, "hbmcheck %s: standard output: %s\n", what, strerror(errno));
+  return EXIT_NO_SOLUTION;
 }
 
 static const cli_command *find_command(const char *name)
@@ -56,11 +65,11 @@ int main(int argc, char **argv)
   }
   if (!strcmp(argv[1], "--help") || (!strcmp(argv[1], "help") && argc == 2)) {
     usage(stdout);
-    return 0;
+    return written("--help");
   }
   if (!strcmp(argv[1], "--version")) {
     cli_print_version(stdout, NULL);
-    return 0;
+    return written("--version");
   }
   const bool help = !strcmp(argv[1], "help"); /* help NAME is NAME --help */
   const char *name = argv[help ? 2 : 1];

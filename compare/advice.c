@@ -141,7 +141,6 @@ const char *advice_for_hbm(const hbm_settings *how, hc_status failure, char text
     break;
   case HC_NOT_CLOSED: add_unless(&r, false, exact ? "--set hbm.force=sampled" : "--set hbm.force=exact"); break;
   case HC_CHATTER: add_unless(&r, !exact, "--set hbm.force=sampled, which counts no transitions"); break;
-  case HC_NOT_FINITE: return snprintf(text, ADVICE_TEXT, "numbers became too large: is the scene damped?"), text;
   default: break;
   }
   return write_remedies(&r, text);
@@ -173,8 +172,13 @@ const char *advice_for_transient(const transient_settings *how, hc_status failur
     add_unless(&r, how->max_periods >= TRANSIENT_MOST_PERIODS, "a larger --set transient.max_periods=...");
     add_unless(&r, how->start == TRANSIENT_START_HBM, "--set transient.start=hbm");
     break;
-  case HC_NOT_FINITE: return snprintf(text, ADVICE_TEXT, "the motion grew without bound: is the scene damped?"), text;
   default: break;
   }
   return write_remedies(&r, text);
+}
+
+const char *advice_on_size(double damping)
+{
+  return damping > 0 ? "numbers became too large or too small: are units, force and frequency right?"
+                     : "the motion grew without bound: oscillator.damping is 0";
 }

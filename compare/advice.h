@@ -14,4 +14,7 @@ enum { ADVICE_TEXT = 320 };
 const char *advice_for_hbm(const hbm_settings *how, hc_status failure, char text[ADVICE_TEXT]);
 const char *advice_for_transient(const transient_settings *how, hc_status failure, char text[ADVICE_TEXT]);
 
+/* After HC_NOT_FINITE of either side, from the scene's damping. A constant string. */
+const char *advice_on_size(double damping);
+
 #endif

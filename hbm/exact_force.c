@@ -267,10 +267,13 @@ static void multiply(const exact_force *e, const double *matrix, const double *X
 
 hc_status exact_force_eval(exact_force *e, const double *X, double *F, double *jac, contact_report *report)
 {
+  /* The search for transitions multiplies motions and their derivatives, up to 200^2 times larger, with each other;
+   * what overflowed there would be no transition, and the contact separated without a word. */
+  static const double largest = 1e140;
   int m = e->n_dof * e->n_coef, symbol = force_jacobian_symbol_length(e->n_harm);
   double size = 0, *matrix = jac ? jac : e->matrix;
   for (int i = 0; i < m; ++i) size += fabs(X[i]);
-  if (!isfinite(size)) return HC_NOT_FINITE;
+  if (!(size <= largest)) return HC_NOT_FINITE;
   series_vector x = {e->n_harm, e->n_dof, {X, X + e->n_coef}};
   series_grid_fill(&e->grid, &x, e->table);
   memset(F, 0, (size_t)m * sizeof(double));

@@ -2,7 +2,8 @@
  * between two points, the change is located on the segment between them. d omega along the tangent (turning point) and
  * the product of 1 + multiplier (period doubling) are smooth functions of sigma: their roots are found by
  * interpolation. The contact pattern is not: its change is bisected, and the rest of the segment searched for the
- * next. */
+ * next. What is too near to be told apart is one change: slip and separation that begin at once, two contacts that are
+ * alike. */
 #include "hbm/special_points.h"
 
 #include <math.h>
@@ -17,6 +18,9 @@
  * special_points.h promises. */
 static const double SIGMA_TOLERANCE = 1e-11;
 enum { MAX_CONTACT_CHANGES = 64 /* on one segment */ };
+/* What is nearer than this, relative to omega and to the amplitude (near a turning point omega alone says little), is
+ * at one place: special_points.h promises no more. */
+static const double SAME_OMEGA = 1e-9, SAME_AMPLITUDE = 1e-8;
 
 /* The test functions at a point. */
 typedef struct test_values {
@@ -25,14 +29,19 @@ typedef struct test_values {
   int transitions;
 } test_values;
 
+/* A special point; of a contact change, how many transitions the pattern has on either side. */
+typedef struct found_point {
+  hbm_special special;
+  double sigma; /* where on its segment it lies */
+  int transitions_before, transitions_after;
+} found_point;
+
 typedef struct detector {
   hbm_solver *s;
   const hbm_curve *c;
-  hbm_candidate x; /* the solution on a segment that was evaluated last */
-  int cap, n;      /* of out */
-  int first;       /* index in out of the first special point of the current segment */
-  double *sigma;   /* [cap] where on its segment each lies */
-  hbm_special *out;
+  hbm_candidate x;    /* the solution on a segment that was evaluated last */
+  int n, room, first; /* of found; `first` is the first one of the current segment */
+  found_point *found; /* [room] */
 } detector;
 
 static hc_status evaluate_tests(detector *d, double omega, double d_omega, const double *X, test_values *v)
@@ -57,22 +66,70 @@ static bool same_pattern(const test_values *a, const test_values *b)
   return a->regime == b->regime && a->transitions == b->transitions;
 }
 
-/* The solution in d->x, at sigma, into out, behind those of this segment that come before it. */
-static hc_status insert_special(detector *d, double sigma, hbm_special_kind kind, contact_regime before,
-                                contact_regime after)
+static hc_status make_room(detector *d)
+{
+  if (d->n < d->room) return HC_OK;
+  const int room = d->room ? 2 * d->room : 32;
+  found_point *grown = realloc(d->found, (size_t)room * sizeof *grown);
+  if (!grown) return HC_NO_MEMORY;
+  d->found = grown;
+  d->room = room;
+  return HC_OK;
+}
+
+/* The solution in d->x, at sigma, behind those of this segment that come before it. */
+static hc_status insert_special(detector *d, double sigma, hbm_special_kind kind, const test_values *before,
+                                const test_values *after)
 {
   hbm_measures m;
-  hc_status st = hbm_measure(d->s, d->x.X, &m);
+  hc_status st = make_room(d);
+  if (st == HC_OK) st = hbm_measure(d->s, d->x.X, &m);
   if (st != HC_OK) return st;
-  if (d->n++ >= d->cap) return HC_OK;
-  int i = d->n - 1;
-  for (; i > d->first && d->sigma[i - 1] > sigma; --i) {
-    d->out[i] = d->out[i - 1];
-    d->sigma[i] = d->sigma[i - 1];
-  }
-  d->out[i] = (hbm_special){kind, d->x.point.omega, m.amplitude, d->x.point.branch, before, after};
-  d->sigma[i] = sigma;
+  int i = d->n++;
+  for (; i > d->first && d->found[i - 1].sigma > sigma; --i) d->found[i] = d->found[i - 1];
+  d->found[i] =
+      (found_point){.special = {kind, d->x.point.omega, m.amplitude, d->x.point.branch, before->regime, after->regime},
+                    .sigma = sigma,
+                    .transitions_before = before->transitions,
+                    .transitions_after = after->transitions};
   return HC_OK;
+}
+
+static bool same_place(const hbm_special *a, const hbm_special *b)
+{
+  return fabs(a->omega - b->omega) <= SAME_OMEGA * a->omega &&
+         fabs(a->amplitude - b->amplitude) <= SAME_AMPLITUDE * a->amplitude;
+}
+
+/* The point among found[0..n-1] of p's kind that p cannot be told from; -1 if there is none. */
+static int twin_of(const found_point *found, int n, const found_point *p)
+{
+  for (int k = n - 1; k >= 0 && same_place(&found[k].special, &p->special); --k)
+    if (found[k].special.kind == p->special.kind) return k;
+  return -1;
+}
+
+/* *one takes what happens at *other in: false if nothing is left, since two turning points or period doublings at one
+ * place lead back, as does a pattern that is the same before and after. */
+static bool take_in(found_point *one, const found_point *other)
+{
+  if (one->special.kind != HBM_CONTACT_CHANGE) return false;
+  one->special.after = other->special.after;
+  one->transitions_after = other->transitions_after;
+  return one->special.before != one->special.after || one->transitions_before != one->transitions_after;
+}
+
+/* One point of those that cannot be told apart. */
+static void merge_twins(detector *d)
+{
+  int n = 0;
+  for (int i = 0; i < d->n; ++i) {
+    const int k = twin_of(d->found, n, &d->found[i]);
+    if (k < 0) d->found[n++] = d->found[i];
+    else if (!take_in(&d->found[k], &d->found[i]))
+      memmove(&d->found[k], &d->found[k + 1], (size_t)(--n - k) * sizeof *d->found);
+  }
+  d->n = n;
 }
 
 /* A search along segment k. */
@@ -125,7 +182,7 @@ static hc_status locate_root(detector *d, int k, hbm_special_kind kind, double f
   if (st != HC_OK) return st;
   /* a turning point belongs to the branch that it ends */
   if (kind == HBM_TURNING_POINT) d->x.point.branch = d->c->points[k].branch;
-  return insert_special(d, root.x, kind, s.here.regime, s.here.regime);
+  return insert_special(d, root.x, kind, &s.here, &s.here);
 }
 
 /* Every change of the contact pattern on segment k, from `before` at its start to `end` at its end. */
@@ -139,7 +196,7 @@ static hc_status locate_contact_changes(detector *d, int k, test_values before, 
     if (st == HC_OK) st = return_to(&s, change.x);
     if (st != HC_OK) return st;
     test_values after = change.x < 1 ? s.here : *end;
-    st = insert_special(d, change.x, HBM_CONTACT_CHANGE, before.regime, after.regime);
+    st = insert_special(d, change.x, HBM_CONTACT_CHANGE, &before, &after);
     if (st != HC_OK) return st;
     before = after;
     from = change.x;
@@ -159,12 +216,11 @@ static hc_status search_segment(detector *d, int k, const test_values *a, const 
 
 hc_status hbm_specials(hbm_solver *s, const hbm_curve *c, int cap, hbm_special *out, int *n)
 {
-  detector d = {.s = s, .c = c, .cap = cap, .out = out};
+  detector d = {.s = s, .c = c};
   test_values before = {0}, here = {0};
   *n = 0;
   if (c->n == 0) return HC_OK;
-  d.sigma = malloc((size_t)(cap > 0 ? cap : 1) * sizeof *d.sigma);
-  hc_status st = d.sigma ? hbm_candidate_new(c->n_coef, &d.x) : HC_NO_MEMORY, not_located = HC_OK;
+  hc_status st = hbm_candidate_new(c->n_coef, &d.x), not_located = HC_OK;
   if (st == HC_OK) st = evaluate_at_point(&d, 0, &before);
   for (int k = 0; st == HC_OK && k + 1 < c->n; ++k) {
     st = evaluate_at_point(&d, k + 1, &here);
@@ -172,8 +228,10 @@ hc_status hbm_specials(hbm_solver *s, const hbm_curve *c, int cap, hbm_special *
     if (found != HC_OK) not_located = found; /* the search goes on: the others are still to be found */
     before = here;
   }
-  free(d.x.X);
-  free(d.sigma);
+  merge_twins(&d);
+  for (int i = 0; i < d.n && i < cap; ++i) out[i] = d.found[i].special;
   *n = d.n;
+  free(d.x.X);
+  free(d.found);
   return st != HC_OK ? st : not_located;
 }

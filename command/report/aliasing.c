@@ -1,35 +1,31 @@
 /* aliasing.c - see aliasing.h. Numbers of a state go out as integers: harmonics in 1e-6, differences and folds in 1e-9
- * of its `scale`, the largest |force|; that keeps the page small. */
+ * of its `scale`, the 2-norm of the force's harmonics; that keeps the page small. */
 #include "command/report/aliasing.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/constants.h"
 #include "campaigns/scene_solvers.h"
 #include "compare/frequencies.h"
 #include "hbm/aft.h"
 #include "hbm/exact_force.h"
-#include "hbm/fft_plan.h"
-#include "numerics/series.h"
 #include "numerics/workers.h"
 
 enum {
   N_HARM = 5,
   N_SAMPLES = 9,
-  CHECKED_SAMPLES = 3,
+  CHECKED_SAMPLES = 2,
   CHECKED_HARMONICS = 80,
   SPOT_HARMONICS = 3,
-  FINE = 1 << 15,
   MOST_COEF = 2 * HBM_MAX_HARMONICS + 1
 };
 
 /* On the sliders. */
 static const int harmonics[N_HARM] = {1, 3, 5, 10, 20};
 static const int samples[N_SAMPLES] = {16, 32, 64, 128, 256, 512, 1024, 2048, 4096};
-/* In the states. */
-static const int checked_samples[CHECKED_SAMPLES] = {32, 256, 2048};
+/* In the states; with the largest H no more than HBM_MAX_HARMONICS. */
+static const int checked_samples[CHECKED_SAMPLES] = {32, 128};
 static const double harmonic_step = 1e-6, fold_step = 1e-9;
 
 /* Parameters with a slider in the page, by their names in aliasing.js, and a factor on the case's value that the slider
@@ -44,31 +40,16 @@ static const struct spot {
                     [SPOT_DAMPING] = {"damping", 1.5},
                     [SPOT_FORCE] = {"force", 1.5}};
 
-/* What all states share; read by every thread. */
-typedef struct fine_grid {
-  fftw_plan plan;     /* of arrays by fftw_malloc, run on each thread's own */
-  double (*angle)[2]; /* [FINE] cosine and sine of the times */
-} fine_grid;
-
 /* One H, and memory for the force of one solution. */
 typedef struct force_workspace {
-  scene sc; /* with exact forces and H */
-  const fine_grid *grid;
+  scene sc;                         /* with exact forces and H */
   exact_force *fine;                /* with HBM_MAX_HARMONICS harmonics */
-  double *force;                    /* [FINE] */
-  fftw_complex *spectrum;           /* [FINE/2+1] true harmonics of the force, F_h = (a_h - i b_h) for h > 0 */
   hbm_solver *hbm[CHECKED_SAMPLES]; /* of the sampled equations; made when needed */
   aft *sampled[CHECKED_SAMPLES];
   int n_harm;
-  double omega, X[MOST_COEF], scale; /* of the solution; scale: largest |force| */
+  double omega, X[MOST_COEF]; /* of the solution */
+  double F[MOST_COEF], scale; /* its true harmonics; their 2-norm */
 } force_workspace;
-
-static hc_status workspace_arrays(force_workspace *w)
-{
-  w->force = fftw_malloc(FINE * sizeof *w->force);
-  w->spectrum = fftw_malloc((FINE / 2 + 1) * sizeof *w->spectrum);
-  return w->force && w->spectrum ? HC_OK : HC_NO_MEMORY;
-}
 
 static void workspace_close(force_workspace *w)
 {
@@ -77,72 +58,16 @@ static void workspace_close(force_workspace *w)
     aft_free(w->sampled[i]);
   }
   exact_force_free(w->fine);
-  fftw_free(w->force);
-  fftw_free(w->spectrum);
 }
 
-static hc_status grid_open(fine_grid *g)
-{
-  force_workspace to_plan = {0};
-  hc_status st = workspace_arrays(&to_plan);
-  if (st == HC_OK) st = fft_plan_to_spectrum(FINE, to_plan.force, to_plan.spectrum, &g->plan);
-  workspace_close(&to_plan);
-  g->angle = malloc(FINE * sizeof *g->angle);
-  for (int i = 0; i < FINE && g->angle; ++i) {
-    double th = TWO_PI * i / FINE;
-    g->angle[i][0] = cos(th);
-    g->angle[i][1] = sin(th);
-  }
-  return g->angle ? st : HC_NO_MEMORY;
-}
-
-static void grid_close(fine_grid *g)
-{
-  fft_plan_free(g->plan);
-  free(g->angle);
-}
-
-/* ---- the true harmonics ---------------------------------------------------------------------- */
-
-/* Force of one contact at the angle th, from its pieces. */
-static double contact_at(const moving_contact *c, int n, const contact_piece *p, double th, double x)
-{
-  const double u = c->cu[0] * x, v = c->cv[0] * x, normal = contact_normal(&c->law, v);
-  double tangential = 0;
-  for (int i = 0; i < n; ++i) {
-    double at = th < p[i].from ? th + TWO_PI : th;
-    if (at < p[i].from || at > p[i].to) continue;
-    int s = contact_slip_sign(p[i].state);
-    tangential = s ? s * c->law.mu * normal : c->law.kt * u - p[i].held;
-  }
-  return c->cu[0] * tangential + c->cv[0] * (normal - contact_preload(&c->law));
-}
-
-/* The force at FINE times, from the pieces of the exact evaluation, and its harmonics: by closed forms up to
- * HBM_MAX_HARMONICS, beyond from the FINE samples. */
 static hc_status find_true_harmonics(force_workspace *w)
 {
-  double X[MOST_COEF] = {0}, F[MOST_COEF];
-  moving_contact contacts[SCENE_MAX_CONTACTS];
-  for (int j = 0; j < w->sc.n_contacts; ++j) contacts[j] = scene_moving_contact(&w->sc.contacts[j]);
+  double X[MOST_COEF] = {0}, sum = 0;
   memcpy(X, w->X, (size_t)(2 * w->n_harm + 1) * sizeof *X);
-  hc_status st = exact_force_eval(w->fine, X, F, NULL, NULL);
-  if (st != HC_OK) return st;
-  w->scale = 0;
-  for (int i = 0; i < FINE; ++i) {
-    double th = TWO_PI * i / FINE, x = series_at(w->n_harm, w->X, w->grid->angle[i][0], w->grid->angle[i][1]).x, f = 0;
-    for (int j = 0, n; j < w->sc.n_contacts; ++j) {
-      const contact_piece *p = exact_force_pieces(w->fine, j, &n);
-      f += contact_at(&contacts[j], n, p, th, x);
-    }
-    w->force[i] = f;
-    w->scale = fmax(w->scale, fabs(f));
-  }
-  fftw_execute_dft_r2c(w->grid->plan, w->force, w->spectrum);
-  for (int h = 0; h <= FINE / 2; ++h) w->spectrum[h] *= 2.0 / FINE;
-  w->spectrum[0] = F[0];
-  for (int h = 1; h <= HBM_MAX_HARMONICS; ++h) w->spectrum[h] = F[2 * h - 1] - I * F[2 * h];
-  return HC_OK;
+  hc_status st = exact_force_eval(w->fine, X, w->F, NULL, NULL);
+  for (int i = 0; i < MOST_COEF; ++i) sum += w->F[i] * w->F[i];
+  w->scale = sqrt(sum);
+  return st;
 }
 
 /* ---- as JSON --------------------------------------------------------------------------------- */
@@ -183,6 +108,9 @@ static double sampled_amplitude(force_workspace *w, int k)
   return found ? m.amplitude : NAN;
 }
 
+/* |F_h|, h > 0. */
+static double size_of(const double *F, int h) { return hypot(F[2 * h - 1], F[2 * h]); }
+
 /* checked_samples[k]: amplitude; sampled minus true, cosine and sine parts [2 H + 1]; |F_{N-h}| and |F_{N+h}|,
  * h = 0..H. */
 static json_t *sampled_state(force_workspace *w, int k)
@@ -195,11 +123,10 @@ static json_t *sampled_state(force_workspace *w, int k)
   if (st != HC_OK) return json_null();
   json_t *difference = json_array(), *folds = json_array();
   for (int h = 0; h <= w->n_harm; ++h) {
-    double complex f = w->spectrum[h];
-    json_array_append_new(difference, in_steps((h ? F[2 * h - 1] : F[0]) - creal(f), fold_step * w->scale));
-    if (h) json_array_append_new(difference, in_steps(F[2 * h] + cimag(f), fold_step * w->scale));
-    json_array_append_new(folds, in_steps(cabs(w->spectrum[n - h]), fold_step * w->scale));
-    json_array_append_new(folds, in_steps(cabs(w->spectrum[n + h]), fold_step * w->scale));
+    for (int i = h ? 2 * h - 1 : 0; i <= 2 * h; ++i)
+      json_array_append_new(difference, in_steps(F[i] - w->F[i], fold_step * w->scale));
+    json_array_append_new(folds, in_steps(size_of(w->F, n - h), fold_step * w->scale));
+    json_array_append_new(folds, in_steps(size_of(w->F, n + h), fold_step * w->scale));
   }
   return json_pack("{s:o, s:o, s:o}", "amplitude", number(sampled_amplitude(w, k)), "difference", difference, "folds",
                    folds);
@@ -211,10 +138,8 @@ static json_t *state_of(force_workspace *w, double amplitude)
   /* no contact, or one that does nothing */
   if (!(w->scale > 0)) return json_pack("{s:o, s:i}", "amplitude", number(amplitude), "scale", 0);
   json_t *truth = json_array(), *sampled = json_array();
-  for (int h = 0; h <= CHECKED_HARMONICS; ++h) {
-    json_array_append_new(truth, in_steps(creal(w->spectrum[h]), harmonic_step * w->scale));
-    if (h) json_array_append_new(truth, in_steps(-cimag(w->spectrum[h]), harmonic_step * w->scale));
-  }
+  for (int i = 0; i <= 2 * CHECKED_HARMONICS; ++i)
+    json_array_append_new(truth, in_steps(w->F[i], harmonic_step * w->scale));
   for (int i = 0; i < CHECKED_SAMPLES; ++i) json_array_append_new(sampled, sampled_state(w, i));
   return json_pack("{s:o, s:o, s:o, s:o}", "amplitude", number(amplitude), "scale", number(w->scale), "true", truth,
                    "sampled", sampled);
@@ -242,7 +167,6 @@ static double largest_solution(force_workspace *w, hbm_solver *s, const hbm_curv
 /* All states. */
 typedef struct all_states {
   const scene *sc;
-  fine_grid grid;
   int n_omega, first;
   const double *omega;
   json_t *state[N_HARM][ALIASING_MOST_OMEGAS];
@@ -317,10 +241,8 @@ static hc_status do_task(void *self, int task, const hc_monitor *monitor)
   const int h = N_HARM - 1 - task, spot = task - N_HARM;
   force_workspace *w = calloc(1, sizeof *w);
   if (!w) return HC_NO_MEMORY;
-  w->grid = &all->grid;
   set_scene(w, all->sc, spot >= 0 ? SPOT_HARMONICS : harmonics[h]);
-  hc_status st = workspace_arrays(w);
-  if (st == HC_OK) st = scene_exact(&w->sc, HBM_MAX_HARMONICS, &w->fine);
+  hc_status st = scene_exact(&w->sc, HBM_MAX_HARMONICS, &w->fine);
   if (st == HC_OK) st = spot >= 0 ? find_spot(w, all, spot, monitor) : find_states(w, all, all->state[h], monitor);
   workspace_close(w);
   free(w);
@@ -383,7 +305,6 @@ static void drop_states(all_states *all)
 {
   for (int h = 0; h < N_HARM; ++h)
     for (int i = 0; i < all->n_omega; ++i) json_decref(all->state[h][i]);
-  grid_close(&all->grid);
 }
 
 hc_status aliasing_states(const scene *sc, int n_omega, const double *omega, int first, int jobs,
@@ -391,8 +312,7 @@ hc_status aliasing_states(const scene *sc, int n_omega, const double *omega, int
 {
   all_states all = {.sc = sc, .n_omega = n_omega, .first = first, .omega = omega};
   *out = NULL;
-  hc_status st = grid_open(&all.grid);
-  if (st == HC_OK) st = workers_run(jobs, N_HARM + N_SPOTS, do_task, &all, monitor);
+  hc_status st = workers_run(jobs, N_HARM + N_SPOTS, do_task, &all, monitor);
   if (st == HC_OK && !(*out = all_json(&all))) st = HC_NO_MEMORY;
   drop_states(&all);
   return st;

@@ -53,30 +53,40 @@ function keep(key, make) {
   return kept.get(text);
 }
 
-/* Response curves of sampled equations are followed up to this many samples times unknowns. */
-const mostSampledWork = 8000;
 const mostPoints = 1500;
 
-const curveOf = (model, H, N) => keep([model, H, N], () => traceCurve(model, H, N, mostPoints));
+const curveOf = (model, H) => keep([model, H], () => traceCurve(model, H, mostPoints));
 
 /* Of the curve's solutions at omega the one with the largest amplitude: {X, amplitude, touches}, or null. `touches`:
  * the motion touches a contact. */
-function largestAt(model, H, N, omega) {
-  return keep([model, H, N, omega], () => {
-    const found = solutionsOn(model, curveOf(model, H, N), omega, N).map(X => ({X, amplitude: amplitudeOf(X)}));
+function largestAt(model, H, omega) {
+  return keep([model, H, omega], () => {
+    const found = solutionsOn(model, curveOf(model, H), omega).map(X => ({X, amplitude: amplitudeOf(X)}));
     if (!found.length) return null;
     const top = found.reduce((a, b) => (b.amplitude > a.amplitude ? b : a));
-    return Object.assign(top, {touches: touchesIn(model, top.X, N)});
+    return Object.assign(top, {touches: touchesIn(model, top.X, 0)});
   });
 }
 
 const touchesIn = (model, X, N) => (piecesOf(model, X, N) || []).some(p => p.piece.state !== APART);
 
-/* The solution of the sampled equations that Newton finds from the exact ones': {amplitude, touches}, or null. */
+const mostTried = 10;
+
+/* More harmonics, up to mostTried, with which the motion at omega touches, or 0. */
+function harmonicsThatTouch(model, H, omega) {
+  const touching = H => (largestAt(model, H, omega) || {}).touches;
+  return alias.harmonics.find(h => h > H && h <= mostTried && touching(h)) || 0;
+}
+
+/* The solution of the sampled equations that Newton finds from the exact ones', or where that touches nothing from the
+ * one of more harmonics that does: {amplitude, touches}, or null. */
 function nextSampled(model, H, N, omega) {
   return keep([model, H, N, omega, 'next'], () => {
-    const exact = largestAt(model, H, 0, omega);
-    const X = exact && N >= samplesNeeded(H) ? solveAt(model, exact.X, omega, N) : null;
+    const exact = largestAt(model, H, omega);
+    if (!exact || N < samplesNeeded(H)) return null;
+    const more = exact.touches ? 0 : harmonicsThatTouch(model, H, omega);
+    const start = more ? largestAt(model, more, omega).X.slice(0, 2 * H + 1) : exact.X;
+    const X = solveAt(model, start, omega, N);
     return X && {amplitude: amplitudeOf(X), touches: touchesIn(model, X, N)};
   });
 }
@@ -106,7 +116,7 @@ function aliasState() {
   const model = modelAt(positions);
   const at = {omega, H, N, model, positions, look: +$('alias-look').value};
   at.inCase = parameters.every(p => positions[p.id] === homeOf(p));
-  at.solution = largestAt(model, H, 0, omega);
+  at.solution = largestAt(model, H, omega);
   if (!at.solution || !at.solution.touches) return at;
   return Object.assign(at, keep([model, H, N, omega, 'force'], () => forcesAt(model, at.solution.X, H, N)));
 }
@@ -139,46 +149,36 @@ function placeWords(at) {
   return ['At ' + where(at.omega, 6), 'H = ' + at.H].concat(texts).join(', ') + ': ';
 }
 
-/* Where on the curve contacts touch: "between omega 5.1 and 8.9", or null. */
+/* The least and largest omega of the curve where a contact changes its state, or null. */
 function workingRange(at) {
-  const touching = curveOf(at.model, at.H, 0).filter(p => p.works).map(p => p.omega);
+  const touching = curveOf(at.model, at.H).filter(p => p.works).map(p => p.omega);
   if (!touching.length) return null;
   return [Math.min(...touching), Math.max(...touching)];
-}
-
-/* A number of harmonics with which the branch is there, or 0. */
-function harmonicsWithBranch(at) {
-  for (const H of alias.harmonics.filter(h => h > at.H)) {
-    const other = largestAt(at.model, H, 0, at.omega);
-    if (other && other.touches) return H;
-  }
-  return 0;
-}
-
-/* The curve sampled N times, as far as it is followed. */
-function sampledLargest(model, H, N, omega) {
-  return N < samplesNeeded(H) || N * (2 * H + 1) > mostSampledWork ? null : largestAt(model, H, N, omega);
 }
 
 /* The largest motion touches nothing. Is that so, or has the truncation lost the branch that does? */
 function idleWords(at) {
   const range = workingRange(at);
-  const alone = 'the only motion has amplitude ' + length(at.solution.amplitude) + ' and touches no contact';
-  if (!range) return alone + ', nor does any on this response curve: nothing to sample.';
+  const size = length(at.solution.amplitude);
+  const alone = 'the only motion on this response curve has amplitude ' + size + ' and touches no contact';
+  if (!range) return alone + ', nor does any at another ' + alongName + ': nothing to sample.';
   const ends = range.map(w => show(along(w), 4)).join(' and ');
   let text = alone + '. The branch on which contacts work lies between ' + alongName + ' ' + ends + ' with this H. ';
-  const more = harmonicsWithBranch(at);
-  if (more) {
-    const lost = largestAt(at.model, more, 0, at.omega).amplitude;
-    text += 'With H = ' + more + ' it reaches this ' + alongName + ', amplitude ' + length(lost) + ': ';
-    text += 'truncation, not sampling, has lost it. ';
-  } else text += 'More harmonics do not bring it here. ';
-  const gained = sampledLargest(at.model, at.H, at.N, at.omega);
-  if (gained && gained.touches) {
-    text += 'With ' + at.N + ' samples it comes back, amplitude ' + length(gained.amplitude) + ': ';
-    text += more ? 'right to be there, but by accident, and only as right as this H is.' : 'sampling has made it up.';
-  }
+  const more = harmonicsThatTouch(at.model, at.H, at.omega);
+  if (more) text += lostWords(at, more, largestAt(at.model, more, at.omega).amplitude);
+  else if (at.H < mostTried) text += 'More harmonics, up to ' + mostTried + ', do not bring it here.';
   return text.trim();
+}
+
+/* `lost`: the amplitude with `more` harmonics. */
+function lostWords(at, more, lost) {
+  const reaches = 'With H = ' + more + ' it reaches this ' + alongName + ', amplitude ' + length(lost) + ': ';
+  const text = reaches + 'truncation, not sampling, has lost it.';
+  const gained = nextSampled(at.model, at.H, at.N, at.omega);
+  if (!gained || !gained.touches) return text;
+  const off = percent(Math.abs(gained.amplitude - lost) / lost);
+  const found = ' With ' + at.N + ' samples the equations have gained one, amplitude ' + length(gained.amplitude);
+  return text + found + ', ' + off + ' off that: an accident of sampling.';
 }
 
 /* The sampled equations' solution beside the exact ones'. */
@@ -195,7 +195,8 @@ function effectWords(at) {
 
 function aliasWords(at) {
   const place = placeWords(at);
-  if (!at.solution) return place + 'the response curve has no solution here, or it could not be followed so far.';
+  const left = 'the response curve leaves the sweep before it comes here, or could not be followed so far.';
+  if (!at.solution) return place + left;
   if (!at.solution.touches) return place + idleWords(at);
   if (!at.sampled) {
     const enough = 'at least ' + samplesNeeded(at.H) + ' are needed.';

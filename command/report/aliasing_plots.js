@@ -68,11 +68,10 @@ function foldSets() {
   ];
 }
 
-/* Amplitudes over N: of the sampled solutions next to the exact one, or where that touches nothing of the sampled
- * curve. */
+/* Amplitudes over N of the sampled solutions next to the exact one. */
 function sampledAmplitudes(at) {
-  const find = N => (at.solution.touches ? nextSampled : sampledLargest)(at.model, at.H, N, at.omega);
-  return alias.samples.map(N => ({x: N, y: (find(N) || {amplitude: NaN}).amplitude}));
+  const find = N => nextSampled(at.model, at.H, N, at.omega) || {amplitude: NaN};
+  return alias.samples.map(N => ({x: N, y: find(N).amplitude}));
 }
 
 function effectSets() {

@@ -1,6 +1,6 @@
 /* plots.js - what every plot of the report has: colours, zoom, legend, paper. Followed in the same script by
- * response.js (section 2), errors.js (3 and 4), contact_pieces.js, evaluator.js, aliasing.js and aliasing_plots.js (5),
- * selftest.js and start.js. They read the data block:
+ * response.js (section 2), errors.js (3 and 4), contact_pieces.js to aliasing_plots.js (5), selftest.js and start.js.
+ * They read the data block:
  *   cycles    the sweep is in cycles: so are all axes and words
  *   response  {curve, turned: columns omega, amplitude, harmonic_1, mean, mean_free, branch, stable (1, 0, -1),
  *             contact; mean_kept; transient, specials: rows}
@@ -53,16 +53,18 @@ Chart.defaults.animation = false;
 Chart.defaults.font.family = getComputedStyle(document.body).fontFamily;
 Chart.defaults.maintainAspectRatio = false;
 
-/* ---- paper: every plot is drawn anew, in the colours of paper and this wide; page.css scales it to the sheet ----- */
+/* ---- paper: every plot is drawn anew, in the colours of paper and this large; page.css scales it to the sheet ---- */
 
 const paperWidth = 680; /* [CSS px] a little less than A4 and Letter have between their margins */
+const paperHeight = {response: 400};
+const otherPaperHeight = 310;
 let onPaper = false;
 
 function toPaper() {
   if (onPaper) return;
   onPaper = true;
   useTheme(light);
-  for (const chart of Object.values(charts)) chart.resize(paperWidth, chart.canvas.parentNode.clientHeight);
+  for (const [name, chart] of Object.entries(charts)) chart.resize(paperWidth, paperHeight[name] || otherPaperHeight);
 }
 
 function toScreen() {
@@ -242,9 +244,10 @@ function disc(fill) {
   return picture;
 }
 
-/* The legend shows a line as a line, dashes and all. */
+/* The legend shows a line as a line, dashes and all; on paper it leaves out what is hidden. */
 function legendLabels(chart) {
-  return Chart.defaults.plugins.legend.labels.generateLabels(chart).map(label => {
+  const labels = Chart.defaults.plugins.legend.labels.generateLabels(chart);
+  return labels.filter(label => !(onPaper && label.hidden)).map(label => {
     const set = chart.data.datasets[label.datasetIndex];
     const asLine = {pointStyle: 'line', lineDash: set.borderDash || [], lineWidth: 2, strokeStyle: set.borderColor};
     if (set.showLine || set.type === 'line') return Object.assign(label, asLine);

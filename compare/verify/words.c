@@ -57,6 +57,8 @@ static void say_unexplained(message *m, const verify_report *r)
   int off = r->count[VERDICT_DIFFERS];
   if (r->status != HC_OK) {
     message_add(m, "no cause was found before the end: %s", hc_status_text(r->status));
+  } else if (r->n_rows > 0 && r->skipped == r->n_rows) {
+    message_add(m, "no point could be compared: the mean is free at all of them, and the quantity contains it");
   } else if (off == 0) {
     message_add(m, "%d points could not be judged", r->count[VERDICT_SOLVER_FAILED]);
   } else if (r->n_hypotheses == 0) {

@@ -154,6 +154,16 @@ static void mistakes_are_named(void **state)
   expect("contact " CASE2 "--motion 0,1 2>&1", 64, "odd number");
   expect("contact " CASE2 "--motion 0,x,1 2>&1", 64, "'x'");
   expect("describe hbm.sample 2>&1", 64, "samples");
+  expect("describe '' 2>&1", 64, "no field or section ``");
+  expect("gate 2>&1", 64, "no CASE given\n");
+  expect("stress --scenes 0 2>&1", 64, "--scenes: '0' is not an integer 1..100000000");
+  expect("contact " CASE2 "--motion 0,8,0 --samples 99999999999 2>&1", 64,
+         "--samples: 99999999999 is not a whole number 3..16777216");
+  expect("contact " CASE2 "--motion 0,1e400,0 2>&1", 64, "'1e400' is not a finite number");
+  /* it was a force of 0 once: no transitions were found among products that overflow */
+  expect("contact " CASE2 "--motion 0,1e300,0 2>&1", 3, "not finite; numbers became too large or too small");
+  expect("frf " CASE2 "-q --set forcing.amplitude=1e300 2>&1", 3, "are units, force and frequency right?");
+  if (access("/dev/full", W_OK) == 0) expect("--help 2>&1 >/dev/full", 3, "standard output");
 }
 
 /* What is nearly right is answered with what was meant; what is near to nothing is not guessed. */

@@ -62,10 +62,27 @@ static void nothing_nonlinear_is_said(void **state)
   assert_null(strstr(out, "nothing nonlinear"));
 }
 
+/* A mass without a spring, its contact apart at rest: anywhere apart is as good a place for it. */
+static void an_undetermined_mean_is_said(void **state)
+{
+  (void)state;
+#define FREE_MASS "--set oscillator.stiffness=0 --set forcing.amplitude=10 "
+#define ADRIFT    "the mean is undetermined while nothing touches: oscillator.stiffness is 0"
+  expect("frf " CASE2 FREE_MASS "--at 6 2>&1 >/dev/null", 3, "the Jacobian is singular; " ADRIFT);
+  expect("frf " CASE2 FREE_MASS "--at 6 -q --format json 2>/dev/null", 3, ADRIFT);
+  expect("compare " CASE2 FREE_MASS "--at 6 -q 2>/dev/null", 3, ADRIFT);
+  expect("transient " CASE2 FREE_MASS "--at 6 --set transient.max_periods=50 2>&1 >/dev/null", 3, ADRIFT);
+  expect("frf " CASE2 FREE_MASS "--at 6 -q --set hbm.static=false 2>&1", 0, "6 ");
+  assert_null(strstr(out, "undetermined"));
+  expect("frf " CASE2 FREE_MASS "--at 6 -q --set contacts[0].gap=5 2>&1", 0, "6 ");
+  assert_null(strstr(out, "undetermined"));
+}
+
 static const struct CMUnitTest tests[] = {
     cmocka_unit_test(a_free_mean_is_said_and_not_compared),
     cmocka_unit_test(a_determined_mean_is_compared),
     cmocka_unit_test(nothing_nonlinear_is_said),
+    cmocka_unit_test(an_undetermined_mean_is_said),
 };
 
 CHECK_MAIN("command.unsaid", tests, 300)

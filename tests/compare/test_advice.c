@@ -66,6 +66,8 @@ static void advice_is_a_sentence(void **state)
   hbm.continuation = HBM_CONTINUATION_AUTO, hbm.force = HBM_FORCE_EXACT;
   assert_string_equal(advice_for_hbm(&hbm, HC_NOT_CONVERGED, text), "try a sweep from the other end");
   assert_string_equal(advice_for_hbm(&hbm, HC_BUG, text), "");
+  assert_non_null(strstr(advice_on_size(0), "damping is 0"));
+  assert_null(strstr(advice_on_size(0.4), "damping"));
   transient_settings tr = {.start = TRANSIENT_START_HBM, .max_periods = TRANSIENT_MOST_PERIODS};
   assert_string_equal(advice_for_transient(&tr, HC_NOT_SETTLED, text), "");
   tr.law = TRANSIENT_LAW_EXACT, tr.method = TRANSIENT_METHOD_CLOSED_FORM;

@@ -14,17 +14,18 @@ typedef struct found {
   int n;
 } found;
 
-static found find(const char *name, int n_harm)
+static found find_in(scene sc, double to)
 {
   found f = {0};
-  scene sc = scene_named(name, n_harm, true, 1024);
   sc.hbm.force = HBM_FORCE_EXACT;
   assert_int_equal(scene_hbm_solver(&sc, &f.s), HC_OK);
-  assert_int_equal(hbm_trace(f.s, 3, 20, NULL, &f.c), HC_OK);
+  assert_int_equal(hbm_trace(f.s, 3, to, NULL, &f.c), HC_OK);
   assert_int_equal(hbm_specials(f.s, &f.c, ROOM, f.at, &f.n), HC_OK);
   assert_true(f.n <= ROOM);
   return f;
 }
+
+static found find(const char *name, int n_harm) { return find_in(scene_named(name, n_harm, true, 1024), 20); }
 
 static void free_found(found *f)
 {
@@ -65,6 +66,51 @@ static void contact_sets_in_where_the_linear_response_grazes(void **state)
     CHECK_NEAR(f.at[0].amplitude, 5 / sqrt(0.5), 1e-7, "amplitude at grazing"); /* derivative 1.3 times 1e-8 */
     free_found(&f);
   }
+}
+
+/* No two of a kind at one place (special_points.h): both omega to 1e-9 and the amplitude to 1e-8. */
+static void check_no_twins(const found *f, const char *what)
+{
+  for (int i = 0; i < f->n; ++i)
+    for (int k = 0; k < i; ++k) {
+      const hbm_special *a = &f->at[i], *b = &f->at[k];
+      if (a->kind == b->kind && fabs(a->omega - b->omega) <= 1e-9 * a->omega &&
+          fabs(a->amplitude - b->amplitude) <= 1e-8 * a->amplitude)
+        fail_msg("%s: two of kind %d at omega = %.12g, amplitude %.10g", what, (int)a->kind, a->omega, a->amplitude);
+    }
+}
+
+/* Preloaded by 1, case 2 slips and separates from the same amplitude on: the jump from stick is one change, from stick
+ * to separation. So it is with two like contacts, and where slip within the contact begins with it (kn = 200). */
+static void what_begins_at_once_is_one_change(void **state)
+{
+  (void)state;
+  scene sc = scene_named("c2", 5, true, 1024);
+  sc.contacts[0].law.gap = 1;
+  sc.hbm.skip_linear = true;
+  found f = find_in(sc, 30);
+  check_no_twins(&f, "preloaded");
+  int jumps = 0;
+  for (int i = 0; i < f.n; ++i)
+    jumps +=
+        f.at[i].kind == HBM_CONTACT_CHANGE && f.at[i].before == CONTACT_STUCK && f.at[i].after == CONTACT_SEPARATES;
+  assert_int_equal(jumps, 1);
+  free_found(&f);
+  sc = scene_named("c2", 5, true, 1024);
+  sc.contacts[0].law.kn = 200;
+  sc.hbm.skip_linear = true;
+  f = find_in(sc, 40);
+  check_no_twins(&f, "kn = 200");
+  free_found(&f);
+  sc = scene_named("c2", 5, true, 1024);
+  sc.contacts[0].law.kn = 500, sc.contacts[0].law.kt = 50;
+  sc.contacts[1] = sc.contacts[0], sc.n_contacts = 2;
+  found one = find("c2", 5);
+  f = find_in(sc, 20);
+  check_no_twins(&f, "two like contacts");
+  assert_int_equal(f.n, one.n);
+  free_found(&one);
+  free_found(&f);
 }
 
 static int solutions_at(found *f, double omega, hbm_curve *at)
@@ -227,6 +273,7 @@ static void too_little_room_keeps_the_first(void **state)
 
 static const struct CMUnitTest tests[] = {
     cmocka_unit_test(contact_sets_in_where_the_linear_response_grazes),
+    cmocka_unit_test(what_begins_at_once_is_one_change),
     cmocka_unit_test(a_fold_is_where_two_solutions_and_multiplier_one_meet),
     cmocka_unit_test(doublings_tend_to_those_of_the_true_orbit),
     cmocka_unit_test(the_doubling_of_a_stiff_contact),

@@ -40,14 +40,16 @@ static void every_plot_is_drawn_and_every_control_works(void **state)
     const char *set;
     int code;
     const char *scheme;
-  } pages[] = {{"", 0, DARK},
-               {"--set contacts=[]", 0, ""},
-               {"--set contacts[0].gap=100", 0, ""}, /* no mean to draw, nothing to sample */
-               {"--set hbm.static=false", 1, ""},
-               {"--set hbm.slider_restart=sample --set contacts[0].gap=0 --set contacts[0].friction=1", 0, ""},
-               {"--set contacts[0].gap=1", 0, ""}, /* preloaded: slip and separation */
-               {"--set sweep.frequency=0.5,3.2 --at 1,1.2", 0, ""},
-               {"--set 'title=</script><b>x' --set 'units.length=<i>'", 0, ""}};
+  } pages[] = {
+      {"", 0, DARK},
+      {"--set contacts=[]", 0, ""},
+      {"--set contacts[0].gap=100", 0, ""}, /* no mean to draw, nothing to sample */
+      {"--set hbm.static=false", 1, ""},
+      {"--set hbm.slider_restart=sample --set contacts[0].gap=0 --set contacts[0].friction=1", 0, ""},
+      {"--set contacts[0].gap=-0.5", 0, ""}, /* a curve that comes back from below the sweep */
+      {"--set contacts[0].gap=1 --set contacts[0].normal_stiffness=100 --at 10,12", 0, ""}, /* slip to and fro */
+      {"--set sweep.frequency=0.5,3.2 --at 1,1.2", 0, ""},
+      {"--set 'title=</script><b>x' --set 'units.length=<i>'", 0, ""}};
   char folder[64], line[128];
   (void)state;
   if (!CHROMIUM[0]) {

@@ -117,8 +117,8 @@ static void page_is_small_and_complete(void **state)
 }
 
 /* The sampled spectrum is the true one plus what folds onto it: F_h + conj(F_{N-h}) + F_{N+h} + ..., here for the
- * mean of 32 samples, where sampled - true = Re(F_N + F_2N + ...). The first term is in the page to 1e-6 of the
- * largest force; the rest falls like 1/n^2, at most sum_{m>=2} |F_N|/m^2 < 0.65 times the kinks' bound, for which 3
+ * mean of 32 samples, where sampled - true = Re(F_N + F_2N + ...). The first term is in the page to 1e-6 of its
+ * scale; the rest falls like 1/n^2, at most sum_{m>=2} |F_N|/m^2 < 0.65 times the kinks' bound, for which 3
  * times the largest of |F_N|, |F_{N-1}|, |F_{N+1}| stands. */
 static void sampled_mean_is_what_folds_onto_it(void **state)
 {
