@@ -104,11 +104,17 @@ static int follow_slip(const followed *of, double sign, int n, const double *res
 
 /* On entering contact at sample i after a separated one. Interpolated: w = u on the straight line between the
  * samples where v + gap = 0, which for u = c x and v = s x is -gap c/s, whatever the samples. Else w stays the last
- * separated sample's u. */
+ * separated sample's u, or, by mistake, is 0 or where it was before the separation. */
 static void restart_slider(const followed *k, int n, const double *x, int i, slider *t)
 {
   int before = i ? i - 1 : n - 1;
-  bool interpolated = k->restart == HBM_RESTART_INTERPOLATED;
+  bool interpolated = k->restart == HBM_RESTART_INTERPOLATED || k->restart == HBM_RESTART_ONE_PASS;
+  if (k->restart == HBM_RESTART_KEPT) return;
+  if (k->restart == HBM_RESTART_ZEROED) {
+    t->w = 0;
+    t->origin = (slider_origin){0};
+    return;
+  }
   t->w = interpolated ? -k->gap * k->c / k->s : k->c * x[before];
   t->origin = (slider_origin){before, interpolated ? 0 : k->c};
 }
@@ -117,23 +123,28 @@ static void restart_slider(const followed *k, int n, const double *x, int i, sli
 static int follow_stretch(const followed *k, int n, const double *x, double *f, int i, slider *t, stretch *out)
 {
   double u = k->c * x[i], v = k->s * x[i], traction;
+  const double kept = t->w;
   if (t->state == CONTACT_SEPARATED && contact_normal(k->law, v) > 0) restart_slider(k, n, x, i, t);
   t->state = contact_step(k->law, u, v, &t->w, &traction);
   f[i] = traction * k->c + contact_normal_change(k->law, v) * k->s;
+  const bool keep = k->restart == HBM_RESTART_KEPT && t->state == CONTACT_SEPARATED;
+  if (keep) t->w = kept;
   *out = (stretch){i, t->state, t->w, t->origin};
   if (t->state == CONTACT_STICK) return follow_stick(k, t->w, n, x, f, i + 1);
   const int slip = contact_slip_sign(t->state);
   const int next = slip ? follow_slip(k, slip, n, x, f, i + 1) : follow_separated(k, n, x, f, i + 1);
-  t->w = slip ? slipped_to(k, slip, x[next - 1]) : k->c * x[next - 1];
+  if (slip) t->w = slipped_to(k, slip, x[next - 1]);
+  else if (!keep) t->w = k->c * x[next - 1];
   if (slip) t->origin = (slider_origin){next - 1, k->c - slip * k->mu * k->kn * k->s / k->kt};
   return next;
 }
 
 /* Do two sliders in these stretches, at a sample of both, have the same to come? Their origins may differ, but each
  * stretch that sticks begins with a new one. */
-static bool same_from_here(const stretch *a, const stretch *b)
+static bool same_from_here(const followed *k, const stretch *a, const stretch *b)
 {
-  return a->state == b->state && (a->state != CONTACT_STICK || a->w == b->w);
+  const bool remembers = a->state == CONTACT_STICK || (a->state == CONTACT_SEPARATED && k->restart == HBM_RESTART_KEPT);
+  return a->state == b->state && (!remembers || a->w == b->w);
 }
 
 /* The first period; how many stretches. */
@@ -155,7 +166,7 @@ static int settle_again(const followed *k, int n, const double *x, double *f, do
   while (i < n && !met) {
     i = follow_stretch(k, n, x, again, i, t, &out[count++]);
     while (m + 1 < n_first && first[m + 1].first < i) ++m;
-    met = same_from_here(&out[count - 1], &first[m]);
+    met = same_from_here(k, &out[count - 1], &first[m]);
   }
   memcpy(f, again, (size_t)i * sizeof *f);
   if (!met) return count;
@@ -175,6 +186,13 @@ slider_report slider_follow(const model_contact *c, hbm_restart restart, int n, 
   int n_first = settle(&k, n, x, f, &t, settling);
   contact_state before = t.state;
   found.settled = t.w;
+  if (restart == HBM_RESTART_ONE_PASS || restart == HBM_RESTART_ONE_PASS_SAMPLE) {
+    memcpy(stretches, settling, (size_t)n_first * sizeof *stretches);
+    found.n_stretches = n_first;
+    found.transitions = n_first - 1;
+    found.w = t.w;
+    return found;
+  }
   found.n_stretches = settle_again(&k, n, x, f, again, &t, settling, n_first, stretches);
   found.transitions = found.n_stretches - 1 + (stretches[0].state != before);
   found.w = t.w;

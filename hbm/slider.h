@@ -30,7 +30,8 @@ typedef struct slider_report {
 
 /* x[n] [length]: samples of the periodic motion. f[n] [force]: t T + n (N - N0) at each; stretches[n]: room, the first
  * of them filled; again[n], settling[n]: room, overwritten. Exactly the second of two periods that begin with w = 0,
- * but the second is followed only until it is where the first was. Cannot fail, allocates nothing. */
+ * but the second is followed only until it is where the first was. With one of the ONE_PASS restarts, the first.
+ * Cannot fail, allocates nothing. */
 slider_report slider_follow(const model_contact *c, hbm_restart restart, int n, const double *x, double *f,
                             double *again, stretch *stretches, stretch *settling);
 

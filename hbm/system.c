@@ -51,6 +51,18 @@ hc_status hbm_system_contact(hbm_system *sys, const double *X)
 
 static double damping(const hbm_system *sys) { return sys->model->damping + sys->more_damping; }
 
+/* What a coefficient of an even harmonic is multiplied by where those are to be zero [force/length]. */
+static double dropped(const model *m, double omega) { return m->stiffness + m->mass * omega * omega; }
+
+static void make_mistakes(const hbm_system *sys, double omega, const double *X, double *full)
+{
+  const hbm_mistakes *wrong = &sys->how.mistakes;
+  full[0] += wrong->mean_error * sys->F[0];
+  if (!wrong->odd_only) return;
+  for (int h = 0; h <= sys->n_harm; h += 2)
+    for (int i = h ? 2 * h - 1 : 0; i <= 2 * h; ++i) full[i] = dropped(sys->model, omega) * X[i];
+}
+
 hc_status hbm_system_residual(hbm_system *sys, double omega, const double *X, double *R)
 {
   hc_status st = hbm_system_contact(sys, X);
@@ -65,10 +77,25 @@ hc_status hbm_system_residual(hbm_system *sys, double omega, const double *X, do
     full[2 * h] = k * b - c * a + sys->F[2 * h];
   }
   full[1] -= sys->force_factor * m->force;
+  make_mistakes(sys, omega, X, full);
   memcpy(R, full + sys->first, (size_t)sys->n * sizeof(double));
   double sum = 0;
   for (int i = 0; i < sys->n; ++i) sum += R[i];
   return isfinite(sum) ? HC_OK : HC_NOT_FINITE;
+}
+
+/* jac is whole but for the mistakes. */
+static void differentiate_mistakes(const hbm_system *sys, double omega, int ld, double *jac)
+{
+  const hbm_mistakes *wrong = &sys->how.mistakes;
+  for (int col = 0; sys->first == 0 && wrong->mean_error != 0 && col < sys->n; ++col)
+    jac[(size_t)ld * col] += wrong->mean_error * sys->dF[(size_t)sys->n_coef * col];
+  for (int h = 0; wrong->odd_only && h <= sys->n_harm; h += 2)
+    for (int i = h ? 2 * h - 1 : 0; i <= 2 * h; ++i) {
+      const int row = i - sys->first;
+      for (int col = 0; row >= 0 && col < sys->n; ++col)
+        jac[row + (size_t)ld * col] = col == row ? dropped(sys->model, omega) : 0;
+    }
 }
 
 void hbm_system_jacobian(hbm_system *sys, double omega, int ld, double *jac)
@@ -90,6 +117,7 @@ void hbm_system_jacobian(hbm_system *sys, double omega, int ld, double *jac)
     jac[a + n * b] += c;
     jac[b + n * a] -= c;
   }
+  differentiate_mistakes(sys, omega, ld, jac);
 }
 
 void hbm_system_domega(hbm_system *sys, double omega, const double *X, double *dR)
@@ -102,6 +130,8 @@ void hbm_system_domega(hbm_system *sys, double omega, const double *X, double *d
     full[2 * h - 1] = dk * X[2 * h - 1] + dc * X[2 * h];
     full[2 * h] = dk * X[2 * h] - dc * X[2 * h - 1];
   }
+  for (int h = 2; sys->how.mistakes.odd_only && h <= sys->n_harm; h += 2)
+    for (int i = 2 * h - 1; i <= 2 * h; ++i) full[i] = 2 * m->mass * omega * X[i];
   memcpy(dR, full + sys->first, (size_t)sys->n * sizeof(double));
 }
 

@@ -5,8 +5,9 @@
  *           [ - (C + D) h omega   K - M h^2 omega^2  ]
  *
  * F: contact force harmonics. phi = 1 and D = 0 but on a ramp (ramp.h). Without harmonic 0 (the paper's
- * mode) X[0] = 0 and row 0 is dropped. Vectors have 2H+1 entries, X[0] included; the unknowns are the n entries from
- * X[first] on. */
+ * mode) X[0] = 0 and row 0 is dropped. The mistakes of hbm_settings.h: harmonic 0 of F is multiplied, or the rows of
+ * even harmonics become (K + M omega^2) X = 0. Vectors have 2H+1 entries, X[0] included; the unknowns are the n entries
+ * from X[first] on. */
 #ifndef HC_SYSTEM_H
 #define HC_SYSTEM_H
 
