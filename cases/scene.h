@@ -9,7 +9,7 @@
 #include "compare/compare_settings.h"
 #include "compare/gate_limits.h"
 #include "hbm/hbm_settings.h"
-#include "hbm/moving_contact.h"
+#include "model/moving_contact.h"
 #include "model/model.h"
 #include "timeint/transient_settings.h"
 

@@ -110,7 +110,7 @@ static void put_hypothesis(table *t, const verify_hypothesis *h, double truth)
 {
   char words[VERIFY_TEXT], name[VERIFY_QUANTITY_TEXT];
   const verify_equations *e = &h->equations;
-  const bool linear = e->contact != VERIFY_CONTACT_AS_IT_IS;
+  const bool linear = e->change == CHANGE_NO_CONTACT || e->change == CHANGE_STUCK;
   table_put_text(t, verify_cause_words(h->causes, words));
   table_put_real(t, h->distance);
   table_put_real(t, truth);

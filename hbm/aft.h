@@ -5,7 +5,7 @@
 #include "base/status.h"
 #include "hbm/contact_report.h"
 #include "hbm/hbm_settings.h"
-#include "hbm/moving_contact.h"
+#include "model/moving_contact.h"
 
 typedef struct aft aft;
 

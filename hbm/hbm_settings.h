@@ -9,13 +9,30 @@
 enum { HBM_MAX_HARMONICS = 200, HBM_AUTO = 0 /* in the place of a number of harmonics or samples */ };
 
 typedef enum hbm_force { HBM_FORCE_EXACT, HBM_FORCE_SAMPLED } hbm_force;
-typedef enum hbm_restart { HBM_RESTART_INTERPOLATED, HBM_RESTART_SAMPLE } hbm_restart;
+
+/* The slider of a sampled force. From HBM_RESTART_ZEROED on they are mistakes of other programs, which
+ * compare/verify/ makes to know them; no case file has them. */
+typedef enum hbm_restart {
+  HBM_RESTART_INTERPOLATED,
+  HBM_RESTART_SAMPLE,
+  HBM_RESTART_ZEROED,         /* after a separation it starts from w = 0 */
+  HBM_RESTART_KEPT,           /* and from where it was before */
+  HBM_RESTART_ONE_PASS,       /* as interpolated, but one period from w = 0, which does not settle */
+  HBM_RESTART_ONE_PASS_SAMPLE /* as on a sample, likewise */
+} hbm_restart;
+
 typedef enum hbm_continuation {
   HBM_CONTINUATION_AUTO,
   HBM_CONTINUATION_NATURAL,
   HBM_CONTINUATION_ARCLENGTH,
   HBM_CONTINUATION_FIXED_STEP
 } hbm_continuation;
+
+/* Other mistakes in the equations, for compare/verify/ alone; all zero otherwise. */
+typedef struct hbm_mistakes {
+  bool odd_only;     /* even harmonics are dropped, 0 included */
+  double mean_error; /* [1] harmonic 0 of the contact force is multiplied by 1 + mean_error */
+} hbm_mistakes;
 
 typedef struct hbm_settings {
   int harmonics;  /* 1..HBM_MAX_HARMONICS, or HBM_AUTO */
@@ -29,6 +46,7 @@ typedef struct hbm_settings {
   double tolerance; /* [1] of the residual, relative to the forces that make it up */
   double accuracy;  /* [1] largest error that auto harmonics and samples allow, relative to the solution */
   bool skip_linear; /* points where nothing happens at the contacts come from the closed form */
+  hbm_mistakes mistakes;
 } hbm_settings;
 
 #endif

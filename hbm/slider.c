@@ -112,13 +112,18 @@ static int follow_slip(const followed *of, double sign, int n, double *restrict 
 
 /* On entering contact at sample i after a separated one. Interpolated: w = u on the straight line between the samples
  * where v + gap = 0, else u of the last separated sample. Where u and v are one motion, that is -gap c/s, whatever the
- * samples. */
+ * samples. By mistake it is 0, or where it was before the separation. */
 static void restart_slider(const followed *k, int n, int i, slider *t)
 {
   const slider_motion *m = &k->m;
   const int before = i ? i - 1 : n - 1;
-  const bool interpolated = k->restart == HBM_RESTART_INTERPOLATED;
+  const bool interpolated = k->restart == HBM_RESTART_INTERPOLATED || k->restart == HBM_RESTART_ONE_PASS;
+  if (k->restart == HBM_RESTART_KEPT) return;
   t->origin = (slider_origin){.i = before};
+  if (k->restart == HBM_RESTART_ZEROED) {
+    t->w = 0;
+    return;
+  }
   if (interpolated && m->along == m->across) {
     t->w = -k->gap * m->c / m->s;
     return;
@@ -139,24 +144,29 @@ static int follow_stretch(const followed *k, int n, double *f, int i, slider *t,
 {
   const slider_motion *m = &k->m;
   double u = m->c * m->along[i], v = m->s * m->across[i], traction;
+  const double kept = t->w;
   if (t->state == CONTACT_SEPARATED && contact_normal(k->law, v) > 0) restart_slider(k, n, i, t);
   t->state = contact_step(k->law, u, v, &t->w, &traction);
   f[i] = traction * m->of_t + contact_normal_change(k->law, v) * m->of_n;
+  const bool keep = k->restart == HBM_RESTART_KEPT && t->state == CONTACT_SEPARATED;
+  if (keep) t->w = kept;
   *out = (stretch){i, t->state, t->w, t->origin};
   if (t->state == CONTACT_STICK) return follow_stick(k, t->w, n, f, i + 1);
   const int slip = contact_slip_sign(t->state);
   const int next = slip ? follow_slip(k, slip, n, f, i + 1) : follow_separated(k, n, f, i + 1);
   const double along = m->along[next - 1], across = m->across[next - 1];
-  t->w = slip ? slipped_to(k, slip, along, across) : m->c * along;
+  if (slip) t->w = slipped_to(k, slip, along, across);
+  else if (!keep) t->w = m->c * along;
   if (slip) t->origin = (slider_origin){next - 1, {m->c}, {-slip * k->mu * k->kn * m->s / k->kt}};
   return next;
 }
 
 /* Do two sliders in these stretches, at a sample of both, have the same to come? Their origins may differ, but each
  * stretch that sticks begins with a new one. */
-static bool same_from_here(const stretch *a, const stretch *b)
+static bool same_from_here(const followed *k, const stretch *a, const stretch *b)
 {
-  return a->state == b->state && (a->state != CONTACT_STICK || a->w == b->w);
+  const bool remembers = a->state == CONTACT_STICK || (a->state == CONTACT_SEPARATED && k->restart == HBM_RESTART_KEPT);
+  return a->state == b->state && (!remembers || a->w == b->w);
 }
 
 /* The first period; how many stretches. */
@@ -178,7 +188,7 @@ static int settle_again(const followed *k, int n, double *f, double *again, slid
   while (i < n && !met) {
     i = follow_stretch(k, n, again, i, t, &out[count++]);
     while (m + 1 < n_first && first[m + 1].first < i) ++m;
-    met = same_from_here(&out[count - 1], &first[m]);
+    met = same_from_here(k, &out[count - 1], &first[m]);
   }
   memcpy(f, again, (size_t)i * sizeof *f);
   if (!met) return count;
@@ -198,6 +208,13 @@ slider_report slider_follow(const contact *law, hbm_restart restart, int n, cons
   int n_first = settle(&k, n, f, &t, settling);
   contact_state before = t.state;
   found.settled = t.w;
+  if (restart == HBM_RESTART_ONE_PASS || restart == HBM_RESTART_ONE_PASS_SAMPLE) {
+    memcpy(stretches, settling, (size_t)n_first * sizeof *stretches);
+    found.n_stretches = n_first;
+    found.transitions = n_first - 1;
+    found.w = t.w;
+    return found;
+  }
   found.n_stretches = settle_again(&k, n, f, again, &t, settling, n_first, stretches);
   found.transitions = found.n_stretches - 1 + (stretches[0].state != before);
   found.w = t.w;

@@ -109,6 +109,20 @@ static hc_status drop_means(const hbm_system *sys, double *R)
   return isfinite(sum) ? HC_OK : HC_NOT_FINITE;
 }
 
+/* What a coefficient of an even harmonic is multiplied by where those are to be zero [force/length]. */
+static double dropped(const model *m, double omega) { return *m->stiffness + *m->mass * omega * omega; }
+
+/* The first coefficient behind those of harmonic h. */
+static size_t behind(const hbm_system *sys, int h) { return sines(sys, h) + (size_t)sys->dim; }
+
+static void make_mistakes(hbm_system *sys, double omega, const double *X)
+{
+  const hbm_mistakes *wrong = &sys->how.mistakes;
+  for (int d = 0; d < sys->dim; ++d) sys->rows[d] += wrong->mean_error * sys->F[d];
+  for (int h = 0; wrong->odd_only && h <= sys->n_harm; h += 2)
+    for (size_t i = cosines(sys, h); i < behind(sys, h); ++i) sys->rows[i] = dropped(sys->model, omega) * X[i];
+}
+
 hc_status hbm_system_residual(hbm_system *sys, double omega, const double *X, double *R)
 {
   hc_status st = hbm_system_contact(sys, X);
@@ -119,6 +133,7 @@ hc_status hbm_system_residual(hbm_system *sys, double omega, const double *X, do
   for (int i = 0; i < sys->n_coef; ++i) sys->rows[i] += sys->F[i];
   for (int l = 0; l < sys->model->n_loads; ++l)
     subtract_load(sys, condensation_load(sys->linear, l), sys->model->loads[l].harmonic, sys->force_factor);
+  make_mistakes(sys, omega, X);
   return drop_means(sys, R);
 }
 
@@ -138,6 +153,21 @@ static void add_block(const hbm_system *sys, const double complex *S, int h, int
     }
 }
 
+/* jac is whole but for the mistakes. */
+static void differentiate_mistakes(const hbm_system *sys, double omega, const double *dF, int ld, double *jac)
+{
+  const hbm_mistakes *wrong = &sys->how.mistakes;
+  for (int col = 0; sys->first == 0 && wrong->mean_error != 0 && col < sys->n; ++col)
+    for (int d = 0; d < sys->dim; ++d)
+      jac[d + (size_t)ld * (size_t)col] += wrong->mean_error * dF[d + (size_t)sys->n_coef * (size_t)col];
+  for (int h = 0; wrong->odd_only && h <= sys->n_harm; h += 2)
+    for (size_t i = cosines(sys, h); i < behind(sys, h); ++i)
+      for (int col = 0; i >= (size_t)sys->first && col < sys->n; ++col) {
+        const size_t row = i - (size_t)sys->first;
+        jac[row + (size_t)ld * (size_t)col] = (size_t)col == row ? dropped(sys->model, omega) : 0;
+      }
+}
+
 void hbm_system_jacobian(hbm_system *sys, double omega, int ld, double *jac)
 {
   const double *dF = contact_forces_jacobian(sys->contacts);
@@ -148,6 +178,7 @@ void hbm_system_jacobian(hbm_system *sys, double omega, int ld, double *jac)
   }
   if (condensation_at(sys->linear, omega, sys->more_damping) != HC_OK) return; /* it was, in the residual */
   for (int h = 0; h <= sys->n_harm; ++h) add_block(sys, condensation_stiffness(sys->linear, h), h, ld, jac);
+  differentiate_mistakes(sys, omega, dF, ld, jac);
 }
 
 static void differentiate(hbm_system *sys, condensation_change (*by)(const condensation *, int), const double *X,
@@ -168,7 +199,11 @@ static void differentiate(hbm_system *sys, condensation_change (*by)(const conde
 
 void hbm_system_domega(hbm_system *sys, double omega, const double *X, double *dR)
 {
-  if (condensation_at(sys->linear, omega, sys->more_damping) == HC_OK) differentiate(sys, condensation_by_omega, X, dR);
+  if (condensation_at(sys->linear, omega, sys->more_damping) != HC_OK) return;
+  differentiate(sys, condensation_by_omega, X, dR);
+  for (int h = 0; sys->how.mistakes.odd_only && h <= sys->n_harm; h += 2)
+    for (size_t i = cosines(sys, h); i < behind(sys, h); ++i)
+      if (i >= (size_t)sys->first) dR[i - (size_t)sys->first] = 2 * *sys->model->mass * omega * X[i];
 }
 
 void hbm_system_ddamping(hbm_system *sys, double omega, const double *X, double *dR)

@@ -14,7 +14,7 @@
 #define HC_TRANSITIONS_H
 
 #include "base/status.h"
-#include "hbm/moving_contact.h"
+#include "model/moving_contact.h"
 #include "numerics/series_grid.h"
 
 /* A stretch of the period in one state. */

@@ -7,9 +7,6 @@
 #include <string.h>
 
 #include "base/ascending.h"
-#include "base/constants.h"
-
-static const double frequencies[VERIFY_FREQUENCIES] = {1, TWO_PI, 1 / TWO_PI};
 
 static const struct {
   double factor;
@@ -25,8 +22,6 @@ static const struct {
     {1e-2, VERIFY_BIT(CAUSE_LENGTH)},
 };
 enum { FACTORS = sizeof factors / sizeof *factors, MOST_DIFFERING = 48, MOST_MATCHING = 16 };
-
-double verify_omega_factor(int frequency) { return frequencies[frequency]; }
 
 /* ---- the sample ---- */
 
@@ -74,9 +69,9 @@ hc_status verify_sample_new(const verify_report *r, const verify_quantity *quant
 {
   enum { MOST = MOST_DIFFERING + MOST_MATCHING };
   const verify_row **rows = malloc((size_t)r->n_rows * sizeof *rows + 1);
-  double *numbers = calloc(4 * MOST, sizeof *numbers);
+  double *numbers = calloc(5 * MOST, sizeof *numbers);
   *out = (verify_sample){.omega = numbers, .quantity = *quantity, .part = 0.9};
-  if (numbers) out->value = numbers + MOST, out->scratch = numbers + 2 * MOST;
+  if (numbers) out->value = numbers + MOST, out->decibel = numbers + 2 * MOST, out->scratch = numbers + 3 * MOST;
   out->differs = calloc(MOST, sizeof *out->differs);
   if (rows && numbers && out->differs) {
     for (int i = 0; i < r->n_rows; ++i) rows[i] = &r->rows[i];
@@ -84,6 +79,11 @@ hc_status verify_sample_new(const verify_report *r, const verify_quantity *quant
     choose_rows(rows, r->n_rows, true, MOST_DIFFERING, out);
     choose_rows(rows, r->n_rows, false, MOST_MATCHING, out);
     sort(out);
+    verify_quantity other = *quantity;
+    other.decibel = true;
+    for (int i = 0; i < out->n; ++i)
+      out->decibel[i] = quantity->decibel ? verify_quantity_to_column(&other, out->value[i])
+                                          : verify_quantity_from_column(&other, out->value[i]);
     free(rows);
     return HC_OK;
   }
@@ -127,14 +127,21 @@ static double relative(double a, double b, double least)
   return d == 0 ? 0 : d <= scale ? d / scale : 1; /* NaN is as far as can be */
 }
 
-static double distance(const verify_sample *p, const verify_solutions *s, int q, double factor)
+/* How far value i is from the nearest solution at its omega, read as quantity q times the factor. */
+static double nearest(const double *value, const verify_solutions *s, int i, int q, double factor)
+{
+  double least = 1;
+  for (int k = s->first[i]; k < s->first[i + 1]; ++k)
+    least = fmin(least, relative(value[i], factor * s->of[k].q[q], factor * s->of[k].scale[q]));
+  return least;
+}
+
+static double distance(const verify_sample *p, const double *value, const verify_solutions *s, int q, double factor)
 {
   int off = 0, on = 0;
   double *far = p->scratch, *near = p->scratch + p->n;
   for (int i = 0; i < p->n; ++i) {
-    double least = 1;
-    for (int k = s->first[i]; k < s->first[i + 1]; ++k)
-      least = fmin(least, relative(p->value[i], factor * s->of[k].q[q], factor * s->of[k].scale[q]));
+    const double least = nearest(value, s, i, q, factor);
     if (p->differs[i]) far[off++] = least;
     else near[on++] = least;
   }
@@ -142,31 +149,54 @@ static double distance(const verify_sample *p, const verify_solutions *s, int q,
   return fmax(of_far, of_near);
 }
 
-void verify_read_best(const verify_sample *p, const verify_solutions *s, int frequency, verify_causes otherwise,
-                      double floor, verify_hypothesis *h)
+static void rank(verify_hypothesis *h, double floor)
 {
-  const verify_causes given = h->causes | (frequency ? VERIFY_BIT(CAUSE_FREQUENCY) : 0);
-  h->omega_factor = frequencies[frequency];
-  h->score = INFINITY;
-  for (int f = 0; f < FACTORS; ++f)
+  h->score = fmax(h->distance, floor) * pow(3, verify_cause_count(h->causes));
+}
+
+void verify_read_one(const verify_sample *p, const verify_solutions *s, int reading, double factor, double floor,
+                     verify_hypothesis *h)
+{
+  verify_causes ignored;
+  verify_reading(reading, &p->quantity, &h->quantity, &ignored);
+  h->value_factor = factor;
+  h->distance = distance(p, p->value, s, reading, factor);
+  rank(h, floor);
+}
+
+void verify_read_all(const verify_sample *p, const verify_solutions *s, const verify_hypothesis *given,
+                     verify_causes otherwise, double floor, int n, const verify_scale *scales, verify_keep *keep,
+                     void *self)
+{
+  for (int f = 0; f <= FACTORS; ++f) /* the last is dB */
     for (int i = 0; i < VERIFY_READINGS; ++i) {
-      verify_quantity q;
+      verify_hypothesis h = *given;
       verify_causes of_reading;
-      if (!verify_reading(i, &p->quantity, &q, &of_reading)) continue;
-      if ((of_reading & factors[f].cause) || (of_reading && factors[f].cause == VERIFY_BIT(CAUSE_RMS))) continue;
-      verify_causes causes = given | factors[f].cause | of_reading;
-      if (!causes && !(causes = otherwise)) continue; /* the truth as it stands is no hypothesis */
-      double d = distance(p, s, i, factors[f].factor), score = fmax(d, floor) * pow(3, verify_cause_count(causes));
-      if (!(score < h->score)) continue;
-      h->score = score;
-      h->distance = d;
-      h->causes = causes;
-      h->value_factor = factors[f].factor;
-      h->quantity = q;
+      const bool decibel = f == FACTORS;
+      const verify_causes of_factor = decibel ? VERIFY_BIT(CAUSE_DECIBEL) : factors[f].cause;
+      if (!verify_reading(i, &p->quantity, &h.quantity, &of_reading)) continue;
+      if ((of_reading & of_factor) || (of_reading && of_factor == VERIFY_BIT(CAUSE_RMS))) continue;
+      if (of_factor == VERIFY_BIT(CAUSE_LENGTH) && verify_scale_near(scales, n, factors[f].factor, 1e-3)) continue;
+      if (given->causes && of_factor && of_reading) continue; /* nothing is that wrong */
+      h.causes |= of_factor | of_reading;
+      if (!h.causes && !(h.causes = otherwise)) continue; /* the truth as it stands is no hypothesis */
+      h.decibel = decibel;
+      h.value_factor = decibel ? 1 : factors[f].factor;
+      h.distance = distance(p, decibel ? p->decibel : p->value, s, i, h.value_factor);
+      rank(&h, floor);
+      keep(self, &h);
     }
 }
 
-double verify_read_plain(const verify_sample *p, const verify_solutions *s) { return distance(p, s, 0, 1); }
+double verify_read_plain(const verify_sample *p, const verify_solutions *s) { return distance(p, p->value, s, 0, 1); }
+
+double verify_closeness(const verify_sample *p, const verify_solutions *s)
+{
+  const double most = 0.3; /* farther is as bad: points on a branch that is not there must not lead a fit */
+  double sum = 0;
+  for (int i = 0; i < p->n; ++i) sum += fmin(most, nearest(p->value, s, i, 0, 1));
+  return sum / p->n;
+}
 
 double verify_apart(const verify_sample *p, const verify_solutions *a, const verify_solutions *b)
 {

@@ -3,16 +3,15 @@
 #ifndef HC_VERIFY_READINGS_H
 #define HC_VERIFY_READINGS_H
 
+#include "compare/verify/scales.h"
 #include "compare/verify/solutions.h"
-
-enum { VERIFY_FREQUENCIES = 3 };
-double verify_omega_factor(int frequency); /* 0: as it stands */
 
 /* The points that hypotheses are held against: some that differ from the truth and some that do not, omega
  * ascending. */
 typedef struct verify_sample {
   int n;
   double *omega, *value;    /* [n] */
+  double *decibel;          /* [n] the values if they are in dB where the file says not, or the other way */
   bool *differs;            /* [n] */
   double *scratch;          /* [2n] */
   verify_quantity quantity; /* what the file says it is */
@@ -23,11 +22,22 @@ typedef struct verify_sample {
 hc_status verify_sample_new(const verify_report *r, const verify_quantity *quantity, verify_sample *out);
 void verify_sample_clear(verify_sample *s);
 
-/* The best reading of the values for the solutions s, at the sample's omegas read as `frequency`: h with its
- * equations and their causes given gets the rest. `otherwise`: the cause where nothing else is one. Distances below
- * `floor` are all the same. */
-void verify_read_best(const verify_sample *p, const verify_solutions *s, int frequency, verify_causes otherwise,
-                      double floor, verify_hypothesis *h);
+typedef void verify_keep(void *self, const verify_hypothesis *h);
+
+/* Every reading of the values for the solutions s. *given: the equations, what the omegas are multiplied by, and the
+ * causes in that; keep() gets it with each reading. `otherwise`: the cause where nothing else is one. Distances below
+ * `floor` are all the same. A unit of length is no cause where it is one of the n `scales`, which may be meant. */
+void verify_read_all(const verify_sample *p, const verify_solutions *s, const verify_hypothesis *given,
+                     verify_causes otherwise, double floor, int n, const verify_scale *scales, verify_keep *keep,
+                     void *self);
+
+/* One reading: number `reading` of verify_reading, times `factor`. *h likewise gets the rest. */
+void verify_read_one(const verify_sample *p, const verify_solutions *s, int reading, double factor, double floor,
+                     verify_hypothesis *h);
+
+/* [1] The mean distance of the points as they stand, with a ceiling: what fits of a factor are led by, as
+ * it changes with every point. */
+double verify_closeness(const verify_sample *p, const verify_solutions *s);
 
 /* How far the points are as they stand. */
 double verify_read_plain(const verify_sample *p, const verify_solutions *s);

@@ -14,4 +14,10 @@ hc_status verify_search(const compare_setup *setup, const verify_data *data, con
 /* Does the best hypothesis explain the points? */
 bool verify_fits(const verify_report *r);
 
+/* Does hypothesis i fit as well as the best, and say something else? */
+bool verify_rival(const verify_report *r, int i);
+
+/* The best says what the contacts do, as nothing at all: does hypothesis i say why? */
+bool verify_reason(const verify_report *r, int i);
+
 #endif

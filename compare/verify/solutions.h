@@ -5,7 +5,7 @@
 
 #include "compare/verify/verify.h"
 
-enum { VERIFY_READINGS = 17 }; /* quantities that a column may hold instead of what the file says, that one first */
+enum { VERIFY_READINGS = 19 }; /* quantities that a column may hold instead of what the file says, that one first */
 
 enum { VERIFY_MOST_SOLUTIONS = 16 }; /* at one omega from guesses; sampled equations may have many */
 
@@ -27,9 +27,8 @@ typedef struct verify_solutions {
   double *X;           /* [count][n_coef] */
 } verify_solutions;
 
-/* *setup with these equations for its own. Without contact, or with all of it stuck, its model is *linear
- * with that stiffness. */
-compare_setup verify_setup(const compare_setup *setup, const verify_equations *e, model *linear, double *stiffness);
+/* *setup with these equations for its own, but for the change of its model. */
+compare_setup verify_settings(const compare_setup *setup, const verify_equations *e);
 
 /* Along their response curve from `from` to `to`, as far as it comes. A solution that is not found is none.
  * HC_INTERRUPTED, HC_NO_MEMORY, or why there are no such equations. */

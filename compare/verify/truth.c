@@ -164,9 +164,7 @@ static hc_status judge_all(truth *t)
 static hc_status with_harmonics(truth *t, int harmonics)
 {
   const verify_equations e = {.keep_mean = true, .harmonics = harmonics};
-  model linear;
-  double stiffness;
-  const compare_setup own = verify_setup(t->setup, &e, &linear, &stiffness);
+  const compare_setup own = verify_settings(t->setup, &e);
   hbm_curve_free(&t->curve);
   t->curve = (hbm_curve){0};
   hbm_solver_free(t->hbm);

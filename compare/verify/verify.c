@@ -23,11 +23,8 @@ static hc_status find_causes(const compare_setup *setup, const verify_data *data
 {
   out->causes = points_branches(out) | points_outliers(out);
   if (out->causes || differing(out) < VERIFY_LEAST_DIFFERING) return HC_OK;
-  hc_status st = verify_search(setup, data, monitor, out);
-  if (verify_fits(out)) out->causes = out->hypotheses[0].causes;
-  if (st == HC_OK && !out->causes) st = points_scatter(out, &out->causes);
-  if (out->causes) out->nearest_guess = 0;
-  return st;
+  hc_status st = points_scatter(out, &out->causes);
+  return st == HC_OK && !out->causes ? verify_search(setup, data, monitor, out) : st;
 }
 
 hc_status verify_run(const compare_setup *setup, const verify_data *data, const hc_monitor *monitor, verify_report *out)

@@ -16,17 +16,17 @@
 #include "compare/compare_settings.h"
 #include "compare/comparison.h"
 #include "compare/verify/causes.h"
+#include "compare/verify/changes.h"
 #include "compare/verify/csv.h"
-
-typedef enum verify_contact { VERIFY_CONTACT_AS_IT_IS, VERIFY_CONTACT_NONE, VERIFY_CONTACT_STUCK } verify_contact;
 
 /* Equations that the other program may have solved. */
 typedef struct verify_equations {
-  verify_contact contact;
-  bool keep_mean;
+  verify_change change; /* of the model */
+  double factor;        /* of a change that has one, else 1 */
+  bool keep_mean, odd_only;
   int harmonics;
   int samples; /* 0: exact forces */
-  int restart; /* hbm_restart_kind, for samples */
+  int restart; /* hbm_restart, for samples */
 } verify_equations;
 
 /* Equations, and how the columns are to be read: true omega = omega_factor times the file's, value = value_factor
@@ -34,8 +34,10 @@ typedef struct verify_equations {
 typedef struct verify_hypothesis {
   verify_equations equations;
   double omega_factor, value_factor;
+  const char *omega_scale, *value_scale; /* what a free factor may be, "1/F0"; NULL: no name for it */
   verify_quantity quantity;
   bool decibel; /* values are in dB and the file says not, or the other way */
+  bool fitted;  /* a factor of the equations was fitted */
   verify_causes causes;
   double distance; /* [1] nine of ten points that differ are within, and of ten that match */
   double score;    /* what they are ranked by: distance, times 3 for every cause */
@@ -62,7 +64,7 @@ typedef struct verify_line {
   int stable;          /* +1, -1, 0 unknown */
 } verify_line;
 
-enum { VERIFY_USUAL_REVERSALS = 8, VERIFY_SHOWN = 3, VERIFY_HYPOTHESES = 512 };
+enum { VERIFY_USUAL_REVERSALS = 8, VERIFY_SHOWN = 3, VERIFY_HYPOTHESES = 64 };
 
 typedef struct verify_report {
   int n_rows;
@@ -80,7 +82,7 @@ typedef struct verify_report {
   int checked, unchecked; /* points whose truth was held against the referee; where that has no orbit */
   double checked_error;   /* [1] the largest difference, relative to the amplitude */
   int n_hypotheses;
-  verify_hypothesis hypotheses[VERIFY_HYPOTHESES]; /* best first */
+  verify_hypothesis hypotheses[VERIFY_HYPOTHESES]; /* the best of every set of causes, best first */
   double truth_distance;                           /* [1] likewise, of the points as they stand from the truth */
   hc_status status;                                /* of verify_run */
   verify_causes causes;                            /* suspected; 0: none, or none found */

@@ -13,30 +13,80 @@ static void add_distance(message *m, double d)
   else message_add(m, "%.1g", d);
 }
 
+static const char *slider_words(int restart)
+{
+  switch (restart) {
+  case HBM_RESTART_SAMPLE: return ", hbm.slider_restart: sample";
+  case HBM_RESTART_ZEROED: return ", w = 0 after a separation";
+  case HBM_RESTART_KEPT: return ", w kept over a separation";
+  case HBM_RESTART_ONE_PASS:
+  case HBM_RESTART_ONE_PASS_SAMPLE: return ", one period from w = 0";
+  default: return "";
+  }
+}
+
+static void add_equations(message *m, const verify_equations *e)
+{
+  if (e->change != CHANGE_NONE) message_add(m, "%s", verify_change_words(e->change));
+  if (verify_change_has_factor(e->change)) message_add(m, " times %.4g", e->factor);
+  if (e->change == CHANGE_NO_CONTACT || e->change == CHANGE_STUCK) return;
+  if (e->change != CHANGE_NONE) message_add(m, ", ");
+  if (e->odd_only) message_add(m, "odd harmonics alone, ");
+  else if (!e->keep_mean) message_add(m, "hbm.static: false, ");
+  message_add(m, "H = %d", e->harmonics);
+  if (e->samples) message_add(m, ", N = %d%s", e->samples, slider_words(e->restart));
+}
+
 /* "hbm.static: false, H = 10, N = 32; values = 2 x amplitude" */
 static void add_settings(message *m, const verify_hypothesis *h)
 {
-  const verify_equations *e = &h->equations;
-  if (e->contact == VERIFY_CONTACT_NONE) message_add(m, "K alone");
-  else if (e->contact == VERIFY_CONTACT_STUCK) message_add(m, "K and the stuck contacts' stiffness");
-  else message_add(m, "%sH = %d", e->keep_mean ? "" : "hbm.static: false, ", e->harmonics);
-  if (e->samples)
-    message_add(m, ", N = %d%s", e->samples, e->restart == HBM_RESTART_SAMPLE ? ", hbm.slider_restart: sample" : "");
-  if (h->omega_factor != 1) message_add(m, "; true omega = %.6g x the file's", h->omega_factor);
   char name[VERIFY_QUANTITY_TEXT];
-  if (h->value_factor != 1) message_add(m, "; values = %.6g x ", h->value_factor);
-  else message_add(m, "; values = ");
+  add_equations(m, &h->equations);
+  if (h->omega_factor != 1) message_add(m, "; frequencies = %.6g x the true ones", 1 / h->omega_factor);
+  if (h->omega_scale) message_add(m, " (%s?)", h->omega_scale);
+  message_add(m, "; values = ");
+  if (h->decibel) message_add(m, "%s", h->quantity.decibel ? "10^(dB/20) of " : "dB of ");
+  if (h->value_factor != 1) message_add(m, "%.4g x ", h->value_factor);
   message_add(m, "%s", verify_quantity_name(&h->quantity, name));
+  if (h->value_scale) message_add(m, " (%s?)", h->value_scale);
 }
 
 static void add_causes(message *m, verify_causes bits)
 {
-  const char *before = "suspected cause: ";
+  const verify_causes no_traction = VERIFY_BIT(CAUSE_NO_FRICTION) | VERIFY_BIT(CAUSE_NO_KT);
+  const char *before = "";
+  if ((bits & no_traction) == no_traction) {
+    message_add(m, "there is no tangential force: no friction, or no tangential stiffness");
+    bits &= ~no_traction;
+    before = ", and ";
+  }
   for (int i = 0; i < VERIFY_CAUSES; ++i)
     if (bits & VERIFY_BIT(i)) {
       message_add(m, "%s%s", before, verify_cause_meaning(i));
       before = ", and ";
     }
+}
+
+static void add_fit(message *m, const verify_hypothesis *h)
+{
+  message_add(m, " (");
+  add_settings(m, h);
+  message_add(m, " fits to ");
+  add_distance(m, h->distance);
+}
+
+/* "; the same curve has: gap times 10; ..." */
+static void add_reasons(message *m, const verify_report *r)
+{
+  const char *before = "; the same curve has: ";
+  for (int i = 1, n = 0; i < r->n_hypotheses && n < VERIFY_SHOWN; ++i) {
+    if (!verify_reason(r, i)) continue;
+    const verify_equations *e = &r->hypotheses[i].equations;
+    message_add(m, "%s%s", before, verify_change_words(e->change));
+    if (verify_change_has_factor(e->change)) message_add(m, " times %.4g", e->factor);
+    before = ", ";
+    ++n;
+  }
 }
 
 static void add_remedies(message *m, verify_causes bits)
@@ -52,6 +102,25 @@ static void say_match(message *m, const verify_report *r)
     message_add(m, "; %d of them on unstable ones, where no motion stays", r->count[VERDICT_UNSTABLE]);
 }
 
+static void say_guess(message *m, const verify_report *r)
+{
+  const bool fits = verify_fits(r);
+  message_add(m, fits ? "more than one cause fits: " : "no cause fits well; nearest guess: ");
+  add_causes(m, r->hypotheses[0].causes);
+  add_fit(m, &r->hypotheses[0]);
+  message_add(m, ", the truth is ");
+  add_distance(m, r->truth_distance);
+  message_add(m, " off)");
+  for (int i = 1, n = 1; i < r->n_hypotheses && n < VERIFY_SHOWN; ++i) {
+    if (!verify_rival(r, i)) continue;
+    message_add(m, "; or ");
+    add_causes(m, r->hypotheses[i].causes);
+    add_fit(m, &r->hypotheses[i]);
+    message_add(m, ")");
+    ++n;
+  }
+}
+
 static void say_unexplained(message *m, const verify_report *r)
 {
   int off = r->count[VERDICT_DIFFERS];
@@ -63,6 +132,8 @@ static void say_unexplained(message *m, const verify_report *r)
     message_add(m, "%d points could not be judged", r->count[VERDICT_SOLVER_FAILED]);
   } else if (r->n_hypotheses == 0) {
     message_add(m, "%d point%s, too few to tell why", off, off == 1 ? " differs" : "s differ");
+  } else if (r->nearest_guess) {
+    say_guess(m, r);
   } else {
     message_add(m, "no hypothesis fits better than ");
     add_distance(m, r->hypotheses[0].distance);
@@ -79,16 +150,15 @@ const char *verify_sentence(const verify_report *r, char text[VERIFY_TEXT])
   if (!r->causes && r->status == HC_OK && verify_exit_code(r) == 0) say_match(&m, r);
   else if (!r->causes) say_unexplained(&m, r);
   else {
+    message_add(&m, "suspected cause: ");
     add_causes(&m, r->causes);
     points_say(&m, r);
     if (verify_fits(r)) {
-      message_add(&m, " (");
-      add_settings(&m, &r->hypotheses[0]);
-      message_add(&m, " fits to ");
-      add_distance(&m, r->hypotheses[0].distance);
+      add_fit(&m, &r->hypotheses[0]);
       message_add(&m, ", the truth is ");
       add_distance(&m, r->truth_distance);
       message_add(&m, " off)");
+      add_reasons(&m, r);
     }
     add_remedies(&m, r->causes);
   }

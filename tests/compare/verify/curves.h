@@ -20,8 +20,12 @@ typedef struct spoiling {
   double omega_factor, value_factor; /* file's = factor times ours; 0: 1 */
   verify_kind said, meant;           /* what the column is called, what it holds; KIND_HARMONIC: of harmonic 1 */
   bool no_contact;
-  int branch;   /* -1: unstable only where there is a choice; 1: all; 0: as swept upwards; 2: hops */
-  double noise; /* [1] relative, alternating in sign */
+  int branch;              /* -1: unstable only where there is a choice; 1: all; 0: as swept upwards; 2: hops */
+  double noise;            /* [1] relative, alternating in sign */
+  double warp;             /* [1] relative, 0 at the first omega and this much at the last: nobody's mistake */
+  void (*change)(scene *); /* of the model's numbers */
+  bool odd_only;
+  int slider; /* hbm_restart of a sampled force, if not slider_on_sample */
 } spoiling;
 
 static inline scene curve_scene(const char *path)
@@ -42,7 +46,9 @@ static inline scene curve_spoil(const scene *sc, const spoiling *how)
   if (how->harmonics) own.hbm.harmonics = how->harmonics;
   own.hbm.force = how->samples ? HBM_FORCE_SAMPLED : HBM_FORCE_EXACT;
   if (how->samples) own.hbm.samples = how->samples;
-  own.hbm.restart = how->slider_on_sample ? HBM_RESTART_SAMPLE : HBM_RESTART_INTERPOLATED;
+  own.hbm.restart = how->slider_on_sample ? HBM_RESTART_SAMPLE : (hbm_restart)how->slider;
+  own.hbm.mistakes.odd_only = how->odd_only;
+  if (how->change) how->change(&own);
   if (how->no_contact) own.n_contacts = 0;
   return own;
 }
@@ -83,7 +89,8 @@ static inline verify_data curve_make(const scene *sc, const spoiling *how, doubl
       if (!(curve_wanted(how->branch, at.n, i) & (1u << k))) continue;
       assert_int_equal(hbm_measure(hbm, at.X + (size_t)k * at.n_coef, &m), HC_OK);
       double value = curve_value(omega, &m, at.n_coef, at.X + (size_t)k * at.n_coef, how->meant) *
-                     (how->value_factor > 0 ? how->value_factor : 1) * (1 + (i % 2 ? how->noise : -how->noise));
+                     (how->value_factor > 0 ? how->value_factor : 1) * (1 + (i % 2 ? how->noise : -how->noise)) *
+                     (1 + how->warp * i / (n - 1));
       d.points[d.n++] = (verify_point){omega * (how->omega_factor > 0 ? how->omega_factor : 1), value, i + 1};
     }
     hbm_curve_free(&at);

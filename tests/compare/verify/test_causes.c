@@ -79,7 +79,7 @@ static void forces_sampled_too_coarsely(void **state)
   (void)state;
   static const prepared list[] = {
       {"N = 32", ON_CASE2, .cause = "too_few_samples", .how = {.samples = 32}},
-      {"N = 32", ON_PRELOADED, .cause = "too_few_samples", .how = {.samples = 32}},
+      {"N = 16", ON_PRELOADED, .cause = "too_few_samples", .how = {.samples = 16}},
       {"N = 64", ON_CASE2, .cause = "too_few_samples", .how = {.samples = 64, .noise = 1e-6}},
       {"N = 32, no static", ON_CASE2, .cause = "no_static_harmonic+too_few_samples",
        .how = {.samples = 32, .no_static = true}},
@@ -112,8 +112,47 @@ static void columns_misread(void **state)
       {"harmonic 1 as amplitude", ON_CASE2, .cause = "other_quantity",
        .how = {.said = KIND_AMPLITUDE, .meant = KIND_HARMONIC}},
       {"peak as amplitude", ON_CASE2, .cause = "other_quantity", .how = {.said = KIND_AMPLITUDE, .meant = KIND_PEAK}},
+      {"divided by F0", ON_PRELOADED, .cause = "value_scale", .how = {.value_factor = 0.01}},
+      {"7 % too high", ON_CASE2, .cause = "value_scale", .how = {.harmonics = 20, .value_factor = 1.07}},
+      {"divided by w0", ON_PRELOADED, .cause = "omega_scale", .how = {.omega_factor = 0.15811388}},
+      {"0.1 % off", ON_CASE2, .cause = "frequency_offset", .how = {.omega_factor = 1.001}},
+      {"norm", ON_CASE2, .cause = "norm", .how = {.meant = KIND_NORM}},
+      {"norm/sqrt(2)", ON_CASE2, .cause = "norm_over_root_2", .how = {.meant = KIND_RMS_NLVIB}},
+      {"|b1|", ON_PRELOADED, .cause = "sine_only", .how = {.said = KIND_HARMONIC, .meant = KIND_SINE}},
+      {"acceleration", ON_PRELOADED, .cause = "acceleration", .how = {.meant = KIND_ACCELERATION}},
       {"no static, in mm", ON_CASE2, .cause = "no_static_harmonic+length_unit",
        .how = {.no_static = true, .value_factor = 1e3}},
+  };
+  NAME_ALL(list);
+}
+
+static void twice_the_damping(scene *sc) { sc->damping *= 2; }
+static void some_more_mass(scene *sc) { sc->mass *= 1.13; }
+static void some_more_damping(scene *sc) { sc->damping *= 1.4; }
+static void other_sign(scene *sc) { sc->contacts[0].law.gap *= -1; }
+static void exchanged(scene *sc)
+{
+  const double kt = sc->contacts[0].law.kt;
+  sc->contacts[0].law.kt = sc->contacts[0].law.kn;
+  sc->contacts[0].law.kn = kt;
+}
+static void without_friction(scene *sc) { sc->contacts[0].law.mu = 0; }
+static void twice_the_contact(scene *sc) { sc->contacts[0].law.kn *= 2, sc->contacts[0].law.kt *= 2; }
+
+/* Nothing touches with -gap: what the curve tells is that the contacts are missing. */
+static void numbers_of_another_model(void **state)
+{
+  (void)state;
+  static const prepared list[] = {
+      {"2 C", ON_CASE2, .cause = "wrong_damping", .how = {.change = twice_the_damping}},
+      {"1.13 M", ON_CASE2, .cause = "wrong_mass", .how = {.change = some_more_mass}},
+      {"1.4 C", ON_CASE2, .cause = "wrong_damping", .how = {.change = some_more_damping}},
+      {"-gap", ON_PRELOADED, .cause = "no_contact", .how = {.change = other_sign}},
+      {"kt for kn", ON_CASE2, .cause = "stiffnesses_exchanged", .how = {.change = exchanged}},
+      {"mu = 0", ON_CASE2, .cause = "no_friction+no_tangential_stiffness", .how = {.change = without_friction}},
+      {"2 contact force", ON_CASE2, .cause = "contact_force_factor", .how = {.change = twice_the_contact}},
+      {"odd harmonics", ON_CASE2, .cause = "odd_harmonics_only", .how = {.odd_only = true}},
+      {"one pass", ON_CASE2, .cause = "single_pass", .how = {.samples = 512, .slider = HBM_RESTART_ONE_PASS}},
   };
   NAME_ALL(list);
 }
@@ -132,6 +171,25 @@ static void branches_mistaken(void **state)
   verify_clear(&r);
 }
 
+static void seven_percent_more_mass(scene *sc) { sc->mass *= 1.07; }
+
+/* Nearly undamped, a larger mass and another unit of frequency give the same curve: neither is named, both are told. */
+static void equals_are_a_guess(void **state)
+{
+  (void)state;
+  const scene sc = curve_scene(preloaded);
+  const spoiling how = {.harmonics = 20, .change = seven_percent_more_mass};
+  verify_data d = curve_make(&sc, &how, 15, 29, 41);
+  verify_report r;
+  char text[VERIFY_TEXT];
+  assert_int_equal(scene_verify_run(&sc, &d, NULL, &r), HC_OK);
+  assert_int_equal(r.causes, 0);
+  assert_int_equal(r.nearest_guess, VERIFY_BIT(CAUSE_MASS) | VERIFY_BIT(CAUSE_OMEGA_SCALE));
+  assert_non_null(strstr(verify_sentence(&r, text), "more than one cause fits: "));
+  verify_clear(&r);
+  verify_data_clear(&d);
+}
+
 static void nothing_wrong(void **state)
 {
   (void)state;
@@ -145,12 +203,12 @@ static void nothing_wrong(void **state)
   NAME_ALL(list);
 }
 
-/* What nobody tried is not explained away: a curve 7 % too high at every point. */
+/* What nobody tried is not explained away: values too high by more and more, up to 40 % at the last omega. */
 static void no_cause_is_made_up(void **state)
 {
   (void)state;
   const scene sc = curve_scene(case2);
-  const spoiling how = {.harmonics = 20, .value_factor = 1.07};
+  const spoiling how = {.harmonics = 20, .warp = 0.4};
   verify_data d = curve_make(&sc, &how, 4, 14, 41);
   verify_report r;
   char text[VERIFY_TEXT];
@@ -162,7 +220,9 @@ static void no_cause_is_made_up(void **state)
   verify_data_clear(&d);
 }
 
-/* The error column is |value - truth|/amplitude: noise of 1e-3 is 1e-3. The truth's own error is in checked_error. */
+/* The error column is |value - truth|/amplitude: noise of 1e-3 is 1e-3, less what a tenth of the gate in omega
+ * explains: the contact is apart here, so that amplitude = F0/(M omega^2 - K) nearly, whose logarithmic slope is
+ * -2 omega^2/(omega^2 - K/M), K/M = 40. The truth's own error is in checked_error. */
 static void errors_are_what_was_put_in(void **state)
 {
   (void)state;
@@ -173,8 +233,10 @@ static void errors_are_what_was_put_in(void **state)
   assert_int_equal(scene_verify_run(&sc, &d, NULL, &r), HC_OK);
   assert_int_equal(r.n_rows, 9);
   CHECK_LE(r.checked_error, 1e-4, "a tenth of the gate");
-  for (int i = 0; i < r.n_rows; ++i)
-    CHECK_NEAR(r.rows[i].error, 1e-3, r.checked_error + 1e-6, "omega = %g", r.rows[i].omega);
+  for (int i = 0; i < r.n_rows; ++i) {
+    const double square = r.rows[i].omega * r.rows[i].omega, slope = 2 * square / (square - 40);
+    CHECK_NEAR(r.rows[i].error, 1e-3, r.checked_error + 0.1 * r.gate * slope + 1e-6, "omega = %g", r.rows[i].omega);
+  }
   verify_clear(&r);
   verify_data_clear(&d);
 }
@@ -223,8 +285,10 @@ int main(void)
       cmocka_unit_test(nothing_wrong),
       cmocka_unit_test(equations_solved_wrongly),
       cmocka_unit_test(forces_sampled_too_coarsely),
+      cmocka_unit_test(numbers_of_another_model),
       cmocka_unit_test(columns_misread),
       cmocka_unit_test(branches_mistaken),
+      cmocka_unit_test(equals_are_a_guess),
       cmocka_unit_test(no_cause_is_made_up),
       cmocka_unit_test(errors_are_what_was_put_in),
       cmocka_unit_test(stopping_keeps_rows),

@@ -303,18 +303,25 @@ static void columns_say_what_they_mean(void **state)
   unclear("omega=1,amplitude=2,", NULL, "NAME=COLUMN");
 }
 
-/* A hypothesis fits if it takes nine tenths of the distance away; one that is no number does not. */
-static void a_tenth_of_the_distance_is_a_fit(void **state)
+/* A hypothesis fits within 1 %, or the gate if that is larger, and a fifth of the truth's distance; one that is no
+ * number does not. */
+static void what_is_left_decides_a_fit(void **state)
 {
   (void)state;
   static verify_report r;
   r.truth_distance = 1;
+  r.gate = 1e-3;
   assert_false(verify_fits(&r)); /* no hypothesis */
   r.n_hypotheses = 1;
-  r.hypotheses[0].distance = 0.099;
+  r.hypotheses[0].distance = 0.0099;
   assert_true(verify_fits(&r));
-  r.hypotheses[0].distance = 0.101;
+  r.hypotheses[0].distance = 0.0101;
   assert_false(verify_fits(&r));
+  r.gate = 0.02;
+  assert_true(verify_fits(&r));
+  r.truth_distance = 0.05;
+  assert_false(verify_fits(&r));
+  r.truth_distance = 1;
   r.hypotheses[0].distance = NAN;
   assert_false(verify_fits(&r));
 }
@@ -322,7 +329,7 @@ static void a_tenth_of_the_distance_is_a_fit(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(a_tenth_of_the_distance_is_a_fit),
+      cmocka_unit_test(what_is_left_decides_a_fit),
       cmocka_unit_test(files_as_people_have_them),
       cmocka_unit_test(plain_names_need_no_columns),
       cmocka_unit_test(ambiguous_names_need_columns),

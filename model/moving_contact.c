@@ -1,5 +1,5 @@
 /* moving_contact.c - see moving_contact.h. */
-#include "hbm/moving_contact.h"
+#include "model/moving_contact.h"
 
 #include <stdlib.h>
 
