@@ -1,0 +1,65 @@
+/* scene.h - what a case file says, as plain data: one scene a case file (docs/interface.md). It owns no memory: copy
+ * it freely. Solvers get parts of it: the model and their settings (scene_setup).
+ * Names, units, defaults, ranges and meanings of the fields are in fields.c and nowhere else. */
+#ifndef HC_SCENE_H
+#define HC_SCENE_H
+
+#include "base/status.h"
+#include "compare/compare_settings.h"
+#include "compare/gate_limits.h"
+#include "hbm/hbm_settings.h"
+#include "model/model.h"
+#include "timeint/transient_settings.h"
+
+enum { SCENE_MAX_CONTACTS = 16 /* in a case file; a model takes any number */, SCENE_MAX_TEXT = 128 };
+
+typedef struct scene_contact {
+  contact law;
+  double angle_deg; /* [deg] 0..90, of the contact's tangent to x */
+} scene_contact;
+
+typedef struct scene {
+  char title[SCENE_MAX_TEXT], unit_length[16], unit_force[16], unit_time[16];
+  double mass, damping, stiffness;
+  double force; /* forcing.amplitude F0 [force] */
+  int n_contacts;
+  scene_contact contacts[SCENE_MAX_CONTACTS];
+  double omega_from, omega_to; /* [rad/time] > 0, from != to; from > to sweeps downwards */
+  bool in_cycles; /* the sweep was given as sweep.frequency: --at, gate.ranges and results are in cycles/time, too */
+  hbm_settings hbm;
+  transient_settings transient;
+  compare_settings compare;
+  gate_limits gate;
+} scene;
+
+/* [rad/time] of a frequency as the scene's user gives it, and back. */
+double scene_omega(const scene *sc, double given);
+double scene_frequency(const scene *sc, double omega);
+
+/* "omega = 7", or "frequency = 345 (omega = 2167.698935)" where the sweep is in cycles; in text[SCENE_WHERE], which is
+ * returned. */
+enum { SCENE_WHERE = 64 };
+const char *scene_where(const scene *sc, double omega, char text[SCENE_WHERE]);
+
+/* The contact with its direction. */
+model_contact scene_model_contact(const scene_contact *c);
+
+/* Largest stiffness [force/length] that x can see: K and every contact stuck. */
+double scene_max_stiffness(const scene *sc);
+
+/* Does nothing hold the mass while no contact touches? That is so with stiffness 0 and no contact under a preload; its
+ * mean is then undetermined. */
+bool scene_adrift(const scene *sc);
+#define SCENE_ADRIFT                                                                                                   \
+  "the mean is undetermined while nothing touches: oscillator.stiffness is 0 and no contact has a gap > 0 that gives " \
+  "it a stiffness"
+
+/* The model of the scene, to free with model_free. HC_NO_MEMORY: *out is NULL. */
+hc_status scene_model(const scene *sc, model **out);
+
+/* All that a comparison works from: the model, and the settings and limits of *sc, which must live as long.
+ * Free with scene_setup_clear in any case. HC_NO_MEMORY. */
+hc_status scene_setup(const scene *sc, compare_setup *out);
+void scene_setup_clear(compare_setup *setup);
+
+#endif
