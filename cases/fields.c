@@ -111,8 +111,8 @@ static const field table[] = {
    .meaning = "for fixed_step: the most that Newton may take at a point"},
   {"hbm", "tolerance", "", FIELD_REAL, .unit = "1", SCENE(hbm.tolerance), .fallback = "1e-10", WITHIN(1e-14, 1e-2),
    .meaning = "of the residual, relative to the forces that make it up"},
-  {"hbm", "accuracy", "", FIELD_REAL, .unit = "1", SCENE(hbm.accuracy), .fallback = "1e-4", WITHIN(HBM_LEAST_ACCURACY, 1e-1),
-   .meaning = "relative error that harmonics: auto and samples: auto aim at"},
+  {"hbm", "accuracy", "", FIELD_REAL, .unit = "1", SCENE(hbm.accuracy), .fallback = "1e-4",
+   WITHIN(HBM_LEAST_ACCURACY, 1e-1), .meaning = "relative error that harmonics: auto and samples: auto aim at"},
   {"hbm", "skip_linear", "", FIELD_FLAG, .unit = "", SCENE(hbm.skip_linear), .fallback = "true",
    .meaning = "take points where nothing happens at the contacts from the closed form"},
 

@@ -55,12 +55,13 @@ static void amid_thousands_of_scenes(void **state)
   (void)state;
   small_file("many.yaml", "study: many\nbase: small.yaml\nrun: compare\nvary:\n"
                           "  - contacts[0].gap: {from: -6, to: -1, count: 5000}\n");
-  check_all(
-      RUN("study", TERM_IT "$H study many.yaml --jobs 2 --results :memory: -q")
-          RUN("stress", TERM_IT "$H stress --scenes 100000 --jobs 2 -q -o /dev/null") RUN(
-              "bench", TERM_IT
-              "$H bench small.yaml --repeats 1000 -q") "wait; for n in study stress bench; do echo $n $(cat $n.code); grep -q stopped $n.err; done",
-      "study 3\nstress 3\nbench 3\n");
+  check_all(RUN("study", TERM_IT "$H study many.yaml --jobs 2 --results :memory: -q")
+                RUN("stress", TERM_IT "$H stress --scenes 100000 --jobs 2 -q -o /dev/null")
+                    RUN("bench",
+                        TERM_IT "$H bench small.yaml --repeats 1000 -q") "wait; for n in study stress bench; do "
+                                                                         "echo $n $(cat $n.code); "
+                                                                         "grep -q stopped $n.err || echo silent; done",
+            "study 3\nstress 3\nbench 3\n");
 }
 
 static void waiting_for_gnuplot(void **state)
