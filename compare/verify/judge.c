@@ -1,6 +1,7 @@
 /* judge.c - which cause is named. The rule, of hypotheses ranked by distance times 3 per cause:
  *   fits     what the best leaves is within the gate or 1 %, whichever is larger, and within a fifth of how far the
- *            truth is off; if it has a factor that was fitted, within the gate, and a tenth: a free factor imitates much
+ *            truth is off; if it has a factor that was fitted, within the gate, and a tenth: a free factor imitates
+ *            much
  *   alone    no other set of causes, not larger, comes within a factor `rival` of that distance, or of a tenth of the
  *            gate if that is larger
  * One that fits alone is named; else it, and its rivals, are the nearest guess. Causes that are among the best's, and
