@@ -178,10 +178,12 @@ static void list_files(study_entry *entry, cli_file *list)
 {
   static const char *const endings[] = {"-wal", "-shm"};
   const bool kept = strcmp(entry->results, ":memory:") != 0;
+  const size_t length = strlen(entry->results); /* < MAX_PATH: BESIDE_PATH holds it with an ending */
   list[0] = (cli_file){"the base case", entry->s->base_name, CLI_INPUT};
   list[1] = (cli_file){"the results file", kept ? entry->results : NULL, CLI_RESULTS};
   for (int i = 0; i < 2; ++i) {
-    snprintf(entry->beside[i], BESIDE_PATH, "%s%s", entry->results, endings[i]);
+    memcpy(entry->beside[i], entry->results, length);
+    memcpy(entry->beside[i] + length, endings[i], strlen(endings[i]) + 1);
     list[2 + i] = (cli_file){"the results file's companion", kept ? entry->beside[i] : NULL, CLI_RESULTS};
   }
 }

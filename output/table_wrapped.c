@@ -38,7 +38,7 @@ static int longest_word(const table *t, const wrapped *w, int column)
 {
   int longest = 0;
   for (int i = 0; i <= table_rows(t); ++i)
-    for (const char *at = w->texts[i * t->n_columns + column]; *at; at += strspn(at, " ")) {
+    for (const char *at = w->texts[i * t->n_columns + column]; at && *at; at += strspn(at, " ")) {
       const size_t bytes = strcspn(at, " ");
       const int own = width_of(at, bytes);
       if (own > longest) longest = own;

@@ -97,7 +97,9 @@ hc_status verify_columns_read(const char *text, const char *quantity, verify_col
   else if (quantity && !verify_quantity_read(quantity, strlen(quantity), &asked)) {
     message_add(&m, "--quantity: '");
     message_add_input(&m, quantity, strlen(quantity), 60);
+    const char *near = nearest_word(names + 2, quantity, strlen(quantity));
     message_add(&m, "' is unknown, expected one of %s", verify_quantity_names);
+    if (near) message_add(&m, "; did you mean %s?", near);
   } else if (!quantity && s.needs_quantity)
     message_add(&m, "--columns: value is what? Add --quantity with one of %s", verify_quantity_names);
   else if (quantity && text && !s.needs_quantity && !verify_quantity_same(&asked, &out->quantity))

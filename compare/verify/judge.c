@@ -1,6 +1,7 @@
 /* judge.c - which cause is named. The rule, of hypotheses ranked by distance times 3 per cause:
  *   fits     what the best leaves is within the gate or 1 %, whichever is larger, and within a fifth of how far the
- *            truth is off; a tenth, if it has a factor that was fitted
+ *            truth is off; if it has a factor that was fitted, within the gate, and a tenth: a free factor imitates
+ *            much
  *   alone    no other set of causes, not larger, comes within a factor `rival` of that distance, or of a tenth of the
  *            gate if that is larger
  * One that fits alone is named; else it, and its rivals, are the nearest guess. Causes that are among the best's, and
@@ -15,8 +16,8 @@ static const double good = 0.01, much_better = 0.2, much_better_fitted = 0.1, ri
 bool verify_fits(const verify_report *r)
 {
   const verify_hypothesis *h = &r->hypotheses[0];
-  const double part = h->fitted ? much_better_fitted : much_better;
-  return r->n_hypotheses > 0 && h->distance <= fmax(r->gate, good) && h->distance < part * r->truth_distance;
+  const double part = h->fitted ? much_better_fitted : much_better, left = h->fitted ? r->gate : fmax(r->gate, good);
+  return r->n_hypotheses > 0 && h->distance <= left && h->distance < part * r->truth_distance;
 }
 
 /* Does it say what the contacts do, and the other what may be the reason? */

@@ -142,6 +142,10 @@ static void frequencies_and_assignments_come_back_too(void **state)
   accepted("oscillator: {mass: 1, damping: 0, stiffness: 1}\nforcing: {amplitude: 1}\nsweep: {frequency: [0.1, 3.3]}\n",
            "title= \"x\\\" ", &sc);
   check_round_trip(&sc);
+  accepted(SMALLEST, "sweep.frequency=100,125", &sc); /* 125 * 2 pi / 2 pi is not 125 */
+  char *text = echoed(&sc, HC_OK);
+  assert_non_null(strstr(text, "frequency: [100, 125]"));
+  free(text);
 }
 
 static void what_is_no_scene_is_not_echoed(void **state)

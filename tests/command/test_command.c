@@ -178,6 +178,8 @@ static void nearly_right_words_get_a_suggestion(void **state)
   expect("compare " CASE2 "--xyzzy 2>&1", 64, "unrecognized option '--xyzzy'\n");
   expect("frf " CASE2 "--set --formt=1 2>&1", 2, "--set --formt=1"); /* a value, not an option */
   expect("frf " CASE2 "--format cvs 2>&1", 64, "expected table, csv or json, did you mean 'csv'?");
+  expect("verify " CASE2 "--against cases/verify/no_static.csv --quantity amplitud 2>&1", 64,
+         "did you mean amplitude?");
   expect("frf " CASE2 "--set hbm.force=exakt 2>&1", 2, "expected exact or sampled, did you mean `exact`?");
 }
 
@@ -211,7 +213,7 @@ static void tables_fit_the_screen(void **state)
   static const char *const commands[] = {
       "compare " CASE2 "-q",
       "compare " CASE2 "-q --set sweep.frequency=[0.7,2] --set compare.points=12",
-      "compare " CASE2 "--at 6 --tables -q",
+      "compare " CASE2 "--at 6 --harmonics 1,5 --samples 32 -q",
       "frf " CASE2 "-q",
       "transient " CASE2 "--at 6,9 -q",
       "gate " CASE2 "-q",

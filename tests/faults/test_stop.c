@@ -1,7 +1,7 @@
 /* test_stop.c - a first SIGTERM ends the command wherever it is: reading a pipe that never says anything, writing to
- * one that nobody reads, inside one evaluation of 2^24 samples, waiting for gnuplot. Exit 3 with a remark, nothing left
- * beside, files as they were, no process left behind. What does not end is killed after a long time, which is exit
- * 137; how long the rest takes is not measured. */
+ * one that nobody reads, inside one evaluation of 2^24 samples, amid thousands of scenes, waiting for gnuplot. Exit 3
+ * with a remark, nothing left beside, files as they were, no process left behind. What does not end is killed after a
+ * long time, which is exit 137; how long the rest takes is not measured. */
 #include "tests/faults/shell.h"
 #include "tests/faults/small.h"
 
@@ -30,9 +30,11 @@ static void reading_or_writing_a_pipe(void **state)
                 RUN("stdin", TERM_IT "$H compare - <&9") RUN("study", TERM_IT "$H study silent")
                     RUN("curve", TERM_IT "$H verify small.yaml --against silent --columns omega=1,amplitude=2")
                         RUN("gate", TERM_IT "$H gate small.yaml silent --junit kept.xml")
-                            RUN("unread", TERM_IT "$H frf small.yaml -o alone")
-                                ALL_ENDED("case stdin study curve gate unread"),
-            "case 3 1\nstdin 3 1\nstudy 3 1\ncurve 3 1\ngate 3 1\nunread 3 1\n");
+                            RUN("unread", TERM_IT "$H frf small.yaml -o alone") RUN("page", TERM_IT "$H report silent")
+                                RUN("bench", TERM_IT "$H bench silent")
+                                    RUN("values", TERM_IT "$H describe --case silent")
+                                        ALL_ENDED("case stdin study curve gate unread page bench values"),
+            "case 3 1\nstdin 3 1\nstudy 3 1\ncurve 3 1\ngate 3 1\nunread 3 1\npage 3 1\nbench 3 1\nvalues 3 1\n");
   expect("test -e kept.xml", 1, "");
 }
 
@@ -45,6 +47,21 @@ static void inside_one_evaluation(void **state)
                 ALL_ENDED("contact"),
             "contact 3 1\n");
   expect("cat kept", 0, "before\n");
+}
+
+/* Minutes of work, in several threads too. */
+static void amid_thousands_of_scenes(void **state)
+{
+  (void)state;
+  small_file("many.yaml", "study: many\nbase: small.yaml\nrun: compare\nvary:\n"
+                          "  - contacts[0].gap: {from: -6, to: -1, count: 5000}\n");
+  check_all(RUN("study", TERM_IT "$H study many.yaml --jobs 2 --results :memory: -q")
+                RUN("stress", TERM_IT "$H stress --scenes 100000 --jobs 2 -q -o /dev/null")
+                    RUN("bench",
+                        TERM_IT "$H bench small.yaml --repeats 1000 -q") "wait; for n in study stress bench; do "
+                                                                         "echo $n $(cat $n.code); "
+                                                                         "grep -q stopped $n.err || echo silent; done",
+            "study 3\nstress 3\nbench 3\n");
 }
 
 static void waiting_for_gnuplot(void **state)
@@ -74,9 +91,8 @@ static void files_beside_are_removed(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(reading_or_writing_a_pipe),
-      cmocka_unit_test(inside_one_evaluation),
-      cmocka_unit_test(waiting_for_gnuplot),
+      cmocka_unit_test(reading_or_writing_a_pipe), cmocka_unit_test(inside_one_evaluation),
+      cmocka_unit_test(amid_thousands_of_scenes),  cmocka_unit_test(waiting_for_gnuplot),
       cmocka_unit_test(files_beside_are_removed),
   };
   static char folder[] = "/tmp/hbmcheck-stop-XXXXXX";

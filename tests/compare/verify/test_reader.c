@@ -319,6 +319,15 @@ static void what_is_left_decides_a_fit(void **state)
   assert_false(verify_fits(&r));
   r.gate = 0.02;
   assert_true(verify_fits(&r));
+  r.gate = 1e-3;
+  r.hypotheses[0].distance = 0.0099;
+  r.hypotheses[0].fitted = true;
+  assert_false(verify_fits(&r)); /* a factor that was fitted has to bring it within the gate */
+  r.hypotheses[0].distance = 0.00099;
+  assert_true(verify_fits(&r));
+  r.hypotheses[0].fitted = false;
+  r.hypotheses[0].distance = 0.0101;
+  r.gate = 0.02;
   r.truth_distance = 0.05;
   assert_false(verify_fits(&r));
   r.truth_distance = 1;

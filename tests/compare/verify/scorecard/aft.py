@@ -45,6 +45,10 @@ class Code:
     contact_factor: float = 1.0      # of the contact force's coefficients
     mean_factor: float = 1.0         # of its harmonic 0 alone
     contact: str = "law"             # "none", or "stuck" for ever
+    traction_projected: bool = True  # the mass feels T cos(alpha); False: T
+    late: int = 0                    # samples by which the contact force comes late
+    cubic: float = 0.0               # [force/length^3] of a spring that the case has not
+    hysteretic: bool = False         # the damping force is C sqrt(K/M) times the displacement, at every frequency
 
 
 class NoSolution(Exception):
@@ -69,6 +73,7 @@ def follow(o, code, x):
     (first, end, origin, by_x): w moves with by_x times what x moves by at sample `origin`."""
     n, c, s = len(x), math.cos(math.radians(o.angle)), math.sin(math.radians(o.angle))
     preload = max(o.kn * o.gap, 0.0)
+    c_force = c if code.traction_projected else 1.0
     off = preload if code.preload_off else 0.0
     by_normal = 0.0 if code.normal == "constant" else o.kn
     f, k, sticks = [0.0] * n, [0.0] * n, []
@@ -101,7 +106,7 @@ def follow(o, code, x):
             traction = o.kt * (c * a - w)
             if abs(traction) <= limit:
                 if keep:
-                    f[i], k[i] = traction * c + (normal - off) * s, o.kt * c * c + by_normal * s * s
+                    f[i], k[i] = traction * c_force + (normal - off) * s, o.kt * c * c_force + by_normal * s * s
                     first = i if first is None else first
                 continue
             if keep and first is not None:
@@ -109,7 +114,8 @@ def follow(o, code, x):
                 first = None
             sign = 1.0 if traction > 0 else -1.0
             if keep:
-                f[i], k[i] = sign * limit * c + (normal - off) * s, sign * by_limit * c + by_normal * s * s
+                f[i] = sign * limit * c_force + (normal - off) * s
+                k[i] = sign * by_limit * c_force + by_normal * s * s
             if o.kt > 0:
                 w, origin, by_x = c * a - sign * limit / o.kt, i, c - sign * by_limit / o.kt
         if keep and first is not None:
@@ -134,6 +140,10 @@ class Equations:
         size = len(X)
         x = [sum(map(mul, row, X)) for row in self.rows]
         f, k, sticks = follow(self.o, self.code, x)
+        f = f[-self.code.late:] + f[:-self.code.late] if self.code.late else f
+        if self.code.cubic:
+            f = [a + self.code.cubic * b ** 3 for a, b in zip(f, x)]
+            k = [a + 3 * self.code.cubic * b ** 2 for a, b in zip(k, x)]
         F = [a * sum(map(mul, column, f)) for a, column in zip(self.factor, self.columns)]
         if not any(k) and not sticks:
             return F, [[0.0] * size for _ in range(size)]
@@ -154,7 +164,7 @@ class Equations:
                 else:
                     value = (cosine[hq - hp] + cosine[hp + hq]) / 2
                 J[p][q] = J[q][p] = value
-        cos_kt = self.o.kt * math.cos(math.radians(self.o.angle))
+        cos_kt = self.o.kt * (math.cos(math.radians(self.o.angle)) if self.code.traction_projected else 1.0)
         for first, end, origin, by_x in sticks:
             if by_x != 0:
                 row = [cos_kt * by_x * b for b in self.rows[origin]]
@@ -171,15 +181,17 @@ class Equations:
         R[0] += o.stiffness * X[0]
         J[0][0] += o.stiffness
         for h in range(1, len(X) // 2 + 1):
-            i, k, d = 2 * h - 1, o.stiffness - o.mass * (h * omega) ** 2, o.damping * h * omega
+            i, k = 2 * h - 1, o.stiffness - o.mass * (h * omega) ** 2
+            d = o.damping * (math.sqrt(o.stiffness / o.mass) if self.code.hysteretic else h * omega)
+            by_omega = 0.0 if self.code.hysteretic else o.damping * h
             R[i] += k * X[i] + d * X[i + 1]
             R[i + 1] += k * X[i + 1] - d * X[i]
             J[i][i] += k
             J[i][i + 1] += d
             J[i + 1][i + 1] += k
             J[i + 1][i] -= d
-            D[i] = -2 * o.mass * h * h * omega * X[i] + o.damping * h * X[i + 1]
-            D[i + 1] = -2 * o.mass * h * h * omega * X[i + 1] - o.damping * h * X[i]
+            D[i] = -2 * o.mass * h * h * omega * X[i] + by_omega * X[i + 1]
+            D[i + 1] = -2 * o.mass * h * h * omega * X[i + 1] - by_omega * X[i]
         R[1] -= o.force
         return R, J, D
 

@@ -188,4 +188,29 @@ TWO = [
     case2("peak_to_peak_noise", "peak_to_peak", "peak_to_peak+noise", value_factor=2.0, points="noise"),
 ]
 
-MISTAKES = EQUATIONS + NUMBERS + COLUMNS + POINTS + TWO
+# Written after `verify` had been made with the others at hand, to see that it had not learnt the list by heart: other
+# numbers, other pairs, and mistakes that it has no word for (no answer is right, any cause named is wrong).
+UNSEEN = [
+    case2("h4", "too_few_harmonics", code={"harmonics": 4}),
+    case2("n40", "too_few_samples", code={"samples": 40}),
+    preloaded("n40", "too_few_samples", code={"samples": 40}),
+    case2("force_0.8", "wrong_force", times={"force": 0.8}),
+    case2("gap_0.8", "wrong_gap", times={"gap": 0.8}),
+    preloaded("force_1.3", "wrong_force", times={"force": 1.3}),
+    preloaded("gap_1.3", "wrong_gap", times={"gap": 1.3}),
+    preloaded("kt_1.3", "wrong_tangential_stiffness", times={"kt": 1.3}),
+    preloaded("kn_0.7", "wrong_normal_stiffness", times={"kn": 0.7}),
+    preloaded("mu_1.3", "wrong_friction", times={"mu": 1.3}),
+    preloaded("mass_0.9", "wrong_mass", times={"mass": 0.9}),
+    preloaded("contact_1.5", "contact_force_factor", code={"contact_factor": 1.5}),
+    case2("gap_half_rms", "wrong_gap+rms", times={"gap": 0.5}, holds="rms"),
+    preloaded("mu_half_peak_to_peak", "wrong_friction+peak_to_peak", times={"mu": 0.5}, value_factor=2.0),
+    case2("damping_mass", "wrong_damping+wrong_mass", times={"damping": 1.5, "mass": 1.05}),
+    preloaded("kt_mu", "wrong_tangential_stiffness+wrong_friction", times={"kt": 1.5, "mu": 1.5}),
+    preloaded("traction_not_projected", code={"traction_projected": False}),
+    preloaded("force_late", code={"samples": 64, "late": 1}),
+    preloaded("cubic", code={"cubic": 5.0}),
+    preloaded("hysteretic", code={"hysteretic": True}),
+]
+
+MISTAKES = EQUATIONS + NUMBERS + COLUMNS + POINTS + TWO + UNSEEN

@@ -129,7 +129,8 @@ def computed(binary, case, what, at, *settings):
     run = command(binary, what, case, "--at", ",".join(f"{w:.12g}" for w in at), "--format", "csv", "-q", *sets)
     lines = [line for line in run.stdout.split("\n") if line and not line.startswith("#")]
     rows = csv.DictReader(io.StringIO("\n".join(lines)))
-    return [row for row in rows if row.get("verdict", "settled") == "settled" and row.get("period_multiple", "1") in "01"]
+    return [row for row in rows
+            if row.get("verdict", "settled") == "settled" and row.get("period_multiple", "1") in "01"]
 
 
 def makes(binary, scene, case):

@@ -88,8 +88,8 @@ def counts(listed, answers):
 
 
 def share(listed, answers):
-    """[%] named right, of those that change their curve by more than MUCH; and of how many."""
-    much = [(m, a) for m, a in zip(listed, answers) if change(m) > MUCH]
+    """[%] named right, of those that have a name and change their curve by more than MUCH; and of how many."""
+    much = [(m, a) for m, a in zip(listed, answers) if change(m) > MUCH and m.right]
     good = sum(outcome(m, a) == "right" for m, a in much)
     return 100 * good / len(much) if much else 100.0, len(much)
 
