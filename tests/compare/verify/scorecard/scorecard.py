@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""scorecard.py HBMCHECK [--only TEXT] [--before HBMCHECK] [--wrong N] [--share PERCENT] [--jobs N] [--markdown]
+"""scorecard.py HBMCHECK [--only TEXT] [--every N] [--before HBMCHECK] [--wrong N] [--share PERCENT] [--jobs N] [--markdown]
 What `hbmcheck verify` says of every curve of mistakes.py:
 
     right     it names what is wrong, in words that mistakes.py accepts
@@ -7,7 +7,7 @@ What `hbmcheck verify` says of every curve of mistakes.py:
     nothing   neither, or the curve was refused
     wrong     it names something else
 
---only: the curves whose name contains TEXT. --before: another build beside it, for a table of both. --markdown: that
+--only: the curves whose name contains TEXT. --every: one in N of them. --before: another build beside it, for a table of both. --markdown: that
 table as docs/verify.md has it. exit: 0 no more than N wrong [0], and at least PERCENT [85] of the mistakes that change
 their curve by more than 2 % are right  1 not  64 usage"""
 import argparse
@@ -117,6 +117,7 @@ def main():
     usage = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     usage.add_argument("hbmcheck")
     usage.add_argument("--only", default="")
+    usage.add_argument("--every", type=int, default=1)
     usage.add_argument("--before")
     usage.add_argument("--wrong", type=int, default=0)
     usage.add_argument("--share", type=float, default=85.0)
@@ -128,7 +129,7 @@ def main():
     except argparse.ArgumentError as e:
         print(e, file=sys.stderr)
         return 64
-    listed = [m for m in mistakes.MISTAKES if o.only in m.name]
+    listed = [m for m in mistakes.MISTAKES if o.only in m.name][:: max(o.every, 1)]
     if not listed:
         print(f"no mistake is called like '{o.only}'", file=sys.stderr)
         return 64
