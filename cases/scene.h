@@ -9,8 +9,8 @@
 #include "compare/compare_settings.h"
 #include "compare/gate_limits.h"
 #include "hbm/hbm_settings.h"
-#include "model/moving_contact.h"
 #include "model/model.h"
+#include "model/moving_contact.h"
 #include "timeint/transient_settings.h"
 
 enum {

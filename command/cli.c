@@ -204,8 +204,8 @@ int cli_load_case(cli_common *common, const char *path, scene *sc)
 int cli_refuse_structure(const cli_common *common, const char *path, scene *sc, case_error *err)
 {
   snprintf(err->message, sizeof err->message,
-           "%s: a structure, and hbmcheck %s knows `oscillator` alone; frf, modes and study (run: frf) take structures", path,
-           common->command);
+           "%s: a structure, and hbmcheck %s knows `oscillator` alone; frf, modes and study (run: frf) take structures",
+           path, common->command);
   fprintf(stderr, "%s\n", err->message);
   case_clear(sc);
   return EXIT_NO_SOLUTION;

@@ -23,7 +23,7 @@ static const table_column mode_columns[] = {
     {"damping_stuck", TABLE_REAL},
 };
 static const table_column contact_columns[] = {
-    {"contact", TABLE_INTEGER}, {"name", TABLE_TEXT},     {"at_rest", TABLE_TEXT},
+    {"contact", TABLE_INTEGER}, {"name", TABLE_TEXT},           {"at_rest", TABLE_TEXT},
     {"preload", TABLE_REAL},    {"friction_limit", TABLE_REAL},
 };
 enum {

@@ -30,8 +30,8 @@ const double *contact_forces_jacobian(contact_forces *f);
 /* w[n_contacts] [length]: the sliders at th = 0 on the closed orbit of the last evaluation. */
 void contact_forces_sliders(const contact_forces *f, double *w);
 
-/* The pieces of contact j, of located forces only; and what held of one of them depends on: d held = by[0] du + by[1] dv
- * at its origin; of an oscillator by[0] dx. */
+/* The pieces of contact j, of located forces only; and what held of one of them depends on: d held = by[0] du +
+ * by[1] dv at its origin; of an oscillator by[0] dx. */
 const contact_piece *contact_forces_pieces(const contact_forces *f, int j, int *n);
 void contact_forces_held_by(const contact_forces *f, int j, const contact_piece *p, double by[2]);
 

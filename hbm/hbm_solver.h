@@ -21,8 +21,8 @@ typedef struct hbm_solver hbm_solver;
 hc_status hbm_solver_new(const model *m, const hbm_settings *how, hbm_solver **out);
 void hbm_solver_free(hbm_solver *s); /* NULL is allowed */
 
-int hbm_n_harmonics(const hbm_solver *s); /* in use now; after a trace with auto, the most the curve needed */
-int hbm_n_samples(const hbm_solver *s);   /* per period, in use now; 0 where forces are exact */
+int hbm_n_harmonics(const hbm_solver *s);    /* in use now; after a trace with auto, the most the curve needed */
+int hbm_n_samples(const hbm_solver *s);      /* per period, in use now; 0 where forces are exact */
 int hbm_n_coefficients(const hbm_solver *s); /* entries of X, with the harmonics in use now */
 
 /* Somebody who knows where a solution may be: ask() fills X[2 n_harm + 1] [length] with a guess for omega; HC_NO_MEMORY

@@ -4,8 +4,8 @@
  *     (S_h + K') q_h + constant = phi p_h,      K' = sum over stuck contacts of kt t t^T + kn n n^T
  *     oscillator:    x = Re [ F0 / (K + K' - M omega^2 + i C omega) exp(i omega t) ]
  *
- * The static state is that of the loads of harmonic 0 with all contacts stuck or apart, found by trying: from those that
- * are preloaded (gap > 0) or, under such loads, from all. */
+ * The static state is that of the loads of harmonic 0 with all contacts stuck or apart, found by trying: from those
+ * that are preloaded (gap > 0) or, under such loads, from all. */
 #ifndef HC_HBM_LINEAR_SOLUTION_H
 #define HC_HBM_LINEAR_SOLUTION_H
 
@@ -20,8 +20,8 @@ void hbm_linear_room_free(hbm_linear_room *room); /* NULL is allowed */
  * right order of magnitude where there is no such response. */
 double hbm_linear_response(hbm_system *sys, double omega, double *X);
 
-/* N[n_contacts] [force] of each contact at rest, under the loads of harmonic 0. HC_SINGULAR: nothing holds the structure
- * there. */
+/* N[n_contacts] [force] of each contact at rest, under the loads of harmonic 0. HC_SINGULAR: nothing holds the
+ * structure there. */
 hc_status hbm_linear_rest(hbm_system *sys, double *N);
 
 /* If the linear response is near the guess X (to `near` of its size) and satisfies the equations, it becomes X, with

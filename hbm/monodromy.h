@@ -22,6 +22,7 @@ void monodromy_free(monodromy *w);
  * period has a multiplier 1 of its own, since its residual traction is not determined: it is left out.
  * HC_NOT_CONVERGED if the eigenvalues could not be computed, HC_NOT_FINITE if they are too large, HC_NO_MEMORY. GSL's
  * error handler must be switched off: its errors come back as HC_NOT_CONVERGED then. */
-hc_status monodromy_stability(monodromy *w, const model *m, const contact_forces *orbit, double omega, hbm_stability *out);
+hc_status monodromy_stability(monodromy *w, const model *m, const contact_forces *orbit, double omega,
+                              hbm_stability *out);
 
 #endif

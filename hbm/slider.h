@@ -38,7 +38,8 @@ typedef struct slider_report {
 
 /* f[n] [force] at each sample of the periodic motion m; stretches[n]: room, the first of them filled; again[n],
  * settling[n]: room, overwritten. Exactly the second of two periods that begin with w = 0, but the second is followed
- * only until it is where the first was. With one of the ONE_PASS restarts, the first. Cannot fail, allocates nothing. */
+ * only until it is where the first was. With one of the ONE_PASS restarts, the first. Cannot fail, allocates
+ * nothing. */
 slider_report slider_follow(const contact *law, hbm_restart restart, int n, const slider_motion *m, double *f,
                             double *again, stretch *stretches, stretch *settling);
 

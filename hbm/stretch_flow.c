@@ -1,6 +1,7 @@
 /* stretch_flow.c - see stretch_flow.h. With y = V^-1 (dx, dx') and b = V^-1 (0, M^-1 t_j):
  *     y(t) = e^(lambda t) y(0) + (e^(lambda t) - 1)/lambda b dheld
- * Of a complex pair one is followed; the other's share is conjugate. Velocities are divided by a frequency of the structure's, so that both halves of a state are of one size. */
+ * Of a complex pair one is followed; the other's share is conjugate. Velocities are divided by a
+ * frequency of the structure's, so that both halves of a state are of one size. */
 #include "hbm/stretch_flow.h"
 
 #include <complex.h>

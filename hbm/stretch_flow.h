@@ -18,8 +18,8 @@ typedef struct stretch_flow stretch_flow;
 hc_status stretch_flow_new(const model *m, stretch_flow **out);
 void stretch_flow_free(stretch_flow *f); /* NULL is allowed */
 
-/* phi[2 n + n_contacts][2 n + n_contacts], by rows dx, dx' [1/time], dheld_j: its columns over a stretch of that duration
- * [time] with piece[j] of each contact, NULL while separated. HC_NOT_FINITE, HC_NO_MEMORY. */
+/* phi[2 n + n_contacts][2 n + n_contacts], by rows dx, dx' [1/time], dheld_j: its columns over a stretch of that
+ * duration [time] with piece[j] of each contact, NULL while separated. HC_NOT_FINITE, HC_NO_MEMORY. */
 hc_status stretch_flow_advance(stretch_flow *f, const contact_piece *const *piece, double duration, double *phi);
 
 #endif

@@ -16,10 +16,10 @@
 #include <stdbool.h>
 
 typedef struct contact {
-  double kt;  /* [force/length] >= 0, tangential stiffness */
-  double kn;  /* [force/length] >= 0, normal stiffness */
-  double mu;  /* [1] >= 0, friction coefficient */
-  double gap; /* [length] > 0: preload N0 = kn gap; < 0: clearance */
+  double kt;   /* [force/length] >= 0, tangential stiffness */
+  double kn;   /* [force/length] >= 0, normal stiffness */
+  double mu;   /* [1] >= 0, friction coefficient */
+  double gap;  /* [length] > 0: preload N0 = kn gap; < 0: clearance */
   double load; /* [force] >= 0, N of a contact without a normal spring (kn = 0): a Jenkins element */
 } contact;
 

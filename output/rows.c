@@ -1,7 +1,7 @@
 /* rows.c - see rows.h. Each list is written once and expanded twice: to the columns, and to the function that fills
  * a row.
- *   X(kind, name, is it there, value)   with r the row; C(...): only where the sweep is in cycles per time; R(...): only
- *   where the model is a structure */
+ *   X(kind, name, is it there, value)   with r the row; C(...): only where the sweep is in cycles per time; R(...):
+ *   only where the model is a structure */
 #include "output/rows.h"
 
 #include <math.h>

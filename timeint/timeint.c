@@ -29,8 +29,7 @@ static hc_status check_input(const model *m, const transient_settings *how)
 {
   if (!model_is_oscillator(m)) return HC_BAD_INPUT;
   const bool inert = positive(*m->mass) && not_negative(*m->damping);
-  if (!inert || !not_negative(*m->stiffness) || !isfinite(model_force(m)))
-    return HC_BAD_INPUT;
+  if (!inert || !not_negative(*m->stiffness) || !isfinite(model_force(m))) return HC_BAD_INPUT;
   for (int j = 0; j < m->n_contacts; ++j)
     if (!contact_ok(&m->contacts[j])) return HC_BAD_INPUT;
   if (how->method == TRANSIENT_METHOD_CLOSED_FORM && how->law != TRANSIENT_LAW_EXACT) return HC_BAD_INPUT;

@@ -97,7 +97,8 @@ static const mistake extra[] = {
     {"hbm: {gate: 3}", "f:4:7: ", "did you mean `gate` at the top level?"},
     {"transient: {regularization: 1e-4}", "f:4:13: ", "did you mean `regularisation`?"},
     {"zzz: 1", "f:4:1: ",
-     "expected one of title, response, units, oscillator, structure, forcing, contacts, sweep, hbm, transient, compare, gate"},
+     "expected one of title, response, units, oscillator, structure, forcing, contacts, sweep, hbm, transient, "
+     "compare, gate"},
     {"hbm: {zzz: 1}", "f:4:7: ", "expected one of harmonics, static, force"},
     /* two letters start too many names */
     {"hbm: {st: 1}", "f:4:7: ", "unknown key `st` in `hbm`, expected one of harmonics"},

@@ -306,8 +306,7 @@ static void failures_are_told(void **state)
       {{"transient small.yaml -q --set transient.law=exact", {0}, stuck},
        {"time integration stopped at omega = 6.5:", "CVODE gave up", "try "}},
       {{"compare small.yaml -q", {0}, stuck}, {"time integration stopped at omega = 6.5:", "CVODE gave up", "try "}},
-      {{"compare small.yaml -q", bad, {0}},
-       {"harmonic balance", "the Newton residual stayed above tolerance", "try "}},
+      {{"compare small.yaml -q", bad, {0}}, {"harmonic balance", "the Newton residual stayed above tolerance", "try "}},
       {{"gate small.yaml -q", {0}, stuck}, {"", "", ""}},
       {{"study study.yaml -q --jobs 1 --results :memory:", bad, {0}}, {"", "", ""}},
   };

@@ -52,7 +52,8 @@ static inline model *random_structure(uint64_t *seed, int n, int n_contacts)
     const double kind = random_unit(seed);
     random_direction(seed, n, c->tangent);
     random_direction(seed, n, c->normal);
-    if (j > 0 && random_unit(seed) < 0.3) memcpy(c->tangent, m->contacts[j - 1].tangent, (size_t)n * sizeof *c->tangent);
+    if (j > 0 && random_unit(seed) < 0.3)
+      memcpy(c->tangent, m->contacts[j - 1].tangent, (size_t)n * sizeof *c->tangent);
     if (j > 0 && random_unit(seed) < 0.3) memcpy(c->normal, m->contacts[j - 1].normal, (size_t)n * sizeof *c->normal);
     c->law = (contact){.kt = 10 + 50 * random_unit(seed), .kn = 10 + 50 * random_unit(seed)};
     c->law.mu = 0.1 + 0.5 * random_unit(seed);

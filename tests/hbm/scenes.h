@@ -25,7 +25,8 @@ static inline scene scene_named(const char *name, int n_harm, bool keep_mean, in
               .n_contacts = 1,
               .omega_from = r->omega_from,
               .omega_to = r->omega_to};
-  sc.contacts[0] = (scene_contact){{.kt = r->kt, .kn = r->kn, .mu = REFERENCE_FRICTION, .gap = r->gap}, REFERENCE_ANGLE};
+  sc.contacts[0] =
+      (scene_contact){{.kt = r->kt, .kn = r->kn, .mu = REFERENCE_FRICTION, .gap = r->gap}, REFERENCE_ANGLE};
   sc.hbm = (hbm_settings){.harmonics = n_harm,
                           .keep_mean = keep_mean,
                           .force = HBM_FORCE_SAMPLED,

@@ -71,8 +71,8 @@ static void oscillators_side_by_side(void **state)
   }
 }
 
-/* A free body without damping has A = [0 1; 0 0], which has one eigenvector: x moves by v t, under a stuck slider's pull
- * by t^2/2 more. */
+/* A free body without damping has A = [0 1; 0 0], which has one eigenvector: x moves by v t, under a stuck slider's
+ * pull by t^2/2 more. */
 static void a_free_body_has_no_eigenvectors(void **state)
 {
   (void)state;
@@ -88,7 +88,8 @@ static void a_free_body_has_no_eigenvectors(void **state)
   double phi[25] = {0};
   for (int i = 0; i < 5; ++i) phi[i * 6] = 1;
   assert_int_equal(stretch_flow_advance(f, piece, 0.5, phi), HC_OK);
-  const double expected[25] = {1, 0, 0.5, 0, 0.125 / 2, 0, 1, 0, 0.5, 0, 0, 0, 1, 0, 0.25, 0, 0, 0, 1, 0, 0, 0, 0, 0, 1};
+  const double expected[25] = {1, 0,    0.5, 0, 0.125 / 2, 0, 1, 0, 0.5, 0, 0, 0, 1,
+                               0, 0.25, 0,   0, 0,         1, 0, 0, 0,   0, 0, 1};
   for (int i = 0; i < 25; ++i) CHECK_NEAR(phi[i], expected[i], 1e-14, "entry %d", i);
   stretch_flow_free(f);
   model_free(m);
