@@ -166,9 +166,10 @@ void *case_target_base(case_reader *r, case_target t)
 {
   const bool in_structure = r->sc.structure && (t.list != CASE_NO_LIST || t.f->flags & FIELD_STRUCTURE);
   if (in_structure && case_own_structure(r) != HC_OK) return NULL;
-  if (t.list == CASE_LOADS) return &r->sc.structure->loads[t.index];
-  if (t.list == CASE_CONTACTS && in_structure) return &r->sc.structure->contacts[t.index].given;
-  if (in_structure) return r->sc.structure;
+  scene_structure *s = r->sc.structure;
+  if (in_structure && t.list == CASE_LOADS) return &s->loads[t.index];
+  if (in_structure && t.list == CASE_CONTACTS) return &s->contacts[t.index].given;
+  if (in_structure) return s;
   if (t.list == CASE_NO_LIST) return &r->sc;
   append_contact_if_new(r, t.index);
   return &r->sc.contacts[t.index];
@@ -183,7 +184,8 @@ void case_target_given(case_reader *r, case_target t)
     r->contact_has[t.index] |= case_field_bit(t.f);
     r->contact_field_at[t.index][field_index(t.f)] = r->here;
   } else r->at[field_index(t.f)] = r->here;
-  if (s) s->place = r->here; /* what it is wrong about as a whole, it is from here on */
+  if (!s) return;
+  s->place = r->here; /* what it is wrong about as a whole, it is from here on */
   if (!(t.f->flags & FIELD_IN_STRUCTURE)) return;
   s->how = t.f->kind == FIELD_REAL ? STRUCTURE_DAMPING_MODAL : STRUCTURE_DAMPING_RAYLEIGH;
   s->damping.place = r->here;

@@ -166,7 +166,6 @@ static void write_contact(const scene_structure *s, const structure_contact *c, 
     fprintf(to, "%snormal: ", before);
     write_direction(s, c->normal, to);
     putc('\n', to);
-    before = "    ";
   }
   if (c->by_angle) fputs("  -\n", to);
   write_scalars("contacts", &c->given, left_out, to);

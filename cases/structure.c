@@ -74,9 +74,11 @@ structure_load *structure_add_load(scene_structure *s)
 {
   double *direction = calloc((size_t)s->n, sizeof *direction);
   structure_load *grown = direction ? with_room(s->loads, s->n_loads, sizeof *grown) : NULL;
-  if (grown) s->loads = grown;
-  else free(direction);
-  if (!grown) return NULL;
+  if (!grown) {
+    free(direction);
+    return NULL;
+  }
+  s->loads = grown;
   grown[s->n_loads] = (structure_load){.direction = direction};
   return &grown[s->n_loads++];
 }
@@ -85,9 +87,11 @@ structure_response *structure_add_response(scene_structure *s)
 {
   double *direction = calloc((size_t)s->n, sizeof *direction);
   structure_response *grown = direction ? with_room(s->responses, s->n_responses, sizeof *grown) : NULL;
-  if (grown) s->responses = grown;
-  else free(direction);
-  if (!grown) return NULL;
+  if (!grown) {
+    free(direction);
+    return NULL;
+  }
+  s->responses = grown;
   grown[s->n_responses] = (structure_response){.direction = direction};
   return &grown[s->n_responses++];
 }

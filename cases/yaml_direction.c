@@ -80,7 +80,8 @@ static hc_status read_factors(case_reader *r, yaml_document_t *doc, const char *
                               double *direction)
 {
   unsigned char *seen = calloc((size_t)r->sc.structure->n, 1);
-  hc_status st = seen ? HC_OK : case_out_of_memory(r);
+  hc_status st = HC_OK;
+  if (!seen) return case_out_of_memory(r);
   for (yaml_node_pair_t *p = node->data.mapping.pairs.start; p < node->data.mapping.pairs.top && st == HC_OK; ++p) {
     const yaml_node_t *key = yaml_document_get_node(doc, p->key);
     int dof;

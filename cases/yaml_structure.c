@@ -1,6 +1,7 @@
 /* yaml_structure.c - the section `structure` and its parts, see yaml_structure.h. */
 #include "cases/yaml_structure.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -62,7 +63,8 @@ static hc_status read_ratios(case_reader *r, yaml_document_t *doc, const yaml_no
     return HC_BAD_INPUT;
   }
   double *ratios = calloc((size_t)n, sizeof *ratios);
-  hc_status st = ratios ? HC_OK : case_out_of_memory(r);
+  hc_status st = HC_OK;
+  if (!ratios) return case_out_of_memory(r);
   for (int i = 0; i < n && st == HC_OK; ++i) {
     const yaml_node_t *entry = yaml_document_get_node(doc, node->data.sequence.items.start[i]);
     st = yaml_number(r, entry, "an entry of structure.damping.modal", &ratios[i]);
@@ -103,7 +105,8 @@ static hc_status read_damping(case_reader *r, yaml_document_t *doc, const yaml_n
   const bool one = node->data.mapping.pairs.top == p + 1;
   const yaml_node_t *key = one ? yaml_document_get_node(doc, p->key) : NULL;
   char name[FIELD_PATH] = "damping.";
-  if (key && key->type == YAML_SCALAR_NODE && key->data.scalar.length < 20) strcat(name, yaml_node_text(key));
+  if (key && key->type == YAML_SCALAR_NODE && key->data.scalar.length < 20)
+    snprintf(name, sizeof name, "damping.%s", yaml_node_text(key));
   const field *f = part(name);
   if (f) return read_damping_value(r, doc, f, yaml_document_get_node(doc, p->value));
   message_add(case_blame(r, case_place_of(r, key ? key->start_mark : node->start_mark)),
@@ -194,7 +197,8 @@ static hc_status read_nodes_file(case_reader *r, const yaml_node_t *node)
   char words[160], *path = text_file_path(r->name, yaml_node_text(node), node->data.scalar.length);
   message told;
   message_start(&told, words, sizeof words);
-  hc_status st = path ? nodes_file_read(path, r->sc.structure, &r->msg) : HC_NO_MEMORY;
+  if (!path) return case_out_of_memory(r);
+  hc_status st = nodes_file_read(path, r->sc.structure, &r->msg);
   if (st == HC_NO_MEMORY) st = case_out_of_memory(r);
   if (st == HC_IO) {
     message_add(&told, "%s", r->msg.text);

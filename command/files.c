@@ -68,7 +68,7 @@ static void tell(const cli_common *common, const cli_file *written, const cli_fi
 int cli_check_files(const cli_common *common, int n, const cli_file *files)
 {
   int found = 0, code = 0;
-  named_file *list = calloc((size_t)(common->n_arguments + 1 + n), sizeof *list);
+  named_file *list = calloc((size_t)common->n_arguments + 1 + (size_t)n, sizeof *list);
   if (!list || !put_all(common, n, files, list, &found)) {
     cli_message(common, "%s", hc_status_text(HC_NO_MEMORY));
     code = EXIT_NO_SOLUTION;

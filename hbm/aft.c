@@ -346,7 +346,7 @@ static void differentiate_two_coordinates(aft *a, double *jac)
 
 void aft_jacobian(aft *a, double *jac)
 {
-  const size_t rows = (size_t)(a->n_dof * series_length(a->n_harm));
+  const size_t rows = (size_t)a->n_dof * (size_t)series_length(a->n_harm);
   memset(jac, 0, rows * rows * sizeof(double));
   if (a->n_dof > 1) differentiate_two_coordinates(a, jac);
   else differentiate_one_coordinate(a, jac);

@@ -101,9 +101,10 @@ hc_status dense_eigen(int n, double *A, double complex *lambda, double complex *
 {
   const int work_length = 8 * n, one = 1;
   const size_t rows = (size_t)n;
-  double *re = malloc((2 * rows + square(n) + (size_t)work_length) * sizeof *re), *im = re + rows, *vectors = im + rows;
+  double *re = malloc((2 * rows + square(n) + (size_t)work_length) * sizeof *re);
   int info = 0;
   if (!re) return HC_NO_MEMORY;
+  double *im = re + rows, *vectors = im + rows;
   dgeev_("N", "V", &n, A, &n, re, im, NULL, &one, vectors, &n, vectors + square(n), &work_length, &info, 1, 1);
   for (size_t k = 0; k < rows && info == 0; ++k) { /* of a pair: real parts, then imaginary parts of its first */
     const bool first = im[k] > 0, second = im[k] < 0;

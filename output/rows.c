@@ -210,7 +210,7 @@ COLUMNS_OF(order, ORDER_COLUMNS);
 
 /* [rows_kind][rows_extra] */
 /* clang-format off */
-#define LENGTH(list) sizeof(list) / sizeof *(list)
+#define LENGTH(list) (sizeof(list) / sizeof *(list))
 #define ALL(name) \
   {{name##_plain, LENGTH(name##_plain)}, {name##_in_cycles, LENGTH(name##_in_cycles)}, \
    {name##_responses, LENGTH(name##_responses)}, {name##_both, LENGTH(name##_both)}}

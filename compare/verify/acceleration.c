@@ -73,7 +73,6 @@ double acceleration_amplitude(const model *m, const verify_motion *motion, doubl
   instant here = {.th = 0, .x = motion_at(motion, 0), .w = room}, next = {.w = room + n};
   instant before[2] = {{.w = room + 2 * n}, {.w = room + 3 * n}}; /* the instants before the largest, the smallest */
   double most[2] = {-INFINITY, -INFINITY};                        /* of x'' and -x'' */
-  instant last = here;
   for (int i = 1; i <= (SETTLING + 1) * SAMPLES; ++i) {
     next.th = TWO_PI * i / SAMPLES;
     const double a = follow(m, motion, &here, &next);
@@ -84,7 +83,9 @@ double acceleration_amplitude(const model *m, const verify_motion *motion, doubl
       before[k].x = here.x;
       memcpy(before[k].w, here.w, bytes);
     }
-    last = here, here = next, next = (instant){.w = last.w};
+    double *const free_w = here.w;
+    here = next;
+    next.w = free_w;
   }
   for (int k = 0; k < 2; ++k) most[k] = fmax(most[k], refine(m, motion, k ? -1 : 1, &before[k], &next));
   return 0.5 * (most[0] + most[1]);

@@ -1,6 +1,7 @@
 /* header.c - see header.h. */
 #include "compare/verify/header.h"
 
+#include <stdio.h>
 #include <string.h>
 
 #include "base/number.h"
@@ -68,7 +69,7 @@ static bool among(const char *const *words, const char *name)
 /* "h3" or "harmonic3", or one of the names that --quantity takes, written as one may. */
 static bool quantity_of(const char *name, verify_quantity *out)
 {
-  char text[PLAIN + 16] = "harmonic_";
+  char text[PLAIN + 16];
   const size_t digits = strspn(name, "harmonic"), length = strlen(name);
   int k;
   for (size_t i = 0; i < sizeof quantities / sizeof *quantities; ++i)
@@ -76,7 +77,7 @@ static bool quantity_of(const char *name, verify_quantity *out)
       return verify_quantity_read(quantities[i].quantity, strlen(quantities[i].quantity), out);
   if ((digits == 1 || !strncmp(name, "harmonic", 8)) && name[0] == 'h' && digits < length &&
       number_read_integer(name + digits, length - digits, &k) == NUMBER_FINE) {
-    strcat(text, name + digits);
+    snprintf(text, sizeof text, "harmonic_%s", name + digits);
     return verify_quantity_read(text, strlen(text), out);
   }
   return verify_quantity_read(name, length, out);

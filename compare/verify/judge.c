@@ -43,7 +43,8 @@ static bool is_rival(const verify_report *r, const verify_hypothesis *best, cons
 
 bool verify_rival(const verify_report *r, int i)
 {
-  return i > 0 && i < r->n_hypotheses && is_rival(r, &r->hypotheses[0], &r->hypotheses[i]);
+  if (i <= 0 || i >= r->n_hypotheses || i >= VERIFY_HYPOTHESES) return false;
+  return is_rival(r, &r->hypotheses[0], &r->hypotheses[i]);
 }
 
 bool verify_reason(const verify_report *r, int i)

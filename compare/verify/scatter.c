@@ -146,10 +146,11 @@ static bool is_noise(const verify_report *r, const neighbours *p)
 
 hc_status points_scatter(const verify_report *r, verify_causes *out)
 {
-  neighbours p;
+  neighbours p = {0};
   *out = 0;
-  hc_status st = isnan(r->noise) ? HC_OK : neighbours_of(r, &p);
-  if (isnan(r->noise) || st != HC_OK) return st;
+  if (isnan(r->noise)) return HC_OK;
+  hc_status st = neighbours_of(r, &p);
+  if (st != HC_OK) return st;
   if (is_noise(r, &p)) *out = VERIFY_BIT(CAUSE_NOISE);
   neighbours_clear(&p);
   return HC_OK;
