@@ -252,6 +252,10 @@ void condensation_stiffness_change(const condensation *c, int h, condensation_ch
 {
   const int dim = c->basis.dim, rest = c->basis.rest;
   const size_t start = (size_t)h * (size_t)dim * (size_t)rest;
+  if (c->m->n == 1) {
+    *dS = change_at(c, by, 0);
+    return;
+  }
   for (int e = 0; e < dim; ++e) {
     const double complex *W = c->by_q + start + (size_t)e * (size_t)rest;
     for (int d = 0; d < dim; ++d) dS[(size_t)e * (size_t)dim + (size_t)d] = change_at(c, by, entry(c, d, e));

@@ -73,6 +73,18 @@ void hbm_system_response(const hbm_system *sys, int n_harm, const double *X, dou
 static size_t cosines(const hbm_system *sys, int h) { return (size_t)sys->dim * (size_t)(h ? 2 * h - 1 : 0); }
 static size_t sines(const hbm_system *sys, int h) { return (size_t)sys->dim * (size_t)(2 * h); }
 
+/* rows = S X, of one coordinate. */
+static void multiply_numbers(hbm_system *sys, const double complex *S, const double *X)
+{
+  double *restrict rows = sys->rows;
+  for (int h = 1; h <= sys->n_harm; ++h) {
+    const double re = creal(S[h]), im = cimag(S[h]), a = X[2 * h - 1], b = X[2 * h];
+    rows[2 * h - 1] = re * a + im * b;
+    rows[2 * h] = re * b - im * a;
+  }
+  rows[0] = creal(S[0]) * X[0];
+}
+
 /* rows of harmonic h += B X, B[dim][dim] complex. */
 static void multiply_block(hbm_system *sys, const double complex *B, int h, const double *X)
 {
@@ -90,6 +102,12 @@ static void multiply_block(hbm_system *sys, const double complex *B, int h, cons
       of_a[d] += re * a[e] + im * b[e];
       of_b[d] += re * b[e] - im * a[e];
     }
+}
+
+static void multiply_blocks(hbm_system *sys, const double *X)
+{
+  memset(sys->rows, 0, (size_t)sys->n_coef * sizeof(double));
+  for (int h = 0; h <= sys->n_harm; ++h) multiply_block(sys, condensation_stiffness(sys->linear, h), h, X);
 }
 
 /* rows of harmonic h -= factor p, a complex amplitude a - i b. */
@@ -128,13 +146,27 @@ hc_status hbm_system_residual(hbm_system *sys, double omega, const double *X, do
   hc_status st = hbm_system_contact(sys, X);
   if (st == HC_OK) st = condensation_at(sys->linear, omega, sys->more_damping);
   if (st != HC_OK) return st;
-  memset(sys->rows, 0, (size_t)sys->n_coef * sizeof(double));
-  for (int h = 0; h <= sys->n_harm; ++h) multiply_block(sys, condensation_stiffness(sys->linear, h), h, X);
+  if (sys->dim == 1) multiply_numbers(sys, condensation_stiffness(sys->linear, 0), X);
+  else multiply_blocks(sys, X);
   for (int i = 0; i < sys->n_coef; ++i) sys->rows[i] += sys->F[i];
   for (int l = 0; l < sys->model->n_loads; ++l)
     subtract_load(sys, condensation_load(sys->linear, l), sys->model->loads[l].harmonic, sys->force_factor);
   make_mistakes(sys, omega, X);
   return drop_means(sys, R);
+}
+
+/* Of one coordinate. */
+static void add_numbers(const hbm_system *sys, const double complex *S, int ld, double *jac)
+{
+  if (sys->first == 0) jac[0] += creal(S[0]);
+  for (int h = 1; h <= sys->n_harm; ++h) {
+    const size_t a = (size_t)(2 * h - 1 - sys->first), b = a + 1, n = (size_t)ld;
+    const double re = creal(S[h]), im = cimag(S[h]);
+    jac[a + n * a] += re;
+    jac[b + n * b] += re;
+    jac[a + n * b] += im;
+    jac[b + n * a] -= im;
+  }
 }
 
 static void add_block(const hbm_system *sys, const double complex *S, int h, int ld, double *jac)
@@ -177,7 +209,9 @@ void hbm_system_jacobian(hbm_system *sys, double omega, int ld, double *jac)
     for (int row = 0; row < sys->n; ++row) to[row] = from[row];
   }
   if (condensation_at(sys->linear, omega, sys->more_damping) != HC_OK) return; /* it was, in the residual */
-  for (int h = 0; h <= sys->n_harm; ++h) add_block(sys, condensation_stiffness(sys->linear, h), h, ld, jac);
+  if (sys->dim == 1) add_numbers(sys, condensation_stiffness(sys->linear, 0), ld, jac);
+  for (int h = 0; h <= sys->n_harm && sys->dim > 1; ++h)
+    add_block(sys, condensation_stiffness(sys->linear, h), h, ld, jac);
   differentiate_mistakes(sys, omega, dF, ld, jac);
 }
 

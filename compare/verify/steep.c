@@ -62,7 +62,7 @@ hc_status truth_look_around(truth *t, verify_row *row)
 {
   const double part = omega_part * t->out->gate;
   hbm_curve below = {0}, above = {0};
-  piece best = {0};
+  piece best = {.at = &below};
   hc_status st = truth_at(t, row->omega * (1 - part), &below);
   if (st == HC_OK) st = truth_at(t, row->omega * (1 + part), &above);
   if (st == HC_OK && nearest_piece(t, row, &below, &above, &best)) {
