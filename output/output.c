@@ -19,7 +19,7 @@ enum { MAX_TRIES = 10000, MOST_BESIDE = 8 };
  * place. More than these many at a time are not removed by it. */
 static _Atomic(char *) all_beside[MOST_BESIDE];
 
-/* NOLINTNEXTLINE(readability-non-const-parameter): the list holds what unlink is called with, as it is kept elsewhere */
+/* NOLINTNEXTLINE(readability-non-const-parameter): the list holds it as it is kept elsewhere, not const */
 static void remember(char *beside)
 {
   for (int i = 0; i < MOST_BESIDE; ++i) {
