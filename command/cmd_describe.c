@@ -51,9 +51,9 @@ static const table_column field_columns[] = {
 
 static const char *kind_name(field_kind kind)
 {
-  static const char *const names[] = {
-      [FIELD_REAL] = "number", [FIELD_INTEGER] = "integer", [FIELD_FLAG] = "flag",     [FIELD_CHOICE] = "choice",
-      [FIELD_TEXT] = "text",   [FIELD_PAIR] = "pair",       [FIELD_REALS] = "numbers", [FIELD_INTEGERS] = "integers"};
+  static const char *const names[] = {[FIELD_REAL] = "number",   [FIELD_INTEGER] = "integer",   [FIELD_FLAG] = "flag",
+                                      [FIELD_CHOICE] = "choice", [FIELD_TEXT] = "text",         [FIELD_PAIR] = "pair",
+                                      [FIELD_REALS] = "numbers", [FIELD_INTEGERS] = "integers", [FIELD_PART] = "part"};
   return names[kind];
 }
 
