@@ -52,6 +52,7 @@ const char *nearest_word(const char *const *words, const char *key, size_t lengt
 const char *nearest_hint(const char *const *words, const char *key, char hint[NEAREST_HINT])
 {
   const char *near = nearest_word(words, key, strlen(key));
-  snprintf(hint, NEAREST_HINT, near ? ", did you mean '%s'?" : "", near);
+  *hint = '\0';
+  if (near) snprintf(hint, NEAREST_HINT, ", did you mean '%s'?", near);
   return hint;
 }

@@ -87,7 +87,7 @@ static void random_structures_come_back_bit_for_bit(void **state)
       c->given.law = (contact){.kt = random_unit(&s), .kn = random_unit(&s), .mu = random_unit(&s)};
       *(random_bits(&s) % 2 ? &c->given.preload : &c->given.law.gap) = random_unit(&s);
       for (int i = 0; i < n; ++i) c->tangent[i] = random_unit(&s) - 0.5, c->normal[i] = random_unit(&s);
-      snprintf(c->given.name, sizeof c->given.name, j % 2 ? "" : "c%d", j);
+      if (j % 2 == 0) snprintf(c->given.name, sizeof c->given.name, "c%d", j);
     }
     for (int j = random_int(&s, 0, 5); j > 0; --j) {
       structure_load *load = structure_add_load(own);
