@@ -104,7 +104,7 @@ static void what_cannot_be_is_said(void **state)
 {
   (void)state;
   expect("--scenes 0 2>&1", 64, "is not an integer 1..");
-  expect("--seconds nan 2>&1", 64, "expected a number > 0");
+  expect("--seconds nan 2>&1", 64, "is not a number > 0");
   expect("--set hbm.harmonics=3 2>&1", 64, "no case file");
   expect("--scenes 1 --results %s 2>&1", 3, "directory");
   expect("--scenes 1 --results /dev/null/x 2>&1", 3, "Not a directory");
