@@ -289,12 +289,38 @@ static void copies_are_each_the_one(void **state)
   model_free(many);
 }
 
+/* 50 x + 100 (x - 0.1) = 20: x = 0.2, N = 10; a stop at 1 is out of reach. */
+static void contacts_at_rest(void **state)
+{
+  (void)state;
+  model *m;
+  hbm_solver *s;
+  double N[2];
+  const hbm_settings how = settings(1);
+  assert_int_equal(model_new(2, 1, 2, 1, &m), HC_OK);
+  m->mass[0] = m->mass[3] = 1;
+  m->stiffness[0] = m->stiffness[3] = 50;
+  m->loads[0].cosine[0] = 20;
+  for (int j = 0; j < 2; ++j) {
+    m->contacts[j].law = (contact){.kn = 100, .gap = j ? -1 : -0.1};
+    m->contacts[j].normal[0] = 1;
+  }
+  m->responses[0] = 1;
+  assert_int_equal(hbm_solver_new(m, &how, &s), HC_OK);
+  assert_int_equal(hbm_preloads(s, N), HC_OK);
+  CHECK_NEAR(N[0], 10, 1e-13, "pressed on");
+  CHECK_NEAR(N[1], 0, 0, "out of reach");
+  hbm_solver_free(s);
+  model_free(m);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(jacobian_is_the_derivative),
       cmocka_unit_test(another_way_to_write_it_changes_nothing),
       cmocka_unit_test(copies_are_each_the_one),
+      cmocka_unit_test(contacts_at_rest),
   };
   check_watchdog(120);
   return cmocka_run_group_tests_name("hbm.structure", tests, NULL, NULL);
