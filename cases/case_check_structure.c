@@ -55,6 +55,13 @@ static hc_status check_loads(case_reader *r)
       message_add(case_blame(r, s->loads[i].place), "forcing[%d] is too large to be held, expected less", i);
       return HC_BAD_INPUT;
     }
+    if (r->sc.hbm.harmonics != HBM_AUTO && s->loads[i].harmonic > r->sc.hbm.harmonics) {
+      message_add(
+          case_blame(r, s->loads[i].place),
+          "forcing[%d] has harmonic %d and hbm.harmonics is %d, expected at least as many harmonics as loads have", i,
+          s->loads[i].harmonic, r->sc.hbm.harmonics);
+      return HC_BAD_INPUT;
+    }
     if (s->loads[i].harmonic > 0 || s->loads[i].phase_deg == 0) continue;
     message_add(case_blame(r, s->loads[i].place),
                 "forcing[%d] is a static load (harmonic 0) with a phase, expected none", i);

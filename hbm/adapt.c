@@ -117,7 +117,8 @@ hc_status adapt_to_accuracy(path *p)
   hc_status st = add_harmonics(p, &too_few_samples);
   p->more_samples |= too_few_samples;
   if (st != HC_OK || too_few_samples) return st;
-  bool has_spare = s->finer_harmonics && s->sys.n_harm > 1;
+  bool has_spare = s->finer_harmonics && s->sys.n_harm > 1 &&
+                   refine_next_harmonics(s->sys.n_harm, false) >= model_highest_load(s->model);
   bool droppable = has_spare && droppable_size(p, hbm_curve_X(c, c->n - 1)) < 0.05 * s->how.accuracy;
   p->droppable_points = droppable ? p->droppable_points + 1 : 0;
   if (p->droppable_points < POINTS_BEFORE_DROPPING) return HC_OK;

@@ -91,7 +91,9 @@ hc_status hbm_solver_new(const model *m, const hbm_settings *how, hbm_solver **o
   *out = NULL;
   hbm_solver *s = calloc(1, sizeof *s);
   if (!s) return HC_NO_MEMORY;
-  int n_harm = how->harmonics == HBM_AUTO ? AUTO_FIRST_HARMONICS : how->harmonics, n_time = how->samples;
+  int n_harm = how->harmonics, n_time = how->samples;
+  if (n_harm == HBM_AUTO)
+    n_harm = model_highest_load(m) > AUTO_FIRST_HARMONICS ? model_highest_load(m) : AUTO_FIRST_HARMONICS;
   if (n_time == HBM_AUTO)
     for (n_time = AUTO_FIRST_SAMPLES; n_time < 4 * n_harm; n_time *= 2) {}
   s->how = *how;

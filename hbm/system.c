@@ -7,17 +7,10 @@
 
 #include "hbm/linear_solution.h"
 
-static bool loads_are_kept(const model *m, int n_harm)
-{
-  for (int l = 0; l < m->n_loads; ++l)
-    if (m->loads[l].harmonic > n_harm) return false;
-  return true;
-}
-
 hc_status hbm_system_init(hbm_system *sys, const model *m, const hbm_settings *how, int n_harm, int n_time)
 {
   *sys = (hbm_system){.model = m, .how = *how, .n_harm = n_harm, .force_factor = 1};
-  if (n_harm < 1 || n_harm > HBM_MAX_HARMONICS || !loads_are_kept(m, n_harm)) return HC_BAD_INPUT;
+  if (n_harm < 1 || n_harm > HBM_MAX_HARMONICS || model_highest_load(m) > n_harm) return HC_BAD_INPUT;
   hc_status st = model_find_scales(m, &sys->scales);
   if (st == HC_OK) st = condensation_new(m, n_harm, &sys->linear);
   if (st != HC_OK) return st;

@@ -121,6 +121,14 @@ bool model_is_oscillator(const model *m)
 
 double model_force(const model *m) { return *m->loads[0].cosine; }
 
+int model_highest_load(const model *m)
+{
+  int most = 0;
+  for (int l = 0; l < m->n_loads; ++l)
+    if (m->loads[l].harmonic > most) most = m->loads[l].harmonic;
+  return most;
+}
+
 double model_stuck_stiffness(const model_contact *c)
 {
   const double t = *c->tangent, n = *c->normal;

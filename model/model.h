@@ -59,6 +59,9 @@ void model_direction(double angle_deg, double *tangent, double *normal);
 bool model_is_oscillator(const model *m);
 double model_force(const model *m);
 
+/* The highest harmonic of the loads; 0 without any. */
+int model_highest_load(const model *m);
+
 /* Stiffness [force/length] that x sees of an oscillator's contact while it sticks: kt t^2 + kn n^2. */
 double model_stuck_stiffness(const model_contact *c);
 

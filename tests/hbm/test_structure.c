@@ -314,13 +314,31 @@ static void contacts_at_rest(void **state)
   model_free(m);
 }
 
+/* A load of harmonic 5 and one of 1: auto keeps five harmonics from the first point on, and nowhere fewer. */
+static void auto_keeps_the_loads(void **state)
+{
+  (void)state;
+  uint64_t seed = 3;
+  model *m = random_structure(&seed, 3, 1);
+  hbm_settings how = settings(HBM_AUTO);
+  hbm_solver *s;
+  hbm_curve curve = {0};
+  how.accuracy = 1e-2; /* met by fewer */
+  m->loads[0].harmonic = 5;
+  assert_int_equal(hbm_solver_new(m, &how, &s), HC_OK);
+  assert_int_equal(hbm_trace(s, 20, 40, NULL, &curve), HC_OK);
+  for (int k = 0; k < curve.n; ++k) assert_true(curve.points[k].harmonics >= 5);
+  hbm_curve_free(&curve);
+  hbm_solver_free(s);
+  model_free(m);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(jacobian_is_the_derivative),
-      cmocka_unit_test(another_way_to_write_it_changes_nothing),
-      cmocka_unit_test(copies_are_each_the_one),
-      cmocka_unit_test(contacts_at_rest),
+      cmocka_unit_test(jacobian_is_the_derivative), cmocka_unit_test(another_way_to_write_it_changes_nothing),
+      cmocka_unit_test(copies_are_each_the_one),    cmocka_unit_test(contacts_at_rest),
+      cmocka_unit_test(auto_keeps_the_loads),
   };
   check_watchdog(120);
   return cmocka_run_group_tests_name("hbm.structure", tests, NULL, NULL);

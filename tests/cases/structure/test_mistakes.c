@@ -112,6 +112,7 @@ static void in_loads_contacts_and_responses(void **state)
       {"forcing: [{node: 1, amplitude: 1}]", "7:18: ", "a node without its number or direction"},
       {"forcing: [{dof: 1, amplitude: 1, harmonic: -1}]",
        "7:44: ", "forcing[0].harmonic is `-1`, expected an integer 0..200"},
+      {"forcing: [{dof: 1, amplitude: 1, harmonic: 9}]", "7:11: ", "forcing[0] has harmonic 9 and hbm.harmonics is 5"},
       {"forcing: [{dof: 1, amplitude: 1, harmonic: 0, phase_deg: 3}]", "7:11: ", "forcing[0] is a static load"},
       {"forcing: [{direction: {1: 1e10}, amplitude: 1e300}]", "7:11: ", "forcing[0] is too large to be held"},
       {"forcing: [{dof: 1, amplitud: 1}]",

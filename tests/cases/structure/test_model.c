@@ -83,7 +83,8 @@ static void loads_of_a_harmonic_are_summed(void **state)
                           "  - {dof: 2, amplitude: -10, harmonic: 0}\n"
                           "  - {direction: {1: 2, 2: -0.5}, amplitude: 4, harmonic: 2}\n"
                           "  - {dof: 2, amplitude: 5, phase_deg: -450}\n"
-                          "  - {dof: 1, amplitude: 2, phase_deg: 30, harmonic: 7}\n",
+                          "  - {dof: 1, amplitude: 2, phase_deg: 30, harmonic: 7}\n"
+                          "hbm: {harmonics: 7}\n",
                       NULL);
   const double cosines[4][2] = {{0, -10}, {0, 0}, {8, -2}, {2 * cos(PI / 6), 0}};
   const double sines[4][2] = {{0, 0}, {0, 5}, {-3, 0}, {-2 * sin(PI / 6), 0}};
