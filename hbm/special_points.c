@@ -44,13 +44,15 @@ typedef struct detector {
   found_point *found; /* [room] */
 } detector;
 
-static hc_status evaluate_tests(detector *d, double omega, double d_omega, const double *X, test_values *v)
+/* with_flip: the multipliers cost more than all the rest, and only the search for a period doubling asks. */
+static hc_status evaluate_tests(detector *d, double omega, double d_omega, const double *X, bool with_flip,
+                                test_values *v)
 {
   const contact_forces *orbit;
   contact_report report;
-  hbm_stability stability;
+  hbm_stability stability = {.flip = NAN};
   hc_status st = hbm_located_orbit(d->s, X, &orbit, &report);
-  if (st == HC_OK) st = monodromy_stability(d->s->monodromy, d->s->model, orbit, omega, &stability);
+  if (st == HC_OK && with_flip) st = monodromy_stability(d->s->monodromy, d->s->model, orbit, omega, &stability);
   if (st == HC_OK) *v = (test_values){d_omega, stability.flip, report.regime, report.transitions};
   return st;
 }
@@ -58,7 +60,7 @@ static hc_status evaluate_tests(detector *d, double omega, double d_omega, const
 static hc_status evaluate_at_point(detector *d, int k, test_values *v)
 {
   const hbm_point *p = &d->c->points[k];
-  return evaluate_tests(d, p->omega, p->d_omega, hbm_curve_X(d->c, k), v);
+  return evaluate_tests(d, p->omega, p->d_omega, hbm_curve_X(d->c, k), true, v);
 }
 
 static bool same_pattern(const test_values *a, const test_values *b)
@@ -136,7 +138,7 @@ static void merge_twins(detector *d)
 typedef struct segment_search {
   detector *d;
   int k;
-  hbm_special_kind kind;     /* of locate_root */
+  hbm_special_kind kind;     /* what is looked for */
   const test_values *before; /* of locate_contact_changes: the pattern that is left */
   double sigma;              /* where the search was last, NaN at first */
   test_values here;          /* the test functions there */
@@ -147,7 +149,8 @@ static hc_status evaluate_on_segment(segment_search *s, double sigma)
   detector *d = s->d;
   s->sigma = sigma;
   hc_status st = hbm_segment_point(d->s, d->c, s->k, sigma, &d->x);
-  return st == HC_OK ? evaluate_tests(d, d->x.point.omega, d->x.point.d_omega, d->x.X, &s->here) : st;
+  const bool with_flip = s->kind == HBM_PERIOD_DOUBLING;
+  return st == HC_OK ? evaluate_tests(d, d->x.point.omega, d->x.point.d_omega, d->x.X, with_flip, &s->here) : st;
 }
 
 static hc_status smooth_test_at(void *self, double sigma, double *value)
@@ -190,7 +193,7 @@ static hc_status locate_contact_changes(detector *d, int k, test_values before, 
 {
   double from = 0;
   for (int i = 0; i < MAX_CONTACT_CHANGES && from < 1 && !same_pattern(&before, end); ++i) {
-    segment_search s = {.d = d, .k = k, .before = &before, .sigma = NAN};
+    segment_search s = {.d = d, .k = k, .kind = HBM_CONTACT_CHANGE, .before = &before, .sigma = NAN};
     root_point change;
     hc_status st = root_change(pattern_differs_at, &s, from, 1, SIGMA_TOLERANCE, &change);
     if (st == HC_OK) st = return_to(&s, change.x);
