@@ -1,0 +1,86 @@
+/* structure_cases.h - the models of cases/structures, their settings, and solutions of them at one frequency. */
+#ifndef HC_TESTS_STRUCTURE_CASES_H
+#define HC_TESTS_STRUCTURE_CASES_H
+
+#include <string.h>
+
+#include "cases/case_file.h"
+#include "hbm/hbm.h"
+#include "tests/check.h"
+
+static const char *const STRUCTURE_CASES[] = {"jenkins2", "chain3",     "tangent_normal_F50", "tangent_normal_F100",
+                                              "beam16",   "wedge_F0.5", "wedge_F2",           "wedge_F10",
+                                              "wedge_F20"};
+enum { N_STRUCTURE_CASES = sizeof STRUCTURE_CASES / sizeof *STRUCTURE_CASES, CASE_MAX_COEF = 4000 };
+
+typedef struct structure_case {
+  model *model;
+  hbm_settings how;
+  double from, to; /* [rad/time] the sweep */
+} structure_case;
+
+/* The case of that name with the assignments set[0..n_set-1]; to free with model_free(model). Located forces, tolerance
+ * 1e-13 unless they say otherwise. */
+static inline structure_case structure_case_with(const char *name, int harmonics, int n_set, const char *const *set)
+{
+  char path[256];
+  scene sc;
+  case_error err;
+  structure_case c;
+  snprintf(path, sizeof path, SOURCE_DIR "/cases/structures/%s.yaml", name);
+  if (case_read(path, n_set, set, &sc, &err) != HC_OK) fail_msg("%s", err.message);
+  assert_int_equal(scene_model(&sc, &c.model), HC_OK);
+  c.how = sc.hbm;
+  c.how.harmonics = harmonics;
+  c.how.tolerance = 1e-13;
+  c.from = sc.omega_from;
+  c.to = sc.omega_to;
+  case_clear(&sc);
+  return c;
+}
+
+static inline structure_case structure_case_named(const char *name, int harmonics)
+{
+  return structure_case_with(name, harmonics, 0, NULL);
+}
+
+static inline hbm_solver *structure_solver(const structure_case *c)
+{
+  hbm_solver *s;
+  assert_int_equal(hbm_solver_new(c->model, &c->how, &s), HC_OK);
+  assert_true(hbm_n_coefficients(s) <= CASE_MAX_COEF);
+  return s;
+}
+
+/* All loads of a harmonic >= 1 become `factor` times as large. */
+static inline void scale_dynamic_loads(model *m, double factor)
+{
+  for (int l = 0; l < m->n_loads; ++l)
+    for (int i = 0; i < m->n && m->loads[l].harmonic > 0; ++i)
+      m->loads[l].cosine[i] *= factor, m->loads[l].sine[i] *= factor;
+}
+
+/* The responses become the degrees of freedom: hbm_response then gives all of x. To free with model_free. */
+static inline model *with_all_responses(const model *m)
+{
+  model *all;
+  const size_t n = (size_t)m->n, vector = n * sizeof(double), matrix = n * vector;
+  assert_int_equal(model_new(m->n, m->n_loads, m->n_contacts, m->n, &all), HC_OK);
+  memcpy(all->mass, m->mass, matrix);
+  memcpy(all->damping, m->damping, matrix);
+  memcpy(all->stiffness, m->stiffness, matrix);
+  for (int l = 0; l < m->n_loads; ++l) {
+    all->loads[l].harmonic = m->loads[l].harmonic;
+    memcpy(all->loads[l].cosine, m->loads[l].cosine, vector);
+    memcpy(all->loads[l].sine, m->loads[l].sine, vector);
+  }
+  for (int j = 0; j < m->n_contacts; ++j) {
+    all->contacts[j].law = m->contacts[j].law;
+    memcpy(all->contacts[j].tangent, m->contacts[j].tangent, vector);
+    memcpy(all->contacts[j].normal, m->contacts[j].normal, vector);
+  }
+  for (int i = 0; i < m->n; ++i) all->responses[i * m->n + i] = 1;
+  return all;
+}
+
+#endif

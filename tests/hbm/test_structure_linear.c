@@ -1,0 +1,215 @@
+/* test_structure_linear.c - the linear limits of every case of cases/structures: contacts that stay stuck, and contacts
+ * that stay open, against the closed form, solved here by Gauss in long double; and a structure that nothing holds. */
+#include <complex.h>
+
+#include "tests/hbm/structure_cases.h"
+#include "tests/random.h"
+
+enum { MOST_DOFS = 16, H = 3, LENGTH = 2 * H + 1 };
+
+typedef long double complex number; /* 64 bits of mantissa where there are: the reference must not be what errs */
+
+/* x of A x = b, [n][n] by rows, by Gauss with row pivots; both are overwritten. */
+static void gauss(int n, number A[][MOST_DOFS], number *b)
+{
+  for (int k = 0; k < n; ++k) {
+    int pivot = k;
+    for (int i = k + 1; i < n; ++i)
+      if (cabsl(A[i][k]) > cabsl(A[pivot][k])) pivot = i;
+    for (int j = 0; j < n; ++j) {
+      const number kept = A[k][j];
+      A[k][j] = A[pivot][j], A[pivot][j] = kept;
+    }
+    const number kept = b[k];
+    b[k] = b[pivot], b[pivot] = kept;
+    for (int i = k + 1; i < n; ++i) {
+      const number factor = A[i][k] / A[k][k];
+      for (int j = k; j < n; ++j) A[i][j] -= factor * A[k][j];
+      b[i] -= factor * b[k];
+    }
+  }
+  for (int k = n - 1; k >= 0; --k) {
+    for (int j = k + 1; j < n; ++j) b[k] -= A[k][j] * b[j];
+    b[k] /= A[k][k];
+  }
+}
+
+/* K + sum of stuck contacts kt t t^T + kn n n^T - w^2 M + i w C, each entry off by as much as `off` of itself. */
+static void dynamic_stiffness(const model *m, const bool *stuck, long double w, double off, number A[][MOST_DOFS])
+{
+  uint64_t seed = 7;
+  const int n = m->n;
+  for (int i = 0; i < n; ++i)
+    for (int k = 0; k < n; ++k) {
+      A[i][k] = m->stiffness[k * n + i] - w * w * m->mass[k * n + i] + I * w * m->damping[k * n + i];
+      for (int j = 0; j < m->n_contacts; ++j) {
+        const model_contact *c = &m->contacts[j];
+        if (!stuck[j]) continue;
+        A[i][k] += (long double)c->law.kt * c->tangent[i] * c->tangent[k];
+        A[i][k] += (long double)c->law.kn * c->normal[i] * c->normal[k];
+      }
+      A[i][k] *= 1 + off * (long double)random_signed(&seed);
+    }
+}
+
+/* x of load l where every contact that is stuck stays so. */
+static void closed_form(const model *m, const bool *stuck, double omega, int l, double off, number *x)
+{
+  number A[MOST_DOFS][MOST_DOFS];
+  dynamic_stiffness(m, stuck, (long double)omega * m->loads[l].harmonic, off, A);
+  for (int i = 0; i < m->n; ++i) x[i] = (long double)m->loads[l].cosine[i] - I * (long double)m->loads[l].sine[i];
+  gauss(m->n, A, x);
+}
+
+static number along(const model *m, const double *direction, const number *x)
+{
+  number sum = 0;
+  for (int i = 0; i < m->n; ++i) sum += direction[i] * x[i];
+  return sum;
+}
+
+/* The static part x0 where the friction that is needed, s kt u > mu kn v with u, v of x0 (gap = 0), is more than there
+ * is: such a slider, which starts at w = 0, slides until the motion x1 cos(omega t) + .. around x0 just reaches the
+ * limit, s T0 + |s kt u1 - mu kn v1| = mu N0. Then T0 = s (mu kn v0 - |..|) is one more linear force. */
+static void shake_down(const model *m, const bool *stuck, int l, const number *x1, number *x0)
+{
+  number A[MOST_DOFS][MOST_DOFS], b[MOST_DOFS];
+  dynamic_stiffness(m, stuck, 0, 0, A);
+  for (int i = 0; i < m->n; ++i) b[i] = m->loads[l].cosine[i];
+  for (int j = 0; j < m->n_contacts; ++j) {
+    const model_contact *c = &m->contacts[j];
+    const long double limit = c->law.mu * c->law.kn, pull = creall(c->law.kt * along(m, c->tangent, x0));
+    if (!stuck[j] || c->law.kn == 0 || fabsl(pull) <= limit * creall(along(m, c->normal, x0))) continue;
+    const int sign = pull > 0 ? 1 : -1;
+    const long double swing = cabsl(sign * c->law.kt * along(m, c->tangent, x1) - limit * along(m, c->normal, x1));
+    for (int i = 0; i < m->n; ++i) {
+      for (int k = 0; k < m->n; ++k)
+        A[i][k] += c->tangent[i] * (sign * limit * c->normal[k] - (long double)c->law.kt * c->tangent[k]);
+      b[i] += sign * swing * c->tangent[i];
+    }
+  }
+  gauss(m->n, A, b);
+  for (int i = 0; i < m->n; ++i) x0[i] = b[i];
+}
+
+/* What the responses must be: series, and the largest entry of each harmonic; `all` of all of them. */
+typedef struct expectation {
+  double x[MOST_DOFS][LENGTH], size[H + 1], all;
+} expectation;
+
+/* The load of harmonic 0, if there is one, stands before that of harmonic 1. */
+static expectation expect(const model *m, const bool *stuck, double omega, double off)
+{
+  expectation e = {.all = 0};
+  number x[2][MOST_DOFS];
+  const int last = m->n_loads - 1;
+  for (int l = 0; l <= last; ++l) closed_form(m, stuck, omega, l, off, x[l]);
+  if (last > 0) shake_down(m, stuck, 0, x[1], x[0]);
+  for (int l = 0; l <= last; ++l) {
+    const int h = m->loads[l].harmonic;
+    assert_true(l == last ? h == 1 : h == 0);
+    for (int i = 0; i < m->n; ++i) {
+      e.x[i][h] = (double)creall(x[l][i]); /* h = 0: the mean, 1: the cosine */
+      if (h) e.x[i][2] = -(double)cimagl(x[l][i]);
+      e.size[h] = fmax(e.size[h], (double)cabsl(x[l][i]));
+    }
+    e.all = fmax(e.all, e.size[h]);
+  }
+  return e;
+}
+
+/* Every DOF and every coefficient of the solution at omega, of the size of the largest in its harmonic, to 1e-12 or
+ * to what the entries of the matrices, off by a rounding unit, make of it. */
+static void check_closed_form(const char *name, const structure_case *c, const bool *stuck, double omega,
+                              contact_regime regime)
+{
+  hbm_solver *s = structure_solver(c);
+  hbm_point point;
+  hbm_measures measures;
+  double X[CASE_MAX_COEF], got[LENGTH];
+  const expectation e = expect(c->model, stuck, omega, 0), near = expect(c->model, stuck, omega, 0x1p-52);
+  if (hbm_solve_first(s, omega, X, &point) != HC_OK) fail_msg("%s: no solution at %g", name, omega);
+  for (int k = 0; k < hbm_n_coefficients(s) && !c->how.skip_linear; ++k) X[k] *= 0.9; /* so that Newton has to solve */
+  if (!c->how.skip_linear) assert_int_equal(hbm_solve(s, omega, X, &point), HC_OK);
+  assert_int_equal(hbm_measure(s, X, &measures), HC_OK);
+  if (measures.contact.regime != regime)
+    fail_msg("%s at %g: %s", name, omega, contact_regime_name(measures.contact.regime));
+  double sensitivity = 0;
+  for (int i = 0; i < c->model->n; ++i)
+    for (int k = 0; k < LENGTH; ++k) sensitivity = fmax(sensitivity, fabs(near.x[i][k] - e.x[i][k]) / e.size[1]);
+  for (int i = 0; i < c->model->n; ++i) {
+    assert_int_equal(hbm_response(s, omega, X, i, got), HC_OK);
+    for (int k = 0; k < LENGTH; ++k) {
+      const double of = e.size[(k + 1) / 2] > 0 ? e.size[(k + 1) / 2] : e.all;
+      CHECK_NEAR(got[k], e.x[i][k], fmax(1e-12, 10 * sensitivity) * of,
+                 "%s at %g, skip_linear %d: DOF %d, coefficient %d", name, omega, c->how.skip_linear, i + 1, k);
+    }
+  }
+  hbm_solver_free(s);
+}
+
+/* At nine frequencies of the sweep, from the closed form and by Newton. */
+static void check_over_sweep(const char *name, structure_case *c, const bool *stuck, contact_regime regime)
+{
+  model *given = c->model;
+  c->model = with_all_responses(given);
+  for (int skip = 0; skip < 2; ++skip) {
+    c->how.skip_linear = skip;
+    for (int k = 0; k < 9; ++k) check_closed_form(name, c, stuck, c->from + (c->to - c->from) * k / 8, regime);
+  }
+  model_free(c->model);
+  model_free(given);
+}
+
+static void stuck_contacts(void **state)
+{
+  (void)state;
+  for (int k = 0; k < N_STRUCTURE_CASES; ++k) {
+    structure_case c = structure_case_named(STRUCTURE_CASES[k], H);
+    bool stuck[4];
+    for (int j = 0; j < c.model->n_contacts; ++j) stuck[j] = c.model->contacts[j].law.gap >= 0; /* not chain3's stop */
+    scale_dynamic_loads(c.model, 1e-5);
+    check_over_sweep(STRUCTURE_CASES[k], &c, stuck, CONTACT_STUCK);
+  }
+}
+
+static void open_contacts(void **state)
+{
+  (void)state;
+  for (int k = 0; k < N_STRUCTURE_CASES; ++k) {
+    structure_case c = structure_case_named(STRUCTURE_CASES[k], H);
+    const bool stuck[4] = {false};
+    for (int j = 0; j < c.model->n_contacts; ++j) {
+      contact *law = &c.model->contacts[j].law;
+      if (law->kn > 0) law->gap = -1e9;
+      else law->load = 0; /* a Jenkins element without a normal load pulls at nothing */
+    }
+    if (strstr(STRUCTURE_CASES[k], "wedge")) /* the damper needs something that holds it */
+      c.model->stiffness[4] = c.model->stiffness[8] = 50;
+    check_over_sweep(STRUCTURE_CASES[k], &c, stuck, CONTACT_LINEAR);
+  }
+}
+
+/* pyHarm's example "jenkins": the 2-norm of the harmonics of its first mass at omega = 24, as it prints it. */
+static void pyharm_prints_the_same(void **state)
+{
+  (void)state;
+  structure_case c = structure_case_named("jenkins2", 7);
+  hbm_solver *s = structure_solver(&c);
+  hbm_point point;
+  double X[CASE_MAX_COEF], x[15], squares = 0;
+  assert_int_equal(hbm_solve_first(s, 24, X, &point), HC_OK);
+  assert_int_equal(hbm_response(s, 24, X, 0, x), HC_OK);
+  for (int k = 0; k < 15; ++k) squares += x[k] * x[k];
+  CHECK_NEAR(sqrt(squares), 0.010306893196, 0.5e-12, "its last digit");
+  hbm_solver_free(s);
+  model_free(c.model);
+}
+
+static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(stuck_contacts),
+    cmocka_unit_test(open_contacts),
+    cmocka_unit_test(pyharm_prints_the_same),
+};
+
+CHECK_MAIN("hbm.structure_linear", tests, 60)
