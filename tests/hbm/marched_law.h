@@ -52,7 +52,8 @@ typedef enum marched_state { APART, STUCK, SLIDES_UP, SLIDES_DOWN } marched_stat
 typedef struct marched {
   contact law;
   marched_state state;
-  double w; /* [length] while stuck */
+  double w;     /* [length] while stuck */
+  bool changed; /* just now: its guards begin at 0, give or take rounding */
 } marched;
 
 static inline bool marched_has_tangent(const contact *c)
@@ -112,8 +113,33 @@ static inline int marched_guards(const marched *m, const double *u, const double
   return n;
 }
 
-/* The first s in (0, h] where a guard has fallen below 0, located to rounding; h if there is none (*which = -1). A step
- * is looked at in eight parts; a guard that begins at 0, as after a change, counts from the first part's end on. */
+/* Where g is least on [low, high] if its slope changes sign there from - to +, else high. */
+static inline double marched_least(const double *g, double low, double high)
+{
+  if (!(taylor_slope(g, low) < 0 && taylor_slope(g, high) > 0)) return high;
+  for (int k = 0; k < 60; ++k) {
+    const double middle = 0.5 * (low + high);
+    if (taylor_slope(g, middle) < 0) low = middle;
+    else high = middle;
+  }
+  return high;
+}
+
+/* The first s on (low, high] with g < 0, between the ends only where it may dip there; bisected to rounding; NAN where there is none. */
+static inline double marched_falls(const double *g, bool dips, double low, double high)
+{
+  if (dips && taylor_at(g, high) >= 0) high = marched_least(g, low, high); /* a dip between the ends */
+  if (taylor_at(g, high) >= 0) return NAN;
+  for (int k = 0; k < 80; ++k) {
+    const double middle = 0.5 * (low + high);
+    if (taylor_at(g, middle) >= 0) low = middle;
+    else high = middle;
+  }
+  return high;
+}
+
+/* The first s in (0, h] where a guard has fallen below 0; h if there is none (*which = -1). A step is looked at in eight
+ * parts, and at the least value on each. */
 static inline double marched_first_change(const marched *m, const double *u, const double *v, double h, int *which)
 {
   enum { PARTS = 8 };
@@ -122,19 +148,10 @@ static inline double marched_first_change(const marched *m, const double *u, con
   const int n = marched_guards(m, u, v, g, to);
   *which = -1;
   for (int i = 0; i < n; ++i)
-    for (int p = 1; p <= PARTS; ++p) {
-      double low = h * (p - 1) / PARTS, high = h * p / PARTS;
-      if (low > first) break;
-      if (taylor_at(g[i], high) >= 0) continue;
-      for (int k = 0; k < 80 && high > low; ++k) {
-        const double middle = 0.5 * (low + high);
-        if (taylor_at(g[i], middle) >= 0) low = middle;
-        else high = middle;
-      }
-      if (*which < 0 || high < first) {
-        first = high;
-        *which = i;
-      }
+    for (int p = 0; p < PARTS && h * p / PARTS < first; ++p) {
+      const double at = marched_falls(g[i], p > 0 || !m->changed, h * p / PARTS, h * (p + 1) / PARTS);
+      if (isnan(at)) continue;
+      if (*which < 0 || at < first) first = at, *which = i;
       break;
     }
   return first;
@@ -149,6 +166,7 @@ static inline void marched_change(marched *m, const double *u, const double *v, 
   marched_guards(m, u, v, g, to);
   const double at_u = taylor_at(u, s), at_v = taylor_at(v, s);
   const double N = c->kn * (at_v + c->gap) + c->load;
+  m->changed = true;
   if (m->state == APART) {
     const double pull = c->kt * taylor_slope(u, s), limit = c->mu * c->kn * taylor_slope(v, s);
     m->w = at_u;
@@ -166,6 +184,7 @@ static inline void marched_begin(marched *m, const double *u, const double *v, d
   const double N = c->kn * (v[0] + c->gap) + c->load, limit = c->mu * N;
   m->w = w;
   m->state = STUCK;
+  m->changed = true;
   if (c->kn > 0 && !(v[0] + c->gap > 0)) {
     m->state = APART;
     return;
