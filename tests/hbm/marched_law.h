@@ -125,7 +125,8 @@ static inline double marched_least(const double *g, double low, double high)
   return high;
 }
 
-/* The first s on (low, high] with g < 0, between the ends only where it may dip there; bisected to rounding; NAN where there is none. */
+/* The first s on (low, high] with g < 0, between the ends only where it may dip there; bisected to rounding; NAN
+ * where there is none. */
 static inline double marched_falls(const double *g, bool dips, double low, double high)
 {
   if (dips && taylor_at(g, high) >= 0) high = marched_least(g, low, high); /* a dip between the ends */
@@ -138,8 +139,8 @@ static inline double marched_falls(const double *g, bool dips, double low, doubl
   return high;
 }
 
-/* The first s in (0, h] where a guard has fallen below 0; h if there is none (*which = -1). A step is looked at in eight
- * parts, and at the least value on each. */
+/* The first s in (0, h] where a guard has fallen below 0; h if there is none (*which = -1). A step is looked at in
+ * eight parts, and at the least value on each. */
 static inline double marched_first_change(const marched *m, const double *u, const double *v, double h, int *which)
 {
   enum { PARTS = 8 };

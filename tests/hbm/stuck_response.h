@@ -73,9 +73,10 @@ static inline number along(const model *m, const double *direction, const number
   return sum;
 }
 
-/* The static part x0, under load 0, where the friction that is needed, s kt u > mu kn v with u, v of x0 (gap = 0), is more than there
- * is: such a slider, which starts at w = 0, slides until the motion x1 cos(omega t) + .. around x0 just reaches the
- * limit, s T0 + |s kt u1 - mu kn v1| = mu N0. Then T0 = s (mu kn v0 - |..|) is one more linear force. */
+/* The static part x0, under load 0, where the friction that is needed, s kt u > mu kn v with u, v of x0 (gap = 0),
+ * is more than there is: such a slider, which starts at w = 0, slides until the motion x1 cos(omega t) + .. around
+ * x0 just reaches the limit, s T0 + |s kt u1 - mu kn v1| = mu N0. Then T0 = s (mu kn v0 - |..|) is one more linear
+ * force. */
 static inline void shake_down(const model *m, const bool *stuck, const number *x1, number *x0)
 {
   number A[STUCK_MAX_DOFS][STUCK_MAX_DOFS], b[STUCK_MAX_DOFS];

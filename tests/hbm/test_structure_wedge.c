@@ -44,9 +44,9 @@ static contact_regime regime_at(const wedge *w, int k)
   return m.contact.regime;
 }
 
-/* How far a wedge that is stuck all period is from leaving that, < 0: it cannot be. At rest friction does not suffice,
- * so both sliders have gone to their limits, s T0 + A = mu N0 (shake_down). They stay if the other limit is not reached,
- * A + B < 2 mu N0 with A, B = |s kt u1 -+ mu kn v1|, nor N = 0, kn |v1| < N0. In units of N0. */
+/* How far a wedge that is stuck all period is from leaving that, < 0: it cannot be. At rest friction does not
+ * suffice, so both sliders have gone to their limits, s T0 + A = mu N0 (shake_down). They stay if the other limit is
+ * not reached, A + B < 2 mu N0 with A, B = |s kt u1 -+ mu kn v1|, nor N = 0, kn |v1| < N0. In units of N0. */
 static double stuck_margin(const model *m, double omega)
 {
   const bool stuck[2] = {true, true};
