@@ -318,7 +318,8 @@ unsigned cli_extra_columns(const scene *sc)
 void cli_put_row(const cli_common *common, table *t, rows_kind kind, const row_cell *cells)
 {
   int n;
-  rows_columns(kind, kind == ROWS_FRF ? cli_extra_columns(common->scene) : common->scene->in_cycles, &n);
+  const bool of_structure = kind == ROWS_FRF || kind == ROWS_CONTACT;
+  rows_columns(kind, of_structure ? cli_extra_columns(common->scene) : common->scene->in_cycles, &n);
   for (int i = 0; i < n; ++i) {
     if (!cells[i].there) table_put_missing(t);
     else if (cells[i].kind == TABLE_TEXT) table_put_text(t, cells[i].as.text);

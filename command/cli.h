@@ -73,6 +73,13 @@ void cli_read_plot(struct argp_state *state, char *text, const char **out); /* c
    "that fails", 2}
 /* clang-format on */
 
+/* --contacts, the same in every command that has the table of rows_contact. */
+/* clang-format off */
+#define CLI_CONTACTS_OPTION(key) \
+  {"contacts", key, NULL, 0, \
+   "A second table: of each contact in each solution the extrema of its forces, slip path and dissipated work", 1}
+/* clang-format on */
+
 /* Right after cli_parse in a command that can draw: --plot - while csv, json or an export goes to standard output ends
  * the program with a message (exit 64). plot may be NULL. */
 void cli_check_plot(const cli_common *common, const char *plot, bool exporting);

@@ -1,9 +1,11 @@
 /* cmd_frf.c - hbmcheck frf: the response curve, or every solution at given frequencies. */
 #include <stdio.h>
+#include <stdlib.h>
 
 #include "base/constants.h"
 #include "campaigns/scene_solvers.h"
 #include "cases/structure_model.h"
+#include "command/case_names.h"
 #include "command/commands.h"
 #include "command/files.h"
 #include "command/plot/plot.h"
@@ -22,14 +24,18 @@ static const char help[] =
     "example: hbmcheck frf cases/paper/case2.yaml --at 8,9 --set hbm.harmonics=5";
 
 typedef struct frf_options {
-  number_list at;   /* n = 0: the whole curve */
-  const char *plot; /* NULL: no drawing */
+  number_list at;       /* n = 0: the whole curve */
+  const char *response; /* NULL: all of them */
+  bool contacts;        /* what each contact does, too */
+  const char *plot;     /* NULL: no drawing */
 } frf_options;
 
-enum { KEY_AT = CLI_OWN_KEY, KEY_PLOT };
+enum { KEY_AT = CLI_OWN_KEY, KEY_RESPONSE, KEY_CONTACTS, KEY_PLOT };
 
 static const struct argp_option options[] = {
     {"at", KEY_AT, "LIST", 0, "Only the solutions at these " CLI_FREQUENCIES, 1},
+    {"response", KEY_RESPONSE, "NAME", 0, "Only this response of the case, as the column `response` calls it", 1},
+    CLI_CONTACTS_OPTION(KEY_CONTACTS),
     CLI_PLOT_OPTION(KEY_PLOT),
     {0},
 };
@@ -39,20 +45,37 @@ static error_t read_option(int key, char *text, struct argp_state *state)
   frf_options *own = state->input;
   switch (key) {
   case KEY_AT: cli_read_list(state, "at", text, &own->at); return 0;
+  case KEY_RESPONSE: own->response = text; return 0;
+  case KEY_CONTACTS: own->contacts = true; return 0;
   case KEY_PLOT: cli_read_plot(state, text, &own->plot); return 0;
   default: return ARGP_ERR_UNKNOWN;
   }
 }
 
-/* A row for each response of point k. */
-static hc_status put_point(const cli_common *common, hbm_solver *s, const hbm_curve *c, int k, bool *free, table *t)
+/* The responses from `first` to `last`. */
+typedef struct response_range {
+  int first, last;
+} response_range;
+
+/* All of the case's, or the one that is asked for. 0 or the exit code after the message. */
+static int choose_responses(const cli_common *common, const char *name, response_range *out)
 {
   const scene_structure *of = common->scene->structure;
-  const int n = of ? structure_response_count(of) : 1;
+  *out = (response_range){0, of ? structure_response_count(of) - 1 : 0};
+  if (!name) return 0;
+  out->first = out->last = cli_response_named(common, name);
+  return out->first < 0 ? EXIT_USAGE : 0;
+}
+
+/* A row for each response of point k. */
+static hc_status put_point(const cli_common *common, hbm_solver *s, const hbm_curve *c, int k, response_range of_case,
+                           bool *free, table *t)
+{
+  const scene_structure *of = common->scene->structure;
   response_row row;
   row_cell cells[ROWS_MOST];
   hc_status st = response_row_of(s, c, k, &row);
-  for (int r = 0; r < n && st == HC_OK; ++r) {
+  for (int r = of_case.first; r <= of_case.last && st == HC_OK; ++r) {
     if (r > 0) st = response_row_turn(s, c, k, r, &row);
     if (of) structure_response_name(of, r, row.response, sizeof row.response);
     *free |= row.measures.contact.free_sliders > 0;
@@ -62,16 +85,41 @@ static hc_status put_point(const cli_common *common, hbm_solver *s, const hbm_cu
   return st;
 }
 
-static hc_status put_points(const cli_common *common, hbm_solver *s, const hbm_curve *c, table *t)
+static hc_status put_points(const cli_common *common, hbm_solver *s, const hbm_curve *c, response_range of_case,
+                            table *t)
 {
   bool free = false;
   for (int k = 0; k < c->n; ++k) {
-    hc_status st = put_point(common, s, c, k, &free, t);
+    hc_status st = put_point(common, s, c, k, of_case, &free, t);
     if (st != HC_OK) return st;
   }
   if (!free) table_hide(t, "mean_free");
   table_spare(t, rows_spare(ROWS_FRF, common->scene->in_cycles));
   return HC_OK;
+}
+
+/* A row for each contact of each solution. */
+static hc_status put_contacts(const cli_common *common, hbm_solver *s, const hbm_curve *c, table *t)
+{
+  const scene *sc = common->scene;
+  const int n = scene_contact_count(sc);
+  contact_period *periods = calloc((size_t)n + 1, sizeof *periods);
+  row_cell cells[ROWS_MOST];
+  hc_status st = periods ? HC_OK : HC_NO_MEMORY;
+  for (int k = 0; k < c->n && st == HC_OK; ++k) {
+    st = hbm_measure_contacts(s, c->X + (size_t)k * (size_t)c->n_coef, periods);
+    for (int j = 0; j < n && st == HC_OK; ++j) {
+      contact_row row = {c->points[k].omega, c->points[k].branch, .contact = j, .period = periods[j]};
+      snprintf(row.name, sizeof row.name, "%s", scene_contact_at(sc, j)->name);
+      rows_contact(&row, cli_extra_columns(sc), cells);
+      cli_put_row(common, t, ROWS_CONTACT, cells);
+    }
+  }
+  free(periods);
+  table_spare(t, rows_spare(ROWS_CONTACT, sc->in_cycles));
+  if (sc->hbm.force == HBM_FORCE_SAMPLED)
+    table_note(t, "contacts by the exact law along the motion found with sampled forces");
+  return st;
 }
 
 static void note_curve(table *t, const scene *sc, const hbm_solver *s, const hbm_curve *c)
@@ -132,12 +180,16 @@ static int run_frf(int argc, char **argv)
   cli_check_plot(&common, own.plot, false);
   int code = cli_check_files(&common, 1, &(cli_file){"--plot", own.plot, CLI_OUTPUT}), n_columns;
   if (!code) code = cli_load_case(&common, common.arguments[0], &sc);
+  response_range of_case;
+  if (!code && (code = choose_responses(&common, own.response, &of_case)) != 0) case_clear(&sc);
   if (code) return code;
   hbm_solver *s = NULL;
   hbm_curve curve = {0}, found = {0};
   double from, to, failed_at = 0;
   const table_column *columns = rows_columns(ROWS_FRF, cli_extra_columns(&sc), &n_columns);
   table *t = table_new("Response curve", n_columns, columns);
+  columns = rows_columns(ROWS_CONTACT, cli_extra_columns(&sc), &n_columns);
+  table *contacts = own.contacts ? table_new("Contacts", n_columns, columns) : NULL;
   progress *bar = progress_start("harmonic balance", common.quiet);
   hc_monitor monitor = progress_monitor(bar);
   if (!own.at.n) sc.compare.omega.n = 0; /* those of the case are for the comparison */
@@ -152,7 +204,9 @@ static int run_frf(int argc, char **argv)
     if (st == HC_OK)
       st = solved; /* also with --at a curve that stops early is a
     failure: it might have turned back to those omegas */
-    hc_status shown = put_points(&common, s, at->n ? &found : &curve, t);
+    hc_status shown = put_points(&common, s, at->n ? &found : &curve, of_case, t);
+    if (st == HC_OK) st = shown;
+    if (contacts) shown = put_contacts(&common, s, at->n ? &found : &curve, contacts);
     if (st == HC_OK) st = shown;
     note_curve(t, &sc, s, &curve);
     hc_status noted = at->n ? HC_OK : note_specials(t, &sc, s, &curve);
@@ -161,11 +215,12 @@ static int run_frf(int argc, char **argv)
   }
   progress_end(bar);
   code = st == HC_OK ? 0 : cli_solver_failed(&common, CLI_HBM, "harmonic balance", st, failed_at);
-  int written = s ? cli_write(&common, 1, &t) : 0;
+  int written = s ? cli_write(&common, own.contacts ? 2 : 1, (table *[]){t, contacts}) : 0;
   plot_order drawing = {.path = own.plot};
   if (own.plot && s && !written)
     written = cli_plotted(&common, plot_frf(&drawing, &sc, s, &curve, at->n ? &found : NULL), drawing.why);
   table_free(t);
+  table_free(contacts);
   hbm_curve_free(&found);
   hbm_curve_free(&curve);
   hbm_solver_free(s);

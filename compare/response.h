@@ -22,6 +22,14 @@ hc_status response_row_of(hbm_solver *s, const hbm_curve *c, int k, response_row
 /* *row becomes that of response r of the model, counted from 0: its measures. Errors of hbm_measure_response. */
 hc_status response_row_turn(hbm_solver *s, const hbm_curve *c, int k, int r, response_row *row);
 
+/* What one contact does in one solution. */
+typedef struct contact_row {
+  double omega;
+  int branch, contact;      /* counted from 0 */
+  char name[RESPONSE_NAME]; /* of the contact, or empty */
+  contact_period period;
+} contact_row;
+
 /* All solutions at the asked frequencies, appended to *found. A frequency without any is a failure, the first of
  * which is returned with its omega, unless the curve says the branch never goes there. */
 hc_status response_at(hbm_solver *s, const hbm_curve *curve, const number_list *at, hbm_curve *found,

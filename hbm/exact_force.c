@@ -201,19 +201,6 @@ static void assemble(const exact_force *e, double *matrix)
                          matrix + (size_t)d * n + (size_t)D * n * f * n);
 }
 
-static contact_regime regime_of(const contact_piece *p, int n)
-{
-  double touching = 0;
-  bool slips = false;
-  for (int i = 0; i < n; ++i) {
-    touching += p[i].to - p[i].from;
-    slips |= contact_slip_sign(p[i].state) != 0;
-  }
-  if (n == 0) return CONTACT_LINEAR;
-  if (touching < TWO_PI * (1 - 1e-15)) return CONTACT_SEPARATES;
-  return slips ? CONTACT_SLIPS : CONTACT_STUCK;
-}
-
 /* Changes of state over the period. A piece is followed by another one (one change, or none if both are parts of the
  * same state), or by a separation and then a piece (two). */
 static int count_changes(const contact_piece *p, int n)
@@ -251,7 +238,7 @@ static void fill_report(const exact_force *e, contact_report *report)
 {
   *report = (contact_report){.regime = CONTACT_LINEAR};
   for (int j = 0; j < e->n_contacts; ++j) {
-    contact_regime regime = regime_of(e->pieces + (size_t)j * e->cap, e->n_pieces[j]);
+    contact_regime regime = transitions_regime(e->n_pieces[j], e->pieces + (size_t)j * e->cap);
     if (regime > report->regime) report->regime = regime;
     report->free_sliders += regime == CONTACT_STUCK && moving_contact_has_slider(&e->contacts[j], e->n_dof);
     report->transitions += count_changes(e->pieces + (size_t)j * e->cap, e->n_pieces[j]);
@@ -267,13 +254,10 @@ static void multiply(const exact_force *e, const double *matrix, const double *X
 
 hc_status exact_force_eval(exact_force *e, const double *X, double *F, double *jac, contact_report *report)
 {
-  /* The search for transitions multiplies motions and their derivatives, up to 200^2 times larger, with each other;
-   * what overflowed there would be no transition, and the contact separated without a word. */
-  static const double largest = 1e140;
   int m = e->n_dof * e->n_coef, symbol = force_jacobian_symbol_length(e->n_harm);
   double size = 0, *matrix = jac ? jac : e->matrix;
   for (int i = 0; i < m; ++i) size += fabs(X[i]);
-  if (!(size <= largest)) return HC_NOT_FINITE;
+  if (!(size <= TRANSITIONS_LARGEST)) return HC_NOT_FINITE;
   series_vector x = {e->n_harm, e->n_dof, {X, X + e->n_coef}};
   series_grid_fill(&e->grid, &x, e->table);
   memset(F, 0, (size_t)m * sizeof(double));

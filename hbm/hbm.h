@@ -5,6 +5,7 @@
  * hbm_solver.h       a solver of a model; one solution at a fixed omega, and its measures
  * continuation.h     the response curve over a range of omega
  * response_curve.h   its points
+ * contact_measures.h what each contact does: forces, slip path, dissipated work
  * between.h          every solution at an omega between the points, and the peak
  * predict.h          how far off a solution expects to be
  * stability.h        Floquet multipliers of a solution
@@ -15,6 +16,7 @@
 #define HC_HBM_H
 
 #include "hbm/between.h"
+#include "hbm/contact_measures.h"
 #include "hbm/continuation.h"
 #include "hbm/hbm_solver.h"
 #include "hbm/predict.h"

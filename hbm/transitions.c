@@ -281,3 +281,16 @@ hc_status transitions_find(const series_grid *grid, const moving_contact *c, int
   *n = w.n;
   return st;
 }
+
+contact_regime transitions_regime(int n, const contact_piece *piece)
+{
+  double touching = 0;
+  bool slips = false;
+  for (int i = 0; i < n; ++i) {
+    touching += piece[i].to - piece[i].from;
+    slips |= contact_slip_sign(piece[i].state) != 0;
+  }
+  if (n == 0) return CONTACT_LINEAR;
+  if (touching < TWO_PI * (1 - 1e-15)) return CONTACT_SEPARATES;
+  return slips ? CONTACT_SLIPS : CONTACT_STUCK;
+}

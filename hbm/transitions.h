@@ -27,9 +27,17 @@ typedef struct contact_piece {
   int transitions;                  /* changes of state in the search so far, to recognise chatter */
 } contact_piece;
 
+/* [length] The largest sum of |coefficients| of a motion. The search multiplies motions and their derivatives, up to
+ * 200^2 times larger, with each other; what overflowed there would be no transition, and the contact separated without
+ * a word. */
+#define TRANSITIONS_LARGEST 1e140
+
 /* The pieces of one period, ascending, into piece[cap]; *n of them. Where contact is never lost the slider starts at
  * w = 0, which is as good as any other start. HC_CHATTER: more than cap pieces, or 64 (H + 1) changes of state.
  * HC_NOT_CLOSED: the slider is not where it was a period before. HC_NOT_FINITE: mu kn or more overflows. */
 hc_status transitions_find(const series_grid *grid, const moving_contact *c, int cap, contact_piece *piece, int *n);
+
+/* What happens to a contact with these pieces of one period. */
+contact_regime transitions_regime(int n, const contact_piece *piece);
 
 #endif

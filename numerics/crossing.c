@@ -6,6 +6,8 @@
 #include <float.h>
 #include <math.h>
 
+#include "base/constants.h"
+
 enum { MAX_DEPTH = 48, MAX_NEWTON = 60 };
 
 guard guard_make(const series_vector *m, int order, const double *a, double constant)
@@ -147,4 +149,43 @@ bool crossing_first(const series_vector *m, const guard *g, const series_node *a
   if (guard_value(g, a) > sag && guard_value(g, b) > sag) return false; /* the usual case, before nodes are copied */
   guarded_motion s = {m, g};
   return find_first(&s, *a, *b, MAX_DEPTH, root);
+}
+
+typedef struct range {
+  double max, min;
+} range;
+
+static void take_in(range *r, double f)
+{
+  if (f > r->max) r->max = f;
+  if (f < r->min) r->min = f;
+}
+
+static double weighted(const series_vector *m, const double *a, const series_node *at)
+{
+  double f = 0;
+  for (int d = 0; d < m->dim; ++d) f += a[d] * at->d[0][d];
+  return f;
+}
+
+void guard_extrema(const series_vector *m, const double *a, double from, double to, double *max, double *min)
+{
+  const int n = (int)ceil(SERIES_GRID * (to - from) / TWO_PI);
+  guard rising = guard_make(m, 1, a, 0), falling = guard_negative(&rising);
+  series_node here = series_vector_at(m, from), root;
+  range r = {weighted(m, a, &here), weighted(m, a, &here)};
+  for (int i = 1; i <= n; ++i) {
+    const series_node next = series_vector_at(m, i < n ? from + (to - from) * i / n : to);
+    /* between grid angles f' changes sign any number of times; every change is an extremum */
+    for (bool up = guard_value(&rising, &here) > 0; crossing_first(m, up ? &rising : &falling, &here, &next, &root);
+         up = !up) {
+      take_in(&r, weighted(m, a, &root));
+      if (!(root.th > here.th)) break; /* f' is 0 to rounding */
+      here = root;
+    }
+    here = next;
+    take_in(&r, weighted(m, a, &here));
+  }
+  *max = r.max;
+  *min = r.min;
 }

@@ -34,4 +34,7 @@ double guard_scale(const guard *g);
 bool crossing_first(const series_vector *m, const guard *g, const series_node *a, const series_node *b,
                     series_node *root);
 
+/* Largest and smallest value of sum a[d] x_d on [from, to], to rounding: every extremum is found. */
+void guard_extrema(const series_vector *m, const double *a, double from, double to, double *max, double *min);
+
 #endif

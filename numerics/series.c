@@ -23,24 +23,8 @@ series_jet series_at(int n_harm, const double *X, double c, double s)
 void series_extrema(int n_harm, const double *X, double *max, double *min)
 {
   const double one = 1;
-  series_vector m = {n_harm, 1, {X}};
-  guard rising = guard_make(&m, 1, &one, 0), falling = guard_negative(&rising);
-  series_node here = series_vector_at(&m, 0), root;
-  *max = *min = here.d[0][0];
-  for (int i = 1; i <= SERIES_GRID; ++i) {
-    series_node next = series_vector_at(&m, TWO_PI * i / SERIES_GRID);
-    /* between grid angles x' changes sign any number of times; every change is an extremum */
-    for (bool up = here.d[1][0] > 0; crossing_first(&m, up ? &rising : &falling, &here, &next, &root); up = !up) {
-      double x = root.d[0][0];
-      if (x > *max) *max = x;
-      if (x < *min) *min = x;
-      if (!(root.th > here.th)) break; /* x' is 0 to rounding */
-      here = root;
-    }
-    here = next;
-    if (here.d[0][0] > *max) *max = here.d[0][0];
-    if (here.d[0][0] < *min) *min = here.d[0][0];
-  }
+  const series_vector m = {n_harm, 1, {X}};
+  guard_extrema(&m, &one, 0, TWO_PI, max, min);
 }
 
 double series_rms(int n_harm, const double *X)

@@ -166,6 +166,19 @@ static const char *stable_text(const response_row *r)
   X(REAL,    "from",            true, r->fit.from)                          \
   X(REAL,    "to",              true, r->fit.to)                            \
   X(INTEGER, "points",          true, r->fit.points)
+
+#define CONTACT_COLUMNS(X, C, R)                                               \
+  X(REAL,    "omega",         true, r->omega)                               \
+  C(REAL,    "frequency",     true, r->omega / TWO_PI)                      \
+  X(INTEGER, "branch",        true, r->branch)                              \
+  X(INTEGER, "contact",       true, r->contact)                             \
+  R(TEXT,    "name",          *r->name, r->name)                            \
+  X(TEXT,    "regime",        true, contact_regime_name(r->period.regime))  \
+  X(REAL,    "normal_min",    true, r->period.normal_min)                   \
+  X(REAL,    "normal_max",    true, r->period.normal_max)                   \
+  X(REAL,    "traction_max",  true, r->period.traction_max)                 \
+  X(REAL,    "slip_distance", true, r->period.slip_distance)                \
+  X(REAL,    "work",          true, r->period.work)
 /* clang-format on */
 
 static void fill_REAL(row_cell *c, bool there, double value)
@@ -207,6 +220,7 @@ COLUMNS_OF(compare, COMPARE_COLUMNS);
 COLUMNS_OF(curve, CURVE_COLUMNS);
 COLUMNS_OF(accuracy, ACCURACY_COLUMNS);
 COLUMNS_OF(order, ORDER_COLUMNS);
+COLUMNS_OF(contact, CONTACT_COLUMNS);
 
 /* [rows_kind][rows_extra] */
 /* clang-format off */
@@ -216,8 +230,9 @@ COLUMNS_OF(order, ORDER_COLUMNS);
    {name##_responses, LENGTH(name##_responses)}, {name##_both, LENGTH(name##_both)}}
 /* clang-format on */
 static const columns all[][4] = {
-    [ROWS_FRF] = ALL(frf),     [ROWS_TRANSIENT] = ALL(transient), [ROWS_COMPARE] = ALL(compare),
-    [ROWS_CURVE] = ALL(curve), [ROWS_ACCURACY] = ALL(accuracy),   [ROWS_ORDER] = ALL(order)};
+    [ROWS_FRF] = ALL(frf),        [ROWS_TRANSIENT] = ALL(transient), [ROWS_COMPARE] = ALL(compare),
+    [ROWS_CURVE] = ALL(curve),    [ROWS_ACCURACY] = ALL(accuracy),   [ROWS_ORDER] = ALL(order),
+    [ROWS_CONTACT] = ALL(contact)};
 
 const table_column *rows_columns(rows_kind kind, unsigned extra, int *n)
 {
@@ -242,3 +257,4 @@ ROWS(compare, comparison_row, COMPARE_COLUMNS)
 ROWS(curve, response_summary, CURVE_COLUMNS)
 ROWS(accuracy, accuracy_row, ACCURACY_COLUMNS)
 ROWS(order, order_row, ORDER_COLUMNS)
+ROWS(contact, contact_row, CONTACT_COLUMNS)

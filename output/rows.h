@@ -10,9 +10,10 @@
 #include "compare/steady_states.h"
 #include "output/table.h"
 
-typedef enum { ROWS_FRF, ROWS_TRANSIENT, ROWS_COMPARE, ROWS_CURVE, ROWS_ACCURACY, ROWS_ORDER } rows_kind;
+typedef enum { ROWS_FRF, ROWS_TRANSIENT, ROWS_COMPARE, ROWS_CURVE, ROWS_ACCURACY, ROWS_ORDER, ROWS_CONTACT } rows_kind;
 
-/* Columns that only some cases have: frequencies in cycles per time beside the omegas; the name of the response. */
+/* Columns that only some cases have: frequencies in cycles per time beside the omegas; the name of the response or
+ * contact. */
 enum { ROWS_IN_CYCLES = 1, ROWS_RESPONSES = 2 };
 
 enum { ROWS_MOST = 48, ROWS_TEXT = 32 }; /* columns of a kind, asserted; bytes of a text, the end included */
@@ -40,5 +41,6 @@ void rows_compare(const comparison_row *r, unsigned extra, row_cell *cells);
 void rows_curve(const response_summary *r, unsigned extra, row_cell *cells);
 void rows_accuracy(const accuracy_row *r, unsigned extra, row_cell *cells);
 void rows_order(const order_row *r, unsigned extra, row_cell *cells);
+void rows_contact(const contact_row *r, unsigned extra, row_cell *cells);
 
 #endif

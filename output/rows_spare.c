@@ -25,13 +25,16 @@ static const char *const of_accuracy[] = {
     "turning_points", "peak_omega", "peak_frequency", "seconds", "evaluations", "missing", "peak_amplitude", "curve",
     NULL};
 
+static const char *const of_contact[] = {"omega", "slip_distance", "normal_max", NULL};
+
 static const char *const of_others[] = {"omega", NULL};
 /* clang-format on */
 
 const char *const *rows_spare(rows_kind kind, bool in_cycles)
 {
   static const char *const *const lists[] = {
-      [ROWS_FRF] = of_frf,      [ROWS_TRANSIENT] = of_transient, [ROWS_COMPARE] = of_compare,
-      [ROWS_CURVE] = of_others, [ROWS_ACCURACY] = of_accuracy,   [ROWS_ORDER] = of_others};
+      [ROWS_FRF] = of_frf,        [ROWS_TRANSIENT] = of_transient, [ROWS_COMPARE] = of_compare,
+      [ROWS_CURVE] = of_others,   [ROWS_ACCURACY] = of_accuracy,   [ROWS_ORDER] = of_others,
+      [ROWS_CONTACT] = of_contact};
   return lists[kind] + !in_cycles;
 }

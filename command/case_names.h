@@ -1,0 +1,15 @@
+/* case_names.h - options that name a part of the case: one of its responses, one of its contacts. */
+#ifndef HC_CASE_NAMES_H
+#define HC_CASE_NAMES_H
+
+#include "command/cli.h"
+
+/* The response called `name`, counted from 0: as the column `response` calls it, or with the DOFs of its
+ * direction in another order; x of an oscillator. -1 after a message
+ * that lists those there are. */
+int cli_response_named(const cli_common *common, const char *name);
+
+/* The contact called `name`, or of that number from 0; -1 after a message that lists those there are. */
+int cli_contact_named(const cli_common *common, const char *name);
+
+#endif

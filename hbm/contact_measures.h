@@ -1,0 +1,25 @@
+/* contact_measures.h - what the exact contact law does along a periodic motion of one contact, or of every contact of a
+ * solution: extrema of its forces, slip path, and dissipated work (model/contact_period.h).
+ *
+ *     work = closed integral T du = sum over slip pieces of integral mu N |dw|,   w = u - s mu N/kt
+ *
+ * for T dT integrates to 0 over each time of contact. The second form has no term of the other sign: it is 0 where
+ * nothing slips, and a short slip keeps its relative accuracy. Pieces are those of transitions.h, extrema are found as
+ * roots of derivatives, and the integrals are Gauss's of sixteen points on panels so short that what is integrated, a
+ * trigonometric polynomial of degree 2H, is exact to rounding. */
+#ifndef HC_CONTACT_MEASURES_H
+#define HC_CONTACT_MEASURES_H
+
+#include "base/status.h"
+#include "hbm/hbm_solver.h"
+#include "model/contact_period.h"
+
+/* Of the motion u[2 n_harm + 1], v[2 n_harm + 1] [length] (numerics/series.h), n_harm >= 1; where the history decides,
+ * the slider starts from w = 0. HC_BAD_INPUT, HC_NO_MEMORY, HC_NOT_FINITE, and the errors of transitions_find. */
+hc_status contact_measures_of(const contact *law, int n_harm, const double *u, const double *v, contact_period *out);
+
+/* out[n_contacts]: of the solution X, every contact by the exact law, also where the equations sample it. Errors as
+ * above. */
+hc_status hbm_measure_contacts(hbm_solver *s, const double *X, contact_period *out);
+
+#endif

@@ -1,0 +1,12 @@
+/* gauss.h - integrals by Gauss's rule of sixteen points (Abramowitz and Stegun 1964, table 25.4) on panels of equal
+ * width. Exact for polynomials of degree 31 on each. Nothing is allocated, nothing can fail. */
+#ifndef HC_GAUSS_H
+#define HC_GAUSS_H
+
+/* value[2] = two functions at x; self is the caller's. */
+typedef void gauss_functions(const void *self, double x, double value[2]);
+
+/* sum[k] = integral of value[k] over [from, to], n_panels >= 1. */
+void gauss_integrals(gauss_functions *f, const void *self, double from, double to, int n_panels, double sum[2]);
+
+#endif
