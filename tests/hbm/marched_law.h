@@ -53,6 +53,9 @@ typedef struct marched {
   contact law;
   marched_state state;
   double w;     /* [length] while stuck */
+  int changes;  /* of state, counted by who marches */
+  double loose; /* [time] not stuck, of the last period, likewise */
+  bool never;   /* never slips: its friction is thought larger */
   bool changed; /* just now: its guards begin at 0, give or take rounding */
 } marched;
 
@@ -62,22 +65,18 @@ static inline bool marched_has_tangent(const contact *c)
 }
 static inline int marched_sign(marched_state st) { return (st == SLIDES_UP) - (st == SLIDES_DOWN); }
 
-/* N and T as polynomials; N without the preload N0 into `change`. */
-static inline void marched_forces(const marched *m, const double *u, const double *v, double *change, double *T)
+/* N - N0 and T of coefficient k, from those of u and v. */
+static inline void marched_force(const marched *m, int k, double u, double v, double *change, double *T)
 {
   const contact *c = &m->law;
   const double rest = c->gap > 0 ? c->kn * c->gap : 0;
-  double N[TAYLOR + 1];
-  for (int k = 0; k <= TAYLOR; ++k) N[k] = m->state == APART ? 0 : c->kn * v[k];
-  if (m->state != APART) N[0] += c->kn * c->gap + c->load;
-  memcpy(change, N, sizeof N);
-  change[0] -= rest + c->load;
-  for (int k = 0; k <= TAYLOR; ++k) {
-    T[k] = 0;
-    if (!marched_has_tangent(c)) continue;
-    if (m->state == STUCK) T[k] = c->kt * (u[k] - (k == 0 ? m->w : 0));
-    else T[k] = marched_sign(m->state) * c->mu * N[k];
-  }
+  double N = m->state == APART ? 0 : c->kn * v;
+  if (k == 0 && m->state != APART) N += c->kn * c->gap + c->load;
+  *change = k == 0 ? N - rest - c->load : N;
+  *T = 0;
+  if (!marched_has_tangent(c)) return;
+  if (m->state == STUCK) *T = c->kt * (u - (k == 0 ? m->w : 0));
+  else *T = marched_sign(m->state) * c->mu * N;
 }
 
 /* What must stay positive in the state, g[i] as polynomials, at most 3; to[i]: the state after. */
@@ -97,7 +96,7 @@ static inline int marched_guards(const marched *m, const double *u, const double
     g[n][0] += c->gap;
     to[n++] = APART;
   }
-  if (!marched_has_tangent(c)) return n;
+  if (!marched_has_tangent(c) || m->never) return n;
   if (m->state == STUCK) {
     for (int s = 1; s >= -1; s -= 2) {
       for (int k = 0; k <= TAYLOR; ++k) g[n][k] = c->mu * c->kn * v[k] - s * c->kt * u[k];
