@@ -162,6 +162,8 @@ static hc_status note_specials(table *t, const scene *sc, hbm_solver *s, const h
     if (p->kind == HBM_TURNING_POINT) table_note(t, "turning point at %s, amplitude %.9g", where, p->amplitude);
     else if (p->kind == HBM_PERIOD_DOUBLING)
       table_note(t, "period doubling at %s, amplitude %.9g", where, p->amplitude);
+    else if (p->kind == HBM_NEIMARK_SACKER)
+      table_note(t, "Neimark-Sacker point at %s, amplitude %.9g", where, p->amplitude);
     else if (p->before != p->after)
       table_note(t, "contact goes from %s to %s at %s, amplitude %.9g", from, to, where, p->amplitude);
     else table_note(t, "contact pattern changes (%s) at %s, amplitude %.9g", to, where, p->amplitude);

@@ -9,7 +9,7 @@
  * between.h          every solution at an omega between the points, and the peak
  * predict.h          how far off a solution expects to be
  * stability.h        Floquet multipliers of a solution
- * special_points.h   turning points, period doublings and contact changes of a curve
+ * special_points.h   turning points, period doublings, Neimark-Sacker points and contact changes of a curve
  *
  * Not here: time integration (timeint/), verdicts (compare/). */
 #ifndef HC_HBM_H

@@ -217,7 +217,13 @@ static void summarise(int m, const double complex *lambda, hbm_stability *out)
     fold *= 1 - lambda[i];
     all *= lambda[i];
   }
-  *out = (hbm_stability){.multiplier = cabs(largest), .re = creal(largest), .im = cimag(largest)};
+  *out = (hbm_stability){.multiplier = cabs(largest), .re = creal(largest), .im = cimag(largest), .pair = NAN};
+  for (int i = 0; i < m; ++i) {
+    const double size = cabs(lambda[i]);
+    if (!(cimag(lambda[i]) > 0)) continue; /* one of the two */
+    out->pairs_outside += size > 1 + 1e-10;
+    if (!(fabs(size - 1) >= fabs(out->pair - 1))) out->pair = size;
+  }
   out->flip = creal(flip);
   out->fold = creal(fold);
   out->determinant = creal(all);

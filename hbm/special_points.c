@@ -2,7 +2,8 @@
  * between two points, the change is located on the segment between them. d omega along the tangent (turning point) and
  * the product of 1 + multiplier (period doubling) are smooth functions of sigma: their roots are found by
  * interpolation. The contact pattern is not: its change is bisected, and the rest of the segment searched for the
- * next. What is too near to be told apart is one change: slip and separation that begin at once, two contacts that are
+ * next. So is the number of complex pairs of multipliers outside the unit circle (Neimark-Sacker): where it changes
+ * without a pair on the circle, two real ones have met, or multipliers jump with the pattern. What is too near to be told apart is one change: slip and separation that begin at once, two contacts that are
  * alike. */
 #include "hbm/special_points.h"
 
@@ -25,6 +26,8 @@ static const double SAME_OMEGA = 1e-9, SAME_AMPLITUDE = 1e-8;
 /* The test functions at a point. */
 typedef struct test_values {
   double d_omega, flip;
+  int pairs_outside;
+  double pair;           /* as in hbm_stability */
   contact_regime regime; /* regime and number of transitions: the contact pattern */
   int transitions;
 } test_values;
@@ -44,16 +47,19 @@ typedef struct detector {
   found_point *found; /* [room] */
 } detector;
 
-/* with_flip: the multipliers cost more than all the rest, and only the search for a period doubling asks. */
-static hc_status evaluate_tests(detector *d, double omega, double d_omega, const double *X, bool with_flip,
+/* with_multipliers: they cost more than all the rest, and only the searches for a period doubling or a Neimark-Sacker
+ * point ask. */
+static hc_status evaluate_tests(detector *d, double omega, double d_omega, const double *X, bool with_multipliers,
                                 test_values *v)
 {
   const contact_forces *orbit;
   contact_report report;
-  hbm_stability stability = {.flip = NAN};
+  hbm_stability stability = {.flip = NAN, .pair = NAN};
   hc_status st = hbm_located_orbit(d->s, X, &orbit, &report);
-  if (st == HC_OK && with_flip) st = monodromy_stability(d->s->monodromy, d->s->model, orbit, omega, &stability);
-  if (st == HC_OK) *v = (test_values){d_omega, stability.flip, report.regime, report.transitions};
+  if (st == HC_OK && with_multipliers) st = monodromy_stability(d->s->monodromy, d->s->model, orbit, omega, &stability);
+  if (st == HC_OK)
+    *v = (test_values){d_omega,        stability.flip, stability.pairs_outside,
+                       stability.pair, report.regime,  report.transitions};
   return st;
 }
 
@@ -139,7 +145,7 @@ typedef struct segment_search {
   detector *d;
   int k;
   hbm_special_kind kind;     /* what is looked for */
-  const test_values *before; /* of locate_contact_changes: the pattern that is left */
+  const test_values *before; /* of searches by bisection: what is left */
   double sigma;              /* where the search was last, NaN at first */
   test_values here;          /* the test functions there */
 } segment_search;
@@ -149,8 +155,8 @@ static hc_status evaluate_on_segment(segment_search *s, double sigma)
   detector *d = s->d;
   s->sigma = sigma;
   hc_status st = hbm_segment_point(d->s, d->c, s->k, sigma, &d->x);
-  const bool with_flip = s->kind == HBM_PERIOD_DOUBLING;
-  return st == HC_OK ? evaluate_tests(d, d->x.point.omega, d->x.point.d_omega, d->x.X, with_flip, &s->here) : st;
+  const bool asked = s->kind == HBM_PERIOD_DOUBLING || s->kind == HBM_NEIMARK_SACKER;
+  return st == HC_OK ? evaluate_tests(d, d->x.point.omega, d->x.point.d_omega, d->x.X, asked, &s->here) : st;
 }
 
 static hc_status smooth_test_at(void *self, double sigma, double *value)
@@ -166,6 +172,14 @@ static hc_status pattern_differs_at(void *self, double sigma, bool *differs)
   segment_search *s = self;
   hc_status st = evaluate_on_segment(s, sigma);
   *differs = !same_pattern(&s->here, s->before);
+  return st;
+}
+
+static hc_status pairs_outside_differ_at(void *self, double sigma, bool *differ)
+{
+  segment_search *s = self;
+  hc_status st = evaluate_on_segment(s, sigma);
+  *differ = s->here.pairs_outside != s->before->pairs_outside;
   return st;
 }
 
@@ -207,14 +221,27 @@ static hc_status locate_contact_changes(detector *d, int k, test_values before, 
   return HC_OK;
 }
 
+/* Where the number of complex pairs outside the unit circle first changes on segment k, if a pair is on it there. */
+static hc_status locate_neimark_sacker(detector *d, int k, const test_values *before)
+{
+  const double on_circle = 1e-6; /* located to 1e-11 of the segment, over which a pair moves by less than 1e5 */
+  segment_search s = {.d = d, .k = k, .kind = HBM_NEIMARK_SACKER, .before = before, .sigma = NAN};
+  root_point change;
+  hc_status st = root_change(pairs_outside_differ_at, &s, 0, 1, SIGMA_TOLERANCE, &change);
+  if (st == HC_OK) st = return_to(&s, change.x);
+  if (st != HC_OK || !(fabs(s.here.pair - 1) <= on_circle)) return st;
+  return insert_special(d, change.x, HBM_NEIMARK_SACKER, &s.here, &s.here);
+}
+
 static hc_status search_segment(detector *d, int k, const test_values *a, const test_values *b)
 {
-  hc_status changes = HC_OK, turning = HC_OK, doubling = HC_OK;
+  hc_status changes = HC_OK, turning = HC_OK, doubling = HC_OK, torus = HC_OK;
   d->first = d->n;
   if (!same_pattern(a, b)) changes = locate_contact_changes(d, k, *a, b);
   if ((a->d_omega > 0) != (b->d_omega > 0)) turning = locate_root(d, k, HBM_TURNING_POINT, a->d_omega, b->d_omega);
   if ((a->flip > 0) != (b->flip > 0)) doubling = locate_root(d, k, HBM_PERIOD_DOUBLING, a->flip, b->flip);
-  return changes != HC_OK ? changes : turning != HC_OK ? turning : doubling;
+  if (a->pairs_outside != b->pairs_outside) torus = locate_neimark_sacker(d, k, a);
+  return changes != HC_OK ? changes : turning != HC_OK ? turning : doubling != HC_OK ? doubling : torus;
 }
 
 hc_status hbm_specials(hbm_solver *s, const hbm_curve *c, int cap, hbm_special *out, int *n)

@@ -4,7 +4,12 @@
 
 #include "hbm/response_curve.h"
 
-typedef enum hbm_special_kind { HBM_TURNING_POINT, HBM_PERIOD_DOUBLING, HBM_CONTACT_CHANGE } hbm_special_kind;
+typedef enum hbm_special_kind {
+  HBM_TURNING_POINT,
+  HBM_PERIOD_DOUBLING,
+  HBM_CONTACT_CHANGE,
+  HBM_NEIMARK_SACKER /* a complex pair of multipliers passes the unit circle: a motion of two frequencies begins */
+} hbm_special_kind;
 typedef struct hbm_special {
   hbm_special_kind kind;
   double omega, amplitude;      /* [rad/time], [length] */

@@ -10,6 +10,8 @@ typedef struct hbm_stability {
   double flip;        /* product of (1 + multiplier): changes sign at a period doubling */
   double fold;        /* product of (1 - multiplier): changes sign at a turning point */
   double determinant; /* product of all multipliers */
+  int pairs_outside;  /* complex pairs outside the unit circle, by more than 1e-10 */
+  double pair;        /* modulus of the complex pair nearest to the circle, NaN without one */
   bool agrees;        /* det dR/dX has the sign of `fold`; it need not where few harmonics move the turning point */
 } hbm_stability;
 

@@ -160,7 +160,8 @@ hbmcheck_status hbmcheck_curve_at(hbmcheck_curve *curve, double omega, hbmcheck_
 typedef enum hbmcheck_special_kind {
   HBMCHECK_SPECIAL_TURNING_POINT,
   HBMCHECK_SPECIAL_PERIOD_DOUBLING,
-  HBMCHECK_SPECIAL_CONTACT_CHANGE
+  HBMCHECK_SPECIAL_CONTACT_CHANGE,
+  HBMCHECK_SPECIAL_NEIMARK_SACKER /* a complex pair of multipliers passes the unit circle */
 } hbmcheck_special_kind;
 
 /* A point where the curve changes its nature, located to 1e-9 of omega or better. */

@@ -168,6 +168,7 @@ static const struct special_look {
     {"turning", "turning point", "pt 11 ps 0.9 lc rgb '#000000'", HBM_TURNING_POINT},
     {"doubling", "period doubling", "pt 13 ps 0.9 lc rgb '#000000'", HBM_PERIOD_DOUBLING},
     {"change", "contact changes", "pt 4 ps 0.7 lw 1 lc rgb '#000000'", HBM_CONTACT_CHANGE},
+    {"torus", "Neimark-Sacker point", "pt 15 ps 0.8 lc rgb '#000000'", HBM_NEIMARK_SACKER},
 };
 enum { N_SPECIAL_LOOKS = sizeof special_looks / sizeof *special_looks };
 

@@ -45,6 +45,7 @@ static void append_specials(hbm_solver *s, const hbm_curve *c, json_t *list)
     const char *from = contact_regime_name(p->before), *to = contact_regime_name(p->after);
     if (p->kind == HBM_TURNING_POINT) snprintf(text, sizeof text, "turning point");
     else if (p->kind == HBM_PERIOD_DOUBLING) snprintf(text, sizeof text, "period doubling");
+    else if (p->kind == HBM_NEIMARK_SACKER) snprintf(text, sizeof text, "Neimark-Sacker point");
     else if (p->before != p->after) snprintf(text, sizeof text, "contact goes from %s to %s", from, to);
     else snprintf(text, sizeof text, "contact pattern changes (%s)", to);
     json_array_append_new(list, json_pack("{s:f, s:f, s:i, s:s}", "omega", p->omega, "amplitude", p->amplitude,
