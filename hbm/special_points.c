@@ -1,10 +1,10 @@
-/* special_points.c - see special_points.h. Test functions are evaluated at every point of the curve; where one changes
- * between two points, the change is located on the segment between them. d omega along the tangent (turning point) and
- * the product of 1 + multiplier (period doubling) are smooth functions of sigma: their roots are found by
+/* special_points.c - see special_points.h. Test functions are evaluated at every point of the curve; where one
+ * changes between two points, the change is located on the segment between them. d omega along the tangent (turning
+ * point) and the product of 1 + multiplier (period doubling) are smooth functions of sigma: their roots are found by
  * interpolation. The contact pattern is not: its change is bisected, and the rest of the segment searched for the
  * next. So is the number of complex pairs of multipliers outside the unit circle (Neimark-Sacker): where it changes
- * without a pair on the circle, two real ones have met, or multipliers jump with the pattern. What is too near to be told apart is one change: slip and separation that begin at once, two contacts that are
- * alike. */
+ * without a pair on the circle, two real ones have met, or multipliers jump with the pattern. What is too near to be
+ * told apart is one change: slip and separation that begin at once, two contacts that are alike. */
 #include "hbm/special_points.h"
 
 #include <math.h>
