@@ -79,9 +79,9 @@ static const field table[] = {
   {"oscillator", "stiffness", "K", FIELD_REAL, .unit = "force/length", SCENE(stiffness), NOT_NEGATIVE,
    .meaning = "of the linear spring, without contacts"},
 
-  {"structure", "mass", "M", PART(0, "a matrix: rows, a diagonal, or a Matrix Market file"),
+  {"structure", "mass", "M", PART(0, "a matrix: rows, a diagonal, FILE.mtx or FILE.mat#VARIABLE"),
    .unit = "force time^2/length", .meaning = "symmetric and positive definite; its size is the number of DOFs"},
-  {"structure", "stiffness", "K", PART(0, "a matrix: rows, a diagonal, or a Matrix Market file"),
+  {"structure", "stiffness", "K", PART(0, "a matrix: rows, a diagonal, FILE.mtx or FILE.mat#VARIABLE"),
    .unit = "force/length", .meaning = "without contacts, which may have to hold what K does not"},
   {"structure", "damping", "C", PART(0, "a matrix as above, {rayleigh: ...} or {modal: ...}"),
    .unit = "force time/length", .meaning = "any matrix, or what is said of it by one of the two below"},

@@ -118,7 +118,7 @@ static bool begins(const reader *r, const char *words)
 static const char *other_format(const reader *r)
 {
   const char *stop = memchr(r->text, '\n', (size_t)(r->end - r->text));
-  if (begins(r, "MATLAB 5.0") || begins(r, "\x89HDF")) return "this is a MATLAB file";
+  if (begins(r, "MATLAB ") || begins(r, "\x89HDF")) return "this is a MATLAB file, which is named FILE.mat#VARIABLE";
   if (begins(r, "*")) return "this looks like an Abaqus input file";
   if (begins(r, "DMIG") || begins(r, "$")) return "this looks like a Nastran file";
   if (memchr(r->text, ',', (size_t)((stop ? stop : r->end) - r->text)))

@@ -2,7 +2,6 @@
 #include "cases/text_file.h"
 
 #include <errno.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -16,11 +15,11 @@ static hc_status cannot_open(int error, message *m)
 }
 
 /* Only what lies on a disk has an end that is known; opening anything else may wait for ever. */
-hc_status text_file_read(const char *path, size_t most, char **text, size_t *length, message *m)
+hc_status text_file_open(const char *path, size_t most, FILE **from, size_t *size, message *m)
 {
   struct stat info;
-  *text = NULL;
-  *length = 0;
+  *from = NULL;
+  *size = 0;
   if (stat(path, &info) != 0) return cannot_open(errno, m);
   if (!S_ISREG(info.st_mode)) {
     message_add(m, "is no file");
@@ -30,12 +29,21 @@ hc_status text_file_read(const char *path, size_t most, char **text, size_t *len
     message_add(m, "is larger than %zu MB", most >> 20);
     return HC_IO;
   }
-  FILE *from = fopen(path, "rb");
-  if (!from) return cannot_open(errno, m);
-  hc_status st = HC_OK;
-  if (!(*text = malloc((size_t)info.st_size + 1))) {
+  *size = (size_t)info.st_size;
+  return (*from = fopen(path, "rb")) ? HC_OK : cannot_open(errno, m);
+}
+
+hc_status text_file_read(const char *path, size_t most, char **text, size_t *length, message *m)
+{
+  FILE *from;
+  size_t size;
+  *text = NULL;
+  *length = 0;
+  hc_status st = text_file_open(path, most, &from, &size, m);
+  if (st != HC_OK) return st;
+  if (!(*text = malloc(size + 1))) {
     st = HC_NO_MEMORY;
-  } else if ((*length = fread(*text, 1, (size_t)info.st_size, from)) < (size_t)info.st_size && ferror(from)) {
+  } else if ((*length = fread(*text, 1, size, from)) < size && ferror(from)) {
     message_add(m, "cannot be read");
     st = HC_IO;
   }

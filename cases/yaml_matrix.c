@@ -4,9 +4,12 @@
 #include <string.h>
 
 #include "base/number.h"
+#include "cases/matlab_file.h"
 #include "cases/matrix_file.h"
 #include "cases/text_file.h"
 #include "cases/yaml_structure.h"
+
+static const char any_matrix[] = "rows, a diagonal, or a Matrix Market or MATLAB file (FILE.mat#VARIABLE)";
 
 hc_status yaml_number(case_reader *r, const yaml_node_t *node, const char *what, double *x)
 {
@@ -110,27 +113,29 @@ static hc_status read_file(case_reader *r, const char *what, const yaml_node_t *
   const char *name = yaml_node_text(node);
   const size_t length = node->data.scalar.length;
   const case_place at = case_place_of(r, node->start_mark);
-  char words[160];
-  if (length == 0 || memchr(name, '\0', length) || strstr(name, ".mat#")) {
+  char words[CASE_MESSAGE];
+  if (length == 0 || memchr(name, '\0', length)) {
     message *m = case_blame(r, at);
     message_add(m, "%s is ", what);
     if (length == 0) message_add(m, "empty");
     else message_add_input(m, name, length, 120);
-    message_add(m, ", expected rows, a diagonal, or a Matrix Market file%s",
-                length > 0 ? " (MATLAB files are not read by this build)" : "");
+    message_add(m, ", expected %s", any_matrix);
     return HC_BAD_INPUT;
   }
   if (!(out->file = text_file_path(r->name, name, length))) return case_out_of_memory(r);
   message told;
   message_start(&told, words, sizeof words);
-  hc_status st = matrix_file_read(out->file, expected, n, &out->v, &r->msg);
+  const bool matlab = matlab_file_meant(out->file);
+  const hc_status st = matlab ? matlab_file_read(out->file, expected, n, &out->v, &told)
+                              : matrix_file_read(out->file, expected, n, &out->v, &r->msg);
   if (st == HC_NO_MEMORY) return case_out_of_memory(r);
-  if (st != HC_IO) return st;
-  message_add(&told, "%s", r->msg.text);
+  if (st == HC_OK || (st == HC_BAD_INPUT && !matlab)) return st;
+  if (!matlab) message_add(&told, "%s", r->msg.text);
   message *m = case_blame(r, at);
   message_add(m, "%s: ", what);
   message_add_input(m, out->file, strlen(out->file), 160);
-  message_add(m, " %s, expected a matrix as rows, a diagonal, or a Matrix Market file", words);
+  message_add(m, " %s", words);
+  if (st == HC_IO) message_add(m, ", expected a matrix as %s", any_matrix);
   return HC_BAD_INPUT;
 }
 
@@ -142,9 +147,7 @@ hc_status yaml_matrix_read(case_reader *r, yaml_document_t *doc, const char *wha
   if (node->type == YAML_SEQUENCE_NODE) st = read_list(r, doc, what, node, expected, n, &given.v);
   else if (node->type == YAML_SCALAR_NODE && is_number(node, expected)) st = read_number(r, what, node, n, &given.v);
   else if (node->type == YAML_SCALAR_NODE) st = read_file(r, what, node, expected, n, &given);
-  else
-    message_add(case_blame(r, given.place), "%s is %s, expected rows, a diagonal, or a Matrix Market file", what,
-                yaml_node_what(node));
+  else message_add(case_blame(r, given.place), "%s is %s, expected %s", what, yaml_node_what(node), any_matrix);
   structure_matrix *old = st == HC_OK ? out : &given;
   free(old->v);
   free(old->file);
@@ -156,6 +159,12 @@ message *yaml_matrix_blame(case_reader *r, const structure_matrix *m, int i, int
 {
   size_t line, column;
   if (!m->file) return case_blame(r, m->place);
+  if (matlab_file_meant(m->file)) {
+    message *words = case_blame(r, m->place);
+    message_add_input(words, m->file, strlen(m->file), 160);
+    message_add(words, ": ");
+    return words;
+  }
   matrix_file_place(m->file, i, j, &line, &column);
   message_start(&r->msg, r->msg.text, r->msg.size);
   message_add_input(&r->msg, m->file, strlen(m->file), 240);
