@@ -9,7 +9,7 @@
 #include "base/number.h"
 #include "cases/structure_model.h"
 
-enum { LONGEST = 512 /* of a name in full */, MOST_LISTED = 12 };
+enum { LONGEST = CLI_NAME, MOST_LISTED = 12 };
 
 /* Response r in full; the column shows its first RESPONSE_NAME - 1 letters. */
 static const char *response_name(const scene *sc, int r, char text[LONGEST])
@@ -24,6 +24,11 @@ static const char *contact_name(const scene *sc, int j, char text[LONGEST])
   if (*name) snprintf(text, LONGEST, "%s", name);
   else snprintf(text, LONGEST, "%d", j);
   return text;
+}
+
+const char *cli_contact_name(const cli_common *common, int j, char text[CLI_NAME])
+{
+  return contact_name(common->scene, j, text);
 }
 
 typedef const char *name_of(const scene *sc, int i, char text[LONGEST]);

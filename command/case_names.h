@@ -12,4 +12,8 @@ int cli_response_named(const cli_common *common, const char *name);
 /* The contact called `name`, or of that number from 0; -1 after a message that lists those there are. */
 int cli_contact_named(const cli_common *common, const char *name);
 
+/* Its name, or its number where it has none. In text[CLI_NAME], which is returned. */
+enum { CLI_NAME = 512 };
+const char *cli_contact_name(const cli_common *common, int j, char text[CLI_NAME]);
+
 #endif

@@ -3,7 +3,6 @@
 #include <stdlib.h>
 
 #include "base/constants.h"
-#include "campaigns/scene_solvers.h"
 #include "command/plot/panels.h"
 #include "hbm/exact_force.h"
 #include "numerics/series.h"
@@ -26,15 +25,19 @@ static const contact_piece *piece_at(const contact_piece *p, int n, double th)
 }
 
 /* The exact law, from the pieces that exact_force.h found: sticking, T = kt u - held; slipping, T = +-mu N. */
-static void compute_history(const moving_contact *c, int n_harm, const double *X, const contact_piece *pieces, int n,
+static void compute_history(const plot_motion *m, const moving_contact *c, const contact_piece *pieces, int n,
                             contact_history *out)
 {
-  const double cosine = c->cu[0], sine = c->cv[0];
   for (int i = 0; i <= POINTS; ++i) {
-    double th = TWO_PI * i / POINTS, x = series_at(n_harm, X, cos(th), sin(th)).x;
+    double th = TWO_PI * i / POINTS, v = 0;
     const contact_piece *p = piece_at(pieces, n, th);
-    out->u[i] = x * cosine;
-    out->normal[i] = contact_normal(&c->law, x * sine);
+    out->u[i] = 0;
+    for (int d = 0; d < m->n_dof; ++d) {
+      const double x = series_at(m->n_harm, m->X + d * series_length(m->n_harm), cos(th), sin(th)).x;
+      out->u[i] += c->cu[d] * x;
+      v += c->cv[d] * x;
+    }
+    out->normal[i] = contact_normal(&c->law, v);
     out->state[i] = p ? p->state : CONTACT_SEPARATED;
     out->t[i] = contact_slip_sign(out->state[i]) * c->law.mu * out->normal[i];
     if (out->state[i] == CONTACT_STICK) out->t[i] = c->law.kt * out->u[i] - p->held;
@@ -119,22 +122,20 @@ static void widen_to_closed(double *closed, const contact_history *w)
   }
 }
 
-/* The data blocks of n contacts under the motion X; there[j][phase]: points of the loop in that phase. */
-static hc_status write_contacts(figure *g, const scene *sc, int n, int n_harm, const double *X, int there[][N_PHASES],
-                                double closed[2])
+/* The data blocks of the first n contacts; there[j][phase]: points of the loop in that phase. */
+static hc_status write_contacts(figure *g, const plot_motion *m, int n, int there[][N_PHASES], double closed[2])
 {
-  double F[2 * HBM_MAX_HARMONICS + 1];
+  double F[SERIES_MAX_DIM * (2 * HBM_MAX_HARMONICS + 1)];
   exact_force *e = NULL;
   contact_history *w = malloc(sizeof *w);
-  hc_status st = w ? scene_exact(sc, n_harm, &e) : HC_NO_MEMORY;
-  if (st == HC_OK) st = exact_force_eval(e, X, F, NULL, NULL);
+  hc_status st = w ? exact_force_new(m->n_harm, m->n_dof, m->n_contacts, m->contacts, &e) : HC_NO_MEMORY;
+  if (st == HC_OK) st = exact_force_eval(e, m->X, F, NULL, NULL);
   for (int j = 0, pieces; j < n && st == HC_OK; ++j) {
     const contact_piece *p = exact_force_pieces(e, j, &pieces);
-    const moving_contact c = scene_moving_contact(&sc->contacts[j]);
-    compute_history(&c, n_harm, X, p, pieces, w);
+    compute_history(m, &m->contacts[j], p, pieces, w);
     for (int k = 0; k < N_PHASES; ++k) there[j][k] = write_phase(g, w, j, k);
     widen_to_closed(closed, w);
-    write_forces(g, w, &sc->contacts[j].law, j);
+    write_forces(g, w, &m->contacts[j].law, j);
   }
   exact_force_free(e);
   free(w);
@@ -165,22 +166,32 @@ static void loops_and_forces(figure *g, const scene *sc, int n, int there[][N_PH
   figure_draw(g);
 }
 
-hc_status plot_contact(plot_order *p, const scene *sc, int n_harm, const double *X)
+/* The law, and which contacts of the case are drawn where it has more. */
+static const char *say_which(const scene *sc, const plot_motion *m, int n, char *text, size_t size)
+{
+  const int all = scene_contact_count(sc);
+  const char *name = n > 0 ? scene_contact_at(sc, m->first)->name : "", *law = "exact law along the given motion";
+  if (*name && n == 1) snprintf(text, size, "contact %s; %s", name, law);
+  else if (n == 1 && all > 1) snprintf(text, size, "contact %d; %s", m->first, law);
+  else if (n < all) snprintf(text, size, "%s; contacts 0 to %d of %d", law, n - 1, all);
+  else snprintf(text, size, "%s", law);
+  return text;
+}
+
+hc_status plot_contact(plot_order *p, const scene *sc, const plot_motion *m)
 {
   figure g = {0};
-  int n = sc->n_contacts < MOST_DRAWN ? sc->n_contacts : MOST_DRAWN, there[MOST_DRAWN][N_PHASES];
+  int n = m->n_contacts < MOST_DRAWN ? m->n_contacts : MOST_DRAWN, there[MOST_DRAWN][N_PHASES];
   double closed[2] = {INFINITY, -INFINITY}; /* u while some contact is closed */
-  char about[128] = "exact law along the given motion";
+  char about[128];
   if (n == 0) {
     snprintf(p->why, sizeof p->why, "there is no contact to draw");
     return HC_BAD_INPUT;
   }
   hc_status st = figure_open(&g, p, 1100, 500);
-  if (st == HC_OK) st = write_contacts(&g, sc, n, n_harm, X, there, closed);
+  if (st == HC_OK) st = write_contacts(&g, m, n, there, closed);
   if (st == HC_OK) {
-    if (n < sc->n_contacts)
-      snprintf(about, sizeof about, "exact law along the given motion; contacts 0 to %d of %d", n - 1, sc->n_contacts);
-    panels_begin(&g, 1, 2, sc->title, about);
+    panels_begin(&g, 1, 2, sc->title, say_which(sc, m, n, about, sizeof about));
     loops_and_forces(&g, sc, n, there, closed);
     panels_end(&g);
   }

@@ -44,8 +44,15 @@ hc_status plot_compare(plot_order *p, const scene *sc, const comparison *c, cons
 /* At one frequency the motion over a period, at several the amplitudes over the response curve. */
 hc_status plot_transient(plot_order *p, const scene *sc, const steady_states *found);
 
-/* Hysteresis loops T over u and the forces over the period, under x = X[0] + X[1] cos + X[2] sin + ..., n_harm >= 1. */
-hc_status plot_contact(plot_order *p, const scene *sc, int n_harm, const double *X);
+/* Contacts under a given motion. */
+typedef struct plot_motion {
+  int first; /* the first contact's number in the case */
+  int n_harm, n_dof, n_contacts;
+  const moving_contact *contacts; /* [n_contacts] */
+  const double *X;                /* [n_dof][2 n_harm + 1] the coordinates that move them, n_harm >= 1 */
+} plot_motion;
+/* Hysteresis loops T over u and the forces over the period. */
+hc_status plot_contact(plot_order *p, const scene *sc, const plot_motion *m);
 
 /* A measure (a column of scenes, or the largest of a column of rows; NULL: the peak's amplitude, or the amplitude)
  * over the first axis that is a scale, a line for each value of the others; a heat map for two axes of four values

@@ -74,11 +74,88 @@ static void every_contact_of_every_solution_has_a_row(void **state)
   expect("frf " CASE2 "--contacts --format json -q --set sweep.omega=19,20", 0, "\"Contacts\": [");
 }
 
+/* ---- contact --------------------------------------------------------------------------------------- */
+
+/* ground: kt = 20, mu N = 1. Under u = A cos, A = 0.1, it slips by 0.2 in all: work = 0.2 = -pi A b1. Rounding of numbers
+ * of the order of 1. */
+static void a_jenkins_element_has_its_closed_form(void **state)
+{
+  (void)state;
+  expect("contact " CHAIN "--contact ground --motion-u 0,0.1,0 --samples 64 --format csv", 0,
+         "force,harmonic,cos,sin,cos_64,sin_64\ntangential,0,");
+  CHECK_NEAR(cell("force", "\ntangential,1,", 3), -0.2 / (PI * 0.1), 1e-15, "b1");
+  CHECK_NEAR(cell("force", "\ntangential,1,", 5), -0.2 / (PI * 0.1), 2e-3, "b1 by 64 samples: of the order 1/64^2");
+  assert_true(cell("force", "\nnormal,0,", 2) == 1 && cell("force", "\nnormal,1,", 2) == 0);
+  expect("contact " CHAIN "--contact 0 --motion-u 0,0.1,0", 0, "slip path 0.2, work 0.2 in a period");
+}
+
+/* T = 20 (u - w) with w = 0.005; from w = 0.03 the slider is dragged to 0.01, where T is -1 at least. */
+static void the_slider_starts_where_it_is_told(void **state)
+{
+  (void)state;
+  expect("contact " CHAIN "--contact ground --motion-u 0,0.04,0 --slider 0.005 --format csv", 0, "force,");
+  CHECK_NEAR(cell("force", "\ntangential,0,", 2), -0.1, 1e-15, "mean of T");
+  expect("contact " CHAIN "--contact ground --motion-u 0,0.04,0 --slider 0.03 --format csv", 0, "force,");
+  CHECK_NEAR(cell("force", "\ntangential,0,", 2), -0.2, 1e-15, "mean of T");
+  CHECK_NEAR(cell("force", "\ntangential,1,", 2), 0.8, 1e-15, "T");
+}
+
+/* N = max(cos - 0.25, 0), closed for |th| < p: its mean is (sin p - p/4)/pi. */
+static void a_stop_has_a_normal_force_alone(void **state)
+{
+  (void)state;
+  const double p = acos(0.25);
+  expect("contact " CHAIN "--contact stop --motion-v 0,1,0 --format csv", 0, "force,");
+  CHECK_NEAR(cell("force", "\nnormal,0,", 2), (sin(p) - p / 4) / PI, 1e-15, "mean of N");
+  expect("contact " CHAIN "--contact stop --motion-u 0,1,0 2>&1", 64,
+         "contact stop has no tangent; expected no --motion-u");
+  expect("contact " CHAIN "--contact ground --motion-v 0,1,0 2>&1", 64,
+         "contact ground has no normal; expected no --mo");
+}
+
+/* On x act T cos 45 + (N - N0) sin 45 of the one contact; N0 = 0 with a clearance, 200 with a preload. */
+static void one_contact_of_an_oscillator_adds_up(void **state)
+{
+  (void)state;
+  const char *const set[] = {"", "--set 'contacts[0].gap=0.2' "};
+  const double preload[] = {0, 200};
+  for (int i = 0; i < 2; ++i) {
+    char args[256];
+    snprintf(args, sizeof args, "contact " CASE2 "--motion 0,8,0 %s--format csv", set[i]);
+    expect(args, 0, "\nharmonic,cos,sin\n");
+    const double sum = cell("harmonic", "\n1,", 1), mean = cell("harmonic", "\n0,", 1);
+    snprintf(args, sizeof args, "contact " CASE2 "--contact 0 --motion 0,8,0 %s--format csv", set[i]);
+    expect(args, 0, "\nforce,harmonic,cos,sin\n");
+    const double both = cell("force", "\ntangential,1,", 2) + cell("force", "\nnormal,1,", 2);
+    const double means = cell("force", "\ntangential,0,", 2) + cell("force", "\nnormal,0,", 2) - preload[i];
+    CHECK_NEAR(both * sqrt(0.5), sum, 1e-15 * 5000, "cosine"); /* of forces up to 1000 (8 + 0.2)/sqrt(2) */
+    CHECK_NEAR(means * sqrt(0.5), mean, 1e-15 * 5000, "mean");
+  }
+}
+
+static void a_motion_that_fits_no_contact_is_refused(void **state)
+{
+  (void)state;
+  expect("contact " CHAIN "--motion 0,1,0 2>&1", 64, "the case has 3 degrees of freedom; expected --contact NAME");
+  expect("contact " CHAIN "--motion-u 0,1,0 2>&1", 64, "of which contact? expected --contact NAME");
+  expect("contact " CHAIN "--contact 3 --motion-u 0,1,0 2>&1", 64, "no `3`; expected one of ground, between, stop");
+  expect("contact " CHAIN "--contact ground 2>&1", 64, "no motion given: --motion-u");
+  expect("contact " CHAIN "--contact ground --motion 0,1,0 2>&1", 64, "--motion is for one degree of freedom");
+  expect("contact " CHAIN "--contact ground --motion-u 0,1 2>&1", 64, "--motion-u has 2 coefficients");
+  expect("contact " CHAIN "--contact ground --motion-u 0,1,0 --slider x 2>&1", 64, "--slider: 'x' is not");
+  expect("contact " CASE2 "--motion 0,1,0 --motion-u 0,1,0 2>&1", 64, "--motion is of x, and u and v follow from it");
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(one_response_is_kept),
       cmocka_unit_test(every_contact_of_every_solution_has_a_row),
+      cmocka_unit_test(a_jenkins_element_has_its_closed_form),
+      cmocka_unit_test(the_slider_starts_where_it_is_told),
+      cmocka_unit_test(a_stop_has_a_normal_force_alone),
+      cmocka_unit_test(one_contact_of_an_oscillator_adds_up),
+      cmocka_unit_test(a_motion_that_fits_no_contact_is_refused),
   };
   check_watchdog(60);
   return cmocka_run_group_tests_name("command.structures", tests, NULL, NULL);

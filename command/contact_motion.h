@@ -1,0 +1,34 @@
+/* contact_motion.h - the motion that hbmcheck contact is asked about: x of one degree of freedom, which moves all of
+ * its contacts, or u and v of one contact. */
+#ifndef HC_CONTACT_MOTION_H
+#define HC_CONTACT_MOTION_H
+
+#include "command/cli.h"
+#include "hbm/hbm_settings.h"
+#include "model/moving_contact.h"
+
+enum { CONTACT_X, CONTACT_U, CONTACT_V, CONTACT_MOTIONS };
+typedef struct contact_options {
+  const char *contact;                 /* NULL: not given */
+  const char *motion[CONTACT_MOTIONS]; /* the same */
+  const char *slider;                  /* the same */
+  number_list samples;
+  const char *plot; /* NULL: no drawing */
+} contact_options;
+
+enum { CONTACT_MOST_COEF = 2 * HBM_MAX_HARMONICS + 1 };
+
+typedef struct contact_motion {
+  int one; /* which contact, -1: all */
+  int n_harm, n_dof, n_contacts;
+  moving_contact *contacts;           /* [n_contacts] moved by X */
+  double given[2][CONTACT_MOST_COEF]; /* [length] x; or u and v */
+  double X[2 * CONTACT_MOST_COEF];    /* [n_dof][2 n_harm + 1] of these */
+} contact_motion;
+
+/* What the options ask for, with as many harmonics as the motion or the case has, at least 1. 0, or the exit code after
+ * the message. Free with contact_motion_clear in any case. */
+int contact_motion_find(const cli_common *common, const contact_options *own, contact_motion *m);
+void contact_motion_clear(contact_motion *m);
+
+#endif
