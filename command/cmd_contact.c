@@ -200,7 +200,8 @@ static int list_sets(const cli_common *common, const contact_options *own, int n
 static int draw(const cli_common *common, const char *path, const contact_motion *m)
 {
   plot_order drawing = {.path = path};
-  const plot_motion motion = {m->one < 0 ? 0 : m->one, m->n_harm, m->n_dof, m->n_contacts, m->contacts, m->X};
+  const plot_motion motion = {m->one < 0 ? 0 : m->one, m->slider,   m->n_harm, m->n_dof,
+                              m->n_contacts,           m->contacts, m->X};
   return cli_plotted(common, plot_contact(&drawing, common->scene, &motion), drawing.why);
 }
 

@@ -52,23 +52,18 @@ static error_t read_option(int key, char *text, struct argp_state *state)
   }
 }
 
-/* The responses from `first` to `last`. */
-typedef struct response_range {
-  int first, last;
-} response_range;
-
 /* All of the case's, or the one that is asked for. 0 or the exit code after the message. */
-static int choose_responses(const cli_common *common, const char *name, response_range *out)
+static int choose_responses(const cli_common *common, const char *name, plot_responses *out)
 {
   const scene_structure *of = common->scene->structure;
-  *out = (response_range){0, of ? structure_response_count(of) - 1 : 0};
+  *out = (plot_responses){0, of ? structure_response_count(of) - 1 : 0};
   if (!name) return 0;
   out->first = out->last = cli_response_named(common, name);
   return out->first < 0 ? EXIT_USAGE : 0;
 }
 
 /* A row for each response of point k. */
-static hc_status put_point(const cli_common *common, hbm_solver *s, const hbm_curve *c, int k, response_range of_case,
+static hc_status put_point(const cli_common *common, hbm_solver *s, const hbm_curve *c, int k, plot_responses of_case,
                            bool *free, table *t)
 {
   const scene_structure *of = common->scene->structure;
@@ -85,7 +80,7 @@ static hc_status put_point(const cli_common *common, hbm_solver *s, const hbm_cu
   return st;
 }
 
-static hc_status put_points(const cli_common *common, hbm_solver *s, const hbm_curve *c, response_range of_case,
+static hc_status put_points(const cli_common *common, hbm_solver *s, const hbm_curve *c, plot_responses of_case,
                             table *t)
 {
   bool free = false;
@@ -152,21 +147,25 @@ static hc_status note_specials(table *t, const scene *sc, hbm_solver *s, const h
 {
   enum { SHOWN = 24 };
   hbm_special special[SHOWN];
+  char amplitude[16 + RESPONSE_NAME] = "amplitude", name[RESPONSE_NAME];
   int n = 0;
+  if (sc->structure)
+    snprintf(amplitude, sizeof amplitude, "amplitude of %s",
+             structure_response_name(sc->structure, 0, name, sizeof name));
   hc_status st = hbm_specials(s, c, SHOWN, special, &n);
   for (int i = 0; i < n && i < SHOWN; ++i) {
     const hbm_special *p = &special[i];
     char where[SCENE_WHERE];
     precisely(sc, p->omega, where);
     const char *from = contact_regime_name(p->before), *to = contact_regime_name(p->after);
-    if (p->kind == HBM_TURNING_POINT) table_note(t, "turning point at %s, amplitude %.9g", where, p->amplitude);
+    if (p->kind == HBM_TURNING_POINT) table_note(t, "turning point at %s, %s %.9g", where, amplitude, p->amplitude);
     else if (p->kind == HBM_PERIOD_DOUBLING)
-      table_note(t, "period doubling at %s, amplitude %.9g", where, p->amplitude);
+      table_note(t, "period doubling at %s, %s %.9g", where, amplitude, p->amplitude);
     else if (p->kind == HBM_NEIMARK_SACKER)
-      table_note(t, "Neimark-Sacker point at %s, amplitude %.9g", where, p->amplitude);
+      table_note(t, "Neimark-Sacker point at %s, %s %.9g", where, amplitude, p->amplitude);
     else if (p->before != p->after)
-      table_note(t, "contact goes from %s to %s at %s, amplitude %.9g", from, to, where, p->amplitude);
-    else table_note(t, "contact pattern changes (%s) at %s, amplitude %.9g", to, where, p->amplitude);
+      table_note(t, "contact goes from %s to %s at %s, %s %.9g", from, to, where, amplitude, p->amplitude);
+    else table_note(t, "contact pattern changes (%s) at %s, %s %.9g", to, where, amplitude, p->amplitude);
   }
   if (n > SHOWN) table_note(t, "and %d more", n - SHOWN);
   if (st != HC_OK) table_note(t, "at least one more was noticed but not located: %s", hc_status_text(st));
@@ -182,7 +181,7 @@ static int run_frf(int argc, char **argv)
   cli_check_plot(&common, own.plot, false);
   int code = cli_check_files(&common, 1, &(cli_file){"--plot", own.plot, CLI_OUTPUT}), n_columns;
   if (!code) code = cli_load_case(&common, common.arguments[0], &sc);
-  response_range of_case;
+  plot_responses of_case;
   if (!code && (code = choose_responses(&common, own.response, &of_case)) != 0) case_clear(&sc);
   if (code) return code;
   hbm_solver *s = NULL;
@@ -220,7 +219,7 @@ static int run_frf(int argc, char **argv)
   int written = s ? cli_write(&common, own.contacts ? 2 : 1, (table *[]){t, contacts}) : 0;
   plot_order drawing = {.path = own.plot};
   if (own.plot && s && !written)
-    written = cli_plotted(&common, plot_frf(&drawing, &sc, s, &curve, at->n ? &found : NULL), drawing.why);
+    written = cli_plotted(&common, plot_frf(&drawing, &sc, s, &curve, at->n ? &found : NULL, of_case), drawing.why);
   table_free(t);
   table_free(contacts);
   hbm_curve_free(&found);

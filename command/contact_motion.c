@@ -86,13 +86,12 @@ static int check_directions(const cli_common *common, const contact_options *own
 /* The motions into m->given. 0 or the exit code after the message. */
 static int read_motions(const cli_common *common, const contact_options *own, const model *of, contact_motion *m)
 {
-  double slider = 0;
   for (int k = 0; k < CONTACT_MOTIONS; ++k) {
     const int n = read_motion(common, motion_names[k], own->motion[k], m->given[k == CONTACT_V]);
     if (n < 0) return EXIT_USAGE;
     if (n > m->n_harm) m->n_harm = n;
   }
-  if (own->slider && number_read(own->slider, strlen(own->slider), &slider) != NUMBER_FINE) {
+  if (own->slider && number_read(own->slider, strlen(own->slider), &m->slider) != NUMBER_FINE) {
     cli_message(common, "--slider: '%s' is not a finite number", own->slider);
     return EXIT_USAGE;
   }
@@ -102,7 +101,7 @@ static int read_motions(const cli_common *common, const contact_options *own, co
       m->given[1][i] = *of->contacts[m->one].normal * m->given[0][i];
       m->given[0][i] *= *of->contacts[m->one].tangent;
     }
-  m->given[0][0] -= slider; /* the law knows u - w alone: from here on the slider starts at 0 */
+  m->given[0][0] -= m->slider; /* the law knows u - w alone: from here on the slider starts at 0 */
   return 0;
 }
 

@@ -20,9 +20,10 @@ enum { CONTACT_MOST_COEF = 2 * HBM_MAX_HARMONICS + 1 };
 
 typedef struct contact_motion {
   int one; /* which contact, -1: all */
+  double slider; /* [length] where it starts: taken off u */
   int n_harm, n_dof, n_contacts;
   moving_contact *contacts;           /* [n_contacts] moved by X */
-  double given[2][CONTACT_MOST_COEF]; /* [length] x; or u and v */
+  double given[2][CONTACT_MOST_COEF]; /* [length] x; or u - slider and v */
   double X[2 * CONTACT_MOST_COEF];    /* [n_dof][2 n_harm + 1] of these */
 } contact_motion;
 

@@ -7,6 +7,7 @@
 
 #include "base/constants.h"
 #include "campaigns/scene_solvers.h"
+#include "cases/structure_model.h"
 #include "compare/frequencies.h"
 #include "hbm/segment.h"
 
@@ -19,20 +20,26 @@ static const double off_curve = 0.01;
  * hbm/segment.h. */
 enum { BETWEEN = 4 };
 
-static hc_status measure_point(hbm_solver *s, double omega, const double *X, bool judge, curve_point *p)
+/* A curve is drawn by one response of the model; `judge`: with stability. */
+typedef struct drawn_as {
+  int response;
+  bool judge;
+} drawn_as;
+
+static hc_status measure_point(hbm_solver *s, double omega, const double *X, drawn_as as, curve_point *p)
 {
   hbm_measures m;
   hbm_stability floquet;
-  hc_status st = hbm_measure(s, X, &m);
+  hc_status st = as.response ? hbm_measure_response(s, omega, X, as.response, &m) : hbm_measure(s, X, &m);
   if (st != HC_OK) return st;
   *p = (curve_point){omega, m.amplitude, 0};
-  if (judge && hbm_stability_at(s, omega, X, &floquet) == HC_OK) p->stable = hbm_stability_verdict(&floquet);
+  if (as.judge && hbm_stability_at(s, omega, X, &floquet) == HC_OK) p->stable = hbm_stability_verdict(&floquet);
   return HC_OK;
 }
 
 /* points[BETWEEN (n - 1) + 1]. Points added between two of equal stability have theirs; between others the stability
  * of each is computed. */
-static hc_status sample_curve(hbm_solver *s, const hbm_curve *c, bool judge, curve_point **points, int *n)
+static hc_status sample_curve(hbm_solver *s, const hbm_curve *c, drawn_as as, curve_point **points, int *n)
 {
   hc_status st = HC_OK;
   *n = 0;
@@ -40,7 +47,7 @@ static hc_status sample_curve(hbm_solver *s, const hbm_curve *c, bool judge, cur
   double *X = malloc((size_t)(c->n_coef > 0 ? c->n_coef : 1) * sizeof *X);
   if (!*points || !X) st = HC_NO_MEMORY;
   for (int k = 0; k < c->n && st == HC_OK; ++k)
-    st = measure_point(s, c->points[k].omega, c->X + (size_t)k * (size_t)c->n_coef, judge, &(*points)[BETWEEN * k]);
+    st = measure_point(s, c->points[k].omega, c->X + (size_t)k * (size_t)c->n_coef, as, &(*points)[BETWEEN * k]);
   for (int k = 0; k + 1 < c->n && st == HC_OK; ++k) {
     int here = (*points)[BETWEEN * k].stable, next = (*points)[BETWEEN * (k + 1)].stable;
     const hbm_segment segment = hbm_segment_between(c, k);
@@ -48,7 +55,7 @@ static hc_status sample_curve(hbm_solver *s, const hbm_curve *c, bool judge, cur
       curve_point *p = &(*points)[BETWEEN * k + i];
       double omega;
       hbm_segment_at(&segment, (double)i / BETWEEN, X, &omega, NULL, NULL);
-      st = measure_point(s, omega, X, judge && here != next, p);
+      st = measure_point(s, omega, X, (drawn_as){as.response, as.judge && here != next}, p);
       /* equal at both ends, or unknown because an added point is not quite a solution: that of the nearer end */
       if (here == next || !p->stable) p->stable = 2 * i <= BETWEEN ? here : next;
     }
@@ -101,7 +108,7 @@ static hc_status trace_other(const scene *sc, double from, double to, curve_shap
   hbm_curve back = {0};
   hc_status st = scene_hbm_solver(sc, &s);
   if (st == HC_OK) hbm_trace(s, from, to, NULL, &back);
-  if (st == HC_OK && back.n > 0) st = sample_curve(s, &back, false, &out->other, &out->n_other);
+  if (st == HC_OK && back.n > 0) st = sample_curve(s, &back, (drawn_as){0, false}, &out->other, &out->n_other);
   if (st == HC_OK) keep_other(out);
   else out->n_other = 0;
   hbm_curve_free(&back);
@@ -111,16 +118,59 @@ static hc_status trace_other(const scene *sc, double from, double to, curve_shap
 
 /* ---- made and freed ---- */
 
+static void name_response(const scene *sc, int r, char text[RESPONSE_NAME])
+{
+  char name[RESPONSE_NAME] = "x";
+  if (sc->structure) structure_response_name(sc->structure, r, name, sizeof name);
+  const bool number = strspn(name, "0123456789") == strlen(name);
+  if (number) snprintf(text, RESPONSE_NAME, "DOF %.*s", RESPONSE_NAME - 5, name);
+  else snprintf(text, RESPONSE_NAME, "%s", name);
+}
+
 hc_status curve_shape_of(const scene *sc, hbm_solver *s, const hbm_curve *curve, curve_shape *out)
 {
   *out = (curve_shape){.harmonics = hbm_n_harmonics(s), .samples = hbm_n_samples(s)};
+  name_response(sc, 0, out->of);
   out->low = fmin(sc->omega_from, sc->omega_to);
   out->high = fmax(sc->omega_from, sc->omega_to);
-  hc_status st = sample_curve(s, curve, true, &out->points, &out->n);
+  hc_status st = sample_curve(s, curve, (drawn_as){0, true}, &out->points, &out->n);
   if (st == HC_OK && curve->n > 0) hbm_specials(s, curve, CURVE_MOST_SPECIALS, out->special, &out->n_special);
   if (out->n_special > CURVE_MOST_SPECIALS) out->n_special = CURVE_MOST_SPECIALS;
   if (st == HC_OK && sc->hbm.force == HBM_FORCE_EXACT) st = trace_other(sc, sc->omega_to, sc->omega_from, out);
   return st;
+}
+
+/* A special point is known by omega and the first response's amplitude: where that lies on the curve drawn, the other
+ * response has its amplitude. */
+static double amplitude_there(const curve_shape *first, const curve_point *points, const hbm_special *p)
+{
+  const curve_point at = {p->omega, p->amplitude, 0};
+  double nearest = INFINITY, amplitude = NAN, high = 0;
+  for (int k = 0; k < first->n; ++k) high = fmax(high, first->points[k].amplitude);
+  for (int k = 0; k + 1 < first->n; ++k) {
+    const curve_point *a = &first->points[k], *b = a + 1;
+    const double d = distance(&at, a, b, first->high - first->low, high > 0 ? high : 1);
+    if (!(d < nearest)) continue;
+    const double part = b->omega != a->omega ? fmin(fmax((p->omega - a->omega) / (b->omega - a->omega), 0), 1) : 0;
+    nearest = d;
+    amplitude = points[k].amplitude + part * (points[k + 1].amplitude - points[k].amplitude);
+  }
+  return amplitude;
+}
+
+hc_status curve_shape_response(const curve_shape *first, const scene *sc, hbm_solver *s, const hbm_curve *curve, int r,
+                               curve_shape *out)
+{
+  *out = *first;
+  out->points = out->other = NULL;
+  out->n_other = 0;
+  name_response(sc, r, out->of);
+  hc_status st = sample_curve(s, curve, (drawn_as){r, false}, &out->points, &out->n);
+  if (st != HC_OK) return st;
+  for (int k = 0; k < out->n; ++k) out->points[k].stable = first->points[k].stable;
+  for (int i = 0; i < out->n_special; ++i)
+    out->special[i].amplitude = amplitude_there(first, out->points, &first->special[i]);
+  return HC_OK;
 }
 
 hc_status curve_shape_trace(const scene *sc, const number_list *asked, curve_shape *out)
@@ -205,21 +255,29 @@ static int count_specials(const curve_shape *c, hbm_special_kind kind)
   return n;
 }
 
+/* Of data: one curve's differ from another's. */
+static const char *block_name(const char *name, const curve_shape *c, char text[32])
+{
+  snprintf(text, 32, "%s%d", name, c->among);
+  return text;
+}
+
 void curve_shape_data(figure *g, const curve_shape *c)
 {
+  char name[32];
   for (int r = 0; r < N_STABILITIES; ++r) {
-    figure_block(g, stabilities[r].name);
+    figure_block(g, block_name(stabilities[r].name, c, name));
     write_points_of(g, c, stabilities[r].stable);
     figure_block_end(g);
   }
   for (int m = 0; m < N_SPECIAL_LOOKS; ++m) {
-    figure_block(g, special_looks[m].name);
+    figure_block(g, block_name(special_looks[m].name, c, name));
     for (int i = 0; i < c->n_special; ++i)
       if (is_drawn_as(&c->special[i], special_looks[m].kind))
         figure_point(g, c->special[i].omega, c->special[i].amplitude);
     figure_block_end(g);
   }
-  figure_block(g, "other");
+  figure_block(g, block_name("other", c, name));
   for (int k = 0; k < c->n_other; ++k) {
     if (isnan(c->other[k].omega)) figure_gap(g);
     figure_point(g, c->other[k].omega, c->other[k].amplitude);
@@ -227,24 +285,64 @@ void curve_shape_data(figure *g, const curve_shape *c)
   figure_block_end(g);
 }
 
+static void special_items(figure *g, const curve_shape *c)
+{
+  char look[FIGURE_LOOK], what[64], name[32];
+  for (int m = 0; m < N_SPECIAL_LOOKS; ++m) {
+    if (count_specials(c, special_looks[m].kind) == 0) continue;
+    snprintf(what, sizeof what, "$%s using 1:2 with points", block_name(special_looks[m].name, c, name));
+    figure_item(g, what, g->letters ? figure_look(g, "", 20 + m, look) : special_looks[m].look,
+                c->among > 1 ? NULL : "%s", special_looks[m].title);
+  }
+}
+
+/* One of several: its colour, solid, dashed or dotted; its name at the first of these that there is. */
+static void colour_items(figure *g, const curve_shape *c)
+{
+  static const char *const colours[] = {"#0072B2", "#D55E00", "#009E73", "#CC79A7",
+                                        "#E69F00", "#56B4E9", "#000000", "#777777"};
+  static const char *const dashes[N_STABILITIES] = {"lw 2.2 dt 1", "lw 1.8 dt (10,6)", "lw 1.6 dt 3"};
+  const int n_colours = sizeof colours / sizeof *colours;
+  bool named = false;
+  for (int r = 0; r < N_STABILITIES; ++r) {
+    char own[FIGURE_LOOK], look[FIGURE_LOOK], what[64], name[32];
+    if (count_points_of(c, stabilities[r].stable) == 0) continue;
+    snprintf(what, sizeof what, "$%s using 1:2 with lines", block_name(stabilities[r].name, c, name));
+    snprintf(own, sizeof own, "%s lc rgb '%s'", dashes[r], colours[(c->among - 1) % n_colours]);
+    figure_item(g, what, figure_look(g, own, c->among - 1, look), named ? NULL : "%s", c->of);
+    named = true;
+  }
+}
+
 void curve_shape_items(figure *g, const curve_shape *c, bool quiet)
 {
   char look[FIGURE_LOOK], what[64];
+  if (c->among) {
+    colour_items(g, c);
+    return;
+  }
   if (c->n_other > 1)
-    figure_item(g, "$other using 1:2 with lines", figure_look(g, "lw 3 dt 1 lc rgb '#c8c8c8'", 5, look),
+    figure_item(g, "$other0 using 1:2 with lines", figure_look(g, "lw 3 dt 1 lc rgb '#c8c8c8'", 5, look),
                 "other branch, from the sweep's other end");
   for (int r = 0; r < N_STABILITIES; ++r) {
     if (count_points_of(c, stabilities[r].stable) == 0) continue;
-    snprintf(what, sizeof what, "$%s using 1:2 with lines", stabilities[r].name);
+    snprintf(what, sizeof what, "$%s0 using 1:2 with lines", stabilities[r].name);
     figure_item(g, what, figure_look(g, quiet ? stabilities[r].quiet : stabilities[r].look, r, look), "%s",
                 stabilities[r].title);
   }
-  for (int m = 0; m < N_SPECIAL_LOOKS && !quiet; ++m) {
-    if (count_specials(c, special_looks[m].kind) == 0) continue;
-    snprintf(what, sizeof what, "$%s using 1:2 with points", special_looks[m].name);
-    figure_item(g, what, g->letters ? figure_look(g, "", 20 + m, look) : special_looks[m].look, "%s",
-                special_looks[m].title);
+  if (!quiet) special_items(g, c);
+}
+
+void curve_shapes_rest(figure *g, int n, const curve_shape *c)
+{
+  static const char *const dashes[N_STABILITIES] = {NULL, "lw 1.8 dt (10,6)", "lw 1.6 dt 3"};
+  for (int r = 1; r < N_STABILITIES && !g->letters; ++r) {
+    char look[FIGURE_LOOK];
+    if (count_points_of(c, stabilities[r].stable) == 0) continue;
+    snprintf(look, sizeof look, "%s lc rgb '#555555'", dashes[r]);
+    figure_item(g, "NaN with lines", look, "%s", stabilities[r].title);
   }
+  for (int i = 0; i < n && (i == 0 || !g->letters); ++i) special_items(g, &c[i]);
 }
 
 hc_status curve_figure_open(figure *g, plot_order *p, const scene *sc, int width, int height)
@@ -258,7 +356,8 @@ void curve_shape_axes(figure *g, const scene *sc, const curve_shape *c)
 {
   if (sc->in_cycles) figure_below(g, "frequency [cycles/%s]", sc->unit_time);
   else figure_below(g, "%s [rad/%s]", g->letters ? "omega" : "ω", sc->unit_time);
-  figure_set(g, "ylabel", "amplitude of x [%s]", sc->unit_length);
+  if (c->among) figure_set(g, "ylabel", "amplitude [%s]", sc->unit_length);
+  else figure_set(g, "ylabel", "amplitude of %s [%s]", c->of, sc->unit_length);
   figure_script(g, "set xrange [%.10g:%.10g]\nset yrange [0:*]\n", c->low / g->x_unit, c->high / g->x_unit);
 }
 

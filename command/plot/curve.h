@@ -12,6 +12,8 @@ typedef struct curve_point {
 enum { CURVE_MOST_SPECIALS = 256 };
 
 typedef struct curve_shape {
+  char of[RESPONSE_NAME]; /* the response in words; "x" of an oscillator */
+  int among;              /* of several on the same axes which one, from 1; 0: it is the only one */
   int n, n_other;
   curve_point *points; /* [n] along the curve */
   curve_point *other;  /* [n_other] of the sweep from its other end, without those on the curve; NaN omega: a gap */
@@ -21,8 +23,11 @@ typedef struct curve_shape {
   double low, high;       /* [rad/time] the sweep */
 } curve_shape;
 
-/* Of a curve that was computed. */
+/* Of a curve that was computed, by the model's first response. */
 hc_status curve_shape_of(const scene *sc, hbm_solver *s, const hbm_curve *curve, curve_shape *out);
+/* The same curve, of which `first` is the shape, by response r; without what the other end finds. */
+hc_status curve_shape_response(const curve_shape *first, const scene *sc, hbm_solver *s, const hbm_curve *curve, int r,
+                               curve_shape *out);
 /* Computes the curve over the scene's sweep, widened to `asked`. HC_OK or HC_NO_MEMORY: a curve that stops early is
  * drawn as far as it goes. */
 hc_status curve_shape_trace(const scene *sc, const number_list *asked, curve_shape *out);
@@ -31,11 +36,14 @@ void curve_shape_clear(curve_shape *c);
 /* figure_open for a drawing over frequency: in cycles per time where the scene's sweep is. */
 hc_status curve_figure_open(figure *g, plot_order *p, const scene *sc, int width, int height);
 
-/* First its data blocks, then in the plot command its items. quiet: thin and grey and without special points, as the
+/* First its data blocks, then in the plot command its items; among several each has a colour, and its name in the key.
+ * quiet: thin and grey and without special points, as the
  * background of something else. */
 void curve_shape_data(figure *g, const curve_shape *c);
 void curve_shape_items(figure *g, const curve_shape *c, bool quiet);
-/* Axes and ranges of amplitude over omega. */
+/* Of several, c[n], after the last one's items: what the dashes mean, in the key, and all special points. */
+void curve_shapes_rest(figure *g, int n, const curve_shape *c);
+/* Axes and ranges of amplitude over omega; the label names the response where it is the only one. */
 void curve_shape_axes(figure *g, const scene *sc, const curve_shape *c);
 /* The part of the sweep and of the amplitudes that holds all special points, to be drawn beside the whole. */
 typedef struct curve_window {

@@ -41,6 +41,7 @@ static void compute_history(const plot_motion *m, const moving_contact *c, const
     out->state[i] = p ? p->state : CONTACT_SEPARATED;
     out->t[i] = contact_slip_sign(out->state[i]) * c->law.mu * out->normal[i];
     if (out->state[i] == CONTACT_STICK) out->t[i] = c->law.kt * out->u[i] - p->held;
+    out->u[i] += m->slider;
   }
 }
 

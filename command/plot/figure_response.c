@@ -7,12 +7,13 @@
 #include "command/plot/panels.h"
 #include "command/plot/verdicts.h"
 
-enum { WIDTH = 800, HEIGHT = 540 };
+enum { WIDTH = 800, HEIGHT = 540, MOST_RESPONSES = 8 };
 
 /* What is drawn on the axes, from back to front. */
 typedef struct layers {
-  const curve_shape *shape;
-  bool quiet; /* the curve is background */
+  const curve_shape *shape; /* [n_shapes] */
+  int n_shapes;             /* several: responses of a structure; 0 counts as 1 */
+  bool quiet;               /* the curve is background */
   bool asked, departures;
   const verdicts *v;
   const char *of; /* whose verdicts */
@@ -22,6 +23,8 @@ static void draw_layers(figure *g, const layers *l)
 {
   char look[FIGURE_LOOK];
   curve_shape_items(g, l->shape, l->quiet);
+  for (int i = 1; i < l->n_shapes; ++i) curve_shape_items(g, &l->shape[i], l->quiet);
+  if (l->n_shapes > 1) curve_shapes_rest(g, l->n_shapes, l->shape);
   if (l->asked)
     figure_item(g, "$asked using 1:2 with points", figure_look(g, "pt 6 ps 1.2 lw 1.6 lc rgb '#D55E00'", 8, look),
                 "solutions asked for");
@@ -43,7 +46,7 @@ static void detail_panel(figure *g, const curve_window *w, const layers *l)
 static void response_panels(figure *g, const scene *sc, const layers *l, const char *about)
 {
   curve_window w;
-  bool detail = curve_shape_window(l->shape, &w);
+  bool detail = l->n_shapes <= 1 && curve_shape_window(l->shape, &w);
   if (detail) panels_begin(g, 1, 2, sc->title, about);
   else figure_title(g, "set title", sc->title, about);
   if (detail && !g->letters) figure_script(g, "set title 'Whole sweep'\n");
@@ -62,37 +65,64 @@ static int response_width(const curve_shape *shape)
 
 /* ---- frf ---- */
 
-static hc_status write_asked(figure *g, hbm_solver *s, const hbm_curve *asked)
+static hc_status write_asked(figure *g, hbm_solver *s, const hbm_curve *asked, plot_responses of)
 {
   hc_status st = HC_OK;
   figure_block(g, "asked");
-  for (int k = 0; asked && k < asked->n && st == HC_OK; ++k) {
-    hbm_measures m;
-    st = hbm_measure(s, asked->X + (size_t)k * (size_t)asked->n_coef, &m);
-    if (st == HC_OK) figure_point(g, asked->points[k].omega, m.amplitude);
-  }
+  for (int k = 0; asked && k < asked->n && st == HC_OK; ++k)
+    for (int r = of.first; r <= of.last && st == HC_OK; ++r) {
+      hbm_measures m;
+      const double omega = asked->points[k].omega, *X = asked->X + (size_t)k * (size_t)asked->n_coef;
+      st = hbm_measure_response(s, omega, X, r, &m);
+      if (st == HC_OK) figure_point(g, omega, m.amplitude);
+    }
   figure_block_end(g);
   return st;
 }
 
-hc_status plot_frf(plot_order *p, const scene *sc, hbm_solver *s, const hbm_curve *curve, const hbm_curve *asked)
+/* The shapes of the responses, n of them, into shape[n + 1]: behind them the first response's, of which the others have
+ * their stability. To clear, all n + 1. */
+static hc_status make_shapes(const scene *sc, hbm_solver *s, const hbm_curve *curve, plot_responses of, int n,
+                             curve_shape *shape)
+{
+  hc_status st = curve_shape_of(sc, s, curve, &shape[n]);
+  if (of.first == 0 && n == 1 && st == HC_OK) {
+    shape[0] = shape[1];
+    shape[1] = (curve_shape){.n = 0};
+    return HC_OK;
+  }
+  for (int i = 0; i < n && st == HC_OK; ++i) {
+    st = curve_shape_response(&shape[n], sc, s, curve, of.first + i, &shape[i]);
+    shape[i].among = n > 1 ? i + 1 : 0;
+  }
+  return st;
+}
+
+hc_status plot_frf(plot_order *p, const scene *sc, hbm_solver *s, const hbm_curve *curve, const hbm_curve *asked,
+                   plot_responses of)
 {
   figure g = {0};
-  curve_shape shape = {0};
-  char settings[96];
+  char about[160], settings[96];
   if (curve->n == 0) {
     snprintf(p->why, sizeof p->why, "there is no point of the response curve to draw");
     return HC_BAD_INPUT;
   }
-  hc_status st = curve_shape_of(sc, s, curve, &shape);
-  if (st == HC_OK) st = curve_figure_open(&g, p, sc, response_width(&shape), HEIGHT);
-  if (st == HC_OK) st = write_asked(&g, s, asked);
+  const int all = of.last - of.first + 1, n = all < MOST_RESPONSES ? all : MOST_RESPONSES;
+  of.last = of.first + n - 1;
+  curve_shape *shape = calloc((size_t)n + 1, sizeof *shape);
+  hc_status st = shape ? make_shapes(sc, s, curve, of, n, shape) : HC_NO_MEMORY;
+  if (st == HC_OK) st = curve_figure_open(&g, p, sc, n > 1 ? WIDTH : response_width(shape), HEIGHT);
+  if (st == HC_OK) st = write_asked(&g, s, asked, of);
   if (st == HC_OK) {
-    layers l = {.shape = &shape, .asked = asked && asked->n > 0};
-    curve_shape_data(&g, &shape);
-    response_panels(&g, sc, &l, curve_shape_settings(sc, &shape, settings));
+    layers l = {.shape = shape, .n_shapes = n, .asked = asked && asked->n > 0};
+    for (int i = 0; i < n; ++i) curve_shape_data(&g, &shape[i]);
+    curve_shape_settings(sc, shape, settings);
+    if (n < all) snprintf(about, sizeof about, "%s; the first %d of %d responses", settings, n, all);
+    else snprintf(about, sizeof about, "%s", settings);
+    response_panels(&g, sc, &l, about);
   }
-  curve_shape_clear(&shape);
+  for (int i = 0; i <= n && shape; ++i) curve_shape_clear(&shape[i]);
+  free(shape);
   return figure_close(&g, st);
 }
 

@@ -33,9 +33,15 @@ bool plot_can(const char *path);
 /* Each of these returns HC_OK, HC_NO_MEMORY, HC_BAD_INPUT (there is nothing to draw) or HC_IO (no gnuplot, or the file
  * could not be written). */
 
+/* The responses of a model from `first` to `last`. */
+typedef struct plot_responses {
+  int first, last;
+} plot_responses;
+
 /* The response curve with its stability and where it changes its nature; what the sweep from the other end finds
  * besides is faint. `asked`: solutions to mark, or NULL. */
-hc_status plot_frf(plot_order *p, const scene *sc, hbm_solver *s, const hbm_curve *curve, const hbm_curve *asked);
+hc_status plot_frf(plot_order *p, const scene *sc, hbm_solver *s, const hbm_curve *curve, const hbm_curve *asked,
+                   plot_responses of);
 
 /* The same with the transients and their verdicts on it. a (or NULL): the discrepancy over samples and harmonics, in
  * panels beside it. */
@@ -46,7 +52,8 @@ hc_status plot_transient(plot_order *p, const scene *sc, const steady_states *fo
 
 /* Contacts under a given motion. */
 typedef struct plot_motion {
-  int first; /* the first contact's number in the case */
+  int first;     /* the first contact's number in the case */
+  double slider; /* [length] has been taken off u: u - w is what the law knows */
   int n_harm, n_dof, n_contacts;
   const moving_contact *contacts; /* [n_contacts] */
   const double *X;                /* [n_dof][2 n_harm + 1] the coordinates that move them, n_harm >= 1 */

@@ -76,8 +76,8 @@ static void every_contact_of_every_solution_has_a_row(void **state)
 
 /* ---- contact --------------------------------------------------------------------------------------- */
 
-/* ground: kt = 20, mu N = 1. Under u = A cos, A = 0.1, it slips by 0.2 in all: work = 0.2 = -pi A b1. Rounding of numbers
- * of the order of 1. */
+/* ground: kt = 20, mu N = 1. Under u = A cos, A = 0.1, it slips by 0.2 in all: work = 0.2 = -pi A b1. Rounding of
+ * numbers of the order of 1. */
 static void a_jenkins_element_has_its_closed_form(void **state)
 {
   (void)state;
@@ -108,7 +108,7 @@ static void a_stop_has_a_normal_force_alone(void **state)
   expect("contact " CHAIN "--contact stop --motion-v 0,1,0 --format csv", 0, "force,");
   CHECK_NEAR(cell("force", "\nnormal,0,", 2), (sin(p) - p / 4) / PI, 1e-15, "mean of N");
   expect("contact " CHAIN "--contact stop --motion-u 0,1,0 2>&1", 64,
-         "contact stop has no tangent; expected no --motion-u");
+         "contact stop has no tangent;");
   expect("contact " CHAIN "--contact ground --motion-v 0,1,0 2>&1", 64,
          "contact ground has no normal; expected no --mo");
 }

@@ -9,6 +9,8 @@
 #include "tests/shell.h"
 
 #define CASE2 "cases/paper/case2.yaml "
+#define WEDGE "cases/structures/wedge_F2.yaml "
+#define CHAIN "cases/structures/chain3.yaml "
 enum { MOST = 1 << 20 };
 
 static char folder[] = "/tmp/hbmcheck-plots-XXXXXX";
@@ -95,6 +97,20 @@ static void response_curves(void **state)
                   "turning point", "period doubling", "contact changes", "ω [rad/s]", "amplitude of x [m]"));
   check_svg("at", "frf " CASE2 "--at 8,9", 6, WORDS("solutions asked for"));
   check_svg("units", "frf " CASE2 "--set units.length=mm --set units.time=ms", 5, WORDS("[mm]", "rad/ms"));
+}
+
+/* All of it is stable, with changes of contact: a line and its marks for each response, named in the key. */
+static void responses_of_a_structure(void **state)
+{
+  (void)state;
+  check_svg("three", "frf " WEDGE, 6, WORDS("blade", "damper_x", "damper_y", "contact changes", "amplitude [m]"));
+  assert_null(strstr(text, "amplitude of"));
+  check_svg("three-at", "frf " WEDGE "--at 37", 7, WORDS("solutions asked for"));
+  check_svg("one", "frf " WEDGE "--response damper_x", 2,
+            WORDS("harmonic balance: stable", "amplitude of damper_x [m]"));
+  check_svg("number", "frf " CHAIN "--response 3 --set sweep.omega=0.5,1", 2, WORDS("amplitude of DOF 3 [m]"));
+  check_svg("loop", "contact " CHAIN "--contact ground --motion-u 0,0.1,0", 6,
+            WORDS("contact ground; exact law", "slips"));
 }
 
 static void transients(void **state)
@@ -285,6 +301,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(response_curves),
+      cmocka_unit_test(responses_of_a_structure),
       cmocka_unit_test(transients),
       cmocka_unit_test(curves_of_others),
       cmocka_unit_test(accuracy),
