@@ -9,7 +9,8 @@
 #include "base/nearest.h"
 #include "cases/yaml_structure.h"
 
-static hc_status unknown_path(case_reader *r, const char *path, size_t length)
+/* j: the entry of a list that the path begins with, for what is suggested. */
+static hc_status unknown_path(case_reader *r, const char *path, size_t length, int j)
 {
   message *m = case_blame(r, r->here);
   const field_section *s = field_find_section(path, length);
@@ -24,7 +25,7 @@ static hc_status unknown_path(case_reader *r, const char *path, size_t length)
   message_add_input(m, path, length, 60);
   message_add(m, "`");
   suggestion guess = suggest_path(path, length);
-  if (!case_suggest(m, guess, NULL, 0))
+  if (!case_suggest(m, guess, NULL, j))
     message_add(m, ", expected a path such as hbm.samples (`hbmcheck describe` lists them)");
   return HC_BAD_INPUT;
 }
@@ -93,11 +94,11 @@ static hc_status find_in_list(case_reader *r, const char *path, size_t length, c
   hc_status st = HC_OK;
   if (t->index < 0 && list == CASE_CONTACTS) st = read_name(r, bracket, stop, &s, &t->index);
   if (st != HC_OK) return st;
-  if (t->index < 0) return unknown_path(r, path, length);
+  if (t->index < 0) return unknown_path(r, path, length, 0);
   if (s < stop) {
     const char *section = list == CASE_LOADS ? "forcing[]" : "contacts";
     t->f = *s == '.' ? field_find(section, s + 1, (size_t)(stop - s - 1)) : NULL;
-    if (!t->f) return unknown_path(r, path, length);
+    if (!t->f) return unknown_path(r, path, length, t->index);
   }
   return check_index(r, *t);
 }
@@ -137,7 +138,7 @@ hc_status case_find_target(case_reader *r, const char *path, size_t length, case
     const char *name = dot ? dot + 1 : path;
     if (s) t->f = field_find(s->name, name, (size_t)(path + length - name));
     if (t->f && field_is_in_list(t->f)) t->f = NULL; /* contacts.gap: of which one? */
-    if (!t->f) st = unknown_path(r, path, length);
+    if (!t->f) st = unknown_path(r, path, length, 0);
   }
   return st == HC_OK && t->f ? check_kind(r, t->f, path, length) : st;
 }
@@ -187,7 +188,7 @@ void case_target_given(case_reader *r, case_target t)
   if (!s) return;
   s->place = r->here; /* what it is wrong about as a whole, it is from here on */
   if (!(t.f->flags & FIELD_IN_STRUCTURE)) return;
-  s->how = t.f->kind == FIELD_REAL ? STRUCTURE_DAMPING_MODAL : STRUCTURE_DAMPING_RAYLEIGH;
+  structure_damping_given(s, t.f);
   s->damping.place = r->here;
 }
 

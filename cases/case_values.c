@@ -18,7 +18,7 @@ case_place case_field_place(const case_places *places, const field *f, int j)
 /* Of a section without the brackets of a list: forcing[] is forcing, too. */
 static int stem_length(const char *section) { return (int)strcspn(section, "["); }
 
-/* contacts.gap, contacts[].gap and contacts[3].gap are one field. */
+/* contacts.gap, contacts[].gap and contacts[3].gap are one field; structure.damping.rayleigh[1] is one of its own. */
 static bool is_path(const field *f, const char *asked)
 {
   const char *open = strchr(asked, '['), *close = open ? strchr(open, ']') : NULL;
@@ -26,7 +26,7 @@ static bool is_path(const field *f, const char *asked)
   int cut = close ? (int)(open - asked) : (int)strlen(asked);
   snprintf(plain, sizeof plain, "%.*s%s", cut, asked, close ? close + 1 : "");
   snprintf(path, sizeof path, "%.*s%s%s", stem_length(f->section), f->section, *f->section ? "." : "", f->name);
-  return !strcmp(plain, path) && (!open || field_is_in_list(f));
+  return !strcmp(asked, path) || (!strcmp(plain, path) && (!open || field_is_in_list(f)));
 }
 
 bool case_field_asked(const field *f, const char *asked)

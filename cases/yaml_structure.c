@@ -80,15 +80,22 @@ static hc_status read_ratios(case_reader *r, yaml_document_t *doc, const yaml_no
   return HC_OK;
 }
 
+void structure_damping_given(scene_structure *s, const field *f)
+{
+  const char *index = strchr(f->name, '[');
+  if (index && s->how != STRUCTURE_DAMPING_RAYLEIGH) s->rayleigh[index[1] == '0'] = 0;
+  s->how = !strcmp(f->name, "damping.modal") ? STRUCTURE_DAMPING_MODAL : STRUCTURE_DAMPING_RAYLEIGH;
+}
+
 /* rayleigh: [alpha, beta], modal: 0.01 or modal: [0.01, ...] */
 static hc_status read_damping_value(case_reader *r, yaml_document_t *doc, const field *f, const yaml_node_t *node)
 {
   scene_structure *s = r->sc.structure;
-  const bool modal = f->kind == FIELD_REAL;
+  const bool modal = !strcmp(f->name, "damping.modal");
   s->damping.place = case_place_of(r, node->start_mark);
   if (modal && node->type == YAML_SEQUENCE_NODE) return read_ratios(r, doc, node);
   const hc_status st = yaml_scene_value(r, doc, f, -1, s, node);
-  if (st == HC_OK) s->how = modal ? STRUCTURE_DAMPING_MODAL : STRUCTURE_DAMPING_RAYLEIGH;
+  if (st == HC_OK) structure_damping_given(s, f);
   return st;
 }
 

@@ -8,6 +8,7 @@
 
 #include "cases/case_values.h"
 #include "command/commands.h"
+#include "command/describe_structure.h"
 #include "command/files.h"
 #include "output/output.h"
 
@@ -159,9 +160,44 @@ static hc_status put_value(table *t, const described *d, const field *f, int j)
   return st;
 }
 
+/* Of a structure: the parts of it that f is about. j: the entry of a list. */
+static hc_status put_part(table *t, const described *d, const field *f, int j)
+{
+  char path[FIELD_PATH], *text;
+  case_place at;
+  if (!case_field_asked(f, d->asked)) return HC_OK;
+  hc_status st = describe_structure_value(d->sc->structure, f, j, &text, &at);
+  table_put_text(t, field_path(f, field_is_in_list(f) ? j : -1, path));
+  table_put_text(t, text);
+  table_put_text(t, text_or_nothing(f->unit));
+  put_place(t, at, text != NULL);
+  table_put_text(t, f->fallback);
+  table_put_text(t, text_or_nothing(f->symbol));
+  table_put_text(t, f->meaning);
+  free(text);
+  return st;
+}
+
+/* In the order of the table of fields, entry after entry of its lists. */
+static hc_status put_values_of_structure(table *t, const described *d)
+{
+  const unsigned lists = FIELD_IN_CONTACT | FIELD_IN_LOAD;
+  hc_status st = HC_OK;
+  for (int i = 0, end; i < field_count() && st == HC_OK; i = end) {
+    const unsigned list = field_at(i)->flags & lists;
+    for (end = i + 1; list && end < field_count() && field_at(end)->flags & list;) ++end;
+    if (!describes_structure(field_at(i))) st = put_value(t, d, field_at(i), -1);
+    else
+      for (int j = 0; j < describe_structure_count(d->sc->structure, field_at(i)); ++j)
+        for (int k = i; k < end && st == HC_OK; ++k) st = put_part(t, d, field_at(k), j);
+  }
+  return st;
+}
+
 /* In the order of the table of fields, contact after contact. */
 static hc_status put_values(table *t, const described *d)
 {
+  if (d->sc->structure) return put_values_of_structure(t, d);
   hc_status st = HC_OK;
   for (int i = 0, end; i < field_count() && st == HC_OK; i = end) {
     const bool in_contact = field_at(i)->flags & FIELD_IN_CONTACT;
@@ -172,16 +208,20 @@ static hc_status put_values(table *t, const described *d)
   return st;
 }
 
-static void put_derived(table *t, const scene *sc)
+static hc_status put_derived(table *t, const scene *sc)
 {
   case_derived all[CASE_DERIVED_MAX];
-  const int n = case_derive(sc, all);
+  int n = 0;
+  hc_status st = HC_OK;
+  if (sc->structure) st = describe_structure_derive(sc, all, &n);
+  else n = case_derive(sc, all);
   for (int i = 0; i < n; ++i) {
     table_put_text(t, all[i].name);
     table_put_real(t, all[i].value);
     table_put_text(t, all[i].unit);
     table_put_text(t, all[i].meaning);
   }
+  return st;
 }
 
 static int write_values(const cli_common *common, const described *d)
@@ -191,7 +231,9 @@ static int write_values(const cli_common *common, const described *d)
   hc_status st = put_values(tables[0], d);
   table_spare(tables[0], spare_value_columns);
   table_note(tables[0], "%s", d->sc->title);
-  put_derived(tables[1], d->sc);
+  const hc_status derived = put_derived(tables[1], d->sc);
+  if (derived == HC_NO_MEMORY) st = derived;
+  else if (derived != HC_OK) table_note(tables[1], "natural frequencies: %s", hc_status_text(derived));
   int code = st == HC_OK ? cli_write(common, 2, tables) : cli_file_failed(common, common->output, st);
   for (int i = 0; i < 2; ++i) table_free(tables[i]);
   return code;
@@ -205,8 +247,8 @@ static int describe_case(const cli_common *common, const char *path)
   hc_status st = places ? case_read_placed(path, common->n_set, common->set, &sc, places, &err) : HC_NO_MEMORY;
   const described d = {&sc, places, common->arguments[0]};
   int code = st == HC_NO_MEMORY ? EXIT_NO_SOLUTION : EXIT_BAD_CASE;
-  if (st == HC_OK && sc.structure) code = cli_refuse_structure(common, path, &sc, &err);
-  else if (st == HC_OK) code = write_values(common, &d);
+  if (st == HC_OK) code = write_values(common, &d);
+  case_clear(&sc);
   if (st != HC_OK) fprintf(stderr, "%s\n", err.message[0] ? err.message : hc_status_text(st));
   free(places);
   return code;

@@ -69,11 +69,11 @@ hc_status study_verdicts(const study *s, study_store *store, table *t)
 
 /* ---- export ---- */
 
-static bool is_scene_column(const char *name, bool in_cycles)
+static bool is_scene_column(const char *name, unsigned extra)
 {
   static const char *const own[] = {"scene", "status", "reason", "seconds"};
   int n;
-  const table_column *curve = rows_columns(ROWS_CURVE, in_cycles, &n);
+  const table_column *curve = rows_columns(ROWS_CURVE, extra, &n);
   for (size_t i = 0; i < sizeof own / sizeof *own; ++i)
     if (!strcmp(own[i], name)) return true;
   for (int i = 0; i < n; ++i)
@@ -81,13 +81,13 @@ static bool is_scene_column(const char *name, bool in_cycles)
   return false;
 }
 
-static void select_columns(rows_kind kind, bool in_cycles, char table_letter, FILE *to)
+static void select_columns(rows_kind kind, unsigned extra, char table_letter, FILE *to)
 {
   int n;
-  const table_column *columns = rows_columns(kind, in_cycles, &n);
+  const table_column *columns = rows_columns(kind, extra, &n);
   for (int i = 0; i < n; ++i)
     fprintf(to, ", %c.\"%s\" AS \"%s%s\"", table_letter, columns[i].name,
-            table_letter == 'r' && is_scene_column(columns[i].name, in_cycles) ? "row_" : "", columns[i].name);
+            table_letter == 'r' && is_scene_column(columns[i].name, extra) ? "row_" : "", columns[i].name);
 }
 
 /* To free; NULL when out of memory. */
@@ -102,8 +102,8 @@ static char *export_query(const study *s, bool timings)
     for (int k = 0; k < s->axes[a].n_fields; ++k)
       fprintf(to, ", s.\"%s\" AS \"%s\"", s->axes[a].fields[k].path, s->axes[a].fields[k].path);
   fprintf(to, ", s.status AS status, s.reason AS reason%s", timings ? ", s.seconds AS seconds" : "");
-  if (s->kind != STUDY_TRANSIENT) select_columns(ROWS_CURVE, study_in_cycles(s), 's', to);
-  select_columns(study_rows(s), study_in_cycles(s), 'r', to);
+  if (s->kind != STUDY_TRANSIENT) select_columns(ROWS_CURVE, study_extra_columns(s), 's', to);
+  select_columns(study_rows(s), study_extra_columns(s), 'r', to);
   fputs(" FROM scene AS s LEFT JOIN \"row\" AS r ON r.scene = s.id ORDER BY s.id, r.number", to);
   bool whole = !ferror(to);
   if (fclose(to) == 0 && whole) return sql;

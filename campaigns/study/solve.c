@@ -7,6 +7,7 @@
 
 #include "base/thread_clock.h"
 #include "campaigns/scene_solvers.h"
+#include "cases/structure_model.h"
 #include "compare/frequencies.h"
 
 rows_kind study_rows(const study *s)
@@ -16,6 +17,11 @@ rows_kind study_rows(const study *s)
   case STUDY_TRANSIENT: return ROWS_TRANSIENT;
   default: return ROWS_COMPARE;
   }
+}
+
+unsigned study_extra_columns(const study *s)
+{
+  return (study_in_cycles(s) ? ROWS_IN_CYCLES : 0u) | (s->base.structure ? ROWS_RESPONSES : 0u);
 }
 
 /* The first failure is the one that is reported. omega <= 0: it is of no single frequency. */
@@ -29,7 +35,7 @@ static void fail_with(study_result *r, const char *what, hc_status st, double om
 
 static hc_status make_rows(study_result *r, rows_kind kind, int n)
 {
-  rows_columns(kind, r->in_cycles, &r->n_columns);
+  rows_columns(kind, r->extra, &r->n_columns);
   r->rows = calloc((size_t)n * (size_t)r->n_columns + 1, sizeof *r->rows);
   return r->rows ? HC_OK : HC_NO_MEMORY;
 }
@@ -39,7 +45,21 @@ static row_cell *next_row(study_result *r) { return r->rows + (size_t)r->n_rows+
 static void put_curve(study_result *r, const response_summary *summary)
 {
   r->has_curve = true;
-  rows_curve(summary, r->in_cycles, r->curve);
+  rows_curve(summary, r->extra, r->curve);
+}
+
+/* A row for each response of solution k. */
+static hc_status put_solution(hbm_solver *s, const scene *sc, const hbm_curve *found, int k, study_result *r)
+{
+  const int n = sc->structure ? structure_response_count(sc->structure) : 1;
+  response_row row;
+  hc_status st = response_row_of(s, found, k, &row);
+  for (int i = 0; i < n && st == HC_OK; ++i) {
+    if (i > 0) st = response_row_turn(s, found, k, i, &row);
+    if (sc->structure) structure_response_name(sc->structure, i, row.response, sizeof row.response);
+    if (st == HC_OK) rows_frf(&row, r->extra, next_row(r));
+  }
+  return st;
 }
 
 static hc_status put_solutions(hbm_solver *s, const scene *sc, const hbm_curve *curve, study_result *r)
@@ -47,15 +67,13 @@ static hc_status put_solutions(hbm_solver *s, const scene *sc, const hbm_curve *
   hbm_curve found = {0};
   double failed_at = 0;
   hc_status at = response_at(s, curve, &sc->compare.omega, &found, &failed_at);
-  hc_status st = make_rows(r, ROWS_FRF, found.n);
+  hc_status st = make_rows(r, ROWS_FRF, found.n * (sc->structure ? structure_response_count(sc->structure) : 1));
   if (at == HC_NO_MEMORY) st = at; /* says nothing about the scene: it is not kept */
   else if (at != HC_OK) fail_with(r, "no solution", at, failed_at);
   for (int k = 0; k < found.n && st == HC_OK; ++k) {
-    response_row row;
-    hc_status one = response_row_of(s, &found, k, &row);
+    const hc_status one = put_solution(s, sc, &found, k, r);
     if (one == HC_NO_MEMORY) st = one;
-    else if (one == HC_OK) rows_frf(&row, r->in_cycles, next_row(r));
-    else fail_with(r, "harmonic balance", one, found.points[k].omega);
+    else if (one != HC_OK) fail_with(r, "harmonic balance", one, found.points[k].omega);
   }
   hbm_curve_free(&found);
   return st;
@@ -107,7 +125,7 @@ static hc_status solve_transient(const scene *sc, const hc_monitor *monitor, stu
   if (st == HC_OK) st = make_rows(r, ROWS_TRANSIENT, found.n);
   for (int i = 0; i < found.n && st == HC_OK; ++i) {
     const steady_row *row = &found.rows[i];
-    if (row->stage == STEADY_TRANSIENT) rows_transient(row, r->in_cycles, next_row(r));
+    if (row->stage == STEADY_TRANSIENT) rows_transient(row, r->extra, next_row(r));
     if (row->status == HC_NO_MEMORY) st = row->status;
     else if (row->status != HC_OK) fail_with(r, stages[row->stage], row->status, row->result.omega);
   }
@@ -137,7 +155,7 @@ static hc_status solve_compare(const scene *sc, const hc_monitor *monitor, study
     if (st != HC_OK) fail_with(r, "the comparison", st, 0);
     else put_curve(r, &c.summary);
     st = make_rows(r, ROWS_COMPARE, c.n_rows);
-    for (int i = 0; i < c.n_rows && st == HC_OK; ++i) rows_compare(&c.rows[i], r->in_cycles, next_row(r));
+    for (int i = 0; i < c.n_rows && st == HC_OK; ++i) rows_compare(&c.rows[i], r->extra, next_row(r));
     tell_failures(&c, r);
   }
   comparison_clear(&c);
@@ -149,8 +167,8 @@ hc_status study_solve(const study *s, long id, const hc_monitor *monitor, study_
   scene sc;
   case_error err = {{0}};
   double start = thread_seconds();
-  *out = (study_result){.id = id, .in_cycles = study_in_cycles(s)};
-  rows_columns(study_rows(s), out->in_cycles, &out->n_columns);
+  *out = (study_result){.id = id, .extra = study_extra_columns(s)};
+  rows_columns(study_rows(s), out->extra, &out->n_columns);
   hc_status st = study_scene(s, id, &sc, &err);
   if (st != HC_OK) {
     out->failed = true;

@@ -10,15 +10,16 @@ typedef struct study_result {
   bool failed; /* something could not be solved: reason says what; what was found all the same is there */
   char reason[STUDY_TEXT];
   double seconds; /* of this thread's processor time */
-  bool in_cycles; /* study_in_cycles */
+  unsigned extra; /* study_extra_columns */
   bool has_curve;
   row_cell curve[ROWS_MOST];
   int n_rows, n_columns; /* columns of the study's kind */
   row_cell *rows;        /* [n_rows][n_columns] */
 } study_result;
 
-/* The kind of the rows of a study. */
+/* The kind of the rows of a study, and which columns of rows.h that only some cases have its results have. */
 rows_kind study_rows(const study *s);
+unsigned study_extra_columns(const study *s);
 
 /* Compute scene id. HC_OK (single failures are in the result), HC_INTERRUPTED or HC_NO_MEMORY: no result then. Free
  * with study_result_clear in any case. Safe from several threads. */

@@ -19,10 +19,10 @@ static const char *type_of_field(const field *f)
   return f->kind == FIELD_INTEGER || f->kind == FIELD_FLAG ? "INTEGER" : "TEXT";
 }
 
-static void write_columns(rows_kind kind, bool in_cycles, FILE *to)
+static void write_columns(rows_kind kind, unsigned extra, FILE *to)
 {
   int n;
-  const table_column *columns = rows_columns(kind, in_cycles, &n);
+  const table_column *columns = rows_columns(kind, extra, &n);
   for (int i = 0; i < n; ++i) fprintf(to, ", \"%s\" %s", columns[i].name, type_of(columns[i].kind));
 }
 
@@ -40,9 +40,9 @@ char *store_schema(const study *s, int application_id)
     for (int k = 0; k < s->axes[a].n_fields; ++k)
       fprintf(to, ", \"%s\" %s", s->axes[a].fields[k].path, type_of_field(s->axes[a].fields[k].f));
   fputs(", status TEXT, reason TEXT, seconds REAL", to);
-  write_columns(ROWS_CURVE, study_in_cycles(s), to);
+  write_columns(ROWS_CURVE, study_extra_columns(s), to);
   fputs("); CREATE TABLE \"row\"(scene INTEGER, number INTEGER", to);
-  write_columns(study_rows(s), study_in_cycles(s), to);
+  write_columns(study_rows(s), study_extra_columns(s), to);
   fputs(", PRIMARY KEY(scene, number)) WITHOUT ROWID", to);
   bool whole = !ferror(to);
   if (fclose(to) == 0 && whole) return sql;
@@ -73,8 +73,8 @@ _Static_assert(2 * (STUDY_MOST_FIELDS + ROWS_MOST) + 64 < 4096, "prepare_insert'
 bool store_prepare(study_store *st)
 {
   int n_curve, n_row;
-  rows_columns(ROWS_CURVE, study_in_cycles(st->s), &n_curve);
-  rows_columns(study_rows(st->s), study_in_cycles(st->s), &n_row);
+  rows_columns(ROWS_CURVE, study_extra_columns(st->s), &n_curve);
+  rows_columns(study_rows(st->s), study_extra_columns(st->s), &n_row);
   st->put_scene = prepare_insert(st->db, "scene", 1 + n_varied(st->s) + 3 + n_curve);
   st->put_row = prepare_insert(st->db, "row", 2 + n_row);
   return st->put_scene && st->put_row;
@@ -111,7 +111,7 @@ static bool insert_scene(study_store *st, const study_result *r)
   const study *s = st->s;
   sqlite3_stmt *q = st->put_scene;
   int i = 0, n_curve;
-  rows_columns(ROWS_CURVE, study_in_cycles(s), &n_curve);
+  rows_columns(ROWS_CURVE, study_extra_columns(s), &n_curve);
   sqlite3_bind_int64(q, ++i, r->id);
   for (int a = 0; a < s->n_axes; ++a)
     for (int k = 0; k < s->axes[a].n_fields; ++k) {

@@ -24,19 +24,19 @@ typedef struct chart {
 
 /* ---- the measure ---- */
 
-static bool is_number_column(rows_kind kind, bool in_cycles, const char *name)
+static bool is_number_column(rows_kind kind, unsigned extra, const char *name)
 {
   int n;
-  const table_column *columns = rows_columns(kind, in_cycles, &n);
+  const table_column *columns = rows_columns(kind, extra, &n);
   for (int i = 0; i < n; ++i)
     if (!strcmp(columns[i].name, name)) return columns[i].kind != TABLE_TEXT;
   return false;
 }
 
-static void name_columns(plot_order *p, rows_kind kind, bool in_cycles)
+static void name_columns(plot_order *p, rows_kind kind, unsigned extra)
 {
   int n;
-  const table_column *columns = rows_columns(kind, in_cycles, &n);
+  const table_column *columns = rows_columns(kind, extra, &n);
   for (int i = 0; i < n; ++i) {
     size_t used = strlen(p->why);
     if (columns[i].kind != TABLE_TEXT && used + 48 < sizeof p->why)
@@ -48,14 +48,14 @@ static hc_status choose_measure(plot_order *p, const char *asked, chart *c)
 {
   bool curve = c->s->kind != STUDY_TRANSIENT;
   c->measure = asked ? asked : curve ? "peak_amplitude" : "amplitude";
-  if (!strcmp(c->measure, "seconds") || (curve && is_number_column(ROWS_CURVE, study_in_cycles(c->s), c->measure)))
+  if (!strcmp(c->measure, "seconds") || (curve && is_number_column(ROWS_CURVE, study_extra_columns(c->s), c->measure)))
     return HC_OK;
-  c->of_rows = is_number_column(study_rows(c->s), study_in_cycles(c->s), c->measure);
+  c->of_rows = is_number_column(study_rows(c->s), study_extra_columns(c->s), c->measure);
   if (c->of_rows) return HC_OK;
   snprintf(p->why, sizeof p->why, "--plot-y: '%.40s' is no measure of this study; expected seconds",
            asked ? asked : "");
-  if (curve) name_columns(p, ROWS_CURVE, study_in_cycles(c->s));
-  name_columns(p, study_rows(c->s), study_in_cycles(c->s));
+  if (curve) name_columns(p, ROWS_CURVE, study_extra_columns(c->s));
+  name_columns(p, study_rows(c->s), study_extra_columns(c->s));
   return HC_BAD_INPUT;
 }
 
@@ -64,8 +64,14 @@ static hc_status read_values(plot_order *p, study_store *store, chart *c)
 {
   sqlite3 *db = study_store_readonly(store);
   sqlite3_stmt *query = NULL;
-  char sql[192];
-  if (c->of_rows) snprintf(sql, sizeof sql, "SELECT scene, max(\"%s\") FROM \"row\" GROUP BY scene", c->measure);
+  char sql[320];
+  static const char first_response[] =
+      "WHERE response = (SELECT response FROM \"row\" AS first WHERE first.scene = \"row\".scene "
+      "AND first.number = 0) ";
+  const bool responses = study_extra_columns(c->s) & ROWS_RESPONSES && c->s->kind == STUDY_FRF;
+  if (c->of_rows)
+    snprintf(sql, sizeof sql, "SELECT scene, max(\"%s\") FROM \"row\" %sGROUP BY scene", c->measure,
+             responses ? first_response : "");
   else snprintf(sql, sizeof sql, "SELECT id, \"%s\" FROM scene", c->measure);
   c->value = calloc((size_t)c->s->n_scenes, sizeof *c->value);
   if (!c->value) return HC_NO_MEMORY;

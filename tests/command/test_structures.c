@@ -107,8 +107,7 @@ static void a_stop_has_a_normal_force_alone(void **state)
   const double p = acos(0.25);
   expect("contact " CHAIN "--contact stop --motion-v 0,1,0 --format csv", 0, "force,");
   CHECK_NEAR(cell("force", "\nnormal,0,", 2), (sin(p) - p / 4) / PI, 1e-15, "mean of N");
-  expect("contact " CHAIN "--contact stop --motion-u 0,1,0 2>&1", 64,
-         "contact stop has no tangent;");
+  expect("contact " CHAIN "--contact stop --motion-u 0,1,0 2>&1", 64, "contact stop has no tangent;");
   expect("contact " CHAIN "--contact ground --motion-v 0,1,0 2>&1", 64,
          "contact ground has no normal; expected no --mo");
 }
@@ -146,6 +145,54 @@ static void a_motion_that_fits_no_contact_is_refused(void **state)
   expect("contact " CASE2 "--motion 0,1,0 --motion-u 0,1,0 2>&1", 64, "--motion is of x, and u and v follow from it");
 }
 
+/* ---- study and describe ---------------------------------------------------------------------------- */
+
+/* Two scenes, three responses each; what is drawn and summed up is of the first. */
+static void a_study_keeps_every_response(void **state)
+{
+  (void)state;
+  char line[1024];
+  snprintf(line, sizeof line,
+           "printf 'study: s\\nbase: %s/" CHAIN
+           "\\nrun: frf\\nset: {compare.omega: [1.25]}\\nvary:\\n  - contacts[between]."
+           "friction: [1, 2]\\n' | %s study /dev/stdin --results :memory: --export csv -q",
+           SOURCE_DIR, HBMCHECK_COMMAND);
+  const int code = shell_read(line, out, sizeof out);
+  shell_check(line, code, out, 0, ",omega,branch,response,amplitude,");
+  assert_int_equal(count(",1.25,0,1,"), 2);
+  assert_int_equal(count(",1.25,0,3,"), 2);
+}
+
+static void a_structure_says_what_it_resolved_to(void **state)
+{
+  (void)state;
+  expect("describe --case " CHAIN "--format csv", 0,
+         "\nstructure.mass,\"3 x 3, diagonal\",force time^2/length,file,6,9,");
+  const char *const words[] = {"\nstructure.damping,rayleigh,force",
+                               "\nstructure.damping.rayleigh,\"[0, 0.02]\",",
+                               "\nstructure.damping.modal,,1,,,,",
+                               "\nforcing[0].direction,2,",
+                               "\nforcing[0].amplitude,1,force,file,10,5,",
+                               "\ncontacts[0].name,ground,",
+                               "\ncontacts[1].tangent,-1+2,1,file,",
+                               "\ncontacts[1].normal,,1,,,,",
+                               "\ncontacts[1].normal_stiffness,,force/length,,,,",
+                               "\ncontacts[2].gap,-0.25,length,",
+                               "\ncontacts[2].tangential_stiffness,,",
+                               "\nresponse,\"1, 2, 3\",",
+                               "\nhbm.harmonics,5,1,default,",
+                               "\ndegrees_of_freedom,3,1,",
+                               "\nomega_open,0.7653668647301"}; /* 2 sin(pi/8), of a chain of 3 */
+  for (size_t i = 0; i < sizeof words / sizeof *words; ++i) assert_non_null(strstr(out, words[i]));
+  assert_null(strstr(out, "oscillator."));
+  assert_null(strstr(out, "\nforcing.amplitude"));
+  expect("describe --case cases/structures/beam16.yaml --format csv", 0,
+         "structure.stiffness,16 x 16 of cases/structures/");
+  expect("describe contacts --case " CHAIN "--set 'contacts[between].friction=3' --format csv", 0,
+         "\ncontacts[1].friction,3,1,--set,");
+  assert_null(strstr(out, "structure.mass"));
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -156,6 +203,8 @@ int main(void)
       cmocka_unit_test(a_stop_has_a_normal_force_alone),
       cmocka_unit_test(one_contact_of_an_oscillator_adds_up),
       cmocka_unit_test(a_motion_that_fits_no_contact_is_refused),
+      cmocka_unit_test(a_study_keeps_every_response),
+      cmocka_unit_test(a_structure_says_what_it_resolved_to),
   };
   check_watchdog(60);
   return cmocka_run_group_tests_name("command.structures", tests, NULL, NULL);

@@ -168,6 +168,23 @@ static void structures_vary_too(void **state)
   study_free(s);
 }
 
+static void one_number_of_rayleigh_damping_varies(void **state)
+{
+  (void)state;
+  study *s = good_study("study: t\nrun: frf\n" STRUCTURE_CASE
+                        "vary:\n  - structure.damping.rayleigh[0]: {from: 1, to: 3, count: 3}\n"
+                        "  - structure.damping.rayleigh[1]: [0.5, 0.25]\n");
+  assert_int_equal(s->n_scenes, 6);
+  for (long id = 0; id < 6; ++id) {
+    scene sc = scene_of(s, id);
+    const double alpha = 1 + (double)(id / 2), beta = id % 2 ? 0.25 : 0.5;
+    CHECK_NEAR(sc.structure->damping.v[0], alpha * 1 + beta * 3, 0, "scene %ld", id); /* M = 1, 2; K = 3, 4: exact */
+    CHECK_NEAR(sc.structure->damping.v[3], alpha * 2 + beta * 4, 0, "scene %ld", id);
+    case_clear(&sc);
+  }
+  study_free(s);
+}
+
 static void parts_of_structures_do_not_vary(void **state)
 {
   (void)state;
@@ -192,6 +209,7 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(the_fingerprint_is_of_what_is_computed),
     cmocka_unit_test(the_largest_study),
     cmocka_unit_test(structures_vary_too),
+    cmocka_unit_test(one_number_of_rayleigh_damping_varies),
     cmocka_unit_test(parts_of_structures_do_not_vary),
 };
 CHECK_MAIN("study.grid", tests, 60)

@@ -28,6 +28,8 @@ static void every_part_can_be_set(void **state)
   is_as_if("structure.damping.modal=0.02", "modal: 0.01", "modal: 0.02");
   is_as_if("structure.damping.modal=[0.02, 0.03]", "modal: 0.01", "modal: [0.02, 0.03]");
   is_as_if("structure.damping.rayleigh=[0.5, 1e-3]", "modal: 0.01", "rayleigh: [0.5, 1e-3]");
+  is_as_if("structure.damping.rayleigh[0]=0.5", "modal: 0.01", "rayleigh: [0.5, 0]");
+  is_as_if("structure.damping.rayleigh[1]=1e-3", "modal: 0.01", "rayleigh: [0, 1e-3]");
   is_as_if("structure.damping={rayleigh: [0.5, 1e-3]}", "modal: 0.01", "rayleigh: [0.5, 1e-3]");
   is_as_if("structure.damping=[3, 4]", "{modal: 0.01}", "[3, 4]");
   is_as_if("structure.mass=[3, 4]", "[1, 0.02]", "[3, 4]");
@@ -53,6 +55,24 @@ static void every_part_can_be_set(void **state)
   is_as_if("structure.names=[root, tip]", LISTS, LISTS); /* what has been read stays where it was */
 }
 
+/* One number of Rayleigh damping leaves the other where there was such damping, also if it came before in the list. */
+static void one_number_of_rayleigh_damping_leaves_the_other(void **state)
+{
+  (void)state;
+  static const char *const set[] = {"structure.damping.rayleigh=[0.5, 1e-3]", "structure.damping.rayleigh[0]=0.25",
+                                    "structure.damping.modal=0.1", "structure.damping.rayleigh[1]=1e-2"};
+  static const double expected[][2] = {{0.5, 1e-3}, {0.25, 1e-3}, {0, 0}, {0, 1e-2}};
+  for (int n = 1; n <= 4; ++n) {
+    scene sc;
+    case_error err;
+    assert_int_equal(case_parse("f", TWO_NAMED, strlen(TWO_NAMED), n, set, &sc, &err), HC_OK);
+    const scene_structure *s = sc.structure;
+    assert_int_equal(s->how, n == 3 ? STRUCTURE_DAMPING_MODAL : STRUCTURE_DAMPING_RAYLEIGH);
+    if (n != 3) assert_true(s->rayleigh[0] == expected[n - 1][0] && s->rayleigh[1] == expected[n - 1][1]);
+    case_clear(&sc);
+  }
+}
+
 static void mistakes_name_the_assignment(void **state)
 {
   (void)state;
@@ -74,6 +94,9 @@ static void mistakes_name_the_assignment(void **state)
       {"forcing[0].amplitud=1", "did you mean `forcing[0].amplitude`?"},
       {"forcing[0].amplitude=x", "forcing[0].amplitude is `x`, expected a number"},
       {"forcing[0].dof=tp", "no DOF `tp`, did you mean `tip`?"},
+      {"contacts[1].frictin=1", "did you mean `contacts[1].friction`?"},
+      {"contacts[joint].frictin=1", "did you mean `contacts[0].friction`?"},
+      {"structure.damping.rayleigh[2]=1", "unknown field `structure.damping.rayleigh[2]`"},
       {"contacts[2].friction=1", "the case has 2 contacts, expected an index 0..1"},
       {"contacts[jont].friction=1", "no contact is named `jont`, did you mean `joint`?"},
       {"contacts[weld].friction=1", "no contact is named `weld`, expected an index or a name that the case gives"},
@@ -125,6 +148,7 @@ static void a_copy_is_changed_without_its_original(void **state)
 
 static const struct CMUnitTest tests[] = {
     cmocka_unit_test(every_part_can_be_set),
+    cmocka_unit_test(one_number_of_rayleigh_damping_leaves_the_other),
     cmocka_unit_test(mistakes_name_the_assignment),
     cmocka_unit_test(a_preload_needs_a_stiffness_that_can_hold_it),
     cmocka_unit_test(a_copy_is_changed_without_its_original),
