@@ -140,37 +140,26 @@ hc_status structure_free_motion(const scene_structure *s, double *x, bool *free_
 
 /* ---- damping ---- */
 
-/* y += M x; the columns of a mass matrix are zeros for the most part. */
-static void add_product(int n, const double *M, const double *x, double *y)
-{
-  for (int j = 0; j < n; ++j) {
-    int first = 0, last = n - 1;
-    while (first < n && AT(M, first, j) == 0) ++first;
-    while (last > first && AT(M, last, j) == 0) --last;
-    for (int i = first; i <= last; ++i) y[i] += AT(M, i, j) * x[j];
-  }
-}
-
-/* C = M Phi diag(2 z omega) Phi^T M, one mode after the other. `room` is [n][n + 2]. */
+/* C = M Phi diag(2 z omega) Phi^T M = P P^T, P = M Phi diag(sqrt(2 z omega)). `room` is [3 n + 1][n]. */
 static hc_status modal_damping(scene_structure *s, double *room)
 {
   const int n = s->n;
-  double *C = s->damping.v, *phi = room, *lambda = room + (size_t)n * (size_t)n, *momentum = lambda + n;
+  const size_t rows = (size_t)n;
+  double *phi = room, *P = phi + rows * rows, *turned = P + rows * rows, *lambda = turned + rows * rows;
   const hc_status st = dense_modes(n, s->stiffness.v, s->mass.v, lambda, phi);
   if (st != HC_OK) return st;
   const double rounding = n * DBL_EPSILON * fmax(fabs(lambda[0]), fabs(lambda[n - 1]));
   if (lambda[0] < -rounding) return HC_BAD_INPUT; /* they ascend */
-  memset(C, 0, (size_t)n * (size_t)n * sizeof *C);
-  for (int k = 0; k < n; ++k) {
+  dense_multiply(n, n, n, s->mass.v, phi, P);
+  for (size_t k = 0; k < rows; ++k) {
     const double z = s->how == STRUCTURE_DAMPING_MODAL ? s->modal : s->ratios[k];
-    const double c = 2 * z * sqrt(fmax(lambda[k], 0));
-    memset(momentum, 0, (size_t)n * sizeof *momentum);
-    add_product(n, s->mass.v, phi + (size_t)n * (size_t)k, momentum);
-    for (int j = 0; j < n && c != 0; ++j)
-      for (int i = j; i < n; ++i) AT(C, i, j) += c * momentum[j] * momentum[i];
+    const double share = sqrt(2 * z * sqrt(fmax(lambda[k], 0)));
+    for (size_t i = 0; i < rows; ++i) P[k * rows + i] *= share;
   }
+  dense_transpose(n, n, P, turned);
+  dense_multiply(n, n, n, P, turned, s->damping.v);
   for (int j = 0; j < n; ++j)
-    for (int i = 0; i < j; ++i) AT(C, i, j) = AT(C, j, i);
+    for (int i = 0; i < j; ++i) AT(s->damping.v, i, j) = AT(s->damping.v, j, i);
   return HC_OK;
 }
 
@@ -184,7 +173,7 @@ hc_status structure_resolve_damping(scene_structure *s)
       s->damping.v[i] = s->rayleigh[0] * s->mass.v[i] + s->rayleigh[1] * s->stiffness.v[i];
     return HC_OK;
   }
-  double *room = malloc((square + 2 * n) * sizeof *room);
+  double *room = malloc((3 * square + n) * sizeof *room);
   const hc_status st = room ? modal_damping(s, room) : HC_NO_MEMORY;
   free(room);
   return st;

@@ -117,7 +117,7 @@ static hc_status put_contacts(const cli_common *common, hbm_solver *s, const hbm
   return st;
 }
 
-static void note_curve(table *t, const scene *sc, const hbm_solver *s, const hbm_curve *c)
+static void note_curve(table *t, const scene *sc, const hbm_solver *s, const hbm_curve *c, bool at_given)
 {
   char how[128];
   table_note(t, "%s: %s; %d points, %ld iterations, %d steps rejected, %d turning points, %s continuation", sc->title,
@@ -126,6 +126,10 @@ static void note_curve(table *t, const scene *sc, const hbm_solver *s, const hbm
   if (c->inaccurate)
     table_note(t, "hbm.accuracy %g was NOT met everywhere with the most harmonics or samples that auto takes",
                sc->hbm.accuracy);
+  if (hbm_stability_is_costly(s) && !at_given)
+    table_note(
+        t, "stability is found at the omegas of --at alone, nor are period doublings and such looked for: more than "
+           "50 degrees of freedom");
   if (sc->hbm.keep_mean && scene_adrift(sc)) table_note(t, "%s", SCENE_ADRIFT);
   if (c->n == 0) return;
   char last[SCENE_WHERE];
@@ -209,7 +213,7 @@ static int run_frf(int argc, char **argv)
     if (st == HC_OK) st = shown;
     if (contacts) shown = put_contacts(&common, s, at->n ? &found : &curve, contacts);
     if (st == HC_OK) st = shown;
-    note_curve(t, &sc, s, &curve);
+    note_curve(t, &sc, s, &curve, at->n > 0);
     hc_status noted = at->n ? HC_OK : note_specials(t, &sc, s, &curve);
     if (st == HC_OK && noted == HC_NO_MEMORY) st = noted; /* another failure to locate one is in the note */
     if (st != HC_OK && (curve.n == 0 || curve.end == HC_OK)) table_note(t, "INCOMPLETE: %s", hc_status_text(st));

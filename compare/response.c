@@ -9,8 +9,9 @@ hc_status response_row_of(hbm_solver *s, const hbm_curve *c, int k, response_row
   const double *X = c->X + (size_t)k * c->n_coef;
   *out = (response_row){.point = c->points[k]};
   hc_status st = hbm_measure(s, X, &out->measures);
-  hc_status known = st == HC_OK ? hbm_stability_at(s, out->point.omega, X, &out->stability) : st;
-  out->stability_known = known == HC_OK;
+  const bool wanted = c->asked || !hbm_stability_is_costly(s);
+  hc_status known = st == HC_OK && wanted ? hbm_stability_at(s, out->point.omega, X, &out->stability) : st;
+  out->stability_known = wanted && known == HC_OK;
   return known == HC_NO_MEMORY ? known : st;
 }
 

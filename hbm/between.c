@@ -11,6 +11,7 @@ hc_status hbm_curve_at(hbm_solver *s, const hbm_curve *c, double omega, hbm_curv
 {
   hc_status worst = HC_OK;
   at->omega_scale = c->omega_scale;
+  at->asked = true;
   for (int k = 0; k + 1 < c->n; ++k) {
     hc_status st = hbm_segment_solutions(s, c, k, omega, k + 2 == c->n, at);
     if (st != HC_OK) worst = st;

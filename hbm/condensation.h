@@ -8,8 +8,9 @@
  *
  * for each harmonic h, as complex amplitudes a - i b. q are motions of the contacts themselves, as many as are
  * independent, and the first response; or all of x, where that is no more. With one degree of freedom q = x and there
- * is no rest. The rest's coordinates y are its modes with q held; where K and M are symmetric and C is diagonal in
- * them, a harmonic costs n dim^2, else an LU of the rest. Nothing is dropped. Source: Krack and Gross, Harmonic Balance
+ * is no rest. The rest's coordinates y are its modes with q held. Where that is large and damped, S comes from a sum over
+ * the modes of the whole instead (compliance.h): n dim^2 a harmonic at most. Elsewhere it is the sum above, n dim^2
+ * where C is diagonal in the rest's modes, or an LU of the rest. Nothing is dropped. Source: Krack and Gross, Harmonic Balance
  * for Nonlinear Vibration Problems, Springer 2019, section 4.1; modes with q held: Craig and Bampton 1968. */
 #ifndef HC_HBM_CONDENSATION_H
 #define HC_HBM_CONDENSATION_H
@@ -53,11 +54,10 @@ typedef struct condensation_change {
 } condensation_change;
 condensation_change condensation_by_omega(const condensation *c, int h);
 condensation_change condensation_by_damping(const condensation *c, int h);
-void condensation_stiffness_change(const condensation *c, int h, condensation_change by, double complex *dS);
-void condensation_load_change(const condensation *c, int i, condensation_change by, double complex *dp);
+void condensation_stiffness_change(condensation *c, int h, condensation_change by, double complex *dS);
+void condensation_load_change(condensation *c, int i, condensation_change by, double complex *dp);
 
 /* Harmonic h of direction d in x, response r: row . q + rest. row[dim]; factor: of the loads. */
-void condensation_response(const condensation *c, int h, int r, double factor, double complex *row,
-                           double complex *rest);
+void condensation_response(condensation *c, int h, int r, double factor, double complex *row, double complex *rest);
 
 #endif

@@ -27,38 +27,17 @@ static double dot(int n, const double *a, const double *b)
   return sum;
 }
 
-/* C = A^T B A, by columns; work[n n]. */
-static void congruence(int n, const double *A, const double *B, double *work, double *C)
-{
-  for (int j = 0; j < n; ++j)
-    for (int i = 0; i < n; ++i) {
-      double sum = 0;
-      for (int k = 0; k < n; ++k) sum += B[(size_t)i + (size_t)k * (size_t)n] * A[(size_t)k + (size_t)j * (size_t)n];
-      work[(size_t)i + (size_t)j * (size_t)n] = sum;
-    }
-  for (int j = 0; j < n; ++j)
-    for (int i = 0; i < n; ++i)
-      C[(size_t)i + (size_t)j * (size_t)n] = dot(n, A + (size_t)i * (size_t)n, work + (size_t)j * (size_t)n);
-}
-
-static bool is_symmetric(int n, const double *A)
-{
-  for (int j = 0; j < n; ++j)
-    for (int i = 0; i < j; ++i)
-      if (A[(size_t)i + (size_t)j * (size_t)n] != A[(size_t)j + (size_t)i * (size_t)n]) return false;
-  return true;
-}
-
 static hc_status allocate(const model *m, condensation_basis *b)
 {
   const size_t n = (size_t)m->n;
   double **const squares[] = {&b->T, &b->M, &b->C, &b->K};
   for (size_t i = 0; i < sizeof squares / sizeof *squares; ++i)
     if (!(*squares[i] = calloc(n * n, sizeof(double)))) return HC_NO_MEMORY;
+  b->rows = calloc(n * (2 * (size_t)m->n_contacts + 1), sizeof(double));
   b->directions = calloc(2 * n * (size_t)m->n_contacts + 1, sizeof(double));
   b->loads = calloc(2 * n * (size_t)m->n_loads + 1, sizeof(double));
   b->responses = calloc(n * (size_t)m->n_responses + 1, sizeof(double));
-  return b->directions && b->loads && b->responses ? HC_OK : HC_NO_MEMORY;
+  return b->rows && b->directions && b->loads && b->responses ? HC_OK : HC_NO_MEMORY;
 }
 
 void condensation_basis_clear(condensation_basis *b)
@@ -67,6 +46,7 @@ void condensation_basis_clear(condensation_basis *b)
   free(b->M);
   free(b->C);
   free(b->K);
+  free(b->rows);
   free(b->directions);
   free(b->loads);
   free(b->responses);
@@ -99,6 +79,16 @@ static int collect_rows(const model *m, const double **row)
   return n;
 }
 
+/* The chosen rows, as long as 1, for q = rows x. */
+static void keep_rows(const model *m, const double *const *row, const int *pivot, condensation_basis *b)
+{
+  const int n = m->n;
+  for (int d = 0; d < b->dim; ++d) {
+    const double *from = row[pivot[d]], length = sqrt(dot(n, from, from));
+    for (int i = 0; i < n; ++i) b->rows[(size_t)d * (size_t)n + (size_t)i] = from[i] / length;
+  }
+}
+
 static hc_status choose_coordinates(const model *m, condensation_basis *b)
 {
   const int n = m->n, most = 2 * m->n_contacts + 1;
@@ -109,6 +99,7 @@ static hc_status choose_coordinates(const model *m, condensation_basis *b)
   b->dim = 0;
   if (st == HC_OK) st = dense_span(n, collect_rows(m, row), row, dependent, &b->dim, pivot, b->T, triangle);
   b->rest = n - b->dim;
+  if (st == HC_OK) keep_rows(m, row, pivot, b);
   if (st == HC_OK && b->rest > 0) make_unit_motions(n, b->dim, triangle, b->T);
   if (st == HC_OK && b->rest == 0) {
     memset(b->T, 0, square(n) * sizeof *b->T);
@@ -122,51 +113,34 @@ static hc_status choose_coordinates(const model *m, condensation_basis *b)
 
 /* ---- modes of the rest ------------------------------------------------------------------------- */
 
-/* The block of A[n][n] that begins at (from, from), size x size, to B. */
-static void copy_block(int n, const double *A, int from, int size, double *B)
-{
-  for (int j = 0; j < size; ++j)
-    memcpy(B + (size_t)j * (size_t)size, A + (size_t)from + (size_t)(from + j) * (size_t)n, (size_t)size * sizeof *B);
-}
-
-/* Y := Y phi, then P := P - Y lambda^-1 (Y^T K P): static forces of q move no y. */
+/* Y := Y phi, then P := P - Y lambda^-1 (Y^T K P): static forces of q move no y. work[2 n n]. */
 static void turn_to_modes(const model *m, condensation_basis *b, const double *lambda, const double *phi, double *work)
 {
   const int n = m->n, dim = b->dim, rest = b->rest;
-  double *Y = b->T + (size_t)dim * (size_t)n, *KY = b->M; /* M, C, K are made afterwards */
-  for (int j = 0; j < rest; ++j)
-    for (int i = 0; i < n; ++i) {
-      double sum = 0;
-      for (int k = 0; k < rest; ++k)
-        sum += Y[(size_t)i + (size_t)k * (size_t)n] * phi[(size_t)k + (size_t)j * (size_t)rest];
-      work[(size_t)i + (size_t)j * (size_t)n] = sum;
-    }
+  double *P = b->T, *Y = P + (size_t)dim * (size_t)n, *part = b->K, *KP = work; /* M, C, K are made afterwards */
+  dense_multiply(n, rest, rest, Y, phi, work);
   memcpy(Y, work, (size_t)n * (size_t)rest * sizeof *Y);
-  for (int j = 0; j < rest; ++j)
-    for (int i = 0; i < n; ++i)
-      KY[(size_t)i + (size_t)j * (size_t)n] =
-          dot(n, m->stiffness + (size_t)i * (size_t)n, Y + (size_t)j * (size_t)n); /* K is symmetric */
+  dense_multiply(n, dim, n, m->stiffness, P, KP);
   for (int d = 0; d < dim; ++d)
-    for (int j = 0; j < rest; ++j) {
-      const double part = dot(n, KY + (size_t)j * (size_t)n, b->T + (size_t)d * (size_t)n) / lambda[j];
-      for (int i = 0; i < n; ++i)
-        b->T[(size_t)i + (size_t)d * (size_t)n] -= part * Y[(size_t)i + (size_t)j * (size_t)n];
-    }
+    for (int j = 0; j < rest; ++j)
+      part[(size_t)d * (size_t)rest + (size_t)j] =
+          -dot(n, Y + (size_t)j * (size_t)n, KP + (size_t)d * (size_t)n) / lambda[j];
+  dense_multiply(n, dim, rest, Y, part, work);
+  for (size_t i = 0; i < (size_t)n * (size_t)dim; ++i) P[i] += work[i];
 }
 
 /* Where K and M are symmetric. */
 static hc_status choose_modes(const model *m, condensation_basis *b)
 {
   const int n = m->n, rest = b->rest;
-  double *work = calloc(square(n), sizeof *work), *lambda = calloc((size_t)rest, sizeof *lambda),
+  const double *Y = b->T + (size_t)b->dim * (size_t)n;
+  double *work = calloc(2 * square(n), sizeof *work), *lambda = calloc((size_t)rest, sizeof *lambda),
          *phi = calloc(square(rest), sizeof *phi), *Myy = calloc(square(rest), sizeof *Myy),
          *Kyy = calloc(square(rest), sizeof *Kyy);
   hc_status st = work && lambda && phi && Myy && Kyy ? HC_OK : HC_NO_MEMORY;
   if (st == HC_OK) {
-    congruence(n, b->T, m->mass, work, b->M);
-    congruence(n, b->T, m->stiffness, work, b->K);
-    copy_block(n, b->M, b->dim, rest, Myy);
-    copy_block(n, b->K, b->dim, rest, Kyy);
+    dense_congruence(n, rest, Y, m->mass, work, Myy);
+    dense_congruence(n, rest, Y, m->stiffness, work, Kyy);
     st = dense_modes(rest, Kyy, Myy, lambda, phi);
   }
   for (int i = 0; i < rest && st == HC_OK; ++i)
@@ -245,17 +219,18 @@ hc_status condensation_basis_make(const model *m, condensation_basis *b)
   hc_status st = allocate(m, b);
   if (st == HC_OK) st = choose_coordinates(m, b);
   if (st != HC_OK) return st;
-  const bool modes = b->rest > 0 && is_symmetric(m->n, m->stiffness);
+  const bool modes = b->rest > 0 && dense_is_symmetric(m->n, m->stiffness);
   if (modes) st = choose_modes(m, b);
-  double *work = calloc(square(m->n), sizeof *work);
+  double *work = calloc(2 * square(m->n), sizeof *work);
   if (st == HC_OK && !work) st = HC_NO_MEMORY;
   if (st == HC_OK) {
-    congruence(m->n, b->T, m->mass, work, b->M);
-    congruence(m->n, b->T, m->damping, work, b->C);
-    congruence(m->n, b->T, m->stiffness, work, b->K);
+    dense_congruence(m->n, m->n, b->T, m->mass, work, b->M);
+    dense_congruence(m->n, m->n, b->T, m->damping, work, b->C);
+    dense_congruence(m->n, m->n, b->T, m->stiffness, work, b->K);
     transform_vectors(m, b);
     clean_directions(m, b);
     if (modes) drop_rounding(b);
+    b->modes = modes;
     b->diagonal = modes && damping_is_diagonal(b);
   }
   free(work);

@@ -99,7 +99,6 @@ hc_status hbm_solver_new(const model *m, const hbm_settings *how, hbm_solver **o
   s->how = *how;
   s->step_scale = 1;
   hc_status st = model_copy(m, &s->model);
-  if (st == HC_OK) st = monodromy_new(s->model, &s->monodromy);
   if (st == HC_OK) st = make_equations(s, n_harm, n_time);
   if (st == HC_OK) {
     *out = s;

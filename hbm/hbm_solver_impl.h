@@ -16,7 +16,7 @@ struct hbm_solver {      /* from hbm_solver_new, to hbm_solver_free; not shared 
   int n_time;            /* samples per period, for sampled forces */
   newton *fixed, *plane; /* the two forms of corrector.h */
   contact_forces *orbit; /* locates the transitions of a solution of sampled equations; NULL when sys does */
-  monodromy *monodromy;
+  monodromy *monodromy; /* NULL until it is needed */
   refinement *finer_harmonics; /* tells auto the error of this many harmonics; NULL where the settings give a number */
   refinement *finer_samples;   /* the same of samples */
   refinement *exact_finer;     /* hbm_predict's equations; NULL until it is asked */
@@ -42,5 +42,8 @@ void hbm_truncate(const hbm_solver *s, int n_coef, double *X);
 /* The event-located orbit of X: *orbit is an exact evaluator of the solver's own, evaluated at X, *report what it
  * found. Errors of contact_forces_eval. */
 hc_status hbm_located_orbit(hbm_solver *s, const double *X, const contact_forces **orbit, contact_report *report);
+
+/* The multipliers along an orbit of hbm_located_orbit: monodromy_stability. */
+hc_status hbm_multipliers(hbm_solver *s, const contact_forces *orbit, double omega, hbm_stability *out);
 
 #endif

@@ -15,6 +15,7 @@ typedef struct hbm_curve { /* made empty with {0}, freed by hbm_curve_free */
   hc_status end;      /* HC_OK: the whole sweep was covered; else why the curve stops at the last point */
   bool left_at_start; /* ended because the branch turned back past the start of the sweep */
   bool arclength;     /* arc-length continuation was needed */
+  bool asked;         /* solutions at given omegas (hbm_curve_at), not the points that a curve happens to have */
   bool inaccurate;    /* auto: somewhere not even the most harmonics or samples met hbm.accuracy */
   int linear;         /* points taken from the linear closed form */
   int turning_points; /* passed by the whole curve */

@@ -56,7 +56,7 @@ static hc_status evaluate_tests(detector *d, double omega, double d_omega, const
   contact_report report;
   hbm_stability stability = {.flip = NAN, .pair = NAN};
   hc_status st = hbm_located_orbit(d->s, X, &orbit, &report);
-  if (st == HC_OK && with_multipliers) st = monodromy_stability(d->s->monodromy, d->s->model, orbit, omega, &stability);
+  if (st == HC_OK && with_multipliers) st = hbm_multipliers(d->s, orbit, omega, &stability);
   if (st == HC_OK)
     *v = (test_values){d_omega,        stability.flip, stability.pairs_outside,
                        stability.pair, report.regime,  report.transitions};
@@ -66,7 +66,7 @@ static hc_status evaluate_tests(detector *d, double omega, double d_omega, const
 static hc_status evaluate_at_point(detector *d, int k, test_values *v)
 {
   const hbm_point *p = &d->c->points[k];
-  return evaluate_tests(d, p->omega, p->d_omega, hbm_curve_X(d->c, k), true, v);
+  return evaluate_tests(d, p->omega, p->d_omega, hbm_curve_X(d->c, k), !hbm_stability_is_costly(d->s), v);
 }
 
 static bool same_pattern(const test_values *a, const test_values *b)

@@ -6,13 +6,21 @@
 #include "hbm/corrector.h"
 #include "hbm/hbm_solver_impl.h"
 
+bool hbm_stability_is_costly(const hbm_solver *s) { return s->model->n > 50; }
+
+hc_status hbm_multipliers(hbm_solver *s, const contact_forces *orbit, double omega, hbm_stability *out)
+{
+  hc_status st = s->monodromy ? HC_OK : monodromy_new(s->model, &s->monodromy);
+  return st == HC_OK ? monodromy_stability(s->monodromy, s->model, orbit, omega, out) : st;
+}
+
 hc_status hbm_stability_at(hbm_solver *s, double omega, const double *X, hbm_stability *out)
 {
   const contact_forces *orbit;
   contact_report report;
   int det_sign;
   hc_status st = hbm_located_orbit(s, X, &orbit, &report);
-  if (st == HC_OK) st = monodromy_stability(s->monodromy, s->model, orbit, omega, out);
+  if (st == HC_OK) st = hbm_multipliers(s, orbit, omega, out);
   if (st != HC_OK) return st;
   bool regular = hbm_det_sign_at(s, omega, X, &det_sign) == HC_OK;
   out->agrees = regular && (det_sign > 0) == (out->fold > 0);

@@ -47,11 +47,17 @@ hc_status model_find_scales(const model *m, model_scales *out)
     return HC_OK;
   }
   const size_t n = (size_t)m->n;
-  double *omega2 = malloc(n * sizeof *omega2), *phi = malloc(n * n * sizeof *phi);
+  double *omega2 = malloc(n * sizeof *omega2), *phi = malloc(2 * n * n * sizeof *phi),
+         *C_phi = phi ? phi + n * n : NULL;
   hc_status st = omega2 && phi ? model_modes(m, true, omega2, phi) : HC_NO_MEMORY;
   if (st == HC_OK) {
     *out = (model_scales){sqrt(fmax(omega2[n - 1], 0)), INFINITY};
-    for (size_t i = 0; i < n; ++i) out->half_width = fmin(out->half_width, 0.5 * model_modal_damping(m, phi + i * n));
+    dense_multiply(m->n, m->n, m->n, m->damping, phi, C_phi);
+    for (size_t i = 0; i < n; ++i) {
+      double c = 0;
+      for (size_t k = 0; k < n; ++k) c += phi[i * n + k] * C_phi[i * n + k];
+      out->half_width = fmin(out->half_width, 0.5 * c);
+    }
     out->half_width = fmax(out->half_width, 0);
   }
   free(omega2);

@@ -2,13 +2,22 @@
  * CHARACTER argument has its length behind the others. */
 #include "numerics/dense.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "numerics/product.h"
+
 void dsygvd_(const int *type, const char *job, const char *half, const int *n, double *a, const int *lda, double *b,
              const int *ldb, double *w, double *work, const int *lwork, int *iwork, const int *liwork, int *info,
              size_t job_length, size_t half_length);
+void dgemm_(const char *transpose_a, const char *transpose_b, const int *m, const int *n, const int *k,
+            const double *alpha, const double *a, const int *lda, const double *b, const int *ldb, const double *beta,
+            double *c, const int *ldc, size_t a_length, size_t b_length);
+void dgetrf_(const int *m, const int *n, double *a, const int *lda, int *pivot, int *info);
+void dgetrs_(const char *transposed, const int *n, const int *columns, const double *a, const int *lda,
+             const int *pivot, double *b, const int *ldb, int *info, size_t transposed_length);
 void dgeqp3_(const int *m, const int *n, double *a, const int *lda, int *pivot, double *tau, double *work,
              const int *lwork, int *info);
 void dorgqr_(const int *m, const int *n, const int *k, double *a, const int *lda, const double *tau, double *work,
@@ -29,7 +38,55 @@ __attribute__((constructor)) static void keep_to_one_thread(void)
   if (openblas_set_num_threads) openblas_set_num_threads(1);
 }
 
+bool dense_blas_is_fast(void) { return openblas_set_num_threads != NULL; }
+
 static size_t square(int n) { return (size_t)n * (size_t)n; }
+
+/* ---- products ------------------------------------------------------------------------------------ */
+
+void dense_multiply(int m, int n, int k, const double *A, const double *B, double *C)
+{
+  const double one = 1, nothing = 0;
+  const size_t entries = (size_t)m * (size_t)n;
+  if (m <= 0 || n <= 0) return;
+  if (dense_blas_is_fast()) {
+    dgemm_("N", "N", &m, &n, &k, &one, A, &m, B, &k, &nothing, C, &m, 1, 1);
+    return;
+  }
+  memset(C, 0, entries * sizeof *C);
+  product_subtract(m, n, k, A, m, B, k, C, m);
+  for (size_t i = 0; i < entries; ++i) C[i] = -C[i];
+}
+
+void dense_transpose(int rows, int columns, const double *A, double *B)
+{
+  enum { TILE = 16 }; /* both sides of it stay in the cache */
+  for (int j = 0; j < columns; j += TILE)
+    for (int i = 0; i < rows; i += TILE)
+      for (int c = j; c < columns && c < j + TILE; ++c)
+        for (int r = i; r < rows && r < i + TILE; ++r)
+          B[(size_t)c + (size_t)r * (size_t)columns] = A[(size_t)r + (size_t)c * (size_t)rows];
+}
+
+void dense_congruence(int n, int m, const double *A, const double *B, double *work, double *C)
+{
+  double *BA = work, *turned = work + (size_t)n * (size_t)m;
+  dense_multiply(n, m, n, B, A, BA);
+  dense_transpose(n, m, A, turned);
+  dense_multiply(m, m, n, turned, BA, C);
+}
+
+bool dense_is_symmetric(int n, const double *A)
+{
+  for (int j = 0; j < n; ++j)
+    for (int i = 0; i < j; ++i) {
+      const double a = A[(size_t)i + (size_t)j * (size_t)n], b = A[(size_t)j + (size_t)i * (size_t)n];
+      if (!(fabs(a - b) <= 4 * DBL_EPSILON * (fabs(a) + fabs(b)))) return false;
+    }
+  return true;
+}
+
+/* ---- eigenvectors and spans ---------------------------------------------------------------------- */
 
 hc_status dense_modes(int n, const double *K, const double *M, double *lambda, double *phi)
 {
@@ -97,23 +154,53 @@ hc_status dense_span(int n, int rows, const double *const *row, double tolerance
   return st;
 }
 
-hc_status dense_eigen(int n, double *A, double complex *lambda, double complex *V)
+/* Column k of vectors as LAPACK leaves them: of a pair, real parts, then imaginary parts of its first. */
+static void unpack_vector(size_t n, const double *vectors, size_t k, double im, double complex *to)
 {
-  const int work_length = 8 * n, one = 1;
-  const size_t rows = (size_t)n;
-  double *re = malloc((2 * rows + square(n) + (size_t)work_length) * sizeof *re);
+  const double *x = vectors + (im < 0 ? k - 1 : k) * n, *y = x + n;
+  for (size_t i = 0; i < n; ++i) to[i] = im > 0 ? x[i] + I * y[i] : im < 0 ? x[i] - I * y[i] : x[i];
+}
+
+hc_status dense_eigen_both(int n, double *A, double complex *lambda, double complex *V, double complex *W)
+{
+  const int work_length = 8 * n;
+  const size_t rows = (size_t)n, left = W ? square(n) : 0;
+  double *re = malloc((2 * rows + square(n) + left + (size_t)work_length) * sizeof *re);
   int info = 0;
   if (!re) return HC_NO_MEMORY;
-  double *im = re + rows, *vectors = im + rows;
-  dgeev_("N", "V", &n, A, &n, re, im, NULL, &one, vectors, &n, vectors + square(n), &work_length, &info, 1, 1);
-  for (size_t k = 0; k < rows && info == 0; ++k) { /* of a pair: real parts, then imaginary parts of its first */
-    const bool first = im[k] > 0, second = im[k] < 0;
-    const double *x = vectors + (second ? k - 1 : k) * rows, *y = x + rows;
+  double *im = re + rows, *vectors = im + rows, *of_left = vectors + square(n), *work = of_left + left;
+  dgeev_(W ? "V" : "N", "V", &n, A, &n, re, im, W ? of_left : NULL, &n, vectors, &n, work, &work_length, &info, 1, 1);
+  for (size_t k = 0; k < rows && info == 0; ++k) {
     lambda[k] = re[k] + I * im[k];
-    for (size_t i = 0; i < rows; ++i) V[k * rows + i] = first ? x[i] + I * y[i] : second ? x[i] - I * y[i] : x[i];
+    unpack_vector(rows, vectors, k, im[k], V + k * rows);
+    if (W) unpack_vector(rows, of_left, k, im[k], W + k * rows);
   }
   free(re);
   return info == 0 ? HC_OK : HC_NOT_CONVERGED;
+}
+
+hc_status dense_eigen(int n, double *A, double complex *lambda, double complex *V)
+{
+  return dense_eigen_both(n, A, lambda, V, NULL);
+}
+
+/* ---- LU factors ------------------------------------------------------------------------------------ */
+
+hc_status dense_factor(int n, double *A, int *pivot)
+{
+  int info = 0;
+  dgetrf_(&n, &n, A, &n, pivot, &info);
+  if (info != 0) return HC_SINGULAR;
+  for (int i = 0; i < n; ++i)
+    if (!isfinite(A[(size_t)i * (size_t)(n + 1)])) return HC_SINGULAR;
+  return HC_OK;
+}
+
+void dense_solve(int n, const double *A, const int *pivot, double *x)
+{
+  const int one = 1;
+  int info = 0;
+  dgetrs_("N", &n, &one, A, &n, pivot, x, &n, &info, 1);
 }
 
 hc_status dense_factor_complex(int n, double complex *A, int *pivot)

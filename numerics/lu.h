@@ -1,10 +1,11 @@
-/* lu.h - LU factors with partial pivoting of a small dense matrix, as a SUNDIALS linear solver for KINSOL. Why our
- * own: the systems here have 3 to 100 unknowns, where the overhead of a call counts most. Factor and solve,
- * microseconds on one thread, same run:
- *     n            3     11    21    41    101    401
- *     here         0.06  0.46  1.3   5.6   69     4450
- *     LAPACK       0.10  0.64  2.1   6.4   38     1290     (OpenBLAS, one thread)
- * Reference LAPACK is slower than this up to n = 41. And without BLAS there are no BLAS threads to pin. */
+/* lu.h - LU factors with partial pivoting of a dense matrix, as a SUNDIALS linear solver for KINSOL. Why our own: most
+ * systems here have 3 to 100 unknowns, where the overhead of a call counts most, and the reference LAPACK is slower at
+ * every size. Factors, microseconds on one thread, the least of several, same run:
+ *     n                    11    41    101   201    401    1000     1600
+ *     here                 1.0   7.8   91    630    4500   72000    350000
+ *     LAPACK, reference    2.0   17    184   1300   9800   167000   844000
+ *     LAPACK, OpenBLAS     -     10    91    430    2500   25000    80000
+ * numerics/newton.h says when which is taken. */
 #ifndef HC_LU_H
 #define HC_LU_H
 

@@ -33,7 +33,8 @@ static hc_status measure_point(hbm_solver *s, double omega, const double *X, dra
   hc_status st = as.response ? hbm_measure_response(s, omega, X, as.response, &m) : hbm_measure(s, X, &m);
   if (st != HC_OK) return st;
   *p = (curve_point){omega, m.amplitude, 0};
-  if (as.judge && hbm_stability_at(s, omega, X, &floquet) == HC_OK) p->stable = hbm_stability_verdict(&floquet);
+  const bool judge = as.judge && !hbm_stability_is_costly(s);
+  if (judge && hbm_stability_at(s, omega, X, &floquet) == HC_OK) p->stable = hbm_stability_verdict(&floquet);
   return HC_OK;
 }
 

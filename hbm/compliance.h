@@ -1,0 +1,37 @@
+/* compliance.h - the dynamic stiffness of a large structure's coordinates q from its modes, contacts apart:
+ *
+ *     S = G^-1,   G = B Z^-1 B^T,   p = S g,   g = B Z^-1 (load),   q = B x
+ *     response r = G_r S q + (g_r - G_r p)                                       (G_r, g_r: of r in the place of B)
+ *
+ * Z^-1 is a sum over modes (mode_sum.h) where C is diagonal in them, as modal and Rayleigh damping are, and else over
+ * the eigenvectors of the first-order form, found once. Either way a harmonic costs O(n dim^2) at most. Not for s = 0,
+ * where a structure that is free to move has no Z^-1. */
+#ifndef HC_HBM_COMPLIANCE_H
+#define HC_HBM_COMPLIANCE_H
+
+#include <complex.h>
+
+#include "model/model.h"
+
+typedef struct compliance compliance;
+
+/* Of m in the coordinates q = B x, B[dim][n] by rows. *out is NULL with HC_OK where there is no such sum to rely on: K
+ * not symmetric, a mode without damping, or eigenvectors of the first-order form that are too ill conditioned.
+ * HC_NO_MEMORY. */
+hc_status compliance_new(const model *m, int dim, const double *B, compliance **out);
+void compliance_free(compliance *c); /* NULL is allowed */
+
+/* S[dim][dim] by columns and g[n_loads][2][dim] (of cosine and sine) at frequency w of a harmonic; damping of d M more;
+ * w up to `reach` will be asked for soon. HC_NOT_FINITE: this is not to be relied on at w, so close is a resonance; or
+ * there is no sum for d. */
+hc_status compliance_at(compliance *c, double w, double reach, double d, double complex *S, double complex *g);
+
+/* dS and dg where s changes by ds, and d by dd; S of the same w. */
+hc_status compliance_change(compliance *c, double w, double reach, double d, double complex ds, double complex dd,
+                            const double complex *S, double complex *dS, double complex *dg);
+
+/* G_r[dim] and g_r[n_loads][2] of response r. */
+hc_status compliance_of_response(compliance *c, double w, double reach, double d, int r, double complex *G_r,
+                                 double complex *g_r);
+
+#endif
