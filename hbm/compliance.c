@@ -1,5 +1,5 @@
-/* compliance.c - see compliance.h. The first-order form, in modal coordinates eta of K and M and with a frequency u that
- * makes both halves of a state one size:
+/* compliance.c - see compliance.h. The first-order form, in modal coordinates eta of K and M and with a frequency u
+ * that makes both halves of a state one size:
  *     d/dt [eta; eta'/u] = A [eta; eta'/u] + [0; f/u],   A = [0  u; -Lambda/u  -C]
  *     eta = sum_k v_k (w_k^* f) / (u w_k^* (v_k; ...)) / (s - lambda_k)      v: upper half of an eigenvector of A,
  *                                                                            w: lower half of the left one */
@@ -310,7 +310,7 @@ hc_status compliance_change(compliance *c, double w, double reach, double d, dou
   const bool by_damping = dd != 0;
   if (by_damping && !mode_sum_takes_damping(c->of_q)) return HC_NOT_FINITE;
   hc_status st =
-      mode_sum_at(c->of_q, w, reach, d, 0, c->dim + 2 * c->n_loads, c->G, c->by_s, by_damping ? c->by_d : NULL);
+      mode_sum_at(c->of_q, w, reach, d, 0, c->dim + 2 * c->n_loads, NULL, c->by_s, by_damping ? c->by_d : NULL);
   if (st != HC_OK) return st;
   for (size_t i = 0; i < dim * dim + loads; ++i) c->by_s[i] = ds * c->by_s[i] + (by_damping ? dd * c->by_d[i] : 0);
   memcpy(dg, c->by_s + dim * dim, loads * sizeof *dg);

@@ -166,13 +166,27 @@ static void fill_loads(condensation *c, int h)
   }
 }
 
+/* At rest K couples q and modes of the rest nowhere: S = K_qq, p = p_q, and no coupling is ever anything but 0. */
+static void fill_static(condensation *c)
+{
+  const int dim = c->basis.dim;
+  for (int e = 0; e < dim; ++e)
+    for (int d = 0; d < dim; ++d) {
+      const double K = c->basis.K[condensation_entry(c, d, e)];
+      c->S[e * dim + d] = K;
+      c->size[e * dim + d] = fabs(K);
+    }
+}
+
 hc_status condensation_by_rest(condensation *c, int h)
 {
   const condensation_change dynamic = condensation_dynamic(c, h);
   hc_status st = prepare_rest(c, h, dynamic);
   if (st != HC_OK) return st;
-  fill_couplings(c, h, dynamic);
-  fill_stiffness(c, h, dynamic);
+  const bool uncoupled = h == 0 && c->basis.modes;
+  if (uncoupled) fill_static(c);
+  else fill_couplings(c, h, dynamic);
+  if (!uncoupled) fill_stiffness(c, h, dynamic);
   fill_loads(c, h);
   return HC_OK;
 }

@@ -8,10 +8,11 @@
  *
  * for each harmonic h, as complex amplitudes a - i b. q are motions of the contacts themselves, as many as are
  * independent, and the first response; or all of x, where that is no more. With one degree of freedom q = x and there
- * is no rest. The rest's coordinates y are its modes with q held. Where that is large and damped, S comes from a sum over
- * the modes of the whole instead (compliance.h): n dim^2 a harmonic at most. Elsewhere it is the sum above, n dim^2
- * where C is diagonal in the rest's modes, or an LU of the rest. Nothing is dropped. Source: Krack and Gross, Harmonic Balance
- * for Nonlinear Vibration Problems, Springer 2019, section 4.1; modes with q held: Craig and Bampton 1968. */
+ * is no rest. The rest's coordinates y are its modes with q held. Where that is large and damped, S comes from a sum
+ * over the modes of the whole instead (compliance.h): n dim^2 a harmonic at most. Elsewhere it is the sum above, n
+ * dim^2 where C is diagonal in the rest's modes, or an LU of the rest. Nothing is dropped. Source: Krack and Gross,
+ * Harmonic Balance for Nonlinear Vibration Problems, Springer 2019, section 4.1; modes with q held: Craig and Bampton
+ * 1968. */
 #ifndef HC_HBM_CONDENSATION_H
 #define HC_HBM_CONDENSATION_H
 

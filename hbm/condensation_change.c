@@ -35,6 +35,8 @@ void condensation_stiffness_change(condensation *c, int h, condensation_change b
     *dS = condensation_change_at(c, by, 0);
     return;
   }
+  memset(dS, 0, (size_t)dim * (size_t)dim * sizeof *dS);
+  if (by.alpha == 0 && by.beta == 0) return; /* at rest */
   if (change_by_compliance(c, h, by, dS)) return;
   for (int e = 0; e < dim; ++e) {
     const double complex *W = c->by_q + start + (size_t)e * (size_t)rest;
@@ -70,13 +72,14 @@ static void load_change_by_compliance(condensation *c, int l, double complex *dp
 void condensation_load_change(condensation *c, int l, condensation_change by, double complex *dp)
 {
   const int dim = c->basis.dim, rest = c->basis.rest, h = c->m->loads[l].harmonic;
+  memset(dp, 0, (size_t)dim * sizeof *dp);
+  if (by.alpha == 0 && by.beta == 0) return;
   if (change_by_compliance(c, h, by, c->dS)) {
     load_change_by_compliance(c, l, dp);
     return;
   }
   const size_t start = (size_t)h * (size_t)dim * (size_t)rest;
   const double complex *y = c->rest_of + (size_t)l * (size_t)rest;
-  for (int d = 0; d < dim; ++d) dp[d] = 0;
   for (int i = 0; i < rest; ++i) {
     double complex inner = 0; /* dZ_yy Z_yy^-1 p_y */
     if (condensation_rest_is_diagonal(c, h))

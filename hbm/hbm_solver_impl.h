@@ -9,14 +9,14 @@
 #include "hbm/system.h"
 #include "numerics/newton.h"
 
-struct hbm_solver {      /* from hbm_solver_new, to hbm_solver_free; not shared between threads */
-  model *model;          /* a copy: the caller may drop theirs */
-  hbm_settings how;      /* a copy */
-  hbm_system sys;        /* the equations */
-  int n_time;            /* samples per period, for sampled forces */
-  newton *fixed, *plane; /* the two forms of corrector.h */
-  contact_forces *orbit; /* locates the transitions of a solution of sampled equations; NULL when sys does */
-  monodromy *monodromy; /* NULL until it is needed */
+struct hbm_solver {            /* from hbm_solver_new, to hbm_solver_free; not shared between threads */
+  model *model;                /* a copy: the caller may drop theirs */
+  hbm_settings how;            /* a copy */
+  hbm_system sys;              /* the equations */
+  int n_time;                  /* samples per period, for sampled forces */
+  newton *fixed, *plane;       /* the two forms of corrector.h */
+  contact_forces *orbit;       /* locates the transitions of a solution of sampled equations; NULL when sys does */
+  monodromy *monodromy;        /* NULL until it is needed */
   refinement *finer_harmonics; /* tells auto the error of this many harmonics; NULL where the settings give a number */
   refinement *finer_samples;   /* the same of samples */
   refinement *exact_finer;     /* hbm_predict's equations; NULL until it is asked */

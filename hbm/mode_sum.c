@@ -6,8 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A mode is far where its poles are more than FAR times as far from 0 as s: what the series leaves out after TERMS terms
- * is (1/FAR)^TERMS = 1e-17 of it. */
+/* A mode is far where its poles are more than FAR times as far from 0 as s: what the series leaves out after TERMS
+ * terms is (1/FAR)^TERMS = 1e-17 of it. */
 enum { FAR = 4, TERMS = 28 };
 
 struct mode_sum {
@@ -193,7 +193,7 @@ static void add_series(const mode_sum *m, double w, int from, int to, double com
       if (by_s) odd_slope = odd_slope * v + (t + 1) * T[t + 1], even_slope = t ? even_slope * v + t * T[t] : even_slope;
       even = even * v + T[t], odd = odd * v + T[t + 1];
     }
-    G[e - from * m->dim] += even + I * x * odd;
+    if (G) G[e - from * m->dim] += even + I * x * odd;
     if (by_s) by_s[e - from * m->dim] += (odd_slope + I * x * even_slope) / m->reach;
   }
 }
@@ -269,7 +269,7 @@ hc_status mode_sum_at(mode_sum *m, double w, double reach, double d, int from, i
   if (d == 0 && !by_d && !in_reach && reach > 0) make_series(m, 1.5 * fmax(reach, w));
   const bool by_series = d == 0 && !by_d && m->reach > 0;
   const int n = by_series ? m->near : m->n;
-  hc_status st = add_up(m, n, w, d, VALUE, from, to, G);
+  hc_status st = G ? add_up(m, n, w, d, VALUE, from, to, G) : HC_OK;
   if (st == HC_OK && by_s) st = add_up(m, n, w, d, BY_S, from, to, by_s);
   if (st == HC_OK && by_d) st = add_up(m, n, w, d, BY_D, from, to, by_d);
   if (st == HC_OK && by_series) add_series(m, w, from, to, G, by_s);

@@ -20,8 +20,8 @@ typedef struct hbm_stability {
  * handler switched off by the caller: left on, it ends the program), HC_NOT_FINITE if they are too large. */
 hc_status hbm_stability_at(hbm_solver *s, double omega, const double *X, hbm_stability *out);
 
-/* Multipliers of a structure of more than 50 degrees of freedom cost as much as a good part of its curve: they are found
- * where somebody asks for a solution, and unknown at the points of a curve. */
+/* Multipliers of a structure of more than 50 degrees of freedom cost as much as a good part of its curve: they are
+ * found where somebody asks for a solution, and unknown at the points of a curve. */
 bool hbm_stability_is_costly(const hbm_solver *s);
 
 /* +1 stable, -1 unstable, 0 unknown: the largest multiplier is within 1e-9 of 1 in size, or the truncated equations

@@ -1,5 +1,5 @@
-/* product.c - see product.h. Four columns of A times four rows of B go onto four columns of C at once: 32 operations for
- * 8 numbers read and 4 written. A is taken in blocks that stay in the cache while all of C's columns pass. */
+/* product.c - see product.h. Four columns of A times four rows of B go onto four columns of C at once: 32 operations
+ * for 8 numbers read and 4 written. A is taken in blocks that stay in the cache while all of C's columns pass. */
 #include "numerics/product.h"
 
 #include <stddef.h>

@@ -1,5 +1,5 @@
-/* test_condensation.c - a large structure seen from its contacts, however it is damped: held against the structure's own
- * equations, solved whole by LU, in which nothing is condensed and no modes are taken. */
+/* test_condensation.c - a large structure seen from its contacts, however it is damped: held against the structure's
+ * own equations, solved whole by LU, in which nothing is condensed and no modes are taken. */
 #include "hbm/condensation_impl.h"
 #include "numerics/dense.h"
 #include "tests/hbm/random_structures.h"
@@ -167,8 +167,8 @@ static double worst_difference(int n, const double complex *d, double h, double 
   return off / size;
 }
 
-/* A resonance at 6, half as wide as d = 0.06 or more, makes f^(5) = 120 f'/d^4: h = 3e-4 errs by 4 (h/d)^4 = 3e-9 next to
- * one, and rounding of 1e-13 of S over h by 3e-10 of S: less than 1e-7 in all. */
+/* A resonance at 6, half as wide as d = 0.06 or more, makes f^(5) = 120 f'/d^4: h = 3e-4 errs by 4 (h/d)^4 = 3e-9 next
+ * to one, and rounding of 1e-13 of S over h by 3e-10 of S: less than 1e-7 in all. */
 static void changes_are_derivatives(void **state)
 {
   (void)state;
