@@ -1,10 +1,11 @@
 /* special_points.c - see special_points.h. Test functions are evaluated at every point of the curve; where one
  * changes between two points, the change is located on the segment between them. d omega along the tangent (turning
  * point) and the product of 1 + multiplier (period doubling) are smooth functions of sigma: their roots are found by
- * interpolation. The contact pattern is not: its change is bisected, and the rest of the segment searched for the
- * next. So is the number of complex pairs of multipliers outside the unit circle (Neimark-Sacker): where it changes
- * without a pair on the circle, two real ones have met, or multipliers jump with the pattern. What is too near to be
- * told apart is one change: slip and separation that begin at once, two contacts that are alike. */
+ * interpolation. The contact pattern is not: its change is bisected, with the pattern of the interpolant as a guess of
+ * where (narrowing.h), and the rest of the segment searched for the next. Bisected, too, is the number of complex pairs
+ * of multipliers outside the unit circle (Neimark-Sacker): where it changes without a pair on the circle, two real ones
+ * have met, or multipliers jump with the pattern. What is too near to be told apart is one change: slip and separation
+ * that begin at once, two contacts that are alike. */
 #include "hbm/special_points.h"
 
 #include <math.h>
@@ -12,7 +13,7 @@
 #include <string.h>
 
 #include "hbm/hbm_solver_impl.h"
-#include "hbm/segment_solutions.h"
+#include "hbm/narrowing.h"
 #include "numerics/roots.h"
 
 /* A segment spans a fraction of the sweep, so this part of it is far less than the 1e-9 of omega that
@@ -43,6 +44,7 @@ typedef struct detector {
   hbm_solver *s;
   const hbm_curve *c;
   hbm_candidate x;    /* the solution on a segment that was evaluated last */
+  hbm_narrowing near; /* of a contact change */
   int n, room, first; /* of found; `first` is the first one of the current segment */
   found_point *found; /* [room] */
 } detector;
@@ -167,11 +169,34 @@ static hc_status smooth_test_at(void *self, double sigma, double *value)
   return st;
 }
 
+static hc_status evaluate_nearby(segment_search *s, double sigma)
+{
+  detector *d = s->d;
+  s->sigma = sigma;
+  hc_status st = hbm_narrowing_point(d->s, &d->near, sigma, &d->x);
+  return st == HC_OK ? evaluate_tests(d, d->x.point.omega, d->x.point.d_omega, d->x.X, false, &s->here) : st;
+}
+
 static hc_status pattern_differs_at(void *self, double sigma, bool *differs)
 {
   segment_search *s = self;
-  hc_status st = evaluate_on_segment(s, sigma);
+  hc_status st = evaluate_nearby(s, sigma);
   *differs = !same_pattern(&s->here, s->before);
+  if (st == HC_OK) hbm_narrowing_move(&s->d->near, !*differs, sigma, &s->d->x);
+  return st;
+}
+
+/* Of the interpolant: no equations are solved. */
+static hc_status pattern_may_differ_at(void *self, double sigma, bool *differs)
+{
+  segment_search *s = self;
+  detector *d = s->d;
+  double omega;
+  test_values there;
+  hbm_narrowing_guess(&d->near, sigma, d->x.guess, &omega);
+  hbm_truncate(d->s, d->c->n_coef, d->x.guess);
+  hc_status st = evaluate_tests(d, omega, 0, d->x.guess, false, &there);
+  *differs = st == HC_OK && !same_pattern(&there, s->before);
   return st;
 }
 
@@ -186,7 +211,8 @@ static hc_status pairs_outside_differ_at(void *self, double sigma, bool *differ)
 /* d->x and s->here at sigma, which need not be where the search was last. */
 static hc_status return_to(segment_search *s, double sigma)
 {
-  return s->sigma == sigma ? HC_OK : evaluate_on_segment(s, sigma);
+  if (s->sigma == sigma) return HC_OK;
+  return s->kind == HBM_CONTACT_CHANGE ? evaluate_nearby(s, sigma) : evaluate_on_segment(s, sigma);
 }
 
 /* A sign change of a smooth test function on segment k, from f0 at its start to f1 at its end. */
@@ -209,7 +235,10 @@ static hc_status locate_contact_changes(detector *d, int k, test_values before, 
   for (int i = 0; i < MAX_CONTACT_CHANGES && from < 1 && !same_pattern(&before, end); ++i) {
     segment_search s = {.d = d, .k = k, .kind = HBM_CONTACT_CHANGE, .before = &before, .sigma = NAN};
     root_point change;
-    hc_status st = root_change(pattern_differs_at, &s, from, 1, SIGMA_TOLERANCE, &change);
+    hc_status st = hbm_narrowing_start(&d->near, d->c, k);
+    if (st != HC_OK) return st;
+    if (i > 0) hbm_narrowing_move(&d->near, true, from, &d->x);
+    st = root_change_guided(pattern_differs_at, pattern_may_differ_at, &s, from, 1, SIGMA_TOLERANCE, &change);
     if (st == HC_OK) st = return_to(&s, change.x);
     if (st != HC_OK) return st;
     test_values after = change.x < 1 ? s.here : *end;
@@ -261,6 +290,7 @@ hc_status hbm_specials(hbm_solver *s, const hbm_curve *c, int cap, hbm_special *
   merge_twins(&d);
   for (int i = 0; i < d.n && i < cap; ++i) out[i] = d.found[i].special;
   *n = d.n;
+  hbm_curve_free(&d.near.ends);
   free(d.x.X);
   free(d.found);
   return st != HC_OK ? st : not_located;

@@ -3,6 +3,7 @@
 
 #include <float.h>
 #include <math.h>
+#include <stddef.h>
 
 static double at_least_rounding(double tolerance, double x) { return fmax(tolerance, 4 * DBL_EPSILON * fabs(x)); }
 
@@ -137,18 +138,100 @@ hc_status root_minimum(root_function *f, void *self, double a, double fa, double
   }
 }
 
+/* A predicate's change lies between out->before and out->x. */
+typedef struct change_search {
+  root_predicate *beyond, *likely;
+  void *self;
+  root_point *out;
+} change_search;
+
+static double width_of(const change_search *k) { return k->out->x - k->out->before; }
+
+/* Move an end to x; *is_beyond: which. */
+static hc_status ask_beyond(change_search *k, double x, bool *is_beyond)
+{
+  *is_beyond = false;
+  hc_status st = count_evaluation(k->out);
+  if (st == HC_OK) st = k->beyond(k->self, x, is_beyond);
+  if (st != HC_OK) return st;
+  *(*is_beyond ? &k->out->x : &k->out->before) = x;
+  return HC_OK;
+}
+
+static hc_status ask_middle(change_search *k)
+{
+  bool is_beyond;
+  return ask_beyond(k, 0.5 * (k->out->before + k->out->x), &is_beyond);
+}
+
 hc_status root_change(root_predicate *beyond, void *self, double a, double b, double tolerance, root_point *out)
 {
+  change_search k = {beyond, NULL, self, out};
   *out = (root_point){b, 1, 0, a};
   if (!isfinite(a) || !isfinite(b)) return HC_BAD_INPUT;
-  while (fabs(b - a) > at_least_rounding(tolerance, b)) {
-    double m = 0.5 * (a + b);
-    bool is_beyond = false;
-    hc_status st = count_evaluation(out);
-    if (st == HC_OK) st = beyond(self, m, &is_beyond);
-    if (st != HC_OK) return st;
-    if (is_beyond) out->x = b = m;
-    else out->before = a = m;
+  hc_status st = HC_OK;
+  while (st == HC_OK && fabs(width_of(&k)) > at_least_rounding(tolerance, out->x)) st = ask_middle(&k);
+  return st;
+}
+
+/* Where the guess changes first, as far as steps of an eighth of the bracket show; to within `margin`. False if it
+ * fails. */
+static bool find_likely_change(const change_search *k, double margin, double *x)
+{
+  const double eighth = width_of(k) / 8;
+  double a = k->out->before, b = k->out->x;
+  bool is_beyond = false;
+  for (int i = 1; i < 8 && !is_beyond; ++i) {
+    const double next = k->out->before + i * eighth;
+    if (k->likely(k->self, next, &is_beyond) != HC_OK) return false;
+    *(is_beyond ? &b : &a) = next;
   }
-  return HC_OK;
+  while (fabs(b - a) > margin) {
+    *x = 0.5 * (a + b);
+    if (*x == a || *x == b) break;
+    if (k->likely(k->self, *x, &is_beyond) != HC_OK) return false;
+    *(is_beyond ? &b : &a) = *x;
+  }
+  *x = 0.5 * (a + b);
+  return true;
+}
+
+static bool is_between(const change_search *k, double x) { return (x - k->out->before) * (k->out->x - x) > 0; }
+
+/* Ask at either side of the likely change, `margin` away. *held: both answers were as guessed. */
+static hc_status ask_around(change_search *k, double margin, bool *held)
+{
+  const double step = copysign(margin, width_of(k));
+  double likely = NAN;
+  bool is_beyond = false;
+  hc_status st = HC_OK;
+  *held = find_likely_change(k, margin, &likely);
+  if (*held && is_between(k, likely - step)) {
+    st = ask_beyond(k, likely - step, &is_beyond);
+    *held = !is_beyond;
+  }
+  if (st == HC_OK && *held && is_between(k, likely + step)) {
+    st = ask_beyond(k, likely + step, &is_beyond);
+    *held = is_beyond;
+  }
+  return st;
+}
+
+hc_status root_change_guided(root_predicate *beyond, root_predicate *likely, void *self, double a, double b,
+                             double tolerance, root_point *out)
+{
+  const double first = 1.0 / 32, worst = 0.25, better = 8; /* margins, in parts of the width */
+  change_search k = {beyond, likely, self, out};
+  double part = first;
+  *out = (root_point){b, 1, 0, a};
+  if (!isfinite(a) || !isfinite(b)) return HC_BAD_INPUT;
+  for (;;) {
+    const double width = fabs(width_of(&k)), wanted = at_least_rounding(tolerance, out->x);
+    bool held;
+    if (width <= wanted) return HC_OK;
+    hc_status st = ask_around(&k, fmax(part * width, 0.25 * wanted), &held);
+    part = held ? part / better : fmin(part * better, worst);
+    if (st == HC_OK && !held && fabs(width_of(&k)) > 0.5 * width) st = ask_middle(&k);
+    if (st != HC_OK) return st;
+  }
 }

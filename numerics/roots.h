@@ -18,7 +18,7 @@ enum { ROOTS_MAX_EVALUATIONS = 200 };
 typedef struct root_point {
   double x, f;     /* f(x) */
   int evaluations; /* spent by the search */
-  double before;   /* of root_change: the nearest point seen on this side of the change */
+  double before;   /* of root_change...: the nearest point seen on this side of the change */
 } root_point;
 
 /* *f = f(x); self is the caller's. */
@@ -42,5 +42,12 @@ hc_status root_minimum(root_function *f, void *self, double a, double fa, double
 /* Where a predicate changes, false at a and true at b, by bisection. out->x lies beyond the change and within
  * `tolerance` of it (b itself if nothing nearer does); out->f is 1. */
 hc_status root_change(root_predicate *beyond, void *self, double a, double b, double tolerance, root_point *out);
+
+/* The same where `likely` guesses at little cost what `beyond` would say, the better the nearer the points at which it
+ * was asked. Each round finds where the guess changes first, in eighths and then by bisection, and asks `beyond` on
+ * either side of it, at a distance that shrinks as long as the guess holds; where it does not, at the middle. `likely`
+ * is not counted, and where it fails, it is as if it were wrong. */
+hc_status root_change_guided(root_predicate *beyond, root_predicate *likely, void *self, double a, double b,
+                             double tolerance, root_point *out);
 
 #endif

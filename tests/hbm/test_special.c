@@ -68,6 +68,26 @@ static void contact_sets_in_where_the_linear_response_grazes(void **state)
   }
 }
 
+/* Bisection to 1e-11 of a segment takes 37 solutions a change. The interpolant between the last two is off by a part of
+ * the fourth power of their distance, less than any margin of root_change_guided, whose first five leave nothing: 10
+ * solutions, and two rounds of 3 more where the pattern begins with a kink. Nothing else is searched for below 5.105,
+ * where contact sets in and nothing turns back or doubles. */
+static void a_contact_change_takes_few_solutions(void **state)
+{
+  (void)state;
+  scene sc = scene_named("c2", 5, true, 1024);
+  found f = find_in(sc, 5.105);
+  hbm_special at[ROOM];
+  int n, changes = 0;
+  const long before = hbm_solves(f.s);
+  for (int i = 0; i < f.n; ++i) changes += f.at[i].kind == HBM_CONTACT_CHANGE;
+  assert_int_equal(changes, f.n);
+  assert_true(changes >= 1);
+  assert_int_equal(hbm_specials(f.s, &f.c, ROOM, at, &n), HC_OK);
+  CHECK_LE(hbm_solves(f.s) - before, 16L * changes, "%d changes", changes);
+  free_found(&f);
+}
+
 /* No two of a kind at one place (special_points.h): both omega to 1e-9 and the amplitude to 1e-8. */
 static void check_no_twins(const found *f, const char *what)
 {
@@ -273,6 +293,7 @@ static void too_little_room_keeps_the_first(void **state)
 
 static const struct CMUnitTest tests[] = {
     cmocka_unit_test(contact_sets_in_where_the_linear_response_grazes),
+    cmocka_unit_test(a_contact_change_takes_few_solutions),
     cmocka_unit_test(what_begins_at_once_is_one_change),
     cmocka_unit_test(a_fold_is_where_two_solutions_and_multiplier_one_meet),
     cmocka_unit_test(doublings_tend_to_those_of_the_true_orbit),

@@ -261,6 +261,83 @@ static void a_change_is_bisected(void **state)
   }
 }
 
+/* A change at `at`, and a guess of it that is off by curvature times the square of the width between the two nearest
+ * points at which it was asked, as that of a straight line through them would be. */
+typedef struct guessed {
+  double at, second_from, second_to; /* beyond, too; ends before the change at `at` */
+  double before, beyond, curvature;
+  int calls, fails_at;
+  bool guess_fails;
+} guessed;
+
+static bool is_past(const guessed *g, double x) { return x > g->at || (x > g->second_from && x < g->second_to); }
+
+static hc_status past(void *self, double x, bool *is)
+{
+  guessed *g = self;
+  *is = is_past(g, x);
+  *(*is ? &g->beyond : &g->before) = x;
+  return ++g->calls == g->fails_at ? HC_STALLED : HC_OK;
+}
+
+static hc_status likely_past(void *self, double x, bool *is)
+{
+  const guessed *g = self;
+  const double width = g->beyond - g->before;
+  *is = is_past(g, x - g->curvature * width * width);
+  return g->guess_fails ? HC_NOT_FINITE : HC_OK;
+}
+
+/* A guess that is off by c w^2 at the width w is found to w/64, w/512, ..., half the margin: it holds where c w^2 is
+ * less than the other half. With c = 0.015 and w = 1, then 1/16, it always does: widths of two margins, 6e-2, 5e-4,
+ * 5e-7, 6e-11, and 5e-12 by the tolerance, take two questions each. */
+static void a_good_guess_saves_questions(void **state)
+{
+  (void)state;
+  for (int i = 0; i < 50; ++i) {
+    root_point change;
+    guessed g = {.at = 0.05 + 0.0179 * i, .before = 0, .beyond = 1, .curvature = 0.015};
+    assert_int_equal(root_change_guided(past, likely_past, &g, 0, 1, 1e-11, &change), HC_OK);
+    CHECK_LE(fabs(change.x - change.before), 1e-11, "%d", i);
+    assert_true(change.before <= g.at && g.at < change.x);
+    CHECK_LE(g.calls, 10, "%d", i);
+    assert_int_equal(change.evaluations, g.calls);
+  }
+}
+
+/* Each round halves the bracket whatever the guess, for three questions at most: 3 log2(1e11) = 111. */
+static void a_bad_guess_is_survived(void **state)
+{
+  (void)state;
+  static const double off[] = {1e9, -1e9, 7, -0.5}; /* always before, always beyond, and in between */
+  for (int i = 0; i < 8; ++i) {
+    root_point change;
+    guessed g = {.at = 0.3 + 0.1 * i / 8, .before = 0, .beyond = 1, .curvature = off[i % 4], .guess_fails = i > 3};
+    assert_int_equal(root_change_guided(past, likely_past, &g, 0, 1, 1e-11, &change), HC_OK);
+    CHECK_LE(fabs(change.x - change.before), 1e-11, "%d", i);
+    assert_true(change.before <= g.at && g.at < change.x);
+    CHECK_LE(g.calls, 111, "%d", i);
+    g.calls = 0, g.fails_at = 5, g.before = 0, g.beyond = 1;
+    assert_int_equal(root_change_guided(past, likely_past, &g, 0, 1, 1e-11, &change), HC_STALLED);
+    assert_int_equal(g.calls, 5);
+  }
+}
+
+/* Downwards, too; a tolerance below rounding ends at 4 roundings. */
+static void the_first_change_that_is_guessed_is_found(void **state)
+{
+  (void)state;
+  root_point change;
+  guessed g = {.at = 0.9, .second_from = 0.3, .second_to = 0.5, .before = 0, .beyond = 1};
+  assert_int_equal(root_change_guided(past, likely_past, &g, 0, 1, 0, &change), HC_OK);
+  CHECK_NEAR(change.x, 0.3, 4 * DBL_EPSILON * 0.3, "%d", 0);
+  watched w = {.f = cos};
+  assert_int_equal(root_change_guided(beyond, beyond, &w, 3, -1, 1e-9, &change), HC_OK);
+  CHECK_NEAR(change.x, PI / 2, 1e-9, "%d", 1);
+  assert_true(change.x < change.before);
+  assert_int_equal(root_change_guided(beyond, beyond, &w, 3, NAN, 1e-9, &change), HC_BAD_INPUT);
+}
+
 static const struct CMUnitTest tests[] = {
     cmocka_unit_test(roots_are_found_from_either_side),
     cmocka_unit_test(jumps_and_poles_cost_a_bisection),
@@ -272,6 +349,9 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(a_minimum_is_as_near_as_was_asked),
     cmocka_unit_test(a_straight_line_takes_one_evaluation),
     cmocka_unit_test(a_change_is_bisected),
+    cmocka_unit_test(a_good_guess_saves_questions),
+    cmocka_unit_test(a_bad_guess_is_survived),
+    cmocka_unit_test(the_first_change_that_is_guessed_is_found),
 };
 
 CHECK_MAIN("numerics.roots", tests, 30)
