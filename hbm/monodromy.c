@@ -1,5 +1,6 @@
 /* monodromy.c - see monodromy.h. The state is (dx, dx', dheld_1, ..., dheld_n); dheld_j counts only while contact j
- * is stuck. Row i of phi is state i, column q the initial state q. */
+ * is stuck. Row i of phi is state i, column q the initial state q. An oscillator's period starts at th = 0, a
+ * structure's at the end of its longest stretch, since few of its motions outlast that (stretch_flow.h). */
 #include "hbm/monodromy.h"
 
 #include <complex.h>
@@ -18,12 +19,16 @@ struct monodromy {
   int n_states;                /* 2 n + contacts */
   int cap;                     /* of boundary */
   double *boundary;            /* [cap] [rad] every angle at which a contact changes state, ascending */
+  int columns;                 /* of phi that count */
   double *phi;                 /* [n_states][n_states] by rows */
+  double *left;                /* [n_states][n_states] of stretch_flow_left; NULL of an oscillator */
   double *share;               /* [n_states] */
   stretch_flow *flow;          /* of a structure; NULL of an oscillator */
   const contact_piece **piece; /* [n_states] of each contact, on the current stretch; NULL while separated */
   int *active;                 /* [n_states] the initial states that the multipliers are made of */
-  double complex *lambda;      /* [n_states] */
+  int *slider;                 /* [n_states] of stretch_flow_leave, and which of them go on */
+  bool *goes_on;
+  double complex *lambda; /* [n_states] */
   floquet *floquet;
 };
 
@@ -41,8 +46,12 @@ hc_status monodromy_new(const model *m, monodromy **out)
   w->share = malloc(n * sizeof *w->share);
   w->piece = malloc(n * sizeof *w->piece);
   w->active = malloc(n * sizeof *w->active);
+  w->slider = malloc(n * sizeof *w->slider);
+  w->goes_on = malloc(n * sizeof *w->goes_on);
   w->lambda = malloc(n * sizeof *w->lambda);
-  bool allocated = w->boundary && w->phi && w->share && w->piece && w->active && w->lambda;
+  if (m->n > 1) w->left = malloc(n * n * sizeof *w->left);
+  const bool vectors = w->boundary && w->share && w->piece && w->active && w->slider && w->goes_on && w->lambda;
+  const bool allocated = vectors && w->phi && (w->left || m->n == 1);
   hc_status st = allocated ? floquet_new(w->n_states, &w->floquet) : HC_NO_MEMORY;
   if (st == HC_OK && m->n > 1) st = stretch_flow_new(m, &w->flow);
   if (st == HC_OK) return HC_OK;
@@ -58,16 +67,19 @@ void monodromy_free(monodromy *w)
   stretch_flow_free(w->flow);
   free(w->boundary);
   free(w->phi);
+  free(w->left);
   free(w->share);
   free(w->piece);
   free(w->active);
+  free(w->slider);
+  free(w->goes_on);
   free(w->lambda);
   free(w);
 }
 
 static double wrap(double th) { return th >= TWO_PI ? th - TWO_PI : th; }
 
-/* All angles of change in [0, 2 pi], ends included; their number or -1 without memory. */
+/* All angles of change in [0, 2 pi], of an oscillator the ends included; their number or -1 without memory. */
 static int collect_boundaries(monodromy *w, const contact_forces *orbit, int n_contacts)
 {
   int n = 2;
@@ -81,9 +93,10 @@ static int collect_boundaries(monodromy *w, const contact_forces *orbit, int n_c
     w->boundary = more;
     w->cap = 2 * n;
   }
+  const bool changes = n > 2;
   n = 0;
-  w->boundary[n++] = 0;
-  w->boundary[n++] = TWO_PI;
+  if (!w->flow || !changes) w->boundary[n++] = 0;
+  if (!w->flow) w->boundary[n++] = TWO_PI;
   for (int j = 0, n_pieces; j < n_contacts; ++j) {
     const contact_piece *p = contact_forces_pieces(orbit, j, &n_pieces);
     for (int i = 0; i < n_pieces; ++i) {
@@ -93,6 +106,12 @@ static int collect_boundaries(monodromy *w, const contact_forces *orbit, int n_c
   }
   qsort(w->boundary, (size_t)n, sizeof(double), ascending);
   return n;
+}
+
+/* Where the stretch that begins at boundary i ends. */
+static double end_of_stretch(const monodromy *w, int n, int i)
+{
+  return i + 1 < n ? w->boundary[i + 1] : w->boundary[0] + TWO_PI;
 }
 
 /* The piece of contact j that covers th, NULL while separated. */
@@ -142,16 +161,21 @@ static bool slider_is_state(const contact_forces *orbit, int j)
 /* Does the slider of stick piece p come to rest at its start, which is th? */
 static bool comes_to_rest_at(const contact_piece *p, double th) { return p->from == p->origin && wrap(p->from) == th; }
 
+static bool rests_from_before(const contact_piece *p, double th)
+{
+  return p && p->state == CONTACT_STICK && !comes_to_rest_at(p, th);
+}
+
 static void set_slider(monodromy *w, const model *m, const contact_forces *orbit, int j, const contact_piece *p)
 {
   const int n = w->n_states;
   const model_contact *c = &m->contacts[j];
   double *held = w->phi + (size_t)(2 * w->n + j) * (size_t)n, by[2];
   contact_forces_held_by(orbit, j, p, by);
-  for (int q = 0; q < n; ++q) held[q] = w->n == 1 ? by[0] * w->phi[q] : 0;
+  for (int q = 0; q < w->columns; ++q) held[q] = w->n == 1 ? by[0] * w->phi[q] : 0;
   for (int i = 0; i < w->n && w->n > 1; ++i) {
     const double by_x = by[0] * c->tangent[i] + by[1] * c->normal[i];
-    for (int q = 0; q < n; ++q) held[q] += by_x * w->phi[(size_t)i * (size_t)n + (size_t)q];
+    for (int q = 0; q < w->columns; ++q) held[q] += by_x * w->phi[(size_t)i * (size_t)n + (size_t)q];
   }
 }
 
@@ -170,9 +194,7 @@ static void set_sliders(monodromy *w, const model *m, const contact_forces *orbi
 static int collect_initial_sliders(monodromy *w, const model *m, const contact_forces *orbit, int n_active, double th)
 {
   for (int j = 0; j < m->n_contacts; ++j) {
-    const contact_piece *p = w->piece[j];
-    bool at_rest = p && p->state == CONTACT_STICK && !comes_to_rest_at(p, th);
-    if (at_rest && slider_is_state(orbit, j)) w->active[n_active++] = 2 * w->n + j;
+    if (rests_from_before(w->piece[j], th) && slider_is_state(orbit, j)) w->active[n_active++] = 2 * w->n + j;
   }
   return n_active;
 }
@@ -229,25 +251,96 @@ static void summarise(int m, const double complex *lambda, hbm_stability *out)
   out->determinant = creal(all);
 }
 
-hc_status monodromy_stability(monodromy *w, const model *m, const contact_forces *orbit, double omega,
-                              hbm_stability *out)
+/* Over the period from boundary 0 on. */
+static int follow_oscillator(monodromy *w, const model *m, const contact_forces *orbit, double omega, int n)
 {
-  const int n_states = w->n_states, n = collect_boundaries(w, orbit, m->n_contacts);
+  const int n_states = w->n_states;
   int n_active = 0;
-  hc_status st = n < 0 ? HC_NO_MEMORY : HC_OK;
   while (n_active < 2 * w->n) w->active[n_active] = n_active, ++n_active;
   memset(w->phi, 0, (size_t)n_states * (size_t)n_states * sizeof *w->phi);
   for (int q = 0; q < n_states; ++q) w->phi[q * n_states + q] = 1;
-  for (int i = 0; i + 1 < n && st == HC_OK; ++i) {
+  w->columns = n_states;
+  for (int i = 0; i + 1 < n; ++i) {
     double a = w->boundary[i], b = w->boundary[i + 1];
     if (!(b > a)) continue;
     for (int j = 0; j < m->n_contacts; ++j) w->piece[j] = piece_at(orbit, j, 0.5 * (a + b));
     if (a == 0) n_active = collect_initial_sliders(w, m, orbit, n_active, a);
     set_sliders(w, m, orbit, a);
-    if (w->flow) st = stretch_flow_advance(w->flow, w->piece, (b - a) / omega, w->phi);
-    else advance_oscillator(w, m, (b - a) / omega);
+    advance_oscillator(w, m, (b - a) / omega);
   }
-  if (st == HC_OK) st = floquet_multipliers(w->floquet, w->phi, n_states, 1, n_active, w->active, w->lambda);
+  return n_active;
+}
+
+/* Boundary at which the longest stretch begins. */
+static int find_longest(const monodromy *w, int n)
+{
+  int longest = 0;
+  for (int i = 1; i < n; ++i)
+    if (end_of_stretch(w, n, i) - w->boundary[i] > end_of_stretch(w, n, longest) - w->boundary[longest]) longest = i;
+  return longest;
+}
+
+static bool is_empty(const monodromy *w, int n, int i) { return !(end_of_stretch(w, n, i) > w->boundary[i]); }
+
+/* The stretch behind i; there may be boundaries twice. */
+static int next_stretch(const monodromy *w, int n, int i)
+{
+  int k = 1;
+  while (k < n && is_empty(w, n, (i + k) % n)) ++k;
+  return (i + k) % n;
+}
+
+static void enter_stretch(monodromy *w, const model *m, const contact_forces *orbit, int n, int i)
+{
+  const double mid = 0.5 * (w->boundary[i] + end_of_stretch(w, n, i));
+  for (int j = 0; j < m->n_contacts; ++j) w->piece[j] = piece_at(orbit, j, wrap(mid));
+}
+
+/* The sliders that are at rest over the stretch `last`, and matter; and which of them still are on the one behind it.
+ * Their number. */
+static int collect_held_sliders(monodromy *w, const model *m, const contact_forces *orbit, int n, int last)
+{
+  const int behind = next_stretch(w, n, last);
+  int sliders = 0;
+  enter_stretch(w, m, orbit, n, last);
+  for (int j = 0; j < m->n_contacts; ++j)
+    if (w->piece[j] && w->piece[j]->state == CONTACT_STICK && slider_is_state(orbit, j)) w->slider[sliders++] = j;
+  enter_stretch(w, m, orbit, n, behind);
+  for (int s = 0; s < sliders; ++s) w->goes_on[s] = rests_from_before(w->piece[w->slider[s]], w->boundary[behind]);
+  return sliders;
+}
+
+/* Over the period that ends with the longest stretch; the number of columns of w->left. */
+static hc_status follow_structure(monodromy *w, const model *m, const contact_forces *orbit, double omega, int n,
+                                  int *n_active)
+{
+  const int last = find_longest(w, n), sliders = collect_held_sliders(w, m, orbit, n, last);
+  enter_stretch(w, m, orbit, n, last);
+  hc_status st = stretch_flow_leave(w->flow, w->piece, (end_of_stretch(w, n, last) - w->boundary[last]) / omega,
+                                    sliders, w->slider, w->goes_on, w->phi, &w->columns);
+  for (int k = 1; k <= n && st == HC_OK; ++k) {
+    const int i = (last + k) % n;
+    const double a = w->boundary[i], duration = (end_of_stretch(w, n, i) - a) / omega;
+    if (is_empty(w, n, i)) continue;
+    enter_stretch(w, m, orbit, n, i);
+    set_sliders(w, m, orbit, a);
+    st = stretch_flow_advance(w->flow, w->piece, duration, w->columns, w->phi);
+  }
+  if (st == HC_OK) st = stretch_flow_left(w->flow, w->piece, w->slider, w->columns, w->phi, w->left);
+  for (*n_active = 0; *n_active < w->columns; ++*n_active) w->active[*n_active] = *n_active;
+  return st;
+}
+
+hc_status monodromy_stability(monodromy *w, const model *m, const contact_forces *orbit, double omega,
+                              hbm_stability *out)
+{
+  const int n = collect_boundaries(w, orbit, m->n_contacts);
+  int n_active = 0;
+  hc_status st = n < 0 ? HC_NO_MEMORY : HC_OK;
+  if (st == HC_OK && w->flow) st = follow_structure(w, m, orbit, omega, n, &n_active);
+  else if (st == HC_OK) n_active = follow_oscillator(w, m, orbit, omega, n);
+  const double *phi = w->flow ? w->left : w->phi;
+  if (st == HC_OK) st = floquet_multipliers(w->floquet, phi, w->n_states, 1, n_active, w->active, w->lambda);
   if (st == HC_OK) summarise(n_active, w->lambda, out);
   return st;
 }

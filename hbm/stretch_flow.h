@@ -18,8 +18,23 @@ typedef struct stretch_flow stretch_flow;
 hc_status stretch_flow_new(const model *m, stretch_flow **out);
 void stretch_flow_free(stretch_flow *f); /* NULL is allowed */
 
-/* phi[2 n + n_contacts][2 n + n_contacts], by rows dx, dx' [1/time], dheld_j: its columns over a stretch of that
- * duration [time] with piece[j] of each contact, NULL while separated. HC_NOT_FINITE, HC_NO_MEMORY. */
-hc_status stretch_flow_advance(stretch_flow *f, const contact_piece *const *piece, double duration, double *phi);
+/* phi[2 n + n_contacts][2 n + n_contacts], by rows dx, dx' [1/time], dheld_j: its first `columns` columns over a
+ * stretch of that duration [time] with piece[j] of each contact, NULL while separated. HC_NOT_FINITE, HC_NO_MEMORY. */
+hc_status stretch_flow_advance(stretch_flow *f, const contact_piece *const *piece, double duration, int columns,
+                               double *phi);
+
+/* Fewer motions than states outlast a stretch: one that e^(lambda t) leaves less than 1e-24 of is lost in rounding, but
+ * for the share at which a slider that is stuck over all of the stretch holds it. The map of a period that ends with
+ * that stretch has no multipliers but 0 and those of what lasts:
+ *   leave   into the columns of phi: the states of which all that there can be at the stretch's end is made. slider
+ *           [n_sliders] are those whose dheld counts over the stretch, goes_on[]: and behind it. Each that has a
+ *           column stays in slider[]; theirs are the last columns, for a motion of the slider of 1, since a force of 1
+ *           would make entries of very different size
+ *   left    left[columns][n_states] by rows, in terms of these states: what phi has become at the end of the stretch
+ * HC_NO_MEMORY. */
+hc_status stretch_flow_leave(stretch_flow *f, const contact_piece *const *piece, double duration, int n_sliders,
+                             int *slider, const bool *goes_on, double *phi, int *columns);
+hc_status stretch_flow_left(stretch_flow *f, const contact_piece *const *piece, const int *slider, int columns,
+                            const double *phi, double *left);
 
 #endif

@@ -5,6 +5,7 @@
 #include "hbm/hbm.h"
 #include "hbm/hbm_solver_impl.h"
 #include "hbm/stretch_flow.h"
+#include "numerics/floquet.h"
 #include "tests/hbm/random_structures.h"
 
 enum { H = 7, LENGTH = 2 * H + 1 };
@@ -87,7 +88,7 @@ static void a_free_body_has_no_eigenvectors(void **state)
   const contact_piece *piece[] = {&stuck};
   double phi[25] = {0};
   for (int i = 0; i < 5; ++i) phi[i * 6] = 1;
-  assert_int_equal(stretch_flow_advance(f, piece, 0.5, phi), HC_OK);
+  assert_int_equal(stretch_flow_advance(f, piece, 0.5, 5, phi), HC_OK);
   const double expected[25] = {1, 0,    0.5, 0, 0.125 / 2, 0, 1, 0, 0.5, 0, 0, 0, 1,
                                0, 0.25, 0,   0, 0,         1, 0, 0, 0,   0, 0, 1};
   for (int i = 0; i < 25; ++i) CHECK_NEAR(phi[i], expected[i], 1e-14, "entry %d", i);
@@ -95,11 +96,88 @@ static void a_free_body_has_no_eigenvectors(void **state)
   model_free(m);
 }
 
+/* Two masses, a Jenkins element on both, and a damper on the second one, whose motions die out in a stretch. A period
+ * slips and then sticks, from where the mass was then: dheld = kt t . dx. */
+static model *damped_masses(double kt)
+{
+  model *m;
+  assert_int_equal(model_new(2, 0, 1, 1, &m), HC_OK);
+  m->mass[0] = m->mass[3] = 1;
+  m->stiffness[0] = 40, m->stiffness[1] = m->stiffness[2] = -15, m->stiffness[3] = 1e5;
+  m->damping[0] = 0.5, m->damping[3] = 600;
+  m->contacts[0].law = (contact){.kt = kt, .mu = 1, .load = 1};
+  m->contacts[0].tangent[0] = 1, m->contacts[0].tangent[1] = -0.5;
+  return m;
+}
+
+enum { SLIP, STUCK, STATES = 5 };
+
+/* Over the period that ends with the stretch `last`: the map of all states, or only what lasts. */
+static void products_of(const model *m, int last, bool all, double *fold, double *flip, int *columns)
+{
+  const double duration[] = {0.4, 0.5}, *t = m->contacts[0].tangent, kt = m->contacts[0].law.kt;
+  const contact_piece slip = {.state = CONTACT_SLIP_PLUS}, stuck = {.state = CONTACT_STICK};
+  const contact_piece *const at[2][1] = {{&slip}, {&stuck}};
+  double phi[STATES * STATES] = {0}, left[STATES * STATES];
+  double complex lambda[STATES];
+  int slider[] = {0}, active[] = {0, 1, 2, 3, 4};
+  const bool goes_on[] = {false};
+  stretch_flow *f;
+  floquet *eigen;
+  assert_int_equal(stretch_flow_new(m, &f), HC_OK);
+  assert_int_equal(floquet_new(STATES, &eigen), HC_OK);
+  *columns = 4;
+  for (int i = 0; i < 4; ++i) phi[i * (STATES + 1)] = 1;
+  if (!all)
+    assert_int_equal(stretch_flow_leave(f, at[last], duration[last], last == STUCK, slider, goes_on, phi, columns),
+                     HC_OK);
+  for (int i = 0; i < 2; ++i) {
+    const int now = (last + 1 + i) % 2;
+    for (int q = 0; q < *columns && now == STUCK; ++q)
+      phi[4 * STATES + q] = kt * (t[0] * phi[q] + t[1] * phi[STATES + q]);
+    assert_int_equal(stretch_flow_advance(f, at[now], duration[now], *columns, phi), HC_OK);
+  }
+  if (!all) assert_int_equal(stretch_flow_left(f, at[last], slider, *columns, phi, left), HC_OK);
+  assert_int_equal(floquet_multipliers(eigen, all ? phi : left, STATES, 1, *columns, active, lambda), HC_OK);
+  double complex both[2] = {1, 1};
+  for (int i = 0; i < *columns; ++i) {
+    both[0] *= 1 - lambda[i];
+    both[1] *= 1 + lambda[i];
+  }
+  *fold = creal(both[0]);
+  *flip = creal(both[1]);
+  floquet_free(eigen);
+  stretch_flow_free(f);
+}
+
+/* The second mass's motions decay by 300 a time, e^(-300 0.4) = 1e-52, and as fast under the stuck slider. What remains
+ * has two multipliers, which the products over 1 - lambda and 1 + lambda tell, and a slider's 0. The map of all states
+ * rounds by 2e-16 of its entries, 1e2 to 1e3 times as large as the multipliers: velocities of motions at 300 beside
+ * displacements. With kt = 1e9 a slider's force in the place of its motion would make entries of 1e9, and 1e-7. */
+static void what_a_stretch_leaves_has_all_the_multipliers(void **state)
+{
+  (void)state;
+  static const double stiffness[] = {100, 1e9};
+  for (int i = 0; i < 4; ++i) {
+    const int last = i % 2 ? STUCK : SLIP;
+    model *m = damped_masses(stiffness[i / 2]);
+    double fold[2], flip[2];
+    int columns[2];
+    for (int all = 0; all < 2; ++all) products_of(m, last, all, &fold[all], &flip[all], &columns[all]);
+    assert_int_equal(columns[1], 4);
+    assert_true(columns[0] < 4);
+    CHECK_NEAR(fold[0], fold[1], 1e-12, "fold %d", i);
+    CHECK_NEAR(flip[0], flip[1], 1e-12, "flip %d", i);
+    model_free(m);
+  }
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(oscillators_side_by_side),
       cmocka_unit_test(a_free_body_has_no_eigenvectors),
+      cmocka_unit_test(what_a_stretch_leaves_has_all_the_multipliers),
   };
   check_watchdog(60);
   return cmocka_run_group_tests_name("hbm.structure_stability", tests, NULL, NULL);
