@@ -66,16 +66,17 @@ void hbm_system_response(const hbm_system *sys, int n_harm, const double *X, dou
 static size_t cosines(const hbm_system *sys, int h) { return (size_t)sys->dim * (size_t)(h ? 2 * h - 1 : 0); }
 static size_t sines(const hbm_system *sys, int h) { return (size_t)sys->dim * (size_t)(2 * h); }
 
-/* rows = S X, of one coordinate. */
+/* rows of harmonic h = S X, of one coordinate. */
+static void multiply_number(double *restrict rows, double complex S, int h, const double *X)
+{
+  const double re = creal(S), im = cimag(S), a = X[h ? 2 * h - 1 : 0], b = X[2 * h];
+  rows[2 * h] = re * b - im * a;
+  rows[h ? 2 * h - 1 : 0] = h ? re * a + im * b : re * a;
+}
+
 static void multiply_numbers(hbm_system *sys, const double complex *S, const double *X)
 {
-  double *restrict rows = sys->rows;
-  for (int h = 1; h <= sys->n_harm; ++h) {
-    const double re = creal(S[h]), im = cimag(S[h]), a = X[2 * h - 1], b = X[2 * h];
-    rows[2 * h - 1] = re * a + im * b;
-    rows[2 * h] = re * b - im * a;
-  }
-  rows[0] = creal(S[0]) * X[0];
+  for (int h = 0; h <= sys->n_harm; ++h) multiply_number(sys->rows, S[h], h, X);
 }
 
 /* rows of harmonic h += B X, B[dim][dim] complex. */
@@ -214,7 +215,8 @@ static void differentiate(hbm_system *sys, condensation_change (*by)(const conde
   memset(sys->rows, 0, (size_t)sys->n_coef * sizeof(double));
   for (int h = 0; h <= sys->n_harm; ++h) {
     condensation_stiffness_change(sys->linear, h, by(sys->linear, h), sys->block);
-    multiply_block(sys, sys->block, h, X);
+    if (sys->dim == 1) multiply_number(sys->rows, *sys->block, h, X);
+    else multiply_block(sys, sys->block, h, X);
   }
   for (int l = 0; l < sys->model->n_loads && sys->model->n > 1; ++l) {
     const int h = sys->model->loads[l].harmonic;
