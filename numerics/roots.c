@@ -166,8 +166,8 @@ static hc_status ask_middle(change_search *k)
 
 hc_status root_change(root_predicate *beyond, void *self, double a, double b, double tolerance, root_point *out)
 {
-  change_search k = {beyond, NULL, self, out};
   *out = (root_point){b, 1, 0, a};
+  change_search k = {beyond, NULL, self, out};
   if (!isfinite(a) || !isfinite(b)) return HC_BAD_INPUT;
   hc_status st = HC_OK;
   while (st == HC_OK && fabs(width_of(&k)) > at_least_rounding(tolerance, out->x)) st = ask_middle(&k);
@@ -221,9 +221,9 @@ hc_status root_change_guided(root_predicate *beyond, root_predicate *likely, voi
                              double tolerance, root_point *out)
 {
   const double first = 1.0 / 32, worst = 0.25, better = 8; /* margins, in parts of the width */
+  *out = (root_point){b, 1, 0, a};
   change_search k = {beyond, likely, self, out};
   double part = first;
-  *out = (root_point){b, 1, 0, a};
   if (!isfinite(a) || !isfinite(b)) return HC_BAD_INPUT;
   for (;;) {
     const double width = fabs(width_of(&k)), wanted = at_least_rounding(tolerance, out->x);
