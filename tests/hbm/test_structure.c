@@ -31,10 +31,11 @@ static bool difference(hbm_system *sys, double omega, double w, const double *X,
 {
   static double Y[MOST], plus[MOST], minus[MOST];
   const int transitions = sys->report.transitions;
-  for (int i = 0; i < sys->n; ++i) Y[i] = X[i] + h * V[i];
+  memcpy(Y, X, (size_t)sys->n_coef * sizeof *Y);
+  for (int i = 0; i < sys->n; ++i) Y[sys->first + i] = X[sys->first + i] + h * V[i];
   assert_int_equal(hbm_system_residual(sys, omega + h * w, Y, plus), HC_OK);
   bool same = sys->report.transitions == transitions;
-  for (int i = 0; i < sys->n; ++i) Y[i] = X[i] - h * V[i];
+  for (int i = 0; i < sys->n; ++i) Y[sys->first + i] = X[sys->first + i] - h * V[i];
   assert_int_equal(hbm_system_residual(sys, omega - h * w, Y, minus), HC_OK);
   same &= sys->report.transitions == transitions;
   for (int i = 0; i < sys->n; ++i) D[i] = (plus[i] - minus[i]) / (2 * h);
@@ -73,16 +74,36 @@ static bool jacobian_matches(hbm_system *sys, uint64_t *seed, double omega, cons
   return true;
 }
 
+/* The most that was compared, and how many structures whose contacts' directions are dependent: as coordinates there
+ * are fewer than directions and than DOFs. */
+typedef struct reach_of {
+  int n, contacts, harmonics, deficient, without_mean;
+} reach_of;
+
+static void reach(reach_of *most, const model *m, const hbm_system *sys)
+{
+  int directions = 1; /* the first response's */
+  for (int j = 0; j < m->n_contacts; ++j) directions += (m->contacts[j].law.kt > 0) + (m->contacts[j].law.kn > 0);
+  if (m->n > most->n) most->n = m->n;
+  if (m->n_contacts > most->contacts) most->contacts = m->n_contacts;
+  if (sys->n_harm > most->harmonics) most->harmonics = sys->n_harm;
+  most->without_mean += sys->first > 0;
+  most->deficient += sys->dim < directions && sys->dim < m->n;
+}
+
 /* To n = 30 with 12 contacts, H to 20; every tenth without harmonic 0. Of sampled forces the same. */
 static void jacobian_is_the_derivative(void **state)
 {
   (void)state;
   uint64_t seed = 11;
   int compared[2] = {0}, tried[2] = {0};
+  reach_of reached = {0};
   double worst = 0;
   for (int trial = 0; trial < 120; ++trial) {
-    const int n = random_int(&seed, 2, trial % 4 ? 8 : 30), contacts = random_int(&seed, 1, trial % 4 ? 5 : 12);
-    const int H = random_int(&seed, 1, trial % 8 == 1 ? 20 : 4), sampled = trial % 3 == 2;
+    const bool large = trial % 40 == 4; /* the most there is */
+    const int n = large ? 30 : random_int(&seed, 2, trial % 4 ? 8 : 30);
+    const int contacts = large ? 12 : random_int(&seed, 1, trial % 4 ? 5 : 12);
+    const int H = trial % 40 == 1 ? 20 : random_int(&seed, 1, trial % 8 == 1 ? 20 : 4), sampled = trial % 3 == 2;
     model *m = random_structure(&seed, n, contacts);
     hbm_settings how = settings(H);
     hbm_system sys;
@@ -91,15 +112,20 @@ static void jacobian_is_the_derivative(void **state)
     how.force = sampled ? HBM_FORCE_SAMPLED : HBM_FORCE_EXACT;
     assert_int_equal(hbm_system_init(&sys, m, &how, H, 256), HC_OK);
     assert_true(sys.dim <= n && sys.dim <= 2 * contacts + 1);
-    for (int k = 0; k < 3 && sys.n <= 400 && how.keep_mean; ++k) {
+    for (int k = 0; k < 3 && sys.n <= 400; ++k) {
       random_state(&seed, &sys, X);
-      compared[sampled] += jacobian_matches(&sys, &seed, 3 + 9 * random_unit(&seed), X, &worst);
+      for (int i = 0; i < sys.first; ++i) X[i] = 0;
+      const bool told = jacobian_matches(&sys, &seed, 3 + 9 * random_unit(&seed), X, &worst);
+      compared[sampled] += told;
       ++tried[sampled];
+      if (told) reach(&reached, m, &sys);
     }
     hbm_system_clear(&sys);
     model_free(m);
   }
   CHECK_LE(worst, 1e-8, "Jacobian");
+  assert_true(reached.n == 30 && reached.contacts == 12 && reached.harmonics == 20);
+  assert_true(reached.deficient > 20 && reached.without_mean > 10);
   assert_true(compared[0] > tried[0] / 2 && compared[1] > tried[1] / 4);
 }
 
