@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # An oscillator written as a structure of one degree of freedom gives the same bytes: every case of one degree of freedom, whole curve with stability and special
-# points, located and sampled forces. The structure's table has one column more, `response`, which is taken out.
+# points, located and sampled forces. Its table has one column more, `response`, and its notes name the response: both are taken out.
 #     one_dof.sh HBMCHECK SOURCE
 set -euo pipefail
 hbmcheck=$1
@@ -21,7 +21,7 @@ for case in cases/paper/*.yaml cases/adversarial/*.yaml cases/verify/*.yaml; do
     one=0 other=0
     "$hbmcheck" frf "$case" "${settings[@]}" >"$own/one.csv" 2>"$own/one.err" || one=$?
     "$hbmcheck" frf "$as_structure" "${settings[@]}" >"$own/other.csv" 2>"$own/other.err" || other=$?
-    sed -i '/^#/! s/^\([^,]*,[^,]*\),[^,]*,/\1,/' "$own/other.csv"
+    sed -i -e '/^#/! s/^\([^,]*,[^,]*\),[^,]*,/\1,/' -e '/^#/ s/amplitude of 1 /amplitude /' "$own/other.csv"
     sed -i "s,$as_structure,$case,g" "$own/other.err"
     if [ "$one" -ne "$other" ] || ! diff "$own/one.csv" "$own/other.csv" || ! diff "$own/one.err" "$own/other.err"; then
       echo "$case, $force: an oscillator (exit $one) and a structure of one degree of freedom (exit $other) differ"
