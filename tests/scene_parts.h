@@ -43,7 +43,7 @@ static inline void scene_scaled(scaled_model *m, const scene *sc, double omega, 
   static scaled_contact contacts[16][SCENE_MAX_CONTACTS];
   static int made;
   model *from;
-  m->contact = contacts[made++ % 16];
+  *m = (scaled_model){.contact = contacts[made++ % 16]};
   assert_int_equal(scene_model(sc, &from), HC_OK);
   scaled_make(m, from, &sc->transient, omega, length);
   model_free(from);
@@ -53,7 +53,7 @@ static inline void scene_scaled(scaled_model *m, const scene *sc, double omega, 
 static inline measure scene_measure(void)
 {
   measure me;
-  assert_int_equal(measure_make(&me, SCENE_MAX_STATES), HC_OK);
+  assert_int_equal(measure_make(&me, SCENE_MAX_STATES, 1, SCENE_MAX_CONTACTS), HC_OK);
   return me;
 }
 
@@ -61,7 +61,7 @@ static inline void scene_measure_report(const measure *me, const scene *sc, doub
 {
   model *from;
   assert_int_equal(scene_model(sc, &from), HC_OK);
-  measure_report(me, from, length, r);
+  measure_report(me, from, 0, length, r);
   model_free(from);
 }
 

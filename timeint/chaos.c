@@ -132,7 +132,7 @@ hc_status chaos_test(timeint *ti, const hc_monitor *monitor, bool *chaos, double
   measurement m = {.ti = ti, .monitor = monitor};
   *chaos = false;
   if (!(ti->periods > fmax(AFTER, FOLDS / (1 - ti->contraction))) || !periods_left(ti, BATCHES + 1)) return HC_OK;
-  for (int i = 0; i < ti->n; ++i) ti->separation[i] = i == SCALED_X ? separation : 0;
+  for (int i = 0; i < ti->n; ++i) ti->separation[i] = i < ti->n_dof ? separation / sqrt(ti->n_dof) : 0;
   hc_status st = integrate_batch(&m, true, rate);
   if (st != HC_OK) return st;
   const double enough = folds_of_leaving(&m) + beyond;

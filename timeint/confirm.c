@@ -79,7 +79,7 @@ static hc_status make_matrix(confirm *c, int k)
     floquet_product(c->n, c->one_period, c->product, c->phi);
   }
   for (int i = 0; i < c->n; ++i) {
-    const bool stays = i >= SCALED_W && is_unit_row(c, i);
+    const bool stays = i >= 2 * c->ti->n_dof && is_unit_row(c, i);
     for (int j = 0; j < c->n; ++j) c->matrix[i + j * c->n] = (i == j) - (stays ? 0 : c->phi[i + j * c->n]);
   }
   return lu_factor(c->n, c->matrix, c->pivot) ? HC_OK : HC_SINGULAR;

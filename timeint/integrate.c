@@ -27,13 +27,13 @@ hc_status integrate_dense(const integrator *in, double theta, int order, double 
   return in->does->dense(in, theta, order, y);
 }
 
-hc_status integrate_samples(const integrator *in, double theta, double step, int count, double *x)
+hc_status integrate_samples(const integrator *in, int r, double theta, double step, int count, double *x)
 {
-  return in->does->samples(in, theta, step, count, x);
+  return in->does->samples(in, r, theta, step, count, x);
 }
 
-bool integrate_fourier(const integrator *in, double out[3]) { return in->does->fourier(in, out); }
-bool integrate_slips(const integrator *in, int j, const double *y) { return in->does->slips(in, j, y); }
+bool integrate_fourier(const integrator *in, int r, double out[3]) { return in->does->fourier(in, r, out); }
+contact_state integrate_contact(const integrator *in, int j, const double *y) { return in->does->state(in, j, y); }
 
 long integrate_periods(const integrator *in) { return in->periods; }
 long integrate_steps(const integrator *in) { return in->steps; }

@@ -8,7 +8,8 @@
  *
  * One interface, three ways. integrate_regularised.h: the equations of scaled.h as they stand, by CVODE.
  * integrate_exact.h: the exact law by CVODE, event-driven: one smooth right-hand side for each set of contact states,
- * from one change of state (transition) to the next. integrate_closed.h: the same law in closed form, no CVODE. */
+ * from one change of state (transition) to the next. integrate_closed.h: the same law in closed form, no CVODE.
+ * Structures have their own three in structure/. */
 #ifndef HC_TIMEINT_INTEGRATE_H
 #define HC_TIMEINT_INTEGRATE_H
 
@@ -40,15 +41,15 @@ hc_status integrate_monodromy(integrator *in, const scaled_model *m, double *y, 
  * polynomial, as good as the step itself. y[n_states]. */
 hc_status integrate_dense(const integrator *in, double theta, int order, double *y);
 
-/* Inside a watch: X at the angles theta + i step, i = 0..count-1, all in the step. */
-hc_status integrate_samples(const integrator *in, double theta, double step, int count, double *x);
+/* Inside a watch: response r (an oscillator's is X) at the angles theta + i step, i = 0..count-1, all in the step. */
+hc_status integrate_samples(const integrator *in, int r, double theta, double step, int count, double *x);
 
-/* Inside a watch: the integrals of X, X cos(theta), X sin(theta) over the step, to rounding; false if this integrator
- * cannot tell. */
-bool integrate_fourier(const integrator *in, double out[3]);
+/* Inside a watch: the integrals of response r, times 1, cos(theta), sin(theta), over the step, to rounding; false if this
+ * integrator cannot tell. */
+bool integrate_fourier(const integrator *in, int r, double out[3]);
 
-/* Inside a watch: does contact j slip, at the state y of the step's end? */
-bool integrate_slips(const integrator *in, int j, const double *y);
+/* Inside a watch: the state of contact j in the step, at whose end the state is y. */
+contact_state integrate_contact(const integrator *in, int j, const double *y);
 
 /* Periods begun since the integrator was made. */
 long integrate_periods(const integrator *in);

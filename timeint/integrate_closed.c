@@ -157,14 +157,16 @@ static hc_status dense(const integrator *base, double theta, int order, double *
   return HC_OK;
 }
 
-static hc_status samples(const integrator *base, double theta, double step, int count, double *x)
+static hc_status samples(const integrator *base, int r, double theta, double step, int count, double *x)
 {
+  (void)r;
   modal_samples(&((const closed_form *)base)->motion, 0, theta, step, count, x);
   return HC_OK;
 }
 
-static bool fourier(const integrator *base, double out[3])
+static bool fourier(const integrator *base, int r, double out[3])
 {
+  (void)r;
   const closed_form *in = (const closed_form *)base;
   double room[4];
   modal_point at = point_in(room);
@@ -174,10 +176,10 @@ static bool fourier(const integrator *base, double out[3])
   return modal_fourier(&in->motion, 0, &at, &in->end, out);
 }
 
-static bool slips(const integrator *base, int j, const double *y)
+static contact_state state(const integrator *base, int j, const double *y)
 {
-  (void)y; /* the phase has the contact's state */
-  return contact_slip_sign(((const closed_form *)base)->phase.contact[j].state) != 0;
+  (void)y; /* the phase has it */
+  return ((const closed_form *)base)->phase.contact[j].state;
 }
 
 static hc_status tolerance(integrator *base, double ignored)
@@ -199,7 +201,7 @@ static const integrator_class class = {.period = period,
                                        .dense = dense,
                                        .samples = samples,
                                        .fourier = fourier,
-                                       .slips = slips,
+                                       .state = state,
                                        .tolerance = tolerance,
                                        .free = release};
 

@@ -21,19 +21,19 @@ hc_status integrate_cvode_tolerance(integrator *base, double tolerance)
   return integrate_translate(in, CVodeSStolerances(in->cv, tolerance, tolerance));
 }
 
-hc_status integrate_dense_samples(const integrator *in, double theta, double step, int count, double *x)
+hc_status integrate_dense_samples(const integrator *in, int r, double theta, double step, int count, double *x)
 {
   const cvode_integrator *cv = (const cvode_integrator *)in;
   for (int i = 0; i < count; ++i) {
     if (CVodeGetDky(cv->cv, theta + i * step, 0, cv->dky) != CV_SUCCESS) return HC_BUG; /* outside the step */
-    x[i] = NV_Ith_S(cv->dky, SCALED_X);
+    x[i] = scaled_response(cv->m, r, NV_DATA_S(cv->dky));
   }
   return HC_OK;
 }
 
-bool integrate_no_fourier(const integrator *in, double out[3])
+bool integrate_no_fourier(const integrator *in, int r, double out[3])
 {
-  (void)in;
+  (void)in, (void)r;
   out[0] = out[1] = out[2] = NAN;
   return false;
 }

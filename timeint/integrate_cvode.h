@@ -13,6 +13,7 @@
 
 typedef struct cvode_integrator { /* the first member of each kind */
   integrator base;
+  const scaled_model *m; /* of the period under way; the caller's */
   bool not_finite; /* a right-hand side was not finite in the period under way */
   bool called;     /* CVODE has been called: its first call allocates, and crashes if it cannot (sundials_compat.h) */
   SUNContext ctx;  /* made first, freed last, this integrator's alone */
@@ -45,8 +46,8 @@ int integrate_first_flag(const int *flags, size_t n);
 
 /* The methods of integrator_class that are the same for both laws: samples one by one by dense output, no integrals,
  * CVODE's tolerance. */
-hc_status integrate_dense_samples(const integrator *in, double theta, double step, int count, double *x);
-bool integrate_no_fourier(const integrator *in, double out[3]);
+hc_status integrate_dense_samples(const integrator *in, int r, double theta, double step, int count, double *x);
+bool integrate_no_fourier(const integrator *in, int r, double out[3]);
 hc_status integrate_cvode_tolerance(integrator *in, double tolerance);
 
 #endif

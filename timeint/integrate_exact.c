@@ -52,7 +52,6 @@ typedef struct event_driven { /* from integrate_new_exact, to integrate_free; no
   cvode_integrator base;
   int n; /* number of states */
   double tolerance;
-  const scaled_model *m; /* of the period under way; the caller's */
   phase phase, before;   /* now; before the last transition */
   bool varies;           /* the monodromy is asked for */
   variations variations;
@@ -79,7 +78,7 @@ static int jacobian(sunrealtype theta, N_Vector y, N_Vector dy, SUNMatrix jac, v
   const event_driven *in = self;
   double *a = SM_DATA_D(jac);
   a[0] = 0, a[1] = -in->phase.k; /* by X */
-  a[2] = 1, a[3] = -in->m->c;    /* by P */
+  a[2] = 1, a[3] = -in->base.m->c;    /* by P */
   return 0;
 }
 
@@ -145,7 +144,7 @@ static hc_status start(event_driven *in, double theta)
 
 static int most_transitions(const event_driven *in)
 {
-  const int by_contacts = MAX_TRANSITIONS_A_CONTACT * in->m->n_contacts;
+  const int by_contacts = MAX_TRANSITIONS_A_CONTACT * in->base.m->n_contacts;
   return by_contacts > MAX_TRANSITIONS ? by_contacts : MAX_TRANSITIONS;
 }
 
@@ -204,7 +203,7 @@ static hc_status period(integrator *base, const scaled_model *m, double *y, doub
 {
   event_driven *in = (event_driven *)base;
   if (m->n_states != in->n) return HC_BUG;
-  in->m = m;
+  in->base.m = m;
   in->varies = monodromy != NULL;
   hc_status st = integrate_begin_period(&in->base);
   if (st != HC_OK) return st;
@@ -234,22 +233,23 @@ static hc_status dense(const integrator *base, double theta, int order, double *
 }
 
 /* The motion of the step solves the phase's linear equation, and so its integrals follow from its ends. */
-static bool fourier(const integrator *base, double out[3])
+static bool fourier(const integrator *base, int r, double out[3])
 {
+  (void)r;
   const event_driven *in = (const event_driven *)base;
-  const mode one = mode_make(in->m->c, in->phase.k);
+  const mode one = mode_make(in->base.m->c, in->phase.k);
   double d = -in->phase.d, x[2] = {in->begun[0], NV_Ith_S(in->base.y, 0)},
          p[2] = {in->begun[1], NV_Ith_S(in->base.y, 1)};
-  double complex f = in->m->f;
+  double complex f = in->base.m->f;
   const modal_motion motion = {.n = 1, .theta = in->theta, .mode = &one, .q = x, .p = p, .d = &d, .f = &f};
   const modal_point from = {.q = x, .p = p}, to = {.tau = in->ends - in->theta, .q = x + 1, .p = p + 1};
   return modal_fourier(&motion, 0, &from, &to, out);
 }
 
-static bool slips(const integrator *base, int j, const double *y)
+static contact_state state(const integrator *base, int j, const double *y)
 {
-  (void)y; /* the phase has the contact's state */
-  return contact_slip_sign(((const event_driven *)base)->phase.contact[j].state) != 0;
+  (void)y; /* the phase has it */
+  return ((const event_driven *)base)->phase.contact[j].state;
 }
 
 /* One contact more than there are: calloc of nothing may answer NULL. */
@@ -266,7 +266,7 @@ static const integrator_class class = {.period = period,
                                        .dense = dense,
                                        .samples = integrate_dense_samples,
                                        .fourier = fourier,
-                                       .slips = slips,
+                                       .state = state,
                                        .tolerance = integrate_cvode_tolerance,
                                        .free = release};
 

@@ -8,9 +8,9 @@ typedef struct integrator_class {
   /* monodromy, watch: or NULL */
   hc_status (*period)(integrator *, const scaled_model *, double *y, double *monodromy, integrate_watch *, void *self);
   hc_status (*dense)(const integrator *, double theta, int order, double *y);
-  hc_status (*samples)(const integrator *, double theta, double step, int count, double *x);
-  bool (*fourier)(const integrator *, double out[3]);
-  bool (*slips)(const integrator *, int j, const double *y);
+  hc_status (*samples)(const integrator *, int r, double theta, double step, int count, double *x);
+  bool (*fourier)(const integrator *, int r, double out[3]);
+  contact_state (*state)(const integrator *, int j, const double *y);
   hc_status (*tolerance)(integrator *, double tolerance);
   void (*free)(integrator *);
 } integrator_class;

@@ -27,7 +27,6 @@ enum {
 typedef struct regularised { /* from integrate_new_regularised, to integrate_free; not shared between threads */
   cvode_integrator base;
   int n;                 /* number of states                                                  */
-  const scaled_model *m; /* of the period under way; the caller's                             */
   N_Vector *s;           /* [n][n] d y / d y_j(0), j = 0..n-1: CVODES calls them sensitivities */
   double *jacobian;      /* [n][n] d y' / d y where their right-hand side is wanted            */
   double *s_tolerance;   /* [n] absolute tolerance of each s_j, which CVODES copies            */
@@ -36,7 +35,7 @@ typedef struct regularised { /* from integrate_new_regularised, to integrate_fre
 static int rhs(sunrealtype theta, N_Vector y, N_Vector dy, void *self)
 {
   regularised *in = self;
-  if (scaled_rhs(in->m, theta, NV_DATA_S(y), NV_DATA_S(dy))) return 0;
+  if (scaled_rhs(in->base.m, theta, NV_DATA_S(y), NV_DATA_S(dy))) return 0;
   in->base.not_finite = true;
   return -1;
 }
@@ -46,7 +45,7 @@ static int jacobian(sunrealtype theta, N_Vector y, N_Vector dy, SUNMatrix jac, v
 {
   (void)theta, (void)dy, (void)t1, (void)t2, (void)t3;
   regularised *in = self;
-  scaled_jacobian(in->m, NV_DATA_S(y), SM_DATA_D(jac));
+  scaled_jacobian(in->base.m, NV_DATA_S(y), SM_DATA_D(jac));
   return 0;
 }
 
@@ -56,7 +55,7 @@ static int variation_rhs(int n, sunrealtype theta, N_Vector y, N_Vector dy, N_Ve
 {
   (void)theta, (void)dy, (void)t1, (void)t2;
   regularised *in = self;
-  scaled_jacobian(in->m, NV_DATA_S(y), in->jacobian);
+  scaled_jacobian(in->base.m, NV_DATA_S(y), in->jacobian);
   for (int j = 0; j < n; ++j) {
     const double *from = NV_DATA_S(s[j]);
     double *to = NV_DATA_S(ds[j]);
@@ -184,7 +183,7 @@ static hc_status period(integrator *base, const scaled_model *m, double *y, doub
 {
   regularised *in = (regularised *)base;
   const size_t bytes = sizeof *y * (size_t)in->n;
-  in->m = m;
+  in->base.m = m;
   hc_status st = integrate_begin_period(&in->base);
   if (st != HC_OK) return st;
   memcpy(NV_DATA_S(in->base.y), y, bytes);
@@ -205,16 +204,16 @@ static hc_status dense(const integrator *base, double theta, int order, double *
   return HC_OK;
 }
 
-static bool slips(const integrator *base, int j, const double *y)
+static contact_state state(const integrator *base, int j, const double *y)
 {
-  return scaled_slips(((const regularised *)base)->m, j, y);
+  return scaled_contact_state(((const regularised *)base)->base.m, j, y);
 }
 
 static const integrator_class class = {.period = period,
                                        .dense = dense,
                                        .samples = integrate_dense_samples,
                                        .fourier = integrate_no_fourier,
-                                       .slips = slips,
+                                       .state = state,
                                        .tolerance = integrate_cvode_tolerance,
                                        .free = release};
 

@@ -3,7 +3,13 @@
 
 law_regularised law_regularised_make(const contact *c, double width, double relaxation)
 {
-  law_regularised r = {.kt = c->kt, .kn = c->kn, .mu = c->mu, .gap = c->gap, .width = width, .eta = relaxation * c->kt};
+  law_regularised r = {.kt = c->kt,
+                       .kn = c->kn,
+                       .mu = c->mu,
+                       .gap = c->gap,
+                       .load = c->load,
+                       .width = width,
+                       .eta = relaxation * c->kt};
   r.has_friction = contact_has_friction(c);
   return r;
 }
@@ -12,7 +18,8 @@ law_regularised law_regularised_make(const contact *c, double width, double rela
  * is set to 0. This saves two exp in most evaluations, and no exp can overflow. */
 enum { SOFT_END = 40 };
 
-static double normal_force(const law_regularised *c, double v)
+/* N without the load. */
+static double spring_force(const law_regularised *c, double v)
 {
   double g = v + c->gap;
   if (g > SOFT_END * c->width) return c->kn * g;
@@ -20,11 +27,13 @@ static double normal_force(const law_regularised *c, double v)
   return c->width > 0 ? c->kn * c->width * log1p(exp(g / c->width)) : 0.0 * g; /* NaN in, NaN out */
 }
 
+static double normal_force(const law_regularised *c, double v) { return spring_force(c, v) + c->load; }
+
 /* N - N0, computed without cancellation (contact_normal_change). */
 static double normal_change(const law_regularised *c, double v)
 {
   double g = v + c->gap;
-  if (!(c->gap > 0) || isnan(g)) return normal_force(c, v);
+  if (!(c->gap > 0) || isnan(g)) return spring_force(c, v);
   if (g > SOFT_END * c->width) return c->kn * v;
   if (g < -SOFT_END * c->width) return -c->kn * c->gap;
   return c->kn * (c->width > 0 ? v + c->width * log1p(exp(-g / c->width)) : v);

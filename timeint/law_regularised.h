@@ -1,6 +1,6 @@
 /* law_regularised.h - the contact law of model/contact_law.h, made smooth enough for an implicit integrator.
  *
- *     N  = kn width softplus((v + gap)/width)          softplus(z) = log(1 + exp(z))
+ *     N  = kn width softplus((v + gap)/width) + load   softplus(z) = log(1 + exp(z))
  *     S  = kt (u - w)                                  force of the tangential spring
  *     w' = sign(S) max(|S| - mu N, 0) / eta            viscoplastic slider: a Coulomb slider with a dashpot eta
  *                                                      beside it
@@ -23,7 +23,7 @@
 #include "model/contact_law.h"
 
 typedef struct law_regularised {
-  double kt, kn, mu, gap; /* as in contact_law.h */
+  double kt, kn, mu, gap, load; /* as in contact_law.h */
   double width;           /* [length] >= 0 of the corner in N; 0 is the exact corner */
   double eta;             /* [force time/length] > 0 where has_friction */
   bool overstress;        /* the dashpot's force reaches the mass; law_regularised_make says no */

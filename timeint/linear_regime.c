@@ -68,6 +68,7 @@ static bool keeps_state(const scaled_contact *c, double x, double w, double cent
 bool linear_regime_is_final(const timeint *ti)
 {
   const scaled_model *m = &ti->scaled;
+  if (m->base) return false; /* Newton finds a structure's linear motion in one step */
   const linear l = linear_now(ti);
   const double amplitude = cabs(l.steady), reach = amplitude + l.free;
   if (!(l.k > 0) || !isfinite(fabs(l.center) + reach)) return false;

@@ -14,7 +14,7 @@
 #include "timeint/steady.h"
 
 /* Does no contact change its state from ti->y on (after timeint_begin), as far as the condition above can tell, and
- * does the motion settle? Undamped it settles only if it has already, within transient.tolerance. Either law; the
+ * does the motion settle? Undamped it settles only if it has already, within transient.tolerance. Either law; of an oscillator only; the
  * regularised one is linear where v + gap is 40 widths of its corner in N away from 0. */
 bool linear_regime_is_final(const timeint *ti);
 

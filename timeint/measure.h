@@ -1,6 +1,6 @@
 /* measure.h - what is reported of one or several successive periods, from the integrator's dense output.
  *
- * Peaks: roots of v, bracketed inside each step (two roots in one step by the extremum of v between them) and refined
+ * Peaks: roots of the response's rate, bracketed inside each step (two roots in one step by the extremum of v between them) and refined
  * to rounding; the error of x there is of second order in that of the root. The wave: x at TIMEINT_WAVE equispaced
  * instants; rms is a sum over these. Mean and first harmonic are integrals, step by step: the integrator's own where a
  * step solves a linear equation, else of the quintic through both ends of a step. Sums over the instants would alias: x
@@ -12,23 +12,31 @@
 #include "timeint/integrate.h"
 #include "timeint/steady.h"
 
-typedef struct measure { /* lengths in units of the model's L, until measure_report */
-  const scaled_model *m;
-  int periods;    /* begun so far                                            */
-  int next;       /* index of the next instant of the wave                   */
-  double x, p, a; /* X, P, P' at the end of the last step                    */
+typedef struct response_measure { /* of one response r, an oscillator's is X */
+  double x, p, a; /* r, r', r'' at the end of the last step */
   double max, min;
   double sum, sum_sq, sum_cos, sum_sin; /* over the instants                         */
-  double integral[3];                   /* of X, X cos, X sin; wrong where no_integrals */
-  bool no_integrals;                    /* the integrator does not have them */
-  bool slips;                           /* some contact slipped at the end of some step            */
+  double integral[3];                   /* of r, r cos, r sin; wrong where no_integrals */
   double wave[TIMEINT_WAVE];
+} response_measure;
+
+/* What a contact was seen to do. */
+enum { SEEN_SEPARATED = 1, SEEN_STUCK = 2, SEEN_SLIPPING = 4 };
+
+typedef struct measure { /* lengths in units of the model's L, until measure_report */
+  const scaled_model *m;
+  int n_responses, n_contacts;
+  int periods;        /* begun so far                                            */
+  int next;           /* index of the next instant of the wave                   */
+  bool no_integrals;  /* the integrator does not have them */
+  response_measure *response;      /* [n_responses] */
+  unsigned char *seen;             /* [n_contacts] at the ends of steps */
   double *circle;                  /* [TIMEINT_WAVE][2] cos and sin of the instants */
   double *end, *end_rate, *inside; /* [n_states] a state at a step's end, its derivative, a state inside a step */
 } measure;
 
-/* Memory for models of n_states equations. HC_NO_MEMORY; measure_free in any case. */
-hc_status measure_make(measure *me, int n_states);
+/* Memory for models of n_states equations with so many responses and contacts. HC_NO_MEMORY; measure_free in any case. */
+hc_status measure_make(measure *me, int n_states, int n_responses, int n_contacts);
 void measure_free(measure *me);
 
 /* *m stays the caller's, unchanged until the last period. */
@@ -38,7 +46,11 @@ void measure_begin(measure *me, const scaled_model *m);
 void measure_period(measure *me, const double *y);
 hc_status measure_step(void *self, const integrator *in, double theta0, double theta1);
 
-/* max, min, amplitude, rms, mean, a1, b1, harmonic_1, wave (of the last period) and regime into *r; L = length. */
-void measure_report(const measure *me, const model *from, double length, timeint_result *r);
+/* The strongest thing contact j did; an oscillator's covered [min, max] (model's units). */
+contact_regime measure_regime(const measure *me, const model *from, int j, double min, double max);
+
+/* Of response i: max, min, amplitude, rms, mean, a1, b1, harmonic_1, wave (of the last period), and the regime of all
+ * contacts, into *r; L = length. */
+void measure_report(const measure *me, const model *from, int i, double length, timeint_result *r);
 
 #endif

@@ -3,6 +3,7 @@
 
 #include <float.h>
 #include <math.h>
+#include <string.h>
 
 #include "timeint/timeint_private.h"
 
@@ -52,14 +53,17 @@ hc_status orbit_measure(timeint *ti, int k, timeint_result *r)
 {
   double returned[SETTLE_MAX_MULTIPLE + 1];
   const long transitions = integrate_transitions(ti->in);
-  const double x = ti->y[SCALED_X], p = ti->y[SCALED_P];
+  const size_t moving = 2 * (size_t)ti->n_dof;
+  double *began = ti->began;
+  memcpy(began, ti->y, moving * sizeof *began);
   measure_begin(&ti->measure, &ti->scaled);
   for (int i = 0; i < k; ++i) {
     hc_status st = timeint_period(ti, true);
     if (st != HC_OK) return st;
-    returned[i + 1] = fmax(fabs(ti->y[SCALED_X] - x), fabs(ti->y[SCALED_P] - p));
+    returned[i + 1] = 0;
+    for (size_t c = 0; c < moving; ++c) returned[i + 1] = fmax(returned[i + 1], fabs(ti->y[c] - began[c]));
   }
-  measure_report(&ti->measure, ti->model, ti->length, r);
+  measure_report(&ti->measure, ti->model, 0, ti->length, r);
   r->switches = (int)(integrate_transitions(ti->in) - transitions);
   r->period_multiple = shortest_period(k, timeint_size(ti) / ti->length, returned);
   return HC_OK;

@@ -44,9 +44,9 @@ static hc_status halve(timeint *ti, int k, const hc_monitor *monitor, timeint_re
     timeint_get_state(ti, ti->scout_state);
     hc_status st = timeint_orbit(ti->scout, ti->omega, k, ti->scout_state, monitor, &unused);
     if (st != HC_OK) return st;
-    ti->scout_state[TIMEINT_V] /= ti->omega;
+    timeint_take_state(ti, ti->scout_state, ti->point[0]);
     for (int i = 0; i < ti->n; ++i) {
-      const double apart = ti->scout_state[i] / ti->length - ti->y[i];
+      const double apart = ti->point[0][i] - ti->y[i];
       change = fmax(change, fabs(apart));
       ti->y[i] += 0.5 * apart;
     }

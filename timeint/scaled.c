@@ -4,39 +4,55 @@
 #include <math.h>
 #include <string.h>
 
+#include "timeint/structure/equations.h"
+
 /* Width of the corner in N for one contact: a fraction of the larger of its gap and the motion under a static force.
  * Where a contact opens or closes the motion is at least as large as the gap; a gap of 0 leaves the static motion. */
-static double corner_width(const model *m, const transient_settings *how, const contact *law)
+static double corner_width(const scaled_model *to, const model *m, const transient_settings *how, const contact *law)
 {
   if (how->law == TRANSIENT_LAW_EXACT) return 0;
-  double length = fabs(model_force(m)) / model_max_stiffness(m);
+  double length = to->base ? to->base->stuck_motion : fabs(model_force(m)) / model_max_stiffness(m);
   return how->regularisation * fmax(fabs(law->gap), length);
 }
 
-static void make_contact(scaled_contact *sc, const model *m, const transient_settings *how, const model_contact *from,
-                         double omega, double length)
+/* unit [force/length]: of forces, divided by length. */
+static void make_contact(scaled_contact *sc, const model_contact *from, double unit, double length, double width,
+                         const transient_settings *how, bool oscillator)
 {
-  const double unit = *m->mass * omega * omega; /* [force/length] */
-  contact law = {
-      .kt = from->law.kt / unit, .kn = from->law.kn / unit, .mu = from->law.mu, .gap = from->law.gap / length};
-  sc->cosine = *from->tangent;
-  sc->sine = *from->normal;
+  contact law = {.kt = from->law.kt / unit,
+                 .kn = from->law.kn / unit,
+                 .mu = from->law.mu,
+                 .gap = from->law.gap / length,
+                 .load = from->law.load / (unit * length)};
+  sc->cosine = oscillator ? *from->tangent : NAN;
+  sc->sine = oscillator ? *from->normal : NAN;
   if (sc->cosine == 0) law.kt = 0; /* u = 0 always: the tangential spring does no work */
-  sc->law = law_regularised_make(&law, corner_width(m, how, &from->law) / length, how->regularisation);
+  sc->law = law_regularised_make(&law, width / length, how->regularisation);
   sc->preload = contact_preload(&law);
 }
 
 void scaled_make(scaled_model *m, const model *from, const transient_settings *how, double omega, double length)
 {
+  const double mass = m->base ? 1 / (m->base->s * m->base->s) : *from->mass, unit = mass * omega * omega;
+  m->n = from->n;
   m->n_contacts = from->n_contacts;
-  m->n_states = SCALED_W + from->n_contacts;
-  m->k = *from->stiffness / (*from->mass * omega * omega);
-  m->c = *from->damping / (*from->mass * omega);
-  m->f = model_force(from) / (*from->mass * omega * omega * length);
-  for (int j = 0; j < from->n_contacts; ++j) make_contact(&m->contact[j], from, how, &from->contacts[j], omega, length);
+  m->n_states = 2 * from->n + from->n_contacts;
+  if (m->base) {
+    m->by_K = 1 / (omega * omega);
+    m->by_C = 1 / omega;
+    m->by_load = 1 / (omega * omega * length);
+  } else {
+    m->k = *from->stiffness / (*from->mass * omega * omega);
+    m->c = *from->damping / (*from->mass * omega);
+    m->f = model_force(from) / (*from->mass * omega * omega * length);
+  }
+  for (int j = 0; j < from->n_contacts; ++j) {
+    const model_contact *c = &from->contacts[j];
+    make_contact(&m->contact[j], c, unit, length, corner_width(m, from, how, &c->law), how, !m->base);
+  }
 }
 
-bool scaled_rhs(const scaled_model *m, double theta, const double *y, double *dy)
+static bool oscillator_rhs(const scaled_model *m, double theta, const double *y, double *dy)
 {
   double force = m->f * cos(theta) - m->c * y[SCALED_P] - m->k * y[SCALED_X];
   double rates = 0;
@@ -52,7 +68,12 @@ bool scaled_rhs(const scaled_model *m, double theta, const double *y, double *dy
   return isfinite(y[SCALED_P] + force + rates);
 }
 
-void scaled_jacobian(const scaled_model *m, const double *y, double *jac)
+bool scaled_rhs(const scaled_model *m, double theta, const double *y, double *dy)
+{
+  return m->base ? structure_rhs(m, theta, y, dy) : oscillator_rhs(m, theta, y, dy);
+}
+
+static void oscillator_jacobian(const scaled_model *m, const double *y, double *jac)
 {
   const int n = m->n_states;
   double *by_x = jac + SCALED_X * n, *by_p = jac + SCALED_P * n;
@@ -71,9 +92,50 @@ void scaled_jacobian(const scaled_model *m, const double *y, double *jac)
   }
 }
 
-bool scaled_slips(const scaled_model *m, int j, const double *y)
+void scaled_jacobian(const scaled_model *m, const double *y, double *jac)
 {
-  const scaled_contact *c = &m->contact[j];
-  if (!(c->sine * y[SCALED_X] + c->law.gap > 0)) return false;
-  return law_regularised_eval(&c->law, c->cosine * y[SCALED_X], c->sine * y[SCALED_X], y[SCALED_W + j]).rate != 0;
+  if (m->base) structure_jacobian(m, y, jac);
+  else oscillator_jacobian(m, y, jac);
+}
+
+static double dot(int n, const double *a, const double *b)
+{
+  double sum = 0;
+  for (int i = 0; i < n; ++i) sum += a[i] * b[i];
+  return sum;
+}
+
+void scaled_contact_motion(const scaled_model *m, int j, const double *x, double *u, double *v)
+{
+  if (m->base) {
+    *u = dot(m->n, m->base->tangent + (size_t)j * (size_t)m->n, x);
+    *v = dot(m->n, m->base->normal + (size_t)j * (size_t)m->n, x);
+  } else {
+    *u = m->contact[j].cosine * *x;
+    *v = m->contact[j].sine * *x;
+  }
+}
+
+double scaled_response(const scaled_model *m, int r, const double *x)
+{
+  return m->base ? dot(m->n, m->base->response + (size_t)r * (size_t)m->n, x) : *x;
+}
+
+int scaled_n_responses(const scaled_model *m) { return m->base ? m->base->n_responses : 1; }
+
+contact_state scaled_contact_state(const scaled_model *m, int j, const double *y)
+{
+  const law_regularised *law = &m->contact[j].law;
+  double u, v;
+  scaled_contact_motion(m, j, y, &u, &v);
+  if (!(law->kn > 0 ? v + law->gap > 0 : law->load > 0)) return CONTACT_SEPARATED;
+  const double rate = law_regularised_eval(law, u, v, y[2 * m->n + j]).rate;
+  return rate > 0 ? CONTACT_SLIP_PLUS : rate < 0 ? CONTACT_SLIP_MINUS : CONTACT_STICK;
+}
+
+double scaled_pull(const scaled_model *m, int j)
+{
+  if (!m->base) return m->contact[j].cosine;
+  const double *t = m->base->tangent + (size_t)j * (size_t)m->n;
+  return sqrt(dot(m->n, t, t));
 }

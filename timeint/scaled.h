@@ -9,6 +9,10 @@
  * Forces are in units of M omega^2 L. N0 = max(kn gap, 0) is the exact preload, not softplus' of it: at gap = 0 the
  * two differ to first order in the width, and a constant force would show in the answer to first order too.
  *
+ * A structure has n of X and P, the modes q/L of structure/modal_base.h, and N may have a constant part:
+ *     X'' + by_C C X' + by_K K X = by_load p(theta) - sum_j [ t_j T_j + n_j (N_j - N0_j) ]
+ *     by_K = 1/omega^2, by_C = 1/omega, by_load = 1/(omega^2 L); kt, kn times s^2/omega^2: the mass is 1/s^2
+ *
  * For the exact law the corner's width is 0, and X', P' of scaled_rhs are then exact for any state whose slider obeys
  * |T| <= mu N; the sliders' own motion is integrate_exact.c's. */
 #ifndef HC_TIMEINT_SCALED_H
@@ -16,24 +20,28 @@
 
 #include "model/model.h"
 #include "timeint/law_regularised.h"
+#include "timeint/structure/modal_base.h"
 #include "timeint/transient_settings.h"
 
-enum { SCALED_X, SCALED_P, SCALED_W }; /* order of the states: X, P, then W_j of contact j at SCALED_W + j */
+/* Order of an oscillator's states: X, P, then W_j of contact j at SCALED_W + j. A structure's: n of X, n of P, W. */
+enum { SCALED_X, SCALED_P, SCALED_W };
 
 typedef struct scaled_contact {
   law_regularised law; /* without dimensions */
-  double cosine, sine; /* of the contact's angle */
+  double cosine, sine; /* of an oscillator's contact: of its angle */
   double preload;      /* N0 */
 } scaled_contact;
 
 typedef struct scaled_model {
-  int n_contacts, n_states; /* n_states = 2 + n_contacts */
-  double k, c, f;
+  int n, n_contacts, n_states; /* n_states = 2 n + n_contacts */
+  double k, c, f;              /* of an oscillator */
+  const modal_base *base;      /* of a structure, the owner's; NULL: an oscillator */
+  double by_K, by_C, by_load;  /* of a structure */
   scaled_contact *contact; /* [n_contacts], memory of whoever owns the scaled_model */
 } scaled_model;
 
 /* The equations of *from at omega [rad/time] > 0, in lengths L = length > 0. m->contact points at memory for
- * from->n_contacts contacts; it is filled, and everything else in *m is set. */
+ * from->n_contacts contacts; it is filled. m->base is *from's, or NULL; everything else in *m is set. */
 void scaled_make(scaled_model *m, const model *from, const transient_settings *how, double omega, double length);
 
 /* dy[n_states] at phase theta and state y[n_states]. Answers whether all of it is finite. */
@@ -42,7 +50,15 @@ bool scaled_rhs(const scaled_model *m, double theta, const double *y, double *dy
 /* jac[n_states * n_states], column by column: d dy[i] / d y[j] at jac[i + j n_states]. */
 void scaled_jacobian(const scaled_model *m, const double *y, double *jac);
 
-/* Does contact j slip at y: in contact and |T| > mu N? */
-bool scaled_slips(const scaled_model *m, int j, const double *y);
+/* The state of contact j at y: it slips if it is in contact and |T| > mu N. */
+contact_state scaled_contact_state(const scaled_model *m, int j, const double *y);
+
+/* U and V of contact j at X = y[0..n-1]; and response r. */
+void scaled_contact_motion(const scaled_model *m, int j, const double *x, double *u, double *v);
+double scaled_response(const scaled_model *m, int r, const double *x);
+int scaled_n_responses(const scaled_model *m);
+
+/* The length of contact j's tangent in X: what T of 1 does to the motion. */
+double scaled_pull(const scaled_model *m, int j);
 
 #endif

@@ -78,10 +78,11 @@ void timeint_forget(timeint *ti)
 /* The orbit through the scouted state, if it is remembered; else NULL. */
 static const struct confirmed *recall(const timeint *ti, int k, const double *scouted)
 {
+  const int moving = 2 * ti->n_dof;
   for (int i = 0; i < REMEMBERED; ++i) {
     const struct confirmed *c = &ti->confirmed->orbit[i];
-    if (c->k == k && c->omega == ti->omega && same_state(TIMEINT_W, c->scouted, scouted, same_orbit) &&
-        same_state(ti->n - TIMEINT_W, c->scouted + TIMEINT_W, scouted + TIMEINT_W, same_orbit))
+    if (c->k == k && c->omega == ti->omega && same_state(moving, c->scouted, scouted, same_orbit) &&
+        same_state(ti->n - moving, c->scouted + moving, scouted + moving, same_orbit))
       return c;
   }
   return NULL;

@@ -80,8 +80,7 @@ static hc_status evaluate(shoot *s, const double *z)
 /* Is state i a slider at a fixed point of F^k wherever it is? */
 static bool is_free(const shoot *s, int i)
 {
-  /* cppcheck-suppress arrayIndexOutOfBoundsCond; it takes SCALED_W, 2, for the number of states */
-  if (i < SCALED_W || s->f[i] != s->z[i]) return false;
+  if (i < 2 * s->ti->n_dof || s->f[i] != s->z[i]) return false;
   for (int j = 0; j < s->n; ++j)
     if (s->phi[i + j * s->n] != (i == j)) return false;
   return true;
@@ -160,7 +159,7 @@ hc_status shoot_new(timeint *ti, shoot **out)
   shoot *s = calloc(1, sizeof *s); /* zeroed, so free works half-built */
   if (!s) return HC_NO_MEMORY;
   s->ti = ti;
-  s->n = SCALED_W + ti->model->n_contacts;
+  s->n = ti->n;
   const newton_problem problem = {.n = s->n, .self = s, .residual = residual, .jacobian = jacobian};
   hc_status st = make_memory(s);
   if (st == HC_OK) st = newton_new(&problem, &s->newton);
@@ -244,7 +243,7 @@ static hc_status find_multiplier(shoot *s, shoot_report *r)
   r->free_sliders = 0;
   for (int i = 0; i < s->n; ++i) {
     if (!is_free(s, i)) s->active[m++] = i;
-    else if (s->ti->scaled.contact[i - SCALED_W].law.has_friction) ++r->free_sliders;
+    else if (s->ti->scaled.contact[i - 2 * s->ti->n_dof].law.has_friction) ++r->free_sliders;
   }
   hc_status st = floquet_multipliers(s->floquet, s->phi, 1, s->n, m, s->active, s->multipliers);
   if (st == HC_NOT_CONVERGED) {

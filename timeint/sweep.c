@@ -64,6 +64,15 @@ static hc_status follow_branch(timeint *ti, const hc_monitor *monitor, bool *the
   return shoot_found_no_orbit(st) ? HC_OK : st;
 }
 
+/* An oscillator's change of state as a complex number; of more coordinates only how far. */
+static double complex move_of(const timeint *ti, const double *from, const double *to)
+{
+  double sum = 0;
+  if (!ti->base) return to[SCALED_X] - from[SCALED_X] + I * (to[SCALED_P] - from[SCALED_P]);
+  for (int i = 0; i < 2 * ti->n_dof; ++i) sum = hypot(sum, to[i] - from[i]);
+  return sum;
+}
+
 /* Periods at one frequency until the state has settled. *moved: how far it went; NaN if it did not settle. */
 static hc_status settle_by_marching(timeint *ti, const hc_monitor *monitor, double done, double *moved)
 {
@@ -81,7 +90,7 @@ static hc_status settle_by_marching(timeint *ti, const hc_monitor *monitor, doub
     timeint_point(ti, z[2]);
     *moved = fmax(*moved, relative_distance(ti, z[2], z[0]));
     moves[0] = moves[1];
-    moves[1] = z[2][SCALED_X] - z[1][SCALED_X] + I * (z[2][SCALED_P] - z[1][SCALED_P]);
+    moves[1] = move_of(ti, z[1], z[2]);
     settled = distance_left(moves, relative_distance(ti, z[2], z[1]), slow) <= settled_within ? settled + 1 : 0;
     if (settled == MIN_PERIODS) return HC_OK;
   }
@@ -92,7 +101,8 @@ static hc_status settle_by_marching(timeint *ti, const hc_monitor *monitor, doub
 /* Half the width of a linear resonance at half its power, relative to omega. */
 static double half_width(const timeint *ti)
 {
-  return fmax(0.5 * *ti->model->damping / (*ti->model->mass * ti->omega), 1e-6);
+  const double width = ti->base ? ti->base->slowest : 0.5 * *ti->model->damping / *ti->model->mass;
+  return fmax(width / ti->omega, 1e-6);
 }
 
 static double least_step(const timeint *ti) { return fmin(smallest_step, 0.1 * half_width(ti)); }

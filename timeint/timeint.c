@@ -10,6 +10,8 @@
 #include "timeint/integrate_regularised.h"
 #include "timeint/scout.h"
 #include "timeint/shoot.h"
+#include "timeint/structure/integrate_events.h"
+#include "timeint/structure/integrate_series.h"
 #include "timeint/timeint_private.h"
 
 static const double pi = 3.14159265358979323846;
@@ -22,14 +24,35 @@ static bool not_negative(double a) { return a >= 0 && a <= DBL_MAX; }
 static bool contact_ok(const model_contact *c)
 {
   return not_negative(c->law.kt) && not_negative(c->law.kn) && not_negative(c->law.mu) && isfinite(c->law.gap) &&
-         isfinite(*c->tangent) && isfinite(*c->normal);
+         not_negative(c->law.load) && isfinite(*c->tangent) && isfinite(*c->normal);
+}
+
+static bool oscillator_ok(const model *m)
+{
+  const bool inert = positive(*m->mass) && not_negative(*m->damping);
+  return inert && not_negative(*m->stiffness) && isfinite(model_force(m));
+}
+
+static bool all_finite(size_t count, const double *a)
+{
+  bool ok = true;
+  for (size_t i = 0; i < count; ++i) ok = ok && isfinite(a[i]);
+  return ok;
+}
+
+static bool structure_ok(const model *m)
+{
+  const size_t n = (size_t)m->n;
+  bool ok = all_finite(n * n, m->mass) && all_finite(n * n, m->damping) && all_finite(n * n, m->stiffness);
+  for (int l = 0; l < m->n_loads; ++l) ok = ok && all_finite(n, m->loads[l].cosine) && all_finite(n, m->loads[l].sine);
+  for (int j = 0; j < m->n_contacts; ++j)
+    ok = ok && all_finite(n, m->contacts[j].tangent) && all_finite(n, m->contacts[j].normal);
+  return ok && m->n_responses > 0;
 }
 
 static hc_status check_input(const model *m, const transient_settings *how)
 {
-  if (!model_is_oscillator(m)) return HC_BAD_INPUT;
-  const bool inert = positive(*m->mass) && not_negative(*m->damping);
-  if (!inert || !not_negative(*m->stiffness) || !isfinite(model_force(m))) return HC_BAD_INPUT;
+  if (!(model_is_oscillator(m) ? oscillator_ok(m) : structure_ok(m))) return HC_BAD_INPUT;
   for (int j = 0; j < m->n_contacts; ++j)
     if (!contact_ok(&m->contacts[j])) return HC_BAD_INPUT;
   if (how->method == TRANSIENT_METHOD_CLOSED_FORM && how->law != TRANSIENT_LAW_EXACT) return HC_BAD_INPUT;
@@ -40,26 +63,31 @@ static hc_status check_input(const model *m, const transient_settings *how)
 static hc_status make_memory(timeint *ti)
 {
   double **const vectors[] = {&ti->y,           &ti->saved,    &ti->direction, &ti->neighbour, &ti->separation,
-                              &ti->scout_state, &ti->point[0], &ti->point[1],  &ti->point[2],  &ti->past};
+                              &ti->scout_state, &ti->point[0], &ti->point[1],  &ti->point[2],  &ti->began, &ti->past};
   const size_t n = (size_t)ti->n, n_vectors = sizeof vectors / sizeof *vectors;
   ti->memory = calloc((n_vectors - 1 + SETTLE_MAX_MULTIPLE) * n, sizeof *ti->memory);
   ti->scaled.contact = calloc(n, sizeof *ti->scaled.contact); /* two more than needed, so never nothing */
   if (!ti->memory || !ti->scaled.contact) return HC_NO_MEMORY;
   for (size_t i = 0; i < n_vectors; ++i) *vectors[i] = ti->memory + i * n; /* the ring is the last */
-  return measure_make(&ti->measure, ti->n);
+  return measure_make(&ti->measure, ti->n, ti->base ? ti->base->n_responses : 1, ti->model->n_contacts);
+}
+
+static hc_status make_integrator(const timeint *ti, transient_law law, integrator **out)
+{
+  const bool closed = ti->how.method == TRANSIENT_METHOD_CLOSED_FORM, exact = law == TRANSIENT_LAW_EXACT;
+  if (ti->base && closed) return integrate_new_series(ti->base, out);
+  if (ti->base && exact) return integrate_new_events(ti->base, ti->tolerance, out);
+  if (closed) return integrate_new_closed(ti->n, ti->tolerance, out);
+  return (exact ? integrate_new_exact : integrate_new_regularised)(ti->n, ti->tolerance, out);
 }
 
 static hc_status make_parts(timeint *ti)
 {
-  const int n = ti->n;
-  const bool exact = ti->how.law == TRANSIENT_LAW_EXACT, closed = ti->how.method == TRANSIENT_METHOD_CLOSED_FORM;
+  const bool exact = ti->how.law == TRANSIENT_LAW_EXACT;
   hc_status st = make_memory(ti);
-  if (st == HC_OK)
-    st = (closed  ? integrate_new_closed
-          : exact ? integrate_new_exact
-                  : integrate_new_regularised)(n, ti->tolerance, &ti->in);
-  if (st == HC_OK && !exact && !ti->how.scout) st = integrate_new_exact(n, ti->tolerance, &ti->exact);
-  if (st == HC_OK) st = settle_new(n, &ti->settle);
+  if (st == HC_OK) st = make_integrator(ti, ti->how.law, &ti->in);
+  if (st == HC_OK && !exact && !ti->how.scout) st = make_integrator(ti, TRANSIENT_LAW_EXACT, &ti->exact);
+  if (st == HC_OK) st = settle_new(ti->n, &ti->settle);
   if (st == HC_OK) st = shoot_new(ti, &ti->shoot);
   return st == HC_OK ? scout_new(ti) : st;
 }
@@ -69,13 +97,17 @@ hc_status timeint_new(const model *m, const transient_settings *how, timeint **o
   *out = NULL;
   hc_status st = check_input(m, how);
   if (st != HC_OK) return st;
-  if (m->n_contacts > MOST_STATES - SCALED_W) return HC_NO_MEMORY;
+  if (m->n_contacts > MOST_STATES - 2 * m->n) return HC_NO_MEMORY;
   timeint *ti = calloc(1, sizeof *ti); /* zeroed, so free works half-built */
   if (!ti) return HC_NO_MEMORY;
   ti->how = *how;
-  ti->n = SCALED_W + m->n_contacts;
+  ti->n_dof = m->n;
+  ti->n = 2 * m->n + m->n_contacts;
   ti->tolerance = timeint_final_tolerance(ti);
-  if ((st = model_copy(m, &ti->model)) == HC_OK && (st = make_parts(ti)) == HC_OK) {
+  st = model_copy(m, &ti->model);
+  if (st == HC_OK && !model_is_oscillator(m)) st = modal_base_new(m, &ti->base);
+  ti->scaled.base = ti->base;
+  if (st == HC_OK && (st = make_parts(ti)) == HC_OK) {
     *out = ti;
     return HC_OK;
   }
@@ -94,6 +126,7 @@ void timeint_free(timeint *ti)
   measure_free(&ti->measure);
   free(ti->scaled.contact);
   free(ti->memory);
+  modal_base_free(ti->base);
   model_free(ti->model);
   free(ti);
 }
@@ -108,7 +141,7 @@ void timeint_count(const timeint *ti, long *by_cvode, long *closed_form)
 
 int timeint_n_states(const timeint *ti) { return ti->n; }
 
-void timeint_rest(const timeint *ti, double *state) /* static equilibrium is x = 0 in every model */
+void timeint_rest(const timeint *ti, double *state) /* x = 0 is static equilibrium without the static loads */
 {
   for (int i = 0; i < ti->n; ++i) state[i] = 0;
 }
@@ -136,25 +169,62 @@ static bool state_ok(const timeint *ti, const double *state)
   return ok;
 }
 
+/* No response is smaller than the force over the sum of all that resists it, but at an antiresonance, and a single mass
+ * has none; nor have all modes together. */
+static double least_length(const timeint *ti)
+{
+  const model *m = ti->model;
+  const modal_base *b = ti->base;
+  const double omega = ti->omega;
+  if (!b)
+    return fabs(model_force(m)) / (model_max_stiffness(m) + *m->mass * omega * omega + *m->damping * omega);
+  double force = 0;
+  for (int i = 0; i < b->n_loads * b->n; ++i) force += hypot(b->cosine[i], b->sine[i]);
+  return force / (b->highest * b->highest + omega * omega + 2 * b->slowest * omega);
+}
+
+/* X, P and W of the state, in units of `length`. */
+static void take_state(const timeint *ti, const double *state, double length, double *y)
+{
+  const int n = ti->n_dof;
+  if (ti->base) {
+    modal_base_to_modes(ti->base, state, y);
+    modal_base_to_modes(ti->base, state + n, y + n);
+  } else {
+    memcpy(y, state, 2 * sizeof *y);
+  }
+  for (int i = 0; i < n; ++i) {
+    y[i] /= length;
+    y[n + i] /= ti->omega * length;
+  }
+  for (int i = 2 * n; i < ti->n; ++i) y[i] = state[i] / length;
+}
+
+void timeint_take_state(const timeint *ti, const double *state, double *y) { take_state(ti, state, ti->length, y); }
+
+static double size_of(const timeint *ti)
+{
+  double size = 0;
+  for (int i = 0; i < 2 * ti->n_dof; ++i) size = hypot(size, ti->y[i]);
+  return size;
+}
+
 hc_status timeint_begin(timeint *ti, double omega, const double *state)
 {
   const model *m = ti->model;
   if (!positive(omega) || !state_ok(ti, state)) return HC_BAD_INPUT;
   ti->omega = omega;
-  ti->contraction = exp(-pi * *m->damping / (*m->mass * omega));
+  ti->contraction = exp(-2 * pi * (ti->base ? ti->base->slowest : 0.5 * *m->damping / *m->mass) / omega);
   ti->periods = 0;
   ti->steps0 = integrate_steps(ti->in);
   ti->rhs0 = integrate_rhs(ti->in);
-  /* No response is smaller than the force over the sum of all that resists it, but at an antiresonance, and a single
-   * mass has none. */
-  ti->least_length = fabs(model_force(m)) / (model_max_stiffness(m) + *m->mass * omega * omega + *m->damping * omega);
-  double length = fmax(ti->least_length, hypot(state[TIMEINT_X], state[TIMEINT_V] / omega));
+  ti->least_length = least_length(ti);
+  take_state(ti, state, 1, ti->y);
+  double length = fmax(ti->least_length, size_of(ti));
   if (!(length > 0)) length = any_length(m);
   if (!(ti->least_length > 0)) ti->least_length = length;
   ti->length = length;
-  ti->y[SCALED_X] = state[TIMEINT_X] / length;
-  ti->y[SCALED_P] = state[TIMEINT_V] / (omega * length);
-  for (int j = 0; j < m->n_contacts; ++j) ti->y[SCALED_W + j] = state[TIMEINT_W + j] / length;
+  take_state(ti, state, length, ti->y);
   scaled_make(&ti->scaled, m, &ti->how, omega, length);
   return HC_OK;
 }
@@ -185,29 +255,43 @@ hc_status timeint_period(timeint *ti, bool measured)
 
 void timeint_get_state(const timeint *ti, double *state)
 {
-  state[TIMEINT_X] = ti->y[SCALED_X] * ti->length;
-  state[TIMEINT_V] = ti->y[SCALED_P] * ti->length * ti->omega;
+  const int n = ti->n_dof;
+  const double length = ti->length;
+  if (ti->base) {
+    modal_base_to_model(ti->base, ti->y, state);
+    modal_base_to_model(ti->base, ti->y + n, state + n);
+  } else {
+    memcpy(state, ti->y, 2 * sizeof *state);
+  }
+  for (int i = 0; i < n; ++i) {
+    state[i] *= length;
+    state[n + i] = state[n + i] * length * ti->omega;
+  }
   for (int j = 0; j < ti->model->n_contacts; ++j) {
-    const scaled_contact *c = &ti->scaled.contact[j];
-    state[TIMEINT_W + j] = c->law.has_friction ? ti->y[SCALED_W + j] * ti->length : c->cosine * state[TIMEINT_X];
+    double u, v;
+    scaled_contact_motion(&ti->scaled, j, ti->y, &u, &v);
+    state[2 * n + j] = (ti->scaled.contact[j].law.has_friction ? ti->y[2 * n + j] : u) * length;
   }
 }
 
 void timeint_save(timeint *ti) { memcpy(ti->saved, ti->y, sizeof *ti->y * (size_t)ti->n); }
 void timeint_restore(timeint *ti) { memcpy(ti->y, ti->saved, sizeof *ti->y * (size_t)ti->n); }
 
-double timeint_size(const timeint *ti) { return hypot(ti->y[SCALED_X], ti->y[SCALED_P]) * ti->length; }
+double timeint_size(const timeint *ti) { return size_of(ti) * ti->length; }
 double timeint_motion_size(const timeint *ti) { return fmax(timeint_size(ti), ti->least_length); }
 
 void timeint_point(const timeint *ti, double *z)
 {
   const scaled_model *m = &ti->scaled;
-  const double stiffest = model_max_stiffness(ti->model) / (*ti->model->mass * ti->omega * ti->omega);
-  z[SCALED_X] = ti->y[SCALED_X] * ti->length;
-  z[SCALED_P] = ti->y[SCALED_P] * ti->length;
+  const int moving = 2 * ti->n_dof;
+  const double omega2 = ti->omega * ti->omega;
+  const double stiffest = ti->base ? ti->base->highest * ti->base->highest / omega2
+                                   : model_max_stiffness(ti->model) / (*ti->model->mass * omega2);
+  for (int i = 0; i < moving; ++i) z[i] = ti->y[i] * ti->length;
   for (int j = 0; j < m->n_contacts; ++j) {
     const scaled_contact *c = &m->contact[j];
-    z[SCALED_W + j] = c->law.has_friction ? c->law.kt * c->cosine / stiffest * ti->y[SCALED_W + j] * ti->length : 0.0;
+    const double pull = c->law.kt * scaled_pull(m, j);
+    z[moving + j] = c->law.has_friction ? pull / stiffest * ti->y[moving + j] * ti->length : 0.0;
   }
 }
 

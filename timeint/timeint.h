@@ -14,7 +14,8 @@
 #include "model/model.h"
 #include "timeint/transient_settings.h"
 
-enum { TIMEINT_X, TIMEINT_V, TIMEINT_W }; /* where in a state x and v are, and the slider of contact 0 */
+/* Where in an oscillator's state x and v are, and the slider of contact 0; a structure's has n of x, n of v, then w. */
+enum { TIMEINT_X, TIMEINT_V, TIMEINT_W };
 
 typedef struct timeint timeint;
 
@@ -26,10 +27,10 @@ void timeint_free(timeint *ti);
 /* Periods integrated since the handle was made: by CVODE, and in closed form. */
 void timeint_count(const timeint *ti, long *by_cvode, long *closed_form);
 
-/* Doubles in a state: 2 + the model's contacts. */
+/* Doubles in a state: 2 n + the model's contacts. */
 int timeint_n_states(const timeint *ti);
 
-/* state[timeint_n_states]: rest in static equilibrium, x = v = w_j = 0. */
+/* state[timeint_n_states]: at rest, x = v = w_j = 0: in equilibrium where there are no static loads. */
 void timeint_rest(const timeint *ti, double *state);
 
 #endif

@@ -14,7 +14,8 @@
 struct timeint {          /* from timeint_new, to timeint_free; not shared between threads              */
   model *model;           /* a copy: the caller may drop theirs                                         */
   transient_settings how; /* a copy                                                                     */
-  int n;                  /* number of states, 2 + contacts                                             */
+  modal_base *base;       /* of a structure; NULL: an oscillator                                        */
+  int n_dof, n;           /* degrees of freedom; number of states, 2 n_dof + contacts                   */
   integrator *in;
   integrator *exact; /* of the exact law, for sweeps, where `in` is not and there is no scout; else NULL */
   settle *settle;
@@ -38,6 +39,7 @@ struct timeint {          /* from timeint_new, to timeint_free; not shared betwe
   double *neighbour;   /* [n] state of a second motion, drawn along with the first                      */
   double *separation;  /* [n] neighbour - y at the beginning of a period                                */
   double *point[3];    /* [n] states as timeint_point has them                                          */
+  double *began;       /* [n] where a measurement of periods began                                      */
   double *past;        /* [SETTLE_MAX_MULTIPLE][n] a ring of the latest of these                        */
   double *memory;      /* of all the arrays above                                                       */
 };
@@ -55,6 +57,9 @@ hc_status timeint_period(timeint *ti, bool measured);
 /* state[n]: where the motion is, in the model's units. A contact without friction has its slider where the exact law
  * has it, at u. */
 void timeint_get_state(const timeint *ti, double *state);
+
+/* y[n]: `state` as ti->y has it, at the present omega, in the present unit of length. */
+void timeint_take_state(const timeint *ti, const double *state, double *y);
 
 /* ti->y becomes what it was when timeint_save was last called; neither changes the unit of length. */
 void timeint_save(timeint *ti);

@@ -239,7 +239,7 @@ static hc_status watch_contacts(void *self, const integrator *in, double theta0,
   for (int j = 0; j < m->n_contacts && st == HC_OK; ++j) {
     bool closed = is_closed(m, j, y);
     if (m->contact[j].law.kn > 0 && closed != w->closed[j]) w->changed = true;
-    if (closed && integrate_slips(in, j, y)) w->changed = true;
+    if (closed && contact_slip_sign(integrate_contact(in, j, y))) w->changed = true;
   }
   return st;
 }

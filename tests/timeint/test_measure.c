@@ -59,7 +59,9 @@ static contact_regime regime(double gap, double min, double max, bool slips)
 {
   scene sc = scene_linear(1, 0, 1, 1);
   scene_add(&sc, 1, 1, 1, gap, 30);
-  measure me = {.periods = 1, .min = min, .max = max, .slips = slips};
+  unsigned char seen[] = {slips ? SEEN_SLIPPING : SEEN_STUCK};
+  response_measure x = {.min = min, .max = max};
+  measure me = {.periods = 1, .n_responses = 1, .n_contacts = 1, .response = &x, .seen = seen};
   timeint_result r;
   scene_measure_report(&me, &sc, 1, &r);
   return r.regime;

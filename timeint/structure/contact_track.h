@@ -1,0 +1,67 @@
+/* contact_track.h - the contacts of a structure along a motion of the exact law (model/contact_law.h): the state of each,
+ * what ends it, and what comes next. libm only.
+ *
+ * In a phase no contact changes its state, and each force is linear in the contact's motion:
+ *     stick  T = kt (U - rest)        slip(s)  T = s mu N        closed  N = kn (V + gap) + load
+ * Every guard is linear in (U, V) or (U', V'), so that of a motion in powers of tau it is such a series, too:
+ *     closed      V + gap                            separated   -(V + gap)
+ *     stick       mu N - s kt (U - rest), s = +-1    slip(s)     s kt U' - mu kn V'
+ * A state ends where a guard of it falls through 0. What follows, and how the slider's place varies with the motion:
+ *     stick -> slip(s)    W is tied to the motion
+ *     slip(s) -> stick    rest = U - s mu N/kt; the guard that ends slip is the rate of this: d rest = dU - s mu dN/kt
+ *     -> separated        W = U
+ *     touch               rest = U there, or slip at once (contact_on_touch): d rest = dU - U' dV/V'
+ * All forces are continuous. Without friction T = 0: a closed contact counts as stuck, its slider follows U. */
+#ifndef HC_CONTACT_TRACK_H
+#define HC_CONTACT_TRACK_H
+
+#include "timeint/scaled.h"
+
+typedef struct contact_track {
+  contact_state state;
+  double rest;      /* W while the contact sticks */
+  bool since_start; /* it sticks since the start of the period: rest is an independent state */
+  int limit;        /* the sign of T where the period began with |T| = mu N, and the slider tied to the motion; else 0 */
+} contact_track;
+
+/* U, V and their rates at one instant. */
+typedef struct contact_motion {
+  double u, v, du, dv;
+} contact_motion;
+
+/* The state at the beginning of a period, its slider at w. Where |T| > mu N the slider moves until |T| = mu N; where
+ * |T| = mu N the contact slips if the motion keeps loading it. */
+contact_track contact_track_begin(const scaled_contact *c, const contact_motion *at, double w);
+
+/* A guard as a series in tau: coefficients g[order + 1]; below -noise it is negative. */
+enum { TRACK_GUARDS = 3, TRACK_ORDER = 24 };
+typedef enum track_event { TRACK_SEPARATES, TRACK_TOUCHES, TRACK_SLIPS_PLUS, TRACK_SLIPS_MINUS, TRACK_STICKS } track_event;
+typedef struct track_guard {
+  track_event event; /* what happens where it falls through 0 */
+  double noise, g[TRACK_ORDER + 1];
+} track_guard;
+
+/* The guards of the state for U and V in powers of tau, u, v[TRACK_ORDER + 1]. How many there are. */
+int contact_track_guards(const contact_track *t, const scaled_contact *c, const double *u, const double *v,
+                         track_guard guard[TRACK_GUARDS]);
+
+/* That has happened there: the state that follows. */
+void contact_track_pass(contact_track *t, const scaled_contact *c, track_event event, const contact_motion *at);
+
+/* W at that motion. */
+double contact_track_slider(const contact_track *t, const scaled_contact *c, const contact_motion *at);
+
+/* T and N - N0 as linear functions: T = t_u U + t_v V + t_0 (and + t_w dW for a variation of rest), N - N0 = n_v V + n_0. */
+typedef struct contact_forces_linear {
+  double t_u, t_v, t_0, t_w, n_v, n_0;
+} contact_forces_linear;
+contact_forces_linear contact_track_forces(const contact_track *t, const scaled_contact *c);
+
+/* Variation of rest where the contact began to stick from state `before`, of variations du, dv of U, V. */
+double contact_track_vary_rest(const scaled_contact *c, contact_state before, const contact_motion *at, double du,
+                               double dv);
+
+/* Variation of W of a contact whose slider is tied to the motion. */
+double contact_track_vary_slider(const contact_track *t, const scaled_contact *c, double du, double dv);
+
+#endif

@@ -1,0 +1,11 @@
+/* integrate_events.h - the integrator (integrate.h) of the exact law for structures by CVODE: one smooth right-hand side
+ * for each set of contact states, from one transition to the next; guards are those of contact_track.h. */
+#ifndef HC_INTEGRATE_EVENTS_H
+#define HC_INTEGRATE_EVENTS_H
+
+#include "timeint/integrate.h"
+
+/* tolerance: CVODE's, relative and absolute. HC_NO_MEMORY. */
+hc_status integrate_new_events(const modal_base *base, double tolerance, integrator **out);
+
+#endif

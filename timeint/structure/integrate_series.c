@@ -1,0 +1,256 @@
+/* integrate_series.c - see integrate_series.h. Proof: tests/timeint/test_structure.c. */
+#include "timeint/structure/integrate_series.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/constants.h"
+#include "timeint/integrate_private.h"
+#include "timeint/structure/structure_variations.h"
+
+enum {
+  MAX_TRANSITIONS = 1000, /* per period, or that many per contact if it is more (integrate_exact.c) */
+  MAX_TRANSITIONS_A_CONTACT = 60,
+  MAX_STEPS = 10000000 /* per period */
+};
+
+typedef struct by_series { /* from integrate_new_series, to integrate_free; not shared between threads */
+  integrator base;
+  int n, n_contacts;
+  const scaled_model *m; /* of the period under way; the caller's */
+  contact_track *track;  /* [n_contacts] now */
+  double theta, length;  /* where the present step began, and its length */
+  double *y, *end;       /* [2 n] the motion there, and at its end */
+  double *response;      /* [TRACK_ORDER + 1] of one response */
+  motion_series series;
+  structure_variations variations;
+} by_series;
+
+static double dot(int n, const double *a, const double *b)
+{
+  double sum = 0;
+  for (int i = 0; i < n; ++i) sum += a[i] * b[i];
+  return sum;
+}
+
+static contact_motion motion_of(const by_series *in, int j, const double *y)
+{
+  const double *t = in->m->base->tangent + (size_t)j * (size_t)in->n, *n = in->m->base->normal + (size_t)j * (size_t)in->n;
+  return (contact_motion){dot(in->n, t, y), dot(in->n, n, y), dot(in->n, t, y + in->n), dot(in->n, n, y + in->n)};
+}
+
+static hc_status begin(by_series *in, const double *y)
+{
+  double size = 0;
+  for (int i = 0; i < in->m->n_states; ++i) size += fabs(y[i]);
+  if (!isfinite(size)) return HC_NOT_FINITE;
+  memcpy(in->y, y, 2 * (size_t)in->n * sizeof *y);
+  for (int j = 0; j < in->n_contacts; ++j) {
+    const contact_motion at = motion_of(in, j, y);
+    in->track[j] = contact_track_begin(&in->m->contact[j], &at, y[2 * in->n + j]);
+  }
+  return HC_OK;
+}
+
+/* The first event within the step, whose length becomes the time to it; -1: none. */
+static int find_event(by_series *in, track_event *event)
+{
+  int first = -1;
+  for (int j = 0; j < in->n_contacts; ++j) {
+    track_guard guard[TRACK_GUARDS];
+    const size_t row = (size_t)j * (TRACK_ORDER + 1);
+    const int n = contact_track_guards(&in->track[j], &in->m->contact[j], in->series.u + row, in->series.v + row, guard);
+    for (int g = 0; g < n; ++g) {
+      const double at = series_first_fall(&guard[g], in->length);
+      if (!(at < in->length || (at == in->length && first < 0))) continue;
+      in->length = at;
+      first = j;
+      *event = guard[g].event;
+    }
+  }
+  return first;
+}
+
+static int most_transitions(const by_series *in)
+{
+  const int by_contacts = MAX_TRANSITIONS_A_CONTACT * in->n_contacts;
+  return by_contacts > MAX_TRANSITIONS ? by_contacts : MAX_TRANSITIONS;
+}
+
+/* Contact j at the end of the step. */
+static hc_status pass(by_series *in, int j, track_event event, bool varies, int *count)
+{
+  const contact_motion at = motion_series_contact(&in->series, j, in->length);
+  const contact_state before = in->track[j].state;
+  if (++*count > most_transitions(in)) return HC_CHATTER;
+  if (varies) {
+    hc_status st = structure_variations_advance(&in->variations, in->m, in->track, in->theta + in->length);
+    if (st != HC_OK) return st;
+  }
+  contact_track_pass(&in->track[j], &in->m->contact[j], event, &at);
+  if (varies && in->track[j].state == CONTACT_STICK)
+    structure_variations_stick(&in->variations, in->m, j, before, &at);
+  return HC_OK;
+}
+
+/* From theta = 0 to the end of the period. */
+static hc_status run(by_series *in, bool varies, integrate_watch *watch, void *self, int *count)
+{
+  in->theta = 0;
+  for (int steps = 0; in->theta < TWO_PI; ++steps) {
+    track_event event = TRACK_STICKS;
+    const double left = TWO_PI - in->theta;
+    const double reach = motion_series_begin(&in->series, in->m, in->track, in->theta, in->y);
+    if (!(reach > 0)) return HC_NOT_FINITE;
+    if (steps > MAX_STEPS) return HC_CHATTER;
+    in->length = fmin(reach, left);
+    const int changing = find_event(in, &event);
+    const bool last = !(in->length < left);
+    const double end = last ? TWO_PI : in->theta + in->length;
+    motion_series_at(&in->series, in->length, 0, in->end);
+    ++in->base.steps;
+    ++in->base.rhs;
+    hc_status st = watch && end > in->theta ? watch(self, &in->base, in->theta, end) : HC_OK;
+    if (st == HC_OK && changing >= 0) st = pass(in, changing, event, varies, count);
+    if (st != HC_OK) return st;
+    memcpy(in->y, in->end, 2 * (size_t)in->n * sizeof *in->y);
+    in->theta = end;
+  }
+  return HC_OK;
+}
+
+static hc_status period(integrator *base, const scaled_model *m, double *y, double *monodromy, integrate_watch *watch,
+                        void *self)
+{
+  by_series *in = (by_series *)base;
+  int count = 0;
+  in->m = m;
+  if (m->n != in->n || m->n_contacts != in->n_contacts) return HC_BUG;
+  hc_status st = begin(in, y);
+  if (st == HC_OK && monodromy) {
+    in->variations.theta = 0;
+    structure_variations_begin(&in->variations, m, in->track);
+  }
+  if (st == HC_OK) st = run(in, monodromy != NULL, watch, self, &count);
+  if (st == HC_OK && monodromy) st = structure_variations_advance(&in->variations, m, in->track, TWO_PI);
+  base->transitions += count;
+  if (st != HC_OK) return st;
+  memcpy(y, in->y, 2 * (size_t)in->n * sizeof *y);
+  for (int j = 0; j < in->n_contacts; ++j) {
+    const contact_motion at = motion_of(in, j, y);
+    y[2 * in->n + j] = contact_track_slider(&in->track[j], &m->contact[j], &at);
+  }
+  if (monodromy) structure_variations_end(&in->variations, m, in->track, monodromy);
+  return HC_OK;
+}
+
+static hc_status dense(const integrator *base, double theta, int order, double *y)
+{
+  const by_series *in = (const by_series *)base;
+  motion_series_at(&in->series, theta - in->theta, order, y);
+  for (int j = 0; j < in->n_contacts; ++j) {
+    const contact_track *t = &in->track[j];
+    const contact_motion at = motion_of(in, j, y);
+    const bool sticks = t->state == CONTACT_STICK && in->m->contact[j].law.has_friction;
+    if (order == 0) y[2 * in->n + j] = contact_track_slider(t, &in->m->contact[j], &at);
+    else y[2 * in->n + j] = sticks ? 0 : contact_track_vary_slider(t, &in->m->contact[j], at.u, at.v);
+  }
+  return HC_OK;
+}
+
+static void expand_response(const by_series *in, int i)
+{
+  motion_series_of(&in->series, in->m->base->response + (size_t)i * (size_t)in->n, in->response);
+}
+
+static hc_status samples(const integrator *base, int i, double theta, double step, int count, double *x)
+{
+  const by_series *in = (const by_series *)base;
+  expand_response(in, i);
+  for (int k = 0; k < count; ++k) x[k] = series_value(in->response, theta + k * step - in->theta);
+  return HC_OK;
+}
+
+/* Integral of the product of two series over [0, h]. */
+static double integral_of_product(const double *a, const double *b, double h)
+{
+  double sum = 0, power = h;
+  for (int m = 0; m <= 2 * TRACK_ORDER; ++m, power *= h) {
+    double c = 0;
+    const int from = m > TRACK_ORDER ? m - TRACK_ORDER : 0, to = m < TRACK_ORDER ? m : TRACK_ORDER;
+    for (int k = from; k <= to; ++k) c += a[k] * b[m - k];
+    sum += c * power / (m + 1);
+  }
+  return sum;
+}
+
+static bool fourier(const integrator *base, int i, double out[3])
+{
+  const by_series *in = (const by_series *)base;
+  const double h = in->length;
+  double cosine[TRACK_ORDER + 1] = {cos(in->theta)}, sine[TRACK_ORDER + 1] = {sin(in->theta)}, power = h;
+  expand_response(in, i);
+  for (int k = 1; k <= TRACK_ORDER; ++k) {
+    cosine[k] = -sine[k - 1] / k;
+    sine[k] = cosine[k - 1] / k;
+  }
+  out[0] = 0;
+  for (int k = 0; k <= TRACK_ORDER; ++k, power *= h) out[0] += in->response[k] * power / (k + 1);
+  out[1] = integral_of_product(in->response, cosine, h);
+  out[2] = integral_of_product(in->response, sine, h);
+  return h <= 3; /* beyond, the series of the cosine is cut too short */
+}
+
+static contact_state state(const integrator *base, int j, const double *y)
+{
+  (void)y;
+  return ((const by_series *)base)->track[j].state;
+}
+
+static hc_status tolerance(integrator *base, double ignored)
+{
+  (void)base, (void)ignored;
+  return HC_OK;
+}
+
+static void release(integrator *base)
+{
+  by_series *in = (by_series *)base;
+  structure_variations_free(&in->variations);
+  motion_series_free(&in->series);
+  free(in->track);
+  free(in->y);
+  free(in);
+}
+
+static const integrator_class class = {.period = period,
+                                       .dense = dense,
+                                       .samples = samples,
+                                       .fourier = fourier,
+                                       .state = state,
+                                       .tolerance = tolerance,
+                                       .free = release};
+
+hc_status integrate_new_series(const modal_base *base, integrator **out)
+{
+  const size_t n = (size_t)base->n, contacts = (size_t)base->n_contacts;
+  *out = NULL;
+  by_series *in = calloc(1, sizeof *in); /* zeroed, so free works half-built */
+  if (!in) return HC_NO_MEMORY;
+  in->base.does = &class;
+  in->n = base->n;
+  in->n_contacts = base->n_contacts;
+  in->track = calloc(contacts + 1, sizeof *in->track);
+  in->y = calloc(4 * n + TRACK_ORDER + 1, sizeof *in->y);
+  hc_status st = in->track && in->y ? motion_series_make(&in->series, base) : HC_NO_MEMORY;
+  if (st == HC_OK) st = structure_variations_make(&in->variations, base);
+  if (st == HC_OK) {
+    in->end = in->y + 2 * n;
+    in->response = in->y + 4 * n;
+    *out = &in->base;
+    return HC_OK;
+  }
+  release(&in->base);
+  return st;
+}
