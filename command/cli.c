@@ -318,7 +318,7 @@ unsigned cli_extra_columns(const scene *sc)
 void cli_put_row(const cli_common *common, table *t, rows_kind kind, const row_cell *cells)
 {
   int n;
-  const bool of_structure = kind == ROWS_FRF || kind == ROWS_CONTACT;
+  const bool of_structure = kind == ROWS_FRF || kind == ROWS_CONTACT || kind == ROWS_TRANSIENT || kind == ROWS_COMPARE;
   rows_columns(kind, of_structure ? cli_extra_columns(common->scene) : common->scene->in_cycles, &n);
   for (int i = 0; i < n; ++i) {
     if (!cells[i].there) table_put_missing(t);

@@ -1,6 +1,7 @@
 /* cmd_compare.c - hbmcheck compare: harmonic balance and time integration at the same frequencies. */
 #include <stdio.h>
 
+#include "cases/structure_model.h"
 #include "command/commands.h"
 #include "command/compare_tables.h"
 #include "command/files.h"
@@ -150,14 +151,17 @@ static void warn_unexpected(const cli_common *common, const comparison *c)
                   comparison_unexpected_text(&c->rows[i], text));
 }
 
-static table *comparison_table(const cli_common *common, const compare_setup *setup, const comparison *c)
+static table *comparison_table(const cli_common *common, const compare_setup *setup, comparison *c)
 {
   int n_columns;
-  const table_column *columns = rows_columns(ROWS_COMPARE, common->scene->in_cycles, &n_columns);
+  const unsigned extra = cli_extra_columns(common->scene);
+  const table_column *columns = rows_columns(ROWS_COMPARE, extra, &n_columns);
   table *t = table_new("HBM against time integration", n_columns, columns);
+  const scene_structure *of = common->scene->structure;
   for (int i = 0; i < c->n_rows; ++i) {
+    if (of) structure_response_name(of, c->rows[i].response, c->rows[i].response_name, RESPONSE_NAME);
     row_cell cells[ROWS_MOST];
-    rows_compare(&c->rows[i], common->scene->in_cycles, cells);
+    rows_compare(&c->rows[i], extra, cells);
     cli_put_row(common, t, ROWS_COMPARE, cells);
   }
   table_spare(t, rows_spare(ROWS_COMPARE, common->scene->in_cycles));
@@ -222,6 +226,7 @@ const cli_command cmd_compare = {
     .arguments = "CASE",
     .help = help,
     .options = options,
+    .takes_structures = true,
     .read_option = read_option,
     .run = run_compare,
 };

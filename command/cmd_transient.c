@@ -1,4 +1,5 @@
 /* cmd_transient.c - hbmcheck transient: the steady state by CVODE at given frequencies. */
+#include "cases/structure_model.h"
 #include "command/commands.h"
 #include "command/files.h"
 #include "command/plot/plot.h"
@@ -49,7 +50,7 @@ static int put_row(const cli_common *common, const steady_row *r, table *t)
                 scene_where(common->scene, r->result.omega, (char[SCENE_WHERE]){0}), hc_status_text(r->without_hbm));
   if (r->status == HC_INTERRUPTED) return 0;
   if (r->stage == STEADY_TRANSIENT) {
-    rows_transient(r, common->scene->in_cycles, cells);
+    rows_transient(r, cli_extra_columns(common->scene), cells);
     cli_put_row(common, t, ROWS_TRANSIENT, cells);
   }
   if (r->status == HC_OK || r->status == HC_APERIODIC) return 0;
@@ -81,11 +82,13 @@ static int run_transient(int argc, char **argv)
   if (st == HC_OK) st = steady_states_run(&setup, &monitor, &found);
   scene_setup_clear(&setup);
   progress_end(bar);
-  const table_column *columns = rows_columns(ROWS_TRANSIENT, sc.in_cycles, &n_columns);
+  const table_column *columns = rows_columns(ROWS_TRANSIENT, cli_extra_columns(&sc), &n_columns);
   table *t = table_new("Steady states", n_columns, columns);
   bool free = false;
   for (int i = 0; i < found.n; ++i) {
     free |= found.rows[i].status == HC_OK && motion_mean_is_free(&found.rows[i].result);
+    if (sc.structure)
+      structure_response_name(sc.structure, found.rows[i].response, found.rows[i].response_name, RESPONSE_NAME);
     int row_code = put_row(&common, &found.rows[i], t);
     if (row_code) code = row_code;
   }
@@ -111,6 +114,7 @@ const cli_command cmd_transient = {
     .arguments = "CASE",
     .help = help,
     .options = options,
+    .takes_structures = true,
     .read_option = read_option,
     .run = run_transient,
 };

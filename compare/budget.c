@@ -21,7 +21,7 @@ struct budgeter {           /* from budgeter_new, to budgeter_free */
   timeint *finer, *coarser; /* the transient's law, stepped finer and coarser; NULL until needed */
   double *state;            /* [n_states] where these start */
   int n_states;             /* in a state of time integration */
-  double X[2 * HBM_MAX_HARMONICS + 1];
+  double *X;                /* [n_coefficients of the alias-free solution, and more] */
 };
 
 /* The solutions h, hx, O, T', T of budget.h, and which of them were found. */
@@ -39,9 +39,10 @@ hc_status budgeter_new(const compare_setup *setup, budgeter **out)
   *out = NULL;
   if (!b) return HC_NO_MEMORY;
   b->setup = *setup;
-  b->n_states = TIMEINT_W + setup->model->n_contacts;
+  b->n_states = 2 * setup->model->n + setup->model->n_contacts;
   b->state = calloc((size_t)b->n_states, sizeof *b->state);
-  if (b->state) *out = b;
+  b->X = calloc((size_t)(2 * HBM_MAX_HARMONICS + 1) * (size_t)setup->model->n, sizeof *b->X);
+  if (b->state && b->X) *out = b;
   else budgeter_free(b);
   return *out ? HC_OK : HC_NO_MEMORY;
 }
@@ -53,6 +54,7 @@ void budgeter_free(budgeter *b)
   timeint_free(b->finer);
   timeint_free(b->coarser);
   free(b->state);
+  free(b->X);
   free(b);
 }
 
@@ -107,9 +109,9 @@ static void try_alias_free(budgeter *b, const budget_case *from, chain *c)
 {
   hbm_point point;
   hbm_measures m;
-  if (hbm_solve(b->alias_free, from->omega, b->X, &point) != HC_OK || hbm_measure(b->alias_free, b->X, &m) != HC_OK)
-    return;
-  periodic_motion found = motion_of_solution(&m, b->n_harm, b->X);
+  periodic_motion found;
+  if (hbm_solve(b->alias_free, from->omega, b->X, &point) != HC_OK) return;
+  if (motion_of_response(b->alias_free, from->omega, b->X, 0, &m, &found) != HC_OK) return;
   if (c->has_hx) {
     double old = motion_between(&c->h, &c->hx).waveform + motion_between(&c->hx, &c->orbit).waveform;
     if (!(motion_between(&c->h, &found).waveform + motion_between(&found, &c->orbit).waveform < old)) return;
@@ -125,12 +127,14 @@ static hc_status find_alias_free(budgeter *b, const budget_case *from, chain *c)
   if ((c->has_hx = b->setup.hbm.force == HBM_FORCE_EXACT)) return HC_OK;
   hc_status st = need_alias_free(b, from->n_harm);
   if (st != HC_OK) return st == HC_NO_MEMORY ? st : HC_OK;
-  memcpy(b->X, from->X, (size_t)(2 * from->n_harm + 1) * sizeof *b->X);
+  const bool oscillator = hbm_of_oscillator(b->alias_free);
+  memcpy(b->X, from->X, (size_t)hbm_n_coefficients(b->alias_free) * sizeof *b->X);
   try_alias_free(b, from, c);
   if (!c->has_orbit) return HC_OK;
   double direct = motion_between(&c->h, &c->orbit).waveform;
   if (c->has_hx && motion_between(&c->h, &c->hx).waveform + motion_between(&c->hx, &c->orbit).waveform <= 3 * direct)
     return HC_OK;
+  if (!oscillator) return HC_OK; /* one response's harmonics are no start */
   motion_harmonics(&c->orbit, from->n_harm, b->X);
   if (!b->setup.hbm.keep_mean) b->X[0] = 0;
   try_alias_free(b, from, c);
@@ -265,7 +269,7 @@ hc_status budgeter_run(budgeter *b, const budget_case *from, const hc_monitor *m
   chain *c = calloc(1, sizeof *c);
   if (!c) return HC_NO_MEMORY;
   hc_status st = HC_OK;
-  c->h = motion_of_solution(from->hbm, from->n_harm, from->X);
+  c->h = *from->motion;
   if ((c->has_orbit = from->orbit_status == HC_OK)) c->orbit = motion_of_transient(from->orbit);
   if ((c->has_transient = on_orbit(from))) c->transient = motion_of_transient(from->transient);
   if (c->has_orbit || c->has_transient) st = find_alias_free(b, from, c);

@@ -42,8 +42,8 @@ error_budget budget_nothing(void);
 typedef struct budget_case {
   double omega;
   int n_harm;              /* of the solution */
-  const double *X;         /* [2 n_harm + 1 or more] */
-  const hbm_measures *hbm; /* of X */
+  const double *X;         /* of the solver's coefficients */
+  const periodic_motion *motion; /* of X: of an oscillator x, else the first response */
   hc_status transient_status, orbit_status;
   const timeint_result *transient, *orbit; /* valid where the status is HC_OK */
   const double *state;                     /* [timeint_n_states] on the transient's orbit */

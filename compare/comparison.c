@@ -19,6 +19,11 @@ const double *comparison_state(const comparison *c, int i) { return c->states + 
 
 hc_status comparison_orbit_start(hbm_solver *hbm, const double *X, double omega, double *state)
 {
+  const int n = hbm_n_dof(hbm);
+  if (!hbm_of_oscillator(hbm)) {
+    hc_status st = hbm_state(hbm, omega, X, state, state + n);
+    return st == HC_OK ? hbm_sliders(hbm, X, state + 2 * n) : st;
+  }
   series_jet j = series_at(hbm_n_harmonics(hbm), X, 1, 0);
   state[TIMEINT_X] = j.x;
   state[TIMEINT_V] = omega * j.d1;
@@ -36,6 +41,25 @@ double comparison_waveform_error(const hbm_measures *hbm, int n_harm, const doub
   return errors_between(hbm, n_harm, X, tr).waveform;
 }
 
+/* What of the model is compared, and by whom. */
+typedef struct side {
+  hbm_solver *hbm;
+  const compare_setup *setup;
+  int response;
+} side;
+
+/* Response s->response of the solution X against the transient; into *m the solution's measures. */
+static hc_status errors_of(const side *s, double omega, const double *X, const timeint_result *tr, hbm_measures *m,
+                           discrepancy *out)
+{
+  periodic_motion a;
+  hc_status st = motion_of_response(s->hbm, omega, X, s->response, m, &a);
+  if (st != HC_OK) return st;
+  const periodic_motion b = motion_of_transient(tr);
+  *out = motion_discrepancy(&a, &b);
+  return HC_OK;
+}
+
 /* The mean is not compared where a slider never slips. */
 static bool within_limits(const compare_setup *setup, const discrepancy *e, const timeint_result *tr)
 {
@@ -43,14 +67,14 @@ static bool within_limits(const compare_setup *setup, const discrepancy *e, cons
 }
 
 /* Is the transient within the limits of any HBM solution at this omega? */
-static bool accounted_for(hbm_solver *hbm, const compare_setup *setup, const hbm_curve *at, const timeint_result *tr)
+static bool accounted_for(const side *s, const hbm_curve *at, const timeint_result *tr)
 {
   for (int i = 0; i < at->n; ++i) {
     const double *X = at->X + (size_t)i * at->n_coef;
     hbm_measures m;
-    if (hbm_measure(hbm, X, &m) != HC_OK) continue;
-    discrepancy e = errors_between(&m, hbm_n_harmonics(hbm), X, tr);
-    if (within_limits(setup, &e, tr)) return true;
+    discrepancy e;
+    if (errors_of(s, at->points[i].omega, X, tr, &m, &e) != HC_OK) continue;
+    if (within_limits(s->setup, &e, tr)) return true;
   }
   return false;
 }
@@ -91,6 +115,7 @@ typedef struct workspace {
   double *state;   /* [n_states] of the row under way, on the transient's orbit */
   double *scratch; /* [n_states] of what else is integrated for it */
   double swept_omega;
+  timeint_result *responses; /* [n_responses] the transient's of the row under way, from number 1 on */
 } workspace;
 
 /* w->state at the start of a row. HC_OK, or why the sweep up to here failed. */
@@ -158,23 +183,29 @@ static void referee(workspace *w, comparison_row *row, const double *X)
   if (same) row->orbit = *tr, row->orbit_status = HC_OK;
   else if ((row->orbit_status = comparison_orbit_start(w->hbm, X, row->omega, w->scratch)) == HC_OK)
     row->orbit_status = timeint_orbit(w->exact, row->omega, 1, w->scratch, w->monitor, &row->orbit);
-  if (row->orbit_status == HC_OK)
-    row->orbit_errors = errors_between(&row->hbm, hbm_n_harmonics(w->hbm), X, &row->orbit);
+  hbm_measures unused;
+  const side first = {w->hbm, w->setup, 0};
+  if (row->orbit_status == HC_OK) errors_of(&first, row->omega, X, &row->orbit, &unused, &row->orbit_errors);
 }
 
 /* What the discrepancy is made of. */
 static hc_status account(workspace *w, const hbm_curve *at, int k, comparison_row *row)
 {
+  hbm_measures unused;
+  periodic_motion motion;
+  const double *X = at->X + (size_t)k * at->n_coef;
+  hc_status st = row->hbm_status;
+  if (st == HC_OK) st = motion_of_response(w->hbm, row->omega, X, 0, &unused, &motion);
   const budget_case from = {.omega = row->omega,
                             .n_harm = at->points[k].harmonics,
-                            .X = at->X + (size_t)k * at->n_coef,
-                            .hbm = &row->hbm,
+                            .X = X,
+                            .motion = &motion,
                             .transient_status = row->transient_status,
                             .transient = &row->transient,
                             .orbit_status = row->orbit_status,
                             .orbit = &row->orbit,
                             .state = w->state};
-  return row->hbm_status == HC_OK ? budgeter_run(w->budgeter, &from, w->monitor, &row->budget) : HC_OK;
+  return st == HC_OK ? budgeter_run(w->budgeter, &from, w->monitor, &row->budget) : HC_OK;
 }
 
 /* Relative to the amplitude of the motion it is about. */
@@ -204,6 +235,19 @@ static hc_status predict_transient(workspace *w, comparison_row *row)
   return st;
 }
 
+/* The transient's measures of all responses but the first, while the handle has their periods. */
+static hc_status keep_responses(workspace *w, const comparison_row *row)
+{
+  const bool moved = row->transient_status == HC_OK || row->transient_status == HC_NOT_SETTLED ||
+                     row->transient_status == HC_APERIODIC;
+  hc_status st = HC_OK;
+  for (int r = 1; r < w->setup->model->n_responses && moved && st == HC_OK; ++r) {
+    w->responses[r] = row->transient;
+    st = timeint_response(w->ti, r, &w->responses[r]);
+  }
+  return st;
+}
+
 /* One HBM solution against the transient started from it. */
 static hc_status compare_solution(workspace *w, const hbm_curve *at, int k, comparison_row *row)
 {
@@ -218,17 +262,69 @@ static hc_status compare_solution(workspace *w, const hbm_curve *at, int k, comp
   if (row->transient_status == HC_OK)
     row->transient_status = timeint_steady(w->ti, row->omega, w->state, w->monitor, &row->transient);
   if (row->transient_status == HC_INTERRUPTED || row->transient_status == HC_NO_MEMORY) return row->transient_status;
+  if ((known = keep_responses(w, row)) != HC_OK) return known;
   if ((known = predict_transient(w, row)) != HC_OK) return known;
   referee(w, row, X);
   if (row->orbit_status == HC_INTERRUPTED || row->orbit_status == HC_NO_MEMORY) return row->orbit_status;
   bool comparable = row->hbm_status == HC_OK && row->transient_status == HC_OK;
-  if (comparable) row->errors = errors_between(&row->hbm, hbm_n_harmonics(w->hbm), X, &row->transient);
-  row->accounted =
-      comparable && row->transient.period_multiple == 1 && accounted_for(w->hbm, w->setup, at, &row->transient);
+  const side first = {w->hbm, w->setup, 0};
+  if (comparable) row->hbm_status = errors_of(&first, row->omega, X, &row->transient, &row->hbm, &row->errors);
+  row->accounted = comparable && row->transient.period_multiple == 1 && accounted_for(&first, at, &row->transient);
   hc_status judged = judge(w, row, X, &row->verdict);
   if (judged != HC_OK) return judged;
   row->unexpected = comparison_unexpected(row);
   return account(w, at, k, row);
+}
+
+/* A response that moves less than this of the largest is not compared: rounding of the others. */
+static const double still = 1e-9;
+
+static double largest_amplitude(const workspace *w, const comparison_row *row)
+{
+  double most = row->transient.amplitude;
+  for (int r = 1; r < w->setup->model->n_responses; ++r) most = fmax(most, w->responses[r].amplitude);
+  return most;
+}
+
+/* The row of solution k becomes that of response r: its errors and its verdict. Predictions and budget are of the first
+ * response only. */
+static void turn_row(workspace *w, const hbm_curve *at, int k, int r, double largest, const comparison_row *first,
+                     comparison_row *row)
+{
+  const double *X = at->X + (size_t)k * at->n_coef;
+  const side s = {w->hbm, w->setup, r};
+  const discrepancy nothing = {NAN, NAN, NAN, NAN};
+  *row = *first;
+  row->response = r;
+  row->errors = row->orbit_errors = row->hbm_predicted = row->transient_predicted = nothing;
+  row->budget = budget_nothing();
+  row->unexpected = false;
+  row->orbit_status = HC_UNSUPPORTED;
+  if (first->transient_status != HC_OK && first->transient_status != HC_NOT_SETTLED &&
+      first->transient_status != HC_APERIODIC)
+    return;
+  row->transient = w->responses[r];
+  const bool comparable = first->hbm_status == HC_OK && first->transient_status == HC_OK;
+  if (comparable) row->hbm_status = errors_of(&s, row->omega, X, &row->transient, &row->hbm, &row->errors);
+  if (!comparable || row->transient.period_multiple != 1) return;
+  row->still = !(row->transient.amplitude > still * largest);
+  row->accounted = row->still || accounted_for(&s, at, &row->transient);
+  const bool within = row->still || within_limits(w->setup, &row->errors, &row->transient);
+  if (first->verdict == VERDICT_MATCH || first->verdict == VERDICT_DIFFERS)
+    row->verdict = within ? VERDICT_MATCH : unstable(first) ? VERDICT_UNSTABLE : VERDICT_DIFFERS;
+}
+
+/* Rows of the other responses of solution k behind that of the first. */
+static hc_status add_other_responses(workspace *w, const hbm_curve *at, int k, const comparison_row *first)
+{
+  comparison_row row;
+  hc_status st = HC_OK;
+  const double largest = largest_amplitude(w, first);
+  for (int r = 1; r < w->setup->model->n_responses && st == HC_OK; ++r) {
+    turn_row(w, at, k, r, largest, first, &row);
+    st = add_row(w->out, &row, w->state);
+  }
+  return st;
 }
 
 /* Every HBM solution at omega. */
@@ -258,6 +354,7 @@ static hc_status compare_at(workspace *w, double omega)
     /* what was stopped inside may look like an answer */
     if (st == HC_OK && !hc_monitor_tick(w->monitor, 1)) st = HC_INTERRUPTED;
     if (st == HC_OK) st = add_row(w->out, &row, w->state);
+    if (st == HC_OK && w->setup->model->n_responses > 1) st = add_other_responses(w, &at, k, &row);
   }
   hbm_curve_free(&at);
   return st;
@@ -314,7 +411,8 @@ static hc_status make_states(workspace *w)
   w->swept = calloc(n, sizeof *w->swept);
   w->state = calloc(n, sizeof *w->state);
   w->scratch = calloc(n, sizeof *w->scratch);
-  return w->swept && w->state && w->scratch ? HC_OK : HC_NO_MEMORY;
+  w->responses = calloc((size_t)w->setup->model->n_responses, sizeof *w->responses);
+  return w->swept && w->state && w->scratch && w->responses ? HC_OK : HC_NO_MEMORY;
 }
 
 static void count_cost(workspace *w, comparison_cost *cost)
@@ -332,6 +430,7 @@ static void count_cost(workspace *w, comparison_cost *cost)
 
 static void runner_clear(workspace *w)
 {
+  free(w->responses);
   free(w->scratch);
   free(w->state);
   free(w->swept);

@@ -36,6 +36,9 @@ const char *verdict_name(verdict v); /* "period_k" for all k; a row's own is com
 const char *verdict_meaning(verdict v);
 
 typedef struct comparison_row {
+  int response; /* of the model, counted from 0: a row for each; what is said of the first is said of the solution */
+  char response_name[RESPONSE_NAME]; /* in words, where it has been given one; else empty */
+  bool still;                        /* it moves less than 1e-9 of the largest, and is not compared */
   double omega;
   int branch;           /* of the HBM solution; -1: HBM has none here */
   enum verdict verdict; /* `enum`, because C++ wants to know */

@@ -32,6 +32,7 @@ static hc_status ask(void *self, const model *m, double omega, int n_harm, const
 {
   guide *g = self;
   timeint_result r;
+  if (!model_is_oscillator(m)) return HC_UNSUPPORTED; /* X is not of one motion there */
   hc_status st = g->state ? HC_OK : make(g, m);
   if (st != HC_OK) return st;
   timeint_rest(g->ti, g->state);

@@ -11,6 +11,16 @@ periodic_motion motion_of_solution(const hbm_measures *m, int n_harm, const doub
   return motion_of_series(n_harm, X, m->max, m->min);
 }
 
+hc_status motion_of_response(hbm_solver *s, double omega, const double *X, int r, hbm_measures *m, periodic_motion *out)
+{
+  double x[2 * HBM_MAX_HARMONICS + 1];
+  const bool oscillator = hbm_of_oscillator(s);
+  hc_status st = oscillator ? hbm_measure(s, X, m) : hbm_measure_response(s, omega, X, r, m);
+  if (st == HC_OK && !oscillator) st = hbm_response(s, omega, X, r, x);
+  if (st == HC_OK) *out = motion_of_solution(m, hbm_n_harmonics(s), oscillator ? X : x);
+  return st;
+}
+
 bool motion_mean_is_free(const timeint_result *r) { return r->free_sliders > 0; }
 
 periodic_motion motion_of_transient(const timeint_result *r)

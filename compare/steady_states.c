@@ -71,6 +71,18 @@ static double regularisation_error(workspace *w, const timeint_result *r, hc_sta
   return budget_regularisation(r, &orbit);
 }
 
+/* Of the periods that are in w->ti. */
+static hc_status add_other_responses(workspace *w, steady_row *row)
+{
+  const bool moved = row->status == HC_OK || row->status == HC_NOT_SETTLED || row->status == HC_APERIODIC;
+  hc_status st = HC_OK;
+  for (row->response = 1; row->response < w->setup->model->n_responses && moved && st == HC_OK; ++row->response) {
+    st = timeint_response(w->ti, row->response, &row->result);
+    if (st == HC_OK) st = add_row(w->out, row);
+  }
+  return st;
+}
+
 /* w->state to the steady state at omega; not HC_OK only when there is no going on. */
 static hc_status settle(workspace *w, double omega, const char *start, hc_status without_hbm)
 {
@@ -80,6 +92,7 @@ static hc_status settle(workspace *w, double omega, const char *start, hc_status
   if (row.status == HC_OK) row.from_regularisation = regularisation_error(w, &row.result, &row.status);
   if (row.status == HC_NO_MEMORY) return HC_NO_MEMORY;
   hc_status st = add_row(w->out, &row);
+  if (st == HC_OK) st = add_other_responses(w, &row);
   return row.status == HC_INTERRUPTED ? HC_INTERRUPTED : st;
 }
 

@@ -61,4 +61,8 @@ void condensation_load_change(condensation *c, int i, condensation_change by, do
 /* Harmonic h of direction d in x, response r: row . q + rest. row[dim]; factor: of the loads. */
 void condensation_response(condensation *c, int h, int r, double factor, double complex *row, double complex *rest);
 
+/* x[n]: harmonic h of the whole structure, where that of q[dim] is known; loads times factor. HC_NOT_FINITE as in
+ * condensation_at. */
+hc_status condensation_motion(condensation *c, int h, const double complex *q, double factor, double complex *x);
+
 #endif

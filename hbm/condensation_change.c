@@ -133,3 +133,23 @@ void condensation_response(condensation *c, int h, int r, double factor, double 
     for (int i = 0; i < rest && c->m->loads[l].harmonic == h; ++i)
       *rest_of_it += factor * of[dim + i] * c->rest_of[(size_t)l * (size_t)rest + (size_t)i];
 }
+
+hc_status condensation_motion(condensation *c, int h, const double complex *q, double factor, double complex *x)
+{
+  const size_t n = (size_t)c->m->n, dim = (size_t)c->basis.dim, rest = (size_t)c->basis.rest;
+  const double complex *W = c->by_q + (size_t)h * dim * rest;
+  if (n > 1 && c->by_compliance[h]) {
+    hc_status st = condensation_by_rest(c, h);
+    if (st != HC_OK) return st;
+    c->by_compliance[h] = false;
+  }
+  for (size_t i = 0; i < n; ++i) x[i] = 0;
+  for (size_t k = 0; k < n; ++k) { /* coordinate k of (q, y) */
+    double complex z = k < dim ? q[k] : 0;
+    for (size_t e = 0; e < dim && k >= dim; ++e) z -= W[e * rest + k - dim] * q[e];
+    for (int l = 0; l < c->m->n_loads && k >= dim; ++l)
+      if (c->m->loads[l].harmonic == h) z += factor * c->rest_of[(size_t)l * rest + k - dim];
+    for (size_t i = 0; i < n; ++i) x[i] += c->basis.T[k * n + i] * z;
+  }
+  return HC_OK;
+}

@@ -168,6 +168,9 @@ hc_status hbm_measure(hbm_solver *s, const double *X, hbm_measures *out)
   return HC_OK;
 }
 
+int hbm_n_dof(const hbm_solver *s) { return s->model->n; }
+bool hbm_of_oscillator(const hbm_solver *s) { return model_is_oscillator(s->model); }
+
 hc_status hbm_response(hbm_solver *s, double omega, const double *X, int r, double *x)
 {
   const int dim = s->sys.dim;
@@ -193,6 +196,25 @@ hc_status hbm_measure_response(hbm_solver *s, double omega, const double *X, int
   measure_series(s->sys.n_harm, s->x, out);
   out->contact = s->sys.report;
   return HC_OK;
+}
+
+hc_status hbm_state(hbm_solver *s, double omega, const double *X, double *x, double *v)
+{
+  const int n = s->model->n, dim = s->sys.dim;
+  double complex *motion = malloc((size_t)(n + dim) * sizeof *motion), *q = motion + n;
+  hc_status st = motion ? condensation_at(s->sys.linear, omega, 0) : HC_NO_MEMORY;
+  for (int i = 0; i < n; ++i) x[i] = v[i] = 0;
+  for (int h = s->how.keep_mean ? 0 : 1; h <= s->sys.n_harm && st == HC_OK; ++h) {
+    const double *a = X + (h ? (2 * h - 1) * dim : 0), *b = a + dim;
+    for (int d = 0; d < dim; ++d) q[d] = h ? a[d] - I * b[d] : a[d];
+    st = condensation_motion(s->sys.linear, h, q, 1, motion);
+    for (int i = 0; i < n && st == HC_OK; ++i) {
+      x[i] += creal(motion[i]);
+      v[i] -= h * omega * cimag(motion[i]);
+    }
+  }
+  free(motion);
+  return st;
 }
 
 hc_status hbm_preloads(hbm_solver *s, double *N) { return hbm_linear_rest(&s->sys, N); }

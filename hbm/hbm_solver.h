@@ -10,6 +10,8 @@
 #ifndef HC_HBM_SOLVER_H
 #define HC_HBM_SOLVER_H
 
+#include <stdbool.h>
+
 #include "base/status.h"
 #include "hbm/contact_report.h"
 #include "hbm/hbm_settings.h"
@@ -23,6 +25,8 @@ void hbm_solver_free(hbm_solver *s); /* NULL is allowed */
 
 int hbm_n_harmonics(const hbm_solver *s);    /* in use now; after a trace with auto, the most the curve needed */
 int hbm_n_samples(const hbm_solver *s);      /* per period, in use now; 0 where forces are exact */
+int hbm_n_dof(const hbm_solver *s);          /* of the model */
+bool hbm_of_oscillator(const hbm_solver *s); /* is the model one: model_is_oscillator */
 int hbm_n_coefficients(const hbm_solver *s); /* entries of X, with the harmonics in use now */
 
 /* Somebody who knows where a solution may be: ask() fills X[2 n_harm + 1] [length] with a guess for omega; HC_NO_MEMORY
@@ -76,6 +80,10 @@ hc_status hbm_measure(hbm_solver *s, const double *X, hbm_measures *out);
  * resonates undamped. */
 hc_status hbm_response(hbm_solver *s, double omega, const double *X, int r, double *x);
 hc_status hbm_measure_response(hbm_solver *s, double omega, const double *X, int r, hbm_measures *out);
+
+/* x[n] [length] and v[n] [length/time]: the whole structure at t = 0 of the solution X at omega. Errors as of
+ * hbm_response; HC_NO_MEMORY. */
+hc_status hbm_state(hbm_solver *s, double omega, const double *X, double *x, double *v);
 
 /* N[n_contacts] [force]: the contacts' normal forces at rest, under the static loads alone. HC_SINGULAR: nothing holds
  * the structure there. */

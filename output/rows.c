@@ -65,6 +65,7 @@ static const char *stable_text(const response_row *r)
 #define TRANSIENT_COLUMNS(X, C, R)                                             \
   X(REAL,    "omega",      true, r->result.omega)                           \
   C(REAL,    "frequency",  true, r->result.omega / TWO_PI)                  \
+  R(TEXT,    "response",   true, r->response_name)                          \
   X(TEXT,    "verdict",    true, steady_verdict_text(r, (char[24]){0}))     \
   X(REAL,    "amplitude",  measured(r), r->result.amplitude)                \
   X(REAL,    "max",        measured(r), r->result.max)                      \
@@ -89,6 +90,7 @@ static const char *stable_text(const response_row *r)
   X(REAL,    "omega",               true, r->omega)                         \
   C(REAL,    "frequency",           true, r->omega / TWO_PI)                \
   X(INTEGER, "branch",              r->branch >= 0, r->branch)              \
+  R(TEXT,    "response",            true, r->response_name)                 \
   X(TEXT,    "verdict",             true, comparison_verdict_text(r, (char[24]){0})) \
   X(REAL,    "hbm_amplitude",       has_hbm(r), r->hbm.amplitude)           \
   X(REAL,    "transient_amplitude", has_transient(r), r->transient.amplitude) \

@@ -64,6 +64,7 @@ hc_status orbit_measure(timeint *ti, int k, timeint_result *r)
     for (size_t c = 0; c < moving; ++c) returned[i + 1] = fmax(returned[i + 1], fabs(ti->y[c] - began[c]));
   }
   measure_report(&ti->measure, ti->model, 0, ti->length, r);
+  ti->measured = true;
   r->switches = (int)(integrate_transitions(ti->in) - transitions);
   r->period_multiple = shortest_period(k, timeint_size(ti) / ti->length, returned);
   return HC_OK;
@@ -86,4 +87,16 @@ hc_status orbit_report(timeint *ti, int k, timeint_method method, const shoot_re
   hc_status st = orbit_measure(ti, k, r);
   if (st == HC_OK) orbit_fill(ti, k, method, found, r);
   return st;
+}
+
+hc_status timeint_response(timeint *ti, int i, timeint_result *r)
+{
+  if (i < 0 || i >= scaled_n_responses(&ti->scaled)) return HC_BAD_INPUT;
+  if (!ti->measured) {
+    timeint_result again = *r;
+    hc_status st = orbit_measure(ti, r->period_multiple > 0 ? r->period_multiple : 1, &again);
+    if (st != HC_OK) return st;
+  }
+  measure_report(&ti->measure, ti->model, i, ti->length, r);
+  return HC_OK;
 }

@@ -214,6 +214,7 @@ hc_status timeint_begin(timeint *ti, double omega, const double *state)
   const model *m = ti->model;
   if (!positive(omega) || !state_ok(ti, state)) return HC_BAD_INPUT;
   ti->omega = omega;
+  ti->measured = false;
   ti->contraction = exp(-2 * pi * (ti->base ? ti->base->slowest : 0.5 * *m->damping / *m->mass) / omega);
   ti->periods = 0;
   ti->steps0 = integrate_steps(ti->in);
@@ -247,6 +248,7 @@ hc_status timeint_period(timeint *ti, bool measured)
 {
   if (measured) measure_period(&ti->measure, ti->y);
   hc_status st = integrate_period(ti->in, &ti->scaled, ti->y, measured ? measure_step : NULL, &ti->measure);
+  ti->measured = false;
   if (st != HC_OK) return st;
   ++ti->periods;
   if (!measured) follow_length(ti); /* all periods of a measurement are in one unit */

@@ -95,11 +95,11 @@ static void subtract_contacts(const motion_series *s, const modal_base *b, int k
   }
 }
 
-/* The tau up to which what is left out is rounding of what is kept. */
-static double reach(const motion_series *s)
+/* The tau up to which what is left out is rounding of what is kept, or of `size` if that is more. */
+static double reach(const motion_series *s, double size)
 {
   const size_t n = (size_t)s->n;
-  const double size = fmax(largest(s->n, s->x), largest(s->n, s->x + n));
+  for (size_t k = 0; k < 3; ++k) size = fmax(size, largest(s->n, s->x + k * n));
   double tau = INFINITY;
   for (int k = TRACK_ORDER - 1; k <= TRACK_ORDER; ++k) {
     const double term = largest(s->n, s->x + (size_t)k * n);
@@ -128,7 +128,7 @@ static double expand(motion_series *s, const scaled_model *m, bool loaded, doubl
     for (size_t i = 0; i < n; ++i) next[i] = force[i] / ((k + 1) * (k + 2));
     project(s, b, k + 2);
   }
-  return reach(s);
+  return reach(s, loaded ? 1 : 0); /* a motion is about 1 */
 }
 
 double motion_series_begin(motion_series *s, const scaled_model *m, const contact_track *track, double theta,
