@@ -200,11 +200,18 @@ int cli_load_case(cli_common *common, const char *path, scene *sc)
   return cli_load_case_saying(common, path, sc, &err);
 }
 
-/* Time integration, and with it every comparison, knows one degree of freedom. */
+int cli_only_oscillator(const cli_common *common, const scene *sc, const char *option, bool given)
+{
+  if (!given || !sc->structure) return 0;
+  cli_message(common, "%s knows `oscillator` alone so far; without it, %s takes a structure", option, common->command);
+  return EXIT_NO_SOLUTION;
+}
+
+/* Commands that know one degree of freedom. */
 int cli_refuse_structure(const cli_common *common, const char *path, scene *sc, case_error *err)
 {
   snprintf(err->message, sizeof err->message,
-           "%s: a structure, and hbmcheck %s knows `oscillator` alone; frf, modes and study (run: frf) take structures",
+           "%s: a structure, and hbmcheck %s knows `oscillator` alone; frf, modes, transient, compare and study (run: frf) take structures",
            path, common->command);
   fprintf(stderr, "%s\n", err->message);
   case_clear(sc);

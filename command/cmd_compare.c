@@ -68,7 +68,7 @@ static void note_worst(table *t, const scene *sc, const compare_setup *setup, co
   int unknown = 0;
   for (int i = 0; i < c->n_rows; ++i) {
     const comparison_row *r = &c->rows[i];
-    unknown += !r->budget.known;
+    unknown += !r->budget.known && r->response == 0;
     if (r->budget.known && (!top || r->budget.amplitude.sum > top->budget.amplitude.sum)) top = r;
   }
   if (top) budget_advice(&top->budget, setup, sc->gate.most.amplitude, c->harmonics, text);
@@ -183,6 +183,9 @@ static int run_compare(int argc, char **argv)
   int code = cli_check_files(&common, 1, &(cli_file){"--plot", own.plot, CLI_OUTPUT});
   if (!code) code = cli_load_case(&common, common.arguments[0], &sc);
   if (!code) code = compare_lists(&common, &own.lists, &sc);
+  if (!code) code = cli_only_oscillator(&common, &sc, "--plot", own.plot != NULL);
+  if (!code)
+    code = cli_only_oscillator(&common, &sc, "--tables", own.tables || own.lists.harmonics.n || own.lists.samples.n);
   if (code) {
     case_clear(&sc);
     return code;

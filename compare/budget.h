@@ -41,8 +41,8 @@ error_budget budget_nothing(void);
 /* What a budget is made from. */
 typedef struct budget_case {
   double omega;
-  int n_harm;              /* of the solution */
-  const double *X;         /* of the solver's coefficients */
+  int n_harm;                    /* of the solution */
+  const double *X;               /* of the solver's coefficients */
   const periodic_motion *motion; /* of X: of an oscillator x, else the first response */
   hc_status transient_status, orbit_status;
   const timeint_result *transient, *orbit; /* valid where the status is HC_OK */

@@ -300,6 +300,7 @@ static void turn_row(workspace *w, const hbm_curve *at, int k, int r, double lar
   row->budget = budget_nothing();
   row->unexpected = false;
   row->orbit_status = HC_UNSUPPORTED;
+  if (row->hbm_status == HC_OK) row->hbm_status = hbm_measure_response(w->hbm, row->omega, X, r, &row->hbm);
   if (first->transient_status != HC_OK && first->transient_status != HC_NOT_SETTLED &&
       first->transient_status != HC_APERIODIC)
     return;

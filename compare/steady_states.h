@@ -12,9 +12,9 @@
 typedef enum { STEADY_TRANSIENT, STEADY_SWEEP, STEADY_HBM } steady_stage;
 
 typedef struct steady_row {
-  int response; /* of the model, counted from 0: a row for each, the first one's first */
+  int response;                      /* of the model, counted from 0: a row for each, the first one's first */
   char response_name[RESPONSE_NAME]; /* in words, where it has been given one; else empty */
-  hc_status status;      /* HC_OK, HC_NOT_SETTLED (result is the last period), or what failed */
+  hc_status status;                  /* HC_OK, HC_NOT_SETTLED (result is the last period), or what failed */
   steady_stage stage;    /* where it failed; beyond STEADY_TRANSIENT there is no result but omega: no row to show */
   hc_status without_hbm; /* why an HBM start became a start at rest; HC_OK: it did not */
   timeint_result result;

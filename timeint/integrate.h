@@ -44,8 +44,8 @@ hc_status integrate_dense(const integrator *in, double theta, int order, double 
 /* Inside a watch: response r (an oscillator's is X) at the angles theta + i step, i = 0..count-1, all in the step. */
 hc_status integrate_samples(const integrator *in, int r, double theta, double step, int count, double *x);
 
-/* Inside a watch: the integrals of response r, times 1, cos(theta), sin(theta), over the step, to rounding; false if this
- * integrator cannot tell. */
+/* Inside a watch: the integrals of response r, times 1, cos(theta), sin(theta), over the step, to rounding; false if
+ * this integrator cannot tell. */
 bool integrate_fourier(const integrator *in, int r, double out[3]);
 
 /* Inside a watch: the state of contact j in the step, at whose end the state is y. */

@@ -52,8 +52,8 @@ typedef struct event_driven { /* from integrate_new_exact, to integrate_free; no
   cvode_integrator base;
   int n; /* number of states */
   double tolerance;
-  phase phase, before;   /* now; before the last transition */
-  bool varies;           /* the monodromy is asked for */
+  phase phase, before; /* now; before the last transition */
+  bool varies;         /* the monodromy is asked for */
   variations variations;
   double theta, begun[2]; /* where the watched step under way began, and X, P there */
   double ends;            /* where it ends */
@@ -77,8 +77,8 @@ static int jacobian(sunrealtype theta, N_Vector y, N_Vector dy, SUNMatrix jac, v
   (void)theta, (void)y, (void)dy, (void)t1, (void)t2, (void)t3;
   const event_driven *in = self;
   double *a = SM_DATA_D(jac);
-  a[0] = 0, a[1] = -in->phase.k; /* by X */
-  a[2] = 1, a[3] = -in->base.m->c;    /* by P */
+  a[0] = 0, a[1] = -in->phase.k;   /* by X */
+  a[2] = 1, a[3] = -in->base.m->c; /* by P */
   return 0;
 }
 

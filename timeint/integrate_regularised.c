@@ -26,10 +26,10 @@ enum {
 
 typedef struct regularised { /* from integrate_new_regularised, to integrate_free; not shared between threads */
   cvode_integrator base;
-  int n;                 /* number of states                                                  */
-  N_Vector *s;           /* [n][n] d y / d y_j(0), j = 0..n-1: CVODES calls them sensitivities */
-  double *jacobian;      /* [n][n] d y' / d y where their right-hand side is wanted            */
-  double *s_tolerance;   /* [n] absolute tolerance of each s_j, which CVODES copies            */
+  int n;               /* number of states                                                  */
+  N_Vector *s;         /* [n][n] d y / d y_j(0), j = 0..n-1: CVODES calls them sensitivities */
+  double *jacobian;    /* [n][n] d y' / d y where their right-hand side is wanted            */
+  double *s_tolerance; /* [n] absolute tolerance of each s_j, which CVODES copies            */
 } regularised;
 
 static int rhs(sunrealtype theta, N_Vector y, N_Vector dy, void *self)

@@ -3,13 +3,8 @@
 
 law_regularised law_regularised_make(const contact *c, double width, double relaxation)
 {
-  law_regularised r = {.kt = c->kt,
-                       .kn = c->kn,
-                       .mu = c->mu,
-                       .gap = c->gap,
-                       .load = c->load,
-                       .width = width,
-                       .eta = relaxation * c->kt};
+  law_regularised r = {
+      .kt = c->kt, .kn = c->kn, .mu = c->mu, .gap = c->gap, .load = c->load, .width = width, .eta = relaxation * c->kt};
   r.has_friction = contact_has_friction(c);
   return r;
 }

@@ -24,10 +24,10 @@
 
 typedef struct law_regularised {
   double kt, kn, mu, gap, load; /* as in contact_law.h */
-  double width;           /* [length] >= 0 of the corner in N; 0 is the exact corner */
-  double eta;             /* [force time/length] > 0 where has_friction */
-  bool overstress;        /* the dashpot's force reaches the mass; law_regularised_make says no */
-  bool has_friction;      /* kt, kn and mu all > 0; otherwise T = 0, as in the exact law, and w' = 0 */
+  double width;                 /* [length] >= 0 of the corner in N; 0 is the exact corner */
+  double eta;                   /* [force time/length] > 0 where has_friction */
+  bool overstress;              /* the dashpot's force reaches the mass; law_regularised_make says no */
+  bool has_friction;            /* kt, kn and mu all > 0; otherwise T = 0, as in the exact law, and w' = 0 */
 } law_regularised;
 
 typedef struct law_value {

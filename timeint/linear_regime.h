@@ -14,8 +14,8 @@
 #include "timeint/steady.h"
 
 /* Does no contact change its state from ti->y on (after timeint_begin), as far as the condition above can tell, and
- * does the motion settle? Undamped it settles only if it has already, within transient.tolerance. Either law; of an oscillator only; the
- * regularised one is linear where v + gap is 40 widths of its corner in N away from 0. */
+ * does the motion settle? Undamped it settles only if it has already, within transient.tolerance. Either law; of an
+ * oscillator only; the regularised one is linear where v + gap is 40 widths of its corner in N away from 0. */
 bool linear_regime_is_final(const timeint *ti);
 
 /* Where linear_regime_is_final: ti->y onto the steady orbit at theta = 0, and its measures, multiplier and free_sliders

@@ -47,8 +47,7 @@ void measure_begin(measure *me, const scaled_model *m)
   me->periods = me->next = 0;
   me->no_integrals = false;
   memset(me->seen, 0, (size_t)me->n_contacts);
-  for (int i = 0; i < me->n_responses; ++i)
-    me->response[i] = (response_measure){.max = -INFINITY, .min = INFINITY};
+  for (int i = 0; i < me->n_responses; ++i) me->response[i] = (response_measure){.max = -INFINITY, .min = INFINITY};
 }
 
 static void extend(response_measure *r, double x)
@@ -103,9 +102,9 @@ static jet jet_of(const scaled_model *m, int i, const double *y, const double *r
   return (jet){scaled_response(m, i, y), scaled_response(m, i, y + m->n), scaled_response(m, i, rate + m->n)};
 }
 
-/* Integrals of response i, times 1, cos, sin, over the step from theta0, where it began, to theta1: the integrator's, or
- * from both ends. Not over a step so long that this is not as good as the step itself: then sums over the instants must
- * do. */
+/* Integrals of response i, times 1, cos, sin, over the step from theta0, where it began, to theta1: the
+ * integrator's, or from both ends. Not over a step so long that this is not as good as the step itself: then sums
+ * over the instants must do. */
 static void add_integrals(measure *me, const integrator *in, int i, double theta0, double theta1, const jet *end)
 {
   response_measure *r = &me->response[i];

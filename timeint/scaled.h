@@ -37,7 +37,7 @@ typedef struct scaled_model {
   double k, c, f;              /* of an oscillator */
   const modal_base *base;      /* of a structure, the owner's; NULL: an oscillator */
   double by_K, by_C, by_load;  /* of a structure */
-  scaled_contact *contact; /* [n_contacts], memory of whoever owns the scaled_model */
+  scaled_contact *contact;     /* [n_contacts], memory of whoever owns the scaled_model */
 } scaled_model;
 
 /* The equations of *from at omega [rad/time] > 0, in lengths L = length > 0. m->contact points at memory for

@@ -62,8 +62,9 @@ static hc_status check_input(const model *m, const transient_settings *how)
 
 static hc_status make_memory(timeint *ti)
 {
-  double **const vectors[] = {&ti->y,           &ti->saved,    &ti->direction, &ti->neighbour, &ti->separation,
-                              &ti->scout_state, &ti->point[0], &ti->point[1],  &ti->point[2],  &ti->began, &ti->past};
+  double **const vectors[] = {&ti->y,          &ti->saved,       &ti->direction, &ti->neighbour,
+                              &ti->separation, &ti->scout_state, &ti->point[0],  &ti->point[1],
+                              &ti->point[2],   &ti->began,       &ti->past};
   const size_t n = (size_t)ti->n, n_vectors = sizeof vectors / sizeof *vectors;
   ti->memory = calloc((n_vectors - 1 + SETTLE_MAX_MULTIPLE) * n, sizeof *ti->memory);
   ti->scaled.contact = calloc(n, sizeof *ti->scaled.contact); /* two more than needed, so never nothing */
@@ -176,8 +177,7 @@ static double least_length(const timeint *ti)
   const model *m = ti->model;
   const modal_base *b = ti->base;
   const double omega = ti->omega;
-  if (!b)
-    return fabs(model_force(m)) / (model_max_stiffness(m) + *m->mass * omega * omega + *m->damping * omega);
+  if (!b) return fabs(model_force(m)) / (model_max_stiffness(m) + *m->mass * omega * omega + *m->damping * omega);
   double force = 0;
   for (int i = 0; i < b->n_loads * b->n; ++i) force += hypot(b->cosine[i], b->sine[i]);
   return force / (b->highest * b->highest + omega * omega + 2 * b->slowest * omega);

@@ -24,7 +24,7 @@ struct timeint {          /* from timeint_new, to timeint_free; not shared betwe
   struct confirm *confirm;  /* with a scout                                                              */
   struct memory *confirmed; /* with a scout: orbits found lately (scout.c)                              */
   measure measure;
-  bool measured;            /* it is of the periods that led to y                                        */
+  bool measured;       /* it is of the periods that led to y                                        */
   scaled_model scaled; /* the equations at omega in units of length                                     */
   double omega;        /* [rad/time]                                                                    */
   double length;       /* [length] about the size of the motion; y is in units of it                    */

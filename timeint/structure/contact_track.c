@@ -17,7 +17,8 @@ static double distance_noise(const scaled_contact *c, double v) { return roundin
 static double force_noise(const scaled_contact *c, double u, double v, double w)
 {
   const law_regularised *law = &c->law;
-  return rounding * (law->kt * (1 + fabs(u) + fabs(w)) + law->mu * (law->kn * (1 + fabs(v) + fabs(law->gap)) + law->load));
+  return rounding *
+         (law->kt * (1 + fabs(u) + fabs(w)) + law->mu * (law->kn * (1 + fabs(v) + fabs(law->gap)) + law->load));
 }
 
 static double rate_noise(const scaled_contact *c, double du, double dv)

@@ -1,5 +1,5 @@
-/* contact_track.h - the contacts of a structure along a motion of the exact law (model/contact_law.h): the state of each,
- * what ends it, and what comes next. libm only.
+/* contact_track.h - the contacts of a structure along a motion of the exact law (model/contact_law.h): the state of
+ * each, what ends it, and what comes next. libm only.
  *
  * In a phase no contact changes its state, and each force is linear in the contact's motion:
  *     stick  T = kt (U - rest)        slip(s)  T = s mu N        closed  N = kn (V + gap) + load
@@ -21,7 +21,7 @@ typedef struct contact_track {
   contact_state state;
   double rest;      /* W while the contact sticks */
   bool since_start; /* it sticks since the start of the period: rest is an independent state */
-  int limit;        /* the sign of T where the period began with |T| = mu N, and the slider tied to the motion; else 0 */
+  int limit; /* the sign of T where the period began with |T| = mu N, and the slider tied to the motion; else 0 */
 } contact_track;
 
 /* U, V and their rates at one instant. */
@@ -35,7 +35,13 @@ contact_track contact_track_begin(const scaled_contact *c, const contact_motion 
 
 /* A guard as a series in tau: coefficients g[order + 1]; below -noise it is negative. */
 enum { TRACK_GUARDS = 3, TRACK_ORDER = 24 };
-typedef enum track_event { TRACK_SEPARATES, TRACK_TOUCHES, TRACK_SLIPS_PLUS, TRACK_SLIPS_MINUS, TRACK_STICKS } track_event;
+typedef enum track_event {
+  TRACK_SEPARATES,
+  TRACK_TOUCHES,
+  TRACK_SLIPS_PLUS,
+  TRACK_SLIPS_MINUS,
+  TRACK_STICKS
+} track_event;
 typedef struct track_guard {
   track_event event; /* what happens where it falls through 0 */
   double noise, g[TRACK_ORDER + 1];
@@ -51,7 +57,8 @@ void contact_track_pass(contact_track *t, const scaled_contact *c, track_event e
 /* W at that motion. */
 double contact_track_slider(const contact_track *t, const scaled_contact *c, const contact_motion *at);
 
-/* T and N - N0 as linear functions: T = t_u U + t_v V + t_0 (and + t_w dW for a variation of rest), N - N0 = n_v V + n_0. */
+/* T and N - N0 as linear functions: T = t_u U + t_v V + t_0 (and + t_w dW for a variation of rest), N - N0 = n_v V +
+ * n_0. */
 typedef struct contact_forces_linear {
   double t_u, t_v, t_0, t_w, n_v, n_0;
 } contact_forces_linear;

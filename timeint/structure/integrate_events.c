@@ -1,12 +1,12 @@
 /* integrate_events.c - see integrate_events.h.
  *
- * Root functions of a contact, six, so that a period allocates nothing: the guards of its state, which end it where they
- * fall through 0, and the rates of these, which end nothing. Without them a guard could fall and rise within one step
- * unseen: CVODE's search for the root of the rate between evaluates all functions there (integrate_exact.c). Functions
- * that are not there are 1; none is ever exactly 0, which CVODE answers with an error.
+ * Root functions of a contact, six, so that a period allocates nothing: the guards of its state, which end it where
+ * they fall through 0, and the rates of these, which end nothing. Without them a guard could fall and rise within
+ * one step unseen: CVODE's search for the root of the rate between evaluates all functions there
+ * (integrate_exact.c). Functions that are not there are 1; none is ever exactly 0, which CVODE answers with an error.
  *
- * A guard that has fallen at the beginning of a phase, or with another contact's in the same instant, is passed at once.
- * The monodromy matrix is structure_variations.h's. */
+ * A guard that has fallen at the beginning of a phase, or with another contact's in the same instant, is passed at
+ * once. The monodromy matrix is structure_variations.h's. */
 #include "timeint/structure/integrate_events.h"
 
 #include <float.h>
@@ -147,8 +147,7 @@ static int roots(sunrealtype theta, N_Vector y, sunrealtype *g, void *self)
 
 static void use_states(events *in)
 {
-  for (int j = 0; j < in->n_contacts; ++j)
-    in->law[j] = contact_track_forces(&in->track[j], &in->base.m->contact[j]);
+  for (int j = 0; j < in->n_contacts; ++j) in->law[j] = contact_track_forces(&in->track[j], &in->base.m->contact[j]);
 }
 
 static int most_transitions(const events *in)

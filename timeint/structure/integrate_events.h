@@ -1,5 +1,5 @@
-/* integrate_events.h - the integrator (integrate.h) of the exact law for structures by CVODE: one smooth right-hand side
- * for each set of contact states, from one transition to the next; guards are those of contact_track.h. */
+/* integrate_events.h - the integrator (integrate.h) of the exact law for structures by CVODE: one smooth right-hand
+ * side for each set of contact states, from one transition to the next; guards are those of contact_track.h. */
 #ifndef HC_INTEGRATE_EVENTS_H
 #define HC_INTEGRATE_EVENTS_H
 

@@ -36,7 +36,8 @@ static double dot(int n, const double *a, const double *b)
 
 static contact_motion motion_of(const by_series *in, int j, const double *y)
 {
-  const double *t = in->m->base->tangent + (size_t)j * (size_t)in->n, *n = in->m->base->normal + (size_t)j * (size_t)in->n;
+  const double *t = in->m->base->tangent + (size_t)j * (size_t)in->n,
+               *n = in->m->base->normal + (size_t)j * (size_t)in->n;
   return (contact_motion){dot(in->n, t, y), dot(in->n, n, y), dot(in->n, t, y + in->n), dot(in->n, n, y + in->n)};
 }
 
@@ -60,7 +61,8 @@ static int find_event(by_series *in, track_event *event)
   for (int j = 0; j < in->n_contacts; ++j) {
     track_guard guard[TRACK_GUARDS];
     const size_t row = (size_t)j * (TRACK_ORDER + 1);
-    const int n = contact_track_guards(&in->track[j], &in->m->contact[j], in->series.u + row, in->series.v + row, guard);
+    const int n =
+        contact_track_guards(&in->track[j], &in->m->contact[j], in->series.u + row, in->series.v + row, guard);
     for (int g = 0; g < n; ++g) {
       const double at = series_first_fall(&guard[g], in->length);
       if (!(at < in->length || (at == in->length && first < 0))) continue;
@@ -89,8 +91,7 @@ static hc_status pass(by_series *in, int j, track_event event, bool varies, int 
     if (st != HC_OK) return st;
   }
   contact_track_pass(&in->track[j], &in->m->contact[j], event, &at);
-  if (varies && in->track[j].state == CONTACT_STICK)
-    structure_variations_stick(&in->variations, in->m, j, before, &at);
+  if (varies && in->track[j].state == CONTACT_STICK) structure_variations_stick(&in->variations, in->m, j, before, &at);
   return HC_OK;
 }
 

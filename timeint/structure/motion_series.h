@@ -2,11 +2,11 @@
  *
  *     X'' + by_C C X' + by_K K X = p(theta) - sum_j [ t_j T_j + n_j (N_j - N0_j) ],  T_j, N_j linear (contact_track.h)
  *     X(theta0 + tau) = sum_k x_k tau^k:      (k + 1)(k + 2) x_{k+2} = the k-th coefficients of all the others
- * The equation is linear with constant coefficients, so the series converges for every tau; TRACK_ORDER terms are exact to
- * rounding up to a tau of about 2 over the highest frequency present. So the motion is its exponential, applied to the
- * state: nothing is decomposed, nothing is lost where frequencies coincide or a body is free, and the guards of all
- * contacts come as polynomials. A term costs O(n contacts) in modes. Source: Jorba and Zou, Experimental Mathematics 14
- * (2005) 99, for the length of a step. Nothing is allocated after motion_series_make. */
+ * The equation is linear with constant coefficients, so the series converges for every tau; TRACK_ORDER terms are
+ * exact to rounding up to a tau of about 2 over the highest frequency present. So the motion is its exponential,
+ * applied to the state: nothing is decomposed, nothing is lost where frequencies coincide or a body is free, and the
+ * guards of all contacts come as polynomials. A term costs O(n contacts) in modes. Source: Jorba and Zou,
+ * Experimental Mathematics 14 (2005) 99, for the length of a step. Nothing is allocated after motion_series_make. */
 #ifndef HC_MOTION_SERIES_H
 #define HC_MOTION_SERIES_H
 
@@ -14,10 +14,10 @@
 
 typedef struct motion_series { /* from motion_series_make, to motion_series_free */
   int n, n_contacts;
-  double *x;          /* [TRACK_ORDER + 1][n] */
-  double *u, *v;      /* [n_contacts][TRACK_ORDER + 1] */
-  double *force;      /* [n] */
-  double *load;       /* [n_loads][2] cosine and sine of one term */
+  double *x;                  /* [TRACK_ORDER + 1][n] */
+  double *u, *v;              /* [n_contacts][TRACK_ORDER + 1] */
+  double *force;              /* [n] */
+  double *load;               /* [n_loads][2] cosine and sine of one term */
   contact_forces_linear *law; /* [n_contacts] of the phase */
 } motion_series;
 

@@ -8,14 +8,15 @@
 #include "timeint/structure/motion_series.h"
 
 typedef struct structure_variations { /* from structure_variations_make, to structure_variations_free */
-  int n, n_states;       /* modes; 2 n + contacts */
-  double theta;          /* up to which `matrix` has come */
-  double *matrix;        /* [n_states][n_states] by columns; a slider's row is valid while its contact sticks */
-  double *moved;         /* [2 n] */
+  int n, n_states;                    /* modes; 2 n + contacts */
+  double theta;                       /* up to which `matrix` has come */
+  double *matrix; /* [n_states][n_states] by columns; a slider's row is valid while its contact sticks */
+  double *moved;  /* [2 n] */
   motion_series series;
 } structure_variations;
 
-hc_status structure_variations_make(structure_variations *v, const modal_base *base); /* HC_NO_MEMORY; free it then, too */
+hc_status structure_variations_make(structure_variations *v,
+                                    const modal_base *base); /* HC_NO_MEMORY; free it then, too */
 void structure_variations_free(structure_variations *v);
 
 /* The identity at theta = 0, contacts as they begin there; motion[n_contacts]. */

@@ -1,0 +1,381 @@
+/* test_structure.c - time integration of structures: against an independent program, against the closed form of one
+ * degree of freedom, and its two integrators of the exact law against each other. */
+#include <float.h>
+
+#include "tests/check.h"
+#include "tests/hbm/random_structures.h"
+#include "tests/hbm/structure_cases.h"
+#include "tests/scene_parts.h"
+#include "tests/timeint/scenes.h"
+#include "timeint/integrate_closed.h"
+#include "timeint/steady.h"
+#include "timeint/structure/contact_track.h"
+#include "timeint/structure/equations.h"
+#include "timeint/structure/integrate_events.h"
+#include "timeint/structure/integrate_series.h"
+
+enum { MOST = 64 };
+
+/* ---- an independent program -------------------------------------------------------------------------- */
+
+/* Steady states from rest of a program of its own: matrix exponentials between events that are bisected to rounding, in
+ * NumPy; good to 1e-11 of the largest response or better. Rows whose sliders all move. */
+static const struct {
+  const char *name;
+  double omega;
+  int response;
+  double amplitude, harmonic_1, mean;
+} reference[] = {
+    /* clang-format off */
+    {"tangent_normal_F50", 3.6, 0, 14.1579031360266, 14.1782068436638, -0.208309753694245},
+    {"tangent_normal_F50", 3.6, 1, 0.167116481133304, 0.167116481133306, 2.38095238095238},
+    {"tangent_normal_F50", 4, 0, 15.6097394925558, 15.6161996748961, -0.0567294132400068},
+    {"tangent_normal_F50", 4, 1, 0.183803655523452, 0.183803655523453, 2.38095238095238},
+    {"tangent_normal_F100", 3.6, 0, 44.4356933545562, 44.2998083134138, -0.285654600652777},
+    {"tangent_normal_F100", 3.6, 1, 0.334232962266608, 0.334232962266608, 2.38095238095239},
+    {"jenkins2", 25.9068, 0, 0.150348871884704, 0.15037127692166, 9.8514193063024e-17},
+    {"jenkins2", 25.9068, 1, 0.0405521891989902, 0.0329292265056202, -3.73902966868978e-18},
+    {"wedge_F2", 32, 0, 0.010957546762243, 0.0109674844364442, 0.00402775110293924},
+    {"wedge_F2", 32, 1, 0.00622254989709726, 0.00595562053281267, 0.00195630333164701},
+    {"wedge_F2", 32, 2, 0.00132743955633313, 0.00114445691390123, 0.0144439003160062},
+    {"wedge_F2", 35, 0, 0.0154498887333161, 0.015472858153297, 0.00387865689237188},
+    {"wedge_F2", 35, 1, 0.011321592842826, 0.0106072119875933, 0.00290456883223291},
+    {"wedge_F2", 35, 2, 0.00376705698378799, 0.0031873665323406, 0.0142177070540303},
+    {"wedge_F10", 33, 0, 0.0896197026231505, 0.0896859351250362, 0.00387957424948941},
+    {"wedge_F10", 33, 1, 0.0574528770627704, 0.0504448157212626, 0.0026601577112341},
+    {"wedge_F10", 33, 2, 0.0332049812908881, 0.0328650362177119, 0.0142190987914964},
+    {"wedge_F10", 34, 0, 0.0586432158349455, 0.0586148707983118, 0.00379908780396793},
+    {"wedge_F10", 34, 1, 0.0361957745042306, 0.0331660646119632, 0.00272288846534648},
+    {"wedge_F10", 34, 2, 0.0217465542281751, 0.0209489090209505, 0.0140969914904276},
+    {"wedge_F20", 34, 0, 0.11456221499136, 0.114538702745644, 0.00379121018368099},
+    {"wedge_F20", 34, 1, 0.0733584129299158, 0.0688409208691281, 0.00329100291368231},
+    {"wedge_F20", 34, 2, 0.0414249397811129, 0.0418372343321775, 0.0140605738267528},
+    {"wedge_F20", 36, 0, 0.0651822850379419, 0.0650893170128941, 0.0038315422801798},
+    {"wedge_F20", 36, 1, 0.0406020654696326, 0.0394368899507791, 0.00325113798734266},
+    {"wedge_F20", 36, 2, 0.0224447163399405, 0.0232622308317077, 0.0141462287063607},
+    {"chain3", 0.8, 0, 0.0529414883538888, 0.0512747388048564, 1.82191928478107e-15},
+    {"chain3", 0.8, 1, 0.101484248208186, 0.100845073916077, 2.07345004895763e-15},
+    {"chain3", 0.8, 2, 0.0738152653722873, 0.0741397600606952, 1.03859725854424e-15},
+    {"chain3", 1.2585, 0, 0.249044036309041, 0.237952036245923, -0.0134258836088605},
+    {"chain3", 1.2585, 1, 0.303653232135342, 0.291725567624466, -0.0329259398451604},
+    {"chain3", 1.2585, 2, 0.50326391634254, 0.50147263877405, -0.0388252503208297},
+    {"chain3", 1.2684, 0, 0.247832534886173, 0.237070913583328, -0.0141929017743368},
+    {"chain3", 1.2684, 1, 0.302699630435079, 0.291100935415141, -0.034774607076041},
+    {"chain3", 1.2684, 2, 0.518753533226735, 0.51686740116487, -0.0413954297766208},
+    {"chain3", 1.9, 0, 0.180492902053465, 0.162287912778369, 2.66747761756485e-16},
+    {"chain3", 1.9, 1, 0.23265780701998, 0.236593185773618, 1.79091442539502e-16},
+    {"chain3", 1.9, 2, 0.146765057048231, 0.146894778165766, 9.40684782339931e-17},
+    /* clang-format on */
+};
+enum { N_REFERENCE = sizeof reference / sizeof *reference };
+
+/* Every row of one case by that way; tolerance relative to the largest response there. */
+static void check_reference(const char *name, transient_settings how, double tolerance)
+{
+  const structure_case c = structure_case_named(name, 3);
+  timeint *ti;
+  double *state = calloc((size_t)(2 * c.model->n + c.model->n_contacts), sizeof *state), omega = 0, largest = 0;
+  static timeint_result r;
+  assert_int_equal(timeint_new(c.model, &how, &ti), HC_OK);
+  for (int i = 0; i < N_REFERENCE; ++i) {
+    if (strcmp(reference[i].name, name) != 0) continue;
+    if (reference[i].omega != omega) {
+      omega = reference[i].omega;
+      timeint_rest(ti, state);
+      assert_int_equal(timeint_steady(ti, omega, state, NULL, &r), HC_OK);
+      assert_int_equal(r.period_multiple, 1);
+      largest = 0;
+      for (int k = i; k < N_REFERENCE && reference[k].omega == omega; ++k)
+        largest = fmax(largest, reference[k].amplitude);
+    }
+    assert_int_equal(timeint_response(ti, reference[i].response, &r), HC_OK);
+    const int what = reference[i].response;
+    CHECK_NEAR(r.amplitude, reference[i].amplitude, tolerance * largest, "%s at %g, %d", name, omega, what);
+    CHECK_NEAR(r.harmonic_1, reference[i].harmonic_1, tolerance * largest, "%s at %g, %d", name, omega, what);
+    CHECK_NEAR(r.mean, reference[i].mean, tolerance * largest, "%s at %g, %d: mean", name, omega, what);
+  }
+  timeint_free(ti);
+  model_free(c.model);
+  free(state);
+}
+
+static const char *const named[] = {"jenkins2", "chain3",    "tangent_normal_F50", "tangent_normal_F100",
+                                    "wedge_F2", "wedge_F10", "wedge_F20"};
+static const transient_settings from_rest = {.law = TRANSIENT_LAW_EXACT,
+                                             .method = TRANSIENT_METHOD_CLOSED_FORM,
+                                             .regularisation = 1e-4,
+                                             .steady = TRANSIENT_STEADY_AUTO,
+                                             .start = TRANSIENT_START_REST,
+                                             .tolerance = 1e-10,
+                                             .max_periods = 20000};
+
+/* The reference's own 1e-11; an orbit is closed to 1e-10 of its size at most. */
+static void series_meet_the_reference(void **state)
+{
+  (void)state;
+  for (size_t k = 0; k < sizeof named / sizeof *named; ++k) check_reference(named[k], from_rest, 1e-10);
+}
+
+/* CVODE's tolerance is a thousandth of transient.tolerance, and periods scatter by some hundred times that. */
+static void events_meet_the_reference(void **state)
+{
+  (void)state;
+  transient_settings how = from_rest;
+  how.method = TRANSIENT_METHOD_CVODE;
+  for (size_t k = 0; k < sizeof named / sizeof *named; ++k) check_reference(named[k], how, 1e-8);
+}
+
+/* The regularised law's error is of the first order in 1e-4: of that size at most in units of the motion. */
+static void regularised_meets_the_reference(void **state)
+{
+  (void)state;
+  transient_settings how = from_rest;
+  how.method = TRANSIENT_METHOD_CVODE;
+  how.law = TRANSIENT_LAW_REGULARISED;
+  how.scout = true;
+  how.tolerance = 1e-8;
+  for (size_t k = 0; k < sizeof named / sizeof *named; ++k) check_reference(named[k], how, 1e-4);
+}
+
+/* ---- one degree of freedom ----------------------------------------------------------------------------- */
+
+static double length_of(const scaled_model *m) { return 1 / *m->base->shape; } /* x = shape q */
+
+/* Case 2 of the paper and others as a structure, by series, and as an oscillator in closed form: other code all
+ * through. Each is exact but for rounding, of some thousand steps. */
+static void oscillators_are_structures(void **state)
+{
+  (void)state;
+  const scene scenes[] = {scene_c2(), scene_b10(), scene_a10()};
+  const double omegas[] = {5, 8, 9, 11, 16};
+  for (size_t k = 0; k < sizeof scenes / sizeof *scenes; ++k)
+    for (size_t w = 0; w < sizeof omegas / sizeof *omegas; ++w) {
+      const scene *sc = &scenes[k];
+      model *m;
+      modal_base *base;
+      integrator *one, *two;
+      scaled_contact contacts[2][SCENE_MAX_CONTACTS];
+      scaled_model x = {.contact = contacts[0]}, q = {.contact = contacts[1]};
+      transient_settings how = sc->transient;
+      how.law = TRANSIENT_LAW_EXACT;
+      assert_int_equal(scene_model(sc, &m), HC_OK);
+      assert_int_equal(modal_base_new(m, &base), HC_OK);
+      q.base = base;
+      scaled_make(&x, m, &how, omegas[w], 10);
+      scaled_make(&q, m, &how, omegas[w], 10);
+      assert_int_equal(integrate_new_closed(x.n_states, 1, &one), HC_OK);
+      assert_int_equal(integrate_new_series(base, &two), HC_OK);
+      double y[SCENE_MAX_STATES] = {0.1, -0.2}, z[SCENE_MAX_STATES] = {0.1 * length_of(&q), -0.2 * length_of(&q)};
+      for (int period = 0; period < 3; ++period) { /* rounding grows by the multipliers, to 1e3 in three periods */
+        double phi[SCENE_MAX_STATES * SCENE_MAX_STATES], psi[SCENE_MAX_STATES * SCENE_MAX_STATES];
+        assert_int_equal(integrate_monodromy(one, &x, y, phi), HC_OK);
+        assert_int_equal(integrate_monodromy(two, &q, z, psi), HC_OK);
+        for (int i = 0; i < 2; ++i)
+          CHECK_NEAR(z[i] / length_of(&q), y[i], 1e-11, "scene %zu at %g, period %d", k, omegas[w], period);
+        for (int j = 2; j < x.n_states; ++j) CHECK_NEAR(z[j], y[j], 1e-11, "scene %zu at %g, slider", k, omegas[w]);
+        for (int i = 0; i < x.n_states * x.n_states; ++i) {
+          const int row = i % x.n_states, column = i / x.n_states;
+          const double unit = (row < 2 ? 1 / length_of(&q) : 1) * (column < 2 ? length_of(&q) : 1);
+          CHECK_NEAR(psi[i] * unit, phi[i], 1e-9 * fmax(1, fabs(phi[i])), "scene %zu at %g, [%d, %d]", k, omegas[w],
+                     row, column);
+        }
+      }
+      integrate_free(one);
+      integrate_free(two);
+      modal_base_free(base);
+      model_free(m);
+    }
+}
+
+/* ---- random structures ---------------------------------------------------------------------------------- */
+
+typedef struct drawn {
+  model *m;
+  modal_base *base;
+  scaled_contact contacts[8];
+  scaled_model scaled;
+} drawn;
+
+static void draw(uint64_t *seed, transient_law law, drawn *d)
+{
+  const int n = random_int(seed, 1, 6), contacts = random_int(seed, 1, 5);
+  transient_settings how = {.law = law, .regularisation = 1e-2};
+  d->m = random_structure(seed, n, contacts);
+  assert_int_equal(modal_base_new(d->m, &d->base), HC_OK);
+  d->scaled = (scaled_model){.contact = d->contacts, .base = d->base};
+  scaled_make(&d->scaled, d->m, &how, 3 + 10 * random_unit(seed), 1);
+}
+
+static void undraw(drawn *d)
+{
+  modal_base_free(d->base);
+  model_free(d->m);
+}
+
+/* The same period by series and by CVODE, at 1e-13 a step: some hundred steps, and the 1e3 by which a period may
+ * magnify what they leave. */
+static void series_and_events_agree(void **state)
+{
+  (void)state;
+  uint64_t seed = 16;
+  for (int trial = 0; trial < 60; ++trial) {
+    drawn d;
+    integrator *series, *events;
+    double y[MOST] = {0}, z[MOST];
+    draw(&seed, TRANSIENT_LAW_EXACT, &d);
+    assert_int_equal(integrate_new_series(d.base, &series), HC_OK);
+    assert_int_equal(integrate_new_events(d.base, 1e-13, &events), HC_OK);
+    for (int period = 0; period < 4; ++period) {
+      memcpy(z, y, sizeof y);
+      assert_int_equal(integrate_period(series, &d.scaled, y, NULL, NULL), HC_OK);
+      assert_int_equal(integrate_period(events, &d.scaled, z, NULL, NULL), HC_OK);
+      for (int i = 0; i < d.scaled.n_states; ++i) CHECK_NEAR(z[i], y[i], 1e-8, "trial %d, state %d", trial, i);
+    }
+    assert_true(integrate_transitions(series) > 0 || trial > 0);
+    integrate_free(series);
+    integrate_free(events);
+    undraw(&d);
+  }
+}
+
+/* Where state q of y moves by that much, sliders that are tied to the motion go with it. */
+static void follow_with_sliders(const scaled_model *m, const double *y, int q, double by, double *z)
+{
+  const int n = m->n;
+  for (int j = 0; j < m->n_contacts; ++j) {
+    const double *t = m->base->tangent + j * n, *normal = m->base->normal + j * n;
+    contact_motion at;
+    scaled_contact_motion(m, j, y, &at.u, &at.v);
+    scaled_contact_motion(m, j, y + n, &at.du, &at.dv);
+    const contact_track begun = contact_track_begin(&m->contact[j], &at, y[2 * n + j]);
+    if (begun.since_start || q >= n) continue;
+    z[2 * n + j] += contact_track_vary_slider(&begun, &m->contact[j], by * t[q], by * normal[q]);
+  }
+}
+
+/* Differences of the period map: of e and 2 e, extrapolated, where the order of transitions stays; where it does not
+ * the map has but one derivative less, and the test would compare nothing: those are few. */
+static void monodromy_is_the_derivative(void **state)
+{
+  (void)state;
+  uint64_t seed = 7;
+  int compared = 0, off = 0;
+  for (int trial = 0; trial < 40; ++trial) {
+    drawn d;
+    integrator *in;
+    double y[MOST] = {0}, phi[MOST * MOST], end[2][2][MOST];
+    draw(&seed, TRANSIENT_LAW_EXACT, &d);
+    const int n = d.scaled.n_states;
+    assert_int_equal(integrate_new_series(d.base, &in), HC_OK);
+    for (int period = 0; period < 3; ++period) assert_int_equal(integrate_period(in, &d.scaled, y, NULL, NULL), HC_OK);
+    double z[MOST];
+    memcpy(z, y, sizeof y);
+    assert_int_equal(integrate_monodromy(in, &d.scaled, z, phi), HC_OK);
+    for (int q = 0; q < 2 * d.scaled.n; ++q) {
+      for (int k = 0; k < 2; ++k)
+        for (int side = 0; side < 2; ++side) {
+          memcpy(z, y, sizeof y);
+          z[q] += (side ? 1 : -1) * ldexp(1e-5, k);
+          follow_with_sliders(&d.scaled, y, q, z[q] - y[q], z);
+          assert_int_equal(integrate_period(in, &d.scaled, z, NULL, NULL), HC_OK);
+          memcpy(end[k][side], z, sizeof z);
+        }
+      for (int i = 0; i < 2 * d.scaled.n; ++i) {
+        const double one = (end[0][1][i] - end[0][0][i]) / 2e-5, two = (end[1][1][i] - end[1][0][i]) / 4e-5;
+        const double smooth = (4 * one - two) / 3;
+        ++compared;
+        off += !(fabs(phi[i + q * n] - smooth) <= 1e-6);
+      }
+    }
+    integrate_free(in);
+    undraw(&d);
+  }
+  CHECK_LE(off, 0.02 * compared, "of %d derivatives", compared);
+}
+
+static void jacobian_is_the_derivative(void **state)
+{
+  (void)state;
+  uint64_t seed = 3;
+  for (int trial = 0; trial < 100; ++trial) {
+    drawn d;
+    double y[MOST], jac[MOST * MOST], f[2][MOST];
+    draw(&seed, TRANSIENT_LAW_REGULARISED, &d);
+    const int n = d.scaled.n_states;
+    for (int i = 0; i < n; ++i) y[i] = random_signed(&seed);
+    structure_jacobian(&d.scaled, y, jac);
+    for (int q = 0; q < n; ++q) {
+      double size = 1;
+      const double at = y[q], h = 1e-6;
+      for (int side = 0; side < 2; ++side) {
+        y[q] = at + (side ? h : -h);
+        assert_true(structure_rhs(&d.scaled, 1, y, f[side]));
+      }
+      y[q] = at;
+      for (int i = 0; i < n; ++i) size = fmax(size, fabs(jac[i + q * n]));
+      for (int i = 0; i < n;
+           ++i) /* h^2/6 of the third derivative of softplus over its width, 1e-2 of a motion of 1 or less */
+        CHECK_NEAR((f[1][i] - f[0][i]) / (2 * h), jac[i + q * n], 1e-4 * size, "trial %d [%d, %d]", trial, i, q);
+    }
+    undraw(&d);
+  }
+}
+
+/* x = Q y changes no response: rounding, and what the settling leaves of 1e-12. */
+static void other_coordinates_change_nothing(void **state)
+{
+  (void)state;
+  uint64_t seed = 5;
+  transient_settings how = from_rest;
+  how.tolerance = 1e-12;
+  for (int trial = 0, settled = 0; trial < 12 || settled < 6; ++trial) {
+    const int n = random_int(&seed, 2, 5);
+    double Q[25] = {0}, y[2][MOST] = {{0}};
+    static timeint_result r[2];
+    hc_status st[2];
+    model *m[2] = {random_structure(&seed, n, random_int(&seed, 1, 4)), NULL};
+    for (int i = 0; i < n * n; ++i) Q[i] = random_signed(&seed) + (i % (n + 1) == 0 ? 2 : 0);
+    m[1] = turned_structure(m[0], Q);
+    for (int k = 0; k < 2; ++k) {
+      timeint *ti;
+      assert_int_equal(timeint_new(m[k], &how, &ti), HC_OK);
+      st[k] = timeint_steady(ti, 7, y[k], NULL, &r[k]);
+      if (st[k] == HC_OK) assert_int_equal(timeint_response(ti, 1, &r[k]), HC_OK);
+      timeint_free(ti);
+      model_free(m[k]);
+    }
+    assert_int_equal(st[0], st[1]);
+    if (st[0] != HC_OK) continue;
+    ++settled;
+    CHECK_NEAR(r[0].amplitude, r[1].amplitude, 1e-10 * r[0].amplitude, "trial %d", trial);
+    CHECK_NEAR(r[0].mean, r[1].mean, 1e-10 * (r[0].amplitude + fabs(r[0].mean)), "trial %d: mean", trial);
+    for (int i = 0; i < TIMEINT_WAVE; ++i)
+      CHECK_NEAR(r[0].wave[i], r[1].wave[i], 1e-10 * (r[0].amplitude + fabs(r[0].mean)), "trial %d [%d]", trial, i);
+  }
+}
+
+/* A mass matrix that is not positive definite: said, not integrated. */
+static void a_massless_freedom_is_refused(void **state)
+{
+  (void)state;
+  uint64_t seed = 2;
+  model *m = random_structure(&seed, 3, 1);
+  timeint *ti;
+  for (int i = 0; i < 3; ++i) m->mass[3 + i] = m->mass[3 * i + 1] = 0;
+  assert_int_equal(timeint_new(m, &from_rest, &ti), HC_SINGULAR);
+  assert_null(ti);
+  model_free(m);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(series_meet_the_reference),       cmocka_unit_test(events_meet_the_reference),
+      cmocka_unit_test(regularised_meets_the_reference), cmocka_unit_test(oscillators_are_structures),
+      cmocka_unit_test(series_and_events_agree),         cmocka_unit_test(monodromy_is_the_derivative),
+      cmocka_unit_test(jacobian_is_the_derivative),      cmocka_unit_test(other_coordinates_change_nothing),
+      cmocka_unit_test(a_massless_freedom_is_refused),
+  };
+  check_watchdog(120);
+  return cmocka_run_group_tests_name("timeint.structure", tests, NULL, NULL);
+}
