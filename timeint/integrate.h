@@ -9,7 +9,7 @@
  * One interface, three ways. integrate_regularised.h: the equations of scaled.h as they stand, by CVODE.
  * integrate_exact.h: the exact law by CVODE, event-driven: one smooth right-hand side for each set of contact states,
  * from one change of state (transition) to the next. integrate_closed.h: the same law in closed form, no CVODE.
- * Structures have their own three in structure/. */
+ * Structures have their own: integrate_series.h, integrate_events.h. */
 #ifndef HC_TIMEINT_INTEGRATE_H
 #define HC_TIMEINT_INTEGRATE_H
 

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "timeint/structure/equations.h"
+#include "timeint/structure_equations.h"
 
 /* Width of the corner in N for one contact: a fraction of the larger of its gap and the motion under a static force.
  * Where a contact opens or closes the motion is at least as large as the gap; a gap of 0 leaves the static motion. */

@@ -9,7 +9,7 @@
  * Forces are in units of M omega^2 L. N0 = max(kn gap, 0) is the exact preload, not softplus' of it: at gap = 0 the
  * two differ to first order in the width, and a constant force would show in the answer to first order too.
  *
- * A structure has n of X and P, the modes q/L of structure/modal_base.h, and N may have a constant part:
+ * A structure has n of X and P, the modes q/L of modal_base.h, and N may have a constant part:
  *     X'' + by_C C X' + by_K K X = by_load p(theta) - sum_j [ t_j T_j + n_j (N_j - N0_j) ]
  *     by_K = 1/omega^2, by_C = 1/omega, by_load = 1/(omega^2 L); kt, kn times s^2/omega^2: the mass is 1/s^2
  *
@@ -20,7 +20,7 @@
 
 #include "model/model.h"
 #include "timeint/law_regularised.h"
-#include "timeint/structure/modal_base.h"
+#include "timeint/modal_base.h"
 #include "timeint/transient_settings.h"
 
 /* Order of an oscillator's states: X, P, then W_j of contact j at SCALED_W + j. A structure's: n of X, n of P, W. */

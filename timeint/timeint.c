@@ -6,12 +6,12 @@
 #include <string.h>
 
 #include "timeint/integrate_closed.h"
+#include "timeint/integrate_events.h"
 #include "timeint/integrate_exact.h"
 #include "timeint/integrate_regularised.h"
+#include "timeint/integrate_series.h"
 #include "timeint/scout.h"
 #include "timeint/shoot.h"
-#include "timeint/structure/integrate_events.h"
-#include "timeint/structure/integrate_series.h"
 #include "timeint/timeint_private.h"
 
 static const double pi = 3.14159265358979323846;

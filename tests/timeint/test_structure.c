@@ -7,12 +7,12 @@
 #include "tests/hbm/structure_cases.h"
 #include "tests/scene_parts.h"
 #include "tests/timeint/scenes.h"
+#include "timeint/contact_track.h"
 #include "timeint/integrate_closed.h"
+#include "timeint/integrate_events.h"
+#include "timeint/integrate_series.h"
 #include "timeint/steady.h"
-#include "timeint/structure/contact_track.h"
-#include "timeint/structure/equations.h"
-#include "timeint/structure/integrate_events.h"
-#include "timeint/structure/integrate_series.h"
+#include "timeint/structure_equations.h"
 
 enum { MOST = 64 };
 

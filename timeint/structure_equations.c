@@ -1,5 +1,5 @@
-/* equations.c - see equations.h. Proof: tests/timeint/test_structure.c. */
-#include "timeint/structure/equations.h"
+/* structure_equations.c - see structure_equations.h. Proof: tests/timeint/test_structure.c. */
+#include "timeint/structure_equations.h"
 
 #include <math.h>
 #include <string.h>

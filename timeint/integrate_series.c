@@ -1,5 +1,5 @@
 /* integrate_series.c - see integrate_series.h. Proof: tests/timeint/test_structure.c. */
-#include "timeint/structure/integrate_series.h"
+#include "timeint/integrate_series.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -7,7 +7,7 @@
 
 #include "base/constants.h"
 #include "timeint/integrate_private.h"
-#include "timeint/structure/structure_variations.h"
+#include "timeint/structure_variations.h"
 
 enum {
   MAX_TRANSITIONS = 1000, /* per period, or that many per contact if it is more (integrate_exact.c) */

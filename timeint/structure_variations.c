@@ -1,5 +1,5 @@
 /* structure_variations.c - see structure_variations.h. Proof: tests/timeint/test_structure.c. */
-#include "timeint/structure/structure_variations.h"
+#include "timeint/structure_variations.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,5 +1,5 @@
 /* motion_series.c - see motion_series.h. Proof: tests/timeint/test_structure.c. */
-#include "timeint/structure/motion_series.h"
+#include "timeint/motion_series.h"
 
 #include <float.h>
 #include <math.h>

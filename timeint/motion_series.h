@@ -10,7 +10,7 @@
 #ifndef HC_MOTION_SERIES_H
 #define HC_MOTION_SERIES_H
 
-#include "timeint/structure/contact_track.h"
+#include "timeint/contact_track.h"
 
 typedef struct motion_series { /* from motion_series_make, to motion_series_free */
   int n, n_contacts;

@@ -5,7 +5,7 @@
 #ifndef HC_STRUCTURE_VARIATIONS_H
 #define HC_STRUCTURE_VARIATIONS_H
 
-#include "timeint/structure/motion_series.h"
+#include "timeint/motion_series.h"
 
 typedef struct structure_variations { /* from structure_variations_make, to structure_variations_free */
   int n, n_states;                    /* modes; 2 n + contacts */

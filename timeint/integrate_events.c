@@ -7,7 +7,7 @@
  *
  * A guard that has fallen at the beginning of a phase, or with another contact's in the same instant, is passed at
  * once. The monodromy matrix is structure_variations.h's. */
-#include "timeint/structure/integrate_events.h"
+#include "timeint/integrate_events.h"
 
 #include <float.h>
 #include <math.h>
@@ -17,8 +17,8 @@
 #include "base/constants.h"
 #include "numerics/sundials_compat.h"
 #include "timeint/integrate_cvode.h"
-#include "timeint/structure/equations.h"
-#include "timeint/structure/structure_variations.h"
+#include "timeint/structure_equations.h"
+#include "timeint/structure_variations.h"
 
 static const double at_end = 64 * DBL_EPSILON; /* nearer to 2 pi CVODE would answer CV_TOO_CLOSE to a restart */
 static const double longest_step = 0.2;        /* [rad] measure.c integrates a quintic over each */

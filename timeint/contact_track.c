@@ -1,5 +1,5 @@
 /* contact_track.c - see contact_track.h. Proof: tests/timeint/test_structure.c. */
-#include "timeint/structure/contact_track.h"
+#include "timeint/contact_track.h"
 
 #include <float.h>
 #include <math.h>

@@ -1,5 +1,5 @@
 /* modal_base.c - see modal_base.h. Proof: tests/timeint/test_structure.c. */
-#include "timeint/structure/modal_base.h"
+#include "timeint/modal_base.h"
 
 #include <math.h>
 #include <stdlib.h>
