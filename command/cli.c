@@ -211,7 +211,8 @@ int cli_only_oscillator(const cli_common *common, const scene *sc, const char *o
 int cli_refuse_structure(const cli_common *common, const char *path, scene *sc, case_error *err)
 {
   snprintf(err->message, sizeof err->message,
-           "%s: a structure, and hbmcheck %s knows `oscillator` alone; frf, modes, transient, compare and study (run: frf) take structures",
+           "%s: a structure, and hbmcheck %s knows `oscillator` alone; frf, modes, transient, compare and study (run: "
+           "frf) take structures",
            path, common->command);
   fprintf(stderr, "%s\n", err->message);
   case_clear(sc);

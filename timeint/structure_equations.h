@@ -1,6 +1,5 @@
 /* structure_equations.h - the equations of scaled.h of a structure, for solvers that take a right-hand side; scaled_rhs
- * and
- * scaled_jacobian call these. */
+ * and scaled_jacobian call these. */
 #ifndef HC_STRUCTURE_EQUATIONS_H
 #define HC_STRUCTURE_EQUATIONS_H
 
