@@ -27,15 +27,17 @@ typedef struct frf_options {
   number_list at;       /* n = 0: the whole curve */
   const char *response; /* NULL: all of them */
   bool contacts;        /* what each contact does, too */
+  bool verbose;         /* how Newton's equations were solved, too */
   const char *plot;     /* NULL: no drawing */
 } frf_options;
 
-enum { KEY_AT = CLI_OWN_KEY, KEY_RESPONSE, KEY_CONTACTS, KEY_PLOT };
+enum { KEY_AT = CLI_OWN_KEY, KEY_RESPONSE, KEY_CONTACTS, KEY_VERBOSE, KEY_PLOT };
 
 static const struct argp_option options[] = {
     {"at", KEY_AT, "LIST", 0, "Only the solutions at these " CLI_FREQUENCIES, 1},
     {"response", KEY_RESPONSE, "NAME", 0, "Only this response of the case, as the column `response` calls it", 1},
     CLI_CONTACTS_OPTION(KEY_CONTACTS),
+    {"verbose", KEY_VERBOSE, NULL, 0, "Also how Newton's equations were solved", 1},
     CLI_PLOT_OPTION(KEY_PLOT),
     {0},
 };
@@ -47,6 +49,7 @@ static error_t read_option(int key, char *text, struct argp_state *state)
   case KEY_AT: cli_read_list(state, "at", text, &own->at); return 0;
   case KEY_RESPONSE: own->response = text; return 0;
   case KEY_CONTACTS: own->contacts = true; return 0;
+  case KEY_VERBOSE: own->verbose = true; return 0;
   case KEY_PLOT: cli_read_plot(state, text, &own->plot); return 0;
   default: return ARGP_ERR_UNKNOWN;
   }
@@ -139,6 +142,19 @@ static void note_curve(table *t, const scene *sc, const hbm_solver *s, const hbm
   else table_note(t, "STOPPED at %s: %s", last, hc_status_text(c->end));
 }
 
+/* "Newton: 275 unknowns, own LU, 612 factorisations" */
+static void note_newton(table *t, const hbm_solver *s)
+{
+  const hbm_newton_report r = hbm_newton_work(s);
+  const char *lu = r.work.lapack ? "LAPACK LU" : "own LU";
+  if (r.work.way == NEWTON_KRYLOV)
+    table_note(t,
+               "Newton: %d unknowns, SPGMR preconditioned by %s: %ld solves with %ld iterations, %ld of them in vain; "
+               "%ld factorisations",
+               r.unknowns, lu, r.work.krylov, r.work.rounds, r.work.krylov_failed, r.work.factored);
+  else table_note(t, "Newton: %d unknowns, %s, %ld factorisations", r.unknowns, lu, r.work.factored);
+}
+
 /* "omega = 9.2095785410", or "frequency = 1.4657502 (omega = ...)" where the sweep is in cycles. */
 static const char *precisely(const scene *sc, double omega, char text[SCENE_WHERE])
 {
@@ -214,6 +230,7 @@ static int run_frf(int argc, char **argv)
     if (contacts) shown = put_contacts(&common, s, at->n ? &found : &curve, contacts);
     if (st == HC_OK) st = shown;
     note_curve(t, &sc, s, &curve, at->n > 0);
+    if (own.verbose) note_newton(t, s);
     hc_status noted = at->n ? HC_OK : note_specials(t, &sc, s, &curve);
     if (st == HC_OK && noted == HC_NO_MEMORY) st = noted; /* another failure to locate one is in the note */
     if (st != HC_OK && (curve.n == 0 || curve.end == HC_OK)) table_note(t, "INCOMPLETE: %s", hc_status_text(st));

@@ -91,7 +91,7 @@ static bool is_diagonal(const modal_form *f)
 
 static hc_status sum_modes(const model *m, int dim, const modal_form *f, compliance *c)
 {
-  const size_t n = (size_t)f->n, inputs = (size_t)(dim + 2 * m->n_loads);
+  const size_t n = (size_t)f->n, inputs = (size_t)dim + 2 * (size_t)m->n_loads;
   const int rows = (int)inputs + m->n_responses;
   double *own = malloc(n * sizeof *own), *x = malloc((size_t)rows * n * sizeof *x);
   hc_status st = own && x ? HC_OK : HC_NO_MEMORY;
@@ -160,9 +160,9 @@ static bool take_poles(const modal_form *f, double u, const double complex *lamb
 
 static hc_status sums_of_table(const model *m, int dim, const pole_table *t, compliance *c)
 {
-  const size_t kept = (size_t)t->n, inputs = (size_t)(dim + 2 * m->n_loads), responses = (size_t)m->n_responses;
+  const size_t kept = (size_t)t->n, inputs = (size_t)dim + 2 * (size_t)m->n_loads, responses = (size_t)m->n_responses;
   const size_t rows = inputs + responses;
-  double complex *left = malloc(rows * kept * sizeof *left), *right = calloc(rows * kept, sizeof *right);
+  double complex *left = malloc((rows * kept + 1) * sizeof *left), *right = malloc((rows * kept + 1) * sizeof *right);
   hc_status st = left && right ? HC_OK : HC_NO_MEMORY;
   if (st == HC_OK) st = mode_sum_of_poles(t->n, t->lambda, dim, (int)inputs, t->left, t->right, &c->of_q);
   if (st == HC_OK) {
@@ -221,7 +221,7 @@ static bool every_mode_is_damped(const modal_form *f)
 
 static hc_status make_room(const model *m, int dim, compliance *c)
 {
-  const size_t columns = (size_t)(dim + 2 * m->n_loads + m->n_responses),
+  const size_t columns = (size_t)dim + 2 * (size_t)m->n_loads + (size_t)m->n_responses,
                rows = (size_t)(dim > m->n_responses ? dim : m->n_responses);
   c->G = calloc(columns * rows, sizeof *c->G);
   c->by_s = calloc(columns * rows, sizeof *c->by_s);

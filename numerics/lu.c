@@ -3,9 +3,7 @@
 #include "numerics/lu.h"
 
 #include <math.h>
-#include <stdlib.h>
-#include <string.h>
-#include <sunmatrix/sunmatrix_dense.h>
+#include <stddef.h>
 
 #include "numerics/product.h"
 
@@ -97,58 +95,3 @@ int lu_sign(int n, const double *a, const int *pivot)
   }
   return sign;
 }
-
-typedef struct content { /* of our SUNLinearSolver */
-  int n, pivot[];
-} content;
-
-static SUNLinearSolver_Type type(SUNLinearSolver ls)
-{
-  (void)ls;
-  return SUNLINEARSOLVER_DIRECT;
-}
-
-static int setup(SUNLinearSolver ls, SUNMatrix a)
-{
-  content *c = ls->content;
-  const int recoverable = 1; /* KINSOL then returns KIN_LSETUP_FAIL */
-  return lu_factor(c->n, SUNDenseMatrix_Data(a), c->pivot) ? 0 : recoverable;
-}
-
-static int solve(SUNLinearSolver ls, SUNMatrix a, N_Vector x, N_Vector b, sunrealtype tolerance)
-{
-  content *c = ls->content;
-  double *to = N_VGetArrayPointer(x);
-  (void)tolerance;
-  if (x != b) memcpy(to, N_VGetArrayPointer(b), (size_t)c->n * sizeof *to);
-  lu_solve(c->n, SUNDenseMatrix_Data(a), c->pivot, to);
-  return 0;
-}
-
-static int release(SUNLinearSolver ls)
-{
-  free(ls->content);
-  ls->content = NULL;
-  SUNLinSolFreeEmpty(ls);
-  return 0;
-}
-
-SUNLinearSolver lu_sundials_solver(int n, SUNContext ctx)
-{
-  SUNLinearSolver ls = SUNLinSolNewEmpty(ctx);
-  content *c = calloc(1, sizeof *c + (size_t)n * sizeof c->pivot[0]);
-  if (!ls || !c) {
-    if (ls) SUNLinSolFreeEmpty(ls);
-    free(c);
-    return NULL;
-  }
-  c->n = n;
-  ls->content = c;
-  ls->ops->gettype = type;
-  ls->ops->setup = setup;
-  ls->ops->solve = solve;
-  ls->ops->free = release;
-  return ls;
-}
-
-const int *lu_sundials_pivots(SUNLinearSolver ls) { return ((const content *)ls->content)->pivot; }

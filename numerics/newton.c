@@ -13,7 +13,7 @@
 #include <string.h>
 #include <sunmatrix/sunmatrix_dense.h>
 
-#include "numerics/lu.h"
+#include "numerics/newton_linear.h"
 #include "numerics/sundials_compat.h"
 
 struct newton { /* from newton_new, to newton_free; not shared between threads */
@@ -21,7 +21,7 @@ struct newton { /* from newton_new, to newton_free; not shared between threads *
   SUNContext ctx;               /* made first, freed last, this handle's alone */
   N_Vector z, z_scale, r_scale; /* [n] */
   N_Vector r, step;             /* [n] for our own check and polishing */
-  SUNMatrix jac;                /* [n][n] overwritten by its factors */
+  SUNMatrix jac;                /* [n][n] overwritten by its factors, where these are not newton_linear.c's */
   SUNLinearSolver ls;
   void *kin;
   double *start;     /* [n] where the solve began */
@@ -85,7 +85,7 @@ static hc_status make_kinsol(newton *nw)
     if (!(*vectors[i] = N_VNew_Serial(n, nw->ctx))) return HC_NO_MEMORY;
   if (!(nw->jac = SUNDenseMatrix(n, n, nw->ctx))) return HC_NO_MEMORY;
   nw->jac->ops->zero = keep_entries;
-  if (!(nw->ls = lu_sundials_solver(nw->problem.n, nw->ctx))) return HC_NO_MEMORY;
+  if (!(nw->ls = newton_linear_solver(nw->problem.n, nw->problem.way, nw->ctx))) return HC_NO_MEMORY;
   if (!(nw->kin = KINCreate(nw->ctx)) || !hc_room_for(0)) return HC_NO_MEMORY;
   int bad = HC_KINSOL_QUIET(nw->kin);
   bad |= KINSetUserData(nw->kin, nw);
@@ -142,7 +142,7 @@ static double weighted_max(int n, const double *weight, const double *v)
 static hc_status factor_here(newton *nw)
 {
   if (on_residual(nw->z, nw->r, nw) || on_jacobian(nw->z, nw->r, nw->jac, nw, NULL, NULL)) return nw->refusal;
-  nw->factored = SUNLinSolSetup(nw->ls, nw->jac) == 0;
+  nw->factored = newton_linear_factor(nw->ls, nw->jac);
   return HC_OK;
 }
 
@@ -154,10 +154,9 @@ hc_status newton_factor_at(newton *nw, const double *z)
   return st == HC_OK && !nw->factored ? HC_SINGULAR : st;
 }
 
-int newton_sign(const newton *nw)
-{
-  return nw->factored ? lu_sign(nw->problem.n, SUNDenseMatrix_Data(nw->jac), lu_sundials_pivots(nw->ls)) : 0;
-}
+int newton_sign(const newton *nw) { return nw->factored ? newton_linear_sign(nw->ls, nw->jac) : 0; }
+
+newton_work newton_work_of(const newton *nw) { return newton_linear_work(nw->ls); }
 
 hc_status newton_backsolve(newton *nw, double *x)
 {

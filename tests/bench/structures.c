@@ -173,8 +173,8 @@ int main(int argc, char **argv)
       bars[i] = (bar){ns[i], 2, 7, d}, x[i] = ns[i];
     run("over n", rows, bars, x);
   }
-  for (int i = 0; i < 5; ++i) bars[i] = (bar){100, contacts[i], 5, RAYLEIGH}, x[i] = contacts[i] + 1;
-  run("over contacts (exponents of their number and one, the coordinates)", 5, bars, x);
+  for (int i = 0; i < 5; ++i) bars[i] = (bar){100, contacts[i], 5, RAYLEIGH}, x[i] = contacts[i];
+  run("over contacts, as many as coordinates", 5, bars, x);
   for (int i = 0; i < 5; ++i) bars[i] = (bar){100, 2, harmonics[i], RAYLEIGH}, x[i] = 2 * harmonics[i] + 1;
   run("over harmonics (exponents of 2 H + 1)", 5, bars, x);
   return 0;

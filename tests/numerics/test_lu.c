@@ -1,14 +1,11 @@
 /* test_lu.c - LU factors: residuals against the bound of rounding theory, signs of determinants, and what must be
  * refused. */
 #include <float.h>
-#include <nvector/nvector_serial.h>
-#include <sunmatrix/sunmatrix_dense.h>
 
 #include "numerics/lu.h"
-#include "numerics/sundials_compat.h"
 #include "tests/hbm/scenes.h"
 
-enum { MAX_N = 60 };
+enum { MAX_N = 140, SMALL = 60 };
 
 static void random_matrix(uint64_t *seed, int n, double *a)
 {
@@ -45,8 +42,8 @@ static void solves_within_the_bound_of_rounding_theory(void **state)
   int pivot[MAX_N];
   uint64_t seed = 1;
   double worst = 0;
-  for (int n = 1; n <= MAX_N; ++n)
-    for (int trial = 0; trial < 20; ++trial) {
+  for (int n = 1; n <= MAX_N; n += n < SMALL ? 1 : n < 70 ? 3 : 7) /* in panels from 64 on */
+    for (int trial = 0; trial < (n < SMALL ? 20 : 2); ++trial) {
       double biggest = 0, growth = 0;
       random_matrix(&seed, n, a);
       for (int i = 0; i < n; ++i) x[i] = b[i] = random_signed(&seed);
@@ -166,46 +163,11 @@ static void singular_and_not_finite_are_refused(void **state)
   assert_true(lu_factor(2, nearly, pivot)); /* singular is 0 exactly, nothing else */
 }
 
-/* Through SUNDIALS: the same numbers bit for bit, in place or not, and a singular matrix is a recoverable failure. */
-static void sundials_gets_the_same_numbers(void **state)
-{
-  (void)state;
-  SUNContext ctx;
-  assert_int_equal(hc_sundials_context(&ctx), 0);
-  enum { N = 21 };
-  uint64_t seed = 5;
-  double a[N * N], x[N];
-  int pivot[N];
-  SUNMatrix m = SUNDenseMatrix(N, N, ctx);
-  N_Vector b = N_VNew_Serial(N, ctx), z = N_VNew_Serial(N, ctx);
-  SUNLinearSolver ls = lu_sundials_solver(N, ctx);
-  assert_non_null(ls);
-  random_matrix(&seed, N, a);
-  for (int i = 0; i < N; ++i) N_VGetArrayPointer(b)[i] = x[i] = random_signed(&seed);
-  memcpy(SUNDenseMatrix_Data(m), a, sizeof a);
-  assert_true(lu_factor(N, a, pivot));
-  lu_solve(N, a, pivot, x);
-  assert_int_equal(SUNLinSolSetup(ls, m), 0);
-  assert_memory_equal(lu_sundials_pivots(ls), pivot, sizeof pivot);
-  assert_int_equal(SUNLinSolSolve(ls, m, z, b, 0), 0);
-  assert_memory_equal(N_VGetArrayPointer(z), x, sizeof x);
-  assert_int_equal(SUNLinSolSolve(ls, m, b, b, 0), 0);
-  assert_memory_equal(N_VGetArrayPointer(b), x, sizeof x);
-  SUNMatZero(m);
-  assert_true(SUNLinSolSetup(ls, m) > 0);
-  SUNLinSolFree(ls);
-  N_VDestroy(b);
-  N_VDestroy(z);
-  SUNMatDestroy(m);
-  SUNContext_Free(&ctx);
-}
-
 static const struct CMUnitTest tests[] = {
     cmocka_unit_test(solves_within_the_bound_of_rounding_theory),
     cmocka_unit_test(the_sign_of_signed_permutations),
     cmocka_unit_test(the_sign_turns_over_with_a_row),
     cmocka_unit_test(singular_and_not_finite_are_refused),
-    cmocka_unit_test(sundials_gets_the_same_numbers),
 };
 
 CHECK_MAIN("cases.lu", tests, 60)
