@@ -60,11 +60,11 @@ static bool get(int from, void *bytes, size_t size)
 /* Bytes of address space in use: Linux tells; 0 elsewhere. */
 static rlim_t in_use(void)
 {
-  unsigned long pages = 0;
+  char line[64] = "";
   FILE *from = fopen("/proc/self/statm", "r");
-  if (from && fscanf(from, "%lu", &pages) != 1) pages = 0;
+  const bool told = from && fgets(line, sizeof line, from);
   if (from) fclose(from);
-  return (rlim_t)pages * (rlim_t)sysconf(_SC_PAGESIZE);
+  return told ? (rlim_t)strtoull(line, NULL, 10) * (rlim_t)sysconf(_SC_PAGESIZE) : 0; /* pages come first */
 }
 
 static void limit(int what, rlim_t most)
@@ -75,13 +75,14 @@ static void limit(int what, rlim_t most)
   setrlimit(what, &now);
 }
 
-/* Crashes are silent; signals meant for the program are its own to hear, and the child is soon done. */
+/* Crashes are silent; signals meant for the program are its own to hear, and the child is soon done.
+ * Nor is a parent that does not listen any more a crash. */
 static void settle_in(void)
 {
-  static const int fatal[] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGXCPU}, parents[] = {SIGINT, SIGTERM, SIGHUP};
+  static const int fatal[] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGXCPU},
+                   ignored[] = {SIGINT, SIGTERM, SIGHUP, SIGPIPE};
   for (size_t i = 0; i < sizeof fatal / sizeof *fatal; ++i) signal(fatal[i], SIG_DFL);
-  for (size_t i = 0; i < sizeof parents / sizeof *parents; ++i) signal(parents[i], SIG_IGN);
-  signal(SIGPIPE, SIG_DFL); /* the parent is gone */
+  for (size_t i = 0; i < sizeof ignored / sizeof *ignored; ++i) signal(ignored[i], SIG_IGN);
   const int nowhere = open("/dev/null", O_WRONLY);
   for (int fd = STDOUT_FILENO; fd <= STDERR_FILENO; ++fd)
     if (nowhere < 0 || dup2(nowhere, fd) < 0) close(fd);
@@ -96,6 +97,7 @@ _Noreturn static void serve(int to, const char *path, const char *variable, int 
   reply r = {0};
   double *values;
   message m;
+  to = fcntl(to, F_DUPFD, STDERR_FILENO + 1); /* it may have the place of a terminal that was closed */
   settle_in();
   message_start(&m, r.words, sizeof r.words);
   r.status = matlab_variable_read(path, variable, expected, &r.n, &values, &m);

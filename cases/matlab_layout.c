@@ -62,10 +62,10 @@ static bool take(walker *w, void *bytes, size_t n)
   }
   w->z.next_out = bytes;
   w->z.avail_out = (uInt)n;
-  while (w->z.avail_out > 0) {
-    if (!unpack(w)) return false;
-  }
-  return true;
+  bool right = true;
+  while (right && w->z.avail_out > 0) right = unpack(w);
+  w->z.next_out = NULL;
+  return right;
 }
 
 static bool skip(walker *w, size_t n)
@@ -165,12 +165,14 @@ static bool skip_body(walker *w, const variable *v)
 static bool checksum_holds(walker *w)
 {
   unsigned char nothing[CHUNK];
-  while (!w->unpacked) {
+  bool right = true;
+  while (right && !w->unpacked) {
     w->z.next_out = nothing;
     w->z.avail_out = CHUNK;
-    if (!unpack(w)) return false;
+    right = unpack(w);
   }
-  return true;
+  w->z.next_out = NULL;
+  return right;
 }
 
 /* Behind the tag of an element. *found: it is the one called `name`, and all of it is right. */

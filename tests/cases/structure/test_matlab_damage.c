@@ -212,6 +212,7 @@ static own_file forge(const forged *o, bool packed)
 static void made_by_hand(void **state)
 {
   (void)state;
+  static const int32_t three[] = {0, 1, 2}, back[] = {0, 2, 1, 3};
   static const int32_t rows[] = {0, 1}, below[] = {0, 2}, negative[] = {0, -1}, both[] = {0, 0}, twice[] = {1, 1};
   static const int32_t jc[] = {0, 1, 2}, falling[] = {0, 2, 1}, beyond[] = {0, 1, 3}, late[] = {1, 1, 2},
                        less[] = {0, -1, 2}, all_in_one[] = {0, 2, 2};
@@ -233,6 +234,7 @@ static void made_by_hand(void **state)
       {{SPARSE, 2, 2, below, jc, 2, 2, 2}, inside},
       {{SPARSE, 2, 2, negative, jc, 2, 2, 2}, inside},
       {{SPARSE, 2, 2, rows, falling, 2, 2, 2}, inside},
+      {{SPARSE, 3, 3, three, back, 3, 3, 3}, inside}, /* an entry in two columns */
       {{SPARSE, 2, 2, rows, beyond, 2, 2, 2}, short_of},
       {{SPARSE, 2, 2, rows, late, 2, 2, 2}, inside},
       {{SPARSE, 2, 2, rows, less, 2, 2, 2}, inside},
