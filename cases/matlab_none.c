@@ -9,7 +9,7 @@ hc_status matlab_child_read(const char *path, const char *variable, int expected
   (void)path, (void)variable, (void)expected;
   *rows = 0;
   *values = NULL;
-  message_add(m, "is in a MATLAB file, which this build does not read: configure it with -DHBMCHECK_MATIO=ON "
-                 "(Debian: libmatio-dev), or give a Matrix Market file");
+  message_add(m, "is in a MATLAB file, which this build does not read, expected a Matrix Market file, or a build with "
+                 "-DHBMCHECK_MATIO=ON (Debian: libmatio-dev)");
   return HC_BAD_INPUT;
 }

@@ -52,7 +52,7 @@ static void in_the_section(void **state)
       {STRUCTURE("mass: cases"), "f:1:19: ", "structure.mass: cases is no file, expected a matrix"},
       {STRUCTURE("mass: rom.mat#M"), "f:1:19: ",
        WITH_MATIO ? "structure.mass: rom.mat#M cannot be opened: "
-                  : "structure.mass: rom.mat#M is in a MATLAB file, which this build does not read: configure it with"},
+                  : "structure.mass: rom.mat#M is in a MATLAB file, which this build does not read, expected a"},
       {STRUCTURE("mass: README.md"), "README.md:1:1: ", "no Matrix Market banner"},
       /* damping */
       {STRUCTURE("mass: [1, 1], stiffness: [1, 1], damping: {modl: 1}"),
