@@ -114,34 +114,19 @@ static hc_status check_contact(case_reader *r, int j)
 
 /* ---- what nothing holds ---- */
 
-/* The degrees of freedom that move most, at most four, in words; x is used up. */
-static void describe_motion(const scene_structure *s, double *x, message *m)
-{
-  const double least = 0.2; /* of the largest, which is 1 */
-  char word[STRUCTURE_WORD];
-  for (int told = 0; told < 4; ++told) {
-    int most = 0;
-    for (int i = 1; i < s->n; ++i)
-      if (fabs(x[i]) > fabs(x[most]) * (1 + 1e-9)) most = i; /* of those alike the first */
-    if (!(fabs(x[most]) >= least)) return;
-    message_add(m, "%s%s: %.2g", told > 0 ? ", " : "", structure_dof_name(s, most, word), x[most]);
-    x[most] = 0;
-  }
-}
-
 static hc_status check_held(case_reader *r)
 {
   const scene_structure *s = r->sc.structure;
   double *x = malloc((size_t)s->n * sizeof *x);
   bool is_free;
-  if (!x || structure_free_motion(s, x, &is_free) != HC_OK) {
+  if (!x || structure_free_motion(s, false, x, &is_free) != HC_OK) {
     free(x);
     return case_out_of_memory(r);
   }
   if (is_free) {
     message *m = case_blame(r, s->place);
     message_add(m, "nothing holds the motion {");
-    describe_motion(s, x, m);
+    structure_describe_motion(s, x, m);
     message_add(m, "}: neither structure.stiffness nor a contact, expected a spring or a contact against it");
   }
   free(x);

@@ -61,13 +61,17 @@ static void add_spring(int n, double *A, double stiffness, const double *directi
     for (int i = 0; i < n && direction[j] != 0; ++i) AT(A, i, j) += stiffness * direction[i] * direction[j];
 }
 
-/* K with every contact stuck that can hold. */
-static void stuck_stiffness(const scene_structure *s, double *A)
+/* Does it press on while nothing moves? */
+static bool is_pressed(const scene_contact *c) { return c->law.gap > 0 || c->preload > 0; }
+
+/* K with every contact stuck that can hold; at_rest: that is pressed on, too. */
+static void stuck_stiffness(const scene_structure *s, bool at_rest, double *A)
 {
   memcpy(A, s->stiffness.v, (size_t)s->n * (size_t)s->n * sizeof *A);
   for (int j = 0; j < s->n_contacts; ++j) {
     const structure_contact *c = &s->contacts[j];
     const bool holds = c->given.law.mu > 0 && (c->given.law.kn > 0 || c->given.preload > 0);
+    if (at_rest && !is_pressed(&c->given)) continue;
     add_spring(s->n, A, holds ? c->given.law.kt : 0, c->tangent);
     add_spring(s->n, A, c->given.law.kn, c->normal);
   }
@@ -117,14 +121,28 @@ static double least_held(int n, const double *lu, const int *pivot, double *x)
   return growth;
 }
 
-hc_status structure_free_motion(const scene_structure *s, double *x, bool *free_motion)
+void structure_describe_motion(const scene_structure *s, double *x, message *m)
+{
+  const double least = 0.2; /* of the largest, which is 1 */
+  char word[STRUCTURE_WORD];
+  for (int told = 0; told < 4; ++told) {
+    int most = 0;
+    for (int i = 1; i < s->n; ++i)
+      if (fabs(x[i]) > fabs(x[most]) * (1 + 1e-9)) most = i; /* of those alike the first */
+    if (!(fabs(x[most]) >= least)) return;
+    message_add(m, "%s%s: %.2g", told > 0 ? ", " : "", structure_dof_name(s, most, word), x[most]);
+    x[most] = 0;
+  }
+}
+
+hc_status structure_free_motion(const scene_structure *s, bool at_rest, double *x, bool *free_motion)
 {
   const int n = s->n;
   double *A = malloc((size_t)n * ((size_t)n + 1) * sizeof *A), *d = A ? A + (size_t)n * (size_t)n : NULL;
   int *pivot = malloc((size_t)n * sizeof *pivot);
   *free_motion = false;
   if (A && pivot) {
-    stuck_stiffness(s, A);
+    stuck_stiffness(s, at_rest, A);
     const double scale = equilibrate(n, A, d), rounding = n * DBL_EPSILON * scale;
     for (int i = 0; i < n; ++i) x[i] = 1, AT(A, i, i) += rounding / 8;
     *free_motion = scale == 0 || !lu_factor(n, A, pivot) || !(least_held(n, A, pivot, x) * rounding < 1);

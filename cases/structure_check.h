@@ -4,6 +4,7 @@
 
 #include <stdbool.h>
 
+#include "base/message.h"
 #include "cases/structure.h"
 
 /* Is A[n][n] not symmetric, beyond the 1e-10 of its diagonal that a reduction leaves? Then the first such entry, from
@@ -15,9 +16,12 @@ bool structure_unsymmetric(int n, const double *A, int *i, int *j);
 hc_status structure_not_definite(int n, const double *M, int *order);
 
 /* A motion x[n], largest entry 1, that neither K nor any contact resists: *free_motion = true if there is one. The
- * stiffness then is singular to rounding with every contact stuck, kt t t^T + kn n n^T each where it can hold.
- * HC_NO_MEMORY. */
-hc_status structure_free_motion(const scene_structure *s, double *x, bool *free_motion);
+ * stiffness then is singular to rounding with every contact stuck, kt t t^T + kn n n^T each where it can hold; at_rest:
+ * each that is pressed on without a load. HC_NO_MEMORY. */
+hc_status structure_free_motion(const scene_structure *s, bool at_rest, double *x, bool *free_motion);
+
+/* The degrees of freedom that move most, at most four, in words; x is used up. */
+void structure_describe_motion(const scene_structure *s, double *x, message *m);
 
 /* s->damping.v from the kind of damping: alpha M + beta K; or for modal damping M Phi diag(2 z omega) Phi^T M, the
  * columns of Phi being the modes of M and K with Phi^T M Phi = 1 (Craig and Kurdila, Fundamentals of Structural

@@ -11,9 +11,11 @@
 #include <unistd.h>
 
 #include "base/constants.h"
+#include "base/message.h"
 #include "base/nearest.h"
 #include "base/number.h"
 #include "cases/case_file.h"
+#include "cases/structure_check.h"
 #include "command/mistyped.h"
 #include "command/plot/plot.h"
 #include "compare/advice.h"
@@ -261,6 +263,23 @@ void cli_take_frequencies(const cli_common *common, const number_list *at, scene
   if (outside && !common->quiet) warn_outside(common, sc, first, outside - 1);
 }
 
+/* Of a structure that cannot be solved at rest: the motion that nothing holds there, by name. */
+static bool advice_on_free_motion(const scene_structure *s, char text[ADVICE_TEXT])
+{
+  message m;
+  bool is_free = false;
+  double *x = malloc((size_t)s->n * sizeof *x);
+  if (x && structure_free_motion(s, true, x, &is_free) == HC_OK && is_free) {
+    message_start(&m, text, ADVICE_TEXT);
+    message_add(&m, "while nothing touches, nothing holds the motion {");
+    structure_describe_motion(s, x, &m);
+    message_add(
+        &m, "}: press its contacts on by a gap > 0, a preload or a static load (harmonic: 0), or hold it by a spring");
+  }
+  free(x);
+  return is_free;
+}
+
 /* What a person can try next; "" where no setting helps. */
 static const char *advice_for(const scene *sc, cli_solver solver, hc_status st, char text[ADVICE_TEXT])
 {
@@ -268,6 +287,7 @@ static const char *advice_for(const scene *sc, cli_solver solver, hc_status st, 
   text[0] = 0;
   if (!sc) return text;
   const bool failed_at_mean = solver == CLI_TRANSIENT ? st == HC_NOT_SETTLED : st == HC_SINGULAR && sc->hbm.keep_mean;
+  if (failed_at_mean && sc->structure && advice_on_free_motion(sc->structure, text)) return text;
   if (failed_at_mean && scene_adrift(sc)) return snprintf(text, ADVICE_TEXT, "%s", SCENE_ADRIFT), text;
   if (st == HC_NOT_FINITE) /* of neither side's settings */
     return snprintf(text, ADVICE_TEXT, "%s", advice_on_size(sc->damping)), text;

@@ -45,6 +45,17 @@ static void one_response_is_kept(void **state)
   expect("frf " CASE2 "--at 5 --response y 2>&1", 64, "--response: the case has no `y`; expected x\n");
 }
 
+/* A damper out of reach of its contacts that no load presses on: by name, and what to do. */
+static void what_nothing_holds_is_named(void **state)
+{
+  (void)state;
+  const char *const words = "nothing holds the motion {damper_";
+  expect("frf cases/structures/wedge_F2.yaml -q --set contacts[0].gap=-1 --set contacts[1].gap=-1 "
+         "--set forcing[0].amplitude=0 2>&1",
+         3, words);
+  expect("frf cases/structures/wedge_F2.yaml -q --set contacts=[] 2>&1", 2, words);
+}
+
 /* Number `column`, from 0, of the first line of `out` after `table` that begins with `start`. */
 static double cell(const char *table, const char *start, int column)
 {
@@ -197,6 +208,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(one_response_is_kept),
+      cmocka_unit_test(what_nothing_holds_is_named),
       cmocka_unit_test(every_contact_of_every_solution_has_a_row),
       cmocka_unit_test(a_jenkins_element_has_its_closed_form),
       cmocka_unit_test(the_slider_starts_where_it_is_told),
