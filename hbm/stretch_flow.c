@@ -13,7 +13,7 @@
 #include "numerics/lu.h"
 #include "numerics/product.h"
 
-/* Motions of which this part is left, times the 1e8 that V may multiply it by, are lost in rounding. */
+/* Motions of which this part is left, times what V may multiply it by (stretch_modes.c), are lost in rounding. */
 static const double DEAD = 1e-24;
 
 /* ---- made and freed ------------------------------------------------------------------------------ */

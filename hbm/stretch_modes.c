@@ -46,10 +46,10 @@ void stretch_fill_A(stretch_flow *f, const contact_piece *const *piece)
 
 /* ---- its eigenvectors --------------------------------------------------------------------------------- */
 
-/* W = V^-T. The norm of W times that of V bounds what rounding is multiplied by. */
+/* W = V^-T. The norm of W times that of V bounds what rounding is multiplied by, at every stretch anew. */
 static bool invert(stretch_flow *f, const double complex *V, double complex *lu, double complex *W)
 {
-  const double most = 1e8;
+  const double most = 1e4;
   const size_t ld = (size_t)f->moving;
   double size_V = 0, size_W = 0;
   memcpy(lu, V, ld * ld * sizeof *lu);

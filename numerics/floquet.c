@@ -23,6 +23,7 @@ static hc_status make_sizes(floquet *f)
     f->work[m] = gsl_eigen_nonsymm_alloc((size_t)m);
     f->values[m] = gsl_vector_complex_alloc((size_t)m);
     if (!f->work[m] || !f->values[m]) return HC_NO_MEMORY;
+    gsl_eigen_nonsymm_params(0, 1, f->work[m]); /* balanced: states are lengths, velocities and forces */
   }
   return HC_OK;
 }

@@ -1,0 +1,41 @@
+/* test_floquet.c - multipliers of a matrix whose states are of different units. */
+#include "numerics/floquet.h"
+
+#include <float.h>
+#include <math.h>
+
+#include "tests/check.h"
+
+/* phi = D P diag(lambda) P^-1 D^-1, P and its inverse of small integers, D of powers of two as lengths, velocities and
+ * forces differ by: exact but for the last place. Of P diag(lambda) P^-1 itself, entries up to 20, the eigenvalues are
+ * good to rounding times the product of the norms of P and P^-1, below 1e4; D must make no difference. */
+static void units_of_states_make_no_difference(void **state)
+{
+  (void)state;
+  enum { N = 4 };
+  static const double lambda[N] = {0.9375, 0.5, -0.25, 0.125};
+  static const double P[N][N] = {{1, 0, 0, 0}, {2, 1, 0, 0}, {-1, 3, 1, 0}, {1, -1, 2, 1}};
+  static const double inverse[N][N] = {{1, 0, 0, 0}, {-2, 1, 0, 0}, {7, -3, 1, 0}, {-17, 7, -2, 1}};
+  static const int unit[N] = {0, 17, 27, -10}, active[N] = {0, 1, 2, 3};
+  double phi[N * N];
+  double complex found[N];
+  floquet *f;
+  for (int i = 0; i < N; ++i)
+    for (int j = 0; j < N; ++j) {
+      double sum = 0;
+      for (int k = 0; k < N; ++k) sum += P[i][k] * lambda[k] * inverse[k][j];
+      phi[i * N + j] = ldexp(sum, unit[i] - unit[j]);
+    }
+  assert_int_equal(floquet_new(N, &f), HC_OK);
+  assert_int_equal(floquet_multipliers(f, phi, N, 1, N, active, found), HC_OK);
+  for (int k = 0; k < N; ++k) {
+    double nearest = INFINITY;
+    for (int i = 0; i < N; ++i) nearest = fmin(nearest, cabs(found[i] - lambda[k]));
+    CHECK_LE(nearest, 1e4 * DBL_EPSILON, "multiplier %g", lambda[k]);
+  }
+  floquet_free(f);
+}
+
+static const struct CMUnitTest tests[] = {cmocka_unit_test(units_of_states_make_no_difference)};
+
+CHECK_MAIN("numerics.floquet", tests, 60)
