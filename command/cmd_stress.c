@@ -43,11 +43,14 @@ enum {
   KEY_FINDINGS,
   KEY_RESULTS,
   KEY_SECONDS,
-  KEY_JOBS
+  KEY_JOBS,
+  KEY_STRUCTURES
 };
 
 static const struct argp_option options[] = {
     {"scenes", KEY_SCENES, "N", 0, "How many scenes [200]", 1},
+    {"structures", KEY_STRUCTURES, NULL, 0,
+     "Draw structures of up to 12 degrees of freedom, and check harmonic balance, in place of oscillators", 1},
     {"seed", KEY_SEED, "N", 0, "Which sequence [1]", 1},
     {"first", KEY_FIRST, "INDEX", 0, "The first scene's place in the sequence [0]", 1},
     {"case", KEY_CASE, NULL, 0, "Run nothing: print the case file of the first scene", 1},
@@ -64,6 +67,7 @@ static error_t read_option(int key, char *text, struct argp_state *state)
   stress_options *own = state->input;
   int number;
   switch (key) {
+  case KEY_STRUCTURES: own->plan.family = STRESS_STRUCTURES; return 0;
   case KEY_SCENES:
     cli_read_integer(state, "scenes", text, 1, MAX_SCENES, &number);
     own->plan.scenes = number;
@@ -112,6 +116,9 @@ typedef struct stress_call {
   long findings;
 } stress_call;
 
+static int first_check(const stress_call *call) { return stress_first_check(call->own.plan.family); }
+static int end_of_checks(const stress_call *call) { return stress_end_of_checks(call->own.plan.family); }
+
 /* ---- tables ---- */
 
 /* Median and largest error of the scenes where this check agreed, and the scene of the largest. */
@@ -137,7 +144,7 @@ static table *checks_table(stress_call *call)
 {
   table *t = table_new("Checks", COUNT(check_columns), check_columns);
   table_spare(t, spare_columns);
-  for (int k = 0; k < STRESS_N_CHECKS; ++k) {
+  for (int k = first_check(call); k < end_of_checks(call); ++k) {
     long count[STRESS_N_OUTCOMES] = {0};
     double seconds = 0;
     for (long i = 0; i < call->own.plan.scenes; ++i) {
@@ -165,7 +172,7 @@ static table *reasons_table(const stress_call *call)
 {
   table *t = table_new("Reasons", COUNT(reason_columns), reason_columns);
   table_wrap(t, cli_width(&call->common));
-  for (int k = 0; k < STRESS_N_CHECKS; ++k)
+  for (int k = first_check(call); k < end_of_checks(call); ++k)
     for (int o = 0; o < STRESS_N_OUTCOMES; ++o)
       for (int r = 0; r < STRESS_N_REASONS; ++r)
         for (int st = HC_OK; st <= HC_BUG; ++st) {
@@ -206,7 +213,7 @@ static table *scenes_table(const stress_call *call)
   table *t = table_new(call->own.all ? "Scenes" : "Findings", COUNT(scene_columns), scene_columns);
   table_wrap(t, cli_width(&call->common));
   for (long i = 0; i < call->own.plan.scenes; ++i)
-    for (int k = 0; k < STRESS_N_CHECKS && call->results[i].there; ++k)
+    for (int k = first_check(call); k < end_of_checks(call) && call->results[i].there; ++k)
       if (call->own.all || call->results[i].check[k].outcome == STRESS_FINDING)
         put_scene(t, call->results[i].index, k, &call->results[i].check[k]);
   return t;
@@ -225,8 +232,8 @@ static void note_totals(const stress_call *call, table *t)
   table_note(t, "%ld scenes of seed %lu from %ld on: %ld findings, %ld scenes never classified", call->classified,
              call->own.plan.seed, call->own.plan.first, call->findings, call->own.plan.scenes - call->classified);
   if (call->classified > 0) table_note(t, "%.4g s of processor time; slowest: scene %ld, %.3g s", total, at, slowest);
-  table_note(t, "errors are those of what agreed; again: hbmcheck stress --seed %lu --first SCENE --scenes 1 --all",
-             call->own.plan.seed);
+  table_note(t, "errors are those of what agreed; again: hbmcheck stress%s --seed %lu --first SCENE --scenes 1 --all",
+             call->own.plan.family == STRESS_STRUCTURES ? " --structures" : "", call->own.plan.seed);
 }
 
 /* Returns the exit code. */
@@ -245,7 +252,8 @@ static hc_status scene_at(const stress_call *call, long index, scene *sc)
 {
   stress_scenes *scenes;
   hc_status st = stress_scenes_new(call->own.plan.seed, &scenes);
-  if (st == HC_OK) st = stress_scenes_at(scenes, index, sc);
+  const bool structure = call->own.plan.family == STRESS_STRUCTURES;
+  if (st == HC_OK) st = structure ? stress_structures_at(scenes, index, sc) : stress_scenes_at(scenes, index, sc);
   stress_scenes_free(scenes);
   return st;
 }
@@ -269,8 +277,10 @@ static int print_case(const stress_call *call)
 {
   scene sc;
   hc_status st = scene_at(call, call->own.plan.first, &sc);
-  return st == HC_OK ? write_case(call, call->common.output, "", &sc)
-                     : cli_solver_failed(&call->common, CLI_BOTH, "the sequence", st, 0);
+  if (st != HC_OK) return cli_solver_failed(&call->common, CLI_BOTH, "the sequence", st, 0);
+  const int code = write_case(call, call->common.output, "", &sc);
+  case_clear(&sc);
+  return code;
 }
 
 /* The finding, shrunk, as a case file in the folder of --findings. 0 or the exit code. */
@@ -279,16 +289,24 @@ static int keep_finding(const stress_call *call, long index, stress_kind kind, c
   scene sc;
   char path[4096], comment[512];
   hc_status st = scene_at(call, index, &sc);
-  if (st == HC_OK) st = stress_shrink(&sc, kind, call->own.plan.seconds, monitor);
-  if (st != HC_OK && st != HC_INTERRUPTED) return cli_solver_failed(&call->common, CLI_BOTH, "shrinking", st, 0);
-  snprintf(path, sizeof path, "%s/stress-%lu-%ld-%s.yaml", call->own.findings, call->own.plan.seed, index,
-           stress_kind_name(kind));
+  if (st != HC_OK) return cli_solver_failed(&call->common, CLI_BOTH, "the sequence", st, 0);
+  st = sc.structure ? stress_shrink_structure(&sc, kind, call->own.plan.seconds, monitor)
+                    : stress_shrink(&sc, kind, call->own.plan.seconds, monitor);
+  if (st != HC_OK && st != HC_INTERRUPTED) {
+    case_clear(&sc);
+    return cli_solver_failed(&call->common, CLI_BOTH, "shrinking", st, 0);
+  }
+  snprintf(path, sizeof path, "%s/stress-%lu-%s%ld-%s.yaml", call->own.findings, call->own.plan.seed,
+           sc.structure ? "structure-" : "", index, stress_kind_name(kind));
   snprintf(
       comment, sizeof comment,
-      "# Found by hbmcheck stress --seed %lu --first %ld --scenes 1, and made smaller: %s.\n# It should hold that: "
+      "# Found by hbmcheck stress%s --seed %lu --first %ld --scenes 1, and made smaller: %s.\n# It should hold that: "
       "%s.\n",
-      call->own.plan.seed, index, stress_kind_name(kind), stress_kind_meaning(kind));
-  return write_case(call, path, comment, &sc);
+      sc.structure ? " --structures" : "", call->own.plan.seed, index, stress_kind_name(kind),
+      stress_kind_meaning(kind));
+  const int code = write_case(call, path, comment, &sc);
+  case_clear(&sc);
+  return code;
 }
 
 static int keep_findings(const stress_call *call)
@@ -297,7 +315,7 @@ static int keep_findings(const stress_call *call)
   progress *bar = progress_start("shrinking findings", call->common.quiet);
   const hc_monitor monitor = progress_monitor(bar);
   for (long i = 0; i < call->own.plan.scenes && !code; ++i)
-    for (int k = 0; k < STRESS_N_CHECKS && !code; ++k)
+    for (int k = first_check(call); k < end_of_checks(call) && !code; ++k)
       if (call->results[i].there && call->results[i].check[k].outcome == STRESS_FINDING)
         code = keep_finding(call, call->results[i].index, (stress_kind)k, &monitor);
   progress_end(bar);
@@ -334,7 +352,7 @@ static int classify_scenes(stress_call *call)
   if (st == HC_OK) return 0;
   if (st == HC_BAD_INPUT || st == HC_UNSUPPORTED) {
     cli_message(&call->common, "%s: %s, expected those or a new file", call->own.plan.journal,
-                st == HC_BAD_INPUT ? "not the results of this seed and these --seconds, or damaged"
+                st == HC_BAD_INPUT ? "not the results of this seed, these --seconds and scenes of this kind, or damaged"
                                    : "not the results of this version of hbmcheck with its checks and reasons");
     return EXIT_BAD_CASE;
   }

@@ -79,6 +79,16 @@ const double *condensation_normal(const condensation *c, int j)
   return c->basis.directions + (size_t)(2 * j + 1) * (size_t)c->basis.dim;
 }
 
+void condensation_coordinates(const condensation *c, const double *x, double *q)
+{
+  const int n = c->basis.n;
+  const double *row = c->basis.rows;
+  for (int d = 0; d < c->basis.dim; ++d, row += n) {
+    q[d] = c->basis.rest > 0 ? 0 : x[d];
+    for (int i = 0; i < n && c->basis.rest > 0; ++i) q[d] += row[i] * x[i];
+  }
+}
+
 const double *condensation_first_response(const condensation *c) { return c->basis.responses; }
 
 /* ---- at one omega ----------------------------------------------------------------------------- */

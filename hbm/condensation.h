@@ -34,6 +34,9 @@ int condensation_dim(const condensation *c);
 const double *condensation_tangent(const condensation *c, int j);
 const double *condensation_normal(const condensation *c, int j);
 
+/* q[dim] of a motion x[n]. */
+void condensation_coordinates(const condensation *c, const double *x, double *q);
+
 /* [dim] The first response in q: it is one of the directions that q is made of. */
 const double *condensation_first_response(const condensation *c);
 

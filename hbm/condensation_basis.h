@@ -10,7 +10,7 @@ typedef struct condensation_basis {
   int n, dim, rest;   /* dim + rest = n */
   bool modes;         /* y are modes: M and K of the rest are diagonal, and K couples them with q nowhere */
   bool diagonal;      /* C of the rest is, too */
-  double *rows;       /* [dim][n]: q = rows x */
+  double *rows;       /* [dim][n]: q = rows x, where there is a rest */
   double *T;          /* [n][n] by columns: x = T (q, y) */
   double *M, *C, *K;  /* [n][n] by columns: T^T M T, ... */
   double *directions; /* [n_contacts][2][dim]: tangent and normal in q */

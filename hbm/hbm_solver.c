@@ -133,6 +133,13 @@ int hbm_n_harmonics(const hbm_solver *s) { return s->sys.n_harm; }
 
 int hbm_n_coefficients(const hbm_solver *s) { return s->sys.n_coef; }
 
+void hbm_guess_of(const hbm_solver *s, const double *x, double *X)
+{
+  const hbm_system *sys = &s->sys;
+  for (int c = 0; c < series_length(sys->n_harm); ++c)
+    condensation_coordinates(sys->linear, x + (size_t)c * (size_t)s->model->n, X + (size_t)c * (size_t)sys->dim);
+}
+
 int hbm_n_samples(const hbm_solver *s) { return s->how.force == HBM_FORCE_SAMPLED ? s->n_time : 0; }
 
 hc_status hbm_solve(hbm_solver *s, double omega, double *X, hbm_point *point)

@@ -29,6 +29,9 @@ int hbm_n_dof(const hbm_solver *s);          /* of the model */
 bool hbm_of_oscillator(const hbm_solver *s); /* is the model one: model_is_oscillator */
 int hbm_n_coefficients(const hbm_solver *s); /* entries of X, with the harmonics in use now */
 
+/* X[hbm_n_coefficients], as a guess, of a motion x[2H+1][n] of all degrees of freedom, coefficient by coefficient. */
+void hbm_guess_of(const hbm_solver *s, const double *x, double *X);
+
 /* Somebody who knows where a solution may be: ask() fills X[2 n_harm + 1] [length] with a guess for omega; HC_NO_MEMORY
  * and HC_INTERRUPTED are passed on, any other failure means there is none. */
 typedef struct hbm_guess {

@@ -15,8 +15,10 @@ enum { VERSION = 3, LINE = 128 + 96 * STRESS_N_CHECKS };
 #define NAME_OF_REASON(code, name, meaning) " " #code
 #define NAME_OF_OUTCOME(code, name)         " " name
 #define NAME_OF_STATUS(code, text)          " " #code
+static const char *const checks[] = {"# checks:" STRESS_CHECKS(NAME_OF_CHECK) "\n",
+                                     "# checks:" STRESS_STRUCTURE_CHECKS(NAME_OF_CHECK) "\n"}; /* of each family */
+static const char *const families[] = {"", "structures of "};
 static const char *const lists[] = {
-    "# checks:" STRESS_CHECKS(NAME_OF_CHECK) "\n",
     "# outcomes:" STRESS_OUTCOMES(NAME_OF_OUTCOME) "\n",
     "# reasons:" STRESS_REASONS(NAME_OF_REASON) "\n",
     "# statuses:" HC_STATUS_LIST(NAME_OF_STATUS) "\n",
@@ -24,12 +26,15 @@ static const char *const lists[] = {
 enum { N_LISTS = sizeof lists / sizeof *lists };
 
 struct stress_journal {
+  stress_family family;
   FILE *file;
 };
 
 static void write_heading(const stress_plan *plan, FILE *file)
 {
-  fprintf(file, "# hbmcheck stress %d, seed %lu, %.17g s\n", VERSION, plan->seed, plan->seconds);
+  fprintf(file, "# hbmcheck stress %d, %sseed %lu, %.17g s\n", VERSION, families[plan->family], plan->seed,
+          plan->seconds);
+  fputs(checks[plan->family], file);
   for (int i = 0; i < N_LISTS; ++i) fputs(lists[i], file);
 }
 
@@ -39,7 +44,8 @@ static hc_status read_heading(const stress_plan *plan, FILE *file)
   static const char begin[] = "# hbmcheck stress ";
   char line[LINE], expected[LINE];
   if (!fgets(line, sizeof line, file)) return ferror(file) ? HC_IO : HC_BAD_INPUT;
-  snprintf(expected, sizeof expected, "# hbmcheck stress %d, seed %lu, %.17g s\n", VERSION, plan->seed, plan->seconds);
+  snprintf(expected, sizeof expected, "# hbmcheck stress %d, %sseed %lu, %.17g s\n", VERSION, families[plan->family],
+           plan->seed, plan->seconds);
   if (strcmp(line, expected) != 0) {
     const char *number = line + sizeof begin - 1;
     int version = VERSION;
@@ -47,8 +53,9 @@ static hc_status read_heading(const stress_plan *plan, FILE *file)
     number_read_integer(number, strcspn(number, ","), &version); /* what is no number leaves VERSION */
     return version != VERSION ? HC_UNSUPPORTED : HC_BAD_INPUT;
   }
-  for (int i = 0; i < N_LISTS; ++i)
-    if (!fgets(line, sizeof line, file) || strcmp(line, lists[i]) != 0) return ferror(file) ? HC_IO : HC_UNSUPPORTED;
+  for (int i = -1; i < N_LISTS; ++i)
+    if (!fgets(line, sizeof line, file) || strcmp(line, i < 0 ? checks[plan->family] : lists[i]) != 0)
+      return ferror(file) ? HC_IO : HC_UNSUPPORTED;
   return HC_OK;
 }
 
@@ -71,12 +78,12 @@ static bool read_code(const char **at, int n, int *code)
   return true;
 }
 
-static bool parse(const char *line, stress_result *r)
+static bool parse(stress_family family, const char *line, stress_result *r)
 {
   double index;
   if (!read_number(&line, &index) || !(index >= 0 && index < 1e15) || !read_number(&line, &r->seconds)) return false;
   r->index = (long)index;
-  for (int k = 0; k < STRESS_N_CHECKS; ++k) {
+  for (int k = stress_first_check(family); k < stress_end_of_checks(family); ++k) {
     stress_check c = {STRESS_SKIPPED, STRESS_NO_REASON, HC_OK, 0, 0, 0};
     int outcome, reason, status;
     if (!read_code(&line, STRESS_N_OUTCOMES, &outcome) || !read_code(&line, STRESS_N_REASONS, &reason) ||
@@ -103,8 +110,8 @@ static hc_status read_all(const stress_plan *plan, FILE *file, stress_result *re
   if (st != HC_OK) return st;
   *end = ftell(file);
   while (fgets(line, sizeof line, file)) {
-    stress_result r;
-    if (!parse(line, &r)) {
+    stress_result r = {0};
+    if (!parse(plan->family, line, &r)) {
       if (strchr(line, '\n')) return HC_BAD_INPUT;
       break;
     }
@@ -134,6 +141,7 @@ hc_status stress_journal_open(const stress_plan *plan, stress_result *results, l
   if (!plan->journal) return HC_OK;
   stress_journal *j = calloc(1, sizeof *j);
   if (!j) return HC_NO_MEMORY;
+  j->family = plan->family;
   if (!(j->file = fopen(plan->journal, "r+")) && errno == ENOENT) j->file = fopen(plan->journal, "w+");
   hc_status st = j->file ? start(plan, j->file, results, there) : HC_IO;
   if (st == HC_OK) {
@@ -150,7 +158,7 @@ hc_status stress_journal_add(stress_journal *j, const stress_result *r)
 {
   if (!j) return HC_OK;
   fprintf(j->file, "%ld %.3f", r->index, r->seconds);
-  for (int k = 0; k < STRESS_N_CHECKS; ++k) {
+  for (int k = stress_first_check(j->family); k < stress_end_of_checks(j->family); ++k) {
     const stress_check *c = &r->check[k];
     fprintf(j->file, "  %d %d %d %.17g %.17g %.3f", (int)c->outcome, (int)c->reason, (int)c->status, c->error, c->bound,
             c->seconds);

@@ -1,7 +1,7 @@
 /* journal.h - results of a stress run, kept as they come: a text file, a line a scene, from which a run that was
  * killed goes on.
  *
- *     # hbmcheck stress 2, seed 1, 2 s
+ *     # hbmcheck stress 3, seed 1, 2 s          or: 3, structures of seed 1, 2 s
  *     # checks: force_exact_sampled ...       the names behind the columns and codes below, in their order
  *     # outcomes: skipped agreed ...
  *     # reasons: STRESS_NO_REASON STRESS_TRUNCATED ...

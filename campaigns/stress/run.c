@@ -2,6 +2,7 @@
 #include "campaigns/stress/journal.h"
 #include "campaigns/stress/scenes.h"
 #include "campaigns/stress/stress.h"
+#include "cases/case_file.h"
 #include "numerics/workers.h"
 
 enum { WATCH_MS = 50 };
@@ -41,8 +42,11 @@ static void *work(void *self)
   hc_status st = stress_scenes_new(p->plan->seed, &scenes);
   for (stress_result *r; st == HC_OK && (r = next_result(p));) {
     scene sc;
-    st = stress_scenes_at(scenes, r->index, &sc);
-    if (st == HC_OK) st = stress_scene(&sc, p->plan->seconds, &monitor, r);
+    st = p->plan->family == STRESS_STRUCTURES ? stress_structures_at(scenes, r->index, &sc)
+                                              : stress_scenes_at(scenes, r->index, &sc);
+    if (st != HC_OK) break;
+    st = stress_scene(&sc, p->plan->seconds, &monitor, r);
+    case_clear(&sc);
     if (st == HC_OK) st = store_result(p, r);
   }
   stress_scenes_free(scenes);

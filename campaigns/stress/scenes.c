@@ -7,7 +7,7 @@
  * mostly moves the mass either far less than the gap or far more: for two scenes in three it is drawn such that the
  * gap is just reached. The frequency lies near the free resonance, near that of the stuck mass, or between; not so
  * low that the stuck mass makes more than MOST_OSCILLATIONS in a period, which only costs time. */
-#include "campaigns/stress/scenes.h"
+#include "campaigns/stress/scenes_impl.h"
 
 #include <gsl/gsl_qrng.h>
 #include <gsl/gsl_rng.h>
@@ -34,13 +34,14 @@ enum {
   CONTACT
 };
 enum { KN, KT, MU, ANGLE, GAP, PER_CONTACT };
-enum { MOST_CONTACTS = 4, DIMENSIONS = CONTACT + MOST_CONTACTS * PER_CONTACT, MOST_OSCILLATIONS = 500 };
+enum { MOST_CONTACTS = 4, MOST_OSCILLATIONS = 500 };
+_Static_assert(STRESS_DIMENSIONS == CONTACT + MOST_CONTACTS * PER_CONTACT, "of the sequence");
 
 static const double special = 0.05; /* part of a range's draws that go to its special point */
 
 struct stress_scenes {
   unsigned long seed;
-  double shift[DIMENSIONS]; /* added modulo 1 to every point (Cranley and Patterson): what the seed decides */
+  double shift[STRESS_DIMENSIONS]; /* added modulo 1 to every point (Cranley and Patterson): what the seed decides */
   gsl_qrng *sobol;
   long next; /* index of the point that sobol gives next */
 };
@@ -50,9 +51,9 @@ hc_status stress_scenes_new(unsigned long seed, stress_scenes **out)
   *out = NULL;
   stress_scenes *s = calloc(1, sizeof *s);
   gsl_rng *random = gsl_rng_alloc(gsl_rng_mt19937);
-  if (s && random && (s->sobol = gsl_qrng_alloc(gsl_qrng_sobol, DIMENSIONS))) {
+  if (s && random && (s->sobol = gsl_qrng_alloc(gsl_qrng_sobol, STRESS_DIMENSIONS))) {
     gsl_rng_set(random, seed);
-    for (int d = 0; d < DIMENSIONS; ++d) s->shift[d] = gsl_rng_uniform(random);
+    for (int d = 0; d < STRESS_DIMENSIONS; ++d) s->shift[d] = gsl_rng_uniform(random);
     s->seed = seed;
     *out = s;
   } else free(s);
@@ -67,14 +68,16 @@ void stress_scenes_free(stress_scenes *s)
   free(s);
 }
 
-static void point(stress_scenes *s, long index, double p[DIMENSIONS])
+unsigned long stress_scenes_seed(const stress_scenes *s) { return s->seed; }
+
+void stress_scenes_point(stress_scenes *s, long index, double p[STRESS_DIMENSIONS])
 {
   if (index < s->next) {
     gsl_qrng_init(s->sobol);
     s->next = 0;
   }
   for (; s->next <= index; ++s->next) gsl_qrng_get(s->sobol, p);
-  for (int d = 0; d < DIMENSIONS; ++d) {
+  for (int d = 0; d < STRESS_DIMENSIONS; ++d) {
     p[d] += s->shift[d];
     p[d] -= floor(p[d]);
   }
@@ -123,9 +126,9 @@ static double frequency(const double *p, const scene *sc)
 
 hc_status stress_scenes_at(stress_scenes *s, long index, scene *out)
 {
-  double p[DIMENSIONS];
+  double p[STRESS_DIMENSIONS];
   if (index < 0) return HC_BAD_INPUT;
-  point(s, index, p);
+  stress_scenes_point(s, index, p);
   scene sc;
   field_defaults(&sc);
   snprintf(sc.title, sizeof sc.title, "Stress scene %ld of seed %lu", index, s->seed);

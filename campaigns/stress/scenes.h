@@ -14,7 +14,10 @@ void stress_scenes_free(stress_scenes *s);
 /* Scene number `index` >= 0; cheap where indices rise. Its one frequency is compare.omega, its sweep lies around it. */
 hc_status stress_scenes_at(stress_scenes *s, long index, scene *out);
 
-/* The same scene in smaller units: the number of every length, force and time is multiplied by its factor. */
+/* The structure of that number, likewise: structures.c. To be cleared with case_clear. */
+hc_status stress_structures_at(stress_scenes *s, long index, scene *out);
+
+/* The same oscillator in smaller units: the number of every length, force and time is multiplied by its factor. */
 scene stress_in_units(const scene *sc, double length, double force, double time);
 
 #endif

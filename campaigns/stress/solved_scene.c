@@ -6,6 +6,7 @@
 
 #include "base/thread_clock.h"
 #include "campaigns/scene_solvers.h"
+#include "campaigns/stress/solved_structure.h"
 #include "compare/comparison.h"
 #include "hbm/first_solution.h"
 
@@ -72,33 +73,10 @@ void stress_shoot(solved_scene *s, const scene *sc, double omega, stress_orbit *
   note_fatal(s, out->status);
 }
 
-stress_check stress_skip(stress_reason why) { return (stress_check){STRESS_SKIPPED, why, HC_OK, NAN, NAN, 0}; }
-
-stress_check stress_explain(stress_reason why, double error, double bound)
-{
-  return (stress_check){STRESS_EXPLAINED, why, HC_OK, error, bound, 0};
-}
-
-stress_check stress_find(stress_reason why, double error, double bound)
-{
-  return (stress_check){STRESS_FINDING, why, HC_OK, error, bound, 0};
-}
-
-stress_check stress_agree(double error, double bound)
-{
-  if (error <= bound) return (stress_check){STRESS_AGREED, STRESS_NO_REASON, HC_OK, error, bound, 0};
-  return stress_find(isnan(error) ? STRESS_INTERNAL : STRESS_DISAGREES, error, bound);
-}
-
 stress_check stress_refuse(solved_scene *s, hc_status st)
 {
-  stress_check c = {STRESS_REFUSED, STRESS_REFUSED_BY, st, NAN, NAN, 0};
   note_fatal(s, st);
-  if (st == HC_INTERRUPTED) c.outcome = STRESS_EXPLAINED, c.reason = STRESS_TOO_DEAR;
-  /* none of these is an answer to a scene whose every field is within its range */
-  if (st == HC_OK || st == HC_BUG || st == HC_BAD_INPUT || st == HC_UNSUPPORTED || st == HC_IO)
-    c.outcome = STRESS_FINDING, c.reason = STRESS_INTERNAL;
-  return c;
+  return stress_refusal(st);
 }
 
 double stress_distance(int n_coef, const double *X, const double *Y)
@@ -111,30 +89,11 @@ double stress_distance(int n_coef, const double *X, const double *Y)
   return apart == 0 ? 0 : apart / size;
 }
 
-/* ---- names ---- */
-
-#define NAME(code, name, meaning) name,
-static const char *const kinds[] = {STRESS_CHECKS(NAME)}, *const reasons[] = {STRESS_REASONS(NAME)};
-#undef NAME
-#define NAME(code, name) name,
-static const char *const outcomes[] = {STRESS_OUTCOMES(NAME)};
-#undef NAME
-#define MEANING(code, name, meaning) meaning,
-static const char *const kind_meanings[] = {STRESS_CHECKS(MEANING)}, *const reason_meanings[] = {
-                                                                         STRESS_REASONS(MEANING)};
-#undef MEANING
-
-const char *stress_kind_name(stress_kind kind) { return kinds[kind]; }
-const char *stress_kind_meaning(stress_kind kind) { return kind_meanings[kind]; }
-const char *stress_reason_name(stress_reason reason) { return reasons[reason]; }
-const char *stress_reason_meaning(stress_reason reason) { return reason_meanings[reason]; }
-const char *stress_outcome_name(stress_outcome outcome) { return outcomes[outcome]; }
-
 /* ---- all checks ---- */
 
-hc_status stress_scene(const scene *sc, double seconds, const hc_monitor *monitor, stress_result *out)
+static hc_status stress_oscillator(const scene *sc, double seconds, const hc_monitor *monitor, stress_result *out)
 {
-  static stress_check (*const checks[STRESS_N_CHECKS])(solved_scene *) = {
+  static stress_check (*const checks[STRESS_N_OSCILLATOR_CHECKS])(solved_scene *) = {
       stress_check_force,    stress_check_shift,     stress_check_reflection,  stress_check_free,
       stress_check_stuck,    stress_check_units,     stress_check_energy,      stress_check_sampled,
       stress_check_shooting, stress_check_stability, stress_check_regularised, stress_check_closed,
@@ -142,7 +101,7 @@ hc_status stress_scene(const scene *sc, double seconds, const hc_monitor *monito
   solved_scene s;
   double start = thread_seconds();
   solved_scene_start(&s, sc, seconds, monitor);
-  for (int k = 0; k < STRESS_N_CHECKS && s.fatal == HC_OK; ++k) {
+  for (int k = 0; k < STRESS_N_OSCILLATOR_CHECKS && s.fatal == HC_OK; ++k) {
     stress_clock(&s);
     double began = thread_seconds();
     out->check[k] = checks[k](&s);
@@ -151,4 +110,10 @@ hc_status stress_scene(const scene *sc, double seconds, const hc_monitor *monito
   out->seconds = thread_seconds() - start;
   out->there = s.fatal == HC_OK;
   return s.fatal;
+}
+
+hc_status stress_scene(const scene *sc, double seconds, const hc_monitor *monitor, stress_result *out)
+{
+  for (int k = 0; k < STRESS_N_CHECKS; ++k) out->check[k] = stress_skip(STRESS_NOT_APPLICABLE);
+  return sc->structure ? stress_structure(sc, seconds, monitor, out) : stress_oscillator(sc, seconds, monitor, out);
 }

@@ -4,7 +4,7 @@
 #define HC_STRESS_SOLVED_SCENE_H
 
 #include "campaigns/scene_solvers.h"
-#include "campaigns/stress/stress.h"
+#include "campaigns/stress/outcomes.h"
 #include "hbm/hbm.h"
 #include "timeint/steady.h"
 
@@ -54,11 +54,6 @@ void stress_solve(solved_scene *s, const scene *sc, double omega, int n_guess, c
 /* The period-1 orbit next to out->state for sc, by shooting, with sc's law. */
 void stress_shoot(solved_scene *s, const scene *sc, double omega, stress_orbit *out);
 
-/* How a check ends. A NaN error agrees with nothing. */
-stress_check stress_skip(stress_reason why);
-stress_check stress_agree(double error, double bound);
-stress_check stress_explain(stress_reason why, double error, double bound);
-stress_check stress_find(stress_reason why, double error, double bound);
 stress_check stress_refuse(solved_scene *s, hc_status st); /* the words for a solver's status; a bug is a finding */
 
 /* |X - Y| / |Y|, of the vectors. */

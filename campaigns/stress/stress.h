@@ -34,6 +34,23 @@
   X(STRESS_VERDICT, "verdict", "what compare says, held against all that is known by now")                             \
   X(STRESS_PREDICTED, "prediction", "what compare found, against what both sides said beforehand they would be off")
 
+/* Of structures; the others are of oscillators. */
+#define STRESS_STRUCTURE_CHECKS(X)                                                                                     \
+  X(STRESS_CONTACTS, "contact_force",                                                                                  \
+    "each contact's force harmonics, located exactly and stepped through ever finer")                                  \
+  X(STRESS_BALANCE, "balance", "all degrees of freedom are in balance, written down without any condensation")         \
+  X(STRESS_WORK, "contact_work", "no contact gives work back, and one that never slips takes none")                    \
+  X(STRESS_DETERMINANT, "determinant", "where nothing slips, multipliers have the product that damping alone gives")   \
+  X(STRESS_PERMUTED, "permuted", "degrees of freedom in another order: the same solution and multiplier")              \
+  X(STRESS_ROTATED, "rotated", "in coordinates y, x = Q y: the same solution and multiplier")                          \
+  X(STRESS_SCALED, "structure_units", "in other units, powers of two and not: the same solution and multiplier")       \
+  X(STRESS_SPLIT, "split_contacts", "every contact as two that share its stiffness: the same solution and multiplier") \
+  X(STRESS_COPIES, "copies", "two copies that nothing couples: each is the one, with its multiplier")                  \
+  X(STRESS_BYSTANDER, "bystander", "one degree of freedom more that nothing couples, then turned: the same solution")  \
+  X(STRESS_DELAYED, "delayed", "all loads later, half a period or any other time: the same solution, later")           \
+  X(STRESS_FINER, "structure_sampled", "HBM with ever more samples tends to HBM with exact forces")                    \
+  X(STRESS_CURVE, "curve", "the response curve through it has that solution, and no false one")
+
 #define STRESS_REASONS(X)                                                                                              \
   X(STRESS_NO_REASON, "", "")                                                                                          \
   X(STRESS_TRUNCATED, "truncated", "too few harmonics, and doubling them says by how much")                            \
@@ -59,12 +76,20 @@
   X(STRESS_AGREED, "agreed") X(STRESS_EXPLAINED, "explained") X(STRESS_REFUSED, "refused") X(STRESS_FINDING, "finding")
 
 #define STRESS_CODE(code, name, meaning) code,
-typedef enum stress_kind { STRESS_CHECKS(STRESS_CODE) STRESS_N_CHECKS } stress_kind;
+typedef enum stress_kind {
+  STRESS_CHECKS(STRESS_CODE) STRESS_STRUCTURE_CHECKS(STRESS_CODE) STRESS_N_CHECKS,
+  STRESS_N_OSCILLATOR_CHECKS = STRESS_CONTACTS
+} stress_kind;
 typedef enum stress_reason { STRESS_REASONS(STRESS_CODE) STRESS_N_REASONS } stress_reason;
 #undef STRESS_CODE
 #define STRESS_CODE(code, name) code,
 typedef enum stress_outcome { STRESS_OUTCOMES(STRESS_CODE) STRESS_N_OUTCOMES } stress_outcome;
 #undef STRESS_CODE
+
+/* What is drawn, and which checks are of it: from the first to before the end. */
+typedef enum stress_family { STRESS_OSCILLATORS, STRESS_STRUCTURES } stress_family;
+int stress_first_check(stress_family family);
+int stress_end_of_checks(stress_family family);
 
 const char *stress_kind_name(stress_kind kind);
 const char *stress_kind_meaning(stress_kind kind);
@@ -89,6 +114,7 @@ typedef struct stress_result {
 
 /* What is stressed. */
 typedef struct stress_plan {
+  stress_family family;
   unsigned long seed;
   long first, scenes; /* indices first .. first + scenes - 1 */
   int jobs;
@@ -110,8 +136,11 @@ typedef struct stress_watch {
  * with other checks; HC_IO: it cannot be written (errno says why). *resumed: scenes that the journal had. */
 hc_status stress_run(const stress_plan *plan, const stress_watch *watch, stress_result *results, long *resumed);
 
-/* Simplify *sc while the check `kind` still ends in a finding: fewer contacts, fewer harmonics, numbers of one to three
- * digits. */
+/* Simplify *sc, an oscillator, while the check `kind` still ends in a finding: fewer contacts, fewer harmonics, numbers
+ * of one to three digits. */
 hc_status stress_shrink(scene *sc, stress_kind kind, double seconds, const hc_monitor *monitor);
+
+/* The same of a structure: fewer contacts, loads, degrees of freedom and harmonics. HC_NO_MEMORY, HC_INTERRUPTED. */
+hc_status stress_shrink_structure(scene *sc, stress_kind kind, double seconds, const hc_monitor *monitor);
 
 #endif

@@ -33,6 +33,17 @@ static void two_hundred_scenes_without_a_finding(void **state)
   expect("--scenes 200", 0, "200 scenes of seed 1 from 0 on: 0 findings, 0 scenes never classified");
 }
 
+/* And structures, which have a journal and case files of their own. */
+static void structures_without_a_finding(void **state)
+{
+  (void)state;
+  expect("--structures --scenes 60 --results %s/structures", 0,
+         "60 scenes of seed 1 from 0 on: 0 findings, 0 scenes never classified");
+  expect("--structures --scenes 61 --results %s/structures --format csv", 0, "rotated,0,");
+  expect("--scenes 60 --results %s/structures 2>&1", 2, "scenes of this kind");
+  expect("--structures --first 3 --case > %s/one.yaml && " HBMCHECK_COMMAND " modes %s/one.yaml", 0, "omega_open");
+}
+
 /* Of a journal's scenes all but the times. */
 #define UNTIMED                                                                                                        \
   "awk '!/^#/ {o = $1; for (i = 3; i < NF; i += 6) o = o \" \" $i \" \" $(i + 1) \" \" $(i + 2) \" \" $(i + 3) \" \" " \
@@ -128,6 +139,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(two_hundred_scenes_without_a_finding),
+      cmocka_unit_test(structures_without_a_finding),
       cmocka_unit_test(what_was_stopped_goes_on),
       cmocka_unit_test(a_journal_that_does_not_fit_is_refused),
       cmocka_unit_test(one_scene_is_printed_as_a_case_file),

@@ -1,0 +1,14 @@
+/* scenes_impl.h - what the two ways of drawing scenes, scenes.c and structures.c, share. */
+#ifndef HC_STRESS_SCENES_IMPL_H
+#define HC_STRESS_SCENES_IMPL_H
+
+#include "campaigns/stress/scenes.h"
+
+enum { STRESS_DIMENSIONS = 33 };
+
+unsigned long stress_scenes_seed(const stress_scenes *s);
+
+/* Point number `index` of the shifted sequence, each entry in [0, 1). */
+void stress_scenes_point(stress_scenes *s, long index, double p[STRESS_DIMENSIONS]);
+
+#endif

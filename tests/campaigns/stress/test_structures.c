@@ -1,0 +1,277 @@
+/* test_structures.c - random structures: what is drawn, and that the checks can fail. Each is given an answer that is
+ * wrong by a little, where it arrives (the linker puts the functions below in front of the library's own, --wrap), and
+ * must call it a finding; unspoiled, the same scene ends without one. */
+#include <math.h>
+#include <string.h>
+
+#include "campaigns/stress/rewritten.h"
+#include "campaigns/stress/scenes.h"
+#include "campaigns/stress/stress.h"
+#include "cases/case_file.h"
+#include "cases/structure.h"
+#include "hbm/exact_force.h"
+#include "hbm/hbm.h"
+#include "tests/check.h"
+
+typedef enum spoil {
+  NOTHING,
+  DOFS_SWAPPED,       /* in what is read from a solution */
+  DAMPING_TRANSPOSED, /* in what is solved */
+  CONTACT_SIGN,       /* of one direction of one contact, in what is solved */
+  SECOND_HARMONIC,    /* of a load, in what is solved */
+  FORCE_TURNED,       /* its sign, where a contact is looked at alone */
+  FORCE_SCALED,       /* likewise, by a little */
+  FOUND_MOVED,        /* what Newton finds from a guess */
+  LATER_MULTIPLIERS,  /* all but the first */
+  DETERMINANT,
+  CURVE_MOVED, /* the solutions found along a curve */
+  NUMBER_LOST
+} spoil;
+static spoil spoiled;
+static int multipliers; /* asked for so far */
+
+hc_status __real_hbm_response(hbm_solver *s, double omega, const double *X, int r, double *x);
+hc_status __wrap_hbm_response(hbm_solver *s, double omega, const double *X, int r, double *x);
+hc_status __wrap_hbm_response(hbm_solver *s, double omega, const double *X, int r, double *x)
+{
+  const bool swap = spoiled == DOFS_SWAPPED && (r == 1 || r == 2);
+  hc_status st = __real_hbm_response(s, omega, X, swap ? 3 - r : r, x);
+  if (spoiled == NUMBER_LOST && r == 2) x[1] = NAN;
+  return st;
+}
+
+static void transpose(int n, double *A)
+{
+  for (int j = 0; j < n; ++j)
+    for (int i = 0; i < j; ++i) {
+      const double kept = A[j * n + i];
+      A[j * n + i] = A[i * n + j];
+      A[i * n + j] = kept;
+    }
+}
+
+hc_status __real_hbm_solver_new(const model *m, const hbm_settings *how, hbm_solver **out);
+hc_status __wrap_hbm_solver_new(const model *m, const hbm_settings *how, hbm_solver **out);
+hc_status __wrap_hbm_solver_new(const model *m, const hbm_settings *how, hbm_solver **out)
+{
+  model *other;
+  assert_int_equal(model_copy(m, &other), HC_OK);
+  if (spoiled == DAMPING_TRANSPOSED) transpose(m->n, other->damping);
+  if (spoiled == CONTACT_SIGN) other->contacts[1].tangent[0] *= -1;
+  if (spoiled == SECOND_HARMONIC) other->loads[m->n_loads - 1].cosine[1] *= 1 + 1e-7;
+  hc_status st = __real_hbm_solver_new(other, how, out);
+  model_free(other);
+  return st;
+}
+
+hc_status __real_exact_force_eval(exact_force *e, const double *X, double *F, double *jac, contact_report *report);
+hc_status __wrap_exact_force_eval(exact_force *e, const double *X, double *F, double *jac, contact_report *report);
+hc_status __wrap_exact_force_eval(exact_force *e, const double *X, double *F, double *jac, contact_report *report)
+{
+  hc_status st = __real_exact_force_eval(e, X, F, jac, report);
+  for (int i = 1; i < 13 && spoiled == FORCE_TURNED && !jac; ++i) F[i] *= -1; /* H = 6 */
+  if (spoiled == FORCE_SCALED && !jac) F[1] *= 1 + 1e-4, F[2] *= 1 + 1e-4;
+  return st;
+}
+
+hc_status __real_hbm_solve(hbm_solver *s, double omega, double *X, hbm_point *point);
+hc_status __wrap_hbm_solve(hbm_solver *s, double omega, double *X, hbm_point *point);
+hc_status __wrap_hbm_solve(hbm_solver *s, double omega, double *X, hbm_point *point)
+{
+  hc_status st = __real_hbm_solve(s, omega, X, point);
+  for (int i = 0; i < hbm_n_coefficients(s) && spoiled == FOUND_MOVED; ++i) X[i] *= 1 + 1e-4;
+  return st;
+}
+
+hc_status __real_hbm_stability_at(hbm_solver *s, double omega, const double *X, hbm_stability *out);
+hc_status __wrap_hbm_stability_at(hbm_solver *s, double omega, const double *X, hbm_stability *out);
+hc_status __wrap_hbm_stability_at(hbm_solver *s, double omega, const double *X, hbm_stability *out)
+{
+  hc_status st = __real_hbm_stability_at(s, omega, X, out);
+  if (spoiled == LATER_MULTIPLIERS && multipliers++ > 0) out->multiplier += 1e-6 * hbm_n_coefficients(s);
+  if (spoiled == DETERMINANT) out->determinant *= 1 + 1e-5;
+  return st;
+}
+
+hc_status __real_hbm_curve_at(hbm_solver *s, const hbm_curve *curve, double omega, hbm_curve *at);
+hc_status __wrap_hbm_curve_at(hbm_solver *s, const hbm_curve *curve, double omega, hbm_curve *at);
+hc_status __wrap_hbm_curve_at(hbm_solver *s, const hbm_curve *curve, double omega, hbm_curve *at)
+{
+  hc_status st = __real_hbm_curve_at(s, curve, omega, at);
+  for (int i = 0; i < at->n * at->n_coef && spoiled == CURVE_MOVED; ++i) at->X[i] *= 1 + 1e-7;
+  return st;
+}
+
+/* ---- the scene --------------------------------------------------------------------------------------- */
+
+/* Three masses, damping with a gyroscopic part; a slider that slips, a contact that slips and separates, a stop. */
+static const char *const text = "structure:\n"
+                                "  mass: [[1, 0.1, 0], [0.1, 2, 0], [0, 0, 1.5]]\n"
+                                "  stiffness: [[30, -10, 0], [-10, 25, -5], [0, -5, 20]]\n"
+                                "  damping: [[0.6, 0.5, 0], [-0.5, 0.8, 0.2], [0, -0.2, 0.7]]\n"
+                                "forcing:\n"
+                                "  - {dof: 1, amplitude: 10, phase_deg: 20}\n"
+                                "  - {dof: 2, amplitude: 4, harmonic: 2}\n"
+                                "contacts:\n"
+                                "  - {tangential_stiffness: 15, friction: 0.4, preload: 5, tangent: {1: 1, 3: -1}}\n"
+                                "  - {tangential_stiffness: 20, normal_stiffness: 30, friction: 0.3, gap: 0.1,\n"
+                                "     tangent: {1: 1, 2: 0.5}, normal: {2: 1}}\n"
+                                "  - {normal_stiffness: 40, gap: -0.2, normal: {1: 1}}\n"
+                                "sweep: {omega: [4, 5]}\n"
+                                "compare: {omega: [4.5]}\n"
+                                "hbm: {harmonics: 6}\n";
+
+static scene given(bool friction)
+{
+  scene sc;
+  case_error err;
+  assert_int_equal(case_parse("text", text, strlen(text), 0, NULL, &sc, &err), HC_OK);
+  for (int j = 0; j < 3 && !friction; ++j) sc.structure->contacts[j].given.law.mu = 0;
+  return sc;
+}
+
+static stress_result stressed(bool friction, spoil with)
+{
+  scene sc = given(friction);
+  stress_result r;
+  spoiled = with;
+  multipliers = 0;
+  assert_int_equal(stress_scene(&sc, 20, NULL, &r), HC_OK);
+  spoiled = NOTHING;
+  case_clear(&sc);
+  return r;
+}
+
+static void good_answers_agree(void **state)
+{
+  (void)state;
+  for (int friction = 0; friction < 2; ++friction) {
+    const stress_result r = stressed(friction, NOTHING);
+    for (int k = stress_first_check(STRESS_STRUCTURES); k < stress_end_of_checks(STRESS_STRUCTURES); ++k) {
+      const bool skipped = friction && k == STRESS_DETERMINANT; /* something slips */
+      if (r.check[k].outcome != (skipped ? STRESS_SKIPPED : STRESS_AGREED))
+        fail_msg("%s: %s %s, %g of %g", stress_kind_name((stress_kind)k), stress_outcome_name(r.check[k].outcome),
+                 stress_reason_name(r.check[k].reason), r.check[k].error, r.check[k].bound);
+    }
+  }
+}
+
+static void expect_finding(bool friction, spoil with, stress_kind kind)
+{
+  const stress_result r = stressed(friction, with);
+  const stress_check *c = &r.check[kind];
+  if (c->outcome != STRESS_FINDING)
+    fail_msg("spoil %d: %s says %s %s, %g of %g", (int)with, stress_kind_name(kind), stress_outcome_name(c->outcome),
+             stress_reason_name(c->reason), c->error, c->bound);
+}
+
+static void a_wrong_solution_is_found(void **state)
+{
+  (void)state;
+  expect_finding(true, DOFS_SWAPPED, STRESS_BALANCE);
+  expect_finding(true, DAMPING_TRANSPOSED, STRESS_BALANCE);
+  expect_finding(true, CONTACT_SIGN, STRESS_BALANCE);
+  expect_finding(true, SECOND_HARMONIC, STRESS_BALANCE);
+  expect_finding(true, NUMBER_LOST, STRESS_BALANCE);
+  expect_finding(true, NUMBER_LOST, STRESS_ROTATED);
+  expect_finding(true, CURVE_MOVED, STRESS_CURVE);
+}
+
+static void a_wrong_force_is_found(void **state)
+{
+  (void)state;
+  expect_finding(true, FORCE_TURNED, STRESS_WORK);
+  expect_finding(true, FORCE_SCALED, STRESS_CONTACTS);
+}
+
+/* Solutions and multipliers of every other way to write it. */
+static void another_solution_is_found(void **state)
+{
+  (void)state;
+  for (stress_kind kind = STRESS_PERMUTED; kind <= STRESS_FINER; ++kind) {
+    expect_finding(true, FOUND_MOVED, kind);
+    if (kind != STRESS_BYSTANDER && kind != STRESS_FINER) expect_finding(true, LATER_MULTIPLIERS, kind);
+  }
+  expect_finding(false, DETERMINANT, STRESS_DETERMINANT);
+}
+
+static void a_finding_is_made_small(void **state)
+{
+  (void)state;
+  scene sc = given(true);
+  spoiled = FORCE_SCALED;
+  assert_int_equal(stress_shrink_structure(&sc, STRESS_CONTACTS, 20, NULL), HC_OK);
+  stress_result r;
+  assert_int_equal(stress_scene(&sc, 20, NULL, &r), HC_OK);
+  spoiled = NOTHING;
+  assert_int_equal(r.check[STRESS_CONTACTS].outcome, STRESS_FINDING);
+  assert_int_equal(sc.structure->n_contacts, 1);
+  assert_int_equal(sc.structure->n_loads, 1);
+  assert_true(sc.structure->n < 3 && sc.hbm.harmonics < 6);
+  case_clear(&sc);
+}
+
+/* ---- what is drawn ------------------------------------------------------------------------------------ */
+
+static char *echo(const scene *sc)
+{
+  char *written = NULL;
+  size_t length;
+  FILE *to = open_memstream(&written, &length);
+  assert_non_null(to);
+  assert_int_equal(case_echo(sc, to), HC_OK);
+  fclose(to);
+  return written;
+}
+
+/* Every scene is a case file that reads back to the same; all kinds of everything come up; the index alone decides. */
+static void every_scene_is_a_case_file(void **state)
+{
+  (void)state;
+  stress_scenes *scenes;
+  int damping[4] = {0}, sizes[13] = {0}, contacts[7] = {0}, jenkins = 0, springs = 0, loads = 0, at_rest = 0;
+  assert_int_equal(stress_scenes_new(1, &scenes), HC_OK);
+  for (int i = 0; i < 300; ++i) {
+    scene sc, back;
+    case_error err;
+    assert_int_equal(stress_structures_at(scenes, i, &sc), HC_OK);
+    char *written = echo(&sc);
+    if (case_parse("scene", written, strlen(written), 0, NULL, &back, &err) != HC_OK)
+      fail_msg("scene %d: %s", i, err.message);
+    char *again = echo(&back);
+    assert_string_equal(written, again);
+    const scene_structure *s = sc.structure;
+    assert_true(s->n >= 1 && s->n <= 12 && s->n_contacts >= 1 && s->n_contacts <= 6);
+    ++damping[s->how], ++sizes[s->n], ++contacts[s->n_contacts];
+    for (int j = 0; j < s->n_contacts; ++j) {
+      jenkins += s->contacts[j].given.law.kn == 0;
+      springs += s->contacts[j].given.law.kt == 0;
+    }
+    loads += s->n_loads > 2;
+    at_rest += s->loads[s->n_loads - 1].harmonic == 0;
+    free(written);
+    free(again);
+    case_clear(&sc);
+    case_clear(&back);
+  }
+  for (int i = 0; i < 4; ++i) assert_true(damping[i] > 30);
+  for (int i = 1; i <= 12; ++i) assert_true(sizes[i] > 5);
+  for (int i = 1; i <= 6; ++i) assert_true(contacts[i] > 20);
+  assert_true(jenkins > 100 && springs > 100 && loads > 50 && at_rest > 50);
+  scene later, first;
+  assert_int_equal(stress_structures_at(scenes, 7, &first), HC_OK); /* back in the sequence */
+  assert_int_equal(stress_structures_at(scenes, 7, &later), HC_OK);
+  char *a = echo(&first), *b = echo(&later);
+  assert_string_equal(a, b);
+  free(a), free(b);
+  case_clear(&first), case_clear(&later);
+  assert_int_equal(stress_structures_at(scenes, -1, &first), HC_BAD_INPUT);
+  stress_scenes_free(scenes);
+}
+
+static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(good_answers_agree),      cmocka_unit_test(a_wrong_solution_is_found),
+    cmocka_unit_test(a_wrong_force_is_found),  cmocka_unit_test(another_solution_is_found),
+    cmocka_unit_test(a_finding_is_made_small), cmocka_unit_test(every_scene_is_a_case_file),
+};
+CHECK_MAIN("stress.structures", tests, 300)
