@@ -181,11 +181,12 @@ hc_status rewritten_split(const model *m, double part, model **out)
   return HC_OK;
 }
 
-/* The stiffest there is: of K, else of a contact. */
-static double stiffest(const model *m)
+/* The largest entry of K; where there is none, of a contact: far stiffer, it would only bring rounding. */
+static double some_stiffness(const model *m)
 {
   double most = largest(m->stiffness, m->n * m->n);
-  for (int j = 0; j < m->n_contacts; ++j) most = fmax(most, fmax(m->contacts[j].law.kt, m->contacts[j].law.kn));
+  const bool none = most == 0;
+  for (int j = 0; j < m->n_contacts && none; ++j) most = fmax(most, fmax(m->contacts[j].law.kt, m->contacts[j].law.kn));
   return most;
 }
 
@@ -200,7 +201,7 @@ hc_status rewritten_beside(const model *m, int more, bool twice, model **out)
   for (int i = n; i < n + more && !twice; ++i) {
     const size_t at = (size_t)i * (size_t)(n + more + 1);
     (*out)->mass[at] = largest(m->mass, n * n);
-    (*out)->stiffness[at] = stiffest(m);
+    (*out)->stiffness[at] = some_stiffness(m);
     (*out)->damping[at] = largest(m->damping, n * n);
   }
   return HC_OK;
