@@ -26,7 +26,7 @@ static bool copy(shrinker *s, const scene *sc, scene *out)
 /* *smaller takes *sc's place where it is still a finding; else it is forgotten. */
 static bool take(shrinker *s, scene *sc, scene *smaller)
 {
-  stress_result r;
+  stress_result r = {0};
   double *x = malloc((size_t)smaller->structure->n * sizeof *x);
   bool adrift = true;
   if (s->status == HC_OK) s->status = x ? structure_free_motion(smaller->structure, false, x, &adrift) : HC_NO_MEMORY;

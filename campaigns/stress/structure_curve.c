@@ -67,7 +67,7 @@ stress_check stress_structure_curve(solved_structure *s)
 {
   hbm_solver *h = NULL;
   hbm_curve curve = {0}, found = {0};
-  stress_check result = stress_skip(STRESS_NO_REASON);
+  stress_check result;
   double nearest = INFINITY;
   hc_status st = hbm_solver_new(s->model, &s->how, &h);
   if (st == HC_OK) st = hbm_trace(h, s->from, s->to, &s->monitor, &curve);

@@ -30,6 +30,7 @@ static hc_status locate(const solved_structure *s, int j, const double *x, one_c
 {
   const model_contact *mc = &s->model->contacts[j];
   const moving_contact alone = {.law = mc->law, .cu = {1, 0}, .cv = {0, 1}};
+  contact_report report = {0};
   exact_force *e = NULL;
   const size_t n = 2 * (size_t)s->n_coef;
   *c = (one_contact){.motion = calloc(n, sizeof(double)), .force = calloc(n, sizeof(double))};
@@ -40,7 +41,8 @@ static hc_status locate(const solved_structure *s, int j, const double *x, one_c
       c->motion[s->n_coef + k] += mc->normal[i] * x[k * s->n + i];
     }
   if (st == HC_OK) st = exact_force_new(s->how.harmonics, 2, 1, &alone, &e);
-  if (st == HC_OK) st = exact_force_eval(e, c->motion, c->force, NULL, &c->report);
+  if (st == HC_OK) st = exact_force_eval(e, c->motion, c->force, NULL, &report);
+  c->report = report;
   exact_force_free(e);
   return st;
 }
@@ -287,8 +289,8 @@ static double damping_trace(const model *m)
   int *pivot = malloc((size_t)n * sizeof *pivot);
   const bool room = lu && x && pivot;
   if (room) memcpy(lu, m->mass, (size_t)n * (size_t)n * sizeof *lu);
-  if (!room || !lu_factor(n, lu, pivot)) trace = NAN;
-  for (int j = 0; j < n && trace == trace; ++j) {
+  const bool factored = room && lu_factor(n, lu, pivot);
+  for (int j = 0; j < n && factored; ++j) {
     memcpy(x, m->damping + (size_t)j * (size_t)n, (size_t)n * sizeof *x);
     lu_solve(n, lu, pivot, x);
     trace += x[j];
@@ -296,7 +298,7 @@ static double damping_trace(const model *m)
   free(lu);
   free(x);
   free(pivot);
-  return trace;
+  return factored ? trace : NAN;
 }
 
 /* Liouville: without slip the flow contracts by the trace of M^-1 C alone, whatever opens and closes. Multipliers are
