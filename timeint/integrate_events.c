@@ -134,7 +134,7 @@ static int roots(sunrealtype theta, N_Vector y, sunrealtype *g, void *self)
   for (int j = 0; j < in->n_contacts; ++j, g += ROOTS) {
     track_guard guard[TRACK_GUARDS];
     contact_motion at;
-    double bend[2];
+    double bend[2] = {0};
     motion_at(in, j, z, in->rate, &at, bend);
     const int n = guards_at(in, j, &at, bend, guard);
     for (int i = 0; i < n; ++i) {
@@ -177,7 +177,7 @@ static hc_status pass_fallen(events *in, double theta, int *count)
     for (int j = 0; j < in->n_contacts; ++j) {
       track_guard guard[TRACK_GUARDS];
       contact_motion at;
-      double bend[2];
+      double bend[2] = {0};
       phase_rhs(in, theta, NV_DATA_S(in->base.y), in->rate);
       motion_at(in, j, NV_DATA_S(in->base.y), in->rate, &at, bend);
       const int n = guards_at(in, j, &at, bend, guard);
