@@ -263,11 +263,6 @@ void cli_take_frequencies(const cli_common *common, const number_list *at, scene
   if (outside && !common->quiet) warn_outside(common, sc, first, outside - 1);
 }
 
-/* Of a structure: its damping and stiffness are matrices. */
-#define GREW                                                                                                           \
-  "numbers became too large or too small: does the motion grow without bound (a mode without damping, a stiffness "    \
-  "that is not symmetric)? are units right?"
-
 /* Of a structure that cannot be solved at rest: the motion that nothing holds there, by name. */
 static bool advice_on_free_motion(const scene_structure *s, char text[ADVICE_TEXT])
 {
@@ -295,7 +290,7 @@ static const char *advice_for(const scene *sc, cli_solver solver, hc_status st, 
   if (failed_at_mean && sc->structure && advice_on_free_motion(sc->structure, text)) return text;
   if (failed_at_mean && scene_adrift(sc)) return snprintf(text, ADVICE_TEXT, "%s", SCENE_ADRIFT), text;
   if (st == HC_NOT_FINITE) /* of neither side's settings */
-    return snprintf(text, ADVICE_TEXT, "%s", sc->structure ? GREW : advice_on_size(sc->damping)), text;
+    return snprintf(text, ADVICE_TEXT, "%s", sc->structure ? ADVICE_ON_STRUCTURE : advice_on_size(sc->damping)), text;
   if (solver != CLI_TRANSIENT) advice_for_hbm(&sc->hbm, st, text);
   if (solver == CLI_HBM || !*advice_for_transient(&sc->transient, st, other)) return text;
   snprintf(text, ADVICE_TEXT, "%s",

@@ -101,6 +101,15 @@ static void note_mean(table *t, const comparison *c)
                n, n == 1 ? "" : "s");
 }
 
+/* Responses that hardly move. */
+static void note_still(table *t, const comparison *c)
+{
+  int n = 0;
+  for (int i = 0; i < c->n_rows; ++i) n += c->rows[i].still;
+  if (n)
+    table_note(t, "%d row%s not compared: that response moves less than 1e-9 of the largest", n, n == 1 ? "" : "s");
+}
+
 static void note_comparison(table *t, const scene *sc, const compare_setup *setup, const comparison *c)
 {
   table_note(t, "%s", sc->title);
@@ -126,6 +135,7 @@ static void note_comparison(table *t, const scene *sc, const compare_setup *setu
   note_worst(t, sc, setup, c);
   note_unexpected(t, sc, c);
   note_mean(t, c);
+  note_still(t, c);
   if (scene_adrift(sc)) table_note(t, "%s", SCENE_ADRIFT);
   if (!comparison_nonlinear(c)) table_note(t, COMPARISON_LINEAR, c->n_rows);
 }
@@ -184,6 +194,7 @@ static int run_compare(int argc, char **argv)
   if (!code) code = cli_load_case(&common, common.arguments[0], &sc);
   if (!code) code = compare_lists(&common, &own.lists, &sc);
   if (!code) code = cli_only_oscillator(&common, &sc, "--plot", own.plot != NULL);
+  if (!code) code = cli_only_oscillator(&common, &sc, "transient.richardson", sc.transient.richardson);
   if (!code)
     code = cli_only_oscillator(&common, &sc, "--tables", own.tables || own.lists.harmonics.n || own.lists.samples.n);
   if (code) {

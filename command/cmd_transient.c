@@ -67,8 +67,13 @@ static int run_transient(int argc, char **argv)
   cli_check_plot(&common, own.plot, false);
   int code = cli_check_files(&common, 1, &(cli_file){"--plot", own.plot, CLI_OUTPUT}), n_columns;
   if (!code) code = cli_load_case(&common, common.arguments[0], &sc);
-  if (!code && (code = cli_only_oscillator(&common, &sc, "--plot", own.plot != NULL))) case_clear(&sc);
   if (code) return code;
+  code = cli_only_oscillator(&common, &sc, "--plot", own.plot != NULL);
+  if (!code) code = cli_only_oscillator(&common, &sc, "transient.richardson", sc.transient.richardson);
+  if (code) {
+    case_clear(&sc);
+    return code;
+  }
   cli_take_frequencies(&common, &own.at, &sc);
   if (sc.compare.omega.n == 0) {
     cli_message(&common, "at which frequencies? give --at LIST, or compare.omega in the case");

@@ -16,5 +16,8 @@ const char *advice_for_transient(const transient_settings *how, hc_status failur
 
 /* After HC_NOT_FINITE of either side, from the scene's damping. A constant string. */
 const char *advice_on_size(double damping);
+#define ADVICE_ON_STRUCTURE /* the same of a structure, whose damping is a matrix */                                   \
+  "numbers became too large or too small: does the motion grow without bound (a mode without damping, a stiffness "    \
+  "that is not symmetric)? are units right?"
 
 #endif

@@ -310,6 +310,7 @@ static void turn_row(workspace *w, const hbm_curve *at, int k, int r, double lar
   if (!comparable || row->transient.period_multiple != 1) return;
   row->still = !(row->transient.amplitude > still * largest);
   row->accounted = row->still || accounted_for(&s, at, &row->transient);
+  if (row->still) row->errors = nothing;
   const bool within = row->still || within_limits(w->setup, &row->errors, &row->transient);
   if (first->verdict == VERDICT_MATCH || first->verdict == VERDICT_DIFFERS)
     row->verdict = within ? VERDICT_MATCH : unstable(first) ? VERDICT_UNSTABLE : VERDICT_DIFFERS;

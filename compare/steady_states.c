@@ -78,6 +78,7 @@ static hc_status add_other_responses(workspace *w, steady_row *row)
   hc_status st = HC_OK;
   for (row->response = 1; row->response < w->setup->model->n_responses && moved && st == HC_OK; ++row->response) {
     st = timeint_response(w->ti, row->response, &row->result);
+    row->from_regularisation = NAN; /* known of the first response */
     if (st == HC_OK) st = add_row(w->out, row);
   }
   return st;

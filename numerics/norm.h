@@ -1,4 +1,4 @@
-/* norm.h - Euclidean norm. libm only. */
+/* norm.h - Euclidean norm, products of vectors. libm only. */
 #ifndef HC_NORM_H
 #define HC_NORM_H
 
@@ -10,6 +10,14 @@ static inline double norm_2(int n, const double *v)
   double sum = 0;
   for (int i = 0; i < n; ++i) sum += v[i] * v[i];
   return sqrt(sum);
+}
+
+/* sum a[i] b[i]. */
+static inline double dot_product(int n, const double *a, const double *b)
+{
+  double sum = 0;
+  for (int i = 0; i < n; ++i) sum += a[i] * b[i];
+  return sum;
 }
 
 /* norm_2 of a - b. */

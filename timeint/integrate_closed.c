@@ -14,8 +14,6 @@
 #include "timeint/variations.h"
 
 enum {
-  MAX_TRANSITIONS = 1000, /* per period, or that many per contact if it is more (integrate_exact.c) */
-  MAX_TRANSITIONS_A_CONTACT = 60,
   MAX_SEGMENTS = 100000 /* per period */
 };
 
@@ -90,7 +88,7 @@ static int way_on(closed_form *in, int guard)
 /* The phase after the segment has ended at theta on that guard; *count transitions so far. */
 static hc_status pass(closed_form *in, int guard, double theta, bool varies, int *count)
 {
-  const int most = (int)fmax(MAX_TRANSITIONS, MAX_TRANSITIONS_A_CONTACT * (double)in->m->n_contacts);
+  const int most = integrate_most_transitions(in->m->n_contacts);
   phase_copy(&in->before, &in->phase);
   const int n = phase_next(&in->phase, in->end.q[0], way_on(in, guard), guard == GUARD_TURN);
   if (!n) return HC_OK;

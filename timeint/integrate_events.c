@@ -24,9 +24,7 @@ static const double at_end = 64 * DBL_EPSILON; /* nearer to 2 pi CVODE would ans
 static const double longest_step = 0.2;        /* [rad] measure.c integrates a quintic over each */
 
 enum {
-  MAX_STEPS = 1000000, /* between transitions */
-  MAX_TRANSITIONS = 1000,
-  MAX_TRANSITIONS_A_CONTACT = 60,
+  MAX_STEPS = 1000000,    /* between transitions */
   MAX_STANDSTILLS = 1000, /* returns of CVODE in succession that do not advance theta */
   ROOTS = 2 * TRACK_GUARDS
 };
@@ -150,16 +148,10 @@ static void use_states(events *in)
   for (int j = 0; j < in->n_contacts; ++j) in->law[j] = contact_track_forces(&in->track[j], &in->base.m->contact[j]);
 }
 
-static int most_transitions(const events *in)
-{
-  const int by_contacts = MAX_TRANSITIONS_A_CONTACT * in->n_contacts;
-  return by_contacts > MAX_TRANSITIONS ? by_contacts : MAX_TRANSITIONS;
-}
-
 static hc_status pass(events *in, int j, track_event event, const contact_motion *at, double theta, int *count)
 {
   const contact_state before = in->track[j].state;
-  if (++*count > most_transitions(in)) return HC_CHATTER;
+  if (++*count > integrate_most_transitions(in->n_contacts)) return HC_CHATTER;
   hc_status st = in->varies ? structure_variations_advance(&in->variations, in->base.m, in->track, theta) : HC_OK;
   if (st != HC_OK) return st;
   contact_track_pass(&in->track[j], &in->base.m->contact[j], event, at);

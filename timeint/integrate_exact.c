@@ -40,10 +40,8 @@
 static const double at_end = 64 * DBL_EPSILON; /* nearer to 2 pi CVODE would answer CV_TOO_CLOSE to a restart */
 
 enum {
-  MAX_STEPS = 1000000,            /* between transitions: a thousand times what a hard period takes */
-  MAX_TRANSITIONS = 1000,         /* per period, or that many per contact if it is more: one that closes, slips, */
-  MAX_TRANSITIONS_A_CONTACT = 60, /* sticks, slips, sticks and opens makes 6 an oscillation                      */
-  MAX_STANDSTILLS = 1000          /* returns of CVODE in succession that do not advance theta */
+  MAX_STEPS = 1000000,   /* between transitions: a thousand times what a hard period takes */
+  MAX_STANDSTILLS = 1000 /* returns of CVODE in succession that do not advance theta */
 };
 
 enum { ROOT_UP, ROOT_DOWN, ROOT_TURN, ROOT_BEND, ROOTS };
@@ -142,12 +140,6 @@ static hc_status start(event_driven *in, double theta)
   return integrate_translate(&in->base, flag);
 }
 
-static int most_transitions(const event_driven *in)
-{
-  const int by_contacts = MAX_TRANSITIONS_A_CONTACT * in->base.m->n_contacts;
-  return by_contacts > MAX_TRANSITIONS ? by_contacts : MAX_TRANSITIONS;
-}
-
 /* CVODE stopped on a root at theta. */
 static hc_status pass_root(event_driven *in, double theta, int *count)
 {
@@ -159,7 +151,7 @@ static hc_status pass_root(event_driven *in, double theta, int *count)
   phase_copy(&in->before, &in->phase);
   const int n = phase_next(&in->phase, NV_DATA_S(in->base.y)[SCALED_X], way, info[ROOT_TURN] != 0);
   if (!n) return HC_OK;
-  if ((*count += n) > most_transitions(in)) return HC_CHATTER;
+  if ((*count += n) > integrate_most_transitions(in->base.m->n_contacts)) return HC_CHATTER;
   if (in->varies) {
     variations_advance(&in->variations, &in->before, theta);
     variations_stick(&in->variations, &in->phase, &in->before);

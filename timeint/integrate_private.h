@@ -15,6 +15,10 @@ typedef struct integrator_class {
   void (*free)(integrator *);
 } integrator_class;
 
+/* Transitions of a period beyond which it is chatter: 1000, or 60 a contact if that is more. One that closes, slips,
+ * sticks, slips, sticks and opens makes 6 an oscillation. */
+static inline int integrate_most_transitions(int n_contacts) { return n_contacts > 16 ? 60 * n_contacts : 1000; }
+
 struct integrator { /* the first member of each kind */
   const integrator_class *does;
   long steps, rhs, transitions; /* of all finished periods */

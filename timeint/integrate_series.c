@@ -6,12 +6,11 @@
 #include <string.h>
 
 #include "base/constants.h"
+#include "numerics/norm.h"
 #include "timeint/integrate_private.h"
 #include "timeint/structure_variations.h"
 
 enum {
-  MAX_TRANSITIONS = 1000, /* per period, or that many per contact if it is more (integrate_exact.c) */
-  MAX_TRANSITIONS_A_CONTACT = 60,
   MAX_STEPS = 10000000 /* per period */
 };
 
@@ -27,18 +26,12 @@ typedef struct by_series { /* from integrate_new_series, to integrate_free; not 
   structure_variations variations;
 } by_series;
 
-static double dot(int n, const double *a, const double *b)
-{
-  double sum = 0;
-  for (int i = 0; i < n; ++i) sum += a[i] * b[i];
-  return sum;
-}
-
 static contact_motion motion_of(const by_series *in, int j, const double *y)
 {
   const double *t = in->m->base->tangent + (size_t)j * (size_t)in->n,
                *n = in->m->base->normal + (size_t)j * (size_t)in->n;
-  return (contact_motion){dot(in->n, t, y), dot(in->n, n, y), dot(in->n, t, y + in->n), dot(in->n, n, y + in->n)};
+  return (contact_motion){dot_product(in->n, t, y), dot_product(in->n, n, y), dot_product(in->n, t, y + in->n),
+                          dot_product(in->n, n, y + in->n)};
 }
 
 static hc_status begin(by_series *in, const double *y)
@@ -74,18 +67,12 @@ static int find_event(by_series *in, track_event *event)
   return first;
 }
 
-static int most_transitions(const by_series *in)
-{
-  const int by_contacts = MAX_TRANSITIONS_A_CONTACT * in->n_contacts;
-  return by_contacts > MAX_TRANSITIONS ? by_contacts : MAX_TRANSITIONS;
-}
-
 /* Contact j at the end of the step. */
 static hc_status pass(by_series *in, int j, track_event event, bool varies, int *count)
 {
   const contact_motion at = motion_series_contact(&in->series, j, in->length);
   const contact_state before = in->track[j].state;
-  if (++*count > most_transitions(in)) return HC_CHATTER;
+  if (++*count > integrate_most_transitions(in->n_contacts)) return HC_CHATTER;
   if (varies) {
     hc_status st = structure_variations_advance(&in->variations, in->m, in->track, in->theta + in->length);
     if (st != HC_OK) return st;

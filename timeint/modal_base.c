@@ -6,15 +6,9 @@
 #include <string.h>
 
 #include "model/modes.h"
+#include "numerics/norm.h"
 
 static const double rounding = 1e-13; /* of what is left beside the diagonal of C, relative to that */
-
-static double dot(int n, const double *a, const double *b)
-{
-  double sum = 0;
-  for (int i = 0; i < n; ++i) sum += a[i] * b[i];
-  return sum;
-}
 
 /* y = A x, or A^T x; A[n][n] by columns. */
 static void times(int n, const double *A, const double *x, double *y)
@@ -26,7 +20,7 @@ static void times(int n, const double *A, const double *x, double *y)
 
 static void transposed_times(int n, const double *A, const double *x, double *y)
 {
-  for (int col = 0; col < n; ++col) y[col] = dot(n, A + (size_t)col * (size_t)n, x);
+  for (int col = 0; col < n; ++col) y[col] = dot_product(n, A + (size_t)col * (size_t)n, x);
 }
 
 static bool is_symmetric(int n, const double *A)
@@ -69,7 +63,7 @@ static double longest_row(const modal_base *b)
   for (size_t k = 0; k < sizeof sets / sizeof *sets; ++k)
     for (int j = 0; j < sets[k].count; ++j) {
       const double *row = sets[k].row + (size_t)j * (size_t)b->n;
-      longest = fmax(longest, sqrt(dot(b->n, row, row)));
+      longest = fmax(longest, sqrt(dot_product(b->n, row, row)));
     }
   return longest > 0 ? longest : 1;
 }
@@ -127,11 +121,12 @@ static double motion_under(const modal_base *b, const model *m, const double *lo
   memset(x, 0, n * sizeof *x);
   for (size_t i = 0; i < n; ++i) {
     if (!(omega2[i] > rounding * omega2[n - 1])) continue;
-    const double q = dot(b->n, phi + i * n, load) / omega2[i];
+    const double q = dot_product(b->n, phi + i * n, load) / omega2[i];
     for (size_t row = 0; row < n; ++row) x[row] += q * phi[i * n + row];
   }
   for (int j = 0; j < m->n_contacts; ++j)
-    most = fmax(most, fmax(fabs(dot(b->n, m->contacts[j].tangent, x)), fabs(dot(b->n, m->contacts[j].normal, x))));
+    most = fmax(most, fmax(fabs(dot_product(b->n, m->contacts[j].tangent, x)),
+                           fabs(dot_product(b->n, m->contacts[j].normal, x))));
   return most;
 }
 
@@ -202,3 +197,26 @@ void modal_base_free(modal_base *b)
 
 void modal_base_to_modes(const modal_base *b, const double *x, double *q) { times(b->n, b->inverse, x, q); }
 void modal_base_to_model(const modal_base *b, const double *q, double *x) { times(b->n, b->shape, q, x); }
+
+/* out -= by A x; A diagonal [n] or [n][n] by columns. */
+static void subtract(int n, bool diagonal, const double *A, double by, const double *x, double *out)
+{
+  if (diagonal) {
+    for (int i = 0; i < n; ++i) out[i] -= by * A[i] * x[i];
+    return;
+  }
+  for (int col = 0; col < n; ++col) {
+    const double *column = A + (size_t)col * (size_t)n, share = by * x[col];
+    for (int row = 0; row < n; ++row) out[row] -= column[row] * share;
+  }
+}
+
+void modal_base_subtract_K(const modal_base *b, double by, const double *x, double *out)
+{
+  subtract(b->n, b->diagonal_K, b->K, by, x, out);
+}
+
+void modal_base_subtract_C(const modal_base *b, double by, const double *x, double *out)
+{
+  subtract(b->n, b->diagonal_C, b->C, by, x, out);
+}

@@ -37,4 +37,8 @@ void modal_base_free(modal_base *b); /* NULL is allowed */
 void modal_base_to_modes(const modal_base *b, const double *x, double *q);
 void modal_base_to_model(const modal_base *b, const double *q, double *x);
 
+/* out[n] -= by K x, by C x. */
+void modal_base_subtract_K(const modal_base *b, double by, const double *x, double *out);
+void modal_base_subtract_C(const modal_base *b, double by, const double *x, double *out);
+
 #endif

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "numerics/norm.h"
 enum { TERMS = TRACK_ORDER + 1, MAX_NEWTON = 60 };
 
 hc_status motion_series_make(motion_series *s, const modal_base *base)
@@ -28,32 +29,12 @@ void motion_series_free(motion_series *s)
   free(s->law);
 }
 
-static double dot(int n, const double *a, const double *b)
-{
-  double sum = 0;
-  for (int i = 0; i < n; ++i) sum += a[i] * b[i];
-  return sum;
-}
-
 static double largest(int n, const double *a)
 {
   double most = 0;
   for (int i = 0; i < n; ++i)
     if (!(fabs(a[i]) <= most)) most = fabs(a[i]); /* NaN stays */
   return most;
-}
-
-/* out -= by A x; A diagonal [n] or [n][n] by columns. */
-static void subtract(int n, bool diagonal, const double *A, double by, const double *x, double *out)
-{
-  if (diagonal) {
-    for (int i = 0; i < n; ++i) out[i] -= by * A[i] * x[i];
-    return;
-  }
-  for (int col = 0; col < n; ++col) {
-    const double *column = A + (size_t)col * (size_t)n, share = by * x[col];
-    for (int row = 0; row < n; ++row) out[row] -= column[row] * share;
-  }
 }
 
 /* The loads' coefficient k, from that of their cosine and sine. */
@@ -77,8 +58,8 @@ static void project(motion_series *s, const modal_base *b, int k)
   const double *x = s->x + (size_t)k * (size_t)s->n;
   for (int j = 0; j < s->n_contacts; ++j) {
     const size_t row = (size_t)j * (size_t)s->n, at = (size_t)j * TERMS + (size_t)k;
-    s->u[at] = dot(s->n, b->tangent + row, x);
-    s->v[at] = dot(s->n, b->normal + row, x);
+    s->u[at] = dot_product(s->n, b->tangent + row, x);
+    s->v[at] = dot_product(s->n, b->normal + row, x);
   }
 }
 
@@ -122,8 +103,8 @@ static double expand(motion_series *s, const scaled_model *m, bool loaded, doubl
     double *force = s->force, *next = s->x + (size_t)(k + 2) * n;
     memset(force, 0, n * sizeof *force);
     if (loaded) add_loads(s, m, theta, k, force);
-    subtract(s->n, b->diagonal_K, b->K, m->by_K, x, force);
-    subtract(s->n, b->diagonal_C, b->C, m->by_C * (k + 1), x + n, force);
+    modal_base_subtract_K(b, m->by_K, x, force);
+    modal_base_subtract_C(b, m->by_C * (k + 1), x + n, force);
     subtract_contacts(s, b, k, force);
     for (size_t i = 0; i < n; ++i) next[i] = force[i] / ((k + 1) * (k + 2));
     project(s, b, k + 2);
@@ -172,7 +153,7 @@ contact_motion motion_series_contact(const motion_series *s, int j, double tau)
 
 void motion_series_of(const motion_series *s, const double *row, double *r)
 {
-  for (int k = 0; k < TERMS; ++k) r[k] = dot(s->n, row, s->x + (size_t)k * (size_t)s->n);
+  for (int k = 0; k < TERMS; ++k) r[k] = dot_product(s->n, row, s->x + (size_t)k * (size_t)s->n);
 }
 
 double series_value(const double *c, double tau)

@@ -97,6 +97,9 @@ hc_status timeint_response(timeint *ti, int i, timeint_result *r)
     hc_status st = orbit_measure(ti, r->period_multiple > 0 ? r->period_multiple : 1, &again);
     if (st != HC_OK) return st;
   }
+  const double amplitude = r->amplitude;
   measure_report(&ti->measure, ti->model, i, ti->length, r);
+  r->closure *= amplitude / r->amplitude; /* they are relative to it */
+  r->attainable *= amplitude / r->amplitude;
   return HC_OK;
 }

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "numerics/norm.h"
 #include "timeint/structure_equations.h"
 
 /* Width of the corner in N for one contact: a fraction of the larger of its gap and the motion under a static force.
@@ -98,18 +99,11 @@ void scaled_jacobian(const scaled_model *m, const double *y, double *jac)
   else oscillator_jacobian(m, y, jac);
 }
 
-static double dot(int n, const double *a, const double *b)
-{
-  double sum = 0;
-  for (int i = 0; i < n; ++i) sum += a[i] * b[i];
-  return sum;
-}
-
 void scaled_contact_motion(const scaled_model *m, int j, const double *x, double *u, double *v)
 {
   if (m->base) {
-    *u = dot(m->n, m->base->tangent + (size_t)j * (size_t)m->n, x);
-    *v = dot(m->n, m->base->normal + (size_t)j * (size_t)m->n, x);
+    *u = dot_product(m->n, m->base->tangent + (size_t)j * (size_t)m->n, x);
+    *v = dot_product(m->n, m->base->normal + (size_t)j * (size_t)m->n, x);
   } else {
     *u = m->contact[j].cosine * *x;
     *v = m->contact[j].sine * *x;
@@ -118,7 +112,7 @@ void scaled_contact_motion(const scaled_model *m, int j, const double *x, double
 
 double scaled_response(const scaled_model *m, int r, const double *x)
 {
-  return m->base ? dot(m->n, m->base->response + (size_t)r * (size_t)m->n, x) : *x;
+  return m->base ? dot_product(m->n, m->base->response + (size_t)r * (size_t)m->n, x) : *x;
 }
 
 int scaled_n_responses(const scaled_model *m) { return m->base ? m->base->n_responses : 1; }
@@ -137,5 +131,5 @@ double scaled_pull(const scaled_model *m, int j)
 {
   if (!m->base) return m->contact[j].cosine;
   const double *t = m->base->tangent + (size_t)j * (size_t)m->n;
-  return sqrt(dot(m->n, t, t));
+  return sqrt(dot_product(m->n, t, t));
 }

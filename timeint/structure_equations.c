@@ -4,19 +4,6 @@
 #include <math.h>
 #include <string.h>
 
-/* out -= by A x; A diagonal [n] or [n][n] by columns. */
-static void subtract(int n, bool diagonal, const double *A, double by, const double *x, double *out)
-{
-  if (diagonal) {
-    for (int i = 0; i < n; ++i) out[i] -= by * A[i] * x[i];
-    return;
-  }
-  for (int col = 0; col < n; ++col) {
-    const double *column = A + (size_t)col * (size_t)n, share = by * x[col];
-    for (int row = 0; row < n; ++row) out[row] -= column[row] * share;
-  }
-}
-
 void structure_linear_force(const scaled_model *m, double theta, const double *y, double *out)
 {
   const modal_base *b = m->base;
@@ -27,8 +14,8 @@ void structure_linear_force(const scaled_model *m, double theta, const double *y
     const double *cosine = b->cosine + (size_t)l * (size_t)n, *sine = b->sine + (size_t)l * (size_t)n;
     for (int i = 0; i < n; ++i) out[i] += c * cosine[i] + s * sine[i];
   }
-  subtract(n, b->diagonal_K, b->K, m->by_K, y, out);
-  subtract(n, b->diagonal_C, b->C, m->by_C, y + n, out);
+  modal_base_subtract_K(b, m->by_K, y, out);
+  modal_base_subtract_C(b, m->by_C, y + n, out);
 }
 
 bool structure_rhs(const scaled_model *m, double theta, const double *y, double *dy)

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "numerics/norm.h"
 hc_status structure_variations_make(structure_variations *v, const modal_base *base)
 {
   const size_t n = (size_t)base->n, states = 2 * n + (size_t)base->n_contacts;
@@ -23,18 +24,11 @@ void structure_variations_free(structure_variations *v)
 
 static double *column_of(const structure_variations *v, int q) { return v->matrix + (size_t)q * (size_t)v->n_states; }
 
-static double dot(int n, const double *a, const double *b)
-{
-  double sum = 0;
-  for (int i = 0; i < n; ++i) sum += a[i] * b[i];
-  return sum;
-}
-
 /* dU and dV of contact j in a column. */
 static void motion_of(const modal_base *b, int j, const double *column, double *du, double *dv)
 {
-  *du = dot(b->n, b->tangent + (size_t)j * (size_t)b->n, column);
-  *dv = dot(b->n, b->normal + (size_t)j * (size_t)b->n, column);
+  *du = dot_product(b->n, b->tangent + (size_t)j * (size_t)b->n, column);
+  *dv = dot_product(b->n, b->normal + (size_t)j * (size_t)b->n, column);
 }
 
 void structure_variations_begin(structure_variations *v, const scaled_model *m, const contact_track *track)
