@@ -45,6 +45,22 @@ static void one_response_is_kept(void **state)
   expect("frf " CASE2 "--at 5 --response y 2>&1", 64, "--response: the case has no `y`; expected x\n");
 }
 
+/* What is not compared is said to be; what would be of the first response alone is refused. */
+static void comparisons_say_what_they_leave_out(void **state)
+{
+  (void)state;
+  const char *const at_24 = "compare cases/structures/jenkins2.yaml --at 24.5 ";
+  char line[256];
+  snprintf(line, sizeof line, "%s--set 'response=[tip, {tip: 1e-12}]'", at_24);
+  expect(line, 0, "1 row not compared: that response moves less than 1e-9 of the largest");
+  expect(at_24, 0, "2 match");
+  assert_int_equal(count("not compared"), 0);
+  snprintf(line, sizeof line, "%s--set transient.richardson=true 2>&1", at_24);
+  expect(line, 3, "transient.richardson knows `oscillator` alone so far");
+  expect("transient cases/structures/jenkins2.yaml --at 24.5 --set transient.richardson=true 2>&1", 3,
+         "transient.richardson knows `oscillator` alone so far");
+}
+
 /* A damper out of reach of its contacts that no load presses on: by name, and what to do. */
 static void what_nothing_holds_is_named(void **state)
 {
@@ -209,6 +225,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(one_response_is_kept),
       cmocka_unit_test(what_nothing_holds_is_named),
+      cmocka_unit_test(comparisons_say_what_they_leave_out),
       cmocka_unit_test(every_contact_of_every_solution_has_a_row),
       cmocka_unit_test(a_jenkins_element_has_its_closed_form),
       cmocka_unit_test(the_slider_starts_where_it_is_told),
