@@ -91,6 +91,16 @@ int cli_response_named(const cli_common *common, const char *name)
   return -1;
 }
 
+hc_status cli_response_names(const scene *sc, char (**out)[RESPONSE_NAME])
+{
+  *out = NULL;
+  if (!sc->structure) return HC_OK;
+  const int n = structure_response_count(sc->structure);
+  *out = calloc((size_t)n, sizeof **out);
+  for (int r = 0; r < n && *out; ++r) structure_response_name(sc->structure, r, (*out)[r], RESPONSE_NAME);
+  return *out ? HC_OK : HC_NO_MEMORY;
+}
+
 int cli_contact_named(const cli_common *common, const char *name)
 {
   const scene *sc = common->scene;

@@ -9,6 +9,10 @@
  * that lists those there are. */
 int cli_response_named(const cli_common *common, const char *name);
 
+/* The names of a structure's responses, as the column `response` has them, into *out: the caller's, to free; NULL of an
+ * oscillator. HC_NO_MEMORY. */
+hc_status cli_response_names(const scene *sc, char (**out)[RESPONSE_NAME]);
+
 /* The contact called `name`, or of that number from 0; -1 after a message that lists those there are. */
 int cli_contact_named(const cli_common *common, const char *name);
 

@@ -330,11 +330,14 @@ const char *cli_hbm_settings(const scene *sc, int n_harm, int n_time, char *text
   return text;
 }
 
-int cli_columns(bool in_cycles, int n, const table_column *columns, table_column *out)
+int cli_columns(unsigned extra, int n, const table_column *columns, table_column *out)
 {
   int kept = 0;
-  for (int i = 0; i < n; ++i)
-    if (in_cycles || strcmp(columns[i].name, "frequency")) out[kept++] = columns[i];
+  for (int i = 0; i < n; ++i) {
+    const bool absent = (!(extra & ROWS_IN_CYCLES) && !strcmp(columns[i].name, "frequency")) ||
+                        (!(extra & ROWS_RESPONSES) && !strcmp(columns[i].name, "response"));
+    if (!absent) out[kept++] = columns[i];
+  }
   return kept;
 }
 

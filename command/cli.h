@@ -117,8 +117,9 @@ int cli_solver_failed(const cli_common *common, cli_solver solver, const char *w
  * exit code. */
 int cli_file_failed(const cli_common *common, const char *path, hc_status st);
 
-/* columns[n] into out[n], how many: all of them, or where frequencies are not in cycles all but `frequency`. */
-int cli_columns(bool in_cycles, int n, const table_column *columns, table_column *out);
+/* columns[n] into out[n], how many: all of them, but `frequency` where `extra` has no ROWS_IN_CYCLES, and `response`
+ * where it has no ROWS_RESPONSES. */
+int cli_columns(unsigned extra, int n, const table_column *columns, table_column *out);
 
 /* The columns of rows.h that only some cases have, for this one. */
 unsigned cli_extra_columns(const scene *sc);

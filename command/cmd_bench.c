@@ -211,8 +211,8 @@ static void note_bench(table *t, const scene *sc, const bench *b)
 static int write_tables(const cli_common *common, const scene *sc, const bench *b)
 {
   table_column own[N_COLUMNS], cheapest[N_CHEAPEST_COLUMNS];
-  const int n = cli_columns(sc->in_cycles, N_COLUMNS, columns, own),
-            n_cheapest = cli_columns(sc->in_cycles, N_CHEAPEST_COLUMNS, cheapest_columns, cheapest);
+  const int n = cli_columns(cli_extra_columns(sc), N_COLUMNS, columns, own),
+            n_cheapest = cli_columns(cli_extra_columns(sc), N_CHEAPEST_COLUMNS, cheapest_columns, cheapest);
   table *tables[2] = {table_new("Work and precision", n, own), table_new("Cheapest way", n_cheapest, cheapest)};
   for (int i = 0; i < 2 && b->n_frequencies == 1; ++i) table_hide(tables[i], "omega"); /* the remarks have it */
   table_spare(tables[0], spare_columns + !sc->in_cycles);

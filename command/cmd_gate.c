@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/number.h"
+#include "command/case_names.h"
 #include "command/commands.h"
 #include "command/files.h"
 #include "compare/gate/gate.h"
@@ -17,7 +18,7 @@ static const char help[] =
     "allowed and what was found, and an exit code."
     "\vA stable HBM solution is held against the transient, an unstable one against the exact orbit next to it; and "
     "every transient must match some "
-    "HBM solution. Limits: gate.amplitude, harmonic_1, mean, waveform; the same with range_ in front, in gate.ranges; "
+    "HBM solution. Each response of a structure is held to the limits by itself. Limits: gate.amplitude, harmonic_1, mean, waveform; the same with range_ in front, in gate.ranges; "
     "gate.iterations and "
     "gate.evaluations of the response curve (hbmcheck describe gate).\n"
     "A number passes up to 1.000001 times its limit, so that rounding decides nothing. Every case is read before "
@@ -59,7 +60,7 @@ static error_t read_option(int key, char *text, struct argp_state *state)
 /* clang-format off */
 #define COLUMNS(number) \
   {"case", TABLE_TEXT}, {"omega", TABLE_REAL}, {"frequency", TABLE_REAL}, {"branch", TABLE_INTEGER}, \
-  {"verdict", TABLE_TEXT}, {"quantity", TABLE_TEXT}, {"against", TABLE_TEXT}, {"allowed", number}, {"found", number}, \
+  {"response", TABLE_TEXT}, {"verdict", TABLE_TEXT}, {"quantity", TABLE_TEXT}, {"against", TABLE_TEXT}, {"allowed", number}, {"found", number}, \
   {"result", TABLE_TEXT}, {"reason", TABLE_TEXT}
 /* clang-format on */
 static const table_column columns[] = {COLUMNS(TABLE_REAL)}, columns_for_people[] = {COLUMNS(TABLE_TEXT)};
@@ -70,11 +71,12 @@ enum { N_COLUMNS = sizeof columns / sizeof *columns };
 typedef struct gate_call {
   cli_common common;
   gate_options own;
-  scene *scenes;      /* [n_arguments] */
-  gate_case *cases;   /* [n_arguments], of which n_judged are filled */
-  case_error *errors; /* [n_arguments] what is wrong with the case file, or empty */
+  scene *scenes;                     /* [n_arguments] */
+  gate_case *cases;                  /* [n_arguments], of which n_judged are filled */
+  char (**responses)[RESPONSE_NAME]; /* [n_arguments] their names, of structures */
+  case_error *errors;                /* [n_arguments] what is wrong with the case file, or empty */
   int n_judged;
-  bool in_cycles;   /* the sweep of one of them is */
+  unsigned extra;   /* columns that one of them has */
   bool short_names; /* their names differ without their folders, too: so they stand on the screen */
   table_column columns[N_COLUMNS];
   output *junit; /* opened before anything runs: a name that cannot be written to is found at once */
@@ -90,7 +92,7 @@ static int read_cases(gate_call *call)
     if (code) wrong = code;
     if (code) continue;
     cli_take_frequencies(&call->common, &call->own.at, &call->scenes[i]);
-    call->in_cycles |= call->scenes[i].in_cycles;
+    call->extra |= cli_extra_columns(&call->scenes[i]);
   }
   return wrong;
 }
@@ -108,16 +110,18 @@ static int judge_cases(gate_call *call)
     progress *bar = progress_start(call->common.arguments[call->n_judged], call->common.quiet);
     hc_monitor monitor = progress_monitor(bar);
     compare_setup setup;
+    gate_case *g = &call->cases[call->n_judged];
     call->common.scene = &call->scenes[call->n_judged];
     hc_status st = scene_setup(call->common.scene, &setup);
-    if (st == HC_OK)
-      st = gate_run(call->common.arguments[call->n_judged], &setup, &monitor, &call->cases[call->n_judged]);
+    if (st == HC_OK) st = gate_run(call->common.arguments[call->n_judged], &setup, &monitor, g);
+    if (st == HC_OK) st = cli_response_names(call->common.scene, &call->responses[call->n_judged]);
+    g->responses = (const char(*)[RESPONSE_NAME])call->responses[call->n_judged];
     scene_setup_clear(&setup);
     progress_end(bar);
     if (st == HC_OK) continue;
     if (st == HC_INTERRUPTED) cli_message(&call->common, "stopped on request: nothing is written, half a gate is none");
     else cli_solver_failed(&call->common, CLI_BOTH, call->common.arguments[call->n_judged], st, 0);
-    gate_clear(&call->cases[call->n_judged]);
+    gate_clear(g);
     return EXIT_NO_SOLUTION;
   }
   return 0;
@@ -152,9 +156,10 @@ static void put_check(const gate_call *call, table *t, int of, const gate_check 
   const scene *sc = &call->scenes[of];
   table_put_text(t, people && call->short_names ? without_folder(call->cases[of].name) : call->cases[of].name);
   table_put_real(t, c->omega);
-  if (call->in_cycles) table_put_real(t, sc->in_cycles ? scene_frequency(sc, c->omega) : NAN);
+  if (call->extra & ROWS_IN_CYCLES) table_put_real(t, sc->in_cycles ? scene_frequency(sc, c->omega) : NAN);
   if (c->branch >= 0) table_put_integer(t, c->branch);
   else table_put_missing(t);
+  if (call->extra & ROWS_RESPONSES) table_put_text(t, gate_response(&call->cases[of], c));
   table_put_text(t, *c->verdict ? c->verdict : NULL);
   table_put_text(t, c->quantity);
   table_put_text(t, c->against);
@@ -169,7 +174,7 @@ static bool wants_attention(const gate_check *c) { return c->result == GATE_FAIL
 static table *checks_table(gate_call *call)
 {
   const bool people = call->common.format == FORMAT_TABLE;
-  const int n = cli_columns(call->in_cycles, N_COLUMNS, people ? columns_for_people : columns, call->columns);
+  const int n = cli_columns(call->extra, N_COLUMNS, people ? columns_for_people : columns, call->columns);
   table *t = table_new("Gate", n, call->columns);
   table_wrap(t, cli_width(&call->common)); /* the reasons are sentences */
   table_spare(t, spare_columns);
@@ -231,9 +236,10 @@ static int run_gate(int argc, char **argv)
   cli_parse(&cmd_gate, argc, argv, &call.own, &call.common);
   call.scenes = calloc((size_t)call.common.n_arguments, sizeof *call.scenes);
   call.cases = calloc((size_t)call.common.n_arguments, sizeof *call.cases);
+  call.responses = calloc((size_t)call.common.n_arguments, sizeof *call.responses);
   int code = cli_check_files(&call.common, 1, &(cli_file){"--junit", call.own.junit, CLI_OUTPUT});
   call.errors = calloc((size_t)call.common.n_arguments, sizeof *call.errors);
-  if (!code && !(call.scenes && call.cases && call.errors))
+  if (!code && !(call.scenes && call.cases && call.responses && call.errors))
     code = cli_solver_failed(&call.common, CLI_BOTH, "gate", HC_NO_MEMORY, 0);
   if (!code && (code = read_cases(&call)) == EXIT_BAD_CASE) code = report_unread(&call, code);
   if (!code) code = open_junit(&call);
@@ -243,6 +249,8 @@ static int run_gate(int argc, char **argv)
   for (int i = 0; i < call.n_judged; ++i) gate_clear(&call.cases[i]);
   free(call.errors);
   free(call.cases);
+  for (int i = 0; call.responses && i < call.common.n_arguments; ++i) free(call.responses[i]);
+  free(call.responses);
   for (int i = 0; call.scenes && i < call.common.n_arguments; ++i) case_clear(&call.scenes[i]);
   free(call.scenes);
   return code;
@@ -254,6 +262,7 @@ const cli_command cmd_gate = {
     .arguments = "CASE...",
     .help = help,
     .options = options,
+    .takes_structures = true,
     .read_option = read_option,
     .run = run_gate,
 };

@@ -199,7 +199,7 @@ static void put_summary(table *t, const verify_data *data, const verify_report *
 static int write_tables(const cli_common *common, const scene *sc, const verify_data *data, const verify_report *r)
 {
   table_column own[N_COLUMNS];
-  const int n_columns = cli_columns(sc->in_cycles, N_COLUMNS, columns, own);
+  const int n_columns = cli_columns(cli_extra_columns(sc), N_COLUMNS, columns, own);
   table *points = table_new("Points", n_columns, own),
         *hypotheses = table_new("Hypotheses", N_HYPOTHESIS_COLUMNS, hypothesis_columns),
         *summary = table_new("Summary", N_SUMMARY_COLUMNS, summary_columns), *tables[3] = {points};

@@ -116,6 +116,7 @@ typedef struct workspace {
   double *scratch; /* [n_states] of what else is integrated for it */
   double swept_omega;
   timeint_result *responses; /* [n_responses] the transient's of the row under way, from number 1 on */
+  timeint_result *orbits;    /* [n_responses] and the orbit's */
 } workspace;
 
 /* w->state at the start of a row. HC_OK, or why the sweep up to here failed. */
@@ -183,6 +184,10 @@ static void referee(workspace *w, comparison_row *row, const double *X)
   if (same) row->orbit = *tr, row->orbit_status = HC_OK;
   else if ((row->orbit_status = comparison_orbit_start(w->hbm, X, row->omega, w->scratch)) == HC_OK)
     row->orbit_status = timeint_orbit(w->exact, row->omega, 1, w->scratch, w->monitor, &row->orbit);
+  for (int r = 1; r < w->setup->model->n_responses && row->orbit_status == HC_OK; ++r) {
+    w->orbits[r] = same ? w->responses[r] : row->orbit;
+    if (!same) row->orbit_status = timeint_response(w->exact, r, &w->orbits[r]);
+  }
   hbm_measures unused;
   const side first = {w->hbm, w->setup, 0};
   if (row->orbit_status == HC_OK) errors_of(&first, row->omega, X, &row->orbit, &unused, &row->orbit_errors);
@@ -299,8 +304,11 @@ static void turn_row(workspace *w, const hbm_curve *at, int k, int r, double lar
   row->errors = row->orbit_errors = row->hbm_predicted = row->transient_predicted = nothing;
   row->budget = budget_nothing();
   row->unexpected = false;
-  row->orbit_status = HC_UNSUPPORTED;
   if (row->hbm_status == HC_OK) row->hbm_status = hbm_measure_response(w->hbm, row->omega, X, r, &row->hbm);
+  if (row->orbit_status == HC_OK && row->hbm_status == HC_OK) {
+    row->orbit = w->orbits[r];
+    row->hbm_status = errors_of(&s, row->omega, X, &row->orbit, &row->hbm, &row->orbit_errors);
+  }
   if (first->transient_status != HC_OK && first->transient_status != HC_NOT_SETTLED &&
       first->transient_status != HC_APERIODIC)
     return;
@@ -414,7 +422,8 @@ static hc_status make_states(workspace *w)
   w->state = calloc(n, sizeof *w->state);
   w->scratch = calloc(n, sizeof *w->scratch);
   w->responses = calloc((size_t)w->setup->model->n_responses, sizeof *w->responses);
-  return w->swept && w->state && w->scratch && w->responses ? HC_OK : HC_NO_MEMORY;
+  w->orbits = calloc((size_t)w->setup->model->n_responses, sizeof *w->orbits);
+  return w->swept && w->state && w->scratch && w->responses && w->orbits ? HC_OK : HC_NO_MEMORY;
 }
 
 static void count_cost(workspace *w, comparison_cost *cost)
@@ -432,6 +441,7 @@ static void count_cost(workspace *w, comparison_cost *cost)
 
 static void runner_clear(workspace *w)
 {
+  free(w->orbits);
   free(w->responses);
   free(w->scratch);
   free(w->state);

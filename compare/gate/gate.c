@@ -65,6 +65,7 @@ static gate_check check_of(const comparison_row *row, const char *quantity, cons
 {
   gate_check c = {.omega = row ? row->omega : NAN,
                   .branch = row ? row->branch : -1,
+                  .response = row ? row->response : -1,
                   .quantity = quantity,
                   .against = against,
                   .allowed = NAN,
@@ -94,7 +95,9 @@ static void check_errors(judge *j, const comparison_row *r, const discrepancy *e
     gate_check c = check_of(r, quantities[q].name, against);
     c.allowed = at(&most, q);
     c.found = at(errors, q);
-    if (q == MEAN && motion_mean_is_free(motion))
+    if (r->still)
+      not_passed(&c, GATE_NOT_APPLICABLE, "not applicable: it moves less than 1e-9 of the largest response");
+    else if (q == MEAN && motion_mean_is_free(motion))
       not_passed(&c, GATE_NOT_APPLICABLE, "not applicable: a slider never slips, and the mean depends on the history");
     else if (isnan(c.found)) not_passed(&c, GATE_ERROR, "it is not a number");
     else if (!within(c.found, c.allowed)) c.result = GATE_FAIL;
@@ -231,6 +234,11 @@ const char *gate_place(const gate_case *g, double omega, char text[GATE_PLACE])
   if (g->in_cycles) snprintf(text, GATE_PLACE, "frequency %.10g", omega / TWO_PI);
   else snprintf(text, GATE_PLACE, "omega %.10g", omega);
   return text;
+}
+
+const char *gate_response(const gate_case *g, const gate_check *c)
+{
+  return g->responses && c->response >= 0 ? g->responses[c->response] : NULL;
 }
 
 double gate_shown(const gate_check *c)

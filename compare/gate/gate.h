@@ -8,7 +8,8 @@
  *     not_settled, solver_failed                      nothing: an error, and so is an orbit that was not found, and
  *                                                     a curve that stopped
  * The mean is not applicable where a slider never slips: it depends on the history there, not on the equations alone.
- * If no contact changes its state in any row, the case is linear, which gate.nonlinear: required does not let pass. The
+ * Each response of a structure is held to the limits by itself, relative to its own amplitude; one that hardly moves
+ * (comparison.h: still) is not applicable. If no contact changes its state in any row, the case is linear, which gate.nonlinear: required does not let pass. The
  * limits: gate_limits_at.
  *
  * A number passes if found <= allowed (1 + GATE_SLACK); costs, being whole numbers, if found <= allowed. Rounding on
@@ -35,6 +36,7 @@ enum { GATE_REASON = 160 };
 typedef struct gate_check {
   double omega;          /* [rad/time] NaN: about the response curve as a whole */
   int branch;            /* of the HBM solution; -1: about none */
+  int response;          /* of the model, counted from 0; -1: about the curve */
   char verdict[24];      /* of the comparison's row, empty for the curve */
   const char *quantity;  /* "amplitude", "harmonic_1", "mean", "waveform", "transient" (matched by some HBM
                            solution?), "orbit" and "solution" (errors only), of the curve: "curve" (an error),
@@ -46,7 +48,8 @@ typedef struct gate_check {
 } gate_check;
 
 typedef struct gate_case {
-  const char *name; /* the caller's: of the case file */
+  const char *name;                       /* the caller's: of the case file */
+  const char (*responses)[RESPONSE_NAME]; /* the caller's, NULL until it sets them: names of a structure's responses */
   int n, cap;
   gate_check *checks; /* [n] in the order of the comparison's rows, the curve last */
   int failures, errors, not_applicable;
@@ -67,6 +70,9 @@ void gate_clear(gate_case *g);
 /* "omega 7", or "frequency 345" in cycles, in text[GATE_PLACE], which is returned. */
 enum { GATE_PLACE = 32 };
 const char *gate_place(const gate_case *g, double omega, char text[GATE_PLACE]);
+
+/* The name of the response that the check is about; NULL: about none, or they have no names. */
+const char *gate_response(const gate_case *g, const gate_check *c);
 
 /* What was found, as it is shown: to 3 digits, or as many more as it takes to be on the right side of the limit; 0
  * below GATE_SLACK of it. */

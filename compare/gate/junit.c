@@ -38,9 +38,12 @@ static hc_status put_attribute(const char *name, const char *value, FILE *to)
 static void name_check(const gate_case *g, const gate_check *c, char *text, size_t size)
 {
   char place[GATE_PLACE];
+  const char *response = gate_response(g, c);
   if (isnan(c->omega)) snprintf(text, size, "response curve: %s", c->quantity);
   else if (c->branch < 0) snprintf(text, size, "%s: %s", gate_place(g, c->omega, place), c->quantity);
-  else snprintf(text, size, "%s branch %d: %s", gate_place(g, c->omega, place), c->branch, c->quantity);
+  else
+    snprintf(text, size, "%s branch %d%s%s: %s", gate_place(g, c->omega, place), c->branch,
+             response ? " response " : "", response ? response : "", c->quantity);
 }
 
 static void say_check(const gate_check *c, char *text, size_t size)
@@ -65,7 +68,7 @@ static hc_status put_skipped(const gate_check *c, FILE *to)
 
 static hc_status put_check(const gate_case *g, const gate_check *c, FILE *to)
 {
-  char name[96], words[GATE_REASON + 96];
+  char name[512], words[GATE_REASON + 96];
   name_check(g, c, name, sizeof name);
   fputs("    <testcase", to);
   hc_status st = put_attribute("classname", g->name, to);

@@ -203,6 +203,35 @@ static void what_could_not_be_compared_is_an_error(void **state)
   end(m);
 }
 
+/* Two responses of one solution, the second off; then one that hardly moves, of which there is nothing to hold. */
+static void each_response_is_held_by_itself(void **state)
+{
+  (void)state;
+  static const char names[][RESPONSE_NAME] = {"tip", "a<b"};
+  made *m = start(2);
+  char *text = NULL;
+  size_t size;
+  m->rows[1].branch = 0, m->rows[1].response = 1;
+  m->rows[1].errors.amplitude = 2e-3;
+  assert_int_equal(judged(m), 1);
+  assert_int_equal(m->g.n, 8);
+  assert_int_equal(m->g.failures, 1);
+  assert_null(gate_response(&m->g, &m->g.checks[4]));
+  m->g.responses = names;
+  assert_string_equal(gate_response(&m->g, &m->g.checks[0]), "tip");
+  assert_string_equal(gate_response(&m->g, &m->g.checks[4]), "a<b");
+  FILE *to = open_memstream(&text, &size);
+  assert_int_equal(gate_write_junit(1, &m->g, to), HC_OK);
+  fclose(to);
+  assert_non_null(strstr(text, "name=\"omega 7 branch 0 response a&lt;b: amplitude\" time=\"0\">\n      <failure"));
+  free(text);
+  m->rows[1].still = true;
+  m->rows[1].errors = (discrepancy){NAN, NAN, NAN, NAN};
+  assert_int_equal(judged(m), 0);
+  assert_int_equal(m->g.not_applicable, 4);
+  end(m);
+}
+
 static void costs_are_whole_numbers_with_limits(void **state)
 {
   (void)state;
@@ -291,6 +320,7 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(an_unstable_solution_is_held_against_its_orbit),
     cmocka_unit_test(a_transient_of_its_own_fails_in_words),
     cmocka_unit_test(what_could_not_be_compared_is_an_error),
+    cmocka_unit_test(each_response_is_held_by_itself),
     cmocka_unit_test(costs_are_whole_numbers_with_limits),
     cmocka_unit_test(one_check_of_a_quantity_is_the_worst),
     cmocka_unit_test(junit_escapes_what_it_is_given),
