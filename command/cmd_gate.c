@@ -18,8 +18,8 @@ static const char help[] =
     "allowed and what was found, and an exit code."
     "\vA stable HBM solution is held against the transient, an unstable one against the exact orbit next to it; and "
     "every transient must match some "
-    "HBM solution. Each response of a structure is held to the limits by itself. Limits: gate.amplitude, harmonic_1, mean, waveform; the same with range_ in front, in gate.ranges; "
-    "gate.iterations and "
+    "HBM solution. Each response of a structure is held to the limits by itself. Limits: "
+    "gate.amplitude, harmonic_1, mean, waveform; the same with range_ in front, in gate.ranges; gate.iterations and "
     "gate.evaluations of the response curve (hbmcheck describe gate).\n"
     "A number passes up to 1.000001 times its limit, so that rounding decides nothing. Every case is read before "
     "anything runs; what is wrong in one is in the JUnit file, too.\n"
@@ -60,8 +60,8 @@ static error_t read_option(int key, char *text, struct argp_state *state)
 /* clang-format off */
 #define COLUMNS(number) \
   {"case", TABLE_TEXT}, {"omega", TABLE_REAL}, {"frequency", TABLE_REAL}, {"branch", TABLE_INTEGER}, \
-  {"response", TABLE_TEXT}, {"verdict", TABLE_TEXT}, {"quantity", TABLE_TEXT}, {"against", TABLE_TEXT}, {"allowed", number}, {"found", number}, \
-  {"result", TABLE_TEXT}, {"reason", TABLE_TEXT}
+  {"response", TABLE_TEXT}, {"verdict", TABLE_TEXT}, {"quantity", TABLE_TEXT}, {"against", TABLE_TEXT}, \
+  {"allowed", number}, {"found", number}, {"result", TABLE_TEXT}, {"reason", TABLE_TEXT}
 /* clang-format on */
 static const table_column columns[] = {COLUMNS(TABLE_REAL)}, columns_for_people[] = {COLUMNS(TABLE_TEXT)};
 static const char *const spare_columns[] = {"against", "verdict", "allowed", "branch", "case", NULL};

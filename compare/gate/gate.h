@@ -9,7 +9,8 @@
  *                                                     a curve that stopped
  * The mean is not applicable where a slider never slips: it depends on the history there, not on the equations alone.
  * Each response of a structure is held to the limits by itself, relative to its own amplitude; one that hardly moves
- * (comparison.h: still) is not applicable. If no contact changes its state in any row, the case is linear, which gate.nonlinear: required does not let pass. The
+ * (comparison.h: still) is not applicable.
+ * If no contact changes its state in any row, the case is linear, which gate.nonlinear: required does not let pass. The
  * limits: gate_limits_at.
  *
  * A number passes if found <= allowed (1 + GATE_SLACK); costs, being whole numbers, if found <= allowed. Rounding on
