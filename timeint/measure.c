@@ -198,7 +198,7 @@ static hc_status add_peaks(measure *me, const integrator *in, int i, double t0, 
   return st == HC_OK ? add_peak(me, in, i, t, p, t1, p1) : st;
 }
 
-static unsigned char bit_of(contact_state state)
+unsigned char measure_seen(contact_state state)
 {
   if (state == CONTACT_SEPARATED) return SEEN_SEPARATED;
   return state == CONTACT_STICK ? SEEN_STUCK : SEEN_SLIPPING;
@@ -219,7 +219,7 @@ hc_status measure_step(void *self, const integrator *in, double theta0, double t
     if ((st = add_peaks(me, in, i, theta0, theta1, &end)) != HC_OK) return st;
     begin_step(&me->response[i], &end);
   }
-  for (int j = 0; j < me->m->n_contacts; ++j) me->seen[j] |= bit_of(integrate_contact(in, j, y));
+  for (int j = 0; j < me->m->n_contacts; ++j) me->seen[j] |= measure_seen(integrate_contact(in, j, y));
   return HC_OK;
 }
 
@@ -232,7 +232,7 @@ static contact_regime regime_between(const model_contact *c, double min, double 
   return slips ? CONTACT_SLIPS : CONTACT_STUCK;
 }
 
-static contact_regime regime_seen(unsigned char seen)
+contact_regime measure_seen_regime(unsigned char seen)
 {
   if (!(seen & (SEEN_STUCK | SEEN_SLIPPING))) return CONTACT_LINEAR;
   if (seen & SEEN_SEPARATED) return CONTACT_SEPARATES;
@@ -241,7 +241,7 @@ static contact_regime regime_seen(unsigned char seen)
 
 contact_regime measure_regime(const measure *me, const model *from, int j, double min, double max)
 {
-  if (me->m && me->m->base) return regime_seen(me->seen[j]);
+  if (me->m && me->m->base) return measure_seen_regime(me->seen[j]);
   bool slips = false;
   for (int i = 0; i < me->n_contacts; ++i) slips = slips || me->seen[i] & SEEN_SLIPPING;
   return regime_between(&from->contacts[j], min, max, slips);

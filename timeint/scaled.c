@@ -32,9 +32,15 @@ static void make_contact(scaled_contact *sc, const model_contact *from, double u
   sc->preload = contact_preload(&law);
 }
 
+double scaled_force_unit(const scaled_model *m, const model *from, double omega, double length)
+{
+  const double mass = m->base ? 1 / (m->base->s * m->base->s) : *from->mass;
+  return mass * omega * omega * length;
+}
+
 void scaled_make(scaled_model *m, const model *from, const transient_settings *how, double omega, double length)
 {
-  const double mass = m->base ? 1 / (m->base->s * m->base->s) : *from->mass, unit = mass * omega * omega;
+  const double unit = scaled_force_unit(m, from, omega, 1);
   m->n = from->n;
   m->n_contacts = from->n_contacts;
   m->n_states = 2 * from->n + from->n_contacts;

@@ -44,6 +44,9 @@ typedef struct scaled_model {
  * from->n_contacts contacts; it is filled. m->base is *from's, or NULL; everything else in *m is set. */
 void scaled_make(scaled_model *m, const model *from, const transient_settings *how, double omega, double length);
 
+/* What a force of 1 in those equations is [force]. */
+double scaled_force_unit(const scaled_model *m, const model *from, double omega, double length);
+
 /* dy[n_states] at phase theta and state y[n_states]. Answers whether all of it is finite. */
 bool scaled_rhs(const scaled_model *m, double theta, const double *y, double *dy);
 
