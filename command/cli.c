@@ -349,8 +349,8 @@ unsigned cli_extra_columns(const scene *sc)
 void cli_put_row(const cli_common *common, table *t, rows_kind kind, const row_cell *cells)
 {
   int n;
-  const bool of_structure = kind == ROWS_FRF || kind == ROWS_CONTACT || kind == ROWS_TRANSIENT || kind == ROWS_COMPARE;
-  rows_columns(kind, of_structure ? cli_extra_columns(common->scene) : common->scene->in_cycles, &n);
+  const bool of_curves = kind == ROWS_CURVE || kind == ROWS_ACCURACY || kind == ROWS_ORDER;
+  rows_columns(kind, of_curves ? common->scene->in_cycles : cli_extra_columns(common->scene), &n);
   for (int i = 0; i < n; ++i) {
     if (!cells[i].there) table_put_missing(t);
     else if (cells[i].kind == TABLE_TEXT) table_put_text(t, cells[i].as.text);

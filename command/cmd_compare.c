@@ -29,11 +29,12 @@ static const char help[] =
 typedef struct compare_options {
   number_list at;    /* n = 0: the case's */
   bool tables;       /* --tables */
+  bool contacts;     /* --contacts */
   table_lists lists; /* one that is not empty implies tables */
   const char *plot;  /* NULL: no drawing */
 } compare_options;
 
-enum { KEY_AT = CLI_OWN_KEY, KEY_TABLES, KEY_HARMONICS, KEY_SAMPLES, KEY_PLOT };
+enum { KEY_AT = CLI_OWN_KEY, KEY_TABLES, KEY_HARMONICS, KEY_SAMPLES, KEY_CONTACTS, KEY_PLOT };
 
 static const struct argp_option options[] = {
     {"at", KEY_AT, "LIST", 0, "At these " CLI_FREQUENCIES " [compare.omega, else compare.points over the sweep]", 1},
@@ -42,6 +43,9 @@ static const struct argp_option options[] = {
      "Truncation orders of the tables, 1..200 [compare.harmonics]; implies --tables", 1},
     {"samples", KEY_SAMPLES, "LIST", 0,
      "Samples per period of the tables, at least 2 H + 2 [compare.samples]; implies --tables", 1},
+    {"contacts", KEY_CONTACTS, NULL, 0,
+     "A table of the contacts: regime, forces, slip path and dissipated work of each from both sides, and how far off",
+     1},
     CLI_PLOT_OPTION(KEY_PLOT),
     {0},
 };
@@ -54,6 +58,7 @@ static error_t read_option(int key, char *text, struct argp_state *state)
   case KEY_TABLES: own->tables = true; return 0;
   case KEY_HARMONICS: cli_read_list(state, "harmonics", text, &own->lists.harmonics); return 0;
   case KEY_SAMPLES: cli_read_list(state, "samples", text, &own->lists.samples); return 0;
+  case KEY_CONTACTS: own->contacts = true; return 0;
   case KEY_PLOT: cli_read_plot(state, text, &own->plot); return 0;
   default: return ARGP_ERR_UNKNOWN;
   }
@@ -179,6 +184,47 @@ static table *comparison_table(const cli_common *common, const compare_setup *se
   return t;
 }
 
+/* Contacts that do not do the same on both sides, a line each: under the table and on stderr. */
+static void say_contacts(const cli_common *common, const comparison *c, table *t)
+{
+  char text[CONTACT_COMPARISON_TEXT], at[SCENE_WHERE];
+  int unknown = 0;
+  for (int i = 0; i < c->n_contacts; ++i) {
+    const contact_comparison *k = &c->contacts[i];
+    unknown += k->hbm_status != HC_OK || k->transient_status != HC_OK;
+    if (!k->differs) continue;
+    contact_comparison_text(k, text);
+    scene_where(common->scene, k->omega, at);
+    table_note(t, "DIFFERS at %s, branch %d: %s", at, k->branch, text);
+    cli_message(common, "at %s, branch %d: %s", at, k->branch, text);
+  }
+  if (unknown) table_note(t, "%d row%s of which one side is not known", unknown, unknown == 1 ? "" : "s");
+}
+
+static table *contacts_table(const cli_common *common, comparison *c)
+{
+  int n;
+  const scene *sc = common->scene;
+  const unsigned extra = cli_extra_columns(sc);
+  const table_column *columns = rows_columns(ROWS_COMPARE_CONTACT, extra, &n);
+  table *t = table_new("Contacts", n, columns);
+  for (int i = 0; i < c->n_contacts; ++i) {
+    contact_comparison *k = &c->contacts[i];
+    row_cell cells[ROWS_MOST];
+    snprintf(k->name, sizeof k->name, "%s", scene_contact_at(sc, k->contact)->name);
+    rows_compare_contact(k, extra, cells);
+    cli_put_row(common, t, ROWS_COMPARE_CONTACT, cells);
+  }
+  table_spare(t, rows_spare(ROWS_COMPARE_CONTACT, sc->in_cycles));
+  table_note(
+      t,
+      "work: dissipated in a period, work_error relative to the largest there; beyond the gate's waveform it differs");
+  if (sc->hbm.force == HBM_FORCE_SAMPLED)
+    table_note(t, "harmonic balance's by the exact law along the motion found with sampled forces");
+  say_contacts(common, c, t);
+  return t;
+}
+
 static int run_compare(int argc, char **argv)
 {
   cli_common common;
@@ -186,7 +232,7 @@ static int run_compare(int argc, char **argv)
   scene sc = {.structure = NULL};
   comparison c = {0};
   accuracy a = {0};
-  table *tables[3] = {NULL};
+  table *tables[4] = {NULL};
   int n_tables = 1;
   cli_parse(&cmd_compare, argc, argv, &own, &common);
   cli_check_plot(&common, own.plot, false);
@@ -207,13 +253,15 @@ static int run_compare(int argc, char **argv)
   compare_setup setup;
   hc_status st = scene_setup(&sc, &setup), tabled = HC_OK;
   setup.jobs = cli_processors();
+  setup.contacts = own.contacts;
   setup.spare = common.format == FORMAT_TABLE && !common.wide && !own.plot; /* from_integration is not shown */
   if (st == HC_OK) st = comparison_run(&setup, &monitor, &c);
   tables[0] = comparison_table(&common, &setup, &c);
   if (st != HC_OK) table_note(tables[0], "INCOMPLETE: %s", hc_status_text(st));
+  if (own.contacts) tables[n_tables++] = contacts_table(&common, &c);
   if (st == HC_OK && (own.tables || own.lists.harmonics.n || own.lists.samples.n)) {
-    tabled = compare_tables(&common, &setup, &c, &monitor, tables + 1, &a);
-    n_tables = 3;
+    tabled = compare_tables(&common, &setup, &c, &monitor, tables + n_tables, &a);
+    n_tables += 2;
   }
   progress_end(bar);
   if (st != HC_OK) code = cli_solver_failed(&common, CLI_BOTH, "the comparison", st, 0);
@@ -225,7 +273,7 @@ static int run_compare(int argc, char **argv)
   int written = c.n_rows ? cli_write(&common, n_tables, tables) : 0;
   plot_order drawing = {.path = own.plot};
   if (own.plot && c.n_rows && !written)
-    written = cli_plotted(&common, plot_compare(&drawing, &sc, &c, n_tables > 1 ? &a : NULL), drawing.why);
+    written = cli_plotted(&common, plot_compare(&drawing, &sc, &c, a.n_rows ? &a : NULL), drawing.why);
   for (int i = 0; i < n_tables; ++i) table_free(tables[i]);
   accuracy_clear(&a);
   comparison_clear(&c);

@@ -1,4 +1,6 @@
 /* cmd_transient.c - hbmcheck transient: the steady state by CVODE at given frequencies. */
+#include <stdio.h>
+
 #include "cases/structure_model.h"
 #include "command/commands.h"
 #include "command/files.h"
@@ -17,13 +19,15 @@ static const char help[] =
 
 typedef struct transient_options {
   number_list at;   /* n = 0: the case's */
+  bool contacts;    /* what each contact does, too */
   const char *plot; /* NULL: no drawing */
 } transient_options;
 
-enum { KEY_AT = CLI_OWN_KEY, KEY_PLOT };
+enum { KEY_AT = CLI_OWN_KEY, KEY_CONTACTS, KEY_PLOT };
 
 static const struct argp_option options[] = {
     {"at", KEY_AT, "LIST", 0, "At these " CLI_FREQUENCIES " [compare.omega of the case]", 1},
+    CLI_CONTACTS_OPTION(KEY_CONTACTS),
     CLI_PLOT_OPTION(KEY_PLOT),
     {0},
 };
@@ -33,6 +37,7 @@ static error_t read_option(int key, char *text, struct argp_state *state)
   transient_options *own = state->input;
   switch (key) {
   case KEY_AT: cli_read_list(state, "at", text, &own->at); return 0;
+  case KEY_CONTACTS: own->contacts = true; return 0;
   case KEY_PLOT: cli_read_plot(state, text, &own->plot); return 0;
   default: return ARGP_ERR_UNKNOWN;
   }
@@ -56,6 +61,27 @@ static int put_row(const cli_common *common, const steady_row *r, table *t)
   if (r->status == HC_OK || r->status == HC_APERIODIC) return 0;
   return cli_solver_failed(common, r->stage == STEADY_HBM ? CLI_HBM : CLI_TRANSIENT, stages[r->stage], r->status,
                            r->result.omega);
+}
+
+/* A row for each contact of each state. */
+static table *contacts_table(const cli_common *common, steady_states *found)
+{
+  int n;
+  const scene *sc = common->scene;
+  const unsigned extra = cli_extra_columns(sc);
+  const table_column *columns = rows_columns(ROWS_STEADY_CONTACT, extra, &n);
+  table *t = table_new("Contacts", n, columns);
+  for (int i = 0; i < found->n_contacts; ++i) {
+    steady_contact *c = &found->contacts[i];
+    row_cell cells[ROWS_MOST];
+    snprintf(c->name, sizeof c->name, "%s", scene_contact_at(sc, c->contact)->name);
+    rows_steady_contact(c, extra, cells);
+    cli_put_row(common, t, ROWS_STEADY_CONTACT, cells);
+  }
+  table_spare(t, rows_spare(ROWS_STEADY_CONTACT, sc->in_cycles));
+  if (sc->transient.law != TRANSIENT_LAW_EXACT)
+    table_note(t, "by the regularised law, %g", sc->transient.regularisation);
+  return t;
 }
 
 static int run_transient(int argc, char **argv)
@@ -85,6 +111,7 @@ static int run_transient(int argc, char **argv)
   steady_states found = {0};
   compare_setup setup;
   hc_status st = scene_setup(&sc, &setup);
+  setup.contacts = own.contacts;
   if (st == HC_OK) st = steady_states_run(&setup, &monitor, &found);
   scene_setup_clear(&setup);
   progress_end(bar);
@@ -104,11 +131,13 @@ static int run_transient(int argc, char **argv)
     table_note(t, "INCOMPLETE: %s", hc_status_text(st));
     code = cli_solver_failed(&common, CLI_TRANSIENT, "time integration", st, 0);
   }
-  int written = st == HC_OK || found.n ? cli_write(&common, 1, &t) : 0;
+  table *contacts = own.contacts ? contacts_table(&common, &found) : NULL;
+  int written = st == HC_OK || found.n ? cli_write(&common, contacts ? 2 : 1, (table *[]){t, contacts}) : 0;
   plot_order drawing = {.path = own.plot};
   if (own.plot && found.n && !written)
     written = cli_plotted(&common, plot_transient(&drawing, &sc, &found), drawing.why);
   table_free(t);
+  table_free(contacts);
   steady_states_clear(&found);
   case_clear(&sc);
   return code ? code : written;

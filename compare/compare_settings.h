@@ -27,6 +27,7 @@ typedef struct compare_setup {
   compare_settings compare;
   const gate_limits *limits; /* what is within them is a match */
   bool spare;                /* leave out parts of the budget that nobody asks for and no verdict depends on */
+  bool contacts;             /* what each contact does, too */
   int jobs;                  /* threads for the tables of accuracy.h; 0 and 1: the calling one alone */
 } compare_setup;
 

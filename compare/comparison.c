@@ -13,6 +13,7 @@
 #include "compare/gate_limits.h"
 #include "compare/motion.h"
 #include "numerics/series.h"
+#include "timeint/contact_watch.h"
 #include "timeint/sweep.h"
 
 const double *comparison_state(const comparison *c, int i) { return c->states + (size_t)i * (size_t)c->n_states; }
@@ -102,6 +103,17 @@ static hc_status add_row(comparison *c, const comparison_row *row, const double 
   return HC_OK;
 }
 
+static hc_status make_room_for_contacts(comparison *c, int n)
+{
+  if (c->n_contacts + n <= c->contacts_cap) return HC_OK;
+  const int cap = 2 * (c->n_contacts + n);
+  contact_comparison *contacts = realloc(c->contacts, (size_t)cap * sizeof *contacts);
+  if (!contacts) return HC_NO_MEMORY;
+  c->contacts = contacts;
+  c->contacts_cap = cap;
+  return HC_OK;
+}
+
 /* The settings and solvers of one comparison, and where its rows go. */
 typedef struct workspace {
   const compare_setup *setup;
@@ -117,6 +129,8 @@ typedef struct workspace {
   double swept_omega;
   timeint_result *responses; /* [n_responses] the transient's of the row under way, from number 1 on */
   timeint_result *orbits;    /* [n_responses] and the orbit's */
+  contact_period *acting;    /* [n_contacts] the transient's of the row under way */
+  hc_status acted;           /* of these */
 } workspace;
 
 /* w->state at the start of a row. HC_OK, or why the sweep up to here failed. */
@@ -240,13 +254,56 @@ static hc_status predict_transient(workspace *w, comparison_row *row)
   return st;
 }
 
+static bool moved(const comparison_row *row)
+{
+  return row->transient_status == HC_OK || row->transient_status == HC_NOT_SETTLED ||
+         row->transient_status == HC_APERIODIC;
+}
+
+/* The transient's contacts, while the handle has their periods. HC_NO_MEMORY: no going on. */
+static hc_status keep_contacts(workspace *w, const comparison_row *row)
+{
+  w->acted = HC_UNSUPPORTED;
+  if (w->setup->contacts && moved(row)) w->acted = timeint_contacts(w->ti, &row->transient, w->acting);
+  return w->acted == HC_NO_MEMORY ? w->acted : HC_OK;
+}
+
+/* A row for each contact of the solution X. */
+static hc_status add_contacts(workspace *w, const double *X, const comparison_row *row)
+{
+  const model *m = w->setup->model;
+  comparison *out = w->out;
+  hc_status st = make_room_for_contacts(out, m->n_contacts);
+  contact_period *balanced = calloc((size_t)m->n_contacts + 1, sizeof *balanced);
+  if (!balanced) st = HC_NO_MEMORY;
+  if (st == HC_OK) {
+    contact_comparison *c = out->contacts + out->n_contacts;
+    const hc_status measured = hbm_measure_contacts(w->hbm, X, balanced);
+    for (int j = 0; j < m->n_contacts; ++j) {
+      c[j] = (contact_comparison){.omega = row->omega,
+                                  .branch = row->branch,
+                                  .contact = j,
+                                  .one_orbit = row->verdict == VERDICT_MATCH || row->verdict == VERDICT_DIFFERS,
+                                  .hbm_status = measured,
+                                  .transient_status = w->acted,
+                                  .hbm = balanced[j],
+                                  .transient = w->acting[j]};
+      comparison_verdict_text(row, c[j].verdict);
+    }
+    contact_comparison_judge(m->n_contacts, m->contacts, gate_limits_at(w->setup->limits, row->omega).waveform,
+                             comparison_mean_free(row), c);
+    out->n_contacts += m->n_contacts;
+    if (measured == HC_NO_MEMORY) st = measured;
+  }
+  free(balanced);
+  return st;
+}
+
 /* The transient's measures of all responses but the first, while the handle has their periods. */
 static hc_status keep_responses(workspace *w, const comparison_row *row)
 {
-  const bool moved = row->transient_status == HC_OK || row->transient_status == HC_NOT_SETTLED ||
-                     row->transient_status == HC_APERIODIC;
   hc_status st = HC_OK;
-  for (int r = 1; r < w->setup->model->n_responses && moved && st == HC_OK; ++r) {
+  for (int r = 1; r < w->setup->model->n_responses && moved(row) && st == HC_OK; ++r) {
     w->responses[r] = row->transient;
     st = timeint_response(w->ti, r, &w->responses[r]);
   }
@@ -268,6 +325,7 @@ static hc_status compare_solution(workspace *w, const hbm_curve *at, int k, comp
     row->transient_status = timeint_steady(w->ti, row->omega, w->state, w->monitor, &row->transient);
   if (row->transient_status == HC_INTERRUPTED || row->transient_status == HC_NO_MEMORY) return row->transient_status;
   if ((known = keep_responses(w, row)) != HC_OK) return known;
+  if ((known = keep_contacts(w, row)) != HC_OK) return known;
   if ((known = predict_transient(w, row)) != HC_OK) return known;
   referee(w, row, X);
   if (row->orbit_status == HC_INTERRUPTED || row->orbit_status == HC_NO_MEMORY) return row->orbit_status;
@@ -309,9 +367,7 @@ static void turn_row(workspace *w, const hbm_curve *at, int k, int r, double lar
     row->orbit = w->orbits[r];
     row->hbm_status = errors_of(&s, row->omega, X, &row->orbit, &row->hbm, &row->orbit_errors);
   }
-  if (first->transient_status != HC_OK && first->transient_status != HC_NOT_SETTLED &&
-      first->transient_status != HC_APERIODIC)
-    return;
+  if (!moved(first)) return;
   row->transient = w->responses[r];
   const bool comparable = first->hbm_status == HC_OK && first->transient_status == HC_OK;
   if (comparable) row->hbm_status = errors_of(&s, row->omega, X, &row->transient, &row->hbm, &row->errors);
@@ -364,6 +420,7 @@ static hc_status compare_at(workspace *w, double omega)
     /* what was stopped inside may look like an answer */
     if (st == HC_OK && !hc_monitor_tick(w->monitor, 1)) st = HC_INTERRUPTED;
     if (st == HC_OK) st = add_row(w->out, &row, w->state);
+    if (st == HC_OK && w->setup->contacts) st = add_contacts(w, at.X + (size_t)k * at.n_coef, &row);
     if (st == HC_OK && w->setup->model->n_responses > 1) st = add_other_responses(w, &at, k, &row);
   }
   hbm_curve_free(&at);
@@ -423,7 +480,9 @@ static hc_status make_states(workspace *w)
   w->scratch = calloc(n, sizeof *w->scratch);
   w->responses = calloc((size_t)w->setup->model->n_responses, sizeof *w->responses);
   w->orbits = calloc((size_t)w->setup->model->n_responses, sizeof *w->orbits);
-  return w->swept && w->state && w->scratch && w->responses && w->orbits ? HC_OK : HC_NO_MEMORY;
+  w->acting = calloc((size_t)w->setup->model->n_contacts + 1, sizeof *w->acting);
+  const bool all = w->swept && w->state && w->scratch && w->responses && w->orbits && w->acting;
+  return all ? HC_OK : HC_NO_MEMORY;
 }
 
 static void count_cost(workspace *w, comparison_cost *cost)
@@ -441,6 +500,7 @@ static void count_cost(workspace *w, comparison_cost *cost)
 
 static void runner_clear(workspace *w)
 {
+  free(w->acting);
   free(w->orbits);
   free(w->responses);
   free(w->scratch);
@@ -479,6 +539,7 @@ hc_status comparison_run(const compare_setup *setup, const hc_monitor *monitor, 
 void comparison_clear(comparison *c)
 {
   hbm_curve_free(&c->curve);
+  free(c->contacts);
   free(c->states);
   free(c->rows);
   *c = (comparison){0};

@@ -13,6 +13,7 @@
 #include "base/status.h"
 #include "compare/budget.h"
 #include "compare/compare_settings.h"
+#include "compare/contact_comparison.h"
 #include "compare/discrepancy.h"
 #include "compare/response.h"
 #include "hbm/hbm.h"
@@ -68,7 +69,9 @@ typedef struct comparison_cost {
 typedef struct comparison {
   int n_rows, cap;
   comparison_row *rows;
-  hbm_curve curve; /* the response curve behind the rows; its `end` says how far it came */
+  int n_contacts, contacts_cap;
+  contact_comparison *contacts; /* with setup.contacts: every contact of every solution that has rows, in that order */
+  hbm_curve curve;              /* the response curve behind the rows; its `end` says how far it came */
   int count[VERDICT_COUNT];
   response_summary summary; /* of that curve */
   int n_states;             /* in a state of time integration */

@@ -6,6 +6,7 @@
 #include "base/status.h"
 #include "compare/compare_settings.h"
 #include "compare/response.h"
+#include "model/contact_period.h"
 #include "timeint/steady.h"
 
 /* A row can fail in one of three ways, so that a message can say which side it was. */
@@ -23,9 +24,20 @@ typedef struct steady_row {
   char start[32];             /* "rest", "up", "down", "hbm branch 2" */
 } steady_row;
 
+/* One contact along one steady state. */
+typedef struct steady_contact {
+  double omega;
+  char start[32];           /* of its row */
+  int contact;              /* counted from 0 */
+  char name[RESPONSE_NAME]; /* of the contact, or empty */
+  contact_period period;
+} steady_contact;
+
 typedef struct steady_states {
   int n, cap;
   steady_row *rows;
+  int n_contacts, contacts_cap;
+  steady_contact *contacts; /* with setup.contacts: every contact of every state that was measured, in that order */
 } steady_states;
 
 /* HC_OK even when single rows failed: they say so. HC_BAD_INPUT without compare.omega. After an interrupt, and else,

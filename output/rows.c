@@ -33,6 +33,8 @@ static const char *largest_part(const comparison_row *r)
   double fraction;
   return budget_largest(&r->budget, &fraction);
 }
+/* Are the two sides of a contact held together? */
+static bool contact_compared(const contact_comparison *r) { return r->one_orbit && !isnan(r->work_error); }
 static const char *curve_text(const accuracy_row *r)
 {
   return !r->possible ? "impossible: samples < 2 H + 2" : r->status == HC_OK ? "whole" : "stopped";
@@ -169,18 +171,51 @@ static const char *stable_text(const response_row *r)
   X(REAL,    "to",              true, r->fit.to)                            \
   X(INTEGER, "points",          true, r->fit.points)
 
+#define PERIOD_COLUMNS(X, p)                                                   \
+  X(TEXT,    "regime",        true, contact_regime_name((p).regime))        \
+  X(REAL,    "normal_min",    true, (p).normal_min)                         \
+  X(REAL,    "normal_max",    true, (p).normal_max)                         \
+  X(REAL,    "traction_max",  true, (p).traction_max)                       \
+  X(REAL,    "slip_distance", true, (p).slip_distance)                      \
+  X(REAL,    "work",          true, (p).work)
+
 #define CONTACT_COLUMNS(X, C, R)                                               \
   X(REAL,    "omega",         true, r->omega)                               \
   C(REAL,    "frequency",     true, r->omega / TWO_PI)                      \
   X(INTEGER, "branch",        true, r->branch)                              \
   X(INTEGER, "contact",       true, r->contact)                             \
   R(TEXT,    "name",          *r->name, r->name)                            \
-  X(TEXT,    "regime",        true, contact_regime_name(r->period.regime))  \
-  X(REAL,    "normal_min",    true, r->period.normal_min)                   \
-  X(REAL,    "normal_max",    true, r->period.normal_max)                   \
-  X(REAL,    "traction_max",  true, r->period.traction_max)                 \
-  X(REAL,    "slip_distance", true, r->period.slip_distance)                \
-  X(REAL,    "work",          true, r->period.work)
+  PERIOD_COLUMNS(X, r->period)
+
+#define STEADY_CONTACT_COLUMNS(X, C, R)                                        \
+  X(REAL,    "omega",         true, r->omega)                               \
+  C(REAL,    "frequency",     true, r->omega / TWO_PI)                      \
+  X(TEXT,    "start",         true, r->start)                               \
+  X(INTEGER, "contact",       true, r->contact)                             \
+  R(TEXT,    "name",          *r->name, r->name)                            \
+  PERIOD_COLUMNS(X, r->period)
+
+#define BOTH_SIDES(X, name, member)                                            \
+  X(REAL,    "hbm_" name,       r->hbm_status == HC_OK, r->hbm.member)      \
+  X(REAL,    "transient_" name, r->transient_status == HC_OK, r->transient.member)
+
+#define COMPARE_CONTACT_COLUMNS(X, C, R)                                       \
+  X(REAL,    "omega",         true, r->omega)                               \
+  C(REAL,    "frequency",     true, r->omega / TWO_PI)                      \
+  X(INTEGER, "branch",        true, r->branch)                              \
+  X(INTEGER, "contact",       true, r->contact)                             \
+  R(TEXT,    "name",          *r->name, r->name)                            \
+  X(TEXT,    "verdict",       true, r->verdict)                             \
+  X(TEXT,    "contact_verdict", contact_compared(r), r->differs ? "differs" : "match") \
+  X(TEXT,    "hbm_regime",    r->hbm_status == HC_OK, contact_regime_name(r->hbm.regime)) \
+  X(TEXT,    "transient_regime", r->transient_status == HC_OK, contact_regime_name(r->transient.regime)) \
+  BOTH_SIDES(X, "work", work)                                               \
+  X(REAL,    "work_error",    true, r->work_error)                          \
+  BOTH_SIDES(X, "normal_min", normal_min)                                   \
+  X(REAL,    "normal_error",  true, r->normal_error)                        \
+  BOTH_SIDES(X, "normal_max", normal_max)                                   \
+  BOTH_SIDES(X, "traction_max", traction_max)                               \
+  BOTH_SIDES(X, "slip_distance", slip_distance)
 /* clang-format on */
 
 static void fill_REAL(row_cell *c, bool there, double value)
@@ -223,6 +258,8 @@ COLUMNS_OF(curve, CURVE_COLUMNS);
 COLUMNS_OF(accuracy, ACCURACY_COLUMNS);
 COLUMNS_OF(order, ORDER_COLUMNS);
 COLUMNS_OF(contact, CONTACT_COLUMNS);
+COLUMNS_OF(steady_contact, STEADY_CONTACT_COLUMNS);
+COLUMNS_OF(compare_contact, COMPARE_CONTACT_COLUMNS);
 
 /* [rows_kind][rows_extra] */
 /* clang-format off */
@@ -231,10 +268,15 @@ COLUMNS_OF(contact, CONTACT_COLUMNS);
   {{name##_plain, LENGTH(name##_plain)}, {name##_in_cycles, LENGTH(name##_in_cycles)}, \
    {name##_responses, LENGTH(name##_responses)}, {name##_both, LENGTH(name##_both)}}
 /* clang-format on */
-static const columns all[][4] = {
-    [ROWS_FRF] = ALL(frf),        [ROWS_TRANSIENT] = ALL(transient), [ROWS_COMPARE] = ALL(compare),
-    [ROWS_CURVE] = ALL(curve),    [ROWS_ACCURACY] = ALL(accuracy),   [ROWS_ORDER] = ALL(order),
-    [ROWS_CONTACT] = ALL(contact)};
+static const columns all[][4] = {[ROWS_FRF] = ALL(frf),
+                                 [ROWS_TRANSIENT] = ALL(transient),
+                                 [ROWS_COMPARE] = ALL(compare),
+                                 [ROWS_CURVE] = ALL(curve),
+                                 [ROWS_ACCURACY] = ALL(accuracy),
+                                 [ROWS_ORDER] = ALL(order),
+                                 [ROWS_CONTACT] = ALL(contact),
+                                 [ROWS_STEADY_CONTACT] = ALL(steady_contact),
+                                 [ROWS_COMPARE_CONTACT] = ALL(compare_contact)};
 
 const table_column *rows_columns(rows_kind kind, unsigned extra, int *n)
 {
@@ -260,3 +302,5 @@ ROWS(curve, response_summary, CURVE_COLUMNS)
 ROWS(accuracy, accuracy_row, ACCURACY_COLUMNS)
 ROWS(order, order_row, ORDER_COLUMNS)
 ROWS(contact, contact_row, CONTACT_COLUMNS)
+ROWS(steady_contact, steady_contact, STEADY_CONTACT_COLUMNS)
+ROWS(compare_contact, contact_comparison, COMPARE_CONTACT_COLUMNS)

@@ -10,7 +10,17 @@
 #include "compare/steady_states.h"
 #include "output/table.h"
 
-typedef enum { ROWS_FRF, ROWS_TRANSIENT, ROWS_COMPARE, ROWS_CURVE, ROWS_ACCURACY, ROWS_ORDER, ROWS_CONTACT } rows_kind;
+typedef enum {
+  ROWS_FRF,
+  ROWS_TRANSIENT,
+  ROWS_COMPARE,
+  ROWS_CURVE,
+  ROWS_ACCURACY,
+  ROWS_ORDER,
+  ROWS_CONTACT,
+  ROWS_STEADY_CONTACT,
+  ROWS_COMPARE_CONTACT
+} rows_kind;
 
 /* Columns that only some cases have: frequencies in cycles per time beside the omegas; the name of the response or
  * contact. */
@@ -42,5 +52,7 @@ void rows_curve(const response_summary *r, unsigned extra, row_cell *cells);
 void rows_accuracy(const accuracy_row *r, unsigned extra, row_cell *cells);
 void rows_order(const order_row *r, unsigned extra, row_cell *cells);
 void rows_contact(const contact_row *r, unsigned extra, row_cell *cells);
+void rows_steady_contact(const steady_contact *r, unsigned extra, row_cell *cells);
+void rows_compare_contact(const contact_comparison *r, unsigned extra, row_cell *cells);
 
 #endif

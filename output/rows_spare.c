@@ -27,14 +27,19 @@ static const char *const of_accuracy[] = {
 
 static const char *const of_contact[] = {"omega", "slip_distance", "normal_max", NULL};
 
+static const char *const of_compare_contact[] = {
+    "omega", "hbm_slip_distance", "transient_slip_distance", "hbm_normal_max", "transient_normal_max",
+    "hbm_traction_max", "transient_traction_max", "hbm_normal_min", "transient_normal_min",
+    "normal_error", "verdict", NULL};
+
 static const char *const of_others[] = {"omega", NULL};
 /* clang-format on */
 
 const char *const *rows_spare(rows_kind kind, bool in_cycles)
 {
   static const char *const *const lists[] = {
-      [ROWS_FRF] = of_frf,        [ROWS_TRANSIENT] = of_transient, [ROWS_COMPARE] = of_compare,
-      [ROWS_CURVE] = of_others,   [ROWS_ACCURACY] = of_accuracy,   [ROWS_ORDER] = of_others,
-      [ROWS_CONTACT] = of_contact};
+      [ROWS_FRF] = of_frf,         [ROWS_TRANSIENT] = of_transient,    [ROWS_COMPARE] = of_compare,
+      [ROWS_CURVE] = of_others,    [ROWS_ACCURACY] = of_accuracy,      [ROWS_ORDER] = of_others,
+      [ROWS_CONTACT] = of_contact, [ROWS_STEADY_CONTACT] = of_contact, [ROWS_COMPARE_CONTACT] = of_compare_contact};
   return lists[kind] + !in_cycles;
 }

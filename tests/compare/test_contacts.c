@@ -1,0 +1,143 @@
+/* test_contacts.c - contacts compared: made up so that the answer is plain, and of structures. */
+#include <string.h>
+
+#include "cases/case_file.h"
+#include "compare/comparison.h"
+#include "tests/check.h"
+#include "tests/scene_runs.h"
+
+/* ---- made up --------------------------------------------------------------------------------------- */
+
+static const model_contact springs[2] = {{.law = {.kt = 10}}, {.law = {.kt = 10}}};
+
+/* Two contacts that slip, of work 2 and 1. */
+static void slipping(contact_comparison c[2])
+{
+  for (int j = 0; j < 2; ++j) {
+    const contact_period p = {
+        .regime = CONTACT_SLIPS, .normal_min = 4, .normal_max = 8, .traction_max = 2, .work = 2 - j};
+    c[j] = (contact_comparison){.contact = j, .one_orbit = true, .hbm = p, .transient = p};
+  }
+}
+
+/* Relative to the largest work of either side, which is contact 0's: 0.02 of 2. */
+static void work_is_measured_by_the_largest(void **state)
+{
+  (void)state;
+  contact_comparison c[2];
+  slipping(c);
+  c[1].hbm.work = 1.02;
+  contact_comparison_judge(2, springs, 0.0101, false, c);
+  CHECK_NEAR(c[1].work_error, 0.01, 1e-15, "of the largest");
+  assert_true(c[0].work_error == 0 && !c[0].differs && !c[1].differs);
+  contact_comparison_judge(2, springs, 0.0099, false, c);
+  assert_true(c[1].differs && !c[0].differs);
+  c[1].one_orbit = false;
+  contact_comparison_judge(2, springs, 0.0099, false, c);
+  assert_false(c[1].differs);
+  c[1].one_orbit = true, c[1].hbm.work = NAN;
+  contact_comparison_judge(2, springs, 0.0099, false, c);
+  assert_true(c[1].differs);
+}
+
+/* 1e-6 of T^2/kt = 0.4: less than that is no work, and a slip of so little no disagreement. */
+static void a_graze_is_no_disagreement(void **state)
+{
+  (void)state;
+  contact_comparison c[2];
+  slipping(c);
+  for (int j = 0; j < 2; ++j) c[j].hbm.work = c[j].transient.work = 0, c[j].hbm.regime = CONTACT_STUCK;
+  c[0].transient.work = 1e-10;
+  contact_comparison_judge(2, springs, 5e-3, false, c);
+  CHECK_NEAR(c[0].work_error, 1e-10 / 4e-7, 1e-12, "of T^2/kt");
+  assert_true(!c[0].differs && !c[1].differs);
+  c[0].transient.work = 1e-8;
+  contact_comparison_judge(2, springs, 5e-3, false, c);
+  assert_true(c[0].differs && !c[1].differs);
+}
+
+static void normal_forces_count_unless_a_slider_is_free(void **state)
+{
+  (void)state;
+  contact_comparison c[2];
+  slipping(c);
+  c[0].hbm.normal_min = 4.08;
+  contact_comparison_judge(2, springs, 5e-3, false, c);
+  CHECK_NEAR(c[0].normal_error, 0.01, 1e-15, "0.08 of 8");
+  assert_true(c[0].differs && !c[1].differs);
+  contact_comparison_judge(2, springs, 5e-3, true, c);
+  assert_true(isnan(c[0].normal_error) && !c[0].differs);
+}
+
+static void to_touch_or_not_is_a_difference(void **state)
+{
+  (void)state;
+  contact_comparison c[2];
+  slipping(c);
+  c[0].hbm = (contact_period){.regime = CONTACT_LINEAR};
+  c[0].transient = (contact_period){.regime = CONTACT_SEPARATES, .normal_max = 1};
+  contact_comparison_judge(2, springs, 5e-3, false, c);
+  assert_true(c[0].differs && !c[1].differs);
+  c[0].transient_status = HC_INTEGRATOR;
+  contact_comparison_judge(2, springs, 5e-3, false, c);
+  assert_true(isnan(c[0].work_error) && isnan(c[1].work_error) && !c[0].differs);
+}
+
+/* ---- structures ------------------------------------------------------------------------------------ */
+
+/* The largest error of work and of normal forces at one frequency, of solutions on whose orbit the transient is. */
+static void errors_of(const char *name, const char *at, const char *harmonics, double *work, double *normal)
+{
+  char path[256];
+  scene sc;
+  case_error err;
+  comparison c;
+  compare_setup setup;
+  const char *const set[] = {harmonics, at, "transient.law=exact", "response=[1]"};
+  snprintf(path, sizeof path, SOURCE_DIR "/cases/%s.yaml", name);
+  if (case_read(path, strstr(name, "structures") ? 4 : 3, set, &sc, &err) != HC_OK) fail_msg("%s", err.message);
+  assert_int_equal(scene_setup(&sc, &setup), HC_OK);
+  setup.contacts = true;
+  assert_int_equal(comparison_run(&setup, NULL, &c), HC_OK);
+  assert_true(c.n_rows >= 1 && c.n_contacts == c.n_rows * setup.model->n_contacts);
+  *work = *normal = 0;
+  for (int i = 0; i < c.n_contacts; ++i)
+    if (c.contacts[i].one_orbit) {
+      *work = fmax(*work, c.contacts[i].work_error);
+      *normal = fmax(*normal, c.contacts[i].normal_error);
+    }
+  assert_true(*work > 0);
+  comparison_clear(&c);
+  scene_setup_clear(&setup);
+  case_clear(&sc);
+}
+
+/* Two programs with nothing in common but the law: forces with a kink give motions off by H^-3, and work, an integral
+ * over the motion, with it: by (31/7)^3 = 87 from H = 7 to 31. N is linear
+ * in the motion where it is least. A thousandth of transient.tolerance is what CVODE leaves. */
+static void both_sides_meet_with_the_harmonics(void **state)
+{
+  (void)state;
+  static const struct {
+    const char *name, *at;
+  } cases[] = {{"structures/wedge_F2", "compare.omega=[35]"},
+               {"structures/chain3", "compare.omega=[1.9]"},
+               {"structures/tangent_normal_F100", "compare.omega=[3.6]"},
+               {"structures/jenkins2", "compare.omega=[25.9068]"}};
+  for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i) {
+    double coarse, fine, normal, least;
+    errors_of(cases[i].name, cases[i].at, "hbm.harmonics=7", &coarse, &normal);
+    errors_of(cases[i].name, cases[i].at, "hbm.harmonics=31", &fine, &least);
+    CHECK_LE(fine, coarse / 87 + 1e-9, "%s, work %g", cases[i].name, coarse);
+    CHECK_LE(least, normal / 87 + 1e-9, "%s, normal force %g", cases[i].name, normal);
+  }
+}
+
+static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(work_is_measured_by_the_largest),
+    cmocka_unit_test(a_graze_is_no_disagreement),
+    cmocka_unit_test(normal_forces_count_unless_a_slider_is_free),
+    cmocka_unit_test(to_touch_or_not_is_a_difference),
+    cmocka_unit_test(both_sides_meet_with_the_harmonics),
+};
+CHECK_MAIN("compare.contacts", tests, 60)
