@@ -96,18 +96,20 @@ def read_case(name):
         return v
 
     p = {"n": [n], "M": sum(M, []), "D": sum(matrix(s["damping"], (M, K)), []), "K": sum(K, []), "H": [H], "sweep": [float(w) for w in y["sweep"]["omega"]],
-         "static": [0.0] * n, "force": [0.0] * n, "contacts": [], "responses": [vector(r) for r in y["response"]]}
+         "static": [0.0] * n, "force": [0.0] * n, "contacts": [], "elements": [], "responses": [vector(r) for r in y["response"]]}
     for load in y["forcing"]:
         d = vector(load.get("direction", load.get("dof")))
         key = "static" if load.get("harmonic", 1) == 0 else "force"
         p[key] = [a + float(load["amplitude"]) * b for a, b in zip(p[key], d)]
     for c in y["contacts"]:
+        p["elements"].append({**{k: float(c.get(of, 0)) for k, of in (("kt", "tangential_stiffness"), ("kn", "normal_stiffness"), ("mu", "friction"), ("preload", "preload"), ("gap", "gap"))},
+                              **{k: vector(c.get(k, {})) for k in ("tangent", "normal")}})
         if "normal" not in c:
             p["contacts"].append(("jenkins", [c["tangential_stiffness"], float(c["friction"]) * float(c["preload"]), *vector(c["tangent"])]))
         elif "tangent" not in c:
             p["contacts"].append(("spring", [c["normal_stiffness"], -float(c["gap"]), *vector(c["normal"])]))  # clearance: positive there
         else:
-            assert c["gap"] == 0
+            assert c.get("gap", 0) == 0  # the peers' element has none
             p["contacts"].append(("coupled", [c["tangential_stiffness"], c["normal_stiffness"], c["friction"], *vector(c["tangent"]), *vector(c["normal"])]))
     return p
 
@@ -239,6 +241,7 @@ def say_differences(label, d, turning):
 def versus(peer, command, build, name, rounds, samples, limit, work):
     setting = SETTINGS[name]
     p, case = read_case(name), os.path.join(CASES, name + ".yaml")
+    os.makedirs(work, exist_ok=True)
     hbmcheck, inside = os.path.join(build, "hbmcheck"), os.path.join(build, "tests", "bench", "bench_frf")
     N = samples or setting["N"]
     problem, curve = (os.path.join(work, "%s_%s.%s" % (peer, name, what)) for what in ("problem", "curve"))
