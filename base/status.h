@@ -20,7 +20,7 @@
   X(HC_INTEGRATOR, "CVODE gave up; its own flag is in detail")                                                         \
   X(HC_CHATTER, "more contact transitions in a period than allowed")                                                   \
   X(HC_NOT_SETTLED, "the transient did not reach a steady state within the allowed periods")                           \
-  X(HC_APERIODIC, "the motion never repeats: neighbouring motions drift apart")                                        \
+  X(HC_APERIODIC, "the motion never repeats: neighbouring motions drift apart, or it runs on a torus")                 \
   X(HC_INTERRUPTED, "stopped on request")                                                                              \
   X(HC_UNSUPPORTED, "a file was written by another version of hbmcheck")                                               \
   X(HC_BUG, "internal error: please report it")

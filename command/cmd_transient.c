@@ -1,4 +1,5 @@
 /* cmd_transient.c - hbmcheck transient: the steady state by CVODE at given frequencies. */
+#include <math.h>
 #include <stdio.h>
 
 #include "cases/structure_model.h"
@@ -117,15 +118,17 @@ static int run_transient(int argc, char **argv)
   progress_end(bar);
   const table_column *columns = rows_columns(ROWS_TRANSIENT, cli_extra_columns(&sc), &n_columns);
   table *t = table_new("Steady states", n_columns, columns);
-  bool free = false;
+  bool free = false, torus = false;
   for (int i = 0; i < found.n; ++i) {
     free |= found.rows[i].status == HC_OK && motion_mean_is_free(&found.rows[i].result);
+    torus |= found.rows[i].status == HC_APERIODIC && !isnan(found.rows[i].result.second_frequency);
     if (sc.structure)
       structure_response_name(sc.structure, found.rows[i].response, found.rows[i].response_name, RESPONSE_NAME);
     int row_code = put_row(&common, &found.rows[i], t);
     if (row_code) code = row_code;
   }
   if (!free) table_hide(t, "mean_free");
+  if (!torus) table_hide(t, "second_frequency");
   table_spare(t, rows_spare(ROWS_TRANSIENT, sc.in_cycles));
   if (st != HC_OK) {
     table_note(t, "INCOMPLETE: %s", hc_status_text(st));

@@ -27,7 +27,7 @@
     "the transient runs on another orbit than the one next to this HBM solution")                                      \
   X(VERDICT_UNSTABLE, "unstable", "this HBM solution is unstable: no motion stays there")                              \
   X(VERDICT_PERIOD_K, "period_k", "the transient repeats only after k forcing periods")                                \
-  X(VERDICT_APERIODIC, "aperiodic", "the transient never repeats: neighbouring motions drift apart")                   \
+  X(VERDICT_APERIODIC, "aperiodic", "the transient never repeats: it is chaotic, or runs on a torus")                  \
   X(VERDICT_NOT_SETTLED, "not_settled", "the transient found no steady state in max_periods")                          \
   X(VERDICT_SOLVER_FAILED, "solver_failed", "one of the solvers gave up")
 #define VERDICT_ENUM(code, name, meaning) code,

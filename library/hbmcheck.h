@@ -57,7 +57,7 @@ typedef enum hbmcheck_status {
   HBMCHECK_INTEGRATOR,      /* CVODE gave up */
   HBMCHECK_CHATTER,         /* more contact transitions in a period than allowed */
   HBMCHECK_NOT_SETTLED,     /* the transient did not reach a steady state within transient.max_periods */
-  HBMCHECK_APERIODIC,       /* the motion never repeats: neighbouring motions drift apart */
+  HBMCHECK_APERIODIC,       /* the motion never repeats: it is chaotic, or runs on a torus */
   HBMCHECK_INTERRUPTED,     /* the monitor asked to stop */
   HBMCHECK_UNSUPPORTED,     /* not done: in a row, what was not computed because something before it failed */
   HBMCHECK_BUG              /* an error of the library: please report it */
@@ -255,7 +255,7 @@ typedef enum hbmcheck_verdict {
   HBMCHECK_VERDICT_OTHER_BRANCH, /* the transient runs on another orbit than the stable one next to this HBM solution */
   HBMCHECK_VERDICT_UNSTABLE,     /* this HBM solution is unstable: no motion stays there */
   HBMCHECK_VERDICT_PERIOD_K,     /* the transient repeats only after k > 1 forcing periods: period_multiple */
-  HBMCHECK_VERDICT_APERIODIC,    /* the transient never repeats: neighbouring motions drift apart */
+  HBMCHECK_VERDICT_APERIODIC,    /* the transient never repeats: it is chaotic, or runs on a torus */
   HBMCHECK_VERDICT_NOT_SETTLED,  /* no steady state within transient.max_periods */
   HBMCHECK_VERDICT_SOLVER_FAILED /* one side gave up: hbm_status, transient_status */
 } hbmcheck_verdict;

@@ -86,7 +86,8 @@ static const char *stable_text(const response_row *r)
   X(INTEGER, "free_sliders", settled(r), r->result.free_sliders)            \
   X(REAL,    "lyapunov",   measured(r), r->result.lyapunov)                 \
   X(REAL,    "from_regularisation", settled(r), r->from_regularisation)     \
-  X(TEXT,    "mean_free",  settled(r), yes_no(motion_mean_is_free(&r->result)))
+  X(TEXT,    "mean_free",  settled(r), yes_no(motion_mean_is_free(&r->result))) \
+  R(REAL,    "second_frequency", measured(r), r->result.second_frequency)
 
 #define COMPARE_COLUMNS(X, C, R)                                               \
   X(REAL,    "omega",               true, r->omega)                         \

@@ -11,7 +11,7 @@ static const char *const of_frf[] = {
 
 static const char *const of_transient[] = {
     "omega", "steps", "multiplier", "free_sliders", "period_multiple", "periods", "rms", "from_regularisation", "min",
-    "max", "method", "contact", "lyapunov", "harmonic_1", "closure", "start", "mean", NULL};
+    "max", "method", "contact", "lyapunov", "harmonic_1", "closure", "start", "mean", "second_frequency", NULL};
 
 static const char *const of_compare[] = {
     "omega", "hbm_predicted_harmonic_1", "hbm_predicted_waveform", "transient_predicted_harmonic_1",

@@ -6,7 +6,9 @@
  * that orbit if it is stable, next to the state, and the map between the two is linear enough for the distance to
  * shrink: |F(z) - z* - Phi (z - z*)| <= (1 - rho)/2 |z - z*|. Otherwise another stretch follows.
  *
- * A motion next to no such orbit is tested for chaos: chaos.h. */
+ * A motion next to no such orbit is tested for chaos (chaos.h) and for a torus (torus.h). Chaos may be a transient on
+ * its way to an orbit: it has to be found after two stretches in a row, the second twice as long as the first, and no
+ * orbit after either of them or at the end. */
 #include "timeint/attract.h"
 
 #include <math.h>
@@ -17,10 +19,18 @@
 #include "timeint/march.h"
 #include "timeint/orbit.h"
 #include "timeint/timeint_private.h"
+#include "timeint/torus.h"
 
 static const double coarse = 1e-9; /* CVODE's tolerance in a stretch, if the final one is not coarser */
 static const double near = 0.02;   /* [size] between a state and its return: the orbit is then looked for */
-enum { MOST_FAILURES = 6 };        /* of Newton; then marching decides */
+static const double unbounded =
+    1e9; /* [least_length] no resonance with damping is as high: the motion grows for ever */
+static const double on_a_torus = 0.05; /* [1/period] neighbours there part in proportion to time: log(680)/640 = 0.01 */
+enum {
+  MOST_FAILURES = 6,                  /* of Newton; then marching decides */
+  TIMES_CHAOTIC = 2,                  /* in a row, before it is said */
+  LAST_LOOK = 2 * SETTLE_MAX_MULTIPLE /* periods, before it is said: the ring is of these again */
+};
 
 /* The motion on its way; the ring of its latest states is ti->past. */
 typedef struct approach {
@@ -28,6 +38,7 @@ typedef struct approach {
   const hc_monitor *monitor;
   int n_past;   /* states seen */
   int failures; /* Newton solves that found no orbit */
+  int chaotic;  /* stretches in a row after which neighbours drifted apart */
 } approach;
 
 static double *past_state(const approach *a, int i) { return a->ti->past + i % SETTLE_MAX_MULTIPLE * a->ti->n; }
@@ -67,6 +78,7 @@ static hc_status integrate_stretch(approach *a, int periods, bool *linear)
     if (!hc_monitor_tick(a->monitor, (double)ti->periods / most)) return HC_INTERRUPTED;
     remember(a);
     st = timeint_period(ti, false);
+    if (st == HC_OK && !(timeint_size(ti) <= unbounded * ti->least_length)) st = HC_NOT_FINITE;
   }
   if (st == HC_OK) *linear = linear_regime_is_final(ti);
   hc_status back = timeint_set_tolerance(ti, timeint_final_tolerance(ti));
@@ -120,39 +132,75 @@ static hc_status try_orbits(approach *a, bool *found_it, timeint_result *r)
 static hc_status report_aperiodic(timeint *ti, timeint_result *r)
 {
   const shoot_report none = {.distance = INFINITY, .attainable = INFINITY, .multiplier = NAN};
-  const double rate = r->lyapunov;
+  const double rate = r->lyapunov, second = r->second_frequency;
   hc_status st = orbit_report(ti, 1, TIMEINT_BY_MARCHING, &none, r);
   r->period_multiple = 0;
   r->lyapunov = rate;
+  r->second_frequency = second;
   return st == HC_OK ? HC_APERIODIC : st;
 }
 
-/* Is the motion aperiodic? Then it is reported. */
-static hc_status try_chaos(timeint *ti, const hc_monitor *monitor, bool *chaos, timeint_result *r)
+/* The closed form, or the orbit next to the state. */
+static hc_status try_to_end(approach *a, bool linear, bool *done, timeint_result *r)
 {
-  hc_status st = chaos_test(ti, monitor, chaos, &r->lyapunov);
-  return st == HC_OK && *chaos ? report_aperiodic(ti, r) : st;
+  if (!linear) return try_orbits(a, done, r);
+  linear_regime_steady(a->ti, r);
+  *done = true;
+  return HC_OK;
 }
 
-hc_status attract(timeint *ti, int first, const hc_monitor *monitor, timeint_result *r)
+/* Chaotic after so many stretches in a row: is it still, or has it come to an orbit meanwhile? */
+static hc_status conclude_chaos(approach *a, bool *done, timeint_result *r)
 {
-  approach a = {.ti = ti, .monitor = monitor};
+  bool linear;
+  hc_status st = integrate_stretch(a, LAST_LOOK, &linear);
+  if (st == HC_OK) st = try_to_end(a, linear, done, r);
+  return st == HC_OK && !*done ? report_aperiodic(a->ti, r) : st;
+}
+
+/* Next to no orbit: does the motion run on a torus, or is it chaotic? Then it is reported. Both wait until the
+ * transient has died out. */
+static hc_status try_aperiodic(approach *a, bool *done, timeint_result *r)
+{
+  timeint *ti = a->ti;
+  bool chaos;
+  double nu;
+  *done = false;
+  hc_status st = chaos_test(ti, a->monitor, &chaos, &r->lyapunov);
+  if (st != HC_OK || isnan(r->lyapunov)) return st;
+  a->chaotic = chaos ? a->chaotic + 1 : 0;
+  if (!(r->lyapunov > on_a_torus)) {
+    if ((st = torus_test(ti, a->monitor, &nu)) != HC_OK) return st;
+    r->second_frequency = nu * ti->omega;
+    if (!isnan(nu)) return report_aperiodic(ti, r);
+  }
+  return a->chaotic == TIMES_CHAOTIC ? conclude_chaos(a, done, r) : HC_OK;
+}
+
+/* From stretch to stretch; see attract.h. */
+static hc_status by_stretches(approach *a, int first, timeint_result *r)
+{
+  timeint *ti = a->ti;
   const transient_start start = ti->how.start;
   bool done;
   if (start == TRANSIENT_START_UP || start == TRANSIENT_START_DOWN) { /* the sweep has probably left it on its orbit */
-    hc_status st = try_orbit(&a, 1, &done, r);
+    hc_status st = try_orbit(a, 1, &done, r);
     if (st != HC_OK || done) return st;
   }
   for (int stretch = first; ti->periods < ti->how.max_periods - 1; stretch *= 2) {
-    hc_status st = integrate_stretch(&a, stretch, &done);
-    if (st != HC_OK) return st;
-    if (done) {
-      linear_regime_steady(ti, r);
-      return HC_OK;
-    }
-    if ((st = try_orbits(&a, &done, r)) != HC_OK || done) return st;
-    if ((st = try_chaos(ti, monitor, &done, r)) != HC_OK || done) return st;
-    if (a.failures >= MOST_FAILURES) break;
+    hc_status st = integrate_stretch(a, stretch, &done);
+    if (st == HC_OK) st = try_to_end(a, done, &done, r);
+    if (st != HC_OK || done) return st;
+    if ((st = try_aperiodic(a, &done, r)) != HC_OK || done) return st;
+    if (a->failures >= MOST_FAILURES) break;
   }
-  return march_to_steady_state(ti, monitor, r);
+  return march_to_steady_state(ti, a->monitor, r);
+}
+
+/* Contacts that change their states ever more often are how some motions without bound end. */
+hc_status attract(timeint *ti, int first, const hc_monitor *monitor, timeint_result *r)
+{
+  approach a = {.ti = ti, .monitor = monitor};
+  hc_status st = by_stretches(&a, first, r);
+  return st == HC_CHATTER && !(timeint_size(ti) <= unbounded * ti->least_length) ? HC_NOT_FINITE : st;
 }

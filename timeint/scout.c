@@ -159,6 +159,7 @@ static hc_status report_unsettled(timeint *ti, const timeint_result *scouted, hc
   hc_status st = orbit_report(ti, 1, TIMEINT_BY_MARCHING, &none, r);
   r->period_multiple = 0;
   r->lyapunov = scouted->lyapunov;
+  r->second_frequency = scouted->second_frequency;
   r->closure = scouted->closure;
   return st == HC_OK ? why : st;
 }

@@ -45,6 +45,7 @@ typedef struct timeint_result {
                          differ next to a grazing shorter than integration errors */
   bool left_orbit;    /* the orbit next to the start is unstable; reported is the one the motion went to from there */
   double lyapunov;    /* [1/period] mean rate at which neighbours drift apart; NaN where it was not measured */
+  double second_frequency;     /* [rad/time] of a motion on a torus, between 0 and omega/2, see torus.h; else NaN */
   double regularisation_error; /* [1] of the amplitude, relative; estimated with transient.richardson, else NaN */
   motion_error predicted;      /* [length] what timeint_predict expects; NaN before */
   contact_regime regime;       /* strongest regime of any contact in the reported period */
@@ -59,7 +60,8 @@ typedef struct timeint_result {
  *     shooting  the period-1 orbit next to the state, stable or not.
  *     march     period after period.
  * HC_OK: settled. HC_NOT_SETTLED after max_periods, HC_APERIODIC when nothing repeats within 16 periods and neighbours
- * drift apart: in both *result is the last period. HC_INTEGRATOR, HC_NOT_FINITE, HC_CHATTER; HC_NOT_CONVERGED,
+ * drift apart, or the motion runs on a torus: in both *result is the last period. HC_INTEGRATOR,
+ * HC_NOT_FINITE, HC_CHATTER; HC_NOT_CONVERGED,
  * HC_SINGULAR, HC_STALLED from shooting alone; HC_BAD_INPUT, HC_NO_MEMORY, HC_INTERRUPTED. */
 hc_status timeint_steady(timeint *ti, double omega, double *state, const hc_monitor *monitor, timeint_result *result);
 
