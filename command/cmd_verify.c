@@ -2,12 +2,14 @@
  * off. */
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/number.h"
 #include "command/commands.h"
 #include "command/files.h"
 #include "command/plot/plot.h"
+#include "command/verify_curves.h"
 #include "compare/verify/verify.h"
 #include "output/progress.h"
 
@@ -35,16 +37,23 @@ static const char help[] =
     "omega=1,harmonic_1=2";
 
 typedef struct verify_options {
-  const char *against, *columns, *quantity, *noise, *plot; /* NULL: not given */
+  const char *against, *noise, *plot; /* NULL: not given */
+  verify_asked asked;
 } verify_options;
 
-enum { KEY_AGAINST = CLI_OWN_KEY, KEY_COLUMNS, KEY_QUANTITY, KEY_NOISE, KEY_PLOT };
+enum { KEY_AGAINST = CLI_OWN_KEY, KEY_COLUMNS, KEY_QUANTITY, KEY_NOISE, KEY_PLOT, KEY_RESPONSE };
 
 static const struct argp_option options[] = {
     {"against", KEY_AGAINST, "FILE", 0, "The curve to hold against ours", 1},
     {"columns", KEY_COLUMNS, "NAME=COLUMN,...", 0,
-     "Where its columns are: omega or frequency, and value or a QUANTITY [as the header names them]", 1},
+     "Where its columns are: omega or frequency, and value or a QUANTITY, of a structure QUANTITY@RESPONSE for each of "
+     "several [as the header names them]",
+     1},
     {"quantity", KEY_QUANTITY, "QUANTITY", 0, "What the column named value is, or which column is meant", 1},
+    {"response", KEY_RESPONSE, "NAME", 0,
+     "The response of a structure that the values are of [the first]; several times where the file has a column "
+     "`response`",
+     1},
     {"noise", KEY_NOISE, "S", 0,
      "A measured curve: its values scatter by S, a standard deviation relative to the amplitude, such as 1e-2 [0]", 1},
     CLI_PLOT_OPTION(KEY_PLOT),
@@ -57,8 +66,12 @@ static error_t read_option(int key, char *text, struct argp_state *state)
   verify_options *own = state->input;
   switch (key) {
   case KEY_AGAINST: own->against = text; return 0;
-  case KEY_COLUMNS: own->columns = text; return 0;
-  case KEY_QUANTITY: own->quantity = text; return 0;
+  case KEY_COLUMNS: own->asked.columns = text; return 0;
+  case KEY_QUANTITY: own->asked.quantity = text; return 0;
+  case KEY_RESPONSE:
+    if (own->asked.n_responses == VERIFY_MOST_CURVES) argp_error(state, "more than %d --response", VERIFY_MOST_CURVES);
+    own->asked.responses[own->asked.n_responses++] = text;
+    return 0;
   case KEY_NOISE: own->noise = text; return 0;
   case KEY_PLOT: cli_read_plot(state, text, &own->plot); return 0;
   default: return ARGP_ERR_UNKNOWN;
@@ -66,22 +79,23 @@ static error_t read_option(int key, char *text, struct argp_state *state)
 }
 
 static const table_column columns[] = {
-    {"omega", TABLE_REAL},   {"frequency", TABLE_REAL}, {"value", TABLE_REAL},
-    {"nearest", TABLE_REAL}, {"branch", TABLE_INTEGER}, {"stable", TABLE_TEXT},
-    {"error", TABLE_REAL},   {"verdict", TABLE_TEXT},   {"line", TABLE_INTEGER},
+    {"omega", TABLE_REAL},     {"frequency", TABLE_REAL}, {"value", TABLE_REAL},  {"nearest", TABLE_REAL},
+    {"branch", TABLE_INTEGER}, {"response", TABLE_TEXT},  {"stable", TABLE_TEXT}, {"error", TABLE_REAL},
+    {"verdict", TABLE_TEXT},   {"line", TABLE_INTEGER},
 };
 static const table_column hypothesis_columns[] = {
-    {"cause", TABLE_TEXT},          {"distance", TABLE_REAL},     {"truth_distance", TABLE_REAL},
-    {"harmonics", TABLE_INTEGER},   {"static", TABLE_TEXT},       {"samples", TABLE_INTEGER},
-    {"slider_restart", TABLE_TEXT}, {"omega_factor", TABLE_REAL}, {"value_factor", TABLE_REAL},
-    {"quantity", TABLE_TEXT},
+    {"response", TABLE_TEXT},       {"cause", TABLE_TEXT},          {"distance", TABLE_REAL},
+    {"truth_distance", TABLE_REAL}, {"harmonics", TABLE_INTEGER},   {"static", TABLE_TEXT},
+    {"samples", TABLE_INTEGER},     {"slider_restart", TABLE_TEXT}, {"omega_factor", TABLE_REAL},
+    {"value_factor", TABLE_REAL},   {"quantity", TABLE_TEXT},
 };
 static const table_column summary_columns[] = {
-    {"cause", TABLE_TEXT},          {"nearest_guess", TABLE_TEXT},   {"quantity", TABLE_TEXT},
-    {"points", TABLE_INTEGER},      {"match", TABLE_INTEGER},        {"differs", TABLE_INTEGER},
-    {"unstable", TABLE_INTEGER},    {"other_branch", TABLE_INTEGER}, {"solver_failed", TABLE_INTEGER},
-    {"skipped", TABLE_INTEGER},     {"left_out", TABLE_INTEGER},     {"reversals", TABLE_INTEGER},
-    {"truth_distance", TABLE_REAL}, {"noise", TABLE_REAL},           {"sentence", TABLE_TEXT},
+    {"response", TABLE_TEXT},         {"cause", TABLE_TEXT},          {"nearest_guess", TABLE_TEXT},
+    {"quantity", TABLE_TEXT},         {"points", TABLE_INTEGER},      {"match", TABLE_INTEGER},
+    {"differs", TABLE_INTEGER},       {"unstable", TABLE_INTEGER},    {"other_branch", TABLE_INTEGER},
+    {"solver_failed", TABLE_INTEGER}, {"skipped", TABLE_INTEGER},     {"left_out", TABLE_INTEGER},
+    {"reversals", TABLE_INTEGER},     {"truth_distance", TABLE_REAL}, {"noise", TABLE_REAL},
+    {"sentence", TABLE_TEXT},
 };
 static const char *const spare_hypothesis_columns[] = {"slider_restart", "omega_factor",   "value_factor",
                                                        "static",         "truth_distance", "quantity",
@@ -92,28 +106,52 @@ enum {
   N_HYPOTHESIS_COLUMNS = sizeof hypothesis_columns / sizeof *hypothesis_columns
 };
 
-static void put_row(table *t, const scene *sc, const verify_quantity *q, const verify_row *r)
+/* A curve of the file, and what came of it. */
+typedef struct verified {
+  verify_curve curve;
+  verify_data data;
+  verify_report report;
+} verified;
+
+/* One call of the command. */
+typedef struct verify_call {
+  cli_common common;
+  verify_options own;
+  scene sc;
+  int n;        /* curves */
+  verified *of; /* [n] */
+} verify_call;
+
+static void put_response(table *t, const scene *sc, const verified *v)
 {
+  if (sc->structure) table_put_text(t, v->curve.name);
+}
+
+static void put_row(table *t, const scene *sc, const verified *v, const verify_row *r)
+{
+  const verify_quantity *q = &v->data.quantity;
   table_put_real(t, r->omega);
   if (sc->in_cycles) table_put_real(t, scene_frequency(sc, r->omega));
   table_put_real(t, verify_quantity_to_column(q, r->value));
   table_put_real(t, verify_quantity_to_column(q, r->nearest));
   if (r->branch >= 0) table_put_integer(t, r->branch);
   else table_put_missing(t);
+  put_response(t, sc, v);
   table_put_text(t, r->branch < 0 ? NULL : r->stable > 0 ? "yes" : r->stable < 0 ? "no" : "unknown");
   table_put_real(t, r->error);
   table_put_text(t, r->skipped ? "skipped" : verdict_name(r->verdict));
   table_put_integer(t, r->line);
 }
 
-static void put_hypothesis(table *t, const verify_hypothesis *h, double truth)
+static void put_hypothesis(table *t, const scene *sc, const verified *v, const verify_hypothesis *h)
 {
   char words[VERIFY_TEXT], name[VERIFY_QUANTITY_TEXT];
   const verify_equations *e = &h->equations;
   const bool linear = e->change == CHANGE_NO_CONTACT || e->change == CHANGE_STUCK;
+  put_response(t, sc, v);
   table_put_text(t, verify_cause_words(h->causes, words));
   table_put_real(t, h->distance);
-  table_put_real(t, truth);
+  table_put_real(t, v->report.truth_distance);
   if (linear) table_put_missing(t);
   else table_put_integer(t, e->harmonics);
   table_put_text(t, linear ? NULL : e->keep_mean ? "true" : "false");
@@ -125,10 +163,9 @@ static void put_hypothesis(table *t, const verify_hypothesis *h, double truth)
   table_put_text(t, verify_quantity_name(&h->quantity, name));
 }
 
-static void note_truth(table *t, const scene *sc, const verify_data *data, const verify_report *r)
+static void note_truth(table *t, const verify_data *data, const verify_report *r)
 {
   char name[VERIFY_QUANTITY_TEXT];
-  table_note(t, "%s", sc->title);
   table_note(t, "truth: H = %d, exact forces, harmonic 0 kept; gate: %s %g", r->harmonics,
              verify_quantity_name(&data->quantity, name), r->gate);
   if (r->checked)
@@ -151,11 +188,18 @@ static const char *meaning_for_point(verdict v)
   }
 }
 
-static void note_what_was_not_compared(table *t, const verify_report *r)
+static void note_what_was_not_compared(table *t, const scene *sc, const verify_report *r)
 {
   if (r->skipped)
     table_note(t, "%d points not compared: the mean is free where a slider never slips, and the quantity contains it",
                r->skipped);
+  int open = 0;
+  for (int i = 0; i < r->n_rows; ++i) open += r->rows[i].free_sliders && r->rows[i].verdict == VERDICT_DIFFERS;
+  if (open && sc->structure)
+    table_note(t,
+               "%d points that differ are where a slider never slips: where it rests is a matter of history, and with "
+               "several contacts or a varying normal force so is the motion; ours starts from w = 0",
+               open);
   if (r->left_out) table_note(t, "%d points at omega <= 0 left out", r->left_out);
   if (r->noise_said > 0 && !isnan(r->noise))
     table_note(t, "the points scatter around the truth by %.1e; said: %g", r->noise, r->noise_said);
@@ -166,21 +210,23 @@ static void note_what_was_not_compared(table *t, const verify_report *r)
 static void note_verification(table *t, const scene *sc, const verify_data *data, const verify_report *r)
 {
   char text[VERIFY_TEXT];
-  note_truth(t, sc, data, r);
+  note_truth(t, data, r);
   for (int v = 0; v < VERDICT_COUNT; ++v)
     if (r->count[v]) table_note(t, "%d %s: %s", r->count[v], verdict_name((verdict)v), meaning_for_point((verdict)v));
-  note_what_was_not_compared(t, r);
+  note_what_was_not_compared(t, sc, r);
   table_note(t, "%s", verify_sentence(r, text));
   table_note(t, "cause: %s", verify_word(r, text));
   if (r->nearest_guess) table_note(t, "nearest guess: %s", verify_cause_words(r->nearest_guess, text));
 }
 
-static void put_summary(table *t, const verify_data *data, const verify_report *r)
+static void put_summary(table *t, const scene *sc, const verified *v)
 {
   char text[VERIFY_TEXT], name[VERIFY_QUANTITY_TEXT];
+  const verify_report *r = &v->report;
+  put_response(t, sc, v);
   table_put_text(t, verify_word(r, text));
   table_put_text(t, r->nearest_guess ? verify_cause_words(r->nearest_guess, text) : NULL);
-  table_put_text(t, verify_quantity_name(&data->quantity, name));
+  table_put_text(t, verify_quantity_name(&v->data.quantity, name));
   table_put_integer(t, r->n_rows);
   table_put_integer(t, r->count[VERDICT_MATCH]);
   table_put_integer(t, r->count[VERDICT_DIFFERS]);
@@ -195,90 +241,157 @@ static void put_summary(table *t, const verify_data *data, const verify_report *
   table_put_text(t, verify_sentence(r, text));
 }
 
-/* Points and what came out; the table on a screen has no summary, since the remarks say it, csv the points alone. */
-static int write_tables(const cli_common *common, const scene *sc, const verify_data *data, const verify_report *r)
+static table *table_for(const scene *sc, const char *title, int n, const table_column *all, table_column *own)
 {
-  table_column own[N_COLUMNS];
-  const int n_columns = cli_columns(cli_extra_columns(sc), N_COLUMNS, columns, own);
-  table *points = table_new("Points", n_columns, own),
-        *hypotheses = table_new("Hypotheses", N_HYPOTHESIS_COLUMNS, hypothesis_columns),
-        *summary = table_new("Summary", N_SUMMARY_COLUMNS, summary_columns), *tables[3] = {points};
-  int n = 1;
-  for (int i = 0; i < r->n_rows; ++i) put_row(points, sc, &data->quantity, &r->rows[i]);
-  for (int i = 0; i < r->n_hypotheses && i < VERIFY_SHOWN; ++i)
-    put_hypothesis(hypotheses, &r->hypotheses[i], r->truth_distance);
+  const int kept = cli_columns(cli_extra_columns(sc), n, all, own);
+  return table_new(title, kept, own);
+}
+
+/* Points and what came out; the table on a screen has no summary, since the remarks say it, csv the points alone. */
+static int write_tables(const verify_call *call)
+{
+  const scene *sc = &call->sc;
+  table_column own[3][N_SUMMARY_COLUMNS];
+  table *points = table_for(sc, "Points", N_COLUMNS, columns, own[0]),
+        *hypotheses = table_for(sc, "Hypotheses", N_HYPOTHESIS_COLUMNS, hypothesis_columns, own[1]),
+        *summary = table_for(sc, "Summary", N_SUMMARY_COLUMNS, summary_columns, own[2]), *tables[3] = {points};
+  int n = 1, n_hypotheses = 0;
+  table_note(points, "%s", sc->title);
+  for (int k = 0; k < call->n; ++k) {
+    const verified *v = &call->of[k];
+    const verify_report *r = &v->report;
+    for (int i = 0; i < r->n_rows; ++i) put_row(points, sc, v, &r->rows[i]);
+    for (int i = 0; i < r->n_hypotheses && i < VERIFY_SHOWN; ++i) put_hypothesis(hypotheses, sc, v, &r->hypotheses[i]);
+    n_hypotheses += r->n_hypotheses;
+    put_summary(summary, sc, v);
+    if (sc->structure) table_note(points, "response %s", v->curve.name);
+    note_verification(points, sc, &v->data, r);
+  }
   table_spare(hypotheses, spare_hypothesis_columns);
-  put_summary(summary, data, r);
-  note_verification(points, sc, data, r);
-  if (r->n_hypotheses && common->format != FORMAT_CSV) tables[n++] = hypotheses;
-  if (common->format == FORMAT_JSON) tables[n++] = summary;
-  int code = cli_write(common, n, tables);
+  if (n_hypotheses && call->common.format != FORMAT_CSV) tables[n++] = hypotheses;
+  if (call->common.format == FORMAT_JSON) tables[n++] = summary;
+  int code = cli_write(&call->common, n, tables);
   table_free(points);
   table_free(hypotheses);
   table_free(summary);
   return code;
 }
 
-/* The curve of --against, read as --columns and --quantity say. 0 or the exit code after the message. */
-static int read_curve(const cli_common *common, const verify_options *own, verify_data *data)
+/* A curve of --against, read as --columns and --quantity say. 0 or the exit code after the message. */
+static int read_curve(const verify_call *call, double noise, verified *v)
 {
+  const cli_common *common = &call->common;
+  const char *list = *v->curve.columns ? v->curve.columns : NULL;
   verify_columns where;
   char words[VERIFY_TEXT];
-  if (!own->against) {
-    cli_message(common, "no --against given, expected --against FILE");
-    return EXIT_USAGE;
-  }
-  if (verify_columns_read(own->columns, own->quantity, &where, words) != HC_OK) {
+  if (verify_columns_read(list, call->own.asked.quantity, &where, words) != HC_OK) {
     cli_message(common, "%s", words);
     return EXIT_USAGE;
   }
-  double noise = 0;
-  if (own->noise &&
-      (number_read(own->noise, strlen(own->noise), &noise) != NUMBER_FINE || !(noise >= 0) || noise > 1)) {
-    cli_message(common, "--noise: '%.40s' is no scatter, expected a number from 0 to 1 such as 1e-2", own->noise);
+  where.response = call->sc.structure ? v->curve.name : NULL;
+  hc_status st = verify_data_read(call->own.against, &where, &v->data, words);
+  v->data.noise = noise;
+  v->data.response = v->curve.response;
+  v->data.with_line = call->own.plot;
+  if (st != HC_OK) {
+    fprintf(stderr, "%s\n", words);
+    return st == HC_NO_MEMORY ? EXIT_NO_SOLUTION : EXIT_BAD_CASE;
+  }
+  if (call->sc.structure && v->data.quantity.kind == KIND_ACCELERATION) {
+    cli_message(common, "acceleration is known of one degree of freedom alone; of a structure take "
+                        "acceleration_harmonic_1, or velocity");
+    return EXIT_BAD_CASE;
+  }
+  if (call->own.asked.n_responses > 1 && !v->data.by_response) {
+    cli_message(common,
+                "several --response, and %s has no column `response`; expected one, or --columns with "
+                "QUANTITY@RESPONSE for each",
+                call->own.against);
     return EXIT_USAGE;
   }
-  hc_status st = verify_data_read(own->against, &where, data, words);
-  data->noise = noise;
-  if (st == HC_OK) return 0;
-  fprintf(stderr, "%s\n", words);
-  return st == HC_NO_MEMORY ? EXIT_NO_SOLUTION : EXIT_BAD_CASE;
+  return 0;
+}
+
+/* All of them. 0 or the exit code after the message. */
+static int read_curves(verify_call *call)
+{
+  verify_curve curves[VERIFY_MOST_CURVES];
+  const char *said = call->own.noise;
+  double noise = 0;
+  if (!call->own.against) {
+    cli_message(&call->common, "no --against given, expected --against FILE");
+    return EXIT_USAGE;
+  }
+  const int n = verify_curves_of(&call->common, &call->own.asked, curves);
+  if (n == 0) return EXIT_USAGE;
+  if (n > 1 && call->own.plot) {
+    cli_message(&call->common, "--plot draws one response, and there are %d; name one", n);
+    return EXIT_USAGE;
+  }
+  if (said && (number_read(said, strlen(said), &noise) != NUMBER_FINE || !(noise >= 0) || noise > 1)) {
+    cli_message(&call->common, "--noise: '%.40s' is no scatter, expected a number from 0 to 1 such as 1e-2", said);
+    return EXIT_USAGE;
+  }
+  if (!(call->of = calloc((size_t)n, sizeof *call->of)))
+    return cli_solver_failed(&call->common, CLI_BOTH, "the verification", HC_NO_MEMORY, 0);
+  for (int code; call->n < n; ++call->n) {
+    call->of[call->n].curve = curves[call->n];
+    if ((code = read_curve(call, noise, &call->of[call->n])) != 0) return ++call->n, code;
+  }
+  return 0;
+}
+
+/* The worse of two exit codes: what differs is worse than what could not be judged. */
+static int worse(int a, int b)
+{
+  if (a == EXIT_DISAGREED || b == EXIT_DISAGREED) return EXIT_DISAGREED;
+  return a ? a : b;
+}
+
+/* The exit code, after a message where one is due; *st of the last curve that was begun. */
+static int verify_curves(verify_call *call, hc_status *st)
+{
+  progress *bar = progress_start("verifying", call->common.quiet);
+  hc_monitor monitor = progress_monitor(bar);
+  compare_setup setup;
+  int code = 0;
+  *st = scene_setup(&call->sc, &setup);
+  for (int k = 0; k < call->n && *st == HC_OK; ++k) {
+    *st = verify_run(&setup, &call->of[k].data, &monitor, &call->of[k].report);
+    if (*st == HC_OK) code = worse(code, verify_exit_code(&call->of[k].report));
+  }
+  scene_setup_clear(&setup);
+  progress_end(bar);
+  if (*st != HC_OK) return cli_solver_failed(&call->common, CLI_BOTH, "the verification", *st, 0);
+  if (code == EXIT_NO_SOLUTION)
+    cli_message(&call->common, "some points could not be judged; the notes of the table say why");
+  return code;
 }
 
 static int run_verify(int argc, char **argv)
 {
-  cli_common common;
-  verify_options own = {0};
-  scene sc = {.structure = NULL};
-  verify_data data = {0};
-  verify_report report = {0};
+  verify_call call = {.n = 0};
+  cli_common *common = &call.common;
+  const verify_options *own = &call.own;
   int written = 0;
-  cli_parse(&cmd_verify, argc, argv, &own, &common);
-  cli_check_plot(&common, own.plot, false);
-  const cli_file files[] = {{"the curve", own.against, CLI_INPUT}, {"--plot", own.plot, CLI_OUTPUT}};
-  int code = cli_check_files(&common, 2, files);
-  if (!code) code = cli_load_case(&common, common.arguments[0], &sc);
-  if (!code) code = read_curve(&common, &own, &data);
+  cli_parse(&cmd_verify, argc, argv, &call.own, common);
+  cli_check_plot(common, own->plot, false);
+  const cli_file files[] = {{"the curve", own->against, CLI_INPUT}, {"--plot", own->plot, CLI_OUTPUT}};
+  int code = cli_check_files(common, 2, files);
+  if (!code) code = cli_load_case(common, common->arguments[0], &call.sc);
+  if (!code) code = read_curves(&call);
   if (!code) {
-    progress *bar = progress_start("verifying", common.quiet);
-    hc_monitor monitor = progress_monitor(bar);
-    compare_setup setup;
-    data.with_line = own.plot;
-    hc_status st = scene_setup(&sc, &setup);
-    if (st == HC_OK) st = verify_run(&setup, &data, &monitor, &report);
-    scene_setup_clear(&setup);
-    progress_end(bar);
-    code = st == HC_OK ? verify_exit_code(&report) : cli_solver_failed(&common, CLI_BOTH, "the verification", st, 0);
-    if (code == EXIT_NO_SOLUTION && st == HC_OK)
-      cli_message(&common, "some points could not be judged; the notes of the table say why");
-    written = report.n_rows ? write_tables(&common, &sc, &data, &report) : 0;
-    plot_order drawing = {.path = own.plot};
-    if (own.plot && st != HC_NO_MEMORY && !written)
-      written = cli_plotted(&common, plot_verify(&drawing, &sc, &data, &report), drawing.why);
+    hc_status st;
+    code = verify_curves(&call, &st);
+    const verified *first = &call.of[0];
+    written = first->report.n_rows ? write_tables(&call) : 0;
+    plot_order drawing = {.path = own->plot};
+    if (own->plot && st != HC_NO_MEMORY && !written)
+      written = cli_plotted(common, plot_verify(&drawing, &call.sc, &first->data, &first->report), drawing.why);
   }
-  verify_clear(&report);
-  verify_data_clear(&data);
-  case_clear(&sc);
+  for (int k = 0; k < call.n; ++k) verify_clear(&call.of[k].report), verify_data_clear(&call.of[k].data);
+  free(call.of);
+  case_clear(&call.sc);
   return code ? code : written;
 }
 
@@ -288,6 +401,7 @@ const cli_command cmd_verify = {
     .arguments = "CASE",
     .help = help,
     .options = options,
+    .takes_structures = true,
     .read_option = read_option,
     .run = run_verify,
 };

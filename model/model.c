@@ -74,9 +74,11 @@ hc_status model_oscillator(double mass, double damping, double stiffness, double
   return HC_OK;
 }
 
-hc_status model_copy(const model *m, model **out)
+hc_status model_copy(const model *m, model **out) { return model_copy_sized(m, m->n_contacts, m->n_responses, out); }
+
+hc_status model_copy_sized(const model *m, int n_contacts, int n_responses, model **out)
 {
-  hc_status st = model_new(m->n, m->n_loads, m->n_contacts, m->n_responses, out);
+  hc_status st = model_new(m->n, m->n_loads, n_contacts, n_responses, out);
   if (st != HC_OK) return st;
   model *copy = *out;
   const size_t vector = (size_t)m->n * sizeof(double), matrix = (size_t)m->n * vector;
@@ -88,12 +90,12 @@ hc_status model_copy(const model *m, model **out)
     memcpy(copy->loads[i].cosine, m->loads[i].cosine, vector);
     memcpy(copy->loads[i].sine, m->loads[i].sine, vector);
   }
-  for (int j = 0; j < m->n_contacts; ++j) {
+  for (int j = 0; j < m->n_contacts && j < n_contacts; ++j) {
     copy->contacts[j].law = m->contacts[j].law;
     memcpy(copy->contacts[j].tangent, m->contacts[j].tangent, vector);
     memcpy(copy->contacts[j].normal, m->contacts[j].normal, vector);
   }
-  memcpy(copy->responses, m->responses, (size_t)m->n_responses * vector);
+  memcpy(copy->responses, m->responses, (size_t)(m->n_responses < n_responses ? m->n_responses : n_responses) * vector);
   return HC_OK;
 }
 

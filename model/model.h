@@ -50,6 +50,9 @@ hc_status model_oscillator(double mass, double damping, double stiffness, double
 /* A copy in memory of its own. HC_NO_MEMORY: *out is NULL. */
 hc_status model_copy(const model *m, model **out);
 
+/* The same with other numbers of contacts and responses: those of *m as far as they go, the rest 0, to fill in. */
+hc_status model_copy_sized(const model *m, int n_contacts, int n_responses, model **out);
+
 void model_free(model *m); /* NULL is allowed */
 
 /* (tangent, normal) = (cos, sin) of the angle [deg] between x and the contact's tangent, exact at 0 and 90 degrees. */

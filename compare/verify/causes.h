@@ -48,7 +48,17 @@
   X(CAUSE_EXCHANGED, "stiffnesses_exchanged", "kt and kn are exchanged", "exchange them") \
   X(CAUSE_NO_FRICTION, "no_friction", "there is no friction", "give the friction coefficient") \
   X(CAUSE_NO_KT, "no_tangential_stiffness", "there is no tangential force", "give the tangential stiffness") \
+  X(CAUSE_LOAD_DOF, "load_dof", "the force acts on another degree of freedom", "compare the forcing's direction") \
+  X(CAUSE_NO_STATIC_LOAD, "no_static_load", "the static loads are missing", "give the loads of harmonic 0") \
+  X(CAUSE_PHASE_SIGN, "phase_sign", "the phases of the loads have the other sign", \
+    "here a load is amplitude cos(k omega t + phase)") \
+  X(CAUSE_TRANSPOSED, "transposed", "a matrix is transposed", "is it written by rows or by columns?") \
+  X(CAUSE_ONE_SIDE, "one_side_turned", "one side of a contact has the other sign", \
+    "compare the contact's tangent and normal with the case's") \
+  X(CAUSE_DOFS_EXCHANGED, "dofs_exchanged", "two degrees of freedom are exchanged", \
+    "compare the numbering in matrices, loads and contacts") \
   /* the columns */ \
+  X(CAUSE_RESPONSE, "other_response", "the values are those of another response", "name the right one: --response") \
   X(CAUSE_FREQUENCY, "frequency_unit", "rad per time and cycles per time are mixed up", \
     "name the column omega or frequency as it is") \
   X(CAUSE_TWICE, "peak_to_peak", "the values are twice as large, as from peak to peak", "halve them") \

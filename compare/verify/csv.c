@@ -25,6 +25,7 @@ typedef struct reader {
   long line, first_line;
   int n_fields, first_fields;
   int omega, value; /* from 0 */
+  int response;     /* likewise; -1: no such column, or all of its lines are wanted */
   field fields[VERIFY_MOST_FIELDS];
 } reader;
 
@@ -117,6 +118,9 @@ static hc_status begin(reader *r, bool header)
     return HC_BAD_INPUT;
   }
   r->out->quantity = r->columns.quantity;
+  r->response = -1;
+  for (int i = 0; i < r->n_fields && header && r->columns.response; ++i)
+    if (field_is(&r->fields[i], "response")) r->response = i, r->out->by_response = true;
   hc_status st = find_column(r, &r->columns.omega, header, &r->omega);
   if (st == HC_OK) st = find_column(r, &r->columns.value, header, &r->value);
   r->first_line = r->line;
@@ -206,6 +210,7 @@ static hc_status read_point(reader *r)
                 r->separator == ',' && r->n_fields == 2 * r->first_fields ? "; decimal commas? Write points" : "");
     return HC_BAD_INPUT;
   }
+  if (r->response >= 0 && !field_is(&r->fields[r->response], r->columns.response)) return HC_OK;
   hc_status st = read_number(r, r->omega, r->columns.cycles ? "a frequency" : "an omega", &p.omega);
   if (st == HC_OK) st = read_number(r, r->value, verify_quantity_name(&r->columns.quantity, name), &p.value);
   if (st == HC_OK) st = convert(r, &p);
@@ -244,8 +249,10 @@ static hc_status read_lines(reader *r, const char *text, size_t length)
   if (st != HC_OK || r->out->n >= VERIFY_LEAST_POINTS) return st;
   r->line += r->line == 0;
   blame(r, 1);
-  message_add(r->m, "%d point%s in the file%s, expected at least %d", r->out->n, r->out->n == 1 ? "" : "s",
-              r->out->left_out ? " at omega > 0" : "", VERIFY_LEAST_POINTS);
+  message_add(r->m, "%d point%s in the file%s", r->out->n, r->out->n == 1 ? "" : "s",
+              r->out->left_out ? " at omega > 0" : "");
+  if (r->out->by_response) message_add(r->m, " of response %s", r->columns.response);
+  message_add(r->m, ", expected at least %d", VERIFY_LEAST_POINTS);
   return HC_BAD_INPUT;
 }
 

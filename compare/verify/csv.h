@@ -27,6 +27,7 @@ typedef struct verify_columns {
   bool cycles;         /* the first is a frequency in cycles per time: times 2 pi */
   bool quantity_given; /* with by_header: by --quantity */
   verify_quantity quantity;
+  const char *response; /* in a file with a column `response` only the lines are read that have this one; NULL: all */
 } verify_columns;
 
 typedef struct verify_point {
@@ -35,10 +36,12 @@ typedef struct verify_point {
 } verify_point;
 
 typedef struct verify_data {
+  int response; /* of the model, counted from 0: what moves so */
   verify_quantity quantity;
   int n;
   verify_point *points; /* [n] in the file's order */
   int left_out;         /* points at omega <= 0 */
+  bool by_response;     /* lines of other responses were left out */
   double noise;         /* [1] standard deviation of a value, relative to its scale, as of a measured curve; 0: none */
   bool with_line;       /* the report is to hold the truth's curve, for a drawing */
 } verify_data;

@@ -22,9 +22,25 @@ static void add_scale(verify_scale *out, int *n, double factor, const char *name
   if (isfinite(factor) && factor > 0 && factor != 1) out[(*n)++] = (verify_scale){factor, name};
 }
 
+/* The largest amplitude of a load at one degree of freedom that is not static. */
+static double largest_load(const model *m)
+{
+  double most = 0;
+  for (int l = 0; l < m->n_loads; ++l)
+    for (int i = 0; i < m->n && m->loads[l].harmonic > 0; ++i)
+      most = fmax(most, hypot(m->loads[l].cosine[i], m->loads[l].sine[i]));
+  return most;
+}
+
 int verify_value_scales(const model *m, verify_scale out[VERIFY_MOST_SCALES])
 {
   int n = 0;
+  if (!model_is_oscillator(m)) {
+    const double largest = largest_load(m);
+    add_scale(out, &n, 1 / largest, "1/F, the largest load");
+    add_scale(out, &n, largest, "F, the largest load");
+    return n;
+  }
   const double stuck = model_max_stiffness(m), force = fabs(model_force(m));
   add_scale(out, &n, 1 / force, "1/F0");
   add_scale(out, &n, *m->stiffness / force, "K/F0, 1/static deflection");
@@ -37,11 +53,13 @@ int verify_value_scales(const model *m, verify_scale out[VERIFY_MOST_SCALES])
 int verify_omega_scales(const model *m, verify_scale out[VERIFY_MOST_SCALES])
 {
   int n = 0;
-  const double open = sqrt(*m->stiffness / *m->mass), stuck = sqrt(model_max_stiffness(m) / *m->mass);
-  add_scale(out, &n, 1 / open, "1/w0, w0^2 = K/M");
-  add_scale(out, &n, TWO_PI / open, "2 pi/w0, w0^2 = K/M");
-  add_scale(out, &n, 1 / stuck, "1/w0, w0^2 = (K + stuck contacts)/M");
-  add_scale(out, &n, TWO_PI / stuck, "2 pi/w0, w0^2 = (K + stuck contacts)/M");
+  if (model_is_oscillator(m)) {
+    const double open = sqrt(*m->stiffness / *m->mass), stuck = sqrt(model_max_stiffness(m) / *m->mass);
+    add_scale(out, &n, 1 / open, "1/w0, w0^2 = K/M");
+    add_scale(out, &n, TWO_PI / open, "2 pi/w0, w0^2 = K/M");
+    add_scale(out, &n, 1 / stuck, "1/w0, w0^2 = (K + stuck contacts)/M");
+    add_scale(out, &n, TWO_PI / stuck, "2 pi/w0, w0^2 = (K + stuck contacts)/M");
+  }
   add_scale(out, &n, 60 / TWO_PI, "revolutions per minute");
   add_scale(out, &n, 60, "cycles per minute, from cycles per second");
   add_scale(out, &n, 1e-3, "thousands");
@@ -142,19 +160,25 @@ static hc_status outline_new(search *s, outline *out)
   hc_status st = guided_hbm_solver_new(own.model, &own.hbm, &hbm);
   if (st == HC_OK) st = hbm_trace(hbm, own.omega_from, own.omega_to, s->monitor, &curve);
   if (hbm && st != HC_INTERRUPTED && st != HC_NO_MEMORY) st = HC_OK; /* as far as it came */
+  const int n_harm = s->out->harmonics;
   double *X = malloc(((size_t)curve.n_coef + 1) * sizeof *X);
+  double *series = malloc((2 * (size_t)n_harm + 1) * sizeof *series);
   const size_t room = (size_t)curve.n * BETWEEN + 1;
   out->omega = malloc(2 * room * sizeof *out->omega);
-  if (!X || !out->omega) st = HC_NO_MEMORY;
+  if (!X || !series || !out->omega) st = HC_NO_MEMORY;
   for (int k = 0; k + 1 < curve.n && st == HC_OK; ++k) {
     const hbm_segment seg = hbm_segment_between(&curve, k);
     for (int i = 0; i < BETWEEN; ++i) {
-      hbm_segment_at(&seg, (double)i / BETWEEN, X, &out->omega[out->n], NULL, NULL);
-      const verify_motion motion = verify_motion_of(out->omega[out->n], curve.n_coef / 2, X);
+      double *const omega = &out->omega[out->n];
+      hbm_segment_at(&seg, (double)i / BETWEEN, X, omega, NULL, NULL);
+      const bool oscillator = hbm_of_oscillator(hbm);
+      if (!oscillator && hbm_response(hbm, *omega, X, 0, series) != HC_OK) continue;
+      const verify_motion motion = verify_motion_of(*omega, n_harm, oscillator ? X : series);
       out->omega[room + (size_t)out->n++] = verify_quantity_of(&s->points.quantity, &motion);
     }
   }
   out->value = out->omega ? out->omega + room : NULL;
+  free(series);
   free(X);
   hbm_curve_free(&curve);
   hbm_solver_free(hbm);

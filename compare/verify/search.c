@@ -163,10 +163,10 @@ static hc_status try_order(search *s, int harmonics, bool keep_mean)
   return st == HC_OK && !search_tick(s) ? HC_INTERRUPTED : st;
 }
 
-static hc_status try_orders(search *s)
+/* All but the truth's own. */
+static hc_status try_other_orders(search *s)
 {
-  hc_status st = try_order(s, s->out->harmonics, true);
-  if (st == HC_OK) st = try_order(s, s->out->harmonics, false);
+  hc_status st = try_order(s, s->out->harmonics, false);
   bool own_too = s->own < s->out->harmonics;
   for (int i = HARMONICS_TRIED - 1; i >= 0 && st == HC_OK; --i) {
     int harmonics = harmonics_tried[i];
@@ -176,6 +176,12 @@ static hc_status try_orders(search *s)
   }
   for (int mean = 1; own_too && mean >= 0 && st == HC_OK; --mean) st = try_order(s, s->own, mean);
   return st;
+}
+
+static hc_status try_orders(search *s)
+{
+  hc_status st = try_order(s, s->out->harmonics, true);
+  return st == HC_OK ? try_other_orders(s) : st;
 }
 
 static hc_status try_odd_only(search *s)
@@ -191,15 +197,20 @@ static hc_status try_odd_only(search *s)
 
 /* ---- changes of the model ---- */
 
+static int variants(const search *s, verify_change c) { return verify_change_variants(s->setup->model, c); }
+
 /* Every change, in equations that are otherwise *like; those with a factor at the usual ones. */
 static hc_status try_changes(search *s, const verify_equations *like)
 {
   hc_status st = HC_OK;
   for (int c = CHANGE_NONE + 1; c < VERIFY_CHANGES && st == HC_OK; ++c)
-    for (int i = 0; i < (verify_change_has_factor(c) ? FACTORS_TRIED : 1) && st == HC_OK; ++i) {
+    for (int i = 0; i < (verify_change_has_factor(c) ? FACTORS_TRIED : 1) * variants(s, c) && st == HC_OK; ++i) {
       verify_equations e = *like;
       e.change = c;
-      e.factor = verify_change_has_factor(c) ? factors_tried[i] : 1;
+      if (c == CHANGE_RESPONSE) continue; /* try_responses */
+      e.which = i % variants(s, c);
+      e.n = s->setup->model->n;
+      e.factor = verify_change_has_factor(c) ? factors_tried[i / variants(s, c)] : 1;
       if (c == CHANGE_NO_CONTACT || c == CHANGE_STUCK) e.harmonics = 1;
       st = search_try(s, &e);
     }
@@ -223,13 +234,63 @@ static hc_status try_orders_of_changed(search *s)
   return st;
 }
 
+/* ---- another response ---- */
+
+typedef struct response_reader {
+  search *s;
+  verify_equations equations;
+} response_reader;
+
+static void read_dof(void *self, int dof, const verify_solutions *of)
+{
+  const response_reader *r = self;
+  const model *m = r->s->setup->model;
+  bool asked = true; /* is it the response itself? */
+  for (int i = 0; i < m->n; ++i) asked &= m->responses[i] == (i == dof);
+  verify_equations e = r->equations;
+  e.change = CHANGE_RESPONSE;
+  e.which = dof + 1;
+  e.n = m->n;
+  if (!asked) search_read(r->s, &e, 0, of);
+}
+
+/* Every degree of freedom in the place of the response, by the truth and with the case's own harmonics. */
+static hc_status try_responses(search *s)
+{
+  const int orders[] = {s->out->harmonics, s->own};
+  hc_status st = HC_OK;
+  for (int i = 0; i < 2 && st == HC_OK && !search_explained(s); ++i) {
+    response_reader r = {s, {.keep_mean = true, .harmonics = orders[i], .factor = 1}};
+    st = verify_solutions_of_dofs(s->setup, &r.equations, &s->points.quantity, s->from, s->to, s->points.n,
+                                  s->points.omega, s->monitor, read_dof, &r);
+    if (st == HC_OK && !search_tick(s)) st = HC_INTERRUPTED;
+  }
+  return st;
+}
+
 /* ---- in stages ---- */
 
 /* Is the best hypothesis a factor without a name? Factors of the model's numbers may do what it does. */
 static bool free_factor(const search *s) { return s->out->n_hypotheses > 0 && s->out->hypotheses[0].fitted; }
 
+/* Curves of a structure are dearer, and more may be wrong: the plainest first, until one explains the points. */
+static hc_status try_structure(search *s)
+{
+  const verify_equations own = search_own(s);
+  hc_status st = try_order(s, s->out->harmonics, true);
+  if (st == HC_OK && !search_explained(s) && s->setup->model->n > 1) st = try_responses(s);
+  if (st == HC_OK && !search_explained(s)) st = try_other_orders(s);
+  if (st == HC_OK && !search_explained(s)) st = try_changes(s, &own);
+  if (st == HC_OK && !search_explained(s)) st = search_scales(s);
+  if (st == HC_OK && !search_explained(s) && s->setup->model->n_contacts) st = try_odd_only(s);
+  if (st == HC_OK && !search_explained(s) && s->setup->model->n_contacts) st = search_sliders(s);
+  if (st == HC_OK && !search_explained(s)) st = try_orders_of_changed(s);
+  return st;
+}
+
 static hc_status try_exact(search *s)
 {
+  if (!model_is_oscillator(s->setup->model)) return try_structure(s);
   const verify_equations own = search_own(s);
   hc_status st = try_orders(s);
   if (st == HC_OK) st = search_scales(s);

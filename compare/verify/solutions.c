@@ -22,24 +22,44 @@ compare_setup verify_settings(const compare_setup *setup, const verify_equations
   return own;
 }
 
+hc_status verify_motion_of_solution(hbm_solver *hbm, double omega, const double *X, int response, double *series,
+                                    hbm_measures *m, verify_motion *out)
+{
+  const bool oscillator = hbm_of_oscillator(hbm);
+  hc_status st = oscillator ? hbm_measure(hbm, X, m) : hbm_measure_response(hbm, omega, X, response, m);
+  if (st == HC_OK && !oscillator) st = hbm_response(hbm, omega, X, response, series);
+  *out = (verify_motion){
+      .omega = omega, .max = m->max, .min = m->min, .n_harm = hbm_n_harmonics(hbm), .X = oscillator ? X : series};
+  return st;
+}
+
 /* Equations ready to be solved. */
 typedef struct problem {
   hbm_solver *hbm;
-  double offset; /* [length] their displacement is the solver's plus this */
+  double offset;  /* [length] their response is the solver's plus this */
+  double *series; /* [2H+1] of a response */
 } problem;
+
+static void problem_clear(problem *p)
+{
+  free(p->series);
+  hbm_solver_free(p->hbm);
+}
 
 static hc_status problem_new(const compare_setup *setup, const verify_equations *e, problem *out)
 {
   compare_setup own = verify_settings(setup, e);
   model *theirs;
   *out = (problem){0};
-  hc_status st = verify_changed_model(setup->model, e->change, e->factor, e->keep_mean && !e->odd_only, &theirs,
-                                      &out->offset, &own.hbm.mistakes.mean_error);
+  const verify_changed how = {e->change, e->factor, e->which};
+  hc_status st = verify_changed_model(setup->model, &how, e->keep_mean && !e->odd_only, &theirs, &out->offset,
+                                      &own.hbm.mistakes.mean_error);
   if (st != HC_OK) return st;
   if (own.hbm.mistakes.mean_error != 0) own.hbm.skip_linear = false;
   st = guided_hbm_solver_new(theirs, &own.hbm, &out->hbm);
   model_free(theirs);
-  return st;
+  out->series = malloc((2 * (size_t)e->harmonics + 1) * sizeof *out->series);
+  return st == HC_OK && !out->series ? HC_NO_MEMORY : st;
 }
 
 static const struct {
@@ -96,19 +116,17 @@ static verify_solution read_all_of(const verify_quantity *asked, const verify_mo
   return s;
 }
 
-/* Every reading of the motion X + offset of those measures. X is as it was when it returns. */
-static verify_solution read_all(const verify_quantity *asked, double omega, const hbm_measures *m, double offset,
-                                int n_harm, double *X)
+/* Every reading of the motion plus the problem's offset. */
+static verify_solution read_all(const verify_quantity *asked, const problem *p, verify_motion motion)
 {
   const verify_quantity velocity = {.kind = KIND_VELOCITY}, acceleration = {.kind = KIND_ACCELERATION};
-  const double mean = X[0];
-  const verify_motion motion = {
-      .omega = omega, .max = m->max + offset, .min = m->min + offset, .n_harm = n_harm, .X = X};
-  X[0] = mean + offset;
+  if (motion.X != p->series) memcpy(p->series, motion.X, (2 * (size_t)motion.n_harm + 1) * sizeof *p->series);
+  p->series[0] += p->offset;
+  motion.X = p->series;
+  motion.max += p->offset;
+  motion.min += p->offset;
   const amplitudes a = {verify_quantity_of(&velocity, &motion), verify_quantity_of(&acceleration, &motion)};
-  const verify_solution s = read_all_of(asked, &motion, &a);
-  X[0] = mean;
-  return s;
+  return read_all_of(asked, &motion, &a);
 }
 
 static hc_status reserve(verify_solutions *s)
@@ -136,14 +154,14 @@ static bool same_solution(const verify_solutions *s, int k, const double *X, dou
 static hc_status add(verify_solutions *s, const problem *p, double omega, int from, const double *X)
 {
   hbm_measures m;
-  if (hbm_measure(p->hbm, X, &m) != HC_OK) return HC_OK;
+  verify_motion motion;
+  if (verify_motion_of_solution(p->hbm, omega, X, 0, p->series, &m, &motion) != HC_OK) return HC_OK;
   for (int k = from; k < s->count; ++k)
     if (same_solution(s, k, X, m.amplitude)) return HC_OK;
   hc_status st = reserve(s);
   if (st != HC_OK) return st;
-  double *kept = s->X + (size_t)s->count * s->n_coef;
-  memcpy(kept, X, (size_t)s->n_coef * sizeof *X);
-  s->of[s->count] = read_all(&s->asked, omega, &m, p->offset, s->n_coef / 2, kept);
+  memcpy(s->X + (size_t)s->count * s->n_coef, X, (size_t)s->n_coef * sizeof *X);
+  s->of[s->count] = read_all(&s->asked, p, motion);
   ++s->count;
   return HC_OK;
 }
@@ -154,27 +172,80 @@ static hc_status start(verify_solutions *s, const verify_quantity *asked, int n,
   return s->first ? HC_OK : HC_NO_MEMORY;
 }
 
-hc_status verify_solutions_of(const compare_setup *setup, const verify_equations *e, const verify_quantity *asked,
-                              double from, double to, int n, const double *omega, const hc_monitor *monitor,
+/* The curve, and its solutions at every omega. The problem is the caller's to clear. */
+static hc_status follow_curve(const compare_setup *setup, const verify_equations *e, const verify_quantity *asked,
+                              double from, double to, int n, const double *omega, const hc_monitor *monitor, problem *p,
                               verify_solutions *out)
 {
-  problem p = {0};
   hbm_curve curve = {0};
-  hc_status st = start(out, asked, n, 2 * e->harmonics + 1);
-  if (st == HC_OK) st = problem_new(setup, e, &p);
-  if (st == HC_OK) st = hbm_trace(p.hbm, from, to, monitor, &curve);
-  if (st != HC_INTERRUPTED && st != HC_NO_MEMORY && p.hbm) st = HC_OK; /* as far as it came */
+  hc_status st = problem_new(setup, e, p), started = start(out, asked, n, p->hbm ? hbm_n_coefficients(p->hbm) : 0);
+  if (started != HC_OK) st = started;
+  if (st == HC_OK) st = hbm_trace(p->hbm, from, to, monitor, &curve);
+  if (st != HC_INTERRUPTED && st != HC_NO_MEMORY && p->series) st = HC_OK; /* as far as it came */
   for (int i = 0; i < n && st == HC_OK; ++i) {
     hbm_curve at = {0};
-    if (hbm_curve_at(p.hbm, &curve, omega[i], &at) == HC_NO_MEMORY) st = HC_NO_MEMORY;
+    if (hbm_curve_at(p->hbm, &curve, omega[i], &at) == HC_NO_MEMORY) st = HC_NO_MEMORY;
     for (int k = 0; k < at.n && st == HC_OK; ++k)
-      st = add(out, &p, omega[i], out->first[i], at.X + (size_t)k * at.n_coef);
+      st = add(out, p, omega[i], out->first[i], at.X + (size_t)k * at.n_coef);
     out->first[i + 1] = out->count;
     hbm_curve_free(&at);
     if (!hc_monitor_tick(monitor, -1)) st = HC_INTERRUPTED;
   }
   hbm_curve_free(&curve);
-  hbm_solver_free(p.hbm);
+  return st;
+}
+
+hc_status verify_solutions_of(const compare_setup *setup, const verify_equations *e, const verify_quantity *asked,
+                              double from, double to, int n, const double *omega, const hc_monitor *monitor,
+                              verify_solutions *out)
+{
+  problem p = {0};
+  hc_status st = follow_curve(setup, e, asked, from, to, n, omega, monitor, &p, out);
+  problem_clear(&p);
+  return st;
+}
+
+/* *m with its degrees of freedom for its responses. HC_NO_MEMORY. */
+static hc_status model_of_dofs(const model *m, model **out)
+{
+  hc_status st = model_copy_sized(m, m->n_contacts, m->n, out);
+  for (int i = 0; i < m->n && st == HC_OK; ++i)
+    for (int k = 0; k < m->n; ++k) (*out)->responses[(size_t)i * (size_t)m->n + (size_t)k] = i == k;
+  return st;
+}
+
+/* What is read of the solutions becomes that of response r. */
+static void turn(verify_solutions *s, const problem *p, const double *omega, int r)
+{
+  for (int i = 0; i < s->n; ++i)
+    for (int k = s->first[i]; k < s->first[i + 1]; ++k) {
+      hbm_measures m;
+      verify_motion motion;
+      const double *X = s->X + (size_t)k * s->n_coef;
+      if (verify_motion_of_solution(p->hbm, omega[i], X, r, p->series, &m, &motion) == HC_OK)
+        s->of[k] = read_all(&s->asked, p, motion);
+    }
+}
+
+hc_status verify_solutions_of_dofs(const compare_setup *setup, const verify_equations *e, const verify_quantity *asked,
+                                   double from, double to, int n, const double *omega, const hc_monitor *monitor,
+                                   verify_keep_dof *keep, void *self)
+{
+  problem p = {0};
+  verify_solutions of = {0};
+  compare_setup own = *setup;
+  model *all;
+  hc_status st = model_of_dofs(setup->model, &all);
+  own.model = all;
+  if (st == HC_OK) st = follow_curve(&own, e, asked, from, to, n, omega, monitor, &p, &of);
+  for (int r = 0; r < setup->model->n && st == HC_OK; ++r) {
+    turn(&of, &p, omega, r);
+    keep(self, r, &of);
+    if (!hc_monitor_tick(monitor, -1)) st = HC_INTERRUPTED;
+  }
+  verify_solutions_clear(&of);
+  problem_clear(&p);
+  model_free(all);
   return st;
 }
 
@@ -198,6 +269,7 @@ hc_status verify_solutions_near(const compare_setup *setup, const verify_equatio
   hc_status st = start(out, &near->asked, near->n, near->n_coef);
   if (!X) st = HC_NO_MEMORY;
   if (st == HC_OK) st = problem_new(setup, e, &p);
+  if (st == HC_OK && hbm_n_coefficients(p.hbm) != near->n_coef) st = HC_BAD_INPUT; /* guesses of something else */
   for (int i = 0; i < near->n && st == HC_OK; ++i) {
     bool close = i > 0 && omega[i] - omega[i - 1] <= close_omegas * omega[i];
     for (int k = near->first[i]; k < near->first[i + 1] && st == HC_OK; ++k)
@@ -207,7 +279,7 @@ hc_status verify_solutions_near(const compare_setup *setup, const verify_equatio
     out->first[i + 1] = out->count;
   }
   free(X);
-  hbm_solver_free(p.hbm);
+  problem_clear(&p);
   return st;
 }
 

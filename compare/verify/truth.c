@@ -49,11 +49,12 @@ int truth_stable(truth *t, double omega, const double *X, hc_status *st)
   return known == HC_OK ? hbm_stability_verdict(&s) : 0;
 }
 
-/* A slider that never slips rests where the history left it. Of several contacts only the strongest state is known:
- * where that is stick, none slips. */
+/* A slider that never slips rests where the history left it. Of an oscillator's several contacts, which move as one,
+ * the strongest state is asked: where that is stick, none slips. */
 static bool mean_is_free(const model *m, const contact_report *r)
 {
   bool held = false;
+  if (!model_is_oscillator(m)) return r->free_sliders > 0;
   for (int j = 0; j < m->n_contacts; ++j) {
     const contact *c = &m->contacts[j].law;
     held |= c->kt > 0 && c->mu > 0 && *m->contacts[j].tangent != 0;
@@ -64,9 +65,9 @@ static bool mean_is_free(const model *m, const contact_report *r)
 hc_status truth_measure(truth *t, double omega, const double *X, measured *out)
 {
   hbm_measures m;
-  hc_status st = hbm_measure(t->hbm, X, &m);
+  verify_motion motion;
+  hc_status st = verify_motion_of_solution(t->hbm, omega, X, 0, t->series, &m, &motion);
   if (st != HC_OK) return st;
-  const verify_motion motion = {.omega = omega, .max = m.max, .min = m.min, .n_harm = t->curve.n_coef / 2, .X = X};
   const verify_quantity *q = &t->data->quantity;
   const bool mean_free = mean_is_free(t->setup->model, &m.contact);
   if (q->kind == KIND_ACCELERATION) {
@@ -130,6 +131,7 @@ static hc_status judge_point(truth *t, const verify_point *p, verify_row *row)
     row->branch = at.points[k].branch;
     row->nearest = m.value;
     row->scale = m.scale;
+    row->free_sliders = m.mean_free;
     row->skipped = m.mean_free && verify_quantity_of_mean(&t->data->quantity);
     row->error = row->skipped ? NAN : discrepancy_relative(p->value - row->nearest, m.scale);
     row->stable = truth_stable(t, p->omega, at.X + (size_t)k * at.n_coef, &st);
@@ -168,11 +170,13 @@ static hc_status with_harmonics(truth *t, int harmonics)
   hbm_curve_free(&t->curve);
   t->curve = (hbm_curve){0};
   hbm_solver_free(t->hbm);
+  free(t->series);
   t->hbm = NULL;
+  if (!(t->series = malloc((2 * (size_t)harmonics + 1) * sizeof *t->series))) return HC_NO_MEMORY;
   hc_status st = guided_hbm_solver_new(own.model, &own.hbm, &t->hbm);
   if (st != HC_OK) return st;
   st = hbm_trace(t->hbm, t->from, t->to, t->monitor, &t->curve);
-  t->curve.n_coef = 2 * harmonics + 1;
+  t->curve.n_coef = hbm_n_coefficients(t->hbm);
   t->out->harmonics = harmonics;
   t->out->curve_end = t->curve.end;
   t->out->curve_omega = t->curve.n ? t->curve.points[t->curve.n - 1].omega : t->from;
@@ -204,6 +208,7 @@ hc_status verify_truth(const compare_setup *setup, const verify_data *data, cons
   hbm_solver_free(t.hbm);
   free(t.state);
   free(t.room);
+  free(t.series);
   timeint_free(t.referee);
   return st;
 }

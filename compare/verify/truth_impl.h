@@ -16,7 +16,8 @@ typedef struct truth {
   double *state; /* [n_states] of the referee's */
   hbm_curve curve;
   double from, to;
-  double *room; /* acceleration_room */
+  double *room;   /* acceleration_room */
+  double *series; /* [2H+1] of a response */
 } truth;
 
 /* A solution as the file's quantity is taken of it. */

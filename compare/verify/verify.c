@@ -4,6 +4,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "compare/verify/points.h"
 #include "compare/verify/search.h"
@@ -27,17 +28,36 @@ static hc_status find_causes(const compare_setup *setup, const verify_data *data
   return st == HC_OK && !out->causes ? verify_search(setup, data, monitor, out) : st;
 }
 
+/* *setup with a model, the caller's, of which the response asked for is the only one. */
+static hc_status setup_of_response(const compare_setup *setup, int response, compare_setup *own, model **one)
+{
+  const model *m = setup->model;
+  *one = NULL;
+  if (response < 0 || response >= m->n_responses) return HC_BAD_INPUT;
+  hc_status st = model_copy_sized(m, m->n_contacts, 1, one);
+  if (st != HC_OK) return st;
+  const size_t n = (size_t)m->n;
+  memcpy((*one)->responses, m->responses + (size_t)response * n, n * sizeof *m->responses);
+  *own = *setup;
+  own->model = *one;
+  return HC_OK;
+}
+
 hc_status verify_run(const compare_setup *setup, const verify_data *data, const hc_monitor *monitor, verify_report *out)
 {
+  model *one;
+  compare_setup own;
   *out = (verify_report){.truth_distance = NAN,
                          .noise = NAN,
                          .noise_said = data->noise,
                          .left_out = data->left_out,
                          .reversals = points_reversals(data)};
-  hc_status st = verify_truth(setup, data, monitor, out);
+  hc_status st = setup_of_response(setup, data->response, &own, &one);
+  if (st == HC_OK) st = verify_truth(&own, data, monitor, out);
   if (st == HC_OK) st = points_estimate_noise(out);
   if (st == HC_OK && data->noise > 0) st = points_allow_noise(out, data->noise);
-  if (st == HC_OK) st = find_causes(setup, data, monitor, out);
+  if (st == HC_OK) st = find_causes(&own, data, monitor, out);
+  model_free(one);
   for (int i = 0; i < out->n_rows; ++i) ++*(out->rows[i].skipped ? &out->skipped : &out->count[out->rows[i].verdict]);
   return out->status = st;
 }

@@ -23,6 +23,7 @@
 typedef struct verify_equations {
   verify_change change; /* of the model */
   double factor;        /* of a change that has one, else 1 */
+  int which, n;         /* what of the model it changes: verify_changed.which; the model's DOFs, where that is > 0 */
   bool keep_mean, odd_only;
   int harmonics;
   int samples; /* 0: exact forces */
@@ -47,14 +48,15 @@ typedef struct verify_hypothesis {
 typedef struct verify_row {
   double omega, value; /* [rad/time], not in dB */
   long line;
-  int solutions;   /* of the truth at omega */
-  int branch;      /* of the nearest; -1: none */
-  double nearest;  /* the quantity of that, not in dB; NaN: none */
-  double scale;    /* what its difference is measured by (verify_quantity_scale) */
-  int stable;      /* +1, -1, 0 unknown */
-  bool skipped;    /* the quantity depends on where a slider rests that never slips: nothing to compare */
-  bool stable_too; /* some solution at omega is stable */
-  double error;    /* [1] |value - nearest|/scale */
+  int solutions;     /* of the truth at omega */
+  int branch;        /* of the nearest; -1: none */
+  double nearest;    /* the quantity of that, not in dB; NaN: none */
+  double scale;      /* what its difference is measured by (verify_quantity_scale) */
+  int stable;        /* +1, -1, 0 unknown */
+  bool skipped;      /* the quantity depends on where a slider rests that never slips: nothing to compare */
+  bool free_sliders; /* the solution has sliders that never slip: where they rest is a matter of history */
+  bool stable_too;   /* some solution at omega is stable */
+  double error;      /* [1] |value - nearest|/scale */
   verdict verdict;
 } verify_row;
 
@@ -91,7 +93,8 @@ typedef struct verify_report {
   double noise_said; /* [1] what the values are said to scatter by */
 } verify_report;
 
-/* HC_INTERRUPTED, HC_NO_MEMORY, or why there is no truth; rows found until then are kept. verify_clear in any case. */
+/* Of the model's response data->response. HC_INTERRUPTED, HC_NO_MEMORY, or why there is no truth; rows found until then
+ * are kept. verify_clear in any case. */
 hc_status verify_run(const compare_setup *setup, const verify_data *data, const hc_monitor *monitor,
                      verify_report *out);
 void verify_clear(verify_report *r);

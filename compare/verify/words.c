@@ -25,10 +25,24 @@ static const char *slider_words(int restart)
   }
 }
 
+/* "kt of contact 1 times 2", "the force at DOF 3", "M, C and K exchanged in DOFs 1 and 2": DOFs from 1, contacts from 0
+ * as elsewhere. */
+static void add_change(message *m, const verify_equations *e)
+{
+  message_add(m, "%s", verify_change_words(e->change));
+  if (e->which > 0) switch (verify_change_part(e->change)) {
+    case PART_CONTACT:
+    case PART_ONE_CONTACT: message_add(m, " of contact %d", e->which - 1); break;
+    case PART_DOF: message_add(m, " DOF %d", e->which); break;
+    case PART_PAIR: message_add(m, " DOFs %d and %d", (e->which - 1) / e->n + 1, (e->which - 1) % e->n + 1); break;
+    case PART_ALL: break;
+    }
+  if (verify_change_has_factor(e->change)) message_add(m, " times %.4g", e->factor);
+}
+
 static void add_equations(message *m, const verify_equations *e)
 {
-  if (e->change != CHANGE_NONE) message_add(m, "%s", verify_change_words(e->change));
-  if (verify_change_has_factor(e->change)) message_add(m, " times %.4g", e->factor);
+  if (e->change != CHANGE_NONE) add_change(m, e);
   if (e->change == CHANGE_NO_CONTACT || e->change == CHANGE_STUCK) return;
   if (e->change != CHANGE_NONE) message_add(m, ", ");
   if (e->odd_only) message_add(m, "odd harmonics alone, ");
@@ -82,8 +96,8 @@ static void add_reasons(message *m, const verify_report *r)
   for (int i = 1, n = 0; i < r->n_hypotheses && n < VERIFY_SHOWN; ++i) {
     if (!verify_reason(r, i)) continue;
     const verify_equations *e = &r->hypotheses[i].equations;
-    message_add(m, "%s%s", before, verify_change_words(e->change));
-    if (verify_change_has_factor(e->change)) message_add(m, " times %.4g", e->factor);
+    message_add(m, "%s", before);
+    add_change(m, e);
     before = ", ";
     ++n;
   }

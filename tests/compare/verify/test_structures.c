@@ -1,0 +1,200 @@
+/* test_structures.c - hbmcheck verify on structures: curves of several responses, and mistakes that one degree of
+ * freedom cannot have. The curves are our own harmonic balance's, of the same structure with one thing changed; what is
+ * tested is that the mistake is told from all others that are tried. Runs the built hbmcheck in a folder of its own. */
+#include <string.h>
+
+#include "tests/shell.h"
+
+static char folder[] = "/tmp/hbmcheck-structures-XXXXXX";
+static char out[262144];
+
+static int shell(const char *format, ...) __attribute__((format(printf, 1, 2)));
+static int shell(const char *format, ...)
+{
+  char line[4096];
+  va_list args;
+  va_start(args, format);
+  vsnprintf(line, sizeof line, format, args);
+  va_end(args);
+  return shell_read(line, out, sizeof out);
+}
+
+#define HAVE(fragment)                                                                                                 \
+  if (!strstr(out, fragment)) fail_msg("no '%s' in:\n%s", fragment, out)
+
+/* Three masses with a gyroscopic C, loads of two phases and a static one, a slider between two of them and a stop. */
+static const char masses[] = "mass: [1, 0.7, 1.5]", matrix_C[] = "[[0.3, 0.25, 0], [-0.25, 0.2, 0.1], [0, -0.1, 0.2]]",
+                  matrix_K[] = "[[30, -8, 0], [-8, 25, -6], [0, -6, 40]]", phase[] = "phase_deg: 60",
+                  fixed[] = "amplitude: 2, harmonic: 0", tangent[] = "tangent: {a: 1, b: -1}",
+                  normal[] = "normal: {c: 1}", load[] = "dof: b", friction[] = "friction: 0.5";
+
+/* The case, with `now` in the place of `was` where that is not NULL. */
+static void put_case(const char *name, const char *was, const char *now)
+{
+  char text[2048], path[256];
+  snprintf(text, sizeof text,
+           "structure:\n  %s\n  damping: %s\n  stiffness: %s\n  names: [a, b, c]\n"
+           "forcing:\n  - {dof: a, amplitude: 10}\n  - {%s, amplitude: 4, %s}\n  - {dof: c, %s}\n"
+           "contacts:\n  - {tangential_stiffness: 12, %s, preload: 3, %s}\n"
+           "  - {normal_stiffness: 50, gap: -0.4, %s}\n"
+           "response: [a, b]\nsweep: {omega: [3, 9]}\nhbm: {harmonics: 5}\n",
+           masses, matrix_C, matrix_K, load, phase, fixed, friction, tangent, normal);
+  snprintf(path, sizeof path, "%s/%s", folder, name);
+  FILE *to = fopen(path, "w");
+  assert_non_null(to);
+  const char *at = was ? strstr(text, was) : NULL;
+  if (was) assert_non_null(at);
+  if (at) fprintf(to, "%.*s%s%s", (int)(at - text), text, now, at + strlen(was));
+  else fputs(text, to);
+  assert_int_equal(fclose(to), 0);
+}
+
+/* The curve of theirs.yaml as frf writes it, into theirs.csv. */
+static void make_curve(const char *options)
+{
+  const int code = shell("%s frf %s/theirs.yaml -q --format csv --set hbm.harmonics=20 %s -o %s/theirs.csv",
+                         HBMCHECK_COMMAND, folder, options, folder);
+  if (code != 0) fail_msg("frf: %s", out);
+}
+
+static int verify(const char *options)
+{
+  return shell("%s verify %s/ours.yaml -q --format csv --against %s/theirs.csv %s 2>&1", HBMCHECK_COMMAND, folder,
+               folder, options);
+}
+
+/* Two responses in one file, by its column `response` and as columns of their own. */
+static void every_response_is_judged(void **state)
+{
+  (void)state;
+  put_case("ours.yaml", NULL, NULL);
+  put_case("theirs.yaml", NULL, NULL);
+  make_curve("");
+  assert_int_equal(verify("--columns omega=omega,rms=rms --response b --response a"), 0);
+  HAVE("omega,value,nearest,branch,response,stable,error,verdict,line\n");
+  HAVE("# response b\n# truth: H = 20");
+  HAVE(",a,yes,");
+  HAVE(",b,yes,");
+  assert_null(strstr(out, "differs"));
+  assert_int_equal(verify("--columns omega=omega,harmonic_1@a=harmonic_1,amplitude@b=amplitude --format json"), 0);
+  HAVE("\"response\": \"b\", \"cause\": \"none\"");
+  assert_int_equal(verify("--columns omega=omega,amplitude@b=harmonic_1,harmonic_1@a=harmonic_1"), 1);
+  HAVE("+other_quantity");
+  HAVE("# cause: none");
+  assert_int_equal(verify("--columns omega=omega,rms@d=rms"), 64);
+  HAVE("has no `d`; expected one of a, b");
+  assert_int_equal(verify("--columns omega=omega,rms@a=rms --response b"), 64);
+  HAVE("give one of them");
+  assert_int_equal(verify("--columns omega=omega,rms@a=rms,rms@b=rms --plot x.svg"), 64);
+  HAVE("--plot draws one response");
+  assert_int_equal(verify("--columns omega=omega,acceleration@a=rms"), 2);
+  HAVE("acceleration_harmonic_1");
+  make_curve("--response a");
+  assert_int_equal(verify("--columns omega=omega,rms=rms --response b"), 2);
+  HAVE("0 points in the file of response b, expected at least 3");
+  shell("cut -d, -f1,4 %s/theirs.csv > %s/plain.csv && mv %s/plain.csv %s/theirs.csv", folder, folder, folder, folder);
+  assert_int_equal(verify("--response a --response b"), 64);
+  HAVE("no column `response`");
+}
+
+/* A structure with one thing changed, and what that is called. */
+static void mistakes_of_structures_are_named(void **state)
+{
+  (void)state;
+  static const struct mistake {
+    const char *was, *now, *words, *cause;
+  } all[] = {
+      {matrix_C, "[[0.3, -0.25, 0], [0.25, 0.2, -0.1], [0, 0.1, 0.2]]", "C transposed", "transposed"},
+      {phase, "phase_deg: -60", "phases of the loads times -1", "phase_sign"},
+      {fixed, "amplitude: 1e-9, harmonic: 0", "no static load", "no_static_load"},
+      {tangent, "tangent: {a: 1, b: 1}", "one side turned", "one_side_turned"},
+      {"tangent: {a: 1, b: -1}}\n  - {normal_stiffness: 50, gap: -0.4, normal: {c: 1}}",
+       "tangent: {a: 1, c: -1}}\n  - {normal_stiffness: 50, gap: -0.4, normal: {b: 1}}",
+       "the contacts exchanged in DOFs 2 and 3", "dofs_exchanged"},
+      {"mass: [1, 0.7, 1.5]\n  "
+       "damping: [[0.3, 0.25, 0], [-0.25, 0.2, 0.1], [0, -0.1, 0.2]]\n  stiffness: [[30, -8, 0], "
+       "[-8, 25, -6], [0, -6, 40]]",
+       "mass: [0.7, 1, 1.5]\n  "
+       "damping: [[0.2, -0.25, 0.1], [0.25, 0.3, 0], [-0.1, 0, 0.2]]\n  stiffness: [[25, -8, -6], "
+       "[-8, 30, 0], [-6, 0, 40]]",
+       "M, C and K exchanged in DOFs 1 and 2", "dofs_exchanged"},
+      {friction, "friction: 1", "mu times 2", "wrong_friction"},
+      {"normal_stiffness: 50, gap: -0.4", "normal_stiffness: 100, gap: -0.4", "kn times 2", "wrong_normal_stiffness"},
+  };
+  put_case("ours.yaml", NULL, NULL);
+  for (size_t i = 0; i < sizeof all / sizeof *all; ++i) {
+    char cause[64];
+    put_case("theirs.yaml", all[i].was, all[i].now);
+    make_curve("");
+    assert_int_equal(verify("--columns omega=omega,harmonic_1@b=harmonic_1"), 1);
+    snprintf(cause, sizeof cause, "# cause: %s\n", all[i].cause);
+    HAVE(cause);
+    HAVE(all[i].words);
+  }
+}
+
+/* The motion of c under the name of a; c is no response of the case. */
+static void another_degree_of_freedom_is_named(void **state)
+{
+  (void)state;
+  put_case("ours.yaml", NULL, NULL);
+  put_case("theirs.yaml", "response: [a, b]", "response: [c]");
+  make_curve("");
+  shell("sed -i 's/,c,/,a,/' %s/theirs.csv", folder);
+  assert_int_equal(verify("--columns omega=omega,amplitude@a=amplitude"), 1);
+  HAVE("# suspected cause: the values are those of another response (the motion of DOF 3, ");
+}
+
+/* All of the force at one degree of freedom: the load of jenkins2 at its root. */
+static void a_load_elsewhere_is_named(void **state)
+{
+  (void)state;
+  assert_int_equal(shell("%s frf cases/structures/jenkins2.yaml -q --format csv --response tip --set "
+                         "'forcing[0].dof=root' --set hbm.harmonics=20 -o %s/load.csv",
+                         HBMCHECK_COMMAND, folder),
+                   0);
+  assert_int_equal(shell("%s verify cases/structures/jenkins2.yaml -q --against %s/load.csv --columns "
+                         "omega=omega,harmonic_1=harmonic_1 2>&1",
+                         HBMCHECK_COMMAND, folder),
+                   1);
+  HAVE("cause: load_dof\n");
+  HAVE("the force at DOF 2, ");
+}
+
+/* Where the slider of jenkins2 sticks all period, a value that is off may be right with the slider elsewhere: said. */
+static void what_history_decides_is_said(void **state)
+{
+  (void)state;
+  assert_int_equal(shell("%s frf cases/structures/jenkins2.yaml -q --format csv --response tip --set hbm.harmonics=20 "
+                         "| awk -F, -v OFS=, '/^2/ {$4 *= 1.01 + 0.3*($1 - 25)} {print}' > %s/off.csv",
+                         HBMCHECK_COMMAND, folder),
+                   0);
+  assert_int_equal(shell("%s verify cases/structures/jenkins2.yaml -q --against %s/off.csv --columns "
+                         "omega=omega,amplitude=amplitude 2>&1",
+                         HBMCHECK_COMMAND, folder),
+                   1);
+  HAVE(" points that differ are where a slider never slips: where it rests is a matter of history");
+}
+
+static int make_folder(void **state)
+{
+  (void)state;
+  return mkdtemp(folder) ? 0 : -1;
+}
+
+static int remove_folder(void **state)
+{
+  (void)state;
+  return shell("rm -r %s", folder);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(every_response_is_judged),           cmocka_unit_test(mistakes_of_structures_are_named),
+      cmocka_unit_test(another_degree_of_freedom_is_named), cmocka_unit_test(a_load_elsewhere_is_named),
+      cmocka_unit_test(what_history_decides_is_said),
+  };
+  check_watchdog(600);
+  return cmocka_run_group_tests_name("verify.structures", tests, make_folder, remove_folder);
+}
