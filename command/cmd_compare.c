@@ -64,12 +64,22 @@ static error_t read_option(int key, char *text, struct argp_state *state)
   }
 }
 
+/* "omega = 7, branch 0" and, of a structure, ", tip" into text[WHERE], which is returned. */
+enum { WHERE = SCENE_WHERE + RESPONSE_NAME + 32 };
+static const char *row_where(const scene *sc, const comparison_row *r, char text[WHERE])
+{
+  char at[SCENE_WHERE];
+  snprintf(text, WHERE, "%s, branch %d%s%s", scene_where(sc, r->omega, at), r->branch, *r->response_name ? ", " : "",
+           r->response_name);
+  return text;
+}
+
 /* The row with the largest budget of the amplitude and what to do about it, and how many rows have no budget or one
  * that does not explain the discrepancy. */
 static void note_worst(table *t, const scene *sc, const compare_setup *setup, const comparison *c)
 {
   const comparison_row *top = NULL;
-  char text[BUDGET_TEXT], at[SCENE_WHERE];
+  char text[BUDGET_TEXT], at[WHERE];
   int unknown = 0;
   for (int i = 0; i < c->n_rows; ++i) {
     const comparison_row *r = &c->rows[i];
@@ -77,7 +87,7 @@ static void note_worst(table *t, const scene *sc, const compare_setup *setup, co
     if (r->budget.known && (!top || r->budget.amplitude.sum > top->budget.amplitude.sum)) top = r;
   }
   if (top) budget_advice(&top->budget, setup, sc->gate.most.amplitude, c->harmonics, text);
-  if (top) table_note(t, "largest budget, %s, branch %d: %s", scene_where(sc, top->omega, at), top->branch, text);
+  if (top) table_note(t, "largest budget, %s: %s", row_where(sc, top, at), text);
   if (unknown)
     table_note(t, "%d row%s without a budget: no periodic orbit was found next to the HBM solution", unknown,
                unknown == 1 ? "" : "s");
@@ -86,10 +96,10 @@ static void note_worst(table *t, const scene *sc, const compare_setup *setup, co
 /* What neither side expected, a line a row: under the table and in json. */
 static void note_unexpected(table *t, const scene *sc, const comparison *c)
 {
-  char text[COMPARISON_UNEXPECTED_TEXT], at[SCENE_WHERE];
+  char text[COMPARISON_UNEXPECTED_TEXT], at[WHERE];
   for (int i = 0; i < c->n_rows; ++i)
     if (c->rows[i].unexpected)
-      table_note(t, "UNEXPECTED at %s, branch %d: %s", scene_where(sc, c->rows[i].omega, at), c->rows[i].branch,
+      table_note(t, "UNEXPECTED at %s: %s", row_where(sc, &c->rows[i], at),
                  comparison_unexpected_text(&c->rows[i], text));
 }
 
@@ -103,6 +113,18 @@ static void note_mean(table *t, const comparison *c)
     table_note(t,
                "%d row%s without a mean to compare (mean_free): a slider that never slips rests where the history "
                "left it, and the mean, max, min and rms with it",
+               n, n == 1 ? "" : "s");
+}
+
+/* Rows whose motion is one of many. */
+static void note_family(table *t, const comparison *c)
+{
+  int n = 0;
+  for (int i = 0; i < c->n_rows; ++i) n += c->rows[i].family;
+  if (n)
+    table_note(t,
+               "%d row%s of a family of steady states: where a slider that never slips rests decides on the harmonics, "
+               "too. HBM is held against the member that begins with its own sliders",
                n, n == 1 ? "" : "s");
 }
 
@@ -140,6 +162,7 @@ static void note_comparison(table *t, const scene *sc, const compare_setup *setu
   note_worst(t, sc, setup, c);
   note_unexpected(t, sc, c);
   note_mean(t, c);
+  note_family(t, c);
   note_still(t, c);
   if (scene_adrift(sc)) table_note(t, "%s", SCENE_ADRIFT);
   if (!comparison_nonlinear(c)) table_note(t, COMPARISON_LINEAR, c->n_rows);
@@ -159,10 +182,10 @@ static void print_failures(const cli_common *common, const comparison *c)
 
 static void warn_unexpected(const cli_common *common, const comparison *c)
 {
-  char text[COMPARISON_UNEXPECTED_TEXT], at[SCENE_WHERE];
+  char text[COMPARISON_UNEXPECTED_TEXT], at[WHERE];
   for (int i = 0; i < c->n_rows; ++i)
     if (c->rows[i].unexpected)
-      cli_message(common, "at %s, branch %d: %s", scene_where(common->scene, c->rows[i].omega, at), c->rows[i].branch,
+      cli_message(common, "at %s: %s", row_where(common->scene, &c->rows[i], at),
                   comparison_unexpected_text(&c->rows[i], text));
 }
 

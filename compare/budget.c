@@ -22,15 +22,22 @@ struct budgeter {           /* from budgeter_new, to budgeter_free */
   double *state;            /* [n_states] where these start */
   int n_states;             /* in a state of time integration */
   double *X;                /* [n_coefficients of the alias-free solution, and more] */
+  struct link *link;        /* [responses] of the chain under way */
 };
 
-/* The solutions h, hx, O, T', T of budget.h, and which of them were found. */
+/* The solutions h, hx, O, T', T of budget.h, in one response; found: hx as tried last. */
+typedef struct link {
+  periodic_motion h, hx, orbit, finer, transient, found;
+  double settling; /* [1] */
+} link;
+
+/* Which of them are there. */
 typedef struct chain {
-  periodic_motion h, hx, orbit, finer, transient;
+  int n, most; /* responses; the one that moves most */
+  link *of;    /* [n] */
   bool has_hx, has_orbit, has_finer, has_transient;
   bool finer_is_coarser; /* T' was not found: `finer` is the transient stepped coarser instead, from which only the
                             integration error is estimated */
-  double settling;       /* [1] */
 } chain;
 
 hc_status budgeter_new(const compare_setup *setup, budgeter **out)
@@ -42,7 +49,8 @@ hc_status budgeter_new(const compare_setup *setup, budgeter **out)
   b->n_states = 2 * setup->model->n + setup->model->n_contacts;
   b->state = calloc((size_t)b->n_states, sizeof *b->state);
   b->X = calloc((size_t)(2 * HBM_MAX_HARMONICS + 1) * (size_t)setup->model->n, sizeof *b->X);
-  if (b->state && b->X) *out = b;
+  b->link = calloc((size_t)setup->model->n_responses, sizeof *b->link);
+  if (b->state && b->X && b->link) *out = b;
   else budgeter_free(b);
   return *out ? HC_OK : HC_NO_MEMORY;
 }
@@ -55,6 +63,7 @@ void budgeter_free(budgeter *b)
   timeint_free(b->coarser);
   free(b->state);
   free(b->X);
+  free(b->link);
   free(b);
 }
 
@@ -103,39 +112,43 @@ static hc_status need_alias_free(budgeter *b, int n_harm)
   return guided_hbm_solver_new(setup.model, &setup.hbm, &b->alias_free);
 }
 
-/* The solution with exact forces next to b->X becomes c->hx if there is none yet, or if it lies nearer to both h and
+/* How long the way from h by `hx` to the orbit is. */
+static double way_by(const link *l, const periodic_motion *hx)
+{
+  return motion_between(&l->h, hx).waveform + motion_between(hx, &l->orbit).waveform;
+}
+
+/* The solution with exact forces next to b->X becomes c's hx if there is none yet, or if it lies nearer to both h and
  * the orbit (sum of the two distances). */
 static void try_alias_free(budgeter *b, const budget_case *from, chain *c)
 {
   hbm_point point;
   hbm_measures m;
-  periodic_motion found;
+  const link *lead = &c->of[c->most];
   if (hbm_solve(b->alias_free, from->omega, b->X, &point) != HC_OK) return;
-  if (motion_of_response(b->alias_free, from->omega, b->X, 0, &m, &found) != HC_OK) return;
-  if (c->has_hx) {
-    double old = motion_between(&c->h, &c->hx).waveform + motion_between(&c->hx, &c->orbit).waveform;
-    if (!(motion_between(&c->h, &found).waveform + motion_between(&found, &c->orbit).waveform < old)) return;
-  }
-  c->hx = found;
+  for (int i = 0; i < c->n; ++i)
+    if (motion_of_response(b->alias_free, from->omega, b->X, i, &m, &c->of[i].found) != HC_OK) return;
+  if (c->has_hx && !(way_by(lead, &lead->found) < way_by(lead, &lead->hx))) return;
+  for (int i = 0; i < c->n; ++i) c->of[i].hx = c->of[i].found;
   c->has_hx = true;
 }
 
 /* From h. If that ends at another solution (h - hx - O three times as long as h - O), from the orbit's harmonics. */
 static hc_status find_alias_free(budgeter *b, const budget_case *from, chain *c)
 {
-  c->hx = c->h;
+  for (int i = 0; i < c->n; ++i) c->of[i].hx = c->of[i].h;
   if ((c->has_hx = b->setup.hbm.force == HBM_FORCE_EXACT)) return HC_OK;
   hc_status st = need_alias_free(b, from->n_harm);
   if (st != HC_OK) return st == HC_NO_MEMORY ? st : HC_OK;
   const bool oscillator = hbm_of_oscillator(b->alias_free);
+  const link *lead = &c->of[c->most];
   memcpy(b->X, from->X, (size_t)hbm_n_coefficients(b->alias_free) * sizeof *b->X);
   try_alias_free(b, from, c);
   if (!c->has_orbit) return HC_OK;
-  double direct = motion_between(&c->h, &c->orbit).waveform;
-  if (c->has_hx && motion_between(&c->h, &c->hx).waveform + motion_between(&c->hx, &c->orbit).waveform <= 3 * direct)
-    return HC_OK;
+  double direct = motion_between(&lead->h, &lead->orbit).waveform;
+  if (c->has_hx && way_by(lead, &lead->hx) <= 3 * direct) return HC_OK;
   if (!oscillator) return HC_OK; /* one response's harmonics are no start */
-  motion_harmonics(&c->orbit, from->n_harm, b->X);
+  motion_harmonics(&lead->orbit, from->n_harm, b->X);
   if (!b->setup.hbm.keep_mean) b->X[0] = 0;
   try_alias_free(b, from, c);
   return HC_OK;
@@ -145,7 +158,7 @@ static hc_status find_alias_free(budgeter *b, const budget_case *from, chain *c)
 
 /* The transient's orbit with transient.tolerance = tolerance. HC_OK also if there was none: then !*found. */
 static hc_status integrate_again(budgeter *b, timeint **ti, double tolerance, const budget_case *from,
-                                 const hc_monitor *monitor, periodic_motion *out, bool *found)
+                                 const hc_monitor *monitor, chain *c, bool *found)
 {
   compare_setup setup = b->setup;
   timeint_result r;
@@ -158,30 +171,38 @@ static hc_status integrate_again(budgeter *b, timeint **ti, double tolerance, co
   if (st == HC_OK) st = timeint_again(*ti, from->omega, from->transient->period_multiple, b->state, &bounded, &r);
   if (st == HC_NO_MEMORY) return st;
   if (p.stopped) return HC_INTERRUPTED;
-  if (st == HC_OK && budget_same_orbit(&r, from->transient)) *out = motion_of_transient(&r), *found = true;
-  return HC_OK;
+  if (st != HC_OK || !budget_same_orbit(&r, from->transient)) return HC_OK;
+  for (int i = 0; i < c->n && st == HC_OK; ++i) {
+    if (i > 0) st = timeint_response(*ti, i, &r);
+    if (st == HC_OK) c->of[i].finer = motion_of_transient(&r);
+  }
+  *found = st == HC_OK;
+  return st == HC_NO_MEMORY ? st : HC_OK;
 }
 
 /* Could the integration's error be seen beside the other parts, or is it asked for? Its size is expected to be what
  * the integration itself says. */
 static bool integration_matters(const budgeter *b, const budget_case *from, const chain *c)
 {
-  const timeint_result *tr = from->transient;
-  const double whole = motion_between(&c->h, &c->transient).waveform, expected = tr->closure + tr->attainable;
+  const timeint_result *tr = &from->transient[c->most];
+  const link *lead = &c->of[c->most];
+  const double whole = motion_between(&lead->h, &lead->transient).waveform, expected = tr->closure + tr->attainable;
   return !b->setup.spare || !(expected * tr->amplitude <= negligible * whole);
 }
 
 static hc_status find_finer(budgeter *b, const budget_case *from, const hc_monitor *monitor, chain *c)
 {
   const double tolerance = b->setup.transient.tolerance;
-  c->settling = from->transient->closure;
-  c->finer = c->transient;
+  for (int i = 0; i < c->n; ++i) {
+    c->of[i].settling = from->transient[i].closure;
+    c->of[i].finer = c->of[i].transient;
+  }
   if ((c->has_finer = from->transient->method == TIMEINT_BY_CLOSED_FORM)) return HC_OK;
   if (!integration_matters(b, from, c)) return HC_OK;
   const double fine = fmin(finest, 0.1 * tolerance);
-  hc_status st = integrate_again(b, &b->finer, fine, from, monitor, &c->finer, &c->has_finer);
+  hc_status st = integrate_again(b, &b->finer, fine, from, monitor, c, &c->has_finer);
   if (st != HC_OK || c->has_finer) return st;
-  st = integrate_again(b, &b->coarser, 10 * tolerance, from, monitor, &c->finer, &c->finer_is_coarser);
+  st = integrate_again(b, &b->coarser, 10 * tolerance, from, monitor, c, &c->finer_is_coarser);
   return st;
 }
 
@@ -197,10 +218,10 @@ static void add_up(budget_parts *p)
 #undef ADD
 }
 
-/* Distances between the solutions of a chain. */
-typedef struct links {
+/* Distances between the solutions of a chain in one response. */
+typedef struct distances {
   motion_distance observed, direct, aliasing, truncation, regularisation, integration;
-} links;
+} distances;
 
 /* The same in one measure [length]. */
 typedef struct gaps {
@@ -228,28 +249,29 @@ static budget_parts split(const chain *c, bool exact_law, double settling, doubl
 }
 
 /* Where a solution of the chain is missing, its neighbours are taken for each other: T for T', T' for O. */
-static links measure_links(const chain *c, bool exact_law)
+static distances measure_distances(const chain *c, const link *of, bool exact_law)
 {
-  const periodic_motion *last = c->has_finer ? &c->finer : &c->transient;
-  const periodic_motion *orbit = c->has_transient && (exact_law || !c->has_orbit) ? last : &c->orbit;
-  const periodic_motion *end = c->has_transient ? &c->transient : orbit;
-  return (links){.observed = motion_between(&c->h, end),
-                 .direct = motion_between(&c->h, orbit),
-                 .aliasing = motion_between(&c->h, &c->hx),
-                 .truncation = motion_between(&c->hx, orbit),
-                 .regularisation = c->has_transient ? motion_between(orbit, last) : (motion_distance){0},
-                 .integration = c->has_transient ? motion_between(&c->finer, &c->transient) : (motion_distance){0}};
+  const periodic_motion *last = c->has_finer ? &of->finer : &of->transient;
+  const periodic_motion *orbit = c->has_transient && (exact_law || !c->has_orbit) ? last : &of->orbit;
+  const periodic_motion *end = c->has_transient ? &of->transient : orbit;
+  return (distances){.observed = motion_between(&of->h, end),
+                     .direct = motion_between(&of->h, orbit),
+                     .aliasing = motion_between(&of->h, &of->hx),
+                     .truncation = motion_between(&of->hx, orbit),
+                     .regularisation = c->has_transient ? motion_between(orbit, last) : (motion_distance){0},
+                     .integration =
+                         c->has_transient ? motion_between(&of->finer, &of->transient) : (motion_distance){0}};
 }
 
-static void fill_budget(const chain *c, bool exact_law, error_budget *out)
+static void fill_budget(const chain *c, const link *of, bool exact_law, error_budget *out)
 {
-  const links l = measure_links(c, exact_law);
-  const double unit = c->has_transient ? c->transient.amplitude : c->orbit.amplitude;
+  const distances l = measure_distances(c, of, exact_law);
+  const double unit = c->has_transient ? of->transient.amplitude : of->orbit.amplitude;
 #define GAPS(m)                                                                                                        \
   &(const gaps){l.observed.m, l.direct.m, l.aliasing.m, l.truncation.m, l.regularisation.m, l.integration.m}
-  out->amplitude = split(c, exact_law, c->settling, unit, GAPS(amplitude));
-  out->harmonic_1 = split(c, exact_law, c->settling, unit, GAPS(harmonic_1));
-  out->waveform = split(c, exact_law, c->settling, unit, GAPS(waveform));
+  out->amplitude = split(c, exact_law, of->settling, unit, GAPS(amplitude));
+  out->harmonic_1 = split(c, exact_law, of->settling, unit, GAPS(harmonic_1));
+  out->waveform = split(c, exact_law, of->settling, unit, GAPS(waveform));
 #undef GAPS
   out->known = true;
   out->against_transient = c->has_transient;
@@ -263,19 +285,29 @@ static bool on_orbit(const budget_case *from)
   return from->orbit_status != HC_OK || budget_same_orbit(tr, from->orbit);
 }
 
+static void begin_chain(const budget_case *from, chain *c)
+{
+  c->has_orbit = from->orbit_status == HC_OK;
+  c->has_transient = on_orbit(from);
+  for (int i = 0; i < c->n; ++i) {
+    link *l = &c->of[i];
+    *l = (link){.h = from->motion[i]};
+    if (l->h.amplitude > c->of[c->most].h.amplitude) c->most = i;
+    if (c->has_orbit) l->orbit = motion_of_transient(&from->orbit[i]);
+    if (c->has_transient) l->transient = motion_of_transient(&from->transient[i]);
+  }
+}
+
 hc_status budgeter_run(budgeter *b, const budget_case *from, const hc_monitor *monitor, error_budget *out)
 {
-  *out = budget_nothing();
-  chain *c = calloc(1, sizeof *c);
-  if (!c) return HC_NO_MEMORY;
+  chain c = {.n = b->setup.model->n_responses, .of = b->link};
   hc_status st = HC_OK;
-  c->h = *from->motion;
-  if ((c->has_orbit = from->orbit_status == HC_OK)) c->orbit = motion_of_transient(from->orbit);
-  if ((c->has_transient = on_orbit(from))) c->transient = motion_of_transient(from->transient);
-  if (c->has_orbit || c->has_transient) st = find_alias_free(b, from, c);
-  if (st == HC_OK && c->has_transient) st = find_finer(b, from, monitor, c);
-  if (st == HC_OK && (c->has_orbit || c->has_transient))
-    fill_budget(c, b->setup.transient.law == TRANSIENT_LAW_EXACT, out);
-  free(c);
+  for (int i = 0; i < c.n; ++i) out[i] = budget_nothing();
+  begin_chain(from, &c);
+  const bool any = c.has_orbit || c.has_transient;
+  if (any) st = find_alias_free(b, from, &c);
+  if (st == HC_OK && c.has_transient) st = find_finer(b, from, monitor, &c);
+  for (int i = 0; i < c.n && st == HC_OK && any; ++i)
+    fill_budget(&c, &c.of[i], b->setup.transient.law == TRANSIENT_LAW_EXACT, &out[i]);
   return st;
 }

@@ -43,9 +43,9 @@ typedef struct budget_case {
   double omega;
   int n_harm;                    /* of the solution */
   const double *X;               /* of the solver's coefficients */
-  const periodic_motion *motion; /* of X: of an oscillator x, else the first response */
+  const periodic_motion *motion; /* [responses] of X: of an oscillator x */
   hc_status transient_status, orbit_status;
-  const timeint_result *transient, *orbit; /* valid where the status is HC_OK */
+  const timeint_result *transient, *orbit; /* [responses] valid where the status is HC_OK */
   const double *state;                     /* [timeint_n_states] on the transient's orbit */
 } budget_case;
 
@@ -57,7 +57,8 @@ void budgeter_free(budgeter *b);
 /* Adds what it has solved and integrated so far. */
 void budgeter_count(const budgeter *b, long *hbm_solves, long *periods, long *closed_form);
 
-/* HC_OK, also where parts could not be had; HC_INTERRUPTED, HC_NO_MEMORY. */
+/* out[responses]. Which solutions lie between is decided by the response that moves most. HC_OK, also where parts could
+ * not be had; HC_INTERRUPTED, HC_NO_MEMORY. */
 hc_status budgeter_run(budgeter *b, const budget_case *from, const hc_monitor *monitor, error_budget *out);
 
 /* Are the two the same orbit: as many periods, nowhere farther apart than a twentieth of the amplitude, and not one

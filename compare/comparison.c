@@ -127,10 +127,14 @@ typedef struct workspace {
   double *state;   /* [n_states] of the row under way, on the transient's orbit */
   double *scratch; /* [n_states] of what else is integrated for it */
   double swept_omega;
-  timeint_result *responses; /* [n_responses] the transient's of the row under way, from number 1 on */
-  timeint_result *orbits;    /* [n_responses] and the orbit's */
-  contact_period *acting;    /* [n_contacts] the transient's of the row under way */
-  hc_status acted;           /* of these */
+  /* [n_responses], of the row under way: the transient's and the orbit's results, what HBM expects of itself, its
+   * motion (for the budget), and the budget */
+  timeint_result *responses, *orbits;
+  motion_error *expected;
+  periodic_motion *motions;
+  error_budget *budgets;
+  contact_period *acting; /* [n_contacts] the transient's of the row under way */
+  hc_status acted;        /* of these */
 } workspace;
 
 /* w->state at the start of a row. HC_OK, or why the sweep up to here failed. */
@@ -198,6 +202,7 @@ static void referee(workspace *w, comparison_row *row, const double *X)
   if (same) row->orbit = *tr, row->orbit_status = HC_OK;
   else if ((row->orbit_status = comparison_orbit_start(w->hbm, X, row->omega, w->scratch)) == HC_OK)
     row->orbit_status = timeint_orbit(w->exact, row->omega, 1, w->scratch, w->monitor, &row->orbit);
+  w->orbits[0] = row->orbit;
   for (int r = 1; r < w->setup->model->n_responses && row->orbit_status == HC_OK; ++r) {
     w->orbits[r] = same ? w->responses[r] : row->orbit;
     if (!same) row->orbit_status = timeint_response(w->exact, r, &w->orbits[r]);
@@ -207,24 +212,28 @@ static void referee(workspace *w, comparison_row *row, const double *X)
   if (row->orbit_status == HC_OK) errors_of(&first, row->omega, X, &row->orbit, &unused, &row->orbit_errors);
 }
 
-/* What the discrepancy is made of. */
+/* What the discrepancy is made of, in every response. */
 static hc_status account(workspace *w, const hbm_curve *at, int k, comparison_row *row)
 {
   hbm_measures unused;
-  periodic_motion motion;
   const double *X = at->X + (size_t)k * at->n_coef;
   hc_status st = row->hbm_status;
-  if (st == HC_OK) st = motion_of_response(w->hbm, row->omega, X, 0, &unused, &motion);
+  for (int r = 0; r < w->setup->model->n_responses; ++r) w->budgets[r] = budget_nothing();
+  for (int r = 0; r < w->setup->model->n_responses && st == HC_OK; ++r)
+    st = motion_of_response(w->hbm, row->omega, X, r, &unused, &w->motions[r]);
   const budget_case from = {.omega = row->omega,
                             .n_harm = at->points[k].harmonics,
                             .X = X,
-                            .motion = &motion,
+                            .motion = w->motions,
                             .transient_status = row->transient_status,
-                            .transient = &row->transient,
+                            .transient = w->responses,
                             .orbit_status = row->orbit_status,
-                            .orbit = &row->orbit,
+                            .orbit = w->orbits,
                             .state = w->state};
-  return st == HC_OK ? budgeter_run(w->budgeter, &from, w->monitor, &row->budget) : HC_OK;
+  if (st != HC_OK) return HC_OK;
+  st = budgeter_run(w->budgeter, &from, w->monitor, w->budgets);
+  row->budget = w->budgets[0];
+  return st;
 }
 
 /* Relative to the amplitude of the motion it is about. */
@@ -236,21 +245,27 @@ static discrepancy relative_prediction(const motion_error *e, double amplitude)
                        .waveform = discrepancy_relative(e->waveform, amplitude)};
 }
 
-/* What HBM expects of X: known before the transient is. */
+/* What HBM expects of X in every response: known before the transient is. */
 static hc_status predict_solution(workspace *w, const double *X, comparison_row *row)
 {
-  motion_error e;
-  hc_status st = row->hbm_status == HC_OK ? hbm_predict(w->hbm, row->omega, X, &e) : row->hbm_status;
-  if (st == HC_OK) row->hbm_predicted = relative_prediction(&e, row->hbm.amplitude);
+  hc_status st = row->hbm_status;
+  if (st == HC_OK) st = hbm_predict(w->hbm, row->omega, X, &w->expected[0]);
+  for (int r = 1; r < w->setup->model->n_responses; ++r) {
+    w->expected[r] = (motion_error){NAN, NAN, NAN};
+    if (st == HC_OK) st = hbm_predict_response(w->hbm, row->omega, X, r, &w->expected[r]);
+  }
+  if (row->hbm_status == HC_OK) row->hbm_predicted = relative_prediction(&w->expected[0], row->hbm.amplitude);
   return st == HC_NO_MEMORY ? st : HC_OK;
 }
 
 /* What the transient, w->state on its orbit, expects of itself: HBM does not enter. */
 static hc_status predict_transient(workspace *w, comparison_row *row)
 {
-  timeint_result *tr = &row->transient;
-  hc_status st = row->transient_status == HC_OK ? timeint_predict(w->ti, w->state, w->monitor, tr) : HC_OK;
-  if (row->transient_status == HC_OK) row->transient_predicted = relative_prediction(&tr->predicted, tr->amplitude);
+  if (row->transient_status != HC_OK) return HC_OK;
+  timeint_result *tr = w->responses;
+  hc_status st = timeint_predict(w->ti, w->state, w->monitor, w->setup->model->n_responses, tr);
+  row->transient = *tr;
+  row->transient_predicted = relative_prediction(&tr->predicted, tr->amplitude);
   return st;
 }
 
@@ -299,10 +314,11 @@ static hc_status add_contacts(workspace *w, const double *X, const comparison_ro
   return st;
 }
 
-/* The transient's measures of all responses but the first, while the handle has their periods. */
+/* The transient's measures of all responses, while the handle has their periods. */
 static hc_status keep_responses(workspace *w, const comparison_row *row)
 {
   hc_status st = HC_OK;
+  w->responses[0] = row->transient;
   for (int r = 1; r < w->setup->model->n_responses && moved(row) && st == HC_OK; ++r) {
     w->responses[r] = row->transient;
     st = timeint_response(w->ti, r, &w->responses[r]);
@@ -330,6 +346,7 @@ static hc_status compare_solution(workspace *w, const hbm_curve *at, int k, comp
   referee(w, row, X);
   if (row->orbit_status == HC_INTERRUPTED || row->orbit_status == HC_NO_MEMORY) return row->orbit_status;
   bool comparable = row->hbm_status == HC_OK && row->transient_status == HC_OK;
+  row->family = w->setup->model->n_contacts > 1 && comparison_mean_free(row) && row->transient.regime > CONTACT_STUCK;
   const side first = {w->hbm, w->setup, 0};
   if (comparable) row->hbm_status = errors_of(&first, row->omega, X, &row->transient, &row->hbm, &row->errors);
   row->accounted = comparable && row->transient.period_multiple == 1 && accounted_for(&first, at, &row->transient);
@@ -349,8 +366,7 @@ static double largest_amplitude(const workspace *w, const comparison_row *row)
   return most;
 }
 
-/* The row of solution k becomes that of response r: its errors and its verdict. Predictions and budget are of the first
- * response only. */
+/* The row of solution k becomes that of response r: its errors, predictions, budget and verdict. */
 static void turn_row(workspace *w, const hbm_curve *at, int k, int r, double largest, const comparison_row *first,
                      comparison_row *row)
 {
@@ -360,24 +376,30 @@ static void turn_row(workspace *w, const hbm_curve *at, int k, int r, double lar
   *row = *first;
   row->response = r;
   row->errors = row->orbit_errors = row->hbm_predicted = row->transient_predicted = nothing;
-  row->budget = budget_nothing();
+  row->budget = w->budgets[r];
   row->unexpected = false;
   if (row->hbm_status == HC_OK) row->hbm_status = hbm_measure_response(w->hbm, row->omega, X, r, &row->hbm);
+  if (row->hbm_status == HC_OK) row->hbm_predicted = relative_prediction(&w->expected[r], row->hbm.amplitude);
   if (row->orbit_status == HC_OK && row->hbm_status == HC_OK) {
     row->orbit = w->orbits[r];
     row->hbm_status = errors_of(&s, row->omega, X, &row->orbit, &row->hbm, &row->orbit_errors);
   }
   if (!moved(first)) return;
   row->transient = w->responses[r];
+  row->transient_predicted = relative_prediction(&row->transient.predicted, row->transient.amplitude);
   const bool comparable = first->hbm_status == HC_OK && first->transient_status == HC_OK;
   if (comparable) row->hbm_status = errors_of(&s, row->omega, X, &row->transient, &row->hbm, &row->errors);
   if (!comparable || row->transient.period_multiple != 1) return;
   row->still = !(row->transient.amplitude > still * largest);
   row->accounted = row->still || accounted_for(&s, at, &row->transient);
-  if (row->still) row->errors = nothing;
+  if (row->still) {
+    row->errors = row->hbm_predicted = row->transient_predicted = nothing;
+    row->budget = budget_nothing();
+  }
   const bool within = row->still || within_limits(w->setup, &row->errors, &row->transient);
   if (first->verdict == VERDICT_MATCH || first->verdict == VERDICT_DIFFERS)
     row->verdict = within ? VERDICT_MATCH : unstable(first) ? VERDICT_UNSTABLE : VERDICT_DIFFERS;
+  row->unexpected = comparison_unexpected(row);
 }
 
 /* Rows of the other responses of solution k behind that of the first. */
@@ -478,11 +500,16 @@ static hc_status make_states(workspace *w)
   w->swept = calloc(n, sizeof *w->swept);
   w->state = calloc(n, sizeof *w->state);
   w->scratch = calloc(n, sizeof *w->scratch);
-  w->responses = calloc((size_t)w->setup->model->n_responses, sizeof *w->responses);
-  w->orbits = calloc((size_t)w->setup->model->n_responses, sizeof *w->orbits);
+  const size_t responses = (size_t)w->setup->model->n_responses;
+  w->responses = calloc(responses, sizeof *w->responses);
+  w->orbits = calloc(responses, sizeof *w->orbits);
+  w->expected = calloc(responses, sizeof *w->expected);
+  w->motions = calloc(responses, sizeof *w->motions);
+  w->budgets = calloc(responses, sizeof *w->budgets);
   w->acting = calloc((size_t)w->setup->model->n_contacts + 1, sizeof *w->acting);
-  const bool all = w->swept && w->state && w->scratch && w->responses && w->orbits && w->acting;
-  return all ? HC_OK : HC_NO_MEMORY;
+  const bool states = w->swept && w->state && w->scratch && w->acting;
+  const bool results = w->responses && w->orbits && w->expected && w->motions && w->budgets;
+  return states && results ? HC_OK : HC_NO_MEMORY;
 }
 
 static void count_cost(workspace *w, comparison_cost *cost)
@@ -501,6 +528,9 @@ static void count_cost(workspace *w, comparison_cost *cost)
 static void runner_clear(workspace *w)
 {
   free(w->acting);
+  free(w->budgets);
+  free(w->motions);
+  free(w->expected);
   free(w->orbits);
   free(w->responses);
   free(w->scratch);

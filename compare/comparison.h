@@ -40,6 +40,10 @@ typedef struct comparison_row {
   int response; /* of the model, counted from 0: a row for each; what is said of the first is said of the solution */
   char response_name[RESPONSE_NAME]; /* in words, where it has been given one; else empty */
   bool still;                        /* it moves less than 1e-9 of the largest, and is not compared */
+  /* A slider never slips while another contact changes its state: where it rests then decides on all of the motion, and
+   * the steady states are a family. HBM is held against a member that begins with its own sliders, which is near its
+   * own, and no farther than a gate can say; predictions know nothing of that. */
+  bool family;
   double omega;
   int branch;           /* of the HBM solution; -1: HBM has none here */
   enum verdict verdict; /* `enum`, because C++ wants to know */
@@ -104,7 +108,7 @@ bool comparison_nonlinear(const comparison *c);
 
 /* Both sides ran on one orbit (match or differs, period 1) and differ in amplitude or waveform by more than
  * COMPARISON_SLACK times what both predicted together: something is wrong that neither expected. False where a
- * prediction is not known. */
+ * prediction is not known, and of a family. */
 enum { COMPARISON_SLACK = 3 };
 bool comparison_unexpected(const comparison_row *row);
 

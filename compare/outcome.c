@@ -60,7 +60,7 @@ bool comparison_unexpected(const comparison_row *row)
 {
   const discrepancy *h = &row->hbm_predicted, *t = &row->transient_predicted;
   const bool one_orbit = row->verdict == VERDICT_MATCH || row->verdict == VERDICT_DIFFERS;
-  return one_orbit && row->transient.period_multiple == 1 &&
+  return one_orbit && !row->family && row->transient.period_multiple == 1 &&
          (beyond(row->errors.amplitude, h->amplitude, t->amplitude) ||
           beyond(row->errors.waveform, h->waveform, t->waveform));
 }

@@ -180,19 +180,8 @@ bool hbm_of_oscillator(const hbm_solver *s) { return model_is_oscillator(s->mode
 
 hc_status hbm_response(hbm_solver *s, double omega, const double *X, int r, double *x)
 {
-  const int dim = s->sys.dim;
   if (r < 0 || r >= s->model->n_responses) return HC_BAD_INPUT;
-  hc_status st = condensation_at(s->sys.linear, omega, 0);
-  for (int h = 0; h <= s->sys.n_harm && st == HC_OK; ++h) {
-    const double *a = X + (h ? (2 * h - 1) * dim : 0), *b = a + dim;
-    double complex z;
-    condensation_response(s->sys.linear, h, r, 1, s->sys.block, &z);
-    for (int d = 0; d < dim; ++d) z += s->sys.block[d] * (h ? a[d] - I * b[d] : a[d]);
-    x[h ? 2 * h - 1 : 0] = creal(z);
-    if (h) x[2 * h] = -cimag(z);
-  }
-  if (!s->how.keep_mean) x[0] = 0;
-  return st;
+  return hbm_system_any_response(&s->sys, omega, X, r, x);
 }
 
 hc_status hbm_measure_response(hbm_solver *s, double omega, const double *X, int r, hbm_measures *out)

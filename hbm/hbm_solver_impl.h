@@ -21,6 +21,7 @@ struct hbm_solver {            /* from hbm_solver_new, to hbm_solver_free; not s
   refinement *finer_samples;   /* the same of samples */
   refinement *exact_finer;     /* hbm_predict's equations; NULL until it is asked */
   double *improved;            /* their solution next to the one asked about */
+  double improved_least;       /* [length] the error is never less than this there */
   hbm_guess guess;             /* .ask NULL: none */
   long solves;                 /* of either form, since it was made */
   const hbm_ramp *ramp;        /* the one that is followed; NULL: none is */

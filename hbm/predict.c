@@ -89,13 +89,18 @@ static hc_status improve(hbm_solver *s, double omega, const double *X, double *l
   return HC_OK;
 }
 
+static periodic_motion motion_of(int n_harm, const double *x)
+{
+  double max, min;
+  series_extrema(n_harm, x, &max, &min);
+  return motion_of_series(n_harm, x, max, min);
+}
+
 /* The first response's motion; x[2 n_harm + 1] is room. */
 static periodic_motion measured(const hbm_solver *s, int n_harm, const double *X, double *x)
 {
-  double max, min;
   hbm_system_response(&s->sys, n_harm, X, x);
-  series_extrema(n_harm, x, &max, &min);
-  return motion_of_series(n_harm, x, max, min);
+  return motion_of(n_harm, x);
 }
 
 /* What n harmonics leave out is added. Of sampled forces and n < H all of the distance may be aliasing, which more
@@ -106,24 +111,42 @@ static double extrapolation(const hbm_solver *s, int n)
   return s->how.force == HBM_FORCE_SAMPLED && ratio > 1 ? 1 : 1 / fabs(1 - ratio * ratio * ratio);
 }
 
-hc_status hbm_predict(hbm_solver *s, double omega, const double *X, motion_error *out)
+/* From the two motions of one response. All of *out is NaN unless HC_OK. */
+static hc_status error_between(const hbm_solver *s, const periodic_motion *ours, const periodic_motion *better,
+                               motion_error *out)
 {
-  *out = (motion_error){NAN, NAN, NAN};
-  hc_status st = need_finer(s, omega);
-  if (st != HC_OK) return st;
-  const int n_harm = s->sys.n_harm, n = refinement_harmonics(s->exact_finer);
-  double least;
-  memset(s->improved, 0, (size_t)hbm_system_length(&s->sys, n) * sizeof *s->improved);
-  memcpy(s->improved, X, (size_t)hbm_system_length(&s->sys, n < n_harm ? n : n_harm) * sizeof *s->improved);
-  st = improve(s, omega, X, &least);
-  if (st != HC_OK) return st;
-  const periodic_motion ours = measured(s, n_harm, X, s->x), better = measured(s, n, s->improved, s->x);
-  const motion_distance d = motion_between(&ours, &better);
-  const double factor = extrapolation(s, n), waveform = factor * d.waveform;
+  const motion_distance d = motion_between(ours, better);
+  const double factor = extrapolation(s, refinement_harmonics(s->exact_finer)), waveform = factor * d.waveform;
+  const double least = s->improved_least;
   *out = (motion_error){.amplitude = fmax(factor * d.amplitude, least_share * waveform) + least,
                         .harmonic_1 = fmax(factor * d.harmonic_1, least_share * waveform) + least,
                         .waveform = waveform + least};
   const double sum = out->amplitude + out->harmonic_1 + out->waveform;
   if (isnan(sum)) *out = (motion_error){NAN, NAN, NAN};
   return isnan(sum) ? HC_NOT_FINITE : HC_OK;
+}
+
+hc_status hbm_predict(hbm_solver *s, double omega, const double *X, motion_error *out)
+{
+  *out = (motion_error){NAN, NAN, NAN};
+  hc_status st = need_finer(s, omega);
+  if (st != HC_OK) return st;
+  const int n_harm = s->sys.n_harm, n = refinement_harmonics(s->exact_finer);
+  memset(s->improved, 0, (size_t)hbm_system_length(&s->sys, n) * sizeof *s->improved);
+  memcpy(s->improved, X, (size_t)hbm_system_length(&s->sys, n < n_harm ? n : n_harm) * sizeof *s->improved);
+  st = improve(s, omega, X, &s->improved_least);
+  if (st != HC_OK) return st;
+  const periodic_motion ours = measured(s, n_harm, X, s->x), better = measured(s, n, s->improved, s->x);
+  return error_between(s, &ours, &better, out);
+}
+
+hc_status hbm_predict_response(hbm_solver *s, double omega, const double *X, int r, motion_error *out)
+{
+  *out = (motion_error){NAN, NAN, NAN};
+  hc_status st = hbm_response(s, omega, X, r, s->x);
+  if (st != HC_OK) return st;
+  const periodic_motion ours = motion_of(s->sys.n_harm, s->x);
+  if ((st = refinement_response(s->exact_finer, omega, s->improved, r, s->x)) != HC_OK) return st;
+  const periodic_motion better = motion_of(refinement_harmonics(s->exact_finer), s->x);
+  return error_between(s, &ours, &better, out);
 }

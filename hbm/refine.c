@@ -66,6 +66,11 @@ hc_status refinement_step(refinement *r, double omega, double *Y, double *step)
   return HC_OK;
 }
 
+hc_status refinement_response(refinement *r, double omega, const double *Y, int response, double *x)
+{
+  return hbm_system_any_response(&r->sys, omega, Y, response, x);
+}
+
 double refinement_rounding(refinement *r, double omega)
 {
   const int n = r->sys.n;

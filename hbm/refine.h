@@ -19,6 +19,9 @@ int refinement_harmonics(const refinement *r);
  * HC_SINGULAR, HC_NOT_FINITE: Y is as it was. */
 hc_status refinement_step(refinement *r, double omega, double *Y, double *step);
 
+/* x[2 n' + 1]: response r of the model, of Y at omega. Errors of hbm_response. */
+hc_status refinement_response(refinement *r, double omega, const double *Y, int response, double *x);
+
 /* [length] How far rounding may move what the last step came to: |J'^-1 s|, where each s_i is one rounding of the sum
  * of all forces. INFINITY rather than a NaN. */
 double refinement_rounding(refinement *r, double omega);

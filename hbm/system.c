@@ -62,6 +62,22 @@ void hbm_system_response(const hbm_system *sys, int n_harm, const double *X, dou
   }
 }
 
+hc_status hbm_system_any_response(hbm_system *sys, double omega, const double *X, int r, double *x)
+{
+  const int dim = sys->dim;
+  hc_status st = condensation_at(sys->linear, omega, 0);
+  for (int h = 0; h <= sys->n_harm && st == HC_OK; ++h) {
+    const double *a = X + (h ? (2 * h - 1) * dim : 0), *b = a + dim;
+    double complex z;
+    condensation_response(sys->linear, h, r, 1, sys->block, &z);
+    for (int d = 0; d < dim; ++d) z += sys->block[d] * (h ? a[d] - I * b[d] : a[d]);
+    x[h ? 2 * h - 1 : 0] = creal(z);
+    if (h) x[2 * h] = -cimag(z);
+  }
+  if (!sys->how.keep_mean) x[0] = 0;
+  return st;
+}
+
 /* Where the cosines and the sines of harmonic h begin in X; of harmonic 0, the means. */
 static size_t cosines(const hbm_system *sys, int h) { return (size_t)sys->dim * (size_t)(h ? 2 * h - 1 : 0); }
 static size_t sines(const hbm_system *sys, int h) { return (size_t)sys->dim * (size_t)(2 * h); }

@@ -52,6 +52,10 @@ hc_status hbm_system_contact(hbm_system *sys, const double *X);
 /* The first response's series x[2 n_harm + 1] of the motion X. */
 void hbm_system_response(const hbm_system *sys, int n_harm, const double *X, double *x);
 
+/* Series x[2 n_harm + 1] of response r of the model, of the motion X[n_coef] at omega; without harmonic 0 its mean is
+ * 0. Errors of condensation_at. */
+hc_status hbm_system_any_response(hbm_system *sys, double omega, const double *X, int r, double *x);
+
 /* R[n] at X[n_coef]. HC_NOT_FINITE rather than a NaN, and where condensation_at says so. */
 hc_status hbm_system_residual(hbm_system *sys, double omega, const double *X, double *R);
 

@@ -19,7 +19,7 @@ static bool measured(const steady_row *r)
 }
 static bool prediction_known(const comparison_row *r)
 {
-  return !isnan(r->hbm_predicted.amplitude) && !isnan(r->transient_predicted.amplitude);
+  return !r->family && !isnan(r->hbm_predicted.amplitude) && !isnan(r->transient_predicted.amplitude);
 }
 static const char *yes_no(bool yes) { return yes ? "yes" : "no"; }
 static bool has_hbm(const comparison_row *r) { return r->branch >= 0 && r->hbm_status == HC_OK; }

@@ -1,6 +1,7 @@
 /* predict.c - timeint_predict of steady.h. */
 #include <float.h>
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "timeint/confirm.h"
@@ -59,45 +60,63 @@ static hc_status halve(timeint *ti, int k, const hc_monitor *monitor, timeint_re
   return st == HC_OK ? orbit_report(ti, k, TIMEINT_BY_SHOOTING, &found, r) : st;
 }
 
-/* Twice the change by half the regularisation; NaN if there is no such orbit. */
-static hc_status regularisation(timeint *ti, const double *state, const hc_monitor *monitor, const timeint_result *r,
-                                motion_error *out)
+/* Twice the change from `whole` to `half`. */
+static motion_error change(const timeint_result *whole, const timeint_result *half)
+{
+  const periodic_motion all_of_it = motion_of(whole), less = motion_of(half);
+  const motion_distance d = motion_between(&all_of_it, &less);
+  const double least = least_share * d.waveform;
+  return (motion_error){2 * fmax(d.amplitude, least), 2 * fmax(d.harmonic_1, least), 2 * d.waveform};
+}
+
+/* out[n]: twice the change of each response by half the regularisation; untouched if there is no such orbit. */
+static hc_status regularisation(timeint *ti, const double *state, const hc_monitor *monitor, int n,
+                                const timeint_result *r, motion_error *out)
 {
   const double rho = ti->how.regularisation;
   timeint_result half = *r;
-  *out = all(NAN);
   hc_status st = timeint_begin(ti, r->omega, state);
   if (st != HC_OK) return st;
   ti->how.regularisation = 0.5 * rho;
   scaled_make(&ti->scaled, ti->model, &ti->how, ti->omega, ti->length);
   st = halve(ti, r->period_multiple, monitor, &half);
+  for (int i = 0; i < n && st == HC_OK; ++i) {
+    if (i > 0) st = timeint_response(ti, i, &half);
+    if (st == HC_OK) out[i] = change(&r[i], &half);
+  }
   ti->how.regularisation = rho;
   scaled_make(&ti->scaled, ti->model, &ti->how, ti->omega, ti->length);
-  if (st == HC_NO_MEMORY || st == HC_INTERRUPTED) return st;
-  if (st != HC_OK) return HC_OK;
-  const periodic_motion whole = motion_of(r), less = motion_of(&half);
-  const motion_distance d = motion_between(&whole, &less);
-  const double least = least_share * d.waveform;
-  *out = (motion_error){2 * fmax(d.amplitude, least), 2 * fmax(d.harmonic_1, least), 2 * d.waveform};
-  return HC_OK;
+  return st == HC_NO_MEMORY || st == HC_INTERRUPTED ? st : HC_OK;
 }
 
-hc_status timeint_predict(timeint *ti, const double *state, const hc_monitor *monitor, timeint_result *r)
+/* The part by the regularisation, out[n]; NaN: not known. */
+static hc_status regularised_part(timeint *ti, const double *state, const hc_monitor *monitor, int n,
+                                  const timeint_result *r, motion_error *out)
+{
+  motion_error *known = ti->scout && !ti->how.richardson ? scout_predictions(ti, state) : NULL;
+  for (int i = 0; i < n; ++i) {
+    out[i] = ti->how.richardson ? all(r[i].regularisation_error * r[i].amplitude) : all(NAN);
+    if (known) out[i] = known[i];
+  }
+  if (ti->how.richardson || out[n - 1].amplitude >= 0) return HC_OK;
+  hc_status st = regularisation(ti, state, monitor, n, r, out);
+  for (int i = 0; i < n && known; ++i) known[i] = out[i];
+  return st;
+}
+
+hc_status timeint_predict(timeint *ti, const double *state, const hc_monitor *monitor, int n, timeint_result *r)
 {
   if (r->period_multiple < 1) return HC_OK;
-  const double integration = (r->closure + r->attainable + rounding) * r->amplitude;
-  r->predicted = all(integration);
+  for (int i = 0; i < n; ++i) r[i].predicted = all((r[i].closure + r[i].attainable + rounding) * r[i].amplitude);
   if (r->method == TIMEINT_BY_CLOSED_FORM || ti->how.law == TRANSIENT_LAW_EXACT) return HC_OK;
-  motion_error more = all(r->regularisation_error * r->amplitude), *known = NULL;
-  hc_status st = HC_OK;
-  if (!ti->how.richardson) {
-    if (ti->scout) known = scout_prediction(ti, state);
-    if (known && known->amplitude >= 0) return r->predicted = *known, HC_OK;
-    st = regularisation(ti, state, monitor, r, &more);
+  motion_error *more = calloc((size_t)n, sizeof *more);
+  if (!more) return HC_NO_MEMORY;
+  hc_status st = regularised_part(ti, state, monitor, n, r, more);
+  for (int i = 0; i < n; ++i) {
+    r[i].predicted.amplitude += more[i].amplitude;
+    r[i].predicted.harmonic_1 += more[i].harmonic_1;
+    r[i].predicted.waveform += more[i].waveform;
   }
-  r->predicted.amplitude += more.amplitude;
-  r->predicted.harmonic_1 += more.harmonic_1;
-  r->predicted.waveform += more.waveform;
-  if (known) *known = r->predicted;
+  free(more);
   return st;
 }

@@ -25,8 +25,10 @@ struct memory {
     double omega;
     double *scouted, *state; /* [n] where the scout was, where CVODE ended; in the model's units */
     timeint_result result;
+    motion_error *predicted; /* [responses] */
   } orbit[REMEMBERED];
   double *states;           /* of the orbits */
+  motion_error *predicted;  /* of the orbits */
   timeint_result untouched; /* a result before the scout's orbit was tried */
 };
 
@@ -34,10 +36,13 @@ static hc_status make_memory(timeint *ti)
 {
   const size_t n = (size_t)ti->n;
   struct memory *m = ti->confirmed = calloc(1, sizeof *m);
+  const size_t responses = (size_t)ti->measure.n_responses;
   if (!m || !(m->states = calloc(2 * REMEMBERED * n, sizeof *m->states))) return HC_NO_MEMORY;
+  if (!(m->predicted = calloc(REMEMBERED * responses, sizeof *m->predicted))) return HC_NO_MEMORY;
   for (size_t i = 0; i < REMEMBERED; ++i) {
     m->orbit[i].scouted = m->states + 2 * i * n;
     m->orbit[i].state = m->states + (2 * i + 1) * n;
+    m->orbit[i].predicted = m->predicted + i * responses;
   }
   return HC_OK;
 }
@@ -57,7 +62,10 @@ hc_status scout_new(timeint *ti)
 
 void scout_free(timeint *ti)
 {
-  if (ti->confirmed) free(ti->confirmed->states);
+  if (ti->confirmed) {
+    free(ti->confirmed->predicted);
+    free(ti->confirmed->states);
+  }
   free(ti->confirmed);
   confirm_free(ti->confirm);
   timeint_free(ti->scout);
@@ -88,11 +96,11 @@ static const struct confirmed *recall(const timeint *ti, int k, const double *sc
   return NULL;
 }
 
-motion_error *scout_prediction(timeint *ti, const double *state)
+motion_error *scout_predictions(timeint *ti, const double *state)
 {
   for (int i = 0; i < REMEMBERED; ++i) {
     struct confirmed *c = &ti->confirmed->orbit[i];
-    if (c->k > 0 && c->omega == ti->omega && same_state(ti->n, c->state, state, 1e-14)) return &c->result.predicted;
+    if (c->k > 0 && c->omega == ti->omega && same_state(ti->n, c->state, state, 1e-14)) return c->predicted;
   }
   return NULL;
 }
@@ -105,6 +113,7 @@ static void remember(timeint *ti, int k, const double *scouted, const timeint_re
   c->k = k;
   c->omega = ti->omega;
   c->result = *r;
+  for (int i = 0; i < ti->measure.n_responses; ++i) c->predicted[i] = (motion_error){NAN, NAN, NAN};
   memcpy(c->scouted, scouted, sizeof *scouted * (size_t)ti->n);
   timeint_get_state(ti, c->state);
 }

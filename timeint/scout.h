@@ -21,7 +21,8 @@ hc_status scout_steady(timeint *ti, int orbit_of, const double *state, const hc_
  * one; the motion is where it was. */
 hc_status scout_confirm(timeint *ti, int k, const hc_monitor *monitor, timeint_result *r, bool *done);
 
-/* The prediction of the remembered orbit through `state`, to be read or filled; NULL: not remembered. */
-motion_error *scout_prediction(timeint *ti, const double *state);
+/* [responses] The predictions of the remembered orbit through `state`, to be read or filled, NaN so far; NULL: it is
+ * not remembered. */
+motion_error *scout_predictions(timeint *ti, const double *state);
 
 #endif

@@ -77,13 +77,14 @@ hc_status timeint_orbit(timeint *ti, double omega, int k, double *state, const h
 hc_status timeint_again(timeint *ti, double omega, int k, double *state, const hc_monitor *monitor,
                         timeint_result *result);
 
-/* r->predicted: the error that the time integration itself expects in the measures of *r, the last result of this
- * handle to which `state` belongs. From its own equations only:
+/* r[0..n-1]->predicted: the error that the time integration itself expects in the measures of the first n responses:
+ * r[0] is the last result of this handle, to which `state` belongs, r[i] what timeint_response made of it. From its own
+ * equations only:
  *     integration     distance from the orbit, and the scatter of periods times |(I - Phi)^-1|
  *     regularisation  twice the change by half of it: it is of first order, or better
  * With a scout that is one plain period of the regularised law, none of the exact. HC_OK, also where nothing can be
  * said (NaN); HC_NO_MEMORY, HC_INTERRUPTED. */
-hc_status timeint_predict(timeint *ti, const double *state, const hc_monitor *monitor, timeint_result *r);
+hc_status timeint_predict(timeint *ti, const double *state, const hc_monitor *monitor, int n, timeint_result *r);
 
 /* *r, the last result of this handle, becomes that of response i (counted from 0) of the same periods: its measures.
  * Where the handle has only remembered the orbit its periods are integrated once more. transient.richardson: not

@@ -23,11 +23,11 @@ hc_status __wrap_hbm_predict(hbm_solver *s, double omega, const double *X, motio
   return st;
 }
 
-hc_status __real_timeint_predict(timeint *ti, const double *state, const hc_monitor *monitor, timeint_result *r);
-hc_status __wrap_timeint_predict(timeint *ti, const double *state, const hc_monitor *monitor, timeint_result *r);
-hc_status __wrap_timeint_predict(timeint *ti, const double *state, const hc_monitor *monitor, timeint_result *r)
+hc_status __real_timeint_predict(timeint *ti, const double *state, const hc_monitor *monitor, int n, timeint_result *r);
+hc_status __wrap_timeint_predict(timeint *ti, const double *state, const hc_monitor *monitor, int n, timeint_result *r);
+hc_status __wrap_timeint_predict(timeint *ti, const double *state, const hc_monitor *monitor, int n, timeint_result *r)
 {
-  hc_status st = __real_timeint_predict(ti, state, monitor, r);
+  hc_status st = __real_timeint_predict(ti, state, monitor, n, r);
   if (stub.told) r->predicted = stub.transient;
   return st;
 }

@@ -25,7 +25,7 @@ static void predicted(scene sc, double omega, double regularisation, bool scout,
   timeint_result r, truth;
   assert_int_equal(timeint_steady(ti, omega, y.all, NULL, &r), HC_OK);
   assert_true(isnan(r.predicted.amplitude)); /* not before it is asked */
-  assert_int_equal(timeint_predict(ti, y.all, NULL, &r), HC_OK);
+  assert_int_equal(timeint_predict(ti, y.all, NULL, 1, &r), HC_OK);
   assert_int_equal(timeint_steady(exact, omega, y.all, NULL, &truth), HC_OK);
   *said = r.predicted;
   *off = fabs(r.amplitude - truth.amplitude);
@@ -71,7 +71,7 @@ static void integration_is_predicted(void **state)
     scene_state y = {.x = 0}, z = {.x = 0};
     timeint_result r, truth;
     assert_int_equal(timeint_steady(ti, 7, y.all, NULL, &r), HC_OK);
-    assert_int_equal(timeint_predict(ti, y.all, NULL, &r), HC_OK);
+    assert_int_equal(timeint_predict(ti, y.all, NULL, 1, &r), HC_OK);
     assert_int_equal(timeint_steady(closed, 7, z.all, NULL, &truth), HC_OK);
     CHECK_LE(fabs(r.amplitude - truth.amplitude), r.predicted.amplitude, "scout %d", scout);
     CHECK_LE(r.predicted.amplitude, 1e-8 * r.amplitude, "scout %d", scout);
