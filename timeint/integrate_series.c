@@ -8,6 +8,7 @@
 #include "base/constants.h"
 #include "numerics/norm.h"
 #include "timeint/integrate_private.h"
+#include "timeint/motion_series.h"
 #include "timeint/structure_variations.h"
 
 enum {

@@ -119,17 +119,6 @@ double motion_series_begin(motion_series *s, const scaled_model *m, const contac
   return expand(s, m, true, theta, y);
 }
 
-double motion_series_vary(motion_series *s, const scaled_model *m, const contact_track *track, const double *y,
-                          const double *dw)
-{
-  for (int j = 0; j < s->n_contacts; ++j) {
-    s->law[j] = contact_track_forces(&track[j], &m->contact[j]);
-    s->law[j].t_0 = s->law[j].t_w * dw[j];
-    s->law[j].n_0 = 0;
-  }
-  return expand(s, m, false, 0, y);
-}
-
 void motion_series_at(const motion_series *s, double tau, int order, double *out)
 {
   const size_t n = (size_t)s->n;

@@ -28,10 +28,6 @@ void motion_series_free(motion_series *s);
 double motion_series_begin(motion_series *s, const scaled_model *m, const contact_track *track, double theta,
                            const double *y);
 
-/* The same for a variation of the motion: no loads, and of the sliders that stick dw[n_contacts]. */
-double motion_series_vary(motion_series *s, const scaled_model *m, const contact_track *track, const double *y,
-                          const double *dw);
-
 /* X and X' (order 0), or X' and X'' (order 1), at tau: out[2n]. */
 void motion_series_at(const motion_series *s, double tau, int order, double *out);
 

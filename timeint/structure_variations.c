@@ -1,72 +1,66 @@
 /* structure_variations.c - see structure_variations.h. Proof: tests/timeint/test_structure.c. */
 #include "timeint/structure_variations.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "numerics/norm.h"
 hc_status structure_variations_make(structure_variations *v, const modal_base *base)
 {
-  const size_t n = (size_t)base->n, states = 2 * n + (size_t)base->n_contacts;
+  const size_t states = 2 * (size_t)base->n + (size_t)base->n_contacts;
   *v = (structure_variations){.n = base->n, .n_states = (int)states};
-  v->matrix = calloc(states * states + 2 * n, sizeof *v->matrix);
-  if (!v->matrix) return HC_NO_MEMORY;
-  v->moved = v->matrix + states * states;
-  return motion_series_make(&v->series, base);
+  v->rows = calloc(states * (states + 2), sizeof *v->rows);
+  v->state = calloc(states, sizeof *v->state);
+  if (!v->rows || !v->state) return HC_NO_MEMORY;
+  v->du = v->rows + states * states;
+  v->dv = v->du + states;
+  return series_columns_make(&v->series, base);
 }
 
 void structure_variations_free(structure_variations *v)
 {
-  motion_series_free(&v->series);
-  free(v->matrix);
+  series_columns_free(&v->series);
+  free(v->rows);
+  free(v->state);
 }
 
-static double *column_of(const structure_variations *v, int q) { return v->matrix + (size_t)q * (size_t)v->n_states; }
+static double *row_of(const structure_variations *v, int i) { return v->rows + (size_t)i * (size_t)v->n_states; }
+static double *slider_of(const structure_variations *v, int j) { return row_of(v, 2 * v->n + j); }
 
-/* dU and dV of contact j in a column. */
-static void motion_of(const modal_base *b, int j, const double *column, double *du, double *dv)
+/* out[n_columns] := along . D */
+static void project(const structure_variations *v, const double *along, double *restrict out)
 {
-  *du = dot_product(b->n, b->tangent + (size_t)j * (size_t)b->n, column);
-  *dv = dot_product(b->n, b->normal + (size_t)j * (size_t)b->n, column);
+  memset(out, 0, (size_t)v->n_columns * sizeof *out);
+  for (int i = 0; i < v->n; ++i) {
+    const double *row = row_of(v, i), a = along[i];
+    for (int q = 0; q < v->n_columns && a != 0; ++q) out[q] += a * row[q];
+  }
+}
+
+/* v->du and v->dv of contact j. */
+static void find_motion(structure_variations *v, const modal_base *b, int j)
+{
+  project(v, b->tangent + (size_t)j * (size_t)b->n, v->du);
+  project(v, b->normal + (size_t)j * (size_t)b->n, v->dv);
 }
 
 void structure_variations_begin(structure_variations *v, const scaled_model *m, const contact_track *track)
 {
   const size_t n = (size_t)v->n_states;
-  memset(v->matrix, 0, n * n * sizeof *v->matrix);
-  for (size_t i = 0; i < 2 * (size_t)v->n; ++i) v->matrix[i * (n + 1)] = 1;
-  for (int j = 0; j < m->n_contacts; ++j) {
-    const int w = 2 * v->n + j;
+  memset(v->rows, 0, n * n * sizeof *v->rows);
+  v->n_columns = 0;
+  for (int i = 0; i < v->n_states; ++i) {
+    const int j = i - 2 * v->n;
+    const bool moves = j < 0 || (m->contact[j].law.has_friction && track[j].since_start);
+    if (!moves) continue;
+    row_of(v, i)[v->n_columns] = 1;
+    v->state[v->n_columns++] = i;
+  }
+  for (int j = 0; j < m->n_contacts; ++j) { /* on its limit: put there, as the motion has it */
     const contact_track *t = &track[j];
-    if (t->state != CONTACT_STICK || !m->contact[j].law.has_friction) continue;
-    if (t->since_start) column_of(v, w)[w] = 1;
-    for (int q = 0; q < 2 * v->n && !t->since_start; ++q) { /* on its limit: put there, as the motion has it */
-      double du, dv;
-      motion_of(m->base, j, column_of(v, q), &du, &dv);
-      const contact_state slip = t->limit > 0 ? CONTACT_SLIP_PLUS : CONTACT_SLIP_MINUS;
-      column_of(v, q)[w] = contact_track_vary_rest(&m->contact[j], slip, &(contact_motion){0}, du, dv);
-    }
+    if (t->state != CONTACT_STICK || !m->contact[j].law.has_friction || t->since_start) continue;
+    const contact_state slip = t->limit > 0 ? CONTACT_SLIP_PLUS : CONTACT_SLIP_MINUS;
+    structure_variations_stick(v, m, j, slip, &(contact_motion){0});
   }
-}
-
-/* One column over a span, in steps as long as its own series allows. */
-static hc_status advance_column(structure_variations *v, const scaled_model *m, const contact_track *track, double span,
-                                double *column)
-{
-  const size_t n = (size_t)v->n;
-  double size = 0;
-  for (int i = 0; i < v->n_states; ++i) size += fabs(column[i]);
-  if (size == 0) return HC_OK;
-  for (double done = 0; done < span;) {
-    const double reach = motion_series_vary(&v->series, m, track, column, column + 2 * n), left = span - done;
-    if (!(reach > 0)) return HC_NOT_FINITE;
-    motion_series_at(&v->series, fmin(reach, left), 0, v->moved);
-    memcpy(column, v->moved, 2 * n * sizeof *column);
-    if (reach >= left) return HC_OK;
-    done += reach;
-  }
-  return HC_OK;
 }
 
 hc_status structure_variations_advance(structure_variations *v, const scaled_model *m, const contact_track *track,
@@ -74,22 +68,19 @@ hc_status structure_variations_advance(structure_variations *v, const scaled_mod
 {
   const double span = theta - v->theta;
   v->theta = theta;
-  for (int q = 0; q < v->n_states && span > 0; ++q) {
-    hc_status st = advance_column(v, m, track, span, column_of(v, q));
-    if (st != HC_OK) return st;
-  }
-  return HC_OK;
+  if (!(span > 0)) return HC_OK;
+  series_columns_begin(&v->series, m, track);
+  return series_columns_advance(&v->series, m, span, v->n_columns, v->n_states, v->rows);
 }
 
 void structure_variations_stick(structure_variations *v, const scaled_model *m, int j, contact_state before,
                                 const contact_motion *at)
 {
   if (!m->contact[j].law.has_friction) return;
-  for (int q = 0; q < v->n_states; ++q) {
-    double du, dv, *column = column_of(v, q);
-    motion_of(m->base, j, column, &du, &dv);
-    column[2 * v->n + j] = contact_track_vary_rest(&m->contact[j], before, at, du, dv);
-  }
+  double *slider = slider_of(v, j);
+  find_motion(v, m->base, j);
+  for (int q = 0; q < v->n_columns; ++q)
+    slider[q] = contact_track_vary_rest(&m->contact[j], before, at, v->du[q], v->dv[q]);
 }
 
 void structure_variations_end(structure_variations *v, const scaled_model *m, const contact_track *track,
@@ -98,11 +89,12 @@ void structure_variations_end(structure_variations *v, const scaled_model *m, co
   const size_t n = (size_t)v->n_states;
   for (int j = 0; j < m->n_contacts; ++j) {
     if (m->contact[j].law.has_friction && track[j].state == CONTACT_STICK) continue;
-    for (int q = 0; q < v->n_states; ++q) {
-      double du, dv;
-      motion_of(m->base, j, column_of(v, q), &du, &dv);
-      column_of(v, q)[2 * v->n + j] = contact_track_vary_slider(&track[j], &m->contact[j], du, dv);
-    }
+    double *slider = slider_of(v, j);
+    find_motion(v, m->base, j);
+    for (int q = 0; q < v->n_columns; ++q)
+      slider[q] = contact_track_vary_slider(&track[j], &m->contact[j], v->du[q], v->dv[q]);
   }
-  memcpy(monodromy, v->matrix, n * n * sizeof *monodromy);
+  memset(monodromy, 0, n * n * sizeof *monodromy);
+  for (int q = 0; q < v->n_columns; ++q)
+    for (size_t i = 0; i < n; ++i) monodromy[(size_t)v->state[q] * n + i] = row_of(v, (int)i)[q];
 }

@@ -1,25 +1,27 @@
 /* structure_variations.h - the monodromy matrix of a period of the exact law of a structure, from one change of contact
  * state to the next. In a phase a variation of the motion obeys the same linear equation without its loads
- * (motion_series_vary); all forces are continuous, so that a transition changes no column but in the rows of sliders
+ * (series_columns.h); all forces are continuous, so that a transition changes no column but in the rows of sliders
  * that begin to stick there (contact_track.h). */
 #ifndef HC_STRUCTURE_VARIATIONS_H
 #define HC_STRUCTURE_VARIATIONS_H
 
-#include "timeint/motion_series.h"
+#include "timeint/series_columns.h"
 
 typedef struct structure_variations { /* from structure_variations_make, to structure_variations_free */
   int n, n_states;                    /* modes; 2 n + contacts */
-  double theta;                       /* up to which `matrix` has come */
-  double *matrix; /* [n_states][n_states] by columns; a slider's row is valid while its contact sticks */
-  double *moved;  /* [2 n] */
-  motion_series series;
+  double theta;                       /* up to which `rows` has come */
+  int n_columns, *state;              /* [n_states] the first of them: states that the motion depends on, ascending */
+  double *rows;    /* [n_states][n_states] row i is that of state i, column q that of state[q]; a slider's row is valid
+                   while its contact sticks */
+  double *du, *dv; /* [n_states] of a contact, all columns */
+  series_columns series;
 } structure_variations;
 
 hc_status structure_variations_make(structure_variations *v,
                                     const modal_base *base); /* HC_NO_MEMORY; free it then, too */
 void structure_variations_free(structure_variations *v);
 
-/* The identity at theta = 0, contacts as they begin there; motion[n_contacts]. */
+/* The identity at theta = 0, contacts as they begin there. */
 void structure_variations_begin(structure_variations *v, const scaled_model *m, const contact_track *track);
 
 /* On to theta, the contacts as they were. HC_NOT_FINITE. */

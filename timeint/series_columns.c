@@ -1,0 +1,229 @@
+/* series_columns.c - see series_columns.h. A block lies mode after mode, its columns side by side, so that inner loops
+ * run over columns. Proof: tests/timeint/test_structure.c. */
+#include "timeint/series_columns.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "numerics/dense.h"
+#include "numerics/product.h"
+
+enum {
+  BLOCK = 64, /* columns: six arrays of them and of 100 modes stay in the second cache */
+  LAST = 24   /* the highest power of h; the 24 of motion_series.h */
+};
+
+hc_status series_columns_make(series_columns *s, const modal_base *base)
+{
+  const size_t n = (size_t)base->n, contacts = (size_t)base->n_contacts, rows = 2 * contacts;
+  *s = (series_columns){.n = base->n, .n_contacts = base->n_contacts};
+  const struct {
+    double **array;
+    size_t count;
+  } parts[] = {{&s->turned_K, base->diagonal_K ? 0 : n * n},
+               {&s->turned_C, base->diagonal_C ? 0 : n * n},
+               {&s->rows, n * rows},
+               {&s->turned, n * rows},
+               {&s->x, BLOCK * n},
+               {&s->p, BLOCK * n},
+               {&s->x_end, BLOCK * n},
+               {&s->p_end, BLOCK * n},
+               {&s->term, BLOCK * n},
+               {&s->next, BLOCK * n},
+               {&s->second, BLOCK * n},
+               {&s->share, BLOCK * n},
+               {&s->motion, BLOCK * rows},
+               {&s->slider, BLOCK * contacts},
+               {&s->size, BLOCK},
+               {&s->left, BLOCK}};
+  size_t count = 0, used = 0;
+  for (size_t k = 0; k < sizeof parts / sizeof *parts; ++k) count += parts[k].count;
+  s->numbers = calloc(count, sizeof *s->numbers);
+  s->law = calloc(contacts + 1, sizeof *s->law);
+  if (!s->numbers || !s->law) return HC_NO_MEMORY;
+  for (size_t k = 0; k < sizeof parts / sizeof *parts; ++k) {
+    *parts[k].array = s->numbers + used;
+    used += parts[k].count;
+  }
+  if (!base->diagonal_K) dense_transpose(base->n, base->n, base->K, s->turned_K);
+  if (!base->diagonal_C) dense_transpose(base->n, base->n, base->C, s->turned_C);
+  return HC_OK;
+}
+
+void series_columns_free(series_columns *s)
+{
+  free(s->numbers);
+  free(s->law);
+}
+
+/* Does T, does N of a contact with that law follow its motion? */
+static bool has_tangent(const contact_forces_linear *f) { return f->t_u != 0 || f->t_v != 0 || f->t_w != 0; }
+static bool has_normal(const contact_forces_linear *f) { return f->t_v != 0 || f->n_v != 0; }
+
+static void add_row(series_columns *s, const double *row)
+{
+  memcpy(s->rows + (size_t)s->n_rows++ * (size_t)s->n, row, (size_t)s->n * sizeof *row);
+}
+
+void series_columns_begin(series_columns *s, const scaled_model *m, const contact_track *track)
+{
+  const modal_base *b = m->base;
+  s->n_rows = 0;
+  for (int j = 0; j < s->n_contacts; ++j) {
+    s->law[j] = contact_track_forces(&track[j], &m->contact[j]);
+    if (has_tangent(&s->law[j])) add_row(s, b->tangent + (size_t)j * (size_t)s->n);
+    if (has_normal(&s->law[j])) add_row(s, b->normal + (size_t)j * (size_t)s->n);
+  }
+  dense_transpose(s->n, s->n_rows, s->rows, s->turned);
+  s->reach = 2 / sqrt(m->by_K * b->highest * b->highest);
+}
+
+/* ---- one block of `width` columns ---------------------------------------------------------------------- */
+
+/* out -= by A z; A diagonal[n], or turned[n][n]. */
+static void subtract(series_columns *s, int width, bool diagonal, const double *A, const double *turned, double by,
+                     const double *z, double *out)
+{
+  const size_t w = (size_t)width;
+  if (!diagonal) {
+    for (size_t i = 0; i < (size_t)s->n * w; ++i) s->share[i] = by * z[i];
+    product_subtract(width, s->n, s->n, s->share, width, turned, s->n, out, width);
+    return;
+  }
+  for (size_t i = 0; i < (size_t)s->n; ++i) {
+    const double a = by * A[i], *restrict from = z + i * w;
+    double *restrict to = out + i * w;
+    for (size_t q = 0; q < w; ++q) to[q] -= a * from[q];
+  }
+}
+
+/* out -= by (contacts of z); their sliders move in the first term alone. */
+static void subtract_contacts(series_columns *s, int width, bool first, double by, const double *z, double *out)
+{
+  const size_t w = (size_t)width;
+  memset(s->motion, 0, (size_t)s->n_rows * w * sizeof *s->motion);
+  product_subtract(width, s->n_rows, s->n, z, width, s->rows, s->n, s->motion, width); /* minus dU and dV */
+  double *row = s->motion;
+  for (int j = 0; j < s->n_contacts; ++j) {
+    const contact_forces_linear *f = &s->law[j];
+    const bool tangent = has_tangent(f), normal = has_normal(f);
+    const double *dw = s->slider + (size_t)j * w, t_w = first ? by * f->t_w : 0;
+    double *along = row, *across = tangent ? row + w : row;
+    for (size_t q = 0; tangent && q < w; ++q)
+      along[q] = -by * (f->t_u * along[q] + (normal ? f->t_v * across[q] : 0)) + t_w * dw[q];
+    for (size_t q = 0; normal && q < w; ++q) across[q] *= -by * f->n_v;
+    row += (size_t)(tangent + normal) * w;
+  }
+  product_subtract(width, s->n, s->n_rows, s->motion, width, s->turned, s->n_rows, out, width);
+}
+
+/* sums[q] += |by z_q|^2 */
+static void add_squares(const series_columns *s, int width, double by, const double *z, double *restrict sums)
+{
+  for (int i = 0; i < s->n; ++i) {
+    const double *from = z + (size_t)i * (size_t)width;
+    for (int q = 0; q < width; ++q) sums[q] += (by * from[q]) * (by * from[q]);
+  }
+}
+
+/* Is power k of every column below the rounding of its motion and its rate, of which it is k/h times as much? */
+static bool is_rounding(series_columns *s, int width, int k, double h, const double *z)
+{
+  const double rounding = 0.25 * DBL_EPSILON * fmin(fmax(h, DBL_EPSILON), 1) / k;
+  bool small = true;
+  memset(s->left, 0, (size_t)width * sizeof *s->left);
+  add_squares(s, width, 1 / rounding, z, s->left);
+  for (int q = 0; q < width; ++q) small = small && s->left[q] <= s->size[q];
+  return small;
+}
+
+/* What power k adds to the motion at h and to its rate. */
+static void add_term(size_t count, double by_rate, const double *restrict z, double *restrict x, double *restrict p)
+{
+  for (size_t i = 0; i < count; ++i) {
+    x[i] += z[i];
+    p[i] += by_rate * z[i];
+  }
+}
+
+/* s->x and s->p to s->x_end and s->p_end over a step h; false if LAST powers of it do not suffice. */
+static bool expand(series_columns *s, const scaled_model *m, int width, double h)
+{
+  const modal_base *b = m->base;
+  const size_t count = (size_t)s->n * (size_t)width;
+  double *z = s->term, *next = s->next, *second = s->second;
+  memset(s->size, 0, (size_t)width * sizeof *s->size);
+  add_squares(s, width, 1, s->x, s->size);
+  add_squares(s, width, 1, s->p, s->size);
+  memcpy(z, s->x, count * sizeof *z);
+  for (size_t i = 0; i < count; ++i) next[i] = h * s->p[i];
+  memcpy(s->p_end, s->p, count * sizeof *s->p);
+  for (size_t i = 0; i < count; ++i) s->x_end[i] = z[i] + next[i];
+  for (int k = 2, small = 0; k <= LAST; ++k) {
+    const double by = h / (k * (k - 1));
+    memset(second, 0, count * sizeof *second);
+    subtract(s, width, b->diagonal_K, b->K, s->turned_K, by * h * m->by_K, z, second);
+    subtract(s, width, b->diagonal_C, b->C, s->turned_C, by * (k - 1) * m->by_C, next, second);
+    subtract_contacts(s, width, k == 2, by * h, z, second);
+    add_term(count, k / h, second, s->x_end, s->p_end);
+    if (k == 2) add_squares(s, width, 2 / h, second, s->size); /* a column that begins with its slider alone */
+    small = is_rounding(s, width, k, h, second) ? small + 1 : 0;
+    if (small == 2) return true; /* two: without damping even powers know nothing of odd ones */
+    double *spent = z;
+    z = next, next = second, second = spent;
+  }
+  return false;
+}
+
+/* s->x and s->p over the span, in steps of equal length unless one is too long. */
+static hc_status advance_block(series_columns *s, const scaled_model *m, int width, double span)
+{
+  const double shortest = 1e-12; /* a motion that needs shorter steps is none */
+  for (double left = span; left > 0;) {
+    const double h = s->reach < left ? left / ceil(left / s->reach) : left;
+    if (!expand(s, m, width, h)) {
+      s->reach = 0.5 * h;
+      if (!(s->reach > shortest * span)) return HC_NOT_FINITE;
+      continue;
+    }
+    double *x = s->x, *p = s->p;
+    s->x = s->x_end, s->x_end = x;
+    s->p = s->p_end, s->p_end = p;
+    if (h == left) return HC_OK;
+    left -= h;
+  }
+  return HC_OK;
+}
+
+/* Rows of a block, of the columns from q on, from the matrix and back. */
+static void take_rows(int rows, int width, const double *matrix, int ld, double *block)
+{
+  for (size_t i = 0; i < (size_t)rows; ++i)
+    memcpy(block + i * (size_t)width, matrix + i * (size_t)ld, (size_t)width * sizeof *block);
+}
+
+static void put_rows(int rows, int width, const double *block, double *matrix, int ld)
+{
+  for (size_t i = 0; i < (size_t)rows; ++i)
+    memcpy(matrix + i * (size_t)ld, block + i * (size_t)width, (size_t)width * sizeof *block);
+}
+
+hc_status series_columns_advance(series_columns *s, const scaled_model *m, double span, int count, int ld,
+                                 double *matrix)
+{
+  const size_t rows = (size_t)s->n * (size_t)ld;
+  for (int q = 0; q < count; q += BLOCK) {
+    const int width = count - q < BLOCK ? count - q : BLOCK;
+    double *from = matrix + q;
+    take_rows(s->n, width, from, ld, s->x);
+    take_rows(s->n, width, from + rows, ld, s->p);
+    take_rows(s->n_contacts, width, from + 2 * rows, ld, s->slider);
+    hc_status st = advance_block(s, m, width, span);
+    if (st != HC_OK) return st;
+    put_rows(s->n, width, s->x, from, ld);
+    put_rows(s->n, width, s->p, from + rows, ld);
+  }
+  return HC_OK;
+}

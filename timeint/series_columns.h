@@ -1,0 +1,43 @@
+/* series_columns.h - many variations of a structure's motion at once, in a phase in which no contact changes its state:
+ *
+ *     D'' + by_C C D' + by_K K D = - sum_j [ t_j dT_j + n_j dN_j ],   dT_j = t_u dU + t_v dV + t_w dW_j, dN_j = n_v dV
+ *
+ * A column is a variation; the terms z_k = d_k h^k of its power series over a step h come from
+ *     (k + 1)(k + 2) z_{k+2} = -h^2 (by_K K z_k + contacts of z_k) - h (k + 1) by_C C z_{k+1}
+ * for a block of columns together: products of matrices, not of a matrix and a vector, and contacts that resist no
+ * motion are left out. So many terms are taken that what is left out of any column is below its rounding; a step is as
+ * long as LAST terms allow, about 2 over the highest frequency. Nothing is allocated after series_columns_make. */
+#ifndef HC_SERIES_COLUMNS_H
+#define HC_SERIES_COLUMNS_H
+
+#include "timeint/contact_track.h"
+
+typedef struct series_columns { /* from series_columns_make, to series_columns_free */
+  int n, n_contacts;
+  double *turned_K, *turned_C;  /* [n][n] by rows, where they are not diagonal; else NULL */
+  int n_rows;                   /* of contacts that resist in this phase */
+  double *rows, *turned;        /* [n][n_rows] by columns; by rows */
+  contact_forces_linear *law;   /* [n_contacts] of this phase */
+  double *x, *p;                /* [block][n] motion and its rate, of a block of columns */
+  double *x_end, *p_end;        /* [block][n] the same after a step */
+  double *term, *next, *second; /* [block][n] z_k, z_{k+1}, z_{k+2} */
+  double *share;                /* [block][n] what K or C multiplies, scaled */
+  double *motion;               /* [block][n_rows] of the contacts; their forces */
+  double *slider;               /* [block][n_contacts] dW_j */
+  double *size, *left;          /* [block] of columns, squared */
+  double reach;                 /* [rad] the longest step that has been seen to suffice, or is hoped to */
+  double *numbers;              /* of all arrays of doubles */
+} series_columns;
+
+hc_status series_columns_make(series_columns *s, const modal_base *base); /* HC_NO_MEMORY; free it in any case */
+void series_columns_free(series_columns *s);
+
+/* From here on contacts are in the states of track[]. */
+void series_columns_begin(series_columns *s, const scaled_model *m, const contact_track *track);
+
+/* count columns over `span`. Number i of column q is at matrix[i ld + q]: rows 0..n-1 D, n..2n-1 D', then dW_j, which
+ * stays. HC_NOT_FINITE. */
+hc_status series_columns_advance(series_columns *s, const scaled_model *m, double span, int count, int ld,
+                                 double *matrix);
+
+#endif
