@@ -11,6 +11,8 @@
 #include "campaigns/study/cluster.h"
 #include "campaigns/study/report.h"
 #include "campaigns/study/run.h"
+#include "cases/structure_model.h"
+#include "command/case_names.h"
 #include "command/commands.h"
 #include "command/files.h"
 #include "command/plot/plot.h"
@@ -33,9 +35,10 @@ typedef struct study_options {
   bool exporting;      /* --export was given, in export_format */
   table_format export_format;
   const char *plot, *plot_y; /* NULL: not given */
+  const char *response;      /* likewise */
 } study_options;
 
-enum { KEY_JOBS = CLI_OWN_KEY, KEY_RESULTS, KEY_FRESH, KEY_EXPORT, KEY_TIMINGS, KEY_PLOT, KEY_PLOT_Y };
+enum { KEY_JOBS = CLI_OWN_KEY, KEY_RESULTS, KEY_FRESH, KEY_EXPORT, KEY_TIMINGS, KEY_PLOT, KEY_PLOT_Y, KEY_RESPONSE };
 
 static const struct argp_option options[] = {
     {"jobs", KEY_JOBS, "N", 0, "Scenes computed at a time [the processors that are online]", 1},
@@ -44,6 +47,8 @@ static const struct argp_option options[] = {
     {"fresh", KEY_FRESH, NULL, 0, "Throw away what the results file has, and start again", 1},
     {"export", KEY_EXPORT, "csv|json", 0, "Write every scene with its rows instead of the summary", 1},
     {"timings", KEY_TIMINGS, NULL, 0, "Export the seconds each scene took, too", 1},
+    {"response", KEY_RESPONSE, "NAME", 0,
+     "Of a structure: export, or draw, this response alone [export all, draw the first]", 1},
     CLI_PLOT_OPTION(KEY_PLOT),
     {"plot-y", KEY_PLOT_Y, "NAME", 0,
      "What to draw: a column of scenes, or of rows, then the largest of each scene [peak_amplitude, or amplitude]", 2},
@@ -63,6 +68,7 @@ static error_t read_option(int key, char *text, struct argp_state *state)
     return 0;
   case KEY_TIMINGS: own->timings = true; return 0;
   case KEY_PLOT: cli_read_plot(state, text, &own->plot); return 0;
+  case KEY_RESPONSE: own->response = text; return 0;
   case KEY_PLOT_Y: own->plot_y = text; return 0;
   default: return ARGP_ERR_UNKNOWN;
   }
@@ -75,6 +81,7 @@ enum { SUMMARY, VERDICTS, CLAIMS /* and STUDY_CLAIM_TABLES of them */, N_TABLES 
 /* One study of the command line, and how far it came. */
 typedef struct study_entry {
   study *s;
+  char response[RESPONSE_NAME]; /* of --response, as the column has it; empty: not given */
   char results[MAX_PATH];
   char beside[2][BESIDE_PATH]; /* what SQLite keeps next to it while it is open */
   study_store *store;          /* rank 0 only */
@@ -152,6 +159,21 @@ static int check_names(const study_call *call)
   return 0;
 }
 
+static const char *response_of(const study_entry *entry) { return *entry->response ? entry->response : NULL; }
+
+/* entry->response, of the study's own base; false after a message, by rank 0 only. */
+static bool find_response(study_call *call, study_entry *entry)
+{
+  if (!call->own.response) return true;
+  const scene_structure *of = entry->s->base.structure;
+  call->common.scene = &entry->s->base;
+  if (!of && call->rank == 0)
+    cli_message(&call->common, "--response: %s has one degree of freedom, expected a structure", entry->s->name);
+  const int r = of ? cli_response_named(&call->common, call->own.response) : -1;
+  if (r >= 0) structure_response_name(of, r, entry->response, sizeof entry->response);
+  return r >= 0;
+}
+
 static int read_studies(study_call *call)
 {
   const cli_common *common = &call->common;
@@ -164,8 +186,10 @@ static int read_studies(study_call *call)
     }
     if (st != HC_OK) return study_failed(call, st, &err);
     name_results(&call->own, &call->studies[i]);
+    if (!find_response(call, &call->studies[i])) return EXIT_USAGE;
     plot_order drawing = {.path = call->own.plot};
-    if (call->own.plot && plot_study_check(&drawing, call->studies[i].s, call->own.plot_y) != HC_OK) {
+    if (call->own.plot &&
+        plot_study_check(&drawing, call->studies[i].s, call->own.plot_y, response_of(&call->studies[i])) != HC_OK) {
       if (call->rank == 0) cli_message(common, "%s", drawing.why);
       return EXIT_USAGE;
     }
@@ -332,7 +356,8 @@ static int write_export(const study_call *call)
   const study_entry *entry = &call->studies[0];
   hc_status st = output_open(call->common.output, &out);
   if (st == HC_OK) {
-    st = study_export(entry->s, entry->store, call->own.export_format, call->own.timings, output_stream(out));
+    st = study_export(entry->s, entry->store, call->own.export_format, call->own.timings, response_of(entry),
+                      output_stream(out));
     if (st == HC_OK) st = output_commit(out);
     else output_abandon(out);
   }
@@ -401,8 +426,10 @@ static int write_results(study_call *call, int n_run)
   plot_order drawing = {.path = call->own.plot};
   int drawn = 0;
   if (!code && call->own.plot && n_run > 0)
-    drawn = cli_plotted(
-        &call->common, plot_study(&drawing, call->studies[0].s, call->studies[0].store, call->own.plot_y), drawing.why);
+    drawn = cli_plotted(&call->common,
+                        plot_study(&drawing, call->studies[0].s, call->studies[0].store, call->own.plot_y,
+                                   response_of(&call->studies[0])),
+                        drawing.why);
   for (int i = 0; i < N_TABLES; ++i) table_free(call->tables[i]);
   return code ? code : call->claims.unexpected ? EXIT_DISAGREED : any_failed ? EXIT_NO_SOLUTION : drawn;
 }

@@ -91,7 +91,7 @@ static void select_columns(rows_kind kind, unsigned extra, char table_letter, FI
 }
 
 /* To free; NULL when out of memory. */
-static char *export_query(const study *s, bool timings)
+static char *export_query(const study *s, bool timings, bool one_response)
 {
   char *sql = NULL;
   size_t size;
@@ -104,7 +104,8 @@ static char *export_query(const study *s, bool timings)
   fprintf(to, ", s.status AS status, s.reason AS reason%s", timings ? ", s.seconds AS seconds" : "");
   if (s->kind != STUDY_TRANSIENT) select_columns(ROWS_CURVE, study_extra_columns(s), 's', to);
   select_columns(study_rows(s), study_extra_columns(s), 'r', to);
-  fputs(" FROM scene AS s LEFT JOIN \"row\" AS r ON r.scene = s.id ORDER BY s.id, r.number", to);
+  fprintf(to, " FROM scene AS s LEFT JOIN \"row\" AS r ON r.scene = s.id %s ORDER BY s.id, r.number",
+          one_response ? "AND r.response = ?1" : "");
   bool whole = !ferror(to);
   if (fclose(to) == 0 && whole) return sql;
   free(sql);
@@ -156,15 +157,20 @@ static void write_csv_header(sqlite3_stmt *q, FILE *to)
   putc('\n', to);
 }
 
-hc_status study_export(const study *s, study_store *store, table_format format, bool timings, FILE *to)
+hc_status study_export(const study *s, study_store *store, table_format format, bool timings, const char *response,
+                       FILE *to)
 {
   sqlite3_stmt *q = NULL;
   bool json = format == FORMAT_JSON, good = true;
-  char *sql = export_query(s, timings);
+  char *sql = export_query(s, timings, response != NULL);
   if (!sql) return HC_NO_MEMORY;
   int code = sqlite3_prepare_v2(study_store_readonly(store), sql, -1, &q, NULL);
   free(sql);
-  if (code != SQLITE_OK) return study_sql_status(study_store_readonly(store));
+  if (code == SQLITE_OK && response) code = sqlite3_bind_text(q, 1, response, -1, SQLITE_STATIC);
+  if (code != SQLITE_OK) {
+    sqlite3_finalize(q);
+    return study_sql_status(study_store_readonly(store));
+  }
   if (json) fputs("{\n  \"rows\": [", to);
   else write_csv_header(q, to);
   for (long n = 0; good && (code = sqlite3_step(q)) == SQLITE_ROW; ++n) {

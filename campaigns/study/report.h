@@ -20,8 +20,9 @@ const table_column *study_verdict_columns(int *n);
 hc_status study_verdicts(const study *s, study_store *store, table *t);
 
 /* Every scene with its rows (a scene without any is one line), by scene and then by the rows' order: the same bytes
- * whatever computed them, unless `timings` asks for the seconds of each scene. csv or json; HC_IO once the stream
- * has failed. */
-hc_status study_export(const study *s, study_store *store, table_format format, bool timings, FILE *to);
+ * whatever computed them, unless `timings` asks for the seconds of each scene. response: of a structure, the rows of
+ * this one alone; NULL: all. csv or json; HC_IO once the stream has failed. */
+hc_status study_export(const study *s, study_store *store, table_format format, bool timings, const char *response,
+                       FILE *to);
 
 #endif

@@ -48,6 +48,12 @@ static void put_curve(study_result *r, const response_summary *summary)
   rows_curve(summary, r->extra, r->curve);
 }
 
+/* Name of response i into text[RESPONSE_NAME], as the column `response` has it; an oscillator's has none. */
+static void name_response(const scene *sc, int i, char *text)
+{
+  if (sc->structure) structure_response_name(sc->structure, i, text, RESPONSE_NAME);
+}
+
 /* A row for each response of solution k. */
 static hc_status put_solution(hbm_solver *s, const scene *sc, const hbm_curve *found, int k, study_result *r)
 {
@@ -56,7 +62,7 @@ static hc_status put_solution(hbm_solver *s, const scene *sc, const hbm_curve *f
   hc_status st = response_row_of(s, found, k, &row);
   for (int i = 0; i < n && st == HC_OK; ++i) {
     if (i > 0) st = response_row_turn(s, found, k, i, &row);
-    if (sc->structure) structure_response_name(sc->structure, i, row.response, sizeof row.response);
+    name_response(sc, i, row.response);
     if (st == HC_OK) rows_frf(&row, r->extra, next_row(r));
   }
   return st;
@@ -124,7 +130,8 @@ static hc_status solve_transient(const scene *sc, const hc_monitor *monitor, stu
   }
   if (st == HC_OK) st = make_rows(r, ROWS_TRANSIENT, found.n);
   for (int i = 0; i < found.n && st == HC_OK; ++i) {
-    const steady_row *row = &found.rows[i];
+    steady_row *row = &found.rows[i];
+    name_response(sc, row->response, row->response_name);
     if (row->stage == STEADY_TRANSIENT) rows_transient(row, r->extra, next_row(r));
     if (row->status == HC_NO_MEMORY) st = row->status;
     else if (row->status != HC_OK) fail_with(r, stages[row->stage], row->status, row->result.omega);
@@ -155,7 +162,10 @@ static hc_status solve_compare(const scene *sc, const hc_monitor *monitor, study
     if (st != HC_OK) fail_with(r, "the comparison", st, 0);
     else put_curve(r, &c.summary);
     st = make_rows(r, ROWS_COMPARE, c.n_rows);
-    for (int i = 0; i < c.n_rows && st == HC_OK; ++i) rows_compare(&c.rows[i], r->extra, next_row(r));
+    for (int i = 0; i < c.n_rows && st == HC_OK; ++i) {
+      name_response(sc, c.rows[i].response, c.rows[i].response_name);
+      rows_compare(&c.rows[i], r->extra, next_row(r));
+    }
     tell_failures(&c, r);
   }
   comparison_clear(&c);

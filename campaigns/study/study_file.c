@@ -269,14 +269,6 @@ static hc_status find_keys(study_reader *q, const yaml_node_t *root, const yaml_
   return value[KEY_VARY] ? HC_OK : missing(q, root, "vary", "a list such as [{hbm.samples: [32, 128]}]");
 }
 
-/* Time integration knows one degree of freedom. */
-static hc_status check_runs_it(study_reader *q, const yaml_node_t *node)
-{
-  if (!q->r.sc.structure || q->s->kind == STUDY_FRF) return HC_OK;
-  message_add(study_blame(q, node), "a structure is solved by harmonic balance alone, expected `run: frf`");
-  return HC_BAD_INPUT;
-}
-
 static hc_status read_study(study_reader *q, const yaml_node_t *root, int n_set)
 {
   const yaml_node_t *value[N_KEYS] = {NULL};
@@ -286,7 +278,6 @@ static hc_status read_study(study_reader *q, const yaml_node_t *root, int n_set)
   if (st == HC_OK && value[KEY_RUN]) st = read_kind(q, value[KEY_RUN]);
   if (st == HC_OK && value[KEY_MAY_FAIL]) st = read_may_fail(q, value[KEY_MAY_FAIL]);
   if (st == HC_OK) st = value[KEY_BASE] ? read_base(q, value[KEY_BASE]) : read_case(q, value[KEY_CASE]);
-  if (st == HC_OK) st = check_runs_it(q, value[KEY_RUN] ? value[KEY_RUN] : root);
   if (st == HC_OK && value[KEY_SET]) st = read_set(q, value[KEY_SET]);
   if (st == HC_OK) st = apply_options(q, n_set);
   if (st == HC_OK) st = study_read_axes(q, value[KEY_VARY]);

@@ -13,6 +13,7 @@ enum { MOST_LINES = 12, MOST_HEAT_LABELS = 24, LEAST_HEAT = 4, TEXT = 160 };
 typedef struct chart {
   const study *s;
   const char *measure;
+  const char *response;     /* of a structure; NULL: the first */
   bool of_rows;             /* the largest of a column of rows */
   double *value;            /* [n_scenes] NaN: none */
   int x;                    /* axis along the drawing; -1: nothing varies */
@@ -47,7 +48,16 @@ static void name_columns(plot_order *p, rows_kind kind, unsigned extra)
 static hc_status choose_measure(plot_order *p, const char *asked, chart *c)
 {
   bool curve = c->s->kind != STUDY_TRANSIENT;
-  c->measure = asked ? asked : curve ? "peak_amplitude" : "amplitude";
+  c->measure = asked                         ? asked
+               : curve && !c->response       ? "peak_amplitude"
+               : c->s->kind == STUDY_COMPARE ? "hbm_amplitude"
+                                             : "amplitude";
+  if (c->response && is_number_column(ROWS_CURVE, study_extra_columns(c->s), c->measure)) {
+    snprintf(p->why, sizeof p->why, "--plot-y: %s is of the first response; with --response expected a column of rows",
+             c->measure);
+    name_columns(p, study_rows(c->s), study_extra_columns(c->s));
+    return HC_BAD_INPUT;
+  }
   if (!strcmp(c->measure, "seconds") || (curve && is_number_column(ROWS_CURVE, study_extra_columns(c->s), c->measure)))
     return HC_OK;
   c->of_rows = is_number_column(study_rows(c->s), study_extra_columns(c->s), c->measure);
@@ -68,15 +78,19 @@ static hc_status read_values(plot_order *p, study_store *store, chart *c)
   static const char first_response[] =
       "WHERE response = (SELECT response FROM \"row\" AS first WHERE first.scene = \"row\".scene "
       "AND first.number = 0) ";
-  const bool responses = study_extra_columns(c->s) & ROWS_RESPONSES && c->s->kind == STUDY_FRF;
+  const bool responses = study_extra_columns(c->s) & ROWS_RESPONSES;
   if (c->of_rows)
     snprintf(sql, sizeof sql, "SELECT scene, max(\"%s\") FROM \"row\" %sGROUP BY scene", c->measure,
-             responses ? first_response : "");
+             c->response ? "WHERE response = ?1 "
+             : responses ? first_response
+                         : "");
   else snprintf(sql, sizeof sql, "SELECT id, \"%s\" FROM scene", c->measure);
   c->value = calloc((size_t)c->s->n_scenes, sizeof *c->value);
   if (!c->value) return HC_NO_MEMORY;
   for (long i = 0; i < c->s->n_scenes; ++i) c->value[i] = NAN;
   int code = sqlite3_prepare_v2(db, sql, -1, &query, NULL);
+  if (code == SQLITE_OK && c->of_rows && c->response)
+    code = sqlite3_bind_text(query, 1, c->response, -1, SQLITE_STATIC);
   while (code == SQLITE_OK || code == SQLITE_ROW) {
     code = sqlite3_step(query);
     if (code != SQLITE_ROW || sqlite3_column_type(query, 1) == SQLITE_NULL) continue;
@@ -200,7 +214,8 @@ static const char *measure_unit(const chart *c, char unit[FIGURE_UNIT])
 static void measure_label(const chart *c, char text[TEXT])
 {
   char unit[FIGURE_UNIT];
-  snprintf(text, TEXT, "%s%s [%s]", c->of_rows ? "largest " : "", c->measure, measure_unit(c, unit));
+  snprintf(text, TEXT, "%s%s%s%s [%s]", c->of_rows ? "largest " : "", c->measure, c->response ? " of " : "",
+           c->response ? c->response : "", measure_unit(c, unit));
 }
 
 /* "hbm.samples [1]" or the names of all fields of an axis without a scale. */
@@ -348,16 +363,16 @@ static void draw_heat(figure *g, chart *c)
   figure_heat(g, text, logarithmic, low, high);
 }
 
-hc_status plot_study_check(plot_order *p, const study *s, const char *measure)
+hc_status plot_study_check(plot_order *p, const study *s, const char *measure, const char *response)
 {
-  chart c = {.s = s};
+  chart c = {.s = s, .response = response};
   return choose_measure(p, measure, &c);
 }
 
-hc_status plot_study(plot_order *p, const study *s, study_store *store, const char *measure)
+hc_status plot_study(plot_order *p, const study *s, study_store *store, const char *measure, const char *response)
 {
   figure g = {0};
-  chart c = {.s = s};
+  chart c = {.s = s, .response = response};
   char about[TEXT + 64];
   bool any = false;
   p->why[0] = 0;

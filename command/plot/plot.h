@@ -62,11 +62,13 @@ typedef struct plot_motion {
 hc_status plot_contact(plot_order *p, const scene *sc, const plot_motion *m);
 
 /* A measure (a column of scenes, or the largest of a column of rows; NULL: the peak's amplitude, or the amplitude)
+ * of a response (a structure's; NULL: the first)
  * over the first axis that is a scale, a line for each value of the others; a heat map for two axes of four values
  * and more. */
-hc_status plot_study(plot_order *p, const study *s, study_store *store, const char *measure);
-/* Does the study have that measure? HC_BAD_INPUT: no, and p->why says which there are. */
-hc_status plot_study_check(plot_order *p, const study *s, const char *measure);
+hc_status plot_study(plot_order *p, const study *s, study_store *store, const char *measure, const char *response);
+/* Does the study have that measure, of that response of a structure (NULL: of the first)? HC_BAD_INPUT: no, and p->why
+ * says which there are. */
+hc_status plot_study_check(plot_order *p, const study *s, const char *measure, const char *response);
 
 /* Error over time, a panel each frequency. */
 hc_status plot_bench(plot_order *p, const scene *sc, const bench *b);

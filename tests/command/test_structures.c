@@ -1,4 +1,5 @@
 /* test_structures.c - the commands on structures, and what they say of single contacts and responses. */
+#include <stdbool.h>
 #include <string.h>
 
 #include "tests/shell.h"
@@ -190,6 +191,34 @@ static void a_study_keeps_every_response(void **state)
   assert_int_equal(count(",1.25,0,3,"), 2);
 }
 
+/* Both sides, and time integration alone, of two frictions; --response is a filter of the export. */
+static void a_study_runs_time_integration_of_structures(void **state)
+{
+  (void)state;
+  static const struct run {
+    const char *kind, *header, *row;
+  } runs[] = {{"compare", ",omega,branch,response,verdict,hbm_amplitude,", ",25.800000000000001,0,%s,match,"},
+              {"transient", ",omega,response,verdict,amplitude,", ",25.800000000000001,%s,settled,"}};
+  for (int i = 0; i < 4; ++i) {
+    const struct run *r = &runs[i / 2];
+    const bool one = i % 2;
+    char line[1024], row[64];
+    snprintf(line, sizeof line,
+             "printf 'study: s\\nbase: %s/cases/structures/jenkins2.yaml\\nrun: %s\\nset: {compare.omega: [25.8], "
+             "hbm.harmonics: 9}\\nvary:\\n  - contacts[0].friction: [0.5, 1]\\n' | %s study /dev/stdin --results "
+             ":memory: --export csv -q %s",
+             SOURCE_DIR, r->kind, HBMCHECK_COMMAND, one ? "--response root" : "");
+    const int code = shell_read(line, out, sizeof out);
+    shell_check(line, code, out, 0, r->header);
+    for (int tip = 0; tip < 2; ++tip) {
+      snprintf(row, sizeof row, r->row, tip ? "tip" : "root");
+      assert_int_equal(count(row), one && tip ? 0 : 2);
+    }
+  }
+  expect("study cases/studies/recontact.yaml --results :memory: --response tip 2>&1", 64,
+         "has one degree of freedom, expected a structure");
+}
+
 static void a_structure_says_what_it_resolved_to(void **state)
 {
   (void)state;
@@ -233,6 +262,7 @@ int main(void)
       cmocka_unit_test(one_contact_of_an_oscillator_adds_up),
       cmocka_unit_test(a_motion_that_fits_no_contact_is_refused),
       cmocka_unit_test(a_study_keeps_every_response),
+      cmocka_unit_test(a_study_runs_time_integration_of_structures),
       cmocka_unit_test(a_structure_says_what_it_resolved_to),
   };
   check_watchdog(60);
