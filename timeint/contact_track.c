@@ -51,48 +51,73 @@ contact_track contact_track_begin(const scaled_contact *c, const contact_motion 
 }
 
 /* mu N - sign kt (U - rest). */
-static void guard_of_stick(const contact_track *t, const scaled_contact *c, int sign, const double *u, const double *v,
-                           track_guard *guard)
+static track_condition end_of_stick(const contact_track *t, const scaled_contact *c, int sign)
 {
-  const double kt = sign * c->law.kt, limit = c->law.mu * c->law.kn;
-  guard->event = sign > 0 ? TRACK_SLIPS_PLUS : TRACK_SLIPS_MINUS;
-  guard->noise = force_noise(c, u[0], v[0], t->rest);
-  for (int k = 0; k <= TRACK_ORDER; ++k) guard->g[k] = limit * v[k] - kt * u[k];
-  guard->g[0] = limit * (v[0] + c->law.gap) + c->law.mu * c->law.load - kt * (u[0] - t->rest);
+  return (track_condition){.event = sign > 0 ? TRACK_SLIPS_PLUS : TRACK_SLIPS_MINUS,
+                           .by_u = -sign * c->law.kt,
+                           .by_v = c->law.mu * c->law.kn,
+                           .from_u = t->rest,
+                           .gap = c->law.gap,
+                           .constant = c->law.mu * c->law.load};
 }
 
 /* sign kt U' - mu kn V'. */
-static void guard_of_slip(const scaled_contact *c, int sign, const double *u, const double *v, track_guard *guard)
+static track_condition end_of_slip(const scaled_contact *c, int sign)
 {
-  const double kt = sign * c->law.kt, limit = c->law.mu * c->law.kn;
-  guard->event = TRACK_STICKS;
-  guard->noise = rate_noise(c, u[1], v[1]);
-  for (int k = 0; k < TRACK_ORDER; ++k) guard->g[k] = (k + 1) * (kt * u[k + 1] - limit * v[k + 1]);
-  guard->g[TRACK_ORDER] = 0;
+  return (track_condition){
+      .event = TRACK_STICKS, .of_rates = true, .by_u = sign * c->law.kt, .by_v = -c->law.mu * c->law.kn};
 }
 
 /* V + gap, or minus that. */
-static void guard_of_contact(const contact_track *t, const scaled_contact *c, const double *v, track_guard *guard)
+static track_condition end_of_contact(const contact_track *t, const scaled_contact *c)
 {
-  const double way = t->state == CONTACT_SEPARATED ? -1 : 1;
-  guard->event = way > 0 ? TRACK_SEPARATES : TRACK_TOUCHES;
-  guard->noise = distance_noise(c, v[0]);
-  for (int k = 0; k <= TRACK_ORDER; ++k) guard->g[k] = way * v[k];
-  guard->g[0] = way * (v[0] + c->law.gap);
+  const bool apart = t->state == CONTACT_SEPARATED;
+  return (track_condition){.event = apart ? TRACK_TOUCHES : TRACK_SEPARATES, .by_v = apart ? -1 : 1, .gap = c->law.gap};
+}
+
+int contact_track_conditions(const contact_track *t, const scaled_contact *c, track_condition conditions[TRACK_GUARDS])
+{
+  const int sign = contact_slip_sign(t->state);
+  int n = 0;
+  if (c->law.kn > 0) conditions[n++] = end_of_contact(t, c);
+  if (t->state == CONTACT_SEPARATED || !c->law.has_friction) return n;
+  if (sign != 0) {
+    conditions[n++] = end_of_slip(c, sign);
+  } else {
+    conditions[n++] = end_of_stick(t, c, 1);
+    conditions[n++] = end_of_stick(t, c, -1);
+  }
+  return n;
+}
+
+double contact_track_noise(const track_condition *g, const scaled_contact *c, const contact_motion *at)
+{
+  if (g->of_rates) return rate_noise(c, at->du, at->dv);
+  if (g->event == TRACK_SEPARATES || g->event == TRACK_TOUCHES) return distance_noise(c, at->v);
+  return force_noise(c, at->u, at->v, g->from_u);
+}
+
+static void expand(const track_condition *g, const double *u, const double *v, double *series)
+{
+  if (g->of_rates) {
+    for (int k = 0; k < TRACK_ORDER; ++k) series[k] = (k + 1) * (g->by_u * u[k + 1] + g->by_v * v[k + 1]);
+    series[TRACK_ORDER] = 0;
+    return;
+  }
+  for (int k = 0; k <= TRACK_ORDER; ++k) series[k] = g->by_v * v[k] + g->by_u * u[k];
+  series[0] = g->by_v * (v[0] + g->gap) + g->constant + g->by_u * (u[0] - g->from_u);
 }
 
 int contact_track_guards(const contact_track *t, const scaled_contact *c, const double *u, const double *v,
                          track_guard guard[TRACK_GUARDS])
 {
-  const int sign = contact_slip_sign(t->state);
-  int n = 0;
-  if (c->law.kn > 0) guard_of_contact(t, c, v, &guard[n++]);
-  if (t->state == CONTACT_SEPARATED || !c->law.has_friction) return n;
-  if (sign != 0) {
-    guard_of_slip(c, sign, u, v, &guard[n++]);
-  } else {
-    guard_of_stick(t, c, 1, u, v, &guard[n++]);
-    guard_of_stick(t, c, -1, u, v, &guard[n++]);
+  track_condition conditions[TRACK_GUARDS];
+  const contact_motion at = {u[0], v[0], u[1], v[1]};
+  const int n = contact_track_conditions(t, c, conditions);
+  for (int i = 0; i < n; ++i) {
+    guard[i].event = conditions[i].event;
+    guard[i].noise = contact_track_noise(&conditions[i], c, &at);
+    expand(&conditions[i], u, v, guard[i].g);
   }
   return n;
 }

@@ -33,7 +33,6 @@ typedef struct contact_motion {
  * |T| = mu N the contact slips if the motion keeps loading it. */
 contact_track contact_track_begin(const scaled_contact *c, const contact_motion *at, double w);
 
-/* A guard as a series in tau: coefficients g[order + 1]; below -noise it is negative. */
 enum { TRACK_GUARDS = 3, TRACK_ORDER = 24 };
 typedef enum track_event {
   TRACK_SEPARATES,
@@ -42,6 +41,21 @@ typedef enum track_event {
   TRACK_SLIPS_MINUS,
   TRACK_STICKS
 } track_event;
+
+/* A guard of a state: g = by_u (U - from_u) + by_v (V + gap) + constant, or by_u U' + by_v V'. */
+typedef struct track_condition {
+  track_event event; /* what happens where it falls through 0 */
+  bool of_rates;
+  double by_u, by_v, from_u, gap, constant;
+} track_condition;
+
+/* All of the state; how many there are. */
+int contact_track_conditions(const contact_track *t, const scaled_contact *c, track_condition conditions[TRACK_GUARDS]);
+
+/* Below -noise it is negative, for motions as large as this one. */
+double contact_track_noise(const track_condition *g, const scaled_contact *c, const contact_motion *at);
+
+/* A guard as a series in tau: coefficients g[order + 1]; below -noise it is negative. */
 typedef struct track_guard {
   track_event event; /* what happens where it falls through 0 */
   double noise, g[TRACK_ORDER + 1];

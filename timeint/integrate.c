@@ -33,6 +33,12 @@ hc_status integrate_samples(const integrator *in, int r, double theta, double st
 }
 
 bool integrate_fourier(const integrator *in, int r, double out[3]) { return in->does->fourier(in, r, out); }
+
+bool integrate_extremes(const integrator *in, int r, double *max, double *min)
+{
+  return in->does->extremes && in->does->extremes(in, r, max, min);
+}
+
 contact_state integrate_contact(const integrator *in, int j, const double *y) { return in->does->state(in, j, y); }
 
 long integrate_periods(const integrator *in) { return in->periods; }

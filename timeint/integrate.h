@@ -48,6 +48,10 @@ hc_status integrate_samples(const integrator *in, int r, double theta, double st
  * this integrator cannot tell. */
 bool integrate_fourier(const integrator *in, int r, double out[3]);
 
+/* Inside a watch: the largest and the least value of response r in the step, to rounding; false if this integrator
+ * cannot tell: then its steps are so short that the response turns at most twice in one. */
+bool integrate_extremes(const integrator *in, int r, double *max, double *min);
+
 /* Inside a watch: the state of contact j in the step, at whose end the state is y. */
 contact_state integrate_contact(const integrator *in, int j, const double *y);
 

@@ -39,6 +39,7 @@ typedef struct events { /* from integrate_new_events, to integrate_free; not sha
   double *rate;               /* [2 n] dy where the guards' rates are wanted */
   bool varies;                /* the monodromy is asked for */
   structure_variations variations;
+  phase_modes *modes; /* for them */
 } events;
 
 static void phase_rhs(const events *in, double theta, const double *y, double *dy)
@@ -316,6 +317,7 @@ static void release(integrator *base)
 {
   events *in = (events *)base;
   structure_variations_free(&in->variations);
+  phase_modes_free(in->modes);
   integrate_free_parts(&in->base);
   free(in->track);
   free(in->law);
@@ -371,7 +373,8 @@ hc_status integrate_new_events(const modal_base *base, double tolerance, integra
   in->info = calloc(ROOTS * contacts + 1, sizeof *in->info);
   in->rate = calloc(2 * (size_t)base->n, sizeof *in->rate);
   hc_status st = in->track && in->law && in->info && in->rate ? HC_OK : HC_NO_MEMORY;
-  if (st == HC_OK) st = structure_variations_make(&in->variations, base);
+  if (st == HC_OK) st = phase_modes_new(base, PHASE_MODES_STIFF, &in->modes);
+  if (st == HC_OK) st = structure_variations_make(&in->variations, base, in->modes);
   if (st == HC_OK) st = integrate_make_parts(&in->base, 2 * base->n, CV_ADAMS);
   if (st == HC_OK) st = make_cvode(in);
   if (st == HC_OK) {

@@ -10,6 +10,7 @@ typedef struct integrator_class {
   hc_status (*dense)(const integrator *, double theta, int order, double *y);
   hc_status (*samples)(const integrator *, int r, double theta, double step, int count, double *x);
   bool (*fourier)(const integrator *, int r, double out[3]);
+  bool (*extremes)(const integrator *, int r, double *max, double *min); /* NULL: cannot tell */
   contact_state (*state)(const integrator *, int j, const double *y);
   hc_status (*tolerance)(integrator *, double tolerance);
   void (*free)(integrator *);

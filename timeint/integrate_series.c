@@ -8,8 +8,11 @@
 #include "base/constants.h"
 #include "numerics/norm.h"
 #include "timeint/integrate_private.h"
+#include "timeint/motion_modes.h"
 #include "timeint/motion_series.h"
 #include "timeint/structure_variations.h"
+
+static const double longest_watched = 0.2; /* [rad] as CVODE's */
 
 enum {
   MAX_STEPS = 10000000 /* per period */
@@ -24,6 +27,9 @@ typedef struct by_series { /* from integrate_new_series, to integrate_free; not 
   double *y, *end;       /* [2 n] the motion there, and at its end */
   double *response;      /* [TRACK_ORDER + 1] of one response */
   motion_series series;
+  phase_modes *modes; /* or NULL */
+  motion_modes stiff; /* the motion since stiff.theta, where by_modes */
+  bool by_modes;      /* is the present step of it? */
   structure_variations variations;
 } by_series;
 
@@ -46,6 +52,18 @@ static hc_status begin(by_series *in, const double *y)
     in->track[j] = contact_track_begin(&in->m->contact[j], &at, y[2 * in->n + j]);
   }
   return HC_OK;
+}
+
+/* Is the motion from in->theta on one by complex modes? Then it is in in->stiff. */
+static hc_status choose(by_series *in)
+{
+  const complex_modes *modes;
+  const double omega = 1 / in->m->by_C;
+  in->by_modes = false;
+  if (!phase_modes_pay(in->modes, omega, INFINITY)) return HC_OK;
+  hc_status st = phase_modes_of(in->modes, in->m, in->track, &modes);
+  if (st == HC_OK && modes) in->by_modes = motion_modes_begin(&in->stiff, modes, in->m, in->track, in->theta, in->y);
+  return st;
 }
 
 /* The first event within the step, whose length becomes the time to it; -1: none. */
@@ -71,7 +89,8 @@ static int find_event(by_series *in, track_event *event)
 /* Contact j at the end of the step. */
 static hc_status pass(by_series *in, int j, track_event event, bool varies, int *count)
 {
-  const contact_motion at = motion_series_contact(&in->series, j, in->length);
+  const contact_motion at = in->by_modes ? motion_modes_contact(&in->stiff, j, in->theta + in->length - in->stiff.theta)
+                                         : motion_series_contact(&in->series, j, in->length);
   const contact_state before = in->track[j].state;
   if (++*count > integrate_most_transitions(in->n_contacts)) return HC_CHATTER;
   if (varies) {
@@ -83,28 +102,65 @@ static hc_status pass(by_series *in, int j, track_event event, bool varies, int 
   return HC_OK;
 }
 
+/* Contact `changing` passes the event at the end of the step, if it is not -1; then on to the next step, at theta. */
+static hc_status end_step(by_series *in, int changing, track_event event, bool varies, double theta, int *count)
+{
+  hc_status st = changing >= 0 ? pass(in, changing, event, varies, count) : HC_OK;
+  if (st != HC_OK) return st;
+  memcpy(in->y, in->end, 2 * (size_t)in->n * sizeof *in->y);
+  in->theta = theta;
+  return HC_OK;
+}
+
+/* One step of a series, or to the first event in it. */
+static hc_status step_by_series(by_series *in, bool varies, integrate_watch *watch, void *self, int *count)
+{
+  track_event event = TRACK_STICKS;
+  const double left = TWO_PI - in->theta;
+  const double reach = motion_series_begin(&in->series, in->m, in->track, in->theta, in->y);
+  if (!(reach > 0)) return HC_NOT_FINITE;
+  in->length = fmin(reach, left);
+  const int changing = find_event(in, &event);
+  const bool last = !(in->length < left);
+  const double end = last ? TWO_PI : in->theta + in->length;
+  motion_series_at(&in->series, in->length, 0, in->end);
+  ++in->base.steps;
+  ++in->base.rhs;
+  hc_status st = watch && end > in->theta ? watch(self, &in->base, in->theta, end) : HC_OK;
+  return st == HC_OK ? end_step(in, changing, event, varies, end, count) : st;
+}
+
+/* To the first event, in watched steps. */
+static hc_status phase_by_modes(by_series *in, bool varies, integrate_watch *watch, void *self, int *count)
+{
+  track_event event = TRACK_STICKS;
+  const double from = in->theta, left = TWO_PI - from;
+  double span = left;
+  const int changing = motion_modes_first_event(&in->stiff, in->m, in->track, &span, &event);
+  const double end = span < left ? from + span : TWO_PI;
+  const int steps = watch ? 1 + (int)(span / longest_watched) : 1;
+  ++in->base.rhs;
+  for (int i = 1; i <= steps; ++i) {
+    const double to = i < steps ? from + span * i / steps : end;
+    in->length = to - in->theta;
+    ++in->base.steps;
+    hc_status st = watch && to > in->theta ? watch(self, &in->base, in->theta, to) : HC_OK;
+    if (st != HC_OK) return st;
+    if (i < steps) in->theta = to;
+  }
+  motion_modes_at(&in->stiff, span, 0, in->end);
+  return end_step(in, changing, event, varies, end, count);
+}
+
 /* From theta = 0 to the end of the period. */
 static hc_status run(by_series *in, bool varies, integrate_watch *watch, void *self, int *count)
 {
   in->theta = 0;
   for (int steps = 0; in->theta < TWO_PI; ++steps) {
-    track_event event = TRACK_STICKS;
-    const double left = TWO_PI - in->theta;
-    const double reach = motion_series_begin(&in->series, in->m, in->track, in->theta, in->y);
-    if (!(reach > 0)) return HC_NOT_FINITE;
-    if (steps > MAX_STEPS) return HC_CHATTER;
-    in->length = fmin(reach, left);
-    const int changing = find_event(in, &event);
-    const bool last = !(in->length < left);
-    const double end = last ? TWO_PI : in->theta + in->length;
-    motion_series_at(&in->series, in->length, 0, in->end);
-    ++in->base.steps;
-    ++in->base.rhs;
-    hc_status st = watch && end > in->theta ? watch(self, &in->base, in->theta, end) : HC_OK;
-    if (st == HC_OK && changing >= 0) st = pass(in, changing, event, varies, count);
+    hc_status st = choose(in);
+    if (st == HC_OK) st = (in->by_modes ? phase_by_modes : step_by_series)(in, varies, watch, self, count);
     if (st != HC_OK) return st;
-    memcpy(in->y, in->end, 2 * (size_t)in->n * sizeof *in->y);
-    in->theta = end;
+    if (steps > MAX_STEPS) return HC_CHATTER;
   }
   return HC_OK;
 }
@@ -136,8 +192,9 @@ static hc_status period(integrator *base, const scaled_model *m, double *y, doub
 
 static hc_status dense(const integrator *base, double theta, int order, double *y)
 {
-  const by_series *in = (const by_series *)base;
-  motion_series_at(&in->series, theta - in->theta, order, y);
+  by_series *in = (by_series *)base; /* whose rooms for sums are used */
+  if (in->by_modes) motion_modes_at(&in->stiff, theta - in->stiff.theta, order, y);
+  else motion_series_at(&in->series, theta - in->theta, order, y);
   for (int j = 0; j < in->n_contacts; ++j) {
     const contact_track *t = &in->track[j];
     const contact_motion at = motion_of(in, j, y);
@@ -156,6 +213,9 @@ static void expand_response(const by_series *in, int i)
 static hc_status samples(const integrator *base, int i, double theta, double step, int count, double *x)
 {
   const by_series *in = (const by_series *)base;
+  for (int k = 0; k < count && in->by_modes; ++k)
+    x[k] = motion_modes_response(&in->stiff, i, theta + k * step - in->stiff.theta);
+  if (in->by_modes) return HC_OK;
   expand_response(in, i);
   for (int k = 0; k < count; ++k) x[k] = series_value(in->response, theta + k * step - in->theta);
   return HC_OK;
@@ -177,7 +237,11 @@ static double integral_of_product(const double *a, const double *b, double h)
 static bool fourier(const integrator *base, int i, double out[3])
 {
   const by_series *in = (const by_series *)base;
-  const double h = in->length;
+  const double h = in->length, since = in->theta - in->stiff.theta;
+  if (in->by_modes) {
+    motion_modes_fourier(&in->stiff, i, since, since + h, out);
+    return true;
+  }
   double cosine[TRACK_ORDER + 1] = {cos(in->theta)}, sine[TRACK_ORDER + 1] = {sin(in->theta)}, power = h;
   expand_response(in, i);
   for (int k = 1; k <= TRACK_ORDER; ++k) {
@@ -189,6 +253,14 @@ static bool fourier(const integrator *base, int i, double out[3])
   out[1] = integral_of_product(in->response, cosine, h);
   out[2] = integral_of_product(in->response, sine, h);
   return h <= 3; /* beyond, the series of the cosine is cut too short */
+}
+
+static bool extremes(const integrator *base, int i, double *max, double *min)
+{
+  by_series *in = (by_series *)base; /* whose rooms for sums are used */
+  const double since = in->theta - in->stiff.theta;
+  if (in->by_modes) motion_modes_extremes(&in->stiff, i, since, since + in->length, max, min);
+  return in->by_modes;
 }
 
 static contact_state state(const integrator *base, int j, const double *y)
@@ -208,6 +280,8 @@ static void release(integrator *base)
   by_series *in = (by_series *)base;
   structure_variations_free(&in->variations);
   motion_series_free(&in->series);
+  motion_modes_free(&in->stiff);
+  phase_modes_free(in->modes);
   free(in->track);
   free(in->y);
   free(in);
@@ -217,11 +291,12 @@ static const integrator_class class = {.period = period,
                                        .dense = dense,
                                        .samples = samples,
                                        .fourier = fourier,
+                                       .extremes = extremes,
                                        .state = state,
                                        .tolerance = tolerance,
                                        .free = release};
 
-hc_status integrate_new_series(const modal_base *base, integrator **out)
+hc_status integrate_new_series(const modal_base *base, double stiff, integrator **out)
 {
   const size_t n = (size_t)base->n, contacts = (size_t)base->n_contacts;
   *out = NULL;
@@ -233,7 +308,9 @@ hc_status integrate_new_series(const modal_base *base, integrator **out)
   in->track = calloc(contacts + 1, sizeof *in->track);
   in->y = calloc(4 * n + TRACK_ORDER + 1, sizeof *in->y);
   hc_status st = in->track && in->y ? motion_series_make(&in->series, base) : HC_NO_MEMORY;
-  if (st == HC_OK) st = structure_variations_make(&in->variations, base);
+  if (st == HC_OK) st = phase_modes_new(base, stiff, &in->modes);
+  if (st == HC_OK) st = motion_modes_make(&in->stiff, base);
+  if (st == HC_OK) st = structure_variations_make(&in->variations, base, in->modes);
   if (st == HC_OK) {
     in->end = in->y + 2 * n;
     in->response = in->y + 4 * n;

@@ -1,13 +1,17 @@
 /* integrate_series.h - the integrator (integrate.h) of the exact law for structures without CVODE, transient.method:
- * closed_form. While no contact changes its state the motion is the exponential of a linear equation, summed to
- * rounding (motion_series.h); a change is a root of guards that are polynomials, none missed but excursions below
- * rounding. Period map, monodromy matrix, peaks and harmonics have no error but rounding: there is no tolerance. */
+ * closed_form. While no contact changes its state the motion is the exponential of a linear equation: a power series,
+ * summed to rounding (motion_series.h), or of a stiff structure, whose series would take thousands of steps, its
+ * complex modes (motion_modes.h). A change is a root of guards that are polynomials, or sums of exponentials; none is
+ * missed but excursions below rounding. Period map, monodromy matrix, peaks and harmonics have no error but rounding:
+ * there is no tolerance. */
 #ifndef HC_INTEGRATE_SERIES_H
 #define HC_INTEGRATE_SERIES_H
 
 #include "timeint/integrate.h"
+#include "timeint/phase_modes.h" /* PHASE_MODES_STIFF */
 
-/* HC_NO_MEMORY. */
-hc_status integrate_new_series(const modal_base *base, integrator **out);
+/* By complex modes where the fastest rate is more than `stiff` times omega (PHASE_MODES_STIFF; 0: wherever there are
+ * any; INFINITY: never). HC_NO_MEMORY. */
+hc_status integrate_new_series(const modal_base *base, double stiff, integrator **out);
 
 #endif

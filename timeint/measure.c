@@ -185,11 +185,16 @@ static hc_status add_peak(measure *me, const integrator *in, int i, double t0, d
   return st;
 }
 
-/* The peaks in the step from t0, where it began, to t1: the rate changes sign at most twice. */
+/* The peaks in the step from t0, where it began, to t1: the integrator's, or the rate changes sign at most twice. */
 static hc_status add_peaks(measure *me, const integrator *in, int i, double t0, double t1, const jet *end)
 {
   const double p0 = me->response[i].p, a0 = me->response[i].a, p1 = end->p, a1 = end->a;
-  double t;
+  double t, max, min;
+  if (integrate_extremes(in, i, &max, &min)) {
+    extend(&me->response[i], max);
+    extend(&me->response[i], min);
+    return HC_OK;
+  }
   bool turns = (p0 > 0) == (p1 > 0) && (a0 > 0) != (a1 > 0) && (a0 > 0) != (p0 > 0);
   if (!turns) return add_peak(me, in, i, t0, p0, t1, p1);
   hc_status st = find_root(me, in, i, 1, t0, a0, t1, a1, &t); /* the rate comes nearest to 0 here */

@@ -6,6 +6,7 @@
 #include <stddef.h>
 
 #include "model/linear.h"
+#include "numerics/safe_step.h"
 
 static const double near_resonance = 0.25;  /* of k - 1 + i c: below, r is computed as a divided difference */
 static const double near_free = 1e-2;       /* of k: below, s is not computed as a difference divided by k */
@@ -117,14 +118,6 @@ static double guard_bound(const modal_motion *m, const modal_guard *g, const mod
     if (g->by_p) bound += fabs(g->by_p[i]) * (sqrt(j * j + k * a * a) + more) * grow;
   }
   return bound;
-}
-
-/* The h up to which f + slope h - bound h^2/2 >= 0. */
-static double safe_step(double f, double slope, double bound)
-{
-  const double root = sqrt(slope * slope + 2 * bound * f);
-  if (slope < 0) return 2 * f / (root - slope); /* without cancellation */
-  return bound > 0 ? (slope + root) / bound : INFINITY;
 }
 
 /* A search under way: the motion, a guard of it, and where points are evaluated. */

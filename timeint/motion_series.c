@@ -7,6 +7,8 @@
 #include <string.h>
 
 #include "numerics/norm.h"
+#include "numerics/safe_step.h"
+
 enum { TERMS = TRACK_ORDER + 1, MAX_NEWTON = 60 };
 
 hc_status motion_series_make(motion_series *s, const modal_base *base)
@@ -157,14 +159,6 @@ double series_slope(const double *c, double tau)
   double f = 0;
   for (int k = TERMS; k-- > 1;) f = f * tau + k * c[k];
   return f;
-}
-
-/* The tau up to which f + slope tau - bound tau^2/2 >= 0. */
-static double safe_step(double f, double slope, double bound)
-{
-  const double root = sqrt(slope * slope + 2 * bound * f);
-  if (slope < 0) return 2 * f / (root - slope); /* without cancellation */
-  return bound > 0 ? (slope + root) / bound : INFINITY;
 }
 
 /* Root in [a, b], where it falls from fa >= 0 to below 0 without turning: Newton, kept inside by bisection. */

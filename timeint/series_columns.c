@@ -15,6 +15,9 @@ enum {
   LAST = 24   /* the highest power of h; the 24 of motion_series.h */
 };
 
+static const double died_away =
+    1e-200; /* [square] of a column that began as 1: below, the squares of terms underflow */
+
 hc_status series_columns_make(series_columns *s, const modal_base *base)
 {
   const size_t n = (size_t)base->n, contacts = (size_t)base->n_contacts, rows = 2 * contacts;
@@ -154,7 +157,7 @@ static bool expand(series_columns *s, const scaled_model *m, int width, double h
   const modal_base *b = m->base;
   const size_t count = (size_t)s->n * (size_t)width;
   double *z = s->term, *next = s->next, *second = s->second;
-  memset(s->size, 0, (size_t)width * sizeof *s->size);
+  for (int q = 0; q < width; ++q) s->size[q] = died_away;
   add_squares(s, width, 1, s->x, s->size);
   add_squares(s, width, 1, s->p, s->size);
   memcpy(z, s->x, count * sizeof *z);

@@ -4,21 +4,23 @@
 #include <stdlib.h>
 #include <string.h>
 
-hc_status structure_variations_make(structure_variations *v, const modal_base *base)
+hc_status structure_variations_make(structure_variations *v, const modal_base *base, phase_modes *modes)
 {
   const size_t states = 2 * (size_t)base->n + (size_t)base->n_contacts;
-  *v = (structure_variations){.n = base->n, .n_states = (int)states};
+  *v = (structure_variations){.n = base->n, .n_states = (int)states, .modes = modes};
   v->rows = calloc(states * (states + 2), sizeof *v->rows);
   v->state = calloc(states, sizeof *v->state);
   if (!v->rows || !v->state) return HC_NO_MEMORY;
   v->du = v->rows + states * states;
   v->dv = v->du + states;
-  return series_columns_make(&v->series, base);
+  hc_status st = series_columns_make(&v->series, base);
+  return st == HC_OK && modes ? modes_columns_make(&v->by_modes, base) : st;
 }
 
 void structure_variations_free(structure_variations *v)
 {
   series_columns_free(&v->series);
+  modes_columns_free(&v->by_modes);
   free(v->rows);
   free(v->state);
 }
@@ -69,6 +71,14 @@ hc_status structure_variations_advance(structure_variations *v, const scaled_mod
   const double span = theta - v->theta;
   v->theta = theta;
   if (!(span > 0)) return HC_OK;
+  const complex_modes *modes = NULL;
+  hc_status st = HC_OK;
+  if (phase_modes_pay(v->modes, 1 / m->by_C, span)) st = phase_modes_of(v->modes, m, track, &modes);
+  if (st != HC_OK) return st;
+  if (modes) {
+    modes_columns_advance(&v->by_modes, m, modes, track, span, v->n_columns, v->n_states, v->rows);
+    return HC_OK;
+  }
   series_columns_begin(&v->series, m, track);
   return series_columns_advance(&v->series, m, span, v->n_columns, v->n_states, v->rows);
 }

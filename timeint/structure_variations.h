@@ -1,10 +1,11 @@
 /* structure_variations.h - the monodromy matrix of a period of the exact law of a structure, from one change of contact
  * state to the next. In a phase a variation of the motion obeys the same linear equation without its loads
- * (series_columns.h); all forces are continuous, so that a transition changes no column but in the rows of sliders
- * that begin to stick there (contact_track.h). */
+ * (series_columns.h, or modes_columns.h where that is less work); all forces are continuous, so that a transition
+ * changes no column but in the rows of sliders that begin to stick there (contact_track.h). */
 #ifndef HC_STRUCTURE_VARIATIONS_H
 #define HC_STRUCTURE_VARIATIONS_H
 
+#include "timeint/modes_columns.h"
 #include "timeint/series_columns.h"
 
 typedef struct structure_variations { /* from structure_variations_make, to structure_variations_free */
@@ -15,16 +16,18 @@ typedef struct structure_variations { /* from structure_variations_make, to stru
                    while its contact sticks */
   double *du, *dv; /* [n_states] of a contact, all columns */
   series_columns series;
+  modes_columns by_modes;
+  phase_modes *modes; /* the owner's, or NULL */
 } structure_variations;
 
-hc_status structure_variations_make(structure_variations *v,
-                                    const modal_base *base); /* HC_NO_MEMORY; free it then, too */
+/* With complex modes where `modes` is not NULL and they pay. HC_NO_MEMORY; free it then, too. */
+hc_status structure_variations_make(structure_variations *v, const modal_base *base, phase_modes *modes);
 void structure_variations_free(structure_variations *v);
 
 /* The identity at theta = 0, contacts as they begin there. */
 void structure_variations_begin(structure_variations *v, const scaled_model *m, const contact_track *track);
 
-/* On to theta, the contacts as they were. HC_NOT_FINITE. */
+/* On to theta, the contacts as they were. HC_NOT_FINITE, HC_NO_MEMORY. */
 hc_status structure_variations_advance(structure_variations *v, const scaled_model *m, const contact_track *track,
                                        double theta);
 

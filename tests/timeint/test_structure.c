@@ -164,7 +164,7 @@ static void oscillators_are_structures(void **state)
       scaled_make(&x, m, &how, omegas[w], 10);
       scaled_make(&q, m, &how, omegas[w], 10);
       assert_int_equal(integrate_new_closed(x.n_states, 1, &one), HC_OK);
-      assert_int_equal(integrate_new_series(base, &two), HC_OK);
+      assert_int_equal(integrate_new_series(base, PHASE_MODES_STIFF, &two), HC_OK);
       double y[SCENE_MAX_STATES] = {0.1, -0.2}, z[SCENE_MAX_STATES] = {0.1 * length_of(&q), -0.2 * length_of(&q)};
       for (int period = 0; period < 3; ++period) { /* rounding grows by the multipliers, to 1e3 in three periods */
         double phi[SCENE_MAX_STATES * SCENE_MAX_STATES], psi[SCENE_MAX_STATES * SCENE_MAX_STATES];
@@ -228,7 +228,7 @@ static void series_and_events_agree(void **state)
     integrator *series, *events;
     double y[MOST] = {0}, z[MOST];
     draw(&seed, TRANSIENT_LAW_EXACT, &d);
-    assert_int_equal(integrate_new_series(d.base, &series), HC_OK);
+    assert_int_equal(integrate_new_series(d.base, PHASE_MODES_STIFF, &series), HC_OK);
     assert_int_equal(integrate_new_events(d.base, 1e-13, &events), HC_OK);
     for (int period = 0; period < 4; ++period) {
       memcpy(z, y, sizeof y);
@@ -291,7 +291,7 @@ static void check_monodromy(const drawn *d, int step, int *compared, int *off)
   const int n = d->scaled.n_states, moving = 2 * d->scaled.n;
   memset(y, 0, sizeof y);
   assert_true(n <= MOST);
-  assert_int_equal(integrate_new_series(d->base, &in), HC_OK);
+  assert_int_equal(integrate_new_series(d->base, PHASE_MODES_STIFF, &in), HC_OK);
   for (int period = 0; period < 3; ++period) assert_int_equal(integrate_period(in, &d->scaled, y, NULL, NULL), HC_OK);
   memcpy(z, y, sizeof y);
   assert_int_equal(integrate_monodromy(in, &d->scaled, z, phi), HC_OK);

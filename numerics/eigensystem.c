@@ -1,0 +1,196 @@
+/* eigensystem.c - see eigensystem.h. Proof: tests/numerics/test_eigensystem.c. */
+#include "numerics/eigensystem.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdbool.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "numerics/dense.h"
+
+static const double same = 1e-11;              /* of two eigenvalues, relative: their eigenvectors are not told apart */
+static const double one_space = 1e-14;         /* of what couples such eigenvectors, relative to the eigenvalues */
+static const double converged = 1e-9;          /* of a step E: what is left is its square */
+static const double lapack = 64 * DBL_EPSILON; /* of the largest eigenvalue: LAPACK's error in any */
+static const double most_skewed = 1e4;         /* |w_k| |v_k|, 1 where eigenvectors are orthogonal: digits lost */
+enum { MOST_STEPS = 5 };
+
+static size_t square(int n) { return (size_t)n * (size_t)n; }
+
+hc_status eigensystem_make(eigensystem *e, int n)
+{
+  const size_t size = (size_t)n;
+  *e = (eigensystem){.n = n,
+                     .lambda = calloc(size, sizeof *e->lambda),
+                     .V = calloc(4 * square(n), sizeof *e->V),
+                     .values = calloc(size + 2 * square(n), sizeof *e->values),
+                     .narrow = calloc(square(n), sizeof *e->narrow),
+                     .pivot = calloc(size, sizeof *e->pivot)};
+  if (!e->lambda || !e->V || !e->values || !e->narrow || !e->pivot) return HC_NO_MEMORY;
+  e->W = e->V + square(n);
+  e->factors = e->W + square(n);
+  e->correction = e->factors + square(n);
+  e->vectors = e->values + size;
+  e->residual = e->vectors + square(n);
+  return HC_OK;
+}
+
+void eigensystem_free(eigensystem *e)
+{
+  free(e->lambda);
+  free(e->V);
+  free(e->values);
+  free(e->narrow);
+  free(e->pivot);
+}
+
+/* to += a b */
+static void add_product(wide_complex *to, wide_complex a, wide_complex b)
+{
+  to->re += a.re * b.re - a.im * b.im;
+  to->im += a.re * b.im + a.im * b.re;
+}
+
+static wide_complex widen(double complex z) { return (wide_complex){creal(z), cimag(z)}; }
+static double complex narrow(wide_complex z) { return (double)z.re + I * (double)z.im; }
+
+/* residual = A V - V D */
+static void find_residual(eigensystem *e, const long double *A)
+{
+  const size_t n = (size_t)e->n;
+  for (size_t j = 0; j < n; ++j) {
+    const wide_complex *v = e->vectors + j * n, minus = {-e->values[j].re, -e->values[j].im};
+    wide_complex *r = e->residual + j * n;
+    memset(r, 0, n * sizeof *r);
+    for (size_t k = 0; k < n; ++k)
+      for (size_t i = 0; i < n; ++i) {
+        r[i].re += A[k * n + i] * v[k].re;
+        r[i].im += A[k * n + i] * v[k].im;
+      }
+    for (size_t i = 0; i < n; ++i) add_product(&r[i], minus, v[i]);
+  }
+}
+
+/* factors: LU of V. */
+static hc_status factor(eigensystem *e)
+{
+  for (size_t i = 0; i < square(e->n); ++i) e->factors[i] = narrow(e->vectors[i]);
+  return dense_factor_complex(e->n, e->factors, e->pivot);
+}
+
+/* E of column j from F in its place; largest[0]: of its entries; largest[1]: of F_ij/D_j of eigenvalues no farther
+ * apart than `least`, or so close to each other that any basis of theirs will do. */
+static void divide(const eigensystem *e, size_t j, double least, double complex *F, double largest[2])
+{
+  const double complex at = narrow(e->values[j]);
+  for (size_t i = 0; i < (size_t)e->n; ++i) {
+    const double complex other = narrow(e->values[i]), apart = at - other;
+    const double size = cabs(at) + cabs(other);
+    const bool one = !(cabs(apart) > fmax(least, same * size));
+    const double entry = i == j || cabs(F[i]) == 0 ? 0 : cabs(F[i]) / (one ? size : cabs(apart));
+    if (!(entry <= largest[one])) largest[one] = entry; /* NaN stays */
+    F[i] = i == j || one ? 0 : F[i] / apart;
+  }
+}
+
+/* One Newton step; what is left to do in largest[2]. */
+static hc_status improve(eigensystem *e, const long double *A, double least, double largest[2])
+{
+  const size_t n = (size_t)e->n;
+  hc_status st = factor(e);
+  if (st != HC_OK) return st;
+  find_residual(e, A);
+  for (size_t i = 0; i < n * n; ++i) e->correction[i] = narrow(e->residual[i]);
+  dense_solve_complex(e->n, e->factors, e->pivot, false, e->n, e->correction);
+  largest[0] = largest[1] = 0;
+  for (size_t j = 0; j < n; ++j) {
+    double complex *F = e->correction + j * n;
+    e->values[j].re += creal(F[j]);
+    e->values[j].im += cimag(F[j]);
+  }
+  for (size_t j = 0; j < n; ++j) divide(e, j, least, e->correction + j * n, largest);
+  wide_complex *better = e->residual;
+  memcpy(better, e->vectors, n * n * sizeof *better);
+  for (size_t j = 0; j < n; ++j)
+    for (size_t k = 0; k < n; ++k) {
+      const wide_complex by = widen(e->correction[j * n + k]);
+      for (size_t i = 0; i < n && (by.re != 0 || by.im != 0); ++i)
+        add_product(&better[j * n + i], e->vectors[k * n + i], by);
+    }
+  memcpy(e->vectors, better, n * n * sizeof *better);
+  return HC_OK;
+}
+
+/* W = V^-1: that of the factors, and one Newton step, W += W (1 - V W). By columns while it is made. */
+static hc_status invert(eigensystem *e)
+{
+  const size_t n = (size_t)e->n;
+  hc_status st = factor(e);
+  if (st != HC_OK) return st;
+  double complex *inverse = e->correction;
+  memset(inverse, 0, n * n * sizeof *inverse);
+  for (size_t i = 0; i < n; ++i) inverse[i * (n + 1)] = 1;
+  dense_solve_complex(e->n, e->factors, e->pivot, false, e->n, inverse);
+  memset(e->residual, 0, n * n * sizeof *e->residual);
+  for (size_t j = 0; j < n; ++j) {
+    wide_complex *left = e->residual + j * n;
+    for (size_t k = 0; k < n; ++k) {
+      const wide_complex by = widen(-inverse[j * n + k]);
+      for (size_t i = 0; i < n; ++i) add_product(&left[i], e->vectors[k * n + i], by);
+    }
+    left[j].re += 1;
+  }
+  for (size_t i = 0; i < n * n; ++i) e->V[i] = narrow(e->residual[i]);
+  dense_solve_complex(e->n, e->factors, e->pivot, false, e->n, e->V);
+  for (size_t j = 0; j < n; ++j)
+    for (size_t k = 0; k < n; ++k) e->W[k * n + j] = inverse[j * n + k] + e->V[j * n + k];
+  for (size_t i = 0; i < n * n; ++i) e->V[i] = narrow(e->vectors[i]);
+  return HC_OK;
+}
+
+/* Exactly real what is real. */
+static void settle_real(eigensystem *e)
+{
+  const size_t n = (size_t)e->n;
+  for (size_t k = 0; k < n; ++k) {
+    const bool real = cimag(e->lambda[k]) == 0;
+    e->lambda[k] = real ? (double)e->values[k].re : narrow(e->values[k]);
+    for (size_t i = 0; i < n && real; ++i) {
+      e->V[k * n + i] = creal(e->V[k * n + i]);
+      e->W[k * n + i] = creal(e->W[k * n + i]);
+    }
+  }
+}
+
+static double length(size_t n, const double complex *a)
+{
+  double sum = 0;
+  for (size_t i = 0; i < n; ++i) sum += creal(a[i] * conj(a[i]));
+  return sqrt(sum);
+}
+
+hc_status eigensystem_find(eigensystem *e, const long double *A)
+{
+  const size_t n = (size_t)e->n;
+  double left[2] = {INFINITY, INFINITY}, size = 0;
+  for (size_t i = 0; i < n * n; ++i) {
+    e->narrow[i] = (double)A[i];
+    size = hypot(size, e->narrow[i]);
+  }
+  if (!isfinite(size)) return HC_NOT_FINITE;
+  hc_status st = dense_eigen(e->n, e->narrow, e->lambda, e->V);
+  if (st != HC_OK) return st;
+  for (size_t i = 0; i < n * n; ++i) e->vectors[i] = widen(e->V[i]);
+  for (size_t k = 0; k < n; ++k) e->values[k] = widen(e->lambda[k]);
+  for (int steps = 0; !(steps > 1 && left[0] <= converged && left[1] <= one_space); ++steps) {
+    if (steps == MOST_STEPS) return HC_SINGULAR;
+    st = improve(e, A, steps == 0 ? lapack * size : 0, left); /* first: these are not apart, but for errors */
+    if (st != HC_OK) return st;
+  }
+  if ((st = invert(e)) != HC_OK) return st;
+  settle_real(e);
+  for (size_t k = 0; k < n; ++k)
+    if (!(length(n, e->V + k * n) * length(n, e->W + k * n) <= most_skewed)) return HC_SINGULAR;
+  return HC_OK;
+}

@@ -1,0 +1,37 @@
+/* eigensystem.h - eigenvalues, right and left eigenvectors of a real matrix, the small eigenvalues as good as the large
+ * ones. LAPACK's errors are rounding of the largest eigenvalue, which is that of the stiffest mode; here they start a
+ * Newton iteration for all eigenvectors at once, whose residuals are in long double:
+ *     F = V^-1 (A V - V D),   D += diag F,   V += V E,   E_ij = F_ij/(D_j - D_i)
+ * It converges quadratically while the eigenvalues are apart. Source: Ogita and Aishima, Japan J. Indust. Appl. Math.
+ * 35 (2018) 1007, for symmetric matrices; without symmetry V^-1 stands in for V^T. */
+#ifndef HC_EIGENSYSTEM_H
+#define HC_EIGENSYSTEM_H
+
+#include <complex.h>
+
+#include "base/status.h"
+
+typedef struct wide_complex {
+  long double re, im;
+} wide_complex;
+
+typedef struct eigensystem { /* from eigensystem_make, to eigensystem_free */
+  int n;
+  double complex *lambda; /* [n] a pair's one after the other */
+  double complex *V;      /* [n][n] right eigenvectors, by columns, as long as 1 */
+  double complex *W;      /* [n][n] W + k n is row k of V^-1 */
+  wide_complex *values;   /* [n] work, as are the others */
+  wide_complex *vectors, *residual;
+  double complex *factors, *correction;
+  double *narrow;
+  int *pivot;
+} eigensystem;
+
+hc_status eigensystem_make(eigensystem *e, int n); /* HC_NO_MEMORY; free it then, too */
+void eigensystem_free(eigensystem *e);
+
+/* Of A[n][n] by columns. HC_SINGULAR: the eigenvectors are so nearly dependent (a double eigenvalue with one
+ * eigenvector, a free body) that more than four digits would be lost; HC_NO_MEMORY, HC_NOT_CONVERGED. */
+hc_status eigensystem_find(eigensystem *e, const long double *A);
+
+#endif

@@ -1,0 +1,148 @@
+/* exponentials.c - see exponentials.h. Proof: tests/numerics/test_exponentials.c. */
+#include "numerics/exponentials.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "numerics/safe_step.h"
+
+static const double rounding = 64 * DBL_EPSILON; /* of a term, relative: what it was computed from, too */
+static const double nothing = 1e-3;              /* [noise] what terms left out may add up to */
+enum { MAX_NEWTON = 60 };
+
+/* e^{rate tau}, and its modulus. */
+static double complex exponential(double complex rate, double tau, double *size)
+{
+  const double turn = cimag(rate) * tau;
+  *size = exp(creal(rate) * tau);
+  if (turn == 0 || *size == 0) return *size;
+  return *size * cos(turn) + I * (*size * sin(turn));
+}
+
+double exponential_sum_at(const exponentials *e, const exponential_sum *s, double tau, double *slope)
+{
+  double f = s->constant, rises = 0, size;
+  for (int k = 0; k < e->n; ++k) {
+    const double complex z = s->by[k] * exponential(e->rate[k], tau, &size);
+    f += creal(z);
+    rises += creal(e->rate[k] * z);
+  }
+  if (slope) *slope = rises;
+  return f;
+}
+
+double complex exponential_quotient(double complex z)
+{
+  const double a = creal(z), b = cimag(z), half = sin(0.5 * b);
+  if (a == 0 && b == 0) return 1;
+  return (expm1(a) * cos(b) - 2 * half * half + I * (exp(a) * sin(b))) / z;
+}
+
+void exponential_sum_measure(const exponentials *e, exponential_sum *s)
+{
+  double sum = fabs(s->constant);
+  for (int k = 0; k < e->n; ++k) sum += s->size[k] = cabs(s->by[k]);
+  s->noise = fmax(s->noise, rounding * sum);
+}
+
+static void evaluate(exponentials *e, double tau)
+{
+  for (int k = 0; k < e->n; ++k) e->now[k] = exponential(e->rate[k], tau, &e->size[k]);
+}
+
+/* Root in [a, b], where it falls from fa >= 0 to below 0 without turning: Newton, kept inside by bisection. */
+static double falling_root(const exponentials *e, const exponential_sum *s, double a, double fa, double b)
+{
+  if (!(fa > 0)) return a;
+  double x = 0.5 * (a + b);
+  for (int it = 0; it < MAX_NEWTON; ++it) {
+    double slope;
+    const double f = exponential_sum_at(e, s, x, &slope);
+    if (f > 0) a = x;
+    else b = x;
+    double next = x - f / slope;
+    const bool close = fabs(next - x) <= 2 * DBL_EPSILON * (1 + x);
+    if (close) break;
+    if (!(next > a && next < b)) next = 0.5 * (a + b);
+    if (next == x) break;
+    x = next;
+  }
+  return x;
+}
+
+/* What is known of a sum at a point: its value, slope, a bound of its second derivative up to h, and how far it surely
+ * does not fall below -noise. */
+typedef struct outlook {
+  double f, slope, bend, safe;
+} outlook;
+
+static double growth(double complex rate, double h) { return creal(rate) > 0 ? exp(creal(rate) * h) : 1; }
+
+static outlook look(const exponentials *e, const exponential_sum *s, double h)
+{
+  outlook o = {.f = s->constant};
+  double fast = 0; /* the sizes of the terms not yet added */
+  for (int k = 0; k < e->n; ++k) fast += s->size[k] * e->size[k] * growth(e->rate[k], h);
+  for (int k = 0; k <= e->n; ++k) {
+    const double room = o.f - fast + s->noise;
+    if (room > 0) o.safe = fmax(o.safe, safe_step(room, o.slope, o.bend));
+    if (k == e->n || fast <= nothing * s->noise) break;
+    const double complex z = s->by[k] * e->now[k], rate = e->rate[k];
+    const double size = s->size[k] * e->size[k] * growth(rate, h);
+    o.f += creal(z);
+    o.slope += creal(rate * z);
+    o.bend += creal(rate * conj(rate)) * size;
+    fast = fmax(fast - size, 0);
+  }
+  o.safe = fmax(o.safe, safe_step(fmax(o.f, 0) + (1 - nothing) * s->noise, o.slope, o.bend));
+  return o;
+}
+
+/* How far the sum surely stays positive from tau on, at most h; if it falls to 0 within that, *root is where. */
+static double clear_step(const exponentials *e, const exponential_sum *s, double tau, double h, double *root)
+{
+  const outlook o = look(e, s, h);
+  *root = INFINITY;
+  if (!(o.f >= -s->noise)) return *root = tau, 0; /* NaN, too */
+  if (o.safe >= h) return h;
+  const double one_way = o.slope < 0 ? fmin(h, -o.slope / o.bend) : 0; /* it falls at least that far */
+  if (!(one_way > o.safe)) return o.safe;
+  if (!(exponential_sum_at(e, s, tau + one_way, NULL) < 0)) return one_way;
+  *root = falling_root(e, s, tau, o.f, tau + one_way);
+  return one_way;
+}
+
+/* Over it no term grows by more than e. */
+static double longest_step(const exponentials *e)
+{
+  double most = 0;
+  for (int k = 0; k < e->n; ++k) most = fmax(most, creal(e->rate[k]));
+  return 1 / most;
+}
+
+int exponentials_first_fall(exponentials *e, int n_sums, const exponential_sum *sums, double from, double to,
+                            double *at)
+{
+  const double longest = longest_step(e);
+  int first = -1;
+  for (double tau = from; tau < to;) {
+    double h = fmin(to - tau, longest);
+    evaluate(e, tau);
+    for (int i = 0; i < n_sums; ++i) {
+      double root, clear = clear_step(e, &sums[i], tau, h, &root);
+      if (!(tau + clear > tau)) root = tau; /* no step is short enough: a root here */
+      if (root < to || (root == to && first < 0)) {
+        to = root;
+        first = i;
+        clear = root - tau;
+      }
+      h = fmin(h, clear);
+    }
+    if (!(tau + h > tau)) break;
+    tau += h;
+  }
+  *at = to;
+  return first;
+}

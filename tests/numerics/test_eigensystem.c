@@ -1,0 +1,118 @@
+/* test_eigensystem.c - eigenvalues of very different sizes, from matrices that have them by construction. */
+#include "numerics/eigensystem.h"
+
+#include <float.h>
+
+#include "tests/check.h"
+#include "tests/random.h"
+
+enum { N = 12 };
+
+/* A = P D P^-1 in long double, D of blocks (a b; -b a), P = 1 + a strictly lower triangle of random numbers below 1/4,
+ * whose inverse is found by substitution. */
+static void draw(uint64_t *seed, const double complex *lambda, long double *A)
+{
+  long double P[N][N] = {{0}}, inverse[N][N] = {{0}}, D[N][N] = {{0}}, half[N][N] = {{0}};
+  for (int i = 0; i < N; ++i)
+    for (int j = 0; j <= i; ++j) P[i][j] = i == j ? 1 : 0.25L * random_signed(seed);
+  for (int c = 0; c < N; ++c)
+    for (int i = c; i < N; ++i) {
+      long double sum = i == c;
+      for (int j = c; j < i; ++j) sum -= P[i][j] * inverse[j][c];
+      inverse[i][c] = sum;
+    }
+  for (int k = 0; k < N; k += 2) {
+    D[k][k] = D[k + 1][k + 1] = creal(lambda[k]);
+    D[k][k + 1] = cimag(lambda[k]);
+    D[k + 1][k] = -cimag(lambda[k]);
+  }
+  for (int i = 0; i < N; ++i)
+    for (int j = 0; j < N; ++j)
+      for (int k = 0; k < N; ++k) half[i][j] += P[i][k] * D[k][j];
+  for (int i = 0; i < N; ++i)
+    for (int j = 0; j < N; ++j) {
+      A[j * N + i] = 0;
+      for (int k = 0; k < N; ++k) A[j * N + i] += half[i][k] * inverse[k][j];
+    }
+}
+
+/* Distance of z from the nearest of the eigenvalues found. */
+static double nearest(const eigensystem *e, double complex z)
+{
+  double least = INFINITY;
+  for (int k = 0; k < N; ++k) least = fmin(least, cabs(e->lambda[k] - z));
+  return least;
+}
+
+/* Eigenvalues of the sizes 1 to 1e8: rounding of A, whose entries are as large, in long double leaves 64 6e-20 1e8 =
+ * 4e-10 in any of them; LAPACK's errors are some 1e-8. */
+static void small_ones_are_as_good_as_large(void **state)
+{
+  (void)state;
+  uint64_t seed = 2;
+  eigensystem e;
+  assert_int_equal(eigensystem_make(&e, N), HC_OK);
+  for (int trial = 0; trial < 50; ++trial) {
+    double complex lambda[N];
+    long double A[N * N];
+    for (int k = 0; k < N; k += 2) {
+      const double size = pow(10, 8.0 * k / (N - 2));
+      lambda[k] = size * (-0.1 - 0.9 * random_unit(&seed) + I * (0.1 + random_unit(&seed)));
+    }
+    draw(&seed, lambda, A);
+    assert_int_equal(eigensystem_find(&e, A), HC_OK);
+    for (int k = 0; k < N; k += 2)
+      CHECK_LE(nearest(&e, lambda[k]), 4e-10 + 4 * DBL_EPSILON * cabs(lambda[k]), "trial %d: %d", trial, k);
+    for (int i = 0; i < N; ++i)
+      for (int j = 0; j < N; ++j) {
+        double complex one = 0;
+        for (int k = 0; k < N; ++k) one += e.W[i * N + k] * e.V[j * N + k];
+        CHECK_LE(cabs(one - (i == j)), 1e-13, "trial %d: left and right [%d, %d]", trial, i, j);
+      }
+  }
+  eigensystem_free(&e);
+}
+
+/* Equal eigenvalues with as many eigenvectors are one space, which any basis spans. */
+static void equal_ones(void **state)
+{
+  (void)state;
+  uint64_t seed = 3;
+  eigensystem e;
+  double complex lambda[N];
+  long double A[N * N];
+  for (int k = 0; k < N; k += 2) lambda[k] = k < 6 ? -1 + 3 * I : -1e5 - k;
+  draw(&seed, lambda, A);
+  assert_int_equal(eigensystem_make(&e, N), HC_OK);
+  assert_int_equal(eigensystem_find(&e, A), HC_OK);
+  for (int k = 0; k < N; k += 2) CHECK_LE(nearest(&e, lambda[k]), 1e-10 * cabs(lambda[k]), "%d", k);
+  eigensystem_free(&e);
+}
+
+/* A double eigenvalue with one eigenvector, exactly and nearly. */
+static void defective_ones_are_refused(void **state)
+{
+  (void)state;
+  const double nearly[] = {0, 1e-14, 1e-10};
+  eigensystem e;
+  assert_int_equal(eigensystem_make(&e, 3), HC_OK);
+  for (size_t i = 0; i < sizeof nearly / sizeof *nearly; ++i) {
+    const long double A[9] = {0, nearly[i], 0, 1, 0, 0, 0, 0, -1e6};
+    assert_int_equal(eigensystem_find(&e, A), HC_SINGULAR);
+  }
+  const long double free_of_it[9] = {0, -4, 0, 1, 0, 0, 0, 0, -1e6};
+  assert_int_equal(eigensystem_find(&e, free_of_it), HC_OK);
+  const long double nonsense[9] = {0, NAN, 0, 1, 0, 0, 0, 0, -1e6};
+  assert_int_equal(eigensystem_find(&e, nonsense), HC_NOT_FINITE);
+  eigensystem_free(&e);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(small_ones_are_as_good_as_large),
+      cmocka_unit_test(equal_ones),
+      cmocka_unit_test(defective_ones_are_refused),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,166 @@
+/* test_stiff.c - motions of structures by complex modes: against power series, which decompose nothing. */
+#include <float.h>
+
+#include "tests/check.h"
+#include "tests/hbm/random_structures.h"
+#include "timeint/integrate_series.h"
+#include "timeint/motion_modes.h"
+#include "timeint/motion_series.h"
+
+enum { MOST = 64, PERIODS = 3 };
+
+typedef struct drawn {
+  model *m;
+  modal_base *base;
+  scaled_contact contacts[8];
+  scaled_model scaled;
+} drawn;
+
+enum kind { PLAIN, STIFF, DAMPED_STIFF, FREE, CRITICAL, N_KINDS };
+
+/* What makes a structure hard to decompose, or to follow by series. */
+static void harden(enum kind kind, model *m)
+{
+  const int n = m->n;
+  switch (kind) {
+  case STIFF: m->stiffness[0] *= 1e4; break;
+  case DAMPED_STIFF:
+    m->stiffness[0] *= 1e4;
+    for (int i = 0; i < n * n; ++i) m->damping[i] = 2e-3 * m->stiffness[i];
+    break;
+  case FREE: /* no spring, no damper: a double eigenvalue 0 while its contacts are open */
+    for (int i = 0; i < n; ++i) m->stiffness[i] = m->stiffness[i * n] = m->damping[i] = m->damping[i * n] = 0;
+    break;
+  case CRITICAL: /* two equal eigenvalues, one eigenvector, but for rounding */
+    for (int i = 1; i < n; ++i)
+      for (double *A = m->mass; A; A = A == m->mass ? m->stiffness : A == m->stiffness ? m->damping : NULL)
+        A[i] = A[i * n] = 0;
+    m->damping[0] = 2 * sqrt(m->stiffness[0] * m->mass[0]);
+    break;
+  default: break;
+  }
+}
+
+static void draw(uint64_t *seed, enum kind kind, drawn *d)
+{
+  const int n = random_int(seed, 1, 6), contacts = random_int(seed, 1, 5);
+  const transient_settings how = {.law = TRANSIENT_LAW_EXACT};
+  d->m = random_structure(seed, n, contacts);
+  harden(kind, d->m);
+  assert_int_equal(modal_base_new(d->m, &d->base), HC_OK);
+  d->scaled = (scaled_model){.contact = d->contacts, .base = d->base};
+  scaled_make(&d->scaled, d->m, &how, 3 + 10 * random_unit(seed), 1);
+}
+
+static void undraw(drawn *d)
+{
+  modal_base_free(d->base);
+  model_free(d->m);
+}
+
+static double largest_of(int n, const double *a)
+{
+  double most = 1;
+  for (int i = 0; i < n; ++i) most = fmax(most, fabs(a[i]));
+  return most;
+}
+
+/* Periods by modes, wherever there are any, and by series: states, transitions, monodromy matrices. A period magnifies
+ * what it is given by no more than the monodromy matrix, and cancellation takes up to four digits of rounding. */
+static void modes_and_series_agree(void **state)
+{
+  (void)state;
+  static double phi[2][MOST * MOST];
+  uint64_t seed = 31;
+  long by_modes = 0, by_series = 0;
+  for (int trial = 0; trial < 40 * N_KINDS; ++trial) {
+    drawn d;
+    integrator *modes, *series;
+    double y[MOST] = {0}, z[MOST];
+    draw(&seed, (enum kind)(trial % N_KINDS), &d);
+    const int n = d.scaled.n_states;
+    assert_int_equal(integrate_new_series(d.base, 0, &modes), HC_OK);
+    assert_int_equal(integrate_new_series(d.base, INFINITY, &series), HC_OK);
+    for (int period = 0; period < PERIODS; ++period) {
+      memcpy(z, y, sizeof y);
+      assert_int_equal(integrate_monodromy(modes, &d.scaled, y, phi[0]), HC_OK);
+      assert_int_equal(integrate_monodromy(series, &d.scaled, z, phi[1]), HC_OK);
+      const double grown = largest_of(n * n, phi[1]), size = largest_of(n, z);
+      for (int i = 0; i < n; ++i) CHECK_NEAR(y[i], z[i], 1e-11 * grown * size, "trial %d, state %d", trial, i);
+      for (int i = 0; i < n * n; ++i)
+        CHECK_NEAR(phi[0][i], phi[1][i], 1e-9 * grown * grown * size, "trial %d, monodromy %d", trial, i);
+      const long apart = labs(integrate_transitions(modes) - integrate_transitions(series));
+      CHECK_LE((double)apart, 2.0 * (period + 1), "trial %d: transitions of no length at ties", trial);
+    }
+    if (trial % N_KINDS == STIFF || trial % N_KINDS == DAMPED_STIFF) {
+      by_modes += integrate_steps(modes);
+      by_series += integrate_steps(series);
+    }
+    integrate_free(modes);
+    integrate_free(series);
+    undraw(&d);
+  }
+  CHECK_LE(10.0 * (double)by_modes, (double)by_series, "%s", "steps of stiff structures");
+}
+
+/* What a watch is told of a response: integrals, largest and least value, instants. */
+typedef struct told {
+  double integral[3], max, min, wave[64];
+  int next;
+} told;
+
+static hc_status listen(void *self, const integrator *in, double theta0, double theta1)
+{
+  told *t = self;
+  double part[3], max, min;
+  assert_true(theta1 > theta0);
+  if (!integrate_fourier(in, 0, part)) return HC_BUG;
+  for (int k = 0; k < 3; ++k) t->integral[k] += part[k];
+  for (; t->next < 64 && 2 * PI * t->next / 64 <= theta1; ++t->next)
+    integrate_samples(in, 0, 2 * PI * t->next / 64, 0, 1, &t->wave[t->next]);
+  if (!integrate_extremes(in, 0, &max, &min)) return HC_OK;
+  t->max = fmax(t->max, max);
+  t->min = fmin(t->min, min);
+  return HC_OK;
+}
+
+/* The largest of 20 000 instants is no larger, and misses the extreme by bend h^2/8 at most: h = 3e-4, bend about 1e2
+ * of the motion's size in these structures. */
+static void a_watch_is_told_the_same(void **state)
+{
+  (void)state;
+  uint64_t seed = 5;
+  for (int trial = 0; trial < 40; ++trial) {
+    drawn d;
+    integrator *modes, *series;
+    double y[MOST] = {0}, z[MOST];
+    told by_modes = {.max = -INFINITY, .min = INFINITY}, by_series = by_modes;
+    draw(&seed, trial % 2 ? STIFF : PLAIN, &d);
+    assert_int_equal(integrate_new_series(d.base, 0, &modes), HC_OK);
+    assert_int_equal(integrate_new_series(d.base, INFINITY, &series), HC_OK);
+    for (int k = 0; k < PERIODS; ++k) assert_int_equal(integrate_period(series, &d.scaled, y, NULL, NULL), HC_OK);
+    memcpy(z, y, sizeof y);
+    assert_int_equal(integrate_period(modes, &d.scaled, y, listen, &by_modes), HC_OK);
+    assert_int_equal(integrate_period(series, &d.scaled, z, listen, &by_series), HC_OK);
+    for (int k = 0; k < 3; ++k)
+      CHECK_NEAR(by_modes.integral[k], by_series.integral[k], 1e-10, "trial %d, integral %d", trial, k);
+    for (int k = 0; k < 64; ++k) CHECK_NEAR(by_modes.wave[k], by_series.wave[k], 1e-10, "trial %d, %d", trial, k);
+    CHECK_LE(by_series.next, by_modes.next, "trial %d", trial);
+    for (int k = 0; k < 64; ++k) {
+      CHECK_LE(by_modes.wave[k], by_modes.max + 1e-12, "trial %d, %d", trial, k);
+      CHECK_LE(by_modes.min, by_modes.wave[k] + 1e-12, "trial %d, %d", trial, k);
+    }
+    integrate_free(modes);
+    integrate_free(series);
+    undraw(&d);
+  }
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(modes_and_series_agree),
+      cmocka_unit_test(a_watch_is_told_the_same),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
