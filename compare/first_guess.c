@@ -6,7 +6,7 @@
 #include "compare/motion.h"
 #include "timeint/steady.h"
 
-enum { MOST_PERIODS = 200 }; /* some milliseconds in closed form */
+enum { MOST_PERIODS = 200, MOST_DOF = 100 }; /* some milliseconds in closed form, some seconds */
 
 typedef struct guide { /* made with the first question, freed with the solver */
   timeint *ti;
@@ -22,27 +22,35 @@ static hc_status make(guide *g, const model *m)
                                   .start = TRANSIENT_START_REST,
                                   .tolerance = 1e-6,
                                   .max_periods = MOST_PERIODS};
-  hc_status st = timeint_new(m, &how, &g->ti);
+  model *seen;
+  hc_status st = model_copy_all_seen(m, &seen);
+  if (st != HC_OK) return st;
+  st = timeint_new(seen, &how, &g->ti);
+  model_free(seen);
   if (st == HC_OK && !(g->state = calloc((size_t)timeint_n_states(g->ti), sizeof *g->state))) st = HC_NO_MEMORY;
   return st;
 }
 
 /* Where the motion goes from rest, or, where that has more periods than one or none, the orbit of one next to it. */
-static hc_status ask(void *self, const model *m, double omega, int n_harm, const hc_monitor *monitor, double *X)
+static hc_status ask(void *self, const model *m, double omega, int n_harm, const hc_monitor *monitor, double *x)
 {
   guide *g = self;
   timeint_result r;
-  if (!model_is_oscillator(m)) return HC_UNSUPPORTED; /* X is not of one motion there */
+  double X[2 * HBM_MAX_HARMONICS + 1];
+  if (m->n > MOST_DOF) return HC_UNSUPPORTED;
   hc_status st = g->state ? HC_OK : make(g, m);
   if (st != HC_OK) return st;
   timeint_rest(g->ti, g->state);
   st = timeint_steady(g->ti, omega, g->state, monitor, &r);
   if (st == HC_NO_MEMORY || st == HC_INTERRUPTED) return st;
   if (st != HC_OK || r.period_multiple != 1) st = timeint_orbit(g->ti, omega, 1, g->state, monitor, &r);
-  if (st != HC_OK) return st;
-  const periodic_motion motion = motion_of_transient(&r);
-  motion_harmonics(&motion, n_harm, X);
-  return HC_OK;
+  for (int i = 0; i < m->n && st == HC_OK; ++i) {
+    if (i > 0) st = timeint_response(g->ti, i, &r);
+    const periodic_motion motion = motion_of_transient(&r);
+    motion_harmonics(&motion, n_harm, X);
+    for (int c = 0; c < 2 * n_harm + 1; ++c) x[c * m->n + i] = X[c];
+  }
+  return st;
 }
 
 static void release(void *self)

@@ -6,6 +6,7 @@
  * forces, found in the same way. */
 #include "hbm/first_solution.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 #include "hbm/continuation.h"
@@ -90,7 +91,10 @@ static hc_status from_exact_forces(hbm_solver *s, double omega, const hc_monitor
 
 static hc_status from_guess(hbm_solver *s, double omega, const hc_monitor *monitor, double *X, hbm_point *point)
 {
-  hc_status st = s->guess.ask(s->guess.self, s->model, omega, s->sys.n_harm, monitor, X);
+  double *x = malloc((size_t)s->model->n * (size_t)series_length(s->sys.n_harm) * sizeof *x);
+  hc_status st = x ? s->guess.ask(s->guess.self, s->model, omega, s->sys.n_harm, monitor, x) : HC_NO_MEMORY;
+  if (st == HC_OK) hbm_guess_of(s, x, X);
+  free(x);
   if (st != HC_OK) return st;
   for (int i = 0; i < s->sys.first; ++i) X[i] = 0;
   return hbm_solve_fixed(s, omega, norm_2(s->sys.n_coef, X), X, point);

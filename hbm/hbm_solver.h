@@ -32,10 +32,10 @@ int hbm_n_coefficients(const hbm_solver *s); /* entries of X, with the harmonics
 /* X[hbm_n_coefficients], as a guess, of a motion x[2H+1][n] of all degrees of freedom, coefficient by coefficient. */
 void hbm_guess_of(const hbm_solver *s, const double *x, double *X);
 
-/* Somebody who knows where a solution may be: ask() fills X[2 n_harm + 1] [length] with a guess for omega; HC_NO_MEMORY
- * and HC_INTERRUPTED are passed on, any other failure means there is none. */
+/* Somebody who knows where a solution may be: ask() fills x[2 n_harm + 1][n] [length], as for hbm_guess_of, with a
+ * guess for omega; HC_NO_MEMORY and HC_INTERRUPTED are passed on, any other failure means there is none. */
 typedef struct hbm_guess {
-  hc_status (*ask)(void *self, const model *m, double omega, int n_harm, const hc_monitor *monitor, double *X);
+  hc_status (*ask)(void *self, const model *m, double omega, int n_harm, const hc_monitor *monitor, double *x);
   void (*free)(void *self);
   void *self;
 } hbm_guess;

@@ -99,6 +99,16 @@ hc_status model_copy_sized(const model *m, int n_contacts, int n_responses, mode
   return HC_OK;
 }
 
+hc_status model_copy_all_seen(const model *m, model **out)
+{
+  hc_status st = model_copy_sized(m, m->n_contacts, m->n, out);
+  if (st != HC_OK) return st;
+  const size_t n = (size_t)m->n;
+  memset((*out)->responses, 0, n * n * sizeof(double));
+  for (size_t i = 0; i < n; ++i) (*out)->responses[i * n + i] = 1;
+  return HC_OK;
+}
+
 void model_free(model *m)
 {
   if (!m) return;

@@ -53,6 +53,9 @@ hc_status model_copy(const model *m, model **out);
 /* The same with other numbers of contacts and responses: those of *m as far as they go, the rest 0, to fill in. */
 hc_status model_copy_sized(const model *m, int n_contacts, int n_responses, model **out);
 
+/* The same with its degrees of freedom, in their order, for responses. */
+hc_status model_copy_all_seen(const model *m, model **out);
+
 void model_free(model *m); /* NULL is allowed */
 
 /* (tangent, normal) = (cos, sin) of the angle [deg] between x and the contact's tangent, exact at 0 and 90 degrees. */

@@ -205,15 +205,6 @@ hc_status verify_solutions_of(const compare_setup *setup, const verify_equations
   return st;
 }
 
-/* *m with its degrees of freedom for its responses. HC_NO_MEMORY. */
-static hc_status model_of_dofs(const model *m, model **out)
-{
-  hc_status st = model_copy_sized(m, m->n_contacts, m->n, out);
-  for (int i = 0; i < m->n && st == HC_OK; ++i)
-    for (int k = 0; k < m->n; ++k) (*out)->responses[(size_t)i * (size_t)m->n + (size_t)k] = i == k;
-  return st;
-}
-
 /* What is read of the solutions becomes that of response r. */
 static void turn(verify_solutions *s, const problem *p, const double *omega, int r)
 {
@@ -235,7 +226,7 @@ hc_status verify_solutions_of_dofs(const compare_setup *setup, const verify_equa
   verify_solutions of = {0};
   compare_setup own = *setup;
   model *all;
-  hc_status st = model_of_dofs(setup->model, &all);
+  hc_status st = model_copy_all_seen(setup->model, &all);
   own.model = all;
   if (st == HC_OK) st = follow_curve(&own, e, asked, from, to, n, omega, monitor, &p, &of);
   for (int r = 0; r < setup->model->n && st == HC_OK; ++r) {

@@ -151,6 +151,57 @@ static void the_motion_from_rest_is_a_guess(void **state)
   CHECK_LE(1, cheaper, "frequencies where the guess spares a ramp");
 }
 
+/* The same oscillator as two halves that a stiff spring holds together, each with half of everything: their motion is
+ * x = y. The guess is of all degrees of freedom, and leads to the oscillator's solution. */
+static model *halves(const scene *sc)
+{
+  model *m;
+  const double K = 1e3 * sc->stiffness;
+  double tangent, normal;
+  assert_int_equal(model_new(2, 1, 1, 2, &m), HC_OK);
+  for (int i = 0; i < 2; ++i) {
+    m->mass[3 * i] = 0.5 * sc->mass;
+    m->damping[3 * i] = 0.5 * sc->damping;
+    m->stiffness[3 * i] = 0.5 * sc->stiffness + K;
+    m->loads[0].cosine[i] = 0.5 * sc->force;
+    m->responses[3 * i] = 1;
+  }
+  m->stiffness[1] = m->stiffness[2] = -K;
+  m->loads[0].harmonic = 1;
+  model_direction(sc->contacts[0].angle_deg, &tangent, &normal);
+  for (int i = 0; i < 2; ++i) {
+    m->contacts[0].tangent[i] = 0.5 * tangent;
+    m->contacts[0].normal[i] = 0.5 * normal;
+  }
+  m->contacts[0].law = sc->contacts[0].law;
+  return m;
+}
+
+static void a_structure_is_guessed_whole(void **state)
+{
+  (void)state;
+  const scene sc = impacts();
+  model *m = halves(&sc);
+  int solved = 0, cheaper = 0;
+  for (double omega = 3; omega < 30; omega += 0.25) {
+    double X[64] = {0}, Y[64];
+    hbm_point point;
+    hbm_solver *guided, *alone;
+    assert_int_equal(guided_hbm_solver_new(m, &sc.hbm, &guided), HC_OK);
+    assert_int_equal(hbm_solver_new(m, &sc.hbm, &alone), HC_OK);
+    if (hbm_solve_first(guided, omega, X, &point) == HC_OK) {
+      ++solved;
+      CHECK_LE(point.residual, 1e-9, "residual at %g", omega);
+      if (hbm_solve_first(alone, omega, Y, &point) == HC_OK && hbm_solves(guided) < hbm_solves(alone)) ++cheaper;
+    }
+    hbm_solver_free(guided);
+    hbm_solver_free(alone);
+  }
+  CHECK_LE(100, solved, "frequencies with a first solution");
+  CHECK_LE(1, cheaper, "frequencies where the guess spares a ramp");
+  model_free(m);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -158,6 +209,7 @@ int main(void)
       cmocka_unit_test(refusals_lead_to_ramps_or_out),
       cmocka_unit_test(a_guess_is_where_newton_begins),
       cmocka_unit_test(the_motion_from_rest_is_a_guess),
+      cmocka_unit_test(a_structure_is_guessed_whole),
   };
   check_watchdog(120);
   return cmocka_run_group_tests_name("compare.first_guess", tests, NULL, NULL);

@@ -64,22 +64,7 @@ static inline void scale_dynamic_loads(model *m, double factor)
 static inline model *with_all_responses(const model *m)
 {
   model *all;
-  const size_t n = (size_t)m->n, vector = n * sizeof(double), matrix = n * vector;
-  assert_int_equal(model_new(m->n, m->n_loads, m->n_contacts, m->n, &all), HC_OK);
-  memcpy(all->mass, m->mass, matrix);
-  memcpy(all->damping, m->damping, matrix);
-  memcpy(all->stiffness, m->stiffness, matrix);
-  for (int l = 0; l < m->n_loads; ++l) {
-    all->loads[l].harmonic = m->loads[l].harmonic;
-    memcpy(all->loads[l].cosine, m->loads[l].cosine, vector);
-    memcpy(all->loads[l].sine, m->loads[l].sine, vector);
-  }
-  for (int j = 0; j < m->n_contacts; ++j) {
-    all->contacts[j].law = m->contacts[j].law;
-    memcpy(all->contacts[j].tangent, m->contacts[j].tangent, vector);
-    memcpy(all->contacts[j].normal, m->contacts[j].normal, vector);
-  }
-  for (int i = 0; i < m->n; ++i) all->responses[i * m->n + i] = 1;
+  assert_int_equal(model_copy_all_seen(m, &all), HC_OK);
   return all;
 }
 
