@@ -15,7 +15,8 @@
 #include "timeint/steady.h"
 
 /* out[n_contacts]: along the periods of *r, the last result of this handle, which are integrated once more; where it
- * repeats after k periods the work and the slip path are those of one, on average. HC_NO_MEMORY, errors of
+ * repeats after k periods the work and the slip path are those of one, on average. transient.richardson: of the least
+ * regularisation, not extrapolated. HC_NO_MEMORY, errors of
  * integration. */
 hc_status timeint_contacts(timeint *ti, const timeint_result *r, contact_period *out);
 

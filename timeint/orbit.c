@@ -5,6 +5,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "timeint/richardson.h"
 #include "timeint/timeint_private.h"
 
 static const double same_state = 1e-6; /* [size] a state that returns as near is the same, but for integration errors */
@@ -92,13 +93,14 @@ hc_status orbit_report(timeint *ti, int k, timeint_method method, const shoot_re
 hc_status timeint_response(timeint *ti, int i, timeint_result *r)
 {
   if (i < 0 || i >= scaled_n_responses(&ti->scaled)) return HC_BAD_INPUT;
-  if (!ti->measured) {
+  const double amplitude = r->amplitude;
+  if (!ti->measured && !ti->is_extrapolated) {
     timeint_result again = *r;
     hc_status st = orbit_measure(ti, r->period_multiple > 0 ? r->period_multiple : 1, &again);
     if (st != HC_OK) return st;
   }
-  const double amplitude = r->amplitude;
-  measure_report(&ti->measure, ti->model, i, ti->length, r);
+  if (ti->is_extrapolated) richardson_response(ti, i, r);
+  else measure_report(&ti->measure, ti->model, i, ti->length, r);
   r->closure *= amplitude / r->amplitude; /* they are relative to it */
   r->attainable *= amplitude / r->amplitude;
   return HC_OK;

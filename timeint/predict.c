@@ -77,15 +77,13 @@ static hc_status regularisation(timeint *ti, const double *state, const hc_monit
   timeint_result half = *r;
   hc_status st = timeint_begin(ti, r->omega, state);
   if (st != HC_OK) return st;
-  ti->how.regularisation = 0.5 * rho;
-  scaled_make(&ti->scaled, ti->model, &ti->how, ti->omega, ti->length);
+  timeint_regularise(ti, 0.5 * rho);
   st = halve(ti, r->period_multiple, monitor, &half);
   for (int i = 0; i < n && st == HC_OK; ++i) {
     if (i > 0) st = timeint_response(ti, i, &half);
     if (st == HC_OK) out[i] = change(&r[i], &half);
   }
-  ti->how.regularisation = rho;
-  scaled_make(&ti->scaled, ti->model, &ti->how, ti->omega, ti->length);
+  timeint_regularise(ti, rho);
   return st == HC_NO_MEMORY || st == HC_INTERRUPTED ? st : HC_OK;
 }
 

@@ -87,8 +87,8 @@ hc_status timeint_again(timeint *ti, double omega, int k, double *state, const h
 hc_status timeint_predict(timeint *ti, const double *state, const hc_monitor *monitor, int n, timeint_result *r);
 
 /* *r, the last result of this handle, becomes that of response i (counted from 0) of the same periods: its measures.
- * Where the handle has only remembered the orbit its periods are integrated once more. transient.richardson: not
- * extrapolated but for the first response. Errors of integration; HC_BAD_INPUT: there is no such response. */
+ * Where the handle has only remembered the orbit its periods are integrated once more. transient.richardson: the
+ * extrapolated ones. Errors of integration; HC_BAD_INPUT: there is no such response. */
 hc_status timeint_response(timeint *ti, int i, timeint_result *r);
 
 /* With a scout a handle remembers the orbits it found last, and gives them again to a start that leads to one of them.

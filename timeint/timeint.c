@@ -10,6 +10,7 @@
 #include "timeint/integrate_exact.h"
 #include "timeint/integrate_regularised.h"
 #include "timeint/integrate_series.h"
+#include "timeint/richardson.h"
 #include "timeint/scout.h"
 #include "timeint/shoot.h"
 #include "timeint/timeint_private.h"
@@ -90,6 +91,7 @@ static hc_status make_parts(timeint *ti)
   if (st == HC_OK && !exact && !ti->how.scout) st = make_integrator(ti, TRANSIENT_LAW_EXACT, &ti->exact);
   if (st == HC_OK) st = settle_new(ti->n, &ti->settle);
   if (st == HC_OK) st = shoot_new(ti, &ti->shoot);
+  if (st == HC_OK) st = richardson_new(ti);
   return st == HC_OK ? scout_new(ti) : st;
 }
 
@@ -127,6 +129,7 @@ void timeint_free(timeint *ti)
   measure_free(&ti->measure);
   free(ti->scaled.contact);
   free(ti->memory);
+  free(ti->extrapolated);
   modal_base_free(ti->base);
   model_free(ti->model);
   free(ti);
@@ -214,7 +217,7 @@ hc_status timeint_begin(timeint *ti, double omega, const double *state)
   const model *m = ti->model;
   if (!positive(omega) || !state_ok(ti, state)) return HC_BAD_INPUT;
   ti->omega = omega;
-  ti->measured = false;
+  ti->measured = ti->is_extrapolated = false;
   ti->contraction = exp(-2 * pi * (ti->base ? ti->base->slowest : 0.5 * *m->damping / *m->mass) / omega);
   ti->periods = 0;
   ti->steps0 = integrate_steps(ti->in);
@@ -228,6 +231,12 @@ hc_status timeint_begin(timeint *ti, double omega, const double *state)
   take_state(ti, state, length, ti->y);
   scaled_make(&ti->scaled, m, &ti->how, omega, length);
   return HC_OK;
+}
+
+void timeint_regularise(timeint *ti, double regularisation)
+{
+  ti->how.regularisation = regularisation;
+  scaled_make(&ti->scaled, ti->model, &ti->how, ti->omega, ti->length);
 }
 
 hc_status timeint_set_tolerance(timeint *ti, double tolerance)

@@ -116,6 +116,39 @@ static void series_meet_the_reference(void **state)
   for (size_t k = 0; k < sizeof named / sizeof *named; ++k) check_reference(named[k], from_rest, 1e-10);
 }
 
+/* The regularised law at 1e-3 with and without Richardson's extrapolation, every response against the exact law: an
+ * error of first order becomes one of third, a thousand times less for each order; half of the digits of that are
+ * asked for. */
+static void richardson_is_of_every_response(void **state)
+{
+  (void)state;
+  static timeint_result exact[3], plain, extrapolated;
+  transient_settings how = from_rest;
+  timeint *ti[3];
+  const structure_case c = structure_case_named("wedge_F2", 3);
+  double y[3][8] = {{0}};
+  for (int k = 0; k < 3; ++k) { /* exact, regularised, extrapolated */
+    if (k == 1) how.law = TRANSIENT_LAW_REGULARISED, how.method = TRANSIENT_METHOD_CVODE, how.scout = true;
+    how.regularisation = 1e-3;
+    how.richardson = k == 2;
+    assert_int_equal(timeint_new(c.model, &how, &ti[k]), HC_OK);
+  }
+  assert_int_equal(timeint_steady(ti[0], 35, y[0], NULL, &exact[0]), HC_OK);
+  assert_int_equal(timeint_steady(ti[1], 35, y[1], NULL, &plain), HC_OK);
+  assert_int_equal(timeint_steady(ti[2], 35, y[2], NULL, &extrapolated), HC_OK);
+  for (int r = 0; r < 3; ++r) {
+    exact[r] = exact[0];
+    assert_int_equal(timeint_response(ti[0], r, &exact[r]), HC_OK);
+    assert_int_equal(timeint_response(ti[1], r, &plain), HC_OK);
+    assert_int_equal(timeint_response(ti[2], r, &extrapolated), HC_OK);
+    const double a = exact[r].amplitude, off = fabs(plain.harmonic_1 - exact[r].harmonic_1);
+    CHECK_LE(fabs(extrapolated.harmonic_1 - exact[r].harmonic_1), 1e-3 * off, "response %d, %g off before", r, off);
+    CHECK_LE(fabs(extrapolated.amplitude - a), (extrapolated.regularisation_error + 1e-9) * a, "response %d", r);
+  }
+  for (int k = 0; k < 3; ++k) timeint_free(ti[k]);
+  model_free(c.model);
+}
+
 /* CVODE's tolerance is a thousandth of transient.tolerance, and periods scatter by some hundred times that. */
 static void events_meet_the_reference(void **state)
 {
@@ -415,11 +448,12 @@ static void a_massless_freedom_is_refused(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(series_meet_the_reference),        cmocka_unit_test(events_meet_the_reference),
-      cmocka_unit_test(regularised_meets_the_reference),  cmocka_unit_test(oscillators_are_structures),
-      cmocka_unit_test(series_and_events_agree),          cmocka_unit_test(monodromy_is_the_derivative),
-      cmocka_unit_test(monodromy_of_many_columns),        cmocka_unit_test(jacobian_is_the_derivative),
-      cmocka_unit_test(other_coordinates_change_nothing), cmocka_unit_test(a_massless_freedom_is_refused),
+      cmocka_unit_test(series_meet_the_reference),       cmocka_unit_test(events_meet_the_reference),
+      cmocka_unit_test(regularised_meets_the_reference), cmocka_unit_test(oscillators_are_structures),
+      cmocka_unit_test(series_and_events_agree),         cmocka_unit_test(monodromy_is_the_derivative),
+      cmocka_unit_test(monodromy_of_many_columns),       cmocka_unit_test(jacobian_is_the_derivative),
+      cmocka_unit_test(richardson_is_of_every_response), cmocka_unit_test(other_coordinates_change_nothing),
+      cmocka_unit_test(a_massless_freedom_is_refused),
   };
   check_watchdog(120);
   return cmocka_run_group_tests_name("timeint.structure", tests, NULL, NULL);
