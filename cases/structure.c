@@ -83,6 +83,15 @@ structure_load *structure_add_load(scene_structure *s)
   return &grown[s->n_loads++];
 }
 
+void structure_keep_response(scene_structure *s, int r)
+{
+  if (s->n_responses == 0) return;
+  for (int i = 0; i < s->n_responses; ++i)
+    if (i != r) free(s->responses[i].direction);
+  s->responses[0] = s->responses[r];
+  s->n_responses = 1;
+}
+
 structure_response *structure_add_response(scene_structure *s)
 {
   double *direction = calloc((size_t)s->n, sizeof *direction);

@@ -75,6 +75,9 @@ void structure_clear_loads(scene_structure *s);
 void structure_clear_contacts(scene_structure *s);
 void structure_clear_responses(scene_structure *s);
 
+/* Only response r, 0 <= r < n_responses, stays; nothing to do where the default is all there is. */
+void structure_keep_response(scene_structure *s, int r);
+
 /* One more at the end, with vectors of zeros and all else 0; NULL when out of memory. */
 structure_load *structure_add_load(scene_structure *s);
 structure_contact *structure_add_contact(scene_structure *s);

@@ -91,6 +91,14 @@ int cli_response_named(const cli_common *common, const char *name)
   return -1;
 }
 
+int cli_keep_response(const cli_common *common, scene *sc, const char *name)
+{
+  const int r = name ? cli_response_named(common, name) : 0;
+  if (r < 0) return EXIT_USAGE;
+  if (name && sc->structure) structure_keep_response(sc->structure, r);
+  return 0;
+}
+
 hc_status cli_response_names(const scene *sc, char (**out)[RESPONSE_NAME])
 {
   *out = NULL;

@@ -20,4 +20,13 @@ int cli_contact_named(const cli_common *common, const char *name);
 enum { CLI_NAME = 512 };
 const char *cli_contact_name(const cli_common *common, int j, char text[CLI_NAME]);
 
+/* --response NAME in the commands that compute with it alone. */
+#define CLI_RESPONSE_OPTION(key)                                                                                       \
+  {                                                                                                                    \
+    "response", key, "NAME", 0, "Only this response of the case, as the column `response` calls it", 1                 \
+  }
+
+/* Of the case's responses only that one stays; all of them for NULL. 0, or the exit code after the message. */
+int cli_keep_response(const cli_common *common, scene *sc, const char *name);
+
 #endif

@@ -202,13 +202,6 @@ int cli_load_case(cli_common *common, const char *path, scene *sc)
   return cli_load_case_saying(common, path, sc, &err);
 }
 
-int cli_only_oscillator(const cli_common *common, const scene *sc, const char *option, bool given)
-{
-  if (!given || !sc->structure) return 0;
-  cli_message(common, "%s knows `oscillator` alone so far; without it, %s takes a structure", option, common->command);
-  return EXIT_NO_SOLUTION;
-}
-
 /* Commands that know one degree of freedom. */
 int cli_refuse_structure(const cli_common *common, const char *path, scene *sc, case_error *err)
 {

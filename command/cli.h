@@ -92,10 +92,6 @@ int cli_load_case(cli_common *common, const char *path, scene *sc);
 /* The same, with the message kept in err, too. */
 int cli_load_case_saying(cli_common *common, const char *path, scene *sc, case_error *err);
 
-/* An option that is of one degree of freedom so far, with a case that is a structure: EXIT_NO_SOLUTION, said; else
- * 0. */
-int cli_only_oscillator(const cli_common *common, const scene *sc, const char *option, bool given);
-
 /* A message that this command knows `oscillator` alone, in err, too; clears the case. Returns the exit code. */
 int cli_refuse_structure(const cli_common *common, const char *path, scene *sc, case_error *err);
 

@@ -2,6 +2,7 @@
 #include <stdio.h>
 
 #include "cases/structure_model.h"
+#include "command/case_names.h"
 #include "command/commands.h"
 #include "command/compare_tables.h"
 #include "command/files.h"
@@ -27,14 +28,15 @@ static const char help[] =
     "example: hbmcheck compare cases/paper/case2.yaml --set hbm.static=false";
 
 typedef struct compare_options {
-  number_list at;    /* n = 0: the case's */
-  bool tables;       /* --tables */
-  bool contacts;     /* --contacts */
-  table_lists lists; /* one that is not empty implies tables */
-  const char *plot;  /* NULL: no drawing */
+  number_list at;       /* n = 0: the case's */
+  bool tables;          /* --tables */
+  bool contacts;        /* --contacts */
+  const char *response; /* NULL: all of them */
+  table_lists lists;    /* one that is not empty implies tables */
+  const char *plot;     /* NULL: no drawing */
 } compare_options;
 
-enum { KEY_AT = CLI_OWN_KEY, KEY_TABLES, KEY_HARMONICS, KEY_SAMPLES, KEY_CONTACTS, KEY_PLOT };
+enum { KEY_AT = CLI_OWN_KEY, KEY_TABLES, KEY_HARMONICS, KEY_SAMPLES, KEY_RESPONSE, KEY_CONTACTS, KEY_PLOT };
 
 static const struct argp_option options[] = {
     {"at", KEY_AT, "LIST", 0, "At these " CLI_FREQUENCIES " [compare.omega, else compare.points over the sweep]", 1},
@@ -43,6 +45,7 @@ static const struct argp_option options[] = {
      "Truncation orders of the tables, 1..200 [compare.harmonics]; implies --tables", 1},
     {"samples", KEY_SAMPLES, "LIST", 0,
      "Samples per period of the tables, at least 2 H + 2 [compare.samples]; implies --tables", 1},
+    CLI_RESPONSE_OPTION(KEY_RESPONSE),
     {"contacts", KEY_CONTACTS, NULL, 0,
      "A table of the contacts: regime, forces, slip path and dissipated work of each from both sides, and how far off",
      1},
@@ -58,6 +61,7 @@ static error_t read_option(int key, char *text, struct argp_state *state)
   case KEY_TABLES: own->tables = true; return 0;
   case KEY_HARMONICS: cli_read_list(state, "harmonics", text, &own->lists.harmonics); return 0;
   case KEY_SAMPLES: cli_read_list(state, "samples", text, &own->lists.samples); return 0;
+  case KEY_RESPONSE: own->response = text; return 0;
   case KEY_CONTACTS: own->contacts = true; return 0;
   case KEY_PLOT: cli_read_plot(state, text, &own->plot); return 0;
   default: return ARGP_ERR_UNKNOWN;
@@ -262,10 +266,7 @@ static int run_compare(int argc, char **argv)
   int code = cli_check_files(&common, 1, &(cli_file){"--plot", own.plot, CLI_OUTPUT});
   if (!code) code = cli_load_case(&common, common.arguments[0], &sc);
   if (!code) code = compare_lists(&common, &own.lists, &sc);
-  if (!code) code = cli_only_oscillator(&common, &sc, "--plot", own.plot != NULL);
-  if (!code) code = cli_only_oscillator(&common, &sc, "transient.richardson", sc.transient.richardson);
-  if (!code)
-    code = cli_only_oscillator(&common, &sc, "--tables", own.tables || own.lists.harmonics.n || own.lists.samples.n);
+  if (!code) code = cli_keep_response(&common, &sc, own.response);
   if (code) {
     case_clear(&sc);
     return code;

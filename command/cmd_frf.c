@@ -35,7 +35,7 @@ enum { KEY_AT = CLI_OWN_KEY, KEY_RESPONSE, KEY_CONTACTS, KEY_VERBOSE, KEY_PLOT }
 
 static const struct argp_option options[] = {
     {"at", KEY_AT, "LIST", 0, "Only the solutions at these " CLI_FREQUENCIES, 1},
-    {"response", KEY_RESPONSE, "NAME", 0, "Only this response of the case, as the column `response` calls it", 1},
+    CLI_RESPONSE_OPTION(KEY_RESPONSE),
     CLI_CONTACTS_OPTION(KEY_CONTACTS),
     {"verbose", KEY_VERBOSE, NULL, 0, "Also how Newton's equations were solved", 1},
     CLI_PLOT_OPTION(KEY_PLOT),

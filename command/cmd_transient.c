@@ -3,6 +3,7 @@
 #include <stdio.h>
 
 #include "cases/structure_model.h"
+#include "command/case_names.h"
 #include "command/commands.h"
 #include "command/files.h"
 #include "command/plot/plot.h"
@@ -19,15 +20,17 @@ static const char help[] =
     "example: hbmcheck transient cases/paper/case2.yaml --at 8,9 --set transient.start=up";
 
 typedef struct transient_options {
-  number_list at;   /* n = 0: the case's */
-  bool contacts;    /* what each contact does, too */
-  const char *plot; /* NULL: no drawing */
+  number_list at;       /* n = 0: the case's */
+  const char *response; /* NULL: all of them */
+  bool contacts;        /* what each contact does, too */
+  const char *plot;     /* NULL: no drawing */
 } transient_options;
 
-enum { KEY_AT = CLI_OWN_KEY, KEY_CONTACTS, KEY_PLOT };
+enum { KEY_AT = CLI_OWN_KEY, KEY_RESPONSE, KEY_CONTACTS, KEY_PLOT };
 
 static const struct argp_option options[] = {
     {"at", KEY_AT, "LIST", 0, "At these " CLI_FREQUENCIES " [compare.omega of the case]", 1},
+    CLI_RESPONSE_OPTION(KEY_RESPONSE),
     CLI_CONTACTS_OPTION(KEY_CONTACTS),
     CLI_PLOT_OPTION(KEY_PLOT),
     {0},
@@ -38,6 +41,7 @@ static error_t read_option(int key, char *text, struct argp_state *state)
   transient_options *own = state->input;
   switch (key) {
   case KEY_AT: cli_read_list(state, "at", text, &own->at); return 0;
+  case KEY_RESPONSE: own->response = text; return 0;
   case KEY_CONTACTS: own->contacts = true; return 0;
   case KEY_PLOT: cli_read_plot(state, text, &own->plot); return 0;
   default: return ARGP_ERR_UNKNOWN;
@@ -95,8 +99,7 @@ static int run_transient(int argc, char **argv)
   int code = cli_check_files(&common, 1, &(cli_file){"--plot", own.plot, CLI_OUTPUT}), n_columns;
   if (!code) code = cli_load_case(&common, common.arguments[0], &sc);
   if (code) return code;
-  code = cli_only_oscillator(&common, &sc, "--plot", own.plot != NULL);
-  if (!code) code = cli_only_oscillator(&common, &sc, "transient.richardson", sc.transient.richardson);
+  code = cli_keep_response(&common, &sc, own.response);
   if (code) {
     case_clear(&sc);
     return code;

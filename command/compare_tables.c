@@ -3,6 +3,8 @@
 
 #include <math.h>
 
+#include "cases/structure_model.h"
+
 int compare_lists(const cli_common *common, const table_lists *lists, scene *sc)
 {
   static const double most_samples = 1 << 24;
@@ -24,6 +26,8 @@ int compare_lists(const cli_common *common, const table_lists *lists, scene *sc)
 
 static void note_accuracy(table *t, const scene *sc, const accuracy *a)
 {
+  char of[RESPONSE_NAME];
+  if (sc->structure) table_note(t, "by the response %s", structure_response_name(sc->structure, 0, of, sizeof of));
   table_note(
       t,
       "amplitude_error: largest over %d orbits of the exact transient at %d frequencies; missing: orbits no solution "

@@ -119,7 +119,7 @@ static hc_status trace_other(const scene *sc, double from, double to, curve_shap
 
 /* ---- made and freed ---- */
 
-static void name_response(const scene *sc, int r, char text[RESPONSE_NAME])
+void curve_response_name(const scene *sc, int r, char text[RESPONSE_NAME])
 {
   char name[RESPONSE_NAME] = "x";
   if (sc->structure) structure_response_name(sc->structure, r, name, sizeof name);
@@ -131,7 +131,7 @@ static void name_response(const scene *sc, int r, char text[RESPONSE_NAME])
 hc_status curve_shape_of(const scene *sc, hbm_solver *s, const hbm_curve *curve, curve_shape *out)
 {
   *out = (curve_shape){.harmonics = hbm_n_harmonics(s), .samples = hbm_n_samples(s)};
-  name_response(sc, 0, out->of);
+  curve_response_name(sc, 0, out->of);
   out->low = fmin(sc->omega_from, sc->omega_to);
   out->high = fmax(sc->omega_from, sc->omega_to);
   hc_status st = sample_curve(s, curve, (drawn_as){0, true}, &out->points, &out->n);
@@ -165,7 +165,7 @@ hc_status curve_shape_response(const curve_shape *first, const scene *sc, hbm_so
   *out = *first;
   out->points = out->other = NULL;
   out->n_other = 0;
-  name_response(sc, r, out->of);
+  curve_response_name(sc, r, out->of);
   hc_status st = sample_curve(s, curve, (drawn_as){r, false}, &out->points, &out->n);
   if (st != HC_OK) return st;
   for (int k = 0; k < out->n; ++k) out->points[k].stable = first->points[k].stable;

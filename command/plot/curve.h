@@ -23,6 +23,9 @@ typedef struct curve_shape {
   double low, high;       /* [rad/time] the sweep */
 } curve_shape;
 
+/* Response r in words that a label can say; "x" of an oscillator. */
+void curve_response_name(const scene *sc, int r, char text[RESPONSE_NAME]);
+
 /* Of a curve that was computed, by the model's first response. */
 hc_status curve_shape_of(const scene *sc, hbm_solver *s, const hbm_curve *curve, curve_shape *out);
 /* The same curve, of which `first` is the shape, by response r; without what the other end finds. */

@@ -146,14 +146,15 @@ static void write_verdicts(figure *g, const comparison *c, verdicts *v)
 {
   char name[24];
   *v = (verdicts){0};
-  for (int i = 0; i < c->n_rows; ++i) ++v->count[verdicts_place(v, comparison_verdict_text(&c->rows[i], name))];
+  for (int i = 0; i < c->n_rows; ++i)
+    if (c->rows[i].response == 0) ++v->count[verdicts_place(v, comparison_verdict_text(&c->rows[i], name))];
   for (int k = 0; k < v->n; ++k) {
     char block[24];
     snprintf(block, sizeof block, "verdict%d", k);
     figure_block(g, block);
     for (int i = 0; i < c->n_rows; ++i) {
       const comparison_row *r = &c->rows[i];
-      if (verdicts_place(v, comparison_verdict_text(r, name)) != k) continue;
+      if (r->response != 0 || verdicts_place(v, comparison_verdict_text(r, name)) != k) continue;
       if (stands_at_hbm(r)) figure_point(g, r->omega, r->hbm.amplitude);
       else if (has_transient(r)) figure_point(g, r->omega, r->transient.amplitude);
     }
@@ -168,7 +169,7 @@ static int write_departures(figure *g, const comparison *c)
   figure_block(g, "departures");
   for (int i = 0; i < c->n_rows; ++i) {
     const comparison_row *r = &c->rows[i];
-    if (!stands_at_hbm(r) || !has_transient(r)) continue;
+    if (r->response != 0 || !stands_at_hbm(r) || !has_transient(r)) continue;
     figure_script(g, "%.10g %.10g %.10g\n", r->omega / g->x_unit, r->hbm.amplitude,
                   r->transient.amplitude - r->hbm.amplitude);
     ++n;
@@ -220,9 +221,10 @@ hc_status plot_compare(plot_order *p, const scene *sc, const comparison *c, cons
 
 /* ---- transient ---- */
 
+/* And of the response that is drawn. */
 static bool measured(const steady_row *r)
 {
-  return r->stage == STEADY_TRANSIENT &&
+  return r->response == 0 && r->stage == STEADY_TRANSIENT &&
          (r->status == HC_OK || r->status == HC_NOT_SETTLED || r->status == HC_APERIODIC);
 }
 

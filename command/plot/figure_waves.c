@@ -3,13 +3,14 @@
 
 #include "base/constants.h"
 #include "cases/scene.h"
+#include "command/plot/curve.h"
 #include "command/plot/panels.h"
 
 enum { MOST_WAVES = 12 };
 
 static bool has_wave(const steady_row *r)
 {
-  return r->stage == STEADY_TRANSIENT &&
+  return r->response == 0 && r->stage == STEADY_TRANSIENT &&
          (r->status == HC_OK || r->status == HC_NOT_SETTLED || r->status == HC_APERIODIC);
 }
 
@@ -44,7 +45,7 @@ static void closing_items(figure *g, const scene *sc, double low, double high)
 hc_status panels_waves(plot_order *p, const scene *sc, const steady_states *found)
 {
   figure g = {0};
-  char name[64], about[160], look[FIGURE_LOOK], word[24];
+  char name[64], of[RESPONSE_NAME], about[160], look[FIGURE_LOOK], word[24];
   double omega = found->rows[0].result.omega, low = INFINITY, high = -INFINITY;
   int n = 0;
   hc_status st = figure_open(&g, p, 800, 500);
@@ -60,7 +61,8 @@ hc_status panels_waves(plot_order *p, const scene *sc, const steady_states *foun
            sc->in_cycles ? "" : "ω = ", scene_frequency(sc, omega), sc->in_cycles ? "cycles" : "rad", sc->unit_time,
            TWO_PI / omega, sc->unit_time);
   figure_title(&g, "set title", sc->title, about);
-  figure_set(&g, "ylabel", "x [%s]", sc->unit_length);
+  curve_response_name(sc, 0, of);
+  figure_set(&g, "ylabel", "%s [%s]", of, sc->unit_length);
   figure_below(&g, "t / T");
   figure_script(&g, "set xrange [0:1]\n");
   n = 0;

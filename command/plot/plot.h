@@ -43,11 +43,12 @@ typedef struct plot_responses {
 hc_status plot_frf(plot_order *p, const scene *sc, hbm_solver *s, const hbm_curve *curve, const hbm_curve *asked,
                    plot_responses of);
 
-/* The same with the transients and their verdicts on it. a (or NULL): the discrepancy over samples and harmonics, in
- * panels beside it. */
+/* The same by the first response, with the transients and their verdicts on it. a (or NULL): the discrepancy over
+ * samples and harmonics, in panels beside it. */
 hc_status plot_compare(plot_order *p, const scene *sc, const comparison *c, const accuracy *a);
 
-/* At one frequency the motion over a period, at several the amplitudes over the response curve. */
+/* By the first response: at one frequency the motion over a period, at several the amplitudes over the response
+ * curve. */
 hc_status plot_transient(plot_order *p, const scene *sc, const steady_states *found);
 
 /* Contacts under a given motion. */

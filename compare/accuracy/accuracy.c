@@ -97,12 +97,11 @@ static void solutions_free(solutions *s)
   *s = (solutions){0};
 }
 
-static bool keep_solution(solutions *s, int i, hbm_solver *hbm, const double *X)
+static bool keep_solution(solutions *s, int i, hbm_solver *hbm, double omega, const double *X)
 {
   hbm_measures m;
-  if (hbm_measure(hbm, X, &m) != HC_OK) return false;
+  if (motion_of_response(hbm, omega, X, 0, &m, &s->motion[i]) != HC_OK) return false;
   memcpy(s->X + (size_t)i * s->n_coef, X, (size_t)s->n_coef * sizeof *X);
-  s->motion[i] = motion_of_solution(&m, hbm_n_harmonics(hbm), X);
   return s->there[i] = true;
 }
 
@@ -138,12 +137,11 @@ static hc_status assign(const workspace *w, traced *t, int first, int last, solu
     hbm_measures m;
     const double *X = at.X + (size_t)b * at.n_coef;
     s->iterations += at.points[b].iterations;
-    taken[b] = hbm_measure(t->hbm, X, &m) != HC_OK; /* not to be had */
-    if (!taken[b]) found[b] = motion_of_solution(&m, t->n_harm, X);
+    taken[b] = motion_of_response(t->hbm, at.points[b].omega, X, 0, &m, &found[b]) != HC_OK; /* not to be had */
   }
   while (st == HC_OK && nearest_pair(w, s, first, last, &at, found, taken, &i, &k)) {
     taken[k] = true;
-    keep_solution(s, i, t->hbm, at.X + (size_t)k * at.n_coef);
+    keep_solution(s, i, t->hbm, at.points[k].omega, at.X + (size_t)k * at.n_coef);
   }
   free(found);
   free(taken);
@@ -153,7 +151,7 @@ static hc_status assign(const workspace *w, traced *t, int first, int last, solu
 
 static hc_status solve_exact(const workspace *w, traced *t, solutions *s)
 {
-  hc_status st = solutions_new(w->ref.n, 2 * t->n_harm + 1, s);
+  hc_status st = solutions_new(w->ref.n, hbm_n_coefficients(t->hbm), s);
   for (int first = 0, last; first < w->ref.n && st == HC_OK; first = last) {
     for (last = first; last < w->ref.n && w->ref.targets[last].omega == w->ref.targets[first].omega;) ++last;
     st = assign(w, t, first, last, s);
@@ -178,14 +176,17 @@ static void drop_doubles(const workspace *w, const solutions *from, solutions *s
 static hc_status solve_sampled(const workspace *w, traced *t, const solutions *from, solutions *s)
 {
   hc_status st = solutions_new(from->n, from->n_coef, s);
-  double X[2 * HBM_MAX_HARMONICS + 1];
+  double *X = malloc(((size_t)from->n_coef + 1) * sizeof *X);
+  if (!X) st = HC_NO_MEMORY;
   for (int i = 0; i < from->n && st == HC_OK && t->hbm; ++i) {
     hbm_point point = {0};
     if (!from->there[i]) continue;
     memcpy(X, from->X + (size_t)i * from->n_coef, (size_t)from->n_coef * sizeof *X);
-    if (hbm_solve(t->hbm, w->ref.targets[i].omega, X, &point) == HC_OK) keep_solution(s, i, t->hbm, X);
+    const double omega = w->ref.targets[i].omega;
+    if (hbm_solve(t->hbm, omega, X, &point) == HC_OK) keep_solution(s, i, t->hbm, omega, X);
     s->iterations += point.iterations;
   }
+  free(X);
   if (st == HC_OK) drop_doubles(w, from, s);
   return st;
 }

@@ -62,7 +62,7 @@ static const comparison_row *most_regularised(const comparison *c)
 {
   const comparison_row *top = NULL;
   for (int i = 0; i < c->n_rows; ++i) {
-    double part = c->rows[i].budget.amplitude.regularisation;
+    double part = c->rows[i].response == 0 ? c->rows[i].budget.amplitude.regularisation : NAN;
     if (part > (top ? top->budget.amplitude.regularisation : 0)) top = &c->rows[i];
   }
   return top && top->orbit_status == HC_OK ? top : NULL;

@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "model/modes.h"
 #include "numerics/roots.h"
 
 enum { PEAK_LEVELS = 6 };
@@ -36,12 +37,14 @@ static bool is_known(const reference *r, double omega, const periodic_motion *or
 }
 
 /* The orbit next to a solution: of the comparison's rows, else by shooting. False: none. */
-static bool orbit_next_to(const comparison *c, timeint *ti, double *state, hbm_solver *hbm, const hbm_measures *m,
-                          const double *X, double omega, const hc_monitor *monitor, periodic_motion *out)
+static bool orbit_next_to(const comparison *c, timeint *ti, double *state, hbm_solver *hbm, const double *X,
+                          double omega, const hc_monitor *monitor, periodic_motion *out)
 {
-  periodic_motion here = motion_of_solution(m, hbm_n_harmonics(hbm), X);
+  hbm_measures m;
+  periodic_motion here;
+  if (motion_of_response(hbm, omega, X, 0, &m, &here) != HC_OK) return false;
   for (int i = 0; i < c->n_rows; ++i) {
-    if (c->rows[i].omega != omega || c->rows[i].orbit_status != HC_OK) continue;
+    if (c->rows[i].response != 0 || c->rows[i].omega != omega || c->rows[i].orbit_status != HC_OK) continue;
     *out = motion_of_transient(&c->rows[i].orbit);
     if (motion_between(&here, out).waveform <= reusable * out->amplitude) return true;
   }
@@ -59,9 +62,8 @@ static hc_status targets_at(const comparison *c, timeint *ti, double *state, hbm
   hc_status st = hbm_curve_at(hbm, curve, omega, &at) == HC_NO_MEMORY ? HC_NO_MEMORY : HC_OK;
   for (int k = 0; k < at.n && st == HC_OK; ++k) {
     const double *X = at.X + (size_t)k * at.n_coef;
-    hbm_measures m;
     periodic_motion orbit;
-    if (hbm_measure(hbm, X, &m) != HC_OK || !orbit_next_to(c, ti, state, hbm, &m, X, omega, monitor, &orbit)) continue;
+    if (!orbit_next_to(c, ti, state, hbm, X, omega, monitor, &orbit)) continue;
     if (!is_known(r, omega, &orbit)) st = add_target(r, omega, &orbit);
   }
   hbm_curve_free(&at);
@@ -106,12 +108,19 @@ static bool enclose_peak(climber *c, double low, double high, double *omega, dou
   return false;
 }
 
+/* [rad/time] of the narrowest resonance; 0: not known, or without damping. */
+static double half_width(const model *m)
+{
+  model_scales scales;
+  if (model_is_oscillator(m)) return *m->damping / (2 * *m->mass);
+  return model_find_scales(m, &scales) == HC_OK ? scales.half_width : 0;
+}
+
 /* From omega on, where c->state is next to an orbit. False: *out is untouched. */
 static bool climb(const compare_setup *setup, climber *c, double omega, reference *out)
 {
   const double low = fmin(setup->omega_from, setup->omega_to), high = fmax(setup->omega_from, setup->omega_to);
-  const model *m = setup->model;
-  const double width = fmin(*m->damping > 0 ? *m->damping / (2 * *m->mass) : omega, 0.1 * omega);
+  const double half = half_width(setup->model), width = fmin(half > 0 ? half : omega, 0.1 * omega);
   double d = 0.02 * width, f[3] = {NAN, NAN, NAN};
   if (minus_amplitude(c, omega, &f[1]) != HC_OK) return false;
   root_point peak;

@@ -46,7 +46,18 @@ static void one_response_is_kept(void **state)
   expect("frf " CASE2 "--at 5 --response y 2>&1", 64, "--response: the case has no `y`; expected x\n");
 }
 
-/* What is not compared is said to be; what would be of the first response alone is refused. */
+/* Number `column`, from 0, of the first line of `out` after `table` that begins with `start`. */
+static double cell(const char *table, const char *start, int column)
+{
+  const char *line = strstr(out, table);
+  assert_non_null(line);
+  line = strstr(line, start);
+  assert_non_null(line);
+  for (++line; column > 0; --column) line = strchr(line, ',') + 1;
+  return strtod(line, NULL);
+}
+
+/* What is not compared is said to be. */
 static void comparisons_say_what_they_leave_out(void **state)
 {
   (void)state;
@@ -56,10 +67,42 @@ static void comparisons_say_what_they_leave_out(void **state)
   expect(line, 0, "1 row not compared: that response moves less than 1e-9 of the largest");
   expect(at_24, 0, "2 match");
   assert_int_equal(count("not compared"), 0);
-  snprintf(line, sizeof line, "%s--set transient.richardson=true 2>&1", at_24);
-  expect(line, 3, "transient.richardson knows `oscillator` alone so far");
-  expect("transient cases/structures/jenkins2.yaml --at 24.5 --set transient.richardson=true 2>&1", 3,
-         "transient.richardson knows `oscillator` alone so far");
+}
+
+/* --response keeps one, and the verdict is of that: with 7 harmonics the third is within the gate, the first is not.
+ * The tables are of it, too. Every response has its prediction. */
+static void one_response_is_compared(void **state)
+{
+  (void)state;
+  const char *const at = "compare " CHAIN "--at 1.4 --set hbm.harmonics=7 --set gate.amplitude=2e-3 --format csv -q ";
+  char line[512];
+  expect(at, 1, "omega,branch,response,verdict,");
+  assert_int_equal(count("\n1.3999999999999999,0,"), 3);
+  assert_int_equal(count(",differs,"), 1);
+  snprintf(line, sizeof line, "%s--response 3 --tables --harmonics 3 --samples 32", at);
+  expect(line, 0, "\n1.3999999999999999,0,3,match,");
+  assert_int_equal(count("\n1.3999999999999999,0,"), 1);
+  assert_int_equal(count("# by the response 3\n"), 1);
+  assert_int_equal(count("\n3,sampled,32,"), 1);
+  snprintf(line, sizeof line, "%s--response 4 2>&1", at);
+  expect(line, 64, "--response: the case has no `4`; expected one of 1, 2, 3\n");
+  expect("transient " CHAIN "--at 1.4 --response 2 --format csv -q --set transient.richardson=true", 0,
+         "\n1.3999999999999999,2,settled,");
+  assert_int_equal(count("\n1.3999999999999999,"), 1);
+}
+
+/* Both sides of each contact; the work of ground, 1 on its path of 1, is what `transient` says. */
+static void contacts_are_compared(void **state)
+{
+  (void)state;
+  expect("transient " CHAIN "--at 1.25 --contacts --format csv -q", 0,
+         "omega,start,contact,name,regime,normal_min,normal_max,traction_max,slip_distance,work\n"
+         "1.25,hbm branch 0,0,ground,slip,1,1,1,");
+  const double work = cell("# Contacts", "\n1.25,hbm branch 0,0,ground", 9);
+  expect("compare " CHAIN "--at 1.25 --contacts --format csv -q", 1, "\n\n# Contacts\n# work: dissipated in a period");
+  assert_true(cell("\nomega,branch,contact,name,verdict,", "\n1.25,0,0,ground,differs,differs,slip,slip,", 9) == work);
+  assert_int_equal(count("# DIFFERS at omega = 1.25, branch 0: contact ground: work "), 1);
+  expect("compare " CASE2 "--at 7 --contacts --format csv -q", 0, "\nomega,branch,contact,verdict,contact_verdict,");
 }
 
 /* A damper out of reach of its contacts that no load presses on: by name, and what to do. */
@@ -71,17 +114,6 @@ static void what_nothing_holds_is_named(void **state)
          "--set forcing[0].amplitude=0 2>&1",
          3, words);
   expect("frf cases/structures/wedge_F2.yaml -q --set contacts=[] 2>&1", 2, words);
-}
-
-/* Number `column`, from 0, of the first line of `out` after `table` that begins with `start`. */
-static double cell(const char *table, const char *start, int column)
-{
-  const char *line = strstr(out, table);
-  assert_non_null(line);
-  line = strstr(line, start);
-  assert_non_null(line);
-  for (++line; column > 0; --column) line = strchr(line, ',') + 1;
-  return strtod(line, NULL);
 }
 
 /* The stop touches DOF 3 alone, N = 1 (x3 - 0.25); the sliders have mu N = 1, so their work is their path. */
@@ -255,6 +287,8 @@ int main(void)
       cmocka_unit_test(one_response_is_kept),
       cmocka_unit_test(what_nothing_holds_is_named),
       cmocka_unit_test(comparisons_say_what_they_leave_out),
+      cmocka_unit_test(one_response_is_compared),
+      cmocka_unit_test(contacts_are_compared),
       cmocka_unit_test(every_contact_of_every_solution_has_a_row),
       cmocka_unit_test(a_jenkins_element_has_its_closed_form),
       cmocka_unit_test(the_slider_starts_where_it_is_told),
