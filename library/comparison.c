@@ -42,7 +42,10 @@ static hbmcheck_row row_of(const comparison_row *r)
                         .hbm_predicted = r->hbm_predicted.amplitude,
                         .transient_predicted = r->transient_predicted.amplitude,
                         .unexpected = r->unexpected,
-                        .mean_free = comparison_mean_free(r)};
+                        .mean_free = comparison_mean_free(r),
+                        .response = r->response,
+                        .still = r->still,
+                        .family = r->family};
 }
 
 /* The gate's checks, of which the totals are kept. */

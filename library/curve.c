@@ -9,8 +9,10 @@
 
 struct hbmcheck_solutions {
   hbm_curve curve;         /* points and coefficients */
-  int n;                   /* solutions that have been measured: the first n of the curve's */
-  hbmcheck_solution *list; /* [n] */
+  int n, n_responses;      /* solutions that have been measured: the first n of the curve's */
+  hbmcheck_solution *list; /* [n][n_responses] */
+  int length;              /* of a series */
+  double *series;          /* [n][n_responses][length] of a structure; else NULL: the curve has them */
 };
 
 struct hbmcheck_curve {
@@ -40,45 +42,81 @@ static hbmcheck_solution solution_of(const response_row *r)
                              .mean_free = m->contact.free_sliders > 0};
 }
 
-/* Measure every point of s->curve. On failure those before it are kept. */
-static hc_status measure_solutions(hbm_solver *solver, hbmcheck_solutions *s)
+static double *series_at(const hbmcheck_solutions *s, int k, int r)
 {
-  if (s->curve.n == 0) return HC_OK;
-  s->list = malloc((size_t)s->curve.n * sizeof *s->list);
+  return s->series + ((size_t)k * (size_t)s->n_responses + (size_t)r) * (size_t)s->length;
+}
+
+/* Point k of s->curve, every response. */
+static hc_status measure_solution(hbm_solver *solver, int k, hbmcheck_solutions *s)
+{
+  response_row row;
+  hc_status st = response_row_of(solver, &s->curve, k, &row);
+  for (int r = 0; r < s->n_responses && st == HC_OK; ++r) {
+    if (r > 0) st = response_row_turn(solver, &s->curve, k, r, &row);
+    s->list[k * s->n_responses + r] = solution_of(&row);
+    if (st == HC_OK && s->series)
+      st = hbm_response(solver, row.point.omega, hbm_curve_X(&s->curve, k), r, series_at(s, k, r));
+  }
+  return st;
+}
+
+/* Every point of s->curve. On failure those before it are kept. */
+static hc_status measure_solutions(hbm_solver *solver, int n_responses, hbmcheck_solutions *s)
+{
+  const size_t n = (size_t)s->curve.n * (size_t)n_responses;
+  s->n_responses = n_responses;
+  s->length = 2 * hbm_n_harmonics(solver) + 1;
+  if (n == 0) return HC_OK;
+  s->list = malloc(n * sizeof *s->list);
   if (!s->list) return HC_NO_MEMORY;
-  for (int k = 0; k < s->curve.n; ++k) {
-    response_row r;
-    hc_status st = response_row_of(solver, &s->curve, k, &r);
+  if (!hbm_of_oscillator(solver) && !(s->series = malloc(n * (size_t)s->length * sizeof *s->series)))
+    return HC_NO_MEMORY;
+  for (; s->n < s->curve.n; ++s->n) {
+    hc_status st = measure_solution(solver, s->n, s);
     if (st != HC_OK) return st;
-    s->list[s->n++] = solution_of(&r);
   }
   return HC_OK;
 }
 
 /* Measure what a search that ended with `st` has found, and say how it ended as a whole. */
-static hc_status finish_search(hbm_solver *solver, hc_status st, hbmcheck_solutions *s)
+static hc_status finish_search(hbm_solver *solver, hc_status st, int n_responses, hbmcheck_solutions *s)
 {
   if (!has_result(st)) return st;
-  hc_status measured = measure_solutions(solver, s);
+  hc_status measured = measure_solutions(solver, n_responses, s);
   return st == HC_OK || measured == HC_NO_MEMORY ? measured : st;
 }
 
-static bool has_solution(const hbmcheck_solutions *s, int k) { return s && k >= 0 && k < s->n; }
+static bool has_solution(const hbmcheck_solutions *s, int k, int r)
+{
+  return s && k >= 0 && k < s->n && r >= 0 && r < s->n_responses;
+}
 
 int hbmcheck_solutions_count(const hbmcheck_solutions *s) { return s ? s->n : 0; }
 
 hbmcheck_status hbmcheck_solutions_get(const hbmcheck_solutions *s, int k, hbmcheck_solution *out)
 {
-  if (!out || !has_solution(s, k)) return HBMCHECK_BAD_INPUT;
-  *out = s->list[k];
+  return hbmcheck_solutions_get_response(s, k, 0, out);
+}
+
+hbmcheck_status hbmcheck_solutions_get_response(const hbmcheck_solutions *s, int k, int r, hbmcheck_solution *out)
+{
+  if (!out || !has_solution(s, k, r)) return HBMCHECK_BAD_INPUT;
+  *out = s->list[k * s->n_responses + r];
   return HBMCHECK_OK;
 }
 
 hbmcheck_status hbmcheck_solutions_coefficients(const hbmcheck_solutions *s, int k, int cap, double *X, int *n)
 {
-  if (!n || !has_solution(s, k) || cap < 0 || (cap > 0 && !X)) return HBMCHECK_BAD_INPUT;
-  *n = 2 * s->list[k].harmonics + 1;
-  library_copy(*n, s->curve.X + (size_t)k * (size_t)s->curve.n_coef, cap, X);
+  return hbmcheck_solutions_response_coefficients(s, k, 0, cap, X, n);
+}
+
+hbmcheck_status hbmcheck_solutions_response_coefficients(const hbmcheck_solutions *s, int k, int r, int cap, double *X,
+                                                         int *n)
+{
+  if (!n || !has_solution(s, k, r) || cap < 0 || (cap > 0 && !X)) return HBMCHECK_BAD_INPUT;
+  *n = 2 * s->curve.points[k].harmonics + 1;
+  library_copy(*n, s->series ? series_at(s, k, r) : hbm_curve_X(&s->curve, k), cap, X);
   return HBMCHECK_OK;
 }
 
@@ -86,6 +124,7 @@ static void clear_solutions(hbmcheck_solutions *s)
 {
   hbm_curve_free(&s->curve);
   free(s->list);
+  free(s->series);
 }
 
 void hbmcheck_solutions_free(hbmcheck_solutions *s)
@@ -105,7 +144,7 @@ static hc_status trace(const scene *sc, const hbmcheck_monitor *monitor, hbmchec
   if (st == HC_OK) st = guided_hbm_solver_new(setup.model, &setup.hbm, &curve->solver);
   if (st == HC_OK) {
     st = hbm_trace(curve->solver, setup.omega_from, setup.omega_to, &inner, &curve->points.curve);
-    st = finish_search(curve->solver, st, &curve->points);
+    st = finish_search(curve->solver, st, setup.model->n_responses, &curve->points);
   }
   scene_setup_clear(&setup);
   return st;
@@ -132,7 +171,7 @@ hbmcheck_status hbmcheck_curve_at(hbmcheck_curve *curve, double omega, hbmcheck_
   hbmcheck_solutions *s = calloc(1, sizeof *s);
   if (!s) return HBMCHECK_NO_MEMORY;
   hc_status st = hbm_curve_at(curve->solver, &curve->points.curve, omega, &s->curve);
-  st = finish_search(curve->solver, st, s);
+  st = finish_search(curve->solver, st, curve->points.n_responses, s);
   if (st == HC_OK) st = curve->points.curve.end; /* beyond where it stops there may be more */
   if (has_result(st)) *out = s;
   else hbmcheck_solutions_free(s);

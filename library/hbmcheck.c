@@ -9,6 +9,7 @@
 
 #include "base/number_list.h"
 #include "cases/case_file.h"
+#include "cases/structure_model.h"
 #include "compare/comparison.h"
 #include "hbm/hbm.h"
 #include "library/inside.h"
@@ -106,10 +107,6 @@ static hbmcheck_status new_case(const char *name, const char *text, size_t lengt
   if (!c) return HBMCHECK_NO_MEMORY;
   hc_status st =
       text ? case_parse(name, text, length, n_set, set, &c->sc, &err) : case_read(name, n_set, set, &c->sc, &err);
-  if (st == HC_OK && c->sc.structure) {
-    snprintf(err.message, sizeof err.message, "%s: a structure, and this interface knows `oscillator` alone", name);
-    st = HC_BAD_INPUT;
-  }
   say(message, size, err.message);
   if (st == HC_OK) *out = c;
   else hbmcheck_case_free(c);
@@ -132,6 +129,20 @@ hbmcheck_status hbmcheck_case_parse(const char *name, const char *text, size_t l
   say(message, size, hc_status_text(HC_BAD_INPUT));
   if (!out || !name || !text || !are_strings(n_set, set)) return HBMCHECK_BAD_INPUT;
   return new_case(name, text, length, n_set, set, message, size, out);
+}
+
+int hbmcheck_case_responses(const hbmcheck_case *c)
+{
+  if (!c) return 0;
+  return c->sc.structure ? structure_response_count(c->sc.structure) : 1;
+}
+
+hbmcheck_status hbmcheck_case_response_name(const hbmcheck_case *c, int r, char *text, size_t size)
+{
+  if (!text || size == 0 || r < 0 || r >= hbmcheck_case_responses(c)) return HBMCHECK_BAD_INPUT;
+  if (c->sc.structure) structure_response_name(c->sc.structure, r, text, size);
+  else say(text, size, "x");
+  return HBMCHECK_OK;
 }
 
 void hbmcheck_case_free(hbmcheck_case *c)

@@ -1,5 +1,5 @@
-/* hbmcheck.h - the library: harmonic balance of an oscillator on friction and gap contacts, held against time
- * integration.
+/* hbmcheck.h - the library: harmonic balance of an oscillator, or a structure, on friction and gap contacts, held
+ * against time integration.
  *
  *     M x'' + C x' + K x + sum_j [ t_j T_j + n_j (N_j - N0_j) ] = F0 cos(omega t)
  *     u_j = t_j x, v_j = n_j x        (t_j, n_j): cosine and sine of the contact's angle
@@ -93,6 +93,14 @@ hbmcheck_status hbmcheck_case_parse(const char *name, const char *text, size_t l
 
 void hbmcheck_case_free(hbmcheck_case *c);
 
+/* What is reported of a structure's motion x is each of its responses r . x, of which results tell by number, from 0;
+ * an oscillator has one, x itself. How many; 0 for NULL. */
+int hbmcheck_case_responses(const hbmcheck_case *c);
+
+/* Response r in words, "x" of an oscillator, into text[size], cut to size (32 holds any). HBMCHECK_OK,
+ * HBMCHECK_BAD_INPUT. */
+hbmcheck_status hbmcheck_case_response_name(const hbmcheck_case *c, int r, char *text, size_t size);
+
 /* ---- harmonic balance ----
  *
  *     x(t) ~ X[0] + sum_{h=1..H} X[2h-1] cos(h omega t) + X[2h] sin(h omega t) */
@@ -133,9 +141,16 @@ int hbmcheck_solutions_count(const hbmcheck_solutions *s);
 /* Solution k, 0 <= k < count. HBMCHECK_OK, HBMCHECK_BAD_INPUT. */
 hbmcheck_status hbmcheck_solutions_get(const hbmcheck_solutions *s, int k, hbmcheck_solution *out);
 
+/* The same of response r; r = 0 is what hbmcheck_solutions_get gives. */
+hbmcheck_status hbmcheck_solutions_get_response(const hbmcheck_solutions *s, int k, int r, hbmcheck_solution *out);
+
 /* Fourier coefficients of solution k: *n = 2H+1 is how many there are, of which the first cap are written to
  * X [length]. cap = 0 asks for *n alone: X may be NULL then. HBMCHECK_OK, HBMCHECK_BAD_INPUT. */
 hbmcheck_status hbmcheck_solutions_coefficients(const hbmcheck_solutions *s, int k, int cap, double *X, int *n);
+
+/* The same of response r. */
+hbmcheck_status hbmcheck_solutions_response_coefficients(const hbmcheck_solutions *s, int k, int r, int cap, double *X,
+                                                         int *n);
 
 void hbmcheck_solutions_free(hbmcheck_solutions *s);
 
@@ -221,6 +236,7 @@ typedef struct hbmcheck_steady {
   long steps;                  /* CVODE's */
   int free_sliders;            /* contacts that stick all the time: the mean is a matter of history where > 0 */
   int left_orbit;              /* 1: the orbit next to the start is unstable, and the motion left it */
+  int response;                /* which one, from 0: of a structure there is one of these for each, together */
   hbmcheck_contact contact;    /* what happens at the contacts in a period */
 } hbmcheck_steady;
 
@@ -292,6 +308,9 @@ typedef struct hbmcheck_row {
   double hbm_predicted, transient_predicted;
   int unexpected; /* 1: the discrepancy is above three times what both predicted: something is wrong */
   int mean_free;  /* 1: a slider never slips: the mean depends on the history and was not compared */
+  int response;   /* which one, from 0: of a structure a row for each, together */
+  int still;      /* 1: it moves less than 1e-9 of the largest, and is not compared */
+  int family;     /* 1: a slider that never slips decides on the harmonics, too: one of many steady states */
 } hbmcheck_row;
 
 /* The gate: every number of the comparison against the limits of the case. */
@@ -306,9 +325,9 @@ typedef struct hbmcheck_gate {
 typedef struct hbmcheck_comparison hbmcheck_comparison;
 
 /* Both sides at omega[n] as in hbmcheck_transient_run; n = 0: at the case's compare.omega, or compare.points of them
- * chosen along the curve. One row a frequency and HBM solution. HBMCHECK_OK also where single rows failed: their
- * verdicts say so. HBMCHECK_BAD_INPUT, HBMCHECK_NO_MEMORY: *out is NULL. HBMCHECK_INTERRUPTED. Where compare.points
- * could not be chosen, why: as hbmcheck_curve_trace. */
+ * chosen along the curve. One row a frequency, HBM solution and response. HBMCHECK_OK also where single rows failed:
+ * their verdicts say so. HBMCHECK_BAD_INPUT, HBMCHECK_NO_MEMORY: *out is NULL. HBMCHECK_INTERRUPTED. Where
+ * compare.points could not be chosen, why: as hbmcheck_curve_trace. */
 hbmcheck_status hbmcheck_comparison_run(const hbmcheck_case *c, int n, const double *omega,
                                         const hbmcheck_monitor *monitor, hbmcheck_comparison **out);
 

@@ -31,6 +31,7 @@ static hbmcheck_steady steady_of(const steady_row *row)
                        .steps = r->steps,
                        .free_sliders = r->free_sliders,
                        .left_orbit = r->left_orbit,
+                       .response = row->response,
                        .contact = (hbmcheck_contact)r->regime};
   if (!has_motion(row->status)) s.amplitude = s.max = s.min = s.rms = s.mean = s.harmonic_1 = s.closure = NAN;
   return s;

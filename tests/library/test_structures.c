@@ -1,0 +1,153 @@
+/* test_structures.c - structures through the C API: a result for each response, the numbers of those it calls. */
+#include "cases/case_file.h"
+#include "compare/comparison.h"
+#include "compare/first_guess.h"
+#include "compare/response.h"
+#include "compare/steady_states.h"
+#include "library/hbmcheck.h"
+#include "tests/check.h"
+
+#define CHAIN SOURCE_DIR "/cases/structures/chain3.yaml"
+enum { RESPONSES = 3, MOST = 2 * HBM_MAX_HARMONICS + 1 };
+static const double at[] = {1.9};
+
+static hbmcheck_case *chain(void)
+{
+  hbmcheck_case *c;
+  char message[512];
+  if (hbmcheck_case_read(CHAIN, 0, NULL, message, sizeof message, &c) != HBMCHECK_OK) fail_msg("%s", message);
+  return c;
+}
+
+/* The inner form of chain(), at the one frequency; to clear with scene_setup_clear and case_clear. */
+static compare_setup inner(scene *sc)
+{
+  compare_setup setup;
+  case_error err;
+  assert_int_equal(case_read(CHAIN, 0, NULL, sc, &err), HC_OK);
+  sc->compare.omega = (number_list){1, {at[0]}};
+  assert_int_equal(scene_setup(sc, &setup), HC_OK);
+  return setup;
+}
+
+static void responses_have_names(void **state)
+{
+  (void)state;
+  hbmcheck_case *c = chain();
+  char name[32];
+  assert_int_equal(hbmcheck_case_responses(c), RESPONSES);
+  assert_int_equal(hbmcheck_case_response_name(c, 2, name, sizeof name), HBMCHECK_OK);
+  assert_string_equal(name, "3");
+  assert_int_equal(hbmcheck_case_response_name(c, 3, name, sizeof name), HBMCHECK_BAD_INPUT);
+  assert_int_equal(hbmcheck_case_response_name(c, -1, name, sizeof name), HBMCHECK_BAD_INPUT);
+  assert_int_equal(hbmcheck_case_response_name(NULL, 0, name, sizeof name), HBMCHECK_BAD_INPUT);
+  assert_int_equal(hbmcheck_case_responses(NULL), 0);
+  hbmcheck_case_free(c);
+}
+
+static void solutions_are_of_every_response(void **state)
+{
+  (void)state;
+  scene sc;
+  compare_setup setup = inner(&sc);
+  hbmcheck_case *c = chain();
+  hbmcheck_curve *curve;
+  hbmcheck_solutions *found;
+  hbmcheck_solution one;
+  hbm_solver *s;
+  hbm_curve traced = {0}, there = {0};
+  double X[MOST], expected[MOST];
+  int n = 0;
+  assert_int_equal(hbmcheck_curve_trace(c, NULL, &curve), HBMCHECK_OK);
+  assert_int_equal(hbmcheck_curve_at(curve, at[0], &found), HBMCHECK_OK);
+  assert_int_equal(guided_hbm_solver_new(setup.model, &setup.hbm, &s), HC_OK);
+  assert_int_equal(hbm_trace(s, setup.omega_from, setup.omega_to, NULL, &traced), HC_OK);
+  assert_int_equal(hbm_curve_at(s, &traced, at[0], &there), HC_OK);
+  assert_int_equal(hbmcheck_solutions_count(found), 1);
+  for (int r = 0; r < RESPONSES; ++r) {
+    response_row row;
+    assert_int_equal(response_row_of(s, &there, 0, &row), HC_OK);
+    assert_int_equal(response_row_turn(s, &there, 0, r, &row), HC_OK);
+    assert_int_equal(hbm_response(s, at[0], hbm_curve_X(&there, 0), r, expected), HC_OK);
+    assert_int_equal(hbmcheck_solutions_get_response(found, 0, r, &one), HBMCHECK_OK);
+    assert_true(one.amplitude == row.measures.amplitude && one.omega == at[0]);
+    assert_int_equal(hbmcheck_solutions_response_coefficients(found, 0, r, MOST, X, &n), HBMCHECK_OK);
+    assert_int_equal(n, 2 * setup.hbm.harmonics + 1);
+    assert_memory_equal(X, expected, (size_t)n * sizeof *X);
+    if (r > 0) continue;
+    assert_int_equal(hbmcheck_solutions_coefficients(found, 0, MOST, X, &n), HBMCHECK_OK);
+    assert_memory_equal(X, expected, (size_t)n * sizeof *X);
+  }
+  assert_int_equal(hbmcheck_solutions_get_response(found, 0, RESPONSES, &one), HBMCHECK_BAD_INPUT);
+  assert_int_equal(hbmcheck_solutions_response_coefficients(found, 0, -1, MOST, X, &n), HBMCHECK_BAD_INPUT);
+  hbm_curve_free(&there);
+  hbm_curve_free(&traced);
+  hbm_solver_free(s);
+  hbmcheck_solutions_free(found);
+  hbmcheck_curve_free(curve);
+  hbmcheck_case_free(c);
+  scene_setup_clear(&setup);
+  case_clear(&sc);
+}
+
+static void steady_states_are_of_every_response(void **state)
+{
+  (void)state;
+  scene sc;
+  compare_setup setup = inner(&sc);
+  hbmcheck_case *c = chain();
+  hbmcheck_transient *t;
+  steady_states expected;
+  assert_int_equal(hbmcheck_transient_run(c, 1, at, NULL, &t), HBMCHECK_OK);
+  assert_int_equal(steady_states_run(&setup, NULL, &expected), HC_OK);
+  assert_true(expected.n == RESPONSES && hbmcheck_transient_count(t) == RESPONSES);
+  for (int r = 0; r < RESPONSES; ++r) {
+    hbmcheck_steady one;
+    double x[TIMEINT_WAVE];
+    int n;
+    assert_int_equal(hbmcheck_transient_get(t, r, &one), HBMCHECK_OK);
+    assert_true(one.response == r && one.amplitude == expected.rows[r].result.amplitude);
+    assert_int_equal(hbmcheck_transient_wave(t, r, TIMEINT_WAVE, x, &n), HBMCHECK_OK);
+    assert_memory_equal(x, expected.rows[r].result.wave, sizeof x);
+  }
+  steady_states_clear(&expected);
+  hbmcheck_transient_free(t);
+  hbmcheck_case_free(c);
+  scene_setup_clear(&setup);
+  case_clear(&sc);
+}
+
+static void comparisons_are_of_every_response(void **state)
+{
+  (void)state;
+  scene sc;
+  compare_setup setup = inner(&sc);
+  hbmcheck_case *c = chain();
+  hbmcheck_comparison *found;
+  comparison expected;
+  assert_int_equal(hbmcheck_comparison_run(c, 1, at, NULL, &found), HBMCHECK_OK);
+  assert_int_equal(comparison_run(&setup, NULL, &expected), HC_OK);
+  assert_true(expected.n_rows == RESPONSES && hbmcheck_comparison_count(found) == RESPONSES);
+  for (int r = 0; r < RESPONSES; ++r) {
+    const comparison_row *row = &expected.rows[r];
+    hbmcheck_row one;
+    assert_int_equal(hbmcheck_comparison_get(found, r, &one), HBMCHECK_OK);
+    assert_true(one.response == r && (int)one.verdict == (int)row->verdict && !one.still && !one.family);
+    assert_true(one.amplitude_error == row->errors.amplitude && one.hbm_predicted == row->hbm_predicted.amplitude);
+    assert_true(one.from_truncation == row->budget.amplitude.truncation && one.from_truncation > 0);
+  }
+  assert_int_equal(hbmcheck_comparison_exit_code(found), comparison_exit_code(&expected));
+  comparison_clear(&expected);
+  hbmcheck_comparison_free(found);
+  hbmcheck_case_free(c);
+  scene_setup_clear(&setup);
+  case_clear(&sc);
+}
+
+static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(responses_have_names),
+    cmocka_unit_test(solutions_are_of_every_response),
+    cmocka_unit_test(steady_states_are_of_every_response),
+    cmocka_unit_test(comparisons_are_of_every_response),
+};
+CHECK_MAIN("library.structures", tests, 60)
