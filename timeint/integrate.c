@@ -41,6 +41,7 @@ bool integrate_extremes(const integrator *in, int r, double *max, double *min)
 
 contact_state integrate_contact(const integrator *in, int j, const double *y) { return in->does->state(in, j, y); }
 
+double integrate_scatter(const integrator *in) { return in->scatter; }
 long integrate_periods(const integrator *in) { return in->periods; }
 long integrate_steps(const integrator *in) { return in->steps; }
 long integrate_rhs(const integrator *in) { return in->rhs; }

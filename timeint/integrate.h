@@ -55,6 +55,9 @@ bool integrate_extremes(const integrator *in, int r, double *max, double *min);
 /* Inside a watch: the state of contact j in the step, at whose end the state is y. */
 contact_state integrate_contact(const integrator *in, int j, const double *y);
 
+/* [tolerance] By how much a period may be off, cut into other steps; 0 in closed form. */
+double integrate_scatter(const integrator *in);
+
 /* Periods begun since the integrator was made. */
 long integrate_periods(const integrator *in);
 

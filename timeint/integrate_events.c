@@ -21,7 +21,8 @@
 #include "timeint/structure_variations.h"
 
 static const double at_end = 64 * DBL_EPSILON; /* nearer to 2 pi CVODE would answer CV_TOO_CLOSE to a restart */
-static const double longest_step = 0.2;        /* [rad] measure.c integrates a quintic over each */
+static const double stiff = 60; /* largest decay rate over lowest frequency, from where on BDF takes fewer steps */
+static const double longest_step = 0.2; /* [rad] measure.c integrates a quintic over each */
 
 enum {
   MAX_STEPS = 1000000,    /* between transitions */
@@ -364,7 +365,9 @@ hc_status integrate_new_events(const modal_base *base, double tolerance, integra
   *out = NULL;
   events *in = calloc(1, sizeof *in); /* zeroed, so free works half-built */
   if (!in) return HC_NO_MEMORY;
+  const bool bdf = base->decay > stiff * base->lowest;
   in->base.base.does = &class;
+  in->base.base.scatter = bdf ? INTEGRATE_BDF_SCATTER : INTEGRATE_ADAMS_SCATTER;
   in->n = base->n;
   in->n_contacts = base->n_contacts;
   in->tolerance = tolerance;
@@ -375,7 +378,7 @@ hc_status integrate_new_events(const modal_base *base, double tolerance, integra
   hc_status st = in->track && in->law && in->info && in->rate ? HC_OK : HC_NO_MEMORY;
   if (st == HC_OK) st = phase_modes_new(base, PHASE_MODES_STIFF, &in->modes);
   if (st == HC_OK) st = structure_variations_make(&in->variations, base, in->modes);
-  if (st == HC_OK) st = integrate_make_parts(&in->base, 2 * base->n, CV_ADAMS);
+  if (st == HC_OK) st = integrate_make_parts(&in->base, 2 * base->n, bdf ? CV_BDF : CV_ADAMS);
   if (st == HC_OK) st = make_cvode(in);
   if (st == HC_OK) {
     *out = &in->base.base;

@@ -269,6 +269,7 @@ hc_status integrate_new_exact(int n_states, double tolerance, integrator **out)
   event_driven *in = calloc(1, sizeof *in); /* zeroed, so free works half-built */
   if (!in) return HC_NO_MEMORY;
   in->base.base.does = &class;
+  in->base.base.scatter = INTEGRATE_ADAMS_SCATTER;
   in->n = n_states;
   in->tolerance = tolerance;
   hc_status st = make_memory(in);

@@ -20,10 +20,16 @@ typedef struct integrator_class {
  * sticks, slips, sticks and opens makes 6 an oscillation. */
 static inline int integrate_most_transitions(int n_contacts) { return n_contacts > 16 ? 60 * n_contacts : 1000; }
 
+/* Of Adams' method; and of BDF, where up to 250 times the tolerance was seen (timeint.c), 400 next to a fold (r2 at
+ * 708.5). */
+#define INTEGRATE_ADAMS_SCATTER 50.0
+#define INTEGRATE_BDF_SCATTER   1000.0
+
 struct integrator { /* the first member of each kind */
   const integrator_class *does;
   long steps, rhs, transitions; /* of all finished periods */
   long periods;                 /* begun */
+  double scatter;               /* [tolerance] by how much a period may be off, cut into other steps; by CVODE */
   int flag;                     /* CVODE's last flag other than success */
 };
 

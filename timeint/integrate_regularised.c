@@ -223,6 +223,7 @@ hc_status integrate_new_regularised(int n_states, double tolerance, integrator *
   regularised *in = calloc(1, sizeof *in); /* zeroed, so free works half-built */
   if (!in) return HC_NO_MEMORY;
   in->base.base.does = &class;
+  in->base.base.scatter = INTEGRATE_BDF_SCATTER;
   in->n = n_states;
   hc_status st = make_parts(in);
   if (st == HC_OK) st = make_cvode(in, tolerance);

@@ -1,6 +1,7 @@
 /* modal_base.c - see modal_base.h. Proof: tests/timeint/test_structure.c. */
 #include "timeint/modal_base.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -40,14 +41,26 @@ static void to_modes(int n, const double *phi, const double *A, double *vector, 
   }
 }
 
-/* Is A[n][n] diagonal but for rounding? Then its diagonal moves to A[0..n-1]. */
-static bool keep_diagonal(int n, double *A)
+/* sum_kl |phi_k| |A_kl| |phi_l| */
+static double size_of_sum(int n, const double *left, const double *A, const double *right)
+{
+  double sum = 0;
+  for (int col = 0; col < n; ++col)
+    for (int row = 0; row < n; ++row) sum += fabs(left[row] * A[(size_t)col * (size_t)n + (size_t)row] * right[col]);
+  return sum;
+}
+
+/* Is A[n][n] = phi^T of phi diagonal, but for rounding: relative to the diagonal, or, where modes are very different,
+ * to the n^2 terms that each entry is the sum of? Then its diagonal moves to A[0..n-1]. */
+static bool keep_diagonal(int n, const double *phi, const double *of, double *A)
 {
   const size_t ld = (size_t)n;
   for (size_t col = 0; col < ld; ++col)
-    for (size_t row = 0; row < ld; ++row)
-      if (row != col && !(fabs(A[col * ld + row]) <= rounding * sqrt(fabs(A[row * (ld + 1)] * A[col * (ld + 1)]))))
-        return false;
+    for (size_t row = 0; row < ld; ++row) {
+      const double a = fabs(A[col * ld + row]);
+      if (row == col || a <= rounding * sqrt(fabs(A[row * (ld + 1)] * A[col * (ld + 1)]))) continue;
+      if (!(a <= n * DBL_EPSILON * size_of_sum(n, phi + row * ld, of, phi + col * ld))) return false;
+    }
   for (size_t i = 0; i < ld; ++i) A[i] = A[i * (ld + 1)];
   return true;
 }
@@ -84,9 +97,13 @@ static void fill(modal_base *b, const model *m, const double *omega2, double *ve
   else to_modes(n, phi, m->stiffness, vector, b->K);
   to_modes(n, phi, m->damping, vector, b->C);
   b->slowest = INFINITY;
-  for (size_t i = 0; i < ld; ++i) b->slowest = fmin(b->slowest, 0.5 * b->C[i * (ld + 1)]);
+  b->decay = 0;
+  for (size_t i = 0; i < ld; ++i) {
+    b->slowest = fmin(b->slowest, 0.5 * b->C[i * (ld + 1)]);
+    b->decay = fmax(b->decay, b->C[i * (ld + 1)]);
+  }
   b->slowest = fmax(b->slowest, 0);
-  b->diagonal_C = keep_diagonal(n, b->C);
+  b->diagonal_C = keep_diagonal(n, phi, m->damping, b->C);
   for (size_t j = 0; j < contacts; ++j) {
     transposed_times(n, phi, m->contacts[j].tangent, b->tangent + j * ld);
     transposed_times(n, phi, m->contacts[j].normal, b->normal + j * ld);
@@ -136,6 +153,8 @@ static hc_status look_at_stuck(modal_base *b, const model *m, double *omega2, do
   hc_status st = model_modes(m, true, omega2, phi);
   if (st != HC_OK) return st;
   b->highest = sqrt(fmax(omega2[b->n - 1], 0));
+  b->lowest = b->highest;
+  for (int i = b->n - 1; i >= 0 && omega2[i] > rounding * omega2[b->n - 1]; --i) b->lowest = sqrt(omega2[i]);
   b->stuck_motion = 0;
   for (int k = 0; k < m->n_loads; ++k)
     b->stuck_motion += hypot(motion_under(b, m, m->loads[k].cosine, omega2, phi, x),

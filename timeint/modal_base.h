@@ -4,7 +4,8 @@
  *     q'' + C q' + K q = p(t) - s^2 sum_j [ t_j T_j + n_j (N_j - N0_j) ]
  *     u_j = t_j . q,  v_j = n_j . q,  r = r . q                        (rows t_j shape, n_j shape, r shape, written
  * t_j ...) All modes are kept, so nothing is lost; s makes a unit of q about a unit of motion at the contacts and
- * responses. C and K are diagonal where the structure's are (symmetric K, Rayleigh or modal damping), else full. */
+ * responses. C and K are diagonal where the structure's are (symmetric K, Rayleigh or modal damping), else full: where
+ * what is left beside the diagonal cannot be told from rounding of the matrices' own entries. */
 #ifndef HC_MODAL_BASE_H
 #define HC_MODAL_BASE_H
 
@@ -23,6 +24,8 @@ typedef struct modal_base { /* from modal_base_new, to modal_base_free; only rea
   double *cosine, *sine;       /* [n_loads][n] [length/time^2] of p(t) */
   double *response;            /* [n_responses][n] [1] */
   double highest;              /* [rad/time] the highest natural frequency, contacts stuck */
+  double lowest;               /* [rad/time] the lowest that is not 0, contacts stuck */
+  double decay;                /* [1/time] >= 0: the largest decay rate of a mode by damping alone: phi^T C phi */
   double slowest;              /* [1/time] >= 0: the least decay rate of a mode by damping alone */
   double stuck_motion;         /* [length] the largest motion of a contact under the loads, all contacts stuck: a
                                        size that does not depend on omega */

@@ -15,13 +15,11 @@ double orbit_goal(const timeint *ti)
   return fmax(ti->how.tolerance * (timeint_motion_size(ti) / ti->length), 100 * ti->tolerance);
 }
 
-/* Up to 250 times CVODE's tolerance with the regularised law (timeint.c), 400 seen next to a fold (r2 at 708.5), and
- * the rounding of some thousand steps; in closed form of some ten. */
+/* CVODE's, and the rounding of some thousand steps; in closed form of some ten. */
 double orbit_scatter(const timeint *ti, int k)
 {
   if (ti->how.method == TRANSIENT_METHOD_CLOSED_FORM) return k * 200 * DBL_EPSILON;
-  const double of_steps = ti->how.law == TRANSIENT_LAW_EXACT ? 50 : 1000;
-  return k * fmax(of_steps * ti->tolerance, 2e4 * DBL_EPSILON);
+  return k * fmax(integrate_scatter(ti->in) * ti->tolerance, 2e4 * DBL_EPSILON);
 }
 
 hc_status orbit_find(timeint *ti, int k, double reach, const hc_monitor *monitor, timeint_method *method,

@@ -61,8 +61,7 @@ static hc_status make(phase_modes *p)
   const size_t n = (size_t)b->n, contacts = (size_t)b->n_contacts, fit = most_bytes / (room_of(b) * sizeof *p->numbers);
   p->n_sets = fit < MOST_SETS ? fit > 4 ? (int)fit : 4 : MOST_SETS;
   const size_t sets = (size_t)p->n_sets;
-  p->fastest = b->highest;
-  for (size_t i = 0; i < n; ++i) p->fastest = fmax(p->fastest, b->C[b->diagonal_C ? i : i * (n + 1)]);
+  p->fastest = fmax(b->highest, b->decay);
   p->set = calloc(sets, sizeof *p->set);
   p->weights = calloc(2 * 2 * n * sets, sizeof *p->weights);
   p->numbers = calloc(room_of(b) * sets, sizeof *p->numbers);

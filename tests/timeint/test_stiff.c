@@ -3,6 +3,7 @@
 
 #include "tests/check.h"
 #include "tests/hbm/random_structures.h"
+#include "timeint/integrate_events.h"
 #include "timeint/integrate_series.h"
 #include "timeint/motion_modes.h"
 #include "timeint/motion_series.h"
@@ -156,11 +157,81 @@ static void a_watch_is_told_the_same(void **state)
   }
 }
 
+/* A chain of n masses of very different stiffness, with the steady state's load on the last and a slider on the first;
+ * damped in proportion to its stiffness, so that fast modes die away in no time. */
+static model *graded_chain(int n)
+{
+  model *m;
+  assert_int_equal(model_new(n, 1, 1, 1, &m), HC_OK);
+  for (int i = 0; i < n; ++i) {
+    const double k = pow(10, 6.0 * i / (n - 1)); /* between mass i - 1 and i */
+    m->mass[i * (n + 1)] = 1 + 0.1 * i;
+    m->stiffness[i * (n + 1)] += k;
+    if (i == 0) continue;
+    m->stiffness[(i - 1) * (n + 1)] += k;
+    m->stiffness[i * n + i - 1] = m->stiffness[(i - 1) * n + i] = -k;
+  }
+  for (int i = 0; i < n * n; ++i) m->damping[i] = 0.02 * m->stiffness[i];
+  m->loads[0].harmonic = 1;
+  m->loads[0].cosine[n - 1] = m->responses[0] = 1;
+  m->contacts[0].tangent[0] = 1;
+  m->contacts[0].law = (contact){.kt = 1, .mu = 0.5, .load = 1};
+  return m;
+}
+
+/* The modes of the chain are off by rounding of the stiffest; damping is not found to couple them for that. A dashpot
+ * between two masses that is a millionth of what is there does. */
+static void proportional_damping_is_told(void **state)
+{
+  (void)state;
+  const double dashpots[] = {0, 1e-6, 0.1};
+  for (size_t i = 0; i < 3; ++i) {
+    modal_base *base;
+    model *m = graded_chain(10);
+    m->damping[0] += dashpots[i] * m->damping[0];
+    assert_int_equal(modal_base_new(m, &base), HC_OK);
+    assert_int_equal(base->diagonal_C, i == 0);
+    modal_base_free(base);
+    model_free(m);
+  }
+}
+
+/* Periods of the chain, in which CVODE takes BDF: as by modes, to the scatter of BDF at 1e-12 a step, and its steps are
+ * not as short as the fastest mode is fast: 2e4 a radian. */
+static void events_of_stiff_structures(void **state)
+{
+  (void)state;
+  model *m = graded_chain(6);
+  drawn d = {.m = m};
+  const transient_settings how = {.law = TRANSIENT_LAW_EXACT};
+  integrator *modes, *events;
+  double y[MOST] = {0}, z[MOST];
+  assert_int_equal(modal_base_new(m, &d.base), HC_OK);
+  d.scaled = (scaled_model){.contact = d.contacts, .base = d.base};
+  scaled_make(&d.scaled, m, &how, 0.7, 1);
+  assert_int_equal(integrate_new_series(d.base, PHASE_MODES_STIFF, &modes), HC_OK);
+  assert_int_equal(integrate_new_events(d.base, 1e-12, &events), HC_OK);
+  for (int period = 0; period < PERIODS; ++period) {
+    memcpy(z, y, sizeof y);
+    assert_int_equal(integrate_period(modes, &d.scaled, y, NULL, NULL), HC_OK);
+    assert_int_equal(integrate_period(events, &d.scaled, z, NULL, NULL), HC_OK);
+    for (int i = 0; i < d.scaled.n_states; ++i) CHECK_NEAR(z[i], y[i], 1e-9, "period %d, state %d", period, i);
+  }
+  assert_true(integrate_transitions(modes) > 0);
+  CHECK_LE((double)integrate_steps(events), 5000.0 * PERIODS, "%s", "steps");
+  CHECK_LE((double)integrate_steps(modes), 10.0 * PERIODS, "%s", "phases");
+  integrate_free(modes);
+  integrate_free(events);
+  undraw(&d);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(modes_and_series_agree),
       cmocka_unit_test(a_watch_is_told_the_same),
+      cmocka_unit_test(proportional_damping_is_told),
+      cmocka_unit_test(events_of_stiff_structures),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
