@@ -1,4 +1,4 @@
-/* outcome.c - what a comparison came to, from its rows alone; see comparison.h. The verdict of a row: comparison.c,
+/* outcome.c - what a comparison came to, from its rows alone; see comparison.h. The verdict of a row: solution.c,
  * judge(). */
 #include <math.h>
 #include <stdio.h>

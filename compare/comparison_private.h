@@ -1,0 +1,45 @@
+/* comparison_private.h - the settings and solvers of one comparison, and what is found of the HBM solution under way;
+ * for comparison.c, which goes through frequencies and branches, and solution.c, which knows what one row's numbers
+ * mean. */
+#ifndef HC_COMPARISON_PRIVATE_H
+#define HC_COMPARISON_PRIVATE_H
+
+#include "compare/comparison.h"
+
+typedef struct comparison_work comparison_work;
+struct comparison_work {
+  const compare_setup *setup;
+  hbm_solver *hbm;
+  timeint *ti;
+  timeint *exact; /* the referee: exact law, shooting */
+  budgeter *budgeter;
+  const hc_monitor *monitor;
+  comparison *out;
+  double *swept;   /* [n_states] where a sweep start has come to */
+  double *state;   /* [n_states] of the row under way, on the transient's orbit */
+  double *scratch; /* [n_states] of what else is integrated for it */
+  double swept_omega;
+  /* [n_responses], of the row under way: the transient's and the orbit's results, what HBM expects of itself, its
+   * motion (for the budget), and the budget */
+  timeint_result *responses, *orbits;
+  motion_error *expected;
+  periodic_motion *motions;
+  error_budget *budgets;
+  /* [n_contacts], of the row under way: what the transient's contacts do, where that is HC_OK, and the solution's */
+  contact_period *acting, *balanced;
+  hc_status acted;
+};
+
+/* Solution k of *at against the transient started from it: the row of the first response; in *w what the rows of the
+ * others and the contacts are made of. HC_NO_MEMORY, HC_INTERRUPTED: no going on. */
+hc_status solution_compare(comparison_work *w, const hbm_curve *at, int k, comparison_row *row);
+
+/* *row becomes that of response r > 0 of the same solution, `first` being the row of the first: its errors,
+ * predictions, budget and verdict. */
+void solution_turn(comparison_work *w, const hbm_curve *at, int k, int r, const comparison_row *first,
+                   comparison_row *row);
+
+/* c[n_contacts]: of the same solution X. HC_NO_MEMORY. */
+hc_status solution_contacts(comparison_work *w, const double *X, const comparison_row *row, contact_comparison *c);
+
+#endif

@@ -1,0 +1,310 @@
+/* solution.c - one HBM solution against the transient that starts from it: what both expect of themselves, the orbit
+ * beside them, the verdict, and what the difference is made of; see comparison.h. */
+#include <math.h>
+#include <string.h>
+
+#include "compare/comparison_private.h"
+#include "compare/gate_limits.h"
+#include "compare/motion.h"
+#include "timeint/contact_watch.h"
+#include "timeint/sweep.h"
+
+static discrepancy errors_between(const hbm_measures *hbm, int n_harm, const double *X, const timeint_result *tr)
+{
+  const periodic_motion a = motion_of_solution(hbm, n_harm, X), b = motion_of_transient(tr);
+  return motion_discrepancy(&a, &b);
+}
+
+double comparison_waveform_error(const hbm_measures *hbm, int n_harm, const double *X, const timeint_result *tr)
+{
+  return errors_between(hbm, n_harm, X, tr).waveform;
+}
+
+/* What of the model is compared, and by whom. */
+typedef struct side {
+  hbm_solver *hbm;
+  const compare_setup *setup;
+  int response;
+} side;
+
+/* Response s->response of the solution X against the transient; into *m the solution's measures. */
+static hc_status errors_of(const side *s, double omega, const double *X, const timeint_result *tr, hbm_measures *m,
+                           discrepancy *out)
+{
+  periodic_motion a;
+  hc_status st = motion_of_response(s->hbm, omega, X, s->response, m, &a);
+  if (st != HC_OK) return st;
+  const periodic_motion b = motion_of_transient(tr);
+  *out = motion_discrepancy(&a, &b);
+  return HC_OK;
+}
+
+/* The mean is not compared where a slider never slips. */
+static bool within_limits(const compare_setup *setup, const discrepancy *e, const timeint_result *tr)
+{
+  return gate_limits_hold(setup->limits, tr->omega, e, motion_mean_is_free(tr));
+}
+
+/* Is the transient within the limits of any HBM solution at this omega? */
+static bool accounted_for(const side *s, const hbm_curve *at, const timeint_result *tr)
+{
+  for (int i = 0; i < at->n; ++i) {
+    const double *X = at->X + (size_t)i * at->n_coef;
+    hbm_measures m;
+    discrepancy e;
+    if (errors_of(s, at->points[i].omega, X, tr, &m, &e) != HC_OK) continue;
+    if (within_limits(s->setup, &e, tr)) return true;
+  }
+  return false;
+}
+
+/* w->state at the start of a row. HC_OK, or why the sweep up to here failed. */
+static hc_status start_state(comparison_work *w, const comparison_row *row, const double *X)
+{
+  switch (w->setup->transient.start) {
+  case TRANSIENT_START_HBM: return comparison_orbit_start(w->hbm, X, row->omega, w->state);
+  case TRANSIENT_START_REST: timeint_rest(w->ti, w->state); return HC_OK;
+  default: break;
+  }
+  hc_status st = timeint_sweep(w->ti, w->swept_omega, row->omega, w->swept, w->monitor);
+  w->swept_omega = row->omega;
+  memcpy(w->state, w->swept, (size_t)w->out->n_states * sizeof *w->state);
+  return st;
+}
+
+/* Does the transient run on the orbit next to the HBM solution? It does if it was found there. Otherwise, having
+ * come from elsewhere, that orbit is computed from the HBM solution, with the transient's own law, and the two are
+ * held together: same law, same orbit, so that the difference is of the order of transient.tolerance, and anything
+ * beyond `same` is another orbit. */
+static hc_status runs_next_to(comparison_work *w, const comparison_row *row, const double *X, bool *next)
+{
+  const double same = fmax(1e-6, 100 * w->setup->transient.tolerance);
+  if (w->setup->transient.start == TRANSIENT_START_HBM && row->transient.method != TIMEINT_BY_MARCHING)
+    return *next = !row->transient.left_orbit, HC_OK;
+  *next = true; /* also where there is no orbit: what differs is HBM */
+  timeint_result restarted;
+  hc_status st = comparison_orbit_start(w->hbm, X, row->omega, w->scratch);
+  if (st == HC_OK) st = timeint_orbit(w->ti, row->omega, 1, w->scratch, w->monitor, &restarted);
+  if (st == HC_NO_MEMORY || st == HC_INTERRUPTED) return st; /* nothing is known */
+  if (st != HC_OK) return HC_OK;
+  const periodic_motion there = motion_of_transient(&restarted), here = motion_of_transient(&row->transient);
+  *next = motion_discrepancy(&there, &here).waveform <= same;
+  return HC_OK;
+}
+
+static bool unstable(const comparison_row *row)
+{
+  if (row->orbit_status == HC_OK && timeint_stability(&row->orbit) != 0) return timeint_stability(&row->orbit) < 0;
+  return hbm_stability_verdict(&row->stability) < 0;
+}
+
+/* HC_NO_MEMORY, HC_INTERRUPTED: *out is not known. */
+static hc_status judge(comparison_work *w, const comparison_row *row, const double *X, verdict *out)
+{
+  if (row->transient_status == HC_NOT_SETTLED) return *out = VERDICT_NOT_SETTLED, HC_OK;
+  if (row->transient_status == HC_APERIODIC && row->hbm_status == HC_OK) return *out = VERDICT_APERIODIC, HC_OK;
+  if (row->transient_status != HC_OK || row->hbm_status != HC_OK) return *out = VERDICT_SOLVER_FAILED, HC_OK;
+  if (row->transient.period_multiple > 1) return *out = VERDICT_PERIOD_K, HC_OK;
+  if (within_limits(w->setup, &row->errors, &row->transient)) return *out = VERDICT_MATCH, HC_OK;
+  if (unstable(row)) return *out = VERDICT_UNSTABLE, HC_OK;
+  bool next = true;
+  hc_status st = runs_next_to(w, row, X, &next);
+  *out = next ? VERDICT_DIFFERS : VERDICT_OTHER_BRANCH;
+  return st;
+}
+
+/* The orbit of the exact law next to the HBM solution; not computed again where the transient is just that. */
+static void referee(comparison_work *w, comparison_row *row, const double *X)
+{
+  const transient_settings *t = &w->setup->transient;
+  const timeint_result *tr = &row->transient;
+  bool same = t->law == TRANSIENT_LAW_EXACT && t->start == TRANSIENT_START_HBM && row->transient_status == HC_OK &&
+              !tr->left_orbit && tr->period_multiple == 1 && tr->method == TIMEINT_BY_SHOOTING;
+  if (same) row->orbit = *tr, row->orbit_status = HC_OK;
+  else if ((row->orbit_status = comparison_orbit_start(w->hbm, X, row->omega, w->scratch)) == HC_OK)
+    row->orbit_status = timeint_orbit(w->exact, row->omega, 1, w->scratch, w->monitor, &row->orbit);
+  w->orbits[0] = row->orbit;
+  for (int r = 1; r < w->setup->model->n_responses && row->orbit_status == HC_OK; ++r) {
+    w->orbits[r] = same ? w->responses[r] : row->orbit;
+    if (!same) row->orbit_status = timeint_response(w->exact, r, &w->orbits[r]);
+  }
+  hbm_measures unused;
+  const side first = {w->hbm, w->setup, 0};
+  if (row->orbit_status == HC_OK) errors_of(&first, row->omega, X, &row->orbit, &unused, &row->orbit_errors);
+}
+
+/* What the discrepancy is made of, in every response. */
+static hc_status account(comparison_work *w, const hbm_curve *at, int k, comparison_row *row)
+{
+  hbm_measures unused;
+  const double *X = at->X + (size_t)k * at->n_coef;
+  hc_status st = row->hbm_status;
+  for (int r = 0; r < w->setup->model->n_responses; ++r) w->budgets[r] = budget_nothing();
+  for (int r = 0; r < w->setup->model->n_responses && st == HC_OK; ++r)
+    st = motion_of_response(w->hbm, row->omega, X, r, &unused, &w->motions[r]);
+  const budget_case from = {.omega = row->omega,
+                            .n_harm = at->points[k].harmonics,
+                            .X = X,
+                            .motion = w->motions,
+                            .transient_status = row->transient_status,
+                            .transient = w->responses,
+                            .orbit_status = row->orbit_status,
+                            .orbit = w->orbits,
+                            .state = w->state};
+  if (st != HC_OK) return HC_OK;
+  st = budgeter_run(w->budgeter, &from, w->monitor, w->budgets);
+  row->budget = w->budgets[0];
+  return st;
+}
+
+/* Relative to the amplitude of the motion it is about. */
+static discrepancy relative_prediction(const motion_error *e, double amplitude)
+{
+  return (discrepancy){.amplitude = discrepancy_relative(e->amplitude, amplitude),
+                       .harmonic_1 = discrepancy_relative(e->harmonic_1, amplitude),
+                       .mean = NAN,
+                       .waveform = discrepancy_relative(e->waveform, amplitude)};
+}
+
+/* What HBM expects of X in every response: known before the transient is. */
+static hc_status predict_solution(comparison_work *w, const double *X, comparison_row *row)
+{
+  hc_status st = row->hbm_status;
+  if (st == HC_OK) st = hbm_predict(w->hbm, row->omega, X, &w->expected[0]);
+  for (int r = 1; r < w->setup->model->n_responses; ++r) {
+    w->expected[r] = (motion_error){NAN, NAN, NAN};
+    if (st == HC_OK) st = hbm_predict_response(w->hbm, row->omega, X, r, &w->expected[r]);
+  }
+  if (row->hbm_status == HC_OK) row->hbm_predicted = relative_prediction(&w->expected[0], row->hbm.amplitude);
+  return st == HC_NO_MEMORY ? st : HC_OK;
+}
+
+/* What the transient, w->state on its orbit, expects of itself: HBM does not enter. */
+static hc_status predict_transient(comparison_work *w, comparison_row *row)
+{
+  if (row->transient_status != HC_OK) return HC_OK;
+  timeint_result *tr = w->responses;
+  hc_status st = timeint_predict(w->ti, w->state, w->monitor, w->setup->model->n_responses, tr);
+  row->transient = *tr;
+  row->transient_predicted = relative_prediction(&tr->predicted, tr->amplitude);
+  return st;
+}
+
+static bool moved(const comparison_row *row)
+{
+  return row->transient_status == HC_OK || row->transient_status == HC_NOT_SETTLED ||
+         row->transient_status == HC_APERIODIC;
+}
+
+/* The transient's contacts, while the handle has their periods. HC_NO_MEMORY: no going on. */
+static hc_status keep_contacts(comparison_work *w, const comparison_row *row)
+{
+  w->acted = HC_UNSUPPORTED;
+  if (w->setup->contacts && moved(row)) w->acted = timeint_contacts(w->ti, &row->transient, w->acting);
+  return w->acted == HC_NO_MEMORY ? w->acted : HC_OK;
+}
+
+/* The transient's measures of all responses, while the handle has their periods. */
+static hc_status keep_responses(comparison_work *w, const comparison_row *row)
+{
+  hc_status st = HC_OK;
+  w->responses[0] = row->transient;
+  for (int r = 1; r < w->setup->model->n_responses && moved(row) && st == HC_OK; ++r) {
+    w->responses[r] = row->transient;
+    st = timeint_response(w->ti, r, &w->responses[r]);
+  }
+  return st;
+}
+
+hc_status solution_compare(comparison_work *w, const hbm_curve *at, int k, comparison_row *row)
+{
+  const double *X = at->X + (size_t)k * at->n_coef;
+  row->branch = at->points[k].branch;
+  row->hbm_status = hbm_measure(w->hbm, X, &row->hbm);
+  hc_status known = hbm_stability_at(w->hbm, row->omega, X, &row->stability);
+  if (known == HC_NO_MEMORY) return known;
+  if (known != HC_OK) row->stability.multiplier = NAN;
+  if ((known = predict_solution(w, X, row)) != HC_OK) return known;
+  row->transient_status = start_state(w, row, X);
+  if (row->transient_status == HC_OK)
+    row->transient_status = timeint_steady(w->ti, row->omega, w->state, w->monitor, &row->transient);
+  if (row->transient_status == HC_INTERRUPTED || row->transient_status == HC_NO_MEMORY) return row->transient_status;
+  if ((known = keep_responses(w, row)) != HC_OK) return known;
+  if ((known = keep_contacts(w, row)) != HC_OK) return known;
+  if ((known = predict_transient(w, row)) != HC_OK) return known;
+  referee(w, row, X);
+  if (row->orbit_status == HC_INTERRUPTED || row->orbit_status == HC_NO_MEMORY) return row->orbit_status;
+  bool comparable = row->hbm_status == HC_OK && row->transient_status == HC_OK;
+  row->family = w->setup->model->n_contacts > 1 && comparison_mean_free(row) && row->transient.regime > CONTACT_STUCK;
+  const side first = {w->hbm, w->setup, 0};
+  if (comparable) row->hbm_status = errors_of(&first, row->omega, X, &row->transient, &row->hbm, &row->errors);
+  row->accounted = comparable && row->transient.period_multiple == 1 && accounted_for(&first, at, &row->transient);
+  hc_status judged = judge(w, row, X, &row->verdict);
+  if (judged != HC_OK) return judged;
+  row->unexpected = comparison_unexpected(row);
+  return account(w, at, k, row);
+}
+
+/* A response that moves less than this of the largest is not compared: rounding of the others. */
+static const double still = 1e-9;
+
+static double largest_amplitude(const comparison_work *w)
+{
+  double most = 0;
+  for (int r = 0; r < w->setup->model->n_responses; ++r) most = fmax(most, w->responses[r].amplitude);
+  return most;
+}
+
+void solution_turn(comparison_work *w, const hbm_curve *at, int k, int r, const comparison_row *first,
+                   comparison_row *row)
+{
+  const double *X = at->X + (size_t)k * at->n_coef;
+  const side s = {w->hbm, w->setup, r};
+  const discrepancy nothing = {NAN, NAN, NAN, NAN};
+  *row = *first;
+  row->response = r;
+  row->errors = row->orbit_errors = row->hbm_predicted = row->transient_predicted = nothing;
+  row->budget = w->budgets[r];
+  row->unexpected = false;
+  if (row->hbm_status == HC_OK) row->hbm_status = hbm_measure_response(w->hbm, row->omega, X, r, &row->hbm);
+  if (row->hbm_status == HC_OK) row->hbm_predicted = relative_prediction(&w->expected[r], row->hbm.amplitude);
+  if (row->orbit_status == HC_OK && row->hbm_status == HC_OK) {
+    row->orbit = w->orbits[r];
+    row->hbm_status = errors_of(&s, row->omega, X, &row->orbit, &row->hbm, &row->orbit_errors);
+  }
+  if (!moved(first)) return;
+  row->transient = w->responses[r];
+  row->transient_predicted = relative_prediction(&row->transient.predicted, row->transient.amplitude);
+  const bool comparable = first->hbm_status == HC_OK && first->transient_status == HC_OK;
+  if (comparable) row->hbm_status = errors_of(&s, row->omega, X, &row->transient, &row->hbm, &row->errors);
+  if (!comparable || row->transient.period_multiple != 1) return;
+  row->still = !(row->transient.amplitude > still * largest_amplitude(w));
+  row->accounted = row->still || accounted_for(&s, at, &row->transient);
+  if (row->still) {
+    row->errors = row->hbm_predicted = row->transient_predicted = nothing;
+    row->budget = budget_nothing();
+  }
+  const bool within = row->still || within_limits(w->setup, &row->errors, &row->transient);
+  if (first->verdict == VERDICT_MATCH || first->verdict == VERDICT_DIFFERS)
+    row->verdict = within ? VERDICT_MATCH : unstable(first) ? VERDICT_UNSTABLE : VERDICT_DIFFERS;
+  row->unexpected = comparison_unexpected(row);
+}
+hc_status solution_contacts(comparison_work *w, const double *X, const comparison_row *row, contact_comparison *c)
+{
+  const model *m = w->setup->model;
+  const hc_status measured = hbm_measure_contacts(w->hbm, X, w->balanced);
+  for (int j = 0; j < m->n_contacts; ++j) {
+    c[j] = (contact_comparison){.omega = row->omega,
+                                .branch = row->branch,
+                                .contact = j,
+                                .one_orbit = row->verdict == VERDICT_MATCH || row->verdict == VERDICT_DIFFERS,
+                                .hbm_status = measured,
+                                .transient_status = w->acted,
+                                .hbm = w->balanced[j],
+                                .transient = w->acting[j]};
+    comparison_verdict_text(row, c[j].verdict);
+  }
+  contact_comparison_judge(m->n_contacts, m->contacts, gate_limits_at(w->setup->limits, row->omega).waveform,
+                           comparison_mean_free(row), c);
+  return measured == HC_NO_MEMORY ? measured : HC_OK;
+}
