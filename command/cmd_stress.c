@@ -50,7 +50,7 @@ enum {
 static const struct argp_option options[] = {
     {"scenes", KEY_SCENES, "N", 0, "How many scenes [200]", 1},
     {"structures", KEY_STRUCTURES, NULL, 0,
-     "Draw structures of up to 12 degrees of freedom, and check harmonic balance, in place of oscillators", 1},
+     "Draw structures of up to 12 degrees of freedom, and check both sides, in place of oscillators", 1},
     {"seed", KEY_SEED, "N", 0, "Which sequence [1]", 1},
     {"first", KEY_FIRST, "INDEX", 0, "The first scene's place in the sequence [0]", 1},
     {"case", KEY_CASE, NULL, 0, "Run nothing: print the case file of the first scene", 1},

@@ -7,6 +7,8 @@
 
 #include "base/thread_clock.h"
 #include "campaigns/stress/outcomes.h"
+#include "campaigns/stress/structure_path.h"
+#include "compare/comparison.h"
 #include "hbm/first_solution.h"
 #include "numerics/random.h"
 #include "numerics/series.h"
@@ -44,6 +46,11 @@ hc_status solved_structure_start(solved_structure *s, const scene *sc, double se
   if (st != HC_OK) return st;
   s->n = s->model->n;
   s->n_coef = series_length(s->how.harmonics);
+  s->asked = sc;
+  s->fine.status = HC_NOT_CONVERGED; /* none yet */
+  s->predicted = stress_skip(STRESS_NO_ORBIT);
+  if (!(s->path = calloc(1, sizeof *s->path))) return HC_NO_MEMORY;
+  s->path->status = HC_NOT_CONVERGED;
   solved_structure_clock(s);
   stress_motion_solve(s, s->model, &s->how, s->omega, NULL, 1, &s->base);
   return s->fatal;
@@ -53,6 +60,9 @@ void solved_structure_clear(solved_structure *s)
 {
   model_free(s->model);
   stress_motion_free(&s->base);
+  stress_motion_free(&s->fine);
+  if (s->path) stress_path_free(s->path);
+  free(s->path);
 }
 
 /* ---- one solution --------------------------------------------------------------------------------- */
@@ -60,7 +70,8 @@ void solved_structure_clear(solved_structure *s)
 void stress_motion_free(stress_motion *m)
 {
   free(m->x);
-  m->x = NULL;
+  free(m->start);
+  m->x = m->start = NULL;
 }
 
 hc_status stress_motion_read(const solved_structure *s, hbm_solver *h, double omega, const double *X, double *x)
@@ -85,6 +96,7 @@ static hc_status solve(solved_structure *s, hbm_solver *h, double omega, const d
   if (st == HC_OK) st = hbm_measure(h, X, &out->m);
   if (st == HC_OK) st = stress_motion_read(s, h, omega, X, out->x);
   if (st == HC_OK) out->stability_status = hbm_stability_at(h, omega, X, &out->stability);
+  if (st == HC_OK) out->start_status = comparison_orbit_start(h, X, omega, out->start);
   return st;
 }
 
@@ -92,8 +104,9 @@ void stress_motion_solve(solved_structure *s, const model *m, const hbm_settings
                          const double *guess, double length, stress_motion *out)
 {
   hbm_solver *h = NULL;
-  *out = (stress_motion){.x = calloc((size_t)s->n * (size_t)s->n_coef, sizeof(double))};
-  out->status = out->x ? hbm_solver_new(m, how, &h) : HC_NO_MEMORY;
+  *out = (stress_motion){.x = calloc((size_t)s->n * (size_t)s->n_coef, sizeof(double)),
+                         .start = calloc(2 * (size_t)m->n + (size_t)m->n_contacts, sizeof(double))};
+  out->status = out->x && out->start ? hbm_solver_new(m, how, &h) : HC_NO_MEMORY;
   if (out->status == HC_OK) {
     double *X = calloc((size_t)hbm_n_coefficients(h), sizeof *X);
     out->status = X ? solve(s, h, omega, guess, X, out) : HC_NO_MEMORY;
@@ -200,10 +213,12 @@ static stress_check check(solved_structure *s, stress_check (*of)(solved_structu
 hc_status stress_structure(const scene *sc, double seconds, const hc_monitor *monitor, stress_result *out)
 {
   static stress_check (*const checks[])(solved_structure *) = {
-      stress_structure_force,    stress_structure_balance,   stress_structure_work,    stress_structure_determinant,
-      stress_structure_permuted, stress_structure_rotated,   stress_structure_units,   stress_structure_split,
-      stress_structure_copies,   stress_structure_bystander, stress_structure_delayed, stress_structure_sampled,
-      stress_structure_curve};
+      stress_structure_force,    stress_structure_balance,   stress_structure_work,        stress_structure_determinant,
+      stress_structure_permuted, stress_structure_rotated,   stress_structure_units,       stress_structure_split,
+      stress_structure_copies,   stress_structure_bystander, stress_structure_delayed,     stress_structure_sampled,
+      stress_structure_curve,    stress_structure_orbit,     stress_structure_floquet,     stress_structure_rewritten,
+      stress_structure_returns,  stress_structure_cvode,     stress_structure_regularised, stress_structure_verdict,
+      stress_structure_predicted};
   _Static_assert(sizeof checks / sizeof *checks == STRESS_N_CHECKS - STRESS_N_OSCILLATOR_CHECKS, "one for each name");
   solved_structure s;
   const double start = thread_seconds();

@@ -16,6 +16,8 @@ typedef struct stress_motion {
   double *x; /* [2H+1][n] [length], of the base model's degrees of freedom, in its units */
   hbm_measures m;
   hbm_stability stability;
+  hc_status start_status;
+  double *start; /* [2 n + contacts] where its transient starts, in the units of the model it is of */
 } stress_motion;
 
 typedef struct solved_structure {
@@ -33,6 +35,11 @@ typedef struct solved_structure {
   double solution_errs;   /* [1] as much as errors of rounding in the data and Newton's tolerance make of it, relative;
                              INFINITY where the solution gets lost */
   double multiplier_errs; /* [1] what that makes of the largest multiplier */
+  const scene *asked;
+  stress_motion fine; /* with the most harmonics that were needed, from STRESS_ORBIT on */
+  int fine_harmonics;
+  struct stress_path *path; /* the exact law's orbit next to it (structure_path.h) */
+  stress_check predicted;   /* of the comparison that STRESS_STRUCTURE_VERDICT made */
 } solved_structure;
 
 /* The base solution, from nothing. HC_NO_MEMORY; solved_structure_clear in any case. */
@@ -83,6 +90,14 @@ stress_check stress_structure_bystander(solved_structure *s);
 stress_check stress_structure_delayed(solved_structure *s);
 stress_check stress_structure_sampled(solved_structure *s);
 stress_check stress_structure_curve(solved_structure *s);
+stress_check stress_structure_orbit(solved_structure *s);
+stress_check stress_structure_floquet(solved_structure *s);
+stress_check stress_structure_rewritten(solved_structure *s);
+stress_check stress_structure_returns(solved_structure *s);
+stress_check stress_structure_cvode(solved_structure *s);
+stress_check stress_structure_regularised(solved_structure *s);
+stress_check stress_structure_verdict(solved_structure *s);
+stress_check stress_structure_predicted(solved_structure *s);
 
 /* All of them, as stress_scene. */
 hc_status stress_structure(const scene *sc, double seconds, const hc_monitor *monitor, stress_result *out);

@@ -49,7 +49,16 @@
   X(STRESS_BYSTANDER, "bystander", "one degree of freedom more that nothing couples, then turned: the same solution")  \
   X(STRESS_DELAYED, "delayed", "all loads later, half a period or any other time: the same solution, later")           \
   X(STRESS_FINER, "structure_sampled", "HBM with ever more samples tends to HBM with exact forces")                    \
-  X(STRESS_CURVE, "curve", "the response curve through it has that solution, and no false one")
+  X(STRESS_CURVE, "curve", "the response curve through it has that solution, and no false one")                        \
+  X(STRESS_ORBIT, "orbit", "HBM with more and more harmonics tends to the orbit of the exact law")                     \
+  X(STRESS_FLOQUET, "orbit_multiplier", "the orbit's Floquet multiplier by HBM's own orbit and by time integration")   \
+  X(STRESS_ORBIT_REWRITTEN, "orbit_rewritten", "that orbit in other coordinates, units and at another time")           \
+  X(STRESS_ORBIT_RETURNS, "orbit_returns", "from beside a stable orbit the motion goes back to it")                    \
+  X(STRESS_ORBIT_CVODE, "orbit_cvode", "the exact law in closed form and by CVODE: the same orbit")                    \
+  X(STRESS_ORBIT_LAWS, "orbit_regularised", "the regularised law's orbit tends to the exact law's")                    \
+  X(STRESS_STRUCTURE_VERDICT, "structure_verdict", "what compare says, held against what it says it from")             \
+  X(STRESS_STRUCTURE_PREDICTED, "structure_prediction",                                                                \
+    "what compare found, against what both sides said beforehand they would be off")
 
 #define STRESS_REASONS(X)                                                                                              \
   X(STRESS_NO_REASON, "", "")                                                                                          \

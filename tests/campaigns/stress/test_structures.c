@@ -9,9 +9,11 @@
 #include "campaigns/stress/stress.h"
 #include "cases/case_file.h"
 #include "cases/structure.h"
+#include "compare/comparison.h"
 #include "hbm/exact_force.h"
 #include "hbm/hbm.h"
 #include "tests/check.h"
+#include "timeint/steady.h"
 
 typedef enum spoil {
   NOTHING,
@@ -24,11 +26,15 @@ typedef enum spoil {
   FOUND_MOVED,        /* what Newton finds from a guess */
   LATER_MULTIPLIERS,  /* all but the first */
   DETERMINANT,
-  CURVE_MOVED, /* the solutions found along a curve */
+  CURVE_MOVED,      /* the solutions found along a curve */
+  ORBITS_SCALED,    /* by time integration, as they are read */
+  LATER_ORBITS,     /* each more than the one before */
+  ORBIT_MULTIPLIER, /* of all */
+  VERDICT_TURNED,   /* into a match */
   NUMBER_LOST
 } spoil;
 static spoil spoiled;
-static int multipliers; /* asked for so far */
+static int multipliers, orbits; /* asked for so far */
 
 hc_status __real_hbm_response(hbm_solver *s, double omega, const double *X, int r, double *x);
 hc_status __wrap_hbm_response(hbm_solver *s, double omega, const double *X, int r, double *x);
@@ -102,6 +108,58 @@ hc_status __wrap_hbm_curve_at(hbm_solver *s, const hbm_curve *curve, double omeg
   return st;
 }
 
+hc_status __real_timeint_orbit(timeint *ti, double omega, int k, double *state, const hc_monitor *monitor,
+                               timeint_result *r);
+hc_status __wrap_timeint_orbit(timeint *ti, double omega, int k, double *state, const hc_monitor *monitor,
+                               timeint_result *r);
+hc_status __wrap_timeint_orbit(timeint *ti, double omega, int k, double *state, const hc_monitor *monitor,
+                               timeint_result *r)
+{
+  hc_status st = __real_timeint_orbit(ti, omega, k, state, monitor, r);
+  ++orbits;
+  if (spoiled == ORBIT_MULTIPLIER) r->multiplier += 0.01;
+  return st;
+}
+
+hc_status __real_timeint_steady(timeint *ti, double omega, double *state, const hc_monitor *monitor, timeint_result *r);
+hc_status __wrap_timeint_steady(timeint *ti, double omega, double *state, const hc_monitor *monitor, timeint_result *r);
+hc_status __wrap_timeint_steady(timeint *ti, double omega, double *state, const hc_monitor *monitor, timeint_result *r)
+{
+  ++orbits;
+  return __real_timeint_steady(ti, omega, state, monitor, r);
+}
+
+hc_status __real_timeint_again(timeint *ti, double omega, int k, double *state, const hc_monitor *monitor,
+                               timeint_result *r);
+hc_status __wrap_timeint_again(timeint *ti, double omega, int k, double *state, const hc_monitor *monitor,
+                               timeint_result *r);
+hc_status __wrap_timeint_again(timeint *ti, double omega, int k, double *state, const hc_monitor *monitor,
+                               timeint_result *r)
+{
+  ++orbits;
+  return __real_timeint_again(ti, omega, k, state, monitor, r);
+}
+
+hc_status __real_timeint_response(timeint *ti, int i, timeint_result *r);
+hc_status __wrap_timeint_response(timeint *ti, int i, timeint_result *r);
+hc_status __wrap_timeint_response(timeint *ti, int i, timeint_result *r)
+{
+  hc_status st = __real_timeint_response(ti, i, r);
+  const double by = spoiled == ORBITS_SCALED ? 1e-5 : spoiled == LATER_ORBITS ? 1e-5 * orbits : 0;
+  for (int k = 0; k < TIMEINT_WAVE; ++k) r->wave[k] *= 1 + by;
+  return st;
+}
+
+hc_status __real_comparison_run(const compare_setup *setup, const hc_monitor *monitor, comparison *out);
+hc_status __wrap_comparison_run(const compare_setup *setup, const hc_monitor *monitor, comparison *out);
+hc_status __wrap_comparison_run(const compare_setup *setup, const hc_monitor *monitor, comparison *out)
+{
+  hc_status st = __real_comparison_run(setup, monitor, out);
+  for (int i = 0; i < out->n_rows && spoiled == VERDICT_TURNED; ++i)
+    out->rows[i].verdict = VERDICT_MATCH, out->rows[i].errors.waveform = 0.1;
+  return st;
+}
+
 /* ---- the scene --------------------------------------------------------------------------------------- */
 
 /* Three masses, damping with a gyroscopic part; a slider that slips, a contact that slips and separates, a stop. */
@@ -135,11 +193,19 @@ static stress_result stressed(bool friction, spoil with)
   scene sc = given(friction);
   stress_result r;
   spoiled = with;
-  multipliers = 0;
+  multipliers = orbits = 0;
   assert_int_equal(stress_scene(&sc, 20, NULL, &r), HC_OK);
   spoiled = NOTHING;
   case_clear(&sc);
   return r;
+}
+
+/* Six harmonics are too few for the time integration: that is explained. */
+static bool ends_well(const stress_check *c, int kind, bool friction)
+{
+  if (friction && kind == STRESS_DETERMINANT) return c->outcome == STRESS_SKIPPED; /* something slips */
+  if (kind == STRESS_ORBIT) return c->outcome == STRESS_EXPLAINED && c->reason == STRESS_TRUNCATED;
+  return c->outcome == STRESS_AGREED;
 }
 
 static void good_answers_agree(void **state)
@@ -147,12 +213,10 @@ static void good_answers_agree(void **state)
   (void)state;
   for (int friction = 0; friction < 2; ++friction) {
     const stress_result r = stressed(friction, NOTHING);
-    for (int k = stress_first_check(STRESS_STRUCTURES); k < stress_end_of_checks(STRESS_STRUCTURES); ++k) {
-      const bool skipped = friction && k == STRESS_DETERMINANT; /* something slips */
-      if (r.check[k].outcome != (skipped ? STRESS_SKIPPED : STRESS_AGREED))
+    for (int k = stress_first_check(STRESS_STRUCTURES); k < stress_end_of_checks(STRESS_STRUCTURES); ++k)
+      if (!ends_well(&r.check[k], k, friction))
         fail_msg("%s: %s %s, %g of %g", stress_kind_name((stress_kind)k), stress_outcome_name(r.check[k].outcome),
                  stress_reason_name(r.check[k].reason), r.check[k].error, r.check[k].bound);
-    }
   }
 }
 
@@ -193,6 +257,17 @@ static void another_solution_is_found(void **state)
     if (kind != STRESS_BYSTANDER && kind != STRESS_FINER) expect_finding(true, LATER_MULTIPLIERS, kind);
   }
   expect_finding(false, DETERMINANT, STRESS_DETERMINANT);
+}
+
+/* Time integration against harmonic balance, and against itself. */
+static void a_wrong_orbit_is_found(void **state)
+{
+  (void)state;
+  expect_finding(true, ORBITS_SCALED, STRESS_ORBIT);
+  expect_finding(true, ORBIT_MULTIPLIER, STRESS_FLOQUET);
+  for (stress_kind kind = STRESS_ORBIT_REWRITTEN; kind <= STRESS_ORBIT_LAWS; ++kind)
+    expect_finding(true, LATER_ORBITS, kind);
+  expect_finding(true, VERDICT_TURNED, STRESS_STRUCTURE_VERDICT);
 }
 
 static void a_finding_is_made_small(void **state)
@@ -270,8 +345,9 @@ static void every_scene_is_a_case_file(void **state)
 }
 
 static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(good_answers_agree),      cmocka_unit_test(a_wrong_solution_is_found),
-    cmocka_unit_test(a_wrong_force_is_found),  cmocka_unit_test(another_solution_is_found),
-    cmocka_unit_test(a_finding_is_made_small), cmocka_unit_test(every_scene_is_a_case_file),
+    cmocka_unit_test(good_answers_agree),         cmocka_unit_test(a_wrong_solution_is_found),
+    cmocka_unit_test(a_wrong_force_is_found),     cmocka_unit_test(another_solution_is_found),
+    cmocka_unit_test(a_wrong_orbit_is_found),     cmocka_unit_test(a_finding_is_made_small),
+    cmocka_unit_test(every_scene_is_a_case_file),
 };
 CHECK_MAIN("stress.structures", tests, 300)
