@@ -16,7 +16,8 @@ static const char help[] =
     "with exact and sampled forces, "
     "time integration with the exact and the regularised law, by shooting and by marching; scipy's LSODA beside them "
     "where python3 has it."
-    "\vThe error is of the amplitude, relative to the exact law's orbit. Seconds are processor time of one solution "
+    "\vThe error is of the amplitude, relative to the exact law's orbit; of a structure the largest of all responses, "
+    "relative to the largest amplitude. Seconds are processor time of one solution "
     "at that omega from its neighbour's in "
     "a sweep: median, lower and upper quartile. Methods take turns. error_finer is the largest error at these or "
     "finer settings: what can be counted "
@@ -270,4 +271,5 @@ const cli_command cmd_bench = {
     .options = options,
     .read_option = read_option,
     .run = run_bench,
+    .takes_structures = true,
 };

@@ -169,8 +169,12 @@ static hc_status measure_scipy(workspace *w, bench_frequency *p)
   scipy_run runs[SCIPY_MOST_RUNS];
   int n = 0;
   w->done = 0.9;
+  if (w->sc->structure) {
+    snprintf(p->scipy, sizeof p->scipy, "of one degree of freedom only");
+    return HC_OK;
+  }
   hc_status st = scipy_lsoda(w->sc, &w->start, p->multiplier, w->options->repeats, &w->monitor, runs, &n, p->scipy);
-  const periodic_motion *ref = &w->start.reference;
+  const periodic_motion *ref = w->start.reference;
   for (int i = 0; i < n && (st == HC_OK || st == HC_INTERRUPTED); ++i) {
     bench_row row = empty_row(BENCH_SCIPY_LSODA, p->omega);
     row.tolerance = runs[i].rtol;
@@ -214,7 +218,9 @@ hc_status bench_run(const scene *sc, const bench_options *options, const hc_moni
     workspace w = {
         .sc = &f.sc, .options = options, .outer = monitor, .from = (double)i / at.n, .width = 1.0 / at.n, .out = out};
     w.monitor = (hc_monitor){tick, &w};
-    st = bench_at(&w, &f, at.v[i]);
+    st = bench_start_new(f.model, f.hbm, &w.start);
+    if (st == HC_OK) st = bench_at(&w, &f, at.v[i]);
+    bench_start_free(&w.start);
     if (st != HC_OK) *failed_at = at.v[i];
   }
   finder_free(&f);

@@ -1,7 +1,8 @@
 /* bench.h - work against precision: time and error of every method at one frequency. The header of this folder.
  *
  *     reference    the exact law's periodic orbit at omega, by shooting as tight as rounding allows
- *     error        |amplitude - reference's| / reference's amplitude; error_harmonic_1 likewise of |a1 + i b1|
+ *     error        |amplitude - reference's| / reference's amplitude; error_harmonic_1 likewise of |a1 + i b1|; of
+ *                  several responses the largest of these differences, relative to the largest amplitude
  *     cost         processor time of ONE solution at omega from the solution at a neighbouring frequency, as in a
  *                  sweep: an HBM method from its own solution there, time integration from the exact orbit's state
  *                  there. With its measures, without making the workspace.

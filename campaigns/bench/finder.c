@@ -6,8 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "campaigns/scene_solvers.h"
 #include "compare/comparison.h"
+#include "compare/first_guess.h"
 #include "compare/frequencies.h"
 
 enum { CURVE_HARMONICS = 20, TRIES = 8, NO_DECADE = -6 };
@@ -15,6 +15,19 @@ static const double best_floor = 1e-12; /* [1] rounding of a period's integratio
 static const double waiting = 1e-12;    /* transient.tolerance of a reference that shooting did not bring below 1e-10 */
 static const double first_distance = 1e-3, next_door = 0.3; /* [omega] of the neighbour; [amplitude] how far apart
                                                                two neighbours may be */
+
+static hc_status make_room(finder *f)
+{
+  const int n_coef = hbm_n_coefficients(f->hbm);
+  f->n_states = 2 * f->model->n + f->model->n_contacts;
+  f->X = calloc((size_t)(n_coef + 3 * f->n_states), sizeof *f->X);
+  f->motion = calloc((size_t)f->model->n_responses, sizeof *f->motion);
+  if (!f->X || !f->motion) return HC_NO_MEMORY;
+  f->state = f->X + n_coef;
+  f->other = f->state + f->n_states;
+  f->trial = f->other + f->n_states;
+  return HC_OK;
+}
 
 hc_status finder_start(const scene *sc, const number_list *at, const hc_monitor *monitor, finder *f)
 {
@@ -25,7 +38,9 @@ hc_status finder_start(const scene *sc, const number_list *at, const hc_monitor 
   comparison_sweep(sc->omega_from, sc->omega_to, at->n ? at : &sc->compare.omega, &from, &to);
   f->sc.omega_from = from;
   f->sc.omega_to = to;
-  hc_status st = scene_hbm_solver(&f->sc, &f->hbm);
+  hc_status st = scene_model(sc, &f->model);
+  if (st == HC_OK) st = guided_hbm_solver_new(f->model, &f->sc.hbm, &f->hbm);
+  if (st == HC_OK) st = make_room(f);
   if (st == HC_OK) st = hbm_trace(f->hbm, from, to, monitor, &f->curve);
   return st == HC_INTERRUPTED || st == HC_NO_MEMORY || f->curve.n == 0 ? st : HC_OK; /* as far as the curve goes */
 }
@@ -34,6 +49,9 @@ void finder_free(finder *f)
 {
   hbm_curve_free(&f->curve);
   hbm_solver_free(f->hbm);
+  model_free(f->model);
+  free(f->X);
+  free(f->motion);
   *f = (finder){0};
 }
 
@@ -54,51 +72,68 @@ hc_status finder_default(finder *f, double *omega)
   return st == HC_OK && most < 0 ? HC_NOT_CONVERGED : st;
 }
 
-/* The exact law's orbit next to *state, which moves there. */
-static hc_status exact_orbit(const scene *sc, double omega, transient_steady steady, double tolerance,
-                             const hc_monitor *monitor, scene_state *state, timeint_result *r)
+/* The exact law's orbit next to state, which moves there; f->motion: every response of it. */
+static hc_status exact_orbit(finder *f, double omega, transient_steady steady, double tolerance,
+                             const hc_monitor *monitor, double *state, timeint_result *r)
 {
-  scene own = *sc;
+  transient_settings how = f->sc.transient;
   timeint *ti = NULL;
-  scene_state y = *state;
-  own.transient.law = TRANSIENT_LAW_EXACT;
-  own.transient.tolerance = tolerance;
-  own.transient.steady = steady;
-  hc_status st = scene_timeint(&own, &ti);
-  if (st == HC_OK) st = timeint_steady(ti, omega, y.all, monitor, r);
+  const size_t bytes = (size_t)f->n_states * sizeof *state;
+  how.law = TRANSIENT_LAW_EXACT;
+  how.tolerance = tolerance;
+  how.steady = steady;
+  hc_status st = timeint_new(f->model, &how, &ti);
+  memcpy(f->trial, state, bytes);
+  if (st == HC_OK) st = timeint_steady(ti, omega, f->trial, monitor, r);
+  for (int i = f->model->n_responses; i-- > 0 && st == HC_OK;) { /* *r ends as the first one's */
+    if (f->model->n_responses > 1) st = timeint_response(ti, i, r);
+    f->motion[i] = motion_of_transient(r);
+  }
   timeint_free(ti);
-  if (st == HC_OK) *state = y;
+  if (st == HC_OK) memcpy(state, f->trial, bytes);
   return st;
 }
 
 /* By shooting, at the smallest power of ten as tolerance at which it converges in spite of rounding. */
-static hc_status tightest_orbit(const scene *sc, double omega, const hc_monitor *monitor, scene_state *state,
-                                timeint_result *r, double *floor)
+static hc_status tightest_orbit(finder *f, double omega, const hc_monitor *monitor, double *state, timeint_result *r,
+                                double *floor)
 {
   hc_status st = HC_NOT_CONVERGED;
   int decade = -14;
   while (st != HC_OK && st != HC_INTERRUPTED && st != HC_NO_MEMORY && decade < NO_DECADE)
-    st = exact_orbit(sc, omega, TRANSIENT_STEADY_SHOOTING, pow(10, ++decade), monitor, state, r);
+    st = exact_orbit(f, omega, TRANSIENT_STEADY_SHOOTING, pow(10, ++decade), monitor, state, r);
   *floor = fmax(best_floor, pow(10, decade));
   return st;
 }
 
+/* The motions that f->motion has become what errors are measured against. */
+static void take_reference(const finder *f, bench_start *start)
+{
+  start->size = 0;
+  for (int i = 0; i < start->n_responses; ++i) {
+    start->reference[i] = f->motion[i];
+    start->size = fmax(start->size, f->motion[i].amplitude);
+  }
+}
+
 /* Where shooting stopped at a coarse tolerance: the orbit by marching, from there. */
-static hc_status wait_for(const scene *sc, double omega, const hc_monitor *monitor, scene_state *state,
-                          timeint_result *r, double *floor)
+static hc_status wait_for(finder *f, double omega, const hc_monitor *monitor, bench_start *start, timeint_result *r,
+                          double *floor)
 {
   timeint_result waited;
   if (*floor < 5e-10) return HC_OK;
-  hc_status st = exact_orbit(sc, omega, TRANSIENT_STEADY_MARCH, waiting, monitor, state, &waited);
+  hc_status st = exact_orbit(f, omega, TRANSIENT_STEADY_MARCH, waiting, monitor, f->state, &waited);
   if (st != HC_OK) return st == HC_INTERRUPTED || st == HC_NO_MEMORY ? st : HC_OK; /* the floor says how good it is */
+  take_reference(f, start);
   waited.multiplier = r->multiplier;
   *r = waited;
   *floor = 10 * waiting;
   return HC_OK;
 }
 
-/* Of the curve's solutions at omega, by size: the largest whose orbit is stable. */
-static hc_status largest_stable(finder *f, double omega, const hc_monitor *monitor, double *X, scene_state *state,
+/* Of the curve's solutions at omega, by size of the first response: the largest whose orbit is stable, into f->X and
+ * f->state. */
+static hc_status largest_stable(finder *f, double omega, const hc_monitor *monitor, bench_start *start,
                                 timeint_result *best, double *floor)
 {
   hbm_curve at = {0};
@@ -111,60 +146,64 @@ static hc_status largest_stable(finder *f, double omega, const hc_monitor *monit
     timeint_result r;
     double floor_k;
     if (hbm_measure(f->hbm, Xk, &m) != HC_OK || m.amplitude < 0.9 * best->amplitude) continue;
-    scene_state y = {.x = 0};
-    hc_status found = comparison_orbit_start(f->hbm, Xk, omega, y.all);
-    if (found == HC_OK) found = tightest_orbit(&f->sc, omega, monitor, &y, &r, &floor_k);
+    hc_status found = comparison_orbit_start(f->hbm, Xk, omega, f->other);
+    if (found == HC_OK) found = tightest_orbit(f, omega, monitor, f->other, &r, &floor_k);
     if (found == HC_INTERRUPTED || found == HC_NO_MEMORY) st = found;
     if (found != HC_OK || timeint_stability(&r) <= 0 || r.amplitude <= best->amplitude) continue;
     *best = r;
-    *state = y;
     *floor = floor_k;
-    memcpy(X, Xk, (size_t)at.n_coef * sizeof *X);
+    take_reference(f, start);
+    memcpy(f->state, f->other, (size_t)f->n_states * sizeof *f->state);
+    memcpy(f->X, Xk, (size_t)at.n_coef * sizeof *f->X);
   }
   hbm_curve_free(&at);
   return st == HC_OK && best->amplitude < 0 ? HC_NOT_CONVERGED : st;
 }
 
-static bool near(const periodic_motion *a, const periodic_motion *b)
+/* Is every response of a within next_door of b's? */
+static bool near(int n, const periodic_motion *a, const periodic_motion *b, double size)
 {
-  return motion_between(a, b).waveform <= next_door * b->amplitude;
+  for (int i = 0; i < n; ++i)
+    if (!(motion_between(&a[i], &b[i]).waveform <= next_door * size)) return false;
+  return true;
 }
 
 /* The same branch at omega: both sides of it. */
-static bool try_neighbour(finder *f, double omega, const double *X, const scene_state *state, const hc_monitor *monitor,
-                          bench_start *start)
+static bool try_neighbour(finder *f, double omega, const hc_monitor *monitor, bench_start *start)
 {
   hbm_point point;
   hbm_measures m;
   timeint_result r;
+  periodic_motion by_hbm;
   start->neighbour = omega;
-  start->state = *state;
-  memset(start->X, 0, sizeof start->X);
-  memcpy(start->X, X, (size_t)(2 * CURVE_HARMONICS + 1) * sizeof *X);
-  if (hbm_solve(f->hbm, omega, start->X, &point) != HC_OK || hbm_measure(f->hbm, start->X, &m) != HC_OK) return false;
-  if (exact_orbit(&f->sc, omega, TRANSIENT_STEADY_SHOOTING, 1e-9, monitor, &start->state, &r) != HC_OK) return false;
-  periodic_motion by_hbm = motion_of_solution(&m, CURVE_HARMONICS, start->X), by_time = motion_of_transient(&r);
-  return near(&by_hbm, &by_time) && near(&by_time, &start->reference);
+  memset(start->X, 0, (size_t)start->most_coef * sizeof *start->X);
+  memcpy(start->X, f->X, (size_t)hbm_n_coefficients(f->hbm) * sizeof *f->X);
+  memcpy(start->state, f->state, (size_t)f->n_states * sizeof *f->state);
+  if (hbm_solve(f->hbm, omega, start->X, &point) != HC_OK) return false;
+  if (exact_orbit(f, omega, TRANSIENT_STEADY_SHOOTING, 1e-9, monitor, start->state, &r) != HC_OK) return false;
+  for (int i = 0; i < start->n_responses; ++i)
+    if (motion_of_response(f->hbm, omega, start->X, i, &m, &by_hbm) != HC_OK ||
+        !near(1, &by_hbm, &f->motion[i], start->size))
+      return false;
+  return near(start->n_responses, f->motion, start->reference, start->size);
 }
 
 hc_status finder_frequency(finder *f, double omega, const hc_monitor *monitor, bench_frequency *at, bench_start *start)
 {
-  double X[BENCH_MOST_COEF], distance = first_distance;
+  double distance = first_distance;
   timeint_result r;
-  scene_state state = {.x = 0};
   *at = (bench_frequency){.omega = omega};
-  *start = (bench_start){.omega = omega};
-  hc_status st = largest_stable(f, omega, monitor, X, &state, &r, &at->floor);
-  if (st == HC_OK) st = wait_for(&f->sc, omega, monitor, &state, &r, &at->floor);
+  start->omega = omega;
+  hc_status st = largest_stable(f, omega, monitor, start, &r, &at->floor);
+  if (st == HC_OK) st = wait_for(f, omega, monitor, start, &r, &at->floor);
   if (st != HC_OK) return st;
-  start->reference = motion_of_transient(&r);
   at->amplitude = r.amplitude;
   at->multiplier = r.multiplier;
   /* towards the middle of the sweep first */
   if (omega > 0.5 * (f->sc.omega_from + f->sc.omega_to)) distance = -distance;
   for (int i = 0; i < TRIES; ++i) {
     if (!hc_monitor_tick(monitor, -1)) return HC_INTERRUPTED;
-    if (try_neighbour(f, omega * (1 + distance), X, &state, monitor, start)) {
+    if (try_neighbour(f, omega * (1 + distance), monitor, start)) {
       at->neighbour = start->neighbour;
       return HC_OK;
     }

@@ -8,8 +8,13 @@
 /* The response curve by harmonic balance, and the exact law's orbits next to it. */
 typedef struct finder {
   scene sc; /* with harmonics and forces of the curve */
+  model *model;
   hbm_solver *hbm;
   hbm_curve curve;
+  int n_states;
+  double *X;                     /* [hbm_n_coefficients] harmonic balance's solution at the frequency under way */
+  double *state, *other, *trial; /* [n_states] on the exact orbit there; for what one function needs */
+  periodic_motion *motion;       /* [n_responses] of the last exact orbit */
 } finder;
 
 /* The curve over the scene's sweep and the asked frequencies. finder_free in any case. */
@@ -19,7 +24,8 @@ void finder_free(finder *f);
 /* Of the scene's compare frequencies the one where the curve's response is largest. */
 hc_status finder_default(finder *f, double *omega);
 
-/* The largest stable response at omega. HC_NOT_CONVERGED: there is none, or no neighbour of it. */
+/* The largest stable response at omega, into *at and *start, which has room. HC_NOT_CONVERGED: there is none, or no
+ * neighbour of it. */
 hc_status finder_frequency(finder *f, double omega, const hc_monitor *monitor, bench_frequency *at, bench_start *start);
 
 #endif

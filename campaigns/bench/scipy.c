@@ -47,13 +47,13 @@ static void fill(arguments *a, const char *python, const scene *sc, const bench_
   a->argv[0] = (char *)(size_t)python;
   a->argv[1] = (char *)(size_t) "-c";
   a->argv[2] = (char *)(size_t)scipy_script;
-  const double head[] = {at->omega, periods,     repeats,       at->state.x, at->state.v,
-                         sc->mass,  sc->damping, sc->stiffness, sc->force};
+  const double head[] = {at->omega,   periods,       repeats,  at->state[TIMEINT_X], at->state[TIMEINT_V], sc->mass,
+                         sc->damping, sc->stiffness, sc->force};
   for (size_t i = 0; i < sizeof head / sizeof *head; ++i) add(a, head[i]);
   for (int j = 0; j < sc->n_contacts; ++j) {
     const contact *law = &sc->contacts[j].law;
     const moving_contact c = scene_moving_contact(&sc->contacts[j]);
-    const double own[] = {at->state.w[j], law->kt, law->kn, law->mu, law->gap, c.cu[0], c.cv[0]};
+    const double own[] = {at->state[TIMEINT_W + j], law->kt, law->kn, law->mu, law->gap, c.cu[0], c.cv[0]};
     for (size_t i = 0; i < sizeof own / sizeof *own; ++i) add(a, own[i]);
   }
 }

@@ -56,16 +56,35 @@ static scene settings_of(const scene *sc, const bench_row *r)
 /* What one solution came to. */
 typedef struct answer {
   hc_status status;
-  periodic_motion motion;
   bool too_long;
 } answer;
 
-static void solve_hbm(timed_method *t, const bench_start *at, double *X, hbm_measures *m, answer *a)
+hc_status bench_start_new(const model *m, hbm_solver *s, bench_start *at)
+{
+  const int width = hbm_n_coefficients(s) / (2 * hbm_n_harmonics(s) + 1);
+  *at = (bench_start){.most_coef = width * (2 * HBM_MAX_HARMONICS + 1),
+                      .n_states = 2 * m->n + m->n_contacts,
+                      .n_responses = m->n_responses};
+  at->X = calloc((size_t)(at->most_coef + at->n_states), sizeof *at->X);
+  at->reference = calloc((size_t)at->n_responses, sizeof *at->reference);
+  at->state = at->X ? at->X + at->most_coef : NULL;
+  return at->X && at->reference ? HC_OK : HC_NO_MEMORY;
+}
+
+void bench_start_free(bench_start *at)
+{
+  free(at->X);
+  free(at->reference);
+  *at = (bench_start){0};
+}
+
+static void solve_hbm(timed_method *t, const bench_start *at, answer *a)
 {
   hbm_point point;
-  memcpy(X, t->X, sizeof t->X);
-  a->status = hbm_solve(t->hbm, at->omega, X, &point);
-  if (a->status == HC_OK) a->status = hbm_measure(t->hbm, X, m);
+  hbm_measures m;
+  memcpy(t->trial, t->X, (size_t)hbm_n_coefficients(t->hbm) * sizeof *t->X);
+  a->status = hbm_solve(t->hbm, at->omega, t->trial, &point);
+  if (a->status == HC_OK) a->status = hbm_measure(t->hbm, t->trial, &m);
 }
 
 static void solve_transient(timed_method *t, const bench_start *at, const hc_monitor *monitor, timeint_result *r,
@@ -74,27 +93,37 @@ static void solve_transient(timed_method *t, const bench_start *at, const hc_mon
   const bool marches = t->sc.transient.steady == TRANSIENT_STEADY_MARCH;
   limit l = {monitor, thread_seconds() + (marches ? bench_longest : bench_longest_shot), false};
   hc_monitor limited = {tick_limit, &l};
-  scene_state state = at->state;
+  memcpy(t->state, at->state, (size_t)at->n_states * sizeof *t->state);
   timeint_forget(t->ti); /* the same solution is asked for again and again */
-  a->status = timeint_steady(t->ti, at->omega, state.all, &limited, r);
+  a->status = timeint_steady(t->ti, at->omega, t->state, &limited, r);
   a->too_long = a->status == HC_INTERRUPTED && !l.stopped;
+}
+
+/* The motion of every response of the last solution. */
+static hc_status find_motions(timed_method *t, const bench_start *at, timeint_result *r)
+{
+  hbm_measures m;
+  hc_status st = HC_OK;
+  for (int i = 0; i < at->n_responses && st == HC_OK; ++i) {
+    if (t->hbm) st = motion_of_response(t->hbm, at->omega, t->trial, i, &m, &t->motion[i]);
+    else if (i == 0 || (st = timeint_response(t->ti, i, r)) == HC_OK) t->motion[i] = motion_of_transient(r);
+  }
+  return st;
 }
 
 /* A batch of solutions; the time of one. */
 static double solve(timed_method *t, const bench_start *at, const hc_monitor *monitor, answer *a)
 {
-  double X[BENCH_MOST_COEF];
-  hbm_measures m;
   timeint_result r;
   *a = (answer){.status = HC_OK};
   const double began = thread_seconds();
   for (int i = 0; i < t->batch; ++i) {
-    if (t->hbm) solve_hbm(t, at, X, &m, a);
+    if (t->hbm) solve_hbm(t, at, a);
     else solve_transient(t, at, monitor, &r, a);
   }
   const double took = thread_seconds() - began;
   t->spent += took;
-  if (a->status == HC_OK) a->motion = t->hbm ? motion_of_solution(&m, t->row->harmonics, X) : motion_of_transient(&r);
+  if (a->status == HC_OK) a->status = find_motions(t, at, &r);
   return took / t->batch;
 }
 
@@ -127,32 +156,47 @@ static hc_status make(const bench_start *at, const hc_monitor *monitor, timed_me
   if (!is_hbm(t->row->method)) return scene_timeint(&t->sc, &t->ti);
   hc_status st = scene_hbm_solver(&t->sc, &t->hbm);
   if (st != HC_OK) return st;
-  memcpy(t->X, at->X, (size_t)(2 * t->row->harmonics + 1) * sizeof *t->X);
+  memcpy(t->X, at->X, (size_t)hbm_n_coefficients(t->hbm) * sizeof *t->X);
   return hbm_solve(t->hbm, at->neighbour, t->X, &point) == HC_OK ? HC_OK : from_own_curve(at, monitor, t);
 }
 
-static void record_answer(const answer *a, const bench_start *at, double took, bench_row *row)
+static void record_answer(const timed_method *t, const answer *a, const bench_start *at, double took, bench_row *row)
 {
-  const periodic_motion *ref = &at->reference;
+  motion_distance worst = {0};
   row->status = a->status;
   row->outcome = a->status == HC_OK ? BENCH_SOLVED : a->too_long ? BENCH_TOO_LONG : BENCH_FAILED;
   if (a->status != HC_OK) return;
-  motion_distance gap = motion_between(&a->motion, ref);
-  if (!(gap.waveform <= other_orbit * ref->amplitude)) row->outcome = BENCH_OTHER_ORBIT;
+  for (int i = 0; i < at->n_responses; ++i) {
+    const motion_distance gap = motion_between(&t->motion[i], &at->reference[i]);
+    if (!(gap.waveform <= worst.waveform)) worst.waveform = gap.waveform; /* NaN stays */
+    if (!(gap.amplitude <= worst.amplitude)) worst.amplitude = gap.amplitude;
+    if (!(gap.harmonic_1 <= worst.harmonic_1)) worst.harmonic_1 = gap.harmonic_1;
+  }
+  if (!(worst.waveform <= other_orbit * at->size)) row->outcome = BENCH_OTHER_ORBIT;
   if (row->outcome != BENCH_SOLVED) return;
-  row->error = discrepancy_relative(gap.amplitude, ref->amplitude);
-  row->error_harmonic_1 = discrepancy_relative(gap.harmonic_1, ref->amplitude);
+  row->error = discrepancy_relative(worst.amplitude, at->size);
+  row->error_harmonic_1 = discrepancy_relative(worst.harmonic_1, at->size);
   row->seconds = took;
+}
+
+static hc_status make_room(const bench_start *at, timed_method *t)
+{
+  t->seconds = calloc((size_t)t->cap, sizeof *t->seconds);
+  t->X = calloc((size_t)(2 * at->most_coef + at->n_states), sizeof *t->X);
+  t->motion = calloc((size_t)at->n_responses, sizeof *t->motion);
+  if (!t->seconds || !t->X || !t->motion) return HC_NO_MEMORY;
+  t->trial = t->X + at->most_coef;
+  t->state = t->trial + at->most_coef;
+  return HC_OK;
 }
 
 hc_status timed_method_start(const scene *sc, const bench_start *at, bench_row *row, int cap, const hc_monitor *monitor,
                              timed_method *t)
 {
   answer a;
-  *t = (timed_method){
-      .row = row, .sc = settings_of(sc, row), .cap = cap, .batch = 1, .seconds = calloc((size_t)cap, sizeof(double))};
-  if (!t->seconds) return HC_NO_MEMORY;
-  hc_status st = make(at, monitor, t);
+  *t = (timed_method){.row = row, .sc = settings_of(sc, row), .cap = cap, .batch = 1};
+  hc_status st = make_room(at, t);
+  if (st == HC_OK) st = make(at, monitor, t);
   if (st == HC_NO_MEMORY || st == HC_INTERRUPTED) return st;
   if (st != HC_OK) {
     row->status = st;
@@ -161,7 +205,7 @@ hc_status timed_method_start(const scene *sc, const bench_start *at, bench_row *
   }
   double took = solve(t, at, monitor, &a);
   if (a.status == HC_NO_MEMORY || (a.status == HC_INTERRUPTED && !a.too_long)) return a.status;
-  record_answer(&a, at, took, row);
+  record_answer(t, &a, at, took, row);
   if (took > timed_method_slow && row->outcome == BENCH_SOLVED) t->seconds[t->runs++] = took; /* is the only one */
   if (took < shortest_run) t->batch = (int)fmin(ceil(shortest_run / fmax(took, 1e-7)), 1000);
   return HC_OK;
@@ -218,6 +262,8 @@ void timed_method_finish(timed_method *t)
     timed_method_quartiles(t->runs, t->seconds, &t->row->low, &t->row->seconds, &t->row->high);
   }
   free(t->seconds);
+  free(t->X);
+  free(t->motion);
   hbm_solver_free(t->hbm);
   timeint_free(t->ti);
   *t = (timed_method){0};

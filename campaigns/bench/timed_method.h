@@ -9,25 +9,32 @@
 #include "hbm/hbm.h"
 #include "timeint/steady.h"
 
-enum { BENCH_MOST_COEF = 2 * HBM_MAX_HARMONICS + 1 };
-
 /* What all methods start from at one frequency. */
-typedef struct bench_start {
+typedef struct bench_start { /* from bench_start_new, to bench_start_free */
   double omega, neighbour;   /* [rad/time] */
-  double X[BENCH_MOST_COEF]; /* [length] HBM solution at the neighbour, as many harmonics as there are, then zeros */
-  scene_state state;         /* on the exact orbit at the neighbour */
-  periodic_motion reference; /* at omega */
+  int most_coef, n_states, n_responses;
+  double *X;     /* [most_coef] [length] HBM solution at the neighbour, as many harmonics as there are, then
+                                 zeros: coefficient by coefficient (hbm_solver.h) */
+  double *state; /* [n_states] on the exact orbit at the neighbour */
+  periodic_motion *reference; /* [n_responses] at omega */
+  double size;                /* [length] the largest amplitude of these: what errors are relative to */
 } bench_start;
+
+/* Room for the harmonic balance of the model; HC_NO_MEMORY, *at is free to free then, too. */
+hc_status bench_start_new(const model *m, hbm_solver *s, bench_start *at);
+void bench_start_free(bench_start *at);
 
 typedef struct timed_method {
   bench_row *row; /* the caller's; settings are read, outcome and errors written */
   scene sc;
   hbm_solver *hbm; /* one of the two */
   timeint *ti;
-  double X[BENCH_MOST_COEF]; /* the HBM method's own solution at the neighbour */
-  double *seconds;           /* [cap] of each run */
-  int runs, cap, batch;      /* batch: solutions a run, so that a run is long enough for the clock */
-  double spent;              /* [s] */
+  double *X, *trial;       /* [most_coef] the HBM method's own solution at the neighbour; the one at omega */
+  double *state;           /* [n_states] */
+  periodic_motion *motion; /* [n_responses] of the last solution */
+  double *seconds;         /* [cap] of each run */
+  int runs, cap, batch;    /* batch: solutions a run, so that a run is long enough for the clock */
+  double spent;            /* [s] */
 } timed_method;
 
 extern const double timed_method_slow; /* [s] of a solution: what takes longer is measured by its first run */

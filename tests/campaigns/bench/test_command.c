@@ -1,7 +1,9 @@
 /* test_command.c - hbmcheck bench as people use it: columns, errors that fall along each family, wrong usage. Times
  * are never judged. */
 #include <stdbool.h>
+#include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "tests/shell.h"
 
@@ -69,6 +71,35 @@ static void errors_fall_along_each_family(void **state)
   assert_non_null(strstr(o.out, "compiler"));
 }
 
+/* A mass on a rubbing foot: its normal motion, here the first response, is linear and free of error to rounding, so
+ * that the error is that of the other: order 3 and more in H, a factor 4 in H is 64, 16 asked. */
+static void errors_are_of_all_responses(void **state)
+{
+  (void)state;
+  char path[] = "/tmp/hbmcheck-bench-XXXXXX", line[256];
+  const int file = mkstemp(path);
+  FILE *to = file >= 0 ? fdopen(file, "w") : NULL;
+  assert_non_null(to);
+  fputs("title: two responses\n"
+        "structure: {mass: [1, 1], damping: [0.34641016151377546, 2], stiffness: [12, 21], names: [along, across]}\n"
+        "forcing: [{dof: across, amplitude: 100, harmonic: 0}, {direction: {along: 50, across: 5}, amplitude: 1}]\n"
+        "contacts: [{tangential_stiffness: 5, normal_stiffness: 21, friction: 0.85, tangent: {along: 1}, "
+        "normal: {across: 1}}]\n"
+        "response: [across, along]\nsweep: {omega: [3, 5.5]}\n",
+        to);
+  fclose(to);
+  snprintf(line, sizeof line, "bench %s --at 4 --repeats 1 --format csv -q --set transient.max_periods=300", path);
+  outcome o = run(line);
+  assert_int_equal(o.code, 0);
+  static const char *const exact[] = {"4,hbm_exact,5,", "4,hbm_exact,20,", "4,hbm_exact,80,"};
+  CHECK_LE(1e-6, error_of(o.out, exact[0]), "the second response's");
+  check_falls(o.out, "hbm_exact", 3, exact, 1.0 / 16);
+  CHECK_LE(error_of(o.out, "4,exact_shooting,,,,9.9999999999999994e-12"), 1e-10, "tolerance 1e-11");
+  CHECK_LE(error_of(o.out, "4,closed_shooting,"), 1e-10, "tolerance 1e-11");
+  assert_non_null(strstr(o.out, "scipy_lsoda: of one degree of freedom only"));
+  remove(path);
+}
+
 /* The smallest error of all rows of a method: what the family comes to. */
 static double best_of(const char *csv, const char *method)
 {
@@ -111,6 +142,7 @@ static void mistakes_are_named(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(errors_fall_along_each_family),
+                                     cmocka_unit_test(errors_are_of_all_responses),
                                      cmocka_unit_test(every_method_comes_near), cmocka_unit_test(mistakes_are_named)};
   check_watchdog(300);
   return cmocka_run_group_tests_name("bench.command", tests, NULL, NULL);
