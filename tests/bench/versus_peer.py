@@ -8,7 +8,7 @@ usage: versus_peer.py nlvib|tmdsimpy FOLDER BUILD [CASE...] [--rounds R] [--samp
   CASE     names of the table SETTINGS below; default: all that the peer can do
 Both solve the file of cases/structures that is named: same M, C, K, contacts, loads and range of omega, H = 7, harmonic 0 kept. The peer
 samples its contacts N times a period (N of the table, or --samples), and is ended after S seconds on the clock (default: never). Its
-points are kept in FOLDER of --keep.
+points are kept in FOLDER of --keep, and as curves for `hbmcheck verify`.
 
 Printed for each case: points; processor time of the whole process and of the solver alone (medians of R rounds, in turns; default 3) and the ratios
 peer/hbmcheck: hbmcheck's curve has exact forces, Floquet multipliers and located special points, the peer's has none of these. Then the
@@ -96,7 +96,7 @@ def read_case(name):
         return v
 
     p = {"n": [n], "M": sum(M, []), "D": sum(matrix(s["damping"], (M, K)), []), "K": sum(K, []), "H": [H], "sweep": [float(w) for w in y["sweep"]["omega"]],
-         "static": [0.0] * n, "force": [0.0] * n, "contacts": [], "elements": [], "responses": [vector(r) for r in y["response"]]}
+         "static": [0.0] * n, "force": [0.0] * n, "contacts": [], "elements": [], "responses": [vector(r) for r in y["response"]], "names": [str(r) for r in y["response"]]}
     for load in y["forcing"]:
         d = vector(load.get("direction", load.get("dof")))
         key = "static" if load.get("harmonic", 1) == 0 else "force"
@@ -156,7 +156,7 @@ def run(command, limit=None):
 
 
 def measures(a):
-    """(amplitude, harmonic 1) of the coefficients a0, a1, b1, ...: (max - min)/2 from 4096 samples, each extreme by Newton from there."""
+    """(amplitude, harmonic 1, norm_over_root_2) of the coefficients a0, a1, b1, ...: (max - min)/2 from 1024 samples, each extreme by Newton from there."""
     def motion(t, order):
         turns = [(1, 0), (0, 1), (-1, 0), (0, -1)][order]
         value = a[0] if order == 0 else 0.0
@@ -172,7 +172,7 @@ def measures(a):
             t -= motion(t, 1) / curvature if curvature else 0
         return motion(t, 0)
 
-    return 0.5 * (extreme(max) - extreme(min)), math.hypot(a[1], a[2])
+    return 0.5 * (extreme(max) - extreme(min)), math.hypot(a[1], a[2]), math.sqrt(0.5 * sum(c * c for c in a))
 
 
 def read_points(path, p):
@@ -188,6 +188,16 @@ def read_points(path, p):
                 motions = [[sum(r[i] * x[k * n + i] for i in range(n)) for k in range(2 * H + 1)] for r in p["responses"]]
                 points.append((omega, [measures(m) for m in motions]))
     return points, total, unsolved, omega
+
+
+def keep_curve(path, peer, name, p, N, points, unsolved):
+    """For hbmcheck verify: omega, and of every response its amplitude and NLvib's RMS."""
+    with open(path, "w") as f:
+        f.write("# %s by %s: H = %d, N = %d; made by tests/bench/versus_peer.py.\n" % (name, peer, H, N))
+        f.write("# Points that do not solve its own equations to %g are left out: %d.\n" % (SOLVED, unsolved))
+        f.write(",".join(["omega", *("%s@%s" % (q, r) for r in p["names"] for q in ("amplitude", "norm_over_root_2"))]) + "\n")
+        for omega, measured in points:
+            f.write(",".join(["%.10g" % omega, *("%.10g,%.10g" % (m[0], m[2]) for m in measured)]) + "\n")
 
 
 def turning_points(hbmcheck, case, settings, n_responses):
@@ -216,7 +226,7 @@ def differences(points, found):
     """Of each point from the nearest solution at its omega: [(difference, omega, mean_free)], None where there is no solution."""
     result = []
     for omega, mine in points:
-        size = max(amplitude for amplitude, _ in mine)
+        size = max(m[0] for m in mine)
         near = [(max(abs(x - y) for a, b in zip(mine, other) for x, y in zip(a, b)) / size, omega, free) for free, other in found.get(omega, [])]
         result.append(min(near, default=None))
     return result
@@ -268,6 +278,7 @@ def versus(peer, command, build, name, rounds, samples, limit, work):
         inner, points_here = run([inside, case, "5", *exact[1::2]])[1].split()
         alone_here.append(float(inner))
     points, total, unsolved, last = read_points(curve, p)
+    keep_curve(os.path.splitext(curve)[0] + ".csv", peer, name, p, N, points, unsolved)
     begin, end = p["sweep"]
     arrived = "" if (last - end) * (end - begin) >= 0 else " and STOPPED at omega %.6g" % last
     print("  points                 %s %d (%s evaluations)%s, hbmcheck %s" % (peer, total, evaluations, arrived, points_here))

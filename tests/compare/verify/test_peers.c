@@ -8,6 +8,9 @@
 #define CLEARANCE "cases/verify/unilateral.yaml"
 #define PRELOADED "cases/verify/unilateral.yaml --set 'contacts[0].gap=0.5'"
 
+#define CHAIN3         "cases/structures/chain3.yaml"
+#define TANGENT_NORMAL "cases/structures/tangent_normal_F100.yaml"
+
 typedef struct peer {
   const char *scene, *file, *quantity;
   int code;
@@ -70,12 +73,31 @@ static void wandered_curves_are_judged(void **state)
   JUDGED(list);
 }
 
+/* H = 7 is too few for chain3, and said to be 7; NLvib's RMS is named where it is called one. tmdsimpy's contact with a
+ * varying normal force, as it should be and with 16 samples. */
+static void structures_are_judged(void **state)
+{
+  (void)state;
+  static const peer list[] = {
+      {CHAIN3, "nlvib_chain3.csv --columns omega=1,rms@3=7", "rms", 1,
+       "too few harmonics, and the values are norms of all harmonics divided by the root of 2 (H = 7; "},
+      {TANGENT_NORMAL, "tmdsimpy_tangent_normal.csv --columns omega=1,amplitude@along=2,amplitude@across=4",
+       "amplitude", 0, "# cause: none"},
+      {TANGENT_NORMAL, "tmdsimpy_tangent_normal.csv --columns omega=1,rms@across=5", "rms", 1,
+       "# cause: norm_over_root_2\n"},
+      {TANGENT_NORMAL, "tmdsimpy_tangent_normal_n16.csv --columns omega=1,amplitude@along=2", "amplitude", 1,
+       "suspected cause: too few samples (H = 7, N = 16; "},
+  };
+  JUDGED(list);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(right_curves_match),
       cmocka_unit_test(wrong_curves_are_named),
       cmocka_unit_test(wandered_curves_are_judged),
+      cmocka_unit_test(structures_are_judged),
   };
   check_watchdog(300);
   return cmocka_run_group_tests_name("verify.peers", tests, NULL, NULL);
