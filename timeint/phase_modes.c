@@ -82,7 +82,7 @@ hc_status phase_modes_new(const modal_base *base, double stiff, phase_modes **ou
   phase_modes *p = calloc(1, sizeof *p); /* zeroed, so free works half-built */
   if (!p) return HC_NO_MEMORY;
   p->base = base;
-  p->stiff = stiff;
+  p->stiff = stiff * fmax(1, pow(base->n / 16.0, 2));
   if (make(p) == HC_OK) {
     *out = p;
     return HC_OK;

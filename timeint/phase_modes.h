@@ -31,7 +31,9 @@ typedef struct complex_modes {
 
 typedef struct phase_modes phase_modes;
 
-/* Fastest rate of a structure over omega from where on modes are less work than series. */
+/* Fastest rate of a structure of up to 16 modes over omega from where on modes are less work than series; of more,
+ * times (n/16)^2. A set of states then takes about as long as a period by series: 3 ms of 16 modes, 24 ms of 32,
+ * 160 ms of 64. */
 #define PHASE_MODES_STIFF 60.0
 
 /* To be used where the fastest rate is more than `stiff` times omega. *out = NULL where that never is: stiff =
