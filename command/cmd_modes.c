@@ -31,46 +31,26 @@ enum {
   N_CONTACT_COLUMNS = sizeof contact_columns / sizeof *contact_columns
 };
 
-/* One linear limit: [n] each. */
-typedef struct limit {
-  double *omega2, *phi;
-} limit;
-
-static hc_status limit_make(const model *m, bool stuck, limit *out)
+/* A mode that is driven away has no frequency; one with 0 to rounding is free. */
+static void put_mode(table *t, const model_mode *mode)
 {
-  const size_t n = (size_t)m->n;
-  *out = (limit){.omega2 = malloc(n * sizeof *out->omega2), .phi = malloc(n * n * sizeof *out->phi)};
-  return out->omega2 && out->phi ? model_modes(m, stuck, out->omega2, out->phi) : HC_NO_MEMORY;
-}
-
-static void limit_clear(limit *l)
-{
-  free(l->omega2);
-  free(l->phi);
-}
-
-/* A mode with omega^2 < 0 is driven away and has no frequency; one with 0 to rounding is free. */
-static void put_limit(table *t, const model *m, const limit *l, int i)
-{
-  const double omega = sqrt(l->omega2[i]), c = model_modal_damping(m, l->phi + (size_t)i * (size_t)m->n);
-  table_put_real(t, omega);
-  table_put_real(t, omega / TWO_PI);
-  table_put_real(t, omega > 0 ? c / (2 * omega) : NAN);
+  table_put_real(t, mode->omega);
+  table_put_real(t, mode->omega / TWO_PI);
+  table_put_real(t, mode->damping);
 }
 
 static hc_status put_modes(const model *m, table *t)
 {
-  limit open = {0}, stuck = {0};
-  hc_status st = limit_make(m, false, &open);
-  if (st == HC_OK) st = limit_make(m, true, &stuck);
+  model_mode *open = calloc(2 * (size_t)m->n, sizeof *open), *stuck = open ? open + m->n : NULL;
+  hc_status st = open ? model_mode_list(m, false, open) : HC_NO_MEMORY;
+  if (st == HC_OK) st = model_mode_list(m, true, stuck);
   for (int i = 0; i < m->n && st == HC_OK; ++i) {
     table_put_integer(t, i + 1);
-    put_limit(t, m, &open, i);
-    put_limit(t, m, &stuck, i);
+    put_mode(t, &open[i]);
+    put_mode(t, &stuck[i]);
   }
-  if (st == HC_OK && open.omega2[0] < 0) table_note(t, "mode 1 is driven away with the contacts open: no frequency");
-  limit_clear(&open);
-  limit_clear(&stuck);
+  if (st == HC_OK && isnan(open[0].omega)) table_note(t, "mode 1 is driven away with the contacts open: no frequency");
+  free(open);
   return st;
 }
 

@@ -64,3 +64,18 @@ hc_status model_find_scales(const model *m, model_scales *out)
   free(phi);
   return st;
 }
+
+hc_status model_mode_list(const model *m, bool stuck, model_mode *modes)
+{
+  const size_t n = (size_t)m->n;
+  double *omega2 = malloc((n + n * n) * sizeof *omega2);
+  if (!omega2) return HC_NO_MEMORY;
+  double *phi = omega2 + n;
+  hc_status st = model_modes(m, stuck, omega2, phi);
+  for (size_t i = 0; i < n && st == HC_OK; ++i) {
+    const double omega = sqrt(omega2[i]), c = model_modal_damping(m, phi + i * n);
+    modes[i] = (model_mode){omega, omega > 0 ? c / (2 * omega) : NAN};
+  }
+  free(omega2);
+  return st;
+}

@@ -9,6 +9,15 @@
  * HC_NO_MEMORY; HC_SINGULAR if M is not positive definite; HC_NOT_CONVERGED. */
 hc_status model_modes(const model *m, bool stuck, double *omega2, double *phi);
 
+/* A mode of one of the two limits. */
+typedef struct model_mode {
+  double omega;   /* [rad/time] NaN where the structure is driven away */
+  double damping; /* [1] of critical; NaN without a frequency */
+} model_mode;
+
+/* modes[n], ascending. HC_NO_MEMORY, and the errors of model_modes. */
+hc_status model_mode_list(const model *m, bool stuck, model_mode *modes);
+
 /* phi^T C phi [1/time] of a mode with phi^T M phi = 1: twice its damping ratio times omega. */
 double model_modal_damping(const model *m, const double *phi);
 

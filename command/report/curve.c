@@ -5,6 +5,7 @@
 #include <stdio.h>
 
 #include "campaigns/scene_solvers.h"
+#include "cases/structure_model.h"
 #include "compare/frequencies.h"
 #include "compare/response.h"
 
@@ -53,9 +54,9 @@ static void append_specials(hbm_solver *s, const hbm_curve *c, json_t *list)
   }
 }
 
-/* The curve of sc over the comparison's frequencies; specials may be NULL. */
-static hc_status append_curve(const scene *sc, const comparison *c, const hc_monitor *monitor, json_t *columns,
-                              json_t *specials)
+/* The curve of sc over the comparison's frequencies, columns[n] of n responses; specials may be NULL. */
+static hc_status append_curve(const scene *sc, const comparison *c, const hc_monitor *monitor, int n,
+                              json_t *const *columns, json_t *specials)
 {
   hbm_solver *s = NULL;
   hbm_curve curve = {0};
@@ -68,7 +69,10 @@ static hc_status append_curve(const scene *sc, const comparison *c, const hc_mon
   if (st == HC_OK) st = hbm_trace(s, from, to, monitor, &curve);
   for (int k = 0; k < curve.n; ++k) {
     response_row row;
-    if (response_row_of(s, &curve, k, &row) == HC_OK) append_point(columns, &row);
+    if (response_row_of(s, &curve, k, &row) != HC_OK) continue;
+    append_point(columns[0], &row);
+    for (int r = 1; r < n; ++r)
+      if (response_row_turn(s, &curve, k, r, &row) == HC_OK) append_point(columns[r], &row);
   }
   if (s && specials) append_specials(s, &curve, specials);
   hbm_curve_free(&curve);
@@ -76,8 +80,8 @@ static hc_status append_curve(const scene *sc, const comparison *c, const hc_mon
   return st == HC_INTERRUPTED || st == HC_NO_MEMORY ? st : HC_OK;
 }
 
-/* What time integration came to in the rows of the comparison. */
-static json_t *transient_rows(const comparison *c)
+/* What time integration came to in the rows of the comparison, of one response. */
+static json_t *transient_rows(const comparison *c, int response)
 {
   json_t *list = json_array();
   for (int i = 0; i < c->n_rows; ++i) {
@@ -85,7 +89,7 @@ static json_t *transient_rows(const comparison *c)
     char text[24];
     bool moved =
         r->transient_status == HC_OK || r->transient_status == HC_NOT_SETTLED || r->transient_status == HC_APERIODIC;
-    if (!moved) continue;
+    if (!moved || r->response != response) continue;
     comparison_verdict_text(r, text);
     json_array_append_new(list, json_pack("{s:f, s:o, s:o, s:o, s:b, s:i, s:s, s:o}", "omega", r->omega, "amplitude",
                                           number(r->transient.amplitude), "harmonic_1", number(r->transient.harmonic_1),
@@ -95,15 +99,28 @@ static json_t *transient_rows(const comparison *c)
   return list;
 }
 
-hc_status curve_json(const scene *sc, const comparison *c, const hc_monitor *monitor, json_t **out)
+/* What is shown of one response. */
+static json_t *response_object(const scene *sc, const comparison *c, int r, json_t *curve, json_t *turned,
+                               json_t *specials)
 {
-  json_t *curve = json_object(), *other = json_object(), *specials = json_array();
+  return json_pack("{s:o, s:o, s:b, s:o, s:o}", "curve", curve, "turned", turned, "mean_kept", (int)sc->hbm.keep_mean,
+                   "specials", specials, "transient", transient_rows(c, r));
+}
+
+hc_status curve_json(const scene *sc, const comparison *c, const hc_monitor *monitor, json_t **out, json_t **others)
+{
+  enum { MOST = CURVE_MOST_RESPONSES };
+  json_t *curve[MOST], *turned[MOST], *specials = json_array();
   scene other_mean = *sc; /* with harmonic 0 dropped if *sc keeps it, and the other way round */
+  const int all = sc->structure ? structure_response_count(sc->structure) : 1, n = all < MOST ? all : MOST;
   other_mean.hbm.keep_mean = !sc->hbm.keep_mean;
-  hc_status st = append_curve(sc, c, monitor, curve, specials);
-  if (st == HC_OK) st = append_curve(&other_mean, c, monitor, other, NULL);
-  *out = json_pack("{s:o, s:o, s:b, s:o, s:o}", "curve", curve, "turned", other, "mean_kept", (int)sc->hbm.keep_mean,
-                   "specials", specials, "transient", transient_rows(c));
-  if (st == HC_OK && !*out) st = HC_NO_MEMORY;
+  for (int r = 0; r < n; ++r) curve[r] = json_object(), turned[r] = json_object();
+  hc_status st = append_curve(sc, c, monitor, n, curve, specials);
+  if (st == HC_OK) st = append_curve(&other_mean, c, monitor, n, turned, NULL);
+  *out = response_object(sc, c, 0, curve[0], turned[0], specials);
+  *others = json_array();
+  for (int r = 1; r < n; ++r)
+    json_array_append_new(*others, response_object(sc, c, r, curve[r], turned[r], json_array()));
+  if (st == HC_OK && (!*out || json_array_size(*others) + 1 != (size_t)n)) st = HC_NO_MEMORY;
   return st;
 }

@@ -8,9 +8,12 @@
 #include "cases/scene.h"
 #include "compare/comparison.h"
 
-/* {curve: columns of points; turned: the same, with harmonic 0 dropped if the scene keeps it, else kept; specials;
- * transient: the rows' results}, read by response.js. A curve that stops early is shown as far as it goes.
- * HC_INTERRUPTED, HC_NO_MEMORY. */
-hc_status curve_json(const scene *sc, const comparison *c, const hc_monitor *monitor, json_t **out);
+enum { CURVE_MOST_RESPONSES = 12 };
+
+/* Of the first response, and into *others a list of the same for the others of a structure, up to
+ * CURVE_MOST_RESPONSES in all (special points are the first one's): {curve: columns of points; turned: the same, with
+ * harmonic 0 dropped if the scene keeps it, else kept; specials; transient: the rows' results}, read by response.js. A
+ * curve that stops early is shown as far as it goes. HC_INTERRUPTED, HC_NO_MEMORY. */
+hc_status curve_json(const scene *sc, const comparison *c, const hc_monitor *monitor, json_t **out, json_t **others);
 
 #endif

@@ -2,28 +2,29 @@
 
 const parts = ['aliasing', 'truncation', 'regularisation', 'integration', 'settling'];
 const least = 1e-12;
-const budgetLabels = data.budget.map(r => show(along(r.omega), 7) + ' (' + r.branch + ')');
+const budgetRows = () => data.budget.filter(r => (r.response || 0) === chosenResponse());
+const budgetLabels = () => budgetRows().map(r => show(along(r.omega), 7) + ' (' + r.branch + ')');
 
 function budgetSets() {
   const bars = parts.map((part, i) => ({
     label: part,
-    data: data.budget.map((r, j) => ({x: j, y: r[part] > least ? r[part] : NaN})),
+    data: budgetRows().map((r, j) => ({x: j, y: r[part] > least ? r[part] : NaN})),
     backgroundColor: colour(i),
     barPercentage: 1,
     categoryPercentage: 0.8,
     base: least
   }));
-  const gate = budgetLabels.map((l, x) => ({x, y: data.gate}));
+  const gate = budgetLabels().map((l, x) => ({x, y: data.gate}));
   const look = {type: 'line', borderColor: theme.ink, borderDash: [5, 4], borderWidth: 1, pointRadius: 0};
   return bars.concat([Object.assign({label: 'gate', data: gate}, look)]);
 }
 
 function startBudget() {
   const title = {display: true, text: alongTitle + ' (branch)'};
-  const x = {type: 'category', labels: budgetLabels, title, grid: {display: false}, min: 0};
-  x.max = Math.max(0, budgetLabels.length - 1);
+  const x = {type: 'category', labels: budgetLabels(), title, grid: {display: false}, min: 0};
+  x.max = Math.max(0, budgetLabels().length - 1);
   const y = axis('part of the relative error [1]', 'logarithmic', {min: least, max: 1});
-  const words = item => item.dataset.label + ' ' + show(item.raw.y, 3) + ' at ' + budgetLabels[item.raw.x];
+  const words = item => item.dataset.label + ' ' + show(item.raw.y, 3) + ' at ' + budgetLabels()[item.raw.x];
   plot('budget', 'bar', budgetSets, {x, y}, words);
 }
 

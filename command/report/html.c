@@ -90,18 +90,18 @@ static void write_cell(FILE *to, const row_cell *c)
   else html_cell_number(to, c->as.real);
 }
 
-void html_rows(FILE *to, const char *caption, rows_kind kind, bool in_cycles, int n, const void *rows, html_fill *fill,
+void html_rows(FILE *to, const char *caption, rows_kind kind, unsigned extra, int n, const void *rows, html_fill *fill,
                const char *const *without)
 {
   int n_columns;
-  const table_column *columns = rows_columns(kind, in_cycles, &n_columns);
+  const table_column *columns = rows_columns(kind, extra, &n_columns);
   html_table(to, caption);
   for (int j = 0; j < n_columns; ++j)
     if (!is_among(columns[j].name, without)) html_head(to, columns[j].name);
   fputs("</tr></thead><tbody>", to);
   for (int i = 0; i < n; ++i) {
     row_cell cells[ROWS_MOST];
-    fill(rows, i, in_cycles, cells);
+    fill(rows, i, extra, cells);
     html_row(to);
     for (int j = 0; j < n_columns; ++j)
       if (!is_among(columns[j].name, without)) write_cell(to, &cells[j]);

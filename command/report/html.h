@@ -27,8 +27,8 @@ void html_cell_bar(FILE *to, double value, double limit);
 void html_table_end(FILE *to);
 
 /* All rows of a kind, row(i) filling the cells; columns named in `without` (ending in NULL, or NULL) are left out. */
-typedef void html_fill(const void *rows, int i, bool in_cycles, row_cell *cells);
-void html_rows(FILE *to, const char *caption, rows_kind kind, bool in_cycles, int n, const void *rows, html_fill *fill,
+typedef void html_fill(const void *rows, int i, unsigned extra, row_cell *cells);
+void html_rows(FILE *to, const char *caption, rows_kind kind, unsigned extra, int n, const void *rows, html_fill *fill,
                const char *const *without);
 
 /* JSON that may stand in a script element: no "<" in it. HC_NO_MEMORY, HC_OK. */

@@ -7,6 +7,7 @@
 #include "command/report/assets.h"
 #include "command/report/html.h"
 #include "command/report/words.h"
+#include "model/modes.h"
 
 typedef struct page {
   const report_data *d;
@@ -55,22 +56,32 @@ static void write_case(page *p)
 
 /* ---- tables ---------------------------------------------------------------------------------- */
 
-static void fill_compare(const void *rows, int i, bool in_cycles, row_cell *cells)
+static unsigned extra_columns(const scene *sc)
 {
-  rows_compare((const comparison_row *)rows + i, in_cycles, cells);
+  return (sc->in_cycles ? ROWS_IN_CYCLES : 0u) | (sc->structure ? ROWS_RESPONSES : 0u);
 }
-static void fill_accuracy(const void *rows, int i, bool in_cycles, row_cell *cells)
+
+static void fill_compare(const void *rows, int i, unsigned extra, row_cell *cells)
 {
-  rows_accuracy((const accuracy_row *)rows + i, in_cycles, cells);
+  rows_compare((const comparison_row *)rows + i, extra, cells);
 }
-static void fill_order(const void *rows, int i, bool in_cycles, row_cell *cells)
+static void fill_accuracy(const void *rows, int i, unsigned extra, row_cell *cells)
 {
-  rows_order((const order_row *)rows + i, in_cycles, cells);
+  rows_accuracy((const accuracy_row *)rows + i, extra, cells);
+}
+static void fill_order(const void *rows, int i, unsigned extra, row_cell *cells)
+{
+  rows_order((const order_row *)rows + i, extra, cells);
+}
+
+static void fill_contact(const void *rows, int i, unsigned extra, row_cell *cells)
+{
+  rows_compare_contact((const contact_comparison *)rows + i, extra, cells);
 }
 
 static void write_compare(page *p)
 {
-  html_rows(p->to, "Every column, as hbmcheck compare prints it", ROWS_COMPARE, p->d->sc->in_cycles,
+  html_rows(p->to, "Every column, as hbmcheck compare prints it", ROWS_COMPARE, extra_columns(p->d->sc),
             p->d->comparison.n_rows, p->d->comparison.rows, fill_compare, NULL);
 }
 
@@ -78,13 +89,13 @@ static void write_accuracy(page *p)
 {
   static const char *const without[] = {"seconds", NULL}; /* the same input is to give the same page */
   html_rows(p->to, "Samples and truncation order: errors relative to the exact transient's orbits", ROWS_ACCURACY,
-            p->d->sc->in_cycles, p->d->accuracy.n_rows, p->d->accuracy.rows, fill_accuracy, without);
+            extra_columns(p->d->sc), p->d->accuracy.n_rows, p->d->accuracy.rows, fill_accuracy, without);
 }
 
 static void write_orders(page *p)
 {
-  html_rows(p->to, "Observed orders: error ~ quantity^-order (regularisation^order)", ROWS_ORDER, p->d->sc->in_cycles,
-            p->d->accuracy.n_orders, p->d->accuracy.orders, fill_order, NULL);
+  html_rows(p->to, "Observed orders: error ~ quantity^-order (regularisation^order)", ROWS_ORDER,
+            extra_columns(p->d->sc), p->d->accuracy.n_orders, p->d->accuracy.orders, fill_order, NULL);
 }
 
 static void write_budget_row(FILE *to, const comparison_row *r, const scene *sc)
@@ -95,6 +106,7 @@ static void write_budget_row(FILE *to, const comparison_row *r, const scene *sc)
   html_cell_number(to, r->omega);
   if (sc->in_cycles) html_cell_number(to, scene_frequency(sc, r->omega));
   html_cell_number(to, r->branch >= 0 ? r->branch : NAN);
+  if (sc->structure) html_cell_text(to, r->response_name);
   html_cell_text(to, comparison_verdict_text(r, text));
   html_cell_number(to, r->branch >= 0 && r->hbm_status == HC_OK ? r->hbm.amplitude : NAN);
   bool moved =
@@ -111,13 +123,15 @@ static void write_budget_row(FILE *to, const comparison_row *r, const scene *sc)
 
 static void write_budget(page *p)
 {
-  static const char *const heads[] = {"branch", "verdict", "hbm_amplitude", "transient_amplitude", "amplitude_error"};
+  static const char *const heads[] = {"verdict", "hbm_amplitude", "transient_amplitude", "amplitude_error"};
   html_table(
       p->to,
       "Verdict and error budget of the amplitude, relative; bars: 1e-12 to 1, logarithmic; red: beyond the gate");
   html_head(p->to, "omega");
   if (p->d->sc->in_cycles) html_head(p->to, "frequency");
-  for (int i = 0; i < 5; ++i) html_head(p->to, heads[i]);
+  html_head(p->to, "branch");
+  if (p->d->sc->structure) html_head(p->to, "response");
+  for (int i = 0; i < 4; ++i) html_head(p->to, heads[i]);
 #define HEAD(part) html_head(p->to, "from_" #part);
   BUDGET_PARTS(HEAD)
 #undef HEAD
@@ -157,6 +171,51 @@ static void write_specials(page *p)
   html_table_end(p->to);
 }
 
+/* ---- the structure --------------------------------------------------------------------------- */
+
+/* For page.css: what is of one degree of freedom alone, or of several, is shown for that alone. */
+static void write_kind(page *p) { fputs(p->d->sc->structure ? "structure" : "oscillator", p->to); }
+
+/* omega or frequency as the case has it, and damping of one limit. */
+static void write_mode(page *p, const model_mode *mode)
+{
+  html_cell_number(p->to, p->d->sc->in_cycles ? scene_frequency(p->d->sc, mode->omega) : mode->omega);
+  html_cell_number(p->to, mode->damping);
+}
+
+static void write_modes(page *p)
+{
+  const model *m = p->d->setup.model;
+  static const char *const of_omega[] = {"mode", "omega_open", "damping_open", "omega_stuck", "damping_stuck"},
+                           *const of_cycles[] = {"mode", "frequency_open", "damping_open", "frequency_stuck",
+                                                 "damping_stuck"};
+  if (!p->d->sc->structure) return;
+  model_mode *open = calloc(2 * (size_t)m->n, sizeof *open);
+  hc_status st = open ? model_mode_list(m, false, open) : HC_NO_MEMORY;
+  if (st == HC_OK) st = model_mode_list(m, true, open + m->n);
+  html_table(p->to, "Modes, contacts open and contacts stuck; damping of critical");
+  for (int i = 0; i < 5; ++i) html_head(p->to, p->d->sc->in_cycles ? of_cycles[i] : of_omega[i]);
+  fputs("</tr></thead><tbody>", p->to);
+  for (int i = 0; i < m->n && st == HC_OK; ++i) {
+    html_row(p->to);
+    html_cell_number(p->to, i + 1);
+    write_mode(p, &open[i]);
+    write_mode(p, &open[m->n + i]);
+    fputs("</tr>", p->to);
+  }
+  html_table_end(p->to);
+  free(open);
+  if (st == HC_NO_MEMORY) p->status = st;
+  else if (st != HC_OK) html_printf(p->to, "The modes were not found: %s.", hc_status_text(st));
+}
+
+static void write_contacts(page *p)
+{
+  if (p->d->sc->structure)
+    html_rows(p->to, "Contacts over one period, on both sides; work: what friction dissipates", ROWS_COMPARE_CONTACT,
+              extra_columns(p->d->sc), p->d->comparison.n_contacts, p->d->comparison.contacts, fill_contact, NULL);
+}
+
 /* ---- data for the plots ---------------------------------------------------------------------- */
 
 static json_t *number(double value) { return isfinite(value) ? json_real(value) : json_null(); }
@@ -169,6 +228,7 @@ static json_t *budget_json(const comparison *c)
     if (!r->budget.known) continue;
     json_t *row =
         json_pack("{s:f, s:i, s:o}", "omega", r->omega, "branch", r->branch, "sum", number(r->budget.amplitude.sum));
+    if (r->response > 0) json_object_set_new(row, "response", json_integer(r->response));
 #define PUT(part) json_object_set_new(row, #part, number(r->budget.amplitude.part));
     BUDGET_PARTS(PUT)
 #undef PUT
@@ -193,10 +253,11 @@ static json_t *accuracy_json(const accuracy *a)
 static void write_data(page *p)
 {
   const scene *sc = p->d->sc;
-  json_t *data = json_pack("{s:{s:s, s:s, s:s}, s:b, s:f, s:O, s:O, s:o, s:o}", "units", "length", sc->unit_length,
-                           "force", sc->unit_force, "time", sc->unit_time, "cycles", (int)sc->in_cycles, "gate",
-                           sc->gate.most.amplitude, "response", p->d->response, "aliasing", p->d->aliasing, "budget",
-                           budget_json(&p->d->comparison), "accuracy", accuracy_json(&p->d->accuracy));
+  json_t *data =
+      json_pack("{s:{s:s, s:s, s:s}, s:b, s:f, s:O, s:O, s:O, s:o, s:o}", "units", "length", sc->unit_length, "force",
+                sc->unit_force, "time", sc->unit_time, "cycles", (int)sc->in_cycles, "gate", sc->gate.most.amplitude,
+                "response", p->d->response, "structure", p->d->structure, "aliasing", p->d->aliasing, "budget",
+                budget_json(&p->d->comparison), "accuracy", accuracy_json(&p->d->accuracy));
   if (!data || html_json(p->to, data) != HC_OK) p->status = HC_NO_MEMORY;
   json_decref(data);
 }
@@ -213,6 +274,7 @@ static const struct piece {
     {"gate", write_gate},         {"case", write_case},         {"compare", write_compare},
     {"accuracy", write_accuracy}, {"orders", write_orders},     {"budget", write_budget},
     {"specials", write_specials}, {"data", write_data},         {"chart_version", write_chart_version},
+    {"kind", write_kind},         {"modes", write_modes},       {"contacts", write_contacts},
 };
 
 static void write_piece(page *p, const char *name, size_t length)

@@ -2,10 +2,14 @@
 #include "command/report/report.h"
 
 #include <math.h>
+#include <stdio.h>
+
+#include "cases/structure_model.h"
 
 #include "command/report/aliasing.h"
 #include "command/report/assets.h"
 #include "command/report/curve.h"
+#include "command/report/structure.h"
 
 bool report_has_charts(void) { return asset_chart.length > 0; }
 
@@ -42,10 +46,20 @@ static hc_status gather_aliasing(const scene *sc, const hc_monitor *monitor, rep
 {
   double omega[ALIASING_MOST_OMEGAS];
   int first, n = choose_omegas(&out->comparison, omega, &first);
-  if (n > 0 && sc->n_contacts > 0)
+  if (n > 0 && !sc->structure && sc->n_contacts > 0) /* the page solves one degree of freedom */
     return aliasing_states(sc, n, omega, first, out->setup.jobs, monitor, &out->aliasing);
   out->aliasing = json_null();
   return HC_OK;
+}
+
+/* What a structure's responses and contacts are called. */
+static void name_rows(const scene *sc, comparison *c)
+{
+  if (!sc->structure) return;
+  for (int i = 0; i < c->n_rows; ++i)
+    structure_response_name(sc->structure, c->rows[i].response, c->rows[i].response_name, RESPONSE_NAME);
+  for (int i = 0; i < c->n_contacts; ++i)
+    snprintf(c->contacts[i].name, RESPONSE_NAME, "%s", scene_contact_at(sc, c->contacts[i].contact)->name);
 }
 
 static void announce_stage(void (*announce)(void *, const char *), void *self, const char *stage)
@@ -60,10 +74,15 @@ hc_status report_gather(const scene *sc, int jobs, const hc_monitor *monitor,
   announce_stage(announce, self, "comparing");
   hc_status st = scene_setup(sc, &out->setup);
   out->setup.jobs = jobs;
+  out->setup.contacts = sc->structure != NULL;
   if (st == HC_OK) st = comparison_run(&out->setup, monitor, &out->comparison);
   if (st != HC_OK) return st;
+  name_rows(sc, &out->comparison);
   announce_stage(announce, self, "response curve");
-  st = curve_json(sc, &out->comparison, monitor, &out->response);
+  json_t *others = NULL;
+  st = curve_json(sc, &out->comparison, monitor, &out->response, &others);
+  if (st == HC_OK) st = structure_json(sc, &out->comparison, others, monitor, &out->structure);
+  json_decref(others);
   if (st != HC_OK) return st;
   announce_stage(announce, self, "aliasing");
   st = gather_aliasing(sc, monitor, out);
@@ -76,6 +95,7 @@ hc_status report_gather(const scene *sc, int jobs, const hc_monitor *monitor,
 void report_clear(report_data *d)
 {
   json_decref(d->response);
+  json_decref(d->structure);
   json_decref(d->aliasing);
   accuracy_clear(&d->accuracy);
   comparison_clear(&d->comparison);

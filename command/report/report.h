@@ -23,9 +23,10 @@ typedef struct report_data {
   compare_setup setup; /* made from it */
   comparison comparison;
   accuracy accuracy;
-  hc_status tabled; /* status of the tables; the rows found are shown whatever it is */
-  json_t *response; /* the curve and what stands on it (curve.h) */
-  json_t *aliasing; /* precomputed states (aliasing.h); JSON null without contacts */
+  hc_status tabled;  /* status of the tables; the rows found are shown whatever it is */
+  json_t *response;  /* the curve and what stands on it, of the first response (curve.h) */
+  json_t *structure; /* other responses, shapes and contacts (structure.h); JSON null for one degree of freedom */
+  json_t *aliasing;  /* precomputed states (aliasing.h); JSON null without contacts */
 } report_data;
 
 /* How the page was made, for its last section. UTF-8; escaped by report_write. */

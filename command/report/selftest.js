@@ -153,7 +153,7 @@ function tryScheme() {
   for (const [isDark, wanted] of [[true, dark], [false, light], [was === dark, was]]) {
     change(isDark);
     trial.check(theme === wanted, 'the colours follow the scheme');
-    for (const name of ['response', 'budget', 'accuracy'].filter(n => charts[n].data.datasets.length)) {
+    for (const name of ['response', 'budget', 'accuracy'].filter(n => charts[n] && charts[n].data.datasets.length)) {
       const ticks = charts[name].scales.y.options.ticks.color;
       trial.check(ticks === wanted.ink, 'the ink of plot ' + name + ' follows the scheme: ' + ticks);
     }
@@ -284,6 +284,36 @@ function tryWords() {
     }
 }
 
+/* Every response, solution and contact can be chosen; the words tell the work that the loop encloses. */
+function tryStructure() {
+  const s = data.structure;
+  if (s.responses.length) {
+    trial.changes('response', () => trial.set('of-response', 1), 'another response');
+    trial.check(data.response === s.responses[0], 'section 2 has the response chosen');
+    trial.set('of-response', 0);
+  }
+  trial.changes('shape', () => trial.set('shape', 'phases'), 'harmonic 1');
+  trial.set('shape', 'amplitude');
+  const first = $('solution').value;
+  s.solutions.forEach((solution, i) => {
+    trial.set('solution', i);
+    const rows = $('shape-table').tBodies[0].rows;
+    trial.check(rows.length === s.dofs.length, 'the shape has a row for each degree of freedom');
+    trial.check(rows[0].cells[1].textContent === show(solution.amplitude[0], 6), 'and its amplitudes');
+    solution.loops.forEach((loop, j) => {
+      trial.set('contact', j);
+      const shown = charts.loops.data.datasets;
+      trial.check(shown.length === 1 && shown[0].data.length === loop.x.length, 'one loop is shown');
+      const {x, y} = charts.loops.options.scales;
+      const inside = loop.x.every(v => v >= x.min && v <= x.max) && loop.y.every(v => v >= y.min && v <= y.max);
+      trial.check(inside, 'and all of it');
+      trial.check($('structure-words').textContent.includes(s.contacts[j] + ': ' + show(loop.work, 4)), 'its work is told');
+    });
+    trial.set('contact', 'all');
+  });
+  trial.set('solution', first);
+}
+
 function selfTest() {
   for (const name of Object.keys(charts)) trial.check(pixelsOf(name).drawn > 1000, 'plot ' + name + ' is drawn');
   tryResponse();
@@ -291,6 +321,7 @@ function selfTest() {
   tryPaper();
   if (data.accuracy.length)
     trial.changes('accuracy', () => trial.set('measure', 'false_turning_points'), 'the measure');
+  if (data.structure && data.structure.solutions.length) tryStructure();
   if (alias) {
     trySliders();
     tryWords();

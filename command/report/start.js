@@ -3,7 +3,8 @@
 startResponse();
 startBudget();
 startAccuracy();
-startAliasing();
+if (data.structure) startStructure();
+else startAliasing();
 followScheme();
 
 if (location.hash === '#selftest') {

@@ -11,11 +11,11 @@
 #define DARK "--blink-settings=preferredColorScheme=0" /* a reader whose scheme is dark */
 
 /* `scheme`: DARK, or "". */
-static void open_page(const char *folder, const char *set, int code, const char *scheme)
+static void open_page(const char *folder, const char *of, const char *set, int code, const char *scheme)
 {
   char args[1024], path[96];
   size_t length;
-  snprintf(args, sizeof args, "report " CASE2 SMALL "%s -o %s/page.html 2>&1", set, folder);
+  snprintf(args, sizeof args, "report %s%s -o %s/page.html 2>&1", of, set, folder);
   outcome o = run_program(HBMCHECK_COMMAND, args);
   assert_int_equal(o.code, code);
   snprintf(args, sizeof args,
@@ -62,7 +62,9 @@ static void every_plot_is_drawn_and_every_control_works(void **state)
   }
   make_folder(folder);
   for (size_t i = 0; i < sizeof pages / sizeof *pages; ++i)
-    open_page(folder, pages[i].set, pages[i].code, pages[i].scheme);
+    open_page(folder, CASE2 SMALL, pages[i].set, pages[i].code, pages[i].scheme);
+  open_page(folder, "cases/structures/jenkins2.yaml -q ", "--at 24,25.9 --harmonics 5 --samples 64,256", 1, DARK);
+  open_page(folder, "cases/structures/stop2.yaml -q ", "--at 0.6 --harmonics 5 --samples 64", 1, "");
   snprintf(line, sizeof line, "-rf %s", folder);
   run_program("rm", line);
 }

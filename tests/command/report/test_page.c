@@ -194,6 +194,58 @@ static void linear_cases_have_a_page(void **state)
   }
 }
 
+/* The area that a loop encloses, by the trapezoidal rule. */
+static double area(const json_t *loop)
+{
+  const json_t *x = json_object_get(loop, "x"), *y = json_object_get(loop, "y");
+  double sum = 0;
+  for (size_t i = 1; i < json_array_size(x); ++i)
+    sum += 0.5 * (json_number_value(json_array_get(y, i)) + json_number_value(json_array_get(y, i - 1))) *
+           (json_number_value(json_array_get(x, i)) - json_number_value(json_array_get(x, i - 1)));
+  return sum;
+}
+
+/* The loop of a slider that slips encloses the work that is told; chords cut what lies between two of 240 samples at
+ * each of its four corners, (2 pi/240)^2/2 of the amplitude at the most: 1.4e-3 in all of a loop as wide as that, and
+ * this one's slip is a third of its width. A structure has no section on aliasing, one degree of freedom no other
+ * responses. */
+static void a_structure_shows_its_shape_and_its_loops(void **state)
+{
+  (void)state;
+  char folder[64], args[512], path[96];
+  size_t length;
+  make_folder(folder);
+  snprintf(path, sizeof path, "%s/page.html", folder);
+  snprintf(args, sizeof args,
+           "report cases/structures/jenkins2.yaml -q --set contacts[0].friction=0.3 --set hbm.harmonics=15 --at 25.9 "
+           "--harmonics 5 --samples 64 -o %s 2>&1",
+           path);
+  expect(args, 0, "");
+  char *page = contents(path, &length);
+  json_t *data = data_of(page), *structure = json_object_get(data, "structure"),
+         *solution = json_array_get(json_object_get(structure, "solutions"), 0),
+         *loop = json_array_get(json_object_get(solution, "loops"), 0);
+  assert_int_equal(json_array_size(json_object_get(structure, "responses")), 1);
+  assert_string_equal(json_string_value(json_array_get(json_object_get(structure, "dofs"), 1)), "root");
+  assert_string_equal(json_string_value(json_object_get(loop, "of")), "T over u");
+  const double work = json_number_value(json_object_get(loop, "work"));
+  CHECK_LE(1e-3, work, "it slips");
+  CHECK_LE(fabs(area(loop) - work), 5e-3 * work, "area %g, work %g", area(loop), work);
+  const json_t *first = json_array_get(json_object_get(json_object_get(data, "response"), "transient"), 0);
+  const double amplitude = json_number_value(json_array_get(json_object_get(solution, "amplitude"), 0)),
+               transient = json_number_value(json_object_get(first, "amplitude"));
+  CHECK_LE(fabs(amplitude - transient), 1e-3 * transient, "the tip's bar and its transient");
+  assert_non_null(strstr(page, "<body class=\"structure\">"));
+  assert_non_null(strstr(page, "<th scope=\"col\">damping_<wbr>stuck</th>"));
+  assert_non_null(strstr(page, "<th scope=\"col\">transient_<wbr>work</th>"));
+  assert_int_equal(json_array_size(json_object_get(data, "accuracy")), 2); /* exact, and 64 samples */
+  assert_true(json_is_null(json_object_get(data, "aliasing")));
+  json_decref(data);
+  free(page);
+  unlink(path);
+  rmdir(folder);
+}
+
 /* A page of these settings holds these words. */
 static void expect_words(const char *set, int code, const char *const *words)
 {
@@ -306,15 +358,11 @@ int main(void)
 {
   static const struct CMUnitTest without[] = {cmocka_unit_test(missing_charts_are_named)};
   static const struct CMUnitTest with[] = {
-      cmocka_unit_test(page_is_small_and_complete),
-      cmocka_unit_test(sampled_mean_is_what_folds_onto_it),
-      cmocka_unit_test(hostile_titles_are_text),
-      cmocka_unit_test(linear_cases_have_a_page),
-      cmocka_unit_test(failures_touch_no_file),
-      cmocka_unit_test(disagreement_is_said),
-      cmocka_unit_test(cycles_are_spoken_where_the_sweep_is_in_cycles),
-      cmocka_unit_test(what_is_not_unique_is_said),
-      cmocka_unit_test(advice_on_samples_knows_the_forces_in_use),
+      cmocka_unit_test(page_is_small_and_complete), cmocka_unit_test(sampled_mean_is_what_folds_onto_it),
+      cmocka_unit_test(hostile_titles_are_text),    cmocka_unit_test(a_structure_shows_its_shape_and_its_loops),
+      cmocka_unit_test(linear_cases_have_a_page),   cmocka_unit_test(failures_touch_no_file),
+      cmocka_unit_test(disagreement_is_said),       cmocka_unit_test(cycles_are_spoken_where_the_sweep_is_in_cycles),
+      cmocka_unit_test(what_is_not_unique_is_said), cmocka_unit_test(advice_on_samples_knows_the_forces_in_use),
   };
   check_watchdog(600);
   return HAVE_CHARTJS ? cmocka_run_group_tests_name("compare_report.page", with, NULL, NULL)

@@ -1,0 +1,228 @@
+/* structure.c - see structure.h. The responses of the model that is solved here are its degrees of freedom, and then
+ * the contacts' u and v. */
+#include "command/report/structure.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/constants.h"
+#include "cases/structure_model.h"
+#include "compare/first_guess.h"
+#include "compare/frequencies.h"
+#include "hbm/hbm.h"
+#include "numerics/series.h"
+
+enum { MOST_OMEGAS = 12, MOST_SOLUTIONS = 24, MOST_CONTACTS = 24, SAMPLES = 240, DIGITS = 6, NAME = 64 };
+
+typedef struct shown {
+  const model *m; /* the case's */
+  hbm_solver *s;  /* of the model with those responses */
+  hbm_curve curve;
+  double *series[2];       /* [2H+1] each: u and v of a contact, or one of x */
+  double *w;               /* [n_contacts] sliders at t = 0 */
+  contact_period *periods; /* [n_contacts] */
+  const hc_monitor *monitor;
+} shown;
+
+/* As it is drawn: a page is no place for 17 digits. */
+static json_t *number(double value)
+{
+  char text[32];
+  snprintf(text, sizeof text, "%.*g", DIGITS, value);
+  return isfinite(value) ? json_real(strtod(text, NULL)) : json_null();
+}
+
+/* ---- the model ---- */
+
+static hc_status model_to_look_at(const model *m, model **out)
+{
+  const size_t n = (size_t)m->n, bytes = n * sizeof(double);
+  hc_status st = model_copy_sized(m, m->n_contacts, m->n + 2 * m->n_contacts, out);
+  if (st != HC_OK) return st;
+  double *row = (*out)->responses;
+  for (size_t i = 0; i < n; ++i, row += n)
+    for (size_t k = 0; k < n; ++k) row[k] = i == k;
+  for (int j = 0; j < m->n_contacts; ++j, row += 2 * n) {
+    memcpy(row, m->contacts[j].tangent, bytes);
+    memcpy(row + n, m->contacts[j].normal, bytes);
+  }
+  return HC_OK;
+}
+
+static hc_status start(const scene *sc, const comparison *c, shown *d)
+{
+  model *looked_at;
+  double from, to;
+  number_list asked = {0};
+  for (int i = 0; i < c->n_rows && asked.n < NUMBER_LIST_MAX; ++i) asked.v[asked.n++] = c->rows[i].omega;
+  comparison_sweep(sc->omega_from, sc->omega_to, &asked, &from, &to);
+  hc_status st = model_to_look_at(d->m, &looked_at);
+  if (st == HC_OK) st = guided_hbm_solver_new(looked_at, &sc->hbm, &d->s);
+  model_free(looked_at);
+  if (st != HC_OK) return st;
+  st = hbm_trace(d->s, from, to, d->monitor, &d->curve);
+  if (st == HC_INTERRUPTED || st == HC_NO_MEMORY) return st;
+  const size_t room = 2 * (size_t)hbm_n_harmonics(d->s) + 1, n = (size_t)d->m->n_contacts + 1;
+  for (int i = 0; i < 2; ++i) d->series[i] = malloc(room * sizeof *d->series[i]);
+  d->w = calloc(n, sizeof *d->w);
+  d->periods = calloc(n, sizeof *d->periods);
+  return d->series[0] && d->series[1] && d->w && d->periods ? HC_OK : HC_NO_MEMORY;
+}
+
+static void end(shown *d)
+{
+  for (int i = 0; i < 2; ++i) free(d->series[i]);
+  free(d->w);
+  free(d->periods);
+  hbm_curve_free(&d->curve);
+  hbm_solver_free(d->s);
+}
+
+/* ---- one solution ---- */
+
+/* T over u of a contact with friction, else N over v: a period that follows one in which the slider settles. */
+static json_t *loop_of(const shown *d, int j)
+{
+  const contact *law = &d->m->contacts[j].law;
+  const bool rubs = contact_has_friction(law);
+  const int H = hbm_n_harmonics(d->s);
+  double w = d->w[j], T = 0;
+  json_t *x = json_array(), *y = json_array();
+  for (int i = -SAMPLES; i <= SAMPLES; ++i) {
+    const double th = TWO_PI * i / SAMPLES, u = series_at(H, d->series[0], cos(th), sin(th)).x,
+                 v = series_at(H, d->series[1], cos(th), sin(th)).x;
+    if (rubs) contact_step(law, u, v, &w, &T);
+    if (i < 0) continue;
+    json_array_append_new(x, number(rubs ? u : v));
+    json_array_append_new(y, number(rubs ? T : contact_normal(law, v)));
+  }
+  return json_pack("{s:s, s:o, s:o, s:o}", "of", rubs ? "T over u" : "N over v", "x", x, "y", y, "work",
+                   number(d->periods[j].work));
+}
+
+static hc_status loops_of(shown *d, double omega, const double *X, json_t *loops)
+{
+  hc_status st = hbm_sliders(d->s, X, d->w);
+  if (st == HC_OK) st = hbm_measure_contacts(d->s, X, d->periods);
+  for (int j = 0; j < d->m->n_contacts && j < MOST_CONTACTS && st == HC_OK; ++j) {
+    for (int i = 0; i < 2 && st == HC_OK; ++i) st = hbm_response(d->s, omega, X, d->m->n + 2 * j + i, d->series[i]);
+    if (st == HC_OK) json_array_append_new(loops, loop_of(d, j));
+  }
+  return st;
+}
+
+static hc_status shape_of(shown *d, double omega, const double *X, json_t *amplitude, json_t *cosine, json_t *sine)
+{
+  hc_status st = HC_OK;
+  for (int i = 0; i < d->m->n && st == HC_OK; ++i) {
+    hbm_measures m;
+    st = hbm_measure_response(d->s, omega, X, i, &m);
+    if (st == HC_OK) st = hbm_response(d->s, omega, X, i, d->series[0]);
+    if (st != HC_OK) return st;
+    json_array_append_new(amplitude, number(m.amplitude));
+    json_array_append_new(cosine, number(d->series[0][1]));
+    json_array_append_new(sine, number(d->series[0][2]));
+  }
+  return st;
+}
+
+/* Appended to the list; one that cannot be measured is left out. */
+static hc_status append_solution(shown *d, const hbm_point *p, const double *X, json_t *list)
+{
+  hbm_stability stability;
+  const hc_status known = hbm_stability_at(d->s, p->omega, X, &stability);
+  json_t *amplitude = json_array(), *cosine = json_array(), *sine = json_array(), *loops = json_array();
+  hc_status st = shape_of(d, p->omega, X, amplitude, cosine, sine);
+  if (st == HC_OK) st = loops_of(d, p->omega, X, loops);
+  json_t *solution = json_pack("{s:f, s:i, s:i, s:o, s:o, s:o, s:o}", "omega", p->omega, "branch", p->branch, "stable",
+                               known == HC_OK ? hbm_stability_verdict(&stability) : 0, "amplitude", amplitude, "cosine",
+                               cosine, "sine", sine, "loops", loops);
+  if (st == HC_OK) json_array_append_new(list, solution);
+  else json_decref(solution);
+  return st == HC_NO_MEMORY ? st : HC_OK;
+}
+
+/* ---- all of them ---- */
+
+/* The comparison's frequencies, ascending as they are there, at most MOST_OMEGAS spread over all; how many. */
+static int choose_omegas(const comparison *c, double omega[MOST_OMEGAS])
+{
+  double all[NUMBER_LIST_MAX];
+  int n = 0, chosen = 0;
+  for (int i = 0; i < c->n_rows && n < NUMBER_LIST_MAX; ++i)
+    if (n == 0 || c->rows[i].omega != all[n - 1]) all[n++] = c->rows[i].omega;
+  for (int i = 0; i < n && chosen < MOST_OMEGAS; i += (n + MOST_OMEGAS - 1) / MOST_OMEGAS) omega[chosen++] = all[i];
+  return chosen;
+}
+
+static hc_status solutions(shown *d, const comparison *c, json_t *list)
+{
+  double omega[MOST_OMEGAS];
+  const int n = choose_omegas(c, omega);
+  hc_status st = HC_OK;
+  for (int i = 0; i < n && st == HC_OK; ++i) {
+    hbm_curve at = {0};
+    if (hbm_curve_at(d->s, &d->curve, omega[i], &at) == HC_NO_MEMORY) st = HC_NO_MEMORY;
+    for (int k = 0; k < at.n && json_array_size(list) < MOST_SOLUTIONS && st == HC_OK; ++k)
+      st = append_solution(d, &at.points[k], at.X + (size_t)k * at.n_coef, list);
+    hbm_curve_free(&at);
+    if (!hc_monitor_tick(d->monitor, -1)) st = HC_INTERRUPTED;
+  }
+  return st;
+}
+
+static json_t *dof_names(const scene_structure *s, const model *m)
+{
+  json_t *names = json_array();
+  double *direction = calloc((size_t)m->n, sizeof *direction);
+  for (int i = 0; i < m->n && direction; ++i) {
+    char text[NAME];
+    direction[i] = 1;
+    json_array_append_new(names, json_string(structure_direction_name(s, direction, text, sizeof text)));
+    direction[i] = 0;
+  }
+  free(direction);
+  return names;
+}
+
+static json_t *response_names(const scene_structure *s)
+{
+  json_t *names = json_array();
+  for (int r = 0; r < structure_response_count(s); ++r) {
+    char text[NAME];
+    json_array_append_new(names, json_string(structure_response_name(s, r, text, sizeof text)));
+  }
+  return names;
+}
+
+static json_t *contact_names(const scene *sc)
+{
+  json_t *names = json_array();
+  for (int j = 0; j < scene_contact_count(sc); ++j) {
+    char text[NAME];
+    const char *name = scene_contact_at(sc, j)->name;
+    snprintf(text, sizeof text, *name ? "%d %s" : "%d", j, name);
+    json_array_append_new(names, json_string(text));
+  }
+  return names;
+}
+
+hc_status structure_json(const scene *sc, const comparison *c, json_t *others, const hc_monitor *monitor, json_t **out)
+{
+  model *m = NULL;
+  *out = NULL;
+  if (!sc->structure) return *out = json_null(), HC_OK;
+  hc_status st = scene_model(sc, &m);
+  if (st != HC_OK) return st;
+  shown d = {.m = m, .monitor = monitor};
+  json_t *list = json_array();
+  st = start(sc, c, &d);
+  if (st == HC_OK) st = solutions(&d, c, list);
+  *out = json_pack("{s:o, s:O, s:o, s:o, s:o}", "names", response_names(sc->structure), "responses", others, "dofs",
+                   dof_names(sc->structure, m), "contacts", contact_names(sc), "solutions", list);
+  end(&d);
+  model_free(m);
+  return st == HC_OK && !*out ? HC_NO_MEMORY : st;
+}

@@ -1,0 +1,18 @@
+/* structure.h - what the page shows of a structure alone, as JSON: how all of it moves, and what each contact does. */
+#ifndef HC_REPORT_STRUCTURE_H
+#define HC_REPORT_STRUCTURE_H
+
+#include <jansson.h>
+
+#include "cases/scene.h"
+#include "compare/comparison.h"
+
+/* JSON null for one degree of freedom, else, read by structure.js,
+ *     {names: of the responses; responses: `others` (curve.h); dofs, contacts: names;
+ *      solutions: [{omega, branch, stable (1, 0, -1), amplitude, cosine, sine: [n] of harmonic 1;
+ *                   loops: [{of: "T over u" or "N over v", x, y, work}] of the contacts}]}
+ * of the HBM solutions at the comparison's frequencies, some of them where there are many. Loops are of the exact law
+ * along the solution. HC_INTERRUPTED, HC_NO_MEMORY, or why there is no model. */
+hc_status structure_json(const scene *sc, const comparison *c, json_t *others, const hc_monitor *monitor, json_t **out);
+
+#endif
