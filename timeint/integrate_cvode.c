@@ -45,14 +45,14 @@ int integrate_first_flag(const int *flags, size_t n)
   return CV_SUCCESS;
 }
 
-hc_status integrate_make_parts(cvode_integrator *in, int n, int method)
+hc_status integrate_make_parts(cvode_integrator *in, int n, int method, structure_newton *newton)
 {
   if (hc_sundials_context(&in->ctx)) return HC_NO_MEMORY;
   in->y = N_VNew_Serial(n, in->ctx);
   in->dky = N_VNew_Serial(n, in->ctx);
-  in->jac = SUNDenseMatrix(n, n, in->ctx);
+  in->jac = newton ? structure_solver_matrix(newton, in->ctx) : SUNDenseMatrix(n, n, in->ctx);
   if (!in->y || !in->dky || !in->jac) return HC_NO_MEMORY;
-  in->ls = SUNLinSol_Dense(in->y, in->jac, in->ctx);
+  in->ls = newton ? structure_solver_new(newton, in->ctx) : SUNLinSol_Dense(in->y, in->jac, in->ctx);
   in->cv = CVodeCreate(method, in->ctx);
   return in->ls && in->cv && hc_room_for(0) ? HC_OK : HC_NO_MEMORY; /* room: CVodeInit comes next */
 }

@@ -10,6 +10,7 @@
 #include <sunmatrix/sunmatrix_dense.h>
 
 #include "timeint/integrate_private.h"
+#include "timeint/structure_solver.h"
 
 typedef struct cvode_integrator { /* the first member of each kind */
   integrator base;
@@ -18,14 +19,14 @@ typedef struct cvode_integrator { /* the first member of each kind */
   bool called;     /* CVODE has been called: its first call allocates, and crashes if it cannot (sundials_compat.h) */
   SUNContext ctx;  /* made first, freed last, this integrator's alone */
   N_Vector y, dky; /* [n] what CVODE integrates; dense output */
-  SUNMatrix jac;   /* [n][n] */
+  SUNMatrix jac;   /* [n][n], or what structure_solver.h has in its place */
   SUNLinearSolver ls;
   void *cv;
 } cvode_integrator;
 
-/* From the context to CVODE's memory, for n equations by `method` (CV_ADAMS, CV_BDF), and back; freeing works
- * half-built. */
-hc_status integrate_make_parts(cvode_integrator *in, int n, int method);
+/* From the context to CVODE's memory, for n equations by `method` (CV_ADAMS, CV_BDF), their linear equations dense or
+ * by *newton, and back; freeing works half-built. */
+hc_status integrate_make_parts(cvode_integrator *in, int n, int method, structure_newton *newton);
 void integrate_free_parts(cvode_integrator *in);
 
 /* Before a period: HC_NO_MEMORY if CVODE's first call might find none. */

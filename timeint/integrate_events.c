@@ -378,7 +378,7 @@ hc_status integrate_new_events(const modal_base *base, double tolerance, integra
   hc_status st = in->track && in->law && in->info && in->rate ? HC_OK : HC_NO_MEMORY;
   if (st == HC_OK) st = phase_modes_new(base, PHASE_MODES_STIFF, &in->modes);
   if (st == HC_OK) st = structure_variations_make(&in->variations, base, in->modes);
-  if (st == HC_OK) st = integrate_make_parts(&in->base, 2 * base->n, bdf ? CV_BDF : CV_ADAMS);
+  if (st == HC_OK) st = integrate_make_parts(&in->base, 2 * base->n, bdf ? CV_BDF : CV_ADAMS, NULL);
   if (st == HC_OK) st = make_cvode(in);
   if (st == HC_OK) {
     *out = &in->base.base;

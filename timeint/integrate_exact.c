@@ -273,7 +273,7 @@ hc_status integrate_new_exact(int n_states, double tolerance, integrator **out)
   in->n = n_states;
   in->tolerance = tolerance;
   hc_status st = make_memory(in);
-  if (st == HC_OK) st = integrate_make_parts(&in->base, 2, CV_ADAMS);
+  if (st == HC_OK) st = integrate_make_parts(&in->base, 2, CV_ADAMS, NULL);
   if (st == HC_OK) st = make_cvode(in);
   if (st == HC_OK) {
     *out = &in->base.base;

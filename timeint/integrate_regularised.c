@@ -26,10 +26,13 @@ enum {
 
 typedef struct regularised { /* from integrate_new_regularised, to integrate_free; not shared between threads */
   cvode_integrator base;
-  int n;               /* number of states                                                  */
-  N_Vector *s;         /* [n][n] d y / d y_j(0), j = 0..n-1: CVODES calls them sensitivities */
-  double *jacobian;    /* [n][n] d y' / d y where their right-hand side is wanted            */
-  double *s_tolerance; /* [n] absolute tolerance of each s_j, which CVODES copies            */
+  int n;             /* number of states                                                  */
+  bool is_structure; /* whose linear equations are `newton`'s                             */
+  structure_newton newton;
+  N_Vector *s;                /* [n][n] d y / d y_j(0), j = 0..n-1: CVODES calls them sensitivities */
+  double *jacobian;           /* [n][n] d y' / d y where their right-hand side is wanted, of an oscillator */
+  structure_newton variation; /* the same of a structure */
+  double *s_tolerance;        /* [n] absolute tolerance of each s_j, which CVODES copies            */
 } regularised;
 
 static int rhs(sunrealtype theta, N_Vector y, N_Vector dy, void *self)
@@ -49,12 +52,28 @@ static int jacobian(sunrealtype theta, N_Vector y, N_Vector dy, SUNMatrix jac, v
   return 0;
 }
 
+/* CVODE's Newton matrix of a structure. */
+static int linear_system(sunrealtype theta, N_Vector y, N_Vector dy, SUNMatrix matrix, sunbooleantype keep,
+                         sunbooleantype *renewed, sunrealtype gamma, void *self, N_Vector t1, N_Vector t2, N_Vector t3)
+{
+  (void)theta, (void)dy, (void)matrix, (void)t1, (void)t2, (void)t3;
+  regularised *in = self;
+  *renewed = !keep;
+  return structure_solver_set(&in->newton, in->base.m, NV_DATA_S(y), keep, gamma);
+}
+
 /* The variational equations s_j' = J s_j. */
 static int variation_rhs(int n, sunrealtype theta, N_Vector y, N_Vector dy, N_Vector *s, N_Vector *ds, void *self,
                          N_Vector t1, N_Vector t2)
 {
   (void)theta, (void)dy, (void)t1, (void)t2;
   regularised *in = self;
+  if (in->is_structure) {
+    structure_newton_linearise(&in->variation, in->base.m, NV_DATA_S(y));
+    for (int j = 0; j < n; ++j)
+      structure_newton_multiply(&in->variation, in->base.m, NV_DATA_S(s[j]), NV_DATA_S(ds[j]));
+    return 0;
+  }
   scaled_jacobian(in->base.m, NV_DATA_S(y), in->jacobian);
   for (int j = 0; j < n; ++j) {
     const double *from = NV_DATA_S(s[j]);
@@ -79,7 +98,7 @@ static hc_status make_cvode(regularised *in, double tolerance)
       CVodeSStolerances(in->base.cv, tolerance, tolerance),
       CVodeSetUserData(in->base.cv, in),
       CVodeSetLinearSolver(in->base.cv, in->base.ls, in->base.jac),
-      CVodeSetJacFn(in->base.cv, jacobian),
+      in->is_structure ? CVodeSetLinSysFn(in->base.cv, linear_system) : CVodeSetJacFn(in->base.cv, jacobian),
       CVodeSetMaxNumSteps(in->base.cv, MAX_STEPS),
       CVodeSetMaxErrTestFails(in->base.cv, MAX_ERROR_FAILS),
       CVodeSetMaxConvFails(in->base.cv, MAX_NEWTON_FAILS),
@@ -109,14 +128,17 @@ static hc_status make_variations(regularised *in)
   return integrate_first_flag(flags, sizeof flags / sizeof *flags) == CV_SUCCESS ? HC_OK : HC_NO_MEMORY;
 }
 
-static hc_status make_parts(regularised *in)
+static hc_status make_parts(regularised *in, const modal_base *base)
 {
-  hc_status st = integrate_make_parts(&in->base, in->n, CV_BDF);
+  in->is_structure = base != NULL;
+  hc_status st = base ? structure_newton_make(&in->newton, base) : HC_OK;
+  if (st == HC_OK && base) st = structure_newton_make(&in->variation, base);
+  if (st == HC_OK) st = integrate_make_parts(&in->base, in->n, CV_BDF, base ? &in->newton : NULL);
   if (st != HC_OK) return st;
   in->s = N_VCloneVectorArray(in->n, in->base.y); /* room: asked for above */
-  in->jacobian = calloc((size_t)in->n * (size_t)in->n, sizeof *in->jacobian);
+  in->jacobian = base ? NULL : calloc((size_t)in->n * (size_t)in->n, sizeof *in->jacobian);
   in->s_tolerance = calloc((size_t)in->n, sizeof *in->s_tolerance);
-  return in->s && in->jacobian && in->s_tolerance ? HC_OK : HC_NO_MEMORY;
+  return in->s && (base || in->jacobian) && in->s_tolerance ? HC_OK : HC_NO_MEMORY;
 }
 
 static void release(integrator *base)
@@ -126,6 +148,8 @@ static void release(integrator *base)
   free(in->jacobian);
   free(in->s_tolerance);
   integrate_free_parts(&in->base);
+  structure_newton_free(&in->newton);
+  structure_newton_free(&in->variation);
   free(base);
 }
 
@@ -217,7 +241,7 @@ static const integrator_class class = {.period = period,
                                        .tolerance = integrate_cvode_tolerance,
                                        .free = release};
 
-hc_status integrate_new_regularised(int n_states, double tolerance, integrator **out)
+static hc_status make(int n_states, const modal_base *base, double tolerance, integrator **out)
 {
   *out = NULL;
   regularised *in = calloc(1, sizeof *in); /* zeroed, so free works half-built */
@@ -225,7 +249,7 @@ hc_status integrate_new_regularised(int n_states, double tolerance, integrator *
   in->base.base.does = &class;
   in->base.base.scatter = INTEGRATE_BDF_SCATTER;
   in->n = n_states;
-  hc_status st = make_parts(in);
+  hc_status st = make_parts(in, base);
   if (st == HC_OK) st = make_cvode(in, tolerance);
   if (st == HC_OK) st = make_variations(in);
   if (st == HC_OK) {
@@ -234,4 +258,14 @@ hc_status integrate_new_regularised(int n_states, double tolerance, integrator *
   }
   release(&in->base.base);
   return st;
+}
+
+hc_status integrate_new_regularised(int n_states, double tolerance, integrator **out)
+{
+  return make(n_states, NULL, tolerance, out);
+}
+
+hc_status integrate_new_regularised_structure(const modal_base *base, double tolerance, integrator **out)
+{
+  return make(2 * base->n + base->n_contacts, base, tolerance, out);
 }

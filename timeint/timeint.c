@@ -78,7 +78,8 @@ static hc_status make_integrator(const timeint *ti, transient_law law, integrato
 {
   const bool closed = ti->how.method == TRANSIENT_METHOD_CLOSED_FORM, exact = law == TRANSIENT_LAW_EXACT;
   if (ti->base && closed) return integrate_new_series(ti->base, PHASE_MODES_STIFF, out);
-  if (ti->base && exact) return integrate_new_events(ti->base, ti->tolerance, out);
+  if (ti->base)
+    return (exact ? integrate_new_events : integrate_new_regularised_structure)(ti->base, ti->tolerance, out);
   if (closed) return integrate_new_closed(ti->n, ti->tolerance, out);
   return (exact ? integrate_new_exact : integrate_new_regularised)(ti->n, ti->tolerance, out);
 }

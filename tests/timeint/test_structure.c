@@ -10,9 +10,11 @@
 #include "timeint/contact_track.h"
 #include "timeint/integrate_closed.h"
 #include "timeint/integrate_events.h"
+#include "timeint/integrate_regularised.h"
 #include "timeint/integrate_series.h"
 #include "timeint/steady.h"
 #include "timeint/structure_equations.h"
+#include "timeint/structure_newton.h"
 
 enum { MOST = 100 };
 
@@ -399,6 +401,81 @@ static void jacobian_is_the_derivative(void **state)
   }
 }
 
+/* The same with damping that its modes diagonalise. */
+static void damp_in_proportion(drawn *d)
+{
+  for (int i = 0; i < d->m->n * d->m->n; ++i) d->m->damping[i] = 0.3 * d->m->mass[i];
+  modal_base_free(d->base);
+  assert_int_equal(modal_base_new(d->m, &d->base), HC_OK);
+  assert_true(d->base->diagonal_C);
+  d->scaled.base = d->base;
+}
+
+/* (I - gamma J) z = r by elimination, against the dense matrix times what it finds: rounding, times what the stiffest
+ * contact, with its width of 1e-2, makes of the entries. */
+static void newton_solves_the_dense_equations(void **state)
+{
+  (void)state;
+  uint64_t seed = 9;
+  for (int trial = 0; trial < 100; ++trial) {
+    drawn d;
+    structure_newton newton;
+    double y[MOST], r[MOST], z[MOST], Jz[MOST], jac[MOST * MOST], largest = 0;
+    draw(&seed, TRANSIENT_LAW_REGULARISED, &d);
+    if (trial % 2) damp_in_proportion(&d);
+    for (int j = 0; j < d.scaled.n_contacts; ++j) d.contacts[j].law.overstress = trial % 4 < 2;
+    const int n = d.scaled.n_states;
+    const double gamma = pow(10, -4 * random_unit(&seed));
+    for (int i = 0; i < n; ++i) y[i] = random_signed(&seed), r[i] = z[i] = random_signed(&seed);
+    structure_jacobian(&d.scaled, y, jac);
+    assert_int_equal(structure_newton_make(&newton, d.base), HC_OK);
+    structure_newton_linearise(&newton, &d.scaled, y);
+    assert_true(structure_newton_factor(&newton, &d.scaled, gamma));
+    structure_newton_solve(&newton, z);
+    structure_newton_multiply(&newton, &d.scaled, z, Jz);
+    for (int i = 0; i < n * n; ++i) largest = fmax(largest, fabs(jac[i]));
+    for (int i = 0; i < n; ++i) {
+      double dense = 0, size = 0;
+      for (int q = 0; q < n; ++q) dense += jac[i + q * n] * z[q], size = fmax(size, fabs(z[q]));
+      const double near = 1e-13 * (1 + largest) * (1 + size);
+      CHECK_NEAR(Jz[i], dense, near, "trial %d [%d]: product", trial, i);
+      CHECK_NEAR(z[i] - gamma * dense, r[i], near, "trial %d [%d], gamma %g", trial, i, gamma);
+    }
+    structure_newton_free(&newton);
+    undraw(&d);
+  }
+}
+
+/* The monodromy matrix of the regularised law against differences of its period map: of what CVODE's tolerance leaves
+ * of them, 1e-12/1e-5 times some hundred, and of the variations' own 1e-6 a step. */
+static void regularised_monodromy_is_the_derivative(void **state)
+{
+  (void)state;
+  uint64_t seed = 21;
+  for (int trial = 0; trial < 4; ++trial) {
+    drawn d;
+    integrator *in;
+    double y[MOST] = {0}, phi[MOST * MOST], end[2][MOST], z[MOST];
+    draw_of_size(&seed, TRANSIENT_LAW_REGULARISED, 3, 2, &d);
+    const int n = d.scaled.n_states;
+    assert_int_equal(integrate_new_regularised_structure(d.base, 1e-12, &in), HC_OK);
+    for (int period = 0; period < 3; ++period) assert_int_equal(integrate_period(in, &d.scaled, y, NULL, NULL), HC_OK);
+    memcpy(z, y, sizeof y);
+    assert_int_equal(integrate_monodromy(in, &d.scaled, z, phi), HC_OK);
+    for (int q = 0; q < n; ++q) {
+      for (int side = 0; side < 2; ++side) {
+        memcpy(end[side], y, sizeof y);
+        end[side][q] += side ? 1e-5 : -1e-5;
+        assert_int_equal(integrate_period(in, &d.scaled, end[side], NULL, NULL), HC_OK);
+      }
+      for (int i = 0; i < n; ++i)
+        CHECK_NEAR((end[1][i] - end[0][i]) / 2e-5, phi[i + q * n], 1e-3, "trial %d [%d, %d]", trial, i, q);
+    }
+    integrate_free(in);
+    undraw(&d);
+  }
+}
+
 /* x = Q y changes no response: rounding, and what the settling leaves of 1e-12. */
 static void other_coordinates_change_nothing(void **state)
 {
@@ -448,11 +525,18 @@ static void a_massless_freedom_is_refused(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(series_meet_the_reference),       cmocka_unit_test(events_meet_the_reference),
-      cmocka_unit_test(regularised_meets_the_reference), cmocka_unit_test(oscillators_are_structures),
-      cmocka_unit_test(series_and_events_agree),         cmocka_unit_test(monodromy_is_the_derivative),
-      cmocka_unit_test(monodromy_of_many_columns),       cmocka_unit_test(jacobian_is_the_derivative),
-      cmocka_unit_test(richardson_is_of_every_response), cmocka_unit_test(other_coordinates_change_nothing),
+      cmocka_unit_test(series_meet_the_reference),
+      cmocka_unit_test(events_meet_the_reference),
+      cmocka_unit_test(regularised_meets_the_reference),
+      cmocka_unit_test(oscillators_are_structures),
+      cmocka_unit_test(series_and_events_agree),
+      cmocka_unit_test(monodromy_is_the_derivative),
+      cmocka_unit_test(monodromy_of_many_columns),
+      cmocka_unit_test(newton_solves_the_dense_equations),
+      cmocka_unit_test(regularised_monodromy_is_the_derivative),
+      cmocka_unit_test(jacobian_is_the_derivative),
+      cmocka_unit_test(richardson_is_of_every_response),
+      cmocka_unit_test(other_coordinates_change_nothing),
       cmocka_unit_test(a_massless_freedom_is_refused),
   };
   check_watchdog(120);
