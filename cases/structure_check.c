@@ -84,6 +84,15 @@ static double largest(int n, const double *x)
   return most;
 }
 
+/* Where x is largest; of those alike the first. */
+static int moves_most(int n, const double *x)
+{
+  int most = 0;
+  for (int i = 1; i < n; ++i)
+    if (fabs(x[i]) > fabs(x[most]) * (1 + 1e-9)) most = i;
+  return most;
+}
+
 static double row_sum(int n, const double *A, int i)
 {
   double sum = 0;
@@ -126,34 +135,76 @@ void structure_describe_motion(const scene_structure *s, double *x, message *m)
   const double least = 0.2; /* of the largest, which is 1 */
   char word[STRUCTURE_WORD];
   for (int told = 0; told < 4; ++told) {
-    int most = 0;
-    for (int i = 1; i < s->n; ++i)
-      if (fabs(x[i]) > fabs(x[most]) * (1 + 1e-9)) most = i; /* of those alike the first */
+    const int most = moves_most(s->n, x);
     if (!(fabs(x[most]) >= least)) return;
     message_add(m, "%s%s: %.2g", told > 0 ? ", " : "", structure_dof_name(s, most, word), x[most]);
     x[most] = 0;
   }
 }
 
+/* A motion x, largest entry 1, that the symmetric A resists least, and whether to rounding it does not resist at all;
+ * A is used up, d[n] and pivot[n] are room. */
+static bool unresisted(int n, double *A, double *d, int *pivot, double *x)
+{
+  const double scale = equilibrate(n, A, d), rounding = n * DBL_EPSILON * scale;
+  for (int i = 0; i < n; ++i) x[i] = 1, AT(A, i, i) += rounding / 8;
+  const bool is_free = scale == 0 || !lu_factor(n, A, pivot) || !(least_held(n, A, pivot, x) * rounding < 1);
+  for (int i = 0; i < n; ++i) x[i] *= d[i];
+  const double most = x[moves_most(n, x)];
+  for (int i = 0; i < n; ++i) x[i] /= most;
+  return is_free;
+}
+
 hc_status structure_free_motion(const scene_structure *s, bool at_rest, double *x, bool *free_motion)
 {
-  const int n = s->n;
-  double *A = malloc((size_t)n * ((size_t)n + 1) * sizeof *A), *d = A ? A + (size_t)n * (size_t)n : NULL;
-  int *pivot = malloc((size_t)n * sizeof *pivot);
+  const size_t n = (size_t)s->n;
+  double *A = malloc(n * (n + 1) * sizeof *A);
+  int *pivot = malloc(n * sizeof *pivot);
   *free_motion = false;
   if (A && pivot) {
     stuck_stiffness(s, at_rest, A);
-    const double scale = equilibrate(n, A, d), rounding = n * DBL_EPSILON * scale;
-    for (int i = 0; i < n; ++i) x[i] = 1, AT(A, i, i) += rounding / 8;
-    *free_motion = scale == 0 || !lu_factor(n, A, pivot) || !(least_held(n, A, pivot, x) * rounding < 1);
-    for (int i = 0; i < n; ++i) x[i] *= d[i];
-    const double most = largest(n, x);
-    for (int i = 0; i < n; ++i) x[i] /= most;
+    *free_motion = unresisted(s->n, A, A + n * n, pivot, x);
   }
   const bool failed = !A || !pivot;
   free(A);
   free(pivot);
   return failed ? HC_NO_MEMORY : HC_OK;
+}
+
+hc_status structure_massless_motion(int n, const double *M, double *x, bool *massless)
+{
+  const size_t square = (size_t)n * (size_t)n;
+  double *A = malloc((square + (size_t)n) * sizeof *A);
+  int *pivot = malloc((size_t)n * sizeof *pivot);
+  *massless = false;
+  if (A && pivot) {
+    memcpy(A, M, square * sizeof *A);
+    *massless = unresisted(n, A, A + square, pivot, x);
+  }
+  const bool failed = !A || !pivot;
+  free(A);
+  free(pivot);
+  return failed ? HC_NO_MEMORY : HC_OK;
+}
+
+hc_status structure_undamped_mode(const scene_structure *s, double *omega)
+{
+  const int n = s->n;
+  const size_t rows = (size_t)n;
+  double *phi = malloc((rows + 2) * rows * sizeof *phi);
+  *omega = -1;
+  if (!phi) return HC_NO_MEMORY;
+  double *lambda = phi + rows * rows, *Cx = lambda + rows;
+  hc_status st = dense_modes(n, s->stiffness.v, s->mass.v, lambda, phi);
+  for (int k = 0; k < n && st == HC_OK && *omega < 0; ++k) {
+    const double *x = phi + (size_t)k * rows, own = sqrt(fmax(lambda[k], 0));
+    double rate = 0; /* 2 z omega */
+    dense_multiply(n, 1, n, s->damping.v, x, Cx);
+    for (int i = 0; i < n; ++i) rate += x[i] * Cx[i];
+    if (rate <= n * DBL_EPSILON * sqrt(fmax(lambda[n - 1], 0))) *omega = own;
+  }
+  free(phi);
+  return st;
 }
 
 /* ---- damping ---- */

@@ -20,6 +20,13 @@ hc_status structure_not_definite(int n, const double *M, int *order);
  * each that is pressed on without a load. HC_NO_MEMORY. */
 hc_status structure_free_motion(const scene_structure *s, bool at_rest, double *x, bool *free_motion);
 
+/* The same of a motion that M[n][n], symmetric, gives no kinetic energy to. HC_NO_MEMORY. */
+hc_status structure_massless_motion(int n, const double *M, double *x, bool *massless);
+
+/* *omega [rad/time] of the first mode of M and K that C takes no energy from, beyond rounding; -1: there is none.
+ * s->damping.v is resolved. HC_NO_MEMORY, HC_NOT_CONVERGED. */
+hc_status structure_undamped_mode(const scene_structure *s, double *omega);
+
 /* The degrees of freedom that move most, at most four, in words; x is used up. */
 void structure_describe_motion(const scene_structure *s, double *x, message *m);
 

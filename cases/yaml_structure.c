@@ -15,6 +15,26 @@ static const field *part(const char *name) { return field_find("structure", name
 
 /* ---- matrices ---- */
 
+/* The motion that has no mass, and what to do about it; nothing where M is not singular but indefinite. */
+static hc_status add_massless_motion(const scene_structure *s, const structure_matrix *mass, int n, message *m)
+{
+  scene_structure named = *s; /* which has its n only when its mass matrix has been accepted */
+  bool massless;
+  double *x = malloc((size_t)n * sizeof *x);
+  if (!x || structure_massless_motion(n, mass->v, x, &massless) != HC_OK) {
+    free(x);
+    return HC_NO_MEMORY;
+  }
+  named.n = n;
+  if (massless) {
+    message_add(m, "; {");
+    structure_describe_motion(&named, x, m);
+    message_add(m, "} has none: condense it statically onto the others, or give it a small one");
+  }
+  free(x);
+  return HC_OK;
+}
+
 /* Nothing of the methods here holds for a mass matrix that is not symmetric and positive definite. */
 static hc_status check_mass(case_reader *r, const structure_matrix *mass, int n)
 {
@@ -29,11 +49,12 @@ static hc_status check_mass(case_reader *r, const structure_matrix *mass, int n)
   }
   if (structure_not_definite(n, mass->v, &order) == HC_NO_MEMORY) return case_out_of_memory(r);
   if (order == 0) return HC_OK;
-  message_add(yaml_matrix_blame(r, mass, order - 1, order - 1),
+  message *m = yaml_matrix_blame(r, mass, order - 1, order - 1);
+  message_add(m,
               "structure.mass is not positive definite: its leading minor of order %d is not positive, expected a mass "
               "for every motion",
               order);
-  return HC_BAD_INPUT;
+  return add_massless_motion(r->sc.structure, mass, n, m) == HC_OK ? HC_BAD_INPUT : case_out_of_memory(r);
 }
 
 static hc_status read_mass(case_reader *r, yaml_document_t *doc, const yaml_node_t *node)

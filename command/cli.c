@@ -273,6 +273,19 @@ static bool advice_on_free_motion(const scene_structure *s, char text[ADVICE_TEX
   return is_free;
 }
 
+/* Of a structure that does not settle: a mode that nothing damps. */
+static bool advice_on_undamped_mode(const scene *sc, char text[ADVICE_TEXT])
+{
+  double omega;
+  char at[SCENE_WHERE];
+  if (structure_undamped_mode(sc->structure, &omega) != HC_OK || omega < 0) return false;
+  snprintf(text, ADVICE_TEXT,
+           "no damping acts on the mode at %s: what the start leaves in it dies out by friction alone, if at all; try "
+           "structure.damping",
+           scene_where(sc, omega, at));
+  return true;
+}
+
 /* What a person can try next; "" where no setting helps. */
 static const char *advice_for(const scene *sc, cli_solver solver, hc_status st, char text[ADVICE_TEXT])
 {
@@ -282,6 +295,8 @@ static const char *advice_for(const scene *sc, cli_solver solver, hc_status st, 
   const bool failed_at_mean = solver == CLI_TRANSIENT ? st == HC_NOT_SETTLED : st == HC_SINGULAR && sc->hbm.keep_mean;
   if (failed_at_mean && sc->structure && advice_on_free_motion(sc->structure, text)) return text;
   if (failed_at_mean && scene_adrift(sc)) return snprintf(text, ADVICE_TEXT, "%s", SCENE_ADRIFT), text;
+  if (solver == CLI_TRANSIENT && st == HC_NOT_SETTLED && sc->structure && advice_on_undamped_mode(sc, text))
+    return text;
   if (st == HC_NOT_FINITE) /* of neither side's settings */
     return snprintf(text, ADVICE_TEXT, "%s", sc->structure ? ADVICE_ON_STRUCTURE : advice_on_size(sc->damping)), text;
   if (solver != CLI_TRANSIENT) advice_for_hbm(&sc->hbm, st, text);

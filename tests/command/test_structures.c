@@ -116,6 +116,31 @@ static void what_nothing_holds_is_named(void **state)
   expect("frf cases/structures/wedge_F2.yaml -q --set contacts=[] 2>&1", 2, words);
 }
 
+/* By name, and what to do. */
+static void what_has_no_mass_is_named(void **state)
+{
+  (void)state;
+  const char *const words = "{root: 1} has none: condense it statically onto the others, or give it a small one";
+  expect("transient cases/structures/jenkins2.yaml --at 24 --set structure.mass=[1,0] 2>&1", 2, words);
+  expect("compare cases/structures/jenkins2.yaml --at 24 --set structure.mass=[1,0] 2>&1", 2, words);
+  expect("transient cases/structures/jenkins2.yaml --at 24 --set 'structure.mass=[[1,1],[1,1]]' 2>&1", 2,
+         "; {tip: 1, root: -1} has none");
+}
+
+/* Two equal masses between which and behind one of which is a spring of 1: omega^2 = (3 -+ sqrt 5)/2. From rest the
+ * transient in both modes stays, and no contact takes it out. */
+static void what_has_no_damping_is_named(void **state)
+{
+  (void)state;
+  const char *const words = "no damping acts on the mode at omega = 0.6180339887";
+  expect("transient cases/structures/stop2.yaml -q --at 0.7 --set 'structure.damping=[[0,0],[0,0]]' "
+         "--set transient.start=rest 2>&1",
+         3, words);
+  expect("compare cases/structures/stop2.yaml -q --at 0.7 --set 'structure.damping=[[0,0],[0,0]]' "
+         "--set transient.start=rest 2>&1",
+         3, words);
+}
+
 /* The stop touches DOF 3 alone, N = 1 (x3 - 0.25); the sliders have mu N = 1, so their work is their path. */
 static void every_contact_of_every_solution_has_a_row(void **state)
 {
@@ -286,6 +311,8 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(one_response_is_kept),
       cmocka_unit_test(what_nothing_holds_is_named),
+      cmocka_unit_test(what_has_no_mass_is_named),
+      cmocka_unit_test(what_has_no_damping_is_named),
       cmocka_unit_test(comparisons_say_what_they_leave_out),
       cmocka_unit_test(one_response_is_compared),
       cmocka_unit_test(contacts_are_compared),
