@@ -1,5 +1,5 @@
-/* structure_solver.h - structure_newton.h as CVODE's linear solver. CVODE's matrix is the structure_newton itself, which
- * a CVLsLinSysFn sets (structure_solver_set); it has no entries. */
+/* structure_solver.h - structure_newton.h as CVODE's linear solver. CVODE's matrix is the structure_newton itself, set
+ * by a CVLsLinSysFn (structure_solver_set); it has no entries. */
 #ifndef HC_STRUCTURE_SOLVER_H
 #define HC_STRUCTURE_SOLVER_H
 
