@@ -98,6 +98,23 @@ static bool unstable(const comparison_row *row)
   return hbm_stability_verdict(&row->stability) < 0;
 }
 
+/* Does a motion that is pushed a little settle within the limits of the solution? Also where it does not settle. */
+static hc_status stays(comparison_work *w, const comparison_row *row, const double *X, bool *it_stays)
+{
+  const side first = {w->hbm, w->setup, 0};
+  *it_stays = true;
+  for (int to = -1; to <= 1 && *it_stays; to += 2) {
+    timeint_result there;
+    hbm_measures unused;
+    discrepancy e;
+    hc_status st = solution_kick(w, row->omega, to, &there);
+    if (st == HC_NO_MEMORY || st == HC_INTERRUPTED) return st;
+    if (st != HC_OK || errors_of(&first, row->omega, X, &there, &unused, &e) != HC_OK) continue;
+    *it_stays = there.period_multiple == 1 && within_limits(w->setup, &e, &there);
+  }
+  return HC_OK;
+}
+
 /* HC_NO_MEMORY, HC_INTERRUPTED: *out is not known. */
 static hc_status judge(comparison_work *w, const comparison_row *row, const double *X, verdict *out)
 {
@@ -105,7 +122,12 @@ static hc_status judge(comparison_work *w, const comparison_row *row, const doub
   if (row->transient_status == HC_APERIODIC && row->hbm_status == HC_OK) return *out = VERDICT_APERIODIC, HC_OK;
   if (row->transient_status != HC_OK || row->hbm_status != HC_OK) return *out = VERDICT_SOLVER_FAILED, HC_OK;
   if (row->transient.period_multiple > 1) return *out = VERDICT_PERIOD_K, HC_OK;
-  if (within_limits(w->setup, &row->errors, &row->transient)) return *out = VERDICT_MATCH, HC_OK;
+  if (within_limits(w->setup, &row->errors, &row->transient)) {
+    bool it_stays = true;
+    hc_status st = !hbm_of_oscillator(w->hbm) && solution_is_at_corner(row) ? stays(w, row, X, &it_stays) : HC_OK;
+    *out = it_stays ? VERDICT_MATCH : VERDICT_UNSTABLE;
+    return st;
+  }
   if (unstable(row)) return *out = VERDICT_UNSTABLE, HC_OK;
   bool next = true;
   hc_status st = runs_next_to(w, row, X, &next);

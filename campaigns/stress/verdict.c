@@ -2,7 +2,7 @@
  *
  *     match                 all discrepancies are within the gate, and the waveform is within it of the exact law's
  *                           orbit, too, but for the budget's error of the transient
- *     unstable              the orbit next to the HBM solution is unstable by time integration
+ *     unstable              the orbit next to the HBM solution is unstable by time integration, or at a corner
  *     differs, other_branch some discrepancy is beyond the gate
  *     period_k              k is 2 or more
  * What is true of its verdict ends as agreed (match), refused (solver_failed) or explained (all others). */
@@ -37,6 +37,8 @@ static bool wrong(const comparison_row *r, const discrepancy *g, double *ratio)
   }
   case VERDICT_UNSTABLE:
     if (r->response > 0) return false; /* what is said of the first response is said of the solution */
+    if (r->orbit_status == HC_OK && r->orbit.free_sliders > 0 && hbm_stability_verdict(&r->stability) == 0)
+      return false; /* multipliers are those of one side (compare/kick.c) */
     return r->orbit_status == HC_OK ? timeint_stability(&r->orbit) > 0 : hbm_stability_verdict(&r->stability) > 0;
   case VERDICT_DIFFERS:
   case VERDICT_OTHER_BRANCH: return *ratio <= 1;

@@ -1,0 +1,148 @@
+/* test_structure_verdicts.c - what compare says of the cases in cases/structures, with harmonics enough, and that it is
+ * so: every verdict is tried by marching, period after period in plain closed form, from beside the motion it is of. */
+#include <string.h>
+
+#include "cases/case_file.h"
+#include "compare/comparison.h"
+#include "tests/check.h"
+#include "timeint/steady.h"
+
+enum { STATES = 64, HARMONICS = 31 };
+
+/* Solutions of each verdict, counted by their first responses; all other cases match throughout. */
+static const struct expected {
+  const char *name;
+  int match, unstable, period_2, aperiodic, failed;
+} expected[] = {
+    {"jenkins2", 7, 0, 0, 0, 0},
+    {"chain3", 9, 2, 0, 0, 0},
+    {"tangent_normal_F50", 2, 0, 0, 0, 0},
+    {"tangent_normal_F100", 2, 0, 0, 0, 0},
+    {"beam16", 7, 0, 0, 0, 0},
+    {"wedge_F0.5", 3, 0, 0, 0, 0},
+    {"wedge_F2", 3, 0, 0, 0, 0},
+    {"wedge_F10", 3, 0, 4, 0, 0},
+    {"wedge_F20", 2, 0, 0, 0, 0},
+    {"stop2", 4, 1, 0, 1, 0},
+    {"brake", 2, 0, 0, 0, 1},
+};
+
+static scene read_case(const char *name)
+{
+  char path[256], set[32];
+  const char *const sets[] = {set};
+  scene sc;
+  case_error err;
+  snprintf(path, sizeof path, SOURCE_DIR "/cases/structures/%s.yaml", name);
+  snprintf(set, sizeof set, "hbm.harmonics=%d", HARMONICS);
+  if (case_read(path, 1, sets, &sc, &err) != HC_OK) fail_msg("%s", err.message);
+  return sc;
+}
+
+/* y: where the transient of the row's HBM solution starts. */
+static void start_of(const compare_setup *setup, const comparison *c, const comparison_row *row, double *y)
+{
+  hbm_solver *h;
+  hbm_curve at = {0};
+  bool found = false;
+  assert_int_equal(hbm_solver_new(setup->model, &setup->hbm, &h), HC_OK);
+  assert_int_equal(hbm_curve_at(h, &c->curve, row->omega, &at), HC_OK);
+  for (int k = 0; k < at.n && !found; ++k) {
+    if (at.points[k].branch != row->branch) continue;
+    assert_int_equal(comparison_orbit_start(h, hbm_curve_X(&at, k), row->omega, y), HC_OK);
+    found = true;
+  }
+  assert_true(found);
+  hbm_curve_free(&at);
+  hbm_solver_free(h);
+}
+
+/* Where the motion goes from y, a little beside which it begins; x and v move, sliders stay. */
+static hc_status march_from(const compare_setup *setup, double omega, const double *y, timeint_result *r)
+{
+  transient_settings how = setup->transient;
+  const int n = setup->model->n;
+  double z[STATES], size = 0;
+  timeint *ti;
+  how.law = TRANSIENT_LAW_EXACT;
+  how.method = TRANSIENT_METHOD_CLOSED_FORM;
+  how.steady = TRANSIENT_STEADY_MARCH;
+  how.scout = false;
+  how.max_periods = 5000;
+  assert_int_equal(timeint_new(setup->model, &how, &ti), HC_OK);
+  memcpy(z, y, (size_t)timeint_n_states(ti) * sizeof *z);
+  for (int i = 0; i < n; ++i) size = fmax(size, hypot(y[i], y[n + i] / omega));
+  for (int i = 0; i < n; ++i) z[i] += (i % 2 ? -1e-5 : 1e-5) * size;
+  hc_status st = timeint_steady(ti, omega, z, NULL, r);
+  timeint_free(ti);
+  return st;
+}
+
+/* A match stays what it is within twice the gate, but for sliders that come to rest elsewhere; what is unstable ends
+ * elsewhere; what leads to two periods does, or ends on another orbit; what never repeats does not settle. */
+static void check_row(const compare_setup *setup, const comparison *c, int i)
+{
+  const comparison_row *row = &c->rows[i];
+  const double gate = gate_limits_at(setup->limits, row->omega).amplitude;
+  timeint_result r;
+  if (row->verdict == VERDICT_SOLVER_FAILED) {
+    assert_int_equal(row->transient_status, HC_NOT_FINITE); /* it grows without bound */
+    return;
+  }
+  double y[STATES];
+  start_of(setup, c, row, y);
+  const hc_status st = march_from(setup, row->omega, y, &r);
+  const double moved = fabs(r.amplitude - row->hbm.amplitude) / row->hbm.amplitude;
+  switch (row->verdict) {
+  case VERDICT_MATCH:
+    assert_int_equal(st, HC_OK);
+    assert_int_equal(r.period_multiple, 1);
+    CHECK_LE(moved, r.free_sliders > 0 ? 1e-2 : 2 * gate, "match at %g", row->omega);
+    break;
+  case VERDICT_UNSTABLE:
+    assert_true(hbm_stability_verdict(&row->stability) <= 0 && st == HC_OK);
+    CHECK_LE(10 * gate, moved, "unstable at %g", row->omega);
+    break;
+  case VERDICT_PERIOD_K:
+    assert_int_equal(st, HC_OK);
+    if (r.period_multiple == row->transient.period_multiple) break;
+    CHECK_LE(2 * gate, moved, "period_k at %g, to another orbit", row->omega);
+    break;
+  case VERDICT_APERIODIC: assert_int_equal(st, HC_NOT_SETTLED); break;
+  default: fail_msg("%s at %g", verdict_name(row->verdict), row->omega);
+  }
+}
+
+static void check_case(const struct expected *e)
+{
+  scene sc = read_case(e->name);
+  compare_setup setup;
+  comparison c;
+  int seen[VERDICT_COUNT] = {0};
+  assert_int_equal(scene_setup(&sc, &setup), HC_OK);
+  setup.spare = true;
+  assert_int_equal(comparison_run(&setup, NULL, &c), HC_OK);
+  for (int i = 0; i < c.n_rows; ++i) {
+    if (c.rows[i].response > 0) continue;
+    ++seen[c.rows[i].verdict];
+    check_row(&setup, &c, i);
+  }
+  if (seen[VERDICT_MATCH] != e->match || seen[VERDICT_UNSTABLE] != e->unstable ||
+      seen[VERDICT_PERIOD_K] != e->period_2 || seen[VERDICT_APERIODIC] != e->aperiodic ||
+      seen[VERDICT_SOLVER_FAILED] != e->failed)
+    fail_msg("%s: %d match, %d unstable, %d period_k, %d aperiodic, %d failed, %d differ", e->name, seen[VERDICT_MATCH],
+             seen[VERDICT_UNSTABLE], seen[VERDICT_PERIOD_K], seen[VERDICT_APERIODIC], seen[VERDICT_SOLVER_FAILED],
+             seen[VERDICT_DIFFERS]);
+  comparison_clear(&c);
+  scene_setup_clear(&setup);
+  case_clear(&sc);
+}
+
+static void verdicts_hold(void **state)
+{
+  (void)state;
+  for (size_t i = 0; i < sizeof expected / sizeof *expected; ++i) check_case(&expected[i]);
+}
+
+static const struct CMUnitTest tests[] = {cmocka_unit_test(verdicts_hold)};
+CHECK_MAIN("compare.structure_verdicts", tests, 300)
