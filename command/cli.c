@@ -142,9 +142,7 @@ void cli_parse(const cli_command *self, int argc, char **argv, void *own, cli_co
   const bool required = *self->arguments && *self->arguments != '[';
   parse_input input = {common, several ? CLI_MAX_ARGUMENTS : *self->arguments ? 1 : 0, own};
   char name[64];
-  *common = (cli_common){.command = self->name,
-                         .takes_structures = self->takes_structures,
-                         .argument_is = what_arguments_are(self->arguments)};
+  *common = (cli_common){.command = self->name, .argument_is = what_arguments_are(self->arguments)};
   snprintf(name, sizeof name, "hbmcheck %s", self->name);
   refuse_mistyped(self, argc, argv);
   argv[0] = name;
@@ -202,24 +200,11 @@ int cli_load_case(cli_common *common, const char *path, scene *sc)
   return cli_load_case_saying(common, path, sc, &err);
 }
 
-/* Commands that know one degree of freedom. */
-int cli_refuse_structure(const cli_common *common, const char *path, scene *sc, case_error *err)
-{
-  snprintf(err->message, sizeof err->message,
-           "%s: a structure, and hbmcheck %s knows `oscillator` alone; frf, modes, transient, compare and study (run: "
-           "frf) take structures",
-           path, common->command);
-  fprintf(stderr, "%s\n", err->message);
-  case_clear(sc);
-  return EXIT_NO_SOLUTION;
-}
-
 int cli_load_case_saying(cli_common *common, const char *path, scene *sc, case_error *err)
 {
   *err = (case_error){{0}};
   common->scene = sc;
   hc_status st = case_read(path, common->n_set, common->set, sc, err);
-  if (st == HC_OK && sc->structure && !common->takes_structures) return cli_refuse_structure(common, path, sc, err);
   if (st == HC_OK) return 0;
   if (!err->message[0]) snprintf(err->message, sizeof err->message, "%s", hc_status_text(st));
   fprintf(stderr, "%s\n", err->message);

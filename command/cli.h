@@ -26,7 +26,6 @@ typedef struct cli_command {
   const char *summary;               /* its line of hbmcheck --help                                             */
   const char *arguments;             /* "CASE": one is required; "CASE...": one or more; "[FIELD]", "": none is */
   const char *help;                  /* what it does, \v, columns, exit codes, an example                       */
-  bool takes_structures;             /* or oscillators alone: cli_load_case refuses the others */
   const struct argp_option *options; /* its own, keys from CLI_OWN_KEY on; NULL for none                        */
   /* One of its own options, given with `text`, into state->input, the command's own struct. ARGP_ERR_UNKNOWN for other
    * keys; NULL without options. */
@@ -38,7 +37,6 @@ typedef struct cli_command {
 /* What every command has. --help and --version never come back from cli_parse. */
 typedef struct cli_common {
   const char *command; /* "frf", for messages */
-  bool takes_structures;
   int n_arguments;
   const char *argument_is;                  /* what they are, "the case file"; NULL: no files */
   const char *arguments[CLI_MAX_ARGUMENTS]; /* CASE, or what stands in its place; arguments[0] is NULL without any */
@@ -91,9 +89,6 @@ int cli_processors(void);
 int cli_load_case(cli_common *common, const char *path, scene *sc);
 /* The same, with the message kept in err, too. */
 int cli_load_case_saying(cli_common *common, const char *path, scene *sc, case_error *err);
-
-/* A message that this command knows `oscillator` alone, in err, too; clears the case. Returns the exit code. */
-int cli_refuse_structure(const cli_common *common, const char *path, scene *sc, case_error *err);
 
 /* The frequencies of --at, if there are any, into compare.omega of the case: they are cycles per time where its sweep
  * is. Frequencies outside the sweep are warned of. */

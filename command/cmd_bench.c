@@ -271,5 +271,4 @@ const cli_command cmd_bench = {
     .options = options,
     .read_option = read_option,
     .run = run_bench,
-    .takes_structures = true,
 };

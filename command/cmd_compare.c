@@ -312,7 +312,6 @@ const cli_command cmd_compare = {
     .arguments = "CASE",
     .help = help,
     .options = options,
-    .takes_structures = true,
     .read_option = read_option,
     .run = run_compare,
 };

@@ -247,7 +247,6 @@ const cli_command cmd_contact = {
     .name = "contact",
     .summary = "Fourier coefficients of the contact force of a given motion",
     .arguments = "CASE",
-    .takes_structures = true,
     .help = help,
     .options = options,
     .read_option = read_option,

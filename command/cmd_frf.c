@@ -254,7 +254,6 @@ const cli_command cmd_frf = {
     .name = "frf",
     .summary = "the harmonic-balance response curve, or every solution at given frequencies",
     .arguments = "CASE",
-    .takes_structures = true,
     .help = help,
     .options = options,
     .read_option = read_option,

@@ -243,7 +243,7 @@ static int run_gate(int argc, char **argv)
     code = cli_solver_failed(&call.common, CLI_BOTH, "gate", HC_NO_MEMORY, 0);
   if (!code && (code = read_cases(&call)) == EXIT_BAD_CASE) code = report_unread(&call, code);
   if (!code) code = open_junit(&call);
-  if (!code) code = judge_cases(&call);
+  if (!code && call.cases && call.responses) code = judge_cases(&call);
   if (!code) code = write_results(&call);
   output_abandon(call.junit);
   for (int i = 0; i < call.n_judged; ++i) gate_clear(&call.cases[i]);
@@ -262,7 +262,6 @@ const cli_command cmd_gate = {
     .arguments = "CASE...",
     .help = help,
     .options = options,
-    .takes_structures = true,
     .read_option = read_option,
     .run = run_gate,
 };

@@ -100,6 +100,5 @@ const cli_command cmd_modes = {
     .summary = "natural frequencies and damping, contacts open and stuck, and the preloads",
     .arguments = "CASE",
     .help = help,
-    .takes_structures = true,
     .run = run_modes,
 };

@@ -193,7 +193,6 @@ const cli_command cmd_report = {
     .arguments = "CASE",
     .help = help,
     .options = options,
-    .takes_structures = true,
     .read_option = read_option,
     .run = run_report,
 };

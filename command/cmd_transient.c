@@ -155,7 +155,6 @@ const cli_command cmd_transient = {
     .arguments = "CASE",
     .help = help,
     .options = options,
-    .takes_structures = true,
     .read_option = read_option,
     .run = run_transient,
 };

@@ -46,16 +46,10 @@ enum { KEY_AGAINST = CLI_OWN_KEY, KEY_COLUMNS, KEY_QUANTITY, KEY_NOISE, KEY_PLOT
 static const struct argp_option options[] = {
     {"against", KEY_AGAINST, "FILE", 0, "The curve to hold against ours", 1},
     {"columns", KEY_COLUMNS, "NAME=COLUMN,...", 0,
-     "Where its columns are: omega or frequency, and value or a QUANTITY, of a structure QUANTITY@RESPONSE for each of "
-     "several [as the header names them]",
-     1},
-    {"quantity", KEY_QUANTITY, "QUANTITY", 0, "What the column named value is, or which column is meant", 1},
-    {"response", KEY_RESPONSE, "NAME", 0,
-     "The response of a structure that the values are of [the first]; several times where the file has a column "
-     "`response`",
-     1},
-    {"noise", KEY_NOISE, "S", 0,
-     "A measured curve: its values scatter by S, a standard deviation relative to the amplitude, such as 1e-2 [0]", 1},
+     "Where its columns are: omega or frequency, value or QUANTITY (@RESPONSE: of several) [the header's names]", 1},
+    {"quantity", KEY_QUANTITY, "QUANTITY", 0, "What the column named value is, or which is meant", 1},
+    {"response", KEY_RESPONSE, "NAME", 0, "Of a structure: whose values [the first response's]", 1},
+    {"noise", KEY_NOISE, "S", 0, "A measured curve: standard deviation of its values relative to the amplitude [0]", 1},
     CLI_PLOT_OPTION(KEY_PLOT),
     {0},
 };
@@ -401,7 +395,6 @@ const cli_command cmd_verify = {
     .arguments = "CASE",
     .help = help,
     .options = options,
-    .takes_structures = true,
     .read_option = read_option,
     .run = run_verify,
 };

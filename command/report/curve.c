@@ -110,7 +110,7 @@ static json_t *response_object(const scene *sc, const comparison *c, int r, json
 hc_status curve_json(const scene *sc, const comparison *c, const hc_monitor *monitor, json_t **out, json_t **others)
 {
   enum { MOST = CURVE_MOST_RESPONSES };
-  json_t *curve[MOST], *turned[MOST], *specials = json_array();
+  json_t *curve[MOST] = {NULL}, *turned[MOST] = {NULL}, *specials = json_array();
   scene other_mean = *sc; /* with harmonic 0 dropped if *sc keeps it, and the other way round */
   const int all = sc->structure ? structure_response_count(sc->structure) : 1, n = all < MOST ? all : MOST;
   other_mean.hbm.keep_mean = !sc->hbm.keep_mean;
