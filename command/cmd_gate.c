@@ -239,8 +239,10 @@ static int run_gate(int argc, char **argv)
   call.responses = calloc((size_t)call.common.n_arguments, sizeof *call.responses);
   int code = cli_check_files(&call.common, 1, &(cli_file){"--junit", call.own.junit, CLI_OUTPUT});
   call.errors = calloc((size_t)call.common.n_arguments, sizeof *call.errors);
-  if (!code && !(call.scenes && call.cases && call.responses && call.errors))
-    code = cli_solver_failed(&call.common, CLI_BOTH, "gate", HC_NO_MEMORY, 0);
+  if (!code && !(call.scenes && call.cases && call.responses && call.errors)) {
+    cli_solver_failed(&call.common, CLI_BOTH, "gate", HC_NO_MEMORY, 0);
+    code = EXIT_NO_SOLUTION;
+  }
   if (!code && (code = read_cases(&call)) == EXIT_BAD_CASE) code = report_unread(&call, code);
   if (!code) code = open_junit(&call);
   if (!code && call.cases && call.responses) code = judge_cases(&call);

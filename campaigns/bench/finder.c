@@ -20,7 +20,7 @@ static hc_status make_room(finder *f)
 {
   const int n_coef = hbm_n_coefficients(f->hbm);
   f->n_states = 2 * f->model->n + f->model->n_contacts;
-  f->X = calloc((size_t)(n_coef + 3 * f->n_states), sizeof *f->X);
+  f->X = calloc((size_t)n_coef + 3 * (size_t)f->n_states, sizeof *f->X);
   f->motion = calloc((size_t)f->model->n_responses, sizeof *f->motion);
   if (!f->X || !f->motion) return HC_NO_MEMORY;
   f->state = f->X + n_coef;

@@ -65,7 +65,7 @@ hc_status bench_start_new(const model *m, hbm_solver *s, bench_start *at)
   *at = (bench_start){.most_coef = width * (2 * HBM_MAX_HARMONICS + 1),
                       .n_states = 2 * m->n + m->n_contacts,
                       .n_responses = m->n_responses};
-  at->X = calloc((size_t)(at->most_coef + at->n_states), sizeof *at->X);
+  at->X = calloc((size_t)at->most_coef + (size_t)at->n_states, sizeof *at->X);
   at->reference = calloc((size_t)at->n_responses, sizeof *at->reference);
   at->state = at->X ? at->X + at->most_coef : NULL;
   return at->X && at->reference ? HC_OK : HC_NO_MEMORY;
@@ -182,7 +182,7 @@ static void record_answer(const timed_method *t, const answer *a, const bench_st
 static hc_status make_room(const bench_start *at, timed_method *t)
 {
   t->seconds = calloc((size_t)t->cap, sizeof *t->seconds);
-  t->X = calloc((size_t)(2 * at->most_coef + at->n_states), sizeof *t->X);
+  t->X = calloc(2 * (size_t)at->most_coef + (size_t)at->n_states, sizeof *t->X);
   t->motion = calloc((size_t)at->n_responses, sizeof *t->motion);
   if (!t->seconds || !t->X || !t->motion) return HC_NO_MEMORY;
   t->trial = t->X + at->most_coef;
