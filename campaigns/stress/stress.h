@@ -76,6 +76,7 @@
   X(STRESS_TOO_DEAR, "too_dear", "given up after the time allowed for one check")                                      \
   X(STRESS_SAID_SO, "said_so", "compare says that the two differ, or why they cannot be compared")                     \
   X(STRESS_UNEXPECTED, "unexpected", "compare itself says that neither side expected so much")                         \
+  X(STRESS_FAMILY, "family", "steady states are a family, of which the two are members or next to some")               \
   X(STRESS_DISAGREES, "disagrees", "two methods differ, and nothing explains it")                                      \
   X(STRESS_WRONG_VERDICT, "wrong_verdict", "compare says what is known not to be so")                                  \
   X(STRESS_INTERNAL, "internal", "an internal error, or a number that is none")

@@ -202,13 +202,13 @@ stress_check stress_structure_floquet(solved_structure *s)
   const double error = multipliers_apart(&s->fine, s->path);
   if (error <= bound) return stress_agree(error, bound);
   stress_motion finer;
-  solve_with(s, 2 * s->fine_harmonics, series_length(s->fine_harmonics), s->fine.x, &finer);
+  const int n_harm = 2 * s->fine_harmonics < HBM_MAX_HARMONICS ? 2 * s->fine_harmonics : HBM_MAX_HARMONICS;
+  solve_with(s, n_harm, series_length(s->fine_harmonics), s->fine.x, &finer);
   const double better = finer.status == HC_OK ? multipliers_apart(&finer, s->path) : NAN;
   stress_motion_free(&finer);
   if (better <= fmax(bound, 0.8 * error)) return stress_explain(STRESS_TRUNCATED, error, better);
   if (s->fine.m.contact.transitions != s->path->r.switches) return stress_explain(STRESS_OTHER_EVENTS, error, better);
-  if (far > close_enough && beyond_harmonics(s, 2 * s->fine_harmonics))
-    return stress_explain(STRESS_UNRESOLVED, error, better);
+  if (far > close_enough && beyond_harmonics(s, n_harm)) return stress_explain(STRESS_UNRESOLVED, error, better);
   solved_structure_condition(s);
   if (error <= s->multiplier_errs) return stress_explain(STRESS_ILL_CONDITIONED, error, s->multiplier_errs);
   return stress_find(STRESS_DISAGREES, error, bound);

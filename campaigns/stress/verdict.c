@@ -73,8 +73,9 @@ static void hold_prediction(const comparison_row *r, stress_check *so_far)
   const double ratio = r->errors.amplitude == 0 ? 0 : r->errors.amplitude / said, bound = COMPARISON_SLACK;
   if (so_far->outcome != STRESS_SKIPPED && !(ratio > so_far->error)) return;
   const stress_check agrees = stress_agree(ratio, bound);
-  *so_far =
-      agrees.outcome == STRESS_AGREED || !r->unexpected ? agrees : stress_explain(STRESS_UNEXPECTED, ratio, bound);
+  *so_far = agrees;
+  if (agrees.outcome != STRESS_AGREED && (r->family || r->unexpected))
+    *so_far = stress_explain(r->family ? STRESS_FAMILY : STRESS_UNEXPECTED, ratio, bound);
 }
 
 /* Worse is later in the list of outcomes. */
