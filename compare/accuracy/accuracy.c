@@ -131,7 +131,7 @@ static hc_status assign(const workspace *w, traced *t, int first, int last, solu
   hc_status st = hbm_curve_at(t->hbm, &t->curve, w->ref.targets[first].omega, &at);
   periodic_motion *found = calloc((size_t)at.n + 1, sizeof *found);
   bool *taken = calloc((size_t)at.n + 1, sizeof *taken);
-  int i, k;
+  int i = 0, k = 0;
   st = st == HC_NO_MEMORY || !found || !taken ? HC_NO_MEMORY : HC_OK;
   for (int b = 0; b < at.n && st == HC_OK; ++b) {
     hbm_measures m;
