@@ -173,6 +173,14 @@ stress_check stress_structure_cvode(solved_structure *s)
   return by(s, &how, how.scout ? PATH_AGAIN : PATH_ORBIT, same_by_cvode);
 }
 
+/* Where a slider never slips beside other contacts, and with another law rests elsewhere, the orbit is another member
+ * of the family. */
+static stress_check unless_family(const solved_structure *s, stress_check c)
+{
+  const bool family = s->model->n_contacts > 1 && s->path->r.free_sliders > 0;
+  return c.outcome == STRESS_FINDING && family ? stress_explain(STRESS_FAMILY, c.error, c.bound) : c;
+}
+
 /* Of first or second order: with a tenth of the regularisation the difference falls to a quarter or less. */
 stress_check stress_structure_regularised(solved_structure *s)
 {
@@ -187,11 +195,12 @@ stress_check stress_structure_regularised(solved_structure *s)
   int solved = 0;
   for (how.regularisation = 1e-4; how.regularisation >= 0.9e-7; how.regularisation /= 10) {
     c = by(s, &how, PATH_AGAIN, same_law);
-    if (isnan(c.error) && solved >= 2) return stress_find(STRESS_DISAGREES, before, same_law); /* it did not shrink */
+    if (isnan(c.error) && solved >= 2) /* it did not shrink */
+      return unless_family(s, stress_find(STRESS_DISAGREES, before, same_law));
     if (c.outcome == STRESS_AGREED || isnan(c.error)) return c;
     ++solved;
     if (c.error <= before / 4) return stress_explain(STRESS_SMOOTHED, c.error, before / 4);
     before = c.error;
   }
-  return c;
+  return unless_family(s, c);
 }
