@@ -77,6 +77,14 @@ static bool is_zero(const double *direction, int n)
   return true;
 }
 
+/* Are the two tangents along the same line? Beyond rounding of their entries they are not. */
+static bool is_parallel(const double *a, const double *b, int n)
+{
+  double aa = 0, bb = 0, ab = 0;
+  for (int i = 0; i < n; ++i) aa += a[i] * a[i], bb += b[i] * b[i], ab += a[i] * b[i];
+  return fabs(ab) >= (1 - 1e-12) * sqrt(aa) * sqrt(bb);
+}
+
 /* A name that --set can tell from an index. */
 static bool is_good_name(const char *name)
 {
@@ -99,6 +107,9 @@ static hc_status check_contact(case_reader *r, int j)
   else if (!normal && (law->kn != 0 || law->gap != 0))
     message_add(m, "contacts[%d] has a %s, but no normal to act along, expected `normal`, or `preload` alone", j,
                 law->kn != 0 ? "normal_stiffness" : "gap");
+  else if (!is_zero(c->tangent_2, s->n) && is_parallel(c->tangent, c->tangent_2, s->n))
+    message_add(m, "contacts[%d] has tangent_2 along its tangent, expected a direction across it", j);
+  else if (!isfinite(2 * law->mu)) message_add(m, "contacts[%d] has too large a friction to be held, expected less", j);
   else if (!isfinite(structure_contact_law(c).gap))
     message_add(m, "contacts[%d] has a preload/normal_stiffness too large to be held, expected a finite gap", j);
   else if (*c->given.name && !is_good_name(c->given.name))

@@ -146,13 +146,14 @@ static bool is_zero(const double *direction, int n)
 
 static void write_contact(const scene_structure *s, const structure_contact *c, FILE *to)
 {
-  const char *left_out[8];
+  const char *left_out[10];
   const char *before = "  - ";
   const bool tangent = !is_zero(c->tangent, s->n), normal = !is_zero(c->normal, s->n);
   int n = 0;
   if (!c->by_angle) left_out[n++] = "angle_deg";
   if (!*c->given.name) left_out[n++] = "name";
   if (!c->by_angle && !tangent) left_out[n++] = "tangential_stiffness", left_out[n++] = "friction";
+  if (is_zero(c->tangent_2, s->n)) left_out[n++] = "limit";
   if (!c->by_angle && !normal) left_out[n++] = "normal_stiffness", left_out[n++] = "gap";
   else left_out[n++] = c->given.preload > 0 ? "gap" : "preload";
   left_out[n] = NULL;
@@ -161,6 +162,11 @@ static void write_contact(const scene_structure *s, const structure_contact *c, 
     write_direction(s, c->tangent, to);
     putc('\n', to);
     before = "    ";
+  }
+  if (!is_zero(c->tangent_2, s->n)) {
+    fprintf(to, "%stangent_2: ", before);
+    write_direction(s, c->tangent_2, to);
+    putc('\n', to);
   }
   if (normal) {
     fprintf(to, "%snormal: ", before);

@@ -27,6 +27,7 @@ static const char *const start_names[] = {[TRANSIENT_START_HBM] = "hbm",
                                           [TRANSIENT_START_DOWN] = "down",
                                           NULL};
 
+static const char *const limit_names[] = {[CONTACT_LIMIT_CIRCLE] = "circle", [CONTACT_LIMIT_SQUARE] = "square", NULL};
 static const char *const nonlinear_names[] = {
     [GATE_NONLINEAR_ANY] = "any", [GATE_NONLINEAR_REQUIRED] = "required", NULL};
 
@@ -125,6 +126,12 @@ static const field table[] = {
    .meaning = "from x to the tangent: u = x cos(alpha), v = x sin(alpha); of one DOF"},
   {"contacts", "tangent", "", PART(FIELD_IN_CONTACT, "a DOF, or factors of DOFs such as {tip: 1, root: -1}"),
    .unit = "1", .fallback = "", .meaning = "u = tangent . x; none: a spring across the contact alone"},
+  {"contacts", "tangent_2", "", PART(FIELD_IN_CONTACT, "a DOF, or factors of DOFs such as {tip: 1, root: -1}"),
+   .unit = "1", .fallback = "", .meaning = "a second tangent, across the first: the traction is a vector then"},
+  {"contacts", "limit", "", FIELD_CHOICE, .unit = "", .choices = limit_names,
+   .flags = FIELD_IN_CONTACT | FIELD_STRUCTURE,
+   .offset = offsetof(scene_contact, limit), .fallback = "circle",
+   .meaning = "of two tangents: |(T_1, T_2)| <= mu N; square: |T_1| and |T_2| <= mu N each"},
   {"contacts", "normal", "", PART(FIELD_IN_CONTACT, "a DOF, or factors of DOFs such as {tip: 1, root: -1}"),
    .unit = "1", .fallback = "", .meaning = "v = normal . x; none: N = preload, constant"},
   {"contacts", "gap", "g", FIELD_REAL, .unit = "length", CONTACT(law.gap), .fallback = "0", UNBOUNDED,

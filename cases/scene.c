@@ -42,6 +42,11 @@ const scene_contact *scene_contact_at(const scene *sc, int j)
   return sc->structure ? &sc->structure->contacts[j].given : &sc->contacts[j];
 }
 
+int scene_model_contact(const scene *sc, int j)
+{
+  return sc->structure ? structure_model_contact(sc->structure, j) : j;
+}
+
 bool scene_adrift(const scene *sc)
 {
   bool held = sc->structure || sc->stiffness > 0; /* of a structure the reader sees to it */

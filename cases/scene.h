@@ -21,11 +21,15 @@ enum {
 
 typedef struct scene_structure scene_structure; /* structure.h */
 
+/* How a contact with two tangents limits its traction (T_1, T_2): as a vector, or each direction alone. */
+typedef enum contact_limit { CONTACT_LIMIT_CIRCLE, CONTACT_LIMIT_SQUARE } contact_limit;
+
 typedef struct scene_contact {
   contact law;
   double angle_deg; /* [deg] 0..90, of the contact's tangent to x */
   double preload;   /* [force] >= 0, of a structure's contact: kn gap, or its constant normal force without normal */
   char name[SCENE_NAME]; /* of a structure's contact, or "" */
+  contact_limit limit;   /* of a structure's contact with two tangents */
 } scene_contact;
 
 typedef struct scene {
@@ -61,6 +65,9 @@ double scene_max_stiffness(const scene *sc);
 /* The contacts, of an oscillator or a structure. */
 int scene_contact_count(const scene *sc);
 const scene_contact *scene_contact_at(const scene *sc, int j);
+
+/* Contact j in the model of the scene: the first of its one or two contacts there (contact_pair, model.h). */
+int scene_model_contact(const scene *sc, int j);
 
 /* Does nothing hold the mass while no contact touches? That is so with stiffness 0 and no contact under a preload; its
  * mean is then undetermined. */

@@ -27,10 +27,7 @@ void structure_clear_loads(scene_structure *s)
 
 void structure_clear_contacts(scene_structure *s)
 {
-  for (int j = 0; j < s->n_contacts; ++j) {
-    free(s->contacts[j].tangent);
-    free(s->contacts[j].normal);
-  }
+  for (int j = 0; j < s->n_contacts; ++j) free(s->contacts[j].tangent); /* with the others behind it */
   free(s->contacts);
   s->contacts = NULL;
   s->n_contacts = 0;
@@ -107,17 +104,16 @@ structure_response *structure_add_response(scene_structure *s)
 
 structure_contact *structure_add_contact(scene_structure *s)
 {
-  double *tangent = calloc((size_t)s->n, sizeof *tangent), *normal = calloc((size_t)s->n, sizeof *normal);
-  structure_contact *grown = tangent && normal ? with_room(s->contacts, s->n_contacts, sizeof *grown) : NULL;
+  const size_t n = (size_t)s->n;
+  double *directions = calloc(3 * n, sizeof *directions);
+  structure_contact *grown = directions ? with_room(s->contacts, s->n_contacts, sizeof *grown) : NULL;
   if (!grown) {
-    free(tangent);
-    free(normal);
+    free(directions);
     return NULL;
   }
   s->contacts = grown;
-  memset(&grown[s->n_contacts], 0, sizeof *grown);
-  grown[s->n_contacts].tangent = tangent;
-  grown[s->n_contacts].normal = normal;
+  grown[s->n_contacts] = (structure_contact){
+      .tangent = directions, .tangent_2 = directions + n, .normal = directions + 2 * n, .place = {0}};
   return &grown[s->n_contacts++];
 }
 
@@ -176,10 +172,11 @@ static bool copy_lists(scene_structure *to, const scene_structure *from)
   for (int j = 0; j < from->n_contacts; ++j) {
     structure_contact *c = structure_add_contact(to);
     if (!c) return false;
-    double *tangent = memcpy(c->tangent, from->contacts[j].tangent, bytes);
-    double *normal = memcpy(c->normal, from->contacts[j].normal, bytes);
+    const structure_contact own = *c;
     *c = from->contacts[j];
-    c->tangent = tangent, c->normal = normal;
+    c->tangent = memcpy(own.tangent, c->tangent, bytes);
+    c->tangent_2 = memcpy(own.tangent_2, c->tangent_2, bytes);
+    c->normal = memcpy(own.normal, c->normal, bytes);
   }
   for (int i = 0; i < from->n_responses; ++i) {
     structure_response *r = structure_add_response(to);

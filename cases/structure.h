@@ -30,9 +30,9 @@ typedef struct structure_load { /* amplitude cos(harmonic omega t + phase) along
 } structure_load;
 
 typedef struct structure_contact {
-  scene_contact given;      /* its scalars; kt = mu = 0 without a tangent, kn = gap = 0 without a normal */
-  double *tangent, *normal; /* [n] [1] u = tangent . x, v = normal . x; all 0 where there is none */
-  bool by_angle;            /* they came from given.angle_deg: one degree of freedom */
+  scene_contact given;                  /* its scalars; kt = mu = 0 without a tangent, kn = gap = 0 without a normal */
+  double *tangent, *tangent_2, *normal; /* [n] [1] u = tangent . x, v = normal . x; all 0 where there is none */
+  bool by_angle;                        /* they came from given.angle_deg: one degree of freedom */
   case_place place;
 } structure_contact;
 

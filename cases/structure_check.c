@@ -73,6 +73,7 @@ static void stuck_stiffness(const scene_structure *s, bool at_rest, double *A)
     const bool holds = c->given.law.mu > 0 && (c->given.law.kn > 0 || c->given.preload > 0);
     if (at_rest && !is_pressed(&c->given)) continue;
     add_spring(s->n, A, holds ? c->given.law.kt : 0, c->tangent);
+    add_spring(s->n, A, holds ? c->given.law.kt : 0, c->tangent_2);
     add_spring(s->n, A, c->given.law.kn, c->normal);
   }
 }

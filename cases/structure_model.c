@@ -29,6 +29,51 @@ void structure_cosine_sine(double angle_deg, double *cosine, double *sine)
   *sine = sin(angle * (PI / 180));
 }
 
+bool structure_contact_is_pair(const scene_structure *s, const structure_contact *c)
+{
+  for (int i = 0; i < s->n; ++i)
+    if (c->tangent_2[i] != 0) return true;
+  return false;
+}
+
+int structure_model_contact(const scene_structure *s, int j)
+{
+  int first = j;
+  for (int k = 0; k < j; ++k) first += structure_contact_is_pair(s, &s->contacts[k]);
+  return first;
+}
+
+/* One direction of contact c. */
+static void set_contact(const scene_structure *s, const structure_contact *c, const double *tangent, model_contact *to)
+{
+  const size_t bytes = (size_t)s->n * sizeof *tangent;
+  to->law = structure_contact_law(c);
+  memcpy(to->tangent, tangent, bytes);
+  memcpy(to->normal, c->normal, bytes);
+  if (c->by_angle) model_direction(c->given.angle_deg, to->tangent, to->normal);
+}
+
+static void set_pair(const scene_structure *s, const structure_contact *c, model_contact to[2])
+{
+  const contact whole = structure_contact_law(c);
+  for (int d = 0; d < 2; ++d) {
+    set_contact(s, c, d == 0 ? c->tangent : c->tangent_2, &to[d]);
+    to[d].law = model_half_law(&whole);
+    to[d].pair = d == 0 ? CONTACT_FIRST : CONTACT_SECOND;
+    to[d].circle = c->given.limit == CONTACT_LIMIT_CIRCLE;
+  }
+}
+
+static void set_contacts(const scene_structure *s, model *m)
+{
+  model_contact *to = m->contacts;
+  for (int j = 0; j < s->n_contacts; ++j) {
+    const structure_contact *c = &s->contacts[j];
+    if (structure_contact_is_pair(s, c)) set_pair(s, c, to), to += 2;
+    else set_contact(s, c, c->tangent, to++);
+  }
+}
+
 /* The loads of the model: one for every harmonic there is, in ascending order; returns how many. */
 static int harmonics(const scene_structure *s, int *harmonic)
 {
@@ -81,8 +126,9 @@ hc_status structure_model(const scene_structure *s, model **out)
 {
   int harmonic[HBM_MAX_HARMONICS + 1];
   const int n_loads = harmonics(s, harmonic);
-  const size_t bytes = (size_t)s->n * sizeof(double), square = (size_t)s->n * bytes;
-  hc_status st = model_new(s->n, n_loads, s->n_contacts, s->n_responses > 0 ? s->n_responses : 1, out);
+  const size_t square = (size_t)s->n * (size_t)s->n * sizeof(double);
+  const int n_contacts = structure_model_contact(s, s->n_contacts);
+  hc_status st = model_new(s->n, n_loads, n_contacts, structure_response_count(s), out);
   if (st != HC_OK) return st;
   model *m = *out;
   memcpy(m->mass, s->mass.v, square);
@@ -93,13 +139,7 @@ hc_status structure_model(const scene_structure *s, model **out)
     for (int i = 0; i < s->n_loads; ++i)
       if (s->loads[i].harmonic == harmonic[l]) add_load(&m->loads[l], s->n, &s->loads[i]);
   }
-  for (int j = 0; j < s->n_contacts; ++j) {
-    const structure_contact *c = &s->contacts[j];
-    m->contacts[j].law = structure_contact_law(c);
-    memcpy(m->contacts[j].tangent, c->tangent, bytes);
-    memcpy(m->contacts[j].normal, c->normal, bytes);
-    if (c->by_angle) model_direction(c->given.angle_deg, m->contacts[j].tangent, m->contacts[j].normal);
-  }
+  set_contacts(s, m);
   set_responses(s, m);
   return HC_OK;
 }

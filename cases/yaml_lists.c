@@ -38,9 +38,10 @@ hc_status yaml_entry_part(case_reader *r, yaml_document_t *doc, const field *f, 
 {
   scene_structure *s = r->sc.structure;
   char path[FIELD_PATH];
-  double *to = f->flags & FIELD_IN_LOAD           ? s->loads[j].direction
-               : f == part("contacts", "tangent") ? s->contacts[j].tangent
-                                                  : s->contacts[j].normal;
+  double *to = f->flags & FIELD_IN_LOAD             ? s->loads[j].direction
+               : f == part("contacts", "tangent")   ? s->contacts[j].tangent
+               : f == part("contacts", "tangent_2") ? s->contacts[j].tangent_2
+                                                    : s->contacts[j].normal;
   return yaml_direction(r, doc, field_path(f, j, path), node, to);
 }
 
@@ -136,7 +137,7 @@ static hc_status not_yet(case_reader *r, const yaml_node_t *key)
 
 static hc_status read_contact_keys(case_reader *r, yaml_document_t *doc, const yaml_node_t *node, int j)
 {
-  static const char *const later[] = {"tangent_2", "limit", "pairs", "axes"};
+  static const char *const later[] = {"pairs", "axes"};
   structure_contact *c = &r->sc.structure->contacts[j];
   for (yaml_node_pair_t *p = node->data.mapping.pairs.start; p < node->data.mapping.pairs.top; ++p) {
     const yaml_node_t *key = yaml_document_get_node(doc, p->key);
@@ -179,6 +180,16 @@ static hc_status check_contact(case_reader *r, int j)
                 r->sc.structure->n > 1 ? ": an angle is for one DOF" : " or `angle_deg`, not both");
     return HC_BAD_INPUT;
   }
+  if (given(r, "contacts", "tangent_2") && !tangent) {
+    message_add(case_blame(r, r->at[field_index(part("contacts", "tangent_2"))]),
+                "tangent_2 in `contacts[%d]`, which has no tangent, expected `tangent` first", j);
+    return HC_BAD_INPUT;
+  }
+  if (given(r, "contacts", "limit") && !given(r, "contacts", "tangent_2")) {
+    message_add(case_blame(r, r->at[field_index(part("contacts", "limit"))]),
+                "limit in `contacts[%d]`, which has one tangent, expected it beside `tangent_2` only", j);
+    return HC_BAD_INPUT;
+  }
   if (!tangent && !normal && !c->by_angle) {
     message_add(case_blame(r, c->place), "contacts[%d] moves nothing, expected `tangent`, `normal` or both", j);
     return HC_BAD_INPUT;
@@ -200,6 +211,7 @@ hc_status yaml_contact_read(case_reader *r, yaml_document_t *doc, const yaml_nod
   yaml_forget_fields(r, FIELD_IN_CONTACT);
   field_contact_defaults(&c->given);
   memset(c->tangent, 0, (size_t)s->n * sizeof *c->tangent);
+  memset(c->tangent_2, 0, (size_t)s->n * sizeof *c->tangent_2);
   memset(c->normal, 0, (size_t)s->n * sizeof *c->normal);
   c->place = case_place_of(r, node->start_mark);
   st = read_contact_keys(r, doc, node, j);

@@ -92,6 +92,8 @@ hc_status model_copy_sized(const model *m, int n_contacts, int n_responses, mode
   }
   for (int j = 0; j < m->n_contacts && j < n_contacts; ++j) {
     copy->contacts[j].law = m->contacts[j].law;
+    copy->contacts[j].pair = m->contacts[j].pair;
+    copy->contacts[j].circle = m->contacts[j].circle;
     memcpy(copy->contacts[j].tangent, m->contacts[j].tangent, vector);
     memcpy(copy->contacts[j].normal, m->contacts[j].normal, vector);
   }
@@ -116,6 +118,31 @@ void model_free(model *m)
   free(m->loads);
   free(m->contacts);
   free(m);
+}
+
+bool model_has_circle(const model *m)
+{
+  for (int j = 0; j < m->n_contacts; ++j)
+    if (m->contacts[j].circle) return true;
+  return false;
+}
+
+contact model_pair_law(const model_contact *half)
+{
+  contact whole = half->law;
+  whole.kn *= 2;
+  whole.load *= 2;
+  whole.mu /= 2;
+  return whole;
+}
+
+contact model_half_law(const contact *whole)
+{
+  contact half = *whole;
+  half.kn /= 2;
+  half.load /= 2;
+  half.mu *= 2;
+  return half;
 }
 
 void model_direction(double angle_deg, double *tangent, double *normal)

@@ -17,9 +17,17 @@
 #include "base/status.h"
 #include "model/contact_law.h"
 
+/* A contact with two tangents is two neighbours in the list, one for each tangent: of the same law and normal, each
+ * with half of kn and load and twice mu. So mu N of either is the contact's, their normal forces add up to the
+ * contact's, and all that is linear needs to know nothing of it. Under the square law |T_1|, |T_2| <= mu N they are two
+ * contacts and nothing else; under that of the circle |(T_1, T_2)| <= mu N the limit is theirs together. */
+typedef enum contact_pair { CONTACT_ALONE, CONTACT_FIRST, CONTACT_SECOND } contact_pair;
+
 typedef struct model_contact {
   contact law;
   double *tangent, *normal; /* [n] [1] u = tangent . x, v = normal . x; all 0 where the contact has no such direction */
+  contact_pair pair;
+  bool circle; /* of a pair, on both: the law of the circle */
 } model_contact;
 
 /* cosine cos(k omega t) + sine sin(k omega t), k = harmonic >= 0: one load for each k. */
@@ -57,6 +65,15 @@ hc_status model_copy_sized(const model *m, int n_contacts, int n_responses, mode
 hc_status model_copy_all_seen(const model *m, model **out);
 
 void model_free(model *m); /* NULL is allowed */
+
+/* Does any contact follow the law of the circle? */
+bool model_has_circle(const model *m);
+
+/* The whole law of a pair, from that of either of the two. */
+contact model_pair_law(const model_contact *half);
+
+/* That of either of the two, from the whole law. */
+contact model_half_law(const contact *whole);
 
 /* (tangent, normal) = (cos, sin) of the angle [deg] between x and the contact's tangent, exact at 0 and 90 degrees. */
 void model_direction(double angle_deg, double *tangent, double *normal);

@@ -101,6 +101,7 @@ hc_status timeint_new(const model *m, const transient_settings *how, timeint **o
   *out = NULL;
   hc_status st = check_input(m, how);
   if (st != HC_OK) return st;
+  if (model_has_circle(m)) return HC_UNSUPPORTED;
   if (m->n_contacts > MOST_STATES - 2 * m->n) return HC_NO_MEMORY;
   timeint *ti = calloc(1, sizeof *ti); /* zeroed, so free works half-built */
   if (!ti) return HC_NO_MEMORY;

@@ -44,8 +44,7 @@ static void drop_contacts(shrinker *s, scene *sc)
   for (int j = sc->structure->n_contacts - 1; j >= 0 && sc->structure->n_contacts > 1; --j) {
     if (!copy(s, sc, &smaller)) return;
     scene_structure *t = smaller.structure;
-    free(t->contacts[j].tangent);
-    free(t->contacts[j].normal);
+    free(t->contacts[j].tangent); /* with the others behind it */
     t->contacts[j] = t->contacts[--t->n_contacts];
     take(s, sc, &smaller);
   }
@@ -86,6 +85,7 @@ static void hold_dof(scene_structure *t, int k)
   for (int i = 0; i < t->n_loads; ++i) drop_entry(t->n, k, t->loads[i].direction);
   for (int j = 0; j < t->n_contacts; ++j) {
     drop_entry(t->n, k, t->contacts[j].tangent);
+    drop_entry(t->n, k, t->contacts[j].tangent_2);
     drop_entry(t->n, k, t->contacts[j].normal);
   }
   structure_clear_responses(t);

@@ -48,6 +48,8 @@ static inline void same_models(const model *a, const model *b)
   }
   for (int j = 0; j < a->n_contacts; ++j) {
     assert_memory_equal(&a->contacts[j].law, &b->contacts[j].law, sizeof(contact));
+    assert_int_equal(a->contacts[j].pair, b->contacts[j].pair);
+    assert_int_equal(a->contacts[j].circle, b->contacts[j].circle);
     assert_memory_equal(a->contacts[j].tangent, b->contacts[j].tangent, vector);
     assert_memory_equal(a->contacts[j].normal, b->contacts[j].normal, vector);
   }

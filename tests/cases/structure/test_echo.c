@@ -53,6 +53,9 @@ static void every_form_comes_back(void **state)
                 "  - {normal_stiffness: 3, preload: 0.1, normal: tip}\n"
                 "  - {normal_stiffness: 3, gap: -0.1, normal: {tip: 0.1, root: 3}}\n"
                 "  - {tangential_stiffness: 2, friction: 0.1, normal_stiffness: 3, normal: tip, tangent: root}\n",
+      TWO "contacts:\n  - {tangential_stiffness: 2, friction: 0.1, preload: 3, tangent: 1, tangent_2: {1: 0.1, 2: 1}}\n"
+          "  - {tangential_stiffness: 2, friction: 0.1, normal_stiffness: 3, normal: 1, tangent: 1, tangent_2: 2,\n"
+          "     limit: square}\n",
       "structure:\n  mass: [1, 1]\n  stiffness: [3, 4]\n  damping: {rayleigh: [-0.1, 1e-300]}\n"
       "  names: [\"a: b\", \"#\\\\ \\u20ac\"]\n" SWEEP,
   };

@@ -218,6 +218,41 @@ static void what_contacts_hold_is_held(void **state)
       NULL)); /* walls and units */
 }
 
+/* In the model a contact with two tangents is two, with half the normal stiffness and twice the friction each. */
+static void two_tangents_are_two_contacts_of_the_model(void **state)
+{
+  (void)state;
+  scene sc;
+  model *m;
+  accepted(TWO "contacts:\n"
+               "  - {normal_stiffness: 3, normal: 2}\n"
+               "  - {tangential_stiffness: 200, normal_stiffness: 300, friction: 0.3, gap: 0.1,\n"
+               "     tangent: 1, tangent_2: {1: 1, 2: -1}, normal: {2: 1}}\n"
+               "  - {tangential_stiffness: 20, friction: 1, preload: 5, tangent: 1, tangent_2: 2, limit: square}\n",
+           NULL, &sc);
+  assert_int_equal(scene_model(&sc, &m), HC_OK);
+  assert_int_equal(m->n_contacts, 5);
+  assert_int_equal(scene_model_contact(&sc, 1), 1);
+  assert_int_equal(scene_model_contact(&sc, 2), 3);
+  assert_int_equal(scene_model_contact(&sc, 3), 5);
+  assert_true(m->contacts[0].pair == CONTACT_ALONE && m->contacts[0].law.kn == 3);
+  for (int d = 0; d < 2; ++d) {
+    const model_contact *circle = &m->contacts[1 + d], *square = &m->contacts[3 + d];
+    assert_true(circle->pair == (d ? CONTACT_SECOND : CONTACT_FIRST) && circle->circle);
+    assert_true(square->pair == (d ? CONTACT_SECOND : CONTACT_FIRST) && !square->circle);
+    assert_true(circle->law.kt == 200 && circle->law.kn == 150 && circle->law.mu == 0.6 && circle->law.gap == 0.1);
+    assert_true(square->law.kt == 20 && square->law.kn == 0 && square->law.mu == 2 && square->law.load == 2.5);
+    assert_true(circle->normal[0] == 0 && circle->normal[1] == 1);
+    assert_true(model_pair_law(circle).kn == 300 && model_pair_law(circle).mu == 0.3);
+    assert_true(model_pair_law(square).load == 5);
+  }
+  assert_true(m->contacts[1].tangent[0] == 1 && m->contacts[1].tangent[1] == 0);
+  assert_true(m->contacts[2].tangent[0] == 1 && m->contacts[2].tangent[1] == -1);
+  assert_true(model_has_circle(m));
+  model_free(m);
+  case_clear(&sc);
+}
+
 static void names_of_responses(void **state)
 {
   (void)state;
@@ -243,6 +278,7 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(files_of_matrices_lie_beside_the_case),
     cmocka_unit_test(modal_damping_damps_every_mode_as_asked),
     cmocka_unit_test(what_contacts_hold_is_held),
+    cmocka_unit_test(two_tangents_are_two_contacts_of_the_model),
     cmocka_unit_test(names_of_responses),
 };
 
