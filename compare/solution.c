@@ -311,6 +311,7 @@ void solution_turn(comparison_work *w, const hbm_curve *at, int k, int r, const 
     row->verdict = within ? VERDICT_MATCH : unstable(first) ? VERDICT_UNSTABLE : VERDICT_DIFFERS;
   row->unexpected = comparison_unexpected(row);
 }
+
 hc_status solution_contacts(comparison_work *w, const double *X, const comparison_row *row, contact_comparison *c)
 {
   const model *m = w->setup->model;

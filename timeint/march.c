@@ -77,6 +77,7 @@ static hc_status measure_orbit(timeint *ti, int k, march *m, timeint_result *r)
     if (st != HC_OK) return st;
   }
   measure_report(&ti->measure, ti->model, 0, ti->length, r);
+  r->free_sliders = measure_resting_sliders(&ti->measure);
   ti->measured = true;
   settle_estimate e = settle_judge(ti->settle, ti->how.tolerance * r->amplitude);
   r->closure = e.distance / r->amplitude;

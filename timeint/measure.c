@@ -10,6 +10,7 @@
 #include "model/periodic_motion.h"
 #include "numerics/roots.h"
 
+static const double same_place = 1e-9;     /* of the motion's range: a slider that moves less rests */
 static const double longest_quintic = 0.2; /* [rad] 0.2^7/100800 = 1e-10 of the sixth derivative, for one step */
 
 hc_status measure_make(measure *me, int n_states, int n_responses, int n_contacts)
@@ -19,11 +20,13 @@ hc_status measure_make(measure *me, int n_states, int n_responses, int n_contact
                   .n_contacts = n_contacts,
                   .response = calloc((size_t)n_responses, sizeof *me->response),
                   .seen = calloc((size_t)n_contacts + 1, 1),
+                  .slider = calloc(2 * (size_t)n_contacts + 1, sizeof(double)),
                   .end = calloc(n, sizeof(double)),
                   .end_rate = calloc(n, sizeof(double)),
                   .inside = calloc(n, sizeof(double)),
                   .circle = calloc((size_t)TIMEINT_WAVE * 2, sizeof(double))};
-  if (!me->response || !me->seen || !me->end || !me->end_rate || !me->inside || !me->circle) return HC_NO_MEMORY;
+  if (!me->response || !me->seen || !me->slider || !me->end || !me->end_rate || !me->inside || !me->circle)
+    return HC_NO_MEMORY;
   for (int i = 0; i < TIMEINT_WAVE; ++i) {
     me->circle[2 * i] = cos(TWO_PI * i / TIMEINT_WAVE);
     me->circle[2 * i + 1] = sin(TWO_PI * i / TIMEINT_WAVE);
@@ -35,6 +38,7 @@ void measure_free(measure *me)
 {
   free(me->response);
   free(me->seen);
+  free(me->slider);
   free(me->circle);
   free(me->end);
   free(me->end_rate);
@@ -47,6 +51,7 @@ void measure_begin(measure *me, const scaled_model *m)
   me->periods = me->next = 0;
   me->no_integrals = false;
   memset(me->seen, 0, (size_t)me->n_contacts);
+  for (int j = 0; j < me->n_contacts; ++j) me->slider[2 * j] = INFINITY, me->slider[2 * j + 1] = -INFINITY;
   for (int i = 0; i < me->n_responses; ++i) me->response[i] = (response_measure){.max = -INFINITY, .min = INFINITY};
 }
 
@@ -209,6 +214,14 @@ unsigned char measure_seen(contact_state state)
   return state == CONTACT_STICK ? SEEN_STUCK : SEEN_SLIPPING;
 }
 
+static void watch_contact(measure *me, int j, contact_state now, const double *y)
+{
+  const double w = y[2 * me->m->n + j];
+  me->seen[j] |= measure_seen(now);
+  me->slider[2 * j] = fmin(me->slider[2 * j], w);
+  me->slider[2 * j + 1] = fmax(me->slider[2 * j + 1], w);
+}
+
 hc_status measure_step(void *self, const integrator *in, double theta0, double theta1)
 {
   measure *me = self;
@@ -224,8 +237,20 @@ hc_status measure_step(void *self, const integrator *in, double theta0, double t
     if ((st = add_peaks(me, in, i, theta0, theta1, &end)) != HC_OK) return st;
     begin_step(&me->response[i], &end);
   }
-  for (int j = 0; j < me->m->n_contacts; ++j) me->seen[j] |= measure_seen(integrate_contact(in, j, y));
+  for (int j = 0; j < me->m->n_contacts; ++j) watch_contact(me, j, integrate_contact(in, j, y), y);
   return HC_OK;
+}
+
+int measure_resting_sliders(const measure *me)
+{
+  double range = 0;
+  int resting = 0;
+  for (int i = 0; i < me->n_responses; ++i) range = fmax(range, me->response[i].max - me->response[i].min);
+  for (int j = 0; j < me->m->n_contacts; ++j) {
+    const bool leaves = !me->m->contact[j].law.has_friction || me->seen[j] & SEEN_SEPARATED;
+    resting += !leaves && me->slider[2 * j + 1] - me->slider[2 * j] <= same_place * range;
+  }
+  return resting;
 }
 
 /* The strongest thing contact c of an oscillator does while its motion covers [min, max]. */

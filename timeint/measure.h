@@ -33,6 +33,7 @@ typedef struct measure { /* lengths in units of the model's L, until measure_rep
   bool no_integrals;               /* the integrator does not have them */
   response_measure *response;      /* [n_responses] */
   unsigned char *seen;             /* [n_contacts] at the ends of steps */
+  double *slider;                  /* [n_contacts][2] least and largest W at the ends of steps */
   double *circle;                  /* [TIMEINT_WAVE][2] cos and sin of the instants */
   double *end, *end_rate, *inside; /* [n_states] a state at a step's end, its derivative, a state inside a step */
 } measure;
@@ -51,6 +52,10 @@ hc_status measure_step(void *self, const integrator *in, double theta0, double t
 
 /* The strongest thing contact j did; an oscillator's covered [min, max] (model's units). */
 contact_regime measure_regime(const measure *me, const model *from, int j, double min, double max);
+
+/* Contacts whose slider was nowhere seen to leave its place while it was in contact: where it rests depends on the
+ * start. A place is one to 1e-9 of the largest response's range, ten times what CVODE's steps scatter. */
+int measure_resting_sliders(const measure *me);
 
 /* Of response i: max, min, amplitude, rms, mean, a1, b1, harmonic_1, wave (of the last period), and the regime of all
  * contacts, into *r; L = length. */

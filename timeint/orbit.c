@@ -63,6 +63,7 @@ hc_status orbit_measure(timeint *ti, int k, timeint_result *r)
     for (size_t c = 0; c < moving; ++c) returned[i + 1] = fmax(returned[i + 1], fabs(ti->y[c] - began[c]));
   }
   measure_report(&ti->measure, ti->model, 0, ti->length, r);
+  r->free_sliders = measure_resting_sliders(&ti->measure);
   ti->measured = true;
   r->switches = (int)(integrate_transitions(ti->in) - transitions);
   r->period_multiple = shortest_period(k, timeint_size(ti) / ti->length, returned);
@@ -78,7 +79,7 @@ void orbit_fill(const timeint *ti, int k, timeint_method method, const shoot_rep
   r->multiplier_re = creal(found->multiplier);
   r->multiplier_im = cimag(found->multiplier);
   r->contraction = pow(r->multiplier, 1.0 / k);
-  r->free_sliders = found->free_sliders;
+  if (found->free_sliders > r->free_sliders) r->free_sliders = found->free_sliders;
 }
 
 hc_status orbit_report(timeint *ti, int k, timeint_method method, const shoot_report *found, timeint_result *r)

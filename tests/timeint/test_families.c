@@ -194,10 +194,37 @@ static void two_stable_motions(void **state)
   model_free(c.model);
 }
 
+/* Marched from rest, without the multipliers that tell free sliders where an orbit is solved for. */
+static void marching_counts_them_too(void **state)
+{
+  (void)state;
+  static const struct {
+    const char *name;
+    double omega;
+    int free_sliders;
+  } marched[] = {{"wedge_F0.5", 37, 2}, {"wedge_F2", 37, 1}, {"wedge_F2", 35, 0}};
+  for (size_t i = 0; i < sizeof marched / sizeof *marched; ++i) {
+    const structure_case c = structure_case_named(marched[i].name, 3);
+    transient_settings how = closed_form;
+    how.steady = TRANSIENT_STEADY_MARCH;
+    timeint *ti;
+    timeint_result r;
+    double y[STATES] = {0};
+    assert_int_equal(timeint_new(c.model, &how, &ti), HC_OK);
+    timeint_rest(ti, y);
+    assert_int_equal(timeint_steady(ti, marched[i].omega, y, NULL, &r), HC_OK);
+    assert_int_equal(r.method, TIMEINT_BY_MARCHING);
+    assert_int_equal(r.free_sliders, marched[i].free_sliders);
+    timeint_free(ti);
+    model_free(c.model);
+  }
+}
+
 static const struct CMUnitTest tests[] = {
     cmocka_unit_test(from_rest),
     cmocka_unit_test(swept_up),
     cmocka_unit_test(swept_down),
     cmocka_unit_test(two_stable_motions),
+    cmocka_unit_test(marching_counts_them_too),
 };
 CHECK_MAIN("timeint.families", tests, 100)
