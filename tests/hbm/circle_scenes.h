@@ -1,0 +1,54 @@
+/* circle_scenes.h - contacts with two tangents, and motions in their plane, for tests. */
+#ifndef HC_TESTS_HBM_CIRCLE_SCENES_H
+#define HC_TESTS_HBM_CIRCLE_SCENES_H
+
+#include <string.h>
+
+#include "hbm/circle_aft.h"
+#include "hbm/hbm_settings.h"
+#include "numerics/series.h"
+#include "tests/check.h"
+#include "tests/hbm/scenes.h"
+
+enum { CIRCLE_MAX_H = 25, CIRCLE_MAX_LENGTH = 2 * CIRCLE_MAX_H + 1, CIRCLE_MAX_X = 3 * CIRCLE_MAX_LENGTH };
+
+/* The law of a pair's halves, from the contact's own (model.h). */
+static inline contact circle_half(contact whole)
+{
+  return (contact){whole.kt, whole.kn / 2, 2 * whole.mu, whole.gap, whole.load / 2};
+}
+
+/* A contact for motions of size about 1, with friction: mostly always in contact, or coming and going; one in four
+ * under a constant normal force. */
+static inline contact random_circle(uint64_t *seed)
+{
+  contact law = {.kt = pow(10, random_signed(seed)), .mu = 0.2 + 0.3 * (1 + random_signed(seed))};
+  if (random_signed(seed) < -0.5) {
+    law.load = law.kt / law.mu * pow(10, random_signed(seed) - 0.3);
+    return law;
+  }
+  law.kn = law.kt * pow(10, 0.7 * random_signed(seed));
+  law.gap = 0.7 + random_signed(seed);
+  return law;
+}
+
+/* X[3 (2H+1)] of u_1, u_2, v. */
+static inline void random_plane_motion(uint64_t *seed, int H, double decay, double *X)
+{
+  for (int d = 0; d < 3; ++d) random_motion(seed, H, 1, decay, X + d * series_length(H));
+}
+
+/* The motion's plane turned by an angle, of motions as well as of forces. */
+static inline void turn_plane(int H, double angle, const double *X, double *Y)
+{
+  const int n = series_length(H);
+  const double c = cos(angle), s = sin(angle);
+  for (int i = 0; i < n; ++i) {
+    const double x = X[i], y = X[n + i];
+    Y[i] = c * x - s * y;
+    Y[n + i] = s * x + c * y;
+    Y[2 * n + i] = X[2 * n + i];
+  }
+}
+
+#endif

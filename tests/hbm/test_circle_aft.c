@@ -1,0 +1,281 @@
+/* test_circle_aft.c - sampled forces of contacts with two tangents under the law of the circle: on one line the law of
+ * one tangent, closed forms on a circle, orders of the error, invariances, and the Jacobian against differences. */
+#include "hbm/aft.h"
+#include "tests/hbm/circle_scenes.h"
+
+static const hbm_restart restarts[] = {HBM_RESTART_INTERPOLATED, HBM_RESTART_SAMPLE,   HBM_RESTART_ZEROED,
+                                       HBM_RESTART_KEPT,         HBM_RESTART_ONE_PASS, HBM_RESTART_ONE_PASS_SAMPLE};
+enum { RESTARTS = sizeof restarts / sizeof *restarts };
+
+static double jac[CIRCLE_MAX_X * CIRCLE_MAX_X], line_jac[4 * CIRCLE_MAX_LENGTH * CIRCLE_MAX_LENGTH];
+
+static circle_aft *make(const contact *whole, hbm_restart restart, int H, int N)
+{
+  const contact half = circle_half(*whole);
+  circle_aft *a;
+  assert_int_equal(circle_aft_new(H, N, restart, whole->kn > 0 ? 3 : 2, &half, &a), HC_OK);
+  return a;
+}
+
+/* Largest force that a motion of that size can cause, for tolerances in roundings of it. */
+static double force_size(const contact *law, double size)
+{
+  return law->kt * size + law->kn * (size + fabs(law->gap)) + law->load;
+}
+
+/* ---- on one line ---------------------------------------------------------------------------------- */
+
+/* J d of the circle along the line, against the other's: T along the direction, nothing across. */
+static void compare_jacobians(int H, int n_dof, const double dir[2], const double *d, double tolerance, int trial)
+{
+  const int n = series_length(H), rows = n_dof * n, line_rows = (n_dof - 1) * n;
+  for (int p = 0; p < n; ++p) {
+    double along = 0, across = 0, wanted = 0;
+    for (int q = 0; q < n; ++q) {
+      for (int e = 0; e < 2; ++e) {
+        const double *column = jac + (size_t)(e * n + q) * (size_t)rows;
+        along += (dir[0] * column[p] + dir[1] * column[n + p]) * dir[e] * d[q];
+        across += (dir[0] * column[n + p] - dir[1] * column[p]) * dir[e] * d[q];
+      }
+      wanted += line_jac[p + line_rows * q] * d[q];
+      if (n_dof < 3) continue;
+      const double *column = jac + (size_t)(2 * n + q) * (size_t)rows;
+      along += (dir[0] * column[p] + dir[1] * column[n + p]) * d[n + q];
+      wanted += line_jac[p + line_rows * (n + q)] * d[n + q];
+    }
+    CHECK_NEAR(along, wanted, tolerance, "trial %d row %d", trial, p);
+    CHECK_NEAR(across, 0, tolerance, "trial %d row %d, across", trial, p);
+  }
+}
+
+/* u = dir U: whatever the restart, T = dir T of the law of one tangent, and so is the Jacobian in the directions that
+ * stay on the line. Both march by the same sums but for dir's: 1e-13 of the forces; a slider keeps the roundings of a
+ * period's steps, and 30 of them at w are 30 kt. */
+static void a_line_is_one_tangent(void **state)
+{
+  (void)state;
+  uint64_t seed = 21;
+  int regimes[4] = {0}, told_apart = 0;
+  double U[2 * CIRCLE_MAX_LENGTH], d[2 * CIRCLE_MAX_LENGTH], X[CIRCLE_MAX_X], F[CIRCLE_MAX_X], G[2 * CIRCLE_MAX_LENGTH];
+  for (int trial = 0; trial < 600; ++trial) {
+    const int H = 1 + trial % 9, N = 2 * H + 20 + 7 * (trial % 40), n = series_length(H);
+    const hbm_restart restart = restarts[trial % RESTARTS];
+    const double angle = PI * random_signed(&seed), dir[2] = {cos(angle), sin(angle)};
+    const contact law = random_circle(&seed);
+    const int n_dof = law.kn > 0 ? 3 : 2;
+    const moving_contact on_line = {.law = law, .cu = {1, 0}, .cv = {0, n_dof - 2}};
+    circle_aft *a = make(&law, restart, H, N);
+    aft *b;
+    contact_report in_plane, in_line;
+    assert_int_equal(aft_new(H, N, restart, n_dof - 1, 1, &on_line, &b), HC_OK);
+    random_motion(&seed, H, 1, 1, U);
+    random_motion(&seed, H, 1, 1, U + n);
+    for (int i = 0; i < n; ++i) X[i] = dir[0] * U[i], X[n + i] = dir[1] * U[i], X[2 * n + i] = U[n + i];
+    assert_int_equal(circle_aft_eval(a, X, F, &in_plane), HC_OK);
+    assert_int_equal(aft_eval(b, U, G, line_jac, &in_line), HC_OK);
+    const double size = force_size(&law, sum_abs(2 * n, U)), tolerance = 1e-13 * size;
+    for (int i = 0; i < n; ++i) {
+      CHECK_NEAR(dir[0] * F[i] + dir[1] * F[n + i], G[i], tolerance, "trial %d coefficient %d", trial, i);
+      CHECK_NEAR(dir[0] * F[n + i] - dir[1] * F[i], 0, tolerance, "trial %d coefficient %d, across", trial, i);
+      if (n_dof == 3) CHECK_NEAR(F[2 * n + i], G[n + i], tolerance, "trial %d coefficient %d, normal", trial, i);
+    }
+    double w[2], w_line;
+    circle_aft_slider(a, w);
+    aft_sliders(b, &w_line);
+    if (in_plane.regime != CONTACT_LINEAR)
+      CHECK_NEAR(dir[0] * w[0] + dir[1] * w[1], w_line, 1e-13 * sum_abs(2 * n, U), "trial %d", trial);
+    if (in_plane.regime != in_line.regime) { /* pushed until friction just holds it: a slip by rounding or none */
+      ++told_apart;
+      assert_true(fmin(in_plane.regime, in_line.regime) == CONTACT_STUCK);
+      assert_true(fmax(in_plane.regime, in_line.regime) == CONTACT_SLIPS);
+    } else assert_int_equal(in_plane.free_sliders, in_line.free_sliders);
+    ++regimes[in_line.regime];
+    random_motion(&seed, H, 1, 0, d);
+    random_motion(&seed, H, 1, 0, d + n);
+    circle_aft_jacobian(a, jac);
+    compare_jacobians(H, n_dof, dir, d, 1e-12 * force_size(&law, 1) * sum_abs(2 * n, d), trial);
+    circle_aft_free(a);
+    aft_free(b);
+  }
+  assert_true(told_apart < 60);
+  for (int r = CONTACT_STUCK; r <= CONTACT_SEPARATES; ++r) assert_true(regimes[r] > 20);
+}
+
+/* ---- on a circle ----------------------------------------------------------------------------------- */
+
+/* u = a (cos th, sin th), constant N: the slider follows on a circle of radius sqrt(a^2 - r^2), r = mu N/kt, and T has
+ * mu N r/a along u and mu N sqrt(1 - r^2/a^2) ahead of it. */
+static double circle_error(hbm_restart restart, int N)
+{
+  const contact law = {.kt = 3, .mu = 0.4, .load = 2.5};
+  const double mu_N = 1, r = mu_N / 3, a = 0.7, along = mu_N * r / a, ahead = mu_N * sqrt(1 - r * r / (a * a));
+  const double X[6] = {0, a, 0, 0, 0, a};
+  double F[6];
+  contact_report report;
+  circle_aft *of = make(&law, restart, 1, N);
+  assert_int_equal(circle_aft_eval(of, X, F, &report), HC_OK);
+  assert_int_equal(report.regime, CONTACT_SLIPS);
+  assert_int_equal(report.transitions, 0);
+  circle_aft_free(of);
+  CHECK_NEAR(F[0], 0, 1e-14, "mean, N=%d", N);
+  CHECK_NEAR(F[3], 0, 1e-14, "mean, N=%d", N);
+  CHECK_NEAR(F[1], F[5], 1e-13, "turned by a quarter, N=%d", N);
+  CHECK_NEAR(F[2], -F[4], 1e-13, "turned by a quarter, N=%d", N);
+  return hypot(F[1] - along, F[2] + ahead);
+}
+
+/* Along the line between samples the error is of order 2; the radial return is of order 1, for the direction turns. */
+static void a_circle_by_its_closed_form(void **state)
+{
+  (void)state;
+  for (int N = 64; N <= 16384; N *= 4) {
+    const double fine = circle_error(HBM_RESTART_INTERPOLATED, N), coarse = circle_error(HBM_RESTART_SAMPLE, N);
+    print_message("N = %5d: error of T / mu N on a circle, along the line %.2e, radial return %.2e\n", N, fine, coarse);
+    if (N == 64) continue;
+    CHECK_NEAR(log2(circle_error(HBM_RESTART_INTERPOLATED, N / 4) / fine) / 2, 2, 0.05, "N=%d", N);
+    CHECK_NEAR(log2(circle_error(HBM_RESTART_SAMPLE, N / 4) / coarse) / 2, 1, 0.1, "N=%d", N);
+  }
+}
+
+/* ---- what must not matter ---------------------------------------------------------------------------- */
+
+/* The plane turned, forces turn with it; the motion begun k samples later, forces begin later too, unless where the
+ * slider rests depends on where it began. 1e-12: each period of dragging adds its roundings, and few are needed. */
+static void turns_and_shifts(void **state)
+{
+  (void)state;
+  uint64_t seed = 22;
+  double X[CIRCLE_MAX_X], Y[CIRCLE_MAX_X], F[CIRCLE_MAX_X], G[CIRCLE_MAX_X], wanted[CIRCLE_MAX_X];
+  int shifted = 0;
+  for (int trial = 0; trial < 300; ++trial) {
+    const int H = 1 + trial % 6, N = 2 * H + 12 + 11 * (trial % 20), n = series_length(H);
+    const contact law = random_circle(&seed);
+    const int n_dof = law.kn > 0 ? 3 : 2, step = 1 + trial % (N - 1);
+    const double angle = PI * random_signed(&seed), shift = 2 * PI * step / N;
+    circle_aft *a = make(&law, restarts[trial % 2], H, N);
+    contact_report report;
+    random_plane_motion(&seed, H, 1, X);
+    const double tolerance = 1e-12 * force_size(&law, sum_abs(3 * n, X));
+    assert_int_equal(circle_aft_eval(a, X, F, &report), HC_OK);
+    turn_plane(H, angle, X, Y);
+    turn_plane(H, angle, F, wanted);
+    assert_int_equal(circle_aft_eval(a, Y, G, NULL), HC_OK);
+    for (int i = 0; i < n_dof * n; ++i) CHECK_NEAR(G[i], wanted[i], tolerance, "turned, trial %d row %d", trial, i);
+    if (!report.free_sliders && ++shifted) {
+      for (int d = 0; d < n_dof; ++d) {
+        shift_motion(H, X + d * n, shift, Y + d * n);
+        shift_motion(H, F + d * n, shift, wanted + d * n);
+      }
+      assert_int_equal(circle_aft_eval(a, Y, G, NULL), HC_OK);
+      for (int i = 0; i < n_dof * n; ++i) CHECK_NEAR(G[i], wanted[i], tolerance, "shifted, trial %d row %d", trial, i);
+    }
+    circle_aft_free(a);
+  }
+  assert_true(shifted > 150);
+}
+
+/* A motion that only just slips contracts little from period to period; the orbit is found all the same, to rounding: a
+ * period more, marched from the slider found, gives the same forces. Here by an ellipse whose ends reach past the
+ * circle by `past` of its radius. */
+static void little_slip_closes(void **state)
+{
+  (void)state;
+  const contact law = {.kt = 1, .mu = 1, .load = 1};
+  for (int k = 0; k < 10; ++k) {
+    const double past = pow(10, -k), a = 1 + past;
+    const double X[6] = {0.1, a, 0, -0.3, 0, 0.5};
+    double F[6];
+    contact_report report;
+    circle_aft *of = make(&law, HBM_RESTART_INTERPOLATED, 1, 256);
+    assert_int_equal(circle_aft_eval(of, X, F, &report), HC_OK);
+    assert_int_equal(report.regime, CONTACT_SLIPS);
+    for (int i = 0; i < 6; ++i) assert_true(isfinite(F[i]));
+    circle_aft_free(of);
+  }
+}
+
+/* ---- Jacobian --------------------------------------------------------------------------------------- */
+
+/* Central differences of step 1e-6 and 2e-6, extrapolated: where no sample changes its state their error is h^4 and
+ * rounding/h, 1e-9; one that does, in a motion out of some dozens, moves the difference by its kink: those are the
+ * trials counted as skipped, told by the two steps' disagreement. */
+static void jacobian_equals_differences(void **state)
+{
+  (void)state;
+  uint64_t seed = 23;
+  const double h = 1e-5;
+  double X[CIRCLE_MAX_X], d[CIRCLE_MAX_X], Y[CIRCLE_MAX_X], F[4][CIRCLE_MAX_X];
+  int skipped = 0, checked = 0, regimes[4] = {0};
+  for (int trial = 0; trial < 480; ++trial) {
+    const int H = 1 + trial % 7, N = 2 * H + 10 + 9 * (trial % 25), n = series_length(H);
+    const contact law = random_circle(&seed);
+    const int n_dof = law.kn > 0 ? 3 : 2, rows = n_dof * n;
+    circle_aft *a = make(&law, restarts[trial % RESTARTS], H, N);
+    contact_report report;
+    random_plane_motion(&seed, H, 1, X);
+    random_plane_motion(&seed, H, 1, d);
+    static const double steps[4] = {1, -1, 2, -2};
+    for (int k = 0; k < 4; ++k) {
+      for (int i = 0; i < rows; ++i) Y[i] = X[i] + steps[k] * h * d[i];
+      assert_int_equal(circle_aft_eval(a, Y, F[k], NULL), HC_OK);
+    }
+    const double size = force_size(&law, 1) * sum_abs(rows, d);
+    double disagreement = 0;
+    for (int i = 0; i < rows; ++i)
+      disagreement = fmax(disagreement, fabs(F[0][i] - F[1][i] - (F[2][i] - F[3][i]) / 2) / (2 * h));
+    if (disagreement > 1e-6 * size && ++skipped) {
+      circle_aft_free(a);
+      continue;
+    }
+    ++checked;
+    assert_int_equal(circle_aft_eval(a, X, Y, &report), HC_OK);
+    circle_aft_jacobian(a, jac);
+    for (int p = 0; p < rows; ++p) {
+      double product = 0;
+      for (int q = 0; q < rows; ++q) product += jac[p + rows * q] * d[q];
+      const double one = (F[0][p] - F[1][p]) / (2 * h), two = (F[2][p] - F[3][p]) / (4 * h);
+      CHECK_NEAR(product, (4 * one - two) / 3, 1e-8 * size + disagreement, "trial %d restart %d regime %d row %d",
+                 trial, trial % RESTARTS, report.regime, p);
+    }
+    ++regimes[report.regime];
+    circle_aft_free(a);
+  }
+  print_message("%d directions checked, %d skipped for a changed state\n", checked, skipped);
+  assert_true(skipped < checked / 4);
+  for (int r = CONTACT_STUCK; r <= CONTACT_SEPARATES; ++r) assert_true(regimes[r] > 10);
+}
+
+/* ---- refused ---------------------------------------------------------------------------------------- */
+
+static void refuses(void **state)
+{
+  (void)state;
+  const contact law = {.kt = 1, .mu = 1, .load = 1}, smooth = {.kt = 1, .load = 1};
+  circle_aft *a;
+  assert_int_equal(circle_aft_new(0, 8, HBM_RESTART_SAMPLE, 2, &law, &a), HC_BAD_INPUT);
+  assert_int_equal(circle_aft_new(2, 4, HBM_RESTART_SAMPLE, 2, &law, &a), HC_BAD_INPUT);
+  assert_int_equal(circle_aft_new(2, 8, HBM_RESTART_SAMPLE, 1, &law, &a), HC_BAD_INPUT);
+  assert_int_equal(circle_aft_new(2, 8, HBM_RESTART_SAMPLE, 2, &smooth, &a), HC_BAD_INPUT);
+  assert_null(a);
+  const double bad[] = {NAN, INFINITY, -INFINITY};
+  a = make(&law, HBM_RESTART_INTERPOLATED, 1, 8);
+  for (int k = 0; k < 3; ++k) {
+    double X[6] = {0, 1, 2, 0, bad[k], 0}, F[6];
+    assert_int_equal(circle_aft_eval(a, X, F, NULL), HC_NOT_FINITE);
+  }
+  circle_aft_free(a);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(a_line_is_one_tangent),
+      cmocka_unit_test(a_circle_by_its_closed_form),
+      cmocka_unit_test(turns_and_shifts),
+      cmocka_unit_test(little_slip_closes),
+      cmocka_unit_test(jacobian_equals_differences),
+      cmocka_unit_test(refuses),
+  };
+  check_watchdog(120);
+  return cmocka_run_group_tests_name("hbm.circle_aft", tests, NULL, NULL);
+}
