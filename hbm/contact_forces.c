@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "hbm/circle_aft.h"
 #include "numerics/series.h"
 
 /* A motion u or v as a combination of few coordinates. */
@@ -12,15 +13,19 @@ typedef struct combination {
   double *weight;     /* [n] */
 } combination;
 
-/* Contacts that one evaluator takes together: one, in its u and v or in the one of them that it has; or all of an
- * oscillator's. */
+enum { GROUP_MAX_DOF = 3 };
+
+/* Contacts that one evaluator takes together: one, in its u and v or in the one of them that it has; the two of a
+ * circle, in u_1, u_2 and v if it has one; or all of an oscillator's. */
 typedef struct group {
-  int n_dof;
-  combination of[2]; /* [n_dof] of an oscillator empty: its coordinate is q */
-  bool across_only;  /* the one coordinate is v */
+  int first;                     /* the model's contact, or the first of them */
+  int n_dof;                     /* 1..GROUP_MAX_DOF */
+  combination of[GROUP_MAX_DOF]; /* [n_dof] of an oscillator empty: its coordinate is q */
+  bool across_only;              /* the one coordinate is v */
   exact_force *located;
-  aft *sampled; /* one of the two */
-  double *jac;  /* [n_dof (2H+1)]^2 */
+  aft *sampled;
+  circle_aft *circle_sampled; /* one of the three */
+  double *jac;                /* [n_dof (2H+1)]^2 */
   bool differentiated;
 } group;
 
@@ -28,7 +33,8 @@ struct contact_forces {
   int dim, length /* 2H+1 */, n_contacts, n_groups;
   bool oscillator; /* group 0 has all contacts, in q itself */
   group *groups;   /* [n_groups] */
-  double *x, *f;   /* [2 (2H+1)] of one group */
+  int *group_of;   /* [n_contacts] */
+  double *x, *f;   /* [GROUP_MAX_DOF (2H+1)] of one group */
   double *jac;     /* [dim (2H+1)]^2 once it has been asked for; NULL of an oscillator, whose group's it is */
   bool assembled;
 };
@@ -54,10 +60,17 @@ typedef struct evaluator_kind {
   int n_harm, n_time;
 } evaluator_kind;
 
-static hc_status make_evaluator(const evaluator_kind *kind, int n_contacts, const moving_contact *contacts, group *g)
+static hc_status make_jacobian(const evaluator_kind *kind, group *g)
 {
   const size_t length = (size_t)g->n_dof * (size_t)series_length(kind->n_harm);
-  if (!(g->jac = calloc(length * length, sizeof *g->jac))) return HC_NO_MEMORY;
+  g->jac = calloc(length * length, sizeof *g->jac);
+  return g->jac ? HC_OK : HC_NO_MEMORY;
+}
+
+static hc_status make_evaluator(const evaluator_kind *kind, int n_contacts, const moving_contact *contacts, group *g)
+{
+  const hc_status st = make_jacobian(kind, g);
+  if (st != HC_OK) return st;
   if (kind->force == HBM_FORCE_SAMPLED)
     return aft_new(kind->n_harm, kind->n_time, kind->restart, g->n_dof, n_contacts, contacts, &g->sampled);
   return exact_force_new(kind->n_harm, g->n_dof, n_contacts, contacts, &g->located);
@@ -93,13 +106,42 @@ static hc_status make_group(const contact *law, int dim, const double *tangent, 
   return st == HC_OK ? make_evaluator(kind, 1, &c, g) : st;
 }
 
+/* Of the contacts g->first and the next one. */
+static hc_status make_circle(const contact *law, const condensation *c, const evaluator_kind *kind, group *g)
+{
+  const int dim = condensation_dim(c);
+  const double *direction[GROUP_MAX_DOF] = {condensation_tangent(c, g->first), condensation_tangent(c, g->first + 1),
+                                            condensation_normal(c, g->first)};
+  hc_status st = HC_OK;
+  g->n_dof = is_zero(dim, direction[2]) ? 2 : 3;
+  for (int d = 0; d < g->n_dof && st == HC_OK; ++d) st = combine(dim, direction[d], &g->of[d]);
+  if (st == HC_OK) st = make_jacobian(kind, g);
+  if (st != HC_OK) return st;
+  if (kind->force != HBM_FORCE_SAMPLED) return HC_UNSUPPORTED;
+  return circle_aft_new(kind->n_harm, kind->n_time, kind->restart, g->n_dof, law, &g->circle_sampled);
+}
+
+/* Do contact j and the next one share a limit? Without friction they have none, and each is a spring. */
+static bool is_circle(const model_contact *c)
+{
+  return c->circle && c->pair == CONTACT_FIRST && contact_has_friction(&c->law);
+}
+
 static hc_status make_groups(const model *m, const condensation *c, const evaluator_kind *kind, contact_forces *f)
 {
   hc_status st = HC_OK;
+  f->n_groups = f->oscillator ? 1 : 0;
   if (f->oscillator) return make_oscillator(m, kind, &f->groups[0]);
-  for (int j = 0; j < m->n_contacts && st == HC_OK; ++j)
-    st = make_group(&m->contacts[j].law, f->dim, condensation_tangent(c, j), condensation_normal(c, j), kind,
-                    &f->groups[j]);
+  for (int j = 0; j < m->n_contacts && st == HC_OK; ++j) {
+    const contact *law = &m->contacts[j].law;
+    group *g = &f->groups[f->n_groups];
+    g->first = j;
+    f->group_of[j] = f->n_groups++;
+    if (is_circle(&m->contacts[j])) {
+      st = make_circle(law, c, kind, g);
+      f->group_of[++j] = f->n_groups - 1;
+    } else st = make_group(law, f->dim, condensation_tangent(c, j), condensation_normal(c, j), kind, g);
+  }
   return st;
 }
 
@@ -114,13 +156,13 @@ hc_status contact_forces_new(const model *m, const condensation *c, hbm_force fo
   f->length = series_length(n_harm);
   f->n_contacts = m->n_contacts;
   f->oscillator = m->n == 1;
-  f->n_groups = f->oscillator ? 1 : m->n_contacts;
-  f->groups = calloc((size_t)f->n_groups + 1, sizeof *f->groups);
-  f->x = calloc(2 * (size_t)f->length, sizeof *f->x);
-  f->f = calloc(2 * (size_t)f->length, sizeof *f->f);
+  f->groups = calloc((size_t)m->n_contacts + 1, sizeof *f->groups);
+  f->group_of = calloc((size_t)m->n_contacts + 1, sizeof *f->group_of);
+  f->x = calloc(GROUP_MAX_DOF * (size_t)f->length, sizeof *f->x);
+  f->f = calloc(GROUP_MAX_DOF * (size_t)f->length, sizeof *f->f);
   const size_t n = (size_t)f->dim * (size_t)f->length;
   if (!f->oscillator) f->jac = calloc(n * n, sizeof *f->jac);
-  const bool room = f->groups && f->x && f->f && (f->jac || f->oscillator);
+  const bool room = f->groups && f->group_of && f->x && f->f && (f->jac || f->oscillator);
   hc_status st = room ? make_groups(m, c, &kind, f) : HC_NO_MEMORY;
   if (st == HC_OK) *out = f;
   else contact_forces_free(f);
@@ -134,13 +176,15 @@ void contact_forces_free(contact_forces *f)
     group *g = &f->groups[j];
     exact_force_free(g->located);
     aft_free(g->sampled);
+    circle_aft_free(g->circle_sampled);
     free(g->jac);
-    for (int d = 0; d < 2; ++d) {
+    for (int d = 0; d < GROUP_MAX_DOF; ++d) {
       free(g->of[d].coordinate);
       free(g->of[d].weight);
     }
   }
   free(f->groups);
+  free(f->group_of);
   free(f->x);
   free(f->f);
   free(f->jac);
@@ -152,7 +196,8 @@ void contact_forces_free(contact_forces *f)
 static hc_status evaluate(group *g, const double *x, double *F, contact_report *report)
 {
   g->differentiated = g->located != NULL; /* of sampled forces it is made when it is asked for first */
-  return g->located ? exact_force_eval(g->located, x, F, g->jac, report) : aft_eval(g->sampled, x, F, NULL, report);
+  if (g->located) return exact_force_eval(g->located, x, F, g->jac, report);
+  return g->sampled ? aft_eval(g->sampled, x, F, NULL, report) : circle_aft_eval(g->circle_sampled, x, F, report);
 }
 
 /* x[c] = sum of the coordinates' coefficients c. */
@@ -203,7 +248,9 @@ hc_status contact_forces_eval(contact_forces *f, const double *X, double *F, con
 
 static void differentiate(group *g)
 {
-  if (!g->differentiated) aft_jacobian(g->sampled, g->jac);
+  if (g->differentiated) return;
+  if (g->sampled) aft_jacobian(g->sampled, g->jac);
+  else circle_aft_jacobian(g->circle_sampled, g->jac);
   g->differentiated = true;
 }
 
@@ -246,19 +293,20 @@ void contact_forces_sliders(const contact_forces *f, double *w)
 {
   for (int j = 0; j < f->n_groups; ++j) {
     const group *g = &f->groups[j];
-    if (g->located) exact_force_sliders(g->located, w + j);
-    else aft_sliders(g->sampled, w + j);
+    if (g->located) exact_force_sliders(g->located, w + g->first);
+    else if (g->sampled) aft_sliders(g->sampled, w + g->first);
+    else circle_aft_slider(g->circle_sampled, w + g->first);
   }
 }
 
 const contact_piece *contact_forces_pieces(const contact_forces *f, int j, int *n)
 {
-  return exact_force_pieces(f->groups[f->oscillator ? 0 : j].located, f->oscillator ? j : 0, n);
+  return exact_force_pieces(f->groups[f->group_of[j]].located, f->oscillator ? j : 0, n);
 }
 
 void contact_forces_held_by(const contact_forces *f, int j, const contact_piece *p, double by[2])
 {
-  const group *g = &f->groups[f->oscillator ? 0 : j];
+  const group *g = &f->groups[f->group_of[j]];
   by[0] = g->across_only && !f->oscillator ? 0 : p->held_by_x[0];
   by[1] = g->n_dof > 1 ? p->held_by_x[1] : g->across_only && !f->oscillator ? p->held_by_x[0] : 0;
 }
