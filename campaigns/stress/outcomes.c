@@ -21,6 +21,12 @@ stress_check stress_agree(double error, double bound)
   return stress_find(isnan(error) ? STRESS_INTERNAL : STRESS_DISAGREES, error, bound);
 }
 
+stress_check stress_agree_within(double error, double least, double sensitive)
+{
+  if (error > least && error <= sensitive) return stress_explain(STRESS_ILL_CONDITIONED, error, sensitive);
+  return stress_agree(error, fmax(least, sensitive));
+}
+
 stress_check stress_refusal(hc_status st)
 {
   stress_check c = {STRESS_REFUSED, STRESS_REFUSED_BY, st, NAN, NAN, 0};

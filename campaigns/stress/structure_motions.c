@@ -16,9 +16,10 @@ static const double same_in_closed_form = 1e-9, same_by_cvode = 1e-8, same_law =
 static const double beside = 1e-5, nearby = 1e-4;
 enum { ALONE_EVERY = 8 }; /* scenes for which CVODE finds the orbit by itself */
 
-static double bound_of(double least, const stress_path *a, const stress_path *b)
+/* What the errors of both alone may set apart. */
+static double sensitive(const stress_path *a, const stress_path *b)
 {
-  return fmax(least, a->errors + b->errors >= 0 ? 3 * (a->errors + b->errors) : 0);
+  return a->errors + b->errors >= 0 ? 3 * (a->errors + b->errors) : 0;
 }
 
 static const stress_path *known(const solved_structure *s) { return s->path->status == HC_OK ? s->path : NULL; }
@@ -27,7 +28,7 @@ static const stress_path *known(const solved_structure *s) { return s->path->sta
 static stress_check hold(solved_structure *s, const stress_path *other, int shift, double least)
 {
   if (other->status != HC_OK) return stress_motion_refuse(s, other->status);
-  return stress_agree(stress_paths_apart(s, s->path, other, shift), bound_of(least, s->path, other));
+  return stress_agree_within(stress_paths_apart(s, s->path, other, shift), least, sensitive(s->path, other));
 }
 
 static stress_check worse(stress_check a, stress_check b)
@@ -127,7 +128,8 @@ static bool is_orbit(solved_structure *s, const stress_path *p)
   stress_path again;
   stress_path_make(s, s->model, p->state, &again);
   if (s->fatal == HC_OK) stress_path_follow(s, s->model, &how, s->omega, PATH_ORBIT, 1, &again);
-  const bool same = again.status == HC_OK && stress_paths_apart(s, p, &again, 0) <= bound_of(same_by_cvode, p, &again);
+  const double bound = fmax(same_by_cvode, sensitive(p, &again));
+  const bool same = again.status == HC_OK && stress_paths_apart(s, p, &again, 0) <= bound;
   stress_path_free(&again);
   return same;
 }
@@ -197,7 +199,7 @@ stress_check stress_structure_regularised(solved_structure *s)
     c = by(s, &how, PATH_AGAIN, same_law);
     if (isnan(c.error) && solved >= 2) /* it did not shrink */
       return unless_family(s, stress_find(STRESS_DISAGREES, before, same_law));
-    if (c.outcome == STRESS_AGREED || isnan(c.error)) return c;
+    if (c.outcome != STRESS_FINDING || isnan(c.error)) return c;
     ++solved;
     if (c.error <= before / 4) return stress_explain(STRESS_SMOOTHED, c.error, before / 4);
     before = c.error;

@@ -110,7 +110,9 @@ static bool beyond_harmonics(solved_structure *s, int n_harm)
   return st == HC_OK && scales.highest > 0.1 * n_harm * s->omega;
 }
 
-static double tolerance_of(const stress_path *p) { return fmax(close_enough, 3 * p->errors); }
+/* What the orbit's own errors alone may set apart. */
+static double sensitive(const stress_path *p) { return 3 * p->errors; }
+static double tolerance_of(const stress_path *p) { return fmax(close_enough, sensitive(p)); }
 
 static bool may_double(const solved_structure *s, int n_harm)
 {
@@ -172,7 +174,8 @@ stress_check stress_structure_orbit(solved_structure *s)
   double error = shoot_from(s, &s->fine, s->fine_harmonics, s->path), before = NAN, step = NAN;
   if (other_equation(s)) return stress_skip(STRESS_NOT_APPLICABLE);
   const double coarse = error;
-  if (s->path->status == HC_OK && error <= tolerance_of(s->path)) return stress_agree(error, tolerance_of(s->path));
+  if (s->path->status == HC_OK && error <= tolerance_of(s->path))
+    return stress_agree_within(error, close_enough, sensitive(s->path));
   while (s->fatal == HC_OK && may_double(s, s->fine_harmonics)) {
     before = error;
     if (!refine(s, &error, &step)) break;

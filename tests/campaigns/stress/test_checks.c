@@ -5,7 +5,7 @@
  * (--wrap). Unspoiled, the same scenes, case 2 of the paper and one that slips, end without a finding. */
 #include <string.h>
 
-#include "campaigns/stress/stress.h"
+#include "campaigns/stress/outcomes.h"
 #include "cases/fields.h"
 #include "compare/comparison.h"
 #include "hbm/exact_force.h"
@@ -199,9 +199,31 @@ static void a_finding_is_made_small(void **state)
   assert_int_equal(r.check[STRESS_STABILITY].outcome, STRESS_FINDING);
 }
 
+/* A difference as large as the scene's own sensitivity allows is not called an agreement. */
+static void what_only_sensitivity_allows_is_ill_conditioned(void **state)
+{
+  (void)state;
+  static const struct {
+    double error, sensitive;
+    stress_outcome outcome;
+    stress_reason reason;
+  } rows[] = {{1e-9, 0, STRESS_AGREED, STRESS_NO_REASON},          {1e-9, 1, STRESS_AGREED, STRESS_NO_REASON},
+              {1e-3, 1, STRESS_EXPLAINED, STRESS_ILL_CONDITIONED}, {1e-3, 1e-4, STRESS_FINDING, STRESS_DISAGREES},
+              {1e-3, NAN, STRESS_FINDING, STRESS_DISAGREES},       {NAN, 1, STRESS_FINDING, STRESS_INTERNAL}};
+  for (size_t i = 0; i < sizeof rows / sizeof *rows; ++i) {
+    const stress_check c = stress_agree_within(rows[i].error, 1e-6, rows[i].sensitive);
+    assert_int_equal(c.outcome, rows[i].outcome);
+    assert_int_equal(c.reason, rows[i].reason);
+  }
+}
+
 static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(good_answers_are_no_findings), cmocka_unit_test(a_wrong_force_is_found),
-    cmocka_unit_test(a_wrong_solution_is_found),    cmocka_unit_test(a_wrong_orbit_is_found),
-    cmocka_unit_test(a_wrong_verdict_is_found),     cmocka_unit_test(a_finding_is_made_small),
+    cmocka_unit_test(what_only_sensitivity_allows_is_ill_conditioned),
+    cmocka_unit_test(good_answers_are_no_findings),
+    cmocka_unit_test(a_wrong_force_is_found),
+    cmocka_unit_test(a_wrong_solution_is_found),
+    cmocka_unit_test(a_wrong_orbit_is_found),
+    cmocka_unit_test(a_wrong_verdict_is_found),
+    cmocka_unit_test(a_finding_is_made_small),
 };
 CHECK_MAIN("stress.checks", tests, 300)
