@@ -4,6 +4,7 @@
 #define HC_CONTACT_PERIOD_H
 
 #include "model/contact_law.h"
+#include "model/model.h"
 
 typedef struct contact_period {
   contact_regime regime;
@@ -13,5 +14,14 @@ typedef struct contact_period {
   double work; /* [force length] dissipated by friction: closed integral of T du = integral of mu N |dw| >= 0; of a
                   regularised law, whose T is not that, off by its error, perhaps below 0 */
 } contact_period;
+
+/* Of a pair's two (model.h) that of the contact: the larger regime, the sum of the normal forces, the larger traction,
+ * the sums of slip and work. Under the law of the circle both halves have the contact's regime and half of its normal
+ * force each; the first one has all of traction, path and work, which are the plane's, and the second one 0. */
+contact_period contact_period_of_pair(const contact_period *first, const contact_period *second);
+
+/* p[m->n_contacts], one for each contact of the model -> one for each contact of the case: the first
+ * model_whole_contacts(m) of p. */
+void contact_periods_merge(const model *m, contact_period *p);
 
 #endif

@@ -120,6 +120,13 @@ void model_free(model *m)
   free(m);
 }
 
+int model_whole_contacts(const model *m)
+{
+  int n = 0;
+  for (int j = 0; j < m->n_contacts; ++j) n += m->contacts[j].pair != CONTACT_SECOND;
+  return n;
+}
+
 bool model_has_circle(const model *m)
 {
   for (int j = 0; j < m->n_contacts; ++j)

@@ -66,6 +66,9 @@ hc_status model_copy_all_seen(const model *m, model **out);
 
 void model_free(model *m); /* NULL is allowed */
 
+/* How many contacts it has where a pair counts as one: those of the case. */
+int model_whole_contacts(const model *m);
+
 /* Does any contact follow the law of the circle? */
 bool model_has_circle(const model *m);
 
