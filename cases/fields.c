@@ -80,9 +80,9 @@ static const field table[] = {
   {"oscillator", "stiffness", "K", FIELD_REAL, .unit = "force/length", SCENE(stiffness), NOT_NEGATIVE,
    .meaning = "of the linear spring, without contacts"},
 
-  {"structure", "mass", "M", PART(0, "a matrix: rows, a diagonal, FILE.mtx or FILE.mat#VARIABLE"),
+  {"structure", "mass", "M", PART(0, "a matrix: rows, a diagonal, or a FILE of one"),
    .unit = "force time^2/length", .meaning = "symmetric and positive definite; its size is the number of DOFs"},
-  {"structure", "stiffness", "K", PART(0, "a matrix: rows, a diagonal, FILE.mtx or FILE.mat#VARIABLE"),
+  {"structure", "stiffness", "K", PART(0, "a matrix: rows, a diagonal, or a FILE of one"),
    .unit = "force/length", .meaning = "without contacts, which may have to hold what K does not"},
   {"structure", "damping", "C", PART(0, "a matrix as above, {rayleigh: ...} or {modal: ...}"),
    .unit = "force time/length", .meaning = "any matrix, or what is said of it by one of the two below"},
@@ -97,7 +97,7 @@ static const field table[] = {
    .group = "damping", .meaning = "of critical, for every mode of M and K; or a list, one a mode"},
   {"structure", "names", "", PART(0, "a list of names, one a DOF"), .unit = "", .fallback = "",
    .meaning = "of the DOFs"},
-  {"structure", "nodes", "", PART(0, "a csv file dof,node,direction, or a list of such entries"), .unit = "",
+  {"structure", "nodes", "", PART(0, "a FILE (csv, .dof), or a list of [DOF, NODE, x|y|z]"), .unit = "",
    .fallback = "", .meaning = "then {node: 17, direction: y} means a DOF, too"},
 
   {"forcing", "amplitude", "F0", FIELD_REAL, .unit = "force", SCENE(force), NOT_NEGATIVE,

@@ -8,7 +8,7 @@
 #include "cases/text_file.h"
 
 enum { COLUMNS = 3 };
-static const size_t most_bytes = (size_t)16 << 20;
+static const size_t most_bytes = (size_t)1 << 29; /* it may be a matrix */
 
 typedef struct reader {
   const char *name;
@@ -94,6 +94,12 @@ static hc_status read_row(reader *r, scene_structure *s)
   return nodes_add(s, dof, node, *r->field[2]);
 }
 
+static bool is_blank(const char *s, const char *stop)
+{
+  while (s < stop && (*s == ' ' || *s == '\t' || *s == '\r')) ++s;
+  return s == stop;
+}
+
 static hc_status read_lines(reader *r, scene_structure *s, const char *text, size_t length)
 {
   const char *end = text + length;
@@ -104,7 +110,7 @@ static hc_status read_lines(reader *r, scene_structure *s, const char *text, siz
   for (const char *next; st == HC_OK && r->line_text < end; r->line_text = next, ++r->line) {
     const char *line_end = memchr(r->line_text, '\n', (size_t)(end - r->line_text)), *stop = line_end ? line_end : end;
     next = line_end ? line_end + 1 : end;
-    if (strspn(r->line_text, " \t\r\n") >= (size_t)(next - r->line_text)) continue; /* blank */
+    if (is_blank(r->line_text, stop)) continue;
     if (!split(r, stop) || (!header && !is_header(r))) {
       message_add(blame(r, r->line_text), "expected %s",
                   header ? "three values: dof, node and direction, with commas"
@@ -115,17 +121,23 @@ static hc_status read_lines(reader *r, scene_structure *s, const char *text, siz
     header = true;
   }
   if (st != HC_OK || header) return st;
+  if (r->line > 1 && end[-1] != '\n') --r->line; /* the last line has no end; its beginning will do */
   message_add(blame(r, r->line_text), "nothing here, expected the line `dof,node,direction` and one a DOF");
   return HC_BAD_INPUT;
+}
+
+hc_status nodes_file_parse(const char *name, const char *text, size_t length, scene_structure *s, message *m)
+{
+  reader r = {.name = name, .m = m};
+  return nodes_mesh_meant(text, length) ? nodes_mesh_parse(name, text, length, s, m) : read_lines(&r, s, text, length);
 }
 
 hc_status nodes_file_read(const char *path, scene_structure *s, message *m)
 {
   char *text;
   size_t length;
-  reader r = {.name = path, .m = m};
   hc_status st = text_file_read(path, most_bytes, &text, &length, m);
-  if (st == HC_OK) st = read_lines(&r, s, text, length);
+  if (st == HC_OK) st = nodes_file_parse(path, text, length, s, m);
   free(text);
   return st;
 }

@@ -11,10 +11,11 @@
 
 scene_structure *structure_new(void) { return calloc(1, sizeof(scene_structure)); }
 
-static void free_matrix(structure_matrix *m)
+void structure_free_matrix(structure_matrix *m)
 {
   free(m->v);
   free(m->file);
+  free(m->labels);
 }
 
 void structure_clear_loads(scene_structure *s)
@@ -44,9 +45,9 @@ void structure_clear_responses(scene_structure *s)
 void structure_free(scene_structure *s)
 {
   if (!s) return;
-  free_matrix(&s->mass);
-  free_matrix(&s->stiffness);
-  free_matrix(&s->damping);
+  structure_free_matrix(&s->mass);
+  structure_free_matrix(&s->stiffness);
+  structure_free_matrix(&s->damping);
   free(s->ratios);
   for (int i = 0; s->names && i < s->n; ++i) free(s->names[i]);
   free(s->names);
@@ -135,10 +136,21 @@ static bool copy_text(char **to, const char *from)
   return (*to = strdup(from)) != NULL;
 }
 
-static bool copy_matrix(structure_matrix *to, const structure_matrix *from, size_t count)
+static bool copy_labels(matrix_label **to, const matrix_label *from, size_t count)
+{
+  *to = NULL;
+  if (!from) return true;
+  if (!(*to = malloc(count * sizeof **to))) return false;
+  memcpy(*to, from, count * sizeof **to);
+  return true;
+}
+
+static bool copy_matrix(structure_matrix *to, const structure_matrix *from, size_t n)
 {
   to->place = from->place;
-  return copy_numbers(&to->v, from->v, count) && copy_text(&to->file, from->file);
+  to->part = from->part;
+  return copy_numbers(&to->v, from->v, n * n) && copy_text(&to->file, from->file) &&
+         copy_labels(&to->labels, from->labels, n);
 }
 
 static bool copy_names(scene_structure *to, const scene_structure *from)
@@ -190,15 +202,15 @@ static bool copy_lists(scene_structure *to, const scene_structure *from)
 scene_structure *structure_copy(const scene_structure *s)
 {
   scene_structure *to = structure_new();
-  const size_t n = (size_t)s->n, square = n * n;
+  const size_t n = (size_t)s->n;
   if (!to) return NULL;
   to->n = s->n;
   to->how = s->how;
   memcpy(to->rayleigh, s->rayleigh, sizeof to->rayleigh);
   to->modal = s->modal;
   to->place = s->place;
-  if (copy_matrix(&to->mass, &s->mass, square) && copy_matrix(&to->stiffness, &s->stiffness, square) &&
-      copy_matrix(&to->damping, &s->damping, square) && copy_numbers(&to->ratios, s->ratios, n) && copy_names(to, s) &&
+  if (copy_matrix(&to->mass, &s->mass, n) && copy_matrix(&to->stiffness, &s->stiffness, n) &&
+      copy_matrix(&to->damping, &s->damping, n) && copy_numbers(&to->ratios, s->ratios, n) && copy_names(to, s) &&
       copy_nodes(to, s) && copy_lists(to, s))
     return to;
   structure_free(to);

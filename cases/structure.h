@@ -5,6 +5,7 @@
 #define HC_STRUCTURE_H
 
 #include "cases/case_place.h"
+#include "cases/matrix_label.h"
 #include "cases/scene.h"
 
 typedef enum structure_damping {
@@ -16,9 +17,11 @@ typedef enum structure_damping {
 
 /* One matrix as it was given. */
 typedef struct structure_matrix {
-  double *v;        /* [n][n] by columns, or NULL if it has not been given */
-  char *file;       /* that it came from, or NULL */
-  case_place place; /* in the case */
+  double *v;            /* [n][n] by columns, or NULL if it has not been given */
+  char *file;           /* that it came from, or NULL */
+  const char *part;     /* of that file: the one it is where the file has several, a constant; or NULL */
+  matrix_label *labels; /* [n], what the file says that its rows are, or NULL */
+  case_place place;     /* in the case */
 } structure_matrix;
 
 typedef struct structure_load { /* amplitude cos(harmonic omega t + phase) along `direction` */
@@ -69,6 +72,9 @@ struct scene_structure {
 scene_structure *structure_new(void);
 scene_structure *structure_copy(const scene_structure *s);
 void structure_free(scene_structure *s);
+
+/* Forget a matrix. */
+void structure_free_matrix(structure_matrix *m);
 
 /* Remove all loads, contacts or responses. */
 void structure_clear_loads(scene_structure *s);

@@ -9,7 +9,8 @@
 #include "cases/text_file.h"
 #include "cases/yaml_structure.h"
 
-static const char any_matrix[] = "rows, a diagonal, or a Matrix Market or MATLAB file (FILE.mat#VARIABLE)";
+static const char any_matrix[] = "rows, a diagonal, or a file of Matrix Market, CalculiX, Abaqus or MATLAB "
+                                 "(FILE.mat#VARIABLE)";
 
 hc_status yaml_number(case_reader *r, const yaml_node_t *node, const char *what, double *x)
 {
@@ -107,6 +108,16 @@ static hc_status read_number(case_reader *r, const char *what, const yaml_node_t
   return yaml_number(r, node, what, *v);
 }
 
+/* What Abaqus calls the matrix of that path. */
+static const char *part_of(const char *what)
+{
+  static const char *const parts[][2] = {
+      {"structure.mass", "MASS"}, {"structure.stiffness", "STIFFNESS"}, {"structure.damping", "VISCOUSDAMPING"}};
+  for (size_t i = 0; i < sizeof parts / sizeof *parts; ++i)
+    if (!strcmp(what, parts[i][0])) return parts[i][1];
+  return NULL;
+}
+
 static hc_status read_file(case_reader *r, const char *what, const yaml_node_t *node, int expected, int *n,
                            structure_matrix *out)
 {
@@ -126,8 +137,10 @@ static hc_status read_file(case_reader *r, const char *what, const yaml_node_t *
   message told;
   message_start(&told, words, sizeof words);
   const bool matlab = matlab_file_meant(out->file);
-  const hc_status st = matlab ? matlab_file_read(out->file, expected, n, &out->v, &told)
-                              : matrix_file_read(out->file, expected, n, &out->v, &r->msg);
+  out->part = part_of(what);
+  const hc_status st = matlab
+                           ? matlab_file_read(out->file, expected, n, &out->v, &told)
+                           : matrix_file_read_part(out->file, out->part, expected, n, &out->v, &out->labels, &r->msg);
   if (st == HC_NO_MEMORY) return case_out_of_memory(r);
   if (st == HC_OK || (st == HC_BAD_INPUT && !matlab)) return st;
   if (!matlab) message_add(&told, "%s", r->msg.text);
@@ -148,9 +161,7 @@ hc_status yaml_matrix_read(case_reader *r, yaml_document_t *doc, const char *wha
   else if (node->type == YAML_SCALAR_NODE && is_number(node, expected)) st = read_number(r, what, node, n, &given.v);
   else if (node->type == YAML_SCALAR_NODE) st = read_file(r, what, node, expected, n, &given);
   else message_add(case_blame(r, given.place), "%s is %s, expected %s", what, yaml_node_what(node), any_matrix);
-  structure_matrix *old = st == HC_OK ? out : &given;
-  free(old->v);
-  free(old->file);
+  structure_free_matrix(st == HC_OK ? out : &given);
   if (st == HC_OK) *out = given;
   return st;
 }
@@ -165,7 +176,7 @@ message *yaml_matrix_blame(case_reader *r, const structure_matrix *m, int i, int
     message_add(words, ": ");
     return words;
   }
-  matrix_file_place(m->file, i, j, &line, &column);
+  matrix_file_place(m->file, m->part, i, j, &line, &column);
   message_start(&r->msg, r->msg.text, r->msg.size);
   message_add_input(&r->msg, m->file, strlen(m->file), 240);
   message_add(&r->msg, ":%zu:%zu: ", line > 0 ? line : 1, line > 0 ? column : 1);

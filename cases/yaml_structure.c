@@ -57,6 +57,21 @@ static hc_status check_mass(case_reader *r, const structure_matrix *mass, int n)
   return add_massless_motion(r->sc.structure, mass, n, m) == HC_OK ? HC_BAD_INPUT : case_out_of_memory(r);
 }
 
+/* Files that say what their rows are say the same. */
+static hc_status check_labels(case_reader *r, const structure_matrix *m, const char *what)
+{
+  const scene_structure *s = r->sc.structure;
+  const matrix_label *own = m->labels, *mass = s->mass.labels;
+  for (int i = 0; own && mass && i < s->n; ++i) {
+    if (own[i].node == mass[i].node && own[i].dof == mass[i].dof) continue;
+    message_add(yaml_matrix_blame(r, m, i, i),
+                "row %d of %s is DOF %d of node %d, but of structure.mass DOF %d of node %d, expected the same rows",
+                i + 1, what, own[i].dof, own[i].node, mass[i].dof, mass[i].node);
+    return HC_BAD_INPUT;
+  }
+  return HC_OK;
+}
+
 static hc_status read_mass(case_reader *r, yaml_document_t *doc, const yaml_node_t *node)
 {
   scene_structure *s = r->sc.structure;
@@ -64,10 +79,9 @@ static hc_status read_mass(case_reader *r, yaml_document_t *doc, const yaml_node
   int n = s->n;
   hc_status st = yaml_matrix_read(r, doc, "structure.mass", node, s->n, &n, &mass);
   if (st == HC_OK) st = check_mass(r, &mass, n);
-  structure_matrix *old = st == HC_OK ? &s->mass : &mass;
-  free(old->v);
-  free(old->file);
+  structure_free_matrix(st == HC_OK ? &s->mass : &mass);
   if (st == HC_OK) s->mass = mass, s->n = n;
+  if (st == HC_OK) st = check_labels(r, &s->stiffness, "structure.stiffness"); /* of before */
   return st;
 }
 
@@ -127,7 +141,7 @@ static hc_status read_damping(case_reader *r, yaml_document_t *doc, const yaml_n
     int n;
     const hc_status st = yaml_matrix_read(r, doc, "structure.damping", node, s->n, &n, &s->damping);
     if (st == HC_OK) s->how = STRUCTURE_DAMPING_MATRIX;
-    return st;
+    return st == HC_OK ? check_labels(r, &s->damping, "structure.damping") : st;
   }
   const yaml_node_pair_t *p = node->data.mapping.pairs.start;
   const bool one = node->data.mapping.pairs.top == p + 1;
@@ -233,7 +247,7 @@ static hc_status read_nodes_file(case_reader *r, const yaml_node_t *node)
     message *m = case_blame(r, case_place_of(r, node->start_mark));
     message_add(m, "structure.nodes: ");
     message_add_input(m, path, strlen(path), 160);
-    message_add(m, " %s, expected a csv file dof,node,direction", words);
+    message_add(m, " %s, expected a csv file dof,node,direction, or the .dof of CalculiX or a matrix of Abaqus", words);
     st = HC_BAD_INPUT;
   }
   free(path);
@@ -269,7 +283,10 @@ hc_status yaml_structure_part(case_reader *r, yaml_document_t *doc, const field 
   if (f == part("damping")) return read_damping(r, doc, node);
   if (f == part("names")) return read_names(r, doc, node);
   if (f == part("nodes")) return read_nodes(r, doc, node);
-  if (f == part("stiffness")) return yaml_matrix_read(r, doc, "structure.stiffness", node, s->n, &n, &s->stiffness);
+  if (f == part("stiffness")) {
+    const hc_status st = yaml_matrix_read(r, doc, "structure.stiffness", node, s->n, &n, &s->stiffness);
+    return st == HC_OK ? check_labels(r, &s->stiffness, "structure.stiffness") : st;
+  }
   return yaml_responses_read(r, doc, node);
 }
 

@@ -1,5 +1,5 @@
-/* fuzz_matrix.c - bytes as a Matrix Market file: read, finite, and the same again when written as an array; or refused
- * with a place. */
+/* fuzz_matrix.c - bytes as a matrix file of any format: read, finite, and the same again when written as a Matrix
+ * Market array; or refused with a place. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -36,6 +36,25 @@ static void array_reads_back(int n, const double *v)
   free(text);
 }
 
+/* A part that is asked for by its name is read, or missed with a place. */
+static void part_is_one_of_them(const char *text, size_t size, const char *part)
+{
+  char words[WORDS];
+  double *v;
+  matrix_label *labels;
+  int n;
+  message m;
+  message_start(&m, words, WORDS);
+  const hc_status st = matrix_file_parse_part("f", text, size, part, 0, &n, &v, &labels, &m);
+  must(st == HC_OK || st == HC_BAD_INPUT, "status %d: %s", (int)st, words);
+  if (st != HC_OK) place_is_inside(words, "f", text, size, false);
+  must((st == HC_OK) == (v != NULL) && (st == HC_OK || !labels), "%d, but %p and %p", (int)st, (void *)v,
+       (void *)labels);
+  for (int i = 0; labels && i < n; ++i) must(labels[i].dof > 0, "row %d is DOF %d", i, labels[i].dof);
+  free(v);
+  free(labels);
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
   char words[WORDS];
@@ -57,6 +76,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
   for (int i = 0; n <= LARGE && i < n * n; ++i) must(isfinite(v[i]), "entry %d is %g", i, v[i]);
   if (n <= LARGE) array_reads_back(n, v);
   free(v);
+  part_is_one_of_them(text, size, "MASS");
   must(parse(text, size, n + 1, &n, &v, words) == HC_BAD_INPUT, "read as a larger one, too");
   return 0;
 }

@@ -58,17 +58,7 @@ static void is_refused(const char *text, int expected, const char *words)
 static void mistakes_are_named_where_they_stand(void **state)
 {
   (void)state;
-  is_refused("", 0, "m:1:1: no Matrix Market banner, expected `%%MatrixMarket matrix coordinate real general`");
-  is_refused("3 3\n", 0, "m:1:1: no Matrix Market banner");
-  is_refused("1,1,1,1,2.5\n", 0,
-             "m:1:1: no Matrix Market banner, expected `%%MatrixMarket matrix coordinate real "
-             "general` or the like (this looks like comma-separated entries, which Abaqus");
-  is_refused("*MATRIX INPUT\n", 0,
-             "m:1:1: no Matrix Market banner, expected `%%MatrixMarket matrix coordinate real "
-             "general` or the like (this looks like an Abaqus");
-  is_refused("MATLAB 5.0 MAT-file, ", 0,
-             "m:1:1: no Matrix Market banner, expected `%%MatrixMarket matrix coordinate "
-             "real general` or the like (this is a MATLAB file");
+  is_refused("% a comment\n", 0, "m:1:1: no Matrix Market banner, expected `%%MatrixMarket matrix coordinate real");
   is_refused("%%MatrixMarket matrix coordinate real\n", 0, "m:1:1: a banner of less than five words");
   is_refused("%%MatrixMarket vector coordinate real general\n", 0, "m:1:16: `vector` in the banner, expected matrix");
   is_refused(HEAD("sparse", "real", "general"), 0, "m:1:23: `sparse` in the banner, expected coordinate or array");
@@ -127,11 +117,11 @@ static void files_are_found_and_searched(void **state)
   assert_int_equal(matrix_file_read(f.path, 3, &n, &v, &m), HC_OK);
   assert_true(n == 3 && v[2] == 5 && v[6] == 5);
   free(v);
-  matrix_file_place(f.path, 2, 0, &line, &column);
+  matrix_file_place(f.path, NULL, 2, 0, &line, &column);
   assert_true(line == 4 && column == 1);
-  matrix_file_place(f.path, 0, 2, &line, &column); /* by symmetry */
+  matrix_file_place(f.path, NULL, 0, 2, &line, &column); /* by symmetry */
   assert_true(line == 4 && column == 1);
-  matrix_file_place(f.path, 1, 0, &line, &column); /* not there */
+  matrix_file_place(f.path, NULL, 1, 0, &line, &column); /* not there */
   assert_true(line == 0 && column == 0);
   assert_int_equal(matrix_file_read(f.folder, 3, &n, &v, &m), HC_IO);
   assert_string_equal(words, "is no file");

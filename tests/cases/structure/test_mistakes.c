@@ -30,7 +30,7 @@ static void in_the_section(void **state)
       {SMALLEST "forcing[]: 1\n", "f:4:1: ", "unknown key `forcing[]`"},
       /* matrices */
       {STRUCTURE("mass: {a: 1}"),
-       "f:1:19: ", "structure.mass is a mapping, expected rows, a diagonal, or a Matrix Market"},
+       "f:1:19: ", "structure.mass is a mapping, expected rows, a diagonal, or a file of Matrix Market"},
       {STRUCTURE("mass: []"), "f:1:19: ", "structure.mass is a list of 0, expected 1 to 4000"},
       {STRUCTURE("mass: [[1, 2], [3]]"), "f:1:28: ", "structure.mass[1] has 1 entries, expected 2"},
       {STRUCTURE("mass: [[1, 2], 3]"), "f:1:28: ", "structure.mass[1] is a single value, expected a row of 2 numbers"},
@@ -53,7 +53,7 @@ static void in_the_section(void **state)
       {STRUCTURE("mass: rom.mat#M"), "f:1:19: ",
        WITH_MATIO ? "structure.mass: rom.mat#M cannot be opened: "
                   : "structure.mass: rom.mat#M is in a MATLAB file, which this build does not read, expected a"},
-      {STRUCTURE("mass: README.md"), "README.md:1:1: ", "no Matrix Market banner"},
+      {STRUCTURE("mass: README.md"), "README.md:1:1: ", "no matrix's first line"},
       /* damping */
       {STRUCTURE("mass: [1, 1], stiffness: [1, 1], damping: {modl: 1}"),
        "f:1:56: ", "structure.damping is a mapping of"},

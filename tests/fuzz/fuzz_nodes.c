@@ -1,0 +1,35 @@
+/* fuzz_nodes.c - bytes as a file of nodes for a structure of three degrees of freedom: each node and direction once,
+ * its DOF in range; or refused with a place. */
+#include "base/message.h"
+#include "cases/nodes_file.h"
+#include "tests/fuzz/fuzz.h"
+
+enum { DOFS = 3 };
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+  char words[512];
+  message m;
+  scene_structure *s = structure_new();
+  must(s != NULL, "out of memory");
+  s->n = DOFS;
+  message_start(&m, words, sizeof words);
+  const char *text = size ? (const char *)data : "";
+  const hc_status st = nodes_file_parse("f", text, size, s, &m);
+  must(st == HC_OK || st == HC_BAD_INPUT, "status %d: %s", (int)st, words);
+  if (st == HC_OK) {
+    ++fuzz_accepted;
+    must(!*words, "read, with a message: %s", words);
+  } else {
+    ++fuzz_refused;
+    message_is_clean(words, sizeof words);
+    place_is_inside(words, "f", text, size, false);
+  }
+  for (int i = 0; i < s->n_nodes; ++i) {
+    const structure_node *node = &s->nodes[i];
+    must(node->dof >= 0 && node->dof < DOFS && node->direction >= 'x' && node->direction <= 'z', "node %d", i);
+    must(structure_node_dof(s, node->node, node->direction) == node->dof, "node %d twice", node->node);
+  }
+  structure_free(s);
+  return 0;
+}
