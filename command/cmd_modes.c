@@ -60,13 +60,16 @@ static hc_status put_contacts(const scene *sc, const model *m, table *t)
   hbm_solver *s = NULL;
   hc_status st = N ? scene_hbm_solver(sc, &s) : HC_NO_MEMORY;
   if (st == HC_OK) st = hbm_preloads(s, N);
-  for (int j = 0; j < m->n_contacts && st == HC_OK; ++j) {
+  for (int j = 0; j < scene_contact_count(sc) && st == HC_OK; ++j) {
     const char *name = scene_contact_at(sc, j)->name;
+    const int first = scene_model_contact(sc, j), end = scene_model_contact(sc, j + 1);
+    double whole = 0;
+    for (int i = first; i < end; ++i) whole += N[i];
     table_put_integer(t, j);
     table_put_text(t, *name ? name : NULL);
-    table_put_text(t, N[j] > 0 ? "closed" : "open");
-    table_put_real(t, N[j]);
-    table_put_real(t, m->contacts[j].law.mu * N[j]);
+    table_put_text(t, whole > 0 ? "closed" : "open");
+    table_put_real(t, whole);
+    table_put_real(t, m->contacts[first].law.mu * N[first]); /* of a pair each half has the limit of the whole */
   }
   hbm_solver_free(s);
   free(N);

@@ -70,14 +70,21 @@ static bool has_direction(int n, const double *direction)
 }
 
 /* u along nothing would be a mistake unnoticed. */
-static int check_directions(const cli_common *common, const contact_options *own, const model *m, int j)
+static int check_directions(const cli_common *common, const contact_options *own, const model *of,
+                            const contact_motion *m)
 {
   static const char *const words[] = {"tangent", "normal"};
-  const double *const directions[] = {m->contacts[j].tangent, m->contacts[j].normal};
+  const model_contact *c = &of->contacts[m->in_model];
+  const double *const directions[] = {c->tangent, c->normal};
+  char name[CLI_NAME];
+  cli_contact_name(common, m->one, name);
+  if (c->pair != CONTACT_ALONE) {
+    cli_message(common, "contact %s has two tangents; expected one with one", name);
+    return EXIT_USAGE;
+  }
   for (int d = 0; d < 2; ++d)
-    if (own->motion[CONTACT_U + d] && !has_direction(m->n, directions[d])) {
-      cli_message(common, "contact %s has no %s; expected no --%s", cli_contact_name(common, j, (char[CLI_NAME]){0}),
-                  words[d], motion_names[CONTACT_U + d]);
+    if (own->motion[CONTACT_U + d] && !has_direction(of->n, directions[d])) {
+      cli_message(common, "contact %s has no %s; expected no --%s", name, words[d], motion_names[CONTACT_U + d]);
       return EXIT_USAGE;
     }
   return 0;
@@ -98,8 +105,8 @@ static int read_motions(const cli_common *common, const contact_options *own, co
   if (m->one < 0) return 0;
   if (own->motion[CONTACT_X])
     for (int i = 0; i < CONTACT_MOST_COEF; ++i) {
-      m->given[1][i] = *of->contacts[m->one].normal * m->given[0][i];
-      m->given[0][i] *= *of->contacts[m->one].tangent;
+      m->given[1][i] = *of->contacts[m->in_model].normal * m->given[0][i];
+      m->given[0][i] *= *of->contacts[m->in_model].tangent;
     }
   m->given[0][0] -= m->slider; /* the law knows u - w alone: from here on the slider starts at 0 */
   return 0;
@@ -111,7 +118,7 @@ static hc_status take_contacts(const model *of, contact_motion *m)
   m->n_contacts = m->one < 0 ? of->n_contacts : 1;
   if (m->one < 0) return moving_contacts_of_model(of, &m->contacts);
   if (!(m->contacts = malloc(sizeof *m->contacts))) return HC_NO_MEMORY;
-  *m->contacts = (moving_contact){.law = of->contacts[m->one].law, .cu = {1, 0}, .cv = {0, 1}};
+  *m->contacts = (moving_contact){.law = of->contacts[m->in_model].law, .cu = {1, 0}, .cv = {0, 1}};
   return HC_OK;
 }
 
@@ -122,9 +129,10 @@ int contact_motion_find(const cli_common *common, const contact_options *own, co
   int code = choose_contact(common, own, m);
   if (code) return code;
   hc_status st = scene_model(sc, &of);
+  m->in_model = m->one < 0 ? -1 : scene_model_contact(sc, m->one);
   if (st == HC_OK) st = take_contacts(of, m);
   if (st != HC_OK) code = cli_solver_failed(common, CLI_HBM, "the contact force", st, 0);
-  else if (m->one >= 0) code = check_directions(common, own, of, m->one);
+  else if (m->one >= 0) code = check_directions(common, own, of, m);
   if (!code) code = read_motions(common, own, of, m);
   if (m->n_harm < sc->hbm.harmonics) m->n_harm = sc->hbm.harmonics; /* auto is 0: the motion's own */
   if (m->n_harm < 1) m->n_harm = 1;

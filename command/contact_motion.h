@@ -19,7 +19,8 @@ typedef struct contact_options {
 enum { CONTACT_MOST_COEF = 2 * HBM_MAX_HARMONICS + 1 };
 
 typedef struct contact_motion {
-  int one;       /* which contact, -1: all */
+  int one;       /* which contact of the case, -1: all */
+  int in_model;  /* the same of its model */
   double slider; /* [length] where it starts: taken off u */
   int n_harm, n_dof, n_contacts;
   moving_contact *contacts;           /* [n_contacts] moved by X */

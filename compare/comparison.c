@@ -63,7 +63,7 @@ static hc_status make_room_for_contacts(comparison *c, int n)
 static hc_status add_contacts(comparison_work *w, const double *X, const comparison_row *row)
 {
   comparison *out = w->out;
-  const int n = w->setup->model->n_contacts;
+  const int n = model_whole_contacts(w->setup->model);
   hc_status st = make_room_for_contacts(out, n);
   if (st == HC_OK) st = solution_contacts(w, X, row, out->contacts + out->n_contacts);
   if (st == HC_OK) out->n_contacts += n;

@@ -25,7 +25,8 @@ struct comparison_work {
   motion_error *expected;
   periodic_motion *motions;
   error_budget *budgets;
-  /* [n_contacts], of the row under way: what the transient's contacts do, where that is HC_OK, and the solution's */
+  /* [n_contacts] of the model, filled as the case counts them (model_whole_contacts), of the row under way: what the
+   * transient's contacts do, where that is HC_OK, and the solution's */
   contact_period *acting, *balanced;
   hc_status acted;
 };
@@ -45,7 +46,7 @@ hc_status solution_kick(comparison_work *w, double omega, int side, timeint_resu
 void solution_turn(comparison_work *w, const hbm_curve *at, int k, int r, const comparison_row *first,
                    comparison_row *row);
 
-/* c[n_contacts]: of the same solution X. HC_NO_MEMORY. */
+/* c[model_whole_contacts]: of the same solution X. HC_NO_MEMORY. */
 hc_status solution_contacts(comparison_work *w, const double *X, const comparison_row *row, contact_comparison *c);
 
 #endif

@@ -17,10 +17,12 @@ static double spring_energy(const contact *law, const contact_period *p)
 static double work_unit(int n, const model_contact *contacts, const contact_comparison *c)
 {
   double most = 0;
+  const model_contact *of = contacts;
   for (int j = 0; j < n; ++j) {
     most = fmax(most, fmax(c[j].hbm.work, c[j].transient.work));
-    most = fmax(most, negligible * spring_energy(&contacts[j].law, &c[j].hbm));
-    most = fmax(most, negligible * spring_energy(&contacts[j].law, &c[j].transient));
+    most = fmax(most, negligible * spring_energy(&of->law, &c[j].hbm));
+    most = fmax(most, negligible * spring_energy(&of->law, &c[j].transient));
+    of += of->pair == CONTACT_FIRST ? 2 : 1;
   }
   return most;
 }

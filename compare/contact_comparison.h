@@ -12,7 +12,7 @@
 
 typedef struct contact_comparison {
   double omega;
-  int branch, contact;      /* counted from 0 */
+  int branch, contact;      /* counted from 0, as in the case: a pair is one */
   char name[RESPONSE_NAME]; /* of the contact, or empty */
   char verdict[24];         /* of the solution, in words */
   bool one_orbit;           /* the transient runs on the solution's orbit: else the two are not held together */
@@ -24,7 +24,8 @@ typedef struct contact_comparison {
   bool differs; /* one orbit, and an error beyond the gate's waveform, or one side never touches */
 } contact_comparison;
 
-/* In c[n], all contacts of one solution, filled so far but for the last three. allowed: [1] what an error may be.
+/* In c[n], all contacts of one solution, filled so far but for the last three; `contacts` are the model's, where a pair
+ * is two. allowed: [1] what an error may be.
  * Where no contact dissipates more than 1e-6 of what its spring holds, work is measured by that: nobody measures a loss
  * factor below. Stick and slip are told apart by the work alone: a graze is no disagreement. */
 void contact_comparison_judge(int n, const model_contact *contacts, double allowed, bool mean_free,

@@ -223,6 +223,7 @@ static hc_status keep_contacts(comparison_work *w, const comparison_row *row)
 {
   w->acted = HC_UNSUPPORTED;
   if (w->setup->contacts && moved(row)) w->acted = timeint_contacts(w->ti, &row->transient, w->acting);
+  if (w->acted == HC_OK) contact_periods_merge(w->setup->model, w->acting);
   return w->acted == HC_NO_MEMORY ? w->acted : HC_OK;
 }
 
@@ -315,8 +316,10 @@ void solution_turn(comparison_work *w, const hbm_curve *at, int k, int r, const 
 hc_status solution_contacts(comparison_work *w, const double *X, const comparison_row *row, contact_comparison *c)
 {
   const model *m = w->setup->model;
+  const int n = model_whole_contacts(m);
   const hc_status measured = hbm_measure_contacts(w->hbm, X, w->balanced);
-  for (int j = 0; j < m->n_contacts; ++j) {
+  if (measured == HC_OK) contact_periods_merge(m, w->balanced);
+  for (int j = 0; j < n; ++j) {
     c[j] = (contact_comparison){.omega = row->omega,
                                 .branch = row->branch,
                                 .contact = j,
@@ -327,7 +330,7 @@ hc_status solution_contacts(comparison_work *w, const double *X, const compariso
                                 .transient = w->acting[j]};
     comparison_verdict_text(row, c[j].verdict);
   }
-  contact_comparison_judge(m->n_contacts, m->contacts, gate_limits_at(w->setup->limits, row->omega).waveform,
+  contact_comparison_judge(n, m->contacts, gate_limits_at(w->setup->limits, row->omega).waveform,
                            comparison_mean_free(row), c);
   return measured == HC_NO_MEMORY ? measured : HC_OK;
 }

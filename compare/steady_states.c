@@ -91,12 +91,14 @@ static bool moved(const steady_row *row)
 /* Of the periods that are in w->ti. */
 static hc_status add_contacts(workspace *w, const steady_row *row)
 {
-  const int n = w->setup->model->n_contacts;
+  const model *m = w->setup->model;
+  const int n = model_whole_contacts(m);
   steady_states *out = w->out;
   hc_status st = make_room_for_contacts(out, n);
-  contact_period *periods = calloc((size_t)n + 1, sizeof *periods);
+  contact_period *periods = calloc((size_t)m->n_contacts + 1, sizeof *periods);
   if (!periods) st = HC_NO_MEMORY;
   const hc_status measured = st == HC_OK ? timeint_contacts(w->ti, &row->result, periods) : st;
+  if (measured == HC_OK) contact_periods_merge(m, periods);
   for (int j = 0; j < n && measured == HC_OK; ++j) {
     steady_contact *c = &out->contacts[out->n_contacts++];
     *c = (steady_contact){.omega = row->result.omega, .contact = j, .period = periods[j]};

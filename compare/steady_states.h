@@ -28,7 +28,7 @@ typedef struct steady_row {
 typedef struct steady_contact {
   double omega;
   char start[32];           /* of its row */
-  int contact;              /* counted from 0 */
+  int contact;              /* counted from 0, as in the case: a pair is one */
   char name[RESPONSE_NAME]; /* of the contact, or empty */
   contact_period period;
 } steady_contact;

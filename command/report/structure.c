@@ -12,17 +12,18 @@
 #include "compare/first_guess.h"
 #include "compare/frequencies.h"
 #include "hbm/hbm.h"
+#include "model/circle_law.h"
 #include "numerics/series.h"
 
-enum { MOST_OMEGAS = 12, MOST_SOLUTIONS = 24, MOST_CONTACTS = 24, SAMPLES = 240, DIGITS = 6, NAME = 64 };
+enum { MOST_OMEGAS = 12, MOST_SOLUTIONS = 24, MOST_CONTACTS = 24, SAMPLES = 240, STEPS = 20, DIGITS = 6, NAME = 64 };
 
 typedef struct shown {
   const model *m; /* the case's */
   hbm_solver *s;  /* of the model with those responses */
   hbm_curve curve;
-  double *series[2];       /* [2H+1] each: u and v of a contact, or one of x */
+  double *series[3];       /* [2H+1] each: u, v and of two tangents the second u of a contact, or one of x */
   double *w;               /* [n_contacts] sliders at t = 0 */
-  contact_period *periods; /* [n_contacts] */
+  contact_period *periods; /* [n_contacts], as the case counts them */
   const hc_monitor *monitor;
 } shown;
 
@@ -65,15 +66,15 @@ static hc_status start(const scene *sc, const comparison *c, shown *d)
   st = hbm_trace(d->s, from, to, d->monitor, &d->curve);
   if (st == HC_INTERRUPTED || st == HC_NO_MEMORY) return st;
   const size_t room = 2 * (size_t)hbm_n_harmonics(d->s) + 1, n = (size_t)d->m->n_contacts + 1;
-  for (int i = 0; i < 2; ++i) d->series[i] = malloc(room * sizeof *d->series[i]);
+  for (int i = 0; i < 3; ++i) d->series[i] = malloc(room * sizeof *d->series[i]);
   d->w = calloc(n, sizeof *d->w);
   d->periods = calloc(n, sizeof *d->periods);
-  return d->series[0] && d->series[1] && d->w && d->periods ? HC_OK : HC_NO_MEMORY;
+  return d->series[0] && d->series[1] && d->series[2] && d->w && d->periods ? HC_OK : HC_NO_MEMORY;
 }
 
 static void end(shown *d)
 {
-  for (int i = 0; i < 2; ++i) free(d->series[i]);
+  for (int i = 0; i < 3; ++i) free(d->series[i]);
   free(d->w);
   free(d->periods);
   hbm_curve_free(&d->curve);
@@ -82,13 +83,34 @@ static void end(shown *d)
 
 /* ---- one solution ---- */
 
-/* T over u of a contact with friction, else N over v: a period that follows one in which the slider settles. */
-static json_t *loop_of(const shown *d, int j)
+/* The tractions of two tangents over each other, followed as in loop_of, by short steps: they are of first order where
+ * the direction of slip turns (circle_law.h). `first` is the model's contact, j the case's. */
+static json_t *loop_of_pair(const shown *d, int j, int first)
 {
-  const contact *law = &d->m->contacts[j].law;
+  const contact *law = &d->m->contacts[first].law;
+  const bool circle = d->m->contacts[first].circle;
+  const int H = hbm_n_harmonics(d->s);
+  double w[2] = {d->w[first], d->w[first + 1]}, T[2] = {0};
+  json_t *x = json_array(), *y = json_array();
+  for (int i = -SAMPLES * STEPS; i <= SAMPLES * STEPS; ++i) {
+    const double th = TWO_PI * i / (SAMPLES * STEPS), c = cos(th), s = sin(th), v = series_at(H, d->series[1], c, s).x;
+    const double u[2] = {series_at(H, d->series[0], c, s).x, series_at(H, d->series[2], c, s).x};
+    if (circle) circle_step(law, u, v, w, T);
+    for (int k = 0; k < 2 && !circle; ++k) contact_step(law, u[k], v, &w[k], &T[k]);
+    if (i < 0 || i % STEPS) continue;
+    json_array_append_new(x, number(T[0]));
+    json_array_append_new(y, number(T[1]));
+  }
+  return json_pack("{s:s, s:o, s:o, s:o}", "of", "T_2 over T_1", "x", x, "y", y, "work", number(d->periods[j].work));
+}
+
+/* T over u of a contact with friction, else N over v: a period that follows one in which the slider settles. */
+static json_t *loop_of(const shown *d, int j, int first)
+{
+  const contact *law = &d->m->contacts[first].law;
   const bool rubs = contact_has_friction(law);
   const int H = hbm_n_harmonics(d->s);
-  double w = d->w[j], T = 0;
+  double w = d->w[first], T = 0;
   json_t *x = json_array(), *y = json_array();
   for (int i = -SAMPLES; i <= SAMPLES; ++i) {
     const double th = TWO_PI * i / SAMPLES, u = series_at(H, d->series[0], cos(th), sin(th)).x,
@@ -106,9 +128,13 @@ static hc_status loops_of(shown *d, double omega, const double *X, json_t *loops
 {
   hc_status st = hbm_sliders(d->s, X, d->w);
   if (st == HC_OK) st = hbm_measure_contacts(d->s, X, d->periods);
-  for (int j = 0; j < d->m->n_contacts && j < MOST_CONTACTS && st == HC_OK; ++j) {
-    for (int i = 0; i < 2 && st == HC_OK; ++i) st = hbm_response(d->s, omega, X, d->m->n + 2 * j + i, d->series[i]);
-    if (st == HC_OK) json_array_append_new(loops, loop_of(d, j));
+  if (st == HC_OK) contact_periods_merge(d->m, d->periods);
+  for (int j = 0, first = 0; first < d->m->n_contacts && j < MOST_CONTACTS && st == HC_OK; ++j, ++first) {
+    const bool pair = d->m->contacts[first].pair == CONTACT_FIRST;
+    for (int i = 0; i < 2 + pair && st == HC_OK; ++i)
+      st = hbm_response(d->s, omega, X, d->m->n + 2 * first + i, d->series[i]);
+    if (st == HC_OK) json_array_append_new(loops, pair ? loop_of_pair(d, j, first) : loop_of(d, j, first));
+    first += pair;
   }
   return st;
 }

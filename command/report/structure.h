@@ -10,7 +10,7 @@
 /* JSON null for one degree of freedom, else, read by structure.js,
  *     {names: of the responses; responses: `others` (curve.h); dofs, contacts: names;
  *      solutions: [{omega, branch, stable (1, 0, -1), amplitude, cosine, sine: [n] of harmonic 1;
- *                   loops: [{of: "T over u" or "N over v", x, y, work}] of the contacts}]}
+ *                   loops: [{of: "T over u", "N over v" or "T_2 over T_1", x, y, work}] of the contacts}]}
  * of the HBM solutions at the comparison's frequencies, some of them where there are many. Loops are of the exact law
  * along the solution. HC_INTERRUPTED, HC_NO_MEMORY, or why there is no model. */
 hc_status structure_json(const scene *sc, const comparison *c, json_t *others, const hc_monitor *monitor, json_t **out);

@@ -44,7 +44,7 @@ function frameLoops() {
 function nameLoops() {
   const loop = $('contact').value === 'all' ? chosenSolution().loops[0] : chosenSolution().loops[+$('contact').value];
   const [y, x] = loop.of.split(' over ');
-  charts.loops.options.scales.x.title.text = x + ' [' + units.length + ']';
+  charts.loops.options.scales.x.title.text = x + ' [' + (x[0] === 'T' ? units.force : units.length) + ']';
   charts.loops.options.scales.y.title.text = y + ' [' + units.force + ']';
 }
 

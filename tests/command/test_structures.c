@@ -57,6 +57,39 @@ static double cell(const char *table, const char *start, int column)
   return strtod(line, NULL);
 }
 
+/* A contact with two tangents is two in the model and one in every table: its normal forces are added up, its limit is
+ * that of either. Under the square law, y being still but for rounding of what x does, its work is that of the one
+ * tangent: the case without tangent_2. */
+static void pairs_are_one_row(void **state)
+{
+  (void)state;
+  char line[1024];
+  static const char *const at[] = {"frf %s --at 11.5 --contacts --format csv -q",
+                                   "transient %s --at 11.5 --contacts --format csv -q",
+                                   "compare %s --at 11.5 --contacts --format csv -q --set hbm.harmonics=15"};
+  static const int work[] = {9, 7, 9}; /* its column */
+  for (int k = 0; k < 3; ++k) {
+    double single[2];
+    for (int two = 0; two < 2; ++two) {
+      snprintf(line, sizeof line, at[k],
+               two ? "cases/structures/plane.yaml --set contacts[0].limit=square --set forcing[1].amplitude=1e-9"
+                   : "cases/structures/plane.yaml --set forcing[1].amplitude=1e-9 --set 'contacts=[{name: rub, "
+                     "tangential_stiffness: 60, friction: 0.5, preload: 4, tangent: x}]'");
+      expect(line, 0, "\n11.5,");
+      const char *rows = strstr(out, "slip_distance") ? "slip_distance" : "contact_verdict";
+      assert_non_null(strstr(out, rows));
+      const char *second = strstr(strstr(out, rows), "\n11.5,");
+      assert_null(strstr(second + 1, "\n11.5,")); /* one row */
+      single[two] = cell(rows, "\n11.5,", work[k]);
+      assert_true(single[two] > 0.1);
+    }
+    CHECK_NEAR(single[1], single[0], 1e-6 * single[0], "work by %s", at[k]);
+  }
+  expect("modes cases/structures/plane.yaml --set contacts[0].limit=square --format csv -q", 0, "\n0,rub,closed,4,2\n");
+  expect("modes cases/structures/space.yaml --set contacts[0].limit=square --format csv -q", 0,
+         "\n0,foot,closed,1.6000000000000001,0.8");
+}
+
 /* What is not compared is said to be. */
 static void comparisons_say_what_they_leave_out(void **state)
 {
@@ -309,6 +342,7 @@ static void a_structure_says_what_it_resolved_to(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
+      cmocka_unit_test(pairs_are_one_row),
       cmocka_unit_test(one_response_is_kept),
       cmocka_unit_test(what_nothing_holds_is_named),
       cmocka_unit_test(what_has_no_mass_is_named),
