@@ -12,16 +12,19 @@ static contact law_of(const scaled_contact *c)
 }
 
 /* Rounding of the guards; motions are of the order of 1. */
-static double distance_noise(const scaled_contact *c, double v) { return rounding * (1 + fabs(v) + fabs(c->law.gap)); }
+double contact_track_distance_noise(const scaled_contact *c, double v)
+{
+  return rounding * (1 + fabs(v) + fabs(c->law.gap));
+}
 
-static double force_noise(const scaled_contact *c, double u, double v, double w)
+double contact_track_force_noise(const scaled_contact *c, double u, double v, double w)
 {
   const law_regularised *law = &c->law;
   return rounding *
          (law->kt * (1 + fabs(u) + fabs(w)) + law->mu * (law->kn * (1 + fabs(v) + fabs(law->gap)) + law->load));
 }
 
-static double rate_noise(const scaled_contact *c, double du, double dv)
+double contact_track_rate_noise(const scaled_contact *c, double du, double dv)
 {
   return rounding * (c->law.kt * (1 + fabs(du)) + c->law.mu * c->law.kn * (1 + fabs(dv)));
 }
@@ -42,7 +45,7 @@ contact_track contact_track_begin(const scaled_contact *c, const contact_motion 
   t = (contact_track){.state = CONTACT_STICK, .rest = w};
   if (!c->law.has_friction) return t;
   const int sign = at->u > w ? 1 : -1;
-  t.since_start = contact_guard_stick(&law, sign, at->u, at->v, w) > force_noise(c, at->u, at->v, w);
+  t.since_start = contact_guard_stick(&law, sign, at->u, at->v, w) > contact_track_force_noise(c, at->u, at->v, w);
   if (t.since_start) return t;
   t.limit = sign;
   t.rest = slipping_slider(c, sign, at->u, at->v);
@@ -80,7 +83,7 @@ int contact_track_conditions(const contact_track *t, const scaled_contact *c, tr
   const int sign = contact_slip_sign(t->state);
   int n = 0;
   if (c->law.kn > 0) conditions[n++] = end_of_contact(t, c);
-  if (t->state == CONTACT_SEPARATED || !c->law.has_friction) return n;
+  if (t->state == CONTACT_SEPARATED || !c->law.has_friction || c->circle || c->second) return n;
   if (sign != 0) {
     conditions[n++] = end_of_slip(c, sign);
   } else {
@@ -92,9 +95,9 @@ int contact_track_conditions(const contact_track *t, const scaled_contact *c, tr
 
 double contact_track_noise(const track_condition *g, const scaled_contact *c, const contact_motion *at)
 {
-  if (g->of_rates) return rate_noise(c, at->du, at->dv);
-  if (g->event == TRACK_SEPARATES || g->event == TRACK_TOUCHES) return distance_noise(c, at->v);
-  return force_noise(c, at->u, at->v, g->from_u);
+  if (g->of_rates) return contact_track_rate_noise(c, at->du, at->dv);
+  if (g->event == TRACK_SEPARATES || g->event == TRACK_TOUCHES) return contact_track_distance_noise(c, at->v);
+  return contact_track_force_noise(c, at->u, at->v, g->from_u);
 }
 
 static void expand(const track_condition *g, const double *u, const double *v, double *series)
@@ -157,8 +160,10 @@ contact_forces_linear contact_track_forces(const contact_track *t, const scaled_
                                                                                               and subtracted */
   if (!law->has_friction) return f;
   if (sign != 0) {
-    f.t_v = sign * law->mu * law->kn;
-    f.t_0 = sign * law->mu * (law->kn * law->gap + law->load);
+    const bool circle = c->circle || c->second;
+    const double along = circle ? t->held ? t->along : 0 : sign;
+    f.t_v = along * law->mu * law->kn;
+    f.t_0 = along * law->mu * (law->kn * law->gap + law->load);
   } else {
     f.t_u = law->kt;
     f.t_0 = -law->kt * t->rest;

@@ -21,7 +21,10 @@ typedef struct contact_track {
   contact_state state;
   double rest;      /* W while the contact sticks */
   bool since_start; /* it sticks since the start of the period: rest is an independent state */
-  int limit; /* the sign of T where the period began with |T| = mu N, and the slider tied to the motion; else 0 */
+  int limit;    /* the sign of T where the period began with |T| = mu N, and the slider tied to the motion; else 0 */
+  double along; /* of a circle (circle_track.h) that slips or began with |T| = mu N: this direction's part of e */
+  bool fresh;   /* of a circle: it slips since a touch at this instant, N = 0 */
+  bool held;    /* of a circle: it slips with e as it is until N = 0 */
 } contact_track;
 
 /* U, V and their rates at one instant. */
@@ -33,7 +36,7 @@ typedef struct contact_motion {
  * |T| = mu N the contact slips if the motion keeps loading it. */
 contact_track contact_track_begin(const scaled_contact *c, const contact_motion *at, double w);
 
-enum { TRACK_GUARDS = 3, TRACK_ORDER = 24 };
+enum { TRACK_GUARDS = 3, TRACK_ORDER = 24, TRACK_TERMS = TRACK_ORDER + 1 };
 typedef enum track_event {
   TRACK_SEPARATES,
   TRACK_TOUCHES,
@@ -49,11 +52,16 @@ typedef struct track_condition {
   double by_u, by_v, from_u, gap, constant;
 } track_condition;
 
-/* All of the state; how many there are. */
+/* All of the state; how many there are. Of a circle's two directions only the end of contact. */
 int contact_track_conditions(const contact_track *t, const scaled_contact *c, track_condition conditions[TRACK_GUARDS]);
 
 /* Below -noise it is negative, for motions as large as this one. */
 double contact_track_noise(const track_condition *g, const scaled_contact *c, const contact_motion *at);
+
+/* Rounding of V + gap, of forces and of kt times rates: below minus that they are negative. */
+double contact_track_distance_noise(const scaled_contact *c, double v);
+double contact_track_force_noise(const scaled_contact *c, double u, double v, double w);
+double contact_track_rate_noise(const scaled_contact *c, double du, double dv);
 
 /* A guard as a series in tau: coefficients g[order + 1]; below -noise it is negative. */
 typedef struct track_guard {
@@ -72,7 +80,7 @@ void contact_track_pass(contact_track *t, const scaled_contact *c, track_event e
 double contact_track_slider(const contact_track *t, const scaled_contact *c, const contact_motion *at);
 
 /* T and N - N0 as linear functions: T = t_u U + t_v V + t_0 (and + t_w dW for a variation of rest), N - N0 = n_v V +
- * n_0. */
+ * n_0. Not T of a circle that slips, unless its direction is held. */
 typedef struct contact_forces_linear {
   double t_u, t_v, t_0, t_w, n_v, n_0;
 } contact_forces_linear;

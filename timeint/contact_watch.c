@@ -9,14 +9,15 @@
 
 #include "numerics/gauss.h"
 #include "numerics/roots.h"
+#include "timeint/law_circle.h"
 #include "timeint/richardson.h"
 #include "timeint/timeint_private.h"
 
 /* A contact at one instant. */
 typedef struct contact_instant {
   contact_state state;
-  double du, dv;       /* u', v' */
-  double normal, pull; /* N, T */
+  double du, dv;       /* u', v'; of a circle (u - w).u', which has the sign of |T|' while it sticks */
+  double normal, pull; /* N, T; of a circle's first direction |T| */
   double slip, loss;   /* |w'| while it slips; the rate of work */
 } contact_instant;
 
@@ -35,6 +36,23 @@ typedef struct contact_watch {
   contact_sums *of; /* [n_contacts] */
 } contact_watch;
 
+/* All but N of the circle whose first direction is j. */
+static void add_circle(const contact_watch *w, int j, contact_instant *at)
+{
+  const scaled_model *m = &w->ti->scaled;
+  const double *slider = w->y + 2 * m->n + j, *slides = w->dy + 2 * m->n + j;
+  double u[2], du[2], v, dv;
+  scaled_circle_motion(m, j, w->y, u, &v);
+  scaled_circle_motion(m, j, w->dy, du, &dv);
+  const circle_value value = law_circle_eval(&m->contact[j].law, u, v, slider);
+  const bool exact = w->ti->how.law == TRANSIENT_LAW_EXACT;
+  at->du = (u[0] - slider[0]) * du[0] + (u[1] - slider[1]) * du[1];
+  if (at->state == CONTACT_SEPARATED) return;
+  at->pull = hypot(value.t[0], value.t[1]);
+  if (at->state != CONTACT_STICK) at->slip = exact ? hypot(slides[0], slides[1]) : hypot(value.rate[0], value.rate[1]);
+  at->loss = exact ? m->contact[j].law.mu * value.n * at->slip : value.t[0] * du[0] + value.t[1] * du[1];
+}
+
 static contact_instant contact_at(const contact_watch *w, int j)
 {
   const scaled_model *m = &w->ti->scaled;
@@ -46,6 +64,8 @@ static contact_instant contact_at(const contact_watch *w, int j)
   scaled_contact_motion(m, j, w->dy, &at.du, &at.dv);
   const law_value value = law_regularised_eval(law, u, v, w->y[slider]);
   at.normal = value.n;
+  if (m->contact[j].circle) add_circle(w, j, &at);
+  if (m->contact[j].circle || m->contact[j].second) return at;
   if (!law->has_friction || at.state == CONTACT_SEPARATED) return at;
   at.pull = value.t;
   const bool slips = contact_slip_sign(at.state) != 0, exact = w->ti->how.law == TRANSIENT_LAW_EXACT;
@@ -78,9 +98,15 @@ typedef struct contact_rate {
 static hc_status rate_at(void *self, double theta, double *rate)
 {
   const contact_rate *of = self;
+  const scaled_model *m = &of->w->ti->scaled;
   double du, dv;
+  if (m->contact[of->contact].circle && !of->normal) {
+    hc_status st = look(of->w, theta);
+    *rate = st == HC_OK ? contact_at(of->w, of->contact).du : NAN;
+    return st;
+  }
   hc_status st = integrate_dense(of->w->in, theta, 1, of->w->dy);
-  scaled_contact_motion(&of->w->ti->scaled, of->contact, of->w->dy, &du, &dv);
+  scaled_contact_motion(m, of->contact, of->w->dy, &du, &dv);
   *rate = of->normal ? dv : du;
   return st;
 }

@@ -254,7 +254,7 @@ static hc_status begin(events *in, const double *y, int *count)
   use_states(in);
   if (in->varies) {
     in->variations.theta = 0;
-    structure_variations_begin(&in->variations, in->base.m, in->track);
+    structure_variations_begin(&in->variations, in->base.m, in->track, y);
   }
   return pass_fallen(in, 0, count);
 }
@@ -289,7 +289,7 @@ static hc_status period(integrator *base, const scaled_model *m, double *y, doub
   if (st != HC_OK) return st;
   memcpy(y, NV_DATA_S(in->base.y), 2 * (size_t)in->n * sizeof *y);
   set_sliders(in, y);
-  if (monodromy) structure_variations_end(&in->variations, m, in->track, monodromy);
+  if (monodromy) structure_variations_end(&in->variations, m, in->track, y, monodromy);
   return HC_OK;
 }
 

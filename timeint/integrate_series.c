@@ -41,6 +41,12 @@ static contact_motion motion_of(const by_series *in, int j, const double *y)
                           dot_product(in->n, n, y + in->n)};
 }
 
+static circle_motion circle_of(const by_series *in, int j, const double *y)
+{
+  const contact_motion one = motion_of(in, j, y), two = motion_of(in, j + 1, y);
+  return (circle_motion){{one.u, two.u}, one.v, {one.du, two.du}, one.dv};
+}
+
 static hc_status begin(by_series *in, const double *y)
 {
   double size = 0;
@@ -48,10 +54,24 @@ static hc_status begin(by_series *in, const double *y)
   if (!isfinite(size)) return HC_NOT_FINITE;
   memcpy(in->y, y, 2 * (size_t)in->n * sizeof *y);
   for (int j = 0; j < in->n_contacts; ++j) {
+    const scaled_contact *c = &in->m->contact[j];
     const contact_motion at = motion_of(in, j, y);
-    in->track[j] = contact_track_begin(&in->m->contact[j], &at, y[2 * in->n + j]);
+    if (c->circle) {
+      const circle_motion both = circle_of(in, j, y);
+      circle_track_begin(&in->track[j], c, &both, y + 2 * in->n + j);
+    } else if (!c->second) {
+      in->track[j] = contact_track_begin(c, &at, y[2 * in->n + j]);
+    }
   }
   return HC_OK;
+}
+
+/* Does a circle touch? Its guard is no sum of exponentials. */
+static bool has_closed_circle(const by_series *in)
+{
+  for (int j = 0; j < in->n_contacts; ++j)
+    if (in->m->contact[j].circle && in->track[j].state != CONTACT_SEPARATED) return true;
+  return false;
 }
 
 /* Is the motion from in->theta on one by complex modes? Then it is in in->stiff. */
@@ -60,7 +80,7 @@ static hc_status choose(by_series *in)
   const complex_modes *modes;
   const double omega = 1 / in->m->by_C;
   in->by_modes = false;
-  if (!phase_modes_pay(in->modes, omega, INFINITY)) return HC_OK;
+  if (!phase_modes_pay(in->modes, omega, INFINITY) || has_closed_circle(in)) return HC_OK;
   hc_status st = phase_modes_of(in->modes, in->m, in->track, &modes);
   if (st == HC_OK && modes) in->by_modes = motion_modes_begin(&in->stiff, modes, in->m, in->track, in->theta, in->y);
   return st;
@@ -72,9 +92,7 @@ static int find_event(by_series *in, track_event *event)
   int first = -1;
   for (int j = 0; j < in->n_contacts; ++j) {
     track_guard guard[TRACK_GUARDS];
-    const size_t row = (size_t)j * (TRACK_ORDER + 1);
-    const int n =
-        contact_track_guards(&in->track[j], &in->m->contact[j], in->series.u + row, in->series.v + row, guard);
+    const int n = motion_series_guards(&in->series, in->m, in->track, j, guard);
     for (int g = 0; g < n; ++g) {
       const double at = series_first_fall(&guard[g], in->length);
       if (!(at < in->length || (at == in->length && first < 0))) continue;
@@ -86,19 +104,38 @@ static int find_event(by_series *in, track_event *event)
   return first;
 }
 
+/* The circle whose first direction is j. */
+static void pass_circle(by_series *in, int j, track_event event, bool varies, double tau)
+{
+  const contact_track before[2] = {in->track[j], in->track[j + 1]};
+  contact_motion at[2];
+  for (int a = 0; a < 2; ++a)
+    at[a] =
+        in->by_modes ? motion_modes_contact(&in->stiff, j + a, tau) : motion_series_contact(&in->series, j + a, tau);
+  const circle_motion both = {{at[0].u, at[1].u}, at->v, {at[0].du, at[1].du}, at->dv};
+  circle_track_pass(&in->track[j], &in->m->contact[j], event, &both);
+  if (varies) structure_variations_circle(&in->variations, in->m, j, before, &in->track[j], &both);
+}
+
 /* Contact j at the end of the step. */
 static hc_status pass(by_series *in, int j, track_event event, bool varies, int *count)
 {
-  const contact_motion at = in->by_modes ? motion_modes_contact(&in->stiff, j, in->theta + in->length - in->stiff.theta)
-                                         : motion_series_contact(&in->series, j, in->length);
+  const double tau = in->by_modes ? in->theta + in->length - in->stiff.theta : in->length;
+  const contact_motion at =
+      in->by_modes ? motion_modes_contact(&in->stiff, j, tau) : motion_series_contact(&in->series, j, tau);
+  const bool circle = in->m->contact[j].circle;
   const contact_state before = in->track[j].state;
   if (++*count > integrate_most_transitions(in->n_contacts)) return HC_CHATTER;
   if (varies) {
     hc_status st = structure_variations_advance(&in->variations, in->m, in->track, in->theta + in->length);
     if (st != HC_OK) return st;
   }
-  contact_track_pass(&in->track[j], &in->m->contact[j], event, &at);
-  if (varies && in->track[j].state == CONTACT_STICK) structure_variations_stick(&in->variations, in->m, j, before, &at);
+  if (circle) pass_circle(in, j, event, varies, tau);
+  else contact_track_pass(&in->track[j], &in->m->contact[j], event, &at);
+  if (!varies) return HC_OK;
+  if (!circle && in->track[j].state == CONTACT_STICK)
+    structure_variations_stick(&in->variations, in->m, j, before, &at);
+  structure_variations_follow(&in->variations, in->m, in->track, in->end);
   return HC_OK;
 }
 
@@ -117,7 +154,8 @@ static hc_status step_by_series(by_series *in, bool varies, integrate_watch *wat
 {
   track_event event = TRACK_STICKS;
   const double left = TWO_PI - in->theta;
-  const double reach = motion_series_begin(&in->series, in->m, in->track, in->theta, in->y);
+  const double held = motion_series_hold(in->m, in->track, in->y);
+  const double reach = fmin(held, motion_series_begin(&in->series, in->m, in->track, in->theta, in->y));
   if (!(reach > 0)) return HC_NOT_FINITE;
   in->length = fmin(reach, left);
   const int changing = find_event(in, &event);
@@ -127,6 +165,7 @@ static hc_status step_by_series(by_series *in, bool varies, integrate_watch *wat
   ++in->base.steps;
   ++in->base.rhs;
   hc_status st = watch && end > in->theta ? watch(self, &in->base, in->theta, end) : HC_OK;
+  motion_series_turn(&in->series, in->length, in->track);
   return st == HC_OK ? end_step(in, changing, event, varies, end, count) : st;
 }
 
@@ -136,7 +175,8 @@ static hc_status phase_by_modes(by_series *in, bool varies, integrate_watch *wat
   track_event event = TRACK_STICKS;
   const double from = in->theta, left = TWO_PI - from;
   double span = left;
-  const int changing = motion_modes_first_event(&in->stiff, in->m, in->track, &span, &event);
+  const int direction = motion_modes_first_event(&in->stiff, in->m, in->track, &span, &event);
+  const int changing = direction < 0 ? -1 : scaled_first(in->m, direction);
   const double end = span < left ? from + span : TWO_PI;
   const int steps = watch ? 1 + (int)(span / longest_watched) : 1;
   ++in->base.rhs;
@@ -165,6 +205,39 @@ static hc_status run(by_series *in, bool varies, integrate_watch *watch, void *s
   return HC_OK;
 }
 
+/* The directions of the circle whose first is j, at tau of the step; NAN: where the step has ended. */
+static void turned(const by_series *in, int j, double tau, contact_track circle[2])
+{
+  double e[2];
+  for (int a = 0; a < 2; ++a) circle[a] = in->track[j + a];
+  if (isnan(tau) || in->by_modes || in->series.circle_of[j] < 0) return;
+  circle_series_direction(&in->series.circle[in->series.circle_of[j]], tau, e);
+  for (int a = 0; a < 2; ++a) circle[a].along = e[a];
+}
+
+/* Sliders of the motion y (order 0), or their rates where y is its derivative. */
+static void put_sliders(const by_series *in, double tau, int order, double *y)
+{
+  double *w = y + 2 * in->n;
+  for (int j = 0; j < in->n_contacts; j += scaled_directions(in->m, j)) {
+    const scaled_contact *c = &in->m->contact[j];
+    const contact_track *t = &in->track[j];
+    const contact_motion at = motion_of(in, j, y);
+    const bool sticks = t->state == CONTACT_STICK && c->law.has_friction;
+    if (c->circle) {
+      contact_track circle[2];
+      const circle_motion both = circle_of(in, j, y);
+      turned(in, j, tau, circle);
+      if (order == 0) circle_track_slider(circle, c, &both, w + j);
+      else circle_track_slider_rate(circle, c, both.u, both.v, w + j);
+    } else if (order == 0) {
+      w[j] = contact_track_slider(t, c, &at);
+    } else {
+      w[j] = sticks ? 0 : contact_track_vary_slider(t, c, at.u, at.v);
+    }
+  }
+}
+
 static hc_status period(integrator *base, const scaled_model *m, double *y, double *monodromy, integrate_watch *watch,
                         void *self)
 {
@@ -175,18 +248,16 @@ static hc_status period(integrator *base, const scaled_model *m, double *y, doub
   hc_status st = begin(in, y);
   if (st == HC_OK && monodromy) {
     in->variations.theta = 0;
-    structure_variations_begin(&in->variations, m, in->track);
+    structure_variations_begin(&in->variations, m, in->track, y);
+    structure_variations_follow(&in->variations, m, in->track, y);
   }
   if (st == HC_OK) st = run(in, monodromy != NULL, watch, self, &count);
   if (st == HC_OK && monodromy) st = structure_variations_advance(&in->variations, m, in->track, TWO_PI);
   base->transitions += count;
   if (st != HC_OK) return st;
   memcpy(y, in->y, 2 * (size_t)in->n * sizeof *y);
-  for (int j = 0; j < in->n_contacts; ++j) {
-    const contact_motion at = motion_of(in, j, y);
-    y[2 * in->n + j] = contact_track_slider(&in->track[j], &m->contact[j], &at);
-  }
-  if (monodromy) structure_variations_end(&in->variations, m, in->track, monodromy);
+  put_sliders(in, NAN, 0, y);
+  if (monodromy) structure_variations_end(&in->variations, m, in->track, y, monodromy);
   return HC_OK;
 }
 
@@ -195,13 +266,7 @@ static hc_status dense(const integrator *base, double theta, int order, double *
   by_series *in = (by_series *)base; /* whose rooms for sums are used */
   if (in->by_modes) motion_modes_at(&in->stiff, theta - in->stiff.theta, order, y);
   else motion_series_at(&in->series, theta - in->theta, order, y);
-  for (int j = 0; j < in->n_contacts; ++j) {
-    const contact_track *t = &in->track[j];
-    const contact_motion at = motion_of(in, j, y);
-    const bool sticks = t->state == CONTACT_STICK && in->m->contact[j].law.has_friction;
-    if (order == 0) y[2 * in->n + j] = contact_track_slider(t, &in->m->contact[j], &at);
-    else y[2 * in->n + j] = sticks ? 0 : contact_track_vary_slider(t, &in->m->contact[j], at.u, at.v);
-  }
+  put_sliders(in, theta - in->theta, order, y);
   return HC_OK;
 }
 

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "numerics/norm.h"
+#include "timeint/law_circle.h"
 #include "timeint/structure_equations.h"
 
 /* Width of the corner in N for one contact: a fraction of the larger of its gap and the motion under a static force.
@@ -30,6 +31,8 @@ static void make_contact(scaled_contact *sc, const model_contact *from, double u
   if (sc->cosine == 0) law.kt = 0; /* u = 0 always: the tangential spring does no work */
   sc->law = law_regularised_make(&law, width / length, how->regularisation);
   sc->preload = contact_preload(&law);
+  sc->circle = from->circle && from->pair == CONTACT_FIRST && sc->law.has_friction;
+  sc->second = from->circle && from->pair == CONTACT_SECOND && sc->law.has_friction;
 }
 
 double scaled_force_unit(const scaled_model *m, const model *from, double omega, double length)
@@ -116,6 +119,12 @@ void scaled_contact_motion(const scaled_model *m, int j, const double *x, double
   }
 }
 
+void scaled_circle_motion(const scaled_model *m, int j, const double *x, double u[2], double *v)
+{
+  scaled_contact_motion(m, j, x, &u[0], v);
+  u[1] = dot_product(m->n, m->base->tangent + (size_t)(j + 1) * (size_t)m->n, x);
+}
+
 double scaled_response(const scaled_model *m, int r, const double *x)
 {
   return m->base ? dot_product(m->n, m->base->response + (size_t)r * (size_t)m->n, x) : *x;
@@ -123,12 +132,21 @@ double scaled_response(const scaled_model *m, int r, const double *x)
 
 int scaled_n_responses(const scaled_model *m) { return m->base ? m->base->n_responses : 1; }
 
+static contact_state circle_state(const scaled_model *m, int j, const double *y)
+{
+  double u[2], v;
+  scaled_circle_motion(m, j, y, u, &v);
+  const circle_value at = law_circle_eval(&m->contact[j].law, u, v, y + 2 * m->n + j);
+  return at.rate[0] != 0 || at.rate[1] != 0 ? CONTACT_SLIP_PLUS : CONTACT_STICK;
+}
+
 contact_state scaled_contact_state(const scaled_model *m, int j, const double *y)
 {
   const law_regularised *law = &m->contact[j].law;
   double u, v;
   scaled_contact_motion(m, j, y, &u, &v);
   if (!(law->kn > 0 ? v + law->gap > 0 : law->load > 0)) return CONTACT_SEPARATED;
+  if (m->contact[j].circle || m->contact[j].second) return circle_state(m, scaled_first(m, j), y);
   const double rate = law_regularised_eval(law, u, v, y[2 * m->n + j]).rate;
   return rate > 0 ? CONTACT_SLIP_PLUS : rate < 0 ? CONTACT_SLIP_MINUS : CONTACT_STICK;
 }

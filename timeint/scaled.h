@@ -12,6 +12,7 @@
  * A structure has n of X and P, the modes q/L of modal_base.h, and N may have a constant part:
  *     X'' + by_C C X' + by_K K X = by_load p(theta) - sum_j [ t_j T_j + n_j (N_j - N0_j) ]
  *     by_K = 1/omega^2, by_C = 1/omega, by_load = 1/(omega^2 L); kt, kn times s^2/omega^2: the mass is 1/s^2
+ * Two directions of one contact under the law of the circle are neighbours (model.h); T and W of both: law_circle.h.
  *
  * For the exact law the corner's width is 0, and X', P' of scaled_rhs are then exact for any state whose slider obeys
  * |T| <= mu N; the sliders' own motion is integrate_exact.c's. */
@@ -30,6 +31,7 @@ typedef struct scaled_contact {
   law_regularised law; /* without dimensions */
   double cosine, sine; /* of an oscillator's contact: of its angle */
   double preload;      /* N0 */
+  bool circle, second; /* the first of two directions that share the law of the circle; the second. With friction */
 } scaled_contact;
 
 typedef struct scaled_model {
@@ -53,11 +55,20 @@ bool scaled_rhs(const scaled_model *m, double theta, const double *y, double *dy
 /* jac[n_states * n_states], column by column: d dy[i] / d y[j] at jac[i + j n_states]. */
 void scaled_jacobian(const scaled_model *m, const double *y, double *jac);
 
-/* The state of contact j at y: it slips if it is in contact and |T| > mu N. */
+/* The state of contact j at y: it slips if it is in contact and |T| > mu N. Both directions of a circle are in one
+ * state; where it slips that is CONTACT_SLIP_PLUS, whatever the direction. */
 contact_state scaled_contact_state(const scaled_model *m, int j, const double *y);
 
 /* U and V of contact j at X = y[0..n-1]; and response r. */
 void scaled_contact_motion(const scaled_model *m, int j, const double *x, double *u, double *v);
+
+/* The same of a circle whose first direction is j: U of both. */
+void scaled_circle_motion(const scaled_model *m, int j, const double *x, double u[2], double *v);
+
+/* The first direction of the contact that j is one of; and how many it has that share a law: 2 of a circle, else 1. */
+static inline int scaled_first(const scaled_model *m, int j) { return m->contact[j].second ? j - 1 : j; }
+static inline int scaled_directions(const scaled_model *m, int j) { return m->contact[j].circle ? 2 : 1; }
+
 double scaled_response(const scaled_model *m, int r, const double *x);
 int scaled_n_responses(const scaled_model *m);
 

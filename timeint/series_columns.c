@@ -45,7 +45,11 @@ hc_status series_columns_make(series_columns *s, const modal_base *base)
   for (size_t k = 0; k < sizeof parts / sizeof *parts; ++k) count += parts[k].count;
   s->numbers = calloc(count, sizeof *s->numbers);
   s->law = calloc(contacts + 1, sizeof *s->law);
-  if (!s->numbers || !s->law) return HC_NO_MEMORY;
+  s->circle = calloc((size_t)base->n_circles + 1, sizeof *s->circle);
+  if (!s->numbers || !s->law || !s->circle) return HC_NO_MEMORY;
+  s->n_circles = base->n_circles;
+  for (int i = 0; i < s->n_circles; ++i)
+    if (circle_columns_make(&s->circle[i], BLOCK) != HC_OK) return HC_NO_MEMORY;
   for (size_t k = 0; k < sizeof parts / sizeof *parts; ++k) {
     *parts[k].array = s->numbers + used;
     used += parts[k].count;
@@ -57,6 +61,8 @@ hc_status series_columns_make(series_columns *s, const modal_base *base)
 
 void series_columns_free(series_columns *s)
 {
+  for (int i = 0; i < s->n_circles; ++i) circle_columns_free(&s->circle[i]);
+  free(s->circle);
   free(s->numbers);
   free(s->law);
 }
@@ -122,6 +128,39 @@ static void subtract_contacts(series_columns *s, int width, bool first, double b
   product_subtract(width, s->n, s->n_rows, s->motion, width, s->turned, s->n_rows, out, width);
 }
 
+/* Term k of the motion of the circle whose first direction is j. */
+static void project_circle(series_columns *s, const modal_base *b, int j, circle_columns *c, int width, int k,
+                           const double *z)
+{
+  const size_t n = (size_t)s->n, at = (size_t)k * (size_t)c->columns;
+  const double *const rows[] = {b->tangent + (size_t)j * n, b->tangent + (size_t)(j + 1) * n,
+                                b->normal + (size_t)j * n};
+  double *const motions[] = {c->u[0] + at, c->u[1] + at, c->v + at};
+  for (int r = 0; r < 3; ++r) {
+    memset(motions[r], 0, (size_t)width * sizeof *motions[r]);
+    for (size_t i = 0; i < n; ++i)
+      for (int q = 0; q < width && rows[r][i] != 0; ++q) motions[r][q] += rows[r][i] * z[i * (size_t)width + (size_t)q];
+  }
+}
+
+/* out -= by (circles that slip) of terms z_k and `next`, z_{k+1}. */
+static void subtract_circles(series_columns *s, const scaled_model *m, int width, int k, double by, const double *z,
+                             const double *next, double *out)
+{
+  for (int j = 0; s->along && j < s->n_contacts; ++j) {
+    if (s->along->circle_of[j] < 0) continue;
+    circle_columns *c = &s->circle[s->along->circle_of[j]];
+    if (k == 0) project_circle(s, m->base, j, c, width, 0, z);
+    project_circle(s, m->base, j, c, width, k + 1, next);
+    circle_columns_term(c, width, k);
+    for (int a = 0; a < 2; ++a) {
+      const double *t = m->base->tangent + (size_t)(j + a) * (size_t)s->n;
+      for (int i = 0; i < s->n; ++i)
+        for (int q = 0; q < width && t[i] != 0; ++q) out[i * width + q] -= by * t[i] * c->pull[a][q];
+    }
+  }
+}
+
 /* sums[q] += |by z_q|^2 */
 static void add_squares(const series_columns *s, int width, double by, const double *z, double *restrict sums)
 {
@@ -170,10 +209,11 @@ static bool expand(series_columns *s, const scaled_model *m, int width, double h
     subtract(s, width, b->diagonal_K, b->K, s->turned_K, by * h * m->by_K, z, second);
     subtract(s, width, b->diagonal_C, b->C, s->turned_C, by * (k - 1) * m->by_C, next, second);
     subtract_contacts(s, width, k == 2, by * h, z, second);
+    subtract_circles(s, m, width, k - 2, by * h, z, next, second);
     add_term(count, k / h, second, s->x_end, s->p_end);
     if (k == 2) add_squares(s, width, 2 / h, second, s->size); /* a column that begins with its slider alone */
     small = is_rounding(s, width, k, h, second) ? small + 1 : 0;
-    if (small == 2) return true; /* two: without damping even powers know nothing of odd ones */
+    if (small == 2 && !s->along) return true; /* two: without damping even powers know nothing of odd ones */
     double *spent = z;
     z = next, next = second, second = spent;
   }
@@ -229,4 +269,40 @@ hc_status series_columns_advance(series_columns *s, const scaled_model *m, doubl
     put_rows(s->n, width, s->p, from + rows, ld);
   }
   return HC_OK;
+}
+
+/* dphi of the circles that slip: from the sliders' rows into the first terms, or back when the step is over. */
+static void exchange_angles(series_columns *s, int width, bool back)
+{
+  for (int j = 0; j < s->n_contacts; ++j) {
+    if (s->along->circle_of[j] < 0) continue;
+    circle_columns *c = &s->circle[s->along->circle_of[j]];
+    double *row = s->slider + (size_t)j * (size_t)width;
+    if (back) circle_columns_end(c, width, LAST - 2, row);
+    else memcpy(c->angle, row, (size_t)width * sizeof *row);
+  }
+}
+
+void series_columns_turn(series_columns *s, const scaled_model *m, const motion_series *along, double h, int count,
+                         int ld, double *matrix)
+{
+  const size_t rows = (size_t)s->n * (size_t)ld;
+  s->along = along;
+  for (int j = 0; j < s->n_contacts; ++j)
+    if (along->circle_of[j] >= 0)
+      circle_columns_begin(&s->circle[along->circle_of[j]], &along->circle[along->circle_of[j]], &m->contact[j], h);
+  for (int q = 0; q < count; q += BLOCK) {
+    const int width = count - q < BLOCK ? count - q : BLOCK;
+    double *from = matrix + q;
+    take_rows(s->n, width, from, ld, s->x);
+    take_rows(s->n, width, from + rows, ld, s->p);
+    take_rows(s->n_contacts, width, from + 2 * rows, ld, s->slider);
+    exchange_angles(s, width, false);
+    expand(s, m, width, h);
+    exchange_angles(s, width, true);
+    put_rows(s->n, width, s->x_end, from, ld);
+    put_rows(s->n, width, s->p_end, from + rows, ld);
+    put_rows(s->n_contacts, width, s->slider, from + 2 * rows, ld);
+  }
+  s->along = NULL;
 }

@@ -10,10 +10,11 @@
 #ifndef HC_SERIES_COLUMNS_H
 #define HC_SERIES_COLUMNS_H
 
-#include "timeint/contact_track.h"
+#include "timeint/circle_columns.h"
+#include "timeint/motion_series.h"
 
 typedef struct series_columns { /* from series_columns_make, to series_columns_free */
-  int n, n_contacts;
+  int n, n_contacts, n_circles;
   double *turned_K, *turned_C;  /* [n][n] by rows, where they are not diagonal; else NULL */
   int n_rows;                   /* of contacts that resist in this phase */
   double *rows, *turned;        /* [n][n_rows] by columns; by rows */
@@ -25,6 +26,8 @@ typedef struct series_columns { /* from series_columns_make, to series_columns_f
   double *motion;               /* [block][n_rows] of the contacts; their forces */
   double *slider;               /* [block][n_contacts] dW_j */
   double *size, *left;          /* [block] of columns, squared */
+  circle_columns *circle;       /* [n_circles] */
+  const motion_series *along;   /* where circles slip: the motion; else NULL */
   double reach;                 /* [rad] the longest step that has been seen to suffice, or is hoped to */
   double *numbers;              /* of all arrays of doubles */
 } series_columns;
@@ -39,5 +42,10 @@ void series_columns_begin(series_columns *s, const scaled_model *m, const contac
  * stays. HC_NOT_FINITE. */
 hc_status series_columns_advance(series_columns *s, const scaled_model *m, double span, int count, int ld,
                                  double *matrix);
+
+/* The same over one step h of a motion on which circles slip, h within its reach; a slider's row is dphi of the circle
+ * whose first direction it is. */
+void series_columns_turn(series_columns *s, const scaled_model *m, const motion_series *along, double h, int count,
+                         int ld, double *matrix);
 
 #endif

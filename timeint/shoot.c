@@ -239,11 +239,13 @@ static int drop_negligible_columns(shoot *s, int m)
  * converge on many of these; it is then repeated without them. */
 static hc_status find_multiplier(shoot *s, shoot_report *r)
 {
+  const int moving = 2 * s->ti->n_dof;
   int m = 0;
   r->free_sliders = 0;
   for (int i = 0; i < s->n; ++i) {
+    const scaled_contact *c = &s->ti->scaled.contact[i < moving ? 0 : i - moving];
     if (!is_free(s, i)) s->active[m++] = i;
-    else if (s->ti->scaled.contact[i - 2 * s->ti->n_dof].law.has_friction) ++r->free_sliders;
+    else r->free_sliders += c->law.has_friction && !c->second; /* a circle counts once */
   }
   hc_status st = floquet_multipliers(s->floquet, s->phi, 1, s->n, m, s->active, s->multipliers);
   if (st == HC_NOT_CONVERGED) {

@@ -44,11 +44,12 @@ hc_status structure_newton_make(structure_newton *s, const modal_base *base)
   for (size_t k = 0; k < sizeof parts / sizeof *parts; ++k) count += parts[k].count;
   s->numbers = calloc(count, sizeof *s->numbers);
   s->law = calloc(contacts + 1, sizeof *s->law);
-  s->along = calloc(n + 2 * rows + 1, sizeof *s->along);
+  s->along = calloc(n + 2 * rows + contacts + 1, sizeof *s->along);
   if (!s->numbers || !s->law || !s->along) return HC_NO_MEMORY;
   s->across = s->along + contacts;
   s->small_pivot = s->along + rows;
   s->pivot = s->small_pivot + rows;
+  s->directions = s->pivot + n;
   for (size_t k = 0; k < sizeof parts / sizeof *parts; ++k) {
     *parts[k].array = s->numbers + used;
     used += parts[k].count;
@@ -78,21 +79,46 @@ static double at(const double *q, int row) { return row < 0 ? 0 : q[row]; }
 void structure_newton_linearise(structure_newton *s, const scaled_model *m, const double *y)
 {
   project(s, y, s->q);
-  for (int j = 0; j < s->n_contacts; ++j)
-    s->law[j] =
-        law_regularised_derivatives(&m->contact[j].law, at(s->q, s->along[j]), at(s->q, s->across[j]), y[2 * s->n + j]);
+  for (int j = 0; j < s->n_contacts; ++j) {
+    const int directions = m->contact[j].second ? 0 : scaled_directions(m, j);
+    const double u[2] = {at(s->q, s->along[j]), directions == 2 ? at(s->q, s->along[j + 1]) : 0};
+    s->directions[j] = directions;
+    if (directions > 0) s->law[j] = structure_law(&m->contact[j], u, at(s->q, s->across[j]), y + 2 * s->n + j);
+  }
 }
 
-/* f = by_u u + by_v v + by_d d of a contact whose slider has been eliminated: w = share (d + gamma (r_u u + r_v v)). */
+/* f = by_u (u - d) + by_v v of a contact whose slider has been eliminated: w = share (d + gamma (r_u u + r_v v)). */
 typedef struct eliminated {
-  double by_u, by_v, by_d, share;
+  double by_u[2][2], by_v[2], share[2][2];
 } eliminated;
+
+/* (1 + gamma r_u)^-1 */
+static void invert_rates(const structure_newton *s, int j, double share[2][2])
+{
+  const circle_derivatives *l = &s->law[j];
+  const double a = 1 + s->gamma * l->rate_u[0][0], b = s->gamma * l->rate_u[0][1];
+  const double c = s->gamma * l->rate_u[1][0], d = 1 + s->gamma * l->rate_u[1][1];
+  if (s->directions[j] == 1) {
+    share[0][0] = 1 / a;
+    return;
+  }
+  const double det = a * d - b * c;
+  share[0][0] = d / det, share[0][1] = -b / det;
+  share[1][0] = -c / det, share[1][1] = a / det;
+}
 
 static eliminated eliminate(const structure_newton *s, int j)
 {
-  const law_derivatives *l = &s->law[j];
-  const double share = 1 / (1 + s->gamma * l->rate_u);
-  return (eliminated){l->t_u * share, l->t_v - l->t_u * share * s->gamma * l->rate_v, -l->t_u * share, share};
+  const circle_derivatives *l = &s->law[j];
+  const int directions = s->directions[j];
+  eliminated f = {.by_v = {l->t_v[0], l->t_v[1]}};
+  invert_rates(s, j, f.share);
+  for (int a = 0; a < directions; ++a)
+    for (int b = 0; b < directions; ++b) {
+      for (int k = 0; k < directions; ++k) f.by_u[a][b] += l->t_u[a][k] * f.share[k][b];
+      f.by_v[a] -= f.by_u[a][b] * s->gamma * l->rate_v[b];
+    }
+  return f;
 }
 
 /* ---- D ------------------------------------------------------------------------------------------------- */
@@ -160,9 +186,11 @@ bool structure_newton_factor(structure_newton *s, const scaled_model *m, double 
   for (size_t r = 0; r < rows; ++r) s->small[r * (rows + 1)] = 1;
   for (int j = 0; j < s->n_contacts; ++j) {
     const eliminated f = eliminate(s, j);
-    add_force(s, s->along[j], f.by_u, s->along[j]);
-    add_force(s, s->along[j], f.by_v, s->across[j]);
-    add_force(s, s->across[j], s->law[j].n_v, s->across[j]);
+    for (int a = 0; a < s->directions[j]; ++a) {
+      for (int b = 0; b < s->directions[j]; ++b) add_force(s, s->along[j + a], f.by_u[a][b], s->along[j + b]);
+      add_force(s, s->along[j + a], f.by_v[a], s->across[j]);
+      add_force(s, s->across[j + a], s->law[j].n_v, s->across[j]);
+    }
   }
   return lu_factor(s->n_rows, s->small, s->small_pivot) != 0;
 }
@@ -182,9 +210,32 @@ static void find_forces(structure_newton *s, bool whole, const double *d)
   memset(s->force, 0, (size_t)s->n_rows * sizeof *s->force);
   for (int j = 0; j < s->n_contacts; ++j) {
     const eliminated f = eliminate(s, j);
-    const double u = whole ? at(s->q, s->along[j]) : 0, v = whole ? at(s->q, s->across[j]) : 0;
-    if (s->along[j] >= 0) s->force[s->along[j]] = f.by_u * u + f.by_v * v + f.by_d * d[j];
-    if (s->across[j] >= 0) s->force[s->across[j]] = s->law[j].n_v * v;
+    const double v = whole ? at(s->q, s->across[j]) : 0;
+    for (int a = 0; a < s->directions[j]; ++a) {
+      double t = f.by_v[a] * v;
+      for (int b = 0; b < s->directions[j]; ++b)
+        t += f.by_u[a][b] * ((whole ? at(s->q, s->along[j + b]) : 0) - d[j + b]);
+      if (s->along[j + a] >= 0) s->force[s->along[j + a]] = t;
+      if (s->across[j + a] >= 0) s->force[s->across[j + a]] = s->law[j].n_v * v;
+    }
+  }
+}
+
+/* d[] of contact j := its slider, of d. */
+static void find_slider(const structure_newton *s, int j, double *d)
+{
+  const circle_derivatives *l = &s->law[j];
+  const eliminated f = eliminate(s, j);
+  const int directions = s->directions[j];
+  double sum[2] = {0};
+  for (int a = 0; a < directions; ++a) {
+    double rate = l->rate_v[a] * at(s->q, s->across[j]);
+    for (int b = 0; b < directions; ++b) rate += l->rate_u[a][b] * at(s->q, s->along[j + b]);
+    sum[a] = d[a] + s->gamma * rate;
+  }
+  for (int a = 0; a < directions; ++a) {
+    d[a] = 0;
+    for (int b = 0; b < directions; ++b) d[a] += f.share[a][b] * sum[b];
   }
 }
 
@@ -205,10 +256,24 @@ void structure_newton_solve(structure_newton *s, double *r)
   find_forces(s, true, d);
   subtract_forces(s, s->pulled, gamma, b);
   for (int i = 0; i < n; ++i) a[i] += gamma * b[i];
-  for (int j = 0; j < s->n_contacts; ++j) {
-    const law_derivatives *l = &s->law[j];
-    const double rate = l->rate_u * at(s->q, s->along[j]) + l->rate_v * at(s->q, s->across[j]);
-    d[j] = eliminate(s, j).share * (d[j] + gamma * rate);
+  for (int j = 0; j < s->n_contacts; ++j) find_slider(s, j, d + j);
+}
+
+/* What contact j does where the motion is s->q and z: its forces into s->force, its sliders' rates into rate[]. */
+static void multiply_contact(structure_newton *s, int j, const double *slider, double *rate)
+{
+  const circle_derivatives *l = &s->law[j];
+  const double v = at(s->q, s->across[j]);
+  for (int a = 0; a < s->directions[j]; ++a) {
+    double t = l->t_v[a] * v;
+    rate[a] = l->rate_v[a] * v;
+    for (int b = 0; b < s->directions[j]; ++b) {
+      const double u = at(s->q, s->along[j + b]) - slider[b];
+      t += l->t_u[a][b] * u;
+      rate[a] += l->rate_u[a][b] * u;
+    }
+    if (s->along[j + a] >= 0) s->force[s->along[j + a]] = t;
+    if (s->across[j + a] >= 0) s->force[s->across[j + a]] = l->n_v * v;
   }
 }
 
@@ -218,13 +283,7 @@ void structure_newton_multiply(structure_newton *s, const scaled_model *m, const
   double *force = out + n;
   project(s, z, s->q);
   memset(s->force, 0, (size_t)s->n_rows * sizeof *s->force);
-  for (int j = 0; j < s->n_contacts; ++j) {
-    const law_derivatives *l = &s->law[j];
-    const double u = at(s->q, s->along[j]) - z[2 * n + j], v = at(s->q, s->across[j]);
-    if (s->along[j] >= 0) s->force[s->along[j]] = l->t_u * u + l->t_v * v;
-    if (s->across[j] >= 0) s->force[s->across[j]] = l->n_v * v;
-    out[2 * n + j] = l->rate_u * u + l->rate_v * v;
-  }
+  for (int j = 0; j < s->n_contacts; ++j) multiply_contact(s, j, z + 2 * n + j, out + 2 * n + j);
   memcpy(out, z + n, (size_t)n * sizeof *out);
   memset(force, 0, (size_t)n * sizeof *force);
   modal_base_subtract_K(s->base, m->by_K, z, force);

@@ -4,6 +4,7 @@
  *     x = a + gamma p,   p + gamma (C p + K x + sum_j t_j f_j + n_j g_j) = b
  *     w_j = d_j + gamma (r_u (u_j - w_j) + r_v v_j)
  *     f_j = t_u (u_j - w_j) + t_v v_j,   g_j = n_v v_j,   u_j = t_j . x,   v_j = n_j . x      (C, K: by_C C, by_K K)
+ * where two directions share the law of a circle r_u, t_u are matrices of two rows,
  *
  * by elimination of x and w, and then of p: with D = 1 + gamma C + gamma^2 K, which is diagonal or factored, B the rows
  * t_j, n_j, and the forces S B x + c of the contacts after their sliders' elimination,
@@ -13,14 +14,15 @@
 #ifndef HC_STRUCTURE_NEWTON_H
 #define HC_STRUCTURE_NEWTON_H
 
-#include "timeint/scaled.h"
+#include "timeint/structure_equations.h"
 
 typedef struct structure_newton { /* from structure_newton_make, to structure_newton_free */
   const modal_base *base;         /* the owner's */
   int n, n_contacts, n_rows;
-  law_derivatives *law; /* [n_contacts] where the equations were linearised */
-  double *rows;         /* [n][n_rows] by columns: t_j and n_j that are not 0 */
-  int *along, *across;  /* [n_contacts] which row is t_j, n_j; -1: none */
+  circle_derivatives *law; /* [n_contacts] where the equations were linearised */
+  int *directions;         /* [n_contacts] that share that law: 1, 2; 0: the second, whose law is the first's */
+  double *rows;            /* [n][n_rows] by columns: t_j and n_j that are not 0 */
+  int *along, *across;     /* [n_contacts] which row is t_j, n_j; -1: none */
   double gamma, by_K, by_C;
   double *D;         /* [n] or [n][n]: D, or its factors */
   double *pulled;    /* [n][n_rows] D^-1 B^T */

@@ -77,6 +77,7 @@ static hc_status make_memory(timeint *ti)
 static hc_status make_integrator(const timeint *ti, transient_law law, integrator **out)
 {
   const bool closed = ti->how.method == TRANSIENT_METHOD_CLOSED_FORM, exact = law == TRANSIENT_LAW_EXACT;
+  if (ti->base && ti->base->n_circles > 0 && exact && !closed) return HC_UNSUPPORTED;
   if (ti->base && closed) return integrate_new_series(ti->base, PHASE_MODES_STIFF, out);
   if (ti->base)
     return (exact ? integrate_new_events : integrate_new_regularised_structure)(ti->base, ti->tolerance, out);
@@ -101,7 +102,6 @@ hc_status timeint_new(const model *m, const transient_settings *how, timeint **o
   *out = NULL;
   hc_status st = check_input(m, how);
   if (st != HC_OK) return st;
-  if (model_has_circle(m)) return HC_UNSUPPORTED;
   if (m->n_contacts > MOST_STATES - 2 * m->n) return HC_NO_MEMORY;
   timeint *ti = calloc(1, sizeof *ti); /* zeroed, so free works half-built */
   if (!ti) return HC_NO_MEMORY;
