@@ -26,9 +26,10 @@ void compliance_free(compliance *c); /* NULL is allowed */
  * there is no sum for d. */
 hc_status compliance_at(compliance *c, double w, double reach, double d, double complex *S, double complex *g);
 
-/* dS and dg where s changes by ds, and d by dd; S of the same w. */
+/* dG[dim][dim] and, behind it, dg[n_loads][2][dim], where s changes by ds and d by dd; they stay until other changes are
+ * asked for. dS = -S dG S. HC_NOT_FINITE as above. */
 hc_status compliance_change(compliance *c, double w, double reach, double d, double complex ds, double complex dd,
-                            const double complex *S, double complex *dS, double complex *dg);
+                            const double complex **dG);
 
 /* G_r[dim] and g_r[n_loads][2] of response r. */
 hc_status compliance_of_response(compliance *c, double w, double reach, double d, int r, double complex *G_r,

@@ -29,7 +29,7 @@ hc_status condensation_new(const model *m, int n_harm, condensation **out)
     c->by_compliance = calloc(H, sizeof *c->by_compliance);
     c->motion = new_complex(loads * dim);
     c->room = new_complex(2 * loads * dim);
-    c->dS = new_complex(dim * dim);
+    c->vector = new_complex(2 * (size_t)m->n);
     c->S = new_complex(H * dim * dim);
     c->size = calloc(H * dim * dim + 1, sizeof *c->size);
     c->by_q = new_complex(H * dim * rest);
@@ -38,7 +38,7 @@ hc_status condensation_new(const model *m, int n_harm, condensation **out)
     c->rest_of = new_complex(loads * rest);
     c->Zyy = new_complex(rest * rest);
     c->pivot = calloc(rest + 1, sizeof *c->pivot);
-    const bool sums = c->S && c->size && c->by_q && c->by_y && c->by_compliance && c->motion && c->room && c->dS;
+    const bool sums = c->S && c->size && c->by_q && c->by_y && c->by_compliance && c->motion && c->room && c->vector;
     if (!sums || !c->load || !c->rest_of || !c->Zyy || !c->pivot) st = HC_NO_MEMORY;
   }
   if (st == HC_OK && c->basis.rest >= LARGE) st = compliance_new(m, c->basis.dim, c->basis.rows, &c->compliance);
@@ -55,7 +55,7 @@ void condensation_free(condensation *c)
   free(c->by_compliance);
   free(c->motion);
   free(c->room);
-  free(c->dS);
+  free(c->vector);
   free(c->S);
   free(c->size);
   free(c->by_q);

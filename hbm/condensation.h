@@ -51,14 +51,15 @@ const double *condensation_sizes(const condensation *c, int h);
 /* p [dim] of load number i of the model, cosine - i sine. */
 const double complex *condensation_load(const condensation *c, int i);
 
-/* dS and dp of harmonic h and load i where Z changes by dZ = (alpha M + beta C): by omega,
+/* dS a and dp of harmonic h and load i, a[dim], where Z changes by dZ = (alpha M + beta C): by omega,
  * alpha = -2 h^2 omega + i h D n/trace M, beta = i h; by D, alpha = i h omega n/trace M, beta = 0. */
 typedef struct condensation_change {
   double complex alpha, beta;
 } condensation_change;
 condensation_change condensation_by_omega(const condensation *c, int h);
 condensation_change condensation_by_damping(const condensation *c, int h);
-void condensation_stiffness_change(condensation *c, int h, condensation_change by, double complex *dS);
+void condensation_stiffness_change(condensation *c, int h, condensation_change by, const double complex *a,
+                                   double complex *dS_a);
 void condensation_load_change(condensation *c, int i, condensation_change by, double complex *dp);
 
 /* Harmonic h of direction d in x, response r: row . q + rest. row[dim]; factor: of the loads. */

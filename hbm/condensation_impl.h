@@ -20,7 +20,7 @@ struct condensation {
   bool *by_compliance;     /* [n_harm + 1] the harmonic is by it */
   double complex *motion;  /* [n_loads][dim] of q under a load, nothing else acting, where it is */
   double complex *room;    /* [2 n_loads][dim] */
-  double complex *dS;      /* [dim][dim] */
+  double complex *vector;  /* [2][dim + rest] of condensation_change.c */
   double complex *S;       /* [n_harm + 1][dim][dim] */
   double *size;            /* [n_harm + 1][dim][dim] */
   double complex *by_q;    /* [n_harm + 1][dim][rest]: Z_yy^-1 Z_yq */

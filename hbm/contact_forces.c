@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "hbm/circle_aft.h"
+#include "numerics/dense.h"
 #include "numerics/series.h"
 
 /* A motion u or v as a combination of few coordinates. */
@@ -31,11 +32,14 @@ typedef struct group {
 
 struct contact_forces {
   int dim, length /* 2H+1 */, n_contacts, n_groups;
-  bool oscillator; /* group 0 has all contacts, in q itself */
-  group *groups;   /* [n_groups] */
-  int *group_of;   /* [n_contacts] */
-  double *x, *f;   /* [GROUP_MAX_DOF (2H+1)] of one group */
-  double *jac;     /* [dim (2H+1)]^2 once it has been asked for; NULL of an oscillator, whose group's it is */
+  bool oscillator;    /* group 0 has all contacts, in q itself */
+  group *groups;      /* [n_groups] */
+  int *group_of;      /* [n_contacts] */
+  double *x, *f;      /* [GROUP_MAX_DOF (2H+1)] of one group */
+  double *jac;        /* [dim (2H+1)]^2 once it has been asked for; NULL of an oscillator, whose group's it is */
+  int n_rows;         /* coordinates of all groups */
+  double *directions; /* [n_rows][dim] these in q, by columns; NULL where scattering is the faster way */
+  double *product;    /* [dim][2H+1][n_rows] of the Jacobian, with `directions` */
   bool assembled;
 };
 
@@ -145,6 +149,37 @@ static hc_status make_groups(const model *m, const condensation *c, const evalua
   return st;
 }
 
+/* Does the Jacobian cost less as a product of matrices than scattered group by group? That takes some ten times as long
+ * an operation. */
+static bool product_pays(const contact_forces *f)
+{
+  double scattered = 0;
+  for (int j = 0; j < f->n_groups; ++j) {
+    double entries = 0;
+    for (int d = 0; d < f->groups[j].n_dof; ++d) entries += f->groups[j].of[d].n;
+    scattered += entries * entries;
+  }
+  return 10 * scattered > (double)f->dim * f->dim * f->n_rows;
+}
+
+static hc_status make_product(contact_forces *f)
+{
+  enum { FEW = 8 }; /* coordinates: everything is small */
+  for (int j = 0; j < f->n_groups; ++j) f->n_rows += f->groups[j].n_dof;
+  if (f->oscillator || f->dim < FEW || !product_pays(f)) return HC_OK;
+  const size_t dim = (size_t)f->dim, rows = (size_t)f->n_rows;
+  f->directions = calloc(dim * rows, sizeof *f->directions);
+  f->product = calloc(dim * rows * (size_t)f->length, sizeof *f->product);
+  if (!f->directions || !f->product) return HC_NO_MEMORY;
+  double *row = f->directions;
+  for (int j = 0; j < f->n_groups; ++j)
+    for (int d = 0; d < f->groups[j].n_dof; ++d, row += dim) {
+      const combination *of = &f->groups[j].of[d];
+      for (int k = 0; k < of->n; ++k) row[of->coordinate[k]] = of->weight[k];
+    }
+  return HC_OK;
+}
+
 hc_status contact_forces_new(const model *m, const condensation *c, hbm_force force, hbm_restart restart, int n_harm,
                              int n_time, contact_forces **out)
 {
@@ -164,6 +199,7 @@ hc_status contact_forces_new(const model *m, const condensation *c, hbm_force fo
   if (!f->oscillator) f->jac = calloc(n * n, sizeof *f->jac);
   const bool room = f->groups && f->group_of && f->x && f->f && (f->jac || f->oscillator);
   hc_status st = room ? make_groups(m, c, &kind, f) : HC_NO_MEMORY;
+  if (st == HC_OK) st = make_product(f);
   if (st == HC_OK) *out = f;
   else contact_forces_free(f);
   return st;
@@ -188,6 +224,8 @@ void contact_forces_free(contact_forces *f)
   free(f->x);
   free(f->f);
   free(f->jac);
+  free(f->directions);
+  free(f->product);
   free(f);
 }
 
@@ -270,19 +308,54 @@ static void scatter_block(contact_forces *f, const group *g, int d, int e)
     }
 }
 
-const double *contact_forces_jacobian(contact_forces *f)
+static void scatter_groups(contact_forces *f)
 {
   const size_t n = (size_t)f->dim * (size_t)f->length;
+  memset(f->jac, 0, n * n * sizeof *f->jac);
+  for (int j = 0; j < f->n_groups; ++j)
+    for (int d = 0; d < f->groups[j].n_dof; ++d)
+      for (int e = 0; e < f->groups[j].n_dof; ++e) scatter_block(f, &f->groups[j], d, e);
+}
+
+/* Of one coefficient q of the motion: d(forces of all groups)/dX, product[dim][length][n_rows]. */
+static void differentiate_forces(contact_forces *f, size_t q)
+{
+  const size_t length = (size_t)f->length, rows = (size_t)f->n_rows;
+  memset(f->product, 0, (size_t)f->dim * length * rows * sizeof *f->product);
+  size_t first = 0;
+  for (int j = 0; j < f->n_groups; ++j) {
+    const group *g = &f->groups[j];
+    const size_t n_dof = (size_t)g->n_dof;
+    for (size_t e = 0; e < n_dof; ++e)
+      for (int k = 0; k < g->of[e].n; ++k) {
+        const double weight = g->of[e].weight[k], *column = g->jac + (e * length + q) * n_dof * length;
+        double *out = f->product + (size_t)g->of[e].coordinate[k] * length * rows + first;
+        for (size_t p = 0; p < length; ++p)
+          for (size_t d = 0; d < n_dof; ++d) out[p * rows + d] += weight * column[d * length + p];
+      }
+    first += n_dof;
+  }
+}
+
+/* Where directions have most of the coordinates in them: B^T (J B), block by block. */
+static void multiply_groups(contact_forces *f)
+{
+  const size_t n = (size_t)f->dim * (size_t)f->length;
+  for (int q = 0; q < f->length; ++q) {
+    differentiate_forces(f, (size_t)q);
+    dense_multiply(f->dim, f->length * f->dim, f->n_rows, f->directions, f->product,
+                   f->jac + (size_t)q * (size_t)f->dim * n);
+  }
+}
+
+const double *contact_forces_jacobian(contact_forces *f)
+{
   if (f->oscillator) differentiate(&f->groups[0]);
   if (f->oscillator) return f->groups[0].jac;
   if (f->assembled) return f->jac;
-  memset(f->jac, 0, n * n * sizeof *f->jac);
-  for (int j = 0; j < f->n_groups; ++j) {
-    group *g = &f->groups[j];
-    differentiate(g);
-    for (int d = 0; d < g->n_dof; ++d)
-      for (int e = 0; e < g->n_dof; ++e) scatter_block(f, g, d, e);
-  }
+  for (int j = 0; j < f->n_groups; ++j) differentiate(&f->groups[j]);
+  if (f->product) multiply_groups(f);
+  else scatter_groups(f);
   f->assembled = true;
   return f->jac;
 }

@@ -22,8 +22,8 @@ hc_status hbm_system_init(hbm_system *sys, const model *m, const hbm_settings *h
   sys->X = calloc(n, sizeof(double));
   sys->F = calloc(n, sizeof(double));
   sys->rows = calloc(n, sizeof(double));
-  sys->block = calloc(dim * dim, sizeof *sys->block);
-  if (!sys->X || !sys->F || !sys->rows || !sys->block) return HC_NO_MEMORY;
+  sys->amplitudes = calloc(2 * dim, sizeof *sys->amplitudes);
+  if (!sys->X || !sys->F || !sys->rows || !sys->amplitudes) return HC_NO_MEMORY;
   if ((st = hbm_linear_room_new(m, sys->dim, &sys->room)) != HC_OK) return st;
   return contact_forces_new(m, sys->linear, how->force, how->restart, n_harm, n_time, &sys->contacts);
 }
@@ -36,7 +36,7 @@ void hbm_system_clear(hbm_system *sys)
   free(sys->X);
   free(sys->F);
   free(sys->rows);
-  free(sys->block);
+  free(sys->amplitudes);
   *sys = (hbm_system){0};
 }
 
@@ -69,8 +69,8 @@ hc_status hbm_system_any_response(hbm_system *sys, double omega, const double *X
   for (int h = 0; h <= sys->n_harm && st == HC_OK; ++h) {
     const double *a = X + (h ? (2 * h - 1) * dim : 0), *b = a + dim;
     double complex z;
-    condensation_response(sys->linear, h, r, 1, sys->block, &z);
-    for (int d = 0; d < dim; ++d) z += sys->block[d] * (h ? a[d] - I * b[d] : a[d]);
+    condensation_response(sys->linear, h, r, 1, sys->amplitudes, &z);
+    for (int d = 0; d < dim; ++d) z += sys->amplitudes[d] * (h ? a[d] - I * b[d] : a[d]);
     x[h ? 2 * h - 1 : 0] = creal(z);
     if (h) x[2 * h] = -cimag(z);
   }
@@ -225,19 +225,30 @@ void hbm_system_jacobian(hbm_system *sys, double omega, int ld, double *jac)
   differentiate_mistakes(sys, omega, dF, ld, jac);
 }
 
+/* Harmonic h of X as complex amplitudes. */
+static void amplitudes(const hbm_system *sys, int h, const double *X, double complex *a)
+{
+  const double *cosine = X + cosines(sys, h), *sine = X + sines(sys, h);
+  for (int d = 0; d < sys->dim; ++d) a[d] = h ? cosine[d] - I * sine[d] : cosine[d];
+}
+
 static void differentiate(hbm_system *sys, condensation_change (*by)(const condensation *, int), const double *X,
                           double *dR)
 {
-  memset(sys->rows, 0, (size_t)sys->n_coef * sizeof(double));
+  double complex *a = sys->amplitudes, *dS_a = a + sys->dim;
   for (int h = 0; h <= sys->n_harm; ++h) {
-    condensation_stiffness_change(sys->linear, h, by(sys->linear, h), sys->block);
-    if (sys->dim == 1) multiply_number(sys->rows, *sys->block, h, X);
-    else multiply_block(sys, sys->block, h, X);
+    amplitudes(sys, h, X, a);
+    condensation_stiffness_change(sys->linear, h, by(sys->linear, h), a, dS_a);
+    double *of_a = sys->rows + cosines(sys, h), *of_b = sys->rows + sines(sys, h);
+    for (int d = 0; d < sys->dim; ++d) {
+      if (h) of_b[d] = -cimag(dS_a[d]);
+      of_a[d] = creal(dS_a[d]);
+    }
   }
   for (int l = 0; l < sys->model->n_loads && sys->model->n > 1; ++l) {
     const int h = sys->model->loads[l].harmonic;
-    condensation_load_change(sys->linear, l, by(sys->linear, h), sys->block);
-    subtract_load(sys, sys->block, h, sys->force_factor);
+    condensation_load_change(sys->linear, l, by(sys->linear, h), a);
+    subtract_load(sys, a, h, sys->force_factor);
   }
   drop_means(sys, dR);
 }

@@ -31,10 +31,10 @@ typedef struct hbm_system {
   model_scales scales;
   double *X, *F; /* [n_coef] the last evaluation: where, and the contact force */
   contact_report report;
-  bool evaluated;        /* X, F and report belong together */
-  double *rows;          /* [n_coef] residual or its derivative with the means' rows, which may have to be dropped */
-  double complex *block; /* [dim][dim] */
-  long evaluations;      /* of the contact force */
+  bool evaluated; /* X, F and report belong together */
+  double *rows;   /* [n_coef] residual or its derivative with the means' rows, which may have to be dropped */
+  double complex *amplitudes; /* [2][dim] */
+  long evaluations;           /* of the contact force */
 } hbm_system;
 
 /* Entries of X with n_harm harmonics. */
