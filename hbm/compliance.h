@@ -26,8 +26,8 @@ void compliance_free(compliance *c); /* NULL is allowed */
  * there is no sum for d. */
 hc_status compliance_at(compliance *c, double w, double reach, double d, double complex *S, double complex *g);
 
-/* dG[dim][dim] and, behind it, dg[n_loads][2][dim], where s changes by ds and d by dd; they stay until other changes are
- * asked for. dS = -S dG S. HC_NOT_FINITE as above. */
+/* dG[dim][dim] and, behind it, dg[n_loads][2][dim], where s changes by ds and d by dd; they stay until others are asked
+ * for. dS = -S dG S. HC_NOT_FINITE as above. */
 hc_status compliance_change(compliance *c, double w, double reach, double d, double complex ds, double complex dd,
                             const double complex **dG);
 
