@@ -14,9 +14,9 @@ static double size(int n, const double complex *A)
   return most;
 }
 
-/* Each column of X solves (A + E) x = e with |E| of a few n u |A| growth: |A X - 1| <= c n u n |A| |X| where the largest
- * entries stand for norms. c = 10 allows for the growth; seen are 3 % of the bound. One panel, several, and a last one
- * that is not full. */
+/* Each column of X solves (A + E) x = e with |E| of a few n u |A| growth: |A X - 1| <= c n u n |A| |X| where the
+ * largest entries stand for norms. c = 10 allows for the growth. One panel, several, and a last one that is not
+ * full. */
 static void inverts_random_matrices(void **state)
 {
   (void)state;
@@ -40,7 +40,7 @@ static void inverts_random_matrices(void **state)
   free(work);
 }
 
-/* i at (k, to(k)), to a cycle: the inverse has -i at (to(k), k), and nothing rounds. Pivots are never on the diagonal. */
+/* i at (k, to(k)): the inverse has -i at (to(k), k), and nothing rounds. Pivots are never on the diagonal. */
 static void inverts_a_permutation_exactly(void **state)
 {
   (void)state;
