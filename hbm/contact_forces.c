@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "hbm/circle_aft.h"
+#include "hbm/circle_force.h"
 #include "numerics/dense.h"
 #include "numerics/series.h"
 
@@ -25,7 +26,8 @@ typedef struct group {
   bool across_only;              /* the one coordinate is v */
   exact_force *located;
   aft *sampled;
-  circle_aft *circle_sampled; /* one of the three */
+  circle_force *circle_located;
+  circle_aft *circle_sampled; /* one of the four */
   double *jac;                /* [n_dof (2H+1)]^2 */
   bool differentiated;
 } group;
@@ -121,7 +123,7 @@ static hc_status make_circle(const contact *law, const condensation *c, const ev
   for (int d = 0; d < g->n_dof && st == HC_OK; ++d) st = combine(dim, direction[d], &g->of[d]);
   if (st == HC_OK) st = make_jacobian(kind, g);
   if (st != HC_OK) return st;
-  if (kind->force != HBM_FORCE_SAMPLED) return HC_UNSUPPORTED;
+  if (kind->force != HBM_FORCE_SAMPLED) return circle_force_new(kind->n_harm, g->n_dof, law, &g->circle_located);
   return circle_aft_new(kind->n_harm, kind->n_time, kind->restart, g->n_dof, law, &g->circle_sampled);
 }
 
@@ -212,6 +214,7 @@ void contact_forces_free(contact_forces *f)
     group *g = &f->groups[j];
     exact_force_free(g->located);
     aft_free(g->sampled);
+    circle_force_free(g->circle_located);
     circle_aft_free(g->circle_sampled);
     free(g->jac);
     for (int d = 0; d < GROUP_MAX_DOF; ++d) {
@@ -233,8 +236,9 @@ void contact_forces_free(contact_forces *f)
 
 static hc_status evaluate(group *g, const double *x, double *F, contact_report *report)
 {
-  g->differentiated = g->located != NULL; /* of sampled forces it is made when it is asked for first */
+  g->differentiated = g->located || g->circle_located; /* of sampled forces it is made when it is asked for first */
   if (g->located) return exact_force_eval(g->located, x, F, g->jac, report);
+  if (g->circle_located) return circle_force_eval(g->circle_located, x, F, g->jac, report);
   return g->sampled ? aft_eval(g->sampled, x, F, NULL, report) : circle_aft_eval(g->circle_sampled, x, F, report);
 }
 
@@ -368,6 +372,7 @@ void contact_forces_sliders(const contact_forces *f, double *w)
     const group *g = &f->groups[j];
     if (g->located) exact_force_sliders(g->located, w + g->first);
     else if (g->sampled) aft_sliders(g->sampled, w + g->first);
+    else if (g->circle_located) circle_force_slider(g->circle_located, w + g->first);
     else circle_aft_slider(g->circle_sampled, w + g->first);
   }
 }
@@ -375,6 +380,12 @@ void contact_forces_sliders(const contact_forces *f, double *w)
 const contact_piece *contact_forces_pieces(const contact_forces *f, int j, int *n)
 {
   return exact_force_pieces(f->groups[f->group_of[j]].located, f->oscillator ? j : 0, n);
+}
+
+const circle_cycle *contact_forces_circle(const contact_forces *f, int j)
+{
+  const group *g = &f->groups[f->group_of[j]];
+  return g->circle_located ? circle_force_cycle(g->circle_located) : NULL;
 }
 
 void contact_forces_held_by(const contact_forces *f, int j, const contact_piece *p, double by[2])

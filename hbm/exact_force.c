@@ -3,9 +3,7 @@
  *   so            F_d(th) = sum_e K_de(th) x_e(th) + C_d(th),    K, C piecewise constant
  *   and           F     = [Toeplitz + Hankel of K] X + C
  *                 dF/dX = [Toeplitz + Hankel of K] - sum over stick pieces (harmonics of the piece) (d held)^T
- * Moving a transition changes nothing to first order, since the force is continuous there. The harmonics of a piece's
- * indicator are written with its middle m and half width w, sin(h w) cos(h m). As a difference of values at its ends
- * they would lose the relative accuracy of a short piece. */
+ * Moving a transition changes nothing to first order, since the force is continuous there. */
 #include "hbm/exact_force.h"
 
 #include <math.h>
@@ -15,6 +13,7 @@
 #include "base/constants.h"
 #include "hbm/force_jacobian.h"
 #include "hbm/hbm_settings.h"
+#include "hbm/piece_series.h"
 #include "numerics/series.h"
 
 struct exact_force {
@@ -63,7 +62,7 @@ hc_status exact_force_new(int n_harm, int n_dof, int n_contacts, const moving_co
   }
   if (n_contacts) memcpy(e->contacts, contacts, (size_t)n_contacts * sizeof *contacts);
   series_grid_table_fill(n_harm, e->table);
-  for (int h = 1; h <= 2 * n_harm; ++h) e->weight[h] = 2 / (PI * h);
+  piece_series_weights(2 * n_harm, e->weight);
   *out = e;
   return HC_OK;
 }
@@ -97,18 +96,7 @@ hc_status exact_force_new_of_model(int n_harm, const model *m, exact_force **out
 /* Series of the function that is 1 on the piece and 0 elsewhere, 2H harmonics. */
 static void fill_indicator(exact_force *e, const contact_piece *p)
 {
-  double *I = e->indicator, middle = 0.5 * (p->from + p->to), half = 0.5 * (p->to - p->from);
-  I[0] = half / PI;
-  double cm = cos(middle), sm = sin(middle), cw = cos(half), sw = sin(half);
-  double cm_h = 1, sm_h = 0, cw_h = 1, sw_h = 0;
-  bool whole = half >= PI;
-  for (int h = 1; h <= 2 * e->n_harm; ++h) {
-    series_turn(cm, sm, &cm_h, &sm_h);
-    series_turn(cw, sw, &cw_h, &sw_h);
-    double size = whole ? 0 : e->weight[h] * sw_h;
-    I[2 * h - 1] = size * cm_h;
-    I[2 * h] = size * sm_h;
-  }
+  piece_series_fill(2 * e->n_harm, e->weight, p->from, p->to, e->indicator);
 }
 
 /* to += scale from. Four at a time: the speed of a loop of two depends by a tenth on its alignment by the linker. */

@@ -89,7 +89,6 @@ hc_status hbm_solver_resize(hbm_solver *s, int n_harm, int n_time)
 hc_status hbm_solver_new(const model *m, const hbm_settings *how, hbm_solver **out)
 {
   *out = NULL;
-  if (model_has_circle(m)) return HC_UNSUPPORTED;
   hbm_solver *s = calloc(1, sizeof *s);
   if (!s) return HC_NO_MEMORY;
   int n_harm = how->harmonics, n_time = how->samples;

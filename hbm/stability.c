@@ -6,10 +6,12 @@
 #include "hbm/corrector.h"
 #include "hbm/hbm_solver_impl.h"
 
-bool hbm_stability_is_costly(const hbm_solver *s) { return s->model->n > 50; }
+bool hbm_stability_is_costly(const hbm_solver *s) { return s->model->n > 50 || model_has_circle(s->model); }
 
 hc_status hbm_multipliers(hbm_solver *s, const contact_forces *orbit, double omega, hbm_stability *out)
 {
+  *out = (hbm_stability){NAN, NAN, NAN, NAN, NAN, NAN, 0, NAN, false};
+  if (model_has_circle(s->model)) return HC_OK;
   hc_status st = s->monodromy ? HC_OK : monodromy_new(s->model, &s->monodromy);
   return st == HC_OK ? monodromy_stability(s->monodromy, s->model, orbit, omega, out) : st;
 }

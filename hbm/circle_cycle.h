@@ -1,0 +1,60 @@
+/* circle_cycle.h - one period of a contact of two tangents with one limit, from a motion: when it sticks and slips,
+ * and the closed orbit of its slider.
+ *
+ * Where contact is lost, touch-down puts the slider at w = u and one pass is enough. Else it starts from w = 0, put
+ * into the circle at once, and is marched. A pass maps w(0) to w(2 pi) without expanding distances, for w is dragged
+ * by a moving convex set (Moreau 1977, J. Differential Equations 26, 347-374); that is no clamp, and repeats itself in
+ * the limit only. So the closed orbit is found by Newton on w(0), with the 2x2 derivative of the pass. A slider that
+ * does not slip after some pass stays where marching left it. libm only, nothing is allocated. */
+#ifndef HC_HBM_CIRCLE_CYCLE_H
+#define HC_HBM_CIRCLE_CYCLE_H
+
+#include "base/status.h"
+#include "hbm/circle_motion.h"
+#include "hbm/circle_slip.h"
+
+/* What a piece begins with: the period (w = w0, put into the circle), touch-down (w = u), or the end of the piece
+ * before it. */
+typedef enum circle_begin { CIRCLE_STARTS, CIRCLE_TOUCHES, CIRCLE_GOES_ON } circle_begin;
+
+/* A stretch of the period in one state; an angle that no piece covers is separated. */
+typedef struct circle_piece {
+  double from, to;     /* [rad] from < to <= from + 2 pi */
+  contact_state state; /* CONTACT_STICK, or CONTACT_SLIP_PLUS whatever the direction of slip */
+  circle_begin begin;
+  double w[2];         /* [length] the slider while it sticks */
+  int panel, n_panels; /* of the cycle's panels, while it slips */
+} circle_piece;
+
+/* A stretch of contact, [rad]; of one that lasts for ever from 0 to 2 pi. */
+typedef struct circle_contact {
+  double from, to;
+} circle_contact;
+
+typedef struct circle_cycle {
+  const circle_motion *m;
+  const circle_point *grid; /* of circle_motion_grid */
+  bool always;              /* never separated: then n_contacts is 1 */
+  int n_contacts;
+  const circle_contact *contact; /* [n_contacts] ascending */
+  circle_piece *piece;           /* [cap] room */
+  int n, cap;                    /* pieces found */
+  circle_slip slip;              /* its panels */
+  double start[2];               /* [length] w0: where the last pass began, not yet put into the circle; if `always` */
+  int marched;                   /* passes from w0 = 0 after which it does not slip any more; -1: it slips for ever */
+  int changes;                   /* of state in this pass, to recognise chatter */
+} circle_cycle;
+
+/* The pieces of one period on the closed orbit. HC_CHATTER: more pieces or panels than there is room for, or 64 (H + 1)
+ * changes of state. HC_NOT_CLOSED: the slider is not where it was a period before. HC_NOT_CONVERGED. */
+hc_status circle_cycle_find(circle_cycle *c);
+
+/* One pass from w0, which becomes the slider at its end; A[row][col] = d(that)/d w0 unless NULL. Errors as above. */
+hc_status circle_cycle_pass(circle_cycle *c, double w[2], double A[2][2]);
+
+contact_regime circle_cycle_regime(const circle_cycle *c);
+
+/* w [length] at th = 0. */
+void circle_cycle_slider(const circle_cycle *c, double w[2]);
+
+#endif

@@ -1,0 +1,536 @@
+/* circle_force.c - see circle_force.h. Lengths until the end, where they are multiplied with kt: (u - w) and R e.
+ *
+ * What the slider's position depends on is kept as a row of derivatives: d w (two rows) while it sticks, d phi while
+ * it slips, by the columns of X and two more, of w0 = w(0). On the closed orbit w0 repeats itself, d w0 = (1 - A)^-1 B
+ * dX with A, B the derivatives of the pass; the last two columns are then eliminated. */
+#include "hbm/circle_force.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/constants.h"
+#include "hbm/exact_force.h"
+#include "hbm/force_jacobian.h"
+#include "hbm/hbm_settings.h"
+#include "hbm/piece_series.h"
+#include "numerics/series.h"
+
+enum { N = COLLOCATION_POINTS };
+
+struct circle_force {
+  int n_harm, n_dof, n_coef, n_size; /* n_size = n_dof n_coef */
+  int n_col;                         /* n_size + 2 */
+  contact law;                       /* of both halves together */
+  exact_force *normal;               /* N - N0 and when there is contact; NULL where N is constant */
+  double *F_normal, *jac_normal;     /* [n_coef], [n_coef]^2 */
+  circle_motion motion;
+  circle_point grid[CIRCLE_GRID];
+  collocation rule;
+  circle_contact *contact; /* [cap] */
+  circle_cycle cycle;
+  double *indicator, *symbol, *weight; /* [4H+1] of a piece, of all stick pieces; [2H+1] */
+  double *F;                           /* [2][n_coef] [length] of T/kt */
+  double *by;                          /* [2][n_col][n_coef] its derivatives */
+  double *dw[2], *dphi;                /* [n_col] */
+  double *node;                        /* [N][n_col] d phi at the points of a panel */
+  double *matrix;                      /* [n_coef]^2 */
+  double *base, *rate;                 /* [N][n_coef] 1, cos, sin at the points, and their derivatives */
+};
+
+/* ---- made and freed ---------------------------------------------------------------------------------- */
+
+static double *room(size_t n) { return calloc(n, sizeof(double)); }
+
+static hc_status make_normal(circle_force *f)
+{
+  const moving_contact across = {.law = {.kn = f->law.kn, .gap = f->law.gap}, .cv = {1}};
+  f->F_normal = room((size_t)f->n_coef);
+  f->jac_normal = room((size_t)f->n_coef * (size_t)f->n_coef);
+  if (!f->F_normal || !f->jac_normal) return HC_NO_MEMORY;
+  return exact_force_new(f->n_harm, 1, 1, &across, &f->normal);
+}
+
+static hc_status make_room(circle_force *f)
+{
+  const size_t L = (size_t)f->n_coef, col = (size_t)f->n_col, symbol = (size_t)force_jacobian_symbol_length(f->n_harm);
+  circle_cycle *c = &f->cycle;
+  c->cap = 16 * f->n_harm + 16;
+  c->slip.cap = 64 * f->n_harm + 256;
+  c->piece = calloc((size_t)c->cap, sizeof *c->piece);
+  c->slip.panel = calloc((size_t)c->slip.cap, sizeof *c->slip.panel);
+  f->contact = calloc((size_t)c->cap, sizeof *f->contact);
+  f->indicator = room(symbol), f->symbol = room(symbol), f->weight = room(2 * (size_t)f->n_harm + 1);
+  f->F = room(2 * L), f->by = room(2 * L * col);
+  f->dw[0] = room(col), f->dw[1] = room(col), f->dphi = room(col);
+  f->matrix = room(L * L);
+  f->node = room(N * col), f->base = room(N * L), f->rate = room(N * L);
+  const bool found = c->piece && c->slip.panel && f->contact && f->indicator && f->symbol && f->weight;
+  return found && f->F && f->matrix && f->by && f->dw[0] && f->dw[1] && f->dphi && f->node && f->base && f->rate
+             ? HC_OK
+             : HC_NO_MEMORY;
+}
+
+/* Without v, N is what v = 0 gives. */
+static contact whole(const contact *half, int n_dof)
+{
+  contact law = {half->kt, 2 * half->kn, half->mu / 2, half->gap, 2 * half->load};
+  if (n_dof == 2) law.load = contact_normal(&law, 0), law.kn = law.gap = 0;
+  return law;
+}
+
+hc_status circle_force_new(int n_harm, int n_dof, const contact *law, circle_force **out)
+{
+  *out = NULL;
+  if (n_harm < 1 || n_harm > HBM_MAX_HARMONICS || !contact_has_friction(law)) return HC_BAD_INPUT;
+  if (n_dof != 2 && n_dof != 3) return HC_BAD_INPUT;
+  circle_force *f = calloc(1, sizeof *f);
+  if (!f) return HC_NO_MEMORY;
+  f->n_harm = n_harm, f->n_dof = n_dof, f->law = whole(law, n_dof);
+  f->n_coef = series_length(n_harm);
+  f->n_size = n_dof * f->n_coef;
+  f->n_col = f->n_size + 2;
+  hc_status st = make_room(f);
+  if (st == HC_OK && n_dof == 3) st = make_normal(f);
+  if (st != HC_OK) {
+    circle_force_free(f);
+    return st;
+  }
+  piece_series_weights(2 * n_harm, f->weight);
+  collocation_fill(&f->rule);
+  *out = f;
+  return HC_OK;
+}
+
+void circle_force_free(circle_force *f)
+{
+  if (!f) return;
+  exact_force_free(f->normal);
+  double *const rooms[] = {f->F_normal, f->jac_normal, f->indicator, f->symbol, f->weight, f->F,    f->by,
+                           f->dw[0],    f->dw[1],      f->dphi,      f->node,   f->base,   f->rate, f->matrix};
+  for (size_t i = 0; i < sizeof rooms / sizeof *rooms; ++i) free(rooms[i]);
+  free(f->contact);
+  free(f->cycle.piece);
+  free(f->cycle.slip.panel);
+  free(f);
+}
+
+/* ---- the orbit --------------------------------------------------------------------------------------- */
+
+/* The normal force, and between which angles there is contact. */
+static hc_status find_contacts(circle_force *f, const double *X)
+{
+  circle_cycle *c = &f->cycle;
+  f->contact[0] = (circle_contact){0, TWO_PI};
+  c->n_contacts = 1;
+  c->always = true;
+  c->contact = f->contact;
+  if (!f->normal) {
+    c->n_contacts = f->law.load > 0;
+    return HC_OK;
+  }
+  const hc_status st = exact_force_eval(f->normal, X + 2 * (size_t)f->n_coef, f->F_normal, f->jac_normal, NULL);
+  const contact_piece *p = exact_force_pieces(f->normal, 0, &c->n_contacts);
+  for (int i = 0; i < c->n_contacts && st == HC_OK; ++i) f->contact[i] = (circle_contact){p[i].from, p[i].to};
+  c->always = c->n_contacts == 1 && p->from <= 0 && p->to >= TWO_PI;
+  return st;
+}
+
+static hc_status find_orbit(circle_force *f, const double *X)
+{
+  circle_cycle *c = &f->cycle;
+  const double *v = f->normal ? X + 2 * (size_t)f->n_coef : NULL;
+  hc_status st = find_contacts(f, X);
+  f->motion = circle_motion_make(&f->law, f->n_harm, X, X + f->n_coef, v);
+  if (!isfinite(f->motion.of_u[3] * f->motion.of_u[3] + f->motion.of_R[3] * f->motion.of_R[3])) st = HC_NOT_FINITE;
+  c->m = c->slip.m = &f->motion;
+  c->slip.c = &f->rule;
+  c->slip.width = 0;
+  c->grid = f->grid;
+  c->n = 0;
+  if (st != HC_OK || c->n_contacts == 0) return st;
+  circle_motion_grid(&f->motion, f->grid);
+  return circle_cycle_find(c);
+}
+
+/* ---- derivatives of the slider's position ------------------------------------------------------------------ */
+
+/* 1, cos, sin .. of h th; and their derivatives by th. */
+static void fill_base(int n_harm, double th, double *base, double *rate)
+{
+  const double c = cos(th), s = sin(th);
+  double ch = 1, sh = 0;
+  base[0] = 1, rate[0] = 0;
+  for (int h = 1; h <= n_harm; ++h) {
+    series_turn(c, s, &ch, &sh);
+    base[2 * h - 1] = ch, base[2 * h] = sh;
+    rate[2 * h - 1] = -h * sh, rate[2 * h] = h * ch;
+  }
+}
+
+/* to += a du_1 + b du_2 + c dv, base being that of an angle: derivatives of a combination of the motions there. */
+static void add_motion(const circle_force *f, const double *base, double a, double b, double c, double *to)
+{
+  const int L = f->n_coef;
+  for (int i = 0; i < L; ++i) to[i] += a * base[i];
+  for (int i = 0; i < L; ++i) to[L + i] += b * base[i];
+  for (int i = 0; i < L && f->n_dof == 3; ++i) to[2 * L + i] += c * base[i];
+}
+
+static void clear(const circle_force *f, double *row) { memset(row, 0, (size_t)f->n_col * sizeof *row); }
+
+/* d phi = e_perp.(du - dw)/length where u - w has that length and direction. */
+static void begin_slip(circle_force *f, const double *base, double phi, double length)
+{
+  const double a = -sin(phi) / length, b = cos(phi) / length;
+  for (int i = 0; i < f->n_col; ++i) f->dphi[i] = -a * f->dw[0][i] - b * f->dw[1][i];
+  add_motion(f, base, a, b, 0, f->dphi);
+}
+
+/* d w = du - dR e - R e_perp d phi. */
+static void begin_stick(circle_force *f, const double *base, double phi, double R)
+{
+  const double cosine = cos(phi), sine = sin(phi), per_v = f->motion.per_v;
+  for (int i = 0; i < f->n_col; ++i) {
+    f->dw[0][i] = R * sine * f->dphi[i];
+    f->dw[1][i] = -R * cosine * f->dphi[i];
+  }
+  add_motion(f, base, 1, 0, -per_v * cosine, f->dw[0]);
+  add_motion(f, base, 0, 1, -per_v * sine, f->dw[1]);
+}
+
+/* The angle of touch-down moves by -dR/R'. */
+static void begin_contact(circle_force *f, const circle_piece *p, const circle_point *at, const double *base,
+                          const double *rate)
+{
+  const double per_v = f->motion.per_v;
+  if (p->state == CONTACT_STICK) {
+    const double moved = at->dR > 0 ? -per_v / at->dR : 0;
+    clear(f, f->dw[0]);
+    clear(f, f->dw[1]);
+    add_motion(f, base, 1, 0, moved * at->du[0], f->dw[0]);
+    add_motion(f, base, 0, 1, moved * at->du[1], f->dw[1]);
+    return;
+  }
+  const double phi = f->cycle.slip.panel[p->panel].phi0, speed = hypot(at->du[0], at->du[1]);
+  clear(f, f->dphi);
+  add_motion(f, rate, -sin(phi) / speed, cos(phi) / speed, 0, f->dphi);
+  add_motion(f, base, 0, 0, -circle_slip_slope(&f->motion, at, phi) * per_v / speed, f->dphi);
+}
+
+/* From w0 at th = 0, whose derivatives are in dw, into the circle. */
+static void begin_period(circle_force *f, const circle_piece *p, const circle_point *at, const double *base)
+{
+  const double t1 = at->u[0] - f->cycle.start[0], t2 = at->u[1] - f->cycle.start[1], length = hypot(t1, t2),
+               phi = atan2(t2, t1);
+  const bool slips = p->state != CONTACT_STICK;
+  if (!slips && !(length > at->R)) return;
+  begin_slip(f, base, phi, length);
+  if (!slips) begin_stick(f, base, phi, at->R);
+}
+
+/* From what was before into piece i, whose derivatives are then in dw or dphi. */
+static void begin_piece(circle_force *f, int i, double *base, double *rate)
+{
+  const circle_cycle *c = &f->cycle;
+  const circle_piece *p = &c->piece[i], *before = p - 1;
+  const circle_point at = circle_motion_at(&f->motion, p->from);
+  fill_base(f->n_harm, p->from, base, rate);
+  if (p->begin == CIRCLE_TOUCHES) begin_contact(f, p, &at, base, rate);
+  else if (p->begin == CIRCLE_STARTS) begin_period(f, p, &at, base);
+  else if (p->state == before->state) return; /* stick goes on, its slider moved by rounding */
+  else if (p->state == CONTACT_STICK)
+    begin_stick(f, base, c->slip.panel[before->panel + before->n_panels - 1].phi[N - 1], at.R);
+  else begin_slip(f, base, c->slip.panel[p->panel].phi0, at.R);
+}
+
+/* ---- stick ------------------------------------------------------------------------------------------- */
+
+/* u - w on the piece: its share of the symbol, and of what is constant. */
+static void add_stick(circle_force *f, const circle_piece *p, bool derive)
+{
+  const int L = f->n_coef;
+  piece_series_fill(2 * f->n_harm, f->weight, p->from, p->to, f->indicator);
+  for (int i = 0; i < force_jacobian_symbol_length(f->n_harm); ++i) f->symbol[i] += f->indicator[i];
+  for (int d = 0; d < 2; ++d) {
+    for (int i = 0; i < L; ++i) f->F[d * L + i] -= p->w[d] * f->indicator[i];
+    for (int q = 0; derive && q < f->n_col; ++q) {
+      double *column = f->by + ((size_t)d * (size_t)f->n_col + (size_t)q) * (size_t)L;
+      const double dw = f->dw[d][q];
+      for (int i = 0; dw != 0 && i < L; ++i) column[i] -= dw * f->indicator[i];
+    }
+  }
+}
+
+/* ---- slip -------------------------------------------------------------------------------------------- */
+
+typedef struct slip_points {
+  double weight[N]; /* width a[last][i]/pi: of Fourier's integrals */
+  double cosine[N], sine[N], R[N], pull[N];
+} slip_points;
+
+static void evaluate_points(circle_force *f, const circle_panel *p, slip_points *q)
+{
+  const double width = p->to - p->from;
+  for (int i = 0; i < N; ++i) {
+    const double th = i < N - 1 ? p->from + width * f->rule.x[i] : p->to;
+    double *base = f->base + (size_t)i * (size_t)f->n_coef, *rate = f->rate + (size_t)i * (size_t)f->n_coef;
+    double du[2] = {0}, v = 0;
+    fill_base(f->n_harm, th, base, rate);
+    for (int k = 0; k < f->n_coef; ++k) {
+      for (int d = 0; d < 2; ++d) du[d] += f->motion.u[d][k] * rate[k];
+      if (f->motion.v) v += f->motion.v[k] * base[k];
+    }
+    q->weight[i] = width * f->rule.a[N - 1][i] / PI;
+    q->cosine[i] = cos(p->phi[i]), q->sine[i] = sin(p->phi[i]);
+    q->R[i] = f->motion.rest + f->motion.per_v * v;
+    q->pull[i] = du[0] * q->cosine[i] + du[1] * q->sine[i];
+  }
+}
+
+/* matrix X = right, in place of right; both are overwritten. */
+static void solve_columns(double A[N][N], double B[N][N])
+{
+  for (int k = 0; k < N; ++k) {
+    int pivot = k;
+    for (int i = k + 1; i < N; ++i)
+      if (fabs(A[i][k]) > fabs(A[pivot][k])) pivot = i;
+    for (int j = 0; j < N && pivot != k; ++j) {
+      const double a = A[k][j], b = B[k][j];
+      A[k][j] = A[pivot][j], A[pivot][j] = a;
+      B[k][j] = B[pivot][j], B[pivot][j] = b;
+    }
+    const double inverse = 1 / A[k][k];
+    for (int i = k + 1; i < N; ++i) {
+      const double factor = A[i][k] * inverse;
+      for (int j = k + 1; j < N; ++j) A[i][j] -= factor * A[k][j];
+      for (int j = 0; j < N; ++j) B[i][j] -= factor * B[k][j];
+    }
+  }
+  for (int k = N - 1; k >= 0; --k) {
+    const double inverse = 1 / A[k][k];
+    for (int i = k + 1; i < N; ++i)
+      for (int j = 0; j < N; ++j) B[k][j] -= A[k][i] * B[i][j];
+    for (int j = 0; j < N; ++j) B[k][j] *= inverse;
+  }
+}
+
+/* d phi at the points: (R + h a pull) d slope = du'.e_perp - slope dR - pull d phi0, d phi = d phi0 + h a d slope. With
+ * Q = h a (R + h pull a)^-1 it is (1 - Q pull) d phi0 + Q (du'.e_perp - slope dR). */
+static void follow_angle(circle_force *f, const circle_panel *p, const slip_points *q)
+{
+  const int L = f->n_coef;
+  const double h = p->to - p->from, per_v = f->motion.per_v;
+  double A[N][N], Q[N][N]; /* transposed */
+  for (int i = 0; i < N; ++i)
+    for (int j = 0; j < N; ++j) {
+      A[j][i] = h * q->pull[i] * f->rule.a[i][j] + (i == j ? q->R[i] : 0);
+      Q[j][i] = h * f->rule.a[i][j];
+    }
+  solve_columns(A, Q);
+  for (int i = 0; i < N; ++i) {
+    double *to = f->node + (size_t)i * (size_t)f->n_col, kept = 1;
+    for (int j = 0; j < N; ++j) kept -= Q[j][i] * q->pull[j];
+    for (int k = 0; k < f->n_col; ++k) to[k] = kept * f->dphi[k];
+    for (int j = 0; j < N; ++j) {
+      const double *base = f->base + (size_t)j * (size_t)L, *rate = f->rate + (size_t)j * (size_t)L;
+      const double a = -Q[j][i] * q->sine[j], b = Q[j][i] * q->cosine[j], c = -Q[j][i] * p->slope[j] * per_v;
+      for (int k = 0; k < L; ++k) to[k] += a * rate[k];
+      for (int k = 0; k < L; ++k) to[L + k] += b * rate[k];
+      for (int k = 0; k < L && f->n_dof == 3; ++k) to[2 * L + k] += c * base[k];
+    }
+  }
+  memcpy(f->dphi, f->node + (size_t)(N - 1) * (size_t)f->n_col, (size_t)f->n_col * sizeof *f->dphi);
+}
+
+/* d(R e) = R e_perp d phi + e dR, with the harmonics of every point. */
+static void add_slip_derivatives(circle_force *f, const slip_points *q)
+{
+  const int L = f->n_coef;
+  for (int d = 0; d < 2; ++d)
+    for (int col = 0; col < f->n_col; ++col) {
+      const int k = col - 2 * L;
+      const bool of_v = f->motion.v && k >= 0 && k < L;
+      double *column = f->by + ((size_t)d * (size_t)f->n_col + (size_t)col) * (size_t)L;
+      for (int i = 0; i < N; ++i) {
+        const double *base = f->base + (size_t)i * (size_t)L, across = d ? q->cosine[i] : -q->sine[i];
+        double change = q->R[i] * across * f->node[(size_t)i * (size_t)f->n_col + (size_t)col];
+        if (of_v) change += (d ? q->sine[i] : q->cosine[i]) * f->motion.per_v * base[k];
+        change *= q->weight[i];
+        column[0] += 0.5 * change;
+        for (int row = 1; row < L; ++row) column[row] += change * base[row];
+      }
+    }
+}
+
+static void add_panel(circle_force *f, const circle_panel *p, bool derive)
+{
+  const int L = f->n_coef;
+  slip_points q;
+  evaluate_points(f, p, &q);
+  for (int i = 0; i < N; ++i) {
+    const double *base = f->base + (size_t)i * (size_t)L;
+    const double T[2] = {q.weight[i] * q.R[i] * q.cosine[i], q.weight[i] * q.R[i] * q.sine[i]};
+    for (int d = 0; d < 2; ++d) {
+      f->F[d * L] += 0.5 * T[d];
+      for (int row = 1; row < L; ++row) f->F[d * L + row] += T[d] * base[row];
+    }
+  }
+  if (!derive) return;
+  follow_angle(f, p, &q);
+  add_slip_derivatives(f, &q);
+}
+
+/* ---- a period ------------------------------------------------------------------------------------------ */
+
+static void clear_sums(circle_force *f)
+{
+  memset(f->F, 0, 2 * (size_t)f->n_coef * sizeof *f->F);
+  memset(f->by, 0, 2 * (size_t)f->n_coef * (size_t)f->n_col * sizeof *f->by);
+  memset(f->symbol, 0, (size_t)force_jacobian_symbol_length(f->n_harm) * sizeof *f->symbol);
+}
+
+/* The integrals of all pieces. In dw the derivatives of w0; at the end those of w(2 pi). */
+static void add_pieces(circle_force *f, bool derive)
+{
+  const circle_cycle *c = &f->cycle;
+  double *base = f->base, *rate = f->rate;
+  clear_sums(f);
+  for (int i = 0; i < c->n; ++i) {
+    const circle_piece *p = &c->piece[i];
+    if (derive) begin_piece(f, i, base, rate);
+    if (p->state == CONTACT_STICK) add_stick(f, p, derive);
+    for (int k = p->panel; p->state != CONTACT_STICK && k < p->panel + p->n_panels; ++k)
+      add_panel(f, &c->slip.panel[k], derive);
+  }
+  const circle_piece *last = &c->piece[c->n - 1];
+  if (!derive || c->n == 0 || last->state == CONTACT_STICK) return;
+  fill_base(f->n_harm, last->to, base, rate);
+  const circle_point at = circle_motion_at(&f->motion, last->to);
+  begin_stick(f, base, c->slip.panel[last->panel + last->n_panels - 1].phi[N - 1], at.R);
+}
+
+static void start_from_w0(circle_force *f)
+{
+  for (int d = 0; d < 2; ++d) {
+    clear(f, f->dw[d]);
+    f->dw[d][f->n_size + d] = 1;
+  }
+}
+
+/* by += (derivatives by w0) dw0, dw0 by the columns of X being in row[2]. */
+static void eliminate_w0(circle_force *f, double *const row[2])
+{
+  const size_t L = (size_t)f->n_coef;
+  for (int d = 0; d < 2; ++d)
+    for (int e = 0; e < 2; ++e) {
+      double *first = f->by + (size_t)d * (size_t)f->n_col * L;
+      const double *by_w0 = first + (size_t)(f->n_size + e) * L;
+      for (int q = 0; q < f->n_size; ++q)
+        for (size_t i = 0; row[e][q] != 0 && i < L; ++i) first[(size_t)q * L + i] += by_w0[i] * row[e][q];
+    }
+}
+
+/* On the closed orbit d w0 = A d w0 + B: of what dw has after a pass from w0, into dw. */
+static void close_derivatives(circle_force *f)
+{
+  const int n = f->n_size;
+  const double a = 1 - f->dw[0][n], b = -f->dw[0][n + 1], c = -f->dw[1][n], d = 1 - f->dw[1][n + 1],
+               det = a * d - b * c;
+  for (int q = 0; q < n; ++q) {
+    const double x = f->dw[0][q], y = f->dw[1][q];
+    f->dw[0][q] = (d * x - b * y) / det;
+    f->dw[1][q] = (a * y - c * x) / det;
+  }
+}
+
+/* Free to rest anywhere: the passes from w = 0 that brought it where it is, once more. */
+static hc_status march_again(circle_force *f)
+{
+  double w[2] = {0};
+  hc_status st = HC_OK;
+  clear(f, f->dw[0]);
+  clear(f, f->dw[1]);
+  for (int i = 0; i < f->cycle.marched && st == HC_OK; ++i) {
+    st = circle_cycle_pass(&f->cycle, w, NULL);
+    if (st == HC_OK) add_pieces(f, true);
+  }
+  return st == HC_OK ? circle_cycle_pass(&f->cycle, w, NULL) : st;
+}
+
+static hc_status integrate(circle_force *f, bool derive)
+{
+  hc_status st = HC_OK;
+  const bool closes = derive && f->cycle.always && f->cycle.marched < 0;
+  if (f->cycle.n_contacts == 0) clear_sums(f);
+  if (f->cycle.n_contacts == 0) return HC_OK;
+  if (closes) start_from_w0(f);
+  else if (derive && f->cycle.always) st = march_again(f);
+  if (st != HC_OK) return st;
+  add_pieces(f, derive);
+  if (!closes) return HC_OK;
+  close_derivatives(f);
+  eliminate_w0(f, f->dw);
+  return HC_OK;
+}
+
+/* ---- put together --------------------------------------------------------------------------------------- */
+
+/* F_d = kt (K u_d + rest), K being Toeplitz + Hankel of stick; and its derivatives. */
+static void put_tangential(circle_force *f, const double *X, double *F, double *jac)
+{
+  const size_t L = (size_t)f->n_coef, n = (size_t)f->n_size;
+  const double kt = f->law.kt;
+  memset(f->matrix, 0, L * L * sizeof *f->matrix);
+  force_jacobian_add(f->n_harm, f->symbol, f->n_coef, f->matrix);
+  for (size_t d = 0; d < 2; ++d) {
+    for (size_t q = 0; q < L; ++q)
+      for (size_t i = 0; i < L; ++i) f->F[d * L + i] += f->matrix[i + L * q] * X[d * L + q];
+    for (size_t i = 0; i < L; ++i) F[d * L + i] = kt * f->F[d * L + i];
+    for (size_t q = 0; jac && q < n; ++q) {
+      const double *by = f->by + (d * (size_t)f->n_col + q) * L;
+      for (size_t i = 0; i < L; ++i) jac[d * L + i + n * q] = kt * by[i];
+    }
+    for (size_t q = 0; jac && q < L; ++q)
+      for (size_t i = 0; i < L; ++i) jac[d * L + i + n * (d * L + q)] += kt * f->matrix[i + L * q];
+  }
+}
+
+static void put_normal(const circle_force *f, double *F, double *jac)
+{
+  const size_t L = (size_t)f->n_coef, n = (size_t)f->n_size;
+  if (f->n_dof < 3) return;
+  for (size_t i = 0; i < L; ++i) F[2 * L + i] = f->F_normal[i];
+  for (size_t q = 0; jac && q < n; ++q)
+    for (size_t i = 0; i < L; ++i) jac[2 * L + i + n * q] = q < 2 * L ? 0 : f->jac_normal[i + L * (q - 2 * L)];
+}
+
+static void fill_report(const circle_force *f, contact_report *report)
+{
+  const circle_cycle *c = &f->cycle;
+  *report = (contact_report){.regime = circle_cycle_regime(c)};
+  report->free_sliders = report->regime == CONTACT_STUCK;
+  for (int i = 0; i < c->n; ++i) {
+    const circle_piece *p = &c->piece[i], *next = &c->piece[(i + 1) % c->n];
+    const bool meets = next->from == p->to || next->from == p->to - TWO_PI;
+    report->transitions += meets ? next->state != p->state : 2;
+  }
+}
+
+hc_status circle_force_eval(circle_force *f, const double *X, double *F, double *jac, contact_report *report)
+{
+  double size = 0;
+  for (int i = 0; i < f->n_size; ++i) size += fabs(X[i]);
+  if (!(size <= TRANSITIONS_LARGEST)) return HC_NOT_FINITE;
+  hc_status st = find_orbit(f, X);
+  if (st == HC_OK) st = integrate(f, jac != NULL);
+  if (st != HC_OK) return st;
+  put_tangential(f, X, F, jac);
+  put_normal(f, F, jac);
+  if (report) fill_report(f, report);
+  return HC_OK;
+}
+
+void circle_force_slider(const circle_force *f, double w[2]) { circle_cycle_slider(&f->cycle, w); }
+
+const circle_cycle *circle_force_cycle(const circle_force *f) { return &f->cycle; }

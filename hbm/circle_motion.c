@@ -1,0 +1,76 @@
+/* circle_motion.c - see circle_motion.h. */
+#include "hbm/circle_motion.h"
+
+#include <float.h>
+#include <math.h>
+
+#include "base/constants.h"
+#include "numerics/series.h"
+
+/* bound[k] += factor times a bound of the k-th derivative's modulus. */
+static void add_bounds(int n_harm, const double *X, double factor, double bound[4])
+{
+  bound[0] += factor * fabs(X[0]);
+  for (int h = 1; h <= n_harm; ++h) {
+    double size = factor * hypot(X[2 * h - 1], X[2 * h]);
+    for (int k = 0; k < 4; ++k, size *= h) bound[k] += size;
+  }
+}
+
+circle_motion circle_motion_make(const contact *law, int n_harm, const double *u1, const double *u2, const double *v)
+{
+  circle_motion m = {.n_harm = n_harm, .u = {u1, u2}, .v = v};
+  m.rest = law->mu * (law->load + law->kn * law->gap) / law->kt;
+  m.of_R[0] = fabs(m.rest);
+  if (v) {
+    m.per_v = law->mu * law->kn / law->kt;
+    add_bounds(n_harm, v, m.per_v, m.of_R);
+  }
+  for (int d = 0; d < 2; ++d) add_bounds(n_harm, m.u[d], 1, m.of_u);
+  return m;
+}
+
+/* The sums of one series at the angle of these cosines and sines. */
+static void sum(const circle_motion *m, const double *X, const double *turn, double *x, double *dx, double *ddx)
+{
+  double value = X[0], first = 0, second = 0;
+  for (int h = 1; h <= m->n_harm; ++h) {
+    const double c = turn[2 * h - 1], s = turn[2 * h];
+    const double even = X[2 * h - 1] * c + X[2 * h] * s, odd = X[2 * h] * c - X[2 * h - 1] * s;
+    value += even;
+    first += h * odd;
+    second -= (double)h * h * even;
+  }
+  *x = value, *dx = first, *ddx = second;
+}
+
+circle_point circle_motion_at(const circle_motion *m, double th)
+{
+  enum { MOST = 200 };
+  double turn[2 * MOST + 1], c = cos(th), s = sin(th), ch = 1, sh = 0;
+  circle_point p = {.th = th};
+  for (int h = 1; h <= m->n_harm; ++h) {
+    series_turn(c, s, &ch, &sh);
+    turn[2 * h - 1] = ch, turn[2 * h] = sh;
+  }
+  for (int d = 0; d < 2; ++d) sum(m, m->u[d], turn, &p.u[d], &p.du[d], &p.ddu[d]);
+  p.R = m->rest;
+  if (!m->v) return p;
+  double v, dv, ddv;
+  sum(m, m->v, turn, &v, &dv, &ddv);
+  p.R += m->per_v * v;
+  p.dR = m->per_v * dv;
+  p.ddR = m->per_v * ddv;
+  return p;
+}
+
+void circle_motion_grid(const circle_motion *m, circle_point grid[CIRCLE_GRID])
+{
+  for (int i = 0; i < SERIES_GRID; ++i) grid[i] = circle_motion_at(m, TWO_PI * i / SERIES_GRID);
+  for (int i = SERIES_GRID; i < CIRCLE_GRID; ++i) {
+    grid[i] = grid[i - SERIES_GRID];
+    grid[i].th = TWO_PI * i / SERIES_GRID;
+  }
+}
+
+double circle_motion_noise(const circle_motion *m) { return 16 * DBL_EPSILON * (m->of_u[0] + m->of_R[0]); }

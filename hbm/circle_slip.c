@@ -1,0 +1,274 @@
+/* circle_slip.c - see circle_slip.h. A panel's slopes are found by Newton. Where s falls through 0 within it, the
+ * panel is made anew up to there, so that phi at its end is as good as at any panel's end.
+ *
+ * Touch-down, R = 0: the equation is singular, phi = direction of u', and differentiating it once gives the slope of
+ * the one branch that is regular, phi' = u''.e_perp/(|u'| + R'). All others tend to it as R grows. Lift-off while it
+ * slips: phi - (direction of u') goes like R^k, k = |u'|/|R'| being any number > 0. Panels shrink towards it
+ * geometrically, with a tolerance that grows with what is left of the force's integral, R times the angle left. */
+#include "hbm/circle_slip.h"
+
+#include <float.h>
+#include <math.h>
+
+enum { N = COLLOCATION_POINTS, MAX_NEWTON = 12, MAX_STEPS = 60 };
+
+static double turned(const double x[2], double phi) { return x[1] * cos(phi) - x[0] * sin(phi); } /* x.e_perp */
+static double along(const double x[2], double phi) { return x[0] * cos(phi) + x[1] * sin(phi); }  /* x.e */
+
+static bool is_singular(const circle_motion *m, const circle_point *p) { return !(p->R > circle_motion_noise(m)); }
+
+double circle_slip_slope(const circle_motion *m, const circle_point *p, double phi)
+{
+  if (is_singular(m, p)) return turned(p->ddu, phi) / (along(p->du, phi) + p->dR);
+  return turned(p->du, phi) / p->R;
+}
+
+double circle_slip_speed(const circle_point *p, double phi) { return along(p->du, phi) - p->dR; }
+
+double circle_slip_acceleration(const circle_motion *m, const circle_point *p, double phi)
+{
+  return along(p->ddu, phi) + turned(p->du, phi) * circle_slip_slope(m, p, phi) - p->ddR;
+}
+
+double circle_panel_angle(const collocation *c, const circle_panel *p, double th)
+{
+  const double h = p->to - p->from;
+  return p->phi0 + h * collocation_rise(c, p->slope, h > 0 ? (th - p->from) / h : 1);
+}
+
+/* ---- one panel ------------------------------------------------------------------------------------ */
+
+/* Gauss's elimination with row exchanges: A x = b for both right-hand sides, in place. false where A is singular. */
+static bool solve_both(double A[N][N], double b[N], double g[N])
+{
+  for (int k = 0; k < N; ++k) {
+    int pivot = k;
+    for (int i = k + 1; i < N; ++i)
+      if (fabs(A[i][k]) > fabs(A[pivot][k])) pivot = i;
+    if (!(fabs(A[pivot][k]) > 0)) return false;
+    if (pivot != k) {
+      for (int j = k; j < N; ++j) {
+        const double swap = A[k][j];
+        A[k][j] = A[pivot][j], A[pivot][j] = swap;
+      }
+      const double swap_b = b[k], swap_g = g[k];
+      b[k] = b[pivot], b[pivot] = swap_b;
+      g[k] = g[pivot], g[pivot] = swap_g;
+    }
+    const double inverse = 1 / A[k][k];
+    for (int i = k + 1; i < N; ++i) {
+      const double factor = A[i][k] * inverse;
+      for (int j = k + 1; j < N; ++j) A[i][j] -= factor * A[k][j];
+      b[i] -= factor * b[k];
+      g[i] -= factor * g[k];
+    }
+  }
+  for (int k = N - 1; k >= 0; --k) {
+    for (int j = k + 1; j < N; ++j) b[k] -= A[k][j] * b[j], g[k] -= A[k][j] * g[j];
+    b[k] /= A[k][k], g[k] /= A[k][k];
+  }
+  return true;
+}
+
+typedef struct panel_points {
+  circle_point at[N];
+  double speed[N]; /* s at the points */
+  double mismatch; /* [rad] of CIRCLE_RESOLVED */
+} panel_points;
+
+static void set_angles(const collocation *c, circle_panel *p)
+{
+  const double h = p->to - p->from;
+  for (int i = 0; i < N; ++i) {
+    double rise = 0;
+    for (int j = 0; j < N; ++j) rise += c->a[i][j] * p->slope[j];
+    p->phi[i] = p->phi0 + h * rise;
+  }
+}
+
+/* One step of Newton for the slopes; how far phi moved by it [rad], NAN where that is impossible. */
+static double newton_step(const collocation *c, circle_panel *p, panel_points *q)
+{
+  const double h = p->to - p->from;
+  double A[N][N], b[N], g[N], moved = 0;
+  for (int i = 0; i < N; ++i) {
+    const circle_point *at = &q->at[i];
+    const double cosine = cos(p->phi[i]), sine = sin(p->phi[i]), pull = at->du[0] * cosine + at->du[1] * sine;
+    b[i] = at->du[1] * cosine - at->du[0] * sine - at->R * p->slope[i];
+    g[i] = -pull;
+    q->speed[i] = pull - at->dR;
+    for (int j = 0; j < N; ++j) A[i][j] = h * pull * c->a[i][j];
+    A[i][i] += at->R;
+  }
+  if (!solve_both(A, b, g)) return NAN;
+  p->growth = 1;
+  for (int i = 0; i < N; ++i) {
+    p->slope[i] += b[i];
+    moved = fmax(moved, h * fabs(b[i]));
+    p->growth += h * c->a[N - 1][i] * g[i];
+  }
+  set_angles(c, p);
+  return moved;
+}
+
+/* The two last coefficients of the slope, as an angle. */
+static double unresolved(const collocation *c, const circle_panel *p)
+{
+  double last = 0, before = 0;
+  for (int j = 0; j < N; ++j) last += c->mode[N - 1][j] * p->slope[j], before += c->mode[N - 2][j] * p->slope[j];
+  return (p->to - p->from) * (fabs(last) + fabs(before)) / (2 * N);
+}
+
+/* The panel from p->from, p->phi0 to p->to; slope: phi' at its start. false where Newton does not arrive. */
+static bool make_panel(const collocation *c, const circle_motion *m, double slope, circle_panel *p, panel_points *q)
+{
+  const double enough = 1e-9; /* Newton's next step would be of its square */
+  for (int i = 0; i < N; ++i) {
+    q->at[i] = circle_motion_at(m, i < N - 1 ? p->from + (p->to - p->from) * c->x[i] : p->to);
+    p->slope[i] = slope;
+  }
+  set_angles(c, p);
+  double moved = 1;
+  for (int k = 0; k < MAX_NEWTON && moved > enough; ++k) moved = newton_step(c, p, q);
+  q->mismatch = unresolved(c, p);
+  return moved <= enough;
+}
+
+/* ---- where slip ends -------------------------------------------------------------------------------- */
+
+/* s at an angle of the panel, with its derivative. */
+static double speed_at(const circle_slip *s, const circle_panel *p, double th, circle_point *at, double *rate)
+{
+  const double phi = circle_panel_angle(s->c, p, th);
+  *at = circle_motion_at(s->m, th);
+  *rate = circle_slip_acceleration(s->m, at, phi);
+  return circle_slip_speed(at, phi);
+}
+
+/* s falls through 0 once in (low, high]. */
+static double resting_angle(const circle_slip *s, const circle_panel *p, double low, double high)
+{
+  circle_point at;
+  double th = 0.5 * (low + high);
+  for (int i = 0; i < MAX_STEPS && high - low > 4 * DBL_EPSILON * high; ++i) {
+    double rate;
+    const double speed = speed_at(s, p, th, &at, &rate);
+    if (speed > 0) low = th;
+    else high = th;
+    double next = th - speed / rate;
+    if (fabs(next - th) <= 1e-13) return next > low && next <= high ? next : th;
+    th = next > low && next < high ? next : 0.5 * (low + high);
+  }
+  return high;
+}
+
+/* The least s in [low, high], where a point between has less than both ends. */
+static double least_speed(const circle_slip *s, const circle_panel *p, double low, double high, double *at_angle)
+{
+  circle_point at;
+  double rate, speed = 0;
+  *at_angle = 0.5 * (low + high);
+  for (int i = 0; i < MAX_STEPS && high - low > 1e-8 * (p->to - p->from); ++i) {
+    *at_angle = 0.5 * (low + high);
+    speed = speed_at(s, p, *at_angle, &at, &rate);
+    if (rate < 0) low = *at_angle;
+    else high = *at_angle;
+  }
+  return speed;
+}
+
+/* Does a parabola through three samples of s fall to less than half of the middle one? Then its least value is looked
+ * for: the samples are many for a slope that is resolved, and a parabola follows it between three of them. */
+static bool may_dip(double t0, double s0, double t1, double s1, double t2, double s2)
+{
+  const double left = (s1 - s0) / (t1 - t0), right = (s2 - s1) / (t2 - t1), bend = (right - left) / (t2 - t0);
+  if (!(bend > 0)) return false;
+  const double middle = 0.5 * (t0 + t1) - 0.5 * left / bend,
+               least = s0 + left * (middle - t0) + bend * (middle - t0) * (middle - t1);
+  return !(least > 0.5 * s1);
+}
+
+/* Where s first falls through 0 on the panel, s(from) = first; false if it does not. */
+static bool comes_to_rest(const circle_slip *s, const circle_panel *p, const panel_points *q, double first, double *th)
+{
+  const double noise = 16 * DBL_EPSILON * (s->m->of_u[1] + s->m->of_R[1]);
+  double t[N + 1], speed[N + 1];
+  t[0] = p->from, speed[0] = first;
+  for (int i = 0; i < N; ++i) t[i + 1] = q->at[i].th, speed[i + 1] = q->speed[i];
+  for (int i = 1; i <= N; ++i) {
+    if (speed[i] < -noise) {
+      *th = resting_angle(s, p, t[i - 1], t[i]);
+      return true;
+    }
+    const bool lowest = i < N && speed[i] <= speed[i - 1] && speed[i] <= speed[i + 1];
+    double angle = t[i];
+    if (lowest && may_dip(t[i - 1], speed[i - 1], t[i], speed[i], t[i + 1], speed[i + 1]) &&
+        least_speed(s, p, t[i - 1], t[i + 1], &angle) < -noise) {
+      *th = resting_angle(s, p, t[i - 1], angle);
+      return true;
+    }
+  }
+  return false;
+}
+
+/* ---- panel by panel ---------------------------------------------------------------------------------- */
+
+/* Panels carry products of phi with harmonics of three motions: 2 n - 2 degrees of the rule integrate to rounding what
+ * turns by no more than 4 rad to either side of the middle. */
+static double widest(const circle_motion *m) { return 8.0 / (3 * m->n_harm); }
+
+/* Not far beyond where s, at its present rate, will be 0: the equation goes on there, but for nothing. */
+static double width_to_try(const circle_slip *s, const circle_point *at, double phi, double left)
+{
+  double width = s->width > 0 ? s->width : 0.5 * widest(s->m);
+  const double speed = circle_slip_speed(at, phi), rate = circle_slip_acceleration(s->m, at, phi);
+  if (rate < 0 && speed > 0) width = fmin(width, -1.5 * speed / rate);
+  return width < 0.95 * left ? width : left;
+}
+
+/* [1] The share of the largest force's integral that a panel's error can spoil. */
+static double share(const circle_slip *s, const circle_point *at, double left, bool lifts_off)
+{
+  const double R = s->m->of_R[0];
+  return lifts_off && at->dR < 0 ? fmin(1, fabs(at->R) / R * left) : 1;
+}
+
+/* The next panel with its points, made and resolved. */
+static hc_status next_panel(circle_slip *s, const circle_point *at, double phi, double to, bool lifts_off,
+                            panel_points *q)
+{
+  const double least = 1e-10, left = to - at->th;
+  if (s->n == s->cap) return HC_CHATTER;
+  circle_panel *p = &s->panel[s->n];
+  const double slope = circle_slip_slope(s->m, at, phi),
+               allowed = CIRCLE_RESOLVED / sqrt(share(s, at, left, lifts_off));
+  double width = width_to_try(s, at, phi, left);
+  for (int tries = 0;; ++tries) {
+    *p = (circle_panel){.from = at->th, .to = width < left ? at->th + width : to, .phi0 = phi};
+    const bool made = make_panel(s->c, s->m, slope, p, q);
+    const double factor = made ? 0.9 * pow(allowed / (q->mismatch + 1e-300), 1.0 / N) : 0.25;
+    if ((made && q->mismatch <= allowed) || width <= least) {
+      if (width < left || tries == 0) s->width = fmin(widest(s->m), width * fmin(2.5, factor));
+      return HC_OK;
+    }
+    width *= fmax(0.1, fmin(0.8, factor));
+    if (lifts_off && width > 0.75 * left) width = 0.75 * left;
+  }
+}
+
+hc_status circle_slip_follow(circle_slip *s, const circle_point *from, double phi, double to, bool lifts_off,
+                             slip_end *end)
+{
+  panel_points q;
+  *end = (slip_end){*from, phi, false};
+  while (end->at.th < to && !end->rests) {
+    const hc_status st = next_panel(s, &end->at, end->phi, to, lifts_off, &q);
+    if (st != HC_OK) return st;
+    circle_panel *p = &s->panel[s->n++];
+    end->rests = comes_to_rest(s, p, &q, circle_slip_speed(&end->at, end->phi), &p->to);
+    if (end->rests && !make_panel(s->c, s->m, p->slope[0], p, &q)) return HC_NOT_CONVERGED;
+    end->at = q.at[N - 1];
+    end->phi = p->phi[N - 1];
+  }
+  return HC_OK;
+}

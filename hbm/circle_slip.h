@@ -1,0 +1,57 @@
+/* circle_slip.h - a contact of two tangents while it slips: the direction phi of its traction by collocation,
+ *
+ *     R phi' = u'.e_perp(phi),     until s = u'.e(phi) - R' falls through 0, or contact ends
+ *
+ * on panels (numerics/collocation.h) so short that phi's slope is resolved: its last two Legendre coefficients, times
+ * the width, are at most CIRCLE_RESOLVED rad. What is integrated over a panel, and phi at its end, is then better by
+ * about the square of that (superconvergence: the error is that of phi times that of the functions it is integrated
+ * with): rounding. Between the points phi is good to CIRCLE_RESOLVED. libm only, nothing is allocated. */
+#ifndef HC_HBM_CIRCLE_SLIP_H
+#define HC_HBM_CIRCLE_SLIP_H
+
+#include <stdbool.h>
+
+#include "base/status.h"
+#include "hbm/circle_motion.h"
+#include "numerics/collocation.h"
+
+#define CIRCLE_RESOLVED 2e-9
+
+typedef struct circle_panel {
+  double from, to;                  /* [rad] */
+  double phi0;                      /* [rad] at `from`; at `to` it is phi[last] */
+  double phi[COLLOCATION_POINTS];   /* at from + (to - from) x[i] */
+  double slope[COLLOCATION_POINTS]; /* phi' there */
+  double growth;                    /* d phi[last]/d phi0, the motion being given */
+} circle_panel;
+
+/* phi [rad] anywhere on the panel. */
+double circle_panel_angle(const collocation *c, const circle_panel *p, double th);
+
+typedef struct circle_slip {
+  const collocation *c;
+  const circle_motion *m;
+  double width; /* [rad] of the next panel to try; 0: none yet */
+  circle_panel *panel;
+  int n, cap; /* panels made, and room for them */
+} circle_slip;
+
+typedef struct slip_end {
+  circle_point at;
+  double phi;
+  bool rests; /* s fell through 0 there: it sticks; else it slipped all the way */
+} slip_end;
+
+/* Slip from `from` in direction phi until it rests or until `to`, where R is 0 if lifts_off. Of touch-down (R = 0 at
+ * `from`) phi is the direction of u'. Panels are appended. HC_CHATTER: no room for more of them. */
+hc_status circle_slip_follow(circle_slip *s, const circle_point *from, double phi, double to, bool lifts_off,
+                             slip_end *end);
+
+/* phi' at a point of slip in direction phi; of touch-down on the branch that is regular there. */
+double circle_slip_slope(const circle_motion *m, const circle_point *p, double phi);
+
+/* s = u'.e - R' and its derivative. */
+double circle_slip_speed(const circle_point *p, double phi);
+double circle_slip_acceleration(const circle_motion *m, const circle_point *p, double phi);
+
+#endif

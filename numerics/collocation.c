@@ -1,0 +1,85 @@
+/* collocation.c - see collocation.h. Legendre's polynomials P_n are orthogonal under the rule's own sums up to degree
+ * n - 1, which gives weights, coefficients and integrals without a linear system. */
+#include "numerics/collocation.h"
+
+enum { N = COLLOCATION_POINTS };
+
+/* P_0 .. P_N at t in [-1, 1]. */
+static void legendre(double t, double P[N + 1])
+{
+  P[0] = 1;
+  P[1] = t;
+  for (int n = 1; n < N; ++n) P[n + 1] = ((2 * n + 1) * t * P[n] - n * P[n - 1]) / (n + 1);
+}
+
+/* Integrals of P_0 .. P_(N-1) from -1 to t. */
+static void integrals(double t, double I[N])
+{
+  double P[N + 1];
+  legendre(t, P);
+  I[0] = t + 1;
+  for (int n = 1; n < N; ++n) I[n] = (P[n + 1] - P[n - 1]) / (2 * n + 1);
+}
+
+static double radau(double t)
+{
+  double P[N + 1];
+  legendre(t, P);
+  return P[N - 1] - P[N];
+}
+
+static double bisect(double low, double high)
+{
+  const int positive = radau(low) > 0;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (low + high);
+    if ((radau(middle) > 0) == positive) low = middle;
+    else high = middle;
+  }
+  return 0.5 * (low + high);
+}
+
+/* Points are the roots of P_(N-1) - P_N; neighbours are farther apart than the steps of this scan. */
+static void find_points(double t[N])
+{
+  enum { STEPS = 40 * N };
+  int n = 0;
+  t[N - 1] = 1;
+  for (int i = 0; i < STEPS - 1 && n < N - 1; ++i) {
+    const double low = -1 + 2.0 * i / STEPS, high = -1 + 2.0 * (i + 1) / STEPS;
+    if ((radau(low) > 0) != (radau(high) > 0)) t[n++] = bisect(low, high);
+  }
+}
+
+void collocation_fill(collocation *c)
+{
+  double t[N], P[N][N + 1], I[N][N];
+  find_points(t);
+  for (int i = 0; i < N; ++i) {
+    c->x[i] = 0.5 * (t[i] + 1);
+    legendre(t[i], P[i]);
+    integrals(t[i], I[i]);
+  }
+  for (int j = 0; j < N; ++j) {
+    double kernel = 0; /* 1/weight on [-1, 1] */
+    for (int n = 0; n < N; ++n) kernel += (n + 0.5) * P[j][n] * P[j][n];
+    for (int n = 0; n < N; ++n) c->mode[n][j] = (n + 0.5) * P[j][n] / kernel;
+  }
+  for (int i = 0; i < N; ++i)
+    for (int j = 0; j < N; ++j) {
+      c->a[i][j] = 0;
+      for (int n = 0; n < N; ++n) c->a[i][j] += 0.5 * I[i][n] * c->mode[n][j];
+    }
+}
+
+double collocation_rise(const collocation *c, const double k[N], double x)
+{
+  double I[N], sum = 0;
+  integrals(2 * x - 1, I);
+  for (int n = 0; n < N; ++n) {
+    double coefficient = 0;
+    for (int j = 0; j < N; ++j) coefficient += c->mode[n][j] * k[j];
+    sum += 0.5 * I[n] * coefficient;
+  }
+  return sum;
+}

@@ -1,0 +1,313 @@
+/* test_circle_force.c - located forces of contacts with two tangents under the law of the circle: on one line the law
+ * of one tangent, closed forms on a circle, the sampled forces' limit, invariances, and the Jacobian against
+ * differences. */
+#include "hbm/circle_force.h"
+#include "hbm/exact_force.h"
+#include "tests/hbm/circle_scenes.h"
+
+static double jac[CIRCLE_MAX_X * CIRCLE_MAX_X], line_jac[4 * CIRCLE_MAX_LENGTH * CIRCLE_MAX_LENGTH];
+
+static circle_force *make(const contact *whole, int H)
+{
+  const contact half = circle_half(*whole);
+  circle_force *f;
+  assert_int_equal(circle_force_new(H, whole->kn > 0 ? 3 : 2, &half, &f), HC_OK);
+  return f;
+}
+
+/* Largest force that a motion of that size can cause, for tolerances in roundings of it. */
+static double force_size(const contact *law, double size)
+{
+  return law->kt * size + law->kn * (size + fabs(law->gap)) + law->load;
+}
+
+/* ---- on one line ---------------------------------------------------------------------------------- */
+
+/* u = dir U: T = dir T of the law of one tangent. Both locate the same transitions to rounding; 1e-12 of the forces is
+ * what a few dozen roundings of the largest terms come to where N is small beside what it is the difference of. */
+static void a_line_is_one_tangent(void **state)
+{
+  (void)state;
+  uint64_t seed = 31;
+  int regimes[4] = {0}, told_apart = 0;
+  double U[2 * CIRCLE_MAX_LENGTH], X[CIRCLE_MAX_X], F[CIRCLE_MAX_X], G[2 * CIRCLE_MAX_LENGTH], worst = 0;
+  for (int trial = 0; trial < 600; ++trial) {
+    const int H = 1 + trial % 9, n = series_length(H);
+    const double angle = PI * random_signed(&seed), dir[2] = {cos(angle), sin(angle)};
+    const contact law = random_circle(&seed);
+    const int n_dof = law.kn > 0 ? 3 : 2;
+    const moving_contact on_line = {.law = law, .cu = {1, 0}, .cv = {0, n_dof - 2}};
+    circle_force *a = make(&law, H);
+    exact_force *b;
+    contact_report in_plane, in_line;
+    assert_int_equal(exact_force_new(H, n_dof - 1, 1, &on_line, &b), HC_OK);
+    random_motion(&seed, H, 1, 1, U);
+    random_motion(&seed, H, 1, 1, U + n);
+    for (int i = 0; i < n; ++i) X[i] = dir[0] * U[i], X[n + i] = dir[1] * U[i], X[2 * n + i] = U[n + i];
+    assert_int_equal(circle_force_eval(a, X, F, jac, &in_plane), HC_OK);
+    assert_int_equal(exact_force_eval(b, U, G, line_jac, &in_line), HC_OK);
+    const double size = force_size(&law, sum_abs(2 * n, U)), tolerance = 1e-12 * size;
+    for (int i = 0; i < n; ++i) {
+      worst = fmax(worst, fabs(dir[0] * F[i] + dir[1] * F[n + i] - G[i]) / size);
+      CHECK_NEAR(dir[0] * F[i] + dir[1] * F[n + i], G[i], tolerance, "trial %d coefficient %d", trial, i);
+      CHECK_NEAR(dir[0] * F[n + i] - dir[1] * F[i], 0, tolerance, "trial %d coefficient %d, across", trial, i);
+      if (n_dof == 3) CHECK_NEAR(F[2 * n + i], G[n + i], tolerance, "trial %d coefficient %d, normal", trial, i);
+    }
+    double w[2], w_line;
+    circle_force_slider(a, w);
+    exact_force_sliders(b, &w_line);
+    CHECK_NEAR(dir[0] * w[0] + dir[1] * w[1], w_line, 1e-12 * sum_abs(2 * n, U), "trial %d", trial);
+    if (in_plane.regime != in_line.regime) { /* pushed until friction just holds it: a slip by rounding or none */
+      ++told_apart;
+      assert_true(fmin(in_plane.regime, in_line.regime) == CONTACT_STUCK);
+    } else {
+      assert_int_equal(in_plane.free_sliders, in_line.free_sliders);
+      assert_int_equal(in_plane.transitions, in_line.transitions);
+    }
+    ++regimes[in_line.regime];
+    circle_force_free(a);
+    exact_force_free(b);
+  }
+  print_message("on a line: worst difference %.1e of the force, %d of 600 told apart\n", worst, told_apart);
+  assert_true(told_apart < 60);
+  for (int r = CONTACT_STUCK; r <= CONTACT_SEPARATES; ++r) assert_true(regimes[r] > 20);
+}
+
+/* ---- on a circle ----------------------------------------------------------------------------------- */
+
+/* u = a (cos th, sin th), constant N: the slider follows on a circle of radius sqrt(a^2 - r^2), r = mu N/kt, and T has
+ * mu N r/a along u and mu N sqrt(1 - r^2/a^2) ahead of it. It dissipates 2 pi mu N sqrt(a^2 - r^2) a cycle. */
+static void a_circle_by_its_closed_form(void **state)
+{
+  (void)state;
+  const contact law = {.kt = 3, .mu = 0.4, .load = 2.5};
+  const double mu_N = 1, r = mu_N / 3;
+  for (int k = 0; k < 8; ++k) {
+    const double a = r * (1 + pow(10, 1 - k)), along = mu_N * r / a, ahead = mu_N * sqrt((1 - r / a) * (1 + r / a));
+    const double X[6] = {0, a, 0, 0, 0, a};
+    double F[6];
+    contact_report report;
+    circle_force *of = make(&law, 1);
+    assert_int_equal(circle_force_eval(of, X, F, NULL, &report), HC_OK);
+    assert_int_equal(report.regime, CONTACT_SLIPS);
+    assert_int_equal(report.transitions, 0);
+    circle_force_free(of);
+    /* where `ahead` is small it is known to (rounding of a)/ahead */
+    const double tolerance = 1e-13 + 1e-15 / ahead;
+    CHECK_NEAR(F[0], 0, tolerance, "mean, a/r = %g", a / r);
+    CHECK_NEAR(F[3], 0, tolerance, "mean, a/r = %g", a / r);
+    CHECK_NEAR(F[1], along, tolerance, "a/r = %g", a / r);
+    CHECK_NEAR(F[2], -ahead, tolerance, "a/r = %g", a / r);
+    CHECK_NEAR(F[4], ahead, tolerance, "a/r = %g", a / r);
+    CHECK_NEAR(F[5], along, tolerance, "a/r = %g", a / r);
+    CHECK_NEAR(PI * a * (F[4] - F[2]), 2 * PI * mu_N * sqrt(a * a - r * r), 10 * tolerance, "loss, a/r = %g", a / r);
+  }
+}
+
+/* ---- the sampled forces' limit -------------------------------------------------------------------------- */
+
+static double distance_to_sampled(const contact *law, int H, const double *X, int N)
+{
+  const contact half = circle_half(*law);
+  const int rows = (law->kn > 0 ? 3 : 2) * series_length(H);
+  double F[CIRCLE_MAX_X], G[CIRCLE_MAX_X], sum = 0;
+  circle_aft *a;
+  circle_force *f = make(law, H);
+  assert_int_equal(circle_aft_new(H, N, HBM_RESTART_INTERPOLATED, rows / series_length(H), &half, &a), HC_OK);
+  assert_int_equal(circle_aft_eval(a, X, G, NULL), HC_OK);
+  assert_int_equal(circle_force_eval(f, X, F, NULL, NULL), HC_OK);
+  for (int i = 0; i < rows; ++i) sum += (F[i] - G[i]) * (F[i] - G[i]);
+  circle_aft_free(a);
+  circle_force_free(f);
+  return sqrt(sum);
+}
+
+/* Three motions: always in contact, coming and going, and one whose normal motion grazes separation. Order 2 of
+ * samples holds on average over where they lie, so that four times as many are looked at: 16 times less, within a
+ * factor of 3. */
+static void sampled_forces_tend_to_it(void **state)
+{
+  (void)state;
+  enum { H = 2 };
+  const double gaps[] = {1.5, 0.2, 0.5};
+  for (int k = 0; k < 3; ++k) {
+    const contact law = {.kt = 2, .kn = 1.5, .mu = 0.4, .gap = gaps[k]};
+    const double X[] = {0.2, 1, 0.3, -0.1, 0.2, 0.1, 0.4, 1.1, -0.2, 0.1, 0, 0.5, 0, 0};
+    double X3[15] = {0};
+    memcpy(X3, X, sizeof X);
+    double before = distance_to_sampled(&law, H, X3, 1024);
+    for (int N = 4096; N <= 65536; N *= 4) {
+      const double now = distance_to_sampled(&law, H, X3, N);
+      CHECK_LE(now, before / 16 * 3 + 1e-12, "gap %g, N = %d", gaps[k], N);
+      before = now;
+    }
+    CHECK_LE(before, 1e-8, "gap %g", gaps[k]);
+    print_message("gap %g: sampled, N = 65536, is %.1e away\n", gaps[k], before);
+  }
+}
+
+/* Scenes of all kinds, to the error of sampling: order 2 of 2^14 samples is 1e-7 of what the largest harmonic makes,
+ * and corners within a sample a few times that. */
+static void random_scenes_meet_the_sampled_ones(void **state)
+{
+  (void)state;
+  uint64_t seed = 34;
+  double X[CIRCLE_MAX_X], worst = 0;
+  for (int trial = 0; trial < 120; ++trial) {
+    const int H = 1 + trial % 5;
+    const contact law = random_circle(&seed);
+    random_plane_motion(&seed, H, 1, X);
+    const double size = force_size(&law, sum_abs(3 * series_length(H), X));
+    const double away = distance_to_sampled(&law, H, X, 16384) / size;
+    CHECK_LE(away, 3e-6, "trial %d", trial);
+    worst = fmax(worst, away);
+  }
+  print_message("120 scenes: at most %.1e of the force from 16384 samples\n", worst);
+}
+
+/* ---- what must not matter ---------------------------------------------------------------------------- */
+
+/* The plane turned, forces turn with it; the motion begun later, forces begin later too, unless where the slider rests
+ * depends on where it began. */
+static void turns_and_shifts(void **state)
+{
+  (void)state;
+  uint64_t seed = 32;
+  double X[CIRCLE_MAX_X], Y[CIRCLE_MAX_X], F[CIRCLE_MAX_X], G[CIRCLE_MAX_X], wanted[CIRCLE_MAX_X], worst = 0;
+  int shifted = 0;
+  for (int trial = 0; trial < 300; ++trial) {
+    const int H = 1 + trial % 6, n = series_length(H);
+    const contact law = random_circle(&seed);
+    const int n_dof = law.kn > 0 ? 3 : 2;
+    const double angle = PI * random_signed(&seed), shift = PI * random_signed(&seed);
+    circle_force *a = make(&law, H);
+    contact_report report;
+    random_plane_motion(&seed, H, 1, X);
+    const double size = force_size(&law, sum_abs(3 * n, X)), tolerance = 1e-12 * size;
+    assert_int_equal(circle_force_eval(a, X, F, NULL, &report), HC_OK);
+    turn_plane(H, angle, X, Y);
+    turn_plane(H, angle, F, wanted);
+    assert_int_equal(circle_force_eval(a, Y, G, NULL, NULL), HC_OK);
+    for (int i = 0; i < n_dof * n; ++i) CHECK_NEAR(G[i], wanted[i], tolerance, "turned, trial %d row %d", trial, i);
+    if (!report.free_sliders && ++shifted) {
+      for (int d = 0; d < n_dof; ++d) {
+        shift_motion(H, X + d * n, shift, Y + d * n);
+        shift_motion(H, F + d * n, shift, wanted + d * n);
+      }
+      assert_int_equal(circle_force_eval(a, Y, G, NULL, NULL), HC_OK);
+      for (int i = 0; i < n_dof * n; ++i) {
+        worst = fmax(worst, fabs(G[i] - wanted[i]) / size);
+        CHECK_NEAR(G[i], wanted[i], tolerance, "shifted, trial %d row %d", trial, i);
+      }
+    }
+    circle_force_free(a);
+  }
+  print_message("shifted: worst difference %.1e of the force\n", worst);
+  assert_true(shifted > 150);
+}
+
+/* ---- Jacobian --------------------------------------------------------------------------------------- */
+
+/* Central differences of steps h and 2h, extrapolated: their error is h^4 and rounding/h where no piece appears or
+ * vanishes; where one does, the two steps disagree, and the trial is counted as skipped. */
+static void jacobian_equals_differences(void **state)
+{
+  (void)state;
+  uint64_t seed = 33;
+  const double h = 1e-5;
+  double X[CIRCLE_MAX_X], d[CIRCLE_MAX_X], Y[CIRCLE_MAX_X], F[4][CIRCLE_MAX_X], worst = 0;
+  int skipped = 0, checked = 0, regimes[4] = {0};
+  for (int trial = 0; trial < 480; ++trial) {
+    const int H = 1 + trial % 7, n = series_length(H);
+    const contact law = random_circle(&seed);
+    const int n_dof = law.kn > 0 ? 3 : 2, rows = n_dof * n;
+    circle_force *a = make(&law, H);
+    contact_report report;
+    random_plane_motion(&seed, H, 1, X);
+    random_plane_motion(&seed, H, 1, d);
+    static const double steps[4] = {1, -1, 2, -2};
+    for (int k = 0; k < 4; ++k) {
+      for (int i = 0; i < rows; ++i) Y[i] = X[i] + steps[k] * h * d[i];
+      assert_int_equal(circle_force_eval(a, Y, F[k], NULL, NULL), HC_OK);
+    }
+    const double size = force_size(&law, 1) * sum_abs(rows, d);
+    double disagreement = 0;
+    for (int i = 0; i < rows; ++i)
+      disagreement = fmax(disagreement, fabs(F[0][i] - F[1][i] - (F[2][i] - F[3][i]) / 2) / (2 * h));
+    if (disagreement > 1e-6 * size && ++skipped) {
+      circle_force_free(a);
+      continue;
+    }
+    ++checked;
+    assert_int_equal(circle_force_eval(a, X, Y, jac, &report), HC_OK);
+    for (int p = 0; p < rows; ++p) {
+      double product = 0;
+      for (int q = 0; q < rows; ++q) product += jac[p + rows * q] * d[q];
+      const double one = (F[0][p] - F[1][p]) / (2 * h), two = (F[2][p] - F[3][p]) / (4 * h);
+      worst = fmax(worst, (fabs(product - (4 * one - two) / 3) - disagreement) / size);
+      CHECK_NEAR(product, (4 * one - two) / 3, 1e-8 * size + disagreement, "trial %d regime %d row %d", trial,
+                 report.regime, p);
+    }
+    ++regimes[report.regime];
+    circle_force_free(a);
+  }
+  print_message("%d directions checked, worst %.1e, %d skipped for a piece that appears\n", checked, worst, skipped);
+  assert_true(skipped < checked / 4);
+  for (int r = CONTACT_STUCK; r <= CONTACT_SEPARATES; ++r) assert_true(regimes[r] > 10);
+}
+
+/* ---- limits and refusals ------------------------------------------------------------------------------- */
+
+/* Far too little pull to slip: kt (u - 0), a free slider; and never in contact: nothing. */
+static void stuck_and_open_are_linear(void **state)
+{
+  (void)state;
+  const contact stuck = {.kt = 3, .kn = 2, .mu = 0.5, .gap = 100}, open = {.kt = 3, .kn = 2, .mu = 0.5, .gap = -100};
+  const double X[9] = {0.1, 1, 0.2, 0.3, -0.4, 0.9, 0.2, 0.5, 0.1};
+  double F[9];
+  contact_report report;
+  circle_force *f = make(&stuck, 1);
+  assert_int_equal(circle_force_eval(f, X, F, jac, &report), HC_OK);
+  assert_int_equal(report.regime, CONTACT_STUCK);
+  assert_int_equal(report.free_sliders, 1);
+  for (int i = 0; i < 9; ++i) CHECK_NEAR(F[i], (i < 6 ? 3 : 2) * X[i], 1e-14, "stuck, row %d", i);
+  for (int i = 0; i < 81; ++i) CHECK_NEAR(jac[i], i % 10 ? 0 : i < 54 ? 3 : 2, 1e-14, "stuck, entry %d", i);
+  circle_force_free(f);
+  f = make(&open, 1);
+  assert_int_equal(circle_force_eval(f, X, F, jac, &report), HC_OK);
+  assert_int_equal(report.regime, CONTACT_LINEAR);
+  for (int i = 0; i < 9; ++i) assert_true(F[i] == 0);
+  for (int i = 0; i < 81; ++i) assert_true(jac[i] == 0);
+  circle_force_free(f);
+}
+
+static void refuses(void **state)
+{
+  (void)state;
+  const contact law = {.kt = 1, .mu = 1, .load = 1}, smooth = {.kt = 1, .load = 1};
+  circle_force *f;
+  assert_int_equal(circle_force_new(0, 2, &law, &f), HC_BAD_INPUT);
+  assert_int_equal(circle_force_new(HBM_MAX_HARMONICS + 1, 2, &law, &f), HC_BAD_INPUT);
+  assert_int_equal(circle_force_new(2, 1, &law, &f), HC_BAD_INPUT);
+  assert_int_equal(circle_force_new(2, 2, &smooth, &f), HC_BAD_INPUT);
+  assert_null(f);
+  const double bad[] = {NAN, INFINITY, -INFINITY, 1e300};
+  f = make(&law, 1);
+  for (int k = 0; k < 4; ++k) {
+    double X[6] = {0, 1, 2, 0, bad[k], 0}, F[6];
+    assert_int_equal(circle_force_eval(f, X, F, jac, NULL), HC_NOT_FINITE);
+  }
+  circle_force_free(f);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(a_line_is_one_tangent),     cmocka_unit_test(a_circle_by_its_closed_form),
+      cmocka_unit_test(sampled_forces_tend_to_it), cmocka_unit_test(random_scenes_meet_the_sampled_ones),
+      cmocka_unit_test(turns_and_shifts),          cmocka_unit_test(jacobian_equals_differences),
+      cmocka_unit_test(stuck_and_open_are_linear), cmocka_unit_test(refuses),
+  };
+  check_watchdog(300);
+  return cmocka_run_group_tests_name("hbm.circle_force", tests, NULL, NULL);
+}

@@ -1,0 +1,76 @@
+/* test_collocation.c - collocation at Radau's points: its sums on polynomials, and the order of its panels' ends. */
+#include <float.h>
+
+#include "numerics/collocation.h"
+#include "tests/check.h"
+
+enum { N = COLLOCATION_POINTS };
+
+/* Integrals of x^k from 0 to x_i are exact for k < N, from 0 to 1 for k <= 2 N - 2; coefficients are those of a
+ * polynomial. 200 roundings: of the table's recurrences, of degree 10. */
+static void sums_are_exact_on_polynomials(void **state)
+{
+  (void)state;
+  collocation c;
+  collocation_fill(&c);
+  assert_true(c.x[N - 1] == 1);
+  for (int i = 1; i < N; ++i) assert_true(c.x[i - 1] > 0 && c.x[i] > c.x[i - 1]);
+  for (int k = 0; k <= 2 * N - 2; ++k)
+    for (int i = k < N ? 0 : N - 1; i < N; ++i) {
+      double sum = 0, slope[N];
+      for (int j = 0; j < N; ++j) slope[j] = pow(c.x[j], k), sum += c.a[i][j] * slope[j];
+      CHECK_NEAR(sum, pow(c.x[i], k + 1) / (k + 1), 200 * DBL_EPSILON, "x^%d to point %d", k, i);
+      if (k < N) CHECK_NEAR(collocation_rise(&c, slope, 0.3), pow(0.3, k + 1) / (k + 1), 200 * DBL_EPSILON, "x^%d", k);
+    }
+}
+
+/* The modes of Legendre's polynomial P_3(2 x - 1) are those of P_3 alone. */
+static void modes_are_legendres(void **state)
+{
+  (void)state;
+  collocation c;
+  collocation_fill(&c);
+  for (int n = 0; n < N; ++n) {
+    double sum = 0;
+    for (int j = 0; j < N; ++j) {
+      const double t = 2 * c.x[j] - 1;
+      sum += c.mode[n][j] * 0.5 * (5 * t * t * t - 3 * t);
+    }
+    CHECK_NEAR(sum, n == 3, 200 * DBL_EPSILON, "mode %d", n);
+  }
+}
+
+/* What is stiff decays in one panel: y' = -z y, solved by collocation, ends at about 1/z of its start for large z. */
+static void what_is_stiff_decays(void **state)
+{
+  (void)state;
+  collocation c;
+  collocation_fill(&c);
+  for (double z = 1e6; z <= 1e12; z *= 1e3) {
+    /* slopes k = -z (1 + a k): one sweep of Gauss's elimination without exchanges, the matrix being nearly z a */
+    double A[N][N], k[N], end = 1;
+    for (int i = 0; i < N; ++i) {
+      k[i] = -z;
+      for (int j = 0; j < N; ++j) A[i][j] = z * c.a[i][j] + (i == j);
+    }
+    for (int p = 0; p < N; ++p)
+      for (int i = 0; i < N; ++i) {
+        const double factor = A[i][p] / A[p][p];
+        for (int j = 0; j < N && i != p; ++j) A[i][j] -= factor * A[p][j];
+        if (i != p) k[i] -= factor * k[p];
+      }
+    for (int j = 0; j < N; ++j) end += c.a[N - 1][j] * k[j] / A[j][j];
+    CHECK_LE(fabs(end), 1000 / z + 1e-9, "z = %g", z);
+  }
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(sums_are_exact_on_polynomials),
+      cmocka_unit_test(modes_are_legendres),
+      cmocka_unit_test(what_is_stiff_decays),
+  };
+  check_watchdog(30);
+  return cmocka_run_group_tests_name("numerics.collocation", tests, NULL, NULL);
+}
