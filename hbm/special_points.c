@@ -19,7 +19,7 @@
 /* A segment spans a fraction of the sweep, so this part of it is far less than the 1e-9 of omega that
  * special_points.h promises. */
 static const double SIGMA_TOLERANCE = 1e-11;
-enum { MAX_CONTACT_CHANGES = 64 /* on one segment */ };
+enum { MAX_CONTACT_CHANGES = 64 /* on one segment */, MOST_CONTACTS_FOLLOWED = 24 };
 /* What is nearer than this, relative to omega and to the amplitude (near a turning point omega alone says little), is
  * at one place: special_points.h promises no more. */
 static const double SAME_OMEGA = 1e-9, SAME_AMPLITUDE = 1e-8;
@@ -49,6 +49,8 @@ typedef struct detector {
   found_point *found; /* [room] */
 } detector;
 
+bool hbm_specials_follow_each(const hbm_solver *s) { return s->model->n_contacts <= MOST_CONTACTS_FOLLOWED; }
+
 /* with_multipliers: they cost more than all the rest, and only the searches for a period doubling or a Neimark-Sacker
  * point ask. */
 static hc_status evaluate_tests(detector *d, double omega, double d_omega, const double *X, bool with_multipliers,
@@ -59,9 +61,9 @@ static hc_status evaluate_tests(detector *d, double omega, double d_omega, const
   hbm_stability stability = {.flip = NAN, .pair = NAN};
   hc_status st = hbm_located_orbit(d->s, X, &orbit, &report);
   if (st == HC_OK && with_multipliers) st = hbm_multipliers(d->s, orbit, omega, &stability);
+  const int transitions = hbm_specials_follow_each(d->s) ? report.transitions : 0;
   if (st == HC_OK)
-    *v = (test_values){d_omega,        stability.flip, stability.pairs_outside,
-                       stability.pair, report.regime,  report.transitions};
+    *v = (test_values){d_omega, stability.flip, stability.pairs_outside, stability.pair, report.regime, transitions};
   return st;
 }
 

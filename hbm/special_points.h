@@ -22,4 +22,8 @@ typedef struct hbm_special {
  * could not be located makes the status, and leaves the others in place. */
 hc_status hbm_specials(hbm_solver *s, const hbm_curve *curve, int cap, hbm_special *out, int *n);
 
+/* Of more than 24 contacts (directions, where two belong to one) some pattern changes on every bit of a curve: a
+ * contact change is then one of the strongest state of all of them. */
+bool hbm_specials_follow_each(const hbm_solver *s);
+
 #endif
