@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "hbm/circle_measures.h"
 #include "hbm/hbm_solver_impl.h"
 #include "hbm/transitions.h"
 #include "numerics/crossing.h"
@@ -133,12 +134,17 @@ static void along(const hbm_system *sys, const double *X, const double *directio
 hc_status hbm_measure_contacts(hbm_solver *s, const double *X, contact_period *out)
 {
   const hbm_system *sys = &s->sys;
-  double u[2 * HBM_MAX_HARMONICS + 1], v[2 * HBM_MAX_HARMONICS + 1];
+  double u[2][2 * HBM_MAX_HARMONICS + 1], v[2 * HBM_MAX_HARMONICS + 1];
   hc_status st = HC_OK;
   for (int j = 0; j < s->model->n_contacts && st == HC_OK; ++j) {
-    along(sys, X, condensation_tangent(sys->linear, j), u);
+    const model_contact *c = &s->model->contacts[j];
+    along(sys, X, condensation_tangent(sys->linear, j), u[0]);
     along(sys, X, condensation_normal(sys->linear, j), v);
-    st = contact_measures_of(&s->model->contacts[j].law, sys->n_harm, u, v, &out[j]);
+    if (c->circle && c->pair == CONTACT_FIRST && contact_has_friction(&c->law)) {
+      along(sys, X, condensation_tangent(sys->linear, j + 1), u[1]);
+      st = circle_measures_of(&c->law, sys->n_harm, u[0], u[1], v, &out[j]);
+      ++j;
+    } else st = contact_measures_of(&c->law, sys->n_harm, u[0], v, &out[j]);
   }
   return st;
 }
