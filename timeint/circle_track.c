@@ -97,6 +97,8 @@ void circle_track_pass(contact_track t[2], const scaled_contact *c, track_event 
     rest_on_circle(t, c, at);
     set_state(t, CONTACT_STICK);
     return;
+  case TRACK_TURNS: return;
+  case TRACK_HOLDS: t[0].held = t[1].held = true; return;
   case TRACK_TOUCHES:
     for (int a = 0; a < 2; ++a) t[a].rest = at->u[a];
     set_state(t, slips ? CONTACT_SLIP_PLUS : CONTACT_STICK);

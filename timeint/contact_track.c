@@ -137,6 +137,8 @@ void contact_track_pass(contact_track *t, const scaled_contact *c, track_event e
     t->rest = slipping_slider(c, contact_slip_sign(t->state), at->u, at->v);
     t->state = CONTACT_STICK;
     return;
+  case TRACK_TURNS:
+  case TRACK_HOLDS: return;
   case TRACK_TOUCHES:
     t->rest = at->u;
     t->state = c->law.has_friction ? contact_on_touch(&law, at->du, at->dv) : CONTACT_STICK;

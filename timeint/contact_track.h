@@ -42,7 +42,9 @@ typedef enum track_event {
   TRACK_TOUCHES,
   TRACK_SLIPS_PLUS,
   TRACK_SLIPS_MINUS,
-  TRACK_STICKS
+  TRACK_STICKS,
+  TRACK_TURNS, /* of a circle that slips: its direction turns freely from here on; */
+  TRACK_HOLDS  /* is held */
 } track_event;
 
 /* A guard of a state: g = by_u (U - from_u) + by_v (V + gap) + constant, or by_u U' + by_v V'. */

@@ -77,7 +77,6 @@ static hc_status make_memory(timeint *ti)
 static hc_status make_integrator(const timeint *ti, transient_law law, integrator **out)
 {
   const bool closed = ti->how.method == TRANSIENT_METHOD_CLOSED_FORM, exact = law == TRANSIENT_LAW_EXACT;
-  if (ti->base && ti->base->n_circles > 0 && exact && !closed) return HC_UNSUPPORTED;
   if (ti->base && closed) return integrate_new_series(ti->base, PHASE_MODES_STIFF, out);
   if (ti->base)
     return (exact ? integrate_new_events : integrate_new_regularised_structure)(ti->base, ti->tolerance, out);
