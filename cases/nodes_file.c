@@ -83,7 +83,7 @@ static hc_status read_row(reader *r, scene_structure *s)
     message_add(blame_field(r, 1), " is no node, expected its number");
     return HC_BAD_INPUT;
   }
-  if (r->length[2] != 1 || !strchr("xyz", *r->field[2])) {
+  if (r->length[2] != 1 || !structure_is_axis(*r->field[2])) {
     message_add(blame_field(r, 2), " is no direction, expected x, y or z");
     return HC_BAD_INPUT;
   }

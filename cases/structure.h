@@ -44,6 +44,9 @@ typedef struct structure_response {
   case_place place;
 } structure_response;
 
+/* 'x', 'y' or 'z'; the end of a string is none of them. */
+static inline bool structure_is_axis(char c) { return c >= 'x' && c <= 'z'; }
+
 typedef struct structure_node { /* of the finite-element mesh: which degree of freedom moves it in this direction */
   int dof, node;
   char direction; /* 'x', 'y' or 'z' */

@@ -47,7 +47,7 @@ static const yaml_node_t *value_of(yaml_document_t *doc, const yaml_node_t *node
 
 static bool is_axis(const yaml_node_t *n)
 {
-  return n->type == YAML_SCALAR_NODE && n->data.scalar.length == 1 && strchr("xyz", *yaml_node_text(n));
+  return n->type == YAML_SCALAR_NODE && n->data.scalar.length == 1 && structure_is_axis(*yaml_node_text(n));
 }
 
 /* {node: 17, direction: y}, as far as these two keys are concerned. */

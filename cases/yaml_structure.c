@@ -223,7 +223,8 @@ static hc_status read_node(case_reader *r, yaml_document_t *doc, const yaml_node
                      at[1]->type == YAML_SCALAR_NODE && at[2]->type == YAML_SCALAR_NODE;
   const char *axis = whole ? yaml_node_text(at[2]) : "";
   if (!whole || number_read_integer(yaml_node_text(at[1]), at[1]->data.scalar.length, &id) != NUMBER_FINE ||
-      at[2]->data.scalar.length != 1 || !strchr("xyz", *axis) || structure_node_dof(r->sc.structure, id, *axis) >= 0) {
+      at[2]->data.scalar.length != 1 || !structure_is_axis(*axis) ||
+      structure_node_dof(r->sc.structure, id, *axis) >= 0) {
     message_add(case_blame(r, case_place_of(r, entry->start_mark)),
                 "an entry of structure.nodes, expected [DOF, NODE, x or y or z] such as [tip, 17, y], each node and "
                 "direction once");
