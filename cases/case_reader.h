@@ -14,7 +14,7 @@
 #include "cases/fields.h"
 #include "cases/suggest.h"
 
-enum { CASE_LARGEST = 1 << 20 }; /* bytes of a case file; a real one has a few thousand */
+enum { CASE_LARGEST = 16 << 20 }; /* bytes of a case file; an echoed one holds matrices of some 500 rows */
 
 typedef struct case_reader {
   const char *name;       /* of the file, for messages                               */

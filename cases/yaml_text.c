@@ -126,7 +126,8 @@ hc_status yaml_text_load(case_reader *r, const char *text, size_t length, yaml_d
 {
   yaml_parser_t p;
   if (length > CASE_LARGEST) {
-    message_add(case_blame(r, (case_place){0}), "larger than 1 MB, expected a %s file (a few kB)", r->noun);
+    message_add(case_blame(r, (case_place){0}),
+                "larger than 16 MB, expected a %s file (a few kB; large matrices in files)", r->noun);
     return HC_BAD_INPUT;
   }
   /* libyaml skips the mark only where it guesses the encoding */

@@ -4,6 +4,7 @@
 #include <time.h>
 
 #include "base/message.h"
+#include "cases/case_reader.h"
 #include "tests/cases/case_text.h"
 
 enum { MEGABYTE = 1 << 20 };
@@ -55,16 +56,17 @@ static void megabytes_end_quickly(void **state)
 static void anything_larger_is_not_even_parsed(void **state)
 {
   (void)state;
-  char *text = calloc(1, MEGABYTE + 1); /* NULs: the size is judged first */
+  char *text = calloc(1, CASE_LARGEST + 1); /* NULs: the size is judged first */
   scene sc;
   case_error err;
-  assert_int_equal(case_parse("f", text, MEGABYTE + 1, 0, NULL, &sc, &err), HC_BAD_INPUT);
-  assert_string_equal(err.message, "f: larger than 1 MB, expected a case file (a few kB)");
-  assert_int_equal(case_parse("f", text, MEGABYTE, 0, NULL, &sc, &err), HC_BAD_INPUT);
+  assert_int_equal(case_parse("f", text, CASE_LARGEST + 1, 0, NULL, &sc, &err), HC_BAD_INPUT);
+  assert_string_equal(err.message, "f: larger than 16 MB, expected a case file (a few kB; large matrices in files)");
+  assert_int_equal(case_parse("f", text, CASE_LARGEST, 0, NULL, &sc, &err), HC_BAD_INPUT);
   assert_string_equal(err.message, "f:1:1: control character 0x00, expected text");
   free(text);
   assert_int_equal(case_read("/dev/zero", 0, NULL, &sc, &err), HC_BAD_INPUT);
-  assert_string_equal(err.message, "/dev/zero: larger than 1 MB, expected a case file (a few kB)");
+  assert_string_equal(err.message,
+                      "/dev/zero: larger than 16 MB, expected a case file (a few kB; large matrices in files)");
 }
 
 static void what_is_no_file_is_an_io_error(void **state)
