@@ -20,7 +20,8 @@ static void check_round_trip(const scene *sc)
   case_error err;
   model *a, *b;
   char *text = echoed(sc), *again;
-  if (case_parse("other", text, strlen(text), 0, NULL, &back, &err) != HC_OK) fail_msg("%s\n%.2000s", err.message, text);
+  if (case_parse("other", text, strlen(text), 0, NULL, &back, &err) != HC_OK)
+    fail_msg("%s\n%.2000s", err.message, text);
   again = echoed(&back);
   assert_string_equal(text, again);
   assert_int_equal(scene_model(sc, &a), HC_OK);
