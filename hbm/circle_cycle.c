@@ -191,17 +191,18 @@ static bool slips(const circle_cycle *c)
   return false;
 }
 
-/* (1 - A)^-1 r into r; as it is where that does not exist. */
-static void solve_fixed_point(double A[2][2], double r[2])
+/* (1 - A)^-1 r into r; as it is where that does not exist, or is longer than `most`. */
+static void solve_fixed_point(double A[2][2], double most, double r[2])
 {
   const double a = 1 - A[0][0], b = -A[0][1], d = -A[1][0], e = 1 - A[1][1], det = a * e - b * d;
-  if (!(fabs(det) > DBL_EPSILON)) return;
   const double x = (e * r[0] - b * r[1]) / det, y = (a * r[1] - d * r[0]) / det;
-  r[0] = x, r[1] = y;
+  if (fabs(det) > DBL_EPSILON && hypot(x, y) <= most) r[0] = x, r[1] = y;
 }
 
 /* [length] */
 static double size_of(const circle_cycle *c) { return c->m->of_u[0] + c->m->of_R[0]; }
+
+static double length(const double x[2]) { return hypot(x[0], x[1]); }
 
 typedef struct closing {
   double w[2], distance; /* [length] from the start of the pass to its end */
@@ -214,7 +215,7 @@ static hc_status try_from(circle_cycle *c, const double w[2], closing *out)
   const hc_status st = circle_cycle_pass(c, end, A);
   *out = (closing){.w = {w[0], w[1]}, .step = {end[0] - w[0], end[1] - w[1]}};
   out->distance = hypot(out->step[0], out->step[1]);
-  solve_fixed_point(A, out->step);
+  solve_fixed_point(A, size_of(c), out->step);
   return st;
 }
 
@@ -226,7 +227,7 @@ static hc_status take_step(circle_cycle *c, const closing *now, bool damped, clo
   const double rounding = 8 * DBL_EPSILON * size_of(c);
   hc_status st = HC_OK;
   *out = *now;
-  for (double part = 1; st == HC_OK && part * hypot(now->step[0], now->step[1]) > rounding; part /= 2) {
+  for (double part = 1; st == HC_OK && part * length(now->step) > rounding; part /= 2) {
     closing next;
     st = try_from(c, (double[2]){now->w[0] + part * now->step[0], now->w[1] + part * now->step[1]}, &next);
     if (st != HC_OK || slips(c)) {
@@ -241,18 +242,18 @@ static hc_status take_step(circle_cycle *c, const closing *now, bool damped, clo
 /* Newton from w until the distance does not become less; *closed if it has become little and the slider still slips. */
 static hc_status close_by_newton(circle_cycle *c, const double w[2], bool damped, bool *closed)
 {
-  const double rounding = 8 * DBL_EPSILON * size_of(c), enough = 1e-11 * size_of(c);
+  const double rounding = 64 * DBL_EPSILON * size_of(c), enough = 1e-11 * size_of(c);
   closing now, next;
   hc_status st = try_from(c, w, &now);
   *closed = false;
-  for (int i = 0; i < MAX_NEWTON && st == HC_OK && now.distance > rounding && slips(c); ++i) {
+  for (int i = 0; i < MAX_NEWTON && st == HC_OK && length(now.step) > rounding && slips(c); ++i) {
     st = take_step(c, &now, damped, &next);
     if (st != HC_OK || (!slips(c) && !(now.distance <= enough))) return st;
     const bool better = next.distance < now.distance;
     if (better || next.distance <= enough || !(now.distance <= enough)) now = next;
     if (!better && now.distance <= enough) break;
   }
-  *closed = st == HC_OK && now.distance <= enough;
+  *closed = st == HC_OK && now.distance <= enough && slips(c);
   if (*closed && (c->start[0] != now.w[0] || c->start[1] != now.w[1])) st = try_from(c, now.w, &now);
   *closed = *closed && slips(c);
   return st;
@@ -276,8 +277,8 @@ static hc_status march(circle_cycle *c, int passes, double w[2], bool *ended)
   return st;
 }
 
-/* A few passes as they come tell whether it goes on slipping; Newton ends what does. Where Newton finds an orbit that
- * does not slip, it is not the one that marching leads to: more passes, and Newton that stays where it slips. */
+/* A few passes as they come tell whether it goes on slipping; Newton ends what does. Where Newton comes upon an orbit
+ * that does not slip, that is not the one that marching leads to: more passes, and Newton that stays where it slips. */
 static hc_status settle(circle_cycle *c)
 {
   static const int passes[] = {2, 30, MAX_PASSES};

@@ -315,6 +315,17 @@ static void solve_columns(double A[N][N], double B[N][N])
   }
 }
 
+/* to += sum over the points of y[i] times row i of b, [N][n]. */
+static void add_rows(int n, const double y[N], const double *restrict b, double *restrict to)
+{
+  _Static_assert(N == 10, "ten rows are written out: a loop over them is three times slower");
+  const double *b0 = b, *b1 = b + n, *b2 = b1 + n, *b3 = b2 + n, *b4 = b3 + n, *b5 = b4 + n, *b6 = b5 + n, *b7 = b6 + n,
+               *b8 = b7 + n, *b9 = b8 + n;
+  for (int k = 0; k < n; ++k)
+    to[k] += ((y[0] * b0[k] + y[1] * b1[k]) + (y[2] * b2[k] + y[3] * b3[k])) +
+             ((y[4] * b4[k] + y[5] * b5[k]) + (y[6] * b6[k] + y[7] * b7[k])) + (y[8] * b8[k] + y[9] * b9[k]);
+}
+
 /* d phi at the points: (R + h a pull) d slope = du'.e_perp - slope dR - pull d phi0, d phi = d phi0 + h a d slope. With
  * Q = h a (R + h pull a)^-1 it is (1 - Q pull) d phi0 + Q (du'.e_perp - slope dR). */
 static void follow_angle(circle_force *f, const circle_panel *p, const slip_points *q)
@@ -332,35 +343,39 @@ static void follow_angle(circle_force *f, const circle_panel *p, const slip_poin
     double *to = f->node + (size_t)i * (size_t)f->n_col, kept = 1;
     for (int j = 0; j < N; ++j) kept -= Q[j][i] * q->pull[j];
     for (int k = 0; k < f->n_col; ++k) to[k] = kept * f->dphi[k];
+    double a[N], b[N], c[N];
     for (int j = 0; j < N; ++j) {
-      const double *base = f->base + (size_t)j * (size_t)L, *rate = f->rate + (size_t)j * (size_t)L;
-      const double a = -Q[j][i] * q->sine[j], b = Q[j][i] * q->cosine[j], c = -Q[j][i] * p->slope[j] * per_v;
-      for (int k = 0; k < L; ++k) to[k] += a * rate[k];
-      for (int k = 0; k < L; ++k) to[L + k] += b * rate[k];
-      for (int k = 0; k < L && f->n_dof == 3; ++k) to[2 * L + k] += c * base[k];
+      a[j] = -Q[j][i] * q->sine[j];
+      b[j] = Q[j][i] * q->cosine[j];
+      c[j] = -Q[j][i] * p->slope[j] * per_v;
     }
+    add_rows(L, a, f->rate, to);
+    add_rows(L, b, f->rate, to + L);
+    if (f->n_dof == 3) add_rows(L, c, f->base, to + 2 * L);
   }
   memcpy(f->dphi, f->node + (size_t)(N - 1) * (size_t)f->n_col, (size_t)f->n_col * sizeof *f->dphi);
 }
 
-/* d(R e) = R e_perp d phi + e dR, with the harmonics of every point. */
+/* d(R e) = R e_perp d phi + e dR, with the harmonics of every point; of a mean half of that. */
 static void add_slip_derivatives(circle_force *f, const slip_points *q)
 {
   const int L = f->n_coef;
-  for (int d = 0; d < 2; ++d)
-    for (int col = 0; col < f->n_col; ++col) {
-      const int k = col - 2 * L;
-      const bool of_v = f->motion.v && k >= 0 && k < L;
-      double *column = f->by + ((size_t)d * (size_t)f->n_col + (size_t)col) * (size_t)L;
-      for (int i = 0; i < N; ++i) {
-        const double *base = f->base + (size_t)i * (size_t)L, across = d ? q->cosine[i] : -q->sine[i];
-        double change = q->R[i] * across * f->node[(size_t)i * (size_t)f->n_col + (size_t)col];
-        if (of_v) change += (d ? q->sine[i] : q->cosine[i]) * f->motion.per_v * base[k];
-        change *= q->weight[i];
-        column[0] += 0.5 * change;
-        for (int row = 1; row < L; ++row) column[row] += change * base[row];
-      }
+  for (int col = 0; col < f->n_col; ++col) {
+    const int k = col - 2 * L;
+    const bool of_v = f->motion.v && k >= 0 && k < L;
+    double change[2][N];
+    for (int i = 0; i < N; ++i) {
+      const double R = q->weight[i] * q->R[i] * f->node[(size_t)i * (size_t)f->n_col + (size_t)col];
+      const double e = of_v ? q->weight[i] * f->motion.per_v * f->base[(size_t)i * (size_t)L + (size_t)k] : 0;
+      change[0][i] = e * q->cosine[i] - R * q->sine[i];
+      change[1][i] = e * q->sine[i] + R * q->cosine[i];
     }
+    for (size_t d = 0; d < 2; ++d) {
+      double *column = f->by + (d * (size_t)f->n_col + (size_t)col) * (size_t)L;
+      add_rows(L, change[d], f->base, column);
+      for (int i = 0; i < N; ++i) column[0] -= 0.5 * change[d][i];
+    }
+  }
 }
 
 static void add_panel(circle_force *f, const circle_panel *p, bool derive)

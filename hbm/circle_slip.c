@@ -38,26 +38,16 @@ double circle_panel_angle(const collocation *c, const circle_panel *p, double th
 
 /* ---- one panel ------------------------------------------------------------------------------------ */
 
-/* Gauss's elimination with row exchanges: A x = b for both right-hand sides, in place. false where A is singular. */
-static bool solve_both(double A[N][N], double b[N], double g[N])
+/* Gauss's elimination: A x = b for both right-hand sides, in place. Without row exchanges: A is a diagonal >= 0 plus
+ * Radau's matrix, each row times a number > 0 while it slips, of which elimination is stable as it is. Where it is not,
+ * Newton does not arrive, and a narrower panel is tried, whose diagonal has more weight. */
+static void solve_both(double A[N][N], double b[N], double g[N])
 {
+  double inverse[N];
   for (int k = 0; k < N; ++k) {
-    int pivot = k;
-    for (int i = k + 1; i < N; ++i)
-      if (fabs(A[i][k]) > fabs(A[pivot][k])) pivot = i;
-    if (!(fabs(A[pivot][k]) > 0)) return false;
-    if (pivot != k) {
-      for (int j = k; j < N; ++j) {
-        const double swap = A[k][j];
-        A[k][j] = A[pivot][j], A[pivot][j] = swap;
-      }
-      const double swap_b = b[k], swap_g = g[k];
-      b[k] = b[pivot], b[pivot] = swap_b;
-      g[k] = g[pivot], g[pivot] = swap_g;
-    }
-    const double inverse = 1 / A[k][k];
+    inverse[k] = 1 / A[k][k];
     for (int i = k + 1; i < N; ++i) {
-      const double factor = A[i][k] * inverse;
+      const double factor = A[i][k] * inverse[k];
       for (int j = k + 1; j < N; ++j) A[i][j] -= factor * A[k][j];
       b[i] -= factor * b[k];
       g[i] -= factor * g[k];
@@ -65,9 +55,8 @@ static bool solve_both(double A[N][N], double b[N], double g[N])
   }
   for (int k = N - 1; k >= 0; --k) {
     for (int j = k + 1; j < N; ++j) b[k] -= A[k][j] * b[j], g[k] -= A[k][j] * g[j];
-    b[k] /= A[k][k], g[k] /= A[k][k];
+    b[k] *= inverse[k], g[k] *= inverse[k];
   }
-  return true;
 }
 
 typedef struct panel_points {
@@ -86,7 +75,7 @@ static void set_angles(const collocation *c, circle_panel *p)
   }
 }
 
-/* One step of Newton for the slopes; how far phi moved by it [rad], NAN where that is impossible. */
+/* One step of Newton for the slopes; how far phi moved by it [rad], not finite where that is impossible. */
 static double newton_step(const collocation *c, circle_panel *p, panel_points *q)
 {
   const double h = p->to - p->from;
@@ -100,11 +89,11 @@ static double newton_step(const collocation *c, circle_panel *p, panel_points *q
     for (int j = 0; j < N; ++j) A[i][j] = h * pull * c->a[i][j];
     A[i][i] += at->R;
   }
-  if (!solve_both(A, b, g)) return NAN;
+  solve_both(A, b, g);
   p->growth = 1;
   for (int i = 0; i < N; ++i) {
     p->slope[i] += b[i];
-    moved = fmax(moved, h * fabs(b[i]));
+    moved += h * fabs(b[i]); /* a sum keeps NaN, a maximum may not */
     p->growth += h * c->a[N - 1][i] * g[i];
   }
   set_angles(c, p);
@@ -119,18 +108,23 @@ static double unresolved(const collocation *c, const circle_panel *p)
   return (p->to - p->from) * (fabs(last) + fabs(before)) / (2 * N);
 }
 
-/* The panel from p->from, p->phi0 to p->to; slope: phi' at its start. false where Newton does not arrive. */
-static bool make_panel(const collocation *c, const circle_motion *m, double slope, circle_panel *p, panel_points *q)
+/* The panel from p->from, p->phi0 to p->to, unless what it leaves unresolved is `hopeless` on the way; slope[2]: phi'
+ * and phi'' at its start, or near them. false where Newton does not arrive. */
+static bool make_panel(const collocation *c, const circle_motion *m, const double slope[2], double hopeless,
+                       circle_panel *p, panel_points *q)
 {
-  const double enough = 1e-9; /* Newton's next step would be of its square */
+  const double enough = 1e-7; /* Newton's next step would be of its square */
   for (int i = 0; i < N; ++i) {
     q->at[i] = circle_motion_at(m, i < N - 1 ? p->from + (p->to - p->from) * c->x[i] : p->to);
-    p->slope[i] = slope;
+    p->slope[i] = slope[0] + slope[1] * (q->at[i].th - p->from);
   }
   set_angles(c, p);
   double moved = 1;
-  for (int k = 0; k < MAX_NEWTON && moved > enough; ++k) moved = newton_step(c, p, q);
-  q->mismatch = unresolved(c, p);
+  for (int k = 0; k < MAX_NEWTON && moved > enough; ++k) {
+    moved = newton_step(c, p, q);
+    q->mismatch = unresolved(c, p);
+    if (!(q->mismatch <= hopeless)) return false;
+  }
   return moved <= enough;
 }
 
@@ -233,6 +227,13 @@ static double share(const circle_slip *s, const circle_point *at, double left, b
   return lifts_off && at->dR < 0 ? fmin(1, fabs(at->R) / R * left) : 1;
 }
 
+/* phi'' from the equation, differentiated once; 0 where it is singular. */
+static double bend(const circle_motion *m, const circle_point *at, double phi, double slope)
+{
+  if (is_singular(m, at)) return 0;
+  return (turned(at->ddu, phi) - (along(at->du, phi) + at->dR) * slope) / at->R;
+}
+
 /* The next panel with its points, made and resolved. */
 static hc_status next_panel(circle_slip *s, const circle_point *at, double phi, double to, bool lifts_off,
                             panel_points *q)
@@ -240,18 +241,18 @@ static hc_status next_panel(circle_slip *s, const circle_point *at, double phi, 
   const double least = 1e-10, left = to - at->th;
   if (s->n == s->cap) return HC_CHATTER;
   circle_panel *p = &s->panel[s->n];
-  const double slope = circle_slip_slope(s->m, at, phi),
+  const double first = circle_slip_slope(s->m, at, phi), slope[2] = {first, bend(s->m, at, phi, first)},
                allowed = CIRCLE_RESOLVED / sqrt(share(s, at, left, lifts_off));
   double width = width_to_try(s, at, phi, left);
   for (int tries = 0;; ++tries) {
     *p = (circle_panel){.from = at->th, .to = width < left ? at->th + width : to, .phi0 = phi};
-    const bool made = make_panel(s->c, s->m, slope, p, q);
-    const double factor = made ? 0.9 * pow(allowed / (q->mismatch + 1e-300), 1.0 / N) : 0.25;
+    const bool made = make_panel(s->c, s->m, slope, width > least ? 100 * allowed : INFINITY, p, q);
+    const double factor = isfinite(q->mismatch) ? 0.9 * pow(allowed / (q->mismatch + 1e-300), 1.0 / N) : 0.25;
     if ((made && q->mismatch <= allowed) || width <= least) {
       if (width < left || tries == 0) s->width = fmin(widest(s->m), width * fmin(2.5, factor));
       return HC_OK;
     }
-    width *= fmax(0.1, fmin(0.8, factor));
+    width *= fmax(0.1, fmin(made ? 0.8 : 0.5, factor));
     if (lifts_off && width > 0.75 * left) width = 0.75 * left;
   }
 }
@@ -266,7 +267,7 @@ hc_status circle_slip_follow(circle_slip *s, const circle_point *from, double ph
     if (st != HC_OK) return st;
     circle_panel *p = &s->panel[s->n++];
     end->rests = comes_to_rest(s, p, &q, circle_slip_speed(&end->at, end->phi), &p->to);
-    if (end->rests && !make_panel(s->c, s->m, p->slope[0], p, &q)) return HC_NOT_CONVERGED;
+    if (end->rests && !make_panel(s->c, s->m, (double[2]){p->slope[0], 0}, INFINITY, p, &q)) return HC_NOT_CONVERGED;
     end->at = q.at[N - 1];
     end->phi = p->phi[N - 1];
   }
