@@ -3,12 +3,29 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
+#include "hbm/hbm_solver_impl.h"
 #include "hbm/segment_solutions.h"
 #include "numerics/roots.h"
 
+/* Where slip of a circle begins the curve may stop (README.md, Edges of slip in a plane): what lies beyond is solved
+ * for without it. */
+static hc_status solve_beyond(hbm_solver *s, const hbm_curve *c, double omega, hbm_curve *at)
+{
+  hbm_candidate x;
+  hc_status st = hbm_candidate_new(c->n_coef, &x);
+  if (st != HC_OK) return st;
+  memset(x.dX, 0, (size_t)c->n_coef * sizeof *x.dX);
+  st = hbm_solve_first(s, omega, x.X, &x.point);
+  if (st == HC_OK) st = hbm_curve_append(at, c->n_coef, x.X, x.dX, &x.point);
+  free(x.X);
+  return st;
+}
+
 hc_status hbm_curve_at(hbm_solver *s, const hbm_curve *c, double omega, hbm_curve *at)
 {
+  const int before = at->n;
   hc_status worst = HC_OK;
   at->omega_scale = c->omega_scale;
   at->asked = true;
@@ -16,6 +33,8 @@ hc_status hbm_curve_at(hbm_solver *s, const hbm_curve *c, double omega, hbm_curv
     hc_status st = hbm_segment_solutions(s, c, k, omega, k + 2 == c->n, at);
     if (st != HC_OK) worst = st;
   }
+  const bool stopped = at->n == before && c->n > 0 && c->end != HC_OK;
+  if (stopped && model_has_circle(s->model)) return solve_beyond(s, c, omega, at);
   return worst;
 }
 
