@@ -221,6 +221,25 @@ static void regularised_meets_the_reference(void **state)
   check_reference(how, 1e-4);
 }
 
+/* A contact that sticks all the time is one slider that rests anywhere, not two: by shooting, and marched. */
+static void a_circle_that_sticks_is_free_once(void **state)
+{
+  (void)state;
+  static timeint_result r;
+  for (int march = 0; march < 2; ++march) {
+    model *m = plane(0.08);
+    transient_settings how = closed_form;
+    double y[6] = {0};
+    timeint *ti;
+    if (march) how.steady = TRANSIENT_STEADY_MARCH;
+    assert_int_equal(timeint_new(m, &how, &ti), HC_OK);
+    assert_int_equal(timeint_steady(ti, 12.5, y, NULL, &r), HC_OK);
+    assert_int_equal(r.free_sliders, 1);
+    timeint_free(ti);
+    model_free(m);
+  }
+}
+
 /* ---- the regularised law --------------------------------------------------------------------------------- */
 
 static void jacobian_is_the_derivative(void **state)
@@ -522,11 +541,17 @@ static void friction_takes_what_the_loads_give(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(series_meet_the_reference),         cmocka_unit_test(events_meet_the_reference),
-      cmocka_unit_test(regularised_meets_the_reference),   cmocka_unit_test(jacobian_is_the_derivative),
-      cmocka_unit_test(newton_solves_the_dense_equations), cmocka_unit_test(a_motion_on_a_line_is_that_of_one_tangent),
-      cmocka_unit_test(turned_tangents_change_nothing),    cmocka_unit_test(monodromy_is_the_derivative),
-      cmocka_unit_test(series_and_events_agree),           cmocka_unit_test(friction_takes_what_the_loads_give),
+      cmocka_unit_test(series_meet_the_reference),
+      cmocka_unit_test(events_meet_the_reference),
+      cmocka_unit_test(regularised_meets_the_reference),
+      cmocka_unit_test(a_circle_that_sticks_is_free_once),
+      cmocka_unit_test(jacobian_is_the_derivative),
+      cmocka_unit_test(newton_solves_the_dense_equations),
+      cmocka_unit_test(a_motion_on_a_line_is_that_of_one_tangent),
+      cmocka_unit_test(turned_tangents_change_nothing),
+      cmocka_unit_test(monodromy_is_the_derivative),
+      cmocka_unit_test(series_and_events_agree),
+      cmocka_unit_test(friction_takes_what_the_loads_give),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
