@@ -133,7 +133,10 @@ static void note_curve(table *t, const scene *sc, const hbm_solver *s, const hbm
   if (c->inaccurate)
     table_note(t, "hbm.accuracy %g was NOT met everywhere with the most harmonics or samples that auto takes",
                sc->hbm.accuracy);
-  if (hbm_stability_is_costly(s) && !at_given)
+  if (hbm_stability_is_unknown(s))
+    table_note(t, "stability is unknown, nor are period doublings and such looked for: a contact has two tangents and "
+                  "`limit: circle`");
+  else if (hbm_stability_is_costly(s) && !at_given)
     table_note(
         t, "stability is found at the omegas of --at alone, nor are period doublings and such looked for: more than "
            "50 degrees of freedom");

@@ -6,12 +6,14 @@
 #include "hbm/corrector.h"
 #include "hbm/hbm_solver_impl.h"
 
-bool hbm_stability_is_costly(const hbm_solver *s) { return s->model->n > 50 || model_has_circle(s->model); }
+bool hbm_stability_is_unknown(const hbm_solver *s) { return model_has_circle(s->model); }
+
+bool hbm_stability_is_costly(const hbm_solver *s) { return s->model->n > 50 || hbm_stability_is_unknown(s); }
 
 hc_status hbm_multipliers(hbm_solver *s, const contact_forces *orbit, double omega, hbm_stability *out)
 {
   *out = (hbm_stability){NAN, NAN, NAN, NAN, NAN, NAN, 0, NAN, false};
-  if (model_has_circle(s->model)) return HC_OK;
+  if (hbm_stability_is_unknown(s)) return HC_OK;
   hc_status st = s->monodromy ? HC_OK : monodromy_new(s->model, &s->monodromy);
   return st == HC_OK ? monodromy_stability(s->monodromy, s->model, orbit, omega, out) : st;
 }

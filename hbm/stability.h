@@ -21,9 +21,11 @@ typedef struct hbm_stability {
 hc_status hbm_stability_at(hbm_solver *s, double omega, const double *X, hbm_stability *out);
 
 /* Multipliers of a structure of more than 50 degrees of freedom cost as much as a good part of its curve: they are
- * found where somebody asks for a solution, and unknown at the points of a curve. Those of a structure with a contact
- * under the law of the circle are unknown everywhere: NaN. */
+ * found where somebody asks for a solution, and unknown at the points of a curve. */
 bool hbm_stability_is_costly(const hbm_solver *s);
+
+/* Those of a structure with a contact under the law of the circle are unknown everywhere: NaN, counted as costly. */
+bool hbm_stability_is_unknown(const hbm_solver *s);
 
 /* +1 stable, -1 unstable, 0 unknown: the largest multiplier is within 1e-9 of 1 in size, or the truncated equations
  * disagree. */

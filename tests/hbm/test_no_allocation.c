@@ -22,6 +22,7 @@
 
 #include "campaigns/scene_solvers.h"
 #include "hbm/aft.h"
+#include "hbm/circle_force.h"
 #include "hbm/exact_force.h"
 #include "hbm/hbm.h"
 #include "numerics/sundials_compat.h"
@@ -141,6 +142,31 @@ static void exact_force_allocates_nothing(void **state)
   }
 }
 
+/* The same in a plane: always in contact, coming and going, and under a constant normal force. */
+static void circle_force_allocates_nothing(void **state)
+{
+  (void)state;
+  enum { H = 5, N_COEF = 2 * H + 1 };
+  static double X[3 * N_COEF], F[3 * N_COEF], jac[9 * N_COEF * N_COEF];
+  static const contact halves[] = {{2, 1, 0.6, 1.5, 0}, {2, 1, 0.6, 0.1, 0}, {2, 0, 0.6, 0, 1}};
+  contact_report report;
+  uint64_t seed = 13;
+  for (int i = 0; i < 3; ++i) {
+    circle_force *f;
+    int bad = 0;
+    assert_int_equal(circle_force_new(H, i < 2 ? 3 : 2, &halves[i], &f), HC_OK);
+    long before = allocations;
+    for (int k = 0; k < 40; ++k) {
+      for (int d = 0; d < 3; ++d) random_motion(&seed, H, 1, 1, X + d * N_COEF);
+      bad += circle_force_eval(f, X, F, k % 2 ? jac : NULL, k % 4 ? &report : NULL) != HC_OK;
+    }
+    long after = allocations;
+    circle_force_free(f);
+    assert_int_equal(bad, 0);
+    assert_int_equal(after - before, 0);
+  }
+}
+
 /* Solving, measuring, predicting, and failing to solve: from 1e30 away, which ends in both strategies. */
 static void solving_with(int force)
 {
@@ -184,9 +210,8 @@ static void solve_allocates_nothing(void **state)
 }
 
 static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(the_counter_sees_libraries),
-    cmocka_unit_test(force_allocates_nothing),
-    cmocka_unit_test(exact_force_allocates_nothing),
+    cmocka_unit_test(the_counter_sees_libraries),    cmocka_unit_test(force_allocates_nothing),
+    cmocka_unit_test(exact_force_allocates_nothing), cmocka_unit_test(circle_force_allocates_nothing),
     cmocka_unit_test(solve_allocates_nothing),
 };
 
