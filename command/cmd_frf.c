@@ -134,12 +134,11 @@ static void note_curve(table *t, const scene *sc, const hbm_solver *s, const hbm
     table_note(t, "hbm.accuracy %g was NOT met everywhere with the most harmonics or samples that auto takes",
                sc->hbm.accuracy);
   if (hbm_stability_is_unknown(s))
-    table_note(t, "stability is unknown, nor are period doublings and such looked for: a contact has two tangents and "
-                  "`limit: circle`");
+    table_note(t, "stability is not found, nor period doublings and such: a limit of both tangents together and more "
+                  "than 50 degrees of freedom");
   else if (hbm_stability_is_costly(s) && !at_given)
-    table_note(
-        t, "stability is found at the omegas of --at alone, nor are period doublings and such looked for: more than "
-           "50 degrees of freedom");
+    table_note(t, "stability is found at the omegas of --at alone, nor are period doublings and such looked for: more "
+                  "than 50 degrees of freedom, or 12 with contacts of two tangents");
   if (sc->hbm.keep_mean && scene_adrift(sc)) table_note(t, "%s", SCENE_ADRIFT);
   if (c->n == 0) return;
   char last[SCENE_WHERE];

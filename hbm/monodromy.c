@@ -10,27 +10,15 @@
 
 #include "base/ascending.h"
 #include "base/constants.h"
-#include "hbm/stretch_flow.h"
+#include "hbm/monodromy_impl.h"
 #include "model/linear.h"
-#include "numerics/floquet.h"
 
-struct monodromy {
-  int n;                       /* degrees of freedom */
-  int n_states;                /* 2 n + contacts */
-  int cap;                     /* of boundary */
-  double *boundary;            /* [cap] [rad] every angle at which a contact changes state, ascending */
-  int columns;                 /* of phi that count */
-  double *phi;                 /* [n_states][n_states] by rows */
-  double *left;                /* [n_states][n_states] of stretch_flow_left; NULL of an oscillator */
-  double *share;               /* [n_states] */
-  stretch_flow *flow;          /* of a structure; NULL of an oscillator */
-  const contact_piece **piece; /* [n_states] of each contact, on the current stretch; NULL while separated */
-  int *active;                 /* [n_states] the initial states that the multipliers are made of */
-  int *slider;                 /* [n_states] of stretch_flow_leave, and which of them go on */
-  bool *goes_on;
-  double complex *lambda; /* [n_states] */
-  floquet *floquet;
-};
+static hc_status make_circles(const model *m, monodromy *w)
+{
+  w->track = calloc((size_t)m->n_contacts, sizeof *w->track);
+  w->slipping = calloc((size_t)m->n_contacts, sizeof *w->slipping);
+  return w->track && w->slipping ? circle_flow_new(m, &w->circles) : HC_NO_MEMORY;
+}
 
 hc_status monodromy_new(const model *m, monodromy **out)
 {
@@ -54,6 +42,7 @@ hc_status monodromy_new(const model *m, monodromy **out)
   const bool allocated = vectors && w->phi && (w->left || m->n == 1);
   hc_status st = allocated ? floquet_new(w->n_states, &w->floquet) : HC_NO_MEMORY;
   if (st == HC_OK && m->n > 1) st = stretch_flow_new(m, &w->flow);
+  if (st == HC_OK && model_has_circle(m)) st = make_circles(m, w);
   if (st == HC_OK) return HC_OK;
   monodromy_free(w);
   *out = NULL;
@@ -65,6 +54,9 @@ void monodromy_free(monodromy *w)
   if (!w) return;
   floquet_free(w->floquet);
   stretch_flow_free(w->flow);
+  circle_flow_free(w->circles);
+  free(w->track);
+  free(w->slipping);
   free(w->boundary);
   free(w->phi);
   free(w->left);
@@ -79,14 +71,34 @@ void monodromy_free(monodromy *w)
 
 static double wrap(double th) { return th >= TWO_PI ? th - TWO_PI : th; }
 
-/* All angles of change in [0, 2 pi], of an oscillator the ends included; their number or -1 without memory. */
+/* How many changes of state, and where they are from boundary i on; of a circle's second contact none. */
+static int count_changes(const contact_forces *orbit, int j)
+{
+  int n = 0;
+  const circle_cycle *circle = contact_forces_circle(orbit, j);
+  if (circle) return 2 * circle->n;
+  contact_forces_pieces(orbit, j, &n);
+  return 2 * n;
+}
+
+static int collect_changes(monodromy *w, const contact_forces *orbit, int j, int i)
+{
+  const circle_cycle *circle = contact_forces_circle(orbit, j);
+  int n = 0;
+  const contact_piece *p = circle ? NULL : contact_forces_pieces(orbit, j, &n);
+  for (int k = 0; k < n; ++k) w->boundary[i++] = wrap(p[k].from), w->boundary[i++] = wrap(p[k].to);
+  for (int k = 0; circle && k < circle->n; ++k)
+    w->boundary[i++] = wrap(circle->piece[k].from), w->boundary[i++] = wrap(circle->piece[k].to);
+  return i;
+}
+
+/* All angles of change in [0, 2 pi], of an oscillator and where there are circles the ends included; their number or -1
+ * without memory. */
 static int collect_boundaries(monodromy *w, const contact_forces *orbit, int n_contacts)
 {
+  const bool ends = !w->flow || w->circles;
   int n = 2;
-  for (int j = 0, n_pieces; j < n_contacts; ++j) {
-    contact_forces_pieces(orbit, j, &n_pieces);
-    n += 2 * n_pieces;
-  }
+  for (int j = 0; j < n_contacts; ++j) n += count_changes(orbit, j);
   if (n > w->cap) {
     double *more = realloc(w->boundary, 2 * (size_t)n * sizeof(double));
     if (!more) return -1;
@@ -95,15 +107,9 @@ static int collect_boundaries(monodromy *w, const contact_forces *orbit, int n_c
   }
   const bool changes = n > 2;
   n = 0;
-  if (!w->flow || !changes) w->boundary[n++] = 0;
-  if (!w->flow) w->boundary[n++] = TWO_PI;
-  for (int j = 0, n_pieces; j < n_contacts; ++j) {
-    const contact_piece *p = contact_forces_pieces(orbit, j, &n_pieces);
-    for (int i = 0; i < n_pieces; ++i) {
-      w->boundary[n++] = wrap(p[i].from);
-      w->boundary[n++] = wrap(p[i].to);
-    }
-  }
+  if (ends || !changes) w->boundary[n++] = 0;
+  if (ends) w->boundary[n++] = TWO_PI;
+  for (int j = 0; j < n_contacts; ++j) n = collect_changes(w, orbit, j, n);
   qsort(w->boundary, (size_t)n, sizeof(double), ascending);
   return n;
 }
@@ -114,8 +120,7 @@ static double end_of_stretch(const monodromy *w, int n, int i)
   return i + 1 < n ? w->boundary[i + 1] : w->boundary[0] + TWO_PI;
 }
 
-/* The piece of contact j that covers th, NULL while separated. */
-static const contact_piece *piece_at(const contact_forces *orbit, int j, double th)
+const contact_piece *monodromy_piece_at(const contact_forces *orbit, int j, double th)
 {
   int n;
   const contact_piece *p = contact_forces_pieces(orbit, j, &n);
@@ -179,8 +184,7 @@ static void set_slider(monodromy *w, const model *m, const contact_forces *orbit
   }
 }
 
-/* Sliders that come to rest at th: dheld from dx there. */
-static void set_sliders(monodromy *w, const model *m, const contact_forces *orbit, double th)
+void monodromy_set_sliders(monodromy *w, const model *m, const contact_forces *orbit, double th)
 {
   for (int j = 0; j < m->n_contacts; ++j) {
     const contact_piece *p = w->piece[j];
@@ -191,7 +195,7 @@ static void set_sliders(monodromy *w, const model *m, const contact_forces *orbi
 }
 
 /* Initial states: dx, dx', and dheld of each slider that is at rest when the period starts. Their number. */
-static int collect_initial_sliders(monodromy *w, const model *m, const contact_forces *orbit, int n_active, double th)
+int monodromy_initial_sliders(monodromy *w, const model *m, const contact_forces *orbit, int n_active, double th)
 {
   for (int j = 0; j < m->n_contacts; ++j) {
     if (rests_from_before(w->piece[j], th) && slider_is_state(orbit, j)) w->active[n_active++] = 2 * w->n + j;
@@ -263,9 +267,9 @@ static int follow_oscillator(monodromy *w, const model *m, const contact_forces 
   for (int i = 0; i + 1 < n; ++i) {
     double a = w->boundary[i], b = w->boundary[i + 1];
     if (!(b > a)) continue;
-    for (int j = 0; j < m->n_contacts; ++j) w->piece[j] = piece_at(orbit, j, 0.5 * (a + b));
-    if (a == 0) n_active = collect_initial_sliders(w, m, orbit, n_active, a);
-    set_sliders(w, m, orbit, a);
+    for (int j = 0; j < m->n_contacts; ++j) w->piece[j] = monodromy_piece_at(orbit, j, 0.5 * (a + b));
+    if (a == 0) n_active = monodromy_initial_sliders(w, m, orbit, n_active, a);
+    monodromy_set_sliders(w, m, orbit, a);
     advance_oscillator(w, m, (b - a) / omega);
   }
   return n_active;
@@ -293,7 +297,7 @@ static int next_stretch(const monodromy *w, int n, int i)
 static void enter_stretch(monodromy *w, const model *m, const contact_forces *orbit, int n, int i)
 {
   const double mid = 0.5 * (w->boundary[i] + end_of_stretch(w, n, i));
-  for (int j = 0; j < m->n_contacts; ++j) w->piece[j] = piece_at(orbit, j, wrap(mid));
+  for (int j = 0; j < m->n_contacts; ++j) w->piece[j] = monodromy_piece_at(orbit, j, wrap(mid));
 }
 
 /* The sliders that are at rest over the stretch `last`, and matter; and which of them still are on the one behind it.
@@ -323,7 +327,7 @@ static hc_status follow_structure(monodromy *w, const model *m, const contact_fo
     const double a = w->boundary[i], duration = (end_of_stretch(w, n, i) - a) / omega;
     if (is_empty(w, n, i)) continue;
     enter_stretch(w, m, orbit, n, i);
-    set_sliders(w, m, orbit, a);
+    monodromy_set_sliders(w, m, orbit, a);
     st = stretch_flow_advance(w->flow, w->piece, duration, w->columns, w->phi);
   }
   if (st == HC_OK) st = stretch_flow_left(w->flow, w->piece, w->slider, w->columns, w->phi, w->left);
@@ -331,15 +335,23 @@ static hc_status follow_structure(monodromy *w, const model *m, const contact_fo
   return st;
 }
 
+/* More than some minutes of eigenvectors: 30 (2 n)^3 operations a stretch, each of its own combination of states. */
+static bool is_too_much(const monodromy *w, int stretches)
+{
+  const double most = 4e11, states = 2.0 * w->n;
+  return w->flow && 30 * states * states * states * stretches > most;
+}
+
 hc_status monodromy_stability(monodromy *w, const model *m, const contact_forces *orbit, double omega,
                               hbm_stability *out)
 {
   const int n = collect_boundaries(w, orbit, m->n_contacts);
   int n_active = 0;
-  hc_status st = n < 0 ? HC_NO_MEMORY : HC_OK;
-  if (st == HC_OK && w->flow) st = follow_structure(w, m, orbit, omega, n, &n_active);
+  hc_status st = n < 0 ? HC_NO_MEMORY : is_too_much(w, n) ? HC_NOT_CONVERGED : HC_OK;
+  if (st == HC_OK && w->circles) st = monodromy_follow_circles(w, m, orbit, omega, n, &n_active);
+  else if (st == HC_OK && w->flow) st = follow_structure(w, m, orbit, omega, n, &n_active);
   else if (st == HC_OK) n_active = follow_oscillator(w, m, orbit, omega, n);
-  const double *phi = w->flow ? w->left : w->phi;
+  const double *phi = w->flow && !w->circles ? w->left : w->phi;
   if (st == HC_OK) st = floquet_multipliers(w->floquet, phi, w->n_states, 1, n_active, w->active, w->lambda);
   if (st == HC_OK) summarise(n_active, w->lambda, out);
   return st;

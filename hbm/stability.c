@@ -6,9 +6,17 @@
 #include "hbm/corrector.h"
 #include "hbm/hbm_solver_impl.h"
 
-bool hbm_stability_is_unknown(const hbm_solver *s) { return model_has_circle(s->model); }
+/* A structure of more degrees of freedom is large; with circles, whose slip is followed step by step, one of more
+ * states, and beyond 50 degrees of freedom nothing is known of it. */
+enum { LARGE = 50, LARGE_WITH_CIRCLES = 12 };
 
-bool hbm_stability_is_costly(const hbm_solver *s) { return s->model->n > 50 || hbm_stability_is_unknown(s); }
+bool hbm_stability_is_costly(const hbm_solver *s)
+{
+  const model *m = s->model;
+  return m->n > LARGE || (model_has_circle(m) && m->n + m->n_contacts > LARGE_WITH_CIRCLES);
+}
+
+bool hbm_stability_is_unknown(const hbm_solver *s) { return s->model->n > LARGE && model_has_circle(s->model); }
 
 hc_status hbm_multipliers(hbm_solver *s, const contact_forces *orbit, double omega, hbm_stability *out)
 {
