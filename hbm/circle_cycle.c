@@ -202,7 +202,7 @@ static void solve_fixed_point(double A[2][2], double most, double r[2])
 /* [length] */
 static double size_of(const circle_cycle *c) { return c->m->of_u[0] + c->m->of_R[0]; }
 
-static double length(const double x[2]) { return hypot(x[0], x[1]); }
+static double length_of(const double x[2]) { return hypot(x[0], x[1]); }
 
 typedef struct closing {
   double w[2], distance; /* [length] from the start of the pass to its end */
@@ -227,7 +227,7 @@ static hc_status take_step(circle_cycle *c, const closing *now, bool damped, clo
   const double rounding = 8 * DBL_EPSILON * size_of(c);
   hc_status st = HC_OK;
   *out = *now;
-  for (double part = 1; st == HC_OK && part * length(now->step) > rounding; part /= 2) {
+  for (double part = 1; st == HC_OK && part * length_of(now->step) > rounding; part /= 2) {
     closing next;
     st = try_from(c, (double[2]){now->w[0] + part * now->step[0], now->w[1] + part * now->step[1]}, &next);
     if (st != HC_OK || slips(c)) {
@@ -246,7 +246,7 @@ static hc_status close_by_newton(circle_cycle *c, const double w[2], bool damped
   closing now, next;
   hc_status st = try_from(c, w, &now);
   *closed = false;
-  for (int i = 0; i < MAX_NEWTON && st == HC_OK && length(now.step) > rounding && slips(c); ++i) {
+  for (int i = 0; i < MAX_NEWTON && st == HC_OK && length_of(now.step) > rounding && slips(c); ++i) {
     st = take_step(c, &now, damped, &next);
     if (st != HC_OK || (!slips(c) && !(now.distance <= enough))) return st;
     const bool better = next.distance < now.distance;

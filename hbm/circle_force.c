@@ -72,7 +72,7 @@ static hc_status make_room(circle_force *f)
 }
 
 /* Without v, N is what v = 0 gives. */
-static contact whole(const contact *half, int n_dof)
+static contact whole_law(const contact *half, int n_dof)
 {
   contact law = {half->kt, 2 * half->kn, half->mu / 2, half->gap, 2 * half->load};
   if (n_dof == 2) law.load = contact_normal(&law, 0), law.kn = law.gap = 0;
@@ -86,7 +86,7 @@ hc_status circle_force_new(int n_harm, int n_dof, const contact *law, circle_for
   if (n_dof != 2 && n_dof != 3) return HC_BAD_INPUT;
   circle_force *f = calloc(1, sizeof *f);
   if (!f) return HC_NO_MEMORY;
-  f->n_harm = n_harm, f->n_dof = n_dof, f->law = whole(law, n_dof);
+  f->n_harm = n_harm, f->n_dof = n_dof, f->law = whole_law(law, n_dof);
   f->n_coef = series_length(n_harm);
   f->n_size = n_dof * f->n_coef;
   f->n_col = f->n_size + 2;

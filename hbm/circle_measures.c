@@ -112,7 +112,7 @@ hc_status circle_measures_of(const contact *half, int n_harm, const double *u1, 
   if (n_harm < 1 || n_harm > HBM_MAX_HARMONICS) return HC_BAD_INPUT;
   const int n = series_length(n_harm);
   const double *const given[] = {u1, u2, v};
-  double *X = calloc((size_t)(8 * n), sizeof *X);
+  double *X = calloc(8 * (size_t)n, sizeof *X);
   out[0] = out[1] = (contact_period){.regime = CONTACT_LINEAR};
   if (!X) return HC_NO_MEMORY;
   for (int d = 0; d < 3; ++d) memcpy(X + d * n, given[d], (size_t)n * sizeof *X);

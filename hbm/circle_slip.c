@@ -228,7 +228,7 @@ static double share(const circle_slip *s, const circle_point *at, double left, b
 }
 
 /* phi'' from the equation, differentiated once; 0 where it is singular. */
-static double bend(const circle_motion *m, const circle_point *at, double phi, double slope)
+static double bend_at(const circle_motion *m, const circle_point *at, double phi, double slope)
 {
   if (is_singular(m, at)) return 0;
   return (turned(at->ddu, phi) - (along(at->du, phi) + at->dR) * slope) / at->R;
@@ -241,7 +241,7 @@ static hc_status next_panel(circle_slip *s, const circle_point *at, double phi, 
   const double least = 1e-10, left = to - at->th;
   if (s->n == s->cap) return HC_CHATTER;
   circle_panel *p = &s->panel[s->n];
-  const double first = circle_slip_slope(s->m, at, phi), slope[2] = {first, bend(s->m, at, phi, first)},
+  const double first = circle_slip_slope(s->m, at, phi), slope[2] = {first, bend_at(s->m, at, phi, first)},
                allowed = CIRCLE_RESOLVED / sqrt(share(s, at, left, lifts_off));
   double width = width_to_try(s, at, phi, left);
   for (int tries = 0;; ++tries) {
