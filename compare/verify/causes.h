@@ -48,6 +48,12 @@
   X(CAUSE_EXCHANGED, "stiffnesses_exchanged", "kt and kn are exchanged", "exchange them") \
   X(CAUSE_NO_FRICTION, "no_friction", "there is no friction", "give the friction coefficient") \
   X(CAUSE_NO_KT, "no_tangential_stiffness", "there is no tangential force", "give the tangential stiffness") \
+  X(CAUSE_SQUARE_LIMIT, "square_limit", "friction is limited in each of two directions by itself (limit: square)", \
+    "the case limits the vector, |(T_1, T_2)| <= mu N: limit: circle") \
+  X(CAUSE_CIRCLE_LIMIT, "circle_limit", "friction in two directions is limited as a vector (limit: circle)", \
+    "the case limits each direction by itself: limit: square") \
+  X(CAUSE_TANGENT_MISSING, "tangent_missing", "friction acts in one of two directions only", \
+    "give both tangential directions") \
   X(CAUSE_LOAD_DOF, "load_dof", "the force acts on another degree of freedom", "compare the forcing's direction") \
   X(CAUSE_NO_STATIC_LOAD, "no_static_load", "the static loads are missing", "give the loads of harmonic 0") \
   X(CAUSE_PHASE_SIGN, "phase_sign", "the phases of the loads have the other sign", \

@@ -31,10 +31,10 @@ verify_part verify_change_part(verify_change c) { return changes[c].part; }
 
 int verify_change_variants(const model *m, verify_change c)
 {
+  const int contacts = model_whole_contacts(m);
   switch (changes[c].part) {
-  case PART_CONTACT:
-    return 1 + (m->n > 1 && m->n_contacts > 1 && m->n_contacts <= MOST_SINGLE_CONTACTS) * m->n_contacts;
-  case PART_ONE_CONTACT: return m->n_contacts <= MOST_SINGLE_CONTACTS ? 1 + m->n_contacts : 1;
+  case PART_CONTACT: return 1 + (m->n > 1 && contacts > 1 && contacts <= MOST_SINGLE_CONTACTS) * contacts;
+  case PART_ONE_CONTACT: return contacts <= MOST_SINGLE_CONTACTS ? 1 + contacts : 1;
   case PART_DOF: return m->n > 1 && m->n <= MOST_DOFS ? 1 + m->n : 1;
   case PART_PAIR: return m->n > 1 && m->n <= MOST_PAIRED_DOFS ? 1 + m->n * m->n : 1;
   default: return 1;
@@ -105,8 +105,18 @@ static void turn_one_side(int n, double *direction)
   if (entries > 1) direction[last] = -direction[last];
 }
 
+/* Each direction by itself, or only one of the two. */
+static void change_pair(model_contact *c, verify_change change)
+{
+  const contact_pair without = change == CHANGE_NO_TANGENT_1 ? CONTACT_FIRST : CONTACT_SECOND;
+  if (c->pair == CONTACT_ALONE) return;
+  c->circle = change == CHANGE_CIRCLE_LIMIT;
+  if ((change == CHANGE_NO_TANGENT_1 || change == CHANGE_NO_TANGENT_2) && c->pair == without) c->law.mu = 0;
+}
+
 static void change_contact(int n, model_contact *c, verify_change change, double factor)
 {
+  const double halves = c->pair == CONTACT_ALONE ? 1 : 2; /* of the normal stiffness (model.h) */
   const double kt = c->law.kt, angle = n == 1 ? atan2(*c->normal, *c->tangent) : 0, degree = TWO_PI / 360;
   switch (change) {
   case CHANGE_KT: c->law.kt *= factor; break;
@@ -121,10 +131,14 @@ static void change_contact(int n, model_contact *c, verify_change change, double
   case CHANGE_ANGLE_IN_RADIANS: turn(n, c, angle / (degree * degree)); break;
   case CHANGE_ANGLE_IN_DEGREES: turn(n, c, angle); break;
   case CHANGE_EXCHANGED:
-    if (c->law.load == 0) c->law.kt = c->law.kn, c->law.kn = kt;
+    if (c->law.load == 0) c->law.kt = halves * c->law.kn, c->law.kn = kt / halves;
     break;
   case CHANGE_NO_FRICTION: c->law.mu = 0; break;
   case CHANGE_NO_KT: c->law.kt = 0; break;
+  case CHANGE_SQUARE_LIMIT:
+  case CHANGE_CIRCLE_LIMIT:
+  case CHANGE_NO_TANGENT_2:
+  case CHANGE_NO_TANGENT_1: change_pair(c, change); break;
   case CHANGE_ONE_SIDE: turn_one_side(n, c->tangent), turn_one_side(n, c->normal); break;
   default: break;
   }
@@ -248,6 +262,7 @@ static void static_force(const model *m, bool preloaded, double factor, double *
 static void other_side(int n, const model_contact *c, bool rubs, model_contact *other)
 {
   other->law = c->law;
+  other->pair = c->pair, other->circle = c->circle;
   for (int i = 0; i < n; ++i) other->tangent[i] = c->tangent[i], other->normal[i] = -c->normal[i];
   other->law.gap = -c->law.gap;
   if (!rubs) other->law.kt = other->law.mu = 0;
@@ -257,6 +272,7 @@ static void other_side(int n, const model_contact *c, bool rubs, model_contact *
 static void held_by_preload(int n, const model_contact *c, model_contact *held)
 {
   held->law = c->law;
+  held->pair = c->pair, held->circle = c->circle;
   for (int i = 0; i < n; ++i) held->tangent[i] = c->tangent[i], held->normal[i] = 0;
 }
 
@@ -314,7 +330,7 @@ static bool same_model(const model *a, const model *b)
   for (int j = 0; j < a->n_contacts; ++j) {
     const model_contact *p = &a->contacts[j], *q = &b->contacts[j];
     same &= p->law.kt == q->law.kt && p->law.kn == q->law.kn && p->law.mu == q->law.mu && p->law.gap == q->law.gap &&
-            p->law.load == q->law.load;
+            p->law.load == q->law.load && p->circle == q->circle;
     same &= same_direction(a->n, p->tangent, q->tangent) && same_direction(a->n, p->normal, q->normal);
   }
   return same;
@@ -339,8 +355,10 @@ static hc_status change_copy(const model *m, const verify_changed *how, bool kee
   change_matrices(own, c, how->factor);
   change_loads(own, c, how->factor, which);
   if (verify_change_part(c) == PART_PAIR && which >= 0) change_numbering(own, c, which / m->n, which % m->n);
-  for (int j = 0; j < own->n_contacts; ++j)
-    if (which < 0 || which == j) change_contact(m->n, &own->contacts[j], c, how->factor);
+  for (int j = 0, whole = -1; j < own->n_contacts; ++j) {
+    whole += own->contacts[j].pair != CONTACT_SECOND;
+    if (which < 0 || which == whole) change_contact(m->n, &own->contacts[j], c, how->factor);
+  }
   if (c == CHANGE_RESPONSE && which >= 0)
     for (int i = 0; i < m->n; ++i) own->responses[i] = i == which;
   static_force(m, true, 1, p);

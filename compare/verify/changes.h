@@ -34,6 +34,10 @@ typedef enum verify_part { PART_ALL, PART_CONTACT, PART_ONE_CONTACT, PART_DOF, P
   X(CHANGE_EXCHANGED, CAUSE_EXCHANGED, "kt = kn of the case, kn = kt", false, PART_CONTACT)                            \
   X(CHANGE_NO_FRICTION, CAUSE_NO_FRICTION, "mu = 0", false, PART_CONTACT)                                              \
   X(CHANGE_NO_KT, CAUSE_NO_KT, "kt = 0", false, PART_CONTACT)                                                          \
+  X(CHANGE_SQUARE_LIMIT, CAUSE_SQUARE_LIMIT, "limit: square", false, PART_ALL)                                         \
+  X(CHANGE_CIRCLE_LIMIT, CAUSE_CIRCLE_LIMIT, "limit: circle", false, PART_ALL)                                         \
+  X(CHANGE_NO_TANGENT_2, CAUSE_TANGENT_MISSING, "no tangent_2", false, PART_ALL)                                       \
+  X(CHANGE_NO_TANGENT_1, CAUSE_TANGENT_MISSING, "tangent_2 alone", false, PART_ALL)                                    \
   X(CHANGE_NO_SEPARATION, CAUSE_NO_SEPARATION, "N = kn (v + gap), |T| <= mu max(N, 0)", false, PART_ALL)               \
   X(CHANGE_NO_SEPARATION_PULLS, CAUSE_NO_SEPARATION, "N = kn (v + gap), |T| <= mu |N|", false, PART_ALL)               \
   X(CHANGE_CONSTANT_N, CAUSE_CONSTANT_N, "N = N0", false, PART_ALL)                                                    \
@@ -65,7 +69,7 @@ int verify_change_variants(const model *m, verify_change c);
 typedef struct verify_changed {
   verify_change change;
   double factor; /* of a change that has one */
-  int which;     /* 0: all; else one more than the contact, the degree of freedom i, or i n + k of the two, i < k */
+  int which; /* 0: all; else one more than the contact, a pair being one, the degree of freedom i, or i n + k of the two, i < k */
 } verify_changed;
 
 /* The other program's model: *out, the caller's, whose first response plus *offset [length] is theirs, and whose
