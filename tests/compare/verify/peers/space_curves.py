@@ -8,7 +8,7 @@ the radial return of the law of the circle, as most programs have it, written he
       COMMIT    what it is a checkout of, for the files' remarks
       TARGET    the folder to write into
 
-tmdsimpy's element needs JAX; what of JAX it calls for its forces is done here by numpy, arrays with .at[...].set(...)
+It takes a minute for the one and some ten for the other, whose element goes from sample to sample. tmdsimpy's element needs JAX; what of JAX it calls for its forces is done here by numpy, arrays with .at[...].set(...)
 included. Its derivatives are not: the Jacobian is by differences. The equations are the same for both: M x'' + C x' +
 K x + forces of the contact = the load, H harmonics and harmonic 0, N samples a period, Newton from omega to omega.
 """
