@@ -11,6 +11,9 @@
 #define CHAIN3         "cases/structures/chain3.yaml"
 #define TANGENT_NORMAL "cases/structures/tangent_normal_F100.yaml"
 
+#define SPACE  "cases/structures/space.yaml --set contacts[0].gap=0.1 --set sweep.omega=[11,15.2]"
+#define SQUARE SPACE " --set contacts[0].limit=square"
+
 typedef struct peer {
   const char *scene, *file, *quantity;
   int code;
@@ -91,6 +94,20 @@ static void structures_are_judged(void **state)
   JUDGED(list);
 }
 
+/* tmdsimpy's element limits each of two tangential forces by itself; a radial return limits the vector. */
+static void laws_of_two_tangents_are_told_apart(void **state)
+{
+  (void)state;
+  static const peer list[] = {
+      {SQUARE, "tmdsimpy_space.csv --columns omega=1,amplitude@x=2,amplitude@y=3,amplitude@z=4", "amplitude", 0,
+       "# cause: none"},
+      {SQUARE, "radial_space.csv --columns omega=1,amplitude@y=3", "amplitude", 1,
+       "suspected cause: friction in two directions is limited as a vector (limit: circle) (limit: circle, H = "},
+      {SQUARE, "radial_space.csv --columns omega=1,amplitude@y=3", "amplitude", 1, "# cause: circle_limit\n"},
+  };
+  JUDGED(list);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -98,6 +115,7 @@ int main(void)
       cmocka_unit_test(wrong_curves_are_named),
       cmocka_unit_test(wandered_curves_are_judged),
       cmocka_unit_test(structures_are_judged),
+      cmocka_unit_test(laws_of_two_tangents_are_told_apart),
   };
   check_watchdog(300);
   return cmocka_run_group_tests_name("verify.peers", tests, NULL, NULL);
