@@ -217,6 +217,21 @@ static hc_status try_changes(search *s, const verify_equations *like)
   return st;
 }
 
+/* The other law of two tangents, or one tangent alone: what programs differ in, and before what is dear. */
+static hc_status try_limits(search *s)
+{
+  const int orders[] = {s->out->harmonics, s->own};
+  const model *m = s->setup->model;
+  hc_status st = HC_OK;
+  if (model_whole_contacts(m) == m->n_contacts) return HC_OK;
+  for (int i = 0; i < 2 && st == HC_OK && !search_explained(s); ++i)
+    for (int c = CHANGE_SQUARE_LIMIT; c <= CHANGE_NO_TANGENT_1 && st == HC_OK && !search_explained(s); ++c) {
+      const verify_equations e = {.change = c, .keep_mean = true, .harmonics = orders[i], .factor = 1, .n = m->n};
+      st = search_try(s, &e);
+    }
+  return st;
+}
+
 /* The likeliest changed models again with other numbers of harmonics: theirs may not be the case's. */
 static hc_status try_orders_of_changed(search *s)
 {
@@ -278,6 +293,7 @@ static hc_status try_structure(search *s)
 {
   const verify_equations own = search_own(s);
   hc_status st = try_order(s, s->out->harmonics, true);
+  if (st == HC_OK && !search_explained(s)) st = try_limits(s);
   if (st == HC_OK && !search_explained(s) && s->setup->model->n > 1) st = try_responses(s);
   if (st == HC_OK && !search_explained(s)) st = try_other_orders(s);
   if (st == HC_OK && !search_explained(s)) st = try_changes(s, &own);

@@ -94,7 +94,8 @@ static void structures_are_judged(void **state)
   JUDGED(list);
 }
 
-/* tmdsimpy's element limits each of two tangential forces by itself; a radial return limits the vector. */
+/* tmdsimpy's element limits each of two tangential forces by itself; a radial return limits the vector. That is of
+ * first order where slip turns: at N = 1024 it is off by 1.4e-3 here, hence the wider gate. */
 static void laws_of_two_tangents_are_told_apart(void **state)
 {
   (void)state;
@@ -104,6 +105,11 @@ static void laws_of_two_tangents_are_told_apart(void **state)
       {SQUARE, "radial_space.csv --columns omega=1,amplitude@y=3", "amplitude", 1,
        "suspected cause: friction in two directions is limited as a vector (limit: circle) (limit: circle, H = "},
       {SQUARE, "radial_space.csv --columns omega=1,amplitude@y=3", "amplitude", 1, "# cause: circle_limit\n"},
+      {SPACE " --set gate.amplitude=2e-3",
+       "radial_space.csv --columns omega=1,amplitude@x=2,amplitude@y=3,amplitude@z=4", "amplitude", 0, "# cause: none"},
+      {SPACE, "tmdsimpy_space.csv --columns omega=1,amplitude@y=3", "amplitude", 1,
+       "suspected cause: friction is limited in each of two directions by itself (limit: square) (limit: square, H = "},
+      {SPACE, "tmdsimpy_space.csv --columns omega=1,amplitude@y=3", "amplitude", 1, "# cause: square_limit\n"},
   };
   JUDGED(list);
 }
