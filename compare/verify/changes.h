@@ -69,7 +69,8 @@ int verify_change_variants(const model *m, verify_change c);
 typedef struct verify_changed {
   verify_change change;
   double factor; /* of a change that has one */
-  int which; /* 0: all; else one more than the contact, a pair being one, the degree of freedom i, or i n + k of the two, i < k */
+  int which;     /* 0: all; else one more than the contact, a pair being one, the degree of freedom i, or i n + k of
+                    the two, i < k */
 } verify_changed;
 
 /* The other program's model: *out, the caller's, whose first response plus *offset [length] is theirs, and whose
