@@ -156,7 +156,7 @@ static hc_status read_entries(reader *r, int entries)
 hc_status matrix_market_parse(matrix_text *t)
 {
   reader r = {.t = t};
-  int entries;
+  int entries = 0;
   t->comment = "%";
   t->commas = false;
   matrix_text_rewind(t);

@@ -99,9 +99,10 @@ static bool find_row(matrix_text *r, int first, int *row)
 static bool read_place(matrix_text *r, int *i, int *j)
 {
   if (r->labels) return find_row(r, 0, i) && find_row(r, 2, j);
-  const bool read = matrix_text_integer(r, 0, 1, r->n, "a row", i) && matrix_text_integer(r, 1, 1, r->n, "a column", j);
+  if (!matrix_text_integer(r, 0, 1, r->n, "a row", i) || !matrix_text_integer(r, 1, 1, r->n, "a column", j))
+    return false;
   --*i, --*j;
-  return read;
+  return true;
 }
 
 static hc_status read_entries(matrix_text *r, bool *lower, bool *upper)

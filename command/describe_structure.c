@@ -100,10 +100,10 @@ static void write_of_contact(const scene_structure *s, const field *f, const str
   const bool tangent = c->by_angle || !is_zero(s->n, c->tangent), normal = c->by_angle || !is_zero(s->n, c->normal);
   const bool across = !strcmp(f->name, "normal_stiffness") || !strcmp(f->name, "gap");
   const bool along = !strcmp(f->name, "tangential_stiffness") || !strcmp(f->name, "friction");
-  const bool other = !strcmp(f->name, c->given.preload > 0 ? "gap" : "preload"); /* of the two the one not given */
+  const bool other = !strcmp(f->name, c->given.preload > 0 ? "gap" : "preload") || /* of the two the one not given */
+                     (!strcmp(f->name, "limit") && !structure_contact_is_pair(s, c));
   if (!strcmp(f->name, "tangent")) write_direction(s, c->tangent, to);
   else if (!strcmp(f->name, "tangent_2")) write_direction(s, c->tangent_2, to);
-  else if (!strcmp(f->name, "limit") && !structure_contact_is_pair(s, c)) return;
   else if (!strcmp(f->name, "normal")) write_direction(s, c->normal, to);
   else if (!strcmp(f->name, "name")) fputs(c->given.name, to);
   else if (!strcmp(f->name, "angle_deg") ? !c->by_angle : (across && !normal) || (along && !tangent) || other) return;

@@ -119,8 +119,8 @@ static hc_status make_circle(const contact *law, const condensation *c, const ev
   const double *direction[GROUP_MAX_DOF] = {condensation_tangent(c, g->first), condensation_tangent(c, g->first + 1),
                                             condensation_normal(c, g->first)};
   hc_status st = HC_OK;
-  g->n_dof = is_zero(dim, direction[2]) ? 2 : 3;
-  for (int d = 0; d < g->n_dof && st == HC_OK; ++d) st = combine(dim, direction[d], &g->of[d]);
+  const int n_dof = g->n_dof = is_zero(dim, direction[2]) ? 2 : 3;
+  for (int d = 0; d < n_dof && st == HC_OK; ++d) st = combine(dim, direction[d], &g->of[d]);
   if (st == HC_OK) st = make_jacobian(kind, g);
   if (st != HC_OK) return st;
   if (kind->force != HBM_FORCE_SAMPLED) return circle_force_new(kind->n_harm, g->n_dof, law, &g->circle_located);
@@ -168,7 +168,7 @@ static hc_status make_product(contact_forces *f)
 {
   enum { FEW = 8 }; /* coordinates: everything is small */
   for (int j = 0; j < f->n_groups; ++j) f->n_rows += f->groups[j].n_dof;
-  if (f->oscillator || f->dim < FEW || !product_pays(f)) return HC_OK;
+  if (f->oscillator || f->dim < FEW || f->n_rows == 0 || !product_pays(f)) return HC_OK;
   const size_t dim = (size_t)f->dim, rows = (size_t)f->n_rows;
   f->directions = calloc(dim * rows, sizeof *f->directions);
   f->product = calloc(dim * rows * (size_t)f->length, sizeof *f->product);

@@ -128,7 +128,8 @@ static void apply_panel(split *s, int from, int to, int first, int last)
 hc_status inverse_complex(int n, const double complex *A, int *pivot, double *work, double complex *inverse)
 {
   const size_t entries = (size_t)n * (size_t)n, aside = (size_t)n * PANEL;
-  split s = {.n = n, .re = work, .im = work + entries, .minus_re = work + 2 * entries};
+  split s = {.n = n};
+  s.re = work, s.im = work + entries, s.minus_re = work + 2 * entries;
   s.minus_im = s.minus_re + aside, s.plus_im = s.minus_im + aside;
   for (size_t i = 0; i < entries; ++i) s.re[i] = creal(A[i]), s.im[i] = cimag(A[i]);
   for (int from = 0; from < n; from += PANEL) {
