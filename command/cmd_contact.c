@@ -6,21 +6,19 @@
 #include "campaigns/scene_solvers.h"
 #include "command/case_names.h"
 #include "command/commands.h"
-#include "command/contact_motion.h"
+#include "command/contact_force.h"
 #include "command/files.h"
 #include "command/plot/plot.h"
-#include "hbm/aft.h"
-#include "hbm/contact_measures.h"
-#include "hbm/exact_force.h"
 #include "numerics/series.h"
 
 static const char help[] =
     "Fourier coefficients of CASE's contact force sum_j T_j cos(alpha_j) + (N_j - N0_j) sin(alpha_j) under the motion "
     "x = a0 + a1 cos + b1 sin + a2 cos 2 + ... of --motion; or of one contact's tangential force T and normal force N "
     "under its own u and v, of --motion-u and --motion-v: exact (or sampled at hbm.samples if hbm.force says so), and "
-    "sampled at each N of --samples."
+    "sampled at each N of --samples. Of two tangents --motion-u2 moves the second."
     "\vRow 0 is the mean. As many harmonics as the motion or hbm.harmonics has, whichever is more. With --contact a "
-    "column `force`: first the rows of `tangential`, then those of `normal`, N0 included.\n"
+    "column `force`: first the rows of `tangential`, of two tangents of `tangential_2`, then those of `normal`, N0 "
+    "included.\n"
     "example: hbmcheck contact cases/paper/case2.yaml --motion 0,8,0 --samples 64,512\n"
     "example: hbmcheck contact cases/structures/chain3.yaml --contact ground --motion-u 0,0.1,0";
 
@@ -37,8 +35,10 @@ static const struct argp_option options[] = {
      "The motion's coefficients, an odd number of them; of one DOF", 1},
     {"contact", KEY_CONTACT, "NAME", 0, "One contact, by its name or its number from 0", 1},
     {"motion-u", KEY_MOTION + CONTACT_U, "a0,a1,b1,...", 0, "Its tangential motion [none]", 1},
+    {"motion-u2", KEY_MOTION + CONTACT_U2, "a0,a1,b1,...", 0, "The same along its second tangent [none]", 1},
     {"motion-v", KEY_MOTION + CONTACT_V, "a0,a1,b1,...", 0, "Its normal motion [none]", 1},
-    {"slider", KEY_SLIDER, "W", 0, "Where its slider starts, if it never separates and the start decides [0]", 1},
+    {"slider", KEY_SLIDER, "W", 0,
+     "Where its slider starts (of two tangents W1,W2), if it never separates and the start decides [0]", 1},
     {"samples", KEY_SAMPLES, "LIST", 0, "Also at these numbers of samples per period", 1},
     CLI_PLOT_OPTION(KEY_PLOT),
     {0},
@@ -51,6 +51,7 @@ static error_t read_option(int key, char *text, struct argp_state *state)
   case KEY_CONTACT: own->contact = text; return 0;
   case KEY_MOTION + CONTACT_X:
   case KEY_MOTION + CONTACT_U:
+  case KEY_MOTION + CONTACT_U2:
   case KEY_MOTION + CONTACT_V: own->motion[key - KEY_MOTION] = text; return 0;
   case KEY_SLIDER: own->slider = text; return 0;
   case KEY_SAMPLES: cli_read_list(state, "samples", text, &own->samples); return 0;
@@ -60,7 +61,7 @@ static error_t read_option(int key, char *text, struct argp_state *state)
 }
 
 /* A set: the coefficients for one number of samples. */
-enum { MAX_SETS = 17, EXACT = 0 };
+enum { MAX_SETS = 17, MOST_NUMBERS = CONTACT_MOST_DOF * CONTACT_MOST_COEF };
 
 /* ---- its forces ----------------------------------------------------------------------------------- */
 
@@ -68,71 +69,17 @@ enum { MAX_SETS = 17, EXACT = 0 };
 static void add_preload(const contact_motion *m, double *F)
 {
   const contact *law = &m->contacts->law;
-  if (m->one >= 0) F[series_length(m->n_harm)] += contact_preload(law) + law->load;
+  const int halves = m->pair ? 2 : 1;
+  if (m->one >= 0) F[(m->n_dof - 1) * series_length(m->n_harm)] += halves * (contact_preload(law) + law->load);
 }
 
-/* The pieces of the period in which a contact sticks or slips; in the rest it is separated. */
-static void note_pieces(table *t, const char *name, int n, const contact_piece *p)
-{
-  static const char *const names[] = {"separated", "sticks", "slips forward", "slips backward"};
-  enum { SHOWN = 16 };
-  if (n == 0) table_note(t, "contact %s: separated all period", name);
-  for (int i = 0; i < n && i < SHOWN; ++i)
-    table_note(t, "contact %s: %s from %.12g to %.12g rad", name, names[p[i].state], p[i].from, p[i].to);
-  if (n > SHOWN) table_note(t, "contact %s: and %d pieces more", name, n - SHOWN);
-}
-
-static hc_status note_measures(table *t, const contact_motion *m, const char *name)
-{
-  contact_period p;
-  hc_status st = contact_measures_of(&m->contacts->law, m->n_harm, m->given[0], m->given[1], &p);
-  if (st == HC_OK)
-    table_note(t, "contact %s: N from %.9g to %.9g, |T| at most %.9g, slip path %.9g, work %.9g in a period", name,
-               p.normal_min, p.normal_max, p.traction_max, p.slip_distance, p.work);
-  return st;
-}
-
-static hc_status note_pattern(table *t, const cli_common *common, const contact_motion *m)
-{
-  double F[2 * CONTACT_MOST_COEF];
-  char name[CLI_NAME];
-  exact_force *e = NULL;
-  hc_status st = exact_force_new(m->n_harm, m->n_dof, m->n_contacts, m->contacts, &e);
-  if (st == HC_OK) st = exact_force_eval(e, m->X, F, NULL, NULL);
-  for (int j = 0, n; j < m->n_contacts && st == HC_OK; ++j) {
-    const contact_piece *p = exact_force_pieces(e, j, &n);
-    note_pieces(t, cli_contact_name(common, m->one < 0 ? j : m->one, name), n, p);
-  }
-  if (st == HC_OK && m->one >= 0) st = note_measures(t, m, name);
-  exact_force_free(e);
-  return st;
-}
-
-static hc_status evaluate_exactly(const contact_motion *m, double *F)
-{
-  exact_force *e = NULL;
-  hc_status st = exact_force_new(m->n_harm, m->n_dof, m->n_contacts, m->contacts, &e);
-  if (st == HC_OK) st = exact_force_eval(e, m->X, F, NULL, NULL);
-  exact_force_free(e);
-  return st;
-}
-
-static hc_status evaluate_sampled(const scene *sc, const contact_motion *m, int n_time, double *F)
-{
-  aft *a = NULL;
-  hc_status st = aft_new(m->n_harm, n_time, sc->hbm.restart, m->n_dof, m->n_contacts, m->contacts, &a);
-  if (st == HC_OK) st = aft_eval(a, m->X, F, NULL, NULL);
-  aft_free(a);
-  return st;
-}
-
-/* Coefficients for each number of samples n_time[n_sets] (EXACT: exact forces) into F[n_sets][2 CONTACT_MOST_COEF]. 0
- * or the exit code after the message. */
+/* Coefficients for each number of samples n_time[n_sets] into F[n_sets][MOST_NUMBERS]. 0 or the exit code after the
+ * message. */
 static int evaluate(const cli_common *common, const contact_motion *m, const int *n_time, int n_sets,
-                    double (*F)[2 * CONTACT_MOST_COEF])
+                    double (*F)[MOST_NUMBERS])
 {
   for (int i = 0; i < n_sets; ++i) {
-    hc_status st = n_time[i] == EXACT ? evaluate_exactly(m, F[i]) : evaluate_sampled(common->scene, m, n_time[i], F[i]);
+    hc_status st = contact_force_of(m, common->scene->hbm.restart, n_time[i], F[i]);
     if (st == HC_BAD_INPUT) {
       cli_message(common, "%d samples are too few for %d harmonics; expected at least %d", n_time[i], m->n_harm,
                   2 * m->n_harm + 1);
@@ -147,9 +94,9 @@ static int evaluate(const cli_common *common, const contact_motion *m, const int
 /* ---- the table ------------------------------------------------------------------------------------ */
 
 static int write_table(const cli_common *common, const contact_motion *m, const int *n_time, int n_sets,
-                       double (*F)[2 * CONTACT_MOST_COEF])
+                       double (*F)[MOST_NUMBERS])
 {
-  static const char *const forces[] = {"tangential", "normal"};
+  static const char *const forces[] = {"tangential", "tangential_2", "normal"};
   const scene *sc = common->scene;
   const bool single = m->one >= 0;
   table_column columns[2 + 2 * MAX_SETS] = {
@@ -163,7 +110,7 @@ static int write_table(const cli_common *common, const contact_motion *m, const 
   table *t = table_new("Contact force", 1 + single + 2 * n_sets, columns + !single);
   for (int d = 0; d < m->n_dof; ++d)
     for (int h = 0; h <= m->n_harm; ++h) {
-      if (single) table_put_text(t, forces[d]);
+      if (single) table_put_text(t, forces[d == m->n_dof - 1 ? 2 : d]);
       table_put_integer(t, h);
       for (int i = 0; i < n_sets; ++i) {
         const double *f = F[i] + d * series_length(m->n_harm);
@@ -171,9 +118,9 @@ static int write_table(const cli_common *common, const contact_motion *m, const 
         table_put_real(t, h ? f[2 * h] : 0);
       }
     }
-  if (n_time[0] == EXACT) table_note(t, "%s: cos and sin exact", sc->title);
+  if (n_time[0] == CONTACT_EXACT) table_note(t, "%s: cos and sin exact", sc->title);
   else table_note(t, "%s: cos and sin by sampling, N = %d", sc->title, n_time[0]);
-  hc_status st = note_pattern(t, common, m);
+  hc_status st = contact_force_note(t, common, m);
   int code =
       st == HC_NO_MEMORY ? cli_solver_failed(common, CLI_HBM, "the contact force", st, 0) : cli_write(common, 1, &t);
   table_free(t);
@@ -186,7 +133,7 @@ static int list_sets(const cli_common *common, const contact_options *own, int n
   const scene *sc = common->scene;
   static const double most = 1 << 24;
   int n_sets = 0;
-  n_time[n_sets++] = sc->hbm.force == HBM_FORCE_EXACT ? EXACT : sc->hbm.samples;
+  n_time[n_sets++] = sc->hbm.force == HBM_FORCE_EXACT ? CONTACT_EXACT : sc->hbm.samples;
   for (int i = 0; i < own->samples.n; ++i) {
     double n = own->samples.v[i];
     if (n_sets == MAX_SETS) cli_message(common, "--samples takes at most %d numbers", MAX_SETS - 1);
@@ -200,8 +147,8 @@ static int list_sets(const cli_common *common, const contact_options *own, int n
 static int draw(const cli_common *common, const char *path, const contact_motion *m)
 {
   plot_order drawing = {.path = path};
-  const plot_motion motion = {m->one < 0 ? 0 : m->one, m->slider,   m->n_harm, m->n_dof,
-                              m->n_contacts,           m->contacts, m->X};
+  const plot_motion motion = {m->one < 0 ? 0 : m->one, m->slider[0], m->n_harm, m->n_dof,
+                              m->n_contacts,           m->contacts,  m->X};
   return cli_plotted(common, plot_contact(&drawing, common->scene, &motion), drawing.why);
 }
 
@@ -217,7 +164,7 @@ static int put_forces(const cli_common *common, const contact_options *own, cons
   }
   const int n_sets = list_sets(common, own, n_time);
   if (n_sets < 0) return EXIT_USAGE;
-  double(*F)[2 * CONTACT_MOST_COEF] = calloc(MAX_SETS, sizeof *F);
+  double(*F)[MOST_NUMBERS] = calloc(MAX_SETS, sizeof *F);
   if (!F) return cli_solver_failed(common, CLI_HBM, "the contact force", HC_NO_MEMORY, 0);
   int code = evaluate(common, m, n_time, n_sets, F);
   if (!code) code = write_table(common, m, n_time, n_sets, F);

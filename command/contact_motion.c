@@ -9,7 +9,7 @@
 #include "command/case_names.h"
 #include "numerics/series.h"
 
-static const char *const motion_names[CONTACT_MOTIONS] = {"motion", "motion-u", "motion-v"};
+static const char *const motion_names[CONTACT_MOTIONS] = {"motion", "motion-u", "motion-u2", "motion-v"};
 
 /* X[CONTACT_MOST_COEF] from the option; the number of harmonics, 0 if it is not given, or -1 after the message. */
 static int read_motion(const cli_common *common, const char *option, const char *motion, double *X)
@@ -40,7 +40,8 @@ static int read_motion(const cli_common *common, const char *option, const char 
 static int choose_contact(const cli_common *common, const contact_options *own, contact_motion *m)
 {
   const scene *sc = common->scene;
-  const bool by_itself = own->motion[CONTACT_U] || own->motion[CONTACT_V] || own->slider;
+  const bool own_motion = own->motion[CONTACT_U] || own->motion[CONTACT_U2] || own->motion[CONTACT_V];
+  const bool by_itself = own_motion || own->slider;
   const int n = sc->structure ? sc->structure->n : 1;
   m->one = -1;
   if (own->contact && (m->one = cli_contact_named(common, own->contact)) < 0) return EXIT_USAGE;
@@ -52,10 +53,10 @@ static int choose_contact(const cli_common *common, const contact_options *own, 
   else if (n > 1 && own->motion[CONTACT_X])
     cli_message(common,
                 "--motion is for one degree of freedom, and the case has %d; expected --motion-u and --motion-v", n);
-  else if (own->motion[CONTACT_X] && (own->motion[CONTACT_U] || own->motion[CONTACT_V]))
+  else if (own->motion[CONTACT_X] && own_motion)
     cli_message(common,
                 "--motion is of x, and u and v follow from it; expected --motion, or --motion-u and --motion-v");
-  else if (!own->motion[CONTACT_X] && !own->motion[CONTACT_U] && !own->motion[CONTACT_V])
+  else if (!own->motion[CONTACT_X] && !own_motion)
     cli_message(common, m->one < 0 ? "no motion given: --motion a0,a1,b1,..."
                                    : "no motion given: --motion-u a0,a1,b1,... and --motion-v a0,a1,b1,...");
   else return 0;
@@ -73,53 +74,76 @@ static bool has_direction(int n, const double *direction)
 static int check_directions(const cli_common *common, const contact_options *own, const model *of,
                             const contact_motion *m)
 {
-  static const char *const words[] = {"tangent", "normal"};
+  static const char *const words[] = {"tangent", "second tangent", "normal"};
   const model_contact *c = &of->contacts[m->in_model];
-  const double *const directions[] = {c->tangent, c->normal};
+  const double *const directions[] = {c->tangent, m->pair ? c[1].tangent : NULL, c->normal};
   char name[CLI_NAME];
   cli_contact_name(common, m->one, name);
-  if (c->pair != CONTACT_ALONE) {
-    cli_message(common, "contact %s has two tangents; expected one with one", name);
-    return EXIT_USAGE;
-  }
-  for (int d = 0; d < 2; ++d)
-    if (own->motion[CONTACT_U + d] && !has_direction(of->n, directions[d])) {
+  for (int d = 0; d < 3; ++d)
+    if (own->motion[CONTACT_U + d] && !(directions[d] && has_direction(of->n, directions[d]))) {
       cli_message(common, "contact %s has no %s; expected no --%s", name, words[d], motion_names[CONTACT_U + d]);
       return EXIT_USAGE;
     }
-  return 0;
+  if (!m->pair || !own->plot) return 0;
+  cli_message(common, "contact %s has two tangents, and --plot draws contacts with one; expected no --plot", name);
+  return EXIT_USAGE;
+}
+
+/* W, or W1,W2 of two tangents. */
+static bool read_slider(const char *text, contact_motion *m)
+{
+  const size_t first = m->pair ? strcspn(text, ",") : strlen(text);
+  if (number_read(text, first, &m->slider[0]) != NUMBER_FINE) return false;
+  if (!m->pair) return true;
+  const char *second = text + first + 1;
+  return text[first] && number_read(second, strlen(second), &m->slider[1]) == NUMBER_FINE;
 }
 
 /* The motions into m->given. 0 or the exit code after the message. */
 static int read_motions(const cli_common *common, const contact_options *own, const model *of, contact_motion *m)
 {
   for (int k = 0; k < CONTACT_MOTIONS; ++k) {
-    const int n = read_motion(common, motion_names[k], own->motion[k], m->given[k == CONTACT_V]);
+    const int n = read_motion(common, motion_names[k], own->motion[k], m->given[k]);
     if (n < 0) return EXIT_USAGE;
     if (n > m->n_harm) m->n_harm = n;
   }
-  if (own->slider && number_read(own->slider, strlen(own->slider), &m->slider) != NUMBER_FINE) {
-    cli_message(common, "--slider: '%s' is not a finite number", own->slider);
+  if (own->slider && !read_slider(own->slider, m)) {
+    cli_message(common,
+                m->pair ? "--slider: '%s' is not two finite numbers W1,W2, of a contact with two tangents"
+                        : "--slider: '%s' is not a finite number",
+                own->slider);
     return EXIT_USAGE;
   }
   if (m->one < 0) return 0;
   if (own->motion[CONTACT_X])
     for (int i = 0; i < CONTACT_MOST_COEF; ++i) {
-      m->given[1][i] = *of->contacts[m->in_model].normal * m->given[0][i];
-      m->given[0][i] *= *of->contacts[m->in_model].tangent;
+      m->given[CONTACT_U][i] = *of->contacts[m->in_model].tangent * m->given[CONTACT_X][i];
+      m->given[CONTACT_V][i] = *of->contacts[m->in_model].normal * m->given[CONTACT_X][i];
     }
-  m->given[0][0] -= m->slider; /* the law knows u - w alone: from here on the slider starts at 0 */
+  /* the law knows u - w alone: from here on the slider starts at 0 */
+  for (int k = 0; k < 2; ++k) m->given[CONTACT_U + k][0] -= m->slider[k];
   return 0;
 }
 
 static hc_status take_contacts(const model *of, contact_motion *m)
 {
-  m->n_dof = m->one < 0 ? 1 : 2;
+  m->pair = m->one >= 0 && of->contacts[m->in_model].pair != CONTACT_ALONE;
+  m->circle = m->pair && of->contacts[m->in_model].circle;
+  m->n_dof = m->one < 0 ? 1 : 2 + m->pair;
   m->n_contacts = m->one < 0 ? of->n_contacts : 1;
   if (m->one < 0) return moving_contacts_of_model(of, &m->contacts);
   if (!(m->contacts = malloc(sizeof *m->contacts))) return HC_NO_MEMORY;
   *m->contacts = (moving_contact){.law = of->contacts[m->in_model].law, .cu = {1, 0}, .cv = {0, 1}};
   return HC_OK;
+}
+
+/* X from m->given, by coordinates. */
+static void pack(contact_motion *m)
+{
+  static const int all[] = {CONTACT_X}, one[] = {CONTACT_U, CONTACT_V}, pair[] = {CONTACT_U, CONTACT_U2, CONTACT_V};
+  const int *from = m->one < 0 ? all : m->pair ? pair : one;
+  const size_t n = (size_t)series_length(m->n_harm);
+  for (int d = 0; d < m->n_dof; ++d) memcpy(m->X + (size_t)d * n, m->given[from[d]], n * sizeof *m->X);
 }
 
 int contact_motion_find(const cli_common *common, const contact_options *own, contact_motion *m)
@@ -136,8 +160,7 @@ int contact_motion_find(const cli_common *common, const contact_options *own, co
   if (!code) code = read_motions(common, own, of, m);
   if (m->n_harm < sc->hbm.harmonics) m->n_harm = sc->hbm.harmonics; /* auto is 0: the motion's own */
   if (m->n_harm < 1) m->n_harm = 1;
-  for (int d = 0; d < m->n_dof; ++d)
-    memcpy(m->X + d * series_length(m->n_harm), m->given[d], (size_t)series_length(m->n_harm) * sizeof *m->X);
+  pack(m);
   model_free(of);
   return code;
 }

@@ -1,5 +1,5 @@
 /* contact_motion.h - the motion that hbmcheck contact is asked about: x of one degree of freedom, which moves all of
- * its contacts, or u and v of one contact. */
+ * its contacts, or u and v of one contact; of a contact with two tangents u_1, u_2 and v. */
 #ifndef HC_CONTACT_MOTION_H
 #define HC_CONTACT_MOTION_H
 
@@ -7,7 +7,7 @@
 #include "hbm/hbm_settings.h"
 #include "model/moving_contact.h"
 
-enum { CONTACT_X, CONTACT_U, CONTACT_V, CONTACT_MOTIONS };
+enum { CONTACT_X, CONTACT_U, CONTACT_U2, CONTACT_V, CONTACT_MOTIONS };
 typedef struct contact_options {
   const char *contact;                 /* NULL: not given */
   const char *motion[CONTACT_MOTIONS]; /* the same */
@@ -16,16 +16,18 @@ typedef struct contact_options {
   const char *plot; /* NULL: no drawing */
 } contact_options;
 
-enum { CONTACT_MOST_COEF = 2 * HBM_MAX_HARMONICS + 1 };
+enum { CONTACT_MOST_COEF = 2 * HBM_MAX_HARMONICS + 1, CONTACT_MOST_DOF = 3 };
 
 typedef struct contact_motion {
-  int one;       /* which contact of the case, -1: all */
-  int in_model;  /* the same of its model */
-  double slider; /* [length] where it starts: taken off u */
+  int one;          /* which contact of the case, -1: all */
+  int in_model;     /* the same of its model */
+  bool pair;        /* it has two tangents */
+  bool circle;      /* and one limit for both */
+  double slider[2]; /* [length] where it starts: taken off u, or u_1 and u_2 */
   int n_harm, n_dof, n_contacts;
-  moving_contact *contacts;           /* [n_contacts] moved by X */
-  double given[2][CONTACT_MOST_COEF]; /* [length] x; or u - slider and v */
-  double X[2 * CONTACT_MOST_COEF];    /* [n_dof][2 n_harm + 1] of these */
+  moving_contact *contacts; /* [n_contacts] moved by X; of a pair one, either half's law (model.h) moved by u and v */
+  double given[CONTACT_MOTIONS][CONTACT_MOST_COEF]; /* [length] x; or u - slider, of two tangents both, and v */
+  double X[CONTACT_MOST_DOF * CONTACT_MOST_COEF];   /* [n_dof][2 n_harm + 1] x; u and v; or u_1, u_2 and v */
 } contact_motion;
 
 /* What the options ask for, with as many harmonics as the motion or the case has, at least 1. 0, or the exit code after

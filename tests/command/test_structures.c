@@ -6,6 +6,8 @@
 
 #define CHAIN "cases/structures/chain3.yaml "
 #define CASE2 "cases/paper/case2.yaml "
+#define PLANE "cases/structures/plane.yaml "
+#define SPACE "cases/structures/space.yaml "
 
 static char out[1 << 20];
 
@@ -218,6 +220,95 @@ static void the_slider_starts_where_it_is_told(void **state)
   CHECK_NEAR(cell("force", "\ntangential,1,", 2), 0.8, 1e-15, "T");
 }
 
+/* kt = 60, mu N = 2, R = 1/30. Round a circle of radius a = 0.1 > R it slips all the time, and T lags: mu N R/a of it
+ * along u, mu N sqrt(1 - R^2/a^2) along u'. The slider goes round one of radius sqrt(a^2 - R^2). Between samples u goes
+ * along chords, up to a h^2/8 beside the circle, h = 2 pi/64: T is off by less than kt times that (0.7 of it). */
+static void a_circular_motion_has_its_closed_form(void **state)
+{
+  (void)state;
+  const double along = 2. / 3, across = 2 * sqrt(8. / 9);
+  expect("contact " PLANE "--contact rub --motion-u 0,0.1,0 --motion-u2 0,0,0.1 --samples 64 --format csv", 0,
+         "force,harmonic,cos,sin,cos_64,sin_64\ntangential,0,");
+  for (int set = 0; set < 2; ++set) {
+    const double near = set ? 60 * 0.1 * (2 * PI / 64) * (2 * PI / 64) / 8 : 4e-15;
+    CHECK_NEAR(cell("force", "\ntangential,1,", 2 + 2 * set), along, near, "T_1 along");
+    CHECK_NEAR(cell("force", "\ntangential,1,", 3 + 2 * set), -across, near, "T_1 across");
+    CHECK_NEAR(cell("force", "\ntangential_2,1,", 2 + 2 * set), across, near, "T_2 across");
+    CHECK_NEAR(cell("force", "\ntangential_2,1,", 3 + 2 * set), along, near, "T_2 along");
+  }
+  assert_true(cell("force", "\nnormal,0,", 2) == 4 && cell("force", "\nnormal,1,", 2) == 0);
+  expect("contact " PLANE "--contact rub --motion-u 0,0.1,0 --motion-u2 0,0,0.1", 0,
+         "|T| at most 2, slip path 0.592384392, work 1.18476878 in a period"); /* 0.2 pi sqrt(8/9) and twice that */
+}
+
+/* u = (0.6, 0.8) s: T = (0.6, 0.8) of the contact with one tangent under s, exact and sampled; it slips and lifts off.
+ * Rounding of forces up to 80 (0.07 + 0.02). */
+static void a_collinear_motion_is_that_of_one_tangent(void **state)
+{
+  (void)state;
+  static const char *const forces[] = {"\ntangential,%d,", "\ntangential_2,%d,", "\nnormal,%d,"};
+  enum { HARMONICS = 4, CELLS = 4 };
+  double one[3][HARMONICS][CELLS], rows[3][HARMONICS][CELLS];
+  for (int pair = 0; pair < 2; ++pair) {
+    char start[32];
+    expect(pair ? "contact " SPACE "--contact foot --motion-u 0,0.03,0.012 --motion-u2 0,0.04,0.016 "
+                  "--motion-v 0,0.01,0.06 --samples 64 --format csv --set hbm.harmonics=3"
+                : "contact " SPACE "--set 'contacts=[{name: foot, tangential_stiffness: 60, normal_stiffness: 80, "
+                  "friction: 0.5, gap: 0.02, tangent: x, normal: z}]' --motion-u 0,0.05,0.02 "
+                  "--motion-v 0,0.01,0.06 --samples 64 --format csv --set hbm.harmonics=3",
+           0, "force,harmonic,");
+    for (int d = 0; d < 3; ++d)
+      for (int h = 0; h < HARMONICS; ++h)
+        for (int k = 0; k < CELLS && (pair || d != 1); ++k) {
+          snprintf(start, sizeof start, forces[d], h);
+          (pair ? rows : one)[d][h][k] = cell("force", start, 2 + k);
+        }
+  }
+  for (int h = 0; h < HARMONICS; ++h)
+    for (int k = 0; k < CELLS; ++k) {
+      CHECK_NEAR(rows[0][h][k], 0.6 * one[0][h][k], 1e-13, "T_1");
+      CHECK_NEAR(rows[1][h][k], 0.8 * one[0][h][k], 1e-13, "T_2");
+      CHECK_NEAR(rows[2][h][k], one[2][h][k], 1e-13, "N");
+    }
+}
+
+/* Under the square law each direction is a Jenkins element of its own: A = 0.1 loses 4 mu N (A - R) = pi A |b|. */
+static void a_square_has_two_jenkins_elements(void **state)
+{
+  (void)state;
+  const double b = 4 * 2 * (0.1 - 1. / 30) / (PI * 0.1);
+  expect("contact " PLANE "--contact rub --motion-u 0,0.1,0 --motion-u2 0,0,0.1 --set contacts[0].limit=square "
+         "--format csv",
+         0, "force,harmonic,");
+  CHECK_NEAR(cell("force", "\ntangential,1,", 3), -b, 4e-15, "T_1");
+  CHECK_NEAR(cell("force", "\ntangential_2,1,", 2), b, 4e-15, "T_2");
+  assert_true(cell("force", "\nnormal,0,", 2) == 4);
+  /* N = 80 max(v + gap, 0) of both halves: v = -0.01, constant, is half of gap */
+  expect("contact " SPACE "--contact foot --motion-u 0,0.01,0 --motion-v -0.01 --set contacts[0].limit=square "
+         "--samples 64 --format csv",
+         0, "force,harmonic,");
+  CHECK_NEAR(cell("force", "\nnormal,0,", 2), 0.8, 1e-15, "N");
+  CHECK_NEAR(cell("force", "\nnormal,0,", 4), 0.8, 1e-15, "N, sampled");
+}
+
+/* T = 60 (u - w) where it sticks. */
+static void a_slider_of_two_tangents_starts_where_it_is_told(void **state)
+{
+  (void)state;
+  static const char *const limits[] = {"circle", "square"};
+  for (int i = 0; i < 2; ++i) {
+    char args[256];
+    snprintf(args, sizeof args,
+             "contact " PLANE "--contact rub --motion-u 0,0.01,0 --slider 0.005,-0.01 --set contacts[0].limit=%s "
+             "--format csv",
+             limits[i]);
+    expect(args, 0, "force,");
+    CHECK_NEAR(cell("force", "\ntangential,0,", 2), -0.3, 1e-15, "mean of T_1");
+    CHECK_NEAR(cell("force", "\ntangential,1,", 2), 0.6, 1e-15, "T_1");
+    CHECK_NEAR(cell("force", "\ntangential_2,0,", 2), 0.6, 1e-15, "mean of T_2");
+  }
+}
+
 /* N = max(cos - 0.25, 0), closed for |th| < p: its mean is (sin p - p/4)/pi. */
 static void a_stop_has_a_normal_force_alone(void **state)
 {
@@ -261,6 +352,13 @@ static void a_motion_that_fits_no_contact_is_refused(void **state)
   expect("contact " CHAIN "--contact ground --motion-u 0,1 2>&1", 64, "--motion-u has 2 coefficients");
   expect("contact " CHAIN "--contact ground --motion-u 0,1,0 --slider x 2>&1", 64, "--slider: 'x' is not");
   expect("contact " CASE2 "--motion 0,1,0 --motion-u 0,1,0 2>&1", 64, "--motion is of x, and u and v follow from it");
+  expect("contact " CHAIN "--contact ground --motion-u2 0,1,0 2>&1", 64, "contact ground has no second tangent;");
+  expect("contact " PLANE "--contact rub --motion-v 0,1,0 2>&1", 64,
+         "contact rub has no normal; expected no --motion-v");
+  expect("contact " PLANE "--motion-u2 0,1 2>&1", 64, "--motion-u2 has 2 coefficients");
+  expect("contact " PLANE "--motion-u 0,1,0 --slider 1 2>&1", 64, "--slider: '1' is not two finite numbers W1,W2");
+  expect("contact " PLANE "--motion-u 0,1,0 --slider 1,nan 2>&1", 64, "'1,nan' is not two finite numbers W1,W2");
+  expect("contact " PLANE "--motion-u 0,1,0 --plot - 2>&1", 64, "contact rub has two tangents, and --plot draws");
 }
 
 /* ---- study and describe ---------------------------------------------------------------------------- */
@@ -353,6 +451,10 @@ int main(void)
       cmocka_unit_test(every_contact_of_every_solution_has_a_row),
       cmocka_unit_test(a_jenkins_element_has_its_closed_form),
       cmocka_unit_test(the_slider_starts_where_it_is_told),
+      cmocka_unit_test(a_circular_motion_has_its_closed_form),
+      cmocka_unit_test(a_collinear_motion_is_that_of_one_tangent),
+      cmocka_unit_test(a_square_has_two_jenkins_elements),
+      cmocka_unit_test(a_slider_of_two_tangents_starts_where_it_is_told),
       cmocka_unit_test(a_stop_has_a_normal_force_alone),
       cmocka_unit_test(one_contact_of_an_oscillator_adds_up),
       cmocka_unit_test(a_motion_that_fits_no_contact_is_refused),
