@@ -7,6 +7,7 @@
 
 #include "numerics/lu.h"
 #include "numerics/norm.h"
+#include "numerics/product.h"
 
 static bool is_zero(int n, const double *row)
 {
@@ -15,11 +16,13 @@ static bool is_zero(int n, const double *row)
   return true;
 }
 
-/* The number of that row among those kept; -1 where it is 0. */
+/* The number of that row among those kept, each once: the two contacts of a pair share a normal; -1 where it is 0. */
 static int keep_row(structure_newton *s, const double *row)
 {
   const size_t n = (size_t)s->n;
   if (is_zero(s->n, row)) return -1;
+  for (int r = 0; r < s->n_rows; ++r)
+    if (!memcmp(s->rows + (size_t)r * n, row, n * sizeof *row)) return r;
   memcpy(s->rows + (size_t)s->n_rows * n, row, n * sizeof *row);
   return s->n_rows++;
 }
@@ -34,6 +37,7 @@ hc_status structure_newton_make(structure_newton *s, const modal_base *base)
     size_t count;
   } parts[] = {{&s->rows, n * rows},
                {&s->D, diagonal ? n : n * n},
+               {&s->turned, n * rows},
                {&s->pulled, n * rows},
                {&s->compliant, rows * rows},
                {&s->small, rows * rows},
@@ -58,6 +62,8 @@ hc_status structure_newton_make(structure_newton *s, const modal_base *base)
     s->along[j] = keep_row(s, base->tangent + j * n);
     s->across[j] = keep_row(s, base->normal + j * n);
   }
+  for (int r = 0; r < s->n_rows; ++r)
+    for (size_t i = 0; i < n; ++i) s->turned[i * (size_t)s->n_rows + (size_t)r] = s->rows[(size_t)r * n + i];
   return HC_OK;
 }
 
@@ -170,18 +176,30 @@ static void add_force(structure_newton *s, int by, double force, int row)
   for (size_t i = 0; i < n; ++i) column[i] += s->gamma * s->gamma * force * G[i];
 }
 
+/* G = B D^-1 B^T. */
+static void find_compliance(structure_newton *s)
+{
+  enum { MANY = 16 }; /* from so many on a blocked product is faster */
+  const size_t n = (size_t)s->n, rows = (size_t)s->n_rows;
+  memcpy(s->pulled, s->rows, n * rows * sizeof *s->pulled);
+  for (size_t r = 0; r < rows; ++r) solve_D(s, s->pulled + r * n);
+  if (rows < MANY) {
+    for (size_t r = 0; r < rows; ++r) project(s, s->pulled + r * n, s->compliant + r * rows);
+    return;
+  }
+  memset(s->compliant, 0, rows * rows * sizeof *s->compliant);
+  product_subtract(s->n_rows, s->n_rows, s->n, s->turned, s->n_rows, s->pulled, s->n, s->compliant, s->n_rows);
+  for (size_t k = 0; k < rows * rows; ++k) s->compliant[k] = -s->compliant[k];
+}
+
 bool structure_newton_factor(structure_newton *s, const scaled_model *m, double gamma)
 {
-  const size_t n = (size_t)s->n, rows = (size_t)s->n_rows;
+  const size_t rows = (size_t)s->n_rows;
   s->gamma = gamma;
   s->by_K = m->by_K;
   s->by_C = m->by_C;
   if (!factor_D(s)) return false;
-  memcpy(s->pulled, s->rows, n * rows * sizeof *s->pulled);
-  for (size_t r = 0; r < rows; ++r) {
-    solve_D(s, s->pulled + r * n);
-    project(s, s->pulled + r * n, s->compliant + r * rows);
-  }
+  find_compliance(s);
   memset(s->small, 0, rows * rows * sizeof *s->small);
   for (size_t r = 0; r < rows; ++r) s->small[r * (rows + 1)] = 1;
   for (int j = 0; j < s->n_contacts; ++j) {
@@ -215,8 +233,8 @@ static void find_forces(structure_newton *s, bool whole, const double *d)
       double t = f.by_v[a] * v;
       for (int b = 0; b < s->directions[j]; ++b)
         t += f.by_u[a][b] * ((whole ? at(s->q, s->along[j + b]) : 0) - d[j + b]);
-      if (s->along[j + a] >= 0) s->force[s->along[j + a]] = t;
-      if (s->across[j + a] >= 0) s->force[s->across[j + a]] = s->law[j].n_v * v;
+      if (s->along[j + a] >= 0) s->force[s->along[j + a]] += t;
+      if (s->across[j + a] >= 0) s->force[s->across[j + a]] += s->law[j].n_v * v;
     }
   }
 }
@@ -272,8 +290,8 @@ static void multiply_contact(structure_newton *s, int j, const double *slider, d
       t += l->t_u[a][b] * u;
       rate[a] += l->rate_u[a][b] * u;
     }
-    if (s->along[j + a] >= 0) s->force[s->along[j + a]] = t;
-    if (s->across[j + a] >= 0) s->force[s->across[j + a]] = l->n_v * v;
+    if (s->along[j + a] >= 0) s->force[s->along[j + a]] += t;
+    if (s->across[j + a] >= 0) s->force[s->across[j + a]] += l->n_v * v;
   }
 }
 

@@ -25,6 +25,7 @@ typedef struct structure_newton { /* from structure_newton_make, to structure_ne
   int *along, *across;     /* [n_contacts] which row is t_j, n_j; -1: none */
   double gamma, by_K, by_C;
   double *D;         /* [n] or [n][n]: D, or its factors */
+  double *turned;    /* [n][n_rows] B by columns */
   double *pulled;    /* [n][n_rows] D^-1 B^T */
   double *compliant; /* [n_rows][n_rows] B D^-1 B^T */
   double *small;     /* [n_rows][n_rows] factors of I + gamma^2 B D^-1 B^T S */
