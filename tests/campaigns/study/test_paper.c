@@ -33,6 +33,7 @@ static int check_file(const char *folder, const char *name)
   for (long id = 0; id < s->n_scenes; ++id) {
     scene sc;
     if (study_scene(s, id, &sc, &err) != HC_OK) fail_msg("%s, scene %ld: %s", path, id, err.message);
+    case_clear(&sc);
   }
   study_free(s);
   return 1;
