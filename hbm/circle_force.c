@@ -24,6 +24,7 @@ struct circle_force {
   contact law;                       /* of both halves together */
   exact_force *normal;               /* N - N0 and when there is contact; NULL where N is constant */
   double *F_normal, *jac_normal;     /* [n_coef], [n_coef]^2 */
+  double *X;                         /* [n_size] of the last evaluation, which its motion is read from later, too */
   circle_motion motion;
   circle_point grid[CIRCLE_GRID];
   collocation rule;
@@ -61,12 +62,12 @@ static hc_status make_room(circle_force *f)
   c->slip.panel = calloc((size_t)c->slip.cap, sizeof *c->slip.panel);
   f->contact = calloc((size_t)c->cap, sizeof *f->contact);
   f->indicator = room(symbol), f->symbol = room(symbol), f->weight = room(2 * (size_t)f->n_harm + 1);
-  f->F = room(2 * L), f->by = room(2 * L * col);
+  f->X = room((size_t)f->n_size), f->F = room(2 * L), f->by = room(2 * L * col);
   f->dw[0] = room(col), f->dw[1] = room(col), f->dphi = room(col);
   f->matrix = room(L * L);
   f->node = room(N * col), f->base = room(N * L), f->rate = room(N * L);
   const bool found = c->piece && c->slip.panel && f->contact && f->indicator && f->symbol && f->weight;
-  return found && f->F && f->matrix && f->by && f->dw[0] && f->dw[1] && f->dphi && f->node && f->base && f->rate
+  return found && f->X && f->F && f->matrix && f->by && f->dw[0] && f->dw[1] && f->dphi && f->node && f->base && f->rate
              ? HC_OK
              : HC_NO_MEMORY;
 }
@@ -106,8 +107,8 @@ void circle_force_free(circle_force *f)
 {
   if (!f) return;
   exact_force_free(f->normal);
-  double *const rooms[] = {f->F_normal, f->jac_normal, f->indicator, f->symbol, f->weight, f->F,    f->by,
-                           f->dw[0],    f->dw[1],      f->dphi,      f->node,   f->base,   f->rate, f->matrix};
+  double *const rooms[] = {f->X,     f->F_normal, f->jac_normal, f->indicator, f->symbol, f->weight, f->F,     f->by,
+                           f->dw[0], f->dw[1],    f->dphi,       f->node,      f->base,   f->rate,   f->matrix};
   for (size_t i = 0; i < sizeof rooms / sizeof *rooms; ++i) free(rooms[i]);
   free(f->contact);
   free(f->cycle.piece);
@@ -537,7 +538,8 @@ hc_status circle_force_eval(circle_force *f, const double *X, double *F, double 
   double size = 0;
   for (int i = 0; i < f->n_size; ++i) size += fabs(X[i]);
   if (!(size <= TRANSITIONS_LARGEST)) return HC_NOT_FINITE;
-  hc_status st = find_orbit(f, X);
+  memcpy(f->X, X, (size_t)f->n_size * sizeof *X);
+  hc_status st = find_orbit(f, f->X);
   if (st == HC_OK) st = integrate(f, jac != NULL);
   if (st != HC_OK) return st;
   put_tangential(f, X, F, jac);

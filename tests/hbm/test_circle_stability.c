@@ -324,7 +324,34 @@ static void multipliers_are_those_of_the_period_map(void **state)
   model_free(c.model);
 }
 
+static double multiplier_of(const structure_case *c, double omega)
+{
+  static double X[CASE_MAX_COEF];
+  hbm_solver *s = structure_solver(c);
+  hbm_point point;
+  hbm_stability st;
+  assert_int_equal(hbm_solve_first(s, omega, X, &point), HC_OK);
+  assert_int_equal(hbm_stability_at(s, omega, X, &st), HC_OK);
+  hbm_solver_free(s);
+  return st.multiplier;
+}
+
+/* A spring behind it in the list, too soft to matter: the circle's motion is still its own. */
+static void another_contact_changes_nothing(void **state)
+{
+  (void)state;
+  structure_case alone = structure_case_named("space", H), beside = alone;
+  assert_int_equal(model_copy_sized(alone.model, 3, alone.model->n_responses, &beside.model), HC_OK);
+  beside.model->contacts[2].law = (contact){.kn = 1e-12, .gap = 100};
+  for (int i = 0; i < beside.model->n; ++i) beside.model->contacts[2].normal[i] = 1 + i;
+  for (double omega = 10.5; omega < 14.1; omega += 1)
+    CHECK_NEAR(multiplier_of(&beside, omega), multiplier_of(&alone, omega), 1e-7, "at %g", omega);
+  model_free(alone.model);
+  model_free(beside.model);
+}
+
 static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(another_contact_changes_nothing),
     cmocka_unit_test(multipliers_are_those_of_the_period_map),
 };
 
