@@ -44,13 +44,15 @@ enum {
   KEY_RESULTS,
   KEY_SECONDS,
   KEY_JOBS,
-  KEY_STRUCTURES
+  KEY_STRUCTURES,
+  KEY_SPACE
 };
 
 static const struct argp_option options[] = {
     {"scenes", KEY_SCENES, "N", 0, "How many scenes [200]", 1},
     {"structures", KEY_STRUCTURES, NULL, 0,
      "Draw structures of up to 12 degrees of freedom, and check both sides, in place of oscillators", 1},
+    {"space", KEY_SPACE, NULL, 0, "The same structures, with a second tangent of some of their contacts", 1},
     {"seed", KEY_SEED, "N", 0, "Which sequence [1]", 1},
     {"first", KEY_FIRST, "INDEX", 0, "The first scene's place in the sequence [0]", 1},
     {"case", KEY_CASE, NULL, 0, "Run nothing: print the case file of the first scene", 1},
@@ -67,7 +69,10 @@ static error_t read_option(int key, char *text, struct argp_state *state)
   stress_options *own = state->input;
   int number;
   switch (key) {
-  case KEY_STRUCTURES: own->plan.family = STRESS_STRUCTURES; return 0;
+  case KEY_STRUCTURES:
+    if (own->plan.family != STRESS_SPACE) own->plan.family = STRESS_STRUCTURES;
+    return 0;
+  case KEY_SPACE: own->plan.family = STRESS_SPACE; return 0;
   case KEY_SCENES:
     cli_read_integer(state, "scenes", text, 1, MAX_SCENES, &number);
     own->plan.scenes = number;
@@ -233,7 +238,7 @@ static void note_totals(const stress_call *call, table *t)
              call->own.plan.seed, call->own.plan.first, call->findings, call->own.plan.scenes - call->classified);
   if (call->classified > 0) table_note(t, "%.4g s of processor time; slowest: scene %ld, %.3g s", total, at, slowest);
   table_note(t, "errors are those of what agreed; again: hbmcheck stress%s --seed %lu --first SCENE --scenes 1 --all",
-             call->own.plan.family == STRESS_STRUCTURES ? " --structures" : "", call->own.plan.seed);
+             stress_family_option(call->own.plan.family), call->own.plan.seed);
 }
 
 /* Returns the exit code. */
@@ -252,8 +257,7 @@ static hc_status scene_at(const stress_call *call, long index, scene *sc)
 {
   stress_scenes *scenes;
   hc_status st = stress_scenes_new(call->own.plan.seed, &scenes);
-  const bool structure = call->own.plan.family == STRESS_STRUCTURES;
-  if (st == HC_OK) st = structure ? stress_structures_at(scenes, index, sc) : stress_scenes_at(scenes, index, sc);
+  if (st == HC_OK) st = stress_scene_of(scenes, call->own.plan.family, index, sc);
   stress_scenes_free(scenes);
   return st;
 }
@@ -302,7 +306,7 @@ static int keep_finding(const stress_call *call, long index, stress_kind kind, c
       comment, sizeof comment,
       "# Found by hbmcheck stress%s --seed %lu --first %ld --scenes 1, and made smaller: %s.\n# It should hold that: "
       "%s.\n",
-      sc.structure ? " --structures" : "", call->own.plan.seed, index, stress_kind_name(kind),
+      stress_family_option(call->own.plan.family), call->own.plan.seed, index, stress_kind_name(kind),
       stress_kind_meaning(kind));
   const int code = write_case(call, path, comment, &sc);
   case_clear(&sc);

@@ -15,9 +15,10 @@ enum { VERSION = 3, LINE = 128 + 96 * STRESS_N_CHECKS };
 #define NAME_OF_REASON(code, name, meaning) " " #code
 #define NAME_OF_OUTCOME(code, name)         " " name
 #define NAME_OF_STATUS(code, text)          " " #code
-static const char *const checks[] = {"# checks:" STRESS_CHECKS(NAME_OF_CHECK) "\n",
-                                     "# checks:" STRESS_STRUCTURE_CHECKS(NAME_OF_CHECK) "\n"}; /* of each family */
-static const char *const families[] = {"", "structures of "};
+static const char *const checks[] = {
+    "# checks:" STRESS_CHECKS(NAME_OF_CHECK) "\n", "# checks:" STRESS_STRUCTURE_CHECKS(NAME_OF_CHECK) "\n",
+    "# checks:" STRESS_STRUCTURE_CHECKS(NAME_OF_CHECK) STRESS_SPACE_CHECKS(NAME_OF_CHECK) "\n"}; /* of each family */
+static const char *const families[] = {"", "structures of ", "structures in space of "};
 static const char *const lists[] = {
     "# outcomes:" STRESS_OUTCOMES(NAME_OF_OUTCOME) "\n",
     "# reasons:" STRESS_REASONS(NAME_OF_REASON) "\n",

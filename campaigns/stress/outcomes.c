@@ -40,14 +40,15 @@ stress_check stress_refusal(hc_status st)
 /* ---- names ---- */
 
 #define NAME(code, name, meaning) name,
-static const char *const kinds[] = {STRESS_CHECKS(NAME) STRESS_STRUCTURE_CHECKS(NAME)}, *const reasons[] = {
-                                                                                            STRESS_REASONS(NAME)};
+static const char *const kinds[] = {STRESS_CHECKS(NAME) STRESS_STRUCTURE_CHECKS(NAME) STRESS_SPACE_CHECKS(NAME)},
+                         *const reasons[] = {STRESS_REASONS(NAME)};
 #undef NAME
 #define NAME(code, name) name,
 static const char *const outcomes[] = {STRESS_OUTCOMES(NAME)};
 #undef NAME
 #define MEANING(code, name, meaning) meaning,
-static const char *const kind_meanings[] = {STRESS_CHECKS(MEANING) STRESS_STRUCTURE_CHECKS(MEANING)},
+static const char *const kind_meanings[] = {STRESS_CHECKS(MEANING) STRESS_STRUCTURE_CHECKS(MEANING)
+                                                STRESS_SPACE_CHECKS(MEANING)},
                          *const reason_meanings[] = {STRESS_REASONS(MEANING)};
 #undef MEANING
 
@@ -57,9 +58,16 @@ const char *stress_reason_name(stress_reason reason) { return reasons[reason]; }
 const char *stress_reason_meaning(stress_reason reason) { return reason_meanings[reason]; }
 const char *stress_outcome_name(stress_outcome outcome) { return outcomes[outcome]; }
 
-int stress_first_check(stress_family family) { return family == STRESS_STRUCTURES ? STRESS_N_OSCILLATOR_CHECKS : 0; }
+const char *stress_family_option(stress_family family)
+{
+  static const char *const option[] = {"", " --structures", " --space"};
+  return option[family];
+}
+
+int stress_first_check(stress_family family) { return family == STRESS_OSCILLATORS ? 0 : STRESS_N_OSCILLATOR_CHECKS; }
 
 int stress_end_of_checks(stress_family family)
 {
-  return family == STRESS_STRUCTURES ? STRESS_N_CHECKS : STRESS_N_OSCILLATOR_CHECKS;
+  static const int end[] = {STRESS_N_OSCILLATOR_CHECKS, STRESS_END_OF_STRUCTURE_CHECKS, STRESS_N_CHECKS};
+  return end[family];
 }

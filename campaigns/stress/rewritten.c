@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/constants.h"
 #include "numerics/random.h"
 
 static size_t vector(int n) { return (size_t)n * sizeof(double); }
@@ -30,6 +31,8 @@ static void put_part(const model *m, model *to, int at, int first)
   for (int j = 0; j < m->n_contacts; ++j) {
     model_contact *c = &to->contacts[first + j];
     c->law = m->contacts[j].law;
+    c->pair = m->contacts[j].pair;
+    c->circle = m->contacts[j].circle;
     memcpy(c->tangent + at, m->contacts[j].tangent, vector(n));
     memcpy(c->normal + at, m->contacts[j].normal, vector(n));
   }
@@ -207,8 +210,8 @@ hc_status rewritten_beside(const model *m, int more, bool twice, model **out)
   return HC_OK;
 }
 
-/* (a, b) of a cos + b sin, seen from `angle` later. */
-static void delay_harmonic(int n, double angle, double *a, double *b)
+/* (a, b) of a cos + b sin, seen from `angle` later; of two tangents those turned by it. */
+static void turn_pair(int n, double angle, double *a, double *b)
 {
   const double c = cos(angle), s = sin(angle);
   for (int i = 0; i < n; ++i) {
@@ -223,7 +226,17 @@ hc_status rewritten_delayed(const model *m, double delay, model **out)
   hc_status st = model_copy(m, out);
   for (int l = 0; l < m->n_loads && st == HC_OK; ++l) {
     model_load *load = &(*out)->loads[l];
-    if (load->harmonic > 0) delay_harmonic(m->n, load->harmonic * delay, load->cosine, load->sine);
+    if (load->harmonic > 0) turn_pair(m->n, load->harmonic * delay, load->cosine, load->sine);
+  }
+  return st;
+}
+
+hc_status rewritten_other_tangents(const model *m, uint64_t *random, model **out)
+{
+  hc_status st = model_copy(m, out);
+  for (int j = 0; j < m->n_contacts && st == HC_OK; ++j) {
+    model_contact *c = &(*out)->contacts[j];
+    if (c->circle && c->pair == CONTACT_FIRST) turn_pair(m->n, TWO_PI * random_unit(random), c->tangent, c[1].tangent);
   }
   return st;
 }
@@ -274,7 +287,9 @@ hc_status rewritten_nudged(const model *m, double part, uint64_t *random, model 
   for (int j = 0; j < m->n_contacts; ++j) {
     model_contact *c = &t->contacts[j];
     double *const numbers[] = {&c->law.kt, &c->law.kn, &c->law.mu, &c->law.gap, &c->law.load};
-    for (int i = 0; i < 5; ++i) nudge_vector(random, part, 1, numbers[i]);
+    if (c->pair == CONTACT_SECOND) c->law = t->contacts[j - 1].law; /* one law for both */
+    else
+      for (int i = 0; i < 5; ++i) nudge_vector(random, part, 1, numbers[i]);
     uint64_t again = seed;
     nudge_direction(&again, part, n, c->tangent, m->contacts[j].tangent);
     again = seed;

@@ -27,6 +27,9 @@ hc_status rewritten_beside(const model *m, int more, bool twice, model **out);
 /* Of x(t) the motion x(t + delay/omega), delay [rad]. */
 hc_status rewritten_delayed(const model *m, double delay, model **out);
 
+/* The two tangents of every contact with one limit for both turned by an angle of its own, drawn at random. */
+hc_status rewritten_other_tangents(const model *m, uint64_t *random, model **out);
+
 /* Every matrix and vector, each contact's numbers and every load changed by `part` of their largest entry, at random;
  * what is 0 altogether, and what is symmetric, stays so. */
 hc_status rewritten_nudged(const model *m, double part, uint64_t *random, model **out);

@@ -42,8 +42,7 @@ static void *work(void *self)
   hc_status st = stress_scenes_new(p->plan->seed, &scenes);
   for (stress_result *r; st == HC_OK && (r = next_result(p));) {
     scene sc;
-    st = p->plan->family == STRESS_STRUCTURES ? stress_structures_at(scenes, r->index, &sc)
-                                              : stress_scenes_at(scenes, r->index, &sc);
+    st = stress_scene_of(scenes, p->plan->family, r->index, &sc);
     if (st != HC_OK) break;
     st = stress_scene(&sc, p->plan->seconds, &monitor, r);
     case_clear(&sc);

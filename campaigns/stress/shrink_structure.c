@@ -23,6 +23,13 @@ static bool copy(shrinker *s, const scene *sc, scene *out)
   return out->structure != NULL;
 }
 
+static bool is_zero(int n, const double *v)
+{
+  for (int i = 0; i < n; ++i)
+    if (v[i] != 0) return false;
+  return true;
+}
+
 /* *smaller takes *sc's place where it is still a finding; else it is forgotten. */
 static bool take(shrinker *s, scene *sc, scene *smaller)
 {
@@ -76,6 +83,17 @@ static void drop_entry(int n, int k, double *v)
   for (int i = k; i + 1 < n; ++i) v[i] = v[i + 1];
 }
 
+static void drop_second_tangents(shrinker *s, scene *sc)
+{
+  scene smaller;
+  for (int j = 0; j < sc->structure->n_contacts; ++j) {
+    if (is_zero(sc->structure->n, sc->structure->contacts[j].tangent_2)) continue;
+    if (!copy(s, sc, &smaller)) return;
+    for (int i = 0; i < smaller.structure->n; ++i) smaller.structure->contacts[j].tangent_2[i] = 0;
+    take(s, sc, &smaller);
+  }
+}
+
 /* Degree of freedom k held: of a structure without names, nodes and damping by modes. */
 static void hold_dof(scene_structure *t, int k)
 {
@@ -93,11 +111,12 @@ static void hold_dof(scene_structure *t, int k)
   --t->n;
 }
 
-static bool is_zero(int n, const double *v)
+/* Are the tangents along one line, or nearly? A case file has no such two. */
+static bool is_line(int n, const double *a, const double *b)
 {
-  for (int i = 0; i < n; ++i)
-    if (v[i] != 0) return false;
-  return true;
+  double aa = 0, bb = 0, ab = 0;
+  for (int i = 0; i < n; ++i) aa += a[i] * a[i], bb += b[i] * b[i], ab += a[i] * b[i];
+  return ab * ab >= (1 - 4e-12) * aa * bb;
 }
 
 /* Could a case file say it? No contact may have lost what it acts along. */
@@ -107,6 +126,7 @@ static bool is_whole(const scene_structure *t)
     const structure_contact *c = &t->contacts[j];
     if ((c->given.law.kt != 0 && is_zero(t->n, c->tangent)) || (c->given.law.kn != 0 && is_zero(t->n, c->normal)))
       return false;
+    if (!is_zero(t->n, c->tangent_2) && is_line(t->n, c->tangent, c->tangent_2)) return false;
   }
   return true;
 }
@@ -144,6 +164,7 @@ hc_status stress_shrink_structure(scene *sc, stress_kind kind, double seconds, c
 {
   shrinker s = {kind, seconds, monitor, HC_OK};
   drop_contacts(&s, sc);
+  drop_second_tangents(&s, sc);
   drop_loads(&s, sc);
   hold_dofs(&s, sc);
   fewer_harmonics(&s, sc);

@@ -213,12 +213,14 @@ static stress_check check(solved_structure *s, stress_check (*of)(solved_structu
 hc_status stress_structure(const scene *sc, double seconds, const hc_monitor *monitor, stress_result *out)
 {
   static stress_check (*const checks[])(solved_structure *) = {
-      stress_structure_force,    stress_structure_balance,   stress_structure_work,        stress_structure_determinant,
-      stress_structure_permuted, stress_structure_rotated,   stress_structure_units,       stress_structure_split,
-      stress_structure_copies,   stress_structure_bystander, stress_structure_delayed,     stress_structure_sampled,
-      stress_structure_curve,    stress_structure_orbit,     stress_structure_floquet,     stress_structure_rewritten,
-      stress_structure_returns,  stress_structure_cvode,     stress_structure_regularised, stress_structure_verdict,
-      stress_structure_predicted};
+      stress_structure_force,         stress_structure_balance,  stress_structure_work,
+      stress_structure_determinant,   stress_structure_permuted, stress_structure_rotated,
+      stress_structure_units,         stress_structure_split,    stress_structure_copies,
+      stress_structure_bystander,     stress_structure_delayed,  stress_structure_sampled,
+      stress_structure_curve,         stress_structure_orbit,    stress_structure_floquet,
+      stress_structure_rewritten,     stress_structure_returns,  stress_structure_cvode,
+      stress_structure_regularised,   stress_structure_verdict,  stress_structure_predicted,
+      stress_structure_other_tangents};
   _Static_assert(sizeof checks / sizeof *checks == STRESS_N_CHECKS - STRESS_N_OSCILLATOR_CHECKS, "one for each name");
   solved_structure s;
   const double start = thread_seconds();

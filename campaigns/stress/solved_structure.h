@@ -98,6 +98,7 @@ stress_check stress_structure_cvode(solved_structure *s);
 stress_check stress_structure_regularised(solved_structure *s);
 stress_check stress_structure_verdict(solved_structure *s);
 stress_check stress_structure_predicted(solved_structure *s);
+stress_check stress_structure_other_tangents(solved_structure *s);
 
 /* All of them, as stress_scene. */
 hc_status stress_structure(const scene *sc, double seconds, const hc_monitor *monitor, stress_result *out);

@@ -60,6 +60,10 @@
   X(STRESS_STRUCTURE_PREDICTED, "structure_prediction",                                                                \
     "what compare found, against what both sides said beforehand they would be off")
 
+/* Of structures in space, besides. */
+#define STRESS_SPACE_CHECKS(X)                                                                                         \
+  X(STRESS_OTHER_TANGENTS, "turned_tangents", "a circle's two tangents turned: the same solution and multiplier")
+
 #define STRESS_REASONS(X)                                                                                              \
   X(STRESS_NO_REASON, "", "")                                                                                          \
   X(STRESS_TRUNCATED, "truncated", "too few harmonics, and doubling them says by how much")                            \
@@ -87,8 +91,9 @@
 
 #define STRESS_CODE(code, name, meaning) code,
 typedef enum stress_kind {
-  STRESS_CHECKS(STRESS_CODE) STRESS_STRUCTURE_CHECKS(STRESS_CODE) STRESS_N_CHECKS,
-  STRESS_N_OSCILLATOR_CHECKS = STRESS_CONTACTS
+  STRESS_CHECKS(STRESS_CODE) STRESS_STRUCTURE_CHECKS(STRESS_CODE) STRESS_SPACE_CHECKS(STRESS_CODE) STRESS_N_CHECKS,
+  STRESS_N_OSCILLATOR_CHECKS = STRESS_CONTACTS,
+  STRESS_END_OF_STRUCTURE_CHECKS = STRESS_OTHER_TANGENTS
 } stress_kind;
 typedef enum stress_reason { STRESS_REASONS(STRESS_CODE) STRESS_N_REASONS } stress_reason;
 #undef STRESS_CODE
@@ -97,7 +102,8 @@ typedef enum stress_outcome { STRESS_OUTCOMES(STRESS_CODE) STRESS_N_OUTCOMES } s
 #undef STRESS_CODE
 
 /* What is drawn, and which checks are of it: from the first to before the end. */
-typedef enum stress_family { STRESS_OSCILLATORS, STRESS_STRUCTURES } stress_family;
+typedef enum stress_family { STRESS_OSCILLATORS, STRESS_STRUCTURES, STRESS_SPACE } stress_family;
+const char *stress_family_option(stress_family family); /* of the command, with a blank before it; "" for oscillators */
 int stress_first_check(stress_family family);
 int stress_end_of_checks(stress_family family);
 

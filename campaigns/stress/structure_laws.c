@@ -1,51 +1,16 @@
 /* structure_laws.c - checks of one solution by itself: the balance of all degrees of freedom, each contact's force and
- * work, the product of the multipliers. The harmonics are those of x alone; contacts are taken one by one, each as a
- * contact of two coordinates, its own u and v: neither condensation nor scattering of hbm/ has a part in it. */
+ * work, the product of the multipliers. The harmonics are those of x alone; contacts are taken one by one, each in
+ * its own coordinates (one_contact.h): neither condensation nor scattering of hbm/ has a part in it. */
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/constants.h"
+#include "campaigns/stress/one_contact.h"
 #include "campaigns/stress/outcomes.h"
 #include "campaigns/stress/solved_structure.h"
-#include "hbm/exact_force.h"
 #include "numerics/lu.h"
-#include "numerics/series.h"
-
-/* One contact in the motion x: its (u, v) and (T, N - N0), [2H+1] each, one behind the other. */
-typedef struct one_contact {
-  double *motion, *force; /* [2][2H+1] */
-  contact_report report;
-} one_contact;
-
-static void clear(one_contact *c)
-{
-  free(c->motion);
-  free(c->force);
-}
-
-/* The located force of contact j. */
-static hc_status locate(const solved_structure *s, int j, const double *x, one_contact *c)
-{
-  const model_contact *mc = &s->model->contacts[j];
-  const moving_contact alone = {.law = mc->law, .cu = {1, 0}, .cv = {0, 1}};
-  contact_report report = {0};
-  exact_force *e = NULL;
-  const size_t n = 2 * (size_t)s->n_coef;
-  *c = (one_contact){.motion = calloc(n, sizeof(double)), .force = calloc(n, sizeof(double))};
-  hc_status st = c->motion && c->force ? HC_OK : HC_NO_MEMORY;
-  for (int k = 0; k < s->n_coef && st == HC_OK; ++k)
-    for (int i = 0; i < s->n; ++i) {
-      c->motion[k] += mc->tangent[i] * x[k * s->n + i];
-      c->motion[s->n_coef + k] += mc->normal[i] * x[k * s->n + i];
-    }
-  if (st == HC_OK) st = exact_force_new(s->how.harmonics, 2, 1, &alone, &e);
-  if (st == HC_OK) st = exact_force_eval(e, c->motion, c->force, NULL, &report);
-  c->report = report;
-  exact_force_free(e);
-  return st;
-}
 
 /* ---- balance ---------------------------------------------------------------------------------------- */
 
@@ -100,19 +65,18 @@ static double spring_size(const solved_structure *s, double stiffness, const dou
 
 static hc_status add_contact(const solved_structure *s, int j, const double *x, balance *b)
 {
-  const model_contact *mc = &s->model->contacts[j];
   one_contact c;
-  hc_status st = locate(s, j, x, &c);
-  for (int k = 0; k < s->n_coef && st == HC_OK; ++k) {
-    const double *at = x + k * s->n;
-    const double u = spring_size(s, mc->law.kt, mc->tangent, at), v = spring_size(s, mc->law.kn, mc->normal, at);
-    for (int i = 0; i < s->n; ++i) {
-      const double t = mc->tangent[i], n = mc->normal[i];
-      b->left[k * s->n + i] += t * c.force[k] + n * c.force[s->n_coef + k];
-      b->size[k * s->n + i] += fabs(t) * (fabs(c.force[k]) + u) + fabs(n) * (fabs(c.force[s->n_coef + k]) + v);
+  hc_status st = one_contact_locate(s, j, x, &c);
+  for (int d = 0; d < c.n_dof && st == HC_OK; ++d)
+    for (int k = 0; k < s->n_coef; ++k) {
+      const double force = c.force[d * s->n_coef + k];
+      const double size = fabs(force) + spring_size(s, c.stiffness[d], c.direction[d], x + k * s->n);
+      for (int i = 0; i < s->n; ++i) {
+        b->left[k * s->n + i] += c.direction[d][i] * force;
+        b->size[k * s->n + i] += fabs(c.direction[d][i]) * size;
+      }
     }
-  }
-  clear(&c);
+  one_contact_clear(&c);
   return st;
 }
 
@@ -142,62 +106,14 @@ stress_check stress_structure_balance(solved_structure *s)
 
 /* ---- a contact's force and work ------------------------------------------------------------------------ */
 
-/* cos and sin of all angles of a period of N steps, which are the h-fold ones of each other. */
-static void fill_circle(int N, double *circle)
-{
-  for (int i = 0; i < N; ++i) {
-    circle[2 * i] = cos(TWO_PI * i / N);
-    circle[2 * i + 1] = sin(TWO_PI * i / N);
-  }
-}
-
-/* x at instant i of N. */
-static double at_step(int n_harm, const double *x, int N, const double *circle, int i)
-{
-  double sum = x[0];
-  for (int h = 1; h <= n_harm; ++h) {
-    const double *cs = circle + 2 * (int)((long)h * i % N);
-    sum += x[2 * h - 1] * cs[0] + x[2 * h] * cs[1];
-  }
-  return sum;
-}
-
-/* One instant's part of the harmonics F[2H+1] of f. */
-static void add_instant(int n_harm, double f, int N, const double *circle, int i, double *F)
-{
-  F[0] += f / N;
-  for (int h = 1; h <= n_harm; ++h) {
-    const double *cs = circle + 2 * (int)((long)h * i % N);
-    F[2 * h - 1] += 2 * f * cs[0] / N;
-    F[2 * h] += 2 * f * cs[1] / N;
-  }
-}
-
-/* The law stepped through N instants a period, two periods from w = 0; harmonics of the second. */
-static void step_through(const contact *law, int n_harm, int N, const double *circle, const double *motion,
-                         double *force)
-{
-  const int n_coef = series_length(n_harm);
-  double w = 0;
-  memset(force, 0, 2 * (size_t)n_coef * sizeof *force);
-  for (int i = 0; i < 2 * N; ++i) {
-    const double u = at_step(n_harm, motion, N, circle, i % N), v = at_step(n_harm, motion + n_coef, N, circle, i % N);
-    double t;
-    contact_step(law, u, v, &w, &t);
-    if (i < N) continue;
-    add_instant(n_harm, t, N, circle, i % N, force);
-    add_instant(n_harm, contact_normal_change(law, v), N, circle, i % N, force + n_coef);
-  }
-}
-
 /* Largest difference over the largest force of the springs. */
-static double forces_apart(int n_coef, const contact *law, const one_contact *c, const double *stepped)
+static double forces_apart(int n_coef, const one_contact *c, const double *stepped)
 {
   double apart = 0, size = 0;
-  for (int k = 0; k < 2 * n_coef; ++k) {
+  for (int k = 0; k < c->n_dof * n_coef; ++k) {
     apart = fmax(apart, fabs(c->force[k] - stepped[k]));
     if (isnan(c->force[k])) return NAN;
-    size = fmax(size, (k >= n_coef ? law->kn : law->kt) * fabs(c->motion[k]));
+    size = fmax(size, c->stiffness[k / n_coef] * fabs(c->motion[k]));
   }
   return apart == 0 ? 0 : apart / fmax(size, DBL_MIN);
 }
@@ -205,23 +121,22 @@ static double forces_apart(int n_coef, const contact *law, const one_contact *c,
 /* Steps err by the second power of their length, where transitions lie between them; by the first where a contact that
  * touched down found its slider between two of them, and by luck of where they lie: as of samples (limits.c), 256 times
  * as many have to come eight times nearer, or the last sixteen times as many twice. */
-static stress_check check_force(const solved_structure *s, int j, const one_contact *c)
+static stress_check check_force(const solved_structure *s, const one_contact *c)
 {
   enum { LEAST = 512, MOST = 131072 };
-  const contact *law = &s->model->contacts[j].law;
   const double near = 1e-6;
   double worst = 0, before = 0, error = 0;
-  double *circle = malloc(2 * MOST * sizeof *circle), *stepped = malloc(2 * (size_t)s->n_coef * sizeof *stepped);
-  const bool room = circle && stepped;
+  double *turn = malloc(2 * MOST * sizeof *turn), *stepped = malloc(one_contact_length(s, c) * sizeof *stepped);
+  const bool room = turn && stepped;
   for (int N = LEAST; N <= MOST && room; N *= 16) {
-    fill_circle(N, circle);
-    step_through(law, s->how.harmonics, N, circle, c->motion, stepped);
+    one_contact_turn(N, turn);
+    one_contact_step(c, s->how.harmonics, N, turn, stepped);
     before = error;
-    error = forces_apart(s->n_coef, law, c, stepped);
+    error = forces_apart(s->n_coef, c, stepped);
     worst = fmax(worst, error);
     if (error <= near) break;
   }
-  free(circle);
+  free(turn);
   free(stepped);
   if (!room) return stress_refusal(HC_NO_MEMORY);
   const double bound = fmax(worst / 8, before / 2);
@@ -234,9 +149,9 @@ stress_check stress_structure_force(solved_structure *s)
   stress_check worst = stress_skip(STRESS_NOT_APPLICABLE);
   for (int j = 0; j < s->model->n_contacts; ++j) {
     one_contact c;
-    hc_status st = locate(s, j, s->base.x, &c);
-    const stress_check one = st == HC_OK ? check_force(s, j, &c) : stress_refusal(st);
-    clear(&c);
+    hc_status st = one_contact_locate(s, j, s->base.x, &c);
+    const stress_check one = st == HC_OK ? check_force(s, &c) : stress_refusal(st);
+    one_contact_clear(&c);
     if (one.status == HC_NO_MEMORY) s->fatal = HC_NO_MEMORY;
     if (one.outcome > worst.outcome || (one.outcome == worst.outcome && one.error > worst.error)) worst = one;
   }
@@ -244,15 +159,15 @@ stress_check stress_structure_force(solved_structure *s)
 }
 
 /* Work per period over pi: the sum of h (b_x a_F - a_x b_F), and the sizes of what it is made of. */
-static double work_over_pi(const solved_structure *s, const one_contact *c, const contact *law, double *size)
+static double work_over_pi(const solved_structure *s, const one_contact *c, double *size)
 {
   double work = 0;
   for (int h = 1; h <= s->how.harmonics; ++h)
-    for (int d = 0; d < 2; ++d) {
+    for (int d = 0; d < c->n_dof; ++d) {
       const int a = d * s->n_coef + 2 * h - 1, b = a + 1;
       const double x = hypot(c->motion[a], c->motion[b]);
       work += h * (c->motion[b] * c->force[a] - c->motion[a] * c->force[b]);
-      *size += h * x * (hypot(c->force[a], c->force[b]) + (d ? law->kn : law->kt) * x);
+      *size += h * x * (hypot(c->force[a], c->force[b]) + c->stiffness[d] * x);
     }
   return work;
 }
@@ -265,15 +180,15 @@ stress_check stress_structure_work(solved_structure *s)
     const contact *law = &s->model->contacts[j].law;
     one_contact c;
     double size = 0;
-    hc_status st = locate(s, j, s->base.x, &c);
+    hc_status st = one_contact_locate(s, j, s->base.x, &c);
     if (st == HC_OK) {
-      const double work = work_over_pi(s, &c, law, &size);
+      const double work = work_over_pi(s, &c, &size);
       const bool takes = contact_has_friction(law) && c.report.regime >= CONTACT_SLIPS;
       const double wrong = takes ? fmax(-work, 0) : fabs(work);
       if (isnan(work)) worst = NAN;
       else if (wrong > 0 && !isnan(worst)) worst = fmax(worst, wrong / size);
     }
-    clear(&c);
+    one_contact_clear(&c);
     if (st != HC_OK) return stress_motion_refuse(s, st);
   }
   return stress_agree(worst, 1e-11);
@@ -309,8 +224,8 @@ stress_check stress_structure_determinant(solved_structure *s)
   if (s->base.stability_status != HC_OK) return stress_motion_refuse(s, s->base.stability_status);
   for (int j = 0; j < s->model->n_contacts; ++j) {
     one_contact c;
-    hc_status st = locate(s, j, s->base.x, &c);
-    clear(&c);
+    hc_status st = one_contact_locate(s, j, s->base.x, &c);
+    one_contact_clear(&c);
     if (st != HC_OK) return stress_motion_refuse(s, st);
     if (contact_has_friction(&s->model->contacts[j].law) && c.report.regime >= CONTACT_SLIPS)
       return stress_skip(STRESS_NOT_APPLICABLE);

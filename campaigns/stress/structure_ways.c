@@ -209,6 +209,16 @@ stress_check stress_structure_bystander(solved_structure *s)
   return check_way(s, w);
 }
 
+/* One limit for both of a contact's tangents does not know which two they are. */
+stress_check stress_structure_other_tangents(solved_structure *s)
+{
+  way w = {.omega = s->omega, .length = 1};
+  if (!model_has_circle(s->model)) return stress_skip(STRESS_NOT_APPLICABLE);
+  rewritten_other_tangents(s->model, &s->random, &w.model);
+  w.guess = copied_guess(s, s->n, false);
+  return check_way(s, w);
+}
+
 /* ---- time -------------------------------------------------------------------------------------------- */
 
 /* Where a slider that never slips rests hangs on time 0. */

@@ -101,7 +101,7 @@ static hc_status draw_damping(uint64_t *r, const double *p, scene_structure *s)
 
 /* ---- contacts and loads -------------------------------------------------------------------------- */
 
-static void draw_direction(uint64_t *r, int n, double *d)
+void stress_draw_direction(uint64_t *r, int n, double *d)
 {
   const double kind = random_unit(r);
   memset(d, 0, (size_t)n * sizeof *d);
@@ -122,8 +122,8 @@ static void draw_contact(uint64_t *r, double stiffness, scene_structure *s, stru
   g->angle_deg = 0;
   g->law = (contact){.kt = stiffness * geometric(r, 0.1, 10), .kn = stiffness * geometric(r, 0.1, 10)};
   g->law.mu = random_unit(r) < 0.05 ? 0 : 1.5 * random_unit(r);
-  draw_direction(r, n, c->tangent);
-  draw_direction(r, n, c->normal);
+  stress_draw_direction(r, n, c->tangent);
+  stress_draw_direction(r, n, c->normal);
   const structure_contact *like = &s->contacts[random_int(r, 0, s->n_contacts - 1)];
   if (random_unit(r) < 0.33)
     memcpy(c->tangent, random_unit(r) < 0.5 ? like->tangent : like->normal, (size_t)n * sizeof *c->normal);
@@ -149,7 +149,7 @@ static hc_status draw_loads(uint64_t *r, const double *p, int n_harm, scene_stru
     if (at_rest && p[STATIC] > 0.4) break;
     structure_load *load = structure_add_load(s);
     if (!load) return HC_NO_MEMORY;
-    draw_direction(r, n, load->direction);
+    stress_draw_direction(r, n, load->direction);
     load->amplitude = geometric(r, 0.1, 3);
     load->harmonic = at_rest ? 0 : k == 0 && random_unit(r) < 0.9 ? 1 : random_int(r, 1, highest);
     const double phase = random_unit(r);
@@ -251,15 +251,20 @@ static hc_status draw_response(uint64_t *r, scene_structure *s)
   if (random_unit(r) < 0.3) return HC_OK; /* the default */
   structure_response *response = structure_add_response(s);
   if (!response) return HC_NO_MEMORY;
-  draw_direction(r, s->n, response->direction);
+  stress_draw_direction(r, s->n, response->direction);
   return HC_OK;
 }
 
-/* How many harmonics: MOST_UNKNOWNS at most, but for the coordinates that their number keeps. */
+/* MOST_UNKNOWNS at most, but for the coordinates that their number keeps. */
+int stress_most_harmonics(int n, int n_directions)
+{
+  const int dim = n_directions + 1 < n ? n_directions + 1 : n, most = (MOST_UNKNOWNS / dim - 1) / 2;
+  return most < MOST_HARMONICS ? most : MOST_HARMONICS;
+}
+
 static int harmonics(const double *p, int n, int n_contacts)
 {
-  const int dim = 2 * n_contacts + 1 < n ? 2 * n_contacts + 1 : n, most = (MOST_UNKNOWNS / dim - 1) / 2;
-  return (int)pow(fmin(most, MOST_HARMONICS) + 0.999, p[HARMONICS]);
+  return (int)pow(stress_most_harmonics(n, 2 * n_contacts) + 0.999, p[HARMONICS]);
 }
 
 /* All but the limits that are of the order of the motion. */

@@ -44,6 +44,15 @@ static void structures_without_a_finding(void **state)
   expect("--structures --first 3 --case > %s/one.yaml && " HBMCHECK_COMMAND " modes %s/one.yaml", 0, "omega_open");
 }
 
+/* And those in space, with a check of their own. */
+static void structures_in_space_without_a_finding(void **state)
+{
+  (void)state;
+  expect("--space --first 3 --scenes 20 --results %s/space --format csv", 0, "turned_tangents,");
+  expect("--structures --first 3 --scenes 5 --results %s/space 2>&1", 2, "scenes of this kind");
+  expect("--space --first 3 --case > %s/space.yaml && " HBMCHECK_COMMAND " modes %s/space.yaml", 0, "omega_open");
+}
+
 /* Of a journal's scenes all but the times. */
 #define UNTIMED                                                                                                        \
   "awk '!/^#/ {o = $1; for (i = 3; i < NF; i += 6) o = o \" \" $i \" \" $(i + 1) \" \" $(i + 2) \" \" $(i + 3) \" \" " \
@@ -140,6 +149,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(two_hundred_scenes_without_a_finding),
       cmocka_unit_test(structures_without_a_finding),
+      cmocka_unit_test(structures_in_space_without_a_finding),
       cmocka_unit_test(what_was_stopped_goes_on),
       cmocka_unit_test(a_journal_that_does_not_fit_is_refused),
       cmocka_unit_test(one_scene_is_printed_as_a_case_file),

@@ -19,6 +19,7 @@ typedef enum spoil {
   NOTHING,
   DOFS_SWAPPED,       /* in what is read from a solution */
   DAMPING_TRANSPOSED, /* in what is solved */
+  LIMIT_SQUARE,       /* in place of the circle, in what is solved */
   CONTACT_SIGN,       /* of one direction of one contact, in what is solved */
   SECOND_HARMONIC,    /* of a load, in what is solved */
   FORCE_TURNED,       /* its sign, where a contact is looked at alone */
@@ -63,6 +64,7 @@ hc_status __wrap_hbm_solver_new(const model *m, const hbm_settings *how, hbm_sol
   model *other;
   assert_int_equal(model_copy(m, &other), HC_OK);
   if (spoiled == DAMPING_TRANSPOSED) transpose(m->n, other->damping);
+  for (int j = 0; j < m->n_contacts && spoiled == LIMIT_SQUARE; ++j) other->contacts[j].circle = false;
   if (spoiled == CONTACT_SIGN) other->contacts[1].tangent[0] *= -1;
   if (spoiled == SECOND_HARMONIC) other->loads[m->n_loads - 1].cosine[1] *= 1 + 1e-7;
   hc_status st = __real_hbm_solver_new(other, how, out);
@@ -220,6 +222,55 @@ static void good_answers_agree(void **state)
   }
 }
 
+/* ---- a scene in space --------------------------------------------------------------------------------- */
+
+/* A circle whose normal force moves, and one under a constant force. */
+static const char *const text_in_space =
+    "structure:\n"
+    "  mass: [[1, 0.1, 0], [0.1, 2, 0], [0, 0, 1.5]]\n"
+    "  stiffness: [[30, -10, 0], [-10, 25, -5], [0, -5, 20]]\n"
+    "  damping: [[0.6, 0.1, 0], [0.1, 0.8, 0], [0, 0, 0.7]]\n"
+    "forcing:\n"
+    "  - {dof: 1, amplitude: 10, phase_deg: 20}\n"
+    "  - {dof: 2, amplitude: 9, phase_deg: 110}\n"
+    "contacts:\n"
+    "  - {tangential_stiffness: 15, normal_stiffness: 30, friction: 0.4, preload: 9, tangent: {1: 1},\n"
+    "     tangent_2: {2: 1}, normal: {3: 1}}\n"
+    "  - {tangential_stiffness: 20, friction: 0.3, preload: 4, tangent: {1: 1, 3: -1}, tangent_2: {2: 1}}\n"
+    "sweep: {omega: [4, 5]}\n"
+    "compare: {omega: [4.5]}\n"
+    "hbm: {harmonics: 6}\n";
+
+static stress_check in_space(spoil with, stress_kind kind)
+{
+  scene sc;
+  case_error err;
+  stress_result r;
+  if (case_parse("space", text_in_space, strlen(text_in_space), 0, NULL, &sc, &err) != HC_OK)
+    fail_msg("%s", err.message);
+  spoiled = with;
+  multipliers = orbits = 0;
+  assert_int_equal(stress_scene(&sc, 20, NULL, &r), HC_OK);
+  spoiled = NOTHING;
+  case_clear(&sc);
+  for (int k = stress_first_check(STRESS_SPACE); k < stress_end_of_checks(STRESS_SPACE) && with == NOTHING; ++k)
+    if (r.check[k].outcome == STRESS_FINDING)
+      fail_msg("%s: %g of %g", stress_kind_name((stress_kind)k), r.check[k].error, r.check[k].bound);
+  return r.check[kind];
+}
+
+static void circles_are_held_against_their_law(void **state)
+{
+  (void)state;
+  assert_int_equal(in_space(NOTHING, STRESS_BALANCE).outcome, STRESS_AGREED);
+  assert_int_equal(in_space(NOTHING, STRESS_CONTACTS).outcome, STRESS_AGREED);
+  assert_int_equal(in_space(NOTHING, STRESS_OTHER_TANGENTS).outcome, STRESS_AGREED);
+  assert_int_equal(in_space(LIMIT_SQUARE, STRESS_BALANCE).outcome, STRESS_FINDING);
+  assert_int_equal(in_space(LIMIT_SQUARE, STRESS_OTHER_TANGENTS).outcome, STRESS_FINDING);
+  assert_int_equal(in_space(FOUND_MOVED, STRESS_OTHER_TANGENTS).outcome, STRESS_FINDING);
+  assert_int_equal(in_space(LATER_MULTIPLIERS, STRESS_OTHER_TANGENTS).outcome, STRESS_FINDING);
+}
+
 static void expect_finding(bool friction, spoil with, stress_kind kind)
 {
   const stress_result r = stressed(friction, with);
@@ -344,10 +395,53 @@ static void every_scene_is_a_case_file(void **state)
   stress_scenes_free(scenes);
 }
 
+/* Second tangents of both limits, and some nearly along the first; all else is what it is without. */
+static void scenes_in_space_are_case_files(void **state)
+{
+  (void)state;
+  stress_scenes *scenes;
+  int pairs = 0, circles = 0;
+  assert_int_equal(stress_scenes_new(1, &scenes), HC_OK);
+  for (int i = 0; i < 200; ++i) {
+    scene flat, sc, back;
+    case_error err;
+    assert_int_equal(stress_scene_of(scenes, STRESS_STRUCTURES, i, &flat), HC_OK);
+    assert_int_equal(stress_scene_of(scenes, STRESS_SPACE, i, &sc), HC_OK);
+    char *written = echo(&sc);
+    if (case_parse("scene", written, strlen(written), 0, NULL, &back, &err) != HC_OK)
+      fail_msg("scene %d: %s", i, err.message);
+    char *again = echo(&back);
+    assert_string_equal(written, again);
+    const scene_structure *s = sc.structure;
+    const size_t bytes = (size_t)s->n * sizeof(double);
+    assert_memory_equal(s->mass.v, flat.structure->mass.v, bytes * (size_t)s->n);
+    assert_true(sc.hbm.harmonics <= flat.hbm.harmonics && sc.compare.omega.v[0] == flat.compare.omega.v[0]);
+    for (int j = 0; j < s->n_contacts; ++j) {
+      bool pair = false;
+      for (int k = 0; k < s->n; ++k) pair |= s->contacts[j].tangent_2[k] != 0;
+      assert_memory_equal(s->contacts[j].tangent, flat.structure->contacts[j].tangent, bytes);
+      pairs += pair;
+      circles += pair && s->contacts[j].given.limit == CONTACT_LIMIT_CIRCLE;
+    }
+    free(written);
+    free(again);
+    case_clear(&flat);
+    case_clear(&sc);
+    case_clear(&back);
+  }
+  assert_true(pairs > 200 && circles > 0.7 * pairs && circles < 0.9 * pairs);
+  stress_scenes_free(scenes);
+}
+
 static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(good_answers_agree),         cmocka_unit_test(a_wrong_solution_is_found),
-    cmocka_unit_test(a_wrong_force_is_found),     cmocka_unit_test(another_solution_is_found),
-    cmocka_unit_test(a_wrong_orbit_is_found),     cmocka_unit_test(a_finding_is_made_small),
+    cmocka_unit_test(good_answers_agree),
+    cmocka_unit_test(a_wrong_solution_is_found),
+    cmocka_unit_test(a_wrong_force_is_found),
+    cmocka_unit_test(another_solution_is_found),
+    cmocka_unit_test(a_wrong_orbit_is_found),
+    cmocka_unit_test(a_finding_is_made_small),
     cmocka_unit_test(every_scene_is_a_case_file),
+    cmocka_unit_test(circles_are_held_against_their_law),
+    cmocka_unit_test(scenes_in_space_are_case_files),
 };
 CHECK_MAIN("stress.structures", tests, 300)
