@@ -132,16 +132,30 @@ static void step_line(const contact *law, const double *motion, stepper *s, doub
   f[1] = contact_normal_change(law, motion[1]);
 }
 
-void one_contact_step(const one_contact *c, int n_harm, int N, const double *turn, double *force)
+/* One period; its harmonics are added to force unless that is NULL. */
+static void step_period(const one_contact *c, int n_harm, int N, const double *turn, stepper *s, double *force)
 {
   const int n_coef = series_length(n_harm);
-  stepper s = {0};
-  memset(force, 0, (size_t)c->n_dof * (size_t)n_coef * sizeof *force);
-  for (int i = 0; i < 2 * N; ++i) {
+  for (int i = 0; i < N; ++i) {
     double motion[ONE_CONTACT_MOST] = {0}, f[ONE_CONTACT_MOST];
-    for (int d = 0; d < c->n_dof; ++d) motion[d] = at_step(n_harm, c->motion + d * n_coef, N, turn, i % N);
-    if (c->circle) step_circle(c->law, motion, &s, f);
-    else step_line(c->law, motion, &s, f);
-    for (int d = 0; d < c->n_dof && i >= N; ++d) add_instant(n_harm, f[d], N, turn, i % N, force + d * n_coef);
+    for (int d = 0; d < c->n_dof; ++d) motion[d] = at_step(n_harm, c->motion + d * n_coef, N, turn, i);
+    if (c->circle) step_circle(c->law, motion, s, f);
+    else step_line(c->law, motion, s, f);
+    for (int d = 0; d < c->n_dof && force; ++d) add_instant(n_harm, f[d], N, turn, i, force + d * n_coef);
   }
+}
+
+/* A slider on a line has settled after one period; one in the plane settles by a factor each. */
+void one_contact_step(const one_contact *c, int n_harm, int N, const double *turn, double *force)
+{
+  const int most = c->circle ? 1 << 23 : N; /* instants in all */
+  const double settled = 1e-9;
+  stepper s = {0};
+  for (int done = 0; done < most; done += N) {
+    const double before[2] = {s.w[0], s.w[1]};
+    step_period(c, n_harm, N, turn, &s, NULL);
+    if (hypot(s.w[0] - before[0], s.w[1] - before[1]) <= settled * hypot(s.w[0], s.w[1])) break;
+  }
+  memset(force, 0, (size_t)c->n_dof * (size_t)series_length(n_harm) * sizeof *force);
+  step_period(c, n_harm, N, turn, &s, force);
 }
