@@ -137,13 +137,19 @@ static hc_status take_contacts(const model *of, contact_motion *m)
   return HC_OK;
 }
 
+/* Which motion coordinate d is: x of all contacts; u, v of one, or u, u2, v. */
+static int motion_at(const contact_motion *m, int d)
+{
+  if (m->one < 0) return CONTACT_X;
+  if (d == 0) return CONTACT_U;
+  return m->pair && d == 1 ? CONTACT_U2 : CONTACT_V;
+}
+
 /* X from m->given, by coordinates. */
 static void pack(contact_motion *m)
 {
-  static const int all[] = {CONTACT_X}, one[] = {CONTACT_U, CONTACT_V}, pair[] = {CONTACT_U, CONTACT_U2, CONTACT_V};
-  const int *from = m->one < 0 ? all : m->pair ? pair : one;
   const size_t n = (size_t)series_length(m->n_harm);
-  for (int d = 0; d < m->n_dof; ++d) memcpy(m->X + (size_t)d * n, m->given[from[d]], n * sizeof *m->X);
+  for (int d = 0; d < m->n_dof; ++d) memcpy(m->X + (size_t)d * n, m->given[motion_at(m, d)], n * sizeof *m->X);
 }
 
 int contact_motion_find(const cli_common *common, const contact_options *own, contact_motion *m)
