@@ -12,6 +12,8 @@
 
 enum { N = COLLOCATION_POINTS, MAX_NEWTON = 12, MAX_STEPS = 60 };
 
+static const double least_width = 1e-10; /* [rad] of a panel, unless less is left */
+
 static double turned(const double x[2], double phi) { return x[1] * cos(phi) - x[0] * sin(phi); } /* x.e_perp */
 static double along(const double x[2], double phi) { return x[0] * cos(phi) + x[1] * sin(phi); }  /* x.e */
 
@@ -216,7 +218,7 @@ static double width_to_try(const circle_slip *s, const circle_point *at, double 
 {
   double width = s->width > 0 ? s->width : 0.5 * widest(s->m);
   const double speed = circle_slip_speed(at, phi), rate = circle_slip_acceleration(s->m, at, phi);
-  if (rate < 0 && speed > 0) width = fmin(width, -1.5 * speed / rate);
+  if (rate < 0 && speed > 0) width = fmin(width, fmax(least_width, -1.5 * speed / rate));
   return width < 0.95 * left ? width : left;
 }
 
@@ -238,7 +240,7 @@ static double bend_at(const circle_motion *m, const circle_point *at, double phi
 static hc_status next_panel(circle_slip *s, const circle_point *at, double phi, double to, bool lifts_off,
                             panel_points *q)
 {
-  const double least = 1e-10, left = to - at->th;
+  const double left = to - at->th;
   if (s->n == s->cap) return HC_CHATTER;
   circle_panel *p = &s->panel[s->n];
   const double first = circle_slip_slope(s->m, at, phi), slope[2] = {first, bend_at(s->m, at, phi, first)},
@@ -246,9 +248,9 @@ static hc_status next_panel(circle_slip *s, const circle_point *at, double phi, 
   double width = width_to_try(s, at, phi, left);
   for (int tries = 0;; ++tries) {
     *p = (circle_panel){.from = at->th, .to = width < left ? at->th + width : to, .phi0 = phi};
-    const bool made = make_panel(s->c, s->m, slope, width > least ? 100 * allowed : INFINITY, p, q);
+    const bool made = make_panel(s->c, s->m, slope, width > least_width ? 100 * allowed : INFINITY, p, q);
     const double factor = isfinite(q->mismatch) ? 0.9 * pow(allowed / (q->mismatch + 1e-300), 1.0 / N) : 0.25;
-    if ((made && q->mismatch <= allowed) || width <= least) {
+    if ((made && q->mismatch <= allowed) || width <= least_width) {
       if (width < left || tries == 0) s->width = fmin(widest(s->m), width * fmin(2.5, factor));
       return HC_OK;
     }
