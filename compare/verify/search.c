@@ -217,7 +217,8 @@ static hc_status try_changes(search *s, const verify_equations *like)
   return st;
 }
 
-/* The other law of two tangents, or one tangent alone: what programs differ in, and before what is dear. */
+/* The other law of two tangents, or one tangent alone: what programs differ in, and before what is dear. All of them,
+ * since a response across which nothing slips has one curve for several. */
 static hc_status try_limits(search *s)
 {
   const int orders[] = {s->out->harmonics, s->own};
@@ -225,7 +226,7 @@ static hc_status try_limits(search *s)
   hc_status st = HC_OK;
   if (model_whole_contacts(m) == m->n_contacts) return HC_OK;
   for (int i = 0; i < 2 && st == HC_OK && !search_explained(s); ++i)
-    for (int c = CHANGE_SQUARE_LIMIT; c <= CHANGE_NO_TANGENT_1 && st == HC_OK && !search_explained(s); ++c) {
+    for (int c = CHANGE_SQUARE_LIMIT; c <= CHANGE_NO_TANGENT_1 && st == HC_OK; ++c) {
       const verify_equations e = {.change = c, .keep_mean = true, .harmonics = orders[i], .factor = 1, .n = m->n};
       st = search_try(s, &e);
     }

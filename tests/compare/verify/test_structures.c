@@ -161,6 +161,32 @@ static void a_load_elsewhere_is_named(void **state)
   HAVE("the force at DOF 2, ");
 }
 
+/* A mass on a rough plane, rubbing along one of its directions only. Along the first its curve of x is that of the
+ * square law, too, which knows nothing of y, so that both are guessed; y, and all along the second, tell. */
+static void a_missing_tangent_is_named(void **state)
+{
+  (void)state;
+  static const struct missing {
+    const char *tangents, *response, *cause, *words;
+  } all[] = {
+      {"tangent: y,", "x", "# cause: tangent_missing\n", "(tangent_2 alone, H = 20;"},
+      {"tangent: x,", "y", "# cause: tangent_missing\n", "(no tangent_2, H = 20;"},
+      {"tangent: x,", "x", "# cause: unknown\n", "friction acts in one of two directions only"},
+  };
+  for (size_t i = 0; i < sizeof all / sizeof *all; ++i) {
+    shell("sed 's/tangent: x, tangent_2: y,/%s/' cases/structures/space.yaml > %s/theirs.yaml", all[i].tangents,
+          folder);
+    make_curve("");
+    assert_int_equal(shell("%s verify cases/structures/space.yaml -q --against %s/theirs.csv --columns "
+                           "omega=omega,amplitude=amplitude --response %s 2>&1",
+                           HBMCHECK_COMMAND, folder, all[i].response),
+                     1);
+    HAVE(all[i].cause + 2);
+    HAVE(all[i].words);
+  }
+  HAVE("limit: square");
+}
+
 /* Where the slider of jenkins2 sticks all period, a value that is off may be right with the slider elsewhere: said. */
 static void what_history_decides_is_said(void **state)
 {
@@ -193,7 +219,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(every_response_is_judged),           cmocka_unit_test(mistakes_of_structures_are_named),
       cmocka_unit_test(another_degree_of_freedom_is_named), cmocka_unit_test(a_load_elsewhere_is_named),
-      cmocka_unit_test(what_history_decides_is_said),
+      cmocka_unit_test(a_missing_tangent_is_named),         cmocka_unit_test(what_history_decides_is_said),
   };
   check_watchdog(600);
   return cmocka_run_group_tests_name("verify.structures", tests, make_folder, remove_folder);
