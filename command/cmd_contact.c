@@ -147,9 +147,17 @@ static int list_sets(const cli_common *common, const contact_options *own, int n
 static int draw(const cli_common *common, const char *path, const contact_motion *m)
 {
   plot_order drawing = {.path = path};
-  const plot_motion motion = {m->one < 0 ? 0 : m->one, m->slider[0], m->n_harm, m->n_dof,
-                              m->n_contacts,           m->contacts,  m->X};
-  return cli_plotted(common, plot_contact(&drawing, common->scene, &motion), drawing.why);
+  const plot_motion motion = {.first = m->one < 0 ? 0 : m->one,
+                              .circle = m->circle,
+                              .slider = {m->slider[0], m->slider[1]},
+                              .n_harm = m->n_harm,
+                              .n_dof = m->n_dof,
+                              .n_contacts = m->n_contacts,
+                              .contacts = m->contacts,
+                              .X = m->X};
+  const hc_status st =
+      m->pair ? plot_contact_plane(&drawing, common->scene, &motion) : plot_contact(&drawing, common->scene, &motion);
+  return cli_plotted(common, st, drawing.why);
 }
 
 /* The forces of the given motion. */

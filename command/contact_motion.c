@@ -84,9 +84,7 @@ static int check_directions(const cli_common *common, const contact_options *own
       cli_message(common, "contact %s has no %s; expected no --%s", name, words[d], motion_names[CONTACT_U + d]);
       return EXIT_USAGE;
     }
-  if (!m->pair || !own->plot) return 0;
-  cli_message(common, "contact %s has two tangents, and --plot draws contacts with one; expected no --plot", name);
-  return EXIT_USAGE;
+  return 0;
 }
 
 /* W, or W1,W2 of two tangents. */

@@ -4,10 +4,11 @@
 
 #include "base/constants.h"
 #include "command/plot/panels.h"
+#include "command/plot/phases.h"
 #include "hbm/exact_force.h"
 #include "numerics/series.h"
 
-enum { POINTS = 4096, EVERY = 8, MOST_DRAWN = 8 };
+enum { POINTS = 4096, EVERY = PHASES_EVERY, MOST_DRAWN = PHASES_MOST_LOOPS };
 
 /* One contact along one period. */
 typedef struct contact_history {
@@ -41,36 +42,8 @@ static void compute_history(const plot_motion *m, const moving_contact *c, const
     out->state[i] = p ? p->state : CONTACT_SEPARATED;
     out->t[i] = contact_slip_sign(out->state[i]) * c->law.mu * out->normal[i];
     if (out->state[i] == CONTACT_STICK) out->t[i] = c->law.kt * out->u[i] - p->held;
-    out->u[i] += m->slider;
+    out->u[i] += m->slider[0];
   }
-}
-
-static const struct phase {
-  const char *name, *title;
-  int dash;
-} phases[] = {{"stick", "sticks", 1}, {"slip", "slips", 2}, {"apart", "separated", 3}};
-enum { N_PHASES = sizeof phases / sizeof *phases };
-
-static int phase_of(contact_state st) { return st == CONTACT_STICK ? 0 : st == CONTACT_SEPARATED ? 2 : 1; }
-
-/* Data block $stick3, ...: the loop of contact j in that phase. Returns the number of points; 0: never in it. */
-static int write_phase(figure *g, const contact_history *w, int j, int phase)
-{
-  char name[24];
-  int n = 0;
-  snprintf(name, sizeof name, "%s%d", phases[phase].name, j);
-  figure_block(g, name);
-  for (int i = 0; i < POINTS; ++i) {
-    bool mine = phase_of(w->state[i + 1]) == phase, next = i + 2 <= POINTS && phase_of(w->state[i + 2]) == phase;
-    if (!mine) continue;
-    bool begins = i == 0 || phase_of(w->state[i]) != phase;
-    if (begins) figure_point(g, w->u[i], w->t[i]);
-    if (!next || i % EVERY == 0) figure_point(g, w->u[i + 1], w->t[i + 1]);
-    if (!next) figure_gap(g);
-    ++n;
-  }
-  figure_block_end(g);
-  return n;
 }
 
 static void write_forces(figure *g, const contact_history *w, const contact *c, int j)
@@ -81,22 +54,6 @@ static void write_forces(figure *g, const contact_history *w, const contact *c, 
   for (int i = 0; i <= POINTS; i += EVERY)
     figure_script(g, "%.10g %.10g %.10g %.10g\n", (double)i / POINTS, w->t[i], w->normal[i], c->mu * w->normal[i]);
   figure_block_end(g);
-}
-
-static void loop_items(figure *g, int j, const int *there, bool only)
-{
-  static const char *const colours[] = {"#0072B2", "#D55E00", "#000000", "#009E73",
-                                        "#CC79A7", "#E69F00", "#56B4E9", "#777777"};
-  static const double widths[N_PHASES] = {2.4, 2.0, 2.0};
-  for (int k = 0; k < N_PHASES; ++k) {
-    char what[64], look[FIGURE_LOOK], of[32] = "";
-    if (!there[k]) continue;
-    if (!only) snprintf(of, sizeof of, "contact %d ", j);
-    snprintf(what, sizeof what, "$%s%d using 1:2 with lines", phases[k].name, j);
-    snprintf(look, sizeof look, "lw %g dt %d lc rgb '%s'", widths[k], phases[k].dash, colours[j]);
-    if (g->letters) snprintf(look, sizeof look, "lt %d", N_PHASES * j + k + 1);
-    figure_item(g, what, look, "%s%s", of, phases[k].title);
-  }
 }
 
 static void force_items(figure *g, int n)
@@ -124,7 +81,7 @@ static void widen_to_closed(double *closed, const contact_history *w)
 }
 
 /* The data blocks of the first n contacts; there[j][phase]: points of the loop in that phase. */
-static hc_status write_contacts(figure *g, const plot_motion *m, int n, int there[][N_PHASES], double closed[2])
+static hc_status write_contacts(figure *g, const plot_motion *m, int n, int there[][PHASES], double closed[2])
 {
   double F[SERIES_MAX_DIM * (2 * HBM_MAX_HARMONICS + 1)];
   exact_force *e = NULL;
@@ -134,7 +91,7 @@ static hc_status write_contacts(figure *g, const plot_motion *m, int n, int ther
   for (int j = 0, pieces; j < n && st == HC_OK; ++j) {
     const contact_piece *p = exact_force_pieces(e, j, &pieces);
     compute_history(m, &m->contacts[j], p, pieces, w);
-    for (int k = 0; k < N_PHASES; ++k) there[j][k] = write_phase(g, w, j, k);
+    for (int k = 0; k < PHASES; ++k) there[j][k] = phases_write(g, j, k, POINTS, w->state, w->u, w->t);
     widen_to_closed(closed, w);
     write_forces(g, w, &m->contacts[j].law, j);
   }
@@ -150,7 +107,7 @@ static void set_window(figure *g, const double *closed)
   if (wide > 0) figure_script(g, "set xrange [%.10g:%.10g]\n", closed[0] - 0.5 * wide, closed[1] + 0.25 * wide);
 }
 
-static void loops_and_forces(figure *g, const scene *sc, int n, int there[][N_PHASES], const double *closed)
+static void loops_and_forces(figure *g, const scene *sc, int n, int there[][PHASES], const double *closed)
 {
   figure_script(
       g, "set title 'Hysteresis'\nset offsets graph 0.05, graph 0.05, graph 0.05, graph 0.05\nset zeroaxis lw 0.8 dt 1 "
@@ -158,7 +115,7 @@ static void loops_and_forces(figure *g, const scene *sc, int n, int there[][N_PH
   figure_below(g, "tangential motion u [%s]", sc->unit_length);
   figure_set(g, "ylabel", "tangential force T [%s]", sc->unit_force);
   set_window(g, closed);
-  for (int j = 0; j < n; ++j) loop_items(g, j, there[j], n == 1);
+  for (int j = 0; j < n; ++j) phases_items(g, j, there[j], n == 1);
   figure_draw(g);
   figure_below(g, "t / T");
   figure_script(g, "set title 'Forces over the period'\nset xrange [0:1]\nset offsets 0, 0, graph 0.03, graph 0.03\n");
@@ -182,7 +139,7 @@ static const char *say_which(const scene *sc, const plot_motion *m, int n, char 
 hc_status plot_contact(plot_order *p, const scene *sc, const plot_motion *m)
 {
   figure g = {0};
-  int n = m->n_contacts < MOST_DRAWN ? m->n_contacts : MOST_DRAWN, there[MOST_DRAWN][N_PHASES];
+  int n = m->n_contacts < MOST_DRAWN ? m->n_contacts : MOST_DRAWN, there[MOST_DRAWN][PHASES];
   double closed[2] = {INFINITY, -INFINITY}; /* u while some contact is closed */
   char about[128];
   if (n == 0) {

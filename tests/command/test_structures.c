@@ -358,7 +358,6 @@ static void a_motion_that_fits_no_contact_is_refused(void **state)
   expect("contact " PLANE "--motion-u2 0,1 2>&1", 64, "--motion-u2 has 2 coefficients");
   expect("contact " PLANE "--motion-u 0,1,0 --slider 1 2>&1", 64, "--slider: '1' is not two finite numbers W1,W2");
   expect("contact " PLANE "--motion-u 0,1,0 --slider 1,nan 2>&1", 64, "'1,nan' is not two finite numbers W1,W2");
-  expect("contact " PLANE "--motion-u 0,1,0 --plot - 2>&1", 64, "contact rub has two tangents, and --plot draws");
 }
 
 /* ---- study and describe ---------------------------------------------------------------------------- */

@@ -11,6 +11,8 @@
 #define CASE2 "cases/paper/case2.yaml "
 #define WEDGE "cases/structures/wedge_F2.yaml "
 #define CHAIN "cases/structures/chain3.yaml "
+#define SPACE "cases/structures/space.yaml "
+#define PLANE "cases/structures/plane.yaml "
 enum { MOST = 1 << 20 };
 
 static char folder[] = "/tmp/hbmcheck-plots-XXXXXX";
@@ -150,6 +152,24 @@ static void contacts(void **state)
   check_svg("contact", "contact cases/paper/table10_case2.yaml --motion 0,0.29,0", 3 + 4,
             WORDS("sticks", "slips", "separated", "tangential force T [N]", "normal force N", "± μ N"));
   check_svg("touch", "contact " CASE2 "--motion 0,8,0", 2 + 4, WORDS("sticks", "separated"));
+}
+
+/* Two tangents: what it does, the limit (two where N varies and stays), the ways of motion and slider, its rest. */
+static void contacts_in_a_plane(void **state)
+{
+  (void)state;
+  check_svg("circle", "contact " SPACE "--motion-u 0,0.1,0.02 --motion-u2 0,0,0.07 --motion-v 0,0.04,0.03", 3 + 2,
+            WORDS("contact foot; exact law, limit: circle", "traction T_1 [N]", "motion u_2 [m]", "slips", "separated",
+                  "limit μ N at most", "slider w"));
+  check_svg("square",
+            "contact " SPACE "--set contacts[0].limit=square --motion-u 0,0.1,0.02 --motion-u2 0,0,0.07 --motion-v "
+            "0.05,0.04,0.03",
+            4 + 3, WORDS("limit: square", "sticks", "limit μ N at most", "limit μ N at least"));
+  check_svg("rests", "contact " PLANE "--motion-u 0.01,0.1,0 --motion-u2 0,0.05,0", 3 + 3,
+            WORDS("contact rub", "sticks", "slips", "limit μ N", "slider at rest"));
+  expect("$H contact " PLANE "--motion-u 0,0.1,0 --motion-u2 0,0,0.1 --plot -", 0, "traction T_1 [N]");
+  expect("$H contact " SPACE "--set contacts[0].friction=0 --motion-u 0,0.1,0 --plot $D/x.svg 2>&1 >/dev/null", 3,
+         "no friction");
 }
 
 static void write_study(const char *name, const char *axes)
@@ -306,6 +326,7 @@ int main(void)
       cmocka_unit_test(curves_of_others),
       cmocka_unit_test(accuracy),
       cmocka_unit_test(contacts),
+      cmocka_unit_test(contacts_in_a_plane),
       cmocka_unit_test(studies),
       cmocka_unit_test(benchmarks),
       cmocka_unit_test(endings_make_the_kind),
