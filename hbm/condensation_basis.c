@@ -1,5 +1,7 @@
 /* condensation_basis.c - see condensation_basis.h. The rows are the directions of all contacts, and the first response.
- *   q    the motions along those rows that are as independent as they can be chosen (pivoted QR): row P = 1
+ *   q    the motions along those rows that are as independent as they can be chosen (pivoted QR): row P = 1. A row that
+ *        is nearly a combination of rows chosen before leaves what is new of it, as long as 1: as a coordinate the row
+ *        itself would be a motion of all other rows too, by 1 over that new part, and so would be the forces on it
  *   y    what moves none of them: its modes; P is bent so that no static force couples q and y (P^T K Y = 0)
  * Where the rows span everything, q = x. */
 #include "hbm/condensation_basis.h"
@@ -13,6 +15,9 @@
 
 /* Directions that differ by less than this from others are the same but for rounding of the case file's numbers. */
 static const double dependent = 1e-10;
+/* What is new of a row, of length 1, where the row is no coordinate any more. Between the two the choice costs nothing
+ * but zeros of other contacts' directions. */
+static const double little = 0.1;
 /* Of a direction's entries beside its largest: rounding of the change of coordinates. */
 static const double negligible = 1e-12;
 /* A mode of the rest is free if its eigenvalue is less than this part of the largest. */
@@ -79,13 +84,15 @@ static int collect_rows(const model *m, const double **row)
   return n;
 }
 
-/* The chosen rows, as long as 1, for q = rows x. */
-static void keep_rows(const model *m, const double *const *row, const int *pivot, condensation_basis *b)
+/* The chosen rows, as long as 1, for q = rows x; Q R are the rows afterwards, too. */
+static void keep_rows(const model *m, const double *const *row, const int *pivot, double *R, condensation_basis *b)
 {
-  const int n = m->n;
-  for (int d = 0; d < b->dim; ++d) {
-    const double *from = row[pivot[d]], length = sqrt(dot(n, from, from));
-    for (int i = 0; i < n; ++i) b->rows[(size_t)d * (size_t)n + (size_t)i] = from[i] / length;
+  const size_t n = (size_t)m->n, dim = (size_t)b->dim;
+  for (size_t d = 0; d < dim; ++d) {
+    const bool new_part = fabs(R[d * (dim + 1)]) < little;
+    const double *from = new_part ? b->T + d * n : row[pivot[d]], length = sqrt(dot(m->n, from, from));
+    for (size_t i = 0; i < n; ++i) b->rows[d * n + i] = from[i] / length;
+    for (size_t k = 0; k <= d && new_part; ++k) R[d * dim + k] = k == d;
   }
 }
 
@@ -99,7 +106,7 @@ static hc_status choose_coordinates(const model *m, condensation_basis *b)
   b->dim = 0;
   if (st == HC_OK) st = dense_span(n, collect_rows(m, row), row, dependent, &b->dim, pivot, b->T, triangle);
   b->rest = n - b->dim;
-  if (st == HC_OK) keep_rows(m, row, pivot, b);
+  if (st == HC_OK) keep_rows(m, row, pivot, triangle, b);
   if (st == HC_OK && b->rest > 0) make_unit_motions(n, b->dim, triangle, b->T);
   if (st == HC_OK && b->rest == 0) {
     memset(b->T, 0, square(n) * sizeof *b->T);

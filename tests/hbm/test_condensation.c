@@ -140,6 +140,28 @@ static void condensed_is_the_whole(void **state)
   }
 }
 
+/* The tangent of one contact is that of another but for a part of 1e-6: the forces that hold q are of the size of the
+ * structure's own, not 1e12 times as large, and the coordinates are as good as others (check_harmonic's bound). With
+ * rows no shorter than 0.1 of their own, P is at most of that order for each of the DIM. */
+static void nearly_dependent_directions(void **state)
+{
+  (void)state;
+  uint64_t seed = 11;
+  model *m = large_structure(&seed, RAYLEIGH);
+  condensation *c;
+  double largest = 0, size = 0;
+  for (int i = 0; i < N; ++i) m->contacts[1].tangent[i] = m->contacts[0].tangent[i] + 1e-6 * m->contacts[1].tangent[i];
+  assert_int_equal(condensation_new(m, H, &c), HC_OK);
+  const int dim = condensation_dim(c);
+  assert_int_equal(condensation_at(c, 4.4, 0), HC_OK);
+  for (int i = 0; i < N * N; ++i) largest = fmax(largest, fabs(m->stiffness[i]));
+  for (int i = 0; i < dim * dim; ++i) size = fmax(size, condensation_sizes(c, 0)[i]);
+  CHECK_LE(size, 1e4 * largest, "static stiffness of q");
+  for (int h = 0; h <= H; ++h) check_harmonic(&seed, m, c, 4.4, 0, h, "nearly dependent");
+  condensation_free(c);
+  model_free(m);
+}
+
 typedef enum by { BY_OMEGA, BY_DAMPING } by;
 
 static condensation_change change_of(const condensation *c, by what, int h)
@@ -201,6 +223,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(condensed_is_the_whole),
+      cmocka_unit_test(nearly_dependent_directions),
       cmocka_unit_test(changes_are_derivatives),
   };
   check_watchdog(120);
