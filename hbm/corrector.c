@@ -1,10 +1,12 @@
 /* corrector.c - see corrector.h: the callbacks of both forms, KINSOL's weights, and the check of its answer. */
 #include "hbm/corrector.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
 #include "hbm/hbm_solver_impl.h"
+#include "numerics/norm.h"
 
 enum { MAX_NEWTON_ITERATIONS = 25 };
 
@@ -87,30 +89,35 @@ hc_status hbm_corrector_new(hbm_solver *s)
   return st == HC_OK ? newton_new(&plane, &s->plane) : st;
 }
 
+/* Weights of the residual's rows at the X of the last one, into s->r_scale. Rows of less than 2e-3 of all forces, at
+ * the usual tolerance of 1e-10, are weighed as if they were of that: what is left of them is the rounding of others. */
+static void weigh_rows(hbm_solver *s, double omega)
+{
+  const double rounding = 1000 * DBL_EPSILON;
+  hbm_system_weights(&s->sys, omega_at(s, omega), fmin(rounding / s->how.tolerance, 1), s->r_scale);
+}
+
 /* Weights for KINSOL: X by its size, R by the forces it is made of at the guess. */
 static hc_status set_scales(hbm_solver *s, double omega, double x_scale, const double *X)
 {
   hc_status st = hbm_system_contact(&s->sys, X);
   if (st != HC_OK) return st;
-  double force = hbm_system_scale(&s->sys, omega_at(s, omega));
-  if (!(force > 0)) force = 1; /* no forcing and no motion: the residual is 0 whatever the weight */
+  weigh_rows(s, omega);
   if (!(x_scale > 0)) x_scale = 1;
-  for (int i = 0; i < s->sys.n; ++i) {
-    s->z_scale[i] = 1 / x_scale;
-    s->r_scale[i] = 1 / force;
-  }
+  for (int i = 0; i < s->sys.n; ++i) s->z_scale[i] = 1 / x_scale;
   return HC_OK;
 }
 
 /* KINSOL weighted the residual by the forces at the guess; here it is weighed against those at the answer. */
-static hc_status check_residual(hbm_solver *s, double omega, const newton_report *report, hbm_point *point)
+static hc_status check_residual(hbm_solver *s, double omega, const newton *nw, const newton_report *report,
+                                hbm_point *point)
 {
-  double force = hbm_system_scale(&s->sys, omega_at(s, omega));
+  weigh_rows(s, omega);
   point->omega = omega;
   point->iterations = report->iterations;
   point->harmonics = s->sys.n_harm;
   point->error = NAN;
-  point->residual = force > 0 ? report->residual / (s->r_scale[0] * force) : report->residual;
+  point->residual = norm_weighted_max(s->sys.n, s->r_scale, newton_residual(nw));
   return point->residual <= 10 * s->how.tolerance ? HC_OK : HC_NOT_CONVERGED;
 }
 
@@ -128,7 +135,7 @@ hc_status hbm_solve_fixed(hbm_solver *s, double omega, double x_scale, double *X
     point->iterations = report.iterations;
     return st;
   }
-  if ((st = check_residual(s, omega, &report, point)) == HC_OK) unpack(s, s->z, X, &omega);
+  if ((st = check_residual(s, omega, s->fixed, &report, point)) == HC_OK) unpack(s, s->z, X, &omega);
   return st;
 }
 
@@ -151,7 +158,7 @@ static hc_status solve_plane(hbm_solver *s, const double *normal, double x_scale
     point->iterations = report.iterations;
     return st;
   }
-  if ((st = check_residual(s, s->z[n], &report, point)) == HC_OK) unpack(s, s->z, X, omega);
+  if ((st = check_residual(s, s->z[n], s->plane, &report, point)) == HC_OK) unpack(s, s->z, X, omega);
   return st;
 }
 

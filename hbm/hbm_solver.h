@@ -57,7 +57,7 @@ hbm_newton_report hbm_newton_work(const hbm_solver *s);
 /* One solution, beside its harmonics. */
 typedef struct hbm_point {
   double omega;    /* [rad/time] */
-  double residual; /* [1] |R|, largest component, relative to the forces that make it up */
+  double residual; /* [1] |R|, largest component, relative to the forces on its coordinate: hbm_system_weights */
   double d_omega;  /* [rad/time] tangent of the curve with respect to its parameter, beside hbm_curve's dX */
   int branch;      /* turning points passed since the start of the curve */
   int iterations;  /* Newton iterations spent on this point; 0: taken from the linear closed form */

@@ -276,21 +276,39 @@ void hbm_system_dforce(hbm_system *sys, double omega, double *dR)
   drop_means(sys, dR);
 }
 
-double hbm_system_scale(const hbm_system *sys, double omega)
+/* force[dim]: what each coordinate's rows of the residual are made of, by size, added up over all harmonics. */
+static void add_sizes(const hbm_system *sys, double *force)
 {
   const int dim = sys->dim;
-  double sum = 0, force = 0;
-  if (condensation_at(sys->linear, omega, sys->more_damping) != HC_OK) return NAN;
+  for (int d = 0; d < dim; ++d) force[d] = 0;
   for (int h = 0; h <= sys->n_harm; ++h) {
     const double *size = condensation_sizes(sys->linear, h), *a = sys->X + cosines(sys, h), *b = sys->X + sines(sys, h),
                  *fa = sys->F + cosines(sys, h), *fb = sys->F + sines(sys, h);
     for (int e = 0; e < dim; ++e) {
       const double x = h ? hypot(a[e], b[e]) : fabs(a[e]);
-      for (int d = 0; d < dim; ++d) sum += size[(size_t)e * (size_t)dim + (size_t)d] * x;
-      force += h ? hypot(fa[e], fb[e]) : fabs(fa[e]);
+      for (int d = 0; d < dim; ++d) force[d] += size[(size_t)e * (size_t)dim + (size_t)d] * x;
+      force[e] += h ? hypot(fa[e], fb[e]) : fabs(fa[e]);
     }
   }
   for (int l = 0; l < sys->model->n_loads; ++l)
-    for (int d = 0; d < dim; ++d) force += sys->force_factor * cabs(condensation_load(sys->linear, l)[d]);
-  return sum + force;
+    for (int d = 0; d < dim; ++d) force[d] += sys->force_factor * cabs(condensation_load(sys->linear, l)[d]);
+}
+
+/* The sum of force[dim], which is filled; NaN where condensation_at fails. */
+static double sum_sizes(const hbm_system *sys, double omega, double *force)
+{
+  double sum = 0;
+  if (condensation_at(sys->linear, omega, sys->more_damping) != HC_OK) return NAN;
+  add_sizes(sys, force);
+  for (int d = 0; d < sys->dim; ++d) sum += force[d];
+  return sum;
+}
+
+double hbm_system_scale(const hbm_system *sys, double omega) { return sum_sizes(sys, omega, sys->rows); }
+
+void hbm_system_weights(const hbm_system *sys, double omega, double least, double *weight)
+{
+  const double sum = sum_sizes(sys, omega, sys->rows);
+  for (int i = 0; i < sys->n; ++i)
+    weight[i] = sum > 0 ? 1 / fmax(sys->rows[i % sys->dim], least * sum) : sum == 0 ? 1 : NAN;
 }

@@ -71,4 +71,9 @@ void hbm_system_dforce(hbm_system *sys, double omega, double *dR); /* by phi */
  * residual. The size of their sum would be too small: near resonance K X and M omega^2 X cancel. */
 double hbm_system_scale(const hbm_system *sys, double omega);
 
+/* weight[n]: 1 over what each row of a residual is compared with [1/force]: the same sum over the forces on its own
+ * coordinate, so that one part of a structure is not solved less well for another part's larger forces, but no less
+ * than `least` of the sum over all. 1 where there is no force at all; NaN where condensation_at fails. */
+void hbm_system_weights(const hbm_system *sys, double omega, double least, double *weight);
+
 #endif

@@ -14,6 +14,7 @@
 #include <sunmatrix/sunmatrix_dense.h>
 
 #include "numerics/newton_linear.h"
+#include "numerics/norm.h"
 #include "numerics/sundials_compat.h"
 
 struct newton { /* from newton_new, to newton_free; not shared between threads */
@@ -127,17 +128,6 @@ void newton_free(newton *nw)
   free(nw);
 }
 
-/* Largest |weight v|; NaN if any is. */
-static double weighted_max(int n, const double *weight, const double *v)
-{
-  double max = 0;
-  for (int i = 0; i < n; ++i) {
-    double a = fabs(weight[i] * v[i]);
-    if (!(a <= max)) max = a;
-  }
-  return max;
-}
-
 /* Residual into r, and factors of the Jacobian, at nw->z; nw->factored: it is regular. */
 static hc_status factor_here(newton *nw)
 {
@@ -153,6 +143,8 @@ hc_status newton_factor_at(newton *nw, const double *z)
   hc_status st = factor_here(nw);
   return st == HC_OK && !nw->factored ? HC_SINGULAR : st;
 }
+
+const double *newton_residual(const newton *nw) { return N_VGetArrayPointer(nw->r); }
 
 int newton_sign(const newton *nw) { return nw->factored ? newton_linear_sign(nw->ls, nw->jac) : 0; }
 
@@ -175,15 +167,15 @@ static hc_status polish(newton *nw, const newton_options *opt, newton_report *re
   double *z = N_VGetArrayPointer(nw->z), *r = N_VGetArrayPointer(nw->r), *step = N_VGetArrayPointer(nw->step);
   hc_status st = factor_here(nw);
   if (st != HC_OK) return st;
-  double before = weighted_max(n, opt->r_scale, r);
+  double before = norm_weighted_max(n, opt->r_scale, r);
   report->residual = before;
   bool solved = nw->factored && SUNLinSolSolve(nw->ls, nw->jac, nw->step, nw->r, 0) == 0;
   if (!solved) return HC_OK; /* a singular Jacobian: z is a solution all the same */
-  double length = weighted_max(n, opt->z_scale, step);
+  double length = norm_weighted_max(n, opt->z_scale, step);
   if (!(length <= opt->max_step)) return HC_OK; /* a nearly singular one: the step would not improve z */
   for (int i = 0; i < n; ++i) z[i] -= step[i];
   ++report->iterations;
-  double after = on_residual(nw->z, nw->r, nw) ? NAN : weighted_max(n, opt->r_scale, r);
+  double after = on_residual(nw->z, nw->r, nw) ? NAN : norm_weighted_max(n, opt->r_scale, r);
   if (after <= before || after <= 0.1 * opt->tolerance) {
     report->residual = after;
     return HC_OK;
@@ -197,7 +189,7 @@ static hc_status check_answer(newton *nw, int flag, const newton_options *opt, n
 {
   hc_status refusal = nw->refusal;
   bool finite = on_residual(nw->z, nw->r, nw) == 0;
-  report->residual = finite ? weighted_max(nw->problem.n, opt->r_scale, N_VGetArrayPointer(nw->r)) : NAN;
+  report->residual = finite ? norm_weighted_max(nw->problem.n, opt->r_scale, N_VGetArrayPointer(nw->r)) : NAN;
   bool small = report->residual <= opt->tolerance;
   switch (flag) {
   case KIN_SUCCESS:

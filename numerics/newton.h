@@ -42,6 +42,9 @@ void newton_free(newton *nw);
  * HC_SINGULAR, HC_NOT_FINITE, HC_NO_MEMORY: *z is then as it was given. */
 hc_status newton_solve(newton *nw, double *z, const newton_options *opt, newton_report *report);
 
+/* [n] r at the z that the last newton_solve returned, where it was HC_OK. */
+const double *newton_residual(const newton *nw);
+
 /* x := J(z)^-1 x with the Jacobian of the last solve's end. HC_SINGULAR, also after a solve that failed. */
 hc_status newton_backsolve(newton *nw, double *x);
 

@@ -1,4 +1,4 @@
-/* norm.h - Euclidean norm, products of vectors. libm only. */
+/* norm.h - norms and products of vectors. libm only. */
 #ifndef HC_NORM_H
 #define HC_NORM_H
 
@@ -26,6 +26,17 @@ static inline double distance_2(int n, const double *a, const double *b)
   double sum = 0;
   for (int i = 0; i < n; ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
   return sqrt(sum);
+}
+
+/* Largest |weight[i] v[i]|; NaN if any is. */
+static inline double norm_weighted_max(int n, const double *weight, const double *v)
+{
+  double max = 0;
+  for (int i = 0; i < n; ++i) {
+    const double a = fabs(weight[i] * v[i]);
+    max = isnan(max) || a <= max ? max : a;
+  }
+  return max;
 }
 
 #endif

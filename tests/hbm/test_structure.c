@@ -315,6 +315,54 @@ static void copies_are_each_the_one(void **state)
   model_free(many);
 }
 
+/* Two bodies that nothing couples; forces on the first, its gap and its preload are `size` times as large. */
+static model *two_bodies(double size)
+{
+  const contact law = {.kt = 30, .mu = 0.5, .load = 1.2};
+  model *m;
+  assert_int_equal(model_new(2, 1, 2, 1, &m), HC_OK);
+  m->loads[0].harmonic = 1;
+  m->responses[0] = 1;
+  for (int i = 0; i < 2; ++i) {
+    const double times = i ? 1 : size;
+    m->mass[3 * i] = 1;
+    m->stiffness[3 * i] = 100 + 20 * i;
+    m->damping[3 * i] = 0.2;
+    m->loads[0].cosine[i] = times;
+    m->contacts[i].law = law;
+    m->contacts[i].law.load *= times;
+    m->contacts[i].tangent[i] = 1;
+  }
+  return m;
+}
+
+/* At the tolerance that users have, 1e-10: were a row compared with the forces on all bodies, the small one would be
+ * left as its guess was. 2.2e-13 of the largest force, the least that a row is compared with times the tolerance, is
+ * 2.2e-7 of its own; with the last Newton step its square. */
+static void a_small_body_beside_a_large_one(void **state)
+{
+  (void)state;
+  enum { HARMONICS = 5 };
+  const double size = 1e-6;
+  model *alike = two_bodies(1), *unlike = two_bodies(size);
+  hbm_settings how = settings(HARMONICS);
+  how.tolerance = 1e-10;
+  for (double omega = 9.3; omega < 12; omega += 0.4) {
+    double x[2][2 * (2 * HARMONICS + 1)];
+    for (int k = 0; k < 2; ++k) {
+      hbm_solver *s;
+      hbm_point point;
+      assert_int_equal(hbm_solver_new(k ? unlike : alike, &how, &s), HC_OK);
+      assert_int_equal(hbm_solve_first(s, omega, x[k], &point), HC_OK);
+      hbm_solver_free(s);
+    }
+    for (int c = 0; c <= 2 * HARMONICS; ++c)
+      CHECK_NEAR(x[1][2 * c], size * x[0][2 * c], 1e-12 * size, "omega %g, coefficient %d", omega, c);
+  }
+  model_free(alike);
+  model_free(unlike);
+}
+
 /* 50 x + 100 (x - 0.1) = 20: x = 0.2, N = 10; a stop at 1 is out of reach. */
 static void contacts_at_rest(void **state)
 {
@@ -365,7 +413,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(jacobian_is_the_derivative), cmocka_unit_test(another_way_to_write_it_changes_nothing),
       cmocka_unit_test(copies_are_each_the_one),    cmocka_unit_test(contacts_at_rest),
-      cmocka_unit_test(auto_keeps_the_loads),
+      cmocka_unit_test(auto_keeps_the_loads),       cmocka_unit_test(a_small_body_beside_a_large_one),
   };
   check_watchdog(120);
   return cmocka_run_group_tests_name("hbm.structure", tests, NULL, NULL);
