@@ -9,10 +9,8 @@
 #ifndef HC_TESTS_PERIOD_MAP_H
 #define HC_TESTS_PERIOD_MAP_H
 
-#include <complex.h>
-#include <gsl/gsl_eigen.h>
-
 #include "tests/hbm/full_equations.h"
+#include "tests/hbm/multipliers.h"
 
 enum { MAP_MAX_DOFS = 4, MAP_MAX_CONTACTS = 4, MAP_MAX_STATES = 2 * MAP_MAX_DOFS + MAP_MAX_CONTACTS };
 
@@ -219,16 +217,7 @@ static inline void map_multipliers(const period_map *p, const double *start, dou
     }
     for (int i = 0; i < n; ++i) A[i * n + q] = (4 * d[0][i] - d[1][i]) / 3;
   }
-  gsl_matrix_view view = gsl_matrix_view_array(A, (size_t)n, (size_t)n);
-  gsl_vector_complex *values = gsl_vector_complex_alloc((size_t)n);
-  gsl_eigen_nonsymm_workspace *work = gsl_eigen_nonsymm_alloc((size_t)n);
-  assert_int_equal(gsl_eigen_nonsymm(&view.matrix, values, work), 0);
-  for (int i = 0; i < n; ++i) {
-    const gsl_complex z = gsl_vector_complex_get(values, (size_t)i);
-    lambda[i] = GSL_REAL(z) + I * GSL_IMAG(z);
-  }
-  gsl_eigen_nonsymm_free(work);
-  gsl_vector_complex_free(values);
+  eigenvalues_of(n, A, lambda);
 }
 
 #endif

@@ -4,16 +4,12 @@
 
 #include "base/constants.h"
 #include "tests/check.h"
-#include "tests/hbm/random_structures.h"
+#include "tests/timeint/drawn.h"
 #include "timeint/contact_watch.h"
 #include "timeint/integrate_events.h"
 #include "timeint/integrate_regularised.h"
 #include "timeint/integrate_series.h"
 #include "timeint/steady.h"
-#include "timeint/structure_equations.h"
-#include "timeint/structure_newton.h"
-
-enum { MOST = 60, MOST_CONTACTS = 12 };
 
 /* ---- scenes ---------------------------------------------------------------------------------------------- */
 
@@ -62,21 +58,6 @@ static model *space(double force)
 }
 static model *plane(double force) { return on_a_plane(2, force, (contact){.kt = 60, .mu = 0.5, .load = 4}); }
 
-typedef struct drawn {
-  model *m;
-  modal_base *base;
-  scaled_contact contacts[MOST_CONTACTS];
-  scaled_model scaled;
-} drawn;
-
-static void scale_drawn(drawn *d, transient_law law, double omega)
-{
-  const transient_settings how = {.law = law, .regularisation = 1e-2};
-  assert_int_equal(modal_base_new(d->m, &d->base), HC_OK);
-  d->scaled = (scaled_model){.contact = d->contacts, .base = d->base};
-  scaled_make(&d->scaled, d->m, &how, omega, 1);
-}
-
 /* Of some masses, with circles, and contacts of other kinds beside them. */
 static void draw(uint64_t *seed, transient_law law, drawn *d)
 {
@@ -97,12 +78,6 @@ static void draw(uint64_t *seed, transient_law law, drawn *d)
     make_circle(d->m, j, whole);
   }
   scale_drawn(d, law, 3 + 10 * random_unit(seed));
-}
-
-static void undraw(drawn *d)
-{
-  modal_base_free(d->base);
-  model_free(d->m);
 }
 
 /* ---- an independent program ------------------------------------------------------------------------------ */
@@ -248,23 +223,10 @@ static void jacobian_is_the_derivative(void **state)
   uint64_t seed = 3;
   for (int trial = 0; trial < 100; ++trial) {
     drawn d;
-    double y[MOST], jac[MOST * MOST], f[2][MOST];
+    double y[MOST];
     draw(&seed, TRANSIENT_LAW_REGULARISED, &d);
-    const int n = d.scaled.n_states;
-    for (int i = 0; i < n; ++i) y[i] = random_signed(&seed);
-    structure_jacobian(&d.scaled, y, jac);
-    for (int q = 0; q < n; ++q) {
-      double size = 1;
-      const double at = y[q], h = 1e-6;
-      for (int side = 0; side < 2; ++side) {
-        y[q] = at + (side ? h : -h);
-        assert_true(structure_rhs(&d.scaled, 1, y, f[side]));
-      }
-      y[q] = at;
-      for (int i = 0; i < n; ++i) size = fmax(size, fabs(jac[i + q * n]));
-      for (int i = 0; i < n; ++i) /* h^2/6 of the third derivative of softplus over its width */
-        CHECK_NEAR((f[1][i] - f[0][i]) / (2 * h), jac[i + q * n], 1e-4 * size, "trial %d [%d, %d]", trial, i, q);
-    }
+    for (int i = 0; i < d.scaled.n_states; ++i) y[i] = random_signed(&seed);
+    check_jacobian(&d, y, trial);
     undraw(&d);
   }
 }
@@ -276,25 +238,19 @@ static void newton_solves_the_dense_equations(void **state)
   uint64_t seed = 9;
   for (int trial = 0; trial < 100; ++trial) {
     drawn d;
-    structure_newton s;
     double y[MOST], jac[MOST * MOST], z[MOST], r[MOST], product[MOST];
     draw(&seed, TRANSIENT_LAW_REGULARISED, &d);
     const int n = d.scaled.n_states;
     const double gamma = pow(10, -4 + 4 * random_unit(&seed));
     for (int i = 0; i < n; ++i) y[i] = random_signed(&seed), z[i] = r[i] = random_signed(&seed);
-    assert_int_equal(structure_newton_make(&s, d.base), HC_OK);
     structure_jacobian(&d.scaled, y, jac);
-    structure_newton_linearise(&s, &d.scaled, y);
-    assert_true(structure_newton_factor(&s, &d.scaled, gamma));
-    structure_newton_solve(&s, z);
-    structure_newton_multiply(&s, &d.scaled, z, product);
+    eliminate(&d, y, gamma, z, product);
     for (int i = 0; i < n; ++i) {
       double sum = 0, size = 1;
       for (int q = 0; q < n; ++q) sum += jac[i + q * n] * z[q], size += fabs(jac[i + q * n] * z[q]);
       CHECK_NEAR(product[i], sum, 1e-12 * size, "trial %d, row %d: J z", trial, i);
       CHECK_NEAR(z[i] - gamma * sum, r[i], 1e-9 * (1 + gamma * size), "trial %d, row %d", trial, i);
     }
-    structure_newton_free(&s);
     undraw(&d);
   }
 }

@@ -3,9 +3,9 @@
 #include <float.h>
 
 #include "tests/check.h"
-#include "tests/hbm/random_structures.h"
 #include "tests/hbm/structure_cases.h"
 #include "tests/scene_parts.h"
+#include "tests/timeint/drawn.h"
 #include "tests/timeint/scenes.h"
 #include "timeint/contact_track.h"
 #include "timeint/integrate_closed.h"
@@ -13,10 +13,6 @@
 #include "timeint/integrate_regularised.h"
 #include "timeint/integrate_series.h"
 #include "timeint/steady.h"
-#include "timeint/structure_equations.h"
-#include "timeint/structure_newton.h"
-
-enum { MOST = 100 };
 
 /* ---- an independent program -------------------------------------------------------------------------- */
 
@@ -224,32 +220,16 @@ static void oscillators_are_structures(void **state)
 
 /* ---- random structures ---------------------------------------------------------------------------------- */
 
-typedef struct drawn {
-  model *m;
-  modal_base *base;
-  scaled_contact contacts[8];
-  scaled_model scaled;
-} drawn;
-
 static void draw_of_size(uint64_t *seed, transient_law law, int n, int contacts, drawn *d)
 {
-  transient_settings how = {.law = law, .regularisation = 1e-2};
   d->m = random_structure(seed, n, contacts);
-  assert_int_equal(modal_base_new(d->m, &d->base), HC_OK);
-  d->scaled = (scaled_model){.contact = d->contacts, .base = d->base};
-  scaled_make(&d->scaled, d->m, &how, 3 + 10 * random_unit(seed), 1);
+  scale_drawn(d, law, 3 + 10 * random_unit(seed));
 }
 
 static void draw(uint64_t *seed, transient_law law, drawn *d)
 {
   const int n = random_int(seed, 1, 6);
   draw_of_size(seed, law, n, random_int(seed, 1, 5), d);
-}
-
-static void undraw(drawn *d)
-{
-  modal_base_free(d->base);
-  model_free(d->m);
 }
 
 /* The same period by series and by CVODE, at 1e-13 a step: some hundred steps, and the 1e3 by which a period may
@@ -379,24 +359,10 @@ static void jacobian_is_the_derivative(void **state)
   uint64_t seed = 3;
   for (int trial = 0; trial < 100; ++trial) {
     drawn d;
-    double y[MOST], jac[MOST * MOST], f[2][MOST];
+    double y[MOST];
     draw(&seed, TRANSIENT_LAW_REGULARISED, &d);
-    const int n = d.scaled.n_states;
-    for (int i = 0; i < n; ++i) y[i] = random_signed(&seed);
-    structure_jacobian(&d.scaled, y, jac);
-    for (int q = 0; q < n; ++q) {
-      double size = 1;
-      const double at = y[q], h = 1e-6;
-      for (int side = 0; side < 2; ++side) {
-        y[q] = at + (side ? h : -h);
-        assert_true(structure_rhs(&d.scaled, 1, y, f[side]));
-      }
-      y[q] = at;
-      for (int i = 0; i < n; ++i) size = fmax(size, fabs(jac[i + q * n]));
-      for (int i = 0; i < n;
-           ++i) /* h^2/6 of the third derivative of softplus over its width, 1e-2 of a motion of 1 or less */
-        CHECK_NEAR((f[1][i] - f[0][i]) / (2 * h), jac[i + q * n], 1e-4 * size, "trial %d [%d, %d]", trial, i, q);
-    }
+    for (int i = 0; i < d.scaled.n_states; ++i) y[i] = random_signed(&seed);
+    check_jacobian(&d, y, trial);
     undraw(&d);
   }
 }
@@ -419,7 +385,6 @@ static void newton_solves_the_dense_equations(void **state)
   uint64_t seed = 9;
   for (int trial = 0; trial < 100; ++trial) {
     drawn d;
-    structure_newton newton;
     double y[MOST], r[MOST], z[MOST], Jz[MOST], jac[MOST * MOST], largest = 0;
     draw(&seed, TRANSIENT_LAW_REGULARISED, &d);
     if (trial % 2) damp_in_proportion(&d);
@@ -428,11 +393,7 @@ static void newton_solves_the_dense_equations(void **state)
     const double gamma = pow(10, -4 * random_unit(&seed));
     for (int i = 0; i < n; ++i) y[i] = random_signed(&seed), r[i] = z[i] = random_signed(&seed);
     structure_jacobian(&d.scaled, y, jac);
-    assert_int_equal(structure_newton_make(&newton, d.base), HC_OK);
-    structure_newton_linearise(&newton, &d.scaled, y);
-    assert_true(structure_newton_factor(&newton, &d.scaled, gamma));
-    structure_newton_solve(&newton, z);
-    structure_newton_multiply(&newton, &d.scaled, z, Jz);
+    eliminate(&d, y, gamma, z, Jz);
     for (int i = 0; i < n * n; ++i) largest = fmax(largest, fabs(jac[i]));
     for (int i = 0; i < n; ++i) {
       double dense = 0, size = 0;
@@ -441,7 +402,6 @@ static void newton_solves_the_dense_equations(void **state)
       CHECK_NEAR(Jz[i], dense, near, "trial %d [%d]: product", trial, i);
       CHECK_NEAR(z[i] - gamma * dense, r[i], near, "trial %d [%d], gamma %g", trial, i, gamma);
     }
-    structure_newton_free(&newton);
     undraw(&d);
   }
 }
