@@ -1,9 +1,5 @@
-/* integrate_events.c - see integrate_events.h.
- *
- * Root functions of a contact, six, so that a period allocates nothing: the guards of its state, which end it where
- * they fall through 0, and the rates of these, which end nothing. Without them a guard could fall and rise within
- * one step unseen: CVODE's search for the root of the rate between evaluates all functions there
- * (integrate_exact.c). Functions that are not there are 1; none is ever exactly 0, which CVODE answers with an error.
+/* integrate_events.c - see integrate_events.h. What holds between two changes of contact state is events_phase.h's;
+ * here is what happens at one, and from the first to the last of a period.
  *
  * A guard that has fallen at the beginning of a phase, or with another contact's in the same instant, is passed at
  * once. The monodromy matrix is structure_variations.h's. */
@@ -16,211 +12,16 @@
 
 #include "base/constants.h"
 #include "numerics/sundials_compat.h"
-#include "timeint/circle_angle.h"
-#include "timeint/integrate_cvode.h"
-#include "timeint/structure_equations.h"
-#include "timeint/structure_variations.h"
+#include "timeint/events_phase.h"
 
 static const double at_end = 64 * DBL_EPSILON; /* nearer to 2 pi CVODE would answer CV_TOO_CLOSE to a restart */
 static const double stiff = 60; /* largest decay rate over lowest frequency, from where on BDF takes fewer steps */
 static const double longest_step = 0.2; /* [rad] measure.c integrates a quintic over each */
 
 enum {
-  MAX_STEPS = 1000000,    /* between transitions */
-  MAX_STANDSTILLS = 1000, /* returns of CVODE in succession that do not advance theta */
-  ROOTS = 2 * TRACK_GUARDS
+  MAX_STEPS = 1000000,   /* between transitions */
+  MAX_STANDSTILLS = 1000 /* returns of CVODE in succession that do not advance theta */
 };
-
-typedef struct events { /* from integrate_new_events, to integrate_free; not shared between threads */
-  cvode_integrator base;
-  int n, n_contacts;
-  double tolerance;
-  contact_track *track;       /* [n_contacts] now */
-  contact_forces_linear *law; /* [n_contacts] of these states */
-  int *info;                  /* [n_contacts][ROOTS] what CVODE says of the root functions */
-  double *rate;               /* [n_equations] dy where the guards' rates are wanted */
-  int n_circles, n_equations; /* 2 n, and an angle for each circle */
-  circle_angle *angle;        /* [n_circles] */
-  int *angle_of;              /* [n_contacts] that of a circle's first direction; else -1 */
-  double *phi;                /* [n_circles] where sliders are wanted */
-  int passed;                 /* events since the period began */
-  bool varies;                /* the monodromy is asked for */
-  structure_variations variations;
-  phase_modes *modes; /* for them */
-} events;
-
-static circle_motion circle_at(const events *in, int j, const double *y)
-{
-  circle_motion at;
-  scaled_circle_motion(in->base.m, j, y, at.u, &at.v);
-  scaled_circle_motion(in->base.m, j, y + in->n, at.du, &at.dv);
-  return at;
-}
-
-/* T of the circles that slip, out of the forces dy + n, and the rates of all angles. */
-static void subtract_circles(const events *in, const double *y, double *dy)
-{
-  for (int i = 0; i < in->n_circles; ++i) {
-    const circle_angle *a = &in->angle[i];
-    const int j = a->contact, n = in->n;
-    const scaled_contact *c = &in->base.m->contact[j];
-    const double phi = y[2 * n + i], *t = in->base.m->base->tangent + (size_t)j * (size_t)n;
-    const circle_motion at = circle_at(in, j, y);
-    dy[2 * n + i] = circle_angle_rate(a, &in->track[j], c, &at, phi);
-    if (!circle_track_turns(&in->track[j])) continue;
-    const double limit = c->law.kt * circle_track_radius(c, at.v), pull[2] = {limit * cos(phi), limit * sin(phi)};
-    for (int k = 0; k < n; ++k) dy[n + k] -= pull[0] * t[k] + pull[1] * t[n + k];
-  }
-}
-
-static void phase_rhs(const events *in, double theta, const double *y, double *dy)
-{
-  const scaled_model *m = in->base.m;
-  const int n = in->n;
-  structure_linear_force(m, theta, y, dy + n);
-  for (int j = 0; j < in->n_contacts; ++j) {
-    const contact_forces_linear *f = &in->law[j];
-    const double *t = m->base->tangent + (size_t)j * (size_t)n, *normal = m->base->normal + (size_t)j * (size_t)n;
-    double u, v;
-    scaled_contact_motion(m, j, y, &u, &v);
-    const double along = f->t_u * u + f->t_v * v + f->t_0, across = f->n_v * v + f->n_0;
-    for (int i = 0; i < n; ++i) dy[n + i] -= along * t[i] + across * normal[i];
-  }
-  subtract_circles(in, y, dy);
-  memcpy(dy, y + n, (size_t)n * sizeof *dy);
-}
-
-static int rhs(sunrealtype theta, N_Vector y, N_Vector dy, void *self)
-{
-  events *in = self;
-  double sum = 0;
-  phase_rhs(in, theta, NV_DATA_S(y), NV_DATA_S(dy));
-  for (int i = 0; i < in->n_equations; ++i) sum += NV_Ith_S(dy, i);
-  if (isfinite(sum)) return 0;
-  in->base.not_finite = true;
-  return -1;
-}
-
-static void fill_linear(const scaled_model *m, size_t ld, double *a)
-{
-  const modal_base *b = m->base;
-  const size_t n = (size_t)m->n;
-  memset(a, 0, ld * ld * sizeof *a);
-  for (size_t col = 0; col < n; ++col) {
-    double *by_x = a + col * ld + n, *by_p = a + (n + col) * ld;
-    by_p[col] = 1;
-    if (b->diagonal_K) by_x[col] = -m->by_K * b->K[col];
-    if (b->diagonal_C) by_p[n + col] = -m->by_C * b->C[col];
-    for (size_t row = 0; row < n && !b->diagonal_K; ++row) by_x[row] = -m->by_K * b->K[col * n + row];
-    for (size_t row = 0; row < n && !b->diagonal_C; ++row) by_p[n + row] = -m->by_C * b->C[col * n + row];
-  }
-}
-
-/* What circles that slip add. */
-static void fill_circles(const events *in, const double *y, size_t ld, double *a)
-{
-  const scaled_model *m = in->base.m;
-  const size_t n = (size_t)in->n;
-  for (int i = 0; i < in->n_circles; ++i) {
-    const int j = in->angle[i].contact;
-    const size_t phi = 2 * n + (size_t)i;
-    const double *t = m->base->tangent + (size_t)j * n, *normal = m->base->normal + (size_t)j * n;
-    if (!circle_track_turns(&in->track[j])) continue;
-    const circle_motion at = circle_at(in, j, y);
-    const angle_slopes s = circle_angle_slopes(&in->angle[i], &in->track[j], &m->contact[j], &at, y[phi]);
-    for (size_t k = 0; k < 2; ++k)
-      for (size_t row = 0; row < n; ++row) {
-        for (size_t col = 0; col < n; ++col) a[col * ld + n + row] -= t[k * n + row] * s.t_v[k] * normal[col];
-        a[phi * ld + n + row] -= t[k * n + row] * s.t_phi[k];
-      }
-    for (size_t col = 0; col < n; ++col) {
-      a[col * ld + phi] = s.rate_v * normal[col];
-      a[(n + col) * ld + phi] = s.rate_u[0] * t[col] + s.rate_u[1] * t[n + col];
-    }
-    a[phi * ld + phi] = s.rate_phi;
-  }
-}
-
-static int jacobian(sunrealtype theta, N_Vector y, N_Vector dy, SUNMatrix jac, void *self, N_Vector t1, N_Vector t2,
-                    N_Vector t3)
-{
-  (void)theta, (void)dy, (void)t1, (void)t2, (void)t3;
-  const events *in = self;
-  const scaled_model *m = in->base.m;
-  const size_t n = (size_t)in->n, ld = (size_t)in->n_equations;
-  double *a = SM_DATA_D(jac);
-  fill_linear(m, ld, a);
-  for (int j = 0; j < in->n_contacts; ++j) {
-    const contact_forces_linear *f = &in->law[j];
-    const double *t = m->base->tangent + (size_t)j * n, *normal = m->base->normal + (size_t)j * n;
-    for (size_t col = 0; col < n; ++col) {
-      const double along = f->t_u * t[col] + f->t_v * normal[col], across = f->n_v * normal[col];
-      if (along == 0 && across == 0) continue;
-      for (size_t row = 0; row < n; ++row) a[col * ld + n + row] -= t[row] * along + normal[row] * across;
-    }
-  }
-  fill_circles(in, NV_DATA_S(y), ld, a);
-  return 0;
-}
-
-/* The guards of contact j at a motion: the value and rate of each; how many. With u'', v'' in bend. */
-static int guards_at(const events *in, int j, const contact_motion *at, const double bend[2],
-                     track_guard guard[TRACK_GUARDS])
-{
-  const double u[TRACK_ORDER + 1] = {at->u, at->du, 0.5 * bend[0]}, v[TRACK_ORDER + 1] = {at->v, at->dv, 0.5 * bend[1]};
-  return contact_track_guards(&in->track[j], &in->base.m->contact[j], u, v, guard);
-}
-
-static void motion_at(const events *in, int j, const double *y, const double *dy, contact_motion *at, double bend[2])
-{
-  const scaled_model *m = in->base.m;
-  scaled_contact_motion(m, j, y, &at->u, &at->v);
-  scaled_contact_motion(m, j, y + in->n, &at->du, &at->dv);
-  if (dy) scaled_contact_motion(m, j, dy + in->n, &bend[0], &bend[1]);
-}
-
-static angle_motion angle_motion_at(const events *in, int j, double theta, const double *y, const double *dy)
-{
-  angle_motion now = {.at = circle_at(in, j, y), .theta = theta, .phi = y[2 * in->n + in->angle_of[j]]};
-  scaled_circle_motion(in->base.m, j, dy + in->n, now.bend, &now.normal_bend);
-  return now;
-}
-
-/* All guards of contact j at theta and y, where its rate is dy; none of a circle's second direction. */
-static int guards_of(const events *in, int j, double theta, const double *y, const double *dy,
-                     track_guard guard[TRACK_GUARDS])
-{
-  const scaled_contact *c = &in->base.m->contact[j];
-  contact_motion at;
-  double bend[2] = {0};
-  if (c->second) return 0;
-  if (c->circle) {
-    const angle_motion now = angle_motion_at(in, j, theta, y, dy);
-    return circle_angle_guards(&in->angle[in->angle_of[j]], &in->track[j], c, &now, guard);
-  }
-  motion_at(in, j, y, dy, &at, bend);
-  return guards_at(in, j, &at, bend, guard);
-}
-
-/* CVODE multiplies values on either side of a root: this must not underflow. */
-static double never_zero(double g) { return g != 0 ? g : -1e-100; }
-
-static int roots(sunrealtype theta, N_Vector y, sunrealtype *g, void *self)
-{
-  events *in = self;
-  const double *z = NV_DATA_S(y);
-  phase_rhs(in, theta, z, in->rate);
-  for (int i = 0; i < ROOTS * in->n_contacts; ++i) g[i] = 1;
-  for (int j = 0; j < in->n_contacts; ++j, g += ROOTS) {
-    track_guard guard[TRACK_GUARDS];
-    const int n = guards_of(in, j, theta, z, in->rate, guard);
-    for (int i = 0; i < n; ++i) {
-      g[i] = never_zero(guard[i].g[0]);
-      g[TRACK_GUARDS + i] = never_zero(guard[i].g[1]);
-    }
-  }
-  return 0;
-}
 
 static void use_states(events *in)
 {
@@ -250,8 +51,8 @@ static void begin_angle(events *in, int j, double theta)
   y[2 * in->n + in->angle_of[j]] = atan2(t[1].along, t[0].along);
   if (!t->fresh) return;
   t[0].fresh = t[1].fresh = false;
-  phase_rhs(in, theta, y, in->rate);
-  const angle_motion now = angle_motion_at(in, j, theta, y, in->rate);
+  events_rate(in, theta, y, in->rate);
+  const angle_motion now = events_angle_motion_at(in, j, theta, y, in->rate);
   circle_angle_open(a, &in->base.m->contact[j], &now);
 }
 
@@ -260,7 +61,7 @@ static hc_status pass_circle(events *in, int j, track_event event, double theta,
 {
   const contact_track before[2] = {in->track[j], in->track[j + 1]};
   const scaled_contact *c = &in->base.m->contact[j];
-  const circle_motion at = circle_at(in, j, NV_DATA_S(in->base.y));
+  const circle_motion at = events_circle_at(in, j, NV_DATA_S(in->base.y));
   hc_status st = HC_OK;
   const bool changes = event != TRACK_TURNS && event != TRACK_HOLDS;
   if (++in->passed > 8 * integrate_most_transitions(in->n_contacts)) return HC_CHATTER;
@@ -283,7 +84,7 @@ static hc_status pass(events *in, int j, track_event event, double theta, int *c
   contact_motion at;
   follow_angles(in);
   if (in->base.m->contact[j].circle) return pass_circle(in, j, event, theta, count);
-  motion_at(in, j, NV_DATA_S(in->base.y), NULL, &at, NULL);
+  events_motion_at(in, j, NV_DATA_S(in->base.y), NULL, &at, NULL);
   ++in->passed;
   if (++*count > integrate_most_transitions(in->n_contacts)) return HC_CHATTER;
   hc_status st = in->varies ? structure_variations_advance(&in->variations, in->base.m, in->track, theta) : HC_OK;
@@ -304,8 +105,8 @@ static hc_status pass_fallen(events *in, double theta, int *count)
     for (int j = 0; j < in->n_contacts; ++j) {
       track_guard guard[TRACK_GUARDS];
       const double *y = NV_DATA_S(in->base.y);
-      phase_rhs(in, theta, y, in->rate);
-      const int n = guards_of(in, j, theta, y, in->rate, guard);
+      events_rate(in, theta, y, in->rate);
+      const int n = events_guards(in, j, theta, y, in->rate, guard);
       for (int i = 0; i < n; ++i) {
         if (!(guard[i].g[0] <= guard[i].noise && guard[i].g[1] < -guard[i].noise)) continue;
         hc_status st = pass(in, j, guard[i].event, theta, count);
@@ -335,12 +136,12 @@ static hc_status pass_roots(events *in, double theta, int *count)
   const int before = in->passed;
   const double *y = NV_DATA_S(in->base.y);
   hc_status st = HC_OK;
-  phase_rhs(in, theta, y, in->rate);
+  events_rate(in, theta, y, in->rate);
   for (int j = 0; j < in->n_contacts && st == HC_OK; ++j) {
     track_guard guard[TRACK_GUARDS];
-    const int n = guards_of(in, j, theta, y, in->rate, guard);
+    const int n = events_guards(in, j, theta, y, in->rate, guard);
     for (int i = 0; i < n; ++i) {
-      if (!in->info[j * ROOTS + i]) continue;
+      if (!in->info[j * EVENTS_ROOTS + i]) continue;
       st = pass(in, j, guard[i].event, theta, count);
       break;
     }
@@ -395,11 +196,11 @@ static hc_status begin(events *in, const double *y, int *count)
     const scaled_contact *c = &in->base.m->contact[j];
     contact_motion at;
     if (c->circle) {
-      const circle_motion both = circle_at(in, j, y);
+      const circle_motion both = events_circle_at(in, j, y);
       circle_track_begin(&in->track[j], c, &both, y + 2 * in->n + j);
       begin_angle(in, j, 0);
     } else if (!c->second) {
-      motion_at(in, j, y, NULL, &at, NULL);
+      events_motion_at(in, j, y, NULL, &at, NULL);
       in->track[j] = contact_track_begin(c, &at, y[2 * in->n + j]);
     }
   }
@@ -421,11 +222,11 @@ static void set_sliders(const events *in, int order, const double *phi, double *
     const scaled_contact *c = &in->base.m->contact[j];
     const contact_track *t = &in->track[j];
     contact_motion at;
-    motion_at(in, j, y, NULL, &at, NULL);
+    events_motion_at(in, j, y, NULL, &at, NULL);
     const bool sticks = t->state == CONTACT_STICK && c->law.has_friction;
     if (c->circle) {
       contact_track circle[2] = {t[0], t[1]};
-      const circle_motion both = circle_at(in, j, y);
+      const circle_motion both = events_circle_at(in, j, y);
       const double angle = phi[in->angle_of[j]];
       if (circle_track_turns(t)) circle[0].along = cos(angle), circle[1].along = sin(angle);
       if (order == 0) circle_track_slider(circle, c, &both, w + j);
@@ -511,16 +312,18 @@ static const integrator_class class = {.period = period,
 static hc_status make_cvode(events *in)
 {
   N_VConst(0.0, in->base.y);
-  int flag = CVodeInit(in->base.cv, rhs, 0.0, in->base.y); /* first: the other calls need it */
-  if (flag == CV_SUCCESS && in->n_contacts > 0) flag = CVodeRootInit(in->base.cv, ROOTS * in->n_contacts, roots);
+  int flag = CVodeInit(in->base.cv, events_rhs, 0.0, in->base.y); /* first: the other calls need it */
+  if (flag == CV_SUCCESS && in->n_contacts > 0)
+    flag = CVodeRootInit(in->base.cv, EVENTS_ROOTS * in->n_contacts, events_roots);
   if (flag != CV_SUCCESS) return HC_NO_MEMORY;
-  for (int i = 0; i < ROOTS * in->n_contacts; ++i) in->info[i] = i % ROOTS < TRACK_GUARDS ? -1 : 0; /* guards fall */
+  for (int i = 0; i < EVENTS_ROOTS * in->n_contacts; ++i)
+    in->info[i] = i % EVENTS_ROOTS < TRACK_GUARDS ? -1 : 0; /* guards fall */
   const int flags[] = {
       HC_CVODE_QUIET(in->base.cv),
       CVodeSStolerances(in->base.cv, in->tolerance, in->tolerance),
       CVodeSetUserData(in->base.cv, in),
       CVodeSetLinearSolver(in->base.cv, in->base.ls, in->base.jac),
-      CVodeSetJacFn(in->base.cv, jacobian),
+      CVodeSetJacFn(in->base.cv, events_jacobian),
       in->n_contacts > 0 ? CVodeSetRootDirection(in->base.cv, in->info) : CV_SUCCESS,
       CVodeSetEtaFixedStepBounds(in->base.cv, 0.9, 1.2), /* integrate_exact.c */
       CVodeSetNoInactiveRootWarn(in->base.cv),
@@ -545,7 +348,7 @@ hc_status integrate_new_events(const modal_base *base, double tolerance, integra
   in->tolerance = tolerance;
   in->track = calloc(contacts + 1, sizeof *in->track);
   in->law = calloc(contacts + 1, sizeof *in->law);
-  in->info = calloc(ROOTS * contacts + 1, sizeof *in->info);
+  in->info = calloc(EVENTS_ROOTS * contacts + 1, sizeof *in->info);
   in->n_equations = 2 * base->n + base->n_circles;
   in->rate = calloc((size_t)in->n_equations + (size_t)base->n_circles, sizeof *in->rate);
   in->angle = calloc((size_t)base->n_circles + 1, sizeof *in->angle);
