@@ -5,37 +5,85 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "hbm/corrector.h"
 #include "hbm/hbm_solver_impl.h"
 #include "hbm/segment_solutions.h"
+#include "numerics/norm.h"
 #include "numerics/roots.h"
 
-/* Where slip of a circle begins the curve may stop (README.md, Edges of slip in a plane): what lies beyond is solved
- * for without it. */
-static hc_status solve_beyond(hbm_solver *s, const hbm_curve *c, double omega, hbm_curve *at)
+/* Is X one of the solutions at[before..]? */
+static bool found_already(const hbm_curve *at, int before, int n_coef, const double *X)
+{
+  for (int j = before; j < at->n; ++j) {
+    const double *Y = hbm_curve_X(at, j);
+    double apart = 0;
+    for (int i = 0; i < n_coef; ++i) apart = hypot(apart, X[i] - Y[i]);
+    if (apart <= 1e-9 * norm_2(n_coef, X)) return true;
+  }
+  return false;
+}
+
+/* A solution at omega, found from guess or, if that is NULL, from nothing, appended unless it is there already: one of
+ * at[before..]. */
+static hc_status append_solution(hbm_solver *s, const hbm_curve *c, const double *guess, double omega, int before,
+                                 hbm_curve *at)
 {
   hbm_candidate x;
   hc_status st = hbm_candidate_new(c->n_coef, &x);
   if (st != HC_OK) return st;
+  const double size = guess ? norm_2(c->n_coef, guess) : 0;
+  if (guess) memcpy(x.X, guess, (size_t)c->n_coef * sizeof *guess);
   memset(x.dX, 0, (size_t)c->n_coef * sizeof *x.dX);
-  st = hbm_solve_first(s, omega, x.X, &x.point);
-  if (st == HC_OK) st = hbm_curve_append(at, c->n_coef, x.X, x.dX, &x.point);
+  st = guess ? hbm_solve_fixed(s, omega, size, x.X, &x.point) : hbm_solve_first(s, omega, x.X, &x.point);
+  if (st == HC_OK && !found_already(at, before, c->n_coef, x.X))
+    st = hbm_curve_append(at, c->n_coef, x.X, x.dX, &x.point);
   free(x.X);
   return st;
+}
+
+/* Where slip of a circle begins or ends all round, planes across the interpolant may miss the curve (README.md, Edges
+ * of slip in a plane): from both ends of a segment, at omega. */
+static hc_status solve_from_ends(hbm_solver *s, const hbm_curve *c, int k, double omega, int before, hbm_curve *at)
+{
+  for (int end = k; end <= k + 1; ++end)
+    if (append_solution(s, c, hbm_curve_X(c, end), omega, before, at) == HC_NO_MEMORY) return HC_NO_MEMORY;
+  return at->n > before ? HC_OK : HC_NOT_CONVERGED;
+}
+
+/* Solutions that are there twice: interpolants of steep segments may overshoot into the next one. */
+static void drop_twins(hbm_curve *at, int before)
+{
+  const size_t row = (size_t)at->n_coef * sizeof(double);
+  int n = before;
+  for (int i = before; i < at->n; ++i) {
+    const int all = at->n;
+    at->n = n;
+    const bool twin = found_already(at, before, at->n_coef, hbm_curve_X(at, i));
+    at->n = all;
+    if (twin) continue;
+    at->points[n] = at->points[i];
+    memmove(hbm_curve_X(at, n), hbm_curve_X(at, i), row);
+    memmove(hbm_curve_dX(at, n), hbm_curve_dX(at, i), row);
+    ++n;
+  }
+  at->n = n;
 }
 
 hc_status hbm_curve_at(hbm_solver *s, const hbm_curve *c, double omega, hbm_curve *at)
 {
   const int before = at->n;
+  const bool circles = model_has_circle(s->model);
   hc_status worst = HC_OK;
   at->omega_scale = c->omega_scale;
   at->asked = true;
   for (int k = 0; k + 1 < c->n; ++k) {
     hc_status st = hbm_segment_solutions(s, c, k, omega, k + 2 == c->n, at);
+    if (st != HC_OK && circles) st = solve_from_ends(s, c, k, omega, before, at);
     if (st != HC_OK) worst = st;
   }
+  if (circles) drop_twins(at, before);
   const bool stopped = at->n == before && c->n > 0 && c->end != HC_OK;
-  if (stopped && model_has_circle(s->model)) return solve_beyond(s, c, omega, at);
-  return worst;
+  return stopped && circles ? append_solution(s, c, NULL, omega, before, at) : worst;
 }
 
 /* The two segments that meet at the highest point, by a position: -1 is the point before, 0 the highest, 1 the point

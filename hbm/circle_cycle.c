@@ -8,6 +8,7 @@
 #include "base/constants.h"
 #include "hbm/circle_stick.h"
 
+static const double LITTLE_SLIP = 0.2; /* [rad] of a period */
 enum { MAX_CHANGES_PER_HARMONIC = 64, MAX_CHANGES_AT_ANGLE = 3, MAX_NEWTON = 20, MAX_PASSES = 500 };
 
 /* The slider while it is followed. */
@@ -277,6 +278,40 @@ static hc_status march(circle_cycle *c, int passes, double w[2], bool *ended)
   return st;
 }
 
+/* Ends of slip into th[2], if the last pass has two, after so little slip that circles may share a lens. */
+static bool two_touches(const circle_cycle *c, double th[2])
+{
+  int found = 0;
+  double slipped = 0;
+  for (int i = 0; i < c->n; ++i) {
+    if (c->piece[i].state == CONTACT_STICK) continue;
+    slipped += c->piece[i].to - c->piece[i].from;
+    if (c->piece[(i + 1) % c->n].state != CONTACT_STICK) continue;
+    if (found < 2) th[found] = c->piece[i].to;
+    ++found;
+  }
+  return found == 2 && slipped <= LITTLE_SLIP;
+}
+
+/* The corner that marching creeps to from w, if there is one and the circles of all other instants hold it, too. */
+static hc_status rest_in_corner(circle_cycle *c, const double w[2], bool *rests)
+{
+  circle_corner corner;
+  double th[2];
+  *rests = false;
+  if (!two_touches(c, th) || !circle_corner_find(c->m, w, th, &corner)) return HC_OK;
+  double end[2] = {corner.w[0], corner.w[1]};
+  const hc_status st = circle_cycle_pass(c, end, NULL);
+  *rests = st == HC_OK && hypot(end[0] - corner.w[0], end[1] - corner.w[1]) <= 64 * DBL_EPSILON * size_of(c);
+  if (!*rests) return st;
+  c->cornered = true;
+  c->corner = corner;
+  c->n = 1;
+  c->slip.n = 0;
+  c->piece[0] = (circle_piece){.to = TWO_PI, .state = CONTACT_STICK, .w = {corner.w[0], corner.w[1]}};
+  return HC_OK;
+}
+
 /* A few passes as they come tell whether it goes on slipping; Newton ends what does. Where Newton comes upon an orbit
  * that does not slip, that is not the one that marching leads to: more passes, and Newton that stays where it slips. */
 static hc_status settle(circle_cycle *c)
@@ -287,7 +322,11 @@ static hc_status settle(circle_cycle *c)
   hc_status st = HC_OK;
   for (int i = 0; i < 3 && st == HC_OK && !done; ++i) {
     st = march(c, passes[i], w, &done);
-    if (st == HC_OK && !done && i < 2) st = close_by_newton(c, w, i > 0, &done);
+    if (st == HC_OK && !done) st = rest_in_corner(c, w, &done);
+    if (st != HC_OK || done || i == 2) continue;
+    st = close_by_newton(c, w, i > 0, &done);
+    bool rests;
+    if (st == HC_OK && done) st = rest_in_corner(c, c->start, &rests);
   }
   return st == HC_OK && !done ? HC_NOT_CLOSED : st;
 }
@@ -295,6 +334,7 @@ static hc_status settle(circle_cycle *c)
 hc_status circle_cycle_find(circle_cycle *c)
 {
   c->marched = -1;
+  c->cornered = false;
   return c->always ? settle(c) : follow_contacts(c);
 }
 

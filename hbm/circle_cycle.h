@@ -5,11 +5,13 @@
  * into the circle at once, and is marched. A pass maps w(0) to w(2 pi) without expanding distances, for w is dragged
  * by a moving convex set (Moreau 1977, J. Differential Equations 26, 347-374); that is no clamp, and repeats itself in
  * the limit only. So the closed orbit is found by Newton on w(0), with the 2x2 derivative of the pass. A slider that
- * does not slip after some pass stays where marching left it. libm only, nothing is allocated. */
+ * does not slip after some pass stays where marching left it; one that is dragged to and fro by two circles that only
+ * just leave it room is brought where that ends (circle_corner.h). libm only, nothing is allocated. */
 #ifndef HC_HBM_CIRCLE_CYCLE_H
 #define HC_HBM_CIRCLE_CYCLE_H
 
 #include "base/status.h"
+#include "hbm/circle_corner.h"
 #include "hbm/circle_motion.h"
 #include "hbm/circle_slip.h"
 
@@ -42,6 +44,8 @@ typedef struct circle_cycle {
   circle_slip slip;              /* its panels */
   double start[2];               /* [length] w0: where the last pass began, not yet put into the circle; if `always` */
   int marched;                   /* passes from w0 = 0 after which it does not slip any more; -1: it slips for ever */
+  bool cornered;                 /* it rests, where marching creeps: in .. */
+  circle_corner corner;          /* .. */
   int changes;                   /* of state in this pass, to recognise chatter */
 } circle_cycle;
 

@@ -474,13 +474,32 @@ static hc_status march_again(circle_force *f)
   return st == HC_OK ? circle_cycle_pass(&f->cycle, w, NULL) : st;
 }
 
+/* Derivatives of the corner it rests in. */
+static void follow_corner(circle_force *f)
+{
+  const circle_corner *c = &f->cycle.corner;
+  const double per_v = f->motion.per_v;
+  double *grows[2] = {f->dw[0], f->dw[1]};
+  for (int i = 0; i < 2; ++i) {
+    clear(f, grows[i]);
+    fill_base(f->n_harm, c->at[i].th, f->base, f->rate);
+    add_motion(f, f->base, c->e[i][0], c->e[i][1], -per_v, grows[i]);
+  }
+  for (int q = 0; q < f->n_size; ++q) {
+    double dw[2];
+    circle_corner_move(c, (double[2]){grows[0][q], grows[1][q]}, dw);
+    f->dw[0][q] = dw[0], f->dw[1][q] = dw[1];
+  }
+}
+
 static hc_status integrate(circle_force *f, bool derive)
 {
   hc_status st = HC_OK;
-  const bool closes = derive && f->cycle.always && f->cycle.marched < 0;
+  const bool closes = derive && f->cycle.always && f->cycle.marched < 0 && !f->cycle.cornered;
   if (f->cycle.n_contacts == 0) clear_sums(f);
   if (f->cycle.n_contacts == 0) return HC_OK;
   if (closes) start_from_w0(f);
+  else if (derive && f->cycle.cornered) follow_corner(f);
   else if (derive && f->cycle.always) st = march_again(f);
   if (st != HC_OK) return st;
   add_pieces(f, derive);

@@ -28,8 +28,10 @@
 
 static const double TOLERANCE = 1e-4; /* [1] of interpolation, relative to |X| */
 static const double STEP_FIRST = 0.02, STEP_MAX = 0.5, STEP_MIN = 1e-11;
-static const double STEP_CORNER = 1e-4;      /* where steps are this short the curve has a corner: a kink is accepted */
-static const double STEP_ROUND = 1e-9;       /* where steps fail below this, a step round the corner is tried */
+static const double STEP_CORNER = 1e-4; /* where steps are this short the curve has a corner: a kink is accepted */
+static const double STEP_ROUND = 1e-9;  /* where steps fail below this, a step round the corner is tried */
+static const double STEP_EDGE = 1e-6;   /* of models with circles (pass_edge) */
+static const double EDGE_FIRST = 1e-7, EDGE_LAST = 1e-3, EDGE_WIDEST = 3e-2; /* of omega; of |X| */
 static const double FAR = 4;                 /* factor beyond the start of the sweep up to which a loop is followed */
 static const double LINEAR_NEAR = 1e-2;      /* the linear response counts as the predicted solution within this part */
 static const double STEEP = 0.2, FLAT = 0.6; /* flatness below which natural steps end, above which they are resumed */
@@ -166,6 +168,38 @@ static bool round_corner(path *p)
   return accepted;
 }
 
+/* The solution at omega, if it is near the last point and the curve goes on from there away from it. */
+static bool solve_past_edge(path *p, double omega)
+{
+  const hbm_curve *c = p->curve;
+  const double *X0 = hbm_curve_X(c, c->n - 1), omega0 = c->points[c->n - 1].omega;
+  memcpy(p->X, X0, (size_t)c->n_coef * sizeof *X0);
+  p->omega = omega;
+  hc_status st = hbm_solve_fixed(p->s, omega, path_size(p), p->X, &p->point);
+  p->curve->iterations += p->point.iterations;
+  if (st == HC_OK) st = hbm_tangent_fixed(p->s, p->X, p->dX);
+  if (st != HC_OK) return false;
+  p->d_omega = 1;
+  p->det_sign = newton_sign(p->s->fixed);
+  path_orient_tangent(p);
+  fill_chord(p);
+  return p->d_omega * (omega - omega0) > 0 && norm_2(c->n_coef, p->chord) <= EDGE_WIDEST * path_size(p);
+}
+
+/* Past the edge of slip of a circle (README.md, Edges of slip in a plane): there the curve's tangent is steep on both
+ * sides, and it may turn on its heels. */
+static bool pass_edge(path *p)
+{
+  const hbm_point *last = &p->curve->points[p->curve->n - 1];
+  const double onward = last->d_omega > 0 ? last->omega : -last->omega;
+  bool accepted = false;
+  if (!model_has_circle(p->s->model)) return false;
+  for (double part = EDGE_FIRST; part <= EDGE_LAST && !accepted; part *= 4)
+    accepted = solve_past_edge(p, last->omega + part * onward) || solve_past_edge(p, last->omega - part * onward);
+  if (accepted) p->step = STEP_EDGE;
+  return accepted;
+}
+
 /* The trial becomes a point of the curve; the next step is natural or not by how flat the curve is there. */
 static hc_status append_trial(path *p)
 {
@@ -287,20 +321,24 @@ static hc_status accept_trial(path *p, bool *done)
 }
 
 /* After a step that was not accepted, step_status being HC_OK or why there was no trial: arc length instead of natural
- * steps, or a step round a corner, once a point. HC_OK: try again with the shorter step. */
+ * steps, or a step past an edge of slip or round a corner, each once a point. HC_OK: try again with a shorter step. */
 static hc_status recover(path *p, hc_status step_status, bool *done)
 {
   hbm_curve *c = p->curve;
   ++c->rejected;
   bool natural_fails = step_status != HC_OK || p->step < STEP_FIRST;
   if (p->natural && arclength_allowed(p) && natural_fails) switch_to_arclength(p);
+  const bool at_edge = p->step < STEP_EDGE && p->points_at_last_edge != c->n;
   bool at_corner = p->step < STEP_ROUND;
-  if (at_corner && !p->natural && p->points_at_last_corner != c->n && round_corner(p)) {
+  bool past = at_edge && !p->natural && pass_edge(p);
+  if (!past) past = at_corner && !p->natural && p->points_at_last_corner != c->n && round_corner(p);
+  if (past) {
     hc_status st = append_trial(p);
     if (st == HC_OK) st = end_at_limit(p, done);
     p->tangent_only = true;
     return st;
   }
+  if (at_edge) p->points_at_last_edge = c->n;
   if (at_corner) p->points_at_last_corner = c->n;
   if (p->step < STEP_MIN) return step_status != HC_OK ? step_status : HC_STEP_TOO_SMALL;
   return HC_OK;

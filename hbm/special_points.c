@@ -12,8 +12,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "hbm/corrector.h"
 #include "hbm/hbm_solver_impl.h"
 #include "hbm/narrowing.h"
+#include "numerics/norm.h"
 #include "numerics/roots.h"
 
 /* A segment spans a fraction of the sweep, so this part of it is far less than the 1e-9 of omega that
@@ -23,6 +25,7 @@ enum { MAX_CONTACT_CHANGES = 64 /* on one segment */, MOST_CONTACTS_FOLLOWED = 2
 /* What is nearer than this, relative to omega and to the amplitude (near a turning point omega alone says little), is
  * at one place: special_points.h promises no more. */
 static const double SAME_OMEGA = 1e-9, SAME_AMPLITUDE = 1e-8;
+static const double EDGE_OMEGA = 1e-6; /* and a circle's edge of slip to this */
 
 /* The test functions at a point. */
 typedef struct test_values {
@@ -230,6 +233,38 @@ static hc_status locate_root(detector *d, int k, hbm_special_kind kind, double f
   return insert_special(d, root.x, kind, &s.here, &s.here);
 }
 
+/* A point at omega, from one of the guesses, into d->x. */
+static hc_status solve_at_omega(detector *d, const double *const guess[2], double omega)
+{
+  hc_status st = HC_NOT_CONVERGED;
+  for (int i = 0; i < 2 && st != HC_OK; ++i) {
+    memcpy(d->x.X, guess[i], (size_t)d->c->n_coef * sizeof(double));
+    st = hbm_solve_fixed(d->s, omega, norm_2(d->c->n_coef, guess[i]), d->x.X, &d->x.point);
+  }
+  return st;
+}
+
+/* Where slip of a circle begins or ends all round, planes across the interpolant may miss the curve (README.md, Edges
+ * of slip in a plane): the change on segment k by bisection of omega, as far as there are solutions, but to 1e-6. */
+static hc_status locate_edge(detector *d, int k, const test_values *before, const test_values *end)
+{
+  const hbm_point *p = &d->c->points[k];
+  const double *const guess[2] = {hbm_curve_X(d->c, k), hbm_curve_X(d->c, k + 1)};
+  double from = p[0].omega, to = p[1].omega;
+  hc_status st = HC_OK;
+  for (int i = 0; i < 60 && st == HC_OK && fabs(to - from) > 0.5 * SAME_OMEGA * to; ++i) {
+    const double middle = from + 0.5 * (to - from);
+    test_values here = {0};
+    st = solve_at_omega(d, guess, middle);
+    if (st == HC_OK) st = evaluate_tests(d, middle, 0, d->x.X, false, &here);
+    if (st == HC_OK) *(same_pattern(&here, before) ? &from : &to) = middle;
+  }
+  if (!(fabs(to - from) <= EDGE_OMEGA * to)) return st == HC_OK ? HC_NOT_CONVERGED : st;
+  st = solve_at_omega(d, guess, from);
+  d->x.point.branch = p->branch;
+  return st == HC_OK ? insert_special(d, 0.5, HBM_CONTACT_CHANGE, before, end) : st;
+}
+
 /* Every change of the contact pattern on segment k, from `before` at its start to `end` at its end. */
 static hc_status locate_contact_changes(detector *d, int k, test_values before, const test_values *end)
 {
@@ -269,6 +304,7 @@ static hc_status search_segment(detector *d, int k, const test_values *a, const 
   hc_status changes = HC_OK, turning = HC_OK, doubling = HC_OK, torus = HC_OK;
   d->first = d->n;
   if (!same_pattern(a, b)) changes = locate_contact_changes(d, k, *a, b);
+  if (changes != HC_OK && d->n == d->first && model_has_circle(d->s->model)) changes = locate_edge(d, k, a, b);
   if ((a->d_omega > 0) != (b->d_omega > 0)) turning = locate_root(d, k, HBM_TURNING_POINT, a->d_omega, b->d_omega);
   if ((a->flip > 0) != (b->flip > 0)) doubling = locate_root(d, k, HBM_PERIOD_DOUBLING, a->flip, b->flip);
   if (a->pairs_outside != b->pairs_outside) torus = locate_neimark_sacker(d, k, a);

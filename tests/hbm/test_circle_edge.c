@@ -1,5 +1,5 @@
-/* test_circle_edge.c - a structure whose contact with two tangents is at the edge of slip: its curve stops there, and
- * what lies beyond is found at a given omega. */
+/* test_circle_edge.c - a structure whose contact with two tangents sticks, slips all round and sticks again over the
+ * sweep: its curve goes on through both edges of slip, from either end. */
 #include "hbm/hbm.h"
 #include "tests/hbm/circle_scenes.h"
 
@@ -28,34 +28,74 @@ static model *space(double F)
   return m;
 }
 
+typedef struct space_curve {
+  model *m;
+  hbm_solver *s;
+  hbm_curve c;
+} space_curve;
+
+static space_curve trace_space(int harmonics, double from, double to, double scale)
+{
+  const hbm_settings how = {
+      .harmonics = harmonics, .keep_mean = true, .force = HBM_FORCE_EXACT, .tolerance = 1e-10, .accuracy = 1e-4};
+  space_curve k = {.m = space(0.1)};
+  assert_int_equal(hbm_solver_new(k.m, &how, &k.s), HC_OK);
+  hbm_scale_steps(k.s, scale);
+  assert_int_equal(hbm_trace(k.s, from, to, NULL, &k.c), HC_OK);
+  return k;
+}
+
+static void clear(space_curve *k)
+{
+  hbm_curve_free(&k->c);
+  hbm_solver_free(k->s);
+  model_free(k->m);
+}
+
 /* Amplitude and mean of x1 at 12.5, H = 3: reference hbm.csv (an independent program; located transitions). 1e-9: what
  * the reference asks of exact forces. */
-static void a_solution_beyond_the_edge_is_found(void **state)
+static void a_curve_passes_both_edges(void **state)
 {
   (void)state;
-  const hbm_settings how = {
-      .harmonics = 3, .keep_mean = true, .force = HBM_FORCE_EXACT, .tolerance = 1e-10, .accuracy = 1e-4};
-  const double amplitude = 0.0136788720187776, mean = 0.000723689017065682;
-  model *m = space(0.1);
-  hbm_solver *s;
-  hbm_curve curve = {0}, at = {0};
-  hbm_measures found;
-  assert_int_equal(hbm_solver_new(m, &how, &s), HC_OK);
-  hbm_trace(s, 9.45, 12.6, NULL, &curve); /* whether it stops or passes */
-  assert_int_equal(hbm_curve_at(s, &curve, 12.5, &at), HC_OK);
-  assert_true(at.n >= 1);
-  assert_int_equal(hbm_measure_response(s, 12.5, at.X, 0, &found), HC_OK);
-  CHECK_NEAR(found.amplitude, amplitude, 1e-9 * amplitude, "amplitude");
-  CHECK_NEAR(found.mean, mean, 1e-9 * amplitude, "mean");
-  hbm_curve_free(&curve);
-  hbm_curve_free(&at);
-  hbm_solver_free(s);
-  model_free(m);
+  const double amplitude = 0.0136788720187776, mean = 0.000723689017065682, ends[2] = {9.45, 15.4};
+  for (int down = 0; down < 2; ++down) {
+    space_curve k = trace_space(3, ends[down], ends[1 - down], 1);
+    hbm_curve at = {0};
+    hbm_measures found;
+    assert_true(k.c.points[k.c.n - 1].omega == ends[1 - down]);
+    assert_int_equal(hbm_curve_at(k.s, &k.c, 12.5, &at), HC_OK);
+    assert_int_equal(at.n, 1);
+    assert_int_equal(hbm_measure_response(k.s, 12.5, at.X, 0, &found), HC_OK);
+    CHECK_NEAR(found.amplitude, amplitude, 1e-9 * amplitude, "amplitude, down %d", down);
+    CHECK_NEAR(found.mean, mean, 1e-9 * amplitude, "mean, down %d", down);
+    hbm_curve_free(&at);
+    clear(&k);
+  }
+}
+
+/* Stuck motions, by the linear structure with the contact's springs, their slider w anywhere: where the least over w of
+ * the largest |u - w| - R over the period falls through 0 there is room for one w only, and the curve of stuck motions
+ * turns. A search over w of its own, by nested golden sections, has that zero at 12.77034103, to the 1e-9 of R that
+ * those are good to, which is 3e-10 in omega. */
+static void the_curve_turns_where_the_last_slider_is_stuck(void **state)
+{
+  (void)state;
+  space_curve k = trace_space(5, 12.772, 12.769, 0.05);
+  hbm_special special[8];
+  int n, turns = 0;
+  hbm_specials(k.s, &k.c, 8, special, &n);
+  for (int i = 0; i < n && i < 8; ++i) {
+    if (special[i].kind != HBM_TURNING_POINT || turns++) continue;
+    CHECK_NEAR(special[i].omega, 12.77034103, 1e-8, "turning point");
+  }
+  assert_true(turns >= 1);
+  clear(&k);
 }
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(a_solution_beyond_the_edge_is_found)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(a_curve_passes_both_edges),
+                                     cmocka_unit_test(the_curve_turns_where_the_last_slider_is_stuck)};
   check_watchdog(60);
   return cmocka_run_group_tests_name("hbm.circle_edge", tests, NULL, NULL);
 }

@@ -1,6 +1,8 @@
 /* test_circle_force.c - located forces of contacts with two tangents under the law of the circle: on one line the law
  * of one tangent, closed forms on a circle, the sampled forces' limit, invariances, and the Jacobian against
  * differences. */
+#include <float.h>
+
 #include "hbm/circle_force.h"
 #include "hbm/exact_force.h"
 #include "tests/hbm/circle_scenes.h"
@@ -256,6 +258,38 @@ static void jacobian_equals_differences(void **state)
   for (int r = CONTACT_STUCK; r <= CONTACT_SEPARATES; ++r) assert_true(regimes[r] > 10);
 }
 
+/* ---- a lens ------------------------------------------------------------------------------------------ */
+
+/* u = (a cos th, Y), N constant: the circles about (a, Y) and (-a, Y) are the narrowest, and share a lens where R > a,
+ * its corners at Y -+ sqrt(R^2 - a^2). From w = 0 below it the slider creeps to the lower one. T_2 = kt sqrt(R^2 - a^2)
+ * there, whose derivatives by a and Y are -kt a/sqrt(R^2 - a^2) and 0. A rounding of R moves the corner by R/sqrt(R^2 -
+ * a^2) of it; a few dozen are granted. Where R < a it slips for ever, by symmetry about Y, to as many roundings of R
+ * over the part of a radius that it slips. */
+static void a_slider_creeps_to_the_corner_of_a_lens(void **state)
+{
+  (void)state;
+  const double Y = 3, a = 1, room[] = {1e-2, 1e-4, 1e-6, 1e-8, 1e-10, -1e-2, -1e-4};
+  for (int k = 0; k < 7; ++k) {
+    const double R = a * (1 + room[k]), deep = sqrt(fmax(0, (R - a) * (R + a)));
+    const double X[6] = {0, a, 0, Y, 0, 0}, tolerance = 64 * DBL_EPSILON * Y * (deep > 0 ? R / deep : R / (a - R));
+    const contact law = {.kt = 2, .mu = 0.5, .load = 4 * R};
+    double F[6], w[2];
+    contact_report report;
+    circle_force *f = make(&law, 1);
+    assert_int_equal(circle_force_eval(f, X, F, jac, &report), HC_OK);
+    circle_force_slider(f, w);
+    CHECK_NEAR(w[1], Y - deep, tolerance, "room %g", room[k]);
+    assert_int_equal(report.regime, deep > 0 ? CONTACT_STUCK : CONTACT_SLIPS);
+    if (deep > 0) {
+      CHECK_NEAR(w[0], 0, tolerance, "room %g", room[k]);
+      CHECK_NEAR(F[3], law.kt * deep, law.kt * tolerance, "room %g", room[k]);
+      CHECK_NEAR(jac[3 + 6 * 1], -law.kt * a / deep, law.kt * tolerance / deep / deep, "room %g, by a", room[k]);
+      CHECK_NEAR(jac[3 + 6 * 3], 0, law.kt * tolerance / deep, "room %g, by Y", room[k]);
+    }
+    circle_force_free(f);
+  }
+}
+
 /* ---- limits and refusals ------------------------------------------------------------------------------- */
 
 /* Far too little pull to slip: kt (u - 0), a free slider; and never in contact: nothing. */
@@ -303,10 +337,15 @@ static void refuses(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(a_line_is_one_tangent),     cmocka_unit_test(a_circle_by_its_closed_form),
-      cmocka_unit_test(sampled_forces_tend_to_it), cmocka_unit_test(random_scenes_meet_the_sampled_ones),
-      cmocka_unit_test(turns_and_shifts),          cmocka_unit_test(jacobian_equals_differences),
-      cmocka_unit_test(stuck_and_open_are_linear), cmocka_unit_test(refuses),
+      cmocka_unit_test(a_line_is_one_tangent),
+      cmocka_unit_test(a_circle_by_its_closed_form),
+      cmocka_unit_test(sampled_forces_tend_to_it),
+      cmocka_unit_test(random_scenes_meet_the_sampled_ones),
+      cmocka_unit_test(turns_and_shifts),
+      cmocka_unit_test(jacobian_equals_differences),
+      cmocka_unit_test(stuck_and_open_are_linear),
+      cmocka_unit_test(a_slider_creeps_to_the_corner_of_a_lens),
+      cmocka_unit_test(refuses),
   };
   check_watchdog(300);
   return cmocka_run_group_tests_name("hbm.circle_force", tests, NULL, NULL);
