@@ -1,0 +1,112 @@
+/* lab.c - see lab.h: the case, the table, the words. Questions: lab_curve.c, lab_motion.c, lab_transient.c,
+ * lab_errors.c. */
+#include "lab/lab.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "compare/first_guess.h"
+#include "lab/lab_inside.h"
+
+lab *lab_new(void) { return calloc(1, sizeof(lab)); }
+
+void lab_drop_curves(lab *l)
+{
+  for (int f = 0; f < LAB_FORCES; ++f) {
+    hbm_solver_free(l->kept[f].solver);
+    hbm_curve_free(&l->kept[f].curve);
+    l->kept[f] = (lab_kept){0};
+  }
+}
+
+void lab_free(lab *l)
+{
+  if (!l) return;
+  lab_drop_curves(l);
+  free(l->values);
+  free(l);
+}
+
+/* ---- the case ---- */
+
+static hc_status read_oscillator(const char *text, scene *sc, case_error *err)
+{
+  hc_status st = case_parse("case", text, strlen(text), 0, NULL, sc, err);
+  if (st != HC_OK || !sc->structure) return st;
+  case_clear(sc);
+  snprintf(err->message, sizeof err->message,
+           "case: structure: the lab has one degree of freedom, an `oscillator` was expected");
+  return HC_BAD_INPUT;
+}
+
+int lab_read(lab *l, const char *text)
+{
+  scene sc;
+  case_error err = {""};
+  const hc_status st = read_oscillator(text, &sc, &err);
+  lab_begin(l, 0);
+  if (st == HC_OK) {
+    lab_drop_curves(l);
+    l->sc = sc;
+    l->has_case = true;
+    l->n_harm = 0;
+  }
+  lab_answer(l, st);
+  if (err.message[0]) memcpy(l->message, err.message, sizeof l->message);
+  return st;
+}
+
+hc_status lab_scene(const lab *l, int force, scene *out)
+{
+  if (!l->has_case || force < 0 || force >= LAB_FORCES) return HC_BAD_INPUT;
+  *out = l->sc;
+  out->hbm.force = force == LAB_EXACT ? HBM_FORCE_EXACT : HBM_FORCE_SAMPLED;
+  return HC_OK;
+}
+
+hc_status lab_solver(const scene *sc, hbm_solver **out)
+{
+  model *m;
+  *out = NULL;
+  hc_status st = scene_model(sc, &m);
+  if (st == HC_OK) st = guided_hbm_solver_new(m, &sc->hbm, out);
+  model_free(m);
+  return st;
+}
+
+/* ---- the answer ---- */
+
+void lab_begin(lab *l, int columns)
+{
+  free(l->values);
+  l->values = NULL;
+  l->rows = l->room = 0;
+  l->columns = columns;
+}
+
+double *lab_row(lab *l)
+{
+  if (l->rows == l->room) {
+    const int room = l->room ? 2 * l->room : 64;
+    double *more = realloc(l->values, (size_t)room * (size_t)l->columns * sizeof *more);
+    if (!more) return NULL;
+    l->values = more;
+    l->room = room;
+  }
+  double *row = l->values + (size_t)l->rows++ * (size_t)l->columns;
+  for (int i = 0; i < l->columns; ++i) row[i] = NAN;
+  return row;
+}
+
+int lab_answer(lab *l, hc_status st)
+{
+  snprintf(l->message, sizeof l->message, "%s", st == HC_OK ? "" : hc_status_text(st));
+  return (int)st;
+}
+
+const char *lab_message(const lab *l) { return l->message; }
+int lab_rows(const lab *l) { return l->rows; }
+int lab_columns(const lab *l) { return l->columns; }
+const double *lab_values(const lab *l) { return l->values; }

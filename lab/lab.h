@@ -1,0 +1,95 @@
+/* lab.h - what the page asks of the library: a case in, tables of numbers out. Compiled to WebAssembly it is the
+ * module's whole interface (lab/README.md); natively it is what tests hold the module against.
+ *
+ * One degree of freedom: a structure is refused by lab_read. Tables are by rows, lab_rows by lab_columns values of type
+ * double at lab_values; integers and enumerations stand in them as numbers, what is not known as NaN. A table is the
+ * lab's and lasts until the next question. Units are the case's; omega in rad per unit time, th = omega t [rad].
+ * Every question answers with a status of base/status.h as an int, 0 = HC_OK; what was found before it failed is in the
+ * table all the same. The library's words for it are in lab_message. Nothing is printed. One lab, one thread.
+ *
+ *     X[2H+1]    x(th) = X[0] + sum_{h=1..H} X[2h-1] cos(h th) + X[2h] sin(h th) */
+#ifndef HC_LAB_H
+#define HC_LAB_H
+
+typedef struct lab lab;
+
+lab *lab_new(void); /* NULL: out of memory */
+void lab_free(lab *l);
+
+/* The case file text[] becomes the lab's case; whatever was asked before is forgotten. HC_BAD_INPUT, and the case is
+ * the old one: lab_message says "case:LINE:COLUMN: what is wrong, what was expected". HC_NO_MEMORY. */
+int lab_read(lab *l, const char *text);
+
+/* The words for the last answer, "" if it was HC_OK. */
+const char *lab_message(const lab *l);
+
+int lab_rows(const lab *l);
+int lab_columns(const lab *l);
+const double *lab_values(const lab *l);
+
+/* ---- harmonic balance ---- */
+
+enum { LAB_EXACT, LAB_SAMPLED }; /* the contact force: event-located, or with hbm.samples */
+
+/* A row of lab_curve, lab_curve_at and lab_solve: these columns, then X[2H+1]. */
+enum {
+  LAB_OMEGA,
+  LAB_BRANCH,
+  LAB_AMPLITUDE,
+  LAB_MAX,
+  LAB_MIN,
+  LAB_RMS,
+  LAB_MEAN,
+  LAB_HARMONIC_1,
+  LAB_STABLE,     /* 1 stable, -1 unstable, 0 unknown */
+  LAB_MULTIPLIER, /* [1] modulus of the largest Floquet multiplier */
+  LAB_CONTACT,    /* contact_regime: the strongest thing that happens in a period */
+  LAB_ITERATIONS,
+  LAB_RESIDUAL,
+  LAB_HARMONICS, /* H */
+  LAB_SOLUTION   /* the first of X[2H+1] */
+};
+
+/* The response curve over the case's sweep, kept until the next of its kind. Errors of hbm_trace. */
+int lab_curve(lab *l, int force);
+
+/* Every solution of that curve at omega, each solved for. HC_BAD_INPUT: there is no curve. Errors of hbm_curve_at. */
+int lab_curve_at(lab *l, int force, double omega);
+
+/* Its special points: omega, amplitude, branch, hbm_special_kind, contact_regime before and after. Errors of
+ * hbm_specials. */
+int lab_specials(lab *l, int force);
+
+/* ---- one motion X[2 n_harm + 1] ---- */
+
+/* Memory for the X of the following questions, n_harm <= HBM_MAX_HARMONICS; the lab's. */
+double *lab_motion(lab *l, int n_harm);
+
+/* n instants th = 2 pi i/n of a period; n may be the number of samples. Columns: th, x, and for each contact u, v,
+ * N and T: the exact law's where force is LAB_EXACT; else T as the n samples give it. HC_BAD_INPUT: n < 1, or no
+ * motion. Errors of exact_force_eval. */
+int lab_signal(lab *l, int force, int n);
+
+/* The contact force's harmonics h = 0..n_shown: h, cosine and sine of the true one, and of that sampled n times a
+ * period (0 above n_harm and where n is too small for n_harm). Errors of exact_force_eval, aft_eval. */
+int lab_spectrum(lab *l, int n, int n_shown);
+
+/* A row for each contact: contact_regime, smallest and largest N, largest |T|, slip path, dissipated work per period,
+ * all by the exact law. */
+int lab_work(lab *l);
+
+/* ---- time integration in closed form, exact law ---- */
+
+/* Steady states at omega[n], n <= NUMBER_LIST_MAX, from where transient.start says. Columns: omega, status,
+ * amplitude, max, min, rms, mean, harmonic_1, stable, multiplier, period_multiple, periods, free sliders; then one
+ * period of x at TIMEINT_WAVE instants. Errors of steady_states_run. */
+int lab_transients(lab *l, int n, const double *omega);
+
+/* ---- error over H and N ---- */
+
+/* Of the lab's motion, a solution at omega: for each of compare.harmonics, exact forces and each of compare.samples: H,
+ * N (0: exact), status, amplitude, error of it against the closed form's orbit next to that solution, relative;
+ * Newton's systems put to solve it. HC_BAD_INPUT: no motion, or no omega. Errors of timeint_orbit. */
+int lab_errors(lab *l, double omega);
+
+#endif

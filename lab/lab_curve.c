@@ -1,0 +1,97 @@
+/* lab_curve.c - see lab.h: the response curve, its solutions at an omega, its special points. */
+#include <math.h>
+#include <stdlib.h>
+
+#include "compare/response.h"
+#include "lab/lab_inside.h"
+
+/* Solution k of *c as a row. */
+static hc_status add_solution(lab *l, hbm_solver *s, const hbm_curve *c, int k)
+{
+  response_row r;
+  hc_status st = response_row_of(s, c, k, &r);
+  double *row = st == HC_OK ? lab_row(l) : NULL;
+  if (!row) return st == HC_OK ? HC_NO_MEMORY : st;
+  const double *X = hbm_curve_X(c, k);
+  row[LAB_OMEGA] = r.point.omega;
+  row[LAB_BRANCH] = r.point.branch;
+  row[LAB_AMPLITUDE] = r.measures.amplitude;
+  row[LAB_MAX] = r.measures.max;
+  row[LAB_MIN] = r.measures.min;
+  row[LAB_RMS] = r.measures.rms;
+  row[LAB_MEAN] = r.measures.mean;
+  row[LAB_HARMONIC_1] = r.measures.harmonic_1;
+  row[LAB_STABLE] = r.stability_known ? hbm_stability_verdict(&r.stability) : 0;
+  row[LAB_MULTIPLIER] = r.stability_known ? r.stability.multiplier : NAN;
+  row[LAB_CONTACT] = r.measures.contact.regime;
+  row[LAB_ITERATIONS] = r.point.iterations;
+  row[LAB_RESIDUAL] = r.point.residual;
+  row[LAB_HARMONICS] = r.point.harmonics;
+  for (int i = 0; i < c->n_coef; ++i) row[LAB_SOLUTION + i] = X[i];
+  return HC_OK;
+}
+
+/* All of them: how the search ended, unless a row fails. */
+static hc_status add_solutions(lab *l, hbm_solver *s, const hbm_curve *c, hc_status searched)
+{
+  hc_status st = HC_OK;
+  lab_begin(l, LAB_SOLUTION + c->n_coef);
+  for (int k = 0; k < c->n && st == HC_OK; ++k) st = add_solution(l, s, c, k);
+  return st == HC_OK ? searched : st;
+}
+
+int lab_curve(lab *l, int force)
+{
+  scene sc;
+  lab_begin(l, 0);
+  hc_status st = lab_scene(l, force, &sc);
+  if (st != HC_OK) return lab_answer(l, st);
+  lab_kept *kept = &l->kept[force];
+  hbm_solver_free(kept->solver);
+  hbm_curve_free(&kept->curve);
+  *kept = (lab_kept){0};
+  st = lab_solver(&sc, &kept->solver);
+  if (st == HC_OK) st = hbm_trace(kept->solver, sc.omega_from, sc.omega_to, NULL, &kept->curve);
+  if (kept->solver) st = add_solutions(l, kept->solver, &kept->curve, st);
+  return lab_answer(l, st);
+}
+
+static lab_kept *kept_curve(lab *l, int force)
+{
+  return force >= 0 && force < LAB_FORCES && l->kept[force].solver ? &l->kept[force] : NULL;
+}
+
+int lab_curve_at(lab *l, int force, double omega)
+{
+  lab_kept *kept = kept_curve(l, force);
+  lab_begin(l, 0);
+  if (!kept || !(isfinite(omega) && omega > 0)) return lab_answer(l, HC_BAD_INPUT);
+  hbm_curve at = {0};
+  hc_status st = hbm_curve_at(kept->solver, &kept->curve, omega, &at);
+  st = add_solutions(l, kept->solver, &at, st);
+  hbm_curve_free(&at);
+  return lab_answer(l, st);
+}
+
+int lab_specials(lab *l, int force)
+{
+  enum { MOST = 256, COLUMNS = 6 };
+  lab_kept *kept = kept_curve(l, force);
+  lab_begin(l, COLUMNS);
+  if (!kept) return lab_answer(l, HC_BAD_INPUT);
+  int found = 0;
+  hbm_special *list = calloc(MOST, sizeof *list);
+  hc_status st = list ? hbm_specials(kept->solver, &kept->curve, MOST, list, &found) : HC_NO_MEMORY;
+  for (int i = 0; list && i < found && i < MOST; ++i) {
+    double *row = lab_row(l);
+    if (!row) {
+      st = HC_NO_MEMORY;
+      break;
+    }
+    const hbm_special *p = &list[i];
+    const double numbers[COLUMNS] = {p->omega, p->amplitude, p->branch, p->kind, p->before, p->after};
+    for (int c = 0; c < COLUMNS; ++c) row[c] = numbers[c];
+  }
+  free(list);
+  return lab_answer(l, st);
+}

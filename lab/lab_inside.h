@@ -1,0 +1,44 @@
+/* lab_inside.h - what the parts of the lab share: its case, the table of the last answer, the curves it keeps. */
+#ifndef HC_LAB_INSIDE_H
+#define HC_LAB_INSIDE_H
+
+#include "cases/case_file.h"
+#include "hbm/hbm.h"
+#include "lab/lab.h"
+
+enum { LAB_FORCES = 2, LAB_MOST_COEF = 2 * HBM_MAX_HARMONICS + 1 };
+
+typedef struct lab_kept {
+  hbm_solver *solver; /* as the trace left it; NULL: nothing was traced */
+  hbm_curve curve;
+} lab_kept;
+
+struct lab {
+  bool has_case;
+  scene sc; /* an oscillator: nothing to free */
+  char message[CASE_MESSAGE];
+  int rows, columns, room; /* room: rows that values can take */
+  double *values;          /* [rows][columns] */
+  lab_kept kept[LAB_FORCES];
+  int n_harm; /* of the motion; 0: there is none */
+  double X[LAB_MOST_COEF];
+};
+
+/* An empty table of so many columns. */
+void lab_begin(lab *l, int columns);
+
+/* One more row, of NaN, until the next one; NULL: out of memory. */
+double *lab_row(lab *l);
+
+/* What a question returns for st. */
+int lab_answer(lab *l, hc_status st);
+
+/* The case with its contact forces as asked. HC_BAD_INPUT: there is no case, or no such force. */
+hc_status lab_scene(const lab *l, int force, scene *out);
+
+/* A solver of it. Errors of hbm_solver_new. */
+hc_status lab_solver(const scene *sc, hbm_solver **out);
+
+void lab_drop_curves(lab *l);
+
+#endif

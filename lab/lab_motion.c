@@ -1,0 +1,207 @@
+/* lab_motion.c - see lab.h: what the contacts do along one motion, truly and at its samples. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "hbm/aft.h"
+#include "hbm/exact_force.h"
+#include "hbm/slider.h"
+#include "lab/lab_inside.h"
+#include "numerics/series.h"
+
+static const double two_pi = 6.283185307179586476925286766559;
+
+enum { OF_CONTACT = 4 /* columns: u, v, N, T */, BEFORE = 2 /* th, x */ };
+
+double *lab_motion(lab *l, int n_harm)
+{
+  const bool fits = n_harm >= 1 && n_harm <= HBM_MAX_HARMONICS;
+  l->n_harm = fits ? n_harm : 0;
+  return fits ? l->X : NULL;
+}
+
+static bool has_motion(const lab *l) { return l->has_case && l->n_harm > 0; }
+
+/* ---- instants ---- */
+
+/* n rows: th, x, and each contact's u, v, N. */
+static hc_status add_instants(lab *l, int n, int n_contacts, const moving_contact *contacts)
+{
+  lab_begin(l, BEFORE + OF_CONTACT * n_contacts);
+  for (int i = 0; i < n; ++i) {
+    double *row = lab_row(l);
+    if (!row) return HC_NO_MEMORY;
+    const double th = two_pi * i / n;
+    row[0] = th;
+    row[1] = series_at(l->n_harm, l->X, cos(th), sin(th)).x;
+    for (int j = 0; j < n_contacts; ++j) {
+      double *to = row + BEFORE + OF_CONTACT * j;
+      to[0] = contacts[j].cu[0] * row[1];
+      to[1] = contacts[j].cv[0] * row[1];
+      to[2] = contact_normal(&contacts[j].law, to[1]);
+    }
+  }
+  return HC_OK;
+}
+
+static double *instant(lab *l, int i, int j)
+{
+  return l->values + (size_t)i * (size_t)l->columns + BEFORE + OF_CONTACT * j;
+}
+
+/* The piece that th, or th + 2 pi, lies in; NULL: the contact is separated there. */
+static const contact_piece *piece_at(int n, const contact_piece *piece, double th)
+{
+  for (int k = 0; k < n; ++k)
+    if ((piece[k].from <= th && th < piece[k].to) || (piece[k].from <= th + two_pi && th + two_pi < piece[k].to))
+      return &piece[k];
+  return NULL;
+}
+
+static double true_traction(const contact *law, const contact_piece *p, double u, double N)
+{
+  if (!p) return 0;
+  return p->state == CONTACT_STICK ? law->kt * u - p->held : contact_slip_sign(p->state) * law->mu * N;
+}
+
+static hc_status exact_tractions(lab *l, int n, const model *m, const moving_contact *contacts)
+{
+  double F[LAB_MOST_COEF];
+  exact_force *e;
+  hc_status st = exact_force_new_of_model(l->n_harm, m, &e);
+  if (st == HC_OK) st = exact_force_eval(e, l->X, F, NULL, NULL);
+  for (int j = 0; j < m->n_contacts && st == HC_OK; ++j) {
+    int n_pieces;
+    const contact_piece *pieces = exact_force_pieces(e, j, &n_pieces);
+    for (int i = 0; i < n; ++i) {
+      double *at = instant(l, i, j);
+      at[3] = true_traction(&contacts[j].law, piece_at(n_pieces, pieces, two_pi * i / n), at[0], at[2]);
+    }
+  }
+  exact_force_free(e);
+  return st;
+}
+
+/* Of the n instants as samples. */
+static hc_status sampled_tractions(lab *l, int n, const model *m, const moving_contact *contacts)
+{
+  double *x = calloc(3 * (size_t)n, sizeof *x), *T = x ? x + n : NULL, *again = x ? T + n : NULL;
+  stretch *room = calloc(2 * (size_t)n, sizeof *room);
+  hc_status st = x && room ? HC_OK : HC_NO_MEMORY;
+  for (int i = 0; i < n && st == HC_OK; ++i) x[i] = l->values[(size_t)i * (size_t)l->columns + 1];
+  for (int j = 0; j < m->n_contacts && st == HC_OK; ++j) {
+    const slider_motion motion = {x, x, contacts[j].cu[0], contacts[j].cv[0], 1, 0};
+    slider_follow(&contacts[j].law, l->sc.hbm.restart, n, &motion, T, again, room, room + n);
+    for (int i = 0; i < n; ++i) instant(l, i, j)[3] = T[i];
+  }
+  free(x);
+  free(room);
+  return st;
+}
+
+int lab_signal(lab *l, int force, int n)
+{
+  model *m = NULL;
+  moving_contact *contacts = NULL;
+  lab_begin(l, 0);
+  if (!has_motion(l) || n < 1 || force < 0 || force >= LAB_FORCES) return lab_answer(l, HC_BAD_INPUT);
+  hc_status st = scene_model(&l->sc, &m);
+  if (st == HC_OK) st = moving_contacts_of_model(m, &contacts);
+  if (st == HC_OK) st = add_instants(l, n, m->n_contacts, contacts);
+  if (st == HC_OK) st = force == LAB_EXACT ? exact_tractions(l, n, m, contacts) : sampled_tractions(l, n, m, contacts);
+  free(contacts);
+  model_free(m);
+  return lab_answer(l, st);
+}
+
+/* ---- harmonics ---- */
+
+/* F[2 n_shown + 1] of the motion, whose harmonics above n_harm are 0. */
+static hc_status true_harmonics(const lab *l, const model *m, int n_shown, double *F)
+{
+  double X[LAB_MOST_COEF] = {0};
+  exact_force *e;
+  memcpy(X, l->X, (size_t)(2 * l->n_harm + 1) * sizeof *X);
+  hc_status st = exact_force_new_of_model(n_shown, m, &e);
+  if (st == HC_OK) st = exact_force_eval(e, X, F, NULL, NULL);
+  exact_force_free(e);
+  return st;
+}
+
+static hc_status sampled_harmonics(const lab *l, const model *m, int n, double *F)
+{
+  aft *a;
+  if (n < 2 * l->n_harm + 1) return HC_OK;
+  hc_status st = aft_new_of_model(m, l->sc.hbm.restart, l->n_harm, n, &a);
+  if (st == HC_OK) st = aft_eval(a, l->X, F, NULL, NULL);
+  aft_free(a);
+  return st;
+}
+
+/* h, cosine and sine of both. */
+static hc_status add_harmonics(lab *l, int n_shown, const double *F, const double *sampled)
+{
+  for (int h = 0; h <= n_shown; ++h) {
+    double *row = lab_row(l);
+    if (!row) return HC_NO_MEMORY;
+    const int cosine = h ? 2 * h - 1 : 0;
+    row[0] = h;
+    row[1] = F[cosine];
+    row[2] = h ? F[cosine + 1] : 0;
+    row[3] = sampled[cosine];
+    row[4] = h ? sampled[cosine + 1] : 0;
+  }
+  return HC_OK;
+}
+
+int lab_spectrum(lab *l, int n, int n_shown)
+{
+  enum { COLUMNS = 5 };
+  double F[LAB_MOST_COEF] = {0}, sampled[LAB_MOST_COEF] = {0};
+  model *m = NULL;
+  lab_begin(l, COLUMNS);
+  if (!has_motion(l) || n < 1 || n_shown < l->n_harm || n_shown > HBM_MAX_HARMONICS) return lab_answer(l, HC_BAD_INPUT);
+  hc_status st = scene_model(&l->sc, &m);
+  if (st == HC_OK) st = true_harmonics(l, m, n_shown, F);
+  if (st == HC_OK) st = sampled_harmonics(l, m, n, sampled);
+  if (st == HC_OK) st = add_harmonics(l, n_shown, F, sampled);
+  model_free(m);
+  return lab_answer(l, st);
+}
+
+/* ---- work ---- */
+
+static hc_status add_work(lab *l, const moving_contact *c)
+{
+  double u[LAB_MOST_COEF], v[LAB_MOST_COEF];
+  contact_period p;
+  for (int i = 0; i < 2 * l->n_harm + 1; ++i) {
+    u[i] = c->cu[0] * l->X[i];
+    v[i] = c->cv[0] * l->X[i];
+  }
+  hc_status st = contact_measures_of(&c->law, l->n_harm, u, v, &p);
+  double *row = st == HC_OK ? lab_row(l) : NULL;
+  if (!row) return st == HC_OK ? HC_NO_MEMORY : st;
+  row[0] = p.regime;
+  row[1] = p.normal_min;
+  row[2] = p.normal_max;
+  row[3] = p.traction_max;
+  row[4] = p.slip_distance;
+  row[5] = p.work;
+  return HC_OK;
+}
+
+int lab_work(lab *l)
+{
+  enum { COLUMNS = 6 };
+  model *m = NULL;
+  moving_contact *contacts = NULL;
+  lab_begin(l, COLUMNS);
+  if (!has_motion(l)) return lab_answer(l, HC_BAD_INPUT);
+  hc_status st = scene_model(&l->sc, &m);
+  if (st == HC_OK) st = moving_contacts_of_model(m, &contacts);
+  for (int j = 0; st == HC_OK && j < m->n_contacts; ++j) st = add_work(l, &contacts[j]);
+  free(contacts);
+  model_free(m);
+  return lab_answer(l, st);
+}

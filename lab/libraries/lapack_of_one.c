@@ -1,0 +1,96 @@
+/* lapack_of_one.c - LAPACK for one degree of freedom: Debian has no Fortran compiler for WebAssembly. Of the routines
+ * that numerics/dense.c calls, an oscillator's harmonic balance needs the pivoted QR factors of a matrix with one row.
+ * Everything else belongs to structures, which the lab refuses by name (lab_scene.h); asked for all the same, it
+ * answers as LAPACK does to an argument that is out of range, and dense.h with a status. Arguments are LAPACK's. */
+#include <complex.h>
+#include <math.h>
+#include <stddef.h>
+
+enum { REFUSED = -1 };
+
+/* A P = Q R of A[1][n]: Q = 1, R is A with its largest entry first. */
+void dgeqp3_(const int *m, const int *n, double *a, const int *lda, int *pivot, double *tau, double *work,
+             const int *lwork, int *info)
+{
+  int largest = 0;
+  (void)work, (void)lwork;
+  *info = *m == 1 && *lda == 1 ? 0 : REFUSED;
+  if (*info != 0 || *n < 1) return;
+  for (int i = 0; i < *n; ++i) {
+    pivot[i] = i + 1;
+    if (fabs(a[i]) > fabs(a[largest])) largest = i;
+  }
+  const double first = a[0];
+  a[0] = a[largest];
+  a[largest] = first;
+  pivot[0] = largest + 1;
+  pivot[largest] = 1;
+  tau[0] = 0;
+}
+
+/* Q = 1 of those. */
+void dorgqr_(const int *m, const int *n, const int *k, double *a, const int *lda, const double *tau, double *work,
+             const int *lwork, int *info)
+{
+  (void)k, (void)tau, (void)work, (void)lwork;
+  *info = *m == 1 && *n == 1 && *lda == 1 ? 0 : REFUSED;
+  if (*info == 0) a[0] = 1;
+}
+
+/* ---- of structures ------------------------------------------------------------------------------------ */
+
+void dsygvd_(const int *type, const char *job, const char *half, const int *n, double *a, const int *lda, double *b,
+             const int *ldb, double *w, double *work, const int *lwork, int *iwork, const int *liwork, int *info,
+             size_t job_length, size_t half_length)
+{
+  (void)type, (void)job, (void)half, (void)n, (void)a, (void)lda, (void)b, (void)ldb, (void)w, (void)work;
+  (void)lwork, (void)iwork, (void)liwork, (void)job_length, (void)half_length;
+  *info = REFUSED;
+}
+
+void dgeev_(const char *left, const char *right, const int *n, double *a, const int *lda, double *re, double *im,
+            double *vl, const int *ldvl, double *vr, const int *ldvr, double *work, const int *lwork, int *info,
+            size_t left_length, size_t right_length)
+{
+  (void)left, (void)right, (void)n, (void)a, (void)lda, (void)re, (void)im, (void)vl, (void)ldvl, (void)vr;
+  (void)ldvr, (void)work, (void)lwork, (void)left_length, (void)right_length;
+  *info = REFUSED;
+}
+
+void dgetrf_(const int *m, const int *n, double *a, const int *lda, int *pivot, int *info)
+{
+  (void)m, (void)n, (void)a, (void)lda, (void)pivot;
+  *info = REFUSED;
+}
+
+void dgetrs_(const char *transposed, const int *n, const int *columns, const double *a, const int *lda,
+             const int *pivot, double *b, const int *ldb, int *info, size_t transposed_length)
+{
+  (void)transposed, (void)n, (void)columns, (void)a, (void)lda, (void)pivot, (void)b, (void)ldb;
+  (void)transposed_length;
+  *info = REFUSED;
+}
+
+void zgetrf_(const int *m, const int *n, double complex *a, const int *lda, int *pivot, int *info)
+{
+  (void)m, (void)n, (void)a, (void)lda, (void)pivot;
+  *info = REFUSED;
+}
+
+void zgetrs_(const char *transposed, const int *n, const int *columns, const double complex *a, const int *lda,
+             const int *pivot, double complex *b, const int *ldb, int *info, size_t transposed_length)
+{
+  (void)transposed, (void)n, (void)columns, (void)a, (void)lda, (void)pivot, (void)b, (void)ldb;
+  (void)transposed_length;
+  *info = REFUSED;
+}
+
+/* C = NaN: it has no info, and is called where OpenBLAS is alone. */
+void dgemm_(const char *transpose_a, const char *transpose_b, const int *m, const int *n, const int *k,
+            const double *alpha, const double *a, const int *lda, const double *b, const int *ldb, const double *beta,
+            double *c, const int *ldc, size_t a_length, size_t b_length)
+{
+  (void)transpose_a, (void)transpose_b, (void)m, (void)n, (void)k, (void)alpha, (void)a, (void)lda, (void)b, (void)ldb;
+  (void)beta, (void)ldc, (void)a_length, (void)b_length;
+  c[0] = NAN;
+}

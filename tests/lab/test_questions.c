@@ -1,0 +1,268 @@
+/* test_questions.c - the lab's questions against those they come from, and against what the numbers must be. */
+#include <math.h>
+#include <string.h>
+
+#include "cases/case_file.h"
+#include "compare/first_guess.h"
+#include "compare/response.h"
+#include "hbm/hbm.h"
+#include "lab/lab.h"
+#include "tests/check.h"
+
+enum { MOST = 2 * HBM_MAX_HARMONICS + 1, CONTACT = 2 /* of a signal: th, x, then u, v, N, T */ };
+
+static const char text[] =
+    "oscillator: {mass: 1.0, damping: 0.4, stiffness: 40}\n"
+    "forcing: {amplitude: 100}\n"
+    "contacts:\n"
+    "  - {tangential_stiffness: 100, normal_stiffness: 1000, friction: 0.08, angle_deg: 45, gap: -5}\n"
+    "sweep: {omega: [5, 12]}\n"
+    "hbm: {harmonics: 5, samples: 128}\n"
+    "compare: {harmonics: [1, 3], samples: [64, 4096]}\n";
+
+static lab *lab_with_case(void)
+{
+  lab *l = lab_new();
+  assert_non_null(l);
+  if (lab_read(l, text) != HC_OK) fail_msg("%s", lab_message(l));
+  return l;
+}
+
+static const double *row(const lab *l, int i) { return lab_values(l) + i * lab_columns(l); }
+
+/* Row i becomes the lab's motion. */
+static void take(lab *l, int i)
+{
+  const double *at = row(l, i);
+  const int n_harm = (int)at[LAB_HARMONICS];
+  memcpy(lab_motion(l, n_harm), at + LAB_SOLUTION, (size_t)(2 * n_harm + 1) * sizeof *at);
+}
+
+/* That of the curve's largest amplitude; returns its number. */
+static int take_largest(lab *l)
+{
+  int largest = 0;
+  assert_int_equal(lab_curve(l, LAB_EXACT), HC_OK);
+  for (int i = 1; i < lab_rows(l); ++i)
+    if (row(l, i)[LAB_AMPLITUDE] > row(l, largest)[LAB_AMPLITUDE]) largest = i;
+  take(l, largest);
+  return largest;
+}
+
+/* ---- the case ---- */
+
+static void mistakes_are_named(void **state)
+{
+  (void)state;
+  lab *l = lab_with_case();
+  assert_int_equal(lab_read(l, "oscillator: {mass: -1, damping: 0.4, stiffness: 40}\n"), HC_BAD_INPUT);
+  assert_non_null(strstr(lab_message(l), "case:1:20: "));
+  assert_int_equal(lab_curve(l, LAB_EXACT), HC_OK); /* of the case before */
+  assert_true(lab_rows(l) > 0);
+  assert_string_equal(lab_message(l), "");
+  lab_free(l);
+}
+
+static void a_new_case_forgets_the_old_ones_answers(void **state)
+{
+  (void)state;
+  lab *l = lab_with_case();
+  take_largest(l);
+  assert_int_equal(lab_read(l, text), HC_OK);
+  assert_int_equal(lab_rows(l), 0);
+  assert_int_equal(lab_specials(l, LAB_EXACT), HC_BAD_INPUT);
+  assert_int_equal(lab_work(l), HC_BAD_INPUT);
+  lab_free(l);
+}
+
+static void structures_are_refused(void **state)
+{
+  (void)state;
+  static const char structure[] = "structure: {mass: [1, 1], stiffness: [[2, -1], [-1, 2]], damping: {modal: 0.01}}\n"
+                                  "forcing: [{dof: 1, amplitude: 1}]\n"
+                                  "sweep: {omega: [0.5, 2]}\n";
+  lab *l = lab_new();
+  assert_int_equal(lab_read(l, structure), HC_BAD_INPUT);
+  assert_non_null(strstr(lab_message(l), "one degree of freedom"));
+  assert_int_equal(lab_curve(l, LAB_EXACT), HC_BAD_INPUT);
+  lab_free(l);
+}
+
+static void questions_without_an_answer_are_refused(void **state)
+{
+  (void)state;
+  lab *l = lab_with_case();
+  const double no_omega[] = {-1};
+  assert_int_equal(lab_curve(l, 2), HC_BAD_INPUT);
+  assert_int_equal(lab_curve_at(l, LAB_EXACT, 7), HC_BAD_INPUT); /* no curve */
+  assert_int_equal(lab_specials(l, LAB_SAMPLED), HC_BAD_INPUT);
+  assert_int_equal(lab_errors(l, 7), HC_BAD_INPUT);
+  assert_int_equal(lab_signal(l, LAB_EXACT, 16), HC_BAD_INPUT); /* no motion */
+  assert_int_equal(lab_spectrum(l, 16, 20), HC_BAD_INPUT);
+  assert_int_equal(lab_work(l), HC_BAD_INPUT);
+  assert_int_equal(lab_transients(l, 1, no_omega), HC_BAD_INPUT);
+  assert_int_equal(lab_transients(l, 0, no_omega), HC_BAD_INPUT);
+  assert_null(lab_motion(l, 0));
+  assert_null(lab_motion(l, HBM_MAX_HARMONICS + 1));
+  assert_int_equal(lab_rows(l), 0);
+  lab_free(l);
+}
+
+/* ---- harmonic balance ---- */
+
+static void curve_is_the_librarys(void **state)
+{
+  (void)state;
+  lab *l = lab_with_case();
+  scene sc;
+  case_error err;
+  model *m;
+  hbm_solver *s;
+  hbm_curve curve = {0};
+  response_row r;
+  assert_int_equal(case_parse("case", text, strlen(text), 0, NULL, &sc, &err), HC_OK);
+  sc.hbm.force = HBM_FORCE_SAMPLED;
+  assert_int_equal(scene_model(&sc, &m), HC_OK);
+  assert_int_equal(guided_hbm_solver_new(m, &sc.hbm, &s), HC_OK);
+  assert_int_equal(hbm_trace(s, sc.omega_from, sc.omega_to, NULL, &curve), HC_OK);
+  assert_int_equal(lab_curve(l, LAB_SAMPLED), HC_OK);
+  assert_int_equal(lab_rows(l), curve.n);
+  assert_int_equal(lab_columns(l), LAB_SOLUTION + curve.n_coef);
+  for (int k = 0; k < curve.n; ++k) {
+    assert_int_equal(response_row_of(s, &curve, k, &r), HC_OK);
+    assert_true(row(l, k)[LAB_OMEGA] == r.point.omega && row(l, k)[LAB_AMPLITUDE] == r.measures.amplitude);
+    assert_true(row(l, k)[LAB_MULTIPLIER] == r.stability.multiplier);
+    assert_memory_equal(row(l, k) + LAB_SOLUTION, hbm_curve_X(&curve, k), (size_t)curve.n_coef * sizeof(double));
+  }
+  hbm_curve_free(&curve);
+  hbm_solver_free(s);
+  model_free(m);
+  lab_free(l);
+}
+
+static void solutions_at_an_omega_lie_there(void **state)
+{
+  (void)state;
+  lab *l = lab_with_case();
+  assert_int_equal(lab_curve(l, LAB_EXACT), HC_OK);
+  assert_int_equal(lab_curve_at(l, LAB_EXACT, 8), HC_OK);
+  assert_int_equal(lab_rows(l), 3); /* two stable ones, an unstable one between them */
+  for (int i = 0; i < 3; ++i) assert_true(row(l, i)[LAB_OMEGA] == 8);
+  assert_true(row(l, 0)[LAB_STABLE] == 1 && row(l, 1)[LAB_STABLE] == -1 && row(l, 2)[LAB_STABLE] == 1);
+  assert_int_equal(lab_specials(l, LAB_EXACT), HC_OK);
+  int turning_points = 0;
+  for (int i = 0; i < lab_rows(l); ++i) turning_points += row(l, i)[3] == HBM_TURNING_POINT;
+  assert_int_equal(turning_points, 2);
+  lab_free(l);
+}
+
+/* ---- one motion ---- */
+
+/* The loop's area is the work. Trapezoids miss it by (2 pi/N)^2/12 of what |T u'' + T' u'| is on average: taken to be
+ * as large as the rectangle around the loop. Samples know the times of transitions to 2 pi/N, which costs as much. */
+static void loop_encloses_the_work(void **state)
+{
+  (void)state;
+  enum { N = 4096 };
+  lab *l = lab_with_case();
+  take_largest(l);
+  assert_int_equal(lab_work(l), HC_OK);
+  const double work = row(l, 0)[5], limit = row(l, 0)[3], step = 2 * acos(-1) / N;
+  assert_true(work > 0);
+  for (int force = LAB_EXACT; force <= LAB_SAMPLED; ++force) {
+    double area = 0, widest = 0;
+    assert_int_equal(lab_signal(l, force, N), HC_OK);
+    for (int i = 0; i < N; ++i) {
+      const double *a = row(l, i) + CONTACT, *b = row(l, (i + 1) % N) + CONTACT;
+      area += 0.5 * (a[3] + b[3]) * (b[0] - a[0]);
+      widest = fmax(widest, fabs(a[0]));
+      CHECK_LE(fabs(a[3]), 0.08 * a[2] * (1 + 1e-12), "force %d, instant %d", force, i);
+    }
+    CHECK_LE(fabs(area - work), step * step / 12 * 4 * widest * limit, "force %d", force);
+  }
+  lab_free(l);
+}
+
+/* What is sampled n times a period is the sum of all harmonics k n + h: with one period's force sampled as it is, to
+ * what the shown ones leave out. */
+static void sampled_harmonics_fold(void **state)
+{
+  (void)state;
+  enum { N = 64, SHOWN = 200 };
+  lab *l = lab_with_case();
+  take_largest(l);
+  assert_int_equal(lab_spectrum(l, N, SHOWN), HC_OK);
+  for (int h = 1; h <= 5; ++h) {
+    double c = row(l, h)[1], s = row(l, h)[2];
+    for (int k = 1; k * N + h <= SHOWN; ++k) {
+      c += row(l, k * N + h)[1] + row(l, k * N - h)[1];
+      s += row(l, k * N + h)[2] - row(l, k * N - h)[2];
+    }
+    const double alias = hypot(row(l, h)[3] - row(l, h)[1], row(l, h)[4] - row(l, h)[2]);
+    CHECK_LE(hypot(row(l, h)[3] - c, row(l, h)[4] - s), 0.5 * alias, "h=%d", h);
+  }
+  lab_free(l);
+}
+
+static void motion_is_the_curves(void **state)
+{
+  (void)state;
+  lab *l = lab_with_case();
+  const int k = take_largest(l);
+  double max = -INFINITY;
+  const double expected = row(l, k)[LAB_MAX];
+  assert_int_equal(lab_signal(l, LAB_EXACT, 4096), HC_OK);
+  for (int i = 0; i < lab_rows(l); ++i) max = fmax(max, row(l, i)[1]);
+  CHECK_LE(fabs(max - expected), 1e-5 * expected, "the largest x");
+  lab_free(l);
+}
+
+/* ---- the truth ---- */
+
+static void more_harmonics_and_samples_come_closer(void **state)
+{
+  (void)state;
+  lab *l = lab_with_case();
+  const double omega = 7;
+  assert_int_equal(lab_curve(l, LAB_EXACT), HC_OK);
+  assert_int_equal(lab_curve_at(l, LAB_EXACT, omega), HC_OK);
+  take(l, 0);
+  assert_int_equal(lab_errors(l, omega), HC_OK);
+  assert_int_equal(lab_rows(l), 6); /* H = 1, 3; exact, 64, 4096 */
+  for (int i = 0; i < 6; ++i) assert_int_equal((int)row(l, i)[2], HC_OK);
+  CHECK_LE(10 * row(l, 3)[4], row(l, 0)[4], "H = 3 and 1");
+  const double orbit = row(l, 0)[3] / (1 + row(l, 0)[4]); /* with H = 1 the amplitude is too large */
+  CHECK_LE(fabs(fabs(row(l, 3)[3] - orbit) / orbit - row(l, 3)[4]), 1e-12, "of the same orbit");
+  const double coarse = fabs(row(l, 4)[3] - row(l, 3)[3]), fine = fabs(row(l, 5)[3] - row(l, 3)[3]);
+  CHECK_LE(100 * fine, coarse, "N = 4096 and 64");
+  assert_true(fine > 0);
+  lab_free(l);
+}
+
+static void transients_are_steady(void **state)
+{
+  (void)state;
+  const double omega[] = {6};
+  lab *l = lab_with_case();
+  assert_int_equal(lab_curve(l, LAB_EXACT), HC_OK);
+  assert_int_equal(lab_curve_at(l, LAB_EXACT, omega[0]), HC_OK);
+  const double hbm = row(l, 0)[LAB_AMPLITUDE];
+  assert_int_equal(lab_transients(l, 1, omega), HC_OK);
+  assert_int_equal(lab_rows(l), 1);
+  assert_int_equal((int)row(l, 0)[1], HC_OK);
+  CHECK_LE(fabs(row(l, 0)[2] - hbm), 1e-2 * hbm, "H = 5 against the closed form");
+  double max = -INFINITY;
+  for (int i = 13; i < lab_columns(l); ++i) max = fmax(max, row(l, 0)[i]);
+  CHECK_LE(fabs(max - row(l, 0)[3]), 1e-3 * max, "the largest of the wave");
+  lab_free(l);
+}
+
+static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(mistakes_are_named),     cmocka_unit_test(a_new_case_forgets_the_old_ones_answers),
+    cmocka_unit_test(structures_are_refused), cmocka_unit_test(questions_without_an_answer_are_refused),
+    cmocka_unit_test(curve_is_the_librarys),  cmocka_unit_test(solutions_at_an_omega_lie_there),
+    cmocka_unit_test(loop_encloses_the_work), cmocka_unit_test(sampled_harmonics_fold),
+    cmocka_unit_test(motion_is_the_curves),   cmocka_unit_test(more_harmonics_and_samples_come_closer),
+    cmocka_unit_test(transients_are_steady),
+};
+CHECK_MAIN("lab.questions", tests, 120)
