@@ -15,12 +15,14 @@ typedef struct circle_columns { /* from circle_columns_make, to circle_columns_f
   int columns;                  /* the most side by side */
   bool fresh;
   double h, kt, friction; /* friction: mu kn */
-  double limit[TRACK_TERMS], e[2][TRACK_TERMS], turn[TRACK_TERMS], rate[2][TRACK_TERMS], slide[TRACK_TERMS];
-  double *u[2], *v;  /* [TRACK_TERMS][columns] of dU, dV */
-  double *angle;     /* [TRACK_TERMS][columns] of dphi */
-  double *turned[2]; /* [TRACK_TERMS][columns] of e_perp dphi */
-  double *pull[2];   /* [columns] of dT */
-  double *numbers;   /* of all arrays */
+  double limit[TRACK_TERMS], e[2][TRACK_TERMS], turn[TRACK_TERMS],
+      slide[TRACK_TERMS];        /* the motion's: mu N, e, q, U'.e */
+  double across[2][TRACK_TERMS]; /* mu N e_perp */
+  double *u[2], *v;              /* [TRACK_TERMS][columns] of dU, dV */
+  double *angle;                 /* [TRACK_TERMS][columns] of dphi */
+  double *pull[2];               /* [columns] of dT */
+  double *sum;                   /* [columns] */
+  double *numbers;               /* of all arrays */
 } circle_columns;
 
 hc_status circle_columns_make(circle_columns *c, int columns); /* HC_NO_MEMORY; free it in any case */

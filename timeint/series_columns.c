@@ -21,6 +21,7 @@ static const double died_away =
 hc_status series_columns_make(series_columns *s, const modal_base *base)
 {
   const size_t n = (size_t)base->n, contacts = (size_t)base->n_contacts, rows = 2 * contacts;
+  const size_t circles = (size_t)base->n_circles;
   *s = (series_columns){.n = base->n, .n_contacts = base->n_contacts};
   const struct {
     double **array;
@@ -39,6 +40,11 @@ hc_status series_columns_make(series_columns *s, const modal_base *base)
                {&s->share, BLOCK * n},
                {&s->motion, BLOCK * rows},
                {&s->slider, BLOCK * contacts},
+               {&s->slip_tangents, 2 * n * circles},
+               {&s->slip_normals, n * circles},
+               {&s->slip_turned, 2 * n * circles},
+               {&s->circling, 2 * BLOCK * circles},
+               {&s->resistance, n * n},
                {&s->size, BLOCK},
                {&s->left, BLOCK}};
   size_t count = 0, used = 0;
@@ -71,21 +77,64 @@ void series_columns_free(series_columns *s)
 static bool has_tangent(const contact_forces_linear *f) { return f->t_u != 0 || f->t_v != 0 || f->t_w != 0; }
 static bool has_normal(const contact_forces_linear *f) { return f->t_v != 0 || f->n_v != 0; }
 
+/* Where rows outnumber half of the modes, what contacts do to columns is cheaper as one matrix: sum of by a b^T. */
+static void add_resistance(series_columns *s, double by, const double *a, const double *b)
+{
+  const size_t n = (size_t)s->n;
+  for (size_t i = 0; i < n; ++i)
+    for (size_t l = 0; l < n && a[i] != 0; ++l) s->resistance[i * n + l] += by * a[i] * b[l];
+}
+
+static void find_resistance(series_columns *s, const modal_base *b)
+{
+  const size_t n = (size_t)s->n;
+  s->whole = 2 * s->n_rows > s->n;
+  if (!s->whole) return;
+  memset(s->resistance, 0, n * n * sizeof *s->resistance);
+  for (int j = 0; j < s->n_contacts; ++j) {
+    const contact_forces_linear *f = &s->law[j];
+    const double *t = b->tangent + (size_t)j * n, *normal = b->normal + (size_t)j * n;
+    if (f->t_u != 0) add_resistance(s, f->t_u, t, t);
+    if (f->t_v != 0) add_resistance(s, f->t_v, t, normal);
+    if (f->n_v != 0) add_resistance(s, f->n_v, normal, normal);
+  }
+}
+
 static void add_row(series_columns *s, const double *row)
 {
   memcpy(s->rows + (size_t)s->n_rows++ * (size_t)s->n, row, (size_t)s->n * sizeof *row);
 }
 
+/* The circle whose first direction is j, which slips. */
+static void add_slipping(series_columns *s, const modal_base *b, int j)
+{
+  const size_t n = (size_t)s->n, i = (size_t)s->n_slipping++;
+  memcpy(s->slip_tangents + 2 * n * i, b->tangent + (size_t)j * n, 2 * n * sizeof *s->slip_tangents);
+  memcpy(s->slip_normals + n * i, b->normal + (size_t)j * n, n * sizeof *s->slip_normals);
+}
+
+/* Both directions of a circle have half of N each: the first gets all of it. */
+static void join_normals(series_columns *s, int j)
+{
+  if (s->law[j].t_v != 0 || s->law[j + 1].t_v != 0) return;
+  s->law[j].n_v += s->law[j + 1].n_v;
+  s->law[j + 1].n_v = 0;
+}
+
 void series_columns_begin(series_columns *s, const scaled_model *m, const contact_track *track)
 {
   const modal_base *b = m->base;
-  s->n_rows = 0;
+  s->n_rows = s->n_slipping = 0;
+  for (int j = 0; j < s->n_contacts; ++j) s->law[j] = contact_track_forces(&track[j], &m->contact[j]);
   for (int j = 0; j < s->n_contacts; ++j) {
-    s->law[j] = contact_track_forces(&track[j], &m->contact[j]);
+    if (m->contact[j].circle) join_normals(s, j);
+    if (m->contact[j].circle && circle_track_turns(&track[j])) add_slipping(s, b, j);
     if (has_tangent(&s->law[j])) add_row(s, b->tangent + (size_t)j * (size_t)s->n);
     if (has_normal(&s->law[j])) add_row(s, b->normal + (size_t)j * (size_t)s->n);
   }
+  find_resistance(s, b);
   dense_transpose(s->n, s->n_rows, s->rows, s->turned);
+  dense_transpose(s->n, 2 * s->n_slipping, s->slip_tangents, s->slip_turned);
   s->reach = 2 / sqrt(m->by_K * b->highest * b->highest);
 }
 
@@ -108,10 +157,36 @@ static void subtract(series_columns *s, int width, bool diagonal, const double *
   }
 }
 
+/* s->motion := the forces that by dW_j of the contacts that stick are, row by row. */
+static void push_sliders(series_columns *s, int width, double by)
+{
+  const size_t w = (size_t)width;
+  double *row = s->motion;
+  memset(s->motion, 0, (size_t)s->n_rows * w * sizeof *s->motion);
+  for (int j = 0; j < s->n_contacts; ++j) {
+    const contact_forces_linear *f = &s->law[j];
+    for (size_t q = 0; has_tangent(f) && q < w; ++q) row[q] = by * f->t_w * s->slider[(size_t)j * w + q];
+    row += (size_t)(has_tangent(f) + has_normal(f)) * w;
+  }
+}
+
+/* out -= by (contacts of z), by the matrix of all of them. */
+static void subtract_whole(series_columns *s, int width, bool first, double by, const double *z, double *out)
+{
+  subtract(s, width, false, NULL, s->resistance, by, z, out);
+  if (!first) return;
+  push_sliders(s, width, by);
+  product_subtract(width, s->n, s->n_rows, s->motion, width, s->turned, s->n_rows, out, width);
+}
+
 /* out -= by (contacts of z); their sliders move in the first term alone. */
 static void subtract_contacts(series_columns *s, int width, bool first, double by, const double *z, double *out)
 {
   const size_t w = (size_t)width;
+  if (s->whole) {
+    subtract_whole(s, width, first, by, z, out);
+    return;
+  }
   memset(s->motion, 0, (size_t)s->n_rows * w * sizeof *s->motion);
   product_subtract(width, s->n_rows, s->n, z, width, s->rows, s->n, s->motion, width); /* minus dU and dV */
   double *row = s->motion;
@@ -128,37 +203,45 @@ static void subtract_contacts(series_columns *s, int width, bool first, double b
   product_subtract(width, s->n, s->n_rows, s->motion, width, s->turned, s->n_rows, out, width);
 }
 
-/* Term k of the motion of the circle whose first direction is j. */
-static void project_circle(series_columns *s, const modal_base *b, int j, circle_columns *c, int width, int k,
-                           const double *z)
+/* s->circling[block][n_rows] := rows . z, with its sign turned. */
+static void project_slips(series_columns *s, int width, int n_rows, const double *rows, const double *z)
 {
-  const size_t n = (size_t)s->n, at = (size_t)k * (size_t)c->columns;
-  const double *const rows[] = {b->tangent + (size_t)j * n, b->tangent + (size_t)(j + 1) * n,
-                                b->normal + (size_t)j * n};
-  double *const motions[] = {c->u[0] + at, c->u[1] + at, c->v + at};
-  for (int r = 0; r < 3; ++r) {
-    memset(motions[r], 0, (size_t)width * sizeof *motions[r]);
-    for (size_t i = 0; i < n; ++i)
-      for (int q = 0; q < width && rows[r][i] != 0; ++q) motions[r][q] += rows[r][i] * z[i * (size_t)width + (size_t)q];
-  }
+  memset(s->circling, 0, (size_t)n_rows * (size_t)width * sizeof *s->circling);
+  product_subtract(width, n_rows, s->n, z, width, rows, s->n, s->circling, width);
 }
 
-/* out -= by (circles that slip) of terms z_k and `next`, z_{k+1}. */
-static void subtract_circles(series_columns *s, const scaled_model *m, int width, int k, double by, const double *z,
-                             const double *next, double *out)
+/* Term k of a motion that is -s->circling's row. */
+static void keep_term(const series_columns *s, int width, int row, const circle_columns *c, int k, double *series)
 {
-  for (int j = 0; s->along && j < s->n_contacts; ++j) {
-    if (s->along->circle_of[j] < 0) continue;
-    circle_columns *c = &s->circle[s->along->circle_of[j]];
-    if (k == 0) project_circle(s, m->base, j, c, width, 0, z);
-    project_circle(s, m->base, j, c, width, k + 1, next);
-    circle_columns_term(c, width, k);
-    for (int a = 0; a < 2; ++a) {
-      const double *t = m->base->tangent + (size_t)(j + a) * (size_t)s->n;
-      for (int i = 0; i < s->n; ++i)
-        for (int q = 0; q < width && t[i] != 0; ++q) out[i * width + q] -= by * t[i] * c->pull[a][q];
-    }
+  const double *from = s->circling + (size_t)row * (size_t)width;
+  double *to = series + (size_t)k * (size_t)c->columns;
+  for (int q = 0; q < width; ++q) to[q] = -from[q];
+}
+
+/* Term k of the motion of the circles that slip. */
+static void project_circles(series_columns *s, int width, int k, const double *z)
+{
+  project_slips(s, width, 2 * s->n_slipping, s->slip_tangents, z);
+  for (int i = 0; i < s->n_slipping; ++i)
+    for (int a = 0; a < 2; ++a) keep_term(s, width, 2 * i + a, &s->circle[i], k, s->circle[i].u[a]);
+  project_slips(s, width, s->n_slipping, s->slip_normals, z);
+  for (int i = 0; i < s->n_slipping; ++i) keep_term(s, width, i, &s->circle[i], k, s->circle[i].v);
+}
+
+/* out -= by (T of the circles that slip) of terms z_k and `next`, z_{k+1}. */
+static void subtract_circles(series_columns *s, int width, int k, double by, const double *z, const double *next,
+                             double *out)
+{
+  double *row = s->circling;
+  if (s->n_slipping == 0) return;
+  if (k == 0) project_circles(s, width, 0, z);
+  project_circles(s, width, k + 1, next);
+  for (int i = 0; i < s->n_slipping; ++i) {
+    circle_columns_term(&s->circle[i], width, k);
+    for (int a = 0; a < 2; ++a, row += width)
+      for (int q = 0; q < width; ++q) row[q] = by * s->circle[i].pull[a][q];
   }
+  product_subtract(width, s->n, 2 * s->n_slipping, s->circling, width, s->slip_turned, 2 * s->n_slipping, out, width);
 }
 
 /* sums[q] += |by z_q|^2 */
@@ -209,11 +292,11 @@ static bool expand(series_columns *s, const scaled_model *m, int width, double h
     subtract(s, width, b->diagonal_K, b->K, s->turned_K, by * h * m->by_K, z, second);
     subtract(s, width, b->diagonal_C, b->C, s->turned_C, by * (k - 1) * m->by_C, next, second);
     subtract_contacts(s, width, k == 2, by * h, z, second);
-    subtract_circles(s, m, width, k - 2, by * h, z, next, second);
+    subtract_circles(s, width, k - 2, by * h, z, next, second);
     add_term(count, k / h, second, s->x_end, s->p_end);
     if (k == 2) add_squares(s, width, 2 / h, second, s->size); /* a column that begins with its slider alone */
-    small = is_rounding(s, width, k, h, second) ? small + 1 : 0;
-    if (small == 2 && !s->along) return true; /* two: without damping even powers know nothing of odd ones */
+    if (!s->along) small = is_rounding(s, width, k, h, second) ? small + 1 : 0;
+    if (small == 2) return true; /* two: without damping even powers know nothing of odd ones */
     double *spent = z;
     z = next, next = second, second = spent;
   }

@@ -18,7 +18,14 @@ typedef struct series_columns { /* from series_columns_make, to series_columns_f
   double *turned_K, *turned_C;  /* [n][n] by rows, where they are not diagonal; else NULL */
   int n_rows;                   /* of contacts that resist in this phase */
   double *rows, *turned;        /* [n][n_rows] by columns; by rows */
-  contact_forces_linear *law;   /* [n_contacts] of this phase */
+  bool whole;                   /* are what they do the matrix below, which is cheaper? */
+  double *resistance;           /* [n][n] by columns of B: out_i = sum_l z_l B_li */
+  contact_forces_linear *law;   /* [n_contacts] of this phase, but T of the circles that slip */
+  int n_slipping;               /* circles that slip in this phase */
+  double *slip_tangents;        /* [n][2 n_slipping] by columns: their t_1 and t_2 */
+  double *slip_normals;         /* [n][n_slipping] by columns */
+  double *slip_turned;          /* slip_tangents by rows */
+  double *circling;             /* [block][2 n_slipping] their motion; their forces */
   double *x, *p;                /* [block][n] motion and its rate, of a block of columns */
   double *x_end, *p_end;        /* [block][n] the same after a step */
   double *term, *next, *second; /* [block][n] z_k, z_{k+1}, z_{k+2} */
