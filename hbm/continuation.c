@@ -350,15 +350,18 @@ static hc_status follow(path *p, const hc_monitor *monitor)
   const hbm_solver *s = p->s;
   hc_status st = first_point(p, monitor);
   if (st == HC_OK) st = adapt_to_accuracy(p);
+  if (p->s->stopped) return HC_INTERRUPTED;
   bool done = p->from == p->to;
   while (st == HC_OK && !done && !p->more_samples) {
     if (c->n >= MAX_POINTS) return HC_TOO_MANY_POINTS;
     if (!hc_monitor_tick(monitor, progress(p))) return HC_INTERRUPTED;
     bool accepted;
+    p->s->done = p->may_come_from_above ? progress(p) : -1;
     hc_status step_status = steps_are_fixed(s) ? fixed_step(p, &accepted) : trial_step(p, &accepted);
     bool no_other_step = !accepted && steps_are_fixed(s);
     if (step_status == HC_NO_MEMORY || no_other_step) return step_status;
     st = accepted ? accept_trial(p, &done) : recover(p, step_status, &done);
+    if (p->s->stopped) return HC_INTERRUPTED;
   }
   return st;
 }
@@ -426,7 +429,13 @@ hc_status hbm_trace(hbm_solver *s, double from, double to, const hc_monitor *mon
   bool in_range = from > 0 && to > 0 && isfinite(from) && isfinite(to);
   bool adapts = s->finer_harmonics || s->finer_samples;
   if (!in_range || curve->n || (adapts && steps_are_fixed(s))) return HC_BAD_INPUT;
-  return trace(s, from, to, !s->ramp, monitor, curve);
+  s->monitor = monitor;
+  s->done = -1;
+  s->stopped = false;
+  const hc_status st = trace(s, from, to, !s->ramp, monitor, curve);
+  s->monitor = NULL;
+  s->stopped = false;
+  return st;
 }
 
 void hbm_scale_steps(hbm_solver *s, double scale) { s->step_scale = scale > 0 && scale <= 1 ? scale : 1; }

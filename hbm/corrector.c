@@ -44,9 +44,18 @@ static void by_place(hbm_solver *s, double place, const double *X, double *dR)
   else hbm_system_domega(&s->sys, place, X, dR);
 }
 
+/* Is the solve to go on? Asked where evaluations take so long that nobody would wait for the end of a step. */
+static bool goes_on(hbm_solver *s)
+{
+  enum { MANY = 200 }; /* unknowns: a millisecond or more */
+  if (s->sys.n >= MANY && !hc_monitor_tick(s->monitor, s->done)) s->stopped = true;
+  return !s->stopped;
+}
+
 static hc_status fixed_residual(void *self, const double *z, double *r)
 {
   hbm_solver *s = self;
+  if (!goes_on(s)) return HC_INTERRUPTED;
   unpack_harmonics(s, z, s->X);
   return hbm_system_residual(&s->sys, omega_at(s, s->omega), s->X, r);
 }
@@ -63,6 +72,7 @@ static hc_status plane_residual(void *self, const double *z, double *r)
 {
   hbm_solver *s = self;
   int n = s->sys.n;
+  if (!goes_on(s)) return HC_INTERRUPTED;
   if (!(z[n] > 0)) return HC_NOT_FINITE; /* Newton left omega > 0: the step is refused */
   unpack_harmonics(s, z, s->X);
   r[n] = 0;

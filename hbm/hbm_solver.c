@@ -74,7 +74,10 @@ static void free_equations(hbm_solver *s)
                     .ramp = s->ramp,
                     .guess = s->guess,
                     .solves = s->solves,
-                    .step_scale = s->step_scale};
+                    .step_scale = s->step_scale,
+                    .monitor = s->monitor,
+                    .done = s->done,
+                    .stopped = s->stopped};
 }
 
 hc_status hbm_solver_resize(hbm_solver *s, int n_harm, int n_time)

@@ -26,6 +26,9 @@ struct hbm_solver {            /* from hbm_solver_new, to hbm_solver_free; not s
   long solves;                 /* of either form, since it was made */
   const hbm_ramp *ramp;        /* the one that is followed; NULL: none is */
   double step_scale;           /* of hbm_scale_steps */
+  const hc_monitor *monitor;   /* of the curve under way, asked at each evaluation of many unknowns; else NULL */
+  double done;                 /* of that curve, 0..1; negative: unknown */
+  bool stopped;                /* it said stop */
   double omega;                /* of the fixed form; on a ramp, the place */
   double *X;                   /* [n_coef]  harmonics of a callback's unknowns */
   double *x;                   /* [2 HBM_MAX_HARMONICS + 1] series of a response */

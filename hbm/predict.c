@@ -10,10 +10,11 @@
 #include "numerics/series.h"
 
 enum {
-  MOST_FINER = 100,  /* some milliseconds */
-  STRIDE = 20,       /* harmonics between two sizes of the workspace, which is remade with each */
-  FEWEST_FINER = 14, /* with less a short contact does not show in the error of H = 1 */
-  MOST_STEPS = 10    /* of Newton: one or two but near turning points and for stiff contacts */
+  MOST_FINER = 100,     /* some milliseconds of an oscillator */
+  MOST_UNKNOWNS = 1500, /* of the finer equations of many coordinates: about a second a step */
+  STRIDE = 20,          /* harmonics between two sizes of the workspace, which is remade with each */
+  FEWEST_FINER = 14,    /* with less a short contact does not show in the error of H = 1 */
+  MOST_STEPS = 10       /* of Newton: one or two but near turning points and for stiff contacts */
 };
 
 static const double converged = 0.02; /* a step this small beside what all came to changes the error by as little */
@@ -29,19 +30,21 @@ static const double least_share = 0.04;
 
 /* Twice the harmonics, and more where these do not reach the natural frequency of the mass on its stuck contacts, at
  * which it swings after each impact: up to there errors hardly fall with the harmonics, and twice as many say
- * nothing. */
-static int finer_harmonics(double highest, int n_harm, double omega)
+ * nothing. Of many coordinates no more than MOST_UNKNOWNS allow, or twice as many. */
+static int finer_harmonics(double highest, int n_harm, int dim, double omega)
 {
   if (n_harm > HBM_MAX_HARMONICS / 2) return n_harm / 2;
   const int twice = 2 * n_harm > FEWEST_FINER ? 2 * n_harm : FEWEST_FINER;
   const double own = ceil(highest / (STRIDE * omega)) * STRIDE;
-  return own > twice ? (int)fmin(own, fmax(MOST_FINER, twice)) : twice;
+  const int affordable = (MOST_UNKNOWNS / (dim > 0 ? dim : 1) - 1) / 2;
+  const int most = affordable < MOST_FINER ? affordable : MOST_FINER;
+  return own > twice ? (int)fmin(own, fmax(most, twice)) : twice;
 }
 
 /* What is made at the first call; freed with the equations. */
 static hc_status need_finer(hbm_solver *s, double omega)
 {
-  const int n_harm = finer_harmonics(s->sys.scales.highest, s->sys.n_harm, omega);
+  const int n_harm = finer_harmonics(s->sys.scales.highest, s->sys.n_harm, s->sys.dim, omega);
   if (s->exact_finer && refinement_harmonics(s->exact_finer) == n_harm) return HC_OK;
   refinement_free(s->exact_finer);
   free(s->improved);

@@ -2,9 +2,9 @@
  * before anything else is known. What time integration finds may then be held against it.
  *
  * The solution X of H harmonics is padded with zeros and improved by Newton on finer equations: n = 2H harmonics, or as
- * many as reach the stuck mass's natural frequency (100 at most), exact
- * forces (which take away aliasing with the truncation), harmonic 0 kept (leaving it out is an error of the model of
- * the motion, too). The distance d of the two motions misses what n harmonics leave out. Errors fall like H^-3
+ * many as reach the stuck mass's natural frequency (100 at most; of many coordinates as many as make 1500 unknowns),
+ * exact forces (which take away aliasing with the truncation), harmonic 0 kept (leaving it out is an error of the model
+ * of the motion, too). The distance d of the two motions misses what n harmonics leave out. Errors fall like H^-3
  * (docs/theory.md, 3), so
  *
  *     error(H) = d / |1 - (H/n)^3|          8/7 d, also where n > 2H
