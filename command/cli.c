@@ -187,6 +187,16 @@ void cli_message(const cli_common *common, const char *format, ...)
   va_end(args);
 }
 
+void cli_foretell_memory(const cli_common *common, double bytes)
+{
+  const double much = 2e8, machine = (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGESIZE);
+  if (common->quiet || !(bytes > much)) return;
+  if (bytes > machine)
+    cli_message(common, "takes about %.2g GB of memory, more than the %.2g GB that this machine has", 1e-9 * bytes,
+                1e-9 * machine);
+  else cli_message(common, "takes about %.2g GB of memory", 1e-9 * bytes);
+}
+
 int cli_plotted(const cli_common *common, hc_status st, const char *why)
 {
   if (st == HC_OK) return 0;

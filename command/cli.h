@@ -126,6 +126,10 @@ int cli_width(const cli_common *common);
  * every column. 0 or the exit code. Frees nothing. */
 int cli_write(const cli_common *common, int n, table *const *tables);
 
+/* On stderr, unless quiet, if that many bytes are much: what a run will take, and whether the machine has it. Before a
+ * progress line is drawn. */
+void cli_foretell_memory(const cli_common *common, double bytes);
+
 /* After a drawing that ended with st: 0, or the exit code after the message that there is none and why. */
 int cli_plotted(const cli_common *common, hc_status st, const char *why);
 

@@ -8,6 +8,7 @@
 #include "command/files.h"
 #include "command/plot/plot.h"
 #include "compare/comparison.h"
+#include "compare/memory.h"
 #include "output/progress.h"
 
 static const char help[] =
@@ -272,10 +273,11 @@ static int run_compare(int argc, char **argv)
     return code;
   }
   cli_take_frequencies(&common, &own.at, &sc);
-  progress *bar = progress_start("comparing", common.quiet);
-  hc_monitor monitor = progress_monitor(bar);
   compare_setup setup;
   hc_status st = scene_setup(&sc, &setup), tabled = HC_OK;
+  if (st == HC_OK) cli_foretell_memory(&common, memory_of_comparison(&setup));
+  progress *bar = progress_start("comparing", common.quiet);
+  hc_monitor monitor = progress_monitor(bar);
   setup.jobs = cli_processors();
   setup.contacts = own.contacts;
   setup.spare = common.format == FORMAT_TABLE && !common.wide && !own.plot; /* from_integration is not shown */

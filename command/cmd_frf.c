@@ -10,6 +10,7 @@
 #include "command/files.h"
 #include "command/plot/plot.h"
 #include "compare/frequencies.h"
+#include "compare/memory.h"
 #include "compare/response.h"
 #include "output/progress.h"
 
@@ -200,6 +201,13 @@ static hc_status note_specials(table *t, const scene *sc, hbm_solver *s, const h
   return st;
 }
 
+static void foretell_memory(const cli_common *common, const scene *sc)
+{
+  compare_setup setup;
+  if (scene_setup(sc, &setup) == HC_OK) cli_foretell_memory(common, memory_of_curve(setup.model, &setup.hbm));
+  scene_setup_clear(&setup);
+}
+
 static int run_frf(int argc, char **argv)
 {
   cli_common common;
@@ -219,6 +227,7 @@ static int run_frf(int argc, char **argv)
   table *t = table_new("Response curve", n_columns, columns);
   columns = rows_columns(ROWS_CONTACT, cli_extra_columns(&sc), &n_columns);
   table *contacts = own.contacts ? table_new("Contacts", n_columns, columns) : NULL;
+  foretell_memory(&common, &sc);
   progress *bar = progress_start("harmonic balance", common.quiet);
   hc_monitor monitor = progress_monitor(bar);
   if (!own.at.n) sc.compare.omega.n = 0; /* those of the case are for the comparison */

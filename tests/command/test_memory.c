@@ -1,0 +1,67 @@
+/* test_memory.c - what a run takes is told beforehand within a factor of two, and said where it is much. */
+#include <string.h>
+#include <sys/resource.h>
+
+#include "cases/case_file.h"
+#include "compare/memory.h"
+#include "tests/check.h"
+#include "tests/shell.h"
+
+#if defined __SANITIZE_ADDRESS__ || defined __SANITIZE_THREAD__
+enum { SANITIZED = 1 };
+#else
+enum { SANITIZED = 0 };
+#endif
+
+/* Runs in the order of what they take: a process knows of its children only the most that any of them took. */
+static const struct run {
+  const char *command, *name, *set[2];
+  int code;
+  bool said;
+} runs[] = {{"frf", "bladed_disk", {"sweep.omega=[984,986]", NULL}, 0, false},
+            {"frf", "blade_damper", {"sweep.frequency=[255,256]", "hbm.harmonics=3"}, 0, false},
+            {"compare", "bladed_disk", {"sweep.omega=[984,986]", "compare.omega=[985]"}, 1, false},
+            {"frf", "blade_damper_120", {"sweep.frequency=[255,255.5]", NULL}, 0, true}};
+
+static double told(const struct run *r)
+{
+  char path[256];
+  scene sc;
+  compare_setup setup;
+  case_error err;
+  snprintf(path, sizeof path, SOURCE_DIR "/cases/structures/%s.yaml", r->name);
+  if (case_read(path, r->set[1] ? 2 : 1, r->set, &sc, &err) != HC_OK) fail_msg("%s", err.message);
+  assert_int_equal(scene_setup(&sc, &setup), HC_OK);
+  const double bytes =
+      strcmp(r->command, "frf") ? memory_of_comparison(&setup) : memory_of_curve(setup.model, &setup.hbm);
+  scene_setup_clear(&setup);
+  case_clear(&sc);
+  return bytes;
+}
+
+static void memory_is_foretold(void **state)
+{
+  (void)state;
+  static char out[1 << 16];
+  for (size_t i = 0; i < sizeof runs / sizeof *runs; ++i) {
+    const struct run *r = &runs[i];
+    char line[512];
+    struct rusage used;
+    snprintf(line, sizeof line, "%s %s cases/structures/%s.yaml --set '%s' %s%s%s 2>&1", HBMCHECK_COMMAND, r->command,
+             r->name, r->set[0], r->set[1] ? "--set '" : "", r->set[1] ? r->set[1] : "", r->set[1] ? "'" : "");
+    shell_check(line, shell_read(line, out, sizeof out), out, r->code, r->said ? "takes about 0.2" : "");
+    if (!r->said && strstr(out, "takes about")) fail_msg("%s: %.200s", line, out);
+    assert_int_equal(getrusage(RUSAGE_CHILDREN, &used), 0);
+    const double taken = 1024.0 * (double)used.ru_maxrss, expected = told(r);
+    if (SANITIZED) continue; /* which takes memory of its own */
+    if (!(taken <= 2 * expected && expected <= 2 * taken))
+      fail_msg("%s: %.0f MB expected, %.0f MB taken", line, 1e-6 * expected, 1e-6 * taken);
+  }
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {cmocka_unit_test(memory_is_foretold)};
+  check_watchdog(300);
+  return cmocka_run_group_tests_name("command.memory", tests, NULL, NULL);
+}
