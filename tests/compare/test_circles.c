@@ -1,5 +1,5 @@
-/* test_circles.c - the comparison of contacts with two tangents under the law of the circle: both sides agree, and where
- * they are made to differ the cause is named and as large as it must be. */
+/* test_circles.c - the comparison of contacts with two tangents under the law of the circle: both sides agree, and
+ * where they are made to differ the cause is named and as large as it must be. */
 #include <string.h>
 
 #include "cases/case_file.h"

@@ -30,8 +30,8 @@ static bool tick(void *self, double done)
   return ++v->ticks < v->stop_at;
 }
 
-/* A curve of 10 points asks at least once an iteration, and how far it is never falls back. Told to stop in the midst of
- * a step it asks a few times more, of Newton's own retries, and keeps its points. */
+/* A curve asks at least once an iteration, and how far it is never falls back. Told to stop in the midst of a step it
+ * asks a few times more, of Newton's own retries, and keeps its points. */
 static void a_request_to_stop_is_heard_in_a_step(void **state)
 {
   (void)state;
