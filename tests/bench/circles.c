@@ -1,0 +1,179 @@
+/* circles.c - a benchmark, not a test: what one evaluation of a contact with two tangents under the law of the circle
+ * costs, located, with its Jacobian, against the located one of one tangent with the same kind of motion.
+ * usage: bench_circles [H] [ROUNDS]   (default 5 and 15)
+ * Motions are random, the h-th harmonic of size 1/h or 1/h^2, 64 of each kind: both contacts in the same regime, under
+ * the same law, with the same u_1 and v. Kinds: stuck from the first pass, slips, separates. All kinds are timed in
+ * turn, ROUNDS times; a time is the least of processor time, a ratio that of one round's two, its median. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "base/ascending.h"
+#include "hbm/circle_force.h"
+#include "hbm/exact_force.h"
+#include "hbm/hbm_settings.h"
+#include "numerics/series.h"
+#include "tests/random.h"
+
+enum { MOTIONS = 64, KINDS = 3, DECAYS = 2, MAX_ROUNDS = 101, MOST_H = 25, MAX_COEF = 3 * (2 * MOST_H + 1) };
+
+/* One motion under its law, of both contacts. */
+typedef struct scene {
+  double X[MAX_COEF], line[MAX_COEF];
+  circle_force *circle;
+  exact_force *one;
+} scene;
+
+typedef struct kind {
+  const char *name;
+  contact_regime regime;
+  int n;
+  scene *scene; /* [MOTIONS] */
+  double us[2][MAX_ROUNDS], ratio[MAX_ROUNDS];
+  int pieces, panels;
+} kind;
+
+static kind kinds[DECAYS][KINDS];
+static double F[MAX_COEF], jac[MAX_COEF * MAX_COEF], sink;
+static int H = 5, rounds = 15;
+
+static double now_us(void)
+{
+  struct timespec t;
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+  return 1e6 * (double)t.tv_sec + 1e-3 * (double)t.tv_nsec;
+}
+
+static void check(hc_status st)
+{
+  if (st == HC_OK) return;
+  fprintf(stderr, "bench_circles: %s\n", hc_status_text(st));
+  exit(1);
+}
+
+static void random_series(uint64_t *seed, double decay, double *X)
+{
+  X[0] = 0.5 * random_signed(seed);
+  for (int k = 1; k < series_length(H); ++k) X[k] = random_signed(seed) * pow((k + 1) / 2, -decay);
+}
+
+static contact random_law(uint64_t *seed)
+{
+  const double size = pow(10, random_signed(seed));
+  return (contact){
+      .kt = size, .kn = size * pow(10, 0.7 * random_signed(seed)), .mu = 0.4, .gap = 3 * random_signed(seed)};
+}
+
+static void make(const contact *law, scene *s)
+{
+  const contact half = {law->kt, law->kn / 2, 2 * law->mu, law->gap, law->load / 2};
+  const moving_contact on_line = {.law = *law, .cu = {1, 0}, .cv = {0, 1}};
+  check(circle_force_new(H, 3, &half, &s->circle));
+  check(exact_force_new(H, 2, 1, &on_line, &s->one));
+}
+
+static void drop(scene *s)
+{
+  circle_force_free(s->circle);
+  exact_force_free(s->one);
+}
+
+static contact_regime evaluate(scene *s, bool circle)
+{
+  contact_report report;
+  check(circle ? circle_force_eval(s->circle, s->X, F, jac, &report)
+               : exact_force_eval(s->one, s->line, F, jac, &report));
+  sink += F[0] + jac[0];
+  return report.regime;
+}
+
+static void keep(kind *k, const scene *s)
+{
+  const circle_cycle *c = circle_force_cycle(s->circle);
+  k->scene[k->n++] = *s;
+  k->pieces += c->n;
+  k->panels += c->slip.n;
+}
+
+static void fill_kinds(double decay, kind *k)
+{
+  const size_t L = (size_t)series_length(H);
+  uint64_t seed = 7;
+  for (int missing = KINDS * MOTIONS; missing > 0;) {
+    scene s;
+    const contact law = random_law(&seed);
+    for (size_t d = 0; d < 3; ++d) random_series(&seed, decay, s.X + d * L);
+    memcpy(s.line, s.X, L * sizeof *s.X);
+    memcpy(s.line + L, s.X + 2 * L, L * sizeof *s.X);
+    make(&law, &s);
+    const contact_regime regime = evaluate(&s, true);
+    bool kept = regime == evaluate(&s, false);
+    int i = 0;
+    while (i < KINDS && k[i].regime != regime) ++i;
+    kept = kept && i < KINDS && k[i].n < MOTIONS;
+    if (kept) keep(&k[i], &s), --missing;
+    else drop(&s);
+  }
+}
+
+static double time_all(kind *k, bool circle)
+{
+  const int repeated = circle ? 4 : 40;
+  const double from = now_us();
+  for (int r = 0; r < repeated; ++r)
+    for (int i = 0; i < MOTIONS; ++i) evaluate(&k->scene[i], circle);
+  return (now_us() - from) / (MOTIONS * repeated);
+}
+
+static double quantile(const double *v, double at)
+{
+  double sorted[MAX_ROUNDS];
+  memcpy(sorted, v, (size_t)rounds * sizeof *v);
+  qsort(sorted, (size_t)rounds, sizeof *sorted, ascending);
+  return sorted[(int)lround(at * (rounds - 1))];
+}
+
+static void print(const kind *k, int decay)
+{
+  printf("1/h^%d  %-9s  %8.2f  %8.2f  %6.1f [%.1f, %.1f]  %5.1f  %6.1f\n", decay, k->name, quantile(k->us[1], 0),
+         quantile(k->us[0], 0), quantile(k->ratio, 0.5), quantile(k->ratio, 0.25), quantile(k->ratio, 0.75),
+         (double)k->pieces / MOTIONS, (double)k->panels / MOTIONS);
+}
+
+int main(int argc, char **argv)
+{
+  if (argc > 1) H = atoi(argv[1]);
+  if (argc > 2) rounds = atoi(argv[2]);
+  if (H < 1 || H > MOST_H || rounds < 1 || rounds > MAX_ROUNDS) {
+    fprintf(stderr, "usage: bench_circles [H 1..%d] [ROUNDS 1..%d]\n", MOST_H, MAX_ROUNDS);
+    return 64;
+  }
+  const char *const names[KINDS] = {"stuck", "slips", "separates"};
+  const contact_regime regimes[KINDS] = {CONTACT_STUCK, CONTACT_SLIPS, CONTACT_SEPARATES};
+  for (int d = 0; d < DECAYS; ++d) {
+    for (int i = 0; i < KINDS; ++i) {
+      kinds[d][i] = (kind){.name = names[i], .regime = regimes[i], .scene = calloc(MOTIONS, sizeof(scene))};
+      if (!kinds[d][i].scene) check(HC_NO_MEMORY);
+    }
+    fill_kinds(d + 1, kinds[d]);
+  }
+  for (int r = 0; r < rounds; ++r)
+    for (int d = 0; d < DECAYS; ++d)
+      for (int i = 0; i < KINDS; ++i) {
+        kind *k = &kinds[d][i];
+        for (int circle = 0; circle < 2; ++circle) k->us[circle][r] = time_all(k, circle);
+        k->ratio[r] = k->us[1][r] / k->us[0][r];
+      }
+  printf(
+      "H = %d, microseconds an evaluation with Jacobian\nsize   kind         circle  one line   ratio  pieces  panels\n",
+      H);
+  for (int d = 0; d < DECAYS; ++d)
+    for (int i = 0; i < KINDS; ++i) {
+      print(&kinds[d][i], d + 1);
+      for (int s = 0; s < MOTIONS; ++s) drop(&kinds[d][i].scene[s]);
+      free(kinds[d][i].scene);
+    }
+  return sink == sink ? 0 : 1;
+}
