@@ -206,15 +206,15 @@ static double size_of(const circle_cycle *c) { return c->m->of_u[0] + c->m->of_R
 static double length_of(const double x[2]) { return hypot(x[0], x[1]); }
 
 typedef struct closing {
-  double w[2], distance; /* [length] from the start of the pass to its end */
-  double step[2];        /* to go on with */
+  double w[2], end[2], distance; /* [length] start of a pass and its end; from one to the other */
+  double step[2];                /* to go on with */
 } closing;
 
 static hc_status try_from(circle_cycle *c, const double w[2], closing *out)
 {
   double A[2][2], end[2] = {w[0], w[1]};
   const hc_status st = circle_cycle_pass(c, end, A);
-  *out = (closing){.w = {w[0], w[1]}, .step = {end[0] - w[0], end[1] - w[1]}};
+  *out = (closing){.w = {w[0], w[1]}, .end = {end[0], end[1]}, .step = {end[0] - w[0], end[1] - w[1]}};
   out->distance = hypot(out->step[0], out->step[1]);
   solve_fixed_point(A, size_of(c), out->step);
   return st;
@@ -240,12 +240,13 @@ static hc_status take_step(circle_cycle *c, const closing *now, bool damped, clo
   return st;
 }
 
-/* Newton from w until the distance does not become less; *closed if it has become little and the slider still slips. */
-static hc_status close_by_newton(circle_cycle *c, const double w[2], bool damped, bool *closed)
+/* Newton from the last pass until the distance does not become less; *closed if it has become little and the slider
+ * still slips. */
+static hc_status close_by_newton(circle_cycle *c, closing now, bool damped, bool *closed)
 {
   const double rounding = 64 * DBL_EPSILON * size_of(c), enough = 1e-11 * size_of(c);
-  closing now, next;
-  hc_status st = try_from(c, w, &now);
+  closing next;
+  hc_status st = HC_OK;
   *closed = false;
   for (int i = 0; i < MAX_NEWTON && st == HC_OK && length_of(now.step) > rounding && slips(c); ++i) {
     st = take_step(c, &now, damped, &next);
@@ -260,20 +261,19 @@ static hc_status close_by_newton(circle_cycle *c, const double w[2], bool damped
   return st;
 }
 
-/* Pass by pass from w; *ended where the last pass does not slip (c->marched passes before it did), or comes back to
+/* Pass by pass from w = 0; *ended where the last pass does not slip (c->marched passes before it did), or comes back to
  * where it began, to rounding. */
-static hc_status march(circle_cycle *c, int passes, double w[2], bool *ended)
+static hc_status march(circle_cycle *c, int passes, closing *last, bool *ended)
 {
   const double rounding = 8 * DBL_EPSILON * size_of(c);
   hc_status st = HC_OK;
-  w[0] = w[1] = 0;
+  *last = (closing){.distance = 0};
   *ended = false;
   for (int i = 0; i < passes && st == HC_OK && !*ended; ++i) {
-    const double before[2] = {w[0], w[1]};
-    st = circle_cycle_pass(c, w, NULL);
+    st = try_from(c, (double[2]){last->end[0], last->end[1]}, last);
     const bool free = st == HC_OK && !slips(c);
     if (free) c->marched = i;
-    *ended = free || (i > 0 && hypot(w[0] - before[0], w[1] - before[1]) <= rounding);
+    *ended = free || (i > 0 && last->distance <= rounding);
   }
   return st;
 }
@@ -293,17 +293,18 @@ static bool two_touches(const circle_cycle *c, double th[2])
   return found == 2 && slipped <= LITTLE_SLIP;
 }
 
-/* The corner that marching creeps to from w, if there is one and the circles of all other instants hold it, too. */
+/* The corner that marching creeps to from w, if there is one and the circles of all other instants hold it, too. Else
+ * the last pass is as it was. */
 static hc_status rest_in_corner(circle_cycle *c, const double w[2], bool *rests)
 {
   circle_corner corner;
   double th[2];
   *rests = false;
   if (!two_touches(c, th) || !circle_corner_find(c->m, w, th, &corner)) return HC_OK;
-  double end[2] = {corner.w[0], corner.w[1]};
+  double end[2] = {corner.w[0], corner.w[1]}, before[2] = {c->start[0], c->start[1]};
   const hc_status st = circle_cycle_pass(c, end, NULL);
   *rests = st == HC_OK && hypot(end[0] - corner.w[0], end[1] - corner.w[1]) <= 64 * DBL_EPSILON * size_of(c);
-  if (!*rests) return st;
+  if (!*rests) return st == HC_OK ? circle_cycle_pass(c, before, NULL) : st;
   c->cornered = true;
   c->corner = corner;
   c->n = 1;
@@ -317,14 +318,14 @@ static hc_status rest_in_corner(circle_cycle *c, const double w[2], bool *rests)
 static hc_status settle(circle_cycle *c)
 {
   static const int passes[] = {2, 30, MAX_PASSES};
-  double w[2];
+  closing last;
   bool done = false;
   hc_status st = HC_OK;
   for (int i = 0; i < 3 && st == HC_OK && !done; ++i) {
-    st = march(c, passes[i], w, &done);
-    if (st == HC_OK && !done) st = rest_in_corner(c, w, &done);
+    st = march(c, passes[i], &last, &done);
+    if (st == HC_OK && !done) st = rest_in_corner(c, last.end, &done);
     if (st != HC_OK || done || i == 2) continue;
-    st = close_by_newton(c, w, i > 0, &done);
+    st = close_by_newton(c, last, i > 0, &done);
     bool rests;
     if (st == HC_OK && done) st = rest_in_corner(c, c->start, &rests);
   }

@@ -14,6 +14,7 @@
 #include "hbm/force_jacobian.h"
 #include "hbm/hbm_settings.h"
 #include "hbm/piece_series.h"
+#include "numerics/rotate.h"
 #include "numerics/series.h"
 
 enum { N = COLLOCATION_POINTS };
@@ -32,9 +33,9 @@ struct circle_force {
   circle_cycle cycle;
   double *indicator, *symbol, *weight; /* [4H+1] of a piece, of all stick pieces; [2H+1] */
   double *F;                           /* [2][n_coef] [length] of T/kt */
-  double *by;                          /* [2][n_col][n_coef] its derivatives */
+  double *by;                          /* [2][n_coef][n_col] its derivatives */
   double *dw[2], *dphi;                /* [n_col] */
-  double *node;                        /* [N][n_col] d phi at the points of a panel */
+  double *node;                        /* [3][N][n_col] d phi at the points of a panel; d(R e) there, with weights */
   double *matrix;                      /* [n_coef]^2 */
   double *base, *rate;                 /* [N][n_coef] 1, cos, sin at the points, and their derivatives */
 };
@@ -65,7 +66,7 @@ static hc_status make_room(circle_force *f)
   f->X = room((size_t)f->n_size), f->F = room(2 * L), f->by = room(2 * L * col);
   f->dw[0] = room(col), f->dw[1] = room(col), f->dphi = room(col);
   f->matrix = room(L * L);
-  f->node = room(N * col), f->base = room(N * L), f->rate = room(N * L);
+  f->node = room(3 * N * col), f->base = room(N * L), f->rate = room(N * L);
   const bool found = c->piece && c->slip.panel && f->contact && f->indicator && f->symbol && f->weight;
   return found && f->X && f->F && f->matrix && f->by && f->dw[0] && f->dw[1] && f->dphi && f->node && f->base && f->rate
              ? HC_OK
@@ -255,10 +256,9 @@ static void add_stick(circle_force *f, const circle_piece *p, bool derive)
   for (int i = 0; i < force_jacobian_symbol_length(f->n_harm); ++i) f->symbol[i] += f->indicator[i];
   for (int d = 0; d < 2; ++d) {
     for (int i = 0; i < L; ++i) f->F[d * L + i] -= p->w[d] * f->indicator[i];
-    for (int q = 0; derive && q < f->n_col; ++q) {
-      double *column = f->by + ((size_t)d * (size_t)f->n_col + (size_t)q) * (size_t)L;
-      const double dw = f->dw[d][q];
-      for (int i = 0; dw != 0 && i < L; ++i) column[i] -= dw * f->indicator[i];
+    for (int i = 0; derive && i < L; ++i) {
+      double *row = f->by + (size_t)(d * L + i) * (size_t)f->n_col;
+      for (int q = 0; q < f->n_col; ++q) row[q] -= f->indicator[i] * f->dw[d][q];
     }
   }
 }
@@ -270,49 +270,53 @@ typedef struct slip_points {
   double cosine[N], sine[N], R[N], pull[N];
 } slip_points;
 
-static void evaluate_points(circle_force *f, const circle_panel *p, slip_points *q)
+/* 1, cos, sin .. and their rates at the points of a panel, [N][n_coef]. */
+static void fill_bases(circle_force *f, const circle_panel *p)
 {
-  const double width = p->to - p->from;
-  for (int i = 0; i < N; ++i) {
-    const double th = i < N - 1 ? p->from + width * f->rule.x[i] : p->to;
-    double *base = f->base + (size_t)i * (size_t)f->n_coef, *rate = f->rate + (size_t)i * (size_t)f->n_coef;
-    double du[2] = {0}, v = 0;
-    fill_base(f->n_harm, th, base, rate);
-    for (int k = 0; k < f->n_coef; ++k) {
-      for (int d = 0; d < 2; ++d) du[d] += f->motion.u[d][k] * rate[k];
-      if (f->motion.v) v += f->motion.v[k] * base[k];
+  const size_t L = (size_t)f->n_coef;
+  const double width = p->to - p->from, middle = p->from + 0.5 * width;
+  double x[N], c[N], s[N], ch[N], sh[N];
+  for (int i = 0; i < N; ++i) x[i] = width * (f->rule.x[i] - 0.5);
+  rotate(N, cos(middle), sin(middle), x, c, s);
+  for (size_t i = 0; i < N; ++i) ch[i] = 1, sh[i] = 0, f->base[i * L] = 1, f->rate[i * L] = 0;
+  for (size_t h = 1; h <= (size_t)f->n_harm; ++h) {
+    for (int i = 0; i < N; ++i) series_turn(c[i], s[i], &ch[i], &sh[i]);
+    for (size_t i = 0; i < N; ++i) {
+      double *base = f->base + i * L + 2 * h, *rate = f->rate + i * L + 2 * h;
+      base[-1] = ch[i], base[0] = sh[i];
+      rate[-1] = -(double)h * sh[i], rate[0] = (double)h * ch[i];
     }
-    q->weight[i] = width * f->rule.a[N - 1][i] / PI;
-    q->cosine[i] = cos(p->phi[i]), q->sine[i] = sin(p->phi[i]);
-    q->R[i] = f->motion.rest + f->motion.per_v * v;
-    q->pull[i] = du[0] * q->cosine[i] + du[1] * q->sine[i];
   }
 }
 
-/* matrix X = right, in place of right; both are overwritten. */
-static void solve_columns(double A[N][N], double B[N][N])
+static void evaluate_points(circle_force *f, const circle_panel *p, slip_points *q)
+{
+  const double width = p->to - p->from;
+  circle_rates at;
+  circle_motion_rates(&f->motion, &f->rule, p->from, p->to, &at);
+  for (int i = 0; i < N; ++i) {
+    q->weight[i] = width * f->rule.a[N - 1][i] / PI;
+    q->cosine[i] = cos(p->phi[i]), q->sine[i] = sin(p->phi[i]);
+    q->R[i] = at.R[i];
+    q->pull[i] = at.du[0][i] * q->cosine[i] + at.du[1][i] * q->sine[i];
+  }
+  fill_bases(f, p);
+}
+
+/* Whole rows of a loop of constant length. */
+static void subtract_row(double factor, const double *restrict row, double *restrict from)
+{
+  for (int j = 0; j < 2 * N; ++j) from[j] -= factor * row[j];
+}
+
+/* B := A^-1 B, [A | B] being the two in one: the matrix of circle_slip.c, which needs no exchange of rows. */
+static void solve_columns(double A[N][2 * N])
 {
   for (int k = 0; k < N; ++k) {
-    int pivot = k;
-    for (int i = k + 1; i < N; ++i)
-      if (fabs(A[i][k]) > fabs(A[pivot][k])) pivot = i;
-    for (int j = 0; j < N && pivot != k; ++j) {
-      const double a = A[k][j], b = B[k][j];
-      A[k][j] = A[pivot][j], A[pivot][j] = a;
-      B[k][j] = B[pivot][j], B[pivot][j] = b;
-    }
     const double inverse = 1 / A[k][k];
-    for (int i = k + 1; i < N; ++i) {
-      const double factor = A[i][k] * inverse;
-      for (int j = k + 1; j < N; ++j) A[i][j] -= factor * A[k][j];
-      for (int j = 0; j < N; ++j) B[i][j] -= factor * B[k][j];
-    }
-  }
-  for (int k = N - 1; k >= 0; --k) {
-    const double inverse = 1 / A[k][k];
-    for (int i = k + 1; i < N; ++i)
-      for (int j = 0; j < N; ++j) B[k][j] -= A[k][i] * B[i][j];
-    for (int j = 0; j < N; ++j) B[k][j] *= inverse;
+    for (int j = 0; j < 2 * N; ++j) A[k][j] *= inverse;
+    for (int i = 0; i < N; ++i)
+      if (i != k) subtract_row(A[i][k], A[k], A[i]);
   }
 }
 
@@ -333,22 +337,23 @@ static void follow_angle(circle_force *f, const circle_panel *p, const slip_poin
 {
   const int L = f->n_coef;
   const double h = p->to - p->from, per_v = f->motion.per_v;
-  double A[N][N], Q[N][N]; /* transposed */
-  for (int i = 0; i < N; ++i)
-    for (int j = 0; j < N; ++j) {
-      A[j][i] = h * q->pull[i] * f->rule.a[i][j] + (i == j ? q->R[i] : 0);
-      Q[j][i] = h * f->rule.a[i][j];
-    }
-  solve_columns(A, Q);
+  double A[N][2 * N]; /* both transposed */
+  for (int j = 0; j < N; ++j) {
+    for (int i = 0; i < N; ++i) A[j][i] = h * q->pull[i] * f->rule.by_point[j][i];
+    for (int i = 0; i < N; ++i) A[j][N + i] = h * f->rule.by_point[j][i];
+    A[j][j] += q->R[j];
+  }
+  solve_columns(A);
   for (int i = 0; i < N; ++i) {
-    double *to = f->node + (size_t)i * (size_t)f->n_col, kept = 1;
-    for (int j = 0; j < N; ++j) kept -= Q[j][i] * q->pull[j];
+    double *to = f->node + (size_t)i * (size_t)f->n_col, kept = 1, Q[N];
+    for (int j = 0; j < N; ++j) Q[j] = A[j][N + i];
+    for (int j = 0; j < N; ++j) kept -= Q[j] * q->pull[j];
     for (int k = 0; k < f->n_col; ++k) to[k] = kept * f->dphi[k];
     double a[N], b[N], c[N];
     for (int j = 0; j < N; ++j) {
-      a[j] = -Q[j][i] * q->sine[j];
-      b[j] = Q[j][i] * q->cosine[j];
-      c[j] = -Q[j][i] * p->slope[j] * per_v;
+      a[j] = -Q[j] * q->sine[j];
+      b[j] = Q[j] * q->cosine[j];
+      c[j] = -Q[j] * p->slope[j] * per_v;
     }
     add_rows(L, a, f->rate, to);
     add_rows(L, b, f->rate, to + L);
@@ -357,25 +362,28 @@ static void follow_angle(circle_force *f, const circle_panel *p, const slip_poin
   memcpy(f->dphi, f->node + (size_t)(N - 1) * (size_t)f->n_col, (size_t)f->n_col * sizeof *f->dphi);
 }
 
-/* d(R e) = R e_perp d phi + e dR, with the harmonics of every point; of a mean half of that. */
+/* d(R e) = R e_perp d phi + e dR at a point, times its weight. */
+static void fill_change(const circle_force *f, const slip_points *q, int i, double *restrict first,
+                        double *restrict second)
+{
+  const size_t L = (size_t)f->n_coef;
+  const double *restrict dphi = f->node + (size_t)i * (size_t)f->n_col, *base = f->base + (size_t)i * L;
+  const double R = q->weight[i] * q->R[i], e = q->weight[i] * f->motion.per_v, c = q->cosine[i], s = q->sine[i];
+  for (int k = 0; k < f->n_col; ++k) first[k] = -R * s * dphi[k], second[k] = R * c * dphi[k];
+  for (size_t k = 0; f->motion.v && k < L; ++k)
+    first[2 * L + k] += e * c * base[k], second[2 * L + k] += e * s * base[k];
+}
+
+/* Its integrals with the harmonics; of a mean half of that. */
 static void add_slip_derivatives(circle_force *f, const slip_points *q)
 {
-  const int L = f->n_coef;
-  for (int col = 0; col < f->n_col; ++col) {
-    const int k = col - 2 * L;
-    const bool of_v = f->motion.v && k >= 0 && k < L;
-    double change[2][N];
-    for (int i = 0; i < N; ++i) {
-      const double R = q->weight[i] * q->R[i] * f->node[(size_t)i * (size_t)f->n_col + (size_t)col];
-      const double e = of_v ? q->weight[i] * f->motion.per_v * f->base[(size_t)i * (size_t)L + (size_t)k] : 0;
-      change[0][i] = e * q->cosine[i] - R * q->sine[i];
-      change[1][i] = e * q->sine[i] + R * q->cosine[i];
-    }
-    for (size_t d = 0; d < 2; ++d) {
-      double *column = f->by + (d * (size_t)f->n_col + (size_t)col) * (size_t)L;
-      add_rows(L, change[d], f->base, column);
-      for (int i = 0; i < N; ++i) column[0] -= 0.5 * change[d][i];
-    }
+  const size_t L = (size_t)f->n_coef, n = (size_t)f->n_col;
+  double *change[2] = {f->node + N * n, f->node + 2 * N * n};
+  for (int i = 0; i < N; ++i) fill_change(f, q, i, change[0] + (size_t)i * n, change[1] + (size_t)i * n);
+  for (size_t row = 0; row < L; ++row) {
+    double y[N];
+    for (size_t i = 0; i < N; ++i) y[i] = row > 0 ? f->base[i * L + row] : 0.5;
+    for (size_t d = 0; d < 2; ++d) add_rows(f->n_col, y, change[d], f->by + (d * L + row) * n);
   }
 }
 
@@ -438,13 +446,11 @@ static void start_from_w0(circle_force *f)
 static void eliminate_w0(circle_force *f, double *const row[2])
 {
   const size_t L = (size_t)f->n_coef;
-  for (int d = 0; d < 2; ++d)
-    for (int e = 0; e < 2; ++e) {
-      double *first = f->by + (size_t)d * (size_t)f->n_col * L;
-      const double *by_w0 = first + (size_t)(f->n_size + e) * L;
-      for (int q = 0; q < f->n_size; ++q)
-        for (size_t i = 0; row[e][q] != 0 && i < L; ++i) first[(size_t)q * L + i] += by_w0[i] * row[e][q];
-    }
+  for (size_t i = 0; i < 2 * L; ++i) {
+    double *by = f->by + i * (size_t)f->n_col;
+    const double *by_w0 = by + f->n_size;
+    for (int q = 0; q < f->n_size; ++q) by[q] += by_w0[0] * row[0][q] + by_w0[1] * row[1][q];
+  }
 }
 
 /* On the closed orbit d w0 = A d w0 + B: of what dw has after a pass from w0, into dw. */
@@ -522,9 +528,9 @@ static void put_tangential(circle_force *f, const double *X, double *F, double *
     for (size_t q = 0; q < L; ++q)
       for (size_t i = 0; i < L; ++i) f->F[d * L + i] += f->matrix[i + L * q] * X[d * L + q];
     for (size_t i = 0; i < L; ++i) F[d * L + i] = kt * f->F[d * L + i];
-    for (size_t q = 0; jac && q < n; ++q) {
-      const double *by = f->by + (d * (size_t)f->n_col + q) * L;
-      for (size_t i = 0; i < L; ++i) jac[d * L + i + n * q] = kt * by[i];
+    for (size_t i = 0; jac && i < L; ++i) {
+      const double *by = f->by + (d * L + i) * (size_t)f->n_col;
+      for (size_t q = 0; q < n; ++q) jac[d * L + i + n * q] = kt * by[q];
     }
     for (size_t q = 0; jac && q < L; ++q)
       for (size_t i = 0; i < L; ++i) jac[d * L + i + n * (d * L + q)] += kt * f->matrix[i + L * q];

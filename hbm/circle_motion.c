@@ -5,6 +5,7 @@
 #include <math.h>
 
 #include "base/constants.h"
+#include "numerics/rotate.h"
 #include "numerics/series.h"
 
 /* bound[k] += factor times a bound of the k-th derivative's modulus. */
@@ -62,6 +63,33 @@ circle_point circle_motion_at(const circle_motion *m, double th)
   p.dR = m->per_v * dv;
   p.ddR = m->per_v * ddv;
   return p;
+}
+
+void circle_motion_rates(const circle_motion *m, const collocation *k, double from, double to, circle_rates *r)
+{
+  enum { N = COLLOCATION_POINTS };
+  const double width = to - from, middle = from + 0.5 * width;
+  double x[N], c[N], s[N], ch[N], sh[N], v[N] = {0}, dv[N] = {0};
+  for (int i = 0; i < N; ++i) x[i] = width * (k->x[i] - 0.5);
+  rotate(N, cos(middle), sin(middle), x, c, s);
+  for (int i = 0; i < N; ++i) r->th[i] = middle + x[i], r->du[0][i] = r->du[1][i] = 0, ch[i] = 1, sh[i] = 0;
+  r->th[N - 1] = to;
+  for (int h = 1; h <= m->n_harm; ++h) {
+    const double a0 = h * m->u[0][2 * h - 1], b0 = h * m->u[0][2 * h], a1 = h * m->u[1][2 * h - 1],
+                 b1 = h * m->u[1][2 * h];
+    for (int i = 0; i < N; ++i) {
+      series_turn(c[i], s[i], &ch[i], &sh[i]);
+      r->du[0][i] += b0 * ch[i] - a0 * sh[i];
+      r->du[1][i] += b1 * ch[i] - a1 * sh[i];
+    }
+    const double a = m->v ? m->v[2 * h - 1] : 0, b = m->v ? m->v[2 * h] : 0;
+    for (int i = 0; i < N; ++i) {
+      v[i] += a * ch[i] + b * sh[i];
+      dv[i] += h * (b * ch[i] - a * sh[i]);
+    }
+  }
+  const double rest = m->v ? m->rest + m->per_v * m->v[0] : m->rest;
+  for (int i = 0; i < N; ++i) r->R[i] = rest + m->per_v * v[i], r->dR[i] = m->per_v * dv[i];
 }
 
 void circle_motion_grid(const circle_motion *m, circle_point grid[CIRCLE_GRID])

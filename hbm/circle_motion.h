@@ -5,6 +5,7 @@
 #define HC_HBM_CIRCLE_MOTION_H
 
 #include "model/contact_law.h"
+#include "numerics/collocation.h"
 #include "numerics/series_grid.h"
 
 typedef struct circle_motion {
@@ -26,6 +27,14 @@ typedef struct circle_point {
 circle_motion circle_motion_make(const contact *law, int n_harm, const double *u1, const double *u2, const double *v);
 
 circle_point circle_motion_at(const circle_motion *m, double th);
+
+/* Rates at the points of a panel, [rad] [length]. */
+typedef struct circle_rates {
+  double th[COLLOCATION_POINTS], du[2][COLLOCATION_POINTS], R[COLLOCATION_POINTS], dR[COLLOCATION_POINTS];
+} circle_rates;
+
+/* On [from, to], to <= from + 3; th[last] is `to` itself. */
+void circle_motion_rates(const circle_motion *m, const collocation *c, double from, double to, circle_rates *r);
 
 /* On the angles 2 pi i/SERIES_GRID of two periods: one that starts anywhere in the first lies in them. */
 enum { CIRCLE_GRID = 2 * SERIES_GRID + 1 };

@@ -10,6 +10,8 @@
 #include <float.h>
 #include <math.h>
 
+#include "numerics/rotate.h"
+
 enum { N = COLLOCATION_POINTS, MAX_NEWTON = 12, MAX_STEPS = 60 };
 
 static const double least_width = 1e-10; /* [rad] of a panel, unless less is left */
@@ -40,65 +42,80 @@ double circle_panel_angle(const collocation *c, const circle_panel *p, double th
 
 /* ---- one panel ------------------------------------------------------------------------------------ */
 
-/* Gauss's elimination: A x = b for both right-hand sides, in place. Without row exchanges: A is a diagonal >= 0 plus
- * Radau's matrix, each row times a number > 0 while it slips, of which elimination is stable as it is. Where it is not,
- * Newton does not arrive, and a narrower panel is tried, whose diagonal has more weight. */
-static void solve_both(double A[N][N], double b[N], double g[N])
+/* Whole rows, zeros included: a loop of constant length is the faster one. */
+static void subtract_row(double factor, const double *restrict row, double *restrict from)
+{
+  for (int j = 0; j < N + 2; ++j) from[j] -= factor * row[j];
+}
+
+/* Gauss's elimination: A x = b for both right-hand sides, the last two columns, in place. Without row exchanges: A is a
+ * diagonal >= 0 plus Radau's matrix, each row times a number > 0 while it slips, of which elimination is stable as it
+ * is. Where it is not, Newton does not arrive, and a narrower panel is tried, whose diagonal has more weight. */
+static void solve_both(double A[N][N + 2])
 {
   double inverse[N];
   for (int k = 0; k < N; ++k) {
     inverse[k] = 1 / A[k][k];
-    for (int i = k + 1; i < N; ++i) {
-      const double factor = A[i][k] * inverse[k];
-      for (int j = k + 1; j < N; ++j) A[i][j] -= factor * A[k][j];
-      b[i] -= factor * b[k];
-      g[i] -= factor * g[k];
-    }
+    for (int i = k + 1; i < N; ++i) subtract_row(A[i][k] * inverse[k], A[k], A[i]);
   }
   for (int k = N - 1; k >= 0; --k) {
-    for (int j = k + 1; j < N; ++j) b[k] -= A[k][j] * b[j], g[k] -= A[k][j] * g[j];
-    b[k] *= inverse[k], g[k] *= inverse[k];
+    A[k][N] *= inverse[k], A[k][N + 1] *= inverse[k];
+    for (int i = 0; i < k; ++i) A[i][N] -= A[i][k] * A[k][N], A[i][N + 1] -= A[i][k] * A[k][N + 1];
   }
 }
 
 typedef struct panel_points {
-  circle_point at[N];
-  double speed[N]; /* s at the points */
-  double mismatch; /* [rad] of CIRCLE_RESOLVED */
+  circle_rates at;
+  double rise[N];      /* [rad] phi - phi0 */
+  double cosine, sine; /* of phi0 */
+  double speed[N];     /* s at the points */
+  double mismatch;     /* [rad] of CIRCLE_RESOLVED */
 } panel_points;
 
-static void set_angles(const collocation *c, circle_panel *p)
+/* phi from the slopes. */
+static void set_angles(const collocation *c, circle_panel *p, panel_points *q)
 {
   const double h = p->to - p->from;
-  for (int i = 0; i < N; ++i) {
-    double rise = 0;
-    for (int j = 0; j < N; ++j) rise += c->a[i][j] * p->slope[j];
-    p->phi[i] = p->phi0 + h * rise;
-  }
+  double rise[N] = {0};
+  for (int j = 0; j < N; ++j)
+    for (int i = 0; i < N; ++i) rise[i] += c->by_point[j][i] * p->slope[j];
+  for (int i = 0; i < N; ++i) q->rise[i] = h * rise[i], p->phi[i] = p->phi0 + q->rise[i];
+}
+
+static void directions(const circle_panel *p, const panel_points *q, double cosine[N], double sine[N])
+{
+  bool near = true;
+  for (int i = 0; i < N; ++i) near = near && fabs(q->rise[i]) <= ROTATE_MOST;
+  if (near) rotate(N, q->cosine, q->sine, q->rise, cosine, sine);
+  else
+    for (int i = 0; i < N; ++i) cosine[i] = cos(p->phi[i]), sine[i] = sin(p->phi[i]);
 }
 
 /* One step of Newton for the slopes; how far phi moved by it [rad], not finite where that is impossible. */
 static double newton_step(const collocation *c, circle_panel *p, panel_points *q)
 {
-  const double h = p->to - p->from;
-  double A[N][N], b[N], g[N], moved = 0;
+  const double h = p->to - p->from, *restrict u = q->at.du[0], *restrict v = q->at.du[1];
+  double A[N][N + 2], cosine[N], sine[N], pull[N], turn[N], moved = 0;
+  directions(p, q, cosine, sine);
   for (int i = 0; i < N; ++i) {
-    const circle_point *at = &q->at[i];
-    const double cosine = cos(p->phi[i]), sine = sin(p->phi[i]), pull = at->du[0] * cosine + at->du[1] * sine;
-    b[i] = at->du[1] * cosine - at->du[0] * sine - at->R * p->slope[i];
-    g[i] = -pull;
-    q->speed[i] = pull - at->dR;
-    for (int j = 0; j < N; ++j) A[i][j] = h * pull * c->a[i][j];
-    A[i][i] += at->R;
+    pull[i] = u[i] * cosine[i] + v[i] * sine[i];
+    turn[i] = v[i] * cosine[i] - u[i] * sine[i] - q->at.R[i] * p->slope[i];
+    q->speed[i] = pull[i] - q->at.dR[i];
   }
-  solve_both(A, b, g);
+  for (int i = 0; i < N; ++i) {
+    for (int j = 0; j < N; ++j) A[i][j] = h * pull[i] * c->a[i][j];
+    A[i][i] += q->at.R[i];
+    A[i][N] = turn[i];
+    A[i][N + 1] = -pull[i];
+  }
+  solve_both(A);
   p->growth = 1;
   for (int i = 0; i < N; ++i) {
-    p->slope[i] += b[i];
-    moved += h * fabs(b[i]); /* a sum keeps NaN, a maximum may not */
-    p->growth += h * c->a[N - 1][i] * g[i];
+    p->slope[i] += A[i][N];
+    moved += h * fabs(A[i][N]); /* a sum keeps NaN, a maximum may not */
+    p->growth += h * c->a[N - 1][i] * A[i][N + 1];
   }
-  set_angles(c, p);
+  set_angles(c, p, q);
   return moved;
 }
 
@@ -110,17 +127,14 @@ static double unresolved(const collocation *c, const circle_panel *p)
   return (p->to - p->from) * (fabs(last) + fabs(before)) / (2 * N);
 }
 
-/* The panel from p->from, p->phi0 to p->to, unless what it leaves unresolved is `hopeless` on the way; slope[2]: phi'
- * and phi'' at its start, or near them. false where Newton does not arrive. */
-static bool make_panel(const collocation *c, const circle_motion *m, const double slope[2], double hopeless,
-                       circle_panel *p, panel_points *q)
+/* The panel from p->from, p->phi0 to p->to, unless what it leaves unresolved is `hopeless` on the way; its slopes to
+ * begin with are those that p has. false where Newton does not arrive. */
+static bool make_panel(const collocation *c, const circle_motion *m, double hopeless, circle_panel *p, panel_points *q)
 {
   const double enough = 1e-7; /* Newton's next step would be of its square */
-  for (int i = 0; i < N; ++i) {
-    q->at[i] = circle_motion_at(m, i < N - 1 ? p->from + (p->to - p->from) * c->x[i] : p->to);
-    p->slope[i] = slope[0] + slope[1] * (q->at[i].th - p->from);
-  }
-  set_angles(c, p);
+  circle_motion_rates(m, c, p->from, p->to, &q->at);
+  q->cosine = cos(p->phi0), q->sine = sin(p->phi0);
+  set_angles(c, p, q);
   double moved = 1;
   for (int k = 0; k < MAX_NEWTON && moved > enough; ++k) {
     moved = newton_step(c, p, q);
@@ -128,6 +142,16 @@ static bool make_panel(const collocation *c, const circle_motion *m, const doubl
     if (!(q->mismatch <= hopeless)) return false;
   }
   return moved <= enough;
+}
+
+/* The panel made anew from where it begins to `to`, a part of the way, with slopes that it has there already. */
+static void shorten(const collocation *c, double to, circle_panel *p)
+{
+  const double part = (to - p->from) / (p->to - p->from);
+  double slope[N];
+  collocation_slopes(c, p->slope, 0, part, slope);
+  p->to = to;
+  for (int i = 0; i < N; ++i) p->slope[i] = isfinite(slope[i]) ? slope[i] : 0;
 }
 
 /* ---- where slip ends -------------------------------------------------------------------------------- */
@@ -190,7 +214,7 @@ static bool comes_to_rest(const circle_slip *s, const circle_panel *p, const pan
   const double noise = 16 * DBL_EPSILON * (s->m->of_u[1] + s->m->of_R[1]);
   double t[N + 1], speed[N + 1];
   t[0] = p->from, speed[0] = first;
-  for (int i = 0; i < N; ++i) t[i + 1] = q->at[i].th, speed[i + 1] = q->speed[i];
+  for (int i = 0; i < N; ++i) t[i + 1] = q->at.th[i], speed[i + 1] = q->speed[i];
   for (int i = 1; i <= N; ++i) {
     if (speed[i] < -noise) {
       *th = resting_angle(s, p, t[i - 1], t[i]);
@@ -219,6 +243,7 @@ static double width_to_try(const circle_slip *s, const circle_point *at, double 
   double width = s->width > 0 ? s->width : 0.5 * widest(s->m);
   const double speed = circle_slip_speed(at, phi), rate = circle_slip_acceleration(s->m, at, phi);
   if (rate < 0 && speed > 0) width = fmin(width, fmax(least_width, -1.5 * speed / rate));
+  if (s->part < 1) width = fmin(width, s->part * left);
   return width < 0.95 * left ? width : left;
 }
 
@@ -236,6 +261,23 @@ static double bend_at(const circle_motion *m, const circle_point *at, double phi
   return (turned(at->ddu, phi) - (along(at->du, phi) + at->dR) * slope) / at->R;
 }
 
+/* Slopes to begin with, from phi' and phi'', which are known where the panel begins. */
+static void guess_from_start(const circle_slip *s, const circle_point *at, double phi, circle_panel *p)
+{
+  const double first = circle_slip_slope(s->m, at, phi), bend = bend_at(s->m, at, phi, first);
+  for (int i = 0; i < N; ++i) p->slope[i] = first + bend * (p->to - p->from) * s->c->x[i];
+}
+
+/* The same where slip goes on: those of the panel before, continued if that is not too far beyond it. */
+static void guess_slopes(const circle_slip *s, const circle_point *at, double phi, circle_panel *p)
+{
+  const circle_panel *before = s->n > 0 ? p - 1 : p;
+  const bool goes_on = s->n > 0 && before->to == p->from && before->phi[N - 1] == p->phi0;
+  const double ratio = (p->to - p->from) / (before->to - before->from);
+  if (goes_on && ratio < 3) collocation_slopes(s->c, before->slope, 1, ratio, p->slope);
+  else guess_from_start(s, at, phi, p);
+}
+
 /* The next panel with its points, made and resolved. */
 static hc_status next_panel(circle_slip *s, const circle_point *at, double phi, double to, bool lifts_off,
                             panel_points *q)
@@ -243,19 +285,23 @@ static hc_status next_panel(circle_slip *s, const circle_point *at, double phi, 
   const double left = to - at->th;
   if (s->n == s->cap) return HC_CHATTER;
   circle_panel *p = &s->panel[s->n];
-  const double first = circle_slip_slope(s->m, at, phi), slope[2] = {first, bend_at(s->m, at, phi, first)},
-               allowed = CIRCLE_RESOLVED / sqrt(share(s, at, left, lifts_off));
+  const double allowed = CIRCLE_RESOLVED / sqrt(share(s, at, left, lifts_off));
   double width = width_to_try(s, at, phi, left);
+  *p = (circle_panel){.from = at->th, .to = width < left ? at->th + width : to, .phi0 = phi};
+  guess_slopes(s, at, phi, p);
   for (int tries = 0;; ++tries) {
-    *p = (circle_panel){.from = at->th, .to = width < left ? at->th + width : to, .phi0 = phi};
-    const bool made = make_panel(s->c, s->m, slope, width > least_width ? 100 * allowed : INFINITY, p, q);
+    const bool made = make_panel(s->c, s->m, width > least_width ? 100 * allowed : INFINITY, p, q);
     const double factor = isfinite(q->mismatch) ? 0.9 * pow(allowed / (q->mismatch + 1e-300), 1.0 / N) : 0.25;
     if ((made && q->mismatch <= allowed) || width <= least_width) {
+      if (tries == 0) s->part = fmin(1, 1.5 * s->part);
       if (width < left || tries == 0) s->width = fmin(widest(s->m), width * fmin(2.5, factor));
       return HC_OK;
     }
     width *= fmax(0.1, fmin(made ? 0.8 : 0.5, factor));
     if (lifts_off && width > 0.75 * left) width = 0.75 * left;
+    if (lifts_off) s->part = width / left;
+    shorten(s->c, at->th + width, p);
+    if (!(q->mismatch < 1e-3)) guess_from_start(s, at, phi, p);
   }
 }
 
@@ -263,14 +309,17 @@ hc_status circle_slip_follow(circle_slip *s, const circle_point *from, double ph
                              slip_end *end)
 {
   panel_points q;
+  s->part = 1;
   *end = (slip_end){*from, phi, false};
   while (end->at.th < to && !end->rests) {
     const hc_status st = next_panel(s, &end->at, end->phi, to, lifts_off, &q);
     if (st != HC_OK) return st;
     circle_panel *p = &s->panel[s->n++];
-    end->rests = comes_to_rest(s, p, &q, circle_slip_speed(&end->at, end->phi), &p->to);
-    if (end->rests && !make_panel(s->c, s->m, (double[2]){p->slope[0], 0}, INFINITY, p, &q)) return HC_NOT_CONVERGED;
-    end->at = q.at[N - 1];
+    double rest;
+    end->rests = comes_to_rest(s, p, &q, circle_slip_speed(&end->at, end->phi), &rest);
+    if (end->rests) shorten(s->c, rest, p);
+    if (end->rests && !make_panel(s->c, s->m, INFINITY, p, &q)) return HC_NOT_CONVERGED;
+    end->at = circle_motion_at(s->m, p->to);
     end->phi = p->phi[N - 1];
   }
   return HC_OK;

@@ -32,6 +32,7 @@ typedef struct circle_slip {
   const collocation *c;
   const circle_motion *m;
   double width; /* [rad] of the next panel to try; 0: none yet */
+  double part;  /* [1] of what is left until lift-off, the most to try */
   circle_panel *panel;
   int n, cap; /* panels made, and room for them */
 } circle_slip;

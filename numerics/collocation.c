@@ -69,7 +69,30 @@ void collocation_fill(collocation *c)
     for (int j = 0; j < N; ++j) {
       c->a[i][j] = 0;
       for (int n = 0; n < N; ++n) c->a[i][j] += 0.5 * I[i][n] * c->mode[n][j];
+      c->by_point[j][i] = c->a[i][j];
     }
+}
+
+void collocation_slopes(const collocation *c, const double k[N], double start, double part, double slopes[N])
+{
+  double t[N], last[N], P[N], coefficient[N];
+  for (int n = 0; n < N; ++n) {
+    coefficient[n] = 0;
+    for (int j = 0; j < N; ++j) coefficient[n] += c->mode[n][j] * k[j];
+  }
+  for (int i = 0; i < N; ++i) {
+    t[i] = 2 * (start + part * c->x[i]) - 1;
+    last[i] = 1, P[i] = t[i];
+    slopes[i] = coefficient[0] + coefficient[1] * t[i];
+  }
+  for (int n = 1; n < N - 1; ++n) {
+    const double ahead = (2 * n + 1) / (n + 1.0), behind = n / (n + 1.0);
+    for (int i = 0; i < N; ++i) {
+      const double next = ahead * t[i] * P[i] - behind * last[i];
+      last[i] = P[i], P[i] = next;
+      slopes[i] += coefficient[n + 1] * next;
+    }
+  }
 }
 
 double collocation_rise(const collocation *c, const double k[N], double x)

@@ -11,13 +11,17 @@
 enum { COLLOCATION_POINTS = 10 };
 
 typedef struct collocation {
-  double x[COLLOCATION_POINTS];                     /* in (0, 1], ascending, the last one 1 */
-  double a[COLLOCATION_POINTS][COLLOCATION_POINTS]; /* the last row: weights */
-  double mode[COLLOCATION_POINTS]
-             [COLLOCATION_POINTS]; /* coefficient n of Legendre's polynomials = sum_j mode[n][j] k_j */
+  double x[COLLOCATION_POINTS];                            /* in (0, 1], ascending, the last one 1 */
+  double a[COLLOCATION_POINTS][COLLOCATION_POINTS];        /* the last row: weights */
+  double by_point[COLLOCATION_POINTS][COLLOCATION_POINTS]; /* a transposed: [j][i] */
+  double mode[COLLOCATION_POINTS][COLLOCATION_POINTS];     /* coefficient n of Legendre = sum_j mode[n][j] k_j */
 } collocation;
 
 void collocation_fill(collocation *c);
+
+/* The slopes at start + part x_i, in the panel [0, 1] or beyond it, of the polynomial with slopes k at the points. */
+void collocation_slopes(const collocation *c, const double k[COLLOCATION_POINTS], double start, double part,
+                        double slopes[COLLOCATION_POINTS]);
 
 /* y(x) - y(0) for any x in [0, 1], from the slopes k at the points, of a panel of width 1. */
 double collocation_rise(const collocation *c, const double k[COLLOCATION_POINTS], double x);

@@ -166,9 +166,8 @@ int main(int argc, char **argv)
         for (int circle = 0; circle < 2; ++circle) k->us[circle][r] = time_all(k, circle);
         k->ratio[r] = k->us[1][r] / k->us[0][r];
       }
-  printf(
-      "H = %d, microseconds an evaluation with Jacobian\nsize   kind         circle  one line   ratio  pieces  panels\n",
-      H);
+  printf("H = %d, microseconds an evaluation with Jacobian\n", H);
+  printf("size   kind         circle  one line   ratio  pieces  panels\n");
   for (int d = 0; d < DECAYS; ++d)
     for (int i = 0; i < KINDS; ++i) {
       print(&kinds[d][i], d + 1);

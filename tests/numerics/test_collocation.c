@@ -40,6 +40,27 @@ static void modes_are_legendres(void **state)
   }
 }
 
+/* Slopes of x^k are those of x^k elsewhere, too: inside the panel, and beyond it, where rounding grows like the last
+ * Legendre polynomial there, 4e6 at 4. */
+static void slopes_are_continued(void **state)
+{
+  (void)state;
+  static const struct {
+    double start, part, roundings;
+  } parts[] = {{0, 0.4, 200}, {0.3, 0.5, 200}, {1, 1, 1e9}};
+  collocation c;
+  collocation_fill(&c);
+  for (int m = 0; m < 3; ++m)
+    for (int k = 0; k < N; ++k) {
+      double slope[N], there[N];
+      for (int j = 0; j < N; ++j) slope[j] = pow(c.x[j], k);
+      collocation_slopes(&c, slope, parts[m].start, parts[m].part, there);
+      for (int i = 0; i < N; ++i)
+        CHECK_NEAR(there[i], pow(parts[m].start + parts[m].part * c.x[i], k), parts[m].roundings * DBL_EPSILON,
+                   "x^%d from %g, point %d", k, parts[m].start, i);
+    }
+}
+
 /* What is stiff decays in one panel: y' = -z y, solved by collocation, ends at about 1/z of its start for large z. */
 static void what_is_stiff_decays(void **state)
 {
@@ -70,6 +91,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(sums_are_exact_on_polynomials),
       cmocka_unit_test(modes_are_legendres),
+      cmocka_unit_test(slopes_are_continued),
       cmocka_unit_test(what_is_stiff_decays),
   };
   check_watchdog(30);

@@ -1,6 +1,7 @@
 /* test_series.c - trigonometric polynomials: values against direct sums, extrema against closed forms, root mean
  * square. eps = DBL_EPSILON throughout. The direct sums are long double (64-bit mantissa on x86): their own error is
  * 2000 times smaller. */
+#include "numerics/rotate.h"
 #include "numerics/series.h"
 #include "tests/hbm/scenes.h"
 
@@ -202,6 +203,24 @@ static void rms_and_first_harmonic(void **state)
   assert_true(series_rms(0, constant) == 3);
 }
 
+/* The three roundings of rotate.h, half of one of each cosine and sine of libm, and four of angle + x, which is below
+ * 8: nine with room. */
+static void rotated_angles(void **state)
+{
+  (void)state;
+  uint64_t seed = 3;
+  for (int trial = 0; trial < 2000; ++trial) {
+    const double angle = 2 * PI * random_signed(&seed);
+    double x[4], c[4], s[4];
+    for (int i = 0; i < 4; ++i) x[i] = trial < 10 ? (i - 1.5) / 1.5 * ROTATE_MOST : ROTATE_MOST * random_signed(&seed);
+    rotate(4, cos(angle), sin(angle), x, c, s);
+    for (int i = 0; i < 4; ++i) {
+      CHECK_NEAR(c[i], cos(angle + x[i]), 9 * DBL_EPSILON, "angle %g + %g", angle, x[i]);
+      CHECK_NEAR(s[i], sin(angle + x[i]), 9 * DBL_EPSILON, "angle %g + %g", angle, x[i]);
+    }
+  }
+}
+
 static const struct CMUnitTest tests[] = {
     cmocka_unit_test(values_agree_with_direct_sums),
     cmocka_unit_test(a_constant_is_its_own_extremum),
@@ -211,5 +230,6 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(no_sample_lies_outside),
     cmocka_unit_test(the_lower_of_two_close_minima),
     cmocka_unit_test(rms_and_first_harmonic),
+    cmocka_unit_test(rotated_angles),
 };
 CHECK_MAIN("numerics.series", tests, 60)
