@@ -1,7 +1,7 @@
 /* newton_linear.c - see newton_linear.h. Which way is taken, and why (times in lu.h and docs/benchmarks.md):
  *     own LU       of few unknowns, and of any number where the BLAS is the reference one: that is slower throughout
  *     LAPACK's LU  from 128 unknowns on with OpenBLAS, which is then twice as fast and soon five times
- *     SPGMR        from 600 unknowns on (3000 with OpenBLAS), where a dozen products and solves with n^2 operations
+ *     SPGMR        from 300 unknowns on (3000 with OpenBLAS), where a dozen products and solves with n^2 operations
  *                  each cost less than 2/3 n^3: between two points of a curve the matrix changes little, so that the
  *                  factors of the last point, which its tangent needs in any case, precondition the next one
  * A solve by SPGMR that does not converge is done by factors, and so are the next few. SPGMR makes Newton's method an
@@ -19,7 +19,7 @@
 #include "numerics/dense.h"
 #include "numerics/lu.h"
 
-enum { LAPACK_FROM = 128, KRYLOV_FROM = 600, KRYLOV_FROM_FAST = 3000 };
+enum { LAPACK_FROM = 128, KRYLOV_FROM = 300, KRYLOV_FROM_FAST = 3000 };
 /* A round moves 2 n^2 numbers; so many of them take about half as long as a factorisation. */
 enum { UNKNOWNS_A_ROUND = 64, MOST_PENALTY = 8 };
 static const double KRYLOV_TOLERANCE = 1e-5; /* of the right side; the step after convergence is by factors */
