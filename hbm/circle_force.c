@@ -27,6 +27,7 @@ struct circle_force {
   double *F_normal, *jac_normal;     /* [n_coef], [n_coef]^2 */
   double *X;                         /* [n_size] of the last evaluation, which its motion is read from later, too */
   circle_motion motion;
+  double *table; /* of series_grid.h */
   circle_point grid[CIRCLE_GRID];
   collocation rule;
   circle_contact *contact; /* [cap] */
@@ -65,10 +66,11 @@ static hc_status make_room(circle_force *f)
   f->indicator = room(symbol), f->symbol = room(symbol), f->weight = room(2 * (size_t)f->n_harm + 1);
   f->X = room((size_t)f->n_size), f->F = room(2 * L), f->by = room(2 * L * col);
   f->dw[0] = room(col), f->dw[1] = room(col), f->dphi = room(col);
-  f->matrix = room(L * L);
+  f->matrix = room(L * L), f->table = room((size_t)series_grid_table_length(f->n_harm));
   f->node = room(3 * N * col), f->base = room(N * L), f->rate = room(N * L);
   const bool found = c->piece && c->slip.panel && f->contact && f->indicator && f->symbol && f->weight;
-  return found && f->X && f->F && f->matrix && f->by && f->dw[0] && f->dw[1] && f->dphi && f->node && f->base && f->rate
+  return found && f->X && f->F && f->matrix && f->table && f->by && f->dw[0] && f->dw[1] && f->dphi && f->node &&
+                 f->base && f->rate
              ? HC_OK
              : HC_NO_MEMORY;
 }
@@ -100,6 +102,7 @@ hc_status circle_force_new(int n_harm, int n_dof, const contact *law, circle_for
   }
   piece_series_weights(2 * n_harm, f->weight);
   collocation_fill(&f->rule);
+  series_grid_table_fill(n_harm, f->table);
   *out = f;
   return HC_OK;
 }
@@ -108,8 +111,9 @@ void circle_force_free(circle_force *f)
 {
   if (!f) return;
   exact_force_free(f->normal);
-  double *const rooms[] = {f->X,     f->F_normal, f->jac_normal, f->indicator, f->symbol, f->weight, f->F,     f->by,
-                           f->dw[0], f->dw[1],    f->dphi,       f->node,      f->base,   f->rate,   f->matrix};
+  double *const rooms[] = {f->X,    f->F_normal, f->jac_normal, f->indicator, f->symbol, f->weight,
+                           f->F,    f->by,       f->dw[0],      f->dw[1],     f->dphi,   f->node,
+                           f->base, f->rate,     f->matrix,     f->table};
   for (size_t i = 0; i < sizeof rooms / sizeof *rooms; ++i) free(rooms[i]);
   free(f->contact);
   free(f->cycle.piece);
@@ -151,7 +155,7 @@ static hc_status find_orbit(circle_force *f, const double *X)
   c->grid = f->grid;
   c->n = 0;
   if (st != HC_OK || c->n_contacts == 0) return st;
-  circle_motion_grid(&f->motion, f->grid);
+  circle_motion_grid(&f->motion, f->table, f->grid);
   return circle_cycle_find(c);
 }
 

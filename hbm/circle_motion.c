@@ -92,12 +92,23 @@ void circle_motion_rates(const circle_motion *m, const collocation *k, double fr
   for (int i = 0; i < N; ++i) r->R[i] = rest + m->per_v * v[i], r->dR[i] = m->per_v * dv[i];
 }
 
-void circle_motion_grid(const circle_motion *m, circle_point grid[CIRCLE_GRID])
+void circle_motion_grid(const circle_motion *m, const double *table, circle_point grid[CIRCLE_GRID])
 {
-  for (int i = 0; i < SERIES_GRID; ++i) grid[i] = circle_motion_at(m, TWO_PI * i / SERIES_GRID);
-  for (int i = SERIES_GRID; i < CIRCLE_GRID; ++i) {
-    grid[i] = grid[i - SERIES_GRID];
-    grid[i].th = TWO_PI * i / SERIES_GRID;
+  const series_vector of_u = {m->n_harm, 2, {m->u[0], m->u[1]}}, of_v = {m->n_harm, 1, {m->v}};
+  series_grid of;
+  series_grid_fill(&of, &of_u, table);
+  for (int i = 0; i < CIRCLE_GRID; ++i) {
+    const series_node *at = &of.node[i];
+    grid[i] = (circle_point){.th = at->th, .R = m->rest};
+    for (int d = 0; d < 2; ++d) grid[i].u[d] = at->d[0][d], grid[i].du[d] = at->d[1][d], grid[i].ddu[d] = at->d[2][d];
+  }
+  if (!m->v) return;
+  series_grid_fill(&of, &of_v, table);
+  for (int i = 0; i < CIRCLE_GRID; ++i) {
+    const series_node *at = &of.node[i];
+    grid[i].R += m->per_v * at->d[0][0];
+    grid[i].dR = m->per_v * at->d[1][0];
+    grid[i].ddR = m->per_v * at->d[2][0];
   }
 }
 

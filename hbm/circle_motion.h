@@ -36,9 +36,10 @@ typedef struct circle_rates {
 /* On [from, to], to <= from + 3; th[last] is `to` itself. */
 void circle_motion_rates(const circle_motion *m, const collocation *c, double from, double to, circle_rates *r);
 
-/* On the angles 2 pi i/SERIES_GRID of two periods: one that starts anywhere in the first lies in them. */
+/* On the angles 2 pi i/SERIES_GRID of two periods: one that starts anywhere in the first lies in them. table: of
+ * series_grid_table_fill. */
 enum { CIRCLE_GRID = 2 * SERIES_GRID + 1 };
-void circle_motion_grid(const circle_motion *m, circle_point grid[CIRCLE_GRID]);
+void circle_motion_grid(const circle_motion *m, const double *table, circle_point grid[CIRCLE_GRID]);
 
 /* [length] What u and R are known to, from the rounding of their sums. */
 double circle_motion_noise(const circle_motion *m);

@@ -15,7 +15,7 @@
 #include "hbm/circle_motion.h"
 #include "numerics/collocation.h"
 
-#define CIRCLE_RESOLVED 4e-9
+#define CIRCLE_RESOLVED 1e-8
 
 typedef struct circle_panel {
   double from, to;                  /* [rad] */
