@@ -30,7 +30,6 @@ struct circle_flow {
   double *now;          /* [2 n + n_contacts] a column of phi */
   circle_state *at;     /* [circles][N] */
   double *along, *perp; /* [circles][N][n] t.e and t.e_perp */
-  double step_scale;
 };
 
 static int most_unknowns(const model *m) { return N * (m->n + m->n_contacts / 2 + 1); }
@@ -44,7 +43,6 @@ hc_status circle_flow_new(const model *m, circle_flow **out)
   f->m = m;
   f->n = m->n;
   f->n_states = 2 * m->n + m->n_contacts;
-  f->step_scale = 1;
   f->K = calloc(n * n, sizeof *f->K);
   f->matrix = calloc(unknowns * unknowns, sizeof *f->matrix);
   f->pivot = calloc(unknowns, sizeof *f->pivot);
@@ -76,8 +74,6 @@ void circle_flow_free(circle_flow *f)
   free(f->perp);
   free(f);
 }
-
-void circle_flow_scale_steps(circle_flow *f, double factor) { f->step_scale = factor; }
 
 static double dot(int n, const double *a, const double *b)
 {
@@ -315,7 +311,7 @@ hc_status circle_flow_advance(circle_flow *f, const contact_piece *const *piece,
 {
   const double turns_a_step = 3;
   fill_stiffness(f, piece, n_slipping, slipping);
-  const double width = f->step_scale * turns_a_step * omega / highest_frequency(f);
+  const double width = turns_a_step * omega / highest_frequency(f);
   hc_status st = HC_OK;
   for (double at = from; at < to && st == HC_OK;) {
     const double end = end_of_step(n_slipping, slipping, at, to, width);

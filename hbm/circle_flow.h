@@ -34,7 +34,4 @@ hc_status circle_flow_advance(circle_flow *f, const contact_piece *const *piece,
                               const slipping_circle *slipping, double from, double to, double omega, int columns,
                               double *phi);
 
-/* 1 multiplies the width of steps; less, in tests, shows what they leave. */
-void circle_flow_scale_steps(circle_flow *f, double factor);
-
 #endif
