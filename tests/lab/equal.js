@@ -93,22 +93,27 @@ const unmeasured = {at: [labColumn.branch, labColumn.contact, labColumn.iteratio
 /* Columns of one size. */
 const sharing = {at: [[2, 8], [14]], transients: [[2, 8], [13]], spectrum: [[1, 3], [3, 5]]};
 
-function sizesOf(kind, a) {
+/* Of each column; X is the motion that was asked about. */
+function sizesOf(kind, a, X) {
   const sizes = new Array(a.columns).fill(0);
   a.values.forEach((value, i) => {
     if (isFinite(value)) sizes[i % a.columns] = Math.max(sizes[i % a.columns], Math.abs(value));
   });
   if (kind === 'errors') sizes[4] = 1; /* relative already */
+  if (kind === 'work') { /* slip paths and work come from differences of displacements */
+    sizes[4] = Math.max(...X.map(Math.abs));
+    sizes[5] = sizes[3] * sizes[4];
+  }
   for (const [from, to = a.columns] of sharing[kind] || []) sizes.fill(Math.max(...sizes.slice(from, to)), from, to);
   return sizes;
 }
 
 /* Largest |a - b| over the column's size, where a multiplier counts by its own limit. NaN equals NaN alone. */
-function difference(question, a, b) {
+function difference(question, a, b, X) {
   const kind = question.split(' ')[0];
   if (!a || !b || a.status !== b.status || a.rows !== b.rows || a.columns !== b.columns)
     return {worst: Infinity, where: a && b ? `status ${a.status} ${b.status}, rows ${a.rows} ${b.rows}` : 'not asked'};
-  const sizes = sizesOf(kind, b);
+  const sizes = sizesOf(kind, b, X);
   let found = {worst: 0, where: ''};
   a.values.forEach((value, i) => {
     const c = i % a.columns, other = b.values[i];
@@ -134,7 +139,7 @@ async function main() {
     const questions = asked(lab), ours = moduleAnswers(lab, questions), theirs = nativeAnswers(text, questions);
     for (const question of new Set([...Object.keys(ours), ...Object.keys(theirs)])) {
       if (notCompared.some(pattern => pattern.test(question))) continue;
-      const d = difference(question, ours[question], theirs[question]);
+      const d = difference(question, ours[question], theirs[question], questions.X);
       const kind = question.replace(/ \d+$/, '');
       worst[kind] = Math.max(worst[kind] || 0, d.worst);
       if (d.worst <= limit) continue;
