@@ -51,4 +51,34 @@ static inline void turn_plane(int H, double angle, const double *X, double *Y)
   }
 }
 
+/* dF/dX d at X, row by row, of the forces that `eval` finds: central differences of steps h and 2 h, extrapolated,
+ * whose error is h^4 and rounding/h where no state changes between them. Where one does the two disagree; by how much
+ * at most is returned. */
+static inline double circle_slope_along(int rows, hc_status (*eval)(void *of, const double *X, double *F), void *of,
+                                        const double *X, const double *d, double *slope)
+{
+  static const double steps[4] = {1, -1, 2, -2};
+  const double h = 1e-5;
+  double Y[CIRCLE_MAX_X], F[4][CIRCLE_MAX_X], disagreement = 0;
+  for (int k = 0; k < 4; ++k) {
+    for (int i = 0; i < rows; ++i) Y[i] = X[i] + steps[k] * h * d[i];
+    assert_int_equal(eval(of, Y, F[k]), HC_OK);
+  }
+  for (int i = 0; i < rows; ++i) {
+    const double one = (F[0][i] - F[1][i]) / (2 * h), two = (F[2][i] - F[3][i]) / (4 * h);
+    disagreement = fmax(disagreement, fabs(one - two));
+    slope[i] = (4 * one - two) / 3;
+  }
+  return disagreement;
+}
+
+/* jac[row + rows col] times d. */
+static inline void circle_product(int rows, const double *jac, const double *d, double *product)
+{
+  for (int p = 0; p < rows; ++p) {
+    product[p] = 0;
+    for (int q = 0; q < rows; ++q) product[p] += jac[p + rows * q] * d[q];
+  }
+}
+
 #endif

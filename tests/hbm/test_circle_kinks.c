@@ -28,10 +28,7 @@ static void evaluate(circle_force *f, const double *X, const double *d, double *
 {
   static double jac[ROWS * ROWS];
   assert_int_equal(circle_force_eval(f, X, F, jac, NULL), HC_OK);
-  for (int p = 0; p < ROWS; ++p) {
-    product[p] = 0;
-    for (int q = 0; q < ROWS; ++q) product[p] += jac[p + ROWS * q] * d[q];
-  }
+  circle_product(ROWS, jac, d, product);
 }
 
 typedef struct one_sided {
