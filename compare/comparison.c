@@ -124,7 +124,9 @@ static void begin_sweep(comparison_work *w)
   timeint_rest(w->ti, w->swept);
 }
 
-/* Part i of n of the whole work, for the monitor of the inner loops. */
+static const double curve_share = 0.1; /* of the whole work: the response curve, before the frequencies */
+
+/* A part of the whole work, for the monitor of the inner loops. */
 typedef struct progress_part {
   const hc_monitor *outer;
   double from, width;
@@ -144,7 +146,8 @@ static hc_status compare_all(comparison_work *w)
   begin_sweep(w);
   for (int i = 0; i < omega.n && st == HC_OK; ++i) {
     int at = w->setup->transient.start == TRANSIENT_START_DOWN ? omega.n - 1 - i : i;
-    progress_part part = {outer, (double)i / omega.n, 1.0 / omega.n};
+    const double width = (1 - curve_share) / omega.n;
+    progress_part part = {outer, curve_share + i * width, width};
     hc_monitor inner = {tick_part, &part};
     w->monitor = &inner;
     st = compare_at(w, omega.v[at]);
@@ -223,7 +226,8 @@ hc_status comparison_run(const compare_setup *setup, const hc_monitor *monitor, 
   if (st == HC_OK) {
     double from, to;
     comparison_sweep(setup->omega_from, setup->omega_to, &setup->compare.omega, &from, &to);
-    st = hbm_trace(w.hbm, from, to, monitor, &out->curve);
+    progress_part part = {monitor, 0, curve_share};
+    st = hbm_trace(w.hbm, from, to, &(hc_monitor){tick_part, &part}, &out->curve);
     out->harmonics = hbm_n_harmonics(w.hbm);
     out->samples = hbm_n_samples(w.hbm);
     hc_status summed = response_summarise(w.hbm, &out->curve, &out->summary);

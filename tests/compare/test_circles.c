@@ -110,7 +110,34 @@ static void the_regularisation_is_of_first_order(void **state)
   }
 }
 
+static bool never_falls_back(void *self, double done)
+{
+  double *last = self;
+  if (done < 0) return true;
+  if (!(done >= *last && done <= 1)) fail_msg("%g after %g", done, *last);
+  *last = done;
+  return true;
+}
+
+/* The curve first, then the frequencies: what is done is a part of all of it. */
+static void progress_goes_on_from_the_curve(void **state)
+{
+  (void)state;
+  static const char *const set[] = {"compare.omega=[10.5]", "transient.law=exact", "transient.method=closed_form"};
+  char path[] = SOURCE_DIR "/cases/structures/plane.yaml";
+  scene sc;
+  comparison c;
+  case_error err;
+  double last = 0;
+  if (case_read(path, 3, set, &sc, &err) != HC_OK) fail_msg("%s", err.message);
+  assert_int_equal(scene_comparison_run(&sc, &(hc_monitor){never_falls_back, &last}, &c), HC_OK);
+  CHECK_NEAR(last, 1, 1e-12, "at the end");
+  comparison_clear(&c);
+  case_clear(&sc);
+}
+
 static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(progress_goes_on_from_the_curve),
     cmocka_unit_test(all_rows_match),
     cmocka_unit_test(too_few_samples_are_named),
     cmocka_unit_test(the_regularisation_is_of_first_order),
