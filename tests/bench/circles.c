@@ -56,7 +56,8 @@ static void check(hc_status st)
 static void random_series(uint64_t *seed, double decay, double *X)
 {
   X[0] = 0.5 * random_signed(seed);
-  for (int k = 1; k < series_length(H); ++k) X[k] = random_signed(seed) * pow((k + 1) / 2, -decay);
+  for (int h = 1; h <= H; ++h)
+    for (int k = 2 * h - 1; k <= 2 * h; ++k) X[k] = random_signed(seed) * pow(h, -decay);
 }
 
 static contact random_law(uint64_t *seed)
