@@ -32,10 +32,11 @@ static const double STEP_CORNER = 1e-4; /* where steps are this short the curve 
 static const double STEP_ROUND = 1e-9;  /* where steps fail below this, a step round the corner is tried */
 static const double STEP_EDGE = 1e-6;   /* of models with circles (pass_edge) */
 static const double EDGE_FIRST = 1e-7, EDGE_LAST = 1e-3, EDGE_WIDEST = 3e-2; /* of omega; of |X| */
+static const double EDGE_TRACED = 0.05;
 static const double FAR = 4;                 /* factor beyond the start of the sweep up to which a loop is followed */
 static const double LINEAR_NEAR = 1e-2;      /* the linear response counts as the predicted solution within this part */
 static const double STEEP = 0.2, FLAT = 0.6; /* flatness below which natural steps end, above which they are resumed */
-enum { MAX_POINTS = 200000, FLAT_STEPS = 6 };
+enum { MAX_POINTS = 200000, FLAT_STEPS = 6, MAX_EDGES = 100 };
 
 static bool steps_are_fixed(const hbm_solver *s) { return s->how.continuation == HBM_CONTINUATION_FIXED_STEP; }
 static bool arclength_allowed(const path *p) { return p->s->how.continuation != HBM_CONTINUATION_NATURAL; }
@@ -168,7 +169,22 @@ static bool round_corner(path *p)
   return accepted;
 }
 
-/* The solution at omega, if it is near the last point and the curve goes on from there away from it. */
+/* Is the trial on a segment that the curve has already? Off it by a small part of the chord at most. */
+static bool traced_before(const path *p)
+{
+  const hbm_curve *c = p->curve;
+  for (int k = 0; k + 1 < c->n; ++k) {
+    const double *X0 = hbm_curve_X(c, k), *X1 = hbm_curve_X(c, k + 1), from = c->points[k].omega,
+                 part = (p->omega - from) / (c->points[k + 1].omega - from);
+    double off = 0;
+    if (!(part >= 0 && part <= 1)) continue;
+    for (int i = 0; i < c->n_coef; ++i) off = hypot(off, p->X[i] - X0[i] - part * (X1[i] - X0[i]));
+    if (off <= EDGE_TRACED * norm_2(c->n_coef, p->chord)) return true;
+  }
+  return false;
+}
+
+/* The solution at omega, if it is new, near the last point, and the curve goes on from there away from it. */
 static bool solve_past_edge(path *p, double omega)
 {
   const hbm_curve *c = p->curve;
@@ -183,7 +199,8 @@ static bool solve_past_edge(path *p, double omega)
   p->det_sign = newton_sign(p->s->fixed);
   path_orient_tangent(p);
   fill_chord(p);
-  return p->d_omega * (omega - omega0) > 0 && norm_2(c->n_coef, p->chord) <= EDGE_WIDEST * path_size(p);
+  const bool near = norm_2(c->n_coef, p->chord) <= EDGE_WIDEST * path_size(p);
+  return p->d_omega * (omega - omega0) > 0 && near && !traced_before(p);
 }
 
 /* Past the edge of slip of a circle (README.md, Edges of slip in a plane): there the curve's tangent is steep on both
@@ -193,7 +210,7 @@ static bool pass_edge(path *p)
   const hbm_point *last = &p->curve->points[p->curve->n - 1];
   const double onward = last->d_omega > 0 ? last->omega : -last->omega;
   bool accepted = false;
-  if (!model_has_circle(p->s->model)) return false;
+  if (!model_has_circle(p->s->model) || p->edges++ >= MAX_EDGES) return false;
   for (double part = EDGE_FIRST; part <= EDGE_LAST && !accepted; part *= 4)
     accepted = solve_past_edge(p, last->omega + part * onward) || solve_past_edge(p, last->omega - part * onward);
   if (accepted) p->step = STEP_EDGE;

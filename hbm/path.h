@@ -24,6 +24,7 @@ typedef struct path {
                                  failed, so that more points are waited for */
   bool more_samples;          /* start again with twice as many: these do not meet hbm.accuracy */
   bool may_come_from_above;   /* a first solution may be looked for by following the curve down from high omega */
+  int edges;                  /* of slip, passed or tried to */
   int points_at_last_edge;    /* number of points when a step past an edge of slip last failed */
   int points_at_last_corner;  /* number of points when a step round a corner last failed */
   int flat_steps;             /* accepted in a row on flat curve while correcting in planes */
