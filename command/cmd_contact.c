@@ -65,14 +65,6 @@ enum { MAX_SETS = 17, MOST_NUMBERS = CONTACT_MOST_DOF * CONTACT_MOST_COEF };
 
 /* ---- its forces ----------------------------------------------------------------------------------- */
 
-/* Of one contact N instead of N - N0. */
-static void add_preload(const contact_motion *m, double *F)
-{
-  const contact *law = &m->contacts->law;
-  const int halves = m->pair ? 2 : 1;
-  if (m->one >= 0) F[(m->n_dof - 1) * series_length(m->n_harm)] += halves * (contact_preload(law) + law->load);
-}
-
 /* Coefficients for each number of samples n_time[n_sets] into F[n_sets][MOST_NUMBERS]. 0 or the exit code after the
  * message. */
 static int evaluate(const cli_common *common, const contact_motion *m, const int *n_time, int n_sets,
@@ -86,7 +78,6 @@ static int evaluate(const cli_common *common, const contact_motion *m, const int
       return EXIT_USAGE;
     }
     if (st != HC_OK) return cli_solver_failed(common, CLI_HBM, "the contact force", st, 0);
-    add_preload(m, F[i]);
   }
   return 0;
 }

@@ -291,9 +291,9 @@ static int read_curve(const verify_call *call, double noise, verified *v)
     fprintf(stderr, "%s\n", words);
     return st == HC_NO_MEMORY ? EXIT_NO_SOLUTION : EXIT_BAD_CASE;
   }
-  if (call->sc.structure && v->data.quantity.kind == KIND_ACCELERATION) {
-    cli_message(common, "acceleration is known of one degree of freedom alone; of a structure take "
-                        "acceleration_harmonic_1, or velocity");
+  const char *refused = call->sc.structure ? verify_quantity_refused_of_structure(&v->data.quantity) : NULL;
+  if (refused) {
+    cli_message(common, "%s", refused);
     return EXIT_BAD_CASE;
   }
   if (call->own.asked.n_responses > 1 && !v->data.by_response) {

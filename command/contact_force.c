@@ -1,97 +1,36 @@
-/* contact_force.c - see contact_force.h. A contact with two tangents is two halves (model.h), whose normal forces add
- * up. Under the square law each half is a contact with one tangent, moved by its own u and the v of both; under that of
- * the circle, and with friction, the two are evaluated together. */
+/* contact_force.c - see contact_force.h; the forces themselves are given_motion's (hbm/). */
 #include "command/contact_force.h"
 
 #include <stdio.h>
 #include <string.h>
 
 #include "command/case_names.h"
-#include "hbm/aft.h"
-#include "hbm/circle_aft.h"
 #include "hbm/circle_force.h"
 #include "hbm/circle_measures.h"
 #include "hbm/contact_measures.h"
 #include "hbm/exact_force.h"
+#include "hbm/given_motion.h"
 #include "numerics/series.h"
-
-/* Without friction its halves share no limit. */
-static bool in_circle(const contact_motion *m) { return m->circle && contact_has_friction(&m->contacts->law); }
 
 /* ---- forces -------------------------------------------------------------------------------------- */
 
-static hc_status evaluate_exactly(const contact_motion *m, int n_dof, const double *X, double *F)
+static given_motion given_of(const contact_motion *m)
 {
-  exact_force *e = NULL;
-  hc_status st = exact_force_new(m->n_harm, n_dof, m->n_contacts, m->contacts, &e);
-  if (st == HC_OK) st = exact_force_eval(e, X, F, NULL, NULL);
-  exact_force_free(e);
-  return st;
-}
-
-static hc_status evaluate_sampled(const contact_motion *m, hbm_restart restart, int n_time, int n_dof, const double *X,
-                                  double *F)
-{
-  aft *a = NULL;
-  hc_status st = aft_new(m->n_harm, n_time, restart, n_dof, m->n_contacts, m->contacts, &a);
-  if (st == HC_OK) st = aft_eval(a, X, F, NULL, NULL);
-  aft_free(a);
-  return st;
-}
-
-static hc_status evaluate(const contact_motion *m, hbm_restart restart, int n_time, int n_dof, const double *X,
-                          double *F)
-{
-  if (n_time == CONTACT_EXACT) return evaluate_exactly(m, n_dof, X, F);
-  return evaluate_sampled(m, restart, n_time, n_dof, X, F);
-}
-
-/* Without a normal spring N does not vary. */
-static int circle_dof(const contact *law) { return law->kn > 0 ? 3 : 2; }
-
-static hc_status circle_exactly(const contact_motion *m, double *F)
-{
-  const contact *law = &m->contacts->law;
-  circle_force *f = NULL;
-  hc_status st = circle_force_new(m->n_harm, circle_dof(law), law, &f);
-  if (st == HC_OK) st = circle_force_eval(f, m->X, F, NULL, NULL);
-  circle_force_free(f);
-  return st;
-}
-
-static hc_status circle_sampled(const contact_motion *m, hbm_restart restart, int n_time, double *F)
-{
-  const contact *law = &m->contacts->law;
-  circle_aft *a = NULL;
-  hc_status st = circle_aft_new(m->n_harm, n_time, restart, circle_dof(law), law, &a);
-  if (st == HC_OK) st = circle_aft_eval(a, m->X, F, NULL);
-  circle_aft_free(a);
-  return st;
-}
-
-static hc_status halves(const contact_motion *m, hbm_restart restart, int n_time, double *F)
-{
-  const int n = series_length(m->n_harm);
-  double x[2 * CONTACT_MOST_COEF], f[2 * CONTACT_MOST_COEF];
-  hc_status st = HC_OK;
-  for (int d = 0; d < 2 && st == HC_OK; ++d) {
-    memcpy(x, m->X + d * n, (size_t)n * sizeof *x);
-    memcpy(x + n, m->X + 2 * n, (size_t)n * sizeof *x);
-    st = evaluate(m, restart, n_time, 2, x, f);
-    for (int i = 0; i < n && st == HC_OK; ++i) {
-      F[d * n + i] = f[i];
-      F[2 * n + i] += f[n + i];
-    }
-  }
-  return st;
+  return (given_motion){.pair = m->pair,
+                        .circle = m->circle,
+                        .n_harm = m->n_harm,
+                        .n_dof = m->n_dof,
+                        .n_contacts = m->n_contacts,
+                        .contacts = m->contacts,
+                        .X = m->X};
 }
 
 hc_status contact_force_of(const contact_motion *m, hbm_restart restart, int n_time, double *F)
 {
-  memset(F, 0, (size_t)m->n_dof * (size_t)series_length(m->n_harm) * sizeof *F);
-  if (!m->pair) return evaluate(m, restart, n_time, m->n_dof, m->X, F);
-  if (!in_circle(m)) return halves(m, restart, n_time, F);
-  return n_time == CONTACT_EXACT ? circle_exactly(m, F) : circle_sampled(m, restart, n_time, F);
+  const given_motion given = given_of(m);
+  const hc_status st = given_motion_force(&given, restart, n_time, F);
+  if (st == HC_OK && m->one >= 0) F[(m->n_dof - 1) * series_length(m->n_harm)] += given_motion_preload(&given);
+  return st;
 }
 
 /* ---- remarks ------------------------------------------------------------------------------------- */
@@ -124,7 +63,7 @@ static hc_status note_circle_pieces(table *t, const contact_motion *m, const cha
   const contact *law = &m->contacts->law;
   double F[CONTACT_MOST_DOF * CONTACT_MOST_COEF];
   circle_force *f = NULL;
-  hc_status st = circle_force_new(m->n_harm, circle_dof(law), law, &f);
+  hc_status st = circle_force_new(m->n_harm, given_motion_circle_dof(law), law, &f);
   if (st == HC_OK) st = circle_force_eval(f, m->X, F, NULL, NULL);
   if (st == HC_OK) {
     const circle_cycle *c = circle_force_cycle(f);
@@ -189,8 +128,9 @@ hc_status contact_force_note(table *t, const cli_common *common, const contact_m
 {
   double F[2 * CONTACT_MOST_COEF];
   char name[CLI_NAME];
+  const given_motion given = given_of(m);
   if (m->pair) cli_contact_name(common, m->one, name);
-  if (m->pair) return in_circle(m) ? note_circle(t, m, name) : note_halves(t, m, name);
+  if (m->pair) return given_motion_in_circle(&given) ? note_circle(t, m, name) : note_halves(t, m, name);
   exact_force *e = NULL;
   hc_status st = exact_force_new(m->n_harm, m->n_dof, m->n_contacts, m->contacts, &e);
   if (st == HC_OK) st = exact_force_eval(e, m->X, F, NULL, NULL);

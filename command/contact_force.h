@@ -4,13 +4,13 @@
 #define HC_CONTACT_FORCE_H
 
 #include "command/contact_motion.h"
+#include "hbm/given_motion.h"
 #include "output/table.h"
 
-enum { CONTACT_EXACT = 0 }; /* in place of a number of samples */
+enum { CONTACT_EXACT = GIVEN_EXACT }; /* in place of a number of samples */
 
-/* F[n_dof (2H+1)] [force]: what drives each coordinate of m->X, of one contact T (T_1, T_2) and N - N0, by n_time
- * samples a period or CONTACT_EXACT. HC_BAD_INPUT: too few samples; errors of exact_force_eval, circle_force_eval,
- * aft_eval and circle_aft_eval. */
+/* F[n_dof (2H+1)] [force]: what drives each coordinate of m->X, of one contact T (T_1, T_2) and N, by n_time
+ * samples a period or CONTACT_EXACT. HC_BAD_INPUT: too few samples; errors of given_motion_force. */
 hc_status contact_force_of(const contact_motion *m, hbm_restart restart, int n_time, double *F);
 
 /* Remarks under the table: when each contact sticks and slips; of one contact extrema, slip path and work, too. Errors

@@ -125,13 +125,15 @@ static int read_motions(const cli_common *common, const contact_options *own, co
 
 static hc_status take_contacts(const model *of, contact_motion *m)
 {
-  m->pair = m->one >= 0 && of->contacts[m->in_model].pair != CONTACT_ALONE;
-  m->circle = m->pair && of->contacts[m->in_model].circle;
-  m->n_dof = m->one < 0 ? 1 : 2 + m->pair;
-  m->n_contacts = m->one < 0 ? of->n_contacts : 1;
+  m->n_dof = 1;
+  m->n_contacts = of->n_contacts;
   if (m->one < 0) return moving_contacts_of_model(of, &m->contacts);
   if (!(m->contacts = malloc(sizeof *m->contacts))) return HC_NO_MEMORY;
-  *m->contacts = (moving_contact){.law = of->contacts[m->in_model].law, .cu = {1, 0}, .cv = {0, 1}};
+  const given_motion given = given_motion_of_contact(of, m->in_model, m->contacts);
+  m->pair = given.pair;
+  m->circle = given.circle;
+  m->n_dof = given.n_dof;
+  m->n_contacts = given.n_contacts;
   return HC_OK;
 }
 

@@ -4,8 +4,7 @@
 #define HC_CONTACT_MOTION_H
 
 #include "command/cli.h"
-#include "hbm/hbm_settings.h"
-#include "model/moving_contact.h"
+#include "hbm/given_motion.h"
 
 enum { CONTACT_X, CONTACT_U, CONTACT_U2, CONTACT_V, CONTACT_MOTIONS };
 typedef struct contact_options {
@@ -16,7 +15,7 @@ typedef struct contact_options {
   const char *plot; /* NULL: no drawing */
 } contact_options;
 
-enum { CONTACT_MOST_COEF = 2 * HBM_MAX_HARMONICS + 1, CONTACT_MOST_DOF = 3 };
+enum { CONTACT_MOST_COEF = GIVEN_MOST_COEF, CONTACT_MOST_DOF = GIVEN_MOST_DOF };
 
 typedef struct contact_motion {
   int one;          /* which contact of the case, -1: all */

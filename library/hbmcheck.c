@@ -42,6 +42,7 @@ SAME(HBMCHECK_SPECIAL_PERIOD_DOUBLING, HBM_PERIOD_DOUBLING)
 SAME(HBMCHECK_SPECIAL_CONTACT_CHANGE, HBM_CONTACT_CHANGE)
 SAME(HBMCHECK_SPECIAL_NEIMARK_SACKER, HBM_NEIMARK_SACKER)
 SAME(HBMCHECK_MAX_OMEGAS, NUMBER_LIST_MAX)
+SAME(HBMCHECK_MAX_HARMONICS, HBM_MAX_HARMONICS)
 
 const char *hbmcheck_version(void) { return HBMCHECK_VERSION; }
 
@@ -82,6 +83,11 @@ void library_copy(int n, const double *from, int cap, double *to)
   if (cap > 0) memcpy(to, from, (size_t)cap * sizeof *to);
 }
 
+void library_say(char *message, size_t size, const char *text)
+{
+  if (message && size > 0) snprintf(message, size, "%s", text);
+}
+
 /* ---- a case ---- */
 
 static bool are_strings(int n, const char *const *texts)
@@ -92,22 +98,17 @@ static bool are_strings(int n, const char *const *texts)
   return true;
 }
 
-static void say(char *message, size_t size, const char *text)
-{
-  if (message && size > 0) snprintf(message, size, "%s", text);
-}
-
 /* From text[length], or from the file `name` without text. */
 static hbmcheck_status new_case(const char *name, const char *text, size_t length, int n_set, const char *const *set,
                                 char *message, size_t size, hbmcheck_case **out)
 {
   case_error err;
   hbmcheck_case *c = calloc(1, sizeof *c);
-  say(message, size, hc_status_text(HC_NO_MEMORY));
+  library_say(message, size, hc_status_text(HC_NO_MEMORY));
   if (!c) return HBMCHECK_NO_MEMORY;
   hc_status st =
       text ? case_parse(name, text, length, n_set, set, &c->sc, &err) : case_read(name, n_set, set, &c->sc, &err);
-  say(message, size, err.message);
+  library_say(message, size, err.message);
   if (st == HC_OK) *out = c;
   else hbmcheck_case_free(c);
   return public_status(st);
@@ -117,7 +118,7 @@ hbmcheck_status hbmcheck_case_read(const char *path, int n_set, const char *cons
                                    hbmcheck_case **out)
 {
   if (out) *out = NULL;
-  say(message, size, hc_status_text(HC_BAD_INPUT));
+  library_say(message, size, hc_status_text(HC_BAD_INPUT));
   if (!out || !path || !are_strings(n_set, set)) return HBMCHECK_BAD_INPUT;
   return new_case(path, NULL, 0, n_set, set, message, size, out);
 }
@@ -126,7 +127,7 @@ hbmcheck_status hbmcheck_case_parse(const char *name, const char *text, size_t l
                                     const char *const *set, char *message, size_t size, hbmcheck_case **out)
 {
   if (out) *out = NULL;
-  say(message, size, hc_status_text(HC_BAD_INPUT));
+  library_say(message, size, hc_status_text(HC_BAD_INPUT));
   if (!out || !name || !text || !are_strings(n_set, set)) return HBMCHECK_BAD_INPUT;
   return new_case(name, text, length, n_set, set, message, size, out);
 }
@@ -141,7 +142,18 @@ hbmcheck_status hbmcheck_case_response_name(const hbmcheck_case *c, int r, char 
 {
   if (!text || size == 0 || r < 0 || r >= hbmcheck_case_responses(c)) return HBMCHECK_BAD_INPUT;
   if (c->sc.structure) structure_response_name(c->sc.structure, r, text, size);
-  else say(text, size, "x");
+  else library_say(text, size, "x");
+  return HBMCHECK_OK;
+}
+
+int hbmcheck_case_contacts(const hbmcheck_case *c) { return c ? scene_contact_count(&c->sc) : 0; }
+
+hbmcheck_status hbmcheck_case_contact_name(const hbmcheck_case *c, int j, char *text, size_t size)
+{
+  if (!text || size == 0 || j < 0 || j >= hbmcheck_case_contacts(c)) return HBMCHECK_BAD_INPUT;
+  const char *name = scene_contact_at(&c->sc, j)->name;
+  if (*name) library_say(text, size, name);
+  else snprintf(text, size, "%d", j);
   return HBMCHECK_OK;
 }
 

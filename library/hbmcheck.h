@@ -10,6 +10,8 @@
  *     hbmcheck_curve_trace     its HBM response curve; hbmcheck_curve_at: every solution at an omega
  *     hbmcheck_transient_run   its steady states by time integration
  *     hbmcheck_comparison_run  both at the same frequencies, with verdicts
+ *     hbmcheck_verification_run  another program's response curve held against both; hbmcheck_contact_force: the forces
+ *                              of one contact under a motion that is given
  *
  * Units: any consistent set; [length], [force], [time] are the case's. omega is in rad per unit time.
  * Handles: opaque; each has its _free, which takes NULL. A result owns its memory and outlives the case. Pointers to
@@ -100,6 +102,17 @@ int hbmcheck_case_responses(const hbmcheck_case *c);
 /* Response r in words, "x" of an oscillator, into text[size], cut to size (32 holds any). HBMCHECK_OK,
  * HBMCHECK_BAD_INPUT. */
 hbmcheck_status hbmcheck_case_response_name(const hbmcheck_case *c, int r, char *text, size_t size);
+
+/* The contacts, numbered from 0 in the case's order. How many; 0 for NULL. */
+int hbmcheck_case_contacts(const hbmcheck_case *c);
+
+/* The name of contact j, its number where it has none, into text[size], cut to size (32 holds any). HBMCHECK_OK,
+ * HBMCHECK_BAD_INPUT. */
+hbmcheck_status hbmcheck_case_contact_name(const hbmcheck_case *c, int j, char *text, size_t size);
+
+/* In how many tangential directions contact j may slip: 1, or 2 in space; 0 for NULL, where there is no such
+ * contact, and without memory. */
+int hbmcheck_case_contact_tangents(const hbmcheck_case *c, int j);
 
 /* ---- harmonic balance ----
  *
@@ -345,6 +358,91 @@ int hbmcheck_comparison_exit_code(const hbmcheck_comparison *c);
 hbmcheck_status hbmcheck_comparison_gate(const hbmcheck_comparison *c, hbmcheck_gate *out);
 
 void hbmcheck_comparison_free(hbmcheck_comparison *c);
+
+/* ---- another program's curve ---- */
+
+/* What is to be judged: values of one quantity of response `response`, as `hbmcheck verify` takes them from a file. */
+typedef struct hbmcheck_foreign {
+  int response;         /* from 0, as in hbmcheck_case_response_name */
+  const char *quantity; /* "amplitude", "harmonic_1", "dB_harmonic_1", "rms", ...: docs/verify.md has them all */
+  int n;                /* 3..100000; those at omega <= 0 are left out and do not count */
+  const double *omega;  /* [n] [rad/time] finite, in any order */
+  const double
+      *value;   /* [n] [length], of velocities and accelerations per time or time^2; finite; >= 0 but of max, min,
+                           mean and dB */
+  double noise; /* [1] 0..1: standard deviation of a value relative to the amplitude, as of a measured curve */
+} hbmcheck_foreign;
+
+/* One point of it, in their order. */
+typedef struct hbmcheck_point {
+  double omega;             /* [rad/time] */
+  double value, nearest;    /* in the quantity's unit: theirs, and that of the nearest solution; NaN: there is none */
+  double error;             /* [1] |value - nearest| relative to the amplitude; NaN: there is no solution */
+  hbmcheck_verdict verdict; /* HBMCHECK_VERDICT_MATCH, _DIFFERS, _UNSTABLE, _OTHER_BRANCH or _SOLVER_FAILED */
+  int index;                /* in the arrays handed in, from 0 */
+  int branch;               /* of the nearest solution; -1: there is none */
+  int stable;               /* of it: 1 stable, -1 unstable, 0 unknown */
+  int skipped;              /* 1: the quantity depends on where a slider rests that never slips: not compared */
+} hbmcheck_point;
+
+/* What came of all of them. */
+typedef struct hbmcheck_findings {
+  int points;                                                /* judged or skipped */
+  int match, differs, unstable, other_branch, solver_failed; /* of those that are not skipped */
+  int skipped;                                               /* of them */
+  int left_out;                                              /* at omega <= 0 */
+  int reversals;                                             /* how often omega turns back */
+  int harmonics;                                             /* of the solutions they are held against */
+  int checked, unchecked; /* solutions held against time integration; where that found no orbit */
+  int exit_code;          /* of `hbmcheck verify`: 0 every point matches, 1 some do not, 3 could not be judged */
+  double gate;            /* [1] what the error may be */
+  double checked_error;   /* [1] the largest difference of the solutions checked, relative to the amplitude */
+  double truth_distance;  /* [1] how far off nine of ten points that differ are; NaN: no cause was looked for */
+  double noise;           /* [1] scatter from point to point, as estimated; NaN: it was not */
+} hbmcheck_findings;
+
+typedef struct hbmcheck_verification hbmcheck_verification;
+
+/* Judge the points of *curve, whose arrays are not needed afterwards, and look for the cause where they are off.
+ * message[size] as in hbmcheck_case_read: what is wrong with them, or "". HBMCHECK_OK. HBMCHECK_BAD_INPUT (the message
+ * says what), HBMCHECK_NO_MEMORY: *out is NULL. HBMCHECK_INTERRUPTED; or why there is no solution to hold them against,
+ * as hbmcheck_curve_trace: what was judged until then is kept. */
+hbmcheck_status hbmcheck_verification_run(const hbmcheck_case *c, const hbmcheck_foreign *curve,
+                                          const hbmcheck_monitor *monitor, char *message, size_t size,
+                                          hbmcheck_verification **out);
+
+/* How many points have been judged. */
+int hbmcheck_verification_count(const hbmcheck_verification *v);
+
+/* Point k, 0 <= k < count. HBMCHECK_OK, HBMCHECK_BAD_INPUT. */
+hbmcheck_status hbmcheck_verification_get(const hbmcheck_verification *v, int k, hbmcheck_point *out);
+
+/* HBMCHECK_OK, HBMCHECK_BAD_INPUT. */
+hbmcheck_status hbmcheck_verification_findings(const hbmcheck_verification *v, hbmcheck_findings *out);
+
+/* The suspected cause in one word, several joined by "+": "none" where every point is right, "unknown" where no cause
+ * is sure; the nearest guess where none is, "none" without one; and the cause in a sentence. Strings of v, gone with
+ * it; "" for NULL. */
+const char *hbmcheck_verification_cause(const hbmcheck_verification *v);
+const char *hbmcheck_verification_guess(const hbmcheck_verification *v);
+const char *hbmcheck_verification_sentence(const hbmcheck_verification *v);
+
+void hbmcheck_verification_free(hbmcheck_verification *v);
+
+/* ---- one contact under a motion that is given ---- */
+
+enum { HBMCHECK_MAX_HARMONICS = 200 };
+
+/* Fourier coefficients [force] of contact j's tangential force T (of two tangents T and T2) and normal force N, preload
+ * included, in the steady state of its slider under u, u2 and v [length], from w = 0 where it never slips. All are
+ * [2 harmonics + 1] in the order X[0], a1, b1, a2, ... of harmonic balance, 1 <= harmonics <= HBMCHECK_MAX_HARMONICS,
+ * finite. u, u2, v may be NULL: no such motion; u2 and T2 must be NULL of a contact with one tangent. samples 0: exact,
+ * no aliasing; else by that many samples a period, >= 2 harmonics + 1, the slider as hbm.slider_restart says.
+ * HBMCHECK_OK; T, T2 and N are not touched after HBMCHECK_BAD_INPUT (also: u where the contact has no tangent, v where
+ * it has no normal), HBMCHECK_NO_MEMORY, HBMCHECK_NOT_FINITE, HBMCHECK_CHATTER, HBMCHECK_NOT_CLOSED,
+ * HBMCHECK_NOT_CONVERGED, HBMCHECK_SINGULAR. */
+hbmcheck_status hbmcheck_contact_force(const hbmcheck_case *c, int j, int harmonics, const double *u, const double *u2,
+                                       const double *v, int samples, double *T, double *T2, double *N);
 
 #ifdef __cplusplus
 }

@@ -30,6 +30,9 @@ hc_monitor library_monitor(const hbmcheck_monitor *m);
 /* The scene of c with omega[n] for its compare.omega; n = 0: as it is. false: that is not a list of omegas. */
 bool library_scene(const hbmcheck_case *c, int n, const double *omega, scene *out);
 
+/* text into message[size], cut to size; message may be NULL. */
+void library_say(char *message, size_t size, const char *text);
+
 /* The first of the n values `from`, as many as there is room for. */
 void library_copy(int n, const double *from, int cap, double *to);
 

@@ -7,7 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/constants.h"
 #include "base/message.h"
 #include "base/number.h"
 #include "compare/verify/fields.h"
@@ -169,15 +168,15 @@ static hc_status convert(reader *r, verify_point *p)
 {
   const verify_quantity *q = &r->columns.quantity;
   const field *value = &r->fields[r->value];
-  if (!verify_quantity_signed(q) && !(p->value >= 0)) {
+  switch (verify_point_convert(q, r->columns.cycles, p)) {
+  case VERIFY_FINE: return HC_OK;
+  case VERIFY_NEGATIVE:
     blame_number(r, value, "is too small", "a number >= 0");
     if (!q->decibel) message_add(r->m, "; is it in dB? Name it dB, or dB_ and the quantity");
-    return HC_BAD_INPUT;
+    break;
+  case VERIFY_OMEGA_TOO_LARGE: blame_number(r, &r->fields[r->omega], "is too large", "a number"); break;
+  case VERIFY_VALUE_TOO_LARGE: blame_number(r, value, "is too large", "a number"); break;
   }
-  if (r->columns.cycles) p->omega *= TWO_PI;
-  p->value = verify_quantity_from_column(q, p->value);
-  if (isfinite(p->omega) && isfinite(p->value)) return HC_OK;
-  blame_number(r, isfinite(p->omega) ? value : &r->fields[r->omega], "is too large", "a number");
   return HC_BAD_INPUT;
 }
 
@@ -304,10 +303,4 @@ hc_status verify_data_read(const char *path, const verify_columns *columns, veri
   free(text);
   free(r);
   return st;
-}
-
-void verify_data_clear(verify_data *d)
-{
-  free(d->points);
-  *d = (verify_data){0};
 }

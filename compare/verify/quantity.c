@@ -75,6 +75,13 @@ bool verify_quantity_same(const verify_quantity *a, const verify_quantity *b)
   return a->kind == b->kind && a->harmonic == b->harmonic && a->decibel == b->decibel;
 }
 
+const char *verify_quantity_refused_of_structure(const verify_quantity *q)
+{
+  if (q->kind != KIND_ACCELERATION) return NULL;
+  return "acceleration is known of one degree of freedom alone; of a structure take acceleration_harmonic_1, or "
+         "velocity";
+}
+
 bool verify_quantity_signed(const verify_quantity *q)
 {
   return q->decibel || q->kind == KIND_MAX || q->kind == KIND_MIN || q->kind == KIND_MEAN;

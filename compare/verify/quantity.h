@@ -59,6 +59,8 @@ extern const char verify_quantity_names[];
 
 /* May it be negative? A number in dB may, and max, min and mean. */
 bool verify_quantity_signed(const verify_quantity *q);
+/* Why it cannot be verified of a structure's response; NULL: it can. A constant string. */
+const char *verify_quantity_refused_of_structure(const verify_quantity *q);
 /* Does it depend on where a slider rests that never slips? */
 bool verify_quantity_of_mean(const verify_quantity *q);
 

@@ -1,0 +1,267 @@
+/* test_verification.c - another program's curve through the C API: the verdicts, numbers and words of those it calls,
+ * arrays that are none refused in words, a monitor that stops it. */
+#include <math.h>
+
+#include "cases/case_file.h"
+#include "compare/verify/verify.h"
+#include "tests/library/case2.h"
+
+#define FOLDER SOURCE_DIR "/cases/verify/"
+
+/* The same real number, or both NaN. */
+static void same(double a, double b, int line)
+{
+  if (!(a == b || (isnan(a) && isnan(b)))) fail_msg("line %d: %.17g, expected %.17g", line, a, b);
+}
+#define SAME(a, b) same(a, b, __LINE__)
+
+enum { MOST = 512 };
+typedef struct curve {
+  int n;
+  double omega[MOST], value[MOST];
+} curve;
+
+/* The curve of a program that drops harmonic 0, as the file has it. */
+static verify_data read_no_static(curve *c)
+{
+  verify_columns columns;
+  verify_data data;
+  char words[VERIFY_TEXT];
+  assert_int_equal(verify_columns_read("omega=1,harmonic_1=2", NULL, &columns, words), HC_OK);
+  assert_int_equal(verify_data_read(FOLDER "no_static.csv", &columns, &data, words), HC_OK);
+  assert_in_range(data.n, 3, MOST);
+  c->n = data.n;
+  for (int i = 0; i < data.n; ++i) c->omega[i] = data.points[i].omega, c->value[i] = data.points[i].value;
+  return data;
+}
+
+static void check_rows(const hbmcheck_verification *v, const verify_report *r)
+{
+  hbmcheck_point p;
+  assert_int_equal(hbmcheck_verification_count(v), r->n_rows);
+  for (int i = 0; i < r->n_rows; ++i) {
+    assert_int_equal(hbmcheck_verification_get(v, i, &p), HBMCHECK_OK);
+    SAME(p.omega, r->rows[i].omega);
+    SAME(p.value, r->rows[i].value);
+    SAME(p.nearest, r->rows[i].nearest);
+    SAME(p.error, r->rows[i].error);
+    assert_int_equal(p.verdict, r->rows[i].verdict);
+    assert_int_equal(p.branch, r->rows[i].branch);
+    assert_int_equal(p.stable, r->rows[i].stable);
+    assert_int_equal(p.skipped, r->rows[i].skipped);
+    assert_int_equal(p.index, i);
+  }
+  p.omega = -1;
+  assert_int_equal(hbmcheck_verification_get(v, r->n_rows, &p), HBMCHECK_BAD_INPUT);
+  assert_int_equal(hbmcheck_verification_get(v, -1, &p), HBMCHECK_BAD_INPUT);
+  SAME(p.omega, -1);
+}
+
+static void check_findings(const hbmcheck_verification *v, const verify_report *r)
+{
+  hbmcheck_findings f;
+  char words[VERIFY_TEXT];
+  assert_int_equal(hbmcheck_verification_findings(v, &f), HBMCHECK_OK);
+  assert_int_equal(f.points, r->n_rows);
+  assert_int_equal(f.match, r->count[VERDICT_MATCH]);
+  assert_int_equal(f.differs, r->count[VERDICT_DIFFERS]);
+  assert_int_equal(f.unstable, r->count[VERDICT_UNSTABLE]);
+  assert_int_equal(f.other_branch, r->count[VERDICT_OTHER_BRANCH]);
+  assert_int_equal(f.solver_failed, r->count[VERDICT_SOLVER_FAILED]);
+  assert_int_equal(f.skipped, r->skipped);
+  assert_int_equal(f.reversals, r->reversals);
+  assert_int_equal(f.harmonics, r->harmonics);
+  assert_int_equal(f.checked, r->checked);
+  assert_int_equal(f.unchecked, r->unchecked);
+  assert_int_equal(f.exit_code, verify_exit_code(r));
+  SAME(f.gate, r->gate);
+  SAME(f.checked_error, r->checked_error);
+  SAME(f.truth_distance, r->truth_distance);
+  SAME(f.noise, r->noise);
+  assert_string_equal(hbmcheck_verification_cause(v), verify_word(r, words));
+  assert_string_equal(hbmcheck_verification_sentence(v), verify_sentence(r, words));
+}
+
+static void the_cause_is_named(void **state)
+{
+  (void)state;
+  curve c;
+  verify_data data = read_no_static(&c);
+  verify_report expected;
+  hbmcheck_case *public_case;
+  hbmcheck_verification *v;
+  char why[512];
+  assert_int_equal(hbmcheck_case_read(FOLDER "case2.yaml", 0, NULL, why, sizeof why, &public_case), HBMCHECK_OK);
+  const hbmcheck_foreign theirs = {.quantity = "harmonic_1", .n = c.n, .omega = c.omega, .value = c.value};
+  assert_int_equal(hbmcheck_verification_run(public_case, &theirs, NULL, why, sizeof why, &v), HBMCHECK_OK);
+  assert_string_equal(why, "");
+  assert_string_equal(hbmcheck_verification_cause(v), "no_static_harmonic");
+  assert_string_equal(hbmcheck_verification_guess(v), "none");
+  case_error err;
+  scene sc;
+  compare_setup setup;
+  assert_int_equal(case_read(FOLDER "case2.yaml", 0, NULL, &sc, &err), HC_OK);
+  assert_int_equal(scene_setup(&sc, &setup), HC_OK);
+  assert_int_equal(verify_run(&setup, &data, NULL, &expected), HC_OK);
+  check_rows(v, &expected);
+  check_findings(v, &expected);
+  verify_clear(&expected);
+  verify_data_clear(&data);
+  scene_setup_clear(&setup);
+  case_clear(&sc);
+  hbmcheck_verification_free(v);
+  hbmcheck_case_free(public_case);
+}
+
+/* Three points from a solution, and one at omega = 0: in dB what is handed in comes back; the one left out is counted,
+ * and the others keep their places. */
+static void decibels_and_points_left_out(void **state)
+{
+  (void)state;
+  hbmcheck_case *c = CASE2("sweep.omega=3,6", "hbm.harmonics=10");
+  hbmcheck_curve *ours;
+  hbmcheck_verification *v;
+  hbmcheck_findings f;
+  hbmcheck_point p;
+  double omega[4] = {3.5, 0, 4, 4.5}, value[4] = {0};
+  assert_int_equal(hbmcheck_curve_trace(c, NULL, &ours), HBMCHECK_OK);
+  for (int i = 0; i < 4; ++i) {
+    hbmcheck_solutions *at;
+    hbmcheck_solution s;
+    if (omega[i] <= 0) continue;
+    assert_int_equal(hbmcheck_curve_at(ours, omega[i], &at), HBMCHECK_OK);
+    assert_int_equal(hbmcheck_solutions_get(at, 0, &s), HBMCHECK_OK);
+    value[i] = 20 * log10(s.amplitude);
+    hbmcheck_solutions_free(at);
+  }
+  const hbmcheck_foreign theirs = {.quantity = "dB", .n = 4, .omega = omega, .value = value};
+  assert_int_equal(hbmcheck_verification_run(c, &theirs, NULL, NULL, 0, &v), HBMCHECK_OK);
+  assert_string_equal(hbmcheck_verification_cause(v), "none");
+  assert_int_equal(hbmcheck_verification_findings(v, &f), HBMCHECK_OK);
+  assert_int_equal(f.left_out, 1);
+  assert_int_equal(f.exit_code, 0);
+  assert_int_equal(hbmcheck_verification_count(v), 3);
+  assert_int_equal(hbmcheck_verification_get(v, 1, &p), HBMCHECK_OK);
+  assert_int_equal(p.index, 2);
+  CHECK_LE(fabs(p.value - value[2]), 1e-12, "%.17g", p.value); /* 20 log10 of 10^(dB/20): some roundings of 20 dB */
+  CHECK_LE(fabs(p.nearest - value[2]), 8.7 * f.gate, "%.17g", p.nearest); /* d dB = 20/ln 10 of the relative error */
+  hbmcheck_verification_free(v);
+  hbmcheck_curve_free(ours);
+  hbmcheck_case_free(c);
+}
+
+static void refuse(const hbmcheck_case *c, hbmcheck_foreign theirs, const char *words)
+{
+  char why[512] = "";
+  hbmcheck_verification *v = (void *)&v;
+  assert_int_equal(hbmcheck_verification_run(c, &theirs, NULL, why, sizeof why, &v), HBMCHECK_BAD_INPUT);
+  assert_null(v);
+  if (!strstr(why, words)) fail_msg("'%s' does not say '%s'", why, words);
+}
+
+static void wrong_curves_are_refused_in_words(void **state)
+{
+  (void)state;
+  hbmcheck_case *c = CASE2("sweep.omega=3,6", "hbm.harmonics=3");
+  const double omega[] = {3.5, 4, 4.5}, value[] = {1, 2, 3}, negative[] = {1, -2, 3}, nan[] = {1, 2, NAN},
+               loud[] = {1, 2, 1e6};
+  const hbmcheck_foreign good = {.quantity = "amplitude", .n = 3, .omega = omega, .value = value};
+  hbmcheck_foreign bad = good;
+  refuse(c, (bad.quantity = "amplitud", bad), "quantity 'amplitud' is unknown, expected one of amplitude");
+  bad = good;
+  refuse(c, (bad.quantity = NULL, bad), "");
+  bad = good;
+  refuse(c, (bad.n = 2, bad), "2 points, expected at least 3");
+  bad = good;
+  refuse(c, (bad.n = -1, bad), "");
+  bad = good;
+  refuse(c, (bad.n = 100001, bad), "100001 points, expected at most 100000");
+  bad = good;
+  refuse(c, (bad.value = negative, bad), "value[1] = -2 is too small, expected a number >= 0; is it in dB?");
+  bad = good;
+  refuse(c, (bad.value = nan, bad), "value[2] = nan is not finite");
+  bad = good;
+  refuse(c, (bad.omega = nan, bad), "omega[2] = nan is not finite");
+  bad = good;
+  refuse(c, (bad.value = loud, bad.quantity = "dB", bad), "value[2] = 1e+06 is too large");
+  bad = good;
+  refuse(c, (bad.omega = NULL, bad), "");
+  bad = good;
+  refuse(c, (bad.noise = NAN, bad), "noise = nan");
+  bad = good;
+  refuse(c, (bad.noise = 1.5, bad), "noise = 1.5 is no scatter");
+  bad = good;
+  refuse(c, (bad.response = 1, bad), "response 1: there is none, expected 0 to 0");
+  hbmcheck_verification *v = (void *)&v;
+  assert_int_equal(hbmcheck_verification_run(NULL, &good, NULL, NULL, 0, &v), HBMCHECK_BAD_INPUT);
+  assert_null(v);
+  assert_int_equal(hbmcheck_verification_run(c, NULL, NULL, NULL, 0, &v), HBMCHECK_BAD_INPUT);
+  assert_int_equal(hbmcheck_verification_run(c, &good, NULL, NULL, 0, NULL), HBMCHECK_BAD_INPUT);
+  hbmcheck_case_free(c);
+}
+
+static void accelerations_of_structures_are_refused(void **state)
+{
+  (void)state;
+  hbmcheck_case *c;
+  const double omega[] = {1, 1.1, 1.2}, value[] = {1, 2, 3};
+  assert_int_equal(hbmcheck_case_read(SOURCE_DIR "/cases/structures/chain3.yaml", 0, NULL, NULL, 0, &c), HBMCHECK_OK);
+  refuse(c, (hbmcheck_foreign){.quantity = "acceleration", .n = 3, .omega = omega, .value = value},
+         "acceleration is known of one degree of freedom alone");
+  hbmcheck_case_free(c);
+}
+
+static int stop_at_third(void *self, double done)
+{
+  (void)done;
+  return ++*(int *)self < 3;
+}
+
+static void a_monitor_stops_it(void **state)
+{
+  (void)state;
+  curve c;
+  verify_data data = read_no_static(&c);
+  hbmcheck_case *public_case = CASE2("hbm.harmonics=10");
+  hbmcheck_verification *v;
+  hbmcheck_findings f;
+  int ticks = 0;
+  const hbmcheck_monitor monitor = {stop_at_third, &ticks};
+  const hbmcheck_foreign theirs = {.quantity = "harmonic_1", .n = c.n, .omega = c.omega, .value = c.value};
+  assert_int_equal(hbmcheck_verification_run(public_case, &theirs, &monitor, NULL, 0, &v), HBMCHECK_INTERRUPTED);
+  assert_non_null(v);
+  assert_int_equal(hbmcheck_verification_findings(v, &f), HBMCHECK_OK);
+  assert_int_equal(f.exit_code, 3);
+  assert_int_equal(f.points, hbmcheck_verification_count(v));
+  hbmcheck_verification_free(v);
+  hbmcheck_case_free(public_case);
+  verify_data_clear(&data);
+}
+
+static void nothing_is_harmless(void **state)
+{
+  (void)state;
+  hbmcheck_findings f;
+  hbmcheck_point p;
+  assert_int_equal(hbmcheck_verification_count(NULL), 0);
+  assert_int_equal(hbmcheck_verification_get(NULL, 0, &p), HBMCHECK_BAD_INPUT);
+  assert_int_equal(hbmcheck_verification_findings(NULL, &f), HBMCHECK_BAD_INPUT);
+  assert_string_equal(hbmcheck_verification_cause(NULL), "");
+  assert_string_equal(hbmcheck_verification_guess(NULL), "");
+  assert_string_equal(hbmcheck_verification_sentence(NULL), "");
+  hbmcheck_verification_free(NULL);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(the_cause_is_named),
+      cmocka_unit_test(decibels_and_points_left_out),
+      cmocka_unit_test(wrong_curves_are_refused_in_words),
+      cmocka_unit_test(accelerations_of_structures_are_refused),
+      cmocka_unit_test(a_monitor_stops_it),
+      cmocka_unit_test(nothing_is_harmless),
+  };
+  check_watchdog(300);
+  return cmocka_run_group_tests_name("library.verification", tests, NULL, NULL);
+}
