@@ -1,4 +1,5 @@
-# deb.cmake - what `cpack -G DEB` makes of what is installed: one package with the command, the library and what is needed to build with it.
+# deb.cmake - what `cpack -G DEB` makes of what is installed: one package with the command, the library, what is needed to build with it, and the
+# package for Python.
 # Debian's folders (lib/x86_64-linux-gnu) are those of CMAKE_INSTALL_PREFIX=/usr: the preset `package` says so.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
@@ -11,6 +12,6 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
-set(CPACK_DEBIAN_PACKAGE_RECOMMENDS gnuplot-nox)
-set(CPACK_DEBIAN_PACKAGE_SUGGESTS "pkg-config, cmake")
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "gnuplot-nox, python3, python3-numpy")
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "pkg-config, cmake, python3-matplotlib")
 include(CPack)
