@@ -58,6 +58,41 @@ int lab_read(lab *l, const char *text)
   return st;
 }
 
+static hc_status add_contact(lab *l, const scene_contact *c)
+{
+  const double numbers[] = {c->law.kt, c->law.kn, c->law.mu, c->angle_deg, c->law.gap};
+  double *row = lab_row(l);
+  if (row) memcpy(row, numbers, sizeof numbers);
+  return row ? HC_OK : HC_NO_MEMORY;
+}
+
+int lab_case(lab *l)
+{
+  enum { COLUMNS = 11 };
+  lab_begin(l, COLUMNS);
+  if (!l->has_case) return lab_answer(l, HC_BAD_INPUT);
+  const scene *sc = &l->sc;
+  const hbm_settings *h = &sc->hbm;
+  const double numbers[COLUMNS] = {sc->mass,
+                                   sc->damping,
+                                   sc->stiffness,
+                                   sc->force,
+                                   sc->omega_from,
+                                   sc->omega_to,
+                                   h->harmonics,
+                                   h->samples,
+                                   h->keep_mean,
+                                   h->force == HBM_FORCE_SAMPLED,
+                                   h->restart == HBM_RESTART_SAMPLE};
+  double *row = lab_row(l);
+  if (row) memcpy(row, numbers, sizeof numbers);
+  hc_status st = row ? HC_OK : HC_NO_MEMORY;
+  for (int j = 0; j < sc->n_contacts && st == HC_OK; ++j) st = add_contact(l, &sc->contacts[j]);
+  return lab_answer(l, st);
+}
+
+const char *lab_title(const lab *l) { return l->sc.title; }
+
 hc_status lab_scene(const lab *l, int force, scene *out)
 {
   if (!l->has_case || force < 0 || force >= LAB_FORCES) return HC_BAD_INPUT;

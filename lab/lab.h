@@ -20,6 +20,14 @@ void lab_free(lab *l);
  * the old one: lab_message says "case:LINE:COLUMN: what is wrong, what was expected". HC_NO_MEMORY. */
 int lab_read(lab *l, const char *text);
 
+/* Its numbers. The first row: mass, damping, stiffness, force, omega from and to, H, N (0: `auto`), and 1 or 0 each for
+ * hbm.static, hbm.force: sampled, hbm.slider_restart: sample. Then a row for each contact: kt, kn, mu, angle [deg], gap.
+ * HC_BAD_INPUT: no case. */
+int lab_case(lab *l);
+
+/* Its title, "" without one. */
+const char *lab_title(const lab *l);
+
 /* The words for the last answer, "" if it was HC_OK. */
 const char *lab_message(const lab *l);
 

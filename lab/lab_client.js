@@ -37,6 +37,8 @@ function labClient(module) {
         return answer(module._lab_read(lab, address));
       });
     },
+    caseTable: () => answer(module._lab_case(lab)),
+    title: () => module.UTF8ToString(module._lab_title(lab)),
     curve: force => answer(module._lab_curve(lab, force)),
     curveAt: (force, omega) => answer(module._lab_curve_at(lab, force, omega)),
     specials: force => answer(module._lab_specials(lab, force)),

@@ -1,0 +1,136 @@
+/* fields.js - the case as fields: each a number and a slider around where the case was when it was begun (`home`). */
+'use strict';
+
+/* log: the slider multiplies, by 1/30 to 30; from, to: its ends where they do not depend on the case. Limits of what may
+ * be typed are those of cases/fields.c. */
+const fieldList = [
+  {key: 'mass', name: 'Mass M', log: true, above: 0},
+  {key: 'damping', name: 'Damping C', log: true, min: 0, size: s => 0.02 * Math.sqrt(s.mass * s.stiffness) || 0.1},
+  {key: 'stiffness', name: 'Stiffness K', log: true, min: 0, size: () => 1},
+  {key: 'force', name: 'Force F0', log: true, min: 0, size: () => 1},
+  {key: 'from', name: 'Sweep from omega', log: true, above: 0},
+  {key: 'to', name: 'to omega', log: true, above: 0},
+  {key: 'H', name: 'Harmonics H', from: 1, to: 40, whole: true, min: 1, max: 100},
+  {key: 'N', name: 'Samples N per period', from: 8, to: 8192, log: true, whole: true, min: 3, max: 1048576}
+];
+const contactList = [
+  {key: 'kt', name: 'Tangential stiffness kt', log: true, min: 0, size: s => s.stiffness || 1},
+  {key: 'kn', name: 'Normal stiffness kn', log: true, min: 0, size: s => s.stiffness || 1},
+  {key: 'mu', name: 'Friction mu', from: 0, to: 1.5, min: 0},
+  {key: 'angle', name: 'Angle [deg]', from: 0, to: 90, min: 0, max: 90},
+  {key: 'gap', name: 'Gap (> 0: preload)', around: s => s.force / (s.stiffness || 1)}
+];
+const sliderSteps = 400;
+
+const fieldFits = (field, v) => isFinite(v) && !(v < field.min) && !(v > field.max) && !(v <= field.above) && (!field.whole || Number.isInteger(v));
+
+/* [from, to] of the field's slider. */
+function sliderEnds(field, home, homeState) {
+  if (field.from !== undefined) return [field.from, field.to];
+  if (!field.log) {
+    const reach = Math.max(2 * Math.abs(home), field.around(homeState));
+    return [home - reach, home + reach];
+  }
+  const middle = home > 0 ? home : field.size(homeState);
+  return [middle / 30, middle * 30];
+}
+
+function valueAt(field, [from, to], position) {
+  const f = position / sliderSteps;
+  const v = field.log ? from * Math.pow(to / from, f) : from + f * (to - from);
+  return field.whole ? Math.round(v) : +v.toPrecision(4);
+}
+
+function positionOf(field, [from, to], v) {
+  const f = field.log ? Math.log(v / from) / Math.log(to / from) : (v - from) / (to - from);
+  return Math.round(sliderSteps * Math.min(1, Math.max(0, isNaN(f) ? 0 : f)));
+}
+
+/* A field's element; set(v) shows v. onChange(v, moving). */
+function fieldElement(field, id, home, homeState, onChange) {
+  const all = document.createElement('div'), label = document.createElement('label');
+  const number = document.createElement('input'), slider = document.createElement('input');
+  const ends = sliderEnds(field, home, homeState);
+  all.className = 'field';
+  Object.assign(number, {type: 'number', step: field.whole ? 1 : 'any', id});
+  if (field.min !== undefined) number.min = field.min;
+  if (field.max !== undefined) number.max = field.max;
+  Object.assign(slider, {type: 'range', min: 0, max: sliderSteps, step: 1, id: id + '-slider'});
+  slider.setAttribute('aria-label', field.name + ', slider');
+  label.append(field.name, number);
+  all.append(label, slider);
+  number.addEventListener('input', () => {
+    const v = number.value === '' ? NaN : Number(number.value), fits = fieldFits(field, v);
+    number.setCustomValidity(fits ? '' : 'Not a value this can have');
+    if (fits) onChange(v, false);
+  });
+  const slid = moving => () => onChange(valueAt(field, ends, Number(slider.value)), moving);
+  slider.addEventListener('input', slid(true));
+  slider.addEventListener('change', slid(false));
+  const set = v => {
+    if (document.activeElement !== number) number.value = +Number(v).toPrecision(8);
+    if (document.activeElement !== number) number.setCustomValidity('');
+    slider.value = positionOf(field, ends, v);
+    slider.setAttribute('aria-valuetext', show(v, 6));
+  };
+  set(home);
+  return {all, set};
+}
+
+/* A choice {key, name, options [[value, words]]}. */
+function choiceElement(choice, onChange) {
+  const all = document.createElement('div'), label = document.createElement('label'), select = document.createElement('select');
+  all.className = 'field';
+  select.id = 'field-' + choice.key;
+  for (const [value, words] of choice.options) select.add(new Option(words, String(value)));
+  label.append(choice.name, select);
+  all.append(label);
+  select.addEventListener('change', () => onChange(choice.options[select.selectedIndex][0], false));
+  return {all, set: v => (select.selectedIndex = choice.options.findIndex(([value]) => value === v))};
+}
+
+const choiceList = [
+  {key: 'mean', name: 'Harmonic 0', options: [[true, 'kept'], [false, 'dropped']]},
+  {key: 'sampled', name: 'Motion shown from', options: [[false, 'exact forces'], [true, 'N samples']]},
+  {key: 'restart', name: 'Slider after separation', options: [['interpolated', 'interpolated'], ['sample', 'on a sample']]}
+];
+
+let fieldSetters = [];
+
+/* All fields of a state, anew. onChange(change(state), moving): a function that changes a state. */
+function buildFields(state, onChange) {
+  const form = $('form'), home = copyOf(state);
+  fieldSetters = [];
+  form.replaceChildren();
+  for (const field of fieldList) {
+    const made = fieldElement(field, 'field-' + field.key, state[field.key], home, (v, moving) => onChange(s => (s[field.key] = v), moving));
+    form.append(made.all);
+    fieldSetters.push(s => made.set(s[field.key]));
+  }
+  for (const choice of choiceList) {
+    const made = choiceElement(choice, v => onChange(s => (s[choice.key] = v), false));
+    form.append(made.all);
+    fieldSetters.push(s => made.set(s[choice.key]));
+  }
+  $('contacts').replaceChildren(...state.contacts.map((c, i) => contactFields(home, i, onChange)));
+  $('add-contact').disabled = state.contacts.length >= mostContacts;
+}
+
+function contactFields(home, i, onChange) {
+  const set = document.createElement('fieldset'), legend = document.createElement('legend');
+  const grid = document.createElement('div'), remove = document.createElement('button');
+  legend.textContent = 'Contact ' + (i + 1);
+  grid.className = 'sliders';
+  for (const field of contactList) {
+    const id = `contact-${i}-${field.key}`;
+    const made = fieldElement(field, id, home.contacts[i][field.key], home, (v, moving) => onChange(s => (s.contacts[i][field.key] = v), moving));
+    grid.append(made.all);
+    fieldSetters.push(s => s.contacts[i] && made.set(s.contacts[i][field.key]));
+  }
+  Object.assign(remove, {type: 'button', textContent: 'Remove contact ' + (i + 1)});
+  remove.addEventListener('click', () => onChange(s => s.contacts.splice(i, 1), false, true));
+  set.append(legend, grid, remove);
+  return set;
+}
+
+const showFields = state => fieldSetters.forEach(set => set(state));

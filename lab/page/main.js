@@ -1,0 +1,324 @@
+/* main.js - the state, what the library has answered to it, and what is drawn when. Two workers: `exact` answers at once
+ * and tells the motion, transients and errors; `sampled`, which may take long, the sampled curve and its motion.
+ *   seen {exact, sampled: {text, curve, specials, transients}, motion, errors}: the newest answers; text: their case */
+'use strict';
+
+const problems = [];
+window.addEventListener('error', event => problems.push(event.message));
+
+let state = null;
+const seen = {exact: null, sampled: null, motion: null, errors: null};
+const times = {asked: 0, drawn: []}; /* [ms] from a change to everything of it drawn, the newest last; read by tests */
+let moving = false;
+let workers = null;
+let dirty = new Set();
+
+/* ---- asking ---- */
+
+/* The case without what only the drawings use. */
+const textNow = () => questionText(Object.assign({}, state, {title: '', sampled: false}));
+
+function askAll() {
+  const job = {text: textNow(), omega: state.omega, near: state.near, samples: state.N, shown: shownHarmonics(state), more: !moving};
+  times.asked = performance.now();
+  workers.exact.ask(Object.assign({force: labForce.exact, motion: !state.sampled}, job));
+  workers.sampled.ask(Object.assign({force: labForce.sampled, motion: state.sampled}, job));
+}
+
+/* The state is changed by change(state) and drawn anew; rebuild: there are other fields than before. */
+function alter(change, isMoving, rebuild) {
+  const before = caseText(state);
+  change(state);
+  if (caseText(state) !== before && !state.title.endsWith(', changed')) state.title += ', changed';
+  moving = isMoving;
+  const [low, high] = [state.from, state.to].sort((a, b) => a - b);
+  state.omega = Math.min(high, Math.max(low, state.omega));
+  state.look = Math.max(0, Math.min(state.look, state.contacts.length - 1));
+  $('title').textContent = state.title || 'A case without a title';
+  if (rebuild) buildAll();
+  else showFields(state);
+  askAll();
+  mark('curve');
+  if (!moving) keepSoon();
+}
+
+/* Another case altogether. */
+function take(other) {
+  state = other;
+  alter(() => {}, false, true);
+}
+
+function buildAll() {
+  buildFields(state, alter);
+  $('look').replaceChildren(...state.contacts.map((c, i) => new Option('contact ' + (i + 1), i)));
+}
+
+/* ---- answers ---- */
+
+function onExact(part) {
+  const take = {
+    curve: () => Object.assign(seen, {exact: {text: part.text, curve: part.curve}}),
+    specials: () => seen.exact && (seen.exact.specials = part.specials),
+    transients: () => seen.exact && (seen.exact.transients = part.transients),
+    motion: () => (seen.motion = part),
+    errors: () => (seen.errors = part),
+    read: () => afterReading(part),
+    lesson: () => afterLesson(part),
+    refused: () => say(part.message, 'bad')
+  }[part.part];
+  if (take) take();
+  if (part.part === 'drawn') tellTime();
+  mark({curve: 'curve', specials: 'curve', transients: 'curve', motion: 'motion', errors: 'errors'}[part.part]);
+}
+
+function onSampled(part) {
+  if (part.part === 'curve') seen.sampled = {text: part.text, curve: part.curve};
+  if (part.part === 'specials' && seen.sampled) seen.sampled.specials = part.specials;
+  if (part.part === 'motion') seen.motion = part;
+  mark({curve: 'curve', specials: 'curve', motion: 'motion'}[part.part]);
+}
+
+function say(text, kind) {
+  $('status').className = 'verdict ' + (kind || '');
+  $('status').textContent = text;
+}
+
+/* The sampled curve and the errors may be on their way: this is what a drag waits for. */
+function tellTime() {
+  draw();
+  times.drawn.push(performance.now() - times.asked);
+  if (times.drawn.length > 500) times.drawn.shift();
+}
+
+/* ---- drawing: once a frame at most ---- */
+
+function mark(what) {
+  if (!what) return;
+  if (!dirty.size) requestAnimationFrame(draw);
+  dirty.add(what);
+  if (what === 'motion') dirty.add('curve');
+}
+
+function draw() {
+  const what = dirty;
+  dirty = new Set();
+  if (what.has('curve')) drawResponse();
+  if (what.has('motion')) drawMotion();
+  if (what.has('errors')) drawErrors();
+}
+
+const countKind = (specials, kind) => (specials ? columnOf(specials, 3).filter(k => k === kind).length : NaN);
+
+function drawResponse() {
+  drawCurve($('draw-curve'), state, seen, textNow());
+  const slider = $('draw-curve'), motion = seen.motion;
+  const chosen = motion && motion.solutions && motion.solutions[motion.chosen];
+  const amplitude = chosen ? `, amplitude ${show(chosen[labColumn.amplitude])}` : '';
+  slider.setAttribute('aria-valuemin', Math.min(state.from, state.to));
+  slider.setAttribute('aria-valuemax', Math.max(state.from, state.to));
+  slider.setAttribute('aria-valuenow', state.omega);
+  slider.setAttribute('aria-valuetext', `omega ${show(state.omega)}${amplitude}`);
+  if (document.activeElement !== $('omega')) $('omega').value = +state.omega.toPrecision(6);
+  $('curve-words').textContent = curveWords();
+  const row = (name, of, table, ms) => `<tr><td>${name}</td><td>${of && table ? table.rows : '-'}</td>` +
+    `<td>${show(countKind(of && of.specials, 0))}</td><td>${show(ms, 3)}</td></tr>`;
+  const {exact, sampled, errors} = seen;
+  $('cost').tBodies[0].innerHTML = [
+    row('curve, exact forces', exact, exact && exact.curve, exact && exact.curve.ms),
+    row(`curve, N = ${state.N}`, sampled, sampled && sampled.curve, sampled && sampled.curve.ms),
+    row('steady states by time integration, exact law in closed form', null, null, exact && exact.transients && exact.transients.ms)
+      .replace('<td>-</td>', `<td>${exact && exact.transients ? exact.transients.rows : '-'}</td>`),
+    row('the motion shown: solving, forces, spectrum', null, null, seen.motion && seen.motion.ms),
+    row('all errors over N and H', null, null, errors && errors.errors.ms)
+  ].join('');
+}
+
+function curveWords() {
+  const {exact, sampled, motion} = seen, words = [];
+  if (exact && exact.curve.status !== 0) words.push(`The exact curve ends early: ${exact.curve.message}.`);
+  if (sampled && sampled.curve.status !== 0) words.push(`The sampled curve ends early: ${sampled.curve.message}.`);
+  const [a, b] = [exact, sampled].map(one => countKind(one && one.specials, 0));
+  if (b > a) words.push(`The sampled curve has ${b} folds, the exact one ${a}: the others are of the samples, not of the oscillator.`);
+  if (motion && motion.chosen < 0) words.push(`No solution at omega = ${show(motion.omega)}.`);
+  return words.join(' ');
+}
+
+function drawMotion() {
+  const {motion} = seen;
+  drawSignal($('draw-signal'), state, motion);
+  drawLoop($('draw-loop'), state, motion);
+  drawSpectrum($('draw-spectrum'), state, motion);
+  $('loop-words').textContent = loopWords(state, motion);
+  $('spectrum-words').textContent = spectrumWords(state, motion);
+  $('harmonics').tBodies[0].innerHTML = harmonicRows(state, motion);
+  $('motion-words').textContent = motionWords(motion);
+  if (document.activeElement !== $('harmonic')) $('harmonic').value = state.harmonic;
+  $('look').value = state.look;
+  showSolutions(motion);
+  if (motion && motion.chosen >= 0) say(motion.message ? motion.message : statusWords(motion), motion.message ? 'open' : '');
+}
+
+const solutionName = row => `amplitude ${show(row[labColumn.amplitude])}, ${row[labColumn.stable] > 0 ? 'stable' : row[labColumn.stable] < 0 ? 'unstable' : 'stability unknown'}`;
+
+const statusWords = motion => `At omega = ${show(motion.omega)}: ${motion.solutions.length === 1 ? 'one solution' : motion.solutions.length + ' solutions'}; ` +
+  `shown is the one of ${solutionName(motion.solutions[motion.chosen])}.`;
+
+function motionWords(motion) {
+  if (!motion || motion.chosen < 0) return 'There is no solution here.';
+  const row = motion.solutions[motion.chosen];
+  return `${state.sampled ? `Solved with ${state.N} samples` : 'Solved with exact forces'}, H = ${state.H}, omega = ${show(motion.omega)}: ` +
+    `amplitude ${show(row[labColumn.amplitude], 6)}, mean ${show(row[labColumn.mean], 4)}, largest Floquet multiplier ${show(row[labColumn.multiplier], 4)}; ` +
+    `the strongest that happens at a contact: ${regimes[row[labColumn.contact]]}.`;
+}
+
+function showSolutions(motion) {
+  const select = $('solution');
+  if (!motion || document.activeElement === select) return;
+  select.replaceChildren(...motion.solutions.map((row, i) => new Option(`${i + 1}: ${solutionName(row)}`, i)));
+  select.selectedIndex = motion.chosen;
+}
+
+function drawErrors() {
+  const measure = $('measure').value, errors = seen.errors && seen.errors.errors;
+  drawErrorOverN($('draw-error-n'), state, errors, measure);
+  drawErrorOverH($('draw-error-h'), state, errors);
+  $('error-words').textContent = errorWords(state, seen.errors, measure);
+  const table = errorTable(errors, measure), caption = $('error-table').caption;
+  caption.textContent = $('measure').selectedOptions[0].textContent + ', relative error of the amplitude';
+  $('error-table').tHead.innerHTML = table.head;
+  $('error-table').tBodies[0].innerHTML = table.body;
+}
+
+const drawEverything = () => ['curve', 'motion', 'errors'].forEach(mark);
+
+/* ---- keeping ---- */
+
+let keepTimer = 0;
+
+function keepSoon() {
+  clearTimeout(keepTimer);
+  keepTimer = setTimeout(keep, 300);
+}
+
+function keep() {
+  history.replaceState(null, '', addressOf(state));
+  if (document.activeElement !== $('case')) $('case').value = caseText(state);
+}
+
+function copy(text, words) {
+  const area = document.createElement('textarea'); /* navigator.clipboard is not there from file:// everywhere */
+  area.value = text;
+  document.body.append(area);
+  area.select();
+  const done = document.execCommand('copy');
+  area.remove();
+  $('case-words').textContent = done ? words : 'The browser does not let this page copy: select the text yourself.';
+}
+
+/* The worker has been at the lesson's cases: it is told this one again, for the errors it may not have come to. */
+function afterLesson(part) {
+  lastTold = {step: part.step, number: part.told.number};
+  tellStep(part.step, part.told);
+  askAll();
+}
+
+let lastTold = null; /* {step, number}: read by tests */
+
+let readOwn = null; /* what the next case read is to have of its own: a preset's H, N, mean */
+
+function readCaseText(text, own) {
+  readOwn = own || null;
+  workers.exact.ask({read: text});
+}
+
+function afterReading(part) {
+  if (part.message) {
+    $('case-words').textContent = part.message;
+    return say(part.message, 'bad');
+  }
+  const other = Object.assign({}, part.state, readOwn || {});
+  $('case-words').textContent = 'Read. Only what this page has fields for is kept.';
+  take(other);
+}
+
+/* ---- controls ---- */
+
+/* The solution above or below the one shown. */
+function otherSolution(direction) {
+  const {motion} = seen;
+  if (!motion || motion.chosen < 0) return;
+  const list = motion.solutions.map(row => row[labColumn.amplitude]).sort((a, b) => a - b);
+  const at = list.indexOf(motion.solutions[motion.chosen][labColumn.amplitude]) + direction;
+  if (at >= 0 && at < list.length) alter(s => (s.near = list[at]), false);
+}
+
+/* Along the branch shown, not to another where the amplitude changes. */
+function moveOmega(steps) {
+  const {motion} = seen, chosen = motion && motion.solutions && motion.solutions[motion.chosen];
+  const step = Math.abs(state.to - state.from) / 400;
+  alter(s => {
+    s.omega = +(s.omega + steps * step).toPrecision(6);
+    if (chosen) s.near = chosen[labColumn.amplitude];
+  }, false);
+}
+
+function onCurveKey(event) {
+  const far = event.shiftKey ? 10 : 1;
+  const act = {ArrowLeft: () => moveOmega(-far), ArrowRight: () => moveOmega(far), PageDown: () => moveOmega(-20), PageUp: () => moveOmega(20),
+    ArrowUp: () => otherSolution(1), ArrowDown: () => otherSolution(-1)}[event.key];
+  if (!act) return;
+  event.preventDefault();
+  act();
+}
+
+function startControls() {
+  $('preset').append(new Option('a case of the paper', ''), ...presets.map((p, i) => new Option(p.name, i)));
+  $('preset').addEventListener('change', () => {
+    const p = presets[$('preset').value];
+    if (p) readCaseText(presetText(p.file), Object.assign({title: p.name}, p.own));
+  });
+  $('add-contact').addEventListener('click', () => alter(s => s.contacts.push(Object.assign({}, s.contacts[s.contacts.length - 1] || someContact)), false, true));
+  dragCurve($('draw-curve'), (to, isMoving) => alter(s => Object.assign(s, to), isMoving));
+  $('draw-curve').addEventListener('keydown', onCurveKey);
+  $('omega').addEventListener('input', () => Number($('omega').value) > 0 && alter(s => (s.omega = Number($('omega').value)), false));
+  $('solution').addEventListener('change', () => alter(s => (s.near = seen.motion.solutions[$('solution').selectedIndex][labColumn.amplitude]), false));
+  $('look').addEventListener('change', () => alter(s => (s.look = Number($('look').value)), false));
+  $('harmonic').addEventListener('input', () => {
+    const h = Number($('harmonic').value);
+    if (Number.isInteger(h) && h >= 0 && h <= mostShown) alter(s => (s.harmonic = h), false);
+  });
+  $('measure').addEventListener('change', () => mark('errors'));
+  $('copy-address').addEventListener('click', () => {
+    keep();
+    copy(location.href, 'The address is copied.');
+  });
+  $('copy-case').addEventListener('click', () => copy($('case').value, 'The case is copied.'));
+  $('read-case').addEventListener('click', () => readCaseText($('case').value));
+  $('case-file').addEventListener('change', async () => {
+    const [file] = $('case-file').files;
+    if (file) readCaseText(await file.text());
+  });
+  document.querySelectorAll('nav a').forEach(link => link.addEventListener('click', event => {
+    event.preventDefault(); /* the address is the state's */
+    $(link.dataset.go).scrollIntoView();
+    $(link.dataset.go).focus({preventScroll: true});
+  }));
+}
+
+function start() {
+  const address = workerAddress();
+  workers = {exact: asker(address, onExact), sampled: asker(address, onSampled)};
+  startControls();
+  startLesson(step => workers.exact.ask({lesson: step}), (other, title) => take(Object.assign(other, {title})));
+  window.addEventListener('resize', drawEverything);
+  window.addEventListener('beforeprint', drawEverything);
+  window.addEventListener('hashchange', () => {
+    const other = stateOfAddress(location.hash, firstState);
+    if (other) take(other);
+  });
+  const given = $('case-given').textContent, addressed = stateOfAddress(location.hash, firstState);
+  take(addressed || copyOf(firstState));
+  if (!addressed && given.trim()) readCaseText(given);
+}
+
+start();

@@ -1,0 +1,183 @@
+/* browser.js CHROMIUM LAB_HTML LAB_JS [FOLDER] - the page in headless Chromium, from disk, the network off: every field moves the drawings, the curve is
+ * dragged, the keyboard alone does the lesson, whose numbers are those of the module in node; address and case files keep the state; nothing is wider than
+ * the screen, nothing comes on the console. Prints times; into FOLDER pictures of three widths in both schemes, and the print. Exit 1: something does not hold. */
+'use strict';
+const fs = require('fs'), path = require('path'), vm = require('vm');
+const {open} = require('./chromium.js');
+
+const [chromium, page, modulePath, folder] = process.argv.slice(2);
+const address = 'file://' + path.resolve(page);
+const mostBytes = 3e6;
+let failed = 0;
+
+function check(good, words) {
+  if (good) return;
+  ++failed;
+  console.log('NOT SO: ' + words);
+}
+
+/* Until the expression is true in the page. */
+async function until(p, expression, words = expression) {
+  const end = Date.now() + 60000;
+  while (Date.now() < end) {
+    if (await p.evaluate(`!!(${expression})`)) return;
+    await new Promise(done => setTimeout(done, 30));
+  }
+  throw new Error('waited in vain: ' + words);
+}
+
+const still = p => until(p, 'seen.errors && seen.exact && seen.exact.text === textNow() && seen.sampled && seen.sampled.text === textNow() && ' +
+  '(state.sampled || seen.errors.omega === state.omega) && !dirty.size', 'everything is drawn');
+const exactDrawn = p => until(p, '!workers.exact.busy() && seen.exact && seen.exact.text === textNow() && !dirty.size', 'the exact curve is drawn');
+const median = list => list.slice().sort((a, b) => a - b)[Math.floor(list.length / 2)];
+const middleOf = (p, id) => p.evaluate(`(() => { $('${id}').scrollIntoView({block: 'center'}); const b = $('${id}').getBoundingClientRect(); return {x: b.left + b.width / 2, y: b.top + b.height / 2, width: b.width}; })()`);
+
+/* ---- */
+
+async function everyFieldMovesTheDrawings(p) {
+  const sliders = await p.evaluate('Array.from(document.querySelectorAll("input[type=range]")).map(s => s.id)');
+  check(sliders.length === 13, 'a slider for each of 13 fields: ' + sliders.length);
+  for (const id of sliders) {
+    const drawn = 'JSON.stringify(["draw-curve", "draw-signal", "draw-loop", "draw-spectrum"].map(d => $(d).innerHTML.replace(/clip-\\d+/g, "")))';
+    const before = await p.evaluate(drawn);
+    await p.evaluate(`(() => { const s = $('${id}'); s.value = Number(s.value) + 12; s.dispatchEvent(new Event('input')); s.dispatchEvent(new Event('change')); })()`);
+    await exactDrawn(p);
+    check(before !== await p.evaluate(drawn), id + ' changes the drawings');
+    check(Number(await p.evaluate(`$('${id}').value`)) > 0, id + ' stays where it was put');
+  }
+  await p.evaluate('$("add-contact").click()');
+  await exactDrawn(p);
+  check(await p.evaluate('state.contacts.length === 2 && document.querySelectorAll("fieldset").length === 2 && seen.motion.work.rows === 2'), 'a second contact');
+  await p.evaluate('document.querySelectorAll("fieldset button")[1].click()');
+  await p.evaluate('take(copyOf(firstState))');
+  await still(p);
+}
+
+/* A motion is there after each of n steps of a drag from `from` to `to` [CSS px] before the next is made. */
+async function drag(p, from, to, n) {
+  await p.evaluate('times.drawn.length = 0');
+  await p.pointer('mousePressed', from.x, from.y);
+  for (let i = 1; i <= n; ++i) {
+    const f = i / n, count = await p.evaluate('times.drawn.length');
+    await p.pointer('mouseMoved', from.x + f * (to.x - from.x), from.y + f * (to.y - from.y));
+    await until(p, `times.drawn.length > ${count} || !workers.exact.busy()`);
+  }
+  await p.pointer('mouseReleased', to.x, to.y);
+  return median(await p.evaluate('times.drawn'));
+}
+
+async function draggingIsQuick(p) {
+  const curve = await middleOf(p, 'draw-curve'), before = await p.evaluate('state.omega');
+  const alongCurve = await drag(p, {x: curve.x - 0.3 * curve.width, y: curve.y}, {x: curve.x, y: curve.y}, 25);
+  check(await p.evaluate('state.omega') !== before, 'omega is dragged along the curve');
+  await still(p);
+  const slider = await middleOf(p, 'contact-0-kn-slider');
+  const alongSlider = await drag(p, {x: slider.x, y: slider.y}, {x: slider.x + 0.2 * slider.width, y: slider.y}, 25);
+  await p.evaluate('take(copyOf(firstState))');
+  await still(p);
+  const traced = await p.evaluate(`new Promise(done => {
+    const list = [], worker = asker(workerAddress(), part => {
+      if (part.part === 'curve' && part.curve.status === 0 && part.curve.rows > 50) list.push(part.curve.ms);
+      if (part.part === 'refused') done([]);
+      if (part.part !== 'end') return;
+      if (list.length === 21) return done(list);
+      worker.ask({text: textNow() + ' '.repeat(list.length + 1), force: 0, more: false});
+    });
+    worker.ask({text: textNow(), force: 0, more: false});
+  })`);
+  console.log(`median times on the clock: curve of case 2, H = 10, in the worker ${median(traced).toFixed(1)} ms; from a change to motion, curve and spectrum drawn: ` +
+    `dragging omega ${alongCurve.toFixed(1)} ms, a stiffness ${alongSlider.toFixed(1)} ms; sampled curve, N = 64: ${(await p.evaluate('seen.sampled.curve.ms')).toFixed(0)} ms`);
+}
+
+/* ---- the lesson ---- */
+
+/* The lesson's numbers from the module in node. */
+async function lessonNumbers() {
+  const read = name => fs.readFileSync(path.join(__dirname, '../../lab', name), 'utf8');
+  const context = vm.createContext({});
+  const parts = ['lab_client.js', 'page/state.js', 'page/case_text.js', 'page/lesson_numbers.js'].map(read);
+  vm.runInContext(parts.join('\n') + '\nvar all = {labClient, lessonNumbers};', context);
+  const lab = context.all.labClient(await require(path.resolve(modulePath))());
+  return context.all.lessonNumbers.map(number => number(lab).number);
+}
+
+async function tabTo(p, expression) {
+  for (let i = 0; i < 80; ++i) {
+    if (await p.evaluate(`!!document.activeElement && (() => { const at = document.activeElement; return ${expression}; })()`)) return;
+    await p.key('Tab');
+  }
+  check(false, 'Tab reaches ' + expression);
+}
+
+async function theKeyboardDoesTheLesson(p) {
+  const numbers = await lessonNumbers();
+  await p.evaluate('document.activeElement.blur(); window.scrollTo(0, 0)');
+  await tabTo(p, 'at.dataset.go === "lesson"');
+  await p.key('Enter');
+  await tabTo(p, 'at.parentNode.id === "steps"');
+  for (let i = 0; i < numbers.length; ++i) {
+    await p.key('Enter');
+    check(await p.evaluate(`lessonAt === ${i} && document.activeElement.id === 'prediction'`), `step ${i + 1} asks`);
+    await p.key('7', 'Digit7', '7');
+    await p.key('Enter');
+    await until(p, '!$("step-answer").hidden && $("step-answer").textContent.startsWith("You said 7")', 'step ' + (i + 1) + ' is answered');
+    const told = await p.evaluate('lastTold');
+    check(told.step === i && Math.abs(told.number - numbers[i]) <= 1e-9 * Math.abs(numbers[i]), `step ${i + 1}: ${told.number} is ${numbers[i]}`);
+    check(!/NaN|undefined|Infinity/.test(await p.evaluate('$("step-answer").textContent')), 'words of step ' + (i + 1));
+    if (i + 1 < numbers.length) await tabTo(p, 'at.id === "step-next"');
+  }
+  console.log('the lesson: ' + numbers.map(n => +n.toPrecision(6)).join(', '));
+}
+
+/* ---- */
+
+async function addressesAndCasesKeepTheState(p) {
+  await p.evaluate('take(Object.assign(copyOf(firstState), {mass: 1.25, H: 7, N: 77, mean: false, omega: 8, restart: "sample", title: "A & B: \\"C\\""}))');
+  await still(p);
+  await until(p, 'location.hash.includes("mass=1.25")');
+  const same = 'JSON.stringify(Object.assign({}, state, {near: 0}))', before = await p.evaluate(same);
+  check(await p.evaluate('JSON.stringify(Object.assign({}, stateOfAddress(location.hash, firstState), {near: 0}))') === before, 'the address is the state');
+  const text = await p.evaluate('$("case").value');
+  await p.evaluate('take(copyOf(firstState)); $("case").value = "oscillator: {mass: -1}"; $("read-case").click()');
+  await until(p, '$("case-words").textContent.startsWith("case:1:20: ")', 'the mistake is named');
+  await p.evaluate(`$("case").value = ${JSON.stringify(text)}; $("read-case").click()`);
+  await until(p, 'state.mass === 1.25 && state.H === 7 && state.N === 77 && !state.mean && state.restart === "sample"', 'the case is read');
+  check(await p.evaluate('caseText(state)') === text, 'a case read is written the same: ' + await p.evaluate('caseText(state)'));
+  check(await p.evaluate('presets.every(one => presetText(one.file).includes("oscillator:"))'), 'every preset has its case');
+  await p.evaluate('$("preset").selectedIndex = 3; $("preset").dispatchEvent(new Event("change"))');
+  await until(p, 'state.force === 1 && state.H === 1 && !state.mean', 'a preset is read');
+}
+
+async function fits(width, dark) {
+  const p = await open(chromium, address, {width, dark});
+  await until(p, 'typeof seen !== "undefined"');
+  await still(p);
+  const wide = await p.evaluate('document.documentElement.scrollWidth');
+  check(wide <= width, `${wide} px wide on a screen of ${width}`);
+  if (folder) await p.picture(path.join(folder, `lab_${width}_${dark ? 'dark' : 'light'}.png`));
+  check(!p.lines.length, 'on the console: ' + p.lines.join('\n').slice(0, 400));
+  await p.close();
+}
+
+async function main() {
+  check(fs.statSync(page).size < mostBytes, `${fs.statSync(page).size} bytes`);
+  console.log(`${(fs.statSync(page).size / 1e6).toFixed(2)} MB`);
+  const p = await open(chromium, address);
+  await until(p, 'typeof seen !== "undefined"');
+  await still(p);
+  await everyFieldMovesTheDrawings(p);
+  await draggingIsQuick(p);
+  await theKeyboardDoesTheLesson(p);
+  await addressesAndCasesKeepTheState(p);
+  if (folder) await p.paper(path.join(folder, 'lab.pdf'));
+  check(!p.lines.length, 'on the console: ' + p.lines.join('\n').slice(0, 2000));
+  await p.close();
+  for (const width of folder ? [380, 800, 1400] : [380]) for (const dark of folder ? [false, true] : [true]) await fits(width, dark);
+  console.log(failed ? failed + ' things do not hold' : 'all holds');
+  process.exit(failed ? 1 : 0);
+}
+
+main().catch(error => {
+  console.log(error.stack);
+  process.exit(1);
+});

@@ -1,0 +1,78 @@
+/* chromium.js - headless Chromium driven over its debugging pipe: no packages, no port. */
+'use strict';
+const {spawn} = require('child_process');
+const fs = require('fs'), os = require('os'), path = require('path');
+
+/* open(program, address, {width, height, dark}): a page, with the network off. {evaluate, key, pointer, picture, media, close, lines}: lines are what
+ * came on the console and what was thrown. */
+async function open(program, address, {width = 1400, height = 900, dark = false} = {}) {
+  const profile = fs.mkdtempSync(path.join(os.tmpdir(), 'hbmcheck-lab-'));
+  const browser = spawn(program, ['--headless=new', '--no-sandbox', '--disable-gpu', '--disable-dev-shm-usage', '--no-first-run',
+    '--remote-debugging-pipe', `--user-data-dir=${profile}`, 'about:blank'], {stdio: ['ignore', 'ignore', 'ignore', 'pipe', 'pipe']});
+  const [to, from] = [browser.stdio[3], browser.stdio[4]], waiting = new Map(), lines = [];
+  let number = 0, rest = '', session;
+  browser.on('error', error => { throw error; });
+
+  function hear(message) {
+    const asked = waiting.get(message.id);
+    if (asked) {
+      waiting.delete(message.id);
+      return message.error ? asked.failed(new Error(message.error.message)) : asked.done(message.result);
+    }
+    const p = message.params || {};
+    if (message.method === 'Runtime.consoleAPICalled') lines.push(p.args.map(a => a.value || a.description).join(' '));
+    if (message.method === 'Runtime.exceptionThrown') lines.push(p.exceptionDetails.exception ? p.exceptionDetails.exception.description : p.exceptionDetails.text);
+    if (message.method === 'Log.entryAdded') lines.push(p.entry.text);
+  }
+  from.on('data', data => {
+    const parts = (rest + data).split('\0');
+    rest = parts.pop();
+    parts.forEach(part => hear(JSON.parse(part)));
+  });
+  const send = (method, params = {}) => new Promise((done, failed) => {
+    waiting.set(++number, {done, failed});
+    to.write(JSON.stringify({id: number, method, params, sessionId: session}) + '\0');
+  });
+
+  const {targetInfos} = await send('Target.getTargets');
+  const target = targetInfos.find(t => t.type === 'page');
+  session = (await send('Target.attachToTarget', {targetId: target.targetId, flatten: true})).sessionId;
+  for (const domain of ['Runtime', 'Log', 'Page', 'Network']) await send(domain + '.enable');
+  await send('Network.emulateNetworkConditions', {offline: true, latency: 0, downloadThroughput: 0, uploadThroughput: 0});
+  await send('Emulation.setDeviceMetricsOverride', {width, height, deviceScaleFactor: 1, mobile: false});
+  await send('Emulation.setEmulatedMedia', {features: [{name: 'prefers-color-scheme', value: dark ? 'dark' : 'light'}]});
+  await send('Page.navigate', {url: address});
+
+  return {
+    lines,
+    async evaluate(expression) {
+      const {result, exceptionDetails} = await send('Runtime.evaluate', {expression, awaitPromise: true, returnByValue: true});
+      if (exceptionDetails) throw new Error(`${expression}: ${exceptionDetails.exception ? exceptionDetails.exception.description : exceptionDetails.text}`);
+      return result.value;
+    },
+    async key(key, code, text) {
+      const known = {Tab: 9, Enter: 13, ArrowLeft: 37, ArrowUp: 38, ArrowRight: 39, ArrowDown: 40};
+      const of = {key, code: code || key, windowsVirtualKeyCode: known[key] || key.toUpperCase().charCodeAt(0)};
+      await send('Input.dispatchKeyEvent', Object.assign({type: 'keyDown', text: text || (key === 'Enter' ? '\r' : undefined)}, of));
+      await send('Input.dispatchKeyEvent', Object.assign({type: 'keyUp'}, of));
+    },
+    pointer: (type, x, y) => send('Input.dispatchMouseEvent', {type, x, y, button: 'left', buttons: type === 'mouseReleased' ? 0 : 1, clickCount: 1}),
+    async picture(file) {
+      const {cssContentSize} = await send('Page.getLayoutMetrics');
+      const clip = {x: 0, y: 0, width, height: cssContentSize.height, scale: 1};
+      const {data} = await send('Page.captureScreenshot', {format: 'png', captureBeyondViewport: true, clip});
+      fs.writeFileSync(file, Buffer.from(data, 'base64'));
+    },
+    async paper(file) {
+      const {data} = await send('Page.printToPDF', {printBackground: false});
+      fs.writeFileSync(file, Buffer.from(data, 'base64'));
+    },
+    async close() {
+      browser.kill();
+      await new Promise(done => browser.exitCode === null && browser.signalCode === null ? browser.on('exit', done) : done());
+      fs.rmSync(profile, {recursive: true, force: true, maxRetries: 5, retryDelay: 100});
+    }
+  };
+}
+
+module.exports = {open};
