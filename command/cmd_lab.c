@@ -4,6 +4,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/message.h"
 #include "cases/text_file.h"
 #include "command/commands.h"
 #include "command/files.h"
@@ -51,22 +52,30 @@ static void folder_of_program(char *path)
   *(slash ? slash : path) = '\0';
 }
 
-/* The page's text, to free in any case. HC_IO: there is none. HC_NO_MEMORY. */
+/* The page at `path`, to free in any case. HC_IO: there is none. HC_NO_MEMORY. */
+static hc_status read_page_at(const char *path, char **text)
+{
+  char why[256];
+  size_t length;
+  message m;
+  message_start(&m, why, sizeof why);
+  return text_file_read(path, MOST_PAGE, text, &length, &m);
+}
+
+/* The same wherever it is. */
 static hc_status read_page(char **text)
 {
   char folder[MOST_PATH], path[MOST_PATH + 64];
-  size_t length;
-  message m;
   hc_status st = HC_IO;
   folder_of_program(folder);
   for (int i = 0; i < N_FROM_PROGRAM && st == HC_IO; ++i) {
     snprintf(path, sizeof path, "%s%s", folder, from_program[i]);
     free(*text);
-    st = text_file_read(path, MOST_PAGE, text, &length, &m);
+    st = read_page_at(path, text);
   }
   if (st != HC_IO) return st;
   free(*text);
-  return text_file_read(HBMCHECK_LAB_PAGE, MOST_PAGE, text, &length, &m);
+  return read_page_at(HBMCHECK_LAB_PAGE, text);
 }
 
 /* ---- the page as it is written ---- */

@@ -258,8 +258,8 @@ static void advice_is_about_the_side_that_failed(void **state)
 static void help_works_everywhere(void **state)
 {
   (void)state;
-  static const char *const commands[] = {"compare", "frf",    "transient", "study",   "bench",   "gate",
-                                         "verify",  "stress", "report",    "contact", "describe"};
+  static const char *const commands[] = {"compare", "frf",    "transient", "study", "bench",   "gate",
+                                         "verify",  "stress", "report",    "lab",   "contact", "describe"};
   for (size_t i = 0; i < sizeof commands / sizeof *commands; ++i) {
     char args[64];
     int lines = 0;

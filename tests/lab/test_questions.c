@@ -75,6 +75,36 @@ static void a_new_case_forgets_the_old_ones_answers(void **state)
   lab_free(l);
 }
 
+static void a_case_is_had_back_in_numbers(void **state)
+{
+  (void)state;
+  static const char other[] =
+      "title: 'a: b'\n"
+      "oscillator: {mass: 2, damping: 0.5, stiffness: 30}\n"
+      "forcing: {amplitude: 7}\n"
+      "contacts:\n"
+      "  - {tangential_stiffness: 1, normal_stiffness: 2, friction: 0.3, angle_deg: 40, gap: -5}\n"
+      "  - {tangential_stiffness: 6, normal_stiffness: 7, friction: 0.8, angle_deg: 90, gap: 10}\n"
+      "sweep: {omega: [9, 4]}\n"
+      "hbm: {harmonics: 3, samples: 99, static: false, slider_restart: sample}\n";
+  static const double numbers[] = {2, 0.5, 30, 7, 9, 4, 3, 99, 0, 0, 1};
+  static const double contacts[2][5] = {{1, 2, 0.3, 40, -5}, {6, 7, 0.8, 90, 10}};
+  lab *l = lab_new();
+  assert_int_equal(lab_case(l), HC_BAD_INPUT);
+  assert_int_equal(lab_rows(l), 0);
+  assert_string_equal(lab_title(l), "");
+  assert_int_equal(lab_read(l, other), HC_OK);
+  assert_string_equal(lab_title(l), "a: b");
+  assert_int_equal(lab_case(l), HC_OK);
+  assert_int_equal(lab_rows(l), 3);
+  assert_int_equal(lab_columns(l), 11);
+  for (int i = 0; i < 11; ++i) assert_true(row(l, 0)[i] == numbers[i]);
+  for (int j = 0; j < 2; ++j)
+    for (int i = 0; i < 5; ++i) assert_true(row(l, j + 1)[i] == contacts[j][i]);
+  assert_true(isnan(row(l, 1)[5]));
+  lab_free(l);
+}
+
 static void structures_are_refused(void **state)
 {
   (void)state;
@@ -258,11 +288,17 @@ static void transients_are_steady(void **state)
 }
 
 static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(mistakes_are_named),     cmocka_unit_test(a_new_case_forgets_the_old_ones_answers),
-    cmocka_unit_test(structures_are_refused), cmocka_unit_test(questions_without_an_answer_are_refused),
-    cmocka_unit_test(curve_is_the_librarys),  cmocka_unit_test(solutions_at_an_omega_lie_there),
-    cmocka_unit_test(loop_encloses_the_work), cmocka_unit_test(sampled_harmonics_fold),
-    cmocka_unit_test(motion_is_the_curves),   cmocka_unit_test(more_harmonics_and_samples_come_closer),
+    cmocka_unit_test(a_case_is_had_back_in_numbers),
+    cmocka_unit_test(mistakes_are_named),
+    cmocka_unit_test(a_new_case_forgets_the_old_ones_answers),
+    cmocka_unit_test(structures_are_refused),
+    cmocka_unit_test(questions_without_an_answer_are_refused),
+    cmocka_unit_test(curve_is_the_librarys),
+    cmocka_unit_test(solutions_at_an_omega_lie_there),
+    cmocka_unit_test(loop_encloses_the_work),
+    cmocka_unit_test(sampled_harmonics_fold),
+    cmocka_unit_test(motion_is_the_curves),
+    cmocka_unit_test(more_harmonics_and_samples_come_closer),
     cmocka_unit_test(transients_are_steady),
 };
 CHECK_MAIN("lab.questions", tests, 120)

@@ -1,0 +1,78 @@
+/* lab_asked.c - lab_asked: puts the questions on standard input to the lab, one a line, and prints the last one's table: status, rows and columns, then a
+ * line for each row, numbers with 17 digits. What the page works out from questions is held against it.
+ *     read BYTES, and on the next line so many bytes     curve FORCE     at FORCE OMEGA     motion H X[2H+1]
+ *     signal FORCE N     spectrum N SHOWN     work     errors OMEGA */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "lab/lab.h"
+
+enum { MOST_TEXT = 1 << 16, WRONG_USAGE = 64, BUG = 70 };
+
+static double number(void)
+{
+  double v;
+  if (scanf("%lf", &v) != 1) exit(WRONG_USAGE);
+  return v;
+}
+
+static int integer(void) { return (int)number(); }
+
+static int read_case(lab *l)
+{
+  const int bytes = integer();
+  if (bytes < 0 || bytes > MOST_TEXT || getchar() != '\n') exit(WRONG_USAGE);
+  char *text = calloc((size_t)bytes + 1, 1);
+  if (!text) exit(BUG);
+  if (fread(text, 1, (size_t)bytes, stdin) != (size_t)bytes) exit(WRONG_USAGE);
+  const int status = lab_read(l, text);
+  free(text);
+  return status;
+}
+
+static int take_motion(lab *l)
+{
+  const int n_harm = integer();
+  double *X = lab_motion(l, n_harm);
+  if (!X) exit(WRONG_USAGE);
+  for (int i = 0; i < 2 * n_harm + 1; ++i) X[i] = number();
+  return 0;
+}
+
+static int ask(lab *l, const char *question)
+{
+  if (!strcmp(question, "read")) return read_case(l);
+  if (!strcmp(question, "motion")) return take_motion(l);
+  if (!strcmp(question, "work")) return lab_work(l);
+  const double first = number();
+  if (!strcmp(question, "curve")) return lab_curve(l, (int)first);
+  if (!strcmp(question, "errors")) return lab_errors(l, first);
+  const double second = number();
+  if (!strcmp(question, "at")) return lab_curve_at(l, (int)first, second);
+  if (!strcmp(question, "signal")) return lab_signal(l, (int)first, (int)second);
+  if (!strcmp(question, "spectrum")) return lab_spectrum(l, (int)first, (int)second);
+  exit(WRONG_USAGE);
+}
+
+static void print(const lab *l, int status)
+{
+  const int columns = lab_columns(l);
+  const double *v = lab_values(l);
+  printf("%d %d %d\n", status, lab_rows(l), columns);
+  for (int i = 0; i < lab_rows(l); ++i)
+    for (int c = 0; c < columns; ++c)
+      printf("%.17g%c", v[(size_t)i * (size_t)columns + (size_t)c], c + 1 < columns ? ' ' : '\n');
+}
+
+int main(void)
+{
+  char question[16];
+  int status = 0;
+  lab *l = lab_new();
+  if (!l) return BUG;
+  while (scanf("%15s", question) == 1) status = ask(l, question);
+  print(l, status);
+  lab_free(l);
+  return 0;
+}
