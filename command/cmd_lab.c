@@ -1,4 +1,4 @@
-/* cmd_lab.c - hbmcheck lab: the page in which the library itself runs (lab/README.md), as a file, a case put into it. */
+/* cmd_lab.c - hbmcheck lab: the page in which the library itself runs (lab/README.md), as a file, with a case in it. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -21,7 +21,7 @@ void lab_free(lab *l);
 int lab_read(lab *l, const char *text);
 
 /* Its numbers. The first row: mass, damping, stiffness, force, omega from and to, H, N (0: `auto`), and 1 or 0 each for
- * hbm.static, hbm.force: sampled, hbm.slider_restart: sample. Then a row for each contact: kt, kn, mu, angle [deg], gap.
+ * hbm.static, hbm.force: sampled, hbm.slider_restart: sample. Then a row a contact: kt, kn, mu, angle [deg], gap.
  * HC_BAD_INPUT: no case. */
 int lab_case(lab *l);
 

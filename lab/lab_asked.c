@@ -1,5 +1,6 @@
-/* lab_asked.c - lab_asked: puts the questions on standard input to the lab, one a line, and prints the last one's table: status, rows and columns, then a
- * line for each row, numbers with 17 digits. What the page works out from questions is held against it.
+/* lab_asked.c - lab_asked: puts the questions on standard input to the lab, one a line, and prints the last one's
+ * table: status, rows and columns, then a line for each row, numbers with 17 digits. What the page works out from
+ * questions is held against it.
  *     read BYTES, and on the next line so many bytes     curve FORCE     at FORCE OMEGA     motion H X[2H+1]
  *     signal FORCE N     spectrum N SHOWN     work     errors OMEGA */
 #include <stdio.h>
