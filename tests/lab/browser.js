@@ -34,17 +34,34 @@ const middleOf = (p, id) => p.evaluate(`(() => { $('${id}').scrollIntoView({bloc
 
 /* ---- */
 
+/* The drawings of section 3 and the exact curve, as text. */
+const drawn = 'JSON.stringify([seen.exact.curve.values.join(), ...["draw-signal", "draw-loop", "draw-spectrum"].map(d => $(d).innerHTML.replace(/clip-\\d+/g, ""))])';
+
+/* Of a contact that slips: case 2's sticks, and whatever its friction is, nothing changes. */
+const slipping = 'take(Object.assign(copyOf(firstState), {contacts: [Object.assign({}, someContact, {mu: 0.05})]}))';
+
 async function everyFieldMovesTheDrawings(p) {
+  await p.evaluate(slipping);
+  await still(p);
   const sliders = await p.evaluate('Array.from(document.querySelectorAll("input[type=range]")).map(s => s.id)');
   check(sliders.length === 13, 'a slider for each of 13 fields: ' + sliders.length);
   for (const id of sliders) {
-    const drawn = 'JSON.stringify(["draw-curve", "draw-signal", "draw-loop", "draw-spectrum"].map(d => $(d).innerHTML.replace(/clip-\\d+/g, "")))';
     const before = await p.evaluate(drawn);
     await p.evaluate(`(() => { const s = $('${id}'); s.value = Number(s.value) + 12; s.dispatchEvent(new Event('input')); s.dispatchEvent(new Event('change')); })()`);
     await exactDrawn(p);
     check(before !== await p.evaluate(drawn), id + ' changes the drawings');
     check(Number(await p.evaluate(`$('${id}').value`)) > 0, id + ' stays where it was put');
   }
+  await p.evaluate('take(copyOf(firstState))'); /* one that sticks again: it starts from where its slider is put */
+  await still(p);
+  for (const id of ['field-mean', 'field-restart', 'field-sampled']) {
+    const before = await p.evaluate(drawn);
+    await p.evaluate(`(() => { const s = $('${id}'); s.selectedIndex = 1 - s.selectedIndex; s.dispatchEvent(new Event('change')); })()`);
+    await still(p);
+    await until(p, `${drawn} !== ${JSON.stringify(before)}`, id + ' changes the drawings');
+  }
+  await p.evaluate(slipping);
+  await still(p);
   await p.evaluate('$("add-contact").click()');
   await exactDrawn(p);
   check(await p.evaluate('state.contacts.length === 2 && document.querySelectorAll("fieldset").length === 2 && seen.motion.work.rows === 2'), 'a second contact');
