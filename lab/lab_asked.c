@@ -13,8 +13,10 @@ enum { MOST_TEXT = 1 << 16, WRONG_USAGE = 64, BUG = 70 };
 
 static double number(void)
 {
-  double v;
-  if (scanf("%lf", &v) != 1) exit(WRONG_USAGE);
+  char text[40], *end;
+  if (scanf("%39s", text) != 1) exit(WRONG_USAGE);
+  const double v = strtod(text, &end);
+  if (*end) exit(WRONG_USAGE);
   return v;
 }
 
