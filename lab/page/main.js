@@ -122,7 +122,7 @@ function drawResponse() {
   $('curve-words').textContent = curveWords();
   const row = (name, of, table, ms) => `<tr><td>${name}</td><td>${of && table ? table.rows : '-'}</td>` +
     `<td>${show(countKind(of && of.specials, 0))}</td><td>${show(ms, 3)}</td></tr>`;
-  const {exact, sampled, errors} = seen;
+  const {exact, errors} = seen, sampled = current(seen.sampled);
   $('cost').tBodies[0].innerHTML = [
     row('curve, exact forces', exact, exact && exact.curve, exact && exact.curve.ms),
     row(`curve, N = ${state.N}`, sampled, sampled && sampled.curve, sampled && sampled.curve.ms),
@@ -133,8 +133,12 @@ function drawResponse() {
   ].join('');
 }
 
+/* What is of the case as it is now. */
+const current = one => (one && one.text === textNow() ? one : null);
+
 function curveWords() {
-  const {exact, sampled, motion} = seen, words = [];
+  const exact = current(seen.exact), sampled = current(seen.sampled), {motion} = seen, words = [];
+  if (!sampled) words.push('The sampled curve is on its way.');
   if (exact && exact.curve.status !== 0) words.push(`The exact curve ends early: ${exact.curve.message}.`);
   if (sampled && sampled.curve.status !== 0) words.push(`The sampled curve ends early: ${sampled.curve.message}.`);
   const [a, b] = [exact, sampled].map(one => countKind(one && one.specials, 0));

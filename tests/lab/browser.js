@@ -148,6 +148,14 @@ async function theKeyboardDoesTheLesson(p) {
 
 /* ---- */
 
+/* What is said of the sampled curve is of the case as it is now, or that it is on its way. */
+async function nothingOldIsTold(p) {
+  await p.evaluate('take(Object.assign(copyOf(firstState), {H: 9, N: 100}))');
+  await until(p, '/on its way/.test($("curve-words").textContent) && $("cost").rows[2].cells[1].textContent === "-"', 'the sampled curve is on its way');
+  await still(p);
+  await until(p, '!/on its way/.test($("curve-words").textContent) && Number($("cost").rows[2].cells[1].textContent) > 50', 'the sampled curve is there');
+}
+
 async function addressesAndCasesKeepTheState(p) {
   await p.evaluate('take(Object.assign(copyOf(firstState), {mass: 1.25, H: 7, N: 77, mean: false, omega: 8, restart: "sample", title: "A & B: \\"C\\""}))');
   await still(p);
@@ -185,6 +193,7 @@ async function main() {
   await everyFieldMovesTheDrawings(p);
   await draggingIsQuick(p);
   await theKeyboardDoesTheLesson(p);
+  await nothingOldIsTold(p);
   await addressesAndCasesKeepTheState(p);
   if (folder) await p.paper(path.join(folder, 'lab.pdf'));
   check(!p.lines.length, 'on the console: ' + p.lines.join('\n').slice(0, 2000));
