@@ -367,10 +367,9 @@ typedef struct hbmcheck_foreign {
   const char *quantity; /* "amplitude", "harmonic_1", "dB_harmonic_1", "rms", ...: docs/verify.md has them all */
   int n;                /* 3..100000; those at omega <= 0 are left out and do not count */
   const double *omega;  /* [n] [rad/time] finite, in any order */
-  const double
-      *value;   /* [n] [length], of velocities and accelerations per time or time^2; finite; >= 0 but of max, min,
-                           mean and dB */
-  double noise; /* [1] 0..1: standard deviation of a value relative to the amplitude, as of a measured curve */
+  const double *value;  /* [n] [length], of velocities and accelerations per time or time^2; finite; >= 0 unless it is
+                           of max, min, mean or in dB */
+  double noise;         /* [1] 0..1: standard deviation of a value relative to the amplitude, as of a measured curve */
 } hbmcheck_foreign;
 
 /* One point of it, in their order. */

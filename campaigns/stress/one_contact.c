@@ -145,17 +145,20 @@ static void step_period(const one_contact *c, int n_harm, int N, const double *t
   }
 }
 
-/* A slider on a line has settled after one period; one in the plane settles by a factor each. */
-void one_contact_step(const one_contact *c, int n_harm, int N, const double *turn, double *force)
+/* A slider on a line has settled after one period; one in the plane settles by a factor each, or creeps into a corner
+ * between two circles, the slower the nearer. */
+bool one_contact_step(const one_contact *c, int n_harm, int N, const double *turn, double *force)
 {
   const int most = c->circle ? 1 << 23 : N; /* instants in all */
   const double settled = 1e-9;
   stepper s = {0};
-  for (int done = 0; done < most; done += N) {
+  bool rests = !c->circle;
+  for (int done = 0; done < most && (done == 0 || !rests); done += N) {
     const double before[2] = {s.w[0], s.w[1]};
     step_period(c, n_harm, N, turn, &s, NULL);
-    if (hypot(s.w[0] - before[0], s.w[1] - before[1]) <= settled * hypot(s.w[0], s.w[1])) break;
+    rests = rests || hypot(s.w[0] - before[0], s.w[1] - before[1]) <= settled * hypot(s.w[0], s.w[1]);
   }
   memset(force, 0, (size_t)c->n_dof * (size_t)series_length(n_harm) * sizeof *force);
   step_period(c, n_harm, N, turn, &s, force);
+  return rests;
 }

@@ -29,9 +29,9 @@ size_t one_contact_length(const solved_structure *s, const one_contact *c);
 /* turn[2 N]: cos and sin of all angles of a period of N steps. */
 void one_contact_turn(int N, double *turn);
 
-/* The law stepped through N instants a period, from w = 0 until the slider
- * has settled: harmonics force[n_dof][2H+1] of one period more. A
- * circle's slider goes along the line between samples, as in hbm/circle_slider.h. */
-void one_contact_step(const one_contact *c, int n_harm, int N, const double *turn, double *force);
+/* The law stepped through N instants a period, from w = 0 until the slider has settled: harmonics force[n_dof][2H+1] of
+ * one period more. A circle's slider goes along the line between samples, as in hbm/circle_slider.h. false: after 2^23
+ * instants it still has not settled. */
+bool one_contact_step(const one_contact *c, int n_harm, int N, const double *turn, double *force);
 
 #endif

@@ -120,7 +120,8 @@ static double forces_apart(int n_coef, const one_contact *c, const double *stepp
 
 /* Steps err by the second power of their length, where transitions lie between them; by the first where a contact that
  * touched down found its slider between two of them, and by luck of where they lie: as of samples (limits.c), 256 times
- * as many have to come eight times nearer, or the last sixteen times as many twice. */
+ * as many have to come eight times nearer, or the last sixteen times as many twice. A slider that creeps into a corner
+ * is in neither by then. */
 static stress_check check_force(const solved_structure *s, const one_contact *c)
 {
   enum { LEAST = 512, MOST = 131072 };
@@ -128,9 +129,10 @@ static stress_check check_force(const solved_structure *s, const one_contact *c)
   double worst = 0, before = 0, error = 0;
   double *turn = malloc(2 * MOST * sizeof *turn), *stepped = malloc(one_contact_length(s, c) * sizeof *stepped);
   const bool room = turn && stepped;
+  bool settled = true;
   for (int N = LEAST; N <= MOST && room; N *= 16) {
     one_contact_turn(N, turn);
-    one_contact_step(c, s->how.harmonics, N, turn, stepped);
+    settled = one_contact_step(c, s->how.harmonics, N, turn, stepped);
     before = error;
     error = forces_apart(s->n_coef, c, stepped);
     worst = fmax(worst, error);
@@ -141,6 +143,7 @@ static stress_check check_force(const solved_structure *s, const one_contact *c)
   if (!room) return stress_refusal(HC_NO_MEMORY);
   const double bound = fmax(worst / 8, before / 2);
   if (!(error > near)) return stress_agree(error, near);
+  if (!settled && error > bound) return stress_explain(STRESS_TOO_DEAR, error, bound);
   return error <= bound ? stress_explain(STRESS_ALIASED, error, bound) : stress_find(STRESS_DISAGREES, error, near);
 }
 
