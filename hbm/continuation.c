@@ -213,8 +213,13 @@ static bool pass_edge(path *p)
   if (!model_has_circle(p->s->model) || p->edges++ >= MAX_EDGES) return false;
   for (double part = EDGE_FIRST; part <= EDGE_LAST && !accepted; part *= 4)
     accepted = solve_past_edge(p, last->omega + part * onward) || solve_past_edge(p, last->omega - part * onward);
-  if (accepted) p->step = STEP_EDGE;
-  return accepted;
+  if (!accepted) return false;
+  hbm_curve *c = p->curve;
+  ++c->edges;
+  c->edge_omega = fmax(c->edge_omega, fabs(p->omega / last->omega - 1));
+  c->edge_motion = fmax(c->edge_motion, norm_2(c->n_coef, p->chord) / path_size(p));
+  p->step = STEP_EDGE;
+  return true;
 }
 
 /* The trial becomes a point of the curve; the next step is natural or not by how flat the curve is there. */
@@ -399,7 +404,8 @@ static hc_status make_rows(path *p)
 static hc_status trace_once(path *p, const hc_monitor *monitor, bool *more_samples)
 {
   hbm_curve *c = p->curve;
-  c->n = c->turning_points = c->linear = 0;
+  c->n = c->turning_points = c->linear = c->edges = 0;
+  c->edge_omega = c->edge_motion = 0;
   c->inaccurate = c->left_at_start = false;
   p->step = STEP_FIRST;
   p->natural = natural_allowed(p);

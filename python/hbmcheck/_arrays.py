@@ -6,14 +6,19 @@ import numpy as np
 from ._library import BadInput, check, lib
 
 
-def vector(name, values):
-    """`values` as [n] contiguous double. BadInput: something else."""
+def real(name, values):
+    """`values` as a new array of double of any shape. BadInput: something else."""
     if np.iscomplexobj(values):
         raise BadInput(f"{name}: complex, expected real numbers")
     try:
-        found = np.asarray(values, dtype=float)
+        return np.array(values, dtype=float)
     except (TypeError, ValueError):
         raise BadInput(f"{name}: not an array of real numbers") from None
+
+
+def vector(name, values):
+    """`values` as [n] contiguous double. BadInput: something else."""
+    found = real(name, values)
     if found.ndim != 1:
         raise BadInput(f"{name}: shape {found.shape}, expected one dimension")
     return np.ascontiguousarray(found)

@@ -4,6 +4,7 @@ import json
 
 import numpy as np
 
+from ._arrays import real
 from ._library import BadInput
 
 DIRECTIONS = ("tangent", "tangent_2", "normal", "direction")
@@ -27,13 +28,7 @@ def _text(value):
 
 def matrix(name, values):
     """Rows of a square matrix [n][n], or [n] for a diagonal; a sparse one is filled up."""
-    dense = values.toarray() if hasattr(values, "toarray") else values
-    if np.iscomplexobj(dense):
-        raise BadInput(f"{name}: complex, expected real numbers")
-    try:
-        found = np.array(dense, dtype=float)
-    except (TypeError, ValueError):
-        raise BadInput(f"{name}: not an array of real numbers") from None
+    found = real(name, values.toarray() if hasattr(values, "toarray") else values)
     if found.ndim not in (0, 1, 2) or (found.ndim == 2 and found.shape[0] != found.shape[1]) or found.size == 0:
         raise BadInput(f"{name}: shape {found.shape}, expected a number, [n] or [n][n]")
     if not np.isfinite(found).all():
