@@ -350,6 +350,19 @@ static char *echo(const scene *sc)
   return written;
 }
 
+/* Scene i of the sequence as a case file, read back: it says the same again. */
+static void check_echo(int i, const scene *sc, scene *back)
+{
+  case_error err;
+  char *written = echo(sc);
+  if (case_parse("scene", written, strlen(written), 0, NULL, back, &err) != HC_OK)
+    fail_msg("scene %d: %s", i, err.message);
+  char *again = echo(back);
+  assert_string_equal(written, again);
+  free(written);
+  free(again);
+}
+
 /* Every scene is a case file that reads back to the same; all kinds of everything come up; the index alone decides. */
 static void every_scene_is_a_case_file(void **state)
 {
@@ -359,13 +372,8 @@ static void every_scene_is_a_case_file(void **state)
   assert_int_equal(stress_scenes_new(1, &scenes), HC_OK);
   for (int i = 0; i < 300; ++i) {
     scene sc, back;
-    case_error err;
     assert_int_equal(stress_structures_at(scenes, i, &sc), HC_OK);
-    char *written = echo(&sc);
-    if (case_parse("scene", written, strlen(written), 0, NULL, &back, &err) != HC_OK)
-      fail_msg("scene %d: %s", i, err.message);
-    char *again = echo(&back);
-    assert_string_equal(written, again);
+    check_echo(i, &sc, &back);
     const scene_structure *s = sc.structure;
     assert_true(s->n >= 1 && s->n <= 12 && s->n_contacts >= 1 && s->n_contacts <= 6);
     ++damping[s->how], ++sizes[s->n], ++contacts[s->n_contacts];
@@ -375,8 +383,6 @@ static void every_scene_is_a_case_file(void **state)
     }
     loads += s->n_loads > 2;
     at_rest += s->loads[s->n_loads - 1].harmonic == 0;
-    free(written);
-    free(again);
     case_clear(&sc);
     case_clear(&back);
   }
@@ -404,14 +410,9 @@ static void scenes_in_space_are_case_files(void **state)
   assert_int_equal(stress_scenes_new(1, &scenes), HC_OK);
   for (int i = 0; i < 200; ++i) {
     scene flat, sc, back;
-    case_error err;
     assert_int_equal(stress_scene_of(scenes, STRESS_STRUCTURES, i, &flat), HC_OK);
     assert_int_equal(stress_scene_of(scenes, STRESS_SPACE, i, &sc), HC_OK);
-    char *written = echo(&sc);
-    if (case_parse("scene", written, strlen(written), 0, NULL, &back, &err) != HC_OK)
-      fail_msg("scene %d: %s", i, err.message);
-    char *again = echo(&back);
-    assert_string_equal(written, again);
+    check_echo(i, &sc, &back);
     const scene_structure *s = sc.structure;
     const size_t bytes = (size_t)s->n * sizeof(double);
     assert_memory_equal(s->mass.v, flat.structure->mass.v, bytes * (size_t)s->n);
@@ -423,8 +424,6 @@ static void scenes_in_space_are_case_files(void **state)
       pairs += pair;
       circles += pair && s->contacts[j].given.limit == CONTACT_LIMIT_CIRCLE;
     }
-    free(written);
-    free(again);
     case_clear(&flat);
     case_clear(&sc);
     case_clear(&back);
