@@ -39,7 +39,7 @@ const double *lab_values(const lab *l);
 
 enum { LAB_EXACT, LAB_SAMPLED }; /* the contact force: event-located, or with hbm.samples */
 
-/* A row of lab_curve, lab_curve_at and lab_solve: these columns, then X[2H+1]. */
+/* A row of lab_curve, lab_curve_at and lab_neighbours: these columns, then X[2H+1]. */
 enum {
   LAB_OMEGA,
   LAB_BRANCH,
@@ -64,7 +64,16 @@ int lab_curve(lab *l, int force);
 /* Every solution of that curve at omega, each solved for. HC_BAD_INPUT: there is no curve. Errors of hbm_curve_at. */
 int lab_curve_at(lab *l, int force, double omega);
 
-/* Its special points: omega, amplitude, branch, hbm_special_kind, contact_regime before and after. Errors of
+/* The sampled equations' solution next to each point of the exact curve, at its omega: Newton's from there. It is the
+ * response with samples in little time; what has no exact counterpart, as folds of the samples, is not on it. A row
+ * as of lab_curve for each point; omega and branch alone where Newton fails, or ends further off than half the motion,
+ * at another solution. HC_BAD_INPUT: there is no exact curve. */
+int lab_neighbours(lab *l);
+
+/* The same of every exact solution at omega. Errors of hbm_curve_at. */
+int lab_neighbours_at(lab *l, double omega);
+
+/* The curve's special points: omega, amplitude, branch, hbm_special_kind, contact_regime before and after. Errors of
  * hbm_specials. */
 int lab_specials(lab *l, int force);
 

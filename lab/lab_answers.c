@@ -50,6 +50,16 @@ static void ask_about_curves(lab *l, const numbers *omegas)
   }
 }
 
+/* Of the exact curve that ask_about_curves has asked for. */
+static void ask_about_neighbours(lab *l, const numbers *omegas)
+{
+  char question[64];
+  for (int i = 0; i < omegas->n; ++i) {
+    snprintf(question, sizeof question, "near %d", i);
+    print(l, question, lab_neighbours_at(l, omegas->v[i]));
+  }
+}
+
 static void ask_about_motion(lab *l, const numbers *X, double omega)
 {
   double *to = lab_motion(l, (X->n - 1) / 2);
@@ -71,6 +81,7 @@ int main(int argc, char **argv)
   int status = text && l ? WRONG_CASE : BUG;
   if (text && l && fread(text, 1, MOST_TEXT, stdin) > 0 && lab_read(l, text) == 0) {
     ask_about_curves(l, &omegas);
+    ask_about_neighbours(l, &omegas);
     ask_about_motion(l, &X, omegas.v[0]);
     print(l, "transients", lab_transients(l, omegas.n, omegas.v));
     status = 0;

@@ -2,6 +2,7 @@
  * table: status, rows and columns, then a line for each row, numbers with 17 digits. What the page works out from
  * questions is held against it.
  *     read BYTES, and on the next line so many bytes     curve FORCE     at FORCE OMEGA     motion H X[2H+1]
+ *     neighbours     near OMEGA
  *     signal FORCE N     spectrum N SHOWN     work     errors OMEGA */
 #include <stdio.h>
 #include <stdlib.h>
@@ -48,9 +49,11 @@ static int ask(lab *l, const char *question)
   if (!strcmp(question, "read")) return read_case(l);
   if (!strcmp(question, "motion")) return take_motion(l);
   if (!strcmp(question, "work")) return lab_work(l);
+  if (!strcmp(question, "neighbours")) return lab_neighbours(l);
   const double first = number();
   if (!strcmp(question, "curve")) return lab_curve(l, (int)first);
   if (!strcmp(question, "errors")) return lab_errors(l, first);
+  if (!strcmp(question, "near")) return lab_neighbours_at(l, first);
   const double second = number();
   if (!strcmp(question, "at")) return lab_curve_at(l, (int)first, second);
   if (!strcmp(question, "signal")) return lab_signal(l, (int)first, (int)second);

@@ -41,6 +41,8 @@ function labClient(module) {
     title: () => module.UTF8ToString(module._lab_title(lab)),
     curve: force => answer(module._lab_curve(lab, force)),
     curveAt: (force, omega) => answer(module._lab_curve_at(lab, force, omega)),
+    neighbours: () => answer(module._lab_neighbours(lab)),
+    neighboursAt: omega => answer(module._lab_neighbours_at(lab, omega)),
     specials: force => answer(module._lab_specials(lab, force)),
     /* X: of 2 H + 1 coefficients, what signal, spectrum, work and errors are asked about. */
     motion(X) {

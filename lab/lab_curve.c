@@ -1,9 +1,12 @@
-/* lab_curve.c - see lab.h: the response curve, its solutions at an omega, its special points. */
+/* lab_curve.c - see lab.h: the response curve, its solutions at an omega, the sampled ones
+ * next to them, its special points. */
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "compare/response.h"
 #include "lab/lab_inside.h"
+#include "numerics/norm.h"
 
 /* Solution k of *c as a row. */
 static hc_status add_solution(lab *l, hbm_solver *s, const hbm_curve *c, int k)
@@ -72,6 +75,69 @@ int lab_curve_at(lab *l, int force, double omega)
   hbm_curve_free(&at);
   return lab_answer(l, st);
 }
+
+/* ---- samples next to exact forces ---- */
+
+/* Is it the same motion, moved by sampling? Two solutions at one omega differ by their own size; NaN is not near. */
+static bool is_near(int n, const double *X, const double *exact)
+{
+  double off[LAB_MOST_COEF];
+  for (int i = 0; i < n; ++i) off[i] = X[i] - exact[i];
+  return norm_2(n, off) <= 0.5 * norm_2(n, exact);
+}
+
+/* Of point k of the exact curve *c; s has samples. */
+static hc_status add_neighbour(lab *l, hbm_solver *s, const hbm_curve *c, int k)
+{
+  double X[LAB_MOST_COEF];
+  hbm_point point = c->points[k];
+  memcpy(X, hbm_curve_X(c, k), (size_t)c->n_coef * sizeof *X);
+  hc_status st = hbm_solve(s, point.omega, X, &point);
+  point.branch = c->points[k].branch;
+  const hbm_curve one = {.n = 1, .n_coef = c->n_coef, .points = &point, .X = X};
+  if (st == HC_OK && is_near(c->n_coef, X, hbm_curve_X(c, k))) return add_solution(l, s, &one, 0);
+  if (st == HC_NO_MEMORY) return st;
+  double *row = lab_row(l);
+  if (!row) return HC_NO_MEMORY;
+  row[LAB_OMEGA] = c->points[k].omega;
+  row[LAB_BRANCH] = point.branch;
+  return HC_OK;
+}
+
+/* Of all points of *c. */
+static hc_status add_neighbours(lab *l, const hbm_curve *c)
+{
+  scene sc;
+  hbm_solver *s = NULL;
+  lab_begin(l, LAB_SOLUTION + c->n_coef);
+  hc_status st = c->n ? lab_scene(l, LAB_SAMPLED, &sc) : HC_OK;
+  if (c->n) sc.hbm.harmonics = (c->n_coef - 1) / 2; /* those that `auto` has found */
+  if (c->n && st == HC_OK) st = lab_solver(&sc, &s);
+  for (int k = 0; k < c->n && st == HC_OK; ++k) st = add_neighbour(l, s, c, k);
+  hbm_solver_free(s);
+  return st;
+}
+
+int lab_neighbours(lab *l)
+{
+  const lab_kept *kept = kept_curve(l, LAB_EXACT);
+  lab_begin(l, 0);
+  return lab_answer(l, kept ? add_neighbours(l, &kept->curve) : HC_BAD_INPUT);
+}
+
+int lab_neighbours_at(lab *l, double omega)
+{
+  lab_kept *kept = kept_curve(l, LAB_EXACT);
+  lab_begin(l, 0);
+  if (!kept || !(isfinite(omega) && omega > 0)) return lab_answer(l, HC_BAD_INPUT);
+  hbm_curve at = {0};
+  hc_status found = hbm_curve_at(kept->solver, &kept->curve, omega, &at);
+  hc_status st = add_neighbours(l, &at);
+  hbm_curve_free(&at);
+  return lab_answer(l, st == HC_OK ? found : st);
+}
+
+/* ---- special points ---- */
 
 int lab_specials(lab *l, int force)
 {

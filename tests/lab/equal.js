@@ -60,6 +60,7 @@ function moduleAnswers(lab, {omegas, X}) {
     all['specials ' + force] = lab.specials(labForce[force]);
     omegas.forEach((omega, i) => (all[`at ${force} ${i}`] = lab.curveAt(labForce[force], omega)));
   }
+  omegas.forEach((omega, i) => (all[`near ${i}`] = lab.neighboursAt(omega)));
   lab.motion(X);
   all['signal exact'] = lab.signal(labForce.exact, SAMPLES);
   all['signal sampled'] = lab.signal(labForce.sampled, SAMPLES);
@@ -89,9 +90,10 @@ function nativeAnswers(text, {omegas, X}) {
  * on that. Iterations, residuals and periods until something settles count rounding errors; the strongest regime and the
  * multiplier of a motion that just reaches a limit, or just touches, are theirs to decide. */
 const notCompared = [/^curve /, /^specials /];
-const unmeasured = {at: [labColumn.branch, labColumn.contact, labColumn.iterations, labColumn.residual], errors: [5], transients: [9, 11]};
+const rounded = [labColumn.branch, labColumn.contact, labColumn.iterations, labColumn.residual];
+const unmeasured = {at: rounded, near: rounded, errors: [5], transients: [9, 11]};
 /* Columns of one size. */
-const sharing = {at: [[2, 8], [14]], transients: [[2, 8], [13]], spectrum: [[1, 3], [3, 5]]};
+const sharing = {at: [[2, 8], [14]], near: [[2, 8], [14]], transients: [[2, 8], [13]], spectrum: [[1, 3], [3, 5]]};
 
 /* Of each column; X is the motion that was asked about. */
 function sizesOf(kind, a, X) {
@@ -119,7 +121,7 @@ function difference(question, a, b, X) {
     const c = i % a.columns, other = b.values[i];
     if (kind === 'transients' && c > 1 && b.values[i - c + 1] !== 0) return; /* it did not settle */
     if ((unmeasured[kind] || []).includes(c) || Object.is(value, other) || value === other) return;
-    const own = kind === 'at' && c === labColumn.multiplier ? limitOfMultipliers / limit : 1;
+    const own = ['at', 'near'].includes(kind) && c === labColumn.multiplier ? limitOfMultipliers / limit : 1;
     const d = Math.abs(value - other) / sizes[c] / own;
     if (!(d <= found.worst)) found = {worst: isNaN(d) ? Infinity : d, where: `row ${Math.floor(i / a.columns)} of ${a.rows} column ${c}: ${value} ${other}`};
   });

@@ -1,0 +1,145 @@
+/* test_neighbours.c - sampled solutions next to the exact curve's: they are the sampled equations', at the exact ones'
+ * omegas, and where there is none next to a point that is said. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/status.h"
+#include "lab/lab.h"
+#include "tests/check.h"
+
+enum { MOST_ROWS = 400, HARMONICS = 5, COEF = 2 * HARMONICS + 1 };
+
+static lab *lab_of(double kn, int samples)
+{
+  char text[600];
+  lab *l = lab_new();
+  assert_non_null(l);
+  snprintf(text, sizeof text,
+           "oscillator: {mass: 1.0, damping: 0.4, stiffness: 40}\n"
+           "forcing: {amplitude: 100}\n"
+           "contacts:\n"
+           "  - {tangential_stiffness: 100, normal_stiffness: %g, friction: 0.08, angle_deg: 45, gap: -5}\n"
+           "sweep: {omega: [3, 20]}\n"
+           "hbm: {harmonics: %d, samples: %d, tolerance: 1e-13}\n",
+           kn, HARMONICS, samples);
+  if (lab_read(l, text) != HC_OK) fail_msg("%s", lab_message(l));
+  return l;
+}
+
+static const double *row(const lab *l, int i) { return lab_values(l) + i * lab_columns(l); }
+
+/* |a - b| over |b| of two solutions. */
+static double difference(const double *a, const double *b)
+{
+  double off = 0, size = 0;
+  for (int i = 0; i < COEF; ++i) {
+    off += pow(a[LAB_SOLUTION + i] - b[LAB_SOLUTION + i], 2);
+    size += pow(b[LAB_SOLUTION + i], 2);
+  }
+  return sqrt(off / size);
+}
+
+/* Rows of the last answer, copied. */
+static int rows_of(const lab *l, double rows[MOST_ROWS][LAB_SOLUTION + COEF])
+{
+  assert_true(lab_rows(l) <= MOST_ROWS);
+  assert_int_equal(lab_columns(l), LAB_SOLUTION + COEF);
+  for (int i = 0; i < lab_rows(l); ++i) memcpy(rows[i], row(l, i), sizeof rows[i]);
+  return lab_rows(l);
+}
+
+/* Two ways to the same equations' solution at omega 8, where there are three: along the sampled curve, and from the
+ * exact solutions. Both leave a residual of 1e-13 of the forces; at the nearest of these solutions to a fold the
+ * equations make 1e3 of it at most. Sampling moves the two that touch by 1e-4 and more: exact ones would be seen. */
+static void neighbours_solve_the_sampled_equations(void **state)
+{
+  (void)state;
+  static double exact[MOST_ROWS][LAB_SOLUTION + COEF], near[MOST_ROWS][LAB_SOLUTION + COEF];
+  const double touches = 5 * sqrt(2); /* the clearance over sin 45 */
+  lab *l = lab_of(1000, 64);
+  int touching = 0;
+  assert_int_equal(lab_curve(l, LAB_EXACT), HC_OK);
+  assert_int_equal(lab_curve_at(l, LAB_EXACT, 8), HC_OK);
+  assert_int_equal(rows_of(l, exact), 3);
+  assert_int_equal(lab_neighbours_at(l, 8), HC_OK);
+  assert_int_equal(rows_of(l, near), 3);
+  assert_int_equal(lab_curve(l, LAB_SAMPLED), HC_OK);
+  assert_int_equal(lab_curve_at(l, LAB_SAMPLED, 8), HC_OK);
+  for (int i = 0; i < 3; ++i) {
+    double least = INFINITY;
+    for (int j = 0; j < lab_rows(l); ++j) least = fmin(least, difference(near[i], row(l, j)));
+    assert_true(near[i][LAB_OMEGA] == 8);
+    CHECK_LE(least, 1e-10, "solution %d", i);
+    if (exact[i][LAB_MAX] < touches) continue;
+    ++touching;
+    CHECK_LE(1e-4, difference(near[i], exact[i]), "sampling moves solution %d", i);
+  }
+  assert_int_equal(touching, 2);
+  lab_free(l);
+}
+
+/* A row for each point, in order; what is measured is of samples. */
+static void every_point_has_its_row(void **state)
+{
+  (void)state;
+  static double exact[MOST_ROWS][LAB_SOLUTION + COEF];
+  lab *l = lab_of(1000, 64);
+  assert_int_equal(lab_curve(l, LAB_EXACT), HC_OK);
+  const int n = rows_of(l, exact);
+  int found = 0;
+  assert_int_equal(lab_neighbours(l), HC_OK);
+  assert_int_equal(lab_rows(l), n);
+  for (int i = 0; i < n; ++i) {
+    assert_true(row(l, i)[LAB_OMEGA] == exact[i][LAB_OMEGA] && row(l, i)[LAB_BRANCH] == exact[i][LAB_BRANCH]);
+    found += isfinite(row(l, i)[LAB_AMPLITUDE]);
+  }
+  assert_true(n > 40);
+  CHECK_LE(0.9 * n, found, "of %d points", n);
+  lab_free(l);
+}
+
+/* Nearly rigid, and 24 samples: of some points Newton ends at another solution, and of some nowhere. */
+static void another_solution_is_no_neighbour(void **state)
+{
+  (void)state;
+  static double exact[MOST_ROWS][LAB_SOLUTION + COEF];
+  lab *l = lab_of(1e5, 24);
+  int missing = 0;
+  assert_int_equal(lab_curve(l, LAB_EXACT), HC_OK);
+  const int n = rows_of(l, exact);
+  assert_int_equal(lab_neighbours(l), HC_OK);
+  for (int i = 0; i < n; ++i) {
+    const double *at = row(l, i);
+    missing += isnan(at[LAB_AMPLITUDE]);
+    if (!isnan(at[LAB_AMPLITUDE])) CHECK_LE(difference(at, exact[i]), 0.5, "point %d", i);
+    assert_true(at[LAB_OMEGA] == exact[i][LAB_OMEGA] && at[LAB_BRANCH] == exact[i][LAB_BRANCH]);
+    for (int c = LAB_AMPLITUDE; c < LAB_SOLUTION + COEF && isnan(at[LAB_AMPLITUDE]); ++c) assert_true(isnan(at[c]));
+  }
+  assert_in_range(missing, 2, n / 2);
+  lab_free(l);
+}
+
+static void without_a_curve_there_are_none(void **state)
+{
+  (void)state;
+  lab *l = lab_of(1000, 64);
+  assert_int_equal(lab_neighbours(l), HC_BAD_INPUT);
+  assert_int_equal(lab_curve(l, LAB_SAMPLED), HC_OK);
+  assert_int_equal(lab_neighbours(l), HC_BAD_INPUT);
+  assert_int_equal(lab_neighbours_at(l, 8), HC_BAD_INPUT);
+  assert_int_equal(lab_curve(l, LAB_EXACT), HC_OK);
+  assert_int_equal(lab_neighbours_at(l, NAN), HC_BAD_INPUT);
+  assert_int_equal(lab_neighbours_at(l, -8), HC_BAD_INPUT);
+  assert_int_equal(lab_neighbours_at(l, 30), HC_OK); /* not where the curve goes: none */
+  assert_int_equal(lab_rows(l), 0);
+  lab_free(l);
+}
+
+static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(neighbours_solve_the_sampled_equations),
+    cmocka_unit_test(every_point_has_its_row),
+    cmocka_unit_test(another_solution_is_no_neighbour),
+    cmocka_unit_test(without_a_curve_there_are_none),
+};
+CHECK_MAIN("lab.neighbours", tests, 60)
