@@ -8,7 +8,7 @@ from ctypes import POINTER, c_char_p, c_double, c_int, c_size_t, c_void_p
 from . import _structs as structs
 from ._errors import BadInput, Error, Interrupted, Stopped
 
-SONAME = "libhbmcheck.so.0.1"
+SONAME = "libhbmcheck.so.0"
 INTERFACE = "0.1."  # versions whose structs are those of _structs
 OK, BAD_INPUT, NO_MEMORY, INTERRUPTED = 0, 1, 2, 15
 
@@ -79,7 +79,7 @@ def _load():
             return ctypes.CDLL(name)
         except OSError as why:
             tried.append(str(why))
-    raise ImportError(f"the library of hbmcheck is not found ({'; '.join(tried)}): install the package hbmcheck, or set "
+    raise ImportError(f"the library of hbmcheck is not found ({'; '.join(tried)}): install the package libhbmcheck0, or set "
                       f"HBMCHECK_LIBRARY to the path of {SONAME}")
 
 

@@ -14,6 +14,7 @@ import zipfile
 from common import CASE2, SOURCE, Test, np, unittest
 
 import hbmcheck
+from hbmcheck import _library
 
 LIBRARY = os.environ["HBMCHECK_LIBRARY"]
 PYTHON = SOURCE / "python"
@@ -68,7 +69,7 @@ class Package(Test):
         shutil.copytree(PYTHON / "hbmcheck", self.folder / "hbmcheck", ignore=shutil.ignore_patterns("__pycache__"))
         by_loader = run(self.folder, LD_LIBRARY_PATH=os.path.dirname(LIBRARY))
         self.assertEqual(by_loader.stdout, "[0, 1, 2]\n", by_loader.stderr)
-        shutil.copy(LIBRARY, self.folder / "hbmcheck" / "libhbmcheck.so.0.1")
+        shutil.copy(LIBRARY, self.folder / "hbmcheck" / _library.SONAME)
         beside = run(self.folder, LD_LIBRARY_PATH="")
         self.assertEqual(beside.stdout, "[0, 1, 2]\n", beside.stderr)
         told = run(self.folder, HBMCHECK_LIBRARY="/no/such/library")

@@ -62,6 +62,7 @@ class Structs(Test):
         self.assertEqual(hbmcheck.__version__, said)
         self.assertEqual(library_version(), said)
         self.assertIn(f'version = "{said}"', project)
+        self.assertIn(f"soname = {_library.SONAME}\n", (SOURCE / "library/abi.txt").read_text())
 
 
 if __name__ == "__main__":
