@@ -14,7 +14,6 @@ VERSION = re.search(r'^version = "(.*)"$', PROJECT, re.MULTILINE)[1]
 DATE = (2020, 1, 1, 0, 0, 0)  # of every file inside: the same source gives the same wheel
 
 
-
 def said(key):
     """What pyproject.toml says there, in one line."""
     return re.search(rf'^{key} = (.*)$', PROJECT, re.MULTILINE)[1].strip('"')
@@ -41,6 +40,14 @@ def sources():
 def record(name, data):
     digest = base64.urlsafe_b64encode(hashlib.sha256(data).digest()).rstrip(b"=").decode()
     return f"{name},sha256={digest},{len(data)}\n"
+
+
+def prepare_metadata_for_build_wheel(metadata_directory, config_settings=None):
+    folder = pathlib.Path(metadata_directory, f"{NAME}-{VERSION}.dist-info")
+    folder.mkdir(exist_ok=True)
+    (folder / "METADATA").write_text(METADATA)
+    (folder / "WHEEL").write_text(WHEEL)
+    return folder.name
 
 
 def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
