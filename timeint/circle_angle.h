@@ -13,8 +13,9 @@
 #include "timeint/circle_track.h"
 
 typedef struct circle_angle {
-  int contact; /* its first direction */
-  bool opens;  /* since a touch, until theta = `until`: phi' = rate */
+  int contact;  /* its first direction */
+  double began; /* phi where it began to follow it */
+  bool opens;   /* since a touch, until theta = `until`: phi' = rate */
   double rate, until;
   double held_pull; /* what a held direction may change of a rate until N = 0 */
 } circle_angle;

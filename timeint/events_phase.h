@@ -10,6 +10,7 @@
 
 #include "timeint/circle_angle.h"
 #include "timeint/integrate_cvode.h"
+#include "timeint/slider_travel.h"
 #include "timeint/structure_variations.h"
 
 enum { EVENTS_ROOTS = 2 * TRACK_GUARDS };
@@ -18,7 +19,8 @@ typedef struct events { /* from integrate_new_events, to integrate_free; not sha
   cvode_integrator base;
   int n, n_contacts;
   double tolerance;
-  contact_track *track;       /* [n_contacts] now */
+  contact_track *track; /* [n_contacts] now */
+  slider_travel travel;
   contact_forces_linear *law; /* [n_contacts] of these states */
   int *info;                  /* [n_contacts][EVENTS_ROOTS] what CVODE says of the root functions */
   double *rate;               /* [n_equations] dy where the guards' rates are wanted */

@@ -1,4 +1,5 @@
 /* integrate.c - see integrate.h: passes each call to the integrator of the law and method. */
+#include <math.h>
 #include <stddef.h>
 
 #include "timeint/integrate_private.h"
@@ -40,6 +41,8 @@ bool integrate_extremes(const integrator *in, int r, double *max, double *min)
 }
 
 contact_state integrate_contact(const integrator *in, int j, const double *y) { return in->does->state(in, j, y); }
+
+double integrate_travel(const integrator *in, int j) { return in->does->travel ? in->does->travel(in, j) : INFINITY; }
 
 double integrate_scatter(const integrator *in) { return in->scatter; }
 long integrate_periods(const integrator *in) { return in->periods; }

@@ -55,6 +55,10 @@ bool integrate_extremes(const integrator *in, int r, double *max, double *min);
 /* Inside a watch: the state of contact j in the step, at whose end the state is y. */
 contact_state integrate_contact(const integrator *in, int j, const double *y);
 
+/* How far the slider of contact j was, in the last period, from where that began: the largest |W - W(0)| at its changes
+ * of state; INFINITY where it separated, or this integrator cannot tell. */
+double integrate_travel(const integrator *in, int j);
+
 /* [tolerance] By how much a period may be off, cut into other steps; 0 in closed form. */
 double integrate_scatter(const integrator *in);
 

@@ -40,6 +40,14 @@ static void follow_angles(events *in)
   }
 }
 
+/* The circle whose first direction is j, where it stops turning, or the period ends. */
+static void note_turn(events *in, int j)
+{
+  const int i = in->angle_of[j];
+  if (circle_track_turns(&in->track[j]))
+    slider_travel_note_turn(&in->travel, j, NV_DATA_S(in->base.y)[2 * in->n + i] - in->angle[i].began);
+}
+
 /* In motion from theta on: its angle, and the direction that it has at a touch. */
 static void begin_angle(events *in, int j, double theta)
 {
@@ -48,7 +56,7 @@ static void begin_angle(events *in, int j, double theta)
   contact_track *t = &in->track[j];
   a->opens = false;
   if (!circle_track_turns(t)) return;
-  y[2 * in->n + in->angle_of[j]] = atan2(t[1].along, t[0].along);
+  a->began = y[2 * in->n + in->angle_of[j]] = atan2(t[1].along, t[0].along);
   if (!t->fresh) return;
   t[0].fresh = t[1].fresh = false;
   events_rate(in, theta, y, in->rate);
@@ -68,7 +76,9 @@ static hc_status pass_circle(events *in, int j, track_event event, double theta,
   if (changes && ++*count > integrate_most_transitions(in->n_contacts)) return HC_CHATTER;
   if (changes && in->varies) st = structure_variations_advance(&in->variations, in->base.m, in->track, theta);
   if (st != HC_OK) return st;
+  note_turn(in, j);
   circle_track_pass(&in->track[j], c, event, &at);
+  slider_travel_note_circle(&in->travel, c, in->track, j, &at);
   if (changes && in->varies) {
     structure_variations_circle(&in->variations, in->base.m, j, before, &in->track[j], &at);
     structure_variations_follow(&in->variations, in->base.m, in->track, NV_DATA_S(in->base.y));
@@ -90,6 +100,7 @@ static hc_status pass(events *in, int j, track_event event, double theta, int *c
   hc_status st = in->varies ? structure_variations_advance(&in->variations, in->base.m, in->track, theta) : HC_OK;
   if (st != HC_OK) return st;
   contact_track_pass(&in->track[j], &in->base.m->contact[j], event, &at);
+  slider_travel_note(&in->travel, &in->base.m->contact[j], in->track, j, &at);
   if (in->varies && in->track[j].state == CONTACT_STICK)
     structure_variations_stick(&in->variations, in->base.m, j, before, &at);
   if (in->varies) structure_variations_follow(&in->variations, in->base.m, in->track, NV_DATA_S(in->base.y));
@@ -205,6 +216,7 @@ static hc_status begin(events *in, const double *y, int *count)
     }
   }
   use_states(in);
+  slider_travel_begin(&in->travel, in->track, y + 2 * in->n);
   if (in->varies) {
     in->variations.theta = 0;
     structure_variations_begin(&in->variations, in->base.m, in->track, y);
@@ -260,7 +272,9 @@ static hc_status period(integrator *base, const scaled_model *m, double *y, doub
   if (st != HC_OK) return st;
   memcpy(y, NV_DATA_S(in->base.y), 2 * (size_t)in->n * sizeof *y);
   follow_angles(in);
+  for (int i = 0; i < in->n_circles; ++i) note_turn(in, in->angle[i].contact);
   set_sliders(in, 0, NV_DATA_S(in->base.y) + 2 * in->n, y);
+  slider_travel_end(&in->travel, in->track, y + 2 * in->n);
   if (monodromy) structure_variations_end(&in->variations, m, in->track, y, monodromy);
   return HC_OK;
 }
@@ -285,10 +299,13 @@ static contact_state state(const integrator *base, int j, const double *y)
   return ((const events *)base)->track[j].state;
 }
 
+static double travel(const integrator *base, int j) { return ((const events *)base)->travel.most[j]; }
+
 static void release(integrator *base)
 {
   events *in = (events *)base;
   structure_variations_free(&in->variations);
+  slider_travel_free(&in->travel);
   phase_modes_free(in->modes);
   integrate_free_parts(&in->base);
   free(in->track);
@@ -305,6 +322,7 @@ static const integrator_class class = {.period = period,
                                        .samples = integrate_dense_samples,
                                        .fourier = integrate_no_fourier,
                                        .state = state,
+                                       .travel = travel,
                                        .tolerance = integrate_cvode_tolerance,
                                        .free = release};
 
@@ -358,6 +376,7 @@ hc_status integrate_new_events(const modal_base *base, double tolerance, integra
   if (st == HC_OK) in->phi = in->rate + in->n_equations;
   if (st == HC_OK) st = phase_modes_new(base, PHASE_MODES_STIFF, &in->modes);
   if (st == HC_OK) st = structure_variations_make(&in->variations, base, in->modes);
+  if (st == HC_OK) st = slider_travel_make(&in->travel, base->n_contacts);
   if (st == HC_OK) st = integrate_make_parts(&in->base, in->n_equations, bdf ? CV_BDF : CV_ADAMS, NULL);
   if (st == HC_OK) st = make_cvode(in);
   if (st == HC_OK) {

@@ -12,6 +12,7 @@ typedef struct integrator_class {
   bool (*fourier)(const integrator *, int r, double out[3]);
   bool (*extremes)(const integrator *, int r, double *max, double *min); /* NULL: cannot tell */
   contact_state (*state)(const integrator *, int j, const double *y);
+  double (*travel)(const integrator *, int j); /* NULL: cannot tell */
   hc_status (*tolerance)(integrator *, double tolerance);
   void (*free)(integrator *);
 } integrator_class;

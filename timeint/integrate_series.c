@@ -10,6 +10,7 @@
 #include "timeint/integrate_private.h"
 #include "timeint/motion_modes.h"
 #include "timeint/motion_series.h"
+#include "timeint/slider_travel.h"
 #include "timeint/structure_variations.h"
 
 static const double longest_watched = 0.2; /* [rad] as CVODE's */
@@ -23,9 +24,10 @@ typedef struct by_series { /* from integrate_new_series, to integrate_free; not 
   int n, n_contacts;
   const scaled_model *m; /* of the period under way; the caller's */
   contact_track *track;  /* [n_contacts] now */
-  double theta, length;  /* where the present step began, and its length */
-  double *y, *end;       /* [2 n] the motion there, and at its end */
-  double *response;      /* [TRACK_ORDER + 1] of one response */
+  slider_travel travel;
+  double theta, length; /* where the present step began, and its length */
+  double *y, *end;      /* [2 n] the motion there, and at its end */
+  double *response;     /* [TRACK_ORDER + 1] of one response */
   motion_series series;
   phase_modes *modes; /* or NULL */
   motion_modes stiff; /* the motion since stiff.theta, where by_modes */
@@ -63,6 +65,7 @@ static hc_status begin(by_series *in, const double *y)
       in->track[j] = contact_track_begin(c, &at, y[2 * in->n + j]);
     }
   }
+  slider_travel_begin(&in->travel, in->track, y + 2 * in->n);
   return HC_OK;
 }
 
@@ -114,6 +117,7 @@ static void pass_circle(by_series *in, int j, track_event event, bool varies, do
         in->by_modes ? motion_modes_contact(&in->stiff, j + a, tau) : motion_series_contact(&in->series, j + a, tau);
   const circle_motion both = {{at[0].u, at[1].u}, at->v, {at[0].du, at[1].du}, at->dv};
   circle_track_pass(&in->track[j], &in->m->contact[j], event, &both);
+  slider_travel_note_circle(&in->travel, &in->m->contact[j], in->track, j, &both);
   if (varies) structure_variations_circle(&in->variations, in->m, j, before, &in->track[j], &both);
 }
 
@@ -132,11 +136,22 @@ static hc_status pass(by_series *in, int j, track_event event, bool varies, int 
   }
   if (circle) pass_circle(in, j, event, varies, tau);
   else contact_track_pass(&in->track[j], &in->m->contact[j], event, &at);
+  if (!circle) slider_travel_note(&in->travel, &in->m->contact[j], in->track, j, &at);
   if (!varies) return HC_OK;
   if (!circle && in->track[j].state == CONTACT_STICK)
     structure_variations_stick(&in->variations, in->m, j, before, &at);
   structure_variations_follow(&in->variations, in->m, in->track, in->end);
   return HC_OK;
+}
+
+/* At the end of the step. */
+static void note_slipping_circles(by_series *in)
+{
+  for (int j = 0; j < in->n_contacts; ++j) {
+    if (!in->m->contact[j].circle || !circle_track_turns(&in->track[j])) continue;
+    const circle_motion at = circle_of(in, j, in->end);
+    slider_travel_note_circle(&in->travel, &in->m->contact[j], in->track, j, &at);
+  }
 }
 
 /* Contact `changing` passes the event at the end of the step, if it is not -1; then on to the next step, at theta. */
@@ -145,6 +160,7 @@ static hc_status end_step(by_series *in, int changing, track_event event, bool v
   hc_status st = changing >= 0 ? pass(in, changing, event, varies, count) : HC_OK;
   if (st != HC_OK) return st;
   memcpy(in->y, in->end, 2 * (size_t)in->n * sizeof *in->y);
+  note_slipping_circles(in);
   in->theta = theta;
   return HC_OK;
 }
@@ -257,6 +273,7 @@ static hc_status period(integrator *base, const scaled_model *m, double *y, doub
   if (st != HC_OK) return st;
   memcpy(y, in->y, 2 * (size_t)in->n * sizeof *y);
   put_sliders(in, NAN, 0, y);
+  slider_travel_end(&in->travel, in->track, y + 2 * in->n);
   if (monodromy) structure_variations_end(&in->variations, m, in->track, y, monodromy);
   return HC_OK;
 }
@@ -334,6 +351,8 @@ static contact_state state(const integrator *base, int j, const double *y)
   return ((const by_series *)base)->track[j].state;
 }
 
+static double travel(const integrator *base, int j) { return ((const by_series *)base)->travel.most[j]; }
+
 static hc_status tolerance(integrator *base, double ignored)
 {
   (void)base, (void)ignored;
@@ -344,6 +363,7 @@ static void release(integrator *base)
 {
   by_series *in = (by_series *)base;
   structure_variations_free(&in->variations);
+  slider_travel_free(&in->travel);
   motion_series_free(&in->series);
   motion_modes_free(&in->stiff);
   phase_modes_free(in->modes);
@@ -358,6 +378,7 @@ static const integrator_class class = {.period = period,
                                        .fourier = fourier,
                                        .extremes = extremes,
                                        .state = state,
+                                       .travel = travel,
                                        .tolerance = tolerance,
                                        .free = release};
 
@@ -376,6 +397,7 @@ hc_status integrate_new_series(const modal_base *base, double stiff, integrator 
   if (st == HC_OK) st = phase_modes_new(base, stiff, &in->modes);
   if (st == HC_OK) st = motion_modes_make(&in->stiff, base);
   if (st == HC_OK) st = structure_variations_make(&in->variations, base, in->modes);
+  if (st == HC_OK) st = slider_travel_make(&in->travel, base->n_contacts);
   if (st == HC_OK) {
     in->end = in->y + 2 * n;
     in->response = in->y + 4 * n;

@@ -10,7 +10,6 @@
 #include "model/periodic_motion.h"
 #include "numerics/roots.h"
 
-static const double same_place = 1e-9;     /* of the motion's range: a slider that moves less rests */
 static const double longest_quintic = 0.2; /* [rad] 0.2^7/100800 = 1e-10 of the sixth derivative, for one step */
 
 hc_status measure_make(measure *me, int n_states, int n_responses, int n_contacts)
@@ -251,7 +250,7 @@ int measure_resting_sliders(const measure *me)
     const bool leaves = !c->law.has_friction || me->seen[j] & SEEN_SEPARATED || c->second;
     double path = me->slider[2 * j + 1] - me->slider[2 * j];
     if (c->circle) path = fmax(path, me->slider[2 * j + 3] - me->slider[2 * j + 2]);
-    resting += !leaves && path <= same_place * range;
+    resting += !leaves && path <= MEASURE_RESTS * range;
   }
   return resting;
 }

@@ -12,6 +12,8 @@
 #include "timeint/integrate.h"
 #include "timeint/steady.h"
 
+#define MEASURE_RESTS 1e-9 /* of the motion's range: a slider that leaves its place by less rests */
+
 typedef struct response_measure { /* of one response r, an oscillator's is X */
   double x, p, a;                 /* r, r', r'' at the end of the last step */
   double max, min;
@@ -54,7 +56,7 @@ hc_status measure_step(void *self, const integrator *in, double theta0, double t
 contact_regime measure_regime(const measure *me, const model *from, int j, double min, double max);
 
 /* Contacts whose slider was nowhere seen to leave its place while it was in contact: where it rests depends on the
- * start. A place is one to 1e-9 of the largest response's range, ten times what CVODE's steps scatter. */
+ * start. A place is one to MEASURE_RESTS of the largest response's range, ten times what CVODE's steps scatter. */
 int measure_resting_sliders(const measure *me);
 
 /* Of response i: max, min, amplitude, rms, mean, a1, b1, harmonic_1, wave (of the last period), and the regime of all

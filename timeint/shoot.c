@@ -25,6 +25,7 @@ struct shoot { /* from shoot_new, to shoot_free */
   const hc_monitor *monitor;
   double *z, *f;                 /* [n] the last point, and F^k of it */
   double *phi;                   /* [n][n] column by column, dF^k/dz there */
+  double *travel;                /* [n] of each slider, the farthest it was in a period from where that began */
   double *start, *first;         /* [n] where the solve began, and F^k of that */
   bool known, begun;             /* z, f, phi are valid; start, first are valid */
   double *before;                /* [n] ti->y when the solve began */
@@ -43,16 +44,28 @@ struct shoot { /* from shoot_new, to shoot_free */
   hc_status refusal;
 };
 
+/* The period just integrated. A circle's two directions rest or slip as one. */
+static void note_travel(shoot *s)
+{
+  const int moving = 2 * s->ti->n_dof;
+  for (int i = moving; i < s->n; ++i) {
+    const int j = scaled_first(&s->ti->scaled, i - moving), n = scaled_directions(&s->ti->scaled, j);
+    for (int a = 0; a < n; ++a) s->travel[i] = fmax(s->travel[i], integrate_travel(s->ti->in, j + a));
+  }
+}
+
 /* s->f becomes F^k(s->f), s->phi the monodromy matrix of these k periods. */
 static hc_status integrate_k_periods(shoot *s)
 {
   const size_t bytes = sizeof *s->phi * (size_t)(s->n * s->n);
+  memset(s->travel, 0, (size_t)s->n * sizeof *s->travel);
   for (int i = 0; i < s->k; ++i) {
     if (s->ti->periods >= s->ti->how.max_periods - s->k) return HC_NOT_SETTLED; /* k are kept for the report */
     if (!hc_monitor_tick(s->monitor, -1)) return HC_INTERRUPTED;
     hc_status st = integrate_monodromy(s->ti->in, &s->ti->scaled, s->f, i == 0 ? s->phi : s->one_period);
     if (st != HC_OK) return st;
     ++s->ti->periods;
+    note_travel(s);
     if (i == 0) continue;
     memcpy(s->product, s->phi, bytes);
     floquet_product(s->n, s->one_period, s->product, s->phi);
@@ -77,10 +90,12 @@ static hc_status evaluate(shoot *s, const double *z)
   return st;
 }
 
-/* Is state i a slider at a fixed point of F^k wherever it is? */
+/* Is state i a slider at a fixed point of F^k wherever it is, or one that rests but for a slip as small as rounding? */
 static bool is_free(const shoot *s, int i)
 {
-  if (i < 2 * s->ti->n_dof || s->f[i] != s->z[i]) return false;
+  if (i < 2 * s->ti->n_dof) return false;
+  if (s->travel[i] <= MEASURE_RESTS * timeint_motion_size(s->ti) / s->ti->length) return true;
+  if (s->f[i] != s->z[i]) return false;
   for (int j = 0; j < s->n; ++j)
     if (s->phi[i + j * s->n] != (i == j)) return false;
   return true;
@@ -139,7 +154,7 @@ static hc_status make_anderson(shoot *s)
 static hc_status make_memory(shoot *s)
 {
   double **const vectors[] = {&s->z,    &s->f,    &s->start, &s->first,  &s->before, &s->iterate,
-                              &s->step, &s->best, &s->ones,  &s->vector, &s->other};
+                              &s->step, &s->best, &s->ones,  &s->vector, &s->other,  &s->travel};
   double **const matrices[] = {&s->phi, &s->one_period, &s->product};
   const size_t n = (size_t)s->n, n_vectors = sizeof vectors / sizeof *vectors,
                n_matrices = sizeof matrices / sizeof *matrices;

@@ -2,10 +2,13 @@
  *
  * Newton (KINSOL): z - F^k(z) = 0 with the Jacobian I - Phi, Phi the monodromy matrix from the variational equations.
  * Quadratic where F is smooth, which it is unless the orbit grazes a transition; the number of periods it takes does
- * not depend on the damping. The slider of a contact that sticks all the time is at a fixed point of F wherever it
- * is: its row of Phi is that of the identity. It stays where the start put it and is counted as free; the rest of
- * the orbit is unique given that. Anderson (KINSOL's fixed point) needs no Phi: used where Newton fails. Works on
- * ti->y in the unit of length ti->length, at CVODE's present tolerance. */
+ * not depend on the damping. The slider of a contact that sticks all the time is at a fixed point of F wherever it is:
+ * its row of Phi is that of the identity. It stays where the start put it and is counted as free; the rest of the
+ * orbit is unique given that. So does one that travels less than MEASURE_RESTS in a period: a contact that shakes down
+ * comes to rest on the edge of slip, where F has one derivative on either side, and the rounding of an orbit already
+ * found would choose between them; that of slip nearly has a multiplier 1, and its Newton step leads away. Anderson
+ * (KINSOL's fixed point) needs no Phi: used where Newton fails. Works on ti->y in the unit of length ti->length, at
+ * CVODE's present tolerance. */
 #ifndef HC_TIMEINT_SHOOT_H
 #define HC_TIMEINT_SHOOT_H
 

@@ -445,6 +445,34 @@ static void series_and_events_agree(void **state)
   CHECK_LE(40 * 4 * 4, transitions, "they change their states");
 }
 
+/* A slider that goes round a closed curve in each period has left its place, though it comes back to it and the circle
+ * never changes its state; one that sticks has not. */
+static void a_slider_that_comes_back_has_travelled(void **state)
+{
+  (void)state;
+  for (int slips = 0; slips < 2; ++slips) {
+    drawn d = {.m = plane(slips ? 40 : 0.1)};
+    integrator *by[2];
+    double y[2][MOST] = {{0}};
+    scale_drawn(&d, TRANSIENT_LAW_EXACT, 10.5);
+    assert_int_equal(integrate_new_series(d.base, PHASE_MODES_STIFF, &by[0]), HC_OK);
+    assert_int_equal(integrate_new_events(d.base, 1e-10, &by[1]), HC_OK);
+    for (int k = 0; k < 2; ++k) {
+      for (int period = 0; period < 40; ++period)
+        assert_int_equal(integrate_period(by[k], &d.scaled, y[k], NULL, NULL), HC_OK);
+      const long transitions = integrate_transitions(by[k]);
+      assert_int_equal(integrate_period(by[k], &d.scaled, y[k], NULL, NULL), HC_OK);
+      assert_int_equal(integrate_transitions(by[k]), transitions);
+      for (int a = 0; a < 2; ++a) {
+        if (slips) CHECK_LE(0.1, integrate_travel(by[k], a), "integrator %d, direction %d", k, a);
+        else CHECK_LE(integrate_travel(by[k], a), 0, "integrator %d, direction %d", k, a);
+      }
+      integrate_free(by[k]);
+    }
+    undraw(&d);
+  }
+}
+
 /* ---- what contacts do ------------------------------------------------------------------------------------- */
 
 /* Over a period of a steady state the loads' work is what damping and friction take: that of the load from the first
@@ -507,6 +535,7 @@ int main(void)
       cmocka_unit_test(turned_tangents_change_nothing),
       cmocka_unit_test(monodromy_is_the_derivative),
       cmocka_unit_test(series_and_events_agree),
+      cmocka_unit_test(a_slider_that_comes_back_has_travelled),
       cmocka_unit_test(friction_takes_what_the_loads_give),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
