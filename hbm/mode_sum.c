@@ -6,9 +6,14 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/wide_vectors.h"
+
 /* A mode is far where its poles are more than FAR times as far from 0 as s: what the series leaves out after TERMS
  * terms is (1/FAR)^TERMS = 1e-17 of it. */
 enum { FAR = 4, TERMS = 28 };
+/* The series of so many entries are summed side by side, their coefficients next to each other; and a dot product in
+ * so many parts. */
+enum { LANES = 8 };
 
 struct mode_sum {
   int n, dim, rows;
@@ -22,7 +27,7 @@ struct mode_sum {
   double complex *power;     /* [n] */
   int near;                  /* modes that are summed one by one; the others by the series */
   double reach;              /* of the series, which is in s/reach; 0: none yet */
-  double *series;            /* [rows][dim][TERMS] */
+  double *series;            /* [rows dim/LANES][TERMS][LANES] */
 };
 
 /* ---- made and freed ------------------------------------------------------------------------------ */
@@ -59,7 +64,7 @@ static hc_status new_sum(int n, int dim, int rows, bool poles, mode_sum **out)
   m->power = calloc(modes, sizeof *m->power);
   m->weight = calloc(4 * modes, sizeof *m->weight);
   m->product = calloc(4 * modes, sizeof *m->product);
-  m->series = calloc((size_t)rows * (size_t)dim * TERMS + 1, sizeof *m->series);
+  m->series = calloc(((size_t)rows * (size_t)dim + LANES) * TERMS, sizeof *m->series);
   return room && m->lambda && m->power && m->weight && m->product && m->series ? HC_OK : HC_NO_MEMORY;
 }
 
@@ -126,14 +131,20 @@ bool mode_sum_takes_damping(const mode_sum *m) { return !m->poles; }
 
 /* ---- the series ---------------------------------------------------------------------------------- */
 
-static double dot(int n, const double *restrict a, const double *restrict b)
+WIDE_VECTORS static double dot(int n, const double *restrict a, const double *restrict b)
 {
-  double sum[4] = {0};
+  double sum[LANES] = {0};
   int i = 0;
-  for (; i + 4 <= n; i += 4)
-    for (int k = 0; k < 4; ++k) sum[k] += a[i + k] * b[i + k];
+  for (; i + LANES <= n; i += LANES)
+    for (int k = 0; k < LANES; ++k) sum[k] += a[i + k] * b[i + k];
   for (; i < n; ++i) sum[0] += a[i] * b[i];
-  return (sum[0] + sum[1]) + (sum[2] + sum[3]);
+  return ((sum[0] + sum[1]) + (sum[2] + sum[3])) + ((sum[4] + sum[5]) + (sum[6] + sum[7]));
+}
+
+/* The place of an entry's coefficient t. */
+static double *coefficient(const mode_sum *m, size_t entry, int t)
+{
+  return m->series + (entry / LANES * TERMS + (size_t)t) * LANES + entry % LANES;
 }
 
 /* Coefficient t of every far mode's series in s/reach, from those before it. Of a mode, 1/(k + c s + s^2): g_t =
@@ -163,7 +174,7 @@ static void add_term(mode_sum *m, int t, const double *now)
       m->product[i] = creal(z), m->product[m->n + i] = -cimag(z);
     }
     for (int b = 0; b < m->rows; ++b) {
-      double *to = m->series + ((size_t)b * (size_t)m->dim + (size_t)a) * TERMS + t;
+      double *to = coefficient(m, (size_t)b * (size_t)m->dim + (size_t)a, t);
       *to = dot(far, re, (m->poles ? m->rr : m->lr) + b * m->n + m->near);
       if (m->poles) *to += dot(far, im, m->ri + b * m->n + m->near);
     }
@@ -182,19 +193,46 @@ static void make_series(mode_sum *m, double reach)
   }
 }
 
+typedef struct lane_sums {
+  double even[LANES], odd[LANES];
+} lane_sums;
+
+/* Of the series T in x, v = x^2: the sum of even terms, and of odd ones over x. */
+static inline void sum_terms(const double *restrict T, double v, lane_sums *restrict s)
+{
+  *s = (lane_sums){.even = {0}};
+  for (int t = TERMS - 2; t >= 0; t -= 2) {
+    const double *restrict at = T + (size_t)t * LANES;
+    for (int k = 0; k < LANES; ++k) s->even[k] = s->even[k] * v + at[k];
+    for (int k = 0; k < LANES; ++k) s->odd[k] = s->odd[k] * v + at[LANES + k];
+  }
+}
+
+/* Of its derivative: of even terms the sum over x, of odd ones the sum. */
+static inline void sum_derivatives(const double *restrict T, double v, lane_sums *restrict s)
+{
+  *s = (lane_sums){.even = {0}};
+  for (int t = TERMS - 2; t >= 0; t -= 2) {
+    const double *restrict at = T + (size_t)t * LANES;
+    for (int k = 0; k < LANES && t > 0; ++k) s->even[k] = s->even[k] * v + t * at[k];
+    for (int k = 0; k < LANES; ++k) s->odd[k] = s->odd[k] * v + (t + 1) * at[LANES + k];
+  }
+}
+
 /* += the series and, if by_s is not NULL, its derivative, at s = i w. Of v = (s/reach)^2 < 0: even powers are real. */
-static void add_series(const mode_sum *m, double w, int from, int to, double complex *G, double complex *by_s)
+WIDE_VECTORS static void add_series(const mode_sum *m, double w, int from, int to, double complex *G,
+                                    double complex *by_s)
 {
   const double x = w / m->reach, v = -x * x;
-  for (int e = from * m->dim; e < to * m->dim; ++e) {
-    const double *T = m->series + (size_t)e * TERMS;
-    double even = 0, odd = 0, even_slope = 0, odd_slope = 0;
-    for (int t = TERMS - 2; t >= 0; t -= 2) {
-      if (by_s) odd_slope = odd_slope * v + (t + 1) * T[t + 1], even_slope = t ? even_slope * v + t * T[t] : even_slope;
-      even = even * v + T[t], odd = odd * v + T[t + 1];
-    }
-    if (G) G[e - from * m->dim] += even + I * x * odd;
-    if (by_s) by_s[e - from * m->dim] += (odd_slope + I * x * even_slope) / m->reach;
+  const int first = from * m->dim, end = to * m->dim;
+  for (int block = first - first % LANES; block < end; block += LANES) {
+    const double *T = m->series + (size_t)block * TERMS;
+    const int low = block < first ? first - block : 0, high = block + LANES > end ? end - block : LANES;
+    lane_sums s;
+    if (G) sum_terms(T, v, &s);
+    for (int k = low; G && k < high; ++k) G[block + k - first] += s.even[k] + I * x * s.odd[k];
+    if (by_s) sum_derivatives(T, v, &s);
+    for (int k = low; by_s && k < high; ++k) by_s[block + k - first] += (s.odd[k] + I * x * s.even[k]) / m->reach;
   }
 }
 

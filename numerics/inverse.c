@@ -9,6 +9,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "base/wide_vectors.h"
 #include "numerics/product.h"
 
 enum { PANEL = 16 };
@@ -57,8 +58,8 @@ static int find_pivot(const split *s, int k)
 }
 
 /* c += (x + i y) a, of columns; row k of c is to be x + i y alone. */
-static void eliminate(int n, int k, const double *restrict are, const double *restrict aim, double *restrict cre,
-                      double *restrict cim)
+WIDE_VECTORS static void eliminate(int n, int k, const double *restrict are, const double *restrict aim,
+                                   double *restrict cre, double *restrict cim)
 {
   const double x = cre[k], y = cim[k];
   cre[k] = cim[k] = 0;

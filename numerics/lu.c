@@ -5,6 +5,7 @@
 #include <math.h>
 #include <stddef.h>
 
+#include "base/wide_vectors.h"
 #include "numerics/product.h"
 
 /* Of so many unknowns on, columns are taken in panels: the same operations, in an order that the cache likes. */
@@ -22,7 +23,7 @@ static void swap_rows(int n, double *a, int k, int p, int from, int to)
 }
 
 /* Columns from..to-1 of a, whose rows above `from` are done; rows are swapped in these columns alone. */
-static int factor_columns(int n, double *restrict a, int *pivot, int from, int to)
+WIDE_VECTORS static int factor_columns(int n, double *restrict a, int *pivot, int from, int to)
 {
   for (int k = from; k < to; ++k) {
     double *restrict pivot_col = column(a, n, k);
@@ -43,7 +44,7 @@ static int factor_columns(int n, double *restrict a, int *pivot, int from, int t
 }
 
 /* The rows from..to-1 of U in column col, by the unit triangle of the panel. */
-static void solve_in_panel(int n, double *restrict a, int from, int to, double *restrict col)
+WIDE_VECTORS static void solve_in_panel(int n, double *restrict a, int from, int to, double *restrict col)
 {
   for (int k = from; k < to; ++k) {
     const double *restrict pivot_col = column(a, n, k), factor = col[k];
@@ -69,7 +70,7 @@ int lu_factor(int n, double *a, int *pivot)
   return 1;
 }
 
-void lu_solve(int n, const double *restrict a, const int *pivot, double *restrict x)
+WIDE_VECTORS void lu_solve(int n, const double *restrict a, const int *pivot, double *restrict x)
 {
   for (int k = 0; k < n; ++k) {
     double swap = x[k];

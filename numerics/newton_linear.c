@@ -16,6 +16,7 @@
 #include <sunlinsol/sunlinsol_spgmr.h>
 #include <sunmatrix/sunmatrix_dense.h>
 
+#include "base/wide_vectors.h"
 #include "numerics/dense.h"
 #include "numerics/lu.h"
 
@@ -81,7 +82,7 @@ static int setup(SUNLinearSolver ls, SUNMatrix a)
 
 /* ---- Krylov ------------------------------------------------------------------------------------------ */
 
-static int multiply(void *self, N_Vector v, N_Vector z)
+WIDE_VECTORS static int multiply(void *self, N_Vector v, N_Vector z)
 {
   content *c = self;
   const double *restrict A = SUNDenseMatrix_Data(c->matrix), *x = N_VGetArrayPointer(v);

@@ -4,13 +4,16 @@
 
 #include <stddef.h>
 
+#include "base/wide_vectors.h"
+
 enum { ROWS = 128, INNER = 64, STEP = 4 };
 
 static size_t at(int row, int column, int ld) { return (size_t)row + (size_t)column * (size_t)ld; }
 
 /* Four columns c of C -= A[m][4] B[4][4]. That they do not overlap is said where gcc heeds it: at parameters. */
-static void four_by_four(int m, const double *restrict A, int lda, const double *restrict B, int ldb,
-                         double *restrict c0, double *restrict c1, double *restrict c2, double *restrict c3)
+WIDE_VECTORS static void four_by_four(int m, const double *restrict A, int lda, const double *restrict B, int ldb,
+                                      double *restrict c0, double *restrict c1, double *restrict c2,
+                                      double *restrict c3)
 {
   const double *restrict b1 = B + ldb, *restrict b2 = b1 + ldb, *restrict b3 = b2 + ldb;
   for (int i = 0; i < m; ++i) {
@@ -23,7 +26,7 @@ static void four_by_four(int m, const double *restrict A, int lda, const double 
 }
 
 /* One column of C, one column of A at a time. */
-static void one_by_one(int m, int k, const double *A, int lda, const double *b, double *restrict c)
+WIDE_VECTORS static void one_by_one(int m, int k, const double *A, int lda, const double *b, double *restrict c)
 {
   for (int l = 0; l < k; ++l) {
     const double *restrict a = A + at(0, l, lda), factor = b[l];
