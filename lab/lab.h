@@ -67,7 +67,7 @@ int lab_curve_at(lab *l, int force, double omega);
 /* The sampled equations' solution next to each point of the exact curve, at its omega: Newton's from there. It is the
  * response with samples in little time; what has no exact counterpart, as folds of the samples, is not on it. A row
  * as of lab_curve for each point; omega and branch alone where Newton fails, or ends further off than half the motion,
- * at another solution. HC_BAD_INPUT: there is no exact curve. */
+ * at another solution. HC_BAD_INPUT: there is no exact curve, or the samples are too few for the harmonics. */
 int lab_neighbours(lab *l);
 
 /* The same of every exact solution at omega. Errors of hbm_curve_at. */

@@ -86,17 +86,32 @@ static bool is_near(int n, const double *X, const double *exact)
   return norm_2(n, off) <= 0.5 * norm_2(n, exact);
 }
 
+/* Newton from the exact solution at point->omega. Where the Jacobian's jumps lead it round in circles, sampled solutions
+ * at omegas next to it are other places to come from. */
+static hc_status solve_next_to(hbm_solver *s, int n, const double *exact, double *X, hbm_point *point)
+{
+  static const double detours[] = {0, 5e-3, -5e-3, 2e-2, -2e-2, 4e-2, -4e-2}; /* [1] of omega */
+  const double omega = point->omega;
+  hc_status st = HC_NOT_CONVERGED;
+  for (size_t i = 0; i < sizeof detours / sizeof *detours; ++i) {
+    memcpy(X, exact, (size_t)n * sizeof *X);
+    st = detours[i] == 0 ? HC_OK : hbm_solve(s, omega * (1 + detours[i]), X, point);
+    if (st == HC_OK) st = hbm_solve(s, omega, X, point);
+    if (st == HC_NO_MEMORY || (st == HC_OK && is_near(n, X, exact))) return st;
+  }
+  return st == HC_OK ? HC_NOT_CONVERGED : st;
+}
+
 /* Of point k of the exact curve *c; s has samples. */
 static hc_status add_neighbour(lab *l, hbm_solver *s, const hbm_curve *c, int k)
 {
   double X[LAB_MOST_COEF];
   hbm_point point = c->points[k];
-  memcpy(X, hbm_curve_X(c, k), (size_t)c->n_coef * sizeof *X);
-  hc_status st = hbm_solve(s, point.omega, X, &point);
+  const hc_status st = solve_next_to(s, c->n_coef, hbm_curve_X(c, k), X, &point);
+  if (st == HC_NO_MEMORY) return st;
   point.branch = c->points[k].branch;
   const hbm_curve one = {.n = 1, .n_coef = c->n_coef, .points = &point, .X = X};
-  if (st == HC_OK && is_near(c->n_coef, X, hbm_curve_X(c, k))) return add_solution(l, s, &one, 0);
-  if (st == HC_NO_MEMORY) return st;
+  if (st == HC_OK) return add_solution(l, s, &one, 0);
   double *row = lab_row(l);
   if (!row) return HC_NO_MEMORY;
   row[LAB_OMEGA] = c->points[k].omega;

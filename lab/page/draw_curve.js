@@ -36,10 +36,16 @@ function transientMarks(p, transients) {
   return marksOf(p, points, 'cross', 4, 'cross');
 }
 
+/* Of the sampled curve: whole where it is there, else next to the exact one, else that of a case before. */
+function samplesShown(seen, text) {
+  const now = one => (one && one.text === text ? one : null);
+  return now(seen.sampled) || now(seen.neighbours) || seen.sampled || seen.neighbours;
+}
+
 /* Amplitudes shown: all of the exact curve, and of the sampled one what does not shrink that to a line. */
-function amplitudesOf(seen) {
+function amplitudesOf(seen, samples) {
   const largest = table => (table ? columnOf(table, labColumn.amplitude).reduce((a, b) => (b > a ? b : a), 0) : 0);
-  const exact = largest(seen.exact && seen.exact.curve), sampled = largest(seen.sampled && seen.sampled.curve);
+  const exact = largest(seen.exact && seen.exact.curve), sampled = largest(samples && samples.curve);
   return 1.06 * (exact ? Math.max(exact, Math.min(sampled, 1.6 * exact)) : sampled) || 1;
 }
 
@@ -47,14 +53,15 @@ let curvePanel = null;
 
 /* seen: the answers so far, see main.js; text: the case as it is now: what answers another one is drawn faint. */
 function drawCurve(svg, state, seen, text) {
-  const box = boxOf(svg, Math.min(460, Math.max(280, 0.55 * boxOf(svg, 0).width)));
+  const box = boxOf(svg, Math.min(400, Math.max(220, 0.5 * boxOf(svg, 0).width)));
   const [from, to] = [state.from, state.to].sort((a, b) => a - b);
-  const p = panel(box, {from, to, title: 'omega [rad per unit time]'}, {from: 0, to: amplitudesOf(seen), title: 'amplitude of x'});
+  const samples = samplesShown(seen, text), highest = amplitudesOf(seen, samples);
+  const p = panel(box, {from, to, title: 'omega [rad per unit time]'}, {from: 0, to: highest, title: 'amplitude of x'});
   const old = answer => (answer.text === text ? '' : ' old');
-  let inside = lineOf(p, [[state.omega, 0], [state.omega, amplitudesOf(seen)]], 'cursor');
-  if (seen.sampled && seen.sampled.curve) {
-    inside += curveLines(p, seen.sampled.curve, 'curve thin sampled' + old(seen.sampled));
-    if (seen.sampled.specials) inside += `<g class="${old(seen.sampled)}">${specialMarks(p, seen.sampled.specials, true)}</g>`;
+  let inside = lineOf(p, [[state.omega, 0], [state.omega, highest]], 'cursor');
+  if (samples) {
+    inside += curveLines(p, samples.curve, 'curve thin sampled' + old(samples));
+    if (samples.specials) inside += `<g class="${old(samples)}">${specialMarks(p, samples.specials, true)}</g>`;
   }
   if (seen.exact && seen.exact.curve) {
     inside += curveLines(p, seen.exact.curve, 'curve exact' + old(seen.exact));

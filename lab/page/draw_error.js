@@ -35,7 +35,7 @@ function drawErrorOverN(svg, state, errors, measure) {
   const box = boxOf(svg, 320), rows = errors ? errorRows(errors) : [];
   const [low, high] = decadesAround(rows.filter(r => r.N).map(r => r[measure]));
   const samples = inOrder(rows.filter(r => r.N).map(r => r.N));
-  if (!samples.length) return put(svg, box, '');
+  if (!samples.length) return putWords(svg, box, errors ? 'Nothing to measure against.' : whyNothing(null));
   const first = samples[0], last = samples[samples.length - 1];
   const ticks = samples.filter(n => Number.isInteger(Math.log2(n)) && Math.log2(n) % 2 === 0);
   const p = panel(box, {from: first, to: last, log: true, title: 'samples N', ticks}, {from: low, to: high, log: true, title: 'relative error'});
@@ -57,7 +57,7 @@ function keysOf(p, words) {
 
 function drawErrorOverH(svg, state, errors) {
   const box = boxOf(svg, 320), rows = errors ? errorRows(errors).filter(r => !r.N) : [];
-  if (!rows.some(r => r.error > 0)) return put(svg, box, '');
+  if (!rows.some(r => r.error > 0)) return putWords(svg, box, errors ? 'Nothing to measure against.' : whyNothing(null));
   const [low, high] = decadesAround(rows.map(r => r.error)), all = rows.map(r => r.H);
   const p = panel(box, {from: Math.min(...all), to: Math.max(...all), log: true, title: 'harmonics H', ticks: all},
     {from: low, to: high, log: true, title: 'relative error'});

@@ -3,7 +3,8 @@
 
 function drawLoop(svg, state, motion) {
   const box = boxOf(svg, 360);
-  if (!motion || !motion.exact || !state.contacts.length) return put(svg, box, '');
+  if (!motion || !motion.exact) return putWords(svg, box, whyNothing(motion));
+  if (!state.contacts.length) return putWords(svg, box, 'There is no contact.');
   const at = columnsOf(state.look), {exact, samples} = motion;
   const pairs = table => Array.from({length: table.rows}, (_, i) => [table.values[i * table.columns + at.u], table.values[i * table.columns + at.T]]);
   const loop = pairs(exact), [from, to] = rangeOf(loop.map(p => p[0])), [low, high] = rangeOf(loop.concat(pairs(samples)).map(p => p[1]));
@@ -14,7 +15,8 @@ function drawLoop(svg, state, motion) {
 
 /* Work, slip path and forces of the contact shown. */
 function loopWords(state, motion) {
-  if (!motion || !motion.work || state.look >= motion.work.rows) return 'There is no contact.';
+  if (!motion || !motion.work) return whyNothing(motion);
+  if (state.look >= motion.work.rows) return 'There is no contact.';
   const [regime, least, most, traction, path, work] = motion.work.values.subarray(6 * state.look, 6 * state.look + 6);
   const what = ['touches without friction', 'sticks', 'slips', 'separates'][regime];
   return `The contact ${what}; N from ${show(least, 4)} to ${show(most, 4)}, |T| to ${show(traction, 4)}, slip path ${show(path, 4)}, ` +

@@ -11,7 +11,7 @@ const columnsOf = contact => ({u: 2 + 4 * contact, N: 4 + 4 * contact, T: 5 + 4 
 
 function drawSignal(svg, state, motion) {
   const box = boxOf(svg, 360), cut = 120;
-  if (!motion || !motion.exact) return put(svg, box, '');
+  if (!motion || !motion.exact) return putWords(svg, box, whyNothing(motion));
   const {exact, samples} = motion, dots = samples.rows > 256 ? 1.5 : samples.rows > 64 ? 2.2 : 3.5;
   const [low, high] = rangeOf(columnOf(exact, 1));
   const upper = panel(Object.assign({}, box, {bottom: cut}), {from: 0, to: 1, hidden: true}, {from: low, to: high, title: 'x'});

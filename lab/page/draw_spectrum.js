@@ -18,7 +18,7 @@ function drawSpectrum(svg, state, motion) {
   const box = boxOf(svg, 330);
   const list = motion && motion.spectrum ? harmonicsOf(motion.spectrum) : [];
   const largest = Math.max(0, ...list.map(f => f.size));
-  if (!largest) return put(svg, box, '');
+  if (!largest) return putWords(svg, box, motion && motion.spectrum ? 'No contact force: nothing touches.' : whyNothing(motion));
   box.top += 90; /* for the arcs */
   const low = largest * spectrumFloor;
   const p = panel(box, {from: -0.8, to: list.length - 0.2, title: 'harmonic'}, {from: low, to: 1.5 * largest, log: true, title: 'size of the force'});
@@ -56,6 +56,7 @@ function foldingOnto(h, N, H, n) {
 function spectrumWords(state, motion) {
   const list = motion && motion.spectrum ? harmonicsOf(motion.spectrum) : [];
   const f = list[state.harmonic];
+  if (!list.length) return whyNothing(motion);
   if (!f || state.harmonic > state.H) return `Harmonics 0 to ${state.H} are kept: look at one of them.`;
   const first = foldingOnto(f.h, state.N, state.H, 4).join(', ');
   const beyond = state.N - f.h > list.length - 1 ? ` All of them are beyond harmonic ${list.length - 1}, where the drawing ends.` : '';

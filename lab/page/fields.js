@@ -24,6 +24,14 @@ const sliderSteps = 400;
 
 const fieldFits = (field, v) => isFinite(v) && !(v < field.min) && !(v > field.max) && !(v <= field.above) && (!field.whole || Number.isInteger(v));
 
+/* What a field wants, in words. */
+function wantedOf(field) {
+  const kind = field.whole ? 'a whole number' : 'a number';
+  if (field.above !== undefined) return `${kind} above ${field.above}`;
+  if (field.max !== undefined) return `${kind} from ${field.min} to ${field.max}`;
+  return field.min !== undefined ? `${kind} not below ${field.min}` : kind;
+}
+
 /* [from, to] of the field's slider. */
 function sliderEnds(field, home, homeState) {
   if (field.from !== undefined) return [field.from, field.to];
@@ -49,7 +57,7 @@ function positionOf(field, [from, to], v) {
 /* A field's element; set(v) shows v. onChange(v, moving). */
 function fieldElement(field, id, home, homeState, onChange) {
   const all = document.createElement('div'), label = document.createElement('label');
-  const number = document.createElement('input'), slider = document.createElement('input');
+  const number = document.createElement('input'), slider = document.createElement('input'), mistake = document.createElement('span');
   const ends = sliderEnds(field, home, homeState);
   all.className = 'field';
   Object.assign(number, {type: 'number', step: field.whole ? 1 : 'any', id});
@@ -57,19 +65,29 @@ function fieldElement(field, id, home, homeState, onChange) {
   if (field.max !== undefined) number.max = field.max;
   Object.assign(slider, {type: 'range', min: 0, max: sliderSteps, step: 1, id: id + '-slider'});
   slider.setAttribute('aria-label', field.name + ', slider');
+  Object.assign(mistake, {className: 'mistake', id: id + '-mistake'});
+  mistake.setAttribute('role', 'alert');
+  number.setAttribute('aria-describedby', mistake.id);
   label.append(field.name, number);
-  all.append(label, slider);
+  all.append(label, slider, mistake);
+  const judge = fits => {
+    number.setCustomValidity(fits ? '' : wantedOf(field));
+    number.setAttribute('aria-invalid', !fits);
+    mistake.textContent = fits ? '' : `Wanted is ${wantedOf(field)}.`;
+  };
   number.addEventListener('input', () => {
     const v = number.value === '' ? NaN : Number(number.value), fits = fieldFits(field, v);
-    number.setCustomValidity(fits ? '' : 'Not a value this can have');
+    judge(fits);
     if (fits) onChange(v, false);
   });
   const slid = moving => () => onChange(valueAt(field, ends, Number(slider.value)), moving);
   slider.addEventListener('input', slid(true));
   slider.addEventListener('change', slid(false));
   const set = v => {
-    if (document.activeElement !== number) number.value = +Number(v).toPrecision(8);
-    if (document.activeElement !== number) number.setCustomValidity('');
+    if (document.activeElement !== number) {
+      number.value = +Number(v).toPrecision(8);
+      judge(true);
+    }
     slider.value = positionOf(field, ends, v);
     slider.setAttribute('aria-valuetext', show(v, 6));
   };
@@ -127,9 +145,11 @@ function contactFields(home, i, onChange) {
     grid.append(made.all);
     fieldSetters.push(s => s.contacts[i] && made.set(s.contacts[i][field.key]));
   }
-  Object.assign(remove, {type: 'button', textContent: 'Remove contact ' + (i + 1)});
+  Object.assign(remove, {type: 'button', textContent: 'Remove'});
+  remove.setAttribute('aria-label', 'Remove contact ' + (i + 1));
   remove.addEventListener('click', () => onChange(s => s.contacts.splice(i, 1), false, true));
-  set.append(legend, grid, remove);
+  grid.append(remove);
+  set.append(legend, grid);
   return set;
 }
 

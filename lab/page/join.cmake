@@ -1,6 +1,6 @@
 # join.cmake - the page as one file: cmake -DOUTPUT=lab.html -DMODULE=lab.js -DSOURCE=lab/page -DCLIENT=lab/lab_client.js -DCASES=cases/paper -P join.cmake
 set(shared ${CLIENT} ${SOURCE}/state.js ${SOURCE}/case_text.js ${SOURCE}/lesson_numbers.js) # the page and its worker both have these
-set(own presets plot draw_curve draw_signal draw_loop draw_spectrum draw_error fields ask lesson main)
+set(own presets plot draw_curve draw_signal draw_loop draw_spectrum draw_error numbers fields ask lesson main)
 list(TRANSFORM own REPLACE "(.+)" "${SOURCE}/\\1.js")
 
 function(join_files name)

@@ -1,17 +1,22 @@
 /* main.js - the state, what the library has answered to it, and what is drawn when. Two workers: `exact` answers at once
- * and tells the motion, transients and errors; `sampled`, which may take long, the sampled curve and its motion.
- *   seen {exact, sampled: {text, curve, specials, transients}, motion, errors}: the newest answers; text: their case */
+ * and tells the sampled solutions next to its curve, the motion, transients and errors; `sampled`, which may take long,
+ * the whole sampled curve and its motion. While one drags, only what answers at once is asked.
+ *   seen {exact, sampled, neighbours: {text, curve, specials, transients}, motion, errors}: the newest answers; text:
+ *   their case */
 'use strict';
 
 const problems = [];
 window.addEventListener('error', event => problems.push(event.message));
 
 let state = null;
-const seen = {exact: null, sampled: null, motion: null, errors: null};
+const seen = {exact: null, sampled: null, neighbours: null, motion: null, errors: null};
 const times = {asked: 0, drawn: []}; /* [ms] from a change to everything of it drawn, the newest last; read by tests */
 let moving = false;
 let workers = null;
 let dirty = new Set();
+let libraryIsThere = false;
+const resting = 400; /* [ms] without a change, though the hand is still on: then the rest is asked, too */
+let restTimer = 0;
 
 /* ---- asking ---- */
 
@@ -19,10 +24,19 @@ let dirty = new Set();
 const textNow = () => questionText(Object.assign({}, state, {title: '', sampled: false}));
 
 function askAll() {
+  const whole = current(seen.sampled), neighbour = state.sampled && !whole;
   const job = {text: textNow(), omega: state.omega, near: state.near, samples: state.N, shown: shownHarmonics(state), more: !moving};
   times.asked = performance.now();
-  workers.exact.ask(Object.assign({force: labForce.exact, motion: !state.sampled}, job));
-  workers.sampled.ask(Object.assign({force: labForce.sampled, motion: state.sampled}, job));
+  workers.exact.ask(Object.assign({force: labForce.exact, motion: !state.sampled || neighbour, neighbour}, job));
+  if (!moving || whole) workers.sampled.ask(Object.assign({force: labForce.sampled, motion: state.sampled}, job));
+  clearTimeout(restTimer);
+  if (moving) restTimer = setTimeout(rest, resting);
+}
+
+function rest() {
+  moving = false;
+  askAll();
+  mark('motion');
 }
 
 /* The state is changed by change(state) and drawn anew; rebuild: there are other fields than before. */
@@ -60,15 +74,20 @@ function onExact(part) {
     curve: () => Object.assign(seen, {exact: {text: part.text, curve: part.curve}}),
     specials: () => seen.exact && (seen.exact.specials = part.specials),
     transients: () => seen.exact && (seen.exact.transients = part.transients),
-    motion: () => (seen.motion = part),
+    neighbours: () => (seen.neighbours = {text: part.text, curve: part.curve}),
+    motion: () => part.neighbour && current(seen.sampled) || (seen.motion = part),
     errors: () => (seen.errors = part),
     read: () => afterReading(part),
     lesson: () => afterLesson(part),
+    ready: () => {
+      libraryIsThere = true;
+      drawEverything();
+    },
     refused: () => say(part.message, 'bad')
   }[part.part];
   if (take) take();
   if (part.part === 'drawn') tellTime();
-  mark({curve: 'curve', specials: 'curve', transients: 'curve', motion: 'motion', errors: 'errors'}[part.part]);
+  mark({curve: 'curve', specials: 'curve', transients: 'curve', neighbours: 'curve', motion: 'motion', errors: 'errors'}[part.part]);
 }
 
 function onSampled(part) {
@@ -78,9 +97,20 @@ function onSampled(part) {
   mark({curve: 'curve', specials: 'curve', motion: 'motion'}[part.part]);
 }
 
+let speakTimer = 0;
+
+/* For screen readers the same, when it has stood still: not every step of a drag. */
 function say(text, kind) {
   $('status').className = 'verdict ' + (kind || '');
   $('status').textContent = text;
+  clearTimeout(speakTimer);
+  speakTimer = setTimeout(() => ($('spoken').textContent = text), 700);
+}
+
+/* Why a drawing of the motion is empty. */
+function whyNothing(motion) {
+  if (!libraryIsThere) return 'The library is starting.';
+  return motion ? `No solution at omega = ${show(motion.omega)}.` : 'Computing.';
 }
 
 /* The sampled curve and the errors may be on their way: this is what a drag waits for. */
@@ -107,6 +137,7 @@ function draw() {
   if (what.has('errors')) drawErrors();
 }
 
+const countFound = curve => columnOf(curve, labColumn.amplitude).filter(isFinite).length;
 const countKind = (specials, kind) => (specials ? columnOf(specials, 3).filter(k => k === kind).length : NaN);
 
 function drawResponse() {
@@ -122,15 +153,17 @@ function drawResponse() {
   $('curve-words').textContent = curveWords();
   const row = (name, of, table, ms) => `<tr><td>${name}</td><td>${of && table ? table.rows : '-'}</td>` +
     `<td>${show(countKind(of && of.specials, 0))}</td><td>${show(ms, 3)}</td></tr>`;
-  const {exact, errors} = seen, sampled = current(seen.sampled);
+  const {exact, errors} = seen, sampled = current(seen.sampled), neighbours = current(seen.neighbours);
   $('cost').tBodies[0].innerHTML = [
     row('curve, exact forces', exact, exact && exact.curve, exact && exact.curve.ms),
-    row(`curve, N = ${state.N}`, sampled, sampled && sampled.curve, sampled && sampled.curve.ms),
+    row(`whole curve, N = ${state.N}`, sampled, sampled && sampled.curve, sampled && sampled.curve.ms),
+    row(`N = ${state.N}, next to the exact solutions`, neighbours, neighbours && {rows: countFound(neighbours.curve)}, neighbours && neighbours.curve.ms),
     row('steady states by time integration, exact law in closed form', null, null, exact && exact.transients && exact.transients.ms)
       .replace('<td>-</td>', `<td>${exact && exact.transients ? exact.transients.rows : '-'}</td>`),
     row('the motion shown: solving, forces, spectrum', null, null, seen.motion && seen.motion.ms),
     row('all errors over N and H', null, null, errors && errors.errors.ms)
   ].join('');
+  drawCurveNumbers(seen);
 }
 
 /* What is of the case as it is now. */
@@ -138,8 +171,10 @@ const current = one => (one && one.text === textNow() ? one : null);
 
 function curveWords() {
   const exact = current(seen.exact), sampled = current(seen.sampled), {motion} = seen, words = [];
-  if (!sampled) words.push('The sampled curve is on its way.');
-  if (exact && exact.curve.status !== 0) words.push(`The exact curve ends early: ${exact.curve.message}.`);
+  if (!exact) return libraryIsThere ? 'The curve is on its way.' : whyNothing(null);
+  if (state.N < 2 * state.H + 2) return `${state.N} samples cannot tell ${state.H} harmonics apart: at least 2 H + 2 = ${2 * state.H + 2} are needed.`;
+  if (!sampled) words.push('With samples, the solutions next to the exact ones are drawn; the whole curve, with what else it may have, is on its way.');
+  if (exact.curve.status !== 0) words.push(`The exact curve ends early: ${exact.curve.message}.`);
   if (sampled && sampled.curve.status !== 0) words.push(`The sampled curve ends early: ${sampled.curve.message}.`);
   const [a, b] = [exact, sampled].map(one => countKind(one && one.specials, 0));
   if (b > a) words.push(`The sampled curve has ${b} folds, the exact one ${a}: the others are of the samples, not of the oscillator.`);
@@ -156,6 +191,7 @@ function drawMotion() {
   $('spectrum-words').textContent = spectrumWords(state, motion);
   $('harmonics').tBodies[0].innerHTML = harmonicRows(state, motion);
   $('motion-words').textContent = motionWords(motion);
+  drawMotionNumbers(state, motion);
   if (document.activeElement !== $('harmonic')) $('harmonic').value = state.harmonic;
   $('look').value = state.look;
   showSolutions(motion);
@@ -168,7 +204,7 @@ const statusWords = motion => `At omega = ${show(motion.omega)}: ${motion.soluti
   `shown is the one of ${solutionName(motion.solutions[motion.chosen])}.`;
 
 function motionWords(motion) {
-  if (!motion || motion.chosen < 0) return 'There is no solution here.';
+  if (!motion || motion.chosen < 0) return whyNothing(motion);
   const row = motion.solutions[motion.chosen];
   return `${state.sampled ? `Solved with ${state.N} samples` : 'Solved with exact forces'}, H = ${state.H}, omega = ${show(motion.omega)}: ` +
     `amplitude ${show(row[labColumn.amplitude], 6)}, mean ${show(row[labColumn.mean], 4)}, largest Floquet multiplier ${show(row[labColumn.multiplier], 4)}; ` +
@@ -285,12 +321,14 @@ function startControls() {
   dragCurve($('draw-curve'), (to, isMoving) => alter(s => Object.assign(s, to), isMoving));
   $('draw-curve').addEventListener('keydown', onCurveKey);
   $('omega').addEventListener('input', () => Number($('omega').value) > 0 && alter(s => (s.omega = Number($('omega').value)), false));
+  $('omega').addEventListener('blur', () => mark('curve')); /* it may lie outside the sweep */
   $('solution').addEventListener('change', () => alter(s => (s.near = seen.motion.solutions[$('solution').selectedIndex][labColumn.amplitude]), false));
   $('look').addEventListener('change', () => alter(s => (s.look = Number($('look').value)), false));
   $('harmonic').addEventListener('input', () => {
     const h = Number($('harmonic').value);
     if (Number.isInteger(h) && h >= 0 && h <= mostShown) alter(s => (s.harmonic = h), false);
   });
+  document.querySelectorAll('details').forEach(one => one.addEventListener('toggle', drawEverything));
   $('measure').addEventListener('change', () => mark('errors'));
   $('copy-address').addEventListener('click', () => {
     keep();
@@ -303,9 +341,10 @@ function startControls() {
     if (file) readCaseText(await file.text());
   });
   document.querySelectorAll('nav a').forEach(link => link.addEventListener('click', event => {
+    const heading = $(link.dataset.go).querySelector('h2');
     event.preventDefault(); /* the address is the state's */
-    $(link.dataset.go).scrollIntoView();
-    $(link.dataset.go).focus({preventScroll: true});
+    heading.scrollIntoView();
+    heading.focus({preventScroll: true});
   }));
 }
 
@@ -322,6 +361,7 @@ function start() {
   });
   const given = $('case-given').textContent, addressed = stateOfAddress(location.hash, firstState);
   take(addressed || copyOf(firstState));
+  drawEverything();
   if (!addressed && given.trim()) readCaseText(given);
 }
 

@@ -76,6 +76,11 @@ function put(svg, box, content) {
   svg.innerHTML = content;
 }
 
+/* A drawing without anything to draw says why. */
+function putWords(svg, box, words) {
+  put(svg, box, `<text x="${box.width / 2}" y="${box.height / 2}" text-anchor="middle">${plain(words)}</text>`);
+}
+
 /* points: [x, y] pairs; where a number is missing the line is broken. */
 function lineOf(p, points, classes) {
   let d = '', pen = 'M';

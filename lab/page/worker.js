@@ -1,13 +1,16 @@
 /* worker.js - the library in a worker, after lab.js, lab_client.js, state.js, case_text.js and lesson_numbers.js. A job is
  *   {number, text, force, motion, omega, near, samples, shown, more}   or {number, read: text} or {number, lesson}
  * and is answered by parts {number, part, ...}: `curve` where the case is another than before; with `motion`, what the
- * solution at omega with the amplitude next to `near` is like; `drawn`; and with `more`, unless a newer job has come,
- * `specials`, `transients` and `errors`; `end`. */
+ * solution at omega with the amplitude next to `near` is like, of `force` or, with `neighbour`, the sampled one next to
+ * an exact one; of exact forces the `neighbours` with samples; `drawn`; and with `more`, unless a newer job has come,
+ * `specials`, `transients` and `errors`; `end`. The first part ever is `ready`. */
 'use strict';
 
 const shownInstants = 512, transientPoints = 14;
 let lab = null, waiting = null, running = false;
-const known = {text: null, curve: null, more: null};
+const known = {text: null, curve: null, neighbours: null, more: null};
+
+const forget = () => Object.keys(known).forEach(key => (known[key] = null));
 
 const say = (job, part, more) => postMessage(Object.assign({number: job.number, part}, more));
 
@@ -19,7 +22,7 @@ function timed(f) {
 /* Is the job's case read, and its curve there? */
 function readCase(job) {
   if (known.text === job.text) return true;
-  known.text = known.curve = known.more = null;
+  forget();
   const read = lab.read(job.text);
   if (read.status === 0) known.text = job.text;
   else say(job, 'refused', {message: read.message});
@@ -30,6 +33,13 @@ function traceCurve(job) {
   if (known.curve) return;
   known.curve = timed(() => lab.curve(job.force));
   say(job, 'curve', {text: job.text, curve: known.curve});
+}
+
+/* The sampled solutions next to the points of the exact curve: much sooner there than the sampled curve. */
+function followSamples(job) {
+  if (known.neighbours) return;
+  known.neighbours = timed(() => lab.neighbours());
+  say(job, 'neighbours', {text: job.text, curve: known.neighbours});
 }
 
 const rowOf = (table, i) => table.values.slice(i * table.columns, (i + 1) * table.columns);
@@ -43,15 +53,16 @@ function nearest(rows, near) {
 
 function describeMotion(job) {
   const from = performance.now();
-  const at = lab.curveAt(job.force, job.omega);
-  const solutions = Array.from({length: at.rows}, (_, i) => rowOf(at, i));
+  const at = job.neighbour ? lab.neighboursAt(job.omega) : lab.curveAt(job.force, job.omega);
+  const solutions = Array.from({length: at.rows}, (_, i) => rowOf(at, i)).filter(row => isFinite(row[labColumn.amplitude]));
   const chosen = nearest(solutions, job.near);
-  if (chosen < 0) return say(job, 'motion', {omega: job.omega, solutions, chosen, message: at.message});
+  const common = {omega: job.omega, solutions, chosen, neighbour: job.neighbour};
+  if (chosen < 0) return say(job, 'motion', Object.assign(common, {message: at.message}));
   lab.motion(solutionOf(solutions[chosen]));
   const exact = lab.signal(labForce.exact, shownInstants), samples = lab.signal(labForce.sampled, job.samples);
   const spectrum = lab.spectrum(job.samples, job.shown), work = lab.work();
   const message = [exact, samples, spectrum, work].map(answer => answer.message).find(text => text) || '';
-  say(job, 'motion', {omega: job.omega, solutions, chosen, message, exact, samples, spectrum, work, ms: performance.now() - from});
+  say(job, 'motion', Object.assign(common, {message, exact, samples, spectrum, work, ms: performance.now() - from}));
 }
 
 function sayMore(job) {
@@ -77,6 +88,7 @@ async function answer(job) {
   if (!readCase(job)) return;
   traceCurve(job);
   if (job.motion) describeMotion(job);
+  if (job.force === labForce.exact) followSamples(job);
   say(job, 'drawn');
   if (!job.more) return;
   await breath();
@@ -102,30 +114,34 @@ function tellErrors(job) {
 }
 
 function readForeign(job) {
-  known.text = known.curve = known.more = null;
+  forget();
   const read = lab.read(job.read);
   if (read.status !== 0) return say(job, 'read', {message: read.message});
   say(job, 'read', {message: '', state: stateOfCase(lab.caseTable(), lab.title())});
 }
 
 function tellLesson(job) {
-  known.text = known.curve = known.more = null;
+  forget();
   say(job, 'lesson', {step: job.lesson, told: lessonNumbers[job.lesson](lab)});
+}
+
+async function begin(job) {
+  lab = labClient(await hbmcheckLab());
+  say(job, 'ready');
 }
 
 async function run() {
   running = true;
-  if (!lab) lab = labClient(await hbmcheckLab());
   while (waiting) {
     const job = waiting;
     waiting = null;
     try {
+      if (!lab) await begin(job);
       await answer(job);
     } catch (error) {
-      lab = null; /* whatever it has left behind: a new one */
-      known.text = known.curve = known.more = null;
+      lab = null; /* whatever it has left behind: a new one for the next job */
+      forget();
       say(job, 'refused', {message: String(error.message || error)});
-      lab = labClient(await hbmcheckLab());
     }
     say(job, 'end');
   }

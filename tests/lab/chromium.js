@@ -3,9 +3,9 @@
 const {spawn} = require('child_process');
 const fs = require('fs'), os = require('os'), path = require('path');
 
-/* open(program, address, {width, height, dark}): a page, with the network off. {evaluate, key, pointer, picture, media, close, lines}: lines are what
- * came on the console and what was thrown. */
-async function open(program, address, {width = 1400, height = 900, dark = false} = {}) {
+/* open(program, address, {width, height, dark, before}): a page, with the network off; before: a script that runs ahead of its own. {evaluate, key, pointer,
+ * picture, paper, tree, close, lines}: tree() is what a screen reader is told, lines are what came on the console and what was thrown. */
+async function open(program, address, {width = 1400, height = 900, dark = false, before = ''} = {}) {
   const profile = fs.mkdtempSync(path.join(os.tmpdir(), 'hbmcheck-lab-'));
   const browser = spawn(program, ['--headless=new', '--no-sandbox', '--disable-gpu', '--disable-dev-shm-usage', '--no-first-run',
     '--remote-debugging-pipe', `--user-data-dir=${profile}`, 'about:blank'], {stdio: ['ignore', 'ignore', 'ignore', 'pipe', 'pipe']});
@@ -41,6 +41,7 @@ async function open(program, address, {width = 1400, height = 900, dark = false}
   await send('Network.emulateNetworkConditions', {offline: true, latency: 0, downloadThroughput: 0, uploadThroughput: 0});
   await send('Emulation.setDeviceMetricsOverride', {width, height, deviceScaleFactor: 1, mobile: false});
   await send('Emulation.setEmulatedMedia', {features: [{name: 'prefers-color-scheme', value: dark ? 'dark' : 'light'}]});
+  await send('Page.addScriptToEvaluateOnNewDocument', {source: before});
   await send('Page.navigate', {url: address});
 
   return {
@@ -67,6 +68,7 @@ async function open(program, address, {width = 1400, height = 900, dark = false}
       const {data} = await send('Page.printToPDF', {printBackground: false});
       fs.writeFileSync(file, Buffer.from(data, 'base64'));
     },
+    tree: async () => (await send('Accessibility.getFullAXTree')).nodes,
     async close() {
       browser.kill();
       await new Promise(done => browser.exitCode === null && browser.signalCode === null ? browser.on('exit', done) : done());

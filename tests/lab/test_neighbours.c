@@ -99,6 +99,23 @@ static void every_point_has_its_row(void **state)
   lab_free(l);
 }
 
+/* There Newton goes round in circles from the exact solution: samples come into contact and leave it by turns. The
+ * sampled solution is on the sampled curve all the same. */
+static void jumping_jacobians_are_got_round(void **state)
+{
+  (void)state;
+  static double sampled[MOST_ROWS][LAB_SOLUTION + COEF];
+  lab *l = lab_of(6000, 64);
+  assert_int_equal(lab_curve(l, LAB_SAMPLED), HC_OK);
+  assert_int_equal(lab_curve_at(l, LAB_SAMPLED, 7), HC_OK);
+  assert_int_equal(rows_of(l, sampled), 1);
+  assert_int_equal(lab_curve(l, LAB_EXACT), HC_OK);
+  assert_int_equal(lab_neighbours_at(l, 7), HC_OK);
+  assert_int_equal(lab_rows(l), 1);
+  CHECK_LE(difference(row(l, 0), sampled[0]), 1e-10, "residuals of 1e-13, as above");
+  lab_free(l);
+}
+
 /* Nearly rigid, and 24 samples: of some points Newton ends at another solution, and of some nowhere. */
 static void another_solution_is_no_neighbour(void **state)
 {
@@ -137,9 +154,8 @@ static void without_a_curve_there_are_none(void **state)
 }
 
 static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(neighbours_solve_the_sampled_equations),
-    cmocka_unit_test(every_point_has_its_row),
-    cmocka_unit_test(another_solution_is_no_neighbour),
+    cmocka_unit_test(neighbours_solve_the_sampled_equations), cmocka_unit_test(every_point_has_its_row),
+    cmocka_unit_test(jumping_jacobians_are_got_round),        cmocka_unit_test(another_solution_is_no_neighbour),
     cmocka_unit_test(without_a_curve_there_are_none),
 };
 CHECK_MAIN("lab.neighbours", tests, 60)

@@ -1,0 +1,168 @@
+/* reader.js CHROMIUM LAB_HTML - what the page says and shows, in headless Chromium: while the library starts; with samples while one drags; to a screen reader
+ * (Chromium's accessibility tree): every control has a name of its own, every drawing a name and a description, its numbers a table; mistakes in words; fields and
+ * curve together on wide screens and on a phone. Exit 1: something does not hold. */
+'use strict';
+const path = require('path');
+const {open} = require('./chromium.js');
+const {until, still, exactDrawn, middleOf} = require('./page.js');
+
+const [chromium, page] = process.argv.slice(2);
+const address = 'file://' + path.resolve(page);
+let failed = 0;
+
+function check(good, words) {
+  if (good) return;
+  ++failed;
+  console.log('NOT SO: ' + words);
+}
+
+/* ---- starting ---- */
+
+/* Workers that hear nothing until letGo(). */
+const heldWorkers = `const held = [], Real = Worker;
+window.Worker = class extends Real { postMessage(m) { held ? held.push([this, m]) : super.postMessage(m); } };
+window.letGo = () => { window.Worker = Real; for (const [worker, m] of held.splice(0)) Real.prototype.postMessage.call(worker, m); };`;
+
+async function startingIsSaid() {
+  const p = await open(chromium, address, {before: heldWorkers});
+  await until(p, 'typeof workers !== "undefined" && workers && !dirty.size');
+  const text = await p.evaluate('document.querySelector("main").innerText + $("status").innerText + Array.from(document.querySelectorAll("svg"), s => s.textContent).join()');
+  for (const id of ['status', 'motion-words', 'loop-words', 'spectrum-words', 'curve-words', 'draw-signal', 'draw-loop', 'draw-spectrum', 'draw-error-n', 'draw-error-h'])
+    check(await p.evaluate(`$('${id}').textContent === 'The library is starting.'`), id + ' says that the library is starting');
+  check(!/no solution|no contact|nothing/i.test(text), 'nothing is said to be missing while the library starts');
+  await p.evaluate('letGo()');
+  await still(p);
+  check(!/starting/.test(await p.evaluate('document.body.innerText')), 'it has started');
+  await p.close();
+}
+
+/* ---- samples while one drags ---- */
+
+const sampledPath = 'document.querySelector("#draw-curve path.sampled:not(.old)")';
+
+async function samplesFollowTheHand(p) {
+  for (const sampled of [false, true]) {
+    await p.evaluate(`take(Object.assign(copyOf(firstState), {sampled: ${sampled}}))`);
+    await still(p);
+    const at = await middleOf(p, 'contact-0-kn-slider');
+    await p.pointer('mousePressed', at.x, at.y);
+    for (let i = 1; i <= 5; ++i) await p.pointer('mouseMoved', at.x + 4 * i, at.y);
+    await until(p, 'moving && seen.neighbours && seen.neighbours.text === textNow() && !dirty.size', 'the sampled solutions next to the exact ones are there while dragging');
+    check(await p.evaluate(`!current(seen.sampled) && !!${sampledPath}`), 'and they are drawn before the whole curve is there');
+    if (sampled) check(await p.evaluate('seen.motion.neighbour && seen.motion.chosen >= 0 && seen.motion.spectrum.rows > 10'), 'so is the motion with samples');
+    await still(p); /* the hand rests, still on the slider */
+    check(await p.evaluate('seen.sampled.curve.rows > 500 && !moving'), 'then the whole curve comes');
+    if (sampled) await until(p, 'seen.motion && !seen.motion.neighbour && seen.motion.chosen >= 0', 'and its motion');
+    await p.pointer('mouseReleased', at.x + 20, at.y);
+    await still(p);
+  }
+  await p.evaluate('take(copyOf(firstState))');
+  await still(p);
+}
+
+/* ---- a screen reader ---- */
+
+const controls = ['button', 'textbox', 'spinbutton', 'slider', 'combobox', 'MenuListPopup', 'link', 'DisclosureTriangle', 'Pre', 'checkbox', 'radio'];
+const named = [...controls, 'table', 'region', 'image', 'img', 'group', 'navigation', 'form'];
+const valueOf = field => (field ? String(field.value).trim() : '');
+
+async function everythingHasAName(p) {
+  const nodes = (await p.tree()).filter(node => !node.ignored), role = node => valueOf(node.role);
+  const own = nodes.filter(node => controls.includes(role(node)) && role(node) !== 'MenuListPopup');
+  check(own.length > 40, own.length + ' controls in the tree');
+  for (const node of nodes.filter(n => named.includes(role(n)) && !['group', 'form', 'MenuListPopup'].includes(role(n))))
+    check(valueOf(node.name), `a ${role(node)} without a name: ${JSON.stringify(node.properties)}`);
+  const names = own.map(node => role(node) + ' ' + valueOf(node.name));
+  const twice = names.filter((name, i) => names.indexOf(name) !== i);
+  check(!twice.length, 'two controls of one name: ' + twice.join('; '));
+  const drawings = nodes.filter(node => /^ima?ge?$/.test(role(node)) || valueOf(node.name) === 'omega on the response curve');
+  check(drawings.length === 6, drawings.length + ' drawings');
+  for (const node of drawings) check(valueOf(node.description).length > 20, `the drawing "${valueOf(node.name)}" has a description: "${valueOf(node.description)}"`);
+  check(nodes.filter(node => role(node) === 'heading').length >= 10, 'headings');
+  check(nodes.some(node => role(node) === 'status'), 'a live region');
+  const slider = nodes.find(node => valueOf(node.name) === 'omega on the response curve');
+  const words = await p.evaluate('$("draw-curve").getAttribute("aria-valuetext")'); /* the tree has it empty, of every slider */
+  check(role(slider) === 'slider' && valueOf(slider.value) === '7' && /^omega 7, amplitude 9\.99/.test(words), 'omega as a slider has a value in words: ' + words);
+}
+
+/* What is spoken is the state when it stands still, not each step. */
+async function stepsAreNotSpoken(p) {
+  await p.evaluate('window.spoken = []; new MutationObserver(() => spoken.push($("spoken").textContent)).observe($("spoken"), {childList: true, characterData: true, subtree: true})');
+  for (const omega of [5, 5.5, 6, 6.5]) {
+    await p.evaluate(`alter(s => (s.omega = ${omega}), true)`);
+    await exactDrawn(p);
+  }
+  await until(p, 'spoken.length && spoken[spoken.length - 1] === $("status").textContent && /omega = 6.5/.test($("status").textContent)', 'the last step is spoken');
+  check(await p.evaluate('spoken.length < 4'), 'not every step: ' + await p.evaluate('spoken.join("; ")'));
+}
+
+const numbersOf = (p, id) => p.evaluate(`Array.from($('${id}').tBodies[0].rows, row => Array.from(row.cells, cell => cell.textContent))`);
+
+async function drawingsHaveTheirNumbers(p) {
+  check((await numbersOf(p, 'curve-table')).length === 0, 'a closed table is not filled');
+  await p.evaluate('document.querySelectorAll("details").forEach(one => (one.open = true))');
+  await until(p, '$("curve-table").tBodies[0].rows.length && $("motion-table").tBodies[0].rows.length', 'tables are filled when opened');
+  const curve = await numbersOf(p, 'curve-table'), specials = await numbersOf(p, 'special-table'), motion = await numbersOf(p, 'motion-table');
+  check(curve.length === await p.evaluate('seen.exact.curve.rows'), 'a row for each point of the curve');
+  const sampled = curve.filter(row => row[2] !== '-'), off = sampled.map(row => Math.abs(row[2] - row[1]) / row[1]);
+  check(sampled.length > 0.9 * curve.length && Math.max(...off) < 0.5 && Math.max(...off) > 1e-3, 'amplitudes with samples beside the exact ones');
+  check(specials.filter(row => row[0] === 'fold').length === 2, 'two folds: ' + specials.map(row => row[0]).join());
+  check(motion.length === 32 && motion.every(row => row.length === 5 && row.every(cell => isFinite(cell))), 'the motion and the loop in numbers');
+  check(Math.max(...motion.map(row => row[3])) > 1000 && motion.some(row => row[3] === '0'), 'a contact that opens and closes');
+  await p.evaluate('document.querySelectorAll("details").forEach(one => (one.open = false))');
+}
+
+/* ---- mistakes ---- */
+
+async function mistakesAreToldInWords(p) {
+  await p.evaluate('$("field-mass").focus(); $("field-mass").select()');
+  await p.key('-', 'Minus', '-');
+  await p.key('1', 'Digit1', '1');
+  check(await p.evaluate('$("field-mass-mistake").textContent') === 'Wanted is a number above 0.', 'a mistake in a field is told in words');
+  check(await p.evaluate('$("field-mass").getAttribute("aria-invalid") === "true" && state.mass === 1'), 'and not taken');
+  await p.evaluate('$("field-mass").value = "1"; $("field-mass").dispatchEvent(new Event("input"))');
+  check(await p.evaluate('$("field-mass-mistake").textContent === "" && $("field-mass").getAttribute("aria-invalid") === "false"'), 'it goes when it is mended');
+  await p.evaluate('take(Object.assign(copyOf(firstState), {N: 16}))');
+  await until(p, '/2 H \\+ 2 = 22/.test($("curve-words").textContent)', 'too few samples for H are told');
+  await p.evaluate('take(copyOf(firstState))');
+  await still(p);
+}
+
+/* ---- together on the screen ---- */
+
+async function fieldsAndCurveAreTogether(width, height) {
+  const p = await open(chromium, address, {width, height});
+  await until(p, 'typeof seen !== "undefined" && seen.motion && !dirty.size');
+  for (const id of ['field-mass', 'field-N', 'contact-0-mu-slider', 'contact-0-gap']) {
+    await p.evaluate(`$('${id}').focus(); $('${id}').scrollIntoView({block: 'nearest'})`);
+    const [field, curve] = await p.evaluate(`['${id}', 'draw-curve'].map(one => { const b = $(one).getBoundingClientRect(); return {top: b.top, bottom: b.bottom, left: b.left, right: b.right}; })`);
+    check(curve.top >= 0 && curve.bottom <= height + 1 && field.top >= 0 && field.bottom <= height, `${width} px: ${id} and the curve are both on the screen`);
+    check(field.bottom <= curve.top || field.right <= curve.left, `${width} px: the curve does not hide ${id}`);
+  }
+  await p.close();
+}
+
+async function main() {
+  await startingIsSaid();
+  const p = await open(chromium, address);
+  await until(p, 'typeof seen !== "undefined"');
+  await still(p);
+  await everythingHasAName(p);
+  await stepsAreNotSpoken(p);
+  await p.evaluate('take(copyOf(firstState))');
+  await still(p);
+  await drawingsHaveTheirNumbers(p);
+  await mistakesAreToldInWords(p);
+  await samplesFollowTheHand(p);
+  check(!p.lines.length, 'on the console: ' + p.lines.join('\n').slice(0, 2000));
+  await p.close();
+  await fieldsAndCurveAreTogether(380, 700);
+  await fieldsAndCurveAreTogether(1400, 900);
+  console.log(failed ? failed + ' things do not hold' : 'all holds');
+  process.exit(failed ? 1 : 0);
+}
+
+main().catch(error => {
+  console.log(error.stack);
+  process.exit(1);
+});
