@@ -7,7 +7,7 @@ const show = (v, digits) => (v === null || v === undefined || !isFinite(v) ? '-'
 const percent = v => show(100 * v, 2) + ' %';
 const plain = text => String(text).replace(/[&<>"]/g, c => '&#' + c.charCodeAt(0) + ';');
 
-const margin = {left: 58, right: 12, top: 12, bottom: 40};
+const margin = {left: 58, right: 18, top: 12, bottom: 40};
 
 /* Round numbers in [from, to], about n of them. */
 function ticksOf(from, to, n) {
