@@ -139,16 +139,15 @@ static bool cross(phase *ph, int j, double x)
   return false;
 }
 
-/* Every contact in the state it has just after x. The inner loop ends: while X moves one way, a contact passes at most
- * through stick, slip, separated in this order, or separated, stick, slip. */
+/* Every contact in the state it has just after x. The ends are those found when the state began: found again at x, an
+ * end would differ by the guard's rounding over its slope, and where kt cos is next to mu kn sin the end that X has
+ * reached would not be seen. The inner loop ends: while X moves one way, a contact passes at most through stick, slip,
+ * separated in this order, or separated, stick, slip. */
 static int cross_all(phase *ph, double x)
 {
   int n = 0;
   for (int j = 0; j < ph->m->n_contacts; ++j)
-    for (bool more = true; more; n += more) {
-      bound(&ph->contact[j], &ph->m->contact[j], x);
-      more = cross(ph, j, x);
-    }
+    for (; cross(ph, j, x); ++n) bound(&ph->contact[j], &ph->m->contact[j], x);
   return n;
 }
 
@@ -195,6 +194,7 @@ int phase_next(phase *ph, double x, int way, bool turned)
     phase_contact *pc = &ph->contact[j];
     if (!contact_slip_sign(pc->state)) continue;
     stick_from_slip(pc, &ph->m->contact[j], contact_slip_sign(pc->state), x);
+    bound(pc, &ph->m->contact[j], x);
     ++n;
   }
   ph->way = way;
@@ -248,7 +248,10 @@ int phase_begin(phase *ph, const scaled_model *m, const double *y)
   if (!isfinite(force + x + y[SCALED_P] + sliders)) return -1;
   ph->m = m;
   ph->way = y[SCALED_P] != 0 ? sign_of(y[SCALED_P]) : sign_of(force);
-  for (int j = 0; j < m->n_contacts; ++j) classify(&ph->contact[j], &m->contact[j], x, y[SCALED_W + j], ph->way);
+  for (int j = 0; j < m->n_contacts; ++j) {
+    classify(&ph->contact[j], &m->contact[j], x, y[SCALED_W + j], ph->way);
+    bound(&ph->contact[j], &m->contact[j], x);
+  }
   const int n = cross_all(ph, x);
   gather(ph, x);
   return n;

@@ -110,6 +110,18 @@ static void scenes_follow_the_oracle(void **state)
   print_message("worst: %.2g\n", worst);
 }
 
+/* Where kt cos is next to mu kn sin (to an eighth here) the X at which slip begins is the guard over a small slope,
+ * and its rounding is many times X's. Found twice it would be two X, the second behind the one that the motion has
+ * reached, and the period would never end. */
+static void slip_that_begins_on_a_flat_guard(void **state)
+{
+  (void)state;
+  scene sc = scene_linear(8.13, 0.88, 13.2, 23.2);
+  scene_add(&sc, 20.35, 4.05, 0.46, 2.8, 0);
+  scene_add(&sc, 12.98, 40.99, 0.47, 3.8, 30.5);
+  for (int i = 0; i <= 20; ++i) follows_oracle("a flat guard", sc, 1.9 + 0.01 * i, 1, 15);
+}
+
 static scene random_scene(uint64_t *seed)
 {
   static const double angles[] = {0, 15, 30, 45, 60, 80, 90};
@@ -539,6 +551,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(scenes_follow_the_oracle),
+      cmocka_unit_test(slip_that_begins_on_a_flat_guard),
       cmocka_unit_test(random_scenes_follow_cvode),
       cmocka_unit_test(soft_and_overdamped_scenes_follow_cvode),
       cmocka_unit_test(measures_are_those_of_the_motion),
