@@ -80,6 +80,18 @@ static void write_list(FILE *to, const char *option, const number_list *list)
   for (int i = 0; i < list->n; ++i) fprintf(to, "%s%.15g", i ? "," : "", list->v[i]);
 }
 
+static void write_sets(FILE *to, const cli_common *common)
+{
+  for (int i = 0; i < common->n_set; ++i) {
+    fputs(" --set", to);
+    write_word(to, common->set[i]);
+  }
+}
+
+/* ---- what a report_origin has ---- */
+
+typedef void origin_writer(FILE *to, const cli_common *common, const report_options *own);
+
 /* The command line that makes this page again. */
 static void write_command(FILE *to, const cli_common *common, const report_options *own)
 {
@@ -88,21 +100,32 @@ static void write_command(FILE *to, const cli_common *common, const report_optio
   write_list(to, "at", &own->at);
   write_list(to, "harmonics", &own->lists.harmonics);
   write_list(to, "samples", &own->lists.samples);
-  for (int i = 0; i < common->n_set; ++i) {
-    fputs(" --set", to);
-    write_word(to, common->set[i]);
-  }
+  write_sets(to, common);
 }
 
-/* The command line, or with own = NULL the versions, as a report_origin has them: to be freed; NULL: out of memory. */
-static char *origin_text(const cli_common *common, const report_options *own)
+static void write_lab(FILE *to, const cli_common *common, const report_options *own)
+{
+  (void)own;
+  fputs("hbmcheck lab --case", to);
+  write_word(to, common->arguments[0]);
+  write_sets(to, common);
+}
+
+static void write_versions(FILE *to, const cli_common *common, const report_options *own)
+{
+  (void)common;
+  (void)own;
+  cli_print_version(to, NULL);
+}
+
+/* To be freed; NULL: out of memory. */
+static char *origin_text(origin_writer *write, const cli_common *common, const report_options *own)
 {
   char *text = NULL;
   size_t size = 0;
   FILE *to = open_memstream(&text, &size);
   if (!to) return NULL;
-  if (own) write_command(to, common, own);
-  else cli_print_version(to, NULL);
+  write(to, common, own);
   bool whole = !ferror(to);
   if (fclose(to) == 0 && whole) return text;
   free(text);
@@ -121,16 +144,18 @@ static void describe_settings(const report_data *d, char *text, size_t size)
 
 static hc_status write_page(const cli_common *common, const report_options *own, const report_data *d, const char *path)
 {
-  char settings[256], *command = origin_text(common, own), *versions = origin_text(common, NULL);
+  char settings[256], *command = origin_text(write_command, common, own), *lab = origin_text(write_lab, common, own),
+                      *versions = origin_text(write_versions, common, own);
   output *out = NULL;
   describe_settings(d, settings, sizeof settings);
-  hc_status st = command && versions ? output_open(path, &out) : HC_NO_MEMORY;
+  hc_status st = command && lab && versions ? output_open(path, &out) : HC_NO_MEMORY;
   if (st == HC_OK) {
-    st = report_write(d, &(report_origin){command, versions, settings}, output_stream(out));
+    st = report_write(d, &(report_origin){command, lab, versions, settings}, output_stream(out));
     if (st == HC_OK) st = output_commit(out);
     else output_abandon(out);
   }
   free(command);
+  free(lab);
   free(versions);
   return st;
 }

@@ -20,6 +20,14 @@ void html_text(FILE *to, const char *text)
     }
 }
 
+void html_percent(FILE *to, const char *text)
+{
+  static const char unreserved[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-._~";
+  for (const unsigned char *c = (const unsigned char *)text; *c; ++c)
+    if (strchr(unreserved, *c)) putc(*c, to);
+    else fprintf(to, "%%%02X", (unsigned)*c);
+}
+
 void html_printf(FILE *to, const char *format, ...)
 {
   char text[512];

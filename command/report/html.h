@@ -11,7 +11,9 @@
 /* Text between tags or in a quoted attribute: <, >, &, quotes escaped; control characters but line breaks become
  * spaces. */
 void html_text(FILE *to, const char *text);
-/* the same, formatted; at most 511 bytes */
+/* Text as a part of an address (RFC 3986): all but unreserved characters as %XX, a byte each. */
+void html_percent(FILE *to, const char *text);
+/* html_text, formatted; at most 511 bytes */
 void html_printf(FILE *to, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 /* A table: html_table(to, caption), html_head for each column, html_row before each row, one cell after another,

@@ -37,21 +37,36 @@ static void write_chart_version(page *p)
 
 static void write_settings(page *p) { html_text(p->to, p->origin->settings); }
 static void write_command(page *p) { html_text(p->to, p->origin->command); }
+static void write_lab_command(page *p) { html_text(p->to, p->origin->lab); }
 static void write_versions(page *p) { html_text(p->to, p->origin->versions); }
 static void write_verdict(page *p) { words_verdict(p->d, p->to); }
 static void write_advice(page *p) { words_what_to_do(p->d, p->to); }
 static void write_gate(page *p) { words_gate(p->d, p->to); }
 
-static void write_case(page *p)
+/* To write(p->to, the resolved case). */
+static void pass_case(page *p, void (*write)(FILE *to, const char *text))
 {
   char *text = NULL;
   size_t size = 0;
   FILE *memory = open_memstream(&text, &size);
   hc_status st = memory ? case_echo(p->d->sc, memory) : HC_NO_MEMORY;
   if (memory && (fclose(memory) != 0 || !text)) st = HC_NO_MEMORY;
-  if (st == HC_OK) html_text(p->to, text);
+  if (st == HC_OK) write(p->to, text);
   else if (p->status == HC_OK) p->status = st;
   free(text);
+}
+
+static void write_case(page *p) { pass_case(p, html_text); }
+
+/* The case as a file in the address of a lab.html that lies beside the page, which takes it from there
+ * (lab/page/state.js). It opens where both sides differ most. The lab has no structures. */
+static void write_lab_address(page *p)
+{
+  if (p->d->sc->structure) return;
+  const double omega = words_worst_omega(p->d);
+  fputs("lab.html#case=", p->to);
+  pass_case(p, html_percent);
+  if (isfinite(omega)) fprintf(p->to, "&amp;omega=%.10g", omega);
 }
 
 /* ---- tables ---------------------------------------------------------------------------------- */
@@ -268,13 +283,29 @@ static const struct piece {
   const char *name;
   void (*write)(page *p);
 } pieces[] = {
-    {"title", write_title},       {"style", write_style},       {"script", write_script},
-    {"chart", write_chart},       {"settings", write_settings}, {"command", write_command},
-    {"versions", write_versions}, {"verdict", write_verdict},   {"advice", write_advice},
-    {"gate", write_gate},         {"case", write_case},         {"compare", write_compare},
-    {"accuracy", write_accuracy}, {"orders", write_orders},     {"budget", write_budget},
-    {"specials", write_specials}, {"data", write_data},         {"chart_version", write_chart_version},
-    {"kind", write_kind},         {"modes", write_modes},       {"contacts", write_contacts},
+    {"title", write_title},
+    {"style", write_style},
+    {"script", write_script},
+    {"chart", write_chart},
+    {"settings", write_settings},
+    {"command", write_command},
+    {"versions", write_versions},
+    {"verdict", write_verdict},
+    {"advice", write_advice},
+    {"gate", write_gate},
+    {"case", write_case},
+    {"compare", write_compare},
+    {"accuracy", write_accuracy},
+    {"orders", write_orders},
+    {"budget", write_budget},
+    {"specials", write_specials},
+    {"data", write_data},
+    {"chart_version", write_chart_version},
+    {"kind", write_kind},
+    {"modes", write_modes},
+    {"contacts", write_contacts},
+    {"lab_command", write_lab_command},
+    {"lab_address", write_lab_address},
 };
 
 static void write_piece(page *p, const char *name, size_t length)

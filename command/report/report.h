@@ -32,6 +32,7 @@ typedef struct report_data {
 /* How the page was made, for its last section. UTF-8; escaped by report_write. */
 typedef struct report_origin {
   const char *command;  /* the line that makes it again */
+  const char *lab;      /* and the one that writes the lab's page with this case */
   const char *versions; /* of the program and its libraries, lines */
   const char *settings; /* a sentence: "Harmonic balance: H = 10, exact forces. Time integration: ..." */
 } report_origin;

@@ -224,6 +224,8 @@ static worst_errors find_worst(const comparison *c)
   return w;
 }
 
+double words_worst_omega(const report_data *d) { return find_worst(&d->comparison).omega[0]; }
+
 static const char *within(const worst_errors *w, int k, double limit)
 {
   if (isnan(w->error[k])) return k == MEAN && w->mean_free ? "not compared: a matter of history" : "not compared";

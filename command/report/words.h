@@ -8,4 +8,7 @@ void words_verdict(const report_data *d, FILE *to);    /* does it agree, in a se
 void words_what_to_do(const report_data *d, FILE *to); /* worst point; harmonics and samples that suffice */
 void words_gate(const report_data *d, FILE *to);       /* table: allowed, worst found, where */
 
+/* Where the amplitudes of one motion differ most [rad/time]; NaN: nothing was compared. */
+double words_worst_omega(const report_data *d);
+
 #endif

@@ -356,13 +356,14 @@ function start() {
   window.addEventListener('resize', drawEverything);
   window.addEventListener('beforeprint', drawEverything);
   window.addEventListener('hashchange', () => {
-    const other = stateOfAddress(location.hash, firstState);
+    const other = stateOfAddress(location.hash, firstState), file = caseOfAddress(location.hash);
     if (other) take(other);
+    else if (file) readCaseText(file.text, file.own);
   });
-  const given = $('case-given').textContent, addressed = stateOfAddress(location.hash, firstState);
+  const addressed = stateOfAddress(location.hash, firstState), file = caseOfAddress(location.hash) || {text: $('case-given').textContent};
   take(addressed || copyOf(firstState));
   drawEverything();
-  if (!addressed && given.trim()) readCaseText(given);
+  if (!addressed && file.text.trim()) readCaseText(file.text, file.own);
 }
 
 start();

@@ -53,4 +53,10 @@ function stateOfAddress(hash, base) {
   return state;
 }
 
-if (typeof exports !== 'undefined') Object.assign(exports, {foldOf, firstState, copyOf, addressOf, stateOfAddress, contactKeys, mostContacts});
+/* {text, own} of an address `#case=TEXT&omega=...`, as a report links to: a case file, and what the state has of its own; null: none. */
+function caseOfAddress(hash) {
+  const words = new URLSearchParams(hash.replace(/^#/, '')), omega = Number(words.get('omega'));
+  return words.get('case') ? {text: words.get('case'), own: omega > 0 && isFinite(omega) ? {omega} : {}} : null;
+}
+
+if (typeof exports !== 'undefined') Object.assign(exports, {foldOf, firstState, copyOf, addressOf, stateOfAddress, caseOfAddress, contactKeys, mostContacts});

@@ -43,6 +43,9 @@ static void check_words(const char *page)
                                       "from_<wbr>truncation",
                                       "normal_stiffness: 1000",
                                       "hbmcheck report " CASE2 " --at 8,9 --harmonics 1,5 --samples 32,512",
+                                      "<code>hbmcheck lab --case " CASE2 "</code>",
+                                      "href=\"lab.html#case=title%3A%20",
+                                      "&amp;omega=8\"", /* the largest error, of the two */
                                       "SUNDIALS ",
                                       "Chart.js ",
                                       "Permission is hereby granted"};
@@ -163,6 +166,8 @@ static void hostile_titles_are_text(void **state)
   count(page, "</title>", 1);
   assert_null(strstr(page, "<b>x</b>"));
   assert_null(strstr(page, "</scr\"")); /* the unit, in the data block */
+  assert_non_null(
+      strstr(page, "href=\"lab.html#case=title%3A%20%22%3C%2Fscript%3E%3C%2Ftitle%3E%3Cb%3E")); /* the lab's address */
   assert_non_null(strstr(page, "<h1>&lt;/script&gt;&lt;/title&gt;&lt;b&gt;x&lt;/b&gt;{{data}}&amp;</h1>"));
   json_t *data = data_of(page);
   assert_string_equal(json_string_value(json_object_get(json_object_get(data, "units"), "length")), "</scr");
@@ -240,6 +245,7 @@ static void a_structure_shows_its_shape_and_its_loops(void **state)
   assert_non_null(strstr(page, "<th scope=\"col\">transient_<wbr>work</th>"));
   assert_int_equal(json_array_size(json_object_get(data, "accuracy")), 2); /* exact, and 64 samples */
   assert_true(json_is_null(json_object_get(data, "aliasing")));
+  assert_null(strstr(page, "lab.html#")); /* the lab has no structures */
   json_decref(data);
   free(page);
   unlink(path);
