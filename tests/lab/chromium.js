@@ -4,12 +4,13 @@ const {spawn} = require('child_process');
 const fs = require('fs'), os = require('os'), path = require('path');
 
 /* open(program, address, {width, height, dark, before}): a page, with the network off; before: a script that runs ahead of its own. {evaluate, key, pointer,
- * picture, paper, tree, close, lines}: tree() is what a screen reader is told, lines are what came on the console and what was thrown. */
+ * picture, paper, tree, close, lines, requests}: tree() is what a screen reader is told. Of the page and its workers, lines are what came on the console and what
+ * was thrown, requests the addresses asked for but the page's own, blob: and data: (watched.js sees that they are all seen). */
 async function open(program, address, {width = 1400, height = 900, dark = false, before = ''} = {}) {
   const profile = fs.mkdtempSync(path.join(os.tmpdir(), 'hbmcheck-lab-'));
   const browser = spawn(program, ['--headless=new', '--no-sandbox', '--disable-gpu', '--disable-dev-shm-usage', '--no-first-run',
     '--remote-debugging-pipe', `--user-data-dir=${profile}`, 'about:blank'], {stdio: ['ignore', 'ignore', 'ignore', 'pipe', 'pipe']});
-  const [to, from] = [browser.stdio[3], browser.stdio[4]], waiting = new Map(), lines = [];
+  const [to, from] = [browser.stdio[3], browser.stdio[4]], waiting = new Map(), lines = [], requests = [];
   let number = 0, rest = '', session;
   browser.on('error', error => { throw error; });
 
@@ -20,6 +21,9 @@ async function open(program, address, {width = 1400, height = 900, dark = false,
       return message.error ? asked.failed(new Error(message.error.message)) : asked.done(message.result);
     }
     const p = message.params || {};
+    if (message.method === 'Target.attachedToTarget' && p.targetInfo.type !== 'page') watch(p.sessionId);
+    if (message.method === 'Network.requestWillBeSent') note(p.request.url);
+    if (message.method === 'Network.webSocketCreated') note(p.url);
     if (message.method === 'Runtime.consoleAPICalled') lines.push(p.args.map(a => a.value || a.description).join(' '));
     if (message.method === 'Runtime.exceptionThrown') lines.push(p.exceptionDetails.exception ? p.exceptionDetails.exception.description : p.exceptionDetails.text);
     if (message.method === 'Log.entryAdded') lines.push(p.entry.text);
@@ -29,16 +33,30 @@ async function open(program, address, {width = 1400, height = 900, dark = false,
     rest = parts.pop();
     parts.forEach(part => hear(JSON.parse(part)));
   });
-  const send = (method, params = {}) => new Promise((done, failed) => {
+  const send = (method, params = {}, sessionId = session) => new Promise((done, failed) => {
     waiting.set(++number, {done, failed});
-    to.write(JSON.stringify({id: number, method, params, sessionId: session}) + '\0');
+    to.write(JSON.stringify({id: number, method, params, sessionId}) + '\0');
   });
+  const note = url => {
+    const own = url.split('#')[0] === address.split('#')[0];
+    if (!own && !/^(blob|data):/.test(url)) requests.push(url);
+  };
+
+  /* A page or a worker, before it runs. What a kind of target has not is refused. */
+  async function watch(target) {
+    const ask = (method, params) => send(method, params, target).catch(() => {});
+    const asked = ['Runtime', 'Log', 'Network'].map(domain => ask(domain + '.enable'));
+    asked.push(ask('Network.emulateNetworkConditions', {offline: true, latency: 0, downloadThroughput: 0, uploadThroughput: 0}));
+    asked.push(ask('Target.setAutoAttach', {autoAttach: true, waitForDebuggerOnStart: true, flatten: true}));
+    asked.push(ask('Runtime.runIfWaitingForDebugger'));
+    await Promise.all(asked);
+  }
 
   const {targetInfos} = await send('Target.getTargets');
   const target = targetInfos.find(t => t.type === 'page');
   session = (await send('Target.attachToTarget', {targetId: target.targetId, flatten: true})).sessionId;
-  for (const domain of ['Runtime', 'Log', 'Page', 'Network']) await send(domain + '.enable');
-  await send('Network.emulateNetworkConditions', {offline: true, latency: 0, downloadThroughput: 0, uploadThroughput: 0});
+  await watch(session);
+  await send('Page.enable');
   await send('Emulation.setDeviceMetricsOverride', {width, height, deviceScaleFactor: 1, mobile: false});
   await send('Emulation.setEmulatedMedia', {features: [{name: 'prefers-color-scheme', value: dark ? 'dark' : 'light'}]});
   await send('Page.addScriptToEvaluateOnNewDocument', {source: before});
@@ -46,6 +64,7 @@ async function open(program, address, {width = 1400, height = 900, dark = false,
 
   return {
     lines,
+    requests,
     async evaluate(expression) {
       const {result, exceptionDetails} = await send('Runtime.evaluate', {expression, awaitPromise: true, returnByValue: true});
       if (exceptionDetails) throw new Error(`${expression}: ${exceptionDetails.exception ? exceptionDetails.exception.description : exceptionDetails.text}`);

@@ -1,12 +1,12 @@
-/* equal.js LAB_ANSWERS LAB_JS [SCENES [SEED]] - the module's answers against those of the native program, to 1e-12.
- * Random cases (seeded) and what the command line adds are put to both: lab_answers prints every question's table, and
- * the same questions go to the module by lab_client.js. Exit 1: an answer differs. */
+/* equal.js LAB_ANSWERS LAB [SCENES [SEED [CHROMIUM]]] - the module's answers against those of the native program, to 1e-12. LAB is the module, lab.js, asked in node; or
+ * with CHROMIUM the page, lab.html, whose own library is asked in a worker of the page, from disk. Random cases (seeded) and what the command line adds are put to both:
+ * lab_answers prints every question's table, and the same questions go to the module by lab_client.js. Exit 1: an answer differs, or the page said or asked for something. */
 'use strict';
-const {execFileSync} = require('child_process');
 const fs = require('fs'), path = require('path');
 const {labClient, labForce, labColumn} = require(path.join(__dirname, '../../lab/lab_client.js'));
+const {answersOf} = require('./native.js'), {open} = require('./chromium.js'), {libraryOf} = require('./page_library.js');
 
-const [native, modulePath, scenes = '50', seed = '1'] = process.argv.slice(2);
+const [native, labPath, scenes = '50', seed = '1', chromium] = process.argv.slice(2);
 const limit = 1e-12;
 const limitOfMultipliers = 1e-10; /* a derivative: next to a grazing it is a hundred times as sensitive as the motion */
 
@@ -45,41 +45,29 @@ const forces = ['exact', 'sampled'];
 /* Where it is asked: the points of the module's own curve, this many of them; the first one's solution is the motion. */
 const ASKED = 8, SAMPLES = 64, SHOWN = 40;
 
-function asked(lab) {
-  const curve = lab.curve(labForce.exact);
+async function asked(lab) {
+  const curve = await lab.curve(labForce.exact);
   const row = k => curve.values.subarray(k * curve.columns, (k + 1) * curve.columns);
   const at = i => row(Math.floor((curve.rows - 1) * ((i + ASKED / 2) % ASKED) / ASKED));
   const omegas = Array.from({length: ASKED}, (_, i) => at(i)[labColumn.omega]);
   return {omegas, X: at(0).slice(labColumn.solution, labColumn.solution + 2 * at(0)[labColumn.harmonics] + 1)};
 }
 
-function moduleAnswers(lab, {omegas, X}) {
+async function moduleAnswers(lab, {omegas, X}) {
   const all = {};
   for (const force of forces) {
-    all['curve ' + force] = lab.curve(labForce[force]);
-    all['specials ' + force] = lab.specials(labForce[force]);
-    omegas.forEach((omega, i) => (all[`at ${force} ${i}`] = lab.curveAt(labForce[force], omega)));
+    all['curve ' + force] = await lab.curve(labForce[force]);
+    all['specials ' + force] = await lab.specials(labForce[force]);
+    for (const [i, omega] of omegas.entries()) all[`at ${force} ${i}`] = await lab.curveAt(labForce[force], omega);
   }
-  omegas.forEach((omega, i) => (all[`near ${i}`] = lab.neighboursAt(omega)));
-  lab.motion(X);
-  all['signal exact'] = lab.signal(labForce.exact, SAMPLES);
-  all['signal sampled'] = lab.signal(labForce.sampled, SAMPLES);
-  all.spectrum = lab.spectrum(SAMPLES, SHOWN);
-  all.work = lab.work();
-  all.errors = lab.errors(omegas[0]);
-  all.transients = lab.transients(omegas);
-  return all;
-}
-
-function nativeAnswers(text, {omegas, X}) {
-  const lines = execFileSync(native, [X.join(), omegas.join()], {input: text, maxBuffer: 1 << 28}).toString().split('\n');
-  const all = {};
-  for (let at = 0; at < lines.length && lines[at];) {
-    const head = lines[at++].match(/^(.*) (\d+) (\d+) (\d+)$/);
-    const [status, rows, columns] = head.slice(2).map(Number);
-    const values = Float64Array.from(lines.slice(at, at += rows).flatMap(line => line.split(' ').map(parseFloat)));
-    all[head[1]] = {status, rows, columns, values};
-  }
+  for (const [i, omega] of omegas.entries()) all[`near ${i}`] = await lab.neighboursAt(omega);
+  await lab.motion(X);
+  all['signal exact'] = await lab.signal(labForce.exact, SAMPLES);
+  all['signal sampled'] = await lab.signal(labForce.sampled, SAMPLES);
+  all.spectrum = await lab.spectrum(SAMPLES, SHOWN);
+  all.work = await lab.work();
+  all.errors = await lab.errors(omegas[0]);
+  all.transients = await lab.transients(omegas);
   return all;
 }
 
@@ -110,49 +98,109 @@ function sizesOf(kind, a, X) {
   return sizes;
 }
 
-/* Largest |a - b| over the column's size, where a multiplier counts by its own limit. NaN equals NaN alone. */
-function difference(question, a, b, X) {
-  const kind = question.split(' ')[0];
-  if (!a || !b || a.status !== b.status || a.rows !== b.rows || a.columns !== b.columns)
-    return {worst: Infinity, where: a && b ? `status ${a.status} ${b.status}, rows ${a.rows} ${b.rows}` : 'not asked'};
-  const sizes = sizesOf(kind, b, X);
-  let found = {worst: 0, where: ''};
-  a.values.forEach((value, i) => {
-    const c = i % a.columns, other = b.values[i];
-    if (kind === 'transients' && c > 1 && b.values[i - c + 1] !== 0) return; /* it did not settle */
-    if ((unmeasured[kind] || []).includes(c) || Object.is(value, other) || value === other) return;
+/* Largest |a - b| of row i of one table and row j of another, over the columns' sizes; a multiplier counts by its own limit. NaN equals NaN alone. */
+function distance(kind, sizes, a, i, b, j) {
+  const settled = kind !== 'transients' || b.values[j * b.columns + 1] === 0;
+  let worst = 0;
+  for (let c = 0; c < a.columns; ++c) {
+    const value = a.values[i * a.columns + c], other = b.values[j * b.columns + c];
+    if (!settled && c > 1) break;
+    if ((unmeasured[kind] || []).includes(c) || Object.is(value, other) || value === other) continue;
     const own = ['at', 'near'].includes(kind) && c === labColumn.multiplier ? limitOfMultipliers / limit : 1;
     const d = Math.abs(value - other) / sizes[c] / own;
-    if (!(d <= found.worst)) found = {worst: isNaN(d) ? Infinity : d, where: `row ${Math.floor(i / a.columns)} of ${a.rows} column ${c}: ${value} ${other}`};
-  });
-  return found;
+    if (!(d <= worst)) worst = isNaN(d) ? Infinity : d;
+  }
+  return worst;
+}
+
+/* Of two tables, row by row. */
+function difference(kind, sizes, a, b) {
+  if (!a || !b || a.status !== b.status || a.rows !== b.rows || a.columns !== b.columns) return Infinity;
+  let worst = 0;
+  for (let i = 0; i < a.rows; ++i) worst = Math.max(worst, distance(kind, sizes, a, i, b, i));
+  return worst;
+}
+
+/* ---- where rounding decides ---- */
+
+/* A case as it is to a computer that rounds otherwise: its numbers changed by up to 1e-14, what the force of 1024 samples carries after ten stages of a
+ * Fourier transform, each of some four roundings. Both programs answer exactly to some such case. What the native answer does under such changes, the module's
+ * may do: a curve of samples, whose false folds are narrower than its steps, passes two more solutions or not; a slider that slips for the last time comes to
+ * rest elsewhere; next to a fold or a grazing a solution moves more than the case. */
+const REWRITTEN = 32, rewriting = 1e-14;
+const sameAnswer = 1e-9; /* two rows nearer than this are the same answer to two such cases: a case changed by 1e-14 moves it by 1e5 as much at most */
+
+const rewritten = (text, random) => text.replace(/(mass|damping|stiffness|amplitude|friction|gap): (-?[\d.e-]+)/g,
+  (all, key, value) => `${key}: ${Number(value) * (1 + rewriting * (2 * random() - 1))}`);
+
+/* Is each row of `a` an answer to one of the cases, to the limit and what that answer moves among them; and is there, of solutions, each that all cases have? */
+function isAmong(kind, sizes, a, others) {
+  if (!others.every(b => a.status === b.status && a.columns === b.columns)) return false;
+  const listed = ['at', 'near'].includes(kind); /* rows are found or not; else each has its place */
+  if (!listed && !others.every(b => a.rows === b.rows)) return false;
+  const all = others.flatMap(b => Array.from({length: b.rows}, (_, j) => ({b, j})));
+  const from = (row, other) => distance(kind, sizes, row.b, row.j, other.b, other.j);
+  const placed = row => all.filter(other => listed || other.j === row.j);
+  const moves = row => Math.max(0, ...placed(row).map(other => from(row, other)).filter(d => d <= sameAnswer));
+  const own = Array.from({length: a.rows}, (_, j) => ({b: a, j}));
+  const meets = (row, other) => from(row, other) <= limit + moves(other);
+  const known = own.every(row => placed(row).some(other => meets(row, other)));
+  const first = Array.from({length: others[0].rows}, (_, j) => ({b: others[0], j}));
+  const inAll = row => others.every(b => Array.from({length: b.rows}, (_, j) => ({b, j})).some(other => from(row, other) <= sameAnswer));
+  return known && first.filter(inAll).every(row => own.some(other => meets(other, row)));
 }
 
 /* ---- */
 
+/* {lab, close, said}: the module in node, or the page's library in Chromium; said: what came on the console, and what was asked for. */
+async function start() {
+  if (!chromium) return {lab: labClient(await require(path.resolve(labPath))()), close() {}, said: () => []};
+  const p = await open(chromium, 'file://' + path.resolve(labPath));
+  for (const end = Date.now() + 60000; !(await p.evaluate('typeof seen !== "undefined" && !!seen.errors'));)
+    if (Date.now() > end) throw new Error('the page does not start');
+  return {lab: await libraryOf(p), close: () => p.close(), said: () => [...p.lines, ...p.requests]};
+}
+
 async function main() {
-  const hbmcheckLab = require(path.resolve(modulePath));
-  const lab = labClient(await hbmcheckLab());
+  const {lab, close, said} = await start();
   const random = randomNumbers(Number(seed)), worst = {};
-  let failed = 0;
+  let failed = 0, answers = 0, decided = 0;
   for (let i = 0; i < Number(scenes); ++i) {
     const text = randomCase(random);
-    if (lab.read(text).status !== 0) throw new Error('not a case: ' + text);
-    const questions = asked(lab), ours = moduleAnswers(lab, questions), theirs = nativeAnswers(text, questions);
+    if ((await lab.read(text)).status !== 0) throw new Error('not a case: ' + text);
+    const questions = await asked(lab), ours = await moduleAnswers(lab, questions), theirs = answersOf(native, text, questions);
+    let others = null;
     for (const question of new Set([...Object.keys(ours), ...Object.keys(theirs)])) {
       if (notCompared.some(pattern => pattern.test(question))) continue;
-      const d = difference(question, ours[question], theirs[question], questions.X);
-      const kind = question.replace(/ \d+$/, '');
-      worst[kind] = Math.max(worst[kind] || 0, d.worst);
-      if (d.worst <= limit) continue;
-      ++failed;
-      console.log(`scene ${i}: ${question}: ${d.worst.toExponential(1)} at ${d.where}`);
+      const kind = question.split(' ')[0], name = question.replace(/ \d+$/, '');
+      const [a, b] = [ours[question], theirs[question]], sizes = b && sizesOf(kind, b, questions.X), d = difference(kind, sizes, a, b);
+      ++answers;
+      if (d <= limit) {
+        worst[name] = Math.max(worst[name] || 0, d);
+        continue;
+      }
+      if (!others) {
+        const change = randomNumbers(i);
+        others = [theirs, ...Array.from({length: REWRITTEN}, () => answersOf(native, rewritten(text, change), questions))];
+      }
+      const good = a && b && isAmong(kind, sizes, a, others.map(all => all[question]));
+      console.log(`scene ${i}: ${question}: ${d.toExponential(1)}, ${good ? 'as the native answer to a case changed by ' + rewriting : 'NOT SO natively'}`);
+      if (good) ++decided;
+      else ++failed;
       if (process.env.LAB_KEEP) fs.writeFileSync(path.join(process.env.LAB_KEEP, `scene${i}.yaml`), text);
     }
   }
+  await lab.free();
+  const heard = said();
+  await close();
   for (const question in worst) console.log(`${question}: largest difference ${worst[question].toExponential(2)}`);
-  console.log(`${scenes} scenes, ${failed} answers differ by more than ${limit}`);
-  lab.free();
-  process.exitCode = failed ? 1 : 0;
+  console.log(`${scenes} scenes, ${answers} answers: ${decided} that rounding decides, ${failed} differ by more than ${limit}`);
+  if (heard.length) console.log('the page: ' + heard.join('\n').slice(0, 2000));
+  /* of well-posed questions rounding decides few; seen: 3 of 1100 at the most */
+  process.exit(failed || heard.length || decided > answers / 100 ? 1 : 0);
 }
-main();
+
+main().catch(error => {
+  console.log(error.stack);
+  process.exit(1);
+});
