@@ -36,32 +36,33 @@ function transientMarks(p, transients) {
   return marksOf(p, points, 'cross', 4, 'cross');
 }
 
-/* Of the sampled curve: whole where it is there, else next to the exact one, else that of a case before. */
+/* Sampled curves drawn: the whole one; where it is not there, or ends early, the one next to the exact one, too; else that
+ * of a case before. */
 function samplesShown(seen, text) {
-  const now = one => (one && one.text === text ? one : null);
-  return now(seen.sampled) || now(seen.neighbours) || seen.sampled || seen.neighbours;
+  const now = one => (one && one.text === text ? one : null), whole = now(seen.sampled), beside = now(seen.neighbours);
+  const drawn = [whole && whole.curve.status === 0 ? null : beside, whole].filter(one => one);
+  return drawn.length ? drawn : [seen.sampled || seen.neighbours].filter(one => one);
 }
 
 /* Amplitudes shown: all of the exact curve, and of the sampled one what does not shrink that to a line. */
 function amplitudesOf(seen, samples) {
   const largest = table => (table ? columnOf(table, labColumn.amplitude).reduce((a, b) => (b > a ? b : a), 0) : 0);
-  const exact = largest(seen.exact && seen.exact.curve), sampled = largest(samples && samples.curve);
+  const exact = largest(seen.exact && seen.exact.curve), sampled = Math.max(0, ...samples.map(one => largest(one.curve)));
   return 1.06 * (exact ? Math.max(exact, Math.min(sampled, 1.6 * exact)) : sampled) || 1;
 }
 
-let curvePanel = null;
-
-/* seen: the answers so far, see main.js; text: the case as it is now: what answers another one is drawn faint. */
+/* The panel drawn. seen: the answers so far, see main.js; text: the case as it is now: what answers another one is drawn
+ * faint. */
 function drawCurve(svg, state, seen, text) {
-  const box = boxOf(svg, Math.min(400, Math.max(220, 0.5 * boxOf(svg, 0).width)));
+  const box = boxOf(svg, Math.max(220, Math.min(400, 0.5 * boxOf(svg, 0).width, 0.42 * innerHeight)));
   const [from, to] = [state.from, state.to].sort((a, b) => a - b);
   const samples = samplesShown(seen, text), highest = amplitudesOf(seen, samples);
   const p = panel(box, {from, to, title: 'omega [rad per unit time]'}, {from: 0, to: highest, title: 'amplitude of x'});
   const old = answer => (answer.text === text ? '' : ' old');
   let inside = lineOf(p, [[state.omega, 0], [state.omega, highest]], 'cursor');
-  if (samples) {
-    inside += curveLines(p, samples.curve, 'curve thin sampled' + old(samples));
-    if (samples.specials) inside += `<g class="${old(samples)}">${specialMarks(p, samples.specials, true)}</g>`;
+  for (const one of samples) {
+    inside += curveLines(p, one.curve, 'curve thin sampled' + old(one));
+    if (one.specials) inside += `<g class="${old(one)}">${specialMarks(p, one.specials, true)}</g>`;
   }
   if (seen.exact && seen.exact.curve) {
     inside += curveLines(p, seen.exact.curve, 'curve exact' + old(seen.exact));
@@ -69,8 +70,8 @@ function drawCurve(svg, state, seen, text) {
     if (seen.exact.transients) inside += transientMarks(p, seen.exact.transients);
   }
   inside += solutionMarks(p, seen.motion);
-  curvePanel = p;
   put(svg, box, p.svg + clipped(p, inside));
+  return p;
 }
 
 function solutionMarks(p, motion) {
@@ -80,6 +81,8 @@ function solutionMarks(p, motion) {
   const chosen = motion.solutions.slice(motion.chosen, motion.chosen + 1).map(point);
   return marksOf(p, others, 'dot', 4, 'hollow') + marksOf(p, motion.chosen < 0 ? [] : chosen, 'dot', 6, 'fill-exact');
 }
+
+let curvePanel = null; /* of section 2, as drawn last */
 
 /* onMove({omega, near}, moving): the pointer is there; moving until it is let go. */
 function dragCurve(svg, onMove) {

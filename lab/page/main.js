@@ -15,7 +15,7 @@ let moving = false;
 let workers = null;
 let dirty = new Set();
 let libraryIsThere = false;
-const resting = 400; /* [ms] without a change, though the hand is still on: then the rest is asked, too */
+let resting = 400; /* [ms] without a change, though the hand is still on: then the rest is asked, too; set by tests */
 let restTimer = 0;
 
 /* ---- asking ---- */
@@ -24,7 +24,7 @@ let restTimer = 0;
 const textNow = () => questionText(Object.assign({}, state, {title: '', sampled: false}));
 
 function askAll() {
-  const whole = current(seen.sampled), neighbour = state.sampled && !whole;
+  const whole = wholeSampled(), neighbour = state.sampled && !whole;
   const job = {text: textNow(), omega: state.omega, near: state.near, samples: state.N, shown: shownHarmonics(state), more: !moving};
   times.asked = performance.now();
   workers.exact.ask(Object.assign({force: labForce.exact, motion: !state.sampled || neighbour, neighbour}, job));
@@ -43,7 +43,10 @@ function rest() {
 function alter(change, isMoving, rebuild) {
   const before = caseText(state);
   change(state);
-  if (caseText(state) !== before && !state.title.endsWith(', changed')) state.title += ', changed';
+  if (caseText(state) !== before) {
+    if (!state.title.endsWith(', changed')) state.title += ', changed';
+    $('preset').selectedIndex = 0;
+  }
   moving = isMoving;
   const [low, high] = [state.from, state.to].sort((a, b) => a - b);
   state.omega = Math.min(high, Math.max(low, state.omega));
@@ -56,9 +59,10 @@ function alter(change, isMoving, rebuild) {
   if (!moving) keepSoon();
 }
 
-/* Another case altogether. */
-function take(other) {
+/* Another case altogether; preset: its number, where it is one. */
+function take(other, preset) {
   state = other;
+  $('preset').value = preset === undefined ? '' : preset;
   alter(() => {}, false, true);
 }
 
@@ -75,7 +79,7 @@ function onExact(part) {
     specials: () => seen.exact && (seen.exact.specials = part.specials),
     transients: () => seen.exact && (seen.exact.transients = part.transients),
     neighbours: () => (seen.neighbours = {text: part.text, curve: part.curve}),
-    motion: () => part.neighbour && current(seen.sampled) || (seen.motion = part),
+    motion: () => part.neighbour && wholeSampled() || (seen.motion = part),
     errors: () => (seen.errors = part),
     read: () => afterReading(part),
     lesson: () => afterLesson(part),
@@ -93,7 +97,8 @@ function onExact(part) {
 function onSampled(part) {
   if (part.part === 'curve') seen.sampled = {text: part.text, curve: part.curve};
   if (part.part === 'specials' && seen.sampled) seen.sampled.specials = part.specials;
-  if (part.part === 'motion') seen.motion = part;
+  const better = part.chosen >= 0 || !(seen.motion && seen.motion.neighbour); /* than what is next to an exact solution */
+  if (part.part === 'motion' && better) seen.motion = part;
   mark({curve: 'curve', specials: 'curve', motion: 'motion'}[part.part]);
 }
 
@@ -135,13 +140,14 @@ function draw() {
   if (what.has('curve')) drawResponse();
   if (what.has('motion')) drawMotion();
   if (what.has('errors')) drawErrors();
+  drawLesson();
 }
 
 const countFound = curve => columnOf(curve, labColumn.amplitude).filter(isFinite).length;
 const countKind = (specials, kind) => (specials ? columnOf(specials, 3).filter(k => k === kind).length : NaN);
 
 function drawResponse() {
-  drawCurve($('draw-curve'), state, seen, textNow());
+  curvePanel = drawCurve($('draw-curve'), state, seen, textNow());
   const slider = $('draw-curve'), motion = seen.motion;
   const chosen = motion && motion.solutions && motion.solutions[motion.chosen];
   const amplitude = chosen ? `, amplitude ${show(chosen[labColumn.amplitude])}` : '';
@@ -169,13 +175,19 @@ function drawResponse() {
 /* What is of the case as it is now. */
 const current = one => (one && one.text === textNow() ? one : null);
 
+/* The sampled curve, if it went to its end. */
+function wholeSampled() {
+  const one = current(seen.sampled);
+  return one && one.curve.status === 0 ? one : null;
+}
+
 function curveWords() {
   const exact = current(seen.exact), sampled = current(seen.sampled), {motion} = seen, words = [];
   if (!exact) return libraryIsThere ? 'The curve is on its way.' : whyNothing(null);
   if (state.N < 2 * state.H + 2) return `${state.N} samples cannot tell ${state.H} harmonics apart: at least 2 H + 2 = ${2 * state.H + 2} are needed.`;
   if (!sampled) words.push('With samples, the solutions next to the exact ones are drawn; the whole curve, with what else it may have, is on its way.');
   if (exact.curve.status !== 0) words.push(`The exact curve ends early: ${exact.curve.message}.`);
-  if (sampled && sampled.curve.status !== 0) words.push(`The sampled curve ends early: ${sampled.curve.message}.`);
+  if (sampled && sampled.curve.status !== 0) words.push(`The sampled curve ends early: ${sampled.curve.message}. Beyond, the solutions next to the exact ones are drawn.`);
   const [a, b] = [exact, sampled].map(one => countKind(one && one.specials, 0));
   if (b > a) words.push(`The sampled curve has ${b} folds, the exact one ${a}: the others are of the samples, not of the oscillator.`);
   if (motion && motion.chosen < 0) words.push(`No solution at omega = ${show(motion.omega)}.`);
@@ -245,14 +257,15 @@ function keep() {
   if (document.activeElement !== $('case')) $('case').value = caseText(state);
 }
 
-function copy(text, words) {
+/* Tells in the element `where` what has become of it. */
+function copy(text, where, words) {
   const area = document.createElement('textarea'); /* navigator.clipboard is not there from file:// everywhere */
   area.value = text;
   document.body.append(area);
   area.select();
   const done = document.execCommand('copy');
   area.remove();
-  $('case-words').textContent = done ? words : 'The browser does not let this page copy: select the text yourself.';
+  $(where).textContent = done ? words : 'The browser does not let this page copy: select the text yourself.';
 }
 
 /* The worker has been at the lesson's cases: it is told this one again, for the errors it may not have come to. */
@@ -264,21 +277,35 @@ function afterLesson(part) {
 
 let lastTold = null; /* {step, number}: read by tests */
 
-let readOwn = null; /* what the next case read is to have of its own: a preset's H, N, mean */
+let readOwn = null; /* what the next case read is to have of its own: a preset's number, H, N, mean */
 
 function readCaseText(text, own) {
   readOwn = own || null;
+  clearTimeout(keepTimer); /* the text that is read stays until it has been */
   workers.exact.ask({read: text});
 }
 
 function afterReading(part) {
-  if (part.message) {
-    $('case-words').textContent = part.message;
-    return say(part.message, 'bad');
-  }
-  const other = Object.assign({}, part.state, readOwn || {});
-  $('case-words').textContent = 'Read. Only what this page has fields for is kept.';
-  take(other);
+  tellReading(part.message || 'Read. Only what this page has fields for is kept.', Boolean(part.message));
+  if (part.message) return showMistake(part.message);
+  const {preset, ...own} = readOwn || {};
+  take(Object.assign({}, part.state, own), preset);
+}
+
+function tellReading(words, wrong) {
+  $('case-words').className = wrong ? 'verdict bad' : 'hint';
+  $('case-words').textContent = words;
+}
+
+/* The line that the message names (case:LINE:COLUMN: ...) is selected in the text that was read. */
+function showMistake(message) {
+  const [line, column] = (message.match(/^case:(\d+):(\d+):/) || []).slice(1).map(Number);
+  const lines = $('case').value.split('\n');
+  if (!line || line > lines.length) return;
+  const from = lines.slice(0, line - 1).join('\n').length + (line > 1 ? 1 : 0);
+  $('case').focus({preventScroll: true});
+  $('case').setSelectionRange(from + column - 1, from + lines[line - 1].length);
+  $('case-words').scrollIntoView({block: 'nearest'});
 }
 
 /* ---- controls ---- */
@@ -315,7 +342,7 @@ function startControls() {
   $('preset').append(new Option('a case of the paper', ''), ...presets.map((p, i) => new Option(p.name, i)));
   $('preset').addEventListener('change', () => {
     const p = presets[$('preset').value];
-    if (p) readCaseText(presetText(p.file), Object.assign({title: p.name}, p.own));
+    if (p) readCaseText(presetText(p.file), Object.assign({title: p.name, preset: $('preset').value}, p.own));
   });
   $('add-contact').addEventListener('click', () => alter(s => s.contacts.push(Object.assign({}, s.contacts[s.contacts.length - 1] || someContact)), false, true));
   dragCurve($('draw-curve'), (to, isMoving) => alter(s => Object.assign(s, to), isMoving));
@@ -332,15 +359,17 @@ function startControls() {
   $('measure').addEventListener('change', () => mark('errors'));
   $('copy-address').addEventListener('click', () => {
     keep();
-    copy(location.href, 'The address is copied.');
+    copy(location.href, 'address-words', 'The address is copied.');
   });
-  $('copy-case').addEventListener('click', () => copy($('case').value, 'The case is copied.'));
+  $('copy-case').addEventListener('click', () => copy($('case').value, 'case-words', 'The case is copied.'));
   $('read-case').addEventListener('click', () => readCaseText($('case').value));
   $('case-file').addEventListener('change', async () => {
     const [file] = $('case-file').files;
-    if (file) readCaseText(await file.text());
+    if (!file) return;
+    $('case').value = await file.text(); /* where a mistake is then shown */
+    readCaseText($('case').value);
   });
-  document.querySelectorAll('nav a').forEach(link => link.addEventListener('click', event => {
+  document.querySelectorAll('[data-go]').forEach(link => link.addEventListener('click', event => {
     const heading = $(link.dataset.go).querySelector('h2');
     event.preventDefault(); /* the address is the state's */
     heading.scrollIntoView();
