@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/constants.h"
+#include "hbm/circle_shift.h"
 #include "hbm/circle_stick.h"
 
 static const double LITTLE_SLIP = 0.2; /* [rad] of a period */
@@ -208,6 +209,7 @@ static double length_of(const double x[2]) { return hypot(x[0], x[1]); }
 typedef struct closing {
   double w[2], end[2], distance; /* [length] start of a pass and its end; from one to the other */
   double step[2];                /* to go on with */
+  double left;                   /* [1] of a difference at the start, at the end: a bound */
 } closing;
 
 static hc_status try_from(circle_cycle *c, const double w[2], closing *out)
@@ -216,6 +218,7 @@ static hc_status try_from(circle_cycle *c, const double w[2], closing *out)
   const hc_status st = circle_cycle_pass(c, end, A);
   *out = (closing){.w = {w[0], w[1]}, .end = {end[0], end[1]}, .step = {end[0] - w[0], end[1] - w[1]}};
   out->distance = hypot(out->step[0], out->step[1]);
+  out->left = hypot(hypot(A[0][0], A[0][1]), hypot(A[1][0], A[1][1]));
   solve_fixed_point(A, size_of(c), out->step);
   return st;
 }
@@ -249,6 +252,9 @@ static hc_status close_by_newton(circle_cycle *c, closing now, bool damped, bool
   hc_status st = HC_OK;
   *closed = false;
   for (int i = 0; i < MAX_NEWTON && st == HC_OK && length_of(now.step) > rounding && slips(c); ++i) {
+    const bool last_pass = c->start[0] == now.w[0] && c->start[1] == now.w[1], forgets = now.left <= 0.5;
+    *closed = c->may_shift && last_pass && forgets && circle_shift(c, now.step);
+    if (*closed) return HC_OK;
     st = take_step(c, &now, damped, &next);
     if (st != HC_OK || (!slips(c) && !(now.distance <= enough))) return st;
     const bool better = next.distance < now.distance;
@@ -313,16 +319,32 @@ static hc_status rest_in_corner(circle_cycle *c, const double w[2], bool *rests)
   return HC_OK;
 }
 
+/* The first pass as far as what is left of it after the second matters, which is little: where that one slips, too, it
+ * goes on from an angle or a place that is off by the rough panels' error times what slip leaves of it. */
+static hc_status begin_roughly(circle_cycle *c, closing *last, bool *ended)
+{
+  c->slip.resolved = CIRCLE_ROUGH;
+  hc_status st = try_from(c, (double[2]){0}, last);
+  c->slip.resolved = CIRCLE_RESOLVED;
+  c->slip.width *= pow(CIRCLE_RESOLVED / CIRCLE_ROUGH, 1.0 / COLLOCATION_POINTS);
+  *ended = st == HC_OK && !slips(c);
+  if (*ended) c->marched = 0;
+  if (*ended || st != HC_OK) return st;
+  st = try_from(c, (double[2]){last->end[0], last->end[1]}, last);
+  *ended = st == HC_OK && slips(c) && last->distance <= 8 * DBL_EPSILON * size_of(c);
+  return st;
+}
+
 /* A few passes as they come tell whether it goes on slipping; Newton ends what does. Where Newton comes upon an orbit
  * that does not slip, that is not the one that marching leads to: more passes, and Newton that stays where it slips. */
 static hc_status settle(circle_cycle *c)
 {
-  static const int passes[] = {2, 30, MAX_PASSES};
+  static const int passes[] = {0, 30, MAX_PASSES};
   closing last;
   bool done = false;
   hc_status st = HC_OK;
   for (int i = 0; i < 3 && st == HC_OK && !done; ++i) {
-    st = march(c, passes[i], &last, &done);
+    st = i == 0 ? begin_roughly(c, &last, &done) : march(c, passes[i], &last, &done);
     if (st == HC_OK && !done) st = rest_in_corner(c, last.end, &done);
     if (st != HC_OK || done || i == 2) continue;
     st = close_by_newton(c, last, i > 0, &done);
@@ -336,6 +358,7 @@ hc_status circle_cycle_find(circle_cycle *c)
 {
   c->marched = -1;
   c->cornered = false;
+  c->slip.resolved = CIRCLE_RESOLVED;
   return c->always ? settle(c) : follow_contacts(c);
 }
 

@@ -4,9 +4,11 @@
  * Where contact is lost, touch-down puts the slider at w = u and one pass is enough. Else it starts from w = 0, put
  * into the circle at once, and is marched. A pass maps w(0) to w(2 pi) without expanding distances, for w is dragged
  * by a moving convex set (Moreau 1977, J. Differential Equations 26, 347-374); that is no clamp, and repeats itself in
- * the limit only. So the closed orbit is found by Newton on w(0), with the 2x2 derivative of the pass. A slider that
- * does not slip after some pass stays where marching left it; one that is dragged to and fro by two circles that only
- * just leave it room is brought where that ends (circle_corner.h). libm only, nothing is allocated. */
+ * the limit only. So the closed orbit is found by Newton on w(0), with the 2x2 derivative of the pass; the first pass,
+ * of which the second forgets nearly all, is a rough one, and the last step is to first order where that is wanted
+ * (circle_shift.h). A slider that does not slip after some pass stays where marching left it; one that is dragged to
+ * and fro by two circles that only just leave it room is brought where that ends (circle_corner.h). libm only, nothing
+ * is allocated. */
 #ifndef HC_HBM_CIRCLE_CYCLE_H
 #define HC_HBM_CIRCLE_CYCLE_H
 
@@ -37,6 +39,7 @@ typedef struct circle_cycle {
   const circle_motion *m;
   const circle_point *grid; /* of circle_motion_grid */
   bool always;              /* never separated: then n_contacts is 1 */
+  bool may_shift;           /* the last step to where it closes may be to first order (circle_shift.h) */
   int n_contacts;
   const circle_contact *contact; /* [n_contacts] ascending */
   circle_piece *piece;           /* [cap] room */

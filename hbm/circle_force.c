@@ -10,38 +10,18 @@
 #include <string.h>
 
 #include "base/constants.h"
-#include "hbm/exact_force.h"
+#include "hbm/circle_force_impl.h"
 #include "hbm/force_jacobian.h"
 #include "hbm/hbm_settings.h"
 #include "hbm/piece_series.h"
-#include "numerics/rotate.h"
 #include "numerics/series.h"
 
 enum { N = COLLOCATION_POINTS };
 
-struct circle_force {
-  int n_harm, n_dof, n_coef, n_size; /* n_size = n_dof n_coef */
-  int n_col;                         /* n_size + 2 */
-  contact law;                       /* of both halves together */
-  exact_force *normal;               /* N - N0 and when there is contact; NULL where N is constant */
-  double *F_normal, *jac_normal;     /* [n_coef], [n_coef]^2 */
-  double *X;                         /* [n_size] of the last evaluation, which its motion is read from later, too */
-  circle_motion motion;
-  double *table; /* of series_grid.h */
-  circle_point grid[CIRCLE_GRID];
-  collocation rule;
-  circle_contact *contact; /* [cap] */
-  circle_cycle cycle;
-  double *indicator, *symbol, *weight; /* [4H+1] of a piece, of all stick pieces; [2H+1] */
-  double *F;                           /* [2][n_coef] [length] of T/kt */
-  double *by;                          /* [2][n_coef][n_col] its derivatives */
-  double *dw[2], *dphi;                /* [n_col] */
-  double *node;                        /* [3][N][n_col] d phi at the points of a panel; d(R e) there, with weights */
-  double *matrix;                      /* [n_coef]^2 */
-  double *base, *rate;                 /* [N][n_coef] 1, cos, sin at the points, and their derivatives */
-};
-
 /* ---- made and freed ---------------------------------------------------------------------------------- */
+
+/* Rows are as long as four numbers at a time need them to be: what is left over would be done one by one. */
+static int whole_vectors(int n) { return (n + 3) / 4 * 4; }
 
 static double *room(size_t n) { return calloc(n, sizeof(double)); }
 
@@ -67,7 +47,7 @@ static hc_status make_room(circle_force *f)
   f->X = room((size_t)f->n_size), f->F = room(2 * L), f->by = room(2 * L * col);
   f->dw[0] = room(col), f->dw[1] = room(col), f->dphi = room(col);
   f->matrix = room(L * L), f->table = room((size_t)series_grid_table_length(f->n_harm));
-  f->node = room(3 * N * col), f->base = room(N * L), f->rate = room(N * L);
+  f->node = room(3 * N * col), f->base = room(N * (size_t)f->n_base), f->rate = room(N * (size_t)f->n_base);
   const bool found = c->piece && c->slip.panel && f->contact && f->indicator && f->symbol && f->weight;
   return found && f->X && f->F && f->matrix && f->table && f->by && f->dw[0] && f->dw[1] && f->dphi && f->node &&
                  f->base && f->rate
@@ -93,7 +73,8 @@ hc_status circle_force_new(int n_harm, int n_dof, const contact *law, circle_for
   f->n_harm = n_harm, f->n_dof = n_dof, f->law = whole_law(law, n_dof);
   f->n_coef = series_length(n_harm);
   f->n_size = n_dof * f->n_coef;
-  f->n_col = f->n_size + 2;
+  f->n_col = whole_vectors(f->n_size + 3);
+  f->n_base = whole_vectors(f->n_coef);
   hc_status st = make_room(f);
   if (st == HC_OK && n_dof == 3) st = make_normal(f);
   if (st != HC_OK) {
@@ -159,97 +140,6 @@ static hc_status find_orbit(circle_force *f, const double *X)
   return circle_cycle_find(c);
 }
 
-/* ---- derivatives of the slider's position ------------------------------------------------------------------ */
-
-/* 1, cos, sin .. of h th; and their derivatives by th. */
-static void fill_base(int n_harm, double th, double *base, double *rate)
-{
-  const double c = cos(th), s = sin(th);
-  double ch = 1, sh = 0;
-  base[0] = 1, rate[0] = 0;
-  for (int h = 1; h <= n_harm; ++h) {
-    series_turn(c, s, &ch, &sh);
-    base[2 * h - 1] = ch, base[2 * h] = sh;
-    rate[2 * h - 1] = -h * sh, rate[2 * h] = h * ch;
-  }
-}
-
-/* to += a du_1 + b du_2 + c dv, base being that of an angle: derivatives of a combination of the motions there. */
-static void add_motion(const circle_force *f, const double *base, double a, double b, double c, double *to)
-{
-  const int L = f->n_coef;
-  for (int i = 0; i < L; ++i) to[i] += a * base[i];
-  for (int i = 0; i < L; ++i) to[L + i] += b * base[i];
-  for (int i = 0; i < L && f->n_dof == 3; ++i) to[2 * L + i] += c * base[i];
-}
-
-static void clear(const circle_force *f, double *row) { memset(row, 0, (size_t)f->n_col * sizeof *row); }
-
-/* d phi = e_perp.(du - dw)/length where u - w has that length and direction. */
-static void begin_slip(circle_force *f, const double *base, double phi, double length)
-{
-  const double a = -sin(phi) / length, b = cos(phi) / length;
-  for (int i = 0; i < f->n_col; ++i) f->dphi[i] = -a * f->dw[0][i] - b * f->dw[1][i];
-  add_motion(f, base, a, b, 0, f->dphi);
-}
-
-/* d w = du - dR e - R e_perp d phi. */
-static void begin_stick(circle_force *f, const double *base, double phi, double R)
-{
-  const double cosine = cos(phi), sine = sin(phi), per_v = f->motion.per_v;
-  for (int i = 0; i < f->n_col; ++i) {
-    f->dw[0][i] = R * sine * f->dphi[i];
-    f->dw[1][i] = -R * cosine * f->dphi[i];
-  }
-  add_motion(f, base, 1, 0, -per_v * cosine, f->dw[0]);
-  add_motion(f, base, 0, 1, -per_v * sine, f->dw[1]);
-}
-
-/* The angle of touch-down moves by -dR/R'. */
-static void begin_contact(circle_force *f, const circle_piece *p, const circle_point *at, const double *base,
-                          const double *rate)
-{
-  const double per_v = f->motion.per_v;
-  if (p->state == CONTACT_STICK) {
-    const double moved = at->dR > 0 ? -per_v / at->dR : 0;
-    clear(f, f->dw[0]);
-    clear(f, f->dw[1]);
-    add_motion(f, base, 1, 0, moved * at->du[0], f->dw[0]);
-    add_motion(f, base, 0, 1, moved * at->du[1], f->dw[1]);
-    return;
-  }
-  const double phi = f->cycle.slip.panel[p->panel].phi0, speed = hypot(at->du[0], at->du[1]);
-  clear(f, f->dphi);
-  add_motion(f, rate, -sin(phi) / speed, cos(phi) / speed, 0, f->dphi);
-  add_motion(f, base, 0, 0, -circle_slip_slope(&f->motion, at, phi) * per_v / speed, f->dphi);
-}
-
-/* From w0 at th = 0, whose derivatives are in dw, into the circle. */
-static void begin_period(circle_force *f, const circle_piece *p, const circle_point *at, const double *base)
-{
-  const double t1 = at->u[0] - f->cycle.start[0], t2 = at->u[1] - f->cycle.start[1], length = hypot(t1, t2),
-               phi = atan2(t2, t1);
-  const bool slips = p->state != CONTACT_STICK;
-  if (!slips && !(length > at->R)) return;
-  begin_slip(f, base, phi, length);
-  if (!slips) begin_stick(f, base, phi, at->R);
-}
-
-/* From what was before into piece i, whose derivatives are then in dw or dphi. */
-static void begin_piece(circle_force *f, int i, double *base, double *rate)
-{
-  const circle_cycle *c = &f->cycle;
-  const circle_piece *p = &c->piece[i], *before = p - 1;
-  const circle_point at = circle_motion_at(&f->motion, p->from);
-  fill_base(f->n_harm, p->from, base, rate);
-  if (p->begin == CIRCLE_TOUCHES) begin_contact(f, p, &at, base, rate);
-  else if (p->begin == CIRCLE_STARTS) begin_period(f, p, &at, base);
-  else if (p->state == before->state) return; /* stick goes on, its slider moved by rounding */
-  else if (p->state == CONTACT_STICK)
-    begin_stick(f, base, c->slip.panel[before->panel + before->n_panels - 1].phi[N - 1], at.R);
-  else begin_slip(f, base, c->slip.panel[p->panel].phi0, at.R);
-}
-
 /* ---- stick ------------------------------------------------------------------------------------------- */
 
 /* u - w on the piece: its share of the symbol, and of what is constant. */
@@ -265,148 +155,6 @@ static void add_stick(circle_force *f, const circle_piece *p, bool derive)
       for (int q = 0; q < f->n_col; ++q) row[q] -= f->indicator[i] * f->dw[d][q];
     }
   }
-}
-
-/* ---- slip -------------------------------------------------------------------------------------------- */
-
-typedef struct slip_points {
-  double weight[N]; /* width a[last][i]/pi: of Fourier's integrals */
-  double cosine[N], sine[N], R[N], pull[N];
-} slip_points;
-
-/* 1, cos, sin .. and their rates at the points of a panel, [N][n_coef]. */
-static void fill_bases(circle_force *f, const circle_panel *p)
-{
-  const size_t L = (size_t)f->n_coef;
-  const double width = p->to - p->from, middle = p->from + 0.5 * width;
-  double x[N], c[N], s[N], ch[N], sh[N];
-  for (int i = 0; i < N; ++i) x[i] = width * (f->rule.x[i] - 0.5);
-  rotate(N, cos(middle), sin(middle), x, c, s);
-  for (size_t i = 0; i < N; ++i) ch[i] = 1, sh[i] = 0, f->base[i * L] = 1, f->rate[i * L] = 0;
-  for (size_t h = 1; h <= (size_t)f->n_harm; ++h) {
-    for (int i = 0; i < N; ++i) series_turn(c[i], s[i], &ch[i], &sh[i]);
-    for (size_t i = 0; i < N; ++i) {
-      double *base = f->base + i * L + 2 * h, *rate = f->rate + i * L + 2 * h;
-      base[-1] = ch[i], base[0] = sh[i];
-      rate[-1] = -(double)h * sh[i], rate[0] = (double)h * ch[i];
-    }
-  }
-}
-
-static void evaluate_points(circle_force *f, const circle_panel *p, slip_points *q)
-{
-  const double width = p->to - p->from;
-  circle_rates at;
-  circle_motion_rates(&f->motion, &f->rule, p->from, p->to, &at);
-  for (int i = 0; i < N; ++i) {
-    q->weight[i] = width * f->rule.a[N - 1][i] / PI;
-    q->cosine[i] = cos(p->phi[i]), q->sine[i] = sin(p->phi[i]);
-    q->R[i] = at.R[i];
-    q->pull[i] = at.du[0][i] * q->cosine[i] + at.du[1][i] * q->sine[i];
-  }
-  fill_bases(f, p);
-}
-
-/* Whole rows of a loop of constant length. */
-static void subtract_row(double factor, const double *restrict row, double *restrict from)
-{
-  for (int j = 0; j < 2 * N; ++j) from[j] -= factor * row[j];
-}
-
-/* B := A^-1 B, [A | B] being the two in one: the matrix of circle_slip.c, which needs no exchange of rows. */
-static void solve_columns(double A[N][2 * N])
-{
-  for (int k = 0; k < N; ++k) {
-    const double inverse = 1 / A[k][k];
-    for (int j = 0; j < 2 * N; ++j) A[k][j] *= inverse;
-    for (int i = 0; i < N; ++i)
-      if (i != k) subtract_row(A[i][k], A[k], A[i]);
-  }
-}
-
-/* to += sum over the points of y[i] times row i of b, [N][n]. */
-static void add_rows(int n, const double y[N], const double *restrict b, double *restrict to)
-{
-  _Static_assert(N == 10, "ten rows are written out: a loop over them is three times slower");
-  const double *b0 = b, *b1 = b + n, *b2 = b1 + n, *b3 = b2 + n, *b4 = b3 + n, *b5 = b4 + n, *b6 = b5 + n, *b7 = b6 + n,
-               *b8 = b7 + n, *b9 = b8 + n;
-  for (int k = 0; k < n; ++k)
-    to[k] += ((y[0] * b0[k] + y[1] * b1[k]) + (y[2] * b2[k] + y[3] * b3[k])) +
-             ((y[4] * b4[k] + y[5] * b5[k]) + (y[6] * b6[k] + y[7] * b7[k])) + (y[8] * b8[k] + y[9] * b9[k]);
-}
-
-/* d phi at the points: (R + h a pull) d slope = du'.e_perp - slope dR - pull d phi0, d phi = d phi0 + h a d slope. With
- * Q = h a (R + h pull a)^-1 it is (1 - Q pull) d phi0 + Q (du'.e_perp - slope dR). */
-static void follow_angle(circle_force *f, const circle_panel *p, const slip_points *q)
-{
-  const int L = f->n_coef;
-  const double h = p->to - p->from, per_v = f->motion.per_v;
-  double A[N][2 * N]; /* both transposed */
-  for (int j = 0; j < N; ++j) {
-    for (int i = 0; i < N; ++i) A[j][i] = h * q->pull[i] * f->rule.by_point[j][i];
-    for (int i = 0; i < N; ++i) A[j][N + i] = h * f->rule.by_point[j][i];
-    A[j][j] += q->R[j];
-  }
-  solve_columns(A);
-  for (int i = 0; i < N; ++i) {
-    double *to = f->node + (size_t)i * (size_t)f->n_col, kept = 1, Q[N];
-    for (int j = 0; j < N; ++j) Q[j] = A[j][N + i];
-    for (int j = 0; j < N; ++j) kept -= Q[j] * q->pull[j];
-    for (int k = 0; k < f->n_col; ++k) to[k] = kept * f->dphi[k];
-    double a[N], b[N], c[N];
-    for (int j = 0; j < N; ++j) {
-      a[j] = -Q[j] * q->sine[j];
-      b[j] = Q[j] * q->cosine[j];
-      c[j] = -Q[j] * p->slope[j] * per_v;
-    }
-    add_rows(L, a, f->rate, to);
-    add_rows(L, b, f->rate, to + L);
-    if (f->n_dof == 3) add_rows(L, c, f->base, to + 2 * L);
-  }
-  memcpy(f->dphi, f->node + (size_t)(N - 1) * (size_t)f->n_col, (size_t)f->n_col * sizeof *f->dphi);
-}
-
-/* d(R e) = R e_perp d phi + e dR at a point, times its weight. */
-static void fill_change(const circle_force *f, const slip_points *q, int i, double *restrict first,
-                        double *restrict second)
-{
-  const size_t L = (size_t)f->n_coef;
-  const double *restrict dphi = f->node + (size_t)i * (size_t)f->n_col, *base = f->base + (size_t)i * L;
-  const double R = q->weight[i] * q->R[i], e = q->weight[i] * f->motion.per_v, c = q->cosine[i], s = q->sine[i];
-  for (int k = 0; k < f->n_col; ++k) first[k] = -R * s * dphi[k], second[k] = R * c * dphi[k];
-  for (size_t k = 0; f->motion.v && k < L; ++k)
-    first[2 * L + k] += e * c * base[k], second[2 * L + k] += e * s * base[k];
-}
-
-/* Its integrals with the harmonics; of a mean half of that. */
-static void add_slip_derivatives(circle_force *f, const slip_points *q)
-{
-  const size_t L = (size_t)f->n_coef, n = (size_t)f->n_col;
-  double *change[2] = {f->node + N * n, f->node + 2 * N * n};
-  for (int i = 0; i < N; ++i) fill_change(f, q, i, change[0] + (size_t)i * n, change[1] + (size_t)i * n);
-  for (size_t row = 0; row < L; ++row) {
-    double y[N];
-    for (size_t i = 0; i < N; ++i) y[i] = row > 0 ? f->base[i * L + row] : 0.5;
-    for (size_t d = 0; d < 2; ++d) add_rows(f->n_col, y, change[d], f->by + (d * L + row) * n);
-  }
-}
-
-static void add_panel(circle_force *f, const circle_panel *p, bool derive)
-{
-  const int L = f->n_coef;
-  slip_points q;
-  evaluate_points(f, p, &q);
-  for (int i = 0; i < N; ++i) {
-    const double *base = f->base + (size_t)i * (size_t)L;
-    const double T[2] = {q.weight[i] * q.R[i] * q.cosine[i], q.weight[i] * q.R[i] * q.sine[i]};
-    for (int d = 0; d < 2; ++d) {
-      f->F[d * L] += 0.5 * T[d];
-      for (int row = 1; row < L; ++row) f->F[d * L + row] += T[d] * base[row];
-    }
-  }
-  if (!derive) return;
-  follow_angle(f, p, &q);
-  add_slip_derivatives(f, &q);
 }
 
 /* ---- a period ------------------------------------------------------------------------------------------ */
@@ -426,22 +174,22 @@ static void add_pieces(circle_force *f, bool derive)
   clear_sums(f);
   for (int i = 0; i < c->n; ++i) {
     const circle_piece *p = &c->piece[i];
-    if (derive) begin_piece(f, i, base, rate);
+    if (derive) circle_row_begin(f, i, base, rate);
     if (p->state == CONTACT_STICK) add_stick(f, p, derive);
     for (int k = p->panel; p->state != CONTACT_STICK && k < p->panel + p->n_panels; ++k)
-      add_panel(f, &c->slip.panel[k], derive);
+      circle_panel_sums(f, &c->slip.panel[k], derive);
   }
   const circle_piece *last = &c->piece[c->n - 1];
   if (!derive || c->n == 0 || last->state == CONTACT_STICK) return;
-  fill_base(f->n_harm, last->to, base, rate);
+  circle_row_base(f->n_harm, last->to, base, rate);
   const circle_point at = circle_motion_at(&f->motion, last->to);
-  begin_stick(f, base, c->slip.panel[last->panel + last->n_panels - 1].phi[N - 1], at.R);
+  circle_row_rest(f, base, c->slip.panel[last->panel + last->n_panels - 1].phi[N - 1], at.R);
 }
 
 static void start_from_w0(circle_force *f)
 {
   for (int d = 0; d < 2; ++d) {
-    clear(f, f->dw[d]);
+    circle_row_clear(f, f->dw[d]);
     f->dw[d][f->n_size + d] = 1;
   }
 }
@@ -475,8 +223,8 @@ static hc_status march_again(circle_force *f)
 {
   double w[2] = {0};
   hc_status st = HC_OK;
-  clear(f, f->dw[0]);
-  clear(f, f->dw[1]);
+  circle_row_clear(f, f->dw[0]);
+  circle_row_clear(f, f->dw[1]);
   for (int i = 0; i < f->cycle.marched && st == HC_OK; ++i) {
     st = circle_cycle_pass(&f->cycle, w, NULL);
     if (st == HC_OK) add_pieces(f, true);
@@ -491,9 +239,9 @@ static void follow_corner(circle_force *f)
   const double per_v = f->motion.per_v;
   double *grows[2] = {f->dw[0], f->dw[1]};
   for (int i = 0; i < 2; ++i) {
-    clear(f, grows[i]);
-    fill_base(f->n_harm, c->at[i].th, f->base, f->rate);
-    add_motion(f, f->base, c->e[i][0], c->e[i][1], -per_v, grows[i]);
+    circle_row_clear(f, grows[i]);
+    circle_row_base(f->n_harm, c->at[i].th, f->base, f->rate);
+    circle_row_add(f, f->base, c->e[i][0], c->e[i][1], -per_v, grows[i]);
   }
   for (int q = 0; q < f->n_size; ++q) {
     double dw[2];
@@ -568,6 +316,7 @@ hc_status circle_force_eval(circle_force *f, const double *X, double *F, double 
   for (int i = 0; i < f->n_size; ++i) size += fabs(X[i]);
   if (!(size <= TRANSITIONS_LARGEST)) return HC_NOT_FINITE;
   memcpy(f->X, X, (size_t)f->n_size * sizeof *X);
+  f->cycle.may_shift = jac != NULL;
   hc_status st = find_orbit(f, f->X);
   if (st == HC_OK) st = integrate(f, jac != NULL);
   if (st != HC_OK) return st;

@@ -34,9 +34,9 @@ void circle_force_slider(const circle_force *f, double w[2]);
 
 /* What the last evaluation found, for whoever follows a perturbation along the orbit: pieces, each with the panels of
  * its slip (circle_panel_angle gives phi anywhere on one, circle_slip_slope phi'), and the motion. Valid until the
- * next one. At what pieces begin with: touch-down d w = d u - (dR/R') u' where it sticks, d phi = (du'.e_perp - phi'
- * dR)/|u'| where it slips; stick to slip d phi = (du - dw).e_perp/R; slip to stick d w = du - dR e - R e_perp d phi; d
- * at fixed th. */
+ * next one. With a Jacobian the ends of pieces are good to some CIRCLE_SHIFT_MOST, without one to rounding. At what
+ * pieces begin with: touch-down d w = d u - (dR/R') u' where it sticks, d phi = (du'.e_perp - phi' dR)/|u'| where it
+ * slips; stick to slip d phi = (du - dw).e_perp/R; slip to stick d w = du - dR e - R e_perp d phi; d at fixed th. */
 const circle_cycle *circle_force_cycle(const circle_force *f);
 
 #endif

@@ -5,6 +5,7 @@
 #include <math.h>
 
 #include "base/constants.h"
+#include "base/wide_vectors.h"
 #include "numerics/rotate.h"
 #include "numerics/series.h"
 
@@ -65,7 +66,8 @@ circle_point circle_motion_at(const circle_motion *m, double th)
   return p;
 }
 
-void circle_motion_rates(const circle_motion *m, const collocation *k, double from, double to, circle_rates *r)
+WIDE_VECTORS void circle_motion_rates(const circle_motion *m, const collocation *k, double from, double to,
+                                      circle_rates *r)
 {
   enum { N = COLLOCATION_POINTS };
   const double width = to - from, middle = from + 0.5 * width;

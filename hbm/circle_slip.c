@@ -9,7 +9,9 @@
 
 #include <float.h>
 #include <math.h>
+#include <string.h>
 
+#include "base/wide_vectors.h"
 #include "numerics/rotate.h"
 
 enum { N = COLLOCATION_POINTS, MAX_NEWTON = 12, MAX_STEPS = 60 };
@@ -40,10 +42,27 @@ double circle_panel_angle(const collocation *c, const circle_panel *p, double th
   return p->phi0 + h * collocation_rise(c, p->slope, h > 0 ? (th - p->from) / h : 1);
 }
 
+/* cosines and sines of phi0 + rise. */
+static inline void turn_all(double phi0, double c, double s, const double rise[N], double cosine[N], double sine[N])
+{
+  bool near = true;
+  for (int i = 0; i < N; ++i) near = near && fabs(rise[i]) <= ROTATE_MOST;
+  if (near) rotate(N, c, s, rise, cosine, sine);
+  else
+    for (int i = 0; i < N; ++i) cosine[i] = cos(phi0 + rise[i]), sine[i] = sin(phi0 + rise[i]);
+}
+
+void circle_panel_directions(const circle_panel *p, double cosine[N], double sine[N])
+{
+  double rise[N];
+  for (int i = 0; i < N; ++i) rise[i] = p->phi[i] - p->phi0;
+  turn_all(p->phi0, cos(p->phi0), sin(p->phi0), rise, cosine, sine);
+}
+
 /* ---- one panel ------------------------------------------------------------------------------------ */
 
 /* Whole rows, zeros included: a loop of constant length is the faster one. */
-static void subtract_row(double factor, const double *restrict row, double *restrict from)
+static inline void subtract_row(double factor, const double *restrict row, double *restrict from)
 {
   for (int j = 0; j < N + 2; ++j) from[j] -= factor * row[j];
 }
@@ -51,7 +70,7 @@ static void subtract_row(double factor, const double *restrict row, double *rest
 /* Gauss's elimination: A x = b for both right-hand sides, the last two columns, in place. Without row exchanges: A is a
  * diagonal >= 0 plus Radau's matrix, each row times a number > 0 while it slips, of which elimination is stable as it
  * is. Where it is not, Newton does not arrive, and a narrower panel is tried, whose diagonal has more weight. */
-static void solve_both(double A[N][N + 2])
+static inline void solve_both(double A[N][N + 2])
 {
   double inverse[N];
   for (int k = 0; k < N; ++k) {
@@ -73,7 +92,7 @@ typedef struct panel_points {
 } panel_points;
 
 /* phi from the slopes. */
-static void set_angles(const collocation *c, circle_panel *p, panel_points *q)
+static inline void set_angles(const collocation *c, circle_panel *p, panel_points *q)
 {
   const double h = p->to - p->from;
   double rise[N] = {0};
@@ -82,21 +101,12 @@ static void set_angles(const collocation *c, circle_panel *p, panel_points *q)
   for (int i = 0; i < N; ++i) q->rise[i] = h * rise[i], p->phi[i] = p->phi0 + q->rise[i];
 }
 
-static void directions(const circle_panel *p, const panel_points *q, double cosine[N], double sine[N])
-{
-  bool near = true;
-  for (int i = 0; i < N; ++i) near = near && fabs(q->rise[i]) <= ROTATE_MOST;
-  if (near) rotate(N, q->cosine, q->sine, q->rise, cosine, sine);
-  else
-    for (int i = 0; i < N; ++i) cosine[i] = cos(p->phi[i]), sine[i] = sin(p->phi[i]);
-}
-
 /* One step of Newton for the slopes; how far phi moved by it [rad], not finite where that is impossible. */
-static double newton_step(const collocation *c, circle_panel *p, panel_points *q)
+WIDE_VECTORS static double newton_step(const collocation *c, circle_panel *p, panel_points *q)
 {
   const double h = p->to - p->from, *restrict u = q->at.du[0], *restrict v = q->at.du[1];
   double A[N][N + 2], cosine[N], sine[N], pull[N], turn[N], moved = 0;
-  directions(p, q, cosine, sine);
+  turn_all(p->phi0, q->cosine, q->sine, q->rise, cosine, sine);
   for (int i = 0; i < N; ++i) {
     pull[i] = u[i] * cosine[i] + v[i] * sine[i];
     turn[i] = v[i] * cosine[i] - u[i] * sine[i] - q->at.R[i] * p->slope[i];
@@ -113,6 +123,7 @@ static double newton_step(const collocation *c, circle_panel *p, panel_points *q
   for (int i = 0; i < N; ++i) {
     p->slope[i] += A[i][N];
     moved += h * fabs(A[i][N]); /* a sum keeps NaN, a maximum may not */
+    p->slope_growth[i] = A[i][N + 1];
     p->growth += h * c->a[N - 1][i] * A[i][N + 1];
   }
   set_angles(c, p, q);
@@ -129,17 +140,20 @@ static double unresolved(const collocation *c, const circle_panel *p)
 
 /* The panel from p->from, p->phi0 to p->to, unless what it leaves unresolved is `hopeless` on the way; its slopes to
  * begin with are those that p has. false where Newton does not arrive. */
-static bool make_panel(const collocation *c, const circle_motion *m, double hopeless, circle_panel *p, panel_points *q)
+static bool make_panel(const collocation *c, const circle_motion *m, double enough, double hopeless, circle_panel *p,
+                       panel_points *q)
 {
-  const double enough = 1e-7; /* Newton's next step would be of its square */
   circle_motion_rates(m, c, p->from, p->to, &q->at);
+  memcpy(p->du, q->at.du, sizeof p->du);
+  memcpy(p->R, q->at.R, sizeof p->R);
   q->cosine = cos(p->phi0), q->sine = sin(p->phi0);
   set_angles(c, p, q);
   double moved = 1;
   for (int k = 0; k < MAX_NEWTON && moved > enough; ++k) {
     moved = newton_step(c, p, q);
     q->mismatch = unresolved(c, p);
-    if (!(q->mismatch <= hopeless)) return false;
+    const double beyond = moved < 1 ? moved * moved : 1; /* [rad] what the next step may still change */
+    if (!(q->mismatch <= hopeless + beyond)) return false;
   }
   return moved <= enough;
 }
@@ -278,6 +292,9 @@ static void guess_slopes(const circle_slip *s, const circle_point *at, double ph
   else guess_from_start(s, at, phi, p);
 }
 
+/* [rad] A step of Newton's after which the next one would be of its square. */
+static double enough(const circle_slip *s) { return s->resolved > CIRCLE_RESOLVED ? 1e-3 : 1e-7; }
+
 /* The next panel with its points, made and resolved. */
 static hc_status next_panel(circle_slip *s, const circle_point *at, double phi, double to, bool lifts_off,
                             panel_points *q)
@@ -285,19 +302,19 @@ static hc_status next_panel(circle_slip *s, const circle_point *at, double phi, 
   const double left = to - at->th;
   if (s->n == s->cap) return HC_CHATTER;
   circle_panel *p = &s->panel[s->n];
-  const double allowed = CIRCLE_RESOLVED / sqrt(share(s, at, left, lifts_off));
+  const double allowed = s->resolved / sqrt(share(s, at, left, lifts_off));
   double width = width_to_try(s, at, phi, left);
   *p = (circle_panel){.from = at->th, .to = width < left ? at->th + width : to, .phi0 = phi};
   guess_slopes(s, at, phi, p);
   for (int tries = 0;; ++tries) {
-    const bool made = make_panel(s->c, s->m, width > least_width ? 100 * allowed : INFINITY, p, q);
+    const bool made = make_panel(s->c, s->m, enough(s), width > least_width ? allowed : INFINITY, p, q);
     const double factor = isfinite(q->mismatch) ? 0.9 * pow(allowed / (q->mismatch + 1e-300), 1.0 / N) : 0.25;
     if ((made && q->mismatch <= allowed) || width <= least_width) {
       if (tries == 0) s->part = fmin(1, 1.5 * s->part);
       if (width < left || tries == 0) s->width = fmin(widest(s->m), width * fmin(2.5, factor));
       return HC_OK;
     }
-    width *= fmax(0.1, fmin(made ? 0.8 : 0.5, factor));
+    width *= fmax(0.1, fmin(0.8, factor));
     if (lifts_off && width > 0.75 * left) width = 0.75 * left;
     if (lifts_off) s->part = width / left;
     shorten(s->c, at->th + width, p);
@@ -318,7 +335,7 @@ hc_status circle_slip_follow(circle_slip *s, const circle_point *from, double ph
     double rest;
     end->rests = comes_to_rest(s, p, &q, circle_slip_speed(&end->at, end->phi), &rest);
     if (end->rests) shorten(s->c, rest, p);
-    if (end->rests && !make_panel(s->c, s->m, INFINITY, p, &q)) return HC_NOT_CONVERGED;
+    if (end->rests && !make_panel(s->c, s->m, enough(s), INFINITY, p, &q)) return HC_NOT_CONVERGED;
     end->at = circle_motion_at(s->m, p->to);
     end->phi = p->phi[N - 1];
   }

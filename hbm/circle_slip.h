@@ -5,7 +5,7 @@
  * on panels (numerics/collocation.h) so short that phi's slope is resolved: its last two Legendre coefficients, times
  * the width, are at most CIRCLE_RESOLVED rad. What is integrated over a panel, and phi at its end, is then better by
  * about the square of that (superconvergence: the error is that of phi times that of the functions it is integrated
- * with): rounding. Between the points phi is good to CIRCLE_RESOLVED. libm only, nothing is allocated. */
+ * with): 1e-15. Between the points phi is good to CIRCLE_RESOLVED. libm only, nothing is allocated. */
 #ifndef HC_HBM_CIRCLE_SLIP_H
 #define HC_HBM_CIRCLE_SLIP_H
 
@@ -15,24 +15,31 @@
 #include "hbm/circle_motion.h"
 #include "numerics/collocation.h"
 
-#define CIRCLE_RESOLVED 1e-8
+#define CIRCLE_RESOLVED 3e-8
+#define CIRCLE_ROUGH    1e-4 /* [rad] for a pass of which nothing is kept but its end */
 
 typedef struct circle_panel {
-  double from, to;                  /* [rad] */
-  double phi0;                      /* [rad] at `from`; at `to` it is phi[last] */
-  double phi[COLLOCATION_POINTS];   /* at from + (to - from) x[i] */
-  double slope[COLLOCATION_POINTS]; /* phi' there */
-  double growth;                    /* d phi[last]/d phi0, the motion being given */
+  double from, to;                                         /* [rad] */
+  double phi0;                                             /* [rad] at `from`; at `to` it is phi[last] */
+  double phi[COLLOCATION_POINTS];                          /* at from + (to - from) x[i] */
+  double slope[COLLOCATION_POINTS];                        /* phi' there */
+  double du[2][COLLOCATION_POINTS], R[COLLOCATION_POINTS]; /* [length] u' and R there */
+  double slope_growth[COLLOCATION_POINTS];                 /* d slope/d phi0, the motion being given */
+  double growth;                                           /* d phi[last]/d phi0 */
 } circle_panel;
 
 /* phi [rad] anywhere on the panel. */
 double circle_panel_angle(const collocation *c, const circle_panel *p, double th);
 
+/* cos phi and sin phi at its points. */
+void circle_panel_directions(const circle_panel *p, double cosine[COLLOCATION_POINTS], double sine[COLLOCATION_POINTS]);
+
 typedef struct circle_slip {
   const collocation *c;
   const circle_motion *m;
-  double width; /* [rad] of the next panel to try; 0: none yet */
-  double part;  /* [1] of what is left until lift-off, the most to try */
+  double width;    /* [rad] of the next panel to try; 0: none yet */
+  double part;     /* [1] of what is left until lift-off, the most to try */
+  double resolved; /* [rad] CIRCLE_RESOLVED, or more where less will do */
   circle_panel *panel;
   int n, cap; /* panels made, and room for them */
 } circle_slip;

@@ -1,0 +1,55 @@
+/* circle_force_impl.h - the workspace of circle_force.c, and its parts: rows of derivatives where pieces begin
+ * (circle_rows.c), and a panel's sums (circle_panel_sums.c). Nobody else includes it. */
+#ifndef HC_HBM_CIRCLE_FORCE_IMPL_H
+#define HC_HBM_CIRCLE_FORCE_IMPL_H
+
+#include "hbm/circle_force.h"
+#include "hbm/exact_force.h"
+
+struct circle_force {
+  int n_harm, n_dof, n_coef, n_size; /* n_size = n_dof n_coef */
+  int n_col;                         /* n_size + 2, and columns of zeros */
+  int n_base;                        /* n_coef, and zeros */
+  contact law;                       /* of both halves together */
+  exact_force *normal;               /* N - N0 and when there is contact; NULL where N is constant */
+  double *F_normal, *jac_normal;     /* [n_coef], [n_coef]^2 */
+  double *X;                         /* [n_size] of the last evaluation, which its motion is read from later, too */
+  circle_motion motion;
+  double *table; /* of series_grid.h */
+  circle_point grid[CIRCLE_GRID];
+  collocation rule;
+  circle_contact *contact; /* [cap] */
+  circle_cycle cycle;
+  double *indicator, *symbol, *weight; /* [4H+1] of a piece, of all stick pieces; [2H+1] */
+  double *F;                           /* [2][n_coef] [length] of T/kt */
+  double *by;                          /* [2][n_coef][n_col] its derivatives */
+  double *dw[2], *dphi;                /* [n_col] */
+  double *node;                        /* [3][N][n_col] d phi at the points of a panel; d(R e) there, with weights */
+  double *matrix;                      /* [n_coef]^2 */
+  double *base, *rate;                 /* [N][n_base] 1, cos, sin at the points, and their derivatives */
+};
+
+/* ---- rows of derivatives [n_col]: by the columns of X and by w0 ---- */
+
+/* 1, cos, sin .. of h th; and their derivatives by th. [n_coef] */
+void circle_row_base(int n_harm, double th, double *base, double *rate);
+
+void circle_row_clear(const circle_force *f, double *row);
+
+/* to += a du_1 + b du_2 + c dv, base being that of an angle: derivatives of a combination of the motions there. */
+void circle_row_add(const circle_force *f, const double *base, double a, double b, double c, double *to);
+
+/* From what was before into piece i, whose derivatives are then in dw or dphi; base and rate become those of its
+ * angle. */
+void circle_row_begin(circle_force *f, int i, double *base, double *rate);
+
+/* From slip in direction phi into rest: d w = du - dR e - R e_perp d phi. */
+void circle_row_rest(circle_force *f, const double *base, double phi, double R);
+
+/* ---- slip ---- */
+
+/* += a panel's integrals over pi of R e with 1/2, cos, sin .. of h th, into F; if wanted with their derivatives, into
+ * by, dphi being those of phi where it begins, and then where it ends. */
+void circle_panel_sums(circle_force *f, const circle_panel *p, bool derive);
+
+#endif
