@@ -1,4 +1,4 @@
-# join.cmake - the page as one file: cmake -DOUTPUT=lab.html -DMODULE=lab.js -DSOURCE=lab/page -DCLIENT=lab/lab_client.js -DCASES=cases/paper -P join.cmake
+# join.cmake - the page as one file: cmake -DOUTPUT=lab.html -DMODULE=lab.js -DSOURCE=lab/page -DCLIENT=lab/lab_client.js -DCASES=cases/paper -DLICENCES=lab/libraries/licences.txt -P join.cmake
 set(shared ${CLIENT} ${SOURCE}/state.js ${SOURCE}/case_text.js ${SOURCE}/lesson_numbers.js) # the page and its worker both have these
 set(own presets plot draw_curve draw_signal draw_loop draw_spectrum draw_error numbers fields ask lesson main)
 list(TRANSFORM own REPLACE "(.+)" "${SOURCE}/\\1.js")
@@ -14,6 +14,7 @@ endfunction()
 
 file(READ ${SOURCE}/index.html page)
 file(READ ${SOURCE}/style.css style)
+file(READ ${LICENCES} licences)
 join_files(script ${shared} ${own})
 join_files(worker ${MODULE} ${shared} ${SOURCE}/worker.js)
 file(GLOB cases ${CASES}/*.yaml)
@@ -23,7 +24,7 @@ foreach(case ${cases})
   file(READ ${case} text)
   string(APPEND presets "== ${name}\n${text}")
 endforeach()
-foreach(part style presets worker script)
+foreach(part style licences presets worker script)
   string(TOUPPER ${part} mark)
   string(FIND "${${part}}" "</script" ends)
   if(NOT ends EQUAL -1)
