@@ -102,14 +102,11 @@ static hc_status put_contacts(const cli_common *common, hbm_solver *s, const hbm
 {
   const scene *sc = common->scene;
   const int n = scene_contact_count(sc);
-  model *m;
   row_cell cells[ROWS_MOST];
-  hc_status st = scene_model(sc, &m);
-  contact_period *periods = st == HC_OK ? calloc((size_t)m->n_contacts + 1, sizeof *periods) : NULL;
-  if (st == HC_OK && !periods) st = HC_NO_MEMORY;
+  contact_period *periods = calloc((size_t)hbm_n_contacts(s) + 1, sizeof *periods);
+  hc_status st = periods ? HC_OK : HC_NO_MEMORY;
   for (int k = 0; k < c->n && st == HC_OK; ++k) {
     st = hbm_measure_contacts(s, c->X + (size_t)k * (size_t)c->n_coef, periods);
-    if (st == HC_OK) contact_periods_merge(m, periods);
     for (int j = 0; j < n && st == HC_OK; ++j) {
       contact_row row = {c->points[k].omega, c->points[k].branch, .contact = j, .period = periods[j]};
       snprintf(row.name, sizeof row.name, "%s", scene_contact_at(sc, j)->name);
@@ -118,7 +115,6 @@ static hc_status put_contacts(const cli_common *common, hbm_solver *s, const hbm
     }
   }
   free(periods);
-  model_free(m);
   table_spare(t, rows_spare(ROWS_CONTACT, sc->in_cycles));
   if (sc->hbm.force == HBM_FORCE_SAMPLED)
     table_note(t, "contacts by the exact law along the motion found with sampled forces");

@@ -141,7 +141,7 @@ static void put_hypothesis(table *t, const scene *sc, const verified *v, const v
 {
   char words[VERIFY_TEXT], name[VERIFY_QUANTITY_TEXT];
   const verify_equations *e = &h->equations;
-  const bool linear = e->change == CHANGE_NO_CONTACT || e->change == CHANGE_STUCK;
+  const bool linear = verify_equations_linear(e);
   put_response(t, sc, v);
   table_put_text(t, verify_cause_words(h->causes, words));
   table_put_real(t, h->distance);

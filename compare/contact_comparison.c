@@ -51,6 +51,8 @@ void contact_comparison_judge(int n, const model_contact *contacts, double allow
   }
 }
 
+bool contact_comparison_made(const contact_comparison *c) { return c->one_orbit && !isnan(c->work_error); }
+
 const char *contact_comparison_text(const contact_comparison *c, char text[CONTACT_COMPARISON_TEXT])
 {
   const contact_period *h = &c->hbm, *t = &c->transient;

@@ -31,6 +31,9 @@ typedef struct contact_comparison {
 void contact_comparison_judge(int n, const model_contact *contacts, double allowed, bool mean_free,
                               contact_comparison *c);
 
+/* Are the two sides held together: does `differs` say something? */
+bool contact_comparison_made(const contact_comparison *c);
+
 /* "contact slider: stick by HBM, slip by the transient; work 0 and 0.3", "contact slider: work 1.2 by HBM, 1.4 by the
  * transient, 14 % of the largest apart: so is the damping". One line in text[CONTACT_COMPARISON_TEXT], which is
  * returned; of one that differs. */

@@ -318,7 +318,6 @@ hc_status solution_contacts(comparison_work *w, const double *X, const compariso
   const model *m = w->setup->model;
   const int n = model_whole_contacts(m);
   const hc_status measured = hbm_measure_contacts(w->hbm, X, w->balanced);
-  if (measured == HC_OK) contact_periods_merge(m, w->balanced);
   for (int j = 0; j < n; ++j) {
     c[j] = (contact_comparison){.omega = row->omega,
                                 .branch = row->branch,

@@ -146,5 +146,6 @@ hc_status hbm_measure_contacts(hbm_solver *s, const double *X, contact_period *o
       ++j;
     } else st = contact_measures_of(&c->law, sys->n_harm, u[0], v, &out[j]);
   }
+  if (st == HC_OK) contact_periods_merge(s->model, out);
   return st;
 }

@@ -18,8 +18,8 @@
  * the slider starts from w = 0. HC_BAD_INPUT, HC_NO_MEMORY, HC_NOT_FINITE, and the errors of transitions_find. */
 hc_status contact_measures_of(const contact *law, int n_harm, const double *u, const double *v, contact_period *out);
 
-/* out[n_contacts]: of the solution X, every contact by the exact law, also where the equations sample it. Errors as
- * above. */
+/* out[hbm_n_contacts]: of the solution X, every contact by the exact law, also where the equations sample it, those of
+ * the case first (contact_periods_merge). Errors as above. */
 hc_status hbm_measure_contacts(hbm_solver *s, const double *X, contact_period *out);
 
 #endif

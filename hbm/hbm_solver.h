@@ -26,6 +26,7 @@ void hbm_solver_free(hbm_solver *s); /* NULL is allowed */
 int hbm_n_harmonics(const hbm_solver *s);    /* in use now; after a trace with auto, the most the curve needed */
 int hbm_n_samples(const hbm_solver *s);      /* per period, in use now; 0 where forces are exact */
 int hbm_n_dof(const hbm_solver *s);          /* of the model */
+int hbm_n_contacts(const hbm_solver *s);     /* of the model: one with two tangents is two */
 bool hbm_of_oscillator(const hbm_solver *s); /* is the model one: model_is_oscillator */
 int hbm_n_coefficients(const hbm_solver *s); /* entries of X, with the harmonics in use now */
 

@@ -10,6 +10,7 @@ struct hbmcheck_comparison {
   comparison found;
   hc_status end;      /* of the run */
   hbmcheck_gate gate; /* valid when end is HC_OK */
+  int n_contacts;     /* of the case; those of a solution stand together in found.contacts */
 };
 
 static hbmcheck_row row_of(const comparison_row *r)
@@ -72,7 +73,8 @@ hbmcheck_status hbmcheck_comparison_run(const hbmcheck_case *c, int n, const dou
   if (!c || !out || !library_scene(c, n, omega, &sc)) return HBMCHECK_BAD_INPUT;
   hbmcheck_comparison *run = calloc(1, sizeof *run);
   if (!run) return HBMCHECK_NO_MEMORY;
-  hc_status st = scene_setup(&sc, &setup);
+  run->n_contacts = scene_contact_count(&sc);
+  hc_status st = library_setup(c, &sc, &setup);
   if (st == HC_OK) st = comparison_run(&setup, &inner, &run->found);
   if (st == HC_OK) st = judge(&setup, &run->found, &run->gate);
   run->end = st;
@@ -88,6 +90,38 @@ hbmcheck_status hbmcheck_comparison_get(const hbmcheck_comparison *c, int k, hbm
 {
   if (!c || !out || k < 0 || k >= c->found.n_rows) return HBMCHECK_BAD_INPUT;
   *out = row_of(&c->found.rows[k]);
+  return HBMCHECK_OK;
+}
+
+/* The contacts of the row's solution, NULL: they were not measured. */
+static const contact_comparison *contacts_of(const hbmcheck_comparison *c, const comparison_row *row)
+{
+  const contact_comparison *of = c->found.contacts;
+  for (int i = 0; c->n_contacts && i < c->found.n_contacts; i += c->n_contacts)
+    if (of[i].omega == row->omega && of[i].branch == row->branch) return &of[i];
+  return NULL;
+}
+
+static hbmcheck_contact_row contact_row_of(const contact_comparison *c)
+{
+  const hbmcheck_contact_period unknown = {NAN, NAN, NAN, NAN, NAN, HBMCHECK_CONTACT_LINEAR};
+  return (hbmcheck_contact_row){.hbm = c->hbm_status == HC_OK ? library_period(&c->hbm) : unknown,
+                                .transient = c->transient_status == HC_OK ? library_period(&c->transient) : unknown,
+                                .work_error = c->work_error,
+                                .normal_error = c->normal_error,
+                                .compared = contact_comparison_made(c),
+                                .differs = c->differs,
+                                .hbm_status = public_status(c->hbm_status),
+                                .transient_status = public_status(c->transient_status)};
+}
+
+hbmcheck_status hbmcheck_comparison_contacts(const hbmcheck_comparison *c, int k, int cap, hbmcheck_contact_row *out,
+                                             int *n)
+{
+  if (!c || !n || k < 0 || k >= c->found.n_rows || cap < 0 || (cap > 0 && !out)) return HBMCHECK_BAD_INPUT;
+  const contact_comparison *found = contacts_of(c, &c->found.rows[k]);
+  *n = found ? c->n_contacts : 0;
+  for (int j = 0; j < cap && j < *n; ++j) out[j] = contact_row_of(&found[j]);
   return HBMCHECK_OK;
 }
 

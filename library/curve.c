@@ -8,16 +8,18 @@
 #include "library/inside.h"
 
 struct hbmcheck_solutions {
-  hbm_curve curve;         /* points and coefficients */
-  int n, n_responses;      /* solutions that have been measured: the first n of the curve's */
-  hbmcheck_solution *list; /* [n][n_responses] */
-  int length;              /* of a series */
-  double *series;          /* [n][n_responses][length] of a structure; else NULL: the curve has them */
+  const hbmcheck_curve *of; /* they lie on */
+  hbm_curve curve;          /* points and coefficients */
+  int n, n_responses;       /* solutions that have been measured: the first n of the curve's */
+  hbmcheck_solution *list;  /* [n][n_responses] */
+  int length;               /* of a series */
+  double *series;           /* [n][n_responses][length] of a structure; else NULL: the curve has them */
 };
 
 struct hbmcheck_curve {
   hbm_solver *solver; /* as the trace left it: with the harmonics and samples that the curve needs */
   hbmcheck_solutions points;
+  int n_contacts; /* of the case */
 };
 
 /* ---- HBM solutions ---- */
@@ -141,6 +143,8 @@ static hc_status trace(const scene *sc, const hbmcheck_monitor *monitor, hbmchec
   const hc_monitor inner = library_monitor(monitor);
   compare_setup setup;
   hc_status st = scene_setup(sc, &setup);
+  curve->points.of = curve;
+  curve->n_contacts = scene_contact_count(sc);
   if (st == HC_OK) st = guided_hbm_solver_new(setup.model, &setup.hbm, &curve->solver);
   if (st == HC_OK) {
     st = hbm_trace(curve->solver, setup.omega_from, setup.omega_to, &inner, &curve->points.curve);
@@ -170,11 +174,26 @@ hbmcheck_status hbmcheck_curve_at(hbmcheck_curve *curve, double omega, hbmcheck_
   if (!curve || !out || !is_omega(omega)) return HBMCHECK_BAD_INPUT;
   hbmcheck_solutions *s = calloc(1, sizeof *s);
   if (!s) return HBMCHECK_NO_MEMORY;
+  s->of = curve;
   hc_status st = hbm_curve_at(curve->solver, &curve->points.curve, omega, &s->curve);
   st = finish_search(curve->solver, st, curve->points.n_responses, s);
   if (st == HC_OK) st = curve->points.curve.end; /* beyond where it stops there may be more */
   if (has_result(st)) *out = s;
   else hbmcheck_solutions_free(s);
+  return public_status(st);
+}
+
+hbmcheck_status hbmcheck_curve_contacts(hbmcheck_curve *curve, const hbmcheck_solutions *s, int k, int cap,
+                                        hbmcheck_contact_period *out, int *n)
+{
+  if (!curve || !n || !has_solution(s, k, 0) || s->of != curve || cap < 0 || (cap > 0 && !out))
+    return HBMCHECK_BAD_INPUT;
+  contact_period *periods = calloc((size_t)hbm_n_contacts(curve->solver) + 1, sizeof *periods);
+  hc_status st = periods ? HC_OK : HC_NO_MEMORY;
+  if (st == HC_OK && cap > 0) st = hbm_measure_contacts(curve->solver, hbm_curve_X(&s->curve, k), periods);
+  if (st == HC_OK) *n = curve->n_contacts;
+  for (int j = 0; st == HC_OK && j < cap && j < curve->n_contacts; ++j) out[j] = library_period(&periods[j]);
+  free(periods);
   return public_status(st);
 }
 

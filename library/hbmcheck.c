@@ -77,6 +77,23 @@ bool library_scene(const hbmcheck_case *c, int n, const double *omega, scene *ou
   return true;
 }
 
+hc_status library_setup(const hbmcheck_case *c, const scene *sc, compare_setup *out)
+{
+  hc_status st = scene_setup(sc, out);
+  out->contacts = c->watch_contacts;
+  return st;
+}
+
+hbmcheck_contact_period library_period(const contact_period *p)
+{
+  return (hbmcheck_contact_period){.normal_min = p->normal_min,
+                                   .normal_max = p->normal_max,
+                                   .traction_max = p->traction_max,
+                                   .slip_distance = p->slip_distance,
+                                   .work = p->work,
+                                   .regime = (hbmcheck_contact)p->regime};
+}
+
 void library_copy(int n, const double *from, int cap, double *to)
 {
   if (cap > n) cap = n;
@@ -155,6 +172,11 @@ hbmcheck_status hbmcheck_case_contact_name(const hbmcheck_case *c, int j, char *
   if (*name) library_say(text, size, name);
   else snprintf(text, size, "%d", j);
   return HBMCHECK_OK;
+}
+
+void hbmcheck_case_watch_contacts(hbmcheck_case *c, int on)
+{
+  if (c) c->watch_contacts = on != 0;
 }
 
 void hbmcheck_case_free(hbmcheck_case *c)

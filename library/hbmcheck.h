@@ -22,6 +22,8 @@
  * makes a handle, *out is NULL after HBMCHECK_BAD_INPUT and HBMCHECK_NO_MEMORY; after any other status it holds what
  * was found until then, and is to be freed.
  * The library prints nothing, never exits, and keeps no global state. Functions that count answer 0 for NULL.
+ * BLAS: where OpenBLAS is the system's, it is told to use one thread when the library is loaded, which holds for the
+ * whole process (NumPy of Debian, too): several wait for each other longer than they compute here.
  * Threads: any number, each with handles of its own. FFTW's planner is shared by a process, and guarded among these
  * handles only: a program that plans with FFTW itself must not do so while another thread is in this library.
  * GSL: its error handler, which aborts unless told otherwise, is the program's: call gsl_set_error_handler_off(). */
@@ -114,6 +116,10 @@ hbmcheck_status hbmcheck_case_contact_name(const hbmcheck_case *c, int j, char *
  * contact, and without memory. */
 int hbmcheck_case_contact_tangents(const hbmcheck_case *c, int j);
 
+/* Shall hbmcheck_transient_run and hbmcheck_comparison_run of c measure what each contact does, too? on = 0: no, as at
+ * first; it may take as long again. Of harmonic balance hbmcheck_curve_contacts tells at any time. NULL: none. */
+void hbmcheck_case_watch_contacts(hbmcheck_case *c, int on);
+
 /* ---- harmonic balance ----
  *
  *     x(t) ~ X[0] + sum_{h=1..H} X[2h-1] cos(h omega t) + X[2h] sin(h omega t) */
@@ -125,6 +131,15 @@ typedef enum hbmcheck_contact {
   HBMCHECK_CONTACT_SLIP,      /* those that are closed stay closed, and one of them slips */
   HBMCHECK_CONTACT_SEPARATION /* one opens and closes */
 } hbmcheck_contact;
+
+/* What one contact does over a period of a motion, as the commands say with --contacts; two tangents are one. */
+typedef struct hbmcheck_contact_period {
+  double normal_min, normal_max; /* [force] extrema of the normal force N >= 0 */
+  double traction_max;           /* [force] the largest |T| */
+  double slip_distance;          /* [length] path of the slider over the surface while it slips */
+  double work;                   /* [force length] dissipated by friction in the period */
+  hbmcheck_contact regime;       /* of this contact: never closed, closed and sticking, ... */
+} hbmcheck_contact_period;
 
 /* "linear", "stick", "slip", "separation"; a constant string, never NULL. */
 const char *hbmcheck_contact_name(hbmcheck_contact contact);
@@ -184,6 +199,14 @@ const hbmcheck_solutions *hbmcheck_curve_points(const hbmcheck_curve *curve);
  * that omega. Where the curve stops before its end the status says why it does, and what is in *out may not be all.
  * HBMCHECK_OK; HBMCHECK_BAD_INPUT, HBMCHECK_NO_MEMORY: *out is NULL; else as hbmcheck_curve_trace. */
 hbmcheck_status hbmcheck_curve_at(hbmcheck_curve *curve, double omega, hbmcheck_solutions **out);
+
+/* What each contact does in solution k of s, which are the points of this curve or what hbmcheck_curve_at found on it;
+ * by the exact law, also where hbm.force is sampled. *n = hbmcheck_case_contacts of the case, of which the first cap
+ * are written to out; cap = 0 asks for *n alone: out may be NULL then. HBMCHECK_OK; *n and out are not touched after
+ * HBMCHECK_BAD_INPUT, HBMCHECK_NO_MEMORY, HBMCHECK_NOT_FINITE, HBMCHECK_CHATTER, HBMCHECK_NOT_CLOSED,
+ * HBMCHECK_NOT_CONVERGED, HBMCHECK_SINGULAR. */
+hbmcheck_status hbmcheck_curve_contacts(hbmcheck_curve *curve, const hbmcheck_solutions *s, int k, int cap,
+                                        hbmcheck_contact_period *out, int *n);
 
 typedef enum hbmcheck_special_kind {
   HBMCHECK_SPECIAL_TURNING_POINT,
@@ -274,6 +297,12 @@ hbmcheck_status hbmcheck_transient_get(const hbmcheck_transient *t, int k, hbmch
  * HBMCHECK_BAD_INPUT. */
 hbmcheck_status hbmcheck_transient_wave(const hbmcheck_transient *t, int k, int cap, double *x, int *n);
 
+/* What each contact does in steady state k, by the law it was integrated with: *n = hbmcheck_case_contacts of the case,
+ * of which the first cap are written to out; cap = 0 asks for *n alone: out may be NULL then. *n = 0: the case was not
+ * told to watch them, the state has no measures, or they could not be told. HBMCHECK_OK, HBMCHECK_BAD_INPUT. */
+hbmcheck_status hbmcheck_transient_contacts(const hbmcheck_transient *t, int k, int cap, hbmcheck_contact_period *out,
+                                            int *n);
+
 void hbmcheck_transient_free(hbmcheck_transient *t);
 
 /* ---- the comparison ---- */
@@ -335,6 +364,19 @@ typedef struct hbmcheck_gate {
   int not_applicable; /* of them about a mean that a slider which never slips leaves open */
 } hbmcheck_gate;
 
+/* One contact in one HBM solution, and in the transient it is held against. */
+typedef struct hbmcheck_contact_row {
+  /* By the exact law along the HBM solution; by the transient's own law. What is not known is NaN. */
+  hbmcheck_contact_period hbm, transient;
+  double work_error;   /* [1] |difference| of the work relative to the largest of any contact on either side; NaN: not
+                          known */
+  double normal_error; /* [1] |difference| of normal_min relative to the largest normal force of this contact; NaN: not
+                          known, or a matter of history */
+  int compared;        /* 1: both sides are known, and of one orbit: differs says something */
+  int differs;         /* 1: an error is beyond the gate's waveform, or one side never touches */
+  hbmcheck_status hbm_status, transient_status; /* HBMCHECK_OK, or why that side is not known */
+} hbmcheck_contact_row;
+
 typedef struct hbmcheck_comparison hbmcheck_comparison;
 
 /* Both sides at omega[n] as in hbmcheck_transient_run; n = 0: at the case's compare.omega, or compare.points of them
@@ -348,6 +390,12 @@ int hbmcheck_comparison_count(const hbmcheck_comparison *c);
 
 /* Row k, 0 <= k < count. HBMCHECK_OK, HBMCHECK_BAD_INPUT. */
 hbmcheck_status hbmcheck_comparison_get(const hbmcheck_comparison *c, int k, hbmcheck_row *out);
+
+/* Each contact in row k: *n = hbmcheck_case_contacts of the case, of which the first cap are written to out; cap = 0
+ * asks for *n alone: out may be NULL then. *n = 0: the case was not told to watch them, or the row has no HBM solution.
+ * HBMCHECK_OK, HBMCHECK_BAD_INPUT. */
+hbmcheck_status hbmcheck_comparison_contacts(const hbmcheck_comparison *c, int k, int cap, hbmcheck_contact_row *out,
+                                             int *n);
 
 /* What `hbmcheck compare` exits with: 0 both sides agree; 1 a transient differs from every HBM solution at its omega,
  * or has another period; 3 something could not be compared, c is NULL, or its run did not end with HBMCHECK_OK. */
@@ -425,6 +473,29 @@ hbmcheck_status hbmcheck_verification_findings(const hbmcheck_verification *v, h
 const char *hbmcheck_verification_cause(const hbmcheck_verification *v);
 const char *hbmcheck_verification_guess(const hbmcheck_verification *v);
 const char *hbmcheck_verification_sentence(const hbmcheck_verification *v);
+
+/* A mistake that was made on purpose: our own harmonic balance with it, and the columns read so. */
+typedef struct hbmcheck_hypothesis {
+  double distance;     /* [1] relative to the amplitude: nine of ten points that differ are within it, and of ten that
+                          match */
+  double omega_factor; /* omega is this times what the points say */
+  double value_factor; /* a value is this times the quantity */
+  int harmonics;       /* H; 0: without contact forces, or with sliders stuck, which is linear */
+  int keep_mean;       /* 1: harmonic 0 is kept; 0 also where it is linear */
+  int samples;         /* per period; 0: exact forces */
+  int slider_restart;  /* where contact is made between samples the slider starts 0: at the sample, 1: interpolated */
+} hbmcheck_hypothesis;
+
+/* How many were made: the best of every set of mistakes; none where every point is right. */
+int hbmcheck_verification_hypotheses(const hbmcheck_verification *v);
+
+/* Number k, 0 <= k < that, the best first. HBMCHECK_OK, HBMCHECK_BAD_INPUT. */
+hbmcheck_status hbmcheck_verification_hypothesis(const hbmcheck_verification *v, int k, hbmcheck_hypothesis *out);
+
+/* Its mistakes in one word, several joined by "+", and the quantity that values are then, into cause[cause_size] and
+ * quantity[quantity_size], cut to size (1024 and 48 hold any). HBMCHECK_OK, HBMCHECK_BAD_INPUT. */
+hbmcheck_status hbmcheck_verification_hypothesis_text(const hbmcheck_verification *v, int k, char *cause,
+                                                      size_t cause_size, char *quantity, size_t quantity_size);
 
 void hbmcheck_verification_free(hbmcheck_verification *v);
 

@@ -8,9 +8,11 @@
 #include "base/status.h"
 #include "cases/scene.h"
 #include "library/hbmcheck.h"
+#include "model/contact_period.h"
 
 struct hbmcheck_case {
   scene sc;
+  bool watch_contacts; /* what each does, too, in runs that integrate */
 };
 
 /* The public statuses have the values of the inner ones (hbmcheck.c). */
@@ -32,6 +34,11 @@ bool library_scene(const hbmcheck_case *c, int n, const double *omega, scene *ou
 
 /* text into message[size], cut to size; message may be NULL. */
 void library_say(char *message, size_t size, const char *text);
+
+/* What is to be compared of sc, the scene of c or one made of it. Clear with scene_setup_clear in any case. */
+hc_status library_setup(const hbmcheck_case *c, const scene *sc, compare_setup *out);
+
+hbmcheck_contact_period library_period(const contact_period *p);
 
 /* The first of the n values `from`, as many as there is room for. */
 void library_copy(int n, const double *from, int cap, double *to);

@@ -1,12 +1,14 @@
 /* transient.c - see hbmcheck.h: steady states by time integration. */
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "compare/steady_states.h"
 #include "library/inside.h"
 
 struct hbmcheck_transient {
   steady_states found;
+  int n_contacts; /* of the case; those of a state stand together in found.contacts */
 };
 
 static hbmcheck_steady steady_of(const steady_row *row)
@@ -52,7 +54,8 @@ hbmcheck_status hbmcheck_transient_run(const hbmcheck_case *c, int n, const doub
   if (!c || !out || !library_scene(c, n, omega, &sc)) return HBMCHECK_BAD_INPUT;
   hbmcheck_transient *t = calloc(1, sizeof *t);
   if (!t) return HBMCHECK_NO_MEMORY;
-  hc_status st = scene_setup(&sc, &setup);
+  t->n_contacts = scene_contact_count(&sc);
+  hc_status st = library_setup(c, &sc, &setup);
   if (st == HC_OK) st = steady_states_run(&setup, &inner, &t->found);
   scene_setup_clear(&setup);
   if (has_result(st)) *out = t;
@@ -76,6 +79,26 @@ hbmcheck_status hbmcheck_transient_wave(const hbmcheck_transient *t, int k, int 
   if (!n || !row || cap < 0 || (cap > 0 && !x)) return HBMCHECK_BAD_INPUT;
   *n = has_motion(row->status) ? TIMEINT_WAVE : 0;
   library_copy(*n, row->result.wave, cap, x);
+  return HBMCHECK_OK;
+}
+
+/* The contacts of that state, NULL: they were not measured. */
+static const steady_contact *contacts_of(const hbmcheck_transient *t, const steady_row *row)
+{
+  const steady_contact *c = t->found.contacts;
+  for (int i = 0; t->n_contacts && i < t->found.n_contacts; i += t->n_contacts)
+    if (c[i].omega == row->result.omega && strcmp(c[i].start, row->start) == 0) return &c[i];
+  return NULL;
+}
+
+hbmcheck_status hbmcheck_transient_contacts(const hbmcheck_transient *t, int k, int cap, hbmcheck_contact_period *out,
+                                            int *n)
+{
+  const steady_row *row = steady_row_at(t, k);
+  if (!n || !row || cap < 0 || (cap > 0 && !out)) return HBMCHECK_BAD_INPUT;
+  const steady_contact *found = contacts_of(t, row);
+  *n = found ? t->n_contacts : 0;
+  for (int j = 0; j < cap && j < *n; ++j) out[j] = library_period(&found[j].period);
   return HBMCHECK_OK;
 }
 

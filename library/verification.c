@@ -109,6 +109,40 @@ const char *hbmcheck_verification_guess(const hbmcheck_verification *v) { return
 
 const char *hbmcheck_verification_sentence(const hbmcheck_verification *v) { return v ? v->sentence : ""; }
 
+static const verify_hypothesis *hypothesis_at(const hbmcheck_verification *v, int k)
+{
+  return k >= 0 && k < hbmcheck_verification_hypotheses(v) ? &v->report.hypotheses[k] : NULL;
+}
+
+int hbmcheck_verification_hypotheses(const hbmcheck_verification *v) { return v ? v->report.n_hypotheses : 0; }
+
+hbmcheck_status hbmcheck_verification_hypothesis(const hbmcheck_verification *v, int k, hbmcheck_hypothesis *out)
+{
+  const verify_hypothesis *h = hypothesis_at(v, k);
+  if (!h || !out) return HBMCHECK_BAD_INPUT;
+  const verify_equations *e = &h->equations;
+  const bool linear = verify_equations_linear(e);
+  *out = (hbmcheck_hypothesis){.distance = h->distance,
+                               .omega_factor = h->omega_factor,
+                               .value_factor = h->value_factor,
+                               .harmonics = linear ? 0 : e->harmonics,
+                               .keep_mean = !linear && e->keep_mean,
+                               .samples = e->samples,
+                               .slider_restart = e->samples && e->restart != HBM_RESTART_SAMPLE};
+  return HBMCHECK_OK;
+}
+
+hbmcheck_status hbmcheck_verification_hypothesis_text(const hbmcheck_verification *v, int k, char *cause,
+                                                      size_t cause_size, char *quantity, size_t quantity_size)
+{
+  char words[VERIFY_TEXT], name[VERIFY_QUANTITY_TEXT];
+  const verify_hypothesis *h = hypothesis_at(v, k);
+  if (!h) return HBMCHECK_BAD_INPUT;
+  library_say(cause, cause_size, verify_cause_words(h->causes, words));
+  library_say(quantity, quantity_size, verify_quantity_name(&h->quantity, name));
+  return HBMCHECK_OK;
+}
+
 void hbmcheck_verification_free(hbmcheck_verification *v)
 {
   if (!v) return;

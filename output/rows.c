@@ -33,8 +33,6 @@ static const char *largest_part(const comparison_row *r)
   double fraction;
   return budget_largest(&r->budget, &fraction);
 }
-/* Are the two sides of a contact held together? */
-static bool contact_compared(const contact_comparison *r) { return r->one_orbit && !isnan(r->work_error); }
 static const char *curve_text(const accuracy_row *r)
 {
   return !r->possible ? "impossible: samples < 2 H + 2" : r->status == HC_OK ? "whole" : "stopped";
@@ -207,7 +205,7 @@ static const char *stable_text(const response_row *r)
   X(INTEGER, "contact",       true, r->contact)                             \
   R(TEXT,    "name",          *r->name, r->name)                            \
   X(TEXT,    "verdict",       true, r->verdict)                             \
-  X(TEXT,    "contact_verdict", contact_compared(r), r->differs ? "differs" : "match") \
+  X(TEXT,    "contact_verdict", contact_comparison_made(r), r->differs ? "differs" : "match") \
   X(TEXT,    "hbm_regime",    r->hbm_status == HC_OK, contact_regime_name(r->hbm.regime)) \
   X(TEXT,    "transient_regime", r->transient_status == HC_OK, contact_regime_name(r->transient.regime)) \
   BOTH_SIDES(X, "work", work)                                               \

@@ -128,7 +128,6 @@ static hc_status loops_of(shown *d, double omega, const double *X, json_t *loops
 {
   hc_status st = hbm_sliders(d->s, X, d->w);
   if (st == HC_OK) st = hbm_measure_contacts(d->s, X, d->periods);
-  if (st == HC_OK) contact_periods_merge(d->m, d->periods);
   for (int j = 0, first = 0; first < d->m->n_contacts && j < MOST_CONTACTS && st == HC_OK; ++j, ++first) {
     const bool pair = d->m->contacts[first].pair == CONTACT_FIRST;
     for (int i = 0; i < 2 + pair && st == HC_OK; ++i)

@@ -30,6 +30,12 @@ typedef struct verify_equations {
   int restart; /* hbm_restart, for samples */
 } verify_equations;
 
+/* Have they no forces that harmonics or samples could be too few for? */
+static inline bool verify_equations_linear(const verify_equations *e)
+{
+  return e->change == CHANGE_NO_CONTACT || e->change == CHANGE_STUCK;
+}
+
 /* Equations, and how the columns are to be read: true omega = omega_factor times the file's, value = value_factor
  * times the quantity. */
 typedef struct verify_hypothesis {

@@ -113,10 +113,11 @@ class Model:
     def __exit__(self, *_: Any) -> None:
         self.close()
 
-    def frf(self, at: Any = None, progress: Optional[Progress] = None) -> Union[Curve, Solutions]:
+    def frf(self, at: Any = None, progress: Optional[Progress] = None, contacts: bool = False) -> Union[Curve, Solutions]:
         """Response curve of harmonic balance over the sweep, past turning points, with stability; or, at: a number or
         [n] [rad/time], every solution on it there. Curve.at asks for more of them without following the curve again.
 
+        contacts: with a table of what each contact does in each solution, .contacts.
         progress: called with the fraction done, 0..1, or None; its answer False stops. Stopped (KeyboardInterrupt): the
         curve ends before the sweep does; .result is what was found."""
         watch, place = Watch(progress), ctypes.c_void_p()
@@ -125,20 +126,22 @@ class Model:
         curve = None
         if place:
             owner = Owner(place.value, lib.curve_free, "the curve")
-            curve = Curve(owner, solution_columns(lib.curve_points(place), self.responses), self.responses)
+            curve = Curve(owner, solution_columns(lib.curve_points(place), self.responses), self.responses, self.contacts,
+                          contacts and at is None)
         watch.check(status, result=curve)
-        return curve if at is None else curve.at(at)
+        return curve if at is None else curve.at(at, contacts)
 
-    def _run(self, start, read, free, omega, progress):
-        """A run of the library at omega [n], None: those of the case; its result by read(handle, responses)."""
+    def _run(self, start, read, free, omega, contacts, progress):
+        """A run of the library at omega [n], None: those of the case; its result by read(handle, responses, contacts)."""
         at = None if omega is None else omegas("omega", omega)
         if at is not None and len(at) == 0:
             raise BadInput("omega: empty, expected at least one")
         watch, place = Watch(progress), ctypes.c_void_p()
         with self._owner as case, watch:
+            lib.case_watch_contacts(case, bool(contacts))
             status = start(case, 0 if at is None else len(at), pointer(at), watch.monitor, ctypes.byref(place))
         try:
-            result = read(place, self.responses) if place else None
+            result = read(place, self.responses, self.contacts if contacts else None) if place else None
         finally:
             free(place)
         words = ""
@@ -147,16 +150,16 @@ class Model:
         watch.check(status, words, result)
         return result
 
-    def transient(self, omega: Any = None, progress: Optional[Progress] = None) -> Transient:
+    def transient(self, omega: Any = None, progress: Optional[Progress] = None, contacts: bool = False) -> Transient:
         """Steady states by time integration at omega, a number or [n] [rad/time]; None: at the case's compare.omega.
 
-        Rows that failed say so in `status`. progress as of frf."""
-        return self._run(lib.transient_run, transient_of, lib.transient_free, omega, progress)
+        Rows that failed say so in `status`. progress and contacts as of frf; contacts may take as long again."""
+        return self._run(lib.transient_run, transient_of, lib.transient_free, omega, contacts, progress)
 
-    def compare(self, omega: Any = None, progress: Optional[Progress] = None) -> Comparison:
+    def compare(self, omega: Any = None, progress: Optional[Progress] = None, contacts: bool = False) -> Comparison:
         """Harmonic balance and time integration at omega, a number or [n] [rad/time]; None: at the case's compare.omega
-        or compare.points. A verdict for each row. progress as of frf."""
-        return self._run(lib.comparison_run, comparison_of, lib.comparison_free, omega, progress)
+        or compare.points. A verdict for each row. progress and contacts as of transient."""
+        return self._run(lib.comparison_run, comparison_of, lib.comparison_free, omega, contacts, progress)
 
     def verify(self, omega: Any, amplitude: Any, quantity: str = "amplitude", response: Union[int, str] = 0,
                noise: float = 0.0, progress: Optional[Progress] = None) -> Verification:

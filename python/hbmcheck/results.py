@@ -52,6 +52,64 @@ class Table:
         return f"<{type(self).__name__}: {len(self)} rows of {', '.join(self.columns)}>"
 
 
+class Contacts(Table):
+    """What each contact does in each solution, steady state or row of a comparison.
+
+    row (of the table whose .contacts this is, its first response's), omega [rad/time], branch (of solutions), contact (a
+    number in .names), regime ("linear": never closed, "stick", "slip", "separation"), normal_min, normal_max,
+    traction_max [force], slip_distance [length], work [force length] dissipated in a period. Of a comparison the last six
+    are there twice, as hbm_regime, ..., transient_regime, ..., with work_error, normal_error [1], compared, differs
+    (bool), hbm_status, transient_status (words).
+    """
+
+    def __init__(self, columns: dict, names: list) -> None:
+        super().__init__(columns, [])
+        self.names: list[str] = names
+
+    def of(self, contact: Any) -> Contacts:
+        """The rows of one contact, by its name or its number from 0."""
+        if isinstance(contact, str) and contact not in self.names:
+            raise KeyError(f"no contact {contact}, expected one of {', '.join(self.names)}")
+        kept = self.columns["contact"] == (self.names.index(contact) if isinstance(contact, str) else int(contact))
+        return Contacts({name: column[kept] for name, column in self.columns.items()}, self.names)
+
+
+def _flat(found):
+    """Columns of structs; those of a struct inside have its name before theirs."""
+    columns = {}
+    for name in found.dtype.names:
+        inner = found[name].dtype.names
+        columns.update({f"{name}_{n}": found[name][n] for n in inner} if inner else {name: found[name]})
+    return columns
+
+
+def contacts_of(kind, get, known, names):
+    """Contacts of every row of the first response in `known`, its columns: get(k, cap, address, count) of row k."""
+    n, count, parts, row = len(names), ctypes.c_int(), [], []
+    place = (kind * max(n, 1))()
+    for k in np.flatnonzero(known["response"] == 0):
+        check(get(int(k), n, ctypes.addressof(place), ctypes.byref(count)))
+        parts.append(np.frombuffer(bytes(place), dtype=np.dtype(kind), count=count.value))
+        row += [k] * count.value
+    found = _flat(np.concatenate([np.empty(0, dtype=np.dtype(kind)), *parts]))
+    for name in found:
+        if name.endswith("regime"):
+            found[name] = contact_words(found[name])
+        elif name.endswith("status"):
+            found[name] = status_words(found[name])
+        elif name in ("compared", "differs"):
+            found[name] = found[name] != 0
+    shared = {name: known[name][row] for name in ("omega", "branch") if name in known}
+    at = {"row": np.array(row, dtype=int), **shared, "contact": np.tile(np.arange(n), len(row) // max(n, 1))}
+    return Contacts({**at, **{name: np.ascontiguousarray(column) for name, column in found.items()}}, names)
+
+
+def curve_contacts(curve, handle, found, names):
+    """Of every solution of `handle`, which lie on `curve` and are the columns `found`."""
+    m = max(int(found["response"].max(initial=0)) + 1, 1)
+    return contacts_of(structs.ContactPeriod, lambda k, *a: lib.curve_contacts(curve, handle, k // m, *a), found, names)
+
+
 def solution_columns(handle, responses):
     """Columns of a hbmcheck_solutions: its solutions, of each every response."""
     n, m = lib.solutions_count(handle), len(responses)
@@ -72,29 +130,46 @@ class Solutions(Table):
     omega [rad/time], amplitude, max, min, rms, mean, harmonic_1 [length], multiplier, residual [1], stable (1, -1; 0
     unknown), branch, harmonics, iterations, contact ("linear", "stick", "slip", "separation"), mean_free (bool),
     response (a number in .responses), coefficients [rows, 2H+1] [length]: X0, a1, b1, a2, b2, ...
+
+    contacts: what each does there, by the exact law, or None: not asked for.
     """
+
+    contacts: Optional[Contacts] = None
 
 
 class Curve(Solutions):
     """A response curve, with the means to search it again."""
 
-    def __init__(self, owner: Any, columns: dict, responses: list) -> None:
+    def __init__(self, owner: Any, columns: dict, responses: list, names: list, contacts: bool = False) -> None:
         super().__init__(columns, responses)
-        self._owner = owner  # of the hbmcheck_curve
+        self._owner, self._names = owner, names  # the owner of the hbmcheck_curve, the contacts' names
+        if contacts:
+            with owner as curve:
+                self.contacts = curve_contacts(curve, lib.curve_points(curve), columns, names)
 
-    def at(self, omega: Any) -> Solutions:
-        """Every solution on the curve at omega, a number or [n] [rad/time] > 0, each solved for.
+    def at(self, omega: Any, contacts: bool = False) -> Solutions:
+        """Every solution on the curve at omega, a number or [n] [rad/time] > 0, each solved for; contacts: with what each
+        contact does there.
 
         Stopped: beyond where the curve ends; .result has the solutions that are known."""
-        parts, wrong = [], None
+        parts, acting, wrong, known = [], [], None, 0
         for one in omegas("omega", omega):
             with self._owner as curve:
                 place = ctypes.c_void_p()
                 status = lib.curve_at(curve, one, ctypes.byref(place))
-                parts.append(solution_columns(place, self.responses) if place else None)
-                lib.solutions_free(place)
+                try:
+                    if place:
+                        parts.append(solution_columns(place, self.responses))
+                        acting += [curve_contacts(curve, place, parts[-1], self._names)] if contacts else []
+                finally:
+                    lib.solutions_free(place)
+            if contacts and place:
+                acting[-1].columns["row"] += known
+                known += len(parts[-1]["omega"])
             wrong = wrong or status
-        found = Solutions(_joined([p for p in parts if p]) if any(parts) else _none_of(self), self.responses)
+        found = Solutions(_joined(parts) if parts else _none_of(self), self.responses)
+        if acting:
+            found.contacts = Contacts({name: np.concatenate([a[name] for a in acting]) for name in acting[0].columns}, self._names)
         check(wrong or 0, result=found)
         return found
 
@@ -147,10 +222,15 @@ class Transient(Table):
     closure, multiplier, from_regularisation [1], stable (1, -1; 0 unknown), period_multiple, periods, steps,
     free_sliders, left_orbit (bool), response, contact; wave [rows, n] [length]: x at i/n of the last period from the
     forcing's maximum on, NaN where there are no measures.
+
+    contacts: what each does, by the law that was integrated, or None: not asked for.
     """
 
+    contacts: Optional[Contacts] = None
 
-def transient_of(handle, responses):
+
+def transient_of(handle, responses, names):
+    """names: of the contacts, None: not asked for."""
     n, count = lib.transient_count(handle), ctypes.c_int()
     found = rows(structs.Steady, n, lambda k, at: lib.transient_get(handle, k, at))
     sizes = []
@@ -165,7 +245,10 @@ def transient_of(handle, responses):
         found[name] = status_words(found[name])
     found["contact"] = contact_words(found["contact"])
     found["left_orbit"] = found["left_orbit"] != 0
-    return Transient({**found, "wave": wave}, responses)
+    result = Transient({**found, "wave": wave}, responses)
+    if names is not None:
+        result.contacts = contacts_of(structs.ContactPeriod, lambda k, *a: lib.transient_contacts(handle, k, *a), found, names)
+    return result
 
 
 class Comparison(Table):
@@ -177,9 +260,11 @@ class Comparison(Table):
     from_settling, hbm_predicted, transient_predicted [1], branch, stable, period_multiple, response, unexpected,
     mean_free, still, family, accounted (bool), hbm_status, transient_status, orbit_status (words).
 
-    exit_code: of `hbmcheck compare`, 0: both sides agree. gate: `hbmcheck gate` in numbers, or None.
+    exit_code: of `hbmcheck compare`, 0: both sides agree. gate: `hbmcheck gate` in numbers, or None. contacts: what each
+    does on both sides, or None: not asked for.
     """
 
+    contacts: Optional[Contacts] = None
     exit_code: int
     gate: Optional[dict]
 
@@ -190,7 +275,8 @@ class Comparison(Table):
         return plot.comparison(self.of(response), axes)
 
 
-def comparison_of(handle, responses):
+def comparison_of(handle, responses, names):
+    """names: of the contacts, None: not asked for."""
     found = rows(structs.Row, lib.comparison_count(handle), lambda k, at: lib.comparison_get(handle, k, at))
     found["verdict"] = verdict_words(found["verdict"])
     for name in ("hbm_status", "transient_status", "orbit_status"):
@@ -198,6 +284,8 @@ def comparison_of(handle, responses):
     for name in ("accounted", "unexpected", "mean_free", "still", "family"):
         found[name] = found[name] != 0
     result, gate = Comparison(found, responses), structs.Gate()
+    if names is not None:
+        result.contacts = contacts_of(structs.ContactRow, lambda k, *a: lib.comparison_contacts(handle, k, *a), found, names)
     result.exit_code = lib.comparison_exit_code(handle)
     judged = lib.comparison_gate(handle, ctypes.byref(gate)) == 0
     result.gate = {name: getattr(gate, name) for name, _ in gate._fields_} if judged else None
@@ -212,7 +300,9 @@ class Verification(Table):
 
     cause: in one word, "none" where every point is right, "unknown" where no cause is sure. guess: the nearest where
     none is sure. sentence: the cause, what fits, and the remedy. exit_code: of `hbmcheck verify`. findings: counts and
-    distances, as in struct hbmcheck_findings.
+    distances, as in struct hbmcheck_findings. hypotheses: the mistakes that were tried, the best first, a table of cause,
+    distance, omega_factor, value_factor [1], harmonics (0: linear), keep_mean (bool), samples (0: exact forces),
+    slider_restart ("", "sample", "interpolated"), quantity.
     """
 
     cause: str
@@ -220,6 +310,7 @@ class Verification(Table):
     sentence: str
     exit_code: int
     findings: dict
+    hypotheses: Table
 
     def __str__(self) -> str:
         return f"{self.cause}: {self.sentence}"
@@ -242,7 +333,22 @@ def verification_of(handle, responses):
     result.sentence = lib.verification_sentence(handle).decode()
     result.findings = {name: getattr(whole, name) for name, _ in whole._fields_}
     result.exit_code = whole.exit_code
+    result.hypotheses = hypotheses_of(handle)
     return result
+
+
+def hypotheses_of(handle):
+    n = lib.verification_hypotheses(handle)
+    found = rows(structs.Hypothesis, n, lambda k, at: lib.verification_hypothesis(handle, k, at))
+    cause, quantity, texts = ctypes.create_string_buffer(1024), ctypes.create_string_buffer(48), []
+    for k in range(n):
+        check(lib.verification_hypothesis_text(handle, k, cause, 1024, quantity, 48))
+        texts.append((cause.value.decode(), quantity.value.decode()))
+    restart = np.where(found["slider_restart"] != 0, "interpolated", "sample")
+    found["slider_restart"] = np.where(found["samples"] > 0, restart, "")
+    found["keep_mean"] = found["keep_mean"] != 0
+    named = {"cause": np.array([t[0] for t in texts], dtype=str), "quantity": np.array([t[1] for t in texts], dtype=str)}
+    return Table({**named, **found}, [])
 
 
 class ContactForce(NamedTuple):

@@ -22,6 +22,7 @@ void *__wrap_realloc(void *p, size_t n) { return refuse() ? NULL : __real_reallo
 typedef struct material {
   hbmcheck_case *c;
   hbmcheck_curve *curve;
+  int samples; /* of a contact's force */
 } material;
 typedef hbmcheck_status (*attempt)(material *m);
 
@@ -87,6 +88,41 @@ static hbmcheck_status compare(material *m)
   return st;
 }
 
+static hbmcheck_status contacts(material *m)
+{
+  hbmcheck_contact_period out[1];
+  int n = -1;
+  hbmcheck_status st = hbmcheck_curve_contacts(m->curve, hbmcheck_curve_points(m->curve), 0, 1, out, &n);
+  return (st == HBMCHECK_OK) == (n == 1) ? st : HBMCHECK_BUG;
+}
+
+/* A curve of nothing that ours is: every mistake is tried. */
+static hbmcheck_status verify(material *m)
+{
+  const double omega[] = {3.5, 4, 4.5, 5}, value[] = {4, 4, 5, 7};
+  const hbmcheck_foreign theirs = {.quantity = "amplitude", .n = 4, .omega = omega, .value = value};
+  hbmcheck_verification *v;
+  char message[64];
+  hbmcheck_status st = hbmcheck_verification_run(m->c, &theirs, NULL, message, sizeof message, &v);
+  if ((st == HBMCHECK_OK) != (v != NULL) || (st == HBMCHECK_OK) != !*message) return HBMCHECK_BUG;
+  if (st == HBMCHECK_OK && hbmcheck_verification_hypotheses(v) == 0) return HBMCHECK_BUG;
+  hbmcheck_verification_free(v);
+  return st;
+}
+
+static hbmcheck_status contact_force(material *m)
+{
+  const double u[] = {0, 0.2, 0}, v[] = {0, 6, 0};
+  double T[3] = {-1}, N[3] = {-1};
+  hbmcheck_status st = hbmcheck_contact_force(m->c, 0, 1, u, NULL, v, m->samples, T, NULL, N);
+  return (st == HBMCHECK_OK) == (N[0] != -1) ? st : HBMCHECK_BUG;
+}
+
+static hbmcheck_status tangents(material *m)
+{
+  return hbmcheck_case_contact_tangents(m->c, 0) == 1 ? HBMCHECK_OK : HBMCHECK_NO_MEMORY;
+}
+
 /* Every allocation, or `most` of them where there are more, spread evenly; the first and the last ones included. */
 static void without(material *m, const char *name, attempt try, int most)
 {
@@ -117,6 +153,15 @@ static void every_call(void **state)
   without(&m, "hbmcheck_curve_summary", summary, 100);
   without(&m, "hbmcheck_transient_run", settle, 40);
   without(&m, "hbmcheck_comparison_run", compare, 40);
+  hbmcheck_case_watch_contacts(m.c, 1);
+  without(&m, "hbmcheck_transient_run, contacts watched", settle, 40);
+  without(&m, "hbmcheck_comparison_run, contacts watched", compare, 40);
+  without(&m, "hbmcheck_curve_contacts", contacts, 100);
+  without(&m, "hbmcheck_verification_run", verify, 60);
+  without(&m, "hbmcheck_contact_force, exact", contact_force, 100);
+  m.samples = 64;
+  without(&m, "hbmcheck_contact_force, sampled", contact_force, 100);
+  without(&m, "hbmcheck_case_contact_tangents", tangents, 100);
   hbmcheck_curve_free(m.curve);
   hbmcheck_case_free(m.c);
 }

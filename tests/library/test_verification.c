@@ -82,6 +82,42 @@ static void check_findings(const hbmcheck_verification *v, const verify_report *
   assert_string_equal(hbmcheck_verification_sentence(v), verify_sentence(r, words));
 }
 
+/* Numbers of what the command writes as its table of hypotheses; the first stands for the cause. */
+static void check_hypotheses(const hbmcheck_verification *v, const verify_report *r)
+{
+  hbmcheck_hypothesis h;
+  char cause[VERIFY_TEXT], quantity[VERIFY_QUANTITY_TEXT], words[VERIFY_TEXT];
+  int linear = 0;
+  assert_int_equal(hbmcheck_verification_hypotheses(v), r->n_hypotheses);
+  assert_true(r->n_hypotheses > 4);
+  for (int k = 0; k < r->n_hypotheses; ++k) {
+    const verify_hypothesis *inner = &r->hypotheses[k];
+    assert_int_equal(hbmcheck_verification_hypothesis(v, k, &h), HBMCHECK_OK);
+    SAME(h.distance, inner->distance);
+    SAME(h.omega_factor, inner->omega_factor);
+    SAME(h.value_factor, inner->value_factor);
+    linear += h.harmonics == 0;
+    assert_true(h.harmonics == 0 ||
+                (h.harmonics == inner->equations.harmonics && h.keep_mean == inner->equations.keep_mean));
+    assert_int_equal(h.samples, inner->equations.samples);
+    assert_int_equal(hbmcheck_verification_hypothesis_text(v, k, cause, sizeof cause, quantity, sizeof quantity),
+                     HBMCHECK_OK);
+    assert_string_equal(cause, verify_cause_words(inner->causes, words));
+    assert_string_equal(quantity, verify_quantity_name(&inner->quantity, words));
+  }
+  assert_in_range(linear, 1, 4); /* K alone, sliders stuck */
+  assert_int_equal(hbmcheck_verification_hypothesis_text(v, 0, cause, 5, NULL, 0), HBMCHECK_OK);
+  assert_string_equal(cause, "no_s");
+  h.distance = -1;
+  assert_int_equal(hbmcheck_verification_hypothesis(v, -1, &h), HBMCHECK_BAD_INPUT);
+  assert_int_equal(hbmcheck_verification_hypothesis(v, r->n_hypotheses, &h), HBMCHECK_BAD_INPUT);
+  assert_int_equal(hbmcheck_verification_hypothesis(NULL, 0, &h), HBMCHECK_BAD_INPUT);
+  assert_int_equal(hbmcheck_verification_hypothesis(v, 0, NULL), HBMCHECK_BAD_INPUT);
+  assert_int_equal(hbmcheck_verification_hypothesis_text(v, -1, cause, 5, NULL, 0), HBMCHECK_BAD_INPUT);
+  assert_int_equal(hbmcheck_verification_hypotheses(NULL), 0);
+  SAME(h.distance, -1);
+}
+
 static void the_cause_is_named(void **state)
 {
   (void)state;
@@ -105,6 +141,7 @@ static void the_cause_is_named(void **state)
   assert_int_equal(verify_run(&setup, &data, NULL, &expected), HC_OK);
   check_rows(v, &expected);
   check_findings(v, &expected);
+  check_hypotheses(v, &expected);
   verify_clear(&expected);
   verify_data_clear(&data);
   scene_setup_clear(&setup);

@@ -20,10 +20,14 @@ SPACE = str(SOURCE / "cases/structures/space.yaml")
 sys.path.insert(0, os.environ.get("HBMCHECK_PACKAGE", str(SOURCE / "python")))
 
 
-def table(*arguments):
-    """Columns of the csv that the command prints."""
+def tables_of(text):
+    return [part.splitlines() for part in text.strip("\n").split("\n\n")]
+
+
+def table(*arguments, which=0):
+    """Columns of the csv that the command prints; of several tables, one after another, the one of that number."""
     done = subprocess.run([COMMAND, *map(str, arguments), "--format", "csv", "--quiet"], capture_output=True, text=True)
-    lines = [line for line in done.stdout.splitlines() if line and not line.startswith("#")]
+    lines = [line for line in tables_of(done.stdout)[which] if not line.startswith("#")]
     if not lines:
         raise AssertionError(done.stderr)
     rows = list(csv.DictReader(lines))

@@ -1,9 +1,11 @@
 """test_equal.py - every function of the package says what the command's csv says, to the last digit, of one degree of freedom
 and of several."""
+import json
 import os
+import subprocess
 import tempfile
 
-from common import CASE2, CHAIN, SOURCE, SPACE, Test, np, table, unittest
+from common import CASE2, CHAIN, COMMAND, SOURCE, SPACE, Test, np, table, unittest
 
 import hbmcheck
 
@@ -57,6 +59,65 @@ class Equal(Test):
                                                "transient_predicted".split())
                 self.assertEqual(list(found.verdict), said["verdict"])
 
+    PERIOD = "normal_min normal_max traction_max slip_distance work".split()
+
+    def same_contacts(self, found, said, names, regime="regime", period=PERIOD):
+        self.same_columns(found, said, ["omega", "contact", *period])
+        self.assertEqual(list(found[regime]), said[regime])
+        if "name" in said:
+            self.assertEqual([names[j] for j in found.contact], said["name"])
+
+    def test_what_contacts_do_in_solutions(self):
+        for case, sweep, at in ((CASE2, "3,10", [6, 8]), (CHAIN, "1.2,2", [1.2585, 1.9]), (SPACE, "12,12.5", [12.5])):
+            with self.subTest(case=case):
+                model = hbmcheck.Model.from_yaml(case, set={"sweep.omega": sweep})
+                options = ["--set", f"sweep.omega={sweep}", "--contacts"]
+                curve = model.frf(contacts=True)
+                self.same_contacts(curve.contacts, table("frf", case, *options, which=1), model.contacts)
+                first = curve.contacts.of(model.contacts[0])
+                self.assertEqual(list(first.contact), [0] * (len(curve) // len(model.responses)))
+                said = table("frf", case, "--at", ",".join(map(str, at)), *options, which=1)
+                found = curve.at(at, contacts=True)
+                self.same_contacts(found.contacts, said, model.contacts)
+                np.testing.assert_array_equal(found.omega[found.contacts.row], found.contacts.omega)
+                self.assertIsNone(curve.at(at).contacts)
+
+    def test_what_contacts_do_in_steady_states(self):
+        for case, at in ((CASE2, "6,8"), (CHAIN, "1.485,1.9")):
+            with self.subTest(case=case):
+                model = hbmcheck.Model.from_yaml(case)
+                omega = [float(a) for a in at.split(",")]
+                found = model.transient(omega, contacts=True)
+                said = table("transient", case, "--at", at, "--contacts", which=1)
+                self.same_contacts(found.contacts, said, model.contacts)
+                self.assertIsNone(model.transient(omega).contacts)
+
+    def test_what_contacts_do_on_both_sides(self):
+        for case, at in ((CASE2, "6,8"), (CHAIN, "1.9")):
+            with self.subTest(case=case):
+                model = hbmcheck.Model.from_yaml(case)
+                omega = [float(a) for a in at.split(",")]
+                found, said = model.compare(omega, contacts=True).contacts, table("compare", case, "--at", at, "--contacts", which=1)
+                for side in ("hbm_", "transient_"):
+                    period = [side + name for name in self.PERIOD]
+                    self.same_contacts(found, said, model.contacts, side + "regime", period)
+                self.same_columns(found, said, ["work_error", "normal_error", "branch"])
+                verdict = np.where(found.compared, np.where(found.differs, "differs", "match"), "")
+                self.assertEqual(list(verdict), said["contact_verdict"])
+                self.assertIsNone(model.compare(omega).contacts)
+
+    def same_hypotheses(self, found, case, *options):
+        """The best of them, as the command writes them."""
+        done = subprocess.run([COMMAND, "verify", case, *options, "--format", "json", "--quiet"], capture_output=True, text=True)
+        said = json.loads(done.stdout)["Hypotheses"]
+        best = range(len(said))
+        self.assertGreater(len(said), 2)
+        self.assertEqual([found.cause[k] for k in best], [row["cause"] for row in said])
+        self.assertEqual([found.quantity[k] for k in best], [row["quantity"] for row in said])
+        self.assertEqual([found.slider_restart[k] for k in best], [row["slider_restart"] or "" for row in said])
+        for name in "distance omega_factor value_factor harmonics samples".split():
+            self.assertEqual([found[name][k] for k in best], [row[name] or 0 for row in said], name)
+
     def same_points(self, found, said):
         self.same_columns(found, said, "omega value nearest error branch".split())
         self.assertEqual(list(found.verdict), said["verdict"])
@@ -68,6 +129,7 @@ class Equal(Test):
         omega, value = np.array([line.split(",")[:2] for line in lines], dtype=float).T
         found = hbmcheck.Model.from_yaml(case).verify(omega, value, quantity="harmonic_1")
         self.same_points(found, said)
+        self.same_hypotheses(found.hypotheses, case, "--against", str(curve), "--columns", "omega=1,harmonic_1=2")
         self.assertEqual(found.cause, "no_static_harmonic")
         self.assertIn("harmonic 0 is missing", found.sentence)
         self.assertEqual(found.exit_code, 1)

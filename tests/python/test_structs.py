@@ -34,7 +34,7 @@ class Structs(Test):
     def test_sizes_and_offsets(self):
         asked = {}
         for name, kind in STRUCTS.items():
-            c = f"struct hbmcheck_{name.lower()}"
+            c = "struct hbmcheck" + re.sub("[A-Z]", lambda letter: "_" + letter[0].lower(), name)
             asked[f"sizeof({c})"] = ctypes.sizeof(kind)
             for field, _ in kind._fields_:
                 asked[f"offsetof({c}, {field})"] = getattr(kind, field).offset

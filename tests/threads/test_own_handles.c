@@ -132,7 +132,46 @@ static void compare(record *r)
   hbmcheck_case_free(c);
 }
 
-static void (*const jobs[])(record *) = {trace_exact, trace_sampled, settle_regularised, settle_exact, compare};
+/* Points that lie on nothing, so that every mistake is tried. */
+static void verify(record *r)
+{
+  const double omega[] = {4, 4.5, 5, 5.5, 6, 7}, value[] = {4, 5, 7, 8, 9, 12};
+  const hbmcheck_foreign theirs = {.quantity = "amplitude", .n = 6, .omega = omega, .value = value};
+  hbmcheck_case *c = case2(NULL, NULL);
+  hbmcheck_verification *v = NULL;
+  put(r, hbmcheck_verification_run(c, &theirs, NULL, NULL, 0, &v));
+  put_all(r, 2, (double[]){hbmcheck_verification_count(v), hbmcheck_verification_hypotheses(v)});
+  for (int k = 0; k < hbmcheck_verification_count(v); ++k) {
+    hbmcheck_point p;
+    hbmcheck_verification_get(v, k, &p);
+    put_all(r, 4, (double[]){p.nearest, p.error, p.verdict, p.branch});
+  }
+  for (int k = 0; k < hbmcheck_verification_hypotheses(v); ++k) {
+    hbmcheck_hypothesis h;
+    hbmcheck_verification_hypothesis(v, k, &h);
+    put_all(r, 4, (double[]){h.distance, h.omega_factor, h.value_factor, h.samples});
+  }
+  hbmcheck_verification_free(v);
+  hbmcheck_case_free(c);
+}
+
+/* Of one contact, exact and by samples: the latter make and free plans of FFTW. */
+static void force(record *r)
+{
+  enum { H = 9, LENGTH = 2 * H + 1 };
+  const double u[LENGTH] = {0, 4, 1, 0.5}, v[LENGTH] = {0.2, 3, 0, 1};
+  double T[LENGTH], N[LENGTH];
+  hbmcheck_case *c = case2(NULL, NULL);
+  for (int samples = 0; samples <= 128; samples += 64) {
+    put(r, hbmcheck_contact_force(c, 0, H, u, NULL, v, samples, T, NULL, N));
+    put_all(r, LENGTH, T);
+    put_all(r, LENGTH, N);
+  }
+  hbmcheck_case_free(c);
+}
+
+static void (*const jobs[])(record *) = {trace_exact, trace_sampled, settle_regularised, settle_exact, compare,
+                                         verify,      force};
 enum { JOBS = sizeof jobs / sizeof *jobs };
 
 static record alone[JOBS]; /* written before the threads start, read by them */

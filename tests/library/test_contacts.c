@@ -1,0 +1,216 @@
+/* test_contacts.c - what each contact does (--contacts) through the C API: the numbers of those it calls, of every
+ * solution, steady state and row; where they were not asked for, none. */
+#include <math.h>
+
+#include "cases/case_file.h"
+#include "compare/comparison.h"
+#include "compare/first_guess.h"
+#include "compare/steady_states.h"
+#include "hbm/hbm.h"
+#include "library/hbmcheck.h"
+#include "tests/check.h"
+
+#define FOLDER SOURCE_DIR "/cases/structures/"
+enum { MOST = 4 };
+
+/* A case as the public reads it and as the library has it inside, at one frequency of its own. */
+typedef struct both {
+  hbmcheck_case *c;
+  scene sc;
+  compare_setup setup;
+} both;
+
+/* In place: the settings point to the scene's limits. */
+static void read_both(const char *path, double omega, both *b)
+{
+  char message[512];
+  case_error err;
+  if (hbmcheck_case_read(path, 0, NULL, message, sizeof message, &b->c) != HBMCHECK_OK) fail_msg("%s", message);
+  assert_int_equal(case_read(path, 0, NULL, &b->sc, &err), HC_OK);
+  b->sc.compare.omega = (number_list){1, {omega}};
+  assert_int_equal(scene_setup(&b->sc, &b->setup), HC_OK);
+  b->setup.contacts = true;
+}
+
+static void free_both(both *b)
+{
+  hbmcheck_case_free(b->c);
+  scene_setup_clear(&b->setup);
+  case_clear(&b->sc);
+}
+
+static bool same(const hbmcheck_contact_period *p, const contact_period *q)
+{
+  return (int)p->regime == (int)q->regime && p->normal_min == q->normal_min && p->normal_max == q->normal_max &&
+         p->traction_max == q->traction_max && p->slip_distance == q->slip_distance && p->work == q->work;
+}
+
+/* Of one contact with two tangents, whose halves the model counts apart, and of three with one. */
+static void every_solution_has_its_contacts(void **state)
+{
+  (void)state;
+  const char *const path[] = {FOLDER "space.yaml", FOLDER "chain3.yaml"};
+  const double omega[] = {12.5, 1.9};
+  const int contacts[] = {1, 3};
+  for (int i = 0; i < 2; ++i) {
+    both b;
+    read_both(path[i], omega[i], &b);
+    hbmcheck_curve *curve;
+    hbmcheck_solutions *at;
+    hbm_solver *s;
+    hbm_curve traced = {0}, there = {0};
+    contact_period expected[2 * MOST];
+    hbmcheck_contact_period found[MOST];
+    int n = -1;
+    assert_int_equal(hbmcheck_curve_trace(b.c, NULL, &curve), HBMCHECK_OK);
+    assert_int_equal(hbmcheck_curve_at(curve, omega[i], &at), HBMCHECK_OK);
+    assert_int_equal(guided_hbm_solver_new(b.setup.model, &b.setup.hbm, &s), HC_OK);
+    assert_int_equal(hbm_trace(s, b.setup.omega_from, b.setup.omega_to, NULL, &traced), HC_OK);
+    assert_int_equal(hbm_curve_at(s, &traced, omega[i], &there), HC_OK);
+    assert_in_range(there.n, 1, 8);
+    for (int k = 0; k < there.n; ++k) {
+      assert_int_equal(hbm_measure_contacts(s, hbm_curve_X(&there, k), expected), HC_OK);
+      assert_int_equal(hbmcheck_curve_contacts(curve, at, k, MOST, found, &n), HBMCHECK_OK);
+      assert_int_equal(n, contacts[i]);
+      for (int j = 0; j < n; ++j) assert_true(same(&found[j], &expected[j]));
+    }
+    const int last = traced.n - 1;
+    assert_int_equal(hbm_measure_contacts(s, hbm_curve_X(&traced, last), expected), HC_OK);
+    assert_int_equal(hbmcheck_curve_contacts(curve, hbmcheck_curve_points(curve), last, MOST, found, &n), HBMCHECK_OK);
+    assert_true(same(&found[0], &expected[0]) && found[0].normal_max > 0);
+    hbm_curve_free(&there);
+    hbm_curve_free(&traced);
+    hbm_solver_free(s);
+    hbmcheck_solutions_free(at);
+    hbmcheck_curve_free(curve);
+    free_both(&b);
+  }
+}
+
+/* Several states at one frequency, and one at another: each must find its own; every response of a state has the
+ * state's. */
+static void every_steady_state_has_its_contacts(void **state)
+{
+  (void)state;
+  const double omega[] = {1.485, 1.9};
+  both b;
+  read_both(FOLDER "chain3.yaml", omega[0], &b);
+  b.setup.compare.omega = (number_list){2, {omega[0], omega[1]}};
+  steady_states expected;
+  hbmcheck_transient *t;
+  hbmcheck_contact_period found[MOST];
+  int n = -1, seen = 0;
+  hbmcheck_case_watch_contacts(b.c, 1);
+  assert_int_equal(hbmcheck_transient_run(b.c, 2, omega, NULL, &t), HBMCHECK_OK);
+  assert_int_equal(steady_states_run(&b.setup, NULL, &expected), HC_OK);
+  assert_int_equal(expected.n, hbmcheck_transient_count(t));
+  assert_true(expected.rows[0].result.omega == expected.rows[3].result.omega && expected.n > 6);
+  for (int k = 0; k < expected.n; ++k) {
+    assert_int_equal(hbmcheck_transient_contacts(t, k, MOST, found, &n), HBMCHECK_OK);
+    assert_int_equal(n, 3);
+    const int first = 3 * (k / 3); /* of a state: three responses, three contacts */
+    for (int j = 0; j < n; ++j, ++seen) {
+      assert_true(expected.contacts[first + j].omega == expected.rows[k].result.omega);
+      assert_true(same(&found[j], &expected.contacts[first + j].period));
+    }
+  }
+  assert_int_equal(seen, 3 * expected.n_contacts);
+  steady_states_clear(&expected);
+  hbmcheck_transient_free(t);
+  free_both(&b);
+}
+
+/* Three solutions at one frequency, three responses and three contacts each. */
+static void every_row_has_its_contacts(void **state)
+{
+  (void)state;
+  both b;
+  read_both(FOLDER "chain3.yaml", 1.485, &b);
+  comparison expected;
+  hbmcheck_comparison *found;
+  hbmcheck_contact_row row[MOST];
+  int n = -1, made = 0;
+  hbmcheck_case_watch_contacts(b.c, 1);
+  assert_int_equal(hbmcheck_comparison_run(b.c, 1, (double[]){1.485}, NULL, &found), HBMCHECK_OK);
+  assert_int_equal(comparison_run(&b.setup, NULL, &expected), HC_OK);
+  assert_true(expected.n_contacts == 9 && hbmcheck_comparison_count(found) == 9);
+  for (int k = 0; k < 9; ++k) {
+    assert_int_equal(hbmcheck_comparison_contacts(found, k, MOST, row, &n), HBMCHECK_OK);
+    assert_int_equal(n, 3);
+    for (int j = 0; j < n; ++j) {
+      const contact_comparison *c = &expected.contacts[3 * (k / 3) + j];
+      assert_true(c->hbm_status == HC_OK && c->transient_status == HC_OK);
+      assert_true(row[j].hbm_status == HBMCHECK_OK && row[j].transient_status == HBMCHECK_OK);
+      assert_true(same(&row[j].hbm, &c->hbm) && same(&row[j].transient, &c->transient));
+      assert_true(row[j].work_error == c->work_error && row[j].differs == c->differs);
+      assert_true((row[j].normal_error == c->normal_error) || (isnan(row[j].normal_error) && isnan(c->normal_error)));
+      assert_int_equal(row[j].compared, contact_comparison_made(c));
+      made += row[j].compared;
+    }
+  }
+  assert_true(made > 0);
+  comparison_clear(&expected);
+  hbmcheck_comparison_free(found);
+  free_both(&b);
+}
+
+/* And switched off again. */
+static void none_unless_asked_for(void **state)
+{
+  (void)state;
+  both b;
+  read_both(FOLDER "chain3.yaml", 1.9, &b);
+  hbmcheck_transient *t;
+  hbmcheck_comparison *c;
+  int n = -1;
+  hbmcheck_case_watch_contacts(b.c, 1);
+  hbmcheck_case_watch_contacts(b.c, 0);
+  hbmcheck_case_watch_contacts(NULL, 1);
+  assert_int_equal(hbmcheck_transient_run(b.c, 1, (double[]){1.9}, NULL, &t), HBMCHECK_OK);
+  assert_int_equal(hbmcheck_comparison_run(b.c, 1, (double[]){1.9}, NULL, &c), HBMCHECK_OK);
+  assert_int_equal(hbmcheck_transient_contacts(t, 0, 0, NULL, &n), HBMCHECK_OK);
+  assert_int_equal(n, 0);
+  n = -1;
+  assert_int_equal(hbmcheck_comparison_contacts(c, 0, 0, NULL, &n), HBMCHECK_OK);
+  assert_int_equal(n, 0);
+  hbmcheck_transient_free(t);
+  hbmcheck_comparison_free(c);
+  free_both(&b);
+}
+
+static void what_is_no_place_is_refused(void **state)
+{
+  (void)state;
+  both b;
+  read_both(FOLDER "stop2.yaml", 1, &b);
+  hbmcheck_curve *curve, *other;
+  hbmcheck_contact_period one = {.work = -1};
+  hbmcheck_contact_row row = {.work_error = -1};
+  int n = -1;
+  assert_int_equal(hbmcheck_curve_trace(b.c, NULL, &curve), HBMCHECK_OK);
+  assert_int_equal(hbmcheck_curve_trace(b.c, NULL, &other), HBMCHECK_OK);
+  const hbmcheck_solutions *s = hbmcheck_curve_points(curve);
+  assert_int_equal(hbmcheck_curve_contacts(NULL, s, 0, 1, &one, &n), HBMCHECK_BAD_INPUT);
+  assert_int_equal(hbmcheck_curve_contacts(curve, NULL, 0, 1, &one, &n), HBMCHECK_BAD_INPUT);
+  assert_int_equal(hbmcheck_curve_contacts(other, s, 0, 1, &one, &n), HBMCHECK_BAD_INPUT);
+  assert_int_equal(hbmcheck_curve_contacts(curve, s, -1, 1, &one, &n), HBMCHECK_BAD_INPUT);
+  assert_int_equal(hbmcheck_curve_contacts(curve, s, hbmcheck_solutions_count(s), 1, &one, &n), HBMCHECK_BAD_INPUT);
+  assert_int_equal(hbmcheck_curve_contacts(curve, s, 0, -1, &one, &n), HBMCHECK_BAD_INPUT);
+  assert_int_equal(hbmcheck_curve_contacts(curve, s, 0, 1, NULL, &n), HBMCHECK_BAD_INPUT);
+  assert_int_equal(hbmcheck_curve_contacts(curve, s, 0, 1, &one, NULL), HBMCHECK_BAD_INPUT);
+  assert_int_equal(hbmcheck_transient_contacts(NULL, 0, 1, &one, &n), HBMCHECK_BAD_INPUT);
+  assert_int_equal(hbmcheck_comparison_contacts(NULL, 0, 1, &row, &n), HBMCHECK_BAD_INPUT);
+  assert_true(n == -1 && one.work == -1 && row.work_error == -1);
+  assert_int_equal(hbmcheck_curve_contacts(curve, s, 0, 0, NULL, &n), HBMCHECK_OK);
+  assert_int_equal(n, hbmcheck_case_contacts(b.c));
+  hbmcheck_curve_free(curve);
+  hbmcheck_curve_free(other);
+  free_both(&b);
+}
+
+static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(every_solution_has_its_contacts), cmocka_unit_test(every_steady_state_has_its_contacts),
+    cmocka_unit_test(every_row_has_its_contacts),      cmocka_unit_test(none_unless_asked_for),
+    cmocka_unit_test(what_is_no_place_is_refused),
+};
+CHECK_MAIN("library.contacts", tests, 60)
