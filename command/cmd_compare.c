@@ -7,6 +7,7 @@
 #include "command/compare_tables.h"
 #include "command/files.h"
 #include "command/plot/plot.h"
+#include "command/rescue.h"
 #include "compare/comparison.h"
 #include "compare/memory.h"
 #include "output/progress.h"
@@ -253,6 +254,36 @@ static table *contacts_table(const cli_common *common, comparison *c)
   return t;
 }
 
+/* The tables of what was found, and that it is not all unless st is HC_OK; how many. */
+static int tables_of_found(const cli_common *common, bool contacts, const compare_setup *setup, comparison *c,
+                           hc_status st, table **tables)
+{
+  int n = 1;
+  tables[0] = comparison_table(common, setup, c);
+  if (st != HC_OK) table_note(tables[0], "INCOMPLETE: %s", hc_status_text(st));
+  if (contacts) tables[n++] = contacts_table(common, c);
+  return n;
+}
+
+typedef struct found_rows {
+  const cli_common *common;
+  const compare_setup *setup;
+  comparison *c;
+} found_rows;
+
+/* For rescue_begin. */
+static int write_found(void *self)
+{
+  const found_rows *f = self;
+  table *tables[2];
+  if (f->c->n_rows == 0) return -1;
+  const int n = tables_of_found(f->common, f->setup->contacts, f->setup, f->c, HC_INTERRUPTED, tables);
+  const int code = cli_solver_failed(f->common, CLI_BOTH, "the comparison", HC_INTERRUPTED, 0);
+  print_failures(f->common, f->c);
+  const int written = cli_write(f->common, n, tables);
+  return code ? code : written;
+}
+
 static int run_compare(int argc, char **argv)
 {
   cli_common common;
@@ -261,7 +292,6 @@ static int run_compare(int argc, char **argv)
   comparison c = {0};
   accuracy a = {0};
   table *tables[4] = {NULL};
-  int n_tables = 1;
   cli_parse(&cmd_compare, argc, argv, &own, &common);
   cli_check_plot(&common, own.plot, false);
   int code = cli_check_files(&common, 1, &(cli_file){"--plot", own.plot, CLI_OUTPUT});
@@ -281,10 +311,14 @@ static int run_compare(int argc, char **argv)
   setup.jobs = cli_processors();
   setup.contacts = own.contacts;
   setup.spare = common.format == FORMAT_TABLE && !common.wide && !own.plot; /* from_integration is not shown */
+  found_rows found = {&common, &setup, &c};
+  rescue beside;
+  rescue_begin(&beside, write_found, &found);
+  setup.found = &beside.found;
   if (st == HC_OK) st = comparison_run(&setup, &monitor, &c);
-  tables[0] = comparison_table(&common, &setup, &c);
-  if (st != HC_OK) table_note(tables[0], "INCOMPLETE: %s", hc_status_text(st));
-  if (own.contacts) tables[n_tables++] = contacts_table(&common, &c);
+  setup.found = NULL;
+  rescue_end(&beside);
+  int n_tables = tables_of_found(&common, own.contacts, &setup, &c, st, tables);
   if (st == HC_OK && (own.tables || own.lists.harmonics.n || own.lists.samples.n)) {
     tabled = compare_tables(&common, &setup, &c, &monitor, tables + n_tables, &a);
     n_tables += 2;

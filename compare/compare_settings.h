@@ -8,6 +8,7 @@
 #include "hbm/hbm_settings.h"
 #include "model/model.h"
 #include "timeint/transient_settings.h"
+#include <pthread.h>
 
 typedef struct compare_settings {
   number_list omega;     /* [rad/time]; n = 0: use `points` */
@@ -28,6 +29,7 @@ typedef struct compare_setup {
   const gate_limits *limits; /* what is within them is a match */
   bool spare;                /* leave out parts of the budget that nobody asks for and no verdict depends on */
   bool contacts;             /* what each contact does, too */
+  pthread_mutex_t *found;    /* held while rows are added to the comparison; NULL: nobody else looks */
   int jobs;                  /* threads for the tables of accuracy.h; 0 and 1: the calling one alone */
 } compare_setup;
 

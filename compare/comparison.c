@@ -82,6 +82,27 @@ static hc_status add_other_responses(comparison_work *w, const hbm_curve *at, in
   return st;
 }
 
+/* All that is told of solution k, at once for who looks at what was found meanwhile. */
+static hc_status add_solution(comparison_work *w, const hbm_curve *at, int k, const comparison_row *row)
+{
+  const compare_setup *setup = w->setup;
+  if (setup->found) pthread_mutex_lock(setup->found);
+  hc_status st = add_row(w->out, row, w->state);
+  if (st == HC_OK && setup->contacts) st = add_contacts(w, at->X + (size_t)k * at->n_coef, row);
+  if (st == HC_OK && setup->model->n_responses > 1) st = add_other_responses(w, at, k, row);
+  if (setup->found) pthread_mutex_unlock(setup->found);
+  return st;
+}
+
+/* Without a solution. */
+static hc_status add_failure(comparison_work *w, const comparison_row *row)
+{
+  if (w->setup->found) pthread_mutex_lock(w->setup->found);
+  const hc_status st = add_row(w->out, row, w->state);
+  if (w->setup->found) pthread_mutex_unlock(w->setup->found);
+  return st;
+}
+
 /* Every HBM solution at omega. */
 static hc_status compare_at(comparison_work *w, double omega)
 {
@@ -101,16 +122,14 @@ static hc_status compare_at(comparison_work *w, double omega)
   if (row.hbm_status == HC_OK && at.n == 0)
     row.hbm_status = w->out->curve.end != HC_OK ? w->out->curve.end : HC_NOT_CONVERGED;
   hc_status st = row.hbm_status == HC_NO_MEMORY         ? row.hbm_status
-                 : at.n == 0 || row.hbm_status != HC_OK ? add_row(w->out, &row, w->state)
+                 : at.n == 0 || row.hbm_status != HC_OK ? add_failure(w, &row)
                                                         : HC_OK;
   for (int k = 0; k < at.n && st == HC_OK; ++k) {
     row = none;
     st = solution_compare(w, &at, k, &row);
     /* what was stopped inside may look like an answer */
     if (st == HC_OK && !hc_monitor_tick(w->monitor, 1)) st = HC_INTERRUPTED;
-    if (st == HC_OK) st = add_row(w->out, &row, w->state);
-    if (st == HC_OK && w->setup->contacts) st = add_contacts(w, at.X + (size_t)k * at.n_coef, &row);
-    if (st == HC_OK && w->setup->model->n_responses > 1) st = add_other_responses(w, &at, k, &row);
+    if (st == HC_OK) st = add_solution(w, &at, k, &row);
   }
   hbm_curve_free(&at);
   return st;

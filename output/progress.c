@@ -28,16 +28,18 @@ static volatile sig_atomic_t stop_signal; /* written by the handler alone, never
 static volatile sig_atomic_t line_drawn;  /* the progress line stands on the terminal */
 static volatile sig_atomic_t stop_code;   /* exit code when patience is over */
 static volatile sig_atomic_t child;       /* process id, 0: none */
+static volatile sig_atomic_t patient;     /* somebody else ends the program */
 static timer_t out_of_patience;           /* made before the handlers are installed */
 static bool can_wait;                     /* it was */
+
+static const char erase[] = "\r\033[K";
 
 /* Ends the program wherever it is: async-signal-safe calls only. */
 static void stop_at_once(int number)
 {
-  static const char erase[] = "\r\033[K",
-                    words[] = "hbmcheck: stopped on request; what was under way is lost, files are whole or as they "
+  static const char words[] = "hbmcheck: stopped on request; what was under way is lost, files are whole or as they "
                               "were\n";
-  (void)number;
+  if (number && patient) return;
   if (child > 0) kill(child, SIGKILL);
   output_abandon_all();
   ssize_t said = line_drawn ? write(STDERR_FILENO, erase, sizeof erase - 1) : 0;
@@ -46,17 +48,37 @@ static void stop_at_once(int number)
   _exit(stop_code);
 }
 
+static void start_patience(void)
+{
+  const int before = errno;
+  const struct itimerspec once = {.it_value = patience};
+  struct sigaction end = {.sa_handler = stop_at_once};
+  sigemptyset(&end.sa_mask);
+  if (can_wait && sigaction(SIGALRM, &end, NULL) == 0) timer_settime(out_of_patience, 0, &once, NULL);
+  errno = before;
+}
+
 static void on_signal(int number)
 {
-  if (!stop_signal && can_wait) {
-    const int before = errno;
-    const struct itimerspec once = {.it_value = patience};
-    struct sigaction end = {.sa_handler = stop_at_once};
-    sigemptyset(&end.sa_mask);
-    if (sigaction(SIGALRM, &end, NULL) == 0) timer_settime(out_of_patience, 0, &once, NULL);
-    errno = before;
-  }
+  if (!stop_signal) start_patience();
   stop_signal = number;
+}
+
+void progress_hold(bool held)
+{
+  patient = held;
+  if (!held && stop_signal) start_patience();
+}
+
+_Noreturn void progress_stop(void)
+{
+  stop_at_once(0);
+  abort(); /* stop_at_once does not return: not the answer to an alarm */
+}
+
+void progress_erase(void)
+{
+  if (line_drawn && write(STDERR_FILENO, erase, sizeof erase - 1) >= 0) line_drawn = false;
 }
 
 void progress_install_signals(int exit_code)

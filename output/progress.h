@@ -20,6 +20,15 @@ typedef struct progress progress;
  * was ignored (nohup) stays ignored. Call once, early. */
 void progress_install_signals(int exit_code);
 
+/* While held, nobody's patience ends the program: the caller does (rescue.h). Let go after a signal, 0.7 s begin. */
+void progress_hold(bool held);
+
+/* Ends the program as at the end of patience. */
+_Noreturn void progress_stop(void);
+
+/* Erases the line, if one is drawn; from any thread, once ticks answer false. */
+void progress_erase(void);
+
 /* The process that is waited for, and is not to outlive this one; 0 when there is none any more. */
 void progress_child(pid_t pid);
 

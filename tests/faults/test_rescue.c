@@ -1,0 +1,112 @@
+/* test_rescue.c - `compare` is stopped inside a period of time integration that never ends, timeint_steady being
+ * wrapped by the linker: the rows that were found before are written as in a run that is not stopped, the first table
+ * says that it is not whole, the exit code is 3. Where no row was found yet, it ends as everything does. */
+#include <signal.h>
+#include <unistd.h>
+
+#include "tests/faults/child.h"
+#include "tests/faults/small.h"
+#include "timeint/steady.h"
+
+enum { HANGS = 600 /* [s] of a child, to end hangs */ };
+
+static double stalls_at; /* from this omega on timeint_steady does not come back */
+
+hc_status __real_timeint_steady(timeint *ti, double omega, double *state, const hc_monitor *monitor, timeint_result *r);
+hc_status __wrap_timeint_steady(timeint *ti, double omega, double *state, const hc_monitor *monitor, timeint_result *r);
+hc_status __wrap_timeint_steady(timeint *ti, double omega, double *state, const hc_monitor *monitor, timeint_result *r)
+{
+  if (!(omega >= stalls_at)) return __real_timeint_steady(ti, omega, state, monitor, r);
+  raise(SIGINT);
+  for (;;) pause();
+}
+
+static int obey(void *self)
+{
+  signal(SIGINT, SIG_DFL); /* who started the tests may ignore it */
+  return child_command(self);
+}
+
+static outcome whole, stopped;
+
+static void run(const char *line, double omega, outcome *o)
+{
+  char own[256];
+  snprintf(own, sizeof own, "%s", line);
+  snprintf(small_doing, sizeof small_doing, "stalled at %g: hbmcheck %s\n", omega, line);
+  stalls_at = omega;
+  child_run(obey, own, HANGS, o);
+}
+
+#define LINE "compare small.yaml -q --format csv --set compare.omega=6.2,6.4,6.6"
+
+/* From the header of the csv on, without its notes. */
+static const char *rows_of(const char *text)
+{
+  const char *header = strstr(text, "omega,branch");
+  return header ? header : "";
+}
+
+static int lines_of(const char *text)
+{
+  int n = 0;
+  for (; (text = strchr(text, '\n')); ++text) ++n;
+  return n;
+}
+
+/* The header and the rows before the stalled one are those of the whole table. */
+static void rows_found_before_are_written(void **state)
+{
+  (void)state;
+  run(LINE, INFINITY, &whole);
+  assert_true(whole.code == 0 || whole.code == 1);
+  assert_int_equal(lines_of(rows_of(whole.out)), 1 + 3);
+  for (int found = 1; found <= 2; ++found) {
+    run(LINE, 6.1 + 0.2 * found, &stopped);
+    const char *rows = rows_of(stopped.out);
+    const int lines = lines_of(rows);
+    if (stopped.code == 3 && lines == found + 1 && !strncmp(rows, rows_of(whole.out), strlen(rows)) &&
+        strstr(stopped.out, "INCOMPLETE: stopped on request") && strstr(stopped.err, "what was found is kept"))
+      continue;
+    child_show(&stopped, LINE);
+    fail_msg("%d lines where %d rows were found", lines, found);
+  }
+}
+
+static void the_table_says_that_it_is_not_whole(void **state)
+{
+  (void)state;
+  run("compare small.yaml -q --contacts -o result --set compare.omega=6.2,6.4,6.6", 6.3, &stopped);
+  static char text[1 << 14];
+  FILE *from = fopen("result", "r");
+  assert_non_null(from);
+  text[fread(text, 1, sizeof text - 1, from)] = 0;
+  fclose(from);
+  assert_int_equal(stopped.code, 3);
+  assert_non_null(strstr(text, "INCOMPLETE: stopped on request"));
+  assert_non_null(strstr(text, "Contacts"));
+}
+
+static void nothing_found_yet(void **state)
+{
+  (void)state;
+  run(LINE, 6, &stopped);
+  assert_int_equal(stopped.code, 3);
+  assert_int_equal(strlen(stopped.out), 0);
+  assert_non_null(strstr(stopped.err, "stopped on request; what was under way is lost"));
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(rows_found_before_are_written),
+      cmocka_unit_test(the_table_says_that_it_is_not_whole),
+      cmocka_unit_test(nothing_found_yet),
+  };
+  static char folder[] = "/tmp/hbmcheck-rescue-XXXXXX";
+  small_watchdog(600);
+  small_folder(folder);
+  int failed = cmocka_run_group_tests_name("faults.rescue", tests, NULL, NULL);
+  small_clean(folder);
+  return failed;
+}
