@@ -3,7 +3,8 @@
 
 A marker on a line of its own says what the fenced block after it is:
     <!-- file: NAME -->         a file of that name
-    <!-- run -->                commands for bash, which must succeed;  <!-- run: exit 1 -->  which must end with 1
+    <!-- run -->                commands for bash, which must succeed;  <!-- run: exit 1 -->  which must end with 1;
+                                <!-- run: with PROGRAM -->  which are left out, with their output, where there is none
     <!-- output -->             what the commands before it print: standard output, then standard error
     <!-- main-job -->           README's (.ci/run builds and runs it): here what it runs as build/release/hbmcheck
     <!-- job -->                the same of a CI job
@@ -105,17 +106,21 @@ def run(commands, folder, status):
 def check(page, folder, must_open):
     """Runs the examples of one page, which must open with one or need not; how many outputs were compared."""
     text = page.read_text()
-    found, compared = None, 0
+    found, left_out, compared = None, False, 0
     for line, kind, argument, body in blocks(text):
         try:
             if kind == "file":
                 (folder / argument).parent.mkdir(parents=True, exist_ok=True)
                 (folder / argument).write_text(body)
+            elif kind == "run" and argument and argument.startswith("with ") and not shutil.which(argument[5:]):
+                print(f"{page.name}:{line}: left out, there is no {argument[5:]}")
+                left_out = True
             elif kind == "run":
-                found = run(body, folder, int(argument.removeprefix("exit ")) if argument else 0)
+                expected = argument and re.fullmatch(r"exit (\d+)", argument)
+                found, left_out = run(body, folder, int(expected[1]) if expected else 0), False
             elif kind in ("main-job", "job"):
-                found = run("\n".join(BUILT.findall(body)), folder, 0)
-            else:
+                found, left_out = run("\n".join(BUILT.findall(body)), folder, 0), False
+            elif not left_out:
                 if found is None:
                     raise Wrong("output of nothing")
                 if not same_output(body, found):

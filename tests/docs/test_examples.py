@@ -61,6 +61,15 @@ class Output(unittest.TestCase):
 
 
 class Pages(unittest.TestCase):
+    def test_with_a_program(self):
+        """Where there is none, neither run nor compared; the next run is."""
+        self.assertEqual(status(fenced("run: with no-such-program", "exit 5") + fenced("output", "other")), 0)
+        self.assertEqual(status(fenced("run: with sh", "exit 5")), 1)
+        self.assertEqual(status(fenced("run: with sh", "echo a") + fenced("output", "other")), 1)
+        left_out = fenced("run: with no-such-program", "exit 5") + fenced("output", "other")
+        self.assertEqual(status(left_out + fenced("run", "echo a") + fenced("output", "other")), 1)
+        self.assertEqual(status(left_out + fenced("run", "echo a") + fenced("output", "a")), 0)
+
     def test_exit_code(self):
         self.assertEqual(status(fenced("run", "false")), 1)
         self.assertEqual(status(fenced("run: exit 1", "false")), 0)

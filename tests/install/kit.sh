@@ -80,14 +80,14 @@ abi() {
   echo "$(wc -l <"$scratch/exported.txt") functions"
 }
 
-# docs/c-api.md's example, as it stands there, by the installed command and library: cc and pkg-config are as CC, FLAGS and a static library need them.
+# The examples of that page of SOURCE, as they stand there, by that Python, the installed command and library: cc and pkg-config are as CC, FLAGS and a static library need them.
 page() {
   mkdir -p "$scratch/bin"
   printf '#!/bin/sh\nexec %s %s -std=c11 -Wall -Wextra -Werror "$@"\n' "$CC" "$FLAGS" >"$scratch/bin/cc"
   printf '#!/bin/sh\nexec %s %s "$@"\n' "$(command -v pkg-config)" "$(static)" >"$scratch/bin/pkg-config"
   chmod +x "$scratch/bin/cc" "$scratch/bin/pkg-config"
   cd "$scratch"
-  PATH="$scratch/bin:$PATH" "$2" "$1/tests/docs/examples.py" "$prefix/bin/hbmcheck" "$1" "$1/docs/c-api.md"
+  PATH="$scratch/bin:$(dirname "$2"):$PATH" "$2" "$1/tests/docs/examples.py" "$prefix/bin/hbmcheck" "$1" "$1/docs/$3"
 }
 
 "$what" "$@"
