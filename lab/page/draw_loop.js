@@ -9,7 +9,8 @@ function drawLoop(svg, state, motion) {
   const pairs = table => Array.from({length: table.rows}, (_, i) => [table.values[i * table.columns + at.u], table.values[i * table.columns + at.T]]);
   const loop = pairs(exact), [from, to] = rangeOf(loop.map(p => p[0])), [low, high] = rangeOf(loop.concat(pairs(samples)).map(p => p[1]));
   const p = panel(box, {from, to, title: 'tangential motion u'}, {from: low, to: high, title: 'friction force T'});
-  put(svg, box, p.svg + clipped(p, lineOf(p, loop.concat(loop.slice(0, 1)), 'curve traction') +
+  const closed = loop.concat(loop.slice(0, 1));
+  put(svg, box, p.svg + clipped(p, lineOf(p, closed, 'area') + lineOf(p, closed, 'curve traction') +
     marksOf(p, pairs(samples), 'dot', samples.rows > 64 ? 2 : 3.5, 'fill-sampled')));
 }
 

@@ -71,6 +71,8 @@ async function samplesGoOnWhereTheirCurveEnds(p) {
   await until(p, '/ends early: .* Beyond, /.test($("curve-words").textContent)', 'that is told');
   await until(p, 'seen.motion.omega === 12 && seen.motion.chosen >= 0 && seen.motion.neighbour', 'the motion beyond is there');
   check(await p.evaluate('Math.max(...Array.from(document.querySelectorAll("#draw-curve path.sampled:not(.old)"), path => path.getBBox().x + path.getBBox().width)) > 0.95 * curvePanel.box.right'), 'and drawn to the end of the sweep');
+  await p.evaluate('alter(s => (s.omega = 13), false)');
+  await until(p, 'seen.motion.omega === 13 && seen.motion.chosen >= 0', 'and moves with omega');
   await p.evaluate('take(copyOf(firstState))');
   await still(p);
 }
