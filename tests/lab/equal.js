@@ -196,7 +196,7 @@ async function main() {
   for (const question in worst) console.log(`${question}: largest difference ${worst[question].toExponential(2)}`);
   console.log(`${scenes} scenes, ${answers} answers: ${decided} that rounding decides, ${failed} differ by more than ${limit}`);
   if (heard.length) console.log('the page: ' + heard.join('\n').slice(0, 2000));
-  /* of well-posed questions rounding decides few; seen: 3 of 1100 at the most */
+  /* of well-posed questions rounding decides few; seen: 3 of 1500 at the most */
   process.exit(failed || heard.length || decided > answers / 100 ? 1 : 0);
 }
 
