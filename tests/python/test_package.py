@@ -17,6 +17,7 @@ import hbmcheck
 from hbmcheck import _library
 
 LIBRARY = os.environ["HBMCHECK_LIBRARY"]
+CC = os.environ.get("CC", "cc")
 PYTHON = SOURCE / "python"
 USE = f"import hbmcheck; print(hbmcheck.Model.from_yaml({CASE2!r}).frf(at=8).branch.tolist())"
 
@@ -28,15 +29,20 @@ def run(package, code=USE, **environment):
                           env={**kept, "PYTHONPATH": str(package), **environment})
 
 
+def make_wheel():
+    spec = importlib.util.spec_from_file_location("make_wheel", PYTHON / "make_wheel.py")
+    backend = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(backend)
+    return backend
+
+
 class Package(Test):
     def setUp(self):
         self.folder = pathlib.Path(tempfile.mkdtemp())
         self.addCleanup(shutil.rmtree, self.folder)
 
     def test_the_wheel_lists_what_it_holds(self):
-        spec = importlib.util.spec_from_file_location("make_wheel", PYTHON / "make_wheel.py")
-        backend = importlib.util.module_from_spec(spec)
-        spec.loader.exec_module(backend)
+        backend = make_wheel()
         with zipfile.ZipFile(self.folder / backend.build_wheel(self.folder)) as wheel:
             info = f"hbmcheck-{hbmcheck.__version__}.dist-info"
             listed = dict(line.split(",", 1) for line in wheel.read(f"{info}/RECORD").decode().splitlines())
@@ -76,6 +82,22 @@ class Package(Test):
         self.assertIn("ImportError: the library of hbmcheck is not found (/no/such/library", told.stderr)
         other = run(self.folder, HBMCHECK_LIBRARY="libm.so.6")
         self.assertIn("ImportError: libm.so.6 has no hbmcheck_version", other.stderr)
+
+    def test_what_pip_is_told_before_the_wheel(self):
+        """The Debian package installs it, so that pip knows of hbmcheck there."""
+        name = make_wheel().prepare_metadata_for_build_wheel(self.folder)
+        self.assertEqual(name, f"hbmcheck-{hbmcheck.__version__}.dist-info")
+        self.assertIn(f"Name: hbmcheck\nVersion: {hbmcheck.__version__}\n", (self.folder / name / "METADATA").read_text())
+
+    @unittest.skipUnless(shutil.which(CC), "no C compiler here")
+    def test_openblas_is_asked_for_one_thread(self):
+        """When the library is loaded, whatever the environment says; by a BLAS that only notes what it is told."""
+        source, blas = self.folder / "blas.c", self.folder / "blas.so"
+        source.write_text("int told = 0; void openblas_set_num_threads(int n) { told = n; }\n")
+        subprocess.run([CC, "-shared", "-fPIC", source, "-o", blas], check=True)
+        code = "import ctypes; told = ctypes.c_int.in_dll(ctypes.CDLL(None), 'told'); print(told.value); import hbmcheck; print(told.value)"
+        found = run(PYTHON, code, LD_PRELOAD=str(blas), HBMCHECK_LIBRARY=LIBRARY)
+        self.assertEqual(found.stdout, "0\n1\n", found.stderr)
 
 
 @unittest.skipUnless(importlib.util.find_spec("matplotlib"), "no matplotlib here")
