@@ -134,13 +134,14 @@ const rewritten = (text, random) => text.replace(/(mass|damping|stiffness|amplit
   (all, key, value) => `${key}: ${Number(value) * (1 + rewriting * (2 * random() - 1))}`);
 
 /* Is each row of `a` an answer to one of the cases, to the limit and what that answer moves among them; and is there, of solutions, each that all cases have? */
-function isAmong(kind, sizes, a, others) {
-  if (!others.every(b => a.status === b.status && a.columns === b.columns)) return false;
+function isAmong(kind, sizes, a, all) {
+  const others = all.filter(b => a.status === b.status && a.columns === b.columns); /* Newton's methods may fail in two ways */
+  if (!others.length) return false;
   const listed = ['at', 'near'].includes(kind); /* rows are found or not; else each has its place */
   if (!listed && !others.every(b => a.rows === b.rows)) return false;
-  const all = others.flatMap(b => Array.from({length: b.rows}, (_, j) => ({b, j})));
+  const rows = others.flatMap(b => Array.from({length: b.rows}, (_, j) => ({b, j})));
   const from = (row, other) => distance(kind, sizes, row.b, row.j, other.b, other.j);
-  const placed = row => all.filter(other => listed || other.j === row.j);
+  const placed = row => rows.filter(other => listed || other.j === row.j);
   const moves = row => Math.max(0, ...placed(row).map(other => from(row, other)).filter(d => d <= sameAnswer));
   const own = Array.from({length: a.rows}, (_, j) => ({b: a, j}));
   const meets = (row, other) => from(row, other) <= limit + moves(other);
