@@ -3,13 +3,25 @@
 const {spawn} = require('child_process');
 const fs = require('fs'), os = require('os'), path = require('path');
 
+/* Of processes that have just been killed: they may still be ending, and what they have begun to write appear while it is removed. */
+async function removeFolder(folder) {
+  for (let left = 50; ; --left) {
+    try {
+      return fs.rmSync(folder, {recursive: true, force: true});
+    } catch (error) {
+      if (left === 0) throw error;
+      await new Promise(done => setTimeout(done, 100));
+    }
+  }
+}
+
 /* open(program, address, {width, height, dark, before}): a page, with the network off; before: a script that runs ahead of its own. {evaluate, key, pointer,
  * picture, paper, tree, close, lines, requests}: tree() is what a screen reader is told. Of the page and its workers, lines are what came on the console and what
  * was thrown, requests the addresses asked for but the page's own, blob: and data: (watched.js sees that they are all seen). */
 async function open(program, address, {width = 1400, height = 900, dark = false, before = ''} = {}) {
   const profile = fs.mkdtempSync(path.join(os.tmpdir(), 'hbmcheck-lab-'));
   const browser = spawn(program, ['--headless=new', '--no-sandbox', '--disable-gpu', '--disable-dev-shm-usage', '--no-first-run',
-    '--remote-debugging-pipe', `--user-data-dir=${profile}`, 'about:blank'], {stdio: ['ignore', 'ignore', 'ignore', 'pipe', 'pipe']});
+    '--remote-debugging-pipe', `--user-data-dir=${profile}`, 'about:blank'], {detached: true, stdio: ['ignore', 'ignore', 'ignore', 'pipe', 'pipe']});
   const [to, from] = [browser.stdio[3], browser.stdio[4]], waiting = new Map(), lines = [], requests = [];
   let number = 0, rest = '', session;
   browser.on('error', error => { throw error; });
@@ -89,9 +101,9 @@ async function open(program, address, {width = 1400, height = 900, dark = false,
     },
     tree: async () => (await send('Accessibility.getFullAXTree')).nodes,
     async close() {
-      browser.kill();
+      process.kill(-browser.pid, 'SIGKILL'); // its processes, too, which write to the profile
       await new Promise(done => browser.exitCode === null && browser.signalCode === null ? browser.on('exit', done) : done());
-      fs.rmSync(profile, {recursive: true, force: true, maxRetries: 5, retryDelay: 100});
+      await removeFolder(profile);
     }
   };
 }
