@@ -5,6 +5,7 @@ import hashlib
 import importlib.util
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -102,6 +103,11 @@ class Package(Test):
 
 @unittest.skipUnless(importlib.util.find_spec("matplotlib"), "no matplotlib here")
 class Figures(Test):
+    def test_the_example_stands_in_two_pages(self):
+        def example(page):
+            return re.search(r"<!-- file: own_aft.py -->\n```python\n(.*?)```", (SOURCE / page).read_text(), re.S).group(1)
+        self.assertEqual(example("python/README.md"), example("docs/own-code.md"))
+
     def test_each_result_draws_itself(self):
         import matplotlib
 
