@@ -3,7 +3,7 @@
 #ifndef HC_SCENE_SOLVERS_H
 #define HC_SCENE_SOLVERS_H
 
-#include "cases/scene.h"
+#include "casefile/scene.h"
 #include "hbm/aft.h"
 #include "hbm/exact_force.h"
 #include "hbm/hbm.h"

@@ -7,7 +7,7 @@
 
 #include "base/message.h"
 #include "base/number.h"
-#include "cases/structure_model.h"
+#include "casefile/structure_model.h"
 
 enum { LONGEST = CLI_NAME, MOST_LISTED = 12 };
 

@@ -8,8 +8,8 @@
 #include <stdbool.h>
 
 #include "base/status.h"
-#include "cases/case_file.h"
-#include "cases/scene.h"
+#include "casefile/case_file.h"
+#include "casefile/scene.h"
 #include "output/rows.h"
 #include "output/table.h"
 

@@ -1,7 +1,7 @@
 /* cmd_compare.c - hbmcheck compare: harmonic balance and time integration at the same frequencies. */
 #include <stdio.h>
 
-#include "cases/structure_model.h"
+#include "casefile/structure_model.h"
 #include "command/case_names.h"
 #include "command/commands.h"
 #include "command/compare_tables.h"

@@ -6,7 +6,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "cases/case_values.h"
+#include "casefile/case_values.h"
 #include "command/commands.h"
 #include "command/describe_structure.h"
 #include "command/files.h"

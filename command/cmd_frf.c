@@ -4,7 +4,7 @@
 
 #include "base/constants.h"
 #include "campaigns/scene_solvers.h"
-#include "cases/structure_model.h"
+#include "casefile/structure_model.h"
 #include "command/case_names.h"
 #include "command/commands.h"
 #include "command/files.h"

@@ -9,7 +9,7 @@
 #include "base/ascending.h"
 #include "campaigns/stress/scenes.h"
 #include "campaigns/stress/stress.h"
-#include "cases/case_file.h"
+#include "casefile/case_file.h"
 #include "command/commands.h"
 #include "command/stress_files.h"
 #include "output/output.h"

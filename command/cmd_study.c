@@ -11,7 +11,7 @@
 #include "campaigns/study/cluster.h"
 #include "campaigns/study/report.h"
 #include "campaigns/study/run.h"
-#include "cases/structure_model.h"
+#include "casefile/structure_model.h"
 #include "command/case_names.h"
 #include "command/commands.h"
 #include "command/files.h"

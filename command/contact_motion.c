@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/number.h"
-#include "cases/structure.h"
+#include "casefile/structure.h"
 #include "command/case_names.h"
 #include "numerics/series.h"
 

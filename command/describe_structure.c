@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "base/constants.h"
-#include "cases/structure_model.h"
+#include "casefile/structure_model.h"
 #include "model/modes.h"
 
 bool describes_structure(const field *f)

@@ -2,8 +2,8 @@
 #ifndef HC_DESCRIBE_STRUCTURE_H
 #define HC_DESCRIBE_STRUCTURE_H
 
-#include "cases/case_values.h"
-#include "cases/structure.h"
+#include "casefile/case_values.h"
+#include "casefile/structure.h"
 
 /* Does f say something of a structure, or of one of its loads or contacts? Then it has no place in the scene itself. */
 bool describes_structure(const field *f);

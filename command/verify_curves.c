@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "cases/structure_model.h"
+#include "casefile/structure_model.h"
 #include "command/case_names.h"
 
 /* NAME=COLUMN or NAME@RESPONSE=COLUMN of the list. */

@@ -1,6 +1,6 @@
 /* compare_settings.h - the frequencies, harmonics and samples of a comparison; with the model, the settings of both
  * sides and the limits, all that a comparison works from. Names, defaults, ranges and meanings of the fields are those
- * of `compare` in a case file (cases/fields.c). */
+ * of `compare` in a case file (casefile/fields.c). */
 #ifndef HC_COMPARE_SETTINGS_H
 #define HC_COMPARE_SETTINGS_H
 

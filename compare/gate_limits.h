@@ -1,6 +1,6 @@
 /* gate_limits.h - the largest discrepancies that still count as agreement, and the most that a response curve may
  * cost. Only the gate and the rule that calls a row a match look inside. Names, defaults, ranges and meanings of the
- * fields are those of `gate` in a case file (cases/fields.c). */
+ * fields are those of `gate` in a case file (casefile/fields.c). */
 #ifndef HC_GATE_LIMITS_H
 #define HC_GATE_LIMITS_H
 

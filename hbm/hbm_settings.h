@@ -1,5 +1,5 @@
 /* hbm_settings.h - how harmonic balance solves a model. Plain data: copy it freely. Names, defaults, ranges and
- * meanings of the fields are those of `hbm` in a case file (cases/fields.c). */
+ * meanings of the fields are those of `hbm` in a case file (casefile/fields.c). */
 #ifndef HC_HBM_SETTINGS_H
 #define HC_HBM_SETTINGS_H
 

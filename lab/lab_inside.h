@@ -2,7 +2,7 @@
 #ifndef HC_LAB_INSIDE_H
 #define HC_LAB_INSIDE_H
 
-#include "cases/case_file.h"
+#include "casefile/case_file.h"
 #include "hbm/hbm.h"
 #include "lab/lab.h"
 

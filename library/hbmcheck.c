@@ -8,8 +8,8 @@
 #include <string.h>
 
 #include "base/number_list.h"
-#include "cases/case_file.h"
-#include "cases/structure_model.h"
+#include "casefile/case_file.h"
+#include "casefile/structure_model.h"
 #include "compare/comparison.h"
 #include "hbm/hbm.h"
 #include "library/inside.h"

@@ -6,7 +6,7 @@
 #include <stdbool.h>
 
 #include "base/status.h"
-#include "cases/scene.h"
+#include "casefile/scene.h"
 #include "library/hbmcheck.h"
 #include "model/contact_period.h"
 

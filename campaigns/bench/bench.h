@@ -13,7 +13,7 @@
 #define HC_BENCH_H
 
 #include "base/status.h"
-#include "cases/scene.h"
+#include "casefile/scene.h"
 
 #define BENCH_METHOD_LIST(X)                                                                                           \
   X(BENCH_HBM_EXACT, "hbm_exact", "harmonic balance, exact forces")                                                    \

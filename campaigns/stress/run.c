@@ -2,7 +2,7 @@
 #include "campaigns/stress/journal.h"
 #include "campaigns/stress/scenes.h"
 #include "campaigns/stress/stress.h"
-#include "cases/case_file.h"
+#include "casefile/case_file.h"
 #include "numerics/workers.h"
 
 enum { WATCH_MS = 50 };

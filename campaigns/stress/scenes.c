@@ -15,7 +15,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "cases/fields.h"
+#include "casefile/fields.h"
 
 enum {
   MASS,

@@ -5,7 +5,7 @@
 
 #include "base/status.h"
 #include "campaigns/stress/stress.h"
-#include "cases/scene.h"
+#include "casefile/scene.h"
 
 typedef struct stress_scenes stress_scenes; /* one a thread */
 

@@ -3,8 +3,8 @@
 #include <stdlib.h>
 
 #include "campaigns/stress/stress.h"
-#include "cases/case_file.h"
-#include "cases/structure_check.h"
+#include "casefile/case_file.h"
+#include "casefile/structure_check.h"
 
 typedef struct shrinker {
   stress_kind kind;

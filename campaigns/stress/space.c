@@ -6,7 +6,7 @@
 #include <stdio.h>
 
 #include "campaigns/stress/scenes_impl.h"
-#include "cases/structure.h"
+#include "casefile/structure.h"
 #include "numerics/random.h"
 
 static bool is_zero(int n, const double *d)

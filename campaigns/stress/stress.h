@@ -15,7 +15,7 @@
 #include <stdio.h>
 
 #include "base/status.h"
-#include "cases/scene.h"
+#include "casefile/scene.h"
 
 #define STRESS_CHECKS(X)                                                                                               \
   X(STRESS_FORCE, "force_exact_sampled",                                                                               \

@@ -14,10 +14,10 @@
 #include <string.h>
 
 #include "campaigns/stress/scenes_impl.h"
-#include "cases/case_file.h"
-#include "cases/fields.h"
-#include "cases/structure_check.h"
-#include "cases/structure_model.h"
+#include "casefile/case_file.h"
+#include "casefile/fields.h"
+#include "casefile/structure_check.h"
+#include "casefile/structure_model.h"
 #include "model/modes.h"
 #include "numerics/dense.h"
 #include "numerics/random.h"

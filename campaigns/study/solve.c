@@ -7,7 +7,7 @@
 
 #include "base/thread_clock.h"
 #include "campaigns/scene_solvers.h"
-#include "cases/structure_model.h"
+#include "casefile/structure_model.h"
 #include "compare/frequencies.h"
 
 rows_kind study_rows(const study *s)

@@ -7,8 +7,8 @@
 
 #include <stdint.h>
 
-#include "cases/case_file.h"
-#include "cases/fields.h"
+#include "casefile/case_file.h"
+#include "casefile/fields.h"
 
 enum { STUDY_MOST_SCENES = 1000000, STUDY_TEXT = 256, STUDY_MOST_FIELDS = 512 /* set or varied */ };
 

@@ -6,7 +6,7 @@
 #define HC_STUDY_READER_H
 
 #include "campaigns/study/study.h"
-#include "cases/case_reader.h"
+#include "casefile/case_reader.h"
 
 /* A field that `set`, --set or an axis gives: none is both set and varied. */
 typedef struct study_given {

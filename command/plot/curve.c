@@ -7,7 +7,7 @@
 
 #include "base/constants.h"
 #include "campaigns/scene_solvers.h"
-#include "cases/structure_model.h"
+#include "casefile/structure_model.h"
 #include "compare/frequencies.h"
 #include "hbm/segment.h"
 

@@ -2,7 +2,7 @@
 #include <math.h>
 
 #include "base/constants.h"
-#include "cases/scene.h"
+#include "casefile/scene.h"
 #include "command/plot/curve.h"
 #include "command/plot/panels.h"
 

@@ -12,7 +12,7 @@
 #include <jansson.h>
 
 #include "base/status.h"
-#include "cases/scene.h"
+#include "casefile/scene.h"
 
 enum { ALIASING_MOST_OMEGAS = 4 };
 

@@ -5,7 +5,7 @@
 #include <stdio.h>
 
 #include "campaigns/scene_solvers.h"
-#include "cases/structure_model.h"
+#include "casefile/structure_model.h"
 #include "compare/frequencies.h"
 #include "compare/response.h"
 

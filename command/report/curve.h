@@ -5,7 +5,7 @@
 
 #include <jansson.h>
 
-#include "cases/scene.h"
+#include "casefile/scene.h"
 #include "compare/comparison.h"
 
 enum { CURVE_MOST_RESPONSES = 12 };

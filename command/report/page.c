@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cases/case_file.h"
+#include "casefile/case_file.h"
 #include "command/report/assets.h"
 #include "command/report/html.h"
 #include "command/report/words.h"

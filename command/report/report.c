@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "cases/structure_model.h"
+#include "casefile/structure_model.h"
 
 #include "command/report/aliasing.h"
 #include "command/report/assets.h"

@@ -14,7 +14,7 @@
 #include <stdio.h>
 
 #include "base/status.h"
-#include "cases/scene.h"
+#include "casefile/scene.h"
 #include "compare/accuracy/accuracy.h"
 #include "compare/comparison.h"
 

@@ -4,7 +4,7 @@
 
 #include <jansson.h>
 
-#include "cases/scene.h"
+#include "casefile/scene.h"
 #include "compare/comparison.h"
 
 /* JSON null for one degree of freedom, else, read by structure.js,

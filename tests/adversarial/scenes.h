@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "campaigns/scene_solvers.h"
-#include "cases/case_file.h"
+#include "casefile/case_file.h"
 #include "hbm/hbm.h"
 #include "timeint/timeint.h"
 

@@ -10,7 +10,7 @@
 
 #include "base/ascending.h"
 #include "campaigns/scene_solvers.h"
-#include "cases/case_file.h"
+#include "casefile/case_file.h"
 #include "compare/response.h"
 #include "hbm/hbm.h"
 #include "hbm/hbm_solver_impl.h"

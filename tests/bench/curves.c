@@ -11,7 +11,7 @@
 #include <time.h>
 
 #include "campaigns/scene_solvers.h"
-#include "cases/case_file.h"
+#include "casefile/case_file.h"
 #include "hbm/hbm.h"
 
 static double now_ms(void)

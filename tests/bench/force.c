@@ -15,7 +15,7 @@
 
 #include "base/ascending.h"
 #include "campaigns/scene_solvers.h"
-#include "cases/case_file.h"
+#include "casefile/case_file.h"
 #include "hbm/aft.h"
 #include "hbm/exact_force.h"
 #include "hbm/hbm.h"

@@ -8,8 +8,8 @@
 #include <time.h>
 
 #include "campaigns/scene_solvers.h"
-#include "cases/case_file.h"
-#include "cases/structure_model.h"
+#include "casefile/case_file.h"
+#include "casefile/structure_model.h"
 #include "compare/response.h"
 
 static double now(void)

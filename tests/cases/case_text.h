@@ -4,7 +4,7 @@
 
 #include <string.h>
 
-#include "cases/case_file.h"
+#include "casefile/case_file.h"
 #include "tests/check.h"
 #include "tests/random.h"
 

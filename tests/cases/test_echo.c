@@ -2,7 +2,7 @@
  * say. */
 #include <dirent.h>
 
-#include "cases/fields.h"
+#include "casefile/fields.h"
 #include "tests/cases/case_text.h"
 
 static char *echoed(const scene *sc, hc_status expect)

@@ -1,6 +1,6 @@
 /* test_fields.c - the table of fields is sound: defaults inside their ranges, names unique, rivals mutual; and
  * describe shows it all. */
-#include "cases/fields.h"
+#include "casefile/fields.h"
 #include "tests/cases/case_text.h"
 
 static void defaults_pass_their_own_reader(void **state)

@@ -4,7 +4,7 @@
 #include <time.h>
 
 #include "base/message.h"
-#include "cases/case_reader.h"
+#include "casefile/case_reader.h"
 #include "tests/cases/case_text.h"
 
 enum { MEGABYTE = 1 << 20 };

@@ -2,7 +2,7 @@
 #include <string.h>
 #include <sys/resource.h>
 
-#include "cases/case_file.h"
+#include "casefile/case_file.h"
 #include "compare/memory.h"
 #include "tests/check.h"
 #include "tests/shell.h"

@@ -2,7 +2,7 @@
  * where they are made to differ the cause is named and as large as it must be. */
 #include <string.h>
 
-#include "cases/case_file.h"
+#include "casefile/case_file.h"
 #include "compare/comparison.h"
 #include "tests/check.h"
 #include "tests/scene_runs.h"

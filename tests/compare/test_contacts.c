@@ -1,7 +1,7 @@
 /* test_contacts.c - contacts compared: made up so that the answer is plain, and of structures. */
 #include <string.h>
 
-#include "cases/case_file.h"
+#include "casefile/case_file.h"
 #include "compare/comparison.h"
 #include "tests/check.h"
 #include "tests/scene_runs.h"

@@ -1,6 +1,6 @@
 /* test_once.c - nothing is solved twice: what the comparison of case 2 takes, counted. The counts are exact; a change
  * that raises one solves something again, or takes longer steps to fail. */
-#include "cases/case_file.h"
+#include "casefile/case_file.h"
 #include "compare/comparison.h"
 #include "tests/check.h"
 

@@ -2,7 +2,7 @@
  * so: every verdict is tried by marching, period after period in plain closed form, from beside the motion it is of. */
 #include <string.h>
 
-#include "cases/case_file.h"
+#include "casefile/case_file.h"
 #include "compare/comparison.h"
 #include "tests/check.h"
 #include "timeint/steady.h"

@@ -3,7 +3,7 @@
  * given another structure than time integration. */
 #include <string.h>
 
-#include "cases/case_file.h"
+#include "casefile/case_file.h"
 #include "compare/comparison.h"
 #include "tests/check.h"
 #include "tests/scene_runs.h"

@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "cases/case_file.h"
+#include "casefile/case_file.h"
 #include "tests/check.h"
 
 #define SMALL_BODY                                                                                                     \

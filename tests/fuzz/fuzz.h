@@ -8,7 +8,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "cases/case_file.h"
+#include "casefile/case_file.h"
 
 /* One input; libFuzzer fixes the name. Always 0. */
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);

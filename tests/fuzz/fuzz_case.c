@@ -2,7 +2,7 @@
  * left alone. */
 #include <string.h>
 
-#include "cases/case_reader.h"
+#include "casefile/case_reader.h"
 #include "tests/fuzz/fuzz.h"
 
 static void refusal_is_clean(hc_status st, const case_error *err, const char *text, size_t length)

@@ -5,9 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cases/matlab_layout.h"
-#include "cases/matlab_variable.h"
-#include "cases/matrix_file.h"
+#include "casefile/matlab_layout.h"
+#include "casefile/matlab_variable.h"
+#include "casefile/matrix_file.h"
 #include "tests/fuzz/fuzz.h"
 
 enum { WORDS = 512, ENTRIES = 64 };

@@ -7,7 +7,7 @@
 #include <unistd.h>
 
 #include "base/utf8.h"
-#include "cases/fields.h"
+#include "casefile/fields.h"
 #include "tests/fuzz/fuzz.h"
 
 long fuzz_accepted, fuzz_refused;

@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cases/scene.h"
+#include "casefile/scene.h"
 #include "tests/check.h"
 #include "tests/random.h"
 #include "tests/reference_scenes.h"

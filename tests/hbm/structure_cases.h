@@ -4,7 +4,7 @@
 
 #include <string.h>
 
-#include "cases/case_file.h"
+#include "casefile/case_file.h"
 #include "hbm/hbm.h"
 #include "tests/check.h"
 

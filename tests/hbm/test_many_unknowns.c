@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "campaigns/scene_solvers.h"
-#include "cases/case_file.h"
+#include "casefile/case_file.h"
 #include "tests/check.h"
 
 static void make(const char *harmonics, scene *sc, hbm_solver **s)

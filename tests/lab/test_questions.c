@@ -2,7 +2,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "cases/case_file.h"
+#include "casefile/case_file.h"
 #include "compare/first_guess.h"
 #include "compare/response.h"
 #include "hbm/hbm.h"

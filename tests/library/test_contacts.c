@@ -2,7 +2,7 @@
  * solution, steady state and row; where they were not asked for, none. */
 #include <math.h>
 
-#include "cases/case_file.h"
+#include "casefile/case_file.h"
 #include "compare/comparison.h"
 #include "compare/first_guess.h"
 #include "compare/steady_states.h"

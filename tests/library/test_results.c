@@ -2,7 +2,7 @@
  * was not computed is NaN. The scenes show every verdict's side: stable, unstable, period k, aperiodic, failed. */
 #include "tests/library/case2.h"
 
-#include "cases/case_file.h"
+#include "casefile/case_file.h"
 #include "compare/gate/gate.h"
 #include "compare/response.h"
 #include "compare/steady_states.h"

@@ -3,7 +3,7 @@
  * first, then answer what the test tells them to (the linker's --wrap). */
 #include "tests/library/case2.h"
 
-#include "cases/case_file.h"
+#include "casefile/case_file.h"
 #include "compare/gate/gate.h"
 #include "compare/response.h"
 #include "compare/steady_states.h"

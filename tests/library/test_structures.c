@@ -1,5 +1,5 @@
 /* test_structures.c - structures through the C API: a result for each response, the numbers of those it calls. */
-#include "cases/case_file.h"
+#include "casefile/case_file.h"
 #include "compare/comparison.h"
 #include "compare/first_guess.h"
 #include "compare/response.h"

@@ -2,7 +2,7 @@
  * arrays that are none refused in words, a monitor that stops it. */
 #include <math.h>
 
-#include "cases/case_file.h"
+#include "casefile/case_file.h"
 #include "compare/verify/verify.h"
 #include "tests/library/case2.h"
 

@@ -4,7 +4,7 @@
 
 #include <string.h>
 
-#include "cases/scene.h"
+#include "casefile/scene.h"
 #include "tests/reference_scenes.h"
 #include "timeint/steady.h"
 #include "timeint/timeint.h"

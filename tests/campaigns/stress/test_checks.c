@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "campaigns/stress/outcomes.h"
-#include "cases/fields.h"
+#include "casefile/fields.h"
 #include "compare/comparison.h"
 #include "hbm/exact_force.h"
 #include "tests/check.h"

@@ -1,5 +1,5 @@
 /* test_grid.c - the grid of a study: lists, ranges and fields that go together, against values worked out by hand. */
-#include "cases/structure.h"
+#include "casefile/structure.h"
 #include "tests/campaigns/study/study_text.h"
 
 static scene scene_of(const study *s, long id)

@@ -4,7 +4,7 @@
 
 #include <matio.h>
 
-#include "cases/matlab_file.h"
+#include "casefile/matlab_file.h"
 #include "tests/cases/structure/structure_text.h"
 
 /* A new file in a new folder, of version MAT_FT_MAT4, MAT_FT_MAT5 or MAT_FT_MAT73. */

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <unistd.h>
 
-#include "cases/structure.h"
+#include "casefile/structure.h"
 #include "tests/cases/case_text.h"
 
 #define SWEEP "sweep: {omega: [3, 20]}\n"

@@ -3,7 +3,7 @@
 #include <sys/resource.h>
 #include <time.h>
 
-#include "cases/matlab_variable.h"
+#include "casefile/matlab_variable.h"
 #include "tests/cases/structure/matlab_files.h"
 
 /* The linker puts this in the place of matlab_variable_read. */

@@ -2,8 +2,8 @@
  * that was written or with one line of words; where the format can tell, never with another matrix. */
 #include <zlib.h>
 
-#include "cases/matlab_layout.h"
-#include "cases/matlab_variable.h"
+#include "casefile/matlab_layout.h"
+#include "casefile/matlab_variable.h"
 #include "tests/cases/structure/matlab_files.h"
 
 typedef struct bytes {

@@ -5,7 +5,7 @@
  *     save -v7 octave_v7.mat M K C d      and -v6; -v4 without C, which version 4 has no class for */
 #include <pthread.h>
 
-#include "cases/matrix_file.h"
+#include "casefile/matrix_file.h"
 #include "tests/cases/structure/matlab_files.h"
 
 static const double M[] = {2, -1, -1, 2}, K[] = {680, -40, -40, 40}, C[] = {0.5, -0.25, -0.25, 0.5},

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "campaigns/scene_solvers.h"
-#include "cases/case_file.h"
+#include "casefile/case_file.h"
 #include "compare/verify/verify.h"
 #include "tests/check.h"
 

@@ -1,0 +1,162 @@
+/* case_file.c - from a file to a scene; see case_file.h, and case_reader.h for the steps in between. */
+#include "casefile/case_file.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "casefile/case_reader.h"
+
+message *case_blame(case_reader *r, case_place place)
+{
+  message *m = &r->msg;
+  message_start(m, m->text, m->size);
+  if (place.set > 0 && r->set) {
+    message_add(m, "--set ");
+    message_add_input(m, r->set[place.set - 1], strlen(r->set[place.set - 1]), 120);
+    message_add(m, ": ");
+  } else {
+    message_add_input(m, r->name, strlen(r->name), 240);
+    if (place.line > 0) message_add(m, ":%zu:%zu", place.line, place.column);
+    message_add(m, ": ");
+  }
+  return m;
+}
+
+bool case_suggest(message *m, suggestion s, const char *section, int j)
+{
+  char path[FIELD_PATH];
+  if (s.f)
+    message_add(m, ", did you mean `%s`?",
+                section && !strcmp(section, s.f->section) ? s.f->name : field_path(s.f, j, path));
+  if (s.s) message_add(m, ", did you mean `%s`%s?", s.s->name, section && *section ? " at the top level" : "");
+  return s.f || s.s;
+}
+
+static hc_status file_failed(case_reader *r, const char *words)
+{
+  message_add(case_blame(r, (case_place){0}), "%s, expected a %s file", words, r->noun);
+  return HC_IO;
+}
+
+hc_status case_out_of_memory(case_reader *r)
+{
+  message_add(case_blame(r, (case_place){0}), "out of memory");
+  return HC_NO_MEMORY;
+}
+
+/* "dir/case2.yaml" is titled "case2". */
+static void title_from_name(const char *name, char title[SCENE_MAX_TEXT])
+{
+  const char *slash = strrchr(name, '/'), *base = slash && slash[1] ? slash + 1 : name, *dot = strrchr(base, '.');
+  message m;
+  message_start(&m, title, SCENE_MAX_TEXT);
+  message_add_input(&m, base, dot && dot > base ? (size_t)(dot - base) : strlen(base), SCENE_MAX_TEXT);
+  memset(title + m.used, 0, SCENE_MAX_TEXT - m.used);
+}
+
+void case_reader_start(case_reader *r, const char *name, const char *const *set, case_error *err)
+{
+  memset(r, 0, sizeof *r);
+  r->name = name;
+  r->noun = "case";
+  r->required = "`oscillator`, `forcing` and `sweep`";
+  r->set = set;
+  message_start(&r->msg, err->message, sizeof err->message);
+  field_defaults(&r->sc);
+}
+
+hc_status case_reader_scene(case_reader *r, const char *text, size_t length)
+{
+  yaml_document_t doc;
+  hc_status st = yaml_text_load(r, text, length, &doc);
+  if (st != HC_OK) return st;
+  st = yaml_scene_read(r, &doc, yaml_document_get_root_node(&doc));
+  yaml_document_delete(&doc);
+  return st;
+}
+
+static hc_status read_scene(case_reader *r, const char *text, size_t length, int n_set)
+{
+  hc_status st = case_reader_scene(r, text, length);
+  for (int k = 1; k <= n_set && st == HC_OK; ++k) st = case_set_apply(r, k);
+  if (st == HC_OK) st = case_check(r);
+  if (st == HC_OK && r->at[field_index(field_find("", "title", 5))].line == 0) title_from_name(r->name, r->sc.title);
+  return st;
+}
+
+void case_clear(scene *sc)
+{
+  structure_free(sc->structure);
+  sc->structure = NULL;
+}
+
+hc_status case_reader_take(case_reader *r, hc_status st, scene *out)
+{
+  if (st == HC_OK) *out = r->sc;
+  else if (r->owns_structure) structure_free(r->sc.structure);
+  r->sc.structure = NULL;
+  r->owns_structure = false;
+  return st;
+}
+
+hc_status case_parse(const char *name, const char *text, size_t length, int n_set, const char *const *set, scene *out,
+                     case_error *err)
+{
+  case_reader r;
+  case_reader_start(&r, name, set, err);
+  return case_reader_take(&r, read_scene(&r, text, length, n_set), out);
+}
+
+/* At most one byte more than allowed: then it is too large. */
+static hc_status read_stream(case_reader *r, FILE *from, char **text, size_t *length)
+{
+  struct stat info;
+  if (fstat(fileno(from), &info) == 0 && S_ISDIR(info.st_mode)) return file_failed(r, "a directory");
+  if (!(*text = malloc(CASE_LARGEST + 1))) return case_out_of_memory(r);
+  *length = fread(*text, 1, CASE_LARGEST + 1, from);
+  return ferror(from) ? file_failed(r, "cannot be read") : HC_OK;
+}
+
+static hc_status cannot_open(case_reader *r, int error)
+{
+  char words[128];
+  if (error == ENOMEM) return case_out_of_memory(r);
+  if (strerror_r(error, words, sizeof words)) snprintf(words, sizeof words, "error %d", error);
+  message_add(case_blame(r, (case_place){0}), "cannot be opened: %s", words);
+  return HC_IO;
+}
+
+hc_status case_reader_slurp(case_reader *r, char **text, size_t *length)
+{
+  bool standard_input = !strcmp(r->name, "<stdin>");
+  *text = NULL;
+  FILE *from = standard_input ? stdin : fopen(r->name, "rb");
+  if (!from) return cannot_open(r, errno);
+  hc_status st = read_stream(r, from, text, length);
+  if (!standard_input) fclose(from);
+  return st;
+}
+
+hc_status case_read_placed(const char *path, int n_set, const char *const *set, scene *out, case_places *places,
+                           case_error *err)
+{
+  case_reader r;
+  char *text = NULL;
+  size_t length = 0;
+  case_reader_start(&r, !strcmp(path, "-") ? "<stdin>" : path, set, err);
+  hc_status st = case_reader_slurp(&r, &text, &length);
+  if (st == HC_OK) st = read_scene(&r, text, length, n_set);
+  if (st == HC_OK && places) {
+    memcpy(places->field, r.at, sizeof r.at);
+    memcpy(places->contact, r.contact_field_at, sizeof r.contact_field_at);
+  }
+  free(text);
+  return case_reader_take(&r, st, out);
+}
+
+hc_status case_read(const char *path, int n_set, const char *const *set, scene *out, case_error *err)
+{
+  return case_read_placed(path, n_set, set, out, NULL, err);
+}

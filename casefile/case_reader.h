@@ -1,0 +1,146 @@
+/* case_reader.h - what the parts of the case reader share; private to casefile/ and to the study file's reader, which
+ * speaks the same language (campaigns/study/). The public face is case_file.h.
+ *
+ *     text --yaml_text_load--> document --yaml_scene_read--> scene --case_set_apply--> scene --case_check--> done */
+#ifndef HC_CASE_READER_H
+#define HC_CASE_READER_H
+
+#include <yaml.h>
+
+#include "base/status.h"
+#include "casefile/case_file.h"
+#include "casefile/case_place.h"
+#include "casefile/case_values.h"
+#include "casefile/fields.h"
+#include "casefile/suggest.h"
+
+enum { CASE_LARGEST = 16 << 20 }; /* bytes of a case file; an echoed one holds matrices of some 500 rows */
+
+typedef struct case_reader {
+  const char *name;       /* of the file, for messages                               */
+  const char *noun;       /* "case", or what else such a file is, for messages       */
+  const char *required;   /* the keys it must have, in words                         */
+  const char *const *set; /* the assignments                                         */
+  int set_now;            /* the one being applied, from 1; 0 while the file is read */
+  case_place here;        /* of the path being resolved or the value being set       */
+  case_place end;         /* of the file's text; line = 0 before it is known         */
+  scene sc;               /* as far as it has been read                              */
+  bool owns_structure;    /* or shares it with the scene it was started from         */
+  /* [field_index] where each field was last given; of contacts' fields, in the contact being read */
+  case_place at[FIELD_MAX];
+  /* where each contact of an oscillator appeared; case_field_bit: that field of it has been given */
+  case_place contact_at[SCENE_MAX_CONTACTS];
+  unsigned long long contact_has[SCENE_MAX_CONTACTS];
+  /* where each field of each contact was last given */
+  case_place contact_field_at[SCENE_MAX_CONTACTS][FIELD_MAX];
+  message msg; /* the first mistake */
+} case_reader;
+
+/* Of the fields of contacts, which stand together in the table. */
+static inline unsigned long long case_field_bit(const field *f) { return 1ull << field_index(f) % 64; }
+
+static inline bool case_given(const case_reader *r, const field *f) { return r->at[field_index(f)].line > 0; }
+/* Where a mark of libyaml stands. If the last line has no line end, libyaml's mark may stand on a line after it, which
+ * the file does not have: then r->end. */
+static inline case_place case_place_of(const case_reader *r, yaml_mark_t mark)
+{
+  if (r->set_now == 0 && r->end.line > 0 && mark.line + 1 > r->end.line) return r->end;
+  return (case_place){.set = r->set_now, .line = mark.line + 1, .column = mark.column + 1};
+}
+
+/* A reader of the case file `name`, every field at its default; messages go to err. */
+void case_reader_start(case_reader *r, const char *name, const char *const *set, case_error *err);
+
+/* The bytes of r's file, "<stdin>" being standard input, in memory to free in any case. */
+hc_status case_reader_slurp(case_reader *r, char **text, size_t *length);
+
+/* The scene of text[length], before assignments and case_check. */
+hc_status case_reader_scene(case_reader *r, const char *text, size_t length);
+
+/* After reading ended with st: r's scene into *out, its structure with it, or nothing kept. Returns st. */
+hc_status case_reader_take(case_reader *r, hc_status st, scene *out);
+
+/* Start the message with "FILE:LINE:COLUMN: " or "--set PATH=VALUE: " and return it for the rest. */
+message *case_blame(case_reader *r, case_place place);
+
+/* ", did you mean `x`?" if there is something to suggest. Fields show their whole path unless they are of `section`
+ * (NULL: always). */
+bool case_suggest(message *m, suggestion s, const char *section, int j);
+
+/* text as one YAML document without aliases, anchors, tags and depth, to be freed with yaml_document_delete when
+ * HC_OK. */
+hc_status yaml_text_load(case_reader *r, const char *text, size_t length, yaml_document_t *doc);
+
+/* The text of a scalar node, and what a node is in words: "a mapping", "a list", "a single value", "empty". */
+static inline const char *yaml_node_text(const yaml_node_t *n) { return (const char *)n->data.scalar.value; }
+const char *yaml_node_what(const yaml_node_t *n);
+field_item yaml_node_item(const yaml_node_t *n); /* of a scalar */
+
+/* v from a scalar or a list of scalars. NULL, or the node (a mapping, a list in a list) that cannot be a value. */
+const yaml_node_t *yaml_node_value(yaml_document_t *doc, const yaml_node_t *node, field_value *v);
+
+/* Is the key a scalar? false with the message made. */
+bool yaml_check_key(case_reader *r, const yaml_node_t *key);
+hc_status yaml_duplicate_key(case_reader *r, const yaml_node_t *key, case_place first);
+
+/* A scene at `root`, its list of contacts, or contact j of it, into r->sc. */
+hc_status yaml_scene_read(case_reader *r, yaml_document_t *doc, const yaml_node_t *root);
+hc_status yaml_scene_contacts(case_reader *r, yaml_document_t *doc, yaml_node_t *node);
+hc_status yaml_scene_contact(case_reader *r, yaml_document_t *doc, yaml_node_t *node, int j);
+
+/* One key of a section, or of contact or load j, given once and not beside a rival, into base (fields.h). */
+hc_status yaml_scene_field(case_reader *r, yaml_document_t *doc, const field *f, int j, void *base,
+                           const yaml_node_pair_t *pair);
+hc_status yaml_unknown_key(case_reader *r, const yaml_node_t *key, const char *section);
+
+/* No field of contacts (FIELD_IN_CONTACT) or of loads (FIELD_IN_LOAD) has been given yet: the next one begins. */
+void yaml_forget_fields(case_reader *r, unsigned of);
+
+/* The value of one field, of contact or load j if it is one of theirs, into base (fields.h). */
+hc_status yaml_scene_value(case_reader *r, yaml_document_t *doc, const field *f, int j, void *base,
+                           const yaml_node_t *node);
+
+/* What a path names: a field "hbm.samples", "contacts[0].gap", "contacts[joint].gap", "forcing[0].amplitude"; or with
+ * f = NULL a list, "contacts", "forcing", or with an index an entry of it. */
+typedef enum case_list { CASE_NO_LIST, CASE_CONTACTS, CASE_LOADS } case_list;
+typedef struct case_target {
+  const field *f;
+  case_list list;
+  int index; /* in the list; -1: all of it, or no list */
+} case_target;
+static inline case_target case_target_of(const field *f, int index)
+{
+  const case_list list = f->flags & FIELD_IN_CONTACT ? CASE_CONTACTS
+                         : f->flags & FIELD_IN_LOAD  ? CASE_LOADS
+                                                     : CASE_NO_LIST;
+  return (case_target){f, list, index};
+}
+hc_status case_find_target(case_reader *r, const char *path, size_t length, case_target *t);
+
+/* What t.f is stored in (fields.h): the scene, its structure, or the contact or load of t; an oscillator's contact is
+ * appended if it is the one past the last. NULL, with the message made: out of memory, for a structure that is shared
+ * is copied first. Then note that t.f was given at r->here. */
+void *case_target_base(case_reader *r, case_target t);
+void case_target_given(case_reader *r, case_target t);
+
+/* t.f of `base` is being given: its rivals (sweep.frequency is sweep.omega's) go back to their defaults. */
+void case_drop_rivals(case_reader *r, const field *f, void *base);
+
+/* What t names, from a document; r->here is where. */
+hc_status case_target_read(case_reader *r, yaml_document_t *doc, case_target t, yaml_node_t *node);
+
+/* r's structure is its own from now on: copied if it was shared. HC_NO_MEMORY with the message made. */
+hc_status case_own_structure(case_reader *r);
+
+hc_status case_out_of_memory(case_reader *r);
+
+/* Apply assignment number k, from 1. */
+hc_status case_set_apply(case_reader *r, int k);
+
+/* What depends on several fields, once all of them are known. */
+hc_status case_check(case_reader *r);
+
+/* The same of a structure, whose damping matrix is made here. */
+hc_status case_check_structure(case_reader *r);
+
+#endif

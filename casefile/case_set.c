@@ -1,0 +1,285 @@
+/* case_set.c - assignments PATH=VALUE on top of a case file.
+ *   hbm.samples=2048   title=Any text   sweep.omega=[3,20] or 3,20
+ *   contacts[0].gap=-1   contacts[joint].gap=-1   contacts[0]={...}   contacts=[...]   forcing[0].amplitude=3
+ *   structure.damping.modal=0.02   structure.mass=mass.mtx
+ * An index one past the last contact appends one. Of rivals (sweep.omega, sweep.frequency) the one assigned last
+ * counts. */
+#include <string.h>
+
+#include "base/nearest.h"
+#include "casefile/yaml_structure.h"
+
+/* j: the entry of a list that the path begins with, for what is suggested. */
+static hc_status unknown_path(case_reader *r, const char *path, size_t length, int j)
+{
+  message *m = case_blame(r, r->here);
+  const field_section *s = field_find_section(path, length);
+  if (s) {
+    message_add(m, "`%s` is a section, expected one of its fields:", s->name);
+    for (int i = 0, n = 0; i < field_count(); ++i)
+      if (!strcmp(field_at(i)->section, s->name))
+        message_add(m, "%s %s.%s", n++ ? "," : "", s->name, field_at(i)->name);
+    return HC_BAD_INPUT;
+  }
+  message_add(m, "unknown field `");
+  message_add_input(m, path, length, 60);
+  message_add(m, "`");
+  suggestion guess = suggest_path(path, length);
+  if (!case_suggest(m, guess, NULL, j))
+    message_add(m, ", expected a path such as hbm.samples (`hbmcheck describe` lists them)");
+  return HC_BAD_INPUT;
+}
+
+/* "[12]" at s, with *end behind it; -1 if it is no index of at most four digits. */
+static int read_index(const char *s, const char *stop, const char **end)
+{
+  int index = 0, n = 0;
+  if (s == stop || *s++ != '[') return -1;
+  for (; s < stop && *s >= '0' && *s <= '9' && n < 4; ++s, ++n) index = 10 * index + (*s - '0');
+  if (n == 0 || s == stop || *s != ']') return -1;
+  *end = s + 1;
+  return index;
+}
+
+/* "[joint]" at s, with *end behind it: the contact of that name. *index = -1 if it is no word in brackets. */
+static hc_status read_name(case_reader *r, const char *s, const char *stop, const char **end, int *index)
+{
+  const scene_structure *own = r->sc.structure;
+  const char *close = s < stop && *s == '[' ? memchr(s, ']', (size_t)(stop - s)) : NULL;
+  *index = -1;
+  if (!close || !own || close == s + 1 || (s[1] >= '0' && s[1] <= '9') || s[1] == '-') return HC_OK;
+  *end = close + 1;
+  const size_t length = (size_t)(close - s - 1);
+  *index = structure_contact_named(own, s + 1, length);
+  if (*index >= 0) return HC_OK;
+  int near = -1, least = NEAREST_FAR;
+  for (int j = 0; j < own->n_contacts; ++j) {
+    const char *name = own->contacts[j].given.name;
+    const int d = *name ? nearest_distance(s + 1, length, name) : NEAREST_FAR;
+    if (d < least) near = j, least = d;
+  }
+  message *m = case_blame(r, r->here);
+  message_add(m, "no contact is named `");
+  message_add_input(m, s + 1, length, 60);
+  if (near >= 0) message_add(m, "`, did you mean `%s`?", own->contacts[near].given.name);
+  else message_add(m, "`, expected an index or a name that the case gives");
+  return HC_BAD_INPUT;
+}
+
+static int list_length(const case_reader *r, case_list list)
+{
+  return list == CASE_LOADS ? r->sc.structure->n_loads : scene_contact_count(&r->sc);
+}
+
+/* An entry one past the last is new, but a structure's has no field yet: it is to be given as a whole. */
+static hc_status check_index(case_reader *r, case_target t)
+{
+  const int n = list_length(r, t.list);
+  const bool one_more = !(r->sc.structure ? t.f != NULL : n == SCENE_MAX_CONTACTS);
+  if (t.index < n + one_more) return HC_OK;
+  message *m = case_blame(r, r->here);
+  message_add(m, "the case has %d %s, expected an index 0..%d%s", n, t.list == CASE_LOADS ? "loads" : "contacts",
+              n - 1 + one_more, one_more ? " (the last one appends)" : "");
+  return HC_BAD_INPUT;
+}
+
+/* A list and what follows: nothing, an index or name, a field of that entry. */
+static hc_status find_in_list(case_reader *r, const char *path, size_t length, case_list list, case_target *t)
+{
+  const char *stop = path + length, *s = path + (list == CASE_LOADS ? 7 : 8);
+  *t = (case_target){.list = list, .index = -1};
+  if (s == stop) return HC_OK;
+  const char *bracket = s;
+  t->index = read_index(bracket, stop, &s);
+  hc_status st = HC_OK;
+  if (t->index < 0 && list == CASE_CONTACTS) st = read_name(r, bracket, stop, &s, &t->index);
+  if (st != HC_OK) return st;
+  if (t->index < 0) return unknown_path(r, path, length, 0);
+  if (s < stop) {
+    const char *section = list == CASE_LOADS ? "forcing[]" : "contacts";
+    t->f = *s == '.' ? field_find(section, s + 1, (size_t)(stop - s - 1)) : NULL;
+    if (!t->f) return unknown_path(r, path, length, t->index);
+  }
+  return check_index(r, *t);
+}
+
+/* A structure has no field of an oscillator, and an oscillator none of a structure. */
+static hc_status check_kind(case_reader *r, const field *f, const char *path, size_t length)
+{
+  const bool structure = r->sc.structure != NULL;
+  const bool of_oscillator = !strcmp(f->section, "oscillator") || !strcmp(f->section, "forcing");
+  if (structure ? !of_oscillator : !(f->flags & FIELD_STRUCTURE)) return HC_OK;
+  message *m = case_blame(r, r->here);
+  message_add(m, "`");
+  message_add_input(m, path, length, 60);
+  message_add(m, structure ? "` is an oscillator's, and the case has a structure, expected "
+                           : "` is a structure's, and the case has an oscillator, expected a field of that");
+  if (structure) message_add(m, *f->section == 'f' ? "forcing[0].%s" : "structure.%s", f->name);
+  return HC_BAD_INPUT;
+}
+
+static bool begins_list(const char *path, size_t length, const char *word)
+{
+  const size_t n = strlen(word);
+  return length >= n && !memcmp(path, word, n) && (length == n || path[n] == '[');
+}
+
+hc_status case_find_target(case_reader *r, const char *path, size_t length, case_target *t)
+{
+  *t = (case_target){.index = -1};
+  hc_status st = HC_OK;
+  if (begins_list(path, length, "contacts")) {
+    st = find_in_list(r, path, length, CASE_CONTACTS, t);
+  } else if (r->sc.structure && begins_list(path, length, "forcing")) {
+    st = find_in_list(r, path, length, CASE_LOADS, t);
+  } else {
+    const char *dot = memchr(path, '.', length);
+    const field_section *s = dot ? field_find_section(path, (size_t)(dot - path)) : field_section_at(0);
+    const char *name = dot ? dot + 1 : path;
+    if (s) t->f = field_find(s->name, name, (size_t)(path + length - name));
+    if (t->f && field_is_in_list(t->f)) t->f = NULL; /* contacts.gap: of which one? */
+    if (!t->f) st = unknown_path(r, path, length, 0);
+  }
+  return st == HC_OK && t->f ? check_kind(r, t->f, path, length) : st;
+}
+
+static void append_contact_if_new(case_reader *r, int j)
+{
+  if (j < r->sc.n_contacts) return;
+  field_contact_defaults(&r->sc.contacts[j]);
+  r->contact_has[j] = 0;
+  memset(r->contact_field_at[j], 0, sizeof r->contact_field_at[j]);
+  r->contact_at[j] = r->here;
+  r->sc.n_contacts = j + 1;
+}
+
+hc_status case_own_structure(case_reader *r)
+{
+  if (r->owns_structure || !r->sc.structure) return HC_OK;
+  scene_structure *own = structure_copy(r->sc.structure);
+  if (!own) return case_out_of_memory(r);
+  r->sc.structure = own;
+  r->owns_structure = true;
+  return HC_OK;
+}
+
+void *case_target_base(case_reader *r, case_target t)
+{
+  const bool in_structure = r->sc.structure && (t.list != CASE_NO_LIST || t.f->flags & FIELD_STRUCTURE);
+  if (in_structure && case_own_structure(r) != HC_OK) return NULL;
+  scene_structure *s = r->sc.structure;
+  if (in_structure && t.list == CASE_LOADS) return &s->loads[t.index];
+  if (in_structure && t.list == CASE_CONTACTS) return &s->contacts[t.index].given;
+  if (in_structure) return s;
+  if (t.list == CASE_NO_LIST) return &r->sc;
+  append_contact_if_new(r, t.index);
+  return &r->sc.contacts[t.index];
+}
+
+void case_target_given(case_reader *r, case_target t)
+{
+  scene_structure *s = r->sc.structure;
+  if (s && t.list == CASE_LOADS) s->loads[t.index].place = r->here;
+  else if (s && t.list == CASE_CONTACTS) s->contacts[t.index].place = r->here;
+  else if (t.list == CASE_CONTACTS) {
+    r->contact_has[t.index] |= case_field_bit(t.f);
+    r->contact_field_at[t.index][field_index(t.f)] = r->here;
+  } else r->at[field_index(t.f)] = r->here;
+  if (!s) return;
+  s->place = r->here; /* what it is wrong about as a whole, it is from here on */
+  if (!(t.f->flags & FIELD_IN_STRUCTURE)) return;
+  structure_damping_given(s, t.f);
+  s->damping.place = r->here;
+}
+
+void case_drop_rivals(case_reader *r, const field *f, void *base)
+{
+  const field *rival;
+  for (int i = 0; (rival = field_rival(f, i)) != NULL; ++i) {
+    field_reset(rival, base);
+    r->at[field_index(rival)] = (case_place){0};
+  }
+}
+
+static hc_status set_field(case_reader *r, case_target t, const char *text)
+{
+  char path[FIELD_PATH], why_text[512];
+  field_value v;
+  message why;
+  int bad;
+  message_start(&why, why_text, sizeof why_text);
+  void *base = case_target_base(r, t);
+  if (!base) return HC_NO_MEMORY;
+  case_drop_rivals(r, t.f, base);
+  field_split(t.f, text, strlen(text), &v);
+  if (!field_store(t.f, base, &v, &why, &bad)) {
+    message_add(case_blame(r, r->here), "%s%s", field_path(t.f, t.index, path), why.text);
+    return HC_BAD_INPUT;
+  }
+  case_target_given(r, t);
+  return HC_OK;
+}
+
+/* A list of contacts or loads, or an entry of one. */
+static hc_status read_list(case_reader *r, yaml_document_t *doc, case_target t, yaml_node_t *node)
+{
+  if (t.list == CASE_LOADS && t.index < 0) return yaml_loads_read(r, doc, node);
+  if (t.list == CASE_LOADS) return yaml_load_read(r, doc, node, t.index);
+  if (r->sc.structure && t.index < 0) return yaml_contacts_read(r, doc, node);
+  if (r->sc.structure) return yaml_contact_read(r, doc, node, t.index);
+  if (t.index < 0) return yaml_scene_contacts(r, doc, node);
+  case_target_base(r, t);
+  return yaml_scene_contact(r, doc, node, t.index);
+}
+
+static hc_status read_value(case_reader *r, yaml_document_t *doc, case_target t, yaml_node_t *node)
+{
+  void *base = case_target_base(r, t);
+  if (!base) return HC_NO_MEMORY;
+  case_drop_rivals(r, t.f, base);
+  const hc_status st = yaml_scene_value(r, doc, t.f, t.index, base, node);
+  if (st == HC_OK) case_target_given(r, t);
+  return st;
+}
+
+hc_status case_target_read(case_reader *r, yaml_document_t *doc, case_target t, yaml_node_t *node)
+{
+  if (t.f && t.f->kind != FIELD_PART && !(t.f->flags & FIELD_IN_STRUCTURE)) return read_value(r, doc, t, node);
+  hc_status st = case_own_structure(r);
+  if (st != HC_OK) return st;
+  if (r->sc.structure) r->sc.structure->place = r->here;
+  if (!t.f) return read_list(r, doc, t, node);
+  if (t.list == CASE_NO_LIST) return yaml_structure_part(r, doc, t.f, node);
+  st = yaml_entry_part(r, doc, t.f, t.index, node);
+  if (st == HC_OK) case_target_given(r, t);
+  return st;
+}
+
+static hc_status set_document(case_reader *r, case_target t, const char *text)
+{
+  yaml_document_t doc;
+  hc_status st = yaml_text_load(r, text, strlen(text), &doc);
+  if (st != HC_OK) return st;
+  st = case_target_read(r, &doc, t, yaml_document_get_root_node(&doc));
+  yaml_document_delete(&doc);
+  return st;
+}
+
+hc_status case_set_apply(case_reader *r, int k)
+{
+  const char *path = r->set[k - 1], *equals = strchr(path, '=');
+  case_target t;
+  r->set_now = k;
+  r->here = (case_place){.set = k, .line = 1, .column = 1};
+  if (!equals) {
+    message_add(case_blame(r, r->here), "no `=`, expected PATH=VALUE such as hbm.harmonics=10");
+    return HC_BAD_INPUT;
+  }
+  size_t length = (size_t)(equals - path);
+  while (length > 0 && *path == ' ') ++path, --length;
+  while (length > 0 && path[length - 1] == ' ') --length;
+  hc_status st = case_find_target(r, path, length, &t);
+  if (st != HC_OK) return st;
+  const bool plain = t.f && t.f->kind != FIELD_PART && !(t.f->flags & FIELD_IN_STRUCTURE);
+  return plain ? set_field(r, t, equals + 1) : set_document(r, t, equals + 1);
+}

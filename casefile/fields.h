@@ -1,0 +1,115 @@
+/* fields.h - every field of a case file, in one table: name, kind, unit, default, range, meaning, and where it lives
+ * in a scene. The reader, --set, the echo and describe all work from it; a new field is a new row in fields.c and
+ * nothing else. */
+#ifndef HC_FIELDS_H
+#define HC_FIELDS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdio.h>
+
+#include "base/message.h"
+#include "casefile/structure.h"
+
+typedef enum field_kind {
+  FIELD_REAL,     /* double                                             */
+  FIELD_INTEGER,  /* int                                                */
+  FIELD_FLAG,     /* bool                                               */
+  FIELD_CHOICE,   /* an enum as large as an int: an index into choices    */
+  FIELD_TEXT,     /* char[size]                                         */
+  FIELD_PAIR,     /* double[2], from and to                             */
+  FIELD_REALS,    /* number_list                                        */
+  FIELD_INTEGERS, /* number_list of integers                            */
+  FIELD_PART      /* of a structure, in a form of its own: yaml_structure.h reads it, echo_structure.c writes it */
+} field_kind;
+
+enum {
+  FIELD_IN_CONTACT = 1,    /* offset is into scene_contact, not into scene */
+  FIELD_AUTO = 2,          /* `auto` is a value, HBM_AUTO */
+  FIELD_OPEN = 4,          /* low itself is out of range */
+  FIELD_NO_ECHO = 8,       /* not echoed: another field writes what this one stored */
+  FIELD_IN_LOAD = 16,      /* offset is into structure_load */
+  FIELD_IN_STRUCTURE = 32, /* offset is into scene_structure */
+  FIELD_STRUCTURE = 64     /* with `structure` only, not with `oscillator` */
+};
+enum { FIELD_ELSEWHERE = FIELD_IN_CONTACT | FIELD_IN_LOAD | FIELD_IN_STRUCTURE }; /* offset is not into scene */
+
+typedef struct field {
+  const char *section, *name; /* section is "" for the top level; path is section.name; loads' is "forcing[]" */
+  const char *symbol;         /* what docs/theory.md and the paper call it, or ""; only ever suggested, never read */
+  field_kind kind;
+  unsigned flags;             /* FIELD_IN_CONTACT, ... */
+  const char *unit;           /* in terms of force, length, time; "1" for pure numbers, "" where there is none */
+  size_t offset, size;        /* in bytes; size only for FIELD_TEXT */
+  const char *fallback;       /* the default as it is written in a file; "": empty; NULL: the field is required */
+  double low, high;           /* range, of each entry in lists */
+  double scale;               /* stored = scale * written; 0 counts as 1 */
+  const char *const *choices; /* in the order of the enum, ending in NULL */
+  size_t in_cycles; /* offset in a scene of the bool that becomes true if this field gave the sweep and has a scale, and
+                        false if it has none; 0: of no concern to it */
+  const char *group; /* the fields of a section with one group give the same quantity, each in its own way: never two of
+                        them in one file; or NULL */
+  const char *expects; /* what may stand there, in words, where kind and range do not say it: all of FIELD_PART */
+  const char *meaning;
+} field;
+
+typedef struct field_section {
+  const char *name, *meaning;
+} field_section;
+
+enum { FIELD_MAX = 96, FIELD_PATH = 64 }; /* rows at most, asserted; characters of a path */
+
+int field_count(void);
+const field *field_at(int i); /* 0 <= i < field_count(), in the order of the echo, sections together */
+int field_index(const field *f);
+const field *field_rival(const field *f, int i); /* the i-th other field of its group; NULL past the last one */
+const field_section *field_section_at(int i);    /* NULL past the last one; the first is the top level, named "" */
+const field_section *field_find_section(const char *name, size_t length);
+const field *field_find(const char *section, const char *name, size_t length); /* NULL if there is none */
+
+/* "hbm.samples", "title", "contacts[2].gap", "forcing[0].phase_deg"; j < 0 gives "contacts[].gap". Returns path. */
+const char *field_path(const field *f, int j, char path[FIELD_PATH]);
+
+/* What may stand there, in words: "a number > 0", "an integer 1..200 or auto", "true or false". */
+void field_expected(const field *f, message *m);
+
+/* Is it one of those of a contact or a load, of which a list has many? */
+static inline bool field_is_in_list(const field *f) { return f->flags & (FIELD_IN_CONTACT | FIELD_IN_LOAD); }
+
+/* Where the field lives: base is the scene; or the scene_contact, structure_load or scene_structure that the flags
+ * tell. Not for FIELD_PART. */
+static inline void *field_place(const field *f, void *base) { return (char *)base + f->offset; }
+static inline const void *field_look(const field *f, const void *base) { return (const char *)base + f->offset; }
+
+/* A value as it was written, not yet read as a number or a choice. */
+typedef struct field_item {
+  const char *text;
+  size_t length;
+  bool quoted;         /* "5" in quotes is text, not a number */
+  size_t line, column; /* from 1; 0 when not from a file      */
+} field_item;
+typedef struct field_value {
+  bool list;
+  int n; /* entries; 1 if not a list. More than fit are counted, not kept */
+  field_item item[NUMBER_LIST_MAX];
+} field_value;
+
+/* Store v, checked against the field's kind and range. On false nothing is stored, m got what comes after the path
+ * (" is `12,5`, expected a number > 0") and *bad is the entry at fault, or -1 for the value as a whole. */
+bool field_store(const field *f, void *base, const field_value *v, message *m, int *bad);
+
+/* v from text[length] of --set or a default: `5`, `sampled`, `[1, 3, 5]` or `1,3,5` for lists. v points into text. */
+void field_split(const field *f, const char *text, size_t length, field_value *v);
+
+/* The stored value as text of a case file; reads back to the same bits. */
+void field_write(const field *f, const void *base, FILE *to);
+
+/* Back to the default; a required field keeps what it has. */
+void field_reset(const field *f, void *base);
+
+/* Everything at its default, no contacts; required fields are zero. */
+void field_defaults(scene *sc);
+void field_contact_defaults(scene_contact *c);
+void field_load_defaults(structure_load *load); /* those of the table; its direction stays */
+
+#endif

@@ -1,0 +1,91 @@
+/* scene.c - see scene.h. */
+#include "casefile/scene.h"
+
+#include <stddef.h>
+#include <stdio.h>
+
+#include "base/constants.h"
+#include "casefile/structure_model.h"
+
+double scene_omega(const scene *sc, double given) { return sc->in_cycles ? TWO_PI * given : given; }
+
+double scene_frequency(const scene *sc, double omega) { return sc->in_cycles ? omega / TWO_PI : omega; }
+
+const char *scene_where(const scene *sc, double omega, char text[SCENE_WHERE])
+{
+  if (sc->in_cycles) snprintf(text, SCENE_WHERE, "frequency = %.10g (omega = %.10g)", omega / TWO_PI, omega);
+  else snprintf(text, SCENE_WHERE, "omega = %.10g", omega);
+  return text;
+}
+
+moving_contact scene_moving_contact(const scene_contact *c)
+{
+  moving_contact out = {.law = c->law};
+  model_direction(c->angle_deg, &out.cu[0], &out.cv[0]);
+  return out;
+}
+
+double scene_max_stiffness(const scene *sc)
+{
+  double k = sc->stiffness;
+  for (int j = 0; j < sc->n_contacts; ++j) {
+    const moving_contact c = scene_moving_contact(&sc->contacts[j]);
+    k += moving_contact_stuck_stiffness(&c);
+  }
+  return k;
+}
+
+int scene_contact_count(const scene *sc) { return sc->structure ? sc->structure->n_contacts : sc->n_contacts; }
+
+const scene_contact *scene_contact_at(const scene *sc, int j)
+{
+  return sc->structure ? &sc->structure->contacts[j].given : &sc->contacts[j];
+}
+
+int scene_model_contact(const scene *sc, int j)
+{
+  return sc->structure ? structure_model_contact(sc->structure, j) : j;
+}
+
+bool scene_adrift(const scene *sc)
+{
+  bool held = sc->structure || sc->stiffness > 0; /* of a structure the reader sees to it */
+  for (int j = 0; j < sc->n_contacts; ++j) {
+    const moving_contact c = scene_moving_contact(&sc->contacts[j]);
+    held |= c.law.gap > 0 && moving_contact_stuck_stiffness(&c) > 0;
+  }
+  return !held;
+}
+
+hc_status scene_model(const scene *sc, model **out)
+{
+  if (sc->structure) return structure_model(sc->structure, out);
+  hc_status st = model_oscillator(sc->mass, sc->damping, sc->stiffness, sc->force, sc->n_contacts, out);
+  if (st != HC_OK) return st;
+  model *m = *out;
+  for (int j = 0; j < sc->n_contacts; ++j) {
+    m->contacts[j].law = sc->contacts[j].law;
+    model_direction(sc->contacts[j].angle_deg, m->contacts[j].tangent, m->contacts[j].normal);
+  }
+  return HC_OK;
+}
+
+hc_status scene_setup(const scene *sc, compare_setup *out)
+{
+  model *m;
+  hc_status st = scene_model(sc, &m);
+  *out = (compare_setup){.model = m,
+                         .omega_from = sc->omega_from,
+                         .omega_to = sc->omega_to,
+                         .hbm = sc->hbm,
+                         .transient = sc->transient,
+                         .compare = sc->compare,
+                         .limits = &sc->gate};
+  return st;
+}
+
+void scene_setup_clear(compare_setup *setup)
+{
+  model_free((model *)setup->model); /* const in compare_setup, but made by scene_setup */
+  setup->model = NULL;
+}

@@ -1,0 +1,112 @@
+/* structure.h - what a case file says with `structure`, its list of loads, its contacts and its responses: plain data,
+ * as it was written, and the damping matrix that follows from it. The model of it: structure_model.h. Degrees of
+ * freedom are counted from 0 here, from 1 in a file. Vectors are dense: [n], one entry a degree of freedom. */
+#ifndef HC_STRUCTURE_H
+#define HC_STRUCTURE_H
+
+#include "casefile/case_place.h"
+#include "casefile/matrix_label.h"
+#include "casefile/scene.h"
+
+typedef enum structure_damping {
+  STRUCTURE_DAMPING_MATRIX,
+  STRUCTURE_DAMPING_RAYLEIGH, /* alpha M + beta K */
+  STRUCTURE_DAMPING_MODAL,    /* one ratio for every mode of M, K */
+  STRUCTURE_DAMPING_MODES     /* a ratio for each, in ascending order of frequency */
+} structure_damping;
+
+/* One matrix as it was given. */
+typedef struct structure_matrix {
+  double *v;            /* [n][n] by columns, or NULL if it has not been given */
+  char *file;           /* that it came from, or NULL */
+  const char *part;     /* of that file: the one it is where the file has several, a constant; or NULL */
+  matrix_label *labels; /* [n], what the file says that its rows are, or NULL */
+  case_place place;     /* in the case */
+} structure_matrix;
+
+typedef struct structure_load { /* amplitude cos(harmonic omega t + phase) along `direction` */
+  double amplitude;             /* [force] */
+  double phase_deg;             /* [deg] */
+  int harmonic;                 /* >= 0; 0: a static load */
+  double *direction;            /* [n] [1] */
+  case_place place;
+} structure_load;
+
+typedef struct structure_contact {
+  scene_contact given;                  /* its scalars; kt = mu = 0 without a tangent, kn = gap = 0 without a normal */
+  double *tangent, *tangent_2, *normal; /* [n] [1] u = tangent . x, v = normal . x; all 0 where there is none */
+  bool by_angle;                        /* they came from given.angle_deg: one degree of freedom */
+  case_place place;
+} structure_contact;
+
+typedef struct structure_response {
+  double *direction; /* [n] [1] */
+  case_place place;
+} structure_response;
+
+/* 'x', 'y' or 'z'; the end of a string is none of them. */
+static inline bool structure_is_axis(char c) { return c >= 'x' && c <= 'z'; }
+
+typedef struct structure_node { /* of the finite-element mesh: which degree of freedom moves it in this direction */
+  int dof, node;
+  char direction; /* 'x', 'y' or 'z' */
+} structure_node;
+
+struct scene_structure {
+  int n;
+  structure_matrix mass, stiffness, damping; /* damping.v: what results from any kind of damping */
+  structure_damping how;
+  double rayleigh[2]; /* alpha [1/time], beta [time] */
+  double modal;       /* [1] of critical */
+  double *ratios;     /* [n] [1], for STRUCTURE_DAMPING_MODES */
+  char **names;       /* [n], then NULL; or NULL */
+  int n_nodes;
+  structure_node *nodes;
+  int n_loads;
+  structure_load *loads;
+  int n_contacts;
+  structure_contact *contacts;
+  int n_responses; /* 0: the default */
+  structure_response *responses;
+  case_place place;
+};
+
+/* An empty one; a copy that shares nothing; free takes NULL. NULL when out of memory. */
+scene_structure *structure_new(void);
+scene_structure *structure_copy(const scene_structure *s);
+void structure_free(scene_structure *s);
+
+/* Forget a matrix. */
+void structure_free_matrix(structure_matrix *m);
+
+/* Remove all loads, contacts or responses. */
+void structure_clear_loads(scene_structure *s);
+void structure_clear_contacts(scene_structure *s);
+void structure_clear_responses(scene_structure *s);
+
+/* Only response r, 0 <= r < n_responses, stays; nothing to do where the default is all there is. */
+void structure_keep_response(scene_structure *s, int r);
+
+/* One more at the end, with vectors of zeros and all else 0; NULL when out of memory. */
+structure_load *structure_add_load(scene_structure *s);
+structure_contact *structure_add_contact(scene_structure *s);
+structure_response *structure_add_response(scene_structure *s);
+
+/* The degree of freedom of that name, or of that number from 1; -1 if there is none. */
+int structure_dof(const scene_structure *s, const char *text, size_t length);
+
+/* The degree of freedom of a node in a direction, -1 if there is none. */
+int structure_node_dof(const scene_structure *s, int node, char direction);
+
+/* The contact of that name, -1 if there is none. */
+int structure_contact_named(const scene_structure *s, const char *name, size_t length);
+
+/* A degree of freedom in words: its name, or its number from 1. In text[STRUCTURE_WORD], which is returned. */
+enum { STRUCTURE_WORD = 32 };
+const char *structure_dof_name(const scene_structure *s, int dof, char text[STRUCTURE_WORD]);
+
+/* A direction in words: `tip`, `tip-root`, `0.5*tip+root`, for the column `response`; cut to size with "..." at its
+ * end. Returns text. */
+const char *structure_direction_name(const scene_structure *s, const double *direction, char *text, size_t size);
+
+#endif

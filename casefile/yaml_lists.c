@@ -1,0 +1,265 @@
+/* yaml_lists.c - the loads, contacts and responses of a structure, see yaml_structure.h. */
+#include <string.h>
+
+#include "casefile/yaml_structure.h"
+
+enum { PATH = FIELD_PATH };
+
+static const field *part(const char *section, const char *name) { return field_find(section, name, strlen(name)); }
+
+static bool given(const case_reader *r, const char *section, const char *name)
+{
+  return case_given(r, part(section, name));
+}
+
+static bool key_is(const yaml_node_t *key, const char *word)
+{
+  return key->data.scalar.length == strlen(word) && !strcmp(yaml_node_text(key), word);
+}
+
+/* Is it a list, of which `what` tells? */
+static hc_status check_list(case_reader *r, const yaml_node_t *node, const char *what, const char *expected)
+{
+  if (node->type == YAML_SEQUENCE_NODE) return HC_OK;
+  message_add(case_blame(r, case_place_of(r, node->start_mark)), "%s is %s, expected %s", what, yaml_node_what(node),
+              expected);
+  return HC_BAD_INPUT;
+}
+
+static hc_status check_mapping(case_reader *r, const yaml_node_t *node, const char *what, int j, const char *expected)
+{
+  if (node->type == YAML_MAPPING_NODE) return HC_OK;
+  message_add(case_blame(r, case_place_of(r, node->start_mark)), "%s[%d] is %s, expected a mapping such as %s", what, j,
+              yaml_node_what(node), expected);
+  return HC_BAD_INPUT;
+}
+
+/* `pairs` and `axes` make contacts; of one they say nothing. */
+static hc_status not_of_one(case_reader *r, case_place at, const char *name)
+{
+  message_add(case_blame(r, at), "%s of a single contact, expected `pairs` and `axes` together in an entry of the list",
+              name);
+  return HC_BAD_INPUT;
+}
+
+static bool is_of_pairs(const field *f) { return f == part("contacts", "pairs") || f == part("contacts", "axes"); }
+
+hc_status yaml_entry_part(case_reader *r, yaml_document_t *doc, const field *f, int j, const yaml_node_t *node)
+{
+  scene_structure *s = r->sc.structure;
+  char path[FIELD_PATH];
+  if (is_of_pairs(f)) return not_of_one(r, case_place_of(r, node->start_mark), f->name);
+  double *to = f->flags & FIELD_IN_LOAD             ? s->loads[j].direction
+               : f == part("contacts", "tangent")   ? s->contacts[j].tangent
+               : f == part("contacts", "tangent_2") ? s->contacts[j].tangent_2
+                                                    : s->contacts[j].normal;
+  return yaml_direction(r, doc, field_path(f, j, path), node, to);
+}
+
+/* A part given in a mapping, once. */
+static hc_status read_part(case_reader *r, yaml_document_t *doc, const field *f, int j, const yaml_node_pair_t *pair)
+{
+  const yaml_node_t *key = yaml_document_get_node(doc, pair->key), *value = yaml_document_get_node(doc, pair->value);
+  if (case_given(r, f)) return yaml_duplicate_key(r, key, r->at[field_index(f)]);
+  r->at[field_index(f)] = case_place_of(r, value->start_mark);
+  return yaml_entry_part(r, doc, f, j, value);
+}
+
+/* ---- loads ---- */
+
+static bool has_key(yaml_document_t *doc, const yaml_node_t *node, const char *word)
+{
+  for (yaml_node_pair_t *p = node->data.mapping.pairs.start; p < node->data.mapping.pairs.top; ++p) {
+    const yaml_node_t *key = yaml_document_get_node(doc, p->key);
+    if (key->type == YAML_SCALAR_NODE && key_is(key, word)) return true;
+  }
+  return false;
+}
+
+static hc_status read_load_keys(case_reader *r, yaml_document_t *doc, const yaml_node_t *node, int j, bool by_node)
+{
+  structure_load *load = &r->sc.structure->loads[j];
+  for (yaml_node_pair_t *p = node->data.mapping.pairs.start; p < node->data.mapping.pairs.top; ++p) {
+    const yaml_node_t *key = yaml_document_get_node(doc, p->key);
+    if (!yaml_check_key(r, key)) return HC_BAD_INPUT;
+    if (by_node && (key_is(key, "node") || key_is(key, "direction"))) continue;
+    const field *f = field_find("forcing[]", yaml_node_text(key), key->data.scalar.length);
+    if (!f) return yaml_unknown_key(r, key, "forcing[]");
+    const hc_status st = f->kind == FIELD_PART ? read_part(r, doc, f, j, p) : yaml_scene_field(r, doc, f, j, load, p);
+    if (st != HC_OK) return st;
+  }
+  return HC_OK;
+}
+
+/* One place of attack, which goes without saying where there is one DOF. */
+static hc_status check_load(case_reader *r, int j, bool by_node)
+{
+  scene_structure *s = r->sc.structure;
+  const int places = by_node + given(r, "forcing[]", "dof") + given(r, "forcing[]", "direction");
+  message *m = case_blame(r, s->loads[j].place);
+  if (places == 0 && s->n == 1) s->loads[j].direction[0] = 1;
+  if (places > 1) message_add(m, "forcing[%d] acts on `dof` and something else, expected one place or `direction`", j);
+  else if (places == 0 && s->n > 1)
+    message_add(m, "missing key `dof` in `forcing[%d]`, expected a DOF, or `direction`: factors of DOFs", j);
+  else if (!given(r, "forcing[]", "amplitude"))
+    message_add(m, "missing key `amplitude` in `forcing[%d]`, expected a number", j);
+  else message_start(m, m->text, m->size);
+  return m->used > 0 ? HC_BAD_INPUT : HC_OK;
+}
+
+hc_status yaml_load_read(case_reader *r, yaml_document_t *doc, const yaml_node_t *node, int j)
+{
+  scene_structure *s = r->sc.structure;
+  hc_status st = check_mapping(r, node, "forcing", j, "{dof: 1, amplitude: 100}");
+  if (st != HC_OK) return st;
+  if (j == s->n_loads && !structure_add_load(s)) return case_out_of_memory(r);
+  yaml_forget_fields(r, FIELD_IN_LOAD);
+  field_load_defaults(&s->loads[j]);
+  memset(s->loads[j].direction, 0, (size_t)s->n * sizeof(double));
+  s->loads[j].place = case_place_of(r, node->start_mark);
+  const bool by_node = has_key(doc, node, "node");
+  st = read_load_keys(r, doc, node, j, by_node);
+  if (st == HC_OK && by_node) st = yaml_direction(r, doc, "forcing", node, s->loads[j].direction);
+  return st == HC_OK ? check_load(r, j, by_node) : st;
+}
+
+hc_status yaml_loads_read(case_reader *r, yaml_document_t *doc, const yaml_node_t *node)
+{
+  scene_structure *s = r->sc.structure;
+  structure_clear_loads(s);
+  if (node->type == YAML_MAPPING_NODE && s->n == 1) return yaml_load_read(r, doc, node, 0);
+  hc_status st = check_list(r, node, "forcing", "a list of loads such as [{dof: 1, amplitude: 100}]");
+  if (st != HC_OK) return st;
+  for (yaml_node_item_t *it = node->data.sequence.items.start; it < node->data.sequence.items.top && st == HC_OK; ++it)
+    st = yaml_load_read(r, doc, yaml_document_get_node(doc, *it), s->n_loads);
+  return st;
+}
+
+/* ---- contacts ---- */
+
+static hc_status read_contact_keys(case_reader *r, yaml_document_t *doc, const yaml_node_t *node, int j)
+{
+  structure_contact *c = &r->sc.structure->contacts[j];
+  for (yaml_node_pair_t *p = node->data.mapping.pairs.start; p < node->data.mapping.pairs.top; ++p) {
+    const yaml_node_t *key = yaml_document_get_node(doc, p->key);
+    if (!yaml_check_key(r, key)) return HC_BAD_INPUT;
+    const field *f = field_find("contacts", yaml_node_text(key), key->data.scalar.length);
+    if (!f) return yaml_unknown_key(r, key, "contacts");
+    if (is_of_pairs(f)) return not_of_one(r, case_place_of(r, key->start_mark), f->name);
+    const hc_status st =
+        f->kind == FIELD_PART ? read_part(r, doc, f, j, p) : yaml_scene_field(r, doc, f, j, &c->given, p);
+    if (st != HC_OK) return st;
+  }
+  return HC_OK;
+}
+
+/* What a contact with such a direction must have; what it has without one: case_check. */
+static hc_status check_needed(case_reader *r, int j, const char *direction, const char *const *needed)
+{
+  for (int i = 0; needed[i]; ++i) {
+    const field *f = part("contacts", needed[i]);
+    if (case_given(r, f)) continue;
+    message *m = case_blame(r, r->sc.structure->contacts[j].place);
+    message_add(m, "missing key `%s` in `contacts[%d]`, which has a %s, expected ", needed[i], j, direction);
+    field_expected(f, m);
+    return HC_BAD_INPUT;
+  }
+  return HC_OK;
+}
+
+static hc_status check_contact(case_reader *r, int j)
+{
+  static const char *const of_tangent[] = {"tangential_stiffness", "friction", NULL};
+  static const char *const of_normal[] = {"normal_stiffness", NULL}, *const of_tangent_alone[] = {"preload", NULL};
+  structure_contact *c = &r->sc.structure->contacts[j];
+  const bool tangent = given(r, "contacts", "tangent"), normal = given(r, "contacts", "normal");
+  c->by_angle = given(r, "contacts", "angle_deg");
+  if (c->by_angle && (tangent || normal || r->sc.structure->n > 1)) {
+    message_add(case_blame(r, r->at[field_index(part("contacts", "angle_deg"))]),
+                "angle_deg in `contacts[%d]`, expected `tangent` and `normal`%s", j,
+                r->sc.structure->n > 1 ? ": an angle is for one DOF" : " or `angle_deg`, not both");
+    return HC_BAD_INPUT;
+  }
+  if (given(r, "contacts", "tangent_2") && !tangent) {
+    message_add(case_blame(r, r->at[field_index(part("contacts", "tangent_2"))]),
+                "tangent_2 in `contacts[%d]`, which has no tangent, expected `tangent` first", j);
+    return HC_BAD_INPUT;
+  }
+  if (given(r, "contacts", "limit") && !given(r, "contacts", "tangent_2")) {
+    message_add(case_blame(r, r->at[field_index(part("contacts", "limit"))]),
+                "limit in `contacts[%d]`, which has one tangent, expected it beside `tangent_2` only", j);
+    return HC_BAD_INPUT;
+  }
+  if (!tangent && !normal && !c->by_angle) {
+    message_add(case_blame(r, c->place), "contacts[%d] moves nothing, expected `tangent`, `normal` or both", j);
+    return HC_BAD_INPUT;
+  }
+  hc_status st = tangent || c->by_angle ? check_needed(r, j, "tangent", of_tangent) : HC_OK;
+  if (st == HC_OK && (normal || c->by_angle)) st = check_needed(r, j, "normal", of_normal);
+  else if (st == HC_OK) st = check_needed(r, j, "tangent but no normal", of_tangent_alone);
+  return st;
+}
+
+hc_status yaml_contact_read(case_reader *r, yaml_document_t *doc, const yaml_node_t *node, int j)
+{
+  scene_structure *s = r->sc.structure;
+  hc_status st =
+      check_mapping(r, node, "contacts", j, "{tangential_stiffness: 100, friction: 0.3, preload: 5, tangent: 1}");
+  if (st != HC_OK) return st;
+  if (j == s->n_contacts && !structure_add_contact(s)) return case_out_of_memory(r);
+  structure_contact *c = &s->contacts[j];
+  yaml_forget_fields(r, FIELD_IN_CONTACT);
+  field_contact_defaults(&c->given);
+  memset(c->tangent, 0, (size_t)s->n * sizeof *c->tangent);
+  memset(c->tangent_2, 0, (size_t)s->n * sizeof *c->tangent_2);
+  memset(c->normal, 0, (size_t)s->n * sizeof *c->normal);
+  c->place = case_place_of(r, node->start_mark);
+  st = read_contact_keys(r, doc, node, j);
+  return st == HC_OK ? check_contact(r, j) : st;
+}
+
+hc_status yaml_contacts_read(case_reader *r, yaml_document_t *doc, const yaml_node_t *node)
+{
+  scene_structure *s = r->sc.structure;
+  structure_clear_contacts(s);
+  hc_status st = check_list(r, node, "contacts", "a list of contacts, or [] for none");
+  if (st != HC_OK) return st;
+  for (yaml_node_item_t *it = node->data.sequence.items.start; it < node->data.sequence.items.top && st == HC_OK;
+       ++it) {
+    const yaml_node_t *entry = yaml_document_get_node(doc, *it);
+    const bool pairs =
+        entry->type == YAML_MAPPING_NODE && (has_key(doc, entry, "pairs") || has_key(doc, entry, "axes"));
+    st = pairs ? yaml_pairs_read(r, doc, entry) : yaml_contact_read(r, doc, entry, s->n_contacts);
+  }
+  return st;
+}
+
+/* ---- responses ---- */
+
+hc_status yaml_responses_read(case_reader *r, yaml_document_t *doc, const yaml_node_t *node)
+{
+  scene_structure *s = r->sc.structure;
+  const size_t bytes = (size_t)s->n * sizeof(double);
+  structure_clear_responses(s);
+  hc_status st = check_list(r, node, "response", part("", "response")->expects);
+  if (st != HC_OK) return st;
+  if (node->data.sequence.items.start == node->data.sequence.items.top) {
+    message_add(case_blame(r, case_place_of(r, node->start_mark)), "response is an empty list, expected %s",
+                part("", "response")->expects);
+    return HC_BAD_INPUT;
+  }
+  for (yaml_node_item_t *it = node->data.sequence.items.start; it < node->data.sequence.items.top; ++it) {
+    const yaml_node_t *entry = yaml_document_get_node(doc, *it);
+    structure_response *new = structure_add_response(s);
+    if (!new) return case_out_of_memory(r);
+    new->place = case_place_of(r, entry->start_mark);
+    if ((st = yaml_direction(r, doc, "response", entry, new->direction)) != HC_OK) return st;
+    for (int i = 0; i < s->n_responses - 1; ++i) {
+      if (memcmp(s->responses[i].direction, new->direction, bytes)) continue;
+      message_add(case_blame(r, new->place), "response %d is response %d again, expected different ones",
+                  s->n_responses, i + 1);
+      return HC_BAD_INPUT;
+    }
+  }
+  return HC_OK;
+}

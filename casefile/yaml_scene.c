@@ -1,0 +1,314 @@
+/* yaml_scene.c - from a YAML document to a scene, every key through the table of fields. The first mistake ends it. */
+#include <string.h>
+
+#include "casefile/yaml_structure.h"
+
+const char *yaml_node_what(const yaml_node_t *n)
+{
+  if (n->type == YAML_MAPPING_NODE) return "a mapping";
+  return n->type == YAML_SEQUENCE_NODE ? "a list" : n->data.scalar.length > 0 ? "a single value" : "empty";
+}
+
+bool yaml_check_key(case_reader *r, const yaml_node_t *key)
+{
+  if (key->type == YAML_SCALAR_NODE) return true;
+  message_add(case_blame(r, case_place_of(r, key->start_mark)), "%s stands where a key should, expected `key: value`",
+              yaml_node_what(key));
+  return false;
+}
+
+hc_status yaml_unknown_key(case_reader *r, const yaml_node_t *key, const char *section)
+{
+  const char *text = yaml_node_text(key);
+  size_t length = key->data.scalar.length;
+  message *m = case_blame(r, case_place_of(r, key->start_mark));
+  message_add(m, "unknown key `");
+  message_add_input(m, text, length, 60);
+  message_add(m, *section ? "` in `%s`" : "`%s", section);
+  if (case_suggest(m, suggest_key(section, text, length), section, -1)) return HC_BAD_INPUT;
+  message_add(m, ", expected one of");
+  const field_section *s;
+  int n = 0;
+  for (int i = 0; i < field_count(); ++i)
+    if (!strcmp(field_at(i)->section, section) && !strchr(field_at(i)->name, '.'))
+      message_add(m, "%s %s", n++ ? "," : "", field_at(i)->name);
+  for (int i = 1; !*section && (s = field_section_at(i)) != NULL; ++i)
+    if (!strchr(s->name, '[')) message_add(m, ", %s", s->name);
+  if (length > 0 && text[0] >= '0' && text[0] <= '9')
+    message_add(m, " (a comma ends a value: the decimal sign is a point)");
+  return HC_BAD_INPUT;
+}
+
+hc_status yaml_duplicate_key(case_reader *r, const yaml_node_t *key, case_place first)
+{
+  message *m = case_blame(r, case_place_of(r, key->start_mark));
+  message_add(m, "duplicate key `");
+  message_add_input(m, yaml_node_text(key), key->data.scalar.length, 60);
+  message_add(m, "`, expected it once (first on line %zu)", first.line);
+  return HC_BAD_INPUT;
+}
+
+field_item yaml_node_item(const yaml_node_t *n)
+{
+  return (field_item){.text = yaml_node_text(n),
+                      .length = n->data.scalar.length,
+                      .quoted = n->data.scalar.style != YAML_PLAIN_SCALAR_STYLE,
+                      .line = n->start_mark.line + 1,
+                      .column = n->start_mark.column + 1};
+}
+
+const yaml_node_t *yaml_node_value(yaml_document_t *doc, const yaml_node_t *node, field_value *v)
+{
+  v->list = node->type == YAML_SEQUENCE_NODE;
+  v->n = 1;
+  if (node->type == YAML_MAPPING_NODE) return node;
+  if (node->type == YAML_SCALAR_NODE) v->item[0] = yaml_node_item(node);
+  if (node->type == YAML_SCALAR_NODE) return NULL;
+  v->n = (int)(node->data.sequence.items.top - node->data.sequence.items.start);
+  for (int i = 0; i < v->n && i < NUMBER_LIST_MAX; ++i) {
+    const yaml_node_t *entry = yaml_document_get_node(doc, node->data.sequence.items.start[i]);
+    if (entry->type != YAML_SCALAR_NODE) return entry;
+    v->item[i] = yaml_node_item(entry);
+  }
+  return NULL;
+}
+
+hc_status yaml_scene_value(case_reader *r, yaml_document_t *doc, const field *f, int j, void *base,
+                           const yaml_node_t *node)
+{
+  char path[FIELD_PATH], why_text[512];
+  field_value v;
+  message why;
+  int bad = -1;
+  const yaml_node_t *misfit = yaml_node_value(doc, node, &v);
+  message_start(&why, why_text, sizeof why_text);
+  if (!misfit && field_store(f, base, &v, &why, &bad)) return HC_OK;
+  if (misfit) {
+    message_add(&why, misfit == node ? " is %s, expected " : " has %s inside, expected ", yaml_node_what(misfit));
+    field_expected(f, &why);
+  }
+  case_place at = case_place_of(r, misfit ? misfit->start_mark : node->start_mark);
+  if (bad >= 0) at.line = v.item[bad].line, at.column = v.item[bad].column;
+  message_add(case_blame(r, at), "%s%s", field_path(f, j, path), why.text);
+  return HC_BAD_INPUT;
+}
+
+/* The first rival of f that has been given, or NULL. */
+static const field *given_rival(const case_reader *r, const field *f)
+{
+  const field *rival;
+  for (int i = 0; (rival = field_rival(f, i)) != NULL; ++i)
+    if (case_given(r, rival)) return rival;
+  return NULL;
+}
+
+static hc_status check_rival(case_reader *r, const field *f, const yaml_node_t *key)
+{
+  const field *rival = given_rival(r, f);
+  if (!rival) return HC_OK;
+  message_add(case_blame(r, case_place_of(r, key->start_mark)),
+              "both `%s` (line %zu) and `%s` in `%s`, expected one of them", rival->name,
+              r->at[field_index(rival)].line, f->name, f->section);
+  return HC_BAD_INPUT;
+}
+
+hc_status yaml_scene_field(case_reader *r, yaml_document_t *doc, const field *f, int j, void *base,
+                           const yaml_node_pair_t *pair)
+{
+  const yaml_node_t *key = yaml_document_get_node(doc, pair->key), *value = yaml_document_get_node(doc, pair->value);
+  if (case_given(r, f)) return yaml_duplicate_key(r, key, r->at[field_index(f)]);
+  hc_status st = check_rival(r, f, key);
+  if (st == HC_OK) st = yaml_scene_value(r, doc, f, j, base, value);
+  r->at[field_index(f)] = case_place_of(r, value->start_mark);
+  return st;
+}
+
+static hc_status check_missing(case_reader *r, const field_section *s, const yaml_node_t *node, int j)
+{
+  for (int i = 0; i < field_count(); ++i) {
+    const field *f = field_at(i), *rival = field_rival(f, 0);
+    if (strcmp(f->section, s->name) || f->fallback || f->flags & FIELD_STRUCTURE) continue;
+    if (case_given(r, f) || given_rival(r, f)) continue;
+    message *m = case_blame(r, case_place_of(r, node->start_mark));
+    message_add(m, "missing key `%s` in `%s", f->name, s->name);
+    if (j >= 0) message_add(m, "[%d]", j);
+    message_add(m, "`, expected ");
+    field_expected(f, m);
+    if (rival) message_add(m, ", or `%s`", rival->name);
+    return HC_BAD_INPUT;
+  }
+  return HC_OK;
+}
+
+static hc_status of_structure(case_reader *r, const yaml_node_t *key)
+{
+  message *m = case_blame(r, case_place_of(r, key->start_mark));
+  message_add(m, "`");
+  message_add_input(m, yaml_node_text(key), key->data.scalar.length, 60);
+  message_add(m, "` is for a structure, expected `structure` instead of `oscillator` with it");
+  return HC_BAD_INPUT;
+}
+
+/* A section that is a mapping, or one contact of an oscillator. */
+static hc_status read_section(case_reader *r, yaml_document_t *doc, const field_section *s, int j, void *base,
+                              const yaml_node_t *node)
+{
+  if (node->type != YAML_MAPPING_NODE) {
+    message *m = case_blame(r, case_place_of(r, node->start_mark));
+    message_add(m, "%s", s->name);
+    if (j >= 0) message_add(m, "[%d]", j);
+    message_add(m, " is %s, expected a mapping such as {", yaml_node_what(node));
+    for (int i = 0, n = 0; i < field_count() && n < 2; ++i)
+      if (!strcmp(field_at(i)->section, s->name)) message_add(m, "%s: ..., ", field_at(i)->name), ++n;
+    message_add(m, "...}");
+    return HC_BAD_INPUT;
+  }
+  hc_status st = HC_OK;
+  for (yaml_node_pair_t *p = node->data.mapping.pairs.start; p < node->data.mapping.pairs.top && st == HC_OK; ++p) {
+    const yaml_node_t *key = yaml_document_get_node(doc, p->key);
+    if (!yaml_check_key(r, key)) return HC_BAD_INPUT;
+    const field *f = field_find(s->name, yaml_node_text(key), key->data.scalar.length);
+    if (f && f->flags & FIELD_STRUCTURE) return of_structure(r, key);
+    st = f ? yaml_scene_field(r, doc, f, j, base, p) : yaml_unknown_key(r, key, s->name);
+  }
+  return st == HC_OK ? check_missing(r, s, node, j) : st;
+}
+
+void yaml_forget_fields(case_reader *r, unsigned of)
+{
+  for (int i = 0; i < field_count(); ++i)
+    if (field_at(i)->flags & of) r->at[i] = (case_place){0};
+}
+
+hc_status yaml_scene_contact(case_reader *r, yaml_document_t *doc, yaml_node_t *node, int j)
+{
+  yaml_forget_fields(r, FIELD_IN_CONTACT);
+  field_contact_defaults(&r->sc.contacts[j]);
+  r->contact_has[j] = ~0ull; /* what is missing is found here and now */
+  r->contact_at[j] = case_place_of(r, node->start_mark);
+  hc_status st = read_section(r, doc, field_find_section("contacts", 8), j, &r->sc.contacts[j], node);
+  memcpy(r->contact_field_at[j], r->at, sizeof r->at);
+  return st;
+}
+
+hc_status yaml_scene_contacts(case_reader *r, yaml_document_t *doc, yaml_node_t *node)
+{
+  if (node->type != YAML_SEQUENCE_NODE) {
+    message_add(case_blame(r, case_place_of(r, node->start_mark)),
+                "contacts is %s, expected a list of contacts, or [] for none", yaml_node_what(node));
+    return HC_BAD_INPUT;
+  }
+  memset(r->sc.contacts, 0, sizeof r->sc.contacts);
+  r->sc.n_contacts = 0;
+  for (yaml_node_item_t *it = node->data.sequence.items.start; it < node->data.sequence.items.top; ++it) {
+    yaml_node_t *entry = yaml_document_get_node(doc, *it);
+    if (r->sc.n_contacts == SCENE_MAX_CONTACTS) {
+      message_add(case_blame(r, case_place_of(r, entry->start_mark)), "one contact too many, expected at most %d",
+                  SCENE_MAX_CONTACTS);
+      return HC_BAD_INPUT;
+    }
+    hc_status st = yaml_scene_contact(r, doc, entry, r->sc.n_contacts++);
+    if (st != HC_OK) return st;
+  }
+  return HC_OK;
+}
+
+/* Does a case do without the section? A structure has neither mass nor force as an oscillator has. */
+static bool may_be_missing(const case_reader *r, const field_section *s)
+{
+  return r->sc.structure && (!strcmp(s->name, "oscillator") || !strcmp(s->name, "forcing"));
+}
+
+static hc_status check_sections(case_reader *r, const case_place *given, const yaml_node_t *root)
+{
+  const field_section *s;
+  for (int i = 1; (s = field_section_at(i)) != NULL; ++i) {
+    message *m = NULL;
+    for (int j = 0; j < field_count() && given[i].line == 0 && !may_be_missing(r, s); ++j) {
+      const field *f = field_at(j);
+      if (strcmp(f->section, s->name) || f->fallback || f->scale != 0) continue;
+      if (f->flags & (FIELD_ELSEWHERE | FIELD_STRUCTURE)) continue;
+      if (!m)
+        message_add(m = case_blame(r, case_place_of(r, root->start_mark)), "missing section `%s`, expected `%s: {",
+                    s->name, s->name);
+      else message_add(m, ", ");
+      message_add(m, "%s: ...", f->name);
+    }
+    if (m) message_add(m, "}`%s", !strcmp(s->name, "oscillator") ? ", or `structure`" : "");
+    if (m) return HC_BAD_INPUT;
+  }
+  return HC_OK;
+}
+
+static int section_index(const char *name)
+{
+  int i = 0;
+  while (strcmp(field_section_at(i)->name, name)) ++i;
+  return i;
+}
+
+/* What a section holds, wherever it stands. */
+static hc_status read_section_value(case_reader *r, yaml_document_t *doc, const field_section *s, yaml_node_t *value)
+{
+  const bool contacts = !strcmp(s->name, "contacts");
+  if (!strcmp(s->name, "structure")) return yaml_structure_read(r, doc, value);
+  if (r->sc.structure && contacts) return yaml_contacts_read(r, doc, value);
+  if (r->sc.structure && !strcmp(s->name, "forcing")) return yaml_loads_read(r, doc, value);
+  if (contacts) return yaml_scene_contacts(r, doc, value);
+  return read_section(r, doc, s, -1, &r->sc, value);
+}
+
+static hc_status read_top_level(case_reader *r, yaml_document_t *doc, const yaml_node_pair_t *pair, case_place *given)
+{
+  const yaml_node_t *key = yaml_document_get_node(doc, pair->key);
+  yaml_node_t *value = yaml_document_get_node(doc, pair->value);
+  if (!yaml_check_key(r, key)) return HC_BAD_INPUT;
+  const field *f = field_find("", yaml_node_text(key), key->data.scalar.length);
+  if (f && f->kind == FIELD_PART) { /* response */
+    if (case_given(r, f)) return yaml_duplicate_key(r, key, r->at[field_index(f)]);
+    r->at[field_index(f)] = case_place_of(r, value->start_mark);
+    return r->sc.structure ? yaml_structure_part(r, doc, f, value) : of_structure(r, key);
+  }
+  if (f) return yaml_scene_field(r, doc, f, -1, &r->sc, pair);
+  const field_section *s = field_find_section(yaml_node_text(key), key->data.scalar.length);
+  if (!s || strchr(s->name, '[')) return yaml_unknown_key(r, key, "");
+  case_place *at = &given[section_index(s->name)];
+  if (at->line > 0) return yaml_duplicate_key(r, key, *at);
+  *at = case_place_of(r, key->start_mark);
+  return read_section_value(r, doc, s, value);
+}
+
+/* The first pair with that key, or NULL. */
+static const yaml_node_pair_t *find_key(yaml_document_t *doc, const yaml_node_t *root, const char *name)
+{
+  for (yaml_node_pair_t *p = root->data.mapping.pairs.start; p < root->data.mapping.pairs.top; ++p) {
+    const yaml_node_t *key = yaml_document_get_node(doc, p->key);
+    if (key->type == YAML_SCALAR_NODE && !strcmp(yaml_node_text(key), name)) return p;
+  }
+  return NULL;
+}
+
+static hc_status refuse_both(case_reader *r, yaml_document_t *doc, const yaml_node_pair_t *a, const yaml_node_pair_t *b)
+{
+  const yaml_node_pair_t *first = a < b ? a : b, *last = a < b ? b : a;
+  const yaml_node_t *before = yaml_document_get_node(doc, first->key), *key = yaml_document_get_node(doc, last->key);
+  message_add(case_blame(r, case_place_of(r, key->start_mark)), "both `%s` (line %zu) and `%s`, expected one of them",
+              yaml_node_text(before), case_place_of(r, before->start_mark).line, yaml_node_text(key));
+  return HC_BAD_INPUT;
+}
+
+hc_status yaml_scene_read(case_reader *r, yaml_document_t *doc, const yaml_node_t *root)
+{
+  case_place given[FIELD_MAX] = {{0}}; /* [section] */
+  if (root->type != YAML_MAPPING_NODE) {
+    message_add(case_blame(r, case_place_of(r, root->start_mark)),
+                "the case is %s, expected a mapping with `oscillator`, `forcing` and `sweep`", yaml_node_what(root));
+    return HC_BAD_INPUT;
+  }
+  const yaml_node_pair_t *structure = find_key(doc, root, "structure"), *oscillator = find_key(doc, root, "oscillator");
+  if (structure && oscillator) return refuse_both(r, doc, oscillator, structure);
+  hc_status st = structure ? read_top_level(r, doc, structure, given) : HC_OK;
+  for (yaml_node_pair_t *p = root->data.mapping.pairs.start; p < root->data.mapping.pairs.top && st == HC_OK; ++p)
+    if (p != structure) st = read_top_level(r, doc, p, given);
+  return st == HC_OK ? check_sections(r, given, root) : st;
+}
