@@ -1,5 +1,5 @@
 /* case_reader.h - what the parts of the case reader share; private to casefile/ and to the study file's reader, which
- * speaks the same language (campaigns/study/). The public face is case_file.h.
+ * speaks the same language (study/). The public face is case_file.h.
  *
  *     text --yaml_text_load--> document --yaml_scene_read--> scene --case_set_apply--> scene --case_check--> done */
 #ifndef HC_CASE_READER_H

@@ -3,13 +3,13 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "campaigns/scene_solvers.h"
 #include "command/case_names.h"
 #include "command/commands.h"
 #include "command/contact_force.h"
 #include "command/files.h"
 #include "command/plot/plot.h"
 #include "numerics/series.h"
+#include "study/scene_solvers.h"
 
 static const char help[] =
     "Fourier coefficients of CASE's contact force sum_j T_j cos(alpha_j) + (N_j - N0_j) sin(alpha_j) under the motion "

@@ -3,7 +3,6 @@
 #include <stdlib.h>
 
 #include "base/constants.h"
-#include "campaigns/scene_solvers.h"
 #include "casefile/structure_model.h"
 #include "command/case_names.h"
 #include "command/commands.h"
@@ -13,6 +12,7 @@
 #include "compare/memory.h"
 #include "compare/response.h"
 #include "output/progress.h"
+#include "study/scene_solvers.h"
 
 static const char help[] =
     "The harmonic-balance response curve of CASE, turning points included, or every solution of that curve at the "

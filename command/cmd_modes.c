@@ -4,10 +4,10 @@
 #include <stdlib.h>
 
 #include "base/constants.h"
-#include "campaigns/scene_solvers.h"
 #include "command/commands.h"
 #include "command/files.h"
 #include "model/modes.h"
+#include "study/scene_solvers.h"
 
 static const char help[] =
     "Natural frequencies and damping ratios of CASE with all contacts apart and with all of them stuck, side by side, "

@@ -7,13 +7,13 @@
 #include <string.h>
 
 #include "base/ascending.h"
-#include "campaigns/stress/scenes.h"
-#include "campaigns/stress/stress.h"
 #include "casefile/case_file.h"
 #include "command/commands.h"
 #include "command/stress_files.h"
 #include "output/output.h"
 #include "output/progress.h"
+#include "stress/scenes.h"
+#include "stress/stress.h"
 
 static const char help[] =
     "Draw scenes from a Sobol sequence over the whole range of every quantity, solve each by every method, and hold "

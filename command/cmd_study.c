@@ -7,10 +7,6 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "campaigns/study/claims.h"
-#include "campaigns/study/cluster.h"
-#include "campaigns/study/report.h"
-#include "campaigns/study/run.h"
 #include "casefile/structure_model.h"
 #include "command/case_names.h"
 #include "command/commands.h"
@@ -18,12 +14,16 @@
 #include "command/plot/plot.h"
 #include "output/output.h"
 #include "output/progress.h"
+#include "study/claims.h"
+#include "study/cluster.h"
+#include "study/report.h"
+#include "study/run.h"
 
 static const char help[] =
     "Compute every scene of each STUDY (a YAML file: a base case, and what varies) in parallel, keep the results in "
     "an SQLite file, and hold what the "
     "study claims against them. Killed or stopped at any moment, the same command goes on where it was."
-    "\vThe file's format, the tables of the results and what is guaranteed: campaigns/study/README.md.\n"
+    "\vThe file's format, the tables of the results and what is guaranteed: study/README.md.\n"
     "exit: 0 done  1 a claim is not as it expects  2 study or results file wrong  3 a scene could not be solved, or "
     "stopped before the end  64 usage\n"
     "example: hbmcheck study gaps.yaml --jobs 4 --export csv --output gaps.csv";

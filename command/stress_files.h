@@ -2,8 +2,8 @@
 #ifndef HC_STRESS_FILES_H
 #define HC_STRESS_FILES_H
 
-#include "campaigns/stress/stress.h"
 #include "command/cli.h"
+#include "stress/stress.h"
 
 /* --results, --output and what may be written to the folder of --findings (NULL: none), held against each other before
  * anything is opened. 0, or the exit code after the message. */

@@ -3,7 +3,7 @@
 #ifndef HC_TESTS_SCENE_PARTS_H
 #define HC_TESTS_SCENE_PARTS_H
 
-#include "campaigns/scene_solvers.h"
+#include "study/scene_solvers.h"
 #include "tests/check.h"
 #include "timeint/integrate_exact.h"
 #include "timeint/integrate_regularised.h"

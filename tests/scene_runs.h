@@ -2,11 +2,11 @@
 #ifndef HC_TESTS_SCENE_RUNS_H
 #define HC_TESTS_SCENE_RUNS_H
 
-#include "campaigns/scene_solvers.h"
 #include "compare/accuracy/accuracy.h"
 #include "compare/comparison.h"
 #include "compare/gate/gate.h"
 #include "compare/verify/verify.h"
+#include "study/scene_solvers.h"
 
 #define SCENE_RUN(call)                                                                                                \
   compare_setup setup;                                                                                                 \

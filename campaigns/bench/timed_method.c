@@ -8,7 +8,7 @@
 #include "base/ascending.h"
 #include "base/thread_clock.h"
 
-#include "campaigns/scene_solvers.h"
+#include "study/scene_solvers.h"
 
 const double bench_longest = 1.5, bench_longest_shot = 0.3;
 const double timed_method_slow = 0.2;

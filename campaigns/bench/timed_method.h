@@ -4,9 +4,9 @@
 #define HC_BENCH_TIMED_METHOD_H
 
 #include "campaigns/bench/bench.h"
-#include "campaigns/scene_solvers.h"
 #include "compare/motion.h"
 #include "hbm/hbm.h"
+#include "study/scene_solvers.h"
 #include "timeint/steady.h"
 
 /* What all methods start from at one frequency. */

@@ -6,10 +6,10 @@
 #include <string.h>
 
 #include "base/constants.h"
-#include "campaigns/scene_solvers.h"
 #include "casefile/structure_model.h"
 #include "compare/frequencies.h"
 #include "hbm/segment.h"
+#include "study/scene_solvers.h"
 
 /* [1] A point farther from the curve than this fraction of the drawing is on another branch. */
 static const double off_curve = 0.01;

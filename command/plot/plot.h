@@ -10,12 +10,12 @@
 #define HC_PLOT_H
 
 #include "campaigns/bench/bench.h"
-#include "campaigns/study/store.h"
 #include "compare/accuracy/accuracy.h"
 #include "compare/comparison.h"
 #include "compare/steady_states.h"
 #include "compare/verify/verify.h"
 #include "hbm/hbm.h"
+#include "study/store.h"
 
 #define PLOT_ENDINGS ".svg, .png or .pdf"
 

@@ -6,11 +6,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "campaigns/scene_solvers.h"
 #include "compare/frequencies.h"
 #include "hbm/aft.h"
 #include "hbm/exact_force.h"
 #include "numerics/workers.h"
+#include "study/scene_solvers.h"
 
 enum {
   N_HARM = 5,

@@ -4,10 +4,10 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "campaigns/scene_solvers.h"
 #include "casefile/structure_model.h"
 #include "compare/frequencies.h"
 #include "compare/response.h"
+#include "study/scene_solvers.h"
 
 /* [1] of the step that continuation needs: drawn with straight lines, the curve needs more points. */
 static const double shorter_steps = 0.35;

@@ -7,9 +7,9 @@
 
 #include <string.h>
 
-#include "campaigns/scene_solvers.h"
 #include "casefile/case_file.h"
 #include "hbm/hbm.h"
+#include "study/scene_solvers.h"
 #include "timeint/timeint.h"
 
 /* set: "PATH=VALUE", ended by NULL. */

@@ -1,6 +1,6 @@
 /* test_accuracy.c - how good is harmonic balance with exact forces and 30 harmonics? Held against the exact
  * transient at every reference row. */
-#include "campaigns/scene_solvers.h"
+#include "study/scene_solvers.h"
 #include "tests/adversarial/steady_references.h"
 #include "tests/scene_parts.h"
 

@@ -1,6 +1,6 @@
 /* test_units.c - a change of units changes no answer: lengths, forces and times of a scene multiplied, its answers
  * multiplied alike. Any absolute constant left in a solver shows here. */
-#include "campaigns/scene_solvers.h"
+#include "study/scene_solvers.h"
 #include "tests/adversarial/steady_references.h"
 
 typedef struct units {

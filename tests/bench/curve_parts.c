@@ -9,11 +9,11 @@
 #include <time.h>
 
 #include "base/ascending.h"
-#include "campaigns/scene_solvers.h"
 #include "casefile/case_file.h"
 #include "compare/response.h"
 #include "hbm/hbm.h"
 #include "hbm/hbm_solver_impl.h"
+#include "study/scene_solvers.h"
 
 enum { MAX_REPEATS = 1001, SPECIALS = 256 };
 enum { READ, SET_UP, CURVE, STABILITY, SPECIAL, PARTS };

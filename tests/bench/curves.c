@@ -10,9 +10,9 @@
 #include <string.h>
 #include <time.h>
 
-#include "campaigns/scene_solvers.h"
 #include "casefile/case_file.h"
 #include "hbm/hbm.h"
+#include "study/scene_solvers.h"
 
 static double now_ms(void)
 {

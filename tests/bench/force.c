@@ -14,11 +14,11 @@
 #include <time.h>
 
 #include "base/ascending.h"
-#include "campaigns/scene_solvers.h"
 #include "casefile/case_file.h"
 #include "hbm/aft.h"
 #include "hbm/exact_force.h"
 #include "hbm/hbm.h"
+#include "study/scene_solvers.h"
 #include "tests/random.h"
 
 enum {

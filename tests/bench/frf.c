@@ -7,10 +7,10 @@
 #include <stdlib.h>
 #include <time.h>
 
-#include "campaigns/scene_solvers.h"
 #include "casefile/case_file.h"
 #include "casefile/structure_model.h"
 #include "compare/response.h"
+#include "study/scene_solvers.h"
 
 static double now(void)
 {

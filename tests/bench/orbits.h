@@ -10,8 +10,8 @@
 #include <time.h>
 
 #include "base/ascending.h"
-#include "campaigns/scene_solvers.h"
 #include "compare/comparison.h"
+#include "study/scene_solvers.h"
 #include "tests/timeint/scenes.h"
 
 static inline double cpu_ms(void)

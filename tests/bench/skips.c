@@ -9,8 +9,8 @@
 #include <time.h>
 
 #include "base/ascending.h"
-#include "campaigns/scene_solvers.h"
 #include "hbm/hbm.h"
+#include "study/scene_solvers.h"
 #include "tests/reference_scenes.h"
 
 enum { MAX_REPEATS = 1001, MAX_WAYS = 4, N_GROUPS = 4 };

@@ -4,8 +4,8 @@
 
 #include <string.h>
 
-#include "campaigns/scene_solvers.h"
 #include "hbm/first_solution.h"
+#include "study/scene_solvers.h"
 #include "tests/check.h"
 #include "tests/hbm/scenes.h"
 #include "timeint/steady.h"

@@ -11,10 +11,10 @@
 #include <sys/types.h>
 #include <unistd.h>
 
-#include "campaigns/study/store.h"
 #include "hbm/exact_force.h"
 #include "numerics/workers.h"
 #include "output/output.h"
+#include "study/store.h"
 #include "tests/faults/child.h"
 
 static atomic_long passed;

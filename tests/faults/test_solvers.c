@@ -6,8 +6,8 @@
 #include <kinsol/kinsol.h>
 #include <nvector/nvector_serial.h>
 
-#include "campaigns/scene_solvers.h"
 #include "hbm/hbm.h"
+#include "study/scene_solvers.h"
 #include "tests/faults/child.h"
 #include "tests/faults/small.h"
 #include "timeint/timeint.h"

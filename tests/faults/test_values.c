@@ -2,10 +2,10 @@
  * right-hand side of the regularised law (timeint/scaled.c), with the status of a good evaluation or the one it owes:
  * no hang, no wrong answer, and the handle is not poisoned: asked again it answers what a new one answers, bit for
  * bit. */
-#include "campaigns/scene_solvers.h"
 #include "hbm/aft.h"
 #include "hbm/exact_force.h"
 #include "hbm/hbm.h"
+#include "study/scene_solvers.h"
 #include "tests/faults/small.h"
 #include "timeint/scaled.h"
 #include "timeint/timeint.h"

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "campaigns/study/study.h"
+#include "study/study.h"
 #include "tests/fuzz/fuzz.h"
 
 static const char base[] =

@@ -1,8 +1,8 @@
 /* test_aft_jacobian.c - the Jacobian of the sampled contact force against differences, and what time shifts do to
  * both. */
-#include "campaigns/scene_solvers.h"
 #include "hbm/aft.h"
 #include "numerics/series.h"
+#include "study/scene_solvers.h"
 #include "tests/hbm/slow_aft.h"
 
 enum { MAX_H = 50, MAX_COEF = 2 * MAX_H + 1 };

@@ -1,7 +1,7 @@
 /* test_auto.c - hbm.harmonics: auto and hbm.samples: auto keep hbm.accuracy, what they cost, and every switch that
  * saves work changes nothing else. */
-#include "campaigns/scene_solvers.h"
 #include "hbm/hbm.h"
+#include "study/scene_solvers.h"
 #include "tests/hbm/scenes.h"
 
 typedef struct solved_curve {

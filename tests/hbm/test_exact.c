@@ -1,6 +1,6 @@
 /* test_exact.c - event-located contact force harmonics: closed forms, symmetries, and the limit of sampling. */
-#include "campaigns/scene_solvers.h"
 #include "hbm/aft.h"
+#include "study/scene_solvers.h"
 #include "tests/hbm/exact_scenes.h"
 
 /* Series of k max(g + A cos th, 0), A > 0; docs/theory.md section 11. */

@@ -2,9 +2,9 @@
  * promises. The linker wraps the planner and the locks, so that the test sees which lock is held. */
 #include <pthread.h>
 
-#include "campaigns/scene_solvers.h"
 #include "hbm/aft.h"
 #include "hbm/fft_plan.h"
+#include "study/scene_solvers.h"
 #include "tests/check.h"
 
 static const pthread_mutex_t *held, *planner; /* the lock held now, or NULL; the lock held at the first call */

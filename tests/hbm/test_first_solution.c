@@ -4,9 +4,9 @@
  * climbed by steps of a fixed force, or of fixed contacts, which cannot pass a turning point. */
 #include "hbm/first_solution.h"
 
-#include "campaigns/scene_solvers.h"
 #include "hbm/continuation.h"
 #include "hbm/hbm_solver_impl.h"
+#include "study/scene_solvers.h"
 #include "tests/hbm/traced.h"
 
 typedef struct refused_scene {

@@ -2,8 +2,8 @@
  * foretold of it is foretold at a price that can be paid. Scene: 36 node pairs in space, 327 unknowns at H = 1. */
 #include <string.h>
 
-#include "campaigns/scene_solvers.h"
 #include "casefile/case_file.h"
+#include "study/scene_solvers.h"
 #include "tests/check.h"
 
 static void make(const char *harmonics, scene *sc, hbm_solver **s)

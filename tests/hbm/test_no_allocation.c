@@ -20,12 +20,12 @@
 #include <fftw3.h>
 #include <nvector/nvector_serial.h>
 
-#include "campaigns/scene_solvers.h"
 #include "hbm/aft.h"
 #include "hbm/circle_force.h"
 #include "hbm/exact_force.h"
 #include "hbm/hbm.h"
 #include "numerics/sundials_compat.h"
+#include "study/scene_solvers.h"
 
 static long allocations;
 

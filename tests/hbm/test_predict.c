@@ -3,9 +3,9 @@
  * rule that both must keep is the one predictions are used by: three times. */
 #include <float.h>
 
-#include "campaigns/scene_solvers.h"
 #include "hbm/hbm.h"
 #include "numerics/series.h"
+#include "study/scene_solvers.h"
 #include "tests/hbm/scenes.h"
 
 enum { TRUTH = 80, MOST = 2 * HBM_MAX_HARMONICS + 1 };

@@ -3,9 +3,9 @@
  * RK4 in time with events, no harmonics, no pieces. */
 #include <complex.h>
 
-#include "campaigns/scene_solvers.h"
 #include "hbm/hbm.h"
 #include "hbm/hbm_solver_impl.h"
+#include "study/scene_solvers.h"
 #include "tests/hbm/scenes.h"
 #include "tests/scene_parts.h"
 

@@ -4,8 +4,8 @@
 
 #include <complex.h>
 
-#include "campaigns/scene_solvers.h"
 #include "hbm/hbm.h"
+#include "study/scene_solvers.h"
 #include "tests/hbm/scenes.h"
 
 /* A monitor that stops the work after so many ticks. */

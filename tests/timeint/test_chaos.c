@@ -3,7 +3,7 @@
  * percent of itself after each period. */
 #include "tests/check.h"
 
-#include "campaigns/scene_solvers.h"
+#include "study/scene_solvers.h"
 #include "tests/timeint/scenes.h"
 #include "timeint/chaos.h"
 #include "timeint/timeint_private.h"

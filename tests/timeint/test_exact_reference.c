@@ -4,7 +4,7 @@
 
 #include <string.h>
 
-#include "campaigns/scene_solvers.h"
+#include "study/scene_solvers.h"
 #include "tests/timeint/scenes.h"
 
 typedef struct row {

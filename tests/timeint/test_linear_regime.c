@@ -6,8 +6,8 @@
 #include <float.h>
 #include <string.h>
 
-#include "campaigns/scene_solvers.h"
 #include "model/linear.h"
+#include "study/scene_solvers.h"
 #include "tests/random.h"
 #include "tests/scene_parts.h"
 #include "tests/timeint/reference_rows.h"

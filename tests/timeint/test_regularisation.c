@@ -1,7 +1,7 @@
 /* test_regularisation.c - the law's error falls at the order it claims. Exact values: reference_rows.h. */
 #include "tests/check.h"
 
-#include "campaigns/scene_solvers.h"
+#include "study/scene_solvers.h"
 #include "tests/scene_parts.h"
 #include "tests/timeint/scenes.h"
 #include "timeint/integrate.h"

@@ -6,7 +6,7 @@
 
 #include <gsl/gsl_eigen.h>
 
-#include "campaigns/scene_solvers.h"
+#include "study/scene_solvers.h"
 #include "tests/scene_parts.h"
 #include "tests/timeint/oracle.h"
 #include "tests/timeint/scenes.h"

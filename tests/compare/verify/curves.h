@@ -5,9 +5,9 @@
 
 #include <string.h>
 
-#include "campaigns/scene_solvers.h"
 #include "casefile/case_file.h"
 #include "compare/verify/verify.h"
+#include "study/scene_solvers.h"
 #include "tests/check.h"
 
 enum { CURVE_ROOM = 512 };

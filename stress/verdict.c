@@ -1,0 +1,136 @@
+/* verdict.c - the verdicts of `compare`, checked against what the other checks have found of the scene.
+ *
+ *     match                 all discrepancies are within the gate, and the waveform is within it of the exact law's
+ *                           orbit, too, but for the budget's error of the transient
+ *     unstable              the orbit next to the HBM solution is unstable by time integration, or at a corner
+ *     differs, other_branch some discrepancy is beyond the gate
+ *     period_k              k is 2 or more
+ * What is true of its verdict ends as agreed (match), refused (solver_failed) or explained (all others). */
+#include <math.h>
+
+#include "compare/comparison.h"
+#include "compare/motion.h"
+#include "stress/solved_scene.h"
+#include "stress/solved_structure.h"
+#include "stress/verdict.h"
+
+/* Largest ratio of the gate; above 1: beyond. */
+static double gate_ratio(const discrepancy *e, const discrepancy *g, bool free)
+{
+  double worst = fmax(e->amplitude / g->amplitude, fmax(e->harmonic_1 / g->harmonic_1, e->waveform / g->waveform));
+  return free ? worst : fmax(worst, e->mean / g->mean);
+}
+
+static double known(double part) { return part > 0 ? part : 0; }
+
+static bool wrong(const comparison_row *r, const discrepancy *g, double *ratio)
+{
+  *ratio = gate_ratio(&r->errors, g, motion_mean_is_free(&r->transient));
+  if (r->still) return false; /* not compared */
+  bool orbit = r->orbit_status == HC_OK && !r->transient.left_orbit && budget_same_orbit(&r->transient, &r->orbit);
+  switch (r->verdict) {
+  case VERDICT_MATCH: {
+    if (!(*ratio <= 1)) return true;
+    double law = known(r->budget.waveform.regularisation) + known(r->budget.waveform.integration) +
+                 known(r->budget.waveform.settling);
+    return orbit && !(r->orbit_errors.waveform <= 1.01 * g->waveform + 1.01 * law);
+  }
+  case VERDICT_UNSTABLE:
+    if (r->response > 0) return false; /* what is said of the first response is said of the solution */
+    if (r->orbit_status == HC_OK && r->orbit.free_sliders > 0 && hbm_stability_verdict(&r->stability) == 0)
+      return false; /* multipliers are those of one side (compare/kick.c) */
+    return r->orbit_status == HC_OK ? timeint_stability(&r->orbit) > 0 : hbm_stability_verdict(&r->stability) > 0;
+  case VERDICT_DIFFERS:
+  case VERDICT_OTHER_BRANCH: return *ratio <= 1;
+  case VERDICT_PERIOD_K: return r->transient.period_multiple < 2;
+  default: return false;
+  }
+}
+
+static stress_check row_check(const scene *sc, const comparison_row *r)
+{
+  const discrepancy g = gate_limits_at(&sc->gate, r->omega);
+  double ratio;
+  if (r->hbm_status == HC_BUG || r->transient_status == HC_BUG) return stress_find(STRESS_INTERNAL, NAN, NAN);
+  if (wrong(r, &g, &ratio)) return stress_find(STRESS_WRONG_VERDICT, ratio, 1);
+  if (r->verdict == VERDICT_MATCH) return stress_agree(r->still ? 0 : ratio, 1);
+  if (r->verdict != VERDICT_SOLVER_FAILED) return stress_explain(STRESS_SAID_SO, ratio, 1);
+  hc_status st = r->hbm_status != HC_OK ? r->hbm_status : r->transient_status;
+  return stress_refusal(st);
+}
+
+/* The amplitude's discrepancy of a row beside what both sides said it would be, or *so_far if that is worse. Rows in
+ * which no contact changes its state are left out: linear motions, rounding against rounding. */
+static void hold_prediction(const comparison_row *r, stress_check *so_far)
+{
+  const double said = r->hbm_predicted.amplitude + r->transient_predicted.amplitude;
+  const bool one_orbit = r->verdict == VERDICT_MATCH || r->verdict == VERDICT_DIFFERS;
+  if (!one_orbit || r->transient.period_multiple != 1 || isnan(said)) return;
+  if (r->hbm.contact.regime <= CONTACT_STUCK) {
+    if (so_far->outcome == STRESS_SKIPPED) *so_far = stress_skip(STRESS_NOT_APPLICABLE);
+    return;
+  }
+  const double ratio = r->errors.amplitude == 0 ? 0 : r->errors.amplitude / said, bound = COMPARISON_SLACK;
+  if (so_far->outcome != STRESS_SKIPPED && !(ratio > so_far->error)) return;
+  const stress_check agrees = stress_agree(ratio, bound);
+  *so_far = agrees;
+  if (agrees.outcome != STRESS_AGREED && (r->family || r->unexpected))
+    *so_far = stress_explain(r->family ? STRESS_FAMILY : STRESS_UNEXPECTED, ratio, bound);
+}
+
+/* Worse is later in the list of outcomes. */
+stress_check stress_hold_verdicts(const scene *sc, const hc_monitor *monitor, hc_status *fatal, stress_check *predicted)
+{
+  comparison c = {0};
+  compare_setup setup;
+  hc_status st = scene_setup(sc, &setup);
+  setup.spare = true;
+  if (st == HC_OK) st = comparison_run(&setup, monitor, &c);
+  scene_setup_clear(&setup);
+  stress_check worst = stress_skip(STRESS_NO_ORBIT);
+  *predicted = stress_skip(STRESS_NO_ORBIT);
+  if (st == HC_NO_MEMORY) *fatal = st;
+  /* a frequency without an answer */
+  if (c.n_rows == 0) worst = st == HC_OK ? stress_find(STRESS_INTERNAL, NAN, NAN) : stress_refusal(st);
+  for (int i = 0; i < c.n_rows; ++i) {
+    stress_check row = row_check(sc, &c.rows[i]);
+    hold_prediction(&c.rows[i], predicted);
+    if (row.status == HC_NO_MEMORY) *fatal = HC_NO_MEMORY;
+    if (row.outcome > worst.outcome) worst = row;
+  }
+  comparison_clear(&c);
+  return worst;
+}
+
+stress_check stress_check_verdict(solved_scene *s)
+{
+  return stress_hold_verdicts(s->asked, &s->monitor, &s->fatal, &s->predicted);
+}
+
+stress_check stress_check_predicted(solved_scene *s) { return s->predicted; }
+
+/* With as many harmonics as have turned out to be enough, but for MOST_UNKNOWNS: with too few, all that is said is that
+ * the two differ. */
+static int enough_harmonics(const solved_structure *s)
+{
+  enum { MOST_UNKNOWNS = 400 };
+  const int coordinates = 2 * s->model->n_contacts < s->n ? 2 * s->model->n_contacts : s->n;
+  const int most = MOST_UNKNOWNS / (2 * coordinates), given = s->how.harmonics;
+  if (!(s->fine_harmonics > given)) return given;
+  return s->fine_harmonics < most ? s->fine_harmonics : given < most ? most : given;
+}
+
+/* Of a curve just long enough for what lies beside (`curve` has the long one); what takes more periods is not_settled,
+ * for chaos takes seconds. */
+stress_check stress_structure_verdict(solved_structure *s)
+{
+  const double beside = 1e-3;
+  scene sc = *s->asked;
+  sc.hbm.force = HBM_FORCE_EXACT;
+  sc.hbm.harmonics = enough_harmonics(s);
+  sc.transient.max_periods = 600;
+  sc.omega_from = s->omega * (1 - beside), sc.omega_to = s->omega * (1 + beside);
+  return stress_hold_verdicts(&sc, &s->monitor, &s->fatal, &s->predicted);
+}
+
+stress_check stress_structure_predicted(solved_structure *s) { return s->predicted; }

@@ -1,0 +1,252 @@
+/* store.c - see store.h. Opening and refusing; the tables themselves: store_table.c.
+ *
+ * What is checked, in this order, before the first byte is written: the lock; SQLite's own first bytes and our
+ * application id in them, read as a plain file, so that no other file is ever opened as a database; its
+ * integrity; schema, program version and fingerprint. */
+#include "study/store_private.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+enum { APPLICATION_ID = 0x68626d63 /* "hbmc" */, HEADER = 100, ID_AT = 68, BUSY_MS = 10000 };
+static const char schema_version[] = "1";
+
+/* ---- saying what is wrong ---- */
+
+static hc_status refuse(case_error *err, const char *path, hc_status st, const char *why)
+{
+  message m;
+  message_start(&m, err->message, sizeof err->message);
+  message_add_input(&m, path, strlen(path), 240);
+  message_add(&m, ": %s", why);
+  return st;
+}
+
+static hc_status refuse_errno(case_error *err, const char *path, const char *what, int error)
+{
+  char words[128], why[256];
+  if (strerror_r(error, words, sizeof words)) snprintf(words, sizeof words, "error %d", error);
+  snprintf(why, sizeof why, "%s: %s", what, words);
+  return refuse(err, path, HC_IO, why);
+}
+
+static hc_status refuse_sql(case_error *err, const char *path, sqlite3 *db)
+{
+  char why[256];
+  int code = sqlite3_errcode(db);
+  if (code == SQLITE_NOMEM || code == SQLITE_OK /* then it was our own text that had no room */)
+    return refuse(err, path, HC_NO_MEMORY, "out of memory");
+  snprintf(why, sizeof why, "%s (SQLite: %.150s)",
+           code == SQLITE_CORRUPT || code == SQLITE_NOTADB ? "damaged; delete it, or give another name with --results"
+                                                           : "cannot be used",
+           sqlite3_errmsg(db));
+  return refuse(err, path, HC_IO, why);
+}
+
+/* ---- the file, before SQLite sees it ---- */
+
+static hc_status check_header(int fd, const char *path, bool *is_new, case_error *err)
+{
+  static const char magic[16] = "SQLite format 3";
+  unsigned char head[HEADER];
+  ssize_t n = pread(fd, head, sizeof head, 0);
+  if (n < 0) return refuse_errno(err, path, "cannot be read", errno);
+  *is_new = n == 0;
+  if (*is_new) return HC_OK;
+  if (n < HEADER || memcmp(head, magic, sizeof magic))
+    return refuse(err, path, HC_IO, "not an SQLite file, expected the results of a study, or a new name (--results)");
+  uint32_t id = 0;
+  for (int i = 0; i < 4; ++i) id = id << 8 | head[ID_AT + i];
+  if (id == APPLICATION_ID) return HC_OK;
+  return refuse(err, path, HC_IO,
+                "an SQLite file of another program, expected the results of a study, or a new name (--results)");
+}
+
+/* The descriptor is kept until the database is closed: closing it earlier would drop SQLite's own locks. */
+static hc_status lock_file(const char *path, int *fd, bool *is_new, case_error *err)
+{
+  if (!*path) return refuse(err, "--results", HC_IO, "an empty file name");
+  *fd = open(path, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+  if (*fd < 0) return refuse_errno(err, path, "cannot be opened for writing", errno);
+  struct stat info;
+  if (fstat(*fd, &info) != 0 || !S_ISREG(info.st_mode))
+    return refuse(err, path, HC_IO, "not a regular file, expected one for the results");
+  if (flock(*fd, LOCK_EX | LOCK_NB) != 0) {
+    if (errno != EWOULDBLOCK) return refuse_errno(err, path, "cannot be locked", errno);
+    return refuse(err, path, HC_IO,
+                  "another hbmcheck is writing these results; let it finish, or give another name with --results");
+  }
+  return check_header(*fd, path, is_new, err);
+}
+
+/* ---- the database ---- */
+
+/* The value of `key` in table study, to free; NULL if there is none. */
+static char *study_key_value(sqlite3 *db, const char *key)
+{
+  sqlite3_stmt *q = NULL;
+  char *text = NULL;
+  if (sqlite3_prepare_v2(db, "SELECT value FROM study WHERE key = ?", -1, &q, NULL) == SQLITE_OK) {
+    sqlite3_bind_text(q, 1, key, -1, SQLITE_STATIC);
+    if (sqlite3_step(q) == SQLITE_ROW && sqlite3_column_text(q, 0))
+      text = strdup((const char *)sqlite3_column_text(q, 0));
+  }
+  sqlite3_finalize(q);
+  return text;
+}
+
+static bool same_value(sqlite3 *db, const char *key, const char *expected)
+{
+  char *text = study_key_value(db, key);
+  bool same = text && !strcmp(text, expected);
+  free(text);
+  return same;
+}
+
+static bool is_sound(sqlite3 *db)
+{
+  sqlite3_stmt *q = NULL;
+  bool sound = sqlite3_prepare_v2(db, "PRAGMA quick_check(1)", -1, &q, NULL) == SQLITE_OK &&
+               sqlite3_step(q) == SQLITE_ROW && !strcmp((const char *)sqlite3_column_text(q, 0), "ok");
+  sqlite3_finalize(q);
+  return sound;
+}
+
+/* HC_OK: go on with it. HC_BAD_INPUT: the results of another study, which `fresh` may throw away. */
+static hc_status check_contents(const study *s, sqlite3 *db, const char *path, const char *version, case_error *err)
+{
+  char fingerprint[24], why[256];
+  snprintf(fingerprint, sizeof fingerprint, "%016" PRIx64, s->fingerprint);
+  char *made_by = study_key_value(db, "hbmcheck");
+  hc_status st = HC_OK;
+  if (!made_by || !same_value(db, "schema", schema_version) || strcmp(made_by, version) != 0) {
+    snprintf(why, sizeof why,
+             "made by hbmcheck %.30s, this is %s; --fresh throws these results away, --results FILE keeps them",
+             made_by ? made_by : "?", version);
+    st = refuse(err, path, HC_BAD_INPUT, why);
+  } else if (!same_value(db, "fingerprint", fingerprint)) {
+    st = refuse(
+        err, path, HC_BAD_INPUT,
+        "results of another study, or of this one before it was changed; --fresh throws them away, --results FILE "
+        "keeps them");
+  }
+  free(made_by);
+  return st;
+}
+
+static bool put_key(sqlite3 *db, const char *key, const char *value)
+{
+  char *sql = sqlite3_mprintf("INSERT INTO study VALUES(%Q, %Q)", key, value);
+  bool good = sql && sqlite3_exec(db, sql, NULL, NULL, NULL) == SQLITE_OK;
+  sqlite3_free(sql);
+  return good;
+}
+
+static bool put_keys(const study *s, sqlite3 *db, const char *version)
+{
+  char fingerprint[24], scenes[24];
+  snprintf(fingerprint, sizeof fingerprint, "%016" PRIx64, s->fingerprint);
+  snprintf(scenes, sizeof scenes, "%ld", s->n_scenes);
+  return put_key(db, "schema", schema_version) && put_key(db, "hbmcheck", version) && put_key(db, "title", s->title) &&
+         put_key(db, "run", study_kind_name(s->kind)) && put_key(db, "fingerprint", fingerprint) &&
+         put_key(db, "scenes", scenes);
+}
+
+/* All tables anew, in one transaction. */
+static bool make_tables(const study *s, sqlite3 *db, const char *version)
+{
+  char *sql = store_schema(s, APPLICATION_ID);
+  bool good = sql && sqlite3_exec(db, "BEGIN IMMEDIATE", NULL, NULL, NULL) == SQLITE_OK &&
+              sqlite3_exec(db, "DROP TABLE IF EXISTS \"row\"; DROP TABLE IF EXISTS scene; DROP TABLE IF EXISTS study",
+                           NULL, NULL, NULL) == SQLITE_OK &&
+              sqlite3_exec(db, sql, NULL, NULL, NULL) == SQLITE_OK && put_keys(s, db, version) &&
+              sqlite3_exec(db, "COMMIT", NULL, NULL, NULL) == SQLITE_OK;
+  free(sql);
+  return good;
+}
+
+static hc_status open_database(study_store *st, const char *path, const char *version, bool is_new, bool fresh,
+                               case_error *err)
+{
+  const study *s = st->s;
+  if (sqlite3_open_v2(path, &st->db, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE, NULL) != SQLITE_OK)
+    return refuse_sql(err, path, st->db);
+  sqlite3_busy_timeout(st->db, BUSY_MS);
+  if (!is_new) {
+    /* until it is known to be ours, closing writes nothing */
+    sqlite3_db_config(st->db, SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 1, NULL);
+    if (!is_sound(st->db)) return refuse(err, path, HC_IO, "damaged; delete it, or give another name with --results");
+    sqlite3_stmt *q = NULL; /* a crash before the first commit leaves a file of ours without tables */
+    bool empty = sqlite3_prepare_v2(st->db, "SELECT 1 FROM study", -1, &q, NULL) != SQLITE_OK;
+    sqlite3_finalize(q);
+    hc_status known = empty ? HC_OK : check_contents(s, st->db, path, version, err);
+    if (known != HC_OK && !fresh) return known;
+    is_new = empty || fresh;
+    err->message[0] = 0;
+    sqlite3_db_config(st->db, SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 0, NULL);
+  }
+  if (is_new && !make_tables(s, st->db, version)) return refuse_sql(err, path, st->db);
+  if (sqlite3_exec(st->db, "PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL", NULL, NULL, NULL) != SQLITE_OK)
+    return refuse_sql(err, path, st->db);
+  return store_prepare(st) ? HC_OK : refuse_sql(err, path, st->db);
+}
+
+hc_status study_store_open(const study *s, const char *path, const char *version, bool fresh, study_store **out,
+                           case_error *err)
+{
+  *out = NULL;
+  study_store *st = calloc(1, sizeof *st);
+  if (!st) return refuse(err, path, HC_NO_MEMORY, "out of memory");
+  bool is_new = true;
+  st->s = s;
+  st->lock = -1;
+  hc_status code = strcmp(path, ":memory:") ? lock_file(path, &st->lock, &is_new, err) : HC_OK;
+  if (code == HC_OK) code = open_database(st, path, version, is_new, fresh, err);
+  if (code == HC_OK) *out = st;
+  else study_store_close(st);
+  return code;
+}
+
+void study_store_close(study_store *st)
+{
+  if (!st) return;
+  store_unprepare(st);
+  sqlite3_close(st->db);
+  if (st->lock >= 0) close(st->lock);
+  free(st);
+}
+
+const char *study_store_error(const study_store *st) { return sqlite3_errmsg(st->db); }
+hc_status study_sql_status(sqlite3 *db) { return sqlite3_errcode(db) == SQLITE_NOMEM ? HC_NO_MEMORY : HC_IO; }
+
+/* ---- reading only ---- */
+
+static int may_read(void *self, int action, const char *a, const char *function, const char *c, const char *d)
+{
+  (void)self, (void)a, (void)c, (void)d;
+  if (action == SQLITE_SELECT || action == SQLITE_READ || action == SQLITE_RECURSIVE) return SQLITE_OK;
+  return action == SQLITE_FUNCTION && strcmp(function, "load_extension") != 0 ? SQLITE_OK : SQLITE_DENY;
+}
+
+sqlite3 *study_store_readonly(study_store *st)
+{
+  sqlite3_set_authorizer(st->db, may_read, NULL);
+  return st->db;
+}
+
+hc_status study_store_view(study_store *st, const char *name, const char *select)
+{
+  char *sql = sqlite3_mprintf("CREATE TEMP VIEW \"%w\" AS %s", name, select);
+  if (!sql) return HC_NO_MEMORY;
+  sqlite3_set_authorizer(st->db, NULL, NULL);
+  int code = sqlite3_exec(st->db, sql, NULL, NULL, NULL);
+  sqlite3_free(sql);
+  study_store_readonly(st);
+  return code == SQLITE_OK ? HC_OK : code == SQLITE_NOMEM ? HC_NO_MEMORY : HC_IO;
+}

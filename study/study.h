@@ -1,0 +1,90 @@
+/* study.h - a sweep of any fields of a case: a file that says what varies, the grid of scenes it makes, and the way
+ * from a scene's number to the scene. Format, schema and guarantees: study/README.md. Nothing is printed.
+ *
+ *     study_read -> study -> study_scene(id), 0 <= id < n_scenes, the last axis fastest */
+#ifndef HC_STUDY_H
+#define HC_STUDY_H
+
+#include <stdint.h>
+
+#include "casefile/case_file.h"
+#include "casefile/fields.h"
+
+enum { STUDY_MOST_SCENES = 1000000, STUDY_TEXT = 256, STUDY_MOST_FIELDS = 512 /* set or varied */ };
+
+typedef enum { STUDY_FRF, STUDY_TRANSIENT, STUDY_COMPARE } study_kind;
+typedef enum { STUDY_EXPECT_NOTHING, STUDY_EXPECT_AGREE, STUDY_EXPECT_DISAGREE, STUDY_EXPECT_UNSAID } study_expectation;
+
+/* One value as --set would be given it, numbers in their shortest form; where it stands in the study file. */
+typedef struct study_value {
+  char *text;
+  size_t line, column;
+} study_value;
+
+typedef struct study_field {
+  const field *f;
+  int contact; /* its number, or that of the load; -1 outside such lists */
+  char path[FIELD_PATH];
+  size_t line, column;
+  study_value *values; /* [axis.n] */
+} study_field;
+
+typedef struct study_axis {
+  int n, n_fields;     /* values; fields that go together */
+  study_field *fields; /* [n_fields] */
+} study_axis;
+
+/* Queries on the results, as the file has them; text is NULL if not given. */
+typedef struct study_answer {
+  study_value found, holds, seconds;
+  study_expectation expect;
+} study_answer;
+
+/* A claim is answered once (STUDY_PLAIN), or with the settings of its source and with ours side by side; and, where the
+ * continuation decides, with the source's settings followed in fixed steps (hbm.continuation: fixed_step). */
+enum { STUDY_PLAIN, STUDY_PAPER, STUDY_OURS, STUDY_FIXED_STEP, STUDY_ANSWERS };
+typedef struct study_claim {
+  study_value source, says, reported; /* reported: seconds that the source gives */
+  double seconds;                     /* the same as a number, NaN if not given */
+  study_answer answers[STUDY_ANSWERS];
+} study_claim;
+
+/* A name for a query that the claims share. */
+typedef struct study_view {
+  study_value name, query;
+} study_view;
+
+typedef struct study {
+  char *name;      /* of the file, for messages */
+  char *base_name; /* of the base case's file; NULL: the case stands in the study */
+  char title[STUDY_TEXT];
+  study_kind kind;
+  scene base; /* with `set` and --set applied */
+  int n_axes, n_claims, n_views;
+  study_axis *axes;
+  study_claim *claims;
+  study_view *views;
+  bool may_fail; /* scenes that fail are part of what the study shows */
+  long n_scenes;
+  uint64_t fingerprint; /* of all that decides the results: not the title, not the claims */
+} study;
+
+/* Read `path` ("-" is standard input), its base case, and apply the n_set assignments of the command line to it.
+ * HC_OK and *out, or HC_BAD_INPUT / HC_IO / HC_NO_MEMORY with err filled and *out NULL. */
+hc_status study_read(const char *path, int n_set, const char *const *set, study **out, case_error *err);
+void study_free(study *s);
+
+/* Scene number id, to clear with case_clear (case_file.h). HC_BAD_INPUT with err filled when its fields do not go
+ * together (fewer samples than harmonics need). */
+hc_status study_scene(const study *s, long id, scene *out, case_error *err);
+
+/* Which value of axis `axis` scene id has, 0..n-1. */
+int study_index(const study *s, long id, int axis);
+
+/* Do results have columns of frequencies in cycles per time? If the base's sweep, or any that varies, is in cycles. */
+bool study_in_cycles(const study *s);
+
+/* "frf", "transient", "compare" */
+const char *study_kind_name(study_kind kind);
+
+#endif

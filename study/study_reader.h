@@ -1,0 +1,52 @@
+/* study_reader.h - what the parts of the study file's reader share; private to study/. Messages and places
+ * are the case reader's.
+ *
+ *     study_file.c: the file, base, set     study_axes.c: vary     study_claims.c: views, claims */
+#ifndef HC_STUDY_READER_H
+#define HC_STUDY_READER_H
+
+#include "casefile/case_reader.h"
+#include "study/study.h"
+
+/* A field that `set`, --set or an axis gives: none is both set and varied. */
+typedef struct study_given {
+  char path[FIELD_PATH];
+  case_place at;
+} study_given;
+
+typedef struct study_reader {
+  case_reader r; /* name: the study file; sc: the base as far as it is known */
+  yaml_document_t doc;
+  study *s;
+  int n_given;
+  study_given given[STUDY_MOST_FIELDS];
+} study_reader;
+
+static inline yaml_node_t *study_node(study_reader *q, int index) { return yaml_document_get_node(&q->doc, index); }
+
+/* Which of words[] (ending in NULL) this key is, noted in seen[]. -1 with the message made: no word, unknown, or
+ * there twice. */
+int study_key(study_reader *q, const yaml_node_t *key, const char *where, const char *const *words, case_place *seen);
+
+/* Start a message about that node. */
+message *study_blame(study_reader *q, const yaml_node_t *node);
+
+/* The field a key names goes into *t, its full name into path. Given before, it or its rival, is a mistake. */
+hc_status study_give(study_reader *q, const yaml_node_t *key, case_target *t, char path[FIELD_PATH]);
+
+/* The value of `vary`, into s->axes. */
+hc_status study_read_axes(study_reader *q, const yaml_node_t *node);
+
+/* The values of `views` and `claims`, into s->views and s->claims. That the queries can be run: claims.h. */
+hc_status study_read_views(study_reader *q, const yaml_node_t *node);
+hc_status study_read_claims(study_reader *q, const yaml_node_t *node);
+
+/* The text of a node that must be a single value, copied to free. HC_BAD_INPUT when it is not or is empty. */
+hc_status study_read_text(study_reader *q, const char *what, const yaml_node_t *node, study_value *out);
+
+/* s->fingerprint, once all the rest is there. */
+hc_status study_take_fingerprint(study *s);
+
+hc_status study_no_memory(study_reader *q);
+
+#endif

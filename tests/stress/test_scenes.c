@@ -1,0 +1,143 @@
+/* test_scenes.c - the scenes of a stress run: the whole of every range, its special points, and the same scene from
+ * the same numbers. */
+#include <float.h>
+#include <string.h>
+
+#include "casefile/case_file.h"
+#include "stress/scenes.h"
+#include "tests/check.h"
+
+enum { MANY = 4000 };
+
+static stress_scenes *sequence(unsigned long seed)
+{
+  stress_scenes *s;
+  assert_int_equal(stress_scenes_new(seed, &s), HC_OK);
+  return s;
+}
+
+/* What was drawn of one quantity. */
+typedef struct range {
+  const char *name;
+  double low, high, least, most;
+} range;
+enum { KN, KT, MU, ANGLE, GAP, FORCE, MASS, STIFFNESS, RATIO, HARMONICS, SAMPLES, N_RANGES };
+
+static void take(range *r, double x)
+{
+  CHECK_LE(r->low, x, "%s", r->name);
+  CHECK_LE(x, r->high, "%s", r->name);
+  r->least = fmin(r->least, x);
+  r->most = fmax(r->most, x);
+}
+
+/* Of 4000 points the extreme ones lie within a hundredth of the range's ends: a shifted Sobol sequence fills every
+ * hundredth some 40 times. */
+static void check_reach(const range *r, bool geometric)
+{
+  double low = geometric ? log(r->low) : r->low, high = geometric ? log(r->high) : r->high;
+  double least = geometric ? log(r->least) : r->least, most = geometric ? log(r->most) : r->most;
+  CHECK_LE(least, low + 0.01 * (high - low), "%s reaches down", r->name);
+  /* whole numbers: their last one is 2 % of the range */
+  CHECK_LE(high - 0.02 * (high - low), most, "%s reaches up", r->name);
+}
+
+static void the_whole_of_every_range_is_drawn(void **state)
+{
+  (void)state;
+  range r[N_RANGES] = {{"kn", 1, 1e8, 0, 0},      {"kt", 1, 1e8, 0, 0},        {"mu", 0, 3, 0, 0},
+                       {"angle", 0, 90, 0, 0},    {"gap", -10, 10, 0, 0},      {"F0", 1e-6, 1e6, 0, 0},
+                       {"mass", 1e-3, 1e3, 0, 0}, {"stiffness", 1, 1e6, 0, 0}, {"ratio", 0, 0.5, 0, 0},
+                       {"H", 1, 50, 0, 0},        {"N", 16, 16384, 0, 0}};
+  for (int i = 0; i < N_RANGES; ++i) r[i].least = INFINITY, r[i].most = -INFINITY;
+  stress_scenes *s = sequence(1);
+  int contacts[5] = {0}, mean[2] = {0}, zero_mu = 0, angle_0 = 0, angle_90 = 0, zero_gap = 0, undamped = 0;
+  for (long i = 0; i < MANY; ++i) {
+    scene sc;
+    assert_int_equal(stress_scenes_at(s, i, &sc), HC_OK);
+    ++contacts[sc.n_contacts];
+    ++mean[sc.hbm.keep_mean];
+    double ratio = sc.damping / (2 * sqrt(sc.mass * sc.stiffness));
+    undamped += sc.damping == 0;
+    take(&r[MASS], sc.mass), take(&r[STIFFNESS], sc.stiffness), take(&r[FORCE], sc.force),
+        take(&r[RATIO], ratio * (1 - 4 * DBL_EPSILON));
+    take(&r[HARMONICS], sc.hbm.harmonics), take(&r[SAMPLES], sc.hbm.samples);
+    for (int j = 0; j < sc.n_contacts; ++j) {
+      const scene_contact *c = &sc.contacts[j];
+      take(&r[KN], c->law.kn), take(&r[KT], c->law.kt), take(&r[MU], c->law.mu), take(&r[ANGLE], c->angle_deg),
+          take(&r[GAP], c->law.gap);
+      zero_mu += c->law.mu == 0, zero_gap += c->law.gap == 0, angle_0 += c->angle_deg == 0,
+          angle_90 += c->angle_deg == 90;
+    }
+  }
+  stress_scenes_free(s);
+  for (int i = 0; i < N_RANGES; ++i)
+    check_reach(&r[i], i == KN || i == KT || i == FORCE || i == MASS || i == STIFFNESS);
+  for (int n = 1; n <= 4; ++n) CHECK_LE(MANY / 5, contacts[n], "%d contacts", n);
+  CHECK_LE(MANY / 10, mean[0], "without harmonic 0");
+  /* a twentieth of 10000 contacts, of 4000 scenes; half of that must be there */
+  CHECK_LE(250, fmin(fmin(zero_mu, zero_gap), fmin(angle_0, angle_90)), "special points");
+  CHECK_LE(100, undamped, "undamped");
+}
+
+/* In any order; another seed is another scene. */
+static void a_scene_comes_again_from_seed_and_index(void **state)
+{
+  (void)state;
+  stress_scenes *a = sequence(7), *b = sequence(7), *c = sequence(8);
+  scene first, again, other;
+  for (long i = 0; i < 50; ++i) assert_int_equal(stress_scenes_at(a, i, &first), HC_OK);
+  assert_int_equal(stress_scenes_at(b, 80, &again), HC_OK);
+  assert_int_equal(stress_scenes_at(b, 49, &again), HC_OK);
+  assert_memory_equal(&first, &again, sizeof first);
+  assert_int_equal(stress_scenes_at(c, 49, &other), HC_OK);
+  assert_true(other.mass != first.mass && other.contacts[0].law.kn != first.contacts[0].law.kn);
+  assert_int_equal(stress_scenes_at(a, -1, &first), HC_BAD_INPUT);
+  stress_scenes_free(a), stress_scenes_free(b), stress_scenes_free(c);
+}
+
+/* Every scene is one that a case file may say. */
+static void every_scene_is_a_case_file(void **state)
+{
+  (void)state;
+  stress_scenes *s = sequence(3);
+  for (long i = 0; i < 200; ++i) {
+    scene sc, back;
+    char text[8192] = "";
+    case_error err;
+    assert_int_equal(stress_scenes_at(s, i, &sc), HC_OK);
+    FILE *to = fmemopen(text, sizeof text, "w");
+    assert_non_null(to);
+    assert_int_equal(case_echo(&sc, to), HC_OK);
+    fclose(to);
+    if (case_parse("scene", text, strlen(text), 0, NULL, &back, &err) != HC_OK)
+      fail_msg("scene %ld: %s", i, err.message);
+    assert_memory_equal(&sc, &back, sizeof sc);
+  }
+  stress_scenes_free(s);
+}
+
+/* By powers of two and back: the same bits. Every quantity by the dimensions of the equation (docs/theory.md, 1). */
+static void units_change_by_their_dimensions(void **state)
+{
+  (void)state;
+  stress_scenes *s = sequence(1);
+  scene sc;
+  assert_int_equal(stress_scenes_at(s, 5, &sc), HC_OK);
+  scene other = stress_in_units(&sc, 8, 4, 0.5), back = stress_in_units(&other, 0.125, 0.25, 2);
+  assert_memory_equal(&sc, &back, sizeof sc);
+  const double w = sc.compare.omega.v[0], v = other.compare.omega.v[0];
+  assert_true(v == 2 * w && other.force == 4 * sc.force && other.contacts[0].law.gap == 8 * sc.contacts[0].law.gap);
+  /* force/length */
+  assert_true(other.mass * v * v == 0.5 * sc.mass * w * w && other.damping * v == 0.5 * sc.damping * w);
+  assert_true(other.stiffness == 0.5 * sc.stiffness && other.contacts[0].law.kt == 0.5 * sc.contacts[0].law.kt);
+  stress_scenes_free(s);
+}
+
+static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(the_whole_of_every_range_is_drawn),
+    cmocka_unit_test(a_scene_comes_again_from_seed_and_index),
+    cmocka_unit_test(every_scene_is_a_case_file),
+    cmocka_unit_test(units_change_by_their_dimensions),
+};
+CHECK_MAIN("stress.scenes", tests, 60)
