@@ -2,170 +2,68 @@
 
 const alias = data.aliasing;
 
-/* Parameters with a slider: the member of the model or of its contacts, and factors on the case's value. All contacts
- * change together. */
-const parameters = [
-  {id: 'kn', name: 'normal stiffness', unit: () => units.force + '/' + units.length, of: 'contacts'},
-  {id: 'gap', name: 'gap', unit: () => units.length, of: 'contacts'},
-  {id: 'mu', name: 'friction', unit: () => '', of: 'contacts'},
-  {id: 'damping', name: 'damping', unit: () => units.force + ' ' + units.time + '/' + units.length, of: 'model'},
-  {id: 'force', name: 'force', unit: () => units.force, of: 'model'}
-];
-const factors = {
-  kn: [0.1, 0.2, 0.3, 0.5, 0.7, 1, 1.5, 2, 3, 5, 10],
-  gap: [0, 0.1, 0.25, 0.5, 0.75, 1, 1.25, 1.5, 2, 3],
-  mu: [0, 0.25, 0.5, 0.75, 1, 1.5, 2, 3, 5],
-  damping: [0.25, 0.5, 0.75, 1, 1.5, 2, 3, 5, 10],
-  force: [0.1, 0.2, 0.3, 0.5, 0.75, 1, 1.5, 2, 3, 5]
-};
-const gapShifts = [-1, -0.5, -0.2, -0.1, 0, 0.1, 0.2, 0.5, 1]; /* of F0/K, where the case's gap is 0 */
-
-const firstOf = p => (p.of === 'model' ? alias.model[p.id] : alias.model.contacts[0][p.id]);
-
-/* What a slider's position makes of a value of the case, and its position in the case. */
-function moved(p, position, value) {
-  const shift = alias.model.force / alias.model.stiffness;
-  if (p.id === 'gap' && !firstOf(p)) return value + gapShifts[position] * shift;
-  return value * factors[p.id][position];
-}
-const positionsOf = p => (p.id === 'gap' && !firstOf(p) ? gapShifts : factors[p.id]);
-const homeOf = p => positionsOf(p).indexOf(p.id === 'gap' && !firstOf(p) ? 0 : 1);
-
-/* The case with its parameters changed: positions {kn, gap, ...}. */
-function modelAt(positions) {
-  const model = Object.assign({}, alias.model, {contacts: alias.model.contacts.map(k => Object.assign({}, k))});
-  for (const p of parameters)
-    for (const owner of p.of === 'model' ? [model] : model.contacts)
-      owner[p.id] = moved(p, positions[p.id], owner[p.id]);
-  for (const k of model.contacts) {
-    k.c = Math.cos((k.angle_deg * Math.PI) / 180);
-    k.s = Math.sin((k.angle_deg * Math.PI) / 180);
-  }
-  return model;
-}
-
-/* ---- states: found when a slider first gets there, and kept ----------------------------------------------------- */
-
-const kept = new Map();
-function keep(key, make) {
-  const text = JSON.stringify(key);
-  if (!kept.has(text)) kept.set(text, make());
-  return kept.get(text);
-}
-
-const mostPoints = 1500;
-
-const curveOf = (model, H) => keep([model, H], () => traceCurve(model, H, mostPoints));
-
-/* Of the curve's solutions at omega the one with the largest amplitude: {X, amplitude, touches}, or null. `touches`:
- * the motion touches a contact. */
-function largestAt(model, H, omega) {
-  return keep([model, H, omega], () => {
-    const found = solutionsOn(model, curveOf(model, H), omega).map(X => ({X, amplitude: amplitudeOf(X)}));
-    if (!found.length) return null;
-    const top = found.reduce((a, b) => (b.amplitude > a.amplitude ? b : a));
-    return Object.assign(top, {touches: touchesIn(model, top.X, 0)});
-  });
-}
-
-const touchesIn = (model, X, N) => (piecesOf(model, X, N) || []).some(p => p.piece.state !== APART);
-
-const mostTried = 10;
-
-/* More harmonics, up to mostTried, with which the motion at omega touches, or 0. */
-function harmonicsThatTouch(model, H, omega) {
-  const touching = H => (largestAt(model, H, omega) || {}).touches;
-  return alias.harmonics.find(h => h > H && h <= mostTried && touching(h)) || 0;
-}
-
-/* The solution of the sampled equations that Newton finds from the exact ones', or where that touches nothing from the
- * one of more harmonics that does: {amplitude, touches}, or null. */
-function nextSampled(model, H, N, omega) {
-  return keep([model, H, N, omega, 'next'], () => {
-    const exact = largestAt(model, H, omega);
-    if (!exact || N < samplesNeeded(H)) return null;
-    const more = exact.touches ? 0 : harmonicsThatTouch(model, H, omega);
-    const start = more ? largestAt(model, more, omega).X.slice(0, 2 * H + 1) : exact.X;
-    const X = solveAt(model, start, omega, N);
-    return X && {amplitude: amplitudeOf(X), touches: touchesIn(model, X, N)};
-  });
-}
-
-const samplesNeeded = H => 2 * H + 2;
 const numbersTo = n => Array.from({length: n + 1}, (_, i) => i);
 const sizeOf = ([a, b]) => Math.hypot(a, b);
+const samplesNeeded = H => 2 * H + 2;
 
-/* The force at n times of the period, and its largest size. */
-function forceOver(model, X, n) {
-  const pieces = piecesOf(model, X, 0);
-  return numbersTo(n).map(i => {
-    const th = (TURN * (i % n)) / n;
-    const x = motionAt(X, th).x;
-    const here = pieces.filter(p => p.piece.from <= th && th < p.piece.to);
-    return here.reduce((f, p) => f + p.stiffness * x + p.constant, 0);
-  });
-}
+/* Harmonics [a, b] from a list a0, a1, b1, a2, ..., the mean as [a0, 0]. */
+const pairsOf = list => numbersTo((list.length - 1) / 2).map(h => (h ? [list[2 * h - 1], list[2 * h]] : [list[0], 0]));
 
-/* Where the sliders stand. With a solution that touches: `harmonics` true [a, b] and `sampled` ones, `scale` the
- * largest force, `amplitude` of the sampled solution. */
+/* The answer at a place {stiffness, h, omega}, positions in alias.stiffness, alias.harmonics, alias.omega, or null. */
+const answerAt = p => alias.curves[p.stiffness][p.h].states[p.omega];
+
+/* The answer chosen. With a solution that touches: `harmonics` true [a, b] and sampled ones, `scale` the largest
+ * force, `next` the solution of the sampled equations that Newton finds from the exact ones', or where that touches
+ * nothing from the one of more harmonics that does: {amplitude or null, touches}; null: N is too small. */
 function aliasState() {
-  const positions = Object.fromEntries(parameters.map(p => [p.id, +$('alias-' + p.id).value]));
-  const omega = alias.omega[+$('alias-omega').value];
-  const H = alias.harmonics[+$('alias-h').value];
-  const N = alias.samples[+$('alias-n').value];
-  const model = modelAt(positions);
-  const at = {omega, H, N, model, positions, look: +$('alias-look').value};
-  at.inCase = parameters.every(p => positions[p.id] === homeOf(p));
-  at.solution = largestAt(model, H, omega);
-  if (!at.solution || !at.solution.touches) return at;
-  return Object.assign(at, keep([model, H, N, omega, 'force'], () => forcesAt(model, at.solution.X, H, N)));
+  const place = {stiffness: +$('alias-kn').value, h: +$('alias-h').value, omega: +$('alias-omega').value};
+  const n = +$('alias-n').value;
+  const solution = answerAt(place);
+  const at = {place, solution, look: +$('alias-look').value};
+  Object.assign(at, {omega: alias.omega[place.omega], H: alias.harmonics[place.h], N: alias.samples[n]});
+  if (!solution) return at;
+  at.next = solution.sampled[n];
+  if (!solution.touches) return at;
+  const scaled = (list, step) => list.map(v => (v === null ? null : v * step * solution.largest));
+  at.scale = solution.largest;
+  at.force = scaled(solution.force, alias.steps.force);
+  at.harmonics = pairsOf(scaled(solution.harmonics, alias.steps.harmonics));
+  if (!at.next || !at.next.difference) return at;
+  at.difference = pairsOf(scaled(at.next.difference, alias.steps.difference));
+  at.sampled = at.difference.map((d, h) => [d[0] + at.harmonics[h][0], d[1] + at.harmonics[h][1]]);
+  at.folds = scaled(at.next.folds, alias.steps.difference);
+  return at;
 }
 
-const shownHarmonics = 80;
+/* The position of the least H above at which the motion there touches, or -1. */
+const touchingAbove = place =>
+  alias.harmonics.findIndex((H, h) => h > place.h && (answerAt({...place, h}) || {}).touches);
 
-function forcesAt(model, X, H, N) {
-  const force = forceOver(model, X, 256);
-  const pieces = piecesOf(model, X, 0);
-  const harmonics = forceHarmonics(pieces, 0, X, numbersTo(shownHarmonics));
-  const scale = Math.max(...forceOver(model, X, 2048).map(Math.abs));
-  const out = {force, harmonics, scale, pieces};
-  if (N < samplesNeeded(H)) return out;
-  out.sampled = forceHarmonics(piecesOf(model, X, N), N, X, numbersTo(H));
-  out.difference = out.sampled.map(([a, b], h) => [a - harmonics[h][0], b - harmonics[h][1]]);
-  out.folds = forceHarmonics(pieces, 0, X, numbersTo(H).flatMap(h => [N - h, N + h])).map(sizeOf);
-  return out;
-}
+const mostTried = alias && alias.harmonics[alias.harmonics.length - 1];
 
 const foldOf = (h, N) => Math.min(h % N, N - (h % N)); /* where harmonic h lands */
 
 /* ---- words ------------------------------------------------------------------------------------------------------- */
 
 const length = v => show(v) + ' ' + units.length;
-const valueOf = (p, position) => (show(moved(p, position, firstOf(p)), 4) + ' ' + p.unit()).trim();
+const stiffnessText = k => show(alias.stiffness[k], 4) + ' ' + units.force + '/' + units.length;
 
 function placeWords(at) {
-  const changed = parameters.filter(p => at.positions[p.id] !== homeOf(p));
-  const texts = changed.map(p => p.name + ' ' + valueOf(p, at.positions[p.id]));
-  return ['At ' + where(at.omega, 6), 'H = ' + at.H].concat(texts).join(', ') + ': ';
-}
-
-/* The least and largest omega of the curve where a contact changes its state, or null. */
-function workingRange(at) {
-  const touching = curveOf(at.model, at.H).filter(p => p.works).map(p => p.omega);
-  if (!touching.length) return null;
-  return [Math.min(...touching), Math.max(...touching)];
+  const texts = ['At ' + where(at.omega, 6), 'H = ' + at.H];
+  if (at.place.stiffness !== alias.the_case) texts.push('normal stiffness ' + stiffnessText(at.place.stiffness));
+  return texts.join(', ') + ': ';
 }
 
 /* The largest motion touches nothing. Is that so, or has the truncation lost the branch that does? */
 function idleWords(at) {
-  const range = workingRange(at);
+  const range = alias.curves[at.place.stiffness][at.place.h].working;
   const size = length(at.solution.amplitude);
   const alone = 'the only motion on this response curve has amplitude ' + size + ' and touches no contact';
   if (!range) return alone + ', nor does any at another ' + alongName + ': nothing to sample.';
   const ends = range.map(w => show(along(w), 4)).join(' and ');
   let text = alone + '. The branch on which contacts work lies between ' + alongName + ' ' + ends + ' with this H. ';
-  const more = harmonicsThatTouch(at.model, at.H, at.omega);
-  if (more) text += lostWords(at, more, largestAt(at.model, more, at.omega).amplitude);
+  const more = touchingAbove(at.place);
+  if (more >= 0) text += lostWords(at, alias.harmonics[more], answerAt({...at.place, h: more}).amplitude);
   else if (at.H < mostTried) text += 'More harmonics, up to ' + mostTried + ', do not bring it here.';
   return text.trim();
 }
@@ -174,7 +72,7 @@ function idleWords(at) {
 function lostWords(at, more, lost) {
   const reaches = 'With H = ' + more + ' it reaches this ' + alongName + ', amplitude ' + length(lost) + ': ';
   const text = reaches + 'truncation, not sampling, has lost it.';
-  const gained = nextSampled(at.model, at.H, at.N, at.omega);
+  const gained = at.next;
   if (!gained || !gained.touches) return text;
   const off = percent(Math.abs(gained.amplitude - lost) / lost);
   const found = ' With ' + at.N + ' samples the equations have gained one, amplitude ' + length(gained.amplitude);
@@ -182,15 +80,14 @@ function lostWords(at, more, lost) {
 }
 
 /* The sampled equations' solution beside the exact ones'. */
-function effectWords(at) {
-  const next = nextSampled(at.model, at.H, at.N, at.omega);
+function effectWords({solution, next}) {
   const gone = 'The sampled equations have lost this branch here: ';
-  if (!next) return gone + 'Newton, started on the true solution, finds none of theirs.';
-  const true_ = at.solution.amplitude;
+  if (next.amplitude === null) return gone + 'Newton, started on the true solution, finds none of theirs.';
   const other = 'what Newton finds from it has amplitude ' + length(next.amplitude) + ' and touches nothing.';
   if (!next.touches) return gone + other;
-  const off = percent(Math.abs(next.amplitude - true_) / true_);
-  return 'The amplitude comes out as ' + show(next.amplitude) + ' instead of ' + length(true_) + ': ' + off + ' off.';
+  const [found, exact] = [next.amplitude, solution.amplitude];
+  const off = percent(Math.abs(found - exact) / exact);
+  return 'The amplitude comes out as ' + show(found) + ' instead of ' + length(exact) + ': ' + off + ' off.';
 }
 
 function aliasWords(at) {
@@ -209,10 +106,9 @@ function aliasWords(at) {
 
 /* good, bad or open: is the sampled amplitude within the gate? */
 function aliasVerdict(at) {
-  const next = at.sampled && nextSampled(at.model, at.H, at.N, at.omega);
-  if (!next || !next.touches) return 'open';
-  const true_ = at.solution.amplitude;
-  return Math.abs(next.amplitude - true_) <= data.gate * true_ ? 'good' : 'bad';
+  if (!at.sampled || !at.next.touches) return 'open';
+  const exact = at.solution.amplitude;
+  return Math.abs(at.next.amplitude - exact) <= data.gate * exact ? 'good' : 'bad';
 }
 
 function aliasTable(at) {
@@ -223,7 +119,7 @@ function aliasTable(at) {
   const addTo = (row, tag, text) => row.append(Object.assign(document.createElement(tag), {textContent: text}));
   table.createCaption().textContent =
     'Sizes of force harmonics [' + units.force + ']. What folds onto h comes from N - h, N + h, 2N - h, ...; ' +
-    'the first two are usually most of it.';
+    'the first two are usually most of it. Not listed above harmonic 200.';
   const heads = ['h', 'true |F(h)|', 'sampled |F(h)|', '|sampled - true|', 'of the largest force'];
   heads.push('folds from N - h', '|F(N - h)|', 'and from N + h', '|F(N + h)|');
   const head = table.createTHead().insertRow();
@@ -257,13 +153,10 @@ function nameSlider(id, text) {
 }
 
 function nameSliders() {
+  const stiffness = +$('alias-kn').value;
   nameSlider('n', alias.samples[+$('alias-n').value]);
   nameSlider('h', alias.harmonics[+$('alias-h').value]);
-  for (const p of parameters) {
-    const position = +$('alias-' + p.id).value;
-    const home = position === homeOf(p) ? ' (the case)' : '';
-    nameSlider(p.id, valueOf(p, position) + home);
-  }
+  nameSlider('kn', stiffnessText(stiffness) + (stiffness === alias.the_case ? ' (the case)' : ''));
 }
 
 let aliasShown = null; /* the state that the plots draw */
@@ -284,8 +177,12 @@ function setSlider(id, positions, home) {
   slider.value = home;
 }
 
-function resetSliders() {
-  for (const p of parameters) setSlider(p.id, positionsOf(p), homeOf(p));
+/* Another stiffness than the case's was solved at one omega alone. */
+function moveStiffness() {
+  const isCase = +$('alias-kn').value === alias.the_case;
+  if (!isCase) $('alias-omega').value = alias.first;
+  $('alias-omega').disabled = !isCase;
+  drawAliasing();
 }
 
 function startAliasing() {
@@ -297,13 +194,14 @@ function startAliasing() {
   $('alias-omega-name').textContent = data.cycles ? 'Frequency' : 'Omega';
   setSlider('n', alias.samples, 0);
   setSlider('h', alias.harmonics, 2);
-  resetSliders();
-  for (const p of parameters) $('alias-' + p.id).closest('label').hidden = !firstOf(p) && p.id !== 'gap';
+  setSlider('kn', alias.stiffness, alias.the_case);
+  $('alias-kn').closest('label').hidden = !alias.stiffness[alias.the_case];
   for (const id of ['omega', 'look']) $('alias-' + id).addEventListener('change', drawAliasing);
-  for (const id of ['n', 'h', ...parameters.map(p => p.id)]) $('alias-' + id).addEventListener('input', drawAliasing);
+  for (const id of ['n', 'h']) $('alias-' + id).addEventListener('input', drawAliasing);
+  $('alias-kn').addEventListener('input', moveStiffness);
   $('alias-reset').addEventListener('click', () => {
-    resetSliders();
-    drawAliasing();
+    $('alias-kn').value = alias.the_case;
+    moveStiffness();
   });
   startAliasPlots();
   drawAliasing();

@@ -1,13 +1,13 @@
 /* ---- 5 aliasing: its four plots, of the state aliasShown --------------------------------------------------------- */
 
 /* The sum of harmonics [a, b] at an angle. */
-const seriesAt = (parts, th) => motionAt([parts[0][0]].concat(parts.slice(1).flat()), th).x;
+const seriesAt = (parts, th) => parts.reduce((sum, [a, b], h) => sum + a * Math.cos(h * th) + b * Math.sin(h * th), 0);
 
 function forceSets() {
   const at = aliasShown;
   if (!at || !at.harmonics) return [];
   const n = at.force.length - 1;
-  const rebuilt = parts => numbersTo(n).map(i => ({x: i / n, y: seriesAt(parts, (TURN * i) / n)}));
+  const rebuilt = parts => numbersTo(n).map(i => ({x: i / n, y: seriesAt(parts, (2 * Math.PI * i) / n)}));
   const kept = rebuilt(at.harmonics.slice(0, at.H + 1));
   const sets = [line('true force', at.force.map((y, i) => ({x: i / n, y})), colour(0))];
   sets.push(line('its true harmonics 0..H', kept, colour(2), {borderWidth: 1.5, borderDash: [5, 3]}));
@@ -68,23 +68,18 @@ function foldSets() {
   ];
 }
 
-/* Amplitudes over N of the sampled solutions next to the exact one. */
-function sampledAmplitudes(at) {
-  const find = N => nextSampled(at.model, at.H, N, at.omega) || {amplitude: NaN};
-  return alias.samples.map(N => ({x: N, y: find(N).amplitude}));
-}
-
 function effectSets() {
   const at = aliasShown;
   if (!at || !at.solution) return [];
-  const points = sampledAmplitudes(at);
+  const amplitudeOf = next => (next && next.amplitude !== null ? next.amplitude : NaN);
+  const points = alias.samples.map((N, i) => ({x: N, y: amplitudeOf(at.solution.sampled[i])}));
   const ends = y => [alias.samples[0], alias.samples[alias.samples.length - 1]].map(x => ({x, y}));
   const sets = [line('sampled', points, colour(1), {pointRadius: 4})];
   const exact = {borderDash: [5, 4], borderWidth: 1.5};
   sets.push(line('exact forces, same H', ends(at.solution.amplitude), colour(2), exact));
   const rows = data.response.transient.filter(t => Math.abs(t.omega - at.omega) <= 1e-6 * at.omega);
   const top = Math.max(...rows.map(t => t.amplitude));
-  if (at.inCase && rows.length) sets.push(line('time integration', ends(top), colour(0), {borderDash: [1, 3]}));
+  if (at.place.stiffness === alias.the_case && rows.length) sets.push(line('time integration', ends(top), colour(0), {borderDash: [1, 3]}));
   const here = points.filter(p => p.x === at.N && !isNaN(p.y));
   const ring = {pointRadius: 8, borderWidth: 2, backgroundColor: 'transparent', order: -1, key: 'here'};
   return sets.concat([marks('N = ' + at.N, here, colour(4), 'circle', ring)]);
@@ -95,7 +90,7 @@ function effectSets() {
 function drawAliasPlots(at) {
   if (at.harmonics) {
     const shown = Math.min(2 * at.N + at.H, 4 * at.H + 20);
-    const last = Math.min(shownHarmonics, Math.max(24, shown));
+    const last = Math.min(at.harmonics.length - 1, Math.max(24, shown));
     setHome(charts.force, 'x', [0, 1]);
     setHome(charts.spectrum, 'x', [-0.6, last + 0.6]);
     setHome(charts.spectrum, 'y', [smallest * at.scale, 2 * at.scale]);

@@ -1,13 +1,13 @@
 /* plots.js - what every plot of the report has: colours, zoom, legend, paper. Followed in the same script by
- * response.js (section 2), errors.js (3 and 4), structure.js (5 of structures), contact_pieces.js to aliasing_plots.js
- * (5 of the others), selftest.js and start.js. They read the data block:
+ * response.js (section 2), errors.js (3 and 4), structure.js (5 of structures), aliasing.js and aliasing_plots.js (5
+ * of the others), selftest.js and start.js. They read the data block:
  *   cycles    the sweep is in cycles: so are all axes and words
  *   response  {curve, turned: columns omega, amplitude, harmonic_1, mean, mean_free, branch, stable (1, 0, -1),
  *             contact; mean_kept; transient, specials: rows}
  *   structure null, or {names, responses, dofs, contacts, solutions}: see structure.h
  *   budget    rows {omega, branch, response (0 where it is not there), a part each}
  *   accuracy  rows {harmonics, samples (0: exact forces), errors}
- *   aliasing  {omega, first, harmonics, samples, model, checks}: see aliasing.js and selftest.js */
+ *   aliasing  {omega, first, harmonics, samples, stiffness, the_case, steps, curves}: see aliasing.js */
 'use strict';
 const problems = [];
 window.addEventListener('error', e => problems.push(e.message));

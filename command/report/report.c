@@ -46,8 +46,8 @@ static hc_status gather_aliasing(const scene *sc, const hc_monitor *monitor, rep
 {
   double omega[ALIASING_MOST_OMEGAS];
   int first, n = choose_omegas(&out->comparison, omega, &first);
-  if (n > 0 && !sc->structure && sc->n_contacts > 0) /* the page solves one degree of freedom */
-    return aliasing_states(sc, n, omega, first, out->setup.jobs, monitor, &out->aliasing);
+  if (n > 0 && !sc->structure && sc->n_contacts > 0) /* the section is of one degree of freedom */
+    return aliasing_answers(sc, n, omega, first, out->setup.jobs, monitor, &out->aliasing);
   out->aliasing = json_null();
   return HC_OK;
 }

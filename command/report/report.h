@@ -1,7 +1,7 @@
 /* report.h - a comparison as one self-contained HTML page: words, interactive plots, tables, and aliasing taught.
  * The way into this folder.
  *
- *     scene -> comparison, tables over H and N, response curve, aliasing states (report_gather) -> one page
+ *     scene -> comparison, tables over H and N, response curve, answers on aliasing (report_gather) -> one page
  *     (report_write)
  *
  * The page needs no network and no other file: page.html, page.css, page.js and the installed Chart.js are built
@@ -26,7 +26,7 @@ typedef struct report_data {
   hc_status tabled;  /* status of the tables; the rows found are shown whatever it is */
   json_t *response;  /* the curve and what stands on it, of the first response (curve.h) */
   json_t *structure; /* other responses, shapes and contacts (structure.h); JSON null for one degree of freedom */
-  json_t *aliasing;  /* precomputed states (aliasing.h); JSON null without contacts */
+  json_t *aliasing;  /* answers on aliasing (aliasing.h); JSON null without contacts */
 } report_data;
 
 /* How the page was made, for its last section. UTF-8; escaped by report_write. */

@@ -177,75 +177,9 @@ function tryPaper() {
   trial.check(after.every((w, i) => w === before[i]), text);
 }
 
-/* dR/dX against central differences of R. A transition moves by 1e-6 between the two, which changes dR/dX by as much
- * times the slope of the force there, and rounding adds 1e-10: 1e-5 of the largest derivative is allowed. */
-function tryDerivatives(model, X, omega, samples) {
-  const n = X.length;
-  const now = equations(model, X, omega, samples);
-  const step = 1e-6 * largest(X);
-  let off = 0;
-  for (let col = 0; col < n; col++) {
-    const [more, less] = [1, -1].map(sign => {
-      const moved = X.map((x, j) => (j === col ? x + sign * step : x));
-      return equations(model, moved, omega, samples).R;
-    });
-    for (let row = 0; row < n; row++)
-      off = Math.max(off, Math.abs((more[row] - less[row]) / (2 * step) - now.jac[row * n + col]));
-  }
-  const relative = off / largest(now.jac);
-  trial.check(relative <= 1e-5, (samples || 'exact') + ': derivatives are off by ' + show(relative, 2));
-}
-
-/* What the page computes against what the program computed (aliasing.h). Both solve to 1e-10 of the forces and the
- * numbers are written to 12 digits; a solution near a turning point loses some of them: 1e-7. Harmonics are written
- * in steps of the state's scale: one step. */
-function tryEvaluator() {
-  const {steps, samples, states, spots} = alias.checks;
-  const home = Object.fromEntries(parameters.map(p => [p.id, homeOf(p)]));
-  const near = (a, b) => Math.abs(a - b) <= 1e-7 * Math.abs(b);
-  const model = modelAt(home);
-  const shown = largestAt(model, 5, alias.omega[alias.first]);
-  if (shown) [0, 64].forEach(N => tryDerivatives(model, shown.X, alias.omega[alias.first], N));
-  states.forEach((row, i) =>
-    row.forEach((state, j) => {
-      const [omega, H] = [alias.omega[i], alias.harmonics[j]];
-      const found = largestAt(model, H, omega);
-      const name = 'at ' + where(omega) + ', H = ' + H + ', ';
-      trial.check(!state === !found, name + 'both or neither find a solution');
-      if (!state || !found) return;
-      trial.check(near(found.amplitude, state.amplitude), name + found.amplitude + ' is ' + state.amplitude);
-      if (!state.scale) return;
-      state.sampled.forEach((s, n) => s && trySampled(model, found, state, s, samples[n], H, omega, steps, name));
-    })
-  );
-  for (const spot of spots) {
-    const p = parameters.find(q => q.id === spot.parameter);
-    const position = positionsOf(p).findIndex(f => near(f, spot.factor));
-    if (position < 0) continue; /* a gap of 0 is moved, not multiplied */
-    const found = largestAt(modelAt(Object.assign({}, home, {[p.id]: position})), spot.harmonics, spot.omega);
-    const text = found ? String(found.amplitude) : 'none';
-    const same = found ? near(found.amplitude, spot.amplitude) : spot.amplitude === null;
-    trial.check(same, p.name + ' times ' + spot.factor + ': ' + text + ' is ' + spot.amplitude);
-  }
-}
-
-function trySampled(model, found, state, s, N, H, omega, steps, name) {
-  const at = forcesAt(model, found.X, H, N);
-  const flat = parts => [parts[0][0]].concat(parts.slice(1).flat());
-  const off = (a, b, step) => Math.max(...b.map((v, i) => Math.abs(a[i] / state.scale - v * step))) / step;
-  const offs = [off(flat(at.harmonics), state.true, steps[0]), off(flat(at.difference), s.difference, steps[1])];
-  offs.push(off(at.folds, s.folds, steps[1]));
-  const text = offs.map(v => show(v, 3)).join(', ') + ' steps';
-  trial.check(offs.every(v => v <= 1), name + N + ' samples: harmonics off by ' + text);
-  const next = nextSampled(model, H, N, omega);
-  if (s.amplitude === null) return; /* found here, maybe, by more patience */
-  const same = next && Math.abs(next.amplitude - s.amplitude) <= 1e-7 * s.amplitude;
-  trial.check(same, name + N + ' samples: ' + (next ? next.amplitude : 'none') + ' is ' + s.amplitude);
-}
-
 function trySliders() {
   const moves = [['n', 'force'], ['n', 'spectrum'], ['n', 'fold'], ['n', 'effect'], ['h', 'force'], ['h', 'fold']];
-  for (const p of parameters) if (firstOf(p)) moves.push([p.id, 'effect']);
+  if (!$('alias-kn').closest('label').hidden) moves.push(['kn', 'effect']);
   for (const [id, name] of moves) {
     const value = +$('alias-' + id).value;
     const move = () => trial.set('alias-' + id, value + 1, 'input');
@@ -258,30 +192,43 @@ function trySliders() {
   trial.set('alias-omega', alias.first);
 }
 
-/* Where H has lost the branch on which contacts work, the words say so; at the ends of all sliders there are words. */
+/* At every place of the sliders there are words; they explain where H has lost the branch on which contacts work, and
+ * where sampling has gained one. */
 function tryWords() {
-  const least = alias.harmonics[0];
-  trial.set('alias-h', 0, 'input');
-  alias.omega.forEach((omega, i) => {
-    trial.set('alias-omega', i);
-    const {model} = aliasShown;
-    const [few, many] = [least, 10].map(H => largestAt(model, H, omega));
-    const isLost = few && many && !few.touches && many.touches;
-    const text = $('alias-words').textContent;
-    trial.check(!isLost || /truncation, not sampling, has lost it/.test(text), 'the lost branch is explained: ' + text);
-    const gained = isLost && nextSampled(model, least, alias.samples[0], omega);
-    const said = /have gained one/.test(text);
-    trial.check(said === !!(gained && gained.touches), 'a branch that sampling gained is told: ' + text);
-  });
-  trial.set('alias-omega', alias.first);
-  trial.set('alias-h', 2, 'input');
-  for (const p of parameters)
-    for (const end of [0, positionsOf(p).length - 1]) {
-      trial.set('alias-' + p.id, end, 'input');
-      const text = $('alias-words').textContent;
-      trial.check(/^At (omega|frequency) .*: .*\.$/.test(text), p.name + ' at its end has words: ' + text);
-      $('alias-reset').click();
-    }
+  const {place} = aliasShown;
+  const inWords = /^At (omega|frequency) .*: .*\.$/;
+  alias.stiffness.forEach((_, stiffness) =>
+    alias.omega.forEach((_, omega) =>
+      alias.harmonics.forEach((_, h) => {
+        if (stiffness !== alias.the_case && omega !== alias.first) return;
+        trial.set('alias-kn', stiffness, 'input');
+        trial.set('alias-omega', omega);
+        trial.set('alias-h', h, 'input');
+        const text = $('alias-words').textContent;
+        const here = answerAt({stiffness, omega, h});
+        const isLost = here && !here.touches && touchingAbove({stiffness, omega, h}) >= 0;
+        const lost = !isLost || !alias.curves[stiffness][h].working || /truncation, not sampling, has lost/.test(text);
+        trial.check(inWords.test(text), 'there are words: ' + text);
+        trial.check(lost, 'the lost branch is explained: ' + text);
+        const gained = lost && isLost && here.sampled[+$('alias-n').value];
+        trial.check(/have gained one/.test(text) === !!(gained && gained.touches), 'a gained branch is told: ' + text);
+      })
+    )
+  );
+  trial.set('alias-omega', place.omega);
+  trial.set('alias-h', place.h, 'input');
+  $('alias-reset').click();
+  trial.check(aliasShown.place.stiffness === alias.the_case && !$('alias-omega').disabled, 'back to the case');
+}
+
+/* The force that is drawn and its harmonics belong together: their sum to harmonic 80 leaves out what a force with
+ * kinks of slope J has above, J/(80 pi) at most at each, or is off nowhere by more than a tenth of the force. */
+function trySeries() {
+  const at = aliasShown;
+  if (!at.harmonics) return;
+  const n = at.force.length - 1;
+  const off = at.force.map((f, i) => Math.abs(f - seriesAt(at.harmonics, (2 * Math.PI * i) / n)));
+  trial.check(Math.max(...off) <= 0.1 * at.scale, 'the series is the force: ' + show(Math.max(...off) / at.scale, 3));
 }
 
 /* Every response, solution and contact can be chosen; the words tell the work that the loop encloses. */
@@ -325,7 +272,7 @@ function selfTest() {
   if (alias) {
     trySliders();
     tryWords();
-    tryEvaluator();
+    trySeries();
   }
   const lines = trial.lines.concat(problems.map(p => 'ERROR: ' + p));
   return (lines.length ? lines.join('\n') + '\nselftest: FAILED' : 'selftest: ok') + ' ' + trial.checks + ' checks';

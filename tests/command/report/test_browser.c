@@ -42,6 +42,7 @@ static void every_plot_is_drawn_and_every_control_works(void **state)
     const char *scheme;
   } pages[] = {
       {"", 0, DARK},
+      {"--at 8,8.9", 0, ""}, /* H = 1 has lost the branch that touches; 16 samples have gained one */
       {"--set contacts=[]", 0, ""},
       {"--set contacts[0].gap=100", 0, ""}, /* no mean to draw, nothing to sample */
       {"--set hbm.static=false", 1, ""},
