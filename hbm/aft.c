@@ -352,3 +352,26 @@ void aft_jacobian(aft *a, double *jac)
   else differentiate_one_coordinate(a, jac);
   for (int j = 0; j < a->n_contacts; ++j) subtract_stick_intervals(a, j, jac);
 }
+
+/* ---- as one of contact_kind.h -------------------------------------------------------------------- */
+
+static hc_status make(const contact_coordinates *c, const evaluator_settings *how, void **self)
+{
+  aft *a;
+  const hc_status st = aft_new(how->n_harm, how->n_time, how->restart, c->n_dof, 1, &c->moved, &a);
+  *self = a;
+  return st;
+}
+
+static hc_status evaluate(void *self, const double *X, double *F, double *jac, contact_report *report)
+{
+  (void)jac; /* `jacobian` makes it */
+  return aft_eval(self, X, F, NULL, report);
+}
+
+static void let_go(void *self) { aft_free(self); }
+static void jacobian(void *self, double *jac) { aft_jacobian(self, jac); }
+static void sliders(const void *self, double *w) { aft_sliders(self, w); }
+
+const contact_evaluator aft_evaluator = {
+    .make = make, .free = let_go, .evaluate = evaluate, .jacobian = jacobian, .sliders = sliders};

@@ -3,9 +3,7 @@
 #define HC_AFT_H
 
 #include "base/status.h"
-#include "hbm/contact_report.h"
-#include "hbm/hbm_settings.h"
-#include "model/moving_contact.h"
+#include "hbm/contact_kind.h"
 
 typedef struct aft aft;
 
@@ -30,5 +28,7 @@ void aft_jacobian(aft *a, double *jac);
 
 /* w[n_contacts] [length]: each contact's slider at th = 0 in the last evaluation, which ended with HC_OK. */
 void aft_sliders(const aft *a, double *w);
+
+extern const contact_evaluator aft_evaluator; /* of one contact with one tangent */
 
 #endif

@@ -276,3 +276,26 @@ hc_status circle_aft_eval(circle_aft *a, const double *X, double *F, contact_rep
 }
 
 void circle_aft_slider(const circle_aft *a, double w[2]) { memcpy(w, a->first, sizeof a->first); }
+
+/* ---- as one of contact_kind.h -------------------------------------------------------------------- */
+
+static hc_status make(const contact_coordinates *c, const evaluator_settings *how, void **self)
+{
+  circle_aft *a;
+  const hc_status st = circle_aft_new(how->n_harm, how->n_time, how->restart, c->n_dof, &c->moved.law, &a);
+  *self = a;
+  return st;
+}
+
+static hc_status evaluate(void *self, const double *X, double *F, double *jac, contact_report *report)
+{
+  (void)jac; /* `jacobian` makes it */
+  return circle_aft_eval(self, X, F, report);
+}
+
+static void let_go(void *self) { circle_aft_free(self); }
+static void jacobian(void *self, double *jac) { circle_aft_jacobian(self, jac); }
+static void sliders(const void *self, double *w) { circle_aft_slider(self, w); }
+
+const contact_evaluator circle_aft_evaluator = {
+    .make = make, .free = let_go, .evaluate = evaluate, .jacobian = jacobian, .sliders = sliders};

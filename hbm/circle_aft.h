@@ -4,7 +4,7 @@
 #define HC_HBM_CIRCLE_AFT_H
 
 #include "base/status.h"
-#include "hbm/contact_report.h"
+#include "hbm/contact_kind.h"
 #include "hbm/hbm_settings.h"
 #include "model/contact_law.h"
 
@@ -31,5 +31,7 @@ void circle_aft_jacobian(circle_aft *a, double *jac);
 
 /* w[2] [length]: the slider at th = 0 in the last evaluation, which ended with HC_OK. */
 void circle_aft_slider(const circle_aft *a, double w[2]);
+
+extern const contact_evaluator circle_aft_evaluator;
 
 #endif

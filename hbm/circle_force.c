@@ -43,12 +43,13 @@ static hc_status make_room(circle_force *f)
   c->piece = calloc((size_t)c->cap, sizeof *c->piece);
   c->slip.panel = calloc((size_t)c->slip.cap, sizeof *c->slip.panel);
   f->contact = calloc((size_t)c->cap, sizeof *f->contact);
+  f->intervals = calloc((size_t)c->cap, sizeof *f->intervals);
   f->indicator = room(symbol), f->symbol = room(symbol), f->weight = room(2 * (size_t)f->n_harm + 1);
   f->X = room((size_t)f->n_size), f->F = room(2 * L), f->by = room(2 * L * col);
   f->dw[0] = room(col), f->dw[1] = room(col), f->dphi = room(col);
   f->matrix = room(L * L), f->table = room((size_t)series_grid_table_length(f->n_harm));
   f->node = room(3 * N * col), f->base = room(N * (size_t)f->n_base), f->rate = room(N * (size_t)f->n_base);
-  const bool found = c->piece && c->slip.panel && f->contact && f->indicator && f->symbol && f->weight;
+  const bool found = c->piece && c->slip.panel && f->contact && f->intervals && f->indicator && f->symbol && f->weight;
   return found && f->X && f->F && f->matrix && f->table && f->by && f->dw[0] && f->dw[1] && f->dphi && f->node &&
                  f->base && f->rate
              ? HC_OK
@@ -97,6 +98,7 @@ void circle_force_free(circle_force *f)
                            f->base, f->rate,     f->matrix,     f->table};
   for (size_t i = 0; i < sizeof rooms / sizeof *rooms; ++i) free(rooms[i]);
   free(f->contact);
+  free(f->intervals);
   free(f->cycle.piece);
   free(f->cycle.slip.panel);
   free(f);
@@ -329,3 +331,47 @@ hc_status circle_force_eval(circle_force *f, const double *X, double *F, double 
 void circle_force_slider(const circle_force *f, double w[2]) { circle_cycle_slider(&f->cycle, w); }
 
 const circle_cycle *circle_force_cycle(const circle_force *f) { return &f->cycle; }
+
+/* ---- as one of contact_kind.h -------------------------------------------------------------------- */
+
+static hc_status make(const contact_coordinates *c, const evaluator_settings *how, void **self)
+{
+  circle_force *f;
+  const hc_status st = circle_force_new(how->n_harm, c->n_dof, &c->moved.law, &f);
+  *self = f;
+  return st;
+}
+
+/* An interval of stick whose slider comes to rest at no angle: circle_monodromy.c moves it. */
+static void fill_intervals(circle_force *f)
+{
+  for (int i = 0; i < f->cycle.n; ++i) {
+    const circle_piece *p = &f->cycle.piece[i];
+    f->intervals[i] = (contact_piece){.from = p->from, .to = p->to, .state = p->state, .origin = -1};
+  }
+}
+
+static hc_status evaluate(void *self, const double *X, double *F, double *jac, contact_report *report)
+{
+  const hc_status st = circle_force_eval(self, X, F, jac, report);
+  if (st == HC_OK) fill_intervals(self);
+  return st;
+}
+
+static const contact_piece *intervals(const void *self, int *n)
+{
+  const circle_force *f = self;
+  *n = f->cycle.n;
+  return f->intervals;
+}
+
+static void let_go(void *self) { circle_force_free(self); }
+static void sliders(const void *self, double *w) { circle_force_slider(self, w); }
+static const circle_cycle *planar_slip(const void *self) { return circle_force_cycle(self); }
+
+const contact_evaluator circle_force_evaluator = {.make = make,
+                                                  .free = let_go,
+                                                  .evaluate = evaluate,
+                                                  .sliders = sliders,
+                                                  .intervals = intervals,
+                                                  .planar_slip = planar_slip};

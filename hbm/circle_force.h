@@ -14,7 +14,7 @@
 #define HC_HBM_CIRCLE_FORCE_H
 
 #include "hbm/circle_cycle.h"
-#include "hbm/contact_report.h"
+#include "hbm/contact_kind.h"
 
 typedef struct circle_force circle_force;
 
@@ -38,5 +38,7 @@ void circle_force_slider(const circle_force *f, double w[2]);
  * pieces begin with: touch-down d w = d u - (dR/R') u' where it sticks, d phi = (du'.e_perp - phi' dR)/|u'| where it
  * slips; stick to slip d phi = (du - dw).e_perp/R; slip to stick d w = du - dR e - R e_perp d phi; d at fixed th. */
 const circle_cycle *circle_force_cycle(const circle_force *f);
+
+extern const contact_evaluator circle_force_evaluator;
 
 #endif

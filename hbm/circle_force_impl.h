@@ -20,6 +20,7 @@ struct circle_force {
   collocation rule;
   circle_contact *contact; /* [cap] */
   circle_cycle cycle;
+  contact_piece *intervals;            /* [cycle.cap] its pieces, for contact_kind.h */
   double *indicator, *symbol, *weight; /* [4H+1] of a piece, of all stick pieces; [2H+1] */
   double *F;                           /* [2][n_coef] [length] of T/kt */
   double *by;                          /* [2][n_coef][n_col] its derivatives */

@@ -4,42 +4,34 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "hbm/circle_aft.h"
-#include "hbm/circle_force.h"
 #include "numerics/dense.h"
 #include "numerics/series.h"
 
-/* A motion u or v as a combination of few coordinates. */
+/* One of a contact's coordinates as a combination of few of q. */
 typedef struct combination {
   int n, *coordinate; /* [n] */
   double *weight;     /* [n] */
 } combination;
 
-enum { GROUP_MAX_DOF = 3 };
-
-/* Contacts that one evaluator takes together: one, in its u and v or in the one of them that it has; the two of a
- * circle, in u_1, u_2 and v if it has one; or all of an oscillator's. */
-typedef struct group {
-  int first;                     /* the model's contact, or the first of them */
-  int n_dof;                     /* 1..GROUP_MAX_DOF */
-  combination of[GROUP_MAX_DOF]; /* [n_dof] of an oscillator empty: its coordinate is q */
-  bool across_only;              /* the one coordinate is v */
-  exact_force *located;
-  aft *sampled;
-  circle_force *circle_located;
-  circle_aft *circle_sampled; /* one of the four */
-  double *jac;                /* [n_dof (2H+1)]^2 */
+/* A contact, or the two halves of one with two tangents under one limit. */
+typedef struct member {
+  int first, contacts; /* the model's contact, or the first of them; how many */
+  int n_dof;
+  combination of[EVALUATOR_MOST_DOF]; /* [n_dof] */
+  double cu[SERIES_MAX_DIM], cv[SERIES_MAX_DIM];
+  const contact_evaluator *by;
+  void *evaluator;
+  double *jac; /* [n_dof (2H+1)]^2 */
   bool differentiated;
-} group;
+} member;
 
 struct contact_forces {
-  int dim, length /* 2H+1 */, n_contacts, n_groups;
-  bool oscillator;    /* group 0 has all contacts, in q itself */
-  group *groups;      /* [n_groups] */
-  int *group_of;      /* [n_contacts] */
-  double *x, *f;      /* [GROUP_MAX_DOF (2H+1)] of one group */
-  double *jac;        /* [dim (2H+1)]^2 once it has been asked for; NULL of an oscillator, whose group's it is */
-  int n_rows;         /* coordinates of all groups */
+  int dim, length /* 2H+1 */, n_members;
+  member *members;    /* [n_members] */
+  int *member_of;     /* [contacts] */
+  double *x, *f;      /* [EVALUATOR_MOST_DOF (2H+1)] of one member */
+  double *jac;        /* [dim (2H+1)]^2 */
+  int n_rows;         /* coordinates of all members */
   double *directions; /* [n_rows][dim] these in q, by columns; NULL where scattering is the faster way */
   double *product;    /* [dim][2H+1][n_rows] of the Jacobian, with `directions` */
   bool assembled;
@@ -47,7 +39,7 @@ struct contact_forces {
 
 /* ---- made and freed ---------------------------------------------------------------------------- */
 
-static hc_status combine(int dim, const double *direction, combination *out)
+static hc_status combine(int dim, const double *direction, double divisor, combination *out)
 {
   out->coordinate = calloc((size_t)dim, sizeof *out->coordinate);
   out->weight = calloc((size_t)dim, sizeof *out->weight);
@@ -55,110 +47,52 @@ static hc_status combine(int dim, const double *direction, combination *out)
   for (int d = 0; d < dim; ++d) {
     if (direction[d] == 0) continue;
     out->coordinate[out->n] = d;
-    out->weight[out->n++] = direction[d];
+    out->weight[out->n++] = direction[d] / divisor;
   }
   return HC_OK;
 }
 
-typedef struct evaluator_kind {
-  hbm_force force;
-  hbm_restart restart;
-  int n_harm, n_time;
-} evaluator_kind;
-
-static hc_status make_jacobian(const evaluator_kind *kind, group *g)
+static hc_status make_member(const placed_contact *c, int dim, hbm_force force, const evaluator_settings *how,
+                             member *m)
 {
-  const size_t length = (size_t)g->n_dof * (size_t)series_length(kind->n_harm);
-  g->jac = calloc(length * length, sizeof *g->jac);
-  return g->jac ? HC_OK : HC_NO_MEMORY;
+  const contact_kind *kind = contact_kind_of(c);
+  contact_coordinates x;
+  kind->coordinates(c, dim, &x);
+  m->contacts = kind->contacts;
+  m->n_dof = x.n_dof;
+  m->by = force == HBM_FORCE_SAMPLED ? kind->sampled : kind->exact;
+  memcpy(m->cu, x.moved.cu, sizeof m->cu);
+  memcpy(m->cv, x.moved.cv, sizeof m->cv);
+  for (int d = 0; d < x.n_dof; ++d) {
+    const hc_status st = combine(dim, x.direction[d], x.divisor[d], &m->of[d]);
+    if (st != HC_OK) return st;
+  }
+  const size_t length = (size_t)m->n_dof * (size_t)series_length(how->n_harm);
+  m->jac = calloc(length * length, sizeof *m->jac);
+  return m->jac ? m->by->make(&x, how, &m->evaluator) : HC_NO_MEMORY;
 }
 
-static hc_status make_evaluator(const evaluator_kind *kind, int n_contacts, const moving_contact *contacts, group *g)
-{
-  const hc_status st = make_jacobian(kind, g);
-  if (st != HC_OK) return st;
-  if (kind->force == HBM_FORCE_SAMPLED)
-    return aft_new(kind->n_harm, kind->n_time, kind->restart, g->n_dof, n_contacts, contacts, &g->sampled);
-  return exact_force_new(kind->n_harm, g->n_dof, n_contacts, contacts, &g->located);
-}
-
-static hc_status make_oscillator(const model *m, const evaluator_kind *kind, group *g)
-{
-  moving_contact *contacts;
-  g->n_dof = 1;
-  hc_status st = moving_contacts_of_model(m, &contacts);
-  if (st == HC_OK) st = make_evaluator(kind, m->n_contacts, contacts, g);
-  free(contacts);
-  return st;
-}
-
-static bool is_zero(int n, const double *direction)
-{
-  for (int d = 0; d < n; ++d)
-    if (direction[d] != 0) return false;
-  return true;
-}
-
-static hc_status make_group(const contact *law, int dim, const double *tangent, const double *normal,
-                            const evaluator_kind *kind, group *g)
-{
-  const bool along = contact_has_friction(law) && !is_zero(dim, tangent), across = !is_zero(dim, normal);
-  moving_contact c = {.law = *law};
-  hc_status st = HC_OK;
-  if (along) c.cu[g->n_dof] = 1, st = combine(dim, tangent, &g->of[g->n_dof++]);
-  if (across && st == HC_OK) c.cv[g->n_dof] = 1, st = combine(dim, normal, &g->of[g->n_dof++]);
-  g->across_only = !along;
-  if (g->n_dof == 0) g->n_dof = 1; /* nothing moves it: it does nothing */
-  return st == HC_OK ? make_evaluator(kind, 1, &c, g) : st;
-}
-
-/* Of the contacts g->first and the next one. */
-static hc_status make_circle(const contact *law, const condensation *c, const evaluator_kind *kind, group *g)
-{
-  const int dim = condensation_dim(c);
-  const double *direction[GROUP_MAX_DOF] = {condensation_tangent(c, g->first), condensation_tangent(c, g->first + 1),
-                                            condensation_normal(c, g->first)};
-  hc_status st = HC_OK;
-  const int n_dof = g->n_dof = is_zero(dim, direction[2]) ? 2 : 3;
-  for (int d = 0; d < n_dof && st == HC_OK; ++d) st = combine(dim, direction[d], &g->of[d]);
-  if (st == HC_OK) st = make_jacobian(kind, g);
-  if (st != HC_OK) return st;
-  if (kind->force != HBM_FORCE_SAMPLED) return circle_force_new(kind->n_harm, g->n_dof, law, &g->circle_located);
-  return circle_aft_new(kind->n_harm, kind->n_time, kind->restart, g->n_dof, law, &g->circle_sampled);
-}
-
-/* Do contact j and the next one share a limit? Without friction they have none, and each is a spring. */
-static bool is_circle(const model_contact *c)
-{
-  return c->circle && c->pair == CONTACT_FIRST && contact_has_friction(&c->law);
-}
-
-static hc_status make_groups(const model *m, const condensation *c, const evaluator_kind *kind, contact_forces *f)
+static hc_status make_members(int n, const placed_contact *contacts, hbm_force force, const evaluator_settings *how,
+                              contact_forces *f)
 {
   hc_status st = HC_OK;
-  f->n_groups = f->oscillator ? 1 : 0;
-  if (f->oscillator) return make_oscillator(m, kind, &f->groups[0]);
-  for (int j = 0; j < m->n_contacts && st == HC_OK; ++j) {
-    const contact *law = &m->contacts[j].law;
-    group *g = &f->groups[f->n_groups];
-    g->first = j;
-    f->group_of[j] = f->n_groups++;
-    if (is_circle(&m->contacts[j])) {
-      st = make_circle(law, c, kind, g);
-      f->group_of[++j] = f->n_groups - 1;
-    } else st = make_group(law, f->dim, condensation_tangent(c, j), condensation_normal(c, j), kind, g);
+  for (int j = 0; j < n && st == HC_OK; ++f->n_members) {
+    member *m = &f->members[f->n_members];
+    m->first = j;
+    st = make_member(&contacts[j], f->dim, force, how, m);
+    for (int k = 0; k < m->contacts; ++k) f->member_of[j++] = f->n_members;
   }
   return st;
 }
 
-/* Does the Jacobian cost less as a product of matrices than scattered group by group? That takes some ten times as long
+/* Does the Jacobian cost less as a product of matrices than scattered member by member? That takes some ten times as long
  * an operation. */
 static bool product_pays(const contact_forces *f)
 {
   double scattered = 0;
-  for (int j = 0; j < f->n_groups; ++j) {
+  for (int j = 0; j < f->n_members; ++j) {
     double entries = 0;
-    for (int d = 0; d < f->groups[j].n_dof; ++d) entries += f->groups[j].of[d].n;
+    for (int d = 0; d < f->members[j].n_dof; ++d) entries += f->members[j].of[d].n;
     scattered += entries * entries;
   }
   return 10 * scattered > (double)f->dim * f->dim * f->n_rows;
@@ -167,63 +101,74 @@ static bool product_pays(const contact_forces *f)
 static hc_status make_product(contact_forces *f)
 {
   enum { FEW = 8 }; /* coordinates: everything is small */
-  for (int j = 0; j < f->n_groups; ++j) f->n_rows += f->groups[j].n_dof;
-  if (f->oscillator || f->dim < FEW || f->n_rows == 0 || !product_pays(f)) return HC_OK;
+  for (int j = 0; j < f->n_members; ++j) f->n_rows += f->members[j].n_dof;
+  if (f->dim < FEW || f->n_rows == 0 || !product_pays(f)) return HC_OK;
   const size_t dim = (size_t)f->dim, rows = (size_t)f->n_rows;
   f->directions = calloc(dim * rows, sizeof *f->directions);
   f->product = calloc(dim * rows * (size_t)f->length, sizeof *f->product);
   if (!f->directions || !f->product) return HC_NO_MEMORY;
   double *row = f->directions;
-  for (int j = 0; j < f->n_groups; ++j)
-    for (int d = 0; d < f->groups[j].n_dof; ++d, row += dim) {
-      const combination *of = &f->groups[j].of[d];
+  for (int j = 0; j < f->n_members; ++j)
+    for (int d = 0; d < f->members[j].n_dof; ++d, row += dim) {
+      const combination *of = &f->members[j].of[d];
       for (int k = 0; k < of->n; ++k) row[of->coordinate[k]] = of->weight[k];
     }
   return HC_OK;
 }
 
-hc_status contact_forces_new(const model *m, const condensation *c, hbm_force force, hbm_restart restart, int n_harm,
-                             int n_time, contact_forces **out)
+hc_status contact_forces_new_of(int dim, int n, const placed_contact *contacts, hbm_force force,
+                                const evaluator_settings *how, contact_forces **out)
 {
-  const evaluator_kind kind = {force, restart, n_harm, n_time};
   contact_forces *f = calloc(1, sizeof *f);
   *out = NULL;
   if (!f) return HC_NO_MEMORY;
-  f->dim = condensation_dim(c);
-  f->length = series_length(n_harm);
-  f->n_contacts = m->n_contacts;
-  f->oscillator = m->n == 1;
-  f->groups = calloc((size_t)m->n_contacts + 1, sizeof *f->groups);
-  f->group_of = calloc((size_t)m->n_contacts + 1, sizeof *f->group_of);
-  f->x = calloc(GROUP_MAX_DOF * (size_t)f->length, sizeof *f->x);
-  f->f = calloc(GROUP_MAX_DOF * (size_t)f->length, sizeof *f->f);
-  const size_t n = (size_t)f->dim * (size_t)f->length;
-  if (!f->oscillator) f->jac = calloc(n * n, sizeof *f->jac);
-  const bool room = f->groups && f->group_of && f->x && f->f && (f->jac || f->oscillator);
-  hc_status st = room ? make_groups(m, c, &kind, f) : HC_NO_MEMORY;
+  f->dim = dim;
+  f->length = series_length(how->n_harm);
+  const size_t unknowns = (size_t)dim * (size_t)f->length, most = EVALUATOR_MOST_DOF * (size_t)f->length;
+  f->members = calloc((size_t)n + 1, sizeof *f->members);
+  f->member_of = calloc((size_t)n + 1, sizeof *f->member_of);
+  f->x = calloc(most, sizeof *f->x);
+  f->f = calloc(most, sizeof *f->f);
+  f->jac = calloc(unknowns * unknowns, sizeof *f->jac);
+  const bool allocated = f->members && f->member_of && f->x && f->f && f->jac;
+  hc_status st = allocated ? make_members(n, contacts, force, how, f) : HC_NO_MEMORY;
   if (st == HC_OK) st = make_product(f);
   if (st == HC_OK) *out = f;
   else contact_forces_free(f);
   return st;
 }
 
+hc_status contact_forces_new(const model *m, const condensation *c, hbm_force force, const evaluator_settings *how,
+                             contact_forces **out)
+{
+  placed_contact *placed = calloc((size_t)m->n_contacts + 1, sizeof *placed);
+  *out = NULL;
+  if (!placed) return HC_NO_MEMORY;
+  for (int j = 0; j < m->n_contacts; ++j) {
+    placed[j] = placed_contact_of(m, j);
+    placed[j].tangent = condensation_tangent(c, j);
+    placed[j].normal = condensation_normal(c, j);
+    if (placed[j].planar) placed[j].tangent_2 = condensation_tangent(c, j + 1);
+  }
+  const hc_status st = contact_forces_new_of(condensation_dim(c), m->n_contacts, placed, force, how, out);
+  free(placed);
+  return st;
+}
+
 void contact_forces_free(contact_forces *f)
 {
   if (!f) return;
-  for (int j = 0; j < f->n_groups && f->groups; ++j) {
-    group *g = &f->groups[j];
-    exact_force_free(g->located);
-    aft_free(g->sampled);
-    circle_force_free(g->circle_located);
-    circle_aft_free(g->circle_sampled);
-    free(g->jac);
-    for (int d = 0; d < GROUP_MAX_DOF; ++d) {
-      free(g->of[d].coordinate);
-      free(g->of[d].weight);
+  for (int j = 0; j < f->n_members && f->members; ++j) {
+    member *m = &f->members[j];
+    m->by->free(m->evaluator);
+    free(m->jac);
+    for (int d = 0; d < EVALUATOR_MOST_DOF; ++d) {
+      free(m->of[d].coordinate);
+      free(m->of[d].weight);
     }
   }
-  free(f->groups);
-  free(f->group_of);
+  free(f->members);
+  free(f->member_of);
   free(f->x);
   free(f->f);
   free(f->jac);
@@ -233,14 +178,6 @@ void contact_forces_free(contact_forces *f)
 }
 
 /* ---- force ------------------------------------------------------------------------------------ */
-
-static hc_status evaluate(group *g, const double *x, double *F, contact_report *report)
-{
-  g->differentiated = g->located || g->circle_located; /* of sampled forces it is made when it is asked for first */
-  if (g->located) return exact_force_eval(g->located, x, F, g->jac, report);
-  if (g->circle_located) return circle_force_eval(g->circle_located, x, F, g->jac, report);
-  return g->sampled ? aft_eval(g->sampled, x, F, NULL, report) : circle_aft_eval(g->circle_sampled, x, F, report);
-}
 
 /* x[c] = sum of the coordinates' coefficients c. */
 static void gather(const contact_forces *f, const combination *of, const double *X, double *x)
@@ -268,72 +205,75 @@ static void add_report(contact_report *sum, const contact_report *one)
   sum->free_sliders += one->free_sliders;
 }
 
-hc_status contact_forces_eval(contact_forces *f, const double *X, double *F, contact_report *report)
+static hc_status evaluate(contact_forces *f, const double *X, double *F, bool derive, contact_report *report)
 {
-  if (f->oscillator) return evaluate(&f->groups[0], X, F, report);
   hc_status st = HC_OK;
   f->assembled = false;
   *report = (contact_report){.regime = CONTACT_LINEAR};
   memset(F, 0, (size_t)f->dim * (size_t)f->length * sizeof *F);
-  for (int j = 0; j < f->n_groups && st == HC_OK; ++j) {
-    group *g = &f->groups[j];
+  for (int j = 0; j < f->n_members && st == HC_OK; ++j) {
+    member *m = &f->members[j];
     contact_report own;
-    for (int d = 0; d < g->n_dof; ++d) gather(f, &g->of[d], X, f->x + d * f->length);
-    st = evaluate(g, f->x, f->f, &own);
-    for (int d = 0; d < g->n_dof && st == HC_OK; ++d) scatter(f, &g->of[d], f->f + d * f->length, F);
+    for (int d = 0; d < m->n_dof; ++d) gather(f, &m->of[d], X, f->x + d * f->length);
+    st = m->by->evaluate(m->evaluator, f->x, f->f, derive ? m->jac : NULL, &own);
+    m->differentiated = derive && !m->by->jacobian;
+    for (int d = 0; d < m->n_dof && st == HC_OK; ++d) scatter(f, &m->of[d], f->f + d * f->length, F);
     if (st == HC_OK) add_report(report, &own);
   }
   return st;
 }
 
-/* ---- Jacobian ---------------------------------------------------------------------------------- */
-
-static void differentiate(group *g)
+hc_status contact_forces_eval(contact_forces *f, const double *X, double *F, contact_report *report)
 {
-  if (g->differentiated) return;
-  if (g->sampled) aft_jacobian(g->sampled, g->jac);
-  else circle_aft_jacobian(g->circle_sampled, g->jac);
-  g->differentiated = true;
+  return evaluate(f, X, F, true, report);
 }
 
-/* One block of a group's Jacobian, from coordinate e of it to coordinate d. */
-static void scatter_block(contact_forces *f, const group *g, int d, int e)
+hc_status contact_forces_only(contact_forces *f, const double *X, double *F)
 {
-  const size_t length = (size_t)f->length, dim = (size_t)f->dim, rows = (size_t)g->n_dof * length, ld = dim * length;
-  const combination *to = &g->of[d], *from = &g->of[e];
+  contact_report report;
+  return evaluate(f, X, F, false, &report);
+}
+
+/* ---- Jacobian ---------------------------------------------------------------------------------- */
+
+/* One block of a member's Jacobian, from coordinate e of it to coordinate d. */
+static void scatter_block(contact_forces *f, const member *m, int d, int e)
+{
+  const size_t length = (size_t)f->length, dim = (size_t)f->dim, rows = (size_t)m->n_dof * length, ld = dim * length;
+  const combination *to = &m->of[d], *from = &m->of[e];
   for (int k = 0; k < from->n; ++k)
     for (int i = 0; i < to->n; ++i) {
       const double weight = to->weight[i] * from->weight[k];
       for (size_t q = 0; q < length; ++q) {
-        const double *column = g->jac + ((size_t)e * length + q) * rows + (size_t)d * length;
+        const double *column = m->jac + ((size_t)e * length + q) * rows + (size_t)d * length;
         double *out = f->jac + (q * dim + (size_t)from->coordinate[k]) * ld + (size_t)to->coordinate[i];
         for (size_t p = 0; p < length; ++p) out[p * dim] += weight * column[p];
       }
     }
 }
 
-static void scatter_groups(contact_forces *f)
+static void scatter_members(contact_forces *f)
 {
   const size_t n = (size_t)f->dim * (size_t)f->length;
   memset(f->jac, 0, n * n * sizeof *f->jac);
-  for (int j = 0; j < f->n_groups; ++j)
-    for (int d = 0; d < f->groups[j].n_dof; ++d)
-      for (int e = 0; e < f->groups[j].n_dof; ++e) scatter_block(f, &f->groups[j], d, e);
+  for (int j = 0; j < f->n_members; ++j)
+    for (int d = 0; d < f->members[j].n_dof; ++d)
+      for (int e = 0; e < f->members[j].n_dof; ++e) scatter_block(f, &f->members[j], d, e);
 }
 
-/* Of one coefficient q of the motion: d(forces of all groups)/dX, product[dim][length][n_rows]. */
+/* Of one coefficient q of the motion: d(forces of all members)/dX, product[dim][length][n_rows]. */
 static void differentiate_forces(contact_forces *f, size_t q)
 {
   const size_t length = (size_t)f->length, rows = (size_t)f->n_rows;
   memset(f->product, 0, (size_t)f->dim * length * rows * sizeof *f->product);
   size_t first = 0;
-  for (int j = 0; j < f->n_groups; ++j) {
-    const group *g = &f->groups[j];
-    const size_t n_dof = (size_t)g->n_dof;
+  for (int j = 0; j < f->n_members; ++j) {
+    const member *m = &f->members[j];
+    const size_t n_dof = (size_t)m->n_dof;
     for (size_t e = 0; e < n_dof; ++e)
-      for (int k = 0; k < g->of[e].n; ++k) {
-        const double weight = g->of[e].weight[k], *column = g->jac + (e * length + q) * n_dof * length;
-        double *out = f->product + (size_t)g->of[e].coordinate[k] * length * rows + first;
+      for (int k = 0; k < m->of[e].n; ++k) {
+        const double weight = m->of[e].weight[k], *column = m->jac + (e * length + q) * n_dof * length;
+        double *out = f->product + (size_t)m->of[e].coordinate[k] * length * rows + first;
         for (size_t p = 0; p < length; ++p)
           for (size_t d = 0; d < n_dof; ++d) out[p * rows + d] += weight * column[d * length + p];
       }
@@ -342,7 +282,7 @@ static void differentiate_forces(contact_forces *f, size_t q)
 }
 
 /* Where directions have most of the coordinates in them: B^T (J B), block by block. */
-static void multiply_groups(contact_forces *f)
+static void multiply_members(contact_forces *f)
 {
   const size_t n = (size_t)f->dim * (size_t)f->length;
   for (int q = 0; q < f->length; ++q) {
@@ -354,12 +294,14 @@ static void multiply_groups(contact_forces *f)
 
 const double *contact_forces_jacobian(contact_forces *f)
 {
-  if (f->oscillator) differentiate(&f->groups[0]);
-  if (f->oscillator) return f->groups[0].jac;
   if (f->assembled) return f->jac;
-  for (int j = 0; j < f->n_groups; ++j) differentiate(&f->groups[j]);
-  if (f->product) multiply_groups(f);
-  else scatter_groups(f);
+  for (int j = 0; j < f->n_members; ++j) {
+    member *m = &f->members[j];
+    if (!m->differentiated) m->by->jacobian(m->evaluator, m->jac);
+    m->differentiated = true;
+  }
+  if (f->product) multiply_members(f);
+  else scatter_members(f);
   f->assembled = true;
   return f->jac;
 }
@@ -368,29 +310,31 @@ const double *contact_forces_jacobian(contact_forces *f)
 
 void contact_forces_sliders(const contact_forces *f, double *w)
 {
-  for (int j = 0; j < f->n_groups; ++j) {
-    const group *g = &f->groups[j];
-    if (g->located) exact_force_sliders(g->located, w + g->first);
-    else if (g->sampled) aft_sliders(g->sampled, w + g->first);
-    else if (g->circle_located) circle_force_slider(g->circle_located, w + g->first);
-    else circle_aft_slider(g->circle_sampled, w + g->first);
-  }
+  for (int j = 0; j < f->n_members; ++j) f->members[j].by->sliders(f->members[j].evaluator, w + f->members[j].first);
 }
+
+static const member *member_of(const contact_forces *f, int j) { return &f->members[f->member_of[j]]; }
 
 const contact_piece *contact_forces_pieces(const contact_forces *f, int j, int *n)
 {
-  return exact_force_pieces(f->groups[f->group_of[j]].located, f->oscillator ? j : 0, n);
+  const member *m = member_of(f, j);
+  *n = 0;
+  return m->first == j ? m->by->intervals(m->evaluator, n) : NULL;
 }
 
 const circle_cycle *contact_forces_circle(const contact_forces *f, int j)
 {
-  const group *g = &f->groups[f->group_of[j]];
-  return g->circle_located ? circle_force_cycle(g->circle_located) : NULL;
+  const member *m = member_of(f, j);
+  return m->first == j && m->by->planar_slip ? m->by->planar_slip(m->evaluator) : NULL;
 }
 
+/* Of one coordinate both u and v may be multiples: d held/du is that by the coordinate over du/dx. */
 void contact_forces_held_by(const contact_forces *f, int j, const contact_piece *p, double by[2])
 {
-  const group *g = &f->groups[f->group_of[j]];
-  by[0] = g->across_only && !f->oscillator ? 0 : p->held_by_x[0];
-  by[1] = g->n_dof > 1 ? p->held_by_x[1] : g->across_only && !f->oscillator ? p->held_by_x[0] : 0;
+  const member *m = member_of(f, j);
+  by[0] = by[1] = 0;
+  for (int d = 0; d < m->n_dof && d < SERIES_MAX_DIM; ++d) {
+    if (m->cu[d] != 0) by[0] += p->held_by_x[d] / m->cu[d];
+    else if (m->cv[d] != 0) by[1] += p->held_by_x[d] / m->cv[d];
+  }
 }

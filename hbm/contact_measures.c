@@ -5,8 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "hbm/circle_measures.h"
-#include "hbm/hbm_solver_impl.h"
 #include "hbm/transitions.h"
 #include "numerics/crossing.h"
 #include "numerics/gauss.h"
@@ -119,33 +117,5 @@ hc_status contact_measures_of(const contact *law, int n_harm, const double *u, c
     }
   }
   close_motion(&m);
-  return st;
-}
-
-/* x[c] = direction . coefficient c of the coordinates. */
-static void along(const hbm_system *sys, const double *X, const double *direction, double *x)
-{
-  for (int c = 0; c < series_length(sys->n_harm); ++c) {
-    x[c] = 0;
-    for (int d = 0; d < sys->dim; ++d) x[c] += direction[d] * X[c * sys->dim + d];
-  }
-}
-
-hc_status hbm_measure_contacts(hbm_solver *s, const double *X, contact_period *out)
-{
-  const hbm_system *sys = &s->sys;
-  double u[2][2 * HBM_MAX_HARMONICS + 1], v[2 * HBM_MAX_HARMONICS + 1];
-  hc_status st = HC_OK;
-  for (int j = 0; j < s->model->n_contacts && st == HC_OK; ++j) {
-    const model_contact *c = &s->model->contacts[j];
-    along(sys, X, condensation_tangent(sys->linear, j), u[0]);
-    along(sys, X, condensation_normal(sys->linear, j), v);
-    if (c->circle && c->pair == CONTACT_FIRST && contact_has_friction(&c->law)) {
-      along(sys, X, condensation_tangent(sys->linear, j + 1), u[1]);
-      st = circle_measures_of(&c->law, sys->n_harm, u[0], u[1], v, &out[j]);
-      ++j;
-    } else st = contact_measures_of(&c->law, sys->n_harm, u[0], v, &out[j]);
-  }
-  if (st == HC_OK) contact_periods_merge(s->model, out);
   return st;
 }

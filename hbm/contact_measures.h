@@ -1,5 +1,4 @@
-/* contact_measures.h - what the exact contact law does along a periodic motion of one contact, or of every contact of a
- * solution: extrema of its forces, slip path, and dissipated work (model/contact_period.h).
+/* contact_measures.h - what the exact contact law does along a periodic motion of one contact: extrema of its forces, slip path, and dissipated work (model/contact_period.h).
  *
  *     work = closed integral T du = sum over slip pieces of integral mu N |dw|,   w = u - s mu N/kt
  *
@@ -11,15 +10,11 @@
 #define HC_CONTACT_MEASURES_H
 
 #include "base/status.h"
-#include "hbm/hbm_solver.h"
+#include "hbm/hbm_settings.h"
 #include "model/contact_period.h"
 
 /* Of the motion u[2 n_harm + 1], v[2 n_harm + 1] [length] (numerics/series.h), n_harm >= 1; where the history decides,
  * the slider starts from w = 0. HC_BAD_INPUT, HC_NO_MEMORY, HC_NOT_FINITE, and the errors of transitions_find. */
 hc_status contact_measures_of(const contact *law, int n_harm, const double *u, const double *v, contact_period *out);
-
-/* out[hbm_n_contacts]: of the solution X, every contact by the exact law, also where the equations sample it, those of
- * the case first (contact_periods_merge). Errors as above. */
-hc_status hbm_measure_contacts(hbm_solver *s, const double *X, contact_period *out);
 
 #endif

@@ -279,3 +279,25 @@ const contact_piece *exact_force_pieces(const exact_force *e, int j, int *n)
   *n = e->n_pieces[j];
   return e->pieces + (size_t)j * e->cap;
 }
+
+/* ---- as one of contact_kind.h -------------------------------------------------------------------- */
+
+static hc_status make(const contact_coordinates *c, const evaluator_settings *how, void **self)
+{
+  exact_force *e;
+  const hc_status st = exact_force_new(how->n_harm, c->n_dof, 1, &c->moved, &e);
+  *self = e;
+  return st;
+}
+
+static hc_status evaluate(void *self, const double *X, double *F, double *jac, contact_report *report)
+{
+  return exact_force_eval(self, X, F, jac, report);
+}
+
+static void let_go(void *self) { exact_force_free(self); }
+static void sliders(const void *self, double *w) { exact_force_sliders(self, w); }
+static const contact_piece *intervals(const void *self, int *n) { return exact_force_pieces(self, 0, n); }
+
+const contact_evaluator exact_force_evaluator = {
+    .make = make, .free = let_go, .evaluate = evaluate, .sliders = sliders, .intervals = intervals};

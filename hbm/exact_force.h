@@ -5,8 +5,7 @@
 #ifndef HC_EXACT_FORCE_H
 #define HC_EXACT_FORCE_H
 
-#include "hbm/contact_report.h"
-#include "hbm/transitions.h"
+#include "hbm/contact_kind.h"
 
 typedef struct exact_force exact_force;
 
@@ -27,5 +26,7 @@ void exact_force_sliders(const exact_force *e, double *w);
 
 /* The pieces of contact j found by the last evaluation. */
 const contact_piece *exact_force_pieces(const exact_force *e, int j, int *n);
+
+extern const contact_evaluator exact_force_evaluator; /* of one contact with one tangent */
 
 #endif

@@ -1,12 +1,9 @@
 /* given_motion.c - see given_motion.h. */
 #include "hbm/given_motion.h"
 
-#include <string.h>
+#include <stdlib.h>
 
-#include "hbm/aft.h"
-#include "hbm/circle_aft.h"
-#include "hbm/circle_force.h"
-#include "hbm/exact_force.h"
+#include "hbm/contact_forces.h"
 #include "numerics/series.h"
 
 given_motion given_motion_of_contact(const model *of, int j, moving_contact *place)
@@ -22,74 +19,44 @@ bool given_motion_in_circle(const given_motion *m) { return m->circle && contact
 
 int given_motion_circle_dof(const contact *law) { return law->kn > 0 ? 3 : 2; }
 
-static hc_status evaluate_exactly(const given_motion *m, int n_dof, const double *X, double *F)
-{
-  exact_force *e = NULL;
-  hc_status st = exact_force_new(m->n_harm, n_dof, m->n_contacts, m->contacts, &e);
-  if (st == HC_OK) st = exact_force_eval(e, X, F, NULL, NULL);
-  exact_force_free(e);
-  return st;
-}
+/* Unit vectors: X is in the contact's own directions. */
+static const double unit[GIVEN_MOST_DOF][GIVEN_MOST_DOF] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
 
-static hc_status evaluate_sampled(const given_motion *m, hbm_restart restart, int n_time, int n_dof, const double *X,
-                                  double *F)
+static void place(const given_motion *m, placed_contact *out)
 {
-  aft *a = NULL;
-  hc_status st = aft_new(m->n_harm, n_time, restart, n_dof, m->n_contacts, m->contacts, &a);
-  if (st == HC_OK) st = aft_eval(a, X, F, NULL, NULL);
-  aft_free(a);
-  return st;
-}
-
-static hc_status evaluate(const given_motion *m, hbm_restart restart, int n_time, int n_dof, const double *X, double *F)
-{
-  if (n_time == GIVEN_EXACT) return evaluate_exactly(m, n_dof, X, F);
-  return evaluate_sampled(m, restart, n_time, n_dof, X, F);
-}
-
-static hc_status circle_exactly(const given_motion *m, double *F)
-{
-  const contact *law = &m->contacts->law;
-  circle_force *f = NULL;
-  hc_status st = circle_force_new(m->n_harm, given_motion_circle_dof(law), law, &f);
-  if (st == HC_OK) st = circle_force_eval(f, m->X, F, NULL, NULL);
-  circle_force_free(f);
-  return st;
-}
-
-static hc_status circle_sampled(const given_motion *m, hbm_restart restart, int n_time, double *F)
-{
-  const contact *law = &m->contacts->law;
-  circle_aft *a = NULL;
-  hc_status st = circle_aft_new(m->n_harm, n_time, restart, given_motion_circle_dof(law), law, &a);
-  if (st == HC_OK) st = circle_aft_eval(a, m->X, F, NULL);
-  circle_aft_free(a);
-  return st;
-}
-
-static hc_status halves(const given_motion *m, hbm_restart restart, int n_time, double *F)
-{
-  const int n = series_length(m->n_harm);
-  double x[2 * GIVEN_MOST_COEF], f[2 * GIVEN_MOST_COEF];
-  hc_status st = HC_OK;
-  for (int d = 0; d < 2 && st == HC_OK; ++d) {
-    memcpy(x, m->X + d * n, (size_t)n * sizeof *x);
-    memcpy(x + n, m->X + 2 * n, (size_t)n * sizeof *x);
-    st = evaluate(m, restart, n_time, 2, x, f);
-    for (int i = 0; i < n && st == HC_OK; ++i) {
-      F[d * n + i] = f[i];
-      F[2 * n + i] += f[n + i];
-    }
+  for (int j = 0; j < m->n_contacts && !m->pair; ++j) {
+    const moving_contact *c = &m->contacts[j];
+    out[j] = (placed_contact){.law = c->law, .tangent = c->cu, .normal = c->cv};
   }
-  return st;
+  for (int d = 0; d < 2 && m->pair; ++d)
+    out[d] = (placed_contact){.law = m->contacts->law,
+                              .planar = d == 0 && given_motion_in_circle(m),
+                              .tangent = unit[d],
+                              .tangent_2 = unit[1],
+                              .normal = unit[2]};
 }
 
 hc_status given_motion_force(const given_motion *m, hbm_restart restart, int n_time, double *F)
 {
-  memset(F, 0, (size_t)m->n_dof * (size_t)series_length(m->n_harm) * sizeof *F);
-  if (!m->pair) return evaluate(m, restart, n_time, m->n_dof, m->X, F);
-  if (!given_motion_in_circle(m)) return halves(m, restart, n_time, F);
-  return n_time == GIVEN_EXACT ? circle_exactly(m, F) : circle_sampled(m, restart, n_time, F);
+  const int n = series_length(m->n_harm), contacts = m->pair ? 2 : m->n_contacts;
+  const size_t size = (size_t)m->n_dof * (size_t)n;
+  const evaluator_settings how = {m->n_harm, n_time, restart};
+  contact_forces *f = NULL;
+  placed_contact *placed = calloc((size_t)contacts + 1, sizeof *placed);
+  double *X = calloc(2 * size, sizeof *X), *force = X ? X + size : NULL; /* by coefficient, then by coordinate */
+  hc_status st = placed && X ? HC_OK : HC_NO_MEMORY;
+  if (st == HC_OK) {
+    place(m, placed);
+    const hbm_force by = n_time == GIVEN_EXACT ? HBM_FORCE_EXACT : HBM_FORCE_SAMPLED;
+    st = contact_forces_new_of(m->n_dof, contacts, placed, by, &how, &f);
+  }
+  for (size_t i = 0; i < size && st == HC_OK; ++i) X[i % n * m->n_dof + i / n] = m->X[i];
+  if (st == HC_OK) st = contact_forces_only(f, X, force);
+  for (size_t i = 0; i < size && st == HC_OK; ++i) F[i] = force[i % n * m->n_dof + i / n];
+  contact_forces_free(f);
+  free(placed);
+  free(X);
+  return st;
 }
 
 double given_motion_preload(const given_motion *m)

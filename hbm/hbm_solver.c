@@ -26,7 +26,8 @@ static hc_status make_workspace(hbm_solver *s)
 static hc_status make_orbit(hbm_solver *s)
 {
   if (s->how.force == HBM_FORCE_EXACT) return HC_OK;
-  return contact_forces_new(s->model, s->sys.linear, HBM_FORCE_EXACT, s->how.restart, s->sys.n_harm, 0, &s->orbit);
+  const evaluator_settings how = {.n_harm = s->sys.n_harm};
+  return contact_forces_new(s->model, s->sys.linear, HBM_FORCE_EXACT, &how, &s->orbit);
 }
 
 /* Of auto: where it starts, and the fewest harmonics of the finer equations: with less than 14 a short contact does
@@ -176,6 +177,32 @@ hc_status hbm_measure(hbm_solver *s, const double *X, hbm_measures *out)
   measure_series(s->sys.n_harm, s->x, out);
   out->contact = s->sys.report;
   return HC_OK;
+}
+
+/* x[c] = direction . coefficient c of the coordinates. */
+static void along(const hbm_system *sys, const double *X, const double *direction, double *x)
+{
+  for (int c = 0; c < series_length(sys->n_harm); ++c) {
+    x[c] = 0;
+    for (int d = 0; d < sys->dim; ++d) x[c] += direction[d] * X[c * sys->dim + d];
+  }
+}
+
+hc_status hbm_measure_contacts(hbm_solver *s, const double *X, contact_period *out)
+{
+  const hbm_system *sys = &s->sys;
+  double u[2][2 * HBM_MAX_HARMONICS + 1], v[2 * HBM_MAX_HARMONICS + 1];
+  hc_status st = HC_OK;
+  for (int j = 0; j < s->model->n_contacts && st == HC_OK;) {
+    const placed_contact c = placed_contact_of(s->model, j);
+    const contact_kind *kind = contact_kind_of(&c);
+    for (int k = 0; k < kind->contacts; ++k) along(sys, X, condensation_tangent(sys->linear, j + k), u[k]);
+    along(sys, X, condensation_normal(sys->linear, j), v);
+    st = kind->measures(&c.law, sys->n_harm, u[0], u[1], v, &out[j]);
+    j += kind->contacts;
+  }
+  if (st == HC_OK) contact_periods_merge(s->model, out);
+  return st;
 }
 
 int hbm_n_dof(const hbm_solver *s) { return s->model->n; }

@@ -15,6 +15,7 @@
 #include "base/status.h"
 #include "hbm/contact_report.h"
 #include "hbm/hbm_settings.h"
+#include "model/contact_period.h"
 #include "model/model.h"
 
 typedef struct hbm_solver hbm_solver;
@@ -103,5 +104,9 @@ hc_status hbm_preloads(hbm_solver *s, double *N);
 
 /* w[n_contacts] [length]: the sliders at t = 0 of the motion X. Errors of the contact force. */
 hc_status hbm_sliders(hbm_solver *s, const double *X, double *w);
+
+/* out[hbm_n_contacts]: of the solution X, every contact by the exact law, also where the equations sample it, those of
+ * the case first (contact_periods_merge). Errors of contact_measures_of, circle_measures_of. */
+hc_status hbm_measure_contacts(hbm_solver *s, const double *X, contact_period *out);
 
 #endif

@@ -1,6 +1,6 @@
 /* monodromy.c - see monodromy.h. The state is (dx, dx', dheld_1, ..., dheld_n); dheld_j counts only while contact j
- * is stuck. Row i of phi is state i, column q the initial state q. An oscillator's period starts at th = 0, a
- * structure's at the end of its longest stretch, since few of its motions outlast that (stretch_flow.h). */
+ * is stuck. Row i of phi is state i, column q the initial state q. The period starts at the end of its longest stretch,
+ * since few motions outlast that (stretch_flow.h); where contacts have two tangents with one limit, at th = 0. */
 #include "hbm/monodromy.h"
 
 #include <complex.h>
@@ -11,7 +11,6 @@
 #include "base/ascending.h"
 #include "base/constants.h"
 #include "hbm/monodromy_impl.h"
-#include "model/linear.h"
 
 static hc_status make_circles(const model *m, monodromy *w)
 {
@@ -37,11 +36,11 @@ hc_status monodromy_new(const model *m, monodromy **out)
   w->slider = malloc(n * sizeof *w->slider);
   w->goes_on = malloc(n * sizeof *w->goes_on);
   w->lambda = malloc(n * sizeof *w->lambda);
-  if (m->n > 1) w->left = malloc(n * n * sizeof *w->left);
+  w->left = malloc(n * n * sizeof *w->left);
   const bool vectors = w->boundary && w->share && w->piece && w->active && w->slider && w->goes_on && w->lambda;
-  const bool allocated = vectors && w->phi && (w->left || m->n == 1);
+  const bool allocated = vectors && w->phi && w->left;
   hc_status st = allocated ? floquet_new(w->n_states, &w->floquet) : HC_NO_MEMORY;
-  if (st == HC_OK && m->n > 1) st = stretch_flow_new(m, &w->flow);
+  if (st == HC_OK) st = stretch_flow_new(m, &w->flow);
   if (st == HC_OK && model_has_circle(m)) st = make_circles(m, w);
   if (st == HC_OK) return HC_OK;
   monodromy_free(w);
@@ -71,34 +70,15 @@ void monodromy_free(monodromy *w)
 
 static double wrap(double th) { return th >= TWO_PI ? th - TWO_PI : th; }
 
-/* How many changes of state, and where they are from boundary i on; of a circle's second contact none. */
-static int count_changes(const contact_forces *orbit, int j)
-{
-  int n = 0;
-  const circle_cycle *circle = contact_forces_circle(orbit, j);
-  if (circle) return 2 * circle->n;
-  contact_forces_pieces(orbit, j, &n);
-  return 2 * n;
-}
-
-static int collect_changes(monodromy *w, const contact_forces *orbit, int j, int i)
-{
-  const circle_cycle *circle = contact_forces_circle(orbit, j);
-  int n = 0;
-  const contact_piece *p = circle ? NULL : contact_forces_pieces(orbit, j, &n);
-  for (int k = 0; k < n; ++k) w->boundary[i++] = wrap(p[k].from), w->boundary[i++] = wrap(p[k].to);
-  for (int k = 0; circle && k < circle->n; ++k)
-    w->boundary[i++] = wrap(circle->piece[k].from), w->boundary[i++] = wrap(circle->piece[k].to);
-  return i;
-}
-
-/* All angles of change in [0, 2 pi], of an oscillator and where there are circles the ends included; their number or -1
- * without memory. */
+/* All angles of change in [0, 2 pi], where there are circles the ends included; their number or -1 without memory. */
 static int collect_boundaries(monodromy *w, const contact_forces *orbit, int n_contacts)
 {
-  const bool ends = !w->flow || w->circles;
+  const bool ends = w->circles;
   int n = 2;
-  for (int j = 0; j < n_contacts; ++j) n += count_changes(orbit, j);
+  for (int j = 0, intervals; j < n_contacts; ++j) {
+    contact_forces_pieces(orbit, j, &intervals);
+    n += 2 * intervals;
+  }
   if (n > w->cap) {
     double *more = realloc(w->boundary, 2 * (size_t)n * sizeof(double));
     if (!more) return -1;
@@ -109,7 +89,10 @@ static int collect_boundaries(monodromy *w, const contact_forces *orbit, int n_c
   n = 0;
   if (ends || !changes) w->boundary[n++] = 0;
   if (ends) w->boundary[n++] = TWO_PI;
-  for (int j = 0; j < n_contacts; ++j) n = collect_changes(w, orbit, j, n);
+  for (int j = 0, intervals; j < n_contacts; ++j) {
+    const contact_piece *p = contact_forces_pieces(orbit, j, &intervals);
+    for (int k = 0; k < intervals; ++k) w->boundary[n++] = wrap(p[k].from), w->boundary[n++] = wrap(p[k].to);
+  }
   qsort(w->boundary, (size_t)n, sizeof(double), ascending);
   return n;
 }
@@ -177,8 +160,8 @@ static void set_slider(monodromy *w, const model *m, const contact_forces *orbit
   const model_contact *c = &m->contacts[j];
   double *held = w->phi + (size_t)(2 * w->n + j) * (size_t)n, by[2];
   contact_forces_held_by(orbit, j, p, by);
-  for (int q = 0; q < w->columns; ++q) held[q] = w->n == 1 ? by[0] * w->phi[q] : 0;
-  for (int i = 0; i < w->n && w->n > 1; ++i) {
+  for (int q = 0; q < w->columns; ++q) held[q] = 0;
+  for (int i = 0; i < w->n; ++i) {
     const double by_x = by[0] * c->tangent[i] + by[1] * c->normal[i];
     for (int q = 0; q < w->columns; ++q) held[q] += by_x * w->phi[(size_t)i * (size_t)n + (size_t)q];
   }
@@ -203,38 +186,8 @@ int monodromy_initial_sliders(monodromy *w, const model *m, const contact_forces
   return n_active;
 }
 
-/* Of an oscillator: stiffness to x, and the share of each dheld in the force on x. */
-static double stiffness_of_stretch(const model *m, const contact_piece *const *piece, double *share)
-{
-  double k = *m->stiffness;
-  for (int j = 0; j < m->n_contacts; ++j) {
-    const model_contact *c = &m->contacts[j];
-    const double t = *c->tangent, n = *c->normal;
-    share[j] = 0;
-    if (!piece[j]) continue;
-    int slip = contact_slip_sign(piece[j]->state);
-    k += (slip ? slip * c->law.mu * c->law.kn * n : c->law.kt * t) * t + c->law.kn * n * n;
-    share[j] = slip ? 0 : t;
-  }
-  return k;
-}
-
-/* dx and dx' over a stretch of duration t, from each initial state. */
-static void advance_oscillator(monodromy *w, const model *m, double t)
-{
-  const int n = w->n_states;
-  double e[2][2], k = stiffness_of_stretch(m, w->piece, w->share), *x = w->phi, *v = w->phi + n;
-  linear_free_motion(*m->mass, *m->damping, k, t, e);
-  for (int q = 0; q < n; ++q) {
-    double pull = 0;
-    for (int j = 0; j < m->n_contacts; ++j) pull += w->share[j] * w->phi[(2 + j) * n + q];
-    double rest = k != 0 ? pull / k : 0, dx = x[q] - rest, dv = v[q];
-    x[q] = rest + e[0][0] * dx + e[0][1] * dv;
-    v[q] = e[1][0] * dx + e[1][1] * dv;
-  }
-}
-
-static void summarise(int m, const double complex *lambda, hbm_stability *out)
+/* Of n states m have multipliers, those that outlast the longest stretch: the others' are 0. */
+static void summarise(int n, int m, const double complex *lambda, hbm_stability *out)
 {
   double complex flip = 1, fold = 1, all = 1;
   const double complex largest = floquet_largest(m, lambda);
@@ -252,27 +205,7 @@ static void summarise(int m, const double complex *lambda, hbm_stability *out)
   }
   out->flip = creal(flip);
   out->fold = creal(fold);
-  out->determinant = creal(all);
-}
-
-/* Over the period from boundary 0 on. */
-static int follow_oscillator(monodromy *w, const model *m, const contact_forces *orbit, double omega, int n)
-{
-  const int n_states = w->n_states;
-  int n_active = 0;
-  while (n_active < 2 * w->n) w->active[n_active] = n_active, ++n_active;
-  memset(w->phi, 0, (size_t)n_states * (size_t)n_states * sizeof *w->phi);
-  for (int q = 0; q < n_states; ++q) w->phi[q * n_states + q] = 1;
-  w->columns = n_states;
-  for (int i = 0; i + 1 < n; ++i) {
-    double a = w->boundary[i], b = w->boundary[i + 1];
-    if (!(b > a)) continue;
-    for (int j = 0; j < m->n_contacts; ++j) w->piece[j] = monodromy_piece_at(orbit, j, 0.5 * (a + b));
-    if (a == 0) n_active = monodromy_initial_sliders(w, m, orbit, n_active, a);
-    monodromy_set_sliders(w, m, orbit, a);
-    advance_oscillator(w, m, (b - a) / omega);
-  }
-  return n_active;
+  out->determinant = m < n ? 0 : creal(all);
 }
 
 /* Boundary at which the longest stretch begins. */
@@ -315,8 +248,8 @@ static int collect_held_sliders(monodromy *w, const model *m, const contact_forc
 }
 
 /* Over the period that ends with the longest stretch; the number of columns of w->left. */
-static hc_status follow_structure(monodromy *w, const model *m, const contact_forces *orbit, double omega, int n,
-                                  int *n_active)
+static hc_status follow_period(monodromy *w, const model *m, const contact_forces *orbit, double omega, int n,
+                               int *n_active)
 {
   const int last = find_longest(w, n), sliders = collect_held_sliders(w, m, orbit, n, last);
   enter_stretch(w, m, orbit, n, last);
@@ -339,7 +272,7 @@ static hc_status follow_structure(monodromy *w, const model *m, const contact_fo
 static bool is_too_much(const monodromy *w, int stretches)
 {
   const double most = 4e11, states = 2.0 * w->n;
-  return w->flow && 30 * states * states * states * stretches > most;
+  return 30 * states * states * states * stretches > most;
 }
 
 hc_status monodromy_stability(monodromy *w, const model *m, const contact_forces *orbit, double omega,
@@ -349,10 +282,9 @@ hc_status monodromy_stability(monodromy *w, const model *m, const contact_forces
   int n_active = 0;
   hc_status st = n < 0 ? HC_NO_MEMORY : is_too_much(w, n) ? HC_NOT_CONVERGED : HC_OK;
   if (st == HC_OK && w->circles) st = monodromy_follow_circles(w, m, orbit, omega, n, &n_active);
-  else if (st == HC_OK && w->flow) st = follow_structure(w, m, orbit, omega, n, &n_active);
-  else if (st == HC_OK) n_active = follow_oscillator(w, m, orbit, omega, n);
-  const double *phi = w->flow && !w->circles ? w->left : w->phi;
+  else if (st == HC_OK) st = follow_period(w, m, orbit, omega, n, &n_active);
+  const double *phi = w->circles ? w->phi : w->left;
   if (st == HC_OK) st = floquet_multipliers(w->floquet, phi, w->n_states, 1, n_active, w->active, w->lambda);
-  if (st == HC_OK) summarise(n_active, w->lambda, out);
+  if (st == HC_OK) summarise(2 * w->n, n_active, w->lambda, out);
   return st;
 }

@@ -17,18 +17,18 @@ typedef struct circle_track {
 } circle_track;
 
 struct monodromy {
-  int n;                       /* degrees of freedom */
-  int n_states;                /* 2 n + contacts */
-  int cap;                     /* of boundary */
-  double *boundary;            /* [cap] [rad] every angle at which a contact changes state, ascending */
-  int columns;                 /* of phi that count */
-  double *phi;                 /* [n_states][n_states] by rows */
-  double *left;                /* [n_states][n_states] of stretch_flow_left; NULL of an oscillator */
-  double *share;               /* [n_states] */
-  stretch_flow *flow;          /* of a structure; NULL of an oscillator */
+  int n;            /* degrees of freedom */
+  int n_states;     /* 2 n + contacts */
+  int cap;          /* of boundary */
+  double *boundary; /* [cap] [rad] every angle at which a contact changes state, ascending */
+  int columns;      /* of phi that count */
+  double *phi;      /* [n_states][n_states] by rows */
+  double *left;     /* [n_states][n_states] of stretch_flow_left */
+  double *share;    /* [n_states] */
+  stretch_flow *flow;
   const contact_piece **piece; /* [n_states] of each contact, on the current stretch; NULL while separated */
   int *active;                 /* [n_states] the initial states that the multipliers are made of */
-  circle_flow *circles;        /* of a structure that has them; else NULL */
+  circle_flow *circles;        /* NULL: the model has none */
   circle_track *track;         /* [contacts] of each circle, at its first contact; a cycle is NULL elsewhere */
   slipping_circle *slipping;   /* [contacts] the circles that slip on the current stretch */
   int *slider;                 /* [n_states] of stretch_flow_leave, and which of them go on */
@@ -37,7 +37,7 @@ struct monodromy {
   floquet *floquet;
 };
 
-/* The piece of contact j that covers th, NULL while separated; not of a circle's. */
+/* The piece of contact j that covers th, NULL while separated. */
 const contact_piece *monodromy_piece_at(const contact_forces *orbit, int j, double th);
 
 /* Initial states dheld of the sliders at rest when the period starts, behind the first n_active; their number then. */
@@ -46,7 +46,7 @@ int monodromy_initial_sliders(monodromy *w, const model *m, const contact_forces
 /* Sliders that come to rest at th: dheld from dx there. */
 void monodromy_set_sliders(monodromy *w, const model *m, const contact_forces *orbit, double th);
 
-/* Of a structure with circles, over the period from boundary 0 = 0 rad to boundary n - 1 = 2 pi: w->phi, and the states
+/* With circles: over the period from boundary 0 = 0 rad to boundary n - 1 = 2 pi: w->phi, and the states
  * in w->active that count; their number. Errors of stretch_flow_advance and circle_flow_advance. */
 hc_status monodromy_follow_circles(monodromy *w, const model *m, const contact_forces *orbit, double omega, int n,
                                    int *n_active);

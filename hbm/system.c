@@ -25,7 +25,8 @@ hc_status hbm_system_init(hbm_system *sys, const model *m, const hbm_settings *h
   sys->amplitudes = calloc(2 * dim, sizeof *sys->amplitudes);
   if (!sys->X || !sys->F || !sys->rows || !sys->amplitudes) return HC_NO_MEMORY;
   if ((st = hbm_linear_room_new(m, sys->dim, &sys->room)) != HC_OK) return st;
-  return contact_forces_new(m, sys->linear, how->force, how->restart, n_harm, n_time, &sys->contacts);
+  const evaluator_settings by = {n_harm, n_time, how->restart};
+  return contact_forces_new(m, sys->linear, how->force, &by, &sys->contacts);
 }
 
 void hbm_system_clear(hbm_system *sys)
