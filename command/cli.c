@@ -1,14 +1,23 @@
 /* cli.c - see cli.h. */
 #include "command/cli.h"
 
+#include <argp.h>
 #include <errno.h>
+#include <fftw3.h>
 #include <float.h>
+#include <gsl/gsl_version.h>
+#include <jansson.h>
 #include <math.h>
+#include <sqlite3.h>
 #include <stdarg.h>
+#include <stdbool.h>
+#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sundials/sundials_version.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
+#include <yaml.h>
 
 #include "base/constants.h"
 #include "base/message.h"
@@ -16,10 +25,74 @@
 #include "base/number.h"
 #include "casefile/case_file.h"
 #include "casefile/structure_check.h"
-#include "command/mistyped.h"
 #include "command/plot/plot.h"
 #include "compare/advice.h"
 #include "output/output.h"
+
+/* ---- a spelling suggestion for a long option ------------------------------------------------------------ */
+
+typedef struct option_lists {
+  const struct argp_option *of[3];
+} option_lists;
+
+static const struct argp_option by_argp[] = {
+    {"help", '?', 0, 0, 0, 0}, {"usage", 0, 0, 0, 0, 0}, {"version", 'V', 0, 0, 0, 0}, {0}};
+
+/* The option that name[length] is or begins: getopt takes both. */
+static const struct argp_option *known_option(const option_lists *lists, const char *name, size_t length)
+{
+  for (int i = 0; i < 3; ++i)
+    for (const struct argp_option *o = lists->of[i]; o && o->name; ++o)
+      if (!strncmp(o->name, name, length)) return o;
+  return NULL;
+}
+
+static const char *nearest_option(const option_lists *lists, const char *name, size_t length)
+{
+  const char *best = NULL;
+  int least = NEAREST_FAR;
+  for (int i = 0; i < 3; ++i)
+    for (const struct argp_option *o = lists->of[i]; o && o->name; ++o) {
+      int d = nearest_distance(name, length, o->name);
+      if (d < least) best = o->name, least = d;
+    }
+  return best;
+}
+
+/* -o FILE, -qo FILE: is what comes next the value of these short options? */
+static bool value_follows(const option_lists *lists, const char *letters)
+{
+  for (; *letters; ++letters)
+    for (int i = 0; i < 3; ++i)
+      for (const struct argp_option *o = lists->of[i]; o && o->name; ++o)
+        if (o->key == *letters && o->arg) return !letters[1];
+  return false;
+}
+
+/* The first of argv[1..argc-1] that is a long option in neither list, nor the start of one, but near to one of them:
+ * returns its name without the dashes, of *length letters, and the one meant in *meant. NULL if there is none; what is
+ * near to nothing is left to argp. The lists end in {0} and may be NULL. */
+static const char *option_to_suggest(int argc, char *const *argv, const struct argp_option *own,
+                                     const struct argp_option *common, int *length, const char **meant)
+{
+  const option_lists lists = {{own, common, by_argp}};
+  for (int i = 1; i < argc && strcmp(argv[i], "--") != 0; ++i) {
+    if (argv[i][0] != '-') continue;
+    if (argv[i][1] != '-') {
+      i += value_follows(&lists, argv[i] + 1);
+      continue;
+    }
+    const char *name = argv[i] + 2;
+    const size_t n = strcspn(name, "=");
+    const struct argp_option *o = known_option(&lists, name, n);
+    if (o) i += o->arg && !name[n];
+    else if ((*meant = nearest_option(&lists, name, n)) != NULL) {
+      *length = (int)n;
+      return name;
+    }
+  }
+  return NULL;
+}
 
 enum { KEY_SET = 0x100, KEY_FORMAT, KEY_WIDE };
 
@@ -123,10 +196,10 @@ static const char *what_arguments_are(const char *usage)
 }
 
 /* "--tabels" ends the program with what was meant; argp, which only knows that it is not known, is not asked then. */
-static void refuse_mistyped(const cli_command *self, int argc, char **argv)
+static void refuse_unknown_option(const cli_command *self, int argc, char **argv)
 {
   int length;
-  const char *meant, *name = mistyped_option(argc, argv, self->options, common_options, &length, &meant);
+  const char *meant, *name = option_to_suggest(argc, argv, self->options, common_options, &length, &meant);
   if (!name) return;
   fprintf(stderr, "hbmcheck %s: unrecognized option '--%.*s', did you mean '--%s'?\nTry 'hbmcheck %s --help'.\n",
           self->name, length, name, meant, self->name);
@@ -144,7 +217,7 @@ void cli_parse(const cli_command *self, int argc, char **argv, void *own, cli_co
   char name[64];
   *common = (cli_common){.command = self->name, .argument_is = what_arguments_are(self->arguments)};
   snprintf(name, sizeof name, "hbmcheck %s", self->name);
-  refuse_mistyped(self, argc, argv);
+  refuse_unknown_option(self, argc, argv);
   argv[0] = name;
   argp_err_exit_status = EXIT_USAGE;
   error_t failed = argp_parse(&argp, argc, argv, 0, NULL, &input); /* wrong usage exits: what is left is ENOMEM */
@@ -390,4 +463,17 @@ int cli_write(const cli_common *common, int n, table *const *tables)
     else output_abandon(out);
   }
   return st == HC_OK ? 0 : cli_file_failed(common, common->output, st);
+}
+
+/* ---- versions ---------------------------------------------------------------------- */
+
+void (*argp_program_version_hook)(FILE *, struct argp_state *) = cli_print_version;
+
+void cli_print_version(FILE *to, struct argp_state *state)
+{
+  char sundials[32] = "unknown";
+  (void)state;
+  SUNDIALSGetVersion(sundials, (int)sizeof sundials);
+  fprintf(to, "hbmcheck %s\nSUNDIALS %s, %s, GSL %s, libyaml %s, jansson %s, SQLite %s\n", HBMCHECK_VERSION, sundials,
+          fftw_version, gsl_version, yaml_get_version_string(), jansson_version_str(), sqlite3_libversion());
 }

@@ -8,7 +8,6 @@
 #include "command/commands.h"
 #include "command/files.h"
 #include "command/plot/plot.h"
-#include "command/version.h"
 #include "output/progress.h"
 
 static const char help[] =

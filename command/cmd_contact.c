@@ -2,14 +2,357 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
+#include "base/number.h"
+#include "casefile/structure.h"
 #include "command/case_names.h"
+#include "command/cli.h"
 #include "command/commands.h"
-#include "command/contact_force.h"
 #include "command/files.h"
 #include "command/plot/plot.h"
+#include "hbm/circle_force.h"
+#include "hbm/circle_measures.h"
+#include "hbm/contact_measures.h"
+#include "hbm/exact_force.h"
+#include "hbm/given_motion.h"
 #include "numerics/series.h"
+#include "output/table.h"
 #include "study/scene_solvers.h"
+
+/* ---- the motion that is asked about ------------------------------------------------------------ */
+
+/* x of one degree of freedom, which moves all of its contacts, or u and v of one contact; with two tangents u_1, u_2
+ * and v. */
+enum { CONTACT_X, CONTACT_U, CONTACT_U2, CONTACT_V, CONTACT_MOTIONS };
+typedef struct contact_options {
+  const char *contact;                 /* NULL: not given */
+  const char *motion[CONTACT_MOTIONS]; /* the same */
+  const char *slider;                  /* the same */
+  number_list samples;
+  const char *plot; /* NULL: no drawing */
+} contact_options;
+
+enum { CONTACT_MOST_COEF = GIVEN_MOST_COEF, CONTACT_MOST_DOF = GIVEN_MOST_DOF };
+
+typedef struct contact_motion {
+  int one;          /* which contact of the case, -1: all */
+  int in_model;     /* the same of its model */
+  bool pair;        /* it has two tangents */
+  bool circle;      /* and one limit for both */
+  double slider[2]; /* [length] where it starts: taken off u, or u_1 and u_2 */
+  int n_harm, n_dof, n_contacts;
+  moving_contact *contacts; /* [n_contacts] moved by X; of a pair one, either half's law (model.h) moved by u and v */
+  double given[CONTACT_MOTIONS][CONTACT_MOST_COEF]; /* [length] x; or u - slider, of two tangents both, and v */
+  double X[CONTACT_MOST_DOF * CONTACT_MOST_COEF];   /* [n_dof][2 n_harm + 1] x; u and v; or u_1, u_2 and v */
+} contact_motion;
+
+static const char *const motion_names[CONTACT_MOTIONS] = {"motion", "motion-u", "motion-u2", "motion-v"};
+
+/* X[CONTACT_MOST_COEF] from the option; the number of harmonics, 0 if it is not given, or -1 after the message. */
+static int read_motion(const cli_common *common, const char *option, const char *motion, double *X)
+{
+  int n = 0;
+  for (const char *at = motion; at;) {
+    size_t length = strcspn(at, ",");
+    if (n == CONTACT_MOST_COEF) {
+      cli_message(common, "--%s takes at most %d coefficients", option, CONTACT_MOST_COEF);
+      return -1;
+    }
+    if (number_read(at, length, &X[n]) != NUMBER_FINE) {
+      cli_message(common, "--%s: '%.*s' is not a finite number", option, (int)length, at);
+      return -1;
+    }
+    ++n;
+    at = at[length] ? at + length + 1 : NULL;
+  }
+  if (motion && n % 2 == 0) {
+    cli_message(common, "--%s has %d coefficients; expected an odd number: a0,a1,b1,a2,b2,...", option, n);
+    return -1;
+  }
+  return n / 2;
+}
+
+/* Which contact: the one that is named, or the only one there is where u or v is given. 0 or the exit code after the
+ * message. */
+static int choose_contact(const cli_common *common, const contact_options *own, contact_motion *m)
+{
+  const scene *sc = common->scene;
+  const bool own_motion = own->motion[CONTACT_U] || own->motion[CONTACT_U2] || own->motion[CONTACT_V];
+  const bool by_itself = own_motion || own->slider;
+  const int n = sc->structure ? sc->structure->n : 1;
+  m->one = -1;
+  if (own->contact && (m->one = cli_contact_named(common, own->contact)) < 0) return EXIT_USAGE;
+  if (m->one < 0 && (by_itself || n > 1) && scene_contact_count(sc) == 1) m->one = 0;
+  if (m->one < 0 && by_itself) cli_message(common, "of which contact? expected --contact NAME, too");
+  else if (m->one < 0 && n > 1)
+    cli_message(common,
+                "the case has %d degrees of freedom; expected --contact NAME with its --motion-u and --motion-v", n);
+  else if (n > 1 && own->motion[CONTACT_X])
+    cli_message(common,
+                "--motion is for one degree of freedom, and the case has %d; expected --motion-u and --motion-v", n);
+  else if (own->motion[CONTACT_X] && own_motion)
+    cli_message(common,
+                "--motion is of x, and u and v follow from it; expected --motion, or --motion-u and --motion-v");
+  else if (!own->motion[CONTACT_X] && !own_motion)
+    cli_message(common, m->one < 0 ? "no motion given: --motion a0,a1,b1,..."
+                                   : "no motion given: --motion-u a0,a1,b1,... and --motion-v a0,a1,b1,...");
+  else return 0;
+  return EXIT_USAGE;
+}
+
+static bool has_direction(int n, const double *direction)
+{
+  for (int i = 0; i < n; ++i)
+    if (direction[i] != 0) return true;
+  return false;
+}
+
+/* u along nothing would be a mistake unnoticed. */
+static int check_directions(const cli_common *common, const contact_options *own, const model *of,
+                            const contact_motion *m)
+{
+  static const char *const words[] = {"tangent", "second tangent", "normal"};
+  const model_contact *c = &of->contacts[m->in_model];
+  const double *const directions[] = {c->tangent, m->pair ? c[1].tangent : NULL, c->normal};
+  char name[CLI_NAME];
+  cli_contact_name(common, m->one, name);
+  for (int d = 0; d < 3; ++d)
+    if (own->motion[CONTACT_U + d] && !(directions[d] && has_direction(of->n, directions[d]))) {
+      cli_message(common, "contact %s has no %s; expected no --%s", name, words[d], motion_names[CONTACT_U + d]);
+      return EXIT_USAGE;
+    }
+  return 0;
+}
+
+/* W, or W1,W2 of two tangents. */
+static bool read_slider(const char *text, contact_motion *m)
+{
+  const size_t first = m->pair ? strcspn(text, ",") : strlen(text);
+  if (number_read(text, first, &m->slider[0]) != NUMBER_FINE) return false;
+  if (!m->pair) return true;
+  const char *second = text + first + 1;
+  return text[first] && number_read(second, strlen(second), &m->slider[1]) == NUMBER_FINE;
+}
+
+/* The motions into m->given. 0 or the exit code after the message. */
+static int read_motions(const cli_common *common, const contact_options *own, const model *of, contact_motion *m)
+{
+  for (int k = 0; k < CONTACT_MOTIONS; ++k) {
+    const int n = read_motion(common, motion_names[k], own->motion[k], m->given[k]);
+    if (n < 0) return EXIT_USAGE;
+    if (n > m->n_harm) m->n_harm = n;
+  }
+  if (own->slider && !read_slider(own->slider, m)) {
+    cli_message(common,
+                m->pair ? "--slider: '%s' is not two finite numbers W1,W2, of a contact with two tangents"
+                        : "--slider: '%s' is not a finite number",
+                own->slider);
+    return EXIT_USAGE;
+  }
+  if (m->one < 0) return 0;
+  if (own->motion[CONTACT_X])
+    for (int i = 0; i < CONTACT_MOST_COEF; ++i) {
+      m->given[CONTACT_U][i] = *of->contacts[m->in_model].tangent * m->given[CONTACT_X][i];
+      m->given[CONTACT_V][i] = *of->contacts[m->in_model].normal * m->given[CONTACT_X][i];
+    }
+  /* the law knows u - w alone: from here on the slider starts at 0 */
+  for (int k = 0; k < 2; ++k) m->given[CONTACT_U + k][0] -= m->slider[k];
+  return 0;
+}
+
+static hc_status take_contacts(const model *of, contact_motion *m)
+{
+  m->n_dof = 1;
+  m->n_contacts = of->n_contacts;
+  if (m->one < 0) return moving_contacts_of_model(of, &m->contacts);
+  if (!(m->contacts = malloc(sizeof *m->contacts))) return HC_NO_MEMORY;
+  const given_motion given = given_motion_of_contact(of, m->in_model, m->contacts);
+  m->pair = given.pair;
+  m->circle = given.circle;
+  m->n_dof = given.n_dof;
+  m->n_contacts = given.n_contacts;
+  return HC_OK;
+}
+
+/* Which motion coordinate d is: x of all contacts; u, v of one, or u, u2, v. */
+static int motion_at(const contact_motion *m, int d)
+{
+  if (m->one < 0) return CONTACT_X;
+  if (d == 0) return CONTACT_U;
+  return m->pair && d == 1 ? CONTACT_U2 : CONTACT_V;
+}
+
+/* X from m->given, by coordinates. */
+static void pack(contact_motion *m)
+{
+  const size_t n = (size_t)series_length(m->n_harm);
+  for (int d = 0; d < m->n_dof; ++d) memcpy(m->X + (size_t)d * n, m->given[motion_at(m, d)], n * sizeof *m->X);
+}
+
+/* What the options ask for, with as many harmonics as the motion or the case has, at least 1. 0, or the exit code after
+ * the message. Free with contact_motion_clear in any case. */
+static int contact_motion_find(const cli_common *common, const contact_options *own, contact_motion *m)
+{
+  const scene *sc = common->scene;
+  model *of = NULL;
+  int code = choose_contact(common, own, m);
+  if (code) return code;
+  hc_status st = scene_model(sc, &of);
+  m->in_model = m->one < 0 ? -1 : scene_model_contact(sc, m->one);
+  if (st == HC_OK) st = take_contacts(of, m);
+  if (st != HC_OK) code = cli_solver_failed(common, CLI_HBM, "the contact force", st, 0);
+  else if (m->one >= 0) code = check_directions(common, own, of, m);
+  if (!code) code = read_motions(common, own, of, m);
+  if (m->n_harm < sc->hbm.harmonics) m->n_harm = sc->hbm.harmonics; /* auto is 0: the motion's own */
+  if (m->n_harm < 1) m->n_harm = 1;
+  pack(m);
+  model_free(of);
+  return code;
+}
+
+static void contact_motion_clear(contact_motion *m)
+{
+  free(m->contacts);
+  m->contacts = NULL;
+}
+
+/* ---- its contact forces -------------------------------------------------------------------------- */
+
+enum { CONTACT_EXACT = GIVEN_EXACT }; /* in place of a number of samples */
+
+static given_motion given_of(const contact_motion *m)
+{
+  return (given_motion){.pair = m->pair,
+                        .circle = m->circle,
+                        .n_harm = m->n_harm,
+                        .n_dof = m->n_dof,
+                        .n_contacts = m->n_contacts,
+                        .contacts = m->contacts,
+                        .X = m->X};
+}
+
+/* F[n_dof (2H+1)] [force]: what drives each coordinate of m->X, of one contact T (T_1, T_2) and N, by n_time
+ * samples a period or CONTACT_EXACT. HC_BAD_INPUT: too few samples; errors of given_motion_force. */
+static hc_status contact_force_of(const contact_motion *m, hbm_restart restart, int n_time, double *F)
+{
+  const given_motion given = given_of(m);
+  const hc_status st = given_motion_force(&given, restart, n_time, F);
+  if (st == HC_OK && m->one >= 0) F[(m->n_dof - 1) * series_length(m->n_harm)] += given_motion_preload(&given);
+  return st;
+}
+
+/* ---- in words what the exact law does along it ------------------------------------------------------------------------------------- */
+
+enum { SHOWN = 16 };
+
+static void note_more(table *t, const char *name, int n)
+{
+  if (n == 0) table_note(t, "contact %s: separated all period", name);
+  if (n > SHOWN) table_note(t, "contact %s: and %d pieces more", name, n - SHOWN);
+}
+
+/* The pieces of the period in which a contact sticks or slips; in the rest it is separated. */
+static void note_pieces(table *t, const char *name, int n, const contact_piece *p)
+{
+  static const char *const names[] = {"separated", "sticks", "slips forward", "slips backward"};
+  for (int i = 0; i < n && i < SHOWN; ++i)
+    table_note(t, "contact %s: %s from %.12g to %.12g rad", name, names[p[i].state], p[i].from, p[i].to);
+  note_more(t, name, n);
+}
+
+static void note_period(table *t, const char *name, const contact_period *p)
+{
+  table_note(t, "contact %s: N from %.9g to %.9g, |T| at most %.9g, slip path %.9g, work %.9g in a period", name,
+             p->normal_min, p->normal_max, p->traction_max, p->slip_distance, p->work);
+}
+
+static hc_status note_circle_pieces(table *t, const contact_motion *m, const char *name)
+{
+  const contact *law = &m->contacts->law;
+  double F[CONTACT_MOST_DOF * CONTACT_MOST_COEF];
+  circle_force *f = NULL;
+  hc_status st = circle_force_new(m->n_harm, given_motion_circle_dof(law), law, &f);
+  if (st == HC_OK) st = circle_force_eval(f, m->X, F, NULL, NULL);
+  if (st == HC_OK) {
+    const circle_cycle *c = circle_force_cycle(f);
+    for (int i = 0; i < c->n && i < SHOWN; ++i)
+      table_note(t, "contact %s: %s from %.12g to %.12g rad", name,
+                 c->piece[i].state == CONTACT_STICK ? "sticks" : "slips", c->piece[i].from, c->piece[i].to);
+    note_more(t, name, c->n);
+  }
+  circle_force_free(f);
+  return st;
+}
+
+static hc_status note_circle(table *t, const contact_motion *m, const char *name)
+{
+  contact_period p[2];
+  hc_status st = note_circle_pieces(t, m, name);
+  if (st == HC_OK)
+    st = circle_measures_of(&m->contacts->law, m->n_harm, m->given[CONTACT_U], m->given[CONTACT_U2],
+                            m->given[CONTACT_V], p);
+  if (st != HC_OK) return st;
+  p[0] = contact_period_of_pair(&p[0], &p[1]);
+  note_period(t, name, p);
+  return HC_OK;
+}
+
+static hc_status note_halves(table *t, const contact_motion *m, const char *name)
+{
+  static const char *const tangents[] = {"tangential", "tangential_2"};
+  contact_period p[2];
+  for (int d = 0, n; d < 2; ++d) {
+    const double *const x[] = {m->given[d ? CONTACT_U2 : CONTACT_U], m->given[CONTACT_V]};
+    const size_t length = (size_t)series_length(m->n_harm);
+    double X[2 * CONTACT_MOST_COEF], F[2 * CONTACT_MOST_COEF];
+    char half[CLI_NAME + 16];
+    exact_force *e = NULL;
+    for (size_t k = 0; k < 2; ++k) memcpy(X + k * length, x[k], length * sizeof *X);
+    snprintf(half, sizeof half, "%s, %s", name, tangents[d]);
+    hc_status st = exact_force_new(m->n_harm, 2, 1, m->contacts, &e);
+    if (st == HC_OK) st = exact_force_eval(e, X, F, NULL, NULL);
+    if (st == HC_OK) {
+      const contact_piece *piece = exact_force_pieces(e, 0, &n);
+      note_pieces(t, half, n, piece);
+    }
+    exact_force_free(e);
+    if (st == HC_OK) st = contact_measures_of(&m->contacts->law, m->n_harm, x[0], x[1], &p[d]);
+    if (st != HC_OK) return st;
+  }
+  p[0] = contact_period_of_pair(&p[0], &p[1]);
+  note_period(t, name, p);
+  return HC_OK;
+}
+
+static hc_status note_measures(table *t, const contact_motion *m, const char *name)
+{
+  contact_period p;
+  hc_status st = contact_measures_of(&m->contacts->law, m->n_harm, m->given[CONTACT_U], m->given[CONTACT_V], &p);
+  if (st == HC_OK) note_period(t, name, &p);
+  return st;
+}
+
+/* Remarks under the table: when each contact sticks and slips; of one contact extrema, slip path and work, too. Errors
+ * as above. */
+static hc_status contact_force_note(table *t, const cli_common *common, const contact_motion *m)
+{
+  double F[2 * CONTACT_MOST_COEF];
+  char name[CLI_NAME];
+  const given_motion given = given_of(m);
+  if (m->pair) cli_contact_name(common, m->one, name);
+  if (m->pair) return given_motion_in_circle(&given) ? note_circle(t, m, name) : note_halves(t, m, name);
+  exact_force *e = NULL;
+  hc_status st = exact_force_new(m->n_harm, m->n_dof, m->n_contacts, m->contacts, &e);
+  if (st == HC_OK) st = exact_force_eval(e, m->X, F, NULL, NULL);
+  for (int j = 0, n; j < m->n_contacts && st == HC_OK; ++j) {
+    const contact_piece *p = exact_force_pieces(e, j, &n);
+    note_pieces(t, cli_contact_name(common, m->one < 0 ? j : m->one, name), n, p);
+  }
+  if (st == HC_OK && m->one >= 0) st = note_measures(t, m, name);
+  exact_force_free(e);
+  return st;
+}
 
 static const char help[] =
     "Fourier coefficients of CASE's contact force sum_j T_j cos(alpha_j) + (N_j - N0_j) sin(alpha_j) under the motion "
@@ -63,7 +406,7 @@ static error_t read_option(int key, char *text, struct argp_state *state)
 /* A set: the coefficients for one number of samples. */
 enum { MAX_SETS = 17, MOST_NUMBERS = CONTACT_MOST_DOF * CONTACT_MOST_COEF };
 
-/* ---- its forces ----------------------------------------------------------------------------------- */
+/* ---- one set for each number of samples ----------------------------------------------------------------------------------- */
 
 /* Coefficients for each number of samples n_time[n_sets] into F[n_sets][MOST_NUMBERS]. 0 or the exit code after the
  * message. */

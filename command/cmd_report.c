@@ -7,7 +7,6 @@
 #include "command/compare_tables.h"
 #include "command/files.h"
 #include "command/report/report.h"
-#include "command/version.h"
 #include "output/output.h"
 #include "output/progress.h"
 

@@ -8,7 +8,6 @@
 
 #include "base/nearest.h"
 #include "command/commands.h"
-#include "command/version.h"
 #include "output/progress.h"
 
 #define ADDRESS_OF(name) &cmd_##name,

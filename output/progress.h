@@ -20,7 +20,7 @@ typedef struct progress progress;
  * was ignored (nohup) stays ignored. Call once, early. */
 void progress_install_signals(int exit_code);
 
-/* While held, nobody's patience ends the program: the caller does (rescue.h). Let go after a signal, 0.7 s begin. */
+/* While held, nobody's patience ends the program: the caller does (command/cmd_compare.c, keep_found). Let go after a signal, 0.7 s begin. */
 void progress_hold(bool held);
 
 /* Ends the program as at the end of patience. */

@@ -41,7 +41,7 @@ typedef struct row_cell {
 /* The columns of a kind, *n of them; constant. extra: a sum of ROWS_IN_CYCLES and ROWS_RESPONSES. */
 const table_column *rows_columns(rows_kind kind, unsigned extra, int *n);
 
-/* For table_spare (rows_spare.c): which of them a narrow screen does without, the first ones first. */
+/* For table_spare: which of them a narrow screen does without, the first ones first. */
 const char *const *rows_spare(rows_kind kind, bool in_cycles);
 
 /* One row: cells[n] in the columns' order. A real that is not a number is not there. Cannot fail. */

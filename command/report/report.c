@@ -1,15 +1,145 @@
 /* report.c - see report.h: everything the page shows is computed here, in stages. */
 #include "command/report/report.h"
 
+#include <jansson.h>
 #include <math.h>
 #include <stdio.h>
 
+#include "casefile/scene.h"
 #include "casefile/structure_model.h"
-
 #include "command/report/aliasing.h"
 #include "command/report/assets.h"
-#include "command/report/curve.h"
 #include "command/report/structure.h"
+#include "compare/comparison.h"
+#include "compare/frequencies.h"
+#include "compare/response.h"
+#include "study/scene_solvers.h"
+
+/* ---- the response curve ------------------------------------------------------------ */
+
+/* As JSON, with what stands on it: points in the curve's order, for a folded curve is not a function of omega. */
+enum { CURVE_MOST_RESPONSES = 12 };
+
+/* [1] of the step that continuation needs: drawn with straight lines, the curve needs more points. */
+static const double shorter_steps = 0.35;
+
+static json_t *number(double value) { return isfinite(value) ? json_real(value) : json_null(); }
+
+static void append(json_t *columns, const char *name, json_t *value)
+{
+  json_t *list = json_object_get(columns, name);
+  if (!list) json_object_set_new(columns, name, list = json_array());
+  json_array_append_new(list, value);
+}
+
+static void append_point(json_t *columns, const response_row *r)
+{
+  int stable = r->stability_known ? hbm_stability_verdict(&r->stability) : 0;
+  append(columns, "omega", number(r->point.omega));
+  append(columns, "amplitude", number(r->measures.amplitude));
+  append(columns, "harmonic_1", number(r->measures.harmonic_1));
+  append(columns, "mean", number(r->measures.mean));
+  append(columns, "mean_free", json_integer(r->measures.contact.free_sliders > 0));
+  append(columns, "branch", json_integer(r->point.branch));
+  append(columns, "stable", json_integer(stable));
+  append(columns, "contact", json_string(contact_regime_name(r->measures.contact.regime)));
+}
+
+static void append_specials(hbm_solver *s, const hbm_curve *c, json_t *list)
+{
+  enum { MOST = 64 };
+  hbm_special special[MOST];
+  int n = 0;
+  hbm_specials(s, c, MOST, special, &n); /* if one cannot be located, those before it are shown */
+  for (int i = 0; i < n && i < MOST; ++i) {
+    const hbm_special *p = &special[i];
+    char text[96];
+    const char *from = contact_regime_name(p->before), *to = contact_regime_name(p->after);
+    if (p->kind == HBM_TURNING_POINT) snprintf(text, sizeof text, "turning point");
+    else if (p->kind == HBM_PERIOD_DOUBLING) snprintf(text, sizeof text, "period doubling");
+    else if (p->kind == HBM_NEIMARK_SACKER) snprintf(text, sizeof text, "Neimark-Sacker point");
+    else if (p->before != p->after) snprintf(text, sizeof text, "contact goes from %s to %s", from, to);
+    else snprintf(text, sizeof text, "contact pattern changes (%s)", to);
+    json_array_append_new(list, json_pack("{s:f, s:f, s:i, s:s}", "omega", p->omega, "amplitude", p->amplitude,
+                                          "branch", p->branch, "what", text));
+  }
+}
+
+/* The curve of sc over the comparison's frequencies, columns[n] of n responses; specials may be NULL. */
+static hc_status append_curve(const scene *sc, const comparison *c, const hc_monitor *monitor, int n,
+                              json_t *const *columns, json_t *specials)
+{
+  hbm_solver *s = NULL;
+  hbm_curve curve = {0};
+  number_list asked = {0};
+  double from, to;
+  for (int i = 0; i < c->n_rows && asked.n < NUMBER_LIST_MAX; ++i) asked.v[asked.n++] = c->rows[i].omega;
+  comparison_sweep(sc->omega_from, sc->omega_to, &asked, &from, &to);
+  hc_status st = scene_hbm_solver(sc, &s);
+  if (st == HC_OK && sc->hbm.force == HBM_FORCE_EXACT) hbm_scale_steps(s, shorter_steps);
+  if (st == HC_OK) st = hbm_trace(s, from, to, monitor, &curve);
+  for (int k = 0; k < curve.n; ++k) {
+    response_row row;
+    if (response_row_of(s, &curve, k, &row) != HC_OK) continue;
+    append_point(columns[0], &row);
+    for (int r = 1; r < n; ++r)
+      if (response_row_turn(s, &curve, k, r, &row) == HC_OK) append_point(columns[r], &row);
+  }
+  if (s && specials) append_specials(s, &curve, specials);
+  hbm_curve_free(&curve);
+  hbm_solver_free(s);
+  return st == HC_INTERRUPTED || st == HC_NO_MEMORY ? st : HC_OK;
+}
+
+/* What time integration came to in the rows of the comparison, of one response. */
+static json_t *transient_rows(const comparison *c, int response)
+{
+  json_t *list = json_array();
+  for (int i = 0; i < c->n_rows; ++i) {
+    const comparison_row *r = &c->rows[i];
+    char text[24];
+    bool moved =
+        r->transient_status == HC_OK || r->transient_status == HC_NOT_SETTLED || r->transient_status == HC_APERIODIC;
+    if (!moved || r->response != response) continue;
+    comparison_verdict_text(r, text);
+    json_array_append_new(list, json_pack("{s:f, s:o, s:o, s:o, s:b, s:i, s:s, s:o}", "omega", r->omega, "amplitude",
+                                          number(r->transient.amplitude), "harmonic_1", number(r->transient.harmonic_1),
+                                          "mean", number(r->transient.mean), "mean_free", (int)comparison_mean_free(r),
+                                          "branch", r->branch, "verdict", text, "error", number(r->errors.amplitude)));
+  }
+  return list;
+}
+
+/* What is shown of one response. */
+static json_t *response_object(const scene *sc, const comparison *c, int r, json_t *curve, json_t *turned,
+                               json_t *specials)
+{
+  return json_pack("{s:o, s:o, s:b, s:o, s:o}", "curve", curve, "turned", turned, "mean_kept", (int)sc->hbm.keep_mean,
+                   "specials", specials, "transient", transient_rows(c, r));
+}
+
+/* Of the first response, and into *others a list of the same for the others of a structure, up to
+ * CURVE_MOST_RESPONSES in all (special points are the first one's): {curve: columns of points; turned: the same, with
+ * harmonic 0 dropped if the scene keeps it, else kept; specials; transient: the rows' results}, read by response.js. A
+ * curve that stops early is shown as far as it goes. HC_INTERRUPTED, HC_NO_MEMORY. */
+static hc_status curve_json(const scene *sc, const comparison *c, const hc_monitor *monitor, json_t **out,
+                            json_t **others)
+{
+  enum { MOST = CURVE_MOST_RESPONSES };
+  json_t *curve[MOST] = {NULL}, *turned[MOST] = {NULL}, *specials = json_array();
+  scene other_mean = *sc; /* with harmonic 0 dropped if *sc keeps it, and the other way round */
+  const int all = sc->structure ? structure_response_count(sc->structure) : 1, n = all < MOST ? all : MOST;
+  other_mean.hbm.keep_mean = !sc->hbm.keep_mean;
+  for (int r = 0; r < n; ++r) curve[r] = json_object(), turned[r] = json_object();
+  hc_status st = append_curve(sc, c, monitor, n, curve, specials);
+  if (st == HC_OK) st = append_curve(&other_mean, c, monitor, n, turned, NULL);
+  *out = response_object(sc, c, 0, curve[0], turned[0], specials);
+  *others = json_array();
+  for (int r = 1; r < n; ++r)
+    json_array_append_new(*others, response_object(sc, c, r, curve[r], turned[r], json_array()));
+  if (st == HC_OK && (!*out || json_array_size(*others) + 1 != (size_t)n)) st = HC_NO_MEMORY;
+  return st;
+}
 
 bool report_has_charts(void) { return asset_chart.length > 0; }
 

@@ -24,7 +24,7 @@ typedef struct report_data {
   comparison comparison;
   accuracy accuracy;
   hc_status tabled;  /* status of the tables; the rows found are shown whatever it is */
-  json_t *response;  /* the curve and what stands on it, of the first response (curve.h) */
+  json_t *response;  /* the curve and what stands on it, of the first response */
   json_t *structure; /* other responses, shapes and contacts (structure.h); JSON null for one degree of freedom */
   json_t *aliasing;  /* answers on aliasing (aliasing.h); JSON null without contacts */
 } report_data;

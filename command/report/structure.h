@@ -8,7 +8,7 @@
 #include "compare/comparison.h"
 
 /* JSON null for one degree of freedom, else, read by structure.js,
- *     {names: of the responses; responses: `others` (curve.h); dofs, contacts: names;
+ *     {names: of the responses; responses: `others` of report.c; dofs, contacts: names;
  *      solutions: [{omega, branch, stable (1, 0, -1), amplitude, cosine, sine: [n] of harmonic 1;
  *                   loops: [{of: "T over u", "N over v" or "T_2 over T_1", x, y, work}] of the contacts}]}
  * of the HBM solutions at the comparison's frequencies, some of them where there are many. Loops are of the exact law
