@@ -15,14 +15,8 @@ const double *comparison_state(const comparison *c, int i) { return c->states + 
 hc_status comparison_orbit_start(hbm_solver *hbm, const double *X, double omega, double *state)
 {
   const int n = hbm_n_dof(hbm);
-  if (!hbm_of_oscillator(hbm)) {
-    hc_status st = hbm_state(hbm, omega, X, state, state + n);
-    return st == HC_OK ? hbm_sliders(hbm, X, state + 2 * n) : st;
-  }
-  series_jet j = series_at(hbm_n_harmonics(hbm), X, 1, 0);
-  state[TIMEINT_X] = j.x;
-  state[TIMEINT_V] = omega * j.d1;
-  return hbm_sliders(hbm, X, state + TIMEINT_W);
+  const hc_status st = hbm_state(hbm, omega, X, state, state + n);
+  return st == HC_OK ? hbm_sliders(hbm, X, state + 2 * n) : st;
 }
 
 static hc_status make_room(comparison *c)

@@ -14,10 +14,9 @@ periodic_motion motion_of_solution(const hbm_measures *m, int n_harm, const doub
 hc_status motion_of_response(hbm_solver *s, double omega, const double *X, int r, hbm_measures *m, periodic_motion *out)
 {
   double x[2 * HBM_MAX_HARMONICS + 1];
-  const bool oscillator = hbm_of_oscillator(s);
-  hc_status st = oscillator ? hbm_measure(s, X, m) : hbm_measure_response(s, omega, X, r, m);
-  if (st == HC_OK && !oscillator) st = hbm_response(s, omega, X, r, x);
-  if (st == HC_OK) *out = motion_of_solution(m, hbm_n_harmonics(s), oscillator ? X : x);
+  hc_status st = hbm_measure_response(s, omega, X, r, m);
+  if (st == HC_OK) st = hbm_response(s, omega, X, r, x);
+  if (st == HC_OK) *out = motion_of_solution(m, hbm_n_harmonics(s), x);
   return st;
 }
 

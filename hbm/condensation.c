@@ -240,17 +240,6 @@ static bool fill_by_compliance(condensation *c, int h)
   return true;
 }
 
-/* One degree of freedom: S = Z. */
-static void fill_oscillator(condensation *c)
-{
-  const double K = *c->basis.K, M = *c->basis.M, C = *c->basis.C + c->more_damping, omega = c->omega;
-  for (int h = 0; h <= c->n_harm; ++h) {
-    c->S[h] = K - M * h * h * omega * omega + I * (C * h * omega);
-    c->size[h] = K + M * h * h * omega * omega + C * h * omega;
-  }
-  for (int l = 0; l < c->m->n_loads; ++l) c->load[l] = c->basis.loads[2 * l] - I * c->basis.loads[2 * l + 1];
-}
-
 hc_status condensation_at(condensation *c, double omega, double more_damping)
 {
   if (c->known && omega == c->omega && more_damping == c->more_damping) return HC_OK;
@@ -258,8 +247,7 @@ hc_status condensation_at(condensation *c, double omega, double more_damping)
   c->more_damping = more_damping;
   c->known = false;
   hc_status st = HC_OK;
-  if (c->m->n == 1) fill_oscillator(c);
-  for (int h = 0; h <= c->n_harm && c->m->n > 1 && st == HC_OK; ++h) {
+  for (int h = 0; h <= c->n_harm && st == HC_OK; ++h) {
     c->by_compliance[h] = fill_by_compliance(c, h);
     if (!c->by_compliance[h]) st = condensation_by_rest(c, h);
   }

@@ -83,21 +83,9 @@ static void apply_by_rest(const condensation *c, int h, condensation_change by, 
   subtract_coupling(c, h, by, y, inner, dS_a);
 }
 
-/* The numbers one by one, as an oscillator's always were. */
-static void apply_number(const condensation *c, condensation_change by, double complex a, double complex *dS_a)
-{
-  const double complex dS = condensation_change_at(c, by, 0);
-  const double re = creal(dS), im = cimag(dS), x = creal(a), y = -cimag(a);
-  *dS_a = (re * x + im * y) - I * (re * y - im * x);
-}
-
 void condensation_stiffness_change(condensation *c, int h, condensation_change by, const double complex *a,
                                    double complex *dS_a)
 {
-  if (c->m->n == 1) {
-    apply_number(c, by, *a, dS_a);
-    return;
-  }
   memset(dS_a, 0, (size_t)c->basis.dim * sizeof *dS_a);
   if (by.alpha == 0 && by.beta == 0) return; /* at rest */
   const double complex *dG = change_by_compliance(c, h, by);
@@ -167,7 +155,7 @@ void condensation_response(condensation *c, int h, int r, double factor, double 
                            double complex *rest_of_it)
 {
   const int dim = c->basis.dim, rest = c->basis.rest;
-  if (c->m->n > 1 && response_by_compliance(c, h, r, factor, row, rest_of_it)) return;
+  if (response_by_compliance(c, h, r, factor, row, rest_of_it)) return;
   const double *of = c->basis.responses + (size_t)r * (size_t)c->m->n;
   const double complex *W = c->by_q + (size_t)h * (size_t)dim * (size_t)rest;
   *rest_of_it = 0;
@@ -184,7 +172,7 @@ hc_status condensation_motion(condensation *c, int h, const double complex *q, d
 {
   const size_t n = (size_t)c->m->n, dim = (size_t)c->basis.dim, rest = (size_t)c->basis.rest;
   const double complex *W = c->by_q + (size_t)h * dim * rest;
-  if (n > 1 && c->by_compliance[h]) {
+  if (c->by_compliance[h]) {
     hc_status st = condensation_by_rest(c, h);
     if (st != HC_OK) return st;
     c->by_compliance[h] = false;

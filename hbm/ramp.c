@@ -24,12 +24,11 @@ static double stiffest(const hbm_system *sys)
 {
   const model *m = sys->model;
   double mass = 0;
-  if (model_is_oscillator(m)) return model_max_stiffness(m);
   for (int i = 0; i < m->n; ++i) mass += m->mass[(size_t)i * (size_t)(m->n + 1)] / m->n;
   return mass * sys->scales.highest * sys->scales.highest;
 }
 
-/* Of C; n = 1: C itself. */
+/* The mean of C's diagonal. */
 static double mean_damping(const model *m)
 {
   double sum = 0;

@@ -246,7 +246,7 @@ static void differentiate(hbm_system *sys, condensation_change (*by)(const conde
       of_a[d] = creal(dS_a[d]);
     }
   }
-  for (int l = 0; l < sys->model->n_loads && sys->model->n > 1; ++l) {
+  for (int l = 0; l < sys->model->n_loads; ++l) {
     const int h = sys->model->loads[l].harmonic;
     condensation_load_change(sys->linear, l, by(sys->linear, h), a);
     subtract_load(sys, a, h, sys->force_factor);

@@ -13,7 +13,7 @@ struct hbmcheck_solutions {
   int n, n_responses;       /* solutions that have been measured: the first n of the curve's */
   hbmcheck_solution *list;  /* [n][n_responses] */
   int length;               /* of a series */
-  double *series;           /* [n][n_responses][length] of a structure; else NULL: the curve has them */
+  double *series;           /* [n][n_responses][length] */
 };
 
 struct hbmcheck_curve {
@@ -57,8 +57,7 @@ static hc_status measure_solution(hbm_solver *solver, int k, hbmcheck_solutions 
   for (int r = 0; r < s->n_responses && st == HC_OK; ++r) {
     if (r > 0) st = response_row_turn(solver, &s->curve, k, r, &row);
     s->list[k * s->n_responses + r] = solution_of(&row);
-    if (st == HC_OK && s->series)
-      st = hbm_response(solver, row.point.omega, hbm_curve_X(&s->curve, k), r, series_at(s, k, r));
+    if (st == HC_OK) st = hbm_response(solver, row.point.omega, hbm_curve_X(&s->curve, k), r, series_at(s, k, r));
   }
   return st;
 }
@@ -72,8 +71,8 @@ static hc_status measure_solutions(hbm_solver *solver, int n_responses, hbmcheck
   if (n == 0) return HC_OK;
   s->list = malloc(n * sizeof *s->list);
   if (!s->list) return HC_NO_MEMORY;
-  if (!hbm_of_oscillator(solver) && !(s->series = malloc(n * (size_t)s->length * sizeof *s->series)))
-    return HC_NO_MEMORY;
+  s->series = malloc(n * (size_t)s->length * sizeof *s->series);
+  if (!s->series) return HC_NO_MEMORY;
   for (; s->n < s->curve.n; ++s->n) {
     hc_status st = measure_solution(solver, s->n, s);
     if (st != HC_OK) return st;
@@ -118,7 +117,7 @@ hbmcheck_status hbmcheck_solutions_response_coefficients(const hbmcheck_solution
 {
   if (!n || !has_solution(s, k, r) || cap < 0 || (cap > 0 && !X)) return HBMCHECK_BAD_INPUT;
   *n = 2 * s->curve.points[k].harmonics + 1;
-  library_copy(*n, s->series ? series_at(s, k, r) : hbm_curve_X(&s->curve, k), cap, X);
+  library_copy(*n, series_at(s, k, r), cap, X);
   return HBMCHECK_OK;
 }
 

@@ -171,9 +171,8 @@ static hc_status outline_new(search *s, outline *out)
     for (int i = 0; i < BETWEEN; ++i) {
       double *const omega = &out->omega[out->n];
       hbm_segment_at(&seg, (double)i / BETWEEN, X, omega, NULL, NULL);
-      const bool oscillator = hbm_of_oscillator(hbm);
-      if (!oscillator && hbm_response(hbm, *omega, X, 0, series) != HC_OK) continue;
-      const verify_motion motion = verify_motion_of(*omega, n_harm, oscillator ? X : series);
+      if (hbm_response(hbm, *omega, X, 0, series) != HC_OK) continue;
+      const verify_motion motion = verify_motion_of(*omega, n_harm, series);
       out->omega[room + (size_t)out->n++] = verify_quantity_of(&s->points.quantity, &motion);
     }
   }

@@ -25,11 +25,9 @@ compare_setup verify_settings(const compare_setup *setup, const verify_equations
 hc_status verify_motion_of_solution(hbm_solver *hbm, double omega, const double *X, int response, double *series,
                                     hbm_measures *m, verify_motion *out)
 {
-  const bool oscillator = hbm_of_oscillator(hbm);
-  hc_status st = oscillator ? hbm_measure(hbm, X, m) : hbm_measure_response(hbm, omega, X, response, m);
-  if (st == HC_OK && !oscillator) st = hbm_response(hbm, omega, X, response, series);
-  *out = (verify_motion){
-      .omega = omega, .max = m->max, .min = m->min, .n_harm = hbm_n_harmonics(hbm), .X = oscillator ? X : series};
+  hc_status st = hbm_measure_response(hbm, omega, X, response, m);
+  if (st == HC_OK) st = hbm_response(hbm, omega, X, response, series);
+  *out = (verify_motion){.omega = omega, .max = m->max, .min = m->min, .n_harm = hbm_n_harmonics(hbm), .X = series};
   return st;
 }
 

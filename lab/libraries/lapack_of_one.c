@@ -1,7 +1,8 @@
 /* lapack_of_one.c - LAPACK for one degree of freedom: Debian has no Fortran compiler for WebAssembly. Of the routines
- * that numerics/dense.c calls, an oscillator's harmonic balance needs the pivoted QR factors of a matrix with one row.
- * Everything else belongs to structures, which the lab refuses by name (lab_scene.h); asked for all the same, it
- * answers as LAPACK does to an argument that is out of range, and dense.h with a status. Arguments are LAPACK's. */
+ * that numerics/dense.c calls, an oscillator's harmonic balance needs the pivoted QR factors of a matrix with one
+ * row, and the LU factors of a number. Everything else belongs to structures, which the lab refuses by name
+ * (lab_scene.h), or has another way (eigenvectors: a matrix exponential); asked for all the same, it answers as
+ * LAPACK does to an argument that is out of range, and dense.h with a status. Arguments are LAPACK's. */
 #include <complex.h>
 #include <math.h>
 #include <stddef.h>
@@ -37,6 +38,36 @@ void dorgqr_(const int *m, const int *n, const int *k, double *a, const int *lda
   if (*info == 0) a[0] = 1;
 }
 
+/* ---- LU factors of a number ---- */
+
+void dgetrf_(const int *m, const int *n, double *a, const int *lda, int *pivot, int *info)
+{
+  *info = *m == 1 && *n == 1 && *lda == 1 ? a[0] == 0 : REFUSED;
+  if (*info != REFUSED) pivot[0] = 1;
+}
+
+void dgetrs_(const char *transposed, const int *n, const int *columns, const double *a, const int *lda,
+             const int *pivot, double *b, const int *ldb, int *info, size_t transposed_length)
+{
+  (void)transposed, (void)pivot, (void)transposed_length;
+  *info = *n == 1 && *lda == 1 && *ldb == 1 ? 0 : REFUSED;
+  for (int i = 0; *info == 0 && i < *columns; ++i) b[i] /= a[0];
+}
+
+void zgetrf_(const int *m, const int *n, double complex *a, const int *lda, int *pivot, int *info)
+{
+  *info = *m == 1 && *n == 1 && *lda == 1 ? a[0] == 0 : REFUSED;
+  if (*info != REFUSED) pivot[0] = 1;
+}
+
+void zgetrs_(const char *transposed, const int *n, const int *columns, const double complex *a, const int *lda,
+             const int *pivot, double complex *b, const int *ldb, int *info, size_t transposed_length)
+{
+  (void)transposed, (void)pivot, (void)transposed_length;
+  *info = *n == 1 && *lda == 1 && *ldb == 1 ? 0 : REFUSED;
+  for (int i = 0; *info == 0 && i < *columns; ++i) b[i] /= a[0];
+}
+
 /* ---- of structures ------------------------------------------------------------------------------------ */
 
 void dsygvd_(const int *type, const char *job, const char *half, const int *n, double *a, const int *lda, double *b,
@@ -54,34 +85,6 @@ void dgeev_(const char *left, const char *right, const int *n, double *a, const 
 {
   (void)left, (void)right, (void)n, (void)a, (void)lda, (void)re, (void)im, (void)vl, (void)ldvl, (void)vr;
   (void)ldvr, (void)work, (void)lwork, (void)left_length, (void)right_length;
-  *info = REFUSED;
-}
-
-void dgetrf_(const int *m, const int *n, double *a, const int *lda, int *pivot, int *info)
-{
-  (void)m, (void)n, (void)a, (void)lda, (void)pivot;
-  *info = REFUSED;
-}
-
-void dgetrs_(const char *transposed, const int *n, const int *columns, const double *a, const int *lda,
-             const int *pivot, double *b, const int *ldb, int *info, size_t transposed_length)
-{
-  (void)transposed, (void)n, (void)columns, (void)a, (void)lda, (void)pivot, (void)b, (void)ldb;
-  (void)transposed_length;
-  *info = REFUSED;
-}
-
-void zgetrf_(const int *m, const int *n, double complex *a, const int *lda, int *pivot, int *info)
-{
-  (void)m, (void)n, (void)a, (void)lda, (void)pivot;
-  *info = REFUSED;
-}
-
-void zgetrs_(const char *transposed, const int *n, const int *columns, const double complex *a, const int *lda,
-             const int *pivot, double complex *b, const int *ldb, int *info, size_t transposed_length)
-{
-  (void)transposed, (void)n, (void)columns, (void)a, (void)lda, (void)pivot, (void)b, (void)ldb;
-  (void)transposed_length;
   *info = REFUSED;
 }
 
