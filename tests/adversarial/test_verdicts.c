@@ -1,32 +1,12 @@
 /* test_verdicts.c - every scene of cases/adversarial through the command, as people run it: the verdict of each row
  * and the exit code. Why each must be what it is stands in the case file. Motions are tested in test_contacts.c and
  * test_curves.c. */
-#include "tests/shell.h"
+#include "tests/program.h"
 
 #include <string.h>
 
-typedef struct outcome {
-  int code;
-  char out[16384];
-} outcome;
-
-static outcome run(const char *args)
-{
-  outcome o = {.code = -1};
-  char line[1024];
-  snprintf(line, sizeof line, "%s %s 2>&1", HBMCHECK_COMMAND, args);
-  o.code = shell_read(line, o.out, sizeof o.out);
-  return o;
-}
-
-static void expect(const char *args, int code, const char *fragment)
-{
-  outcome o = run(args);
-  shell_check(args, o.code, o.out, code, fragment);
-}
-
 /* The third column, `verdict`, of the rows of a csv, one letter each: m match, u unstable, o other_branch, ... */
-static void letters(char *csv, char *out, size_t size)
+static void letters(char *csv, char *found, size_t size)
 {
   size_t n = 0;
   for (char *line = strtok(csv, "\n"); line; line = strtok(NULL, "\n")) {
@@ -35,9 +15,9 @@ static void letters(char *csv, char *out, size_t size)
     int branch;
     if (sscanf(line, "%lf,%d,%31[a-z_0-9]", &omega, &branch, word) == 3 ||
         sscanf(line, "%lf,,%31[a-z_0-9]", &omega, word) == 2)
-      if (n + 1 < size) out[n++] = word[0];
+      if (n + 1 < size) found[n++] = word[0];
   }
-  out[n] = 0;
+  found[n] = 0;
 }
 
 typedef struct verdicts {
@@ -50,11 +30,11 @@ static void check_verdicts(int n, const verdicts *v)
 {
   for (int i = 0; i < n; ++i) {
     char args[512], got[64];
-    snprintf(args, sizeof args, "compare cases/adversarial/%s.yaml --format csv -q %s", v[i].scene, v[i].options);
-    outcome o = run(args);
-    letters(o.out, got, sizeof got);
-    if (o.code == v[i].code && !strcmp(got, v[i].letters)) continue;
-    print_error("hbmcheck %s\nexit %d, verdicts '%s', expected %d, '%s'\n", args, o.code, got, v[i].code, v[i].letters);
+    snprintf(args, sizeof args, "compare cases/adversarial/%s.yaml --format csv -q %s 2>&1", v[i].scene, v[i].options);
+    const int code = run(args);
+    letters(out, got, sizeof got);
+    if (code == v[i].code && !strcmp(got, v[i].letters)) continue;
+    print_error("hbmcheck %s\nexit %d, verdicts '%s', expected %d, '%s'\n", args, code, got, v[i].code, v[i].letters);
     fail();
   }
 }
@@ -119,11 +99,11 @@ static void a_branch_is_not_hidden(void **state)
       {"isolated", "--set sweep.omega=15,30", 0, "mum"},
   };
   CHECK_VERDICTS(list);
-  expect("gate cases/adversarial/isolated.yaml -q --set transient.start=down", 0, "13 passed");
-  expect("gate cases/adversarial/isolated.yaml -q --set transient.start=down --set hbm.continuation=natural", 1,
+  expect("gate cases/adversarial/isolated.yaml -q --set transient.start=down 2>&1", 0, "13 passed");
+  expect("gate cases/adversarial/isolated.yaml -q --set transient.start=down --set hbm.continuation=natural 2>&1", 1,
          "fail");
-  expect("frf cases/adversarial/isolated.yaml --at 16 -q --format csv", 0, "16,2,7.3659");
-  expect("frf cases/adversarial/isolated.yaml --at 16 -q --set hbm.continuation=natural", 3, "stopped at omega");
+  expect("frf cases/adversarial/isolated.yaml --at 16 -q --format csv 2>&1", 0, "16,2,7.3659");
+  expect("frf cases/adversarial/isolated.yaml --at 16 -q --set hbm.continuation=natural 2>&1", 3, "stopped at omega");
 }
 
 /* The HBM solution at 5.3 is good, and unstable: nothing runs there. */
@@ -132,17 +112,17 @@ static void chaos_is_not_agreed_with(void **state)
   (void)state;
   static const verdicts list[] = {{"chaotic", "--at 5.3,6", 1, "am"}};
   CHECK_VERDICTS(list);
-  expect("frf cases/adversarial/chaotic.yaml --at 5.3 -q --format csv", 0, ",no,");
+  expect("frf cases/adversarial/chaotic.yaml --at 5.3 -q --format csv 2>&1", 0, ",no,");
 }
 
 static void refusals(void **state)
 {
   (void)state;
-  expect("compare cases/adversarial/one_point.yaml", 2, "one_point.yaml:6:16: the sweep ends where it starts");
-  expect("frf cases/adversarial/one_point.yaml", 2, "--at");
-  expect("compare cases/adversarial/fewest_samples.yaml -q --at 6,6.5", 1, "aliasing");
-  expect("compare cases/adversarial/fewest_samples.yaml --set hbm.samples=10", 2, "hbm.samples >= 11");
-  expect("compare cases/adversarial/two_hundred_harmonics.yaml --set hbm.harmonics=201", 2, "200");
+  expect("compare cases/adversarial/one_point.yaml 2>&1", 2, "one_point.yaml:6:16: the sweep ends where it starts");
+  expect("frf cases/adversarial/one_point.yaml 2>&1", 2, "--at");
+  expect("compare cases/adversarial/fewest_samples.yaml -q --at 6,6.5 2>&1", 1, "aliasing");
+  expect("compare cases/adversarial/fewest_samples.yaml --set hbm.samples=10 2>&1", 2, "hbm.samples >= 11");
+  expect("compare cases/adversarial/two_hundred_harmonics.yaml --set hbm.harmonics=201 2>&1", 2, "200");
 }
 
 int main(void)

@@ -2,28 +2,7 @@
  * not at all. Runs the built hbmcheck (HBMCHECK_COMMAND) in a shell; what it computes is tested elsewhere. */
 #include <string.h>
 
-#include "tests/shell.h"
-
-typedef struct outcome {
-  int code;
-  char out[65536];
-} outcome;
-
-/* Run "hbmcheck ARGS"; stdout, or both streams with " 2>&1" in args, into out. */
-static outcome run(const char *args)
-{
-  outcome o = {.code = -1};
-  char line[2048];
-  snprintf(line, sizeof line, "%s %s", HBMCHECK_COMMAND, args);
-  o.code = shell_read(line, o.out, sizeof o.out);
-  return o;
-}
-
-static void expect(const char *args, int code, const char *fragment)
-{
-  outcome o = run(args);
-  shell_check(args, o.code, o.out, code, fragment);
-}
+#include "tests/program.h"
 
 #define CASE2 "cases/paper/case2.yaml "
 
@@ -131,9 +110,9 @@ static void dropping_the_mean_costs_what_it_costs(void **state)
     char args[128];
     double hbm, transient;
     snprintf(args, sizeof args, "compare " CASE2 "--at %g -q --format csv --set hbm.static=false", expected[i][0]);
-    outcome o = run(args);
-    hbm = first_row(o.out, "hbm_harmonic_1");
-    transient = first_row(o.out, "transient_harmonic_1");
+    run(args);
+    hbm = first_row(out, "hbm_harmonic_1");
+    transient = first_row(out, "transient_harmonic_1");
     CHECK_NEAR(1 - hbm / transient, expected[i][1], 0.005 + 1e-3, "omega = %g", expected[i][0]);
   }
 }
@@ -197,13 +176,11 @@ static int longest_line(const char *text)
 static void rows_fit(const char *environment, const char *args, int width)
 {
   char line[512];
-  outcome o = {0};
   snprintf(line, sizeof line, "%s %s %s", environment, HBMCHECK_COMMAND, args);
-  o.code = shell_read(line, o.out, sizeof o.out);
-  CHECK_LE(o.code, 1, "%s", args);
-  char *end = strstr(o.out, "\n\n");
+  CHECK_LE(shell_read(line, out, sizeof out), 1, "%s", args);
+  char *end = strstr(out, "\n\n");
   if (end) *end = 0;
-  CHECK_LE(longest_line(o.out), width, "%s %s:\n%s", environment, args, o.out);
+  CHECK_LE(longest_line(out), width, "%s %s:\n%s", environment, args, out);
 }
 
 /* 100 columns where there is no terminal and COLUMNS says nothing. */
@@ -265,8 +242,7 @@ static void help_works_everywhere(void **state)
     int lines = 0;
     snprintf(args, sizeof args, "%s --help", commands[i]);
     expect(args, 0, "example");
-    outcome o = run(args);
-    for (const char *c = o.out; *c; ++c) lines += *c == '\n';
+    for (const char *c = out; *c; ++c) lines += *c == '\n';
     CHECK_LE(lines, 50, "%s --help is a screen", commands[i]);
   }
   expect("--help", 0, "compare");

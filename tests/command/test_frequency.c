@@ -2,19 +2,10 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "tests/shell.h"
+#include "tests/program.h"
 
 #define CASE2  SOURCE_DIR "/cases/paper/case2.yaml "
 #define CYCLES "--set sweep.frequency=0.5,3.2 "
-
-/* `arguments` of hbmcheck give this exit code and say `fragment`; what they say into out[]. */
-static char out[1 << 18];
-static void expect(const char *arguments, int code, const char *fragment)
-{
-  char line[1024];
-  snprintf(line, sizeof line, "%s %s", HBMCHECK_COMMAND, arguments);
-  shell_check(line, shell_read(line, out, sizeof out), out, code, fragment);
-}
 
 /* Column `index` of the first row of csv after its header, in out[]. */
 static double cell(int index)

@@ -2,26 +2,12 @@
 #include <stdbool.h>
 #include <string.h>
 
-#include "tests/shell.h"
+#include "tests/program.h"
 
 #define CHAIN "cases/structures/chain3.yaml "
 #define CASE2 "cases/paper/case2.yaml "
 #define PLANE "cases/structures/plane.yaml "
 #define SPACE "cases/structures/space.yaml "
-
-static char out[1 << 20];
-
-static int run(const char *args)
-{
-  char line[2048];
-  snprintf(line, sizeof line, "%s %s", HBMCHECK_COMMAND, args);
-  return shell_read(line, out, sizeof out);
-}
-
-static void expect(const char *args, int code, const char *fragment)
-{
-  shell_check(args, run(args), out, code, fragment);
-}
 
 static int count(const char *fragment)
 {

@@ -1,18 +1,10 @@
 /* test_unsaid.c - what a comparison would hide if it did not say it: means that are a matter of history, and that
  * nothing nonlinear was compared. */
-#include "tests/shell.h"
+#include "tests/program.h"
 
 #define CASE2 SOURCE_DIR "/cases/paper/case2.yaml "
 #define CASE1                                                                                                          \
   SOURCE_DIR "/cases/paper/case1.yaml " /* its slider sticks all the time at omega 12 (tests/reference, a10) */
-
-static char out[1 << 18];
-static void expect(const char *arguments, int code, const char *fragment)
-{
-  char line[1024];
-  snprintf(line, sizeof line, "%s %s", HBMCHECK_COMMAND, arguments);
-  shell_check(line, shell_read(line, out, sizeof out), out, code, fragment);
-}
 
 static void a_free_mean_is_said_and_not_compared(void **state)
 {

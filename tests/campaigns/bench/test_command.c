@@ -5,29 +5,9 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "tests/shell.h"
+#include "tests/program.h"
 
 #define CASE2 "cases/paper/case2.yaml "
-typedef struct outcome {
-  int code;
-  char out[131072];
-} outcome;
-
-static outcome run(const char *args)
-{
-  static outcome o;
-  char line[1024];
-  snprintf(line, sizeof line, "%s %s", HBMCHECK_COMMAND, args);
-  o.code = shell_read(line, o.out, sizeof o.out);
-  return o;
-}
-
-static void expect(const char *args, int code, const char *fragment)
-{
-  outcome o = run(args);
-  shell_check(args, o.code, o.out, code, fragment);
-}
-
 /* The error of the row that starts like this, as csv. NaN: no such row, or not solved. */
 static double error_of(const char *csv, const char *start)
 {
@@ -55,20 +35,20 @@ static void check_falls(const char *csv, const char *family, int n, const char *
 static void errors_fall_along_each_family(void **state)
 {
   (void)state;
-  outcome o = run("bench " CASE2 "--at 6.5 --repeats 1 --alone --format csv -q --set transient.max_periods=2000");
-  assert_int_equal(o.code, 0);
+  assert_int_equal(run("bench " CASE2 "--at 6.5 --repeats 1 --alone --format csv -q --set transient.max_periods=2000"),
+                   0);
   static const char *const exact[] = {"6.5,hbm_exact,5,", "6.5,hbm_exact,20,", "6.5,hbm_exact,80,"};
   static const char *const regularised[] = {"6.5,regularised_shooting,,,0.01,1e-08",
                                             "6.5,regularised_shooting,,,0.001,1e-08",
                                             "6.5,regularised_shooting,,,0.0001,1e-08"};
-  check_falls(o.out, "hbm_exact", 3, exact, 0.25);
-  check_falls(o.out, "regularised_shooting", 3, regularised, 0.2);
-  double coarse = error_of(o.out, "6.5,hbm_sampled,40,256,"), fine = error_of(o.out, "6.5,hbm_sampled,40,16384,"),
-         limit = error_of(o.out, "6.5,hbm_exact,40,");
+  check_falls(out, "hbm_exact", 3, exact, 0.25);
+  check_falls(out, "regularised_shooting", 3, regularised, 0.2);
+  double coarse = error_of(out, "6.5,hbm_sampled,40,256,"), fine = error_of(out, "6.5,hbm_sampled,40,16384,"),
+         limit = error_of(out, "6.5,hbm_exact,40,");
   CHECK_LE(fine, 0.1 * coarse + 2 * limit, "hbm_sampled");
-  assert_non_null(strstr(o.out, "omega,accuracy,method,settings,"));
-  assert_non_null(strstr(o.out, "# fastest at omega = 6.5: "));
-  assert_non_null(strstr(o.out, "compiler"));
+  assert_non_null(strstr(out, "omega,accuracy,method,settings,"));
+  assert_non_null(strstr(out, "# fastest at omega = 6.5: "));
+  assert_non_null(strstr(out, "compiler"));
 }
 
 /* A mass on a rubbing foot: its normal motion, here the first response, is linear and free of error to rounding, so
@@ -89,14 +69,13 @@ static void errors_are_of_all_responses(void **state)
         to);
   fclose(to);
   snprintf(line, sizeof line, "bench %s --at 4 --repeats 1 --format csv -q --set transient.max_periods=300", path);
-  outcome o = run(line);
-  assert_int_equal(o.code, 0);
+  assert_int_equal(run(line), 0);
   static const char *const exact[] = {"4,hbm_exact,5,", "4,hbm_exact,20,", "4,hbm_exact,80,"};
-  CHECK_LE(1e-6, error_of(o.out, exact[0]), "the second response's");
-  check_falls(o.out, "hbm_exact", 3, exact, 1.0 / 16);
-  CHECK_LE(error_of(o.out, "4,exact_shooting,,,,9.9999999999999994e-12"), 1e-10, "tolerance 1e-11");
-  CHECK_LE(error_of(o.out, "4,closed_shooting,"), 1e-10, "tolerance 1e-11");
-  assert_non_null(strstr(o.out, "scipy_lsoda: of one degree of freedom only"));
+  CHECK_LE(1e-6, error_of(out, exact[0]), "the second response's");
+  check_falls(out, "hbm_exact", 3, exact, 1.0 / 16);
+  CHECK_LE(error_of(out, "4,exact_shooting,,,,9.9999999999999994e-12"), 1e-10, "tolerance 1e-11");
+  CHECK_LE(error_of(out, "4,closed_shooting,"), 1e-10, "tolerance 1e-11");
+  assert_non_null(strstr(out, "scipy_lsoda: of one degree of freedom only"));
   remove(path);
 }
 
@@ -117,13 +96,12 @@ static double best_of(const char *csv, const char *method)
 static void every_method_comes_near(void **state)
 {
   (void)state;
-  outcome o = run("bench " CASE2 "--at 6.5 --repeats 1 --alone --format csv -q");
-  assert_int_equal(o.code, 0);
-  CHECK_LE(best_of(o.out, "exact_shooting"), 1e-10, "tolerance 1e-11");
-  CHECK_LE(best_of(o.out, "exact_marching"), 1e-10, "tolerance 1e-11");
-  CHECK_LE(best_of(o.out, "regularised_shooting"), 1e-5, "first order, regularisation 1e-6");
-  CHECK_LE(best_of(o.out, "regularised_marching"), 1e-4, "first order, regularisation 1e-5");
-  CHECK_LE(best_of(o.out, "regularised_richardson"), 1e-5, "extrapolated from 1e-2");
+  assert_int_equal(run("bench " CASE2 "--at 6.5 --repeats 1 --alone --format csv -q"), 0);
+  CHECK_LE(best_of(out, "exact_shooting"), 1e-10, "tolerance 1e-11");
+  CHECK_LE(best_of(out, "exact_marching"), 1e-10, "tolerance 1e-11");
+  CHECK_LE(best_of(out, "regularised_shooting"), 1e-5, "first order, regularisation 1e-6");
+  CHECK_LE(best_of(out, "regularised_marching"), 1e-4, "first order, regularisation 1e-5");
+  CHECK_LE(best_of(out, "regularised_richardson"), 1e-5, "extrapolated from 1e-2");
 }
 
 static void mistakes_are_named(void **state)

@@ -1,36 +1,15 @@
-/* run.h - the built command in a shell, and a file in memory. */
+/* run.h - a page written by the built command, and a file in memory. */
 #ifndef HC_TESTS_REPORT_RUN_H
 #define HC_TESTS_REPORT_RUN_H
 
 #include <stdbool.h>
 #include <string.h>
 
-#include "tests/shell.h"
+#include "tests/program.h"
 
 /* A comparison of two frequencies, tables of two orders: what a page has, in a second. */
 #define CASE2 "cases/paper/case2.yaml"
 #define SMALL " --at 8,9 --harmonics 1,5 --samples 32,512 -q "
-
-typedef struct outcome {
-  int code;
-  char out[4096];
-} outcome;
-
-/* Run "PROGRAM ARGS"; what it says into out, whichever stream args lead there. */
-static inline outcome run_program(const char *program, const char *args)
-{
-  outcome o = {.code = -1};
-  char line[2048];
-  snprintf(line, sizeof line, "%s %s", program, args);
-  o.code = shell_read(line, o.out, sizeof o.out);
-  return o;
-}
-
-static inline void expect(const char *args, int code, const char *fragment)
-{
-  outcome o = run_program(HBMCHECK_COMMAND, args);
-  shell_check(args, o.code, o.out, code, fragment);
-}
 
 /* The whole file, zero-terminated; to be freed. */
 static inline char *contents(const char *path, size_t *length)

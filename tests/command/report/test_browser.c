@@ -16,12 +16,11 @@ static void open_page(const char *folder, const char *of, const char *set, int c
   char args[1024], path[96];
   size_t length;
   snprintf(args, sizeof args, "report %s%s -o %s/page.html 2>&1", of, set, folder);
-  outcome o = run_program(HBMCHECK_COMMAND, args);
-  assert_int_equal(o.code, code);
+  assert_int_equal(run(args), code);
   snprintf(args, sizeof args,
-           HEADLESS "%s --user-data-dir=%s/profile --dump-dom 'file://%s/page.html#selftest' >%s/dom 2>%s/log", scheme,
-           folder, folder, folder, folder);
-  run_program(CHROMIUM, args);
+           CHROMIUM HEADLESS "%s --user-data-dir=%s/profile --dump-dom 'file://%s/page.html#selftest' >%s/dom 2>%s/log",
+           scheme, folder, folder, folder, folder);
+  shell_read(args, out, sizeof out);
   snprintf(path, sizeof path, "%s/dom", folder);
   char *dom = contents(path, &length);
   snprintf(path, sizeof path, "%s/log", folder);
@@ -66,8 +65,8 @@ static void every_plot_is_drawn_and_every_control_works(void **state)
     open_page(folder, CASE2 SMALL, pages[i].set, pages[i].code, pages[i].scheme);
   open_page(folder, "cases/structures/jenkins2.yaml -q ", "--at 24,25.9 --harmonics 5 --samples 64,256", 1, DARK);
   open_page(folder, "cases/structures/stop2.yaml -q ", "--at 0.6 --harmonics 5 --samples 64", 1, "");
-  snprintf(line, sizeof line, "-rf %s", folder);
-  run_program("rm", line);
+  snprintf(line, sizeof line, "rm -rf %s", folder);
+  shell_read(line, out, sizeof out);
 }
 
 int main(void)
