@@ -7,7 +7,6 @@
 #include <string.h>
 
 #include "numerics/dense.h"
-#include "numerics/lu.h"
 
 #define AT(A, i, j) ((A)[(size_t)(i) + (size_t)n * (size_t)(j)])
 
@@ -125,7 +124,7 @@ static double least_held(int n, const double *lu, const int *pivot, double *x)
   for (int step = 0; step < 4; ++step) {
     const double before = largest(n, x);
     for (int i = 0; i < n; ++i) x[i] /= before;
-    lu_solve(n, lu, pivot, x);
+    dense_solve(n, lu, pivot, 1, x);
     growth = largest(n, x);
   }
   return growth;
@@ -149,7 +148,7 @@ static bool unresisted(int n, double *A, double *d, int *pivot, double *x)
 {
   const double scale = equilibrate(n, A, d), rounding = n * DBL_EPSILON * scale;
   for (int i = 0; i < n; ++i) x[i] = 1, AT(A, i, i) += rounding / 8;
-  const bool is_free = scale == 0 || !lu_factor(n, A, pivot) || !(least_held(n, A, pivot, x) * rounding < 1);
+  const bool is_free = scale == 0 || dense_factor(n, A, pivot) != HC_OK || !(least_held(n, A, pivot, x) * rounding < 1);
   for (int i = 0; i < n; ++i) x[i] *= d[i];
   const double most = x[moves_most(n, x)];
   for (int i = 0; i < n; ++i) x[i] /= most;

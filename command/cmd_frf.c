@@ -150,17 +150,11 @@ static void note_curve(table *t, const scene *sc, const hbm_solver *s, const hbm
   else table_note(t, "STOPPED at %s: %s", last, hc_status_text(c->end));
 }
 
-/* "Newton: 275 unknowns, own LU, 612 factorisations" */
+/* "Newton: 275 unknowns, 612 factorisations" */
 static void note_newton(table *t, const hbm_solver *s)
 {
   const hbm_newton_report r = hbm_newton_work(s);
-  const char *lu = r.work.lapack ? "LAPACK LU" : "own LU";
-  if (r.work.way == NEWTON_KRYLOV)
-    table_note(t,
-               "Newton: %d unknowns, SPGMR preconditioned by %s: %ld solves with %ld iterations, %ld of them in vain; "
-               "%ld factorisations",
-               r.unknowns, lu, r.work.krylov, r.work.rounds, r.work.krylov_failed, r.work.factored);
-  else table_note(t, "Newton: %d unknowns, %s, %ld factorisations", r.unknowns, lu, r.work.factored);
+  table_note(t, "Newton: %d unknowns, %ld factorisations", r.unknowns, r.factorisations);
 }
 
 /* "omega = 9.2095785410", or "frequency = 1.4657502 (omega = ...)" where the sweep is in cycles. */

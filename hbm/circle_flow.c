@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "base/constants.h"
-#include "numerics/lu.h"
+#include "numerics/dense.h"
 
 enum { N = COLLOCATION_POINTS };
 
@@ -294,11 +294,11 @@ static hc_status advance_step(circle_flow *f, const contact_piece *const *piece,
       fill_motion_block(f, n_slipping, slipping, h, i, j);
       fill_circle_block(f, n_slipping, slipping, h, i, j);
     }
-  if (!lu_factor(unknowns, f->matrix, f->pivot)) return HC_SINGULAR;
+  if (dense_factor(unknowns, f->matrix, f->pivot) != HC_OK) return HC_SINGULAR;
   for (size_t q = 0; q < (size_t)columns; ++q) {
     for (size_t i = 0; i < states; ++i) f->now[i] = phi[i * states + q];
     fill_right(f, piece, n_slipping, slipping, h);
-    lu_solve(unknowns, f->matrix, f->pivot, f->right);
+    dense_solve(unknowns, f->matrix, f->pivot, 1, f->right);
     finish_column(f, n_slipping, slipping, h);
     for (size_t i = 0; i < states; ++i) phi[i * states + q] = f->now[i];
   }

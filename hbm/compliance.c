@@ -13,7 +13,6 @@
 #include "hbm/mode_sum.h"
 #include "model/modes.h"
 #include "numerics/dense.h"
-#include "numerics/inverse.h"
 
 /* Rounding is multiplied by as much: of an eigenvector, and of G or S by inversion. */
 static const double most_condition = 1e6, most_cancelled = 1e8;
@@ -30,8 +29,8 @@ struct compliance {
   double complex *by_s, *by_d;   /* the same */
   asked_change change;           /* what by_s is of, once asked for */
   bool change_is_known;
-  int *pivot;   /* [dim] */
-  double *work; /* [inverse_room(dim)] */
+  int *pivot;           /* [dim] */
+  double complex *work; /* [DENSE_INVERT_WORK dim] */
 };
 
 /* What mode sums are made of. */
@@ -234,7 +233,7 @@ static hc_status make_room(const model *m, int dim, compliance *c)
   c->G = calloc(columns * rows, sizeof *c->G);
   c->by_s = calloc(columns * rows, sizeof *c->by_s);
   c->by_d = calloc(columns * rows, sizeof *c->by_d);
-  c->work = calloc(inverse_room(dim), sizeof *c->work);
+  c->work = calloc(DENSE_INVERT_WORK * (size_t)dim, sizeof *c->work);
   c->pivot = calloc((size_t)dim, sizeof *c->pivot);
   return c->G && c->by_s && c->by_d && c->work && c->pivot ? HC_OK : HC_NO_MEMORY;
 }
@@ -288,7 +287,8 @@ hc_status compliance_at(compliance *c, double w, double reach, double d, double 
   if (st != HC_OK) return st;
   memcpy(g, c->G + dim * dim, 2 * (size_t)c->n_loads * dim * sizeof *g);
   const double size = largest(dim * dim, c->G);
-  if (inverse_complex(c->dim, c->G, c->pivot, c->work, S) != HC_OK) return HC_NOT_FINITE;
+  memcpy(S, c->G, dim * dim * sizeof *S);
+  if (dense_invert_complex(c->dim, S, c->pivot, c->work) != HC_OK) return HC_NOT_FINITE;
   return size * largest(dim * dim, S) <= most_cancelled ? HC_OK : HC_NOT_FINITE; /* false for NaN */
 }
 

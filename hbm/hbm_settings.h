@@ -5,8 +5,6 @@
 
 #include <stdbool.h>
 
-#include "numerics/newton_way.h"
-
 #define HBM_LEAST_ACCURACY 1e-12
 enum { HBM_MAX_HARMONICS = 200, HBM_AUTO = 0 /* in the place of a number of harmonics or samples */ };
 
@@ -49,7 +47,6 @@ typedef struct hbm_settings {
   double accuracy;  /* [1] largest error that auto harmonics and samples allow, relative to the solution */
   bool skip_linear; /* points where nothing happens at the contacts come from the closed form */
   hbm_mistakes mistakes;
-  newton_way newton; /* 0, chosen by size, but in tests */
 } hbm_settings;
 
 #endif

@@ -270,11 +270,5 @@ long hbm_solves(const hbm_solver *s) { return s->solves; }
 
 hbm_newton_report hbm_newton_work(const hbm_solver *s)
 {
-  hbm_newton_report r = {s->sys.n, newton_work_of(s->plane)};
-  const newton_work fixed = newton_work_of(s->fixed);
-  r.work.factored += fixed.factored;
-  r.work.krylov += fixed.krylov;
-  r.work.rounds += fixed.rounds;
-  r.work.krylov_failed += fixed.krylov_failed;
-  return r;
+  return (hbm_newton_report){s->sys.n, newton_factorings(s->plane) + newton_factorings(s->fixed)};
 }

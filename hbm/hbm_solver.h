@@ -48,11 +48,11 @@ void hbm_solver_take_guess(hbm_solver *s, const hbm_guess *g);
 /* Systems that Newton was put to since the solver was made. */
 long hbm_solves(const hbm_solver *s);
 
-/* How many unknowns the equations have at a given omega, and how Newton's linear equations have been solved since they
+/* How many unknowns the equations have at a given omega, and how many Jacobians Newton's method has factored since they
  * were made, there and along the curve together. */
 typedef struct hbm_newton_report {
   int unknowns;
-  newton_work work;
+  long factorisations;
 } hbm_newton_report;
 hbm_newton_report hbm_newton_work(const hbm_solver *s);
 

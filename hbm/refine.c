@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "numerics/lu.h"
+#include "numerics/dense.h"
 #include "numerics/norm.h"
 
 struct refinement {
@@ -57,8 +57,8 @@ hc_status refinement_step(refinement *r, double omega, double *Y, double *step)
   hc_status st = hbm_system_residual(&r->sys, omega, Y, r->R);
   if (st != HC_OK) return st;
   hbm_system_jacobian(&r->sys, omega, n, r->jac);
-  if (!lu_factor(n, r->jac, r->pivot)) return HC_SINGULAR;
-  lu_solve(n, r->jac, r->pivot, r->R);
+  if (dense_factor(n, r->jac, r->pivot) != HC_OK) return HC_SINGULAR;
+  dense_solve(n, r->jac, r->pivot, 1, r->R);
   const double size = norm_2(n, r->R);
   if (!isfinite(size)) return HC_NOT_FINITE;
   for (int i = 0; i < n; ++i) Y[i + r->sys.first] -= r->R[i];
@@ -76,7 +76,7 @@ double refinement_rounding(refinement *r, double omega)
   const int n = r->sys.n;
   const double force = DBL_EPSILON * hbm_system_scale(&r->sys, omega);
   for (int i = 0; i < n; ++i) r->R[i] = force;
-  lu_solve(n, r->jac, r->pivot, r->R);
+  dense_solve(n, r->jac, r->pivot, 1, r->R);
   const double size = norm_2(n, r->R);
   return isfinite(size) ? size : INFINITY;
 }

@@ -10,8 +10,7 @@
 #include <string.h>
 
 #include "hbm/stretch_flow_impl.h"
-#include "numerics/lu.h"
-#include "numerics/product.h"
+#include "numerics/dense.h"
 
 /* Motions of which this part is left, times what V may multiply it by (stretch_modes.c), are lost in rounding. */
 static const double DEAD = 1e-24;
@@ -21,7 +20,7 @@ static const double DEAD = 1e-24;
 static void solve_columns(int n, const double *lu, const int *pivot, int columns, const double *from, double *to)
 {
   memcpy(to, from, (size_t)n * (size_t)columns * sizeof *to);
-  for (int k = 0; k < columns; ++k) lu_solve(n, lu, pivot, to + (size_t)k * (size_t)n);
+  dense_solve(n, lu, pivot, columns, to);
 }
 
 static hc_status divide_by_mass(const model *m, stretch_flow *f)
@@ -31,7 +30,7 @@ static hc_status divide_by_mass(const model *m, stretch_flow *f)
   hc_status st = lu ? HC_OK : HC_NO_MEMORY;
   if (st == HC_OK) {
     memcpy(lu, m->mass, (size_t)n * (size_t)n * sizeof *lu);
-    if (!lu_factor(n, lu, f->pivot)) st = HC_SINGULAR;
+    st = dense_factor(n, lu, f->pivot);
   }
   if (st == HC_OK) {
     solve_columns(n, lu, f->pivot, n, m->stiffness, f->by_K);
@@ -104,15 +103,11 @@ void stretch_flow_free(stretch_flow *f)
 /* ---- a stretch ------------------------------------------------------------------------------------------ */
 
 /* The first `columns` columns of C = A B, by rows: A[rows][inner], B[inner][n_states], C[rows][n_states]. Counted by
- * columns, as in product.h, these are the transposes. */
+ * columns, as in dense.h, these are the transposes. */
 static void multiply(const stretch_flow *f, int rows, int inner, int columns, const double *A, const double *B,
                      double *C)
 {
-  const size_t ld = (size_t)f->n_states;
-  for (size_t i = 0; i < (size_t)rows; ++i) memset(C + i * ld, 0, (size_t)columns * sizeof *C);
-  product_subtract(columns, rows, inner, B, f->n_states, A, inner, C, f->n_states);
-  for (size_t i = 0; i < (size_t)rows; ++i)
-    for (size_t q = 0; q < (size_t)columns; ++q) C[i * ld + q] = -C[i * ld + q];
+  dense_add_product(columns, rows, inner, 1, B, f->n_states, A, inner, 0, C, f->n_states);
 }
 
 /* (e^(lambda t) - 1)/lambda. */

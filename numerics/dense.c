@@ -1,13 +1,12 @@
-/* dense.c - see dense.h. LAPACK's Fortran interface is called as it is: LAPACKE would only add memory of its own. Every
+/* dense.c - see dense.h. The one file that calls BLAS and LAPACK. Their Fortran interface is called as it is: LAPACKE would only add memory of its own. Every
  * CHARACTER argument has its length behind the others. */
 #include "numerics/dense.h"
 
 #include <float.h>
 #include <math.h>
+#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
-
-#include "numerics/product.h"
 
 void dsygvd_(const int *type, const char *job, const char *half, const int *n, double *a, const int *lda, double *b,
              const int *ldb, double *w, double *work, const int *lwork, int *iwork, const int *liwork, int *info,
@@ -26,6 +25,8 @@ void dgeev_(const char *left, const char *right, const int *n, double *a, const 
             double *vl, const int *ldvl, double *vr, const int *ldvr, double *work, const int *lwork, int *info,
             size_t left_length, size_t right_length);
 void zgetrf_(const int *m, const int *n, double complex *a, const int *lda, int *pivot, int *info);
+void zgetri_(const int *n, double complex *a, const int *lda, const int *pivot, double complex *work, const int *lwork,
+             int *info);
 void zgetrs_(const char *transposed, const int *n, const int *columns, const double complex *a, const int *lda,
              const int *pivot, double complex *b, const int *ldb, int *info, size_t transposed_length);
 
@@ -38,24 +39,20 @@ __attribute__((constructor)) static void keep_to_one_thread(void)
   if (openblas_set_num_threads) openblas_set_num_threads(1);
 }
 
-bool dense_blas_is_fast(void) { return openblas_set_num_threads != NULL; }
-
 static size_t square(int n) { return (size_t)n * (size_t)n; }
 
 /* ---- products ------------------------------------------------------------------------------------ */
 
 void dense_multiply(int m, int n, int k, const double *A, const double *B, double *C)
 {
-  const double one = 1, nothing = 0;
-  const size_t entries = (size_t)m * (size_t)n;
-  if (m <= 0 || n <= 0) return;
-  if (dense_blas_is_fast()) {
-    dgemm_("N", "N", &m, &n, &k, &one, A, &m, B, &k, &nothing, C, &m, 1, 1);
-    return;
-  }
-  memset(C, 0, entries * sizeof *C);
-  product_subtract(m, n, k, A, m, B, k, C, m);
-  for (size_t i = 0; i < entries; ++i) C[i] = -C[i];
+  dense_add_product(m, n, k, 1, A, m, B, k, 0, C, m);
+}
+
+void dense_add_product(int m, int n, int k, double alpha, const double *A, int lda, const double *B, int ldb,
+                       double beta, double *C, int ldc)
+{
+  const int rows_of_B = ldb > 0 ? ldb : 1; /* of an empty sum, too */
+  if (m > 0 && n > 0) dgemm_("N", "N", &m, &n, &k, &alpha, A, &lda, B, &rows_of_B, &beta, C, &ldc, 1, 1);
 }
 
 void dense_transpose(int rows, int columns, const double *A, double *B)
@@ -186,21 +183,73 @@ hc_status dense_eigen(int n, double *A, double complex *lambda, double complex *
 
 /* ---- LU factors ------------------------------------------------------------------------------------ */
 
+/* dgetrf for matrices so small that its call costs more than the work (table in dense.h): by columns, pivots from 1. */
+static bool factor_small(int n, double *A, int *pivot)
+{
+  for (int k = 0; k < n; ++k) {
+    double *restrict pivot_column = A + n * k;
+    int p = k;
+    for (int i = k + 1; i < n; ++i)
+      if (fabs(pivot_column[i]) > fabs(pivot_column[p])) p = i;
+    pivot[k] = p + 1;
+    if (!(fabs(pivot_column[p]) > 0)) return false;
+    for (int j = 0; j < n && p != k; ++j) {
+      const double kept = A[k + n * j];
+      A[k + n * j] = A[p + n * j];
+      A[p + n * j] = kept;
+    }
+    const double inverse = 1 / pivot_column[k];
+    for (int i = k + 1; i < n; ++i) pivot_column[i] *= inverse;
+    for (int j = k + 1; j < n; ++j) {
+      double *restrict column = A + n * j, factor = column[k];
+      for (int i = k + 1; i < n; ++i) column[i] -= factor * pivot_column[i];
+    }
+  }
+  return true;
+}
+
 hc_status dense_factor(int n, double *A, int *pivot)
 {
   int info = 0;
-  dgetrf_(&n, &n, A, &n, pivot, &info);
+  if (n > DENSE_SMALL) dgetrf_(&n, &n, A, &n, pivot, &info);
+  else if (!factor_small(n, A, pivot)) return HC_SINGULAR;
   if (info != 0) return HC_SINGULAR;
   for (int i = 0; i < n; ++i)
     if (!isfinite(A[(size_t)i * (size_t)(n + 1)])) return HC_SINGULAR;
   return HC_OK;
 }
 
-void dense_solve(int n, const double *A, const int *pivot, double *x)
+static void solve_small(int n, const double *restrict A, const int *pivot, double *restrict x)
 {
-  const int one = 1;
+  for (int k = 0; k < n; ++k) {
+    const double kept = x[k];
+    x[k] = x[pivot[k] - 1];
+    x[pivot[k] - 1] = kept;
+  }
+  for (int k = 0; k < n; ++k)
+    for (int i = k + 1; i < n; ++i) x[i] -= x[k] * A[i + n * k];
+  for (int k = n - 1; k >= 0; --k) {
+    x[k] /= A[k + n * k];
+    for (int i = 0; i < k; ++i) x[i] -= x[k] * A[i + n * k];
+  }
+}
+
+void dense_solve(int n, const double *A, const int *pivot, int columns, double *X)
+{
   int info = 0;
-  dgetrs_("N", &n, &one, A, &n, pivot, x, &n, &info, 1);
+  if (n > DENSE_SMALL) dgetrs_("N", &n, &columns, A, &n, pivot, X, &n, &info, 1);
+  else
+    for (int k = 0; k < columns; ++k) solve_small(n, A, pivot, X + n * k);
+}
+
+int dense_sign(int n, const double *A, const int *pivot)
+{
+  int sign = 1;
+  for (int k = 0; k < n; ++k) {
+    if (A[(size_t)k * (size_t)(n + 1)] < 0) sign = -sign;
+    if (pivot[k] != k + 1) sign = -sign;
+  }
+  return sign;
 }
 
 hc_status dense_factor_complex(int n, double complex *A, int *pivot)
@@ -218,4 +267,13 @@ void dense_solve_complex(int n, const double complex *A, const int *pivot, bool 
 {
   int info = 0;
   zgetrs_(transposed ? "T" : "N", &n, &columns, A, &n, pivot, B, &n, &info, 1);
+}
+
+hc_status dense_invert_complex(int n, double complex *A, int *pivot, double complex *work)
+{
+  const int length = DENSE_INVERT_WORK * n;
+  int info = 0;
+  const hc_status st = dense_factor_complex(n, A, pivot);
+  if (st == HC_OK) zgetri_(&n, A, &n, pivot, work, &length, &info);
+  return info == 0 ? st : HC_SINGULAR;
 }

@@ -1,5 +1,6 @@
-/* dense.h - dense linear algebra by LAPACK, matrices by columns. Where LAPACK is not: numerics/lu.h, for the systems of
- * Newton's method. What LAPACK calls a failure comes back as a status; nothing is printed. */
+/* dense.h - dense linear algebra by BLAS and LAPACK, matrices by columns. What they call a failure comes back as a
+ * status; nothing is printed. Which BLAS is there changes rounding and time alone: OpenBLAS, kept to one thread, takes
+ * a fifth of the reference one's time from some 100 unknowns on. */
 #ifndef HC_DENSE_H
 #define HC_DENSE_H
 
@@ -7,12 +8,13 @@
 
 #include "base/status.h"
 
-/* Is the BLAS that this program was started with OpenBLAS, several times as fast as what is here (product.h, lu.h)? The
- * reference BLAS is slower. */
-bool dense_blas_is_fast(void);
-
 /* C = A B; A[m][k], B[k][n], C[m][n] by columns, apart from each other. */
 void dense_multiply(int m, int n, int k, const double *A, const double *B, double *C);
+
+/* C := alpha A B + beta C of parts of matrices: an entry (i, j) of each is at [i + ld j]; dgemm. C is not read where beta
+ * is 0. */
+void dense_add_product(int m, int n, int k, double alpha, const double *A, int lda, const double *B, int ldb,
+                       double beta, double *C, int ldc);
 
 /* C = A^T B A, C[m][m] of A[n][m] and B[n][n]; work[2 n m]. */
 void dense_congruence(int n, int m, const double *A, const double *B, double *work, double *C);
@@ -20,11 +22,23 @@ void dense_congruence(int n, int m, const double *A, const double *B, double *wo
 /* B[columns][rows] = A^T of A[rows][columns]. */
 void dense_transpose(int rows, int columns, const double *A, double *B);
 
-/* LU factors of A[n][n] by LAPACK, in its place, pivot[n] counted from 1. HC_SINGULAR as dense_factor_complex. */
+/* Up to so many unknowns, a real system is solved by code of our own, since a call of LAPACK costs more than the work.
+ * Factors, microseconds on one thread, OpenBLAS 0.3.21 and reference LAPACK 3.11, the least of 15, same run:
+ *     n               3     5     8     11    16    21    24    32    64    201
+ *     here            0.02  0.07  0.18  0.39  1.1   2.5   3.5   11    73    1850
+ *     OpenBLAS        0.10  0.20  0.44  0.80  1.7   2.7   3.6   9.9   34    275
+ *     reference       0.18  0.38  0.73  1.2   2.3   4.0   5.1   12    63    1320 */
+enum { DENSE_SMALL = 24 };
+
+/* LU factors with partial pivoting of A[n][n], in its place; pivot[k], from 1, is the row exchanged with row k.
+ * HC_SINGULAR for a pivot that is 0 or not finite. */
 hc_status dense_factor(int n, double *A, int *pivot);
 
-/* x := A^-1 x with these. */
-void dense_solve(int n, const double *A, const int *pivot, double *x);
+/* X := A^-1 X with these; X[columns][n]. */
+void dense_solve(int n, const double *A, const int *pivot, int columns, double *X);
+
+/* Sign of det A, of its factors. */
+int dense_sign(int n, const double *A, const int *pivot);
 
 /* Is A[n][n] symmetric but for rounding of each entry? */
 bool dense_is_symmetric(int n, const double *A);
@@ -57,5 +71,9 @@ hc_status dense_factor_complex(int n, double complex *A, int *pivot);
 /* B := A^-1 B, or A^-T B where transposed; B[columns][n]. */
 void dense_solve_complex(int n, const double complex *A, const int *pivot, bool transposed, int columns,
                          double complex *B);
+
+/* A := A^-1; pivot[n], work[DENSE_INVERT_WORK n]. HC_SINGULAR as dense_factor_complex. */
+enum { DENSE_INVERT_WORK = 32 }; /* columns that zgetri takes at a time */
+hc_status dense_invert_complex(int n, double complex *A, int *pivot, double complex *work);
 
 #endif

@@ -11,9 +11,10 @@
 #include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sundials/sundials_linearsolver.h>
 #include <sunmatrix/sunmatrix_dense.h>
 
-#include "numerics/newton_linear.h"
+#include "numerics/dense.h"
 #include "numerics/norm.h"
 #include "numerics/sundials_compat.h"
 
@@ -22,9 +23,11 @@ struct newton { /* from newton_new, to newton_free; not shared between threads *
   SUNContext ctx;               /* made first, freed last, this handle's alone */
   N_Vector z, z_scale, r_scale; /* [n] */
   N_Vector r, step;             /* [n] for our own check and polishing */
-  SUNMatrix jac;                /* [n][n] overwritten by its factors, where these are not newton_linear.c's */
+  SUNMatrix jac;                /* [n][n] overwritten by its factors */
   SUNLinearSolver ls;
   void *kin;
+  int *pivot;        /* [n] of the factors in jac */
+  long factorings;   /* so far */
   double *start;     /* [n] where the solve began */
   bool factored;     /* jac holds factors made at the end of the last solve */
   hc_status refusal; /* why the problem last refused a z */
@@ -77,6 +80,53 @@ static int keep_entries(SUNMatrix jac)
   return 0;
 }
 
+/* ---- linear equations: dense LU in jac itself (dense.h), to KINSOL a direct solver ------------------------ */
+
+static SUNLinearSolver_Type ls_type(SUNLinearSolver ls)
+{
+  (void)ls;
+  return SUNLINEARSOLVER_DIRECT;
+}
+
+static int ls_setup(SUNLinearSolver ls, SUNMatrix jac)
+{
+  newton *nw = ls->content;
+  const int recoverable = 1; /* KINSOL then returns KIN_LSETUP_FAIL */
+  ++nw->factorings;
+  return dense_factor(nw->problem.n, SUNDenseMatrix_Data(jac), nw->pivot) == HC_OK ? 0 : recoverable;
+}
+
+static int ls_solve(SUNLinearSolver ls, SUNMatrix jac, N_Vector x, N_Vector b, sunrealtype tolerance)
+{
+  newton *nw = ls->content;
+  double *to = N_VGetArrayPointer(x);
+  (void)tolerance;
+  if (x != b) memcpy(to, N_VGetArrayPointer(b), (size_t)nw->problem.n * sizeof *to);
+  dense_solve(nw->problem.n, SUNDenseMatrix_Data(jac), nw->pivot, 1, to);
+  return 0;
+}
+
+static int ls_free(SUNLinearSolver ls)
+{
+  ls->content = NULL; /* the handle, which frees itself */
+  SUNLinSolFreeEmpty(ls);
+  return 0;
+}
+
+static SUNLinearSolver make_linear_solver(newton *nw)
+{
+  SUNLinearSolver ls = SUNLinSolNewEmpty(nw->ctx);
+  if (!ls) return NULL;
+  ls->content = nw;
+  ls->ops->gettype = ls_type;
+  ls->ops->setup = ls_setup;
+  ls->ops->solve = ls_solve;
+  ls->ops->free = ls_free;
+  return ls;
+}
+
+/* ---- made and freed --------------------------------------------------------------------------------------- */
+
 static hc_status make_kinsol(newton *nw)
 {
   sunindextype n = nw->problem.n;
@@ -86,7 +136,7 @@ static hc_status make_kinsol(newton *nw)
     if (!(*vectors[i] = N_VNew_Serial(n, nw->ctx))) return HC_NO_MEMORY;
   if (!(nw->jac = SUNDenseMatrix(n, n, nw->ctx))) return HC_NO_MEMORY;
   nw->jac->ops->zero = keep_entries;
-  if (!(nw->ls = newton_linear_solver(nw->problem.n, nw->problem.way, nw->ctx))) return HC_NO_MEMORY;
+  if (!(nw->ls = make_linear_solver(nw))) return HC_NO_MEMORY;
   if (!(nw->kin = KINCreate(nw->ctx)) || !hc_room_for(0)) return HC_NO_MEMORY;
   int bad = HC_KINSOL_QUIET(nw->kin);
   bad |= KINSetUserData(nw->kin, nw);
@@ -105,7 +155,8 @@ hc_status newton_new(const newton_problem *problem, newton **out)
   if (!nw) return HC_NO_MEMORY;
   nw->problem = *problem;
   nw->start = calloc((size_t)problem->n, sizeof(double));
-  hc_status st = nw->start ? make_kinsol(nw) : HC_NO_MEMORY;
+  nw->pivot = calloc((size_t)problem->n, sizeof *nw->pivot);
+  hc_status st = nw->start && nw->pivot ? make_kinsol(nw) : HC_NO_MEMORY;
   if (st == HC_OK) {
     *out = nw;
     return HC_OK;
@@ -124,6 +175,7 @@ void newton_free(newton *nw)
   for (size_t i = 0; i < sizeof vectors / sizeof *vectors; ++i)
     if (vectors[i]) N_VDestroy(vectors[i]);
   if (nw->ctx) SUNContext_Free(&nw->ctx);
+  free(nw->pivot);
   free(nw->start);
   free(nw);
 }
@@ -132,7 +184,7 @@ void newton_free(newton *nw)
 static hc_status factor_here(newton *nw)
 {
   if (on_residual(nw->z, nw->r, nw) || on_jacobian(nw->z, nw->r, nw->jac, nw, NULL, NULL)) return nw->refusal;
-  nw->factored = newton_linear_factor(nw->ls, nw->jac);
+  nw->factored = ls_setup(nw->ls, nw->jac) == 0;
   return HC_OK;
 }
 
@@ -146,9 +198,12 @@ hc_status newton_factor_at(newton *nw, const double *z)
 
 const double *newton_residual(const newton *nw) { return N_VGetArrayPointer(nw->r); }
 
-int newton_sign(const newton *nw) { return nw->factored ? newton_linear_sign(nw->ls, nw->jac) : 0; }
+int newton_sign(const newton *nw)
+{
+  return nw->factored ? dense_sign(nw->problem.n, SUNDenseMatrix_Data(nw->jac), nw->pivot) : 0;
+}
 
-newton_work newton_work_of(const newton *nw) { return newton_linear_work(nw->ls); }
+long newton_factorings(const newton *nw) { return nw->factorings; }
 
 hc_status newton_backsolve(newton *nw, double *x)
 {

@@ -7,7 +7,6 @@
 #include <stdbool.h>
 
 #include "base/status.h"
-#include "numerics/newton_way.h"
 
 typedef struct newton newton;
 
@@ -17,7 +16,6 @@ typedef struct newton_problem {
   hc_status (*residual)(void *self, const double *z, double *r); /* r(z); anything but HC_OK refuses z */
   hc_status (*jacobian)(void *self, const double *z,
                         double *jac); /* dr/dz, jac[row + n col], all of it, at the last residual's z */
-  newton_way way;                     /* 0: NEWTON_AUTO */
 } newton_problem;
 
 typedef struct newton_options {
@@ -54,7 +52,7 @@ hc_status newton_factor_at(newton *nw, const double *z);
 /* Sign of the determinant of the Jacobian of the last solve's end or newton_factor_at; 0 if it is singular. */
 int newton_sign(const newton *nw);
 
-/* How its linear equations have been solved so far. */
-newton_work newton_work_of(const newton *nw);
+/* How many Jacobians have been factored so far. */
+long newton_factorings(const newton *nw);
 
 #endif

@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "base/constants.h"
-#include "numerics/lu.h"
+#include "numerics/dense.h"
 #include "stress/one_contact.h"
 #include "stress/outcomes.h"
 #include "stress/solved_structure.h"
@@ -207,10 +207,10 @@ static double damping_trace(const model *m)
   int *pivot = malloc((size_t)n * sizeof *pivot);
   const bool room = lu && x && pivot;
   if (room) memcpy(lu, m->mass, (size_t)n * (size_t)n * sizeof *lu);
-  const bool factored = room && lu_factor(n, lu, pivot);
+  const bool factored = room && dense_factor(n, lu, pivot) == HC_OK;
   for (int j = 0; j < n && factored; ++j) {
     memcpy(x, m->damping + (size_t)j * (size_t)n, (size_t)n * sizeof *x);
-    lu_solve(n, lu, pivot, x);
+    dense_solve(n, lu, pivot, 1, x);
     trace += x[j];
   }
   free(lu);

@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "numerics/dense.h"
 #include "numerics/floquet.h"
-#include "numerics/lu.h"
 #include "numerics/norm.h"
 #include "timeint/orbit.h"
 #include "timeint/timeint_private.h"
@@ -82,7 +82,7 @@ static hc_status make_matrix(confirm *c, int k)
     const bool stays = i >= 2 * c->ti->n_dof && is_unit_row(c, i);
     for (int j = 0; j < c->n; ++j) c->matrix[i + j * c->n] = (i == j) - (stays ? 0 : c->phi[i + j * c->n]);
   }
-  return lu_factor(c->n, c->matrix, c->pivot) ? HC_OK : HC_SINGULAR;
+  return dense_factor(c->n, c->matrix, c->pivot);
 }
 
 /* [L] The scatter of k periods times |(I - Phi^k)^-1| (Frobenius norm). */
@@ -91,7 +91,7 @@ static double attainable(confirm *c, int k)
   double sum = 0;
   for (int j = 0; j < c->n; ++j) {
     for (int i = 0; i < c->n; ++i) c->step[i] = i == j;
-    lu_solve(c->n, c->matrix, c->pivot, c->step);
+    dense_solve(c->n, c->matrix, c->pivot, 1, c->step);
     for (int i = 0; i < c->n; ++i) sum += c->step[i] * c->step[i];
   }
   return sqrt(sum) * orbit_scatter(c->ti, k);
@@ -107,7 +107,7 @@ static hc_status try_orbit(confirm *c, int k, const hc_monitor *monitor, double 
   hc_status st = orbit_measure(ti, k, r);
   if (st != HC_OK) return st;
   for (int i = 0; i < c->n; ++i) c->step[i] = c->z[i] - ti->y[i];
-  lu_solve(c->n, c->matrix, c->pivot, c->step);
+  dense_solve(c->n, c->matrix, c->pivot, 1, c->step);
   *length = norm_2(c->n, c->step);
   return isfinite(*length) ? HC_OK : HC_NOT_FINITE;
 }

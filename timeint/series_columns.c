@@ -8,7 +8,6 @@
 #include <string.h>
 
 #include "numerics/dense.h"
-#include "numerics/product.h"
 
 enum {
   BLOCK = 64, /* columns: six arrays of them and of 100 modes stay in the second cache */
@@ -147,7 +146,7 @@ static void subtract(series_columns *s, int width, bool diagonal, const double *
   const size_t w = (size_t)width;
   if (!diagonal) {
     for (size_t i = 0; i < (size_t)s->n * w; ++i) s->share[i] = by * z[i];
-    product_subtract(width, s->n, s->n, s->share, width, turned, s->n, out, width);
+    dense_add_product(width, s->n, s->n, -1, s->share, width, turned, s->n, 1, out, width);
     return;
   }
   for (size_t i = 0; i < (size_t)s->n; ++i) {
@@ -176,7 +175,7 @@ static void subtract_whole(series_columns *s, int width, bool first, double by, 
   subtract(s, width, false, NULL, s->resistance, by, z, out);
   if (!first) return;
   push_sliders(s, width, by);
-  product_subtract(width, s->n, s->n_rows, s->motion, width, s->turned, s->n_rows, out, width);
+  dense_add_product(width, s->n, s->n_rows, -1, s->motion, width, s->turned, s->n_rows, 1, out, width);
 }
 
 /* out -= by (contacts of z); their sliders move in the first term alone. */
@@ -188,7 +187,7 @@ static void subtract_contacts(series_columns *s, int width, bool first, double b
     return;
   }
   memset(s->motion, 0, (size_t)s->n_rows * w * sizeof *s->motion);
-  product_subtract(width, s->n_rows, s->n, z, width, s->rows, s->n, s->motion, width); /* minus dU and dV */
+  dense_add_product(width, s->n_rows, s->n, -1, z, width, s->rows, s->n, 1, s->motion, width); /* minus dU and dV */
   double *row = s->motion;
   for (int j = 0; j < s->n_contacts; ++j) {
     const contact_forces_linear *f = &s->law[j];
@@ -200,14 +199,14 @@ static void subtract_contacts(series_columns *s, int width, bool first, double b
     for (size_t q = 0; normal && q < w; ++q) across[q] *= -by * f->n_v;
     row += (size_t)(tangent + normal) * w;
   }
-  product_subtract(width, s->n, s->n_rows, s->motion, width, s->turned, s->n_rows, out, width);
+  dense_add_product(width, s->n, s->n_rows, -1, s->motion, width, s->turned, s->n_rows, 1, out, width);
 }
 
 /* s->circling[block][n_rows] := rows . z, with its sign turned. */
 static void project_slips(series_columns *s, int width, int n_rows, const double *rows, const double *z)
 {
   memset(s->circling, 0, (size_t)n_rows * (size_t)width * sizeof *s->circling);
-  product_subtract(width, n_rows, s->n, z, width, rows, s->n, s->circling, width);
+  dense_add_product(width, n_rows, s->n, -1, z, width, rows, s->n, 1, s->circling, width);
 }
 
 /* Term k of a motion that is -s->circling's row. */
@@ -241,7 +240,8 @@ static void subtract_circles(series_columns *s, int width, int k, double by, con
     for (int a = 0; a < 2; ++a, row += width)
       for (int q = 0; q < width; ++q) row[q] = by * s->circle[i].pull[a][q];
   }
-  product_subtract(width, s->n, 2 * s->n_slipping, s->circling, width, s->slip_turned, 2 * s->n_slipping, out, width);
+  dense_add_product(width, s->n, 2 * s->n_slipping, -1, s->circling, width, s->slip_turned, 2 * s->n_slipping, 1, out,
+                    width);
 }
 
 /* sums[q] += |by z_q|^2 */

@@ -5,9 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "numerics/lu.h"
+#include "numerics/dense.h"
 #include "numerics/norm.h"
-#include "numerics/product.h"
 
 static bool is_zero(int n, const double *row)
 {
@@ -149,7 +148,7 @@ static bool factor_D(structure_newton *s)
   for (size_t i = 0; i < n; ++i) s->D[i * step] = 1;
   add(s->n, b->diagonal_C, s->gamma * s->by_C, b->C, diagonal, s->D);
   add(s->n, b->diagonal_K, s->gamma * s->gamma * s->by_K, b->K, diagonal, s->D);
-  if (!diagonal) return lu_factor(s->n, s->D, s->pivot) != 0;
+  if (!diagonal) return dense_factor(s->n, s->D, s->pivot) == HC_OK;
   for (size_t i = 0; i < n; ++i)
     if (!(fabs(s->D[i]) > 0)) return false;
   return true;
@@ -158,7 +157,7 @@ static bool factor_D(structure_newton *s)
 static void solve_D(const structure_newton *s, double *x)
 {
   if (!is_diagonal(s)) {
-    lu_solve(s->n, s->D, s->pivot, x);
+    dense_solve(s->n, s->D, s->pivot, 1, x);
     return;
   }
   for (int i = 0; i < s->n; ++i) x[i] /= s->D[i];
@@ -179,17 +178,10 @@ static void add_force(structure_newton *s, int by, double force, int row)
 /* G = B D^-1 B^T. */
 static void find_compliance(structure_newton *s)
 {
-  enum { MANY = 16 }; /* from so many on a blocked product is faster */
   const size_t n = (size_t)s->n, rows = (size_t)s->n_rows;
   memcpy(s->pulled, s->rows, n * rows * sizeof *s->pulled);
   for (size_t r = 0; r < rows; ++r) solve_D(s, s->pulled + r * n);
-  if (rows < MANY) {
-    for (size_t r = 0; r < rows; ++r) project(s, s->pulled + r * n, s->compliant + r * rows);
-    return;
-  }
-  memset(s->compliant, 0, rows * rows * sizeof *s->compliant);
-  product_subtract(s->n_rows, s->n_rows, s->n, s->turned, s->n_rows, s->pulled, s->n, s->compliant, s->n_rows);
-  for (size_t k = 0; k < rows * rows; ++k) s->compliant[k] = -s->compliant[k];
+  dense_multiply(s->n_rows, s->n_rows, s->n, s->turned, s->pulled, s->compliant);
 }
 
 bool structure_newton_factor(structure_newton *s, const scaled_model *m, double gamma)
@@ -210,7 +202,7 @@ bool structure_newton_factor(structure_newton *s, const scaled_model *m, double 
       add_force(s, s->across[j + a], s->law[j].n_v, s->across[j]);
     }
   }
-  return lu_factor(s->n_rows, s->small, s->small_pivot) != 0;
+  return dense_factor(s->n_rows, s->small, s->small_pivot) == HC_OK;
 }
 
 /* out -= by B^T force; of D^-1 B^T where pulled. */
@@ -270,7 +262,7 @@ void structure_newton_solve(structure_newton *s, double *r)
   find_forces(s, false, d);
   for (size_t k = 0; k < rows; ++k)
     for (size_t i = 0; i < rows; ++i) s->q[i] -= gamma * gamma * s->compliant[k * rows + i] * s->force[k];
-  lu_solve(s->n_rows, s->small, s->small_pivot, s->q);
+  dense_solve(s->n_rows, s->small, s->small_pivot, 1, s->q);
   find_forces(s, true, d);
   subtract_forces(s, s->pulled, gamma, b);
   for (int i = 0; i < n; ++i) a[i] += gamma * b[i];

@@ -9,7 +9,7 @@
 #include <string.h>
 
 #include "base/constants.h"
-#include "numerics/lu.h"
+#include "numerics/dense.h"
 
 static const struct {
   int cause;
@@ -207,8 +207,8 @@ static hc_status solve(int n, double *A, double *d)
   if (n == 1 && !(*A > 0)) return HC_BAD_INPUT;
   int *pivot = malloc((size_t)n * sizeof *pivot);
   if (!pivot) return HC_NO_MEMORY;
-  const bool factored = lu_factor(n, A, pivot) != 0;
-  if (factored) lu_solve(n, A, pivot, d);
+  const bool factored = dense_factor(n, A, pivot) == HC_OK;
+  if (factored) dense_solve(n, A, pivot, 1, d);
   free(pivot);
   return factored ? HC_OK : HC_BAD_INPUT;
 }

@@ -1,6 +1,6 @@
 /* lapack_of_one.c - LAPACK for one degree of freedom: Debian has no Fortran compiler for WebAssembly. Of the routines
  * that numerics/dense.c calls, an oscillator's harmonic balance needs the pivoted QR factors of a matrix with one
- * row, and the LU factors of a number. Everything else belongs to structures, which the lab refuses by name
+ * row, LU factors and products of real matrices, written plainly, and the LU factors and the inverse of a complex number. Everything else belongs to structures, which the lab refuses by name
  * (lab_scene.h), or has another way (eigenvectors: a matrix exponential); asked for all the same, it answers as
  * LAPACK does to an argument that is out of range, and dense.h with a status. Arguments are LAPACK's. */
 #include <complex.h>
@@ -40,20 +40,6 @@ void dorgqr_(const int *m, const int *n, const int *k, double *a, const int *lda
 
 /* ---- LU factors of a number ---- */
 
-void dgetrf_(const int *m, const int *n, double *a, const int *lda, int *pivot, int *info)
-{
-  *info = *m == 1 && *n == 1 && *lda == 1 ? a[0] == 0 : REFUSED;
-  if (*info != REFUSED) pivot[0] = 1;
-}
-
-void dgetrs_(const char *transposed, const int *n, const int *columns, const double *a, const int *lda,
-             const int *pivot, double *b, const int *ldb, int *info, size_t transposed_length)
-{
-  (void)transposed, (void)pivot, (void)transposed_length;
-  *info = *n == 1 && *lda == 1 && *ldb == 1 ? 0 : REFUSED;
-  for (int i = 0; *info == 0 && i < *columns; ++i) b[i] /= a[0];
-}
-
 void zgetrf_(const int *m, const int *n, double complex *a, const int *lda, int *pivot, int *info)
 {
   *info = *m == 1 && *n == 1 && *lda == 1 ? a[0] == 0 : REFUSED;
@@ -88,12 +74,71 @@ void dgeev_(const char *left, const char *right, const int *n, double *a, const 
   *info = REFUSED;
 }
 
-/* C = NaN: it has no info, and is called where OpenBLAS is alone. */
+/* A = P L U in its place. */
+void dgetrf_(const int *m, const int *n, double *a, const int *lda, int *pivot, int *info)
+{
+  *info = 0;
+  for (int k = 0; k < *n && k < *m; ++k) {
+    double *first = a + *lda * k;
+    int p = k;
+    for (int i = k + 1; i < *m; ++i)
+      if (fabs(first[i]) > fabs(first[p])) p = i;
+    pivot[k] = p + 1;
+    if (first[p] == 0 && *info == 0) *info = k + 1;
+    if (first[p] == 0) continue;
+    for (int j = 0; j < *n && p != k; ++j) {
+      const double kept = a[k + *lda * j];
+      a[k + *lda * j] = a[p + *lda * j];
+      a[p + *lda * j] = kept;
+    }
+    for (int i = k + 1; i < *m; ++i) first[i] /= first[k];
+    for (int j = k + 1; j < *n; ++j)
+      for (int i = k + 1; i < *m; ++i) a[i + *lda * j] -= a[k + *lda * j] * first[i];
+  }
+}
+
+/* B := A^-1 B by those; not transposed. */
+void dgetrs_(const char *transposed, const int *n, const int *columns, const double *a, const int *lda,
+             const int *pivot, double *b, const int *ldb, int *info, size_t transposed_length)
+{
+  (void)transposed_length;
+  *info = *transposed == 'N' ? 0 : REFUSED;
+  for (int j = 0; j < *columns && *info == 0; ++j) {
+    double *x = b + *ldb * j;
+    for (int k = 0; k < *n; ++k) {
+      const double kept = x[k];
+      x[k] = x[pivot[k] - 1];
+      x[pivot[k] - 1] = kept;
+    }
+    for (int k = 0; k < *n; ++k)
+      for (int i = k + 1; i < *n; ++i) x[i] -= x[k] * a[i + *lda * k];
+    for (int k = *n - 1; k >= 0; --k) {
+      x[k] /= a[k + *lda * k];
+      for (int i = 0; i < k; ++i) x[i] -= x[k] * a[i + *lda * k];
+    }
+  }
+}
+
+/* 1/a of those. */
+void zgetri_(const int *n, double complex *a, const int *lda, const int *pivot, double complex *work, const int *lwork,
+             int *info)
+{
+  (void)pivot, (void)work, (void)lwork;
+  *info = *n == 1 && *lda == 1 ? 0 : REFUSED;
+  if (*info == 0) a[0] = 1 / a[0];
+}
+
+/* C := alpha A B + beta C. */
 void dgemm_(const char *transpose_a, const char *transpose_b, const int *m, const int *n, const int *k,
             const double *alpha, const double *a, const int *lda, const double *b, const int *ldb, const double *beta,
             double *c, const int *ldc, size_t a_length, size_t b_length)
 {
-  (void)transpose_a, (void)transpose_b, (void)m, (void)n, (void)k, (void)alpha, (void)a, (void)lda, (void)b, (void)ldb;
-  (void)beta, (void)ldc, (void)a_length, (void)b_length;
-  c[0] = NAN;
+  (void)transpose_a, (void)transpose_b, (void)a_length, (void)b_length; /* "N", "N" */
+  for (int j = 0; j < *n; ++j)
+    for (int i = 0; i < *m; ++i) {
+      double sum = 0;
+      for (int l = 0; l < *k; ++l) sum += a[i + *lda * l] * b[l + *ldb * j];
+      double *to = c + i + *ldc * j;
+      *to = *beta == 0 ? *alpha * sum : *alpha * sum + *beta * *to;
+    }
 }

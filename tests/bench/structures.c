@@ -11,7 +11,6 @@
 #include "hbm/hbm.h"
 #include "hbm/hbm_solver_impl.h"
 #include "numerics/dense.h"
-#include "numerics/lu.h"
 
 static double now(void)
 {
@@ -85,8 +84,8 @@ static double time_iteration(hbm_solver *s, double omega, const double *X)
     const double start = now();
     if (hbm_system_residual(&s->sys, omega, Y, R) != HC_OK) abort();
     hbm_system_jacobian(&s->sys, omega, s->sys.n, jac);
-    lu_factor(s->sys.n, jac, pivot);
-    lu_solve(s->sys.n, jac, pivot, R);
+    dense_factor(s->sys.n, jac, pivot);
+    dense_solve(s->sys.n, jac, pivot, 1, R);
     best = least(best, now() - start);
   }
   free(jac);

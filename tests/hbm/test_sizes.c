@@ -45,49 +45,8 @@ static void sectors_follow_each_other(void **state)
   }
 }
 
-/* The same solutions of the curve through the onset of slip by every way, to 1e-10 of their size; each way is the one
- * that was asked for, and SPGMR factors less often than Newton iterates. */
-static void ways_of_newton_lead_to_the_same(void **state)
-{
-  (void)state;
-  static const double omegas[] = {964, 966, 967.5};
-  static double X[3][3][CASE_MAX_COEF];
-  int size = 0;
-  for (newton_way way = NEWTON_OWN_LU; way <= NEWTON_KRYLOV; ++way) {
-    structure_case c = structure_case_named("bladed_disk", H);
-    hbm_curve curve = {0};
-    c.how.newton = way;
-    hbm_solver *s = structure_solver(&c);
-    assert_int_equal(hbm_trace(s, 963, 968, NULL, &curve), HC_OK);
-    for (int k = 0; k < 3; ++k) {
-      hbm_curve at = {0};
-      assert_int_equal(hbm_curve_at(s, &curve, omegas[k], &at), HC_OK);
-      assert_int_equal(at.n, 1);
-      size = at.n_coef;
-      memcpy(X[way - NEWTON_OWN_LU][k], at.X, (size_t)size * sizeof(double));
-      hbm_curve_free(&at);
-    }
-    const hbm_newton_report report = hbm_newton_work(s);
-    assert_int_equal(report.work.way, way);
-    if (way == NEWTON_KRYLOV) assert_true(report.work.krylov > 0 && report.work.factored < curve.iterations);
-    hbm_curve_free(&curve);
-    hbm_solver_free(s);
-    model_free(c.model);
-  }
-  for (int way = 1; way < 3; ++way)
-    for (int k = 0; k < 3; ++k) {
-      double off = 0, largest = 0;
-      for (int i = 0; i < size; ++i) {
-        off = fmax(off, fabs(X[way][k][i] - X[0][k][i]));
-        largest = fmax(largest, fabs(X[0][k][i]));
-      }
-      CHECK_LE(off, 1e-10 * largest, "way %d at %g", way, omegas[k]);
-    }
-}
-
 static const struct CMUnitTest tests[] = {
     cmocka_unit_test(sectors_follow_each_other),
-    cmocka_unit_test(ways_of_newton_lead_to_the_same),
 };
 
 CHECK_MAIN("hbm.sizes", tests, 120)

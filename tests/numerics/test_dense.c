@@ -1,8 +1,9 @@
-/* test_lu.c - LU factors: residuals against the bound of rounding theory, signs of determinants, and what must be
+/* test_dense.c - LU factors: residuals against the bound of rounding theory, signs of determinants, and what must be
  * refused. */
+#include <complex.h>
 #include <float.h>
 
-#include "numerics/lu.h"
+#include "numerics/dense.h"
 #include "tests/hbm/scenes.h"
 
 enum { MAX_N = 140, SMALL = 60 };
@@ -25,8 +26,8 @@ static void lu_times(int n, const double *f, const int *pivot, const double *x, 
   }
   for (int k = n - 1; k >= 0; --k) {
     double swap = bound[k];
-    bound[k] = bound[pivot[k]];
-    bound[pivot[k]] = swap;
+    bound[k] = bound[pivot[k] - 1];
+    bound[pivot[k] - 1] = swap;
   }
 }
 
@@ -42,14 +43,14 @@ static void solves_within_the_bound_of_rounding_theory(void **state)
   int pivot[MAX_N];
   uint64_t seed = 1;
   double worst = 0;
-  for (int n = 1; n <= MAX_N; n += n < SMALL ? 1 : n < 70 ? 3 : 7) /* in panels from 64 on */
+  for (int n = 1; n <= MAX_N; n += n < SMALL ? 1 : n < 70 ? 3 : 7) /* by LAPACK above DENSE_SMALL */
     for (int trial = 0; trial < (n < SMALL ? 20 : 2); ++trial) {
       double biggest = 0, growth = 0;
       random_matrix(&seed, n, a);
       for (int i = 0; i < n; ++i) x[i] = b[i] = random_signed(&seed);
       memcpy(f, a, sizeof f);
-      assert_true(lu_factor(n, f, pivot));
-      lu_solve(n, f, pivot, x);
+      assert_int_equal(dense_factor(n, f, pivot), HC_OK);
+      dense_solve(n, f, pivot, 1, x);
       lu_times(n, f, pivot, x, bound);
       for (int j = 0; j < n; ++j)
         for (int i = 0; i < n; ++i) {
@@ -96,8 +97,8 @@ static void the_sign_of_signed_permutations(void **state)
         seen[j] = true;
         if (length) sign = -sign;
       }
-    assert_true(lu_factor(n, a, pivot));
-    assert_int_equal(lu_sign(n, a, pivot), sign);
+    assert_int_equal(dense_factor(n, a, pivot), HC_OK);
+    assert_int_equal(dense_sign(n, a, pivot), sign);
     ++*(sign > 0 ? &seen_plus : &seen_minus);
   }
   assert_true(seen_plus > 100 && seen_minus > 100);
@@ -114,19 +115,19 @@ static void the_sign_turns_over_with_a_row(void **state)
   for (int n = 2; n <= MAX_N; ++n) {
     random_matrix(&seed, n, a);
     memcpy(f, a, sizeof f);
-    assert_true(lu_factor(n, f, pivot));
-    int before = lu_sign(n, f, pivot);
+    assert_int_equal(dense_factor(n, f, pivot), HC_OK);
+    int before = dense_sign(n, f, pivot);
     for (int j = 0; j < n; ++j) {
       double t = a[n * j];
       a[n * j] = a[n - 1 + n * j];
       a[n - 1 + n * j] = t;
     }
     memcpy(f, a, sizeof f);
-    assert_true(lu_factor(n, f, pivot));
-    assert_int_equal(lu_sign(n, f, pivot), -before);
+    assert_int_equal(dense_factor(n, f, pivot), HC_OK);
+    assert_int_equal(dense_sign(n, f, pivot), -before);
     for (int j = 0; j < n; ++j) a[1 + n * j] = -a[1 + n * j];
-    assert_true(lu_factor(n, a, pivot));
-    assert_int_equal(lu_sign(n, a, pivot), before);
+    assert_int_equal(dense_factor(n, a, pivot), HC_OK);
+    assert_int_equal(dense_sign(n, a, pivot), before);
   }
 }
 
@@ -145,22 +146,94 @@ static void singular_and_not_finite_are_refused(void **state)
     for (int at = 0; at < n; ++at) {
       random_matrix(&seed, n, a);
       for (int i = 0; i < n; ++i) a[i + n * at] = 0;
-      assert_false(lu_factor(n, a, pivot));
+      assert_int_equal(dense_factor(n, a, pivot), HC_SINGULAR);
       random_matrix(&seed, n, a);
       for (int i = 0; i < n; ++i) a[at + n * i] = 0;
-      assert_false(lu_factor(n, a, pivot));
+      assert_int_equal(dense_factor(n, a, pivot), HC_SINGULAR);
     }
     for (int at = 0; at < n * n; at += n < 20 ? 1 : 37)
       for (int p = 0; p < 4; ++p) {
         random_matrix(&seed, n, a);
         a[at] = poison[p];
-        assert_false(lu_factor(n, a, pivot));
+        assert_int_equal(dense_factor(n, a, pivot), HC_SINGULAR);
       }
   }
   double equal_rows[] = {2, 2, 1, 3, 3, 5, -4, -4, 7};
-  assert_false(lu_factor(3, equal_rows, pivot));
+  assert_int_equal(dense_factor(3, equal_rows, pivot), HC_SINGULAR);
   double nearly[] = {1, 1, 1, 1 + DBL_EPSILON};
-  assert_true(lu_factor(2, nearly, pivot)); /* singular is 0 exactly, nothing else */
+  assert_int_equal(dense_factor(2, nearly, pivot), HC_OK); /* singular is 0 exactly, nothing else */
+}
+
+/* ---- inverses ------------------------------------------------------------------------------------------- */
+
+static double size(int n, const double complex *A)
+{
+  double most = 0;
+  for (int i = 0; i < n * n; ++i) most = fmax(most, cabs(A[i]));
+  return most;
+}
+
+static hc_status inverse(int n, const double complex *A, int *pivot, double complex *work, double complex *X)
+{
+  memcpy(X, A, (size_t)n * (size_t)n * sizeof *X);
+  return dense_invert_complex(n, X, pivot, work);
+}
+
+/* Each column of X solves (A + E) x = e with |E| of a few n u |A| growth: |A X - 1| <= c n u n |A| |X| where the
+ * largest entries stand for norms. c = 10 allows for the growth. */
+static void inverts_random_matrices(void **state)
+{
+  (void)state;
+  static double complex A[MAX_N * MAX_N], X[MAX_N * MAX_N];
+  uint64_t seed = 3;
+  int pivot[MAX_N];
+  double complex *work = calloc(DENSE_INVERT_WORK * MAX_N, sizeof *work);
+  double worst = 0;
+  for (int n = 1; n <= 70; n += n < 36 ? 1 : 17) {
+    for (int i = 0; i < n * n; ++i) A[i] = random_signed(&seed) + I * random_signed(&seed);
+    assert_int_equal(inverse(n, A, pivot, work, X), HC_OK);
+    const double bound = 10 * n * DBL_EPSILON * n * size(n, A) * size(n, X);
+    for (int j = 0; j < n; ++j)
+      for (int i = 0; i < n; ++i) {
+        double complex sum = i == j ? -1 : 0;
+        for (int k = 0; k < n; ++k) sum += A[i + n * k] * X[k + n * j];
+        CHECK_LE(cabs(sum), bound, "n=%d entry %d, %d", n, i, j);
+        worst = fmax(worst, cabs(sum) / bound);
+      }
+  }
+  assert_true(worst > 1e-3);
+  free(work);
+}
+
+/* i at (k, to(k)): the inverse has -i at (to(k), k), and nothing rounds. Pivots are never on the diagonal. */
+static void inverts_a_permutation_exactly(void **state)
+{
+  (void)state;
+  enum { N = 37 };
+  static double complex A[N * N], X[N * N];
+  int pivot[N];
+  double complex *work = calloc(DENSE_INVERT_WORK * N, sizeof *work);
+  for (int k = 0; k < N; ++k) A[k + N * ((k + 5) % N)] = I;
+  assert_int_equal(inverse(N, A, pivot, work, X), HC_OK);
+  for (int j = 0; j < N; ++j)
+    for (int i = 0; i < N; ++i) assert_true(X[i + N * j] == (i == (j + 5) % N ? -I : 0));
+  free(work);
+}
+
+static void singular_matrices_are_refused(void **state)
+{
+  (void)state;
+  enum { N = 20 };
+  static double complex A[N * N], X[N * N];
+  int pivot[N];
+  double complex *work = calloc(DENSE_INVERT_WORK * N, sizeof *work);
+  for (int k = 0; k < N - 1; ++k) A[k + N * k] = 1;
+  assert_int_equal(inverse(N, A, pivot, work, X), HC_SINGULAR);
+  A[N * N - 1] = NAN;
+  assert_int_equal(inverse(N, A, pivot, work, X), HC_SINGULAR);
+  A[N * N - 1] = 1;
+  assert_int_equal(inverse(N, A, pivot, work, X), HC_OK);
+  free(work);
 }
 
 static const struct CMUnitTest tests[] = {
@@ -168,6 +241,9 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(the_sign_of_signed_permutations),
     cmocka_unit_test(the_sign_turns_over_with_a_row),
     cmocka_unit_test(singular_and_not_finite_are_refused),
+    cmocka_unit_test(inverts_random_matrices),
+    cmocka_unit_test(inverts_a_permutation_exactly),
+    cmocka_unit_test(singular_matrices_are_refused),
 };
 
-CHECK_MAIN("cases.lu", tests, 60)
+CHECK_MAIN("numerics.dense", tests, 60)
