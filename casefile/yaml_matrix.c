@@ -2,15 +2,14 @@
  * of a file. */
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 #include "base/number.h"
-#include "casefile/matlab_file.h"
 #include "casefile/matrix_file.h"
 #include "casefile/text_file.h"
 #include "casefile/yaml_structure.h"
 
-static const char any_matrix[] = "rows, a diagonal, or a file of Matrix Market, CalculiX, Abaqus or MATLAB "
-                                 "(FILE.mat#VARIABLE)";
+static const char any_matrix[] = "rows, a diagonal, or a file of Matrix Market, CalculiX or Abaqus";
 
 hc_status yaml_number(case_reader *r, const yaml_node_t *node, const char *what, double *x)
 {
@@ -118,6 +117,19 @@ static const char *part_of(const char *what)
   return NULL;
 }
 
+/* True for FILE.mat and FILE.mat#VARIABLE, whatever the case of the ending's letters. */
+static bool is_matlab_name(const char *name)
+{
+  const char *mark = strrchr(name, '#');
+  const size_t length = mark ? (size_t)(mark - name) : strlen(name);
+  return length >= 4 && !strncasecmp(name + length - 4, ".mat", 4);
+}
+
+static const char how_matlab_writes[] =
+    " is a MATLAB file, which is not read, expected Matrix Market, which MATLAB writes by: [i,j,v] = find(M); "
+    "f = fopen('M.mtx','w'); fprintf(f,'%%%%MatrixMarket matrix coordinate real general\\n%d %d %d\\n',size(M),numel(v)); "
+    "fprintf(f,'%d %d %.17g\\n',[i j v]'); fclose(f)";
+
 static hc_status read_file(case_reader *r, const char *what, const yaml_node_t *node, int expected, int *n,
                            structure_matrix *out)
 {
@@ -134,21 +146,19 @@ static hc_status read_file(case_reader *r, const char *what, const yaml_node_t *
     return HC_BAD_INPUT;
   }
   if (!(out->file = text_file_path(r->name, name, length))) return case_out_of_memory(r);
-  message told;
-  message_start(&told, words, sizeof words);
-  const bool matlab = matlab_file_meant(out->file);
+  const bool matlab = is_matlab_name(out->file);
   out->part = part_of(what);
-  const hc_status st = matlab
-                           ? matlab_file_read(out->file, expected, n, &out->v, &told)
-                           : matrix_file_read_part(out->file, out->part, expected, n, &out->v, &out->labels, &r->msg);
-  if (st == HC_NO_MEMORY) return case_out_of_memory(r);
-  if (st == HC_OK || (st == HC_BAD_INPUT && !matlab)) return st;
-  if (!matlab) message_add(&told, "%s", r->msg.text);
+  if (!matlab) {
+    const hc_status st = matrix_file_read_part(out->file, out->part, expected, n, &out->v, &out->labels, &r->msg);
+    if (st == HC_NO_MEMORY) return case_out_of_memory(r);
+    if (st != HC_IO) return st;
+    snprintf(words, sizeof words, "%s", r->msg.text);
+  }
   message *m = case_blame(r, at);
   message_add(m, "%s: ", what);
   message_add_input(m, out->file, strlen(out->file), 160);
-  message_add(m, " %s", words);
-  if (st == HC_IO) message_add(m, ", expected a matrix as %s", any_matrix);
+  if (matlab) message_add(m, "%s", how_matlab_writes);
+  else message_add(m, " %s, expected a matrix as %s", words, any_matrix);
   return HC_BAD_INPUT;
 }
 
@@ -170,12 +180,6 @@ message *yaml_matrix_blame(case_reader *r, const structure_matrix *m, int i, int
 {
   size_t line, column;
   if (!m->file) return case_blame(r, m->place);
-  if (matlab_file_meant(m->file)) {
-    message *words = case_blame(r, m->place);
-    message_add_input(words, m->file, strlen(m->file), 160);
-    message_add(words, ": ");
-    return words;
-  }
   matrix_file_place(m->file, m->part, i, j, &line, &column);
   message_start(&r->msg, r->msg.text, r->msg.size);
   message_add_input(&r->msg, m->file, strlen(m->file), 240);

@@ -1,9 +1,8 @@
 #!/usr/bin/env python3
 """Writes one model in every format of matrices that is read, into files beside itself: a chain of four nodes in space
-between two walls, its springs askew. Its numbers are multiples of 1/8, so that every format holds them exactly. The
-MATLAB file comes from Octave. Units: kg, N, m, s."""
+between two walls, its springs askew. Its numbers are multiples of 1/8, so that every format holds them exactly.
+Units: kg, N, m, s."""
 import os
-import subprocess
 
 NODES, K, M = (11, 12, 20, 31), {}, {}
 N = 3 * len(NODES)
@@ -74,6 +73,3 @@ write("chain_element.mtx", ["**", "** ELEMENT NUMBER 1 STEP NUMBER 1 INCREMENT N
                             f"*USER ELEMENT, NODES= {len(NODES)}, LINEAR", "** ELEMENT NODES",
                             "** " + ", ".join(map(str, NODES)), "1, 2, 3"] +
       list(element("STIFFNESS", K)) + list(element("MASS", M)))
-script = "; ".join(f"{name} = full(sparse([{' '.join(str(i + 1) for i, _ in A)}], [{' '.join(str(j + 1) for _, j in A)}], "
-                   f"[{' '.join(repr(x) for x in A.values())}]))" for name, A in (("K", K), ("M", M)))
-subprocess.run(["octave", "--no-gui", "--quiet", "--eval", f"{script}; save('-v7', '{here}/chain.mat', 'K', 'M')"], check=True)
