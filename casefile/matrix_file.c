@@ -19,7 +19,8 @@ static bool begins(const matrix_text *r, const char *words)
 static const char *other_format(const matrix_text *r)
 {
   const bool words = r->n_words > 0 && r->words[0].length > 0;
-  if (begins(r, "MATLAB ") || begins(r, "\x89HDF")) return "this is a MATLAB file; docs/models.md: how MATLAB writes Matrix Market";
+  if (begins(r, "MATLAB ") || begins(r, "\x89HDF"))
+    return "this is a MATLAB file; docs/models.md: how MATLAB writes Matrix Market";
   if (words && *r->words[0].text == '*')
     return "this looks like an Abaqus input file, of which *MATRIX and *USER "
            "ELEMENT can be read";
