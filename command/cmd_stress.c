@@ -90,7 +90,7 @@ static int stress_make_folder(const cli_common *common, const char *findings)
 static const char help[] =
     "Draw scenes from a Sobol sequence over the whole range of every quantity, solve each by every method, and hold "
     "each against every other. Every "
-    "check ends as agreed, explained (by a reason that was computed, too), refused (a solver said why) or a finding: "
+    "check ends as agreed, explained (by a reason that was computed, too), too dear, refused (a solver said why) or a finding: "
     "two methods differ and nothing explains it."
     "\vSeed and index make a scene again: --first INDEX --scenes 1 --all runs it alone, --case prints its case file. "
     "With --results the same command goes "
@@ -122,8 +122,8 @@ enum {
 
 static const struct argp_option options[] = {
     {"scenes", KEY_SCENES, "N", 0, "How many scenes [200]", 1},
-    {"structures", KEY_STRUCTURES, NULL, 0,
-     "Draw structures of up to 12 degrees of freedom, and check both sides, in place of oscillators", 1},
+    {"structures", KEY_STRUCTURES, NULL, 0, "Draw structures of up to 12 degrees of freedom in place of oscillators",
+     1},
     {"space", KEY_SPACE, NULL, 0, "The same structures, with a second tangent of some of their contacts", 1},
     {"seed", KEY_SEED, "N", 0, "Which sequence [1]", 1},
     {"first", KEY_FIRST, "INDEX", 0, "The first scene's place in the sequence [0]", 1},
@@ -168,10 +168,11 @@ static error_t read_option(int key, char *text, struct argp_state *state)
 }
 
 static const table_column check_columns[] = {
-    {"check", TABLE_TEXT},        {"skipped", TABLE_INTEGER},    {"agreed", TABLE_INTEGER},
-    {"explained", TABLE_INTEGER}, {"refused", TABLE_INTEGER},    {"findings", TABLE_INTEGER},
-    {"median_error", TABLE_REAL}, {"largest_error", TABLE_REAL}, {"scene", TABLE_INTEGER},
-    {"seconds", TABLE_REAL},      {"holds", TABLE_TEXT},
+    {"check", TABLE_TEXT},         {"agreed", TABLE_INTEGER},    {"explained", TABLE_INTEGER},
+    {"too_dear", TABLE_INTEGER},   {"refused", TABLE_INTEGER},   {"findings", TABLE_INTEGER},
+    {"skipped", TABLE_INTEGER},    {"explained_by", TABLE_TEXT}, {"median_error", TABLE_REAL},
+    {"largest_error", TABLE_REAL}, {"scene", TABLE_INTEGER},     {"seconds", TABLE_REAL},
+    {"holds", TABLE_TEXT},
 };
 static const table_column reason_columns[] = {
     {"check", TABLE_TEXT},     {"outcome", TABLE_TEXT},        {"reason", TABLE_TEXT},
@@ -181,7 +182,7 @@ static const table_column scene_columns[] = {
     {"scene", TABLE_INTEGER}, {"check", TABLE_TEXT}, {"outcome", TABLE_TEXT}, {"reason", TABLE_TEXT},
     {"error", TABLE_REAL},    {"bound", TABLE_REAL}, {"why", TABLE_TEXT},
 };
-static const char *const spare_columns[] = {"holds", "seconds", "median_error", "scene", NULL};
+static const char *const spare_columns[] = {"holds", "seconds", "median_error", "scene", "explained_by", NULL};
 #define COUNT(a) ((int)(sizeof(a) / sizeof *(a)))
 
 /* One call of the command. */
@@ -192,9 +193,6 @@ typedef struct stress_call {
   long classified, resumed; /* scenes with results, and those of them that the journal had */
   long findings;
 } stress_call;
-
-static int first_check(const stress_call *call) { return stress_first_check(call->own.plan.family); }
-static int end_of_checks(const stress_call *call) { return stress_end_of_checks(call->own.plan.family); }
 
 /* ---- tables ---- */
 
@@ -217,11 +215,31 @@ static void put_errors(const stress_call *call, int kind, table *t)
   free(errors);
 }
 
+/* "truncated 12, ill_conditioned 3": how many scenes a check explained by what. */
+static void put_explanations(const stress_call *call, int kind, table *t)
+{
+  char text[256] = "";
+  int length = 0;
+  for (int r = 0; r < STRESS_N_REASONS; ++r) {
+    long n = 0;
+    for (long i = 0; i < call->own.plan.scenes; ++i) {
+      const stress_check *c = &call->results[i].check[kind];
+      n += call->results[i].there && c->outcome == STRESS_EXPLAINED && (int)c->reason == r;
+    }
+    if (n == 0 || length >= (int)sizeof text) continue;
+    length += snprintf(text + length, sizeof text - (size_t)length, "%s%s %ld", length ? ", " : "",
+                       stress_reason_name((stress_reason)r), n);
+  }
+  table_put_text(t, text);
+}
+
 static table *checks_table(stress_call *call)
 {
+  static const stress_outcome shown[] = {STRESS_AGREED,  STRESS_EXPLAINED, STRESS_DEAR,
+                                         STRESS_REFUSED, STRESS_FINDING,   STRESS_SKIPPED};
   table *t = table_new("Checks", COUNT(check_columns), check_columns);
   table_spare(t, spare_columns);
-  for (int k = first_check(call); k < end_of_checks(call); ++k) {
+  for (int k = 0; k < STRESS_N_CHECKS; ++k) {
     long count[STRESS_N_OUTCOMES] = {0};
     double seconds = 0;
     for (long i = 0; i < call->own.plan.scenes; ++i) {
@@ -230,7 +248,8 @@ static table *checks_table(stress_call *call)
       seconds += call->results[i].check[k].seconds;
     }
     table_put_text(t, stress_kind_name((stress_kind)k));
-    for (int o = 0; o < STRESS_N_OUTCOMES; ++o) table_put_integer(t, count[o]);
+    for (int o = 0; o < COUNT(shown); ++o) table_put_integer(t, count[shown[o]]);
+    put_explanations(call, k, t);
     put_errors(call, k, t);
     table_put_real(t, seconds);
     table_put_text(t, stress_kind_meaning((stress_kind)k));
@@ -249,7 +268,7 @@ static table *reasons_table(const stress_call *call)
 {
   table *t = table_new("Reasons", COUNT(reason_columns), reason_columns);
   table_wrap(t, cli_width(&call->common));
-  for (int k = first_check(call); k < end_of_checks(call); ++k)
+  for (int k = 0; k < STRESS_N_CHECKS; ++k)
     for (int o = 0; o < STRESS_N_OUTCOMES; ++o)
       for (int r = 0; r < STRESS_N_REASONS; ++r)
         for (int st = HC_OK; st <= HC_BUG; ++st) {
@@ -290,7 +309,7 @@ static table *scenes_table(const stress_call *call)
   table *t = table_new(call->own.all ? "Scenes" : "Findings", COUNT(scene_columns), scene_columns);
   table_wrap(t, cli_width(&call->common));
   for (long i = 0; i < call->own.plan.scenes; ++i)
-    for (int k = first_check(call); k < end_of_checks(call) && call->results[i].there; ++k)
+    for (int k = 0; k < STRESS_N_CHECKS && call->results[i].there; ++k)
       if (call->own.all || call->results[i].check[k].outcome == STRESS_FINDING)
         put_scene(t, call->results[i].index, k, &call->results[i].check[k]);
   return t;
@@ -366,8 +385,7 @@ static int keep_finding(const stress_call *call, long index, stress_kind kind, c
   char path[4096], comment[512];
   hc_status st = scene_at(call, index, &sc);
   if (st != HC_OK) return cli_solver_failed(&call->common, CLI_BOTH, "the sequence", st, 0);
-  st = sc.structure ? stress_shrink_structure(&sc, kind, call->own.plan.seconds, monitor)
-                    : stress_shrink(&sc, kind, call->own.plan.seconds, monitor);
+  st = stress_shrink(&sc, kind, call->own.plan.seconds, monitor);
   if (st != HC_OK && st != HC_INTERRUPTED) {
     case_clear(&sc);
     return cli_solver_failed(&call->common, CLI_BOTH, "shrinking", st, 0);
@@ -391,7 +409,7 @@ static int keep_findings(const stress_call *call)
   progress *bar = progress_start("shrinking findings", call->common.quiet);
   const hc_monitor monitor = progress_monitor(bar);
   for (long i = 0; i < call->own.plan.scenes && !code; ++i)
-    for (int k = first_check(call); k < end_of_checks(call) && !code; ++k)
+    for (int k = 0; k < STRESS_N_CHECKS && !code; ++k)
       if (call->results[i].there && call->results[i].check[k].outcome == STRESS_FINDING)
         code = keep_finding(call, call->results[i].index, (stress_kind)k, &monitor);
   progress_end(bar);

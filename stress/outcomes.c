@@ -1,7 +1,7 @@
-/* outcomes.c - see outcomes.h; and the names in stress.h. */
-#include "stress/outcomes.h"
-
+/* outcomes.c - the words a check ends with (solved_scene.h), and the names in stress.h. */
 #include <math.h>
+
+#include "stress/solved_scene.h"
 
 stress_check stress_skip(stress_reason why) { return (stress_check){STRESS_SKIPPED, why, HC_OK, NAN, NAN, 0}; }
 
@@ -23,34 +23,38 @@ stress_check stress_agree(double error, double bound)
 
 stress_check stress_agree_within(double error, double least, double sensitive)
 {
-  if (error > least && error <= sensitive) return stress_explain(STRESS_ILL_CONDITIONED, error, sensitive);
+  if (error > least && error <= sensitive)
+    return sensitive <= STRESS_SAYS_SOMETHING ? stress_explain(STRESS_ILL_CONDITIONED, error, sensitive)
+                                              : stress_skip(STRESS_ILL_CONDITIONED);
   return stress_agree(error, fmax(least, sensitive));
 }
 
-stress_check stress_refusal(hc_status st)
+stress_check stress_refuse(solved_scene *s, hc_status st)
 {
   stress_check c = {STRESS_REFUSED, STRESS_REFUSED_BY, st, NAN, NAN, 0};
-  if (st == HC_INTERRUPTED) c.outcome = STRESS_EXPLAINED, c.reason = STRESS_TOO_DEAR;
+  if (st == HC_NO_MEMORY) s->fatal = st;
+  if (st == HC_INTERRUPTED) c.outcome = STRESS_DEAR, c.reason = STRESS_TOO_DEAR;
   /* none of these is an answer to a scene whose every field is within its range */
   if (st == HC_OK || st == HC_BUG || st == HC_BAD_INPUT || st == HC_UNSUPPORTED || st == HC_IO)
     c.outcome = STRESS_FINDING, c.reason = STRESS_INTERNAL;
   return c;
 }
 
+stress_check stress_worse(stress_check a, stress_check b)
+{
+  return b.outcome > a.outcome || (b.outcome == a.outcome && b.error > a.error) ? b : a;
+}
+
 /* ---- names ---- */
 
-#define NAME(code, name, meaning) name,
-static const char *const kinds[] = {STRESS_CHECKS(NAME) STRESS_STRUCTURE_CHECKS(NAME) STRESS_SPACE_CHECKS(NAME)},
-                         *const reasons[] = {STRESS_REASONS(NAME)};
-#undef NAME
-#define NAME(code, name) name,
-static const char *const outcomes[] = {STRESS_OUTCOMES(NAME)};
-#undef NAME
-#define MEANING(code, name, meaning) meaning,
-static const char *const kind_meanings[] = {STRESS_CHECKS(MEANING) STRESS_STRUCTURE_CHECKS(MEANING)
-                                                STRESS_SPACE_CHECKS(MEANING)},
-                         *const reason_meanings[] = {STRESS_REASONS(MEANING)};
-#undef MEANING
+#define NAME(code, name, ...)                name,
+#define MEANING(code, name, meaning)         meaning,
+#define NAME_OF(code, name)                  name,
+#define MEANING_OF(code, name, fun, meaning) meaning,
+static const char *const kinds[] = {STRESS_CHECKS(NAME)}, *const reasons[] = {STRESS_REASONS(NAME)};
+static const char *const outcomes[] = {STRESS_OUTCOMES(NAME_OF)};
+static const char *const kind_meanings[] = {STRESS_CHECKS(MEANING_OF)}, *const reason_meanings[] = {
+                                                                            STRESS_REASONS(MEANING)};
 
 const char *stress_kind_name(stress_kind kind) { return kinds[kind]; }
 const char *stress_kind_meaning(stress_kind kind) { return kind_meanings[kind]; }
@@ -62,12 +66,4 @@ const char *stress_family_option(stress_family family)
 {
   static const char *const option[] = {"", " --structures", " --space"};
   return option[family];
-}
-
-int stress_first_check(stress_family family) { return family == STRESS_OSCILLATORS ? 0 : STRESS_N_OSCILLATOR_CHECKS; }
-
-int stress_end_of_checks(stress_family family)
-{
-  static const int end[] = {STRESS_N_OSCILLATOR_CHECKS, STRESS_END_OF_STRUCTURE_CHECKS, STRESS_N_CHECKS};
-  return end[family];
 }

@@ -7,7 +7,7 @@
  * mostly moves the mass either far less than the gap or far more: for two scenes in three it is drawn such that the
  * gap is just reached. The frequency lies near the free resonance, near that of the stuck mass, or between; not so
  * low that the stuck mass makes more than MOST_OSCILLATIONS in a period, which only costs time. */
-#include "stress/scenes_impl.h"
+#include "stress/scenes.h"
 
 #include <gsl/gsl_qrng.h>
 #include <gsl/gsl_rng.h>
@@ -154,22 +154,4 @@ hc_status stress_scenes_at(stress_scenes *s, long index, scene *out)
   sc.transient.max_periods = 300; /* a motion that has not settled by then is no check of anything */
   *out = sc;
   return HC_OK;
-}
-
-scene stress_in_units(const scene *sc, double length, double force, double time)
-{
-  scene s = *sc;
-  s.mass *= force * time * time / length;
-  s.damping *= force * time / length;
-  s.stiffness *= force / length;
-  s.force *= force;
-  for (int j = 0; j < s.n_contacts; ++j) {
-    s.contacts[j].law.kn *= force / length;
-    s.contacts[j].law.kt *= force / length;
-    s.contacts[j].law.gap *= length;
-  }
-  s.omega_from /= time;
-  s.omega_to /= time;
-  for (int i = 0; i < s.compare.omega.n; ++i) s.compare.omega.v[i] /= time;
-  return s;
 }

@@ -18,13 +18,17 @@ hc_status stress_scenes_at(stress_scenes *s, long index, scene *out);
 /* The structure of that number, likewise: structures.c. To be cleared with case_clear. */
 hc_status stress_structures_at(stress_scenes *s, long index, scene *out);
 
-/* That structure with a second tangent of some of its contacts, likewise: space.c. */
-hc_status stress_space_at(stress_scenes *s, long index, scene *out);
-
-/* The scene of that number in any of the families. */
+/* The scene of that number in any of the families, of which that in space has the structure of that number with a
+ * second tangent of some of its contacts. */
 hc_status stress_scene_of(stress_scenes *s, stress_family family, long index, scene *out);
 
-/* The same oscillator in smaller units: the number of every length, force and time is multiplied by its factor. */
-scene stress_in_units(const scene *sc, double length, double force, double time);
+/* ---- what both files draw from ---- */
+
+enum { STRESS_DIMENSIONS = 33 };
+
+unsigned long stress_scenes_seed(const stress_scenes *s);
+
+/* Point number `index` of the shifted sequence, each entry in [0, 1). */
+void stress_scenes_point(stress_scenes *s, long index, double p[STRESS_DIMENSIONS]);
 
 #endif

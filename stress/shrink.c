@@ -1,8 +1,12 @@
-/* shrink.c - stress_shrink: the fewest contacts, harmonics and digits with which a finding is still one. */
+/* shrink.c - stress_shrink: the fewest contacts, loads, degrees of freedom, harmonics and digits with which a finding is
+ * still one. */
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/number.h"
+#include "casefile/case_file.h"
+#include "casefile/structure_check.h"
 #include "stress/stress.h"
 
 typedef struct shrinker {
@@ -26,6 +30,8 @@ static bool try(shrinker *s, scene *sc, const scene *smaller)
   *sc = *smaller;
   return true;
 }
+
+/* ---- an oscillator ---- */
 
 static void drop_contacts(shrinker *s, scene *sc)
 {
@@ -81,11 +87,166 @@ static void round_numbers(shrinker *s, scene *sc)
   }
 }
 
+/* ---- a structure ---- */
+
+/* A scene with a structure of its own to make smaller; false: out of memory, or stopped. */
+static bool copy(shrinker *s, const scene *sc, scene *out)
+{
+  *out = *sc;
+  if (s->status != HC_OK) return false;
+  out->structure = structure_copy(sc->structure);
+  if (!out->structure) s->status = HC_NO_MEMORY;
+  return out->structure != NULL;
+}
+
+static bool is_zero(int n, const double *v)
+{
+  for (int i = 0; i < n; ++i)
+    if (v[i] != 0) return false;
+  return true;
+}
+
+/* *smaller takes *sc's place where it is still a finding; else it is forgotten. */
+static bool take(shrinker *s, scene *sc, scene *smaller)
+{
+  double *x = malloc((size_t)smaller->structure->n * sizeof *x);
+  bool adrift = true;
+  if (s->status == HC_OK) s->status = x ? structure_free_motion(smaller->structure, false, x, &adrift) : HC_NO_MEMORY;
+  free(x);
+  const bool finds = !adrift && still(s, smaller);
+  case_clear(finds ? sc : smaller);
+  if (finds) *sc = *smaller;
+  return finds;
+}
+
+static void drop_structure_contacts(shrinker *s, scene *sc)
+{
+  scene smaller;
+  for (int j = sc->structure->n_contacts - 1; j >= 0 && sc->structure->n_contacts > 1; --j) {
+    if (!copy(s, sc, &smaller)) return;
+    scene_structure *t = smaller.structure;
+    free(t->contacts[j].tangent); /* with the others behind it */
+    t->contacts[j] = t->contacts[--t->n_contacts];
+    take(s, sc, &smaller);
+  }
+}
+
+static void drop_loads(shrinker *s, scene *sc)
+{
+  scene smaller;
+  for (int i = sc->structure->n_loads - 1; i >= 0 && sc->structure->n_loads > 1; --i) {
+    if (!copy(s, sc, &smaller)) return;
+    scene_structure *t = smaller.structure;
+    free(t->loads[i].direction);
+    t->loads[i] = t->loads[--t->n_loads];
+    take(s, sc, &smaller);
+  }
+}
+
+/* Without row and column k, in place. */
+static void drop_row(int n, int k, double *A)
+{
+  double *to = A;
+  for (int j = 0; j < n; ++j)
+    for (int i = 0; i < n; ++i)
+      if (i != k && j != k) *to++ = A[(size_t)j * (size_t)n + (size_t)i];
+}
+
+static void drop_entry(int n, int k, double *v)
+{
+  for (int i = k; i + 1 < n; ++i) v[i] = v[i + 1];
+}
+
+static void drop_second_tangents(shrinker *s, scene *sc)
+{
+  scene smaller;
+  for (int j = 0; j < sc->structure->n_contacts; ++j) {
+    if (is_zero(sc->structure->n, sc->structure->contacts[j].tangent_2)) continue;
+    if (!copy(s, sc, &smaller)) return;
+    for (int i = 0; i < smaller.structure->n; ++i) smaller.structure->contacts[j].tangent_2[i] = 0;
+    take(s, sc, &smaller);
+  }
+}
+
+/* Degree of freedom k held: of a structure without names, nodes and damping by modes. */
+static void hold_dof(scene_structure *t, int k)
+{
+  drop_row(t->n, k, t->mass.v);
+  drop_row(t->n, k, t->stiffness.v);
+  drop_row(t->n, k, t->damping.v);
+  for (int i = 0; i < t->n_loads; ++i) drop_entry(t->n, k, t->loads[i].direction);
+  for (int j = 0; j < t->n_contacts; ++j) {
+    drop_entry(t->n, k, t->contacts[j].tangent);
+    drop_entry(t->n, k, t->contacts[j].tangent_2);
+    drop_entry(t->n, k, t->contacts[j].normal);
+  }
+  structure_clear_responses(t);
+  t->how = STRUCTURE_DAMPING_MATRIX;
+  --t->n;
+}
+
+/* Are the tangents along one line, or nearly? A case file has no such two. */
+static bool is_line(int n, const double *a, const double *b)
+{
+  double aa = 0, bb = 0, ab = 0;
+  for (int i = 0; i < n; ++i) aa += a[i] * a[i], bb += b[i] * b[i], ab += a[i] * b[i];
+  return ab * ab >= (1 - 4e-12) * aa * bb;
+}
+
+/* Could a case file say it? No contact may have lost what it acts along. */
+static bool is_whole(const scene_structure *t)
+{
+  for (int j = 0; j < t->n_contacts; ++j) {
+    const structure_contact *c = &t->contacts[j];
+    if ((c->given.law.kt != 0 && is_zero(t->n, c->tangent)) || (c->given.law.kn != 0 && is_zero(t->n, c->normal)))
+      return false;
+    if (!is_zero(t->n, c->tangent_2) && is_line(t->n, c->tangent, c->tangent_2)) return false;
+  }
+  return true;
+}
+
+static void hold_dofs(shrinker *s, scene *sc)
+{
+  scene smaller;
+  for (int k = sc->structure->n - 1; k >= 0 && sc->structure->n > 1; --k) {
+    if (!copy(s, sc, &smaller)) return;
+    hold_dof(smaller.structure, k);
+    if (is_whole(smaller.structure)) take(s, sc, &smaller);
+    else case_clear(&smaller);
+  }
+}
+
+static int highest_load(const scene_structure *t)
+{
+  int most = 1;
+  for (int i = 0; i < t->n_loads; ++i)
+    if (t->loads[i].harmonic > most) most = t->loads[i].harmonic;
+  return most;
+}
+
+static void fewer_structure_harmonics(shrinker *s, scene *sc)
+{
+  scene smaller;
+  for (int h = highest_load(sc->structure); h < sc->hbm.harmonics; ++h) {
+    if (!copy(s, sc, &smaller)) return;
+    smaller.hbm.harmonics = h;
+    if (take(s, sc, &smaller)) return;
+  }
+}
+
 hc_status stress_shrink(scene *sc, stress_kind kind, double seconds, const hc_monitor *monitor)
 {
   shrinker s = {kind, seconds, monitor, HC_OK};
-  drop_contacts(&s, sc);
-  fewer_harmonics(&s, sc);
-  round_numbers(&s, sc);
+  if (sc->structure) {
+    drop_structure_contacts(&s, sc);
+    drop_second_tangents(&s, sc);
+    drop_loads(&s, sc);
+    hold_dofs(&s, sc);
+    fewer_structure_harmonics(&s, sc);
+  } else {
+    drop_contacts(&s, sc);
+    fewer_harmonics(&s, sc);
+    round_numbers(&s, sc);
+  }
   return s.status;
 }

@@ -2,13 +2,17 @@
 #include "stress/solved_scene.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/thread_clock.h"
 #include "compare/comparison.h"
+#include "compare/first_guess.h"
 #include "hbm/first_solution.h"
-#include "stress/solved_structure.h"
-#include "study/scene_solvers.h"
+#include "numerics/series.h"
+
+/* Rounding is seen only if Newton does not stop before. */
+static const double tight = 1e-12;
 
 static bool go_on(void *self, double done)
 {
@@ -17,103 +21,122 @@ static bool go_on(void *self, double done)
   return s->fatal == HC_OK && thread_seconds() < s->deadline;
 }
 
-void stress_clock(solved_scene *s) { s->deadline = thread_seconds() + s->seconds; }
+void solved_scene_clock(solved_scene *s) { s->deadline = thread_seconds() + s->seconds; }
 
-void solved_scene_start(solved_scene *s, const scene *sc, double seconds, const hc_monitor *outer)
+static hc_status make_model(solved_scene *s, const scene *sc)
 {
-  memset(s, 0, sizeof *s);
-  s->asked = sc;
-  s->exact = *sc;
-  s->exact.hbm.force = HBM_FORCE_EXACT;
-  s->exact.transient.law = TRANSIENT_LAW_EXACT;
-  s->sc = &s->exact;
-  s->omega = sc->compare.omega.v[0];
-  s->seconds = seconds;
-  s->outer = outer;
+  model *m;
+  hc_status st = scene_model(sc, &m);
+  if (st == HC_OK) st = rewritten_with_all_responses(m, &s->model);
+  model_free(m);
+  return st;
+}
+
+hc_status solved_scene_start(solved_scene *s, const scene *sc, double seconds, const hc_monitor *outer)
+{
+  *s = (solved_scene){.how = sc->hbm, .omega = sc->compare.omega.v[0], .seconds = seconds, .outer = outer};
+  s->how.force = HBM_FORCE_EXACT;
+  s->how.tolerance = fmin(s->how.tolerance, tight);
+  s->from = sc->omega_from, s->to = sc->omega_to;
   s->monitor = (hc_monitor){go_on, s};
-  stress_clock(s);
-  stress_solve(s, s->sc, s->omega, 0, NULL, &s->base);
-  s->fine = s->base;
-  s->orbit.status = HC_NOT_CONVERGED; /* none yet */
+  memcpy(&s->random, &s->omega, sizeof s->random); /* the same for the same scene, whatever its number */
+  hc_status st = make_model(s, sc);
+  if (st != HC_OK) return st;
+  s->n = s->model->n;
+  s->n_coef = series_length(s->how.harmonics);
+  s->asked = sc;
+  s->fine.status = HC_NOT_CONVERGED; /* none yet */
   s->predicted = stress_skip(STRESS_NO_ORBIT);
+  s->path.status = HC_NOT_CONVERGED;
+  solved_scene_clock(s);
+  stress_motion_solve(s, s->model, &s->how, s->omega, NULL, 1, &s->base);
+  return s->fatal;
 }
 
-static void note_fatal(solved_scene *s, hc_status st)
+void solved_scene_clear(solved_scene *s)
 {
-  if (st == HC_NO_MEMORY) s->fatal = st;
+  model_free(s->model);
+  stress_motion_free(&s->base);
+  stress_motion_free(&s->fine);
+  free(s->path.state);
+  free(s->path.wave);
 }
 
-void stress_solve(solved_scene *s, const scene *sc, double omega, int n_guess, const double *guess,
-                  stress_solution *out)
+/* ---- one solution --------------------------------------------------------------------------------- */
+
+void stress_motion_free(stress_motion *m)
 {
-  hbm_solver *hbm = NULL;
-  hbm_point point;
-  memset(out, 0, sizeof *out);
-  out->status = scene_hbm_solver(sc, &hbm);
-  if (out->status == HC_OK) {
-    out->n_harm = hbm_n_harmonics(hbm);
-    int n = n_guess < out->n_harm ? n_guess : out->n_harm;
-    if (guess) memcpy(out->X, guess, (size_t)(2 * n + 1) * sizeof *guess);
-    out->status =
-        guess ? hbm_solve(hbm, omega, out->X, &point) : hbm_first_solution(hbm, omega, &s->monitor, out->X, &point);
-    if (out->status == HC_OK) out->status = hbm_measure(hbm, out->X, &out->m);
-    if (out->status == HC_OK) out->status = comparison_orbit_start(hbm, out->X, omega, out->start.all);
-    if (out->status == HC_OK) out->stability_status = hbm_stability_at(hbm, omega, out->X, &out->stability);
+  free(m->x);
+  free(m->start);
+  m->x = m->start = NULL;
+}
+
+hc_status stress_motion_read(const solved_scene *s, hbm_solver *h, double omega, const double *X, double *x)
+{
+  hc_status st = HC_OK;
+  double *series = malloc((size_t)s->n_coef * sizeof *series);
+  if (!series) return HC_NO_MEMORY;
+  for (int i = 0; i < s->n && st == HC_OK; ++i) {
+    st = hbm_response(h, omega, X, 1 + i, series);
+    for (int c = 0; c < s->n_coef; ++c) x[c * s->n + i] = series[c];
   }
-  hbm_solver_free(hbm);
-  note_fatal(s, out->status);
+  free(series);
+  return st;
 }
 
-void stress_shoot(solved_scene *s, const scene *sc, double omega, stress_orbit *out)
+static hc_status solve(solved_scene *s, hbm_solver *h, double omega, const double *guess, double *X, stress_motion *out)
 {
-  timeint *ti = NULL;
-  out->status = scene_timeint(sc, &ti);
-  if (out->status == HC_OK) out->status = timeint_orbit(ti, omega, 1, out->state.all, &s->monitor, &out->r);
-  timeint_free(ti);
-  note_fatal(s, out->status);
+  hbm_point point;
+  if (guess) hbm_guess_of(h, guess, X);
+  hc_status st = guess ? hbm_solve(h, omega, X, &point) : hbm_first_solution(h, omega, &s->monitor, X, &point);
+  if (st == HC_OK) st = hbm_measure(h, X, &out->m);
+  if (st == HC_OK) st = stress_motion_read(s, h, omega, X, out->x);
+  if (st == HC_OK) out->stability_status = hbm_stability_at(h, omega, X, &out->stability);
+  if (st == HC_OK) out->start_status = comparison_orbit_start(h, X, omega, out->start);
+  return st;
 }
 
-stress_check stress_refuse(solved_scene *s, hc_status st)
+/* A solver that asks time integration for a first guess takes long where that does not settle. */
+static hc_status solve_with(solved_scene *s, const model *m, const hbm_settings *how, bool guided, double omega,
+                            const double *guess, stress_motion *out)
 {
-  note_fatal(s, st);
-  return stress_refusal(st);
+  hbm_solver *h = NULL;
+  hc_status st = guided ? guided_hbm_solver_new(m, how, &h) : hbm_solver_new(m, how, &h);
+  if (st == HC_OK) {
+    double *X = calloc((size_t)hbm_n_coefficients(h), sizeof *X);
+    st = X ? solve(s, h, omega, guess, X, out) : HC_NO_MEMORY;
+    free(X);
+  }
+  hbm_solver_free(h);
+  return st;
 }
 
-double stress_distance(int n_coef, const double *X, const double *Y)
+void stress_motion_solve(solved_scene *s, const model *m, const hbm_settings *how, double omega, const double *guess,
+                         double length, stress_motion *out)
+{
+  *out = (stress_motion){.x = calloc((size_t)s->n * (size_t)s->n_coef, sizeof(double)),
+                         .start = calloc(2 * (size_t)m->n + (size_t)m->n_contacts, sizeof(double))};
+  out->status = out->x && out->start ? solve_with(s, m, how, false, omega, guess, out) : HC_NO_MEMORY;
+  if (!guess && out->status != HC_OK && out->status != HC_INTERRUPTED && out->status != HC_NO_MEMORY)
+    out->status = solve_with(s, m, how, true, omega, NULL, out);
+  for (int i = 0; out->x && i < s->n * s->n_coef; ++i) out->x[i] /= length;
+  if (out->status == HC_NO_MEMORY) s->fatal = HC_NO_MEMORY;
+}
+
+double stress_motion_distance(const solved_scene *s, const double *x, const double *y, bool means_out)
 {
   double apart = 0, size = 0;
-  for (int i = 0; i < n_coef; ++i) {
-    apart = hypot(apart, X[i] - Y[i]);
-    size = hypot(size, Y[i]);
+  for (int i = means_out ? s->n : 0; i < s->n * s->n_coef; ++i) {
+    if (isnan(x[i]) || isnan(y[i])) return NAN;
+    apart = fmax(apart, fabs(x[i] - y[i]));
+    size = fmax(size, fabs(y[i]));
   }
   return apart == 0 ? 0 : apart / size;
 }
 
-/* ---- all checks ---- */
-
-static hc_status stress_oscillator(const scene *sc, double seconds, const hc_monitor *monitor, stress_result *out)
+double stress_multipliers_apart(const stress_motion *a, const stress_motion *b)
 {
-  static stress_check (*const checks[STRESS_N_OSCILLATOR_CHECKS])(solved_scene *) = {
-      stress_check_force,    stress_check_shift,     stress_check_reflection,  stress_check_free,
-      stress_check_stuck,    stress_check_units,     stress_check_energy,      stress_check_sampled,
-      stress_check_shooting, stress_check_stability, stress_check_regularised, stress_check_closed,
-      stress_check_verdict,  stress_check_predicted};
-  solved_scene s;
-  double start = thread_seconds();
-  solved_scene_start(&s, sc, seconds, monitor);
-  for (int k = 0; k < STRESS_N_OSCILLATOR_CHECKS && s.fatal == HC_OK; ++k) {
-    stress_clock(&s);
-    double began = thread_seconds();
-    out->check[k] = checks[k](&s);
-    out->check[k].seconds = thread_seconds() - began;
-  }
-  out->seconds = thread_seconds() - start;
-  out->there = s.fatal == HC_OK;
-  return s.fatal;
-}
-
-hc_status stress_scene(const scene *sc, double seconds, const hc_monitor *monitor, stress_result *out)
-{
-  for (int k = 0; k < STRESS_N_CHECKS; ++k) out->check[k] = stress_skip(STRESS_NOT_APPLICABLE);
-  return sc->structure ? stress_structure(sc, seconds, monitor, out) : stress_oscillator(sc, seconds, monitor, out);
+  const double x = a->stability.multiplier, y = b->stability.multiplier;
+  if (a->stability_status != HC_OK || b->stability_status != HC_OK) return INFINITY;
+  return fabs(x - y) / fmax(1, fabs(x));
 }

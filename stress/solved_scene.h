@@ -1,78 +1,123 @@
-/* solved_scene.h - a scene under stress: its solutions by every method as the checks need them, and the words a check
- * ends with. */
+/* solved_scene.h - a scene under stress: its harmonic-balance solution as the checks need it, in all degrees of
+ * freedom, and the checks. Nothing here knows the condensed coordinates: motions are x[2H+1][n], every coefficient's n
+ * together. */
 #ifndef HC_STRESS_SOLVED_SCENE_H
 #define HC_STRESS_SOLVED_SCENE_H
 
+#include <stdint.h>
+
 #include "hbm/hbm.h"
-#include "stress/outcomes.h"
-#include "study/scene_solvers.h"
+#include "stress/rewritten.h"
+#include "stress/stress.h"
 #include "timeint/steady.h"
 
-enum { STRESS_MOST_HARMONICS = 100, STRESS_COEFFICIENTS = 2 * HBM_MAX_HARMONICS + 1 };
+typedef struct solved_scene solved_scene;
 
-/* One HBM solution. */
-typedef struct stress_solution {
+/* One solution. */
+typedef struct stress_motion {
   hc_status status, stability_status;
-  int n_harm;
-  double X[STRESS_COEFFICIENTS]; /* [2 n_harm + 1] [length] */
+  double *x; /* [2H+1][n] [length], of the base model's degrees of freedom, in its units */
   hbm_measures m;
-  scene_state start; /* on it, at t = 0 */
   hbm_stability stability;
-} stress_solution;
+  hc_status start_status;
+  double *start; /* [2 n + contacts] where its transient starts, in the units of the model it is of */
+} stress_motion;
 
-/* One orbit by time integration. */
-typedef struct stress_orbit {
+/* One orbit by time integration, in all degrees of freedom (orbits.c). */
+typedef struct stress_path {
   hc_status status;
-  scene_state state;
-  timeint_result r;
-} stress_orbit;
-
-typedef struct solved_scene {
-  const scene *asked; /* as it is                                   */
-  scene exact;        /* with exact forces and the exact contact law */
-  const scene *sc;    /* = &exact: what the checks work on           */
-  double omega;
-  double seconds, deadline; /* allowed for one check; when this one ends, by the thread's processor time */
+  double *state;    /* [2 n + contacts] the start, then a point of it; in the units of the model it is of */
+  double *wave;     /* [n][TIMEINT_WAVE] of the base model's degrees of freedom, in its units */
+  double amplitude; /* [length] the largest of these */
+  double errors;    /* [1] of that: distance from the orbit, and the scatter of periods through (I - Phi)^-1 */
+  timeint_result r; /* of the first response */
+} stress_path;
+struct solved_scene {
+  model *model;     /* with all responses */
+  hbm_settings how; /* the scene's, exact forces, a tighter tolerance */
+  double omega, from, to;
+  int n, n_coef;   /* of a motion: n n_coef numbers */
+  uint64_t random; /* for what a check draws */
+  double seconds, deadline;
   const hc_monitor *outer;
-  hc_monitor monitor;     /* outer's, and the deadline */
-  hc_status fatal;        /* HC_OK; HC_INTERRUPTED by outer, HC_NO_MEMORY: nothing further is worth anything */
-  stress_solution base;   /* at the scene's own H, exact forces */
-  stress_solution fine;   /* with the most harmonics that were needed; base before STRESS_SHOOTING */
-  stress_orbit orbit;     /* the exact law's, next to fine */
+  hc_monitor monitor;
+  hc_status fatal; /* HC_OK; HC_INTERRUPTED by outer, HC_NO_MEMORY */
+  stress_motion base;
+  bool conditioned;       /* the next two are known */
+  double solution_errs;   /* [1] as much as errors of rounding in the data and Newton's tolerance make of it, relative;
+                             INFINITY where the solution gets lost */
+  double multiplier_errs; /* [1] what that makes of the largest multiplier */
+  const scene *asked;
+  stress_motion fine; /* with the most harmonics that were needed, from STRESS_ORBIT on */
+  int fine_harmonics;
+  stress_path path;       /* the exact law's orbit next to it */
   stress_check predicted; /* of the comparison that STRESS_VERDICT made */
-} solved_scene;
+};
 
-void solved_scene_start(solved_scene *s, const scene *sc, double seconds, const hc_monitor *outer);
+/* The base solution, from nothing. HC_NO_MEMORY; solved_scene_clear in any case. */
+hc_status solved_scene_start(solved_scene *s, const scene *sc, double seconds, const hc_monitor *outer);
+void solved_scene_clear(solved_scene *s);
+void solved_scene_clock(solved_scene *s); /* of a check starts now */
 
-/* The clock of a check starts now. */
-void stress_clock(solved_scene *s);
+/* HBM of m at omega, from the guess x[2H+1][m->n], or from nothing where it is NULL. m's responses 1 .. n are the base
+ * model's degrees of freedom, in a unit of length of which `length` are one of the base model's. To be freed. */
+void stress_motion_solve(solved_scene *s, const model *m, const hbm_settings *how, double omega, const double *guess,
+                         double length, stress_motion *out);
+void stress_motion_free(stress_motion *m);
 
-/* HBM for sc (any variant of s->asked) at omega from guess[2 n_guess + 1], or from nothing where guess is NULL. */
-void stress_solve(solved_scene *s, const scene *sc, double omega, int n_guess, const double *guess,
-                  stress_solution *out);
+/* The motion X of h, a solver of the base model, in all its degrees of freedom. */
+hc_status stress_motion_read(const solved_scene *s, hbm_solver *h, double omega, const double *X, double *x);
 
-/* The period-1 orbit next to out->state for sc, by shooting, with sc's law. */
-void stress_shoot(solved_scene *s, const scene *sc, double omega, stress_orbit *out);
+/* Largest |x - y| over the largest |y|, without the means where they are left `out`; NaN if one is. */
+double stress_motion_distance(const solved_scene *s, const double *x, const double *y, bool means_out);
 
-stress_check stress_refuse(solved_scene *s, hc_status st); /* the words for a solver's status; a bug is a finding */
+/* s->solution_errs and multiplier_errs: by data changed at random, and by the same data from other guesses. Noise in
+ * the multiplier of one and the same motion is no excuse, it must follow from the motion's. */
+void stress_condition(solved_scene *s);
 
-/* |X - Y| / |Y|, of the vectors. */
-double stress_distance(int n_coef, const double *X, const double *Y);
+/* |difference| of the largest multipliers, relative where they are above 1; INFINITY: one is not known. */
+double stress_multipliers_apart(const stress_motion *a, const stress_motion *b);
 
-/* Each check once; later ones use what earlier ones found, in the order of STRESS_CHECKS. */
-stress_check stress_check_force(solved_scene *s);
-stress_check stress_check_shift(solved_scene *s);
-stress_check stress_check_reflection(solved_scene *s);
-stress_check stress_check_free(solved_scene *s);
-stress_check stress_check_stuck(solved_scene *s);
-stress_check stress_check_units(solved_scene *s);
-stress_check stress_check_energy(solved_scene *s);
-stress_check stress_check_sampled(solved_scene *s);
-stress_check stress_check_shooting(solved_scene *s);
-stress_check stress_check_stability(solved_scene *s);
-stress_check stress_check_regularised(solved_scene *s);
-stress_check stress_check_closed(solved_scene *s);
-stress_check stress_check_verdict(solved_scene *s);
-stress_check stress_check_predicted(solved_scene *s);
+/* What is left of M x'' + C x' + K x + contact forces - loads for the motion x, over the largest sum of the sizes of
+ * what it is made of; written down from the model, each contact's force by itself. NaN: a force failed. */
+double stress_imbalance(solved_scene *s, const double *x);
+
+/* What is let pass of it, 100 times Newton's tolerance: that is relative to the forces in the condensed coordinates,
+ * which may be larger by what the rest of the structure, held, makes of them. */
+static inline double stress_balanced(const solved_scene *s) { return 100 * s->how.tolerance; }
+
+void stress_path_free(stress_path *p);
+
+/* An orbit of m next to the start from[2 n + contacts], by shooting in closed form. stress_path_free in any case. */
+void stress_path_of(solved_scene *s, const model *m, const double *from, stress_path *out);
+
+/* Largest difference of the series x[n_coef][n] and an orbit, over the orbit's largest amplitude. */
+double stress_path_off(const solved_scene *s, int n_coef, const double *x, const stress_path *p);
+
+/* ---- the words a check ends with ---- */
+
+/* A NaN error agrees with nothing. */
+stress_check stress_skip(stress_reason why);
+stress_check stress_agree(double error, double bound);
+stress_check stress_explain(stress_reason why, double error, double bound);
+stress_check stress_find(stress_reason why, double error, double bound);
+
+/* [1] A sensitivity above it explains nothing: where it makes more than that of rounding and tolerances, nothing can be
+ * held against anything. */
+#define STRESS_SAYS_SOMETHING 1e-3
+
+/* Agreed up to `least`; beyond it, but within what the scene's own sensitivity makes of errors, explained as
+ * ill-conditioned, or where it says nothing skipped. */
+stress_check stress_agree_within(double error, double least, double sensitive);
+
+/* The words for a solver's status; a bug is a finding. HC_NO_MEMORY goes to s->fatal. */
+stress_check stress_refuse(solved_scene *s, hc_status st);
+
+stress_check stress_worse(stress_check a, stress_check b);
+
+/* The checks. */
+#define STRESS_FUNCTION(code, name, function, meaning) stress_check function(solved_scene *);
+STRESS_CHECKS(STRESS_FUNCTION)
+#undef STRESS_FUNCTION
 
 #endif

@@ -5,6 +5,7 @@
  *     agreed      within a bound that is derived where the check is
  *     explained   beyond it, for a reason that was itself computed (STRESS_REASONS): the difference shrinks with the
  *                 harmonics as it must, the scene is so ill-conditioned that it must differ by that much, ...
+ *     too_dear    given up after the processor time allowed for one check
  *     refused     a solver failed, with its status
  *     finding     two methods differ and no reason was found: an error of this program
  *     skipped     there was nothing to compare
@@ -17,52 +18,53 @@
 #include "base/status.h"
 #include "casefile/scene.h"
 
+/* X(code, name, function of solved_scene.h, meaning), in the order in which they run: later ones use what earlier ones
+ * found. */
 #define STRESS_CHECKS(X)                                                                                               \
-  X(STRESS_FORCE, "force_exact_sampled",                                                                               \
-    "contact force harmonics of one motion, located exactly and sampled ever finer")                                   \
-  X(STRESS_SHIFT, "force_time_shift", "the force of a motion that starts at another time is the same force, later")    \
-  X(STRESS_REFLECTION, "force_time_reflection", "run backwards, a motion without slip has its force run backwards")    \
-  X(STRESS_FREE, "linear_never_touching", "gaps never reached: HBM and transient are the closed form of K")            \
-  X(STRESS_STUCK, "linear_always_stuck", "never slipping nor opening: the closed form of K + kt cos^2 + kn sin^2")     \
-  X(STRESS_UNITS, "units", "the same scene in other units, powers of two and not: the same solutions")                 \
-  X(STRESS_ENERGY, "energy", "the forcing's work is the damper's and the contacts', and contacts give none back")      \
-  X(STRESS_SAMPLED, "hbm_exact_sampled", "HBM with ever more samples tends to HBM with exact forces")                  \
-  X(STRESS_SHOOTING, "hbm_shooting", "HBM with more and more harmonics tends to the orbit of the exact law")           \
-  X(STRESS_STABILITY, "multipliers", "the orbit's Floquet multiplier by HBM's own orbit and by time integration")      \
-  X(STRESS_REGULARISED, "shooting_regularised", "the regularised law's orbit tends to the exact law's")                \
-  X(STRESS_CLOSED, "closed_form", "the exact law in closed form and by CVODE alone: the same orbits and motions")      \
-  X(STRESS_VERDICT, "verdict", "what compare says, held against all that is known by now")                             \
-  X(STRESS_PREDICTED, "prediction", "what compare found, against what both sides said beforehand they would be off")
-
-/* Of structures; the others are of oscillators. */
-#define STRESS_STRUCTURE_CHECKS(X)                                                                                     \
-  X(STRESS_CONTACTS, "contact_force",                                                                                  \
+  X(STRESS_FORCE, "contact_force", stress_check_force,                                                                 \
     "each contact's force harmonics, located exactly and stepped through ever finer")                                  \
-  X(STRESS_BALANCE, "balance", "all degrees of freedom are in balance, written down without any condensation")         \
-  X(STRESS_WORK, "contact_work", "no contact gives work back, and one that never slips takes none")                    \
-  X(STRESS_DETERMINANT, "determinant", "where nothing slips, multipliers have the product that damping alone gives")   \
-  X(STRESS_PERMUTED, "permuted", "degrees of freedom in another order: the same solution and multiplier")              \
-  X(STRESS_ROTATED, "rotated", "in coordinates y, x = Q y: the same solution and multiplier")                          \
-  X(STRESS_SCALED, "structure_units", "in other units, powers of two and not: the same solution and multiplier")       \
-  X(STRESS_SPLIT, "split_contacts", "every contact as two that share its stiffness: the same solution and multiplier") \
-  X(STRESS_COPIES, "copies", "two copies that nothing couples: each is the one, with its multiplier")                  \
-  X(STRESS_BYSTANDER, "bystander", "one degree of freedom more that nothing couples, then turned: the same solution")  \
-  X(STRESS_DELAYED, "delayed", "all loads later, half a period or any other time: the same solution, later")           \
-  X(STRESS_FINER, "structure_sampled", "HBM with ever more samples tends to HBM with exact forces")                    \
-  X(STRESS_CURVE, "curve", "the response curve through it has that solution, and no false one")                        \
-  X(STRESS_ORBIT, "orbit", "HBM with more and more harmonics tends to the orbit of the exact law")                     \
-  X(STRESS_FLOQUET, "orbit_multiplier", "the orbit's Floquet multiplier by HBM's own orbit and by time integration")   \
-  X(STRESS_ORBIT_REWRITTEN, "orbit_rewritten", "that orbit in other coordinates, units and at another time")           \
-  X(STRESS_ORBIT_RETURNS, "orbit_returns", "from beside a stable orbit the motion goes back to it")                    \
-  X(STRESS_ORBIT_CVODE, "orbit_cvode", "the exact law in closed form and by CVODE: the same orbit")                    \
-  X(STRESS_ORBIT_LAWS, "orbit_regularised", "the regularised law's orbit tends to the exact law's")                    \
-  X(STRESS_STRUCTURE_VERDICT, "structure_verdict", "what compare says, held against what it says it from")             \
-  X(STRESS_STRUCTURE_PREDICTED, "structure_prediction",                                                                \
+  X(STRESS_BALANCE, "balance", stress_check_balance,                                                                   \
+    "all degrees of freedom are in balance, written down without any condensation")                                    \
+  X(STRESS_WORK, "contact_work", stress_check_work, "no contact gives work back, and one that never slips takes none") \
+  X(STRESS_FREE, "linear_never_touching", stress_check_free,                                                           \
+    "gaps never reached: HBM and transient are the closed form of K")                                                  \
+  X(STRESS_STUCK, "linear_always_stuck", stress_check_stuck,                                                           \
+    "never slipping nor opening: the closed form of K + kt t t^T + kn n n^T")                                          \
+  X(STRESS_DETERMINANT, "determinant", stress_check_determinant,                                                       \
+    "where nothing slips, multipliers have the product that damping alone gives")                                      \
+  X(STRESS_PERMUTED, "permuted", stress_check_permuted,                                                                \
+    "degrees of freedom in another order: the same solution and multiplier")                                           \
+  X(STRESS_ROTATED, "rotated", stress_check_rotated, "in coordinates y, x = Q y: the same solution and multiplier")    \
+  X(STRESS_UNITS, "units", stress_check_units,                                                                         \
+    "in other units, powers of two and not: the same solution and multiplier")                                         \
+  X(STRESS_SPLIT, "split_contacts", stress_check_split,                                                                \
+    "every contact as two that share its stiffness: the same solution and multiplier")                                 \
+  X(STRESS_COPIES, "copies", stress_check_copies,                                                                      \
+    "two copies that nothing couples: each is the one, with its multiplier")                                           \
+  X(STRESS_BYSTANDER, "bystander", stress_check_bystander,                                                             \
+    "one degree of freedom more that nothing couples, then turned: the same solution")                                 \
+  X(STRESS_DELAYED, "delayed", stress_check_delayed,                                                                   \
+    "all loads later, half a period or any other time: the same solution, later")                                      \
+  X(STRESS_OTHER_TANGENTS, "turned_tangents", stress_check_other_tangents,                                             \
+    "a circle's two tangents turned: the same solution and multiplier")                                                \
+  X(STRESS_SAMPLED, "sampled", stress_check_sampled, "HBM with ever more samples tends to HBM with exact forces")      \
+  X(STRESS_CURVE, "curve", stress_check_curve, "the response curve through it has that solution, and no false one")    \
+  X(STRESS_ORBIT, "orbit", stress_check_orbit, "HBM with more and more harmonics tends to the orbit of the exact law") \
+  X(STRESS_MULTIPLIER, "orbit_multiplier", stress_check_multiplier,                                                    \
+    "the orbit's Floquet multiplier by HBM's own orbit and by time integration")                                       \
+  X(STRESS_ORBIT_REWRITTEN, "orbit_rewritten", stress_check_rewritten,                                                 \
+    "that orbit in other coordinates, units and at another time")                                                      \
+  X(STRESS_ORBIT_RETURNS, "orbit_returns", stress_check_returns,                                                       \
+    "from beside a stable orbit the motion goes back to it")                                                           \
+  X(STRESS_ORBIT_CVODE, "orbit_cvode", stress_check_cvode,                                                             \
+    "the exact law in closed form and by CVODE: the same orbit")                                                       \
+  X(STRESS_ORBIT_LAWS, "orbit_regularised", stress_check_regularised,                                                  \
+    "the regularised law's orbit tends to the exact law's")                                                            \
+  X(STRESS_FROM_REST, "from_rest", stress_check_from_rest,                                                             \
+    "where the motion goes from rest, in closed form and by CVODE")                                                    \
+  X(STRESS_VERDICT, "verdict", stress_check_verdict, "what compare says, held against what it says it from")           \
+  X(STRESS_PREDICTED, "prediction", stress_check_predicted,                                                            \
     "what compare found, against what both sides said beforehand they would be off")
-
-/* Of structures in space, besides. */
-#define STRESS_SPACE_CHECKS(X)                                                                                         \
-  X(STRESS_OTHER_TANGENTS, "turned_tangents", "a circle's two tangents turned: the same solution and multiplier")
 
 #define STRESS_REASONS(X)                                                                                              \
   X(STRESS_NO_REASON, "", "")                                                                                          \
@@ -85,27 +87,22 @@
   X(STRESS_WRONG_VERDICT, "wrong_verdict", "compare says what is known not to be so")                                  \
   X(STRESS_INTERNAL, "internal", "an internal error, or a number that is none")
 
+/* From the best to the worst: of several parts of a check the worst counts. */
 #define STRESS_OUTCOMES(X)                                                                                             \
   X(STRESS_SKIPPED, "skipped")                                                                                         \
-  X(STRESS_AGREED, "agreed") X(STRESS_EXPLAINED, "explained") X(STRESS_REFUSED, "refused") X(STRESS_FINDING, "finding")
+  X(STRESS_AGREED, "agreed")                                                                                           \
+  X(STRESS_EXPLAINED, "explained")                                                                                     \
+  X(STRESS_DEAR, "too_dear") X(STRESS_REFUSED, "refused") X(STRESS_FINDING, "finding")
 
-#define STRESS_CODE(code, name, meaning) code,
-typedef enum stress_kind {
-  STRESS_CHECKS(STRESS_CODE) STRESS_STRUCTURE_CHECKS(STRESS_CODE) STRESS_SPACE_CHECKS(STRESS_CODE) STRESS_N_CHECKS,
-  STRESS_N_OSCILLATOR_CHECKS = STRESS_CONTACTS,
-  STRESS_END_OF_STRUCTURE_CHECKS = STRESS_OTHER_TANGENTS
-} stress_kind;
+#define STRESS_CODE(code, ...) code,
+typedef enum stress_kind { STRESS_CHECKS(STRESS_CODE) STRESS_N_CHECKS } stress_kind;
 typedef enum stress_reason { STRESS_REASONS(STRESS_CODE) STRESS_N_REASONS } stress_reason;
-#undef STRESS_CODE
-#define STRESS_CODE(code, name) code,
 typedef enum stress_outcome { STRESS_OUTCOMES(STRESS_CODE) STRESS_N_OUTCOMES } stress_outcome;
 #undef STRESS_CODE
 
-/* What is drawn, and which checks are of it: from the first to before the end. */
+/* What is drawn: an oscillator is a structure of one degree of freedom. */
 typedef enum stress_family { STRESS_OSCILLATORS, STRESS_STRUCTURES, STRESS_SPACE } stress_family;
 const char *stress_family_option(stress_family family); /* of the command, with a blank before it; "" for oscillators */
-int stress_first_check(stress_family family);
-int stress_end_of_checks(stress_family family);
 
 const char *stress_kind_name(stress_kind kind);
 const char *stress_kind_meaning(stress_kind kind);
@@ -152,11 +149,8 @@ typedef struct stress_watch {
  * with other checks; HC_IO: it cannot be written (errno says why). *resumed: scenes that the journal had. */
 hc_status stress_run(const stress_plan *plan, const stress_watch *watch, stress_result *results, long *resumed);
 
-/* Simplify *sc, an oscillator, while the check `kind` still ends in a finding: fewer contacts, fewer harmonics, numbers
- * of one to three digits. */
+/* Simplify *sc while the check `kind` still ends in a finding: fewer contacts, loads, degrees of freedom and harmonics,
+ * an oscillator's numbers of one to three digits. HC_NO_MEMORY, HC_INTERRUPTED. */
 hc_status stress_shrink(scene *sc, stress_kind kind, double seconds, const hc_monitor *monitor);
-
-/* The same of a structure: fewer contacts, loads, degrees of freedom and harmonics. HC_NO_MEMORY, HC_INTERRUPTED. */
-hc_status stress_shrink_structure(scene *sc, stress_kind kind, double seconds, const hc_monitor *monitor);
 
 #endif

@@ -20,7 +20,7 @@
 #include "model/modes.h"
 #include "numerics/dense.h"
 #include "numerics/random.h"
-#include "stress/scenes_impl.h"
+#include "stress/scenes.h"
 
 enum { DOFS, CONTACTS, SHAPE, HELD, MASS, STIFFNESS, LENGTH, DAMPING, RATIO, TURNING, LOADS, STATIC, MODE, BETWEEN };
 enum { BESIDE = BETWEEN + 1, HARMONICS, KEEP_MEAN, CONTACT_STIFFNESS };
@@ -101,7 +101,8 @@ static hc_status draw_damping(uint64_t *r, const double *p, scene_structure *s)
 
 /* ---- contacts and loads -------------------------------------------------------------------------- */
 
-void stress_draw_direction(uint64_t *r, int n, double *d)
+/* Entries d[n] of a degree of freedom, of a difference of two, or of all. Not all are 0. */
+static void draw_direction(uint64_t *r, int n, double *d)
 {
   const double kind = random_unit(r);
   memset(d, 0, (size_t)n * sizeof *d);
@@ -122,8 +123,8 @@ static void draw_contact(uint64_t *r, double stiffness, scene_structure *s, stru
   g->angle_deg = 0;
   g->law = (contact){.kt = stiffness * geometric(r, 0.1, 10), .kn = stiffness * geometric(r, 0.1, 10)};
   g->law.mu = random_unit(r) < 0.05 ? 0 : 1.5 * random_unit(r);
-  stress_draw_direction(r, n, c->tangent);
-  stress_draw_direction(r, n, c->normal);
+  draw_direction(r, n, c->tangent);
+  draw_direction(r, n, c->normal);
   const structure_contact *like = &s->contacts[random_int(r, 0, s->n_contacts - 1)];
   if (random_unit(r) < 0.33)
     memcpy(c->tangent, random_unit(r) < 0.5 ? like->tangent : like->normal, (size_t)n * sizeof *c->normal);
@@ -149,7 +150,7 @@ static hc_status draw_loads(uint64_t *r, const double *p, int n_harm, scene_stru
     if (at_rest && p[STATIC] > 0.4) break;
     structure_load *load = structure_add_load(s);
     if (!load) return HC_NO_MEMORY;
-    stress_draw_direction(r, n, load->direction);
+    draw_direction(r, n, load->direction);
     load->amplitude = geometric(r, 0.1, 3);
     load->harmonic = at_rest ? 0 : k == 0 && random_unit(r) < 0.9 ? 1 : random_int(r, 1, highest);
     const double phase = random_unit(r);
@@ -251,12 +252,12 @@ static hc_status draw_response(uint64_t *r, scene_structure *s)
   if (random_unit(r) < 0.3) return HC_OK; /* the default */
   structure_response *response = structure_add_response(s);
   if (!response) return HC_NO_MEMORY;
-  stress_draw_direction(r, s->n, response->direction);
+  draw_direction(r, s->n, response->direction);
   return HC_OK;
 }
 
 /* MOST_UNKNOWNS at most, but for the coordinates that their number keeps. */
-int stress_most_harmonics(int n, int n_directions)
+static int most_harmonics(int n, int n_directions)
 {
   const int dim = n_directions + 1 < n ? n_directions + 1 : n, most = (MOST_UNKNOWNS / dim - 1) / 2;
   return most < MOST_HARMONICS ? most : MOST_HARMONICS;
@@ -264,7 +265,7 @@ int stress_most_harmonics(int n, int n_directions)
 
 static int harmonics(const double *p, int n, int n_contacts)
 {
-  return (int)pow(stress_most_harmonics(n, 2 * n_contacts) + 0.999, p[HARMONICS]);
+  return (int)pow(most_harmonics(n, 2 * n_contacts) + 0.999, p[HARMONICS]);
 }
 
 /* All but the limits that are of the order of the motion. */
@@ -335,4 +336,77 @@ hc_status stress_structures_at(stress_scenes *scenes, long index, scene *out)
   if (st == HC_OK) *out = sc;
   else case_clear(&sc);
   return st;
+}
+
+/* ---- in space ----
+ *
+ * Most contacts with friction get a second tangent. One in seven has nearly the line of the first, by 1e-1 .. 1e-4: the
+ * motion then is nearly straight, and slip turns about at once. The limit is the circle's in four of five. Numbers come
+ * from a generator of its own for each scene: what is drawn above is what it is without. */
+
+static bool is_zero(int n, const double *d)
+{
+  for (int i = 0; i < n; ++i)
+    if (d[i] != 0) return false;
+  return true;
+}
+
+/* |sin| of the angle between a and b, of which neither is 0. */
+static double across(int n, const double *a, const double *b)
+{
+  double aa = 0, bb = 0, ab = 0;
+  for (int i = 0; i < n; ++i) aa += a[i] * a[i], bb += b[i] * b[i], ab += a[i] * b[i];
+  return sqrt(fmax(1 - ab * ab / (aa * bb), 0));
+}
+
+/* Not along the tangent, which a structure of one degree of freedom could not have. */
+static void draw_second_tangent(uint64_t *r, int n, structure_contact *c)
+{
+  const double least = 0.05;
+  do draw_direction(r, n, c->tangent_2);
+  while (across(n, c->tangent, c->tangent_2) < least);
+  if (random_unit(r) > 1.0 / 7) return;
+  const double by = pow(10, -1 - 3 * random_unit(r)), along = 2 * random_signed(r);
+  for (int i = 0; i < n; ++i) c->tangent_2[i] = along * c->tangent[i] + by * c->tangent_2[i];
+}
+
+static void give_second_tangents(uint64_t *r, scene_structure *s)
+{
+  for (int j = 0; j < s->n_contacts && s->n > 1; ++j) {
+    structure_contact *c = &s->contacts[j];
+    if (is_zero(s->n, c->tangent) || random_unit(r) > 0.7) continue;
+    draw_second_tangent(r, s->n, c);
+    c->given.limit = random_unit(r) < 0.8 ? CONTACT_LIMIT_CIRCLE : CONTACT_LIMIT_SQUARE;
+  }
+}
+
+static int directions(const scene_structure *s)
+{
+  int sum = 0;
+  for (int j = 0; j < s->n_contacts; ++j) sum += 2 + !is_zero(s->n, s->contacts[j].tangent_2);
+  return sum;
+}
+
+static hc_status in_space(stress_scenes *scenes, long index, scene *out)
+{
+  const uint64_t other = 0x5eedULL << 48; /* than that of structures.c */
+  hc_status st = stress_structures_at(scenes, index, out);
+  if (st != HC_OK) return st;
+  uint64_t key = (((uint64_t)stress_scenes_seed(scenes) << 32) + (uint64_t)index) ^ other, r = random_bits(&key);
+  snprintf(out->title, sizeof out->title, "Stress structure in space %ld of seed %lu", index,
+           stress_scenes_seed(scenes));
+  give_second_tangents(&r, out->structure);
+  const int most = most_harmonics(out->structure->n, directions(out->structure));
+  if (out->hbm.harmonics > most) out->hbm.harmonics = most;
+  return HC_OK;
+}
+
+hc_status stress_scene_of(stress_scenes *scenes, stress_family family, long index, scene *out)
+{
+  switch (family) {
+  case STRESS_SPACE: return in_space(scenes, index, out);
+  case STRESS_STRUCTURES: return stress_structures_at(scenes, index, out);
+  case STRESS_OSCILLATORS: break;
+  }
+  return stress_scenes_at(scenes, index, out);
 }

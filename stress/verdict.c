@@ -11,8 +11,6 @@
 #include "compare/comparison.h"
 #include "compare/motion.h"
 #include "stress/solved_scene.h"
-#include "stress/solved_structure.h"
-#include "stress/verdict.h"
 
 /* Largest ratio of the gate; above 1: beyond. */
 static double gate_ratio(const discrepancy *e, const discrepancy *g, bool free)
@@ -47,7 +45,7 @@ static bool wrong(const comparison_row *r, const discrepancy *g, double *ratio)
   }
 }
 
-static stress_check row_check(const scene *sc, const comparison_row *r)
+static stress_check row_check(solved_scene *s, const scene *sc, const comparison_row *r)
 {
   const discrepancy g = gate_limits_at(&sc->gate, r->omega);
   double ratio;
@@ -55,8 +53,7 @@ static stress_check row_check(const scene *sc, const comparison_row *r)
   if (wrong(r, &g, &ratio)) return stress_find(STRESS_WRONG_VERDICT, ratio, 1);
   if (r->verdict == VERDICT_MATCH) return stress_agree(r->still ? 0 : ratio, 1);
   if (r->verdict != VERDICT_SOLVER_FAILED) return stress_explain(STRESS_SAID_SO, ratio, 1);
-  hc_status st = r->hbm_status != HC_OK ? r->hbm_status : r->transient_status;
-  return stress_refusal(st);
+  return stress_refuse(s, r->hbm_status != HC_OK ? r->hbm_status : r->transient_status);
 }
 
 /* The amplitude's discrepancy of a row beside what both sides said it would be, or *so_far if that is worse. Rows in
@@ -78,40 +75,32 @@ static void hold_prediction(const comparison_row *r, stress_check *so_far)
     *so_far = stress_explain(r->family ? STRESS_FAMILY : STRESS_UNEXPECTED, ratio, bound);
 }
 
-/* Worse is later in the list of outcomes. */
-stress_check stress_hold_verdicts(const scene *sc, const hc_monitor *monitor, hc_status *fatal, stress_check *predicted)
+/* The worst of all rows of one comparison; s->predicted: the worst of what the rows' errors are of what both sides said
+ * beforehand. */
+static stress_check hold_verdicts(solved_scene *s, const scene *sc)
 {
   comparison c = {0};
   compare_setup setup;
   hc_status st = scene_setup(sc, &setup);
   setup.spare = true;
-  if (st == HC_OK) st = comparison_run(&setup, monitor, &c);
+  if (st == HC_OK) st = comparison_run(&setup, &s->monitor, &c);
   scene_setup_clear(&setup);
   stress_check worst = stress_skip(STRESS_NO_ORBIT);
-  *predicted = stress_skip(STRESS_NO_ORBIT);
-  if (st == HC_NO_MEMORY) *fatal = st;
+  if (st == HC_NO_MEMORY) s->fatal = st;
   /* a frequency without an answer */
-  if (c.n_rows == 0) worst = st == HC_OK ? stress_find(STRESS_INTERNAL, NAN, NAN) : stress_refusal(st);
+  if (c.n_rows == 0) worst = st == HC_OK ? stress_find(STRESS_INTERNAL, NAN, NAN) : stress_refuse(s, st);
   for (int i = 0; i < c.n_rows; ++i) {
-    stress_check row = row_check(sc, &c.rows[i]);
-    hold_prediction(&c.rows[i], predicted);
-    if (row.status == HC_NO_MEMORY) *fatal = HC_NO_MEMORY;
+    stress_check row = row_check(s, sc, &c.rows[i]);
+    hold_prediction(&c.rows[i], &s->predicted);
     if (row.outcome > worst.outcome) worst = row;
   }
   comparison_clear(&c);
   return worst;
 }
 
-stress_check stress_check_verdict(solved_scene *s)
-{
-  return stress_hold_verdicts(s->asked, &s->monitor, &s->fatal, &s->predicted);
-}
-
-stress_check stress_check_predicted(solved_scene *s) { return s->predicted; }
-
 /* With as many harmonics as have turned out to be enough, but for MOST_UNKNOWNS: with too few, all that is said is that
  * the two differ. */
-static int enough_harmonics(const solved_structure *s)
+static int enough_harmonics(const solved_scene *s)
 {
   enum { MOST_UNKNOWNS = 400 };
   const int coordinates = 2 * s->model->n_contacts < s->n ? 2 * s->model->n_contacts : s->n;
@@ -120,17 +109,17 @@ static int enough_harmonics(const solved_structure *s)
   return s->fine_harmonics < most ? s->fine_harmonics : given < most ? most : given;
 }
 
-/* Of a curve just long enough for what lies beside (`curve` has the long one); what takes more periods is not_settled,
- * for chaos takes seconds. */
-stress_check stress_structure_verdict(solved_structure *s)
+/* Along a curve just long enough for what lies beside (`curve` has the long one). What takes more periods is
+ * not_settled: chaos takes seconds. Samples are too few for more harmonics than they were drawn with. */
+stress_check stress_check_verdict(solved_scene *s)
 {
+  enum { MOST_PERIODS = 600 };
   const double beside = 1e-3;
   scene sc = *s->asked;
-  sc.hbm.force = HBM_FORCE_EXACT;
-  sc.hbm.harmonics = enough_harmonics(s);
-  sc.transient.max_periods = 600;
+  if (sc.hbm.force == HBM_FORCE_EXACT) sc.hbm.harmonics = enough_harmonics(s);
+  if (sc.transient.max_periods > MOST_PERIODS) sc.transient.max_periods = MOST_PERIODS;
   sc.omega_from = s->omega * (1 - beside), sc.omega_to = s->omega * (1 + beside);
-  return stress_hold_verdicts(&sc, &s->monitor, &s->fatal, &s->predicted);
+  return hold_verdicts(s, &sc);
 }
 
-stress_check stress_structure_predicted(solved_structure *s) { return s->predicted; }
+stress_check stress_check_predicted(solved_scene *s) { return s->predicted; }

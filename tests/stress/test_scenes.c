@@ -117,27 +117,9 @@ static void every_scene_is_a_case_file(void **state)
   stress_scenes_free(s);
 }
 
-/* By powers of two and back: the same bits. Every quantity by the dimensions of the equation (docs/theory.md, 1). */
-static void units_change_by_their_dimensions(void **state)
-{
-  (void)state;
-  stress_scenes *s = sequence(1);
-  scene sc;
-  assert_int_equal(stress_scenes_at(s, 5, &sc), HC_OK);
-  scene other = stress_in_units(&sc, 8, 4, 0.5), back = stress_in_units(&other, 0.125, 0.25, 2);
-  assert_memory_equal(&sc, &back, sizeof sc);
-  const double w = sc.compare.omega.v[0], v = other.compare.omega.v[0];
-  assert_true(v == 2 * w && other.force == 4 * sc.force && other.contacts[0].law.gap == 8 * sc.contacts[0].law.gap);
-  /* force/length */
-  assert_true(other.mass * v * v == 0.5 * sc.mass * w * w && other.damping * v == 0.5 * sc.damping * w);
-  assert_true(other.stiffness == 0.5 * sc.stiffness && other.contacts[0].law.kt == 0.5 * sc.contacts[0].law.kt);
-  stress_scenes_free(s);
-}
-
 static const struct CMUnitTest tests[] = {
     cmocka_unit_test(the_whole_of_every_range_is_drawn),
     cmocka_unit_test(a_scene_comes_again_from_seed_and_index),
     cmocka_unit_test(every_scene_is_a_case_file),
-    cmocka_unit_test(units_change_by_their_dimensions),
 };
 CHECK_MAIN("stress.scenes", tests, 60)

@@ -1,0 +1,482 @@
+/* laws.c - checks of one solution by itself: the balance of all degrees of freedom, each contact's force and work, the
+ * product of the multipliers. The harmonics are those of x alone; contacts are taken one by one, each in its own
+ * coordinates: neither condensation nor scattering of hbm/ has a part in it. */
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/constants.h"
+#include "hbm/circle_force.h"
+#include "hbm/circle_slider.h"
+#include "hbm/exact_force.h"
+#include "numerics/dense.h"
+#include "numerics/random.h"
+#include "numerics/series.h"
+#include "stress/solved_scene.h"
+
+/* ---- one contact ---------------------------------------------------------------------------------------- */
+
+/* One contact by itself: its force as hbm/ locates it, and its law stepped through. A contact with two tangents and one
+ * limit, two of the model's (model.h), is taken as one. */
+enum { ONE_CONTACT_MOST = 3 };
+
+typedef struct one_contact {
+  const contact *law; /* of a circle: of either half */
+  bool circle;
+  int n_dof; /* u, v; of a circle u_1, u_2, and v where N varies; 0: it belongs to the contact before it */
+  const double *direction[ONE_CONTACT_MOST]; /* [n] */
+  double stiffness[ONE_CONTACT_MOST];        /* [force/length] of the whole contact along each */
+  double *motion, *force;                    /* [n_dof][2H+1] coordinates, and T and N - N0 along them */
+  contact_report report;
+} one_contact;
+
+static void one_contact_clear(one_contact *c)
+{
+  free(c->motion);
+  free(c->force);
+}
+
+static size_t one_contact_length(const solved_scene *s, const one_contact *c)
+{
+  return (size_t)c->n_dof * (size_t)s->n_coef;
+}
+
+/* ---- located ------------------------------------------------------------------------------------------- */
+
+/* What contact j is: without friction a circle's halves are two springs. */
+static one_contact contact_of(const model *m, int j)
+{
+  const model_contact *mc = &m->contacts[j];
+  const contact *law = &mc->law;
+  if (!mc->circle || !contact_has_friction(law))
+    return (one_contact){
+        .law = law, .n_dof = 2, .direction = {mc->tangent, mc->normal}, .stiffness = {law->kt, law->kn}};
+  if (mc->pair == CONTACT_SECOND) return (one_contact){.law = law, .circle = true};
+  return (one_contact){.law = law,
+                       .circle = true,
+                       .n_dof = law->kn > 0 ? 3 : 2,
+                       .direction = {mc->tangent, mc[1].tangent, mc->normal},
+                       .stiffness = {law->kt, law->kt, 2 * law->kn}};
+}
+
+static hc_status locate_line(int n_harm, one_contact *c)
+{
+  const moving_contact alone = {.law = *c->law, .cu = {1, 0}, .cv = {0, 1}};
+  exact_force *e;
+  hc_status st = exact_force_new(n_harm, 2, 1, &alone, &e);
+  if (st == HC_OK) st = exact_force_eval(e, c->motion, c->force, NULL, &c->report);
+  exact_force_free(e);
+  return st;
+}
+
+static hc_status locate_circle(int n_harm, one_contact *c)
+{
+  circle_force *f;
+  hc_status st = circle_force_new(n_harm, c->n_dof, c->law, &f);
+  if (st == HC_OK) st = circle_force_eval(f, c->motion, c->force, NULL, &c->report);
+  circle_force_free(f);
+  return st;
+}
+
+/* c->force of c->motion. */
+static hc_status locate(int n_harm, one_contact *c)
+{
+  return c->circle ? locate_circle(n_harm, c) : locate_line(n_harm, c);
+}
+
+/* Contact j in the motion x[2H+1][n]. HC_NO_MEMORY and the errors of exact_force_eval, circle_force_eval;
+ * one_contact_clear in any case. */
+static hc_status one_contact_locate(const solved_scene *s, int j, const double *x, one_contact *c)
+{
+  *c = contact_of(s->model, j);
+  if (c->n_dof == 0) return HC_OK;
+  c->motion = calloc(one_contact_length(s, c), sizeof(double));
+  c->force = calloc(one_contact_length(s, c), sizeof(double));
+  if (!c->motion || !c->force) return HC_NO_MEMORY;
+  for (int d = 0; d < c->n_dof; ++d)
+    for (int k = 0; k < s->n_coef; ++k)
+      for (int i = 0; i < s->n; ++i) c->motion[d * s->n_coef + k] += c->direction[d][i] * x[k * s->n + i];
+  return locate(s->how.harmonics, c);
+}
+
+/* ---- stepped through ----------------------------------------------------------------------------------- */
+
+/* turn[2 N]: cos and sin of all angles of a period of N steps. Those of harmonic h are among them. */
+static void make_angles(int N, double *turn)
+{
+  for (int i = 0; i < N; ++i) {
+    turn[2 * i] = cos(TWO_PI * i / N);
+    turn[2 * i + 1] = sin(TWO_PI * i / N);
+  }
+}
+
+/* x at instant i of N. */
+static double at_step(int n_harm, const double *x, int N, const double *turn, int i)
+{
+  double sum = x[0];
+  for (int h = 1; h <= n_harm; ++h) {
+    const double *cs = turn + 2 * (int)((long)h * i % N);
+    sum += x[2 * h - 1] * cs[0] + x[2 * h] * cs[1];
+  }
+  return sum;
+}
+
+/* One instant's part of the harmonics F[2H+1] of f. */
+static void add_instant(int n_harm, double f, int N, const double *turn, int i, double *F)
+{
+  F[0] += f / N;
+  for (int h = 1; h <= n_harm; ++h) {
+    const double *cs = turn + 2 * (int)((long)h * i % N);
+    F[2 * h - 1] += 2 * f * cs[0] / N;
+    F[2 * h] += 2 * f * cs[1] / N;
+  }
+}
+
+/* The slider on its way: w, and the instant before; r is v + gap where the contact has one tangent. */
+typedef struct stepper {
+  double w[2];
+  circle_sample before;
+  bool begun;
+} stepper;
+
+/* f = T_1, T_2, N - N0 at the sample that is reached by motion = u_1, u_2, v. */
+static void step_circle(const contact *law, const double *motion, stepper *s, double *f)
+{
+  const double v = motion[2], limit = law->mu * (law->kn * (v + law->gap) + law->load);
+  const circle_sample to = {.u = {motion[0], motion[1]}, .r = limit / law->kt};
+  circle_move move = CIRCLE_SLIPPED;
+  if (s->begun) move = circle_slider_step(HBM_RESTART_INTERPOLATED, &s->before, &to, s->w, NULL);
+  else move = circle_slider_enter(&to, s->w, NULL);
+  for (int d = 0; d < 2; ++d) f[d] = move == CIRCLE_APART ? 0 : law->kt * (to.u[d] - s->w[d]);
+  f[2] = 2 * contact_normal_change(law, v);
+  s->before = to;
+  s->begun = true;
+}
+
+/* A contact that closes between two instants, where v + gap crosses 0, finds its slider where u is by then. */
+static void step_line(const contact *law, const double *motion, stepper *s, double *f)
+{
+  const double from = s->before.r, to = motion[1] + law->gap;
+  if (law->kn > 0 && s->begun && from < 0 && to > 0)
+    s->w[0] = s->before.u[0] + (motion[0] - s->before.u[0]) * from / (from - to);
+  contact_step(law, motion[0], motion[1], s->w, &f[0]);
+  f[1] = contact_normal_change(law, motion[1]);
+  s->before = (circle_sample){.u = {motion[0]}, .r = to};
+  s->begun = true;
+}
+
+/* One period; its harmonics are added to force unless that is NULL. */
+static void step_period(const one_contact *c, int n_harm, int N, const double *turn, stepper *s, double *force)
+{
+  const int n_coef = series_length(n_harm);
+  for (int i = 0; i < N; ++i) {
+    double motion[ONE_CONTACT_MOST] = {0}, f[ONE_CONTACT_MOST];
+    for (int d = 0; d < c->n_dof; ++d) motion[d] = at_step(n_harm, c->motion + d * n_coef, N, turn, i);
+    if (c->circle) step_circle(c->law, motion, s, f);
+    else step_line(c->law, motion, s, f);
+    for (int d = 0; d < c->n_dof && force; ++d) add_instant(n_harm, f[d], N, turn, i, force + d * n_coef);
+  }
+}
+
+/* The law stepped through N instants a period, from w = 0 until the slider has settled: harmonics force[n_dof][2H+1] of
+ * one period more. Between instants u and v go evenly, as in hbm/circle_slider.h. A slider on a line has settled after
+ * one period; one in the plane settles by a factor each, or creeps into a corner between two circles, the slower the
+ * nearer. false: after 2^23 instants it still has not settled. */
+static bool step_contact(const one_contact *c, int n_harm, int N, const double *turn, double *force)
+{
+  const int most = c->circle ? 1 << 23 : N; /* instants in all */
+  const double settled = 1e-9;
+  stepper s = {0};
+  bool rests = !c->circle;
+  for (int done = 0; done < most && (done == 0 || !rests); done += N) {
+    const double before[2] = {s.w[0], s.w[1]};
+    step_period(c, n_harm, N, turn, &s, NULL);
+    rests = rests || hypot(s.w[0] - before[0], s.w[1] - before[1]) <= settled * hypot(s.w[0], s.w[1]);
+  }
+  memset(force, 0, (size_t)c->n_dof * (size_t)series_length(n_harm) * sizeof *force);
+  step_period(c, n_harm, N, turn, &s, force);
+  return rests;
+}
+
+/* ---- balance ---------------------------------------------------------------------------------------- */
+
+typedef struct balance {
+  double *left, *size; /* [2H+1][n] of all forces: their sum, and the sum of their sizes */
+} balance;
+
+static void add_force(double force, double *left, double *size)
+{
+  *left += force;
+  *size += fabs(force);
+}
+
+/* A matrix by `by` times coefficient `from` into coefficient `to`. */
+static void add_product(const solved_scene *s, const double *A, double by, const double *x, int from, int to,
+                        balance *b)
+{
+  const int n = s->n;
+  for (int j = 0; j < n && by != 0; ++j)
+    for (int i = 0; i < n; ++i)
+      add_force(by * A[(size_t)j * (size_t)n + (size_t)i] * x[from * n + j], &b->left[to * n + i],
+                &b->size[to * n + i]);
+}
+
+static void add_structure(const solved_scene *s, const double *x, balance *b)
+{
+  const model *m = s->model;
+  for (int c = 0; c < s->n_coef; ++c) {
+    const int h = (c + 1) / 2, other = c == 0 ? 0 : c % 2 ? c + 1 : c - 1;
+    const double w = h * s->omega;
+    add_product(s, m->stiffness, 1, x, c, c, b);
+    add_product(s, m->mass, -w * w, x, c, c, b);
+    add_product(s, m->damping, c % 2 ? w : -w, x, other, c, b); /* of a cos + b sin: w b cos - w a sin */
+  }
+  for (int l = 0; l < m->n_loads; ++l) {
+    const model_load *p = &m->loads[l];
+    const int cosine = p->harmonic ? 2 * p->harmonic - 1 : 0;
+    for (int i = 0; i < s->n; ++i) {
+      add_force(-p->cosine[i], &b->left[cosine * s->n + i], &b->size[cosine * s->n + i]);
+      if (p->harmonic) add_force(-p->sine[i], &b->left[(cosine + 1) * s->n + i], &b->size[(cosine + 1) * s->n + i]);
+    }
+  }
+}
+
+/* What a contact's force is made of: kt u and kn v, themselves sums over x. */
+static double spring_size(const solved_scene *s, double stiffness, const double *direction, const double *x)
+{
+  double sum = 0;
+  for (int i = 0; i < s->n; ++i) sum += fabs(direction[i] * x[i]);
+  return stiffness * sum;
+}
+
+static hc_status add_contact(const solved_scene *s, int j, const double *x, balance *b)
+{
+  one_contact c;
+  hc_status st = one_contact_locate(s, j, x, &c);
+  for (int d = 0; d < c.n_dof && st == HC_OK; ++d)
+    for (int k = 0; k < s->n_coef; ++k) {
+      const double force = c.force[d * s->n_coef + k];
+      const double size = fabs(force) + spring_size(s, c.stiffness[d], c.direction[d], x + k * s->n);
+      for (int i = 0; i < s->n; ++i) {
+        b->left[k * s->n + i] += c.direction[d][i] * force;
+        b->size[k * s->n + i] += fabs(c.direction[d][i]) * size;
+      }
+    }
+  one_contact_clear(&c);
+  return st;
+}
+
+double stress_imbalance(solved_scene *s, const double *x)
+{
+  const size_t length = (size_t)s->n * (size_t)s->n_coef;
+  balance b = {calloc(length, sizeof(double)), calloc(length, sizeof(double))};
+  double left = 0, size = 0;
+  hc_status st = b.left && b.size ? HC_OK : HC_NO_MEMORY;
+  if (st == HC_OK) add_structure(s, x, &b);
+  for (int j = 0; j < s->model->n_contacts && st == HC_OK; ++j) st = add_contact(s, j, x, &b);
+  for (size_t i = s->how.keep_mean ? 0 : (size_t)s->n; i < length && st == HC_OK; ++i) {
+    if (isnan(b.left[i])) st = HC_NOT_FINITE;
+    left = fmax(left, fabs(b.left[i]));
+    size = fmax(size, b.size[i]);
+  }
+  free(b.left);
+  free(b.size);
+  if (st == HC_NO_MEMORY) s->fatal = st;
+  return st != HC_OK ? NAN : left == 0 ? 0 : left / size;
+}
+
+stress_check stress_check_balance(solved_scene *s)
+{
+  return stress_agree(stress_imbalance(s, s->base.x), stress_balanced(s));
+}
+
+/* ---- a contact's force and work ------------------------------------------------------------------------ */
+
+/* Largest difference over the largest force of the springs. */
+static double forces_apart(int n_coef, const one_contact *c, const double *stepped)
+{
+  double apart = 0, size = 0;
+  for (int k = 0; k < c->n_dof * n_coef; ++k) {
+    apart = fmax(apart, fabs(c->force[k] - stepped[k]));
+    if (isnan(c->force[k])) return NAN;
+    size = fmax(size, c->stiffness[k / n_coef] * fabs(c->motion[k]));
+  }
+  return apart == 0 ? 0 : apart / fmax(size, DBL_MIN);
+}
+
+/* Sum of h^p times the sizes of harmonic h >= 1 of coordinate d: a bound of the p-th derivative by th. */
+static double motion_size(const solved_scene *s, const one_contact *c, int d, int p)
+{
+  double sum = 0;
+  for (int h = 1; h <= s->how.harmonics; ++h) {
+    const double *a = c->motion + d * s->n_coef + 2 * h - 1;
+    sum += pow(h, p) * hypot(a[0], a[1]);
+  }
+  return sum;
+}
+
+/* What stepping through N instants, e = 2 pi/N apart, may do to a coefficient, over the largest force of the springs.
+ * Up, Vp bound the p-th derivatives of u and v; r = mu N/kt.
+ *     sums     a trapezoidal sum errs by e^2/12 times the mean of |(f cos h th)''|, twice that for h >= 1: with f of the
+ *              springs, S2 + 2 h S1 + h^2 S0, Sp = kt Up + (1 + mu) kn Vp; and by e^2/8 times each jump of f', at most
+ *              2 S1, over pi
+ *     slider   u and r go evenly between instants, off by e^2/8 (U2 + R2): on a line so is the slider
+ *     circle   of two circles that are nowhere more than d apart the sliders differ by no more than the root of
+ *              2 d (length of both paths) (Moreau's sweeping process), each path 2 pi (U1 + R1) at most
+ * The second of the two is the larger one by far, and no better is known without the order of the motion's contact with
+ * the circle; it is of first order in e. */
+static double stepping_bound(const solved_scene *s, const one_contact *c, int N)
+{
+  const contact *law = c->law;
+  const int last = c->n_dof - 1, H = s->how.harmonics;
+  const bool moves = c->circle ? c->n_dof == 3 : law->kn > 0;
+  const double e = TWO_PI / N, r = law->kt > 0 ? law->mu * law->kn / law->kt : 0;
+  double U[3] = {0}, V[3] = {0}, S[3], largest = 0;
+  for (int p = 0; p < 3; ++p) {
+    for (int d = 0; d < (c->circle ? 2 : 1); ++d) U[p] += motion_size(s, c, d, p);
+    if (moves) V[p] = motion_size(s, c, last, p);
+    S[p] = law->kt * U[p] + (c->circle ? 2 : 1) * (1 + law->mu) * law->kn * V[p];
+  }
+  for (int k = 0; k < c->n_dof * s->n_coef; ++k)
+    largest = fmax(largest, c->stiffness[k / s->n_coef] * fabs(c->motion[k]));
+  const double sums = e * e * ((S[2] + 2 * H * S[1] + H * H * S[0]) / 6 + (c->report.transitions + 1) * S[1] / 4);
+  const double line = e * e / 8 * (U[2] + r * V[2]);
+  const double slider = c->circle ? e * sqrt(PI * (U[1] + r * V[1]) * (U[2] + r * V[2])) : line;
+  return (sums + 2 * law->kt * slider) / fmax(largest, DBL_MIN);
+}
+
+/* Steps are made finer until they agree to 1e-6, or differ by no more than they must. */
+static stress_check hold_force(solved_scene *s, const one_contact *c)
+{
+  enum { LEAST = 512, MOST = 131072 };
+  const double near = 1e-6, says_something = 1e-3;
+  double error = 0, *turn = malloc(2 * MOST * sizeof *turn),
+         *stepped = malloc(one_contact_length(s, c) * sizeof *stepped);
+  const bool room = turn && stepped;
+  bool settled = true;
+  for (int N = LEAST; N <= MOST && room; N *= 16) {
+    make_angles(N, turn);
+    settled = step_contact(c, s->how.harmonics, N, turn, stepped);
+    error = forces_apart(s->n_coef, c, stepped);
+    if (error <= near) break;
+  }
+  free(turn);
+  free(stepped);
+  if (!room) return stress_refuse(s, HC_NO_MEMORY);
+  if (!(error > near)) return stress_agree(error, near);
+  if (!settled) return stress_refuse(s, HC_INTERRUPTED);
+  const double bound = stepping_bound(s, c, MOST);
+  return error <= fmin(bound, says_something) ? stress_explain(STRESS_ALIASED, error, bound)
+                                              : stress_find(STRESS_DISAGREES, error, fmin(bound, says_something));
+}
+
+/* A motion of the same harmonics, falling as 1/h^2, that crosses the gap or the friction limit: the solution may do
+ * neither. */
+static void draw_motion(solved_scene *s, one_contact *c)
+{
+  const contact *law = c->law;
+  double reach = law->kn > 0 ? fabs(law->gap) : law->kt > 0 ? law->mu * law->load / law->kt : 0;
+  if (reach == 0) reach = 1;
+  for (int d = 0; d < c->n_dof; ++d)
+    for (int k = 0; k < s->n_coef; ++k) {
+      const int h = (k + 1) / 2;
+      c->motion[d * s->n_coef + k] = reach * random_signed(&s->random) * (h == 0 ? 0.1 : 1.5 / (h * h));
+    }
+}
+
+/* Each contact in the solution's motion, and in one that is drawn. */
+stress_check stress_check_force(solved_scene *s)
+{
+  stress_check worst = stress_skip(STRESS_NOT_APPLICABLE);
+  for (int j = 0; j < s->model->n_contacts; ++j) {
+    one_contact c;
+    hc_status st = one_contact_locate(s, j, s->base.x, &c);
+    worst = stress_worse(worst, st == HC_OK ? hold_force(s, &c) : stress_refuse(s, st));
+    if (st == HC_OK && c.n_dof > 0) {
+      draw_motion(s, &c);
+      st = locate(s->how.harmonics, &c);
+      worst = stress_worse(worst, st == HC_OK ? hold_force(s, &c) : stress_refuse(s, st));
+    }
+    one_contact_clear(&c);
+  }
+  return worst;
+}
+
+/* Work per period over pi: the sum of h (b_x a_F - a_x b_F), and the sizes of what it is made of. */
+static double work_over_pi(const solved_scene *s, const one_contact *c, double *size)
+{
+  double work = 0;
+  for (int h = 1; h <= s->how.harmonics; ++h)
+    for (int d = 0; d < c->n_dof; ++d) {
+      const int a = d * s->n_coef + 2 * h - 1, b = a + 1;
+      const double x = hypot(c->motion[a], c->motion[b]);
+      work += h * (c->motion[b] * c->force[a] - c->motion[a] * c->force[b]);
+      *size += h * x * (hypot(c->force[a], c->force[b]) + c->stiffness[d] * x);
+    }
+  return work;
+}
+
+/* Each contact by itself, of the truncated motion, too: its force is the exact one. Rounding of the sums. */
+stress_check stress_check_work(solved_scene *s)
+{
+  double worst = 0;
+  for (int j = 0; j < s->model->n_contacts; ++j) {
+    const contact *law = &s->model->contacts[j].law;
+    one_contact c;
+    double size = 0;
+    hc_status st = one_contact_locate(s, j, s->base.x, &c);
+    if (st == HC_OK) {
+      const double work = work_over_pi(s, &c, &size);
+      const bool takes = contact_has_friction(law) && c.report.regime >= CONTACT_SLIPS;
+      const double wrong = takes ? fmax(-work, 0) : fabs(work);
+      if (isnan(work)) worst = NAN;
+      else if (wrong > 0 && !isnan(worst)) worst = fmax(worst, wrong / size);
+    }
+    one_contact_clear(&c);
+    if (st != HC_OK) return stress_refuse(s, st);
+  }
+  return stress_agree(worst, 1e-11);
+}
+
+/* ---- multipliers -------------------------------------------------------------------------------------- */
+
+/* trace M^-1 C; NaN: out of memory, or M is singular. */
+static double damping_trace(const model *m)
+{
+  const int n = m->n;
+  double trace = 0, *lu = malloc((size_t)n * (size_t)n * sizeof *lu), *x = malloc((size_t)n * sizeof *x);
+  int *pivot = malloc((size_t)n * sizeof *pivot);
+  const bool room = lu && x && pivot;
+  if (room) memcpy(lu, m->mass, (size_t)n * (size_t)n * sizeof *lu);
+  const bool factored = room && dense_factor(n, lu, pivot) == HC_OK;
+  for (int j = 0; j < n && factored; ++j) {
+    memcpy(x, m->damping + (size_t)j * (size_t)n, (size_t)n * sizeof *x);
+    dense_solve(n, lu, pivot, 1, x);
+    trace += x[j];
+  }
+  free(lu);
+  free(x);
+  free(pivot);
+  return factored ? trace : NAN;
+}
+
+/* Liouville: without slip the flow contracts by the trace of M^-1 C alone, whatever opens and closes. Multipliers are
+ * good to rounding of the largest: 1e-6 of their product is let pass where it is above 1e-8 and the largest below 10,
+ * beyond that it says nothing. */
+stress_check stress_check_determinant(solved_scene *s)
+{
+  if (s->base.stability_status != HC_OK) return stress_refuse(s, s->base.stability_status);
+  for (int j = 0; j < s->model->n_contacts; ++j) {
+    one_contact c;
+    hc_status st = one_contact_locate(s, j, s->base.x, &c);
+    one_contact_clear(&c);
+    if (st != HC_OK) return stress_refuse(s, st);
+    if (contact_has_friction(&s->model->contacts[j].law) && c.report.regime >= CONTACT_SLIPS)
+      return stress_skip(STRESS_NOT_APPLICABLE);
+  }
+  const double expected = exp(-TWO_PI / s->omega * damping_trace(s->model));
+  if (!(expected > 1e-8 && expected < 1e8 && s->base.stability.multiplier < 10))
+    return stress_skip(STRESS_NOT_APPLICABLE);
+  return stress_agree(fabs(s->base.stability.determinant / expected - 1), 1e-6);
+}

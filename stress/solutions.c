@@ -1,0 +1,269 @@
+/* solutions.c - checks of the HBM solution against closed forms, against samples, and against the response curve through
+ * it. */
+#include <complex.h>
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+
+#include "numerics/dense.h"
+#include "stress/solved_scene.h"
+
+/* ---- closed forms ------------------------------------------------------------------------------------------ */
+
+/* x = Re sum_h z_h exp(i h omega t),   (K - (h omega)^2 M + i h omega C) z_h = p_h - i q_h
+ *
+ * Near a resonance the terms of the matrix cancel: rounding of each (and the tolerance of a residual that is judged
+ * against them) makes up to |A^-1| |A| |z| of z (Skeel). */
+typedef struct linear_motion {
+  double *x;    /* [n_coef][n] */
+  double bound; /* [1] what a rounding unit of each entry makes of the largest x, relative; INFINITY: singular */
+} linear_motion;
+
+/* z_h := the response to z_h, the load of harmonic h; *error: Skeel's sum of the largest entry. */
+static hc_status respond(const model *m, double w, double complex *z, double *error)
+{
+  const int n = m->n;
+  const size_t entries = (size_t)n * (size_t)n;
+  double complex *A = malloc(entries * sizeof *A), *lu = malloc(entries * sizeof *lu),
+                 *one = malloc(entries * sizeof *one);
+  double *sizes = calloc((size_t)n, sizeof *sizes);
+  int *pivot = malloc((size_t)n * sizeof *pivot);
+  hc_status st = A && lu && one && sizes && pivot ? HC_OK : HC_NO_MEMORY;
+  for (size_t i = 0; i < entries && st == HC_OK; ++i) {
+    lu[i] = A[i] = m->stiffness[i] - w * w * m->mass[i] + I * w * m->damping[i];
+    one[i] = i % (size_t)(n + 1) == 0;
+    A[i] = fabs(m->stiffness[i]) + w * w * fabs(m->mass[i]) + fabs(w * m->damping[i]);
+  }
+  if (st == HC_OK) st = dense_factor_complex(n, lu, pivot);
+  if (st == HC_OK) {
+    dense_solve_complex(n, lu, pivot, false, 1, z);
+    dense_solve_complex(n, lu, pivot, false, n, one);
+    for (int j = 0; j < n; ++j)
+      for (int i = 0; i < n; ++i) sizes[i] += creal(A[j * n + i]) * cabs(z[j]);
+    for (int i = 0; i < n; ++i) {
+      double sum = 0;
+      for (int j = 0; j < n; ++j) sum += cabs(one[j * n + i]) * sizes[j];
+      *error = fmax(*error, sum);
+    }
+  }
+  free(A), free(lu), free(one), free(sizes), free(pivot);
+  return st;
+}
+
+/* The steady state of m without its contacts. x is to be freed. */
+static hc_status linear_steady(const solved_scene *s, const model *m, linear_motion *out)
+{
+  const int n = s->n;
+  double error = 0, size = 0;
+  double complex *z = malloc((size_t)n * sizeof *z);
+  *out = (linear_motion){.x = calloc((size_t)n * (size_t)s->n_coef, sizeof(double))};
+  hc_status st = z && out->x ? HC_OK : HC_NO_MEMORY;
+  for (int l = 0; l < m->n_loads && st == HC_OK; ++l) {
+    const int h = m->loads[l].harmonic;
+    if (h == 0 && !s->how.keep_mean) continue;
+    for (int i = 0; i < n; ++i) z[i] = m->loads[l].cosine[i] - I * m->loads[l].sine[i];
+    st = respond(m, h * s->omega, z, &error);
+    for (int i = 0; i < n && st == HC_OK; ++i) {
+      out->x[(h ? 2 * h - 1 : 0) * n + i] = creal(z[i]);
+      if (h) out->x[2 * h * n + i] = -cimag(z[i]);
+      size = fmax(size, cabs(z[i]));
+    }
+  }
+  free(z);
+  if (st == HC_SINGULAR) out->bound = INFINITY, st = HC_OK;
+  else if (size > 0) out->bound = DBL_EPSILON * error / size;
+  return st;
+}
+
+/* The largest |d . x(t)|, or more. */
+static double reach(const solved_scene *s, const double *d, const double *x)
+{
+  double sum = 0;
+  for (int c = 0; c < s->n_coef; ++c) {
+    double part = 0;
+    for (int i = 0; i < s->n; ++i) part += d[i] * x[c * s->n + i];
+    sum += fabs(part);
+  }
+  return sum;
+}
+
+/* Where the motion starts, its sliders at 0. */
+static void start_of(const solved_scene *s, const double *x, double *state)
+{
+  for (int c = 0; c < s->n_coef; ++c)
+    for (int i = 0; i < s->n; ++i) {
+      if (c == 0 || c % 2) state[i] += x[c * s->n + i];
+      else state[s->n + i] += c / 2 * s->omega * x[c * s->n + i];
+    }
+}
+
+/* HBM by Newton from 1.4 times the solution, and the orbit next to it, against the closed form. The mean of a stuck
+ * contact's motion depends on where its slider rests: HBM's is left out. */
+static stress_check hold_linear(solved_scene *s, const model *m, const linear_motion *exact, bool means_out)
+{
+  /* a Newton step of a linear equation, its LU, and the force as a sum of 2H+1 terms: some units of rounding each */
+  const double bound = 50 * s->n_coef * s->n * exact->bound;
+  const int length = s->n * s->n_coef;
+  hbm_settings how = s->how;
+  stress_motion hbm;
+  stress_path path;
+  double *guess = malloc((size_t)length * sizeof *guess);
+  double *start = calloc(2 * (size_t)m->n + (size_t)m->n_contacts, sizeof *start);
+  stress_check c = stress_skip(STRESS_NO_REASON);
+  if (!guess || !start) s->fatal = HC_NO_MEMORY;
+  if (s->fatal == HC_OK) {
+    for (int i = 0; i < length; ++i) guess[i] = 1.4 * exact->x[i];
+    how.skip_linear = false; /* or the closed form would be held against itself */
+    stress_motion_solve(s, m, &how, s->omega, guess, 1, &hbm);
+    c = hbm.status != HC_OK ? stress_refuse(s, hbm.status)
+                            : stress_agree(stress_motion_distance(s, hbm.x, exact->x, means_out), bound);
+    stress_motion_free(&hbm);
+  }
+  if (c.outcome == STRESS_AGREED) {
+    start_of(s, exact->x, start);
+    stress_path_of(s, m, start, &path);
+    /* undamped, no period map has one orbit */
+    if (path.status == HC_OK)
+      c = stress_worse(c, stress_agree_within(stress_path_off(s, s->n_coef, exact->x, &path), bound, 3 * path.errors));
+    stress_path_free(&path);
+  }
+  free(guess), free(start);
+  return c;
+}
+
+/* m with contacts changed, and K of what is linear then. */
+static stress_check check_linear(solved_scene *s, model *m, model *linear, bool stuck)
+{
+  const double solvable = 1e-10;
+  linear_motion exact;
+  hc_status st = linear_steady(s, linear, &exact);
+  stress_check c = stress_skip(STRESS_NOT_APPLICABLE);
+  double moves = 0;
+  for (int i = 0; i < s->n * s->n_coef && st == HC_OK; ++i) moves = fmax(moves, fabs(exact.x[i]));
+  for (int j = 0; j < m->n_contacts && st == HC_OK && moves > 0; ++j) {
+    contact *law = &m->contacts[j].law;
+    const bool second = m->contacts[j].pair == CONTACT_SECOND, first = m->contacts[j].pair == CONTACT_FIRST;
+    const double v = reach(s, m->contacts[j].normal, exact.x);
+    const double u =
+        reach(s, m->contacts[j].tangent, exact.x) + (first ? reach(s, m->contacts[j + 1].tangent, exact.x) : 0);
+    if (second) *law = m->contacts[j - 1].law; /* one law for both */
+    else if (!stuck) law->gap = -3 * (v + 1e-3 * moves), law->load = 0;
+    else if (law->kn > 0) law->gap = 10 * (v + moves + law->kt * u / (law->mu * law->kn));
+    else law->load = 10 * law->kt * (u + moves) / law->mu;
+  }
+  if (st == HC_OK && moves > 0 && exact.bound < solvable && moves < 1e150) c = hold_linear(s, m, &exact, stuck);
+  else if (st != HC_OK) c = stress_refuse(s, st);
+  free(exact.x);
+  return c;
+}
+
+static void add_spring(int n, double k, const double *d, double *K)
+{
+  for (int j = 0; j < n; ++j)
+    for (int i = 0; i < n; ++i) K[j * n + i] += k * d[i] * d[j];
+}
+
+static stress_check check_contacts(solved_scene *s, bool stuck)
+{
+  model *m = NULL, *linear = NULL;
+  stress_check c = stress_skip(STRESS_NOT_APPLICABLE);
+  hc_status st = model_copy(s->model, &m);
+  for (int l = 0; st == HC_OK && l < m->n_loads && !s->how.keep_mean; ++l)
+    for (int i = 0; i < s->n && m->loads[l].harmonic == 0; ++i) m->loads[l].cosine[i] = 0; /* not in HBM's equations */
+  if (st == HC_OK) st = model_copy(m, &linear);
+  for (int j = 0; st == HC_OK && j < m->n_contacts && stuck; ++j) {
+    contact *law = &m->contacts[j].law;
+    law->mu = fmax(law->mu, 1);
+    if (law->kt > 0) add_spring(s->n, law->kt, m->contacts[j].tangent, linear->stiffness);
+    if (law->kn > 0) add_spring(s->n, law->kn, m->contacts[j].normal, linear->stiffness);
+  }
+  c = st == HC_OK ? check_linear(s, m, linear, stuck) : stress_refuse(s, st);
+  model_free(m);
+  model_free(linear);
+  return c;
+}
+
+stress_check stress_check_free(solved_scene *s) { return check_contacts(s, false); }
+stress_check stress_check_stuck(solved_scene *s) { return check_contacts(s, true); }
+
+/* ---- samples ----------------------------------------------------------------------------------------------- */
+
+static const double near = 1e-6;
+
+/* Samples err by the second power of their distance, by the first where a slider's rest hangs on one of them, and scatter
+ * by where the transitions lie between them: with 64 times as many an eighth is asked, or half with the last four times
+ * as many. */
+stress_check stress_check_sampled(solved_scene *s)
+{
+  const int n_harm = s->how.harmonics;
+  hbm_settings how = s->how;
+  double worst = 0, before = 0, error = 0;
+  int solved = 0;
+  hc_status failed = HC_OK;
+  if (s->base.m.contact.regime == CONTACT_LINEAR) return stress_skip(STRESS_NOT_APPLICABLE);
+  how.force = HBM_FORCE_SAMPLED;
+  how.tolerance = 1e-11;
+  for (how.samples = 256 + 2 * n_harm; how.samples <= 32768 && s->fatal == HC_OK; how.samples *= 4) {
+    stress_motion sampled;
+    stress_motion_solve(s, s->model, &how, s->omega, s->base.x, 1, &sampled);
+    if (sampled.status != HC_OK) failed = sampled.status;
+    else {
+      before = error;
+      /* sliders that never slip rest where they like */
+      error = stress_motion_distance(s, sampled.x, s->base.x, s->base.m.contact.free_sliders > 0);
+      worst = fmax(worst, error);
+      ++solved;
+    }
+    stress_motion_free(&sampled);
+    if (solved > 0 && error <= near) return stress_agree(error, near);
+  }
+  if (solved < 2) return stress_refuse(s, failed);
+  const double bound = fmax(worst / 8, before / 2);
+  stress_condition(s);
+  if (error > bound && error <= s->solution_errs)
+    return stress_explain(STRESS_ILL_CONDITIONED, error, s->solution_errs);
+  return error <= bound ? stress_explain(STRESS_ALIASED, error, bound) : stress_find(STRESS_DISAGREES, error, bound);
+}
+
+/* ---- the curve ------------------------------------------------------------------------------------------ */
+
+/* The solutions found at omega: each in balance; *nearest is the least distance to the one that is known. */
+static stress_check hold_found(solved_scene *s, hbm_solver *h, const hbm_curve *found, double *nearest)
+{
+  double worst = 0, *x = malloc((size_t)s->n * (size_t)s->n_coef * sizeof *x);
+  hc_status st = x ? HC_OK : HC_NO_MEMORY;
+  *nearest = INFINITY;
+  for (int k = 0; k < found->n && st == HC_OK; ++k) {
+    hbm_stability stability;
+    st = stress_motion_read(s, h, s->omega, hbm_curve_X(found, k), x);
+    if (st != HC_OK) break;
+    const double off = stress_imbalance(s, x);
+    if (!(off <= worst)) worst = off;
+    *nearest = fmin(*nearest, stress_motion_distance(s, x, s->base.x, s->base.m.contact.free_sliders > 0));
+    st = hbm_stability_at(h, s->omega, hbm_curve_X(found, k), &stability);
+    if (st == HC_OK && !(stability.multiplier >= 0)) worst = NAN;
+  }
+  free(x);
+  return st == HC_OK ? stress_agree(worst, stress_balanced(s)) : stress_refuse(s, st);
+}
+
+/* Another solution than the known one is no mistake where both are in balance: the curve is another branch. */
+stress_check stress_check_curve(solved_scene *s)
+{
+  hbm_solver *h = NULL;
+  hbm_curve curve = {0}, found = {0};
+  stress_check result;
+  double nearest = INFINITY;
+  hc_status st = hbm_solver_new(s->model, &s->how, &h);
+  if (st == HC_OK) st = hbm_trace(h, s->from, s->to, &s->monitor, &curve);
+  if (st == HC_OK) st = hbm_curve_at(h, &curve, s->omega, &found);
+  if (st != HC_OK) result = stress_refuse(s, st);
+  else result = hold_found(s, h, &found, &nearest);
+  const bool good = result.outcome == STRESS_AGREED;
+  if (good && found.n == 0 && !curve.left_at_start) result = stress_find(STRESS_DISAGREES, NAN, near);
+  else if (good && !(nearest <= near)) result = stress_explain(STRESS_OTHER_ORBIT, nearest, near);
+  hbm_curve_free(&found);
+  hbm_curve_free(&curve);
+  hbm_solver_free(h);
+  return result;
+}
