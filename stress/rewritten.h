@@ -24,7 +24,7 @@ hc_status rewritten_split(const model *m, double part, model **out);
  * ones where `twice` (more = n), else none, and then stiffness and mass are m's largest. */
 hc_status rewritten_beside(const model *m, int more, bool twice, model **out);
 
-/* Of x(t) the motion x(t + delay/omega), delay [rad]. */
+/* Whose motion is x(t + delay/omega), delay [rad]. */
 hc_status rewritten_delayed(const model *m, double delay, model **out);
 
 /* The two tangents of every contact with one limit for both turned by an angle of its own, drawn at random. */
