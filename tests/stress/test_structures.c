@@ -607,4 +607,4 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(scenes_in_space_are_case_files),
     cmocka_unit_test(orbits_on_an_edge_of_slip_are_kept),
 };
-CHECK_MAIN("stress.structures", tests, 300)
+CHECK_MAIN("stress.structures", tests, 600)
