@@ -5,8 +5,9 @@
 
 #include "study/scene_solvers.h"
 #include "tests/check.h"
-#include "timeint/integrate_exact.h"
+#include "timeint/integrate_events.h"
 #include "timeint/integrate_regularised.h"
+#include "timeint/integrate_series.h"
 #include "timeint/measure.h"
 #include "timeint/scaled.h"
 
@@ -37,16 +38,36 @@ static inline model *scene_split_model(const scene *sc, int n)
   return m;
 }
 
-/* Memory of this file for the contacts; that of the last 16 models made is valid. */
+/* Where in a state of one degree of freedom x and v are, and the slider of contact 0. */
+enum { SCALED_X, SCALED_P, SCALED_W };
+
+/* The equations of a scene, whose modes and contacts are in memory of this file: those of the last 16 made are valid. */
 static inline void scene_scaled(scaled_model *m, const scene *sc, double omega, double length)
 {
   static scaled_contact contacts[16][SCENE_MAX_CONTACTS];
+  static modal_base *bases[16];
   static int made;
+  const int i = made++ % 16;
   model *from;
-  *m = (scaled_model){.contact = contacts[made++ % 16]};
   assert_int_equal(scene_model(sc, &from), HC_OK);
+  modal_base_free(bases[i]);
+  assert_int_equal(modal_base_new(from, &bases[i]), HC_OK);
+  *m = (scaled_model){.base = bases[i], .contact = contacts[i]};
   scaled_make(m, from, &sc->transient, omega, length);
   model_free(from);
+}
+
+/* X'' + c X' + k X = f cos(theta) without contacts, and how X moves a contact: u = cosine X, v = sine X. */
+static inline double scene_k(const scaled_model *m) { return m->by_K * *m->base->K; }
+static inline double scene_c(const scaled_model *m) { return m->by_C * *m->base->C; }
+static inline double scene_f(const scaled_model *m) { return m->by_load * *m->base->cosine; }
+static inline double scene_cosine(const scaled_model *m, const scaled_contact *c)
+{
+  return m->base->tangent[c - m->contact];
+}
+static inline double scene_sine(const scaled_model *m, const scaled_contact *c)
+{
+  return m->base->normal[c - m->contact];
 }
 
 /* A measure with memory for the states of any scene; measure_free frees it. */

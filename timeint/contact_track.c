@@ -6,6 +6,8 @@
 
 static const double rounding = 16 * DBL_EPSILON; /* of sums of a few terms, relative to their sizes */
 
+static const double at_once = 1e-6; /* [rad] around a turn or a touch a slip that long moves the slider by its square */
+
 static contact law_of(const scaled_contact *c)
 {
   return (contact){.kt = c->law.kt, .kn = c->law.kn, .mu = c->law.mu, .gap = c->law.gap, .load = c->law.load};
@@ -123,6 +125,14 @@ int contact_track_guards(const contact_track *t, const scaled_contact *c, const 
     expand(&conditions[i], u, v, guard[i].g);
   }
   return n;
+}
+
+int contact_track_counts(contact_track *t, track_event event, double theta)
+{
+  const bool slipped = contact_slip_sign(t->state) != 0, no_length = slipped && theta - t->changed <= at_once;
+  t->changed = event == TRACK_TOUCHES ? -INFINITY : theta;
+  if (no_length && event == TRACK_SEPARATES) return 0;
+  return no_length && event == TRACK_STICKS ? -1 : 1;
 }
 
 void contact_track_pass(contact_track *t, const scaled_contact *c, track_event event, const contact_motion *at)

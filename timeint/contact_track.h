@@ -21,10 +21,11 @@ typedef struct contact_track {
   contact_state state;
   double rest;      /* W while the contact sticks */
   bool since_start; /* it sticks since the start of the period: rest is an independent state */
-  int limit;    /* the sign of T where the period began with |T| = mu N, and the slider tied to the motion; else 0 */
-  double along; /* of a circle (circle_track.h) that slips or began with |T| = mu N: this direction's part of e */
-  bool fresh;   /* of a circle: it slips since a touch at this instant, N = 0 */
-  bool held;    /* of a circle: it slips with e as it is until N = 0 */
+  int limit;      /* the sign of T where the period began with |T| = mu N, and the slider tied to the motion; else 0 */
+  double along;   /* of a circle (circle_track.h) that slips or began with |T| = mu N: this direction's part of e */
+  bool fresh;     /* of a circle: it slips since a touch at this instant, N = 0 */
+  bool held;      /* of a circle: it slips with e as it is until N = 0 */
+  double changed; /* [rad] when it came to this state */
 } contact_track;
 
 /* U, V and their rates at one instant. */
@@ -74,6 +75,11 @@ typedef struct track_guard {
 /* The guards of the state for U and V in powers of tau, u, v[TRACK_ORDER + 1]. How many there are. */
 int contact_track_guards(const contact_track *t, const scaled_contact *c, const double *u, const double *v,
                          track_guard guard[TRACK_GUARDS]);
+
+/* By how many the transitions of the period grow with that event at theta, which is not passed yet. Where traction and
+ * limit vanish together (a contact that stuck when it touched, one degree of freedom), or where the motion turns at the
+ * limit, a slip of no length begins or does not, by rounding: it is not counted. */
+int contact_track_counts(contact_track *t, track_event event, double theta);
 
 /* That has happened there: the state that follows. */
 void contact_track_pass(contact_track *t, const scaled_contact *c, track_event event, const contact_motion *at);

@@ -166,7 +166,7 @@ static hc_status watch_step(void *self, const integrator *in, double theta0, dou
 static void report(const contact_watch *w, int k, contact_period *out)
 {
   const timeint *ti = w->ti;
-  const double length = ti->length, force = scaled_force_unit(&ti->scaled, ti->model, ti->omega, length);
+  const double length = ti->length, force = scaled_force_unit(&ti->scaled, ti->omega, length);
   for (int j = 0; j < w->n_contacts; ++j) {
     const contact_sums *s = &w->of[j];
     const bool slipped = s->seen & SEEN_SLIPPING; /* else the closed integral of T u' is 0 but for rounding */
@@ -180,11 +180,7 @@ static void report(const contact_watch *w, int k, contact_period *out)
 }
 
 /* [rad/rad] */
-static double stiffest_frequency(const timeint *ti)
-{
-  const double highest = ti->base ? ti->base->highest : sqrt(model_max_stiffness(ti->model) / *ti->model->mass);
-  return highest / ti->omega;
-}
+static double stiffest_frequency(const timeint *ti) { return ti->base->highest / ti->omega; }
 
 hc_status timeint_contacts(timeint *ti, const timeint_result *r, contact_period *out)
 {

@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "numerics/sundials_compat.h"
-#include "timeint/structure_equations.h"
 
 /* ---- equations -------------------------------------------------------------------------------------- */
 
@@ -37,7 +36,7 @@ void events_rate(const events *in, double theta, const double *y, double *dy)
 {
   const scaled_model *m = in->base.m;
   const int n = in->n;
-  structure_linear_force(m, theta, y, dy + n);
+  scaled_linear_force(m, theta, y, dy + n);
   for (int j = 0; j < in->n_contacts; ++j) {
     const contact_forces_linear *f = &in->law[j];
     const double *t = m->base->tangent + (size_t)j * (size_t)n, *normal = m->base->normal + (size_t)j * (size_t)n;

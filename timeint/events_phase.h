@@ -3,13 +3,14 @@
  *
  * Root functions of a contact, six, so that a period allocates nothing: the guards of its state, which end it where
  * they fall through 0, and the rates of these, which end nothing. Without them a guard could fall and rise within one
- * step unseen: CVODE's search for the root of the rate between evaluates all functions there (integrate_exact.c).
+ * step unseen: CVODE's search for the root of the rate between evaluates all functions there.
  * Functions that are not there are 1; none is ever exactly 0, which CVODE answers with an error. */
 #ifndef HC_EVENTS_PHASE_H
 #define HC_EVENTS_PHASE_H
 
 #include "timeint/circle_angle.h"
 #include "timeint/integrate_cvode.h"
+#include "timeint/motion_single.h"
 #include "timeint/slider_travel.h"
 #include "timeint/structure_variations.h"
 
@@ -19,7 +20,9 @@ typedef struct events { /* from integrate_new_events, to integrate_free; not sha
   cvode_integrator base;
   int n, n_contacts;
   double tolerance;
-  contact_track *track; /* [n_contacts] now */
+  bool is_single;                  /* of motion_single.h: */
+  double theta0, theta1, began[2]; /* the step under way, and where it began */
+  contact_track *track;            /* [n_contacts] now */
   slider_travel travel;
   contact_forces_linear *law; /* [n_contacts] of these states */
   int *info;                  /* [n_contacts][EVENTS_ROOTS] what CVODE says of the root functions */

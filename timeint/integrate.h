@@ -7,9 +7,8 @@
  * error.
  *
  * One interface, three ways. integrate_regularised.h: the equations of scaled.h as they stand, by CVODE.
- * integrate_exact.h: the exact law by CVODE, event-driven: one smooth right-hand side for each set of contact states,
- * from one change of state (transition) to the next. integrate_closed.h: the same law in closed form, no CVODE.
- * Structures have their own: integrate_series.h, integrate_events.h. */
+ * integrate_events.h: the exact law by CVODE, event-driven: one smooth right-hand side for each set of contact states,
+ * from one change of state (transition) to the next. integrate_series.h: the same law without CVODE, to rounding. */
 #ifndef HC_TIMEINT_INTEGRATE_H
 #define HC_TIMEINT_INTEGRATE_H
 
@@ -41,7 +40,7 @@ hc_status integrate_monodromy(integrator *in, const scaled_model *m, double *y, 
  * polynomial, as good as the step itself. y[n_states]. */
 hc_status integrate_dense(const integrator *in, double theta, int order, double *y);
 
-/* Inside a watch: response r (an oscillator's is X) at the angles theta + i step, i = 0..count-1, all in the step. */
+/* Inside a watch: response r at the angles theta + i step, i = 0..count-1, all in the step. */
 hc_status integrate_samples(const integrator *in, int r, double theta, double step, int count, double *x);
 
 /* Inside a watch: the integrals of response r, times 1, cos(theta), sin(theta), over the step, to rounding; false if

@@ -26,13 +26,11 @@ enum {
 
 typedef struct regularised { /* from integrate_new_regularised, to integrate_free; not shared between threads */
   cvode_integrator base;
-  int n;             /* number of states                                                  */
-  bool is_structure; /* whose linear equations are `newton`'s                             */
+  int n; /* number of states */
   structure_newton newton;
   N_Vector *s;                /* [n][n] d y / d y_j(0), j = 0..n-1: CVODES calls them sensitivities */
-  double *jacobian;           /* [n][n] d y' / d y where their right-hand side is wanted, of an oscillator */
-  structure_newton variation; /* the same of a structure */
-  double *s_tolerance;        /* [n] absolute tolerance of each s_j, which CVODES copies            */
+  structure_newton variation; /* d y' / d y where their right-hand side is wanted */
+  double *s_tolerance;        /* [n] absolute tolerance of each s_j, which CVODES copies */
 } regularised;
 
 static int rhs(sunrealtype theta, N_Vector y, N_Vector dy, void *self)
@@ -43,16 +41,7 @@ static int rhs(sunrealtype theta, N_Vector y, N_Vector dy, void *self)
   return -1;
 }
 
-static int jacobian(sunrealtype theta, N_Vector y, N_Vector dy, SUNMatrix jac, void *self, N_Vector t1, N_Vector t2,
-                    N_Vector t3)
-{
-  (void)theta, (void)dy, (void)t1, (void)t2, (void)t3;
-  regularised *in = self;
-  scaled_jacobian(in->base.m, NV_DATA_S(y), SM_DATA_D(jac));
-  return 0;
-}
-
-/* CVODE's Newton matrix of a structure. */
+/* CVODE's Newton matrix. */
 static int linear_system(sunrealtype theta, N_Vector y, N_Vector dy, SUNMatrix matrix, sunbooleantype keep,
                          sunbooleantype *renewed, sunrealtype gamma, void *self, N_Vector t1, N_Vector t2, N_Vector t3)
 {
@@ -68,20 +57,8 @@ static int variation_rhs(int n, sunrealtype theta, N_Vector y, N_Vector dy, N_Ve
 {
   (void)theta, (void)dy, (void)t1, (void)t2;
   regularised *in = self;
-  if (in->is_structure) {
-    structure_newton_linearise(&in->variation, in->base.m, NV_DATA_S(y));
-    for (int j = 0; j < n; ++j)
-      structure_newton_multiply(&in->variation, in->base.m, NV_DATA_S(s[j]), NV_DATA_S(ds[j]));
-    return 0;
-  }
-  scaled_jacobian(in->base.m, NV_DATA_S(y), in->jacobian);
-  for (int j = 0; j < n; ++j) {
-    const double *from = NV_DATA_S(s[j]);
-    double *to = NV_DATA_S(ds[j]);
-    memset(to, 0, sizeof *to * (size_t)n);
-    for (int k = 0; k < n; ++k)
-      for (int i = 0; i < n; ++i) to[i] += in->jacobian[i + k * n] * from[k];
-  }
+  structure_newton_linearise(&in->variation, in->base.m, NV_DATA_S(y));
+  for (int j = 0; j < n; ++j) structure_newton_multiply(&in->variation, in->base.m, NV_DATA_S(s[j]), NV_DATA_S(ds[j]));
   return 0;
 }
 
@@ -98,7 +75,7 @@ static hc_status make_cvode(regularised *in, double tolerance)
       CVodeSStolerances(in->base.cv, tolerance, tolerance),
       CVodeSetUserData(in->base.cv, in),
       CVodeSetLinearSolver(in->base.cv, in->base.ls, in->base.jac),
-      in->is_structure ? CVodeSetLinSysFn(in->base.cv, linear_system) : CVodeSetJacFn(in->base.cv, jacobian),
+      CVodeSetLinSysFn(in->base.cv, linear_system),
       CVodeSetMaxNumSteps(in->base.cv, MAX_STEPS),
       CVodeSetMaxErrTestFails(in->base.cv, MAX_ERROR_FAILS),
       CVodeSetMaxConvFails(in->base.cv, MAX_NEWTON_FAILS),
@@ -130,22 +107,19 @@ static hc_status make_variations(regularised *in)
 
 static hc_status make_parts(regularised *in, const modal_base *base)
 {
-  in->is_structure = base != NULL;
-  hc_status st = base ? structure_newton_make(&in->newton, base) : HC_OK;
-  if (st == HC_OK && base) st = structure_newton_make(&in->variation, base);
-  if (st == HC_OK) st = integrate_make_parts(&in->base, in->n, CV_BDF, base ? &in->newton : NULL);
+  hc_status st = structure_newton_make(&in->newton, base);
+  if (st == HC_OK) st = structure_newton_make(&in->variation, base);
+  if (st == HC_OK) st = integrate_make_parts(&in->base, in->n, CV_BDF, &in->newton);
   if (st != HC_OK) return st;
   in->s = N_VCloneVectorArray(in->n, in->base.y); /* room: asked for above */
-  in->jacobian = base ? NULL : calloc((size_t)in->n * (size_t)in->n, sizeof *in->jacobian);
   in->s_tolerance = calloc((size_t)in->n, sizeof *in->s_tolerance);
-  return in->s && (base || in->jacobian) && in->s_tolerance ? HC_OK : HC_NO_MEMORY;
+  return in->s && in->s_tolerance ? HC_OK : HC_NO_MEMORY;
 }
 
 static void release(integrator *base)
 {
   regularised *in = (regularised *)base;
   if (in->s) N_VDestroyVectorArray(in->s, in->n);
-  free(in->jacobian);
   free(in->s_tolerance);
   integrate_free_parts(&in->base);
   structure_newton_free(&in->newton);
@@ -241,14 +215,14 @@ static const integrator_class class = {.period = period,
                                        .tolerance = integrate_cvode_tolerance,
                                        .free = release};
 
-static hc_status make(int n_states, const modal_base *base, double tolerance, integrator **out)
+hc_status integrate_new_regularised(const modal_base *base, double tolerance, integrator **out)
 {
   *out = NULL;
   regularised *in = calloc(1, sizeof *in); /* zeroed, so free works half-built */
   if (!in) return HC_NO_MEMORY;
   in->base.base.does = &class;
   in->base.base.scatter = INTEGRATE_BDF_SCATTER;
-  in->n = n_states;
+  in->n = 2 * base->n + base->n_contacts;
   hc_status st = make_parts(in, base);
   if (st == HC_OK) st = make_cvode(in, tolerance);
   if (st == HC_OK) st = make_variations(in);
@@ -258,14 +232,4 @@ static hc_status make(int n_states, const modal_base *base, double tolerance, in
   }
   release(&in->base.base);
   return st;
-}
-
-hc_status integrate_new_regularised(int n_states, double tolerance, integrator **out)
-{
-  return make(n_states, NULL, tolerance, out);
-}
-
-hc_status integrate_new_regularised_structure(const modal_base *base, double tolerance, integrator **out)
-{
-  return make(2 * base->n + base->n_contacts, base, tolerance, out);
 }

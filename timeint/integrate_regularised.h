@@ -1,16 +1,13 @@
 /* integrate_regularised.h - the integrator (integrate.h) of the regularised law: the equations of scaled.h by BDF with
- * their analytic Jacobian, dense or, of a structure, as structure_newton.h has it. Stiff: a slipping slider follows its
+ * their analytic Jacobian, as structure_newton.h has it. Stiff: a slipping slider follows its
  * limit at the rate 1/regularisation. */
 #ifndef HC_TIMEINT_INTEGRATE_REGULARISED_H
 #define HC_TIMEINT_INTEGRATE_REGULARISED_H
 
 #include "timeint/integrate.h"
 
-/* For n_states equations, in steps whose error is `tolerance` of the states (of 1, for states smaller than that).
- * HC_NO_MEMORY, also for a tolerance that CVODE refuses. */
-hc_status integrate_new_regularised(int n_states, double tolerance, integrator **out);
-
-/* The same of a structure. */
-hc_status integrate_new_regularised_structure(const modal_base *base, double tolerance, integrator **out);
+/* In steps whose error is `tolerance` of the states (of 1, for states smaller than that). HC_NO_MEMORY, also for a
+ * tolerance that CVODE refuses. */
+hc_status integrate_new_regularised(const modal_base *base, double tolerance, integrator **out);
 
 #endif

@@ -10,6 +10,7 @@
 #include "timeint/integrate_private.h"
 #include "timeint/motion_modes.h"
 #include "timeint/motion_series.h"
+#include "timeint/motion_single.h"
 #include "timeint/slider_travel.h"
 #include "timeint/structure_variations.h"
 
@@ -31,7 +32,9 @@ typedef struct by_series { /* from integrate_new_series, to integrate_free; not 
   motion_series series;
   phase_modes *modes; /* or NULL */
   motion_modes stiff; /* the motion since stiff.theta, where by_modes */
-  bool by_modes;      /* is the present step of it? */
+  bool fits_single;
+  motion_single single; /* where that: the motion of the present step, if by_single */
+  bool by_modes, by_single;
   structure_variations variations;
 } by_series;
 
@@ -83,6 +86,8 @@ static hc_status choose(by_series *in)
   const complex_modes *modes;
   const double omega = 1 / in->m->by_C;
   in->by_modes = false;
+  in->by_single = in->fits_single && !has_closed_circle(in);
+  if (in->by_single) return HC_OK;
   if (!phase_modes_pay(in->modes, omega, INFINITY) || has_closed_circle(in)) return HC_OK;
   hc_status st = phase_modes_of(in->modes, in->m, in->track, &modes);
   if (st == HC_OK && modes) in->by_modes = motion_modes_begin(&in->stiff, modes, in->m, in->track, in->theta, in->y);
@@ -107,14 +112,20 @@ static int find_event(by_series *in, track_event *event)
   return first;
 }
 
+/* The motion of contact j at the end of the step. */
+static contact_motion contact_at_end(const by_series *in, int j)
+{
+  if (in->by_single) return motion_of(in, j, in->end);
+  if (in->by_modes) return motion_modes_contact(&in->stiff, j, in->theta + in->length - in->stiff.theta);
+  return motion_series_contact(&in->series, j, in->length);
+}
+
 /* The circle whose first direction is j. */
-static void pass_circle(by_series *in, int j, track_event event, bool varies, double tau)
+static void pass_circle(by_series *in, int j, track_event event, bool varies)
 {
   const contact_track before[2] = {in->track[j], in->track[j + 1]};
   contact_motion at[2];
-  for (int a = 0; a < 2; ++a)
-    at[a] =
-        in->by_modes ? motion_modes_contact(&in->stiff, j + a, tau) : motion_series_contact(&in->series, j + a, tau);
+  for (int a = 0; a < 2; ++a) at[a] = contact_at_end(in, j + a);
   const circle_motion both = {{at[0].u, at[1].u}, at->v, {at[0].du, at[1].du}, at->dv};
   circle_track_pass(&in->track[j], &in->m->contact[j], event, &both);
   slider_travel_note_circle(&in->travel, &in->m->contact[j], in->track, j, &both);
@@ -124,17 +135,16 @@ static void pass_circle(by_series *in, int j, track_event event, bool varies, do
 /* Contact j at the end of the step. */
 static hc_status pass(by_series *in, int j, track_event event, bool varies, int *count)
 {
-  const double tau = in->by_modes ? in->theta + in->length - in->stiff.theta : in->length;
-  const contact_motion at =
-      in->by_modes ? motion_modes_contact(&in->stiff, j, tau) : motion_series_contact(&in->series, j, tau);
+  const contact_motion at = contact_at_end(in, j);
   const bool circle = in->m->contact[j].circle;
   const contact_state before = in->track[j].state;
-  if (++*count > integrate_most_transitions(in->n_contacts)) return HC_CHATTER;
+  *count += circle ? 1 : contact_track_counts(&in->track[j], event, in->theta + in->length);
+  if (*count > integrate_most_transitions(in->n_contacts)) return HC_CHATTER;
   if (varies) {
     hc_status st = structure_variations_advance(&in->variations, in->m, in->track, in->theta + in->length);
     if (st != HC_OK) return st;
   }
-  if (circle) pass_circle(in, j, event, varies, tau);
+  if (circle) pass_circle(in, j, event, varies);
   else contact_track_pass(&in->track[j], &in->m->contact[j], event, &at);
   if (!circle) slider_travel_note(&in->travel, &in->m->contact[j], in->track, j, &at);
   if (!varies) return HC_OK;
@@ -208,13 +218,31 @@ static hc_status phase_by_modes(by_series *in, bool varies, integrate_watch *wat
   return end_step(in, changing, event, varies, end, count);
 }
 
+/* To the first event; watched, to the first turn of X. */
+static hc_status step_in_closed_form(by_series *in, bool varies, integrate_watch *watch, void *self, int *count)
+{
+  track_event event = TRACK_STICKS;
+  const double left = TWO_PI - in->theta;
+  int changing;
+  in->length = left;
+  hc_status st = motion_single_go(&in->single, in->m, in->track, in->theta, in->y, watch != NULL, &in->length,
+                                  &changing, &event, &in->base.rhs);
+  const double end = in->length < left ? in->theta + in->length : TWO_PI;
+  in->end[0] = in->single.end.q[0];
+  in->end[1] = in->single.end.p[0];
+  ++in->base.steps;
+  if (st == HC_OK && watch && end > in->theta) st = watch(self, &in->base, in->theta, end);
+  return st == HC_OK ? end_step(in, changing, event, varies, end, count) : st;
+}
+
 /* From theta = 0 to the end of the period. */
 static hc_status run(by_series *in, bool varies, integrate_watch *watch, void *self, int *count)
 {
   in->theta = 0;
   for (int steps = 0; in->theta < TWO_PI; ++steps) {
     hc_status st = choose(in);
-    if (st == HC_OK) st = (in->by_modes ? phase_by_modes : step_by_series)(in, varies, watch, self, count);
+    if (st == HC_OK && in->by_single) st = step_in_closed_form(in, varies, watch, self, count);
+    else if (st == HC_OK) st = (in->by_modes ? phase_by_modes : step_by_series)(in, varies, watch, self, count);
     if (st != HC_OK) return st;
     if (steps > MAX_STEPS) return HC_CHATTER;
   }
@@ -226,7 +254,7 @@ static void turned(const by_series *in, int j, double tau, contact_track circle[
 {
   double e[2];
   for (int a = 0; a < 2; ++a) circle[a] = in->track[j + a];
-  if (isnan(tau) || in->by_modes || in->series.circle_of[j] < 0) return;
+  if (isnan(tau) || in->by_modes || in->by_single || in->series.circle_of[j] < 0) return;
   circle_series_direction(&in->series.circle[in->series.circle_of[j]], tau, e);
   for (int a = 0; a < 2; ++a) circle[a].along = e[a];
 }
@@ -281,7 +309,8 @@ static hc_status period(integrator *base, const scaled_model *m, double *y, doub
 static hc_status dense(const integrator *base, double theta, int order, double *y)
 {
   by_series *in = (by_series *)base; /* whose rooms for sums are used */
-  if (in->by_modes) motion_modes_at(&in->stiff, theta - in->stiff.theta, order, y);
+  if (in->by_single) motion_single_at(&in->single, theta - in->theta, order, y);
+  else if (in->by_modes) motion_modes_at(&in->stiff, theta - in->stiff.theta, order, y);
   else motion_series_at(&in->series, theta - in->theta, order, y);
   put_sliders(in, theta - in->theta, order, y);
   return HC_OK;
@@ -295,6 +324,12 @@ static void expand_response(const by_series *in, int i)
 static hc_status samples(const integrator *base, int i, double theta, double step, int count, double *x)
 {
   const by_series *in = (const by_series *)base;
+  if (in->by_single) {
+    const double r = in->m->base->response[i];
+    modal_samples(&in->single.motion, 0, theta, step, count, x);
+    for (int k = 0; k < count && r != 1; ++k) x[k] *= r;
+    return HC_OK;
+  }
   for (int k = 0; k < count && in->by_modes; ++k)
     x[k] = motion_modes_response(&in->stiff, i, theta + k * step - in->stiff.theta);
   if (in->by_modes) return HC_OK;
@@ -320,6 +355,11 @@ static bool fourier(const integrator *base, int i, double out[3])
 {
   const by_series *in = (const by_series *)base;
   const double h = in->length, since = in->theta - in->stiff.theta;
+  if (in->by_single) {
+    const bool known = motion_single_fourier(&in->single, out);
+    for (int k = 0; k < 3; ++k) out[k] *= in->m->base->response[i];
+    return known;
+  }
   if (in->by_modes) {
     motion_modes_fourier(&in->stiff, i, since, since + h, out);
     return true;
@@ -342,7 +382,12 @@ static bool extremes(const integrator *base, int i, double *max, double *min)
   by_series *in = (by_series *)base; /* whose rooms for sums are used */
   const double since = in->theta - in->stiff.theta;
   if (in->by_modes) motion_modes_extremes(&in->stiff, i, since, since + in->length, max, min);
-  return in->by_modes;
+  if (in->by_single) { /* the step ends where X turns */
+    const double r = in->m->base->response[i], from = r * in->y[0], to = r * in->end[0];
+    *max = fmax(from, to);
+    *min = fmin(from, to);
+  }
+  return in->by_modes || in->by_single;
 }
 
 static contact_state state(const integrator *base, int j, const double *y)
@@ -366,6 +411,7 @@ static void release(integrator *base)
   slider_travel_free(&in->travel);
   motion_series_free(&in->series);
   motion_modes_free(&in->stiff);
+  motion_single_free(&in->single);
   phase_modes_free(in->modes);
   free(in->track);
   free(in->y);
@@ -396,6 +442,8 @@ hc_status integrate_new_series(const modal_base *base, double stiff, integrator 
   hc_status st = in->track && in->y ? motion_series_make(&in->series, base) : HC_NO_MEMORY;
   if (st == HC_OK) st = phase_modes_new(base, stiff, &in->modes);
   if (st == HC_OK) st = motion_modes_make(&in->stiff, base);
+  in->fits_single = motion_single_fits(base);
+  if (st == HC_OK && in->fits_single) st = motion_single_make(&in->single, base);
   if (st == HC_OK) st = structure_variations_make(&in->variations, base, in->modes);
   if (st == HC_OK) st = slider_travel_make(&in->travel, base->n_contacts);
   if (st == HC_OK) {

@@ -12,32 +12,45 @@ static const double margin = 1e-9; /* of the sum of a guard's terms: far above t
                                       at the same state */
 static const double corner = 40; /* [width] beyond which softplus is exact to rounding: SOFT_END of law_regularised.c */
 
-typedef struct linear {  /* the oscillator while no contact changes its state; lengths in units of ti->length */
+/* A contact as the mass sees it: its law, u and v of X = 1, N0. */
+typedef struct one_contact {
+  const law_regularised *law;
+  double cosine, sine, preload;
+} one_contact;
+
+static one_contact contact_of(const scaled_model *m, int j)
+{
+  const scaled_contact *c = &m->contact[j];
+  return (one_contact){&c->law, m->base->tangent[j], m->base->normal[j], c->preload};
+}
+
+typedef struct linear { /* the oscillator while no contact changes its state; lengths in units of ti->length */
+  double c;
   double k, center;      /* center: d/k                                */
   double complex steady; /* Z                                          */
   double free;           /* bound of |X - center - Re(Z e^{i theta})|  */
 } linear;
 
-static bool closed(const scaled_contact *c, double x) { return c->law.kn > 0 && c->sine * x + c->law.gap > 0; }
+static bool closed(const one_contact *c, double x) { return c->law->kn > 0 && c->sine * x + c->law->gap > 0; }
 
 static linear linear_now(const timeint *ti)
 {
   const scaled_model *m = &ti->scaled;
-  const double x = ti->y[SCALED_X], p = ti->y[SCALED_P];
-  linear l = {.k = m->k};
+  const double x = ti->y[0], p = ti->y[1];
+  linear l = {.c = m->by_C * m->base->C[0], .k = m->by_K * m->base->K[0]};
   double d = 0;
   for (int j = 0; j < m->n_contacts; ++j) {
-    const scaled_contact *c = &m->contact[j];
-    const double kt = c->law.has_friction ? c->law.kt : 0; /* without friction T = 0 */
-    if (!closed(c, x)) {
-      d += c->preload * c->sine;
+    const one_contact c = contact_of(m, j);
+    const double kt = c.law->has_friction ? c.law->kt : 0; /* without friction T = 0 */
+    if (!closed(&c, x)) {
+      d += c.preload * c.sine;
       continue;
     }
-    l.k += kt * c->cosine * c->cosine + c->law.kn * c->sine * c->sine;
-    d += kt * c->cosine * ti->y[SCALED_W + j] + (c->preload - c->law.kn * c->law.gap) * c->sine;
+    l.k += kt * c.cosine * c.cosine + c.law->kn * c.sine * c.sine;
+    d += kt * c.cosine * ti->y[2 + j] + (c.preload - c.law->kn * c.law->gap) * c.sine;
   }
   l.center = d / l.k;
-  l.steady = linear_response(1, m->c, l.k, m->f, 1);
+  l.steady = linear_response(1, l.c, l.k, m->by_load * m->base->cosine[0], 1);
   l.free = hypot(x - l.center - creal(l.steady), (p + cimag(l.steady)) / sqrt(l.k));
   return l;
 }
@@ -51,10 +64,11 @@ static bool positive_within(double a, double b, double center, double reach)
 
 /* Does the contact keep its state? Guards of separation, v + gap < 0, and of stick, v + gap > 0 and
  * mu N -+ kt (u - w) > 0: contact_law.h; v + gap stays clear of the regularised corner. */
-static bool keeps_state(const scaled_contact *c, double x, double w, double center, double reach)
+static bool keeps_state(const one_contact *c, double x, double w, double center, double reach)
 {
-  const law_regularised *law = &c->law;
+  const law_regularised *law = c->law;
   const double clear = corner * law->width;
+  if (law->load != 0) return false;
   if (law->kn == 0) return true;     /* N = 0 always */
   if (law->overstress) return false; /* the slider of a separated contact acts on X as a dashpot */
   if (!closed(c, x)) return positive_within(-law->gap - clear, -c->sine, center, reach);
@@ -68,13 +82,15 @@ static bool keeps_state(const scaled_contact *c, double x, double w, double cent
 bool linear_regime_is_final(const timeint *ti)
 {
   const scaled_model *m = &ti->scaled;
-  if (m->base) return false; /* Newton finds a structure's linear motion in one step */
+  if (!model_is_oscillator(ti->model)) return false; /* Newton finds a structure's linear motion in one step */
   const linear l = linear_now(ti);
   const double amplitude = cabs(l.steady), reach = amplitude + l.free;
   if (!(l.k > 0) || !isfinite(fabs(l.center) + reach)) return false;
-  if (!(m->c > 0) && !(l.free <= ti->how.tolerance * amplitude)) return false;
-  for (int j = 0; j < m->n_contacts; ++j)
-    if (!keeps_state(&m->contact[j], ti->y[SCALED_X], ti->y[SCALED_W + j], l.center, reach)) return false;
+  if (!(l.c > 0) && !(l.free <= ti->how.tolerance * amplitude)) return false;
+  for (int j = 0; j < m->n_contacts; ++j) {
+    const one_contact c = contact_of(m, j);
+    if (!keeps_state(&c, ti->y[0], ti->y[2 + j], l.center, reach)) return false;
+  }
   return true;
 }
 
@@ -102,9 +118,9 @@ static void fill_measures(const linear *l, double length, timeint_result *r)
   }
 }
 
-static void fill_stability(const scaled_model *m, double k, timeint_result *r)
+static void fill_stability(const linear *l, timeint_result *r)
 {
-  const double complex lambda = slowest_multiplier(m->c, k);
+  const double complex lambda = slowest_multiplier(l->c, l->k);
   r->multiplier = r->contraction = cabs(lambda);
   r->multiplier_re = creal(lambda);
   r->multiplier_im = cimag(lambda);
@@ -121,17 +137,17 @@ void linear_regime_steady(timeint *ti, timeint_result *r)
   r->regime = CONTACT_LINEAR;
   r->free_sliders = r->switches = 0;
   for (int j = 0; j < m->n_contacts; ++j) {
-    const scaled_contact *c = &m->contact[j];
-    if (closed(c, ti->y[SCALED_X])) {
+    const one_contact c = contact_of(m, j);
+    if (closed(&c, ti->y[0])) {
       r->regime = CONTACT_STUCK;
-      r->free_sliders += c->law.has_friction;
-    } else if (c->law.has_friction) { /* separated: w' = (u - w) kt/eta */
-      double lag = exact ? 0 : c->law.eta / c->law.kt;
-      ti->y[SCALED_W + j] = c->cosine * (l.center + creal(l.steady / (1 + I * lag)));
+      r->free_sliders += c.law->has_friction;
+    } else if (c.law->has_friction) { /* separated: w' = (u - w) kt/eta */
+      double lag = exact ? 0 : c.law->eta / c.law->kt;
+      ti->y[2 + j] = c.cosine * (l.center + creal(l.steady / (1 + I * lag)));
     }
   }
   fill_measures(&l, ti->length, r);
-  fill_stability(m, l.k, r);
-  ti->y[SCALED_X] = l.center + creal(l.steady);
-  ti->y[SCALED_P] = -cimag(l.steady);
+  fill_stability(&l, r);
+  ti->y[0] = l.center + creal(l.steady);
+  ti->y[1] = -cimag(l.steady);
 }

@@ -255,28 +255,11 @@ int measure_resting_sliders(const measure *me)
   return resting;
 }
 
-/* The strongest thing contact c of an oscillator does while its motion covers [min, max]. */
-static contact_regime regime_between(const model_contact *c, double min, double max, bool slips)
-{
-  const double sine = *c->normal;
-  if (!(c->law.kn > 0) || !(sine * max + c->law.gap > 0)) return CONTACT_LINEAR; /* never touched */
-  if (sine * min + c->law.gap < 0) return CONTACT_SEPARATES;
-  return slips ? CONTACT_SLIPS : CONTACT_STUCK;
-}
-
 contact_regime measure_seen_regime(unsigned char seen)
 {
   if (!(seen & (SEEN_STUCK | SEEN_SLIPPING))) return CONTACT_LINEAR;
   if (seen & SEEN_SEPARATED) return CONTACT_SEPARATES;
   return seen & SEEN_SLIPPING ? CONTACT_SLIPS : CONTACT_STUCK;
-}
-
-contact_regime measure_regime(const measure *me, const model *from, int j, double min, double max)
-{
-  if (me->m && me->m->base) return measure_seen_regime(me->seen[j]);
-  bool slips = false;
-  for (int i = 0; i < me->n_contacts; ++i) slips = slips || me->seen[i] & SEEN_SLIPPING;
-  return regime_between(&from->contacts[j], min, max, slips);
 }
 
 void measure_report(const measure *me, const model *from, int i, double length, timeint_result *r)
@@ -295,7 +278,7 @@ void measure_report(const measure *me, const model *from, int i, double length, 
   for (int k = 0; k < TIMEINT_WAVE; ++k) r->wave[k] = of->wave[k] * length;
   r->regime = CONTACT_LINEAR;
   for (int j = 0; j < from->n_contacts; ++j) {
-    contact_regime one = measure_regime(me, from, j, r->min, r->max);
+    contact_regime one = measure_seen_regime(me->seen[j]);
     if (one > r->regime) r->regime = one;
   }
 }

@@ -52,9 +52,6 @@ void measure_begin(measure *me, const scaled_model *m);
 void measure_period(measure *me, const double *y);
 hc_status measure_step(void *self, const integrator *in, double theta0, double theta1);
 
-/* The strongest thing contact j did; an oscillator's covered [min, max] (model's units). */
-contact_regime measure_regime(const measure *me, const model *from, int j, double min, double max);
-
 /* Contacts whose slider was nowhere seen to leave its place while it was in contact: where it rests depends on the
  * start. A place is one to MEASURE_RESTS of the largest response's range, ten times what CVODE's steps scatter. */
 int measure_resting_sliders(const measure *me);

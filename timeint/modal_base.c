@@ -129,18 +129,19 @@ static void fill(modal_base *b, const model *m, const double *omega2, double *ve
   scale(ld * ld, b->inverse, b->s);
 }
 
-/* The largest motion of a contact under that load, at rest in these modes; modes that nothing holds are left out. */
+/* The largest motion of a contact under that load (of a single mass, its own), at rest in these modes; modes that
+ * nothing holds are left out. */
 static double motion_under(const modal_base *b, const model *m, const double *load, const double *omega2,
                            const double *phi, double *x)
 {
   const size_t n = (size_t)b->n;
-  double most = 0;
   memset(x, 0, n * sizeof *x);
   for (size_t i = 0; i < n; ++i) {
     if (!(omega2[i] > rounding * omega2[n - 1])) continue;
     const double q = dot_product(b->n, phi + i * n, load) / omega2[i];
     for (size_t row = 0; row < n; ++row) x[row] += q * phi[i * n + row];
   }
+  double most = n == 1 ? fabs(*x) : 0;
   for (int j = 0; j < m->n_contacts; ++j)
     most = fmax(most, fmax(fabs(dot_product(b->n, m->contacts[j].tangent, x)),
                            fabs(dot_product(b->n, m->contacts[j].normal, x))));

@@ -1,6 +1,6 @@
 /* structure_newton.h - the linear equations of an implicit step of a structure with the regularised law,
  *
- *     (I - gamma J) (x, p, w) = (a, b, d),   J that of structure_equations.h:
+ *     (I - gamma J) (x, p, w) = (a, b, d),   J that of scaled.h:
  *     x = a + gamma p,   p + gamma (C p + K x + sum_j t_j f_j + n_j g_j) = b
  *     w_j = d_j + gamma (r_u (u_j - w_j) + r_v v_j)
  *     f_j = t_u (u_j - w_j) + t_v v_j,   g_j = n_v v_j,   u_j = t_j . x,   v_j = n_j . x      (C, K: by_C C, by_K K)
@@ -14,7 +14,7 @@
 #ifndef HC_STRUCTURE_NEWTON_H
 #define HC_STRUCTURE_NEWTON_H
 
-#include "timeint/structure_equations.h"
+#include "timeint/scaled.h"
 
 typedef struct structure_newton { /* from structure_newton_make, to structure_newton_free */
   const modal_base *base;         /* the owner's */

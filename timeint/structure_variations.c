@@ -5,6 +5,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "model/linear.h"
+
+static const double soft = 1e-2; /* of k: below, the response to a constant is not computed as a difference over k */
+
 hc_status structure_variations_make(structure_variations *v, const modal_base *base, phase_modes *modes)
 {
   const size_t states = 2 * (size_t)base->n + (size_t)base->n_contacts;
@@ -160,6 +164,28 @@ static hc_status advance_along(structure_variations *v, const scaled_model *m, d
 
 /* ---------------------------------------------------------------------------------------------------------- */
 
+/* A single mass: its columns in closed form. The response to a constant force 1 from rest is `step` in X, e01 in P. */
+static void advance_single(structure_variations *v, const scaled_model *m, const contact_track *track, double span)
+{
+  const modal_base *b = m->base;
+  double *x = row_of(v, 0), *p = row_of(v, 1), *pull = v->du, e[2][2], k = m->by_K * b->K[0];
+  const double c = m->by_C * b->C[0];
+  memset(pull, 0, (size_t)v->n_columns * sizeof *pull);
+  for (int j = 0; j < m->n_contacts; ++j) {
+    const contact_forces_linear f = contact_track_forces(&track[j], &m->contact[j]);
+    const double t = b->tangent[j], n = b->normal[j], *slider = slider_of(v, j);
+    k += t * (f.t_u * t + f.t_v * n) + n * f.n_v * n;
+    for (int q = 0; q < v->n_columns && f.t_w != 0; ++q) pull[q] -= t * f.t_w * slider[q];
+  }
+  linear_free_motion(1, c, k, span, e);
+  const double step = fabs(k) > soft ? (1 - e[0][0]) / k : linear_step_response(c, k, span);
+  for (int q = 0; q < v->n_columns; ++q) {
+    const double x0 = x[q], p0 = p[q];
+    x[q] = e[0][0] * x0 + e[0][1] * p0 + step * pull[q];
+    p[q] = e[1][0] * x0 + e[1][1] * p0 + e[0][1] * pull[q];
+  }
+}
+
 void structure_variations_begin(structure_variations *v, const scaled_model *m, const contact_track *track,
                                 const double *y)
 {
@@ -190,6 +216,10 @@ hc_status structure_variations_advance(structure_variations *v, const scaled_mod
   if (m->base->n_circles > 0 && has_slipping_circle(m, v->track)) return advance_along(v, m, theta);
   v->theta = theta;
   if (!(span > 0)) return HC_OK;
+  if (m->n == 1) {
+    advance_single(v, m, track, span);
+    return HC_OK;
+  }
   const complex_modes *modes = NULL;
   hc_status st = HC_OK;
   if (phase_modes_pay(v->modes, 1 / m->by_C, span)) st = phase_modes_of(v->modes, m, track, &modes);

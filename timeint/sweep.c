@@ -64,11 +64,11 @@ static hc_status follow_branch(timeint *ti, const hc_monitor *monitor, bool *the
   return shoot_found_no_orbit(st) ? HC_OK : st;
 }
 
-/* An oscillator's change of state as a complex number; of more coordinates only how far. */
+/* A single mass's change of state as a complex number; of more coordinates only how far. */
 static double complex move_of(const timeint *ti, const double *from, const double *to)
 {
   double sum = 0;
-  if (!ti->base) return to[SCALED_X] - from[SCALED_X] + I * (to[SCALED_P] - from[SCALED_P]);
+  if (ti->n_dof == 1) return to[0] - from[0] + I * (to[1] - from[1]);
   for (int i = 0; i < 2 * ti->n_dof; ++i) sum = hypot(sum, to[i] - from[i]);
   return sum;
 }
@@ -99,11 +99,7 @@ static hc_status settle_by_marching(timeint *ti, const hc_monitor *monitor, doub
 }
 
 /* Half the width of a linear resonance at half its power, relative to omega. */
-static double half_width(const timeint *ti)
-{
-  const double width = ti->base ? ti->base->slowest : 0.5 * *ti->model->damping / *ti->model->mass;
-  return fmax(width / ti->omega, 1e-6);
-}
+static double half_width(const timeint *ti) { return fmax(ti->base->slowest / ti->omega, 1e-6); }
 
 static double least_step(const timeint *ti) { return fmin(smallest_step, 0.1 * half_width(ti)); }
 

@@ -5,9 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "timeint/integrate_closed.h"
 #include "timeint/integrate_events.h"
-#include "timeint/integrate_exact.h"
 #include "timeint/integrate_regularised.h"
 #include "timeint/integrate_series.h"
 #include "timeint/richardson.h"
@@ -28,12 +26,6 @@ static bool contact_ok(const model_contact *c)
          not_negative(c->law.load) && isfinite(*c->tangent) && isfinite(*c->normal);
 }
 
-static bool oscillator_ok(const model *m)
-{
-  const bool inert = positive(*m->mass) && not_negative(*m->damping);
-  return inert && not_negative(*m->stiffness) && isfinite(model_force(m));
-}
-
 static bool all_finite(size_t count, const double *a)
 {
   bool ok = true;
@@ -44,6 +36,7 @@ static bool all_finite(size_t count, const double *a)
 static bool structure_ok(const model *m)
 {
   const size_t n = (size_t)m->n;
+  if (m->n == 1 && !(positive(*m->mass) && not_negative(*m->damping) && not_negative(*m->stiffness))) return false;
   bool ok = all_finite(n * n, m->mass) && all_finite(n * n, m->damping) && all_finite(n * n, m->stiffness);
   for (int l = 0; l < m->n_loads; ++l) ok = ok && all_finite(n, m->loads[l].cosine) && all_finite(n, m->loads[l].sine);
   for (int j = 0; j < m->n_contacts; ++j)
@@ -53,7 +46,7 @@ static bool structure_ok(const model *m)
 
 static hc_status check_input(const model *m, const transient_settings *how)
 {
-  if (!(model_is_oscillator(m) ? oscillator_ok(m) : structure_ok(m))) return HC_BAD_INPUT;
+  if (!structure_ok(m)) return HC_BAD_INPUT;
   for (int j = 0; j < m->n_contacts; ++j)
     if (!contact_ok(&m->contacts[j])) return HC_BAD_INPUT;
   if (how->method == TRANSIENT_METHOD_CLOSED_FORM && how->law != TRANSIENT_LAW_EXACT) return HC_BAD_INPUT;
@@ -71,17 +64,14 @@ static hc_status make_memory(timeint *ti)
   ti->scaled.contact = calloc(n, sizeof *ti->scaled.contact); /* two more than needed, so never nothing */
   if (!ti->memory || !ti->scaled.contact) return HC_NO_MEMORY;
   for (size_t i = 0; i < n_vectors; ++i) *vectors[i] = ti->memory + i * n; /* the ring is the last */
-  return measure_make(&ti->measure, ti->n, ti->base ? ti->base->n_responses : 1, ti->model->n_contacts);
+  return measure_make(&ti->measure, ti->n, ti->base->n_responses, ti->model->n_contacts);
 }
 
 static hc_status make_integrator(const timeint *ti, transient_law law, integrator **out)
 {
   const bool closed = ti->how.method == TRANSIENT_METHOD_CLOSED_FORM, exact = law == TRANSIENT_LAW_EXACT;
-  if (ti->base && closed) return integrate_new_series(ti->base, PHASE_MODES_STIFF, out);
-  if (ti->base)
-    return (exact ? integrate_new_events : integrate_new_regularised_structure)(ti->base, ti->tolerance, out);
-  if (closed) return integrate_new_closed(ti->n, ti->tolerance, out);
-  return (exact ? integrate_new_exact : integrate_new_regularised)(ti->n, ti->tolerance, out);
+  if (closed) return integrate_new_series(ti->base, PHASE_MODES_STIFF, out);
+  return (exact ? integrate_new_events : integrate_new_regularised)(ti->base, ti->tolerance, out);
 }
 
 static hc_status make_parts(timeint *ti)
@@ -109,7 +99,7 @@ hc_status timeint_new(const model *m, const transient_settings *how, timeint **o
   ti->n = 2 * m->n + m->n_contacts;
   ti->tolerance = timeint_final_tolerance(ti);
   st = model_copy(m, &ti->model);
-  if (st == HC_OK && !model_is_oscillator(m)) st = modal_base_new(m, &ti->base);
+  if (st == HC_OK) st = modal_base_new(m, &ti->base);
   ti->scaled.base = ti->base;
   if (st == HC_OK && (st = make_parts(ti)) == HC_OK) {
     *out = ti;
@@ -151,7 +141,7 @@ void timeint_rest(const timeint *ti, double *state) /* x = 0 is static equilibri
   for (int i = 0; i < ti->n; ++i) state[i] = 0;
 }
 
-/* The unit of length for an oscillator at rest without force: the largest gap, or 1. */
+/* The unit of length for a model at rest without force: the largest gap, or 1. */
 static double any_length(const model *m)
 {
   double length = 0;
@@ -178,10 +168,8 @@ static bool state_ok(const timeint *ti, const double *state)
  * has none; nor have all modes together. */
 static double least_length(const timeint *ti)
 {
-  const model *m = ti->model;
   const modal_base *b = ti->base;
   const double omega = ti->omega;
-  if (!b) return fabs(model_force(m)) / (model_max_stiffness(m) + *m->mass * omega * omega + *m->damping * omega);
   double force = 0;
   for (int i = 0; i < b->n_loads * b->n; ++i) force += hypot(b->cosine[i], b->sine[i]);
   return force / (b->highest * b->highest + omega * omega + 2 * b->slowest * omega);
@@ -191,12 +179,8 @@ static double least_length(const timeint *ti)
 static void take_state(const timeint *ti, const double *state, double length, double *y)
 {
   const int n = ti->n_dof;
-  if (ti->base) {
-    modal_base_to_modes(ti->base, state, y);
-    modal_base_to_modes(ti->base, state + n, y + n);
-  } else {
-    memcpy(y, state, 2 * sizeof *y);
-  }
+  modal_base_to_modes(ti->base, state, y);
+  modal_base_to_modes(ti->base, state + n, y + n);
   for (int i = 0; i < n; ++i) {
     y[i] /= length;
     y[n + i] /= ti->omega * length;
@@ -219,7 +203,7 @@ hc_status timeint_begin(timeint *ti, double omega, const double *state)
   if (!positive(omega) || !state_ok(ti, state)) return HC_BAD_INPUT;
   ti->omega = omega;
   ti->measured = ti->is_extrapolated = false;
-  ti->contraction = exp(-2 * pi * (ti->base ? ti->base->slowest : 0.5 * *m->damping / *m->mass) / omega);
+  ti->contraction = exp(-2 * pi * ti->base->slowest / omega);
   ti->periods = 0;
   ti->steps0 = integrate_steps(ti->in);
   ti->rhs0 = integrate_rhs(ti->in);
@@ -269,12 +253,8 @@ void timeint_get_state(const timeint *ti, double *state)
 {
   const int n = ti->n_dof;
   const double length = ti->length;
-  if (ti->base) {
-    modal_base_to_model(ti->base, ti->y, state);
-    modal_base_to_model(ti->base, ti->y + n, state + n);
-  } else {
-    memcpy(state, ti->y, 2 * sizeof *state);
-  }
+  modal_base_to_model(ti->base, ti->y, state);
+  modal_base_to_model(ti->base, ti->y + n, state + n);
   for (int i = 0; i < n; ++i) {
     state[i] *= length;
     state[n + i] = state[n + i] * length * ti->omega;
@@ -296,9 +276,7 @@ void timeint_point(const timeint *ti, double *z)
 {
   const scaled_model *m = &ti->scaled;
   const int moving = 2 * ti->n_dof;
-  const double omega2 = ti->omega * ti->omega;
-  const double stiffest = ti->base ? ti->base->highest * ti->base->highest / omega2
-                                   : model_max_stiffness(ti->model) / (*ti->model->mass * omega2);
+  const double stiffest = ti->base->highest * ti->base->highest / (ti->omega * ti->omega);
   for (int i = 0; i < moving; ++i) z[i] = ti->y[i] * ti->length;
   for (int j = 0; j < m->n_contacts; ++j) {
     const scaled_contact *c = &m->contact[j];

@@ -14,7 +14,7 @@
 struct timeint {          /* from timeint_new, to timeint_free; not shared between threads              */
   model *model;           /* a copy: the caller may drop theirs                                         */
   transient_settings how; /* a copy                                                                     */
-  modal_base *base;       /* of a structure; NULL: an oscillator                                        */
+  modal_base *base;       /* the model in its modes                                                     */
   int n_dof, n;           /* degrees of freedom; number of states, 2 n_dof + contacts                   */
   integrator *in;
   integrator *exact; /* of the exact law, for sweeps, where `in` is not and there is no scout; else NULL */

@@ -58,7 +58,7 @@ bool __wrap_scaled_rhs(const scaled_model *m, double theta, const double *y, dou
 {
   bool finite = __real_scaled_rhs(m, theta, y, dy);
   if (!strikes()) return finite;
-  dy[SCALED_P] = now.value;
+  dy[m->n] = now.value;
   return !now.honest;
 }
 

@@ -5,7 +5,6 @@
 
 #include "tests/check.h"
 #include "tests/hbm/random_structures.h"
-#include "timeint/structure_equations.h"
 #include "timeint/structure_newton.h"
 
 enum { MOST = 100 /* states */, MOST_CONTACTS = 12 };
@@ -38,13 +37,13 @@ static inline void check_jacobian(drawn *d, double *y, int trial)
 {
   double jac[MOST * MOST], f[2][MOST];
   const int n = d->scaled.n_states;
-  structure_jacobian(&d->scaled, y, jac);
+  scaled_jacobian(&d->scaled, y, jac);
   for (int q = 0; q < n; ++q) {
     double size = 1;
     const double at = y[q], h = 1e-6;
     for (int side = 0; side < 2; ++side) {
       y[q] = at + (side ? h : -h);
-      assert_true(structure_rhs(&d->scaled, 1, y, f[side]));
+      assert_true(scaled_rhs(&d->scaled, 1, y, f[side]));
     }
     y[q] = at;
     for (int i = 0; i < n; ++i) size = fmax(size, fabs(jac[i + q * n]));

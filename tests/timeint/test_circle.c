@@ -243,7 +243,7 @@ static void newton_solves_the_dense_equations(void **state)
     const int n = d.scaled.n_states;
     const double gamma = pow(10, -4 + 4 * random_unit(&seed));
     for (int i = 0; i < n; ++i) y[i] = random_signed(&seed), z[i] = r[i] = random_signed(&seed);
-    structure_jacobian(&d.scaled, y, jac);
+    scaled_jacobian(&d.scaled, y, jac);
     eliminate(&d, y, gamma, z, product);
     for (int i = 0; i < n; ++i) {
       double sum = 0, size = 1;

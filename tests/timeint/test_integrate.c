@@ -13,7 +13,8 @@
 /* x'' + c x' + k x = f cos(theta) from x = x' = 0: the forced motion plus the free one that cancels it at 0. */
 static double complex linear_state(const scaled_model *m, double theta)
 {
-  double complex X = m->f / (m->k - 1 + I * m->c), r = -m->c / 2 + csqrt(m->c * m->c / 4 - m->k);
+  double complex X = scene_f(m) / (scene_k(m) - 1 + I * scene_c(m)),
+                 r = -scene_c(m) / 2 + csqrt(scene_c(m) * scene_c(m) / 4 - scene_k(m));
   double x0 = creal(X), v0 = creal(I * X); /* x = Re(X e^{i theta}); the free part starts from (-x0, -v0) */
   double b = (-v0 - creal(r) * -x0) / cimag(r), decay = exp(creal(r) * theta), w = cimag(r) * theta;
   double free_x = decay * (-x0 * cos(w) + b * sin(w));
@@ -31,7 +32,7 @@ static void linear_period_is_the_closed_form(void **state)
   scene_scaled(&m, &sc, 5, 1);
   for (double tol = 1e-6; tol > 1e-14; tol *= 1e-2) {
     integrator *in;
-    assert_int_equal(integrate_new_regularised(m.n_states, tol, &in), HC_OK);
+    assert_int_equal(integrate_new_regularised(m.base, tol, &in), HC_OK);
     double y[SCENE_MAX_STATES] = {0};
     assert_int_equal(integrate_period(in, &m, y, NULL, NULL), HC_OK);
     double bound = (double)integrate_steps(in) * tol * 2.5; /* |states| <= 2.5: the tolerance is relative, too */
@@ -66,7 +67,7 @@ static void watched_period_is_the_same(void **state)
   scaled_model m;
   scene_scaled(&m, &sc, 5, 1);
   integrator *in;
-  assert_int_equal(integrate_new_regularised(m.n_states, 1e-10, &in), HC_OK);
+  assert_int_equal(integrate_new_regularised(m.base, 1e-10, &in), HC_OK);
   double y[SCENE_MAX_STATES] = {0}, z[SCENE_MAX_STATES] = {0};
   seen s = {.m = &m};
   assert_int_equal(integrate_period(in, &m, y, NULL, NULL), HC_OK);
@@ -88,7 +89,7 @@ static void a_period_has_no_memory(void **state)
   scene_scaled(&m, &sc, 7, 10);
   scene_scaled(&other, &sc, 8, 3);
   integrator *in;
-  assert_int_equal(integrate_new_regularised(m.n_states, 1e-10, &in), HC_OK);
+  assert_int_equal(integrate_new_regularised(m.base, 1e-10, &in), HC_OK);
   double y[SCENE_MAX_STATES] = {0.8, 0.6, 0.5}, z[SCENE_MAX_STATES] = {0.8, 0.6, 0.5}, w[SCENE_MAX_STATES] = {0};
   assert_int_equal(integrate_period(in, &m, y, NULL, NULL), HC_OK);
   assert_int_equal(integrate_period(in, &other, w, NULL, NULL), HC_OK);
@@ -105,18 +106,18 @@ static void failures_are_reported(void **state)
   scene_scaled(&m, &sc, 7, 10);
   integrator *in;
   double y[SCENE_MAX_STATES] = {0.5, 0, 0};
-  assert_int_equal(integrate_new_regularised(m.n_states, 1e-30, &in), HC_OK); /* no double is that good */
+  assert_int_equal(integrate_new_regularised(m.base, 1e-30, &in), HC_OK); /* no double is that good */
   assert_int_equal(integrate_period(in, &m, y, NULL, NULL), HC_INTEGRATOR);
   assert_int_equal(integrate_flag(in), CV_TOO_MUCH_ACC);
   CHECK_LE(fabs(y[0] - 0.5) + fabs(y[1]) + fabs(y[2]), 0, "the state stays");
   assert_int_equal(integrate_tolerance(in, 1e-8), HC_OK);
   assert_int_equal(integrate_period(in, &m, y, NULL, NULL), HC_OK); /* and works again */
-  m.f = NAN;
+  m.by_load = NAN;
   assert_int_equal(integrate_period(in, &m, y, NULL, NULL), HC_NOT_FINITE);
-  m.f = INFINITY;
+  m.by_load = INFINITY;
   assert_int_equal(integrate_period(in, &m, y, NULL, NULL), HC_NOT_FINITE);
   integrate_free(in);
-  assert_int_not_equal(integrate_new_regularised(m.n_states, -1, &in), HC_OK);
+  assert_int_not_equal(integrate_new_regularised(m.base, -1, &in), HC_OK);
   assert_null(in);
 }
 

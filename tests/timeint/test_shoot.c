@@ -38,18 +38,21 @@ static period_map map_of(scene sc, int law, double omega, double length)
   period_map map = {.length = length, .omega = omega};
   sc.transient.law = law;
   scene_scaled(&map.m, &sc, omega, length);
-  if (law == TRANSIENT_LAW_REGULARISED)
-    assert_int_equal(integrate_new_regularised(map.m.n_states, 1e-13, &map.in), HC_OK);
+  if (law == TRANSIENT_LAW_REGULARISED) assert_int_equal(integrate_new_regularised(map.m.base, 1e-13, &map.in), HC_OK);
   return map;
 }
 
-static double limit_of(const scaled_contact *c, double x) { return c->law.mu * c->law.kn * (c->sine * x + c->law.gap); }
+static double limit_of(const scaled_model *m, const scaled_contact *c, double x)
+{
+  return c->law.mu * c->law.kn * (scene_sine(m, c) * x + c->law.gap);
+}
 
 /* The contact's state at theta = 0. A traction within 1e-7 of its limit (the orbit is good for 1e-9) slips if it would
  * grow. */
-static how state_at(const scaled_contact *c, const double *z)
+static how state_at(const scaled_model *m, const double *z)
 {
-  const double limit = limit_of(c, z[SCALED_X]), t = c->law.kt * (c->cosine * z[SCALED_X] - z[SCALED_W]);
+  const scaled_contact *c = &m->contact[0];
+  const double limit = limit_of(m, c, z[SCALED_X]), t = c->law.kt * (scene_cosine(m, c) * z[SCALED_X] - z[SCALED_W]);
   if (limit <= 0) return APART;
   if (t >= limit - 1e-7 * c->law.kt && z[SCALED_P] > 0) return PLUS;
   return t <= -limit + 1e-7 * c->law.kt && z[SCALED_P] < 0 ? MINUS : STUCK;
@@ -75,7 +78,7 @@ static void differentiate(const period_map *map, const double *z, double h, doub
 {
   static const double smooth[] = {-1 / 12.0, 8 / 12.0, -8 / 12.0, 1 / 12.0}, kinked[] = {-1 / 4.0, 1, -1, 1 / 4.0};
   static const int at[] = {2, 1, -1, -2};
-  const how begins = state_at(&map->m.contact[0], z);
+  const how begins = state_at(&map->m, z);
   for (int q = 0; q < 3; ++q)
     for (int k = 0; k < 4; ++k) {
       double y[3] = {z[0], z[1], z[2]};
@@ -119,7 +122,7 @@ static void check_orbit(const scene *sc, int law, scene_state y, const timeint_r
   const double z[3] = {y.x / r->amplitude, y.v / (r->omega * r->amplitude), y.w[0] / r->amplitude};
   double image[3] = {z[0], z[1], z[2]}, phi[3][3], norm = 0, largest;
   CHECK_LE(r->closure, tolerance, "closure at %g", r->omega);
-  apply(&map, state_at(&map.m.contact[0], z), image);
+  apply(&map, state_at(&map.m, z), image);
   differentiate(&map, z, law == TRANSIENT_LAW_EXACT ? 1e-4 : 1e-5, phi);
   for (int i = 0; i < 9; ++i) norm = hypot(norm, phi[i / 3][i % 3]);
   for (int i = 0; i < 3; ++i)
