@@ -62,8 +62,8 @@ static void begin(motion_single *s, const scaled_model *m, const contact_track *
   s->motion = (modal_motion){.n = 1, .theta = theta, .mode = &s->mode, .q = &s->q, .p = &s->p, .d = &s->d, .f = &s->f};
   s->end = point_in(s->numbers[0]);
   s->scratch = point_in(s->numbers[1]);
-  const double force = s->d + creal(s->f) * cos(theta) - cimag(s->f) * sin(theta) - s->mode.c * s->p - k * s->q;
-  s->way = s->p != 0 ? sign_of(s->p) : sign_of(force);
+  s->way = sign_of(s->p);
+  if (s->way == 0) s->way = sign_of(s->d + creal(s->f) * cos(theta) - cimag(s->f) * sin(theta) - k * s->q);
 }
 
 /* All guards of the contacts, and that of the turn. */
