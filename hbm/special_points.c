@@ -299,6 +299,26 @@ static hc_status locate_neimark_sacker(detector *d, int k, const test_values *be
   return insert_special(d, change.x, HBM_NEIMARK_SACKER, &s.here, &s.here);
 }
 
+/* Do the ends of segment k lie at one place, to what special_points.h promises? What changes between them is then
+ * located; planes across a chord as short as rounding need not meet the curve (at a kink, where it also turns). */
+static bool is_one_place(const detector *d, int k)
+{
+  const hbm_point *p = &d->c->points[k];
+  const double *X = hbm_curve_X(d->c, k);
+  return fabs(p[1].omega - p[0].omega) <= SAME_OMEGA * p[0].omega &&
+         distance_2(d->c->n_coef, X, hbm_curve_X(d->c, k + 1)) <= SAME_AMPLITUDE * norm_2(d->c->n_coef, X);
+}
+
+/* The end of segment k, where `kind` happens on the branch of its start. */
+static hc_status take_end(detector *d, int k, hbm_special_kind kind, const test_values *before,
+                          const test_values *after)
+{
+  memcpy(d->x.X, hbm_curve_X(d->c, k + 1), (size_t)d->c->n_coef * sizeof(double));
+  d->x.point = d->c->points[k + 1];
+  d->x.point.branch = d->c->points[k].branch;
+  return insert_special(d, 1, kind, before, after);
+}
+
 static hc_status search_segment(detector *d, int k, const test_values *a, const test_values *b)
 {
   hc_status changes = HC_OK, turning = HC_OK, doubling = HC_OK, torus = HC_OK;
@@ -308,6 +328,12 @@ static hc_status search_segment(detector *d, int k, const test_values *a, const 
   if ((a->d_omega > 0) != (b->d_omega > 0)) turning = locate_root(d, k, HBM_TURNING_POINT, a->d_omega, b->d_omega);
   if ((a->flip > 0) != (b->flip > 0)) doubling = locate_root(d, k, HBM_PERIOD_DOUBLING, a->flip, b->flip);
   if (a->pairs_outside != b->pairs_outside) torus = locate_neimark_sacker(d, k, a);
+  if (is_one_place(d, k)) {
+    if (changes != HC_OK) changes = take_end(d, k, HBM_CONTACT_CHANGE, a, b);
+    if (turning != HC_OK) turning = take_end(d, k, HBM_TURNING_POINT, b, b);
+    if (doubling != HC_OK) doubling = take_end(d, k, HBM_PERIOD_DOUBLING, b, b);
+    torus = HC_OK; /* a pair that jumps across the circle is not on it */
+  }
   return changes != HC_OK ? changes : turning != HC_OK ? turning : doubling != HC_OK ? doubling : torus;
 }
 

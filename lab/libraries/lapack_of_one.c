@@ -1,8 +1,9 @@
 /* lapack_of_one.c - LAPACK for one degree of freedom: Debian has no Fortran compiler for WebAssembly. Of the routines
- * that numerics/dense.c calls, an oscillator's harmonic balance needs the pivoted QR factors of a matrix with one
- * row, LU factors and products of real matrices, written plainly, and the LU factors and the inverse of a complex number. Everything else belongs to structures, which the lab refuses by name
- * (lab_scene.h), or has another way (eigenvectors: a matrix exponential); asked for all the same, it answers as
- * LAPACK does to an argument that is out of range, and dense.h with a status. Arguments are LAPACK's. */
+ * that numerics/dense.c calls, an oscillator's harmonic balance needs the pivoted QR factors of a matrix with one row,
+ * LU factors and products of real matrices, and the LU factors and the inverse of a complex number. Everything else
+ * belongs to structures, which the lab refuses by name (lab_scene.h), or has another way (eigenvectors: a matrix
+ * exponential); asked for all the same, it answers as LAPACK does to an argument that is out of range, and dense.h
+ * with a status. Arguments are LAPACK's. */
 #include <complex.h>
 #include <math.h>
 #include <stddef.h>
