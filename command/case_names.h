@@ -26,7 +26,7 @@ const char *cli_contact_name(const cli_common *common, int j, char text[CLI_NAME
     "response", key, "NAME", 0, "Only this response of the case, as the column `response` calls it", 1                 \
   }
 
-/* Of the case's responses only that one stays; all of them for NULL. 0, or the exit code after the message. */
+/* Only that one of the case's responses stays; all of them for NULL. 0, or the exit code after the message. */
 int cli_keep_response(const cli_common *common, scene *sc, const char *name);
 
 #endif

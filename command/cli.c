@@ -324,7 +324,7 @@ void cli_take_frequencies(const cli_common *common, const number_list *at, scene
   if (outside && !common->quiet) warn_outside(common, sc, first, outside - 1);
 }
 
-/* Of a structure that cannot be solved at rest: the motion that nothing holds there, by name. */
+/* A structure that cannot be solved at rest: names the motion that nothing holds there. */
 static bool advice_on_free_motion(const scene_structure *s, char text[ADVICE_TEXT])
 {
   message m;
@@ -341,7 +341,7 @@ static bool advice_on_free_motion(const scene_structure *s, char text[ADVICE_TEX
   return is_free;
 }
 
-/* Of a structure that does not settle: a mode that nothing damps. */
+/* A structure that does not settle: names a mode that nothing damps. */
 static bool advice_on_undamped_mode(const scene *sc, char text[ADVICE_TEXT])
 {
   double omega;

@@ -45,7 +45,7 @@ static void wait_unlocked(keep_found *r, int ms)
   pthread_cond_timedwait(&r->ended, &r->found, &until);
 }
 
-static void *watch(void *self)
+static void *wait_for_signal(void *self)
 {
   keep_found *r = self;
   pthread_mutex_lock(&r->found);
@@ -68,7 +68,7 @@ static void keep_found_begin(keep_found *r, int (*write)(void *self), void *self
   *r = (keep_found){.write = write, .self = self};
   pthread_mutex_init(&r->found, NULL);
   pthread_cond_init(&r->ended, NULL);
-  r->watched = pthread_create(&r->thread, NULL, watch, r) == 0;
+  r->watched = pthread_create(&r->thread, NULL, wait_for_signal, r) == 0;
   if (r->watched) progress_hold(true);
 }
 

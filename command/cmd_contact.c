@@ -242,7 +242,7 @@ static hc_status contact_force_of(const contact_motion *m, hbm_restart restart, 
   return st;
 }
 
-/* ---- in words what the exact law does along it ------------------------------------------------------------------------------------- */
+/* ---- in words what the exact law does along it ------------------------------------------- */
 
 enum { SHOWN = 16 };
 
@@ -406,7 +406,7 @@ static error_t read_option(int key, char *text, struct argp_state *state)
 /* A set: the coefficients for one number of samples. */
 enum { MAX_SETS = 17, MOST_NUMBERS = CONTACT_MOST_DOF * CONTACT_MOST_COEF };
 
-/* ---- one set for each number of samples ----------------------------------------------------------------------------------- */
+/* ---- one set for each number of samples ------------------------------------------- */
 
 /* Coefficients for each number of samples n_time[n_sets] into F[n_sets][MOST_NUMBERS]. 0 or the exit code after the
  * message. */
@@ -478,7 +478,7 @@ static int list_sets(const cli_common *common, const contact_options *own, int n
   return n_sets;
 }
 
-static int draw(const cli_common *common, const char *path, const contact_motion *m)
+static int draw_contact(const cli_common *common, const char *path, const contact_motion *m)
 {
   plot_order drawing = {.path = path};
   const plot_motion motion = {.first = m->one < 0 ? 0 : m->one,
@@ -510,7 +510,7 @@ static int put_forces(const cli_common *common, const contact_options *own, cons
   if (!F) return cli_solver_failed(common, CLI_HBM, "the contact force", HC_NO_MEMORY, 0);
   int code = evaluate(common, m, n_time, n_sets, F);
   if (!code) code = write_table(common, m, n_time, n_sets, F);
-  if (!code && own->plot) code = draw(common, own->plot, m);
+  if (!code && own->plot) code = draw_contact(common, own->plot, m);
   free(F);
   return code;
 }

@@ -153,7 +153,8 @@ static hc_status describe_structure_value(const scene_structure *s, const field 
 
 /* ---- what follows ---------------------------------------------------------------------------------- */
 
-static void add(case_derived *out, int *n, const char *name, double value, const char *unit, const char *meaning)
+static void add_derived(case_derived *out, int *n, const char *name, double value, const char *unit,
+                        const char *meaning)
 {
   case_derived *d = &out[(*n)++];
   *d = (case_derived){.value = value, .unit = unit, .meaning = meaning};
@@ -164,10 +165,10 @@ static void add(case_derived *out, int *n, const char *name, double value, const
 static hc_status lowest(const model *m, bool stuck, double *omega)
 {
   const size_t n = (size_t)m->n;
-  double *room = malloc(n * (n + 1) * sizeof *room);
-  hc_status st = room ? model_modes(m, stuck, room, room + n) : HC_NO_MEMORY;
-  if (st == HC_OK) *omega = sqrt(room[0]);
-  free(room);
+  double *modes = malloc(n * (n + 1) * sizeof *modes);
+  hc_status st = modes ? model_modes(m, stuck, modes, modes + n) : HC_NO_MEMORY;
+  if (st == HC_OK) *omega = sqrt(modes[0]);
+  free(modes);
   return st;
 }
 
@@ -183,14 +184,15 @@ static hc_status describe_structure_derive(const scene *sc, case_derived *out, i
   if (st == HC_OK) st = lowest(m, true, &stuck);
   model_free(m);
   if (st != HC_OK) return st;
-  add(out, n, "degrees_of_freedom", s->n, "1", "the size of M, C and K");
-  add(out, n, "loads", s->n_loads, "1", "in the list `forcing`");
-  add(out, n, "contacts", s->n_contacts, "1", "in the list `contacts`");
-  add(out, n, "responses", structure_response_count(s), "1", "what is reported");
-  add(out, n, "omega_open", open, "rad/time", "the lowest natural frequency, every contact open; all: hbmcheck modes");
-  add(out, n, "omega_stuck", stuck, "rad/time", "the lowest natural frequency, every contact stuck");
-  add(out, n, "frequency_open", open / TWO_PI, "cycles/time", "omega_open / (2 pi)");
-  add(out, n, "frequency_stuck", stuck / TWO_PI, "cycles/time", "omega_stuck / (2 pi)");
+  add_derived(out, n, "degrees_of_freedom", s->n, "1", "the size of M, C and K");
+  add_derived(out, n, "loads", s->n_loads, "1", "in the list `forcing`");
+  add_derived(out, n, "contacts", s->n_contacts, "1", "in the list `contacts`");
+  add_derived(out, n, "responses", structure_response_count(s), "1", "what is reported");
+  add_derived(out, n, "omega_open", open, "rad/time",
+              "the lowest natural frequency, every contact open; all: hbmcheck modes");
+  add_derived(out, n, "omega_stuck", stuck, "rad/time", "the lowest natural frequency, every contact stuck");
+  add_derived(out, n, "frequency_open", open / TWO_PI, "cycles/time", "omega_open / (2 pi)");
+  add_derived(out, n, "frequency_stuck", stuck / TWO_PI, "cycles/time", "omega_stuck / (2 pi)");
   return HC_OK;
 }
 
@@ -342,7 +344,7 @@ static hc_status put_value(table *t, const described *d, const field *f, int j)
   return st;
 }
 
-/* Of a structure: the parts of it that f is about. j: the entry of a list. */
+/* The parts of a structure that f is about. j: the entry of a list. */
 static hc_status put_part(table *t, const described *d, const field *f, int j)
 {
   char path[FIELD_PATH], *text;

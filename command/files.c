@@ -13,7 +13,7 @@ typedef struct named_file {
   file_identity is;
 } named_file;
 
-static bool put(named_file *list, int *n, cli_file f)
+static bool add_file(named_file *list, int *n, cli_file f)
 {
   if (f.path && !strcmp(f.path, "-") && f.use != CLI_RESULTS) f.path = NULL;
   list[*n].as = f;
@@ -21,17 +21,17 @@ static bool put(named_file *list, int *n, cli_file f)
 }
 
 /* Everything into list[common->n_arguments + 1 + n], *found of it. False: out of memory. */
-static bool put_all(const cli_common *common, int n, const cli_file *files, named_file *list, int *found)
+static bool add_all_files(const cli_common *common, int n, const cli_file *files, named_file *list, int *found)
 {
-  bool whole = put(list, found, (cli_file){"--output", common->output, CLI_OUTPUT});
+  bool whole = add_file(list, found, (cli_file){"--output", common->output, CLI_OUTPUT});
   for (int i = 0; i < common->n_arguments && common->argument_is && whole; ++i)
-    whole = put(list, found, (cli_file){common->argument_is, common->arguments[i], CLI_INPUT});
+    whole = add_file(list, found, (cli_file){common->argument_is, common->arguments[i], CLI_INPUT});
   for (int i = 0; i < n && whole; ++i)
-    if (files[i].path) whole = put(list, found, files[i]);
+    if (files[i].path) whole = add_file(list, found, files[i]);
   return whole;
 }
 
-/* Is it a name that the system gives to a stream of ours? Two outputs are mixed there because somebody asked for it. */
+/* Is it a name that the system gives to a stream of ours? Two outputs are mixed there because the user asked for it. */
 static bool is_stream(const cli_file *f)
 {
   return !f->path || !strncmp(f->path, "/dev/", 5) || !strncmp(f->path, "/proc/", 6);
@@ -69,7 +69,7 @@ int cli_check_files(const cli_common *common, int n, const cli_file *files)
 {
   int found = 0, code = 0;
   named_file *list = calloc((size_t)common->n_arguments + 1 + (size_t)n, sizeof *list);
-  if (!list || !put_all(common, n, files, list, &found)) {
+  if (!list || !add_all_files(common, n, files, list, &found)) {
     cli_message(common, "%s", hc_status_text(HC_NO_MEMORY));
     code = EXIT_NO_SOLUTION;
   }

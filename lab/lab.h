@@ -104,9 +104,10 @@ int lab_transients(lab *l, int n, const double *omega);
 
 /* ---- error over H and N ---- */
 
-/* Of the lab's motion, a solution at omega: for each of compare.harmonics, exact forces and each of compare.samples: H,
- * N (0: exact), status, amplitude, error of it against the closed form's orbit next to that solution, relative;
- * Newton's systems put to solve it. HC_BAD_INPUT: no motion, or no omega. Errors of timeint_orbit. */
+/* The errors of the lab's motion, a solution at omega: for each of compare.harmonics, exact forces and each of
+ * compare.samples: H, N (0: exact), status, amplitude, error of it against the closed form's orbit next to that
+ * solution, relative; Newton's systems put to solve it. HC_BAD_INPUT: no motion, or no omega. Errors of timeint_orbit.
+ */
 int lab_errors(lab *l, double omega);
 
 #endif

@@ -50,7 +50,7 @@ static void ask_about_curves(lab *l, const numbers *omegas)
   }
 }
 
-/* Of the exact curve that ask_about_curves has asked for. */
+/* About the exact curve that ask_about_curves has asked for. */
 static void ask_about_neighbours(lab *l, const numbers *omegas)
 {
   char question[64];

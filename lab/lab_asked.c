@@ -44,7 +44,7 @@ static int take_motion(lab *l)
   return 0;
 }
 
-static int ask(lab *l, const char *question)
+static int answer_question(lab *l, const char *question)
 {
   if (!strcmp(question, "read")) return read_case(l);
   if (!strcmp(question, "motion")) return take_motion(l);
@@ -77,7 +77,7 @@ int main(void)
   int status = 0;
   lab *l = lab_new();
   if (!l) return BUG;
-  while (scanf("%15s", question) == 1) status = ask(l, question);
+  while (scanf("%15s", question) == 1) status = answer_question(l, question);
   print(l, status);
   lab_free(l);
   return 0;

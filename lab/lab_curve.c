@@ -102,7 +102,7 @@ static hc_status solve_next_to(hbm_solver *s, int n, const double *exact, double
   return st == HC_OK ? HC_NOT_CONVERGED : st;
 }
 
-/* Of point k of the exact curve *c; s has samples. */
+/* The neighbour of point k of the exact curve *c; s has samples. */
 static hc_status add_neighbour(lab *l, hbm_solver *s, const hbm_curve *c, int k)
 {
   double X[LAB_MOST_COEF];
@@ -119,7 +119,7 @@ static hc_status add_neighbour(lab *l, hbm_solver *s, const hbm_curve *c, int k)
   return HC_OK;
 }
 
-/* Of all points of *c. */
+/* The neighbours of all points of *c. */
 static hc_status add_neighbours(lab *l, const hbm_curve *c)
 {
   scene sc;

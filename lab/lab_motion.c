@@ -3,13 +3,12 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/constants.h"
 #include "hbm/aft.h"
 #include "hbm/exact_force.h"
 #include "hbm/slider.h"
 #include "lab/lab_inside.h"
 #include "numerics/series.h"
-
-static const double two_pi = 6.283185307179586476925286766559;
 
 enum { OF_CONTACT = 4 /* columns: u, v, N, T */, BEFORE = 2 /* th, x */ };
 
@@ -31,7 +30,7 @@ static hc_status add_instants(lab *l, int n, int n_contacts, const moving_contac
   for (int i = 0; i < n; ++i) {
     double *row = lab_row(l);
     if (!row) return HC_NO_MEMORY;
-    const double th = two_pi * i / n;
+    const double th = TWO_PI * i / n;
     row[0] = th;
     row[1] = series_at(l->n_harm, l->X, cos(th), sin(th)).x;
     for (int j = 0; j < n_contacts; ++j) {
@@ -53,7 +52,7 @@ static double *instant(lab *l, int i, int j)
 static const contact_piece *piece_at(int n, const contact_piece *piece, double th)
 {
   for (int k = 0; k < n; ++k)
-    if ((piece[k].from <= th && th < piece[k].to) || (piece[k].from <= th + two_pi && th + two_pi < piece[k].to))
+    if ((piece[k].from <= th && th < piece[k].to) || (piece[k].from <= th + TWO_PI && th + TWO_PI < piece[k].to))
       return &piece[k];
   return NULL;
 }
@@ -75,27 +74,27 @@ static hc_status exact_tractions(lab *l, int n, const model *m, const moving_con
     const contact_piece *pieces = exact_force_pieces(e, j, &n_pieces);
     for (int i = 0; i < n; ++i) {
       double *at = instant(l, i, j);
-      at[3] = true_traction(&contacts[j].law, piece_at(n_pieces, pieces, two_pi * i / n), at[0], at[2]);
+      at[3] = true_traction(&contacts[j].law, piece_at(n_pieces, pieces, TWO_PI * i / n), at[0], at[2]);
     }
   }
   exact_force_free(e);
   return st;
 }
 
-/* Of the n instants as samples. */
+/* The tractions by the n instants as samples. */
 static hc_status sampled_tractions(lab *l, int n, const model *m, const moving_contact *contacts)
 {
   double *x = calloc(3 * (size_t)n, sizeof *x), *T = x ? x + n : NULL, *again = x ? T + n : NULL;
-  stretch *room = calloc(2 * (size_t)n, sizeof *room);
-  hc_status st = x && room ? HC_OK : HC_NO_MEMORY;
+  stretch *states = calloc(2 * (size_t)n, sizeof *states);
+  hc_status st = x && states ? HC_OK : HC_NO_MEMORY;
   for (int i = 0; i < n && st == HC_OK; ++i) x[i] = l->values[(size_t)i * (size_t)l->columns + 1];
   for (int j = 0; j < m->n_contacts && st == HC_OK; ++j) {
     const slider_motion motion = {x, x, contacts[j].cu[0], contacts[j].cv[0], 1, 0};
-    slider_follow(&contacts[j].law, l->sc.hbm.restart, n, &motion, T, again, room, room + n);
+    slider_follow(&contacts[j].law, l->sc.hbm.restart, n, &motion, T, again, states, states + n);
     for (int i = 0; i < n; ++i) instant(l, i, j)[3] = T[i];
   }
   free(x);
-  free(room);
+  free(states);
   return st;
 }
 

@@ -21,15 +21,15 @@ struct progress {
   double start, drawn; /* [s] on the monotonic clock */
 };
 
-static const struct timespec patience = {.tv_nsec = 700000000}; /* for the work to end by itself */
+static const struct timespec grace = {.tv_nsec = 700000000}; /* for the work to end by itself */
 
 /* Variables outside a function: a signal handler gets no argument, so what it needs has to be at a fixed place. */
 static volatile sig_atomic_t stop_signal; /* written by the handler alone, never cleared */
 static volatile sig_atomic_t line_drawn;  /* the progress line stands on the terminal */
-static volatile sig_atomic_t stop_code;   /* exit code when patience is over */
+static volatile sig_atomic_t stop_code;   /* exit code when the grace period is over */
 static volatile sig_atomic_t child;       /* process id, 0: none */
-static volatile sig_atomic_t patient;     /* somebody else ends the program */
-static timer_t out_of_patience;           /* made before the handlers are installed */
+static volatile sig_atomic_t caller_ends; /* the program, not this file: progress_hold */
+static timer_t grace_is_over;             /* made before the handlers are installed */
 static bool can_wait;                     /* it was */
 
 static const char erase[] = "\r\033[K";
@@ -39,7 +39,7 @@ static void stop_at_once(int number)
 {
   static const char words[] = "hbmcheck: stopped on request; what was under way is lost, files are whole or as they "
                               "were\n";
-  if (number && patient) return;
+  if (number && caller_ends) return;
   if (child > 0) kill(child, SIGKILL);
   output_abandon_all();
   ssize_t said = line_drawn ? write(STDERR_FILENO, erase, sizeof erase - 1) : 0;
@@ -48,26 +48,26 @@ static void stop_at_once(int number)
   _exit(stop_code);
 }
 
-static void start_patience(void)
+static void start_grace(void)
 {
   const int before = errno;
-  const struct itimerspec once = {.it_value = patience};
+  const struct itimerspec once = {.it_value = grace};
   struct sigaction end = {.sa_handler = stop_at_once};
   sigemptyset(&end.sa_mask);
-  if (can_wait && sigaction(SIGALRM, &end, NULL) == 0) timer_settime(out_of_patience, 0, &once, NULL);
+  if (can_wait && sigaction(SIGALRM, &end, NULL) == 0) timer_settime(grace_is_over, 0, &once, NULL);
   errno = before;
 }
 
 static void on_signal(int number)
 {
-  if (!stop_signal) start_patience();
+  if (!stop_signal) start_grace();
   stop_signal = number;
 }
 
 void progress_hold(bool held)
 {
-  patient = held;
-  if (!held && stop_signal) start_patience();
+  caller_ends = held;
+  if (!held && stop_signal) start_grace();
 }
 
 _Noreturn void progress_stop(void)
@@ -89,8 +89,7 @@ void progress_install_signals(int exit_code)
   sigemptyset(&heard);
   sigaddset(&heard, SIGALRM);
   stop_code = exit_code;
-  can_wait =
-      timer_create(CLOCK_MONOTONIC, &alarm, &out_of_patience) == 0 && sigprocmask(SIG_UNBLOCK, &heard, NULL) == 0;
+  can_wait = timer_create(CLOCK_MONOTONIC, &alarm, &grace_is_over) == 0 && sigprocmask(SIG_UNBLOCK, &heard, NULL) == 0;
   for (int i = 0; i < 3; ++i) {
     struct sigaction old, action = {.sa_handler = on_signal, .sa_flags = SA_RESTART | (int)SA_RESETHAND};
     sigemptyset(&action.sa_mask);

@@ -20,10 +20,11 @@ typedef struct progress progress;
  * was ignored (nohup) stays ignored. Call once, early. */
 void progress_install_signals(int exit_code);
 
-/* While held, nobody's patience ends the program: the caller does (command/cmd_compare.c, keep_found). Let go after a signal, 0.7 s begin. */
+/* While held, the program does not end 0.7 s after a signal: the caller ends it (command/cmd_compare.c, keep_found).
+ * Let go after a signal, 0.7 s begin. */
 void progress_hold(bool held);
 
-/* Ends the program as at the end of patience. */
+/* Ends the program as at the end of the 0.7 s. */
 _Noreturn void progress_stop(void);
 
 /* Erases the line, if one is drawn; from any thread, once ticks answer false. */

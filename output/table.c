@@ -201,7 +201,7 @@ void table_show_all(table *t)
   t->spare = NULL;
 }
 
-int table_rows(const table *t) { return t && t->n_columns ? (int)(t->n_cells / (size_t)t->n_columns) : 0; }
+int table_rows(const table *t) { return table_row_count(t); }
 
 void table_write_csv_text(const char *s, FILE *to)
 {

@@ -67,7 +67,7 @@ static void end_line(line_writer *l)
 
 /* Exponent of v, finite and not 0, rounded to 7 significant digits, and how many of the 6 mantissa decimals are
  * needed. */
-static void measure(double v, int *exponent, int *mantissa)
+static void significant_digits(double v, int *exponent, int *mantissa)
 {
   char text[NUMBER_ROOM];
   snprintf(text, sizeof text, "%.*e", SIGNIFICANT - 1, v);
@@ -80,11 +80,11 @@ static void measure(double v, int *exponent, int *mantissa)
 static void choose_notation(const table *t, int column, column_style *style)
 {
   int largest = 0, decimals = 0, mantissa = 0;
-  for (int i = 0; i < table_rows(t); ++i) {
+  for (int i = 0; i < table_row_count(t); ++i) {
     const table_cell *cell = table_at(t, i, column);
     if (!cell->there || !isfinite(cell->as.real) || cell->as.real == 0) continue;
     int e, m;
-    measure(cell->as.real, &e, &m);
+    significant_digits(cell->as.real, &e, &m);
     if (e > largest) largest = e;
     if (m > mantissa) mantissa = m;
     if (m - e > decimals) decimals = m - e;
@@ -93,18 +93,18 @@ static void choose_notation(const table *t, int column, column_style *style)
   style->decimals = style->scientific ? mantissa : decimals;
 }
 
-/* The cell's text, in `room` unless it is a text already. */
-static const char *cell_text(const table *t, int row, int column, const column_style *style, char room[NUMBER_ROOM])
+/* The cell's text, in `digits` unless it is a text already. */
+static const char *cell_text(const table *t, int row, int column, const column_style *style, char digits[NUMBER_ROOM])
 {
   const table_cell *cell = table_at(t, row, column);
   if (!cell->there) return "";
   switch (t->columns[column].kind) {
   case TABLE_TEXT: return cell->as.text;
-  case TABLE_INTEGER: snprintf(room, NUMBER_ROOM, "%ld", cell->as.integer); return room;
+  case TABLE_INTEGER: snprintf(digits, NUMBER_ROOM, "%ld", cell->as.integer); return digits;
   case TABLE_REAL:
     if (cell->as.real == 0) return "0";
-    snprintf(room, NUMBER_ROOM, style->scientific ? "%.*e" : "%.*f", style->decimals, cell->as.real);
-    return room;
+    snprintf(digits, NUMBER_ROOM, style->scientific ? "%.*e" : "%.*f", style->decimals, cell->as.real);
+    return digits;
   }
   return "";
 }
@@ -113,9 +113,9 @@ static void choose_style(const table *t, int column, column_style *style)
 {
   *style = (column_style){.width = 0};
   if (t->columns[column].kind == TABLE_REAL) choose_notation(t, column, style);
-  for (int i = 0; i < table_rows(t); ++i) {
-    char room[NUMBER_ROOM];
-    int width = utf8_width(cell_text(t, i, column, style, room));
+  for (int i = 0; i < table_row_count(t); ++i) {
+    char digits[NUMBER_ROOM];
+    int width = utf8_width(cell_text(t, i, column, style, digits));
     if (width > style->width) style->width = width;
   }
   if (style->width > MAX_TEXT_WIDTH) style->width = MAX_TEXT_WIDTH;
@@ -155,7 +155,7 @@ static int shown_width(const layout *l)
 
 static bool is_empty(const table *t, int column)
 {
-  for (int i = 0; i < table_rows(t); ++i)
+  for (int i = 0; i < table_row_count(t); ++i)
     if (table_at(t, i, column)->there) return false;
   return true;
 }
@@ -193,9 +193,9 @@ static void write_line(line_writer *l, const char *text)
 static void write_row(line_writer *w, const layout *l, int row, int from, int to)
 {
   for (int j = l->first; j < to; ++j) {
-    char room[NUMBER_ROOM];
+    char digits[NUMBER_ROOM];
     if (j > l->first && j < from) continue;
-    write_cell(w, l, j, row < 0 ? l->t->columns[j].name : cell_text(l->t, row, j, &l->style[j], room));
+    write_cell(w, l, j, row < 0 ? l->t->columns[j].name : cell_text(l->t, row, j, &l->style[j], digits));
   }
   end_line(w);
 }
@@ -217,7 +217,7 @@ static void write_blocks(line_writer *w, const layout *l)
   for (int from = l->first, to; from <= l->last; from = to) {
     to = end_of_block(l, from);
     if (from > l->first) end_line(w);
-    for (int row = -1; row < table_rows(l->t); ++row) write_row(w, l, row, from, to);
+    for (int row = -1; row < table_row_count(l->t); ++row) write_row(w, l, row, from, to);
   }
 }
 

@@ -40,7 +40,7 @@ static hc_status write_row(const table *t, int row, FILE *to)
 /* `[`, the rows one a line, `]`. */
 static hc_status write_rows(const table *t, FILE *to)
 {
-  int n = table_rows(t);
+  int n = table_row_count(t);
   hc_status st = HC_OK;
   fputs("[", to);
   for (int i = 0; i < n && st == HC_OK; ++i) {

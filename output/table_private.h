@@ -28,6 +28,11 @@ struct table {
   hc_status status;         /* HC_OK, or what went wrong first: nothing is appended any more */
 };
 
+static inline int table_row_count(const table *t)
+{
+  return t && t->n_columns ? (int)(t->n_cells / (size_t)t->n_columns) : 0;
+}
+
 static inline const table_cell *table_at(const table *t, int row, int column)
 {
   return &t->cells[(size_t)row * (size_t)t->n_columns + (size_t)column];

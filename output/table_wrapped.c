@@ -27,7 +27,7 @@ static int width_of(const char *text, size_t bytes)
 static int widest(const table *t, const wrapped *w, int column)
 {
   int width = 0;
-  for (int i = 0; i <= table_rows(t); ++i) {
+  for (int i = 0; i <= table_row_count(t); ++i) {
     int own = utf8_width(w->texts[i * t->n_columns + column]);
     if (own > width) width = own;
   }
@@ -37,7 +37,7 @@ static int widest(const table *t, const wrapped *w, int column)
 static int longest_word(const table *t, const wrapped *w, int column)
 {
   int longest = 0;
-  for (int i = 0; i <= table_rows(t); ++i)
+  for (int i = 0; i <= table_row_count(t); ++i)
     for (const char *at = w->texts[i * t->n_columns + column]; at && *at; at += strspn(at, " ")) {
       const size_t bytes = strcspn(at, " ");
       const int own = width_of(at, bytes);
@@ -157,7 +157,7 @@ static bool copy_texts(const table *t, const wrapped *w)
   if (!w->texts || !w->widths || !w->words || !w->shown || !w->rest) return false;
   for (int j = 0; j < t->n_columns; ++j)
     if (!(w->texts[j] = strdup(t->columns[j].name))) return false;
-  for (int i = 0; i < table_rows(t); ++i)
+  for (int i = 0; i < table_row_count(t); ++i)
     for (int j = 0; j < t->n_columns; ++j)
       if (!(w->texts[(i + 1) * t->n_columns + j] = cell_text(t, i, j))) return false;
   return true;
@@ -165,7 +165,7 @@ static bool copy_texts(const table *t, const wrapped *w)
 
 hc_status table_write_wrapped(const table *t, FILE *to)
 {
-  size_t columns = (size_t)t->n_columns, cells = columns * ((size_t)table_rows(t) + 1);
+  size_t columns = (size_t)t->n_columns, cells = columns * ((size_t)table_row_count(t) + 1);
   wrapped w = {calloc(cells, sizeof *w.texts), calloc(columns, sizeof *w.widths), calloc(columns, sizeof *w.words),
                calloc(columns, sizeof *w.shown), calloc(columns, sizeof *w.rest)};
   bool good = copy_texts(t, &w);
@@ -176,7 +176,7 @@ hc_status table_write_wrapped(const table *t, FILE *to)
     const int shown = table_shown(t, w.shown);
     narrow_columns(t, &w);
     if (*t->title) fprintf(to, "%s\n", t->title);
-    for (int i = 0, lines = 1; i <= table_rows(t); ++i) {
+    for (int i = 0, lines = 1; i <= table_row_count(t); ++i) {
       if (i > 1 && lines > 1) putc('\n', to);
       lines = write_row(t, &w, i, to);
     }

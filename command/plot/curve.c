@@ -256,7 +256,7 @@ static int count_specials(const curve_shape *c, hbm_special_kind kind)
   return n;
 }
 
-/* Of data: one curve's differ from another's. */
+/* The name of a data block; one curve's differ from another's. */
 static const char *block_name(const char *name, const curve_shape *c, char text[32])
 {
   snprintf(text, 32, "%s%d", name, c->among);

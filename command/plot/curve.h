@@ -26,7 +26,7 @@ typedef struct curve_shape {
 /* Response r in words that a label can say; "x" of an oscillator. */
 void curve_response_name(const scene *sc, int r, char text[RESPONSE_NAME]);
 
-/* Of a curve that was computed, by the model's first response. */
+/* The shape of a curve that was computed, by the model's first response. */
 hc_status curve_shape_of(const scene *sc, hbm_solver *s, const hbm_curve *curve, curve_shape *out);
 /* The same curve, of which `first` is the shape, by response r; without what the other end finds. */
 hc_status curve_shape_response(const curve_shape *first, const scene *sc, hbm_solver *s, const hbm_curve *curve, int r,
@@ -44,7 +44,7 @@ hc_status curve_figure_open(figure *g, plot_order *p, const scene *sc, int width
  * background of something else. */
 void curve_shape_data(figure *g, const curve_shape *c);
 void curve_shape_items(figure *g, const curve_shape *c, bool quiet);
-/* Of several, c[n], after the last one's items: what the dashes mean, in the key, and all special points. */
+/* After the last items of several curves c[n]: what the dashes mean, in the key, and all special points. */
 void curve_shapes_rest(figure *g, int n, const curve_shape *c);
 /* Axes and ranges of amplitude over omega; the label names the response where it is the only one. */
 void curve_shape_axes(figure *g, const scene *sc, const curve_shape *c);

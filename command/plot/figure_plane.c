@@ -186,7 +186,7 @@ static void draw_both(figure *g, const scene *sc, const plane_history *w, const 
   figure_draw(g);
 }
 
-static hc_status follow(const plot_motion *m, plane_history *w)
+static hc_status follow_traction(const plot_motion *m, plane_history *w)
 {
   follow_motion(m, w);
   const hc_status st = m->circle ? evaluate_circle(m, w) : evaluate_square(m, w);
@@ -206,7 +206,7 @@ hc_status plot_contact_plane(plot_order *p, const scene *sc, const plot_motion *
   }
   plane_history *w = calloc(1, sizeof *w);
   hc_status st = figure_open(&g, p, 1100, 580);
-  if (st == HC_OK) st = w ? follow(m, w) : HC_NO_MEMORY;
+  if (st == HC_OK) st = w ? follow_traction(m, w) : HC_NO_MEMORY;
   if (st == HC_OK) {
     for (int k = 0; k < PHASES; ++k) there[k] = phases_write(&g, 0, k, POINTS, w->state, w->t[0], w->t[1]);
     write_ways(&g, w);

@@ -118,7 +118,7 @@ static json_t *response_object(const scene *sc, const comparison *c, int r, json
                    "specials", specials, "transient", transient_rows(c, r));
 }
 
-/* Of the first response, and into *others a list of the same for the others of a structure, up to
+/* The first response's curve, and into *others a list of the same for the others of a structure, up to
  * CURVE_MOST_RESPONSES in all (special points are the first one's): {curve: columns of points; turned: the same, with
  * harmonic 0 dropped if the scene keeps it, else kept; specials; transient: the rows' results}, read by response.js. A
  * curve that stops early is shown as far as it goes. HC_INTERRUPTED, HC_NO_MEMORY. */
@@ -155,8 +155,8 @@ static int nonlinear_omegas(const comparison *c, double all[NUMBER_LIST_MAX])
   return n;
 }
 
-/* Of those the one nearest to the peak, and others spread over the rest, ascending; how many. *first: the index of the
- * nearest. */
+/* Chooses among them the one nearest to the peak, and others spread over the rest, ascending; how many. *first: the
+ * index of the nearest. */
 static int choose_omegas(const comparison *c, double *omega, int *first)
 {
   double all[NUMBER_LIST_MAX];

@@ -52,7 +52,7 @@ static hc_status model_to_look_at(const model *m, model **out)
   return HC_OK;
 }
 
-static hc_status start(const scene *sc, const comparison *c, shown *d)
+static hc_status shown_open(const scene *sc, const comparison *c, shown *d)
 {
   model *looked_at;
   double from, to;
@@ -65,14 +65,14 @@ static hc_status start(const scene *sc, const comparison *c, shown *d)
   if (st != HC_OK) return st;
   st = hbm_trace(d->s, from, to, d->monitor, &d->curve);
   if (st == HC_INTERRUPTED || st == HC_NO_MEMORY) return st;
-  const size_t room = 2 * (size_t)hbm_n_harmonics(d->s) + 1, n = (size_t)d->m->n_contacts + 1;
-  for (int i = 0; i < 3; ++i) d->series[i] = malloc(room * sizeof *d->series[i]);
+  const size_t length = 2 * (size_t)hbm_n_harmonics(d->s) + 1, n = (size_t)d->m->n_contacts + 1;
+  for (int i = 0; i < 3; ++i) d->series[i] = malloc(length * sizeof *d->series[i]);
   d->w = calloc(n, sizeof *d->w);
   d->periods = calloc(n, sizeof *d->periods);
   return d->series[0] && d->series[1] && d->series[2] && d->w && d->periods ? HC_OK : HC_NO_MEMORY;
 }
 
-static void end(shown *d)
+static void shown_close(shown *d)
 {
   for (int i = 0; i < 3; ++i) free(d->series[i]);
   free(d->w);
@@ -243,11 +243,11 @@ hc_status structure_json(const scene *sc, const comparison *c, json_t *others, c
   if (st != HC_OK) return st;
   shown d = {.m = m, .monitor = monitor};
   json_t *list = json_array();
-  st = start(sc, c, &d);
+  st = shown_open(sc, c, &d);
   if (st == HC_OK) st = solutions(&d, c, list);
   *out = json_pack("{s:o, s:O, s:o, s:o, s:o}", "names", response_names(sc->structure), "responses", others, "dofs",
                    dof_names(sc->structure, m), "contacts", contact_names(sc), "solutions", list);
-  end(&d);
+  shown_close(&d);
   model_free(m);
   return st == HC_OK && !*out ? HC_NO_MEMORY : st;
 }

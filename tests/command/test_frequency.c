@@ -2,6 +2,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/constants.h"
 #include "tests/program.h"
 
 #define CASE2  SOURCE_DIR "/cases/paper/case2.yaml "
@@ -20,18 +21,17 @@ static double cell(int index)
 static void at_is_in_cycles_where_the_sweep_is(void **state)
 {
   (void)state;
-  const double two_pi = 8 * atan(1);
   expect("frf " CASE2 CYCLES "--at 1 --format csv -q", 0, "omega,frequency,branch,amplitude");
-  assert_true(cell(0) == two_pi && cell(1) == 1);
+  assert_true(cell(0) == TWO_PI && cell(1) == 1);
   double amplitude = cell(3);
   expect("frf " CASE2 "--at 6.28318530717958647693 --format csv -q", 0, "omega,branch,amplitude");
   CHECK_LE(fabs(cell(2) - amplitude), 1e-8 * amplitude, "solved from neighbours of two sweeps, to hbm.tolerance");
   expect("transient " CASE2 CYCLES "--at 1 --format csv -q", 0, "omega,frequency,verdict");
-  assert_true(cell(0) == two_pi && cell(1) == 1);
+  assert_true(cell(0) == TWO_PI && cell(1) == 1);
   expect("compare " CASE2 CYCLES "--at 1 --format csv -q", 0, "omega,frequency,branch,verdict");
-  assert_true(cell(0) == two_pi && cell(1) == 1);
+  assert_true(cell(0) == TWO_PI && cell(1) == 1);
   expect("gate " CASE2 CYCLES "--at 1 --format csv -q", 0, "case,omega,frequency,branch");
-  assert_true(cell(1) == two_pi && cell(2) == 1);
+  assert_true(cell(1) == TWO_PI && cell(2) == 1);
   expect("gate " CASE2 CYCLES "--at 1 -q -o /dev/null --junit /dev/stdout", 0, "name=\"frequency 1 branch 0: mean\"");
   expect("compare " CASE2 CYCLES "--at 1 --tables --harmonics 5 --samples 64 --format csv -q", 0, ",peak_frequency,");
 }
