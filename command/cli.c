@@ -422,11 +422,28 @@ unsigned cli_extra_columns(const scene *sc)
   return (sc->in_cycles ? ROWS_IN_CYCLES : 0u) | (sc->structure ? ROWS_RESPONSES : 0u);
 }
 
-void cli_put_row(const cli_common *common, table *t, rows_kind kind, const row_cell *cells)
+/* What of a case its rows of that kind have: those of whole curves have no response. */
+static unsigned extra_of(const cli_common *common, rows_kind kind)
+{
+  const bool of_curves = kind == ROWS_CURVE || kind == ROWS_ACCURACY || kind == ROWS_ORDER;
+  return of_curves ? common->scene->in_cycles : cli_extra_columns(common->scene);
+}
+
+table *cli_table(const cli_common *common, const char *title, rows_kind kind)
 {
   int n;
-  const bool of_curves = kind == ROWS_CURVE || kind == ROWS_ACCURACY || kind == ROWS_ORDER;
-  rows_columns(kind, of_curves ? common->scene->in_cycles : cli_extra_columns(common->scene), &n);
+  const table_column *columns = rows_columns(kind, extra_of(common, kind), &n);
+  table *t = table_new(title, n, columns);
+  table_spare(t, rows_spare(kind, common->scene->in_cycles));
+  return t;
+}
+
+void cli_put_row(const cli_common *common, table *t, rows_kind kind, const void *row)
+{
+  int n;
+  row_cell cells[ROWS_MOST];
+  rows_columns(kind, extra_of(common, kind), &n);
+  rows_cells(kind, row, extra_of(common, kind), cells);
   for (int i = 0; i < n; ++i) {
     if (!cells[i].there) table_put_missing(t);
     else if (cells[i].kind == TABLE_TEXT) table_put_text(t, cells[i].as.text);

@@ -71,7 +71,7 @@ void cli_read_plot(struct argp_state *state, char *text, const char **out); /* c
    "that fails", 2}
 /* clang-format on */
 
-/* --contacts, the same in every command that has the table of rows_contact. */
+/* --contacts, the same in every command that has the table of ROWS_CONTACT. */
 /* clang-format off */
 #define CLI_CONTACTS_OPTION(key) \
   {"contacts", key, NULL, 0, \
@@ -115,8 +115,9 @@ int cli_columns(unsigned extra, int n, const table_column *columns, table_column
 /* The columns of rows.h that only some cases have, for this one. */
 unsigned cli_extra_columns(const scene *sc);
 
-/* Append a row of that kind to the table. */
-void cli_put_row(const cli_common *common, table *t, rows_kind kind, const row_cell *cells);
+/* An empty table of that kind of rows (output/rows.h), which a narrow screen may show in part; and one row of it. */
+table *cli_table(const cli_common *common, const char *title, rows_kind kind);
+void cli_put_row(const cli_common *common, table *t, rows_kind kind, const void *row);
 
 /* How long a line on the screen may be: the terminal's columns; where results do not go to one, what COLUMNS says, or
  * 100. At least 40. */

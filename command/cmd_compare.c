@@ -270,18 +270,12 @@ static void warn_unexpected(const cli_common *common, const comparison *c)
 
 static table *comparison_table(const cli_common *common, const compare_setup *setup, comparison *c)
 {
-  int n_columns;
-  const unsigned extra = cli_extra_columns(common->scene);
-  const table_column *columns = rows_columns(ROWS_COMPARE, extra, &n_columns);
-  table *t = table_new("HBM against time integration", n_columns, columns);
+  table *t = cli_table(common, "HBM against time integration", ROWS_COMPARE);
   const scene_structure *of = common->scene->structure;
   for (int i = 0; i < c->n_rows; ++i) {
     if (of) structure_response_name(of, c->rows[i].response, c->rows[i].response_name, RESPONSE_NAME);
-    row_cell cells[ROWS_MOST];
-    rows_compare(&c->rows[i], extra, cells);
-    cli_put_row(common, t, ROWS_COMPARE, cells);
+    cli_put_row(common, t, ROWS_COMPARE, &c->rows[i]);
   }
-  table_spare(t, rows_spare(ROWS_COMPARE, common->scene->in_cycles));
   note_comparison(t, common->scene, setup, c);
   return t;
 }
@@ -305,19 +299,13 @@ static void say_contacts(const cli_common *common, const comparison *c, table *t
 
 static table *contacts_table(const cli_common *common, comparison *c)
 {
-  int n;
   const scene *sc = common->scene;
-  const unsigned extra = cli_extra_columns(sc);
-  const table_column *columns = rows_columns(ROWS_COMPARE_CONTACT, extra, &n);
-  table *t = table_new("Contacts", n, columns);
+  table *t = cli_table(common, "Contacts", ROWS_COMPARE_CONTACT);
   for (int i = 0; i < c->n_contacts; ++i) {
     contact_comparison *k = &c->contacts[i];
-    row_cell cells[ROWS_MOST];
     snprintf(k->name, sizeof k->name, "%s", scene_contact_at(sc, k->contact)->name);
-    rows_compare_contact(k, extra, cells);
-    cli_put_row(common, t, ROWS_COMPARE_CONTACT, cells);
+    cli_put_row(common, t, ROWS_COMPARE_CONTACT, k);
   }
-  table_spare(t, rows_spare(ROWS_COMPARE_CONTACT, sc->in_cycles));
   table_note(
       t,
       "work: dissipated in a period, work_error relative to the largest there; beyond the gate's waveform it differs");

@@ -72,14 +72,12 @@ static hc_status put_point(const cli_common *common, hbm_solver *s, const hbm_cu
 {
   const scene_structure *of = common->scene->structure;
   response_row row;
-  row_cell cells[ROWS_MOST];
   hc_status st = response_row_of(s, c, k, &row);
   for (int r = of_case.first; r <= of_case.last && st == HC_OK; ++r) {
     if (r > 0) st = response_row_turn(s, c, k, r, &row);
     if (of) structure_response_name(of, r, row.response, sizeof row.response);
     *free |= row.measures.contact.free_sliders > 0;
-    rows_frf(&row, cli_extra_columns(common->scene), cells);
-    cli_put_row(common, t, ROWS_FRF, cells);
+    cli_put_row(common, t, ROWS_FRF, &row);
   }
   return st;
 }
@@ -93,7 +91,6 @@ static hc_status put_points(const cli_common *common, hbm_solver *s, const hbm_c
     if (st != HC_OK) return st;
   }
   if (!free) table_hide(t, "mean_free");
-  table_spare(t, rows_spare(ROWS_FRF, common->scene->in_cycles));
   return HC_OK;
 }
 
@@ -102,7 +99,6 @@ static hc_status put_contacts(const cli_common *common, hbm_solver *s, const hbm
 {
   const scene *sc = common->scene;
   const int n = scene_contact_count(sc);
-  row_cell cells[ROWS_MOST];
   contact_period *periods = calloc((size_t)hbm_n_contacts(s) + 1, sizeof *periods);
   hc_status st = periods ? HC_OK : HC_NO_MEMORY;
   for (int k = 0; k < c->n && st == HC_OK; ++k) {
@@ -110,12 +106,10 @@ static hc_status put_contacts(const cli_common *common, hbm_solver *s, const hbm
     for (int j = 0; j < n && st == HC_OK; ++j) {
       contact_row row = {c->points[k].omega, c->points[k].branch, .contact = j, .period = periods[j]};
       snprintf(row.name, sizeof row.name, "%s", scene_contact_at(sc, j)->name);
-      rows_contact(&row, cli_extra_columns(sc), cells);
-      cli_put_row(common, t, ROWS_CONTACT, cells);
+      cli_put_row(common, t, ROWS_CONTACT, &row);
     }
   }
   free(periods);
-  table_spare(t, rows_spare(ROWS_CONTACT, sc->in_cycles));
   if (sc->hbm.force == HBM_FORCE_SAMPLED)
     table_note(t, "contacts by the exact law along the motion found with sampled forces");
   return st;
@@ -210,7 +204,7 @@ static int run_frf(int argc, char **argv)
   scene sc = {.structure = NULL};
   cli_parse(&cmd_frf, argc, argv, &own, &common);
   cli_check_plot(&common, own.plot, false);
-  int code = cli_check_files(&common, 1, &(cli_file){"--plot", own.plot, CLI_OUTPUT}), n_columns;
+  int code = cli_check_files(&common, 1, &(cli_file){"--plot", own.plot, CLI_OUTPUT});
   if (!code) code = cli_load_case(&common, common.arguments[0], &sc);
   plot_responses of_case;
   if (!code && (code = choose_responses(&common, own.response, &of_case)) != 0) case_clear(&sc);
@@ -218,10 +212,8 @@ static int run_frf(int argc, char **argv)
   hbm_solver *s = NULL;
   hbm_curve curve = {0}, found = {0};
   double from, to, failed_at = 0;
-  const table_column *columns = rows_columns(ROWS_FRF, cli_extra_columns(&sc), &n_columns);
-  table *t = table_new("Response curve", n_columns, columns);
-  columns = rows_columns(ROWS_CONTACT, cli_extra_columns(&sc), &n_columns);
-  table *contacts = own.contacts ? table_new("Contacts", n_columns, columns) : NULL;
+  table *t = cli_table(&common, "Response curve", ROWS_FRF);
+  table *contacts = own.contacts ? cli_table(&common, "Contacts", ROWS_CONTACT) : NULL;
   foretell_memory(&common, &sc);
   progress *bar = progress_start("harmonic balance", common.quiet);
   hc_monitor monitor = progress_monitor(bar);

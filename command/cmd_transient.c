@@ -54,15 +54,11 @@ static int put_row(const cli_common *common, const steady_row *r, table *t)
   static const char *const stages[] = {[STEADY_TRANSIENT] = "time integration",
                                        [STEADY_SWEEP] = "the frequency sweep",
                                        [STEADY_HBM] = "harmonic balance"};
-  row_cell cells[ROWS_MOST];
   if (r->without_hbm != HC_OK && !common->quiet)
     cli_message(common, "no HBM solution at %s (%s): starting at rest",
                 scene_where(common->scene, r->result.omega, (char[SCENE_WHERE]){0}), hc_status_text(r->without_hbm));
   if (r->status == HC_INTERRUPTED) return 0;
-  if (r->stage == STEADY_TRANSIENT) {
-    rows_transient(r, cli_extra_columns(common->scene), cells);
-    cli_put_row(common, t, ROWS_TRANSIENT, cells);
-  }
+  if (r->stage == STEADY_TRANSIENT) cli_put_row(common, t, ROWS_TRANSIENT, r);
   if (r->status == HC_OK || r->status == HC_APERIODIC) return 0;
   return cli_solver_failed(common, r->stage == STEADY_HBM ? CLI_HBM : CLI_TRANSIENT, stages[r->stage], r->status,
                            r->result.omega);
@@ -71,19 +67,13 @@ static int put_row(const cli_common *common, const steady_row *r, table *t)
 /* A row for each contact of each state. */
 static table *contacts_table(const cli_common *common, steady_states *found)
 {
-  int n;
   const scene *sc = common->scene;
-  const unsigned extra = cli_extra_columns(sc);
-  const table_column *columns = rows_columns(ROWS_STEADY_CONTACT, extra, &n);
-  table *t = table_new("Contacts", n, columns);
+  table *t = cli_table(common, "Contacts", ROWS_STEADY_CONTACT);
   for (int i = 0; i < found->n_contacts; ++i) {
     steady_contact *c = &found->contacts[i];
-    row_cell cells[ROWS_MOST];
     snprintf(c->name, sizeof c->name, "%s", scene_contact_at(sc, c->contact)->name);
-    rows_steady_contact(c, extra, cells);
-    cli_put_row(common, t, ROWS_STEADY_CONTACT, cells);
+    cli_put_row(common, t, ROWS_STEADY_CONTACT, c);
   }
-  table_spare(t, rows_spare(ROWS_STEADY_CONTACT, sc->in_cycles));
   if (sc->transient.law != TRANSIENT_LAW_EXACT)
     table_note(t, "by the regularised law, %g", sc->transient.regularisation);
   return t;
@@ -96,7 +86,7 @@ static int run_transient(int argc, char **argv)
   scene sc = {.structure = NULL};
   cli_parse(&cmd_transient, argc, argv, &own, &common);
   cli_check_plot(&common, own.plot, false);
-  int code = cli_check_files(&common, 1, &(cli_file){"--plot", own.plot, CLI_OUTPUT}), n_columns;
+  int code = cli_check_files(&common, 1, &(cli_file){"--plot", own.plot, CLI_OUTPUT});
   if (!code) code = cli_load_case(&common, common.arguments[0], &sc);
   if (code) return code;
   code = cli_keep_response(&common, &sc, own.response);
@@ -119,8 +109,7 @@ static int run_transient(int argc, char **argv)
   if (st == HC_OK) st = steady_states_run(&setup, &monitor, &found);
   scene_setup_clear(&setup);
   progress_end(bar);
-  const table_column *columns = rows_columns(ROWS_TRANSIENT, cli_extra_columns(&sc), &n_columns);
-  table *t = table_new("Steady states", n_columns, columns);
+  table *t = cli_table(&common, "Steady states", ROWS_TRANSIENT);
   bool free = false, torus = false;
   for (int i = 0; i < found.n; ++i) {
     free |= found.rows[i].status == HC_OK && motion_mean_is_free(&found.rows[i].result);
@@ -132,7 +121,6 @@ static int run_transient(int argc, char **argv)
   }
   if (!free) table_hide(t, "mean_free");
   if (!torus) table_hide(t, "second_frequency");
-  table_spare(t, rows_spare(ROWS_TRANSIENT, sc.in_cycles));
   if (st != HC_OK) {
     table_note(t, "INCOMPLETE: %s", hc_status_text(st));
     code = cli_solver_failed(&common, CLI_TRANSIENT, "time integration", st, 0);

@@ -43,43 +43,18 @@ static void note_accuracy(table *t, const scene *sc, const accuracy *a)
       "H");
 }
 
-static table *accuracy_table(const cli_common *common, const accuracy *a)
-{
-  int n;
-  const table_column *columns = rows_columns(ROWS_ACCURACY, common->scene->in_cycles, &n);
-  table *t = table_new("Samples and truncation order", n, columns);
-  for (int i = 0; i < a->n_rows; ++i) {
-    row_cell cells[ROWS_MOST];
-    rows_accuracy(&a->rows[i], common->scene->in_cycles, cells);
-    cli_put_row(common, t, ROWS_ACCURACY, cells);
-  }
-  table_spare(t, rows_spare(ROWS_ACCURACY, common->scene->in_cycles));
-  note_accuracy(t, common->scene, a);
-  return t;
-}
-
-static table *order_table(const cli_common *common, const accuracy *a)
-{
-  int n;
-  const table_column *columns = rows_columns(ROWS_ORDER, common->scene->in_cycles, &n);
-  table *t = table_new("Observed orders", n, columns);
-  for (int i = 0; i < a->n_orders; ++i) {
-    row_cell cells[ROWS_MOST];
-    rows_order(&a->orders[i], common->scene->in_cycles, cells);
-    cli_put_row(common, t, ROWS_ORDER, cells);
-  }
-  table_note(t,
-             "error ~ quantity^-order (regularisation^order), least squares over the asymptotic part of its envelope; "
-             "spread: standard error");
-  return t;
-}
-
 hc_status compare_tables(const cli_common *common, const compare_setup *setup, const comparison *c,
                          const hc_monitor *monitor, table *out[2], accuracy *a)
 {
   hc_status st = accuracy_run(setup, c, monitor, a);
-  out[0] = accuracy_table(common, a);
-  out[1] = order_table(common, a);
+  out[0] = cli_table(common, "Samples and truncation order", ROWS_ACCURACY);
+  for (int i = 0; i < a->n_rows; ++i) cli_put_row(common, out[0], ROWS_ACCURACY, &a->rows[i]);
+  note_accuracy(out[0], common->scene, a);
+  out[1] = cli_table(common, "Observed orders", ROWS_ORDER);
+  for (int i = 0; i < a->n_orders; ++i) cli_put_row(common, out[1], ROWS_ORDER, &a->orders[i]);
+  table_note(out[1],
+             "error ~ quantity^-order (regularisation^order), least squares over the asymptotic part of its envelope; "
+             "spread: standard error");
   for (int i = 0; i < 2 && st != HC_OK; ++i) table_note(out[i], "INCOMPLETE: %s", hc_status_text(st));
   return st;
 }

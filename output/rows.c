@@ -285,8 +285,9 @@ const table_column *rows_columns(rows_kind kind, unsigned extra, int *n)
 }
 
 #define ROWS(name, row, LIST)                                                                                          \
-  void rows_##name(const row *r, unsigned extra, row_cell *cells)                                                      \
+  static void name##_cells(const void *of, unsigned extra, row_cell *cells)                                            \
   {                                                                                                                    \
+    const row *r = of;                                                                                                 \
     switch (extra) {                                                                                                   \
     case ROWS_IN_CYCLES: LIST(FILL, FILL, NONE) break;                                                                 \
     case ROWS_RESPONSES: LIST(FILL, NONE, FILL) break;                                                                 \
@@ -303,6 +304,29 @@ ROWS(order, order_row, ORDER_COLUMNS)
 ROWS(contact, contact_row, CONTACT_COLUMNS)
 ROWS(steady_contact, steady_contact, STEADY_CONTACT_COLUMNS)
 ROWS(compare_contact, contact_comparison, COMPARE_CONTACT_COLUMNS)
+
+static const struct row_type {
+  size_t size;
+  void (*cells)(const void *row, unsigned extra, row_cell *cells);
+} types[] = {[ROWS_FRF] = {sizeof(response_row), frf_cells},
+             [ROWS_TRANSIENT] = {sizeof(steady_row), transient_cells},
+             [ROWS_COMPARE] = {sizeof(comparison_row), compare_cells},
+             [ROWS_CURVE] = {sizeof(response_summary), curve_cells},
+             [ROWS_ACCURACY] = {sizeof(accuracy_row), accuracy_cells},
+             [ROWS_ORDER] = {sizeof(order_row), order_cells},
+             [ROWS_CONTACT] = {sizeof(contact_row), contact_cells},
+             [ROWS_STEADY_CONTACT] = {sizeof(steady_contact), steady_contact_cells},
+             [ROWS_COMPARE_CONTACT] = {sizeof(contact_comparison), compare_contact_cells}};
+
+void rows_cells(rows_kind kind, const void *row, unsigned extra, row_cell *cells)
+{
+  types[kind].cells(row, extra, cells);
+}
+
+const void *rows_at(rows_kind kind, const void *rows, int i)
+{
+  return (const char *)rows + (size_t)i * types[kind].size;
+}
 
 /* ---- what a narrow screen does without: what says least comes first; a column in no list is never left out ---- */
 

@@ -11,15 +11,15 @@
 #include "output/table.h"
 
 typedef enum {
-  ROWS_FRF,
-  ROWS_TRANSIENT,
-  ROWS_COMPARE,
-  ROWS_CURVE,
-  ROWS_ACCURACY,
-  ROWS_ORDER,
-  ROWS_CONTACT,
-  ROWS_STEADY_CONTACT,
-  ROWS_COMPARE_CONTACT
+  ROWS_FRF,            /* of response_row      */
+  ROWS_TRANSIENT,      /* of steady_row        */
+  ROWS_COMPARE,        /* of comparison_row    */
+  ROWS_CURVE,          /* of response_summary  */
+  ROWS_ACCURACY,       /* of accuracy_row      */
+  ROWS_ORDER,          /* of order_row         */
+  ROWS_CONTACT,        /* of contact_row       */
+  ROWS_STEADY_CONTACT, /* of steady_contact    */
+  ROWS_COMPARE_CONTACT /* of contact_comparison */
 } rows_kind;
 
 /* Columns that only some cases have: frequencies in cycles per time beside the omegas; the name of the response or
@@ -44,15 +44,10 @@ const table_column *rows_columns(rows_kind kind, unsigned extra, int *n);
 /* For table_spare: which of them a narrow screen does without, the first ones first. */
 const char *const *rows_spare(rows_kind kind, bool in_cycles);
 
-/* One row: cells[n] in the columns' order. A real that is not a number is not there. Cannot fail. */
-void rows_frf(const response_row *r, unsigned extra, row_cell *cells);
-void rows_transient(const steady_row *r, unsigned extra, row_cell *cells);
-void rows_compare(const comparison_row *r, unsigned extra, row_cell *cells);
-void rows_curve(const response_summary *r, unsigned extra, row_cell *cells);
-void rows_accuracy(const accuracy_row *r, unsigned extra, row_cell *cells);
-void rows_order(const order_row *r, unsigned extra, row_cell *cells);
-void rows_contact(const contact_row *r, unsigned extra, row_cell *cells);
-void rows_steady_contact(const steady_contact *r, unsigned extra, row_cell *cells);
-void rows_compare_contact(const contact_comparison *r, unsigned extra, row_cell *cells);
+/* One row, of the kind's type: cells[n] in the columns' order. A real that is not a number is not there. Cannot fail. */
+void rows_cells(rows_kind kind, const void *row, unsigned extra, row_cell *cells);
+
+/* Entry i of rows[] of that type. */
+const void *rows_at(rows_kind kind, const void *rows, int i);
 
 #endif

@@ -45,7 +45,7 @@ static row_cell *next_row(study_result *r) { return r->rows + (size_t)r->n_rows+
 static void put_curve(study_result *r, const response_summary *summary)
 {
   r->has_curve = true;
-  rows_curve(summary, r->extra, r->curve);
+  rows_cells(ROWS_CURVE, summary, r->extra, r->curve);
 }
 
 /* Name of response i into text[RESPONSE_NAME], as the column `response` has it; an oscillator's has none. */
@@ -63,7 +63,7 @@ static hc_status put_solution(hbm_solver *s, const scene *sc, const hbm_curve *f
   for (int i = 0; i < n && st == HC_OK; ++i) {
     if (i > 0) st = response_row_turn(s, found, k, i, &row);
     name_response(sc, i, row.response);
-    if (st == HC_OK) rows_frf(&row, r->extra, next_row(r));
+    if (st == HC_OK) rows_cells(ROWS_FRF, &row, r->extra, next_row(r));
   }
   return st;
 }
@@ -132,7 +132,7 @@ static hc_status solve_transient(const scene *sc, const hc_monitor *monitor, stu
   for (int i = 0; i < found.n && st == HC_OK; ++i) {
     steady_row *row = &found.rows[i];
     name_response(sc, row->response, row->response_name);
-    if (row->stage == STEADY_TRANSIENT) rows_transient(row, r->extra, next_row(r));
+    if (row->stage == STEADY_TRANSIENT) rows_cells(ROWS_TRANSIENT, row, r->extra, next_row(r));
     if (row->status == HC_NO_MEMORY) st = row->status;
     else if (row->status != HC_OK) fail_with(r, stages[row->stage], row->status, row->result.omega);
   }
@@ -164,7 +164,7 @@ static hc_status solve_compare(const scene *sc, const hc_monitor *monitor, study
     st = make_rows(r, ROWS_COMPARE, c.n_rows);
     for (int i = 0; i < c.n_rows && st == HC_OK; ++i) {
       name_response(sc, c.rows[i].response, c.rows[i].response_name);
-      rows_compare(&c.rows[i], r->extra, next_row(r));
+      rows_cells(ROWS_COMPARE, &c.rows[i], r->extra, next_row(r));
     }
     tell_failures(&c, r);
   }

@@ -98,7 +98,7 @@ static void write_cell(FILE *to, const row_cell *c)
   else html_cell_number(to, c->as.real);
 }
 
-void html_rows(FILE *to, const char *caption, rows_kind kind, unsigned extra, int n, const void *rows, html_fill *fill,
+void html_rows(FILE *to, const char *caption, rows_kind kind, unsigned extra, int n, const void *rows,
                const char *const *without)
 {
   int n_columns;
@@ -109,7 +109,7 @@ void html_rows(FILE *to, const char *caption, rows_kind kind, unsigned extra, in
   fputs("</tr></thead><tbody>", to);
   for (int i = 0; i < n; ++i) {
     row_cell cells[ROWS_MOST];
-    fill(rows, i, extra, cells);
+    rows_cells(kind, rows_at(kind, rows, i), extra, cells);
     html_row(to);
     for (int j = 0; j < n_columns; ++j)
       if (!is_among(columns[j].name, without)) write_cell(to, &cells[j]);

@@ -28,9 +28,8 @@ void html_cell_number(FILE *to, double value); /* 6 significant digits; NaN: emp
 void html_cell_bar(FILE *to, double value, double limit);
 void html_table_end(FILE *to);
 
-/* All rows of a kind, row(i) filling the cells; columns named in `without` (ending in NULL, or NULL) are left out. */
-typedef void html_fill(const void *rows, int i, unsigned extra, row_cell *cells);
-void html_rows(FILE *to, const char *caption, rows_kind kind, unsigned extra, int n, const void *rows, html_fill *fill,
+/* All rows of a kind; columns named in `without` (ending in NULL, or NULL) are left out. */
+void html_rows(FILE *to, const char *caption, rows_kind kind, unsigned extra, int n, const void *rows,
                const char *const *without);
 
 /* JSON that may stand in a script element: no "<" in it. HC_NO_MEMORY, HC_OK. */

@@ -76,41 +76,23 @@ static unsigned extra_columns(const scene *sc)
   return (sc->in_cycles ? ROWS_IN_CYCLES : 0u) | (sc->structure ? ROWS_RESPONSES : 0u);
 }
 
-static void fill_compare(const void *rows, int i, unsigned extra, row_cell *cells)
-{
-  rows_compare((const comparison_row *)rows + i, extra, cells);
-}
-static void fill_accuracy(const void *rows, int i, unsigned extra, row_cell *cells)
-{
-  rows_accuracy((const accuracy_row *)rows + i, extra, cells);
-}
-static void fill_order(const void *rows, int i, unsigned extra, row_cell *cells)
-{
-  rows_order((const order_row *)rows + i, extra, cells);
-}
-
-static void fill_contact(const void *rows, int i, unsigned extra, row_cell *cells)
-{
-  rows_compare_contact((const contact_comparison *)rows + i, extra, cells);
-}
-
 static void write_compare(page *p)
 {
   html_rows(p->to, "Every column, as hbmcheck compare prints it", ROWS_COMPARE, extra_columns(p->d->sc),
-            p->d->comparison.n_rows, p->d->comparison.rows, fill_compare, NULL);
+            p->d->comparison.n_rows, p->d->comparison.rows, NULL);
 }
 
 static void write_accuracy(page *p)
 {
   static const char *const without[] = {"seconds", NULL}; /* the same input is to give the same page */
   html_rows(p->to, "Samples and truncation order: errors relative to the exact transient's orbits", ROWS_ACCURACY,
-            extra_columns(p->d->sc), p->d->accuracy.n_rows, p->d->accuracy.rows, fill_accuracy, without);
+            extra_columns(p->d->sc), p->d->accuracy.n_rows, p->d->accuracy.rows, without);
 }
 
 static void write_orders(page *p)
 {
   html_rows(p->to, "Observed orders: error ~ quantity^-order (regularisation^order)", ROWS_ORDER,
-            extra_columns(p->d->sc), p->d->accuracy.n_orders, p->d->accuracy.orders, fill_order, NULL);
+            extra_columns(p->d->sc), p->d->accuracy.n_orders, p->d->accuracy.orders, NULL);
 }
 
 static void write_budget_row(FILE *to, const comparison_row *r, const scene *sc)
@@ -228,7 +210,7 @@ static void write_contacts(page *p)
 {
   if (p->d->sc->structure)
     html_rows(p->to, "Contacts over one period, on both sides; work: what friction dissipates", ROWS_COMPARE_CONTACT,
-              extra_columns(p->d->sc), p->d->comparison.n_contacts, p->d->comparison.contacts, fill_contact, NULL);
+              extra_columns(p->d->sc), p->d->comparison.n_contacts, p->d->comparison.contacts, NULL);
 }
 
 /* ---- data for the plots ---------------------------------------------------------------------- */
