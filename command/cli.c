@@ -161,26 +161,20 @@ typedef struct parse_input {
   void *own;
 } parse_input;
 
-static void add_argument(cli_common *common, int max_arguments, const char *text, struct argp_state *state)
-{
-  if (common->n_arguments == max_arguments) argp_error(state, "'%s' is one argument too many", text);
-  common->arguments[common->n_arguments++] = text;
-}
-
-static void add_assignment(cli_common *common, const char *text, struct argp_state *state)
-{
-  if (common->n_set == CLI_MAX_SET) argp_error(state, "--set may be given at most %d times", CLI_MAX_SET);
-  common->set[common->n_set++] = text;
-}
-
 static error_t read_common_option(int key, char *text, struct argp_state *state)
 {
   parse_input *input = state->input;
   cli_common *common = input->common;
   switch (key) {
   case ARGP_KEY_INIT: state->child_inputs[0] = input->own; return 0;
-  case ARGP_KEY_ARG: add_argument(common, input->max_arguments, text, state); return 0;
-  case KEY_SET: add_assignment(common, text, state); return 0;
+  case ARGP_KEY_ARG:
+    if (common->n_arguments == input->max_arguments) argp_error(state, "'%s' is one argument too many", text);
+    common->arguments[common->n_arguments++] = text;
+    return 0;
+  case KEY_SET:
+    if (common->n_set == CLI_MAX_SET) argp_error(state, "--set may be given at most %d times", CLI_MAX_SET);
+    common->set[common->n_set++] = text;
+    return 0;
   case KEY_FORMAT: cli_read_format(state, "format", text, true, &common->format); return 0;
   case 'o': common->output = text; return 0;
   case KEY_WIDE: common->wide = true; return 0;
@@ -463,17 +457,14 @@ int cli_width(const cli_common *common)
   return width <= 0 ? USUAL : width < LEAST ? LEAST : width;
 }
 
-static void fit_to_screen(const cli_common *common, table *t)
-{
-  if (common->wide) table_show_all(t);
-  else table_fit(t, cli_width(common));
-}
-
 int cli_write(const cli_common *common, int n, table *const *tables)
 {
   output *out = NULL;
   hc_status st = output_open(common->output, &out);
-  for (int i = 0; i < n; ++i) fit_to_screen(common, tables[i]);
+  for (int i = 0; i < n; ++i) {
+    if (common->wide) table_show_all(tables[i]);
+    else table_fit(tables[i], cli_width(common));
+  }
   if (st == HC_OK) {
     st = table_write(n, tables, common->format, output_stream(out));
     if (st == HC_OK) st = output_commit(out);

@@ -183,13 +183,6 @@ static int motion_at(const contact_motion *m, int d)
   return m->pair && d == 1 ? CONTACT_U2 : CONTACT_V;
 }
 
-/* X from m->given, by coordinates. */
-static void pack(contact_motion *m)
-{
-  const size_t n = (size_t)series_length(m->n_harm);
-  for (int d = 0; d < m->n_dof; ++d) memcpy(m->X + (size_t)d * n, m->given[motion_at(m, d)], n * sizeof *m->X);
-}
-
 /* What the options ask for, with as many harmonics as the motion or the case has, at least 1. 0, or the exit code after
  * the message. Free with contact_motion_clear in any case. */
 static int contact_motion_find(const cli_common *common, const contact_options *own, contact_motion *m)
@@ -206,7 +199,8 @@ static int contact_motion_find(const cli_common *common, const contact_options *
   if (!code) code = read_motions(common, own, of, m);
   if (m->n_harm < sc->hbm.harmonics) m->n_harm = sc->hbm.harmonics; /* auto is 0: the motion's own */
   if (m->n_harm < 1) m->n_harm = 1;
-  pack(m);
+  const size_t n = (size_t)series_length(m->n_harm);
+  for (int d = 0; d < m->n_dof; ++d) memcpy(m->X + (size_t)d * n, m->given[motion_at(m, d)], n * sizeof *m->X);
   model_free(of);
   return code;
 }
@@ -325,14 +319,6 @@ static hc_status note_halves(table *t, const contact_motion *m, const char *name
   return HC_OK;
 }
 
-static hc_status note_measures(table *t, const contact_motion *m, const char *name)
-{
-  contact_period p;
-  hc_status st = contact_measures_of(&m->contacts->law, m->n_harm, m->given[CONTACT_U], m->given[CONTACT_V], &p);
-  if (st == HC_OK) note_period(t, name, &p);
-  return st;
-}
-
 /* Remarks under the table: when each contact sticks and slips; of one contact extrema, slip path and work, too. Errors
  * as above. */
 static hc_status contact_force_note(table *t, const cli_common *common, const contact_motion *m)
@@ -349,7 +335,11 @@ static hc_status contact_force_note(table *t, const cli_common *common, const co
     const contact_piece *p = exact_force_pieces(e, j, &n);
     note_pieces(t, cli_contact_name(common, m->one < 0 ? j : m->one, name), n, p);
   }
-  if (st == HC_OK && m->one >= 0) st = note_measures(t, m, name);
+  if (st == HC_OK && m->one >= 0) {
+    contact_period p;
+    st = contact_measures_of(&m->contacts->law, m->n_harm, m->given[CONTACT_U], m->given[CONTACT_V], &p);
+    if (st == HC_OK) note_period(t, name, &p);
+  }
   exact_force_free(e);
   return st;
 }

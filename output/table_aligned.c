@@ -137,14 +137,6 @@ static void write_fitted(line_writer *l, const char *text, int columns)
   owe_spaces(l, columns - width);
 }
 
-static void find_ends(layout *l)
-{
-  l->first = 0;
-  l->last = l->t->n_columns - 1;
-  while (l->first < l->last && !l->shown[l->first]) ++l->first;
-  while (l->last > l->first && !l->shown[l->last]) --l->last;
-}
-
 static int shown_width(const layout *l)
 {
   int width = -BETWEEN;
@@ -244,7 +236,9 @@ hc_status table_write_aligned(const table *t, FILE *to)
     }
     const int wanted = table_shown(t, l.shown);
     lose_what_can_be_spared(&l);
-    find_ends(&l);
+    l.last = t->n_columns - 1;
+    while (l.first < l.last && !l.shown[l.first]) ++l.first;
+    while (l.last > l.first && !l.shown[l.last]) --l.last;
     write_blocks(&w, &l);
     write_notes(&w, &l, wanted - table_shown(t, l.shown));
   }

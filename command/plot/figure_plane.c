@@ -186,14 +186,6 @@ static void draw_both(figure *g, const scene *sc, const plane_history *w, const 
   figure_draw(g);
 }
 
-static hc_status follow_traction(const plot_motion *m, plane_history *w)
-{
-  follow_motion(m, w);
-  const hc_status st = m->circle ? evaluate_circle(m, w) : evaluate_square(m, w);
-  if (st == HC_OK) place_slider(m, w);
-  return st;
-}
-
 hc_status plot_contact_plane(plot_order *p, const scene *sc, const plot_motion *m)
 {
   const char *const name = scene_contact_at(sc, m->first)->name;
@@ -206,8 +198,13 @@ hc_status plot_contact_plane(plot_order *p, const scene *sc, const plot_motion *
   }
   plane_history *w = calloc(1, sizeof *w);
   hc_status st = figure_open(&g, p, 1100, 580);
-  if (st == HC_OK) st = w ? follow_traction(m, w) : HC_NO_MEMORY;
+  if (st == HC_OK && !w) st = HC_NO_MEMORY;
   if (st == HC_OK) {
+    follow_motion(m, w);
+    st = m->circle ? evaluate_circle(m, w) : evaluate_square(m, w);
+  }
+  if (st == HC_OK) {
+    place_slider(m, w);
     for (int k = 0; k < PHASES; ++k) there[k] = phases_write(&g, 0, k, POINTS, w->state, w->t[0], w->t[1]);
     write_ways(&g, w);
     if (*name) snprintf(about, sizeof about, "contact %s", name);

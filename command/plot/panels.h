@@ -12,7 +12,4 @@ void panels_end(figure *g);
 /* Heat map over N x H, error over N, error over H: three panels. */
 void panels_accuracy(figure *g, const accuracy *a);
 
-/* A whole figure: motions at one frequency over the period. */
-hc_status panels_waves(plot_order *p, const scene *sc, const steady_states *found);
-
 #endif
