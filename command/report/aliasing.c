@@ -16,8 +16,8 @@
 #include "study/scene_solvers.h"
 
 enum {
-  N_STIFFNESS = 3,
-  THE_CASE = 1, /* among them */
+  N_STIFFNESS = 2,
+  THE_CASE = 0, /* among them */
   N_HARM = 4,
   N_SAMPLES = 9,
   MOST_HARMONICS = 10,
@@ -28,7 +28,7 @@ enum {
   SHOWN_TIMES = 128, /* of the force over a period */
   STEPS = 16         /* of the contact law between two of these times */
 };
-static const double stiffness[N_STIFFNESS] = {0.5, 1, 3}; /* factors on the case's */
+static const double stiffness[N_STIFFNESS] = {1, 3}; /* factors on the case's */
 static const int harmonics[N_HARM] = {1, 3, 5, MOST_HARMONICS};
 static const int samples[N_SAMPLES] = {16, 32, 64, 128, 256, 512, 1024, 2048, 4096};
 static const double force_step = 1e-4, harmonic_step = 1e-6, difference_step = 1e-9;
