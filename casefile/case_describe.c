@@ -66,7 +66,7 @@ static void describe_field(const field *f, FILE *to)
   fprintf(to, "\n  set it    --set '%s=%s'\n", field_path(f, 0, path), example);
 }
 
-/* Of a section without the brackets of a list: forcing[] is forcing, too. */
+/* The length of a section's name without the brackets of a list: forcing[] is forcing, too. */
 static int stem_length(const char *section) { return (int)strcspn(section, "["); }
 
 static hc_status unknown_field(const char *asked, case_error *err)

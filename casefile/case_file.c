@@ -8,42 +8,10 @@
 
 #include "casefile/case_reader.h"
 
-message *case_blame(case_reader *r, case_place place)
-{
-  message *m = &r->msg;
-  message_start(m, m->text, m->size);
-  if (place.set > 0 && r->set) {
-    message_add(m, "--set ");
-    message_add_input(m, r->set[place.set - 1], strlen(r->set[place.set - 1]), 120);
-    message_add(m, ": ");
-  } else {
-    message_add_input(m, r->name, strlen(r->name), 240);
-    if (place.line > 0) message_add(m, ":%zu:%zu", place.line, place.column);
-    message_add(m, ": ");
-  }
-  return m;
-}
-
-bool case_suggest(message *m, suggestion s, const char *section, int j)
-{
-  char path[FIELD_PATH];
-  if (s.f)
-    message_add(m, ", did you mean `%s`?",
-                section && !strcmp(section, s.f->section) ? s.f->name : field_path(s.f, j, path));
-  if (s.s) message_add(m, ", did you mean `%s`%s?", s.s->name, section && *section ? " at the top level" : "");
-  return s.f || s.s;
-}
-
 static hc_status file_failed(case_reader *r, const char *words)
 {
   message_add(case_blame(r, (case_place){0}), "%s, expected a %s file", words, r->noun);
   return HC_IO;
-}
-
-hc_status case_out_of_memory(case_reader *r)
-{
-  message_add(case_blame(r, (case_place){0}), "out of memory");
-  return HC_NO_MEMORY;
 }
 
 /* "dir/case2.yaml" is titled "case2". */

@@ -36,7 +36,7 @@ typedef struct case_reader {
   message msg; /* the first mistake */
 } case_reader;
 
-/* Of the fields of contacts, which stand together in the table. */
+/* A bit for each field of contacts; they stand together in the table. */
 static inline unsigned long long case_field_bit(const field *f) { return 1ull << field_index(f) % 64; }
 
 static inline bool case_given(const case_reader *r, const field *f) { return r->at[field_index(f)].line > 0; }
@@ -92,6 +92,9 @@ hc_status yaml_scene_contact(case_reader *r, yaml_document_t *doc, yaml_node_t *
 hc_status yaml_scene_field(case_reader *r, yaml_document_t *doc, const field *f, int j, void *base,
                            const yaml_node_pair_t *pair);
 hc_status yaml_unknown_key(case_reader *r, const yaml_node_t *key, const char *section);
+
+/* The first rival of f that has been given, or NULL. */
+const field *yaml_given_rival(const case_reader *r, const field *f);
 
 /* No field of contacts (FIELD_IN_CONTACT) or of loads (FIELD_IN_LOAD) has been given yet: the next one begins. */
 void yaml_forget_fields(case_reader *r, unsigned of);

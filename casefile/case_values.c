@@ -15,7 +15,7 @@ case_place case_field_place(const case_places *places, const field *f, int j)
   return at[field_index(f)];
 }
 
-/* Of a section without the brackets of a list: forcing[] is forcing, too. */
+/* The length of a section's name without the brackets of a list: forcing[] is forcing, too. */
 static int stem_length(const char *section) { return (int)strcspn(section, "["); }
 
 /* contacts.gap, contacts[].gap and contacts[3].gap are one field; structure.damping.rayleigh[1] is one of its own. */

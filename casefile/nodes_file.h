@@ -17,9 +17,4 @@ hc_status nodes_file_read(const char *path, scene_structure *s, message *m);
 /* The same from text[length], which `name` stands for. */
 hc_status nodes_file_parse(const char *name, const char *text, size_t length, scene_structure *s, message *m);
 
-/* The two others, in text[length] (nodes_mesh.c). Of a .dof file: a line NODE.DIRECTION, direction 1..3, for each
- * degree of freedom of s. Of a matrix: its DOFs 1..3; rotations and all others are no node's direction. */
-bool nodes_mesh_meant(const char *text, size_t length);
-hc_status nodes_mesh_parse(const char *name, const char *text, size_t length, scene_structure *s, message *m);
-
 #endif

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "base/number.h"
-#include "casefile/text_file.h"
+#include "casefile/matrices/text_file.h"
 
 static const size_t most_bytes = (size_t)16 << 20;
 static const char *const names[PAIR_COLUMNS] = {"node_a", "node_b", "gap", "preload", "area"};

@@ -7,7 +7,7 @@
 #define HC_PAIR_ROWS_H
 
 #include "casefile/case_reader.h"
-#include "casefile/matrix_text.h"
+#include "casefile/matrices/matrix_text.h"
 
 typedef enum pair_column { PAIR_NODE_A, PAIR_NODE_B, PAIR_GAP, PAIR_PRELOAD, PAIR_AREA, PAIR_COLUMNS } pair_column;
 

@@ -5,7 +5,7 @@
 #define HC_STRUCTURE_H
 
 #include "casefile/case_place.h"
-#include "casefile/matrix_label.h"
+#include "casefile/matrices/matrix_label.h"
 #include "casefile/scene.h"
 
 typedef enum structure_damping {

@@ -5,8 +5,8 @@
 #include <strings.h>
 
 #include "base/number.h"
-#include "casefile/matrix_file.h"
-#include "casefile/text_file.h"
+#include "casefile/matrices/matrix_file.h"
+#include "casefile/matrices/text_file.h"
 #include "casefile/yaml_structure.h"
 
 static const char any_matrix[] = "rows, a diagonal, or a file of Matrix Market, CalculiX or Abaqus";

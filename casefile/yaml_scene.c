@@ -3,132 +3,12 @@
 
 #include "casefile/yaml_structure.h"
 
-const char *yaml_node_what(const yaml_node_t *n)
-{
-  if (n->type == YAML_MAPPING_NODE) return "a mapping";
-  return n->type == YAML_SEQUENCE_NODE ? "a list" : n->data.scalar.length > 0 ? "a single value" : "empty";
-}
-
-bool yaml_check_key(case_reader *r, const yaml_node_t *key)
-{
-  if (key->type == YAML_SCALAR_NODE) return true;
-  message_add(case_blame(r, case_place_of(r, key->start_mark)), "%s stands where a key should, expected `key: value`",
-              yaml_node_what(key));
-  return false;
-}
-
-hc_status yaml_unknown_key(case_reader *r, const yaml_node_t *key, const char *section)
-{
-  const char *text = yaml_node_text(key);
-  size_t length = key->data.scalar.length;
-  message *m = case_blame(r, case_place_of(r, key->start_mark));
-  message_add(m, "unknown key `");
-  message_add_input(m, text, length, 60);
-  message_add(m, *section ? "` in `%s`" : "`%s", section);
-  if (case_suggest(m, suggest_key(section, text, length), section, -1)) return HC_BAD_INPUT;
-  message_add(m, ", expected one of");
-  const field_section *s;
-  int n = 0;
-  for (int i = 0; i < field_count(); ++i)
-    if (!strcmp(field_at(i)->section, section) && !strchr(field_at(i)->name, '.'))
-      message_add(m, "%s %s", n++ ? "," : "", field_at(i)->name);
-  for (int i = 1; !*section && (s = field_section_at(i)) != NULL; ++i)
-    if (!strchr(s->name, '[')) message_add(m, ", %s", s->name);
-  if (length > 0 && text[0] >= '0' && text[0] <= '9')
-    message_add(m, " (a comma ends a value: the decimal sign is a point)");
-  return HC_BAD_INPUT;
-}
-
-hc_status yaml_duplicate_key(case_reader *r, const yaml_node_t *key, case_place first)
-{
-  message *m = case_blame(r, case_place_of(r, key->start_mark));
-  message_add(m, "duplicate key `");
-  message_add_input(m, yaml_node_text(key), key->data.scalar.length, 60);
-  message_add(m, "`, expected it once (first on line %zu)", first.line);
-  return HC_BAD_INPUT;
-}
-
-field_item yaml_node_item(const yaml_node_t *n)
-{
-  return (field_item){.text = yaml_node_text(n),
-                      .length = n->data.scalar.length,
-                      .quoted = n->data.scalar.style != YAML_PLAIN_SCALAR_STYLE,
-                      .line = n->start_mark.line + 1,
-                      .column = n->start_mark.column + 1};
-}
-
-const yaml_node_t *yaml_node_value(yaml_document_t *doc, const yaml_node_t *node, field_value *v)
-{
-  v->list = node->type == YAML_SEQUENCE_NODE;
-  v->n = 1;
-  if (node->type == YAML_MAPPING_NODE) return node;
-  if (node->type == YAML_SCALAR_NODE) v->item[0] = yaml_node_item(node);
-  if (node->type == YAML_SCALAR_NODE) return NULL;
-  v->n = (int)(node->data.sequence.items.top - node->data.sequence.items.start);
-  for (int i = 0; i < v->n && i < NUMBER_LIST_MAX; ++i) {
-    const yaml_node_t *entry = yaml_document_get_node(doc, node->data.sequence.items.start[i]);
-    if (entry->type != YAML_SCALAR_NODE) return entry;
-    v->item[i] = yaml_node_item(entry);
-  }
-  return NULL;
-}
-
-hc_status yaml_scene_value(case_reader *r, yaml_document_t *doc, const field *f, int j, void *base,
-                           const yaml_node_t *node)
-{
-  char path[FIELD_PATH], why_text[512];
-  field_value v;
-  message why;
-  int bad = -1;
-  const yaml_node_t *misfit = yaml_node_value(doc, node, &v);
-  message_start(&why, why_text, sizeof why_text);
-  if (!misfit && field_store(f, base, &v, &why, &bad)) return HC_OK;
-  if (misfit) {
-    message_add(&why, misfit == node ? " is %s, expected " : " has %s inside, expected ", yaml_node_what(misfit));
-    field_expected(f, &why);
-  }
-  case_place at = case_place_of(r, misfit ? misfit->start_mark : node->start_mark);
-  if (bad >= 0) at.line = v.item[bad].line, at.column = v.item[bad].column;
-  message_add(case_blame(r, at), "%s%s", field_path(f, j, path), why.text);
-  return HC_BAD_INPUT;
-}
-
-/* The first rival of f that has been given, or NULL. */
-static const field *given_rival(const case_reader *r, const field *f)
-{
-  const field *rival;
-  for (int i = 0; (rival = field_rival(f, i)) != NULL; ++i)
-    if (case_given(r, rival)) return rival;
-  return NULL;
-}
-
-static hc_status check_rival(case_reader *r, const field *f, const yaml_node_t *key)
-{
-  const field *rival = given_rival(r, f);
-  if (!rival) return HC_OK;
-  message_add(case_blame(r, case_place_of(r, key->start_mark)),
-              "both `%s` (line %zu) and `%s` in `%s`, expected one of them", rival->name,
-              r->at[field_index(rival)].line, f->name, f->section);
-  return HC_BAD_INPUT;
-}
-
-hc_status yaml_scene_field(case_reader *r, yaml_document_t *doc, const field *f, int j, void *base,
-                           const yaml_node_pair_t *pair)
-{
-  const yaml_node_t *key = yaml_document_get_node(doc, pair->key), *value = yaml_document_get_node(doc, pair->value);
-  if (case_given(r, f)) return yaml_duplicate_key(r, key, r->at[field_index(f)]);
-  hc_status st = check_rival(r, f, key);
-  if (st == HC_OK) st = yaml_scene_value(r, doc, f, j, base, value);
-  r->at[field_index(f)] = case_place_of(r, value->start_mark);
-  return st;
-}
-
 static hc_status check_missing(case_reader *r, const field_section *s, const yaml_node_t *node, int j)
 {
   for (int i = 0; i < field_count(); ++i) {
     const field *f = field_at(i), *rival = field_rival(f, 0);
     if (strcmp(f->section, s->name) || f->fallback || f->flags & FIELD_STRUCTURE) continue;
-    if (case_given(r, f) || given_rival(r, f)) continue;
+    if (case_given(r, f) || yaml_given_rival(r, f)) continue;
     message *m = case_blame(r, case_place_of(r, node->start_mark));
     message_add(m, "missing key `%s` in `%s", f->name, s->name);
     if (j >= 0) message_add(m, "[%d]", j);
@@ -172,12 +52,6 @@ static hc_status read_section(case_reader *r, yaml_document_t *doc, const field_
     st = f ? yaml_scene_field(r, doc, f, j, base, p) : yaml_unknown_key(r, key, s->name);
   }
   return st == HC_OK ? check_missing(r, s, node, j) : st;
-}
-
-void yaml_forget_fields(case_reader *r, unsigned of)
-{
-  for (int i = 0; i < field_count(); ++i)
-    if (field_at(i)->flags & of) r->at[i] = (case_place){0};
 }
 
 hc_status yaml_scene_contact(case_reader *r, yaml_document_t *doc, yaml_node_t *node, int j)

@@ -5,7 +5,7 @@
 #include <unistd.h>
 
 #include "base/message.h"
-#include "casefile/text_file.h"
+#include "casefile/matrices/text_file.h"
 #include "command/commands.h"
 #include "command/files.h"
 #include "command/report/html.h"

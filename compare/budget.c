@@ -8,7 +8,7 @@
 
 #include "compare/first_guess.h"
 #include "compare/motion.h"
-#include "compare/patience.h"
+#include "compare/period_limit.h"
 
 static const double same_orbit = 0.05; /* [amplitude] */
 static const double negligible = 1e-2; /* of the discrepancy: a part that no remark would name */
@@ -163,8 +163,8 @@ static hc_status integrate_again(budgeter *b, timeint **ti, double tolerance, co
   compare_setup setup = b->setup;
   timeint_result r;
   memcpy(b->state, from->state, (size_t)b->n_states * sizeof *b->state);
-  patience p = {.outer = monitor, .left = PATIENCE_PERIODS};
-  hc_monitor bounded = {patience_tick, &p};
+  period_limit p = {.outer = monitor, .left = PERIOD_LIMIT};
+  hc_monitor bounded = {period_limit_tick, &p};
   *found = false;
   setup.transient.tolerance = tolerance;
   hc_status st = *ti ? HC_OK : timeint_new(setup.model, &setup.transient, ti);

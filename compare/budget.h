@@ -20,7 +20,7 @@
 #define BUDGET_PARTS(X) X(aliasing) X(truncation) X(regularisation) X(integration) X(settling)
 enum { BUDGET_N_PARTS = 5 };
 
-/* Of one measure of the motion. */
+/* The parts of one measure's error. */
 typedef struct budget_parts {
 #define BUDGET_MEMBER(name) double name;
   BUDGET_PARTS(BUDGET_MEMBER) /* [1] */

@@ -12,13 +12,6 @@
 
 const double *comparison_state(const comparison *c, int i) { return c->states + (size_t)i * (size_t)c->n_states; }
 
-hc_status comparison_orbit_start(hbm_solver *hbm, const double *X, double omega, double *state)
-{
-  const int n = hbm_n_dof(hbm);
-  const hc_status st = hbm_state(hbm, omega, X, state, state + n);
-  return st == HC_OK ? hbm_sliders(hbm, X, state + 2 * n) : st;
-}
-
 static hc_status make_room(comparison *c)
 {
   const int cap = c->cap ? 2 * c->cap : 32;

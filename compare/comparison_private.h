@@ -35,12 +35,6 @@ struct comparison_work {
  * others and the contacts are made of. HC_NO_MEMORY, HC_INTERRUPTED: no going on. */
 hc_status solution_compare(comparison_work *w, const hbm_curve *at, int k, comparison_row *row);
 
-/* A structure's motion whose slider that never slips may just reach its limit: its multipliers may be those of one side
- * only (kick.c). Where the motion goes that is pushed off w->state to that side (+1, -1), marched with the exact law in
- * closed form. As timeint_steady. */
-bool solution_is_at_corner(const comparison_row *row);
-hc_status solution_kick(comparison_work *w, double omega, int side, timeint_result *r);
-
 /* *row becomes that of response r > 0 of the same solution, `first` being the row of the first: its errors,
  * predictions, budget and verdict. */
 void solution_turn(comparison_work *w, const hbm_curve *at, int k, int r, const comparison_row *first,

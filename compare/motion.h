@@ -8,14 +8,14 @@
 #include "timeint/steady.h"
 #include "timeint/timeint.h"
 
-/* Of the HBM solution X[2 n_harm + 1], measured by hbm_measure. */
+/* The motion of the HBM solution X[2 n_harm + 1], measured by hbm_measure. */
 periodic_motion motion_of_solution(const hbm_measures *m, int n_harm, const double *X);
 
-/* Of response r of the HBM solution X at omega, of any model, with its measures. Errors of hbm_measure_response. */
+/* The motion of response r of the HBM solution X at omega, of any model, with its measures. Errors of hbm_measure_response. */
 hc_status motion_of_response(hbm_solver *s, double omega, const double *X, int r, hbm_measures *m,
                              periodic_motion *out);
 
-/* Of a transient's reported period. */
+/* The motion over a transient's reported period. */
 periodic_motion motion_of_transient(const timeint_result *r);
 
 /* Does a slider of this transient never slip, so that its mean depends on its history? Such means are not compared. */

@@ -9,6 +9,13 @@
 #include "timeint/contact_watch.h"
 #include "timeint/sweep.h"
 
+hc_status comparison_orbit_start(hbm_solver *hbm, const double *X, double omega, double *state)
+{
+  const int n = hbm_n_dof(hbm);
+  const hc_status st = hbm_state(hbm, omega, X, state, state + n);
+  return st == HC_OK ? hbm_sliders(hbm, X, state + 2 * n) : st;
+}
+
 static discrepancy errors_between(const hbm_measures *hbm, int n_harm, const double *X, const timeint_result *tr)
 {
   const periodic_motion a = motion_of_solution(hbm, n_harm, X), b = motion_of_transient(tr);
@@ -98,8 +105,48 @@ static bool unstable(const comparison_row *row)
   return hbm_stability_verdict(&row->stability) < 0;
 }
 
-/* Does a motion that is pushed a little settle within the limits of the solution? Also where it does not settle. */
-static hc_status stays(comparison_work *w, const comparison_row *row, const double *X, bool *it_stays)
+/* ---- is a motion stable where linear theory cannot tell? ----
+ *
+ * A slider that never slips, and whose traction just reaches the limit, sticks on one side of the orbit and slips on
+ * the other: the period map has a corner there. Its multipliers are those of the side that sticks, and a motion pushed
+ * to the other one may be carried off for good. So it is perturbed to both sides, and followed period after period. */
+static const double perturbation = 1e-5; /* of the motion's size */
+enum { PERTURBED_PERIODS = 5000 };
+
+static hc_status march_perturbed(comparison_work *w, timeint *ti, double omega, double by, timeint_result *r)
+{
+  const int n = w->setup->model->n;
+  double size = 0, *y = w->scratch;
+  memcpy(y, w->state, (size_t)w->out->n_states * sizeof *y);
+  for (int i = 0; i < n; ++i) size = fmax(size, hypot(y[i], y[n + i] / omega));
+  for (int i = 0; i < n; ++i) y[i] += (i % 2 ? -by : by) * size;
+  return timeint_steady(ti, omega, y, w->monitor, r);
+}
+
+static bool is_at_corner(const comparison_row *row)
+{
+  return row->transient.free_sliders > 0 && hbm_stability_verdict(&row->stability) == 0;
+}
+
+/* Where the motion goes that is pushed off w->state to that side (+1, -1), marched with the exact law in closed form. As
+ * timeint_steady. */
+static hc_status perturbed_motion(comparison_work *w, double omega, int direction, timeint_result *r)
+{
+  transient_settings how = w->setup->transient;
+  timeint *ti;
+  how.law = TRANSIENT_LAW_EXACT;
+  how.method = TRANSIENT_METHOD_CLOSED_FORM;
+  how.steady = TRANSIENT_STEADY_MARCH;
+  how.scout = how.richardson = false;
+  if (how.max_periods > PERTURBED_PERIODS) how.max_periods = PERTURBED_PERIODS;
+  hc_status st = timeint_new(w->setup->model, &how, &ti);
+  if (st == HC_OK) st = march_perturbed(w, ti, omega, direction * perturbation, r);
+  timeint_free(ti);
+  return st;
+}
+
+/* *it_stays: perturbed motions return to within the limits of the solution, or do not converge. */
+static hc_status perturbations_decay(comparison_work *w, const comparison_row *row, const double *X, bool *it_stays)
 {
   const side first = {w->hbm, w->setup, 0};
   *it_stays = true;
@@ -107,7 +154,7 @@ static hc_status stays(comparison_work *w, const comparison_row *row, const doub
     timeint_result there;
     hbm_measures unused;
     discrepancy e;
-    hc_status st = solution_kick(w, row->omega, to, &there);
+    hc_status st = perturbed_motion(w, row->omega, to, &there);
     if (st == HC_NO_MEMORY || st == HC_INTERRUPTED) return st;
     if (st != HC_OK || errors_of(&first, row->omega, X, &there, &unused, &e) != HC_OK) continue;
     *it_stays = there.period_multiple == 1 && within_limits(w->setup, &e, &there);
@@ -124,7 +171,7 @@ static hc_status judge(comparison_work *w, const comparison_row *row, const doub
   if (row->transient.period_multiple > 1) return *out = VERDICT_PERIOD_K, HC_OK;
   if (within_limits(w->setup, &row->errors, &row->transient)) {
     bool it_stays = true;
-    hc_status st = !hbm_of_oscillator(w->hbm) && solution_is_at_corner(row) ? stays(w, row, X, &it_stays) : HC_OK;
+    hc_status st = !hbm_of_oscillator(w->hbm) && is_at_corner(row) ? perturbations_decay(w, row, X, &it_stays) : HC_OK;
     *out = it_stays ? VERDICT_MATCH : VERDICT_UNSTABLE;
     return st;
   }

@@ -88,7 +88,7 @@ static bool moved(const steady_row *row)
   return row->status == HC_OK || row->status == HC_NOT_SETTLED || row->status == HC_APERIODIC;
 }
 
-/* Of the periods that are in w->ti. */
+/* Appends what each contact does in the periods that w->ti holds. */
 static hc_status add_contacts(workspace *w, const steady_row *row)
 {
   const model *m = w->setup->model;
@@ -108,7 +108,7 @@ static hc_status add_contacts(workspace *w, const steady_row *row)
   return measured == HC_NO_MEMORY ? measured : st;
 }
 
-/* Of the periods that are in w->ti. */
+/* Appends the rows of the other responses, from the periods that w->ti holds. */
 static hc_status add_other_responses(workspace *w, steady_row *row)
 {
   hc_status st = HC_OK;

@@ -36,7 +36,7 @@ static bool wrong(const comparison_row *r, const discrepancy *g, double *ratio)
   case VERDICT_UNSTABLE:
     if (r->response > 0) return false; /* what is said of the first response is said of the solution */
     if (r->orbit_status == HC_OK && r->orbit.free_sliders > 0 && hbm_stability_verdict(&r->stability) == 0)
-      return false; /* multipliers are those of one side (compare/kick.c) */
+      return false; /* multipliers are those of one side (compare/solution.c) */
     return r->orbit_status == HC_OK ? timeint_stability(&r->orbit) > 0 : hbm_stability_verdict(&r->stability) > 0;
   case VERDICT_DIFFERS:
   case VERDICT_OTHER_BRANCH: return *ratio <= 1;

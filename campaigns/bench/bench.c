@@ -98,7 +98,7 @@ static hc_status add_family(bench *b, const family *f, double omega)
   return st;
 }
 
-/* Of a row that marches: did one with settings no finer take too long? Not asked of shooting, whose time does not rise
+/* True if the row marches and one with settings no finer took too long. Not asked of shooting, whose time does not rise
  * with finer settings. */
 static bool hopeless(const bench_row *rows, int i)
 {

@@ -131,8 +131,7 @@ static hc_status wait_for(finder *f, double omega, const hc_monitor *monitor, be
   return HC_OK;
 }
 
-/* Of the curve's solutions at omega, by size of the first response: the largest whose orbit is stable, into f->X and
- * f->state. */
+/* The largest of the curve's solutions at omega (by its first response) whose orbit is stable, into f->X and f->state. */
 static hc_status largest_stable(finder *f, double omega, const hc_monitor *monitor, bench_start *start,
                                 timeint_result *best, double *floor)
 {

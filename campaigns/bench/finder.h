@@ -21,7 +21,7 @@ typedef struct finder {
 hc_status finder_start(const scene *sc, const number_list *at, const hc_monitor *monitor, finder *f);
 void finder_free(finder *f);
 
-/* Of the scene's compare frequencies the one where the curve's response is largest. */
+/* That of the scene's compare frequencies where the curve's response is largest. */
 hc_status finder_default(finder *f, double *omega);
 
 /* The largest stable response at omega, into *at and *start, which has room. HC_NOT_CONVERGED: there is none, or no

@@ -316,7 +316,7 @@ static void put_order(accuracy *out, const char *quantity, int n_harm, int n, co
     out->orders[out->n_orders++] = (order_row){.quantity = quantity, .harmonics = n_harm, .omega = NAN, .fit = fit};
 }
 
-/* Of the aliasing in N for each H, and of the truncation in H with exact forces. */
+/* The orders of the aliasing error in N for each H, and of the truncation error in H with exact forces. */
 static void put_orders(const workspace *w, accuracy *out)
 {
   double x[NUMBER_LIST_MAX], e[NUMBER_LIST_MAX], h[NUMBER_LIST_MAX], truncation[NUMBER_LIST_MAX];

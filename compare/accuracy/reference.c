@@ -76,7 +76,7 @@ typedef struct climber {
   double *here;        /* [n_states] on it */
 } climber;
 
-/* Of the orbit at omega next to the climber's state. */
+/* *value = -amplitude of the orbit at omega next to the climber's state; NaN where there is none. */
 static hc_status minus_amplitude(void *self, double omega, double *value)
 {
   const climber *c = self;

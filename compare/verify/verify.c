@@ -6,9 +6,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "compare/verify/points.h"
-#include "compare/verify/search.h"
-#include "compare/verify/truth.h"
+#include "compare/verify/search/search.h"
+#include "compare/verify/truth/points.h"
+#include "compare/verify/truth/truth.h"
 
 static int differing(const verify_report *r)
 {

@@ -3,8 +3,9 @@
 #include <stdio.h>
 
 #include "base/message.h"
-#include "compare/verify/points.h"
-#include "compare/verify/search.h"
+#include "compare/verify/search/search.h"
+#include "compare/verify/truth/points.h"
+#include "compare/verify/verify.h"
 
 /* "42 %" or "2e-06". */
 static void add_distance(message *m, double d)

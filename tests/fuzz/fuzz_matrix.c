@@ -6,7 +6,7 @@
 
 #include "base/message.h"
 #include "base/number.h"
-#include "casefile/matrix_file.h"
+#include "casefile/matrices/matrix_file.h"
 #include "tests/fuzz/fuzz.h"
 
 enum { WORDS = 512, LARGE = 50 /* rows: what is larger is zeros for the most part, and takes long to write */ };

@@ -3,8 +3,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "compare/verify/csv.h"
-#include "compare/verify/search.h"
+#include "compare/verify/curve_file/csv.h"
+#include "compare/verify/search/search.h"
 #include "tests/check.h"
 
 static const double two_pi = 2 * PI;

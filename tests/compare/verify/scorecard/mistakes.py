@@ -1,7 +1,7 @@
 """The mistakes of the scorecard: what is wrong with the curve, and what an expert would call it, written down before
 any answer of `hbmcheck verify` was looked at.
 
-    right    the causes (compare/verify/causes.h) that may be named, one set for each answer that an expert accepts:
+    right    the causes (compare/verify/equations/causes.h) that may be named, one set for each answer that an expert accepts:
              several where two causes give the same curve, as mu = 0 and kt = 0 do. An empty set: nothing is wrong."""
 from dataclasses import dataclass, field
 

@@ -1,0 +1,78 @@
+/* matrix_text.h - a file of numbers as lines of words, and the matrix that grows out of it: what the readers of
+ * matrices' formats share (matrix_formats.h). A message starts with the place, "NAME:LINE:COLUMN: ". */
+#ifndef HC_MATRIX_TEXT_H
+#define HC_MATRIX_TEXT_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "base/message.h"
+#include "base/status.h"
+#include "casefile/matrices/matrix_file.h"
+
+enum { MATRIX_WORDS = 20 }; /* kept of a line; a line of Abaqus has at most 16 */
+
+typedef struct matrix_word {
+  const char *text;
+  size_t length;
+} matrix_word;
+
+typedef struct matrix_text {
+  const char *name, *text, *end;
+  const char *comment;   /* what lines of comment start with */
+  bool commas;           /* words are parted by commas or blanks; else by blanks alone */
+  bool integers;         /* numbers must be */
+  const char *line_text; /* of the line being read */
+  const char *next;      /* the line after it      */
+  size_t line;           /* its number, from 1     */
+  int n_words;           /* at most MATRIX_WORDS are kept, and one more counted */
+  matrix_word words[MATRIX_WORDS];
+  const char *part;     /* of those in the file the one that is asked for, or NULL */
+  int expected, n;      /* rows; expected = 0: any number */
+  double *values;       /* [n][n] by columns */
+  unsigned char *seen;  /* a bit an entry */
+  matrix_label *labels; /* [n], or NULL where the format has none */
+  int watch_row, watch_column;
+  size_t watched_line, watched_place; /* where that entry stands; 0: nowhere yet */
+  message *m;
+} matrix_text;
+
+matrix_text matrix_text_start(const char *name, const char *text, size_t length, int expected, message *m);
+
+/* Frees what is left of values and labels. */
+void matrix_text_free(matrix_text *r);
+
+/* Before the first line again. */
+void matrix_text_rewind(matrix_text *r);
+
+/* The next line into words; false at the end of the text. matrix_text_next skips blank lines and comments. */
+bool matrix_text_line(matrix_text *r);
+bool matrix_text_next(matrix_text *r);
+
+/* Is it that word, in any case of letters? `name` is in lower case. */
+bool matrix_word_is(const matrix_word *w, const char *name);
+
+/* Start the message with the place of `at` in the current line; with the end of the text, where matrix_text_next has
+ * come to; with the place of word i and the word itself. */
+message *matrix_text_blame(matrix_text *r, const char *at);
+message *matrix_text_blame_end(matrix_text *r);
+message *matrix_text_blame_word(matrix_text *r, int i);
+
+/* Word i as an integer from..to, of which `what` tells; as a finite number. Else the message is made. */
+bool matrix_text_integer(matrix_text *r, int i, int from, long to, const char *what, int *value);
+bool matrix_text_number(matrix_text *r, int i, double *value);
+
+/* Room for n rows, all 0, and no entry seen. HC_NO_MEMORY. */
+hc_status matrix_text_square(matrix_text *r, int n);
+
+/* Entry (i, j), from 0, has been given before; it is given by the current line, at `at`. */
+bool matrix_text_seen(const matrix_text *r, int i, int j);
+void matrix_text_put(matrix_text *r, int i, int j, double value, const char *at);
+
+/* Is (i, j) the entry that is watched? Then its place is noted. */
+void matrix_text_watch(matrix_text *r, int i, int j, const char *at);
+
+/* The matrix has r->n rows, read to its end. HC_BAD_INPUT with the message if others are expected. */
+hc_status matrix_text_check_rows(matrix_text *r, int n);
+
+#endif

@@ -1,0 +1,65 @@
+/* text_file.c - see text_file.h. */
+#include "casefile/matrices/text_file.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+static hc_status cannot_open(int error, message *m)
+{
+  char words[128];
+  if (strerror_r(error, words, sizeof words)) snprintf(words, sizeof words, "error %d", error);
+  message_add(m, "cannot be opened: %s", words);
+  return error == ENOMEM ? HC_NO_MEMORY : HC_IO;
+}
+
+/* Only what lies on a disk has an end that is known; opening anything else may wait for ever. */
+hc_status text_file_open(const char *path, size_t most, FILE **from, size_t *size, message *m)
+{
+  struct stat info;
+  *from = NULL;
+  *size = 0;
+  if (stat(path, &info) != 0) return cannot_open(errno, m);
+  if (!S_ISREG(info.st_mode)) {
+    message_add(m, "is no file");
+    return HC_IO;
+  }
+  if ((size_t)info.st_size > most) {
+    message_add(m, "is larger than %zu MB", most >> 20);
+    return HC_IO;
+  }
+  *size = (size_t)info.st_size;
+  return (*from = fopen(path, "rb")) ? HC_OK : cannot_open(errno, m);
+}
+
+hc_status text_file_read(const char *path, size_t most, char **text, size_t *length, message *m)
+{
+  FILE *from;
+  size_t size;
+  *text = NULL;
+  *length = 0;
+  hc_status st = text_file_open(path, most, &from, &size, m);
+  if (st != HC_OK) return st;
+  if (!(*text = malloc(size + 1))) {
+    st = HC_NO_MEMORY;
+  } else if ((*length = fread(*text, 1, size, from)) < size && ferror(from)) {
+    message_add(m, "cannot be read");
+    st = HC_IO;
+  }
+  if (*text) (*text)[*length] = '\0';
+  fclose(from);
+  return st;
+}
+
+char *text_file_path(const char *from, const char *name, size_t length)
+{
+  const char *slash = strrchr(from, '/');
+  const size_t folder = slash && !(length > 0 && *name == '/') ? (size_t)(slash - from) + 1 : 0;
+  char *path = malloc(folder + length + 1);
+  if (!path) return NULL;
+  memcpy(path, from, folder);
+  memcpy(path + folder, name, length);
+  path[folder + length] = '\0';
+  return path;
+}

@@ -1,0 +1,306 @@
+/* csv.c - see csv.h. The file is read whole, then line by line; no line is longer than the file, no field is copied. */
+#include "compare/verify/curve_file/csv.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/message.h"
+#include "base/number.h"
+#include "compare/verify/curve_file/fields.h"
+#include "compare/verify/curve_file/header.h"
+
+static const size_t most_bytes = (size_t)64 << 20; /* 640 a point */
+
+typedef struct reader {
+  const char *name;
+  message *m;
+  verify_columns columns;
+  verify_data *out;
+  int cap;
+  char separator; /* 0: not known yet; ' ' is any blanks */
+  long line, first_line;
+  int n_fields, first_fields;
+  int omega, value; /* from 0 */
+  int response;     /* likewise; -1: no such column, or all of its lines are wanted */
+  field fields[VERIFY_MOST_FIELDS];
+} reader;
+
+static hc_status blame(reader *r, int column)
+{
+  message_add_input(r->m, r->name, strlen(r->name), 240);
+  message_add(r->m, ":%ld:%d: ", r->line, column);
+  return HC_BAD_INPUT;
+}
+
+/* ---- a line into fields ---- */
+
+static hc_status split(reader *r, const char *text, size_t length)
+{
+  int column = 1;
+  switch (fields_split(text, length, r->separator, r->fields, &r->n_fields, &column)) {
+  case FIELDS_FINE: return HC_OK;
+  case FIELDS_TOO_MANY:
+    blame(r, column);
+    message_add(r->m, "one field too many, expected at most %d", VERIFY_MOST_FIELDS);
+    break;
+  case FIELDS_OPEN_QUOTE:
+    blame(r, column);
+    message_add(r->m, "a quote that is not closed, expected \" at the end of the field");
+    break;
+  case FIELDS_AFTER_QUOTE:
+    blame(r, column);
+    message_add(r->m, "text behind the closing quote, expected the next field");
+    break;
+  }
+  return HC_BAD_INPUT;
+}
+
+/* ---- the header ---- */
+
+static bool is_header(const reader *r)
+{
+  double ignored;
+  for (int i = 0; i < r->n_fields; ++i)
+    if (number_read(r->fields[i].text, r->fields[i].length, &ignored) != NUMBER_NONE) return false;
+  return true;
+}
+
+static void list_header(reader *r)
+{
+  for (int i = 0; i < r->n_fields && i < 8; ++i) {
+    message_add(r->m, i ? ", " : "");
+    message_add_input(r->m, r->fields[i].text, r->fields[i].length, 24);
+  }
+  if (r->n_fields > 8) message_add(r->m, ", ...");
+}
+
+/* Where the column is, from 0, into *at. */
+static hc_status find_column(reader *r, const verify_column *c, bool header, int *at)
+{
+  int found = c->number && c->number <= r->n_fields ? 1 : 0;
+  *at = c->number - 1;
+  for (int i = 0; i < r->n_fields && !c->number && header; ++i) {
+    if (!field_is(&r->fields[i], c->header)) continue;
+    ++found;
+    *at = i;
+  }
+  if (found == 1) return HC_OK;
+  blame(r, 1);
+  if (c->number) message_add(r->m, "no column %d, expected one of the %d there are", c->number, r->n_fields);
+  else {
+    message_add(r->m, "%s column '", found ? "more than one" : "no");
+    message_add_input(r->m, c->header, strlen(c->header), 40);
+    if (!header) message_add(r->m, "', expected a header before the first number, or --columns with numbers");
+    else message_add(r->m, found ? "', expected --columns with numbers from 1" : "', expected one of ");
+    if (header && !found) list_header(r);
+  }
+  return HC_BAD_INPUT;
+}
+
+static hc_status begin(reader *r, bool header)
+{
+  message words;
+  char text[VERIFY_TEXT];
+  message_start(&words, text, sizeof text);
+  if (r->columns.by_header && !header) {
+    blame(r, 1);
+    message_add(r->m, "no header, expected one that names omega and amplitude, or --columns omega=1,amplitude=2");
+    return HC_BAD_INPUT;
+  }
+  if (r->columns.by_header &&
+      !header_recognise(r->n_fields, r->fields, r->columns.quantity_given, &r->columns, &words)) {
+    blame(r, 1);
+    message_add(r->m, "%s", text);
+    return HC_BAD_INPUT;
+  }
+  r->out->quantity = r->columns.quantity;
+  r->response = -1;
+  for (int i = 0; i < r->n_fields && header && r->columns.response; ++i)
+    if (field_is(&r->fields[i], "response")) r->response = i, r->out->by_response = true;
+  hc_status st = find_column(r, &r->columns.omega, header, &r->omega);
+  if (st == HC_OK) st = find_column(r, &r->columns.value, header, &r->value);
+  r->first_line = r->line;
+  r->first_fields = r->n_fields;
+  return st;
+}
+
+/* ---- points ---- */
+
+/* "12,5": digits, one comma, digits. */
+static bool decimal_comma(const field *f)
+{
+  size_t comma = 0, commas = 0;
+  for (size_t i = 0; i < f->length; ++i)
+    if (f->text[i] == ',') comma = i, ++commas;
+  double ignored;
+  return commas == 1 && comma > 0 && number_read(f->text, comma, &ignored) == NUMBER_FINE &&
+         number_read(f->text + comma + 1, f->length - comma - 1, &ignored) == NUMBER_FINE;
+}
+
+static void blame_number(reader *r, const field *f, const char *fault, const char *expected)
+{
+  blame(r, f->column);
+  message_add(r->m, "'");
+  message_add_input(r->m, f->text, f->length, 40);
+  message_add(r->m, "' %s, expected %s like 12.5 or 1.25e1%s", fault, expected,
+              decimal_comma(f) ? "; a decimal comma? Write points" : "");
+}
+
+static hc_status read_number(reader *r, int index, const char *what, double *value)
+{
+  static const char *const faults[] = {[NUMBER_NONE] = "is not a number",
+                                       [NUMBER_NOT_FINITE] = "is not finite",
+                                       [NUMBER_TOO_LARGE] = "is too large",
+                                       [NUMBER_TOO_SMALL] = "is too small",
+                                       [NUMBER_NOT_INTEGER] = "is not an integer"};
+  const field *f = &r->fields[index];
+  number_fault fault = number_read(f->text, f->length, value);
+  if (fault == NUMBER_FINE) return HC_OK;
+  blame_number(r, f, faults[fault], what);
+  return HC_BAD_INPUT;
+}
+
+/* The columns' numbers become omega in rad per time and the quantity, which must be in range. */
+static hc_status convert(reader *r, verify_point *p)
+{
+  const verify_quantity *q = &r->columns.quantity;
+  const field *value = &r->fields[r->value];
+  switch (verify_point_convert(q, r->columns.cycles, p)) {
+  case VERIFY_FINE: return HC_OK;
+  case VERIFY_NEGATIVE:
+    blame_number(r, value, "is too small", "a number >= 0");
+    if (!q->decibel) message_add(r->m, "; is it in dB? Name it dB, or dB_ and the quantity");
+    break;
+  case VERIFY_OMEGA_TOO_LARGE: blame_number(r, &r->fields[r->omega], "is too large", "a number"); break;
+  case VERIFY_VALUE_TOO_LARGE: blame_number(r, value, "is too large", "a number"); break;
+  }
+  return HC_BAD_INPUT;
+}
+
+static hc_status add_point(reader *r, verify_point p)
+{
+  if (r->out->n == VERIFY_MOST_POINTS) {
+    blame(r, 1);
+    message_add(r->m, "one point too many, expected at most %d", VERIFY_MOST_POINTS);
+    return HC_BAD_INPUT;
+  }
+  if (r->out->n == r->cap) {
+    int cap = r->cap ? 2 * r->cap : 256;
+    verify_point *points = realloc(r->out->points, (size_t)cap * sizeof *points);
+    if (!points) return HC_NO_MEMORY;
+    r->out->points = points;
+    r->cap = cap;
+  }
+  r->out->points[r->out->n++] = p;
+  return HC_OK;
+}
+
+static hc_status read_point(reader *r)
+{
+  verify_point p = {.line = r->line};
+  char name[VERIFY_QUANTITY_TEXT];
+  if (r->n_fields != r->first_fields) {
+    blame(r, 1);
+    message_add(r->m, "%d field%s, expected %d as in line %ld%s", r->n_fields, r->n_fields == 1 ? "" : "s",
+                r->first_fields, r->first_line,
+                r->separator == ',' && r->n_fields == 2 * r->first_fields ? "; decimal commas? Write points" : "");
+    return HC_BAD_INPUT;
+  }
+  if (r->response >= 0 && !field_is(&r->fields[r->response], r->columns.response)) return HC_OK;
+  hc_status st = read_number(r, r->omega, r->columns.cycles ? "a frequency" : "an omega", &p.omega);
+  if (st == HC_OK) st = read_number(r, r->value, verify_quantity_name(&r->columns.quantity, name), &p.value);
+  if (st == HC_OK) st = convert(r, &p);
+  if (st == HC_OK && !(p.omega > 0)) return ++r->out->left_out, HC_OK;
+  return st == HC_OK ? add_point(r, p) : st;
+}
+
+static bool blank(char c) { return c == ' ' || c == '\t'; }
+
+static hc_status read_line(reader *r, const char *text, size_t length)
+{
+  size_t first = 0;
+  while (first < length && blank(text[first])) ++first;
+  if (first == length || text[first] == '#') return HC_OK;
+  bool fresh = !r->separator;
+  if (fresh) r->separator = fields_separator(text, length);
+  hc_status st = split(r, text, length);
+  bool header = st == HC_OK && fresh && is_header(r);
+  if (st == HC_OK && fresh) st = begin(r, header);
+  return st != HC_OK || header ? st : read_point(r);
+}
+
+static hc_status read_lines(reader *r, const char *text, size_t length)
+{
+  if (length >= 3 && !memcmp(text, "\xEF\xBB\xBF", 3)) text += 3, length -= 3;
+  const char *end = text + length;
+  hc_status st = HC_OK;
+  while (text < end && st == HC_OK) {
+    const char *stop = memchr(text, '\n', (size_t)(end - text)), *next = stop ? stop + 1 : end;
+    if (!stop) stop = end;
+    if (stop > text && stop[-1] == '\r') --stop;
+    ++r->line;
+    st = read_line(r, text, (size_t)(stop - text));
+    text = next;
+  }
+  if (st != HC_OK || r->out->n >= VERIFY_LEAST_POINTS) return st;
+  r->line += r->line == 0;
+  blame(r, 1);
+  message_add(r->m, "%d point%s in the file%s", r->out->n, r->out->n == 1 ? "" : "s",
+              r->out->left_out ? " at omega > 0" : "");
+  if (r->out->by_response) message_add(r->m, " of response %s", r->columns.response);
+  message_add(r->m, ", expected at least %d", VERIFY_LEAST_POINTS);
+  return HC_BAD_INPUT;
+}
+
+/* ---- the file ---- */
+
+/* All of it into *text, to free. */
+static hc_status read_all(FILE *from, char **text, size_t *length)
+{
+  size_t cap = 0;
+  *text = NULL;
+  *length = 0;
+  for (;;) {
+    if (*length == cap) {
+      cap = cap ? 2 * cap : 65536;
+      char *more = realloc(*text, cap);
+      if (!more) return HC_NO_MEMORY;
+      *text = more;
+    }
+    size_t n = fread(*text + *length, 1, cap - *length, from);
+    *length += n;
+    if (*length > most_bytes) return HC_BAD_INPUT;
+    if (n == 0) return ferror(from) ? HC_IO : HC_OK;
+  }
+}
+
+hc_status verify_data_read(const char *path, const verify_columns *columns, verify_data *out, char *words)
+{
+  message m;
+  char *text = NULL;
+  size_t length;
+  *out = (verify_data){.quantity = columns->quantity};
+  message_start(&m, words, VERIFY_TEXT);
+  reader *r = malloc(sizeof *r);
+  if (!r) {
+    message_add(&m, "%s", hc_status_text(HC_NO_MEMORY));
+    return HC_NO_MEMORY;
+  }
+  *r = (reader){.name = path, .m = &m, .columns = *columns, .out = out};
+  errno = 0;
+  FILE *from = fopen(path, "r");
+  hc_status st = from ? read_all(from, &text, &length) : errno == ENOMEM ? HC_NO_MEMORY : HC_IO;
+  if (st == HC_IO)
+    message_add(&m, "%s: %s, expected a file of columns", path, errno ? strerror(errno) : hc_status_text(st));
+  else if (st == HC_BAD_INPUT)
+    message_add(&m, "%s: larger than %zu MiB, expected a response curve", path, most_bytes >> 20);
+  else if (st == HC_OK) st = read_lines(r, text, length);
+  if (st == HC_NO_MEMORY) message_add(&m, "%s: %s", path, hc_status_text(st));
+  if (from) fclose(from);
+  free(text);
+  free(r);
+  return st;
+}

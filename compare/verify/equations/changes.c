@@ -1,0 +1,396 @@
+/* changes.c - see changes.h. A constant force p on the structure is carried by a static displacement d: with x = d + y
+ * the contacts feel y at the gap + n . d (n: normal direction), so that
+ *     K d + sum_j n_j kn_j (n_j . d) [+ what the constant force is] = 0
+ * and y moves as x does in the model with those gaps. A slider follows d, and feels nothing of it. */
+#include "compare/verify/equations/changes.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/constants.h"
+#include "numerics/dense.h"
+
+static const struct {
+  int cause;
+  const char *words;
+  bool factor;
+  verify_part part;
+} changes[] = {
+#define VERIFY_CHANGE_WORDS(code, cause, words, factor, part) {cause, words, factor, part},
+    VERIFY_CHANGE_LIST(VERIFY_CHANGE_WORDS)
+#undef VERIFY_CHANGE_WORDS
+};
+
+enum { MOST_SINGLE_CONTACTS = 12, MOST_DOFS = 200, MOST_PAIRED_DOFS = 8 };
+
+int verify_change_cause(verify_change c) { return changes[c].cause; }
+const char *verify_change_words(verify_change c) { return changes[c].words; }
+bool verify_change_has_factor(verify_change c) { return changes[c].factor; }
+verify_part verify_change_part(verify_change c) { return changes[c].part; }
+
+int verify_change_variants(const model *m, verify_change c)
+{
+  const int contacts = model_whole_contacts(m);
+  switch (changes[c].part) {
+  case PART_CONTACT: return 1 + (m->n > 1 && contacts > 1 && contacts <= MOST_SINGLE_CONTACTS) * contacts;
+  case PART_ONE_CONTACT: return contacts <= MOST_SINGLE_CONTACTS ? 1 + contacts : 1;
+  case PART_DOF: return m->n > 1 && m->n <= MOST_DOFS ? 1 + m->n : 1;
+  case PART_PAIR: return m->n > 1 && m->n <= MOST_PAIRED_DOFS ? 1 + m->n * m->n : 1;
+  default: return 1;
+  }
+}
+
+/* ---- vectors and matrices, by columns ---- */
+
+static double dot(int n, const double *a, const double *b)
+{
+  double sum = 0;
+  for (int i = 0; i < n; ++i) sum += a[i] * b[i];
+  return sum;
+}
+
+static void scale(size_t n, double factor, double *a)
+{
+  for (size_t i = 0; i < n; ++i) a[i] *= factor;
+}
+
+static bool is_zero(int n, const double *a)
+{
+  for (int i = 0; i < n; ++i)
+    if (a[i] != 0) return false;
+  return true;
+}
+
+static void swap(double *a, double *b)
+{
+  const double kept = *a;
+  *a = *b;
+  *b = kept;
+}
+
+/* A += s d d^T */
+static void add_spring(int n, double s, const double *d, double *A)
+{
+  for (int k = 0; k < n; ++k)
+    for (int i = 0; i < n; ++i) A[i + n * k] += s * d[i] * d[k];
+}
+
+static void transpose(int n, double *A)
+{
+  for (int k = 0; k < n; ++k)
+    for (int i = 0; i < k; ++i) swap(&A[i + n * k], &A[k + n * i]);
+}
+
+/* Rows i and k of A exchanged, and its columns. */
+static void exchange(int n, int i, int k, double *A)
+{
+  for (int j = 0; j < n; ++j) swap(&A[i + n * j], &A[k + n * j]);
+  for (int j = 0; j < n; ++j) swap(&A[j + n * i], &A[j + n * k]);
+}
+
+/* ---- numbers of the model ---- */
+
+static void turn(int n, model_contact *c, double angle_deg)
+{
+  if (n == 1) model_direction(angle_deg, c->tangent, c->normal);
+}
+
+/* One side of the contact moves the other way: the last entry of a direction that has several. */
+static void turn_one_side(int n, double *direction)
+{
+  int entries = 0, last = 0;
+  for (int i = 0; i < n; ++i)
+    if (direction[i] != 0) ++entries, last = i;
+  if (entries > 1) direction[last] = -direction[last];
+}
+
+/* Each direction by itself, or only one of the two. */
+static void change_pair(model_contact *c, verify_change change)
+{
+  const contact_pair without = change == CHANGE_NO_TANGENT_1 ? CONTACT_FIRST : CONTACT_SECOND;
+  if (c->pair == CONTACT_ALONE) return;
+  c->circle = change == CHANGE_CIRCLE_LIMIT;
+  if ((change == CHANGE_NO_TANGENT_1 || change == CHANGE_NO_TANGENT_2) && c->pair == without) c->law.mu = 0;
+}
+
+static void change_contact(int n, model_contact *c, verify_change change, double factor)
+{
+  const double halves = c->pair == CONTACT_ALONE ? 1 : 2; /* of the normal stiffness (model.h) */
+  const double kt = c->law.kt, angle = n == 1 ? atan2(*c->normal, *c->tangent) : 0, degree = TWO_PI / 360;
+  switch (change) {
+  case CHANGE_KT: c->law.kt *= factor; break;
+  case CHANGE_KN: c->law.kn *= factor; break;
+  case CHANGE_FRICTION: c->law.mu *= factor; break;
+  case CHANGE_GAP: c->law.gap *= factor; break;
+  case CHANGE_CONTACT_FORCE: c->law.kt *= factor, c->law.kn *= factor, c->law.load *= factor; break;
+  case CHANGE_GAP_SIGN: c->law.gap = -c->law.gap; break;
+  case CHANGE_ANGLE_COMPLEMENT:
+    if (n == 1) swap(c->tangent, c->normal);
+    break;
+  case CHANGE_ANGLE_IN_RADIANS: turn(n, c, angle / (degree * degree)); break;
+  case CHANGE_ANGLE_IN_DEGREES: turn(n, c, angle); break;
+  case CHANGE_EXCHANGED:
+    if (c->law.load == 0) c->law.kt = halves * c->law.kn, c->law.kn = kt / halves;
+    break;
+  case CHANGE_NO_FRICTION: c->law.mu = 0; break;
+  case CHANGE_NO_KT: c->law.kt = 0; break;
+  case CHANGE_SQUARE_LIMIT:
+  case CHANGE_CIRCLE_LIMIT:
+  case CHANGE_NO_TANGENT_2:
+  case CHANGE_NO_TANGENT_1: change_pair(c, change); break;
+  case CHANGE_ONE_SIDE: turn_one_side(n, c->tangent), turn_one_side(n, c->normal); break;
+  default: break;
+  }
+}
+
+/* Every contact stuck for good. */
+static void stick(model *m)
+{
+  for (int j = 0; j < m->n_contacts; ++j) {
+    const model_contact *c = &m->contacts[j];
+    if (m->n == 1) *m->stiffness += model_stuck_stiffness(c); /* in one sum */
+    else add_spring(m->n, c->law.kt, c->tangent, m->stiffness), add_spring(m->n, c->law.kn, c->normal, m->stiffness);
+  }
+}
+
+static void change_matrices(model *m, verify_change change, double factor)
+{
+  const size_t entries = (size_t)m->n * (size_t)m->n;
+  if (change == CHANGE_MASS) scale(entries, factor, m->mass);
+  if (change == CHANGE_DAMPING) scale(entries, factor, m->damping);
+  if (change == CHANGE_STIFFNESS) scale(entries, factor, m->stiffness);
+  if (change == CHANGE_STUCK) stick(m);
+  if (change == CHANGE_STUCK || change == CHANGE_NO_CONTACT) m->n_contacts = 0;
+  if (change == CHANGE_DAMPING_TRANSPOSED) transpose(m->n, m->damping);
+  if (change == CHANGE_STIFFNESS_TRANSPOSED) transpose(m->n, m->stiffness);
+}
+
+static void move_load(int n, int to, double *load)
+{
+  double sum = 0;
+  for (int i = 0; i < n; ++i) sum += load[i], load[i] = 0;
+  load[to] = sum;
+}
+
+static void change_loads(model *m, verify_change change, double factor, int dof)
+{
+  const size_t n = (size_t)m->n;
+  for (int l = 0; l < m->n_loads; ++l) {
+    model_load *load = &m->loads[l];
+    const bool fixed = load->harmonic == 0;
+    if (change == CHANGE_FORCE && !fixed) scale(n, factor, load->cosine), scale(n, factor, load->sine);
+    if (change == CHANGE_NO_STATIC_LOAD && fixed) scale(n, 0, load->cosine);
+    if (change == CHANGE_PHASE_SIGN) scale(n, -1, load->sine);
+    if (change == CHANGE_LOAD_DOF && dof >= 0 && !fixed)
+      move_load(m->n, dof, load->cosine), move_load(m->n, dof, load->sine);
+  }
+}
+
+/* Degrees of freedom i and k exchanged in the matrices, or in the contacts. */
+static void change_numbering(model *m, verify_change change, int i, int k)
+{
+  if (i >= k) return;
+  if (change == CHANGE_MATRICES_EXCHANGED)
+    exchange(m->n, i, k, m->mass), exchange(m->n, i, k, m->damping), exchange(m->n, i, k, m->stiffness);
+  for (int j = 0; j < m->n_contacts && change == CHANGE_CONTACT_DOFS_EXCHANGED; ++j) {
+    swap(&m->contacts[j].tangent[i], &m->contacts[j].tangent[k]);
+    swap(&m->contacts[j].normal[i], &m->contacts[j].normal[k]);
+  }
+}
+
+/* ---- constant forces ---- */
+
+/* d := A^-1 d; A[n][n] becomes its factors. HC_BAD_INPUT: nothing holds the structure. */
+static hc_status solve(int n, double *A, double *d)
+{
+  if (n == 1 && !(*A > 0)) return HC_BAD_INPUT;
+  int *pivot = malloc((size_t)n * sizeof *pivot);
+  if (!pivot) return HC_NO_MEMORY;
+  const bool factored = dense_factor(n, A, pivot) == HC_OK;
+  if (factored) dense_solve(n, A, pivot, 1, d);
+  free(pivot);
+  return factored ? HC_OK : HC_BAD_INPUT;
+}
+
+/* The contacts' gaps follow the displacement d. HC_BAD_INPUT if that opens a contact under preload. */
+static hc_status follow(model *m, const double *d, bool all_linear)
+{
+  for (int j = 0; j < m->n_contacts; ++j) {
+    model_contact *c = &m->contacts[j];
+    const double before = c->law.gap;
+    if (is_zero(m->n, c->normal)) continue;
+    c->law.gap += dot(m->n, c->normal, d);
+    if (!all_linear && (c->law.gap > 0) != (before > 0)) return HC_BAD_INPUT;
+  }
+  return HC_OK;
+}
+
+/* The displacement by a constant force[n], with mean_factor times the contacts' force in the balance; the gaps follow
+ * it, *offset is what the first response gets of it. HC_BAD_INPUT if that opens a contact under preload. */
+static hc_status displace(model *m, double *force, double mean_factor, bool all_linear, double *offset)
+{
+  const int n = m->n;
+  double *K = malloc((size_t)n * (size_t)n * sizeof *K);
+  if (!K) return HC_NO_MEMORY;
+  memcpy(K, m->stiffness, (size_t)n * (size_t)n * sizeof *K);
+  for (int j = 0; j < m->n_contacts; ++j) {
+    const model_contact *c = &m->contacts[j];
+    if (all_linear || c->law.gap > 0) add_spring(n, mean_factor * c->law.kn, c->normal, K);
+  }
+  hc_status st = solve(n, K, force);
+  free(K);
+  if (st != HC_OK) return st;
+  *offset = dot(n, m->responses, force);
+  return follow(m, force, all_linear);
+}
+
+/* p[n] = factor sum_j n_j kn_j gap_j of the contacts under preload, or of those with a clearance. */
+static void static_force(const model *m, bool preloaded, double factor, double *p)
+{
+  memset(p, 0, (size_t)m->n * sizeof *p);
+  for (int j = 0; j < m->n_contacts; ++j) {
+    const model_contact *c = &m->contacts[j];
+    for (int i = 0; i < m->n && (c->law.gap > 0) == preloaded; ++i) p[i] += c->normal[i] * c->law.kn * c->law.gap;
+  }
+  scale((size_t)m->n, factor, p);
+}
+
+/* ---- more contacts ---- */
+
+/* A contact on the other side, which pulls where the first would be separated: max(kn g, 0) - max(-kn g, 0) = kn g. */
+static void other_side(int n, const model_contact *c, bool rubs, model_contact *other)
+{
+  other->law = c->law;
+  other->pair = c->pair, other->circle = c->circle;
+  for (int i = 0; i < n; ++i) other->tangent[i] = c->tangent[i], other->normal[i] = -c->normal[i];
+  other->law.gap = -c->law.gap;
+  if (!rubs) other->law.kt = other->law.mu = 0;
+}
+
+/* T of a contact with N0, N of it without friction. */
+static void held_by_preload(int n, const model_contact *c, model_contact *held)
+{
+  held->law = c->law;
+  held->pair = c->pair, held->circle = c->circle;
+  for (int i = 0; i < n; ++i) held->tangent[i] = c->tangent[i], held->normal[i] = 0;
+}
+
+static hc_status double_contacts(const model *m, verify_change change, bool keep_mean, double *p, model **out,
+                                 double *offset)
+{
+  const int n = m->n_contacts;
+  hc_status st = model_copy_sized(m, 2 * n, m->n_responses, out);
+  if (st != HC_OK) return st;
+  model_contact *contacts = (*out)->contacts;
+  (*out)->n_contacts = n; /* the others follow */
+  const bool linear = change == CHANGE_NO_SEPARATION || change == CHANGE_NO_SEPARATION_PULLS;
+  static_force(*out, false, -1, p);
+  if (linear && keep_mean) st = displace(*out, p, 1, true, offset);
+  for (int j = 0; j < n; ++j) {
+    model_contact *c = &contacts[j], *added = &contacts[n + j];
+    if (c->law.load > 0) continue; /* its force is constant as it is: the other is none */
+    if (linear) other_side(m->n, c, change == CHANGE_NO_SEPARATION_PULLS, added);
+    else held_by_preload(m->n, c, added);
+    if (!linear) c->law.kt = c->law.mu = 0;
+    if (change == CHANGE_CONSTANT_LIMIT_LINEAR) add_spring(m->n, c->law.kn, c->normal, (*out)->stiffness);
+    if (change == CHANGE_CONSTANT_LIMIT_LINEAR || change == CHANGE_CONSTANT_N) c->law.kn = 0;
+  }
+  (*out)->n_contacts = 2 * n;
+  return st;
+}
+
+/* ---- all of them ---- */
+
+static bool doubles(verify_change c) { return c >= CHANGE_NO_SEPARATION && c <= CHANGE_CONSTANT_LIMIT_LINEAR; }
+
+static bool same_numbers(size_t n, const double *a, const double *b)
+{
+  for (size_t i = 0; i < n; ++i)
+    if (a[i] != b[i]) return false;
+  return true;
+}
+
+static bool same_direction(int n, const double *a, const double *b)
+{
+  for (int i = 0; i < n; ++i)
+    if (!(fabs(a[i] - b[i]) < 1e-12)) return false;
+  return true;
+}
+
+static bool same_model(const model *a, const model *b)
+{
+  const size_t n = (size_t)a->n;
+  if (a->n_contacts != b->n_contacts) return false;
+  bool same = same_numbers(n * n, a->mass, b->mass) && same_numbers(n * n, a->damping, b->damping) &&
+              same_numbers(n * n, a->stiffness, b->stiffness) && same_numbers(n, a->responses, b->responses);
+  for (int l = 0; l < a->n_loads; ++l)
+    same &=
+        same_numbers(n, a->loads[l].cosine, b->loads[l].cosine) && same_numbers(n, a->loads[l].sine, b->loads[l].sine);
+  for (int j = 0; j < a->n_contacts; ++j) {
+    const model_contact *p = &a->contacts[j], *q = &b->contacts[j];
+    same &= p->law.kt == q->law.kt && p->law.kn == q->law.kn && p->law.mu == q->law.mu && p->law.gap == q->law.gap &&
+            p->law.load == q->law.load && p->circle == q->circle;
+    same &= same_direction(a->n, p->tangent, q->tangent) && same_direction(a->n, p->normal, q->normal);
+  }
+  return same;
+}
+
+static bool any_preload(const model *m)
+{
+  bool any = false;
+  for (int j = 0; j < m->n_contacts; ++j) any |= m->contacts[j].law.gap > 0;
+  return any;
+}
+
+/* A fit passes through it. */
+static bool factor_is_one(verify_change c, double factor) { return verify_change_has_factor(c) && factor == 1; }
+
+/* p[n]: room for a constant force. */
+static hc_status change_copy(const model *m, const verify_changed *how, bool keep_mean, double *p, model *own,
+                             double *offset, double *mean_error)
+{
+  const verify_change c = how->change;
+  const int which = how->which - 1;
+  change_matrices(own, c, how->factor);
+  change_loads(own, c, how->factor, which);
+  if (verify_change_part(c) == PART_PAIR && which >= 0) change_numbering(own, c, which / m->n, which % m->n);
+  for (int j = 0, whole = -1; j < own->n_contacts; ++j) {
+    whole += own->contacts[j].pair != CONTACT_SECOND;
+    if (which < 0 || which == whole) change_contact(m->n, &own->contacts[j], c, how->factor);
+  }
+  if (c == CHANGE_RESPONSE && which >= 0)
+    for (int i = 0; i < m->n; ++i) own->responses[i] = i == which;
+  static_force(m, true, 1, p);
+  const bool preload = !is_zero(m->n, p);
+  if (c == CHANGE_MEAN || c == CHANGE_MEAN_OF_N) {
+    if (!keep_mean || m->n_contacts == 0) return HC_BAD_INPUT;
+    *mean_error = how->factor - 1;
+    if (c == CHANGE_MEAN) return HC_OK;
+    scale((size_t)m->n, -(how->factor - 1), p);
+    return preload ? displace(own, p, how->factor, false, offset) : HC_BAD_INPUT;
+  }
+  if (c == CHANGE_PRELOAD_ADDED && (!keep_mean || !preload)) return HC_BAD_INPUT;
+  scale((size_t)m->n, -1, p);
+  if (c == CHANGE_PRELOAD_ADDED) return displace(own, p, 1, false, offset);
+  return factor_is_one(c, how->factor) || !same_model(m, own) ? HC_OK : HC_BAD_INPUT;
+}
+
+hc_status verify_changed_model(const model *m, const verify_changed *how, bool keep_mean, model **out, double *offset,
+                               double *mean_error)
+{
+  const verify_change c = how->change;
+  const bool constant = c >= CHANGE_CONSTANT_N && c <= CHANGE_CONSTANT_LIMIT_LINEAR;
+  *out = NULL;
+  *offset = *mean_error = 0;
+  if (doubles(c) && (m->n_contacts == 0 || (constant && !any_preload(m)))) return HC_BAD_INPUT;
+  double *p = malloc((size_t)m->n * sizeof *p);
+  if (!p) return HC_NO_MEMORY;
+  hc_status st = doubles(c) ? double_contacts(m, c, keep_mean, p, out, offset) : model_copy(m, out);
+  if (st == HC_OK && c != CHANGE_NONE && !doubles(c)) st = change_copy(m, how, keep_mean, p, *out, offset, mean_error);
+  free(p);
+  if (st == HC_OK) return HC_OK;
+  model_free(*out);
+  *out = NULL;
+  return st;
+}

@@ -1,0 +1,258 @@
+/* scales.c - the search for one factor of all values, one of all frequencies, or both.
+ *
+ * A factor of the values follows from the points one by one: theirs divided by the truth's at the same omega; the
+ * median is held against all of them. For one of the frequencies the truth is looked up along its curve, interpolated
+ * linearly between points close together, at many factors; the best are solved for, and refined. */
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "base/ascending.h"
+#include "base/constants.h"
+#include "compare/first_guess.h"
+#include "compare/verify/search/search_impl.h"
+#include "hbm/segment.h"
+#include "numerics/roots.h"
+
+/* ---- names ---- */
+
+/* The median of value/truth, of the points with one solution, or of all if they are few; NaN: no point has one. */
+static double median_ratio(const verify_sample *p, const verify_solutions *of, double *room)
+{
+  enum { ENOUGH = 8 };
+  int n = 0;
+  for (int many = 0; many < 2 && n < ENOUGH; ++many)
+    for (int i = 0, most = p->n; i < most; ++i) {
+      const int there = of->first[i + 1] - of->first[i];
+      if (!p->differs[i] || (many ? there < 2 : there != 1)) continue;
+      const double ratio = p->value[i] / of->of[of->first[i]].q[0];
+      if (isfinite(ratio) && ratio > 0) room[n++] = ratio;
+    }
+  if (n == 0) return NAN;
+  qsort(room, (size_t)n, sizeof *room, ascending);
+  return room[n / 2];
+}
+
+/* Units of length and halves have names of their own. */
+static bool usual_factor(const search *s, double factor)
+{
+  static const double usual[] = {1, 2, 0.5, 0.70710678118654752440};
+  for (size_t i = 0; i < sizeof usual / sizeof *usual; ++i)
+    if (fabs(factor / usual[i] - 1) < 0.01) return true;
+  for (int ten = -3; ten <= 3; ++ten)
+    if ((ten < -1 || ten > 1) && fabs(factor / pow(10, ten) - 1) < 0.01)
+      return !verify_scale_near(s->scales, s->n_scales, pow(10, ten), 1e-3);
+  return false;
+}
+
+/* A factor of the values beside what *h says already. */
+static void keep_value_scale(search *s, const verify_solutions *of, verify_hypothesis h)
+{
+  double ratios[SEARCH_MOST_POINTS];
+  double factor = median_ratio(&s->points, of, ratios);
+  if (!(factor > 0) || usual_factor(s, factor)) return;
+  const verify_scale *named = verify_scale_near(s->scales, s->n_scales, factor, 0.02);
+  verify_hypothesis free = h;
+  free.causes |= VERIFY_BIT(CAUSE_VALUE_SCALE);
+  h = free;
+  free.fitted = true;
+  verify_read_one(&s->points, of, 0, factor, s->floor, &free);
+  if (named) {
+    h.value_scale = named->name;
+    verify_read_one(&s->points, of, 0, named->factor, s->floor, &h);
+  }
+  search_keep(s, named && h.distance <= 2 * free.distance ? &h : &free);
+}
+
+/* All forces larger move everything more where no gap sets a length: that explains as much. */
+static hc_status keep_force_scale(search *s)
+{
+  const verify_hypothesis *best = &s->out->hypotheses[0];
+  if (s->out->n_hypotheses == 0 || best->causes != VERIFY_BIT(CAUSE_VALUE_SCALE)) return HC_OK;
+  verify_equations e = search_own(s);
+  verify_hypothesis h = {.omega_factor = 1, .fitted = true, .causes = VERIFY_BIT(CAUSE_FORCE)};
+  verify_solutions of = {0};
+  e.change = CHANGE_FORCE;
+  e.factor = best->value_factor;
+  h.equations = e;
+  hc_status st = search_solve(s, &e, 1, &of);
+  if (st == HC_OK) verify_read_one(&s->points, &of, 0, 1, s->floor, &h);
+  if (st == HC_OK) search_keep(s, &h);
+  verify_solutions_clear(&of);
+  return st;
+}
+
+/* ---- the frequencies ---- */
+
+/* The truth's quantity along its curve, at points close together. */
+typedef struct outline {
+  int n;
+  double *omega, *value; /* [n] */
+} outline;
+
+static hc_status outline_new(search *s, outline *out)
+{
+  enum { BETWEEN = 6 }; /* of two points of the curve */
+  const verify_equations e = {.keep_mean = true, .harmonics = s->out->harmonics, .factor = 1};
+  const compare_setup own = verify_settings(s->setup, &e);
+  hbm_solver *hbm = NULL;
+  hbm_curve curve = {0};
+  *out = (outline){0};
+  hc_status st = guided_hbm_solver_new(own.model, &own.hbm, &hbm);
+  if (st == HC_OK) st = hbm_trace(hbm, own.omega_from, own.omega_to, s->monitor, &curve);
+  if (hbm && st != HC_INTERRUPTED && st != HC_NO_MEMORY) st = HC_OK; /* as far as it came */
+  const int n_harm = s->out->harmonics;
+  double *X = malloc(((size_t)curve.n_coef + 1) * sizeof *X);
+  double *series = malloc((2 * (size_t)n_harm + 1) * sizeof *series);
+  const size_t room = (size_t)curve.n * BETWEEN + 1;
+  out->omega = malloc(2 * room * sizeof *out->omega);
+  if (!X || !series || !out->omega) st = HC_NO_MEMORY;
+  for (int k = 0; k + 1 < curve.n && st == HC_OK; ++k) {
+    const hbm_segment seg = hbm_segment_between(&curve, k);
+    for (int i = 0; i < BETWEEN; ++i) {
+      double *const omega = &out->omega[out->n];
+      hbm_segment_at(&seg, (double)i / BETWEEN, X, omega, NULL, NULL);
+      if (hbm_response(hbm, *omega, X, 0, series) != HC_OK) continue;
+      const verify_motion motion = verify_motion_of(*omega, n_harm, series);
+      out->omega[room + (size_t)out->n++] = verify_quantity_of(&s->points.quantity, &motion);
+    }
+  }
+  out->value = out->omega ? out->omega + room : NULL;
+  free(series);
+  free(X);
+  hbm_curve_free(&curve);
+  hbm_solver_free(hbm);
+  return st;
+}
+
+static void outline_clear(outline *o) { free(o->omega); }
+
+/* How far the value is from the outline at omega, relative to it; MOST where it has none. */
+static double apart_at(const outline *o, double omega, double value)
+{
+  const double most = 0.3;
+  double least = most;
+  for (int k = 0; k + 1 < o->n; ++k) {
+    const double part = (omega - o->omega[k]) / (o->omega[k + 1] - o->omega[k]);
+    if (!(part >= 0 && part <= 1)) continue;
+    const double there = o->value[k] + part * (o->value[k + 1] - o->value[k]);
+    least = fmin(least, fabs(there - value) / fmax(fabs(there), fabs(value)));
+  }
+  return least;
+}
+
+/* Mean over the points, of frequencies times omega and values divided by the other factor. */
+static double outline_distance(const search *s, const outline *o, double omega_factor, double value_factor)
+{
+  double sum = 0;
+  for (int i = 0; i < s->points.n; ++i)
+    sum += apart_at(o, omega_factor * s->points.omega[i], s->points.value[i] / value_factor);
+  return sum / s->points.n;
+}
+
+typedef struct stretching {
+  search *s;
+  const outline *o;
+  double value_factor;
+} stretching;
+
+static hc_status stretched(void *self, double log_factor, double *out)
+{
+  const stretching *t = self;
+  *out = outline_distance(t->s, t->o, exp(log_factor), t->value_factor);
+  return HC_OK;
+}
+
+/* The best factor of the frequencies between exp(low) and exp(high), on the outline. */
+static double best_stretch(search *s, const outline *o, double value_factor, double low, double high)
+{
+  enum { SCAN = 400 };
+  stretching t = {s, o, value_factor};
+  double values[SCAN + 1];
+  int best = 0;
+  for (int i = 0; i <= SCAN; ++i) {
+    stretched(&t, low + (high - low) * i / SCAN, &values[i]);
+    if (values[i] < values[best]) best = i;
+  }
+  const double step = (high - low) / SCAN, at = low + step * best;
+  root_point least = {.x = at};
+  if (best > 0 && best < SCAN)
+    root_minimum(stretched, &t, at - step, values[best - 1], at, values[best], at + step, values[best + 1], 1e-6,
+                 &least);
+  return exp(least.x);
+}
+
+/* The truth with these harmonics as hypothesis, the factors given. */
+static hc_status keep_scaled(search *s, int harmonics, verify_hypothesis h)
+{
+  verify_solutions of = {0};
+  h.equations = (verify_equations){.keep_mean = true, .harmonics = harmonics, .factor = 1};
+  hc_status st = search_solve(s, &h.equations, h.omega_factor, &of);
+  if (st == HC_OK) verify_read_one(&s->points, &of, 0, h.value_factor, s->floor, &h);
+  if (st == HC_OK) search_keep(s, &h);
+  verify_solutions_clear(&of);
+  return st;
+}
+
+static bool is_frequency_unit(double omega_factor)
+{
+  for (int f = 1; f < SEARCH_FREQUENCIES; ++f)
+    if (fabs(omega_factor / search_omega_factor(f) - 1) < 0.005) return true;
+  return false;
+}
+
+/* omega_factor: true = factor times theirs. */
+static hc_status keep_stretch(search *s, double omega_factor, double value_factor)
+{
+  const double nothing = 1e-5, offset = 0.02; /* a larger one is no offset any more */
+  verify_scale names[VERIFY_MOST_SCALES];
+  const int n = verify_omega_scales(s->setup->model, names);
+  const verify_scale *named = verify_scale_near(names, n, 1 / omega_factor, 0.005),
+                     *value = verify_scale_near(s->scales, s->n_scales, value_factor, 0.005);
+  if (is_frequency_unit(omega_factor) || fabs(omega_factor - 1) < nothing) return HC_OK;
+  const verify_hypothesis h = {
+      .causes = VERIFY_BIT(fabs(omega_factor - 1) < offset ? CAUSE_OMEGA_OFFSET : CAUSE_OMEGA_SCALE) |
+                (value_factor == 1 ? 0 : VERIFY_BIT(CAUSE_VALUE_SCALE)),
+      .fitted = !named || (value_factor != 1 && !value),
+      .omega_factor = named ? 1 / named->factor : omega_factor,
+      .value_factor = value_factor != 1 && value ? value->factor : value_factor,
+      .omega_scale = named ? named->name : NULL,
+      .value_scale = value_factor != 1 && value ? value->name : NULL};
+  hc_status st = keep_scaled(s, s->out->harmonics, h);
+  return st == HC_OK && s->own != s->out->harmonics ? keep_scaled(s, s->own, h) : st;
+}
+
+/* Factors of the frequencies that leave the points within the sweep, and those near 1. */
+static hc_status try_stretches(search *s, const outline *o)
+{
+  const double near = 0.1, first = s->points.omega[0], last = s->points.omega[s->points.n - 1];
+  const double low = fmin(s->setup->omega_from, s->setup->omega_to),
+               high = fmax(s->setup->omega_from, s->setup->omega_to);
+  const double from = log(low / first) - near, to = log(high / last) + near;
+  double largest = 0, theirs = 0;
+  for (int i = 0; i < o->n; ++i) largest = fmax(largest, fabs(o->value[i]));
+  for (int i = 0; i < s->points.n; ++i) theirs = fmax(theirs, fabs(s->points.value[i]));
+  hc_status st = keep_stretch(s, best_stretch(s, o, 1, -near, near), 1);
+  if (st != HC_OK || !(from < to)) return st;
+  st = keep_stretch(s, best_stretch(s, o, 1, from, to), 1);
+  for (int i = 0; i <= s->n_scales && st == HC_OK; ++i) {
+    const double factor = i < s->n_scales ? s->scales[i].factor : theirs / largest; /* of peak to peak */
+    if (!(factor > 0) || fabs(factor - 1) < 0.05) continue;
+    st = keep_stretch(s, best_stretch(s, o, factor, from, to), factor);
+  }
+  return st;
+}
+
+hc_status search_scales(search *s)
+{
+  const verify_hypothesis plain = {.equations = {.keep_mean = true, .harmonics = s->out->harmonics, .factor = 1},
+                                   .omega_factor = 1};
+  outline o;
+  keep_value_scale(s, &s->many[true][0], plain);
+  hc_status st = keep_force_scale(s);
+  if (st == HC_OK) st = outline_new(s, &o);
+  else return st;
+  if (st == HC_OK && o.n > 1) st = try_stretches(s, &o);
+  outline_clear(&o);
+  return st;
+}

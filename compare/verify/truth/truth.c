@@ -1,0 +1,424 @@
+/* truth.c - see truth.h. The number of harmonics starts at LEAST_HARMONICS, or twice the case's, and is doubled until
+ * the solutions are within a tenth of the gate of the exact law's orbits: a verdict is then wrong only for points
+ * within that of the limit. */
+#include "compare/verify/truth/truth.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "compare/first_guess.h"
+#include "compare/frequencies.h"
+#include "compare/gate_limits.h"
+#include "compare/motion.h"
+#include "compare/verify/truth/acceleration.h"
+#include "compare/verify/truth/solutions.h"
+#include "hbm/segment.h"
+
+typedef struct truth {
+  const compare_setup *setup;
+  const verify_data *data;
+  const hc_monitor *monitor;
+  verify_report *out;
+  hbm_solver *hbm;
+  timeint *referee;
+  double *state; /* [n_states] of the referee's */
+  hbm_curve curve;
+  double from, to;
+  double *room;   /* acceleration_room */
+  double *series; /* [2H+1] of a response */
+} truth;
+
+/* A solution as the file's quantity is taken of it. */
+typedef struct measured {
+  double value, scale;
+  bool mean_free;
+} measured;
+
+enum { LEAST_HARMONICS = 20, ENOUGH_HARMONICS = 80 };
+static const double window_factor = 7; /* a little over 2 pi: mixed units are seen from there */
+
+void verify_window(const compare_setup *setup, const verify_data *data, double *from, double *to)
+{
+  number_list ends = {.n = 2, .v = {INFINITY, 0}};
+  const double low = fmin(setup->omega_from, setup->omega_to) / window_factor,
+               high = fmax(setup->omega_from, setup->omega_to) * window_factor;
+  for (int i = 0; i < data->n; ++i) {
+    double omega = data->points[i].omega;
+    if (omega < low || omega > high) continue;
+    ends.v[0] = fmin(ends.v[0], omega);
+    ends.v[1] = fmax(ends.v[1], omega);
+  }
+  if (!(ends.v[0] <= ends.v[1])) ends.n = 0;
+  comparison_sweep(setup->omega_from, setup->omega_to, &ends, from, to);
+}
+
+double verify_gate(const compare_setup *setup, const verify_quantity *q)
+{
+  const discrepancy *most = &setup->limits->most;
+  if (q->kind == KIND_MEAN) return most->mean;
+  return q->kind == KIND_HARMONIC && q->harmonic == 1 ? most->harmonic_1 : most->amplitude;
+}
+
+/* ---- one point ---- */
+
+/* +1, -1, or 0: unknown. *st becomes HC_NO_MEMORY if that is why. */
+static int truth_stable(truth *t, double omega, const double *X, hc_status *st)
+{
+  hbm_stability s;
+  hc_status known = hbm_stability_at(t->hbm, omega, X, &s);
+  if (known == HC_NO_MEMORY) *st = known;
+  return known == HC_OK ? hbm_stability_verdict(&s) : 0;
+}
+
+/* A slider that never slips rests where the history left it. Of an oscillator's several contacts, which move as one,
+ * the strongest state is asked: where that is stick, none slips. */
+static bool mean_is_free(const model *m, const contact_report *r)
+{
+  bool held = false;
+  if (!model_is_oscillator(m)) return r->free_sliders > 0;
+  for (int j = 0; j < m->n_contacts; ++j) {
+    const contact *c = &m->contacts[j].law;
+    held |= c->kt > 0 && c->mu > 0 && *m->contacts[j].tangent != 0;
+  }
+  return held && r->regime == CONTACT_STUCK;
+}
+
+/* HC_OK, or why it cannot be measured. */
+static hc_status truth_measure(truth *t, double omega, const double *X, measured *out)
+{
+  hbm_measures m;
+  verify_motion motion;
+  hc_status st = verify_motion_of_solution(t->hbm, omega, X, 0, t->series, &m, &motion);
+  if (st != HC_OK) return st;
+  const verify_quantity *q = &t->data->quantity;
+  const bool mean_free = mean_is_free(t->setup->model, &m.contact);
+  if (q->kind == KIND_ACCELERATION) {
+    st = hbm_sliders(t->hbm, X, t->room);
+    const double amplitude = st == HC_OK ? acceleration_amplitude(t->setup->model, &motion, t->room) : NAN;
+    *out = (measured){amplitude, amplitude, mean_free};
+    return st;
+  }
+  *out = (measured){verify_quantity_of(q, &motion), verify_quantity_scale(q, &motion), mean_free};
+  return HC_OK;
+}
+
+/* The nearest of the solutions *at to the row's value, or -1; its measures into *nearest. */
+static int truth_nearest(truth *t, const hbm_curve *at, const verify_row *row, measured *nearest)
+{
+  int best = -1;
+  double least = INFINITY;
+  for (int k = 0; k < at->n; ++k) {
+    measured m;
+    if (truth_measure(t, row->omega, at->X + (size_t)k * at->n_coef, &m) != HC_OK) continue;
+    double d = fabs(m.value - row->value);
+    if (d < least) least = d, best = k, *nearest = m;
+  }
+  return best;
+}
+
+/* Every solution of the curve at omega; where the curve ended before, one found without it. HC_NO_MEMORY. */
+static hc_status truth_at(truth *t, double omega, hbm_curve *at)
+{
+  if (omega < fmin(t->from, t->to) || omega > fmax(t->from, t->to)) return HC_OK;
+  if (hbm_curve_at(t->hbm, &t->curve, omega, at) == HC_NO_MEMORY) return HC_NO_MEMORY;
+  if (at->n > 0) return HC_OK;
+  double *X = calloc((size_t)t->curve.n_coef, sizeof *X);
+  hbm_point point;
+  hc_status st = X ? hbm_solve_first(t->hbm, omega, X, &point) : HC_NO_MEMORY;
+  at->n_coef = t->curve.n_coef;
+  if (st == HC_OK && (at->X = X) && (at->points = calloc(1, sizeof point))) {
+    at->points[0] = point;
+    at->points[0].omega = omega;
+    at->points[0].branch = 0;
+    at->n = at->cap = 1;
+    return HC_OK;
+  }
+  if (at->X != X) free(X);
+  return st == HC_NO_MEMORY || at->X ? HC_NO_MEMORY : HC_OK;
+}
+
+/* ---- a point held against the curve around its omega: at a turning point, where the slope is infinite, the least
+ * shift of omega would leave a right point without a solution near. */
+
+/* A frequency counts as right to this part of the gate, relative. */
+static const double omega_part = 0.1;
+
+/* A piece of the curve within that of a point's omega: the values on it, from its ends. */
+typedef struct piece {
+  double low, high;
+  const hbm_curve *at; /* the solutions at one end */
+  int k;               /* the number of the one whose value is nearest the point's */
+  measured end;        /* of that */
+} piece;
+
+/* Is the branch walked towards higher omegas, and its upper end a turning point to the next one? */
+static bool walked_upwards(const truth *t, int branch) { return (branch % 2 == 0) == (t->to > t->from); }
+
+static int number_of_branch(const hbm_curve *at, int branch)
+{
+  for (int k = 0; k < at->n; ++k)
+    if (at->points[k].branch == branch) return k;
+  return -1;
+}
+
+/* The piece from solution a of *at to solution b of *other, if it is nearer to the row's value than *best. */
+static void try_piece(truth *t, const verify_row *row, const hbm_curve *at, int a, const hbm_curve *other, int b,
+                      double *least, piece *best)
+{
+  measured ma, mb;
+  if (truth_measure(t, at->points[a].omega, at->X + (size_t)a * at->n_coef, &ma) != HC_OK) return;
+  if (truth_measure(t, other->points[b].omega, other->X + (size_t)b * other->n_coef, &mb) != HC_OK) return;
+  const double low = fmin(ma.value, mb.value), high = fmax(ma.value, mb.value),
+               away = fmax(fmax(low - row->value, row->value - high), 0);
+  if (!(away < *least)) return;
+  const bool first = fabs(ma.value - row->value) <= fabs(mb.value - row->value);
+  *least = away;
+  *best = (piece){low, high, first ? at : other, first ? a : b, first ? ma : mb};
+}
+
+/* The nearest piece between the solutions `below` and `above` the row's omega; false: there is none. */
+static bool nearest_piece(truth *t, const verify_row *row, const hbm_curve *below, const hbm_curve *above, piece *best)
+{
+  double least = INFINITY;
+  for (int k = 0; k < below->n; ++k) {
+    const int branch = below->points[k].branch, across = number_of_branch(above, branch),
+              next = number_of_branch(below, branch + 1);
+    if (across >= 0) try_piece(t, row, below, k, above, across, &least, best);
+    else if (next >= 0 && walked_upwards(t, branch)) try_piece(t, row, below, k, below, next, &least, best);
+  }
+  for (int k = 0; k < above->n; ++k) {
+    const int branch = above->points[k].branch, next = number_of_branch(above, branch + 1);
+    if (number_of_branch(below, branch) < 0 && next >= 0 && !walked_upwards(t, branch))
+      try_piece(t, row, above, k, above, next, &least, best);
+  }
+  return least < INFINITY;
+}
+
+/* A row that differs is held against the pieces of the curve around its omega. HC_NO_MEMORY. */
+static hc_status truth_look_around(truth *t, verify_row *row)
+{
+  const double part = omega_part * t->out->gate;
+  hbm_curve below = {0}, above = {0};
+  piece best = {.at = &below};
+  hc_status st = truth_at(t, row->omega * (1 - part), &below);
+  if (st == HC_OK) st = truth_at(t, row->omega * (1 + part), &above);
+  if (st == HC_OK && nearest_piece(t, row, &below, &above, &best)) {
+    const double nearest = fmin(fmax(row->value, best.low), best.high),
+                 error = discrepancy_relative(row->value - nearest, best.end.scale);
+    if (error <= t->out->gate) {
+      const hbm_point *p = &best.at->points[best.k];
+      row->nearest = nearest;
+      row->scale = best.end.scale;
+      row->error = error;
+      row->branch = p->branch;
+      row->stable = truth_stable(t, p->omega, best.at->X + (size_t)best.k * best.at->n_coef, &st);
+    }
+  }
+  hbm_curve_free(&below);
+  hbm_curve_free(&above);
+  return st;
+}
+
+/* ---- the truth at some of the points against the exact law's periodic orbits next to it. */
+
+enum { MOST_CHECKS = 20 };
+
+/* The file's quantity, of the orbit next to the row's solution, by as many harmonics as its samples tell apart. */
+static double orbit_quantity(const truth *t, const timeint_result *orbit)
+{
+  enum { HARMONICS = 200 };
+  double X[2 * HARMONICS + 1];
+  const periodic_motion wave = motion_of_transient(orbit);
+  const verify_quantity *q = &t->data->quantity;
+  motion_harmonics(&wave, HARMONICS, X);
+  X[0] = orbit->mean;
+  X[1] = orbit->a1;
+  X[2] = orbit->b1;
+  const verify_motion motion = {
+      .omega = orbit->omega, .max = orbit->max, .min = orbit->min, .n_harm = HARMONICS, .X = X};
+  if (q->kind == KIND_ACCELERATION) {
+    memset(t->room, 0, (size_t)t->setup->model->n_contacts * sizeof *t->room);
+    return acceleration_amplitude(t->setup->model, &motion, t->room);
+  }
+  return q->kind == KIND_RMS ? orbit->rms : verify_quantity_of(q, &motion);
+}
+
+static hc_status check_row(truth *t, const verify_row *row)
+{
+  hbm_curve at = {0};
+  measured m = {0};
+  timeint_result orbit;
+  hc_status st = truth_at(t, row->omega, &at), found = HC_NOT_CONVERGED;
+  int k = st == HC_OK ? truth_nearest(t, &at, row, &m) : -1;
+  if (k >= 0) {
+    found = comparison_orbit_start(t->hbm, at.X + (size_t)k * at.n_coef, row->omega, t->state);
+    if (found == HC_OK) found = timeint_orbit(t->referee, row->omega, 1, t->state, t->monitor, &orbit);
+    if (found == HC_INTERRUPTED || found == HC_NO_MEMORY) st = found;
+  }
+  hbm_curve_free(&at);
+  if (found != HC_OK || (verify_quantity_of_mean(&t->data->quantity) && motion_mean_is_free(&orbit))) {
+    ++t->out->unchecked;
+    return st;
+  }
+  double error = fabs(orbit_quantity(t, &orbit) - m.value);
+  if (isnan(error)) return ++t->out->unchecked, st;
+  ++t->out->checked;
+  if (error > 0) t->out->checked_error = fmax(t->out->checked_error, error / m.scale);
+  return st;
+}
+
+/* At most MOST_CHECKS points, spread over the file: out->checked, unchecked, checked_error. HC_INTERRUPTED,
+ * HC_NO_MEMORY. */
+static hc_status truth_check(truth *t)
+{
+  verify_report *out = t->out;
+  hc_status st = HC_OK;
+  int n = out->n_rows < MOST_CHECKS ? out->n_rows : MOST_CHECKS;
+  out->checked = out->unchecked = 0;
+  out->checked_error = 0;
+  for (int i = 0; i < n && st == HC_OK; ++i) {
+    const verify_row *row = &out->rows[n > 1 ? (int)((long)i * (out->n_rows - 1) / (n - 1)) : 0];
+    if (row->branch >= 0 && !row->skipped) st = check_row(t, row);
+    if (!hc_monitor_tick(t->monitor, -1)) st = HC_INTERRUPTED;
+  }
+  return st;
+}
+
+/* ---- each point, and the number of harmonics ---- */
+
+static hc_status judge_point(truth *t, const verify_point *p, verify_row *row)
+{
+  hbm_curve at = {0};
+  measured m = {0};
+  *row = (verify_row){.omega = p->omega,
+                      .value = p->value,
+                      .line = p->line,
+                      .branch = -1,
+                      .nearest = NAN,
+                      .error = NAN,
+                      .verdict = VERDICT_SOLVER_FAILED};
+  hc_status st = truth_at(t, p->omega, &at);
+  int k = st == HC_OK ? truth_nearest(t, &at, row, &m) : -1;
+  if (k >= 0 && at.points) {
+    row->solutions = at.n;
+    row->branch = at.points[k].branch;
+    row->nearest = m.value;
+    row->scale = m.scale;
+    row->free_sliders = m.mean_free;
+    row->skipped = m.mean_free && verify_quantity_of_mean(&t->data->quantity);
+    row->error = row->skipped ? NAN : discrepancy_relative(p->value - row->nearest, m.scale);
+    row->stable = truth_stable(t, p->omega, at.X + (size_t)k * at.n_coef, &st);
+    if (!row->skipped && !(row->error <= t->out->gate) && st == HC_OK) st = truth_look_around(t, row);
+    row->stable_too = row->stable > 0;
+    for (int j = 0; j < at.n && row->stable < 0 && !row->stable_too; ++j)
+      row->stable_too = j != k && truth_stable(t, p->omega, at.X + (size_t)j * at.n_coef, &st) > 0;
+    row->verdict = row->skipped                    ? VERDICT_MATCH
+                   : !(row->error <= t->out->gate) ? VERDICT_DIFFERS
+                   : row->stable < 0               ? VERDICT_UNSTABLE
+                                                   : VERDICT_MATCH;
+  }
+  hbm_curve_free(&at);
+  return st;
+}
+
+/* ---- all points ---- */
+
+static hc_status judge_all(truth *t)
+{
+  hc_status st = HC_OK;
+  t->out->n_rows = 0;
+  for (int i = 0; i < t->data->n && st == HC_OK; ++i) {
+    st = judge_point(t, &t->data->points[i], &t->out->rows[i]);
+    if (st == HC_OK) t->out->n_rows = i + 1;
+    if (!hc_monitor_tick(t->monitor, 0.5 * (i + 1) / t->data->n)) st = HC_INTERRUPTED;
+  }
+  return st;
+}
+
+/* The curve with H harmonics, and everything on it. */
+static hc_status with_harmonics(truth *t, int harmonics)
+{
+  const verify_equations e = {.keep_mean = true, .harmonics = harmonics};
+  const compare_setup own = verify_settings(t->setup, &e);
+  hbm_curve_free(&t->curve);
+  t->curve = (hbm_curve){0};
+  hbm_solver_free(t->hbm);
+  free(t->series);
+  t->hbm = NULL;
+  if (!(t->series = malloc((2 * (size_t)harmonics + 1) * sizeof *t->series))) return HC_NO_MEMORY;
+  hc_status st = guided_hbm_solver_new(own.model, &own.hbm, &t->hbm);
+  if (st != HC_OK) return st;
+  st = hbm_trace(t->hbm, t->from, t->to, t->monitor, &t->curve);
+  t->curve.n_coef = hbm_n_coefficients(t->hbm);
+  t->out->harmonics = harmonics;
+  t->out->curve_end = t->curve.end;
+  t->out->curve_omega = t->curve.n ? t->curve.points[t->curve.n - 1].omega : t->from;
+  if (st == HC_INTERRUPTED || st == HC_NO_MEMORY) return st;
+  st = judge_all(t);
+  return st == HC_OK ? truth_check(t) : st;
+}
+
+enum { BETWEEN = 4 }; /* steps from one point of the curve to the next */
+
+static hc_status put_line_point(truth *t, double omega, const double *X, int stable)
+{
+  measured m;
+  hc_status st = truth_measure(t, omega, X, &m);
+  if (st == HC_OK) t->out->line[t->out->n_line++] = (verify_line){omega, m.value, stable};
+  return st;
+}
+
+/* The curve as it is drawn into out->line: its points, and some between them, since a drawing joins them by straight
+ * lines. HC_NO_MEMORY, or why it cannot be measured. */
+static hc_status draw_line(truth *t)
+{
+  const hbm_curve *c = &t->curve;
+  verify_report *out = t->out;
+  double *X = malloc(((size_t)c->n_coef + 1) * sizeof *X);
+  out->n_line = 0;
+  out->line = calloc((size_t)BETWEEN * (size_t)c->n + 1, sizeof *out->line);
+  hc_status st = X && out->line ? HC_OK : HC_NO_MEMORY;
+  for (int k = 0; k < c->n && st == HC_OK; ++k) {
+    const double *here = c->X + (size_t)k * (size_t)c->n_coef;
+    const int stable = truth_stable(t, c->points[k].omega, here, &st);
+    if (st == HC_OK) st = put_line_point(t, c->points[k].omega, here, stable);
+    if (k + 1 == c->n) break;
+    const hbm_segment segment = hbm_segment_between(c, k);
+    for (int i = 1; i < BETWEEN && st == HC_OK; ++i) {
+      double omega;
+      hbm_segment_at(&segment, (double)i / BETWEEN, X, &omega, NULL, NULL);
+      st = put_line_point(t, omega, X, stable);
+    }
+  }
+  free(X);
+  return st;
+}
+
+hc_status verify_truth(const compare_setup *setup, const verify_data *data, const hc_monitor *monitor,
+                       verify_report *out)
+{
+  truth t = {.setup = setup, .data = data, .monitor = monitor, .out = out};
+  out->gate = verify_gate(setup, &data->quantity);
+  out->rows = calloc((size_t)data->n, sizeof *out->rows);
+  verify_window(setup, data, &t.from, &t.to);
+  hc_status st = out->rows ? comparison_referee(setup, &t.referee) : HC_NO_MEMORY;
+  if (st == HC_OK && !(t.state = calloc((size_t)timeint_n_states(t.referee), sizeof *t.state))) st = HC_NO_MEMORY;
+  if (st == HC_OK && !(t.room = calloc(acceleration_room(setup->model), sizeof *t.room))) st = HC_NO_MEMORY;
+  int harmonics = 2 * setup->hbm.harmonics; /* 0 for auto */
+  harmonics = harmonics < LEAST_HARMONICS     ? LEAST_HARMONICS
+              : harmonics > HBM_MAX_HARMONICS ? HBM_MAX_HARMONICS
+                                              : harmonics;
+  for (bool again = true; again && st == HC_OK; harmonics *= 2) {
+    st = with_harmonics(&t, harmonics);
+    again = out->checked_error > 0.1 * out->gate && 2 * harmonics <= ENOUGH_HARMONICS;
+  }
+  if (st == HC_OK && data->with_line) st = draw_line(&t);
+  hbm_curve_free(&t.curve);
+  hbm_solver_free(t.hbm);
+  free(t.state);
+  free(t.room);
+  free(t.series);
+  timeint_free(t.referee);
+  return st;
+}
