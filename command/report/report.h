@@ -4,7 +4,7 @@
  *     scene -> comparison, tables over H and N, response curve, answers on aliasing (report_gather) -> one page
  *     (report_write)
  *
- * The page needs no network and no other file: page.html, page.css, page.js and the installed Chart.js are built
+ * The page needs no network and no other file: page.html, page.css, the scripts and the installed Chart.js are built
  * into the program (embed.cmake). Same input, same bytes: no dates, no seconds. Nothing is printed; not here:
  * options and files (command/cmd_report.c). */
 #ifndef HC_REPORT_REPORT_H
