@@ -11,11 +11,11 @@
 #include "command/commands.h"
 #include "command/files.h"
 #include "command/plot/plot.h"
-#include "hbm/circle_force.h"
-#include "hbm/circle_measures.h"
-#include "hbm/contact_measures.h"
-#include "hbm/exact_force.h"
-#include "hbm/given_motion.h"
+#include "hbm/contact/contact_measures.h"
+#include "hbm/contact/exact_force.h"
+#include "hbm/forces/given_motion.h"
+#include "hbm/planar/planar_force.h"
+#include "hbm/planar/planar_measures.h"
 #include "numerics/series.h"
 #include "output/table.h"
 #include "study/scene_solvers.h"
@@ -265,17 +265,17 @@ static hc_status note_circle_pieces(table *t, const contact_motion *m, const cha
 {
   const contact *law = &m->contacts->law;
   double F[CONTACT_MOST_DOF * CONTACT_MOST_COEF];
-  circle_force *f = NULL;
-  hc_status st = circle_force_new(m->n_harm, given_motion_circle_dof(law), law, &f);
-  if (st == HC_OK) st = circle_force_eval(f, m->X, F, NULL, NULL);
+  planar_force *f = NULL;
+  hc_status st = planar_force_new(m->n_harm, given_motion_planar_dof(law), law, &f);
+  if (st == HC_OK) st = planar_force_eval(f, m->X, F, NULL, NULL);
   if (st == HC_OK) {
-    const circle_cycle *c = circle_force_cycle(f);
+    const planar_cycle *c = planar_force_cycle(f);
     for (int i = 0; i < c->n && i < SHOWN; ++i)
       table_note(t, "contact %s: %s from %.12g to %.12g rad", name,
                  c->piece[i].state == CONTACT_STICK ? "sticks" : "slips", c->piece[i].from, c->piece[i].to);
     note_more(t, name, c->n);
   }
-  circle_force_free(f);
+  planar_force_free(f);
   return st;
 }
 
@@ -284,7 +284,7 @@ static hc_status note_circle(table *t, const contact_motion *m, const char *name
   contact_period p[2];
   hc_status st = note_circle_pieces(t, m, name);
   if (st == HC_OK)
-    st = circle_measures_of(&m->contacts->law, m->n_harm, m->given[CONTACT_U], m->given[CONTACT_U2],
+    st = planar_measures_of(&m->contacts->law, m->n_harm, m->given[CONTACT_U], m->given[CONTACT_U2],
                             m->given[CONTACT_V], p);
   if (st != HC_OK) return st;
   p[0] = contact_period_of_pair(&p[0], &p[1]);
@@ -327,7 +327,7 @@ static hc_status contact_force_note(table *t, const cli_common *common, const co
   char name[CLI_NAME];
   const given_motion given = given_of(m);
   if (m->pair) cli_contact_name(common, m->one, name);
-  if (m->pair) return given_motion_in_circle(&given) ? note_circle(t, m, name) : note_halves(t, m, name);
+  if (m->pair) return given_motion_is_planar(&given) ? note_circle(t, m, name) : note_halves(t, m, name);
   exact_force *e = NULL;
   hc_status st = exact_force_new(m->n_harm, m->n_dof, m->n_contacts, m->contacts, &e);
   if (st == HC_OK) st = exact_force_eval(e, m->X, F, NULL, NULL);

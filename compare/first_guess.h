@@ -4,7 +4,7 @@
 #ifndef HC_FIRST_GUESS_H
 #define HC_FIRST_GUESS_H
 
-#include "hbm/hbm_solver.h"
+#include "hbm/solver/hbm_solver.h"
 
 /* hbm_solver_new, and the guess. */
 hc_status guided_hbm_solver_new(const model *m, const hbm_settings *how, hbm_solver **out);

@@ -8,7 +8,7 @@ static const double program = 6e6; /* [bytes] */
 
 /* Matrices of a kind at once. */
 enum { OF_STRUCTURE = 60, OF_CURVE = 6, OF_PREDICTION = 3, OF_TRANSIENT = 25 };
-/* Harmonics of auto, more than most cases need; those of a prediction (hbm/predict.c). */
+/* Harmonics of auto, more than most cases need; those of a prediction (hbm/curve/predict.c). */
 enum { AUTO = 14, FEWEST_PREDICTED = 14, MOST_PREDICTED = 100, PREDICTED_UNKNOWNS = 1500 };
 
 static double matrices(int count, double rows) { return 8.0 * count * rows * rows; }

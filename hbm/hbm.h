@@ -15,13 +15,13 @@
 #ifndef HC_HBM_H
 #define HC_HBM_H
 
-#include "hbm/between.h"
-#include "hbm/contact_measures.h"
-#include "hbm/continuation.h"
-#include "hbm/hbm_solver.h"
-#include "hbm/predict.h"
-#include "hbm/response_curve.h"
-#include "hbm/special_points.h"
-#include "hbm/stability.h"
+#include "hbm/contact/contact_measures.h"
+#include "hbm/curve/between.h"
+#include "hbm/curve/continuation.h"
+#include "hbm/curve/predict.h"
+#include "hbm/curve/response_curve.h"
+#include "hbm/curve/special_points.h"
+#include "hbm/solver/hbm_solver.h"
+#include "hbm/solver/stability.h"
 
 #endif

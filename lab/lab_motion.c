@@ -4,9 +4,9 @@
 #include <string.h>
 
 #include "base/constants.h"
-#include "hbm/aft.h"
-#include "hbm/exact_force.h"
-#include "hbm/slider.h"
+#include "hbm/contact/aft.h"
+#include "hbm/contact/exact_force.h"
+#include "hbm/contact/slider.h"
 #include "lab/lab_inside.h"
 #include "numerics/series.h"
 

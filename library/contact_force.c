@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "hbm/given_motion.h"
+#include "hbm/forces/given_motion.h"
 #include "library/inside.h"
 
 static bool has_contact(const hbmcheck_case *c, int j) { return j >= 0 && j < hbmcheck_case_contacts(c); }

@@ -22,7 +22,7 @@ static inline double circle_limit(const contact *law, double v) { return law->mu
 /* One step of the law from slider position w to motion (u, v): elastic predictor, radial return to the limit. w becomes
  * the new position, T [force] the traction. Slip is CONTACT_SLIP_PLUS, whatever its direction, which is T's. Exact
  * where predictor and traction have one direction, else of first order: the slider goes the whole step in the direction
- * that slip has at its end (hbm/circle_slider.h follows it as it turns). NaN anywhere gives NaN. */
+ * that slip has at its end (hbm/planar/planar_slider.h follows it as it turns). NaN anywhere gives NaN. */
 contact_state circle_step(const contact *law, const double u[2], double v, double w[2], double T[2]);
 
 /* State just after v + gap rises through 0, from the velocities there (dv > 0): it slips along du/|du| if kt |du| > mu

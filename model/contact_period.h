@@ -1,4 +1,4 @@
-/* contact_period.h - what a contact does over one period of a motion, in numbers. hbm/contact_measures.h fills it from
+/* contact_period.h - what a contact does over one period of a motion, in numbers. hbm/contact/contact_measures.h fills it from
  * a motion, timeint/contact_watch.h along its own. */
 #ifndef HC_CONTACT_PERIOD_H
 #define HC_CONTACT_PERIOD_H

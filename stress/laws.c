@@ -7,9 +7,9 @@
 #include <string.h>
 
 #include "base/constants.h"
-#include "hbm/circle_force.h"
-#include "hbm/circle_slider.h"
-#include "hbm/exact_force.h"
+#include "hbm/contact/exact_force.h"
+#include "hbm/planar/planar_force.h"
+#include "hbm/planar/planar_slider.h"
 #include "numerics/dense.h"
 #include "numerics/random.h"
 #include "numerics/series.h"
@@ -72,10 +72,10 @@ static hc_status locate_line(int n_harm, one_contact *c)
 
 static hc_status locate_circle(int n_harm, one_contact *c)
 {
-  circle_force *f;
-  hc_status st = circle_force_new(n_harm, c->n_dof, c->law, &f);
-  if (st == HC_OK) st = circle_force_eval(f, c->motion, c->force, NULL, &c->report);
-  circle_force_free(f);
+  planar_force *f;
+  hc_status st = planar_force_new(n_harm, c->n_dof, c->law, &f);
+  if (st == HC_OK) st = planar_force_eval(f, c->motion, c->force, NULL, &c->report);
+  planar_force_free(f);
   return st;
 }
 
@@ -85,7 +85,7 @@ static hc_status locate(int n_harm, one_contact *c)
   return c->circle ? locate_circle(n_harm, c) : locate_line(n_harm, c);
 }
 
-/* Contact j in the motion x[2H+1][n]. HC_NO_MEMORY and the errors of exact_force_eval, circle_force_eval;
+/* Contact j in the motion x[2H+1][n]. HC_NO_MEMORY and the errors of exact_force_eval, planar_force_eval;
  * one_contact_clear in any case. */
 static hc_status one_contact_locate(const solved_scene *s, int j, const double *x, one_contact *c)
 {
@@ -136,7 +136,7 @@ static void add_instant(int n_harm, double f, int N, const double *turn, int i, 
 /* The slider on its way: w, and the instant before; r is v + gap where the contact has one tangent. */
 typedef struct stepper {
   double w[2];
-  circle_sample before;
+  planar_sample before;
   bool begun;
 } stepper;
 
@@ -144,11 +144,11 @@ typedef struct stepper {
 static void step_circle(const contact *law, const double *motion, stepper *s, double *f)
 {
   const double v = motion[2], limit = law->mu * (law->kn * (v + law->gap) + law->load);
-  const circle_sample to = {.u = {motion[0], motion[1]}, .r = limit / law->kt};
-  circle_move move = CIRCLE_SLIPPED;
-  if (s->begun) move = circle_slider_step(HBM_RESTART_INTERPOLATED, &s->before, &to, s->w, NULL);
-  else move = circle_slider_enter(&to, s->w, NULL);
-  for (int d = 0; d < 2; ++d) f[d] = move == CIRCLE_APART ? 0 : law->kt * (to.u[d] - s->w[d]);
+  const planar_sample to = {.u = {motion[0], motion[1]}, .r = limit / law->kt};
+  planar_move move = PLANAR_SLIPPED;
+  if (s->begun) move = planar_slider_step(HBM_RESTART_INTERPOLATED, &s->before, &to, s->w, NULL);
+  else move = planar_slider_enter(&to, s->w, NULL);
+  for (int d = 0; d < 2; ++d) f[d] = move == PLANAR_APART ? 0 : law->kt * (to.u[d] - s->w[d]);
   f[2] = 2 * contact_normal_change(law, v);
   s->before = to;
   s->begun = true;
@@ -162,7 +162,7 @@ static void step_line(const contact *law, const double *motion, stepper *s, doub
     s->w[0] = s->before.u[0] + (motion[0] - s->before.u[0]) * from / (from - to);
   contact_step(law, motion[0], motion[1], s->w, &f[0]);
   f[1] = contact_normal_change(law, motion[1]);
-  s->before = (circle_sample){.u = {motion[0]}, .r = to};
+  s->before = (planar_sample){.u = {motion[0]}, .r = to};
   s->begun = true;
 }
 
@@ -180,7 +180,7 @@ static void step_period(const one_contact *c, int n_harm, int N, const double *t
 }
 
 /* The law stepped through N instants a period, from w = 0 until the slider has settled: harmonics force[n_dof][2H+1] of
- * one period more. Between instants u and v go evenly, as in hbm/circle_slider.h. A slider on a line has settled after
+ * one period more. Between instants u and v go evenly, as in hbm/planar/planar_slider.h. A slider on a line has settled after
  * one period; one in the plane settles by a factor each, or creeps into a corner between two circles, the slower the
  * nearer. false: after 2^23 instants it still has not settled. */
 static bool step_contact(const one_contact *c, int n_harm, int N, const double *turn, double *force)

@@ -4,8 +4,8 @@
 #define HC_SCENE_SOLVERS_H
 
 #include "casefile/scene.h"
-#include "hbm/aft.h"
-#include "hbm/exact_force.h"
+#include "hbm/contact/aft.h"
+#include "hbm/contact/exact_force.h"
 #include "hbm/hbm.h"
 #include "timeint/steady.h"
 #include "timeint/sweep.h"

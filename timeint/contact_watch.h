@@ -1,5 +1,5 @@
 /* contact_watch.h - what each contact does along the periods that a steady state repeats (model/contact_period.h): the
- * time integration's side of hbm/contact_measures.h, from its own dense output and its own law.
+ * time integration's side of hbm/contact/contact_measures.h, from its own dense output and its own law.
  *
  *     exact law          work = integral of mu N |w'| over slip      regularised     work = closed integral of T u'
  *

@@ -8,7 +8,7 @@
 #include "base/constants.h"
 #include "casefile/structure_model.h"
 #include "compare/frequencies.h"
-#include "hbm/segment.h"
+#include "hbm/curve/segment.h"
 #include "study/scene_solvers.h"
 
 /* [1] A point farther from the curve than this fraction of the drawing is on another branch. */
@@ -17,7 +17,7 @@ static const double off_curve = 0.01;
 /* ---- where the curve goes ---- */
 
 /* The curve is drawn with straight lines, so points are added: BETWEEN steps from one to the next, on the cubic of
- * hbm/segment.h. */
+ * hbm/curve/segment.h. */
 enum { BETWEEN = 4 };
 
 /* A curve is drawn by one response of the model; `judge`: with stability. */

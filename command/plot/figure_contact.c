@@ -5,7 +5,7 @@
 #include "base/constants.h"
 #include "command/plot/panels.h"
 #include "command/plot/phases.h"
-#include "hbm/exact_force.h"
+#include "hbm/contact/exact_force.h"
 #include "numerics/series.h"
 
 enum { POINTS = 4096, EVERY = PHASES_EVERY, MOST_DRAWN = PHASES_MOST_LOOPS };

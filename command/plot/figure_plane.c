@@ -7,8 +7,8 @@
 #include "base/constants.h"
 #include "command/plot/panels.h"
 #include "command/plot/phases.h"
-#include "hbm/circle_force.h"
-#include "hbm/exact_force.h"
+#include "hbm/contact/exact_force.h"
+#include "hbm/planar/planar_force.h"
 #include "numerics/series.h"
 
 enum { POINTS = 4096, CORNERS = 128 };
@@ -44,19 +44,19 @@ static double angle_inside(double th, double from, double to)
 }
 
 /* Slip: T = mu N e(phi). */
-static void slip_at(const circle_cycle *c, const circle_piece *p, double th, int i, plane_history *out)
+static void slip_at(const planar_cycle *c, const planar_piece *p, double th, int i, plane_history *out)
 {
-  const circle_panel *q = &c->slip.panel[p->panel];
+  const planar_panel *q = &c->slip.panel[p->panel];
   while (q < &c->slip.panel[p->panel + p->n_panels - 1] && th > q->to) ++q;
-  const double phi = circle_panel_angle(c->slip.c, q, th);
+  const double phi = planar_panel_angle(c->slip.c, q, th);
   out->t[0][i] = out->limit[i] * cos(phi), out->t[1][i] = out->limit[i] * sin(phi);
 }
 
-static void follow_circle(const circle_cycle *c, const contact *law, plane_history *out)
+static void follow_circle(const planar_cycle *c, const contact *law, plane_history *out)
 {
   for (int k = 0; k < c->n; ++k)
     for (int i = 0; i <= POINTS; ++i) {
-      const circle_piece *p = &c->piece[k];
+      const planar_piece *p = &c->piece[k];
       const double th = angle_inside(angle_of(i), p->from, p->to);
       if (isnan(th)) continue;
       out->state[i] = p->state;
@@ -69,11 +69,11 @@ static hc_status evaluate_circle(const plot_motion *m, plane_history *out)
 {
   const contact *law = &m->contacts->law;
   double F[SERIES_MAX_DIM * (2 * HBM_MAX_HARMONICS + 1)];
-  circle_force *f = NULL;
-  hc_status st = circle_force_new(m->n_harm, law->kn > 0 ? 3 : 2, law, &f);
-  if (st == HC_OK) st = circle_force_eval(f, m->X, F, NULL, NULL);
-  if (st == HC_OK) follow_circle(circle_force_cycle(f), law, out);
-  circle_force_free(f);
+  planar_force *f = NULL;
+  hc_status st = planar_force_new(m->n_harm, law->kn > 0 ? 3 : 2, law, &f);
+  if (st == HC_OK) st = planar_force_eval(f, m->X, F, NULL, NULL);
+  if (st == HC_OK) follow_circle(planar_force_cycle(f), law, out);
+  planar_force_free(f);
   return st;
 }
 

@@ -9,8 +9,8 @@
 
 #include "base/constants.h"
 #include "compare/frequencies.h"
-#include "hbm/aft.h"
-#include "hbm/exact_force.h"
+#include "hbm/contact/aft.h"
+#include "hbm/contact/exact_force.h"
 #include "numerics/series.h"
 #include "numerics/workers.h"
 #include "study/scene_solvers.h"

@@ -11,9 +11,9 @@
 #include <time.h>
 
 #include "base/ascending.h"
-#include "hbm/circle_force.h"
-#include "hbm/exact_force.h"
+#include "hbm/contact/exact_force.h"
 #include "hbm/hbm_settings.h"
+#include "hbm/planar/planar_force.h"
 #include "numerics/series.h"
 #include "tests/random.h"
 
@@ -22,7 +22,7 @@ enum { MOTIONS = 64, KINDS = 3, DECAYS = 2, MAX_ROUNDS = 101, MOST_H = 25, MAX_C
 /* One motion under its law, of both contacts. */
 typedef struct scene {
   double X[MAX_COEF], line[MAX_COEF];
-  circle_force *circle;
+  planar_force *circle;
   exact_force *one;
 } scene;
 
@@ -71,20 +71,20 @@ static void make(const contact *law, scene *s)
 {
   const contact half = {law->kt, law->kn / 2, 2 * law->mu, law->gap, law->load / 2};
   const moving_contact on_line = {.law = *law, .cu = {1, 0}, .cv = {0, 1}};
-  check(circle_force_new(H, 3, &half, &s->circle));
+  check(planar_force_new(H, 3, &half, &s->circle));
   check(exact_force_new(H, 2, 1, &on_line, &s->one));
 }
 
 static void drop(scene *s)
 {
-  circle_force_free(s->circle);
+  planar_force_free(s->circle);
   exact_force_free(s->one);
 }
 
 static contact_regime evaluate(scene *s, bool circle)
 {
   contact_report report;
-  check(circle ? circle_force_eval(s->circle, s->X, F, jac, &report)
+  check(circle ? planar_force_eval(s->circle, s->X, F, jac, &report)
                : exact_force_eval(s->one, s->line, F, jac, &report));
   sink += F[0] + jac[0];
   return report.regime;
@@ -92,7 +92,7 @@ static contact_regime evaluate(scene *s, bool circle)
 
 static void keep(kind *k, const scene *s)
 {
-  const circle_cycle *c = circle_force_cycle(s->circle);
+  const planar_cycle *c = planar_force_cycle(s->circle);
   k->scene[k->n++] = *s;
   k->pieces += c->n;
   k->panels += c->slip.n;

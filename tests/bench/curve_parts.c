@@ -12,7 +12,7 @@
 #include "casefile/case_file.h"
 #include "compare/response.h"
 #include "hbm/hbm.h"
-#include "hbm/hbm_solver_impl.h"
+#include "hbm/solver/hbm_solver_impl.h"
 #include "study/scene_solvers.h"
 
 enum { MAX_REPEATS = 1001, SPECIALS = 256 };

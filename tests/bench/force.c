@@ -15,8 +15,8 @@
 
 #include "base/ascending.h"
 #include "casefile/case_file.h"
-#include "hbm/aft.h"
-#include "hbm/exact_force.h"
+#include "hbm/contact/aft.h"
+#include "hbm/contact/exact_force.h"
 #include "hbm/hbm.h"
 #include "study/scene_solvers.h"
 #include "tests/random.h"

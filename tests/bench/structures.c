@@ -9,7 +9,7 @@
 
 #include "base/constants.h"
 #include "hbm/hbm.h"
-#include "hbm/hbm_solver_impl.h"
+#include "hbm/solver/hbm_solver_impl.h"
 #include "numerics/dense.h"
 
 static double now(void)

@@ -11,7 +11,7 @@
 #include <sys/types.h>
 #include <unistd.h>
 
-#include "hbm/exact_force.h"
+#include "hbm/contact/exact_force.h"
 #include "numerics/workers.h"
 #include "output/output.h"
 #include "study/store.h"

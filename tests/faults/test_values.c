@@ -1,9 +1,9 @@
-/* test_values.c - NaN and infinity at the n-th evaluation of the contact force (hbm/exact_force.c, hbm/aft.c) or of the
+/* test_values.c - NaN and infinity at the n-th evaluation of the contact force (hbm/contact/exact_force.c, hbm/contact/aft.c) or of the
  * right-hand side of the regularised law (timeint/scaled.c), with the status of a good evaluation or the one it owes:
  * no hang, no wrong answer, and the handle is not poisoned: asked again it answers what a new one answers, bit for
  * bit. */
-#include "hbm/aft.h"
-#include "hbm/exact_force.h"
+#include "hbm/contact/aft.h"
+#include "hbm/contact/exact_force.h"
 #include "hbm/hbm.h"
 #include "study/scene_solvers.h"
 #include "tests/faults/small.h"

@@ -4,8 +4,8 @@
 
 #include <string.h>
 
-#include "hbm/circle_aft.h"
 #include "hbm/hbm_settings.h"
+#include "hbm/planar/planar_aft.h"
 #include "numerics/series.h"
 #include "tests/check.h"
 #include "tests/hbm/scenes.h"

@@ -4,7 +4,7 @@
 #ifndef HC_TESTS_HBM_EXACT_SCENES_H
 #define HC_TESTS_HBM_EXACT_SCENES_H
 
-#include "hbm/exact_force.h"
+#include "hbm/contact/exact_force.h"
 #include "numerics/series.h"
 #include "tests/hbm/scenes.h"
 

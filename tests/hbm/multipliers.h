@@ -1,5 +1,5 @@
 /* multipliers.h - Floquet multipliers that a test has found by itself, from the derivative of a period map, and what
- * hbm/stability.h says held against them. */
+ * hbm/solver/stability.h says held against them. */
 #ifndef HC_TESTS_HBM_MULTIPLIERS_H
 #define HC_TESTS_HBM_MULTIPLIERS_H
 

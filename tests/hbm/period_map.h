@@ -169,7 +169,7 @@ static inline void map_period(const period_map *p, const double *y, double *end)
 
 /* The states of the orbit at t = 0 into start; *p made ready for p->f. A slider that is stuck all period but for
  * 1e-6 rad, as after a shakedown, where the orbit is the last of a family, is taken to be stuck for good: there the
- * map has but one-sided derivatives. Its own multiplier 1 is left out (hbm/monodromy.h). */
+ * map has but one-sided derivatives. Its own multiplier 1 is left out (hbm/stability/monodromy.h). */
 static inline void map_settle(period_map *p, double *start)
 {
   const model *m = p->f.m;

@@ -3,17 +3,17 @@
  * differences. */
 #include <float.h>
 
-#include "hbm/circle_force.h"
-#include "hbm/exact_force.h"
+#include "hbm/contact/exact_force.h"
+#include "hbm/planar/planar_force.h"
 #include "tests/hbm/circle_scenes.h"
 
 static double jac[CIRCLE_MAX_X * CIRCLE_MAX_X], line_jac[4 * CIRCLE_MAX_LENGTH * CIRCLE_MAX_LENGTH];
 
-static circle_force *make(const contact *whole, int H)
+static planar_force *make(const contact *whole, int H)
 {
   const contact half = circle_half(*whole);
-  circle_force *f;
-  assert_int_equal(circle_force_new(H, whole->kn > 0 ? 3 : 2, &half, &f), HC_OK);
+  planar_force *f;
+  assert_int_equal(planar_force_new(H, whole->kn > 0 ? 3 : 2, &half, &f), HC_OK);
   return f;
 }
 
@@ -39,14 +39,14 @@ static void a_line_is_one_tangent(void **state)
     const contact law = random_circle(&seed);
     const int n_dof = law.kn > 0 ? 3 : 2;
     const moving_contact on_line = {.law = law, .cu = {1, 0}, .cv = {0, n_dof - 2}};
-    circle_force *a = make(&law, H);
+    planar_force *a = make(&law, H);
     exact_force *b;
     contact_report in_plane, in_line;
     assert_int_equal(exact_force_new(H, n_dof - 1, 1, &on_line, &b), HC_OK);
     random_motion(&seed, H, 1, 1, U);
     random_motion(&seed, H, 1, 1, U + n);
     for (int i = 0; i < n; ++i) X[i] = dir[0] * U[i], X[n + i] = dir[1] * U[i], X[2 * n + i] = U[n + i];
-    assert_int_equal(circle_force_eval(a, X, F, jac, &in_plane), HC_OK);
+    assert_int_equal(planar_force_eval(a, X, F, jac, &in_plane), HC_OK);
     assert_int_equal(exact_force_eval(b, U, G, line_jac, &in_line), HC_OK);
     const double size = force_size(&law, sum_abs(2 * n, U)), tolerance = 1e-12 * size;
     for (int i = 0; i < n; ++i) {
@@ -56,7 +56,7 @@ static void a_line_is_one_tangent(void **state)
       if (n_dof == 3) CHECK_NEAR(F[2 * n + i], G[n + i], tolerance, "trial %d coefficient %d, normal", trial, i);
     }
     double w[2], w_line;
-    circle_force_slider(a, w);
+    planar_force_slider(a, w);
     exact_force_sliders(b, &w_line);
     CHECK_NEAR(dir[0] * w[0] + dir[1] * w[1], w_line, 1e-12 * sum_abs(2 * n, U), "trial %d", trial);
     if (in_plane.regime != in_line.regime) { /* pushed until friction just holds it: a slip by rounding or none */
@@ -67,7 +67,7 @@ static void a_line_is_one_tangent(void **state)
       assert_int_equal(in_plane.transitions, in_line.transitions);
     }
     ++regimes[in_line.regime];
-    circle_force_free(a);
+    planar_force_free(a);
     exact_force_free(b);
   }
   print_message("on a line: worst difference %.1e of the force, %d of 600 told apart\n", worst, told_apart);
@@ -89,11 +89,11 @@ static void a_circle_by_its_closed_form(void **state)
     const double X[6] = {0, a, 0, 0, 0, a};
     double F[6];
     contact_report report;
-    circle_force *of = make(&law, 1);
-    assert_int_equal(circle_force_eval(of, X, F, NULL, &report), HC_OK);
+    planar_force *of = make(&law, 1);
+    assert_int_equal(planar_force_eval(of, X, F, NULL, &report), HC_OK);
     assert_int_equal(report.regime, CONTACT_SLIPS);
     assert_int_equal(report.transitions, 0);
-    circle_force_free(of);
+    planar_force_free(of);
     /* where `ahead` is small it is known to (rounding of a)/ahead */
     const double tolerance = 1e-13 + 1e-15 / ahead;
     CHECK_NEAR(F[0], 0, tolerance, "mean, a/r = %g", a / r);
@@ -113,14 +113,14 @@ static double distance_to_sampled(const contact *law, int H, const double *X, in
   const contact half = circle_half(*law);
   const int rows = (law->kn > 0 ? 3 : 2) * series_length(H);
   double F[CIRCLE_MAX_X], G[CIRCLE_MAX_X], sum = 0;
-  circle_aft *a;
-  circle_force *f = make(law, H);
-  assert_int_equal(circle_aft_new(H, N, HBM_RESTART_INTERPOLATED, rows / series_length(H), &half, &a), HC_OK);
-  assert_int_equal(circle_aft_eval(a, X, G, NULL), HC_OK);
-  assert_int_equal(circle_force_eval(f, X, F, NULL, NULL), HC_OK);
+  planar_aft *a;
+  planar_force *f = make(law, H);
+  assert_int_equal(planar_aft_new(H, N, HBM_RESTART_INTERPOLATED, rows / series_length(H), &half, &a), HC_OK);
+  assert_int_equal(planar_aft_eval(a, X, G, NULL), HC_OK);
+  assert_int_equal(planar_force_eval(f, X, F, NULL, NULL), HC_OK);
   for (int i = 0; i < rows; ++i) sum += (F[i] - G[i]) * (F[i] - G[i]);
-  circle_aft_free(a);
-  circle_force_free(f);
+  planar_aft_free(a);
+  planar_force_free(f);
   return sqrt(sum);
 }
 
@@ -182,27 +182,27 @@ static void turns_and_shifts(void **state)
     const contact law = random_circle(&seed);
     const int n_dof = law.kn > 0 ? 3 : 2;
     const double angle = PI * random_signed(&seed), shift = PI * random_signed(&seed);
-    circle_force *a = make(&law, H);
+    planar_force *a = make(&law, H);
     contact_report report;
     random_plane_motion(&seed, H, 1, X);
     const double size = force_size(&law, sum_abs(3 * n, X)), tolerance = 1e-12 * size;
-    assert_int_equal(circle_force_eval(a, X, F, NULL, &report), HC_OK);
+    assert_int_equal(planar_force_eval(a, X, F, NULL, &report), HC_OK);
     turn_plane(H, angle, X, Y);
     turn_plane(H, angle, F, wanted);
-    assert_int_equal(circle_force_eval(a, Y, G, NULL, NULL), HC_OK);
+    assert_int_equal(planar_force_eval(a, Y, G, NULL, NULL), HC_OK);
     for (int i = 0; i < n_dof * n; ++i) CHECK_NEAR(G[i], wanted[i], tolerance, "turned, trial %d row %d", trial, i);
     if (!report.free_sliders && ++shifted) {
       for (int d = 0; d < n_dof; ++d) {
         shift_motion(H, X + d * n, shift, Y + d * n);
         shift_motion(H, F + d * n, shift, wanted + d * n);
       }
-      assert_int_equal(circle_force_eval(a, Y, G, NULL, NULL), HC_OK);
+      assert_int_equal(planar_force_eval(a, Y, G, NULL, NULL), HC_OK);
       for (int i = 0; i < n_dof * n; ++i) {
         worst = fmax(worst, fabs(G[i] - wanted[i]) / size);
         CHECK_NEAR(G[i], wanted[i], tolerance, "shifted, trial %d row %d", trial, i);
       }
     }
-    circle_force_free(a);
+    planar_force_free(a);
   }
   print_message("shifted: worst difference %.1e of the force\n", worst);
   assert_true(shifted > 150);
@@ -210,7 +210,7 @@ static void turns_and_shifts(void **state)
 
 /* ---- Jacobian --------------------------------------------------------------------------------------- */
 
-static hc_status forces(void *f, const double *X, double *F) { return circle_force_eval(f, X, F, NULL, NULL); }
+static hc_status forces(void *f, const double *X, double *F) { return planar_force_eval(f, X, F, NULL, NULL); }
 
 /* With a Jacobian the orbit is closed by a last step to first order, without one by passes alone: the same forces, to
  * 1e-12 of them; and the same slider, to 1e-7: what phi is good to between a panel's points. */
@@ -223,20 +223,20 @@ static void with_jacobian_the_force_is_the_same(void **state)
     const int H = 1 + trial % 7, n = series_length(H);
     const contact law = random_circle(&seed);
     const int rows = (law.kn > 0 ? 3 : 2) * n;
-    circle_force *a = make(&law, H);
+    planar_force *a = make(&law, H);
     double w[2], v[2];
     random_plane_motion(&seed, H, 1, X);
     const double motion = sum_abs(3 * n, X), size = force_size(&law, motion);
-    assert_int_equal(circle_force_eval(a, X, F, NULL, NULL), HC_OK);
-    circle_force_slider(a, w);
-    assert_int_equal(circle_force_eval(a, X, G, jac, NULL), HC_OK);
-    circle_force_slider(a, v);
+    assert_int_equal(planar_force_eval(a, X, F, NULL, NULL), HC_OK);
+    planar_force_slider(a, w);
+    assert_int_equal(planar_force_eval(a, X, G, jac, NULL), HC_OK);
+    planar_force_slider(a, v);
     for (int i = 0; i < rows; ++i) {
       worst = fmax(worst, fabs(G[i] - F[i]) / size);
       CHECK_NEAR(G[i], F[i], 1e-12 * size, "trial %d row %d", trial, i);
     }
     for (int d = 0; d < 2; ++d) CHECK_NEAR(v[d], w[d], 1e-7 * (motion + size / law.kt), "trial %d slider %d", trial, d);
-    circle_force_free(a);
+    planar_force_free(a);
   }
   print_message("with a Jacobian: worst difference %.1e of the force\n", worst);
 }
@@ -252,18 +252,18 @@ static void jacobian_equals_differences(void **state)
     const int H = 1 + trial % 7, n = series_length(H);
     const contact law = random_circle(&seed);
     const int n_dof = law.kn > 0 ? 3 : 2, rows = n_dof * n;
-    circle_force *a = make(&law, H);
+    planar_force *a = make(&law, H);
     contact_report report;
     random_plane_motion(&seed, H, 1, X);
     random_plane_motion(&seed, H, 1, d);
     const double size = force_size(&law, 1) * sum_abs(rows, d);
     const double disagreement = circle_slope_along(rows, forces, a, X, d, slope);
     if (disagreement > 1e-6 * size && ++skipped) {
-      circle_force_free(a);
+      planar_force_free(a);
       continue;
     }
     ++checked;
-    assert_int_equal(circle_force_eval(a, X, F, jac, &report), HC_OK);
+    assert_int_equal(planar_force_eval(a, X, F, jac, &report), HC_OK);
     circle_product(rows, jac, d, product);
     for (int p = 0; p < rows; ++p) {
       worst = fmax(worst, (fabs(product[p] - slope[p]) - disagreement) / size);
@@ -271,7 +271,7 @@ static void jacobian_equals_differences(void **state)
                  p);
     }
     ++regimes[report.regime];
-    circle_force_free(a);
+    planar_force_free(a);
   }
   print_message("%d directions checked, worst %.1e, %d skipped for a piece that appears\n", checked, worst, skipped);
   assert_true(skipped < checked / 4);
@@ -295,9 +295,9 @@ static void a_slider_creeps_to_the_corner_of_a_lens(void **state)
     const contact law = {.kt = 2, .mu = 0.5, .load = 4 * R};
     double F[6], w[2];
     contact_report report;
-    circle_force *f = make(&law, 1);
-    assert_int_equal(circle_force_eval(f, X, F, jac, &report), HC_OK);
-    circle_force_slider(f, w);
+    planar_force *f = make(&law, 1);
+    assert_int_equal(planar_force_eval(f, X, F, jac, &report), HC_OK);
+    planar_force_slider(f, w);
     CHECK_NEAR(w[1], Y - deep, tolerance, "room %g", room[k]);
     assert_int_equal(report.regime, deep > 0 ? CONTACT_STUCK : CONTACT_SLIPS);
     if (deep > 0) {
@@ -306,7 +306,7 @@ static void a_slider_creeps_to_the_corner_of_a_lens(void **state)
       CHECK_NEAR(jac[3 + 6 * 1], -law.kt * a / deep, law.kt * tolerance / deep / deep, "room %g, by a", room[k]);
       CHECK_NEAR(jac[3 + 6 * 3], 0, law.kt * tolerance / deep, "room %g, by Y", room[k]);
     }
-    circle_force_free(f);
+    planar_force_free(f);
   }
 }
 
@@ -320,38 +320,38 @@ static void stuck_and_open_are_linear(void **state)
   const double X[9] = {0.1, 1, 0.2, 0.3, -0.4, 0.9, 0.2, 0.5, 0.1};
   double F[9];
   contact_report report;
-  circle_force *f = make(&stuck, 1);
-  assert_int_equal(circle_force_eval(f, X, F, jac, &report), HC_OK);
+  planar_force *f = make(&stuck, 1);
+  assert_int_equal(planar_force_eval(f, X, F, jac, &report), HC_OK);
   assert_int_equal(report.regime, CONTACT_STUCK);
   assert_int_equal(report.free_sliders, 1);
   for (int i = 0; i < 9; ++i) CHECK_NEAR(F[i], (i < 6 ? 3 : 2) * X[i], 1e-14, "stuck, row %d", i);
   for (int i = 0; i < 81; ++i) CHECK_NEAR(jac[i], i % 10 ? 0 : i < 54 ? 3 : 2, 1e-14, "stuck, entry %d", i);
-  circle_force_free(f);
+  planar_force_free(f);
   f = make(&open, 1);
-  assert_int_equal(circle_force_eval(f, X, F, jac, &report), HC_OK);
+  assert_int_equal(planar_force_eval(f, X, F, jac, &report), HC_OK);
   assert_int_equal(report.regime, CONTACT_LINEAR);
   for (int i = 0; i < 9; ++i) assert_true(F[i] == 0);
   for (int i = 0; i < 81; ++i) assert_true(jac[i] == 0);
-  circle_force_free(f);
+  planar_force_free(f);
 }
 
 static void refuses(void **state)
 {
   (void)state;
   const contact law = {.kt = 1, .mu = 1, .load = 1}, smooth = {.kt = 1, .load = 1};
-  circle_force *f;
-  assert_int_equal(circle_force_new(0, 2, &law, &f), HC_BAD_INPUT);
-  assert_int_equal(circle_force_new(HBM_MAX_HARMONICS + 1, 2, &law, &f), HC_BAD_INPUT);
-  assert_int_equal(circle_force_new(2, 1, &law, &f), HC_BAD_INPUT);
-  assert_int_equal(circle_force_new(2, 2, &smooth, &f), HC_BAD_INPUT);
+  planar_force *f;
+  assert_int_equal(planar_force_new(0, 2, &law, &f), HC_BAD_INPUT);
+  assert_int_equal(planar_force_new(HBM_MAX_HARMONICS + 1, 2, &law, &f), HC_BAD_INPUT);
+  assert_int_equal(planar_force_new(2, 1, &law, &f), HC_BAD_INPUT);
+  assert_int_equal(planar_force_new(2, 2, &smooth, &f), HC_BAD_INPUT);
   assert_null(f);
   const double bad[] = {NAN, INFINITY, -INFINITY, 1e300};
   f = make(&law, 1);
   for (int k = 0; k < 4; ++k) {
     double X[6] = {0, 1, 2, 0, bad[k], 0}, F[6];
-    assert_int_equal(circle_force_eval(f, X, F, jac, NULL), HC_NOT_FINITE);
+    assert_int_equal(planar_force_eval(f, X, F, jac, NULL), HC_NOT_FINITE);
   }
-  circle_force_free(f);
+  planar_force_free(f);
 }
 
 int main(void)
@@ -369,5 +369,5 @@ int main(void)
       cmocka_unit_test(refuses),
   };
   check_watchdog(300);
-  return cmocka_run_group_tests_name("hbm.circle_force", tests, NULL, NULL);
+  return cmocka_run_group_tests_name("hbm.planar_force", tests, NULL, NULL);
 }

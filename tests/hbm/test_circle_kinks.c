@@ -6,7 +6,7 @@
  *
  * in powers of h^(1/2): what a parabola cuts off is as long as the root of how far it is beyond. D is found three
  * times: from the forces, from the Jacobian as h falls to 0, and from the Jacobian at X0. */
-#include "hbm/circle_force.h"
+#include "hbm/planar/planar_force.h"
 #include "tests/hbm/circle_scenes.h"
 
 enum { H = 2, LENGTH = 2 * H + 1, ROWS = 3 * LENGTH, LEVELS = 5, MAX_LETTERS = 256 };
@@ -24,10 +24,10 @@ static double limit(double y[LEVELS], double *change)
 }
 
 /* F, and the Jacobian there times d. */
-static void evaluate(circle_force *f, const double *X, const double *d, double *F, double *product)
+static void evaluate(planar_force *f, const double *X, const double *d, double *F, double *product)
 {
   static double jac[ROWS * ROWS];
-  assert_int_equal(circle_force_eval(f, X, F, jac, NULL), HC_OK);
+  assert_int_equal(planar_force_eval(f, X, F, jac, NULL), HC_OK);
   circle_product(ROWS, jac, d, product);
 }
 
@@ -37,7 +37,7 @@ typedef struct one_sided {
 } one_sided;
 
 /* D for h of that sign. */
-static one_sided from_one_side(circle_force *f, const double *X, const double *F0, const double *d, double sign)
+static one_sided from_one_side(planar_force *f, const double *X, const double *F0, const double *d, double sign)
 {
   one_sided out = {.unsure = 0};
   double forces[LEVELS][ROWS], jacobians[LEVELS][ROWS], Y[ROWS], F[ROWS], y[LEVELS], change;
@@ -65,11 +65,11 @@ static double distance(const double *a, const double *b)
   return most;
 }
 
-static circle_force *make(const contact *whole)
+static planar_force *make(const contact *whole)
 {
   const contact half = circle_half(*whole);
-  circle_force *f;
-  assert_int_equal(circle_force_new(H, 3, &half, &f), HC_OK);
+  planar_force *f;
+  assert_int_equal(planar_force_new(H, 3, &half, &f), HC_OK);
   return f;
 }
 
@@ -82,7 +82,7 @@ typedef struct tally {
 /* At X0 along d, unless D is not known well enough from the forces. Their rounding, some 1e-15 of (kt + kn) |d|, over a
  * step down to 4e-6, and that extrapolated: 1e-8 of it. The edge is known to roundings, and the Jacobian beside it
  * moves with the root of how far it is, hence 1e-6 at X0. */
-static void check_edge(circle_force *f, const contact *law, const double *X, const double *d, tally *t)
+static void check_edge(planar_force *f, const contact *law, const double *X, const double *d, tally *t)
 {
   const double size = (law->kt + law->kn) * sum_abs(ROWS, d);
   double F0[ROWS], at[ROWS];
@@ -128,10 +128,10 @@ static void slip_that_begins_at_touch_down(void **state)
     const double speed = hypot(a.d1, b.d1);
     contact law = {.kn = 1.3, .mu = 0.5, .gap = -at.x};
     law.kt = law.mu * law.kn * at.d1 / speed;
-    circle_force *f = make(&law);
+    planar_force *f = make(&law);
     check_edge(f, &law, X, d, &t);
     outruns += law.kt * (a.d1 * a.d2 + b.d1 * b.d2) / speed > law.mu * law.kn * at.d2;
-    circle_force_free(f);
+    planar_force_free(f);
   }
   print_tally("slip from touch-down", &t);
   assert_true(t.checked > 40 && t.kinks == 0);
@@ -150,9 +150,9 @@ static void a_graze_of_the_normal_force(void **state)
     random_plane_motion(&seed, H, 1, d);
     series_extrema(H, X + 2 * LENGTH, &max, &min);
     const contact law = {.kt = 0.9, .kn = 1.3, .mu = 0.5, .gap = -min};
-    circle_force *f = make(&law);
+    planar_force *f = make(&law);
     check_edge(f, &law, X, d, &t);
-    circle_force_free(f);
+    planar_force_free(f);
   }
   print_tally("graze of the normal force", &t);
   assert_true(t.checked > 40 && t.kinks == 0);
@@ -164,27 +164,27 @@ static void at_the_limit_all_the_while(void **state)
   (void)state;
   const contact law = {.kt = 0.75, .kn = 1.5, .mu = 0.5};
   double X[ROWS] = {0}, F[ROWS];
-  circle_force *f = make(&law);
+  planar_force *f = make(&law);
   X[1] = 0.6, X[LENGTH + 1] = 0.8, X[2 * LENGTH + 1] = 1;
-  assert_int_equal(circle_force_eval(f, X, F, NULL, NULL), HC_OK);
+  assert_int_equal(planar_force_eval(f, X, F, NULL, NULL), HC_OK);
   for (int i = 0; i < LENGTH; ++i) {
     CHECK_NEAR(F[i], 0.6 * law.mu * F[2 * LENGTH + i], 1e-7, "coefficient %d", i);
     CHECK_NEAR(F[LENGTH + i], 0.8 * law.mu * F[2 * LENGTH + i], 1e-7, "coefficient %d", i);
   }
-  circle_force_free(f);
+  planar_force_free(f);
 }
 
 /* ---- edges that are found ------------------------------------------------------------------------------- */
 
 /* Its states, each contact begun with a bar: |ts|s. */
-static void spell(circle_force *f, const double *X, char out[MAX_LETTERS])
+static void spell(planar_force *f, const double *X, char out[MAX_LETTERS])
 {
   double F[ROWS];
   int n = 0;
-  assert_int_equal(circle_force_eval(f, X, F, NULL, NULL), HC_OK);
-  const circle_cycle *c = circle_force_cycle(f);
+  assert_int_equal(planar_force_eval(f, X, F, NULL, NULL), HC_OK);
+  const planar_cycle *c = planar_force_cycle(f);
   for (int i = 0; i < c->n && n < MAX_LETTERS - 2; ++i) {
-    if (c->piece[i].begin == CIRCLE_TOUCHES) out[n++] = '|';
+    if (c->piece[i].begin == PLANAR_TOUCHES) out[n++] = '|';
     out[n++] = c->piece[i].state == CONTACT_STICK ? 't' : 's';
   }
   out[n] = 0;
@@ -197,7 +197,7 @@ static void along(const double *A, const double *d, double part, double *X)
 
 /* The first change of states met by halving the way from A to A + d/3: X there, and the states on both sides. false if
  * the ends have the same. */
-static bool find_edge(circle_force *f, const double *A, const double *d, double *X, char before[], char after[])
+static bool find_edge(planar_force *f, const double *A, const double *d, double *X, char before[], char after[])
 {
   double low = 0, high = 1.0 / 3;
   char now[MAX_LETTERS];
@@ -243,13 +243,13 @@ static void edges_between_motions(void **state)
     random_plane_motion(&seed, H, 1, A);
     random_plane_motion(&seed, H, 1, d);
     if (law.kn == 0) continue;
-    circle_force *f = make(&law);
+    planar_force *f = make(&law);
     spell(f, A, before);
     if (before[0] == '|' && find_edge(f, A, d, X, before, after)) {
       const bool same_bars = count_bars(before) == count_bars(after), first = before[1] != after[1];
       check_edge(f, &law, X, d, !same_bars ? &grazes : first ? &touches : &inside);
     }
-    circle_force_free(f);
+    planar_force_free(f);
   }
   print_tally("found, normal force", &grazes);
   print_tally("found, touch-down", &touches);

@@ -1,8 +1,8 @@
 /* test_circle_measures.c - what a contact with two tangents and one limit does over a period: closed forms on a circle,
  * the law of one tangent on a line, and the work of the traction's harmonics. */
-#include "hbm/circle_force.h"
-#include "hbm/circle_measures.h"
-#include "hbm/contact_measures.h"
+#include "hbm/contact/contact_measures.h"
+#include "hbm/planar/planar_force.h"
+#include "hbm/planar/planar_measures.h"
 #include "tests/hbm/circle_scenes.h"
 
 /* u = a (cos th, sin th), constant N: the slider goes round on sqrt(a^2 - r^2), r = mu N/kt. 1e-13: sums of a few dozen
@@ -14,7 +14,7 @@ static void a_circle_by_its_closed_form(void **state)
   const double r = 1.0 / 3, a = 0.7, path = 2 * PI * sqrt(a * a - r * r), u1[3] = {0, a, 0}, u2[3] = {0, 0, a},
                v[3] = {0};
   contact_period out[2];
-  assert_int_equal(circle_measures_of(&half, 1, u1, u2, v, out), HC_OK);
+  assert_int_equal(planar_measures_of(&half, 1, u1, u2, v, out), HC_OK);
   assert_int_equal(out[0].regime, CONTACT_SLIPS);
   assert_int_equal(out[1].regime, CONTACT_SLIPS);
   assert_true(out[0].normal_min == 1.25 && out[0].normal_max == 1.25 && out[1].normal_max == 1.25);
@@ -32,7 +32,7 @@ static void stuck_it_pulls_as_far_as_it_goes(void **state)
   const double c = cos(0.4), s = sin(0.4), u1[5] = {0, 0, 0, 0.9 * c, -0.2 * s}, u2[5] = {0, 0, 0, 0.9 * s, 0.2 * c},
                v[5] = {0};
   contact_period out[2];
-  assert_int_equal(circle_measures_of(&half, 2, u1, u2, v, out), HC_OK);
+  assert_int_equal(planar_measures_of(&half, 2, u1, u2, v, out), HC_OK);
   assert_int_equal(out[0].regime, CONTACT_STUCK);
   CHECK_NEAR(out[0].traction_max, 2.7, 1e-14, "traction");
   assert_true(out[0].work == 0 && out[0].slip_distance == 0);
@@ -53,7 +53,7 @@ static void on_a_line_it_is_one_tangent(void **state)
     random_motion(&seed, H, 1, 1, u);
     random_motion(&seed, H, 1, 1, v);
     for (int i = 0; i < n; ++i) u1[i] = c * u[i], u2[i] = s * u[i];
-    assert_int_equal(circle_measures_of(&half, H, u1, u2, v, pair), HC_OK);
+    assert_int_equal(planar_measures_of(&half, H, u1, u2, v, pair), HC_OK);
     assert_int_equal(contact_measures_of(&law, H, u, v, &one), HC_OK);
     const double size = sum_abs(n, u) + sum_abs(n, v), force = law.kt * size;
     CHECK_NEAR(2 * pair[0].normal_max, one.normal_max, 1e-13 * (one.normal_max + law.kn * size), "trial %d", trial);
@@ -74,13 +74,13 @@ static void work_is_that_of_the_traction(void **state)
   for (int trial = 0; trial < 300; ++trial) {
     const int H = 1 + trial % 7, n = series_length(H);
     const contact law = random_circle(&seed), half = circle_half(law);
-    circle_force *f;
+    planar_force *f;
     contact_period out[2];
     double work = 0;
     random_plane_motion(&seed, H, 1, X);
-    assert_int_equal(circle_force_new(H, law.kn > 0 ? 3 : 2, &half, &f), HC_OK);
-    assert_int_equal(circle_force_eval(f, X, F, NULL, NULL), HC_OK);
-    assert_int_equal(circle_measures_of(&half, H, X, X + n, X + 2 * n, out), HC_OK);
+    assert_int_equal(planar_force_new(H, law.kn > 0 ? 3 : 2, &half, &f), HC_OK);
+    assert_int_equal(planar_force_eval(f, X, F, NULL, NULL), HC_OK);
+    assert_int_equal(planar_measures_of(&half, H, X, X + n, X + 2 * n, out), HC_OK);
     for (int d = 0; d < 2; ++d)
       for (int h = 1; h <= H; ++h)
         work += PI * h * (F[d * n + 2 * h - 1] * X[d * n + 2 * h] - F[d * n + 2 * h] * X[d * n + 2 * h - 1]);
@@ -88,7 +88,7 @@ static void work_is_that_of_the_traction(void **state)
     CHECK_NEAR(out[0].work, work, 1e-12 * H * law.kt * size * size, "trial %d", trial);
     CHECK_LE(out[0].work, out[0].traction_max * out[0].slip_distance * (1 + 1e-12) + 1e-300, "trial %d", trial);
     slipped += out[0].work > 0;
-    circle_force_free(f);
+    planar_force_free(f);
   }
   assert_true(slipped > 150);
 }
@@ -99,8 +99,8 @@ static void what_is_no_motion_is_refused(void **state)
   const contact half = circle_half((contact){.kt = 3, .mu = 0.4, .load = 2.5});
   const double u[3] = {0, NAN, 0}, v[3] = {0};
   contact_period out[2];
-  assert_int_equal(circle_measures_of(&half, 0, v, v, v, out), HC_BAD_INPUT);
-  assert_int_equal(circle_measures_of(&half, 1, v, u, v, out), HC_NOT_FINITE);
+  assert_int_equal(planar_measures_of(&half, 0, v, v, v, out), HC_BAD_INPUT);
+  assert_int_equal(planar_measures_of(&half, 1, v, u, v, out), HC_NOT_FINITE);
 }
 
 int main(void)
@@ -111,5 +111,5 @@ int main(void)
       cmocka_unit_test(what_is_no_motion_is_refused),
   };
   check_watchdog(60);
-  return cmocka_run_group_tests_name("hbm.circle_measures", tests, NULL, NULL);
+  return cmocka_run_group_tests_name("hbm.planar_measures", tests, NULL, NULL);
 }

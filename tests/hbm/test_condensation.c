@@ -1,6 +1,6 @@
 /* test_condensation.c - a large structure seen from its contacts, however it is damped: held against the structure's
  * own equations, solved whole by LU, in which nothing is condensed and no modes are taken. */
-#include "hbm/condensation_impl.h"
+#include "hbm/structure/condensation_impl.h"
 #include "numerics/dense.h"
 #include "tests/hbm/random_structures.h"
 

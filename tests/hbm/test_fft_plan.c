@@ -2,8 +2,8 @@
  * promises. The linker wraps the planner and the locks, so that the test sees which lock is held. */
 #include <pthread.h>
 
-#include "hbm/aft.h"
-#include "hbm/fft_plan.h"
+#include "hbm/contact/aft.h"
+#include "hbm/contact/fft_plan.h"
 #include "study/scene_solvers.h"
 #include "tests/check.h"
 

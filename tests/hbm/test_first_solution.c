@@ -2,10 +2,10 @@
  *
  * The scenes are from `stress` with seed 1, their numbers cut to six digits. Each was refused as long as a ramp was
  * climbed by steps of a fixed force, or of fixed contacts, which cannot pass a turning point. */
-#include "hbm/first_solution.h"
+#include "hbm/curve/first_solution.h"
 
-#include "hbm/continuation.h"
-#include "hbm/hbm_solver_impl.h"
+#include "hbm/curve/continuation.h"
+#include "hbm/solver/hbm_solver_impl.h"
 #include "study/scene_solvers.h"
 #include "tests/hbm/traced.h"
 

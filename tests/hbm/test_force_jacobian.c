@@ -1,6 +1,6 @@
 /* test_force_jacobian.c - the Toeplitz + Hankel Jacobian against numerical quadrature of k(th) phi_p phi_q, and the
  * rank-1 update. */
-#include "hbm/force_jacobian.h"
+#include "hbm/contact/force_jacobian.h"
 #include "tests/hbm/scenes.h"
 
 enum { MAX_H = 25, MAX_N = 2 * MAX_H + 1, MAX_SYMBOL = 4 * MAX_H + 1 };

@@ -20,10 +20,10 @@
 #include <fftw3.h>
 #include <nvector/nvector_serial.h>
 
-#include "hbm/aft.h"
-#include "hbm/circle_force.h"
-#include "hbm/exact_force.h"
+#include "hbm/contact/aft.h"
+#include "hbm/contact/exact_force.h"
 #include "hbm/hbm.h"
+#include "hbm/planar/planar_force.h"
 #include "numerics/sundials_compat.h"
 #include "study/scene_solvers.h"
 
@@ -152,16 +152,16 @@ static void circle_force_allocates_nothing(void **state)
   contact_report report;
   uint64_t seed = 13;
   for (int i = 0; i < 3; ++i) {
-    circle_force *f;
+    planar_force *f;
     int bad = 0;
-    assert_int_equal(circle_force_new(H, i < 2 ? 3 : 2, &halves[i], &f), HC_OK);
+    assert_int_equal(planar_force_new(H, i < 2 ? 3 : 2, &halves[i], &f), HC_OK);
     long before = allocations;
     for (int k = 0; k < 40; ++k) {
       for (int d = 0; d < 3; ++d) random_motion(&seed, H, 1, 1, X + d * N_COEF);
-      bad += circle_force_eval(f, X, F, k % 2 ? jac : NULL, k % 4 ? &report : NULL) != HC_OK;
+      bad += planar_force_eval(f, X, F, k % 2 ? jac : NULL, k % 4 ? &report : NULL) != HC_OK;
     }
     long after = allocations;
-    circle_force_free(f);
+    planar_force_free(f);
     assert_int_equal(bad, 0);
     assert_int_equal(after - before, 0);
   }

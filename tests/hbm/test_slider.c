@@ -1,6 +1,6 @@
 /* test_slider.c - the slider followed stretch by stretch, the second period only in part, against contact_step at every
  * sample of two whole periods: bit for bit. */
-#include "hbm/slider.h"
+#include "hbm/contact/slider.h"
 #include "numerics/series.h"
 #include "tests/hbm/slow_aft.h"
 

@@ -4,7 +4,7 @@
 #include <complex.h>
 
 #include "hbm/hbm.h"
-#include "hbm/hbm_solver_impl.h"
+#include "hbm/solver/hbm_solver_impl.h"
 #include "study/scene_solvers.h"
 #include "tests/hbm/scenes.h"
 #include "tests/scene_parts.h"

@@ -1,8 +1,8 @@
 /* test_structure.c - harmonic balance of structures drawn at random: the Jacobian is the derivative, and another way to
  * write the same structure changes nothing. */
 #include "hbm/hbm.h"
-#include "hbm/hbm_solver_impl.h"
-#include "hbm/linear_solution.h"
+#include "hbm/solver/hbm_solver_impl.h"
+#include "hbm/solver/linear_solution.h"
 #include "tests/hbm/random_structures.h"
 
 enum { MOST = 4000 };

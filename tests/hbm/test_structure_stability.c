@@ -3,8 +3,8 @@
 #include <complex.h>
 
 #include "hbm/hbm.h"
-#include "hbm/hbm_solver_impl.h"
-#include "hbm/stretch_flow.h"
+#include "hbm/solver/hbm_solver_impl.h"
+#include "hbm/stability/stretch_flow.h"
 #include "numerics/floquet.h"
 #include "tests/hbm/random_structures.h"
 

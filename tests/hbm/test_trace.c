@@ -1,6 +1,6 @@
 /* test_trace.c - how a trace goes and how it may end: turning points that are real, folds, limits, interruptions,
  * nonsense. */
-#include "hbm/aft.h"
+#include "hbm/contact/aft.h"
 #include "study/scene_solvers.h"
 #include "tests/hbm/traced.h"
 

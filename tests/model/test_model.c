@@ -4,8 +4,8 @@
 #include <float.h>
 #include <string.h>
 
-#include "hbm/aft.h"
-#include "hbm/exact_force.h"
+#include "hbm/contact/aft.h"
+#include "hbm/contact/exact_force.h"
 #include "hbm/hbm.h"
 #include "model/model.h"
 

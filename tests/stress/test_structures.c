@@ -8,7 +8,7 @@
 #include "casefile/fields.h"
 #include "casefile/structure.h"
 #include "compare/comparison.h"
-#include "hbm/exact_force.h"
+#include "hbm/contact/exact_force.h"
 #include "hbm/hbm.h"
 #include "stress/rewritten.h"
 #include "stress/scenes.h"

@@ -11,7 +11,7 @@
 #include "base/constants.h"
 #include "compare/first_guess.h"
 #include "compare/verify/search/search_impl.h"
-#include "hbm/segment.h"
+#include "hbm/curve/segment.h"
 #include "numerics/roots.h"
 
 /* ---- names ---- */

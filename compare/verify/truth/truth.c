@@ -13,7 +13,7 @@
 #include "compare/motion.h"
 #include "compare/verify/truth/acceleration.h"
 #include "compare/verify/truth/solutions.h"
-#include "hbm/segment.h"
+#include "hbm/curve/segment.h"
 
 typedef struct truth {
   const compare_setup *setup;

@@ -1,0 +1,377 @@
+/* aft.c - see aft.h.
+ *   X -> x(th_i), th_i = 2 pi i/N -> u_i, v_i -> two periods of the contact law, the first only settles w -> F_i -> F
+ * The contacts are followed by slider.c: the slider after a separation starts from the interpolated instant of contact,
+ * or (the paper's way) from the last separated sample. Jacobian, only when it is asked for: dF_i = k_i dx_i - kt
+ * cu dw, k_i by one more FFT, dw constant over a stick interval (force_jacobian.h). With two coordinates the entries of
+ * k_i that do not vanish are constant on a stretch, and summed in closed form. FFTW does not normalise and
+ * uses exp(-i): the 2/N and the sign of the sine are in to_series() and to_samples(), nowhere else. Not here: the
+ * dynamic stiffness (system.c). */
+#include "hbm/contact/aft.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/constants.h"
+#include "hbm/contact/fft_plan.h"
+#include "hbm/contact/force_jacobian.h"
+#include "hbm/contact/slider.h"
+
+struct aft {
+  int n_dof, n_contacts;
+  moving_contact *contacts; /* [n_contacts] */
+  int n_harm, n_time;
+  hbm_restart restart;
+  double *x, *f, *k;  /* [n_time]     displacement [length], force, its stiffness along the orbit */
+  double *y;          /* [n_time]     of two coordinates the second */
+  double *part;       /* [n_time]     force of one contact */
+  fftw_complex *spec; /* [n_time/2+1] consumed by to_time (c2r overwrites its input) */
+  fftw_plan to_time, to_freq_f, to_freq_k, to_time_y;
+  double complex *root;     /* [n_time]     exp(i th_i) */
+  double complex *inv_step; /* [2H+1]       1/(exp(i h 2 pi/N) - 1), for sums over sample ranges */
+  double *symbol;           /* [4H+1]       series of k */
+  double *left, *right;     /* [2H+1]       one rank-1 term; right: [n_dof][2H+1] */
+  stretch *stretches;       /* [n_contacts][n_time] of the last evaluation, the first n_stretches[j] of each filled */
+  stretch *settling;        /* [n_time] */
+  int *n_stretches;         /* [n_contacts] */
+};
+
+static hc_status make_plans(aft *a)
+{
+  hc_status st = fft_plan_to_samples(a->n_time, a->spec, a->x, &a->to_time);
+  if (st == HC_OK) st = fft_plan_to_spectrum(a->n_time, a->f, a->spec, &a->to_freq_f);
+  if (st == HC_OK) st = fft_plan_to_spectrum(a->n_time, a->k, a->spec, &a->to_freq_k);
+  if (st == HC_OK && a->n_dof > 1) st = fft_plan_to_samples(a->n_time, a->spec, a->y, &a->to_time_y);
+  return st;
+}
+
+static hc_status make_tables(aft *a)
+{
+  int n = a->n_time, n_coef = series_length(a->n_harm);
+  a->x = fftw_alloc_real((size_t)n);
+  a->f = fftw_alloc_real((size_t)n);
+  a->k = fftw_alloc_real((size_t)n);
+  a->y = a->n_dof > 1 ? fftw_alloc_real((size_t)n) : NULL;
+  a->part = fftw_alloc_real((size_t)n);
+  a->spec = fftw_alloc_complex((size_t)n / 2 + 1);
+  a->root = malloc((size_t)n * sizeof *a->root);
+  a->inv_step = malloc((2 * (size_t)a->n_harm + 1) * sizeof *a->inv_step);
+  a->symbol = calloc((size_t)force_jacobian_symbol_length(a->n_harm), sizeof(double));
+  a->left = calloc((size_t)n_coef, sizeof(double));
+  a->right = calloc((size_t)a->n_dof * (size_t)n_coef, sizeof(double));
+  a->stretches = malloc(((size_t)a->n_contacts * (size_t)n + 1) * sizeof *a->stretches); /* few are used */
+  a->settling = malloc((size_t)n * sizeof *a->settling);
+  a->n_stretches = calloc((size_t)a->n_contacts + 1, sizeof *a->n_stretches);
+  bool samples = a->x && (a->y || a->n_dof == 1) && a->f && a->k && a->part && a->spec && a->root,
+       harmonics = a->inv_step && a->symbol;
+  bool tracks = a->stretches && a->settling && a->n_stretches;
+  if (!tracks || !samples || !harmonics || !a->left || !a->right) return HC_NO_MEMORY;
+  const double step = TWO_PI / n;
+  for (int i = 0; i < n; ++i) a->root[i] = cos(i * step) + I * sin(i * step);
+  for (int h = 1; h <= 2 * a->n_harm; ++h) a->inv_step[h] = 1 / (a->root[h % n] - 1); /* 2 H < N */
+  return HC_OK;
+}
+
+hc_status aft_new(int n_harm, int n_time, hbm_restart restart, int n_dof, int n_contacts,
+                  const moving_contact *contacts, aft **out)
+{
+  *out = NULL;
+  if (n_harm < 1 || n_harm > HBM_MAX_HARMONICS || n_time < 2 * n_harm + 1) return HC_BAD_INPUT;
+  if (n_dof < 1 || n_dof > 2 || n_contacts < 0 || (n_dof == 2 && n_contacts != 1)) return HC_BAD_INPUT;
+  aft *a = calloc(1, sizeof *a);
+  if (!a) return HC_NO_MEMORY;
+  a->n_harm = n_harm;
+  a->n_time = n_time;
+  a->restart = restart;
+  a->n_dof = n_dof;
+  a->n_contacts = n_contacts;
+  a->contacts = calloc((size_t)n_contacts + 1, sizeof *a->contacts);
+  hc_status st = a->contacts ? HC_OK : HC_NO_MEMORY;
+  if (st == HC_OK && n_contacts) memcpy(a->contacts, contacts, (size_t)n_contacts * sizeof *contacts);
+  if (st == HC_OK) st = make_tables(a);
+  if (st == HC_OK) st = make_plans(a);
+  if (st == HC_OK) {
+    *out = a;
+    return HC_OK;
+  }
+  aft_free(a);
+  return st;
+}
+
+hc_status aft_new_of_model(const model *m, hbm_restart restart, int n_harm, int n_time, aft **out)
+{
+  moving_contact *contacts;
+  *out = NULL;
+  hc_status st = moving_contacts_of_model(m, &contacts);
+  if (st == HC_OK) st = aft_new(n_harm, n_time, restart, 1, m->n_contacts, contacts, out);
+  free(contacts);
+  return st;
+}
+
+void aft_free(aft *a)
+{
+  if (!a) return;
+  free(a->contacts);
+  fft_plan_free(a->to_time);
+  fft_plan_free(a->to_freq_f);
+  fft_plan_free(a->to_freq_k);
+  fft_plan_free(a->to_time_y);
+  fftw_free(a->x);
+  fftw_free(a->f);
+  fftw_free(a->k);
+  fftw_free(a->part);
+  fftw_free(a->y);
+  fftw_free(a->spec);
+  free(a->root);
+  free(a->inv_step);
+  free(a->symbol);
+  free(a->left);
+  free(a->right);
+  free(a->stretches);
+  free(a->settling);
+  free(a->n_stretches);
+  free(a);
+}
+
+static void to_samples(aft *a, fftw_plan plan, const double *X)
+{
+  memset(a->spec, 0, ((size_t)a->n_time / 2 + 1) * sizeof *a->spec);
+  a->spec[0] = X[0];
+  for (int h = 1; h <= a->n_harm; ++h) a->spec[h] = 0.5 * (X[2 * h - 1] - I * X[2 * h]);
+  fftw_execute(plan);
+}
+
+/* The first n_harm <= 2 H < N harmonics of the samples behind plan. Above N/2 a harmonic reads its alias, as the
+ * sampled sums themselves do. */
+static void to_series(aft *a, fftw_plan plan, int n_harm, double *out)
+{
+  int n = a->n_time;
+  fftw_execute(plan);
+  out[0] = creal(a->spec[0]) / n;
+  for (int h = 1; h <= n_harm; ++h) {
+    double complex z = h <= n / 2 ? a->spec[h] : conj(a->spec[n - h]);
+    out[2 * h - 1] = 2 * creal(z) / n;
+    out[2 * h] = -2 * cimag(z) / n;
+  }
+}
+
+/* ---- the force ------------------------------------------------------------------------------- */
+
+static contact_regime regime_of(int n, const stretch *s)
+{
+  bool separates = false, slips = false, touches = false;
+  for (int k = 0; k < n; ++k) {
+    separates |= s[k].state == CONTACT_SEPARATED;
+    slips |= contact_slip_sign(s[k].state) != 0;
+    touches |= s[k].state != CONTACT_SEPARATED;
+  }
+  if (separates) return touches ? CONTACT_SEPARATES : CONTACT_LINEAR;
+  return slips ? CONTACT_SLIPS : CONTACT_STUCK;
+}
+
+/* What moves contact j, and where its force acts: on x, or on u where v is another coordinate. */
+static slider_motion motion_of(const aft *a, const moving_contact *c)
+{
+  if (a->n_dof > 1) return (slider_motion){a->x, a->y, 1, 1, 1, 0};
+  return (slider_motion){a->x, a->x, c->cu[0], c->cv[0], c->cu[0], c->cv[0]};
+}
+
+/* One step of the law maps w to the nearest point of an interval, and so does a whole period: applied once more it
+ * changes nothing, so the slider is periodic in the second. That it is not can only be rounding or a defect. */
+static hc_status evaluate_contact(aft *a, int j, double size, contact_report *report)
+{
+  const moving_contact *c = &a->contacts[j];
+  stretch *s = a->stretches + (size_t)j * (size_t)a->n_time;
+  double *f = j == 0 ? a->f : a->part, *again = a->k; /* k is made afterwards, if at all */
+  const slider_motion motion = motion_of(a, c);
+  slider_report found = slider_follow(&c->law, a->restart, a->n_time, &motion, f, again, s, a->settling);
+  a->n_stretches[j] = found.n_stretches;
+  for (int i = 0; i < a->n_time && j > 0; ++i) a->f[i] += a->part[i];
+  contact_regime regime = regime_of(found.n_stretches, s);
+  if (regime > report->regime) report->regime = regime;
+  report->transitions += found.transitions;
+  report->free_sliders += regime == CONTACT_STUCK && moving_contact_has_slider(c, a->n_dof);
+  return fabs(found.w - found.settled) <= 1e-12 * (fabs(found.settled) + size) ? HC_OK : HC_NOT_CLOSED;
+}
+
+/* N - N0 at every sample of v, to its harmonics: its contact's T is in the first coordinate. */
+static void across_to_series(aft *a, double *F)
+{
+  const contact law = a->contacts[0].law;
+  for (int i = 0; i < a->n_time; ++i) a->f[i] = contact_normal_change(&law, a->y[i]);
+  to_series(a, a->to_freq_f, a->n_harm, F);
+}
+
+hc_status aft_eval(aft *a, const double *X, double *F, double *jac, contact_report *report)
+{
+  contact_report local;
+  const int n_coef = series_length(a->n_harm);
+  if (!report) report = &local;
+  *report = (contact_report){.regime = CONTACT_LINEAR};
+  double size = 0; /* bounds |x| */
+  for (int i = 0; i < a->n_dof * n_coef; ++i) size += fabs(X[i]);
+  if (!isfinite(size)) return HC_NOT_FINITE;
+  to_samples(a, a->to_time, X);
+  if (a->n_dof > 1) to_samples(a, a->to_time_y, X + n_coef);
+  if (a->n_contacts == 0) memset(a->f, 0, (size_t)a->n_time * sizeof(double));
+  hc_status st = HC_OK;
+  for (int j = 0; j < a->n_contacts && st == HC_OK; ++j) st = evaluate_contact(a, j, size, report);
+  if (st != HC_OK) return st;
+  to_series(a, a->to_freq_f, a->n_harm, F);
+  if (a->n_dof > 1) across_to_series(a, F + n_coef);
+  if (jac) aft_jacobian(a, jac);
+  return HC_OK;
+}
+
+void aft_sliders(const aft *a, double *w)
+{
+  for (int j = 0; j < a->n_contacts; ++j) w[j] = a->stretches[(size_t)j * (size_t)a->n_time].w;
+}
+
+/* ---- its Jacobian ---------------------------------------------------------------------------- */
+
+static int end_of_stretch(const aft *a, int j, int m)
+{
+  const stretch *s = a->stretches + (size_t)j * (size_t)a->n_time;
+  return m + 1 < a->n_stretches[j] ? s[m + 1].first : a->n_time;
+}
+
+/* to[] += series, n_harm harmonics, of `weight` over the samples first..end-1 and 0 elsewhere: geometric sums. */
+static void add_interval(const aft *a, int n_harm, double weight, int first, int end, double *to)
+{
+  const int n = a->n_time;
+  int at_first = 0, at_end = 0; /* h times the sample, modulo n */
+  weight /= n;
+  to[0] += weight * (end - first);
+  for (int h = 1; h <= n_harm; ++h) {
+    if ((at_first += first) >= n) at_first -= n;
+    if ((at_end += end) >= n) at_end -= n;
+    double complex sum = (a->root[at_end] - a->root[at_first]) * a->inv_step[h];
+    to[2 * h - 1] += 2 * weight * creal(sum);
+    to[2 * h] += 2 * weight * cimag(sum);
+  }
+}
+
+/* to[] += weight times the values of the harmonics at sample i. */
+static void add_sample(const aft *a, double weight, int i, double *to)
+{
+  const int n = a->n_time;
+  int at = 0;
+  if (weight == 0) return;
+  to[0] += weight;
+  for (int h = 1; h <= a->n_harm; ++h) {
+    if ((at += i) >= n) at -= n;
+    to[2 * h - 1] += weight * creal(a->root[at]);
+    to[2 * h] += weight * cimag(a->root[at]);
+  }
+}
+
+/* kt dw over the samples first..end-1 of a stuck slider, taken from the rows of the first coordinate. */
+static void subtract_stick_interval(aft *a, const moving_contact *c, const slider_origin *o, int first, int end,
+                                    double *jac)
+{
+  const int n_coef = series_length(a->n_harm), rows = a->n_dof * n_coef, next = o->i + 1 < a->n_time ? o->i + 1 : 0;
+  const double along = a->n_dof > 1 ? 1 : c->cu[0];
+  double *of_along = a->right, *of_across = a->right + (a->n_dof - 1) * n_coef;
+  double parts = 0;
+  for (int k = 0; k < 2; ++k) parts = fmax(parts, fmax(fabs(o->by_along[k]), fabs(o->by_across[k])));
+  if (parts == 0) return;
+  memset(a->left, 0, (size_t)n_coef * sizeof(double));
+  memset(a->right, 0, (size_t)rows * sizeof(double));
+  add_interval(a, a->n_harm, c->law.kt * along, first, end, a->left);
+  if (a->n_dof == 1) add_sample(a, o->by_along[0] + o->by_across[0], o->i, a->right);
+  for (int k = 0; k < 2 && a->n_dof > 1; ++k) {
+    add_sample(a, o->by_along[k], k ? next : o->i, of_along);
+    add_sample(a, o->by_across[k], k ? next : o->i, of_across);
+  }
+  for (int q = 0; q < rows; ++q)
+    for (int p = 0; p < n_coef; ++p) jac[(size_t)q * (size_t)rows + (size_t)p] -= a->left[p] * a->right[q];
+}
+
+static void subtract_stick_intervals(aft *a, int j, double *jac)
+{
+  const stretch *s = a->stretches + (size_t)j * (size_t)a->n_time;
+  for (int m = 0; m < a->n_stretches[j]; ++m)
+    if (s[m].state == CONTACT_STICK)
+      subtract_stick_interval(a, &a->contacts[j], &s[m].origin, s[m].first, end_of_stretch(a, j, m), jac);
+}
+
+/* dF_i/dx_i at fixed w, of one coordinate. */
+static double stiffness_in(const moving_contact *c, contact_state state)
+{
+  const contact *law = &c->law;
+  const double tangent = c->cu[0], normal = c->cv[0];
+  int slip = contact_slip_sign(state);
+  if (state == CONTACT_SEPARATED) return 0;
+  return (slip ? slip * law->mu * law->kn * normal : law->kt * tangent) * tangent + law->kn * normal * normal;
+}
+
+static void add_stiffness(aft *a, int j)
+{
+  const stretch *s = a->stretches + (size_t)j * (size_t)a->n_time;
+  for (int m = 0; m < a->n_stretches[j]; ++m) {
+    const int end = end_of_stretch(a, j, m);
+    const double stiffness = stiffness_in(&a->contacts[j], s[m].state);
+    for (int i = s[m].first; i < end; ++i) a->k[i] += stiffness;
+  }
+}
+
+static void differentiate_one_coordinate(aft *a, double *jac)
+{
+  memset(a->k, 0, (size_t)a->n_time * sizeof(double));
+  for (int j = 0; j < a->n_contacts; ++j) add_stiffness(a, j);
+  to_series(a, a->to_freq_k, 2 * a->n_harm, a->symbol);
+  force_jacobian_add(a->n_harm, a->symbol, series_length(a->n_harm), jac);
+}
+
+/* One block of the Jacobian from its stiffness in every contact_state. */
+static void add_block(aft *a, const double stiffness[4], double *block)
+{
+  const stretch *s = a->stretches;
+  memset(a->symbol, 0, (size_t)force_jacobian_symbol_length(a->n_harm) * sizeof(double));
+  for (int m = 0; m < a->n_stretches[0]; ++m)
+    if (stiffness[s[m].state] != 0)
+      add_interval(a, 2 * a->n_harm, stiffness[s[m].state], s[m].first, end_of_stretch(a, 0, m), a->symbol);
+  force_jacobian_add(a->n_harm, a->symbol, 2 * series_length(a->n_harm), block);
+}
+
+static void differentiate_two_coordinates(aft *a, double *jac)
+{
+  const contact *law = &a->contacts[0].law;
+  const size_t n_coef = (size_t)series_length(a->n_harm), rows = 2 * n_coef;
+  const double friction = law->mu * law->kn;
+  add_block(a, (double[4]){[CONTACT_STICK] = law->kt}, jac); /* dT/du */
+  add_block(a, (double[4]){[CONTACT_SLIP_PLUS] = friction, [CONTACT_SLIP_MINUS] = -friction}, jac + rows * n_coef);
+  add_block(a, (double[4]){0, law->kn, law->kn, law->kn}, jac + rows * n_coef + n_coef); /* d(N - N0)/dv */
+}
+
+void aft_jacobian(aft *a, double *jac)
+{
+  const size_t rows = (size_t)a->n_dof * (size_t)series_length(a->n_harm);
+  memset(jac, 0, rows * rows * sizeof(double));
+  if (a->n_dof > 1) differentiate_two_coordinates(a, jac);
+  else differentiate_one_coordinate(a, jac);
+  for (int j = 0; j < a->n_contacts; ++j) subtract_stick_intervals(a, j, jac);
+}
+
+/* ---- as one of contact_evaluator.h -------------------------------------------------------------------- */
+
+static hc_status make(const contact_coordinates *c, const evaluator_settings *how, void **self)
+{
+  aft *a;
+  const hc_status st = aft_new(how->n_harm, how->n_time, how->restart, c->n_dof, 1, &c->moved, &a);
+  *self = a;
+  return st;
+}
+
+static hc_status evaluate(void *self, const double *X, double *F, double *jac, contact_report *report)
+{
+  (void)jac; /* `jacobian` makes it */
+  return aft_eval(self, X, F, NULL, report);
+}
+
+static void let_go(void *self) { aft_free(self); }
+static void jacobian(void *self, double *jac) { aft_jacobian(self, jac); }
+static void sliders(const void *self, double *w) { aft_sliders(self, w); }
+
+const contact_evaluator aft_evaluator = {
+    .make = make, .free = let_go, .evaluate = evaluate, .jacobian = jacobian, .sliders = sliders};

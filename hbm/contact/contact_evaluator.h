@@ -1,0 +1,56 @@
+/* contact_evaluator.h - what a contact law can be asked, whichever it is and however it is integrated over the period.
+ *
+ * A contact is evaluated in coordinates x[n_dof] of its own, each a direction of the structure's q; F[n_dof] are the
+ * forces on them. What moves a contact is a relative displacement, so one coordinate is enough for a spring, and those
+ * of a contact with friction are u and v (or the one that both are multiples of), or u_1, u_2 and v. */
+#ifndef HC_HBM_CONTACT_EVALUATOR_H
+#define HC_HBM_CONTACT_EVALUATOR_H
+
+#include "hbm/contact/contact_report.h"
+#include "hbm/contact/transitions.h"
+#include "hbm/hbm_settings.h"
+
+struct planar_cycle;
+
+enum { EVALUATOR_MOST_DOF = 3 };
+
+/* x_d = direction[d] . q/divisor[d]. `moved`: the law (of a pair either half's), and of one tangent how x moves it. */
+typedef struct contact_coordinates {
+  int n_dof; /* 1..EVALUATOR_MOST_DOF */
+  const double *direction[EVALUATOR_MOST_DOF];
+  double divisor[EVALUATOR_MOST_DOF];
+  moving_contact moved;
+} contact_coordinates;
+
+/* A contact in q[dim]: u = tangent . q, v = normal . q. */
+typedef struct placed_contact {
+  contact law; /* of a pair under one limit: of one half */
+  bool planar; /* this one and the next are the halves of a contact whose two tangents share a limit (model.h) */
+  const double *tangent, *tangent_2, *normal; /* [dim] tangent_2 where planar */
+} placed_contact;
+
+typedef struct evaluator_settings {
+  int n_harm, n_time; /* n_time: of sampled forces */
+  hbm_restart restart;
+} evaluator_settings;
+
+/* A law in one way of integrating it over the period. F[n_dof][2H+1] [force], X likewise [length]; jac[row + ld col],
+ * ld = n_dof (2H+1). */
+typedef struct contact_evaluator {
+  hc_status (*make)(const contact_coordinates *c, const evaluator_settings *how, void **self);
+  void (*free)(void *self); /* NULL is allowed */
+
+  /* F at X; and dF/dX, unless jac is NULL or there is `jacobian`, which then gives it when it is asked for. */
+  hc_status (*evaluate)(void *self, const double *X, double *F, double *jac, contact_report *report);
+  void (*jacobian)(void *self, double *jac);
+
+  /* [length] The sliders at th = 0 in the last evaluation, one for each contact of the model. */
+  void (*sliders)(const void *self, double *w);
+
+  /* Of exact forces, the last evaluation's: the intervals in contact, n of them; and the slip of a contact with two
+   * tangents, for whoever follows a perturbation along it. NULL where there is none. */
+  const contact_piece *(*intervals)(const void *self, int *n);
+  const struct planar_cycle *(*in_plane)(const void *self);
+} contact_evaluator;
+
+#endif

@@ -1,0 +1,464 @@
+/* continuation.c - the response curve from one end of the sweep to the other, by steps of a predictor and a corrector.
+ *
+ *   predict   cubic Hermite through the last two points and their tangents, extrapolated by the arc length h (the last
+ *             tangent alone at first)
+ *   correct   natural: Newton at the predicted omega; arc-length (Keller): Newton in the plane through the
+ *             prediction, across the predicted tangent
+ *   error     how far the corrector moved the prediction tells the error e of interpolating the new segment:
+ *             extrapolation leaves x''''(h_p + h)^2 h^2/24, h_p being the last segment's length, interpolation
+ *             x'''' h^4/384. The next step is chosen to keep e at TOLERANCE.
+ *
+ * `auto` steps naturally until the curve gets steep or Newton fails, then by arc-length, and returns when the curve
+ * is flat again. It goes on from a point only forward along its own tangent, so it cannot retrace its path.
+ * `fixed_step` has none of this: fixed_step.c. */
+#include "hbm/curve/continuation.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "hbm/curve/adapt.h"
+#include "hbm/curve/first_solution.h"
+#include "hbm/curve/fixed_step.h"
+#include "hbm/curve/path.h"
+#include "hbm/curve/segment_solutions.h"
+#include "hbm/solver/corrector.h"
+#include "hbm/solver/linear_solution.h"
+#include "numerics/norm.h"
+
+static const double TOLERANCE = 1e-4; /* [1] of interpolation, relative to |X| */
+static const double STEP_FIRST = 0.02, STEP_MAX = 0.5, STEP_MIN = 1e-11;
+static const double STEP_CORNER = 1e-4; /* where steps are this short the curve has a corner: a kink is accepted */
+static const double STEP_ROUND = 1e-9;  /* where steps fail below this, a step round the corner is tried */
+static const double STEP_EDGE = 1e-6;   /* of models with circles (pass_edge) */
+static const double EDGE_FIRST = 1e-7, EDGE_LAST = 1e-3, EDGE_WIDEST = 3e-2; /* of omega; of |X| */
+static const double EDGE_TRACED = 0.05;
+static const double FAR = 4;                 /* factor beyond the start of the sweep up to which a loop is followed */
+static const double LINEAR_NEAR = 1e-2;      /* the linear response counts as the predicted solution within this part */
+static const double STEEP = 0.2, FLAT = 0.6; /* flatness below which natural steps end, above which they are resumed */
+enum { MAX_POINTS = 200000, FLAT_STEPS = 6, MAX_EDGES = 100 };
+
+static bool steps_are_fixed(const hbm_solver *s) { return s->how.continuation == HBM_CONTINUATION_FIXED_STEP; }
+static bool arclength_allowed(const path *p) { return p->s->how.continuation != HBM_CONTINUATION_NATURAL; }
+
+static bool natural_allowed(const path *p)
+{
+  return p->s->how.continuation == HBM_CONTINUATION_AUTO || p->s->how.continuation == HBM_CONTINUATION_NATURAL;
+}
+
+static void switch_to_arclength(path *p)
+{
+  p->natural = false;
+  p->flat_steps = 0;
+  p->curve->arclength = true;
+}
+
+static hc_status correct_natural(path *p)
+{
+  p->d_omega = 1;
+  p->det_sign = 1; /* of the linear equations: det Z_h = (K - M h^2 omega^2)^2 + (C h omega)^2 */
+  if (p->s->how.skip_linear && hbm_linear_point(p->s, p->omega, LINEAR_NEAR, p->X, p->dX, &p->point)) return HC_OK;
+  hc_status st = hbm_solve_fixed(p->s, p->omega, path_size(p), p->X, &p->point);
+  if (st == HC_OK) st = hbm_tangent_fixed(p->s, p->X, p->dX);
+  p->det_sign = newton_sign(p->s->fixed);
+  return st;
+}
+
+static void fill_chord(path *p)
+{
+  const double *X0 = hbm_curve_X(p->curve, p->curve->n - 1);
+  for (int i = 0; i < p->curve->n_coef; ++i) p->chord[i] = p->X[i] - X0[i];
+}
+
+/* Turn the trial's tangent forward. Returns cos of the angle to the last one; *forward: the step goes along both. */
+static double orient(path *p, bool *forward)
+{
+  const hbm_curve *c = p->curve;
+  const hbm_point *last = &c->points[c->n - 1];
+  double x_scale = path_size(p), d_omega0 = last->d_omega, w = p->omega - last->omega;
+  const double *dX0 = hbm_curve_dX(c, c->n - 1), *chord = p->chord;
+  fill_chord(p);
+  path_orient_tangent(p);
+  bool along_trial = path_metric(p, x_scale, p->dX, p->d_omega, chord, w) > 0;
+  bool along_last = path_metric(p, x_scale, dX0, d_omega0, chord, w) > 0;
+  bool turned_back = p->natural && !(p->d_omega * p->direction > 0);
+  *forward = along_trial && along_last && !turned_back;
+  double a = path_metric(p, x_scale, dX0, d_omega0, dX0, d_omega0),
+         b = path_metric(p, x_scale, p->dX, p->d_omega, p->dX, p->d_omega);
+  return path_metric(p, x_scale, dX0, d_omega0, p->dX, p->d_omega) / sqrt(a * b);
+}
+
+/* Accept the corrected trial? Sets the next step, or the shorter one to try again with. ratio: of path_predict. */
+static bool check_trial(path *p, double ratio)
+{
+  bool forward;
+  double cosine = orient(p, &forward), moved = path_correction(p, p->curve->omega_scale),
+         error = ratio * path_correction(p, p->resolution);
+  double scale = p->s->step_scale, tolerance = TOLERANCE * scale * scale * scale * scale;
+  bool corner = p->step <= STEP_CORNER;
+  bool smooth = moved <= 0.25 * p->step && cosine >= 0.7 && error <= 4 * tolerance;
+  bool kink = moved <= p->step || (p->natural && path_agrees_backwards(p, p->step));
+  bool accepted = forward && (corner ? kink : smooth);
+  double growth = 0.9 * pow(tolerance / fmax(error, 1e-12 * tolerance), 0.25);
+  if (p->point.iterations > 8) growth = fmin(growth, 0.7);
+  p->step *= accepted ? fmin(2, fmax(0.4, growth)) : fmin(0.5, fmax(0.2, growth));
+  if (corner && accepted) p->step = fmax(p->step, 2 * STEP_MIN);
+  p->step = fmin(p->step, STEP_MAX * scale);
+  return accepted;
+}
+
+/* Predict and correct one step. HC_OK and accepted, or HC_OK and not, or why there is no trial. p->step becomes the
+ * next one. */
+static hc_status trial_step(path *p, bool *accepted)
+{
+  double ratio = path_predict(p, p->step);
+  *accepted = false;
+  bool onward = p->direction * (p->omega - p->curve->points[p->curve->n - 1].omega) > 0;
+  if (p->natural && !onward) {
+    p->step *= 0.4;
+    return HC_NOT_CONVERGED;
+  }
+  hc_status st = p->natural ? correct_natural(p) : path_correct_in_plane(p);
+  p->curve->iterations += p->point.iterations;
+  if (st == HC_OK) *accepted = check_trial(p, ratio);
+  else p->step *= 0.4;
+  return st;
+}
+
+/* A step of length h round a corner too sharp for a plane across the old tangent, as where a nearly rigid contact is
+ * made or lost: the equations at h beyond the corner tell the direction there (their kernel, turned by the curve's
+ * orientation), and the prediction is made along that. */
+static hc_status step_round_corner(path *p, double h, bool *accepted)
+{
+  const hbm_curve *c = p->curve;
+  const hbm_point *last = &c->points[c->n - 1];
+  const double *X0 = hbm_curve_X(c, c->n - 1), *dX0 = hbm_curve_dX(c, c->n - 1);
+  int det_sign;
+  p->tangent_only = true; /* an extrapolation of the last segment is not valid beyond the corner */
+  path_predict(p, h);
+  path_fill_normal(p);
+  hc_status st = hbm_kernel_at(p->s, p->normal, p->X, p->omega, p->dX, &p->d_omega, &det_sign);
+  if (st != HC_OK || det_sign == 0) return st != HC_OK ? st : HC_SINGULAR;
+  double x_scale = path_size(p), length = sqrt(path_metric(p, x_scale, p->dX, p->d_omega, p->dX, p->d_omega));
+  length = det_sign == p->orientation ? length : -length;
+  for (int i = 0; i < c->n_coef; ++i) {
+    p->dX[i] /= length;
+    p->X[i] = p->X_predicted[i] = X0[i] + h * p->dX[i];
+  }
+  p->d_omega /= length;
+  p->omega = p->omega_predicted = last->omega + h * p->d_omega;
+  st = path_correct_in_plane(p);
+  p->curve->iterations += p->point.iterations;
+  if (st != HC_OK) return st;
+  path_orient_tangent(p);
+  fill_chord(p);
+  double w = p->omega - last->omega, along_last = path_metric(p, x_scale, dX0, last->d_omega, p->chord, w);
+  bool onward = path_metric(p, x_scale, p->dX, p->d_omega, p->chord, w) > 0;
+  bool the_way_it_came = along_last < -0.99 * h * sqrt(path_metric(p, x_scale, dX0, last->d_omega, dX0, last->d_omega));
+  *accepted = onward && !the_way_it_came && path_correction(p, c->omega_scale) <= h;
+  return HC_OK;
+}
+
+/* Steps of growing length, up to what a step may be where there is a kink at all. */
+static bool round_corner(path *p)
+{
+  bool accepted = false;
+  for (double h = STEP_ROUND; h <= STEP_CORNER && !accepted; h *= 4)
+    if (step_round_corner(p, h, &accepted) != HC_OK) accepted = false;
+  if (accepted) p->step = STEP_ROUND;
+  return accepted;
+}
+
+/* Is the trial on a segment that the curve has already? Off it by a small part of the chord at most. */
+static bool traced_before(const path *p)
+{
+  const hbm_curve *c = p->curve;
+  for (int k = 0; k + 1 < c->n; ++k) {
+    const double *X0 = hbm_curve_X(c, k), *X1 = hbm_curve_X(c, k + 1), from = c->points[k].omega,
+                 part = (p->omega - from) / (c->points[k + 1].omega - from);
+    double off = 0;
+    if (!(part >= 0 && part <= 1)) continue;
+    for (int i = 0; i < c->n_coef; ++i) off = hypot(off, p->X[i] - X0[i] - part * (X1[i] - X0[i]));
+    if (off <= EDGE_TRACED * norm_2(c->n_coef, p->chord)) return true;
+  }
+  return false;
+}
+
+/* The solution at omega, if it is new, near the last point, and the curve goes on from there away from it. */
+static bool solve_past_edge(path *p, double omega)
+{
+  const hbm_curve *c = p->curve;
+  const double *X0 = hbm_curve_X(c, c->n - 1), omega0 = c->points[c->n - 1].omega;
+  memcpy(p->X, X0, (size_t)c->n_coef * sizeof *X0);
+  p->omega = omega;
+  hc_status st = hbm_solve_fixed(p->s, omega, path_size(p), p->X, &p->point);
+  p->curve->iterations += p->point.iterations;
+  if (st == HC_OK) st = hbm_tangent_fixed(p->s, p->X, p->dX);
+  if (st != HC_OK) return false;
+  p->d_omega = 1;
+  p->det_sign = newton_sign(p->s->fixed);
+  path_orient_tangent(p);
+  fill_chord(p);
+  const bool near = norm_2(c->n_coef, p->chord) <= EDGE_WIDEST * path_size(p);
+  return p->d_omega * (omega - omega0) > 0 && near && !traced_before(p);
+}
+
+/* Past the edge of slip of a circle (README.md, Edges of slip in a plane): there the curve's tangent is steep on both
+ * sides, and it may turn on its heels. */
+static bool pass_edge(path *p)
+{
+  const hbm_point *last = &p->curve->points[p->curve->n - 1];
+  const double onward = last->d_omega > 0 ? last->omega : -last->omega;
+  bool accepted = false;
+  if (!model_has_circle(p->s->model) || p->edges++ >= MAX_EDGES) return false;
+  for (double part = EDGE_FIRST; part <= EDGE_LAST && !accepted; part *= 4)
+    accepted = solve_past_edge(p, last->omega + part * onward) || solve_past_edge(p, last->omega - part * onward);
+  if (!accepted) return false;
+  hbm_curve *c = p->curve;
+  ++c->edges;
+  c->edge_omega = fmax(c->edge_omega, fabs(p->omega / last->omega - 1));
+  c->edge_motion = fmax(c->edge_motion, norm_2(c->n_coef, p->chord) / path_size(p));
+  p->step = STEP_EDGE;
+  return true;
+}
+
+/* The trial becomes a point of the curve; the next step is natural or not by how flat the curve is there. */
+static hc_status append_trial(path *p)
+{
+  hbm_curve *c = p->curve;
+  const hbm_point *before = &c->points[c->n - 1];
+  p->point.d_omega = p->d_omega;
+  p->point.branch = before->branch + ((before->d_omega > 0) != (p->d_omega > 0));
+  c->turning_points = p->point.branch;
+  double flatness = path_flatness(p);
+  p->tangent_only = false;
+  hc_status st = hbm_curve_append(c, c->n_coef, p->X, p->dX, &p->point);
+  if (st != HC_OK) return st;
+  c->linear += p->point.iterations == 0;
+  if (p->natural) {
+    if (flatness < STEEP && arclength_allowed(p)) switch_to_arclength(p);
+  } else {
+    bool forward = p->direction * p->d_omega > 0;
+    p->flat_steps = flatness > FLAT && forward ? p->flat_steps + 1 : 0;
+    if (p->flat_steps >= FLAT_STEPS && natural_allowed(p)) p->natural = true;
+  }
+  return HC_OK;
+}
+
+/* End the curve exactly on a limit of the sweep that its last step crossed. */
+static hc_status end_on(path *p, double limit)
+{
+  hbm_curve *c = p->curve;
+  hbm_curve on_limit = {.omega_scale = c->omega_scale};
+  if (c->points[c->n - 1].omega == limit) return HC_OK;
+  hc_status st = hbm_segment_solutions(p->s, c, c->n - 2, limit, false, &on_limit);
+  if (st == HC_OK && on_limit.n == 0) st = HC_NOT_CONVERGED;
+  --c->n; /* the point beyond the limit is replaced by the one on it */
+  if (st == HC_OK) st = hbm_curve_append(c, c->n_coef, on_limit.X, on_limit.dX, on_limit.points);
+  hbm_curve_free(&on_limit);
+  return st;
+}
+
+/* Is the sweep over? Yes past its end; also where the branch turned back past its start and did not come back within
+ * a factor FAR: the curve is then cut where it left the sweep. In between (a loop of a superharmonic resonance across
+ * the start) it is followed outside the sweep. */
+static hc_status end_at_limit(path *p, bool *done)
+{
+  hbm_curve *c = p->curve;
+  double omega = c->points[c->n - 1].omega;
+  *done = p->direction * (omega - p->to) >= 0;
+  if (*done) return end_on(p, p->to);
+  if (p->direction * (omega - p->from) >= 0) {
+    p->first_outside = 0;
+    return HC_OK;
+  }
+  if (!p->first_outside) p->first_outside = c->n - 1;
+  *done = c->left_at_start = p->direction > 0 ? omega < p->from / FAR : omega > p->from * FAR;
+  if (!*done) return HC_OK;
+  c->n = p->first_outside + 1;
+  c->turning_points = c->points[p->first_outside].branch;
+  return end_on(p, p->from);
+}
+
+static hc_status trace(hbm_solver *s, double from, double to, bool may_come_from_above, const hc_monitor *monitor,
+                       hbm_curve *curve);
+
+/* The solution at p->from as the end of a curve that comes down from well above every resonance: inertia dominates
+ * there, and Newton converges from the linear response. */
+static hc_status come_from_above(path *p, const hc_monitor *monitor)
+{
+  const hc_monitor aside = {hc_monitor_tick_aside, (void *)monitor};
+  hbm_curve down = {0};
+  double high = FAR * fmax(p->from, p->s->sys.scales.highest);
+  hc_status st = trace(p->s, high, p->from, false, &aside, &down);
+  if (st == HC_OK && down.left_at_start) st = HC_NOT_CONVERGED;
+  if (st == HC_OK) {
+    memcpy(p->X, hbm_curve_X(&down, down.n - 1), (size_t)p->s->sys.n_coef * sizeof(double));
+    st = hbm_solve_fixed(p->s, p->from, norm_2(p->s->sys.n_coef, p->X), p->X, &p->point);
+  }
+  hbm_curve_free(&down);
+  return st;
+}
+
+static hc_status start_of_ramp(path *p)
+{
+  double size = hbm_ramp_start(p->s->ramp, &p->s->sys, p->X);
+  return hbm_solve_fixed(p->s, p->from, size, p->X, &p->point);
+}
+
+static hc_status first_point(path *p, const hc_monitor *monitor)
+{
+  hbm_curve *c = p->curve;
+  hc_status st = p->s->ramp ? start_of_ramp(p) : hbm_first_solution(p->s, p->from, monitor, p->X, &p->point);
+  bool no_solution = st != HC_OK && st != HC_NO_MEMORY && st != HC_INTERRUPTED;
+  if (no_solution && p->may_come_from_above) st = come_from_above(p, monitor);
+  if (st == HC_OK) st = hbm_tangent_fixed(p->s, p->X, p->dX);
+  if (st != HC_OK) return st;
+  p->orientation = newton_sign(p->s->fixed) * (p->direction > 0 ? 1 : -1);
+  for (int i = 0; i < c->n_coef; ++i) p->dX[i] *= p->direction;
+  p->point.d_omega = p->direction;
+  p->point.branch = 0;
+  return hbm_curve_append(c, c->n_coef, p->X, p->dX, &p->point);
+}
+
+/* Part of the sweep that is done, by the last point. */
+static double progress(const path *p)
+{
+  double part = (p->curve->points[p->curve->n - 1].omega - p->from) / (p->to - p->from);
+  return fmin(1, fmax(0, part));
+}
+
+/* After an accepted step: append the trial, adapt the harmonics there, and end the curve if it left the sweep. */
+static hc_status accept_trial(path *p, bool *done)
+{
+  hbm_curve *c = p->curve;
+  hc_status st = append_trial(p);
+  if (st == HC_OK) st = adapt_to_accuracy(p);
+  if (st == HC_OK) st = end_at_limit(p, done);
+  if (st != HC_OK || !*done) return st;
+  st = adapt_to_accuracy(p); /* the limit is a point of its own */
+  double last = c->points[c->n - 1].omega;
+  *done = last == p->to || (c->left_at_start && last == p->from); /* false if the adaptation dropped that point */
+  return st;
+}
+
+/* After a step that was not accepted, step_status being HC_OK or why there was no trial: arc length instead of natural
+ * steps, or a step past an edge of slip or round a corner, each once a point. HC_OK: try again with a shorter step. */
+static hc_status recover(path *p, hc_status step_status, bool *done)
+{
+  hbm_curve *c = p->curve;
+  ++c->rejected;
+  bool natural_fails = step_status != HC_OK || p->step < STEP_FIRST;
+  if (p->natural && arclength_allowed(p) && natural_fails) switch_to_arclength(p);
+  const bool at_edge = p->step < STEP_EDGE && p->points_at_last_edge != c->n;
+  bool at_corner = p->step < STEP_ROUND;
+  bool past = at_edge && !p->natural && pass_edge(p);
+  if (!past) past = at_corner && !p->natural && p->points_at_last_corner != c->n && round_corner(p);
+  if (past) {
+    hc_status st = append_trial(p);
+    if (st == HC_OK) st = end_at_limit(p, done);
+    p->tangent_only = true;
+    return st;
+  }
+  if (at_edge) p->points_at_last_edge = c->n;
+  if (at_corner) p->points_at_last_corner = c->n;
+  if (p->step < STEP_MIN) return step_status != HC_OK ? step_status : HC_STEP_TOO_SMALL;
+  return HC_OK;
+}
+
+static hc_status follow(path *p, const hc_monitor *monitor)
+{
+  hbm_curve *c = p->curve;
+  const hbm_solver *s = p->s;
+  hc_status st = first_point(p, monitor);
+  if (st == HC_OK) st = adapt_to_accuracy(p);
+  if (p->s->stopped) return HC_INTERRUPTED;
+  bool done = p->from == p->to;
+  while (st == HC_OK && !done && !p->more_samples) {
+    if (c->n >= MAX_POINTS) return HC_TOO_MANY_POINTS;
+    if (!hc_monitor_tick(monitor, progress(p))) return HC_INTERRUPTED;
+    bool accepted;
+    p->s->done = p->may_come_from_above ? progress(p) : -1;
+    hc_status step_status = steps_are_fixed(s) ? fixed_step(p, &accepted) : trial_step(p, &accepted);
+    bool no_other_step = !accepted && steps_are_fixed(s);
+    if (step_status == HC_NO_MEMORY || no_other_step) return step_status;
+    st = accepted ? accept_trial(p, &done) : recover(p, step_status, &done);
+    if (p->s->stopped) return HC_INTERRUPTED;
+  }
+  return st;
+}
+
+static hc_status make_rows(path *p)
+{
+  size_t n = (size_t)p->curve->n_coef;
+  p->X = calloc(5 * n + 1, sizeof(double)); /* one block: X, dX, X_predicted, chord, normal */
+  if (!p->X) return HC_NO_MEMORY;
+  p->dX = p->X + n;
+  p->X_predicted = p->dX + n;
+  p->chord = p->X_predicted + n;
+  p->normal = p->chord + n;
+  return HC_OK;
+}
+
+/* One way through the sweep with one number of samples. *more_samples: it should be gone again with more of them. */
+static hc_status trace_once(path *p, const hc_monitor *monitor, bool *more_samples)
+{
+  hbm_curve *c = p->curve;
+  c->n = c->turning_points = c->linear = c->edges = 0;
+  c->edge_omega = c->edge_motion = 0;
+  c->inaccurate = c->left_at_start = false;
+  p->step = STEP_FIRST;
+  p->natural = natural_allowed(p);
+  c->arclength = !p->natural;
+  hc_status st = make_rows(p);
+  if (st == HC_OK) st = follow(p, monitor);
+  free(p->X);
+  bool gave_up = st != HC_OK && st != HC_NO_MEMORY && st != HC_INTERRUPTED; /* at a kink that more samples may smooth */
+  *more_samples = p->more_samples || (gave_up && p->s->finer_samples && p->s->n_time < REFINE_MOST_SAMPLES);
+  return st;
+}
+
+static hc_status trace(hbm_solver *s, double from, double to, bool may_come_from_above, const hc_monitor *monitor,
+                       hbm_curve *curve)
+{
+  const path start = {.s = s,
+                      .curve = curve,
+                      .from = from,
+                      .to = to,
+                      .direction = to >= from ? 1 : -1,
+                      .may_come_from_above = may_come_from_above};
+  bool adapts = s->how.harmonics == HBM_AUTO, more_samples;
+  curve->n_coef = adapts ? hbm_system_length(&s->sys, REFINE_MOST_HARMONICS) : s->sys.n_coef;
+  curve->omega_scale = fmax(fabs(to - from) / 4, 1e-3 * from);
+  long before = s->sys.evaluations;
+  hc_status st;
+  do {
+    path p = start;
+    p.resolution = fmin(curve->omega_scale, fmax(s->sys.scales.half_width, 1e-6 * from));
+    if (s->ramp) p.resolution = curve->omega_scale;
+    st = trace_once(&p, monitor, &more_samples);
+    if (more_samples && (st = hbm_solver_resize(s, s->sys.n_harm, 2 * s->n_time)) != HC_OK) break;
+  } while (more_samples);
+  if (adapts && st != HC_NO_MEMORY) {
+    hc_status cut = adapt_finish(s, curve);
+    if (st == HC_OK) st = cut;
+  }
+  curve->evaluations = s->sys.evaluations - before;
+  return curve->end = st;
+}
+
+hc_status hbm_trace(hbm_solver *s, double from, double to, const hc_monitor *monitor, hbm_curve *curve)
+{
+  bool in_range = from > 0 && to > 0 && isfinite(from) && isfinite(to);
+  bool adapts = s->finer_harmonics || s->finer_samples;
+  if (!in_range || curve->n || (adapts && steps_are_fixed(s))) return HC_BAD_INPUT;
+  s->monitor = monitor;
+  s->done = -1;
+  s->stopped = false;
+  const hc_status st = trace(s, from, to, !s->ramp, monitor, curve);
+  s->monitor = NULL;
+  s->stopped = false;
+  return st;
+}
+
+void hbm_scale_steps(hbm_solver *s, double scale) { s->step_scale = scale > 0 && scale <= 1 ? scale : 1; }

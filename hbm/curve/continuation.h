@@ -1,0 +1,17 @@
+/* continuation.h - the response curve over a range of omega. Method: continuation.c. */
+#ifndef HC_HBM_CONTINUATION_H
+#define HC_HBM_CONTINUATION_H
+
+#include "hbm/curve/response_curve.h"
+
+/* The response curve from omega `from` to `to`, appended to an empty *curve. What was found is kept whatever the
+ * status, which is also in curve->end: HC_STEP_TOO_SMALL, HC_TOO_MANY_POINTS, HC_INTERRUPTED, HC_NO_MEMORY, or why the
+ * last step failed. HC_BAD_INPUT, and nothing is changed, for a curve that is not empty, an omega not positive, or
+ * steps that are fixed where harmonics or samples are to adapt. */
+hc_status hbm_trace(hbm_solver *s, double from, double to, const hc_monitor *monitor, hbm_curve *curve);
+
+/* Continuation steps `scale` times as long as they would be, 0 < scale <= 1 (else 1): solutions must not depend on
+ * the step length, and two traces of different scales show whether they do. */
+void hbm_scale_steps(hbm_solver *s, double scale);
+
+#endif

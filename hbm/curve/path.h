@@ -1,0 +1,69 @@
+/* path.h - a response curve while it is followed: where the next point is predicted and corrected. continuation.c
+ * decides which way and how far, adapt.c with how many harmonics. Lengths are in the curve's metric
+ * (response_curve.h), the harmonics measured by the norm of the last point's. */
+#ifndef HC_HBM_PATH_H
+#define HC_HBM_PATH_H
+
+#include "hbm/curve/response_curve.h"
+#include "hbm/solver/hbm_solver_impl.h"
+
+typedef struct path {
+  hbm_solver *s;
+  hbm_curve *curve;
+  double from, to, direction; /* [rad/time] the sweep; direction: sign of to - from. On a ramp, here and below, places
+                                 on it stand for omega */
+  double resolution;          /* [rad/time] width of the narrowest feature in omega: the linear resonance's half width,
+                                 C/2M */
+  double step;                /* [1] arc length to the next prediction */
+  bool natural;               /* correct at the predicted omega; else in the plane across the predicted tangent */
+  bool tangent_only;          /* predict by the last tangent alone: the point before is on the far side of a corner, or
+                                 solves other equations */
+  int orientation;            /* sign of det [dR/dX dR/domega; tangent]: the same all along the curve */
+  int first_outside;          /* index of the first point outside the sweep behind its start; 0 while inside */
+  int droppable_points;       /* points in a row whose highest harmonics could be dropped; negative after dropping them
+                                 failed, so that more points are waited for */
+  bool more_samples;          /* start again with twice as many: these do not meet hbm.accuracy */
+  bool may_come_from_above;   /* a first solution may be looked for by following the curve down from high omega */
+  int edges;                  /* of slip, passed or tried to */
+  int points_at_last_edge;    /* number of points when a step past an edge of slip last failed */
+  int points_at_last_corner;  /* number of points when a step round a corner last failed */
+  int flat_steps;             /* accepted in a row on flat curve while correcting in planes */
+  double *X, *dX, omega, d_omega;       /* prediction, then corrected point (the trial), and its tangent */
+  double *X_predicted, omega_predicted; /* the prediction as it was */
+  double *chord;                        /* [n_coef] from the last point to the trial */
+  double *normal;                       /* [n+1] of the plane (corrector.h) */
+  int det_sign;                         /* of the trial's Jacobian */
+  hbm_point point;                      /* of the trial */
+} path;
+
+/* Inner product of two directions (aX, a_omega), (bX, b_omega); x_scale measures the harmonics. */
+double path_metric(const path *p, double x_scale, const double *aX, double a_omega, const double *bX, double b_omega);
+
+/* Norm of the last point's harmonics, 1 if it is 0. */
+double path_size(const path *p);
+
+/* Distance the corrector moved the prediction, with omega measured by omega_unit. */
+double path_correction(const path *p, double omega_unit);
+
+/* Does the trial's own tangent, followed back over the change of omega, lead to the last point within h? Past a corner
+ * the last point's tangent predicts nothing, however short the step; the trial's does, looking back. */
+bool path_agrees_backwards(const path *p, double h);
+
+/* Share of omega in the trial's unit tangent: 1 where the curve is flat, 0 at a turning point. */
+double path_flatness(const path *p);
+
+/* Prediction by the arc length h into X, omega; its direction into dX, d_omega (unit length). Returns interpolation
+ * error / prediction error. */
+double path_predict(path *p, double h);
+
+/* Turn the trial's tangent forward: the sign of its determinant becomes the curve's orientation. */
+void path_orient_tangent(path *p);
+
+/* p->normal for the plane across (dX, d_omega). */
+void path_fill_normal(path *p);
+
+/* Newton from (X, omega) in the plane across (dX, d_omega); the tangent there into dX, d_omega. Errors of
+ * hbm_solve_plane and hbm_tangent_plane. */
+hc_status path_correct_in_plane(path *p);
+
+#endif

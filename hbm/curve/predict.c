@@ -1,0 +1,155 @@
+/* predict.c - see predict.h. Proof: tests/hbm/test_predict.c. */
+#include "hbm/curve/predict.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "hbm/solver/hbm_solver_impl.h"
+#include "numerics/norm.h"
+#include "numerics/series.h"
+
+enum {
+  MOST_FINER = 100,     /* some milliseconds of an oscillator */
+  MOST_UNKNOWNS = 1500, /* of the finer equations of many coordinates: about a second a step */
+  STRIDE = 20,          /* harmonics between two sizes of the workspace, which is remade with each */
+  FEWEST_FINER = 14,    /* with less a short contact does not show in the error of H = 1 */
+  MOST_STEPS = 10       /* of Newton: one or two but near turning points and for stiff contacts */
+};
+
+static const double converged = 0.02; /* a step this small beside what all came to changes the error by as little */
+/* [size of X] Newton that has not converged after steps as long has no such solution to come to; one that far away is
+ * another: beyond a fold of theirs the finer equations have none next to X, and no number bounds what X is off. */
+static const double lost = 0.1, another = 0.3;
+static const double roundings = 4; /* a motion and its measures take a few */
+
+/* The amplitude and the first harmonic of two motions may agree by chance, where an error passes through 0 as omega or
+ * H changes; what they are off by is then of the size of what the finer equations leave out, an eighth of the
+ * waveform's error or less. The worst seen is 0.03 of it, along c2. */
+static const double least_share = 0.04;
+
+/* Twice the harmonics, and more where these do not reach the natural frequency of the mass on its stuck contacts, at
+ * which it swings after each impact: up to there errors hardly fall with the harmonics, and twice as many say
+ * nothing. Of many coordinates no more than MOST_UNKNOWNS allow, or twice as many. */
+static int finer_harmonics(double highest, int n_harm, int dim, double omega)
+{
+  if (n_harm > HBM_MAX_HARMONICS / 2) return n_harm / 2;
+  const int twice = 2 * n_harm > FEWEST_FINER ? 2 * n_harm : FEWEST_FINER;
+  const double own = ceil(highest / (STRIDE * omega)) * STRIDE;
+  const int affordable = (MOST_UNKNOWNS / (dim > 0 ? dim : 1) - 1) / 2;
+  const int most = affordable < MOST_FINER ? affordable : MOST_FINER;
+  return own > twice ? (int)fmin(own, fmax(most, twice)) : twice;
+}
+
+/* What is made at the first call; freed with the equations. */
+static hc_status need_finer(hbm_solver *s, double omega)
+{
+  const int n_harm = finer_harmonics(s->sys.scales.highest, s->sys.n_harm, s->sys.dim, omega);
+  if (s->exact_finer && refinement_harmonics(s->exact_finer) == n_harm) return HC_OK;
+  refinement_free(s->exact_finer);
+  free(s->improved);
+  s->exact_finer = NULL;
+  s->improved = NULL;
+  hbm_settings how = s->how;
+  how.force = HBM_FORCE_EXACT;
+  how.keep_mean = true;
+  if (!s->improved) s->improved = calloc((size_t)hbm_system_length(&s->sys, n_harm), sizeof *s->improved);
+  return s->improved ? refinement_new(s->model, &how, n_harm, 0, &s->exact_finer) : HC_NO_MEMORY;
+}
+
+/* |Y - X| [length], Y of n harmonics and X of the solver's, both padded with zeros. */
+static double distance(const hbm_solver *s, const double *X, int n, const double *Y)
+{
+  const int length = hbm_system_length(&s->sys, n), most = length > s->sys.n_coef ? length : s->sys.n_coef;
+  double sum = 0;
+  for (int i = 0; i < most; ++i) {
+    const double d = (i < length ? Y[i] : 0) - (i < s->sys.n_coef ? X[i] : 0);
+    sum += d * d;
+  }
+  return sqrt(sum);
+}
+
+/* Newton on the finer equations from s->improved. *least [length]: what the error is whatever the distance of where
+ * Newton came to: rounding; where it did not come to anything, the longest step, or without bound if that was long:
+ * there is no such solution. */
+static hc_status improve(hbm_solver *s, double omega, const double *X, double *least)
+{
+  const int n = refinement_harmonics(s->exact_finer);
+  double last, longest = 0;
+  *least = 0;
+  bool found = false;
+  for (int k = 0; k < MOST_STEPS && !found; ++k) {
+    const hc_status st = refinement_step(s->exact_finer, omega, s->improved, &last);
+    if (st != HC_OK && k == 0) return st;
+    if (st != HC_OK) break;
+    if (k == 0) *least = roundings * refinement_rounding(s->exact_finer, omega);
+    longest = fmax(longest, last);
+    found = last <= *least || (k > 0 && last <= converged * distance(s, X, n, s->improved));
+  }
+  if (!found) *least += longest;
+  const double far = fmax(found ? 0 : longest, distance(s, X, n, s->improved));
+  if (!(far <= (found ? another : lost) * norm_2(s->sys.n_coef, X))) *least = INFINITY;
+  return HC_OK;
+}
+
+static periodic_motion motion_of(int n_harm, const double *x)
+{
+  double max, min;
+  series_extrema(n_harm, x, &max, &min);
+  return motion_of_series(n_harm, x, max, min);
+}
+
+/* The first response's motion; x[2 n_harm + 1] is room. */
+static periodic_motion measured(const hbm_solver *s, int n_harm, const double *X, double *x)
+{
+  hbm_system_response(&s->sys, n_harm, X, x);
+  return motion_of(n_harm, x);
+}
+
+/* What n harmonics leave out is added. Of sampled forces and n < H all of the distance may be aliasing, which more
+ * harmonics do not mend. */
+static double extrapolation(const hbm_solver *s, int n)
+{
+  const double ratio = fmax((double)s->sys.n_harm / n, n > s->sys.n_harm ? 0.5 : 0);
+  return s->how.force == HBM_FORCE_SAMPLED && ratio > 1 ? 1 : 1 / fabs(1 - ratio * ratio * ratio);
+}
+
+/* From the two motions of one response. All of *out is NaN unless HC_OK. */
+static hc_status error_between(const hbm_solver *s, const periodic_motion *ours, const periodic_motion *better,
+                               motion_error *out)
+{
+  const motion_distance d = motion_between(ours, better);
+  const double factor = extrapolation(s, refinement_harmonics(s->exact_finer)), waveform = factor * d.waveform;
+  const double least = s->improved_least;
+  *out = (motion_error){.amplitude = fmax(factor * d.amplitude, least_share * waveform) + least,
+                        .harmonic_1 = fmax(factor * d.harmonic_1, least_share * waveform) + least,
+                        .waveform = waveform + least};
+  const double sum = out->amplitude + out->harmonic_1 + out->waveform;
+  if (isnan(sum)) *out = (motion_error){NAN, NAN, NAN};
+  return isnan(sum) ? HC_NOT_FINITE : HC_OK;
+}
+
+hc_status hbm_predict(hbm_solver *s, double omega, const double *X, motion_error *out)
+{
+  *out = (motion_error){NAN, NAN, NAN};
+  hc_status st = need_finer(s, omega);
+  if (st != HC_OK) return st;
+  const int n_harm = s->sys.n_harm, n = refinement_harmonics(s->exact_finer);
+  memset(s->improved, 0, (size_t)hbm_system_length(&s->sys, n) * sizeof *s->improved);
+  memcpy(s->improved, X, (size_t)hbm_system_length(&s->sys, n < n_harm ? n : n_harm) * sizeof *s->improved);
+  st = improve(s, omega, X, &s->improved_least);
+  if (st != HC_OK) return st;
+  const periodic_motion ours = measured(s, n_harm, X, s->x), better = measured(s, n, s->improved, s->x);
+  return error_between(s, &ours, &better, out);
+}
+
+hc_status hbm_predict_response(hbm_solver *s, double omega, const double *X, int r, motion_error *out)
+{
+  *out = (motion_error){NAN, NAN, NAN};
+  hc_status st = hbm_response(s, omega, X, r, s->x);
+  if (st != HC_OK) return st;
+  const periodic_motion ours = motion_of(s->sys.n_harm, s->x);
+  if ((st = refinement_response(s->exact_finer, omega, s->improved, r, s->x)) != HC_OK) return st;
+  const periodic_motion better = motion_of(refinement_harmonics(s->exact_finer), s->x);
+  return error_between(s, &ours, &better, out);
+}

@@ -1,0 +1,33 @@
+/* predict.h - how far off an HBM solution is, by its own reckoning: from the equations of harmonic balance alone,
+ * before anything else is known. What time integration finds may then be held against it.
+ *
+ * The solution X of H harmonics is padded with zeros and improved by Newton on finer equations: n = 2H harmonics, or as
+ * many as reach the stuck mass's natural frequency (100 at most; of many coordinates as many as make 1500 unknowns),
+ * exact forces (which take away aliasing with the truncation), harmonic 0 kept (leaving it out is an error of the model
+ * of the motion, too). The distance d of the two motions misses what n harmonics leave out. Errors fall like H^-3
+ * (docs/theory.md, 3), so
+ *
+ *     error(H) = d / |1 - (H/n)^3|          8/7 d, also where n > 2H
+ *
+ * The mean stays in the waveform also where a slider never slips, so that the mean depends on the history: whether it
+ * is open shows in the transient only, and leaving it in errs on the large side.
+ *
+ * Nothing finer is affordable above HBM_MAX_HARMONICS/2 harmonics: there n = H/2, and the error is d/7. */
+#ifndef HC_HBM_PREDICT_H
+#define HC_HBM_PREDICT_H
+
+#include "hbm/solver/hbm_solver.h"
+#include "model/periodic_motion.h"
+
+/* Of the solution X[2H+1] at omega, H = hbm_n_harmonics. Never less than rounding leaves; where Newton does not
+ * converge, never less than its longest step; INFINITY where the finer equations have no solution next to X, as beyond
+ * a fold of theirs: the solution is one of few harmonics, not of the oscillator. What was computed wrong shows as well:
+ * X need not solve the equations. The first call for a number of harmonics allocates, later ones do not. Unless HC_OK,
+ * all of *out is NaN: errors of the contact force, HC_SINGULAR, HC_NOT_FINITE, HC_NO_MEMORY. */
+hc_status hbm_predict(hbm_solver *s, double omega, const double *X, motion_error *out);
+
+/* The same of response r, counted from 0, of the solution that hbm_predict was last asked about, with HC_OK: nothing is
+ * solved again. HC_BAD_INPUT: there is no such response. */
+hc_status hbm_predict_response(hbm_solver *s, double omega, const double *X, int r, motion_error *out);
+
+#endif

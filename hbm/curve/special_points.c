@@ -1,0 +1,362 @@
+/* special_points.c - see special_points.h. Test functions are evaluated at every point of the curve; where one
+ * changes between two points, the change is located on the segment between them. d omega along the tangent (turning
+ * point) and the product of 1 + multiplier (period doubling) are smooth functions of sigma: their roots are found by
+ * interpolation. The contact pattern is not: its change is bisected, with the pattern of the interpolant as a guess of
+ * where (narrowing.h), and the rest of the segment searched for the next. Bisected, too, is the number of complex pairs
+ * of multipliers outside the unit circle (Neimark-Sacker): where it changes without a pair on the circle, two real ones
+ * have met, or multipliers jump with the pattern. What is too near to be told apart is one change: slip and separation
+ * that begin at once, two contacts that are alike. */
+#include "hbm/curve/special_points.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "hbm/curve/narrowing.h"
+#include "hbm/solver/corrector.h"
+#include "hbm/solver/hbm_solver_impl.h"
+#include "hbm/solver/stability.h"
+#include "numerics/norm.h"
+#include "numerics/roots.h"
+
+/* A segment spans a fraction of the sweep, so this part of it is far less than the 1e-9 of omega that
+ * special_points.h promises. */
+static const double SIGMA_TOLERANCE = 1e-11;
+enum { MAX_CONTACT_CHANGES = 64 /* on one segment */, MOST_CONTACTS_FOLLOWED = 24 };
+/* What is nearer than this, relative to omega and to the amplitude (near a turning point omega alone says little), is
+ * at one place: special_points.h promises no more. */
+static const double SAME_OMEGA = 1e-9, SAME_AMPLITUDE = 1e-8;
+static const double EDGE_OMEGA = 1e-6; /* and a circle's edge of slip to this */
+
+/* The test functions at a point. */
+typedef struct test_values {
+  double d_omega, flip;
+  int pairs_outside;
+  double pair;           /* as in hbm_stability */
+  contact_regime regime; /* regime and number of transitions: the contact pattern */
+  int transitions;
+} test_values;
+
+/* A special point; of a contact change, how many transitions the pattern has on either side. */
+typedef struct found_point {
+  hbm_special special;
+  double sigma; /* where on its segment it lies */
+  int transitions_before, transitions_after;
+} found_point;
+
+typedef struct detector {
+  hbm_solver *s;
+  const hbm_curve *c;
+  hbm_candidate x;    /* the solution on a segment that was evaluated last */
+  hbm_narrowing near; /* of a contact change */
+  int n, room, first; /* of found; `first` is the first one of the current segment */
+  found_point *found; /* [room] */
+} detector;
+
+bool hbm_specials_follow_each(const hbm_solver *s) { return s->model->n_contacts <= MOST_CONTACTS_FOLLOWED; }
+
+/* with_multipliers: they cost more than all the rest, and only the searches for a period doubling or a Neimark-Sacker
+ * point ask. */
+static hc_status evaluate_tests(detector *d, double omega, double d_omega, const double *X, bool with_multipliers,
+                                test_values *v)
+{
+  const contact_forces *orbit;
+  contact_report report;
+  hbm_stability stability = {.flip = NAN, .pair = NAN};
+  hc_status st = hbm_located_orbit(d->s, X, &orbit, &report);
+  if (st == HC_OK && with_multipliers) st = hbm_multipliers(d->s, orbit, omega, &stability);
+  const int transitions = hbm_specials_follow_each(d->s) ? report.transitions : 0;
+  if (st == HC_OK)
+    *v = (test_values){d_omega, stability.flip, stability.pairs_outside, stability.pair, report.regime, transitions};
+  return st;
+}
+
+static hc_status evaluate_at_point(detector *d, int k, test_values *v)
+{
+  const hbm_point *p = &d->c->points[k];
+  return evaluate_tests(d, p->omega, p->d_omega, hbm_curve_X(d->c, k), !hbm_stability_is_costly(d->s), v);
+}
+
+static bool same_pattern(const test_values *a, const test_values *b)
+{
+  return a->regime == b->regime && a->transitions == b->transitions;
+}
+
+static hc_status make_room(detector *d)
+{
+  if (d->n < d->room) return HC_OK;
+  const int room = d->room ? 2 * d->room : 32;
+  found_point *grown = realloc(d->found, (size_t)room * sizeof *grown);
+  if (!grown) return HC_NO_MEMORY;
+  d->found = grown;
+  d->room = room;
+  return HC_OK;
+}
+
+/* The solution in d->x, at sigma, behind those of this segment that come before it. */
+static hc_status insert_special(detector *d, double sigma, hbm_special_kind kind, const test_values *before,
+                                const test_values *after)
+{
+  hbm_measures m;
+  hc_status st = make_room(d);
+  if (st == HC_OK) st = hbm_measure(d->s, d->x.X, &m);
+  if (st != HC_OK) return st;
+  int i = d->n++;
+  for (; i > d->first && d->found[i - 1].sigma > sigma; --i) d->found[i] = d->found[i - 1];
+  d->found[i] =
+      (found_point){.special = {kind, d->x.point.omega, m.amplitude, d->x.point.branch, before->regime, after->regime},
+                    .sigma = sigma,
+                    .transitions_before = before->transitions,
+                    .transitions_after = after->transitions};
+  return HC_OK;
+}
+
+static bool same_place(const hbm_special *a, const hbm_special *b)
+{
+  return fabs(a->omega - b->omega) <= SAME_OMEGA * a->omega &&
+         fabs(a->amplitude - b->amplitude) <= SAME_AMPLITUDE * a->amplitude;
+}
+
+/* The point among found[0..n-1] of p's kind that p cannot be told from; -1 if there is none. */
+static int twin_of(const found_point *found, int n, const found_point *p)
+{
+  for (int k = n - 1; k >= 0 && same_place(&found[k].special, &p->special); --k)
+    if (found[k].special.kind == p->special.kind) return k;
+  return -1;
+}
+
+/* *one takes what happens at *other in: false if nothing is left, since two turning points or period doublings at one
+ * place lead back, as does a pattern that is the same before and after. */
+static bool take_in(found_point *one, const found_point *other)
+{
+  if (one->special.kind != HBM_CONTACT_CHANGE) return false;
+  one->special.after = other->special.after;
+  one->transitions_after = other->transitions_after;
+  return one->special.before != one->special.after || one->transitions_before != one->transitions_after;
+}
+
+/* One point of those that cannot be told apart. */
+static void merge_twins(detector *d)
+{
+  int n = 0;
+  for (int i = 0; i < d->n; ++i) {
+    const int k = twin_of(d->found, n, &d->found[i]);
+    if (k < 0) d->found[n++] = d->found[i];
+    else if (!take_in(&d->found[k], &d->found[i]))
+      memmove(&d->found[k], &d->found[k + 1], (size_t)(--n - k) * sizeof *d->found);
+  }
+  d->n = n;
+}
+
+/* A search along segment k. */
+typedef struct segment_search {
+  detector *d;
+  int k;
+  hbm_special_kind kind;     /* what is looked for */
+  const test_values *before; /* of searches by bisection: what is left */
+  double sigma;              /* where the search was last, NaN at first */
+  test_values here;          /* the test functions there */
+} segment_search;
+
+static hc_status evaluate_on_segment(segment_search *s, double sigma)
+{
+  detector *d = s->d;
+  s->sigma = sigma;
+  hc_status st = hbm_segment_point(d->s, d->c, s->k, sigma, &d->x);
+  const bool asked = s->kind == HBM_PERIOD_DOUBLING || s->kind == HBM_NEIMARK_SACKER;
+  return st == HC_OK ? evaluate_tests(d, d->x.point.omega, d->x.point.d_omega, d->x.X, asked, &s->here) : st;
+}
+
+static hc_status smooth_test_at(void *self, double sigma, double *value)
+{
+  segment_search *s = self;
+  hc_status st = evaluate_on_segment(s, sigma);
+  *value = s->kind == HBM_TURNING_POINT ? s->here.d_omega : s->here.flip;
+  return st;
+}
+
+static hc_status evaluate_nearby(segment_search *s, double sigma)
+{
+  detector *d = s->d;
+  s->sigma = sigma;
+  hc_status st = hbm_narrowing_point(d->s, &d->near, sigma, &d->x);
+  return st == HC_OK ? evaluate_tests(d, d->x.point.omega, d->x.point.d_omega, d->x.X, false, &s->here) : st;
+}
+
+static hc_status pattern_differs_at(void *self, double sigma, bool *differs)
+{
+  segment_search *s = self;
+  hc_status st = evaluate_nearby(s, sigma);
+  *differs = !same_pattern(&s->here, s->before);
+  if (st == HC_OK) hbm_narrowing_move(&s->d->near, !*differs, sigma, &s->d->x);
+  return st;
+}
+
+/* Of the interpolant: no equations are solved. */
+static hc_status pattern_may_differ_at(void *self, double sigma, bool *differs)
+{
+  segment_search *s = self;
+  detector *d = s->d;
+  double omega;
+  test_values there;
+  hbm_narrowing_guess(&d->near, sigma, d->x.guess, &omega);
+  hbm_truncate(d->s, d->c->n_coef, d->x.guess);
+  hc_status st = evaluate_tests(d, omega, 0, d->x.guess, false, &there);
+  *differs = st == HC_OK && !same_pattern(&there, s->before);
+  return st;
+}
+
+static hc_status pairs_outside_differ_at(void *self, double sigma, bool *differ)
+{
+  segment_search *s = self;
+  hc_status st = evaluate_on_segment(s, sigma);
+  *differ = s->here.pairs_outside != s->before->pairs_outside;
+  return st;
+}
+
+/* d->x and s->here at sigma, which need not be where the search was last. */
+static hc_status return_to(segment_search *s, double sigma)
+{
+  if (s->sigma == sigma) return HC_OK;
+  return s->kind == HBM_CONTACT_CHANGE ? evaluate_nearby(s, sigma) : evaluate_on_segment(s, sigma);
+}
+
+/* A sign change of a smooth test function on segment k, from f0 at its start to f1 at its end. */
+static hc_status locate_root(detector *d, int k, hbm_special_kind kind, double f0, double f1)
+{
+  segment_search s = {.d = d, .k = k, .kind = kind, .sigma = NAN};
+  root_point root;
+  hc_status st = root_between(smooth_test_at, &s, 0, f0, 1, f1, SIGMA_TOLERANCE, &root);
+  if (st == HC_OK) st = return_to(&s, root.x);
+  if (st != HC_OK) return st;
+  /* a turning point belongs to the branch that it ends */
+  if (kind == HBM_TURNING_POINT) d->x.point.branch = d->c->points[k].branch;
+  return insert_special(d, root.x, kind, &s.here, &s.here);
+}
+
+/* A point at omega, from one of the guesses, into d->x. */
+static hc_status solve_at_omega(detector *d, const double *const guess[2], double omega)
+{
+  hc_status st = HC_NOT_CONVERGED;
+  for (int i = 0; i < 2 && st != HC_OK; ++i) {
+    memcpy(d->x.X, guess[i], (size_t)d->c->n_coef * sizeof(double));
+    st = hbm_solve_fixed(d->s, omega, norm_2(d->c->n_coef, guess[i]), d->x.X, &d->x.point);
+  }
+  return st;
+}
+
+/* Where slip of a circle begins or ends all round, planes across the interpolant may miss the curve (README.md, Edges
+ * of slip in a plane): the change on segment k by bisection of omega, as far as there are solutions, but to 1e-6. */
+static hc_status locate_edge(detector *d, int k, const test_values *before, const test_values *end)
+{
+  const hbm_point *p = &d->c->points[k];
+  const double *const guess[2] = {hbm_curve_X(d->c, k), hbm_curve_X(d->c, k + 1)};
+  double from = p[0].omega, to = p[1].omega;
+  hc_status st = HC_OK;
+  for (int i = 0; i < 60 && st == HC_OK && fabs(to - from) > 0.5 * SAME_OMEGA * to; ++i) {
+    const double middle = from + 0.5 * (to - from);
+    test_values here = {0};
+    st = solve_at_omega(d, guess, middle);
+    if (st == HC_OK) st = evaluate_tests(d, middle, 0, d->x.X, false, &here);
+    if (st == HC_OK) *(same_pattern(&here, before) ? &from : &to) = middle;
+  }
+  if (!(fabs(to - from) <= EDGE_OMEGA * to)) return st == HC_OK ? HC_NOT_CONVERGED : st;
+  st = solve_at_omega(d, guess, from);
+  d->x.point.branch = p->branch;
+  return st == HC_OK ? insert_special(d, 0.5, HBM_CONTACT_CHANGE, before, end) : st;
+}
+
+/* Every change of the contact pattern on segment k, from `before` at its start to `end` at its end. */
+static hc_status locate_contact_changes(detector *d, int k, test_values before, const test_values *end)
+{
+  double from = 0;
+  for (int i = 0; i < MAX_CONTACT_CHANGES && from < 1 && !same_pattern(&before, end); ++i) {
+    segment_search s = {.d = d, .k = k, .kind = HBM_CONTACT_CHANGE, .before = &before, .sigma = NAN};
+    root_point change;
+    hc_status st = hbm_narrowing_start(&d->near, d->c, k);
+    if (st != HC_OK) return st;
+    if (i > 0) hbm_narrowing_move(&d->near, true, from, &d->x);
+    st = root_change_guided(pattern_differs_at, pattern_may_differ_at, &s, from, 1, SIGMA_TOLERANCE, &change);
+    if (st == HC_OK) st = return_to(&s, change.x);
+    if (st != HC_OK) return st;
+    test_values after = change.x < 1 ? s.here : *end;
+    st = insert_special(d, change.x, HBM_CONTACT_CHANGE, &before, &after);
+    if (st != HC_OK) return st;
+    before = after;
+    from = change.x;
+  }
+  return HC_OK;
+}
+
+/* Where the number of complex pairs outside the unit circle first changes on segment k, if a pair is on it there. */
+static hc_status locate_neimark_sacker(detector *d, int k, const test_values *before)
+{
+  const double on_circle = 1e-6; /* located to 1e-11 of the segment, over which a pair moves by less than 1e5 */
+  segment_search s = {.d = d, .k = k, .kind = HBM_NEIMARK_SACKER, .before = before, .sigma = NAN};
+  root_point change;
+  hc_status st = root_change(pairs_outside_differ_at, &s, 0, 1, SIGMA_TOLERANCE, &change);
+  if (st == HC_OK) st = return_to(&s, change.x);
+  if (st != HC_OK || !(fabs(s.here.pair - 1) <= on_circle)) return st;
+  return insert_special(d, change.x, HBM_NEIMARK_SACKER, &s.here, &s.here);
+}
+
+/* Do the ends of segment k lie at one place, to what special_points.h promises? What changes between them is then
+ * located; planes across a chord as short as rounding need not meet the curve (at a kink, where it also turns). */
+static bool is_one_place(const detector *d, int k)
+{
+  const hbm_point *p = &d->c->points[k];
+  const double *X = hbm_curve_X(d->c, k);
+  return fabs(p[1].omega - p[0].omega) <= SAME_OMEGA * p[0].omega &&
+         distance_2(d->c->n_coef, X, hbm_curve_X(d->c, k + 1)) <= SAME_AMPLITUDE * norm_2(d->c->n_coef, X);
+}
+
+/* The end of segment k, where `kind` happens on the branch of its start. */
+static hc_status take_end(detector *d, int k, hbm_special_kind kind, const test_values *before,
+                          const test_values *after)
+{
+  memcpy(d->x.X, hbm_curve_X(d->c, k + 1), (size_t)d->c->n_coef * sizeof(double));
+  d->x.point = d->c->points[k + 1];
+  d->x.point.branch = d->c->points[k].branch;
+  return insert_special(d, 1, kind, before, after);
+}
+
+static hc_status search_segment(detector *d, int k, const test_values *a, const test_values *b)
+{
+  hc_status changes = HC_OK, turning = HC_OK, doubling = HC_OK, torus = HC_OK;
+  d->first = d->n;
+  if (!same_pattern(a, b)) changes = locate_contact_changes(d, k, *a, b);
+  if (changes != HC_OK && d->n == d->first && model_has_circle(d->s->model)) changes = locate_edge(d, k, a, b);
+  if ((a->d_omega > 0) != (b->d_omega > 0)) turning = locate_root(d, k, HBM_TURNING_POINT, a->d_omega, b->d_omega);
+  if ((a->flip > 0) != (b->flip > 0)) doubling = locate_root(d, k, HBM_PERIOD_DOUBLING, a->flip, b->flip);
+  if (a->pairs_outside != b->pairs_outside) torus = locate_neimark_sacker(d, k, a);
+  if (is_one_place(d, k)) {
+    if (changes != HC_OK) changes = take_end(d, k, HBM_CONTACT_CHANGE, a, b);
+    if (turning != HC_OK) turning = take_end(d, k, HBM_TURNING_POINT, b, b);
+    if (doubling != HC_OK) doubling = take_end(d, k, HBM_PERIOD_DOUBLING, b, b);
+    torus = HC_OK; /* a pair that jumps across the circle is not on it */
+  }
+  return changes != HC_OK ? changes : turning != HC_OK ? turning : doubling != HC_OK ? doubling : torus;
+}
+
+hc_status hbm_specials(hbm_solver *s, const hbm_curve *c, int cap, hbm_special *out, int *n)
+{
+  detector d = {.s = s, .c = c};
+  test_values before = {0}, here = {0};
+  *n = 0;
+  if (c->n == 0) return HC_OK;
+  hc_status st = hbm_candidate_new(c->n_coef, &d.x), not_located = HC_OK;
+  if (st == HC_OK) st = evaluate_at_point(&d, 0, &before);
+  for (int k = 0; st == HC_OK && k + 1 < c->n; ++k) {
+    st = evaluate_at_point(&d, k + 1, &here);
+    hc_status found = st == HC_OK ? search_segment(&d, k, &before, &here) : st;
+    if (found != HC_OK) not_located = found; /* the search goes on: the others are still to be found */
+    before = here;
+  }
+  merge_twins(&d);
+  for (int i = 0; i < d.n && i < cap; ++i) out[i] = d.found[i].special;
+  *n = d.n;
+  hbm_curve_free(&d.near.ends);
+  free(d.x.X);
+  free(d.found);
+  return st != HC_OK ? st : not_located;
+}

@@ -1,0 +1,30 @@
+/* special_points.h - where a response curve changes its nature. */
+#ifndef HC_HBM_SPECIAL_POINTS_H
+#define HC_HBM_SPECIAL_POINTS_H
+
+#include "hbm/curve/response_curve.h"
+
+typedef enum hbm_special_kind {
+  HBM_TURNING_POINT,
+  HBM_PERIOD_DOUBLING,
+  HBM_CONTACT_CHANGE,
+  HBM_NEIMARK_SACKER /* a complex pair of multipliers passes the unit circle: a motion of two frequencies begins */
+} hbm_special_kind;
+typedef struct hbm_special {
+  hbm_special_kind kind;
+  double omega, amplitude;      /* [rad/time], [length] */
+  int branch;                   /* as in hbm_point; a turning point belongs to the branch that it ends */
+  contact_regime before, after; /* along the curve; the same where only the number of transitions changes */
+} hbm_special;
+
+/* All of them in the curve's order, located to 1e-9 of omega or better (to 1e-6 where slip of a circle
+ * begins or ends all round), into out[cap]; *n is how many there are,
+ * which may exceed cap. Those of a kind that this cannot tell apart are one, or none if they undo each other. One that
+ * could not be located makes the status, and leaves the others in place. */
+hc_status hbm_specials(hbm_solver *s, const hbm_curve *curve, int cap, hbm_special *out, int *n);
+
+/* Of more than 24 contacts (directions, where two belong to one) some pattern changes on every bit of a curve: a
+ * contact change is then one of the strongest state of all of them. */
+bool hbm_specials_follow_each(const hbm_solver *s);
+
+#endif

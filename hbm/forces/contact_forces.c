@@ -1,0 +1,340 @@
+/* contact_forces.c - see contact_forces.h. */
+#include "hbm/forces/contact_forces.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "numerics/dense.h"
+#include "numerics/series.h"
+
+/* One of a contact's coordinates as a combination of few of q. */
+typedef struct combination {
+  int n, *coordinate; /* [n] */
+  double *weight;     /* [n] */
+} combination;
+
+/* A contact, or the two halves of one with two tangents under one limit. */
+typedef struct member {
+  int first, contacts; /* the model's contact, or the first of them; how many */
+  int n_dof;
+  combination of[EVALUATOR_MOST_DOF]; /* [n_dof] */
+  double cu[SERIES_MAX_DIM], cv[SERIES_MAX_DIM];
+  const contact_evaluator *by;
+  void *evaluator;
+  double *jac; /* [n_dof (2H+1)]^2 */
+  bool differentiated;
+} member;
+
+struct contact_forces {
+  int dim, length /* 2H+1 */, n_members;
+  member *members;    /* [n_members] */
+  int *member_of;     /* [contacts] */
+  double *x, *f;      /* [EVALUATOR_MOST_DOF (2H+1)] of one member */
+  double *jac;        /* [dim (2H+1)]^2 */
+  int n_rows;         /* coordinates of all members */
+  double *directions; /* [n_rows][dim] these in q, by columns; NULL where scattering is the faster way */
+  double *product;    /* [dim][2H+1][n_rows] of the Jacobian, with `directions` */
+  bool assembled;
+};
+
+/* ---- made and freed ---------------------------------------------------------------------------- */
+
+static hc_status combine(int dim, const double *direction, double divisor, combination *out)
+{
+  out->coordinate = calloc((size_t)dim, sizeof *out->coordinate);
+  out->weight = calloc((size_t)dim, sizeof *out->weight);
+  if (!out->coordinate || !out->weight) return HC_NO_MEMORY;
+  for (int d = 0; d < dim; ++d) {
+    if (direction[d] == 0) continue;
+    out->coordinate[out->n] = d;
+    out->weight[out->n++] = direction[d] / divisor;
+  }
+  return HC_OK;
+}
+
+static hc_status make_member(const placed_contact *c, int dim, hbm_force force, const evaluator_settings *how,
+                             member *m)
+{
+  const contact_kind *kind = contact_kind_of(c);
+  contact_coordinates x;
+  kind->coordinates(c, dim, &x);
+  m->contacts = kind->contacts;
+  m->n_dof = x.n_dof;
+  m->by = force == HBM_FORCE_SAMPLED ? kind->sampled : kind->exact;
+  memcpy(m->cu, x.moved.cu, sizeof m->cu);
+  memcpy(m->cv, x.moved.cv, sizeof m->cv);
+  for (int d = 0; d < x.n_dof; ++d) {
+    const hc_status st = combine(dim, x.direction[d], x.divisor[d], &m->of[d]);
+    if (st != HC_OK) return st;
+  }
+  const size_t length = (size_t)m->n_dof * (size_t)series_length(how->n_harm);
+  m->jac = calloc(length * length, sizeof *m->jac);
+  return m->jac ? m->by->make(&x, how, &m->evaluator) : HC_NO_MEMORY;
+}
+
+static hc_status make_members(int n, const placed_contact *contacts, hbm_force force, const evaluator_settings *how,
+                              contact_forces *f)
+{
+  hc_status st = HC_OK;
+  for (int j = 0; j < n && st == HC_OK; ++f->n_members) {
+    member *m = &f->members[f->n_members];
+    m->first = j;
+    st = make_member(&contacts[j], f->dim, force, how, m);
+    for (int k = 0; k < m->contacts; ++k) f->member_of[j++] = f->n_members;
+  }
+  return st;
+}
+
+/* Does the Jacobian cost less as a product of matrices than scattered member by member? That takes some ten times as long
+ * an operation. */
+static bool product_pays(const contact_forces *f)
+{
+  double scattered = 0;
+  for (int j = 0; j < f->n_members; ++j) {
+    double entries = 0;
+    for (int d = 0; d < f->members[j].n_dof; ++d) entries += f->members[j].of[d].n;
+    scattered += entries * entries;
+  }
+  return 10 * scattered > (double)f->dim * f->dim * f->n_rows;
+}
+
+static hc_status make_product(contact_forces *f)
+{
+  enum { FEW = 8 }; /* coordinates: everything is small */
+  for (int j = 0; j < f->n_members; ++j) f->n_rows += f->members[j].n_dof;
+  if (f->dim < FEW || f->n_rows == 0 || !product_pays(f)) return HC_OK;
+  const size_t dim = (size_t)f->dim, rows = (size_t)f->n_rows;
+  f->directions = calloc(dim * rows, sizeof *f->directions);
+  f->product = calloc(dim * rows * (size_t)f->length, sizeof *f->product);
+  if (!f->directions || !f->product) return HC_NO_MEMORY;
+  double *row = f->directions;
+  for (int j = 0; j < f->n_members; ++j)
+    for (int d = 0; d < f->members[j].n_dof; ++d, row += dim) {
+      const combination *of = &f->members[j].of[d];
+      for (int k = 0; k < of->n; ++k) row[of->coordinate[k]] = of->weight[k];
+    }
+  return HC_OK;
+}
+
+hc_status contact_forces_new_of(int dim, int n, const placed_contact *contacts, hbm_force force,
+                                const evaluator_settings *how, contact_forces **out)
+{
+  contact_forces *f = calloc(1, sizeof *f);
+  *out = NULL;
+  if (!f) return HC_NO_MEMORY;
+  f->dim = dim;
+  f->length = series_length(how->n_harm);
+  const size_t unknowns = (size_t)dim * (size_t)f->length, most = EVALUATOR_MOST_DOF * (size_t)f->length;
+  f->members = calloc((size_t)n + 1, sizeof *f->members);
+  f->member_of = calloc((size_t)n + 1, sizeof *f->member_of);
+  f->x = calloc(most, sizeof *f->x);
+  f->f = calloc(most, sizeof *f->f);
+  f->jac = calloc(unknowns * unknowns, sizeof *f->jac);
+  const bool allocated = f->members && f->member_of && f->x && f->f && f->jac;
+  hc_status st = allocated ? make_members(n, contacts, force, how, f) : HC_NO_MEMORY;
+  if (st == HC_OK) st = make_product(f);
+  if (st == HC_OK) *out = f;
+  else contact_forces_free(f);
+  return st;
+}
+
+hc_status contact_forces_new(const model *m, const condensation *c, hbm_force force, const evaluator_settings *how,
+                             contact_forces **out)
+{
+  placed_contact *placed = calloc((size_t)m->n_contacts + 1, sizeof *placed);
+  *out = NULL;
+  if (!placed) return HC_NO_MEMORY;
+  for (int j = 0; j < m->n_contacts; ++j) {
+    placed[j] = placed_contact_of(m, j);
+    placed[j].tangent = condensation_tangent(c, j);
+    placed[j].normal = condensation_normal(c, j);
+    if (placed[j].planar) placed[j].tangent_2 = condensation_tangent(c, j + 1);
+  }
+  const hc_status st = contact_forces_new_of(condensation_dim(c), m->n_contacts, placed, force, how, out);
+  free(placed);
+  return st;
+}
+
+void contact_forces_free(contact_forces *f)
+{
+  if (!f) return;
+  for (int j = 0; j < f->n_members && f->members; ++j) {
+    member *m = &f->members[j];
+    m->by->free(m->evaluator);
+    free(m->jac);
+    for (int d = 0; d < EVALUATOR_MOST_DOF; ++d) {
+      free(m->of[d].coordinate);
+      free(m->of[d].weight);
+    }
+  }
+  free(f->members);
+  free(f->member_of);
+  free(f->x);
+  free(f->f);
+  free(f->jac);
+  free(f->directions);
+  free(f->product);
+  free(f);
+}
+
+/* ---- force ------------------------------------------------------------------------------------ */
+
+/* x[c] = sum of the coordinates' coefficients c. */
+static void gather(const contact_forces *f, const combination *of, const double *X, double *x)
+{
+  memset(x, 0, (size_t)f->length * sizeof *x);
+  for (int i = 0; i < of->n; ++i) {
+    const double weight = of->weight[i], *from = X + of->coordinate[i];
+    for (int c = 0; c < f->length; ++c) x[c] += weight * from[(size_t)c * (size_t)f->dim];
+  }
+}
+
+static void scatter(const contact_forces *f, const combination *of, const double *x, double *F)
+{
+  for (int i = 0; i < of->n; ++i) {
+    const double weight = of->weight[i];
+    double *to = F + of->coordinate[i];
+    for (int c = 0; c < f->length; ++c) to[(size_t)c * (size_t)f->dim] += weight * x[c];
+  }
+}
+
+static void add_report(contact_report *sum, const contact_report *one)
+{
+  if (one->regime > sum->regime) sum->regime = one->regime;
+  sum->transitions += one->transitions;
+  sum->free_sliders += one->free_sliders;
+}
+
+static hc_status evaluate(contact_forces *f, const double *X, double *F, bool derive, contact_report *report)
+{
+  hc_status st = HC_OK;
+  f->assembled = false;
+  *report = (contact_report){.regime = CONTACT_LINEAR};
+  memset(F, 0, (size_t)f->dim * (size_t)f->length * sizeof *F);
+  for (int j = 0; j < f->n_members && st == HC_OK; ++j) {
+    member *m = &f->members[j];
+    contact_report own;
+    for (int d = 0; d < m->n_dof; ++d) gather(f, &m->of[d], X, f->x + d * f->length);
+    st = m->by->evaluate(m->evaluator, f->x, f->f, derive ? m->jac : NULL, &own);
+    m->differentiated = derive && !m->by->jacobian;
+    for (int d = 0; d < m->n_dof && st == HC_OK; ++d) scatter(f, &m->of[d], f->f + d * f->length, F);
+    if (st == HC_OK) add_report(report, &own);
+  }
+  return st;
+}
+
+hc_status contact_forces_eval(contact_forces *f, const double *X, double *F, contact_report *report)
+{
+  return evaluate(f, X, F, true, report);
+}
+
+hc_status contact_forces_only(contact_forces *f, const double *X, double *F)
+{
+  contact_report report;
+  return evaluate(f, X, F, false, &report);
+}
+
+/* ---- Jacobian ---------------------------------------------------------------------------------- */
+
+/* One block of a member's Jacobian, from coordinate e of it to coordinate d. */
+static void scatter_block(contact_forces *f, const member *m, int d, int e)
+{
+  const size_t length = (size_t)f->length, dim = (size_t)f->dim, rows = (size_t)m->n_dof * length, ld = dim * length;
+  const combination *to = &m->of[d], *from = &m->of[e];
+  for (int k = 0; k < from->n; ++k)
+    for (int i = 0; i < to->n; ++i) {
+      const double weight = to->weight[i] * from->weight[k];
+      for (size_t q = 0; q < length; ++q) {
+        const double *column = m->jac + ((size_t)e * length + q) * rows + (size_t)d * length;
+        double *out = f->jac + (q * dim + (size_t)from->coordinate[k]) * ld + (size_t)to->coordinate[i];
+        for (size_t p = 0; p < length; ++p) out[p * dim] += weight * column[p];
+      }
+    }
+}
+
+static void scatter_members(contact_forces *f)
+{
+  const size_t n = (size_t)f->dim * (size_t)f->length;
+  memset(f->jac, 0, n * n * sizeof *f->jac);
+  for (int j = 0; j < f->n_members; ++j)
+    for (int d = 0; d < f->members[j].n_dof; ++d)
+      for (int e = 0; e < f->members[j].n_dof; ++e) scatter_block(f, &f->members[j], d, e);
+}
+
+/* Of one coefficient q of the motion: d(forces of all members)/dX, product[dim][length][n_rows]. */
+static void differentiate_forces(contact_forces *f, size_t q)
+{
+  const size_t length = (size_t)f->length, rows = (size_t)f->n_rows;
+  memset(f->product, 0, (size_t)f->dim * length * rows * sizeof *f->product);
+  size_t first = 0;
+  for (int j = 0; j < f->n_members; ++j) {
+    const member *m = &f->members[j];
+    const size_t n_dof = (size_t)m->n_dof;
+    for (size_t e = 0; e < n_dof; ++e)
+      for (int k = 0; k < m->of[e].n; ++k) {
+        const double weight = m->of[e].weight[k], *column = m->jac + (e * length + q) * n_dof * length;
+        double *out = f->product + (size_t)m->of[e].coordinate[k] * length * rows + first;
+        for (size_t p = 0; p < length; ++p)
+          for (size_t d = 0; d < n_dof; ++d) out[p * rows + d] += weight * column[d * length + p];
+      }
+    first += n_dof;
+  }
+}
+
+/* Where directions have most of the coordinates in them: B^T (J B), block by block. */
+static void multiply_members(contact_forces *f)
+{
+  const size_t n = (size_t)f->dim * (size_t)f->length;
+  for (int q = 0; q < f->length; ++q) {
+    differentiate_forces(f, (size_t)q);
+    dense_multiply(f->dim, f->length * f->dim, f->n_rows, f->directions, f->product,
+                   f->jac + (size_t)q * (size_t)f->dim * n);
+  }
+}
+
+const double *contact_forces_jacobian(contact_forces *f)
+{
+  if (f->assembled) return f->jac;
+  for (int j = 0; j < f->n_members; ++j) {
+    member *m = &f->members[j];
+    if (!m->differentiated) m->by->jacobian(m->evaluator, m->jac);
+    m->differentiated = true;
+  }
+  if (f->product) multiply_members(f);
+  else scatter_members(f);
+  f->assembled = true;
+  return f->jac;
+}
+
+/* ---- what was found ------------------------------------------------------------------------------ */
+
+void contact_forces_sliders(const contact_forces *f, double *w)
+{
+  for (int j = 0; j < f->n_members; ++j) f->members[j].by->sliders(f->members[j].evaluator, w + f->members[j].first);
+}
+
+static const member *member_of(const contact_forces *f, int j) { return &f->members[f->member_of[j]]; }
+
+const contact_piece *contact_forces_pieces(const contact_forces *f, int j, int *n)
+{
+  const member *m = member_of(f, j);
+  *n = 0;
+  return m->first == j ? m->by->intervals(m->evaluator, n) : NULL;
+}
+
+const planar_cycle *contact_forces_planar(const contact_forces *f, int j)
+{
+  const member *m = member_of(f, j);
+  return m->first == j && m->by->in_plane ? m->by->in_plane(m->evaluator) : NULL;
+}
+
+/* Of one coordinate both u and v may be multiples: d held/du is that by the coordinate over du/dx. */
+void contact_forces_held_by(const contact_forces *f, int j, const contact_piece *p, double by[2])
+{
+  const member *m = member_of(f, j);
+  by[0] = by[1] = 0;
+  for (int d = 0; d < m->n_dof && d < SERIES_MAX_DIM; ++d) {
+    if (m->cu[d] != 0) by[0] += p->held_by_x[d] / m->cu[d];
+    else if (m->cv[d] != 0) by[1] += p->held_by_x[d] / m->cv[d];
+  }
+}

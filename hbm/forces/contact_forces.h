@@ -1,0 +1,50 @@
+/* contact_forces.h - the harmonics of all contact forces on the coordinates q of a condensed structure. Each contact
+ * is evaluated in coordinates of its own, by located transitions or by samples (contact_kind.h), and its force is
+ * scattered back:
+ *
+ *     x = B q      F = sum over contacts B^T f(x)      dF/dq = sum B^T (df/dx) B
+ *
+ * Harmonics are ordered by coefficient, then by coordinate: X[c dim + d] is coefficient c (numerics/series.h) of
+ * coordinate d. */
+#ifndef HC_HBM_CONTACT_FORCES_H
+#define HC_HBM_CONTACT_FORCES_H
+
+#include "hbm/forces/contact_kind.h"
+#include "hbm/planar/planar_cycle.h"
+#include "hbm/structure/condensation.h"
+
+typedef struct contact_forces contact_forces;
+
+/* n contacts in q[dim], whose directions are copied; with a planar one the next, its second half, is not looked at.
+ * HC_BAD_INPUT, HC_NO_MEMORY: *out is NULL. */
+hc_status contact_forces_new_of(int dim, int n, const placed_contact *contacts, hbm_force force,
+                                const evaluator_settings *how, contact_forces **out);
+
+/* The contacts of m in the coordinates of c. */
+hc_status contact_forces_new(const model *m, const condensation *c, hbm_force force, const evaluator_settings *how,
+                             contact_forces **out);
+void contact_forces_free(contact_forces *f); /* NULL is allowed */
+
+/* F[dim (2H+1)] [force] at X [length]. Errors of the evaluators: exact_force_eval, planar_force_eval, aft_eval,
+ * planar_aft_eval. */
+hc_status contact_forces_eval(contact_forces *f, const double *X, double *F, contact_report *report);
+
+/* The same force alone, without what its Jacobian would need. */
+hc_status contact_forces_only(contact_forces *f, const double *X, double *F);
+
+/* dF/dX, [dim (2H+1)]^2 by columns, at the last evaluation, which ended with HC_OK; valid until the next one. */
+const double *contact_forces_jacobian(contact_forces *f);
+
+/* w[n_contacts] [length]: the sliders at th = 0 on the closed orbit of the last evaluation. */
+void contact_forces_sliders(const contact_forces *f, double *w);
+
+/* The intervals of contact j, of located forces only: of two tangents under one limit those of both at the first, none
+ * at the second. What held of one of them depends on: d held = by[0] du + by[1] dv at its origin. */
+const contact_piece *contact_forces_pieces(const contact_forces *f, int j, int *n);
+void contact_forces_held_by(const contact_forces *f, int j, const contact_piece *p, double by[2]);
+
+/* Of the contact with two tangents under one limit that j is the first half of: what the last evaluation found, of
+ * located forces only; NULL of any other contact. Valid until the next evaluation. */
+const planar_cycle *contact_forces_planar(const contact_forces *f, int j);
+
+#endif

@@ -1,0 +1,88 @@
+/* contact_kind.c - see contact_kind.h. */
+#include "hbm/forces/contact_kind.h"
+
+#include <math.h>
+
+#include "hbm/contact/aft.h"
+#include "hbm/contact/contact_measures.h"
+#include "hbm/contact/exact_force.h"
+#include "hbm/planar/planar_aft.h"
+#include "hbm/planar/planar_force.h"
+#include "hbm/planar/planar_measures.h"
+
+static bool is_zero(int n, const double *direction)
+{
+  for (int d = 0; d < n; ++d)
+    if (direction[d] != 0) return false;
+  return true;
+}
+
+static int largest_entry(int n, const double *direction)
+{
+  int largest = 0;
+  for (int d = 1; d < n; ++d)
+    if (fabs(direction[d]) > fabs(direction[largest])) largest = d;
+  return largest;
+}
+
+/* Is the normal a multiple of the tangent, which is not 0? To the last bit: what is nearly one has two coordinates. */
+static bool are_parallel(int n, const double *tangent, const double *normal)
+{
+  const int k = largest_entry(n, tangent);
+  for (int d = 0; d < n; ++d)
+    if (normal[d] * tangent[k] != normal[k] * tangent[d]) return false;
+  return true;
+}
+
+/* u and v, or the one coordinate that both are multiples of, in the size of q's entry that moves it most. A contact
+ * that nothing moves does nothing. */
+static void line_coordinates(const placed_contact *c, int dim, contact_coordinates *out)
+{
+  const bool along = contact_has_friction(&c->law) && !is_zero(dim, c->tangent);
+  *out = (contact_coordinates){.n_dof = 1, .divisor = {1, 1}, .moved = {.law = c->law}};
+  if (along && !are_parallel(dim, c->tangent, c->normal)) {
+    out->n_dof = 2;
+    out->direction[0] = c->tangent, out->direction[1] = c->normal;
+    out->moved.cu[0] = out->moved.cv[1] = 1;
+    return;
+  }
+  out->direction[0] = along ? c->tangent : c->normal;
+  if (is_zero(dim, out->direction[0])) return;
+  const int k = largest_entry(dim, out->direction[0]);
+  out->divisor[0] = out->direction[0][k];
+  out->moved.cu[0] = along ? c->tangent[k] : 0;
+  out->moved.cv[0] = c->normal[k];
+}
+
+/* u_1, u_2 and, where it moves the normal force, v. */
+static void plane_coordinates(const placed_contact *c, int dim, contact_coordinates *out)
+{
+  const bool across = c->law.kn > 0 && !is_zero(dim, c->normal);
+  *out = (contact_coordinates){.n_dof = across ? 3 : 2,
+                               .direction = {c->tangent, c->tangent_2, c->normal},
+                               .divisor = {1, 1, 1},
+                               .moved = {.law = c->law}};
+}
+
+static hc_status line_measures(const contact *law, int n_harm, const double *u, const double *u_2, const double *v,
+                               contact_period *out)
+{
+  (void)u_2;
+  return contact_measures_of(law, n_harm, u, v, out);
+}
+
+enum { LINE, PLANE };
+
+static const contact_kind kinds[] = {
+    [LINE] = {1, line_coordinates, &exact_force_evaluator, &aft_evaluator, line_measures},
+    [PLANE] = {2, plane_coordinates, &planar_force_evaluator, &planar_aft_evaluator, planar_measures_of},
+};
+
+const contact_kind *contact_kind_of(const placed_contact *c) { return &kinds[c->planar ? PLANE : LINE]; }
+
+placed_contact placed_contact_of(const model *m, int j)
+{
+  const model_contact *c = &m->contacts[j];
+  return (placed_contact){.law = c->law,
+                          .planar = c->circle && c->pair == CONTACT_FIRST && contact_has_friction(&c->law)};
+}

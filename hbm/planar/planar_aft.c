@@ -1,0 +1,506 @@
+/* planar_aft.c - see planar_aft.h; its Jacobian is in planar_aft_jacobian.c.
+ *   X -> u_1, u_2, v at th_i = 2 pi i/N -> r -> the slider from sample to sample (circle_slider.h) until it closes
+ *     -> T_1, T_2, N - N0 at th_i -> F
+ * A period maps w to w no farther apart. Once out of contact all is forgotten, and the second period is the orbit.
+ * Where contact is kept the periods contract as far as it slips, perhaps little: after a few of them Newton's step goes
+ * to where the period would close, w + (I - A)^-1 (w' - w), A = dw'/dw the product of the steps'. Where that does not
+ * bring it nearer, it is dragged on. FFTW does not normalise and uses exp(-i): see aft.c. */
+#include "hbm/planar/planar_aft.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/constants.h"
+#include "hbm/contact/fft_plan.h"
+#include "hbm/contact/force_jacobian.h"
+#include "hbm/planar/planar_slider.h"
+#include "numerics/series.h"
+
+enum { PLANAR_PLAIN_PASSES = 4 /* periods dragged before any is guessed */ };
+
+/* How the orbit of the last evaluation came about: what its slider depends on. */
+typedef enum planar_orbit {
+  PLANAR_CLOSED,  /* it slips or separates: the one closed orbit there is */
+  PLANAR_DRAGGED, /* stuck, where `passes` periods from w = 0 have left it */
+  PLANAR_GUESSED, /* stuck, where `passes` or more have, some of them guessed; `last` is where one began that slipped */
+  PLANAR_ONE_PASS /* one period from w = 0, whether it closes or not */
+} planar_orbit;
+
+struct planar_aft {
+  int n_dof, n_harm, n_time;
+  hbm_restart restart;
+  contact law;          /* of a half */
+  double *motion[3];    /* [n_time] u_1, u_2 and r (circle_slider.h), of a constant normal force the same everywhere */
+  double *traction[2];  /* [n_time] [force] */
+  double *sample;       /* [n_time] what is transformed */
+  fftw_complex *spec;   /* [n_time/2+1] consumed by to_time (c2r overwrites its input) */
+  fftw_plan to_time;    /* spec -> motion[0], and with FFTW's new-array calls to the others */
+  fftw_plan to_freq;    /* sample -> spec */
+  double complex *root; /* [n_time] exp(i th_i) */
+  unsigned char *move;  /* [n_time] planar_move that led to each sample, of the orbit */
+  planar_orbit orbit;
+  int passes;
+  double start[2]; /* slider before sample 0 on the orbit; of PLANAR_ONE_PASS 0 */
+  double last[2];  /* of PLANAR_GUESSED */
+  double first[2]; /* slider at sample 0 */
+  /* For the Jacobian; n_col = n_dof (2H+1) columns by X and two by the slider before sample 0. */
+  double *symbol;   /* [4H+1] */
+  double *basis[2]; /* [2H+1] harmonics at the sample before and at the one that is looked at */
+  double *held;     /* [2H+1] their sum since w moved last */
+  double *by[2];    /* [n_col] dw_1, dw_2 */
+  double *whole;    /* [2 (2H+1)][n_col] by columns: d(T_1, T_2) */
+};
+
+/* The first period is entered as slider.c does: out of contact, or with w = 0 put into the circle at sample 0. */
+static inline planar_sample planar_aft_sample(const planar_aft *a, int i)
+{
+  return (planar_sample){{a->motion[0][i], a->motion[1][i]}, a->motion[2][i]};
+}
+
+/* ---- made and freed ------------------------------------------------------------------------------ */
+
+static hc_status make_plans(planar_aft *a)
+{
+  hc_status st = fft_plan_to_samples(a->n_time, a->spec, a->motion[0], &a->to_time);
+  return st == HC_OK ? fft_plan_to_spectrum(a->n_time, a->sample, a->spec, &a->to_freq) : st;
+}
+
+static hc_status make_samples(planar_aft *a)
+{
+  const size_t n = (size_t)a->n_time;
+  bool room = true;
+  for (int d = 0; d < 3; ++d) room &= (a->motion[d] = fftw_alloc_real(n)) != NULL;
+  for (int d = 0; d < 2; ++d) room &= (a->traction[d] = calloc(n, sizeof(double))) != NULL;
+  room &= (a->sample = fftw_alloc_real(n)) != NULL;
+  room &= (a->spec = fftw_alloc_complex(n / 2 + 1)) != NULL;
+  room &= (a->root = malloc(n * sizeof *a->root)) != NULL;
+  room &= (a->move = calloc(n, sizeof *a->move)) != NULL;
+  if (!room) return HC_NO_MEMORY;
+  for (int i = 0; i < a->n_time; ++i) a->root[i] = cos(i * (TWO_PI / a->n_time)) + I * sin(i * (TWO_PI / a->n_time));
+  return HC_OK;
+}
+
+static hc_status make_tables(planar_aft *a)
+{
+  const size_t length = (size_t)series_length(a->n_harm), n_col = (size_t)a->n_dof * length + 2;
+  bool room = (a->symbol = calloc((size_t)force_jacobian_symbol_length(a->n_harm), sizeof(double))) != NULL;
+  for (int d = 0; d < 2; ++d) {
+    room &= (a->basis[d] = calloc(length, sizeof(double))) != NULL;
+    room &= (a->by[d] = calloc(n_col, sizeof(double))) != NULL;
+  }
+  room &= (a->held = calloc(length, sizeof(double))) != NULL;
+  room &= (a->whole = calloc(2 * length * n_col, sizeof(double))) != NULL;
+  return room ? HC_OK : HC_NO_MEMORY;
+}
+
+hc_status planar_aft_new(int n_harm, int n_time, hbm_restart restart, int n_dof, const contact *law, planar_aft **out)
+{
+  *out = NULL;
+  if (n_harm < 1 || n_harm > HBM_MAX_HARMONICS || n_time < 2 * n_harm + 1) return HC_BAD_INPUT;
+  if (n_dof < 2 || n_dof > 3 || !contact_has_friction(law)) return HC_BAD_INPUT;
+  planar_aft *a = calloc(1, sizeof *a);
+  if (!a) return HC_NO_MEMORY;
+  a->n_dof = n_dof;
+  a->n_harm = n_harm;
+  a->n_time = n_time;
+  a->restart = restart;
+  a->law = *law;
+  hc_status st = make_samples(a);
+  if (st == HC_OK) st = make_tables(a);
+  if (st == HC_OK) st = make_plans(a);
+  if (st == HC_OK) *out = a;
+  else planar_aft_free(a);
+  return st;
+}
+
+void planar_aft_free(planar_aft *a)
+{
+  if (!a) return;
+  fft_plan_free(a->to_time);
+  fft_plan_free(a->to_freq);
+  for (int d = 0; d < 3; ++d) fftw_free(a->motion[d]);
+  for (int d = 0; d < 2; ++d) {
+    free(a->traction[d]);
+    free(a->basis[d]);
+    free(a->by[d]);
+  }
+  fftw_free(a->sample);
+  fftw_free(a->spec);
+  free(a->root);
+  free(a->move);
+  free(a->symbol);
+  free(a->held);
+  free(a->whole);
+  free(a);
+}
+
+/* ---- samples and series ---------------------------------------------------------------------------- */
+
+static void to_samples(planar_aft *a, const double *X, double *samples)
+{
+  memset(a->spec, 0, ((size_t)a->n_time / 2 + 1) * sizeof *a->spec);
+  a->spec[0] = X[0];
+  for (int h = 1; h <= a->n_harm; ++h) a->spec[h] = 0.5 * (X[2 * h - 1] - I * X[2 * h]);
+  fftw_execute_dft_c2r(a->to_time, a->spec, samples);
+}
+
+/* Above N/2 a harmonic reads its alias, as the sampled sums themselves do. */
+static void planar_aft_to_series(planar_aft *a, int n_harm, double *out)
+{
+  const int n = a->n_time;
+  fftw_execute(a->to_freq);
+  out[0] = creal(a->spec[0]) / n;
+  for (int h = 1; h <= n_harm; ++h) {
+    const double complex z = h <= n / 2 ? a->spec[h] : conj(a->spec[n - h]);
+    out[2 * h - 1] = 2 * creal(z) / n;
+    out[2 * h] = -2 * cimag(z) / n;
+  }
+}
+
+/* F_v: the normal forces of both halves, less what they are at rest; a->sample gets them from v. */
+static void normal_to_series(planar_aft *a, double *F)
+{
+  for (int i = 0; i < a->n_time; ++i) a->sample[i] = 2 * contact_normal_change(&a->law, a->motion[2][i]);
+  planar_aft_to_series(a, a->n_harm, F);
+}
+
+/* motion[2] from v to r. */
+static void radius(planar_aft *a)
+{
+  const contact *law = &a->law;
+  const double per_v = law->mu * law->kn / law->kt, constant = law->mu * law->load / law->kt;
+  for (int i = 0; i < a->n_time; ++i) a->motion[2][i] = per_v * (a->motion[2][i] + law->gap) + constant;
+}
+
+/* ---- a period ------------------------------------------------------------------------------------- */
+
+static planar_move planar_aft_step(const planar_aft *a, int i, bool entering, double w[2], planar_slope *slope)
+{
+  const planar_sample from = planar_aft_sample(a, i ? i - 1 : a->n_time - 1), to = planar_aft_sample(a, i);
+  if (entering && i == 0 && from.r > 0 && to.r > 0) return planar_slider_enter(&to, w, slope);
+  return planar_slider_step(a->restart, &from, &to, w, slope);
+}
+
+/* A = slope.w A */
+static void chain(const planar_slope *slope, double A[2][2])
+{
+  for (int c = 0; c < 2; ++c) {
+    const double a0 = A[0][c], a1 = A[1][c];
+    for (int d = 0; d < 2; ++d) A[d][c] = slope->w[d][0] * a0 + slope->w[d][1] * a1;
+  }
+}
+
+typedef struct period {
+  bool slips, separates;
+  double A[2][2]; /* dw at the end/dw at the start; not where it separates and forgets */
+} period;
+
+/* Tractions and moves of one period, from w before sample 0 to w at the last one. */
+static period drag(planar_aft *a, bool entering, bool apart_somewhere, double w[2])
+{
+  period p = {.A = {{1, 0}, {0, 1}}};
+  planar_slope slope;
+  const bool differentiated = !(apart_somewhere && planar_slider_forgets(a->restart));
+  for (int i = 0; i < a->n_time; ++i) {
+    const planar_move move = planar_aft_step(a, i, entering, w, differentiated ? &slope : NULL);
+    const double kt = move == PLANAR_APART ? 0 : a->law.kt;
+    a->move[i] = (unsigned char)move;
+    for (int d = 0; d < 2; ++d) a->traction[d][i] = kt * (a->motion[d][i] - w[d]);
+    if (i == 0) memcpy(a->first, w, sizeof a->first);
+    p.slips |= move == PLANAR_SLIPPED;
+    p.separates |= move == PLANAR_APART;
+    if (differentiated && (move == PLANAR_SLIPPED || move == PLANAR_PLACED)) chain(&slope, p.A);
+  }
+  return p;
+}
+
+/* ---- until it closes -------------------------------------------------------------------------------- */
+
+static bool planar_aft_fixed_point(double A[2][2], const double b[2], double x[2])
+{
+  const double p = 1 - A[0][0], q = -A[0][1], r = -A[1][0], s = 1 - A[1][1], det = p * s - q * r;
+  if (!(fabs(det) > 1e-14)) return false;
+  const double b0 = b[0], b1 = b[1];
+  x[0] = (s * b0 - q * b1) / det;
+  x[1] = (p * b1 - r * b0) / det;
+  return true;
+}
+
+static bool separates_somewhere(const planar_aft *a)
+{
+  double least = a->motion[2][0];
+  for (int i = 1; i < a->n_time; ++i) least = fmin(least, a->motion[2][i]);
+  return !(least > 0);
+}
+
+/* What the orbit is, of which `p` was the last period and began at a->start. */
+static planar_orbit orbit_of(const period *p, bool guessed)
+{
+  if (p->slips || p->separates) return PLANAR_CLOSED;
+  return guessed ? PLANAR_GUESSED : PLANAR_DRAGGED;
+}
+
+/* Periods until one ends where it began, to `enough` [length]; at the end of the last one, to `most`. */
+static hc_status close_orbit(planar_aft *a, bool apart, double w[2], double enough, double most)
+{
+  double before = INFINITY, missed = INFINITY;
+  bool guessed = false, stepped = false;
+  for (a->passes = 1; a->passes < PLANAR_AFT_PASSES; ++a->passes) {
+    memcpy(a->start, w, sizeof a->start);
+    const period p = drag(a, false, apart, w);
+    const double step[2] = {w[0] - a->start[0], w[1] - a->start[1]};
+    missed = hypot(step[0], step[1]);
+    a->orbit = orbit_of(&p, guessed);
+    if (missed <= enough || (missed <= most && !(missed < 0.5 * before) && stepped)) return HC_OK;
+    if (p.slips) memcpy(a->last, a->start, sizeof a->last);
+    const bool guess = a->passes >= PLANAR_PLAIN_PASSES && (!stepped || missed < 0.5 * before);
+    before = missed;
+    double change[2];
+    stepped = guess && planar_aft_fixed_point((double(*)[2])p.A, step, change);
+    if (stepped)
+      for (int d = 0; d < 2; ++d) w[d] = a->start[d] + change[d];
+    guessed |= stepped;
+  }
+  return missed <= most ? HC_OK : HC_NOT_CLOSED;
+}
+
+static hc_status follow(planar_aft *a, double size)
+{
+  const bool apart = separates_somewhere(a);
+  const bool once = a->restart == HBM_RESTART_ONE_PASS || a->restart == HBM_RESTART_ONE_PASS_SAMPLE;
+  double w[2] = {0};
+  a->passes = 0;
+  a->orbit = PLANAR_ONE_PASS;
+  memset(a->start, 0, sizeof a->start);
+  drag(a, true, apart, w);
+  return once ? HC_OK : close_orbit(a, apart, w, 1e-15 * size, 1e-12 * (hypot(w[0], w[1]) + size));
+}
+
+/* ---- the force ---------------------------------------------------------------------------------------- */
+
+/* Of the state at each sample: not of contact, stuck, slipping. */
+static int state_of(unsigned char move) { return move == PLANAR_PLACED ? PLANAR_HELD : move; }
+
+static void fill_report(const planar_aft *a, contact_report *out)
+{
+  bool apart = false, touches = false, slips = false;
+  *out = (contact_report){.regime = CONTACT_STUCK};
+  for (int i = 0; i < a->n_time; ++i) {
+    apart |= a->move[i] == PLANAR_APART;
+    touches |= a->move[i] != PLANAR_APART;
+    slips |= a->move[i] == PLANAR_SLIPPED;
+    out->transitions += state_of(a->move[i]) != state_of(a->move[i ? i - 1 : a->n_time - 1]);
+  }
+  if (slips) out->regime = CONTACT_SLIPS;
+  if (apart) out->regime = touches ? CONTACT_SEPARATES : CONTACT_LINEAR;
+  out->free_sliders = out->regime == CONTACT_STUCK;
+}
+
+hc_status planar_aft_eval(planar_aft *a, const double *X, double *F, contact_report *report)
+{
+  const int length = series_length(a->n_harm);
+  double size = 0; /* bounds |u| and |v| */
+  for (int i = 0; i < a->n_dof * length; ++i) size += fabs(X[i]);
+  if (!isfinite(size)) return HC_NOT_FINITE;
+  for (int d = 0; d < a->n_dof; ++d) to_samples(a, X + d * length, a->motion[d]);
+  if (a->n_dof == 2) memset(a->motion[2], 0, (size_t)a->n_time * sizeof(double));
+  if (a->n_dof == 3) normal_to_series(a, F + 2 * length);
+  radius(a);
+  const hc_status st = follow(a, size);
+  if (st != HC_OK) return st;
+  for (int d = 0; d < 2; ++d) {
+    memcpy(a->sample, a->traction[d], (size_t)a->n_time * sizeof(double));
+    planar_aft_to_series(a, a->n_harm, F + d * length);
+  }
+  if (report) fill_report(a, report);
+  return HC_OK;
+}
+
+void planar_aft_slider(const planar_aft *a, double w[2]) { memcpy(w, a->first, sizeof a->first); }
+
+static int columns(const planar_aft *a) { return a->n_dof * series_length(a->n_harm); }
+
+/* basis[m] = harmonic m at sample i. */
+static void harmonics_at(const planar_aft *a, int i, double *basis)
+{
+  int at = 0;
+  basis[0] = 1;
+  for (int h = 1; h <= a->n_harm; ++h) {
+    if ((at += i) >= a->n_time) at -= a->n_time;
+    basis[2 * h - 1] = creal(a->root[at]);
+    basis[2 * h] = cimag(a->root[at]);
+  }
+}
+
+/* by = slope of the step applied to it, and to the motion at the samples before and after. */
+static void carry(planar_aft *a, const planar_slope *s)
+{
+  const int length = series_length(a->n_harm), n = columns(a);
+  const double radius = a->law.mu * a->law.kn / a->law.kt;
+  double *by[2] = {a->by[0], a->by[1]};
+  for (int q = 0; q < n + 2; ++q) {
+    const double b0 = by[0][q], b1 = by[1][q];
+    for (int d = 0; d < 2; ++d) by[d][q] = s->w[d][0] * b0 + s->w[d][1] * b1;
+  }
+  for (int d = 0; d < 2; ++d)
+    for (int c = 0; c < a->n_dof; ++c) {
+      const double weight = c < 2 ? 1 : radius, from = weight * s->from[d][c], to = weight * s->to[d][c];
+      double *row = by[d] + c * length;
+      for (int m = 0; m < length; ++m) row[m] += from * a->basis[0][m] + to * a->basis[1][m];
+    }
+}
+
+/* whole -= kt dw at the samples whose harmonics add up to `sum`. */
+static void subtract(planar_aft *a, const double *restrict sum)
+{
+  const int length = series_length(a->n_harm), n = columns(a) + 2;
+  const double scale = 2 * a->law.kt / a->n_time;
+  for (int q = 0; q < n; ++q)
+    for (int d = 0; d < 2; ++d) {
+      double *restrict to = a->whole + ((size_t)q * 2 + (size_t)d) * (size_t)length;
+      const double weight = scale * a->by[d][q];
+      if (weight == 0) continue;
+      to[0] -= 0.5 * weight * sum[0];
+      for (int m = 1; m < length; ++m) to[m] -= weight * sum[m];
+    }
+}
+
+static void subtract_held(planar_aft *a)
+{
+  const size_t bytes = (size_t)series_length(a->n_harm) * sizeof(double);
+  subtract(a, a->held);
+  memset(a->held, 0, bytes);
+}
+
+static void clear_rows(planar_aft *a)
+{
+  for (int d = 0; d < 2; ++d) memset(a->by[d], 0, ((size_t)columns(a) + 2) * sizeof(double));
+}
+
+/* One step to sample i, whose harmonics are in basis[1]; with `forces`, what T does there. */
+static void differentiate_step(planar_aft *a, int i, planar_move move, const planar_slope *slope, bool forces)
+{
+  const int length = series_length(a->n_harm);
+  if (move != PLANAR_HELD && forces) subtract_held(a);
+  if (move == PLANAR_APART && planar_slider_forgets(a->restart)) clear_rows(a);
+  if (move == PLANAR_SLIPPED || move == PLANAR_PLACED) {
+    harmonics_at(a, i ? i - 1 : a->n_time - 1, a->basis[0]);
+    carry(a, slope);
+  }
+  if (!forces) return;
+  if (move == PLANAR_SLIPPED) subtract(a, a->basis[1]);
+  else if (move != PLANAR_APART)
+    for (int m = 0; m < length; ++m) a->held[m] += a->basis[1][m];
+}
+
+/* The rows carried on over a period that begins with the slider w. */
+static void differentiate_period(planar_aft *a, bool entering, double w[2], bool forces)
+{
+  planar_slope slope;
+  for (int i = 0; i < a->n_time; ++i) {
+    const planar_move move = planar_aft_step(a, i, entering, w, &slope);
+    harmonics_at(a, i, a->basis[1]);
+    differentiate_step(a, i, move, &slope, forces);
+  }
+  if (forces) subtract_held(a);
+}
+
+static void start_rows(planar_aft *a)
+{
+  clear_rows(a);
+  a->by[0][columns(a)] = a->by[1][columns(a) + 1] = 1;
+}
+
+/* by[d][q] of X = that of the slider which a period with these rows brings back to where it was. False where any comes
+ * back. */
+static bool close_rows(planar_aft *a)
+{
+  const int n = columns(a);
+  double A[2][2] = {{a->by[0][n], a->by[0][n + 1]}, {a->by[1][n], a->by[1][n + 1]}};
+  bool closed = true;
+  for (int q = 0; q < n && closed; ++q) {
+    double b[2] = {a->by[0][q], a->by[1][q]};
+    closed = planar_aft_fixed_point(A, b, b);
+    a->by[0][q] = b[0];
+    a->by[1][q] = b[1];
+  }
+  return closed;
+}
+
+/* by = dw_0/dX of an orbit that sticks. */
+static void rows_of_history(planar_aft *a)
+{
+  double w[2] = {0};
+  if (a->orbit == PLANAR_GUESSED) {
+    memcpy(w, a->last, sizeof w);
+    start_rows(a);
+    differentiate_period(a, false, w, false);
+    if (close_rows(a)) return;
+    w[0] = w[1] = 0;
+  }
+  clear_rows(a);
+  for (int pass = 0; pass < a->passes; ++pass) differentiate_period(a, pass == 0, w, false);
+}
+
+/* The columns by the slider before sample 0, times what that depends on. */
+static void add_start(planar_aft *a)
+{
+  const int n = columns(a), rows = 2 * series_length(a->n_harm);
+  const double *by_start[2] = {a->whole + (size_t)n * (size_t)rows, a->whole + ((size_t)n + 1) * (size_t)rows};
+  for (int q = 0; q < n; ++q)
+    for (int d = 0; d < 2; ++d) {
+      const double weight = a->by[d][q];
+      double *to = a->whole + (size_t)q * (size_t)rows;
+      for (int p = 0; p < rows && weight != 0; ++p) to[p] += weight * by_start[d][p];
+    }
+}
+
+/* jac += the matrix of a stiffness that acts at the samples in contact, from a coordinate to its own force. */
+static void add_contact_stiffness(planar_aft *a, double stiffness, int d, double *jac)
+{
+  const size_t length = (size_t)series_length(a->n_harm), ld = (size_t)columns(a);
+  for (int i = 0; i < a->n_time; ++i) a->sample[i] = a->move[i] == PLANAR_APART ? 0 : stiffness;
+  planar_aft_to_series(a, 2 * a->n_harm, a->symbol);
+  force_jacobian_add(a->n_harm, a->symbol, (int)ld, jac + (ld + 1) * (size_t)d * length);
+}
+
+void planar_aft_jacobian(planar_aft *a, double *jac)
+{
+  const size_t n = (size_t)columns(a), rows = 2 * (size_t)series_length(a->n_harm);
+  double w[2] = {a->start[0], a->start[1]};
+  memset(a->whole, 0, rows * (n + 2) * sizeof(double));
+  start_rows(a);
+  differentiate_period(a, a->orbit == PLANAR_ONE_PASS, w, true);
+  const bool closed = a->orbit == PLANAR_CLOSED && close_rows(a);
+  if (a->orbit == PLANAR_ONE_PASS) clear_rows(a);
+  else if (!closed) rows_of_history(a);
+  add_start(a);
+  memset(jac, 0, n * n * sizeof(double));
+  for (size_t q = 0; q < n; ++q) memcpy(jac + q * n, a->whole + q * rows, rows * sizeof(double));
+  for (int d = 0; d < 2; ++d) add_contact_stiffness(a, a->law.kt, d, jac);
+  if (a->n_dof == 3) add_contact_stiffness(a, 2 * a->law.kn, 2, jac);
+}
+
+/* ---- as one of contact_evaluator.h -------------------------------------------------------------------- */
+
+static hc_status make(const contact_coordinates *c, const evaluator_settings *how, void **self)
+{
+  planar_aft *a;
+  const hc_status st = planar_aft_new(how->n_harm, how->n_time, how->restart, c->n_dof, &c->moved.law, &a);
+  *self = a;
+  return st;
+}
+
+static hc_status evaluate(void *self, const double *X, double *F, double *jac, contact_report *report)
+{
+  (void)jac; /* `jacobian` makes it */
+  return planar_aft_eval(self, X, F, report);
+}
+
+static void let_go(void *self) { planar_aft_free(self); }
+static void jacobian(void *self, double *jac) { planar_aft_jacobian(self, jac); }
+static void sliders(const void *self, double *w) { planar_aft_slider(self, w); }
+
+const contact_evaluator planar_aft_evaluator = {
+    .make = make, .free = let_go, .evaluate = evaluate, .jacobian = jacobian, .sliders = sliders};

@@ -1,0 +1,29 @@
+/* planar_corner.h - where a slider that marching drags for ever, less and less, comes to rest. The circles of all
+ * instants hold it, one of them at th_1 and one at th_2 by little: their region is a thin lens, and going to and fro
+ * between the two it creeps to the lens's corner,
+ *
+ *     h_i = |u(th_i) - w| - R(th_i) = 0,      dh_i/dth = u'.e_i - R' = 0,      e_i = (u - w)/|u - w|,      i = 1, 2
+ *
+ * a period's slip shrinking by the square of the lens's half angle: passes, and Newton on them, would be as inexact as
+ * rounding over that square. By these equations it is rounding over the angle. libm only, nothing is allocated. */
+#ifndef HC_HBM_PLANAR_CORNER_H
+#define HC_HBM_PLANAR_CORNER_H
+
+#include <stdbool.h>
+
+#include "hbm/planar/planar_motion.h"
+
+typedef struct planar_corner {
+  double w[2];        /* [length] */
+  planar_point at[2]; /* where it touches */
+  double e[2][2];     /* direction of u - w there */
+} planar_corner;
+
+/* Newton from w, outside both circles or one of them, and th [rad] near which |u - w| - R is largest. False: the two
+ * have no corner on that side. Other instants' circles are not looked at. */
+bool planar_corner_find(const planar_motion *m, const double w[2], const double th[2], planar_corner *out);
+
+/* dw = what the corner moves by where h_1 and h_2 grow by these at a fixed w: e_i.dw = grows_i, grows = e.du - dR. */
+void planar_corner_move(const planar_corner *c, const double grows[2], double dw[2]);
+
+#endif

@@ -1,0 +1,394 @@
+/* planar_cycle.c - see planar_cycle.h. */
+#include "hbm/planar/planar_cycle.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#include "base/constants.h"
+#include "hbm/planar/planar_shift.h"
+#include "hbm/planar/planar_stick.h"
+
+static const double LITTLE_SLIP = 0.2; /* [rad] of a period */
+enum { MAX_CHANGES_PER_HARMONIC = 64, MAX_CHANGES_AT_ANGLE = 3, MAX_NEWTON = 20, MAX_PASSES = 500 };
+
+/* The slider while it is followed. */
+typedef struct slider {
+  bool slips;
+  double w[2], dw[2][2]; /* while it sticks: position and d w/d w0 */
+  double phi, dphi[2];   /* while it slips: direction and d phi/d w0 */
+  planar_begin begin;    /* of the piece under way */
+} slider;
+
+/* ---- changes of state ------------------------------------------------------------------------------ */
+
+/* It begins to slip at a limit R where u - w has this length: d phi = -e_perp . dw/length. */
+static void set_direction(slider *k, const planar_point *at)
+{
+  const double t1 = at->u[0] - k->w[0], t2 = at->u[1] - k->w[1], length = hypot(t1, t2);
+  k->phi = atan2(t2, t1);
+  for (int j = 0; j < 2; ++j) k->dphi[j] = length > 0 ? (t2 * k->dw[0][j] - t1 * k->dw[1][j]) / (length * length) : 0;
+}
+
+/* w = u - R e. */
+static void set_position(slider *k, const planar_point *at)
+{
+  const double cosine = cos(k->phi), sine = sin(k->phi);
+  k->w[0] = at->u[0] - at->R * cosine;
+  k->w[1] = at->u[1] - at->R * sine;
+  for (int j = 0; j < 2; ++j) {
+    k->dw[0][j] = at->R * sine * k->dphi[j];
+    k->dw[1][j] = -at->R * cosine * k->dphi[j];
+  }
+}
+
+/* Does a slider at the limit slip? Where it moves neither way to rounding, if it is about to. */
+static bool slips_at_limit(const planar_cycle *c, const planar_point *at, double phi)
+{
+  const double noise = 16 * DBL_EPSILON * (c->m->of_u[1] + c->m->of_R[1]), speed = planar_slip_speed(at, phi);
+  return speed > noise || (speed > -noise && planar_slip_acceleration(c->m, at, phi) > 0);
+}
+
+/* Stick has reached its limit at `at`: slip, or stick with the slider moved to the limit where |u - w| exceeds it by
+ * rounding and decreases already. */
+static void leave_stick(const planar_cycle *c, slider *k, const planar_point *at)
+{
+  const double dw[2][2] = {{k->dw[0][0], k->dw[0][1]}, {k->dw[1][0], k->dw[1][1]}};
+  set_direction(k, at);
+  k->slips = slips_at_limit(c, at, k->phi);
+  if (k->slips) return;
+  set_position(k, at);
+  memcpy(k->dw, dw, sizeof dw);
+}
+
+static void touch_down(slider *k, const planar_point *at)
+{
+  *k = (slider){.begin = PLANAR_TOUCHES, .w = {at->u[0], at->u[1]}};
+  k->slips = hypot(at->du[0], at->du[1]) > at->dR;
+  k->phi = atan2(at->du[1], at->du[0]);
+}
+
+/* At th = 0 from w, put into the circle. */
+static void start(const planar_cycle *c, slider *k, const double w[2])
+{
+  const planar_point *at = &c->grid[0];
+  *k = (slider){.begin = PLANAR_STARTS, .w = {w[0], w[1]}, .dw = {{1, 0}, {0, 1}}};
+  const double beyond = hypot(at->u[0] - w[0], at->u[1] - w[1]) - at->R;
+  if (beyond < -4 * planar_motion_noise(c->m)) return;
+  set_direction(k, at);
+  k->slips = slips_at_limit(c, at, k->phi);
+  if (k->slips || beyond > 0) set_position(k, at);
+}
+
+/* ---- from change to change --------------------------------------------------------------------------- */
+
+static hc_status close_piece(planar_cycle *c, slider *k, double from, double to, int first_panel)
+{
+  if (!(to > from)) return HC_OK;
+  if (c->n == c->cap) return HC_CHATTER;
+  c->piece[c->n++] = (planar_piece){.from = from,
+                                    .to = to,
+                                    .state = k->slips ? CONTACT_SLIP_PLUS : CONTACT_STICK,
+                                    .begin = k->begin,
+                                    .w = {k->w[0], k->w[1]},
+                                    .panel = first_panel,
+                                    .n_panels = k->slips ? c->slip.n - first_panel : 0};
+  k->begin = PLANAR_GOES_ON;
+  return HC_OK;
+}
+
+/* Stick from *at to its end; *at moves there. */
+static hc_status stick(planar_cycle *c, slider *k, planar_point *at, double to)
+{
+  planar_point root;
+  const bool ends = planar_stick_ends(c->m, c->grid, k->w, at, to, &root);
+  const hc_status st = close_piece(c, k, at->th, ends ? root.th : to, 0);
+  if (ends) *at = root;
+  else *at = planar_motion_at(c->m, to);
+  if (ends) leave_stick(c, k, at);
+  return st;
+}
+
+static hc_status slip(planar_cycle *c, slider *k, planar_point *at, double to)
+{
+  const int first = c->slip.n;
+  slip_end end;
+  hc_status st = planar_slip_follow(&c->slip, at, k->phi, to, !c->always, &end);
+  if (st == HC_OK) st = close_piece(c, k, at->th, end.at.th, first);
+  for (int i = first; i < c->slip.n; ++i)
+    for (int j = 0; j < 2; ++j) k->dphi[j] *= c->slip.panel[i].growth;
+  *at = end.at;
+  k->phi = end.phi;
+  k->slips = !end.rests;
+  if (end.rests) set_position(k, at);
+  return st;
+}
+
+/* Where u - w, R and their rates are 0 to rounding, which state follows cannot be told there, but a little later: the
+ * search goes on from that angle in stick, the slider put into the circle. */
+static void skip_degenerate(const planar_cycle *c, slider *k, planar_point *at, double to)
+{
+  const double little = 1e-8;
+  if (k->slips) set_position(k, at);
+  *at = planar_motion_at(c->m, fmin(at->th + little, to));
+  k->slips = false;
+  if (!(hypot(at->u[0] - k->w[0], at->u[1] - k->w[1]) > at->R)) return;
+  set_direction(k, at);
+  set_position(k, at);
+}
+
+/* In contact from *at to the angle `to`. */
+static hc_status follow(planar_cycle *c, slider *k, planar_point at, double to)
+{
+  hc_status st = HC_OK;
+  for (int repeated = 0; st == HC_OK && at.th < to;) {
+    const double before = at.th;
+    st = k->slips ? slip(c, k, &at, to) : stick(c, k, &at, to);
+    repeated = at.th - before > 4 * DBL_EPSILON * (1 + before) ? 0 : repeated + 1;
+    if (repeated > MAX_CHANGES_AT_ANGLE) skip_degenerate(c, k, &at, to);
+    if (++c->changes > MAX_CHANGES_PER_HARMONIC * (c->m->n_harm + 1)) st = HC_CHATTER;
+  }
+  if (k->slips) set_position(k, &at);
+  return st;
+}
+
+/* ---- passes ------------------------------------------------------------------------------------------ */
+
+static void begin_pass(planar_cycle *c)
+{
+  c->n = 0;
+  c->slip.n = 0;
+  c->changes = 0;
+}
+
+hc_status planar_cycle_pass(planar_cycle *c, double w[2], double A[2][2])
+{
+  slider k;
+  begin_pass(c);
+  c->start[0] = w[0], c->start[1] = w[1];
+  start(c, &k, w);
+  const hc_status st = follow(c, &k, c->grid[0], TWO_PI);
+  w[0] = k.w[0], w[1] = k.w[1];
+  if (A) memcpy(A, k.dw, sizeof k.dw);
+  return st;
+}
+
+static hc_status follow_contacts(planar_cycle *c)
+{
+  hc_status st = HC_OK;
+  begin_pass(c);
+  for (int i = 0; i < c->n_contacts && st == HC_OK; ++i) {
+    const planar_point at = planar_motion_at(c->m, c->contact[i].from);
+    slider k;
+    touch_down(&k, &at);
+    st = follow(c, &k, at, c->contact[i].to);
+  }
+  return st;
+}
+
+static bool slips(const planar_cycle *c)
+{
+  for (int i = 0; i < c->n; ++i)
+    if (c->piece[i].state != CONTACT_STICK) return true;
+  return false;
+}
+
+/* (1 - A)^-1 r into r; as it is where that does not exist, or is longer than `most`. */
+static void solve_fixed_point(double A[2][2], double most, double r[2])
+{
+  const double a = 1 - A[0][0], b = -A[0][1], d = -A[1][0], e = 1 - A[1][1], det = a * e - b * d;
+  const double x = (e * r[0] - b * r[1]) / det, y = (a * r[1] - d * r[0]) / det;
+  if (fabs(det) > DBL_EPSILON && hypot(x, y) <= most) r[0] = x, r[1] = y;
+}
+
+/* [length] */
+static double size_of(const planar_cycle *c) { return c->m->of_u[0] + c->m->of_R[0]; }
+
+static double length_of(const double x[2]) { return hypot(x[0], x[1]); }
+
+typedef struct closing {
+  double w[2], end[2], distance; /* [length] start of a pass and its end; from one to the other */
+  double step[2];                /* to go on with */
+  double left;                   /* [1] of a difference at the start, at the end: a bound */
+} closing;
+
+static hc_status try_from(planar_cycle *c, const double w[2], closing *out)
+{
+  double A[2][2], end[2] = {w[0], w[1]};
+  const hc_status st = planar_cycle_pass(c, end, A);
+  *out = (closing){.w = {w[0], w[1]}, .end = {end[0], end[1]}, .step = {end[0] - w[0], end[1] - w[1]}};
+  out->distance = hypot(out->step[0], out->step[1]);
+  out->left = hypot(hypot(A[0][0], A[0][1]), hypot(A[1][0], A[1][1]));
+  solve_fixed_point(A, size_of(c), out->step);
+  return st;
+}
+
+/* The next of Newton's iterates, or a part of the way to it if it does not slip any more from there: then every slider
+ * is free near by, and the orbit looked for is the last one that slips, to which marching creeps. *out is unchanged if
+ * no part of the way does. */
+static hc_status take_step(planar_cycle *c, const closing *now, bool damped, closing *out)
+{
+  const double rounding = 8 * DBL_EPSILON * size_of(c);
+  hc_status st = HC_OK;
+  *out = *now;
+  for (double part = 1; st == HC_OK && part * length_of(now->step) > rounding; part /= 2) {
+    closing next;
+    st = try_from(c, (double[2]){now->w[0] + part * now->step[0], now->w[1] + part * now->step[1]}, &next);
+    if (st != HC_OK || slips(c)) {
+      *out = next;
+      return st;
+    }
+    if (!damped) return HC_OK;
+  }
+  return st;
+}
+
+/* Newton from the last pass until the distance does not become less; *closed if it has become little and the slider
+ * still slips. */
+static hc_status close_by_newton(planar_cycle *c, closing now, bool damped, bool *closed)
+{
+  const double rounding = 64 * DBL_EPSILON * size_of(c), enough = 1e-11 * size_of(c);
+  closing next;
+  hc_status st = HC_OK;
+  *closed = false;
+  for (int i = 0; i < MAX_NEWTON && st == HC_OK && length_of(now.step) > rounding && slips(c); ++i) {
+    const bool last_pass = c->start[0] == now.w[0] && c->start[1] == now.w[1], forgets = now.left <= 0.5;
+    *closed = c->may_shift && last_pass && forgets && planar_shift(c, now.step);
+    if (*closed) return HC_OK;
+    st = take_step(c, &now, damped, &next);
+    if (st != HC_OK || (!slips(c) && !(now.distance <= enough))) return st;
+    const bool better = next.distance < now.distance;
+    if (better || next.distance <= enough || !(now.distance <= enough)) now = next;
+    if (!better && now.distance <= enough) break;
+  }
+  *closed = st == HC_OK && now.distance <= enough && slips(c);
+  if (*closed && (c->start[0] != now.w[0] || c->start[1] != now.w[1])) st = try_from(c, now.w, &now);
+  *closed = *closed && slips(c);
+  return st;
+}
+
+/* Pass by pass from w = 0; *ended where the last pass does not slip (c->marched passes before it did), or comes back to
+ * where it began, to rounding. */
+static hc_status march(planar_cycle *c, int passes, closing *last, bool *ended)
+{
+  const double rounding = 8 * DBL_EPSILON * size_of(c);
+  hc_status st = HC_OK;
+  *last = (closing){.distance = 0};
+  *ended = false;
+  for (int i = 0; i < passes && st == HC_OK && !*ended; ++i) {
+    st = try_from(c, (double[2]){last->end[0], last->end[1]}, last);
+    const bool free = st == HC_OK && !slips(c);
+    if (free) c->marched = i;
+    *ended = free || (i > 0 && last->distance <= rounding);
+  }
+  return st;
+}
+
+/* Ends of slip into th[2], if the last pass has two, after so little slip that circles may share a lens. */
+static bool two_touches(const planar_cycle *c, double th[2])
+{
+  int found = 0;
+  double slipped = 0;
+  for (int i = 0; i < c->n; ++i) {
+    if (c->piece[i].state == CONTACT_STICK) continue;
+    slipped += c->piece[i].to - c->piece[i].from;
+    if (c->piece[(i + 1) % c->n].state != CONTACT_STICK) continue;
+    if (found < 2) th[found] = c->piece[i].to;
+    ++found;
+  }
+  return found == 2 && slipped <= LITTLE_SLIP;
+}
+
+/* The corner that marching creeps to from w, if there is one and the circles of all other instants hold it, too. Else
+ * the last pass is as it was. */
+static hc_status rest_in_corner(planar_cycle *c, const double w[2], bool *rests)
+{
+  planar_corner corner;
+  double th[2];
+  *rests = false;
+  if (!two_touches(c, th) || !planar_corner_find(c->m, w, th, &corner)) return HC_OK;
+  double end[2] = {corner.w[0], corner.w[1]}, before[2] = {c->start[0], c->start[1]};
+  const hc_status st = planar_cycle_pass(c, end, NULL);
+  *rests = st == HC_OK && hypot(end[0] - corner.w[0], end[1] - corner.w[1]) <= 64 * DBL_EPSILON * size_of(c);
+  if (!*rests) return st == HC_OK ? planar_cycle_pass(c, before, NULL) : st;
+  c->cornered = true;
+  c->corner = corner;
+  c->n = 1;
+  c->slip.n = 0;
+  c->piece[0] = (planar_piece){.to = TWO_PI, .state = CONTACT_STICK, .w = {corner.w[0], corner.w[1]}};
+  return HC_OK;
+}
+
+/* The first pass as far as what is left of it after the second matters, which is little: where that one slips, too, it
+ * goes on from an angle or a place that is off by the rough panels' error times what slip leaves of it. */
+static hc_status begin_roughly(planar_cycle *c, closing *last, bool *ended)
+{
+  c->slip.resolved = PLANAR_ROUGH;
+  hc_status st = try_from(c, (double[2]){0}, last);
+  c->slip.resolved = PLANAR_RESOLVED;
+  c->slip.width *= pow(PLANAR_RESOLVED / PLANAR_ROUGH, 1.0 / COLLOCATION_POINTS);
+  *ended = st == HC_OK && !slips(c);
+  if (*ended) c->marched = 0;
+  if (*ended || st != HC_OK) return st;
+  st = try_from(c, (double[2]){last->end[0], last->end[1]}, last);
+  *ended = st == HC_OK && slips(c) && last->distance <= 8 * DBL_EPSILON * size_of(c);
+  return st;
+}
+
+/* A few passes as they come tell whether it goes on slipping; Newton ends what does. Where Newton comes upon an orbit
+ * that does not slip, that is not the one that marching leads to: more passes, and Newton that stays where it slips. */
+static hc_status settle(planar_cycle *c)
+{
+  static const int passes[] = {0, 30, MAX_PASSES};
+  closing last;
+  bool done = false;
+  hc_status st = HC_OK;
+  for (int i = 0; i < 3 && st == HC_OK && !done; ++i) {
+    st = i == 0 ? begin_roughly(c, &last, &done) : march(c, passes[i], &last, &done);
+    if (st == HC_OK && !done) st = rest_in_corner(c, last.end, &done);
+    if (st != HC_OK || done || i == 2) continue;
+    st = close_by_newton(c, last, i > 0, &done);
+    bool rests;
+    if (st == HC_OK && done) st = rest_in_corner(c, c->start, &rests);
+  }
+  return st == HC_OK && !done ? HC_NOT_CLOSED : st;
+}
+
+hc_status planar_cycle_find(planar_cycle *c)
+{
+  c->marched = -1;
+  c->cornered = false;
+  c->slip.resolved = PLANAR_RESOLVED;
+  return c->always ? settle(c) : follow_contacts(c);
+}
+
+/* ---- what was found ------------------------------------------------------------------------------------ */
+
+contact_regime planar_cycle_regime(const planar_cycle *c)
+{
+  if (c->n_contacts == 0) return CONTACT_LINEAR;
+  if (!c->always) return CONTACT_SEPARATES;
+  return slips(c) ? CONTACT_SLIPS : CONTACT_STUCK;
+}
+
+void planar_cycle_slider(const planar_cycle *c, double w[2])
+{
+  const planar_point *zero = &c->grid[0];
+  w[0] = zero->u[0], w[1] = zero->u[1];
+  for (int i = 0; i < c->n; ++i) {
+    const planar_piece *p = &c->piece[i];
+    if (p->from > 0 && p->to < TWO_PI) continue;
+    if (p->state == CONTACT_STICK) {
+      w[0] = p->w[0], w[1] = p->w[1];
+      return;
+    }
+    const double th = p->from > 0 ? TWO_PI : 0;
+    for (int k = p->panel; k < p->panel + p->n_panels; ++k) {
+      const planar_panel *q = &c->slip.panel[k];
+      if (th < q->from || th > q->to) continue;
+      const double phi = planar_panel_angle(c->slip.c, q, th);
+      w[0] = zero->u[0] - zero->R * cos(phi), w[1] = zero->u[1] - zero->R * sin(phi);
+    }
+    return;
+  }
+}

@@ -1,0 +1,67 @@
+/* planar_cycle.h - one period of a contact of two tangents with one limit, from a motion: when it sticks and slips,
+ * and the closed orbit of its slider.
+ *
+ * Where contact is lost, touch-down puts the slider at w = u and one pass is enough. Else it starts from w = 0, put
+ * into the circle at once, and is marched. A pass maps w(0) to w(2 pi) without expanding distances, for w is dragged
+ * by a moving convex set (Moreau 1977, J. Differential Equations 26, 347-374); that is no clamp, and repeats itself in
+ * the limit only. So the closed orbit is found by Newton on w(0), with the 2x2 derivative of the pass; the first pass,
+ * of which the second forgets nearly all, is a rough one, and the last step is to first order where that is wanted
+ * (planar_shift.h). A slider that does not slip after some pass stays where marching left it; one that is dragged to
+ * and fro by two circles that only just leave it room is brought where that ends (planar_corner.h). libm only, nothing
+ * is allocated. */
+#ifndef HC_HBM_PLANAR_CYCLE_H
+#define HC_HBM_PLANAR_CYCLE_H
+
+#include "base/status.h"
+#include "hbm/planar/planar_corner.h"
+#include "hbm/planar/planar_motion.h"
+#include "hbm/planar/planar_slip.h"
+
+/* What a piece begins with: the period (w = w0, put into the circle), touch-down (w = u), or the end of the piece
+ * before it. */
+typedef enum planar_begin { PLANAR_STARTS, PLANAR_TOUCHES, PLANAR_GOES_ON } planar_begin;
+
+/* A stretch of the period in one state; an angle that no piece covers is separated. */
+typedef struct planar_piece {
+  double from, to;     /* [rad] from < to <= from + 2 pi */
+  contact_state state; /* CONTACT_STICK, or CONTACT_SLIP_PLUS whatever the direction of slip */
+  planar_begin begin;
+  double w[2];         /* [length] the slider while it sticks */
+  int panel, n_panels; /* of the cycle's panels, while it slips */
+} planar_piece;
+
+/* A stretch of contact, [rad]; of one that lasts for ever from 0 to 2 pi. */
+typedef struct planar_contact {
+  double from, to;
+} planar_contact;
+
+typedef struct planar_cycle {
+  const planar_motion *m;
+  const planar_point *grid; /* of planar_motion_grid */
+  bool always;              /* never separated: then n_contacts is 1 */
+  bool may_shift;           /* the last step to where it closes may be to first order (planar_shift.h) */
+  int n_contacts;
+  const planar_contact *contact; /* [n_contacts] ascending */
+  planar_piece *piece;           /* [cap] room */
+  int n, cap;                    /* pieces found */
+  planar_slip slip;              /* its panels */
+  double start[2];               /* [length] w0: where the last pass began, not yet put into the circle; if `always` */
+  int marched;                   /* passes from w0 = 0 after which it does not slip any more; -1: it slips for ever */
+  bool cornered;                 /* it rests, where marching creeps: in .. */
+  planar_corner corner;          /* .. */
+  int changes;                   /* of state in this pass, to recognise chatter */
+} planar_cycle;
+
+/* The pieces of one period on the closed orbit. HC_CHATTER: more pieces or panels than there is room for, or 64 (H + 1)
+ * changes of state. HC_NOT_CLOSED: the slider is not where it was a period before. HC_NOT_CONVERGED. */
+hc_status planar_cycle_find(planar_cycle *c);
+
+/* One pass from w0, which becomes the slider at its end; A[row][col] = d(that)/d w0 unless NULL. Errors as above. */
+hc_status planar_cycle_pass(planar_cycle *c, double w[2], double A[2][2]);
+
+contact_regime planar_cycle_regime(const planar_cycle *c);
+
+/* w [length] at th = 0. */
+void planar_cycle_slider(const planar_cycle *c, double w[2]);
+
+#endif

@@ -1,0 +1,322 @@
+/* planar_flow.c - see planar_flow.h. Unknown are the accelerations x'' and y' at the points of a step, [n + slipping]
+ * of each: x', x and y follow by one or two integrations with the collocation's weights. */
+#include "hbm/planar/planar_flow.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/constants.h"
+#include "numerics/dense.h"
+
+enum { N = COLLOCATION_POINTS };
+
+/* A slipping circle at one point of a step. */
+typedef struct planar_state {
+  double e[2];              /* direction of its traction */
+  double R, turning, speed; /* R [length], phi' [1/time], s [length/time] */
+  double weight;            /* of its equation: 1/(R + s h) [1/length] */
+} planar_state;
+
+struct planar_flow {
+  const model *m;
+  int n, n_states;
+  collocation c;
+  double twice[N][N];   /* a a: from accelerations to positions */
+  double *K;            /* [n][n] by columns, K_j of the stretch */
+  double *matrix;       /* [N (n + circles)]^2 by columns */
+  int *pivot;           /* [N (n + circles)] */
+  double *right;        /* the same, of one column */
+  double *now;          /* [2 n + n_contacts] a column of phi */
+  planar_state *at;     /* [circles][N] */
+  double *along, *perp; /* [circles][N][n] t.e and t.e_perp */
+};
+
+static int most_unknowns(const model *m) { return N * (m->n + m->n_contacts / 2 + 1); }
+
+hc_status planar_flow_new(const model *m, planar_flow **out)
+{
+  const size_t n = (size_t)m->n, unknowns = (size_t)most_unknowns(m), circles = (size_t)m->n_contacts / 2 + 1;
+  planar_flow *f = calloc(1, sizeof *f);
+  *out = NULL;
+  if (!f) return HC_NO_MEMORY;
+  f->m = m;
+  f->n = m->n;
+  f->n_states = 2 * m->n + m->n_contacts;
+  f->K = calloc(n * n, sizeof *f->K);
+  f->matrix = calloc(unknowns * unknowns, sizeof *f->matrix);
+  f->pivot = calloc(unknowns, sizeof *f->pivot);
+  f->right = calloc(unknowns, sizeof *f->right);
+  f->now = calloc((size_t)f->n_states, sizeof *f->now);
+  f->at = calloc(circles * N, sizeof *f->at);
+  f->along = calloc(circles * N * n, sizeof *f->along);
+  f->perp = calloc(circles * N * n, sizeof *f->perp);
+  collocation_fill(&f->c);
+  for (int i = 0; i < N; ++i)
+    for (int j = 0; j < N; ++j)
+      for (int k = 0; k < N; ++k) f->twice[i][j] += f->c.a[i][k] * f->c.a[k][j];
+  const bool room = f->K && f->matrix && f->pivot && f->right && f->now && f->at && f->along && f->perp;
+  if (room) *out = f;
+  else planar_flow_free(f);
+  return room ? HC_OK : HC_NO_MEMORY;
+}
+
+void planar_flow_free(planar_flow *f)
+{
+  if (!f) return;
+  free(f->K);
+  free(f->matrix);
+  free(f->pivot);
+  free(f->right);
+  free(f->now);
+  free(f->at);
+  free(f->along);
+  free(f->perp);
+  free(f);
+}
+
+static double dot(int n, const double *a, const double *b)
+{
+  double sum = 0;
+  for (int i = 0; i < n; ++i) sum += a[i] * b[i];
+  return sum;
+}
+
+/* ---- K_j -------------------------------------------------------------------------------------------- */
+
+/* K += k a b^T. */
+static void add_outer(planar_flow *f, double k, const double *a, const double *b)
+{
+  for (int j = 0; j < f->n && k != 0; ++j)
+    for (int i = 0; i < f->n; ++i) f->K[(size_t)j * (size_t)f->n + (size_t)i] += k * a[i] * b[j];
+}
+
+static bool is_stuck(const planar_flow *f, const contact_piece *const *piece, int j)
+{
+  return piece[j] && !contact_slip_sign(piece[j]->state) && contact_has_friction(&f->m->contacts[j].law);
+}
+
+static void fill_stiffness(planar_flow *f, const contact_piece *const *piece, int n_slipping,
+                           const planar_slipping *slipping)
+{
+  const model *m = f->m;
+  memcpy(f->K, m->stiffness, (size_t)f->n * (size_t)f->n * sizeof *f->K);
+  for (int j = 0; j < m->n_contacts; ++j) {
+    const model_contact *c = &m->contacts[j];
+    if (!piece[j]) continue;
+    const int slip = contact_slip_sign(piece[j]->state);
+    add_outer(f, c->law.kn, c->normal, c->normal);
+    if (slip) add_outer(f, slip * c->law.mu * c->law.kn, c->tangent, c->normal);
+    else if (is_stuck(f, piece, j)) add_outer(f, c->law.kt, c->tangent, c->tangent);
+  }
+  for (int k = 0; k < n_slipping; ++k) { /* of both halves */
+    const model_contact *c = &m->contacts[slipping[k].contact];
+    add_outer(f, 2 * c->law.kn, c->normal, c->normal);
+  }
+}
+
+/* [1/time] No frequency of K_j and M is higher: the largest sum over a row of |K|, over the least of M that a row
+ * leaves. */
+static double highest_frequency(const planar_flow *f)
+{
+  double most = 0;
+  for (int i = 0; i < f->n; ++i) {
+    double k = 0, mass = 2 * f->m->mass[(size_t)i * (size_t)(f->n + 1)];
+    for (int j = 0; j < f->n; ++j) {
+      k += fabs(f->K[(size_t)j * (size_t)f->n + (size_t)i]);
+      mass -= fabs(f->m->mass[(size_t)j * (size_t)f->n + (size_t)i]);
+    }
+    const double least = 0.1 * f->m->mass[(size_t)i * (size_t)(f->n + 1)];
+    most = fmax(most, k / fmax(mass, least));
+  }
+  for (int k = 0; k < f->m->n_contacts; ++k) { /* kt of circles, in no K */
+    const model_contact *c = &f->m->contacts[k];
+    for (int i = 0; i < f->n; ++i)
+      most = fmax(most, 2 * c->law.kt * fabs(c->tangent[i]) / f->m->mass[(size_t)i * (size_t)(f->n + 1)]);
+  }
+  return sqrt(most);
+}
+
+/* ---- a step ------------------------------------------------------------------------------------------ */
+
+/* What angles of the period are where the piece covers them. */
+static double shift_to(const planar_piece *p, double th) { return th >= p->from && th < p->to ? 0 : TWO_PI; }
+
+/* The panel that covers th. */
+static const planar_panel *panel_at(const planar_slipping *s, double th)
+{
+  const planar_panel *p = s->cycle->slip.panel + s->piece->panel, *last = p + s->piece->n_panels - 1;
+  while (p < last && th >= p->to) ++p;
+  return p;
+}
+
+/* The end of the panels, shorter than the width, that begin or go on at th. */
+static double end_of_step(int n_slipping, const planar_slipping *slipping, double th, double to, double width)
+{
+  const double rounding = 1e-13;
+  double end = th + width < to ? th + width : to;
+  for (int k = 0; k < n_slipping; ++k) {
+    const double shift = shift_to(slipping[k].piece, 0.5 * (th + end));
+    const planar_panel *p = panel_at(&slipping[k], th + shift + rounding);
+    if (p->to - shift > th + rounding && p->to - shift < end) end = p->to - shift;
+  }
+  return end;
+}
+
+static void fill_states(planar_flow *f, int n_slipping, const planar_slipping *slipping, double from, double to,
+                        double omega)
+{
+  const size_t n = (size_t)f->n;
+  const double middle = 0.5 * (from + to), h = (to - from) / omega;
+  for (int k = 0; k < n_slipping; ++k) {
+    const planar_slipping *s = &slipping[k];
+    const double shift = shift_to(s->piece, middle);
+    const planar_panel *panel = panel_at(s, middle + shift);
+    const double *t[2] = {f->m->contacts[s->contact].tangent, f->m->contacts[s->contact + 1].tangent};
+    for (int i = 0; i < N; ++i) {
+      const double th = from + (to - from) * f->c.x[i] + shift, phi = planar_panel_angle(&f->c, panel, th);
+      const planar_point p = planar_motion_at(s->cycle->m, th);
+      planar_state *a = &f->at[k * N + i];
+      *a = (planar_state){.e = {cos(phi), sin(phi)}, .R = fmax(0, p.R)};
+      a->turning = omega * planar_slip_slope(s->cycle->m, &p, phi);
+      a->speed = omega * fmax(0, planar_slip_speed(&p, phi));
+      a->weight = 1 / (a->R + a->speed * h);
+      double *along = f->along + (size_t)(k * N + i) * n, *perp = f->perp + (size_t)(k * N + i) * n;
+      for (size_t q = 0; q < n; ++q) {
+        along[q] = t[0][q] * a->e[0] + t[1][q] * a->e[1];
+        perp[q] = t[1][q] * a->e[0] - t[0][q] * a->e[1];
+      }
+    }
+  }
+}
+
+/* dR/dv of circle k. */
+static double radius_by_v(const planar_flow *f, const planar_slipping *s)
+{
+  const contact *law = &f->m->contacts[s->contact].law;
+  return law->mu * law->kn / law->kt;
+}
+
+/* What the accelerations at point j add to the structure's equations at point i. */
+static void fill_motion_block(planar_flow *f, int n_slipping, const planar_slipping *slipping, double h, int i, int j)
+{
+  const size_t n = (size_t)f->n, of_point = n + (size_t)n_slipping, ld = N * of_point;
+  const double once = h * f->c.a[i][j], twice = h * h * f->twice[i][j];
+  double *block = f->matrix + (size_t)j * of_point * ld + (size_t)i * of_point;
+  for (size_t q = 0; q < n; ++q)
+    for (size_t r = 0; r < n; ++r)
+      block[q * ld + r] = (i == j) * f->m->mass[q * n + r] + once * f->m->damping[q * n + r] + twice * f->K[q * n + r];
+  for (int k = 0; k < n_slipping; ++k) {
+    const model_contact *c = &f->m->contacts[slipping[k].contact];
+    const double *along = f->along + (size_t)(k * N + i) * n, *perp = f->perp + (size_t)(k * N + i) * n,
+                 by_v = c->law.kt * radius_by_v(f, &slipping[k]);
+    for (size_t q = 0; q < n; ++q)
+      for (size_t r = 0; r < n && by_v * c->normal[q] != 0; ++r)
+        block[q * ld + r] += twice * by_v * along[r] * c->normal[q];
+    for (size_t r = 0; r < n; ++r) block[(n + (size_t)k) * ld + r] = once * c->law.kt * perp[r];
+  }
+}
+
+/* The same of the circles' equations. */
+static void fill_circle_block(planar_flow *f, int n_slipping, const planar_slipping *slipping, double h, int i, int j)
+{
+  const size_t n = (size_t)f->n, of_point = n + (size_t)n_slipping, ld = N * of_point;
+  const double once = h * f->c.a[i][j], twice = h * h * f->twice[i][j];
+  for (int k = 0; k < n_slipping; ++k) {
+    const planar_state *a = &f->at[k * N + i];
+    const double *perp = f->perp + (size_t)(k * N + i) * n, *normal = f->m->contacts[slipping[k].contact].normal;
+    const double by_v = a->turning * radius_by_v(f, &slipping[k]);
+    double *row = f->matrix + (size_t)j * of_point * ld + (size_t)i * of_point + n + (size_t)k;
+    for (size_t q = 0; q < n; ++q) row[q * ld] = a->weight * a->R * (twice * by_v * normal[q] - once * perp[q]);
+    for (int l = 0; l < n_slipping; ++l) row[(n + (size_t)l) * ld] = 0;
+    row[(n + (size_t)k) * ld] = a->weight * ((i == j) * a->R + once * a->speed);
+  }
+}
+
+/* Right sides at every point for the column in f->now. */
+static void fill_right(planar_flow *f, const contact_piece *const *piece, int n_slipping,
+                       const planar_slipping *slipping, double h)
+{
+  const int n = f->n;
+  const model *m = f->m;
+  const double *x = f->now, *v = x + n, *state = v + n;
+  for (int i = 0; i < N; ++i) {
+    double *right = f->right + (size_t)i * (size_t)(n + n_slipping);
+    const double t = h * f->c.x[i];
+    for (int r = 0; r < n; ++r) right[r] = 0;
+    for (int q = 0; q < n; ++q)
+      for (int r = 0; r < n; ++r) {
+        const size_t at = (size_t)q * (size_t)n + (size_t)r;
+        right[r] -= m->damping[at] * v[q] + f->K[at] * (x[q] + t * v[q]);
+      }
+    for (int j = 0; j < m->n_contacts; ++j)
+      for (int r = 0; r < n && is_stuck(f, piece, j); ++r) right[r] += m->contacts[j].tangent[r] * state[j];
+    for (int k = 0; k < n_slipping; ++k) {
+      const model_contact *c = &m->contacts[slipping[k].contact];
+      const planar_state *a = &f->at[k * N + i];
+      const double *along = f->along + (size_t)((k * N + i) * n), *perp = f->perp + (size_t)((k * N + i) * n);
+      const double dR = radius_by_v(f, &slipping[k]) * (dot(n, c->normal, x) + t * dot(n, c->normal, v));
+      const double y = state[slipping[k].contact];
+      for (int r = 0; r < n; ++r) right[r] -= c->law.kt * (along[r] * dR + perp[r] * y);
+      right[n + k] = a->weight * (a->R * (dot(n, perp, v) - a->turning * dR) - a->speed * y);
+    }
+  }
+}
+
+/* The column in f->now at the end of the step, from the accelerations in f->right. */
+static void finish_column(planar_flow *f, int n_slipping, const planar_slipping *slipping, double h)
+{
+  const int n = f->n, of_point = n + n_slipping;
+  double *x = f->now, *v = x + n, *state = v + n;
+  for (int r = 0; r < n; ++r) {
+    double once = 0, twice = 0;
+    for (int j = 0; j < N; ++j) {
+      once += f->c.a[N - 1][j] * f->right[j * of_point + r];
+      twice += f->twice[N - 1][j] * f->right[j * of_point + r];
+    }
+    x[r] += h * v[r] + h * h * twice;
+    v[r] += h * once;
+  }
+  for (int k = 0; k < n_slipping; ++k)
+    for (int j = 0; j < N; ++j) state[slipping[k].contact] += h * f->c.a[N - 1][j] * f->right[j * of_point + n + k];
+}
+
+static hc_status advance_step(planar_flow *f, const contact_piece *const *piece, int n_slipping,
+                              const planar_slipping *slipping, double from, double to, double omega, int columns,
+                              double *phi)
+{
+  const size_t states = (size_t)f->n_states;
+  const int unknowns = N * (f->n + n_slipping);
+  const double h = (to - from) / omega;
+  fill_states(f, n_slipping, slipping, from, to, omega);
+  for (int i = 0; i < N; ++i)
+    for (int j = 0; j < N; ++j) {
+      fill_motion_block(f, n_slipping, slipping, h, i, j);
+      fill_circle_block(f, n_slipping, slipping, h, i, j);
+    }
+  if (dense_factor(unknowns, f->matrix, f->pivot) != HC_OK) return HC_SINGULAR;
+  for (size_t q = 0; q < (size_t)columns; ++q) {
+    for (size_t i = 0; i < states; ++i) f->now[i] = phi[i * states + q];
+    fill_right(f, piece, n_slipping, slipping, h);
+    dense_solve(unknowns, f->matrix, f->pivot, 1, f->right);
+    finish_column(f, n_slipping, slipping, h);
+    for (size_t i = 0; i < states; ++i) phi[i * states + q] = f->now[i];
+  }
+  return isfinite(phi[0]) ? HC_OK : HC_NOT_FINITE;
+}
+
+hc_status planar_flow_advance(planar_flow *f, const contact_piece *const *piece, int n_slipping,
+                              const planar_slipping *slipping, double from, double to, double omega, int columns,
+                              double *phi)
+{
+  const double turns_a_step = 3;
+  fill_stiffness(f, piece, n_slipping, slipping);
+  const double width = turns_a_step * omega / highest_frequency(f);
+  hc_status st = HC_OK;
+  for (double at = from; at < to && st == HC_OK;) {
+    const double end = end_of_step(n_slipping, slipping, at, to, width);
+    st = advance_step(f, piece, n_slipping, slipping, at, end, omega, columns, phi);
+    at = end;
+  }
+  return st;
+}

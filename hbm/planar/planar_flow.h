@@ -1,0 +1,37 @@
+/* planar_flow.h - how a perturbation of a structure's orbit moves while contacts of two tangents with one limit slip
+ * (planar_motion.h, planar_slip.h). With e = (cos phi, sin phi), e_perp across it and y = R d phi [length]:
+ *
+ *     M dx'' + C dx' + K_j dx + sum over circles kt (t.e dR + t.e_perp y) = sum over stuck contacts t_j dheld_j
+ *     R y' = R (du'.e_perp - phi' dR) - s y,      s = u'.e - R' >= 0,      dR = (mu kn/kt) dv
+ *
+ * whose coefficients vary with phi: no exponentials. By collocation (numerics/collocation.h) on steps no longer than
+ * the panels of phi, and than 3 over the structure's highest frequency: of order 19, the error of a step is 1e-14 of
+ * what moves fastest. y, unlike d phi, stays small where contact is made or lost (R = 0). */
+#ifndef HC_HBM_PLANAR_FLOW_H
+#define HC_HBM_PLANAR_FLOW_H
+
+#include "hbm/contact/transitions.h"
+#include "hbm/planar/planar_cycle.h"
+#include "model/model.h"
+
+typedef struct planar_flow planar_flow;
+
+/* A circle that slips: its first contact, and its piece. */
+typedef struct planar_slipping {
+  int contact;
+  const planar_cycle *cycle;
+  const planar_piece *piece;
+} planar_slipping;
+
+/* Of m, which must live as long. HC_NO_MEMORY. */
+hc_status planar_flow_new(const model *m, planar_flow **out);
+void planar_flow_free(planar_flow *f); /* NULL is allowed */
+
+/* phi[2 n + n_contacts][2 n + n_contacts], by rows dx, dx' [1/time], dheld_j, its first `columns` columns, over the
+ * stretch from..to [rad]; y of a slipping circle is in the row of its first contact. piece[j] of the other contacts,
+ * NULL while separated. HC_SINGULAR, HC_NOT_FINITE. */
+hc_status planar_flow_advance(planar_flow *f, const contact_piece *const *piece, int n_slipping,
+                              const planar_slipping *slipping, double from, double to, double omega, int columns,
+                              double *phi);
+
+#endif

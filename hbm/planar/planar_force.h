@@ -1,0 +1,44 @@
+/* planar_force.h - contact force harmonics of a contact with two tangents and one limit for both (model/circle_law.h),
+ * from displacement harmonics without sampling, hence without aliasing:
+ *
+ *     F = (T_1, T_2, N - N0)      X = (u_1, u_2, v), or without the last ones where N is constant
+ *
+ * Stick is linear in the motion: its integrals are closed, as in exact_force.h. While it slips T = mu N e(phi), phi by
+ * collocation (planar_slip.h), and the integrals are the collocation's own sums on the same panels. Their error goes
+ * with the square of what the panels leave of phi's slope, its last Legendre coefficients (PLANAR_RESOLVED): rounding.
+ * A motion begun later has other panels, and the same force to less than 1e-12 of it. The Jacobian is that of these
+ * sums: phi's variational equation is linear and scalar, and is solved at the same points. Moving the ends of pieces
+ * changes nothing to first order, since the force is continuous there. libm only; nothing is allocated after
+ * planar_force_new. */
+#ifndef HC_HBM_PLANAR_FORCE_H
+#define HC_HBM_PLANAR_FORCE_H
+
+#include "hbm/contact/contact_evaluator.h"
+#include "hbm/planar/planar_cycle.h"
+
+typedef struct planar_force planar_force;
+
+/* A workspace for the contact whose half `law` is (model.h: a pair's two have the same), with friction. Its
+ * coordinates are u_1, u_2 and, with n_dof = 3, v; with 2 the normal force does not vary. HC_BAD_INPUT, HC_NO_MEMORY:
+ * *out is NULL. */
+hc_status planar_force_new(int n_harm, int n_dof, const contact *law, planar_force **out);
+void planar_force_free(planar_force *f); /* NULL is allowed */
+
+/* F[n_dof (2H+1)] [force], N - N0 of both halves, at X (same layout) [length]. jac[row + ld col], ld = n_dof (2H+1):
+ * dF/dX, unless NULL. report may be NULL. HC_NOT_FINITE, and the errors of planar_cycle_find. Where the slider slips
+ * in no pass, or after no later one, its rest moves with X as marching from w = 0 moved it. */
+hc_status planar_force_eval(planar_force *f, const double *X, double *F, double *jac, contact_report *report);
+
+/* w [length] at th = 0 on the closed orbit of the last evaluation. */
+void planar_force_slider(const planar_force *f, double w[2]);
+
+/* What the last evaluation found, for whoever follows a perturbation along the orbit: pieces, each with the panels of
+ * its slip (planar_panel_angle gives phi anywhere on one, planar_slip_slope phi'), and the motion. Valid until the
+ * next one. With a Jacobian the ends of pieces are good to some PLANAR_SHIFT_MOST, without one to rounding. At what
+ * pieces begin with: touch-down d w = d u - (dR/R') u' where it sticks, d phi = (du'.e_perp - phi' dR)/|u'| where it
+ * slips; stick to slip d phi = (du - dw).e_perp/R; slip to stick d w = du - dR e - R e_perp d phi; d at fixed th. */
+const planar_cycle *planar_force_cycle(const planar_force *f);
+
+extern const contact_evaluator planar_force_evaluator;
+
+#endif

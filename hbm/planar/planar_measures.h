@@ -1,0 +1,19 @@
+/* planar_measures.h - what the exact law of the circle does along a periodic motion of a contact with two tangents:
+ * contact_measures.h in the plane.
+ *
+ *     work = closed integral T . du = sum over slip pieces of integral mu N |dw|,   |w'| = s = u'.e - R'
+ *
+ * on the panels of planar_slip.h, by their own sums. */
+#ifndef HC_HBM_PLANAR_MEASURES_H
+#define HC_HBM_PLANAR_MEASURES_H
+
+#include "base/status.h"
+#include "model/contact_period.h"
+
+/* out[2]: of the two halves, as contact_period.h has them; `half` is their law, with friction. The motion is
+ * u1[2 n_harm + 1], u2, v [length] (numerics/series.h), n_harm >= 1; where the history decides, the slider starts from
+ * w = 0. HC_BAD_INPUT, HC_NO_MEMORY, and the errors of planar_force_eval. */
+hc_status planar_measures_of(const contact *half, int n_harm, const double *u1, const double *u2, const double *v,
+                             contact_period out[2]);
+
+#endif

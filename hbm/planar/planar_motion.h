@@ -1,0 +1,47 @@
+/* planar_motion.h - what moves a contact of two tangents with one limit, as lengths: u(th) in the plane and the radius
+ * R(th) = mu N/kt of the circle that holds the slider (model/circle_law.h). While it is in contact R is linear in v, so
+ * it is a trigonometric polynomial like u. libm only, nothing is allocated. */
+#ifndef HC_HBM_PLANAR_MOTION_H
+#define HC_HBM_PLANAR_MOTION_H
+
+#include "model/contact_law.h"
+#include "numerics/collocation.h"
+#include "numerics/series_grid.h"
+
+typedef struct planar_motion {
+  int n_harm;
+  const double *u[2]; /* [2 n_harm + 1] [length] */
+  const double *v;    /* the same; NULL where N is constant */
+  double per_v, rest; /* R = per_v v + rest */
+  double of_u[4];     /* bounds of |u|, |u'|, |u''|, |u'''| */
+  double of_R[4];     /* the same of R */
+} planar_motion;
+
+/* At one angle, derivatives by th. */
+typedef struct planar_point {
+  double th, u[2], du[2], ddu[2]; /* [rad], [length] */
+  double R, dR, ddR;              /* [length] */
+} planar_point;
+
+/* The motion under a law with kt > 0. Series are not copied. */
+planar_motion planar_motion_make(const contact *law, int n_harm, const double *u1, const double *u2, const double *v);
+
+planar_point planar_motion_at(const planar_motion *m, double th);
+
+/* Rates at the points of a panel, [rad] [length]. */
+typedef struct planar_rates {
+  double th[COLLOCATION_POINTS], du[2][COLLOCATION_POINTS], R[COLLOCATION_POINTS], dR[COLLOCATION_POINTS];
+} planar_rates;
+
+/* On [from, to], to <= from + 3; th[last] is `to` itself. */
+void planar_motion_rates(const planar_motion *m, const collocation *c, double from, double to, planar_rates *r);
+
+/* On the angles 2 pi i/SERIES_GRID of two periods: one that starts anywhere in the first lies in them. table: of
+ * series_grid_table_fill. */
+enum { PLANAR_GRID = 2 * SERIES_GRID + 1 };
+void planar_motion_grid(const planar_motion *m, const double *table, planar_point grid[PLANAR_GRID]);
+
+/* [length] What u and R are known to, from the rounding of their sums. */
+double planar_motion_noise(const planar_motion *m);
+
+#endif

@@ -1,0 +1,223 @@
+/* corrector.c - see corrector.h: the callbacks of both forms, KINSOL's weights, and the check of its answer. */
+#include "hbm/solver/corrector.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#include "hbm/solver/hbm_solver_impl.h"
+#include "numerics/norm.h"
+
+enum { MAX_NEWTON_ITERATIONS = 25 };
+
+/* z[n+1] <-> X[n_coef] and omega. */
+static void pack(const hbm_solver *s, const double *X, double omega, double *z)
+{
+  memcpy(z, X + s->sys.first, (size_t)s->sys.n * sizeof(double));
+  z[s->sys.n] = omega;
+}
+
+static void unpack_harmonics(const hbm_solver *s, const double *z, double *X)
+{
+  for (int i = 0; i < s->sys.first; ++i) X[i] = 0;
+  memcpy(X + s->sys.first, z, (size_t)s->sys.n * sizeof(double));
+}
+
+static void unpack(const hbm_solver *s, const double *z, double *X, double *omega)
+{
+  unpack_harmonics(s, z, X);
+  *omega = z[s->sys.n];
+}
+
+/* omega at a place of the curve: the place itself, or, on a ramp, the ramp's; the equations become those there. */
+static double omega_at(hbm_solver *s, double place)
+{
+  if (!s->ramp) return place;
+  hbm_ramp_set(s->ramp, place, &s->sys);
+  return s->ramp->omega;
+}
+
+/* dR/dplace [n] at X. */
+static void by_place(hbm_solver *s, double place, const double *X, double *dR)
+{
+  if (s->ramp) hbm_ramp_derivative(s->ramp, place, &s->sys, X, dR);
+  else hbm_system_domega(&s->sys, place, X, dR);
+}
+
+/* Is the solve to go on? Asked where evaluations take so long that nobody would wait for the end of a step. */
+static bool goes_on(hbm_solver *s)
+{
+  enum { MANY = 200 }; /* unknowns: a millisecond or more */
+  if (s->sys.n >= MANY && !hc_monitor_tick(s->monitor, s->done)) s->stopped = true;
+  return !s->stopped;
+}
+
+static hc_status fixed_residual(void *self, const double *z, double *r)
+{
+  hbm_solver *s = self;
+  if (!goes_on(s)) return HC_INTERRUPTED;
+  unpack_harmonics(s, z, s->X);
+  return hbm_system_residual(&s->sys, omega_at(s, s->omega), s->X, r);
+}
+
+static hc_status fixed_jacobian(void *self, const double *z, double *jac)
+{
+  hbm_solver *s = self;
+  (void)z; /* the z of the last residual: newton.h promises it */
+  hbm_system_jacobian(&s->sys, omega_at(s, s->omega), s->sys.n, jac);
+  return HC_OK;
+}
+
+static hc_status plane_residual(void *self, const double *z, double *r)
+{
+  hbm_solver *s = self;
+  int n = s->sys.n;
+  if (!goes_on(s)) return HC_INTERRUPTED;
+  if (!(z[n] > 0)) return HC_NOT_FINITE; /* Newton left omega > 0: the step is refused */
+  unpack_harmonics(s, z, s->X);
+  r[n] = 0;
+  for (int i = 0; i <= n; ++i) r[n] += s->normal[i] * (z[i] - s->anchor[i]);
+  return hbm_system_residual(&s->sys, omega_at(s, z[n]), s->X, r);
+}
+
+static hc_status plane_jacobian(void *self, const double *z, double *jac)
+{
+  hbm_solver *s = self;
+  int n = s->sys.n;
+  size_t ld = (size_t)n + 1;
+  hbm_system_jacobian(&s->sys, omega_at(s, z[n]), n + 1, jac);
+  by_place(s, z[n], s->X, jac + ld * n);
+  for (int i = 0; i <= n; ++i) jac[n + ld * i] = s->normal[i];
+  return HC_OK;
+}
+
+hc_status hbm_corrector_new(hbm_solver *s)
+{
+  newton_problem fixed = {s->sys.n, s, fixed_residual, fixed_jacobian};
+  newton_problem plane = {s->sys.n + 1, s, plane_residual, plane_jacobian};
+  hc_status st = newton_new(&fixed, &s->fixed);
+  return st == HC_OK ? newton_new(&plane, &s->plane) : st;
+}
+
+/* Weights of the residual's rows at the X of the last one, into s->r_scale. Rows of less than 2e-3 of all forces, at
+ * the usual tolerance of 1e-10, are weighed as if they were of that: what is left of them is the rounding of others. */
+static void weigh_rows(hbm_solver *s, double omega)
+{
+  const double rounding = 1000 * DBL_EPSILON;
+  hbm_system_weights(&s->sys, omega_at(s, omega), fmin(rounding / s->how.tolerance, 1), s->r_scale);
+}
+
+/* Weights for KINSOL: X by its size, R by the forces it is made of at the guess. */
+static hc_status set_scales(hbm_solver *s, double omega, double x_scale, const double *X)
+{
+  hc_status st = hbm_system_contact(&s->sys, X);
+  if (st != HC_OK) return st;
+  weigh_rows(s, omega);
+  if (!(x_scale > 0)) x_scale = 1;
+  for (int i = 0; i < s->sys.n; ++i) s->z_scale[i] = 1 / x_scale;
+  return HC_OK;
+}
+
+/* KINSOL weighted the residual by the forces at the guess; here it is weighed against those at the answer. */
+static hc_status check_residual(hbm_solver *s, double omega, const newton *nw, const newton_report *report,
+                                hbm_point *point)
+{
+  weigh_rows(s, omega);
+  point->omega = omega;
+  point->iterations = report->iterations;
+  point->harmonics = s->sys.n_harm;
+  point->error = NAN;
+  point->residual = norm_weighted_max(s->sys.n, s->r_scale, newton_residual(nw));
+  return point->residual <= 10 * s->how.tolerance ? HC_OK : HC_NOT_CONVERGED;
+}
+
+hc_status hbm_solve_fixed(hbm_solver *s, double omega, double x_scale, double *X, hbm_point *point)
+{
+  ++s->solves;
+  hc_status st = set_scales(s, omega, x_scale, X);
+  if (st != HC_OK) return st;
+  s->omega = omega;
+  newton_options opt = {s->z_scale, s->r_scale, s->how.tolerance, 3.0, MAX_NEWTON_ITERATIONS, false};
+  newton_report report;
+  pack(s, X, omega, s->z);
+  st = newton_solve(s->fixed, s->z, &opt, &report);
+  if (st != HC_OK) {
+    point->iterations = report.iterations;
+    return st;
+  }
+  if ((st = check_residual(s, omega, s->fixed, &report, point)) == HC_OK) unpack(s, s->z, X, &omega);
+  return st;
+}
+
+static hc_status solve_plane(hbm_solver *s, const double *normal, double x_scale, double omega_scale,
+                             int max_iterations, bool plain, double *X, double *omega, hbm_point *point)
+{
+  ++s->solves;
+  hc_status st = set_scales(s, *omega, x_scale, X);
+  if (st != HC_OK) return st;
+  int n = s->sys.n;
+  s->z_scale[n] = 1 / omega_scale;
+  s->r_scale[n] = 1; /* normal . (z - anchor) is a length in the metric */
+  memcpy(s->normal, normal, (size_t)(n + 1) * sizeof(double));
+  pack(s, X, *omega, s->anchor);
+  memcpy(s->z, s->anchor, (size_t)(n + 1) * sizeof(double));
+  newton_options opt = {s->z_scale, s->r_scale, s->how.tolerance, 1.0, max_iterations, plain};
+  newton_report report;
+  st = newton_solve(s->plane, s->z, &opt, &report);
+  if (st != HC_OK) {
+    point->iterations = report.iterations;
+    return st;
+  }
+  if ((st = check_residual(s, s->z[n], s->plane, &report, point)) == HC_OK) unpack(s, s->z, X, omega);
+  return st;
+}
+
+hc_status hbm_solve_plane(hbm_solver *s, const double *normal, double x_scale, double omega_scale, double *X,
+                          double *omega, hbm_point *point)
+{
+  return solve_plane(s, normal, x_scale, omega_scale, MAX_NEWTON_ITERATIONS, false, X, omega, point);
+}
+
+hc_status hbm_solve_plane_plainly(hbm_solver *s, const double *normal, double x_scale, double omega_scale, double *X,
+                                  double *omega, hbm_point *point)
+{
+  return solve_plane(s, normal, x_scale, omega_scale, s->how.iterations, true, X, omega, point);
+}
+
+hc_status hbm_tangent_fixed(hbm_solver *s, const double *X, double *dX)
+{
+  by_place(s, s->omega, X, s->z);
+  hc_status st = newton_backsolve(s->fixed, s->z);
+  for (int i = 0; i < s->sys.first; ++i) dX[i] = 0;
+  for (int i = 0; i < s->sys.n; ++i) dX[i + s->sys.first] = -s->z[i];
+  return st;
+}
+
+hc_status hbm_tangent_plane(hbm_solver *s, double *dX, double *d_omega)
+{
+  memset(s->z, 0, (size_t)s->sys.n * sizeof(double));
+  s->z[s->sys.n] = 1;
+  hc_status st = newton_backsolve(s->plane, s->z);
+  unpack(s, s->z, dX, d_omega);
+  return st;
+}
+
+hc_status hbm_kernel_at(hbm_solver *s, const double *normal, const double *X, double omega, double *dX, double *d_omega,
+                        int *det_sign)
+{
+  memcpy(s->normal, normal, (size_t)(s->sys.n + 1) * sizeof(double));
+  pack(s, X, omega, s->anchor);
+  hc_status st = newton_factor_at(s->plane, s->anchor);
+  if (st == HC_OK) st = hbm_tangent_plane(s, dX, d_omega);
+  *det_sign = newton_sign(s->plane);
+  return st;
+}
+
+hc_status hbm_det_sign_at(hbm_solver *s, double omega, const double *X, int *det_sign)
+{
+  s->omega = omega;
+  pack(s, X, omega, s->z);
+  hc_status st = newton_factor_at(s->fixed, s->z);
+  *det_sign = newton_sign(s->fixed);
+  return st;
+}

@@ -1,0 +1,41 @@
+/* corrector.h - the equations solved by Newton (KINSOL) in two forms:
+ *
+ *     fixed   R(X, omega) = 0 at a given omega                                                    n unknowns
+ *     plane   R(X, omega) = 0 and normal . (z - anchor) = 0,  z = (X, omega)    (paper eq. 15-16) n + 1 unknowns
+ *
+ * The paper is [1] in README.md. normal = D t for a tangent t, where D is the metric of the curve: 1/x_scale^2 on the
+ * harmonics, 1/omega_scale^2 on omega. X has 2H+1 entries; the unknowns are its n last ones (system.h). While a ramp is
+ * followed the place on it stands for omega in all of these. */
+#ifndef HC_HBM_CORRECTOR_H
+#define HC_HBM_CORRECTOR_H
+
+#include "hbm/solver/hbm_solver.h"
+
+/* Makes s->fixed and s->plane. HC_NO_MEMORY. */
+hc_status hbm_corrector_new(hbm_solver *s);
+
+/* Solve the fixed form at omega from X; or the plane form from (X, *omega), which is also the anchor, with
+ * `normal`[n+1] given. x_scale [length] is the size of X. X and *omega are the solution on HC_OK, untouched
+ * otherwise. Errors of newton_solve and of the contact force. */
+hc_status hbm_solve_fixed(hbm_solver *s, double omega, double x_scale, double *X, hbm_point *point);
+hc_status hbm_solve_plane(hbm_solver *s, const double *normal, double x_scale, double omega_scale, double *X,
+                          double *omega, hbm_point *point);
+
+/* The plane form by plain Newton: at most hbm.iterations of them, no line search. Errors of hbm_solve_plane. */
+hc_status hbm_solve_plane_plainly(hbm_solver *s, const double *normal, double x_scale, double omega_scale, double *X,
+                                  double *omega, hbm_point *point);
+
+/* dX/domega [2H+1] at X, the end of the last fixed solve; (dX, d_omega) along the curve, with normal . (dX, d_omega) =
+ * 1, at the end of the last plane solve. HC_SINGULAR. */
+hc_status hbm_tangent_fixed(hbm_solver *s, const double *X, double *dX);
+hc_status hbm_tangent_plane(hbm_solver *s, double *dX, double *d_omega);
+
+/* The direction of the curve if it passed through (X, omega): the kernel of [dR/dX dR/domega] there, with normal .
+ * (dX, d_omega) = 1. *det_sign: that of the plane form's Jacobian. X need not be a solution. HC_SINGULAR. */
+hc_status hbm_kernel_at(hbm_solver *s, const double *normal, const double *X, double omega, double *dX, double *d_omega,
+                        int *det_sign);
+
+/* Sign of det dR/dX at (X, omega) in *det_sign, 0 if it is singular. */
+hc_status hbm_det_sign_at(hbm_solver *s, double omega, const double *X, int *det_sign);
+
+#endif

@@ -1,0 +1,112 @@
+/* hbm_solver.h - a solver of the harmonic-balance equations of one model, and a solution at a fixed omega.
+ *
+ *     R(X, omega) = 0,      X[n] [length]: mean, then cosine and sine of each harmonic (numerics/series.h)
+ *
+ * of x for an oscillator, n = 2H+1; of a structure, for every coefficient its coordinates (condensation.h), n =
+ * hbm_n_coefficients.
+ *
+ * R is system.h's; the solution is KINSOL's (corrector.h). A solver serves one thread and is opaque; nothing is
+ * printed. */
+#ifndef HC_HBM_SOLVER_H
+#define HC_HBM_SOLVER_H
+
+#include <stdbool.h>
+
+#include "base/status.h"
+#include "hbm/contact/contact_report.h"
+#include "hbm/hbm_settings.h"
+#include "model/contact_period.h"
+#include "model/model.h"
+
+typedef struct hbm_solver hbm_solver;
+
+/* A workspace for m and how it is to be solved (both copied). HC_BAD_INPUT, HC_NO_MEMORY: *out is NULL. */
+hc_status hbm_solver_new(const model *m, const hbm_settings *how, hbm_solver **out);
+void hbm_solver_free(hbm_solver *s); /* NULL is allowed */
+
+int hbm_n_harmonics(const hbm_solver *s);    /* in use now; after a trace with auto, the most the curve needed */
+int hbm_n_samples(const hbm_solver *s);      /* per period, in use now; 0 where forces are exact */
+int hbm_n_dof(const hbm_solver *s);          /* of the model */
+int hbm_n_contacts(const hbm_solver *s);     /* of the model: one with two tangents is two */
+bool hbm_of_oscillator(const hbm_solver *s); /* is the model one: model_is_oscillator */
+int hbm_n_coefficients(const hbm_solver *s); /* entries of X, with the harmonics in use now */
+
+/* X[hbm_n_coefficients], as a guess, of a motion x[2H+1][n] of all degrees of freedom, coefficient by coefficient. */
+void hbm_guess_of(const hbm_solver *s, const double *x, double *X);
+
+/* Somebody who knows where a solution may be: ask() fills x[2 n_harm + 1][n] [length], as for hbm_guess_of, with a
+ * guess for omega; HC_NO_MEMORY and HC_INTERRUPTED are passed on, any other failure means there is none. */
+typedef struct hbm_guess {
+  hc_status (*ask)(void *self, const model *m, double omega, int n_harm, const hc_monitor *monitor, double *x);
+  void (*free)(void *self);
+  void *self;
+} hbm_guess;
+
+/* From now on *g is asked where Newton fails from the linear response; the solver's own, freed with it. */
+void hbm_solver_take_guess(hbm_solver *s, const hbm_guess *g);
+
+/* Systems that Newton was put to since the solver was made. */
+long hbm_solves(const hbm_solver *s);
+
+/* How many unknowns the equations have at a given omega, and how many Jacobians Newton's method has factored since they
+ * were made, there and along the curve together. */
+typedef struct hbm_newton_report {
+  int unknowns;
+  long factorisations;
+} hbm_newton_report;
+hbm_newton_report hbm_newton_work(const hbm_solver *s);
+
+/* One solution, beside its harmonics. */
+typedef struct hbm_point {
+  double omega;    /* [rad/time] */
+  double residual; /* [1] |R|, largest component, relative to the forces on its coordinate: hbm_system_weights */
+  double d_omega;  /* [rad/time] tangent of the curve with respect to its parameter, beside hbm_curve's dX */
+  int branch;      /* turning points passed since the start of the curve */
+  int iterations;  /* Newton iterations spent on this point; 0: taken from the linear closed form */
+  int harmonics;   /* kept at this point: changes along the curve for hbm.harmonics: auto */
+  double error;    /* [1] estimated relative error for auto harmonics or samples, NaN when a number was given */
+} hbm_point;
+
+/* Solve at a fixed omega from the guess X[2H+1]; X is the solution on HC_OK and untouched otherwise. A guess of zeros
+ * is none: solved as by hbm_solve_first. Errors of newton_solve and of the contact force. */
+hc_status hbm_solve(hbm_solver *s, double omega, double *X, hbm_point *point);
+
+/* Solve at a fixed omega without a guess: from the linear response, else along a ramp of the damping, else
+ * of the force (ramp.h). X[2H+1] is overwritten, and no solution unless HC_OK. */
+hc_status hbm_solve_first(hbm_solver *s, double omega, double *X, hbm_point *point);
+
+/* Measures of one solution x over its period. */
+typedef struct hbm_measures {
+  double amplitude;  /* [length] (max - min)/2 */
+  double max, min;   /* [length] */
+  double rms;        /* [length] mean included */
+  double mean;       /* [length] X[0] */
+  double harmonic_1; /* [length] |X[1] + i X[2]| */
+  contact_report contact;
+} hbm_measures;
+
+/* Of the first response. Errors of the contact force. */
+hc_status hbm_measure(hbm_solver *s, const double *X, hbm_measures *out);
+
+/* Response r of the model, counted from 0, of the solution X at omega: its series x[2H+1], or its measures.
+ * HC_BAD_INPUT: there is no such response; errors of the contact force; HC_NOT_FINITE: the rest of the structure
+ * resonates undamped. */
+hc_status hbm_response(hbm_solver *s, double omega, const double *X, int r, double *x);
+hc_status hbm_measure_response(hbm_solver *s, double omega, const double *X, int r, hbm_measures *out);
+
+/* x[n] [length] and v[n] [length/time]: the whole structure at t = 0 of the solution X at omega. Errors as of
+ * hbm_response; HC_NO_MEMORY. */
+hc_status hbm_state(hbm_solver *s, double omega, const double *X, double *x, double *v);
+
+/* N[n_contacts] [force]: the contacts' normal forces at rest, under the static loads alone. HC_SINGULAR: nothing holds
+ * the structure there. */
+hc_status hbm_preloads(hbm_solver *s, double *N);
+
+/* w[n_contacts] [length]: the sliders at t = 0 of the motion X. Errors of the contact force. */
+hc_status hbm_sliders(hbm_solver *s, const double *X, double *w);
+
+/* out[hbm_n_contacts]: of the solution X, every contact by the exact law, also where the equations sample it, those of
+ * the case first (contact_periods_merge). Errors of contact_measures_of, planar_measures_of. */
+hc_status hbm_measure_contacts(hbm_solver *s, const double *X, contact_period *out);
+
+#endif

@@ -1,0 +1,53 @@
+/* hbm_solver_impl.h - what a solver consists of; for the files of this folder only. */
+#ifndef HC_HBM_SOLVER_IMPL_H
+#define HC_HBM_SOLVER_IMPL_H
+
+#include "hbm/solver/hbm_solver.h"
+#include "hbm/solver/ramp.h"
+#include "hbm/solver/refine.h"
+#include "hbm/solver/system.h"
+#include "hbm/stability/monodromy.h"
+#include "numerics/newton.h"
+
+struct hbm_solver {            /* from hbm_solver_new, to hbm_solver_free; not shared between threads */
+  model *model;                /* a copy: the caller may drop theirs */
+  hbm_settings how;            /* a copy */
+  hbm_system sys;              /* the equations */
+  int n_time;                  /* samples per period, for sampled forces */
+  newton *fixed, *plane;       /* the two forms of corrector.h */
+  contact_forces *orbit;       /* locates the transitions of a solution of sampled equations; NULL when sys does */
+  monodromy *monodromy;        /* NULL until it is needed */
+  refinement *finer_harmonics; /* tells auto the error of this many harmonics; NULL where the settings give a number */
+  refinement *finer_samples;   /* the same of samples */
+  refinement *exact_finer;     /* hbm_predict's equations; NULL until it is asked */
+  double *improved;            /* their solution next to the one asked about */
+  double improved_least;       /* [length] the error is never less than this there */
+  hbm_guess guess;             /* .ask NULL: none */
+  long solves;                 /* of either form, since it was made */
+  const hbm_ramp *ramp;        /* the one that is followed; NULL: none is */
+  double step_scale;           /* of hbm_scale_steps */
+  const hc_monitor *monitor;   /* of the curve under way, asked at each evaluation of many unknowns; else NULL */
+  double done;                 /* of that curve, 0..1; negative: unknown */
+  bool stopped;                /* it said stop */
+  double omega;                /* of the fixed form; on a ramp, the place */
+  double *X;                   /* [n_coef]  harmonics of a callback's unknowns */
+  double *x;                   /* [2 HBM_MAX_HARMONICS + 1] series of a response */
+  double *z;                   /* [n+1]     unknowns of a solve */
+  double *z_scale, *r_scale;   /* [n+1]     weights for KINSOL */
+  double *normal, *anchor;     /* [n+1]     of the plane form; the metric's weights are included in normal */
+};
+
+/* Other numbers of harmonics and samples from here on. The solver is unusable, but may be freed, unless HC_OK. */
+hc_status hbm_solver_resize(hbm_solver *s, int n_harm, int n_time);
+
+/* Zero what X[n_coef] has beyond the harmonics the solver keeps now. */
+void hbm_truncate(const hbm_solver *s, int n_coef, double *X);
+
+/* The event-located orbit of X: *orbit is an exact evaluator of the solver's own, evaluated at X, *report what it
+ * found. Errors of contact_forces_eval. */
+hc_status hbm_located_orbit(hbm_solver *s, const double *X, const contact_forces **orbit, contact_report *report);
+
+/* The multipliers along an orbit of hbm_located_orbit: monodromy_stability. */
+hc_status hbm_multipliers(hbm_solver *s, const contact_forces *orbit, double omega, hbm_stability *out);
+
+#endif

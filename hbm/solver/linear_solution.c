@@ -1,0 +1,230 @@
+/* linear_solution.c - see linear_solution.h. */
+#include "hbm/solver/linear_solution.h"
+
+#include <complex.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "hbm/solver/hbm_solver_impl.h"
+#include "model/linear.h"
+#include "numerics/dense.h"
+#include "numerics/norm.h"
+
+/* ---- of an oscillator ------------------------------------------------------------------------- */
+
+static double static_stiffness(const model *m)
+{
+  double k = *m->stiffness;
+  for (int j = 0; j < m->n_contacts; ++j)
+    if (m->contacts[j].law.gap > 0) k += model_stuck_stiffness(&m->contacts[j]);
+  return k;
+}
+
+static double oscillator_response(const hbm_system *sys, double omega, double *X)
+{
+  const model *m = sys->model;
+  const double k = static_stiffness(m), force = model_force(m) * sys->force_factor;
+  double complex x = linear_response(*m->mass, *m->damping + sys->more_damping, k, force, omega);
+  /* infinite at an undamped resonance: only the order of magnitude matters for a guess */
+  if (!isfinite(cabs(x))) x = force / (k + *m->mass * omega * omega);
+  X[1] = creal(x);
+  X[2] = -cimag(x); /* Re(z exp(i th)) = Re z cos - Im z sin */
+  return cabs(x);
+}
+
+static void oscillator_derivative(const hbm_system *sys, double omega, double *dX)
+{
+  const model *m = sys->model;
+  const double mass = *m->mass, damping = *m->damping, k = static_stiffness(m);
+  double complex z = k - mass * omega * omega + I * damping * omega;
+  double complex by_omega = -model_force(m) * (-2 * mass * omega + I * damping) / (z * z);
+  dX[1] = creal(by_omega);
+  dX[2] = -cimag(by_omega);
+}
+
+/* ---- of a structure ---------------------------------------------------------------------------- */
+
+static void add_outer(int dim, double k, const double *d, double *K)
+{
+  for (int e = 0; e < dim && k != 0; ++e)
+    for (int i = 0; i < dim; ++i) K[(size_t)e * (size_t)dim + (size_t)i] += k * d[i] * d[e];
+}
+
+static void add_stuck_stiffness(const hbm_system *sys)
+{
+  hbm_linear_room *r = sys->room;
+  memset(r->stiffness, 0, (size_t)sys->dim * (size_t)sys->dim * sizeof *r->stiffness);
+  for (int j = 0; j < sys->model->n_contacts; ++j) {
+    const contact *law = &sys->model->contacts[j].law;
+    if (!r->stuck[j]) continue;
+    if (contact_has_friction(law)) add_outer(sys->dim, law->kt, condensation_tangent(sys->linear, j), r->stiffness);
+    add_outer(sys->dim, law->kn, condensation_normal(sys->linear, j), r->stiffness);
+  }
+}
+
+/* S_h + K', factored. */
+static hc_status factor(const hbm_system *sys, int h)
+{
+  hbm_linear_room *r = sys->room;
+  const double complex *S = condensation_stiffness(sys->linear, h);
+  for (int i = 0; i < sys->dim * sys->dim; ++i) r->A[i] = S[i] + r->stiffness[i];
+  return dense_factor_complex(sys->dim, r->A, r->pivot);
+}
+
+static const double complex *load_of(const hbm_system *sys, int h)
+{
+  for (int l = 0; l < sys->model->n_loads; ++l)
+    if (sys->model->loads[l].harmonic == h) return condensation_load(sys->linear, l);
+  return NULL;
+}
+
+static void put_amplitude(const hbm_system *sys, int h, const double complex *z, double *X)
+{
+  const int dim = sys->dim;
+  double *a = X + (h ? (2 * h - 1) * dim : 0);
+  for (int d = 0; d < dim; ++d) {
+    a[d] = creal(z[d]);
+    if (h) a[dim + d] = -cimag(z[d]);
+  }
+}
+
+/* The mean q_0 in r->z for the contacts as r->stuck has them. What a contact's force has beside its stiffness is on the
+ * right: N - N0 is kn (v + gap) in contact with gap < 0, and -kn gap apart with gap > 0. */
+static hc_status solve_static(const hbm_system *sys)
+{
+  hbm_linear_room *r = sys->room;
+  const double complex *p = load_of(sys, 0);
+  add_stuck_stiffness(sys);
+  hc_status st = factor(sys, 0);
+  if (st != HC_OK) return st;
+  for (int d = 0; d < sys->dim; ++d) r->z[d] = p ? sys->force_factor * p[d] : 0;
+  for (int j = 0; j < sys->model->n_contacts; ++j) {
+    const contact *law = &sys->model->contacts[j].law;
+    const double *n = condensation_normal(sys->linear, j),
+                 constant = (r->stuck[j] ? 1 : -1) * ((law->gap > 0) == r->stuck[j] ? 0 : law->kn * law->gap);
+    for (int d = 0; d < sys->dim; ++d) r->z[d] -= constant * n[d];
+  }
+  dense_solve_complex(sys->dim, r->A, r->pivot, false, 1, r->z);
+  return HC_OK;
+}
+
+/* Normal motion of contact j at rest, q_0 being in r->z. */
+static double rest_motion(const hbm_system *sys, int j)
+{
+  const double *n = condensation_normal(sys->linear, j);
+  double v = 0;
+  for (int d = 0; d < sys->dim; ++d) v += n[d] * creal(sys->room->z[d]);
+  return v;
+}
+
+static bool contact_is_closed(const hbm_system *sys, int j)
+{
+  const contact *law = &sys->model->contacts[j].law;
+  return law->load > 0 || rest_motion(sys, j) + law->gap > 0;
+}
+
+/* Which contacts are stuck in the static state, and its q_0 into X. */
+static hc_status find_static_state(const hbm_system *sys, double *X)
+{
+  enum { TRIES = 50 };
+  hbm_linear_room *r = sys->room;
+  const bool loaded = load_of(sys, 0) && sys->first == 0;
+  for (int j = 0; j < sys->model->n_contacts; ++j) {
+    const contact *law = &sys->model->contacts[j].law;
+    r->stuck[j] = loaded || law->gap > 0 || law->load > 0;
+  }
+  add_stuck_stiffness(sys);
+  bool changed = loaded;
+  for (int k = 0; k < TRIES && changed; ++k) {
+    hc_status st = solve_static(sys);
+    if (st != HC_OK) return st;
+    put_amplitude(sys, 0, r->z, X);
+    changed = false;
+    for (int j = 0; j < sys->model->n_contacts; ++j) {
+      const bool closed = contact_is_closed(sys, j);
+      changed |= closed != r->stuck[j];
+      r->stuck[j] = closed;
+    }
+  }
+  add_stuck_stiffness(sys);
+  return HC_OK;
+}
+
+hc_status hbm_linear_rest(hbm_system *sys, double *N)
+{
+  const double any = 1; /* at rest omega matters nowhere */
+  hc_status st = condensation_at(sys->linear, any, 0);
+  memset(sys->room->z, 0, (size_t)sys->dim * sizeof *sys->room->z);
+  if (st == HC_OK) st = find_static_state(sys, sys->rows);
+  for (int j = 0; j < sys->model->n_contacts && st == HC_OK; ++j)
+    N[j] = contact_normal(&sys->model->contacts[j].law, rest_motion(sys, j));
+  return st;
+}
+
+static hc_status structure_response(const hbm_system *sys, double omega, double *X)
+{
+  hbm_linear_room *r = sys->room;
+  hc_status st = condensation_at(sys->linear, omega, sys->more_damping);
+  if (st == HC_OK) st = find_static_state(sys, X);
+  for (int l = 0; l < sys->model->n_loads && st == HC_OK; ++l) {
+    const int h = sys->model->loads[l].harmonic;
+    if (h == 0) continue;
+    st = factor(sys, h);
+    for (int d = 0; d < sys->dim; ++d) r->z[d] = sys->force_factor * condensation_load(sys->linear, l)[d];
+    if (st == HC_OK) dense_solve_complex(sys->dim, r->A, r->pivot, false, 1, r->z);
+    if (st == HC_OK) put_amplitude(sys, h, r->z, X);
+  }
+  return st;
+}
+
+/* dq_h = -(S + K')^-1 (dS q_h - dp), harmonic by harmonic: the rows of the equations' derivative. */
+static void structure_derivative(hbm_system *sys, double omega, const double *X, double *R, double *dX)
+{
+  hbm_linear_room *r = sys->room;
+  const int dim = sys->dim;
+  hbm_system_domega(sys, omega, X, R);
+  for (int l = 0; l < sys->model->n_loads; ++l) {
+    const int h = sys->model->loads[l].harmonic;
+    if (h == 0 || factor(sys, h) != HC_OK) continue;
+    const double *a = R + (2 * h - 1) * dim - sys->first;
+    for (int d = 0; d < dim; ++d) r->z[d] = -(a[d] - I * a[dim + d]);
+    dense_solve_complex(dim, r->A, r->pivot, false, 1, r->z);
+    put_amplitude(sys, h, r->z, dX);
+  }
+}
+
+/* ---- of either ---------------------------------------------------------------------------------- */
+
+double hbm_linear_response(hbm_system *sys, double omega, double *X)
+{
+  memset(X, 0, (size_t)sys->n_coef * sizeof(double));
+  if (model_is_oscillator(sys->model)) return oscillator_response(sys, omega, X);
+  if (structure_response(sys, omega, X) != HC_OK) { /* an undamped resonance: only the order of magnitude matters */
+    memset(X, 0, (size_t)sys->n_coef * sizeof(double));
+    structure_response(sys, omega * (1 + 1e-3), X);
+  }
+  return norm_2(sys->n_coef, X);
+}
+
+bool hbm_linear_point(hbm_solver *s, double omega, double near, double *X, double *dX, hbm_point *point)
+{
+  hbm_system *sys = &s->sys;
+  const bool oscillator = model_is_oscillator(sys->model);
+  double *linear = s->anchor, *R = s->z, distance = 0, residual = 0;
+  double size = hbm_linear_response(sys, omega, linear);
+  for (int i = 0; i < sys->n_coef; ++i) distance += (X[i] - linear[i]) * (X[i] - linear[i]);
+  bool is_near = sqrt(distance) <= near * size, held = !oscillator || static_stiffness(sys->model) > 0;
+  if (!(held && size > 0 && is_near)) return false;
+  if (hbm_system_residual(sys, omega, linear, R) != HC_OK) return false;
+  if (sys->report.regime > CONTACT_STUCK) return false;
+  for (int i = 0; i < sys->n; ++i) residual = fmax(residual, fabs(R[i]));
+  residual /= hbm_system_scale(sys, omega);
+  if (!(residual <= sys->how.tolerance)) return false;
+  memcpy(X, linear, (size_t)sys->n_coef * sizeof(double));
+  memset(dX, 0, (size_t)sys->n_coef * sizeof(double));
+  if (oscillator) oscillator_derivative(sys, omega, dX);
+  else structure_derivative(sys, omega, X, R, dX);
+  *point = (hbm_point){.omega = omega, .residual = residual, .harmonics = sys->n_harm, .error = NAN};
+  return true;
+}

@@ -1,0 +1,102 @@
+/* refine.c - see refine.h. */
+#include "hbm/solver/refine.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "numerics/dense.h"
+#include "numerics/norm.h"
+
+struct refinement {
+  hbm_system sys;
+  double *X;   /* [n_coef] padded */
+  double *R;   /* [n] residual, then step */
+  double *jac; /* [n][n] */
+  int *pivot;  /* [n] */
+};
+
+hc_status refinement_new(const model *m, const hbm_settings *how, int n_harm, int n_time, refinement **out)
+{
+  *out = NULL;
+  refinement *r = calloc(1, sizeof *r);
+  if (!r) return HC_NO_MEMORY;
+  hc_status st = hbm_system_init(&r->sys, m, how, n_harm, n_time);
+  size_t n = (size_t)r->sys.n_coef;
+  r->X = calloc(n, sizeof(double));
+  r->R = calloc(n, sizeof(double));
+  r->jac = calloc(n * n, sizeof(double));
+  r->pivot = calloc(n, sizeof *r->pivot);
+  if (st == HC_OK && (!r->X || !r->R || !r->jac || !r->pivot)) st = HC_NO_MEMORY;
+  if (st == HC_OK) {
+    *out = r;
+    return HC_OK;
+  }
+  refinement_free(r);
+  return st;
+}
+
+void refinement_free(refinement *r)
+{
+  if (!r) return;
+  hbm_system_clear(&r->sys);
+  free(r->X);
+  free(r->R);
+  free(r->jac);
+  free(r->pivot);
+  free(r);
+}
+
+int refinement_harmonics(const refinement *r) { return r->sys.n_harm; }
+
+hc_status refinement_step(refinement *r, double omega, double *Y, double *step)
+{
+  const int n = r->sys.n;
+  *step = INFINITY;
+  hc_status st = hbm_system_residual(&r->sys, omega, Y, r->R);
+  if (st != HC_OK) return st;
+  hbm_system_jacobian(&r->sys, omega, n, r->jac);
+  if (dense_factor(n, r->jac, r->pivot) != HC_OK) return HC_SINGULAR;
+  dense_solve(n, r->jac, r->pivot, 1, r->R);
+  const double size = norm_2(n, r->R);
+  if (!isfinite(size)) return HC_NOT_FINITE;
+  for (int i = 0; i < n; ++i) Y[i + r->sys.first] -= r->R[i];
+  *step = size;
+  return HC_OK;
+}
+
+hc_status refinement_response(refinement *r, double omega, const double *Y, int response, double *x)
+{
+  return hbm_system_any_response(&r->sys, omega, Y, response, x);
+}
+
+double refinement_rounding(refinement *r, double omega)
+{
+  const int n = r->sys.n;
+  const double force = DBL_EPSILON * hbm_system_scale(&r->sys, omega);
+  for (int i = 0; i < n; ++i) r->R[i] = force;
+  dense_solve(n, r->jac, r->pivot, 1, r->R);
+  const double size = norm_2(n, r->R);
+  return isfinite(size) ? size : INFINITY;
+}
+
+double refinement_error(refinement *r, double omega, int n_harm, const double *X)
+{
+  double step;
+  memset(r->X, 0, (size_t)r->sys.n_coef * sizeof(double));
+  memcpy(r->X, X, (size_t)hbm_system_length(&r->sys, n_harm) * sizeof(double));
+  const double size = norm_2(r->sys.n_coef, r->X);
+  if (refinement_step(r, omega, r->X, &step) != HC_OK) return INFINITY;
+  return size > 0 ? step / size : 0;
+}
+
+int refine_next_harmonics(int n_harm, bool up)
+{
+  static const int ladder[] = {1, 2, 3, 5, 7, 10, 14, 20, 28, 40, 56, 80, REFINE_MOST_HARMONICS};
+  enum { RUNGS = sizeof ladder / sizeof *ladder };
+  int i = 0;
+  while (i + 1 < RUNGS && ladder[i] < n_harm) ++i;
+  if (up) return ladder[i + 1 < RUNGS ? i + 1 : i];
+  return ladder[i > 0 ? i - 1 : 0];
+}

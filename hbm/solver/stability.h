@@ -1,0 +1,25 @@
+/* stability.h - is a periodic solution stable? Its Floquet multipliers, along its event-located orbit (monodromy.h). */
+#ifndef HC_HBM_STABILITY_H
+#define HC_HBM_STABILITY_H
+
+#include "hbm/solver/hbm_solver.h"
+#include "hbm/stability/multipliers.h"
+
+/* Floquet multipliers of the solution X at omega. The orbit's transitions are located exactly also where forces are
+ * sampled. Errors of the contact force; HC_NOT_CONVERGED if the eigenvalues could not be computed (with GSL's error
+ * handler switched off by the caller: left on, it ends the program), HC_NOT_FINITE if they are too large. */
+hc_status hbm_stability_at(hbm_solver *s, double omega, const double *X, hbm_stability *out);
+
+/* Multipliers of a structure of more than 50 degrees of freedom cost as much as a good part of its curve: they are
+ * found where somebody asks for a solution, and unknown at the points of a curve. */
+bool hbm_stability_is_costly(const hbm_solver *s);
+
+/* Under the law of the circle (model.h) slip is followed step by step: costly from 12 degrees of freedom and directions
+ * of contacts on, and beyond 50 degrees of freedom out of reach, where hbm_stability_at finds NaN, which is unknown. */
+bool hbm_stability_is_unknown(const hbm_solver *s);
+
+/* +1 stable, -1 unstable, 0 unknown: the largest multiplier is within 1e-9 of 1 in size, or the truncated equations
+ * disagree. */
+int hbm_stability_verdict(const hbm_stability *st);
+
+#endif

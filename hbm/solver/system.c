@@ -1,0 +1,337 @@
+/* system.c - see system.h for the equations. */
+#include "hbm/solver/system.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static hc_status linear_room_new(const model *m, int dim, hbm_linear_room **out)
+{
+  const size_t n = (size_t)dim;
+  hbm_linear_room *r = *out = calloc(1, sizeof *r);
+  if (!r) return HC_NO_MEMORY;
+  r->stuck = calloc((size_t)m->n_contacts + 1, sizeof *r->stuck);
+  r->stiffness = calloc(n * n, sizeof *r->stiffness);
+  r->A = calloc(n * n, sizeof *r->A);
+  r->z = calloc(n, sizeof *r->z);
+  r->pivot = calloc(n, sizeof *r->pivot);
+  return r->stuck && r->stiffness && r->A && r->z && r->pivot ? HC_OK : HC_NO_MEMORY;
+}
+
+static void linear_room_free(hbm_linear_room *r)
+{
+  if (!r) return;
+  free(r->stuck);
+  free(r->stiffness);
+  free(r->A);
+  free(r->z);
+  free(r->pivot);
+  free(r);
+}
+
+hc_status hbm_system_init(hbm_system *sys, const model *m, const hbm_settings *how, int n_harm, int n_time)
+{
+  *sys = (hbm_system){.model = m, .how = *how, .n_harm = n_harm, .force_factor = 1};
+  if (n_harm < 1 || n_harm > HBM_MAX_HARMONICS || model_highest_load(m) > n_harm) return HC_BAD_INPUT;
+  hc_status st = model_find_scales(m, &sys->scales);
+  if (st == HC_OK) st = condensation_new(m, n_harm, &sys->linear);
+  if (st != HC_OK) return st;
+  sys->dim = condensation_dim(sys->linear);
+  sys->n_coef = hbm_system_length(sys, n_harm);
+  sys->first = how->keep_mean ? 0 : sys->dim;
+  sys->n = sys->n_coef - sys->first;
+  size_t n = (size_t)sys->n_coef, dim = (size_t)sys->dim;
+  sys->X = calloc(n, sizeof(double));
+  sys->F = calloc(n, sizeof(double));
+  sys->rows = calloc(n, sizeof(double));
+  sys->amplitudes = calloc(2 * dim, sizeof *sys->amplitudes);
+  if (!sys->X || !sys->F || !sys->rows || !sys->amplitudes) return HC_NO_MEMORY;
+  if ((st = linear_room_new(m, sys->dim, &sys->room)) != HC_OK) return st;
+  const evaluator_settings by = {n_harm, n_time, how->restart};
+  return contact_forces_new(m, sys->linear, how->force, &by, &sys->contacts);
+}
+
+void hbm_system_clear(hbm_system *sys)
+{
+  condensation_free(sys->linear);
+  contact_forces_free(sys->contacts);
+  linear_room_free(sys->room);
+  free(sys->X);
+  free(sys->F);
+  free(sys->rows);
+  free(sys->amplitudes);
+  *sys = (hbm_system){0};
+}
+
+hc_status hbm_system_contact(hbm_system *sys, const double *X)
+{
+  size_t bytes = (size_t)sys->n_coef * sizeof(double);
+  if (sys->evaluated && memcmp(X, sys->X, bytes) == 0) return HC_OK;
+  sys->evaluated = false;
+  ++sys->evaluations;
+  hc_status st = contact_forces_eval(sys->contacts, X, sys->F, &sys->report);
+  if (st != HC_OK) return st;
+  memcpy(sys->X, X, bytes);
+  sys->evaluated = true;
+  return HC_OK;
+}
+
+void hbm_system_response(const hbm_system *sys, int n_harm, const double *X, double *x)
+{
+  const double *row = condensation_first_response(sys->linear);
+  for (int c = 0; c < series_length(n_harm); ++c) {
+    x[c] = 0;
+    for (int d = 0; d < sys->dim; ++d) x[c] += row[d] * X[(size_t)c * (size_t)sys->dim + (size_t)d];
+  }
+}
+
+hc_status hbm_system_any_response(hbm_system *sys, double omega, const double *X, int r, double *x)
+{
+  const int dim = sys->dim;
+  hc_status st = condensation_at(sys->linear, omega, 0);
+  for (int h = 0; h <= sys->n_harm && st == HC_OK; ++h) {
+    const double *a = X + (h ? (2 * h - 1) * dim : 0), *b = a + dim;
+    double complex z;
+    condensation_response(sys->linear, h, r, 1, sys->amplitudes, &z);
+    for (int d = 0; d < dim; ++d) z += sys->amplitudes[d] * (h ? a[d] - I * b[d] : a[d]);
+    x[h ? 2 * h - 1 : 0] = creal(z);
+    if (h) x[2 * h] = -cimag(z);
+  }
+  if (!sys->how.keep_mean) x[0] = 0;
+  return st;
+}
+
+/* Where the cosines and the sines of harmonic h begin in X; of harmonic 0, the means. */
+static size_t cosines(const hbm_system *sys, int h) { return (size_t)sys->dim * (size_t)(h ? 2 * h - 1 : 0); }
+static size_t sines(const hbm_system *sys, int h) { return (size_t)sys->dim * (size_t)(2 * h); }
+
+/* rows of harmonic h = S X, of one coordinate. */
+static void multiply_number(double *restrict rows, double complex S, int h, const double *X)
+{
+  const double re = creal(S), im = cimag(S), a = X[h ? 2 * h - 1 : 0], b = X[2 * h];
+  rows[2 * h] = re * b - im * a;
+  rows[h ? 2 * h - 1 : 0] = h ? re * a + im * b : re * a;
+}
+
+static void multiply_numbers(hbm_system *sys, const double complex *S, const double *X)
+{
+  for (int h = 0; h <= sys->n_harm; ++h) multiply_number(sys->rows, S[h], h, X);
+}
+
+/* rows of harmonic h += B X, B[dim][dim] complex. */
+static void multiply_block(hbm_system *sys, const double complex *B, int h, const double *X)
+{
+  const int dim = sys->dim;
+  const double *a = X + cosines(sys, h), *b = X + sines(sys, h);
+  double *of_a = sys->rows + cosines(sys, h), *of_b = sys->rows + sines(sys, h);
+  for (int e = 0; e < dim; ++e)
+    for (int d = 0; d < dim; ++d) {
+      const double re = creal(B[(size_t)e * (size_t)dim + (size_t)d]),
+                   im = cimag(B[(size_t)e * (size_t)dim + (size_t)d]);
+      if (h == 0) {
+        of_a[d] += re * a[e];
+        continue;
+      }
+      of_a[d] += re * a[e] + im * b[e];
+      of_b[d] += re * b[e] - im * a[e];
+    }
+}
+
+static void multiply_blocks(hbm_system *sys, const double *X)
+{
+  memset(sys->rows, 0, (size_t)sys->n_coef * sizeof(double));
+  for (int h = 0; h <= sys->n_harm; ++h) multiply_block(sys, condensation_stiffness(sys->linear, h), h, X);
+}
+
+/* rows of harmonic h -= factor p, a complex amplitude a - i b. */
+static void subtract_load(hbm_system *sys, const double complex *p, int h, double factor)
+{
+  for (int d = 0; d < sys->dim; ++d) {
+    sys->rows[cosines(sys, h) + (size_t)d] -= factor * creal(p[d]);
+    if (h) sys->rows[sines(sys, h) + (size_t)d] += factor * cimag(p[d]);
+  }
+}
+
+static hc_status drop_means(const hbm_system *sys, double *R)
+{
+  memcpy(R, sys->rows + sys->first, (size_t)sys->n * sizeof(double));
+  double sum = 0;
+  for (int i = 0; i < sys->n; ++i) sum += R[i];
+  return isfinite(sum) ? HC_OK : HC_NOT_FINITE;
+}
+
+/* What a coefficient of an even harmonic is multiplied by where those are to be zero [force/length]. */
+static double dropped(const model *m, double omega) { return *m->stiffness + *m->mass * omega * omega; }
+
+/* The first coefficient behind those of harmonic h. */
+static size_t behind(const hbm_system *sys, int h) { return sines(sys, h) + (size_t)sys->dim; }
+
+static void make_mistakes(hbm_system *sys, double omega, const double *X)
+{
+  const hbm_mistakes *wrong = &sys->how.mistakes;
+  for (int d = 0; d < sys->dim; ++d) sys->rows[d] += wrong->mean_error * sys->F[d];
+  for (int h = 0; wrong->odd_only && h <= sys->n_harm; h += 2)
+    for (size_t i = cosines(sys, h); i < behind(sys, h); ++i) sys->rows[i] = dropped(sys->model, omega) * X[i];
+}
+
+hc_status hbm_system_residual(hbm_system *sys, double omega, const double *X, double *R)
+{
+  hc_status st = hbm_system_contact(sys, X);
+  if (st == HC_OK) st = condensation_at(sys->linear, omega, sys->more_damping);
+  if (st != HC_OK) return st;
+  if (sys->dim == 1) multiply_numbers(sys, condensation_stiffness(sys->linear, 0), X);
+  else multiply_blocks(sys, X);
+  for (int i = 0; i < sys->n_coef; ++i) sys->rows[i] += sys->F[i];
+  for (int l = 0; l < sys->model->n_loads; ++l)
+    subtract_load(sys, condensation_load(sys->linear, l), sys->model->loads[l].harmonic, sys->force_factor);
+  make_mistakes(sys, omega, X);
+  return drop_means(sys, R);
+}
+
+/* Of one coordinate. */
+static void add_numbers(const hbm_system *sys, const double complex *S, int ld, double *jac)
+{
+  if (sys->first == 0) jac[0] += creal(S[0]);
+  for (int h = 1; h <= sys->n_harm; ++h) {
+    const size_t a = (size_t)(2 * h - 1 - sys->first), b = a + 1, n = (size_t)ld;
+    const double re = creal(S[h]), im = cimag(S[h]);
+    jac[a + n * a] += re;
+    jac[b + n * b] += re;
+    jac[a + n * b] += im;
+    jac[b + n * a] -= im;
+  }
+}
+
+static void add_block(const hbm_system *sys, const double complex *S, int h, int ld, double *jac)
+{
+  const size_t dim = (size_t)sys->dim, n = (size_t)ld;
+  if (h == 0 && sys->first) return;
+  const size_t a = cosines(sys, h) - (size_t)sys->first, b = sines(sys, h) - (size_t)sys->first;
+  for (size_t e = 0; e < dim; ++e)
+    for (size_t d = 0; d < dim; ++d) {
+      const double re = creal(S[e * dim + d]), im = cimag(S[e * dim + d]);
+      jac[a + d + n * (a + e)] += re;
+      if (h == 0) continue;
+      jac[b + d + n * (b + e)] += re;
+      jac[a + d + n * (b + e)] += im;
+      jac[b + d + n * (a + e)] -= im;
+    }
+}
+
+/* jac is whole but for the mistakes. */
+static void differentiate_mistakes(const hbm_system *sys, double omega, const double *dF, int ld, double *jac)
+{
+  const hbm_mistakes *wrong = &sys->how.mistakes;
+  for (int col = 0; sys->first == 0 && wrong->mean_error != 0 && col < sys->n; ++col)
+    for (int d = 0; d < sys->dim; ++d)
+      jac[d + (size_t)ld * (size_t)col] += wrong->mean_error * dF[d + (size_t)sys->n_coef * (size_t)col];
+  for (int h = 0; wrong->odd_only && h <= sys->n_harm; h += 2)
+    for (size_t i = cosines(sys, h); i < behind(sys, h); ++i)
+      for (int col = 0; i >= (size_t)sys->first && col < sys->n; ++col) {
+        const size_t row = i - (size_t)sys->first;
+        jac[row + (size_t)ld * (size_t)col] = (size_t)col == row ? dropped(sys->model, omega) : 0;
+      }
+}
+
+void hbm_system_jacobian(hbm_system *sys, double omega, int ld, double *jac)
+{
+  const double *dF = contact_forces_jacobian(sys->contacts);
+  for (int col = 0; col < sys->n; ++col) {
+    const double *from = dF + (size_t)sys->n_coef * (size_t)(col + sys->first) + sys->first;
+    double *to = jac + (size_t)ld * (size_t)col;
+    for (int row = 0; row < sys->n; ++row) to[row] = from[row];
+  }
+  if (condensation_at(sys->linear, omega, sys->more_damping) != HC_OK) return; /* it was, in the residual */
+  if (sys->dim == 1) add_numbers(sys, condensation_stiffness(sys->linear, 0), ld, jac);
+  for (int h = 0; h <= sys->n_harm && sys->dim > 1; ++h)
+    add_block(sys, condensation_stiffness(sys->linear, h), h, ld, jac);
+  differentiate_mistakes(sys, omega, dF, ld, jac);
+}
+
+/* Harmonic h of X as complex amplitudes. */
+static void amplitudes(const hbm_system *sys, int h, const double *X, double complex *a)
+{
+  const double *cosine = X + cosines(sys, h), *sine = X + sines(sys, h);
+  for (int d = 0; d < sys->dim; ++d) a[d] = h ? cosine[d] - I * sine[d] : cosine[d];
+}
+
+static void differentiate(hbm_system *sys, condensation_change (*by)(const condensation *, int), const double *X,
+                          double *dR)
+{
+  double complex *a = sys->amplitudes, *dS_a = a + sys->dim;
+  for (int h = 0; h <= sys->n_harm; ++h) {
+    amplitudes(sys, h, X, a);
+    condensation_stiffness_change(sys->linear, h, by(sys->linear, h), a, dS_a);
+    double *of_a = sys->rows + cosines(sys, h), *of_b = sys->rows + sines(sys, h);
+    for (int d = 0; d < sys->dim; ++d) {
+      if (h) of_b[d] = -cimag(dS_a[d]);
+      of_a[d] = creal(dS_a[d]);
+    }
+  }
+  for (int l = 0; l < sys->model->n_loads; ++l) {
+    const int h = sys->model->loads[l].harmonic;
+    condensation_load_change(sys->linear, l, by(sys->linear, h), a);
+    subtract_load(sys, a, h, sys->force_factor);
+  }
+  drop_means(sys, dR);
+}
+
+void hbm_system_domega(hbm_system *sys, double omega, const double *X, double *dR)
+{
+  if (condensation_at(sys->linear, omega, sys->more_damping) != HC_OK) return;
+  differentiate(sys, condensation_by_omega, X, dR);
+  for (int h = 0; sys->how.mistakes.odd_only && h <= sys->n_harm; h += 2)
+    for (size_t i = cosines(sys, h); i < behind(sys, h); ++i)
+      if (i >= (size_t)sys->first) dR[i - (size_t)sys->first] = 2 * *sys->model->mass * omega * X[i];
+}
+
+void hbm_system_ddamping(hbm_system *sys, double omega, const double *X, double *dR)
+{
+  if (condensation_at(sys->linear, omega, sys->more_damping) == HC_OK)
+    differentiate(sys, condensation_by_damping, X, dR);
+}
+
+void hbm_system_dforce(hbm_system *sys, double omega, double *dR)
+{
+  memset(sys->rows, 0, (size_t)sys->n_coef * sizeof(double));
+  for (int l = 0; l < sys->model->n_loads && condensation_at(sys->linear, omega, sys->more_damping) == HC_OK; ++l)
+    subtract_load(sys, condensation_load(sys->linear, l), sys->model->loads[l].harmonic, 1);
+  drop_means(sys, dR);
+}
+
+/* force[dim]: what each coordinate's rows of the residual are made of, by size, added up over all harmonics. */
+static void add_sizes(const hbm_system *sys, double *force)
+{
+  const int dim = sys->dim;
+  for (int d = 0; d < dim; ++d) force[d] = 0;
+  for (int h = 0; h <= sys->n_harm; ++h) {
+    const double *size = condensation_sizes(sys->linear, h), *a = sys->X + cosines(sys, h), *b = sys->X + sines(sys, h),
+                 *fa = sys->F + cosines(sys, h), *fb = sys->F + sines(sys, h);
+    for (int e = 0; e < dim; ++e) {
+      const double x = h ? hypot(a[e], b[e]) : fabs(a[e]);
+      for (int d = 0; d < dim; ++d) force[d] += size[(size_t)e * (size_t)dim + (size_t)d] * x;
+      force[e] += h ? hypot(fa[e], fb[e]) : fabs(fa[e]);
+    }
+  }
+  for (int l = 0; l < sys->model->n_loads; ++l)
+    for (int d = 0; d < dim; ++d) force[d] += sys->force_factor * cabs(condensation_load(sys->linear, l)[d]);
+}
+
+/* The sum of force[dim], which is filled; NaN where condensation_at fails. */
+static double sum_sizes(const hbm_system *sys, double omega, double *force)
+{
+  double sum = 0;
+  if (condensation_at(sys->linear, omega, sys->more_damping) != HC_OK) return NAN;
+  add_sizes(sys, force);
+  for (int d = 0; d < sys->dim; ++d) sum += force[d];
+  return sum;
+}
+
+double hbm_system_scale(const hbm_system *sys, double omega) { return sum_sizes(sys, omega, sys->rows); }
+
+void hbm_system_weights(const hbm_system *sys, double omega, double least, double *weight)
+{
+  const double sum = sum_sizes(sys, omega, sys->rows);
+  for (int i = 0; i < sys->n; ++i)
+    weight[i] = sum > 0 ? 1 / fmax(sys->rows[i % sys->dim], least * sum) : sum == 0 ? 1 : NAN;
+}

@@ -1,0 +1,29 @@
+/* monodromy.h - the monodromy matrix along an event-located orbit, and its eigenvalues, the Floquet multipliers.
+ *
+ *     M dx'' + C dx' + k(t) dx - sum over stuck contacts t_j dheld_j = 0
+ *
+ * with k piecewise constant and dheld_j = kt dw_j set by dx at the instant the slider comes to rest (transitions.h).
+ * The vector field is continuous, so transitions add no jumps (saltation is the identity); each stretch between them
+ * is a matrix exponential (stretch_flow.h), but where contacts of two tangents with one
+ * limit slip: there it is integrated (planar_flow.h). Nothing is truncated: unlike Hill's method it
+ * needs no decay of the Jacobian's harmonics. Check: without slip the determinant is exp(-trace(M^-1 C) T). */
+#ifndef HC_HBM_MONODROMY_H
+#define HC_HBM_MONODROMY_H
+
+#include "hbm/forces/contact_forces.h"
+#include "hbm/stability/multipliers.h"
+
+typedef struct monodromy monodromy;
+
+/* Room for orbits of m, which must live as long. HC_NO_MEMORY; HC_SINGULAR if its mass is: *out is NULL. */
+hc_status monodromy_new(const model *m, monodromy **out);
+void monodromy_free(monodromy *w);
+
+/* Everything but `agrees`, which is left false, for the orbit last evaluated by `orbit`, at omega. A slider stuck all
+ * period has a multiplier 1 of its own, since its residual traction is not determined: it is left out.
+ * HC_NOT_CONVERGED if the eigenvalues could not be computed, or not within minutes, HC_NOT_FINITE if they are too
+ * large, HC_NO_MEMORY. GSL's error handler must be switched off: its errors come back as HC_NOT_CONVERGED then. */
+hc_status monodromy_stability(monodromy *w, const model *m, const contact_forces *orbit, double omega,
+                              hbm_stability *out);
+
+#endif

@@ -1,0 +1,18 @@
+/* multipliers.h - the Floquet multipliers of a solution, in numbers. */
+#ifndef HC_HBM_MULTIPLIERS_H
+#define HC_HBM_MULTIPLIERS_H
+
+#include <stdbool.h>
+
+typedef struct hbm_stability {
+  double multiplier;  /* modulus of the largest Floquet multiplier */
+  double re, im;      /* that multiplier */
+  double flip;        /* product of (1 + multiplier): changes sign at a period doubling */
+  double fold;        /* product of (1 - multiplier): changes sign at a turning point */
+  double determinant; /* product of all multipliers; 0 where a structure loses motions to rounding in a period */
+  int pairs_outside;  /* complex pairs outside the unit circle, by more than 1e-10 */
+  double pair;        /* modulus of the complex pair nearest to the circle, NaN without one */
+  bool agrees;        /* det dR/dX has the sign of `fold`; it need not where few harmonics move the turning point */
+} hbm_stability;
+
+#endif

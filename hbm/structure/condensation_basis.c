@@ -1,0 +1,245 @@
+/* condensation_basis.c - see condensation_basis.h. The rows are the directions of all contacts, and the first response.
+ *   q    the motions along those rows that are as independent as they can be chosen (pivoted QR): row P = 1. A row that
+ *        is nearly a combination of rows chosen before leaves what is new of it, as long as 1: as a coordinate the row
+ *        itself would be a motion of all other rows too, by 1 over that new part, and so would be the forces on it
+ *   y    what moves none of them: its modes; P is bent so that no static force couples q and y (P^T K Y = 0)
+ * Where the rows span everything, q = x. */
+#include "hbm/structure/condensation_basis.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "numerics/dense.h"
+
+/* Directions that differ by less than this from others are the same but for rounding of the case file's numbers. */
+static const double dependent = 1e-10;
+/* What is new of a row, of length 1, where the row is no coordinate any more. Between the two the choice costs nothing
+ * but zeros of other contacts' directions. */
+static const double little = 0.1;
+/* Of a direction's entries beside its largest: rounding of the change of coordinates. */
+static const double negligible = 1e-12;
+/* A mode of the rest is free if its eigenvalue is less than this part of the largest. */
+static const double free_mode = 1e-14;
+
+static size_t square(int n) { return (size_t)n * (size_t)n; }
+
+static double dot(int n, const double *a, const double *b)
+{
+  double sum = 0;
+  for (int i = 0; i < n; ++i) sum += a[i] * b[i];
+  return sum;
+}
+
+static hc_status allocate(const model *m, condensation_basis *b)
+{
+  const size_t n = (size_t)m->n;
+  double **const squares[] = {&b->T, &b->M, &b->C, &b->K};
+  for (size_t i = 0; i < sizeof squares / sizeof *squares; ++i)
+    if (!(*squares[i] = calloc(n * n, sizeof(double)))) return HC_NO_MEMORY;
+  b->rows = calloc(n * (2 * (size_t)m->n_contacts + 1), sizeof(double));
+  b->directions = calloc(2 * n * (size_t)m->n_contacts + 1, sizeof(double));
+  b->loads = calloc(2 * n * (size_t)m->n_loads + 1, sizeof(double));
+  b->responses = calloc(n * (size_t)m->n_responses + 1, sizeof(double));
+  return b->rows && b->directions && b->loads && b->responses ? HC_OK : HC_NO_MEMORY;
+}
+
+void condensation_basis_clear(condensation_basis *b)
+{
+  free(b->T);
+  free(b->M);
+  free(b->C);
+  free(b->K);
+  free(b->rows);
+  free(b->directions);
+  free(b->loads);
+  free(b->responses);
+  *b = (condensation_basis){0};
+}
+
+/* ---- the columns of T -------------------------------------------------------------------------- */
+
+/* The columns of Q that span the rows become P with row P = 1 for the chosen rows: P = Q R^-T. */
+static void make_unit_motions(int n, int dim, const double *R, double *Q)
+{
+  for (int row = 0; row < n; ++row)
+    for (int j = dim - 1; j >= 0; --j) { /* R^T P^T = Q^T from the right: P_j = (Q_j - sum_k>j P_k R_jk) / R_jj */
+      double sum = Q[(size_t)row + (size_t)j * (size_t)n];
+      for (int k = j + 1; k < dim; ++k)
+        sum -= Q[(size_t)row + (size_t)k * (size_t)n] * R[(size_t)j + (size_t)k * (size_t)dim];
+      Q[(size_t)row + (size_t)j * (size_t)n] = sum / R[(size_t)j * (size_t)(dim + 1)];
+    }
+}
+
+/* Rows of the contacts and the first response into row[]; their number. */
+static int collect_rows(const model *m, const double **row)
+{
+  int n = 0;
+  for (int j = 0; j < m->n_contacts; ++j) {
+    row[n++] = m->contacts[j].tangent;
+    row[n++] = m->contacts[j].normal;
+  }
+  if (m->n_responses) row[n++] = m->responses;
+  return n;
+}
+
+/* The chosen rows, as long as 1, for q = rows x; Q R are the rows afterwards, too. */
+static void keep_rows(const model *m, const double *const *row, const int *pivot, double *R, condensation_basis *b)
+{
+  const size_t n = (size_t)m->n, dim = (size_t)b->dim;
+  for (size_t d = 0; d < dim; ++d) {
+    const bool new_part = fabs(R[d * (dim + 1)]) < little;
+    const double *from = new_part ? b->T + d * n : row[pivot[d]], length = sqrt(dot(m->n, from, from));
+    for (size_t i = 0; i < n; ++i) b->rows[d * n + i] = from[i] / length;
+    for (size_t k = 0; k <= d && new_part; ++k) R[d * dim + k] = k == d;
+  }
+}
+
+static hc_status choose_coordinates(const model *m, condensation_basis *b)
+{
+  const int n = m->n, most = 2 * m->n_contacts + 1;
+  const double **row = calloc((size_t)most, sizeof *row);
+  int *pivot = calloc((size_t)most, sizeof *pivot);
+  double *triangle = calloc(square(most < n ? most : n), sizeof *triangle);
+  hc_status st = row && pivot && triangle ? HC_OK : HC_NO_MEMORY;
+  b->dim = 0;
+  if (st == HC_OK) st = dense_span(n, collect_rows(m, row), row, dependent, &b->dim, pivot, b->T, triangle);
+  b->rest = n - b->dim;
+  if (st == HC_OK) keep_rows(m, row, pivot, triangle, b);
+  if (st == HC_OK && b->rest > 0) make_unit_motions(n, b->dim, triangle, b->T);
+  if (st == HC_OK && b->rest == 0) {
+    memset(b->T, 0, square(n) * sizeof *b->T);
+    for (int i = 0; i < n; ++i) b->T[(size_t)i * (size_t)(n + 1)] = 1;
+  }
+  free(row);
+  free(pivot);
+  free(triangle);
+  return st;
+}
+
+/* ---- modes of the rest ------------------------------------------------------------------------- */
+
+/* Y := Y phi, then P := P - Y lambda^-1 (Y^T K P): static forces of q move no y. work[2 n n]. */
+static void turn_to_modes(const model *m, condensation_basis *b, const double *lambda, const double *phi, double *work)
+{
+  const int n = m->n, dim = b->dim, rest = b->rest;
+  double *P = b->T, *Y = P + (size_t)dim * (size_t)n, *part = b->K, *KP = work; /* M, C, K are made afterwards */
+  dense_multiply(n, rest, rest, Y, phi, work);
+  memcpy(Y, work, (size_t)n * (size_t)rest * sizeof *Y);
+  dense_multiply(n, dim, n, m->stiffness, P, KP);
+  for (int d = 0; d < dim; ++d)
+    for (int j = 0; j < rest; ++j)
+      part[(size_t)d * (size_t)rest + (size_t)j] =
+          -dot(n, Y + (size_t)j * (size_t)n, KP + (size_t)d * (size_t)n) / lambda[j];
+  dense_multiply(n, dim, rest, Y, part, work);
+  for (size_t i = 0; i < (size_t)n * (size_t)dim; ++i) P[i] += work[i];
+}
+
+/* Where K and M are symmetric. */
+static hc_status choose_modes(const model *m, condensation_basis *b)
+{
+  const int n = m->n, rest = b->rest;
+  const double *Y = b->T + (size_t)b->dim * (size_t)n;
+  double *work = calloc(2 * square(n), sizeof *work), *lambda = calloc((size_t)rest, sizeof *lambda),
+         *phi = calloc(square(rest), sizeof *phi), *Myy = calloc(square(rest), sizeof *Myy),
+         *Kyy = calloc(square(rest), sizeof *Kyy);
+  hc_status st = work && lambda && phi && Myy && Kyy ? HC_OK : HC_NO_MEMORY;
+  if (st == HC_OK) {
+    dense_congruence(n, rest, Y, m->mass, work, Myy);
+    dense_congruence(n, rest, Y, m->stiffness, work, Kyy);
+    st = dense_modes(rest, Kyy, Myy, lambda, phi);
+  }
+  for (int i = 0; i < rest && st == HC_OK; ++i)
+    if (!(lambda[i] > free_mode * fabs(lambda[rest - 1]))) st = HC_SINGULAR;
+  if (st == HC_OK) turn_to_modes(m, b, lambda, phi, work);
+  free(work);
+  free(lambda);
+  free(phi);
+  free(Myy);
+  free(Kyy);
+  return st;
+}
+
+/* By the choice of Y the rest's blocks of M and K are diagonal, and K couples it with q nowhere: what is left there is
+ * rounding. */
+static void drop_rounding(condensation_basis *b)
+{
+  const int n = b->n, dim = b->dim;
+  for (int j = 0; j < n; ++j)
+    for (int i = dim; i < n; ++i) {
+      if (i == j) continue;
+      if (j >= dim) b->M[(size_t)i + (size_t)j * (size_t)n] = 0;
+      b->K[(size_t)i + (size_t)j * (size_t)n] = b->K[(size_t)j + (size_t)i * (size_t)n] = 0;
+    }
+}
+
+/* Is the rest's block of C diagonal but for rounding, which is relative to its largest entry? */
+static bool damping_is_diagonal(const condensation_basis *b)
+{
+  const int n = b->n;
+  double largest = 0, beside = 0;
+  for (int j = b->dim; j < n; ++j)
+    for (int i = b->dim; i < n; ++i) {
+      double *of = i == j ? &largest : &beside;
+      *of = fmax(*of, fabs(b->C[(size_t)i + (size_t)j * (size_t)n]));
+    }
+  return beside <= 8 * n * DBL_EPSILON * largest;
+}
+
+/* ---- everything in the new coordinates ---------------------------------------------------------- */
+
+static void transform(const condensation_basis *b, int columns, const double *x, double *out)
+{
+  for (int d = 0; d < columns; ++d) out[d] = dot(b->n, b->T + (size_t)d * (size_t)b->n, x);
+}
+
+static void transform_vectors(const model *m, condensation_basis *b)
+{
+  const size_t n = (size_t)m->n, dim = (size_t)b->dim;
+  for (int j = 0; j < m->n_contacts; ++j) {
+    transform(b, b->dim, m->contacts[j].tangent, b->directions + (size_t)(2 * j) * dim);
+    transform(b, b->dim, m->contacts[j].normal, b->directions + (size_t)(2 * j + 1) * dim);
+  }
+  for (int l = 0; l < m->n_loads; ++l) {
+    transform(b, m->n, m->loads[l].cosine, b->loads + (size_t)(2 * l) * n);
+    transform(b, m->n, m->loads[l].sine, b->loads + (size_t)(2 * l + 1) * n);
+  }
+  for (int r = 0; r < m->n_responses; ++r)
+    transform(b, m->n, m->responses + (size_t)r * n, b->responses + (size_t)r * n);
+}
+
+/* Rounding in a direction would couple what has nothing to do with each other. */
+static void clean_directions(const model *m, condensation_basis *b)
+{
+  for (int j = 0; j < 2 * m->n_contacts; ++j) {
+    double *d = b->directions + (size_t)j * (size_t)b->dim, largest = 0;
+    for (int i = 0; i < b->dim; ++i) largest = fmax(largest, fabs(d[i]));
+    for (int i = 0; i < b->dim; ++i)
+      if (fabs(d[i]) <= negligible * largest) d[i] = 0;
+  }
+}
+
+hc_status condensation_basis_make(const model *m, condensation_basis *b)
+{
+  *b = (condensation_basis){.n = m->n};
+  hc_status st = allocate(m, b);
+  if (st == HC_OK) st = choose_coordinates(m, b);
+  if (st != HC_OK) return st;
+  const bool modes = b->rest > 0 && dense_is_symmetric(m->n, m->stiffness);
+  if (modes) st = choose_modes(m, b);
+  double *work = calloc(2 * square(m->n), sizeof *work);
+  if (st == HC_OK && !work) st = HC_NO_MEMORY;
+  if (st == HC_OK) {
+    dense_congruence(m->n, m->n, b->T, m->mass, work, b->M);
+    dense_congruence(m->n, m->n, b->T, m->damping, work, b->C);
+    dense_congruence(m->n, m->n, b->T, m->stiffness, work, b->K);
+    transform_vectors(m, b);
+    clean_directions(m, b);
+    if (modes) drop_rounding(b);
+    b->modes = modes;
+    b->diagonal = modes && damping_is_diagonal(b);
+  }
+  free(work);
+  return st;
+}
