@@ -87,6 +87,11 @@ bool dense_is_symmetric(int n, const double *A)
 
 hc_status dense_modes(int n, const double *K, const double *M, double *lambda, double *phi)
 {
+  if (n == 1) { /* as one division says it: the same bits with every LAPACK */
+    if (!(*M > 0)) return HC_SINGULAR;
+    *lambda = *K / *M, *phi = 1 / sqrt(*M);
+    return HC_OK;
+  }
   const int type = 1, work_length = 1 + 6 * n + 2 * n * n, integer_length = 3 + 5 * n;
   double *work = malloc(((size_t)work_length + square(n)) * sizeof *work), *mass = work ? work + work_length : NULL;
   int *integers = malloc((size_t)integer_length * sizeof *integers), info = 0;

@@ -66,6 +66,17 @@ static void begin(motion_single *s, const scaled_model *m, const contact_track *
   if (s->way == 0) s->way = sign_of(s->d + creal(s->f) * cos(theta) - cimag(s->f) * sin(theta) - k * s->q);
 }
 
+/* Does the guard fall(q) = by q + constant of a contact that sticks reach 0 where N does, to rounding? It does where
+ * u is a multiple of v and stick began by touching: T and N vanish together, and separation is what happens there. */
+static bool falls_with_normal_force(const track_condition *g, const scaled_contact *c, double normal, double by,
+                                    double constant)
+{
+  if (g->event != TRACK_SLIPS_PLUS && g->event != TRACK_SLIPS_MINUS) return false;
+  if (!(c->law.kn > 0) || c->law.load != 0 || !(by * normal > 0)) return false;
+  const double q = -c->law.gap / normal, rounding = 8 * DBL_EPSILON * (fabs(by * q) + fabs(constant));
+  return fabs(by * q + constant) <= rounding;
+}
+
 /* All guards of the contacts, and that of the turn. */
 static int find_guards(motion_single *s, const scaled_model *m, const contact_track *track, bool to_turn)
 {
@@ -80,6 +91,7 @@ static int find_guards(motion_single *s, const scaled_model *m, const contact_tr
       const double by = g->by_u * t + g->by_v * normal;
       const double constant = g->of_rates ? 0 : g->by_v * g->gap + g->constant - g->by_u * g->from_u;
       const double noise = contact_track_noise(g, &m->contact[j], &at);
+      if (falls_with_normal_force(g, &m->contact[j], normal, by, constant)) continue;
       s->by[n] = by;
       s->guard[n] = (modal_guard){.constant = constant, .noise = noise};
       if (g->of_rates) s->guard[n].by_p = &s->by[n];

@@ -184,7 +184,8 @@ static void more_regularisation_is_regularisation(void **state)
 }
 
 /* The exact law with loose steps, against the same with fine ones, whose own error is 1e-12: its tolerance 1e-9 is a
- * millionth of the loose one, which is off by 2e-6 and less. Rounding of the amplitudes, 1e-15, is nothing beside. */
+ * millionth of the loose one, which is off by 2e-6 and less. Rounding of the amplitudes, 1e-15, is nothing beside. What
+ * Newton leaves of the distance to the loose orbit is `settling`, less than the hundredth to which the rest is held. */
 static void integration_is_the_distance_to_fine_steps(void **state)
 {
   (void)state;
@@ -202,7 +203,7 @@ static void integration_is_the_distance_to_fine_steps(void **state)
     if (!row->budget.known || row->transient.method == TIMEINT_BY_CLOSED_FORM) continue;
     double T = row->transient.amplitude, off = fabs(fine.rows[k].transient.amplitude - T) / T;
     assert_true(row->budget.against_transient && off > 1e-8);
-    CHECK_LE(row->budget.amplitude.settling, 1e-3 * off, "omega %g", row->omega);
+    CHECK_LE(row->budget.amplitude.settling, 0.01 * off, "omega %g", row->omega);
     CHECK_NEAR(row->budget.amplitude.integration, off, 0.01 * off, "omega %g, branch %d", row->omega, row->branch);
     ++seen;
   }
