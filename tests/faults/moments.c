@@ -11,7 +11,7 @@
 #include <sys/types.h>
 #include <unistd.h>
 
-#include "hbm/contact/exact_force.h"
+#include "hbm/forces/contact_forces.h"
 #include "numerics/workers.h"
 #include "output/output.h"
 #include "study/store.h"
@@ -77,8 +77,8 @@ static void moment(void)
     return __real_##name arguments;                                                                                    \
   }
 
-MOMENT(hc_status, exact_force_eval, (exact_force * e, const double *X, double *F, double *jac, contact_report *report),
-       (e, X, F, jac, report))
+MOMENT(hc_status, contact_forces_eval, (contact_forces * f, const double *X, double *F, contact_report *report),
+       (f, X, F, report))
 MOMENT(int, CVode, (void *cv, sunrealtype to, N_Vector y, sunrealtype *t, int task), (cv, to, y, t, task))
 MOMENT(hc_status, output_open, (const char *path, output **out), (path, out))
 MOMENT(hc_status, output_commit, (output * o), (o))

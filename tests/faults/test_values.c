@@ -1,9 +1,8 @@
-/* test_values.c - NaN and infinity at the n-th evaluation of the contact force (hbm/contact/exact_force.c, hbm/contact/aft.c) or of the
+/* test_values.c - NaN and infinity at the n-th evaluation of the contact forces (hbm/forces/contact_forces.c) or of the
  * right-hand side of the regularised law (timeint/scaled.c), with the status of a good evaluation or the one it owes:
  * no hang, no wrong answer, and the handle is not poisoned: asked again it answers what a new one answers, bit for
  * bit. */
-#include "hbm/contact/aft.h"
-#include "hbm/contact/exact_force.h"
+#include "hbm/forces/contact_forces.h"
 #include "hbm/hbm.h"
 #include "study/scene_solvers.h"
 #include "tests/faults/small.h"
@@ -19,6 +18,7 @@ typedef struct poison { /* of an evaluation */
   bool jacobian; /* into the Jacobian instead of the force */
   bool honest;   /* answered as HC_NOT_FINITE or false */
   long calls;
+  bool struck; /* the last evaluation */
 } poison;
 
 static poison now;
@@ -29,27 +29,25 @@ static bool strikes(void)
   return now.at > 0 && (now.stays ? now.calls >= now.at : now.calls == now.at);
 }
 
-static hc_status spoil(double *F, double *jac)
+hc_status __real_contact_forces_eval(contact_forces *f, const double *X, double *F, contact_report *report);
+hc_status __wrap_contact_forces_eval(contact_forces *f, const double *X, double *F, contact_report *report);
+hc_status __wrap_contact_forces_eval(contact_forces *f, const double *X, double *F, contact_report *report)
 {
-  double *to = now.jacobian && jac ? jac : F;
-  to[1] = now.value;
+  hc_status st = __real_contact_forces_eval(f, X, F, report);
+  now.struck = strikes();
+  if (!now.struck) return st;
+  if (!now.jacobian) F[1] = now.value;
   return now.honest ? HC_NOT_FINITE : HC_OK;
 }
 
-hc_status __real_exact_force_eval(exact_force *e, const double *X, double *F, double *jac, contact_report *report);
-hc_status __wrap_exact_force_eval(exact_force *e, const double *X, double *F, double *jac, contact_report *report);
-hc_status __wrap_exact_force_eval(exact_force *e, const double *X, double *F, double *jac, contact_report *report)
+/* That of a spoiled evaluation; the next evaluation makes it anew. */
+const double *__real_contact_forces_jacobian(contact_forces *f);
+const double *__wrap_contact_forces_jacobian(contact_forces *f);
+const double *__wrap_contact_forces_jacobian(contact_forces *f)
 {
-  hc_status st = __real_exact_force_eval(e, X, F, jac, report);
-  return strikes() ? spoil(F, jac) : st;
-}
-
-hc_status __real_aft_eval(aft *a, const double *X, double *F, double *jac, contact_report *report);
-hc_status __wrap_aft_eval(aft *a, const double *X, double *F, double *jac, contact_report *report);
-hc_status __wrap_aft_eval(aft *a, const double *X, double *F, double *jac, contact_report *report)
-{
-  hc_status st = __real_aft_eval(a, X, F, jac, report);
-  return strikes() ? spoil(F, jac) : st;
+  double *jac = (double *)__real_contact_forces_jacobian(f);
+  if (now.struck && now.jacobian) jac[1] = now.value;
+  return jac;
 }
 
 bool __real_scaled_rhs(const scaled_model *m, double theta, const double *y, double *dy);
