@@ -185,15 +185,16 @@ static void more_regularisation_is_regularisation(void **state)
 
 /* The exact law with loose steps, against the same with fine ones, whose own error is 1e-12: its tolerance 1e-9 is a
  * millionth of the loose one, which is off by 2e-6 and less. Rounding of the amplitudes, 1e-15, is nothing beside. What
- * Newton leaves of the distance to the loose orbit is `settling`, less than the hundredth to which the rest is held. */
+ * Newton leaves of the distance to the loose orbit, at the most the tolerance, is `settling` and not counted twice. */
 static void integration_is_the_distance_to_fine_steps(void **state)
 {
   (void)state;
   scene sc = known_scene(20);
   comparison loose, fine;
-  int seen = 0;
+  int seen = 0, settled = 0;
+  const double loosely = 1e-3;
   sc.transient.steady = TRANSIENT_STEADY_SHOOTING;
-  sc.transient.tolerance = 1e-3;
+  sc.transient.tolerance = loosely;
   assert_int_equal(scene_comparison_run(&sc, NULL, &loose), HC_OK);
   sc.transient.tolerance = 1e-9;
   assert_int_equal(scene_comparison_run(&sc, NULL, &fine), HC_OK);
@@ -203,11 +204,14 @@ static void integration_is_the_distance_to_fine_steps(void **state)
     if (!row->budget.known || row->transient.method == TIMEINT_BY_CLOSED_FORM) continue;
     double T = row->transient.amplitude, off = fabs(fine.rows[k].transient.amplitude - T) / T;
     assert_true(row->budget.against_transient && off > 1e-8);
-    CHECK_LE(row->budget.amplitude.settling, 0.01 * off, "omega %g", row->omega);
-    CHECK_NEAR(row->budget.amplitude.integration, off, 0.01 * off, "omega %g, branch %d", row->omega, row->branch);
+    const double settling = row->budget.amplitude.settling;
+    CHECK_LE(settling, loosely, "omega %g", row->omega);
+    CHECK_NEAR(row->budget.amplitude.integration, fmax(off - settling, 0), 0.01 * off, "omega %g, branch %d",
+               row->omega, row->branch);
+    settled += settling <= 0.01 * off;
     ++seen;
   }
-  assert_true(seen >= 4);
+  assert_true(seen >= 4 && settled >= 2);
   comparison_clear(&fine);
   comparison_clear(&loose);
 }
