@@ -127,7 +127,8 @@ static bool is_matlab_name(const char *name)
 
 static const char how_matlab_writes[] =
     " is a MATLAB file, which is not read, expected Matrix Market, which MATLAB writes by: [i,j,v] = find(M); "
-    "f = fopen('M.mtx','w'); fprintf(f,'%%%%MatrixMarket matrix coordinate real general\\n%d %d %d\\n',size(M),numel(v)); "
+    "f = fopen('M.mtx','w'); fprintf(f,'%%%%MatrixMarket matrix coordinate real general\\n%d %d "
+    "%d\\n',size(M),numel(v)); "
     "fprintf(f,'%d %d %.17g\\n',[i j v]'); fclose(f)";
 
 static hc_status read_file(case_reader *r, const char *what, const yaml_node_t *node, int expected, int *n,

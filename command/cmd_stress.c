@@ -90,7 +90,8 @@ static int stress_make_folder(const cli_common *common, const char *findings)
 static const char help[] =
     "Draw scenes from a Sobol sequence over the whole range of every quantity, solve each by every method, and hold "
     "each against every other. Every "
-    "check ends as agreed, explained (by a reason that was computed, too), too dear, refused (a solver said why) or a finding: "
+    "check ends as agreed, explained (by a reason that was computed, too), too dear, refused (a solver said "
+    "why) or a finding: "
     "two methods differ and nothing explains it."
     "\vSeed and index make a scene again: --first INDEX --scenes 1 --all runs it alone, --case prints its case file. "
     "With --results the same command goes "

@@ -128,8 +128,8 @@ static bool is_at_corner(const comparison_row *row)
   return row->transient.free_sliders > 0 && hbm_stability_verdict(&row->stability) == 0;
 }
 
-/* Where the motion goes that is pushed off w->state to that side (+1, -1), marched with the exact law in closed form. As
- * timeint_steady. */
+/* Where the motion goes that is pushed off w->state to that side (+1, -1), marched with the exact law in closed form.
+ * As timeint_steady. */
 static hc_status perturbed_motion(comparison_work *w, double omega, int direction, timeint_result *r)
 {
   transient_settings how = w->setup->transient;

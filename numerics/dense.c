@@ -1,5 +1,5 @@
-/* dense.c - see dense.h. The one file that calls BLAS and LAPACK. Their Fortran interface is called as it is: LAPACKE would only add memory of its own. Every
- * CHARACTER argument has its length behind the others. */
+/* dense.c - see dense.h. The one file that calls BLAS and LAPACK. Their Fortran interface is called as it is: LAPACKE
+ * would only add memory of its own. Every CHARACTER argument has its length behind the others. */
 #include "numerics/dense.h"
 
 #include <float.h>

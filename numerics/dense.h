@@ -11,8 +11,8 @@
 /* C = A B; A[m][k], B[k][n], C[m][n] by columns, apart from each other. */
 void dense_multiply(int m, int n, int k, const double *A, const double *B, double *C);
 
-/* C := alpha A B + beta C of parts of matrices: an entry (i, j) of each is at [i + ld j]; dgemm. C is not read where beta
- * is 0. */
+/* C := alpha A B + beta C of parts of matrices: an entry (i, j) of each is at [i + ld j]; dgemm. C is not read where
+ * beta is 0. */
 void dense_add_product(int m, int n, int k, double alpha, const double *A, int lda, const double *B, int ldb,
                        double beta, double *C, int ldc);
 

@@ -44,7 +44,8 @@ const table_column *rows_columns(rows_kind kind, unsigned extra, int *n);
 /* For table_spare: which of them a narrow screen does without, the first ones first. */
 const char *const *rows_spare(rows_kind kind, bool in_cycles);
 
-/* One row, of the kind's type: cells[n] in the columns' order. A real that is not a number is not there. Cannot fail. */
+/* One row, of the kind's type: cells[n] in the columns' order. A real that is not a number is not
+ * there. Cannot fail. */
 void rows_cells(rows_kind kind, const void *row, unsigned extra, row_cell *cells);
 
 /* Entry i of rows[] of that type. */

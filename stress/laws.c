@@ -180,9 +180,9 @@ static void step_period(const one_contact *c, int n_harm, int N, const double *t
 }
 
 /* The law stepped through N instants a period, from w = 0 until the slider has settled: harmonics force[n_dof][2H+1] of
- * one period more. Between instants u and v go evenly, as in hbm/planar/planar_slider.h. A slider on a line has settled after
- * one period; one in the plane settles by a factor each, or creeps into a corner between two circles, the slower the
- * nearer. false: after 2^23 instants it still has not settled. */
+ * one period more. Between instants u and v go evenly, as in hbm/planar/planar_slider.h. A slider on a line has
+ * settled after one period; one in the plane settles by a factor each, or creeps into a corner between two circles,
+ * the slower the nearer. false: after 2^23 instants it still has not settled. */
 static bool step_contact(const one_contact *c, int n_harm, int N, const double *turn, double *force)
 {
   const int most = c->circle ? 1 << 23 : N; /* instants in all */
@@ -318,7 +318,8 @@ static double motion_size(const solved_scene *s, const one_contact *c, int d, in
 
 /* What stepping through N instants, e = 2 pi/N apart, may do to a coefficient, over the largest force of the springs.
  * Up, Vp bound the p-th derivatives of u and v; r = mu N/kt.
- *     sums     a trapezoidal sum errs by e^2/12 times the mean of |(f cos h th)''|, twice that for h >= 1: with f of the
+ *     sums     a trapezoidal sum errs by e^2/12 times the mean of |(f cos h th)''|, twice that for h >= 1: with f of
+ * the
  *              springs, S2 + 2 h S1 + h^2 S0, Sp = kt Up + (1 + mu) kn Vp; and by e^2/8 times each jump of f', at most
  *              2 S1, over pi
  *     slider   u and r go evenly between instants, off by e^2/8 (U2 + R2): on a line so is the slider

@@ -1,6 +1,6 @@
-/* run.c - all checks of one scene; many scenes by several threads, which take the next one under the workers' lock while
- * the calling thread watches; and their results, kept as they come: a text file, a line a scene, from which a run that was
- * killed goes on.
+/* run.c - all checks of one scene; many scenes by several threads, which take the next one under the workers' lock
+ * while the calling thread watches; and their results, kept as they come: a text file, a line a scene, from which a
+ * run that was killed goes on.
  *
  *     # hbmcheck stress 4, seed 1, 2 s          or: 4, structures of seed 1, 2 s, structures in space of ...
  *     # checks: contact_force balance ...     the names behind the columns and codes below, in their order

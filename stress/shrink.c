@@ -1,5 +1,5 @@
-/* shrink.c - stress_shrink: the fewest contacts, loads, degrees of freedom, harmonics and digits with which a finding is
- * still one. */
+/* shrink.c - stress_shrink: the fewest contacts, loads, degrees of freedom, harmonics and digits with which a finding
+ * is still one. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

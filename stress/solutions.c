@@ -1,5 +1,5 @@
-/* solutions.c - checks of the HBM solution against closed forms, against samples, and against the response curve through
- * it. */
+/* solutions.c - checks of the HBM solution against closed forms, against samples, and against the response curve
+ * through it. */
 #include <complex.h>
 #include <float.h>
 #include <math.h>
@@ -190,9 +190,9 @@ stress_check stress_check_stuck(solved_scene *s) { return check_contacts(s, true
 
 static const double near = 1e-6;
 
-/* Samples err by the second power of their distance, by the first where a slider's rest hangs on one of them, and scatter
- * by where the transitions lie between them: with 64 times as many an eighth is asked, or half with the last four times
- * as many. */
+/* Samples err by the second power of their distance, by the first where a slider's rest hangs on one of them, and
+ * scatter by where the transitions lie between them: with 64 times as many an eighth is asked, or half with the last
+ * four times as many. */
 stress_check stress_check_sampled(solved_scene *s)
 {
   const int n_harm = s->how.harmonics;

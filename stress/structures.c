@@ -53,7 +53,8 @@ static void add_full(uint64_t *r, int n, double *A, double scale)
   }
 }
 
-/* Entries are of the order of 1: a chain, a tree, or full matrices. Where nothing of its own holds it, contacts have to. */
+/* Entries are of the order of 1: a chain, a tree, or full matrices. Where nothing of its own holds it, contacts have
+ * to. */
 static void draw_matrices(uint64_t *r, const double *p, scene_structure *s)
 {
   const int n = s->n;

@@ -131,7 +131,8 @@ static hc_status wait_for(finder *f, double omega, const hc_monitor *monitor, be
   return HC_OK;
 }
 
-/* The largest of the curve's solutions at omega (by its first response) whose orbit is stable, into f->X and f->state. */
+/* The largest of the curve's solutions at omega (by its first response) whose orbit is stable, into f->X and
+ * f->state. */
 static hc_status largest_stable(finder *f, double omega, const hc_monitor *monitor, bench_start *start,
                                 timeint_result *best, double *floor)
 {

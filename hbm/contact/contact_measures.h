@@ -1,4 +1,5 @@
-/* contact_measures.h - what the exact contact law does along a periodic motion of one contact: extrema of its forces, slip path, and dissipated work (model/contact_period.h).
+/* contact_measures.h - what the exact contact law does along a periodic motion of one contact: extrema of its forces,
+ * slip path, and dissipated work (model/contact_period.h).
  *
  *     work = closed integral T du = sum over slip pieces of integral mu N |dw|,   w = u - s mu N/kt
  *

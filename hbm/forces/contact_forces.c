@@ -85,8 +85,8 @@ static hc_status make_members(int n, const placed_contact *contacts, hbm_force f
   return st;
 }
 
-/* Does the Jacobian cost less as a product of matrices than scattered member by member? That takes some ten times as long
- * an operation. */
+/* Does the Jacobian cost less as a product of matrices than scattered member by member? That takes some ten times as
+ * long an operation. */
 static bool product_pays(const contact_forces *f)
 {
   double scattered = 0;

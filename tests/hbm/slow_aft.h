@@ -1,6 +1,6 @@
 /* slow_aft.h - the sampled contact force the slow way, for tests: direct sums instead of FFTs, the law written as a
- * clamp, six periods instead of two, no Jacobian. Shares nothing with hbm/contact/aft.c but the definition of what is to be
- * computed. */
+ * clamp, six periods instead of two, no Jacobian. Shares nothing with hbm/contact/aft.c but the definition of what is
+ * to be computed. */
 #ifndef HC_TESTS_HBM_SLOW_AFT_H
 #define HC_TESTS_HBM_SLOW_AFT_H
 

@@ -236,10 +236,10 @@ static void proportional_damping_is_told(void **state)
   }
 }
 
-/* Periods of the chain, in which CVODE takes BDF: as by modes, to the sum of the local errors. CVODE keeps the root mean
- * square over the states of each step's below 1e-12 of about 1, so that no state's exceeds sqrt(n) of that; the chain is
- * damped, and what a step left does not grow. Which errors add up depends on the last digits, and so on the BLAS. Its
- * steps are not as short as the fastest mode is fast: 2e4 a radian. */
+/* Periods of the chain, in which CVODE takes BDF: as by modes, to the sum of the local errors. CVODE keeps the root
+ * mean square over the states of each step's below 1e-12 of about 1, so that no state's exceeds sqrt(n) of that; the
+ * chain is damped, and what a step left does not grow. Which errors add up depends on the last digits, and so on the
+ * BLAS. Its steps are not as short as the fastest mode is fast: 2e4 a radian. */
 static void events_of_stiff_structures(void **state)
 {
   (void)state;

@@ -1,6 +1,6 @@
-/* points.c - see points.h. First the verdicts along the branches: points on an unstable one, and points that change it. A curve with
- * unstable branches beside the stable ones is the whole curve; one with unstable points where a stable branch exists,
- * and none on that, or with nothing but unstable points, followed the wrong branch. */
+/* points.c - see points.h. First the verdicts along the branches: points on an unstable one, and points that change
+ * it. A curve with unstable branches beside the stable ones is the whole curve; one with unstable points where a
+ * stable branch exists, and none on that, or with nothing but unstable points, followed the wrong branch. */
 #include <math.h>
 #include <stdlib.h>
 
