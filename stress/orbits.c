@@ -472,8 +472,8 @@ stress_check stress_check_returns(solved_scene *s)
 static bool is_alone(solved_scene *s) { return random_int(&s->random, 1, ALONE_EVERY) == 1; }
 
 /* Where the motion goes from rest. What has not settled by one of them says nothing: the longer it takes, the more
- * chance decides when. Nor does a slider that comes to rest for good: where it does is decided by all periods before.
- * */
+ * chance decides when. Nor does a slider that comes to rest for good: where it does is decided by all periods
+ * before. */
 stress_check stress_check_from_rest(solved_scene *s)
 {
   transient_settings how = path_settings();

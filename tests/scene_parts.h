@@ -41,8 +41,8 @@ static inline model *scene_split_model(const scene *sc, int n)
 /* Where in a state of one degree of freedom x and v are, and the slider of contact 0. */
 enum { SCALED_X, SCALED_P, SCALED_W };
 
-/* The equations of a scene, whose modes and contacts are in memory of this file: those of the last 16 made are valid.
- * */
+/* The equations of a scene, whose modes and contacts are in memory of this file: those of the last 16 made are
+ * valid. */
 static inline void scene_scaled(scaled_model *m, const scene *sc, double omega, double length)
 {
   static scaled_contact contacts[16][SCENE_MAX_CONTACTS];

@@ -1,5 +1,5 @@
-/* timed_method.h - one method with one choice of settings, ready to solve at a frequency, and timed as often as needed.
- * */
+/* timed_method.h - one method with one choice of settings, ready to solve at a frequency, and timed as often as
+ * needed. */
 #ifndef HC_BENCH_TIMED_METHOD_H
 #define HC_BENCH_TIMED_METHOD_H
 

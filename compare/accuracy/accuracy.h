@@ -21,8 +21,8 @@ enum { ORDER_MOST_POINTS = 512 };
 /* x[n] ascending > 0, larger is finer; error e[n] >= 0 [1], NaN where there is none; n <= ORDER_MOST_POINTS. The line
  * is fitted to the envelope, the largest error at this x or a finer one, since an aliasing error is erratic and may be
  * small by chance. Points are used where the envelope is below 0.1 and above `floor`; of these the k finest, k >= 3,
- * that give the narrowest 95 % interval for the order, so that coarse points before the asymptotic range are left out.
- * */
+ * that give the narrowest 95 % interval for the order, so that coarse points before the asymptotic range are left
+ * out. */
 order_fit order_fit_to(int n, const double *x, const double *e, double floor);
 
 /* One pair (H, N), over the frequencies of the comparison and the referee's orbits there. NaN: not known. */

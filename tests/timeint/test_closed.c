@@ -145,8 +145,8 @@ static void random_state(const scaled_model *m, integrator *in, double *y, uint6
 
 /* One period, and its matrix, against CVODE's: 200 steps of 1e-13 of the motion's size, which a stiff phase (rates 30)
  * may carry on 30 times larger. The matrix changes with the transitions' angles, whose error is that of X over P: 1e-10
- * where P is some 1e-3. As many transitions, but where one of the two sees a slip that is hardly longer than nothing.
- * */
+ * where P is some 1e-3. As many transitions, but where one of the two sees a slip that is hardly longer than
+ * nothing. */
 static void random_scenes_follow_cvode(void **state)
 {
   (void)state;
