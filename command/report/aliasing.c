@@ -229,7 +229,7 @@ static json_t *sampled_answer(const force_workspace *w, int k, double omega, con
   const int H = w->sc->hbm.harmonics, n = 2 * H + 1;
   hbm_point point;
   hbm_measures m = {.amplitude = NAN};
-  double X[MOST_COEF], missed[MOST_COEF], folds[2 * MOST_HARMONICS + 2];
+  double X[MOST_COEF], missed[MOST_COEF], folds[2 * MOST_HARMONICS + 2] = {0};
   memcpy(X, start, sizeof X);
   if (hbm_solve(w->hbm[k], omega, X, &point) != HC_OK || hbm_measure(w->hbm[k], X, &m) != HC_OK) m.amplitude = NAN;
   json_t *answer = json_pack("{s:o, s:b}", "amplitude", number(m.amplitude), "touches",
