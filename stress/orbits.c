@@ -50,7 +50,7 @@ static size_t state_length(const model *m) { return 2 * (size_t)m->n + (size_t)m
 static void path_make(solved_scene *s, const model *m, const double *from, stress_path *out)
 {
   *out = (stress_path){.status = HC_NOT_CONVERGED};
-  out->state = malloc(state_length(m) * sizeof *out->state);
+  out->state = calloc(state_length(m), sizeof *out->state);
   out->wave = calloc((size_t)s->n * TIMEINT_WAVE, sizeof *out->wave);
   if (!out->state || !out->wave) s->fatal = out->status = HC_NO_MEMORY;
   else if (from) memcpy(out->state, from, state_length(m) * sizeof *out->state);
