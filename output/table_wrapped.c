@@ -165,7 +165,8 @@ static bool copy_texts(const table *t, const wrapped *w)
 
 hc_status table_write_wrapped(const table *t, FILE *to)
 {
-  size_t columns = (size_t)t->n_columns, cells = columns * ((size_t)table_row_count(t) + 1);
+  const size_t columns = (size_t)t->n_columns + 1,
+               cells = columns * ((size_t)table_row_count(t) + 1); /* none of 0 bytes */
   wrapped w = {calloc(cells, sizeof *w.texts), calloc(columns, sizeof *w.widths), calloc(columns, sizeof *w.words),
                calloc(columns, sizeof *w.shown), calloc(columns, sizeof *w.rest)};
   bool good = copy_texts(t, &w);

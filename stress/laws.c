@@ -63,19 +63,23 @@ static one_contact contact_of(const model *m, int j)
 static hc_status locate_line(int n_harm, one_contact *c)
 {
   const moving_contact alone = {.law = *c->law, .cu = {1, 0}, .cv = {0, 1}};
+  contact_report report = {0};
   exact_force *e;
   hc_status st = exact_force_new(n_harm, 2, 1, &alone, &e);
-  if (st == HC_OK) st = exact_force_eval(e, c->motion, c->force, NULL, &c->report);
+  if (st == HC_OK) st = exact_force_eval(e, c->motion, c->force, NULL, &report);
   exact_force_free(e);
+  c->report = report;
   return st;
 }
 
 static hc_status locate_circle(int n_harm, one_contact *c)
 {
+  contact_report report = {0};
   planar_force *f;
   hc_status st = planar_force_new(n_harm, c->n_dof, c->law, &f);
-  if (st == HC_OK) st = planar_force_eval(f, c->motion, c->force, NULL, &c->report);
+  if (st == HC_OK) st = planar_force_eval(f, c->motion, c->force, NULL, &report);
   planar_force_free(f);
+  c->report = report;
   return st;
 }
 

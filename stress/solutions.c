@@ -93,7 +93,10 @@ static void start_of(const solved_scene *s, const double *x, double *state)
   for (int c = 0; c < s->n_coef; ++c)
     for (int i = 0; i < s->n; ++i) {
       if (c == 0 || c % 2) state[i] += x[c * s->n + i];
-      else state[s->n + i] += c / 2 * s->omega * x[c * s->n + i];
+      else {
+        const int harmonic = c / 2;
+        state[s->n + i] += harmonic * s->omega * x[c * s->n + i];
+      }
     }
 }
 
@@ -119,7 +122,7 @@ static stress_check hold_linear(solved_scene *s, const model *m, const linear_mo
                             : stress_agree(stress_motion_distance(s, hbm.x, exact->x, means_out), bound);
     stress_motion_free(&hbm);
   }
-  if (c.outcome == STRESS_AGREED) {
+  if (s->fatal == HC_OK && c.outcome == STRESS_AGREED) {
     start_of(s, exact->x, start);
     stress_path_of(s, m, start, &path);
     /* undamped, no period map has one orbit */
@@ -166,7 +169,6 @@ static void add_spring(int n, double k, const double *d, double *K)
 static stress_check check_contacts(solved_scene *s, bool stuck)
 {
   model *m = NULL, *linear = NULL;
-  stress_check c = stress_skip(STRESS_NOT_APPLICABLE);
   hc_status st = model_copy(s->model, &m);
   for (int l = 0; st == HC_OK && l < m->n_loads && !s->how.keep_mean; ++l)
     for (int i = 0; i < s->n && m->loads[l].harmonic == 0; ++i) m->loads[l].cosine[i] = 0; /* not in HBM's equations */
@@ -177,7 +179,7 @@ static stress_check check_contacts(solved_scene *s, bool stuck)
     if (law->kt > 0) add_spring(s->n, law->kt, m->contacts[j].tangent, linear->stiffness);
     if (law->kn > 0) add_spring(s->n, law->kn, m->contacts[j].normal, linear->stiffness);
   }
-  c = st == HC_OK ? check_linear(s, m, linear, stuck) : stress_refuse(s, st);
+  const stress_check c = st == HC_OK ? check_linear(s, m, linear, stuck) : stress_refuse(s, st);
   model_free(m);
   model_free(linear);
   return c;
