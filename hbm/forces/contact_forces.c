@@ -28,6 +28,7 @@ typedef struct member {
 struct contact_forces {
   int dim, length /* 2H+1 */, n_members;
   member *members;    /* [n_members] */
+  bool itself;        /* there is one contact, and its one coordinate is the one of q: nothing to gather or scatter */
   int *member_of;     /* [contacts] */
   double *x, *f;      /* [EVALUATOR_MOST_DOF (2H+1)] of one member */
   double *jac;        /* [dim (2H+1)]^2 */
@@ -133,6 +134,7 @@ hc_status contact_forces_new_of(int dim, int n, const placed_contact *contacts, 
   const bool allocated = f->members && f->member_of && f->x && f->f && f->jac;
   hc_status st = allocated ? make_members(n, contacts, force, how, f) : HC_NO_MEMORY;
   if (st == HC_OK) st = make_product(f);
+  f->itself = st == HC_OK && dim == 1 && n == 1 && f->members->of[0].n == 1; /* its weight is then 1 */
   if (st == HC_OK) *out = f;
   else contact_forces_free(f);
   return st;
@@ -214,10 +216,10 @@ static hc_status evaluate(contact_forces *f, const double *X, double *F, bool de
   for (int j = 0; j < f->n_members && st == HC_OK; ++j) {
     member *m = &f->members[j];
     contact_report own;
-    for (int d = 0; d < m->n_dof; ++d) gather(f, &m->of[d], X, f->x + d * f->length);
-    st = m->by->evaluate(m->evaluator, f->x, f->f, derive ? m->jac : NULL, &own);
+    for (int d = 0; d < m->n_dof && !f->itself; ++d) gather(f, &m->of[d], X, f->x + d * f->length);
+    st = m->by->evaluate(m->evaluator, f->itself ? X : f->x, f->itself ? F : f->f, derive ? m->jac : NULL, &own);
     m->differentiated = derive && !m->by->jacobian;
-    for (int d = 0; d < m->n_dof && st == HC_OK; ++d) scatter(f, &m->of[d], f->f + d * f->length, F);
+    for (int d = 0; d < m->n_dof && st == HC_OK && !f->itself; ++d) scatter(f, &m->of[d], f->f + d * f->length, F);
     if (st == HC_OK) add_report(report, &own);
   }
   return st;
@@ -300,6 +302,7 @@ const double *contact_forces_jacobian(contact_forces *f)
     if (!m->differentiated) m->by->jacobian(m->evaluator, m->jac);
     m->differentiated = true;
   }
+  if (f->itself) return f->members->jac;
   if (f->product) multiply_members(f);
   else scatter_members(f);
   f->assembled = true;

@@ -31,7 +31,7 @@ hc_status condensation_new(const model *m, int n_harm, condensation **out)
     c->room = new_complex(2 * loads * dim);
     c->vector = new_complex(2 * (size_t)m->n);
     c->S = new_complex(H * dim * dim);
-    c->size = calloc(H * dim * dim + 1, sizeof *c->size);
+    c->size = calloc(dim * dim + 1, sizeof *c->size);
     c->by_q = new_complex(H * dim * rest);
     c->by_y = new_complex(H * dim * rest);
     c->load = new_complex(loads * dim);
@@ -145,35 +145,26 @@ static void fill_stiffness(condensation *c, int h, condensation_change dynamic)
       const size_t at = condensation_entry(c, d, e),
                    to = ((size_t)h * (size_t)dim + (size_t)e) * (size_t)dim + (size_t)d;
       double complex sum = condensation_Z_at(c, dynamic, at);
-      double size =
-          fabs(c->basis.K[at]) + cabs(dynamic.alpha) * fabs(c->basis.M[at]) + cabs(dynamic.beta) * fabs(c->basis.C[at]);
-      for (int i = 0; i < rest; ++i) {
-        const double complex part = condensation_Z_at(c, dynamic, condensation_entry(c, d, dim + i)) *
-                                    by_q[(size_t)e * (size_t)rest + (size_t)i];
-        sum -= part;
-        size += cabs(part);
-      }
+      for (int i = 0; i < rest; ++i)
+        sum -= condensation_Z_at(c, dynamic, condensation_entry(c, d, dim + i)) *
+               by_q[(size_t)e * (size_t)rest + (size_t)i];
       c->S[to] = sum;
-      c->size[to] = size;
     }
 }
 
-/* p and Z_yy^-1 p_y of the loads of harmonic h. */
-static void fill_loads(condensation *c, int h)
+/* p and Z_yy^-1 p_y of load l. */
+static void fill_load(condensation *c, int l)
 {
-  const int dim = c->basis.dim, rest = c->basis.rest;
-  for (int l = 0; l < c->m->n_loads; ++l) {
-    if (c->m->loads[l].harmonic != h) continue;
-    const double *cosine = c->basis.loads + (size_t)(2 * l) * (size_t)c->m->n, *sine = cosine + c->m->n;
-    double complex *y = c->rest_of + (size_t)l * (size_t)rest, *p = c->load + (size_t)l * (size_t)dim;
-    const double complex *by_y = c->by_y + (size_t)h * (size_t)dim * (size_t)rest;
-    for (int i = 0; i < rest; ++i) y[i] = cosine[dim + i] - I * sine[dim + i];
-    for (int d = 0; d < dim; ++d) {
-      p[d] = cosine[d] - I * sine[d];
-      for (int i = 0; i < rest; ++i) p[d] -= by_y[(size_t)d * (size_t)rest + (size_t)i] * y[i];
-    }
-    solve_rest(c, h, false, 1, y);
+  const int dim = c->basis.dim, rest = c->basis.rest, h = c->m->loads[l].harmonic;
+  const double *cosine = c->basis.loads + (size_t)(2 * l) * (size_t)c->m->n, *sine = cosine + c->m->n;
+  double complex *y = c->rest_of + (size_t)l * (size_t)rest, *p = c->load + (size_t)l * (size_t)dim;
+  const double complex *by_y = c->by_y + (size_t)h * (size_t)dim * (size_t)rest;
+  for (int i = 0; i < rest; ++i) y[i] = cosine[dim + i] - I * sine[dim + i];
+  for (int d = 0; d < dim; ++d) {
+    p[d] = cosine[d] - I * sine[d];
+    for (int i = 0; i < rest; ++i) p[d] -= by_y[(size_t)d * (size_t)rest + (size_t)i] * y[i];
   }
+  solve_rest(c, h, false, 1, y);
 }
 
 /* At rest K couples q and modes of the rest nowhere: S = K_qq, p = p_q, and no coupling is ever anything but 0. */
@@ -181,11 +172,7 @@ static void fill_static(condensation *c)
 {
   const int dim = c->basis.dim;
   for (int e = 0; e < dim; ++e)
-    for (int d = 0; d < dim; ++d) {
-      const double K = c->basis.K[condensation_entry(c, d, e)];
-      c->S[e * dim + d] = K;
-      c->size[e * dim + d] = fabs(K);
-    }
+    for (int d = 0; d < dim; ++d) c->S[e * dim + d] = c->basis.K[condensation_entry(c, d, e)];
 }
 
 hc_status condensation_by_rest(condensation *c, int h)
@@ -197,21 +184,9 @@ hc_status condensation_by_rest(condensation *c, int h)
   if (uncoupled) fill_static(c);
   else fill_couplings(c, h, dynamic);
   if (!uncoupled) fill_stiffness(c, h, dynamic);
-  fill_loads(c, h);
+  for (int l = 0; l < c->m->n_loads; ++l)
+    if (c->m->loads[l].harmonic == h) fill_load(c, l);
   return HC_OK;
-}
-
-static void fill_sizes(condensation *c, int h)
-{
-  const int dim = c->basis.dim;
-  const condensation_change dynamic = condensation_dynamic(c, h);
-  for (int e = 0; e < dim; ++e)
-    for (int d = 0; d < dim; ++d) {
-      const size_t at = condensation_entry(c, d, e),
-                   to = ((size_t)h * (size_t)dim + (size_t)e) * (size_t)dim + (size_t)d;
-      c->size[to] = fabs(c->basis.K[at]) + cabs(dynamic.alpha) * fabs(c->basis.M[at]) +
-                    cabs(dynamic.beta) * fabs(c->basis.C[at]) + cabs(c->S[to] - condensation_Z_at(c, dynamic, at));
-    }
 }
 
 void condensation_multiply(int dim, const double complex *S, const double complex *a, double complex *out)
@@ -230,7 +205,6 @@ static bool fill_by_compliance(condensation *c, int h)
   if (compliance_at(c->compliance, condensation_frequency(c, h), condensation_reach(c), condensation_more_rate(c), S,
                     c->room) != HC_OK)
     return false;
-  fill_sizes(c, h);
   for (size_t l = 0; l < (size_t)c->m->n_loads; ++l) {
     if (c->m->loads[l].harmonic != h) continue;
     for (size_t d = 0; d < dim; ++d)
@@ -240,6 +214,19 @@ static bool fill_by_compliance(condensation *c, int h)
   return true;
 }
 
+/* Without a rest S = Z, and loads are as the model has them. */
+static void fill_whole(condensation *c)
+{
+  const size_t entries = (size_t)c->basis.dim * (size_t)c->basis.dim;
+  double complex *S = c->S;
+  for (int h = 0; h <= c->n_harm; ++h) {
+    const condensation_change dynamic = condensation_dynamic(c, h);
+    for (size_t at = 0; at < entries; ++at) *S++ = condensation_Z_at(c, dynamic, at);
+  }
+  for (int l = 0; l < c->m->n_loads; ++l)
+    if (c->m->loads[l].harmonic <= c->n_harm) fill_load(c, l);
+}
+
 hc_status condensation_at(condensation *c, double omega, double more_damping)
 {
   if (c->known && omega == c->omega && more_damping == c->more_damping) return HC_OK;
@@ -247,7 +234,8 @@ hc_status condensation_at(condensation *c, double omega, double more_damping)
   c->more_damping = more_damping;
   c->known = false;
   hc_status st = HC_OK;
-  for (int h = 0; h <= c->n_harm && st == HC_OK; ++h) {
+  if (c->basis.rest == 0) fill_whole(c);
+  for (int h = 0; h <= c->n_harm && st == HC_OK && c->basis.rest > 0; ++h) {
     c->by_compliance[h] = fill_by_compliance(c, h);
     if (!c->by_compliance[h]) st = condensation_by_rest(c, h);
   }
@@ -260,9 +248,23 @@ const double complex *condensation_stiffness(const condensation *c, int h)
   return c->S + (size_t)h * (size_t)c->basis.dim * (size_t)c->basis.dim;
 }
 
-const double *condensation_sizes(const condensation *c, int h)
+const double *condensation_sizes(condensation *c, int h)
 {
-  return c->size + (size_t)h * (size_t)c->basis.dim * (size_t)c->basis.dim;
+  const int dim = c->basis.dim, rest = c->basis.rest;
+  const condensation_change dynamic = condensation_dynamic(c, h);
+  const double alpha = cabs(dynamic.alpha), beta = cabs(dynamic.beta);
+  const double complex *S = condensation_stiffness(c, h), *by_q = c->by_q + (size_t)h * (size_t)dim * (size_t)rest;
+  for (int e = 0; e < dim; ++e)
+    for (int d = 0; d < dim; ++d) {
+      const size_t at = condensation_entry(c, d, e), to = (size_t)e * (size_t)dim + (size_t)d;
+      double size = fabs(c->basis.K[at]) + alpha * fabs(c->basis.M[at]) + beta * fabs(c->basis.C[at]);
+      if (c->by_compliance[h]) size += cabs(S[to] - condensation_Z_at(c, dynamic, at));
+      for (int i = 0; i < rest && !c->by_compliance[h]; ++i)
+        size += cabs(condensation_Z_at(c, dynamic, condensation_entry(c, d, dim + i)) *
+                     by_q[(size_t)e * (size_t)rest + (size_t)i]);
+      c->size[to] = size;
+    }
+  return c->size;
 }
 
 const double complex *condensation_load(const condensation *c, int i)

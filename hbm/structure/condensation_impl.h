@@ -22,7 +22,7 @@ struct condensation {
   double complex *room;    /* [2 n_loads][dim] */
   double complex *vector;  /* [2][dim + rest] of condensation_change.c */
   double complex *S;       /* [n_harm + 1][dim][dim] */
-  double *size;            /* [n_harm + 1][dim][dim] */
+  double *size;            /* [dim][dim] of the harmonic asked for last */
   double complex *by_q;    /* [n_harm + 1][dim][rest]: Z_yy^-1 Z_yq */
   double complex *by_y;    /* [n_harm + 1][dim][rest]: (Z_qy Z_yy^-1)^T */
   double complex *load;    /* [n_loads][dim] */
