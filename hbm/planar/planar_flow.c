@@ -26,7 +26,7 @@ struct planar_flow {
   double *K;            /* [n][n] by columns, K_j of the stretch */
   double *matrix;       /* [N (n + circles)]^2 by columns */
   int *pivot;           /* [N (n + circles)] */
-  double *right;        /* the same, of one column */
+  double *right;        /* [n_states][N (n + circles)] right sides, then accelerations, of every column of phi */
   double *now;          /* [2 n + n_contacts] a column of phi */
   planar_state *at;     /* [circles][N] */
   double *along, *perp; /* [circles][N][n] t.e and t.e_perp */
@@ -46,7 +46,7 @@ hc_status planar_flow_new(const model *m, planar_flow **out)
   f->K = calloc(n * n, sizeof *f->K);
   f->matrix = calloc(unknowns * unknowns, sizeof *f->matrix);
   f->pivot = calloc(unknowns, sizeof *f->pivot);
-  f->right = calloc(unknowns, sizeof *f->right);
+  f->right = calloc((size_t)f->n_states * unknowns, sizeof *f->right);
   f->now = calloc((size_t)f->n_states, sizeof *f->now);
   f->at = calloc(circles * N, sizeof *f->at);
   f->along = calloc(circles * N * n, sizeof *f->along);
@@ -233,15 +233,15 @@ static void fill_circle_block(planar_flow *f, int n_slipping, const planar_slipp
   }
 }
 
-/* Right sides at every point for the column in f->now. */
-static void fill_right(planar_flow *f, const contact_piece *const *piece, int n_slipping,
-                       const planar_slipping *slipping, double h)
+/* Right sides at every point for the column in f->now, into to[N][n + n_slipping]. */
+static void fill_right(const planar_flow *f, const contact_piece *const *piece, int n_slipping,
+                       const planar_slipping *slipping, double h, double *to)
 {
   const int n = f->n;
   const model *m = f->m;
   const double *x = f->now, *v = x + n, *state = v + n;
   for (int i = 0; i < N; ++i) {
-    double *right = f->right + (size_t)i * (size_t)(n + n_slipping);
+    double *right = to + (size_t)i * (size_t)(n + n_slipping);
     const double t = h * f->c.x[i];
     for (int r = 0; r < n; ++r) right[r] = 0;
     for (int q = 0; q < n; ++q)
@@ -263,22 +263,28 @@ static void fill_right(planar_flow *f, const contact_piece *const *piece, int n_
   }
 }
 
-/* The column in f->now at the end of the step, from the accelerations in f->right. */
-static void finish_column(planar_flow *f, int n_slipping, const planar_slipping *slipping, double h)
+/* The column in f->now at the end of the step, from its accelerations. */
+static void finish_column(planar_flow *f, int n_slipping, const planar_slipping *slipping, double h,
+                          const double *acceleration)
 {
   const int n = f->n, of_point = n + n_slipping;
   double *x = f->now, *v = x + n, *state = v + n;
   for (int r = 0; r < n; ++r) {
     double once = 0, twice = 0;
     for (int j = 0; j < N; ++j) {
-      once += f->c.a[N - 1][j] * f->right[j * of_point + r];
-      twice += f->twice[N - 1][j] * f->right[j * of_point + r];
+      once += f->c.a[N - 1][j] * acceleration[j * of_point + r];
+      twice += f->twice[N - 1][j] * acceleration[j * of_point + r];
     }
     x[r] += h * v[r] + h * h * twice;
     v[r] += h * once;
   }
   for (int k = 0; k < n_slipping; ++k)
-    for (int j = 0; j < N; ++j) state[slipping[k].contact] += h * f->c.a[N - 1][j] * f->right[j * of_point + n + k];
+    for (int j = 0; j < N; ++j) state[slipping[k].contact] += h * f->c.a[N - 1][j] * acceleration[j * of_point + n + k];
+}
+
+static void load_column(planar_flow *f, const double *phi, size_t q)
+{
+  for (size_t i = 0; i < (size_t)f->n_states; ++i) f->now[i] = phi[i * (size_t)f->n_states + q];
 }
 
 static hc_status advance_step(planar_flow *f, const contact_piece *const *piece, int n_slipping,
@@ -296,10 +302,13 @@ static hc_status advance_step(planar_flow *f, const contact_piece *const *piece,
     }
   if (dense_factor(unknowns, f->matrix, f->pivot) != HC_OK) return HC_SINGULAR;
   for (size_t q = 0; q < (size_t)columns; ++q) {
-    for (size_t i = 0; i < states; ++i) f->now[i] = phi[i * states + q];
-    fill_right(f, piece, n_slipping, slipping, h);
-    dense_solve(unknowns, f->matrix, f->pivot, 1, f->right);
-    finish_column(f, n_slipping, slipping, h);
+    load_column(f, phi, q);
+    fill_right(f, piece, n_slipping, slipping, h, f->right + q * (size_t)unknowns);
+  }
+  dense_solve(unknowns, f->matrix, f->pivot, columns, f->right);
+  for (size_t q = 0; q < (size_t)columns; ++q) {
+    load_column(f, phi, q);
+    finish_column(f, n_slipping, slipping, h, f->right + q * (size_t)unknowns);
     for (size_t i = 0; i < states; ++i) phi[i * states + q] = f->now[i];
   }
   return isfinite(phi[0]) ? HC_OK : HC_NOT_FINITE;

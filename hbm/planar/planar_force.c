@@ -20,9 +20,6 @@ enum { N = COLLOCATION_POINTS };
 
 /* ---- made and freed ---------------------------------------------------------------------------------- */
 
-/* Rows are as long as four numbers at a time need them to be: what is left over would be done one by one. */
-static int whole_vectors(int n) { return (n + 3) / 4 * 4; }
-
 static double *room(size_t n) { return calloc(n, sizeof(double)); }
 
 static hc_status make_normal(planar_force *f)
@@ -48,10 +45,10 @@ static hc_status make_room(planar_force *f)
   f->X = room((size_t)f->n_size), f->F = room(2 * L), f->by = room(2 * L * col);
   f->dw[0] = room(col), f->dw[1] = room(col), f->dphi = room(col);
   f->matrix = room(L * L), f->table = room((size_t)series_grid_table_length(f->n_harm));
-  f->node = room(3 * N * col), f->base = room(N * (size_t)f->n_base), f->rate = room(N * (size_t)f->n_base);
+  f->node = room(3 * N * col), f->base = room(N * L), f->rate = room(N * L), f->test = room(N * L);
   const bool found = c->piece && c->slip.panel && f->contact && f->intervals && f->indicator && f->symbol && f->weight;
   return found && f->X && f->F && f->matrix && f->table && f->by && f->dw[0] && f->dw[1] && f->dphi && f->node &&
-                 f->base && f->rate
+                 f->base && f->rate && f->test
              ? HC_OK
              : HC_NO_MEMORY;
 }
@@ -74,8 +71,7 @@ hc_status planar_force_new(int n_harm, int n_dof, const contact *law, planar_for
   f->n_harm = n_harm, f->n_dof = n_dof, f->law = whole_law(law, n_dof);
   f->n_coef = series_length(n_harm);
   f->n_size = n_dof * f->n_coef;
-  f->n_col = whole_vectors(f->n_size + 3);
-  f->n_base = whole_vectors(f->n_coef);
+  f->n_col = f->n_size + 2;
   hc_status st = make_room(f);
   if (st == HC_OK && n_dof == 3) st = make_normal(f);
   if (st != HC_OK) {
@@ -95,7 +91,7 @@ void planar_force_free(planar_force *f)
   exact_force_free(f->normal);
   double *const rooms[] = {f->X,    f->F_normal, f->jac_normal, f->indicator, f->symbol, f->weight,
                            f->F,    f->by,       f->dw[0],      f->dw[1],     f->dphi,   f->node,
-                           f->base, f->rate,     f->matrix,     f->table};
+                           f->base, f->rate,     f->test,       f->matrix,    f->table};
   for (size_t i = 0; i < sizeof rooms / sizeof *rooms; ++i) free(rooms[i]);
   free(f->contact);
   free(f->intervals);

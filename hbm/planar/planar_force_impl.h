@@ -8,8 +8,7 @@
 
 struct planar_force {
   int n_harm, n_dof, n_coef, n_size; /* n_size = n_dof n_coef */
-  int n_col;                         /* n_size + 2, and columns of zeros */
-  int n_base;                        /* n_coef, and zeros */
+  int n_col;                         /* n_size + 2 */
   contact law;                       /* of both halves together */
   exact_force *normal;               /* N - N0 and when there is contact; NULL where N is constant */
   double *F_normal, *jac_normal;     /* [n_coef], [n_coef]^2 */
@@ -27,7 +26,8 @@ struct planar_force {
   double *dw[2], *dphi;                /* [n_col] */
   double *node;                        /* [3][N][n_col] d phi at the points of a panel; d(R e) there, with weights */
   double *matrix;                      /* [n_coef]^2 */
-  double *base, *rate;                 /* [N][n_base] 1, cos, sin at the points, and their derivatives */
+  double *base, *rate;                 /* [N][n_coef] 1, cos, sin at the points, and their derivatives */
+  double *test;                        /* [n_coef][N] what is integrated with: 1/2, cos, sin */
 };
 
 /* ---- rows of derivatives [n_col]: by the columns of X and by w0 ---- */

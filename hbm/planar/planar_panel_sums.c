@@ -3,8 +3,9 @@
 #include <string.h>
 
 #include "base/constants.h"
-#include "base/wide_vectors.h"
 #include "hbm/planar/planar_force_impl.h"
+#include "hbm/planar/wide_vectors.h"
+#include "numerics/dense.h"
 #include "numerics/rotate.h"
 #include "numerics/series.h"
 
@@ -15,10 +16,10 @@ typedef struct slip_points {
   double cosine[N], sine[N], R[N], pull[N];
 } slip_points;
 
-/* 1, cos, sin .. and their rates at the points of a panel, [N][n_base]. */
+/* 1, cos, sin .. and their rates at the points of a panel, [N][n_coef]. */
 static void fill_bases(planar_force *f, const planar_panel *p)
 {
-  const size_t L = (size_t)f->n_base;
+  const size_t L = (size_t)f->n_coef;
   const double width = p->to - p->from, middle = p->from + 0.5 * width;
   double x[N], c[N], s[N], ch[N], sh[N];
   for (int i = 0; i < N; ++i) x[i] = width * (f->rule.x[i] - 0.5);
@@ -53,7 +54,7 @@ static inline void subtract_row(double factor, const double *restrict row, doubl
 }
 
 /* B := A^-1 B, [A | B] being the two in one: the matrix of planar_slip.c, which needs no exchange of rows. */
-static inline void solve_columns(double A[N][2 * N])
+WIDE_VECTORS static void solve_columns(double A[N][2 * N])
 {
   for (int k = 0; k < N; ++k) {
     const double inverse = 1 / A[k][k];
@@ -63,20 +64,9 @@ static inline void solve_columns(double A[N][2 * N])
   }
 }
 
-/* to += sum over the points of y[i] times row i of b, [N][n]. */
-WIDE_VECTORS static void add_rows(int n, const double y[N], const double *restrict b, double *restrict to)
-{
-  _Static_assert(N == 10, "ten rows are written out: a loop over them is three times slower");
-  const double *b0 = b, *b1 = b + n, *b2 = b1 + n, *b3 = b2 + n, *b4 = b3 + n, *b5 = b4 + n, *b6 = b5 + n, *b7 = b6 + n,
-               *b8 = b7 + n, *b9 = b8 + n;
-  for (int k = 0; k < n; ++k)
-    to[k] += ((y[0] * b0[k] + y[1] * b1[k]) + (y[2] * b2[k] + y[3] * b3[k])) +
-             ((y[4] * b4[k] + y[5] * b5[k]) + (y[6] * b6[k] + y[7] * b7[k])) + (y[8] * b8[k] + y[9] * b9[k]);
-}
-
 /* d phi at the points: (R + h a pull) d slope = du'.e_perp - slope dR - pull d phi0, d phi = d phi0 + h a d slope. With
  * Q = h a (R + h pull a)^-1 it is (1 - Q pull) d phi0 + Q (du'.e_perp - slope dR). */
-WIDE_VECTORS static void follow_angle(planar_force *f, const planar_panel *p, const slip_points *q)
+static void follow_angle(planar_force *f, const planar_panel *p, const slip_points *q)
 {
   const int L = f->n_coef;
   const double h = p->to - p->from, per_v = f->motion.per_v;
@@ -87,21 +77,20 @@ WIDE_VECTORS static void follow_angle(planar_force *f, const planar_panel *p, co
     A[j][j] += q->R[j];
   }
   solve_columns(A);
+  double by_du[2][N][N], by_dv[N][N];
   for (int i = 0; i < N; ++i) {
-    double *to = f->node + (size_t)i * (size_t)f->n_col, kept = 1, Q[N];
-    for (int j = 0; j < N; ++j) Q[j] = A[j][N + i];
-    for (int j = 0; j < N; ++j) kept -= Q[j] * q->pull[j];
-    for (int k = 0; k < f->n_col; ++k) to[k] = kept * f->dphi[k];
-    double a[N], b[N], c[N];
+    double *to = f->node + (size_t)i * (size_t)f->n_col, kept = 1;
     for (int j = 0; j < N; ++j) {
-      a[j] = -Q[j] * q->sine[j];
-      b[j] = Q[j] * q->cosine[j];
-      c[j] = -Q[j] * p->slope[j] * per_v;
+      const double Q = A[j][N + i];
+      kept -= Q * q->pull[j];
+      by_du[0][i][j] = -Q * q->sine[j];
+      by_du[1][i][j] = Q * q->cosine[j];
+      by_dv[i][j] = -Q * p->slope[j] * per_v;
     }
-    add_rows(f->n_base, a, f->rate, to);
-    add_rows(f->n_base, b, f->rate, to + L);
-    if (f->n_dof == 3) add_rows(f->n_base, c, f->base, to + 2 * L);
+    for (int k = 0; k < f->n_col; ++k) to[k] = kept * f->dphi[k];
   }
+  for (int d = 0; d < 2; ++d) dense_add_product(L, N, N, 1, f->rate, L, by_du[d][0], N, 1, f->node + d * L, f->n_col);
+  if (f->n_dof == 3) dense_add_product(L, N, N, 1, f->base, L, by_dv[0], N, 1, f->node + 2 * L, f->n_col);
   memcpy(f->dphi, f->node + (size_t)(N - 1) * (size_t)f->n_col, (size_t)f->n_col * sizeof *f->dphi);
 }
 
@@ -110,7 +99,7 @@ static void fill_change(const planar_force *f, const slip_points *q, int i, doub
                         double *restrict second)
 {
   const size_t L = (size_t)f->n_coef;
-  const double *restrict dphi = f->node + (size_t)i * (size_t)f->n_col, *base = f->base + (size_t)i * (size_t)f->n_base;
+  const double *restrict dphi = f->node + (size_t)i * (size_t)f->n_col, *base = f->base + (size_t)i * (size_t)f->n_coef;
   const double R = q->weight[i] * q->R[i], e = q->weight[i] * f->motion.per_v, c = q->cosine[i], s = q->sine[i];
   for (int k = 0; k < f->n_col; ++k) first[k] = -R * s * dphi[k], second[k] = R * c * dphi[k];
   for (size_t k = 0; f->motion.v && k < L; ++k)
@@ -118,16 +107,16 @@ static void fill_change(const planar_force *f, const slip_points *q, int i, doub
 }
 
 /* Its integrals with the harmonics; of a mean half of that. */
-WIDE_VECTORS static void add_slip_derivatives(planar_force *f, const slip_points *q)
+static void add_slip_derivatives(planar_force *f, const slip_points *q)
 {
-  const size_t L = (size_t)f->n_coef, n = (size_t)f->n_col;
+  const size_t n = (size_t)f->n_col;
+  const int L = f->n_coef;
   double *change[2] = {f->node + N * n, f->node + 2 * N * n};
   for (int i = 0; i < N; ++i) fill_change(f, q, i, change[0] + (size_t)i * n, change[1] + (size_t)i * n);
-  for (size_t row = 0; row < L; ++row) {
-    double y[N];
-    for (size_t i = 0; i < N; ++i) y[i] = row > 0 ? f->base[i * (size_t)f->n_base + row] : 0.5;
-    for (size_t d = 0; d < 2; ++d) add_rows(f->n_col, y, change[d], f->by + (d * L + row) * n);
-  }
+  dense_transpose(L, N, f->base, f->test);
+  for (int i = 0; i < N; ++i) f->test[i] = 0.5;
+  for (int d = 0; d < 2; ++d)
+    dense_add_product(f->n_col, L, N, 1, change[d], f->n_col, f->test, N, 1, f->by + (size_t)(d * L) * n, f->n_col);
 }
 
 void planar_panel_sums(planar_force *f, const planar_panel *p, bool derive)
@@ -136,7 +125,7 @@ void planar_panel_sums(planar_force *f, const planar_panel *p, bool derive)
   slip_points q;
   evaluate_points(f, p, &q);
   for (int i = 0; i < N; ++i) {
-    const double *base = f->base + (size_t)i * (size_t)f->n_base;
+    const double *base = f->base + (size_t)i * (size_t)f->n_coef;
     const double T[2] = {q.weight[i] * q.R[i] * q.cosine[i], q.weight[i] * q.R[i] * q.sine[i]};
     for (int d = 0; d < 2; ++d) {
       f->F[d * L] += 0.5 * T[d];

@@ -1,18 +1,17 @@
-/* mode_sum.c - see mode_sum.h. Sums are taken of real and imaginary parts apart, by dot products that the compiler
- * vectorises. Modes are sorted by how far from s = 0 their poles are. */
+/* mode_sum.c - see mode_sum.h. Sums over modes are products of matrices, real and imaginary parts being two numbers of
+ * one factor. Modes are sorted by how far from s = 0 their poles are. */
 #include "hbm/structure/mode_sum.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/wide_vectors.h"
+#include "numerics/dense.h"
 
 /* A mode is far where its poles are more than FAR times as far from 0 as s: what the series leaves out after TERMS
  * terms is (1/FAR)^TERMS = 1e-17 of it. */
 enum { FAR = 4, TERMS = 28 };
-/* The series of so many entries are summed side by side, their coefficients next to each other; and a dot product in
- * so many parts. */
+/* The series of so many entries are summed side by side, their coefficients next to each other. */
 enum { LANES = 8 };
 
 struct mode_sum {
@@ -23,7 +22,8 @@ struct mode_sum {
   double *distance;          /* [n] of the nearer pole from 0, ascending */
   double *lr, *li, *rr, *ri; /* [rows][n] left and right, real and imaginary parts; of modes lr alone */
   double *weight;            /* [4][n] of one value */
-  double *product;           /* [4][n] */
+  double *product, *turned;  /* [n][2 dim] what multiplies the right parts' real part, and their imaginary part */
+  double *term;              /* [rows][dim] of the series */
   double complex *power;     /* [n] */
   int near;                  /* modes that are summed one by one; the others by the series */
   double reach;              /* of the series, which is in s/reach; 0: none yet */
@@ -63,15 +63,19 @@ static hc_status new_sum(int n, int dim, int rows, bool poles, mode_sum **out)
   m->lambda = calloc(modes, sizeof *m->lambda);
   m->power = calloc(modes, sizeof *m->power);
   m->weight = calloc(4 * modes, sizeof *m->weight);
-  m->product = calloc(4 * modes, sizeof *m->product);
+  m->product = calloc(2 * (size_t)dim * modes, sizeof *m->product);
+  m->turned = calloc(poles ? 2 * (size_t)dim * modes : 1, sizeof *m->turned);
+  m->term = calloc((size_t)rows * (size_t)dim + 1, sizeof *m->term);
   m->series = calloc(((size_t)rows * (size_t)dim + LANES) * TERMS, sizeof *m->series);
-  return room && m->lambda && m->power && m->weight && m->product && m->series ? HC_OK : HC_NO_MEMORY;
+  const bool products = m->product && m->turned && m->term;
+  return room && m->lambda && m->power && m->weight && products && m->series ? HC_OK : HC_NO_MEMORY;
 }
 
 void mode_sum_free(mode_sum *m)
 {
   if (!m) return;
-  double *const arrays[] = {m->k, m->c, m->distance, m->lr, m->li, m->rr, m->ri, m->weight, m->product, m->series};
+  double *const arrays[] = {m->k,  m->c,      m->distance, m->lr,     m->li,   m->rr,
+                            m->ri, m->weight, m->product,  m->turned, m->term, m->series};
   for (size_t i = 0; i < sizeof arrays / sizeof *arrays; ++i) free(arrays[i]);
   free(m->lambda);
   free(m->power);
@@ -131,16 +135,6 @@ bool mode_sum_takes_damping(const mode_sum *m) { return !m->poles; }
 
 /* ---- the series ---------------------------------------------------------------------------------- */
 
-WIDE_VECTORS static double dot(int n, const double *restrict a, const double *restrict b)
-{
-  double sum[LANES] = {0};
-  int i = 0;
-  for (; i + LANES <= n; i += LANES)
-    for (int k = 0; k < LANES; ++k) sum[k] += a[i + k] * b[i + k];
-  for (; i < n; ++i) sum[0] += a[i] * b[i];
-  return ((sum[0] + sum[1]) + (sum[2] + sum[3])) + ((sum[4] + sum[5]) + (sum[6] + sum[7]));
-}
-
 /* The place of an entry's coefficient t. */
 static double *coefficient(const mode_sum *m, size_t entry, int t)
 {
@@ -164,21 +158,21 @@ static void next_coefficients(mode_sum *m, int t, double *now, double *before)
 
 static void add_term(mode_sum *m, int t, const double *now)
 {
-  const int far = m->n - m->near;
-  for (int a = 0; a < m->dim; ++a) {
-    double *re = m->product + m->near, *im = re + m->n;
-    const double *lr = m->lr + a * m->n, *li = m->poles ? m->li + a * m->n : NULL;
-    for (int i = m->near; i < m->n; ++i) {
-      double complex z =
-          m->poles ? (lr[i] + I * li[i]) * m->power[i] * (cimag(m->lambda[i]) > 0 ? 2 : 1) : lr[i] * now[i];
-      m->product[i] = creal(z), m->product[m->n + i] = -cimag(z);
-    }
-    for (int b = 0; b < m->rows; ++b) {
-      double *to = coefficient(m, (size_t)b * (size_t)m->dim + (size_t)a, t);
-      *to = dot(far, re, (m->poles ? m->rr : m->lr) + b * m->n + m->near);
-      if (m->poles) *to += dot(far, im, m->ri + b * m->n + m->near);
+  const int dim = m->dim;
+  for (int i = m->near; i < m->n; ++i) {
+    const double complex power = m->poles ? m->power[i] * (cimag(m->lambda[i]) > 0 ? 2 : 1) : now[i];
+    for (int a = 0; a < dim; ++a) {
+      const double complex z = (m->lr[a * m->n + i] + (m->poles ? I * m->li[a * m->n + i] : 0)) * power;
+      m->product[i * dim + a] = creal(z);
+      if (m->poles) m->turned[i * dim + a] = -cimag(z);
     }
   }
+  const int behind = m->n - m->near, first = m->near;
+  const double *right = (m->poles ? m->rr : m->lr) + first;
+  dense_add_product(dim, m->rows, behind, 1, m->product + first * dim, dim, right, m->n, 0, m->term, dim);
+  if (m->poles)
+    dense_add_product(dim, m->rows, behind, 1, m->turned + first * dim, dim, m->ri + first, m->n, 1, m->term, dim);
+  for (size_t e = 0; e < (size_t)m->rows * (size_t)dim; ++e) *coefficient(m, e, t) = m->term[e];
 }
 
 static void make_series(mode_sum *m, double reach)
@@ -220,8 +214,7 @@ static inline void sum_derivatives(const double *restrict T, double v, lane_sums
 }
 
 /* += the series and, if by_s is not NULL, its derivative, at s = i w. Of v = (s/reach)^2 < 0: even powers are real. */
-WIDE_VECTORS static void add_series(const mode_sum *m, double w, int from, int to, double complex *G,
-                                    double complex *by_s)
+static void add_series(const mode_sum *m, double w, int from, int to, double complex *G, double complex *by_s)
 {
   const double x = w / m->reach, v = -x * x;
   const int first = from * m->dim, end = to * m->dim;
@@ -275,21 +268,21 @@ static bool fill_weights(mode_sum *m, int n, double w, double d, wanted what)
 static void add_modes(mode_sum *m, int n, int from, int to, double complex *G)
 {
   const double *ar = m->weight, *ai = ar + m->n, *br = ai + m->n, *bi = br + m->n;
-  double *re = m->product, *im = re + m->n, *re_i = im + m->n, *im_i = re_i + m->n;
+  const int width = 2 * m->dim;
   for (int a = 0; a < m->dim; ++a) {
     const double *lr = m->lr + a * m->n, *li = m->poles ? m->li + a * m->n : NULL;
-    for (int i = 0; i < n && !li; ++i) re[i] = lr[i] * ar[i], im[i] = lr[i] * ai[i];
+    double *to_real = m->product + 2 * a, *to_imaginary = m->turned + 2 * a;
+    for (int i = 0; i < n && !li; ++i) to_real[i * width] = lr[i] * ar[i], to_real[i * width + 1] = lr[i] * ai[i];
     for (int i = 0; i < n && li; ++i) {
-      re[i] = lr[i] * ar[i] + li[i] * br[i], im[i] = lr[i] * ai[i] + li[i] * bi[i];
-      re_i[i] = lr[i] * br[i] - li[i] * ar[i], im_i[i] = lr[i] * bi[i] - li[i] * ai[i];
-    }
-    for (int b = from; b < to; ++b) {
-      const double *rr = (m->poles ? m->rr : m->lr) + b * m->n, *ri = m->poles ? m->ri + b * m->n : NULL;
-      double x = dot(n, re, rr), y = dot(n, im, rr);
-      if (ri) x += dot(n, re_i, ri), y += dot(n, im_i, ri);
-      G[(size_t)(b - from) * (size_t)m->dim + (size_t)a] += x + I * y;
+      to_real[i * width] = lr[i] * ar[i] + li[i] * br[i], to_real[i * width + 1] = lr[i] * ai[i] + li[i] * bi[i];
+      to_imaginary[i * width] = lr[i] * br[i] - li[i] * ar[i];
+      to_imaginary[i * width + 1] = lr[i] * bi[i] - li[i] * ai[i];
     }
   }
+  const double *right = (m->poles ? m->rr : m->lr) + from * m->n;
+  double *sum = (double *)G; /* complex numbers are pairs of these (C11, 6.2.5) */
+  dense_add_product(width, to - from, n, 1, m->product, width, right, m->n, 1, sum, width);
+  if (m->poles) dense_add_product(width, to - from, n, 1, m->turned, width, m->ri + from * m->n, m->n, 1, sum, width);
 }
 
 static hc_status add_up(mode_sum *m, int n, double w, double d, wanted what, int from, int to, double complex *G)
