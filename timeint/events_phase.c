@@ -53,6 +53,7 @@ int events_rhs(sunrealtype theta, N_Vector y, N_Vector dy, void *self)
 {
   events *in = self;
   double sum = 0;
+  if (!integrate_cvode_goes_on(&in->base)) return -1;
   events_rate(in, theta, NV_DATA_S(y), NV_DATA_S(dy));
   for (int i = 0; i < in->n_equations; ++i) sum += NV_Ith_S(dy, i);
   if (isfinite(sum)) return 0;

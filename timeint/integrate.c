@@ -9,17 +9,26 @@ void integrate_free(integrator *in)
   if (in) in->does->free(in);
 }
 
+const hc_monitor *integrate_hear(integrator *in, const hc_monitor *monitor)
+{
+  const hc_monitor *before = in->monitor;
+  in->monitor = monitor;
+  return before;
+}
+
 hc_status integrate_tolerance(integrator *in, double tolerance) { return in->does->tolerance(in, tolerance); }
 
 hc_status integrate_period(integrator *in, const scaled_model *m, double *y, integrate_watch *watch, void *self)
 {
   ++in->periods;
+  in->unheard = 0;
   return in->does->period(in, m, y, NULL, watch, self);
 }
 
 hc_status integrate_monodromy(integrator *in, const scaled_model *m, double *y, double *monodromy)
 {
   ++in->periods;
+  in->unheard = 0;
   return in->does->period(in, m, y, monodromy, NULL, NULL);
 }
 

@@ -23,11 +23,16 @@ typedef hc_status integrate_watch(void *self, const integrator *in, double theta
 
 void integrate_free(integrator *in);
 
+/* What periods hear between their steps, until something else is given; returned is what it was before. A period takes
+ * up to ten million steps: friction in a plane whose limit is next to nothing follows its direction in steps of the
+ * time in which the contact slips by the limit over kt. NULL: nothing. */
+const hc_monitor *integrate_hear(integrator *in, const hc_monitor *monitor);
+
 /* Another tolerance from the next period on; allocates nothing. */
 hc_status integrate_tolerance(integrator *in, double tolerance);
 
 /* Carry y[n_states] through one period of *m. `watch` may be NULL. On failure y is unchanged. HC_INTEGRATOR,
- * HC_NOT_FINITE, HC_NO_MEMORY, what `watch` answers; exact law: HC_CHATTER after too many transitions. */
+ * HC_NOT_FINITE, HC_NO_MEMORY, HC_INTERRUPTED, what `watch` answers; exact law: HC_CHATTER after too many transitions. */
 hc_status integrate_period(integrator *in, const scaled_model *m, double *y, integrate_watch *watch, void *self);
 
 /* As integrate_period, with monodromy[n_states * n_states], by columns: d y[i](2 pi) / d y[j](0) at [i + j n_states];

@@ -10,7 +10,7 @@ hc_status integrate_begin_period(cvode_integrator *in)
 {
   if (!in->called && !hc_room_for(0)) return HC_NO_MEMORY;
   in->called = true;
-  in->not_finite = false;
+  in->not_finite = in->interrupted = false;
   in->base.flag = CV_SUCCESS;
   return HC_OK;
 }
@@ -67,10 +67,17 @@ void integrate_free_parts(cvode_integrator *in)
   if (in->ctx) SUNContext_Free(&in->ctx);
 }
 
+bool integrate_cvode_goes_on(cvode_integrator *in)
+{
+  in->interrupted = in->interrupted || !integrate_goes_on(&in->base);
+  return !in->interrupted;
+}
+
 hc_status integrate_translate(cvode_integrator *in, int flag)
 {
   if (flag == CV_SUCCESS) return HC_OK;
   in->base.flag = flag;
+  if (in->interrupted) return HC_INTERRUPTED;
   if (in->not_finite) return HC_NOT_FINITE;
   return flag == CV_MEM_FAIL ? HC_NO_MEMORY : HC_INTEGRATOR; /* warnings, and flags yet unknown, too */
 }

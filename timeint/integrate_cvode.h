@@ -16,6 +16,7 @@ typedef struct cvode_integrator { /* the first member of each kind */
   integrator base;
   const scaled_model *m; /* of the period under way; the caller's */
   bool not_finite;       /* a right-hand side was not finite in the period under way */
+  bool interrupted;      /* the monitor stopped it */
   bool called;     /* CVODE has been called: its first call allocates, and crashes if it cannot (sundials_compat.h) */
   SUNContext ctx;  /* made first, freed last, this integrator's alone */
   N_Vector y, dky; /* [n] what CVODE integrates; dense output */
@@ -31,6 +32,9 @@ void integrate_free_parts(cvode_integrator *in);
 
 /* Before a period: HC_NO_MEMORY if CVODE's first call might find none. */
 hc_status integrate_begin_period(cvode_integrator *in);
+
+/* At each right-hand side; false: the period ends as interrupted. */
+bool integrate_cvode_goes_on(cvode_integrator *in);
 
 /* The status for a flag of CVODE's; the flag is kept for integrate_flag unless it is success. */
 hc_status integrate_translate(cvode_integrator *in, int flag);

@@ -32,6 +32,19 @@ struct integrator { /* the first member of each kind */
   long periods;                 /* begun */
   double scatter;               /* [tolerance] by how much a period may be off, cut into other steps; by CVODE */
   int flag;                     /* CVODE's last flag other than success */
+  const hc_monitor *monitor;    /* the caller's, or NULL */
+  int unheard;                  /* steps, or right-hand sides by CVODE, since it was asked in this period */
 };
+
+enum { INTEGRATE_UNHEARD = 4096 };
+
+/* After each step, or at each right-hand side by CVODE. false: the monitor, asked once in INTEGRATE_UNHEARD of them,
+ * stops the period. */
+static inline bool integrate_goes_on(integrator *in)
+{
+  if (++in->unheard < INTEGRATE_UNHEARD) return true;
+  in->unheard = 0;
+  return hc_monitor_tick(in->monitor, -1);
+}
 
 #endif

@@ -36,6 +36,7 @@ typedef struct regularised { /* from integrate_new_regularised, to integrate_fre
 static int rhs(sunrealtype theta, N_Vector y, N_Vector dy, void *self)
 {
   regularised *in = self;
+  if (!integrate_cvode_goes_on(&in->base)) return -1;
   if (scaled_rhs(in->base.m, theta, NV_DATA_S(y), NV_DATA_S(dy))) return 0;
   in->base.not_finite = true;
   return -1;

@@ -245,6 +245,7 @@ static hc_status run(by_series *in, bool varies, integrate_watch *watch, void *s
     else if (st == HC_OK) st = (in->by_modes ? phase_by_modes : step_by_series)(in, varies, watch, self, count);
     if (st != HC_OK) return st;
     if (steps > MAX_STEPS) return HC_CHATTER;
+    if (!integrate_goes_on(&in->base)) return HC_INTERRUPTED;
   }
   return HC_OK;
 }

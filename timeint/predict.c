@@ -109,7 +109,9 @@ hc_status timeint_predict(timeint *ti, const double *state, const hc_monitor *mo
   if (r->method == TIMEINT_BY_CLOSED_FORM || ti->how.law == TRANSIENT_LAW_EXACT) return HC_OK;
   motion_error *more = calloc((size_t)n, sizeof *more);
   if (!more) return HC_NO_MEMORY;
+  const hc_monitor *before = timeint_hear(ti, monitor);
   hc_status st = regularised_part(ti, state, monitor, n, r, more);
+  timeint_hear(ti, before);
   for (int i = 0; i < n; ++i) {
     r[i].predicted.amplitude += more[i].amplitude;
     r[i].predicted.harmonic_1 += more[i].harmonic_1;

@@ -140,10 +140,12 @@ hc_status timeint_steady(timeint *ti, double omega, double *state, const hc_moni
   clear_result(result, omega);
   hc_status st = timeint_begin(ti, omega, state);
   if (st != HC_OK) return st;
+  const hc_monitor *before = timeint_hear(ti, monitor);
   if (ti->scout && ti->how.steady != TRANSIENT_STEADY_MARCH) st = scout_steady(ti, 0, state, monitor, result, &done);
   if (st == HC_OK && !done) st = by_itself(ti, monitor, result);
   if (st == HC_OK) st = richardson_extrapolate(ti, monitor, result);
   timeint_get_state(ti, state); /* on failure, the last one that was reached */
+  timeint_hear(ti, before);
   fill_counts(ti, result);
   return st;
 }
@@ -155,10 +157,12 @@ hc_status timeint_orbit(timeint *ti, double omega, int k, double *state, const h
   if (k < 1 || k > SETTLE_MAX_MULTIPLE) return HC_BAD_INPUT;
   hc_status st = timeint_begin(ti, omega, state);
   if (st != HC_OK) return st;
+  const hc_monitor *before = timeint_hear(ti, monitor);
   bool done = false;
   if (ti->scout) st = scout_steady(ti, k, state, monitor, result, &done);
   if (st == HC_OK && !done) st = to_nearest_orbit(ti, k, monitor, result);
   timeint_get_state(ti, state);
+  timeint_hear(ti, before);
   fill_counts(ti, result);
   return st;
 }
@@ -171,10 +175,12 @@ hc_status timeint_again(timeint *ti, double omega, int k, double *state, const h
   if (k < 1 || k > SETTLE_MAX_MULTIPLE) return HC_BAD_INPUT;
   hc_status st = timeint_begin(ti, omega, state);
   if (st != HC_OK) return st;
+  const hc_monitor *before = timeint_hear(ti, monitor);
   if (ti->scout) st = scout_confirm(ti, k, monitor, result, &done);
   if (st == HC_OK && !done) st = to_nearest_orbit(ti, k, monitor, result);
   if (st == HC_OK) st = richardson_extrapolate(ti, monitor, result);
   timeint_get_state(ti, state);
+  timeint_hear(ti, before);
   fill_counts(ti, result);
   return st;
 }

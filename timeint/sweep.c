@@ -190,9 +190,10 @@ hc_status timeint_sweep(timeint *ti, double omega_from, double omega_to, double 
 {
   const transient_law law = ti->how.law;
   if (ti->scout) return timeint_sweep(ti->scout, omega_from, omega_to, state, monitor);
-  if (law == TRANSIENT_LAW_EXACT) return sweep_with_this_law(ti, omega_from, omega_to, state, monitor);
-  swap_law(ti, TRANSIENT_LAW_EXACT);
+  const hc_monitor *before = timeint_hear(ti, monitor);
+  if (law != TRANSIENT_LAW_EXACT) swap_law(ti, TRANSIENT_LAW_EXACT);
   hc_status st = sweep_with_this_law(ti, omega_from, omega_to, state, monitor);
-  swap_law(ti, law);
+  if (law != TRANSIENT_LAW_EXACT) swap_law(ti, law);
+  timeint_hear(ti, before);
   return st;
 }

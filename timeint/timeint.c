@@ -238,6 +238,13 @@ static void follow_length(timeint *ti)
   if (size > 4 * ti->length || size < 0.25 * ti->length) set_length(ti, size);
 }
 
+const hc_monitor *timeint_hear(timeint *ti, const hc_monitor *monitor)
+{
+  if (ti->scout) timeint_hear(ti->scout, monitor);
+  if (ti->exact) integrate_hear(ti->exact, monitor);
+  return integrate_hear(ti->in, monitor);
+}
+
 hc_status timeint_period(timeint *ti, bool measured)
 {
   if (measured) measure_period(&ti->measure, ti->y);

@@ -57,6 +57,9 @@ void timeint_regularise(timeint *ti, double regularisation);
 /* Another tolerance of CVODE's from the next period on. */
 hc_status timeint_set_tolerance(timeint *ti, double tolerance);
 
+/* What periods hear between their steps, of the scout, too, until something else is given; what it was before. */
+const hc_monitor *timeint_hear(timeint *ti, const hc_monitor *monitor);
+
 /* One period, measured or not; then the unit of length follows the motion. */
 hc_status timeint_period(timeint *ti, bool measured);
 

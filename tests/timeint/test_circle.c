@@ -522,6 +522,31 @@ static void friction_takes_what_the_loads_give(void **state)
     }
 }
 
+static bool stop_at_three(void *self, double done) { return (void)done, ++*(int *)self < 3; }
+
+/* With mu N/kt = 8e-7 against a motion of some 0.05 the direction of slip follows in steps of some 1e-5 of the period.
+ * The monitor is asked at the start of a period, then once in 4096 steps, and no longer period comes to its end. */
+static void a_long_period_hears_the_monitor(void **state)
+{
+  (void)state;
+  static timeint_result r;
+  for (int cvode = 0; cvode < 2; ++cvode) {
+    model *m = on_a_plane(2, 3, (contact){.kt = 60, .mu = 0.5, .load = 1e-4});
+    transient_settings how = closed_form;
+    int ticks = 0;
+    const hc_monitor stop = {.tick = stop_at_three, .self = &ticks};
+    double y[6] = {0.1, 0.1};
+    timeint *ti;
+    if (cvode) how.method = TRANSIENT_METHOD_CVODE;
+    assert_int_equal(timeint_new(m, &how, &ti), HC_OK);
+    assert_int_equal(timeint_orbit(ti, 12.5, 1, y, &stop, &r), HC_INTERRUPTED);
+    CHECK_LE(cvode ? r.rhs : r.steps, 2 * 4096 + 1, "by CVODE: %d", cvode);
+    CHECK_LE(r.periods, 0, "none has ended, by CVODE: %d", cvode);
+    timeint_free(ti);
+    model_free(m);
+  }
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -537,6 +562,7 @@ int main(void)
       cmocka_unit_test(series_and_events_agree),
       cmocka_unit_test(a_slider_that_comes_back_has_travelled),
       cmocka_unit_test(friction_takes_what_the_loads_give),
+      cmocka_unit_test(a_long_period_hears_the_monitor),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
