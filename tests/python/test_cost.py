@@ -4,7 +4,7 @@ import gc
 import resource
 import time
 
-from common import CASE2, Test, np, unittest
+from common import CASE2, Test, main, np
 
 import hbmcheck
 from hbmcheck import _library
@@ -92,4 +92,4 @@ class Cost(Test):
 
 
 if __name__ == "__main__":
-    unittest.main()
+    main()

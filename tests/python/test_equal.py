@@ -5,7 +5,7 @@ import os
 import subprocess
 import tempfile
 
-from common import CASE2, CHAIN, COMMAND, SOURCE, SPACE, Test, np, table, unittest
+from common import CASE2, CHAIN, COMMAND, SOURCE, SPACE, Test, main, np, table
 
 import hbmcheck
 
@@ -191,4 +191,4 @@ class Equal(Test):
 
 
 if __name__ == "__main__":
-    unittest.main()
+    main()

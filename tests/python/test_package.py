@@ -12,7 +12,7 @@ import sys
 import tempfile
 import zipfile
 
-from common import CASE2, SOURCE, Test, np, unittest
+from common import CASE2, SOURCE, Test, main, np, unittest
 
 import hbmcheck
 from hbmcheck import _library
@@ -126,4 +126,4 @@ class Figures(Test):
 
 
 if __name__ == "__main__":
-    unittest.main()
+    main()

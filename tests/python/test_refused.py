@@ -1,7 +1,7 @@
 """test_refused.py - what is wrong is an exception in the library's words: shapes, NaN, freed handles, work that stops."""
 import tempfile
 
-from common import CASE2, CHAIN, SPACE, Test, np, unittest
+from common import CASE2, CHAIN, SPACE, Test, main, np
 
 import hbmcheck
 
@@ -114,4 +114,4 @@ class Refused(Test):
 
 
 if __name__ == "__main__":
-    unittest.main()
+    main()

@@ -9,7 +9,7 @@ import subprocess
 import sys
 import tempfile
 
-from common import SOURCE, Test, unittest
+from common import SOURCE, Test, main
 
 import hbmcheck
 from hbmcheck import _library, _structs, library_version
@@ -69,4 +69,4 @@ if __name__ == "__main__":
     if not CC:
         print("no C compiler here")
         sys.exit(77)
-    unittest.main()
+    main()

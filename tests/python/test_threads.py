@@ -4,7 +4,7 @@ import signal
 import threading
 import time
 
-from common import CASE2, Test, np, unittest
+from common import CASE2, Test, main, np
 
 import hbmcheck
 
@@ -122,4 +122,4 @@ class Threads(Test):
 
 
 if __name__ == "__main__":
-    unittest.main()
+    main()
