@@ -9,10 +9,9 @@
 
 #include "base/status.h"
 #include "casefile/case_file.h"
-#include "casefile/case_place.h"
 #include "casefile/case_values.h"
 #include "casefile/fields.h"
-#include "casefile/suggest.h"
+#include "casefile/structure.h"
 
 enum { CASE_LARGEST = 16 << 20 }; /* bytes of a case file; an echoed one holds matrices of some 500 rows */
 

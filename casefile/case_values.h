@@ -4,8 +4,8 @@
 #define HC_CASE_VALUES_H
 
 #include "casefile/case_file.h"
-#include "casefile/case_place.h"
 #include "casefile/fields.h"
+#include "casefile/structure.h"
 
 /* [field_index] where each field was last given; those of contacts are in `contact` alone. */
 typedef struct case_places {

@@ -1,4 +1,4 @@
-/* field_value.c - a field's value: from what was written to what is stored, and back. The table itself: fields.c. */
+/* field_value.c - a field's value: from what was written to what is stored (back: case_echo.c). The table itself: fields.c. */
 #include "casefile/fields.h"
 
 #include <stdio.h>
@@ -156,13 +156,6 @@ _Static_assert(sizeof(hbm_force) == sizeof(int) && sizeof(hbm_restart) == sizeof
                    sizeof(hbm_continuation) == sizeof(int) && sizeof(transient_law) == sizeof(int) &&
                    sizeof(transient_steady) == sizeof(int) && sizeof(transient_start) == sizeof(int),
                "enums of the settings are as large as an int");
-static int choice_at(const void *at)
-{
-  int i;
-  memcpy(&i, at, sizeof i);
-  return i;
-}
-
 static bool store_choice(const field *f, void *to, const field_value *v, message *m)
 {
   for (int i = 0; f->choices[i]; ++i)
@@ -272,57 +265,3 @@ void field_contact_defaults(scene_contact *c)
 }
 
 void field_load_defaults(structure_load *load) { reset_all(load, FIELD_IN_LOAD); }
-
-static void write_text(const char *text, FILE *to)
-{
-  putc('"', to);
-  for (; *text; ++text) {
-    if (*text == '"' || *text == '\\') putc('\\', to);
-    putc(*text, to);
-  }
-  putc('"', to);
-}
-
-static void write_number(double x, FILE *to)
-{
-  char text[NUMBER_TEXT];
-  fputs(number_write(x, text), to);
-}
-
-/* As it was written: of the numbers that a scale of 2 pi makes x, to the bit, one of 15 digits where there is one (125,
- * not 124.99999999999999), else the quotient (tests/cases/test_echo.c: random scenes). */
-static double unscaled(double x, double scale)
-{
-  char text[NUMBER_TEXT];
-  if (scale == 0) return x;
-  snprintf(text, sizeof text, "%.15g", x / scale);
-  const double rounded = strtod(text, NULL);
-  return scale * rounded == x ? rounded : x / scale;
-}
-
-static void write_list(const double *v, int n, double scale, FILE *to)
-{
-  for (int i = 0; i < n; ++i) {
-    fputs(i == 0 ? "[" : ", ", to);
-    write_number(unscaled(v[i], scale), to);
-  }
-  putc(']', to);
-}
-
-void field_write(const field *f, const void *base, FILE *to)
-{
-  const void *at = field_look(f, base);
-  switch (f->kind) {
-  case FIELD_REAL: write_number(*(const double *)at, to); return;
-  case FIELD_INTEGER:
-    if (f->flags & FIELD_AUTO && *(const int *)at == HBM_AUTO) fputs("auto", to);
-    else fprintf(to, "%d", *(const int *)at);
-    return;
-  case FIELD_FLAG: fputs(*(const bool *)at ? "true" : "false", to); return;
-  case FIELD_CHOICE: fputs(f->choices[choice_at(at)], to); return;
-  case FIELD_TEXT: write_text(at, to); return;
-  case FIELD_PAIR: write_list(at, 2, f->scale, to); return;
-  case FIELD_PART: return;
-  default: write_list(((const number_list *)at)->v, ((const number_list *)at)->n, f->scale, to); return;
-  }
-}

@@ -5,7 +5,7 @@
 #include <stdio.h>
 
 #include "base/constants.h"
-#include "casefile/structure_model.h"
+#include "casefile/structure.h"
 
 double scene_omega(const scene *sc, double given) { return sc->in_cycles ? TWO_PI * given : given; }
 

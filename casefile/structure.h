@@ -1,12 +1,19 @@
 /* structure.h - what a case file says with `structure`, its list of loads, its contacts and its responses: plain data,
- * as it was written, and the damping matrix that follows from it. The model of it: structure_model.h. Degrees of
+ * as it was written, the damping matrix that follows from it, and its
+ * model. Degrees of
  * freedom are counted from 0 here, from 1 in a file. Vectors are dense: [n], one entry a degree of freedom. */
 #ifndef HC_STRUCTURE_H
 #define HC_STRUCTURE_H
 
-#include "casefile/case_place.h"
 #include "casefile/matrices/matrix_label.h"
 #include "casefile/scene.h"
+
+/* Where something was given, for messages: the set-th assignment, counted from 1, or for set = 0 a line and column of the
+ * file. line = 0: nowhere. */
+typedef struct case_place {
+  int set;
+  size_t line, column;
+} case_place;
 
 typedef enum structure_damping {
   STRUCTURE_DAMPING_MATRIX,
@@ -43,6 +50,14 @@ typedef struct structure_response {
   double *direction; /* [n] [1] */
   case_place place;
 } structure_response;
+
+/* Has the direction no entry but 0? */
+static inline bool structure_is_zero(const double *direction, int n)
+{
+  for (int i = 0; i < n; ++i)
+    if (direction[i] != 0) return false;
+  return true;
+}
 
 /* 'x', 'y' or 'z'; the end of a string is none of them. */
 static inline bool structure_is_axis(char c) { return c >= 'x' && c <= 'z'; }
@@ -108,5 +123,28 @@ const char *structure_dof_name(const scene_structure *s, int dof, char text[STRU
 /* A direction in words: `tip`, `tip-root`, `0.5*tip+root`, for the column `response`; cut to size with "..." at its
  * end. Returns text. */
 const char *structure_direction_name(const scene_structure *s, const double *direction, char *text, size_t size);
+
+/* ---- the model ---- */
+
+/* To free with model_free. The loads of a harmonic are summed: amplitude cos(k omega t + phase) is amplitude
+ * cos(phase) cos(k omega t) - amplitude sin(phase) sin(k omega t). A response where the case names none is the DOF that
+ * the first load with a harmonic >= 1 acts on most, or else the first one. HC_NO_MEMORY: *out is NULL. */
+hc_status structure_model(const scene_structure *s, model **out);
+
+/* Has the contact two tangents? In the model it is two contacts then (contact_pair, model.h). */
+bool structure_contact_is_pair(const scene_structure *s, const structure_contact *c);
+
+/* The first of the model's contacts that contact j is, for 0 <= j <= n_contacts: n_contacts gives their number. */
+int structure_model_contact(const scene_structure *s, int j);
+
+/* How many responses its model has, and the name of one: that of its direction, into text[size], which is returned. */
+int structure_response_count(const scene_structure *s);
+const char *structure_response_name(const scene_structure *s, int r, char *text, size_t size);
+
+/* The contact's law: its gap from a preload given instead, or its constant normal force. */
+contact structure_contact_law(const structure_contact *c);
+
+/* Cosine and sine of an angle [deg], exact at multiples of 90. */
+void structure_cosine_sine(double angle_deg, double *cosine, double *sine);
 
 #endif

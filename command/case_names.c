@@ -7,7 +7,7 @@
 
 #include "base/message.h"
 #include "base/number.h"
-#include "casefile/structure_model.h"
+#include "casefile/structure.h"
 
 enum { LONGEST = CLI_NAME, MOST_LISTED = 12 };
 

@@ -5,7 +5,7 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "casefile/structure_model.h"
+#include "casefile/structure.h"
 #include "command/case_names.h"
 #include "command/commands.h"
 #include "command/compare_tables.h"

@@ -9,7 +9,6 @@
 #include "base/constants.h"
 #include "casefile/case_values.h"
 #include "casefile/structure.h"
-#include "casefile/structure_model.h"
 #include "command/commands.h"
 #include "command/files.h"
 #include "model/modes.h"

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 
 #include "base/constants.h"
-#include "casefile/structure_model.h"
+#include "casefile/structure.h"
 #include "command/case_names.h"
 #include "command/commands.h"
 #include "command/files.h"

@@ -2,7 +2,7 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "casefile/structure_model.h"
+#include "casefile/structure.h"
 #include "command/case_names.h"
 #include "command/commands.h"
 #include "command/files.h"

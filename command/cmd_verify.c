@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "base/number.h"
-#include "casefile/structure_model.h"
+#include "casefile/structure.h"
 #include "command/case_names.h"
 #include "command/cli.h"
 #include "command/commands.h"

@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-#include "casefile/structure_model.h"
+#include "casefile/structure.h"
 
 int compare_lists(const cli_common *common, const table_lists *lists, scene *sc)
 {

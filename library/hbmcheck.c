@@ -9,7 +9,7 @@
 
 #include "base/number_list.h"
 #include "casefile/case_file.h"
-#include "casefile/structure_model.h"
+#include "casefile/structure.h"
 #include "compare/comparison.h"
 #include "hbm/hbm.h"
 #include "library/inside.h"

@@ -15,8 +15,8 @@
 
 #include "casefile/case_file.h"
 #include "casefile/fields.h"
+#include "casefile/structure.h"
 #include "casefile/structure_check.h"
-#include "casefile/structure_model.h"
 #include "model/modes.h"
 #include "numerics/dense.h"
 #include "numerics/random.h"

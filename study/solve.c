@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "base/thread_clock.h"
-#include "casefile/structure_model.h"
+#include "casefile/structure.h"
 #include "compare/frequencies.h"
 #include "study/scene_solvers.h"
 

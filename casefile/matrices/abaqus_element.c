@@ -9,7 +9,7 @@
 #include <string.h>
 
 #include "base/number.h"
-#include "casefile/matrices/matrix_formats.h"
+#include "casefile/matrices/matrix_text.h"
 
 enum { KEYWORD = 64 };
 

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "casefile/matrices/matrix_formats.h"
+#include "casefile/matrices/matrix_text.h"
 #include "casefile/matrices/text_file.h"
 
 static const size_t most_bytes = (size_t)1 << 29; /* 33 an entry of the largest matrix */

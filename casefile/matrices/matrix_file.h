@@ -1,5 +1,5 @@
 /* matrix_file.h - a square matrix from a text file, read strictly: Matrix Market, or what CalculiX and Abaqus write.
- * The file's first line tells which, not its name; matrix_formats.h says what each of them has. What is missing from a
+ * The file's first line tells which, not its name; matrix_text.h says what each of them has. What is missing from a
  * file of single entries is 0. Matrix Market (https://math.nist.gov/MatrixMarket/formats.html): coordinate or array,
  * real or integer, general, symmetric or skew-symmetric, of the two symmetries the lower triangle, as the format says.
  */

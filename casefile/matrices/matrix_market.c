@@ -1,6 +1,6 @@
 /* matrix_market.c - Matrix Market files, see matrix_formats.h. Banner, size and entries are lines of words; comments
  * and blank lines between them are skipped. */
-#include "casefile/matrices/matrix_formats.h"
+#include "casefile/matrices/matrix_text.h"
 
 typedef enum symmetry { GENERAL, SYMMETRIC, SKEW } symmetry;
 

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 
 #include "base/number.h"
-#include "casefile/matrices/matrix_formats.h"
+#include "casefile/matrices/matrix_text.h"
 
 static const int most_node = 2147483647;
 

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "base/constants.h"
-#include "casefile/structure_model.h"
+#include "casefile/structure.h"
 #include "compare/frequencies.h"
 #include "hbm/curve/segment.h"
 #include "study/scene_solvers.h"

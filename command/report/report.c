@@ -6,7 +6,7 @@
 #include <stdio.h>
 
 #include "casefile/scene.h"
-#include "casefile/structure_model.h"
+#include "casefile/structure.h"
 #include "command/report/aliasing.h"
 #include "command/report/assets.h"
 #include "command/report/structure.h"

@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "base/constants.h"
-#include "casefile/structure_model.h"
+#include "casefile/structure.h"
 #include "compare/first_guess.h"
 #include "compare/frequencies.h"
 #include "hbm/hbm.h"

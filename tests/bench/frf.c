@@ -8,7 +8,7 @@
 #include <time.h>
 
 #include "casefile/case_file.h"
-#include "casefile/structure_model.h"
+#include "casefile/structure.h"
 #include "compare/response.h"
 #include "study/scene_solvers.h"
 

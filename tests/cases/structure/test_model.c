@@ -2,7 +2,7 @@
 #include <math.h>
 
 #include "base/constants.h"
-#include "casefile/structure_model.h"
+#include "casefile/structure.h"
 #include "tests/cases/structure/structure_text.h"
 
 static void matrices_are_by_columns(void **state)
