@@ -140,14 +140,13 @@ static hc_status find_alias_free(budgeter *b, const budget_case *from, chain *c)
   if ((c->has_hx = b->setup.hbm.force == HBM_FORCE_EXACT)) return HC_OK;
   hc_status st = need_alias_free(b, from->n_harm);
   if (st != HC_OK) return st == HC_NO_MEMORY ? st : HC_OK;
-  const bool oscillator = hbm_of_oscillator(b->alias_free);
   const link *lead = &c->of[c->most];
   memcpy(b->X, from->X, (size_t)hbm_n_coefficients(b->alias_free) * sizeof *b->X);
   try_alias_free(b, from, c);
   if (!c->has_orbit) return HC_OK;
   double direct = motion_between(&lead->h, &lead->orbit).waveform;
   if (c->has_hx && way_by(lead, &lead->hx) <= 3 * direct) return HC_OK;
-  if (!oscillator) return HC_OK; /* one response's harmonics are no start */
+  if (hbm_n_dof(b->alias_free) > 1) return HC_OK; /* one response's harmonics are no start */
   motion_harmonics(&lead->orbit, from->n_harm, b->X);
   if (!b->setup.hbm.keep_mean) b->X[0] = 0;
   try_alias_free(b, from, c);

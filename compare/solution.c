@@ -171,7 +171,7 @@ static hc_status judge(comparison_work *w, const comparison_row *row, const doub
   if (row->transient.period_multiple > 1) return *out = VERDICT_PERIOD_K, HC_OK;
   if (within_limits(w->setup, &row->errors, &row->transient)) {
     bool it_stays = true;
-    hc_status st = !hbm_of_oscillator(w->hbm) && is_at_corner(row) ? perturbations_decay(w, row, X, &it_stays) : HC_OK;
+    const hc_status st = is_at_corner(row) ? perturbations_decay(w, row, X, &it_stays) : HC_OK;
     *out = it_stays ? VERDICT_MATCH : VERDICT_UNSTABLE;
     return st;
   }

@@ -192,7 +192,6 @@ hc_status hbm_measure_contacts(hbm_solver *s, const double *X, contact_period *o
 
 int hbm_n_dof(const hbm_solver *s) { return s->model->n; }
 int hbm_n_contacts(const hbm_solver *s) { return s->model->n_contacts; }
-bool hbm_of_oscillator(const hbm_solver *s) { return model_is_oscillator(s->model); }
 
 hc_status hbm_response(hbm_solver *s, double omega, const double *X, int r, double *x)
 {

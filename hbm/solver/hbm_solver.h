@@ -28,7 +28,6 @@ int hbm_n_harmonics(const hbm_solver *s);    /* in use now; after a trace with a
 int hbm_n_samples(const hbm_solver *s);      /* per period, in use now; 0 where forces are exact */
 int hbm_n_dof(const hbm_solver *s);          /* of the model */
 int hbm_n_contacts(const hbm_solver *s);     /* of the model: one with two tangents is two */
-bool hbm_of_oscillator(const hbm_solver *s); /* is the model one: model_is_oscillator */
 int hbm_n_coefficients(const hbm_solver *s); /* entries of X, with the harmonics in use now */
 
 /* X[hbm_n_coefficients], as a guess, of a motion x[2H+1][n] of all degrees of freedom, coefficient by coefficient. */

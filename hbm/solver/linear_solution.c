@@ -7,43 +7,8 @@
 #include <string.h>
 
 #include "hbm/solver/hbm_solver_impl.h"
-#include "model/linear.h"
 #include "numerics/dense.h"
 #include "numerics/norm.h"
-
-/* ---- of an oscillator ------------------------------------------------------------------------- */
-
-static double static_stiffness(const model *m)
-{
-  double k = *m->stiffness;
-  for (int j = 0; j < m->n_contacts; ++j)
-    if (m->contacts[j].law.gap > 0) k += model_stuck_stiffness(&m->contacts[j]);
-  return k;
-}
-
-static double oscillator_response(const hbm_system *sys, double omega, double *X)
-{
-  const model *m = sys->model;
-  const double k = static_stiffness(m), force = model_force(m) * sys->force_factor;
-  double complex x = linear_response(*m->mass, *m->damping + sys->more_damping, k, force, omega);
-  /* infinite at an undamped resonance: only the order of magnitude matters for a guess */
-  if (!isfinite(cabs(x))) x = force / (k + *m->mass * omega * omega);
-  X[1] = creal(x);
-  X[2] = -cimag(x); /* Re(z exp(i th)) = Re z cos - Im z sin */
-  return cabs(x);
-}
-
-static void oscillator_derivative(const hbm_system *sys, double omega, double *dX)
-{
-  const model *m = sys->model;
-  const double mass = *m->mass, damping = *m->damping, k = static_stiffness(m);
-  double complex z = k - mass * omega * omega + I * damping * omega;
-  double complex by_omega = -model_force(m) * (-2 * mass * omega + I * damping) / (z * z);
-  dX[1] = creal(by_omega);
-  dX[2] = -cimag(by_omega);
-}
-
-/* ---- of a structure ---------------------------------------------------------------------------- */
 
 static void add_outer(int dim, double k, const double *d, double *K)
 {
@@ -162,10 +127,11 @@ hc_status hbm_linear_rest(hbm_system *sys, double *N)
   return st;
 }
 
-static hc_status structure_response(const hbm_system *sys, double omega, double *X)
+static hc_status respond(const hbm_system *sys, double omega, double *X)
 {
   hbm_linear_room *r = sys->room;
   hc_status st = condensation_at(sys->linear, omega, sys->more_damping);
+  memset(X, 0, (size_t)sys->n_coef * sizeof(double));
   if (st == HC_OK) st = find_static_state(sys, X);
   for (int l = 0; l < sys->model->n_loads && st == HC_OK; ++l) {
     const int h = sys->model->loads[l].harmonic;
@@ -178,11 +144,19 @@ static hc_status structure_response(const hbm_system *sys, double omega, double 
   return st;
 }
 
+double hbm_linear_response(hbm_system *sys, double omega, double *X)
+{
+  /* an undamped resonance: only the order of magnitude matters */
+  if (respond(sys, omega, X) != HC_OK) respond(sys, omega * (1 + 1e-3), X);
+  return norm_2(sys->n_coef, X);
+}
+
 /* dq_h = -(S + K')^-1 (dS q_h - dp), harmonic by harmonic: the rows of the equations' derivative. */
-static void structure_derivative(hbm_system *sys, double omega, const double *X, double *R, double *dX)
+static void differentiate_response(hbm_system *sys, double omega, const double *X, double *R, double *dX)
 {
   hbm_linear_room *r = sys->room;
   const int dim = sys->dim;
+  memset(dX, 0, (size_t)sys->n_coef * sizeof(double));
   hbm_system_domega(sys, omega, X, R);
   for (int l = 0; l < sys->model->n_loads; ++l) {
     const int h = sys->model->loads[l].harmonic;
@@ -194,37 +168,20 @@ static void structure_derivative(hbm_system *sys, double omega, const double *X,
   }
 }
 
-/* ---- of either ---------------------------------------------------------------------------------- */
-
-double hbm_linear_response(hbm_system *sys, double omega, double *X)
-{
-  memset(X, 0, (size_t)sys->n_coef * sizeof(double));
-  if (model_is_oscillator(sys->model)) return oscillator_response(sys, omega, X);
-  if (structure_response(sys, omega, X) != HC_OK) { /* an undamped resonance: only the order of magnitude matters */
-    memset(X, 0, (size_t)sys->n_coef * sizeof(double));
-    structure_response(sys, omega * (1 + 1e-3), X);
-  }
-  return norm_2(sys->n_coef, X);
-}
-
 bool hbm_linear_point(hbm_solver *s, double omega, double near, double *X, double *dX, hbm_point *point)
 {
   hbm_system *sys = &s->sys;
-  const bool oscillator = model_is_oscillator(sys->model);
   double *linear = s->anchor, *R = s->z, distance = 0, residual = 0;
   double size = hbm_linear_response(sys, omega, linear);
   for (int i = 0; i < sys->n_coef; ++i) distance += (X[i] - linear[i]) * (X[i] - linear[i]);
-  bool is_near = sqrt(distance) <= near * size, held = !oscillator || static_stiffness(sys->model) > 0;
-  if (!(held && size > 0 && is_near)) return false;
+  if (!(size > 0 && sqrt(distance) <= near * size)) return false;
   if (hbm_system_residual(sys, omega, linear, R) != HC_OK) return false;
   if (sys->report.regime > CONTACT_STUCK) return false;
   for (int i = 0; i < sys->n; ++i) residual = fmax(residual, fabs(R[i]));
   residual /= hbm_system_scale(sys, omega);
   if (!(residual <= sys->how.tolerance)) return false;
   memcpy(X, linear, (size_t)sys->n_coef * sizeof(double));
-  memset(dX, 0, (size_t)sys->n_coef * sizeof(double));
-  if (oscillator) oscillator_derivative(sys, omega, dX);
-  else structure_derivative(sys, omega, X, R, dX);
+  differentiate_response(sys, omega, X, R, dX);
   *point = (hbm_point){.omega = omega, .residual = residual, .harmonics = sys->n_harm, .error = NAN};
   return true;
 }

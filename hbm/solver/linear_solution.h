@@ -2,7 +2,6 @@
  * leaves it, stuck where it is pressed on, apart otherwise.
  *
  *     (S_h + K') q_h + constant = phi p_h,      K' = sum over stuck contacts of kt t t^T + kn n n^T
- *     oscillator:    x = Re [ F0 / (K + K' - M omega^2 + i C omega) exp(i omega t) ]
  *
  * The static state is that of the loads of harmonic 0 with all contacts stuck or apart, found by trying: from those
  * that are preloaded (gap > 0) or, under such loads, from all. */
