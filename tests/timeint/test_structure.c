@@ -251,6 +251,7 @@ static void series_and_events_agree(void **state)
 {
   (void)state;
   uint64_t seed = 16;
+  int changing = 0; /* trials whose contacts change their state */
   for (int trial = 0; trial < 60; ++trial) {
     drawn d;
     integrator *series, *events;
@@ -264,11 +265,12 @@ static void series_and_events_agree(void **state)
       assert_int_equal(integrate_period(events, &d.scaled, z, NULL, NULL), HC_OK);
       for (int i = 0; i < d.scaled.n_states; ++i) CHECK_NEAR(z[i], y[i], 1e-8, "trial %d, state %d", trial, i);
     }
-    assert_true(integrate_transitions(series) > 0 || trial > 0);
+    changing += integrate_transitions(series) > 0;
     integrate_free(series);
     integrate_free(events);
     undraw(&d);
   }
+  assert_true(changing > 45);
 }
 
 /* Where state q of y moves by that much, sliders that are tied to the motion go with it. */
