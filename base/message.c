@@ -1,7 +1,6 @@
 /* message.c - see message.h. */
 #include "base/message.h"
 
-#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -23,13 +22,10 @@ static void end_in_dots(message *m)
   m->full = true;
 }
 
-void message_add(message *m, const char *format, ...)
+void message_add_list(message *m, const char *format, va_list args)
 {
   if (m->full) return;
-  va_list args;
-  va_start(args, format);
   int n = vsnprintf(m->text + m->used, m->size - m->used, format, args);
-  va_end(args);
   if (n < 0) return;
   if ((size_t)n < m->size - m->used) {
     m->used += (size_t)n;
@@ -37,6 +33,14 @@ void message_add(message *m, const char *format, ...)
     m->used = m->size - 1;
     end_in_dots(m);
   }
+}
+
+void message_add(message *m, const char *format, ...)
+{
+  va_list args;
+  va_start(args, format);
+  message_add_list(m, format, args);
+  va_end(args);
 }
 
 void message_add_input(message *m, const char *text, size_t length, size_t limit)
@@ -51,4 +55,11 @@ void message_add_input(message *m, const char *text, size_t length, size_t limit
     if (n == 0 || utf8_is_control(code)) message_add(m, "\\x%02X", (unsigned)(unsigned char)text[i++]);
     else message_add(m, "%.*s", (int)n, text + i), i += n;
   }
+}
+
+void message_add_quoted(message *m, const char *text, size_t length)
+{
+  message_add(m, "`");
+  message_add_input(m, text, length, 60);
+  message_add(m, "`");
 }

@@ -2,6 +2,7 @@
 #ifndef HC_MESSAGE_H
 #define HC_MESSAGE_H
 
+#include <stdarg.h>
 #include <stdbool.h>
 #include <stddef.h>
 
@@ -18,9 +19,13 @@ void message_start(message *m, char *text, size_t size); /* size >= 8 */
 __attribute__((format(printf, 2, 3)))
 #endif
 void message_add(message *m, const char *format, ...);
+void message_add_list(message *m, const char *format, va_list args);
 
 /* Adds text of the input, text[length]: at most `limit` bytes of it and then "..."; a control character or a byte that
  * is not UTF-8 becomes \xNN. */
 void message_add_input(message *m, const char *text, size_t length, size_t limit);
+
+/* The same between backquotes, 60 bytes of it: `text`. */
+void message_add_quoted(message *m, const char *text, size_t length);
 
 #endif

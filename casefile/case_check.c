@@ -25,10 +25,9 @@ static case_place last_given(const case_reader *r, const field *a, const field *
 static hc_status check_sweep(case_reader *r)
 {
   if (r->sc.omega_from != r->sc.omega_to) return HC_OK;
-  message_add(
-      case_blame(r, last_given(r, field_named("sweep", "omega"), field_named("sweep", "frequency"))),
+  return case_refuse(
+      r, last_given(r, field_named("sweep", "omega"), field_named("sweep", "frequency")),
       "the sweep ends where it starts, expected FROM and TO to differ (single frequencies: compare.omega, or --at)");
-  return HC_BAD_INPUT;
 }
 
 static hc_status check_samples(case_reader *r)
@@ -37,10 +36,9 @@ static hc_status check_samples(case_reader *r)
   if (h->force != HBM_FORCE_SAMPLED || h->samples == HBM_AUTO || h->harmonics == HBM_AUTO ||
       h->samples >= 2 * h->harmonics + 1)
     return HC_OK;
-  message_add(case_blame(r, last_given(r, field_named("hbm", "samples"), field_named("hbm", "harmonics"))),
-              "%d samples cannot tell %d harmonics apart, expected hbm.samples >= %d", h->samples, h->harmonics,
-              2 * h->harmonics + 1);
-  return HC_BAD_INPUT;
+  return case_refuse(r, last_given(r, field_named("hbm", "samples"), field_named("hbm", "harmonics")),
+                     "%d samples cannot tell %d harmonics apart, expected hbm.samples >= %d", h->samples, h->harmonics,
+                     2 * h->harmonics + 1);
 }
 
 /* What adapts along the curve drops points and goes back, which fixed steps do not. */
@@ -50,10 +48,9 @@ static hc_status check_fixed_step(case_reader *r)
   bool samples = h->force == HBM_FORCE_SAMPLED && h->samples == HBM_AUTO, harmonics = h->harmonics == HBM_AUTO;
   if (h->continuation != HBM_CONTINUATION_FIXED_STEP || !(samples || harmonics)) return HC_OK;
   const char *name = harmonics ? "harmonics" : "samples";
-  message_add(case_blame(r, last_given(r, field_named("hbm", "continuation"), field_named("hbm", name))),
-              "hbm.%s: auto adapts the step, too, expected a number of %s with hbm.continuation: fixed_step", name,
-              name);
-  return HC_BAD_INPUT;
+  return case_refuse(r, last_given(r, field_named("hbm", "continuation"), field_named("hbm", name)),
+                     "hbm.%s: auto adapts the step, too, expected a number of %s with hbm.continuation: fixed_step",
+                     name, name);
 }
 
 /* The regularised law has no closed form. */
@@ -61,9 +58,9 @@ static hc_status check_method(case_reader *r)
 {
   const transient_settings *t = &r->sc.transient;
   if (t->method != TRANSIENT_METHOD_CLOSED_FORM || t->law == TRANSIENT_LAW_EXACT) return HC_OK;
-  message_add(case_blame(r, last_given(r, field_named("transient", "method"), field_named("transient", "law"))),
-              "only the exact law has a closed form, expected transient.law: exact with transient.method: closed_form");
-  return HC_BAD_INPUT;
+  return case_refuse(
+      r, last_given(r, field_named("transient", "method"), field_named("transient", "law")),
+      "only the exact law has a closed form, expected transient.law: exact with transient.method: closed_form");
 }
 
 /* Ranges are pairs FROM <= TO; each list of limits has one for every range; there are no ranges without limits. */
@@ -86,15 +83,13 @@ static hc_status check_gate_ranges(case_reader *r)
     int n = ((const number_list *)field_look(f, &r->sc))->n;
     if (n > longest) longest = n;
     if (n == 0 || n == ends->n / 2) continue;
-    message_add(case_blame(r, last_given(r, f, ranges)),
-                "gate.%s has %d limit%s for %d range%s in gate.ranges, expected one for each", limits[k], n,
-                n == 1 ? "" : "s", ends->n / 2, ends->n == 2 ? "" : "s");
-    return HC_BAD_INPUT;
+    return case_refuse(r, last_given(r, f, ranges),
+                       "gate.%s has %d limit%s for %d range%s in gate.ranges, expected one for each", limits[k], n,
+                       n == 1 ? "" : "s", ends->n / 2, ends->n == 2 ? "" : "s");
   }
   if (ends->n == 0 || longest > 0) return HC_OK;
-  message_add(case_blame(r, r->at[field_index(ranges)]),
-              "gate.ranges without limits, expected gate.range_amplitude or another gate.range_... too");
-  return HC_BAD_INPUT;
+  return case_refuse(r, r->at[field_index(ranges)],
+                     "gate.ranges without limits, expected gate.range_amplitude or another gate.range_... too");
 }
 
 /* A contact appended by --set must have got every required field; contacts of the file were checked when read. */
@@ -143,19 +138,17 @@ static hc_status check_damping(case_reader *r)
   const size_t square = (size_t)s->n * (size_t)s->n;
   for (size_t k = 0; k < square && st == HC_OK; ++k) {
     if (isfinite(s->damping.v[k])) continue;
-    message_add(case_blame(r, s->damping.place), "structure.damping becomes too large to be held, expected less of it");
-    return HC_BAD_INPUT;
+    return case_refuse(r, s->damping.place, "structure.damping becomes too large to be held, expected less of it");
   }
   if (st == HC_OK) return st;
   if (st == HC_NO_MEMORY) return case_out_of_memory(r);
-  message_add(
-      case_blame(r, s->damping.place),
+  return case_refuse(
+      r, s->damping.place,
       st == HC_BAD_INPUT
           ? "a mode of structure.mass and structure.stiffness has a negative stiffness and no frequency, expected "
             "other than modal damping"
           : "the modes of structure.mass and structure.stiffness cannot be computed, expected other than modal "
             "damping");
-  return HC_BAD_INPUT;
 }
 
 /* ---- loads and contacts ---- */
@@ -167,21 +160,16 @@ static hc_status check_loads(case_reader *r)
   for (int i = 0; i < s->n_loads; ++i) {
     double most = 0;
     for (int k = 0; k < s->n; ++k) most = fmax(most, fabs(s->loads[i].amplitude * s->loads[i].direction[k]));
-    if (!isfinite(sum += most)) {
-      message_add(case_blame(r, s->loads[i].place), "forcing[%d] is too large to be held, expected less", i);
-      return HC_BAD_INPUT;
-    }
-    if (r->sc.hbm.harmonics != HBM_AUTO && s->loads[i].harmonic > r->sc.hbm.harmonics) {
-      message_add(
-          case_blame(r, s->loads[i].place),
+    if (!isfinite(sum += most))
+      return case_refuse(r, s->loads[i].place, "forcing[%d] is too large to be held, expected less", i);
+    if (r->sc.hbm.harmonics != HBM_AUTO && s->loads[i].harmonic > r->sc.hbm.harmonics)
+      return case_refuse(
+          r, s->loads[i].place,
           "forcing[%d] has harmonic %d and hbm.harmonics is %d, expected at least as many harmonics as loads have", i,
           s->loads[i].harmonic, r->sc.hbm.harmonics);
-      return HC_BAD_INPUT;
-    }
     if (s->loads[i].harmonic > 0 || s->loads[i].phase_deg == 0) continue;
-    message_add(case_blame(r, s->loads[i].place),
-                "forcing[%d] is a static load (harmonic 0) with a phase, expected none", i);
-    return HC_BAD_INPUT;
+    return case_refuse(r, s->loads[i].place, "forcing[%d] is a static load (harmonic 0) with a phase, expected none",
+                       i);
   }
   return HC_OK;
 }

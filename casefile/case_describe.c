@@ -75,9 +75,8 @@ static hc_status unknown_field(const char *asked, case_error *err)
 {
   message m;
   message_start(&m, err->message, sizeof err->message);
-  message_add(&m, "no field or section `");
-  message_add_input(&m, asked, strlen(asked), 60);
-  message_add(&m, "`");
+  message_add(&m, "no field or section ");
+  message_add_quoted(&m, asked, strlen(asked));
   suggestion s = suggest_path(asked, strlen(asked));
   char path[FIELD_PATH];
   if (s.f) message_add(&m, ", did you mean `%s`?", field_path(s.f, -1, path));

@@ -19,6 +19,24 @@ message *case_blame(case_reader *r, case_place place)
   return m;
 }
 
+hc_status case_refuse(case_reader *r, case_place place, const char *format, ...)
+{
+  va_list args;
+  va_start(args, format);
+  message_add_list(case_blame(r, place), format, args);
+  va_end(args);
+  return HC_BAD_INPUT;
+}
+
+hc_status yaml_refuse(case_reader *r, const yaml_node_t *node, const char *format, ...)
+{
+  va_list args;
+  va_start(args, format);
+  message_add_list(case_blame(r, case_place_of(r, node->start_mark)), format, args);
+  va_end(args);
+  return HC_BAD_INPUT;
+}
+
 bool case_suggest(message *m, suggestion s, const char *section, int j)
 {
   char path[FIELD_PATH];
@@ -41,6 +59,18 @@ const char *yaml_node_what(const yaml_node_t *n)
   return n->type == YAML_SEQUENCE_NODE ? "a list" : n->data.scalar.length > 0 ? "a single value" : "empty";
 }
 
+bool yaml_node_is(const yaml_node_t *n, const char *word)
+{
+  return n->type == YAML_SCALAR_NODE && n->data.scalar.length == strlen(word) && !strcmp(yaml_node_text(n), word);
+}
+
+const yaml_node_t *yaml_find(yaml_document_t *doc, const yaml_node_t *mapping, const char *key)
+{
+  for (yaml_node_pair_t *p = mapping->data.mapping.pairs.start; p < mapping->data.mapping.pairs.top; ++p)
+    if (yaml_node_is(yaml_document_get_node(doc, p->key), key)) return yaml_document_get_node(doc, p->value);
+  return NULL;
+}
+
 bool yaml_check_key(case_reader *r, const yaml_node_t *key)
 {
   if (key->type == YAML_SCALAR_NODE) return true;
@@ -54,9 +84,9 @@ hc_status yaml_unknown_key(case_reader *r, const yaml_node_t *key, const char *s
   const char *text = yaml_node_text(key);
   size_t length = key->data.scalar.length;
   message *m = case_blame(r, case_place_of(r, key->start_mark));
-  message_add(m, "unknown key `");
-  message_add_input(m, text, length, 60);
-  message_add(m, *section ? "` in `%s`" : "`%s", section);
+  message_add(m, "unknown key ");
+  message_add_quoted(m, text, length);
+  message_add(m, *section ? " in `%s`" : "%s", section);
   if (case_suggest(m, suggest_key(section, text, length), section, -1)) return HC_BAD_INPUT;
   message_add(m, ", expected one of");
   const field_section *s;
@@ -74,9 +104,9 @@ hc_status yaml_unknown_key(case_reader *r, const yaml_node_t *key, const char *s
 hc_status yaml_duplicate_key(case_reader *r, const yaml_node_t *key, case_place first)
 {
   message *m = case_blame(r, case_place_of(r, key->start_mark));
-  message_add(m, "duplicate key `");
-  message_add_input(m, yaml_node_text(key), key->data.scalar.length, 60);
-  message_add(m, "`, expected it once (first on line %zu)", first.line);
+  message_add(m, "duplicate key ");
+  message_add_quoted(m, yaml_node_text(key), key->data.scalar.length);
+  message_add(m, ", expected it once (first on line %zu)", first.line);
   return HC_BAD_INPUT;
 }
 
@@ -96,9 +126,9 @@ const yaml_node_t *yaml_node_value(yaml_document_t *doc, const yaml_node_t *node
   if (node->type == YAML_MAPPING_NODE) return node;
   if (node->type == YAML_SCALAR_NODE) v->item[0] = yaml_node_item(node);
   if (node->type == YAML_SCALAR_NODE) return NULL;
-  v->n = (int)(node->data.sequence.items.top - node->data.sequence.items.start);
+  v->n = yaml_length(node);
   for (int i = 0; i < v->n && i < NUMBER_LIST_MAX; ++i) {
-    const yaml_node_t *entry = yaml_document_get_node(doc, node->data.sequence.items.start[i]);
+    const yaml_node_t *entry = yaml_entry(doc, node, i);
     if (entry->type != YAML_SCALAR_NODE) return entry;
     v->item[i] = yaml_node_item(entry);
   }
@@ -121,8 +151,7 @@ hc_status yaml_scene_value(case_reader *r, yaml_document_t *doc, const field *f,
   }
   case_place at = case_place_of(r, misfit ? misfit->start_mark : node->start_mark);
   if (bad >= 0) at.line = v.item[bad].line, at.column = v.item[bad].column;
-  message_add(case_blame(r, at), "%s%s", field_path(f, j, path), why.text);
-  return HC_BAD_INPUT;
+  return case_refuse(r, at, "%s%s", field_path(f, j, path), why.text);
 }
 
 const field *yaml_given_rival(const case_reader *r, const field *f)
@@ -137,10 +166,8 @@ static hc_status check_rival(case_reader *r, const field *f, const yaml_node_t *
 {
   const field *rival = yaml_given_rival(r, f);
   if (!rival) return HC_OK;
-  message_add(case_blame(r, case_place_of(r, key->start_mark)),
-              "both `%s` (line %zu) and `%s` in `%s`, expected one of them", rival->name,
-              r->at[field_index(rival)].line, f->name, f->section);
-  return HC_BAD_INPUT;
+  return yaml_refuse(r, key, "both `%s` (line %zu) and `%s` in `%s`, expected one of them", rival->name,
+                     r->at[field_index(rival)].line, f->name, f->section);
 }
 
 hc_status yaml_scene_field(case_reader *r, yaml_document_t *doc, const field *f, int j, void *base,

@@ -62,6 +62,15 @@ hc_status case_reader_take(case_reader *r, hc_status st, scene *out);
 /* Start the message with "FILE:LINE:COLUMN: " or "--set PATH=VALUE: " and return it for the rest. */
 message *case_blame(case_reader *r, case_place place);
 
+/* The whole message, printf-style, about a place or where a node stands. Always HC_BAD_INPUT. */
+#if defined(__GNUC__)
+#define CASE_PRINTF __attribute__((format(printf, 3, 4)))
+#else
+#define CASE_PRINTF
+#endif
+CASE_PRINTF hc_status case_refuse(case_reader *r, case_place place, const char *format, ...);
+CASE_PRINTF hc_status yaml_refuse(case_reader *r, const yaml_node_t *node, const char *format, ...);
+
 /* ", did you mean `x`?" if there is something to suggest. Fields show their whole path unless they are of `section`
  * (NULL: always). */
 bool case_suggest(message *m, suggestion s, const char *section, int j);
@@ -73,7 +82,19 @@ hc_status yaml_text_load(case_reader *r, const char *text, size_t length, yaml_d
 /* The text of a scalar node, and what a node is in words: "a mapping", "a list", "a single value", "empty". */
 static inline const char *yaml_node_text(const yaml_node_t *n) { return (const char *)n->data.scalar.value; }
 const char *yaml_node_what(const yaml_node_t *n);
-field_item yaml_node_item(const yaml_node_t *n); /* of a scalar */
+bool yaml_node_is(const yaml_node_t *n, const char *word); /* a scalar, and that word? */
+field_item yaml_node_item(const yaml_node_t *n);           /* of a scalar */
+
+/* Of a list: how many entries, and entry i. Of a mapping: the value of the first such key, or NULL. */
+static inline int yaml_length(const yaml_node_t *list)
+{
+  return (int)(list->data.sequence.items.top - list->data.sequence.items.start);
+}
+static inline yaml_node_t *yaml_entry(yaml_document_t *doc, const yaml_node_t *list, int i)
+{
+  return yaml_document_get_node(doc, list->data.sequence.items.start[i]);
+}
+const yaml_node_t *yaml_find(yaml_document_t *doc, const yaml_node_t *mapping, const char *key);
 
 /* v from a scalar or a list of scalars. NULL, or the node (a mapping, a list in a list) that cannot be a value. */
 const yaml_node_t *yaml_node_value(yaml_document_t *doc, const yaml_node_t *node, field_value *v);

@@ -21,9 +21,8 @@ static hc_status unknown_path(case_reader *r, const char *path, size_t length, i
         message_add(m, "%s %s.%s", n++ ? "," : "", s->name, field_at(i)->name);
     return HC_BAD_INPUT;
   }
-  message_add(m, "unknown field `");
-  message_add_input(m, path, length, 60);
-  message_add(m, "`");
+  message_add(m, "unknown field ");
+  message_add_quoted(m, path, length);
   suggestion guess = suggest_path(path, length);
   if (!case_suggest(m, guess, NULL, j))
     message_add(m, ", expected a path such as hbm.samples (`hbmcheck describe` lists them)");
@@ -59,10 +58,10 @@ static hc_status read_name(case_reader *r, const char *s, const char *stop, cons
     if (d < least) near = j, least = d;
   }
   message *m = case_blame(r, r->here);
-  message_add(m, "no contact is named `");
-  message_add_input(m, s + 1, length, 60);
-  if (near >= 0) message_add(m, "`, did you mean `%s`?", own->contacts[near].given.name);
-  else message_add(m, "`, expected an index or a name that the case gives");
+  message_add(m, "no contact is named ");
+  message_add_quoted(m, s + 1, length);
+  if (near >= 0) message_add(m, ", did you mean `%s`?", own->contacts[near].given.name);
+  else message_add(m, ", expected an index or a name that the case gives");
   return HC_BAD_INPUT;
 }
 
@@ -110,10 +109,9 @@ static hc_status check_kind(case_reader *r, const field *f, const char *path, si
   const bool of_oscillator = !strcmp(f->section, "oscillator") || !strcmp(f->section, "forcing");
   if (structure ? !of_oscillator : !(f->flags & FIELD_STRUCTURE)) return HC_OK;
   message *m = case_blame(r, r->here);
-  message_add(m, "`");
-  message_add_input(m, path, length, 60);
-  message_add(m, structure ? "` is an oscillator's, and the case has a structure, expected "
-                           : "` is a structure's, and the case has an oscillator, expected a field of that");
+  message_add_quoted(m, path, length);
+  message_add(m, structure ? " is an oscillator's, and the case has a structure, expected "
+                           : " is a structure's, and the case has an oscillator, expected a field of that");
   if (structure) message_add(m, *f->section == 'f' ? "forcing[0].%s" : "structure.%s", f->name);
   return HC_BAD_INPUT;
 }
@@ -212,10 +210,8 @@ static hc_status set_field(case_reader *r, case_target t, const char *text)
   if (!base) return HC_NO_MEMORY;
   case_drop_rivals(r, t.f, base);
   field_split(t.f, text, strlen(text), &v);
-  if (!field_store(t.f, base, &v, &why, &bad)) {
-    message_add(case_blame(r, r->here), "%s%s", field_path(t.f, t.index, path), why.text);
-    return HC_BAD_INPUT;
-  }
+  if (!field_store(t.f, base, &v, &why, &bad))
+    return case_refuse(r, r->here, "%s%s", field_path(t.f, t.index, path), why.text);
   case_target_given(r, t);
   return HC_OK;
 }
@@ -271,10 +267,7 @@ hc_status case_set_apply(case_reader *r, int k)
   case_target t;
   r->set_now = k;
   r->here = (case_place){.set = k, .line = 1, .column = 1};
-  if (!equals) {
-    message_add(case_blame(r, r->here), "no `=`, expected PATH=VALUE such as hbm.harmonics=10");
-    return HC_BAD_INPUT;
-  }
+  if (!equals) return case_refuse(r, r->here, "no `=`, expected PATH=VALUE such as hbm.harmonics=10");
   size_t length = (size_t)(equals - path);
   while (length > 0 && *path == ' ') ++path, --length;
   while (length > 0 && path[length - 1] == ' ') --length;

@@ -67,9 +67,8 @@ static bool refuse(const field *f, const field_value *v, int bad, const char *hi
   } else if (it->length == 0 && !it->quoted) {
     message_add(m, v->list ? " has an empty entry" : " is empty");
   } else {
-    message_add(m, v->list ? " has the entry `" : " is `");
-    message_add_input(m, it->text, it->length, 60);
-    message_add(m, "`");
+    message_add(m, v->list ? " has the entry " : " is ");
+    message_add_quoted(m, it->text, it->length);
   }
   message_add(m, ", expected ");
   field_expected(f, m);

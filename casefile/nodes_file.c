@@ -31,9 +31,7 @@ static message *blame(reader *r, const char *at)
 static message *blame_field(reader *r, int i)
 {
   message *m = blame(r, r->field[i]);
-  message_add(m, "`");
-  message_add_input(m, r->field[i], r->length[i], 60);
-  message_add(m, "`");
+  message_add_quoted(m, r->field[i], r->length[i]);
   return m;
 }
 

@@ -14,34 +14,24 @@ static bool given(const case_reader *r, const char *section, const char *name)
   return case_given(r, part(section, name));
 }
 
-static bool key_is(const yaml_node_t *key, const char *word)
-{
-  return key->data.scalar.length == strlen(word) && !strcmp(yaml_node_text(key), word);
-}
-
 /* Is it a list, of which `what` tells? */
 static hc_status check_list(case_reader *r, const yaml_node_t *node, const char *what, const char *expected)
 {
   if (node->type == YAML_SEQUENCE_NODE) return HC_OK;
-  message_add(case_blame(r, case_place_of(r, node->start_mark)), "%s is %s, expected %s", what, yaml_node_what(node),
-              expected);
-  return HC_BAD_INPUT;
+  return yaml_refuse(r, node, "%s is %s, expected %s", what, yaml_node_what(node), expected);
 }
 
 static hc_status check_mapping(case_reader *r, const yaml_node_t *node, const char *what, int j, const char *expected)
 {
   if (node->type == YAML_MAPPING_NODE) return HC_OK;
-  message_add(case_blame(r, case_place_of(r, node->start_mark)), "%s[%d] is %s, expected a mapping such as %s", what, j,
-              yaml_node_what(node), expected);
-  return HC_BAD_INPUT;
+  return yaml_refuse(r, node, "%s[%d] is %s, expected a mapping such as %s", what, j, yaml_node_what(node), expected);
 }
 
 /* `pairs` and `axes` make contacts; of one they say nothing. */
 static hc_status not_of_one(case_reader *r, case_place at, const char *name)
 {
-  message_add(case_blame(r, at), "%s of a single contact, expected `pairs` and `axes` together in an entry of the list",
-              name);
-  return HC_BAD_INPUT;
+  return case_refuse(r, at, "%s of a single contact, expected `pairs` and `axes` together in an entry of the list",
+                     name);
 }
 
 static bool is_of_pairs(const field *f) { return f == part("contacts", "pairs") || f == part("contacts", "axes"); }
@@ -69,22 +59,13 @@ static hc_status read_part(case_reader *r, yaml_document_t *doc, const field *f,
 
 /* ---- loads ---- */
 
-static bool has_key(yaml_document_t *doc, const yaml_node_t *node, const char *word)
-{
-  for (yaml_node_pair_t *p = node->data.mapping.pairs.start; p < node->data.mapping.pairs.top; ++p) {
-    const yaml_node_t *key = yaml_document_get_node(doc, p->key);
-    if (key->type == YAML_SCALAR_NODE && key_is(key, word)) return true;
-  }
-  return false;
-}
-
 static hc_status read_load_keys(case_reader *r, yaml_document_t *doc, const yaml_node_t *node, int j, bool by_node)
 {
   structure_load *load = &r->sc.structure->loads[j];
   for (yaml_node_pair_t *p = node->data.mapping.pairs.start; p < node->data.mapping.pairs.top; ++p) {
     const yaml_node_t *key = yaml_document_get_node(doc, p->key);
     if (!yaml_check_key(r, key)) return HC_BAD_INPUT;
-    if (by_node && (key_is(key, "node") || key_is(key, "direction"))) continue;
+    if (by_node && (yaml_node_is(key, "node") || yaml_node_is(key, "direction"))) continue;
     const field *f = field_find("forcing[]", yaml_node_text(key), key->data.scalar.length);
     if (!f) return yaml_unknown_key(r, key, "forcing[]");
     const hc_status st = f->kind == FIELD_PART ? read_part(r, doc, f, j, p) : yaml_scene_field(r, doc, f, j, load, p);
@@ -119,7 +100,7 @@ hc_status yaml_load_read(case_reader *r, yaml_document_t *doc, const yaml_node_t
   field_load_defaults(&s->loads[j]);
   memset(s->loads[j].direction, 0, (size_t)s->n * sizeof(double));
   s->loads[j].place = case_place_of(r, node->start_mark);
-  const bool by_node = has_key(doc, node, "node");
+  const bool by_node = yaml_find(doc, node, "node") != NULL;
   st = read_load_keys(r, doc, node, j, by_node);
   if (st == HC_OK && by_node) st = yaml_direction(r, doc, "forcing", node, s->loads[j].direction);
   return st == HC_OK ? check_load(r, j, by_node) : st;
@@ -132,8 +113,8 @@ hc_status yaml_loads_read(case_reader *r, yaml_document_t *doc, const yaml_node_
   if (node->type == YAML_MAPPING_NODE && s->n == 1) return yaml_load_read(r, doc, node, 0);
   hc_status st = check_list(r, node, "forcing", "a list of loads such as [{dof: 1, amplitude: 100}]");
   if (st != HC_OK) return st;
-  for (yaml_node_item_t *it = node->data.sequence.items.start; it < node->data.sequence.items.top && st == HC_OK; ++it)
-    st = yaml_load_read(r, doc, yaml_document_get_node(doc, *it), s->n_loads);
+  for (int i = 0; i < yaml_length(node) && st == HC_OK; ++i)
+    st = yaml_load_read(r, doc, yaml_entry(doc, node, i), s->n_loads);
   return st;
 }
 
@@ -176,26 +157,18 @@ static hc_status check_contact(case_reader *r, int j)
   structure_contact *c = &r->sc.structure->contacts[j];
   const bool tangent = given(r, "contacts", "tangent"), normal = given(r, "contacts", "normal");
   c->by_angle = given(r, "contacts", "angle_deg");
-  if (c->by_angle && (tangent || normal || r->sc.structure->n > 1)) {
-    message_add(case_blame(r, r->at[field_index(part("contacts", "angle_deg"))]),
-                "angle_deg in `contacts[%d]`, expected `tangent` and `normal`%s", j,
-                r->sc.structure->n > 1 ? ": an angle is for one DOF" : " or `angle_deg`, not both");
-    return HC_BAD_INPUT;
-  }
-  if (given(r, "contacts", "tangent_2") && !tangent) {
-    message_add(case_blame(r, r->at[field_index(part("contacts", "tangent_2"))]),
-                "tangent_2 in `contacts[%d]`, which has no tangent, expected `tangent` first", j);
-    return HC_BAD_INPUT;
-  }
-  if (given(r, "contacts", "limit") && !given(r, "contacts", "tangent_2")) {
-    message_add(case_blame(r, r->at[field_index(part("contacts", "limit"))]),
-                "limit in `contacts[%d]`, which has one tangent, expected it beside `tangent_2` only", j);
-    return HC_BAD_INPUT;
-  }
-  if (!tangent && !normal && !c->by_angle) {
-    message_add(case_blame(r, c->place), "contacts[%d] moves nothing, expected `tangent`, `normal` or both", j);
-    return HC_BAD_INPUT;
-  }
+  if (c->by_angle && (tangent || normal || r->sc.structure->n > 1))
+    return case_refuse(r, r->at[field_index(part("contacts", "angle_deg"))],
+                       "angle_deg in `contacts[%d]`, expected `tangent` and `normal`%s", j,
+                       r->sc.structure->n > 1 ? ": an angle is for one DOF" : " or `angle_deg`, not both");
+  if (given(r, "contacts", "tangent_2") && !tangent)
+    return case_refuse(r, r->at[field_index(part("contacts", "tangent_2"))],
+                       "tangent_2 in `contacts[%d]`, which has no tangent, expected `tangent` first", j);
+  if (given(r, "contacts", "limit") && !given(r, "contacts", "tangent_2"))
+    return case_refuse(r, r->at[field_index(part("contacts", "limit"))],
+                       "limit in `contacts[%d]`, which has one tangent, expected it beside `tangent_2` only", j);
+  if (!tangent && !normal && !c->by_angle)
+    return case_refuse(r, c->place, "contacts[%d] moves nothing, expected `tangent`, `normal` or both", j);
   hc_status st = tangent || c->by_angle ? check_needed(r, j, "tangent", of_tangent) : HC_OK;
   if (st == HC_OK && (normal || c->by_angle)) st = check_needed(r, j, "normal", of_normal);
   else if (st == HC_OK) st = check_needed(r, j, "tangent but no normal", of_tangent_alone);
@@ -226,11 +199,10 @@ hc_status yaml_contacts_read(case_reader *r, yaml_document_t *doc, const yaml_no
   structure_clear_contacts(s);
   hc_status st = check_list(r, node, "contacts", "a list of contacts, or [] for none");
   if (st != HC_OK) return st;
-  for (yaml_node_item_t *it = node->data.sequence.items.start; it < node->data.sequence.items.top && st == HC_OK;
-       ++it) {
-    const yaml_node_t *entry = yaml_document_get_node(doc, *it);
+  for (int i = 0; i < yaml_length(node) && st == HC_OK; ++i) {
+    const yaml_node_t *entry = yaml_entry(doc, node, i);
     const bool pairs =
-        entry->type == YAML_MAPPING_NODE && (has_key(doc, entry, "pairs") || has_key(doc, entry, "axes"));
+        entry->type == YAML_MAPPING_NODE && (yaml_find(doc, entry, "pairs") || yaml_find(doc, entry, "axes"));
     st = pairs ? yaml_pairs_read(r, doc, entry) : yaml_contact_read(r, doc, entry, s->n_contacts);
   }
   return st;
@@ -245,23 +217,18 @@ hc_status yaml_responses_read(case_reader *r, yaml_document_t *doc, const yaml_n
   structure_clear_responses(s);
   hc_status st = check_list(r, node, "response", part("", "response")->expects);
   if (st != HC_OK) return st;
-  if (node->data.sequence.items.start == node->data.sequence.items.top) {
-    message_add(case_blame(r, case_place_of(r, node->start_mark)), "response is an empty list, expected %s",
-                part("", "response")->expects);
-    return HC_BAD_INPUT;
-  }
-  for (yaml_node_item_t *it = node->data.sequence.items.start; it < node->data.sequence.items.top; ++it) {
-    const yaml_node_t *entry = yaml_document_get_node(doc, *it);
+  if (yaml_length(node) == 0)
+    return yaml_refuse(r, node, "response is an empty list, expected %s", part("", "response")->expects);
+  for (int i = 0; i < yaml_length(node); ++i) {
+    const yaml_node_t *entry = yaml_entry(doc, node, i);
     structure_response *new = structure_add_response(s);
     if (!new) return case_out_of_memory(r);
     new->place = case_place_of(r, entry->start_mark);
     if ((st = yaml_direction(r, doc, "response", entry, new->direction)) != HC_OK) return st;
-    for (int i = 0; i < s->n_responses - 1; ++i) {
-      if (memcmp(s->responses[i].direction, new->direction, bytes)) continue;
-      message_add(case_blame(r, new->place), "response %d is response %d again, expected different ones",
-                  s->n_responses, i + 1);
-      return HC_BAD_INPUT;
-    }
+    for (int k = 0; k < s->n_responses - 1; ++k)
+      if (!memcmp(s->responses[k].direction, new->direction, bytes))
+        return case_refuse(r, new->place, "response %d is response %d again, expected different ones", s->n_responses,
+                           k + 1);
   }
   return HC_OK;
 }
@@ -271,37 +238,24 @@ hc_status yaml_no_such_dof(case_reader *r, case_place at, const char *text, size
   const scene_structure *s = r->sc.structure;
   const char *near = s->names ? nearest_word((const char *const *)s->names, text, length) : NULL;
   message *m = case_blame(r, at);
-  message_add(m, "no DOF `");
-  message_add_input(m, text, length, 60);
-  if (near) message_add(m, "`, did you mean `%s`?", near);
-  else message_add(m, "`, expected a number 1..%d%s", s->n, s->names ? " or one of structure.names" : "");
+  message_add(m, "no DOF ");
+  message_add_quoted(m, text, length);
+  if (near) message_add(m, ", did you mean `%s`?", near);
+  else message_add(m, ", expected a number 1..%d%s", s->n, s->names ? " or one of structure.names" : "");
   return HC_BAD_INPUT;
 }
 
 static hc_status named_dof(case_reader *r, const yaml_node_t *node, int *dof)
 {
-  if (node->type != YAML_SCALAR_NODE) {
-    message_add(case_blame(r, case_place_of(r, node->start_mark)),
-                "%s stands where a DOF should, expected its name or "
-                "number",
-                yaml_node_what(node));
-    return HC_BAD_INPUT;
-  }
+  if (node->type != YAML_SCALAR_NODE)
+    return yaml_refuse(r, node,
+                       "%s stands where a DOF should, expected its name or "
+                       "number",
+                       yaml_node_what(node));
   const char *text = yaml_node_text(node);
   const size_t length = node->data.scalar.length;
   *dof = structure_dof(r->sc.structure, text, length);
   return *dof >= 0 ? HC_OK : yaml_no_such_dof(r, case_place_of(r, node->start_mark), text, length);
-}
-
-/* The value of `key` in a mapping, or NULL. */
-static const yaml_node_t *value_of(yaml_document_t *doc, const yaml_node_t *node, const char *key)
-{
-  for (yaml_node_pair_t *p = node->data.mapping.pairs.start; p < node->data.mapping.pairs.top; ++p) {
-    const yaml_node_t *k = yaml_document_get_node(doc, p->key);
-    if (k->type == YAML_SCALAR_NODE && k->data.scalar.length == strlen(key) && !strcmp(yaml_node_text(k), key))
-      return yaml_document_get_node(doc, p->value);
-  }
-  return NULL;
 }
 
 static bool is_axis(const yaml_node_t *n)
@@ -312,15 +266,13 @@ static bool is_axis(const yaml_node_t *n)
 /* {node: 17, direction: y}, as far as these two keys are concerned. */
 static hc_status node_dof(case_reader *r, yaml_document_t *doc, const yaml_node_t *node, int *dof)
 {
-  const yaml_node_t *number = value_of(doc, node, "node"), *axis = value_of(doc, node, "direction");
+  const yaml_node_t *number = yaml_find(doc, node, "node"), *axis = yaml_find(doc, node, "direction");
   int id = 0;
   message *m;
   if (number->type != YAML_SCALAR_NODE || !axis || !is_axis(axis) ||
-      number_read_integer(yaml_node_text(number), number->data.scalar.length, &id) != NUMBER_FINE) {
-    message_add(case_blame(r, case_place_of(r, number->start_mark)),
-                "a node without its number or direction, expected {node: 17, direction: y}, with x, y or z");
-    return HC_BAD_INPUT;
-  }
+      number_read_integer(yaml_node_text(number), number->data.scalar.length, &id) != NUMBER_FINE)
+    return yaml_refuse(r, number,
+                       "a node without its number or direction, expected {node: 17, direction: y}, with x, y or z");
   *dof = structure_node_dof(r->sc.structure, id, *yaml_node_text(axis));
   if (*dof >= 0) return HC_OK;
   m = case_blame(r, case_place_of(r, number->start_mark));
@@ -331,7 +283,7 @@ static hc_status node_dof(case_reader *r, yaml_document_t *doc, const yaml_node_
 
 hc_status yaml_dof(case_reader *r, yaml_document_t *doc, const yaml_node_t *node, int *dof)
 {
-  const bool by_node = node->type == YAML_MAPPING_NODE && value_of(doc, node, "node");
+  const bool by_node = node->type == YAML_MAPPING_NODE && yaml_find(doc, node, "node");
   return by_node ? node_dof(r, doc, node, dof) : named_dof(r, node, dof);
 }
 
@@ -343,13 +295,13 @@ static hc_status read_factors(case_reader *r, yaml_document_t *doc, const char *
   if (!seen) return case_out_of_memory(r);
   for (yaml_node_pair_t *p = node->data.mapping.pairs.start; p < node->data.mapping.pairs.top && st == HC_OK; ++p) {
     const yaml_node_t *key = yaml_document_get_node(doc, p->key);
-    int dof;
+    int dof = 0;
     if ((st = named_dof(r, key, &dof)) != HC_OK) break;
     if (seen[dof]++) {
       message *m = case_blame(r, case_place_of(r, key->start_mark));
-      message_add(m, "%s gives DOF `", what);
-      message_add_input(m, yaml_node_text(key), key->data.scalar.length, 60);
-      message_add(m, "` twice, expected each once");
+      message_add(m, "%s gives DOF ", what);
+      message_add_quoted(m, yaml_node_text(key), key->data.scalar.length);
+      message_add(m, " twice, expected each once");
       st = HC_BAD_INPUT;
       break;
     }
@@ -365,7 +317,7 @@ hc_status yaml_direction(case_reader *r, yaml_document_t *doc, const char *what,
   const int n = r->sc.structure->n;
   int dof;
   memset(direction, 0, (size_t)n * sizeof *direction);
-  if (node->type != YAML_MAPPING_NODE || value_of(doc, node, "node")) {
+  if (node->type != YAML_MAPPING_NODE || yaml_find(doc, node, "node")) {
     const hc_status st = yaml_dof(r, doc, node, &dof);
     if (st == HC_OK) direction[dof] = 1;
     return st;
@@ -374,7 +326,5 @@ hc_status yaml_direction(case_reader *r, yaml_document_t *doc, const char *what,
   if (st != HC_OK) return st;
   for (int i = 0; i < n; ++i)
     if (direction[i] != 0) return HC_OK;
-  message_add(case_blame(r, case_place_of(r, node->start_mark)),
-              "%s is a direction of zeros, which moves nothing, expected a factor other than 0", what);
-  return HC_BAD_INPUT;
+  return yaml_refuse(r, node, "%s is a direction of zeros, which moves nothing, expected a factor other than 0", what);
 }

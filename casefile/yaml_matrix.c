@@ -23,24 +23,12 @@ hc_status yaml_number(case_reader *r, const yaml_node_t *node, const char *what,
   if (!scalar || node->data.scalar.length == 0) {
     message_add(m, "%s", yaml_node_what(node));
   } else {
-    message_add(m, "`");
-    message_add_input(m, yaml_node_text(node), node->data.scalar.length, 60);
-    message_add(m, "`");
+    message_add_quoted(m, yaml_node_text(node), node->data.scalar.length);
   }
   message_add(m, ", expected a number");
   if (quoted) message_add(m, " (in quotes it is text)");
   else if (fault == NUMBER_NOT_FINITE) message_add(m, " (it must be finite)");
   return HC_BAD_INPUT;
-}
-
-static int length_of(const yaml_node_t *list)
-{
-  return (int)(list->data.sequence.items.top - list->data.sequence.items.start);
-}
-
-static yaml_node_t *entry(yaml_document_t *doc, const yaml_node_t *list, int i)
-{
-  return yaml_document_get_node(doc, list->data.sequence.items.start[i]);
 }
 
 static hc_status wrong_size(case_reader *r, const char *what, const yaml_node_t *node, int found, const char *noun,
@@ -58,15 +46,12 @@ static hc_status read_row(case_reader *r, yaml_document_t *doc, const char *what
   char path[FIELD_PATH + 32];
   const size_t stride = (size_t)n + (i < 0), first = i < 0 ? 0 : (size_t)i;
   snprintf(path, sizeof path, i < 0 ? "%s" : "%s[%d]", what, i);
-  if (row->type != YAML_SEQUENCE_NODE) {
-    message_add(case_blame(r, case_place_of(r, row->start_mark)), "%s is %s, expected a row of %d numbers", path,
-                yaml_node_what(row), n);
-    return HC_BAD_INPUT;
-  }
-  if (length_of(row) != n) return wrong_size(r, path, row, length_of(row), "entries", n);
+  if (row->type != YAML_SEQUENCE_NODE)
+    return yaml_refuse(r, row, "%s is %s, expected a row of %d numbers", path, yaml_node_what(row), n);
+  if (yaml_length(row) != n) return wrong_size(r, path, row, yaml_length(row), "entries", n);
   for (int j = 0; j < n; ++j) {
     snprintf(path, sizeof path, i < 0 ? "%s[%d]" : "%s[%d][%d]", what, i < 0 ? j : i, j);
-    const hc_status st = yaml_number(r, entry(doc, row, j), path, &v[first + stride * (size_t)j]);
+    const hc_status st = yaml_number(r, yaml_entry(doc, row, j), path, &v[first + stride * (size_t)j]);
     if (st != HC_OK) return st;
   }
   return HC_OK;
@@ -75,20 +60,18 @@ static hc_status read_row(case_reader *r, yaml_document_t *doc, const char *what
 static hc_status read_list(case_reader *r, yaml_document_t *doc, const char *what, const yaml_node_t *node,
                            int expected, int *n, double **v)
 {
-  *n = length_of(node);
-  const bool rows = *n > 0 && entry(doc, node, 0)->type == YAML_SEQUENCE_NODE;
-  if (*n < 1 || *n > MATRIX_MOST_ROWS) {
-    message_add(case_blame(r, case_place_of(r, node->start_mark)),
-                "%s is a list of %d, expected 1 to %d rows, or a "
-                "diagonal",
-                what, *n, (int)MATRIX_MOST_ROWS);
-    return HC_BAD_INPUT;
-  }
+  *n = yaml_length(node);
+  const bool rows = *n > 0 && yaml_entry(doc, node, 0)->type == YAML_SEQUENCE_NODE;
+  if (*n < 1 || *n > MATRIX_MOST_ROWS)
+    return yaml_refuse(r, node,
+                       "%s is a list of %d, expected 1 to %d rows, or a "
+                       "diagonal",
+                       what, *n, (int)MATRIX_MOST_ROWS);
   if (expected > 0 && *n != expected) return wrong_size(r, what, node, *n, rows ? "rows" : "entries", expected);
   if (!(*v = calloc((size_t)*n * (size_t)*n, sizeof **v))) return case_out_of_memory(r);
   hc_status st = HC_OK;
   if (!rows) return read_row(r, doc, what, node, *n, -1, *v);
-  for (int i = 0; i < *n && st == HC_OK; ++i) st = read_row(r, doc, what, entry(doc, node, i), *n, i, *v);
+  for (int i = 0; i < *n && st == HC_OK; ++i) st = read_row(r, doc, what, yaml_entry(doc, node, i), *n, i, *v);
   return st;
 }
 

@@ -44,28 +44,18 @@ static const size_t most_bytes = (size_t)16 << 20;
 static const char *const names[PAIR_COLUMNS] = {"node_a", "node_b", "gap", "preload", "area"};
 static const char expected_columns[] = "node_a,node_b[,gap][,preload][,area]";
 
-static yaml_node_t *entry(const pair_rows *p, const yaml_node_t *list, int i)
-{
-  return yaml_document_get_node(p->doc, list->data.sequence.items.start[i]);
-}
-
-static int length_of(const yaml_node_t *list)
-{
-  return (int)(list->data.sequence.items.top - list->data.sequence.items.start);
-}
-
-static int word_count(const pair_rows *p) { return p->list ? length_of(p->current) : p->text.n_words; }
+static int word_count(const pair_rows *p) { return p->list ? yaml_length(p->current) : p->text.n_words; }
 
 static matrix_word word_at(const pair_rows *p, int i)
 {
   if (!p->list) return p->text.words[i];
-  const yaml_node_t *node = entry(p, p->current, i);
+  const yaml_node_t *node = yaml_entry(p->doc, p->current, i);
   return (matrix_word){yaml_node_text(node), node->data.scalar.length};
 }
 
 static message *blame_word(pair_rows *p, int i)
 {
-  if (p->list) return case_blame(p->r, case_place_of(p->r, entry(p, p->current, i)->start_mark));
+  if (p->list) return case_blame(p->r, case_place_of(p->r, yaml_entry(p->doc, p->current, i)->start_mark));
   return matrix_text_blame(&p->text, p->text.words[i].text);
 }
 
@@ -83,9 +73,8 @@ static hc_status wrong_word(pair_rows *p, int i, const char *expected)
 {
   const matrix_word w = word_at(p, i);
   message *m = blame_word(p, i);
-  message_add(m, "`");
-  message_add_input(m, w.text, w.length, 60);
-  message_add(m, "`, expected %s", expected);
+  message_add_quoted(m, w.text, w.length);
+  message_add(m, ", expected %s", expected);
   return HC_BAD_INPUT;
 }
 
@@ -94,10 +83,11 @@ static bool next_row(pair_rows *p, hc_status *st)
 {
   *st = HC_OK;
   if (!p->list) return matrix_text_next(&p->text);
-  if (p->next == length_of(p->list)) return false;
-  p->current = entry(p, p->list, p->next++);
-  bool whole = p->current->type == YAML_SEQUENCE_NODE && length_of(p->current) > 0;
-  for (int i = 0; whole && i < length_of(p->current); ++i) whole = entry(p, p->current, i)->type == YAML_SCALAR_NODE;
+  if (p->next == yaml_length(p->list)) return false;
+  p->current = yaml_entry(p->doc, p->list, p->next++);
+  bool whole = p->current->type == YAML_SEQUENCE_NODE && yaml_length(p->current) > 0;
+  for (int i = 0; whole && i < yaml_length(p->current); ++i)
+    whole = yaml_entry(p->doc, p->current, i)->type == YAML_SCALAR_NODE;
   if (whole) return true;
   message_add(blame_row(p), "%s stands where a row of pairs should, expected a list of %s", yaml_node_what(p->current),
               expected_columns);
@@ -151,12 +141,8 @@ static hc_status open_list(pair_rows *p, const yaml_node_t *node)
   hc_status st;
   int number;
   p->list = node;
-  if (!next_row(p, &st)) {
-    if (st == HC_OK)
-      message_add(case_blame(p->r, case_place_of(p->r, node->start_mark)),
-                  "pairs is an empty list, expected rows of %s", expected_columns);
-    return HC_BAD_INPUT;
-  }
+  if (!next_row(p, &st))
+    return st == HC_OK ? yaml_refuse(p->r, node, "pairs is an empty list, expected rows of %s", expected_columns) : st;
   const matrix_word first = word_at(p, 0);
   if (number_read_integer(first.text, first.length, &number) != NUMBER_FINE) return read_names(p);
   p->columns = 2;
@@ -173,9 +159,8 @@ static hc_status pair_rows_open(pair_rows *p, case_reader *r, yaml_document_t *d
   for (int c = 0; c < PAIR_COLUMNS; ++c) p->column[c] = -1;
   if (node->type == YAML_SEQUENCE_NODE) return open_list(p, node);
   if (node->type == YAML_SCALAR_NODE && node->data.scalar.length > 0) return open_file(p, node);
-  message_add(case_blame(r, case_place_of(r, node->start_mark)), "pairs is %s, expected a csv file %s, or such rows",
-              yaml_node_what(node), expected_columns);
-  return HC_BAD_INPUT;
+  return yaml_refuse(r, node, "pairs is %s, expected a csv file %s, or such rows", yaml_node_what(node),
+                     expected_columns);
 }
 
 static void pair_rows_close(pair_rows *p)
@@ -248,14 +233,10 @@ static hc_status read_vector(case_reader *r, yaml_document_t *doc, const yaml_no
   char path[FIELD_PATH];
   const bool list = node->type == YAML_SEQUENCE_NODE;
   snprintf(path, sizeof path, "axes.%s", axis_names[k]);
-  if (!list || node->data.sequence.items.top - node->data.sequence.items.start != 3) {
-    message_add(case_blame(r, case_place_of(r, node->start_mark)), "%s is no direction in space, expected [X, Y, Z]",
-                path);
-    return HC_BAD_INPUT;
-  }
+  if (!list || yaml_length(node) != 3)
+    return yaml_refuse(r, node, "%s is no direction in space, expected [X, Y, Z]", path);
   hc_status st = HC_OK;
-  for (int d = 0; d < 3 && st == HC_OK; ++d)
-    st = yaml_number(r, yaml_document_get_node(doc, node->data.sequence.items.start[d]), path, &to[d]);
+  for (int d = 0; d < 3 && st == HC_OK; ++d) st = yaml_number(r, yaml_entry(doc, node, d), path, &to[d]);
   return st;
 }
 
@@ -293,42 +274,29 @@ static void complete(pairs_entry *e)
   e->has[TANGENT_2] = true;
 }
 
-static bool key_is(const yaml_node_t *key, const char *word)
-{
-  return key->data.scalar.length == strlen(word) && !strcmp(yaml_node_text(key), word);
-}
-
 static hc_status read_axes(case_reader *r, yaml_document_t *doc, const yaml_node_t *node, pairs_entry *e)
 {
   bool seen[AXES] = {false};
-  if (node->type != YAML_MAPPING_NODE) {
-    message_add(case_blame(r, case_place_of(r, node->start_mark)), "axes is %s, expected %s", yaml_node_what(node),
-                part("axes")->expects);
-    return HC_BAD_INPUT;
-  }
+  if (node->type != YAML_MAPPING_NODE)
+    return yaml_refuse(r, node, "axes is %s, expected %s", yaml_node_what(node), part("axes")->expects);
   for (yaml_node_pair_t *p = node->data.mapping.pairs.start; p < node->data.mapping.pairs.top; ++p) {
     const yaml_node_t *key = yaml_document_get_node(doc, p->key), *value = yaml_document_get_node(doc, p->value);
     int k = 0;
     if (!yaml_check_key(r, key)) return HC_BAD_INPUT;
-    while (k < AXES && !key_is(key, axis_names[k])) ++k;
-    if (k == AXES || seen[k]) {
-      message_add(case_blame(r, case_place_of(r, key->start_mark)),
-                  "%s in axes, expected normal, tangent and tangent_2, each once",
-                  k == AXES ? "another key" : "a key again");
-      return HC_BAD_INPUT;
-    }
+    while (k < AXES && !yaml_node_is(key, axis_names[k])) ++k;
+    if (k == AXES || seen[k])
+      return yaml_refuse(r, key, "%s in axes, expected normal, tangent and tangent_2, each once",
+                         k == AXES ? "another key" : "a key again");
     seen[k] = true;
-    if (k == TANGENT_2 && value->type == YAML_SCALAR_NODE && key_is(value, "none")) continue;
+    if (k == TANGENT_2 && yaml_node_is(value, "none")) continue;
     const hc_status st = read_vector(r, doc, value, (axis)k, e->axes[k]);
     if (st != HC_OK) return st;
     e->has[k] = true;
   }
   const bool alone = !e->has[TANGENT] && (e->has[TANGENT_2] || !e->has[NORMAL]);
-  if (alone) {
-    message_add(case_blame(r, case_place_of(r, node->start_mark)), "axes without a tangent%s, expected %s",
-                e->has[TANGENT_2] ? ", but with a tangent_2" : " and without a normal", part("axes")->expects);
-    return HC_BAD_INPUT;
-  }
+  if (alone)
+    return yaml_refuse(r, node, "axes without a tangent%s, expected %s",
+                       e->has[TANGENT_2] ? ", but with a tangent_2" : " and without a normal", part("axes")->expects);
   const hc_status st = check_orthonormal(r, node, e);
   if (st == HC_OK && e->has[NORMAL] && e->has[TANGENT] && !seen[TANGENT_2]) complete(e);
   return st;
@@ -390,11 +358,10 @@ static hc_status check_entry(case_reader *r, const pairs_entry *e, const pair_ro
   const bool gap = case_given(r, part("gap")) || rows->column[PAIR_GAP] >= 0;
   const bool preload = case_given(r, part("preload")) || rows->column[PAIR_PRELOAD] >= 0;
   if (!(gap && preload) && !(rows->column[PAIR_GAP] >= 0 && !e->has[NORMAL])) return HC_OK;
-  message_add(case_blame(r, e->place),
-              gap && preload ? "both a gap and a preload of pairs, expected one: preload = normal_stiffness "
-                               "area gap"
-                             : "a column of gaps beside axes without a normal, expected none");
-  return HC_BAD_INPUT;
+  return case_refuse(r, e->place,
+                     gap && preload ? "both a gap and a preload of pairs, expected one: preload = normal_stiffness "
+                                      "area gap"
+                                    : "a column of gaps beside axes without a normal, expected none");
 }
 
 /* ---- its contacts ---- */
@@ -492,9 +459,8 @@ hc_status yaml_pairs_read(case_reader *r, yaml_document_t *doc, const yaml_node_
   hc_status st = read_keys(r, doc, node, &e, &given[0], &given[1]);
   for (int i = 0; i < 2 && st == HC_OK; ++i) {
     if (given[i]) continue;
-    message_add(case_blame(r, e.place), "missing key `%s` beside `%s`, expected %s", needed[i], needed[1 - i],
-                part(needed[i])->expects);
-    return HC_BAD_INPUT;
+    return case_refuse(r, e.place, "missing key `%s` beside `%s`, expected %s", needed[i], needed[1 - i],
+                       part(needed[i])->expects);
   }
   if (st == HC_OK) st = read_axes(r, doc, given[1], &e);
   if (st != HC_OK) return st;

@@ -23,9 +23,8 @@ static hc_status check_missing(case_reader *r, const field_section *s, const yam
 static hc_status of_structure(case_reader *r, const yaml_node_t *key)
 {
   message *m = case_blame(r, case_place_of(r, key->start_mark));
-  message_add(m, "`");
-  message_add_input(m, yaml_node_text(key), key->data.scalar.length, 60);
-  message_add(m, "` is for a structure, expected `structure` instead of `oscillator` with it");
+  message_add_quoted(m, yaml_node_text(key), key->data.scalar.length);
+  message_add(m, " is for a structure, expected `structure` instead of `oscillator` with it");
   return HC_BAD_INPUT;
 }
 
@@ -67,20 +66,14 @@ hc_status yaml_scene_contact(case_reader *r, yaml_document_t *doc, yaml_node_t *
 
 hc_status yaml_scene_contacts(case_reader *r, yaml_document_t *doc, yaml_node_t *node)
 {
-  if (node->type != YAML_SEQUENCE_NODE) {
-    message_add(case_blame(r, case_place_of(r, node->start_mark)),
-                "contacts is %s, expected a list of contacts, or [] for none", yaml_node_what(node));
-    return HC_BAD_INPUT;
-  }
+  if (node->type != YAML_SEQUENCE_NODE)
+    return yaml_refuse(r, node, "contacts is %s, expected a list of contacts, or [] for none", yaml_node_what(node));
   memset(r->sc.contacts, 0, sizeof r->sc.contacts);
   r->sc.n_contacts = 0;
-  for (yaml_node_item_t *it = node->data.sequence.items.start; it < node->data.sequence.items.top; ++it) {
-    yaml_node_t *entry = yaml_document_get_node(doc, *it);
-    if (r->sc.n_contacts == SCENE_MAX_CONTACTS) {
-      message_add(case_blame(r, case_place_of(r, entry->start_mark)), "one contact too many, expected at most %d",
-                  SCENE_MAX_CONTACTS);
-      return HC_BAD_INPUT;
-    }
+  for (int i = 0; i < yaml_length(node); ++i) {
+    yaml_node_t *entry = yaml_entry(doc, node, i);
+    if (r->sc.n_contacts == SCENE_MAX_CONTACTS)
+      return yaml_refuse(r, entry, "one contact too many, expected at most %d", SCENE_MAX_CONTACTS);
     hc_status st = yaml_scene_contact(r, doc, entry, r->sc.n_contacts++);
     if (st != HC_OK) return st;
   }
@@ -166,19 +159,16 @@ static hc_status refuse_both(case_reader *r, yaml_document_t *doc, const yaml_no
 {
   const yaml_node_pair_t *first = a < b ? a : b, *last = a < b ? b : a;
   const yaml_node_t *before = yaml_document_get_node(doc, first->key), *key = yaml_document_get_node(doc, last->key);
-  message_add(case_blame(r, case_place_of(r, key->start_mark)), "both `%s` (line %zu) and `%s`, expected one of them",
-              yaml_node_text(before), case_place_of(r, before->start_mark).line, yaml_node_text(key));
-  return HC_BAD_INPUT;
+  return yaml_refuse(r, key, "both `%s` (line %zu) and `%s`, expected one of them", yaml_node_text(before),
+                     case_place_of(r, before->start_mark).line, yaml_node_text(key));
 }
 
 hc_status yaml_scene_read(case_reader *r, yaml_document_t *doc, const yaml_node_t *root)
 {
   case_place given[FIELD_MAX] = {{0}}; /* [section] */
-  if (root->type != YAML_MAPPING_NODE) {
-    message_add(case_blame(r, case_place_of(r, root->start_mark)),
-                "the case is %s, expected a mapping with `oscillator`, `forcing` and `sweep`", yaml_node_what(root));
-    return HC_BAD_INPUT;
-  }
+  if (root->type != YAML_MAPPING_NODE)
+    return yaml_refuse(r, root, "the case is %s, expected a mapping with `oscillator`, `forcing` and `sweep`",
+                       yaml_node_what(root));
   const yaml_node_pair_t *structure = find_key(doc, root, "structure"), *oscillator = find_key(doc, root, "oscillator");
   if (structure && oscillator) return refuse_both(r, doc, oscillator, structure);
   hc_status st = structure ? read_top_level(r, doc, structure, given) : HC_OK;

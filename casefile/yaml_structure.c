@@ -90,18 +90,16 @@ static hc_status read_mass(case_reader *r, yaml_document_t *doc, const yaml_node
 static hc_status read_ratios(case_reader *r, yaml_document_t *doc, const yaml_node_t *node)
 {
   scene_structure *s = r->sc.structure;
-  const int n = (int)(node->data.sequence.items.top - node->data.sequence.items.start);
+  const int n = yaml_length(node);
   const case_place at = case_place_of(r, node->start_mark);
-  if (n != s->n) {
-    message_add(case_blame(r, at), "structure.damping.modal has %d entries, expected one number, or %d, one a mode", n,
-                s->n);
-    return HC_BAD_INPUT;
-  }
+  if (n != s->n)
+    return case_refuse(r, at, "structure.damping.modal has %d entries, expected one number, or %d, one a mode", n,
+                       s->n);
   double *ratios = calloc((size_t)n, sizeof *ratios);
   hc_status st = HC_OK;
   if (!ratios) return case_out_of_memory(r);
   for (int i = 0; i < n && st == HC_OK; ++i) {
-    const yaml_node_t *entry = yaml_document_get_node(doc, node->data.sequence.items.start[i]);
+    const yaml_node_t *entry = yaml_entry(doc, node, i);
     st = yaml_number(r, entry, "an entry of structure.damping.modal", &ratios[i]);
     if (st != HC_OK || ratios[i] >= 0) continue;
     message_add(case_blame(r, case_place_of(r, entry->start_mark)),
@@ -151,10 +149,10 @@ static hc_status read_damping(case_reader *r, yaml_document_t *doc, const yaml_n
     snprintf(name, sizeof name, "damping.%s", yaml_node_text(key));
   const field *f = part(name);
   if (f) return read_damping_value(r, doc, f, yaml_document_get_node(doc, p->value));
-  message_add(case_blame(r, case_place_of(r, key ? key->start_mark : node->start_mark)),
-              "structure.damping is a mapping of something else, expected {rayleigh: [alpha, beta]}, {modal: 0.01} or "
-              "{modal: [...]}, or a matrix");
-  return HC_BAD_INPUT;
+  return yaml_refuse(
+      r, key ? key : node,
+      "structure.damping is a mapping of something else, expected {rayleigh: [alpha, beta]}, {modal: 0.01} or "
+      "{modal: [...]}, or a matrix");
 }
 
 /* ---- names and nodes ---- */
@@ -183,7 +181,7 @@ static hc_status read_names(case_reader *r, yaml_document_t *doc, const yaml_nod
 {
   scene_structure *s = r->sc.structure;
   const bool list = node->type == YAML_SEQUENCE_NODE;
-  const int n = list ? (int)(node->data.sequence.items.top - node->data.sequence.items.start) : 0;
+  const int n = list ? yaml_length(node) : 0;
   if (n != s->n) {
     message *m = case_blame(r, case_place_of(r, node->start_mark));
     if (list) message_add(m, "structure.names has %d names, expected %d, one a DOF", n, s->n);
@@ -195,7 +193,7 @@ static hc_status read_names(case_reader *r, yaml_document_t *doc, const yaml_nod
   free(old);
   if (!(s->names = calloc((size_t)n + 1, sizeof *s->names))) return case_out_of_memory(r);
   for (int i = 0; i < n; ++i) {
-    const yaml_node_t *entry = yaml_document_get_node(doc, node->data.sequence.items.start[i]);
+    const yaml_node_t *entry = yaml_entry(doc, node, i);
     const char *why = objection(entry);
     for (int k = 0; !why && k < i; ++k)
       if (!strcmp(s->names[k], yaml_node_text(entry))) why = "is there twice";
@@ -218,18 +216,17 @@ static hc_status read_node(case_reader *r, yaml_document_t *doc, const yaml_node
   int dof, id = 0;
   const bool list = entry->type == YAML_SEQUENCE_NODE;
   for (int i = 0; list && i < 3 && entry->data.sequence.items.start + i < entry->data.sequence.items.top; ++i)
-    at[i] = yaml_document_get_node(doc, entry->data.sequence.items.start[i]);
-  const bool whole = at[2] && entry->data.sequence.items.top - entry->data.sequence.items.start == 3 &&
-                     at[1]->type == YAML_SCALAR_NODE && at[2]->type == YAML_SCALAR_NODE;
+    at[i] = yaml_entry(doc, entry, i);
+  const bool whole =
+      at[2] && yaml_length(entry) == 3 && at[1]->type == YAML_SCALAR_NODE && at[2]->type == YAML_SCALAR_NODE;
   const char *axis = whole ? yaml_node_text(at[2]) : "";
   if (!whole || number_read_integer(yaml_node_text(at[1]), at[1]->data.scalar.length, &id) != NUMBER_FINE ||
       at[2]->data.scalar.length != 1 || !structure_is_axis(*axis) ||
-      structure_node_dof(r->sc.structure, id, *axis) >= 0) {
-    message_add(case_blame(r, case_place_of(r, entry->start_mark)),
-                "an entry of structure.nodes, expected [DOF, NODE, x or y or z] such as [tip, 17, y], each node and "
-                "direction once");
-    return HC_BAD_INPUT;
-  }
+      structure_node_dof(r->sc.structure, id, *axis) >= 0)
+    return yaml_refuse(
+        r, entry,
+        "an entry of structure.nodes, expected [DOF, NODE, x or y or z] such as [tip, 17, y], each node and "
+        "direction once");
   const hc_status st = yaml_dof(r, doc, at[0], &dof);
   if (st != HC_OK) return st;
   return nodes_add(r->sc.structure, dof, id, *axis) == HC_OK ? HC_OK : case_out_of_memory(r);
@@ -262,14 +259,10 @@ static hc_status read_nodes(case_reader *r, yaml_document_t *doc, const yaml_nod
   s->nodes = NULL;
   s->n_nodes = 0;
   if (node->type == YAML_SCALAR_NODE && node->data.scalar.length > 0) return read_nodes_file(r, node);
-  if (node->type != YAML_SEQUENCE_NODE) {
-    message_add(case_blame(r, case_place_of(r, node->start_mark)), "structure.nodes is %s, expected %s",
-                yaml_node_what(node), part("nodes")->expects);
-    return HC_BAD_INPUT;
-  }
+  if (node->type != YAML_SEQUENCE_NODE)
+    return yaml_refuse(r, node, "structure.nodes is %s, expected %s", yaml_node_what(node), part("nodes")->expects);
   hc_status st = HC_OK;
-  for (yaml_node_item_t *it = node->data.sequence.items.start; it < node->data.sequence.items.top && st == HC_OK; ++it)
-    st = read_node(r, doc, yaml_document_get_node(doc, *it));
+  for (int i = 0; i < yaml_length(node) && st == HC_OK; ++i) st = read_node(r, doc, yaml_entry(doc, node, i));
   return st;
 }
 
@@ -310,11 +303,9 @@ hc_status yaml_structure_read(case_reader *r, yaml_document_t *doc, const yaml_n
 {
   const yaml_node_t *value[FIELD_MAX] = {NULL};
   const case_place at = case_place_of(r, node->start_mark);
-  if (node->type != YAML_MAPPING_NODE) {
-    message_add(case_blame(r, at), "structure is %s, expected a mapping {mass: ..., damping: ..., stiffness: ...}",
-                yaml_node_what(node));
-    return HC_BAD_INPUT;
-  }
+  if (node->type != YAML_MAPPING_NODE)
+    return case_refuse(r, at, "structure is %s, expected a mapping {mass: ..., damping: ..., stiffness: ...}",
+                       yaml_node_what(node));
   if (!(r->sc.structure = structure_new())) return case_out_of_memory(r);
   r->owns_structure = true;
   r->sc.structure->place = at;

@@ -29,19 +29,12 @@ static hc_status check_characters(case_reader *r, const char *text, size_t lengt
   for (size_t i = 0, n; i < length; i += n) {
     unsigned long code = 0;
     n = utf8_character(text + i, length - i, &code);
-    if (n == 0) {
-      message_add(case_blame(r, at), "byte 0x%02X is not UTF-8, expected a %s file in UTF-8",
-                  (unsigned)(unsigned char)text[i], r->noun);
-      return HC_BAD_INPUT;
-    }
-    if (!is_yaml_character(code)) {
-      message_add(case_blame(r, at), "control character 0x%02lX, expected text", code);
-      return HC_BAD_INPUT;
-    }
-    if (at.column == 1 && starts_with(text + i, length - i, "%TAG")) {
-      message_add(case_blame(r, at), "a %%TAG line, expected plain YAML");
-      return HC_BAD_INPUT;
-    }
+    if (n == 0)
+      return case_refuse(r, at, "byte 0x%02X is not UTF-8, expected a %s file in UTF-8",
+                         (unsigned)(unsigned char)text[i], r->noun);
+    if (!is_yaml_character(code)) return case_refuse(r, at, "control character 0x%02lX, expected text", code);
+    if (at.column == 1 && starts_with(text + i, length - i, "%TAG"))
+      return case_refuse(r, at, "a %%TAG line, expected plain YAML");
     bool line_end = code == '\n' || (code == '\r' && !starts_with(text + i + 1, length - i - 1, "\n"));
     if (line_end) ++at.line, at.column = 1;
     else ++at.column;
@@ -126,9 +119,8 @@ hc_status yaml_text_load(case_reader *r, const char *text, size_t length, yaml_d
 {
   yaml_parser_t p;
   if (length > CASE_LARGEST) {
-    message_add(case_blame(r, (case_place){0}),
-                "larger than 16 MB, expected a %s file (a few kB; large matrices in files)", r->noun);
-    return HC_BAD_INPUT;
+    return case_refuse(r, (case_place){0}, "larger than 16 MB, expected a %s file (a few kB; large matrices in files)",
+                       r->noun);
   }
   /* libyaml skips the mark only where it guesses the encoding */
   if (starts_with(text, length, "\xEF\xBB\xBF")) text += 3, length -= 3;

@@ -105,9 +105,8 @@ static hc_status check_claim(study_reader *q, const yaml_node_t *node, const stu
   if (!sided) return HC_OK;
   for (int k = CLAIM_FOUND; k <= CLAIM_EXPECT; ++k) {
     if (seen[k].line == 0) continue;
-    message_add(case_blame(&q->r, seen[k]), "`%s` beside `paper`, `ours` or `fixed_step`, expected it within them",
-                claim_keys[k]);
-    return HC_BAD_INPUT;
+    return case_refuse(&q->r, seen[k], "`%s` beside `paper`, `ours` or `fixed_step`, expected it within them",
+                       claim_keys[k]);
   }
   return HC_OK;
 }

@@ -89,10 +89,8 @@ static bool clashes(const char *path, const field *f, const char *own)
 
 static hc_status note_given(study_reader *q, const char *path, case_place at)
 {
-  if (q->n_given == STUDY_MOST_FIELDS) {
-    message_add(case_blame(&q->r, at), "one field too many, expected at most %d set or varied", STUDY_MOST_FIELDS);
-    return HC_BAD_INPUT;
-  }
+  if (q->n_given == STUDY_MOST_FIELDS)
+    return case_refuse(&q->r, at, "one field too many, expected at most %d set or varied", STUDY_MOST_FIELDS);
   snprintf(q->given[q->n_given].path, FIELD_PATH, "%s", path);
   q->given[q->n_given++].at = at;
   return HC_OK;

@@ -1,4 +1,4 @@
-/* abaqus_element.c - matrices as those of a user element, see matrix_formats.h.
+/* abaqus_element.c - matrices as those of a user element, see matrix_text.h.
  *
  *     *USER ELEMENT, NODES=2, LINEAR          a comment of numbers lists the nodes:   ** 101, 102
  *     1, 2, 3                                 DOFs of every node from the first on
@@ -72,10 +72,8 @@ static hc_status label_nodes(element *e, int place)
 static hc_status read_dofs(matrix_text *r, element *e, bool first)
 {
   int place = 1;
-  if (r->n_words > MATRIX_WORDS) {
-    message_add(matrix_text_blame(r, r->words[0].text), "more than %d words, expected DOFs", (int)MATRIX_WORDS);
-    return HC_BAD_INPUT;
-  }
+  if (r->n_words > MATRIX_WORDS)
+    return matrix_text_refuse(r, r->words[0].text, "more than %d words, expected DOFs", (int)MATRIX_WORDS);
   if (!first && !matrix_text_integer(r, 0, e->place + 1, MATRIX_MOST_ROWS, "the place of a node", &place))
     return HC_BAD_INPUT;
   const hc_status st = label_nodes(e, place - 1);
@@ -92,10 +90,8 @@ static hc_status read_header(matrix_text *r, element *e)
   char words[KEYWORD];
   bool first = true;
   hc_status st = HC_OK;
-  if (strstr(keyword(r, words), ",UNSYMM")) {
-    message_add(matrix_text_blame(r, r->line_text), "an unsymmetric element, expected a symmetric one");
-    return HC_BAD_INPUT;
-  }
+  if (strstr(keyword(r, words), ",UNSYMM"))
+    return matrix_text_refuse(r, r->line_text, "an unsymmetric element, expected a symmetric one");
   while (st == HC_OK && matrix_text_line(r)) {
     if (r->n_words == 0) continue;
     const char *text = r->words[0].text;
@@ -116,16 +112,13 @@ static hc_status read_row_line(matrix_text *r, element *e, int *row, int *column
 {
   for (int i = 0; i < r->n_words; ++i) {
     double value;
-    if (i >= MATRIX_WORDS || (i > 0 && *column == 0)) {
-      message_add(matrix_text_blame(r, i < MATRIX_WORDS ? r->words[i].text : r->words[0].text),
-                  "another number, expected row %d of the lower triangle to have %d, and the next one to begin a line",
-                  *row, *row);
-      return HC_BAD_INPUT;
-    }
-    if (*row == MATRIX_MOST_ROWS) {
-      message_add(matrix_text_blame(r, r->words[i].text), "another row, expected at most %d", (int)MATRIX_MOST_ROWS);
-      return HC_BAD_INPUT;
-    }
+    if (i >= MATRIX_WORDS || (i > 0 && *column == 0))
+      return matrix_text_refuse(
+          r, i < MATRIX_WORDS ? r->words[i].text : r->words[0].text,
+          "another number, expected row %d of the lower triangle to have %d, and the next one to begin a line", *row,
+          *row);
+    if (*row == MATRIX_MOST_ROWS)
+      return matrix_text_refuse(r, r->words[i].text, "another row, expected at most %d", (int)MATRIX_MOST_ROWS);
     if (!matrix_text_number(r, i, &value)) return HC_BAD_INPUT;
     double *grown = with_room(e->packed, e->n_values, sizeof value);
     if (!grown) return HC_NO_MEMORY;

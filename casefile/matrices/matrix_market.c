@@ -1,4 +1,4 @@
-/* matrix_market.c - Matrix Market files, see matrix_formats.h. Banner, size and entries are lines of words; comments
+/* matrix_market.c - Matrix Market files, see matrix_text.h. Banner, size and entries are lines of words; comments
  * and blank lines between them are skipped. */
 #include "casefile/matrices/matrix_text.h"
 
@@ -27,18 +27,15 @@ static hc_status read_banner(reader *r)
   static const char *const fields[] = {"real", "integer", NULL};
   static const char *const symmetries[] = {
       [GENERAL] = "general", [SYMMETRIC] = "symmetric", [SKEW] = "skew-symmetric", NULL};
-  if (!matrix_text_line(t) || t->n_words == 0 || !matrix_word_is(&t->words[0], "%%matrixmarket")) {
-    message_add(matrix_text_blame(t, t->line_text),
-                "no Matrix Market banner, expected `%%%%MatrixMarket matrix coordinate real general` or the like");
-    return HC_BAD_INPUT;
-  }
-  if (t->n_words != 5) {
-    message_add(
-        matrix_text_blame(t, t->words[0].text),
+  if (!matrix_text_line(t) || t->n_words == 0 || !matrix_word_is(&t->words[0], "%%matrixmarket"))
+    return matrix_text_refuse(
+        t, t->line_text,
+        "no Matrix Market banner, expected `%%%%MatrixMarket matrix coordinate real general` or the like");
+  if (t->n_words != 5)
+    return matrix_text_refuse(
+        t, t->words[0].text,
         "a banner of %s than five words, expected `%%%%MatrixMarket matrix coordinate real general` or the like",
         t->n_words < 5 ? "less" : "more");
-    return HC_BAD_INPUT;
-  }
   const int object = choose(t, 1, objects, "matrix");
   const int format = object < 0 ? -1 : choose(t, 2, formats, "coordinate or array");
   const int kind = format < 0 ? -1 : choose(t, 3, fields, "real or integer: numbers are needed");
@@ -64,11 +61,9 @@ static hc_status read_size(reader *r, int *entries)
     message_add(matrix_text_blame_end(t), "the file ends before the line of sizes, expected rows and columns");
     return HC_BAD_INPUT;
   }
-  if (t->n_words != 2 + r->coordinate) {
-    message_add(matrix_text_blame(t, t->words[0].text), "%d words where the sizes should stand, expected %s",
-                t->n_words, r->coordinate ? "rows, columns and number of entries" : "rows and columns");
-    return HC_BAD_INPUT;
-  }
+  if (t->n_words != 2 + r->coordinate)
+    return matrix_text_refuse(t, t->words[0].text, "%d words where the sizes should stand, expected %s", t->n_words,
+                              r->coordinate ? "rows, columns and number of entries" : "rows and columns");
   if (!matrix_text_integer(t, 0, 1, MATRIX_MOST_ROWS, "the number of rows", &t->n)) return HC_BAD_INPUT;
   if (!matrix_text_integer(t, 1, 1, MATRIX_MOST_ROWS, "the number of columns", &columns)) return HC_BAD_INPUT;
   if (columns != t->n || (t->expected > 0 && t->n != t->expected)) {
@@ -98,23 +93,17 @@ static hc_status read_coordinate(reader *r)
   matrix_text *t = r->t;
   int i, j;
   double value;
-  if (t->n_words != 3) {
-    message_add(matrix_text_blame(t, t->words[0].text),
-                "%s than three words, expected row, column and value of an entry", t->n_words < 3 ? "less" : "more");
-    return HC_BAD_INPUT;
-  }
+  if (t->n_words != 3)
+    return matrix_text_refuse(t, t->words[0].text, "%s than three words, expected row, column and value of an entry",
+                              t->n_words < 3 ? "less" : "more");
   if (!matrix_text_integer(t, 0, 1, t->n, "a row", &i) || !matrix_text_integer(t, 1, 1, t->n, "a column", &j))
     return HC_BAD_INPUT;
-  if (r->sym != GENERAL && i < j + (r->sym == SKEW)) {
-    message_add(matrix_text_blame(t, t->words[0].text),
-                "entry (%d, %d) of a %s matrix, expected its lower triangle alone, row %s column", i, j,
-                r->sym == SKEW ? "skew-symmetric" : "symmetric", r->sym == SKEW ? ">" : ">=");
-    return HC_BAD_INPUT;
-  }
-  if (matrix_text_seen(t, i - 1, j - 1)) {
-    message_add(matrix_text_blame(t, t->words[0].text), "a second entry (%d, %d), expected each once", i, j);
-    return HC_BAD_INPUT;
-  }
+  if (r->sym != GENERAL && i < j + (r->sym == SKEW))
+    return matrix_text_refuse(t, t->words[0].text,
+                              "entry (%d, %d) of a %s matrix, expected its lower triangle alone, row %s column", i, j,
+                              r->sym == SKEW ? "skew-symmetric" : "symmetric", r->sym == SKEW ? ">" : ">=");
+  if (matrix_text_seen(t, i - 1, j - 1))
+    return matrix_text_refuse(t, t->words[0].text, "a second entry (%d, %d), expected each once", i, j);
   if (!matrix_text_number(t, 2, &value)) return HC_BAD_INPUT;
   store(r, i - 1, j - 1, value, t->words[0].text);
   return HC_OK;
@@ -125,10 +114,7 @@ static hc_status read_array(reader *r, int *i, int *j)
 {
   matrix_text *t = r->t;
   double value;
-  if (t->n_words != 1) {
-    message_add(matrix_text_blame(t, t->words[1].text), "a second word, expected one value a line");
-    return HC_BAD_INPUT;
-  }
+  if (t->n_words != 1) return matrix_text_refuse(t, t->words[1].text, "a second word, expected one value a line");
   if (!matrix_text_number(t, 0, &value)) return HC_BAD_INPUT;
   store(r, *i, *j, value, t->words[0].text);
   if (++*i == t->n) ++*j, *i = r->sym == GENERAL ? 0 : *j + (r->sym == SKEW);
@@ -148,9 +134,7 @@ static hc_status read_entries(reader *r, int entries)
     if (st != HC_OK) return st;
   }
   if (!matrix_text_next(t)) return HC_OK;
-  message_add(matrix_text_blame(t, t->words[0].text), "something after the last of %d entries, expected the end",
-              entries);
-  return HC_BAD_INPUT;
+  return matrix_text_refuse(t, t->words[0].text, "something after the last of %d entries, expected the end", entries);
 }
 
 hc_status matrix_market_parse(matrix_text *t)

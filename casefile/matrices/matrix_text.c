@@ -54,10 +54,17 @@ message *matrix_text_blame_end(matrix_text *r)
 message *matrix_text_blame_word(matrix_text *r, int i)
 {
   message *m = matrix_text_blame(r, r->words[i].text);
-  message_add(m, "`");
-  message_add_input(m, r->words[i].text, r->words[i].length, 60);
-  message_add(m, "`");
+  message_add_quoted(m, r->words[i].text, r->words[i].length);
   return m;
+}
+
+hc_status matrix_text_refuse(matrix_text *r, const char *at, const char *format, ...)
+{
+  va_list args;
+  va_start(args, format);
+  message_add_list(matrix_text_blame(r, at), format, args);
+  va_end(args);
+  return HC_BAD_INPUT;
 }
 
 /* ---- words ---- */
@@ -170,7 +177,6 @@ void matrix_text_watch(matrix_text *r, int i, int j, const char *at)
 hc_status matrix_text_check_rows(matrix_text *r, int n)
 {
   if (r->expected == 0 || n == r->expected) return HC_OK;
-  message_add(matrix_text_blame(r, r->line_text), "a matrix of %d x %d ends here, expected %d x %d", n, n, r->expected,
-              r->expected);
-  return HC_BAD_INPUT;
+  return matrix_text_refuse(r, r->line_text, "a matrix of %d x %d ends here, expected %d x %d", n, n, r->expected,
+                            r->expected);
 }

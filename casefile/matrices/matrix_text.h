@@ -58,6 +58,13 @@ message *matrix_text_blame(matrix_text *r, const char *at);
 message *matrix_text_blame_end(matrix_text *r);
 message *matrix_text_blame_word(matrix_text *r, int i);
 
+/* The whole message, printf-style, about the place of `at`. Always HC_BAD_INPUT. */
+#if defined(__GNUC__)
+__attribute__((format(printf, 3, 4)))
+#endif
+hc_status
+matrix_text_refuse(matrix_text *r, const char *at, const char *format, ...);
+
 /* Word i as an integer from..to, of which `what` tells; as a finite number. Else the message is made. */
 bool matrix_text_integer(matrix_text *r, int i, int from, long to, const char *what, int *value);
 bool matrix_text_number(matrix_text *r, int i, double *value);

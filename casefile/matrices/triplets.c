@@ -1,4 +1,4 @@
-/* triplets.c - entries of a matrix, one a line: rows by number, or by node and DOF; see matrix_formats.h. A first pass
+/* triplets.c - entries of a matrix, one a line: rows by number, or by node and DOF; see matrix_text.h. A first pass
  * over the text finds out which rows there are, a second one reads the entries. */
 #include <stdlib.h>
 
@@ -11,8 +11,7 @@ static const int most_node = 2147483647;
 
 static hc_status wrong_words(matrix_text *r, const char *expected)
 {
-  message_add(matrix_text_blame(r, r->words[0].text), "%d words, expected %s", r->n_words, expected);
-  return HC_BAD_INPUT;
+  return matrix_text_refuse(r, r->words[0].text, "%d words, expected %s", r->n_words, expected);
 }
 
 static hc_status count_rows(matrix_text *r, int *n)
@@ -65,10 +64,8 @@ static hc_status collect_labels(matrix_text *r, int *n)
     if (r->n_words != 5) return wrong_words(r, "node, DOF, node, DOF and value of an entry");
     if (!read_label(r, 0, &row) || !read_label(r, 2, &column)) return HC_BAD_INPUT;
     if (by_node(&row, &column) != 0) continue;
-    if (*n == MATRIX_MOST_ROWS) {
-      message_add(matrix_text_blame(r, r->words[0].text), "another row, expected at most %d", (int)MATRIX_MOST_ROWS);
-      return HC_BAD_INPUT;
-    }
+    if (*n == MATRIX_MOST_ROWS)
+      return matrix_text_refuse(r, r->words[0].text, "another row, expected at most %d", (int)MATRIX_MOST_ROWS);
     if (*n == room) {
       room = room > 0 ? 2 * room : 64;
       matrix_label *grown = realloc(r->labels, (size_t)room * sizeof *grown);
@@ -112,10 +109,8 @@ static hc_status read_entries(matrix_text *r, bool *lower, bool *upper)
     int i, j;
     double value;
     if (!read_place(r, &i, &j)) return HC_BAD_INPUT;
-    if (matrix_text_seen(r, i, j)) {
-      message_add(matrix_text_blame(r, r->words[0].text), "a second entry (%d, %d), expected each once", i + 1, j + 1);
-      return HC_BAD_INPUT;
-    }
+    if (matrix_text_seen(r, i, j))
+      return matrix_text_refuse(r, r->words[0].text, "a second entry (%d, %d), expected each once", i + 1, j + 1);
     if (!matrix_text_number(r, r->n_words - 1, &value)) return HC_BAD_INPUT;
     matrix_text_put(r, i, j, value, r->words[0].text);
     *lower = *lower || i > j;
@@ -142,11 +137,11 @@ static hc_status check_mirrors(matrix_text *r)
     int i, j;
     if (!read_place(r, &i, &j)) return HC_BAD_INPUT;
     if (matrix_text_seen(r, j, i)) continue;
-    message_add(matrix_text_blame(r, r->words[0].text),
-                "entry (%d, %d) without (%d, %d), where both sides of the diagonal have entries, expected one side "
-                "alone, or every entry of both",
-                i + 1, j + 1, j + 1, i + 1);
-    return HC_BAD_INPUT;
+    return matrix_text_refuse(
+        r, r->words[0].text,
+        "entry (%d, %d) without (%d, %d), where both sides of the diagonal have entries, expected one side "
+        "alone, or every entry of both",
+        i + 1, j + 1, j + 1, i + 1);
   }
   return HC_OK;
 }
