@@ -247,7 +247,7 @@ static void note_more(table *t, const char *name, int n)
 }
 
 /* The pieces of the period in which a contact sticks or slips; in the rest it is separated. */
-static void note_pieces(table *t, const char *name, int n, const contact_piece *p)
+static void note_pieces(table *t, const char *name, int n, const contact_interval *p)
 {
   static const char *const names[] = {"separated", "sticks", "slips forward", "slips backward"};
   for (int i = 0; i < n && i < SHOWN; ++i)
@@ -272,7 +272,7 @@ static hc_status note_circle_pieces(table *t, const contact_motion *m, const cha
     const planar_cycle *c = planar_force_cycle(f);
     for (int i = 0; i < c->n && i < SHOWN; ++i)
       table_note(t, "contact %s: %s from %.12g to %.12g rad", name,
-                 c->piece[i].state == CONTACT_STICK ? "sticks" : "slips", c->piece[i].from, c->piece[i].to);
+                 c->interval[i].state == CONTACT_STICK ? "sticks" : "slips", c->interval[i].from, c->interval[i].to);
     note_more(t, name, c->n);
   }
   planar_force_free(f);
@@ -307,7 +307,7 @@ static hc_status note_halves(table *t, const contact_motion *m, const char *name
     hc_status st = exact_force_new(m->n_harm, 2, 1, m->contacts, &e);
     if (st == HC_OK) st = exact_force_eval(e, X, F, NULL, NULL);
     if (st == HC_OK) {
-      const contact_piece *piece = exact_force_pieces(e, 0, &n);
+      const contact_interval *piece = exact_force_intervals(e, 0, &n);
       note_pieces(t, half, n, piece);
     }
     exact_force_free(e);
@@ -332,7 +332,7 @@ static hc_status contact_force_note(table *t, const cli_common *common, const co
   hc_status st = exact_force_new(m->n_harm, m->n_dof, m->n_contacts, m->contacts, &e);
   if (st == HC_OK) st = exact_force_eval(e, m->X, F, NULL, NULL);
   for (int j = 0, n; j < m->n_contacts && st == HC_OK; ++j) {
-    const contact_piece *p = exact_force_pieces(e, j, &n);
+    const contact_interval *p = exact_force_intervals(e, j, &n);
     note_pieces(t, cli_contact_name(common, m->one < 0 ? j : m->one, name), n, p);
   }
   if (st == HC_OK && m->one >= 0) {

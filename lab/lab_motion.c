@@ -49,7 +49,7 @@ static double *instant(lab *l, int i, int j)
 }
 
 /* The piece that th, or th + 2 pi, lies in; NULL: the contact is separated there. */
-static const contact_piece *piece_at(int n, const contact_piece *piece, double th)
+static const contact_interval *piece_at(int n, const contact_interval *piece, double th)
 {
   for (int k = 0; k < n; ++k)
     if ((piece[k].from <= th && th < piece[k].to) || (piece[k].from <= th + TWO_PI && th + TWO_PI < piece[k].to))
@@ -57,7 +57,7 @@ static const contact_piece *piece_at(int n, const contact_piece *piece, double t
   return NULL;
 }
 
-static double true_traction(const contact *law, const contact_piece *p, double u, double N)
+static double true_traction(const contact *law, const contact_interval *p, double u, double N)
 {
   if (!p) return 0;
   return p->state == CONTACT_STICK ? law->kt * u - p->held : contact_slip_sign(p->state) * law->mu * N;
@@ -71,7 +71,7 @@ static hc_status exact_tractions(lab *l, int n, const model *m, const moving_con
   if (st == HC_OK) st = exact_force_eval(e, l->X, F, NULL, NULL);
   for (int j = 0; j < m->n_contacts && st == HC_OK; ++j) {
     int n_pieces;
-    const contact_piece *pieces = exact_force_pieces(e, j, &n_pieces);
+    const contact_interval *pieces = exact_force_intervals(e, j, &n_pieces);
     for (int i = 0; i < n; ++i) {
       double *at = instant(l, i, j);
       at[3] = true_traction(&contacts[j].law, piece_at(n_pieces, pieces, TWO_PI * i / n), at[0], at[2]);
@@ -85,7 +85,7 @@ static hc_status exact_tractions(lab *l, int n, const model *m, const moving_con
 static hc_status sampled_tractions(lab *l, int n, const model *m, const moving_contact *contacts)
 {
   double *x = calloc(3 * (size_t)n, sizeof *x), *T = x ? x + n : NULL, *again = x ? T + n : NULL;
-  stretch *states = calloc(2 * (size_t)n, sizeof *states);
+  sampled_interval *states = calloc(2 * (size_t)n, sizeof *states);
   hc_status st = x && states ? HC_OK : HC_NO_MEMORY;
   for (int i = 0; i < n && st == HC_OK; ++i) x[i] = l->values[(size_t)i * (size_t)l->columns + 1];
   for (int j = 0; j < m->n_contacts && st == HC_OK; ++j) {

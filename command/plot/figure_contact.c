@@ -17,7 +17,7 @@ typedef struct contact_history {
 } contact_history;
 
 /* The piece at th, or NULL: separated. A piece may begin before 0 or end after 2 pi. */
-static const contact_piece *piece_at(const contact_piece *p, int n, double th)
+static const contact_interval *piece_at(const contact_interval *p, int n, double th)
 {
   for (int i = 0; i < n; ++i)
     for (int turn = -1; turn <= 1; ++turn)
@@ -26,12 +26,12 @@ static const contact_piece *piece_at(const contact_piece *p, int n, double th)
 }
 
 /* The exact law, from the pieces that exact_force.h found: sticking, T = kt u - held; slipping, T = +-mu N. */
-static void compute_history(const plot_motion *m, const moving_contact *c, const contact_piece *pieces, int n,
+static void compute_history(const plot_motion *m, const moving_contact *c, const contact_interval *pieces, int n,
                             contact_history *out)
 {
   for (int i = 0; i <= POINTS; ++i) {
     double th = TWO_PI * i / POINTS, v = 0;
-    const contact_piece *p = piece_at(pieces, n, th);
+    const contact_interval *p = piece_at(pieces, n, th);
     out->u[i] = 0;
     for (int d = 0; d < m->n_dof; ++d) {
       const double x = series_at(m->n_harm, m->X + d * series_length(m->n_harm), cos(th), sin(th)).x;
@@ -89,7 +89,7 @@ static hc_status write_contacts(figure *g, const plot_motion *m, int n, int ther
   hc_status st = w ? exact_force_new(m->n_harm, m->n_dof, m->n_contacts, m->contacts, &e) : HC_NO_MEMORY;
   if (st == HC_OK) st = exact_force_eval(e, m->X, F, NULL, NULL);
   for (int j = 0, pieces; j < n && st == HC_OK; ++j) {
-    const contact_piece *p = exact_force_pieces(e, j, &pieces);
+    const contact_interval *p = exact_force_intervals(e, j, &pieces);
     compute_history(m, &m->contacts[j], p, pieces, w);
     for (int k = 0; k < PHASES; ++k) there[j][k] = phases_write(g, j, k, POINTS, w->state, w->u, w->t);
     widen_to_closed(closed, w);

@@ -44,7 +44,7 @@ static double angle_inside(double th, double from, double to)
 }
 
 /* Slip: T = mu N e(phi). */
-static void slip_at(const planar_cycle *c, const planar_piece *p, double th, int i, plane_history *out)
+static void slip_at(const planar_cycle *c, const planar_interval *p, double th, int i, plane_history *out)
 {
   const planar_panel *q = &c->slip.panel[p->panel];
   while (q < &c->slip.panel[p->panel + p->n_panels - 1] && th > q->to) ++q;
@@ -56,7 +56,7 @@ static void follow_circle(const planar_cycle *c, const contact *law, plane_histo
 {
   for (int k = 0; k < c->n; ++k)
     for (int i = 0; i <= POINTS; ++i) {
-      const planar_piece *p = &c->piece[k];
+      const planar_interval *p = &c->interval[k];
       const double th = angle_inside(angle_of(i), p->from, p->to);
       if (isnan(th)) continue;
       out->state[i] = p->state;
@@ -78,7 +78,7 @@ static hc_status evaluate_circle(const plot_motion *m, plane_history *out)
 }
 
 /* Under the square law either tangent is a contact of its own; the two slip where one does. */
-static void follow_tangent(int d, const contact_piece *p, int n, const contact *law, plane_history *out)
+static void follow_tangent(int d, const contact_interval *p, int n, const contact *law, plane_history *out)
 {
   for (int k = 0; k < n; ++k)
     for (int i = 0; i <= POINTS; ++i) {
@@ -99,7 +99,7 @@ static hc_status evaluate_square(const plot_motion *m, plane_history *out)
   for (int d = 0, pieces; d < 2 && st == HC_OK; ++d) {
     memcpy(X, m->X + (size_t)d * n, n * sizeof *X);
     st = exact_force_eval(e, X, F, NULL, NULL);
-    const contact_piece *p = exact_force_pieces(e, 0, &pieces);
+    const contact_interval *p = exact_force_intervals(e, 0, &pieces);
     if (st == HC_OK) follow_tangent(d, p, pieces, &m->contacts->law, out);
   }
   exact_force_free(e);

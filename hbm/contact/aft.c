@@ -3,7 +3,7 @@
  * The contacts are followed by slider.c: the slider after a separation starts from the interpolated instant of contact,
  * or (the paper's way) from the last separated sample. Jacobian, only when it is asked for: dF_i = k_i dx_i - kt
  * cu dw, k_i by one more FFT, dw constant over a stick interval (force_jacobian.h). With two coordinates the entries of
- * k_i that do not vanish are constant on a stretch, and summed in closed form. FFTW does not normalise and
+ * k_i that do not vanish are constant on an interval, and summed in closed form. FFTW does not normalise and
  * uses exp(-i): the 2/N and the sign of the sine are in to_series() and to_samples(), nowhere else. Not here: the
  * dynamic stiffness (system.c). */
 #include "hbm/contact/aft.h"
@@ -30,9 +30,10 @@ struct aft {
   double complex *inv_step; /* [2H+1]       1/(exp(i h 2 pi/N) - 1), for sums over sample ranges */
   double *symbol;           /* [4H+1]       series of k */
   double *left, *right;     /* [2H+1]       one rank-1 term; right: [n_dof][2H+1] */
-  stretch *stretches;       /* [n_contacts][n_time] of the last evaluation, the first n_stretches[j] of each filled */
-  stretch *settling;        /* [n_time] */
-  int *n_stretches;         /* [n_contacts] */
+  sampled_interval
+      *intervals;             /* [n_contacts][n_time] of the last evaluation, the first n_intervals[j] of each filled */
+  sampled_interval *settling; /* [n_time] */
+  int *n_intervals;           /* [n_contacts] */
 };
 
 static hc_status make_plans(aft *a)
@@ -58,12 +59,12 @@ static hc_status make_tables(aft *a)
   a->symbol = calloc((size_t)force_jacobian_symbol_length(a->n_harm), sizeof(double));
   a->left = calloc((size_t)n_coef, sizeof(double));
   a->right = calloc((size_t)a->n_dof * (size_t)n_coef, sizeof(double));
-  a->stretches = malloc(((size_t)a->n_contacts * (size_t)n + 1) * sizeof *a->stretches); /* few are used */
+  a->intervals = malloc(((size_t)a->n_contacts * (size_t)n + 1) * sizeof *a->intervals); /* few are used */
   a->settling = malloc((size_t)n * sizeof *a->settling);
-  a->n_stretches = calloc((size_t)a->n_contacts + 1, sizeof *a->n_stretches);
+  a->n_intervals = calloc((size_t)a->n_contacts + 1, sizeof *a->n_intervals);
   bool samples = a->x && (a->y || a->n_dof == 1) && a->f && a->k && a->part && a->spec && a->root,
        harmonics = a->inv_step && a->symbol;
-  bool tracks = a->stretches && a->settling && a->n_stretches;
+  bool tracks = a->intervals && a->settling && a->n_intervals;
   if (!tracks || !samples || !harmonics || !a->left || !a->right) return HC_NO_MEMORY;
   const double step = TWO_PI / n;
   for (int i = 0; i < n; ++i) a->root[i] = cos(i * step) + I * sin(i * step);
@@ -126,9 +127,9 @@ void aft_free(aft *a)
   free(a->symbol);
   free(a->left);
   free(a->right);
-  free(a->stretches);
+  free(a->intervals);
   free(a->settling);
-  free(a->n_stretches);
+  free(a->n_intervals);
   free(a);
 }
 
@@ -156,7 +157,7 @@ static void to_series(aft *a, fftw_plan plan, int n_harm, double *out)
 
 /* ---- the force ------------------------------------------------------------------------------- */
 
-static contact_regime regime_of(int n, const stretch *s)
+static contact_regime regime_of(int n, const sampled_interval *s)
 {
   bool separates = false, slips = false, touches = false;
   for (int k = 0; k < n; ++k) {
@@ -180,13 +181,13 @@ static slider_motion motion_of(const aft *a, const moving_contact *c)
 static hc_status evaluate_contact(aft *a, int j, double size, contact_report *report)
 {
   const moving_contact *c = &a->contacts[j];
-  stretch *s = a->stretches + (size_t)j * (size_t)a->n_time;
+  sampled_interval *s = a->intervals + (size_t)j * (size_t)a->n_time;
   double *f = j == 0 ? a->f : a->part, *again = a->k; /* k is made afterwards, if at all */
   const slider_motion motion = motion_of(a, c);
   slider_report found = slider_follow(&c->law, a->restart, a->n_time, &motion, f, again, s, a->settling);
-  a->n_stretches[j] = found.n_stretches;
+  a->n_intervals[j] = found.n_intervals;
   for (int i = 0; i < a->n_time && j > 0; ++i) a->f[i] += a->part[i];
-  contact_regime regime = regime_of(found.n_stretches, s);
+  contact_regime regime = regime_of(found.n_intervals, s);
   if (regime > report->regime) report->regime = regime;
   report->transitions += found.transitions;
   report->free_sliders += regime == CONTACT_STUCK && moving_contact_has_slider(c, a->n_dof);
@@ -224,15 +225,15 @@ hc_status aft_eval(aft *a, const double *X, double *F, double *jac, contact_repo
 
 void aft_sliders(const aft *a, double *w)
 {
-  for (int j = 0; j < a->n_contacts; ++j) w[j] = a->stretches[(size_t)j * (size_t)a->n_time].w;
+  for (int j = 0; j < a->n_contacts; ++j) w[j] = a->intervals[(size_t)j * (size_t)a->n_time].w;
 }
 
 /* ---- its Jacobian ---------------------------------------------------------------------------- */
 
-static int end_of_stretch(const aft *a, int j, int m)
+static int end_of_interval(const aft *a, int j, int m)
 {
-  const stretch *s = a->stretches + (size_t)j * (size_t)a->n_time;
-  return m + 1 < a->n_stretches[j] ? s[m + 1].first : a->n_time;
+  const sampled_interval *s = a->intervals + (size_t)j * (size_t)a->n_time;
+  return m + 1 < a->n_intervals[j] ? s[m + 1].first : a->n_time;
 }
 
 /* to[] += series, n_harm harmonics, of `weight` over the samples first..end-1 and 0 elsewhere: geometric sums. */
@@ -289,10 +290,10 @@ static void subtract_stick_interval(aft *a, const moving_contact *c, const slide
 
 static void subtract_stick_intervals(aft *a, int j, double *jac)
 {
-  const stretch *s = a->stretches + (size_t)j * (size_t)a->n_time;
-  for (int m = 0; m < a->n_stretches[j]; ++m)
+  const sampled_interval *s = a->intervals + (size_t)j * (size_t)a->n_time;
+  for (int m = 0; m < a->n_intervals[j]; ++m)
     if (s[m].state == CONTACT_STICK)
-      subtract_stick_interval(a, &a->contacts[j], &s[m].origin, s[m].first, end_of_stretch(a, j, m), jac);
+      subtract_stick_interval(a, &a->contacts[j], &s[m].origin, s[m].first, end_of_interval(a, j, m), jac);
 }
 
 /* dF_i/dx_i at fixed w, of one coordinate. */
@@ -307,9 +308,9 @@ static double stiffness_in(const moving_contact *c, contact_state state)
 
 static void add_stiffness(aft *a, int j)
 {
-  const stretch *s = a->stretches + (size_t)j * (size_t)a->n_time;
-  for (int m = 0; m < a->n_stretches[j]; ++m) {
-    const int end = end_of_stretch(a, j, m);
+  const sampled_interval *s = a->intervals + (size_t)j * (size_t)a->n_time;
+  for (int m = 0; m < a->n_intervals[j]; ++m) {
+    const int end = end_of_interval(a, j, m);
     const double stiffness = stiffness_in(&a->contacts[j], s[m].state);
     for (int i = s[m].first; i < end; ++i) a->k[i] += stiffness;
   }
@@ -326,11 +327,11 @@ static void differentiate_one_coordinate(aft *a, double *jac)
 /* One block of the Jacobian from its stiffness in every contact_state. */
 static void add_block(aft *a, const double stiffness[4], double *block)
 {
-  const stretch *s = a->stretches;
+  const sampled_interval *s = a->intervals;
   memset(a->symbol, 0, (size_t)force_jacobian_symbol_length(a->n_harm) * sizeof(double));
-  for (int m = 0; m < a->n_stretches[0]; ++m)
+  for (int m = 0; m < a->n_intervals[0]; ++m)
     if (stiffness[s[m].state] != 0)
-      add_interval(a, 2 * a->n_harm, stiffness[s[m].state], s[m].first, end_of_stretch(a, 0, m), a->symbol);
+      add_interval(a, 2 * a->n_harm, stiffness[s[m].state], s[m].first, end_of_interval(a, 0, m), a->symbol);
   force_jacobian_add(a->n_harm, a->symbol, 2 * series_length(a->n_harm), block);
 }
 

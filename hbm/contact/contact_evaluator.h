@@ -49,7 +49,7 @@ typedef struct contact_evaluator {
 
   /* Of exact forces, the last evaluation's: the intervals in contact, n of them; and the slip of a contact with two
    * tangents, for whoever follows a perturbation along it. NULL where there is none. */
-  const contact_piece *(*intervals)(const void *self, int *n);
+  const contact_interval *(*intervals)(const void *self, int *n);
   const struct planar_cycle *(*in_plane)(const void *self);
 } contact_evaluator;
 

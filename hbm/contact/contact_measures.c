@@ -16,7 +16,7 @@ typedef struct measured_motion {
   moving_contact moved; /* by u and v themselves */
   series_grid grid;
   double *table;
-  contact_piece *piece; /* [cap] */
+  contact_interval *interval; /* [cap] */
   int n, cap;
 } measured_motion;
 
@@ -25,17 +25,17 @@ static hc_status open_motion(const contact *law, int n_harm, const double *u, co
   const series_vector motion = {n_harm, 2, {u, v}};
   *m = (measured_motion){.law = law, .moved = {.law = *law, .cu = {1, 0}, .cv = {0, 1}}, .cap = 16 * n_harm + 16};
   m->table = calloc((size_t)series_grid_table_length(n_harm), sizeof *m->table);
-  m->piece = calloc((size_t)m->cap, sizeof *m->piece);
-  if (!m->table || !m->piece) return HC_NO_MEMORY;
+  m->interval = calloc((size_t)m->cap, sizeof *m->interval);
+  if (!m->table || !m->interval) return HC_NO_MEMORY;
   series_grid_table_fill(n_harm, m->table);
   series_grid_fill(&m->grid, &motion, m->table);
-  return transitions_find(&m->grid, &m->moved, m->cap, m->piece, &m->n);
+  return transitions_find(&m->grid, &m->moved, m->cap, m->interval, &m->n);
 }
 
 static void close_motion(measured_motion *m)
 {
   free(m->table);
-  free(m->piece);
+  free(m->interval);
 }
 
 /* ---- forces -------------------------------------------------------------------------------------- */
@@ -48,9 +48,9 @@ static void measure_normal(const measured_motion *m, contact_period *out)
   out->normal_max = contact_normal(m->law, most);
 }
 
-/* The largest |T| of one piece: of kt u - held while it sticks, of mu N while it slips. Where it goes from one to the
- * other, rounding of the first may exceed the limit. */
-static double piece_traction(const measured_motion *m, const contact_piece *p)
+/* The largest |T| of one interval: of kt u - held while it sticks, of mu N while it slips. Where it goes from one to
+ * the other, rounding of the first may exceed the limit. */
+static double interval_traction(const measured_motion *m, const contact_interval *p)
 {
   const contact *law = m->law;
   const bool slips = contact_slip_sign(p->state) != 0;
@@ -80,9 +80,9 @@ static void slip_rates(const void *self, double th, double value[2])
 
 /* Panels on which the product of two motions, a trigonometric polynomial of degree 2 n_harm, turns by no more than 8
  * rad to either side. The rule's error is at most 2^33 16!^4/(33 32!^3) of the 32nd derivative: 3e-46 8^32 < 3e-17. */
-static int panels_of(const contact_piece *p, int n_harm) { return 1 + (int)(n_harm * (p->to - p->from) / 8); }
+static int panels_of(const contact_interval *p, int n_harm) { return 1 + (int)(n_harm * (p->to - p->from) / 8); }
 
-static void add_slip(const measured_motion *m, const contact_piece *p, contact_period *out)
+static void add_slip(const measured_motion *m, const contact_interval *p, contact_period *out)
 {
   const slip of = {m, contact_slip_sign(p->state)};
   double sum[2];
@@ -109,11 +109,12 @@ hc_status contact_measures_of(const contact *law, int n_harm, const double *u, c
   if (!is_finite(series_length(n_harm), u) || !is_finite(series_length(n_harm), v)) return HC_NOT_FINITE;
   hc_status st = open_motion(law, n_harm, u, v, &m);
   if (st == HC_OK) {
-    out->regime = transitions_regime(m.n, m.piece);
+    out->regime = transitions_regime(m.n, m.interval);
     measure_normal(&m, out);
     for (int i = 0; i < m.n && contact_has_friction(law); ++i) {
-      out->traction_max = fmax(out->traction_max, fmin(piece_traction(&m, &m.piece[i]), law->mu * out->normal_max));
-      add_slip(&m, &m.piece[i], out);
+      out->traction_max =
+          fmax(out->traction_max, fmin(interval_traction(&m, &m.interval[i]), law->mu * out->normal_max));
+      add_slip(&m, &m.interval[i], out);
     }
   }
   close_motion(&m);

@@ -1,12 +1,12 @@
-/* contact_measures.h - what the exact contact law does along a periodic motion of one contact: extrema of its forces,
- * slip path, and dissipated work (model/contact_period.h).
+/* contact_measures.h - what the exact contact law does along a periodic motion of one contact: extrema of its
+ * forces, slip path, and dissipated work (model/contact_period.h).
  *
- *     work = closed integral T du = sum over slip pieces of integral mu N |dw|,   w = u - s mu N/kt
+ *     work = closed integral T du = sum over slip intervals of integral mu N |dw|,   w = u - s mu N/kt
  *
  * for T dT integrates to 0 over each time of contact. The second form has no term of the other sign: it is 0 where
- * nothing slips, and a short slip keeps its relative accuracy. Pieces are those of transitions.h, extrema are found as
- * roots of derivatives, and the integrals are Gauss's of sixteen points on panels so short that what is integrated, a
- * trigonometric polynomial of degree 2H, is exact to rounding. */
+ * nothing slips, and a short slip keeps its relative accuracy. Intervals are those of transitions.h, extrema are
+ * found as roots of derivatives, and the integrals are Gauss's of sixteen points on panels so short that what is
+ * integrated, a trigonometric polynomial of degree 2H, is exact to rounding. */
 #ifndef HC_CONTACT_MEASURES_H
 #define HC_CONTACT_MEASURES_H
 

@@ -1,8 +1,8 @@
 /* exact_force.c - see exact_force.h.
- *   on a piece    T = kt u - held (stick) or s mu N (slip s),   N = kn (v + gap) + load
+ *   on an interval    T = kt u - held (stick) or s mu N (slip s),   N = kn (v + gap) + load
  *   so            F_d(th) = sum_e K_de(th) x_e(th) + C_d(th),    K, C piecewise constant
  *   and           F     = [Toeplitz + Hankel of K] X + C
- *                 dF/dX = [Toeplitz + Hankel of K] - sum over stick pieces (harmonics of the piece) (d held)^T
+ *                 dF/dX = [Toeplitz + Hankel of K] - sum over stick intervals (harmonics of the interval) (d held)^T
  * Moving a transition changes nothing to first order, since the force is continuous there. */
 #include "hbm/contact/exact_force.h"
 
@@ -12,21 +12,21 @@
 
 #include "base/constants.h"
 #include "hbm/contact/force_jacobian.h"
-#include "hbm/contact/piece_series.h"
+#include "hbm/contact/interval_series.h"
 #include "hbm/hbm_settings.h"
 #include "numerics/series.h"
 
 struct exact_force {
   int n_harm, n_dof, n_coef, n_contacts, cap;
-  moving_contact *contacts; /* [n_contacts] */
-  int *n_pieces;            /* [n_contacts] */
-  contact_piece *pieces;    /* [n_contacts][cap] */
-  double *table;            /* of series_grid_table_fill */
-  double *indicator;        /* [4H+1] series of one piece's indicator */
-  double *weight;           /* [2H+1] 2/(pi h) */
-  double *symbol;           /* [n_dof][n_dof][4H+1] series of K */
-  double *left, *right;     /* [n_dof (2H+1)] one rank-1 term */
-  double *matrix;           /* [n_dof (2H+1)]^2 in the place of the caller's Jacobian where that is NULL */
+  moving_contact *contacts;    /* [n_contacts] */
+  int *n_intervals;            /* [n_contacts] */
+  contact_interval *intervals; /* [n_contacts][cap] */
+  double *table;               /* of series_grid_table_fill */
+  double *indicator;           /* [4H+1] series of one interval's indicator */
+  double *weight;              /* [2H+1] 2/(pi h) */
+  double *symbol;              /* [n_dof][n_dof][4H+1] series of K */
+  double *left, *right;        /* [n_dof (2H+1)] one rank-1 term */
+  double *matrix;              /* [n_dof (2H+1)]^2 in the place of the caller's Jacobian where that is NULL */
   series_grid grid;
 };
 
@@ -45,8 +45,8 @@ hc_status exact_force_new(int n_harm, int n_dof, int n_contacts, const moving_co
   size_t m = (size_t)n_dof * e->n_coef, symbol = (size_t)force_jacobian_symbol_length(n_harm);
   const size_t n_room = n_contacts ? (size_t)n_contacts : 1;
   e->contacts = calloc(n_room, sizeof *e->contacts);
-  e->n_pieces = calloc(n_room, sizeof *e->n_pieces);
-  e->pieces = calloc(n_room * e->cap, sizeof *e->pieces);
+  e->n_intervals = calloc(n_room, sizeof *e->n_intervals);
+  e->intervals = calloc(n_room * e->cap, sizeof *e->intervals);
   e->table = calloc((size_t)series_grid_table_length(n_harm), sizeof(double));
   e->indicator = calloc(symbol, sizeof(double));
   e->weight = calloc(2 * (size_t)n_harm + 1, sizeof(double));
@@ -54,7 +54,7 @@ hc_status exact_force_new(int n_harm, int n_dof, int n_contacts, const moving_co
   e->left = calloc(m, sizeof(double));
   e->right = calloc(m, sizeof(double));
   e->matrix = calloc(m * m, sizeof(double));
-  bool orbit = e->contacts && e->n_pieces && e->pieces && e->table;
+  bool orbit = e->contacts && e->n_intervals && e->intervals && e->table;
   bool series = e->indicator && e->weight && e->symbol && e->left && e->right;
   if (!orbit || !series || !e->matrix) {
     exact_force_free(e);
@@ -62,7 +62,7 @@ hc_status exact_force_new(int n_harm, int n_dof, int n_contacts, const moving_co
   }
   if (n_contacts) memcpy(e->contacts, contacts, (size_t)n_contacts * sizeof *contacts);
   series_grid_table_fill(n_harm, e->table);
-  piece_series_weights(2 * n_harm, e->weight);
+  interval_series_weights(2 * n_harm, e->weight);
   *out = e;
   return HC_OK;
 }
@@ -71,8 +71,8 @@ void exact_force_free(exact_force *e)
 {
   if (!e) return;
   free(e->contacts);
-  free(e->n_pieces);
-  free(e->pieces);
+  free(e->n_intervals);
+  free(e->intervals);
   free(e->table);
   free(e->indicator);
   free(e->weight);
@@ -93,10 +93,10 @@ hc_status exact_force_new_of_model(int n_harm, const model *m, exact_force **out
   return st;
 }
 
-/* Series of the function that is 1 on the piece and 0 elsewhere, 2H harmonics. */
-static void fill_indicator(exact_force *e, const contact_piece *p)
+/* Series of the function that is 1 on the interval and 0 elsewhere, 2H harmonics. */
+static void fill_indicator(exact_force *e, const contact_interval *p)
 {
-  piece_series_fill(2 * e->n_harm, e->weight, p->from, p->to, e->indicator);
+  interval_series_fill(2 * e->n_harm, e->weight, p->from, p->to, e->indicator);
 }
 
 /* to += scale from. Four at a time: the speed of a loop of two depends by a tenth on its alignment by the linker. */
@@ -112,8 +112,8 @@ static void add_scaled(int n, double scale, const double *restrict from, double 
   for (; i < n; ++i) to[i] += scale * from[i];
 }
 
-/* One piece's share of K and C, its indicator being filled. */
-static void add_piece(exact_force *e, const moving_contact *c, const contact_piece *p, double *C)
+/* One interval's share of K and C, its indicator being filled. */
+static void add_interval(exact_force *e, const moving_contact *c, const contact_interval *p, double *C)
 {
   const contact *law = &c->law;
   int s = contact_slip_sign(p->state), symbol = force_jacobian_symbol_length(e->n_harm);
@@ -134,12 +134,12 @@ static void add_piece(exact_force *e, const moving_contact *c, const contact_pie
 static void add_openings(exact_force *e, int j, double *C)
 {
   const moving_contact *c = &e->contacts[j];
-  const contact_piece *p = e->pieces + (size_t)j * e->cap;
-  const int n = e->n_pieces[j];
+  const contact_interval *p = e->intervals + (size_t)j * e->cap;
+  const int n = e->n_intervals[j];
   const double preload = contact_preload(&c->law);
   if (preload == 0) return;
   for (int i = 0; i < n || i == 0; ++i) {
-    contact_piece open = {.from = 0, .to = TWO_PI};
+    contact_interval open = {.from = 0, .to = TWO_PI};
     if (n > 0) open.from = p[i].to, open.to = i + 1 < n ? p[i + 1].from : p[0].from + TWO_PI;
     if (!(open.to > open.from)) continue;
     fill_indicator(e, &open);
@@ -148,8 +148,8 @@ static void add_openings(exact_force *e, int j, double *C)
   }
 }
 
-/* jac -= (harmonics of cu on the piece) (d held/dX)^T. */
-static void subtract_stick_piece(exact_force *e, const moving_contact *c, const contact_piece *p, double *jac)
+/* jac -= (harmonics of cu on the interval) (d held/dX)^T. */
+static void subtract_stick_interval(exact_force *e, const moving_contact *c, const contact_interval *p, double *jac)
 {
   int n = e->n_coef, any = 0;
   for (int d = 0; d < e->n_dof; ++d) any |= p->held_by_x[d] != 0;
@@ -172,11 +172,11 @@ static void subtract_stick_piece(exact_force *e, const moving_contact *c, const 
     }
 }
 
-static void subtract_stick_pieces(exact_force *e, double *jac)
+static void subtract_stick_intervals(exact_force *e, double *jac)
 {
   for (int j = 0; j < e->n_contacts; ++j)
-    for (int i = 0; i < e->n_pieces[j]; ++i)
-      subtract_stick_piece(e, &e->contacts[j], e->pieces + (size_t)j * e->cap + i, jac);
+    for (int i = 0; i < e->n_intervals[j]; ++i)
+      subtract_stick_interval(e, &e->contacts[j], e->intervals + (size_t)j * e->cap + i, jac);
 }
 
 /* The blocks (d, f) of the matrix from the symbols K_df. */
@@ -189,31 +189,31 @@ static void assemble(const exact_force *e, double *matrix)
                          matrix + (size_t)d * n + (size_t)D * n * f * n);
 }
 
-/* Changes of state over the period. A piece is followed by another one (one change, or none if both are parts of the
- * same state), or by a separation and then a piece (two). */
-static int count_changes(const contact_piece *p, int n)
+/* Changes of state over the period. An interval is followed by another one (one change, or none if both are parts of
+ * the same state), or by a separation and then an interval (two). */
+static int count_changes(const contact_interval *p, int n)
 {
   int changes = 0;
   for (int i = 0; i < n; ++i) {
-    const contact_piece *next = &p[(i + 1) % n];
+    const contact_interval *next = &p[(i + 1) % n];
     bool meets = next->from == p[i].to || next->from == p[i].to - TWO_PI;
     changes += meets ? next->state != p[i].state : 2;
   }
   return changes;
 }
 
-/* Slider at th = 0: from the piece that covers it; w = u while separated. */
+/* Slider at th = 0: from the interval that covers it; w = u while separated. */
 static double slider_at_zero(const exact_force *e, int j)
 {
   const moving_contact *c = &e->contacts[j];
-  const contact_piece *p = e->pieces + (size_t)j * e->cap;
+  const contact_interval *p = e->intervals + (size_t)j * e->cap;
   const series_node *zero = &e->grid.node[0];
   double u = 0, v = 0;
   for (int d = 0; d < e->n_dof; ++d) {
     u += c->cu[d] * zero->d[0][d];
     v += c->cv[d] * zero->d[0][d];
   }
-  for (int i = 0; i < e->n_pieces[j]; ++i) {
+  for (int i = 0; i < e->n_intervals[j]; ++i) {
     bool covers = p[i].from <= 0 || p[i].to >= TWO_PI;
     if (!covers || !(c->law.kt > 0)) continue;
     int s = contact_slip_sign(p[i].state);
@@ -226,10 +226,10 @@ static void fill_report(const exact_force *e, contact_report *report)
 {
   *report = (contact_report){.regime = CONTACT_LINEAR};
   for (int j = 0; j < e->n_contacts; ++j) {
-    contact_regime regime = transitions_regime(e->n_pieces[j], e->pieces + (size_t)j * e->cap);
+    contact_regime regime = transitions_regime(e->n_intervals[j], e->intervals + (size_t)j * e->cap);
     if (regime > report->regime) report->regime = regime;
     report->free_sliders += regime == CONTACT_STUCK && moving_contact_has_slider(&e->contacts[j], e->n_dof);
-    report->transitions += count_changes(e->pieces + (size_t)j * e->cap, e->n_pieces[j]);
+    report->transitions += count_changes(e->intervals + (size_t)j * e->cap, e->n_intervals[j]);
   }
 }
 
@@ -253,18 +253,18 @@ hc_status exact_force_eval(exact_force *e, const double *X, double *F, double *j
   memset(e->symbol, 0, (size_t)e->n_dof * e->n_dof * symbol * sizeof(double));
   for (int j = 0; j < e->n_contacts; ++j) {
     const moving_contact *c = &e->contacts[j];
-    contact_piece *p = e->pieces + (size_t)j * e->cap;
-    hc_status st = transitions_find(&e->grid, c, e->cap, p, &e->n_pieces[j]);
+    contact_interval *p = e->intervals + (size_t)j * e->cap;
+    hc_status st = transitions_find(&e->grid, c, e->cap, p, &e->n_intervals[j]);
     if (st != HC_OK) return st;
     add_openings(e, j, F);
-    for (int i = 0; i < e->n_pieces[j]; ++i) {
+    for (int i = 0; i < e->n_intervals[j]; ++i) {
       fill_indicator(e, &p[i]);
-      add_piece(e, c, &p[i], F);
+      add_interval(e, c, &p[i], F);
     }
   }
   assemble(e, matrix);
   multiply(e, matrix, X, F);
-  if (jac) subtract_stick_pieces(e, jac);
+  if (jac) subtract_stick_intervals(e, jac);
   if (report) fill_report(e, report);
   return HC_OK;
 }
@@ -274,10 +274,10 @@ void exact_force_sliders(const exact_force *e, double *w)
   for (int j = 0; j < e->n_contacts; ++j) w[j] = slider_at_zero(e, j);
 }
 
-const contact_piece *exact_force_pieces(const exact_force *e, int j, int *n)
+const contact_interval *exact_force_intervals(const exact_force *e, int j, int *n)
 {
-  *n = e->n_pieces[j];
-  return e->pieces + (size_t)j * e->cap;
+  *n = e->n_intervals[j];
+  return e->intervals + (size_t)j * e->cap;
 }
 
 /* ---- as one of contact_evaluator.h -------------------------------------------------------------------- */
@@ -297,7 +297,7 @@ static hc_status evaluate(void *self, const double *X, double *F, double *jac, c
 
 static void let_go(void *self) { exact_force_free(self); }
 static void sliders(const void *self, double *w) { exact_force_sliders(self, w); }
-static const contact_piece *intervals(const void *self, int *n) { return exact_force_pieces(self, 0, n); }
+static const contact_interval *intervals(const void *self, int *n) { return exact_force_intervals(self, 0, n); }
 
 const contact_evaluator exact_force_evaluator = {
     .make = make, .free = let_go, .evaluate = evaluate, .sliders = sliders, .intervals = intervals};

@@ -24,8 +24,8 @@ hc_status exact_force_eval(exact_force *e, const double *X, double *F, double *j
 /* w[n_contacts] [length]: each contact's slider at th = 0 on the closed orbit of the last evaluation. */
 void exact_force_sliders(const exact_force *e, double *w);
 
-/* The pieces of contact j found by the last evaluation. */
-const contact_piece *exact_force_pieces(const exact_force *e, int j, int *n);
+/* The intervals of contact j found by the last evaluation. */
+const contact_interval *exact_force_intervals(const exact_force *e, int j, int *n);
 
 extern const contact_evaluator exact_force_evaluator; /* of one contact with one tangent */
 

@@ -1,5 +1,5 @@
-/* slider.c - see slider.h. The first sample of a stretch is a contact_step; how far the stretch goes on is a plain scan
- * with the same arithmetic, in blocks without a branch, so that both give the same bits:
+/* slider.c - see slider.h. The first sample of an interval is a contact_step; how far the interval goes on is a
+ * plain scan with the same arithmetic, in blocks without a branch, so that both give the same bits:
  *     separated   kn (v + gap) <= 0
  *     stick       |kt (u - w)| <= mu N, w constant
  *     slip(s)     s kt (u - w) > mu N, w = u - s mu N/kt of the sample before
@@ -11,7 +11,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { BLOCK = 16 }; /* samples looked at before asking whether one of them ends the stretch */
+enum { BLOCK = 16 }; /* samples looked at before asking whether one of them ends the interval */
 
 /* One contact: its law and motion in one place, what the loops need. */
 typedef struct followed {
@@ -38,7 +38,7 @@ static followed followed_contact(const contact *law, hbm_restart restart, const 
   return k;
 }
 
-/* ---- does the stretch go on, at one sample of along and across? ------------------------------- */
+/* ---- does the interval go on, at one sample of along and across? ------------------------------- */
 
 static inline bool stays_apart(const followed *k, double across) { return !(k->kn * (k->m.s * across + k->gap) > 0); }
 
@@ -62,7 +62,7 @@ static inline bool goes_on_slipping(const followed *k, double sign, double w, do
   return (n > 0) & (sign * t > limit);
 }
 
-/* ---- to the end of the stretch that has begun before sample i: where the next one begins, or n ---------- */
+/* ---- to the end of the interval that has begun before sample i: where the next one begins, or n ---------- */
 
 static int follow_separated(const followed *of, int n, double *restrict f, int i)
 {
@@ -108,7 +108,7 @@ static int follow_slip(const followed *of, double sign, int n, double *restrict 
   return i;
 }
 
-/* ---- stretch by stretch ---------------------------------------------------------------------- */
+/* ---- interval by interval ---------------------------------------------------------------------- */
 
 /* On entering contact at sample i after a separated one. Interpolated: w = u on the straight line between the samples
  * where v + gap = 0, else u of the last separated sample. Where u and v are one motion, that is -gap c/s, whatever the
@@ -139,8 +139,8 @@ static void restart_slider(const followed *k, int n, int i, slider *t)
   t->origin.by_across[1] = by_part * g0 * m->s;
 }
 
-/* From sample i, the first of a stretch, to its end: where the next one begins. */
-static int follow_stretch(const followed *k, int n, double *f, int i, slider *t, stretch *out)
+/* From sample i, the first of an interval, to its end: where the next one begins. */
+static int follow_interval(const followed *k, int n, double *f, int i, slider *t, sampled_interval *out)
 {
   const slider_motion *m = &k->m;
   double u = m->c * m->along[i], v = m->s * m->across[i], traction;
@@ -150,7 +150,7 @@ static int follow_stretch(const followed *k, int n, double *f, int i, slider *t,
   f[i] = traction * m->of_t + contact_normal_change(k->law, v) * m->of_n;
   const bool keep = k->restart == HBM_RESTART_KEPT && t->state == CONTACT_SEPARATED;
   if (keep) t->w = kept;
-  *out = (stretch){i, t->state, t->w, t->origin};
+  *out = (sampled_interval){i, t->state, t->w, t->origin};
   if (t->state == CONTACT_STICK) return follow_stick(k, t->w, n, f, i + 1);
   const int slip = contact_slip_sign(t->state);
   const int next = slip ? follow_slip(k, slip, n, f, i + 1) : follow_separated(k, n, f, i + 1);
@@ -161,32 +161,32 @@ static int follow_stretch(const followed *k, int n, double *f, int i, slider *t,
   return next;
 }
 
-/* Do two sliders in these stretches, at a sample of both, have the same to come? Their origins may differ, but each
- * stretch that sticks begins with a new one. */
-static bool same_from_here(const followed *k, const stretch *a, const stretch *b)
+/* Do two sliders in these intervals, at a sample of both, have the same to come? Their origins may differ, but each
+ * interval that sticks begins with a new one. */
+static bool same_from_here(const followed *k, const sampled_interval *a, const sampled_interval *b)
 {
   const bool remembers = a->state == CONTACT_STICK || (a->state == CONTACT_SEPARATED && k->restart == HBM_RESTART_KEPT);
   return a->state == b->state && (!remembers || a->w == b->w);
 }
 
-/* The first period; how many stretches. */
-static int settle(const followed *k, int n, double *f, slider *t, stretch *out)
+/* The first period; how many intervals. */
+static int settle(const followed *k, int n, double *f, slider *t, sampled_interval *out)
 {
   int count = 0;
-  for (int i = 0; i < n;) i = follow_stretch(k, n, f, i, t, &out[count++]);
+  for (int i = 0; i < n;) i = follow_interval(k, n, f, i, t, &out[count++]);
   return count;
 }
 
 /* The second, where it differs from the first, whose force is in f. `again` gets the second's force: blocks write past
- * the end of a stretch. */
-static int settle_again(const followed *k, int n, double *f, double *again, slider *t, const stretch *first,
-                        int n_first, stretch *out)
+ * the end of an interval. */
+static int settle_again(const followed *k, int n, double *f, double *again, slider *t, const sampled_interval *first,
+                        int n_first, sampled_interval *out)
 {
   const slider end_of_first = *t;
   int count = 0, m = 0, i = 0; /* first[m] has the last sample followed */
   bool met = false;
   while (i < n && !met) {
-    i = follow_stretch(k, n, again, i, t, &out[count++]);
+    i = follow_interval(k, n, again, i, t, &out[count++]);
     while (m + 1 < n_first && first[m + 1].first < i) ++m;
     met = same_from_here(k, &out[count - 1], &first[m]);
   }
@@ -199,7 +199,7 @@ static int settle_again(const followed *k, int n, double *f, double *again, slid
 }
 
 slider_report slider_follow(const contact *law, hbm_restart restart, int n, const slider_motion *m, double *f,
-                            double *again, stretch *stretches, stretch *settling)
+                            double *again, sampled_interval *intervals, sampled_interval *settling)
 {
   const followed k = followed_contact(law, restart, m);
   slider_report found;
@@ -209,14 +209,14 @@ slider_report slider_follow(const contact *law, hbm_restart restart, int n, cons
   contact_state before = t.state;
   found.settled = t.w;
   if (restart == HBM_RESTART_ONE_PASS || restart == HBM_RESTART_ONE_PASS_SAMPLE) {
-    memcpy(stretches, settling, (size_t)n_first * sizeof *stretches);
-    found.n_stretches = n_first;
+    memcpy(intervals, settling, (size_t)n_first * sizeof *intervals);
+    found.n_intervals = n_first;
     found.transitions = n_first - 1;
     found.w = t.w;
     return found;
   }
-  found.n_stretches = settle_again(&k, n, f, again, &t, settling, n_first, stretches);
-  found.transitions = found.n_stretches - 1 + (stretches[0].state != before);
+  found.n_intervals = settle_again(&k, n, f, again, &t, settling, n_first, intervals);
+  found.transitions = found.n_intervals - 1 + (intervals[0].state != before);
   found.w = t.w;
   return found;
 }

@@ -1,5 +1,5 @@
 /* slider.h - one contact followed over the samples of a period until its slider repeats itself: the force at every
- * sample, and the stretches of samples in which nothing but the motion changes. */
+ * sample, and the intervals of samples in which nothing but the motion changes. */
 #ifndef HC_HBM_SLIDER_H
 #define HC_HBM_SLIDER_H
 
@@ -22,25 +22,25 @@ typedef struct slider_origin {
   double by_along[2], by_across[2];
 } slider_origin;
 
-/* Samples of one state: from `first` to the next stretch, or to the end of the period. */
-typedef struct stretch {
+/* Samples of one state: from `first` to the next interval, or to the end of the period. */
+typedef struct sampled_interval {
   int first;
   contact_state state;
   double w;             /* [length] slider at the first sample; while it sticks, at all of them */
   slider_origin origin; /* of w, while it sticks */
-} stretch;
+} sampled_interval;
 
 typedef struct slider_report {
-  int n_stretches;
+  int n_intervals;
   int transitions;   /* changes of state, that from the end of the period to its start included */
   double w, settled; /* [length] slider at the end of the period and of the one before: to compare */
 } slider_report;
 
-/* f[n] [force] at each sample of the periodic motion m; stretches[n]: room, the first of them filled; again[n],
+/* f[n] [force] at each sample of the periodic motion m; intervals[n]: room, the first of them filled; again[n],
  * settling[n]: room, overwritten. Exactly the second of two periods that begin with w = 0, but the second is followed
  * only until it is where the first was. With one of the ONE_PASS restarts, the first. Cannot fail, allocates
  * nothing. */
 slider_report slider_follow(const contact *law, hbm_restart restart, int n, const slider_motion *m, double *f,
-                            double *again, stretch *stretches, stretch *settling);
+                            double *again, sampled_interval *intervals, sampled_interval *settling);
 
 #endif

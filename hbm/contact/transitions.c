@@ -13,13 +13,13 @@
 typedef struct scan {
   const series_grid *grid;
   const moving_contact *c;
-  guard normal;      /* g; touch-down is where -g falls through 0 */
-  guard stick[2];    /* p_s = mu kn (v + gap) - s kt u: q_s without s held; s = +1, -1 */
-  guard slip[2];     /* r_s */
-  bool friction;     /* stick and slip are set: the contact has a tangential force */
-  contact_piece now; /* the piece under way, but for its end */
-  bool recording;    /* pieces go into piece[cap], n so far */
-  contact_piece *piece;
+  guard normal;         /* g; touch-down is where -g falls through 0 */
+  guard stick[2];       /* p_s = mu kn (v + gap) - s kt u: q_s without s held; s = +1, -1 */
+  guard slip[2];        /* r_s */
+  bool friction;        /* stick and slip are set: the contact has a tangential force */
+  contact_interval now; /* the interval under way, but for its end */
+  bool recording;       /* intervals go into interval[cap], n so far */
+  contact_interval *interval;
   int n, cap;
 } scan;
 
@@ -63,12 +63,12 @@ static guard stick_guard(const scan *w, int s)
   return q;
 }
 
-static hc_status close_piece(scan *w, double to)
+static hc_status close_interval(scan *w, double to)
 {
   if (!w->recording || !(to > w->now.from)) return HC_OK;
   if (w->n == w->cap) return HC_CHATTER;
-  w->piece[w->n] = w->now;
-  w->piece[w->n++].to = to;
+  w->interval[w->n] = w->now;
+  w->interval[w->n++].to = to;
   return HC_OK;
 }
 
@@ -106,7 +106,7 @@ static bool first_change(const scan *w, const series_node *a, const series_node 
 /* Slip with sign s ends at `at` in stick, or stick in slip with sign s. */
 static hc_status change_state(scan *w, int s, const series_node *at)
 {
-  hc_status st = close_piece(w, at->th);
+  hc_status st = close_interval(w, at->th);
   w->now.from = at->th;
   if (contact_slip_sign(w->now.state)) {
     come_to_rest(w, s, at);
@@ -225,7 +225,7 @@ static hc_status scan_with_separations(scan *w, series_node a)
       off.th = end;
     }
     st = scan_contact(w, &on, &off);
-    if (st == HC_OK) st = close_piece(w, off.th);
+    if (st == HC_OK) st = close_interval(w, off.th);
     a = off;
   }
   return st;
@@ -241,13 +241,13 @@ static hc_status scan_without_separation(scan *w)
   w->now.held = w->friction ? fmin(fmax(0, low), high) : 0;
   if (w->now.held != 0) come_to_rest(w, low > 0 ? 1 : -1, start);
   hc_status st = scan_contact(w, start, end);
-  contact_piece settled = w->now;
+  contact_interval settled = w->now;
   w->recording = true;
   w->now.from = 0;
   w->now.transitions = 0;
   w->now.origin -= w->now.origin >= TWO_PI ? TWO_PI : 0;
   if (st == HC_OK) st = scan_contact(w, start, end);
-  if (st == HC_OK) st = close_piece(w, TWO_PI);
+  if (st == HC_OK) st = close_interval(w, TWO_PI);
   if (st != HC_OK) return st;
   bool same_held = fabs(w->now.held - settled.held) <= 1e-11 * guard_scale(&w->stick[0]);
   bool closed = w->now.state == settled.state && (settled.state != CONTACT_STICK || same_held);
@@ -267,9 +267,10 @@ static bool find_separation(const scan *w, series_node *apart)
   return first_over_grid(w, &w->normal, &grid->node[0], TWO_PI, apart);
 }
 
-hc_status transitions_find(const series_grid *grid, const moving_contact *c, int cap, contact_piece *piece, int *n)
+hc_status transitions_find(const series_grid *grid, const moving_contact *c, int cap, contact_interval *interval,
+                           int *n)
 {
-  scan w = {.grid = grid, .c = c, .piece = piece, .cap = cap};
+  scan w = {.grid = grid, .c = c, .interval = interval, .cap = cap};
   *n = 0;
   if (!(c->law.kn > 0 || c->law.load > 0)) return HC_OK;
   make_guards(&w);
@@ -282,13 +283,13 @@ hc_status transitions_find(const series_grid *grid, const moving_contact *c, int
   return st;
 }
 
-contact_regime transitions_regime(int n, const contact_piece *piece)
+contact_regime transitions_regime(int n, const contact_interval *interval)
 {
   double touching = 0;
   bool slips = false;
   for (int i = 0; i < n; ++i) {
-    touching += piece[i].to - piece[i].from;
-    slips |= contact_slip_sign(piece[i].state) != 0;
+    touching += interval[i].to - interval[i].from;
+    slips |= contact_slip_sign(interval[i].state) != 0;
   }
   if (n == 0) return CONTACT_LINEAR;
   if (touching < TWO_PI * (1 - 1e-15)) return CONTACT_SEPARATES;

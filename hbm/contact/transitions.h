@@ -17,27 +17,28 @@
 #include "model/moving_contact.h"
 #include "numerics/series_grid.h"
 
-/* A stretch of the period in one state. */
-typedef struct contact_piece {
+/* An interval of the period in one state. */
+typedef struct contact_interval {
   double from, to;                  /* [rad] from < to <= from + 2 pi */
-  contact_state state;              /* never CONTACT_SEPARATED: an angle that no piece covers is separated */
+  contact_state state;              /* never CONTACT_SEPARATED: an angle that no interval covers is separated */
   double held;                      /* [force] kt w while stuck */
   double origin;                    /* [rad] where the slider came to rest: d held = sum held_by_x[d] dx_d(origin) */
   double held_by_x[SERIES_MAX_DIM]; /* [force/length] all 0 where the motion does not change held */
   int transitions;                  /* changes of state in the search so far, to recognise chatter */
-} contact_piece;
+} contact_interval;
 
 /* [length] The largest sum of |coefficients| of a motion. The search multiplies motions and their derivatives, up to
  * 200^2 times larger, with each other; what overflowed there would be no transition, and the contact separated without
  * a word. */
 #define TRANSITIONS_LARGEST 1e140
 
-/* The pieces of one period, ascending, into piece[cap]; *n of them. Where contact is never lost the slider starts at
- * w = 0, which is as good as any other start. HC_CHATTER: more than cap pieces, or 64 (H + 1) changes of state.
- * HC_NOT_CLOSED: the slider is not where it was a period before. HC_NOT_FINITE: mu kn or more overflows. */
-hc_status transitions_find(const series_grid *grid, const moving_contact *c, int cap, contact_piece *piece, int *n);
+/* The intervals of one period, ascending, into interval[cap]; *n of them. Where contact is never lost the slider
+ * starts at w = 0, which is as good as any other start. HC_CHATTER: more than cap intervals, or 64 (H + 1) changes
+ * of state. HC_NOT_CLOSED: the slider is not where it was a period before. HC_NOT_FINITE: mu kn or more overflows. */
+hc_status transitions_find(const series_grid *grid, const moving_contact *c, int cap, contact_interval *interval,
+                           int *n);
 
-/* What happens to a contact with these pieces of one period. */
-contact_regime transitions_regime(int n, const contact_piece *piece);
+/* What happens to a contact with these intervals of one period. */
+contact_regime transitions_regime(int n, const contact_interval *interval);
 
 #endif

@@ -5,7 +5,7 @@
 
 #include "hbm/curve/segment.h"
 
-static const double SHORTEST = 1e-7; /* ends that are right to 1e-13 of the segment: 1e-6 of the piece */
+static const double SHORTEST = 1e-7; /* ends that are right to 1e-13 of the segment: 1e-6 of the part */
 
 hc_status hbm_narrowing_start(hbm_narrowing *p, const hbm_curve *c, int k)
 {

@@ -318,7 +318,7 @@ void contact_forces_sliders(const contact_forces *f, double *w)
 
 static const member *member_of(const contact_forces *f, int j) { return &f->members[f->member_of[j]]; }
 
-const contact_piece *contact_forces_pieces(const contact_forces *f, int j, int *n)
+const contact_interval *contact_forces_intervals(const contact_forces *f, int j, int *n)
 {
   const member *m = member_of(f, j);
   *n = 0;
@@ -332,7 +332,7 @@ const planar_cycle *contact_forces_planar(const contact_forces *f, int j)
 }
 
 /* Of one coordinate both u and v may be multiples: d held/du is that by the coordinate over du/dx. */
-void contact_forces_held_by(const contact_forces *f, int j, const contact_piece *p, double by[2])
+void contact_forces_held_by(const contact_forces *f, int j, const contact_interval *p, double by[2])
 {
   const member *m = member_of(f, j);
   by[0] = by[1] = 0;

@@ -40,8 +40,8 @@ void contact_forces_sliders(const contact_forces *f, double *w);
 
 /* The intervals of contact j, of located forces only: of two tangents under one limit those of both at the first, none
  * at the second. What held of one of them depends on: d held = by[0] du + by[1] dv at its origin. */
-const contact_piece *contact_forces_pieces(const contact_forces *f, int j, int *n);
-void contact_forces_held_by(const contact_forces *f, int j, const contact_piece *p, double by[2]);
+const contact_interval *contact_forces_intervals(const contact_forces *f, int j, int *n);
+void contact_forces_held_by(const contact_forces *f, int j, const contact_interval *p, double by[2]);
 
 /* Of the contact with two tangents under one limit that j is the first half of: what the last evaluation found, of
  * located forces only; NULL of any other contact. Valid until the next evaluation. */

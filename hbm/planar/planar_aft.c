@@ -1,5 +1,5 @@
 /* planar_aft.c - see planar_aft.h; its Jacobian is in planar_aft_jacobian.c.
- *   X -> u_1, u_2, v at th_i = 2 pi i/N -> r -> the slider from sample to sample (circle_slider.h) until it closes
+ *   X -> u_1, u_2, v at th_i = 2 pi i/N -> r -> the slider from sample to sample (planar_slider.h) until it closes
  *     -> T_1, T_2, N - N0 at th_i -> F
  * A period maps w to w no farther apart. Once out of contact all is forgotten, and the second period is the orbit.
  * Where contact is kept the periods contract as far as it slips, perhaps little: after a few of them Newton's step goes
@@ -31,7 +31,7 @@ struct planar_aft {
   int n_dof, n_harm, n_time;
   hbm_restart restart;
   contact law;          /* of a half */
-  double *motion[3];    /* [n_time] u_1, u_2 and r (circle_slider.h), of a constant normal force the same everywhere */
+  double *motion[3];    /* [n_time] u_1, u_2 and r (planar_slider.h), of a constant normal force the same everywhere */
   double *traction[2];  /* [n_time] [force] */
   double *sample;       /* [n_time] what is transformed */
   fftw_complex *spec;   /* [n_time/2+1] consumed by to_time (c2r overwrites its input) */

@@ -1,4 +1,4 @@
-/* planar_aft.h - force harmonics of one contact with two tangents under the law of the circle (model/circle_law.h), by
+/* planar_aft.h - force harmonics of one contact with two tangents under the law of the circle (model/planar_slip.h), by
  * sampling: aft.h for motions in a plane. */
 #ifndef HC_HBM_PLANAR_AFT_H
 #define HC_HBM_PLANAR_AFT_H

@@ -17,7 +17,7 @@ typedef struct slider {
   bool slips;
   double w[2], dw[2][2]; /* while it sticks: position and d w/d w0 */
   double phi, dphi[2];   /* while it slips: direction and d phi/d w0 */
-  planar_begin begin;    /* of the piece under way */
+  planar_begin begin;    /* of the interval under way */
 } slider;
 
 /* ---- changes of state ------------------------------------------------------------------------------ */
@@ -82,17 +82,17 @@ static void start(const planar_cycle *c, slider *k, const double w[2])
 
 /* ---- from change to change --------------------------------------------------------------------------- */
 
-static hc_status close_piece(planar_cycle *c, slider *k, double from, double to, int first_panel)
+static hc_status close_interval(planar_cycle *c, slider *k, double from, double to, int first_panel)
 {
   if (!(to > from)) return HC_OK;
   if (c->n == c->cap) return HC_CHATTER;
-  c->piece[c->n++] = (planar_piece){.from = from,
-                                    .to = to,
-                                    .state = k->slips ? CONTACT_SLIP_PLUS : CONTACT_STICK,
-                                    .begin = k->begin,
-                                    .w = {k->w[0], k->w[1]},
-                                    .panel = first_panel,
-                                    .n_panels = k->slips ? c->slip.n - first_panel : 0};
+  c->interval[c->n++] = (planar_interval){.from = from,
+                                          .to = to,
+                                          .state = k->slips ? CONTACT_SLIP_PLUS : CONTACT_STICK,
+                                          .begin = k->begin,
+                                          .w = {k->w[0], k->w[1]},
+                                          .panel = first_panel,
+                                          .n_panels = k->slips ? c->slip.n - first_panel : 0};
   k->begin = PLANAR_GOES_ON;
   return HC_OK;
 }
@@ -102,7 +102,7 @@ static hc_status stick(planar_cycle *c, slider *k, planar_point *at, double to)
 {
   planar_point root;
   const bool ends = planar_stick_ends(c->m, c->grid, k->w, at, to, &root);
-  const hc_status st = close_piece(c, k, at->th, ends ? root.th : to, 0);
+  const hc_status st = close_interval(c, k, at->th, ends ? root.th : to, 0);
   if (ends) *at = root;
   else *at = planar_motion_at(c->m, to);
   if (ends) leave_stick(c, k, at);
@@ -114,7 +114,7 @@ static hc_status slip(planar_cycle *c, slider *k, planar_point *at, double to)
   const int first = c->slip.n;
   slip_end end;
   hc_status st = planar_slip_follow(&c->slip, at, k->phi, to, !c->always, &end);
-  if (st == HC_OK) st = close_piece(c, k, at->th, end.at.th, first);
+  if (st == HC_OK) st = close_interval(c, k, at->th, end.at.th, first);
   for (int i = first; i < c->slip.n; ++i)
     for (int j = 0; j < 2; ++j) k->dphi[j] *= c->slip.panel[i].growth;
   *at = end.at;
@@ -189,7 +189,7 @@ static hc_status follow_contacts(planar_cycle *c)
 static bool slips(const planar_cycle *c)
 {
   for (int i = 0; i < c->n; ++i)
-    if (c->piece[i].state != CONTACT_STICK) return true;
+    if (c->interval[i].state != CONTACT_STICK) return true;
   return false;
 }
 
@@ -290,10 +290,10 @@ static bool two_touches(const planar_cycle *c, double th[2])
   int found = 0;
   double slipped = 0;
   for (int i = 0; i < c->n; ++i) {
-    if (c->piece[i].state == CONTACT_STICK) continue;
-    slipped += c->piece[i].to - c->piece[i].from;
-    if (c->piece[(i + 1) % c->n].state != CONTACT_STICK) continue;
-    if (found < 2) th[found] = c->piece[i].to;
+    if (c->interval[i].state == CONTACT_STICK) continue;
+    slipped += c->interval[i].to - c->interval[i].from;
+    if (c->interval[(i + 1) % c->n].state != CONTACT_STICK) continue;
+    if (found < 2) th[found] = c->interval[i].to;
     ++found;
   }
   return found == 2 && slipped <= LITTLE_SLIP;
@@ -315,7 +315,7 @@ static hc_status rest_in_corner(planar_cycle *c, const double w[2], bool *rests)
   c->corner = corner;
   c->n = 1;
   c->slip.n = 0;
-  c->piece[0] = (planar_piece){.to = TWO_PI, .state = CONTACT_STICK, .w = {corner.w[0], corner.w[1]}};
+  c->interval[0] = (planar_interval){.to = TWO_PI, .state = CONTACT_STICK, .w = {corner.w[0], corner.w[1]}};
   return HC_OK;
 }
 
@@ -376,7 +376,7 @@ void planar_cycle_slider(const planar_cycle *c, double w[2])
   const planar_point *zero = &c->grid[0];
   w[0] = zero->u[0], w[1] = zero->u[1];
   for (int i = 0; i < c->n; ++i) {
-    const planar_piece *p = &c->piece[i];
+    const planar_interval *p = &c->interval[i];
     if (p->from > 0 && p->to < TWO_PI) continue;
     if (p->state == CONTACT_STICK) {
       w[0] = p->w[0], w[1] = p->w[1];

@@ -17,20 +17,20 @@
 #include "hbm/planar/planar_motion.h"
 #include "hbm/planar/planar_slip.h"
 
-/* What a piece begins with: the period (w = w0, put into the circle), touch-down (w = u), or the end of the piece
- * before it. */
+/* What an interval begins with: the period (w = w0, put into the circle), touch-down (w = u), or the end of the
+ * interval before it. */
 typedef enum planar_begin { PLANAR_STARTS, PLANAR_TOUCHES, PLANAR_GOES_ON } planar_begin;
 
-/* A stretch of the period in one state; an angle that no piece covers is separated. */
-typedef struct planar_piece {
+/* An interval of the period in one state; an angle that no interval covers is separated. */
+typedef struct planar_interval {
   double from, to;     /* [rad] from < to <= from + 2 pi */
   contact_state state; /* CONTACT_STICK, or CONTACT_SLIP_PLUS whatever the direction of slip */
   planar_begin begin;
   double w[2];         /* [length] the slider while it sticks */
   int panel, n_panels; /* of the cycle's panels, while it slips */
-} planar_piece;
+} planar_interval;
 
-/* A stretch of contact, [rad]; of one that lasts for ever from 0 to 2 pi. */
+/* An interval of contact, [rad]; of one that lasts for ever from 0 to 2 pi. */
 typedef struct planar_contact {
   double from, to;
 } planar_contact;
@@ -42,8 +42,8 @@ typedef struct planar_cycle {
   bool may_shift;           /* the last step to where it closes may be to first order (planar_shift.h) */
   int n_contacts;
   const planar_contact *contact; /* [n_contacts] ascending */
-  planar_piece *piece;           /* [cap] room */
-  int n, cap;                    /* pieces found */
+  planar_interval *interval;     /* [cap] room */
+  int n, cap;                    /* intervals found */
   planar_slip slip;              /* its panels */
   double start[2];               /* [length] w0: where the last pass began, not yet put into the circle; if `always` */
   int marched;                   /* passes from w0 = 0 after which it does not slip any more; -1: it slips for ever */
@@ -52,8 +52,8 @@ typedef struct planar_cycle {
   int changes;                   /* of state in this pass, to recognise chatter */
 } planar_cycle;
 
-/* The pieces of one period on the closed orbit. HC_CHATTER: more pieces or panels than there is room for, or 64 (H + 1)
- * changes of state. HC_NOT_CLOSED: the slider is not where it was a period before. HC_NOT_CONVERGED. */
+/* The intervals of one period on the closed orbit. HC_CHATTER: more intervals or panels than there is room for, or
+ * 64 (H + 1) changes of state. HC_NOT_CLOSED: the slider is not where it was a period before. HC_NOT_CONVERGED. */
 hc_status planar_cycle_find(planar_cycle *c);
 
 /* One pass from w0, which becomes the slider at its end; A[row][col] = d(that)/d w0 unless NULL. Errors as above. */

@@ -23,7 +23,7 @@ struct planar_flow {
   int n, n_states;
   collocation c;
   double twice[N][N];   /* a a: from accelerations to positions */
-  double *K;            /* [n][n] by columns, K_j of the stretch */
+  double *K;            /* [n][n] by columns, K_j of the interval */
   double *matrix;       /* [N (n + circles)]^2 by columns */
   int *pivot;           /* [N (n + circles)] */
   double *right;        /* [n_states][N (n + circles)] right sides, then accelerations, of every column of phi */
@@ -91,23 +91,23 @@ static void add_outer(planar_flow *f, double k, const double *a, const double *b
     for (int i = 0; i < f->n; ++i) f->K[(size_t)j * (size_t)f->n + (size_t)i] += k * a[i] * b[j];
 }
 
-static bool is_stuck(const planar_flow *f, const contact_piece *const *piece, int j)
+static bool is_stuck(const planar_flow *f, const contact_interval *const *interval, int j)
 {
-  return piece[j] && !contact_slip_sign(piece[j]->state) && contact_has_friction(&f->m->contacts[j].law);
+  return interval[j] && !contact_slip_sign(interval[j]->state) && contact_has_friction(&f->m->contacts[j].law);
 }
 
-static void fill_stiffness(planar_flow *f, const contact_piece *const *piece, int n_slipping,
+static void fill_stiffness(planar_flow *f, const contact_interval *const *interval, int n_slipping,
                            const planar_slipping *slipping)
 {
   const model *m = f->m;
   memcpy(f->K, m->stiffness, (size_t)f->n * (size_t)f->n * sizeof *f->K);
   for (int j = 0; j < m->n_contacts; ++j) {
     const model_contact *c = &m->contacts[j];
-    if (!piece[j]) continue;
-    const int slip = contact_slip_sign(piece[j]->state);
+    if (!interval[j]) continue;
+    const int slip = contact_slip_sign(interval[j]->state);
     add_outer(f, c->law.kn, c->normal, c->normal);
     if (slip) add_outer(f, slip * c->law.mu * c->law.kn, c->tangent, c->normal);
-    else if (is_stuck(f, piece, j)) add_outer(f, c->law.kt, c->tangent, c->tangent);
+    else if (is_stuck(f, interval, j)) add_outer(f, c->law.kt, c->tangent, c->tangent);
   }
   for (int k = 0; k < n_slipping; ++k) { /* of both halves */
     const model_contact *c = &m->contacts[slipping[k].contact];
@@ -139,13 +139,13 @@ static double highest_frequency(const planar_flow *f)
 
 /* ---- a step ------------------------------------------------------------------------------------------ */
 
-/* What angles of the period are where the piece covers them. */
-static double shift_to(const planar_piece *p, double th) { return th >= p->from && th < p->to ? 0 : TWO_PI; }
+/* What angles of the period are where the interval covers them. */
+static double shift_to(const planar_interval *p, double th) { return th >= p->from && th < p->to ? 0 : TWO_PI; }
 
 /* The panel that covers th. */
 static const planar_panel *panel_at(const planar_slipping *s, double th)
 {
-  const planar_panel *p = s->cycle->slip.panel + s->piece->panel, *last = p + s->piece->n_panels - 1;
+  const planar_panel *p = s->cycle->slip.panel + s->interval->panel, *last = p + s->interval->n_panels - 1;
   while (p < last && th >= p->to) ++p;
   return p;
 }
@@ -156,7 +156,7 @@ static double end_of_step(int n_slipping, const planar_slipping *slipping, doubl
   const double rounding = 1e-13;
   double end = th + width < to ? th + width : to;
   for (int k = 0; k < n_slipping; ++k) {
-    const double shift = shift_to(slipping[k].piece, 0.5 * (th + end));
+    const double shift = shift_to(slipping[k].interval, 0.5 * (th + end));
     const planar_panel *p = panel_at(&slipping[k], th + shift + rounding);
     if (p->to - shift > th + rounding && p->to - shift < end) end = p->to - shift;
   }
@@ -170,7 +170,7 @@ static void fill_states(planar_flow *f, int n_slipping, const planar_slipping *s
   const double middle = 0.5 * (from + to), h = (to - from) / omega;
   for (int k = 0; k < n_slipping; ++k) {
     const planar_slipping *s = &slipping[k];
-    const double shift = shift_to(s->piece, middle);
+    const double shift = shift_to(s->interval, middle);
     const planar_panel *panel = panel_at(s, middle + shift);
     const double *t[2] = {f->m->contacts[s->contact].tangent, f->m->contacts[s->contact + 1].tangent};
     for (int i = 0; i < N; ++i) {
@@ -234,7 +234,7 @@ static void fill_circle_block(planar_flow *f, int n_slipping, const planar_slipp
 }
 
 /* Right sides at every point for the column in f->now, into to[N][n + n_slipping]. */
-static void fill_right(const planar_flow *f, const contact_piece *const *piece, int n_slipping,
+static void fill_right(const planar_flow *f, const contact_interval *const *interval, int n_slipping,
                        const planar_slipping *slipping, double h, double *to)
 {
   const int n = f->n;
@@ -250,7 +250,7 @@ static void fill_right(const planar_flow *f, const contact_piece *const *piece, 
         right[r] -= m->damping[at] * v[q] + f->K[at] * (x[q] + t * v[q]);
       }
     for (int j = 0; j < m->n_contacts; ++j)
-      for (int r = 0; r < n && is_stuck(f, piece, j); ++r) right[r] += m->contacts[j].tangent[r] * state[j];
+      for (int r = 0; r < n && is_stuck(f, interval, j); ++r) right[r] += m->contacts[j].tangent[r] * state[j];
     for (int k = 0; k < n_slipping; ++k) {
       const model_contact *c = &m->contacts[slipping[k].contact];
       const planar_state *a = &f->at[k * N + i];
@@ -287,7 +287,7 @@ static void load_column(planar_flow *f, const double *phi, size_t q)
   for (size_t i = 0; i < (size_t)f->n_states; ++i) f->now[i] = phi[i * (size_t)f->n_states + q];
 }
 
-static hc_status advance_step(planar_flow *f, const contact_piece *const *piece, int n_slipping,
+static hc_status advance_step(planar_flow *f, const contact_interval *const *interval, int n_slipping,
                               const planar_slipping *slipping, double from, double to, double omega, int columns,
                               double *phi)
 {
@@ -303,7 +303,7 @@ static hc_status advance_step(planar_flow *f, const contact_piece *const *piece,
   if (dense_factor(unknowns, f->matrix, f->pivot) != HC_OK) return HC_SINGULAR;
   for (size_t q = 0; q < (size_t)columns; ++q) {
     load_column(f, phi, q);
-    fill_right(f, piece, n_slipping, slipping, h, f->right + q * (size_t)unknowns);
+    fill_right(f, interval, n_slipping, slipping, h, f->right + q * (size_t)unknowns);
   }
   dense_solve(unknowns, f->matrix, f->pivot, columns, f->right);
   for (size_t q = 0; q < (size_t)columns; ++q) {
@@ -314,17 +314,17 @@ static hc_status advance_step(planar_flow *f, const contact_piece *const *piece,
   return isfinite(phi[0]) ? HC_OK : HC_NOT_FINITE;
 }
 
-hc_status planar_flow_advance(planar_flow *f, const contact_piece *const *piece, int n_slipping,
+hc_status planar_flow_advance(planar_flow *f, const contact_interval *const *interval, int n_slipping,
                               const planar_slipping *slipping, double from, double to, double omega, int columns,
                               double *phi)
 {
   const double turns_a_step = 3;
-  fill_stiffness(f, piece, n_slipping, slipping);
+  fill_stiffness(f, interval, n_slipping, slipping);
   const double width = turns_a_step * omega / highest_frequency(f);
   hc_status st = HC_OK;
   for (double at = from; at < to && st == HC_OK;) {
     const double end = end_of_step(n_slipping, slipping, at, to, width);
-    st = advance_step(f, piece, n_slipping, slipping, at, end, omega, columns, phi);
+    st = advance_step(f, interval, n_slipping, slipping, at, end, omega, columns, phi);
     at = end;
   }
   return st;

@@ -16,11 +16,11 @@
 
 typedef struct planar_flow planar_flow;
 
-/* A circle that slips: its first contact, and its piece. */
+/* A circle that slips: its first contact, and its interval. */
 typedef struct planar_slipping {
   int contact;
   const planar_cycle *cycle;
-  const planar_piece *piece;
+  const planar_interval *interval;
 } planar_slipping;
 
 /* Of m, which must live as long. HC_NO_MEMORY. */
@@ -28,9 +28,9 @@ hc_status planar_flow_new(const model *m, planar_flow **out);
 void planar_flow_free(planar_flow *f); /* NULL is allowed */
 
 /* phi[2 n + n_contacts][2 n + n_contacts], by rows dx, dx' [1/time], dheld_j, its first `columns` columns, over the
- * stretch from..to [rad]; y of a slipping circle is in the row of its first contact. piece[j] of the other contacts,
- * NULL while separated. HC_SINGULAR, HC_NOT_FINITE. */
-hc_status planar_flow_advance(planar_flow *f, const contact_piece *const *piece, int n_slipping,
+ * interval from..to [rad]; y of a slipping circle is in the row of its first contact. interval[j] of the other
+ * contacts, NULL while separated. HC_SINGULAR, HC_NOT_FINITE. */
+hc_status planar_flow_advance(planar_flow *f, const contact_interval *const *interval, int n_slipping,
                               const planar_slipping *slipping, double from, double to, double omega, int columns,
                               double *phi);
 

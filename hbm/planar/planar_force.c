@@ -11,7 +11,7 @@
 
 #include "base/constants.h"
 #include "hbm/contact/force_jacobian.h"
-#include "hbm/contact/piece_series.h"
+#include "hbm/contact/interval_series.h"
 #include "hbm/hbm_settings.h"
 #include "hbm/planar/planar_force_impl.h"
 #include "numerics/series.h"
@@ -37,7 +37,7 @@ static hc_status make_room(planar_force *f)
   planar_cycle *c = &f->cycle;
   c->cap = 16 * f->n_harm + 16;
   c->slip.cap = 64 * f->n_harm + 256;
-  c->piece = calloc((size_t)c->cap, sizeof *c->piece);
+  c->interval = calloc((size_t)c->cap, sizeof *c->interval);
   c->slip.panel = calloc((size_t)c->slip.cap, sizeof *c->slip.panel);
   f->contact = calloc((size_t)c->cap, sizeof *f->contact);
   f->intervals = calloc((size_t)c->cap, sizeof *f->intervals);
@@ -46,7 +46,8 @@ static hc_status make_room(planar_force *f)
   f->dw[0] = room(col), f->dw[1] = room(col), f->dphi = room(col);
   f->matrix = room(L * L), f->table = room((size_t)series_grid_table_length(f->n_harm));
   f->node = room(3 * N * col), f->base = room(N * L), f->rate = room(N * L), f->test = room(N * L);
-  const bool found = c->piece && c->slip.panel && f->contact && f->intervals && f->indicator && f->symbol && f->weight;
+  const bool found =
+      c->interval && c->slip.panel && f->contact && f->intervals && f->indicator && f->symbol && f->weight;
   return found && f->X && f->F && f->matrix && f->table && f->by && f->dw[0] && f->dw[1] && f->dphi && f->node &&
                  f->base && f->rate && f->test
              ? HC_OK
@@ -78,7 +79,7 @@ hc_status planar_force_new(int n_harm, int n_dof, const contact *law, planar_for
     planar_force_free(f);
     return st;
   }
-  piece_series_weights(2 * n_harm, f->weight);
+  interval_series_weights(2 * n_harm, f->weight);
   collocation_fill(&f->rule);
   series_grid_table_fill(n_harm, f->table);
   *out = f;
@@ -95,7 +96,7 @@ void planar_force_free(planar_force *f)
   for (size_t i = 0; i < sizeof rooms / sizeof *rooms; ++i) free(rooms[i]);
   free(f->contact);
   free(f->intervals);
-  free(f->cycle.piece);
+  free(f->cycle.interval);
   free(f->cycle.slip.panel);
   free(f);
 }
@@ -115,7 +116,7 @@ static hc_status find_contacts(planar_force *f, const double *X)
     return HC_OK;
   }
   const hc_status st = exact_force_eval(f->normal, X + 2 * (size_t)f->n_coef, f->F_normal, f->jac_normal, NULL);
-  const contact_piece *p = exact_force_pieces(f->normal, 0, &c->n_contacts);
+  const contact_interval *p = exact_force_intervals(f->normal, 0, &c->n_contacts);
   for (int i = 0; i < c->n_contacts && st == HC_OK; ++i) f->contact[i] = (planar_contact){p[i].from, p[i].to};
   c->always = c->n_contacts == 1 && p->from <= 0 && p->to >= TWO_PI;
   return st;
@@ -140,11 +141,11 @@ static hc_status find_orbit(planar_force *f, const double *X)
 
 /* ---- stick ------------------------------------------------------------------------------------------- */
 
-/* u - w on the piece: its share of the symbol, and of what is constant. */
-static void add_stick(planar_force *f, const planar_piece *p, bool derive)
+/* u - w on the interval: its share of the symbol, and of what is constant. */
+static void add_stick(planar_force *f, const planar_interval *p, bool derive)
 {
   const int L = f->n_coef;
-  piece_series_fill(2 * f->n_harm, f->weight, p->from, p->to, f->indicator);
+  interval_series_fill(2 * f->n_harm, f->weight, p->from, p->to, f->indicator);
   for (int i = 0; i < force_jacobian_symbol_length(f->n_harm); ++i) f->symbol[i] += f->indicator[i];
   for (int d = 0; d < 2; ++d) {
     for (int i = 0; i < L; ++i) f->F[d * L + i] -= p->w[d] * f->indicator[i];
@@ -164,20 +165,20 @@ static void clear_sums(planar_force *f)
   memset(f->symbol, 0, (size_t)force_jacobian_symbol_length(f->n_harm) * sizeof *f->symbol);
 }
 
-/* The integrals of all pieces. In dw the derivatives of w0; at the end those of w(2 pi). */
-static void add_pieces(planar_force *f, bool derive)
+/* The integrals of all intervals. In dw the derivatives of w0; at the end those of w(2 pi). */
+static void add_intervals(planar_force *f, bool derive)
 {
   const planar_cycle *c = &f->cycle;
   double *base = f->base, *rate = f->rate;
   clear_sums(f);
   for (int i = 0; i < c->n; ++i) {
-    const planar_piece *p = &c->piece[i];
+    const planar_interval *p = &c->interval[i];
     if (derive) planar_row_begin(f, i, base, rate);
     if (p->state == CONTACT_STICK) add_stick(f, p, derive);
     for (int k = p->panel; p->state != CONTACT_STICK && k < p->panel + p->n_panels; ++k)
       planar_panel_sums(f, &c->slip.panel[k], derive);
   }
-  const planar_piece *last = &c->piece[c->n - 1];
+  const planar_interval *last = &c->interval[c->n - 1];
   if (!derive || c->n == 0 || last->state == CONTACT_STICK) return;
   planar_row_base(f->n_harm, last->to, base, rate);
   const planar_point at = planar_motion_at(&f->motion, last->to);
@@ -225,7 +226,7 @@ static hc_status march_again(planar_force *f)
   planar_row_clear(f, f->dw[1]);
   for (int i = 0; i < f->cycle.marched && st == HC_OK; ++i) {
     st = planar_cycle_pass(&f->cycle, w, NULL);
-    if (st == HC_OK) add_pieces(f, true);
+    if (st == HC_OK) add_intervals(f, true);
   }
   return st == HC_OK ? planar_cycle_pass(&f->cycle, w, NULL) : st;
 }
@@ -258,7 +259,7 @@ static hc_status integrate(planar_force *f, bool derive)
   else if (derive && f->cycle.cornered) follow_corner(f);
   else if (derive && f->cycle.always) st = march_again(f);
   if (st != HC_OK) return st;
-  add_pieces(f, derive);
+  add_intervals(f, derive);
   if (!closes) return HC_OK;
   close_derivatives(f);
   eliminate_w0(f, f->dw);
@@ -302,7 +303,7 @@ static void fill_report(const planar_force *f, contact_report *report)
   *report = (contact_report){.regime = planar_cycle_regime(c)};
   report->free_sliders = report->regime == CONTACT_STUCK;
   for (int i = 0; i < c->n; ++i) {
-    const planar_piece *p = &c->piece[i], *next = &c->piece[(i + 1) % c->n];
+    const planar_interval *p = &c->interval[i], *next = &c->interval[(i + 1) % c->n];
     const bool meets = next->from == p->to || next->from == p->to - TWO_PI;
     report->transitions += meets ? next->state != p->state : 2;
   }
@@ -342,8 +343,8 @@ static hc_status make(const contact_coordinates *c, const evaluator_settings *ho
 static void fill_intervals(planar_force *f)
 {
   for (int i = 0; i < f->cycle.n; ++i) {
-    const planar_piece *p = &f->cycle.piece[i];
-    f->intervals[i] = (contact_piece){.from = p->from, .to = p->to, .state = p->state, .origin = -1};
+    const planar_interval *p = &f->cycle.interval[i];
+    f->intervals[i] = (contact_interval){.from = p->from, .to = p->to, .state = p->state, .origin = -1};
   }
 }
 
@@ -354,7 +355,7 @@ static hc_status evaluate(void *self, const double *X, double *F, double *jac, c
   return st;
 }
 
-static const contact_piece *intervals(const void *self, int *n)
+static const contact_interval *intervals(const void *self, int *n)
 {
   const planar_force *f = self;
   *n = f->cycle.n;

@@ -1,4 +1,4 @@
-/* planar_force_impl.h - the workspace of planar_force.c, and its parts: rows of derivatives where pieces begin
+/* planar_force_impl.h - the workspace of planar_force.c, and its parts: rows of derivatives where intervals begin
  * (planar_rows.c), and a panel's sums (planar_panel_sums.c). Nobody else includes it. */
 #ifndef HC_HBM_PLANAR_FORCE_IMPL_H
 #define HC_HBM_PLANAR_FORCE_IMPL_H
@@ -19,8 +19,8 @@ struct planar_force {
   collocation rule;
   planar_contact *contact; /* [cap] */
   planar_cycle cycle;
-  contact_piece *intervals;            /* [cycle.cap] its pieces, for contact_evaluator.h */
-  double *indicator, *symbol, *weight; /* [4H+1] of a piece, of all stick pieces; [2H+1] */
+  contact_interval *intervals;         /* [cycle.cap] its intervals, for contact_evaluator.h */
+  double *indicator, *symbol, *weight; /* [4H+1] of an interval, of all stick intervals; [2H+1] */
   double *F;                           /* [2][n_coef] [length] of T/kt */
   double *by;                          /* [2][n_coef][n_col] its derivatives */
   double *dw[2], *dphi;                /* [n_col] */
@@ -40,7 +40,7 @@ void planar_row_clear(const planar_force *f, double *row);
 /* to += a du_1 + b du_2 + c dv, base being that of an angle: derivatives of a combination of the motions there. */
 void planar_row_add(const planar_force *f, const double *base, double a, double b, double c, double *to);
 
-/* From what was before into piece i, whose derivatives are then in dw or dphi; base and rate become those of its
+/* From what was before into interval i, whose derivatives are then in dw or dphi; base and rate become those of its
  * angle. */
 void planar_row_begin(planar_force *f, int i, double *base, double *rate);
 

@@ -1,4 +1,4 @@
-/* planar_measures.c - see planar_measures.h. The largest traction of a piece is a maximum of R, or of |u - w|^2, a
+/* planar_measures.c - see planar_measures.h. The largest traction of an interval is a maximum of R, or of |u - w|^2, a
  * trigonometric polynomial of degree 2H. */
 #include "hbm/planar/planar_measures.h"
 
@@ -34,8 +34,8 @@ static void add_square(int n_harm, const double *X, double constant, double *squ
   }
 }
 
-/* The largest |u - w| of a stick piece; square: room. */
-static double stick_distance(const planar_motion *m, const planar_piece *p, double *square)
+/* The largest |u - w| of a stick interval; square: room. */
+static double stick_distance(const planar_motion *m, const planar_interval *p, double *square)
 {
   const double one = 1;
   const series_vector of_square = {2 * m->n_harm, 1, {square}};
@@ -46,8 +46,8 @@ static double stick_distance(const planar_motion *m, const planar_piece *p, doub
   return sqrt(fmax(most, 0));
 }
 
-/* The largest R of a slip piece. */
-static double slip_distance(const planar_motion *m, const planar_piece *p)
+/* The largest R of a slip interval. */
+static double slip_distance(const planar_motion *m, const planar_interval *p)
 {
   const series_vector of_v = {m->n_harm, 1, {m->v}};
   double most, least;
@@ -69,11 +69,11 @@ static void add_panel(const planar_cycle *c, const planar_panel *p, double sum[2
   }
 }
 
-static void measure_pieces(const contact *law, const planar_cycle *c, double *square, contact_period *out)
+static void measure_intervals(const contact *law, const planar_cycle *c, double *square, contact_period *out)
 {
   double sum[2] = {0}, distance = 0;
   for (int i = 0; i < c->n; ++i) {
-    const planar_piece *p = &c->piece[i];
+    const planar_interval *p = &c->interval[i];
     const bool sticks = p->state == CONTACT_STICK;
     distance = fmax(distance, sticks ? stick_distance(c->m, p, square) : slip_distance(c->m, p));
     for (int k = p->panel; k < p->panel + p->n_panels; ++k) add_panel(c, &c->slip.panel[k], sum);
@@ -100,7 +100,7 @@ static hc_status measure(const contact *half, int n_harm, int n_dof, const doubl
     out[0].normal_min = contact_normal(half, least);
     out[0].normal_max = contact_normal(half, most);
     out[1] = out[0];
-    measure_pieces(half, c, square, &out[0]);
+    measure_intervals(half, c, square, &out[0]);
   }
   planar_force_free(f);
   return st;

@@ -1,7 +1,7 @@
 /* planar_measures.h - what the exact law of the circle does along a periodic motion of a contact with two tangents:
  * contact_measures.h in the plane.
  *
- *     work = closed integral T . du = sum over slip pieces of integral mu N |dw|,   |w'| = s = u'.e - R'
+ *     work = closed integral T . du = sum over slip intervals of integral mu N |dw|,   |w'| = s = u'.e - R'
  *
  * on the panels of planar_slip.h, by their own sums. */
 #ifndef HC_HBM_PLANAR_MEASURES_H

@@ -1,4 +1,4 @@
-/* planar_rows.c - rows of derivatives of a circle's slider where pieces begin, see planar_force_impl.h. */
+/* planar_rows.c - rows of derivatives of a circle's slider where intervals begin, see planar_force_impl.h. */
 #include <math.h>
 #include <string.h>
 
@@ -49,7 +49,7 @@ void planar_row_rest(planar_force *f, const double *base, double phi, double R)
 }
 
 /* The angle of touch-down moves by -dR/R'. */
-static void begin_contact(planar_force *f, const planar_piece *p, const planar_point *at, const double *base,
+static void begin_contact(planar_force *f, const planar_interval *p, const planar_point *at, const double *base,
                           const double *rate)
 {
   const double per_v = f->motion.per_v;
@@ -68,7 +68,7 @@ static void begin_contact(planar_force *f, const planar_piece *p, const planar_p
 }
 
 /* From w0 at th = 0, whose derivatives are in dw, into the circle. */
-static void begin_period(planar_force *f, const planar_piece *p, const planar_point *at, const double *base)
+static void begin_period(planar_force *f, const planar_interval *p, const planar_point *at, const double *base)
 {
   const double t1 = at->u[0] - f->cycle.start[0], t2 = at->u[1] - f->cycle.start[1], length = hypot(t1, t2),
                phi = atan2(t2, t1);
@@ -81,7 +81,7 @@ static void begin_period(planar_force *f, const planar_piece *p, const planar_po
 void planar_row_begin(planar_force *f, int i, double *base, double *rate)
 {
   const planar_cycle *c = &f->cycle;
-  const planar_piece *p = &c->piece[i], *before = p - 1;
+  const planar_interval *p = &c->interval[i], *before = p - 1;
   const planar_point at = planar_motion_at(&f->motion, p->from);
   planar_row_base(f->n_harm, p->from, base, rate);
   if (p->begin == PLANAR_TOUCHES) begin_contact(f, p, &at, base, rate);

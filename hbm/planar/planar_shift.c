@@ -18,7 +18,7 @@ static void swing(double phi, double R, double dphi, double dw[2])
   dw[1] = -R * cos(phi) * dphi;
 }
 
-static double angle_before(const planar_cycle *c, const planar_piece *p)
+static double angle_before(const planar_cycle *c, const planar_interval *p)
 {
   return p->n_panels > 0 ? c->slip.panel[p->panel + p->n_panels - 1].phi[N - 1] : 0;
 }
@@ -27,7 +27,7 @@ static double angle_before(const planar_cycle *c, const planar_piece *p)
 static bool is_near(const planar_cycle *c, double moved)
 {
   for (int i = 0; i < c->n; ++i) {
-    const planar_piece *p = &c->piece[i];
+    const planar_interval *p = &c->interval[i];
     if (p->state == CONTACT_STICK) continue;
     const double R = planar_motion_at(c->m, p->from).R;
     if (!(moved <= PLANAR_SHIFT_MOST * R)) return false;
@@ -35,10 +35,10 @@ static bool is_near(const planar_cycle *c, double moved)
   return true;
 }
 
-/* From the start, or from the piece before, into piece i. */
+/* From the start, or from the interval before, into interval i. */
 static void begin(const planar_cycle *c, int i, double dw[2], double *dphi)
 {
-  const planar_piece *p = &c->piece[i];
+  const planar_interval *p = &c->interval[i];
   const bool slips = p->state != CONTACT_STICK;
   if (p->begin == PLANAR_STARTS) {
     const planar_point *at = &c->grid[0];
@@ -74,7 +74,7 @@ bool planar_shift(planar_cycle *c, const double dw0[2])
   double dw[2] = {dw0[0], dw0[1]}, dphi = 0;
   if (!is_near(c, hypot(dw[0], dw[1]))) return false;
   for (int i = 0; i < c->n; ++i) {
-    planar_piece *p = &c->piece[i];
+    planar_interval *p = &c->interval[i];
     begin(c, i, dw, &dphi);
     for (int d = 0; d < 2 && p->state == CONTACT_STICK; ++d) p->w[d] += dw[d];
     for (int k = p->panel; k < p->panel + p->n_panels; ++k) dphi = move_panel(c->slip.c, &c->slip.panel[k], dphi);

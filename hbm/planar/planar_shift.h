@@ -1,7 +1,7 @@
 /* planar_shift.h - a pass of a circle's slider moved to where it closes, when that is near: to first order, by the
  * same variational equations as the force's derivatives (planar_force.h), w while it sticks and phi while it slips.
- * Moved by d, phi is then off by about d^2; the ends of pieces stay where they are, and what is integrated over the
- * pieces is off by d^2, too, since the force is continuous there. libm only, nothing is allocated. */
+ * Moved by d, phi is then off by about d^2; the ends of intervals stay where they are, and what is integrated over the
+ * intervals is off by d^2, too, since the force is continuous there. libm only, nothing is allocated. */
 #ifndef HC_HBM_PLANAR_SHIFT_H
 #define HC_HBM_PLANAR_SHIFT_H
 

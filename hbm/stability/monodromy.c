@@ -1,6 +1,7 @@
 /* monodromy.c - see monodromy.h. The state is (dx, dx', dheld_1, ..., dheld_n); dheld_j counts only while contact j
- * is stuck. Row i of phi is state i, column q the initial state q. The period starts at the end of its longest stretch,
- * since few motions outlast that (stretch_flow.h); where contacts have two tangents with one limit, at th = 0. */
+ * is stuck. Row i of phi is state i, column q the initial state q. The period starts at the end of its longest
+ * interval, since few motions outlast that (interval_flow.h); where contacts have two tangents with one limit, at th
+ * = 0. */
 #include "hbm/stability/monodromy.h"
 
 #include <complex.h>
@@ -31,16 +32,16 @@ hc_status monodromy_new(const model *m, monodromy **out)
   const size_t n = (size_t)w->n_states;
   w->phi = malloc(n * n * sizeof *w->phi);
   w->share = malloc(n * sizeof *w->share);
-  w->piece = malloc(n * sizeof *w->piece);
+  w->interval = malloc(n * sizeof *w->interval);
   w->active = malloc(n * sizeof *w->active);
   w->slider = malloc(n * sizeof *w->slider);
   w->goes_on = malloc(n * sizeof *w->goes_on);
   w->lambda = malloc(n * sizeof *w->lambda);
   w->left = malloc(n * n * sizeof *w->left);
-  const bool vectors = w->boundary && w->share && w->piece && w->active && w->slider && w->goes_on && w->lambda;
+  const bool vectors = w->boundary && w->share && w->interval && w->active && w->slider && w->goes_on && w->lambda;
   const bool allocated = vectors && w->phi && w->left;
   hc_status st = allocated ? floquet_new(w->n_states, &w->floquet) : HC_NO_MEMORY;
-  if (st == HC_OK) st = stretch_flow_new(m, &w->flow);
+  if (st == HC_OK) st = interval_flow_new(m, &w->flow);
   if (st == HC_OK && model_has_circle(m)) st = make_circles(m, w);
   if (st == HC_OK) return HC_OK;
   monodromy_free(w);
@@ -52,7 +53,7 @@ void monodromy_free(monodromy *w)
 {
   if (!w) return;
   floquet_free(w->floquet);
-  stretch_flow_free(w->flow);
+  interval_flow_free(w->flow);
   planar_flow_free(w->circles);
   free(w->track);
   free(w->slipping);
@@ -60,7 +61,7 @@ void monodromy_free(monodromy *w)
   free(w->phi);
   free(w->left);
   free(w->share);
-  free(w->piece);
+  free(w->interval);
   free(w->active);
   free(w->slider);
   free(w->goes_on);
@@ -76,7 +77,7 @@ static int collect_boundaries(monodromy *w, const contact_forces *orbit, int n_c
   const bool ends = w->circles;
   int n = 2;
   for (int j = 0, intervals; j < n_contacts; ++j) {
-    contact_forces_pieces(orbit, j, &intervals);
+    contact_forces_intervals(orbit, j, &intervals);
     n += 2 * intervals;
   }
   if (n > w->cap) {
@@ -90,23 +91,23 @@ static int collect_boundaries(monodromy *w, const contact_forces *orbit, int n_c
   if (ends || !changes) w->boundary[n++] = 0;
   if (ends) w->boundary[n++] = TWO_PI;
   for (int j = 0, intervals; j < n_contacts; ++j) {
-    const contact_piece *p = contact_forces_pieces(orbit, j, &intervals);
+    const contact_interval *p = contact_forces_intervals(orbit, j, &intervals);
     for (int k = 0; k < intervals; ++k) w->boundary[n++] = wrap(p[k].from), w->boundary[n++] = wrap(p[k].to);
   }
   qsort(w->boundary, (size_t)n, sizeof(double), ascending);
   return n;
 }
 
-/* Where the stretch that begins at boundary i ends. */
-static double end_of_stretch(const monodromy *w, int n, int i)
+/* Where the interval that begins at boundary i ends. */
+static double end_of_interval(const monodromy *w, int n, int i)
 {
   return i + 1 < n ? w->boundary[i + 1] : w->boundary[0] + TWO_PI;
 }
 
-const contact_piece *monodromy_piece_at(const contact_forces *orbit, int j, double th)
+const contact_interval *monodromy_interval_at(const contact_forces *orbit, int j, double th)
 {
   int n;
-  const contact_piece *p = contact_forces_pieces(orbit, j, &n);
+  const contact_interval *p = contact_forces_intervals(orbit, j, &n);
   for (int i = 0; i < n; ++i) {
     bool covers = th >= p[i].from && th < p[i].to;
     bool covers_wrapped = th + TWO_PI >= p[i].from && th + TWO_PI < p[i].to;
@@ -115,16 +116,16 @@ const contact_piece *monodromy_piece_at(const contact_forces *orbit, int j, doub
   return NULL;
 }
 
-/* Is contact j's slider stuck all period? Slip pieces of less than 1e-6 rad in all count as stick: the slip path goes
- * with the square of their length, so 1e-6 rad move the slider by rounding only. They occur at shakedown: the slider
- * has moved until the largest |T| is just mu N, a graze. Such an orbit is the last of a family that differs by where
- * the slider rests; its one-sided derivative, as if it slipped at the graze, has the family's multiplier 1. */
+/* Is contact j's slider stuck all period? Slip intervals of less than 1e-6 rad in all count as stick: the slip path
+ * goes with the square of their length, so 1e-6 rad move the slider by rounding only. They occur at shakedown: the
+ * slider has moved until the largest |T| is just mu N, a graze. Such an orbit is the last of a family that differs
+ * by where the slider rests; its one-sided derivative, as if it slipped at the graze, has the family's multiplier 1. */
 static bool stuck_all_period(const contact_forces *orbit, int j)
 {
   const double negligible_slip = 1e-6;
   double stuck = 0, touching = 0;
   int n;
-  const contact_piece *p = contact_forces_pieces(orbit, j, &n);
+  const contact_interval *p = contact_forces_intervals(orbit, j, &n);
   for (int i = 0; i < n; ++i) {
     touching += p[i].to - p[i].from;
     if (p[i].state == CONTACT_STICK) stuck += p[i].to - p[i].from;
@@ -132,12 +133,12 @@ static bool stuck_all_period(const contact_forces *orbit, int j)
   return touching >= TWO_PI * (1 - 1e-15) && stuck >= touching - negligible_slip;
 }
 
-/* Is dheld_j a state of the system? Not if the slider is stuck all period, and not if every stick piece starts with a
- * touch-down that puts the slider at the same place whatever the motion: dheld_j is then 0 at all times. */
+/* Is dheld_j a state of the system? Not if the slider is stuck all period, and not if every stick interval starts
+ * with a touch-down that puts the slider at the same place whatever the motion: dheld_j is then 0 at all times. */
 static bool slider_is_state(const contact_forces *orbit, int j)
 {
   int n;
-  const contact_piece *p = contact_forces_pieces(orbit, j, &n);
+  const contact_interval *p = contact_forces_intervals(orbit, j, &n);
   for (int i = 0; i < n && !stuck_all_period(orbit, j); ++i) {
     double by[2];
     contact_forces_held_by(orbit, j, &p[i], by);
@@ -146,15 +147,18 @@ static bool slider_is_state(const contact_forces *orbit, int j)
   return false;
 }
 
-/* Does the slider of stick piece p come to rest at its start, which is th? */
-static bool comes_to_rest_at(const contact_piece *p, double th) { return p->from == p->origin && wrap(p->from) == th; }
+/* Does the slider of stick interval p come to rest at its start, which is th? */
+static bool comes_to_rest_at(const contact_interval *p, double th)
+{
+  return p->from == p->origin && wrap(p->from) == th;
+}
 
-static bool rests_from_before(const contact_piece *p, double th)
+static bool rests_from_before(const contact_interval *p, double th)
 {
   return p && p->state == CONTACT_STICK && !comes_to_rest_at(p, th);
 }
 
-static void set_slider(monodromy *w, const model *m, const contact_forces *orbit, int j, const contact_piece *p)
+static void set_slider(monodromy *w, const model *m, const contact_forces *orbit, int j, const contact_interval *p)
 {
   const int n = w->n_states;
   const model_contact *c = &m->contacts[j];
@@ -170,7 +174,7 @@ static void set_slider(monodromy *w, const model *m, const contact_forces *orbit
 void monodromy_set_sliders(monodromy *w, const model *m, const contact_forces *orbit, double th)
 {
   for (int j = 0; j < m->n_contacts; ++j) {
-    const contact_piece *p = w->piece[j];
+    const contact_interval *p = w->interval[j];
     bool rests = p && p->state == CONTACT_STICK && comes_to_rest_at(p, th);
     if (!rests || stuck_all_period(orbit, j)) continue;
     set_slider(w, m, orbit, j, p);
@@ -181,12 +185,12 @@ void monodromy_set_sliders(monodromy *w, const model *m, const contact_forces *o
 int monodromy_initial_sliders(monodromy *w, const model *m, const contact_forces *orbit, int n_active, double th)
 {
   for (int j = 0; j < m->n_contacts; ++j) {
-    if (rests_from_before(w->piece[j], th) && slider_is_state(orbit, j)) w->active[n_active++] = 2 * w->n + j;
+    if (rests_from_before(w->interval[j], th) && slider_is_state(orbit, j)) w->active[n_active++] = 2 * w->n + j;
   }
   return n_active;
 }
 
-/* Of n states m have multipliers, those that outlast the longest stretch: the others' are 0. */
+/* Of n states m have multipliers, those that outlast the longest interval: the others' are 0. */
 static void summarise(int n, int m, const double complex *lambda, hbm_stability *out)
 {
   double complex flip = 1, fold = 1, all = 1;
@@ -208,71 +212,71 @@ static void summarise(int n, int m, const double complex *lambda, hbm_stability 
   out->determinant = m < n ? 0 : creal(all);
 }
 
-/* Boundary at which the longest stretch begins. */
+/* Boundary at which the longest interval begins. */
 static int find_longest(const monodromy *w, int n)
 {
   int longest = 0;
   for (int i = 1; i < n; ++i)
-    if (end_of_stretch(w, n, i) - w->boundary[i] > end_of_stretch(w, n, longest) - w->boundary[longest]) longest = i;
+    if (end_of_interval(w, n, i) - w->boundary[i] > end_of_interval(w, n, longest) - w->boundary[longest]) longest = i;
   return longest;
 }
 
-static bool is_empty(const monodromy *w, int n, int i) { return !(end_of_stretch(w, n, i) > w->boundary[i]); }
+static bool is_empty(const monodromy *w, int n, int i) { return !(end_of_interval(w, n, i) > w->boundary[i]); }
 
-/* The stretch behind i; there may be boundaries twice. */
-static int next_stretch(const monodromy *w, int n, int i)
+/* The interval behind i; there may be boundaries twice. */
+static int next_interval(const monodromy *w, int n, int i)
 {
   int k = 1;
   while (k < n && is_empty(w, n, (i + k) % n)) ++k;
   return (i + k) % n;
 }
 
-static void enter_stretch(monodromy *w, const model *m, const contact_forces *orbit, int n, int i)
+static void enter_interval(monodromy *w, const model *m, const contact_forces *orbit, int n, int i)
 {
-  const double mid = 0.5 * (w->boundary[i] + end_of_stretch(w, n, i));
-  for (int j = 0; j < m->n_contacts; ++j) w->piece[j] = monodromy_piece_at(orbit, j, wrap(mid));
+  const double mid = 0.5 * (w->boundary[i] + end_of_interval(w, n, i));
+  for (int j = 0; j < m->n_contacts; ++j) w->interval[j] = monodromy_interval_at(orbit, j, wrap(mid));
 }
 
-/* The sliders that are at rest over the stretch `last`, and matter; and which of them still are on the one behind it.
+/* The sliders that are at rest over the interval `last`, and matter; and which of them still are on the one behind it.
  * Their number. */
 static int collect_held_sliders(monodromy *w, const model *m, const contact_forces *orbit, int n, int last)
 {
-  const int behind = next_stretch(w, n, last);
+  const int behind = next_interval(w, n, last);
   int sliders = 0;
-  enter_stretch(w, m, orbit, n, last);
+  enter_interval(w, m, orbit, n, last);
   for (int j = 0; j < m->n_contacts; ++j)
-    if (w->piece[j] && w->piece[j]->state == CONTACT_STICK && slider_is_state(orbit, j)) w->slider[sliders++] = j;
-  enter_stretch(w, m, orbit, n, behind);
-  for (int s = 0; s < sliders; ++s) w->goes_on[s] = rests_from_before(w->piece[w->slider[s]], w->boundary[behind]);
+    if (w->interval[j] && w->interval[j]->state == CONTACT_STICK && slider_is_state(orbit, j)) w->slider[sliders++] = j;
+  enter_interval(w, m, orbit, n, behind);
+  for (int s = 0; s < sliders; ++s) w->goes_on[s] = rests_from_before(w->interval[w->slider[s]], w->boundary[behind]);
   return sliders;
 }
 
-/* Over the period that ends with the longest stretch; the number of columns of w->left. */
+/* Over the period that ends with the longest interval; the number of columns of w->left. */
 static hc_status follow_period(monodromy *w, const model *m, const contact_forces *orbit, double omega, int n,
                                int *n_active)
 {
   const int last = find_longest(w, n), sliders = collect_held_sliders(w, m, orbit, n, last);
-  enter_stretch(w, m, orbit, n, last);
-  hc_status st = stretch_flow_leave(w->flow, w->piece, (end_of_stretch(w, n, last) - w->boundary[last]) / omega,
-                                    sliders, w->slider, w->goes_on, w->phi, &w->columns);
+  enter_interval(w, m, orbit, n, last);
+  hc_status st = interval_flow_leave(w->flow, w->interval, (end_of_interval(w, n, last) - w->boundary[last]) / omega,
+                                     sliders, w->slider, w->goes_on, w->phi, &w->columns);
   for (int k = 1; k <= n && st == HC_OK; ++k) {
     const int i = (last + k) % n;
-    const double a = w->boundary[i], duration = (end_of_stretch(w, n, i) - a) / omega;
+    const double a = w->boundary[i], duration = (end_of_interval(w, n, i) - a) / omega;
     if (is_empty(w, n, i)) continue;
-    enter_stretch(w, m, orbit, n, i);
+    enter_interval(w, m, orbit, n, i);
     monodromy_set_sliders(w, m, orbit, a);
-    st = stretch_flow_advance(w->flow, w->piece, duration, w->columns, w->phi);
+    st = interval_flow_advance(w->flow, w->interval, duration, w->columns, w->phi);
   }
-  if (st == HC_OK) st = stretch_flow_left(w->flow, w->piece, w->slider, w->columns, w->phi, w->left);
+  if (st == HC_OK) st = interval_flow_left(w->flow, w->interval, w->slider, w->columns, w->phi, w->left);
   for (*n_active = 0; *n_active < w->columns; ++*n_active) w->active[*n_active] = *n_active;
   return st;
 }
 
-/* More than some minutes of eigenvectors: 30 (2 n)^3 operations a stretch, each of its own combination of states. */
-static bool is_too_much(const monodromy *w, int stretches)
+/* More than some minutes of eigenvectors: 30 (2 n)^3 operations an interval, each of its own combination of states. */
+static bool is_too_much(const monodromy *w, int intervals)
 {
   const double most = 4e11, states = 2.0 * w->n;
-  return 30 * states * states * states * stretches > most;
+  return 30 * states * states * states * intervals > most;
 }
 
 hc_status monodromy_stability(monodromy *w, const model *m, const contact_forces *orbit, double omega,

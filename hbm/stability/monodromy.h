@@ -3,8 +3,8 @@
  *     M dx'' + C dx' + k(t) dx - sum over stuck contacts t_j dheld_j = 0
  *
  * with k piecewise constant and dheld_j = kt dw_j set by dx at the instant the slider comes to rest (transitions.h).
- * The vector field is continuous, so transitions add no jumps (saltation is the identity); each stretch between them
- * is a matrix exponential (stretch_flow.h), but where contacts of two tangents with one
+ * The vector field is continuous, so transitions add no jumps (saltation is the identity); each interval between them
+ * is a matrix exponential (interval_flow.h), but where contacts of two tangents with one
  * limit slip: there it is integrated (planar_flow.h). Nothing is truncated: unlike Hill's method it
  * needs no decay of the Jacobian's harmonics. Check: without slip the determinant is exp(-trace(M^-1 C) T). */
 #ifndef HC_HBM_MONODROMY_H

@@ -10,48 +10,49 @@
 #include "base/constants.h"
 #include "hbm/stability/monodromy_impl.h"
 
-/* What contacts of a circle are to stretch_flow.c while it sticks. */
-static const contact_piece at_rest = {.from = 0, .to = TWO_PI, .state = CONTACT_STICK, .origin = -1};
+/* What contacts of a circle are to interval_flow.c while it sticks. */
+static const contact_interval at_rest = {.from = 0, .to = TWO_PI, .state = CONTACT_STICK, .origin = -1};
 
-static const planar_piece *planar_piece_at(const planar_cycle *c, double th)
+static const planar_interval *planar_interval_at(const planar_cycle *c, double th)
 {
   for (int i = 0; i < c->n; ++i) {
-    const planar_piece *p = &c->piece[i];
+    const planar_interval *p = &c->interval[i];
     const bool covers = th >= p->from && th < p->to, covers_wrapped = th + TWO_PI >= p->from && th + TWO_PI < p->to;
     if (covers || covers_wrapped) return p;
   }
   return NULL;
 }
 
-static bool slips(const planar_piece *p) { return p && p->state != CONTACT_STICK; }
-static bool sticks(const planar_piece *p) { return p && p->state == CONTACT_STICK; }
+static bool slips(const planar_interval *p) { return p && p->state != CONTACT_STICK; }
+static bool sticks(const planar_interval *p) { return p && p->state == CONTACT_STICK; }
 
 /* Stuck all period but for 1e-6 rad: monodromy.c says why. */
 static bool planar_is_free(const planar_cycle *c)
 {
   const double negligible_slip = 1e-6;
   double slipping = 0;
-  for (int i = 0; i < c->n; ++i) slipping += slips(&c->piece[i]) ? c->piece[i].to - c->piece[i].from : 0;
+  for (int i = 0; i < c->n; ++i) slipping += slips(&c->interval[i]) ? c->interval[i].to - c->interval[i].from : 0;
   return c->always && slipping < negligible_slip;
 }
 
 static bool is_second(const monodromy *w, int j) { return j > 0 && w->track[j - 1].cycle; }
 
-/* The pieces of all contacts on the stretch from a to b. The number of circles that slip there, into w->slipping. */
+/* The intervals of all contacts on the interval from a to b. The number of circles that slip there, into
+ * w->slipping. */
 static int enter(monodromy *w, const model *m, const contact_forces *orbit, double a, double b)
 {
   const double middle = 0.5 * (a + b);
   int n = 0;
   for (int j = 0; j < m->n_contacts; ++j) {
     planar_track *t = &w->track[j];
-    if (is_second(w, j)) w->piece[j] = w->piece[j - 1];
-    else if (!t->cycle) w->piece[j] = monodromy_piece_at(orbit, j, middle);
+    if (is_second(w, j)) w->interval[j] = w->interval[j - 1];
+    else if (!t->cycle) w->interval[j] = monodromy_interval_at(orbit, j, middle);
     else {
-      t->before = t->piece;
-      t->piece = planar_piece_at(t->cycle, middle);
-      if (slips(t->piece) && planar_is_free(t->cycle)) t->piece = NULL; /* of 1e-6 rad: no time passes */
-      w->piece[j] = sticks(t->piece) ? &at_rest : NULL;
-      if (slips(t->piece)) w->slipping[n++] = (planar_slipping){j, t->cycle, t->piece};
+      t->before = t->interval;
+      t->interval = planar_interval_at(t->cycle, middle);
+      if (slips(t->interval) && planar_is_free(t->cycle)) t->interval = NULL; /* of 1e-6 rad: no time passes */
+      w->interval[j] = sticks(t->interval) ? &at_rest : NULL;
+      if (slips(t->interval)) w->slipping[n++] = (planar_slipping){j, t->cycle, t->interval};
     }
   }
   return n;
@@ -105,9 +106,9 @@ static void touch_down(monodromy *w, const model *m, int j, const planar_point *
   }
 }
 
-/* phi at the start or at the end of a piece of slip. */
-static double first_angle(const planar_cycle *c, const planar_piece *p) { return c->slip.panel[p->panel].phi0; }
-static double last_angle(const planar_cycle *c, const planar_piece *p)
+/* phi at the start or at the end of an interval of slip. */
+static double first_angle(const planar_cycle *c, const planar_interval *p) { return c->slip.panel[p->panel].phi0; }
+static double last_angle(const planar_cycle *c, const planar_interval *p)
 {
   return c->slip.panel[p->panel + p->n_panels - 1].phi[COLLOCATION_POINTS - 1];
 }
@@ -116,12 +117,12 @@ static void change_circles(monodromy *w, const model *m, double th)
 {
   for (int j = 0; j < m->n_contacts; ++j) {
     const planar_track *t = &w->track[j];
-    if (!t->cycle || !t->piece || planar_is_free(t->cycle)) continue;
+    if (!t->cycle || !t->interval || planar_is_free(t->cycle)) continue;
     if (!t->before) {
       const planar_point at = planar_motion_at(t->cycle->m, th);
-      touch_down(w, m, j, &at, sticks(t->piece));
-    } else if (sticks(t->before) && slips(t->piece)) begin_slip(w, m, j, first_angle(t->cycle, t->piece));
-    else if (slips(t->before) && sticks(t->piece)) come_to_rest(w, m, j, last_angle(t->cycle, t->before));
+      touch_down(w, m, j, &at, sticks(t->interval));
+    } else if (sticks(t->before) && slips(t->interval)) begin_slip(w, m, j, first_angle(t->cycle, t->interval));
+    else if (slips(t->before) && sticks(t->interval)) come_to_rest(w, m, j, last_angle(t->cycle, t->before));
   }
 }
 
@@ -129,7 +130,7 @@ static void change_circles(monodromy *w, const model *m, double th)
 
 static bool is_empty(const monodromy *w, int i) { return !(w->boundary[i + 1] > w->boundary[i]); }
 
-/* The states that count at th = 0: of circles as they are on the last stretch, of other contacts on the first. */
+/* The states that count at th = 0: of circles as they are on the last interval, of other contacts on the first. */
 static int collect_states(monodromy *w, const model *m, const contact_forces *orbit, int n)
 {
   int n_active = 0, first = 0, last = n - 2;
@@ -141,10 +142,10 @@ static int collect_states(monodromy *w, const model *m, const contact_forces *or
     const planar_track *t = &w->track[j];
     const double middle = 0.5 * (w->boundary[first] + w->boundary[first + 1]);
     const bool of_circle = t->cycle || is_second(w, j);
-    w->piece[j] = of_circle ? NULL : monodromy_piece_at(orbit, j, middle);
-    if (!t->cycle || !t->piece || planar_is_free(t->cycle)) continue;
+    w->interval[j] = of_circle ? NULL : monodromy_interval_at(orbit, j, middle);
+    if (!t->cycle || !t->interval || planar_is_free(t->cycle)) continue;
     w->active[n_active++] = 2 * w->n + j;
-    if (sticks(t->piece)) w->active[n_active++] = 2 * w->n + j + 1;
+    if (sticks(t->interval)) w->active[n_active++] = 2 * w->n + j + 1;
   }
   return monodromy_initial_sliders(w, m, orbit, n_active, 0);
 }
@@ -153,7 +154,7 @@ static int collect_states(monodromy *w, const model *m, const contact_forces *or
 static double size_of_state(const monodromy *w, const model *m, int state)
 {
   const int j = state - 2 * w->n;
-  if (j < 0 || slips(w->track[j].piece) || !(m->contacts[j].law.kt > 0)) return 1;
+  if (j < 0 || slips(w->track[j].interval) || !(m->contacts[j].law.kt > 0)) return 1;
   return m->contacts[j].law.kt;
 }
 
@@ -190,8 +191,8 @@ hc_status monodromy_follow_planar(monodromy *w, const model *m, const contact_fo
     monodromy_set_sliders(w, m, orbit, from);
     change_circles(w, m, from);
     if (slipping)
-      st = planar_flow_advance(w->circles, w->piece, slipping, w->slipping, from, to, omega, w->columns, w->phi);
-    else st = stretch_flow_advance(w->flow, w->piece, (to - from) / omega, w->columns, w->phi);
+      st = planar_flow_advance(w->circles, w->interval, slipping, w->slipping, from, to, omega, w->columns, w->phi);
+    else st = interval_flow_advance(w->flow, w->interval, (to - from) / omega, w->columns, w->phi);
   }
   end(w, m);
   return st;

@@ -149,7 +149,7 @@ static double mean_pieces(config *c)
     evaluate(c);
     for (int j = 0; j < c->n_contacts; ++j) {
       int n;
-      exact_force_pieces(c->located, j, &n);
+      exact_force_intervals(c->located, j, &n);
       sum += n;
     }
   }

@@ -14,8 +14,8 @@ typedef struct evaluation {
   double F[EXACT_MAX_COEF];
   contact_report report;
   double w[SCENE_MAX_CONTACTS]; /* sliders at th = 0 */
-  int n_pieces[SCENE_MAX_CONTACTS];
-  contact_piece piece[EXACT_MAX_PIECES]; /* of contact 0 */
+  int n_intervals[SCENE_MAX_CONTACTS];
+  contact_interval interval[EXACT_MAX_PIECES]; /* of contact 0 */
 } evaluation;
 
 /* One evaluation in a workspace of its own; jac may be NULL. */
@@ -27,9 +27,9 @@ static inline void evaluate(int n_harm, int n_dof, int n_contacts, const moving_
   hc_status st = exact_force_eval(e, X, out->F, jac, &out->report);
   if (st != HC_OK) fail_msg("exact_force_eval, H=%d: %s", n_harm, hc_status_text(st));
   for (int j = n_contacts - 1; j >= 0; --j) {
-    const contact_piece *p = exact_force_pieces(e, j, &out->n_pieces[j]);
-    assert_true(out->n_pieces[j] <= EXACT_MAX_PIECES);
-    if (j == 0) memcpy(out->piece, p, (size_t)out->n_pieces[0] * sizeof *p);
+    const contact_interval *p = exact_force_intervals(e, j, &out->n_intervals[j]);
+    assert_true(out->n_intervals[j] <= EXACT_MAX_PIECES);
+    if (j == 0) memcpy(out->interval, p, (size_t)out->n_intervals[0] * sizeof *p);
   }
   exact_force_sliders(e, out->w);
   exact_force_free(e);
@@ -165,7 +165,7 @@ static inline void slow_sampled(int n_harm, int n_dof, const moving_contact *c, 
  *            u at a chord's root, off by s^2/8 (U'' + U' V''/v'), and by U' s at most: kt of that for as long as the
  *            slider is stuck, 1/pi of it in the coefficient
  *   rounding of 2^18 sums of the force's size
- * twice, for terms of higher order (s H < 0.02). A piece too short to be sampled fits in: its force is below s^2/8
+ * twice, for terms of higher order (s H < 0.02). An interval too short to be sampled fits in: its force is below s^2/8
  * of a second derivative. */
 static inline double sampled_error(int n_harm, int n_dof, const moving_contact *c, const double *X, int n_time,
                                    const evaluation *e)
@@ -175,11 +175,11 @@ static inline double sampled_error(int n_harm, int n_dof, const moving_contact *
   double s = 2 * PI / n_time, error = 0, projection = 0;
   for (int d = 0; d < n_dof; ++d) projection = fmax(projection, fabs(c->cu[d]) + fabs(c->cv[d]));
   series_vector x = {n_harm, n_dof, {X, X + series_length(n_harm)}};
-  for (int i = 0; i < e->n_pieces[0]; ++i) {
-    const contact_piece *p = &e->piece[i];
+  for (int i = 0; i < e->n_intervals[0]; ++i) {
+    const contact_interval *p = &e->interval[i];
     error += 2 * s * s / 12 / PI * force_size(c, &m, 1);
     double slider = s * s / 8 * force_size(c, &m, 2);
-    bool touch = i ? e->piece[i - 1].to < p->from : e->report.regime == CONTACT_SEPARATES;
+    bool touch = i ? e->interval[i - 1].to < p->from : e->report.regime == CONTACT_SEPARATES;
     if (touch) {
       series_node at = series_vector_at(&x, p->from);
       double dv = 0;

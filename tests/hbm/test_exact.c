@@ -149,8 +149,8 @@ static void never_slipping_is_bilinear(void **state)
     evaluate(H, 1, 1, &whole, X, &spring, NULL);
     spring.F[0] += contact_preload(&whole.law) - c.cv[0] * contact_preload(&c.law);
     check_series(n, e.F, spring.F, exact_rounding(H, 1, &c, X) + exact_rounding(H, 1, &whole, X), "bilinear");
-    for (int i = 0; i < e.n_pieces[0]; ++i) {
-      bool slips = contact_slip_sign(e.piece[i].state) != 0;
+    for (int i = 0; i < e.n_intervals[0]; ++i) {
+      bool slips = contact_slip_sign(e.interval[i].state) != 0;
       if (slips && trial % 5 > 2) fail_msg("trial %d: slips", trial);
     }
     ++checked;
@@ -206,7 +206,7 @@ static void stuck_apart_and_degenerate(void **state)
  * compared under shifts. */
 static bool stuck_for_good(const evaluation *e)
 {
-  return e->n_pieces[0] == 1 && e->piece[0].state == CONTACT_STICK && e->report.regime == CONTACT_STUCK;
+  return e->n_intervals[0] == 1 && e->interval[0].state == CONTACT_STICK && e->report.regime == CONTACT_STUCK;
 }
 
 /* Sum of contacts; a shift in time; a scale of lengths (bit for bit if it is a power of two). 1 and 2 coordinates. */
@@ -261,10 +261,10 @@ static void symmetries(void **state)
   assert_true(shifted > 200);
 }
 
-/* The pieces and the report belong together: ascending, apart or touching, each at least as long as nothing; regimes
- * by what the pieces are. A contact with a preload no motion lifts never separates, however many pieces its period
- * has. */
-static void pieces_and_report(void **state)
+/* The intervals and the report belong together: ascending, apart or touching, each at least as long as nothing;
+ * regimes by what the intervals are. A contact with a preload no motion lifts never separates, however many
+ * intervals its period has. */
+static void intervals_and_report(void **state)
 {
   (void)state;
   static evaluation e;
@@ -284,30 +284,30 @@ static void pieces_and_report(void **state)
     }
     evaluate(H, D, 1, &c, X, &e, NULL);
     bool slips = false, gaps = false;
-    int changes = 0, last = e.n_pieces[0] - 1;
-    for (int i = 0; i < e.n_pieces[0]; ++i) {
-      const contact_piece *p = &e.piece[i];
-      assert_true(p->from < p->to && p->to <= e.piece[0].from + 2 * PI + 1e-12 && p->state != CONTACT_SEPARATED);
+    int changes = 0, last = e.n_intervals[0] - 1;
+    for (int i = 0; i < e.n_intervals[0]; ++i) {
+      const contact_interval *p = &e.interval[i];
+      assert_true(p->from < p->to && p->to <= e.interval[0].from + 2 * PI + 1e-12 && p->state != CONTACT_SEPARATED);
       if (i) assert_true(p->from >= p[-1].to);
       slips |= contact_slip_sign(p->state) != 0;
       gaps |= i && p->from > p[-1].to;
       if (i) changes += p->from > p[-1].to ? 2 : p->state != p[-1].state; /* separated in between: two */
     }
-    most = e.n_pieces[0] > most ? e.n_pieces[0] : most;
+    most = e.n_intervals[0] > most ? e.n_intervals[0] : most;
     /* round the period's end */
-    if (last >= 0) changes += e.report.regime == CONTACT_SEPARATES ? 2 : e.piece[0].state != e.piece[last].state;
+    if (last >= 0) changes += e.report.regime == CONTACT_SEPARATES ? 2 : e.interval[0].state != e.interval[last].state;
     assert_int_equal(e.report.transitions, changes);
     if (closed) {
       if (e.report.regime != (slips && c.law.mu * c.law.kt > 0 ? CONTACT_SLIPS : CONTACT_STUCK) &&
           c.law.mu * c.law.kt > 0)
-        fail_msg("trial %d, %d pieces, closed: %s", trial, e.n_pieces[0], contact_regime_name(e.report.regime));
+        fail_msg("trial %d, %d intervals, closed: %s", trial, e.n_intervals[0], contact_regime_name(e.report.regime));
       assert_false(gaps);
-      assert_true(e.piece[0].from == 0 && e.piece[e.n_pieces[0] - 1].to == 2 * PI);
+      assert_true(e.interval[0].from == 0 && e.interval[e.n_intervals[0] - 1].to == 2 * PI);
     } else if (gaps) {
       assert_int_equal(e.report.regime, CONTACT_SEPARATES);
     }
   }
-  print_message("up to %d pieces\n", most);
+  print_message("up to %d intervals\n", most);
 }
 
 /* aft_eval tends to it like 1/N^2 (bound: exact_scenes.h), for random contacts and motions of one coordinate. */
@@ -458,7 +458,7 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(never_slipping_is_bilinear),
     cmocka_unit_test(stuck_apart_and_degenerate),
     cmocka_unit_test(symmetries),
-    cmocka_unit_test(pieces_and_report),
+    cmocka_unit_test(intervals_and_report),
     cmocka_unit_test(sampling_tends_to_it),
     cmocka_unit_test(independent_u_and_v),
     cmocka_unit_test(lift_off_by_rounding),

@@ -10,10 +10,11 @@ static const double STEP = 1e-4;
 
 static bool same_states(const evaluation *a, const evaluation *b)
 {
-  if (a->n_pieces[0] != b->n_pieces[0] || a->report.regime != b->report.regime) return false;
-  for (int i = 0; i < a->n_pieces[0]; ++i) {
-    if (a->piece[i].state != b->piece[i].state) return false;
-    bool touches = i && a->piece[i].from > a->piece[i - 1].to, touched = i && b->piece[i].from > b->piece[i - 1].to;
+  if (a->n_intervals[0] != b->n_intervals[0] || a->report.regime != b->report.regime) return false;
+  for (int i = 0; i < a->n_intervals[0]; ++i) {
+    if (a->interval[i].state != b->interval[i].state) return false;
+    bool touches = i && a->interval[i].from > a->interval[i - 1].to,
+         touched = i && b->interval[i].from > b->interval[i - 1].to;
     if (touches != touched) return false;
   }
   return true;
@@ -138,7 +139,7 @@ static void grazing_motions(void **state)
 }
 
 /* Passing the onset of contact (kind 0, from apart) or of separation (kind 1, kt = 0, from always touching) F is
- * once differentiable: at a depth d of cos th, whose f'' is 1, there is one piece more of width 2 sqrt(2 d), in
+ * once differentiable: at a depth d of cos th, whose f'' is 1, there is one interval more of width 2 sqrt(2 d), in
  * which T' and N' are at most (kt + (1 + mu) kn) and a slider's memory is as much again: 1/pi of it times the width,
  * doubled by harmonics' 2/2pi, held with a factor of 2. No jump and no NaN, down to rounding and beyond. The onset
  * of slip is not like that: dissipation 4 f (A - f/k) starts with a kink, and the mean of u no longer counts. */

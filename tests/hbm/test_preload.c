@@ -69,7 +69,7 @@ static void an_opening_takes_the_preload_away(void **state)
   assert_int_equal(report.regime, CONTACT_SEPARATES);
   assert_int_equal(scene_aft(&sc, H, N, &a), HC_OK);
   assert_int_equal(aft_eval(a, large, G, NULL, NULL), HC_OK);
-  const double d = 2 * PI / N, rate = 1e8 * 22; /* at most kn |x'|; some ten transitions and stretches, each counted
+  const double d = 2 * PI / N, rate = 1e8 * 22; /* at most kn |x'|; some ten transitions and intervals, each counted
                                                     once */
   for (int i = 0; i < N_COEF; ++i) CHECK_NEAR(F[i], G[i], 10 * rate * d * d / 8, "row %d", i);
   exact_force_free(e);

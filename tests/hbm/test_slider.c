@@ -1,5 +1,5 @@
-/* test_slider.c - the slider followed stretch by stretch, the second period only in part, against contact_step at every
- * sample of two whole periods: bit for bit. */
+/* test_slider.c - the slider followed interval by interval, the second period only in part, against contact_step at
+ * every sample of two whole periods: bit for bit. */
 #include "hbm/contact/slider.h"
 #include "numerics/series.h"
 #include "tests/hbm/slow_aft.h"
@@ -18,7 +18,7 @@ typedef struct whole {
 
 static whole full; /* too large for a stack */
 static double f[MAX_N], again[MAX_N];
-static stretch found[MAX_N], settling[MAX_N];
+static sampled_interval found[MAX_N], settling[MAX_N];
 
 static void follow_fully(const moving_contact *c, hbm_restart restart, int n)
 {
@@ -56,8 +56,8 @@ static void check_the_same(const moving_contact *c, hbm_restart restart, int n, 
   const slider_motion motion = {full.x, full.x, c->cu[0], c->cv[0], c->cu[0], c->cv[0]};
   slider_report r = slider_follow(&c->law, restart, n, &motion, f, again, found, settling);
   int touching = 0, slipping = 0;
-  for (int k = 0; k < r.n_stretches; ++k) {
-    const int end = k + 1 < r.n_stretches ? found[k + 1].first : n;
+  for (int k = 0; k < r.n_intervals; ++k) {
+    const int end = k + 1 < r.n_intervals ? found[k + 1].first : n;
     assert_true(found[k].first < end && (k > 0 || found[k].first == 0));
     assert_true(k == 0 || found[k].state != found[k - 1].state);
     assert_true(found[k].w == full.w[found[k].first]);
@@ -77,7 +77,7 @@ static void check_the_same(const moving_contact *c, hbm_restart restart, int n, 
   }
   assert_true(r.w == full.w[n - 1] && r.settled == full.settled);
   assert_int_equal(r.transitions, full.transitions);
-  ++seen[touching == 0 ? 0 : touching < r.n_stretches ? 1 : slipping == 0 ? 2 : slipping == r.n_stretches ? 3 : 2];
+  ++seen[touching == 0 ? 0 : touching < r.n_intervals ? 1 : slipping == 0 ? 2 : slipping == r.n_intervals ? 3 : 2];
 }
 
 /* Where a contact slips at every sample its reversal must not stick: hardly any friction, a stiff spring. */

@@ -235,7 +235,7 @@ static void the_doubling_of_a_stiff_contact(void **state)
 
 /* Between the doublings unstable, between fold and turn unstable, else stable: at the middles and next to the
  * limits, outside what truncation moves. */
-static void every_stretch_is_as_stable_as_it_should_be(void **state)
+static void every_interval_is_as_stable_as_it_should_be(void **state)
 {
   (void)state;
   static const struct {
@@ -298,7 +298,7 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(a_fold_is_where_two_solutions_and_multiplier_one_meet),
     cmocka_unit_test(doublings_tend_to_those_of_the_true_orbit),
     cmocka_unit_test(the_doubling_of_a_stiff_contact),
-    cmocka_unit_test(every_stretch_is_as_stable_as_it_should_be),
+    cmocka_unit_test(every_interval_is_as_stable_as_it_should_be),
     cmocka_unit_test(too_little_room_keeps_the_first),
 };
 

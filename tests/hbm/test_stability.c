@@ -1,6 +1,6 @@
 /* test_stability.c - Floquet multipliers: where the oscillator is linear against its eigenvalues, where nothing
  * slips by their product, where it slips against finite differences of a period map integrated here, by another way:
- * RK4 in time with events, no harmonics, no pieces. */
+ * RK4 in time with events, no harmonics, no intervals. */
 #include <complex.h>
 
 #include "hbm/hbm.h"
@@ -16,22 +16,22 @@ static scene exact_scene(const char *name, int n_harm)
   return sc;
 }
 
-/* Number of pieces of contact that the solution X consists of. */
-static int pieces_of(hbm_solver *s, const double *X)
+/* Number of intervals of contact that the solution X consists of. */
+static int intervals_of(hbm_solver *s, const double *X)
 {
   const contact_forces *e;
   contact_report report;
   int sum = 0;
   assert_int_equal(hbm_located_orbit(s, X, &e, &report), HC_OK);
   for (int j = 0, n; j < s->model->n_contacts; ++j) {
-    contact_forces_pieces(e, j, &n);
+    contact_forces_intervals(e, j, &n);
     sum += n;
   }
   return sum;
 }
 
 /* The stability of the first solution at omega, and the solution itself into X[2H+1]. */
-static hbm_stability first_stability(const scene *sc, double omega, double *X, contact_regime *regime, int *pieces)
+static hbm_stability first_stability(const scene *sc, double omega, double *X, contact_regime *regime, int *intervals)
 {
   hbm_solver *s = NULL;
   hbm_point point;
@@ -42,7 +42,7 @@ static hbm_stability first_stability(const scene *sc, double omega, double *X, c
   assert_int_equal(hbm_measure(s, X, &m), HC_OK);
   assert_int_equal(hbm_stability_at(s, omega, X, &st), HC_OK);
   *regime = m.contact.regime;
-  *pieces = pieces_of(s, X);
+  *intervals = intervals_of(s, X);
   hbm_solver_free(s);
   return st;
 }
@@ -56,8 +56,8 @@ static void check_linear(const scene *sc, double k, double omega, contact_regime
 {
   double X[64];
   contact_regime found;
-  int pieces;
-  hbm_stability st = first_stability(sc, omega, X, &found, &pieces);
+  int intervals;
+  hbm_stability st = first_stability(sc, omega, X, &found, &intervals);
   assert_int_equal(found, regime);
   double a = 0.5 * sc->damping / sc->mass, T = 2 * PI / omega;
   double complex d = csqrt(a * a - k / sc->mass), l1 = cexp((-a + d) * T), l2 = cexp((-a - d) * T);
@@ -99,7 +99,7 @@ static void a_linear_oscillator_has_the_exponentials_of_its_eigenvalues(void **s
 static double moving_determinant(const hbm_stability *st) { return 0.5 * (st->flip + st->fold) - 1; }
 
 /* Liouville: without slip the divergence of the flow is -C/M all the time, and events add nothing. The determinant
- * is a difference of products of phi's entries, each of m stretches long and rounded 10 times a stretch: 10 m eps
+ * is a difference of products of phi's entries, each of m intervals long and rounded 10 times an interval: 10 m eps
  * |phi_00 phi_11|, and with det = b, trace = 2 half, no product exceeds half^2 + |phi_01 phi_10| <= trace^2 +
  * multiplier^2 + 1. m <= transitions + 2 < 40 here: 1e-13 times that; 1e-12 leaves room for the angles. */
 static void without_slip_the_determinant_is_that_of_the_damping(void **state)
@@ -321,9 +321,9 @@ static double truncation_bound(double dk, const scene *sc, double omega, int eve
 static void check_slipping(const scene *sc, double omega, const char *what)
 {
   double X[2 * 80 + 1], dk = 0, x = 0, v = 0;
-  int pieces, n_harm = sc->hbm.harmonics;
+  int intervals, n_harm = sc->hbm.harmonics;
   contact_regime regime;
-  hbm_stability st = first_stability(sc, omega, X, &regime, &pieces);
+  hbm_stability st = first_stability(sc, omega, X, &regime, &intervals);
   for (int h = 0; h <= n_harm; ++h) {
     x += h ? X[2 * h - 1] : X[0];
     v += h ? h * omega * X[2 * h] : 0;
@@ -335,12 +335,12 @@ static void check_slipping(const scene *sc, double omega, const char *what)
   double tol = truncation_bound(dk, sc, omega, f.events, n_harm);
   if (getenv("HC_TEST_PRINT"))
     print_message(
-        "%s omega=%g H=%d pieces=%d/%d: multiplier %.8f (%.8f %+.8fi) differences %.8f (%.8f %+.8fi) det %.2e %.2e "
+        "%s omega=%g H=%d intervals=%d/%d: multiplier %.8f (%.8f %+.8fi) differences %.8f (%.8f %+.8fi) det %.2e %.2e "
         "bound %.1e\n",
-        what, omega, n_harm, pieces, f.contacts, st.multiplier, st.re, st.im, fd.multiplier, fd.re, fd.im,
+        what, omega, n_harm, intervals, f.contacts, st.multiplier, st.re, st.im, fd.multiplier, fd.re, fd.im,
         st.determinant, fd.determinant, tol);
-  /* the same orbit; a stretch may be cut at th = 0 */
-  assert_true(f.contacts > 0 && pieces >= f.contacts && pieces <= f.contacts + sc->n_contacts);
+  /* the same orbit; an interval may be cut at th = 0 */
+  assert_true(f.contacts > 0 && intervals >= f.contacts && intervals <= f.contacts + sc->n_contacts);
   CHECK_NEAR(st.fold, fd.fold, tol, "%s omega=%g", what, omega);
   CHECK_NEAR(st.flip, fd.flip, tol, "%s omega=%g", what, omega);
   CHECK_NEAR(st.multiplier, fd.multiplier, tol / fmax(0.1, fabs(fd.im)), "%s omega=%g", what, omega);

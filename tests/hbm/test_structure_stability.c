@@ -4,7 +4,7 @@
 
 #include "hbm/hbm.h"
 #include "hbm/solver/hbm_solver_impl.h"
-#include "hbm/stability/stretch_flow.h"
+#include "hbm/stability/interval_flow.h"
 #include "numerics/floquet.h"
 #include "tests/hbm/random_structures.h"
 
@@ -78,25 +78,25 @@ static void a_free_body_has_no_eigenvectors(void **state)
 {
   (void)state;
   model *m;
-  stretch_flow *f;
+  interval_flow *f;
   assert_int_equal(model_new(2, 0, 1, 1, &m), HC_OK);
   m->mass[0] = m->mass[3] = 2;
   m->contacts[0].law = (contact){.kt = 1e-300, .mu = 1, .load = 1};
   m->contacts[0].tangent[0] = 1;
-  assert_int_equal(stretch_flow_new(m, &f), HC_OK);
-  const contact_piece stuck = {.state = CONTACT_STICK};
-  const contact_piece *piece[] = {&stuck};
+  assert_int_equal(interval_flow_new(m, &f), HC_OK);
+  const contact_interval stuck = {.state = CONTACT_STICK};
+  const contact_interval *interval[] = {&stuck};
   double phi[25] = {0};
   for (int i = 0; i < 5; ++i) phi[i * 6] = 1;
-  assert_int_equal(stretch_flow_advance(f, piece, 0.5, 5, phi), HC_OK);
+  assert_int_equal(interval_flow_advance(f, interval, 0.5, 5, phi), HC_OK);
   const double expected[25] = {1, 0,    0.5, 0, 0.125 / 2, 0, 1, 0, 0.5, 0, 0, 0, 1,
                                0, 0.25, 0,   0, 0,         1, 0, 0, 0,   0, 0, 1};
   for (int i = 0; i < 25; ++i) CHECK_NEAR(phi[i], expected[i], 1e-14, "entry %d", i);
-  stretch_flow_free(f);
+  interval_flow_free(f);
   model_free(m);
 }
 
-/* Two masses, a Jenkins element on both, and a damper on the second one, whose motions die out in a stretch. A period
+/* Two masses, a Jenkins element on both, and a damper on the second one, whose motions die out in an interval. A period
  * slips and then sticks, from where the mass was then: dheld = kt t . dx. */
 static model *damped_masses(double kt)
 {
@@ -112,32 +112,32 @@ static model *damped_masses(double kt)
 
 enum { SLIP, STUCK, STATES = 5 };
 
-/* Over the period that ends with the stretch `last`: the map of all states, or only what lasts. */
+/* Over the period that ends with the interval `last`: the map of all states, or only what lasts. */
 static void products_of(const model *m, int last, bool all, double *fold, double *flip, int *columns)
 {
   const double duration[] = {0.4, 0.5}, *t = m->contacts[0].tangent, kt = m->contacts[0].law.kt;
-  const contact_piece slip = {.state = CONTACT_SLIP_PLUS}, stuck = {.state = CONTACT_STICK};
-  const contact_piece *const at[2][1] = {{&slip}, {&stuck}};
+  const contact_interval slip = {.state = CONTACT_SLIP_PLUS}, stuck = {.state = CONTACT_STICK};
+  const contact_interval *const at[2][1] = {{&slip}, {&stuck}};
   double phi[STATES * STATES] = {0}, left[STATES * STATES];
   double complex lambda[STATES];
   int slider[] = {0}, active[] = {0, 1, 2, 3, 4};
   const bool goes_on[] = {false};
-  stretch_flow *f;
+  interval_flow *f;
   floquet *eigen;
-  assert_int_equal(stretch_flow_new(m, &f), HC_OK);
+  assert_int_equal(interval_flow_new(m, &f), HC_OK);
   assert_int_equal(floquet_new(STATES, &eigen), HC_OK);
   *columns = 4;
   for (int i = 0; i < 4; ++i) phi[i * (STATES + 1)] = 1;
   if (!all)
-    assert_int_equal(stretch_flow_leave(f, at[last], duration[last], last == STUCK, slider, goes_on, phi, columns),
+    assert_int_equal(interval_flow_leave(f, at[last], duration[last], last == STUCK, slider, goes_on, phi, columns),
                      HC_OK);
   for (int i = 0; i < 2; ++i) {
     const int now = (last + 1 + i) % 2;
     for (int q = 0; q < *columns && now == STUCK; ++q)
       phi[4 * STATES + q] = kt * (t[0] * phi[q] + t[1] * phi[STATES + q]);
-    assert_int_equal(stretch_flow_advance(f, at[now], duration[now], *columns, phi), HC_OK);
+    assert_int_equal(interval_flow_advance(f, at[now], duration[now], *columns, phi), HC_OK);
   }
-  if (!all) assert_int_equal(stretch_flow_left(f, at[last], slider, *columns, phi, left), HC_OK);
+  if (!all) assert_int_equal(interval_flow_left(f, at[last], slider, *columns, phi, left), HC_OK);
   assert_int_equal(floquet_multipliers(eigen, all ? phi : left, STATES, 1, *columns, active, lambda), HC_OK);
   double complex both[2] = {1, 1};
   for (int i = 0; i < *columns; ++i) {
@@ -147,14 +147,14 @@ static void products_of(const model *m, int last, bool all, double *fold, double
   *fold = creal(both[0]);
   *flip = creal(both[1]);
   floquet_free(eigen);
-  stretch_flow_free(f);
+  interval_flow_free(f);
 }
 
 /* The second mass's motions decay by 300 a time, e^(-300 0.4) = 1e-52, and as fast under the stuck slider. What remains
  * has two multipliers, which the products over 1 - lambda and 1 + lambda tell, and a slider's 0. The map of all states
  * rounds by 2e-16 of its entries, 1e2 to 1e3 times as large as the multipliers: velocities of motions at 300 beside
  * displacements. With kt = 1e9 a slider's force in the place of its motion would make entries of 1e9, and 1e-7. */
-static void what_a_stretch_leaves_has_all_the_multipliers(void **state)
+static void what_a_interval_leaves_has_all_the_multipliers(void **state)
 {
   (void)state;
   static const double stiffness[] = {100, 1e9};
@@ -181,7 +181,7 @@ static void a_free_chain_keeps_its_momentum(void **state)
   enum { N = 10, ALL = 2 * N };
   uint64_t seed = 3;
   model *m;
-  stretch_flow *f;
+  interval_flow *f;
   static double phi[ALL * ALL];
   const double t = 20;
   assert_int_equal(model_new(N, 0, 0, 1, &m), HC_OK);
@@ -192,14 +192,14 @@ static void a_free_chain_keeps_its_momentum(void **state)
     m->stiffness[i * N + i - 1] -= k, m->stiffness[(i - 1) * N + i] -= k;
   }
   for (int i = 0; i < ALL; ++i) phi[i * (ALL + 1)] = 1;
-  assert_int_equal(stretch_flow_new(m, &f), HC_OK);
-  assert_int_equal(stretch_flow_advance(f, NULL, t, ALL, phi), HC_OK);
+  assert_int_equal(interval_flow_new(m, &f), HC_OK);
+  assert_int_equal(interval_flow_advance(f, NULL, t, ALL, phi), HC_OK);
   for (int q = 0; q < ALL; ++q) {
     double momentum = 0;
     for (int i = 0; i < N; ++i) momentum += m->mass[i * (N + 1)] * phi[i * ALL + q];
     CHECK_NEAR(momentum, m->mass[q % N * (N + 1)] * (q < N ? 1 : t), 1e-11 * t, "column %d", q);
   }
-  stretch_flow_free(f);
+  interval_flow_free(f);
   model_free(m);
 }
 
@@ -208,7 +208,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(oscillators_side_by_side),
       cmocka_unit_test(a_free_body_has_no_eigenvectors),
-      cmocka_unit_test(what_a_stretch_leaves_has_all_the_multipliers),
+      cmocka_unit_test(what_a_interval_leaves_has_all_the_multipliers),
       cmocka_unit_test(a_free_chain_keeps_its_momentum),
   };
   check_watchdog(60);

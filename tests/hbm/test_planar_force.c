@@ -1,11 +1,11 @@
-/* test_circle_force.c - located forces of contacts with two tangents under the law of the circle: on one line the law
+/* test_planar_force.c - located forces of contacts with two tangents under the law of the circle: on one line the law
  * of one tangent, closed forms on a circle, the sampled forces' limit, invariances, and the Jacobian against
  * differences. */
 #include <float.h>
 
 #include "hbm/contact/exact_force.h"
 #include "hbm/planar/planar_force.h"
-#include "tests/hbm/circle_scenes.h"
+#include "tests/hbm/planar_scenes.h"
 
 static double jac[CIRCLE_MAX_X * CIRCLE_MAX_X], line_jac[4 * CIRCLE_MAX_LENGTH * CIRCLE_MAX_LENGTH];
 
@@ -241,7 +241,7 @@ static void with_jacobian_the_force_is_the_same(void **state)
   print_message("with a Jacobian: worst difference %.1e of the force\n", worst);
 }
 
-/* Against differences; where a piece appears or vanishes the trial is counted as skipped. */
+/* Against differences; where an interval appears or vanishes the trial is counted as skipped. */
 static void jacobian_equals_differences(void **state)
 {
   (void)state;
@@ -273,7 +273,8 @@ static void jacobian_equals_differences(void **state)
     ++regimes[report.regime];
     planar_force_free(a);
   }
-  print_message("%d directions checked, worst %.1e, %d skipped for a piece that appears\n", checked, worst, skipped);
+  print_message("%d directions checked, worst %.1e, %d skipped for an interval that appears\n", checked, worst,
+                skipped);
   assert_true(skipped < checked / 4);
   for (int r = CONTACT_STUCK; r <= CONTACT_SEPARATES; ++r) assert_true(regimes[r] > 10);
 }

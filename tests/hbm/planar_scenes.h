@@ -1,6 +1,6 @@
-/* circle_scenes.h - contacts with two tangents, and motions in their plane, for tests. */
-#ifndef HC_TESTS_HBM_CIRCLE_SCENES_H
-#define HC_TESTS_HBM_CIRCLE_SCENES_H
+/* planar_scenes.h - contacts with two tangents, and motions in their plane, for tests. */
+#ifndef HC_TESTS_HBM_PLANAR_SCENES_H
+#define HC_TESTS_HBM_PLANAR_SCENES_H
 
 #include <string.h>
 

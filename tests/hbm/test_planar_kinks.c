@@ -1,13 +1,14 @@
-/* test_circle_kinks.c - the Jacobian of located forces of a contact with two tangents where a piece is about to appear
- * or to vanish: slip that begins exactly at touch-down, a normal force that just touches zero, a traction that just
- * touches its limit, a slider that just comes to rest. On each side of such a motion X0, along a direction d,
+/* test_planar_kinks.c - the Jacobian of located forces of a contact with two tangents where an interval is about to
+ * appear or to vanish: slip that begins exactly at touch-down, a normal force that just touches zero, a traction
+ * that just touches its limit, a slider that just comes to rest. On each side of such a motion X0, along a direction
+ * d,
  *
  *     F(X0 + h d) = F0 + h D + c h^(3/2) + ...          h > 0
  *
  * in powers of h^(1/2): what a parabola cuts off is as long as the root of how far it is beyond. D is found three
  * times: from the forces, from the Jacobian as h falls to 0, and from the Jacobian at X0. */
 #include "hbm/planar/planar_force.h"
-#include "tests/hbm/circle_scenes.h"
+#include "tests/hbm/planar_scenes.h"
 
 enum { H = 2, LENGTH = 2 * H + 1, ROWS = 3 * LENGTH, LEVELS = 5, MAX_LETTERS = 256 };
 
@@ -184,8 +185,8 @@ static void spell(planar_force *f, const double *X, char out[MAX_LETTERS])
   assert_int_equal(planar_force_eval(f, X, F, NULL, NULL), HC_OK);
   const planar_cycle *c = planar_force_cycle(f);
   for (int i = 0; i < c->n && n < MAX_LETTERS - 2; ++i) {
-    if (c->piece[i].begin == PLANAR_TOUCHES) out[n++] = '|';
-    out[n++] = c->piece[i].state == CONTACT_STICK ? 't' : 's';
+    if (c->interval[i].begin == PLANAR_TOUCHES) out[n++] = '|';
+    out[n++] = c->interval[i].state == CONTACT_STICK ? 't' : 's';
   }
   out[n] = 0;
 }
@@ -228,9 +229,9 @@ static int count_bars(const char *spelt)
   return n;
 }
 
-/* Random contacts that come and go, at whatever edge lies between two motions: a graze of N (another number of bars),
- * a touch-down that slips or sticks, or a piece within contact. At those of friction's limit F has a kink: a slider is
- * pushed on one side and not on the other. */
+/* Random contacts that come and go, at whatever edge lies between two motions: a graze of N (another number of
+ * bars), a touch-down that slips or sticks, or an interval within contact. At those of friction's limit F has a
+ * kink: a slider is pushed on one side and not on the other. */
 static void edges_between_motions(void **state)
 {
   (void)state;
@@ -267,5 +268,5 @@ int main(void)
       cmocka_unit_test(edges_between_motions),
   };
   check_watchdog(300);
-  return cmocka_run_group_tests_name("hbm.circle_kinks", tests, NULL, NULL);
+  return cmocka_run_group_tests_name("hbm.planar_kinks", tests, NULL, NULL);
 }

@@ -1,8 +1,8 @@
-/* piece_series.h - the Fourier series of a function that is 1 on a part of the period and 0 elsewhere. Its harmonics
+/* interval_series.h - the Fourier series of a function that is 1 on a part of the period and 0 elsewhere. Its harmonics
  * are written with the part's middle m and half width w, sin(h w) cos(h m). As a difference of values at the ends they
  * would lose the relative accuracy of a short part. */
-#ifndef HC_HBM_PIECE_SERIES_H
-#define HC_HBM_PIECE_SERIES_H
+#ifndef HC_HBM_INTERVAL_SERIES_H
+#define HC_HBM_INTERVAL_SERIES_H
 
 #include <math.h>
 #include <stdbool.h>
@@ -10,14 +10,14 @@
 #include "base/constants.h"
 #include "numerics/series.h"
 
-/* weight[h] = 2/(pi h), h = 1..n: what piece_series_fill multiplies with. */
-static inline void piece_series_weights(int n, double *weight)
+/* weight[h] = 2/(pi h), h = 1..n: what interval_series_fill multiplies with. */
+static inline void interval_series_weights(int n, double *weight)
 {
   for (int h = 1; h <= n; ++h) weight[h] = 2 / (PI * h);
 }
 
 /* I[2 n + 1] of the part [from, to], to <= from + 2 pi. */
-static inline void piece_series_fill(int n, const double *weight, double from, double to, double *I)
+static inline void interval_series_fill(int n, const double *weight, double from, double to, double *I)
 {
   double middle = 0.5 * (from + to), half = 0.5 * (to - from);
   I[0] = half / PI;

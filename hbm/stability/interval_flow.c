@@ -1,7 +1,7 @@
-/* stretch_flow.c - see stretch_flow.h. With y = V^-1 (dx, dx') and b = V^-1 (0, M^-1 t_j):
+/* interval_flow.c - see interval_flow.h. With y = V^-1 (dx, dx') and b = V^-1 (0, M^-1 t_j):
  *     y(t) = e^(lambda t) y(0) + (e^(lambda t) - 1)/lambda b dheld
  * Of a complex pair one is followed, as two real coordinates; the other's share is conjugate. */
-#include "hbm/stability/stretch_flow.h"
+#include "hbm/stability/interval_flow.h"
 
 #include <complex.h>
 #include <gsl/gsl_errno.h>
@@ -25,34 +25,34 @@ typedef struct decomposition {
                              k is y[2k] + i y[2k + 1] */
 } decomposition;
 
-struct stretch_flow {
+struct interval_flow {
   const model *m;
   int n, moving /* 2n */, n_states;
   double unit;            /* [1/time] of velocities */
   double *by_K, *by_C;    /* [n][n] by columns: M^-1 K, M^-1 C */
   double *along, *across; /* [n_contacts][n] M^-1 t_j, M^-1 n_j */
-  char *key;              /* [n_contacts] of the stretch */
+  char *key;              /* [n_contacts] of the interval */
   double *A;              /* [2n][2n] by columns */
   int kept, oldest;
   decomposition known[MOST_STATES];
   int *pivot;                          /* [2n] */
   double complex *work;                /* [3][2n][2n] and [2n] */
   double *y;                           /* [2 moving][n_states] */
-  int n_lasting, *lasting;             /* [moving] of stretch_flow_leave: which of y */
+  int n_lasting, *lasting;             /* [moving] of interval_flow_leave: which of y */
   gsl_matrix *augmented, *exponential; /* [n_states]^2, for what has no eigenvectors; made when needed */
 };
 
 /* ---- A ---------------------------------------------------------------------------------------------- */
 
 /* A -= k a b^T / unit in the rows of dx', the columns of dx. */
-static void subtract_outer(stretch_flow *f, double k, const double *a, const double *b)
+static void subtract_outer(interval_flow *f, double k, const double *a, const double *b)
 {
   for (int e = 0; e < f->n && k != 0; ++e)
     for (int i = 0; i < f->n; ++i)
       f->A[(size_t)e * (size_t)f->moving + (size_t)(f->n + i)] -= k / f->unit * a[i] * b[e];
 }
 
-static void add_contact(stretch_flow *f, int j, const contact_piece *p)
+static void add_contact(interval_flow *f, int j, const contact_interval *p)
 {
   const model_contact *c = &f->m->contacts[j];
   const double *along = f->along + (size_t)j * (size_t)f->n, *across = f->across + (size_t)j * (size_t)f->n;
@@ -63,7 +63,7 @@ static void add_contact(stretch_flow *f, int j, const contact_piece *p)
   else subtract_outer(f, c->law.kt, along, c->tangent);
 }
 
-static void stretch_fill_A(stretch_flow *f, const contact_piece *const *piece)
+static void interval_fill_A(interval_flow *f, const contact_interval *const *interval)
 {
   const size_t n = (size_t)f->n, ld = (size_t)f->moving;
   memset(f->A, 0, ld * ld * sizeof *f->A);
@@ -75,13 +75,13 @@ static void stretch_fill_A(stretch_flow *f, const contact_piece *const *piece)
     }
   }
   for (int j = 0; j < f->m->n_contacts; ++j)
-    if (piece[j]) add_contact(f, j, piece[j]);
+    if (interval[j]) add_contact(f, j, interval[j]);
 }
 
 /* ---- its eigenvectors --------------------------------------------------------------------------------- */
 
-/* W = V^-T. The norm of W times that of V bounds what rounding is multiplied by, at every stretch anew. */
-static bool invert(stretch_flow *f, const double complex *V, double complex *lu, double complex *W)
+/* W = V^-T. The norm of W times that of V bounds what rounding is multiplied by, at every interval anew. */
+static bool invert(interval_flow *f, const double complex *V, double complex *lu, double complex *W)
 {
   const double most = 1e4;
   const size_t ld = (size_t)f->moving;
@@ -95,7 +95,7 @@ static bool invert(stretch_flow *f, const double complex *V, double complex *lu,
 }
 
 /* The eigenvalues that are followed, with their columns of V and of W. */
-static void keep_halves(const stretch_flow *f, const double complex *lambda, const double complex *V,
+static void keep_halves(const interval_flow *f, const double complex *lambda, const double complex *V,
                         const double complex *W, decomposition *d)
 {
   const size_t ld = (size_t)f->moving;
@@ -116,7 +116,7 @@ static void keep_halves(const stretch_flow *f, const double complex *lambda, con
   }
 }
 
-static void stretch_forget(decomposition *d)
+static void interval_forget(decomposition *d)
 {
   free(d->key);
   free(d->lambda);
@@ -125,36 +125,36 @@ static void stretch_forget(decomposition *d)
   *d = (decomposition){0};
 }
 
-static hc_status decompose(stretch_flow *f, const contact_piece *const *piece, decomposition *d)
+static hc_status decompose(interval_flow *f, const contact_interval *const *interval, decomposition *d)
 {
   const size_t ld = (size_t)f->moving, contacts = (size_t)f->m->n_contacts;
   double complex *V = f->work, *lu = V + ld * ld, *W = lu + ld * ld, *lambda = W + ld * ld;
-  stretch_forget(d);
+  interval_forget(d);
   d->key = malloc(contacts + 1);
   d->lambda = malloc(ld * sizeof *d->lambda);
   d->V = malloc(2 * ld * ld * sizeof *d->V);
   d->W = malloc(2 * ld * ld * sizeof *d->W);
   if (!d->key || !d->lambda || !d->V || !d->W) {
-    stretch_forget(d);
+    interval_forget(d);
     return HC_NO_MEMORY;
   }
   memcpy(d->key, f->key, contacts);
-  stretch_fill_A(f, piece);
+  interval_fill_A(f, interval);
   hc_status st = dense_eigen(f->moving, f->A, lambda, V);
   d->usable = st == HC_OK && invert(f, V, lu, W);
   if (d->usable) keep_halves(f, lambda, V, W, d);
   return st == HC_NOT_CONVERGED ? HC_OK : st;
 }
 
-static hc_status stretch_find(stretch_flow *f, const contact_piece *const *piece, const decomposition **out)
+static hc_status interval_find(interval_flow *f, const contact_interval *const *interval, const decomposition **out)
 {
-  for (int j = 0; j < f->m->n_contacts; ++j) f->key[j] = (char)(piece[j] ? 1 + (int)piece[j]->state : 0);
+  for (int j = 0; j < f->m->n_contacts; ++j) f->key[j] = (char)(interval[j] ? 1 + (int)interval[j]->state : 0);
   for (int k = 0; k < f->kept; ++k) {
     *out = &f->known[k];
     if (!memcmp(f->known[k].key, f->key, (size_t)f->m->n_contacts)) return HC_OK;
   }
   const int at = f->kept < MOST_STATES ? f->kept : f->oldest;
-  hc_status st = decompose(f, piece, &f->known[at]);
+  hc_status st = decompose(f, interval, &f->known[at]);
   if (st != HC_OK && f->kept == MOST_STATES) f->kept = 0; /* a gap in the list: begin anew */
   if (st != HC_OK) return st;
   if (f->kept < MOST_STATES) ++f->kept;
@@ -163,7 +163,7 @@ static hc_status stretch_find(stretch_flow *f, const contact_piece *const *piece
   return HC_OK;
 }
 
-/* Motions of which this part is left, times what V may multiply it by (stretch_modes.c), are lost in rounding. */
+/* Motions of which this part is left, times what V may multiply it by (interval_modes.c), are lost in rounding. */
 static const double DEAD = 1e-24;
 
 /* ---- made and freed ------------------------------------------------------------------------------ */
@@ -174,7 +174,7 @@ static void solve_columns(int n, const double *lu, const int *pivot, int columns
   dense_solve(n, lu, pivot, columns, to);
 }
 
-static hc_status divide_by_mass(const model *m, stretch_flow *f)
+static hc_status divide_by_mass(const model *m, interval_flow *f)
 {
   const int n = m->n;
   double *lu = malloc((size_t)n * (size_t)n * sizeof *lu);
@@ -196,17 +196,17 @@ static hc_status divide_by_mass(const model *m, stretch_flow *f)
 }
 
 /* A frequency amid the structure's own. */
-static double middle_frequency(const stretch_flow *f)
+static double middle_frequency(const interval_flow *f)
 {
   double sum = 0;
   for (int i = 0; i < f->n; ++i) sum += fabs(f->by_K[(size_t)i * (size_t)(f->n + 1)]);
   return sum > 0 ? sqrt(sum / f->n) : 1;
 }
 
-hc_status stretch_flow_new(const model *m, stretch_flow **out)
+hc_status interval_flow_new(const model *m, interval_flow **out)
 {
   const size_t n = (size_t)m->n, contacts = (size_t)m->n_contacts;
-  stretch_flow *f = calloc(1, sizeof *f);
+  interval_flow *f = calloc(1, sizeof *f);
   *out = NULL;
   if (!f) return HC_NO_MEMORY;
   f->m = m;
@@ -228,14 +228,14 @@ hc_status stretch_flow_new(const model *m, stretch_flow **out)
   hc_status st = linear && room ? divide_by_mass(m, f) : HC_NO_MEMORY;
   if (st == HC_OK) f->unit = middle_frequency(f);
   if (st == HC_OK) *out = f;
-  else stretch_flow_free(f);
+  else interval_flow_free(f);
   return st;
 }
 
-void stretch_flow_free(stretch_flow *f)
+void interval_flow_free(interval_flow *f)
 {
   if (!f) return;
-  for (int k = 0; k < MOST_STATES; ++k) stretch_forget(&f->known[k]);
+  for (int k = 0; k < MOST_STATES; ++k) interval_forget(&f->known[k]);
   free(f->by_K);
   free(f->by_C);
   free(f->along);
@@ -251,11 +251,11 @@ void stretch_flow_free(stretch_flow *f)
   free(f);
 }
 
-/* ---- a stretch ------------------------------------------------------------------------------------------ */
+/* ---- an interval ------------------------------------------------------------------------------------------ */
 
 /* The first `columns` columns of C = A B, by rows: A[rows][inner], B[inner][n_states], C[rows][n_states]. Counted by
  * columns, as in dense.h, these are the transposes. */
-static void multiply(const stretch_flow *f, int rows, int inner, int columns, const double *A, const double *B,
+static void multiply(const interval_flow *f, int rows, int inner, int columns, const double *A, const double *B,
                      double *C)
 {
   dense_add_product(columns, rows, inner, 1, B, f->n_states, A, inner, 0, C, f->n_states);
@@ -271,13 +271,13 @@ static double complex integral(double complex lambda, double t)
   return t * sum;
 }
 
-static bool is_stuck(const stretch_flow *f, const contact_piece *const *piece, int j)
+static bool is_stuck(const interval_flow *f, const contact_interval *const *interval, int j)
 {
-  return piece[j] && !contact_slip_sign(piece[j]->state) && contact_has_friction(&f->m->contacts[j].law);
+  return interval[j] && !contact_slip_sign(interval[j]->state) && contact_has_friction(&f->m->contacts[j].law);
 }
 
 /* What a stuck slider j pulls coordinate k with. */
-static double complex pull_on(const stretch_flow *f, const decomposition *d, int k, int j)
+static double complex pull_on(const interval_flow *f, const decomposition *d, int k, int j)
 {
   const double *re = d->W + (size_t)(2 * k) * (size_t)f->moving + f->n, *im = re + f->moving,
                *force = f->along + (size_t)j * (size_t)f->n;
@@ -287,8 +287,8 @@ static double complex pull_on(const stretch_flow *f, const decomposition *d, int
 }
 
 /* y = e^(lambda t) y + (e^(lambda t) - 1)/lambda b dheld, of coordinate k. */
-static void grow(const stretch_flow *f, const decomposition *d, const contact_piece *const *piece, double duration,
-                 int k, int columns, const double *phi)
+static void grow(const interval_flow *f, const decomposition *d, const contact_interval *const *interval,
+                 double duration, int k, int columns, const double *phi)
 {
   const double complex growth = cexp(d->lambda[k] * duration);
   const double c = creal(growth), s = cimag(growth);
@@ -299,35 +299,35 @@ static void grow(const stretch_flow *f, const decomposition *d, const contact_pi
     im[q] = c * b + s * a;
   }
   for (int j = 0; j < f->m->n_contacts; ++j) {
-    if (!is_stuck(f, piece, j)) continue;
+    if (!is_stuck(f, interval, j)) continue;
     const double *held = phi + (size_t)(f->moving + j) * (size_t)f->n_states;
     const double complex by_held = integral(d->lambda[k], duration) * pull_on(f, d, k, j);
     for (int q = 0; q < columns; ++q) re[q] += creal(by_held) * held[q], im[q] += cimag(by_held) * held[q];
   }
 }
 
-static void advance_by_eigenvectors(stretch_flow *f, const decomposition *d, const contact_piece *const *piece,
+static void advance_by_eigenvectors(interval_flow *f, const decomposition *d, const contact_interval *const *interval,
                                     double duration, int columns, double *phi)
 {
   multiply(f, 2 * d->n, f->moving, columns, d->W, phi, f->y);
-  for (int k = 0; k < d->n; ++k) grow(f, d, piece, duration, k, columns, phi);
+  for (int k = 0; k < d->n; ++k) grow(f, d, interval, duration, k, columns, phi);
   multiply(f, f->moving, 2 * d->n, columns, d->V, f->y, phi);
 }
 
 /* By the exponential of A, augmented by the dheld, which are constant. */
-static hc_status advance_by_exponential(stretch_flow *f, const contact_piece *const *piece, double duration,
+static hc_status advance_by_exponential(interval_flow *f, const contact_interval *const *interval, double duration,
                                         int columns, double *phi)
 {
   const size_t n = (size_t)f->n, ld = (size_t)f->moving, states = (size_t)f->n_states;
   if (!f->augmented) f->augmented = gsl_matrix_alloc(states, states);
   if (!f->exponential) f->exponential = gsl_matrix_alloc(states, states);
   if (!f->augmented || !f->exponential) return HC_NO_MEMORY;
-  stretch_fill_A(f, piece);
+  interval_fill_A(f, interval);
   gsl_matrix_set_zero(f->augmented);
   for (size_t e = 0; e < ld; ++e)
     for (size_t i = 0; i < ld; ++i) gsl_matrix_set(f->augmented, i, e, f->A[e * ld + i] * duration);
   for (int j = 0; j < f->m->n_contacts; ++j)
-    for (size_t i = 0; i < n && is_stuck(f, piece, j); ++i)
+    for (size_t i = 0; i < n && is_stuck(f, interval, j); ++i)
       gsl_matrix_set(f->augmented, n + i, ld + (size_t)j, f->along[(size_t)j * n + i] / f->unit * duration);
   if (gsl_linalg_exponential_ss(f->augmented, f->exponential, GSL_PREC_DOUBLE) != GSL_SUCCESS) return HC_NOT_FINITE;
   for (size_t q = 0; q < (size_t)columns; ++q) {
@@ -342,21 +342,21 @@ static hc_status advance_by_exponential(stretch_flow *f, const contact_piece *co
   return HC_OK;
 }
 
-hc_status stretch_flow_advance(stretch_flow *f, const contact_piece *const *piece, double duration, int columns,
-                               double *phi)
+hc_status interval_flow_advance(interval_flow *f, const contact_interval *const *interval, double duration, int columns,
+                                double *phi)
 {
   const decomposition *d;
-  hc_status st = stretch_find(f, piece, &d);
-  if (st == HC_OK && !d->usable) st = advance_by_exponential(f, piece, duration, columns, phi);
-  else if (st == HC_OK) advance_by_eigenvectors(f, d, piece, duration, columns, phi);
+  hc_status st = interval_find(f, interval, &d);
+  if (st == HC_OK && !d->usable) st = advance_by_exponential(f, interval, duration, columns, phi);
+  else if (st == HC_OK) advance_by_eigenvectors(f, d, interval, duration, columns, phi);
   if (st == HC_OK && !isfinite(phi[0])) st = HC_NOT_FINITE;
   return st;
 }
 
-/* ---- what is left at the end of a stretch ----------------------------------------------------------- */
+/* ---- what is left at the end of an interval ----------------------------------------------------------- */
 
 /* Which coordinates outlast it; all of (dx, dx') where there are no eigenvectors. Their number goes into f. */
-static void find_lasting(stretch_flow *f, const decomposition *d, double duration)
+static void find_lasting(interval_flow *f, const decomposition *d, double duration)
 {
   f->n_lasting = 0;
   for (int i = 0; i < f->moving && !d->usable; ++i) f->lasting[f->n_lasting++] = i;
@@ -368,7 +368,7 @@ static void find_lasting(stretch_flow *f, const decomposition *d, double duratio
 }
 
 /* Column `to` of phi += scale * what coordinate c is in (dx, dx'). */
-static void add_coordinate(const stretch_flow *f, const decomposition *d, int c, double scale, int to, double *phi)
+static void add_coordinate(const interval_flow *f, const decomposition *d, int c, double scale, int to, double *phi)
 {
   const size_t rows = 2 * (size_t)d->n;
   for (size_t i = 0; i < (size_t)f->moving; ++i)
@@ -376,7 +376,7 @@ static void add_coordinate(const stretch_flow *f, const decomposition *d, int c,
 }
 
 /* Slider j moved by 1, dheld = kt, and what that leaves of the coordinates that die out: y = -b/lambda dheld. */
-static void add_slider(const stretch_flow *f, const decomposition *d, double duration, int j, int to, double *phi)
+static void add_slider(const interval_flow *f, const decomposition *d, double duration, int j, int to, double *phi)
 {
   const double kt = f->m->contacts[j].law.kt;
   phi[(size_t)(f->moving + j) * (size_t)f->n_states + (size_t)to] = kt;
@@ -388,11 +388,11 @@ static void add_slider(const stretch_flow *f, const decomposition *d, double dur
   }
 }
 
-hc_status stretch_flow_leave(stretch_flow *f, const contact_piece *const *piece, double duration, int n_sliders,
-                             int *slider, const bool *goes_on, double *phi, int *columns)
+hc_status interval_flow_leave(interval_flow *f, const contact_interval *const *interval, double duration, int n_sliders,
+                              int *slider, const bool *goes_on, double *phi, int *columns)
 {
   const decomposition *d;
-  hc_status st = stretch_find(f, piece, &d);
+  hc_status st = interval_find(f, interval, &d);
   *columns = 0;
   if (st != HC_OK) return st;
   memset(phi, 0, (size_t)f->n_states * (size_t)f->n_states * sizeof *phi);
@@ -407,12 +407,12 @@ hc_status stretch_flow_leave(stretch_flow *f, const contact_piece *const *piece,
   return HC_OK;
 }
 
-hc_status stretch_flow_left(stretch_flow *f, const contact_piece *const *piece, const int *slider, int columns,
-                            const double *phi, double *left)
+hc_status interval_flow_left(interval_flow *f, const contact_interval *const *interval, const int *slider, int columns,
+                             const double *phi, double *left)
 {
   const size_t ld = (size_t)f->moving, states = (size_t)f->n_states;
   const decomposition *d;
-  hc_status st = stretch_find(f, piece, &d);
+  hc_status st = interval_find(f, interval, &d);
   if (st != HC_OK) return st;
   for (int r = 0; r < f->n_lasting; ++r) {
     double *row = left + (size_t)r * states;

@@ -1,8 +1,8 @@
-/* test_circle_aft.c - sampled forces of contacts with two tangents under the law of the circle: on one line the law of
+/* test_planar_aft.c - sampled forces of contacts with two tangents under the law of the circle: on one line the law of
  * one tangent, closed forms on a circle, orders of the error, invariances, and the Jacobian against differences. */
 #include "hbm/contact/aft.h"
 #include "hbm/planar/planar_force.h"
-#include "tests/hbm/circle_scenes.h"
+#include "tests/hbm/planar_scenes.h"
 
 static const hbm_restart restarts[] = {HBM_RESTART_INTERPOLATED, HBM_RESTART_SAMPLE,   HBM_RESTART_ZEROED,
                                        HBM_RESTART_KEPT,         HBM_RESTART_ONE_PASS, HBM_RESTART_ONE_PASS_SAMPLE};

@@ -1,7 +1,7 @@
-/* test_circle_edge.c - a structure whose contact with two tangents sticks, slips all round and sticks again over the
+/* test_planar_edge.c - a structure whose contact with two tangents sticks, slips all round and sticks again over the
  * sweep: its curve goes on through both edges of slip, from either end. */
 #include "hbm/hbm.h"
-#include "tests/hbm/circle_scenes.h"
+#include "tests/hbm/planar_scenes.h"
 
 /* Case space_F0.1 of the reference: three degrees of freedom, force F (1, 0, 0.8) cos + F (0, 0.6, 0) sin. */
 static model *space(double F)
@@ -112,5 +112,5 @@ int main(void)
                                      cmocka_unit_test(the_curve_turns_where_the_last_slider_is_stuck),
                                      cmocka_unit_test(a_curve_does_not_go_round)};
   check_watchdog(60);
-  return cmocka_run_group_tests_name("hbm.circle_edge", tests, NULL, NULL);
+  return cmocka_run_group_tests_name("hbm.planar_edge", tests, NULL, NULL);
 }

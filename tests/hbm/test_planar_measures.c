@@ -1,9 +1,9 @@
-/* test_circle_measures.c - what a contact with two tangents and one limit does over a period: closed forms on a circle,
+/* test_planar_measures.c - what a contact with two tangents and one limit does over a period: closed forms on a circle,
  * the law of one tangent on a line, and the work of the traction's harmonics. */
 #include "hbm/contact/contact_measures.h"
 #include "hbm/planar/planar_force.h"
 #include "hbm/planar/planar_measures.h"
-#include "tests/hbm/circle_scenes.h"
+#include "tests/hbm/planar_scenes.h"
 
 /* u = a (cos th, sin th), constant N: the slider goes round on sqrt(a^2 - r^2), r = mu N/kt. 1e-13: sums of a few dozen
  * terms of that size. */

@@ -1,4 +1,4 @@
-/* test_circle_stability.c - Floquet multipliers of structures with circles against differences of a period map that the
+/* test_planar_stability.c - Floquet multipliers of structures with circles against differences of a period map that the
  * test marches itself, by the law as model/circle_law.h states it and the method of Runge and Kutta between located
  * changes; nothing of hbm/'s evaluators is used.
  *
@@ -440,4 +440,4 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(multipliers_are_those_of_the_period_map),
 };
 
-CHECK_MAIN("hbm.circle_stability", tests, 240)
+CHECK_MAIN("hbm.planar_stability", tests, 240)

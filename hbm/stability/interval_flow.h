@@ -1,0 +1,41 @@
+/* interval_flow.h - how a perturbation of a structure's orbit moves while no contact changes its state.
+ *
+ *     d/dt (dx, dx') = A (dx, dx') + (0, M^-1 sum over stuck contacts t_j dheld_j)
+ *     A = [ 0  1 ; -M^-1 (K + sum_j K_j)  -M^-1 C ],   K_j = kt t t^T stuck, s mu kn t n^T slipping with sign s;
+ *                                                            + kn n n^T in contact
+ *
+ * linear and constant. An orbit, and a whole curve, visits few combinations of contact states, and A depends on nothing
+ * else: each is decomposed once, A = V diag(lambda) V^-1, and moves by exponentials of lambda t. Where A has no
+ * eigenvectors to go by (a free body without damping), by the matrix exponential (GSL, scaling and squaring). */
+#ifndef HC_HBM_INTERVAL_FLOW_H
+#define HC_HBM_INTERVAL_FLOW_H
+
+#include "hbm/contact/transitions.h"
+
+typedef struct interval_flow interval_flow;
+
+/* Of m, which must live as long. HC_NO_MEMORY; HC_SINGULAR if the mass matrix is: *out is NULL. */
+hc_status interval_flow_new(const model *m, interval_flow **out);
+void interval_flow_free(interval_flow *f); /* NULL is allowed */
+
+/* phi[2 n + n_contacts][2 n + n_contacts], by rows dx, dx' [1/time], dheld_j: its first `columns` columns over an
+ * interval of that duration [time] with interval[j] of each contact, NULL while separated. HC_NOT_FINITE,
+ * HC_NO_MEMORY. */
+hc_status interval_flow_advance(interval_flow *f, const contact_interval *const *interval, double duration, int columns,
+                                double *phi);
+
+/* Fewer motions than states outlast an interval: one that e^(lambda t) leaves less than 1e-24 of is lost in
+ * rounding, but for the share at which a slider that is stuck over all of the interval holds it. The map of a period
+ * that ends with that interval has no multipliers but 0 and those of what lasts:
+ *   leave   into the columns of phi: the states of which all that there can be at the interval's end is made. slider
+ *           [n_sliders] are those whose dheld counts over the interval, goes_on[]: and behind it. Each that has a
+ *           column stays in slider[]; theirs are the last columns, for a motion of the slider of 1, since a force of 1
+ *           would make entries of very different size
+ *   left    left[columns][n_states] by rows, in terms of these states: what phi has become at the end of the interval
+ * HC_NO_MEMORY. */
+hc_status interval_flow_leave(interval_flow *f, const contact_interval *const *interval, double duration, int n_sliders,
+                              int *slider, const bool *goes_on, double *phi, int *columns);
+hc_status interval_flow_left(interval_flow *f, const contact_interval *const *interval, const int *slider, int columns,
+                             const double *phi, double *left);
+
+#endif
