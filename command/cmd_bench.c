@@ -3,11 +3,13 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/utsname.h>
+#include <unistd.h>
 
-#include "campaigns/bench/bench.h"
 #include "command/commands.h"
 #include "command/files.h"
 #include "command/plot/plot.h"
+#include "compare/accuracy/bench.h"
 #include "output/progress.h"
 
 static const char help[] =
@@ -165,10 +167,34 @@ static void note_winners(table *t, const scene *sc, const bench *b, const bench_
   if (n) table_note(t, "fastest at %s: %s", scene_where(sc, p->omega, (char[SCENE_WHERE]){0}), text);
 }
 
+/* Linux says it in /proc/cpuinfo; elsewhere the kind of machine has to do. */
+static void processor(char *text, size_t size)
+{
+  char line[256];
+  FILE *from = fopen("/proc/cpuinfo", "r");
+  text[0] = 0;
+  while (from && !text[0] && fgets(line, sizeof line, from)) {
+    char *at = strncmp(line, "model name", 10) ? NULL : strstr(line, ": ");
+    if (at) snprintf(text, size, "%.*s", (int)strcspn(at + 2, "\n"), at + 2);
+  }
+  if (from) fclose(from);
+}
+
+/* What the figures were measured on: processor, system, compiler. */
+static void machine(char *text, int size)
+{
+  struct utsname name;
+  char chip[160];
+  processor(chip, sizeof chip);
+  if (uname(&name) != 0) snprintf(name.sysname, sizeof name.sysname, "unknown"), name.release[0] = name.machine[0] = 0;
+  snprintf(text, (size_t)size, "%s%s%s, %ld processors, %s, compiler %s", chip, chip[0] ? ", " : "", name.machine,
+           sysconf(_SC_NPROCESSORS_ONLN), name.sysname, __VERSION__);
+}
+
 static void note_versions(table *t)
 {
   char text[512], versions[512];
-  bench_machine(text, sizeof text);
+  machine(text, sizeof text);
   table_note(t, "%s", text);
   FILE *to = fmemopen(versions, sizeof versions, "w");
   if (!to) return;
@@ -233,8 +259,8 @@ static int run_bench(int argc, char **argv)
   cli_common common;
   bench_command_options own = {.repeats = DEFAULT_REPEATS};
   scene sc = {.structure = NULL};
-  bench b;
-  double failed_at;
+  bench b = {0};
+  double failed_at = 0;
   cli_parse(&cmd_bench, argc, argv, &own, &common);
   cli_check_plot(&common, own.plot, false);
   int code = cli_check_files(&common, 1, &(cli_file){"--plot", own.plot, CLI_OUTPUT});
@@ -245,7 +271,10 @@ static int run_bench(int argc, char **argv)
   bench_options how = {.at = own.at, .repeats = own.repeats, .alone = own.alone};
   progress *bar = progress_start("benchmark", common.quiet);
   hc_monitor monitor = progress_monitor(bar);
-  hc_status st = bench_run(&sc, &how, &monitor, &b, &failed_at);
+  compare_setup setup;
+  hc_status st = scene_setup(&sc, &setup);
+  if (st == HC_OK) st = bench_run(&setup, &how, &monitor, &b, &failed_at);
+  scene_setup_clear(&setup);
   progress_end(bar);
   if (st == HC_NOT_CONVERGED) {
     cli_message(&common,

@@ -4,6 +4,18 @@
 #include <math.h>
 #include <stddef.h>
 
+#include "compare/first_guess.h"
+#include "compare/frequencies.h"
+
+hc_status response_trace(const compare_setup *setup, const number_list *asked, const hc_monitor *monitor,
+                         hbm_solver **hbm, hbm_curve *curve)
+{
+  double from, to;
+  comparison_sweep(setup->omega_from, setup->omega_to, asked, &from, &to);
+  const hc_status st = guided_hbm_solver_new(setup->model, &setup->hbm, hbm);
+  return st == HC_OK ? hbm_trace(*hbm, from, to, monitor, curve) : st;
+}
+
 hc_status response_row_of(hbm_solver *s, const hbm_curve *c, int k, response_row *out)
 {
   const double *X = c->X + (size_t)k * c->n_coef;

@@ -5,9 +5,14 @@
 #include "compare/compare_settings.h"
 #include "hbm/hbm.h"
 
-/* One solution, its measures and its stability. */
+/* The curve over the sweep, widened to the asked frequencies, into *curve as far as it goes; errors of hbm_trace. *hbm
+ * is NULL where the solver could not be made. Free both in any case. */
+hc_status response_trace(const compare_setup *setup, const number_list *asked, const hc_monitor *monitor,
+                         hbm_solver **hbm, hbm_curve *curve);
+
 enum { RESPONSE_NAME = 32 };
 
+/* One solution, its measures and its stability. */
 typedef struct response_row {
   char response[RESPONSE_NAME]; /* of a structure: which, in words; empty for an oscillator */
   hbm_point point;

@@ -178,16 +178,6 @@ static hc_status swept(workspace *w, const number_list *at, bool up)
   return HC_OK;
 }
 
-static hc_status trace(workspace *w, const number_list *asked)
-{
-  double from, to;
-  comparison_sweep(w->setup->omega_from, w->setup->omega_to, asked, &from, &to);
-  hc_status st = guided_hbm_solver_new(w->setup->model, &w->setup->hbm, &w->hbm);
-  if (st != HC_OK) return st;
-  st = hbm_trace(w->hbm, from, to, w->monitor, &w->curve);
-  return st == HC_INTERRUPTED || st == HC_NO_MEMORY ? st : HC_OK; /* as far as the curve goes */
-}
-
 static hc_status run(workspace *w, const number_list *asked)
 {
   int start = w->setup->transient.start;
@@ -198,7 +188,8 @@ static hc_status run(workspace *w, const number_list *asked)
   w->scratch = calloc((size_t)timeint_n_states(w->ti), sizeof *w->scratch);
   if (!w->state || !w->scratch) return HC_NO_MEMORY;
   if (start == TRANSIENT_START_UP || start == TRANSIENT_START_DOWN) return swept(w, asked, start == TRANSIENT_START_UP);
-  if (start == TRANSIENT_START_HBM) st = trace(w, asked);
+  if (start == TRANSIENT_START_HBM) st = response_trace(w->setup, asked, w->monitor, &w->hbm, &w->curve);
+  if (w->hbm && st != HC_INTERRUPTED && st != HC_NO_MEMORY) st = HC_OK; /* as far as the curve goes */
   for (int i = 0; i < asked->n && st == HC_OK; ++i)
     st = w->hbm ? from_hbm_orbits(w, asked->v[i]) : settle_from_rest(w, asked->v[i], HC_OK);
   return st;

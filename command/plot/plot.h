@@ -9,8 +9,8 @@
 #ifndef HC_PLOT_H
 #define HC_PLOT_H
 
-#include "campaigns/bench/bench.h"
 #include "compare/accuracy/accuracy.h"
+#include "compare/accuracy/bench.h"
 #include "compare/comparison.h"
 #include "compare/steady_states.h"
 #include "compare/verify/verify.h"

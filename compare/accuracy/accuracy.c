@@ -10,22 +10,11 @@
 #include "base/ascending.h"
 #include "base/thread_clock.h"
 #include "compare/accuracy/reference.h"
-#include "compare/first_guess.h"
-#include "compare/frequencies.h"
 #include "numerics/workers.h"
 
 enum { LEAST_REFERENCE = 20, EXACT = 0 };
 
 static const double floor_of_orbits = 1e-8; /* [1] ten times the error of the referee's orbits */
-
-/* A curve and its price. */
-typedef struct traced {
-  int n_harm;
-  hbm_solver *hbm;
-  hbm_curve curve;
-  hc_status status;
-  double seconds;
-} traced;
 
 /* The solution next to each target, for one H and N. */
 typedef struct solutions {
@@ -56,28 +45,11 @@ typedef struct workspace {
 
 /* ---- curves and solutions -------------------------------------------------------------------- */
 
-static hc_status trace(const workspace *w, int n_harm, int samples, const hc_monitor *monitor, traced *t)
+static hc_status trace(const workspace *w, int n_harm, int samples, const hc_monitor *monitor, method_curve *t)
 {
-  compare_setup setup = *w->setup;
-  double from, to, began = thread_seconds();
-  number_list none = {0};
-  *t = (traced){.n_harm = n_harm};
-  setup.hbm.harmonics = n_harm;
-  setup.hbm.force = samples == EXACT ? HBM_FORCE_EXACT : HBM_FORCE_SAMPLED;
-  if (samples != EXACT) setup.hbm.samples = samples;
-  comparison_sweep(setup.omega_from, setup.omega_to, w->setup->compare.omega.n ? &w->setup->compare.omega : &none,
-                   &from, &to);
-  hc_status st = guided_hbm_solver_new(setup.model, &setup.hbm, &t->hbm);
-  t->status = st == HC_OK ? hbm_trace(t->hbm, from, to, monitor, &t->curve) : st;
-  t->seconds = thread_seconds() - began;
-  return t->status == HC_INTERRUPTED || t->status == HC_NO_MEMORY ? t->status : HC_OK; /* as far as the curve goes */
-}
-
-static void drop_trace(traced *t)
-{
-  hbm_curve_free(&t->curve);
-  hbm_solver_free(t->hbm);
-  *t = (traced){0};
+  const compare_setup setup =
+      method_setup(w->setup, samples == EXACT ? BENCH_HBM_EXACT : BENCH_HBM_SAMPLED, n_harm, samples, NAN, NAN);
+  return method_curve_trace(&setup, monitor, t);
 }
 
 static hc_status solutions_new(int n, int n_coef, solutions *s)
@@ -125,7 +97,7 @@ static bool nearest_pair(const workspace *w, const solutions *s, int first, int 
 
 /* The targets first..last-1, of one frequency, get the solutions of the curve there: each at most one, the nearest
  * pairs first. */
-static hc_status assign(const workspace *w, traced *t, int first, int last, solutions *s)
+static hc_status assign(const workspace *w, method_curve *t, int first, int last, solutions *s)
 {
   hbm_curve at = {0};
   hc_status st = hbm_curve_at(t->hbm, &t->curve, w->ref.targets[first].omega, &at);
@@ -149,7 +121,7 @@ static hc_status assign(const workspace *w, traced *t, int first, int last, solu
   return st;
 }
 
-static hc_status solve_exact(const workspace *w, traced *t, solutions *s)
+static hc_status solve_exact(const workspace *w, method_curve *t, solutions *s)
 {
   hc_status st = solutions_new(w->ref.n, hbm_n_coefficients(t->hbm), s);
   for (int first = 0, last; first < w->ref.n && st == HC_OK; first = last) {
@@ -173,7 +145,7 @@ static void drop_doubles(const workspace *w, const solutions *from, solutions *s
 }
 
 /* The sampled solutions, each from the one with exact forces. */
-static hc_status solve_sampled(const workspace *w, traced *t, const solutions *from, solutions *s)
+static hc_status solve_sampled(const workspace *w, method_curve *t, const solutions *from, solutions *s)
 {
   hc_status st = solutions_new(from->n, from->n_coef, s);
   double *X = malloc(((size_t)from->n_coef + 1) * sizeof *X);
@@ -193,32 +165,26 @@ static hc_status solve_sampled(const workspace *w, traced *t, const solutions *f
 
 /* ---- a row ----------------------------------------------------------------------------------- */
 
-static double median(int n, double *e)
-{
-  qsort(e, (size_t)n, sizeof *e, ascending);
-  return n == 0 ? NAN : n % 2 ? e[n / 2] : 0.5 * (e[n / 2 - 1] + e[n / 2]);
-}
-
 static hc_status put_errors(const workspace *w, const solutions *s, const solutions *plain, accuracy_row *row)
 {
-  double *e = calloc((size_t)s->n + 1, sizeof *e);
+  double *e = calloc((size_t)s->n + 1, sizeof *e), low, high;
   if (!e) return HC_NO_MEMORY;
   row->worst = row->aliasing = s->n ? 0 : NAN;
   for (int i = 0; i < s->n; ++i) {
-    const double a = w->ref.targets[i].orbit.amplitude, got = s->motion[i].amplitude;
+    const periodic_motion *orbit = &w->ref.targets[i].orbit;
     if (!s->there[i]) continue;
-    e[row->solutions++] = discrepancy_relative(got - a, a);
+    e[row->solutions++] = method_error(1, &s->motion[i], orbit, orbit->amplitude).amplitude;
     row->worst = fmax(row->worst, e[row->solutions - 1]);
-    row->aliasing = fmax(row->aliasing, discrepancy_relative(got - plain->motion[i].amplitude, a));
+    row->aliasing = fmax(row->aliasing, method_error(1, &s->motion[i], &plain->motion[i], orbit->amplitude).amplitude);
   }
   if (row->solutions == 0) row->worst = row->aliasing = NAN;
   row->missing = s->n - row->solutions;
-  row->median = median(row->solutions, e);
+  method_quartiles(row->solutions, e, &low, &row->median, &high);
   free(e);
   return HC_OK;
 }
 
-static hc_status put_curve(const workspace *w, traced *t, accuracy_row *row)
+static hc_status put_curve(const workspace *w, method_curve *t, accuracy_row *row)
 {
   response_summary curve = {.peak_amplitude = NAN, .peak_omega = NAN};
   hc_status st = t->hbm ? response_summarise(t->hbm, &t->curve, &curve) : HC_OK;
@@ -234,10 +200,10 @@ static hc_status put_curve(const workspace *w, traced *t, accuracy_row *row)
   return st;
 }
 
-static hc_status make_row(const workspace *w, traced *t, int samples, const solutions *s, const plain_solutions *plain,
-                          double began, accuracy_row *row)
+static hc_status make_row(const workspace *w, method_curve *t, int samples, const solutions *s,
+                          const plain_solutions *plain, double began, accuracy_row *row)
 {
-  *row = (accuracy_row){.harmonics = t->n_harm, .samples = samples, .possible = true};
+  *row = (accuracy_row){.harmonics = plain->n_harm, .samples = samples, .possible = true};
   hc_status st = put_curve(w, t, row);
   if (st != HC_OK) return st;
   row->iterations += s->iterations;
@@ -264,12 +230,12 @@ static accuracy_row impossible_row(int n_harm, int samples)
 }
 
 /* The row of the i-th H with exact forces, and the solutions that the sampled ones start from. */
-static hc_status exact_row(workspace *w, int i, traced *t)
+static hc_status exact_row(workspace *w, int i, method_curve *t)
 {
   const int at = i * (w->n_samples + 1);
   plain_solutions *plain = &w->plain[i];
   double began = thread_seconds();
-  plain->n_harm = t->n_harm;
+  plain->n_harm = w->harmonics[i];
   plain->turning_points = t->curve.turning_points;
   hc_status st = solve_exact(w, t, &plain->s);
   if (st == HC_OK) st = make_row(w, t, EXACT, &plain->s, plain, began, &w->rows[at]);
@@ -280,7 +246,7 @@ static hc_status exact_row(workspace *w, int i, traced *t)
 static hc_status sampled_row(const workspace *w, int samples, const plain_solutions *plain, const hc_monitor *monitor,
                              accuracy_row *row)
 {
-  traced t;
+  method_curve t;
   solutions s = {0};
   if (samples < 2 * plain->n_harm + 2) {
     *row = impossible_row(plain->n_harm, samples);
@@ -291,7 +257,7 @@ static hc_status sampled_row(const workspace *w, int samples, const plain_soluti
   if (st == HC_OK) st = solve_sampled(w, &t, &plain->s, &s);
   if (st == HC_OK) st = make_row(w, &t, samples, &s, plain, began, row);
   solutions_free(&s);
-  drop_trace(&t);
+  method_curve_free(&t);
   return st;
 }
 
@@ -336,7 +302,7 @@ static void put_orders(const workspace *w, accuracy *out)
 static hc_status exact_rows(workspace *w)
 {
   int most = w->harmonics[w->n_harm - 1] > LEAST_REFERENCE ? w->harmonics[w->n_harm - 1] : LEAST_REFERENCE;
-  traced finest, t = {0};
+  method_curve finest, t = {.hbm = NULL};
   hc_status st = trace(w, most, EXACT, w->monitor, &finest);
   if (st == HC_OK && !finest.hbm) st = finest.status;
   if (st == HC_OK) st = reference_make(w->setup, w->c, finest.hbm, &finest.curve, w->monitor, &w->ref);
@@ -345,9 +311,9 @@ static hc_status exact_rows(workspace *w)
     if (!hc_monitor_tick(w->monitor, -1)) st = HC_INTERRUPTED;
     if (st == HC_OK && !again) st = trace(w, w->harmonics[i], EXACT, w->monitor, &t);
     if (st == HC_OK) st = exact_row(w, i, again ? &finest : &t);
-    if (!again) drop_trace(&t);
+    if (!again) method_curve_free(&t);
   }
-  drop_trace(&finest);
+  method_curve_free(&finest);
   return st;
 }
 

@@ -1,5 +1,5 @@
-/* timed_method.c - see timed_method.h. */
-#include "campaigns/bench/timed_method.h"
+/* method.c - see method.h. */
+#include "compare/accuracy/method.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -7,8 +7,8 @@
 
 #include "base/ascending.h"
 #include "base/thread_clock.h"
-
-#include "study/scene_solvers.h"
+#include "compare/first_guess.h"
+#include "compare/response.h"
 
 const double bench_longest = 1.5, bench_longest_shot = 0.3;
 const double timed_method_slow = 0.2;
@@ -33,25 +33,76 @@ static bool tick_limit(void *self, double done)
 
 static bool is_hbm(bench_method m) { return m == BENCH_HBM_EXACT || m == BENCH_HBM_SAMPLED; }
 
-static scene settings_of(const scene *sc, const bench_row *r)
+compare_setup method_setup(const compare_setup *setup, bench_method method, int harmonics, int samples,
+                           double regularisation, double tolerance)
 {
-  scene s = *sc;
-  if (is_hbm(r->method)) {
-    s.hbm.harmonics = r->harmonics;
-    s.hbm.force = r->method == BENCH_HBM_EXACT ? HBM_FORCE_EXACT : HBM_FORCE_SAMPLED;
-    if (r->samples > 0) s.hbm.samples = r->samples;
-    return s;
+  compare_setup own = *setup;
+  transient_settings *t = &own.transient;
+  if (is_hbm(method)) {
+    own.hbm.harmonics = harmonics;
+    own.hbm.force = method == BENCH_HBM_EXACT ? HBM_FORCE_EXACT : HBM_FORCE_SAMPLED;
+    if (samples > 0) own.hbm.samples = samples;
+    return own;
   }
-  s.transient.law = r->regularisation > 0 ? TRANSIENT_LAW_REGULARISED : TRANSIENT_LAW_EXACT;
-  if (r->regularisation > 0) s.transient.regularisation = r->regularisation;
-  s.transient.tolerance = r->tolerance;
-  s.transient.method = r->method == BENCH_CLOSED_SHOOTING ? TRANSIENT_METHOD_CLOSED_FORM : TRANSIENT_METHOD_CVODE;
-  s.transient.scout = r->method == BENCH_EXACT_SCOUTED || r->method == BENCH_REGULARISED_SCOUTED;
-  s.transient.richardson = r->method == BENCH_REGULARISED_RICHARDSON;
-  bool marches = r->method == BENCH_EXACT_MARCHING || r->method == BENCH_REGULARISED_MARCHING;
-  s.transient.steady = marches ? TRANSIENT_STEADY_MARCH : TRANSIENT_STEADY_SHOOTING;
-  return s;
+  const bool marches = method == BENCH_EXACT_MARCHING || method == BENCH_REGULARISED_MARCHING;
+  t->law = regularisation > 0 ? TRANSIENT_LAW_REGULARISED : TRANSIENT_LAW_EXACT;
+  if (regularisation > 0) t->regularisation = regularisation;
+  t->tolerance = tolerance;
+  t->method = method == BENCH_CLOSED_SHOOTING ? TRANSIENT_METHOD_CLOSED_FORM : TRANSIENT_METHOD_CVODE;
+  t->scout = method == BENCH_EXACT_SCOUTED || method == BENCH_REGULARISED_SCOUTED;
+  t->richardson = method == BENCH_REGULARISED_RICHARDSON;
+  t->steady = marches ? TRANSIENT_STEADY_MARCH : TRANSIENT_STEADY_SHOOTING;
+  return own;
 }
+
+hc_status method_curve_trace(const compare_setup *setup, const hc_monitor *monitor, method_curve *out)
+{
+  const double began = thread_seconds();
+  *out = (method_curve){.hbm = NULL};
+  out->status = response_trace(setup, &setup->compare.omega, monitor, &out->hbm, &out->curve);
+  out->seconds = thread_seconds() - began;
+  return out->status == HC_INTERRUPTED || out->status == HC_NO_MEMORY ? out->status : HC_OK;
+}
+
+void method_curve_free(method_curve *c)
+{
+  hbm_curve_free(&c->curve);
+  hbm_solver_free(c->hbm);
+  *c = (method_curve){.hbm = NULL};
+}
+
+motion_distance method_error(int n, const periodic_motion *found, const periodic_motion *reference, double size)
+{
+  motion_distance worst = {0};
+  for (int i = 0; i < n; ++i) {
+    const motion_distance gap = motion_between(&found[i], &reference[i]);
+    if (!(gap.waveform <= worst.waveform)) worst.waveform = gap.waveform;
+    if (!(gap.amplitude <= worst.amplitude)) worst.amplitude = gap.amplitude;
+    if (!(gap.harmonic_1 <= worst.harmonic_1)) worst.harmonic_1 = gap.harmonic_1;
+  }
+  return (motion_distance){.amplitude = discrepancy_relative(worst.amplitude, size),
+                           .harmonic_1 = discrepancy_relative(worst.harmonic_1, size),
+                           .mean = NAN,
+                           .waveform = discrepancy_relative(worst.waveform, size)};
+}
+
+static double quantile(int n, const double *v, double at)
+{
+  if (n == 0) return NAN;
+  double rank = at * (n - 1);
+  int i = (int)rank;
+  return i + 1 < n ? v[i] + (rank - i) * (v[i + 1] - v[i]) : v[n - 1];
+}
+
+void method_quartiles(int n, double *v, double *low, double *median, double *high)
+{
+  qsort(v, (size_t)n, sizeof *v, ascending);
+  *low = quantile(n, v, 0.25);
+  *median = quantile(n, v, 0.5);
+  *high = quantile(n, v, 0.75);
+}
+
+/* ---- timed at one frequency ---- */
 
 /* What one solution came to. */
 typedef struct answer {
@@ -59,7 +110,7 @@ typedef struct answer {
   bool too_long;
 } answer;
 
-hc_status bench_start_new(const model *m, hbm_solver *s, bench_start *at)
+hc_status bench_start_new(const model *m, const hbm_solver *s, bench_start *at)
 {
   const int width = hbm_n_coefficients(s) / (2 * hbm_n_harmonics(s) + 1);
   *at = (bench_start){.most_coef = width * (2 * HBM_MAX_HARMONICS + 1),
@@ -90,7 +141,7 @@ static void solve_hbm(timed_method *t, const bench_start *at, answer *a)
 static void solve_transient(timed_method *t, const bench_start *at, const hc_monitor *monitor, timeint_result *r,
                             answer *a)
 {
-  const bool marches = t->sc.transient.steady == TRANSIENT_STEADY_MARCH;
+  const bool marches = t->setup.transient.steady == TRANSIENT_STEADY_MARCH;
   limit l = {monitor, thread_seconds() + (marches ? bench_longest : bench_longest_shot), false};
   hc_monitor limited = {tick_limit, &l};
   memcpy(t->state, at->state, (size_t)at->n_states * sizeof *t->state);
@@ -135,7 +186,7 @@ static hc_status from_own_curve(const bench_start *at, const hc_monitor *monitor
   hbm_curve curve = {0}, found = {0};
   hbm_measures m;
   double most = -1;
-  hbm_trace(t->hbm, t->sc.omega_from, t->sc.omega_to, &limited, &curve); /* as far as it comes */
+  hbm_trace(t->hbm, t->setup.omega_from, t->setup.omega_to, &limited, &curve); /* as far as it comes */
   hc_status st = l.stopped ? HC_INTERRUPTED : hbm_curve_at(t->hbm, &curve, at->neighbour, &found);
   for (int k = 0; k < found.n && st == HC_OK; ++k) {
     const double *X = found.X + (size_t)k * found.n_coef;
@@ -153,8 +204,8 @@ static hc_status from_own_curve(const bench_start *at, const hc_monitor *monitor
 static hc_status make(const bench_start *at, const hc_monitor *monitor, timed_method *t)
 {
   hbm_point point;
-  if (!is_hbm(t->row->method)) return scene_timeint(&t->sc, &t->ti);
-  hc_status st = scene_hbm_solver(&t->sc, &t->hbm);
+  if (!is_hbm(t->row->method)) return timeint_new(t->setup.model, &t->setup.transient, &t->ti);
+  hc_status st = guided_hbm_solver_new(t->setup.model, &t->setup.hbm, &t->hbm);
   if (st != HC_OK) return st;
   memcpy(t->X, at->X, (size_t)hbm_n_coefficients(t->hbm) * sizeof *t->X);
   return hbm_solve(t->hbm, at->neighbour, t->X, &point) == HC_OK ? HC_OK : from_own_curve(at, monitor, t);
@@ -162,24 +213,18 @@ static hc_status make(const bench_start *at, const hc_monitor *monitor, timed_me
 
 static void record_answer(const timed_method *t, const answer *a, const bench_start *at, double took, bench_row *row)
 {
-  motion_distance worst = {0};
   row->status = a->status;
   row->outcome = a->status == HC_OK ? BENCH_SOLVED : a->too_long ? BENCH_TOO_LONG : BENCH_FAILED;
   if (a->status != HC_OK) return;
-  for (int i = 0; i < at->n_responses; ++i) {
-    const motion_distance gap = motion_between(&t->motion[i], &at->reference[i]);
-    if (!(gap.waveform <= worst.waveform)) worst.waveform = gap.waveform; /* NaN stays */
-    if (!(gap.amplitude <= worst.amplitude)) worst.amplitude = gap.amplitude;
-    if (!(gap.harmonic_1 <= worst.harmonic_1)) worst.harmonic_1 = gap.harmonic_1;
-  }
-  if (!(worst.waveform <= other_orbit * at->size)) row->outcome = BENCH_OTHER_ORBIT;
+  const motion_distance error = method_error(at->n_responses, t->motion, at->reference, at->size);
+  if (!(error.waveform <= other_orbit)) row->outcome = BENCH_OTHER_ORBIT;
   if (row->outcome != BENCH_SOLVED) return;
-  row->error = discrepancy_relative(worst.amplitude, at->size);
-  row->error_harmonic_1 = discrepancy_relative(worst.harmonic_1, at->size);
+  row->error = error.amplitude;
+  row->error_harmonic_1 = error.harmonic_1;
   row->seconds = took;
 }
 
-static hc_status make_room(const bench_start *at, timed_method *t)
+static hc_status make_workspace(const bench_start *at, timed_method *t)
 {
   t->seconds = calloc((size_t)t->cap, sizeof *t->seconds);
   t->X = calloc(2 * (size_t)at->most_coef + (size_t)at->n_states, sizeof *t->X);
@@ -190,12 +235,13 @@ static hc_status make_room(const bench_start *at, timed_method *t)
   return HC_OK;
 }
 
-hc_status timed_method_start(const scene *sc, const bench_start *at, bench_row *row, int cap, const hc_monitor *monitor,
-                             timed_method *t)
+hc_status timed_method_start(const compare_setup *setup, const bench_start *at, bench_row *row, int cap,
+                             const hc_monitor *monitor, timed_method *t)
 {
   answer a;
-  *t = (timed_method){.row = row, .sc = settings_of(sc, row), .cap = cap, .batch = 1};
-  hc_status st = make_room(at, t);
+  *t = (timed_method){.row = row, .cap = cap, .batch = 1};
+  t->setup = method_setup(setup, row->method, row->harmonics, row->samples, row->regularisation, row->tolerance);
+  hc_status st = make_workspace(at, t);
   if (st == HC_OK) st = make(at, monitor, t);
   if (st == HC_NO_MEMORY || st == HC_INTERRUPTED) return st;
   if (st != HC_OK) {
@@ -231,35 +277,20 @@ hc_status timed_method_curve(timed_method *t, const hc_monitor *monitor)
   for (int i = 0; i < 3 && st == HC_OK; ++i) {
     hbm_curve curve = {0};
     const double began = thread_seconds();
-    st = hbm_trace(t->hbm, t->sc.omega_from, t->sc.omega_to, &limited, &curve);
+    st = hbm_trace(t->hbm, t->setup.omega_from, t->setup.omega_to, &limited, &curve);
     v[i] = thread_seconds() - began;
     hbm_curve_free(&curve);
   }
-  if (st == HC_OK) timed_method_quartiles(3, v, &low, &t->row->curve_seconds, &high);
+  if (st == HC_OK) method_quartiles(3, v, &low, &t->row->curve_seconds, &high);
   /* a curve that ends early has no time */
   return l.stopped || st == HC_NO_MEMORY ? (l.stopped ? HC_INTERRUPTED : st) : HC_OK;
-}
-
-static double quantile(int n, const double *v, double at)
-{
-  double rank = at * (n - 1);
-  int i = (int)rank;
-  return i + 1 < n ? v[i] + (rank - i) * (v[i + 1] - v[i]) : v[n - 1];
-}
-
-void timed_method_quartiles(int n, double *v, double *low, double *median, double *high)
-{
-  qsort(v, (size_t)n, sizeof *v, ascending);
-  *low = quantile(n, v, 0.25);
-  *median = quantile(n, v, 0.5);
-  *high = quantile(n, v, 0.75);
 }
 
 void timed_method_finish(timed_method *t)
 {
   if (t->row && t->seconds && t->runs > 0) {
     t->row->repeats = t->runs;
-    timed_method_quartiles(t->runs, t->seconds, &t->row->low, &t->row->seconds, &t->row->high);
+    method_quartiles(t->runs, t->seconds, &t->row->low, &t->row->seconds, &t->row->high);
   }
   free(t->seconds);
   free(t->X);

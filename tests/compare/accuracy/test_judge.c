@@ -1,8 +1,7 @@
 /* test_judge.c - the Pareto front and the cheapest way, on rows made up so that the answer is plain. */
 #include <string.h>
 
-#include "campaigns/bench/bench.h"
-#include "campaigns/bench/timed_method.h"
+#include "compare/accuracy/method.h"
 #include "tests/check.h"
 
 static const double floor_of_tests = 1e-12;
@@ -108,11 +107,11 @@ static void quartiles_are_interpolated(void **state)
 {
   (void)state;
   double v[] = {4, 1, 3, 2}, one[] = {7}, low, median, high;
-  timed_method_quartiles(4, v, &low, &median, &high);
+  method_quartiles(4, v, &low, &median, &high);
   CHECK_NEAR(low, 1.75, 1e-15, "low");
   CHECK_NEAR(median, 2.5, 1e-15, "median");
   CHECK_NEAR(high, 3.25, 1e-15, "high");
-  timed_method_quartiles(1, one, &low, &median, &high);
+  method_quartiles(1, one, &low, &median, &high);
   assert_true(low == 7 && median == 7 && high == 7);
 }
 

@@ -1,9 +1,9 @@
-/* scipy.h - the same steady state by scipy's LSODA without events, which is a usual way: python3 runs the script in
- * scipy_script.c as a process. */
-#ifndef HC_BENCH_SCIPY_H
-#define HC_BENCH_SCIPY_H
+/* scipy.h - the same steady state by scipy's LSODA without events, which is a usual way: python3 runs a script as a
+ * process. */
+#ifndef HC_SCIPY_H
+#define HC_SCIPY_H
 
-#include "campaigns/bench/timed_method.h"
+#include "compare/accuracy/method.h"
 
 enum { SCIPY_MOST_RUNS = 8, SCIPY_MOST_REPEATS = 32 };
 
@@ -13,13 +13,11 @@ typedef struct scipy_run {
   double seconds[SCIPY_MOST_REPEATS]; /* of processor time inside the process, around solve_ivp alone */
 } scipy_run;
 
-/* From the same state as the others, marched until 1e-9 of the start's distance is left (by `multiplier`, a period).
+/* Of one degree of freedom (model_is_oscillator). From the same state as the others, marched until 1e-9 of the start's distance is left (by `multiplier`, a period).
  * Into runs, *n of them, and words for people in text[96]: versions, or why there is nothing. No python3 or scipy is
  * HC_OK with *n = 0. $PYTHON says which python3. It gets a few seconds; what it did until then counts.
- * HC_INTERRUPTED. */
-hc_status scipy_lsoda(const scene *sc, const bench_start *at, double multiplier, int repeats, const hc_monitor *monitor,
+ * HC_INTERRUPTED, HC_NO_MEMORY. */
+hc_status scipy_lsoda(const model *m, const bench_start *at, double multiplier, int repeats, const hc_monitor *monitor,
                       scipy_run *runs, int *n, char text[96]);
-
-extern const char scipy_script[];
 
 #endif

@@ -1,4 +1,4 @@
-/* bench.h - work against precision: time and error of every method at one frequency. The header of this folder.
+/* bench.h - work against precision: time and error of every method at one frequency.
  *
  *     reference    the exact law's periodic orbit at omega, by shooting as tight as rounding allows
  *     error        |amplitude - reference's| / reference's amplitude; error_harmonic_1 likewise of |a1 + i b1|; of
@@ -8,12 +8,12 @@
  *                  there. With its measures, without making the workspace.
  *
  * The branch is that of the largest stable response at omega. Methods take turns; nothing is printed. Not here:
- * curves (tests/bench). */
+ * whole curves over H and N (accuracy.h; tests/bench). */
 #ifndef HC_BENCH_H
 #define HC_BENCH_H
 
 #include "base/status.h"
-#include "casefile/scene.h"
+#include "compare/compare_settings.h"
 
 #define BENCH_METHOD_LIST(X)                                                                                           \
   X(BENCH_HBM_EXACT, "hbm_exact", "harmonic balance, exact forces")                                                    \
@@ -33,7 +33,6 @@
 typedef enum bench_method { BENCH_METHOD_LIST(BENCH_ENUM) BENCH_METHODS } bench_method;
 #undef BENCH_ENUM
 const char *bench_method_name(bench_method m);
-const char *bench_method_meaning(bench_method m);
 
 typedef enum bench_outcome {
   BENCH_WAITING, /* not run: stopped before            */
@@ -80,29 +79,26 @@ typedef struct bench {
 } bench;
 
 typedef struct bench_options {
-  number_list at; /* n = 0: of the scene's compare frequencies the one where the response is largest */
+  number_list at; /* n = 0: of the compared frequencies the one where the response is largest */
   int repeats;    /* > 0; rows that take long are repeated less, as their `repeats` says */
   bool alone;     /* no other programs */
 } bench_options;
 
 /* HC_INTERRUPTED: what was measured until then is kept. HC_NOT_CONVERGED where a frequency has no stable orbit to
  * compare with; omega of it in *failed_at. bench_clear in any case. */
-hc_status bench_run(const scene *sc, const bench_options *options, const hc_monitor *monitor, bench *out,
+hc_status bench_run(const compare_setup *setup, const bench_options *options, const hc_monitor *monitor, bench *out,
                     double *failed_at);
 void bench_clear(bench *b);
 
 /* error_finer and front of the n rows of one frequency. */
 void bench_judge(int n, bench_row *rows, double floor);
 
-/* The fastest of the solved rows whose error_finer is within accuracy, or NULL; *second is the fastest of the other
+/* The fastest of the solved rows whose error_finer is within the goal, or NULL; *second is the fastest of the other
  * methods, or NULL. */
-const bench_row *bench_cheapest(int n, const bench_row *rows, double accuracy, const bench_row **second);
+const bench_row *bench_cheapest(int n, const bench_row *rows, double goal, const bench_row **second);
 
 /* "H = 10, N = 1024", "regularisation 1e-4, tolerance 1e-6": in text[BENCH_TEXT], which is returned. */
 enum { BENCH_TEXT = 64 };
 const char *bench_settings(const bench_row *r, char text[BENCH_TEXT]);
-
-/* Processor, system, compiler in one line. */
-void bench_machine(char *text, int size);
 
 #endif

@@ -1,13 +1,14 @@
-/* bench.c - see bench.h: the settings of each method, and the rounds in which they take turns. */
-#include "campaigns/bench/bench.h"
+/* bench.c - see bench.h: the settings of each method, the rounds in which they take turns, and the Pareto front of
+ * error and time. */
+#include "compare/accuracy/bench.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "campaigns/bench/finder.h"
-#include "campaigns/bench/scipy.h"
+#include "compare/accuracy/reference.h"
+#include "compare/accuracy/scipy.h"
 
 enum { MOST_SETTINGS = 8, MOST_ROWS = 128, FEWEST = 3 };
 static const double enough = 0.25; /* [s] a row measured FEWEST times and for as long is repeated no more */
@@ -34,9 +35,39 @@ static const family families[] = {
 };
 enum { N_FAMILIES = sizeof families / sizeof *families };
 
+const char *bench_method_name(bench_method m)
+{
+#define BENCH_NAME(code, name, meaning) name,
+  static const char *const names[] = {BENCH_METHOD_LIST(BENCH_NAME)};
+#undef BENCH_NAME
+  return names[m];
+}
+
+const char *bench_outcome_name(bench_outcome o)
+{
+  static const char *const names[] = {[BENCH_WAITING] = "not_run",
+                                      [BENCH_SOLVED] = "solved",
+                                      [BENCH_FAILED] = "failed",
+                                      [BENCH_OTHER_ORBIT] = "other_orbit",
+                                      [BENCH_TOO_LONG] = "too_long"};
+  return names[o];
+}
+
+const char *bench_settings(const bench_row *r, char text[BENCH_TEXT])
+{
+  if (r->samples > 0) snprintf(text, BENCH_TEXT, "H = %d, N = %d", r->harmonics, r->samples);
+  else if (r->harmonics > 0) snprintf(text, BENCH_TEXT, "H = %d", r->harmonics);
+  else if (r->regularisation > 0)
+    snprintf(text, BENCH_TEXT, "regularisation %.0e, tolerance %.0e", r->regularisation, r->tolerance);
+  else snprintf(text, BENCH_TEXT, "tolerance %.0e", r->tolerance);
+  return text;
+}
+
+/* ---- the rounds ------------------------------------------------------------------------------- */
+
 /* What the functions below have at hand: the settings, one frequency's start and its methods, the result. */
 typedef struct workspace {
-  const scene *sc;
+  const compare_setup *setup;
   const bench_options *options;
   const hc_monitor *outer;
   double from, width,
@@ -120,8 +151,8 @@ static hc_status first_round(workspace *w, bench_frequency *p)
     w->done = 0.1 + 0.5 * i / p->n;
     if (hopeless(rows, i)) rows[i].outcome = BENCH_TOO_LONG;
     else if (!hc_monitor_tick(&w->monitor, -1)) st = HC_INTERRUPTED;
-    else if ((st = timed_method_start(w->sc, &w->start, &rows[i], w->options->repeats, &w->monitor, &w->methods[i])) ==
-             HC_OK)
+    else if ((st = timed_method_start(w->setup, &w->start, &rows[i], w->options->repeats, &w->monitor,
+                                      &w->methods[i])) == HC_OK)
       st = timed_method_curve(&w->methods[i], &w->monitor);
   }
   return st;
@@ -169,11 +200,12 @@ static hc_status measure_scipy(workspace *w, bench_frequency *p)
   scipy_run runs[SCIPY_MOST_RUNS];
   int n = 0;
   w->done = 0.9;
-  if (w->sc->structure) {
+  if (!model_is_oscillator(w->setup->model)) {
     snprintf(p->scipy, sizeof p->scipy, "of one degree of freedom only");
     return HC_OK;
   }
-  hc_status st = scipy_lsoda(w->sc, &w->start, p->multiplier, w->options->repeats, &w->monitor, runs, &n, p->scipy);
+  hc_status st =
+      scipy_lsoda(w->setup->model, &w->start, p->multiplier, w->options->repeats, &w->monitor, runs, &n, p->scipy);
   const periodic_motion *ref = w->start.reference;
   for (int i = 0; i < n && (st == HC_OK || st == HC_INTERRUPTED); ++i) {
     bench_row row = empty_row(BENCH_SCIPY_LSODA, p->omega);
@@ -182,13 +214,65 @@ static hc_status measure_scipy(workspace *w, bench_frequency *p)
     row.error = discrepancy_relative(runs[i].amplitude - ref->amplitude, ref->amplitude);
     row.error_harmonic_1 = discrepancy_relative(runs[i].harmonic_1 - ref->harmonic_1, ref->amplitude);
     row.repeats = runs[i].n;
-    timed_method_quartiles(runs[i].n, runs[i].seconds, &row.low, &row.seconds, &row.high);
+    method_quartiles(runs[i].n, runs[i].seconds, &row.low, &row.seconds, &row.high);
     if (!(row.error <= 0.3)) row.outcome = BENCH_OTHER_ORBIT;
     if (add_row(w->out, &row) != HC_OK) st = HC_NO_MEMORY;
     else ++p->n;
   }
   return st;
 }
+
+/* ---- the front -------------------------------------------------------------------------------- */
+
+/* At settings no coarser than a's in any respect? NaN is no setting. */
+static bool no_coarser(const bench_row *b, const bench_row *a)
+{
+  return b->method == a->method && b->harmonics >= a->harmonics && b->samples >= a->samples &&
+         !(b->regularisation > a->regularisation) && !(b->tolerance > a->tolerance);
+}
+
+static bool beats(const bench_row *b, const bench_row *a)
+{
+  bool as_good = b->error_finer <= a->error_finer && b->seconds <= a->seconds;
+  return as_good && (b->error_finer < a->error_finer || b->seconds < a->seconds);
+}
+
+void bench_judge(int n, bench_row *rows, double floor)
+{
+  for (int i = 0; i < n; ++i) {
+    bench_row *r = &rows[i];
+    r->error_finer = NAN;
+    if (r->outcome != BENCH_SOLVED) continue;
+    r->error_finer = fmax(r->error, floor);
+    for (int k = 0; k < n; ++k)
+      if (rows[k].outcome == BENCH_SOLVED && no_coarser(&rows[k], r))
+        r->error_finer = fmax(r->error_finer, rows[k].error);
+  }
+  for (int i = 0; i < n; ++i) {
+    rows[i].front = rows[i].outcome == BENCH_SOLVED && rows[i].repeats > 0;
+    for (int k = 0; k < n && rows[i].front; ++k)
+      if (rows[k].outcome == BENCH_SOLVED && rows[k].repeats > 0 && beats(&rows[k], &rows[i])) rows[i].front = false;
+  }
+}
+
+static bool meets(const bench_row *r, double goal)
+{
+  return r->outcome == BENCH_SOLVED && r->repeats > 0 && r->error_finer <= goal;
+}
+
+const bench_row *bench_cheapest(int n, const bench_row *rows, double goal, const bench_row **second)
+{
+  const bench_row *best = NULL;
+  *second = NULL;
+  for (int i = 0; i < n; ++i)
+    if (meets(&rows[i], goal) && (!best || rows[i].seconds < best->seconds)) best = &rows[i];
+  for (int i = 0; i < n && best; ++i)
+    if (meets(&rows[i], goal) && rows[i].method != best->method && (!*second || rows[i].seconds < (*second)->seconds))
+      *second = &rows[i];
+  return best;
+}
+
+/* ---- the whole -------------------------------------------------------------------------------- */
 
 static hc_status bench_at(workspace *w, finder *f, double omega)
 {
@@ -204,7 +288,7 @@ static hc_status bench_at(workspace *w, finder *f, double omega)
   return st;
 }
 
-hc_status bench_run(const scene *sc, const bench_options *options, const hc_monitor *monitor, bench *out,
+hc_status bench_run(const compare_setup *setup, const bench_options *options, const hc_monitor *monitor, bench *out,
                     double *failed_at)
 {
   finder f;
@@ -212,13 +296,17 @@ hc_status bench_run(const scene *sc, const bench_options *options, const hc_moni
   *out = (bench){0};
   *failed_at = 0;
   if (options->repeats < 1) return HC_BAD_INPUT;
-  hc_status st = finder_start(sc, &at, monitor, &f);
+  hc_status st = finder_start(setup, &at, monitor, &f);
   if (st == HC_OK && at.n == 0 && (st = finder_default(&f, &at.v[0])) == HC_OK) at.n = 1;
   for (int i = 0; i < at.n && st == HC_OK; ++i) {
-    workspace w = {
-        .sc = &f.sc, .options = options, .outer = monitor, .from = (double)i / at.n, .width = 1.0 / at.n, .out = out};
+    workspace w = {.setup = &f.setup,
+                   .options = options,
+                   .outer = monitor,
+                   .from = (double)i / at.n,
+                   .width = 1.0 / at.n,
+                   .out = out};
     w.monitor = (hc_monitor){tick, &w};
-    st = bench_start_new(f.model, f.hbm, &w.start);
+    st = bench_start_new(setup->model, f.response.hbm, &w.start);
     if (st == HC_OK) st = bench_at(&w, &f, at.v[i]);
     bench_start_free(&w.start);
     if (st != HC_OK) *failed_at = at.v[i];
