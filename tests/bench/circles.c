@@ -4,54 +4,34 @@
  * Motions are random, the h-th harmonic of size 1/h or 1/h^2, 64 of each kind: both contacts in the same regime, under
  * the same law, with the same u_1 and v. Kinds: stuck from the first pass, slips, separates. All kinds are timed in
  * turn, ROUNDS times; a time is the least of processor time, a ratio that of one round's two, its median. */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-#include <time.h>
-
-#include "base/ascending.h"
 #include "hbm/contact/exact_force.h"
 #include "hbm/hbm_settings.h"
 #include "hbm/planar/planar_force.h"
 #include "numerics/series.h"
+#include "tests/bench/bench.h"
 #include "tests/random.h"
 
-enum { MOTIONS = 64, KINDS = 3, DECAYS = 2, MAX_ROUNDS = 101, MOST_H = 25, MAX_COEF = 3 * (2 * MOST_H + 1) };
+enum { MOTIONS = 64, KINDS = 3, DECAYS = 2, MOST_H = 25, MAX_COEF = 3 * (2 * MOST_H + 1) };
 
 /* One motion under its law, of both contacts. */
-typedef struct scene {
+typedef struct pair {
   double X[MAX_COEF], line[MAX_COEF];
   planar_force *circle;
   exact_force *one;
-} scene;
+} pair;
 
 typedef struct kind {
   const char *name;
   contact_regime regime;
   int n;
-  scene *scene; /* [MOTIONS] */
-  double us[2][MAX_ROUNDS], ratio[MAX_ROUNDS];
+  pair *scene; /* [MOTIONS] */
+  double us[2][BENCH_MOST_ROUNDS], ratio[BENCH_MOST_ROUNDS];
   int pieces, panels;
 } kind;
 
 static kind kinds[DECAYS][KINDS];
 static double F[MAX_COEF], jac[MAX_COEF * MAX_COEF], sink;
 static int H = 5, rounds = 15;
-
-static double now_us(void)
-{
-  struct timespec t;
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-  return 1e6 * (double)t.tv_sec + 1e-3 * (double)t.tv_nsec;
-}
-
-static void check(hc_status st)
-{
-  if (st == HC_OK) return;
-  fprintf(stderr, "bench_circles: %s\n", hc_status_text(st));
-  exit(1);
-}
 
 static void random_series(uint64_t *seed, double decay, double *X)
 {
@@ -67,30 +47,31 @@ static contact random_law(uint64_t *seed)
       .kt = size, .kn = size * pow(10, 0.7 * random_signed(seed)), .mu = 0.4, .gap = 3 * random_signed(seed)};
 }
 
-static void make(const contact *law, scene *s)
+static void make(const contact *law, pair *s)
 {
   const contact half = {law->kt, law->kn / 2, 2 * law->mu, law->gap, law->load / 2};
   const moving_contact on_line = {.law = *law, .cu = {1, 0}, .cv = {0, 1}};
-  check(planar_force_new(H, 3, &half, &s->circle));
-  check(exact_force_new(H, 2, 1, &on_line, &s->one));
+  must(planar_force_new(H, 3, &half, &s->circle), "bench_circles");
+  must(exact_force_new(H, 2, 1, &on_line, &s->one), "bench_circles");
 }
 
-static void drop(scene *s)
+static void drop(pair *s)
 {
   planar_force_free(s->circle);
   exact_force_free(s->one);
 }
 
-static contact_regime evaluate(scene *s, bool circle)
+static contact_regime evaluate(pair *s, bool circle)
 {
   contact_report report;
-  check(circle ? planar_force_eval(s->circle, s->X, F, jac, &report)
-               : exact_force_eval(s->one, s->line, F, jac, &report));
+  must(circle ? planar_force_eval(s->circle, s->X, F, jac, &report)
+              : exact_force_eval(s->one, s->line, F, jac, &report),
+       "bench_circles");
   sink += F[0] + jac[0];
   return report.regime;
 }
 
-static void keep(kind *k, const scene *s)
+static void keep(kind *k, const pair *s)
 {
   const planar_cycle *c = planar_force_cycle(s->circle);
   k->scene[k->n++] = *s;
@@ -103,7 +84,7 @@ static void fill_kinds(double decay, kind *k)
   const size_t L = (size_t)series_length(H);
   uint64_t seed = 7;
   for (int missing = KINDS * MOTIONS; missing > 0;) {
-    scene s;
+    pair s;
     const contact law = random_law(&seed);
     for (size_t d = 0; d < 3; ++d) random_series(&seed, decay, s.X + d * L);
     memcpy(s.line, s.X, L * sizeof *s.X);
@@ -122,41 +103,30 @@ static void fill_kinds(double decay, kind *k)
 static double time_all(kind *k, bool circle)
 {
   const int repeated = circle ? 4 : 40;
-  const double from = now_us();
+  const double from = cpu_ms();
   for (int r = 0; r < repeated; ++r)
     for (int i = 0; i < MOTIONS; ++i) evaluate(&k->scene[i], circle);
-  return (now_us() - from) / (MOTIONS * repeated);
-}
-
-static double quantile(const double *v, double at)
-{
-  double sorted[MAX_ROUNDS];
-  memcpy(sorted, v, (size_t)rounds * sizeof *v);
-  qsort(sorted, (size_t)rounds, sizeof *sorted, ascending);
-  return sorted[(int)lround(at * (rounds - 1))];
+  return 1e3 * (cpu_ms() - from) / (MOTIONS * repeated);
 }
 
 static void print(const kind *k, int decay)
 {
-  printf("1/h^%d  %-9s  %8.2f  %8.2f  %6.1f [%.1f, %.1f]  %5.1f  %6.1f\n", decay, k->name, quantile(k->us[1], 0),
-         quantile(k->us[0], 0), quantile(k->ratio, 0.5), quantile(k->ratio, 0.25), quantile(k->ratio, 0.75),
-         (double)k->pieces / MOTIONS, (double)k->panels / MOTIONS);
+  printf("1/h^%d  %-9s  %8.2f  %8.2f  %6.1f [%.1f, %.1f]  %5.1f  %6.1f\n", decay, k->name,
+         quantile(rounds, k->us[1], 0), quantile(rounds, k->us[0], 0), quantile(rounds, k->ratio, 0.5),
+         quantile(rounds, k->ratio, 0.25), quantile(rounds, k->ratio, 0.75), (double)k->pieces / MOTIONS,
+         (double)k->panels / MOTIONS);
 }
 
 int main(int argc, char **argv)
 {
-  if (argc > 1) H = atoi(argv[1]);
-  if (argc > 2) rounds = atoi(argv[2]);
-  if (H < 1 || H > MOST_H || rounds < 1 || rounds > MAX_ROUNDS) {
-    fprintf(stderr, "usage: bench_circles [H 1..%d] [ROUNDS 1..%d]\n", MOST_H, MAX_ROUNDS);
-    return 64;
-  }
+  H = count_argument(argc, argv, 1, 5, MOST_H, "[H [ROUNDS]]");
+  rounds = count_argument(argc, argv, 2, 15, BENCH_MOST_ROUNDS, "[H [ROUNDS]]");
   const char *const names[KINDS] = {"stuck", "slips", "separates"};
   const contact_regime regimes[KINDS] = {CONTACT_STUCK, CONTACT_SLIPS, CONTACT_SEPARATES};
   for (int d = 0; d < DECAYS; ++d) {
     for (int i = 0; i < KINDS; ++i) {
-      kinds[d][i] = (kind){.name = names[i], .regime = regimes[i], .scene = calloc(MOTIONS, sizeof(scene))};
-      if (!kinds[d][i].scene) check(HC_NO_MEMORY);
+      kinds[d][i] = (kind){.name = names[i], .regime = regimes[i], .scene = calloc(MOTIONS, sizeof(pair))};
+      if (!kinds[d][i].scene) must(HC_NO_MEMORY, "bench_circles");
     }
     fill_kinds(d + 1, kinds[d]);
   }

@@ -7,29 +7,14 @@
  * batch of about a millisecond each, ROUNDS times; a figure is the median of its batches, a ratio the median of the
  * ratios within a round, with quartiles. The machine is shared: microseconds are for orientation, the ratios are the
  * result. Contacts 1..8 share the stiffness of one, and their gaps differ by a percent each. */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-#include <time.h>
-
-#include "base/ascending.h"
-#include "casefile/case_file.h"
 #include "hbm/contact/aft.h"
 #include "hbm/contact/exact_force.h"
 #include "hbm/hbm.h"
 #include "study/scene_solvers.h"
+#include "tests/bench/bench.h"
 #include "tests/random.h"
 
-enum {
-  MAX_CONFIGS = 256,
-  MAX_ROUNDS = 101,
-  VARIANTS = 64,
-  MAX_COEF = 2 * HBM_MAX_HARMONICS + 1,
-  SCENES = 3,
-  OMEGAS = 3,
-  EXACT = 0
-};
+enum { MAX_CONFIGS = 256, VARIANTS = 64, MAX_COEF = 2 * HBM_MAX_HARMONICS + 1, SCENES = 3, OMEGAS = 3, EXACT = 0 };
 
 typedef struct bench_scene {
   const char *name, *file;
@@ -56,27 +41,14 @@ typedef struct config {
   aft *sampled;
   exact_force *located;
   int batch, next;
-  double pieces;         /* mean over the motions */
-  double us[MAX_ROUNDS]; /* [us] an evaluation */
+  double pieces;                /* mean over the motions */
+  double us[BENCH_MOST_ROUNDS]; /* [us] an evaluation */
 } config;
 
 static motions all_motions[SCENES][N_HARMONICS];
 static config configs[MAX_CONFIGS];
 static int n_configs, rounds = 15;
 static double F[MAX_COEF], jac[MAX_COEF * MAX_COEF], sink;
-
-static double now_us(void)
-{
-  struct timespec t;
-  clock_gettime(CLOCK_MONOTONIC, &t);
-  return 1e6 * (double)t.tv_sec + 1e-3 * (double)t.tv_nsec;
-}
-
-static void die(const char *what, hc_status st)
-{
-  fprintf(stderr, "bench_force: %s: %s\n", what, hc_status_text(st));
-  exit(1);
-}
 
 /* The solution of largest amplitude at omega, of the curve's. */
 static void largest_at(hbm_solver *s, const hbm_curve *curve, double omega, double *X)
@@ -91,7 +63,7 @@ static void largest_at(hbm_solver *s, const hbm_curve *curve, double omega, doub
     memcpy(X, at.X + (size_t)i * at.n_coef, (size_t)at.n_coef * sizeof *X);
   }
   hbm_curve_free(&at);
-  if (best < 0) die("no solution", st);
+  if (best < 0) must(st == HC_OK ? HC_NOT_CONVERGED : st, "no solution");
 }
 
 static void make_motions(const scene *sc, const bench_scene *b, int n_harm, motions *out)
@@ -103,10 +75,10 @@ static void make_motions(const scene *sc, const bench_scene *b, int n_harm, moti
   with.hbm.force = HBM_FORCE_EXACT;
   hc_status st = scene_hbm_solver(&with, &s);
   if (st == HC_OK) st = hbm_trace(s, with.omega_from, with.omega_to, NULL, &curve);
-  if (st != HC_OK) die(b->name, st);
+  must(st, b->name);
   *out = (motions){n_harm, 2 * n_harm + 1, NULL};
   out->X = calloc((size_t)VARIANTS * out->n_coef, sizeof(double));
-  if (!out->X) die(b->name, HC_NO_MEMORY);
+  if (!out->X) must(HC_NO_MEMORY, b->name);
   uint64_t seed = 1;
   for (int v = 0; v < VARIANTS; ++v) {
     double *X = out->X + (size_t)v * out->n_coef;
@@ -138,7 +110,7 @@ static void evaluate(config *c)
   const double *X = c->m->X + (size_t)c->next * c->m->n_coef;
   c->next = (c->next + 1) % VARIANTS;
   hc_status st = c->located ? exact_force_eval(c->located, X, F, jac, NULL) : aft_eval(c->sampled, X, F, jac, NULL);
-  if (st != HC_OK) die("evaluation", st);
+  must(st, "evaluation");
   sink += F[0] + jac[0];
 }
 
@@ -158,7 +130,7 @@ static double mean_pieces(config *c)
 
 static void add_config(const scene *sc, int scene_index, int h, int n_time, int n_contacts)
 {
-  if (n_configs == MAX_CONFIGS) die("too many configurations", HC_NO_MEMORY);
+  if (n_configs == MAX_CONFIGS) must(HC_NO_MEMORY, "too many configurations");
   config *c = &configs[n_configs++];
   scene used = split(sc, n_contacts);
   *c = (config){.scene = scene_index,
@@ -168,12 +140,12 @@ static void add_config(const scene *sc, int scene_index, int h, int n_time, int 
                 .m = &all_motions[scene_index][h],
                 .batch = 1};
   hc_status st = n_time ? scene_aft(&used, c->n_harm, n_time, &c->sampled) : scene_exact(&used, c->n_harm, &c->located);
-  if (st != HC_OK) die("workspace", st);
+  must(st, "workspace");
   for (int i = 0; i < 4; ++i) evaluate(c);
-  double t = now_us();
+  double t = cpu_ms();
   for (int i = 0; i < 16; ++i) evaluate(c);
-  t = (now_us() - t) / 16;
-  while (c->batch * t < 1000) c->batch += OMEGAS; /* whole sets of omegas */
+  t = (cpu_ms() - t) / 16;
+  while (c->batch * t < 1) c->batch += OMEGAS; /* whole sets of omegas */
   if (c->located) c->pieces = mean_pieces(c);
 }
 
@@ -197,18 +169,10 @@ static void measure(void)
     for (int i = 0; i < n_configs; ++i) {
       config *c = &configs[i];
       evaluate(c); /* warm its memory */
-      double t = now_us();
+      const double from = cpu_ms();
       for (int k = 0; k < c->batch; ++k) evaluate(c);
-      c->us[r] = (now_us() - t) / c->batch;
+      c->us[r] = 1e3 * (cpu_ms() - from) / c->batch;
     }
-}
-
-static double quantile(const double *v, double at)
-{
-  double sorted[MAX_ROUNDS];
-  memcpy(sorted, v, (size_t)rounds * sizeof *v);
-  qsort(sorted, (size_t)rounds, sizeof *sorted, ascending);
-  return sorted[(int)lround(at * (rounds - 1))];
 }
 
 static const config *find(int scene_index, int n_harm, int n_time, int n_contacts)
@@ -223,10 +187,10 @@ static const config *find(int scene_index, int n_harm, int n_time, int n_contact
 static void print_ratio(int k, int n_harm, int n_time)
 {
   const config *a = find(k, n_harm, EXACT, 1), *b = find(k, n_harm, n_time, 1);
-  double ratio[MAX_ROUNDS];
+  double ratio[BENCH_MOST_ROUNDS];
   for (int r = 0; r < rounds; ++r) ratio[r] = a->us[r] / b->us[r];
   printf("%-6s exact(H=%d)/sampled(N=%d, H=%d) = %.3f  [%.3f, %.3f]\n", scenes[k].name, n_harm, n_time, n_harm,
-         quantile(ratio, 0.5), quantile(ratio, 0.25), quantile(ratio, 0.75));
+         quantile(rounds, ratio, 0.5), quantile(rounds, ratio, 0.25), quantile(rounds, ratio, 0.75));
 }
 
 /* Least squares of log(time) against log(variable). */
@@ -236,7 +200,7 @@ typedef struct fit {
 
 static void fit_add(fit *f, double at, const config *c)
 {
-  double x = log(at), y = log(quantile(c->us, 0.5));
+  double x = log(at), y = log(quantile(rounds, c->us, 0.5));
   f->n += 1;
   f->x += x;
   f->y += y;
@@ -272,8 +236,8 @@ static void print_exponents(int k)
     fit f = {0};
     for (int j = 1; j <= 8; ++j) fit_add(&f, j, find(k, 5, n, j));
     printf("%-6s %s, H = 5: time ~ contacts^%.2f (1 %.2f us, 8 %.2f us)\n", scenes[k].name,
-           n ? "sampled, N = 256" : "exact", fit_exponent(&f), quantile(find(k, 5, n, 1)->us, 0.5),
-           quantile(find(k, 5, n, 8)->us, 0.5));
+           n ? "sampled, N = 256" : "exact", fit_exponent(&f), quantile(rounds, find(k, 5, n, 1)->us, 0.5),
+           quantile(rounds, find(k, 5, n, 8)->us, 0.5));
   }
 }
 
@@ -286,7 +250,9 @@ static void print_table(int k)
     if (n) printf("\nN =%5d", n);
     for (int h = 0; h < N_HARMONICS; ++h) {
       const config *c = find(k, harmonics[h], n, 1);
-      if (c) printf("%10.2f [%6.2f,%6.2f]", quantile(c->us, 0.5), quantile(c->us, 0.25), quantile(c->us, 0.75));
+      if (c)
+        printf("%10.2f [%6.2f,%6.2f]", quantile(rounds, c->us, 0.5), quantile(rounds, c->us, 0.25),
+               quantile(rounds, c->us, 0.75));
       else printf("%26s", "-");
     }
   }
@@ -323,21 +289,12 @@ static void print_machine(void)
 int main(int argc, char **argv)
 {
   const char *dir = argc > 2 ? argv[2] : "cases/paper";
-  if (argc > 1) rounds = atoi(argv[1]);
-  if (rounds < 1 || rounds > MAX_ROUNDS) {
-    fprintf(stderr, "usage: bench_force [ROUNDS 1..%d] [CASES_DIR]\n", MAX_ROUNDS);
-    return 64;
-  }
+  rounds = count_argument(argc, argv, 1, 15, BENCH_MOST_ROUNDS, "[ROUNDS [CASES_DIR]]");
   print_machine();
   for (int k = 0; k < SCENES; ++k) {
-    scene sc;
-    case_error err;
     char path[4096];
     snprintf(path, sizeof path, "%s/%s", dir, scenes[k].file);
-    if (case_read(path, 0, NULL, &sc, &err) != HC_OK) {
-      fprintf(stderr, "%s\n", err.message);
-      return 1;
-    }
+    const scene sc = read_case(path, 0, NULL);
     add_scene(&sc, k);
   }
   measure();

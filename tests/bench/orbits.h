@@ -1,39 +1,12 @@
-/* orbits.h - what the benchmarks of steady states share: scenes with their sweeps, the start on the HBM orbit,
- * processor time, medians. A failure ends the program: a benchmark that goes on without a figure misleads. */
+/* orbits.h - what the benchmarks of steady states share beside bench.h: scenes with their sweeps, the start on the HBM
+ * orbit, the reference orbit. */
 #ifndef HC_BENCH_ORBITS_H
 #define HC_BENCH_ORBITS_H
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-#include <time.h>
-
-#include "base/ascending.h"
 #include "compare/comparison.h"
 #include "study/scene_solvers.h"
+#include "tests/bench/bench.h"
 #include "tests/timeint/scenes.h"
-
-static inline double cpu_ms(void)
-{
-  struct timespec t;
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-  return 1e3 * (double)t.tv_sec + 1e-6 * (double)t.tv_nsec;
-}
-
-static inline void must(hc_status st, const char *what)
-{
-  if (st == HC_OK) return;
-  fprintf(stderr, "%s: %s\n", what, hc_status_text(st));
-  exit(3);
-}
-
-/* Sorts v. */
-static inline double median(int n, double *v)
-{
-  qsort(v, (size_t)n, sizeof *v, ascending);
-  return n % 2 ? v[n / 2] : 0.5 * (v[n / 2 - 1] + v[n / 2]);
-}
 
 /* With harmonic balance over from..to: H harmonics, harmonic 0, exact forces. */
 static inline scene with_hbm(scene sc, int harmonics, double from, double to)

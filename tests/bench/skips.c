@@ -2,25 +2,12 @@
  * three scenes, groups of ways to trace the same curve; the ways of a group take turns, REPEATS times, in one run,
  * and the first of a group is what the others' ratios refer to. Columns: force evaluations, Newton iterations,
  * points, milliseconds (median, and the quartiles around it), ratio. */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-#include <time.h>
-
-#include "base/ascending.h"
 #include "hbm/hbm.h"
 #include "study/scene_solvers.h"
+#include "tests/bench/bench.h"
 #include "tests/reference_scenes.h"
 
-enum { MAX_REPEATS = 1001, MAX_WAYS = 4, N_GROUPS = 4 };
-
-static double now_ms(void)
-{
-  struct timespec t;
-  clock_gettime(CLOCK_MONOTONIC, &t);
-  return 1e3 * (double)t.tv_sec + 1e-6 * (double)t.tv_nsec;
-}
+enum { MAX_WAYS = 4, N_GROUPS = 4 };
 
 typedef struct way {
   const char *name;
@@ -66,7 +53,7 @@ static scene with(scene sc, const way *w)
 }
 
 typedef struct result {
-  double ms[MAX_REPEATS];
+  double ms[BENCH_MOST_ROUNDS];
   long evaluations, iterations;
   int points, harmonics, samples;
   hc_status status;
@@ -76,10 +63,10 @@ static void run_once(const scene *sc, result *r, int at)
 {
   hbm_solver *s = NULL;
   hbm_curve c = {0};
-  double t = now_ms();
+  double t = cpu_ms();
   r->status = scene_hbm_solver(sc, &s);
   if (r->status == HC_OK) r->status = hbm_trace(s, sc->omega_from, sc->omega_to, NULL, &c);
-  r->ms[at] = now_ms() - t;
+  r->ms[at] = cpu_ms() - t;
   r->evaluations = c.evaluations;
   r->iterations = c.iterations;
   r->points = c.n;
@@ -97,12 +84,12 @@ static void run_group(const char *name, const scene *base, const group *g, int r
       scene sc = with(*base, &g->ways[w]);
       run_once(&sc, &results[w], i);
     }
-  for (int w = 0; w < g->n; ++w) qsort(results[w].ms, (size_t)repeats, sizeof(double), ascending);
   for (int w = 0; w < g->n; ++w) {
     const result *r = &results[w];
     printf("%-4s %-13s %-10s %3d %5d %5d %7ld %6ld %8.3f %8.3f %8.3f %6.2f", name, g->name, g->ways[w].name,
-           r->harmonics, r->samples, r->points, r->evaluations, r->iterations, r->ms[repeats / 2], r->ms[repeats / 4],
-           r->ms[3 * repeats / 4], r->ms[repeats / 2] / results[0].ms[repeats / 2]);
+           r->harmonics, r->samples, r->points, r->evaluations, r->iterations, quantile(repeats, r->ms, 0.5),
+           quantile(repeats, r->ms, 0.25), quantile(repeats, r->ms, 0.75),
+           quantile(repeats, r->ms, 0.5) / quantile(repeats, results[0].ms, 0.5));
     if (r->status != HC_OK) printf("  %s", hc_status_text(r->status));
     printf("\n");
   }
@@ -110,11 +97,7 @@ static void run_group(const char *name, const scene *base, const group *g, int r
 
 int main(int argc, char **argv)
 {
-  int repeats = argc > 1 ? atoi(argv[1]) : 21;
-  if (repeats < 1 || repeats > MAX_REPEATS) {
-    fprintf(stderr, "usage: %s [REPEATS, 1..%d]\n", argv[0], MAX_REPEATS);
-    return 64;
-  }
+  const int repeats = count_argument(argc, argv, 1, 21, BENCH_MOST_ROUNDS, "[REPEATS]");
   static const char *const names[] = {"c2", "a10", "r2"};
   printf("%-4s %-13s %-10s %3s %5s %5s %7s %6s %8s %8s %8s %6s\n", "case", "switch", "setting", "H", "N", "pts",
          "evals", "iter", "ms", "quarter", "3/4", "ratio");

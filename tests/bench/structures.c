@@ -2,22 +2,11 @@
  * elements along it, refined without changing what it is. For each: milliseconds to make the solver, microseconds a
  * condensation at a new omega, microseconds a Newton iteration at a fixed omega (residual, Jacobian, LU), the curve's
  * milliseconds a point, and exponents fitted to the last three rows. Least of several; one thread. */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <time.h>
-
 #include "base/constants.h"
 #include "hbm/hbm.h"
 #include "hbm/solver/hbm_solver_impl.h"
 #include "numerics/dense.h"
-
-static double now(void)
-{
-  struct timespec t;
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
+#include "tests/bench/bench.h"
 
 typedef enum bar_damping { RAYLEIGH, MODAL, DASHPOTS } bar_damping;
 static const char *const damping_names[] = {"Rayleigh", "modal", "dashpots"};
@@ -70,8 +59,6 @@ typedef struct cost {
   int unknowns, points;
 } cost;
 
-static double least(double best, double t) { return t < best ? t : best; }
-
 /* At the solver's omega: one Newton iteration in its parts. */
 static double time_iteration(hbm_solver *s, double omega, const double *X)
 {
@@ -81,12 +68,12 @@ static double time_iteration(hbm_solver *s, double omega, const double *X)
   double best = INFINITY;
   for (int k = 0; k < 15; ++k) {
     for (int i = 0; i < s->sys.n_coef; ++i) Y[i] = (1 + 1e-6 * k) * X[i];
-    const double start = now();
+    const double start = cpu_ms();
     if (hbm_system_residual(&s->sys, omega, Y, R) != HC_OK) abort();
     hbm_system_jacobian(&s->sys, omega, s->sys.n, jac);
     dense_factor(s->sys.n, jac, pivot);
     dense_solve(s->sys.n, jac, pivot, 1, R);
-    best = least(best, now() - start);
+    best = fmin(best, cpu_ms() - start);
   }
   free(jac);
   free(Y);
@@ -101,22 +88,22 @@ static cost measure(const bar *b)
   cost c = {.condensation = INFINITY, .point = INFINITY};
   model *m = make_bar(b);
   hbm_solver *s;
-  double start = now();
+  double start = cpu_ms();
   if (hbm_solver_new(m, &how, &s) != HC_OK) abort();
-  c.setup = now() - start;
+  c.setup = cpu_ms() - start;
   c.unknowns = s->sys.n;
   condensation_at(s->sys.linear, 1.2, 0);
   for (int k = 0; k < 15; ++k) {
-    start = now();
+    start = cpu_ms();
     condensation_at(s->sys.linear, 0.8 + 0.01 * k, 0);
-    c.condensation = least(c.condensation, now() - start);
+    c.condensation = fmin(c.condensation, cpu_ms() - start);
   }
   for (int k = 0; k < 3; ++k) {
     hbm_curve curve = {0};
-    start = now();
+    start = cpu_ms();
     if (hbm_trace(s, 0.6, 1.6, NULL, &curve) != HC_OK) printf("curve: %s\n", hc_status_text(curve.end));
     c.points = curve.n;
-    c.point = least(c.point, (now() - start) / curve.n);
+    c.point = fmin(c.point, (cpu_ms() - start) / curve.n);
     if (k == 2) c.iteration = time_iteration(s, curve.points[curve.n / 2].omega, hbm_curve_X(&curve, curve.n / 2));
     hbm_curve_free(&curve);
   }
@@ -148,7 +135,7 @@ static void run(const char *what, int rows, const bar *bars, const double *x)
     const cost c = measure(b);
     setup[i] = c.setup, condensing[i] = c.condensation, iteration[i] = c.iteration, point[i] = c.point;
     printf("%4d  %8d %2d  %-8s  %8d  %8.1f  %15.1f  %12.1f  %8.1f  %6d\n", b->n, b->contacts, b->harmonics,
-           damping_names[b->damping], c.unknowns, 1e3 * c.setup, 1e6 * c.condensation, 1e6 * c.iteration, 1e6 * c.point,
+           damping_names[b->damping], c.unknowns, c.setup, 1e3 * c.condensation, 1e3 * c.iteration, 1e3 * c.point,
            c.points);
     fflush(stdout);
   }

@@ -16,7 +16,7 @@
 #include "study/scene_solvers.h"
 #include "tests/bench/orbits.h"
 
-enum { WAYS = 5, ACCURACIES = 4, CASES = 3, MAX_ROUNDS = 101, HALF_DECADES = 15 };
+enum { WAYS = 5, ACCURACIES = 4, CASES = 3, HALF_DECADES = 15 };
 
 typedef struct way {
   const char *name;
@@ -46,7 +46,7 @@ typedef struct trial {
   timeint *ti;
   hc_status status;
   timeint_result r;
-  double error, ms[MAX_ROUNDS];
+  double error, ms[BENCH_MOST_ROUNDS];
 } trial;
 
 static bool tick(void *until, double done)
@@ -104,13 +104,13 @@ static void choose(trial *t, const bench_case *c, const way *w, double accuracy)
 
 static void print_row(const bench_case *c, double accuracy, const way *w, const trial *t, const trial *best, int rounds)
 {
-  double ms[MAX_ROUNDS], ratio[MAX_ROUNDS];
+  double ratio[BENCH_MOST_ROUNDS];
   char rho[16] = "-";
-  for (int i = 0; i < rounds; ++i) ms[i] = t->ms[i], ratio[i] = best ? t->ms[i] / best->ms[i] : NAN;
+  for (int i = 0; i < rounds; ++i) ratio[i] = best ? t->ms[i] / best->ms[i] : NAN;
   if (w->law == TRANSIENT_LAW_REGULARISED) snprintf(rho, sizeof rho, "%.1e", t->sc.transient.regularisation);
   printf("| %-3s | %.0e | %-23s | %7s | %.0e | %8.1e | %7d | %9ld | %9.3f | ", c->name, accuracy, w->name, rho,
-         t->sc.transient.tolerance, t->error, t->r.periods, t->r.steps, median(rounds, ms));
-  if (t->error <= accuracy) printf("%7.1f |\n", median(rounds, ratio));
+         t->sc.transient.tolerance, t->error, t->r.periods, t->r.steps, quantile(rounds, t->ms, 0.5));
+  if (t->error <= accuracy) printf("%7.1f |\n", quantile(rounds, ratio, 0.5));
   else
     printf("%s |\n", t->status == HC_OK            ? "not met"
                      : t->status == HC_INTERRUPTED ? "took too long"
@@ -130,9 +130,7 @@ static void table_of(const bench_case *c, double accuracy, int rounds)
       else trials[w].ms[i] = trials[w].ms[0];
     }
   for (int w = 0; w < WAYS; ++w) {
-    double ms[MAX_ROUNDS];
-    memcpy(ms, trials[w].ms, sizeof ms);
-    double m = median(rounds, ms);
+    const double m = quantile(rounds, trials[w].ms, 0.5);
     if (trials[w].error <= accuracy && m < least) least = m, best = &trials[w];
   }
   for (int w = 0; w < WAYS; ++w) {
@@ -197,11 +195,7 @@ int main(int argc, char **argv)
 {
   if (argc > 1 && !strcmp(argv[1], "start")) return start();
   if (argc > 1 && !strcmp(argv[1], "once")) return once();
-  int rounds = argc > 1 ? atoi(argv[1]) : 5;
-  if (rounds < 1 || rounds > MAX_ROUNDS) {
-    fprintf(stderr, "usage: %s [ROUNDS, 1..%d, [c2|b10|r2] | start | once]\n", argv[0], MAX_ROUNDS);
-    return 64;
-  }
+  const int rounds = count_argument(argc, argv, 1, 5, BENCH_MOST_ROUNDS, "[ROUNDS, [c2|b10|r2] | start | once]");
   const bench_case cases[CASES] = {make_case("c2", scene_c2(), 9, 3, 20), make_case("b10", scene_b10(), 7, 3, 20),
                                    make_case("r2", scene_r2(), 708.5, 600, 850)};
   for (int law = TRANSIENT_LAW_REGULARISED; law <= TRANSIENT_LAW_EXACT; ++law) {

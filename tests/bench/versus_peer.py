@@ -4,7 +4,7 @@
 usage: versus_peer.py nlvib|tmdsimpy FOLDER BUILD [CASE...] [--rounds R] [--samples N] [--limit S] [--keep FOLDER]
   FOLDER   the peer, as its repository is: NLvib with SRC/ in it (github.com/maltekrack/NLvib), run by Debian's octave;
            tmdsimpy with tmdsimpy/ in it (github.com/tmd-lab/tmdsimpy), run by Debian's python3 with python3-numpy and python3-scipy
-  BUILD    the build folder: hbmcheck and tests/bench/bench_frf are taken from it
+  BUILD    the build folder: hbmcheck and tests/bench/bench_curve_parts are taken from it
   CASE     names of the table SETTINGS below; default: all that the peer can do
 Both solve the file of cases/structures that is named: same M, C, K, contacts, loads and range of omega, H = 7, harmonic 0 kept. The peer
 samples its contacts N times a period (N of the table, or --samples), and is ended after S seconds on the clock (default: never). Its
@@ -252,7 +252,7 @@ def versus(peer, command, build, name, rounds, samples, limit, work):
     setting = SETTINGS[name]
     p, case = read_case(name), os.path.join(CASES, name + ".yaml")
     os.makedirs(work, exist_ok=True)
-    hbmcheck, inside = os.path.join(build, "hbmcheck"), os.path.join(build, "tests", "bench", "bench_frf")
+    hbmcheck, inside = os.path.join(build, "hbmcheck"), os.path.join(build, "tests", "bench", "bench_curve_parts")
     N = samples or setting["N"]
     problem, curve = (os.path.join(work, "%s_%s.%s" % (peer, name, what)) for what in ("problem", "curve"))
     words = {**{k: p[k] for k in ("n", "M", "D", "K", "static", "force", "H", "sweep")}, "N": [N], **{k: [v] for k, v in setting[peer].items()}}
@@ -275,8 +275,8 @@ def versus(peer, command, build, name, rounds, samples, limit, work):
         whole.append(seconds - float(checked))
         alone.append(float(inner))
         whole_here.append(statistics.median(run(ours)[0] for _ in range(5)))
-        inner, points_here = run([inside, case, "5", *exact[1::2]])[1].split()
-        alone_here.append(float(inner))
+        _, _, _, points_here, inner, *_ = run([inside, "5", case, "--set", *exact[1::2]])[1].splitlines()[-1].split()
+        alone_here.append(1e-3 * float(inner))
     points, total, unsolved, last = read_points(curve, p)
     keep_curve(os.path.splitext(curve)[0] + ".csv", peer, name, p, N, points, unsolved)
     begin, end = p["sweep"]
