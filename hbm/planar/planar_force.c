@@ -339,7 +339,7 @@ static hc_status make(const contact_coordinates *c, const evaluator_settings *ho
   return st;
 }
 
-/* An interval of stick whose slider comes to rest at no angle: planar_monodromy.c moves it. */
+/* An interval of stick whose slider comes to rest at no angle: monodromy.c moves it. */
 static void fill_intervals(planar_force *f)
 {
   for (int i = 0; i < f->cycle.n; ++i) {

@@ -1,7 +1,13 @@
 /* monodromy.c - see monodromy.h. The state is (dx, dx', dheld_1, ..., dheld_n); dheld_j counts only while contact j
- * is stuck. Row i of phi is state i, column q the initial state q. The period starts at the end of its longest
- * interval, since few motions outlast that (interval_flow.h); where contacts have two tangents with one limit, at th
- * = 0. */
+ * is stuck. Row i of phi is state i, column q the initial state q. The period starts at the end of its longest interval.
+ * Few motions outlast that (interval_flow.h), and columns are made of them alone; where there is planar friction, of all
+ * states there.
+ *
+ * While a planar contact sticks the rows of its two halves are dheld = kt dw, while it slips the first's is y = R d phi
+ * (planar_flow.h). What they begin with, at fixed th (planar_force.h):
+ *     touch-down   sticks dw = du - (dR/R') u', slips y = 0, since R = 0
+ *     to slip      y = (du - dw).e_perp
+ *     to rest      dw = du - dR e - y e_perp */
 #include "hbm/stability/monodromy.h"
 
 #include <complex.h>
@@ -11,71 +17,64 @@
 
 #include "base/ascending.h"
 #include "base/constants.h"
-#include "hbm/stability/monodromy_impl.h"
+#include "hbm/planar/planar_flow.h"
+#include "hbm/stability/interval_flow.h"
+#include "numerics/floquet.h"
 
-static hc_status make_circles(const model *m, monodromy *w)
-{
-  w->track = calloc((size_t)m->n_contacts, sizeof *w->track);
-  w->slipping = calloc((size_t)m->n_contacts, sizeof *w->slipping);
-  return w->track && w->slipping ? planar_flow_new(m, &w->circles) : HC_NO_MEMORY;
-}
+/* What a law is to a perturbation, of its first contact j. */
+typedef struct perturbed_law {
+  int contacts; /* of the model that are followed together */
+  /* w->interval[] on the interval around th. */
+  void (*enter)(monodromy *w, const contact_forces *orbit, int j, double th);
+  /* The rows of its sliders where that interval begins, at th. */
+  void (*begin)(monodromy *w, const model *m, const contact_forces *orbit, int j, double th);
+  /* Adds those of its states to w->active that the period begins with, at th. */
+  void (*add_states)(monodromy *w, const contact_forces *orbit, int j, double th);
+} perturbed_law;
 
-hc_status monodromy_new(const model *m, monodromy **out)
-{
-  *out = calloc(1, sizeof **out);
-  monodromy *w = *out;
-  if (!w) return HC_NO_MEMORY;
-  w->cap = 2;
-  w->boundary = malloc((size_t)w->cap * sizeof(double));
-  w->n = m->n;
-  w->n_states = 2 * m->n + m->n_contacts;
-  const size_t n = (size_t)w->n_states;
-  w->phi = malloc(n * n * sizeof *w->phi);
-  w->share = malloc(n * sizeof *w->share);
-  w->interval = malloc(n * sizeof *w->interval);
-  w->active = malloc(n * sizeof *w->active);
-  w->slider = malloc(n * sizeof *w->slider);
-  w->goes_on = malloc(n * sizeof *w->goes_on);
-  w->lambda = malloc(n * sizeof *w->lambda);
-  w->left = malloc(n * n * sizeof *w->left);
-  const bool vectors = w->boundary && w->share && w->interval && w->active && w->slider && w->goes_on && w->lambda;
-  const bool allocated = vectors && w->phi && w->left;
-  hc_status st = allocated ? floquet_new(w->n_states, &w->floquet) : HC_NO_MEMORY;
-  if (st == HC_OK) st = interval_flow_new(m, &w->flow);
-  if (st == HC_OK && model_has_circle(m)) st = make_circles(m, w);
-  if (st == HC_OK) return HC_OK;
-  monodromy_free(w);
-  *out = NULL;
-  return st;
-}
+/* A contact while a perturbation is followed; of a planar one the first half. */
+typedef struct contact_track {
+  const perturbed_law *law;
+  const planar_cycle *cycle;                /* of a planar one, as below */
+  const planar_interval *interval, *before; /* the current one and the one before; NULL while separated */
+} contact_track;
 
-void monodromy_free(monodromy *w)
-{
-  if (!w) return;
-  floquet_free(w->floquet);
-  interval_flow_free(w->flow);
-  planar_flow_free(w->circles);
-  free(w->track);
-  free(w->slipping);
-  free(w->boundary);
-  free(w->phi);
-  free(w->left);
-  free(w->share);
-  free(w->interval);
-  free(w->active);
-  free(w->slider);
-  free(w->goes_on);
-  free(w->lambda);
-  free(w);
-}
+struct monodromy {
+  int n;            /* degrees of freedom */
+  int n_states;     /* 2 n + contacts */
+  int cap;          /* of boundary */
+  double *boundary; /* [cap] [rad] every angle at which a contact changes state, ascending */
+  int columns;      /* of phi that count */
+  double *phi;      /* [n_states][n_states] by rows */
+  double *left;     /* [n_states][n_states] of interval_flow_left */
+  double *size;     /* [n_states] of a state, in the columns of phi */
+  interval_flow *flow;
+  const contact_interval **interval; /* [n_states] of each contact, the current one; NULL while separated */
+  int n_active, *active;             /* [n_states] the initial states that the multipliers are made of */
+  contact_track *track;              /* [contacts] */
+  planar_flow *planar;               /* NULL: the model has no planar friction */
+  int n_slipping;                    /* planar contacts that slip on the current interval */
+  planar_slipping *slipping;         /* [contacts] */
+  int *slider;                       /* [n_states] of interval_flow_leave, and which of them go on */
+  bool *goes_on;
+  double complex *lambda; /* [n_states] */
+  floquet *floquet;
+};
+
+/* ---- the intervals of a period ------------------------------------------------------------------ */
 
 static double wrap(double th) { return th >= TWO_PI ? th - TWO_PI : th; }
 
-/* All angles of change in [0, 2 pi], where there are circles the ends included; their number or -1 without memory. */
+/* Does [from, to), which may begin before 2 pi and end behind it, cover th in [0, 2 pi)? */
+static bool covers(double from, double to, double th)
+{
+  return (th >= from && th < to) || (th + TWO_PI >= from && th + TWO_PI < to);
+}
+
+/* All angles of change in [0, 2 pi); their number or -1 without memory. */
 static int collect_boundaries(monodromy *w, const contact_forces *orbit, int n_contacts)
 {
-  const bool ends = w->circles;
-  int n = 2;
+  int n = 1;
   for (int j = 0, intervals; j < n_contacts; ++j) {
     contact_forces_intervals(orbit, j, &intervals);
     n += 2 * intervals;
@@ -86,14 +85,12 @@ static int collect_boundaries(monodromy *w, const contact_forces *orbit, int n_c
     w->boundary = more;
     w->cap = 2 * n;
   }
-  const bool changes = n > 2;
   n = 0;
-  if (ends || !changes) w->boundary[n++] = 0;
-  if (ends) w->boundary[n++] = TWO_PI;
   for (int j = 0, intervals; j < n_contacts; ++j) {
     const contact_interval *p = contact_forces_intervals(orbit, j, &intervals);
     for (int k = 0; k < intervals; ++k) w->boundary[n++] = wrap(p[k].from), w->boundary[n++] = wrap(p[k].to);
   }
+  if (n == 0) w->boundary[n++] = 0;
   qsort(w->boundary, (size_t)n, sizeof(double), ascending);
   return n;
 }
@@ -104,17 +101,44 @@ static double end_of_interval(const monodromy *w, int n, int i)
   return i + 1 < n ? w->boundary[i + 1] : w->boundary[0] + TWO_PI;
 }
 
-const contact_interval *monodromy_interval_at(const contact_forces *orbit, int j, double th)
+static bool is_empty(const monodromy *w, int n, int i) { return !(end_of_interval(w, n, i) > w->boundary[i]); }
+
+/* Boundary at which the longest interval begins. */
+static int find_longest(const monodromy *w, int n)
+{
+  int longest = 0;
+  for (int i = 1; i < n; ++i)
+    if (end_of_interval(w, n, i) - w->boundary[i] > end_of_interval(w, n, longest) - w->boundary[longest]) longest = i;
+  return longest;
+}
+
+/* The interval behind i; there may be boundaries twice. */
+static int next_interval(const monodromy *w, int n, int i)
+{
+  int k = 1;
+  while (k < n && is_empty(w, n, (i + k) % n)) ++k;
+  return (i + k) % n;
+}
+
+static void enter_interval(monodromy *w, const model *m, const contact_forces *orbit, int n, int i)
+{
+  const double middle = wrap(0.5 * (w->boundary[i] + end_of_interval(w, n, i)));
+  w->n_slipping = 0;
+  for (int j = 0; j < m->n_contacts; j += w->track[j].law->contacts) w->track[j].law->enter(w, orbit, j, middle);
+}
+
+/* ---- one tangent ---------------------------------------------------------------------------------- */
+
+static void enter_line(monodromy *w, const contact_forces *orbit, int j, double th)
 {
   int n;
   const contact_interval *p = contact_forces_intervals(orbit, j, &n);
-  for (int i = 0; i < n; ++i) {
-    bool covers = th >= p[i].from && th < p[i].to;
-    bool covers_wrapped = th + TWO_PI >= p[i].from && th + TWO_PI < p[i].to;
-    if (covers || covers_wrapped) return &p[i];
-  }
-  return NULL;
+  w->interval[j] = NULL;
+  for (int i = 0; i < n && !w->interval[j]; ++i)
+    if (covers(p[i].from, p[i].to, th)) w->interval[j] = &p[i];
 }
+
+static const double NEGLIGIBLE_SLIP = 1e-6; /* [rad] */
 
 /* Is contact j's slider stuck all period? Slip intervals of less than 1e-6 rad in all count as stick: the slip path
  * goes with the square of their length, so 1e-6 rad move the slider by rounding only. They occur at shakedown: the
@@ -122,7 +146,6 @@ const contact_interval *monodromy_interval_at(const contact_forces *orbit, int j
  * by where the slider rests; its one-sided derivative, as if it slipped at the graze, has the family's multiplier 1. */
 static bool stuck_all_period(const contact_forces *orbit, int j)
 {
-  const double negligible_slip = 1e-6;
   double stuck = 0, touching = 0;
   int n;
   const contact_interval *p = contact_forces_intervals(orbit, j, &n);
@@ -130,7 +153,7 @@ static bool stuck_all_period(const contact_forces *orbit, int j)
     touching += p[i].to - p[i].from;
     if (p[i].state == CONTACT_STICK) stuck += p[i].to - p[i].from;
   }
-  return touching >= TWO_PI * (1 - 1e-15) && stuck >= touching - negligible_slip;
+  return touching >= TWO_PI * (1 - 1e-15) && stuck >= touching - NEGLIGIBLE_SLIP;
 }
 
 /* Is dheld_j a state of the system? Not if the slider is stuck all period, and not if every stick interval starts
@@ -171,26 +194,259 @@ static void set_slider(monodromy *w, const model *m, const contact_forces *orbit
   }
 }
 
-void monodromy_set_sliders(monodromy *w, const model *m, const contact_forces *orbit, double th)
+static void begin_line(monodromy *w, const model *m, const contact_forces *orbit, int j, double th)
 {
-  for (int j = 0; j < m->n_contacts; ++j) {
-    const contact_interval *p = w->interval[j];
-    bool rests = p && p->state == CONTACT_STICK && comes_to_rest_at(p, th);
-    if (!rests || stuck_all_period(orbit, j)) continue;
-    set_slider(w, m, orbit, j, p);
+  const contact_interval *p = w->interval[j];
+  const bool rests = p && p->state == CONTACT_STICK && comes_to_rest_at(p, th);
+  if (rests && !stuck_all_period(orbit, j)) set_slider(w, m, orbit, j, p);
+}
+
+static void add_states_of_line(monodromy *w, const contact_forces *orbit, int j, double th)
+{
+  if (rests_from_before(w->interval[j], th) && slider_is_state(orbit, j)) w->active[w->n_active++] = 2 * w->n + j;
+}
+
+/* ---- planar friction ------------------------------------------------------------------------------ */
+
+/* What the halves of a planar contact are to interval_flow.c while it sticks. */
+static const contact_interval at_rest = {.from = 0, .to = TWO_PI, .state = CONTACT_STICK, .origin = -1};
+
+static bool slips(const planar_interval *p) { return p && p->state != CONTACT_STICK; }
+static bool sticks(const planar_interval *p) { return p && p->state == CONTACT_STICK; }
+
+/* Stuck all period but for 1e-6 rad, as in stuck_all_period. */
+static bool planar_is_free(const planar_cycle *c)
+{
+  double slipping = 0;
+  for (int i = 0; i < c->n; ++i) slipping += slips(&c->interval[i]) ? c->interval[i].to - c->interval[i].from : 0;
+  return c->always && slipping < NEGLIGIBLE_SLIP;
+}
+
+static void enter_planar(monodromy *w, const contact_forces *orbit, int j, double th)
+{
+  contact_track *t = &w->track[j];
+  t->cycle = contact_forces_planar(orbit, j);
+  t->before = t->interval;
+  t->interval = NULL;
+  for (int i = 0; i < t->cycle->n && !t->interval; ++i)
+    if (covers(t->cycle->interval[i].from, t->cycle->interval[i].to, th)) t->interval = &t->cycle->interval[i];
+  if (slips(t->interval) && planar_is_free(t->cycle)) t->interval = NULL; /* of 1e-6 rad: no time passes */
+  w->interval[j] = w->interval[j + 1] = sticks(t->interval) ? &at_rest : NULL;
+  if (slips(t->interval)) w->slipping[w->n_slipping++] = (planar_slipping){j, t->cycle, t->interval};
+}
+
+/* Directional derivative of column q: direction . dx. */
+static double along(const monodromy *w, const double *direction, int q)
+{
+  double sum = 0;
+  for (int i = 0; i < w->n; ++i) sum += direction[i] * w->phi[(size_t)i * (size_t)w->n_states + (size_t)q];
+  return sum;
+}
+
+static double *row_of(const monodromy *w, int j) { return w->phi + (size_t)(2 * w->n + j) * (size_t)w->n_states; }
+
+static void begin_slip(monodromy *w, const model *m, int j, double phi)
+{
+  const double kt = m->contacts[j].law.kt, cosine = cos(phi), sine = sin(phi);
+  double *first = row_of(w, j), *second = row_of(w, j + 1);
+  for (int q = 0; q < w->columns; ++q) {
+    const double d1 = along(w, m->contacts[j].tangent, q) - first[q] / kt,
+                 d2 = along(w, m->contacts[j + 1].tangent, q) - second[q] / kt;
+    first[q] = d2 * cosine - d1 * sine;
+    second[q] = 0;
   }
 }
 
-/* Initial states: dx, dx', and dheld of each slider that is at rest when the period starts. Their number. */
-int monodromy_initial_sliders(monodromy *w, const model *m, const contact_forces *orbit, int n_active, double th)
+static void come_to_rest(monodromy *w, const model *m, int j, double phi)
 {
-  for (int j = 0; j < m->n_contacts; ++j) {
-    if (rests_from_before(w->interval[j], th) && slider_is_state(orbit, j)) w->active[n_active++] = 2 * w->n + j;
+  const contact *law = &m->contacts[j].law;
+  const double cosine = cos(phi), sine = sin(phi), by_v = law->mu * law->kn / law->kt;
+  double *first = row_of(w, j), *second = row_of(w, j + 1);
+  for (int q = 0; q < w->columns; ++q) {
+    const double dR = by_v * along(w, m->contacts[j].normal, q), y = first[q];
+    first[q] = law->kt * (along(w, m->contacts[j].tangent, q) - dR * cosine + y * sine);
+    second[q] = law->kt * (along(w, m->contacts[j + 1].tangent, q) - dR * sine - y * cosine);
   }
-  return n_active;
 }
 
-/* Of n states m have multipliers, those that outlast the longest interval: the others' are 0. */
+static void touch_down(monodromy *w, const model *m, int j, const planar_point *at, bool to_rest)
+{
+  const contact *law = &m->contacts[j].law;
+  const double by_v = law->mu * law->kn / law->kt;
+  double *first = row_of(w, j), *second = row_of(w, j + 1);
+  for (int q = 0; q < w->columns; ++q) {
+    const double part = by_v * along(w, m->contacts[j].normal, q) / at->dR;
+    first[q] = to_rest ? law->kt * (along(w, m->contacts[j].tangent, q) - part * at->du[0]) : 0;
+    second[q] = to_rest ? law->kt * (along(w, m->contacts[j + 1].tangent, q) - part * at->du[1]) : 0;
+  }
+}
+
+/* phi at the start or at the end of an interval of slip. */
+static double first_angle(const planar_cycle *c, const planar_interval *p) { return c->slip.panel[p->panel].phi0; }
+static double last_angle(const planar_cycle *c, const planar_interval *p)
+{
+  return c->slip.panel[p->panel + p->n_panels - 1].phi[COLLOCATION_POINTS - 1];
+}
+
+static void begin_planar(monodromy *w, const model *m, const contact_forces *orbit, int j, double th)
+{
+  const contact_track *t = &w->track[j];
+  (void)orbit;
+  if (!t->interval || planar_is_free(t->cycle)) return;
+  if (!t->before) {
+    const planar_point at = planar_motion_at(t->cycle->m, th);
+    touch_down(w, m, j, &at, sticks(t->interval));
+  } else if (sticks(t->before) && slips(t->interval)) begin_slip(w, m, j, first_angle(t->cycle, t->interval));
+  else if (slips(t->before) && sticks(t->interval)) come_to_rest(w, m, j, last_angle(t->cycle, t->before));
+}
+
+/* Those it has on the interval before. */
+static void add_states_of_planar(monodromy *w, const contact_forces *orbit, int j, double th)
+{
+  const contact_track *t = &w->track[j];
+  (void)orbit, (void)th;
+  if (!t->before || planar_is_free(t->cycle)) return;
+  w->active[w->n_active++] = 2 * w->n + j;
+  if (sticks(t->before)) w->active[w->n_active++] = 2 * w->n + j + 1;
+}
+
+enum { LINE, PLANAR };
+
+static const perturbed_law laws[] = {
+    [LINE] = {1, enter_line, begin_line, add_states_of_line},
+    [PLANAR] = {2, enter_planar, begin_planar, add_states_of_planar},
+};
+
+/* ---- made and freed --------------------------------------------------------------------------------- */
+
+hc_status monodromy_new(const model *m, monodromy **out)
+{
+  *out = calloc(1, sizeof **out);
+  monodromy *w = *out;
+  if (!w) return HC_NO_MEMORY;
+  w->cap = 2;
+  w->boundary = malloc((size_t)w->cap * sizeof(double));
+  w->n = m->n;
+  w->n_states = 2 * m->n + m->n_contacts;
+  const size_t n = (size_t)w->n_states;
+  w->phi = malloc(n * n * sizeof *w->phi);
+  w->size = malloc(n * sizeof *w->size);
+  w->interval = malloc(n * sizeof *w->interval);
+  w->active = malloc(n * sizeof *w->active);
+  w->slider = malloc(n * sizeof *w->slider);
+  w->goes_on = malloc(n * sizeof *w->goes_on);
+  w->lambda = malloc(n * sizeof *w->lambda);
+  w->left = malloc(n * n * sizeof *w->left);
+  w->track = calloc((size_t)m->n_contacts + 1, sizeof *w->track);
+  w->slipping = calloc((size_t)m->n_contacts + 1, sizeof *w->slipping);
+  const bool vectors = w->boundary && w->size && w->interval && w->active && w->slider && w->goes_on && w->lambda;
+  const bool allocated = vectors && w->phi && w->left && w->track && w->slipping;
+  hc_status st = allocated ? floquet_new(w->n_states, &w->floquet) : HC_NO_MEMORY;
+  for (int j = 0; j < m->n_contacts && st == HC_OK; j += w->track[j].law->contacts)
+    w->track[j].law = &laws[placed_contact_of(m, j).planar ? PLANAR : LINE];
+  if (st == HC_OK) st = interval_flow_new(m, &w->flow);
+  if (st == HC_OK && model_has_circle(m)) st = planar_flow_new(m, &w->planar);
+  if (st == HC_OK) return HC_OK;
+  monodromy_free(w);
+  *out = NULL;
+  return st;
+}
+
+void monodromy_free(monodromy *w)
+{
+  if (!w) return;
+  floquet_free(w->floquet);
+  interval_flow_free(w->flow);
+  planar_flow_free(w->planar);
+  free(w->track);
+  free(w->slipping);
+  free(w->boundary);
+  free(w->phi);
+  free(w->left);
+  free(w->size);
+  free(w->interval);
+  free(w->active);
+  free(w->slider);
+  free(w->goes_on);
+  free(w->lambda);
+  free(w);
+}
+
+/* ---- a period ----------------------------------------------------------------------------------------- */
+
+/* Columns of all states there are behind the interval `last`, which has been entered: each in its size, for a slider
+ * that moves by 1 is dheld = kt. */
+static void begin_with_all(monodromy *w, const model *m)
+{
+  const size_t states = (size_t)w->n_states;
+  w->columns = w->n_states;
+  memset(w->phi, 0, states * states * sizeof *w->phi);
+  for (int i = 0; i < w->n_states; ++i) {
+    const int j = i - 2 * w->n;
+    const bool is_slider = j >= 0 && !slips(w->track[j].interval) && m->contacts[j].law.kt > 0;
+    w->phi[(size_t)i * (states + 1)] = w->size[i] = is_slider ? m->contacts[j].law.kt : 1;
+  }
+}
+
+/* The states at the end in terms of the columns' sizes. */
+static void end_with_all(monodromy *w)
+{
+  const size_t states = (size_t)w->n_states;
+  for (size_t i = 0; i < states; ++i)
+    for (size_t q = 0; q < states; ++q) w->left[i * states + q] = w->phi[i * states + q] / w->size[i];
+}
+
+/* The sliders that are at rest over the interval `last`, and matter; and which of them still are on the one behind it,
+ * which is the current one. Their number. */
+static int collect_held_sliders(monodromy *w, const model *m, const contact_forces *orbit, int n, int last)
+{
+  const int behind = next_interval(w, n, last);
+  int sliders = 0;
+  enter_interval(w, m, orbit, n, last);
+  for (int j = 0; j < m->n_contacts; ++j)
+    if (w->interval[j] && w->interval[j]->state == CONTACT_STICK && slider_is_state(orbit, j)) w->slider[sliders++] = j;
+  enter_interval(w, m, orbit, n, behind);
+  for (int s = 0; s < sliders; ++s) w->goes_on[s] = rests_from_before(w->interval[w->slider[s]], w->boundary[behind]);
+  return sliders;
+}
+
+/* The columns of phi that the period begins with, behind the interval `last`, which is entered. */
+static hc_status begin_period(monodromy *w, const model *m, const contact_forces *orbit, double omega, int n, int last)
+{
+  const double at = w->boundary[next_interval(w, n, last)];
+  const int sliders = collect_held_sliders(w, m, orbit, n, last);
+  for (w->n_active = 0; w->n_active < 2 * w->n; ++w->n_active) w->active[w->n_active] = w->n_active;
+  for (int j = 0; j < m->n_contacts; j += w->track[j].law->contacts) w->track[j].law->add_states(w, orbit, j, at);
+  enter_interval(w, m, orbit, n, last);
+  if (w->planar) return begin_with_all(w, m), HC_OK;
+  const double duration = (end_of_interval(w, n, last) - w->boundary[last]) / omega;
+  const hc_status st =
+      interval_flow_leave(w->flow, w->interval, duration, sliders, w->slider, w->goes_on, w->phi, &w->columns);
+  for (w->n_active = 0; w->n_active < w->columns; ++w->n_active) w->active[w->n_active] = w->n_active;
+  return st;
+}
+
+/* w->left: what the states that the period begins with have become at its end. */
+static hc_status follow_period(monodromy *w, const model *m, const contact_forces *orbit, double omega, int n)
+{
+  const int last = find_longest(w, n);
+  hc_status st = begin_period(w, m, orbit, omega, n, last);
+  for (int k = 1; k <= n && st == HC_OK; ++k) {
+    const int i = (last + k) % n;
+    const double a = w->boundary[i], b = end_of_interval(w, n, i);
+    if (is_empty(w, n, i)) continue;
+    enter_interval(w, m, orbit, n, i);
+    for (int j = 0; j < m->n_contacts; j += w->track[j].law->contacts) w->track[j].law->begin(w, m, orbit, j, a);
+    if (w->n_slipping)
+      st = planar_flow_advance(w->planar, w->interval, w->n_slipping, w->slipping, a, b, omega, w->columns, w->phi);
+    else st = interval_flow_advance(w->flow, w->interval, (b - a) / omega, w->columns, w->phi);
+  }
+  if (st == HC_OK && w->planar) end_with_all(w);
+  else if (st == HC_OK) st = interval_flow_left(w->flow, w->interval, w->slider, w->columns, w->phi, w->left);
+  return st;
+}
+
+/* m of n states have multipliers, those that outlast the longest interval: the others' are 0. */
 static void summarise(int n, int m, const double complex *lambda, hbm_stability *out)
 {
   double complex flip = 1, fold = 1, all = 1;
@@ -212,66 +468,6 @@ static void summarise(int n, int m, const double complex *lambda, hbm_stability 
   out->determinant = m < n ? 0 : creal(all);
 }
 
-/* Boundary at which the longest interval begins. */
-static int find_longest(const monodromy *w, int n)
-{
-  int longest = 0;
-  for (int i = 1; i < n; ++i)
-    if (end_of_interval(w, n, i) - w->boundary[i] > end_of_interval(w, n, longest) - w->boundary[longest]) longest = i;
-  return longest;
-}
-
-static bool is_empty(const monodromy *w, int n, int i) { return !(end_of_interval(w, n, i) > w->boundary[i]); }
-
-/* The interval behind i; there may be boundaries twice. */
-static int next_interval(const monodromy *w, int n, int i)
-{
-  int k = 1;
-  while (k < n && is_empty(w, n, (i + k) % n)) ++k;
-  return (i + k) % n;
-}
-
-static void enter_interval(monodromy *w, const model *m, const contact_forces *orbit, int n, int i)
-{
-  const double mid = 0.5 * (w->boundary[i] + end_of_interval(w, n, i));
-  for (int j = 0; j < m->n_contacts; ++j) w->interval[j] = monodromy_interval_at(orbit, j, wrap(mid));
-}
-
-/* The sliders that are at rest over the interval `last`, and matter; and which of them still are on the one behind it.
- * Their number. */
-static int collect_held_sliders(monodromy *w, const model *m, const contact_forces *orbit, int n, int last)
-{
-  const int behind = next_interval(w, n, last);
-  int sliders = 0;
-  enter_interval(w, m, orbit, n, last);
-  for (int j = 0; j < m->n_contacts; ++j)
-    if (w->interval[j] && w->interval[j]->state == CONTACT_STICK && slider_is_state(orbit, j)) w->slider[sliders++] = j;
-  enter_interval(w, m, orbit, n, behind);
-  for (int s = 0; s < sliders; ++s) w->goes_on[s] = rests_from_before(w->interval[w->slider[s]], w->boundary[behind]);
-  return sliders;
-}
-
-/* Over the period that ends with the longest interval; the number of columns of w->left. */
-static hc_status follow_period(monodromy *w, const model *m, const contact_forces *orbit, double omega, int n,
-                               int *n_active)
-{
-  const int last = find_longest(w, n), sliders = collect_held_sliders(w, m, orbit, n, last);
-  enter_interval(w, m, orbit, n, last);
-  hc_status st = interval_flow_leave(w->flow, w->interval, (end_of_interval(w, n, last) - w->boundary[last]) / omega,
-                                     sliders, w->slider, w->goes_on, w->phi, &w->columns);
-  for (int k = 1; k <= n && st == HC_OK; ++k) {
-    const int i = (last + k) % n;
-    const double a = w->boundary[i], duration = (end_of_interval(w, n, i) - a) / omega;
-    if (is_empty(w, n, i)) continue;
-    enter_interval(w, m, orbit, n, i);
-    monodromy_set_sliders(w, m, orbit, a);
-    st = interval_flow_advance(w->flow, w->interval, duration, w->columns, w->phi);
-  }
-  if (st == HC_OK) st = interval_flow_left(w->flow, w->interval, w->slider, w->columns, w->phi, w->left);
-  for (*n_active = 0; *n_active < w->columns; ++*n_active) w->active[*n_active] = *n_active;
-  return st;
-}
-
 /* More than some minutes of eigenvectors: 30 (2 n)^3 operations an interval, each of its own combination of states. */
 static bool is_too_much(const monodromy *w, int intervals)
 {
@@ -283,12 +479,9 @@ hc_status monodromy_stability(monodromy *w, const model *m, const contact_forces
                               hbm_stability *out)
 {
   const int n = collect_boundaries(w, orbit, m->n_contacts);
-  int n_active = 0;
   hc_status st = n < 0 ? HC_NO_MEMORY : is_too_much(w, n) ? HC_NOT_CONVERGED : HC_OK;
-  if (st == HC_OK && w->circles) st = monodromy_follow_planar(w, m, orbit, omega, n, &n_active);
-  else if (st == HC_OK) st = follow_period(w, m, orbit, omega, n, &n_active);
-  const double *phi = w->circles ? w->phi : w->left;
-  if (st == HC_OK) st = floquet_multipliers(w->floquet, phi, w->n_states, 1, n_active, w->active, w->lambda);
-  if (st == HC_OK) summarise(2 * w->n, n_active, w->lambda, out);
+  if (st == HC_OK) st = follow_period(w, m, orbit, omega, n);
+  if (st == HC_OK) st = floquet_multipliers(w->floquet, w->left, w->n_states, 1, w->n_active, w->active, w->lambda);
+  if (st == HC_OK) summarise(2 * w->n, w->n_active, w->lambda, out);
   return st;
 }
