@@ -6,7 +6,7 @@
  * by a moving convex set (Moreau 1977, J. Differential Equations 26, 347-374); that is no clamp, and repeats itself in
  * the limit only. So the closed orbit is found by Newton on w(0), with the 2x2 derivative of the pass; the first pass,
  * of which the second forgets nearly all, is a rough one, and the last step is to first order where that is wanted
- * (planar_shift.h). A slider that does not slip after some pass stays where marching left it; one that is dragged to
+ * (planar_cycle.c). A slider that does not slip after some pass stays where marching left it; one that is dragged to
  * and fro by two circles that only just leave it room is brought where that ends (planar_corner.h). libm only, nothing
  * is allocated. */
 #ifndef HC_HBM_PLANAR_CYCLE_H
@@ -39,7 +39,7 @@ typedef struct planar_cycle {
   const planar_motion *m;
   const planar_point *grid; /* of planar_motion_grid */
   bool always;              /* never separated: then n_contacts is 1 */
-  bool may_shift;           /* the last step to where it closes may be to first order (planar_shift.h) */
+  bool may_shift;           /* the last step to where it closes may be to first order */
   int n_contacts;
   const planar_contact *contact; /* [n_contacts] ascending */
   planar_interval *interval;     /* [cap] room */

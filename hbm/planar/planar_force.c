@@ -10,28 +10,277 @@
 #include <string.h>
 
 #include "base/constants.h"
+#include "hbm/contact/exact_force.h"
 #include "hbm/contact/force_jacobian.h"
 #include "hbm/contact/interval_series.h"
 #include "hbm/hbm_settings.h"
-#include "hbm/planar/planar_force_impl.h"
+#include "hbm/planar/wide_vectors.h"
+#include "numerics/dense.h"
+#include "numerics/rotate.h"
 #include "numerics/series.h"
 
 enum { N = COLLOCATION_POINTS };
 
+struct planar_force {
+  int n_harm, n_dof, n_coef, n_size; /* n_size = n_dof n_coef */
+  int n_col;                         /* n_size + 2 */
+  contact law;                       /* of both halves together */
+  exact_force *normal;               /* N - N0 and when there is contact; NULL where N is constant */
+  double *F_normal, *jac_normal;     /* [n_coef], [n_coef]^2 */
+  double *X;                         /* [n_size] of the last evaluation, which its motion is read from later, too */
+  planar_motion motion;
+  double *table; /* of series_grid.h */
+  planar_point grid[PLANAR_GRID];
+  collocation rule;
+  planar_contact *contact; /* [cap] */
+  planar_cycle cycle;
+  contact_interval *intervals;         /* [cycle.cap] its intervals, for contact_evaluator.h */
+  double *indicator, *symbol, *weight; /* [4H+1] of an interval, of all stick intervals; [2H+1] */
+  double *F;                           /* [2][n_coef] [length] of T/kt */
+  double *by;                          /* [2][n_coef][n_col] its derivatives */
+  double *dw[2], *dphi;                /* [n_col] */
+  double *node;                        /* [3][N][n_col] d phi at the points of a panel; d(R e) there, with weights */
+  double *matrix;                      /* [n_coef]^2 */
+  double *base, *rate;                 /* [N][n_coef] 1, cos, sin at the points, and their derivatives */
+  double *test;                        /* [n_coef][N] what is integrated with: 1/2, cos, sin */
+};
+
+/* ---- rows of derivatives [n_col]: by the columns of X and by w0 ---------------------------------------- */
+
+/* 1, cos, sin .. of h th; and their derivatives by th. [n_coef] */
+static void fill_base(int n_harm, double th, double *base, double *rate)
+{
+  const double c = cos(th), s = sin(th);
+  double ch = 1, sh = 0;
+  base[0] = 1, rate[0] = 0;
+  for (int h = 1; h <= n_harm; ++h) {
+    series_turn(c, s, &ch, &sh);
+    base[2 * h - 1] = ch, base[2 * h] = sh;
+    rate[2 * h - 1] = -h * sh, rate[2 * h] = h * ch;
+  }
+}
+
+/* to += a du_1 + b du_2 + c dv, base being that of an angle: derivatives of a combination of the motions there. */
+static void add_motion(const planar_force *f, const double *base, double a, double b, double c, double *to)
+{
+  const int L = f->n_coef;
+  for (int i = 0; i < L; ++i) to[i] += a * base[i];
+  for (int i = 0; i < L; ++i) to[L + i] += b * base[i];
+  for (int i = 0; i < L && f->n_dof == 3; ++i) to[2 * L + i] += c * base[i];
+}
+
+static void clear_row(const planar_force *f, double *row) { memset(row, 0, (size_t)f->n_col * sizeof *row); }
+
+/* d phi = e_perp.(du - dw)/length where u - w has that length and direction. */
+static void begin_slip(planar_force *f, const double *base, double phi, double length)
+{
+  const double a = -sin(phi) / length, b = cos(phi) / length;
+  for (int i = 0; i < f->n_col; ++i) f->dphi[i] = -a * f->dw[0][i] - b * f->dw[1][i];
+  add_motion(f, base, a, b, 0, f->dphi);
+}
+
+/* From slip in direction phi into rest: d w = du - dR e - R e_perp d phi. */
+static void come_to_rest(planar_force *f, const double *base, double phi, double R)
+{
+  const double cosine = cos(phi), sine = sin(phi), per_v = f->motion.per_v;
+  for (int i = 0; i < f->n_col; ++i) {
+    f->dw[0][i] = R * sine * f->dphi[i];
+    f->dw[1][i] = -R * cosine * f->dphi[i];
+  }
+  add_motion(f, base, 1, 0, -per_v * cosine, f->dw[0]);
+  add_motion(f, base, 0, 1, -per_v * sine, f->dw[1]);
+}
+
+/* The angle of touch-down moves by -dR/R'. */
+static void begin_contact(planar_force *f, const planar_interval *p, const planar_point *at, const double *base,
+                          const double *rate)
+{
+  const double per_v = f->motion.per_v;
+  if (p->state == CONTACT_STICK) {
+    const double moved = at->dR > 0 ? -per_v / at->dR : 0;
+    clear_row(f, f->dw[0]);
+    clear_row(f, f->dw[1]);
+    add_motion(f, base, 1, 0, moved * at->du[0], f->dw[0]);
+    add_motion(f, base, 0, 1, moved * at->du[1], f->dw[1]);
+    return;
+  }
+  const double phi = f->cycle.slip.panel[p->panel].phi0, speed = hypot(at->du[0], at->du[1]);
+  clear_row(f, f->dphi);
+  add_motion(f, rate, -sin(phi) / speed, cos(phi) / speed, 0, f->dphi);
+  add_motion(f, base, 0, 0, -planar_slip_slope(&f->motion, at, phi) * per_v / speed, f->dphi);
+}
+
+/* From w0 at th = 0, whose derivatives are in dw, into the circle. */
+static void begin_period(planar_force *f, const planar_interval *p, const planar_point *at, const double *base)
+{
+  const double t1 = at->u[0] - f->cycle.start[0], t2 = at->u[1] - f->cycle.start[1], length = hypot(t1, t2),
+               phi = atan2(t2, t1);
+  const bool slips = p->state != CONTACT_STICK;
+  if (!slips && !(length > at->R)) return;
+  begin_slip(f, base, phi, length);
+  if (!slips) come_to_rest(f, base, phi, at->R);
+}
+
+/* From what was before into interval i, whose derivatives are then in dw or dphi; base and rate become those of its
+ * angle. */
+static void begin_interval(planar_force *f, int i, double *base, double *rate)
+{
+  const planar_cycle *c = &f->cycle;
+  const planar_interval *p = &c->interval[i], *before = p - 1;
+  const planar_point at = planar_motion_at(&f->motion, p->from);
+  fill_base(f->n_harm, p->from, base, rate);
+  if (p->begin == PLANAR_TOUCHES) begin_contact(f, p, &at, base, rate);
+  else if (p->begin == PLANAR_STARTS) begin_period(f, p, &at, base);
+  else if (p->state == before->state) return; /* stick goes on, its slider moved by rounding */
+  else if (p->state == CONTACT_STICK)
+    come_to_rest(f, base, c->slip.panel[before->panel + before->n_panels - 1].phi[N - 1], at.R);
+  else begin_slip(f, base, c->slip.panel[p->panel].phi0, at.R);
+}
+
+/* ---- a panel of slip ------------------------------------------------------------------------------- */
+
+typedef struct slip_points {
+  double weight[N]; /* width a[last][i]/pi: of Fourier's integrals */
+  double cosine[N], sine[N], R[N], pull[N];
+} slip_points;
+
+/* 1, cos, sin .. and their rates at the points of a panel, [N][n_coef]. */
+static void fill_bases(planar_force *f, const planar_panel *p)
+{
+  const size_t L = (size_t)f->n_coef;
+  const double width = p->to - p->from, middle = p->from + 0.5 * width;
+  double x[N], c[N], s[N], ch[N], sh[N];
+  for (int i = 0; i < N; ++i) x[i] = width * (f->rule.x[i] - 0.5);
+  rotate(N, cos(middle), sin(middle), x, c, s);
+  for (size_t i = 0; i < N; ++i) ch[i] = 1, sh[i] = 0, f->base[i * L] = 1, f->rate[i * L] = 0;
+  for (size_t h = 1; h <= (size_t)f->n_harm; ++h) {
+    for (int i = 0; i < N; ++i) series_turn(c[i], s[i], &ch[i], &sh[i]);
+    for (size_t i = 0; i < N; ++i) {
+      double *base = f->base + i * L + 2 * h, *rate = f->rate + i * L + 2 * h;
+      base[-1] = ch[i], base[0] = sh[i];
+      rate[-1] = -(double)h * sh[i], rate[0] = (double)h * ch[i];
+    }
+  }
+}
+
+static void evaluate_points(planar_force *f, const planar_panel *p, slip_points *q)
+{
+  const double width = p->to - p->from;
+  planar_panel_directions(p, q->cosine, q->sine);
+  for (int i = 0; i < N; ++i) {
+    q->weight[i] = width * f->rule.a[N - 1][i] / PI;
+    q->R[i] = p->R[i];
+    q->pull[i] = p->du[0][i] * q->cosine[i] + p->du[1][i] * q->sine[i];
+  }
+  fill_bases(f, p);
+}
+
+/* Whole rows of a loop of constant length. */
+static inline void subtract_row(double factor, const double *restrict row, double *restrict from)
+{
+  for (int j = 0; j < 2 * N; ++j) from[j] -= factor * row[j];
+}
+
+/* B := A^-1 B, [A | B] being the two in one: the matrix of planar_slip.c, which needs no exchange of rows. */
+WIDE_VECTORS static void solve_columns(double A[N][2 * N])
+{
+  for (int k = 0; k < N; ++k) {
+    const double inverse = 1 / A[k][k];
+    for (int j = 0; j < 2 * N; ++j) A[k][j] *= inverse;
+    for (int i = 0; i < N; ++i)
+      if (i != k) subtract_row(A[i][k], A[k], A[i]);
+  }
+}
+
+/* d phi at the points: (R + h a pull) d slope = du'.e_perp - slope dR - pull d phi0, d phi = d phi0 + h a d slope. With
+ * Q = h a (R + h pull a)^-1 it is (1 - Q pull) d phi0 + Q (du'.e_perp - slope dR). */
+static void follow_angle(planar_force *f, const planar_panel *p, const slip_points *q)
+{
+  const int L = f->n_coef;
+  const double h = p->to - p->from, per_v = f->motion.per_v;
+  double A[N][2 * N]; /* both transposed */
+  for (int j = 0; j < N; ++j) {
+    for (int i = 0; i < N; ++i) A[j][i] = h * q->pull[i] * f->rule.by_point[j][i];
+    for (int i = 0; i < N; ++i) A[j][N + i] = h * f->rule.by_point[j][i];
+    A[j][j] += q->R[j];
+  }
+  solve_columns(A);
+  double by_du[2][N][N], by_dv[N][N];
+  for (int i = 0; i < N; ++i) {
+    double *to = f->node + (size_t)i * (size_t)f->n_col, kept = 1;
+    for (int j = 0; j < N; ++j) {
+      const double Q = A[j][N + i];
+      kept -= Q * q->pull[j];
+      by_du[0][i][j] = -Q * q->sine[j];
+      by_du[1][i][j] = Q * q->cosine[j];
+      by_dv[i][j] = -Q * p->slope[j] * per_v;
+    }
+    for (int k = 0; k < f->n_col; ++k) to[k] = kept * f->dphi[k];
+  }
+  for (int d = 0; d < 2; ++d) dense_add_product(L, N, N, 1, f->rate, L, by_du[d][0], N, 1, f->node + d * L, f->n_col);
+  if (f->n_dof == 3) dense_add_product(L, N, N, 1, f->base, L, by_dv[0], N, 1, f->node + 2 * L, f->n_col);
+  memcpy(f->dphi, f->node + (size_t)(N - 1) * (size_t)f->n_col, (size_t)f->n_col * sizeof *f->dphi);
+}
+
+/* d(R e) = R e_perp d phi + e dR at a point, times its weight. */
+static void fill_change(const planar_force *f, const slip_points *q, int i, double *restrict first,
+                        double *restrict second)
+{
+  const size_t L = (size_t)f->n_coef;
+  const double *restrict dphi = f->node + (size_t)i * (size_t)f->n_col, *base = f->base + (size_t)i * (size_t)f->n_coef;
+  const double R = q->weight[i] * q->R[i], e = q->weight[i] * f->motion.per_v, c = q->cosine[i], s = q->sine[i];
+  for (int k = 0; k < f->n_col; ++k) first[k] = -R * s * dphi[k], second[k] = R * c * dphi[k];
+  for (size_t k = 0; f->motion.v && k < L; ++k)
+    first[2 * L + k] += e * c * base[k], second[2 * L + k] += e * s * base[k];
+}
+
+/* Its integrals with the harmonics; of a mean half of that. */
+static void add_slip_derivatives(planar_force *f, const slip_points *q)
+{
+  const size_t n = (size_t)f->n_col;
+  const int L = f->n_coef;
+  double *change[2] = {f->node + N * n, f->node + 2 * N * n};
+  for (int i = 0; i < N; ++i) fill_change(f, q, i, change[0] + (size_t)i * n, change[1] + (size_t)i * n);
+  dense_transpose(L, N, f->base, f->test);
+  for (int i = 0; i < N; ++i) f->test[i] = 0.5;
+  for (int d = 0; d < 2; ++d)
+    dense_add_product(f->n_col, L, N, 1, change[d], f->n_col, f->test, N, 1, f->by + (size_t)(d * L) * n, f->n_col);
+}
+
+/* += a panel's integrals over pi of R e with 1/2, cos, sin .. of h th, into F; if wanted with their derivatives, into
+ * by, dphi being those of phi where it begins, and then where it ends. */
+static void add_panel(planar_force *f, const planar_panel *p, bool derive)
+{
+  const int L = f->n_coef;
+  slip_points q;
+  evaluate_points(f, p, &q);
+  for (int i = 0; i < N; ++i) {
+    const double *base = f->base + (size_t)i * (size_t)f->n_coef;
+    const double T[2] = {q.weight[i] * q.R[i] * q.cosine[i], q.weight[i] * q.R[i] * q.sine[i]};
+    for (int d = 0; d < 2; ++d) {
+      f->F[d * L] += 0.5 * T[d];
+      for (int row = 1; row < L; ++row) f->F[d * L + row] += T[d] * base[row];
+    }
+  }
+  if (!derive) return;
+  follow_angle(f, p, &q);
+  add_slip_derivatives(f, &q);
+}
+
 /* ---- made and freed ---------------------------------------------------------------------------------- */
 
-static double *room(size_t n) { return calloc(n, sizeof(double)); }
+static double *zeros(size_t n) { return calloc(n, sizeof(double)); }
 
 static hc_status make_normal(planar_force *f)
 {
   const moving_contact across = {.law = {.kn = f->law.kn, .gap = f->law.gap}, .cv = {1}};
-  f->F_normal = room((size_t)f->n_coef);
-  f->jac_normal = room((size_t)f->n_coef * (size_t)f->n_coef);
+  f->F_normal = zeros((size_t)f->n_coef);
+  f->jac_normal = zeros((size_t)f->n_coef * (size_t)f->n_coef);
   if (!f->F_normal || !f->jac_normal) return HC_NO_MEMORY;
   return exact_force_new(f->n_harm, 1, 1, &across, &f->normal);
 }
 
-static hc_status make_room(planar_force *f)
+static hc_status make_workspace(planar_force *f)
 {
   const size_t L = (size_t)f->n_coef, col = (size_t)f->n_col, symbol = (size_t)force_jacobian_symbol_length(f->n_harm);
   planar_cycle *c = &f->cycle;
@@ -41,11 +290,11 @@ static hc_status make_room(planar_force *f)
   c->slip.panel = calloc((size_t)c->slip.cap, sizeof *c->slip.panel);
   f->contact = calloc((size_t)c->cap, sizeof *f->contact);
   f->intervals = calloc((size_t)c->cap, sizeof *f->intervals);
-  f->indicator = room(symbol), f->symbol = room(symbol), f->weight = room(2 * (size_t)f->n_harm + 1);
-  f->X = room((size_t)f->n_size), f->F = room(2 * L), f->by = room(2 * L * col);
-  f->dw[0] = room(col), f->dw[1] = room(col), f->dphi = room(col);
-  f->matrix = room(L * L), f->table = room((size_t)series_grid_table_length(f->n_harm));
-  f->node = room(3 * N * col), f->base = room(N * L), f->rate = room(N * L), f->test = room(N * L);
+  f->indicator = zeros(symbol), f->symbol = zeros(symbol), f->weight = zeros(2 * (size_t)f->n_harm + 1);
+  f->X = zeros((size_t)f->n_size), f->F = zeros(2 * L), f->by = zeros(2 * L * col);
+  f->dw[0] = zeros(col), f->dw[1] = zeros(col), f->dphi = zeros(col);
+  f->matrix = zeros(L * L), f->table = zeros((size_t)series_grid_table_length(f->n_harm));
+  f->node = zeros(3 * N * col), f->base = zeros(N * L), f->rate = zeros(N * L), f->test = zeros(N * L);
   const bool found =
       c->interval && c->slip.panel && f->contact && f->intervals && f->indicator && f->symbol && f->weight;
   return found && f->X && f->F && f->matrix && f->table && f->by && f->dw[0] && f->dw[1] && f->dphi && f->node &&
@@ -73,7 +322,7 @@ hc_status planar_force_new(int n_harm, int n_dof, const contact *law, planar_for
   f->n_coef = series_length(n_harm);
   f->n_size = n_dof * f->n_coef;
   f->n_col = f->n_size + 2;
-  hc_status st = make_room(f);
+  hc_status st = make_workspace(f);
   if (st == HC_OK && n_dof == 3) st = make_normal(f);
   if (st != HC_OK) {
     planar_force_free(f);
@@ -90,10 +339,10 @@ void planar_force_free(planar_force *f)
 {
   if (!f) return;
   exact_force_free(f->normal);
-  double *const rooms[] = {f->X,    f->F_normal, f->jac_normal, f->indicator, f->symbol, f->weight,
-                           f->F,    f->by,       f->dw[0],      f->dw[1],     f->dphi,   f->node,
-                           f->base, f->rate,     f->test,       f->matrix,    f->table};
-  for (size_t i = 0; i < sizeof rooms / sizeof *rooms; ++i) free(rooms[i]);
+  double *const arrays[] = {f->X,    f->F_normal, f->jac_normal, f->indicator, f->symbol, f->weight,
+                            f->F,    f->by,       f->dw[0],      f->dw[1],     f->dphi,   f->node,
+                            f->base, f->rate,     f->test,       f->matrix,    f->table};
+  for (size_t i = 0; i < sizeof arrays / sizeof *arrays; ++i) free(arrays[i]);
   free(f->contact);
   free(f->intervals);
   free(f->cycle.interval);
@@ -173,22 +422,22 @@ static void add_intervals(planar_force *f, bool derive)
   clear_sums(f);
   for (int i = 0; i < c->n; ++i) {
     const planar_interval *p = &c->interval[i];
-    if (derive) planar_row_begin(f, i, base, rate);
+    if (derive) begin_interval(f, i, base, rate);
     if (p->state == CONTACT_STICK) add_stick(f, p, derive);
     for (int k = p->panel; p->state != CONTACT_STICK && k < p->panel + p->n_panels; ++k)
-      planar_panel_sums(f, &c->slip.panel[k], derive);
+      add_panel(f, &c->slip.panel[k], derive);
   }
   const planar_interval *last = &c->interval[c->n - 1];
   if (!derive || c->n == 0 || last->state == CONTACT_STICK) return;
-  planar_row_base(f->n_harm, last->to, base, rate);
+  fill_base(f->n_harm, last->to, base, rate);
   const planar_point at = planar_motion_at(&f->motion, last->to);
-  planar_row_rest(f, base, c->slip.panel[last->panel + last->n_panels - 1].phi[N - 1], at.R);
+  come_to_rest(f, base, c->slip.panel[last->panel + last->n_panels - 1].phi[N - 1], at.R);
 }
 
 static void start_from_w0(planar_force *f)
 {
   for (int d = 0; d < 2; ++d) {
-    planar_row_clear(f, f->dw[d]);
+    clear_row(f, f->dw[d]);
     f->dw[d][f->n_size + d] = 1;
   }
 }
@@ -222,8 +471,8 @@ static hc_status march_again(planar_force *f)
 {
   double w[2] = {0};
   hc_status st = HC_OK;
-  planar_row_clear(f, f->dw[0]);
-  planar_row_clear(f, f->dw[1]);
+  clear_row(f, f->dw[0]);
+  clear_row(f, f->dw[1]);
   for (int i = 0; i < f->cycle.marched && st == HC_OK; ++i) {
     st = planar_cycle_pass(&f->cycle, w, NULL);
     if (st == HC_OK) add_intervals(f, true);
@@ -238,9 +487,9 @@ static void follow_corner(planar_force *f)
   const double per_v = f->motion.per_v;
   double *grows[2] = {f->dw[0], f->dw[1]};
   for (int i = 0; i < 2; ++i) {
-    planar_row_clear(f, grows[i]);
-    planar_row_base(f->n_harm, c->at[i].th, f->base, f->rate);
-    planar_row_add(f, f->base, c->e[i][0], c->e[i][1], -per_v, grows[i]);
+    clear_row(f, grows[i]);
+    fill_base(f->n_harm, c->at[i].th, f->base, f->rate);
+    add_motion(f, f->base, c->e[i][0], c->e[i][1], -per_v, grows[i]);
   }
   for (int q = 0; q < f->n_size; ++q) {
     double dw[2];
