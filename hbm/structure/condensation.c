@@ -5,8 +5,62 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "hbm/structure/condensation_impl.h"
+#include "hbm/structure/compliance.h"
+#include "hbm/structure/condensation_basis.h"
 #include "numerics/dense.h"
+
+struct condensation {
+  const model *m;
+  int n_harm;
+  condensation_basis basis;
+  compliance *compliance; /* of a large structure; NULL: there is none */
+  double more_mass;       /* [1/mass] n/trace M */
+  /* at the omega asked for last; of harmonic h at [h] */
+  double omega, more_damping;
+  bool known;
+  bool *by_compliance;       /* [n_harm + 1] the harmonic is by it */
+  double complex *motion;    /* [n_loads][dim] of q under a load, nothing else acting, where it is */
+  double complex *workspace; /* [2 n_loads][dim] */
+  double complex *vector;    /* [2][dim + rest] of responses and derivatives */
+  double complex *S;         /* [n_harm + 1][dim][dim] */
+  double *size;              /* [dim][dim] of the harmonic asked for last */
+  double complex *by_q;      /* [n_harm + 1][dim][rest]: Z_yy^-1 Z_yq */
+  double complex *by_y;      /* [n_harm + 1][dim][rest]: (Z_qy Z_yy^-1)^T */
+  double complex *load;      /* [n_loads][dim] */
+  double complex *rest_of;   /* [n_loads][rest]: Z_yy^-1 p_y */
+  double complex *Zyy;       /* [rest][rest] where it is not diagonal; else [rest], its inverse */
+  int *pivot;                /* [rest] */
+};
+
+/* What Z is at h: K + (alpha M + beta C) with these. */
+static condensation_change dynamic_at(const condensation *c, int h)
+{
+  const double w = h * c->omega;
+  return (condensation_change){-w * w + I * (w * c->more_damping * c->more_mass), I * w};
+}
+
+static size_t entry(const condensation *c, int row, int column)
+{
+  return (size_t)row + (size_t)c->m->n * (size_t)column;
+}
+
+static double complex change_at(const condensation *c, condensation_change by, size_t at)
+{
+  return by.alpha * c->basis.M[at] + by.beta * c->basis.C[at];
+}
+
+static double complex Z_at(const condensation *c, condensation_change dynamic, size_t at)
+{
+  return c->basis.K[at] + change_at(c, dynamic, at);
+}
+
+/* Z_yy of harmonic h is diagonal: at rest whatever the damping. */
+static bool rest_is_diagonal(const condensation *c, int h) { return c->basis.diagonal || (c->basis.modes && h == 0); }
+
+/* What compliance.h wants to know of harmonic h. */
+static double frequency(const condensation *c, int h) { return h * c->omega; }
+static double reach_of(const condensation *c) { return frequency(c, c->n_harm); }
+static double more_rate(const condensation *c) { return c->more_damping * c->more_mass; }
 
 /* With a rest at least as large its modes pay. */
 enum { LARGE = 24 };
@@ -28,7 +82,7 @@ hc_status condensation_new(const model *m, int n_harm, condensation **out)
   if (st == HC_OK) {
     c->by_compliance = calloc(H, sizeof *c->by_compliance);
     c->motion = new_complex(loads * dim);
-    c->room = new_complex(2 * loads * dim);
+    c->workspace = new_complex(2 * loads * dim);
     c->vector = new_complex(2 * (size_t)m->n);
     c->S = new_complex(H * dim * dim);
     c->size = calloc(dim * dim + 1, sizeof *c->size);
@@ -38,7 +92,8 @@ hc_status condensation_new(const model *m, int n_harm, condensation **out)
     c->rest_of = new_complex(loads * rest);
     c->Zyy = new_complex(rest * rest);
     c->pivot = calloc(rest + 1, sizeof *c->pivot);
-    const bool sums = c->S && c->size && c->by_q && c->by_y && c->by_compliance && c->motion && c->room && c->vector;
+    const bool sums =
+        c->S && c->size && c->by_q && c->by_y && c->by_compliance && c->motion && c->workspace && c->vector;
     if (!sums || !c->load || !c->rest_of || !c->Zyy || !c->pivot) st = HC_NO_MEMORY;
   }
   if (st == HC_OK && c->basis.rest >= LARGE) st = compliance_new(m, c->basis.dim, c->basis.rows, &c->compliance);
@@ -54,7 +109,7 @@ void condensation_free(condensation *c)
   compliance_free(c->compliance);
   free(c->by_compliance);
   free(c->motion);
-  free(c->room);
+  free(c->workspace);
   free(c->vector);
   free(c->S);
   free(c->size);
@@ -97,17 +152,16 @@ const double *condensation_first_response(const condensation *c) { return c->bas
 static hc_status prepare_rest(condensation *c, int h, condensation_change dynamic)
 {
   const int dim = c->basis.dim, rest = c->basis.rest;
-  const bool diagonal = condensation_rest_is_diagonal(c, h);
+  const bool diagonal = rest_is_diagonal(c, h);
   for (int i = 0; i < rest && diagonal; ++i) {
-    const double complex z = condensation_Z_at(c, dynamic, condensation_entry(c, dim + i, dim + i));
+    const double complex z = Z_at(c, dynamic, entry(c, dim + i, dim + i));
     if (!(cabs(z) > 0)) return HC_NOT_FINITE;
     c->Zyy[i] = 1 / z;
   }
   if (diagonal || rest == 0) return HC_OK;
   for (int col = 0; col < rest; ++col)
     for (int row = 0; row < rest; ++row)
-      c->Zyy[(size_t)col * (size_t)rest + (size_t)row] =
-          condensation_Z_at(c, dynamic, condensation_entry(c, dim + row, dim + col));
+      c->Zyy[(size_t)col * (size_t)rest + (size_t)row] = Z_at(c, dynamic, entry(c, dim + row, dim + col));
   return dense_factor_complex(rest, c->Zyy, c->pivot) == HC_OK ? HC_OK : HC_NOT_FINITE;
 }
 
@@ -115,7 +169,7 @@ static hc_status prepare_rest(condensation *c, int h, condensation_change dynami
 static void solve_rest(const condensation *c, int h, bool transposed, int columns, double complex *y)
 {
   const int rest = c->basis.rest;
-  const bool diagonal = condensation_rest_is_diagonal(c, h);
+  const bool diagonal = rest_is_diagonal(c, h);
   if (rest == 0) return;
   if (!diagonal) dense_solve_complex(rest, c->Zyy, c->pivot, transposed, columns, y);
   for (int k = 0; k < columns && diagonal; ++k)
@@ -129,8 +183,8 @@ static void fill_couplings(condensation *c, int h, condensation_change dynamic)
   for (int e = 0; e < dim; ++e)
     for (int i = 0; i < rest; ++i) {
       const size_t at = start + (size_t)e * (size_t)rest + (size_t)i;
-      c->by_q[at] = condensation_Z_at(c, dynamic, condensation_entry(c, dim + i, e));
-      c->by_y[at] = condensation_Z_at(c, dynamic, condensation_entry(c, e, dim + i));
+      c->by_q[at] = Z_at(c, dynamic, entry(c, dim + i, e));
+      c->by_y[at] = Z_at(c, dynamic, entry(c, e, dim + i));
     }
   solve_rest(c, h, false, dim, c->by_q + start);
   solve_rest(c, h, true, dim, c->by_y + start);
@@ -142,12 +196,10 @@ static void fill_stiffness(condensation *c, int h, condensation_change dynamic)
   const double complex *by_q = c->by_q + (size_t)h * (size_t)dim * (size_t)rest;
   for (int e = 0; e < dim; ++e)
     for (int d = 0; d < dim; ++d) {
-      const size_t at = condensation_entry(c, d, e),
-                   to = ((size_t)h * (size_t)dim + (size_t)e) * (size_t)dim + (size_t)d;
-      double complex sum = condensation_Z_at(c, dynamic, at);
+      const size_t at = entry(c, d, e), to = ((size_t)h * (size_t)dim + (size_t)e) * (size_t)dim + (size_t)d;
+      double complex sum = Z_at(c, dynamic, at);
       for (int i = 0; i < rest; ++i)
-        sum -= condensation_Z_at(c, dynamic, condensation_entry(c, d, dim + i)) *
-               by_q[(size_t)e * (size_t)rest + (size_t)i];
+        sum -= Z_at(c, dynamic, entry(c, d, dim + i)) * by_q[(size_t)e * (size_t)rest + (size_t)i];
       c->S[to] = sum;
     }
 }
@@ -172,12 +224,13 @@ static void fill_static(condensation *c)
 {
   const int dim = c->basis.dim;
   for (int e = 0; e < dim; ++e)
-    for (int d = 0; d < dim; ++d) c->S[e * dim + d] = c->basis.K[condensation_entry(c, d, e)];
+    for (int d = 0; d < dim; ++d) c->S[e * dim + d] = c->basis.K[entry(c, d, e)];
 }
 
-hc_status condensation_by_rest(condensation *c, int h)
+/* S, couplings and loads of harmonic h by the rest: HC_NOT_FINITE where Z_yy is singular. */
+static hc_status fill_by_rest(condensation *c, int h)
 {
-  const condensation_change dynamic = condensation_dynamic(c, h);
+  const condensation_change dynamic = dynamic_at(c, h);
   hc_status st = prepare_rest(c, h, dynamic);
   if (st != HC_OK) return st;
   const bool uncoupled = h == 0 && c->basis.modes;
@@ -189,7 +242,8 @@ hc_status condensation_by_rest(condensation *c, int h)
   return HC_OK;
 }
 
-void condensation_multiply(int dim, const double complex *S, const double complex *a, double complex *out)
+/* out[dim] = S a. */
+static void multiply(int dim, const double complex *S, const double complex *a, double complex *out)
 {
   for (int d = 0; d < dim; ++d) out[d] = 0;
   for (int e = 0; e < dim; ++e)
@@ -202,14 +256,12 @@ static bool fill_by_compliance(condensation *c, int h)
   const size_t dim = (size_t)c->basis.dim;
   double complex *S = c->S + (size_t)h * dim * dim;
   if (!c->compliance || h == 0) return false;
-  if (compliance_at(c->compliance, condensation_frequency(c, h), condensation_reach(c), condensation_more_rate(c), S,
-                    c->room) != HC_OK)
-    return false;
+  if (compliance_at(c->compliance, frequency(c, h), reach_of(c), more_rate(c), S, c->workspace) != HC_OK) return false;
   for (size_t l = 0; l < (size_t)c->m->n_loads; ++l) {
     if (c->m->loads[l].harmonic != h) continue;
     for (size_t d = 0; d < dim; ++d)
-      c->motion[l * dim + d] = c->room[2 * l * dim + d] - I * c->room[(2 * l + 1) * dim + d];
-    condensation_multiply(c->basis.dim, S, c->motion + l * dim, c->load + l * dim);
+      c->motion[l * dim + d] = c->workspace[2 * l * dim + d] - I * c->workspace[(2 * l + 1) * dim + d];
+    multiply(c->basis.dim, S, c->motion + l * dim, c->load + l * dim);
   }
   return true;
 }
@@ -220,8 +272,8 @@ static void fill_whole(condensation *c)
   const size_t entries = (size_t)c->basis.dim * (size_t)c->basis.dim;
   double complex *S = c->S;
   for (int h = 0; h <= c->n_harm; ++h) {
-    const condensation_change dynamic = condensation_dynamic(c, h);
-    for (size_t at = 0; at < entries; ++at) *S++ = condensation_Z_at(c, dynamic, at);
+    const condensation_change dynamic = dynamic_at(c, h);
+    for (size_t at = 0; at < entries; ++at) *S++ = Z_at(c, dynamic, at);
   }
   for (int l = 0; l < c->m->n_loads; ++l)
     if (c->m->loads[l].harmonic <= c->n_harm) fill_load(c, l);
@@ -237,7 +289,7 @@ hc_status condensation_at(condensation *c, double omega, double more_damping)
   if (c->basis.rest == 0) fill_whole(c);
   for (int h = 0; h <= c->n_harm && st == HC_OK && c->basis.rest > 0; ++h) {
     c->by_compliance[h] = fill_by_compliance(c, h);
-    if (!c->by_compliance[h]) st = condensation_by_rest(c, h);
+    if (!c->by_compliance[h]) st = fill_by_rest(c, h);
   }
   c->known = st == HC_OK;
   return st;
@@ -251,23 +303,206 @@ const double complex *condensation_stiffness(const condensation *c, int h)
 const double *condensation_sizes(condensation *c, int h)
 {
   const int dim = c->basis.dim, rest = c->basis.rest;
-  const condensation_change dynamic = condensation_dynamic(c, h);
+  const condensation_change dynamic = dynamic_at(c, h);
   const double alpha = cabs(dynamic.alpha), beta = cabs(dynamic.beta);
   const double complex *S = condensation_stiffness(c, h), *by_q = c->by_q + (size_t)h * (size_t)dim * (size_t)rest;
   for (int e = 0; e < dim; ++e)
     for (int d = 0; d < dim; ++d) {
-      const size_t at = condensation_entry(c, d, e), to = (size_t)e * (size_t)dim + (size_t)d;
+      const size_t at = entry(c, d, e), to = (size_t)e * (size_t)dim + (size_t)d;
       double size = fabs(c->basis.K[at]) + alpha * fabs(c->basis.M[at]) + beta * fabs(c->basis.C[at]);
-      if (c->by_compliance[h]) size += cabs(S[to] - condensation_Z_at(c, dynamic, at));
+      if (c->by_compliance[h]) size += cabs(S[to] - Z_at(c, dynamic, at));
       for (int i = 0; i < rest && !c->by_compliance[h]; ++i)
-        size += cabs(condensation_Z_at(c, dynamic, condensation_entry(c, d, dim + i)) *
-                     by_q[(size_t)e * (size_t)rest + (size_t)i]);
+        size += cabs(Z_at(c, dynamic, entry(c, d, dim + i)) * by_q[(size_t)e * (size_t)rest + (size_t)i]);
       c->size[to] = size;
     }
   return c->size;
 }
 
+bool condensation_is_by_modes(const condensation *c, int h) { return c->by_compliance[h]; }
+
 const double complex *condensation_load(const condensation *c, int i)
 {
   return c->load + (size_t)i * (size_t)c->basis.dim;
+}
+
+/* ---- derivatives and responses -------------------------------------------------------------------- */
+
+condensation_change condensation_by_omega(const condensation *c, int h)
+{
+  return (condensation_change){-2.0 * h * h * c->omega + I * (h * c->more_damping * c->more_mass), I * h};
+}
+
+condensation_change condensation_by_damping(const condensation *c, int h)
+{
+  return (condensation_change){I * (h * c->omega * c->more_mass), 0};
+}
+
+/* dG and dg of compliance.h. NULL where it cannot tell: Z_yy is then there. */
+static const double complex *change_by_compliance(condensation *c, int h, condensation_change by)
+{
+  const double w = frequency(c, h);
+  const double complex ds = by.beta, dd = by.beta == 0 ? by.alpha / (I * w) : 0, *dG;
+  if (!c->by_compliance[h]) return NULL;
+  const hc_status st = compliance_change(c->compliance, w, reach_of(c), more_rate(c), ds, dd, &dG);
+  if (st == HC_OK) return dG;
+  c->by_compliance[h] = fill_by_rest(c, h) != HC_OK;
+  return NULL;
+}
+
+/* dS a = -S dG S a; vector[2][dim]. */
+static void apply_by_compliance(const condensation *c, int h, const double complex *dG, const double complex *a,
+                                double complex *vector, double complex *dS_a)
+{
+  const int dim = c->basis.dim;
+  const double complex *S = condensation_stiffness(c, h);
+  double complex *force = vector, *motion = vector + dim;
+  multiply(dim, S, a, force);
+  multiply(dim, dG, force, motion);
+  multiply(dim, S, motion, dS_a);
+  for (int d = 0; d < dim; ++d) dS_a[d] = -dS_a[d];
+}
+
+/* inner[rest] -= dZ_yy y. */
+static void subtract_rest(const condensation *c, int h, condensation_change by, const double complex *y,
+                          double complex *inner)
+{
+  const int dim = c->basis.dim, rest = c->basis.rest;
+  const bool diagonal = rest_is_diagonal(c, h);
+  for (int i = 0; i < rest && diagonal; ++i) inner[i] -= change_at(c, by, entry(c, dim + i, dim + i)) * y[i];
+  for (int k = 0; k < rest && !diagonal; ++k)
+    for (int i = 0; i < rest; ++i) inner[i] -= change_at(c, by, entry(c, dim + i, dim + k)) * y[k];
+}
+
+/* out[dim] -= dZ_qy y + Z_qy Z_yy^-1 inner. */
+static void subtract_coupling(const condensation *c, int h, condensation_change by, const double complex *y,
+                              const double complex *inner, double complex *out)
+{
+  const size_t dim = (size_t)c->basis.dim, rest = (size_t)c->basis.rest;
+  const double complex *by_y = c->by_y + (size_t)h * dim * rest;
+  for (size_t d = 0; d < dim; ++d)
+    for (size_t i = 0; i < rest; ++i)
+      out[d] -= by_y[d * rest + i] * inner[i] + change_at(c, by, entry(c, (int)d, (int)(dim + i))) * y[i];
+}
+
+/* dS a = dZ_qq a - Z_qy Z_yy^-1 (dZ_yq a - dZ_yy W a) - dZ_qy W a,   W = Z_yy^-1 Z_yq. */
+static void apply_by_rest(const condensation *c, int h, condensation_change by, const double complex *a,
+                          double complex *vector, double complex *dS_a)
+{
+  const int dim = c->basis.dim, rest = c->basis.rest;
+  const double complex *W = c->by_q + (size_t)h * (size_t)dim * (size_t)rest;
+  double complex *y = vector, *inner = vector + rest;
+  memset(vector, 0, 2 * (size_t)rest * sizeof *vector);
+  for (int e = 0; e < dim; ++e) {
+    for (int d = 0; d < dim; ++d) dS_a[d] += change_at(c, by, entry(c, d, e)) * a[e];
+    for (int i = 0; i < rest; ++i) {
+      y[i] += W[(size_t)e * (size_t)rest + (size_t)i] * a[e];
+      inner[i] += change_at(c, by, entry(c, dim + i, e)) * a[e];
+    }
+  }
+  subtract_rest(c, h, by, y, inner);
+  subtract_coupling(c, h, by, y, inner, dS_a);
+}
+
+void condensation_stiffness_change(condensation *c, int h, condensation_change by, const double complex *a,
+                                   double complex *dS_a)
+{
+  memset(dS_a, 0, (size_t)c->basis.dim * sizeof *dS_a);
+  if (by.alpha == 0 && by.beta == 0) return; /* at rest */
+  const double complex *dG = change_by_compliance(c, h, by);
+  if (dG) apply_by_compliance(c, h, dG, a, c->vector, dS_a);
+  else apply_by_rest(c, h, by, a, c->vector, dS_a);
+}
+
+/* p = S g:  dp = dS g + S dg. */
+static void load_change_by_compliance(condensation *c, int l, const double complex *dG, double complex *dp)
+{
+  const size_t dim = (size_t)c->basis.dim;
+  const int h = c->m->loads[l].harmonic;
+  const double complex *dg = dG + dim * dim + 2 * (size_t)l * dim;
+  double complex *motion = c->workspace;
+  apply_by_compliance(c, h, dG, c->motion + (size_t)l * dim, c->vector, dp);
+  for (size_t d = 0; d < dim; ++d) motion[d] = dg[d] - I * dg[dim + d];
+  multiply(c->basis.dim, condensation_stiffness(c, h), motion, c->vector);
+  for (size_t d = 0; d < dim; ++d) dp[d] += c->vector[d];
+}
+
+/* dp = Z_qy Z_yy^-1 dZ_yy Z_yy^-1 p_y - dZ_qy Z_yy^-1 p_y. */
+static void load_change_by_rest(condensation *c, int l, condensation_change by, double complex *dp)
+{
+  const size_t rest = (size_t)c->basis.rest;
+  const int h = c->m->loads[l].harmonic;
+  const double complex *y = c->rest_of + (size_t)l * rest;
+  memset(c->vector, 0, rest * sizeof *c->vector);
+  subtract_rest(c, h, by, y, c->vector);
+  subtract_coupling(c, h, by, y, c->vector, dp);
+}
+
+void condensation_load_change(condensation *c, int l, condensation_change by, double complex *dp)
+{
+  const int h = c->m->loads[l].harmonic;
+  memset(dp, 0, (size_t)c->basis.dim * sizeof *dp);
+  if (by.alpha == 0 && by.beta == 0) return;
+  const double complex *dG = change_by_compliance(c, h, by);
+  if (dG) load_change_by_compliance(c, l, dG, dp);
+  else load_change_by_rest(c, l, by, dp);
+}
+
+/* row = G_r S, rest = g_r - G_r p. */
+static bool response_by_compliance(condensation *c, int h, int r, double factor, double complex *row,
+                                   double complex *rest_of_it)
+{
+  const int dim = c->basis.dim;
+  double complex *G_r = c->vector, *g_r = c->workspace;
+  const double complex *S = c->S + (size_t)h * (size_t)dim * (size_t)dim;
+  if (!c->by_compliance[h]) return false;
+  if (compliance_of_response(c->compliance, frequency(c, h), reach_of(c), more_rate(c), r, G_r, g_r) != HC_OK)
+    return false;
+  *rest_of_it = 0;
+  for (int e = 0; e < dim; ++e) {
+    row[e] = 0;
+    for (int d = 0; d < dim; ++d) row[e] += G_r[d] * S[(size_t)e * (size_t)dim + (size_t)d];
+  }
+  for (int l = 0; l < c->m->n_loads; ++l) {
+    if (c->m->loads[l].harmonic != h) continue;
+    *rest_of_it += factor * (g_r[2 * l] - I * g_r[2 * l + 1]);
+    for (int d = 0; d < dim; ++d) *rest_of_it -= factor * G_r[d] * c->load[(size_t)l * (size_t)dim + (size_t)d];
+  }
+  return true;
+}
+
+void condensation_response(condensation *c, int h, int r, double factor, double complex *row,
+                           double complex *rest_of_it)
+{
+  const int dim = c->basis.dim, rest = c->basis.rest;
+  if (response_by_compliance(c, h, r, factor, row, rest_of_it)) return;
+  const double *of = c->basis.responses + (size_t)r * (size_t)c->m->n;
+  const double complex *W = c->by_q + (size_t)h * (size_t)dim * (size_t)rest;
+  *rest_of_it = 0;
+  for (int e = 0; e < dim; ++e) {
+    row[e] = of[e];
+    for (int i = 0; i < rest; ++i) row[e] -= of[dim + i] * W[(size_t)e * (size_t)rest + (size_t)i];
+  }
+  for (int l = 0; l < c->m->n_loads; ++l)
+    for (int i = 0; i < rest && c->m->loads[l].harmonic == h; ++i)
+      *rest_of_it += factor * of[dim + i] * c->rest_of[(size_t)l * (size_t)rest + (size_t)i];
+}
+
+hc_status condensation_motion(condensation *c, int h, const double complex *q, double factor, double complex *x)
+{
+  const size_t n = (size_t)c->m->n, dim = (size_t)c->basis.dim, rest = (size_t)c->basis.rest;
+  const double complex *W = c->by_q + (size_t)h * dim * rest;
+  if (c->by_compliance[h]) {
+    hc_status st = fill_by_rest(c, h);
+    if (st != HC_OK) return st;
+    c->by_compliance[h] = false;
+  }
+  for (size_t i = 0; i < n; ++i) x[i] = 0;
+  for (size_t k = 0; k < n; ++k) { /* coordinate k of (q, y) */
+    double complex z = k < dim ? q[k] : 0;
+    for (size_t e = 0; e < dim && k >= dim; ++e) z -= W[e * rest + k - dim] * q[e];
+    for (int l = 0; l < c->m->n_loads && k >= dim; ++l)
+      if (c->m->loads[l].harmonic == h) z += factor * c->rest_of[(size_t)l * rest + k - dim];
+    for (size_t i = 0; i < n; ++i) x[i] += c->basis.T[k * n + i] * z;
+  }
+  return HC_OK;
 }
