@@ -7,7 +7,6 @@
 #include <unistd.h>
 
 #include "command/commands.h"
-#include "command/files.h"
 #include "command/plot/plot.h"
 #include "compare/accuracy/bench.h"
 #include "output/progress.h"

@@ -9,7 +9,6 @@
 #include "command/case_names.h"
 #include "command/commands.h"
 #include "command/compare_tables.h"
-#include "command/files.h"
 #include "command/plot/plot.h"
 #include "compare/comparison.h"
 #include "compare/memory.h"

@@ -9,7 +9,6 @@
 #include "command/case_names.h"
 #include "command/cli.h"
 #include "command/commands.h"
-#include "command/files.h"
 #include "command/plot/plot.h"
 #include "hbm/contact/contact_measures.h"
 #include "hbm/contact/exact_force.h"

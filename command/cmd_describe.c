@@ -10,7 +10,6 @@
 #include "casefile/case_values.h"
 #include "casefile/structure.h"
 #include "command/commands.h"
-#include "command/files.h"
 #include "model/modes.h"
 #include "output/output.h"
 

@@ -6,7 +6,6 @@
 #include "casefile/structure.h"
 #include "command/case_names.h"
 #include "command/commands.h"
-#include "command/files.h"
 #include "command/plot/plot.h"
 #include "compare/frequencies.h"
 #include "compare/memory.h"

@@ -7,7 +7,6 @@
 #include "base/number.h"
 #include "command/case_names.h"
 #include "command/commands.h"
-#include "command/files.h"
 #include "compare/gate/gate.h"
 #include "output/output.h"
 #include "output/progress.h"

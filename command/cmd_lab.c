@@ -7,7 +7,6 @@
 #include "base/message.h"
 #include "casefile/matrices/text_file.h"
 #include "command/commands.h"
-#include "command/files.h"
 #include "command/report/html.h"
 #include "output/output.h"
 

@@ -5,7 +5,6 @@
 
 #include "base/constants.h"
 #include "command/commands.h"
-#include "command/files.h"
 #include "model/modes.h"
 #include "study/scene_solvers.h"
 

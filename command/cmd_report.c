@@ -5,7 +5,6 @@
 
 #include "command/commands.h"
 #include "command/compare_tables.h"
-#include "command/files.h"
 #include "command/report/report.h"
 #include "output/output.h"
 #include "output/progress.h"

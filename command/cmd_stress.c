@@ -12,7 +12,6 @@
 #include "casefile/case_file.h"
 #include "command/cli.h"
 #include "command/commands.h"
-#include "command/files.h"
 #include "output/output.h"
 #include "output/progress.h"
 #include "output/same_file.h"

@@ -10,7 +10,6 @@
 #include "casefile/structure.h"
 #include "command/case_names.h"
 #include "command/commands.h"
-#include "command/files.h"
 #include "command/plot/plot.h"
 #include "output/output.h"
 #include "output/progress.h"

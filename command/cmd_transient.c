@@ -5,7 +5,6 @@
 #include "casefile/structure.h"
 #include "command/case_names.h"
 #include "command/commands.h"
-#include "command/files.h"
 #include "command/plot/plot.h"
 #include "compare/motion.h"
 #include "compare/steady_states.h"

@@ -10,7 +10,6 @@
 #include "command/case_names.h"
 #include "command/cli.h"
 #include "command/commands.h"
-#include "command/files.h"
 #include "command/plot/plot.h"
 #include "compare/verify/verify.h"
 #include "output/progress.h"

@@ -225,16 +225,13 @@ enum { N_SPECIAL_LOOKS = sizeof special_looks / sizeof *special_looks };
 
 /* The points of one stability, as data for lines. A segment between two stabilities is drawn as its first point's, so
  * the point after the last of a stability is written too. */
-static int write_points_of(figure *g, const curve_shape *c, int stable)
+static void write_points_of(figure *g, const curve_shape *c, int stable)
 {
-  int n = 0;
   for (int k = 0; k < c->n; ++k) {
     bool mine = c->points[k].stable == stable, ends = k > 0 && c->points[k - 1].stable == stable;
     if (mine || ends) figure_point(g, c->points[k].omega, c->points[k].amplitude);
     if (!mine && ends) figure_gap(g);
-    n += mine;
   }
-  return n;
 }
 
 static int count_points_of(const curve_shape *c, int stable)
@@ -256,29 +253,21 @@ static int count_specials(const curve_shape *c, hbm_special_kind kind)
   return n;
 }
 
-/* The name of a data block; one curve's differ from another's. */
-static const char *block_name(const char *name, const curve_shape *c, char text[32])
-{
-  snprintf(text, 32, "%s%d", name, c->among);
-  return text;
-}
-
 void curve_shape_data(figure *g, const curve_shape *c)
 {
-  char name[32];
   for (int r = 0; r < N_STABILITIES; ++r) {
-    figure_block(g, block_name(stabilities[r].name, c, name));
+    figure_block(g, "%s%d", stabilities[r].name, c->among); /* one curve's names differ from another's */
     write_points_of(g, c, stabilities[r].stable);
     figure_block_end(g);
   }
   for (int m = 0; m < N_SPECIAL_LOOKS; ++m) {
-    figure_block(g, block_name(special_looks[m].name, c, name));
+    figure_block(g, "%s%d", special_looks[m].name, c->among);
     for (int i = 0; i < c->n_special; ++i)
       if (is_drawn_as(&c->special[i], special_looks[m].kind))
         figure_point(g, c->special[i].omega, c->special[i].amplitude);
     figure_block_end(g);
   }
-  figure_block(g, block_name("other", c, name));
+  figure_block(g, "other%d", c->among);
   for (int k = 0; k < c->n_other; ++k) {
     if (isnan(c->other[k].omega)) figure_gap(g);
     figure_point(g, c->other[k].omega, c->other[k].amplitude);
@@ -288,10 +277,10 @@ void curve_shape_data(figure *g, const curve_shape *c)
 
 static void special_items(figure *g, const curve_shape *c)
 {
-  char look[FIGURE_LOOK], what[64], name[32];
+  char look[FIGURE_LOOK], what[64];
   for (int m = 0; m < N_SPECIAL_LOOKS; ++m) {
     if (count_specials(c, special_looks[m].kind) == 0) continue;
-    snprintf(what, sizeof what, "$%s using 1:2 with points", block_name(special_looks[m].name, c, name));
+    snprintf(what, sizeof what, "$%s%d using 1:2 with points", special_looks[m].name, c->among);
     figure_item(g, what, g->letters ? figure_look(g, "", 20 + m, look) : special_looks[m].look,
                 c->among > 1 ? NULL : "%s", special_looks[m].title);
   }
@@ -306,9 +295,9 @@ static void colour_items(figure *g, const curve_shape *c)
   const int n_colours = sizeof colours / sizeof *colours;
   bool named = false;
   for (int r = 0; r < N_STABILITIES; ++r) {
-    char own[FIGURE_LOOK], look[FIGURE_LOOK], what[64], name[32];
+    char own[FIGURE_LOOK], look[FIGURE_LOOK], what[64];
     if (count_points_of(c, stabilities[r].stable) == 0) continue;
-    snprintf(what, sizeof what, "$%s using 1:2 with lines", block_name(stabilities[r].name, c, name));
+    snprintf(what, sizeof what, "$%s%d using 1:2 with lines", stabilities[r].name, c->among);
     snprintf(own, sizeof own, "%s lc rgb '%s'", dashes[r], colours[(c->among - 1) % n_colours]);
     figure_item(g, what, figure_look(g, own, c->among - 1, look), named ? NULL : "%s", c->of);
     named = true;
@@ -329,7 +318,7 @@ void curve_shape_items(figure *g, const curve_shape *c, bool quiet)
     if (count_points_of(c, stabilities[r].stable) == 0) continue;
     snprintf(what, sizeof what, "$%s0 using 1:2 with lines", stabilities[r].name);
     figure_item(g, what, figure_look(g, quiet ? stabilities[r].quiet : stabilities[r].look, r, look), "%s",
-                stabilities[r].title);
+                r == 0 && c->stable_title ? c->stable_title : stabilities[r].title);
   }
   if (!quiet) special_items(g, c);
 }
@@ -353,10 +342,15 @@ hc_status curve_figure_open(figure *g, plot_order *p, const scene *sc, int width
   return st;
 }
 
-void curve_shape_axes(figure *g, const scene *sc, const curve_shape *c)
+void curve_x_label(figure *g, const scene *sc)
 {
   if (sc->in_cycles) figure_below(g, "frequency [cycles/%s]", sc->unit_time);
   else figure_below(g, "%s [rad/%s]", g->letters ? "omega" : "ω", sc->unit_time);
+}
+
+void curve_shape_axes(figure *g, const scene *sc, const curve_shape *c)
+{
+  curve_x_label(g, sc);
   if (c->among) figure_set(g, "ylabel", "amplitude [%s]", sc->unit_length);
   else figure_set(g, "ylabel", "amplitude of %s [%s]", c->of, sc->unit_length);
   figure_script(g, "set xrange [%.10g:%.10g]\nset yrange [0:*]\n", c->low / g->x_unit, c->high / g->x_unit);

@@ -12,8 +12,9 @@ typedef struct curve_point {
 enum { CURVE_MOST_SPECIALS = 256 };
 
 typedef struct curve_shape {
-  char of[RESPONSE_NAME]; /* the response in words; "x" of an oscillator */
-  int among;              /* of several on the same axes which one, from 1; 0: it is the only one */
+  char of[RESPONSE_NAME];   /* the response in words; "x" of an oscillator */
+  int among;                /* of several on the same axes which one, from 1; 0: it is the only one */
+  const char *stable_title; /* its stable parts in the legend; NULL: harmonic balance's */
   int n, n_other;
   curve_point *points; /* [n] along the curve */
   curve_point *other;  /* [n_other] of the sweep from its other end, without those on the curve; NaN omega: a gap */
@@ -46,6 +47,8 @@ void curve_shape_data(figure *g, const curve_shape *c);
 void curve_shape_items(figure *g, const curve_shape *c, bool quiet);
 /* After the last items of several curves c[n]: what the dashes mean, in the key, and all special points. */
 void curve_shapes_rest(figure *g, int n, const curve_shape *c);
+/* The label of the axis of frequencies. */
+void curve_x_label(figure *g, const scene *sc);
 /* Axes and ranges of amplitude over omega; the label names the response where it is the only one. */
 void curve_shape_axes(figure *g, const scene *sc, const curve_shape *c);
 /* The part of the sweep and of the amplitudes that holds all special points, to be drawn beside the whole. */

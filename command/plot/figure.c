@@ -310,7 +310,15 @@ void figure_title(figure *g, const char *command, const char *title, const char 
 
 /* ---- data ---- */
 
-void figure_block(figure *g, const char *name) { figure_script(g, "$%s << EOD\n", name); }
+void figure_block(figure *g, const char *name, ...)
+{
+  va_list args;
+  fputc('$', g->to);
+  va_start(args, name);
+  vfprintf(g->to, name, args);
+  va_end(args);
+  fputs(" << EOD\n", g->to);
+}
 
 void figure_point(figure *g, double x, double y)
 {
@@ -423,4 +431,69 @@ void figure_heat(figure *g, const char *label, bool logarithmic, double low, dou
       g, "  $cells using (fraction($3) < 0.5 ? $1 : NaN):2:(sprintf('%%.3g', $3)) with labels tc rgb 'black', \\\n");
   figure_script(g,
                 "  $cells using (fraction($3) < 0.5 ? NaN : $1):2:(sprintf('%%.3g', $3)) with labels tc rgb 'white'\n");
+}
+
+/* ---- points by verdict ---- */
+
+/* Open shapes where both sides agree, filled ones and crosses where not; all can be told apart without colour. */
+static const struct verdict_look {
+  const char *name, *look;
+} verdict_looks[] = {
+    {"match", "pt 6 ps 1.2 lw 1.6 lc rgb '#D55E00'"},
+    {"settled", "pt 6 ps 1.2 lw 1.6 lc rgb '#D55E00'"},
+    {"differs", "pt 5 ps 1.0 lc rgb '#000000'"},
+    {"other_branch", "pt 8 ps 1.2 lw 1.6 lc rgb '#009E73'"},
+    {"unstable", "pt 2 ps 1.1 lw 1.8 lc rgb '#000000'"},
+    {"aperiodic", "pt 3 ps 1.2 lw 1.4 lc rgb '#CC79A7'"},
+    {"not_settled", "pt 1 ps 1.2 lw 1.8 lc rgb '#E69F00'"},
+    {"solver_failed", "pt 10 ps 1.2 lw 1.6 lc rgb '#555555'"},
+    {"skipped", "pt 7 ps 0.4 lc rgb '#999999'"},
+    {"period_k", "pt 12 ps 1.3 lw 1.6 lc rgb '#CC79A7'"},
+};
+enum { N_VERDICT_LOOKS = sizeof verdict_looks / sizeof *verdict_looks };
+
+static int verdict_look_of(const char *name)
+{
+  for (int i = 0; i < N_VERDICT_LOOKS; ++i)
+    if (!strcmp(verdict_looks[i].name, name)) return i;
+  return N_VERDICT_LOOKS - 1; /* period_2, period_3, ... */
+}
+
+/* The place of a verdict, a new one if there is room. */
+static int verdict_place(verdicts *v, const char *name)
+{
+  int i = 0;
+  while (i < v->n && strcmp(v->name[i], name)) ++i;
+  if (i == v->n && v->n < VERDICTS_MOST) snprintf(v->name[v->n++], sizeof v->name[0], "%s", name);
+  return i < VERDICTS_MOST ? i : VERDICTS_MOST - 1;
+}
+
+void verdicts_data(figure *g, verdicts *v, int n, const void *rows, verdict_point *at)
+{
+  double x, y;
+  char text[24];
+  *v = (verdicts){0};
+  for (int i = 0; i < n; ++i) {
+    const char *name = at(rows, i, &x, &y, text);
+    if (name) ++v->count[verdict_place(v, name)];
+  }
+  for (int k = 0; k < v->n; ++k) {
+    figure_block(g, "verdict%d", k);
+    for (int i = 0; i < n; ++i) {
+      const char *name = at(rows, i, &x, &y, text);
+      if (name && verdict_place(v, name) == k) figure_point(g, x, y);
+    }
+    figure_block_end(g);
+  }
+}
+
+void verdicts_items(figure *g, const verdicts *v, const char *of)
+{
+  for (int i = 0; i < v->n; ++i) {
+    char what[64], look[FIGURE_LOOK];
+    int k = verdict_look_of(v->name[i]);
+    snprintf(what, sizeof what, "$verdict%d using 1:2 with points", i);
+    figure_item(g, what, g->letters ? figure_look(g, "", 10 + k, look) : verdict_looks[k].look, "%s: %s (%d)", of,
+                v->name[i], v->count[i]);
+  }
 }

@@ -37,7 +37,7 @@ void figure_below(figure *g, const char *format, ...) __attribute__((format(prin
 void figure_title(figure *g, const char *command, const char *title, const char *about);
 
 /* $name << EOD ... EOD; a point (x / x_unit, y) only where both are numbers; a gap interrupts a line. */
-void figure_block(figure *g, const char *name);
+void figure_block(figure *g, const char *name, ...) __attribute__((format(printf, 2, 3)));
 void figure_point(figure *g, double x, double y);
 void figure_gap(figure *g);
 void figure_block_end(figure *g);
@@ -66,5 +66,27 @@ const char *figure_unit(const scene *sc, const char *unit, char text[FIGURE_UNIT
 /* Cells (column, row, value), from the data block $cells, low <= value <= high, light to dark and each with its
  * value. Axes and tics are the caller's. */
 void figure_heat(figure *g, const char *label, bool logarithmic, double low, double high);
+
+/* Points drawn by their verdict, in order of appearance. */
+enum { VERDICTS_MOST = 16 };
+typedef struct verdicts {
+  int n, count[VERDICTS_MOST];
+  char name[VERDICTS_MOST][24];
+} verdicts;
+
+/* Where point i of `rows` is drawn: the name of its verdict, perhaps in text; NULL: it has none. */
+typedef const char *verdict_point(const void *rows, int i, double *x, double *y, char text[24]);
+
+/* The data blocks $verdict0, $verdict1, ... of n points, one a verdict. */
+void verdicts_data(figure *g, verdicts *v, int n, const void *rows, verdict_point *at);
+/* An item for each of them, in the legend as "OF: match (12)". */
+void verdicts_items(figure *g, const verdicts *v, const char *of);
+
+/* Several plots in one drawing, row by row; in a drawing of letters one below the other. */
+void panels_begin(figure *g, int rows, int columns, const char *title, const char *about);
+void panels_end(figure *g);
+
+/* Heat map over N x H, error over N, error over H: three panels. */
+void panels_accuracy(figure *g, const accuracy *a);
 
 #endif

@@ -2,7 +2,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "command/plot/panels.h"
+#include "command/plot/figure.h"
 
 enum { EXACT = 0 };                  /* samples of exact forces */
 static const double no_less = 1e-17; /* [1] drawn for an error of 0, which has no logarithm */
@@ -55,9 +55,7 @@ static const double *worst_of(const accuracy_row *r)
 /* Data block $guide<order>: e0 (x/x0)^-order from x0 to x1. */
 static void write_order_line(figure *g, int order, double x0, double x1, double e0)
 {
-  char name[24];
-  snprintf(name, sizeof name, "guide%d", order);
-  figure_block(g, name);
+  figure_block(g, "guide%d", order);
   if (e0 > 0 && x1 > x0) {
     figure_point(g, x0, e0);
     figure_point(g, x1, e0 * pow(x1 / x0, -order));
@@ -83,9 +81,7 @@ static void panel_over_samples(figure *g, const accuracy *a, const accuracy_grid
 {
   double top = 0;
   for (int h = 0; h < q->n_harm; ++h) {
-    char name[24];
-    snprintf(name, sizeof name, "n%d", h);
-    figure_block(g, name);
+    figure_block(g, "n%d", h);
     for (int i = 0; i < q->n_time; ++i) {
       const accuracy_row *r = row_at(a, q->harmonics[h], q->samples[i]);
       if (!worst_of(r)) continue;
@@ -115,7 +111,7 @@ static void panel_over_samples(figure *g, const accuracy *a, const accuracy_grid
 static void write_errors_over_harmonics(figure *g, const accuracy *a, const accuracy_grid *q, const char *name,
                                         int samples, double *top)
 {
-  figure_block(g, name);
+  figure_block(g, "%s", name);
   for (int h = 0; h < q->n_harm; ++h) {
     const double *e = worst_of(row_at(a, q->harmonics[h], samples));
     write_error(g, q->harmonics[h], e);

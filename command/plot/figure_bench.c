@@ -2,7 +2,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "command/plot/panels.h"
+#include "command/plot/figure.h"
 
 enum { MOST_FREQUENCIES = 4 };
 
@@ -35,10 +35,8 @@ static double drawn_error(const bench_row *r, const bench_frequency *p)
 
 static int write_method(figure *g, const bench *b, const bench_frequency *p, int k_omega, int method)
 {
-  char name[32];
   int n = 0;
-  snprintf(name, sizeof name, "p%dm%d", k_omega, method);
-  figure_block(g, name);
+  figure_block(g, "p%dm%d", k_omega, method);
   for (int i = p->first; i < p->first + p->n; ++i) {
     const bench_row *r = &b->rows[i];
     if (r->method != (bench_method)method || !is_drawn(r)) continue;
@@ -57,7 +55,6 @@ static int by_time(const void *a, const void *b)
 
 static hc_status write_front(figure *g, const bench *b, const bench_frequency *p, int k_omega)
 {
-  char name[32];
   int n = 0;
   double(*at)[2] = malloc((size_t)(p->n > 0 ? p->n : 1) * sizeof *at);
   if (!at) return HC_NO_MEMORY;
@@ -67,8 +64,7 @@ static hc_status write_front(figure *g, const bench *b, const bench_frequency *p
     at[n++][1] = drawn_error(&b->rows[i], p);
   }
   qsort(at, (size_t)n, sizeof *at, by_time);
-  snprintf(name, sizeof name, "front%d", k_omega);
-  figure_block(g, name);
+  figure_block(g, "front%d", k_omega);
   for (int i = 0; i < n; ++i) figure_point(g, at[i][0], at[i][1]);
   figure_block_end(g);
   free(at);

@@ -1,14 +1,79 @@
-/* figure_contact.c - what the contacts do under a given motion: loops T over u, and the forces over the period. */
+/* figure_contact.c - what contacts do under a given motion: loops T over u, and the forces over the period; of one
+ * contact with two tangents its traction in the plane, within the limit of friction, and the ways of the motion and of
+ * the slider. */
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/constants.h"
-#include "command/plot/panels.h"
-#include "command/plot/phases.h"
+#include "command/plot/figure.h"
 #include "hbm/contact/exact_force.h"
+#include "hbm/planar/planar_force.h"
 #include "numerics/series.h"
 
-enum { POINTS = 4096, EVERY = PHASES_EVERY, MOST_DRAWN = PHASES_MOST_LOOPS };
+enum {
+  POINTS = 4096, /* of a period */
+  EVERY = 8,     /* of so many points one is drawn, beside the ends of a phase */
+  MOST_LOOPS = 8,
+  CORNERS = 128 /* of a circle */
+};
+
+/* ---- a closed curve in parts, by what the contact does: each phase has dashes of its own ---- */
+
+enum { PHASES = 3 };
+static const struct phase {
+  const char *name, *title;
+  int dash;
+  double width;
+} phases[PHASES] = {{"stick", "sticks", 1, 2.4}, {"slip", "slips", 2, 2}, {"apart", "separated", 3, 2}};
+
+static int phase_of(contact_state st) { return st == CONTACT_STICK ? 0 : st == CONTACT_SEPARATED ? 2 : 1; }
+
+/* Data block of loop j in that phase: (x, y) of points 0..n. How many of them are in it. */
+static int write_phase(figure *g, int j, int phase, int n, const contact_state *state, const double *x, const double *y)
+{
+  int found = 0;
+  figure_block(g, "%s%d", phases[phase].name, j);
+  for (int i = 0; i < n; ++i) {
+    const bool mine = phase_of(state[i + 1]) == phase, next = i + 2 <= n && phase_of(state[i + 2]) == phase;
+    if (!mine) continue;
+    const bool begins = i == 0 || phase_of(state[i]) != phase;
+    if (begins) figure_point(g, x[i], y[i]);
+    if (!next || i % EVERY == 0) figure_point(g, x[i + 1], y[i + 1]);
+    if (!next) figure_gap(g);
+    ++found;
+  }
+  figure_block_end(g);
+  return found;
+}
+
+/* Its items where there[phase] is not 0; only: the legend needs no number. */
+static void phase_items(figure *g, int j, const int there[PHASES], bool only)
+{
+  static const char *const colours[MOST_LOOPS] = {"#0072B2", "#D55E00", "#000000", "#009E73",
+                                                  "#CC79A7", "#E69F00", "#56B4E9", "#777777"};
+  for (int k = 0; k < PHASES; ++k) {
+    char what[64], look[FIGURE_LOOK], of[32] = "";
+    if (!there[k]) continue;
+    if (!only) snprintf(of, sizeof of, "contact %d ", j);
+    snprintf(what, sizeof what, "$%s%d using 1:2 with lines", phases[k].name, j);
+    snprintf(look, sizeof look, "lw %g dt %d lc rgb '%s'", phases[k].width, phases[k].dash, colours[j]);
+    if (g->letters) snprintf(look, sizeof look, "lt %d", PHASES * j + k + 1);
+    figure_item(g, what, look, "%s%s", of, phases[k].title);
+  }
+}
+
+static double angle_of(int i) { return TWO_PI * i / POINTS; }
+
+/* Pieces may begin before 0 or end after 2 pi. */
+static double angle_inside(double th, double from, double to)
+{
+  for (int turn = -1; turn <= 1; ++turn)
+    if (th + turn * TWO_PI >= from && th + turn * TWO_PI <= to) return th + turn * TWO_PI;
+  return NAN;
+}
+
+/* ---- loops and forces ---- */
 
 /* One contact along one period. */
 typedef struct contact_history {
@@ -16,12 +81,11 @@ typedef struct contact_history {
   contact_state state[POINTS + 1];
 } contact_history;
 
-/* The piece at th, or NULL: separated. A piece may begin before 0 or end after 2 pi. */
+/* The piece at th, or NULL: separated. */
 static const contact_interval *piece_at(const contact_interval *p, int n, double th)
 {
   for (int i = 0; i < n; ++i)
-    for (int turn = -1; turn <= 1; ++turn)
-      if (th + turn * TWO_PI >= p[i].from && th + turn * TWO_PI <= p[i].to) return &p[i];
+    if (!isnan(angle_inside(th, p[i].from, p[i].to))) return &p[i];
   return NULL;
 }
 
@@ -30,7 +94,8 @@ static void compute_history(const plot_motion *m, const moving_contact *c, const
                             contact_history *out)
 {
   for (int i = 0; i <= POINTS; ++i) {
-    double th = TWO_PI * i / POINTS, v = 0;
+    const double th = angle_of(i);
+    double v = 0;
     const contact_interval *p = piece_at(pieces, n, th);
     out->u[i] = 0;
     for (int d = 0; d < m->n_dof; ++d) {
@@ -48,9 +113,7 @@ static void compute_history(const plot_motion *m, const moving_contact *c, const
 
 static void write_forces(figure *g, const contact_history *w, const contact *c, int j)
 {
-  char name[24];
-  snprintf(name, sizeof name, "forces%d", j);
-  figure_block(g, name);
+  figure_block(g, "forces%d", j);
   for (int i = 0; i <= POINTS; i += EVERY)
     figure_script(g, "%.10g %.10g %.10g %.10g\n", (double)i / POINTS, w->t[i], w->normal[i], c->mu * w->normal[i]);
   figure_block_end(g);
@@ -91,7 +154,7 @@ static hc_status write_contacts(figure *g, const plot_motion *m, int n, int ther
   for (int j = 0, pieces; j < n && st == HC_OK; ++j) {
     const contact_interval *p = exact_force_intervals(e, j, &pieces);
     compute_history(m, &m->contacts[j], p, pieces, w);
-    for (int k = 0; k < PHASES; ++k) there[j][k] = phases_write(g, j, k, POINTS, w->state, w->u, w->t);
+    for (int k = 0; k < PHASES; ++k) there[j][k] = write_phase(g, j, k, POINTS, w->state, w->u, w->t);
     widen_to_closed(closed, w);
     write_forces(g, w, &m->contacts[j].law, j);
   }
@@ -115,7 +178,7 @@ static void loops_and_forces(figure *g, const scene *sc, int n, int there[][PHAS
   figure_below(g, "tangential motion u [%s]", sc->unit_length);
   figure_set(g, "ylabel", "tangential force T [%s]", sc->unit_force);
   set_window(g, closed);
-  for (int j = 0; j < n; ++j) phases_items(g, j, there[j], n == 1);
+  for (int j = 0; j < n; ++j) phase_items(g, j, there[j], n == 1);
   figure_draw(g);
   figure_below(g, "t / T");
   figure_script(g, "set title 'Forces over the period'\nset xrange [0:1]\nset offsets 0, 0, graph 0.03, graph 0.03\n");
@@ -139,7 +202,7 @@ static const char *say_which(const scene *sc, const plot_motion *m, int n, char 
 hc_status plot_contact(plot_order *p, const scene *sc, const plot_motion *m)
 {
   figure g = {0};
-  int n = m->n_contacts < MOST_DRAWN ? m->n_contacts : MOST_DRAWN, there[MOST_DRAWN][PHASES];
+  int n = m->n_contacts < MOST_LOOPS ? m->n_contacts : MOST_LOOPS, there[MOST_LOOPS][PHASES];
   double closed[2] = {INFINITY, -INFINITY}; /* u while some contact is closed */
   char about[128];
   if (n == 0) {
@@ -153,5 +216,203 @@ hc_status plot_contact(plot_order *p, const scene *sc, const plot_motion *m)
     loops_and_forces(&g, sc, n, there, closed);
     panels_end(&g);
   }
+  return figure_close(&g, st);
+}
+
+/* ---- one contact in the plane ---- */
+
+/* The contact along one period: motion and slider [length], traction [force]. */
+typedef struct plane_history {
+  double u[2][POINTS + 1], w[2][POINTS + 1], t[2][POINTS + 1];
+  double limit[POINTS + 1]; /* mu N [force] */
+  contact_state state[POINTS + 1];
+} plane_history;
+
+/* The motion and the limit; no traction yet. */
+static void follow_motion(const plot_motion *m, plane_history *out)
+{
+  const contact *law = &m->contacts->law;
+  const int n = series_length(m->n_harm);
+  for (int i = 0; i <= POINTS; ++i) {
+    const double c = cos(angle_of(i)), s = sin(angle_of(i)), v = series_at(m->n_harm, m->X + 2 * n, c, s).x;
+    for (int d = 0; d < 2; ++d) out->u[d][i] = series_at(m->n_harm, m->X + d * n, c, s).x;
+    out->limit[i] = law->mu * contact_normal(law, v);
+    out->state[i] = CONTACT_SEPARATED;
+  }
+}
+
+/* Slip: T = mu N e(phi). */
+static void slip_at(const planar_cycle *c, const planar_interval *p, double th, int i, plane_history *out)
+{
+  const planar_panel *q = &c->slip.panel[p->panel];
+  while (q < &c->slip.panel[p->panel + p->n_panels - 1] && th > q->to) ++q;
+  const double phi = planar_panel_angle(c->slip.c, q, th);
+  out->t[0][i] = out->limit[i] * cos(phi), out->t[1][i] = out->limit[i] * sin(phi);
+}
+
+static void follow_circle(const planar_cycle *c, const contact *law, plane_history *out)
+{
+  for (int k = 0; k < c->n; ++k)
+    for (int i = 0; i <= POINTS; ++i) {
+      const planar_interval *p = &c->interval[k];
+      const double th = angle_inside(angle_of(i), p->from, p->to);
+      if (isnan(th)) continue;
+      out->state[i] = p->state;
+      if (p->state != CONTACT_STICK) slip_at(c, p, th, i, out);
+      for (int d = 0; d < 2 && p->state == CONTACT_STICK; ++d) out->t[d][i] = law->kt * (out->u[d][i] - p->w[d]);
+    }
+}
+
+static hc_status evaluate_circle(const plot_motion *m, plane_history *out)
+{
+  const contact *law = &m->contacts->law;
+  double F[SERIES_MAX_DIM * (2 * HBM_MAX_HARMONICS + 1)];
+  planar_force *f = NULL;
+  hc_status st = planar_force_new(m->n_harm, law->kn > 0 ? 3 : 2, law, &f);
+  if (st == HC_OK) st = planar_force_eval(f, m->X, F, NULL, NULL);
+  if (st == HC_OK) follow_circle(planar_force_cycle(f), law, out);
+  planar_force_free(f);
+  return st;
+}
+
+/* Under the square law either tangent is a contact of its own; the two slip where one does. */
+static void follow_tangent(int d, const contact_interval *p, int n, const contact *law, plane_history *out)
+{
+  for (int k = 0; k < n; ++k)
+    for (int i = 0; i <= POINTS; ++i) {
+      if (isnan(angle_inside(angle_of(i), p[k].from, p[k].to))) continue;
+      const bool sticks = p[k].state == CONTACT_STICK;
+      out->t[d][i] = sticks ? law->kt * out->u[d][i] - p[k].held : contact_slip_sign(p[k].state) * out->limit[i];
+      if (d == 0 || !sticks) out->state[i] = p[k].state;
+    }
+}
+
+static hc_status evaluate_square(const plot_motion *m, plane_history *out)
+{
+  const size_t n = (size_t)series_length(m->n_harm);
+  double F[2 * (2 * HBM_MAX_HARMONICS + 1)], X[2 * (2 * HBM_MAX_HARMONICS + 1)];
+  exact_force *e = NULL;
+  hc_status st = exact_force_new(m->n_harm, 2, 1, m->contacts, &e);
+  memcpy(X + n, m->X + 2 * n, n * sizeof *X);
+  for (int d = 0, pieces; d < 2 && st == HC_OK; ++d) {
+    memcpy(X, m->X + (size_t)d * n, n * sizeof *X);
+    st = exact_force_eval(e, X, F, NULL, NULL);
+    const contact_interval *p = exact_force_intervals(e, 0, &pieces);
+    if (st == HC_OK) follow_tangent(d, p, pieces, &m->contacts->law, out);
+  }
+  exact_force_free(e);
+  return st;
+}
+
+/* w = u - T/kt, and where the slider started added to both. */
+static void place_slider(const plot_motion *m, plane_history *out)
+{
+  for (int d = 0; d < 2; ++d)
+    for (int i = 0; i <= POINTS; ++i) {
+      out->u[d][i] += m->slider[d];
+      out->w[d][i] = out->u[d][i] - out->t[d][i] / m->contacts->law.kt;
+    }
+}
+
+/* The ways of the motion and, while there is contact, of the slider; where it rests. */
+static void write_ways(figure *g, const plane_history *w)
+{
+  figure_block(g, "motion");
+  for (int i = 0; i <= POINTS; i += EVERY) figure_point(g, w->u[0][i], w->u[1][i]);
+  figure_block_end(g);
+  figure_block(g, "slider");
+  for (int i = 0; i <= POINTS; ++i) {
+    if (w->state[i] != CONTACT_SEPARATED) figure_point(g, w->w[0][i], w->w[1][i]);
+    else if (i > 0 && w->state[i - 1] != CONTACT_SEPARATED) figure_gap(g);
+  }
+  figure_block_end(g);
+  figure_block(g, "rests");
+  for (int i = 0; i <= POINTS; ++i)
+    if (w->state[i] == CONTACT_STICK && (i == 0 || w->state[i - 1] != CONTACT_STICK))
+      figure_point(g, w->w[0][i], w->w[1][i]);
+  figure_block_end(g);
+}
+
+/* The limit where it is mu N = r: a circle, or a square of side 2 r. */
+static void write_limit(figure *g, const char *name, bool circle, double r)
+{
+  const int n = circle ? CORNERS : 4;
+  const double first = circle ? 0 : TWO_PI / 8, to_corner = circle ? r : sqrt(2) * r;
+  figure_block(g, "%s", name);
+  for (int i = 0; i <= n; ++i)
+    figure_point(g, to_corner * cos(first + TWO_PI * i / n), to_corner * sin(first + TWO_PI * i / n));
+  figure_block_end(g);
+}
+
+/* The largest and the smallest mu N; at least[1] is 0 where it separates. */
+static void find_limits(const plane_history *w, double *most, double *least)
+{
+  *most = *least = w->limit[0];
+  for (int i = 0; i <= POINTS; ++i) *most = fmax(*most, w->limit[i]), *least = fmin(*least, w->limit[i]);
+}
+
+static void axes(figure *g, const char *title, const char *quantity, const char *name, const char *unit)
+{
+  figure_set(g, "title", "%s", title);
+  figure_script(g, "set size ratio -1\nset offsets graph 0.05, graph 0.05, graph 0.05, graph 0.05\nset zeroaxis lw 0.8 "
+                   "dt 1 lc rgb '#999999'\n");
+  figure_below(g, "%s %s_1 [%s]", quantity, name, unit);
+  figure_set(g, "ylabel", "%s %s_2 [%s]", quantity, name, unit);
+}
+
+static void draw_both(figure *g, const scene *sc, const plane_history *w, const int *there, bool circle)
+{
+  double most, least;
+  char look[FIGURE_LOOK];
+  find_limits(w, &most, &least);
+  write_limit(g, "most", circle, most);
+  write_limit(g, "least", circle, least);
+  axes(g, "Traction in the plane", "traction", "T", sc->unit_force);
+  phase_items(g, 0, there, true);
+  figure_item(g, "$most using 1:2 with lines", figure_look(g, "lw 1 dt 3 lc rgb '#555555'", 4, look),
+              least < most ? "limit μ N at most" : "limit μ N");
+  if (least > 0 && least < most)
+    figure_item(g, "$least using 1:2 with lines", figure_look(g, "lw 1 dt 4 lc rgb '#555555'", 5, look),
+                "limit μ N at least");
+  figure_draw(g);
+  axes(g, "Motion and slider", "motion", "u", sc->unit_length);
+  figure_item(g, "$motion using 1:2 with lines", figure_look(g, "lw 1.2 dt 3 lc rgb '#555555'", 1, look), "motion u");
+  figure_item(g, "$slider using 1:2 with lines", figure_look(g, "lw 2 dt 1 lc rgb '#D55E00'", 2, look), "slider w");
+  if (there[0])
+    figure_item(g, "$rests using 1:2 with points", figure_look(g, "pt 7 ps 0.8 lc rgb '#0072B2'", 3, look),
+                "slider at rest");
+  figure_draw(g);
+}
+
+hc_status plot_contact_plane(plot_order *p, const scene *sc, const plot_motion *m)
+{
+  const char *const name = scene_contact_at(sc, m->first)->name;
+  figure g = {0};
+  char about[128];
+  int there[PHASES];
+  if (!contact_has_friction(&m->contacts->law)) {
+    snprintf(p->why, sizeof p->why, "the contact has no friction: there is no traction to draw");
+    return HC_BAD_INPUT;
+  }
+  plane_history *w = calloc(1, sizeof *w);
+  hc_status st = figure_open(&g, p, 1100, 580);
+  if (st == HC_OK && !w) st = HC_NO_MEMORY;
+  if (st == HC_OK) {
+    follow_motion(m, w);
+    st = m->circle ? evaluate_circle(m, w) : evaluate_square(m, w);
+  }
+  if (st == HC_OK) {
+    place_slider(m, w);
+    for (int k = 0; k < PHASES; ++k) there[k] = write_phase(&g, 0, k, POINTS, w->state, w->t[0], w->t[1]);
+    write_ways(&g, w);
+    if (*name) snprintf(about, sizeof about, "contact %s", name);
+    else snprintf(about, sizeof about, "contact %d", m->first);
+    snprintf(about + strlen(about), sizeof about - strlen(about), "; exact law, limit: %s, along the given motion",
+             m->circle ? "circle" : "square");
+    panels_begin(&g, 1, 2, sc->title, about);
+    draw_both(&g, sc, w, there, m->circle);
+    panels_end(&g);
+  }
+  free(w);
   return figure_close(&g, st);
 }

@@ -1,4 +1,5 @@
-/* figure_response.c - amplitude over omega: frf, compare, and transient at several frequencies. */
+/* figure_response.c - amplitude over omega: frf, compare, transient at several frequencies, and verify, where another
+ * program's points stand on our curve. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -6,8 +7,6 @@
 #include "base/constants.h"
 #include "casefile/scene.h"
 #include "command/plot/curve.h"
-#include "command/plot/panels.h"
-#include "command/plot/verdicts.h"
 
 enum { WIDTH = 800, HEIGHT = 540, MOST_RESPONSES = 8 };
 
@@ -144,24 +143,13 @@ static bool stands_at_hbm(const comparison_row *r)
   return has_hbm(r) && (r->verdict == VERDICT_UNSTABLE || r->verdict == VERDICT_OTHER_BRANCH || !has_transient(r));
 }
 
-static void write_verdicts(figure *g, const comparison *c, verdicts *v)
+/* For verdicts_data. */
+static const char *compared_point(const void *rows, int i, double *x, double *y, char text[24])
 {
-  char name[24];
-  *v = (verdicts){0};
-  for (int i = 0; i < c->n_rows; ++i)
-    if (c->rows[i].response == 0) ++v->count[verdicts_place(v, comparison_verdict_text(&c->rows[i], name))];
-  for (int k = 0; k < v->n; ++k) {
-    char block[24];
-    snprintf(block, sizeof block, "verdict%d", k);
-    figure_block(g, block);
-    for (int i = 0; i < c->n_rows; ++i) {
-      const comparison_row *r = &c->rows[i];
-      if (r->response != 0 || verdicts_place(v, comparison_verdict_text(r, name)) != k) continue;
-      if (stands_at_hbm(r)) figure_point(g, r->omega, r->hbm.amplitude);
-      else if (has_transient(r)) figure_point(g, r->omega, r->transient.amplitude);
-    }
-    figure_block_end(g);
-  }
+  const comparison_row *r = (const comparison_row *)rows + i;
+  *x = r->omega;
+  *y = stands_at_hbm(r) ? r->hbm.amplitude : has_transient(r) ? r->transient.amplitude : NAN;
+  return r->response == 0 ? comparison_verdict_text(r, text) : NULL;
 }
 
 /* Arrows from an HBM solution to the transient that started on it and left. Returns how many. */
@@ -211,7 +199,7 @@ hc_status plot_compare(plot_order *p, const scene *sc, const comparison *c, cons
   if (st == HC_OK) st = curve_figure_open(&g, p, sc, width, all ? 1040 : HEIGHT);
   if (st == HC_OK) {
     layers l = {.shape = &shape, .departures = write_departures(&g, c) > 0, .v = &v, .of = "transient"};
-    write_verdicts(&g, c, &v);
+    verdicts_data(&g, &v, c->n_rows, c->rows, compared_point);
     curve_shape_data(&g, &shape);
     curve_shape_settings(sc, &shape, settings);
     if (all) all_panels(&g, sc, &l, a, settings);
@@ -230,23 +218,12 @@ static bool measured(const steady_row *r)
          (r->status == HC_OK || r->status == HC_NOT_SETTLED || r->status == HC_APERIODIC);
 }
 
-static void write_steady(figure *g, const steady_states *s, verdicts *v)
+static const char *steady_point(const void *rows, int i, double *x, double *y, char text[24])
 {
-  char name[24];
-  *v = (verdicts){0};
-  for (int i = 0; i < s->n; ++i)
-    if (measured(&s->rows[i])) ++v->count[verdicts_place(v, steady_verdict_text(&s->rows[i], name))];
-  for (int k = 0; k < v->n; ++k) {
-    char block[24];
-    snprintf(block, sizeof block, "verdict%d", k);
-    figure_block(g, block);
-    for (int i = 0; i < s->n; ++i) {
-      const steady_row *r = &s->rows[i];
-      if (measured(r) && verdicts_place(v, steady_verdict_text(r, name)) == k)
-        figure_point(g, r->result.omega, r->result.amplitude);
-    }
-    figure_block_end(g);
-  }
+  const steady_row *r = (const steady_row *)rows + i;
+  *x = r->result.omega;
+  *y = r->result.amplitude;
+  return measured(r) ? steady_verdict_text(r, text) : NULL;
 }
 
 static hc_status plot_points(plot_order *p, const scene *sc, const steady_states *s)
@@ -260,7 +237,7 @@ static hc_status plot_points(plot_order *p, const scene *sc, const steady_states
   if (st == HC_OK) {
     layers l = {.shape = &shape, .quiet = true, .v = &v, .of = "time integration"};
     curve_shape_data(&g, &shape);
-    write_steady(&g, s, &v);
+    verdicts_data(&g, &v, s->n, s->rows, steady_point);
     snprintf(about, sizeof about, "time integration; harmonic balance, %s", curve_shape_settings(sc, &shape, settings));
     response_panels(&g, sc, &l, about);
   }
@@ -272,17 +249,9 @@ static hc_status plot_points(plot_order *p, const scene *sc, const steady_states
 
 enum { MOST_WAVES = 12 };
 
-static bool has_wave(const steady_row *r)
-{
-  return r->response == 0 && r->stage == STEADY_TRANSIENT &&
-         (r->status == HC_OK || r->status == HC_NOT_SETTLED || r->status == HC_APERIODIC);
-}
-
 static void write_wave(figure *g, int n, const timeint_result *r)
 {
-  char name[24];
-  snprintf(name, sizeof name, "wave%d", n);
-  figure_block(g, name);
+  figure_block(g, "wave%d", n);
   for (int i = 0; i <= TIMEINT_WAVE; ++i) figure_point(g, (double)i / TIMEINT_WAVE, r->wave[i % TIMEINT_WAVE]);
   figure_block_end(g);
 }
@@ -316,7 +285,7 @@ static hc_status plot_waves(plot_order *p, const scene *sc, const steady_states 
   if (st != HC_OK) return figure_close(&g, st);
   for (int i = 0; i < found->n && n < MOST_WAVES; ++i) {
     const steady_row *r = &found->rows[i];
-    if (!has_wave(r)) continue;
+    if (!measured(r)) continue;
     write_wave(&g, n++, &r->result);
     low = fmin(low, r->result.min);
     high = fmax(high, r->result.max);
@@ -332,7 +301,7 @@ static hc_status plot_waves(plot_order *p, const scene *sc, const steady_states 
   n = 0;
   for (int i = 0; i < found->n && n < MOST_WAVES; ++i) {
     const steady_row *r = &found->rows[i];
-    if (!has_wave(r)) continue;
+    if (!measured(r)) continue;
     snprintf(name, sizeof name, "$wave%d using 1:2 with lines", n);
     figure_item(&g, name, figure_line(&g, n, 2, look), "start: %s; %s", r->start, steady_verdict_text(r, word));
     ++n;
@@ -355,4 +324,84 @@ hc_status plot_transient(plot_order *p, const scene *sc, const steady_states *fo
     return HC_BAD_INPUT;
   }
   return several ? plot_points(p, sc, found) : plot_waves(p, sc, found);
+}
+
+/* ---- another program's curve over ours, its points by verdict ---- */
+
+/* Our curve's values as the file has them. */
+static hc_status make_line(const verify_quantity *q, const verify_report *r, curve_shape *out)
+{
+  *out = (curve_shape){.n = r->n_line, .stable_title = "ours: stable"};
+  if (!(out->points = calloc((size_t)r->n_line + 1, sizeof *out->points))) return HC_NO_MEMORY;
+  for (int k = 0; k < r->n_line; ++k)
+    out->points[k] = (curve_point){r->line[k].omega, verify_quantity_to_column(q, r->line[k].value), r->line[k].stable};
+  return HC_OK;
+}
+
+typedef struct theirs {
+  const verify_quantity *q;
+  const verify_report *r;
+} theirs;
+
+static const char *theirs_point(const void *report, int i, double *x, double *y, char text[24])
+{
+  const theirs *t = report;
+  const verify_row *r = &t->r->rows[i];
+  (void)text;
+  *x = r->omega;
+  *y = verify_quantity_to_column(t->q, r->value);
+  return r->skipped ? "skipped" : verdict_name(r->verdict);
+}
+
+static const char *unit_of(const verify_quantity *q)
+{
+  switch (q->kind) {
+  case KIND_VELOCITY:
+  case KIND_VELOCITY_HARMONIC: return "length/time";
+  case KIND_ACCELERATION:
+  case KIND_ACCELERATION_HARMONIC: return "length/time^2";
+  default: return "length";
+  }
+}
+
+/* The sweep, widened to the points. */
+static void set_axes(figure *g, const scene *sc, const verify_quantity *q, const verify_report *r)
+{
+  char name[VERIFY_QUANTITY_TEXT], unit[FIGURE_UNIT];
+  double low = fmin(sc->omega_from, sc->omega_to), high = fmax(sc->omega_from, sc->omega_to);
+  for (int i = 0; i < r->n_rows; ++i) {
+    low = fmin(low, r->rows[i].omega);
+    high = fmax(high, r->rows[i].omega);
+  }
+  curve_x_label(g, sc);
+  verify_quantity_name(q, name);
+  figure_set(g, "ylabel", "%s [%s]", name, q->decibel ? "dB" : figure_unit(sc, unit_of(q), unit));
+  figure_script(g, "set xrange [%.10g:%.10g]\n", low / g->x_unit, high / g->x_unit);
+  if (!verify_quantity_signed(q)) figure_script(g, "set yrange [0:*]\n");
+}
+
+hc_status plot_verify(plot_order *p, const scene *sc, const verify_data *data, const verify_report *r)
+{
+  const verify_quantity *q = &data->quantity;
+  figure g = {0};
+  curve_shape line;
+  verdicts v;
+  char about[VERIFY_TEXT + 64], words[VERIFY_TEXT];
+  if (r->n_rows == 0) {
+    snprintf(p->why, sizeof p->why, "no point was judged, so there is nothing to draw");
+    return HC_BAD_INPUT;
+  }
+  hc_status st = make_line(q, r, &line);
+  if (st == HC_OK) st = curve_figure_open(&g, p, sc, 900, 560);
+  if (st == HC_OK) {
+    const layers l = {.shape = &line, .v = &v, .of = "theirs"};
+    curve_shape_data(&g, &line);
+    verdicts_data(&g, &v, r->n_rows, &(theirs){q, r}, theirs_point);
+    snprintf(about, sizeof about, "ours: H = %d, exact forces; cause: %s", r->harmonics, verify_word(r, words));
+    figure_title(&g, "set title", sc->title, about);
+    set_axes(&g, sc, q, r);
+    draw_layers(&g, &l);
+  }
+  curve_shape_clear(&line);
+  return figure_close(&g, st);
 }

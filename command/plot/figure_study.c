@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/number.h"
-#include "command/plot/panels.h"
+#include "command/plot/figure.h"
 
 enum { MOST_LINES = 12, MOST_HEAT_LABELS = 24, LEAST_HEAT = 4, TEXT = 160 };
 

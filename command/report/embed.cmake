@@ -1,7 +1,7 @@
 # embed.cmake - files as bytes in a C source: cmake -DOUTPUT=assets.c "-DNAMES=a;b;b" "-DFILES=x;y;z" -P embed.cmake
 # A name that is given several times gets all its files, one after another; an empty file name gives an empty asset. Each is
-# `const unsigned char NAME[]` with its length, as assets.h declares them.
-set(text "/* Made by embed.cmake. */\n#include \"command/report/assets.h\"\n")
+# `const unsigned char NAME[]` with its length, as parts.h declares them.
+set(text "/* Made by embed.cmake. */\n#include \"command/report/parts.h\"\n")
 set(all ${NAMES})
 list(REMOVE_DUPLICATES all)
 foreach(name IN LISTS all)

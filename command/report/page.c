@@ -4,9 +4,8 @@
 #include <string.h>
 
 #include "casefile/case_file.h"
-#include "command/report/assets.h"
 #include "command/report/html.h"
-#include "command/report/words.h"
+#include "command/report/parts.h"
 #include "model/modes.h"
 
 typedef struct page {

@@ -7,9 +7,7 @@
 
 #include "casefile/scene.h"
 #include "casefile/structure.h"
-#include "command/report/aliasing.h"
-#include "command/report/assets.h"
-#include "command/report/structure.h"
+#include "command/report/parts.h"
 #include "compare/comparison.h"
 #include "compare/frequencies.h"
 #include "compare/response.h"

@@ -25,8 +25,8 @@ typedef struct report_data {
   accuracy accuracy;
   hc_status tabled;  /* status of the tables; the rows found are shown whatever it is */
   json_t *response;  /* the curve and what stands on it, of the first response */
-  json_t *structure; /* other responses, shapes and contacts (structure.h); JSON null for one degree of freedom */
-  json_t *aliasing;  /* answers on aliasing (aliasing.h); JSON null without contacts */
+  json_t *structure; /* other responses, shapes and contacts (parts.h); JSON null for one degree of freedom */
+  json_t *aliasing;  /* answers on aliasing (parts.h); JSON null without contacts */
 } report_data;
 
 /* How the page was made, for its last section. UTF-8; escaped by report_write. */

@@ -1,6 +1,6 @@
-/* structure.c - see structure.h. The responses of the model that is solved here are its degrees of freedom, and then
+/* structure.c - see parts.h. The responses of the model that is solved here are its degrees of freedom, and then
  * the contacts' u and v. */
-#include "command/report/structure.h"
+#include "command/report/parts.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,5 +1,5 @@
-/* words.c - see words.h. */
-#include "command/report/words.h"
+/* words.c - see parts.h. */
+#include "command/report/parts.h"
 
 #include <math.h>
 
