@@ -21,10 +21,11 @@ enum { CLI_NAME = 512 };
 const char *cli_contact_name(const cli_common *common, int j, char text[CLI_NAME]);
 
 /* --response NAME in the commands that compute with it alone. */
-#define CLI_RESPONSE_OPTION(key)                                                                                       \
-  {                                                                                                                    \
-    "response", key, "NAME", 0, "Only this response of the case, as the column `response` calls it", 1                 \
-  }
+/* clang-format off */
+#define CLI_RESPONSE_OPTION(type) \
+  {CLI_TEXT, "response", "NAME", "Only this response of the case, as the column `response` calls it", \
+   offsetof(type, response)}
+/* clang-format on */
 
 /* Only that one of the case's responses stays; all of them for NULL. 0, or the exit code after the message. */
 int cli_keep_response(const cli_common *common, scene *sc, const char *name);

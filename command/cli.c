@@ -107,9 +107,9 @@ static const struct argp_option common_options[] = {
     {0},
 };
 
-/* ---- values of options ---- */
+/* ---- values of options: what cannot be read ends the program with a message (exit 64) ---- */
 
-void cli_read_list(struct argp_state *state, const char *option, const char *text, number_list *out)
+static void read_list(struct argp_state *state, const char *option, const char *text, number_list *out)
 {
   out->n = 0;
   for (const char *at = text;;) {
@@ -123,19 +123,16 @@ void cli_read_list(struct argp_state *state, const char *option, const char *tex
   }
 }
 
-void cli_read_integer(struct argp_state *state, const char *option, const char *text, int low, int high, int *out)
+static int read_integer(struct argp_state *state, const cli_option *o, const char *text)
 {
-  if (number_read_integer(text, strlen(text), out) != NUMBER_FINE || *out < low || *out > high)
-    argp_error(state, "--%s: '%s' is not an integer %d..%d", option, text, low, high);
+  int value;
+  if (number_read_integer(text, strlen(text), &value) != NUMBER_FINE || value < o->low || value > o->high)
+    argp_error(state, "--%s: '%s' is not an integer %d..%d", o->name, text, o->low, o->high);
+  return value;
 }
 
-void cli_read_positive(struct argp_state *state, const char *option, const char *text, double *out)
-{
-  if (number_read(text, strlen(text), out) != NUMBER_FINE || !(*out > 0))
-    argp_error(state, "--%s: '%s' is not a number > 0", option, text);
-}
-
-void cli_read_format(struct argp_state *state, const char *option, const char *text, bool table_too, table_format *out)
+static void read_format(struct argp_state *state, const char *option, const char *text, bool table_too,
+                        table_format *out)
 {
   static const char *const formats[] = {"table", "csv", "json", NULL};
   if (table_too && !strcmp(text, "table")) *out = FORMAT_TABLE;
@@ -146,11 +143,31 @@ void cli_read_format(struct argp_state *state, const char *option, const char *t
                nearest_hint(formats + !table_too, text, (char[NEAREST_HINT]){0}));
 }
 
-void cli_read_plot(struct argp_state *state, char *text, const char **out)
+static void read_value(struct argp_state *state, const cli_option *o, char *text, void *to)
 {
-  if (!plot_can(text))
-    argp_error(state, "--plot: '%s' has an unknown ending; expected a name ending in " PLOT_ENDINGS ", or -", text);
-  *out = text;
+  switch (o->kind) {
+  case CLI_FLAG: *(bool *)to = true; break;
+  case CLI_PLOT:
+    if (!plot_can(text))
+      argp_error(state, "--plot: '%s' has an unknown ending; expected a name ending in " PLOT_ENDINGS ", or -", text);
+    *(const char **)to = text;
+    break;
+  case CLI_TEXT: *(const char **)to = text; break;
+  case CLI_TEXTS: {
+    cli_texts *list = to;
+    if (list->n == CLI_MOST_TEXTS) argp_error(state, "more than %d --%s", CLI_MOST_TEXTS, o->name);
+    list->text[list->n++] = text;
+    break;
+  }
+  case CLI_LIST: read_list(state, o->name, text, to); break;
+  case CLI_INTEGER: *(int *)to = read_integer(state, o, text); break;
+  case CLI_COUNT: *(long *)to = read_integer(state, o, text); break;
+  case CLI_POSITIVE:
+    if (number_read(text, strlen(text), (double *)to) != NUMBER_FINE || !(*(double *)to > 0))
+      argp_error(state, "--%s: '%s' is not a number > 0", o->name, text);
+    break;
+  case CLI_FORMAT: read_format(state, o->name, text, false, to); break;
+  }
 }
 
 /* ---- the arguments of a command ---- */
@@ -162,12 +179,24 @@ typedef struct parse_input {
   void *own;
 } parse_input;
 
+/* The first key of a command's own options, which come in the order of their table. */
+enum { OWN_KEY = 0x200 };
+
+static error_t read_own_option(int key, char *text, struct argp_state *state)
+{
+  const parse_input *input = state->input;
+  if (key < OWN_KEY || key >= OWN_KEY + CLI_MOST_OPTIONS) return ARGP_ERR_UNKNOWN;
+  const cli_option *o = &input->common->command->options[key - OWN_KEY];
+  read_value(state, o, text, (char *)input->own + o->at);
+  return 0;
+}
+
 static error_t read_common_option(int key, char *text, struct argp_state *state)
 {
   parse_input *input = state->input;
   cli_common *common = input->common;
   switch (key) {
-  case ARGP_KEY_INIT: state->child_inputs[0] = input->own; return 0;
+  case ARGP_KEY_INIT: state->child_inputs[0] = input; return 0;
   case ARGP_KEY_ARG:
     if (common->n_arguments == input->max_arguments) argp_error(state, "'%s' is one argument too many", text);
     common->arguments[common->n_arguments++] = text;
@@ -176,7 +205,7 @@ static error_t read_common_option(int key, char *text, struct argp_state *state)
     if (common->n_set == CLI_MAX_SET) argp_error(state, "--set may be given at most %d times", CLI_MAX_SET);
     common->set[common->n_set++] = text;
     return 0;
-  case KEY_FORMAT: cli_read_format(state, "format", text, true, &common->format); return 0;
+  case KEY_FORMAT: read_format(state, "format", text, true, &common->format); return 0;
   case 'o': common->output = text; return 0;
   case KEY_WIDE: common->wide = true; return 0;
   case 'q': common->quiet = true; return 0;
@@ -191,28 +220,51 @@ static const char *what_arguments_are(const char *usage)
 }
 
 /* "--tabels" ends the program with what was meant; argp, which only knows that it is not known, is not asked then. */
-static void refuse_unknown_option(const cli_command *self, int argc, char **argv)
+static void refuse_unknown_option(const cli_command *self, const struct argp_option *own, int argc, char **argv)
 {
   int length;
-  const char *meant, *name = option_to_suggest(argc, argv, self->options, common_options, &length, &meant);
+  const char *meant, *name = option_to_suggest(argc, argv, own, common_options, &length, &meant);
   if (!name) return;
   fprintf(stderr, "hbmcheck %s: unrecognized option '--%.*s', did you mean '--%s'?\nTry 'hbmcheck %s --help'.\n",
           self->name, length, name, meant, self->name);
   exit(EXIT_USAGE);
 }
 
+static const void *value_of(const cli_common *common, const cli_option *o) { return (const char *)common->own + o->at; }
+
+static void check_plot(const cli_common *common)
+{
+  bool to_screen = false, exporting = false;
+  for (const cli_option *o = common->command->options; o && o->name; ++o) {
+    if (o->kind == CLI_FORMAT) exporting |= *(const table_format *)value_of(common, o) != FORMAT_TABLE;
+    if (o->kind != CLI_PLOT) continue;
+    const char *const path = *(const char *const *)value_of(common, o);
+    to_screen |= path && !strcmp(path, "-");
+  }
+  const bool screen = common->format == FORMAT_TABLE;
+  if (!to_screen || common->output || (screen && !exporting)) return;
+  cli_message(common, "--plot - would mix a drawing into %s; give one of them a file",
+              screen ? "the export" : "csv or json");
+  exit(EXIT_USAGE);
+}
+
 void cli_parse(const cli_command *self, int argc, char **argv, void *own, cli_common *common)
 {
-  const struct argp own_argp = {self->options, self->read_option, NULL, NULL, NULL, NULL, NULL};
+  struct argp_option options[CLI_MOST_OPTIONS + 1] = {{0}};
+  for (int i = 0; self->options && self->options[i].name; ++i) {
+    const cli_option *o = &self->options[i];
+    options[i] = (struct argp_option){o->name, OWN_KEY + i, o->argument, 0, o->help, o->group ? o->group : 1};
+  }
+  const struct argp own_argp = {options, read_own_option, NULL, NULL, NULL, NULL, NULL};
   const struct argp_child children[] = {{&own_argp, 0, NULL, 0}, {0}};
   const struct argp argp = {common_options, read_common_option, self->arguments, self->help, children, NULL, NULL};
   const bool several = strstr(self->arguments, "...") != NULL;
   const bool required = *self->arguments && *self->arguments != '[';
   parse_input input = {common, several ? CLI_MAX_ARGUMENTS : *self->arguments ? 1 : 0, own};
   char name[64];
-  *common = (cli_common){.command = self->name, .argument_is = what_arguments_are(self->arguments)};
+  *common = (cli_common){.command = self, .own = own, .argument_is = what_arguments_are(self->arguments)};
   snprintf(name, sizeof name, "hbmcheck %s", self->name);
-  refuse_unknown_option(self, argc, argv);
+  refuse_unknown_option(self, options, argc, argv);
   argv[0] = name;
   argp_err_exit_status = EXIT_USAGE;
   error_t failed = argp_parse(&argp, argc, argv, 0, NULL, &input); /* wrong usage exits: what is left is ENOMEM */
@@ -226,15 +278,14 @@ void cli_parse(const cli_command *self, int argc, char **argv, void *own, cli_co
                 self->name);
     exit(EXIT_USAGE);
   }
+  check_plot(common);
 }
 
-void cli_check_plot(const cli_common *common, const char *plot, bool exporting)
+int cli_start(const cli_command *self, int argc, char **argv, void *own, cli_common *common, scene *sc)
 {
-  const bool screen = common->format == FORMAT_TABLE;
-  if (!plot || strcmp(plot, "-") || common->output || (screen && !exporting)) return;
-  cli_message(common, "--plot - would mix a drawing into %s; give one of them a file",
-              screen ? "the export" : "csv or json");
-  exit(EXIT_USAGE);
+  cli_parse(self, argc, argv, own, common);
+  const int code = cli_check_files(common, 0, NULL);
+  return code ? code : cli_load_case(common, common->arguments[0], sc);
 }
 
 int cli_processors(void)
@@ -258,7 +309,7 @@ static bool add_file(named_file *list, int *n, cli_file f)
   return file_identify(f.path, f.use == CLI_INPUT ? STDIN_FILENO : STDOUT_FILENO, &list[(*n)++].is);
 }
 
-/* Everything into list[common->n_arguments + 1 + n], *found of it. False: out of memory. */
+/* Everything into list[common->n_arguments + 1 + n + CLI_MOST_OPTIONS], *found of it. False: out of memory. */
 static bool add_all_files(const cli_common *common, int n, const cli_file *files, named_file *list, int *found)
 {
   bool whole = add_file(list, found, (cli_file){"--output", common->output, CLI_OUTPUT});
@@ -266,6 +317,10 @@ static bool add_all_files(const cli_common *common, int n, const cli_file *files
     whole = add_file(list, found, (cli_file){common->argument_is, common->arguments[i], CLI_INPUT});
   for (int i = 0; i < n && whole; ++i)
     if (files[i].path) whole = add_file(list, found, files[i]);
+  for (const cli_option *o = common->command->options; o && o->name && whole; ++o) {
+    const char *path = o->file ? *(const char *const *)value_of(common, o) : NULL;
+    if (path) whole = add_file(list, found, (cli_file){o->file, path, o->use});
+  }
   return whole;
 }
 
@@ -306,7 +361,7 @@ static void tell(const cli_common *common, const cli_file *written, const cli_fi
 int cli_check_files(const cli_common *common, int n, const cli_file *files)
 {
   int found = 0, code = 0;
-  named_file *list = calloc((size_t)common->n_arguments + 1 + (size_t)n, sizeof *list);
+  named_file *list = calloc((size_t)common->n_arguments + 1 + (size_t)n + CLI_MOST_OPTIONS, sizeof *list);
   if (!list || !add_all_files(common, n, files, list, &found)) {
     cli_message(common, "%s", hc_status_text(HC_NO_MEMORY));
     code = EXIT_NO_SOLUTION;
@@ -329,7 +384,7 @@ void cli_message(const cli_common *common, const char *format, ...)
 {
   va_list args;
   va_start(args, format);
-  fprintf(stderr, "hbmcheck %s: ", common->command);
+  fprintf(stderr, "hbmcheck %s: ", common->command->name);
   vfprintf(stderr, format, args);
   fputc('\n', stderr);
   va_end(args);

@@ -17,26 +17,58 @@ enum { EXIT_AGREED = 0, EXIT_DISAGREED = 1, EXIT_BAD_CASE = 2, EXIT_NO_SOLUTION 
 
 enum { CLI_MAX_SET = 256, CLI_MAX_ARGUMENTS = 64, CLI_MAX_JOBS = 1024 };
 
-/* The first key for a command's own options; those below are the common ones. */
-enum { CLI_OWN_KEY = 0x200 };
+/* Why a command names a file. */
+typedef enum {
+  CLI_INPUT,
+  CLI_OUTPUT,
+  CLI_RESULTS /* kept over several calls: read and written */
+} cli_file_use;
+
+/* One of a command's own options: a row of its table. */
+typedef enum {
+  CLI_FLAG,     /* bool         */
+  CLI_TEXT,     /* const char * */
+  CLI_TEXTS,    /* cli_texts: may be given several times                 */
+  CLI_LIST,     /* number_list, all > 0                                  */
+  CLI_INTEGER,  /* int,  low..high                                       */
+  CLI_COUNT,    /* long, low..high                                       */
+  CLI_POSITIVE, /* double                                                */
+  CLI_FORMAT,   /* table_format, csv or json                             */
+  CLI_PLOT      /* const char *, a file that can be drawn to             */
+} cli_kind;
+
+typedef struct cli_option {
+  cli_kind kind;
+  const char *name, *argument, *help; /* argument: what it takes, in the help; NULL of a CLI_FLAG */
+  size_t at;                          /* its member of the command's own struct */
+  int low, high;
+  int group;        /* of the help; 0 is the first one */
+  const char *file; /* what messages call the file it names, "--junit"; NULL: none */
+  cli_file_use use; /* of that file */
+} cli_option;
+
+enum { CLI_MOST_OPTIONS = 16, CLI_MOST_TEXTS = 16 };
+typedef struct cli_texts {
+  int n;
+  const char *text[CLI_MOST_TEXTS];
+} cli_texts;
 
 /* A command: its help, its own options, and what it does. */
-typedef struct cli_command {
-  const char *name;                  /* "frf"                                                                   */
-  const char *summary;               /* its line of hbmcheck --help                                             */
-  const char *arguments;             /* "CASE": one is required; "CASE...": one or more; "[FIELD]", "": none is */
-  const char *help;                  /* what it does, \v, columns, exit codes, an example                       */
-  const struct argp_option *options; /* its own, keys from CLI_OWN_KEY on; NULL for none                        */
-  /* One of its own options, given with `text`, into state->input, the command's own struct. ARGP_ERR_UNKNOWN for other
-   * keys; NULL without options. */
-  error_t (*read_option)(int key, char *text, struct argp_state *state);
-  /* Parses the arguments with cli_parse and does the work. Returns the exit code. */
+typedef struct cli_command cli_command;
+struct cli_command {
+  const char *name;          /* "frf"                                                                   */
+  const char *summary;       /* its line of hbmcheck --help                                             */
+  const char *arguments;     /* "CASE": one is required; "CASE...": one or more; "[FIELD]", "": none is */
+  const char *help;          /* what it does, \v, columns, exit codes, an example                       */
+  const cli_option *options; /* its own, at most CLI_MOST_OPTIONS, then {0}; NULL for none */
+  /* Parses the arguments and does the work. Returns the exit code. */
   int (*run)(int argc, char **argv);
-} cli_command;
+};
 
 /* What every command has. --help and --version never come back from cli_parse. */
 typedef struct cli_common {
-  const char *command; /* "frf", for messages */
+  const cli_command *command;
+  const void *own; /* the command's own struct, as its options filled it */
   int n_arguments;
   const char *argument_is;                  /* what they are, "the case file"; NULL: no files */
   const char *arguments[CLI_MAX_ARGUMENTS]; /* CASE, or what stands in its place; arguments[0] is NULL without any */
@@ -49,38 +81,31 @@ typedef struct cli_common {
   const scene *scene;           /* the case at work, for messages; NULL before cli_load_case */
 } cli_common;
 
-/* Parse a command's arguments: the common options into *common, its own by self->read_option into *own (NULL without
- * options). Does not return on --help, --version or wrong usage (exit 64). */
+/* Parse a command's arguments: the common options into *common, its own into *own (NULL without options). Does not
+ * return on --help, --version or wrong usage (exit 64). */
 void cli_parse(const cli_command *self, int argc, char **argv, void *own, cli_common *common);
+/* The same, then cli_check_files without other files, then cli_load_case of the first argument into sc. 0, or the exit
+ * code after the message. */
+int cli_start(const cli_command *self, int argc, char **argv, void *own, cli_common *common, scene *sc);
 
 /* What --at takes, in its help. */
 #define CLI_FREQUENCIES "omegas, rad per unit time (cycles, where the case has sweep.frequency)"
 
-/* Values of options, for read_option. What cannot be read ends the program with a message (exit 64). */
-void cli_read_list(struct argp_state *state, const char *option, const char *text, number_list *out); /* all > 0 */
-void cli_read_integer(struct argp_state *state, const char *option, const char *text, int low, int high, int *out);
-void cli_read_positive(struct argp_state *state, const char *option, const char *text, double *out);
-void cli_read_format(struct argp_state *state, const char *option, const char *text, bool table_too, table_format *out);
-void cli_read_plot(struct argp_state *state, char *text, const char **out); /* checks the file's ending */
-
-/* --plot, the same in every command that can draw. */
+/* Options that several commands have, rows of the table of a command whose own struct is `type`. */
 /* clang-format off */
-#define CLI_PLOT_OPTION(key) \
-  {"plot", key, "FILE", 0, \
+#define CLI_AT_OPTION(type, text) {CLI_LIST, "at", "LIST", text, offsetof(type, at)}
+/* With it goes a second table, of ROWS_CONTACT. */
+#define CLI_CONTACTS_OPTION(type) \
+  {CLI_FLAG, "contacts", NULL, \
+   "A second table: of each contact in each solution the extrema of its forces, slip path and dissipated work", \
+   offsetof(type, contacts)}
+/* --plot - while csv, json or an export goes to standard output ends the program with a message (exit 64). */
+#define CLI_PLOT_OPTION(type) \
+  {CLI_PLOT, "plot", "FILE", \
    "Draw the result with gnuplot, too: FILE ends in .svg, .png or .pdf; - draws with letters, here. Exit 3 if only " \
-   "that fails", 2}
+   "that fails", \
+   offsetof(type, plot), .group = 2, .file = "--plot", .use = CLI_OUTPUT}
 /* clang-format on */
-
-/* --contacts, the same in every command that has the table of ROWS_CONTACT. */
-/* clang-format off */
-#define CLI_CONTACTS_OPTION(key) \
-  {"contacts", key, NULL, 0, \
-   "A second table: of each contact in each solution the extrema of its forces, slip path and dissipated work", 1}
-/* clang-format on */
-
-/* Right after cli_parse in a command that can draw: --plot - while csv, json or an export goes to standard output ends
- * the program with a message (exit 64). plot may be NULL. */
-void cli_check_plot(const cli_common *common, const char *plot, bool exporting);
 
 /* No output of a command may replace one of its inputs or another of its outputs: every command hands in the files that
  * it reads and writes before it opens or computes anything. Names that mean one file are told by device and inode number
@@ -88,14 +113,11 @@ void cli_check_plot(const cli_common *common, const char *plot, bool exporting);
 typedef struct cli_file {
   const char *what; /* "--junit", "the curve": how messages call it                                                   */
   const char *path; /* NULL: there is none; "-": standard input or output, but for CLI_RESULTS                        */
-  enum {
-    CLI_INPUT,
-    CLI_OUTPUT,
-    CLI_RESULTS /* kept over several calls: read and written */
-  } use;
+  cli_file_use use;
 } cli_file;
 
-/* Hold files[n], the command's CASEs or STUDYs, and --output (without it, standard output) against each other. 0; or
+/* Hold files[n], the command's CASEs or STUDYs, the files of its options and --output (without it, standard output)
+ * against each other. 0; or
  * EXIT_USAGE after a message that names both if an output is an input or another output; EXIT_NO_SOLUTION without
  * memory. Nothing is opened. */
 int cli_check_files(const cli_common *common, int n, const cli_file *files);

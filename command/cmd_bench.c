@@ -1,5 +1,6 @@
 /* cmd_bench.c - hbmcheck bench: work against precision. */
 #include <math.h>
+#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -34,29 +35,17 @@ typedef struct bench_command_options {
 
 enum { DEFAULT_REPEATS = 9, MAX_REPEATS = 1000 };
 
-enum { KEY_AT = CLI_OWN_KEY, KEY_REPEATS, KEY_ALONE, KEY_PLOT };
-
-static const struct argp_option options[] = {
-    {"at", KEY_AT, "LIST", 0,
-     "Omegas, rad per unit time [of the case's compare frequencies the one where the response is largest]", 1},
-    {"repeats", KEY_REPEATS, "N", 0,
-     "Times each method is measured; those that take long less often, as the column says [9]", 1},
-    {"alone", KEY_ALONE, NULL, 0, "No other programs beside our methods", 1},
-    CLI_PLOT_OPTION(KEY_PLOT),
+static const cli_option options[] = {
+    {CLI_LIST, "at", "LIST",
+     "Omegas, rad per unit time [of the case's compare frequencies the one where the response is largest]",
+     offsetof(bench_command_options, at)},
+    {CLI_INTEGER, "repeats", "N",
+     "Times each method is measured; those that take long less often, as the column says [9]",
+     offsetof(bench_command_options, repeats), 1, MAX_REPEATS},
+    {CLI_FLAG, "alone", NULL, "No other programs beside our methods", offsetof(bench_command_options, alone)},
+    CLI_PLOT_OPTION(bench_command_options),
     {0},
 };
-
-static error_t read_option(int key, char *text, struct argp_state *state)
-{
-  bench_command_options *own = state->input;
-  switch (key) {
-  case KEY_AT: cli_read_list(state, "at", text, &own->at); return 0;
-  case KEY_REPEATS: cli_read_integer(state, "repeats", text, 1, MAX_REPEATS, &own->repeats); return 0;
-  case KEY_ALONE: own->alone = true; return 0;
-  case KEY_PLOT: cli_read_plot(state, text, &own->plot); return 0;
-  default: return ARGP_ERR_UNKNOWN;
-  }
-}
 
 static const table_column columns[] = {
     {"omega", TABLE_REAL},         {"frequency", TABLE_REAL},  {"method", TABLE_TEXT},
@@ -260,10 +249,7 @@ static int run_bench(int argc, char **argv)
   scene sc = {.structure = NULL};
   bench b = {0};
   double failed_at = 0;
-  cli_parse(&cmd_bench, argc, argv, &own, &common);
-  cli_check_plot(&common, own.plot, false);
-  int code = cli_check_files(&common, 1, &(cli_file){"--plot", own.plot, CLI_OUTPUT});
-  if (!code) code = cli_load_case(&common, common.arguments[0], &sc);
+  int code = cli_start(&cmd_bench, argc, argv, &own, &common, &sc);
   if (code) return code;
   cli_take_frequencies(&common, &own.at, &sc);
   if (own.at.n) own.at = sc.compare.omega;
@@ -296,6 +282,5 @@ const cli_command cmd_bench = {
     .arguments = "CASE",
     .help = help,
     .options = options,
-    .read_option = read_option,
     .run = run_bench,
 };

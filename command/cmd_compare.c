@@ -1,6 +1,7 @@
 /* cmd_compare.c - hbmcheck compare: harmonic balance and time integration at the same frequencies. */
 #include <pthread.h>
 #include <stdbool.h>
+#include <stddef.h>
 #include <stdio.h>
 #include <time.h>
 #include <unistd.h>
@@ -110,37 +111,23 @@ typedef struct compare_options {
   const char *plot;     /* NULL: no drawing */
 } compare_options;
 
-enum { KEY_AT = CLI_OWN_KEY, KEY_TABLES, KEY_HARMONICS, KEY_SAMPLES, KEY_RESPONSE, KEY_CONTACTS, KEY_PLOT };
-
-static const struct argp_option options[] = {
-    {"at", KEY_AT, "LIST", 0, "At these " CLI_FREQUENCIES " [compare.omega, else compare.points over the sweep]", 1},
-    {"tables", KEY_TABLES, NULL, 0, "Also the tables over truncation orders and samples, and observed orders", 1},
-    {"harmonics", KEY_HARMONICS, "LIST", 0,
-     "Truncation orders of the tables, 1..200 [compare.harmonics]; implies --tables", 1},
-    {"samples", KEY_SAMPLES, "LIST", 0,
-     "Samples per period of the tables, at least 2 H + 2 [compare.samples]; implies --tables", 1},
-    CLI_RESPONSE_OPTION(KEY_RESPONSE),
-    {"contacts", KEY_CONTACTS, NULL, 0,
+static const cli_option options[] = {
+    {CLI_LIST, "at", "LIST", "At these " CLI_FREQUENCIES " [compare.omega, else compare.points over the sweep]",
+     offsetof(compare_options, at)},
+    {CLI_FLAG, "tables", NULL, "Also the tables over truncation orders and samples, and observed orders",
+     offsetof(compare_options, tables)},
+    {CLI_LIST, "harmonics", "LIST", "Truncation orders of the tables, 1..200 [compare.harmonics]; implies --tables",
+     offsetof(compare_options, lists.harmonics)},
+    {CLI_LIST, "samples", "LIST",
+     "Samples per period of the tables, at least 2 H + 2 [compare.samples]; implies --tables",
+     offsetof(compare_options, lists.samples)},
+    CLI_RESPONSE_OPTION(compare_options),
+    {CLI_FLAG, "contacts", NULL,
      "A table of the contacts: regime, forces, slip path and dissipated work of each from both sides, and how far off",
-     1},
-    CLI_PLOT_OPTION(KEY_PLOT),
+     offsetof(compare_options, contacts)},
+    CLI_PLOT_OPTION(compare_options),
     {0},
 };
-
-static error_t read_option(int key, char *text, struct argp_state *state)
-{
-  compare_options *own = state->input;
-  switch (key) {
-  case KEY_AT: cli_read_list(state, "at", text, &own->at); return 0;
-  case KEY_TABLES: own->tables = true; return 0;
-  case KEY_HARMONICS: cli_read_list(state, "harmonics", text, &own->lists.harmonics); return 0;
-  case KEY_SAMPLES: cli_read_list(state, "samples", text, &own->lists.samples); return 0;
-  case KEY_RESPONSE: own->response = text; return 0;
-  case KEY_CONTACTS: own->contacts = true; return 0;
-  case KEY_PLOT: cli_read_plot(state, text, &own->plot); return 0;
-  default: return ARGP_ERR_UNKNOWN;
-  }
-}
 
 /* "omega = 7, branch 0" and, of a structure, ", tip" into text[WHERE], which is returned. */
 enum { WHERE = SCENE_WHERE + RESPONSE_NAME + 32 };
@@ -352,10 +339,7 @@ static int run_compare(int argc, char **argv)
   comparison c = {0};
   accuracy a = {0};
   table *tables[4] = {NULL};
-  cli_parse(&cmd_compare, argc, argv, &own, &common);
-  cli_check_plot(&common, own.plot, false);
-  int code = cli_check_files(&common, 1, &(cli_file){"--plot", own.plot, CLI_OUTPUT});
-  if (!code) code = cli_load_case(&common, common.arguments[0], &sc);
+  int code = cli_start(&cmd_compare, argc, argv, &own, &common, &sc);
   if (!code) code = compare_lists(&common, &own.lists, &sc);
   if (!code) code = cli_keep_response(&common, &sc, own.response);
   if (code) {
@@ -408,6 +392,5 @@ const cli_command cmd_compare = {
     .arguments = "CASE",
     .help = help,
     .options = options,
-    .read_option = read_option,
     .run = run_compare,
 };

@@ -1,5 +1,6 @@
 /* cmd_contact.c - hbmcheck contact: Fourier coefficients of the contact force of a given motion. */
 #include <math.h>
+#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -354,43 +355,22 @@ static const char help[] =
     "example: hbmcheck contact cases/paper/case2.yaml --motion 0,8,0 --samples 64,512\n"
     "example: hbmcheck contact cases/structures/chain3.yaml --contact ground --motion-u 0,0.1,0";
 
-enum {
-  KEY_CONTACT = CLI_OWN_KEY,
-  KEY_MOTION /* and CONTACT_MOTIONS - 1 more */,
-  KEY_SLIDER = KEY_MOTION + CONTACT_MOTIONS,
-  KEY_SAMPLES,
-  KEY_PLOT
-};
-
-static const struct argp_option options[] = {
-    {"motion", KEY_MOTION + CONTACT_X, "a0,a1,b1,...", 0,
-     "The motion's coefficients, an odd number of them; of one DOF", 1},
-    {"contact", KEY_CONTACT, "NAME", 0, "One contact, by its name or its number from 0", 1},
-    {"motion-u", KEY_MOTION + CONTACT_U, "a0,a1,b1,...", 0, "Its tangential motion [none]", 1},
-    {"motion-u2", KEY_MOTION + CONTACT_U2, "a0,a1,b1,...", 0, "The same along its second tangent [none]", 1},
-    {"motion-v", KEY_MOTION + CONTACT_V, "a0,a1,b1,...", 0, "Its normal motion [none]", 1},
-    {"slider", KEY_SLIDER, "W", 0,
-     "Where its slider starts (of two tangents W1,W2), if it never separates and the start decides [0]", 1},
-    {"samples", KEY_SAMPLES, "LIST", 0, "Also at these numbers of samples per period", 1},
-    CLI_PLOT_OPTION(KEY_PLOT),
+static const cli_option options[] = {
+    {CLI_TEXT, "motion", "a0,a1,b1,...", "The motion's coefficients, an odd number of them; of one DOF",
+     offsetof(contact_options, motion[CONTACT_X])},
+    {CLI_TEXT, "contact", "NAME", "One contact, by its name or its number from 0", offsetof(contact_options, contact)},
+    {CLI_TEXT, "motion-u", "a0,a1,b1,...", "Its tangential motion [none]",
+     offsetof(contact_options, motion[CONTACT_U])},
+    {CLI_TEXT, "motion-u2", "a0,a1,b1,...", "The same along its second tangent [none]",
+     offsetof(contact_options, motion[CONTACT_U2])},
+    {CLI_TEXT, "motion-v", "a0,a1,b1,...", "Its normal motion [none]", offsetof(contact_options, motion[CONTACT_V])},
+    {CLI_TEXT, "slider", "W",
+     "Where its slider starts (of two tangents W1,W2), if it never separates and the start decides [0]",
+     offsetof(contact_options, slider)},
+    {CLI_LIST, "samples", "LIST", "Also at these numbers of samples per period", offsetof(contact_options, samples)},
+    CLI_PLOT_OPTION(contact_options),
     {0},
 };
-
-static error_t read_option(int key, char *text, struct argp_state *state)
-{
-  contact_options *own = state->input;
-  switch (key) {
-  case KEY_CONTACT: own->contact = text; return 0;
-  case KEY_MOTION + CONTACT_X:
-  case KEY_MOTION + CONTACT_U:
-  case KEY_MOTION + CONTACT_U2:
-  case KEY_MOTION + CONTACT_V: own->motion[key - KEY_MOTION] = text; return 0;
-  case KEY_SLIDER: own->slider = text; return 0;
-  case KEY_SAMPLES: cli_read_list(state, "samples", text, &own->samples); return 0;
-  case KEY_PLOT: cli_read_plot(state, text, &own->plot); return 0;
-  default: return ARGP_ERR_UNKNOWN;
-  }
-}
 
 /* A set: the coefficients for one number of samples. */
 enum { MAX_SETS = 17, MOST_NUMBERS = CONTACT_MOST_DOF * CONTACT_MOST_COEF };
@@ -510,10 +490,7 @@ static int run_contact(int argc, char **argv)
   contact_options own = {0};
   contact_motion motion = {0};
   scene sc = {.structure = NULL};
-  cli_parse(&cmd_contact, argc, argv, &own, &common);
-  cli_check_plot(&common, own.plot, false);
-  int code = cli_check_files(&common, 1, &(cli_file){"--plot", own.plot, CLI_OUTPUT});
-  if (!code) code = cli_load_case(&common, common.arguments[0], &sc);
+  int code = cli_start(&cmd_contact, argc, argv, &own, &common, &sc);
   if (!code) code = contact_motion_find(&common, &own, &motion);
   if (!code) code = put_forces(&common, &own, &motion);
   contact_motion_clear(&motion);
@@ -527,6 +504,5 @@ const cli_command cmd_contact = {
     .arguments = "CASE",
     .help = help,
     .options = options,
-    .read_option = read_option,
     .run = run_contact,
 };

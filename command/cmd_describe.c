@@ -1,6 +1,7 @@
 /* cmd_describe.c - hbmcheck describe: what a case file may say, from the table of fields; with --case what one says,
  * where each value is from, and what follows from them before anything is solved. */
 #include <math.h>
+#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -207,21 +208,11 @@ typedef struct describe_options {
   const char *case_file; /* NULL: not given */
 } describe_options;
 
-enum { KEY_CASE = CLI_OWN_KEY };
-
-static const struct argp_option options[] = {
-    {"case", KEY_CASE, "CASE", 0, "Also the values of this case file, with --set, and what follows from them", 1},
+static const cli_option options[] = {
+    {CLI_TEXT, "case", "CASE", "Also the values of this case file, with --set, and what follows from them",
+     offsetof(describe_options, case_file), .file = "the case file", .use = CLI_INPUT},
     {0},
 };
-
-/* NOLINTNEXTLINE(readability-non-const-parameter): the signature is argp's */
-static error_t read_option(int key, char *text, struct argp_state *state)
-{
-  describe_options *own = state->input;
-  if (key != KEY_CASE) return ARGP_ERR_UNKNOWN;
-  own->case_file = text;
-  return 0;
-}
 
 /* ---- the table of fields ---- */
 
@@ -462,7 +453,7 @@ static int run_describe(int argc, char **argv)
   cli_common common;
   describe_options own = {0};
   cli_parse(&cmd_describe, argc, argv, &own, &common);
-  int code = cli_check_files(&common, 1, &(cli_file){"the case file", own.case_file, CLI_INPUT});
+  int code = cli_check_files(&common, 0, NULL);
   if (code) return code;
   if (common.n_set && !own.case_file) {
     cli_message(&common, "--set has no case file to set anything in; expected --case CASE, too");
@@ -479,6 +470,5 @@ const cli_command cmd_describe = {
     .arguments = "[FIELD]",
     .help = help,
     .options = options,
-    .read_option = read_option,
     .run = run_describe,
 };

@@ -1,4 +1,5 @@
 /* cmd_frf.c - hbmcheck frf: the response curve, or every solution at given frequencies. */
+#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -31,29 +32,14 @@ typedef struct frf_options {
   const char *plot;     /* NULL: no drawing */
 } frf_options;
 
-enum { KEY_AT = CLI_OWN_KEY, KEY_RESPONSE, KEY_CONTACTS, KEY_VERBOSE, KEY_PLOT };
-
-static const struct argp_option options[] = {
-    {"at", KEY_AT, "LIST", 0, "Only the solutions at these " CLI_FREQUENCIES, 1},
-    CLI_RESPONSE_OPTION(KEY_RESPONSE),
-    CLI_CONTACTS_OPTION(KEY_CONTACTS),
-    {"verbose", KEY_VERBOSE, NULL, 0, "Also how Newton's equations were solved", 1},
-    CLI_PLOT_OPTION(KEY_PLOT),
+static const cli_option options[] = {
+    {CLI_LIST, "at", "LIST", "Only the solutions at these " CLI_FREQUENCIES, offsetof(frf_options, at)},
+    CLI_RESPONSE_OPTION(frf_options),
+    CLI_CONTACTS_OPTION(frf_options),
+    {CLI_FLAG, "verbose", NULL, "Also how Newton's equations were solved", offsetof(frf_options, verbose)},
+    CLI_PLOT_OPTION(frf_options),
     {0},
 };
-
-static error_t read_option(int key, char *text, struct argp_state *state)
-{
-  frf_options *own = state->input;
-  switch (key) {
-  case KEY_AT: cli_read_list(state, "at", text, &own->at); return 0;
-  case KEY_RESPONSE: own->response = text; return 0;
-  case KEY_CONTACTS: own->contacts = true; return 0;
-  case KEY_VERBOSE: own->verbose = true; return 0;
-  case KEY_PLOT: cli_read_plot(state, text, &own->plot); return 0;
-  default: return ARGP_ERR_UNKNOWN;
-  }
-}
 
 /* All of the case's, or the one that is asked for. 0 or the exit code after the message. */
 static int choose_responses(const cli_common *common, const char *name, plot_responses *out)
@@ -201,10 +187,7 @@ static int run_frf(int argc, char **argv)
   cli_common common;
   frf_options own = {0};
   scene sc = {.structure = NULL};
-  cli_parse(&cmd_frf, argc, argv, &own, &common);
-  cli_check_plot(&common, own.plot, false);
-  int code = cli_check_files(&common, 1, &(cli_file){"--plot", own.plot, CLI_OUTPUT});
-  if (!code) code = cli_load_case(&common, common.arguments[0], &sc);
+  int code = cli_start(&cmd_frf, argc, argv, &own, &common, &sc);
   plot_responses of_case;
   if (!code && (code = choose_responses(&common, own.response, &of_case)) != 0) case_clear(&sc);
   if (code) return code;
@@ -259,6 +242,5 @@ const cli_command cmd_frf = {
     .arguments = "CASE",
     .help = help,
     .options = options,
-    .read_option = read_option,
     .run = run_frf,
 };

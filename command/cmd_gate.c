@@ -1,5 +1,6 @@
 /* cmd_gate.c - hbmcheck gate: are the discrepancies of case files within the limits they set? For CI. */
 #include <math.h>
+#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -32,27 +33,16 @@ typedef struct gate_options {
   bool all;          /* --all */
 } gate_options;
 
-enum { KEY_JUNIT = CLI_OWN_KEY, KEY_ALL, KEY_AT };
-
-static const struct argp_option options[] = {
-    {"junit", KEY_JUNIT, "FILE", 0, "Also write every check as JUnit XML to FILE, whole or not at all", 1},
-    {"all", KEY_ALL, NULL, 0, "Show every check in the table [the worst of each quantity, and all that do not pass]",
-     1},
-    {"at", KEY_AT, "LIST", 0,
-     "At these " CLI_FREQUENCIES ", in every case [each case's compare.omega or compare.points]", 1},
+static const cli_option options[] = {
+    {CLI_TEXT, "junit", "FILE", "Also write every check as JUnit XML to FILE, whole or not at all",
+     offsetof(gate_options, junit), .file = "--junit", .use = CLI_OUTPUT},
+    {CLI_FLAG, "all", NULL, "Show every check in the table [the worst of each quantity, and all that do not pass]",
+     offsetof(gate_options, all)},
+    {CLI_LIST, "at", "LIST",
+     "At these " CLI_FREQUENCIES ", in every case [each case's compare.omega or compare.points]",
+     offsetof(gate_options, at)},
     {0},
 };
-
-static error_t read_option(int key, char *text, struct argp_state *state)
-{
-  gate_options *own = state->input;
-  switch (key) {
-  case KEY_AT: cli_read_list(state, "at", text, &own->at); return 0;
-  case KEY_JUNIT: own->junit = text; return 0;
-  case KEY_ALL: own->all = true; return 0;
-  default: return ARGP_ERR_UNKNOWN;
-  }
-}
 
 /* allowed and found: numbers in csv and json; on the screen texts, because a column of numbers has one notation and
  * these range from discrepancies to costs. */
@@ -236,7 +226,7 @@ static int run_gate(int argc, char **argv)
   call.scenes = calloc((size_t)call.common.n_arguments, sizeof *call.scenes);
   call.cases = calloc((size_t)call.common.n_arguments, sizeof *call.cases);
   call.responses = calloc((size_t)call.common.n_arguments, sizeof *call.responses);
-  int code = cli_check_files(&call.common, 1, &(cli_file){"--junit", call.own.junit, CLI_OUTPUT});
+  int code = cli_check_files(&call.common, 0, NULL);
   call.errors = calloc((size_t)call.common.n_arguments, sizeof *call.errors);
   if (!code && !(call.scenes && call.cases && call.responses && call.errors)) {
     cli_solver_failed(&call.common, CLI_BOTH, "gate", HC_NO_MEMORY, 0);
@@ -263,6 +253,5 @@ const cli_command cmd_gate = {
     .arguments = "CASE...",
     .help = help,
     .options = options,
-    .read_option = read_option,
     .run = run_gate,
 };

@@ -1,4 +1,5 @@
 /* cmd_lab.c - hbmcheck lab: the page in which the library itself runs (lab/README.md), as a file, with a case in it. */
+#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -20,21 +21,17 @@ static const char help[] =
     "exit: 0 written  2 case file wrong, or a structure  3 not written, or the page is not installed  64 usage\n"
     "example: hbmcheck lab --case cases/paper/case2.yaml --output lab.html";
 
-enum { KEY_CASE = CLI_OWN_KEY, MOST_PAGE = 1 << 26 /* [byte] */ };
+typedef struct lab_options {
+  const char *case_file; /* NULL: not given */
+} lab_options;
 
-static const struct argp_option options[] = {
-    {"case", KEY_CASE, "CASE", 0, "Open the page on this case, with --set", 1},
+enum { MOST_PAGE = 1 << 26 /* [byte] */ };
+
+static const cli_option options[] = {
+    {CLI_TEXT, "case", "CASE", "Open the page on this case, with --set", offsetof(lab_options, case_file),
+     .file = "--case", .use = CLI_INPUT},
     {0},
 };
-
-/* NOLINTNEXTLINE(readability-non-const-parameter): the signature is argp's */
-static error_t read_option(int key, char *text, struct argp_state *state)
-{
-  const char **case_file = state->input;
-  if (key != KEY_CASE) return ARGP_ERR_UNKNOWN;
-  *case_file = text;
-  return 0;
-}
 
 /* ---- the page as it is installed ---- */
 
@@ -155,14 +152,14 @@ static int check_usage(const cli_common *common, const char *case_file)
 static int run_lab(int argc, char **argv)
 {
   cli_common common;
-  const char *case_file = NULL;
+  lab_options own = {0};
   scene sc = {.structure = NULL};
   char *page = NULL;
-  cli_parse(&cmd_lab, argc, argv, &case_file, &common);
+  cli_parse(&cmd_lab, argc, argv, &own, &common);
+  const char *const case_file = own.case_file;
   const char *path = common.output ? common.output : "lab.html";
-  const cli_file files[] = {{"--case", case_file, CLI_INPUT}, {"the page", path, CLI_OUTPUT}};
   int code = check_usage(&common, case_file);
-  if (!code) code = cli_check_files(&common, common.output ? 1 : 2, files);
+  if (!code) code = cli_check_files(&common, !common.output, &(cli_file){"the page", path, CLI_OUTPUT});
   if (!code && case_file) code = load_oscillator(&common, case_file, &sc);
   const hc_status st = code ? HC_OK : read_page(&page);
   if (st != HC_OK) code = no_page(&common, st);
@@ -178,6 +175,5 @@ const cli_command cmd_lab = {
     .arguments = "",
     .help = help,
     .options = options,
-    .read_option = read_option,
     .run = run_lab,
 };

@@ -79,9 +79,7 @@ static int run_modes(int argc, char **argv)
 {
   cli_common common;
   scene sc = {.structure = NULL};
-  cli_parse(&cmd_modes, argc, argv, NULL, &common);
-  int code = cli_check_files(&common, 0, NULL);
-  if (!code) code = cli_load_case(&common, common.arguments[0], &sc);
+  int code = cli_start(&cmd_modes, argc, argv, NULL, &common, &sc);
   if (code) return code;
   model *m = NULL;
   table *tables[] = {table_new("Modes", N_MODE_COLUMNS, mode_columns),

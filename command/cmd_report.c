@@ -1,4 +1,5 @@
 /* cmd_report.c - hbmcheck report: the comparison as one HTML page. */
+#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -24,25 +25,15 @@ typedef struct report_options {
   table_lists lists;
 } report_options;
 
-enum { KEY_AT = CLI_OWN_KEY, KEY_HARMONICS, KEY_SAMPLES };
-
-static const struct argp_option options[] = {
-    {"at", KEY_AT, "LIST", 0, "At these " CLI_FREQUENCIES " [compare.omega, else compare.points over the sweep]", 1},
-    {"harmonics", KEY_HARMONICS, "LIST", 0, "Truncation orders of the tables, 1..200 [compare.harmonics]", 1},
-    {"samples", KEY_SAMPLES, "LIST", 0, "Samples per period of the tables, at least 2 H + 2 [compare.samples]", 1},
+static const cli_option options[] = {
+    {CLI_LIST, "at", "LIST", "At these " CLI_FREQUENCIES " [compare.omega, else compare.points over the sweep]",
+     offsetof(report_options, at)},
+    {CLI_LIST, "harmonics", "LIST", "Truncation orders of the tables, 1..200 [compare.harmonics]",
+     offsetof(report_options, lists.harmonics)},
+    {CLI_LIST, "samples", "LIST", "Samples per period of the tables, at least 2 H + 2 [compare.samples]",
+     offsetof(report_options, lists.samples)},
     {0},
 };
-
-static error_t read_option(int key, char *text, struct argp_state *state)
-{
-  report_options *own = state->input;
-  switch (key) {
-  case KEY_AT: cli_read_list(state, "at", text, &own->at); return 0;
-  case KEY_HARMONICS: cli_read_list(state, "harmonics", text, &own->lists.harmonics); return 0;
-  case KEY_SAMPLES: cli_read_list(state, "samples", text, &own->lists.samples); return 0;
-  default: return ARGP_ERR_UNKNOWN;
-  }
-}
 
 /* "case2.html" for cases/paper/case2.yaml, into text[size]. */
 static const char *name_of_page(const char *path, char *text, size_t size)
@@ -216,6 +207,5 @@ const cli_command cmd_report = {
     .arguments = "CASE",
     .help = help,
     .options = options,
-    .read_option = read_option,
     .run = run_report,
 };

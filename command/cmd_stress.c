@@ -3,6 +3,7 @@
 #include <errno.h>
 #include <limits.h>
 #include <math.h>
+#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -66,7 +67,7 @@ static bool may_be_replaced(unsigned long seed, const char *folder, const char *
 static int stress_check_files(const cli_common *common, const stress_plan *plan, const char *findings)
 {
   const cli_file others[] = {{"--results", plan->journal, CLI_RESULTS}, {"--output", common->output, CLI_OUTPUT}};
-  int code = cli_check_files(common, 1, others);
+  int code = cli_check_files(common, 0, NULL);
   for (int i = 0; i < 2 && findings && !code; ++i)
     if (others[i].path && may_be_replaced(plan->seed, findings, others[i].path)) {
       cli_message(common, "%s %s is where --findings %s keeps a case file; give another name", others[i].what,
@@ -99,73 +100,35 @@ static const char help[] =
     "example: hbmcheck stress --scenes 200";
 
 typedef struct stress_options {
-  stress_plan plan;     /* --scenes, --seed, --first, --results (journal), --seconds, --jobs */
-  bool one_case, all;   /* --case, --all */
+  stress_plan plan;   /* --scenes, --seed, --first, --results (journal), --seconds, --jobs */
+  bool one_case, all; /* --case, --all */
+  bool structures, space;
   const char *findings; /* NULL: not kept */
 } stress_options;
 
 enum { DEFAULT_SCENES = 200, MAX_SCENES = 100000000 };
 
-enum {
-  KEY_SCENES = CLI_OWN_KEY,
-  KEY_SEED,
-  KEY_FIRST,
-  KEY_CASE,
-  KEY_ALL,
-  KEY_FINDINGS,
-  KEY_RESULTS,
-  KEY_SECONDS,
-  KEY_JOBS,
-  KEY_STRUCTURES,
-  KEY_SPACE
-};
-
-static const struct argp_option options[] = {
-    {"scenes", KEY_SCENES, "N", 0, "How many scenes [200]", 1},
-    {"structures", KEY_STRUCTURES, NULL, 0, "Draw structures of up to 12 degrees of freedom in place of oscillators",
-     1},
-    {"space", KEY_SPACE, NULL, 0, "The same structures, with a second tangent of some of their contacts", 1},
-    {"seed", KEY_SEED, "N", 0, "Which sequence [1]", 1},
-    {"first", KEY_FIRST, "INDEX", 0, "The first scene's place in the sequence [0]", 1},
-    {"case", KEY_CASE, NULL, 0, "Run nothing: print the case file of the first scene", 1},
-    {"all", KEY_ALL, NULL, 0, "Show every check of every scene", 1},
-    {"findings", KEY_FINDINGS, "DIR", 0, "Shrink every finding, and keep it in DIR as a case file", 1},
-    {"results", KEY_RESULTS, "FILE", 0, "Keep results in FILE as they come, and go on from what is there", 1},
-    {"seconds", KEY_SECONDS, "S", 0, "Processor time for one check before it is given up as too dear [1]", 1},
-    {"jobs", KEY_JOBS, "N", 0, "Scenes at once [one a processor]", 1},
+static const cli_option options[] = {
+    {CLI_COUNT, "scenes", "N", "How many scenes [200]", offsetof(stress_options, plan.scenes), 1, MAX_SCENES},
+    {CLI_FLAG, "structures", NULL, "Draw structures of up to 12 degrees of freedom in place of oscillators",
+     offsetof(stress_options, structures)},
+    {CLI_FLAG, "space", NULL, "The same structures, with a second tangent of some of their contacts",
+     offsetof(stress_options, space)},
+    {CLI_COUNT, "seed", "N", "Which sequence [1]", offsetof(stress_options, plan.seed), 0, INT_MAX},
+    {CLI_COUNT, "first", "INDEX", "The first scene's place in the sequence [0]", offsetof(stress_options, plan.first),
+     0, MAX_SCENES},
+    {CLI_FLAG, "case", NULL, "Run nothing: print the case file of the first scene", offsetof(stress_options, one_case)},
+    {CLI_FLAG, "all", NULL, "Show every check of every scene", offsetof(stress_options, all)},
+    {CLI_TEXT, "findings", "DIR", "Shrink every finding, and keep it in DIR as a case file",
+     offsetof(stress_options, findings)},
+    {CLI_TEXT, "results", "FILE", "Keep results in FILE as they come, and go on from what is there",
+     offsetof(stress_options, plan.journal), .file = "--results", .use = CLI_RESULTS},
+    {CLI_POSITIVE, "seconds", "S", "Processor time for one check before it is given up as too dear [1]",
+     offsetof(stress_options, plan.seconds)},
+    {CLI_INTEGER, "jobs", "N", "Scenes at once [one a processor]", offsetof(stress_options, plan.jobs), 1,
+     CLI_MAX_JOBS},
     {0},
 };
-
-static error_t read_option(int key, char *text, struct argp_state *state)
-{
-  stress_options *own = state->input;
-  int number;
-  switch (key) {
-  case KEY_STRUCTURES:
-    if (own->plan.family != STRESS_SPACE) own->plan.family = STRESS_STRUCTURES;
-    return 0;
-  case KEY_SPACE: own->plan.family = STRESS_SPACE; return 0;
-  case KEY_SCENES:
-    cli_read_integer(state, "scenes", text, 1, MAX_SCENES, &number);
-    own->plan.scenes = number;
-    return 0;
-  case KEY_SEED:
-    cli_read_integer(state, "seed", text, 0, INT_MAX, &number);
-    own->plan.seed = (unsigned long)number;
-    return 0;
-  case KEY_FIRST:
-    cli_read_integer(state, "first", text, 0, MAX_SCENES, &number);
-    own->plan.first = number;
-    return 0;
-  case KEY_CASE: own->one_case = true; return 0;
-  case KEY_ALL: own->all = true; return 0;
-  case KEY_FINDINGS: own->findings = text; return 0;
-  case KEY_RESULTS: own->plan.journal = text; return 0;
-  case KEY_SECONDS: cli_read_positive(state, "seconds", text, &own->plan.seconds); return 0;
-  case KEY_JOBS: cli_read_integer(state, "jobs", text, 1, CLI_MAX_JOBS, &own->plan.jobs); return 0;
-  default: return ARGP_ERR_UNKNOWN;
-  }
-}
 
 static const table_column check_columns[] = {
     {"check", TABLE_TEXT},         {"agreed", TABLE_INTEGER},    {"explained", TABLE_INTEGER},
@@ -462,6 +425,8 @@ static int run_stress(int argc, char **argv)
 {
   stress_call call = {.own.plan = {.seed = 1, .scenes = DEFAULT_SCENES, .jobs = cli_processors(), .seconds = 1}};
   cli_parse(&cmd_stress, argc, argv, &call.own, &call.common);
+  if (call.own.structures) call.own.plan.family = STRESS_STRUCTURES;
+  if (call.own.space) call.own.plan.family = STRESS_SPACE;
   if (call.common.n_set) {
     cli_message(&call.common, "--set has no case file to set anything in");
     return EXIT_USAGE;
@@ -487,6 +452,5 @@ const cli_command cmd_stress = {
     .arguments = "",
     .help = help,
     .options = options,
-    .read_option = read_option,
     .run = run_stress,
 };

@@ -1,5 +1,6 @@
 /* cmd_study.c - hbmcheck study: many scenes of one case in parallel, their results kept as they come, and the study's
  * claims checked against them. Under mpirun rank 0 hands out the scenes, keeps the results and writes. */
+#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -28,50 +29,34 @@ static const char help[] =
     "example: hbmcheck study gaps.yaml --jobs 4 --export csv --output gaps.csv";
 
 typedef struct study_options {
-  int jobs;            /* 0: not given */
-  const char *results; /* NULL: not given */
-  bool fresh, timings; /* --fresh, --timings */
-  bool exporting;      /* --export was given, in export_format */
-  table_format export_format;
+  int jobs;                  /* 0: not given */
+  const char *results;       /* NULL: not given */
+  bool fresh, timings;       /* --fresh, --timings */
+  table_format export;       /* FORMAT_TABLE: --export was not given */
   const char *plot, *plot_y; /* NULL: not given */
   const char *response;      /* likewise */
 } study_options;
 
-enum { KEY_JOBS = CLI_OWN_KEY, KEY_RESULTS, KEY_FRESH, KEY_EXPORT, KEY_TIMINGS, KEY_PLOT, KEY_PLOT_Y, KEY_RESPONSE };
-
-static const struct argp_option options[] = {
-    {"jobs", KEY_JOBS, "N", 0, "Scenes computed at a time [the processors that are online]", 1},
-    {"results", KEY_RESULTS, "FILE", 0,
-     "SQLite file of the results, or a folder for it; :memory: keeps nothing [STUDY's name with .sqlite, here]", 1},
-    {"fresh", KEY_FRESH, NULL, 0, "Throw away what the results file has, and start again", 1},
-    {"export", KEY_EXPORT, "csv|json", 0, "Write every scene with its rows instead of the summary", 1},
-    {"timings", KEY_TIMINGS, NULL, 0, "Export the seconds each scene took, too", 1},
-    {"response", KEY_RESPONSE, "NAME", 0,
-     "Of a structure: export, or draw, this response alone [export all, draw the first]", 1},
-    CLI_PLOT_OPTION(KEY_PLOT),
-    {"plot-y", KEY_PLOT_Y, "NAME", 0,
-     "What to draw: a column of scenes, or of rows, then the largest of each scene [peak_amplitude, or amplitude]", 2},
+static const cli_option options[] = {
+    {CLI_INTEGER, "jobs", "N", "Scenes computed at a time [the processors that are online]",
+     offsetof(study_options, jobs), 1, CLI_MAX_JOBS},
+    {CLI_TEXT, "results", "FILE",
+     "SQLite file of the results, or a folder for it; :memory: keeps nothing [STUDY's name with .sqlite, here]",
+     offsetof(study_options, results)},
+    {CLI_FLAG, "fresh", NULL, "Throw away what the results file has, and start again", offsetof(study_options, fresh)},
+    {CLI_FORMAT, "export", "csv|json", "Write every scene with its rows instead of the summary",
+     offsetof(study_options, export)},
+    {CLI_FLAG, "timings", NULL, "Export the seconds each scene took, too", offsetof(study_options, timings)},
+    {CLI_TEXT, "response", "NAME", "Of a structure: export, or draw, this response alone [export all, draw the first]",
+     offsetof(study_options, response)},
+    CLI_PLOT_OPTION(study_options),
+    {CLI_TEXT, "plot-y", "NAME",
+     "What to draw: a column of scenes, or of rows, then the largest of each scene [peak_amplitude, or amplitude]",
+     offsetof(study_options, plot_y), .group = 2},
     {0},
 };
 
-static error_t read_option(int key, char *text, struct argp_state *state)
-{
-  study_options *own = state->input;
-  switch (key) {
-  case KEY_JOBS: cli_read_integer(state, "jobs", text, 1, CLI_MAX_JOBS, &own->jobs); return 0;
-  case KEY_RESULTS: own->results = text; return 0;
-  case KEY_FRESH: own->fresh = true; return 0;
-  case KEY_EXPORT:
-    own->exporting = true;
-    cli_read_format(state, "export", text, false, &own->export_format);
-    return 0;
-  case KEY_TIMINGS: own->timings = true; return 0;
-  case KEY_PLOT: cli_read_plot(state, text, &own->plot); return 0;
-  case KEY_RESPONSE: own->response = text; return 0;
-  case KEY_PLOT_Y: own->plot_y = text; return 0;
-  default: return ARGP_ERR_UNKNOWN;
-  }
-}
+static bool is_exporting(const study_options *own) { return own->export != FORMAT_TABLE; }
 
 enum { MAX_PATH = 4096, BESIDE_PATH = MAX_PATH + 8, FILES_EACH = 4 };
 
@@ -96,7 +81,7 @@ typedef struct study_call {
   int jobs;          /* scenes computed at a time by this process */
   int n_studies;
   study_entry studies[CLI_MAX_ARGUMENTS]; /* [n_studies] */
-  cli_file files[CLI_MAX_ARGUMENTS * FILES_EACH + 1];
+  cli_file files[CLI_MAX_ARGUMENTS * FILES_EACH];
   table *tables[N_TABLES];
   study_claims_tally claims;
   long scenes;
@@ -216,7 +201,6 @@ static int check_files(study_call *call)
 {
   int n = 0;
   for (int i = 0; i < call->n_studies; ++i, n += FILES_EACH) list_files(&call->studies[i], call->files + n);
-  call->files[n++] = (cli_file){"--plot", call->own.plot, CLI_OUTPUT};
   return cli_check_files(&call->common, n, call->files);
 }
 
@@ -240,12 +224,12 @@ static int check_usage(const study_call *call, bool without_mpi)
   if (without_mpi)
     fault =
         "started in several copies by mpirun, but built without MPI (cmake -DHBMCHECK_MPI=ON): each would do the same";
-  else if (own->exporting && several) fault = "--export takes one study at a time";
+  else if (is_exporting(own) && several) fault = "--export takes one study at a time";
   else if (call->n_ranks > 1 && own->jobs > 1)
     fault = "under mpirun every process computes one scene at a time: give mpirun more processes instead of --jobs";
   else if (own->plot && several) fault = "--plot draws one study at a time";
   else if (own->plot_y && !own->plot) fault = "--plot-y goes with --plot";
-  else if (own->timings && !own->exporting) fault = "--timings goes with --export";
+  else if (own->timings && !is_exporting(own)) fault = "--timings goes with --export";
   if (fault && call->rank == 0) cli_message(&call->common, "%s", fault);
   return fault ? EXIT_USAGE : 0;
 }
@@ -355,7 +339,7 @@ static int write_export(const study_call *call)
   const study_entry *entry = &call->studies[0];
   hc_status st = output_open(call->common.output, &out);
   if (st == HC_OK) {
-    st = study_export(entry->s, entry->store, call->own.export_format, call->own.timings, response_of(entry),
+    st = study_export(entry->s, entry->store, call->own.export, call->own.timings, response_of(entry),
                       output_stream(out));
     if (st == HC_OK) st = output_commit(out);
     else output_abandon(out);
@@ -370,7 +354,7 @@ static int write_tables(const study_call *call)
   int n = 0;
   for (int i = 0; i < N_TABLES; ++i)
     if (i == SUMMARY || table_rows(call->tables[i]) > 0) shown[n++] = call->tables[i];
-  if (!call->own.exporting) return cli_write(&call->common, n, shown);
+  if (!is_exporting(&call->own)) return cli_write(&call->common, n, shown);
   if (!call->common.quiet) table_write(n, shown, FORMAT_TABLE, stderr);
   return write_export(call);
 }
@@ -443,7 +427,7 @@ static int run_rank_0(study_call *call)
     stopped = compute_study(call, &call->studies[n]);
   }
   if (stopped && n < call->n_studies) cluster_agree(stopped);
-  if (stopped && call->own.exporting) return stopped;
+  if (stopped && is_exporting(&call->own)) return stopped;
   int code = write_results(call, n);
   return stopped ? stopped : code;
 }
@@ -470,7 +454,6 @@ static int run_study(int argc, char **argv)
   }
   bool without_mpi = !cluster_start(&call->rank, &call->n_ranks);
   cli_parse(&cmd_study, argc, argv, &call->own, &call->common);
-  cli_check_plot(&call->common, call->own.plot, call->own.exporting);
   call->jobs = call->own.jobs ? call->own.jobs : call->n_ranks > 1 ? 1 : cli_processors();
   int code = check_usage(call, without_mpi);
   if (!code) code = read_studies(call);
@@ -494,6 +477,5 @@ const cli_command cmd_study = {
     .arguments = "STUDY...",
     .help = help,
     .options = options,
-    .read_option = read_option,
     .run = run_study,
 };

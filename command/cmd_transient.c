@@ -1,5 +1,6 @@
 /* cmd_transient.c - hbmcheck transient: the steady state by CVODE at given frequencies. */
 #include <math.h>
+#include <stddef.h>
 #include <stdio.h>
 
 #include "casefile/structure.h"
@@ -25,27 +26,14 @@ typedef struct transient_options {
   const char *plot;     /* NULL: no drawing */
 } transient_options;
 
-enum { KEY_AT = CLI_OWN_KEY, KEY_RESPONSE, KEY_CONTACTS, KEY_PLOT };
-
-static const struct argp_option options[] = {
-    {"at", KEY_AT, "LIST", 0, "At these " CLI_FREQUENCIES " [compare.omega of the case]", 1},
-    CLI_RESPONSE_OPTION(KEY_RESPONSE),
-    CLI_CONTACTS_OPTION(KEY_CONTACTS),
-    CLI_PLOT_OPTION(KEY_PLOT),
+static const cli_option options[] = {
+    {CLI_LIST, "at", "LIST", "At these " CLI_FREQUENCIES " [compare.omega of the case]",
+     offsetof(transient_options, at)},
+    CLI_RESPONSE_OPTION(transient_options),
+    CLI_CONTACTS_OPTION(transient_options),
+    CLI_PLOT_OPTION(transient_options),
     {0},
 };
-
-static error_t read_option(int key, char *text, struct argp_state *state)
-{
-  transient_options *own = state->input;
-  switch (key) {
-  case KEY_AT: cli_read_list(state, "at", text, &own->at); return 0;
-  case KEY_RESPONSE: own->response = text; return 0;
-  case KEY_CONTACTS: own->contacts = true; return 0;
-  case KEY_PLOT: cli_read_plot(state, text, &own->plot); return 0;
-  default: return ARGP_ERR_UNKNOWN;
-  }
-}
 
 /* The row's cells into the table, and the message if it has no steady state. 0 or the exit code. */
 static int put_row(const cli_common *common, const steady_row *r, table *t)
@@ -83,21 +71,16 @@ static int run_transient(int argc, char **argv)
   cli_common common;
   transient_options own = {0};
   scene sc = {.structure = NULL};
-  cli_parse(&cmd_transient, argc, argv, &own, &common);
-  cli_check_plot(&common, own.plot, false);
-  int code = cli_check_files(&common, 1, &(cli_file){"--plot", own.plot, CLI_OUTPUT});
-  if (!code) code = cli_load_case(&common, common.arguments[0], &sc);
-  if (code) return code;
-  code = cli_keep_response(&common, &sc, own.response);
+  int code = cli_start(&cmd_transient, argc, argv, &own, &common, &sc);
+  if (!code) code = cli_keep_response(&common, &sc, own.response);
+  if (!code) cli_take_frequencies(&common, &own.at, &sc);
+  if (!code && sc.compare.omega.n == 0) {
+    cli_message(&common, "at which frequencies? give --at LIST, or compare.omega in the case");
+    code = EXIT_USAGE;
+  }
   if (code) {
     case_clear(&sc);
     return code;
-  }
-  cli_take_frequencies(&common, &own.at, &sc);
-  if (sc.compare.omega.n == 0) {
-    cli_message(&common, "at which frequencies? give --at LIST, or compare.omega in the case");
-    case_clear(&sc);
-    return EXIT_USAGE;
   }
   progress *bar = progress_start("time integration", common.quiet);
   hc_monitor monitor = progress_monitor(bar);
@@ -142,6 +125,5 @@ const cli_command cmd_transient = {
     .arguments = "CASE",
     .help = help,
     .options = options,
-    .read_option = read_option,
     .run = run_transient,
 };

@@ -1,6 +1,7 @@
 /* cmd_verify.c - hbmcheck verify: another code's response curve, point by point, and the suspected cause where it is
  * off. */
 #include <math.h>
+#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -18,13 +19,12 @@
 
 /* Which curves of the file are judged: a column of values for each, and whose they are. Only what stands behind an @ is
  * read here: the rest of --columns is verify_columns_read's to judge. */
-enum { VERIFY_MOST_CURVES = 16, VERIFY_CURVE_TEXT = 1024 };
+enum { VERIFY_MOST_CURVES = CLI_MOST_TEXTS, VERIFY_CURVE_TEXT = 1024 };
 
 /* What --columns, --response and --quantity say. */
 typedef struct verify_asked {
   const char *columns, *quantity; /* NULL: not given */
-  int n_responses;
-  const char *responses[VERIFY_MOST_CURVES]; /* of --response, each time it was given */
+  cli_texts responses;            /* each --response */
 } verify_asked;
 
 /* One of the curves. */
@@ -97,7 +97,7 @@ static int curves_of_list(const cli_common *common, const verify_asked *asked, v
     const entry e = entry_at(text);
     if (e.at && n == VERIFY_MOST_CURVES)
       return cli_message(common, "--columns: more than %d responses", VERIFY_MOST_CURVES), -1;
-    if (e.at && asked->n_responses)
+    if (e.at && asked->responses.n)
       return cli_message(common, "--columns names a response behind @ and --response another way; give one of them"),
              -1;
     if (e.at && !keep_one(common, asked->columns, text, &out[n++])) return -1;
@@ -116,9 +116,9 @@ static int verify_curves_of(const cli_common *common, const verify_asked *asked,
   if (n != 0) return n < 0 ? 0 : n;
   if (asked->columns && strlen(asked->columns) >= sizeof out->columns)
     return cli_message(common, "--columns: longer than %zu letters", sizeof out->columns - 1), 0;
-  n = asked->n_responses ? asked->n_responses : 1;
+  n = asked->responses.n ? asked->responses.n : 1;
   for (int i = 0; i < n; ++i) {
-    if (!set_response(common, asked->n_responses ? asked->responses[i] : NULL, &out[i])) return 0;
+    if (!set_response(common, asked->responses.n ? asked->responses.text[i] : NULL, &out[i])) return 0;
     if (asked->columns) snprintf(out[i].columns, sizeof out->columns, "%s", asked->columns);
   }
   return n;
@@ -152,36 +152,21 @@ typedef struct verify_options {
   verify_asked asked;
 } verify_options;
 
-enum { KEY_AGAINST = CLI_OWN_KEY, KEY_COLUMNS, KEY_QUANTITY, KEY_NOISE, KEY_PLOT, KEY_RESPONSE };
-
-static const struct argp_option options[] = {
-    {"against", KEY_AGAINST, "FILE", 0, "The curve to hold against ours", 1},
-    {"columns", KEY_COLUMNS, "NAME=COLUMN,...", 0,
-     "Where its columns are: omega or frequency, value or QUANTITY (@RESPONSE: of several) [the header's names]", 1},
-    {"quantity", KEY_QUANTITY, "QUANTITY", 0, "What the column named value is, or which is meant", 1},
-    {"response", KEY_RESPONSE, "NAME", 0, "Of a structure: whose values [the first response's]", 1},
-    {"noise", KEY_NOISE, "S", 0, "A measured curve: standard deviation of its values relative to the amplitude [0]", 1},
-    CLI_PLOT_OPTION(KEY_PLOT),
+static const cli_option options[] = {
+    {CLI_TEXT, "against", "FILE", "The curve to hold against ours", offsetof(verify_options, against),
+     .file = "the curve", .use = CLI_INPUT},
+    {CLI_TEXT, "columns", "NAME=COLUMN,...",
+     "Where its columns are: omega or frequency, value or QUANTITY (@RESPONSE: of several) [the header's names]",
+     offsetof(verify_options, asked.columns)},
+    {CLI_TEXT, "quantity", "QUANTITY", "What the column named value is, or which is meant",
+     offsetof(verify_options, asked.quantity)},
+    {CLI_TEXTS, "response", "NAME", "Of a structure: whose values [the first response's]",
+     offsetof(verify_options, asked.responses)},
+    {CLI_TEXT, "noise", "S", "A measured curve: standard deviation of its values relative to the amplitude [0]",
+     offsetof(verify_options, noise)},
+    CLI_PLOT_OPTION(verify_options),
     {0},
 };
-
-/* NOLINTNEXTLINE(readability-non-const-parameter): the signature is argp's */
-static error_t read_option(int key, char *text, struct argp_state *state)
-{
-  verify_options *own = state->input;
-  switch (key) {
-  case KEY_AGAINST: own->against = text; return 0;
-  case KEY_COLUMNS: own->asked.columns = text; return 0;
-  case KEY_QUANTITY: own->asked.quantity = text; return 0;
-  case KEY_RESPONSE:
-    if (own->asked.n_responses == VERIFY_MOST_CURVES) argp_error(state, "more than %d --response", VERIFY_MOST_CURVES);
-    own->asked.responses[own->asked.n_responses++] = text;
-    return 0;
-  case KEY_NOISE: own->noise = text; return 0;
-  case KEY_PLOT: cli_read_plot(state, text, &own->plot); return 0;
-  default: return ARGP_ERR_UNKNOWN;
-  }
-}
 
 static const table_column columns[] = {
     {"omega", TABLE_REAL},     {"frequency", TABLE_REAL}, {"value", TABLE_REAL},  {"nearest", TABLE_REAL},
@@ -407,7 +392,7 @@ static int read_curve(const verify_call *call, double noise, verified *v)
     cli_message(common, "%s", refused);
     return EXIT_BAD_CASE;
   }
-  if (call->own.asked.n_responses > 1 && !v->data.by_response) {
+  if (call->own.asked.responses.n > 1 && !v->data.by_response) {
     cli_message(common,
                 "several --response, and %s has no column `response`; expected one, or --columns with "
                 "QUANTITY@RESPONSE for each",
@@ -479,11 +464,7 @@ static int run_verify(int argc, char **argv)
   cli_common *common = &call.common;
   const verify_options *own = &call.own;
   int written = 0;
-  cli_parse(&cmd_verify, argc, argv, &call.own, common);
-  cli_check_plot(common, own->plot, false);
-  const cli_file files[] = {{"the curve", own->against, CLI_INPUT}, {"--plot", own->plot, CLI_OUTPUT}};
-  int code = cli_check_files(common, 2, files);
-  if (!code) code = cli_load_case(common, common->arguments[0], &call.sc);
+  int code = cli_start(&cmd_verify, argc, argv, &call.own, common, &call.sc);
   if (!code) code = read_curves(&call);
   if (!code) {
     hc_status st;
@@ -506,6 +487,5 @@ const cli_command cmd_verify = {
     .arguments = "CASE",
     .help = help,
     .options = options,
-    .read_option = read_option,
     .run = run_verify,
 };
