@@ -601,11 +601,7 @@ int cli_write(const cli_common *common, int n, table *const *tables)
     if (common->wide) table_show_all(tables[i]);
     else table_fit(tables[i], cli_width(common));
   }
-  if (st == HC_OK) {
-    st = table_write(n, tables, common->format, output_stream(out));
-    if (st == HC_OK) st = output_commit(out);
-    else output_abandon(out);
-  }
+  if (st == HC_OK) st = output_finish(out, table_write(n, tables, common->format, output_stream(out)));
   return st == HC_OK ? 0 : cli_file_failed(common, common->output, st);
 }
 

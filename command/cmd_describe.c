@@ -435,11 +435,7 @@ static int write_text(const cli_common *common, const char *path)
   case_error err = {{0}};
   output *out = NULL;
   hc_status st = output_open(path, &out);
-  if (st == HC_OK) {
-    st = case_describe(common->arguments[0], output_stream(out), &err);
-    if (st == HC_OK) st = output_commit(out);
-    else output_abandon(out);
-  }
+  if (st == HC_OK) st = output_finish(out, case_describe(common->arguments[0], output_stream(out), &err));
   if (st == HC_OK) return 0;
   if (!err.message[0]) return cli_file_failed(common, path, st);
   const bool is_file = access(common->arguments[0], F_OK) == 0;

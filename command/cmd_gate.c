@@ -184,8 +184,7 @@ static table *checks_table(gate_call *call)
 /* After writing ended with st. 0 or the exit code after the message. */
 static int close_junit(gate_call *call, hc_status st)
 {
-  if (st == HC_OK) st = output_commit(call->junit);
-  else output_abandon(call->junit);
+  st = output_finish(call->junit, st);
   call->junit = NULL;
   return st == HC_OK ? 0 : cli_file_failed(&call->common, call->own.junit, st);
 }

@@ -108,8 +108,7 @@ static int write_page(const cli_common *common, const char *page, const scene *s
   if (st == HC_OK) {
     if (sc) st = write_with_case(page, sc, output_stream(out));
     else fputs(page, output_stream(out));
-    if (st == HC_OK) st = output_commit(out);
-    else output_abandon(out);
+    st = output_finish(out, st);
   }
   if (st != HC_OK) return cli_file_failed(common, path, st);
   if (!common->quiet) cli_message(common, "wrote %s", path);

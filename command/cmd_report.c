@@ -140,8 +140,7 @@ static hc_status write_page(const cli_common *common, const report_options *own,
   hc_status st = command && lab && versions ? output_open(path, &out) : HC_NO_MEMORY;
   if (st == HC_OK) {
     st = report_write(d, &(report_origin){command, lab, versions, settings}, output_stream(out));
-    if (st == HC_OK) st = output_commit(out);
-    else output_abandon(out);
+    st = output_finish(out, st);
   }
   free(command);
   free(lab);

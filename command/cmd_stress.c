@@ -324,9 +324,7 @@ static int write_case(const stress_call *call, const char *path, const char *com
   hc_status st = output_open(path, &out);
   if (st == HC_OK) {
     fputs(comment, output_stream(out));
-    st = case_echo(sc, output_stream(out));
-    if (st == HC_OK) st = output_commit(out);
-    else output_abandon(out);
+    st = output_finish(out, case_echo(sc, output_stream(out)));
   }
   return st == HC_OK ? 0 : cli_file_failed(&call->common, path, st);
 }

@@ -338,12 +338,9 @@ static int write_export(const study_call *call)
   output *out = NULL;
   const study_entry *entry = &call->studies[0];
   hc_status st = output_open(call->common.output, &out);
-  if (st == HC_OK) {
-    st = study_export(entry->s, entry->store, call->own.export, call->own.timings, response_of(entry),
-                      output_stream(out));
-    if (st == HC_OK) st = output_commit(out);
-    else output_abandon(out);
-  }
+  if (st == HC_OK)
+    st = output_finish(out, study_export(entry->s, entry->store, call->own.export, call->own.timings,
+                                         response_of(entry), output_stream(out)));
   return st == HC_OK ? 0 : cli_file_failed(&call->common, call->common.output, st);
 }
 

@@ -168,3 +168,10 @@ void output_abandon(output *o)
 {
   if (o) discard(o);
 }
+
+hc_status output_finish(output *o, hc_status st)
+{
+  if (st == HC_OK) return output_commit(o);
+  output_abandon(o);
+  return st;
+}

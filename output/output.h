@@ -22,6 +22,9 @@ hc_status output_commit(output *o);
 /* o = NULL does nothing. */
 void output_abandon(output *o);
 
+/* After writing ended with st: the commit; or the abandoning, and st. */
+hc_status output_finish(output *o, hc_status st);
+
 /* Removes what is being written beside the names asked for, for a signal handler that then ends the program: nothing
  * else works on an output after it. Async-signal-safe. */
 void output_abandon_all(void);

@@ -235,99 +235,6 @@ static void fill_TEXT(row_cell *c, bool there, const char *value)
   if (there) snprintf(c->as.text, sizeof c->as.text, "%s", value);
 }
 
-#define COLUMN(kind, name, there, value) {name, TABLE_##kind},
-#define FILL(kind, name, there, value)   fill_##kind(cells++, there, value);
-#define NONE(kind, name, there, value)
-
-typedef struct columns {
-  const table_column *columns;
-  int n;
-} columns;
-
-#define COLUMNS_OF(name, LIST)                                                                                         \
-  static const table_column name##_plain[] = {LIST(COLUMN, NONE, NONE)},                                               \
-                            name##_in_cycles[] = {LIST(COLUMN, COLUMN, NONE)},                                         \
-                            name##_responses[] = {LIST(COLUMN, NONE, COLUMN)},                                         \
-                            name##_both[] = {LIST(COLUMN, COLUMN, COLUMN)};                                            \
-  _Static_assert(sizeof name##_both / sizeof *name##_both <= ROWS_MOST, "callers keep ROWS_MOST cells")
-COLUMNS_OF(frf, FRF_COLUMNS);
-COLUMNS_OF(transient, TRANSIENT_COLUMNS);
-COLUMNS_OF(compare, COMPARE_COLUMNS);
-COLUMNS_OF(curve, CURVE_COLUMNS);
-COLUMNS_OF(accuracy, ACCURACY_COLUMNS);
-COLUMNS_OF(order, ORDER_COLUMNS);
-COLUMNS_OF(contact, CONTACT_COLUMNS);
-COLUMNS_OF(steady_contact, STEADY_CONTACT_COLUMNS);
-COLUMNS_OF(compare_contact, COMPARE_CONTACT_COLUMNS);
-
-/* [rows_kind][rows_extra] */
-/* clang-format off */
-#define LENGTH(list) (sizeof(list) / sizeof *(list))
-#define ALL(name) \
-  {{name##_plain, LENGTH(name##_plain)}, {name##_in_cycles, LENGTH(name##_in_cycles)}, \
-   {name##_responses, LENGTH(name##_responses)}, {name##_both, LENGTH(name##_both)}}
-/* clang-format on */
-static const columns all[][4] = {[ROWS_FRF] = ALL(frf),
-                                 [ROWS_TRANSIENT] = ALL(transient),
-                                 [ROWS_COMPARE] = ALL(compare),
-                                 [ROWS_CURVE] = ALL(curve),
-                                 [ROWS_ACCURACY] = ALL(accuracy),
-                                 [ROWS_ORDER] = ALL(order),
-                                 [ROWS_CONTACT] = ALL(contact),
-                                 [ROWS_STEADY_CONTACT] = ALL(steady_contact),
-                                 [ROWS_COMPARE_CONTACT] = ALL(compare_contact)};
-
-const table_column *rows_columns(rows_kind kind, unsigned extra, int *n)
-{
-  const columns *c = &all[kind][extra];
-  *n = c->n;
-  return c->columns;
-}
-
-#define ROWS(name, row, LIST)                                                                                          \
-  static void name##_cells(const void *of, unsigned extra, row_cell *cells)                                            \
-  {                                                                                                                    \
-    const row *r = of;                                                                                                 \
-    switch (extra) {                                                                                                   \
-    case ROWS_IN_CYCLES: LIST(FILL, FILL, NONE) break;                                                                 \
-    case ROWS_RESPONSES: LIST(FILL, NONE, FILL) break;                                                                 \
-    case ROWS_IN_CYCLES | ROWS_RESPONSES: LIST(FILL, FILL, FILL) break;                                                \
-    default: LIST(FILL, NONE, NONE) break;                                                                             \
-    }                                                                                                                  \
-  }
-ROWS(frf, response_row, FRF_COLUMNS)
-ROWS(transient, steady_row, TRANSIENT_COLUMNS)
-ROWS(compare, comparison_row, COMPARE_COLUMNS)
-ROWS(curve, response_summary, CURVE_COLUMNS)
-ROWS(accuracy, accuracy_row, ACCURACY_COLUMNS)
-ROWS(order, order_row, ORDER_COLUMNS)
-ROWS(contact, contact_row, CONTACT_COLUMNS)
-ROWS(steady_contact, steady_contact, STEADY_CONTACT_COLUMNS)
-ROWS(compare_contact, contact_comparison, COMPARE_CONTACT_COLUMNS)
-
-static const struct row_type {
-  size_t size;
-  void (*cells)(const void *row, unsigned extra, row_cell *cells);
-} types[] = {[ROWS_FRF] = {sizeof(response_row), frf_cells},
-             [ROWS_TRANSIENT] = {sizeof(steady_row), transient_cells},
-             [ROWS_COMPARE] = {sizeof(comparison_row), compare_cells},
-             [ROWS_CURVE] = {sizeof(response_summary), curve_cells},
-             [ROWS_ACCURACY] = {sizeof(accuracy_row), accuracy_cells},
-             [ROWS_ORDER] = {sizeof(order_row), order_cells},
-             [ROWS_CONTACT] = {sizeof(contact_row), contact_cells},
-             [ROWS_STEADY_CONTACT] = {sizeof(steady_contact), steady_contact_cells},
-             [ROWS_COMPARE_CONTACT] = {sizeof(contact_comparison), compare_contact_cells}};
-
-void rows_cells(rows_kind kind, const void *row, unsigned extra, row_cell *cells)
-{
-  types[kind].cells(row, extra, cells);
-}
-
-const void *rows_at(rows_kind kind, const void *rows, int i)
-{
-  return (const char *)rows + (size_t)i * types[kind].size;
-}
-
 /* ---- what a narrow screen does without: what says least comes first; a column in no list is never left out ---- */
 
 /* The first name of each list is there for frequencies in cycles, where the same in rad says nothing more. */
@@ -361,11 +268,80 @@ static const char *const of_compare_contact[] = {
 static const char *const of_others[] = {"omega", NULL};
 /* clang-format on */
 
-const char *const *rows_spare(rows_kind kind, bool in_cycles)
+/* ---- every kind ---- */
+
+#define COLUMN(kind, name, there, value) {name, TABLE_##kind},
+#define NONE(kind, name, there, value)
+#define FILL(kind, name, there, value) fill_##kind(cells++, there, value);
+#define FILL_CYCLES(kind, name, there, value)                                                                          \
+  if (extra & ROWS_IN_CYCLES) FILL(kind, name, there, value)
+#define FILL_RESPONSE(kind, name, there, value)                                                                        \
+  if (extra & ROWS_RESPONSES) FILL(kind, name, there, value)
+
+/* Its columns with each sum of extra ones, and what fills a row. */
+/* clang-format off */
+#define KIND_OF(name, row, LIST) \
+  static const table_column name##_plain[] = {LIST(COLUMN, NONE, NONE)}, \
+                            name##_in_cycles[] = {LIST(COLUMN, COLUMN, NONE)}, \
+                            name##_responses[] = {LIST(COLUMN, NONE, COLUMN)}, \
+                            name##_both[] = {LIST(COLUMN, COLUMN, COLUMN)}; \
+  _Static_assert(LENGTH(name##_both) <= ROWS_MOST, "callers keep ROWS_MOST cells"); \
+  static void name##_cells(const void *of, unsigned extra, row_cell *cells) \
+  { \
+    const row *r = of; \
+    (void)extra; \
+    LIST(FILL, FILL_CYCLES, FILL_RESPONSE) \
+  }
+#define LENGTH(list) (sizeof(list) / sizeof *(list))
+KIND_OF(frf, response_row, FRF_COLUMNS)
+KIND_OF(transient, steady_row, TRANSIENT_COLUMNS)
+KIND_OF(compare, comparison_row, COMPARE_COLUMNS)
+KIND_OF(curve, response_summary, CURVE_COLUMNS)
+KIND_OF(accuracy, accuracy_row, ACCURACY_COLUMNS)
+KIND_OF(order, order_row, ORDER_COLUMNS)
+KIND_OF(contact, contact_row, CONTACT_COLUMNS)
+KIND_OF(steady_contact, steady_contact, STEADY_CONTACT_COLUMNS)
+KIND_OF(compare_contact, contact_comparison, COMPARE_CONTACT_COLUMNS)
+
+#define KIND(name, row, spare) \
+  {{{name##_plain, LENGTH(name##_plain)}, {name##_in_cycles, LENGTH(name##_in_cycles)}, \
+    {name##_responses, LENGTH(name##_responses)}, {name##_both, LENGTH(name##_both)}}, \
+   name##_cells, sizeof(row), spare}
+static const struct kind {
+  struct {
+    const table_column *columns;
+    int n;
+  } with[4]; /* [a sum of extra columns] */
+  void (*cells)(const void *row, unsigned extra, row_cell *cells);
+  size_t size; /* of a row */
+  const char *const *spare;
+} kinds[] = {
+    [ROWS_FRF] = KIND(frf, response_row, of_frf),
+    [ROWS_TRANSIENT] = KIND(transient, steady_row, of_transient),
+    [ROWS_COMPARE] = KIND(compare, comparison_row, of_compare),
+    [ROWS_CURVE] = KIND(curve, response_summary, of_others),
+    [ROWS_ACCURACY] = KIND(accuracy, accuracy_row, of_accuracy),
+    [ROWS_ORDER] = KIND(order, order_row, of_others),
+    [ROWS_CONTACT] = KIND(contact, contact_row, of_contact),
+    [ROWS_STEADY_CONTACT] = KIND(steady_contact, steady_contact, of_contact),
+    [ROWS_COMPARE_CONTACT] = KIND(compare_contact, contact_comparison, of_compare_contact),
+};
+/* clang-format on */
+
+const table_column *rows_columns(rows_kind kind, unsigned extra, int *n)
 {
-  static const char *const *const lists[] = {
-      [ROWS_FRF] = of_frf,         [ROWS_TRANSIENT] = of_transient,    [ROWS_COMPARE] = of_compare,
-      [ROWS_CURVE] = of_others,    [ROWS_ACCURACY] = of_accuracy,      [ROWS_ORDER] = of_others,
-      [ROWS_CONTACT] = of_contact, [ROWS_STEADY_CONTACT] = of_contact, [ROWS_COMPARE_CONTACT] = of_compare_contact};
-  return lists[kind] + !in_cycles;
+  *n = kinds[kind].with[extra].n;
+  return kinds[kind].with[extra].columns;
 }
+
+void rows_cells(rows_kind kind, const void *row, unsigned extra, row_cell *cells)
+{
+  kinds[kind].cells(row, extra, cells);
+}
+
+const void *rows_at(rows_kind kind, const void *rows, int i)
+{
+  return (const char *)rows + (size_t)i * kinds[kind].size;
+}
+
+const char *const *rows_spare(rows_kind kind, bool in_cycles) { return kinds[kind].spare + !in_cycles; }

@@ -198,11 +198,7 @@ static hc_status write_drawing(figure *g, FILE *drawing)
   output *out = NULL;
   plot_order *p = g->order;
   hc_status st = output_open(g->letters ? NULL : p->path, &out);
-  if (st == HC_OK) {
-    st = copy_stream(drawing, output_stream(out));
-    if (st == HC_OK) st = output_commit(out);
-    else output_abandon(out);
-  }
+  if (st == HC_OK) st = output_finish(out, copy_stream(drawing, output_stream(out)));
   if (st != HC_OK)
     snprintf(p->why, sizeof p->why, "%s: %s", g->letters ? "standard output" : p->path,
              st == HC_IO && errno ? strerror(errno) : hc_status_text(st));
