@@ -15,7 +15,7 @@
 
 #include "compare/compare_settings.h"
 #include "hbm/hbm.h"
-#include "timeint/steady.h"
+#include "timeint/steady/steady.h"
 
 #define BUDGET_PARTS(X) X(aliasing) X(truncation) X(regularisation) X(integration) X(settling)
 enum { BUDGET_N_PARTS = 5 };

@@ -8,7 +8,7 @@
 #include "compare/first_guess.h"
 #include "compare/frequencies.h"
 #include "numerics/series.h"
-#include "timeint/sweep.h"
+#include "timeint/steady/sweep.h"
 
 const double *comparison_state(const comparison *c, int i) { return c->states + (size_t)i * (size_t)c->n_states; }
 

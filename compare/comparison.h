@@ -17,7 +17,7 @@
 #include "compare/discrepancy.h"
 #include "compare/response.h"
 #include "hbm/hbm.h"
-#include "timeint/steady.h"
+#include "timeint/steady/steady.h"
 
 /* Never a bare number: what a comparison can come to. Names: docs/interface.md, 4. */
 #define VERDICT_LIST(X)                                                                                                \

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 
 #include "compare/motion.h"
-#include "timeint/steady.h"
+#include "timeint/steady/steady.h"
 
 enum { MOST_PERIODS = 200, MOST_DOF = 100 }; /* some milliseconds in closed form, some seconds */
 

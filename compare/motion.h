@@ -5,7 +5,7 @@
 #include "compare/discrepancy.h"
 #include "hbm/hbm.h"
 #include "model/periodic_motion.h"
-#include "timeint/steady.h"
+#include "timeint/steady/steady.h"
 #include "timeint/timeint.h"
 
 /* The motion of the HBM solution X[2 n_harm + 1], measured by hbm_measure. */

@@ -6,8 +6,8 @@
 #include "compare/comparison_private.h"
 #include "compare/gate_limits.h"
 #include "compare/motion.h"
-#include "timeint/contact_watch.h"
-#include "timeint/sweep.h"
+#include "timeint/steady/contact_watch.h"
+#include "timeint/steady/sweep.h"
 
 hc_status comparison_orbit_start(hbm_solver *hbm, const double *X, double omega, double *state)
 {

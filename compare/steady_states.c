@@ -9,8 +9,8 @@
 #include "compare/comparison.h"
 #include "compare/first_guess.h"
 #include "compare/frequencies.h"
-#include "timeint/contact_watch.h"
-#include "timeint/sweep.h"
+#include "timeint/steady/contact_watch.h"
+#include "timeint/steady/sweep.h"
 
 const char *steady_verdict_text(const steady_row *r, char text[24])
 {

@@ -7,7 +7,7 @@
 #include "compare/compare_settings.h"
 #include "compare/response.h"
 #include "model/contact_period.h"
-#include "timeint/steady.h"
+#include "timeint/steady/steady.h"
 
 /* A row can fail in one of three ways, so that a message can say which side it was. */
 typedef enum { STEADY_TRANSIENT, STEADY_SWEEP, STEADY_HBM } steady_stage;

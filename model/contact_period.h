@@ -1,5 +1,5 @@
 /* contact_period.h - what a contact does over one period of a motion, in numbers. hbm/contact/contact_measures.h
- * fills it from a motion, timeint/contact_watch.h along its own. */
+ * fills it from a motion, timeint/steady/contact_watch.h along its own. */
 #ifndef HC_CONTACT_PERIOD_H
 #define HC_CONTACT_PERIOD_H
 

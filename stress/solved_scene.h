@@ -9,7 +9,7 @@
 #include "hbm/hbm.h"
 #include "stress/rewritten.h"
 #include "stress/stress.h"
-#include "timeint/steady.h"
+#include "timeint/steady/steady.h"
 
 typedef struct solved_scene solved_scene;
 

@@ -7,8 +7,8 @@
 #include "hbm/contact/aft.h"
 #include "hbm/contact/exact_force.h"
 #include "hbm/hbm.h"
-#include "timeint/steady.h"
-#include "timeint/sweep.h"
+#include "timeint/steady/steady.h"
+#include "timeint/steady/sweep.h"
 
 enum { SCENE_MAX_STATES = TIMEINT_W + SCENE_MAX_CONTACTS };
 

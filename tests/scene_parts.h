@@ -5,11 +5,11 @@
 
 #include "study/scene_solvers.h"
 #include "tests/check.h"
-#include "timeint/integrate_events.h"
-#include "timeint/integrate_regularised.h"
-#include "timeint/integrate_series.h"
-#include "timeint/measure.h"
-#include "timeint/scaled.h"
+#include "timeint/closed_form/integrate_closed_form.h"
+#include "timeint/cvode/integrate_events.h"
+#include "timeint/cvode/integrate_regularised.h"
+#include "timeint/law/scaled.h"
+#include "timeint/period/measure.h"
 
 static inline void scene_direction(const scene_contact *c, double *tangent, double *normal)
 {

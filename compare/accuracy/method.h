@@ -6,7 +6,7 @@
 #include "compare/accuracy/bench.h"
 #include "compare/motion.h"
 #include "hbm/hbm.h"
-#include "timeint/steady.h"
+#include "timeint/steady/steady.h"
 
 /* *setup with the method's settings: harmonics and samples (0: as they are) of harmonic balance, or the regularisation
  * (NaN: exact law) and tolerance of time integration. */

@@ -8,7 +8,7 @@
 #include "study/scene_solvers.h"
 #include "tests/check.h"
 #include "tests/hbm/scenes.h"
-#include "timeint/steady.h"
+#include "timeint/steady/steady.h"
 
 /* Somebody to ask: counts, and answers as told. */
 typedef struct oracle {

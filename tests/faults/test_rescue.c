@@ -6,7 +6,7 @@
 
 #include "tests/faults/child.h"
 #include "tests/faults/small.h"
-#include "timeint/steady.h"
+#include "timeint/steady/steady.h"
 
 enum { HANGS = 600 /* [s] of a child, to end hangs */ };
 

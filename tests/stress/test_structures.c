@@ -14,7 +14,7 @@
 #include "stress/scenes.h"
 #include "stress/solved_scene.h"
 #include "tests/check.h"
-#include "timeint/steady.h"
+#include "timeint/steady/steady.h"
 
 typedef enum spoil {
   NOTHING,

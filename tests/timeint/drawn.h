@@ -5,7 +5,7 @@
 
 #include "tests/check.h"
 #include "tests/hbm/random_structures.h"
-#include "timeint/structure_newton.h"
+#include "timeint/cvode/structure_newton.h"
 
 enum { MOST = 100 /* states */, MOST_CONTACTS = 12 };
 

@@ -7,7 +7,7 @@
 
 #include "model/linear.h"
 #include "tests/check.h"
-#include "timeint/scaled.h"
+#include "timeint/law/scaled.h"
 
 enum { SCAN = 4000 };
 typedef enum { APART, STUCK, PLUS, MINUS } how;

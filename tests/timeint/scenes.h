@@ -6,7 +6,7 @@
 
 #include "study/scene_solvers.h"
 #include "tests/reference_scenes.h"
-#include "timeint/steady.h"
+#include "timeint/steady/steady.h"
 #include "timeint/timeint.h"
 
 static inline scene scene_linear(double mass, double damping, double stiffness, double force)

@@ -5,8 +5,8 @@
 
 #include "study/scene_solvers.h"
 #include "tests/timeint/scenes.h"
-#include "timeint/chaos.h"
-#include "timeint/timeint_private.h"
+#include "timeint/steady/chaos.h"
+#include "timeint/steady/timeint_private.h"
 
 static scene case2(void)
 {

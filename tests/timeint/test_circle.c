@@ -5,11 +5,11 @@
 #include "base/constants.h"
 #include "tests/check.h"
 #include "tests/timeint/drawn.h"
-#include "timeint/contact_watch.h"
-#include "timeint/integrate_events.h"
-#include "timeint/integrate_regularised.h"
-#include "timeint/integrate_series.h"
-#include "timeint/steady.h"
+#include "timeint/closed_form/integrate_closed_form.h"
+#include "timeint/cvode/integrate_events.h"
+#include "timeint/cvode/integrate_regularised.h"
+#include "timeint/steady/contact_watch.h"
+#include "timeint/steady/steady.h"
 
 /* ---- scenes ---------------------------------------------------------------------------------------------- */
 

@@ -1,5 +1,5 @@
-/* test_closed.c - the exact law in closed form (integrate_series.h): against the oracle, against CVODE's event-driven
- * periods, its monodromy matrix against differences, the table of reference, and what must not break it. */
+/* test_closed.c - the exact law in closed form (integrate_closed_form.h): against the oracle, against CVODE's
+ * event-driven periods, its monodromy matrix against differences, the table of reference, and what must not break it. */
 #include "tests/check.h"
 
 #include <complex.h>
@@ -11,8 +11,8 @@
 #include "tests/scene_parts.h"
 #include "tests/timeint/oracle.h"
 #include "tests/timeint/scenes.h"
-#include "timeint/integrate.h"
-#include "timeint/measure.h"
+#include "timeint/period/integrate.h"
+#include "timeint/period/measure.h"
 
 static scaled_model exact_model(scene sc, double omega, double length)
 {

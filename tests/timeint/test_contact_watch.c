@@ -3,7 +3,7 @@
 #include "tests/check.h"
 #include "tests/hbm/structure_cases.h"
 #include "tests/timeint/scenes.h"
-#include "timeint/contact_watch.h"
+#include "timeint/steady/contact_watch.h"
 
 enum { MOST_N = 16, MOST_CONTACTS = 8, HIGHEST = 250, LENGTH = 2 * HIGHEST + 1 };
 

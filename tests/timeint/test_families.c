@@ -2,8 +2,8 @@
  * From rest, and swept up and down, against an independent program. */
 #include "tests/check.h"
 #include "tests/hbm/structure_cases.h"
-#include "timeint/steady.h"
-#include "timeint/sweep.h"
+#include "timeint/steady/steady.h"
+#include "timeint/steady/sweep.h"
 
 enum { STATES = 16 };
 #define REST TRANSIENT_START_REST

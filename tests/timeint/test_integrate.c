@@ -8,7 +8,7 @@
 
 #include "tests/scene_parts.h"
 #include "tests/timeint/scenes.h"
-#include "timeint/integrate.h"
+#include "timeint/period/integrate.h"
 
 /* x'' + c x' + k x = f cos(theta) from x = x' = 0: the forced motion plus the free one that cancels it at 0. */
 static double complex linear_state(const scaled_model *m, double theta)

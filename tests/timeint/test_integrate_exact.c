@@ -12,8 +12,8 @@
 #include "tests/timeint/oracle.h"
 #include "tests/timeint/reference_rows.h"
 #include "tests/timeint/scenes.h"
-#include "timeint/integrate.h"
-#include "timeint/measure.h"
+#include "timeint/period/integrate.h"
+#include "timeint/period/measure.h"
 
 static const double tol = 1e-12; /* CVODE's. A period is some 200 steps, each of which may err by it */
 

@@ -3,7 +3,7 @@
 
 #include <float.h>
 
-#include "timeint/law_regularised.h"
+#include "timeint/law/law_regularised.h"
 
 static const contact steel = {.kt = 3, .kn = 5, .mu = 0.3, .gap = 0.2};
 

@@ -12,8 +12,8 @@
 #include "tests/scene_parts.h"
 #include "tests/timeint/reference_rows.h"
 #include "tests/timeint/scenes.h"
-#include "timeint/linear_regime.h"
-#include "timeint/timeint_private.h"
+#include "timeint/steady/linear_regime.h"
+#include "timeint/steady/timeint_private.h"
 
 /* A scene whose contacts are all as they are in static equilibrium (closed with a preload, open with a clearance),
  * sliders at rest at w:

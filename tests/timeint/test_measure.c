@@ -5,7 +5,7 @@
 
 #include "tests/scene_parts.h"
 #include "tests/timeint/scenes.h"
-#include "timeint/measure.h"
+#include "timeint/period/measure.h"
 
 /* Undamped, unforced: x = sum of what the start gives: x = p cos(s theta) + q sin(s theta), s^2 = k; here s = 2.5,
  * so that a period holds two and a half waves, the highest peak is sqrt(p^2 + q^2) and lies between steps, and the

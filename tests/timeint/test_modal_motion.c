@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "tests/random.h"
-#include "timeint/modal_motion.h"
+#include "timeint/closed_form/modal_motion.h"
 
 enum { MOST = 3, SCAN = 4000 };
 

@@ -5,7 +5,7 @@
 
 #include "tests/scene_parts.h"
 #include "tests/timeint/scenes.h"
-#include "timeint/scaled.h"
+#include "timeint/law/scaled.h"
 
 /* Against the printed equation in the scene's own units, where both laws are exact (no corner within 40 widths):
  * rounding only, of the largest term. */

@@ -4,8 +4,8 @@
 #include "study/scene_solvers.h"
 #include "tests/scene_parts.h"
 #include "tests/timeint/scenes.h"
-#include "timeint/integrate.h"
-#include "timeint/measure.h"
+#include "timeint/period/integrate.h"
+#include "timeint/period/measure.h"
 
 static const double b10_exact = 1.40757735095, c2_exact = 9.45555672271; /* |X1| at omega 7 */
 

@@ -6,9 +6,9 @@
 
 #include "study/scene_solvers.h"
 #include "tests/timeint/scenes.h"
-#include "timeint/confirm.h"
-#include "timeint/orbit.h"
-#include "timeint/timeint_private.h"
+#include "timeint/steady/confirm.h"
+#include "timeint/steady/orbit.h"
+#include "timeint/steady/timeint_private.h"
 
 typedef struct found {
   hc_status st;

@@ -2,7 +2,7 @@
 #include "tests/check.h"
 #include "tests/random.h"
 
-#include "timeint/settle.h"
+#include "timeint/steady/settle.h"
 
 typedef struct map {
   double radius, angle, second; /* second > 0: real multipliers radius and second instead of a complex pair */

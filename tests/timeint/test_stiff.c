@@ -3,10 +3,10 @@
 
 #include "tests/check.h"
 #include "tests/hbm/random_structures.h"
-#include "timeint/integrate_events.h"
-#include "timeint/integrate_series.h"
-#include "timeint/motion_modes.h"
-#include "timeint/motion_series.h"
+#include "timeint/closed_form/integrate_closed_form.h"
+#include "timeint/closed_form/motion_modes.h"
+#include "timeint/closed_form/motion_series.h"
+#include "timeint/cvode/integrate_events.h"
 
 enum { MOST = 64, PERIODS = 3 };
 

@@ -7,11 +7,11 @@
 #include "tests/scene_parts.h"
 #include "tests/timeint/drawn.h"
 #include "tests/timeint/scenes.h"
-#include "timeint/contact_track.h"
-#include "timeint/integrate_events.h"
-#include "timeint/integrate_regularised.h"
-#include "timeint/integrate_series.h"
-#include "timeint/steady.h"
+#include "timeint/closed_form/integrate_closed_form.h"
+#include "timeint/cvode/integrate_events.h"
+#include "timeint/cvode/integrate_regularised.h"
+#include "timeint/law/contact_track.h"
+#include "timeint/steady/steady.h"
 
 /* ---- an independent program -------------------------------------------------------------------------- */
 

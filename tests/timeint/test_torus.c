@@ -3,10 +3,10 @@
 #include "numerics/random.h"
 #include "tests/check.h"
 #include "tests/hbm/structure_cases.h"
-#include "timeint/chaos.h"
-#include "timeint/sweep.h"
-#include "timeint/timeint_private.h"
-#include "timeint/torus.h"
+#include "timeint/steady/chaos.h"
+#include "timeint/steady/sweep.h"
+#include "timeint/steady/timeint_private.h"
+#include "timeint/steady/torus.h"
 
 enum { N = 1024, STATES = 16 };
 

@@ -1,0 +1,60 @@
+/* fundamental_matrix.h - the monodromy matrix of a period of the exact law of a structure, from one change of contact
+ * state to the next. In a phase a variation of the motion obeys the same linear equation without its loads
+ * (series_columns.h, or modes_columns.h where that is less work); all forces are continuous, so that a transition
+ * changes no column but in the rows of sliders that begin to stick there (contact_track.h). A circle that slips has an
+ * angle, e = (cos phi, sin phi), that varies, too: dphi = (dU - dW).e_perp/R where it begins, and
+ *     dW = dU - dR e - R e_perp dphi
+ * where it sticks again. Meanwhile the motion itself is integrated once more, by its series, beside its columns. */
+#ifndef HC_TIMEINT_FUNDAMENTAL_MATRIX_H
+#define HC_TIMEINT_FUNDAMENTAL_MATRIX_H
+
+#include "timeint/closed_form/modes_columns.h"
+#include "timeint/closed_form/motion_series.h"
+#include "timeint/closed_form/series_columns.h"
+
+typedef struct structure_variations { /* from structure_variations_make, to structure_variations_free */
+  int n, n_states;                    /* modes; 2 n + contacts */
+  double theta;                       /* up to which `rows` has come */
+  int n_columns, *state;              /* [n_states] the first of them: states that the motion depends on, ascending */
+  double *rows;    /* [n_states][n_states] row i is that of state i, column q that of state[q]; a slider's row is valid
+                   while its contact sticks; while a circle slips that of its first is that of e's angle */
+  double *du, *dv; /* [n_states] of a contact, all columns */
+  double *du2;     /* [n_states] of a circle's second direction */
+  double *y;       /* [2 n] the motion at `theta`, and its contacts, */
+  contact_track *track; /* [n_contacts] where a circle slips */
+  motion_series motion; /* of that */
+  series_columns series;
+  modes_columns by_modes;
+  phase_modes *modes; /* the owner's, or NULL */
+} structure_variations;
+
+/* With complex modes where `modes` is not NULL and they pay. HC_NO_MEMORY; free it then, too. */
+hc_status structure_variations_make(structure_variations *v, const modal_base *base, phase_modes *modes);
+void structure_variations_free(structure_variations *v);
+
+/* The identity at theta = 0, contacts as they begin there at y[n_states]. */
+void structure_variations_begin(structure_variations *v, const scaled_model *m, const contact_track *track,
+                                const double *y);
+
+/* From v->theta on the motion is that of y[2 n], its contacts those of track[]: after structure_variations_begin, and
+ * whenever a contact has changed its state. */
+void structure_variations_follow(structure_variations *v, const scaled_model *m, const contact_track *track,
+                                 const double *y);
+
+/* On to theta, the contacts as they were. HC_NOT_FINITE, HC_NO_MEMORY. */
+hc_status structure_variations_advance(structure_variations *v, const scaled_model *m, const contact_track *track,
+                                       double theta);
+
+/* At v->theta contact j, in state `before` up to there, has begun to stick. */
+void structure_variations_stick(structure_variations *v, const scaled_model *m, int j, contact_state before,
+                                const contact_motion *at);
+
+/* The same of the circle whose first direction is j, from before[2] to after[2]. */
+void structure_variations_circle(structure_variations *v, const scaled_model *m, int j, const contact_track before[2],
+                                 const contact_track after[2], const circle_motion *at);
+
+/* The rows of sliders that are tied to the motion y[2 n], when the period is over. */
+void structure_variations_end(structure_variations *v, const scaled_model *m, const contact_track *track,
+                              const double *y, double *monodromy);
+
+#endif

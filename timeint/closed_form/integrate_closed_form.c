@@ -1,0 +1,458 @@
+/* integrate_closed_form.c - see integrate_closed_form.h. Proof: tests/timeint/test_structure.c. */
+#include "timeint/closed_form/integrate_closed_form.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/constants.h"
+#include "numerics/norm.h"
+#include "timeint/closed_form/fundamental_matrix.h"
+#include "timeint/closed_form/motion_modes.h"
+#include "timeint/closed_form/motion_series.h"
+#include "timeint/closed_form/motion_single.h"
+#include "timeint/law/slider_travel.h"
+#include "timeint/period/integrate_private.h"
+
+static const double longest_watched = 0.2; /* [rad] as CVODE's */
+
+enum {
+  MAX_STEPS = 10000000 /* per period */
+};
+
+typedef struct by_series { /* from integrate_new_series, to integrate_free; not shared between threads */
+  integrator base;
+  int n, n_contacts;
+  const scaled_model *m; /* of the period under way; the caller's */
+  contact_track *track;  /* [n_contacts] now */
+  slider_travel travel;
+  double theta, length; /* where the present step began, and its length */
+  double *y, *end;      /* [2 n] the motion there, and at its end */
+  double *response;     /* [TRACK_ORDER + 1] of one response */
+  motion_series series;
+  phase_modes *modes; /* or NULL */
+  motion_modes stiff; /* the motion since stiff.theta, where by_modes */
+  bool fits_single;
+  motion_single single; /* where that: the motion of the present step, if by_single */
+  bool by_modes, by_single;
+  structure_variations variations;
+} by_series;
+
+static contact_motion motion_of(const by_series *in, int j, const double *y)
+{
+  const double *t = in->m->base->tangent + (size_t)j * (size_t)in->n,
+               *n = in->m->base->normal + (size_t)j * (size_t)in->n;
+  return (contact_motion){dot_product(in->n, t, y), dot_product(in->n, n, y), dot_product(in->n, t, y + in->n),
+                          dot_product(in->n, n, y + in->n)};
+}
+
+static circle_motion circle_of(const by_series *in, int j, const double *y)
+{
+  const contact_motion one = motion_of(in, j, y), two = motion_of(in, j + 1, y);
+  return (circle_motion){{one.u, two.u}, one.v, {one.du, two.du}, one.dv};
+}
+
+static hc_status begin(by_series *in, const double *y)
+{
+  double size = 0;
+  for (int i = 0; i < in->m->n_states; ++i) size += fabs(y[i]);
+  if (!isfinite(size)) return HC_NOT_FINITE;
+  memcpy(in->y, y, 2 * (size_t)in->n * sizeof *y);
+  for (int j = 0; j < in->n_contacts; ++j) {
+    const scaled_contact *c = &in->m->contact[j];
+    const contact_motion at = motion_of(in, j, y);
+    if (c->circle) {
+      const circle_motion both = circle_of(in, j, y);
+      circle_track_begin(&in->track[j], c, &both, y + 2 * in->n + j);
+    } else if (!c->second) {
+      in->track[j] = contact_track_begin(c, &at, y[2 * in->n + j]);
+    }
+  }
+  slider_travel_begin(&in->travel, in->track, y + 2 * in->n);
+  return HC_OK;
+}
+
+/* Does a circle touch? Its guard is no sum of exponentials. */
+static bool has_closed_circle(const by_series *in)
+{
+  for (int j = 0; j < in->n_contacts; ++j)
+    if (in->m->contact[j].circle && in->track[j].state != CONTACT_SEPARATED) return true;
+  return false;
+}
+
+/* Is the motion from in->theta on one by complex modes? Then it is in in->stiff. */
+static hc_status choose(by_series *in)
+{
+  const complex_modes *modes;
+  const double omega = 1 / in->m->by_C;
+  in->by_modes = false;
+  in->by_single = in->fits_single && !has_closed_circle(in);
+  if (in->by_single) return HC_OK;
+  if (!phase_modes_pay(in->modes, omega, INFINITY) || has_closed_circle(in)) return HC_OK;
+  hc_status st = phase_modes_of(in->modes, in->m, in->track, &modes);
+  if (st == HC_OK && modes) in->by_modes = motion_modes_begin(&in->stiff, modes, in->m, in->track, in->theta, in->y);
+  return st;
+}
+
+/* The first event within the step, whose length becomes the time to it; -1: none. */
+static int find_event(by_series *in, track_event *event)
+{
+  int first = -1;
+  for (int j = 0; j < in->n_contacts; ++j) {
+    track_guard guard[TRACK_GUARDS];
+    const int n = motion_series_guards(&in->series, in->m, in->track, j, guard);
+    for (int g = 0; g < n; ++g) {
+      const double at = series_first_fall(&guard[g], in->length);
+      if (!(at < in->length || (at == in->length && first < 0))) continue;
+      in->length = at;
+      first = j;
+      *event = guard[g].event;
+    }
+  }
+  return first;
+}
+
+/* The motion of contact j at the end of the step. */
+static contact_motion contact_at_end(const by_series *in, int j)
+{
+  if (in->by_single) return motion_of(in, j, in->end);
+  if (in->by_modes) return motion_modes_contact(&in->stiff, j, in->theta + in->length - in->stiff.theta);
+  return motion_series_contact(&in->series, j, in->length);
+}
+
+/* The circle whose first direction is j. */
+static void pass_circle(by_series *in, int j, track_event event, bool varies)
+{
+  const contact_track before[2] = {in->track[j], in->track[j + 1]};
+  contact_motion at[2];
+  for (int a = 0; a < 2; ++a) at[a] = contact_at_end(in, j + a);
+  const circle_motion both = {{at[0].u, at[1].u}, at->v, {at[0].du, at[1].du}, at->dv};
+  circle_track_pass(&in->track[j], &in->m->contact[j], event, &both);
+  slider_travel_note_circle(&in->travel, &in->m->contact[j], in->track, j, &both);
+  if (varies) structure_variations_circle(&in->variations, in->m, j, before, &in->track[j], &both);
+}
+
+/* Contact j at the end of the step. */
+static hc_status pass(by_series *in, int j, track_event event, bool varies, int *count)
+{
+  const contact_motion at = contact_at_end(in, j);
+  const bool circle = in->m->contact[j].circle;
+  const contact_state before = in->track[j].state;
+  *count += circle ? 1 : contact_track_counts(&in->track[j], event, in->theta + in->length);
+  if (*count > integrate_most_transitions(in->n_contacts)) return HC_CHATTER;
+  if (varies) {
+    hc_status st = structure_variations_advance(&in->variations, in->m, in->track, in->theta + in->length);
+    if (st != HC_OK) return st;
+  }
+  if (circle) pass_circle(in, j, event, varies);
+  else contact_track_pass(&in->track[j], &in->m->contact[j], event, &at);
+  if (!circle) slider_travel_note(&in->travel, &in->m->contact[j], in->track, j, &at);
+  if (!varies) return HC_OK;
+  if (!circle && in->track[j].state == CONTACT_STICK)
+    structure_variations_stick(&in->variations, in->m, j, before, &at);
+  structure_variations_follow(&in->variations, in->m, in->track, in->end);
+  return HC_OK;
+}
+
+/* At the end of the step. */
+static void note_slipping_circles(by_series *in)
+{
+  for (int j = 0; j < in->n_contacts; ++j) {
+    if (!in->m->contact[j].circle || !circle_track_turns(&in->track[j])) continue;
+    const circle_motion at = circle_of(in, j, in->end);
+    slider_travel_note_circle(&in->travel, &in->m->contact[j], in->track, j, &at);
+  }
+}
+
+/* Contact `changing` passes the event at the end of the step, if it is not -1; then on to the next step, at theta. */
+static hc_status end_step(by_series *in, int changing, track_event event, bool varies, double theta, int *count)
+{
+  hc_status st = changing >= 0 ? pass(in, changing, event, varies, count) : HC_OK;
+  if (st != HC_OK) return st;
+  memcpy(in->y, in->end, 2 * (size_t)in->n * sizeof *in->y);
+  note_slipping_circles(in);
+  in->theta = theta;
+  return HC_OK;
+}
+
+/* One step of a series, or to the first event in it. */
+static hc_status step_by_series(by_series *in, bool varies, integrate_watch *watch, void *self, int *count)
+{
+  track_event event = TRACK_STICKS;
+  const double left = TWO_PI - in->theta;
+  const double held = motion_series_hold(in->m, in->track, in->y);
+  const double reach = fmin(held, motion_series_begin(&in->series, in->m, in->track, in->theta, in->y));
+  if (!(reach > 0)) return HC_NOT_FINITE;
+  in->length = fmin(reach, left);
+  const int changing = find_event(in, &event);
+  const bool last = !(in->length < left);
+  const double end = last ? TWO_PI : in->theta + in->length;
+  motion_series_at(&in->series, in->length, 0, in->end);
+  ++in->base.steps;
+  ++in->base.rhs;
+  hc_status st = watch && end > in->theta ? watch(self, &in->base, in->theta, end) : HC_OK;
+  motion_series_turn(&in->series, in->length, in->track);
+  return st == HC_OK ? end_step(in, changing, event, varies, end, count) : st;
+}
+
+/* To the first event, in watched steps. */
+static hc_status phase_by_modes(by_series *in, bool varies, integrate_watch *watch, void *self, int *count)
+{
+  track_event event = TRACK_STICKS;
+  const double from = in->theta, left = TWO_PI - from;
+  double span = left;
+  const int direction = motion_modes_first_event(&in->stiff, in->m, in->track, &span, &event);
+  const int changing = direction < 0 ? -1 : scaled_first(in->m, direction);
+  const double end = span < left ? from + span : TWO_PI;
+  const int steps = watch ? 1 + (int)(span / longest_watched) : 1;
+  ++in->base.rhs;
+  for (int i = 1; i <= steps; ++i) {
+    const double to = i < steps ? from + span * i / steps : end;
+    in->length = to - in->theta;
+    ++in->base.steps;
+    hc_status st = watch && to > in->theta ? watch(self, &in->base, in->theta, to) : HC_OK;
+    if (st != HC_OK) return st;
+    if (i < steps) in->theta = to;
+  }
+  motion_modes_at(&in->stiff, span, 0, in->end);
+  return end_step(in, changing, event, varies, end, count);
+}
+
+/* To the first event; watched, to the first turn of X. */
+static hc_status step_in_closed_form(by_series *in, bool varies, integrate_watch *watch, void *self, int *count)
+{
+  track_event event = TRACK_STICKS;
+  const double left = TWO_PI - in->theta;
+  int changing;
+  in->length = left;
+  hc_status st = motion_single_go(&in->single, in->m, in->track, in->theta, in->y, watch != NULL, &in->length,
+                                  &changing, &event, &in->base.rhs);
+  const double end = in->length < left ? in->theta + in->length : TWO_PI;
+  in->end[0] = in->single.end.q[0];
+  in->end[1] = in->single.end.p[0];
+  ++in->base.steps;
+  if (st == HC_OK && watch && end > in->theta) st = watch(self, &in->base, in->theta, end);
+  return st == HC_OK ? end_step(in, changing, event, varies, end, count) : st;
+}
+
+/* From theta = 0 to the end of the period. */
+static hc_status run(by_series *in, bool varies, integrate_watch *watch, void *self, int *count)
+{
+  in->theta = 0;
+  for (int steps = 0; in->theta < TWO_PI; ++steps) {
+    hc_status st = choose(in);
+    if (st == HC_OK && in->by_single) st = step_in_closed_form(in, varies, watch, self, count);
+    else if (st == HC_OK) st = (in->by_modes ? phase_by_modes : step_by_series)(in, varies, watch, self, count);
+    if (st != HC_OK) return st;
+    if (steps > MAX_STEPS) return HC_CHATTER;
+    if (!integrate_goes_on(&in->base)) return HC_INTERRUPTED;
+  }
+  return HC_OK;
+}
+
+/* The directions of the circle whose first is j, at tau of the step; NAN: where the step has ended. */
+static void turned(const by_series *in, int j, double tau, contact_track circle[2])
+{
+  double e[2];
+  for (int a = 0; a < 2; ++a) circle[a] = in->track[j + a];
+  if (isnan(tau) || in->by_modes || in->by_single || in->series.circle_of[j] < 0) return;
+  circle_series_direction(&in->series.circle[in->series.circle_of[j]], tau, e);
+  for (int a = 0; a < 2; ++a) circle[a].along = e[a];
+}
+
+/* Sliders of the motion y (order 0), or their rates where y is its derivative. */
+static void put_sliders(const by_series *in, double tau, int order, double *y)
+{
+  double *w = y + 2 * in->n;
+  for (int j = 0; j < in->n_contacts; j += scaled_directions(in->m, j)) {
+    const scaled_contact *c = &in->m->contact[j];
+    const contact_track *t = &in->track[j];
+    const contact_motion at = motion_of(in, j, y);
+    const bool sticks = t->state == CONTACT_STICK && c->law.has_friction;
+    if (c->circle) {
+      contact_track circle[2];
+      const circle_motion both = circle_of(in, j, y);
+      turned(in, j, tau, circle);
+      if (order == 0) circle_track_slider(circle, c, &both, w + j);
+      else circle_track_slider_rate(circle, c, both.u, both.v, w + j);
+    } else if (order == 0) {
+      w[j] = contact_track_slider(t, c, &at);
+    } else {
+      w[j] = sticks ? 0 : contact_track_vary_slider(t, c, at.u, at.v);
+    }
+  }
+}
+
+static hc_status period(integrator *base, const scaled_model *m, double *y, double *monodromy, integrate_watch *watch,
+                        void *self)
+{
+  by_series *in = (by_series *)base;
+  int count = 0;
+  in->m = m;
+  if (m->n != in->n || m->n_contacts != in->n_contacts) return HC_BUG;
+  hc_status st = begin(in, y);
+  if (st == HC_OK && monodromy) {
+    in->variations.theta = 0;
+    structure_variations_begin(&in->variations, m, in->track, y);
+    structure_variations_follow(&in->variations, m, in->track, y);
+  }
+  if (st == HC_OK) st = run(in, monodromy != NULL, watch, self, &count);
+  if (st == HC_OK && monodromy) st = structure_variations_advance(&in->variations, m, in->track, TWO_PI);
+  base->transitions += count;
+  if (st != HC_OK) return st;
+  memcpy(y, in->y, 2 * (size_t)in->n * sizeof *y);
+  put_sliders(in, NAN, 0, y);
+  slider_travel_end(&in->travel, in->track, y + 2 * in->n);
+  if (monodromy) structure_variations_end(&in->variations, m, in->track, y, monodromy);
+  return HC_OK;
+}
+
+static hc_status dense(const integrator *base, double theta, int order, double *y)
+{
+  by_series *in = (by_series *)base; /* whose rooms for sums are used */
+  if (in->by_single) motion_single_at(&in->single, theta - in->theta, order, y);
+  else if (in->by_modes) motion_modes_at(&in->stiff, theta - in->stiff.theta, order, y);
+  else motion_series_at(&in->series, theta - in->theta, order, y);
+  put_sliders(in, theta - in->theta, order, y);
+  return HC_OK;
+}
+
+static void expand_response(const by_series *in, int i)
+{
+  motion_series_of(&in->series, in->m->base->response + (size_t)i * (size_t)in->n, in->response);
+}
+
+static hc_status samples(const integrator *base, int i, double theta, double step, int count, double *x)
+{
+  const by_series *in = (const by_series *)base;
+  if (in->by_single) {
+    const double r = in->m->base->response[i];
+    modal_samples(&in->single.motion, 0, theta, step, count, x);
+    for (int k = 0; k < count && r != 1; ++k) x[k] *= r;
+    return HC_OK;
+  }
+  for (int k = 0; k < count && in->by_modes; ++k)
+    x[k] = motion_modes_response(&in->stiff, i, theta + k * step - in->stiff.theta);
+  if (in->by_modes) return HC_OK;
+  expand_response(in, i);
+  for (int k = 0; k < count; ++k) x[k] = series_value(in->response, theta + k * step - in->theta);
+  return HC_OK;
+}
+
+/* Integral of the product of two series over [0, h]. */
+static double integral_of_product(const double *a, const double *b, double h)
+{
+  double sum = 0, power = h;
+  for (int m = 0; m <= 2 * TRACK_ORDER; ++m, power *= h) {
+    double c = 0;
+    const int from = m > TRACK_ORDER ? m - TRACK_ORDER : 0, to = m < TRACK_ORDER ? m : TRACK_ORDER;
+    for (int k = from; k <= to; ++k) c += a[k] * b[m - k];
+    sum += c * power / (m + 1);
+  }
+  return sum;
+}
+
+static bool fourier(const integrator *base, int i, double out[3])
+{
+  const by_series *in = (const by_series *)base;
+  const double h = in->length, since = in->theta - in->stiff.theta;
+  if (in->by_single) {
+    const bool known = motion_single_fourier(&in->single, out);
+    for (int k = 0; k < 3; ++k) out[k] *= in->m->base->response[i];
+    return known;
+  }
+  if (in->by_modes) {
+    motion_modes_fourier(&in->stiff, i, since, since + h, out);
+    return true;
+  }
+  double cosine[TRACK_ORDER + 1] = {cos(in->theta)}, sine[TRACK_ORDER + 1] = {sin(in->theta)}, power = h;
+  expand_response(in, i);
+  for (int k = 1; k <= TRACK_ORDER; ++k) {
+    cosine[k] = -sine[k - 1] / k;
+    sine[k] = cosine[k - 1] / k;
+  }
+  out[0] = 0;
+  for (int k = 0; k <= TRACK_ORDER; ++k, power *= h) out[0] += in->response[k] * power / (k + 1);
+  out[1] = integral_of_product(in->response, cosine, h);
+  out[2] = integral_of_product(in->response, sine, h);
+  return h <= 3; /* beyond, the series of the cosine is cut too short */
+}
+
+static bool extremes(const integrator *base, int i, double *max, double *min)
+{
+  by_series *in = (by_series *)base; /* whose rooms for sums are used */
+  const double since = in->theta - in->stiff.theta;
+  if (in->by_modes) motion_modes_extremes(&in->stiff, i, since, since + in->length, max, min);
+  if (in->by_single) { /* the step ends where X turns */
+    const double r = in->m->base->response[i], from = r * in->y[0], to = r * in->end[0];
+    *max = fmax(from, to);
+    *min = fmin(from, to);
+  }
+  return in->by_modes || in->by_single;
+}
+
+static contact_state state(const integrator *base, int j, const double *y)
+{
+  (void)y;
+  return ((const by_series *)base)->track[j].state;
+}
+
+static double travel(const integrator *base, int j) { return ((const by_series *)base)->travel.most[j]; }
+
+static hc_status tolerance(integrator *base, double ignored)
+{
+  (void)base, (void)ignored;
+  return HC_OK;
+}
+
+static void release(integrator *base)
+{
+  by_series *in = (by_series *)base;
+  structure_variations_free(&in->variations);
+  slider_travel_free(&in->travel);
+  motion_series_free(&in->series);
+  motion_modes_free(&in->stiff);
+  motion_single_free(&in->single);
+  phase_modes_free(in->modes);
+  free(in->track);
+  free(in->y);
+  free(in);
+}
+
+static const integrator_class class = {.period = period,
+                                       .dense = dense,
+                                       .samples = samples,
+                                       .fourier = fourier,
+                                       .extremes = extremes,
+                                       .state = state,
+                                       .travel = travel,
+                                       .tolerance = tolerance,
+                                       .free = release};
+
+hc_status integrate_new_series(const modal_base *base, double stiff, integrator **out)
+{
+  const size_t n = (size_t)base->n, contacts = (size_t)base->n_contacts;
+  *out = NULL;
+  by_series *in = calloc(1, sizeof *in); /* zeroed, so free works half-built */
+  if (!in) return HC_NO_MEMORY;
+  in->base.does = &class;
+  in->n = base->n;
+  in->n_contacts = base->n_contacts;
+  in->track = calloc(contacts + 1, sizeof *in->track);
+  in->y = calloc(4 * n + TRACK_ORDER + 1, sizeof *in->y);
+  hc_status st = in->track && in->y ? motion_series_make(&in->series, base) : HC_NO_MEMORY;
+  if (st == HC_OK) st = phase_modes_new(base, stiff, &in->modes);
+  if (st == HC_OK) st = motion_modes_make(&in->stiff, base);
+  in->fits_single = motion_single_fits(base);
+  if (st == HC_OK && in->fits_single) st = motion_single_make(&in->single, base);
+  if (st == HC_OK) st = structure_variations_make(&in->variations, base, in->modes);
+  if (st == HC_OK) st = slider_travel_make(&in->travel, base->n_contacts);
+  if (st == HC_OK) {
+    in->end = in->y + 2 * n;
+    in->response = in->y + 4 * n;
+    *out = &in->base;
+    return HC_OK;
+  }
+  release(&in->base);
+  return st;
+}

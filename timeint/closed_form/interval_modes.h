@@ -1,0 +1,50 @@
+/* interval_modes.h - the complex modes of a structure in a phase, in which no contact changes its state:
+ *
+ *     q'' + C q' + (K + K_contacts) q = f(t),  K_contacts of contact_track_forces        in physical time
+ *     q = sum_k weight_k Re(V_k eta_k),   eta_k' = lambda_k eta_k + W_k . f
+ * k over the real eigenvalues of the first-order equation, weight 1, and one of each pair, weight 2, slowest first.
+ * They depend on what the contacts do, not on omega: each set of states is decomposed once and kept, the one that was
+ * not asked for longest gives way. Eigenvectors nearly dependent (a free body, critical damping): no modes; the motion
+ * is then motion_series.h's. */
+#ifndef HC_TIMEINT_INTERVAL_MODES_H
+#define HC_TIMEINT_INTERVAL_MODES_H
+
+#include "numerics/eigensystem.h"
+#include "timeint/law/contact_track.h"
+
+typedef struct complex_modes {
+  int count;                      /* <= 2 n; 0: these contacts' states have no modes */
+  long asked;                     /* when it was, last */
+  unsigned char *states;          /* [n_contacts] of whom it is */
+  double *weight;                 /* [2 n] */
+  double *largest;                /* [2 n] of |V_k| */
+  double complex *lambda;         /* [2 n] [1/time] */
+  double complex *V;              /* [2 n][n] */
+  double complex *by_x;           /* [2 n][n] eta = by_x . q + by_v . q' */
+  double complex *by_v;           /* [2 n][n] W, too */
+  double complex *u, *v;          /* [2 n][n_contacts] t_j . V_k, n_j . V_k */
+  double complex *along, *across; /* [2 n][n_contacts] W_k . t_j, W_k . n_j */
+  double complex *response;       /* [2 n][n_responses] r . V_k */
+  double complex *load;           /* [2 n][n_loads] W_k . (cosine - i sine) */
+  double complex *load_back;      /* [2 n][n_loads] W_k . (cosine + i sine) */
+} complex_modes;
+
+typedef struct phase_modes phase_modes;
+
+/* Fastest rate of a structure of up to 16 modes over omega from where on modes are less work than series; of more,
+ * times (n/16)^2. A set of states then takes about as long as a period by series: 3 ms of 16 modes, 24 ms of 32,
+ * 160 ms of 64. */
+#define PHASE_MODES_STIFF 60.0
+
+/* To be used where the fastest rate is more than `stiff` times omega. *out = NULL where that never is: stiff =
+ * INFINITY, or more than 64 modes, which take too long. HC_NO_MEMORY. */
+hc_status phase_modes_new(const modal_base *base, double stiff, phase_modes **out);
+void phase_modes_free(phase_modes *p); /* NULL is allowed */
+
+/* Are modes less work than series at omega, over a span [rad] of the phase (INFINITY: not known)? NULL: no. */
+bool phase_modes_pay(const phase_modes *p, double omega, double span);
+
+/* Of the phase. *out stays the cache's, until the next call; NULL: there are none. HC_NO_MEMORY, HC_NOT_FINITE. */
+hc_status phase_modes_of(phase_modes *p, const scaled_model *m, const contact_track *track, const complex_modes **out);
+
+#endif

@@ -1,0 +1,246 @@
+/* modal_motion.c - see modal_motion.h. Proof: tests/timeint/test_modal_motion.c. */
+#include "timeint/closed_form/modal_motion.h"
+
+#include <float.h>
+#include <math.h>
+#include <stddef.h>
+
+#include "model/linear.h"
+#include "numerics/safe_step.h"
+
+static const double near_resonance = 0.25;  /* of k - 1 + i c: below, r is computed as a divided difference */
+static const double near_free = 1e-2;       /* of k: below, s is not computed as a difference divided by k */
+static const double resonant_digits = 1e-3; /* of k - 1 + i c, as the divisor of an integral: loses three digits */
+static const double longest_step = 1.5;     /* [rad] for which one bound is taken */
+enum { MAX_NEWTON = 60, RESTART = 32 };
+
+mode mode_make(double c, double k)
+{
+  const double complex by = k - 1 + I * c;
+  const bool resonant = cabs(by) < near_resonance;
+  return (mode){.c = c,
+                .k = k,
+                .response = resonant ? 0 : 1 / by,
+                .resonant = resonant,
+                .soft = fabs(k) < near_free,
+                .grows = k < 0 ? sqrt(-k) : 0};
+}
+
+/* e^z - 1 without cancellation. */
+static double complex expm1_complex(double complex z)
+{
+  const double a = creal(z), b = cimag(z), half = sin(0.5 * b);
+  return expm1(a) * cos(b) - 2 * half * half + I * (exp(a) * sin(b));
+}
+
+/* (e^{i tau} - e^{root tau})/(i - root), whose limit where root = i is tau e^{i tau}. */
+static double complex divided_difference(double complex root, double tau)
+{
+  const double complex apart = I - root;
+  return cexp(root * tau) * (cabs(apart) > 0 ? expm1_complex(apart * tau) / apart : tau);
+}
+
+/* Near resonance c^2/4 < k: the roots are -c/2 +- i w, w near 1. */
+static void resonant_response(const mode *m, double tau, mode_flow *out)
+{
+  const double w = sqrt(m->k - 0.25 * m->c * m->c);
+  const double complex one = -0.5 * m->c + I * w, two = conj(one);
+  const double complex first = divided_difference(one, tau), second = divided_difference(two, tau);
+  out->r = (first - second) / (one - two);
+  out->dr = (one * first - two * second) / (one - two);
+}
+
+void mode_advance(const mode *m, double tau, mode_flow *out)
+{
+  linear_free_motion(1, m->c, m->k, tau, out->e);
+  out->s = m->soft ? linear_step_response(m->c, m->k, tau) : (1 - out->e[0][0]) / m->k;
+  if (m->resonant) {
+    resonant_response(m, tau, out);
+    return;
+  }
+  const double co = cos(tau), si = sin(tau);
+  out->r = (co - out->e[0][0] + I * (si - out->e[0][1])) * m->response;
+  out->dr = (-si - out->e[1][0] + I * (co - out->e[1][1])) * m->response;
+}
+
+/* (*q, *p) of a mode under d + Re(f e^{i tau}), after the time of the flow. */
+static void move(const mode_flow *flow, double d, double complex f, double *q, double *p)
+{
+  const double x = *q, v = *p;
+  *q = flow->e[0][0] * x + flow->e[0][1] * v + d * flow->s + creal(f * flow->r);
+  *p = flow->e[1][0] * x + flow->e[1][1] * v + d * flow->e[0][1] + creal(f * flow->dr);
+}
+
+static double complex on_circle(double theta) { return cos(theta) + I * sin(theta); }
+
+void modal_at(const modal_motion *m, double tau, modal_point *at)
+{
+  at->tau = tau;
+  const double complex turn = on_circle(m->theta), now = on_circle(m->theta + tau);
+  for (int i = 0; i < m->n; ++i) {
+    const mode *one = &m->mode[i];
+    const double complex force = m->f[i] * now;
+    mode_flow flow;
+    mode_advance(one, tau, &flow);
+    at->q[i] = m->q[i];
+    at->p[i] = m->p[i];
+    move(&flow, m->d[i], m->f[i] * turn, &at->q[i], &at->p[i]);
+    at->a[i] = m->d[i] + creal(force) - one->c * at->p[i] - one->k * at->q[i];
+    at->j[i] = -cimag(force) - one->c * at->a[i] - one->k * at->p[i];
+  }
+}
+
+static double guard_value(const modal_motion *m, const modal_guard *g, const modal_point *at)
+{
+  double f = g->constant;
+  for (int i = 0; i < m->n && g->by_q; ++i) f += g->by_q[i] * at->q[i];
+  for (int i = 0; i < m->n && g->by_p; ++i) f += g->by_p[i] * at->p[i];
+  return f;
+}
+
+static double guard_slope(const modal_motion *m, const modal_guard *g, const modal_point *at)
+{
+  double f = 0;
+  for (int i = 0; i < m->n && g->by_q; ++i) f += g->by_q[i] * at->p[i];
+  for (int i = 0; i < m->n && g->by_p; ++i) f += g->by_p[i] * at->a[i];
+  return f;
+}
+
+/* Bound of |g''| from the point on, over h. */
+static double guard_bound(const modal_motion *m, const modal_guard *g, const modal_point *at, double h)
+{
+  double bound = 0;
+  for (int i = 0; i < m->n; ++i) {
+    const mode *one = &m->mode[i];
+    const double k = fabs(one->k), more = cabs(m->f[i]) * h, grow = one->grows > 0 ? exp(one->grows * h) : 1;
+    const double a = at->a[i], p = at->p[i], j = at->j[i];
+    if (g->by_q) bound += fabs(g->by_q[i]) * (sqrt(a * a + k * p * p) + more) * grow;
+    if (g->by_p) bound += fabs(g->by_p[i]) * (sqrt(j * j + k * a * a) + more) * grow;
+  }
+  return bound;
+}
+
+/* A search under way: the motion, a guard of it, and where points are evaluated. */
+typedef struct search {
+  const modal_motion *m;
+  modal_point *at;
+  long evaluations;
+} search;
+
+static void evaluate(search *s, double tau)
+{
+  modal_at(s->m, tau, s->at);
+  ++s->evaluations;
+}
+
+/* Root of g in [a, b], where it falls from fa >= 0 to fb < 0 without turning: Newton kept inside by bisection. s->at is
+ * at b. */
+static double falling_root(search *s, const modal_guard *g, double a, double fa, double b, double fb)
+{
+  if (!(fa > 0)) return a;
+  double x = a + (b - a) * fa / (fa - fb);
+  for (int it = 0; it < MAX_NEWTON; ++it) {
+    evaluate(s, x);
+    const double f = guard_value(s->m, g, s->at), slope = guard_slope(s->m, g, s->at);
+    if (f > 0) a = x;
+    else b = x;
+    double next = x - f / slope;
+    const bool close = fabs(next - x) <= 2 * DBL_EPSILON * (1 + x + s->m->theta);
+    if (close) break;
+    if (!(next > a && next < b)) next = 0.5 * (a + b);
+    if (next == x) break;
+    x = next;
+  }
+  return x;
+}
+
+/* How far the guard surely stays positive from *now on, at most h; if it falls to 0 within that, *root is where. */
+static double clear_step(search *s, const modal_guard *g, const modal_point *now, double h, double *root)
+{
+  const double f = guard_value(s->m, g, now), slope = guard_slope(s->m, g, now), bound = guard_bound(s->m, g, now, h);
+  const double safe = safe_step(fmax(f, 0) + g->noise, slope, bound);
+  *root = INFINITY;
+  if (f < -g->noise) return *root = now->tau, 0;
+  if (safe >= h) return h;
+  const double one_way = slope < 0 ? fmin(h, -slope / bound) : 0; /* it falls at least that far */
+  if (!(one_way > safe)) return safe;
+  evaluate(s, now->tau + one_way);
+  const double end = guard_value(s->m, g, s->at);
+  if (end >= 0) return one_way;
+  *root = falling_root(s, g, now->tau, f, now->tau + one_way, end);
+  return one_way;
+}
+
+static double cap(const modal_motion *m)
+{
+  double h = longest_step;
+  for (int i = 0; i < m->n; ++i)
+    if (m->mode[i].grows * h > 1) h = 1 / m->mode[i].grows;
+  return h;
+}
+
+int modal_first_crossing(const modal_motion *m, double span, int n_guards, const modal_guard *guards, modal_point *at,
+                         modal_point *scratch, long *evaluations)
+{
+  const double longest = cap(m);
+  search s = {m, scratch, 1};
+  double limit = span;
+  int first = -1;
+  for (modal_at(m, 0, at); at->tau < limit;) {
+    const double tau = at->tau;
+    double h = fmin(limit - tau, longest);
+    for (int i = 0; i < n_guards; ++i) {
+      double root, clear = clear_step(&s, &guards[i], at, h, &root);
+      if (root < limit || (root == limit && first < 0)) {
+        limit = root;
+        first = i;
+        clear = root - tau;
+      }
+      h = fmin(h, clear);
+    }
+    const double next = tau + h < limit ? tau + h : limit;
+    modal_at(m, next, at);
+    ++s.evaluations;
+    if (!(next > tau)) break; /* NaN, or a root here */
+  }
+  *evaluations += s.evaluations;
+  return first;
+}
+
+void modal_samples(const modal_motion *m, int i, double from, double step, int count, double *samples)
+{
+  mode_flow one, start;
+  const double complex turn = on_circle(step);
+  mode_advance(&m->mode[i], step, &one);
+  for (int k = 0; k < count; k += RESTART) { /* rounding adds up over 32 samples only */
+    const double theta = from + k * step;
+    double q = m->q[i], p = m->p[i];
+    mode_advance(&m->mode[i], theta - m->theta, &start);
+    move(&start, m->d[i], m->f[i] * on_circle(m->theta), &q, &p);
+    double complex f = m->f[i] * on_circle(theta);
+    for (int j = k; j < count && j < k + RESTART; ++j) {
+      samples[j] = q;
+      move(&one, m->d[i], f, &q, &p);
+      f *= turn;
+    }
+  }
+}
+
+/* The equation of the mode times e^{-i theta} (or 1), integrated by parts: the integrals of q follow from values at the
+ * ends, with J of the force:  (k - 1 + i c) int q e^{-i theta} = J - [p e^{-i theta}] - (i + c) [q e^{-i theta}]. */
+bool modal_fourier(const modal_motion *m, int i, const modal_point *from, const modal_point *to, double out[3])
+{
+  const double c = m->mode[i].c, k = m->mode[i].k, d = m->d[i];
+  const double complex by = k - 1 + I * c, f = m->f[i];
+  if (m->mode[i].soft || cabs(by) < resonant_digits) return false;
+  const double start = m->theta + from->tau, end = m->theta + to->tau;
+  const double complex u0 = conj(on_circle(start)), u1 = conj(on_circle(end)); /* e^{-i theta} */
+  const double complex q = to->q[i] * u1 - from->q[i] * u0, p = to->p[i] * u1 - from->p[i] * u0;
+  const double complex force = I * d * (u1 - u0) + 0.5 * f * (end - start) + 0.25 * I * conj(f) * (u1 * u1 - u0 * u0);
+  const double complex first = (force - p - (I + c) * q) / by;
+  const double load = d * (end - start) + cimag(f * conj(u1 - u0));
+  out[0] = (load - (to->p[i] - from->p[i]) - c * (to->q[i] - from->q[i])) / k;
+  out[1] = creal(first);
+  out[2] = -cimag(first);
+  return true;
+}

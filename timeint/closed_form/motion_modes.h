@@ -1,0 +1,54 @@
+/* motion_modes.h - the motion of a structure in a phase, from its complex modes (interval_modes.h): the same as
+ * motion_series.h, but from one change of contact state to the next at once, however stiff the structure is.
+ *
+ *     eta_k(theta0 + tau) = c_k e^{mu_k tau} + fixed_k + sum_l (forward_kl e^{i h_l tau} + back_kl e^{-i h_l tau})
+ * mu_k = lambda_k/omega; fixed_k is of constant contact forces, l are the loads. Whatever is linear in the motion is a
+ * sum of exponentials (numerics/exponentials.h). What is lost where the parts cancel each other (a load at an undamped
+ * mode's frequency, nearly dependent eigenvectors) is measured: where that is much, there is no motion here. */
+#ifndef HC_TIMEINT_MOTION_MODES_H
+#define HC_TIMEINT_MOTION_MODES_H
+
+#include "numerics/exponentials.h"
+#include "timeint/closed_form/interval_modes.h"
+
+typedef struct motion_modes { /* from motion_modes_make, to motion_modes_free */
+  const modal_base *base;
+  const complex_modes *modes;
+  double theta;                               /* [rad] where it begins */
+  exponentials e;                             /* [n_loads + 2 n] i h_l, then mu_k */
+  double complex *rate;                       /* [n_loads + 2 n] e.rate */
+  double complex *c, *fixed, *forward, *back; /* [2 n], [2 n], [2 n][n_loads] twice */
+  double complex *eta, *deta;                 /* [2 n] and their rates, somewhere */
+  exponential_sum *u, *v;                     /* [n_contacts] */
+  exponential_sum *response;                  /* [n_responses] */
+  exponential_sum *guard;                     /* [TRACK_GUARDS n_contacts], or +-r' */
+  int *of;                                    /* [TRACK_GUARDS n_contacts] whose guard */
+  track_event *event;
+  double complex *numbers;
+  double *sizes;
+  exponential_sum *sums;
+} motion_modes;
+
+hc_status motion_modes_make(motion_modes *mm, const modal_base *base); /* HC_NO_MEMORY; free in any case */
+void motion_modes_free(motion_modes *mm);
+
+/* From X = y[0..n-1], X' = y[n..2n-1] at theta on; false: more than two digits would cancel. */
+bool motion_modes_begin(motion_modes *mm, const complex_modes *modes, const scaled_model *m, const contact_track *track,
+                        double theta, const double *y);
+
+/* X and X' (order 0), or X' and X'' (order 1), at tau: out[2n]. */
+void motion_modes_at(motion_modes *mm, double tau, int order, double *out);
+
+/* Of contact j at tau. */
+contact_motion motion_modes_contact(const motion_modes *mm, int j, double tau);
+
+/* The first event up to *tau, which becomes its time: the contact; -1: none. */
+int motion_modes_first_event(motion_modes *mm, const scaled_model *m, const contact_track *track, double *tau,
+                             track_event *event);
+
+/* Response i at tau; from tau0 to tau1 its integrals times 1, cos(theta), sin(theta), its largest and least value. */
+double motion_modes_response(const motion_modes *mm, int i, double tau);
+void motion_modes_fourier(const motion_modes *mm, int i, double tau0, double tau1, double out[3]);
+void motion_modes_extremes(motion_modes *mm, int i, double tau0, double tau1, double *max, double *min);
+
+#endif

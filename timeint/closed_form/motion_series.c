@@ -1,0 +1,330 @@
+/* motion_series.c - see motion_series.h. Proof: tests/timeint/test_structure.c. */
+#include "timeint/closed_form/motion_series.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "numerics/norm.h"
+#include "numerics/safe_step.h"
+
+enum { TERMS = TRACK_TERMS, MAX_NEWTON = 60 };
+
+hc_status motion_series_make(motion_series *s, const modal_base *base)
+{
+  const size_t n = (size_t)base->n, contacts = (size_t)base->n_contacts, loads = (size_t)base->n_loads;
+  *s = (motion_series){.n = base->n, .n_contacts = base->n_contacts};
+  s->x = calloc((TERMS + 1) * n, sizeof *s->x);
+  s->force = s->x ? s->x + TERMS * n : NULL;
+  s->u = calloc(2 * TERMS * contacts + 2 * loads + 1, sizeof *s->u);
+  s->v = s->u ? s->u + TERMS * contacts : NULL;
+  s->load = s->v ? s->v + TERMS * contacts : NULL;
+  s->law = calloc(contacts + 1, sizeof *s->law);
+  s->circle = calloc((size_t)base->n_circles + 1, sizeof *s->circle);
+  s->circle_of = calloc(contacts + 1, sizeof *s->circle_of);
+  return s->x && s->u && s->law && s->circle && s->circle_of ? HC_OK : HC_NO_MEMORY;
+}
+
+void motion_series_free(motion_series *s)
+{
+  free(s->x);
+  free(s->u);
+  free(s->law);
+  free(s->circle);
+  free(s->circle_of);
+}
+
+static double largest(int n, const double *a)
+{
+  double most = 0;
+  for (int i = 0; i < n; ++i)
+    if (!(fabs(a[i]) <= most)) most = fabs(a[i]); /* NaN stays */
+  return most;
+}
+
+/* The loads' coefficient k, from that of their cosine and sine. */
+static void add_loads(motion_series *s, const scaled_model *m, double theta, int k, double *force)
+{
+  const modal_base *b = m->base;
+  for (int l = 0; l < b->n_loads; ++l) {
+    double *c = s->load + 2 * l;
+    const double h = b->harmonic[l], before = c[0];
+    if (k == 0) c[0] = cos(h * theta), c[1] = sin(h * theta);
+    else c[0] = -h * c[1] / k, c[1] = h * before / k;
+    const double by_cosine = m->by_load * c[0], by_sine = m->by_load * c[1];
+    const double *cosine = b->cosine + (size_t)l * (size_t)s->n, *sine = b->sine + (size_t)l * (size_t)s->n;
+    for (int i = 0; i < s->n; ++i) force[i] += by_cosine * cosine[i] + by_sine * sine[i];
+  }
+}
+
+/* Coefficient k of every contact's motion. */
+static void project(motion_series *s, const modal_base *b, int k)
+{
+  const double *x = s->x + (size_t)k * (size_t)s->n;
+  for (int j = 0; j < s->n_contacts; ++j) {
+    const size_t row = (size_t)j * (size_t)s->n, at = (size_t)j * TERMS + (size_t)k;
+    s->u[at] = dot_product(s->n, b->tangent + row, x);
+    s->v[at] = dot_product(s->n, b->normal + row, x);
+  }
+}
+
+/* What the contacts take from coefficient k: constants only in the first. */
+static void subtract_contacts(const motion_series *s, const modal_base *b, int k, double *force)
+{
+  for (int j = 0; j < s->n_contacts; ++j) {
+    const contact_forces_linear *f = &s->law[j];
+    const size_t row = (size_t)j * (size_t)s->n, at = (size_t)j * TERMS + (size_t)k;
+    const double t = f->t_u * s->u[at] + f->t_v * s->v[at] + (k == 0 ? f->t_0 : 0);
+    const double n = f->n_v * s->v[at] + (k == 0 ? f->n_0 : 0);
+    if (t == 0 && n == 0) continue;
+    for (int i = 0; i < s->n; ++i) force[i] -= b->tangent[row + (size_t)i] * t + b->normal[row + (size_t)i] * n;
+  }
+}
+
+static const double *tangent_of(const motion_series *s, const modal_base *b, int j)
+{
+  return b->tangent + (size_t)j * (size_t)s->n;
+}
+
+/* What the circles that slip take from coefficient k. */
+static void subtract_circles(motion_series *s, const scaled_model *m, int k, double *force)
+{
+  for (int j = 0; j < s->n_contacts; ++j) {
+    double pull[2];
+    if (s->circle_of[j] < 0) continue;
+    circle_series_next(&s->circle[s->circle_of[j]], &m->contact[j], k, pull);
+    for (int a = 0; a < 2; ++a) {
+      const double *t = tangent_of(s, m->base, j + a);
+      for (int i = 0; i < s->n; ++i) force[i] -= t[i] * pull[a];
+    }
+  }
+}
+
+static void begin_circles(motion_series *s, const scaled_model *m, const contact_track *track)
+{
+  int n = 0;
+  for (int j = 0; j < s->n_contacts; ++j) {
+    const size_t at = (size_t)j * TERMS;
+    s->circle_of[j] = -1;
+    if (!m->contact[j].circle || !circle_track_turns(&track[j])) continue;
+    s->circle_of[j] = n;
+    circle_series_begin(&s->circle[n++], &track[j], s->u + at, s->u + at + TERMS, s->v + at);
+  }
+}
+
+/* Up to where all of them are known. */
+static double circles_reach(const motion_series *s)
+{
+  double tau = INFINITY;
+  for (int j = 0; j < s->n_contacts; ++j)
+    if (s->circle_of[j] >= 0) tau = fmin(tau, circle_series_reach(&s->circle[s->circle_of[j]]));
+  return tau;
+}
+
+/* The tau up to which what is left out is rounding of what is kept, or of `size` if that is more. */
+static double reach(const motion_series *s, double size)
+{
+  const size_t n = (size_t)s->n;
+  for (size_t k = 0; k < 3; ++k) size = fmax(size, largest(s->n, s->x + k * n));
+  double tau = INFINITY;
+  for (int k = TRACK_ORDER - 1; k <= TRACK_ORDER; ++k) {
+    const double term = largest(s->n, s->x + (size_t)k * n);
+    if (!(term > 0) && !isnan(term)) continue;
+    tau = fmin(tau, pow(0.25 * DBL_EPSILON * size / term, 1.0 / k)); /* the rate's term is k/tau times as large */
+    if (isnan(term) || isnan(tau)) return 0;
+  }
+  return tau;
+}
+
+static double expand(motion_series *s, const scaled_model *m, bool loaded, double theta, const double *y)
+{
+  const modal_base *b = m->base;
+  const size_t n = (size_t)s->n;
+  memcpy(s->x, y, 2 * n * sizeof *y);
+  project(s, b, 0);
+  project(s, b, 1);
+  for (int k = 0; k + 2 <= TRACK_ORDER; ++k) {
+    const double *x = s->x + (size_t)k * n;
+    double *force = s->force, *next = s->x + (size_t)(k + 2) * n;
+    memset(force, 0, n * sizeof *force);
+    if (loaded) add_loads(s, m, theta, k, force);
+    modal_base_subtract_K(b, m->by_K, x, force);
+    modal_base_subtract_C(b, m->by_C * (k + 1), x + n, force);
+    subtract_contacts(s, b, k, force);
+    subtract_circles(s, m, k, force);
+    for (size_t i = 0; i < n; ++i) next[i] = force[i] / ((k + 1) * (k + 2));
+    project(s, b, k + 2);
+  }
+  for (int k = TRACK_ORDER - 1; k <= TRACK_ORDER; ++k) subtract_circles(s, m, k, s->force); /* for their directions */
+  return fmin(reach(s, loaded ? 1 : 0), circles_reach(s));                                  /* a motion is about 1 */
+}
+
+static circle_motion circle_at(const scaled_model *m, int j, const double *y)
+{
+  circle_motion at;
+  scaled_circle_motion(m, j, y, at.u, &at.v);
+  scaled_circle_motion(m, j, y + m->n, at.du, &at.dv);
+  return at;
+}
+
+double motion_series_hold(const scaled_model *m, contact_track *track, const double *y)
+{
+  double reach = INFINITY;
+  for (int j = 0; j < m->n_contacts; ++j) {
+    double left;
+    if (!m->contact[j].circle || track[j].state != CONTACT_SLIP_PLUS) continue;
+    const circle_motion at = circle_at(m, j, y);
+    const bool holds = circle_track_holds(&track[j], &m->contact[j], &at, &left);
+    track[j].held = track[j + 1].held = holds;
+    if (holds) reach = fmin(reach, 4 * left);
+  }
+  return reach;
+}
+
+double motion_series_begin(motion_series *s, const scaled_model *m, const contact_track *track, double theta,
+                           const double *y)
+{
+  for (int j = 0; j < s->n_contacts; ++j) s->law[j] = contact_track_forces(&track[j], &m->contact[j]);
+  begin_circles(s, m, track);
+  return expand(s, m, true, theta, y);
+}
+
+void motion_series_at(const motion_series *s, double tau, int order, double *out)
+{
+  const size_t n = (size_t)s->n;
+  for (size_t i = 0; i < n; ++i) {
+    double x = 0, p = 0, a = 0; /* the value, its rate, half the rate of that */
+    for (size_t k = TERMS; k-- > 0;) {
+      a = a * tau + p;
+      p = p * tau + x;
+      x = x * tau + s->x[k * n + i];
+    }
+    out[i] = order == 0 ? x : p;
+    out[n + i] = order == 0 ? p : 2 * a;
+  }
+}
+
+contact_motion motion_series_contact(const motion_series *s, int j, double tau)
+{
+  const double *u = s->u + (size_t)j * TERMS, *v = s->v + (size_t)j * TERMS;
+  return (contact_motion){series_value(u, tau), series_value(v, tau), series_slope(u, tau), series_slope(v, tau)};
+}
+
+circle_motion motion_series_circle(const motion_series *s, int j, double tau)
+{
+  const contact_motion one = motion_series_contact(s, j, tau), two = motion_series_contact(s, j + 1, tau);
+  return (circle_motion){{one.u, two.u}, one.v, {one.du, two.du}, one.dv};
+}
+
+void motion_series_turn(const motion_series *s, double tau, contact_track *track)
+{
+  for (int j = 0; j < s->n_contacts; ++j) {
+    double e[2];
+    if (s->circle_of[j] < 0) continue;
+    circle_series_direction(&s->circle[s->circle_of[j]], tau, e);
+    for (int a = 0; a < 2; ++a) {
+      track[j + a].along = e[a];
+      track[j + a].fresh = track[j + a].fresh && !(tau > 0);
+    }
+  }
+}
+
+/* Of a circle that sticks, or slips: all but that of N = 0. */
+static int circle_guard(const motion_series *s, const scaled_model *m, const contact_track *track, int j,
+                        track_guard *guard)
+{
+  const double *u = s->u + (size_t)j * TERMS, *v = s->v + (size_t)j * TERMS;
+  if (track[j].state == CONTACT_SEPARATED || track[j].held) return 0;
+  if (track[j].state == CONTACT_STICK) {
+    circle_track_stick_guard(&track[j], &m->contact[j], u, u + TERMS, v, guard);
+    return 1;
+  }
+  circle_series_guard(&s->circle[s->circle_of[j]], &m->contact[j], guard->g);
+  guard->event = TRACK_STICKS;
+  guard->noise = contact_track_rate_noise(&m->contact[j], hypot(u[1], u[1 + TERMS]), v[1]);
+  return 1;
+}
+
+int motion_series_guards(const motion_series *s, const scaled_model *m, const contact_track *track, int j,
+                         track_guard guard[TRACK_GUARDS])
+{
+  const double *u = s->u + (size_t)j * TERMS, *v = s->v + (size_t)j * TERMS;
+  const scaled_contact *c = &m->contact[j];
+  if (c->second) return 0;
+  const int n = contact_track_guards(&track[j], c, u, v, guard);
+  return c->circle ? n + circle_guard(s, m, track, j, guard + n) : n;
+}
+
+void motion_series_of(const motion_series *s, const double *row, double *r)
+{
+  for (int k = 0; k < TERMS; ++k) r[k] = dot_product(s->n, row, s->x + (size_t)k * (size_t)s->n);
+}
+
+double series_value(const double *c, double tau)
+{
+  double f = 0;
+  for (int k = TERMS; k-- > 0;) f = f * tau + c[k];
+  return f;
+}
+
+double series_slope(const double *c, double tau)
+{
+  double f = 0;
+  for (int k = TERMS; k-- > 1;) f = f * tau + k * c[k];
+  return f;
+}
+
+/* Root in [a, b], where it falls from fa >= 0 to below 0 without turning: Newton, kept inside by bisection. */
+static double falling_root(const double *c, double a, double fa, double b)
+{
+  if (!(fa > 0)) return a;
+  double x = 0.5 * (a + b);
+  for (int it = 0; it < MAX_NEWTON; ++it) {
+    const double f = series_value(c, x);
+    if (f > 0) a = x;
+    else b = x;
+    double next = x - f / series_slope(c, x);
+    const bool close = fabs(next - x) <= 2 * DBL_EPSILON * (1 + x);
+    if (close) break;
+    if (!(next > a && next < b)) next = 0.5 * (a + b);
+    if (next == x) break;
+    x = next;
+  }
+  return x;
+}
+
+/* sum_{k>=1} |c_k| h^k, and a bound of the second derivative on [0, h]. */
+static void bounds(const double *c, double h, double *change, double *bend)
+{
+  double power = 1;
+  *change = fabs(c[1]) * h;
+  *bend = 0;
+  for (int k = 2; k < TERMS; ++k, power *= h) {
+    *bend += k * (k - 1) * fabs(c[k]) * power;
+    *change += fabs(c[k]) * power * h * h;
+  }
+}
+
+double series_first_fall(const track_guard *guard, double h)
+{
+  const double *c = guard->g;
+  double change, bend;
+  bounds(c, h, &change, &bend);
+  if (c[0] > change) return INFINITY;
+  if (c[0] < -guard->noise) return 0;
+  for (double tau = 0; tau < h;) {
+    const double f = series_value(c, tau), slope = series_slope(c, tau);
+    const double safe = safe_step(fmax(f, 0) + guard->noise, slope, bend);
+    const double one_way = slope < 0 ? fmin(h - tau, -slope / bend) : 0; /* it falls at least that far */
+    double next = tau + safe;
+    if (f < -guard->noise) return tau;
+    if (one_way > safe) {
+      if (series_value(c, tau + one_way) < 0) return falling_root(c, tau, f, tau + one_way);
+      next = tau + one_way;
+    }
+    if (!(next > tau)) return tau; /* NaN, or a root here */
+    tau = next;
+  }
+  return INFINITY;
+}

@@ -1,0 +1,63 @@
+/* motion_series.h - the motion of a structure in a phase, as a power series in time, to rounding.
+ *
+ *     X'' + by_C C X' + by_K K X = p(theta) - sum_j [ t_j T_j + n_j (N_j - N0_j) ],  T_j, N_j linear (contact_track.h)
+ *     X(theta0 + tau) = sum_k x_k tau^k:      (k + 1)(k + 2) x_{k+2} = the k-th coefficients of all the others
+ * The equation is linear with constant coefficients, so the series converges for every tau; TRACK_ORDER terms are
+ * exact to rounding up to a tau of about 2 over the highest frequency present. So the motion is its exponential,
+ * applied to the state: nothing is decomposed, nothing is lost where frequencies coincide or a body is free, and the
+ * guards of all contacts come as polynomials. A term costs O(n contacts) in modes. Source: Jorba and Zou,
+ * Experimental Mathematics 14 (2005) 99, for the length of a step. Where a circle slips its T is not linear in the
+ * motion, the equation is no exponential, and the series converges as far as the nearest singularity: planar_series.h.
+ * Nothing is allocated after motion_series_make. */
+#ifndef HC_TIMEINT_MOTION_SERIES_H
+#define HC_TIMEINT_MOTION_SERIES_H
+
+#include "timeint/closed_form/planar_series.h"
+
+typedef struct motion_series { /* from motion_series_make, to motion_series_free */
+  int n, n_contacts;
+  double *x;                  /* [TRACK_ORDER + 1][n] */
+  double *u, *v;              /* [n_contacts][TRACK_ORDER + 1] */
+  double *force;              /* [n] */
+  double *load;               /* [n_loads][2] cosine and sine of one term */
+  contact_forces_linear *law; /* [n_contacts] of the phase */
+  circle_series *circle;      /* [n_circles] */
+  int *circle_of;             /* [n_contacts] that of the contact's first direction; -1: none that turns */
+} motion_series;
+
+hc_status motion_series_make(motion_series *s, const modal_base *base); /* HC_NO_MEMORY; free in any case */
+void motion_series_free(motion_series *s);
+
+/* The series from X = y[0..n-1], X' = y[n..2n-1] at theta, and how far it is exact to rounding (INFINITY: for ever). */
+double motion_series_begin(motion_series *s, const scaled_model *m, const contact_track *track, double theta,
+                           const double *y);
+
+/* Before it: which circles' directions are held from y on (planar_track.h); the longest step on which that holds. */
+double motion_series_hold(const scaled_model *m, contact_track *track, const double *y);
+
+/* X and X' (order 0), or X' and X'' (order 1), at tau: out[2n]. */
+void motion_series_at(const motion_series *s, double tau, int order, double *out);
+
+/* Of contact j at tau. */
+contact_motion motion_series_contact(const motion_series *s, int j, double tau);
+
+/* All guards of contact j; none of a circle's second direction. How many there are. */
+int motion_series_guards(const motion_series *s, const scaled_model *m, const contact_track *track, int j,
+                         track_guard guard[TRACK_GUARDS]);
+
+/* Of the circle whose first direction is j, at tau; and the directions of those that slip, in track[]. */
+circle_motion motion_series_circle(const motion_series *s, int j, double tau);
+void motion_series_turn(const motion_series *s, double tau, contact_track *track);
+
+/* Coefficients of row . X: r[TRACK_ORDER + 1]. */
+void motion_series_of(const motion_series *s, const double *row, double *r);
+
+/* sum c_k tau^k, and its first derivative. */
+double series_value(const double *c, double tau);
+double series_slope(const double *c, double tau);
+
+/* The first tau of [0, h] at which the guard falls through 0; one that is below its noise at 0 has fallen there.
+ * INFINITY: it does not, but for an excursion below its noise. */
+double series_first_fall(const track_guard *guard, double h);
+
+#endif

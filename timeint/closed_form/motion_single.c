@@ -1,0 +1,150 @@
+/* motion_single.c - see motion_single.h. Proof: tests/timeint/test_closed.c. */
+#include "timeint/closed_form/motion_single.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+
+static const double up = 1, down = -1; /* slopes of the guard P, of -P */
+
+static modal_point point_in(double numbers[4])
+{
+  return (modal_point){.q = &numbers[0], .p = &numbers[1], .a = &numbers[2], .j = &numbers[3]};
+}
+
+bool motion_single_fits(const modal_base *base)
+{
+  bool fits = base->n == 1;
+  for (int l = 0; l < base->n_loads; ++l) fits = fits && base->harmonic[l] <= 1;
+  return fits;
+}
+
+hc_status motion_single_make(motion_single *s, const modal_base *base)
+{
+  const size_t guards = TRACK_GUARDS * (size_t)base->n_contacts + 1;
+  *s = (motion_single){.guard = calloc(guards, sizeof *s->guard),
+                       .by = calloc(guards, sizeof *s->by),
+                       .of = calloc(guards, sizeof *s->of),
+                       .event = calloc(guards, sizeof *s->event)};
+  return s->guard && s->by && s->of && s->event ? HC_OK : HC_NO_MEMORY;
+}
+
+void motion_single_free(motion_single *s)
+{
+  free(s->guard);
+  free(s->by);
+  free(s->of);
+  free(s->event);
+}
+
+static int sign_of(double a) { return (a > 0) - (a < 0); }
+
+/* The mass and its load in these contact states. */
+static void begin(motion_single *s, const scaled_model *m, const contact_track *track, double theta, const double *y)
+{
+  const modal_base *b = m->base;
+  double k = m->by_K * b->K[0];
+  s->q = y[0];
+  s->p = y[1];
+  s->d = 0;
+  s->f = 0;
+  for (int l = 0; l < b->n_loads; ++l) {
+    if (b->harmonic[l] == 0) s->d += m->by_load * b->cosine[l];
+    else s->f += m->by_load * (b->cosine[l] - I * b->sine[l]);
+  }
+  for (int j = 0; j < m->n_contacts; ++j) {
+    const contact_forces_linear f = contact_track_forces(&track[j], &m->contact[j]);
+    const double t = b->tangent[j], n = b->normal[j];
+    k += t * (f.t_u * t + f.t_v * n) + n * f.n_v * n;
+    s->d -= t * f.t_0 + n * f.n_0;
+  }
+  s->mode = mode_make(m->by_C * b->C[0], k);
+  s->motion = (modal_motion){.n = 1, .theta = theta, .mode = &s->mode, .q = &s->q, .p = &s->p, .d = &s->d, .f = &s->f};
+  s->end = point_in(s->numbers[0]);
+  s->scratch = point_in(s->numbers[1]);
+  s->way = sign_of(s->p);
+  if (s->way == 0) s->way = sign_of(s->d + creal(s->f) * cos(theta) - cimag(s->f) * sin(theta) - k * s->q);
+}
+
+/* Does the guard fall(q) = by q + constant of a contact that sticks reach 0 where N does, to rounding? It does where
+ * u is a multiple of v and stick began by touching: T and N vanish together, and separation is what happens there. */
+static bool falls_with_normal_force(const track_condition *g, const scaled_contact *c, double normal, double by,
+                                    double constant)
+{
+  if (g->event != TRACK_SLIPS_PLUS && g->event != TRACK_SLIPS_MINUS) return false;
+  if (!(c->law.kn > 0) || c->law.load != 0 || !(by * normal > 0)) return false;
+  const double q = -c->law.gap / normal, rounding = 8 * DBL_EPSILON * (fabs(by * q) + fabs(constant));
+  return fabs(by * q + constant) <= rounding;
+}
+
+/* All guards of the contacts, and that of the turn. */
+static int find_guards(motion_single *s, const scaled_model *m, const contact_track *track, bool to_turn)
+{
+  int n = 0;
+  for (int j = 0; j < m->n_contacts; ++j) {
+    track_condition conditions[TRACK_GUARDS];
+    const double t = m->base->tangent[j], normal = m->base->normal[j];
+    const contact_motion at = {t * s->q, normal * s->q, t * s->p, normal * s->p};
+    const int more = contact_track_conditions(&track[j], &m->contact[j], conditions);
+    for (int i = 0; i < more; ++i) {
+      const track_condition *g = &conditions[i];
+      const double by = g->by_u * t + g->by_v * normal;
+      const double constant = g->of_rates ? 0 : g->by_v * g->gap + g->constant - g->by_u * g->from_u;
+      const double noise = contact_track_noise(g, &m->contact[j], &at);
+      if (falls_with_normal_force(g, &m->contact[j], normal, by, constant)) continue;
+      s->by[n] = by;
+      s->guard[n] = (modal_guard){.constant = constant, .noise = noise};
+      if (g->of_rates) s->guard[n].by_p = &s->by[n];
+      else s->guard[n].by_q = &s->by[n];
+      s->of[n] = j;
+      s->event[n++] = g->event;
+    }
+  }
+  if (!to_turn) return n;
+  s->of[n] = -1;
+  s->guard[n++] = (modal_guard){.by_p = s->way > 0 ? &up : &down, .noise = DBL_EPSILON};
+  return n;
+}
+
+hc_status motion_single_go(motion_single *s, const scaled_model *m, const contact_track *track, double theta,
+                           const double *y, bool to_turn, double *span, int *whose, track_event *event,
+                           long *evaluations)
+{
+  begin(s, m, track, theta, y);
+  const int n = find_guards(s, m, track, to_turn);
+  const int hit = modal_first_crossing(&s->motion, *span, n, s->guard, &s->end, &s->scratch, evaluations);
+  *whose = hit < 0 ? -1 : s->of[hit];
+  if (!isfinite(s->end.q[0] + s->end.p[0] + s->end.a[0])) return HC_NOT_FINITE;
+  if (hit < 0) return HC_OK;
+  *span = s->end.tau;
+  *event = s->event[hit];
+  if (s->of[hit] < 0) s->end.p[0] = 0;
+  return HC_OK;
+}
+
+void motion_single_at(const motion_single *s, double tau, int order, double out[2])
+{
+  double numbers[4];
+  modal_point at = point_in(numbers);
+  modal_at(&s->motion, tau, &at);
+  out[0] = numbers[order];
+  out[1] = numbers[order + 1];
+}
+
+bool motion_single_integrals(const scaled_model *m, const contact_track *track, double theta0, const double *y0,
+                             double theta1, const double *y1, double out[3])
+{
+  motion_single s;
+  begin(&s, m, track, theta0, y0);
+  s.end.tau = theta1 - theta0;
+  s.end.q[0] = y1[0];
+  s.end.p[0] = y1[1];
+  return motion_single_fourier(&s, out);
+}
+
+bool motion_single_fourier(const motion_single *s, double out[3])
+{
+  double numbers[4] = {s->q, s->p};
+  const modal_point from = point_in(numbers);
+  return modal_fourier(&s->motion, 0, &from, &s->end, out);
+}

@@ -1,0 +1,45 @@
+/* motion_single.h - the motion of a single mass between two changes of contact state, in closed form (modal_motion.h):
+ * exact to rounding however long the interval is, where a power series takes steps. */
+#ifndef HC_TIMEINT_MOTION_SINGLE_H
+#define HC_TIMEINT_MOTION_SINGLE_H
+
+#include "timeint/closed_form/modal_motion.h"
+#include "timeint/law/contact_track.h"
+
+typedef struct motion_single { /* from motion_single_make, to motion_single_free */
+  modal_motion motion;
+  mode mode;
+  double q, p, d; /* of `motion` */
+  double complex f;
+  modal_point end, scratch; /* the end of the interval */
+  double numbers[2][4];     /* q, p, a, j of the two points */
+  int way;                  /* sign of P in the interval */
+  modal_guard *guard;       /* [TRACK_GUARDS n_contacts + 1] */
+  double *by;               /* [TRACK_GUARDS n_contacts] their slopes */
+  int *of;                  /* [TRACK_GUARDS n_contacts + 1] whose guard; -1: the turn's */
+  track_event *event;
+} motion_single;
+
+/* Is there such a motion: one degree of freedom, its loads constant or once a period? */
+bool motion_single_fits(const modal_base *base);
+
+hc_status motion_single_make(motion_single *s, const modal_base *base); /* HC_NO_MEMORY; free in any case */
+void motion_single_free(motion_single *s);
+
+/* From X = y[0], X' = y[1] at theta on, to the first event or, where `to_turn`, the first turn of X, at most *span,
+ * which becomes the time to it. *whose: the contact, -1: none. At a turn X' is then exactly 0. HC_NOT_FINITE. */
+hc_status motion_single_go(motion_single *s, const scaled_model *m, const contact_track *track, double theta,
+                           const double *y, bool to_turn, double *span, int *whose, track_event *event,
+                           long *evaluations);
+
+/* X and X' (order 0), or X' and X'' (order 1), at tau: out[2]. */
+void motion_single_at(const motion_single *s, double tau, int order, double out[2]);
+
+/* The integrals from y0 at theta0 to y1 at theta1, two points of one such motion; as motion_single_fourier. */
+bool motion_single_integrals(const scaled_model *m, const contact_track *track, double theta0, const double *y0,
+                             double theta1, const double *y1, double out[3]);
+
+/* Integrals over the interval; false where the formulas would lose digits (modal_fourier). */
+bool motion_single_fourier(const motion_single *s, double out[3]);
+
+#endif

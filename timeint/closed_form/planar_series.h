@@ -1,0 +1,41 @@
+/* planar_series.h - a contact with two tangents that slips under the law of the circle, in powers of tau.
+ *
+ *     T = mu N e,  |e| = 1,   e' = q e_perp,   mu N q = kt U'.e_perp          e_perp = (-e_2, e_1)
+ * U and V are those of motion_series.h, T is part of its equation: coefficient k of T needs no coefficient of the
+ * motion that is not known when T_k is asked for, so the two series grow side by side. Where mu N_0 > 0
+ *     mu N_0 q_{k-1} = kt (U'.e_perp)_{k-1} - sum_{i=1}^{k-1} mu N_i q_{k-1-i}
+ * At touch-down N_0 = 0, and the equation of e is singular. All its solutions but one run away backwards in time; that
+ * one starts along U', e_0 = U'_0/|U'_0|, and is a power series as well, q_{k-1} being in (U'.e_perp)_k, too:
+ *     (mu N_1 + kt |U'_0|/k) q_{k-1} = kt (U'.e_perp)_k without it - sum_{i=2}^{k} mu N_i q_{k-i}
+ * The slider slips as long as s = U'.e - (mu N)'/kt >= 0. libm only. */
+#ifndef HC_TIMEINT_PLANAR_SERIES_H
+#define HC_TIMEINT_PLANAR_SERIES_H
+
+#include "timeint/law/planar_track.h"
+
+typedef struct circle_series {
+  bool fresh;                  /* from touch-down on, N_0 = 0 */
+  double limit[TRACK_TERMS];   /* mu N */
+  double e[2][TRACK_TERMS];    /* of the last one nothing is known where fresh: 0 */
+  double turn[TRACK_TERMS];    /* q, one less than of e */
+  double rate[2][TRACK_TERMS]; /* U', one less than of U */
+  const double *u[2], *v;      /* [TRACK_TERMS] the motion's, as far as it is known */
+} circle_series;
+
+/* Before the first coefficient of a circle in the states t[2], its motion in u_1, u_2, v[TRACK_TERMS]. */
+void circle_series_begin(circle_series *s, const contact_track t[2], const double *u1, const double *u2,
+                         const double *v);
+
+/* Coefficient k = 0, 1, 2 ... of all, in turn; U and V are known up to k + 1. pull[2]: of T. */
+void circle_series_next(circle_series *s, const scaled_contact *c, int k, double pull[2]);
+
+/* The tau up to which e is known to rounding. */
+double circle_series_reach(const circle_series *s);
+
+/* e at tau, of length 1. */
+void circle_series_direction(const circle_series *s, double tau, double e[2]);
+
+/* s kt, what ends slip where it falls through 0: g[TRACK_TERMS]. */
+void circle_series_guard(const circle_series *s, const scaled_contact *c, double *g);
+
+#endif

@@ -1,0 +1,391 @@
+/* series_columns.c - see series_columns.h. A block lies mode after mode, its columns side by side, so that inner loops
+ * run over columns. Proof: tests/timeint/test_structure.c. */
+#include "timeint/closed_form/series_columns.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "numerics/dense.h"
+
+enum {
+  BLOCK = 64, /* columns: six arrays of them and of 100 modes stay in the second cache */
+  LAST = 24   /* the highest power of h; the 24 of motion_series.h */
+};
+
+static const double died_away =
+    1e-200; /* [square] of a column that began as 1: below, the squares of terms underflow */
+
+hc_status series_columns_make(series_columns *s, const modal_base *base)
+{
+  const size_t n = (size_t)base->n, contacts = (size_t)base->n_contacts, rows = 2 * contacts;
+  const size_t circles = (size_t)base->n_circles;
+  *s = (series_columns){.n = base->n, .n_contacts = base->n_contacts};
+  const struct {
+    double **array;
+    size_t count;
+  } parts[] = {{&s->turned_K, base->diagonal_K ? 0 : n * n},
+               {&s->turned_C, base->diagonal_C ? 0 : n * n},
+               {&s->rows, n * rows},
+               {&s->turned, n * rows},
+               {&s->x, BLOCK * n},
+               {&s->p, BLOCK * n},
+               {&s->x_end, BLOCK * n},
+               {&s->p_end, BLOCK * n},
+               {&s->term, BLOCK * n},
+               {&s->next, BLOCK * n},
+               {&s->second, BLOCK * n},
+               {&s->share, BLOCK * n},
+               {&s->motion, BLOCK * rows},
+               {&s->slider, BLOCK * contacts},
+               {&s->slip_tangents, 2 * n * circles},
+               {&s->slip_normals, n * circles},
+               {&s->slip_turned, 2 * n * circles},
+               {&s->circling, 2 * BLOCK * circles},
+               {&s->resistance, n * n},
+               {&s->size, BLOCK},
+               {&s->left, BLOCK}};
+  size_t count = 0, used = 0;
+  for (size_t k = 0; k < sizeof parts / sizeof *parts; ++k) count += parts[k].count;
+  s->numbers = calloc(count, sizeof *s->numbers);
+  s->law = calloc(contacts + 1, sizeof *s->law);
+  s->circle = calloc((size_t)base->n_circles + 1, sizeof *s->circle);
+  if (!s->numbers || !s->law || !s->circle) return HC_NO_MEMORY;
+  s->n_circles = base->n_circles;
+  for (int i = 0; i < s->n_circles; ++i)
+    if (circle_columns_make(&s->circle[i], BLOCK) != HC_OK) return HC_NO_MEMORY;
+  for (size_t k = 0; k < sizeof parts / sizeof *parts; ++k) {
+    *parts[k].array = s->numbers + used;
+    used += parts[k].count;
+  }
+  if (!base->diagonal_K) dense_transpose(base->n, base->n, base->K, s->turned_K);
+  if (!base->diagonal_C) dense_transpose(base->n, base->n, base->C, s->turned_C);
+  return HC_OK;
+}
+
+void series_columns_free(series_columns *s)
+{
+  for (int i = 0; i < s->n_circles; ++i) circle_columns_free(&s->circle[i]);
+  free(s->circle);
+  free(s->numbers);
+  free(s->law);
+}
+
+/* Does T, does N of a contact with that law follow its motion? */
+static bool has_tangent(const contact_forces_linear *f) { return f->t_u != 0 || f->t_v != 0 || f->t_w != 0; }
+static bool has_normal(const contact_forces_linear *f) { return f->t_v != 0 || f->n_v != 0; }
+
+/* Where rows outnumber half of the modes, what contacts do to columns is cheaper as one matrix: sum of by a b^T. */
+static void add_resistance(series_columns *s, double by, const double *a, const double *b)
+{
+  const size_t n = (size_t)s->n;
+  for (size_t i = 0; i < n; ++i)
+    for (size_t l = 0; l < n && a[i] != 0; ++l) s->resistance[i * n + l] += by * a[i] * b[l];
+}
+
+static void find_resistance(series_columns *s, const modal_base *b)
+{
+  const size_t n = (size_t)s->n;
+  s->whole = 2 * s->n_rows > s->n;
+  if (!s->whole) return;
+  memset(s->resistance, 0, n * n * sizeof *s->resistance);
+  for (int j = 0; j < s->n_contacts; ++j) {
+    const contact_forces_linear *f = &s->law[j];
+    const double *t = b->tangent + (size_t)j * n, *normal = b->normal + (size_t)j * n;
+    if (f->t_u != 0) add_resistance(s, f->t_u, t, t);
+    if (f->t_v != 0) add_resistance(s, f->t_v, t, normal);
+    if (f->n_v != 0) add_resistance(s, f->n_v, normal, normal);
+  }
+}
+
+static void add_row(series_columns *s, const double *row)
+{
+  memcpy(s->rows + (size_t)s->n_rows++ * (size_t)s->n, row, (size_t)s->n * sizeof *row);
+}
+
+/* The circle whose first direction is j, which slips. */
+static void add_slipping(series_columns *s, const modal_base *b, int j)
+{
+  const size_t n = (size_t)s->n, i = (size_t)s->n_slipping++;
+  memcpy(s->slip_tangents + 2 * n * i, b->tangent + (size_t)j * n, 2 * n * sizeof *s->slip_tangents);
+  memcpy(s->slip_normals + n * i, b->normal + (size_t)j * n, n * sizeof *s->slip_normals);
+}
+
+/* Both directions of a circle have half of N each: the first gets all of it. */
+static void join_normals(series_columns *s, int j)
+{
+  if (s->law[j].t_v != 0 || s->law[j + 1].t_v != 0) return;
+  s->law[j].n_v += s->law[j + 1].n_v;
+  s->law[j + 1].n_v = 0;
+}
+
+void series_columns_begin(series_columns *s, const scaled_model *m, const contact_track *track)
+{
+  const modal_base *b = m->base;
+  s->n_rows = s->n_slipping = 0;
+  for (int j = 0; j < s->n_contacts; ++j) s->law[j] = contact_track_forces(&track[j], &m->contact[j]);
+  for (int j = 0; j < s->n_contacts; ++j) {
+    if (m->contact[j].circle) join_normals(s, j);
+    if (m->contact[j].circle && circle_track_turns(&track[j])) add_slipping(s, b, j);
+    if (has_tangent(&s->law[j])) add_row(s, b->tangent + (size_t)j * (size_t)s->n);
+    if (has_normal(&s->law[j])) add_row(s, b->normal + (size_t)j * (size_t)s->n);
+  }
+  find_resistance(s, b);
+  dense_transpose(s->n, s->n_rows, s->rows, s->turned);
+  dense_transpose(s->n, 2 * s->n_slipping, s->slip_tangents, s->slip_turned);
+  s->reach = 2 / sqrt(m->by_K * b->highest * b->highest);
+}
+
+/* ---- one block of `width` columns ---------------------------------------------------------------------- */
+
+/* out -= by A z; A diagonal[n], or turned[n][n]. */
+static void subtract(series_columns *s, int width, bool diagonal, const double *A, const double *turned, double by,
+                     const double *z, double *out)
+{
+  const size_t w = (size_t)width;
+  if (!diagonal) {
+    for (size_t i = 0; i < (size_t)s->n * w; ++i) s->share[i] = by * z[i];
+    dense_add_product(width, s->n, s->n, -1, s->share, width, turned, s->n, 1, out, width);
+    return;
+  }
+  for (size_t i = 0; i < (size_t)s->n; ++i) {
+    const double a = by * A[i], *restrict from = z + i * w;
+    double *restrict to = out + i * w;
+    for (size_t q = 0; q < w; ++q) to[q] -= a * from[q];
+  }
+}
+
+/* s->motion := the forces that by dW_j of the contacts that stick are, row by row. */
+static void push_sliders(series_columns *s, int width, double by)
+{
+  const size_t w = (size_t)width;
+  double *row = s->motion;
+  memset(s->motion, 0, (size_t)s->n_rows * w * sizeof *s->motion);
+  for (int j = 0; j < s->n_contacts; ++j) {
+    const contact_forces_linear *f = &s->law[j];
+    for (size_t q = 0; has_tangent(f) && q < w; ++q) row[q] = by * f->t_w * s->slider[(size_t)j * w + q];
+    row += (size_t)(has_tangent(f) + has_normal(f)) * w;
+  }
+}
+
+/* out -= by (contacts of z), by the matrix of all of them. */
+static void subtract_whole(series_columns *s, int width, bool first, double by, const double *z, double *out)
+{
+  subtract(s, width, false, NULL, s->resistance, by, z, out);
+  if (!first) return;
+  push_sliders(s, width, by);
+  dense_add_product(width, s->n, s->n_rows, -1, s->motion, width, s->turned, s->n_rows, 1, out, width);
+}
+
+/* out -= by (contacts of z); their sliders move in the first term alone. */
+static void subtract_contacts(series_columns *s, int width, bool first, double by, const double *z, double *out)
+{
+  const size_t w = (size_t)width;
+  if (s->whole) {
+    subtract_whole(s, width, first, by, z, out);
+    return;
+  }
+  memset(s->motion, 0, (size_t)s->n_rows * w * sizeof *s->motion);
+  dense_add_product(width, s->n_rows, s->n, -1, z, width, s->rows, s->n, 1, s->motion, width); /* minus dU and dV */
+  double *row = s->motion;
+  for (int j = 0; j < s->n_contacts; ++j) {
+    const contact_forces_linear *f = &s->law[j];
+    const bool tangent = has_tangent(f), normal = has_normal(f);
+    const double *dw = s->slider + (size_t)j * w, t_w = first ? by * f->t_w : 0;
+    double *along = row, *across = tangent ? row + w : row;
+    for (size_t q = 0; tangent && q < w; ++q)
+      along[q] = -by * (f->t_u * along[q] + (normal ? f->t_v * across[q] : 0)) + t_w * dw[q];
+    for (size_t q = 0; normal && q < w; ++q) across[q] *= -by * f->n_v;
+    row += (size_t)(tangent + normal) * w;
+  }
+  dense_add_product(width, s->n, s->n_rows, -1, s->motion, width, s->turned, s->n_rows, 1, out, width);
+}
+
+/* s->circling[block][n_rows] := rows . z, with its sign turned. */
+static void project_slips(series_columns *s, int width, int n_rows, const double *rows, const double *z)
+{
+  memset(s->circling, 0, (size_t)n_rows * (size_t)width * sizeof *s->circling);
+  dense_add_product(width, n_rows, s->n, -1, z, width, rows, s->n, 1, s->circling, width);
+}
+
+/* Term k of a motion that is -s->circling's row. */
+static void keep_term(const series_columns *s, int width, int row, const circle_columns *c, int k, double *series)
+{
+  const double *from = s->circling + (size_t)row * (size_t)width;
+  double *to = series + (size_t)k * (size_t)c->columns;
+  for (int q = 0; q < width; ++q) to[q] = -from[q];
+}
+
+/* Term k of the motion of the circles that slip. */
+static void project_circles(series_columns *s, int width, int k, const double *z)
+{
+  project_slips(s, width, 2 * s->n_slipping, s->slip_tangents, z);
+  for (int i = 0; i < s->n_slipping; ++i)
+    for (int a = 0; a < 2; ++a) keep_term(s, width, 2 * i + a, &s->circle[i], k, s->circle[i].u[a]);
+  project_slips(s, width, s->n_slipping, s->slip_normals, z);
+  for (int i = 0; i < s->n_slipping; ++i) keep_term(s, width, i, &s->circle[i], k, s->circle[i].v);
+}
+
+/* out -= by (T of the circles that slip) of terms z_k and `next`, z_{k+1}. */
+static void subtract_circles(series_columns *s, int width, int k, double by, const double *z, const double *next,
+                             double *out)
+{
+  double *row = s->circling;
+  if (s->n_slipping == 0) return;
+  if (k == 0) project_circles(s, width, 0, z);
+  project_circles(s, width, k + 1, next);
+  for (int i = 0; i < s->n_slipping; ++i) {
+    circle_columns_term(&s->circle[i], width, k);
+    for (int a = 0; a < 2; ++a, row += width)
+      for (int q = 0; q < width; ++q) row[q] = by * s->circle[i].pull[a][q];
+  }
+  dense_add_product(width, s->n, 2 * s->n_slipping, -1, s->circling, width, s->slip_turned, 2 * s->n_slipping, 1, out,
+                    width);
+}
+
+/* sums[q] += |by z_q|^2 */
+static void add_squares(const series_columns *s, int width, double by, const double *z, double *restrict sums)
+{
+  for (int i = 0; i < s->n; ++i) {
+    const double *from = z + (size_t)i * (size_t)width;
+    for (int q = 0; q < width; ++q) sums[q] += (by * from[q]) * (by * from[q]);
+  }
+}
+
+/* Is power k of every column below the rounding of its motion and its rate, of which it is k/h times as much? */
+static bool is_rounding(series_columns *s, int width, int k, double h, const double *z)
+{
+  const double rounding = 0.25 * DBL_EPSILON * fmin(fmax(h, DBL_EPSILON), 1) / k;
+  bool small = true;
+  memset(s->left, 0, (size_t)width * sizeof *s->left);
+  add_squares(s, width, 1 / rounding, z, s->left);
+  for (int q = 0; q < width; ++q) small = small && s->left[q] <= s->size[q];
+  return small;
+}
+
+/* What power k adds to the motion at h and to its rate. */
+static void add_term(size_t count, double by_rate, const double *restrict z, double *restrict x, double *restrict p)
+{
+  for (size_t i = 0; i < count; ++i) {
+    x[i] += z[i];
+    p[i] += by_rate * z[i];
+  }
+}
+
+/* s->x and s->p to s->x_end and s->p_end over a step h; false if LAST powers of it do not suffice. */
+static bool expand(series_columns *s, const scaled_model *m, int width, double h)
+{
+  const modal_base *b = m->base;
+  const size_t count = (size_t)s->n * (size_t)width;
+  double *z = s->term, *next = s->next, *second = s->second;
+  for (int q = 0; q < width; ++q) s->size[q] = died_away;
+  add_squares(s, width, 1, s->x, s->size);
+  add_squares(s, width, 1, s->p, s->size);
+  memcpy(z, s->x, count * sizeof *z);
+  for (size_t i = 0; i < count; ++i) next[i] = h * s->p[i];
+  memcpy(s->p_end, s->p, count * sizeof *s->p);
+  for (size_t i = 0; i < count; ++i) s->x_end[i] = z[i] + next[i];
+  for (int k = 2, small = 0; k <= LAST; ++k) {
+    const double by = h / (k * (k - 1));
+    memset(second, 0, count * sizeof *second);
+    subtract(s, width, b->diagonal_K, b->K, s->turned_K, by * h * m->by_K, z, second);
+    subtract(s, width, b->diagonal_C, b->C, s->turned_C, by * (k - 1) * m->by_C, next, second);
+    subtract_contacts(s, width, k == 2, by * h, z, second);
+    subtract_circles(s, width, k - 2, by * h, z, next, second);
+    add_term(count, k / h, second, s->x_end, s->p_end);
+    if (k == 2) add_squares(s, width, 2 / h, second, s->size); /* a column that begins with its slider alone */
+    if (!s->along) small = is_rounding(s, width, k, h, second) ? small + 1 : 0;
+    if (small == 2) return true; /* two: without damping even powers know nothing of odd ones */
+    double *spent = z;
+    z = next, next = second, second = spent;
+  }
+  return false;
+}
+
+/* s->x and s->p over the span, in steps of equal length unless one is too long. */
+static hc_status advance_block(series_columns *s, const scaled_model *m, int width, double span)
+{
+  const double shortest = 1e-12; /* a motion that needs shorter steps is none */
+  for (double left = span; left > 0;) {
+    const double h = s->reach < left ? left / ceil(left / s->reach) : left;
+    if (!expand(s, m, width, h)) {
+      s->reach = 0.5 * h;
+      if (!(s->reach > shortest * span)) return HC_NOT_FINITE;
+      continue;
+    }
+    double *x = s->x, *p = s->p;
+    s->x = s->x_end, s->x_end = x;
+    s->p = s->p_end, s->p_end = p;
+    if (h == left) return HC_OK;
+    left -= h;
+  }
+  return HC_OK;
+}
+
+/* Rows of a block, of the columns from q on, from the matrix and back. */
+static void take_rows(int rows, int width, const double *matrix, int ld, double *block)
+{
+  for (size_t i = 0; i < (size_t)rows; ++i)
+    memcpy(block + i * (size_t)width, matrix + i * (size_t)ld, (size_t)width * sizeof *block);
+}
+
+static void put_rows(int rows, int width, const double *block, double *matrix, int ld)
+{
+  for (size_t i = 0; i < (size_t)rows; ++i)
+    memcpy(matrix + i * (size_t)ld, block + i * (size_t)width, (size_t)width * sizeof *block);
+}
+
+hc_status series_columns_advance(series_columns *s, const scaled_model *m, double span, int count, int ld,
+                                 double *matrix)
+{
+  const size_t rows = (size_t)s->n * (size_t)ld;
+  for (int q = 0; q < count; q += BLOCK) {
+    const int width = count - q < BLOCK ? count - q : BLOCK;
+    double *from = matrix + q;
+    take_rows(s->n, width, from, ld, s->x);
+    take_rows(s->n, width, from + rows, ld, s->p);
+    take_rows(s->n_contacts, width, from + 2 * rows, ld, s->slider);
+    hc_status st = advance_block(s, m, width, span);
+    if (st != HC_OK) return st;
+    put_rows(s->n, width, s->x, from, ld);
+    put_rows(s->n, width, s->p, from + rows, ld);
+  }
+  return HC_OK;
+}
+
+/* dphi of the circles that slip: from the sliders' rows into the first terms, or back when the step is over. */
+static void exchange_angles(series_columns *s, int width, bool back)
+{
+  for (int j = 0; j < s->n_contacts; ++j) {
+    if (s->along->circle_of[j] < 0) continue;
+    circle_columns *c = &s->circle[s->along->circle_of[j]];
+    double *row = s->slider + (size_t)j * (size_t)width;
+    if (back) circle_columns_end(c, width, LAST - 2, row);
+    else memcpy(c->angle, row, (size_t)width * sizeof *row);
+  }
+}
+
+void series_columns_turn(series_columns *s, const scaled_model *m, const motion_series *along, double h, int count,
+                         int ld, double *matrix)
+{
+  const size_t rows = (size_t)s->n * (size_t)ld;
+  s->along = along;
+  for (int j = 0; j < s->n_contacts; ++j)
+    if (along->circle_of[j] >= 0)
+      circle_columns_begin(&s->circle[along->circle_of[j]], &along->circle[along->circle_of[j]], &m->contact[j], h);
+  for (int q = 0; q < count; q += BLOCK) {
+    const int width = count - q < BLOCK ? count - q : BLOCK;
+    double *from = matrix + q;
+    take_rows(s->n, width, from, ld, s->x);
+    take_rows(s->n, width, from + rows, ld, s->p);
+    take_rows(s->n_contacts, width, from + 2 * rows, ld, s->slider);
+    exchange_angles(s, width, false);
+    expand(s, m, width, h);
+    exchange_angles(s, width, true);
+    put_rows(s->n, width, s->x_end, from, ld);
+    put_rows(s->n, width, s->p_end, from + rows, ld);
+    put_rows(s->n_contacts, width, s->slider, from + 2 * rows, ld);
+  }
+  s->along = NULL;
+}

@@ -1,0 +1,58 @@
+/* series_columns.h - many variations of a structure's motion at once, in a phase in which no contact changes its state:
+ *
+ *     D'' + by_C C D' + by_K K D = - sum_j [ t_j dT_j + n_j dN_j ],   dT_j = t_u dU + t_v dV + t_w dW_j, dN_j = n_v dV
+ *
+ * A column is a variation; the terms z_k = d_k h^k of its power series over a step h come from
+ *     (k + 1)(k + 2) z_{k+2} = -h^2 (by_K K z_k + contacts of z_k) - h (k + 1) by_C C z_{k+1}
+ * for a block of columns together: products of matrices, not of a matrix and a vector, and contacts that resist no
+ * motion are left out. So many terms are taken that what is left out of any column is below its rounding; a step is as
+ * long as LAST terms allow, about 2 over the highest frequency. Nothing is allocated after series_columns_make. */
+#ifndef HC_TIMEINT_SERIES_COLUMNS_H
+#define HC_TIMEINT_SERIES_COLUMNS_H
+
+#include "timeint/closed_form/motion_series.h"
+#include "timeint/closed_form/planar_columns.h"
+
+typedef struct series_columns { /* from series_columns_make, to series_columns_free */
+  int n, n_contacts, n_circles;
+  double *turned_K, *turned_C;  /* [n][n] by rows, where they are not diagonal; else NULL */
+  int n_rows;                   /* of contacts that resist in this phase */
+  double *rows, *turned;        /* [n][n_rows] by columns; by rows */
+  bool whole;                   /* are what they do the matrix below, which is cheaper? */
+  double *resistance;           /* [n][n] by columns of B: out_i = sum_l z_l B_li */
+  contact_forces_linear *law;   /* [n_contacts] of this phase, but T of the circles that slip */
+  int n_slipping;               /* circles that slip in this phase */
+  double *slip_tangents;        /* [n][2 n_slipping] by columns: their t_1 and t_2 */
+  double *slip_normals;         /* [n][n_slipping] by columns */
+  double *slip_turned;          /* slip_tangents by rows */
+  double *circling;             /* [block][2 n_slipping] their motion; their forces */
+  double *x, *p;                /* [block][n] motion and its rate, of a block of columns */
+  double *x_end, *p_end;        /* [block][n] the same after a step */
+  double *term, *next, *second; /* [block][n] z_k, z_{k+1}, z_{k+2} */
+  double *share;                /* [block][n] what K or C multiplies, scaled */
+  double *motion;               /* [block][n_rows] of the contacts; their forces */
+  double *slider;               /* [block][n_contacts] dW_j */
+  double *size, *left;          /* [block] of columns, squared */
+  circle_columns *circle;       /* [n_circles] */
+  const motion_series *along;   /* where circles slip: the motion; else NULL */
+  double reach;                 /* [rad] the longest step that has been seen to suffice, or is hoped to */
+  double *numbers;              /* of all arrays of doubles */
+} series_columns;
+
+hc_status series_columns_make(series_columns *s, const modal_base *base); /* HC_NO_MEMORY; free it in any case */
+void series_columns_free(series_columns *s);
+
+/* From here on contacts are in the states of track[]. */
+void series_columns_begin(series_columns *s, const scaled_model *m, const contact_track *track);
+
+/* count columns over `span`. Number i of column q is at matrix[i ld + q]: rows 0..n-1 D, n..2n-1 D', then dW_j, which
+ * stays. HC_NOT_FINITE. */
+hc_status series_columns_advance(series_columns *s, const scaled_model *m, double span, int count, int ld,
+                                 double *matrix);
+
+/* The same over one step h of a motion on which circles slip, h within its reach; a slider's row is dphi of the circle
+ * whose first direction it is. */
+void series_columns_turn(series_columns *s, const scaled_model *m, const motion_series *along, double h, int count,
+                         int ld, double *matrix);
+
+#endif

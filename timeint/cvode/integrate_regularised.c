@@ -1,0 +1,236 @@
+/* integrate_regularised.c - see integrate_regularised.h. Everything is made in integrate_new_regularised; a period
+ * allocates nothing. The columns of the monodromy matrix are CVODES' forward sensitivities to y(0), switched off in
+ * periods without; a period with them takes other steps of the same tolerance: y is as good, but not the same bits. */
+#include "timeint/cvode/integrate_regularised.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include <cvodes/cvodes.h>
+#include <cvodes/cvodes_ls.h>
+#include <nvector/nvector_serial.h>
+#include <sunlinsol/sunlinsol_dense.h>
+#include <sunmatrix/sunmatrix_dense.h>
+
+#include "base/constants.h"
+#include "numerics/sundials_compat.h"
+#include "timeint/cvode/integrate_cvode.h"
+
+static const double variation_tolerance = 1e-6; /* of the variations' steps; they are about 1 */
+
+enum {
+  MAX_STEPS = 1000000,  /* per period: a thousand times what a hard one takes */
+  MAX_ERROR_FAILS = 20, /* per step: a corner is met with a step 1e4 times too long now and then */
+  MAX_NEWTON_FAILS = 30
+};
+
+typedef struct regularised { /* from integrate_new_regularised, to integrate_free; not shared between threads */
+  cvode_integrator base;
+  int n; /* number of states */
+  structure_newton newton;
+  N_Vector *s;                /* [n][n] d y / d y_j(0), j = 0..n-1: CVODES calls them sensitivities */
+  structure_newton variation; /* d y' / d y where their right-hand side is wanted */
+  double *s_tolerance;        /* [n] absolute tolerance of each s_j, which CVODES copies */
+} regularised;
+
+static int rhs(sunrealtype theta, N_Vector y, N_Vector dy, void *self)
+{
+  regularised *in = self;
+  if (!integrate_cvode_goes_on(&in->base)) return -1;
+  if (scaled_rhs(in->base.m, theta, NV_DATA_S(y), NV_DATA_S(dy))) return 0;
+  in->base.not_finite = true;
+  return -1;
+}
+
+/* CVODE's Newton matrix. */
+static int linear_system(sunrealtype theta, N_Vector y, N_Vector dy, SUNMatrix matrix, sunbooleantype keep,
+                         sunbooleantype *renewed, sunrealtype gamma, void *self, N_Vector t1, N_Vector t2, N_Vector t3)
+{
+  (void)theta, (void)dy, (void)matrix, (void)t1, (void)t2, (void)t3;
+  regularised *in = self;
+  *renewed = !keep;
+  return structure_solver_set(&in->newton, in->base.m, NV_DATA_S(y), keep, gamma);
+}
+
+/* The variational equations s_j' = J s_j. */
+static int variation_rhs(int n, sunrealtype theta, N_Vector y, N_Vector dy, N_Vector *s, N_Vector *ds, void *self,
+                         N_Vector t1, N_Vector t2)
+{
+  (void)theta, (void)dy, (void)t1, (void)t2;
+  regularised *in = self;
+  structure_newton_linearise(&in->variation, in->base.m, NV_DATA_S(y));
+  for (int j = 0; j < n; ++j) structure_newton_multiply(&in->variation, in->base.m, NV_DATA_S(s[j]), NV_DATA_S(ds[j]));
+  return 0;
+}
+
+/* What fails here is memory, whatever the flag: CVodeSetLinearSolver's CVLS_MEM_FAIL is the number of CV_CONV_FAILURE.
+ * CVODE's rule for when to renew the Jacobian stays as it is: renewing it in every step was measured 30 % slower, since
+ * CVODE then forgets the rate of convergence and takes a second Newton iteration to learn it. */
+static hc_status make_cvode(regularised *in, double tolerance)
+{
+  N_VConst(0.0, in->base.y);
+  int flag = CVodeInit(in->base.cv, rhs, 0.0, in->base.y); /* first: the other calls need it */
+  if (flag != CV_SUCCESS) return HC_NO_MEMORY;
+  const int flags[] = {
+      HC_CVODE_QUIET(in->base.cv),
+      CVodeSStolerances(in->base.cv, tolerance, tolerance),
+      CVodeSetUserData(in->base.cv, in),
+      CVodeSetLinearSolver(in->base.cv, in->base.ls, in->base.jac),
+      CVodeSetLinSysFn(in->base.cv, linear_system),
+      CVodeSetMaxNumSteps(in->base.cv, MAX_STEPS),
+      CVodeSetMaxErrTestFails(in->base.cv, MAX_ERROR_FAILS),
+      CVodeSetMaxConvFails(in->base.cv, MAX_NEWTON_FAILS),
+      CVodeSetMaxHnilWarns(in->base.cv, -1),
+  };
+  return integrate_first_flag(flags, sizeof flags / sizeof *flags) == CV_SUCCESS ? HC_OK : HC_NO_MEMORY;
+}
+
+/* The error test includes the variations, with a coarse tolerance. Without them a step may pass over a corner that
+ * hardly changes y and put the monodromy matrix off by 4e-3 (measured; with them 3e-5 at worst), which costs Newton a
+ * step and can hide a fold. CV_STAGGERED: y is solved for first, then all variations; solving for both at once
+ * (CV_SIMULTANEOUS) cost as much and was no more accurate. */
+static hc_status make_variations(regularised *in)
+{
+  for (int j = 0; j < in->n; ++j) {
+    N_VConst(0.0, in->s[j]);
+    in->s_tolerance[j] = variation_tolerance;
+  }
+  if (!hc_room_for(0)) return HC_NO_MEMORY;
+  int flag = CVodeSensInit(in->base.cv, in->n, CV_STAGGERED, variation_rhs, in->s); /* first: the other calls need it */
+  if (flag != CV_SUCCESS) return HC_NO_MEMORY;
+  const int flags[] = {
+      CVodeSensSStolerances(in->base.cv, variation_tolerance, in->s_tolerance),
+      CVodeSetSensErrCon(in->base.cv, 1),
+      CVodeSensToggleOff(in->base.cv),
+  };
+  return integrate_first_flag(flags, sizeof flags / sizeof *flags) == CV_SUCCESS ? HC_OK : HC_NO_MEMORY;
+}
+
+static hc_status make_parts(regularised *in, const modal_base *base)
+{
+  hc_status st = structure_newton_make(&in->newton, base);
+  if (st == HC_OK) st = structure_newton_make(&in->variation, base);
+  if (st == HC_OK) st = integrate_make_parts(&in->base, in->n, CV_BDF, &in->newton);
+  if (st != HC_OK) return st;
+  in->s = N_VCloneVectorArray(in->n, in->base.y); /* room: asked for above */
+  in->s_tolerance = calloc((size_t)in->n, sizeof *in->s_tolerance);
+  return in->s && in->s_tolerance ? HC_OK : HC_NO_MEMORY;
+}
+
+static void release(integrator *base)
+{
+  regularised *in = (regularised *)base;
+  if (in->s) N_VDestroyVectorArray(in->s, in->n);
+  free(in->s_tolerance);
+  integrate_free_parts(&in->base);
+  structure_newton_free(&in->newton);
+  structure_newton_free(&in->variation);
+  free(base);
+}
+
+static int start_variations(regularised *in)
+{
+  for (int j = 0; j < in->n; ++j) {
+    N_VConst(0.0, in->s[j]);
+    NV_Ith_S(in->s[j], j) = 1;
+  }
+  return CVodeSensReInit(in->base.cv, CV_STAGGERED, in->s);
+}
+
+static hc_status start_period(regularised *in, bool varies)
+{
+  int flag = CVodeReInit(in->base.cv, 0.0, in->base.y);
+  if (flag == CV_SUCCESS) flag = varies ? start_variations(in) : CVodeSensToggleOff(in->base.cv);
+  if (flag == CV_SUCCESS) flag = CVodeSetStopTime(in->base.cv, TWO_PI);
+  return integrate_translate(&in->base, flag);
+}
+
+/* To the end of the period in one call. At tout == tstop 6.4 says CV_SUCCESS, 7 says CV_TSTOP_RETURN. */
+static hc_status integrate_unwatched(regularised *in)
+{
+  sunrealtype theta = 0;
+  int flag = CVode(in->base.cv, TWO_PI, in->base.y, &theta, CV_NORMAL);
+  hc_status st = flag == CV_TSTOP_RETURN ? HC_OK : integrate_translate(&in->base, flag);
+  return st == HC_OK ? integrate_check_end(&in->base, theta, in->n) : st;
+}
+
+/* The same steps, one call each. */
+static hc_status integrate_watched(regularised *in, integrate_watch *watch, void *self)
+{
+  for (sunrealtype theta = 0;;) {
+    sunrealtype before = theta;
+    int flag = CVode(in->base.cv, TWO_PI, in->base.y, &theta, CV_ONE_STEP);
+    if (flag != CV_SUCCESS && flag != CV_TSTOP_RETURN) return integrate_translate(&in->base, flag);
+    bool last = flag == CV_TSTOP_RETURN || !(theta < TWO_PI);
+    /* a step that does not advance theta ends here too: HC_INTEGRATOR */
+    hc_status st = last || !(theta > before) ? integrate_check_end(&in->base, theta, in->n) : HC_OK;
+    if (st == HC_OK) st = watch(self, &in->base.base, before, theta);
+    if (st != HC_OK || last) return st;
+  }
+}
+
+static hc_status copy_monodromy(regularised *in, double *monodromy)
+{
+  sunrealtype theta;
+  int flag = CVodeGetSens(in->base.cv, &theta, in->s);
+  for (int j = 0; j < in->n; ++j) memcpy(monodromy + j * in->n, NV_DATA_S(in->s[j]), sizeof *monodromy * (size_t)in->n);
+  return integrate_translate(&in->base, flag);
+}
+
+static hc_status period(integrator *base, const scaled_model *m, double *y, double *monodromy, integrate_watch *watch,
+                        void *self)
+{
+  regularised *in = (regularised *)base;
+  const size_t bytes = sizeof *y * (size_t)in->n;
+  in->base.m = m;
+  hc_status st = integrate_begin_period(&in->base);
+  if (st != HC_OK) return st;
+  memcpy(NV_DATA_S(in->base.y), y, bytes);
+  st = start_period(in, monodromy != NULL);
+  if (st == HC_OK) st = watch ? integrate_watched(in, watch, self) : integrate_unwatched(in);
+  hc_status counted = integrate_add_counts(&in->base);
+  if (st == HC_OK) st = counted;
+  if (st == HC_OK && monodromy) st = copy_monodromy(in, monodromy);
+  if (st == HC_OK) memcpy(y, NV_DATA_S(in->base.y), bytes);
+  return st;
+}
+
+static hc_status dense(const integrator *base, double theta, int order, double *y)
+{
+  const regularised *in = (const regularised *)base;
+  if (CVodeGetDky(in->base.cv, theta, order, in->base.dky) != CV_SUCCESS) return HC_BUG; /* theta outside the step */
+  memcpy(y, NV_DATA_S(in->base.dky), sizeof *y * (size_t)in->n);
+  return HC_OK;
+}
+
+static contact_state state(const integrator *base, int j, const double *y)
+{
+  return scaled_contact_state(((const regularised *)base)->base.m, j, y);
+}
+
+static const integrator_class class = {.period = period,
+                                       .dense = dense,
+                                       .samples = integrate_dense_samples,
+                                       .fourier = integrate_no_fourier,
+                                       .state = state,
+                                       .tolerance = integrate_cvode_tolerance,
+                                       .free = release};
+
+hc_status integrate_new_regularised(const modal_base *base, double tolerance, integrator **out)
+{
+  *out = NULL;
+  regularised *in = calloc(1, sizeof *in); /* zeroed, so free works half-built */
+  if (!in) return HC_NO_MEMORY;
+  in->base.base.does = &class;
+  in->base.base.scatter = INTEGRATE_BDF_SCATTER;
+  in->n = 2 * base->n + base->n_contacts;
+  hc_status st = make_parts(in, base);
+  if (st == HC_OK) st = make_cvode(in, tolerance);
+  if (st == HC_OK) st = make_variations(in);
+  if (st == HC_OK) {
+    *out = &in->base.base;
+    return HC_OK;
+  }
+  release(&in->base.base);
+  return st;
+}

@@ -1,0 +1,49 @@
+/* law_planar.c - see law_planar.h; the law itself stands there. Proof: tests/timeint/test_law.c. */
+#include "timeint/law/law_planar.h"
+
+/* The spring's force, and by how much it is longer than the limit. */
+typedef struct overload {
+  double s[2], size, limit, excess;
+} overload;
+
+static overload load_of(const law_regularised *c, const double u[2], double n, const double w[2])
+{
+  overload o = {.s = {c->kt * (u[0] - w[0]), c->kt * (u[1] - w[1])}, .limit = c->mu * n};
+  o.size = hypot(o.s[0], o.s[1]);
+  o.excess = o.size > o.limit ? o.size - o.limit : 0;
+  return o;
+}
+
+circle_value law_circle_eval(const law_regularised *c, const double u[2], double v, const double w[2])
+{
+  const law_value normal = law_regularised_eval(c, 0, v, 0); /* T = 0: of N alone */
+  circle_value r = {.n = normal.n, .change = normal.change};
+  if (!c->has_friction) return r;
+  const overload o = load_of(c, u, normal.n, w);
+  for (int a = 0; a < 2; ++a) {
+    const double e = o.excess > 0 ? o.s[a] / o.size : 0;
+    r.t[a] = o.excess > 0 && !c->overstress ? o.limit * e : o.s[a];
+    r.rate[a] = o.excess * e / c->eta;
+  }
+  return r;
+}
+
+circle_derivatives law_circle_derivatives(const law_regularised *c, const double u[2], double v, const double w[2])
+{
+  const double n = law_regularised_eval(c, 0, v, 0).n;
+  circle_derivatives r = {.n_v = law_regularised_derivatives(c, 0, v, 0).n_v};
+  if (!c->has_friction) return r;
+  const overload o = load_of(c, u, n, w);
+  const double kept = o.excess > 0 ? o.limit / o.size : 1; /* of what turns the force */
+  for (int a = 0; a < 2; ++a) {
+    const double e = o.excess > 0 ? o.s[a] / o.size : 0;
+    for (int b = 0; b < 2; ++b) {
+      const double along = e * (o.excess > 0 ? o.s[b] / o.size : 0), unit = a == b;
+      r.t_u[a][b] = c->kt * (c->overstress ? unit : kept * (unit - along));
+      r.rate_u[a][b] = c->kt / c->eta * ((1 - kept) * unit + kept * along);
+    }
+    r.t_v[a] = c->overstress ? 0 : c->mu * r.n_v * e;
+    r.rate_v[a] = -c->mu * r.n_v * e / c->eta;
+  }
+  return r;
+}

@@ -1,0 +1,31 @@
+/* law_planar.h - law_regularised.h for the two directions of a contact with two tangents under the law of the circle:
+ * u, w, S and T are vectors of the plane.
+ *
+ *     S  = kt (u - w)
+ *     w' = e max(|S| - mu N, 0)/eta,  e = S/|S|
+ *     T  = S, limited to |T| <= mu N; `overstress`: T = S
+ *
+ * width -> 0, eta -> 0 give the exact law. Where w moves, S is longer than mu N by eta |w'|: T is exact but for its
+ * direction, which turns as if R = mu N/kt were longer by eta |w'|/kt. So where a slider creeps along the circle the
+ * error is first order in eta (law_regularised.h: second). Takes the law of either direction, half of the contact's
+ * normal force and twice its mu each, and needs what that does: libm, no memory, no state, no failure. */
+#ifndef HC_TIMEINT_LAW_PLANAR_H
+#define HC_TIMEINT_LAW_PLANAR_H
+
+#include "timeint/law/law_regularised.h"
+
+typedef struct circle_value {
+  double n, change, t[2], rate[2];
+} circle_value; /* N and N - N0 of either direction; T [force], w' [length/time] */
+
+/* dN/dv of either direction, dT_a/du_b in t_u[a][b], dT_a/dv ...; w enters as u - w. */
+typedef struct circle_derivatives {
+  double n_v, t_u[2][2], t_v[2], rate_u[2][2], rate_v[2];
+} circle_derivatives;
+
+circle_value law_circle_eval(const law_regularised *c, const double u[2], double v, const double w[2]);
+
+/* Where the law has them; on the circle those of stick. */
+circle_derivatives law_circle_derivatives(const law_regularised *c, const double u[2], double v, const double w[2]);
+
+#endif

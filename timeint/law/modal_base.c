@@ -1,0 +1,244 @@
+/* modal_base.c - see modal_base.h. Proof: tests/timeint/test_structure.c. */
+#include "timeint/law/modal_base.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "model/modes.h"
+#include "numerics/norm.h"
+
+static const double rounding = 1e-13; /* of what is left beside the diagonal of C, relative to that */
+
+/* y = A x, or A^T x; A[n][n] by columns. */
+static void times(int n, const double *A, const double *x, double *y)
+{
+  memset(y, 0, (size_t)n * sizeof *y);
+  for (int col = 0; col < n; ++col)
+    for (int row = 0; row < n; ++row) y[row] += A[(size_t)col * (size_t)n + (size_t)row] * x[col];
+}
+
+static void transposed_times(int n, const double *A, const double *x, double *y)
+{
+  for (int col = 0; col < n; ++col) y[col] = dot_product(n, A + (size_t)col * (size_t)n, x);
+}
+
+static bool is_symmetric(int n, const double *A)
+{
+  for (size_t col = 0; col < (size_t)n; ++col)
+    for (size_t row = 0; row < col; ++row)
+      if (A[col * (size_t)n + row] != A[row * (size_t)n + col]) return false;
+  return true;
+}
+
+/* out := phi^T A phi, with room for one vector. */
+static void to_modes(int n, const double *phi, const double *A, double *vector, double *out)
+{
+  for (int col = 0; col < n; ++col) {
+    times(n, A, phi + (size_t)col * (size_t)n, vector);
+    transposed_times(n, phi, vector, out + (size_t)col * (size_t)n);
+  }
+}
+
+/* sum_kl |phi_k| |A_kl| |phi_l| */
+static double size_of_sum(int n, const double *left, const double *A, const double *right)
+{
+  double sum = 0;
+  for (int col = 0; col < n; ++col)
+    for (int row = 0; row < n; ++row) sum += fabs(left[row] * A[(size_t)col * (size_t)n + (size_t)row] * right[col]);
+  return sum;
+}
+
+/* Is A[n][n] = phi^T of phi diagonal, but for rounding: relative to the diagonal, or, where modes are very different,
+ * to the n^2 terms that each entry is the sum of? Then its diagonal moves to A[0..n-1]. */
+static bool keep_diagonal(int n, const double *phi, const double *of, double *A)
+{
+  const size_t ld = (size_t)n;
+  for (size_t col = 0; col < ld; ++col)
+    for (size_t row = 0; row < ld; ++row) {
+      const double a = fabs(A[col * ld + row]);
+      if (row == col || a <= rounding * sqrt(fabs(A[row * (ld + 1)] * A[col * (ld + 1)]))) continue;
+      if (!(a <= n * DBL_EPSILON * size_of_sum(n, phi + row * ld, of, phi + col * ld))) return false;
+    }
+  for (size_t i = 0; i < ld; ++i) A[i] = A[i * (ld + 1)];
+  return true;
+}
+
+/* The longest row in modes with phi^T M phi = 1. */
+static double longest_row(const modal_base *b)
+{
+  double longest = 0;
+  const struct {
+    int count;
+    const double *row;
+  } sets[] = {{b->n_contacts, b->tangent}, {b->n_contacts, b->normal}, {b->n_responses, b->response}};
+  for (size_t k = 0; k < sizeof sets / sizeof *sets; ++k)
+    for (int j = 0; j < sets[k].count; ++j) {
+      const double *row = sets[k].row + (size_t)j * (size_t)b->n;
+      longest = fmax(longest, sqrt(dot_product(b->n, row, row)));
+    }
+  return longest > 0 ? longest : 1;
+}
+
+static void scale(size_t count, double *a, double by)
+{
+  for (size_t i = 0; i < count; ++i) a[i] *= by;
+}
+
+/* Everything from phi, which is in b->shape. */
+static void fill(modal_base *b, const model *m, const double *omega2, double *vector)
+{
+  const int n = b->n;
+  const size_t ld = (size_t)n, contacts = (size_t)b->n_contacts, loads = (size_t)b->n_loads;
+  const double *phi = b->shape;
+  b->diagonal_K = is_symmetric(n, m->stiffness);
+  if (b->diagonal_K) memcpy(b->K, omega2, ld * sizeof *b->K);
+  else to_modes(n, phi, m->stiffness, vector, b->K);
+  to_modes(n, phi, m->damping, vector, b->C);
+  b->slowest = INFINITY;
+  b->decay = 0;
+  for (size_t i = 0; i < ld; ++i) {
+    b->slowest = fmin(b->slowest, 0.5 * b->C[i * (ld + 1)]);
+    b->decay = fmax(b->decay, b->C[i * (ld + 1)]);
+  }
+  b->slowest = fmax(b->slowest, 0);
+  b->diagonal_C = keep_diagonal(n, phi, m->damping, b->C);
+  for (size_t j = 0; j < contacts; ++j) {
+    transposed_times(n, phi, m->contacts[j].tangent, b->tangent + j * ld);
+    transposed_times(n, phi, m->contacts[j].normal, b->normal + j * ld);
+  }
+  for (int r = 0; r < b->n_responses; ++r)
+    transposed_times(n, phi, m->responses + (size_t)r * ld, b->response + (size_t)r * ld);
+  for (size_t k = 0; k < loads; ++k) {
+    b->harmonic[k] = m->loads[k].harmonic;
+    transposed_times(n, phi, m->loads[k].cosine, b->cosine + k * ld);
+    transposed_times(n, phi, m->loads[k].sine, b->sine + k * ld);
+  }
+  for (int col = 0; col < n; ++col) { /* phi^-1 = phi^T M */
+    transposed_times(n, m->mass, phi + (size_t)col * ld, vector);
+    for (size_t row = 0; row < ld; ++row) b->inverse[row * ld + (size_t)col] = vector[row];
+  }
+  b->s = longest_row(b);
+  scale(contacts * ld, b->tangent, 1 / b->s);
+  scale(contacts * ld, b->normal, 1 / b->s);
+  scale((size_t)b->n_responses * ld, b->response, 1 / b->s);
+  scale(loads * ld, b->cosine, b->s);
+  scale(loads * ld, b->sine, b->s);
+  scale(ld * ld, b->shape, 1 / b->s);
+  scale(ld * ld, b->inverse, b->s);
+}
+
+/* The largest motion of a contact under that load (of a single mass, its own), at rest in these modes; modes that
+ * nothing holds are left out. */
+static double motion_under(const modal_base *b, const model *m, const double *load, const double *omega2,
+                           const double *phi, double *x)
+{
+  const size_t n = (size_t)b->n;
+  memset(x, 0, n * sizeof *x);
+  for (size_t i = 0; i < n; ++i) {
+    if (!(omega2[i] > rounding * omega2[n - 1])) continue;
+    const double q = dot_product(b->n, phi + i * n, load) / omega2[i];
+    for (size_t row = 0; row < n; ++row) x[row] += q * phi[i * n + row];
+  }
+  double most = n == 1 ? fabs(*x) : 0;
+  for (int j = 0; j < m->n_contacts; ++j)
+    most = fmax(most, fmax(fabs(dot_product(b->n, m->contacts[j].tangent, x)),
+                           fabs(dot_product(b->n, m->contacts[j].normal, x))));
+  return most;
+}
+
+/* What is known from the modes with all contacts stuck; phi[n][n]: room for them. */
+static hc_status look_at_stuck(modal_base *b, const model *m, double *omega2, double *x, double *phi)
+{
+  hc_status st = model_modes(m, true, omega2, phi);
+  if (st != HC_OK) return st;
+  b->highest = sqrt(fmax(omega2[b->n - 1], 0));
+  b->lowest = b->highest;
+  for (int i = b->n - 1; i >= 0 && omega2[i] > rounding * omega2[b->n - 1]; --i) b->lowest = sqrt(omega2[i]);
+  b->stuck_motion = 0;
+  for (int k = 0; k < m->n_loads; ++k)
+    b->stuck_motion += hypot(motion_under(b, m, m->loads[k].cosine, omega2, phi, x),
+                             motion_under(b, m, m->loads[k].sine, omega2, phi, x));
+  return HC_OK;
+}
+
+static hc_status make_memory(modal_base *b)
+{
+  const size_t n = (size_t)b->n, contacts = (size_t)b->n_contacts, loads = (size_t)b->n_loads,
+               responses = (size_t)b->n_responses;
+  const struct {
+    double **array;
+    size_t count;
+  } parts[] = {{&b->shape, n * n},      {&b->inverse, n * n},        {&b->K, n * n},
+               {&b->C, n * n},          {&b->tangent, contacts * n}, {&b->normal, contacts * n},
+               {&b->cosine, loads * n}, {&b->sine, loads * n},       {&b->response, responses * n}};
+  size_t count = 0, used = 0;
+  for (size_t k = 0; k < sizeof parts / sizeof *parts; ++k) count += parts[k].count;
+  b->numbers = calloc(count, sizeof *b->numbers);
+  b->harmonic = calloc(loads + 1, sizeof *b->harmonic);
+  if (!b->numbers || !b->harmonic) return HC_NO_MEMORY;
+  for (size_t k = 0; k < sizeof parts / sizeof *parts; ++k) {
+    *parts[k].array = b->numbers + used;
+    used += parts[k].count;
+  }
+  return HC_OK;
+}
+
+hc_status modal_base_new(const model *m, modal_base **out)
+{
+  *out = NULL;
+  modal_base *b = calloc(1, sizeof *b); /* zeroed, so free works half-built */
+  double *room = malloc(2 * (size_t)m->n * sizeof *room);
+  hc_status st = b && room ? HC_OK : HC_NO_MEMORY;
+  if (st == HC_OK) {
+    b->n = m->n, b->n_contacts = m->n_contacts, b->n_loads = m->n_loads, b->n_responses = m->n_responses;
+    for (int j = 0; j < m->n_contacts; ++j)
+      b->n_circles += m->contacts[j].circle && m->contacts[j].pair == CONTACT_FIRST;
+    st = make_memory(b);
+  }
+  if (st == HC_OK) st = look_at_stuck(b, m, room, room + m->n, b->shape);
+  if (st == HC_OK) st = model_modes(m, false, room, b->shape);
+  if (st == HC_OK) {
+    fill(b, m, room, room + m->n);
+    *out = b;
+  } else {
+    modal_base_free(b);
+  }
+  free(room);
+  return st;
+}
+
+void modal_base_free(modal_base *b)
+{
+  if (!b) return;
+  free(b->numbers);
+  free(b->harmonic);
+  free(b);
+}
+
+void modal_base_to_modes(const modal_base *b, const double *x, double *q) { times(b->n, b->inverse, x, q); }
+void modal_base_to_model(const modal_base *b, const double *q, double *x) { times(b->n, b->shape, q, x); }
+
+/* out -= by A x; A diagonal [n] or [n][n] by columns. */
+static void subtract(int n, bool diagonal, const double *A, double by, const double *x, double *out)
+{
+  if (diagonal) {
+    for (int i = 0; i < n; ++i) out[i] -= by * A[i] * x[i];
+    return;
+  }
+  for (int col = 0; col < n; ++col) {
+    const double *column = A + (size_t)col * (size_t)n, share = by * x[col];
+    for (int row = 0; row < n; ++row) out[row] -= column[row] * share;
+  }
+}
+
+void modal_base_subtract_K(const modal_base *b, double by, const double *x, double *out)
+{
+  subtract(b->n, b->diagonal_K, b->K, by, x, out);
+}
+
+void modal_base_subtract_C(const modal_base *b, double by, const double *x, double *out)
+{
+  subtract(b->n, b->diagonal_C, b->C, by, x, out);
+}

@@ -1,0 +1,48 @@
+/* modal_base.h - a structure in the modes of its linear part, contacts open: what time integration works in.
+ *
+ *     x = shape q,   shape = phi/s,   phi^T M phi = 1,  K_sym phi = M phi diag(omega_i^2)      q [length]
+ *     q'' + C q' + K q = p(t) - s^2 sum_j [ t_j T_j + n_j (N_j - N0_j) ]
+ *     u_j = t_j . q,  v_j = n_j . q,  r = r . q                        (rows t_j shape, n_j shape, r shape, written
+ * t_j ...) All modes are kept, so nothing is lost; s makes a unit of q about a unit of motion at the contacts and
+ * responses. C and K are diagonal where the structure's are (symmetric K, Rayleigh or modal damping), else full: where
+ * what is left beside the diagonal cannot be told from rounding of the matrices' own entries. */
+#ifndef HC_TIMEINT_MODAL_BASE_H
+#define HC_TIMEINT_MODAL_BASE_H
+
+#include <stdbool.h>
+
+#include "model/model.h"
+
+typedef struct modal_base { /* from modal_base_new, to modal_base_free; only read in between */
+  int n, n_contacts, n_loads, n_responses;
+  int n_circles;               /* contacts with two tangents under the law of the circle */
+  double s;                    /* [mass^-1/2] */
+  double *shape, *inverse;     /* [n][n] by columns: x = shape q, q = inverse x */
+  bool diagonal_K, diagonal_C; /* then only K[i], C[i] are there */
+  double *K, *C;               /* [n] or [n][n] by columns: [1/time^2], [1/time] */
+  double *tangent, *normal;    /* [n_contacts][n] [1] */
+  int *harmonic;               /* [n_loads] */
+  double *cosine, *sine;       /* [n_loads][n] [length/time^2] of p(t) */
+  double *response;            /* [n_responses][n] [1] */
+  double highest;              /* [rad/time] the highest natural frequency, contacts stuck */
+  double lowest;               /* [rad/time] the lowest that is not 0, contacts stuck */
+  double decay;                /* [1/time] >= 0: the largest decay rate of a mode by damping alone: phi^T C phi */
+  double slowest;              /* [1/time] >= 0: the least decay rate of a mode by damping alone */
+  double stuck_motion;         /* [length] the largest motion of a contact under the loads, all contacts stuck: a
+                                       size that does not depend on omega */
+  double *numbers;             /* of all arrays of doubles */
+} modal_base;
+
+/* HC_NO_MEMORY; HC_SINGULAR if M is not positive definite; HC_NOT_CONVERGED. *out is then NULL. */
+hc_status modal_base_new(const model *m, modal_base **out);
+void modal_base_free(modal_base *b); /* NULL is allowed */
+
+/* q[n] of x[n], and x of q. */
+void modal_base_to_modes(const modal_base *b, const double *x, double *q);
+void modal_base_to_model(const modal_base *b, const double *q, double *x);
+
+/* out[n] -= by K x, by C x. */
+void modal_base_subtract_K(const modal_base *b, double by, const double *x, double *out);
+void modal_base_subtract_C(const modal_base *b, double by, const double *x, double *out);
+
+#endif

@@ -1,0 +1,209 @@
+/* scaled.c - see scaled.h; the equations stand there. */
+#include "timeint/law/scaled.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "numerics/norm.h"
+#include "timeint/law/law_planar.h"
+
+/* Width of the corner in N for one contact: a fraction of the larger of its gap and the motion under a static force.
+ * Where a contact opens or closes the motion is at least as large as the gap; a gap of 0 leaves the static motion. */
+static double corner_width(const scaled_model *to, const transient_settings *how, const contact *law)
+{
+  if (how->law == TRANSIENT_LAW_EXACT) return 0;
+  return how->regularisation * fmax(fabs(law->gap), to->base->stuck_motion);
+}
+
+/* unit [force/length]: of forces, divided by length. */
+static void make_contact(scaled_contact *sc, const model_contact *from, double unit, double length, double width,
+                         const transient_settings *how, bool moves_along)
+{
+  contact law = {.kt = from->law.kt / unit,
+                 .kn = from->law.kn / unit,
+                 .mu = from->law.mu,
+                 .gap = from->law.gap / length,
+                 .load = from->law.load / (unit * length)};
+  if (!moves_along) law.kt = 0; /* u = 0 always: the tangential spring does no work */
+  sc->law = law_regularised_make(&law, width / length, how->regularisation);
+  sc->preload = contact_preload(&law);
+  sc->circle = from->circle && from->pair == CONTACT_FIRST && sc->law.has_friction;
+  sc->second = from->circle && from->pair == CONTACT_SECOND && sc->law.has_friction;
+}
+
+double scaled_force_unit(const scaled_model *m, double omega, double length)
+{
+  const double mass = 1 / (m->base->s * m->base->s);
+  return mass * omega * omega * length;
+}
+
+void scaled_make(scaled_model *m, const model *from, const transient_settings *how, double omega, double length)
+{
+  const double unit = scaled_force_unit(m, omega, 1);
+  m->n = from->n;
+  m->n_contacts = from->n_contacts;
+  m->n_states = 2 * from->n + from->n_contacts;
+  m->by_K = 1 / (omega * omega);
+  m->by_C = 1 / omega;
+  m->by_load = 1 / (omega * omega * length);
+  for (int j = 0; j < from->n_contacts; ++j) {
+    const model_contact *c = &from->contacts[j];
+    make_contact(&m->contact[j], c, unit, length, corner_width(m, how, &c->law), how, scaled_pull(m, j) > 0);
+  }
+}
+
+void scaled_contact_motion(const scaled_model *m, int j, const double *x, double *u, double *v)
+{
+  *u = dot_product(m->n, m->base->tangent + (size_t)j * (size_t)m->n, x);
+  *v = dot_product(m->n, m->base->normal + (size_t)j * (size_t)m->n, x);
+}
+
+void scaled_circle_motion(const scaled_model *m, int j, const double *x, double u[2], double *v)
+{
+  scaled_contact_motion(m, j, x, &u[0], v);
+  u[1] = dot_product(m->n, m->base->tangent + (size_t)(j + 1) * (size_t)m->n, x);
+}
+
+double scaled_response(const scaled_model *m, int r, const double *x)
+{
+  return dot_product(m->n, m->base->response + (size_t)r * (size_t)m->n, x);
+}
+
+int scaled_n_responses(const scaled_model *m) { return m->base->n_responses; }
+
+static contact_state circle_state(const scaled_model *m, int j, const double *y)
+{
+  double u[2], v;
+  scaled_circle_motion(m, j, y, u, &v);
+  const circle_value at = law_circle_eval(&m->contact[j].law, u, v, y + 2 * m->n + j);
+  return at.rate[0] != 0 || at.rate[1] != 0 ? CONTACT_SLIP_PLUS : CONTACT_STICK;
+}
+
+contact_state scaled_contact_state(const scaled_model *m, int j, const double *y)
+{
+  const law_regularised *law = &m->contact[j].law;
+  double u, v;
+  scaled_contact_motion(m, j, y, &u, &v);
+  if (!(law->kn > 0 ? v + law->gap > 0 : law->load > 0)) return CONTACT_SEPARATED;
+  if (m->contact[j].circle || m->contact[j].second) return circle_state(m, scaled_first(m, j), y);
+  const double rate = law_regularised_eval(law, u, v, y[2 * m->n + j]).rate;
+  return rate > 0 ? CONTACT_SLIP_PLUS : rate < 0 ? CONTACT_SLIP_MINUS : CONTACT_STICK;
+}
+
+double scaled_pull(const scaled_model *m, int j)
+{
+  const double *t = m->base->tangent + (size_t)j * (size_t)m->n;
+  return sqrt(dot_product(m->n, t, t));
+}
+
+/* ---- the right-hand side and its Jacobian ------------------------------------------------------------ */
+
+void scaled_linear_force(const scaled_model *m, double theta, const double *y, double *out)
+{
+  const modal_base *b = m->base;
+  const int n = m->n;
+  memset(out, 0, (size_t)n * sizeof *out);
+  for (int l = 0; l < b->n_loads; ++l) {
+    const double c = m->by_load * cos(b->harmonic[l] * theta), s = m->by_load * sin(b->harmonic[l] * theta);
+    const double *cosine = b->cosine + (size_t)l * (size_t)n, *sine = b->sine + (size_t)l * (size_t)n;
+    for (int i = 0; i < n; ++i) out[i] += c * cosine[i] + s * sine[i];
+  }
+  modal_base_subtract_K(b, m->by_K, y, out);
+  modal_base_subtract_C(b, m->by_C, y + n, out);
+}
+
+/* Of direction j alone, or of the circle it is one of. */
+static law_value value_of(const scaled_model *m, int j, const double *y)
+{
+  const scaled_contact *c = &m->contact[j];
+  const int first = scaled_first(m, j);
+  double u[2], v;
+  if (!c->circle && !c->second) {
+    scaled_contact_motion(m, j, y, u, &v);
+    return law_regularised_eval(&c->law, u[0], v, y[2 * m->n + j]);
+  }
+  scaled_circle_motion(m, first, y, u, &v);
+  const circle_value both = law_circle_eval(&c->law, u, v, y + 2 * m->n + first);
+  return (law_value){.n = both.n, .change = both.change, .t = both.t[j - first], .rate = both.rate[j - first]};
+}
+
+bool scaled_rhs(const scaled_model *m, double theta, const double *y, double *dy)
+{
+  const int n = m->n;
+  double *force = dy + n, sum = 0;
+  scaled_linear_force(m, theta, y, force);
+  for (int j = 0; j < m->n_contacts; ++j) {
+    const law_value l = value_of(m, j, y);
+    const double *t = m->base->tangent + (size_t)j * (size_t)n, *normal = m->base->normal + (size_t)j * (size_t)n;
+    for (int i = 0; i < n; ++i) force[i] -= l.t * t[i] + l.change * normal[i];
+    dy[2 * n + j] = l.rate;
+    sum += l.rate;
+  }
+  for (int i = 0; i < n; ++i) {
+    dy[i] = y[n + i];
+    sum += y[n + i] + force[i];
+  }
+  return isfinite(sum);
+}
+
+static void fill_linear(const scaled_model *m, double *jac)
+{
+  const modal_base *b = m->base;
+  const size_t n = (size_t)m->n, ld = (size_t)m->n_states;
+  for (size_t col = 0; col < n; ++col) {
+    double *by_x = jac + col * ld, *by_p = jac + (n + col) * ld;
+    by_p[col] = 1;
+    if (b->diagonal_K) by_x[n + col] = -m->by_K * b->K[col];
+    if (b->diagonal_C) by_p[n + col] = -m->by_C * b->C[col];
+    for (size_t row = 0; row < n && !b->diagonal_K; ++row) by_x[n + row] = -m->by_K * b->K[col * n + row];
+    for (size_t row = 0; row < n && !b->diagonal_C; ++row) by_p[n + row] = -m->by_C * b->C[col * n + row];
+  }
+}
+
+circle_derivatives scaled_law(const scaled_contact *c, const double *u, double v, const double *w)
+{
+  if (c->circle) return law_circle_derivatives(&c->law, u, v, w);
+  const law_derivatives s = law_regularised_derivatives(&c->law, *u, v, *w);
+  return (circle_derivatives){
+      .n_v = s.n_v, .t_u = {{s.t_u}}, .t_v = {s.t_v}, .rate_u = {{s.rate_u}}, .rate_v = {s.rate_v}};
+}
+
+/* What motion along direction b of a contact, tangents t[][n], does to direction a of it. */
+static void add_direction(double *jac, size_t n, size_t ld, size_t w, const double *t, int a, int b,
+                          const circle_derivatives *s)
+{
+  const double *pulls = t + (size_t)a * n, *moves = t + (size_t)b * n;
+  double *slider = jac + (w + (size_t)b) * ld;
+  for (size_t col = 0; col < n; ++col) {
+    const double force = s->t_u[a][b] * moves[col];
+    for (size_t row = 0; row < n; ++row) jac[col * ld + n + row] -= pulls[row] * force;
+    jac[col * ld + w + (size_t)a] += s->rate_u[a][b] * moves[col];
+  }
+  for (size_t row = 0; row < n; ++row) slider[n + row] += s->t_u[a][b] * pulls[row];
+  slider[w + (size_t)a] = -s->rate_u[a][b];
+}
+
+void scaled_jacobian(const scaled_model *m, const double *y, double *jac)
+{
+  const size_t n = (size_t)m->n, ld = (size_t)m->n_states;
+  memset(jac, 0, ld * ld * sizeof *jac);
+  fill_linear(m, jac);
+  for (int j = 0; j < m->n_contacts; j += scaled_directions(m, j)) {
+    const size_t w = 2 * n + (size_t)j;
+    const int directions = scaled_directions(m, j);
+    const double *t = m->base->tangent + (size_t)j * n, *normal = m->base->normal + (size_t)j * n;
+    double u[2], v;
+    if (directions == 2) scaled_circle_motion(m, j, y, u, &v);
+    else scaled_contact_motion(m, j, y, u, &v);
+    const circle_derivatives s = scaled_law(&m->contact[j], u, v, y + w);
+    for (int a = 0; a < directions; ++a)
+      for (int b = 0; b < directions; ++b) add_direction(jac, n, ld, w, t, a, b, &s);
+    for (int a = 0; a < directions; ++a) {
+      for (size_t col = 0; col < n; ++col) {
+        const double force_t = s.t_v[a] * normal[col], force_n = s.n_v * normal[col], *along = t + (size_t)a * n;
+        for (size_t row = 0; row < n; ++row) jac[col * ld + n + row] -= along[row] * force_t + normal[row] * force_n;
+        jac[col * ld + w + (size_t)a] += s.rate_v[a] * normal[col];
+      }
+    }
+  }
+}

@@ -1,0 +1,76 @@
+/* scaled.h - the equations of a model in the phase theta = omega t, without dimensions; no solver is known here.
+ *
+ *     X = q/L,  P = dX/dtheta,  W_j = w_j/L     q: the modes of modal_base.h; L [length]: about the size of the motion
+ *     X' = P
+ *     P' = by_load p(theta) - by_C C P - by_K K X - sum_j [ t_j T_j + n_j (N_j - N0_j) ]
+ *     W_j' = the slider of law_regularised.h, eta = regularisation kt/omega
+ *     by_K = 1/omega^2, by_C = 1/omega, by_load = 1/(omega^2 L); kt, kn times s^2/omega^2: the mass is 1/s^2; gap by L
+ *
+ * Forces are in units of omega^2 L/s^2. N0 = max(kn gap, 0) + load is the exact preload, not softplus' of it: at
+ * gap = 0 the two differ to first order in the width, and a constant force would show in the answer to first order
+ * too.
+ * Two directions of one contact under the law of the circle are neighbours (model.h); T and W of both: law_planar.h.
+ *
+ * For the exact law the corner's width is 0, and X', P' of scaled_rhs are then exact for any state whose slider obeys
+ * |T| <= mu N; the sliders' own motion is contact_track.h's. */
+#ifndef HC_TIMEINT_SCALED_H
+#define HC_TIMEINT_SCALED_H
+
+#include "model/model.h"
+#include "timeint/law/law_planar.h"
+#include "timeint/law/modal_base.h"
+#include "timeint/transient_settings.h"
+
+typedef struct scaled_contact {
+  law_regularised law; /* without dimensions */
+  double preload;      /* N0 */
+  bool circle, second; /* the first of two directions that share the law of the circle; the second. With friction */
+} scaled_contact;
+
+typedef struct scaled_model {
+  int n, n_contacts, n_states; /* n_states = 2 n + n_contacts: n of X, n of P, W */
+  const modal_base *base;      /* the owner's */
+  double by_K, by_C, by_load;
+  scaled_contact *contact; /* [n_contacts], memory of whoever owns the scaled_model */
+} scaled_model;
+
+/* The equations of *from at omega [rad/time] > 0, in lengths L = length > 0. m->contact points at memory for
+ * from->n_contacts contacts; it is filled. m->base is *from's; everything else in *m is set. */
+void scaled_make(scaled_model *m, const model *from, const transient_settings *how, double omega, double length);
+
+/* What a force of 1 in those equations is [force]. */
+double scaled_force_unit(const scaled_model *m, double omega, double length);
+
+/* dy[n_states] at phase theta and state y[n_states]. Answers whether all of it is finite. */
+bool scaled_rhs(const scaled_model *m, double theta, const double *y, double *dy);
+
+/* jac[n_states * n_states], column by column: d dy[i] / d y[j] at jac[i + j n_states]. */
+void scaled_jacobian(const scaled_model *m, const double *y, double *jac);
+
+/* Derivatives of the regularised law of that contact at u, v and w; of one direction alone in [0]. */
+circle_derivatives scaled_law(const scaled_contact *c, const double *u, double v, const double *w);
+
+/* out[n] := by_load p(theta) - by_C C P - by_K K X: all but the contacts. */
+void scaled_linear_force(const scaled_model *m, double theta, const double *y, double *out);
+
+/* The state of contact j at y: it slips if it is in contact and |T| > mu N. Both directions of a circle are in one
+ * state; where it slips that is CONTACT_SLIP_PLUS, whatever the direction. */
+contact_state scaled_contact_state(const scaled_model *m, int j, const double *y);
+
+/* U and V of contact j at X = y[0..n-1]; and response r. */
+void scaled_contact_motion(const scaled_model *m, int j, const double *x, double *u, double *v);
+
+/* The same of a circle whose first direction is j: U of both. */
+void scaled_circle_motion(const scaled_model *m, int j, const double *x, double u[2], double *v);
+
+/* The first direction of the contact that j is one of; and how many it has that share a law: 2 of a circle, else 1. */
+static inline int scaled_first(const scaled_model *m, int j) { return m->contact[j].second ? j - 1 : j; }
+static inline int scaled_directions(const scaled_model *m, int j) { return m->contact[j].circle ? 2 : 1; }
+
+double scaled_response(const scaled_model *m, int r, const double *x);
+int scaled_n_responses(const scaled_model *m);
+
+/* The length of contact j's tangent in X: what T of 1 does to the motion. */
+double scaled_pull(const scaled_model *m, int j);
+
+#endif

@@ -1,0 +1,61 @@
+/* integrate.c - see integrate.h: passes each call to the integrator of the law and method. */
+#include <math.h>
+#include <stddef.h>
+
+#include "timeint/period/integrate_private.h"
+
+void integrate_free(integrator *in)
+{
+  if (in) in->does->free(in);
+}
+
+const hc_monitor *integrate_hear(integrator *in, const hc_monitor *monitor)
+{
+  const hc_monitor *before = in->monitor;
+  in->monitor = monitor;
+  return before;
+}
+
+hc_status integrate_tolerance(integrator *in, double tolerance) { return in->does->tolerance(in, tolerance); }
+
+hc_status integrate_period(integrator *in, const scaled_model *m, double *y, integrate_watch *watch, void *self)
+{
+  ++in->periods;
+  in->unheard = 0;
+  return in->does->period(in, m, y, NULL, watch, self);
+}
+
+hc_status integrate_monodromy(integrator *in, const scaled_model *m, double *y, double *monodromy)
+{
+  ++in->periods;
+  in->unheard = 0;
+  return in->does->period(in, m, y, monodromy, NULL, NULL);
+}
+
+hc_status integrate_dense(const integrator *in, double theta, int order, double *y)
+{
+  return in->does->dense(in, theta, order, y);
+}
+
+hc_status integrate_samples(const integrator *in, int r, double theta, double step, int count, double *x)
+{
+  return in->does->samples(in, r, theta, step, count, x);
+}
+
+bool integrate_fourier(const integrator *in, int r, double out[3]) { return in->does->fourier(in, r, out); }
+
+bool integrate_extremes(const integrator *in, int r, double *max, double *min)
+{
+  return in->does->extremes && in->does->extremes(in, r, max, min);
+}
+
+contact_state integrate_contact(const integrator *in, int j, const double *y) { return in->does->state(in, j, y); }
+
+double integrate_travel(const integrator *in, int j) { return in->does->travel ? in->does->travel(in, j) : INFINITY; }
+
+double integrate_scatter(const integrator *in) { return in->scatter; }
+long integrate_periods(const integrator *in) { return in->periods; }
+long integrate_steps(const integrator *in) { return in->steps; }
+long integrate_rhs(const integrator *in) { return in->rhs; }
+long integrate_transitions(const integrator *in) { return in->transitions; }
+int integrate_flag(const integrator *in) { return in->flag; }

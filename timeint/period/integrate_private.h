@@ -1,0 +1,50 @@
+/* integrate_private.h - what an integrator is made of; for integrate*.c alone. */
+#ifndef HC_TIMEINT_INTEGRATE_PRIVATE_H
+#define HC_TIMEINT_INTEGRATE_PRIVATE_H
+
+#include "timeint/period/integrate.h"
+
+typedef struct integrator_class {
+  /* monodromy, watch: or NULL */
+  hc_status (*period)(integrator *, const scaled_model *, double *y, double *monodromy, integrate_watch *, void *self);
+  hc_status (*dense)(const integrator *, double theta, int order, double *y);
+  hc_status (*samples)(const integrator *, int r, double theta, double step, int count, double *x);
+  bool (*fourier)(const integrator *, int r, double out[3]);
+  bool (*extremes)(const integrator *, int r, double *max, double *min); /* NULL: cannot tell */
+  contact_state (*state)(const integrator *, int j, const double *y);
+  double (*travel)(const integrator *, int j); /* NULL: cannot tell */
+  hc_status (*tolerance)(integrator *, double tolerance);
+  void (*free)(integrator *);
+} integrator_class;
+
+/* Transitions of a period beyond which it is chatter: 1000, or 60 a contact if that is more. One that closes, slips,
+ * sticks, slips, sticks and opens makes 6 an oscillation. */
+static inline int integrate_most_transitions(int n_contacts) { return n_contacts > 16 ? 60 * n_contacts : 1000; }
+
+/* Of Adams' method; and of BDF, where up to 250 times the tolerance was seen (timeint.c), 400 next to a fold (r2 at
+ * 708.5). */
+#define INTEGRATE_ADAMS_SCATTER 50.0
+#define INTEGRATE_BDF_SCATTER   1000.0
+
+struct integrator { /* the first member of each kind */
+  const integrator_class *does;
+  long steps, rhs, transitions; /* of all finished periods */
+  long periods;                 /* begun */
+  double scatter;               /* [tolerance] by how much a period may be off, cut into other steps; by CVODE */
+  int flag;                     /* CVODE's last flag other than success */
+  const hc_monitor *monitor;    /* the caller's, or NULL */
+  int unheard;                  /* steps, or right-hand sides by CVODE, since it was asked in this period */
+};
+
+enum { INTEGRATE_UNHEARD = 4096 };
+
+/* After each step, or at each right-hand side by CVODE. false: the monitor, asked once in INTEGRATE_UNHEARD of them,
+ * stops the period. */
+static inline bool integrate_goes_on(integrator *in)
+{
+  if (++in->unheard < INTEGRATE_UNHEARD) return true;
+  in->unheard = 0;
+  return hc_monitor_tick(in->monitor, -1);
+}
+
+#endif

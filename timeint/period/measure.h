@@ -1,0 +1,63 @@
+/* measure.h - what is reported of one or several successive periods, from the integrator's dense output.
+ *
+ * Peaks: roots of the response's rate, bracketed inside each step (two roots in one step by the extremum of v
+ * between them) and refined to rounding; the error of x there is of second order in that of the root. The wave: x at
+ * TIMEINT_WAVE equispaced instants; rms is a sum over these. Mean and first harmonic are integrals, step by step:
+ * the integrator's own where a step solves a linear equation, else of the quintic through both ends of a step. Sums
+ * over the instants would alias: x has a continuous second derivative, its harmonics fall like h^-4, but with a
+ * factor that a stiff contact makes large (1e-9 of x on case 2 with kn = 1e4, 1e-6 with kn = 4e6 times the spring). */
+#ifndef HC_TIMEINT_MEASURE_H
+#define HC_TIMEINT_MEASURE_H
+
+#include "timeint/period/integrate.h"
+#include "timeint/timeint_result.h"
+
+#define MEASURE_RESTS 1e-9 /* of the motion's range: a slider that leaves its place by less rests */
+
+typedef struct response_measure { /* of one response r, an oscillator's is X */
+  double x, p, a;                 /* r, r', r'' at the end of the last step */
+  double max, min;
+  double sum, sum_sq, sum_cos, sum_sin; /* over the instants                         */
+  double integral[3];                   /* of r, r cos, r sin; wrong where no_integrals */
+  double wave[TIMEINT_WAVE];
+} response_measure;
+
+/* What a contact was seen to do: a sum of these. */
+enum { SEEN_SEPARATED = 1, SEEN_STUCK = 2, SEEN_SLIPPING = 4 };
+unsigned char measure_seen(contact_state state);
+contact_regime measure_seen_regime(unsigned char seen);
+
+typedef struct measure { /* lengths in units of the model's L, until measure_report */
+  const scaled_model *m;
+  int n_responses, n_contacts;
+  int periods;                     /* begun so far                                            */
+  int next;                        /* index of the next instant of the wave                   */
+  bool no_integrals;               /* the integrator does not have them */
+  response_measure *response;      /* [n_responses] */
+  unsigned char *seen;             /* [n_contacts] at the ends of steps */
+  double *slider;                  /* [n_contacts][2] least and largest W at the ends of steps */
+  double *circle;                  /* [TIMEINT_WAVE][2] cos and sin of the instants */
+  double *end, *end_rate, *inside; /* [n_states] a state at a step's end, its derivative, a state inside a step */
+} measure;
+
+/* Memory for models of n_states equations with so many responses and contacts. HC_NO_MEMORY; measure_free in any
+ * case. */
+hc_status measure_make(measure *me, int n_states, int n_responses, int n_contacts);
+void measure_free(measure *me);
+
+/* *m stays the caller's, unchanged until the last period. */
+void measure_begin(measure *me, const scaled_model *m);
+
+/* y: state at the start of a period. Then integrate_period(..., measure_step, me). */
+void measure_period(measure *me, const double *y);
+hc_status measure_step(void *self, const integrator *in, double theta0, double theta1);
+
+/* Contacts whose slider was nowhere seen to leave its place while it was in contact: where it rests depends on the
+ * start. A place is one to MEASURE_RESTS of the largest response's range, ten times what CVODE's steps scatter. */
+int measure_resting_sliders(const measure *me);
+
+/* Of response i: max, min, amplitude, rms, mean, a1, b1, harmonic_1, wave (of the last period), and the regime of all
+ * contacts, into *r; L = length. */
+void measure_report(const measure *me, const model *from, int i, double length, timeint_result *r);
+
+#endif

@@ -1,0 +1,202 @@
+/* contact_watch.c - see contact_watch.h. Lengths, forces and angles are the scaled model's until report(). Proof:
+ * tests/timeint/test_contact_watch.c. */
+#include "timeint/steady/contact_watch.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "numerics/gauss.h"
+#include "numerics/roots.h"
+#include "timeint/law/law_planar.h"
+#include "timeint/steady/richardson.h"
+#include "timeint/steady/timeint_private.h"
+
+/* A contact at one instant. */
+typedef struct contact_instant {
+  contact_state state;
+  double du, dv;       /* u', v'; of a circle (u - w).u', which has the sign of |T|' while it sticks */
+  double normal, pull; /* N, T; of a circle's first direction |T| */
+  double slip, loss;   /* |w'| while it slips; the rate of work */
+} contact_instant;
+
+typedef struct contact_sums {
+  unsigned char seen;
+  contact_instant last, now; /* where the step has come to, and comes to */
+  double normal_min, normal_max, traction_max, slip, work;
+} contact_sums;
+
+typedef struct contact_watch {
+  const timeint *ti;
+  const integrator *in; /* of the step under way */
+  int n_contacts;
+  double stiffest;  /* [rad/rad] the highest frequency of a linear state, over omega */
+  double *y, *dy;   /* [n] the state and its derivative where it is looked at */
+  contact_sums *of; /* [n_contacts] */
+} contact_watch;
+
+/* All but N of the circle whose first direction is j. */
+static void add_circle(const contact_watch *w, int j, contact_instant *at)
+{
+  const scaled_model *m = &w->ti->scaled;
+  const double *slider = w->y + 2 * m->n + j, *slides = w->dy + 2 * m->n + j;
+  double u[2], du[2], v, dv;
+  scaled_circle_motion(m, j, w->y, u, &v);
+  scaled_circle_motion(m, j, w->dy, du, &dv);
+  const circle_value value = law_circle_eval(&m->contact[j].law, u, v, slider);
+  const bool exact = w->ti->how.law == TRANSIENT_LAW_EXACT;
+  at->du = (u[0] - slider[0]) * du[0] + (u[1] - slider[1]) * du[1];
+  if (at->state == CONTACT_SEPARATED) return;
+  at->pull = hypot(value.t[0], value.t[1]);
+  if (at->state != CONTACT_STICK) at->slip = exact ? hypot(slides[0], slides[1]) : hypot(value.rate[0], value.rate[1]);
+  at->loss = exact ? m->contact[j].law.mu * value.n * at->slip : value.t[0] * du[0] + value.t[1] * du[1];
+}
+
+static contact_instant contact_at(const contact_watch *w, int j)
+{
+  const scaled_model *m = &w->ti->scaled;
+  const law_regularised *law = &m->contact[j].law;
+  const int slider = 2 * m->n + j;
+  double u, v;
+  contact_instant at = {.state = integrate_contact(w->in, j, w->y)};
+  scaled_contact_motion(m, j, w->y, &u, &v);
+  scaled_contact_motion(m, j, w->dy, &at.du, &at.dv);
+  const law_value value = law_regularised_eval(law, u, v, w->y[slider]);
+  at.normal = value.n;
+  if (m->contact[j].circle) add_circle(w, j, &at);
+  if (m->contact[j].circle || m->contact[j].second) return at;
+  if (!law->has_friction || at.state == CONTACT_SEPARATED) return at;
+  at.pull = value.t;
+  const bool slips = contact_slip_sign(at.state) != 0, exact = w->ti->how.law == TRANSIENT_LAW_EXACT;
+  if (slips) at.slip = fabs(exact ? w->dy[slider] : value.rate);
+  at.loss = exact ? law->mu * value.n * at.slip : value.t * at.du;
+  return at;
+}
+
+static void extend(contact_sums *s, const contact_instant *at)
+{
+  s->seen |= measure_seen(at->state);
+  s->normal_min = fmin(s->normal_min, at->normal);
+  s->normal_max = fmax(s->normal_max, at->normal);
+  s->traction_max = fmax(s->traction_max, fabs(at->pull));
+}
+
+static hc_status look(contact_watch *w, double theta)
+{
+  hc_status st = integrate_dense(w->in, theta, 0, w->y);
+  return st == HC_OK ? integrate_dense(w->in, theta, 1, w->dy) : st;
+}
+
+/* u' (or v') of a contact along the step. */
+typedef struct contact_rate {
+  contact_watch *w;
+  int contact;
+  bool normal;
+} contact_rate;
+
+static hc_status rate_at(void *self, double theta, double *rate)
+{
+  const contact_rate *of = self;
+  const scaled_model *m = &of->w->ti->scaled;
+  double du, dv;
+  if (m->contact[of->contact].circle && !of->normal) {
+    hc_status st = look(of->w, theta);
+    *rate = st == HC_OK ? contact_at(of->w, of->contact).du : NAN;
+    return st;
+  }
+  hc_status st = integrate_dense(of->w->in, theta, 1, of->w->dy);
+  scaled_contact_motion(m, of->contact, of->w->dy, &du, &dv);
+  *rate = of->normal ? dv : du;
+  return st;
+}
+
+/* Between theta0, where the rate was `before`, and theta1: where it changes sign N or T may have an extremum. */
+static hc_status add_turn(contact_watch *w, int j, bool normal, double theta0, double before, double theta1,
+                          double after)
+{
+  contact_rate rate = {w, j, normal};
+  root_point turn;
+  if ((before > 0) == (after > 0)) return HC_OK;
+  hc_status st = root_between(rate_at, &rate, theta0, before, theta1, after, 4 * DBL_EPSILON * theta1, &turn);
+  if (st == HC_OK) st = look(w, turn.x);
+  if (st != HC_OK) return st;
+  const contact_instant at = contact_at(w, j);
+  extend(&w->of[j], &at);
+  return HC_OK;
+}
+
+/* All contacts at theta, coming from theta0; the rates of work and slip count with `weight`. */
+static hc_status go_to(contact_watch *w, double theta0, double theta, double weight)
+{
+  hc_status st = look(w, theta);
+  for (int j = 0; j < w->n_contacts && st == HC_OK; ++j) {
+    contact_sums *s = &w->of[j];
+    const contact_instant at = s->now = contact_at(w, j);
+    extend(s, &at);
+    s->slip += weight * at.slip;
+    s->work += weight * at.loss;
+  }
+  for (int j = 0; j < w->n_contacts && st == HC_OK; ++j) { /* look() again: w->y is lost */
+    contact_sums *s = &w->of[j];
+    if (theta > theta0) st = add_turn(w, j, false, theta0, s->last.du, theta, s->now.du);
+    if (st == HC_OK && theta > theta0) st = add_turn(w, j, true, theta0, s->last.dv, theta, s->now.dv);
+    s->last = s->now;
+  }
+  return st;
+}
+
+static hc_status watch_step(void *self, const integrator *in, double theta0, double theta1)
+{
+  contact_watch *w = self;
+  const int panels = 1 + (int)fmin((theta1 - theta0) * w->stiffest, 1000);
+  const double half = 0.5 * (theta1 - theta0) / panels;
+  w->in = in;
+  hc_status st = go_to(w, theta0, theta0, 0);
+  double here = theta0;
+  for (int p = 0; p < panels; ++p)
+    for (int i = 0; i < GAUSS_POINTS && st == HC_OK; ++i) {
+      const double theta = theta0 + half * (2 * p + 1 + gauss_node(i));
+      st = go_to(w, here, theta, half * gauss_weight(i));
+      here = theta;
+    }
+  return st == HC_OK ? go_to(w, here, theta1, 0) : st;
+}
+
+static void report(const contact_watch *w, int k, contact_period *out)
+{
+  const timeint *ti = w->ti;
+  const double length = ti->length, force = scaled_force_unit(&ti->scaled, ti->omega, length);
+  for (int j = 0; j < w->n_contacts; ++j) {
+    const contact_sums *s = &w->of[j];
+    const bool slipped = s->seen & SEEN_SLIPPING; /* else the closed integral of T u' is 0 but for rounding */
+    out[j] = (contact_period){.regime = measure_seen_regime(s->seen),
+                              .normal_min = s->normal_min * force,
+                              .normal_max = s->normal_max * force,
+                              .traction_max = s->traction_max * force,
+                              .slip_distance = s->slip * length / k,
+                              .work = slipped ? s->work * force * length / k : 0};
+  }
+}
+
+/* [rad/rad] */
+static double stiffest_frequency(const timeint *ti) { return ti->base->highest / ti->omega; }
+
+hc_status timeint_contacts(timeint *ti, const timeint_result *r, contact_period *out)
+{
+  const int k = r->period_multiple > 0 ? r->period_multiple : 1, n_contacts = ti->scaled.n_contacts;
+  double *y = ti->point[2];
+  contact_watch w = {
+      .ti = ti, .n_contacts = n_contacts, .stiffest = stiffest_frequency(ti), .y = ti->point[0], .dy = ti->point[1]};
+  if (!(w.of = calloc((size_t)n_contacts + 1, sizeof *w.of))) return HC_NO_MEMORY;
+  for (int j = 0; j < n_contacts; ++j) w.of[j].normal_min = INFINITY;
+  memcpy(y, ti->y, (size_t)ti->n * sizeof *y);
+  const double rho = ti->how.regularisation;
+  if (ti->is_extrapolated) timeint_regularise(ti, RICHARDSON_FINEST * rho);
+  hc_status st = timeint_set_tolerance(ti, timeint_final_tolerance(ti));
+  for (int i = 0; i < k && st == HC_OK; ++i) st = integrate_period(ti->in, &ti->scaled, y, watch_step, &w);
+  if (st == HC_OK) report(&w, k, out);
+  if (ti->is_extrapolated) timeint_regularise(ti, rho);
+  free(w.of);
+  return st;
+}

@@ -1,0 +1,30 @@
+/* orbit.h - the periodic orbit next to the motion: found by shooting, reported by integrating it once more. */
+#ifndef HC_TIMEINT_ORBIT_H
+#define HC_TIMEINT_ORBIT_H
+
+#include "timeint/steady/shoot.h"
+#include "timeint/steady/steady.h"
+
+/* [L] The distance within which an orbit counts as found: transient.tolerance times the motion's size, or what the
+ * integration's own errors allow. */
+double orbit_goal(const timeint *ti);
+
+/* [L] The scatter of k integrated periods: how far F^k(z) may be off. */
+double orbit_scatter(const timeint *ti, int k);
+
+/* ti->y onto the orbit of k periods next to it, no farther away than `reach` [L] a Newton step: by Newton, else by
+ * Anderson. Errors of Newton; ti->y is then unchanged. */
+hc_status orbit_find(timeint *ti, int k, double reach, const hc_monitor *monitor, timeint_method *method,
+                     shoot_report *found);
+
+/* The k periods from ti->y on, measured into *r; period_multiple: after how many of them the state has returned. What
+ * integration answers. */
+hc_status orbit_measure(timeint *ti, int k, timeint_result *r);
+
+/* Into *r, measured before: what is known of the orbit found by `method`. */
+void orbit_fill(const timeint *ti, int k, timeint_method method, const shoot_report *found, timeint_result *r);
+
+/* Both, for the orbit through ti->y. */
+hc_status orbit_report(timeint *ti, int k, timeint_method method, const shoot_report *found, timeint_result *r);
+
+#endif

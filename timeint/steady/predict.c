@@ -1,0 +1,122 @@
+/* predict.c - timeint_predict of steady.h. */
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "timeint/steady/confirm.h"
+#include "timeint/steady/linear_regime.h"
+#include "timeint/steady/orbit.h"
+#include "timeint/steady/scout.h"
+#include "timeint/steady/timeint_private.h"
+
+static const double rounding = 16 * DBL_EPSILON; /* [amplitude] of a closed form */
+static const double enough = 1e-3;   /* [change] to which half the regularisation's orbit need be known: a second-order
+                                       error of the amplitude is far smaller than the sliders' first-order change */
+static const double coarsest = 1e-8; /* CVODE's tolerance for it */
+static const double per_change = 1e-6; /* that tolerance, relative to the change: it scatters by 250 times itself */
+
+/* Of the waveform's change: amplitude and first harmonic may agree by chance. */
+static const double least_share = 0.04;
+
+static periodic_motion motion_of(const timeint_result *r)
+{
+  periodic_motion m = {.amplitude = r->amplitude,
+                       .max = r->max,
+                       .min = r->min,
+                       .mean = r->mean,
+                       .harmonic_1 = r->harmonic_1,
+                       .mean_free = r->free_sliders > 0};
+  memcpy(m.samples, r->wave, sizeof m.samples);
+  return m;
+}
+
+static motion_error all(double e) { return (motion_error){e, e, e}; }
+
+/* The orbit with half the regularisation, from the state on the orbit with all of it: half way to the scout's, which
+ * has none. *r: of the orbit so far, then of that one. */
+static hc_status halve(timeint *ti, int k, const hc_monitor *monitor, timeint_result *r)
+{
+  shoot_report found = {.distance = INFINITY, .multiplier = NAN};
+  double goal = orbit_goal(ti);
+  if (ti->scout) {
+    timeint_result unused;
+    double change = 0;
+    timeint_get_state(ti, ti->scout_state);
+    hc_status st = timeint_orbit(ti->scout, ti->omega, k, ti->scout_state, monitor, &unused);
+    if (st != HC_OK) return st;
+    timeint_take_state(ti, ti->scout_state, ti->point[0]);
+    for (int i = 0; i < ti->n; ++i) {
+      const double apart = ti->point[0][i] - ti->y[i];
+      change = fmax(change, fabs(apart));
+      ti->y[i] += 0.5 * apart;
+    }
+    goal = fmax(goal, enough * change);
+    st = timeint_set_tolerance(ti, fmin(fmax(per_change * change, timeint_final_tolerance(ti)), coarsest));
+    if (st == HC_OK) st = confirm_orbit(ti->confirm, k, goal, monitor, &found, r);
+    if (!shoot_found_no_orbit(st)) return st;
+  }
+  hc_status st = shoot_newton(ti->shoot, k, timeint_size(ti) / ti->length, goal, monitor, &found);
+  return st == HC_OK ? orbit_report(ti, k, TIMEINT_BY_SHOOTING, &found, r) : st;
+}
+
+/* Twice the change from `whole` to `half`. */
+static motion_error change(const timeint_result *whole, const timeint_result *half)
+{
+  const periodic_motion all_of_it = motion_of(whole), less = motion_of(half);
+  const motion_distance d = motion_between(&all_of_it, &less);
+  const double least = least_share * d.waveform;
+  return (motion_error){2 * fmax(d.amplitude, least), 2 * fmax(d.harmonic_1, least), 2 * d.waveform};
+}
+
+/* out[n]: twice the change of each response by half the regularisation; untouched if there is no such orbit. */
+static hc_status regularisation(timeint *ti, const double *state, const hc_monitor *monitor, int n,
+                                const timeint_result *r, motion_error *out)
+{
+  const double rho = ti->how.regularisation;
+  timeint_result half = *r;
+  hc_status st = timeint_begin(ti, r->omega, state);
+  if (st != HC_OK) return st;
+  timeint_regularise(ti, 0.5 * rho);
+  st = halve(ti, r->period_multiple, monitor, &half);
+  for (int i = 0; i < n && st == HC_OK; ++i) {
+    if (i > 0) st = timeint_response(ti, i, &half);
+    if (st == HC_OK) out[i] = change(&r[i], &half);
+  }
+  timeint_regularise(ti, rho);
+  return st == HC_NO_MEMORY || st == HC_INTERRUPTED ? st : HC_OK;
+}
+
+/* The part by the regularisation, out[n]; NaN: not known. */
+static hc_status regularised_part(timeint *ti, const double *state, const hc_monitor *monitor, int n,
+                                  const timeint_result *r, motion_error *out)
+{
+  motion_error *known = ti->scout && !ti->how.richardson ? scout_predictions(ti, state) : NULL;
+  for (int i = 0; i < n; ++i) {
+    out[i] = ti->how.richardson ? all(r[i].regularisation_error * r[i].amplitude) : all(NAN);
+    if (known) out[i] = known[i];
+  }
+  if (ti->how.richardson || out[n - 1].amplitude >= 0) return HC_OK;
+  hc_status st = regularisation(ti, state, monitor, n, r, out);
+  for (int i = 0; i < n && known; ++i) known[i] = out[i];
+  return st;
+}
+
+hc_status timeint_predict(timeint *ti, const double *state, const hc_monitor *monitor, int n, timeint_result *r)
+{
+  if (r->period_multiple < 1) return HC_OK;
+  for (int i = 0; i < n; ++i) r[i].predicted = all((r[i].closure + r[i].attainable + rounding) * r[i].amplitude);
+  if (r->method == TIMEINT_BY_CLOSED_FORM || ti->how.law == TRANSIENT_LAW_EXACT) return HC_OK;
+  motion_error *more = calloc((size_t)n, sizeof *more);
+  if (!more) return HC_NO_MEMORY;
+  const hc_monitor *before = timeint_hear(ti, monitor);
+  hc_status st = regularised_part(ti, state, monitor, n, r, more);
+  timeint_hear(ti, before);
+  for (int i = 0; i < n; ++i) {
+    r[i].predicted.amplitude += more[i].amplitude;
+    r[i].predicted.harmonic_1 += more[i].harmonic_1;
+    r[i].predicted.waveform += more[i].waveform;
+  }
+  free(more);
+  return st;
+}

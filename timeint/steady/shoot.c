@@ -1,0 +1,372 @@
+/* shoot.c - see shoot.h. Newton itself is numerics/newton.h. Here is the period map, integrated once at each point: the
+ * residual and the Jacobian are asked for one after the other, and come from the same periods. */
+#include "timeint/steady/shoot.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <kinsol/kinsol.h>
+#include <nvector/nvector_serial.h>
+
+#include "numerics/floquet.h"
+#include "numerics/newton.h"
+#include "numerics/norm.h"
+#include "numerics/sundials_compat.h"
+#include "timeint/steady/orbit.h"
+#include "timeint/steady/timeint_private.h"
+
+enum { NEWTON_ITERATIONS = 12, ANDERSON_ITERATIONS = 100, ANDERSON_DEPTH = 4, LAST_STEPS = 4 };
+
+struct shoot { /* from shoot_new, to shoot_free */
+  timeint *ti;
+  int n, k;
+  const hc_monitor *monitor;
+  double *z, *f;                 /* [n] the last point, and F^k of it */
+  double *phi;                   /* [n][n] column by column, dF^k/dz there */
+  double *travel;                /* [n] of each slider, the farthest it was in a period from where that began */
+  double *start, *first;         /* [n] where the solve began, and F^k of that */
+  bool known, begun;             /* z, f, phi are valid; start, first are valid */
+  double *before;                /* [n] ti->y when the solve began */
+  double *iterate, *step, *best; /* [n] of a solve; Newton's step from there; the iterate nearest to the orbit */
+  double *ones;                  /* [n] 1: weights of Newton's unknowns and residuals */
+  double *vector, *other;        /* [n] for what one function needs */
+  double *one_period, *product;  /* [n][n] monodromy matrix of one period out of k; a copy of phi */
+  double complex *multipliers;   /* [n] */
+  int *active;                   /* [n] the states that are not free sliders */
+  double *memory;                /* of all the doubles above */
+  newton *newton;
+  floquet *floquet;
+  SUNContext ctx; /* of what follows */
+  N_Vector u, weights;
+  void *kin; /* Anderson's */
+  hc_status refusal;
+};
+
+/* The period just integrated. A circle's two directions rest or slip as one. */
+static void note_travel(shoot *s)
+{
+  const int moving = 2 * s->ti->n_dof;
+  for (int i = moving; i < s->n; ++i) {
+    const int j = scaled_first(&s->ti->scaled, i - moving), n = scaled_directions(&s->ti->scaled, j);
+    for (int a = 0; a < n; ++a) s->travel[i] = fmax(s->travel[i], integrate_travel(s->ti->in, j + a));
+  }
+}
+
+/* s->f becomes F^k(s->f), s->phi the monodromy matrix of these k periods. */
+static hc_status integrate_k_periods(shoot *s)
+{
+  const size_t bytes = sizeof *s->phi * (size_t)(s->n * s->n);
+  memset(s->travel, 0, (size_t)s->n * sizeof *s->travel);
+  for (int i = 0; i < s->k; ++i) {
+    if (s->ti->periods >= s->ti->how.max_periods - s->k) return HC_NOT_SETTLED; /* k are kept for the report */
+    if (!hc_monitor_tick(s->monitor, -1)) return HC_INTERRUPTED;
+    hc_status st = integrate_monodromy(s->ti->in, &s->ti->scaled, s->f, i == 0 ? s->phi : s->one_period);
+    if (st != HC_OK) return st;
+    ++s->ti->periods;
+    note_travel(s);
+    if (i == 0) continue;
+    memcpy(s->product, s->phi, bytes);
+    floquet_product(s->n, s->one_period, s->product, s->phi);
+  }
+  return HC_OK;
+}
+
+/* F^k and its Jacobian at z: integrated only if z is not the last point asked. */
+static hc_status evaluate(shoot *s, const double *z)
+{
+  const size_t bytes = sizeof *z * (size_t)s->n;
+  if (s->known && memcmp(s->z, z, bytes) == 0) return HC_OK;
+  memcpy(s->z, z, bytes);
+  memcpy(s->f, z, bytes);
+  hc_status st = integrate_k_periods(s);
+  s->known = st == HC_OK;
+  if (s->known && !s->begun) {
+    memcpy(s->start, z, bytes);
+    memcpy(s->first, s->f, bytes);
+    s->begun = true;
+  }
+  return st;
+}
+
+/* Is state i a slider at a fixed point of F^k wherever it is, or one that rests but for a slip as small as rounding? */
+static bool is_free(const shoot *s, int i)
+{
+  if (i < 2 * s->ti->n_dof) return false;
+  if (s->travel[i] <= MEASURE_RESTS * timeint_motion_size(s->ti) / s->ti->length) return true;
+  if (s->f[i] != s->z[i]) return false;
+  for (int j = 0; j < s->n; ++j)
+    if (s->phi[i + j * s->n] != (i == j)) return false;
+  return true;
+}
+
+static hc_status residual(void *self, const double *z, double *r)
+{
+  shoot *s = self;
+  hc_status st = evaluate(s, z);
+  for (int i = 0; i < s->n && st == HC_OK; ++i) r[i] = z[i] - s->f[i];
+  return st;
+}
+
+static hc_status jacobian(void *self, const double *z, double *jac)
+{
+  shoot *s = self;
+  hc_status st = evaluate(s, z);
+  if (st != HC_OK) return st;
+  for (int i = 0; i < s->n; ++i) {
+    const bool fixed = is_free(s, i); /* its equation becomes: stay where the start is */
+    for (int j = 0; j < s->n; ++j) jac[i + j * s->n] = (i == j) - (fixed ? 0 : s->phi[i + j * s->n]);
+  }
+  return HC_OK;
+}
+
+/* Anderson's map u -> F^k(u). Out of memory is told as a fixed point, at which KINSOL ends: SUNDIALS 7 crashes where it
+ * has no memory to tell of a failure (room.h). */
+static int period_map(N_Vector u, N_Vector f, void *self)
+{
+  shoot *s = self;
+  if (s->refusal != HC_NO_MEMORY) s->refusal = evaluate(s, NV_DATA_S(u));
+  if (s->refusal == HC_NO_MEMORY) {
+    memcpy(NV_DATA_S(f), NV_DATA_S(u), sizeof(double) * (size_t)s->n);
+    return 0;
+  }
+  memcpy(NV_DATA_S(f), s->f, sizeof(double) * (size_t)s->n);
+  return s->refusal == HC_OK ? 0 : 1;
+}
+
+static hc_status make_anderson(shoot *s)
+{
+  if (hc_sundials_context(&s->ctx)) return HC_NO_MEMORY;
+  s->u = N_VNew_Serial(s->n, s->ctx);
+  s->weights = N_VNew_Serial(s->n, s->ctx);
+  s->kin = s->u && s->weights ? KINCreate(s->ctx) : NULL;
+  if (!s->kin || !hc_room_for(0)) return HC_NO_MEMORY;
+  N_VConst(1, s->weights);
+  int bad = HC_KINSOL_QUIET(s->kin);
+  bad |= KINSetUserData(s->kin, s);
+  bad |= KINSetNumMaxIters(s->kin, ANDERSON_ITERATIONS);
+  bad |= KINSetMAA(s->kin, ANDERSON_DEPTH < s->n ? ANDERSON_DEPTH : s->n); /* before KINInit, which makes room for it */
+  bad |= KINInit(s->kin, period_map, s->u);
+  return bad ? HC_NO_MEMORY : HC_OK;
+}
+
+static hc_status make_memory(shoot *s)
+{
+  double **const vectors[] = {&s->z,    &s->f,    &s->start, &s->first,  &s->before, &s->iterate,
+                              &s->step, &s->best, &s->ones,  &s->vector, &s->other,  &s->travel};
+  double **const matrices[] = {&s->phi, &s->one_period, &s->product};
+  const size_t n = (size_t)s->n, n_vectors = sizeof vectors / sizeof *vectors,
+               n_matrices = sizeof matrices / sizeof *matrices;
+  s->memory = calloc(n_vectors * n + n_matrices * n * n, sizeof *s->memory);
+  s->multipliers = calloc(n, sizeof *s->multipliers);
+  s->active = calloc(n, sizeof *s->active);
+  if (!s->memory || !s->multipliers || !s->active) return HC_NO_MEMORY;
+  for (size_t i = 0; i < n_vectors; ++i) *vectors[i] = s->memory + i * n;
+  for (size_t i = 0; i < n_matrices; ++i) *matrices[i] = s->memory + n_vectors * n + i * n * n;
+  for (int i = 0; i < s->n; ++i) s->ones[i] = 1;
+  return HC_OK;
+}
+
+hc_status shoot_new(timeint *ti, shoot **out)
+{
+  *out = NULL;
+  shoot *s = calloc(1, sizeof *s); /* zeroed, so free works half-built */
+  if (!s) return HC_NO_MEMORY;
+  s->ti = ti;
+  s->n = ti->n;
+  const newton_problem problem = {.n = s->n, .self = s, .residual = residual, .jacobian = jacobian};
+  hc_status st = make_memory(s);
+  if (st == HC_OK) st = newton_new(&problem, &s->newton);
+  if (st == HC_OK) st = floquet_new(s->n, &s->floquet);
+  if (st == HC_OK) st = make_anderson(s);
+  if (st == HC_OK) {
+    *out = s;
+    return HC_OK;
+  }
+  shoot_free(s);
+  return st;
+}
+
+void shoot_free(shoot *s)
+{
+  if (!s) return;
+  newton_free(s->newton);
+  floquet_free(s->floquet);
+  if (s->kin) KINFree(&s->kin);
+  if (s->u) N_VDestroy(s->u);
+  if (s->weights) N_VDestroy(s->weights);
+  if (s->ctx) SUNContext_Free(&s->ctx);
+  free(s->active);
+  free(s->multipliers);
+  free(s->memory);
+  free(s);
+}
+
+static void begin(shoot *s, int k, const hc_monitor *monitor)
+{
+  const size_t bytes = sizeof *s->before * (size_t)s->n;
+  memcpy(s->before, s->ti->y, bytes);
+  memcpy(s->iterate, s->ti->y, bytes);
+  s->k = k;
+  s->monitor = monitor;
+  s->known = s->begun = false;
+}
+
+/* The residual at which Newton stops. A residual r is a distance of about r/(1 - rho) from the orbit: hence a tenth of
+ * the goal times 1 - rho, but no less than the scatter of periods. finish() judges what is left. */
+static double small_residual(const shoot *s, double goal)
+{
+  return fmax(0.1 * goal * (1 - fmin(s->ti->contraction, 1)), orbit_scatter(s->ti, s->k));
+}
+
+/* |F^k(z0) - z* - Phi (z0 - z*)| / |z0 - z*|, z* = z. */
+static double nonlinear_part(const shoot *s, const double *z)
+{
+  const int n = s->n;
+  double *e = s->vector, *left = s->other;
+  for (int i = 0; i < n; ++i) e[i] = s->start[i] - z[i];
+  for (int i = 0; i < n; ++i) {
+    left[i] = s->first[i] - s->f[i]; /* F(z*) is z*, and nearer to F(z0)'s own errors */
+    for (int j = 0; j < n; ++j) left[i] -= s->phi[i + j * n] * e[j];
+  }
+  const double size = norm_2(n, e), rounding = 1e3 * s->ti->tolerance;
+  return size > rounding ? fmax(norm_2(n, left) - rounding, 0) / size : 0;
+}
+
+/* The states in s->active[m] without those whose column of Phi is rounding: their multiplier is 0. How many are
+ * left. */
+static int drop_negligible_columns(shoot *s, int m)
+{
+  int kept = 0;
+  double largest = 0;
+  for (int i = 0; i < s->n * s->n; ++i) largest = fmax(largest, fabs(s->phi[i]));
+  for (int a = 0; a < m; ++a) {
+    const double *column = s->phi + (size_t)s->active[a] * (size_t)s->n;
+    double size = 0;
+    for (int i = 0; i < s->n; ++i) size = fmax(size, fabs(column[i]));
+    if (size > DBL_EPSILON * largest) s->active[kept++] = s->active[a];
+  }
+  return kept;
+}
+
+/* Sliders that the law ties to X leave columns of some 1e-20 with the regularised law. The QR iteration may fail to
+ * converge on many of these; it is then repeated without them. */
+static hc_status find_multiplier(shoot *s, shoot_report *r)
+{
+  const int moving = 2 * s->ti->n_dof;
+  int m = 0;
+  r->free_sliders = 0;
+  for (int i = 0; i < s->n; ++i) {
+    const scaled_contact *c = &s->ti->scaled.contact[i < moving ? 0 : i - moving];
+    if (!is_free(s, i)) s->active[m++] = i;
+    else r->free_sliders += c->law.has_friction && !c->second; /* a circle counts once */
+  }
+  hc_status st = floquet_multipliers(s->floquet, s->phi, 1, s->n, m, s->active, s->multipliers);
+  if (st == HC_NOT_CONVERGED) {
+    m = drop_negligible_columns(s, m);
+    st = floquet_multipliers(s->floquet, s->phi, 1, s->n, m, s->active, s->multipliers);
+  }
+  r->multiplier = st == HC_OK ? floquet_largest(m, s->multipliers) : NAN;
+  return st;
+}
+
+/* Newton's step from z into step[n], and its length [L]. */
+static hc_status newton_step(shoot *s, const double *z, double *step, double *length)
+{
+  hc_status st = newton_factor_at(s->newton, z);
+  if (st != HC_OK) return st;
+  for (int i = 0; i < s->n; ++i) step[i] = z[i] - s->f[i];
+  st = newton_backsolve(s->newton, step);
+  *length = norm_2(s->n, step);
+  return st;
+}
+
+/* shoot_report.attainable: Frobenius norm, factors of the last step. */
+static double attainable(shoot *s)
+{
+  double sum = 0, *column = s->vector;
+  for (int j = 0; j < s->n; ++j) {
+    for (int i = 0; i < s->n; ++i) column[i] = i == j;
+    if (newton_backsolve(s->newton, column) != HC_OK) return INFINITY;
+    sum += norm_2(s->n, column) * norm_2(s->n, column);
+  }
+  return sqrt(sum) * orbit_scatter(s->ti, s->k);
+}
+
+/* From s->iterate, next to the orbit: further Newton steps until it is as near as the goal asks or the scatter of
+ * periods allows; ti->y and *r are then those of the nearest point. */
+static hc_status finish(shoot *s, double goal, shoot_report *r)
+{
+  const size_t bytes = sizeof *s->best * (size_t)s->n;
+  double *z = s->iterate;
+  hc_status st = HC_OK;
+  for (int tries = 0; tries < LAST_STEPS && st == HC_OK; ++tries) {
+    double length;
+    if ((st = newton_step(s, z, s->step, &length)) != HC_OK) break;
+    if (length < r->distance) memcpy(s->best, z, bytes), r->distance = length;
+    if (r->distance <= goal) break;
+    for (int i = 0; i < s->n; ++i) z[i] -= s->step[i];
+  }
+  if (st == HC_OK && r->distance < INFINITY) st = evaluate(s, s->best);
+  if (st != HC_OK || !(r->distance < INFINITY)) return st != HC_OK ? st : HC_NOT_CONVERGED;
+  r->moved = distance_2(s->n, s->start, s->best);
+  r->nonlinear = nonlinear_part(s, s->best);
+  if ((st = find_multiplier(s, r)) != HC_OK) return st;
+  memcpy(s->ti->y, s->best, bytes);
+  r->attainable = attainable(s);
+  return r->distance <= fmax(goal, r->attainable) ? HC_OK : HC_NOT_CONVERGED;
+}
+
+hc_status shoot_newton(shoot *s, int k, double reach, double goal, const hc_monitor *monitor, shoot_report *report)
+{
+  newton_report iterations;
+  begin(s, k, monitor);
+  const newton_options options = {.z_scale = s->ones,
+                                  .r_scale = s->ones,
+                                  .tolerance = small_residual(s, goal),
+                                  .max_step = reach,
+                                  .max_iterations = NEWTON_ITERATIONS};
+  *report = (shoot_report){.distance = INFINITY, .moved = INFINITY, .nonlinear = INFINITY, .multiplier = NAN};
+  hc_status st = newton_solve(s->newton, s->iterate, &options, &iterations);
+  if (st == HC_OK) st = finish(s, goal, report);
+  if (st != HC_OK) memcpy(s->ti->y, s->before, sizeof *s->before * (size_t)s->n);
+  return st;
+}
+
+hc_status shoot_anderson(shoot *s, int k, double goal, const hc_monitor *monitor, shoot_report *report)
+{
+  const size_t bytes = sizeof *s->before * (size_t)s->n;
+  begin(s, k, monitor);
+  *report = (shoot_report){.distance = INFINITY, .moved = INFINITY, .nonlinear = INFINITY, .multiplier = NAN};
+  s->refusal = HC_OK;
+  if (KINSetFuncNormTol(s->kin, small_residual(s, goal)) != KIN_SUCCESS) return HC_BAD_INPUT;
+  memcpy(NV_DATA_S(s->u), s->before, bytes);
+  int flag = KINSol(s->kin, s->u, KIN_FP, s->weights, s->weights);
+  memcpy(s->iterate, NV_DATA_S(s->u), bytes);
+  if (s->refusal != HC_OK) return s->refusal;
+  if (flag == KIN_MEM_FAIL) return HC_NO_MEMORY;
+  hc_status st = finish(s, goal, report); /* whatever KINSOL says: finish() judges the iterate itself */
+  if (st != HC_OK) memcpy(s->ti->y, s->before, bytes);
+  return st;
+}
+
+bool shoot_found_no_orbit(hc_status st)
+{
+  return st == HC_SINGULAR || st == HC_STALLED || st == HC_NOT_CONVERGED || st == HC_CHATTER || st == HC_NOT_SETTLED;
+}
+
+void shoot_direction(shoot *s, double *z)
+{
+  double *next = s->vector;
+  for (int i = 0; i < s->n; ++i) z[i] = 1 / sqrt(s->n);
+  for (int step = 0; step < 64; ++step) {
+    for (int i = 0; i < s->n; ++i) {
+      next[i] = 0;
+      for (int j = 0; j < s->n; ++j) next[i] += (is_free(s, i) ? 0 : s->phi[i + j * s->n]) * z[j];
+    }
+    double size = norm_2(s->n, next);
+    if (!(size > 0)) return;
+    for (int i = 0; i < s->n; ++i) z[i] = next[i] / size;
+  }
+}

@@ -1,0 +1,90 @@
+/* timeint_private.h - what is behind the handle of timeint.h, for the files of this folder alone. Functions: timeint.c.
+ *
+ * The motion is at a whole number of periods, at the state y in the scaled model's units; whoever moves it keeps
+ * `scaled` in step with omega and length. */
+#ifndef HC_TIMEINT_PRIVATE_H
+#define HC_TIMEINT_PRIVATE_H
+
+#include "timeint/law/scaled.h"
+#include "timeint/period/integrate.h"
+#include "timeint/period/measure.h"
+#include "timeint/steady/settle.h"
+#include "timeint/timeint.h"
+
+struct timeint {          /* from timeint_new, to timeint_free; not shared between threads              */
+  model *model;           /* a copy: the caller may drop theirs                                         */
+  transient_settings how; /* a copy                                                                     */
+  modal_base *base;       /* the model in its modes                                                     */
+  int n_dof, n;           /* degrees of freedom; number of states, 2 n_dof + contacts                   */
+  integrator *in;
+  integrator *exact; /* of the exact law, for sweeps, where `in` is not and there is no scout; else NULL */
+  settle *settle;
+  struct shoot *shoot;
+  timeint *scout;           /* of the same model, in closed form; NULL without transient.scout           */
+  struct confirm *confirm;  /* with a scout                                                              */
+  struct memory *confirmed; /* with a scout: orbits found lately (scout.c)                              */
+  measure measure;
+  timeint_result *extrapolated; /* richardson.c's; NULL without transient.richardson                        */
+  bool is_extrapolated;         /* that is what the last result says                                         */
+  bool measured;                /* it is of the periods that led to y                                        */
+  scaled_model scaled;          /* the equations at omega in units of length                                     */
+  double omega;                 /* [rad/time]                                                                    */
+  double length;                /* [length] about the size of the motion; y is in units of it                    */
+  double least_length;          /* [length] the unit is never smaller                                            */
+  double tolerance;             /* [1] CVODE's at present                                                        */
+  double contraction;           /* [1] a priori, per period: exp(-C T/2M)                                        */
+  int periods;                  /* since timeint_begin                                                           */
+  long steps0, rhs0;            /* counts at timeint_begin                                                       */
+  double *y;                    /* [n] the state                                                                 */
+  double *saved;                /* [n] y before a Newton solve whose answer may be rejected                      */
+  double *direction;            /* [n] in which an unstable orbit is left                                        */
+  double *scout_state;          /* [n] of the scout's orbit, in the model's units                                */
+  double *neighbour;            /* [n] state of a second motion, drawn along with the first                      */
+  double *separation;           /* [n] neighbour - y at the beginning of a period                                */
+  double *point[3];             /* [n] states as timeint_point has them                                          */
+  double *began;                /* [n] where a measurement of periods began                                      */
+  double *past;                 /* [SETTLE_MAX_MULTIPLE][n] a ring of the latest of these                        */
+  double *memory;               /* of all the arrays above                                                       */
+};
+
+/* Equations, unit of length and a-priori contraction for omega; y from state[n]. HC_BAD_INPUT unless omega and the
+ * state are finite, omega > 0. */
+hc_status timeint_begin(timeint *ti, double omega, const double *state);
+
+/* Another regularisation from the next period on. */
+void timeint_regularise(timeint *ti, double regularisation);
+
+/* Another tolerance of CVODE's from the next period on. */
+hc_status timeint_set_tolerance(timeint *ti, double tolerance);
+
+/* What periods hear between their steps, of the scout, too, until something else is given; what it was before. */
+const hc_monitor *timeint_hear(timeint *ti, const hc_monitor *monitor);
+
+/* One period, measured or not; then the unit of length follows the motion. */
+hc_status timeint_period(timeint *ti, bool measured);
+
+/* state[n]: where the motion is, in the model's units. A contact without friction has its slider where the exact law
+ * has it, at u. */
+void timeint_get_state(const timeint *ti, double *state);
+
+/* y[n]: `state` as ti->y has it, at the present omega, in the present unit of length. */
+void timeint_take_state(const timeint *ti, const double *state, double *y);
+
+/* ti->y becomes what it was when timeint_save was last called; neither changes the unit of length. */
+void timeint_save(timeint *ti);
+void timeint_restore(timeint *ti);
+
+/* [length] hypot(x, v/omega) now: the amplitude, if the motion were harmonic and centred. */
+double timeint_size(const timeint *ti);
+
+/* [length] the same, but no less than least_length: what distances between states are compared with. */
+double timeint_motion_size(const timeint *ti);
+
+/* z[n] [length]: what settling is judged by: x, v/omega, and by how much x would follow each slider,
+ * kt cos(alpha) w/(largest stiffness). */
+void timeint_point(const timeint *ti, double *z);
+
+/* CVODE's tolerance for a steady state within transient.tolerance. */
+double timeint_final_tolerance(const timeint *ti);
+
+#endif

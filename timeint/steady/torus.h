@@ -1,0 +1,27 @@
+/* torus.h - does a motion that repeats itself after no number of periods run on a torus; with what second frequency?
+ *
+ * Beyond a Neimark-Sacker bifurcation a complex pair of Floquet multipliers is outside the unit circle, and the motion
+ * goes to a torus: its states after each period lie on a closed curve and go round it by nu turns a period,
+ *     z_n = G(nu n),  G of period 1,  nu irrational
+ * so that the motion is made of the frequencies (j + k nu) omega. What is seen once a period tells nu only up to its
+ * sign and whole numbers: nu omega, 0 < nu < 1/2, is said. Neighbours neither approach nor drift apart (the largest
+ * Lyapunov exponent is 0).
+ *
+ * Told by averages over two windows, one after the other, each weighted by w(t) = exp(-1/(t (1 - t))): on a torus they
+ * converge faster than any power of the window's length (S. Das, Y. Saiki, E. Sander, J. A. Yorke, Nonlinearity 30,
+ * 2017), in chaos like its root, and while a motion settles, or grows, they move. */
+#ifndef HC_TIMEINT_TORUS_H
+#define HC_TIMEINT_TORUS_H
+
+#include "timeint/steady/steady.h"
+
+/* From ti->y on, over two windows of 1024 periods, along which it moves. *nu [1]: of a torus, in (0, 1/2); NaN: it is
+ * none, or cannot be told, or no periods are left. An oscillator never is on one: its period map shrinks areas, and a
+ * closed curve would have to keep the one inside. Errors of integration; HC_INTERRUPTED. */
+hc_status torus_test(timeint *ti, const hc_monitor *monitor, double *nu);
+
+/* The same of what was seen: two windows of n values each of two things, the first of which may stand still. The part
+ * of torus_test that integrates nothing. */
+double torus_rotation(int n, const double *seen, const double *size);
+
+#endif
