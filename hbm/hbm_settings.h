@@ -41,7 +41,7 @@ typedef struct hbm_settings {
   int samples;         /* per period, >= 2 harmonics + 1, or HBM_AUTO */
   hbm_restart restart; /* where the slider of a sampled force starts after a separation */
   hbm_continuation continuation;
-  double step;      /* [1] arc length from point to point, for fixed_step (fixed_step.c) */
+  double step;      /* [1] arc length from point to point, for fixed_step (path.c) */
   int iterations;   /* the most that Newton may take at a point, for fixed_step */
   double tolerance; /* [1] of the residual, relative to the forces that make it up */
   double accuracy;  /* [1] largest error that auto harmonics and samples allow, relative to the solution */

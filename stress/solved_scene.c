@@ -8,7 +8,7 @@
 #include "base/thread_clock.h"
 #include "compare/comparison.h"
 #include "compare/first_guess.h"
-#include "hbm/curve/first_solution.h"
+#include "hbm/curve/continuation.h"
 #include "numerics/series.h"
 
 /* Rounding is seen only if Newton does not stop before. */

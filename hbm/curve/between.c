@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "hbm/curve/segment_solutions.h"
+#include "hbm/curve/segment.h"
 #include "hbm/solver/corrector.h"
 #include "hbm/solver/hbm_solver_impl.h"
 #include "numerics/norm.h"

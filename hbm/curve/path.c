@@ -101,3 +101,168 @@ hc_status path_correct_in_plane(path *p)
   p->det_sign = newton_sign(p->s->plane);
   return st == HC_OK ? hbm_tangent_plane(p->s, p->dX, &p->d_omega) : st;
 }
+
+/* ---- a step of the plainest continuation ------------------------------------------------------------- */
+
+/* Arc-length continuation as a simple code has it (hbm.continuation: fixed_step), to show which failures belong to the
+ * continuation and not to the equations:
+ *
+ *   predict   along the last point's tangent, always by the arc length hbm.step
+ *   correct   plain Newton in the plane across that tangent, at most hbm.iterations of them
+ *   tangent   the one that points along the last: normal . t = 1 (corrector.h) sees to it
+ *
+ * What converges is a point of the curve, wherever it is; what does not ends the curve. There is no shorter step to try
+ * again with, no line search, no rule for corners, and no orientation by a determinant: the curve may turn round at a
+ * kink and retrace its path. The first point, and the curve's end on the sweep's limit, are found as always. */
+hc_status path_fixed_step(path *p, bool *accepted)
+{
+  hbm_curve *c = p->curve;
+  p->tangent_only = true;
+  path_predict(p, p->s->how.step * p->s->step_scale);
+  path_fill_normal(p);
+  hc_status st = hbm_solve_plane_plainly(p->s, p->normal, path_size(p), c->omega_scale, p->X, &p->omega, &p->point);
+  c->iterations += p->point.iterations;
+  if (st == HC_OK) st = hbm_tangent_plane(p->s, p->dX, &p->d_omega);
+  *accepted = st == HC_OK;
+  return st;
+}
+
+/* ---- harmonics and samples ---------------------------------------------------------------------------- */
+
+/* Harmonics change along the curve, as far as the last point needs. Samples do not: the curve of sampled equations turns
+ * elsewhere for another N, so one that needs more starts again with twice as many. */
+
+enum { POINTS_BEFORE_DROPPING = 4 };
+
+/* The trial: the last point solved again with the equations as they are now, at its omega if it is an end of the sweep
+ * (ends stay where they are), else across its own tangent. */
+static hc_status correct_last(path *p)
+{
+  hbm_curve *c = p->curve;
+  const hbm_point *last = &c->points[c->n - 1];
+  bool end_of_sweep = c->n == 1 || last->omega == p->to || last->omega == p->from;
+  if (!end_of_sweep) return path_correct_in_plane(p);
+  hc_status st = hbm_solve_fixed(p->s, p->omega, path_size(p), p->X, &p->point);
+  if (st != HC_OK) return st;
+  p->d_omega = 1;
+  st = hbm_tangent_fixed(p->s, p->X, p->dX);
+  p->det_sign = newton_sign(p->s->fixed);
+  return st;
+}
+
+/* Solve the last point of the curve again. Its tangent is turned by the orientation, which is the same for coarser and
+ * finer equations (a further harmonic adds a block of positive determinant); its old tangent may belong to a fold that
+ * only the coarser equations have. */
+static hc_status redo_last(path *p)
+{
+  hbm_curve *c = p->curve;
+  hbm_point *last = &c->points[c->n - 1];
+  double *X = hbm_curve_X(c, c->n - 1), *dX = hbm_curve_dX(c, c->n - 1);
+  size_t bytes = (size_t)c->n_coef * sizeof(double);
+  hbm_truncate(p->s, c->n_coef, X);
+  hbm_truncate(p->s, c->n_coef, dX);
+  memcpy(p->X, X, bytes);
+  memcpy(p->dX, dX, bytes);
+  p->omega = last->omega;
+  p->d_omega = last->d_omega;
+  hc_status st = correct_last(p);
+  c->iterations += p->point.iterations;
+  if (st != HC_OK) return st;
+  path_orient_tangent(p);
+  if (c->n > 1) last->branch = last[-1].branch + ((last[-1].d_omega > 0) != (p->d_omega > 0));
+  c->turning_points = last->branch;
+  memcpy(X, p->X, bytes);
+  memcpy(dX, p->dX, bytes);
+  last->omega = p->omega;
+  last->d_omega = p->d_omega;
+  last->residual = p->point.residual;
+  last->harmonics = p->s->sys.n_harm;
+  last->iterations += p->point.iterations;
+  p->tangent_only = true;
+  return HC_OK;
+}
+
+/* Other harmonics, and the last point solved again with them. Where the new equations have no solution near it (it is
+ * on a fold of the old ones alone), it is dropped, and the point before is tried, at last the first. */
+static hc_status change_harmonics(path *p, int n_harm)
+{
+  hc_status st = hbm_solver_resize(p->s, n_harm, p->s->n_time);
+  if (st != HC_OK) return st;
+  st = redo_last(p);
+  while (st != HC_OK && st != HC_NO_MEMORY && p->curve->n > 1) {
+    --p->curve->n;
+    if (p->first_outside >= p->curve->n) p->first_outside = 0;
+    p->step *= 0.5;
+    st = redo_last(p);
+  }
+  return st;
+}
+
+/* Size, relative to X, of what X has in the harmonics that the next lower rung of the ladder would drop. */
+static double droppable_size(const path *p, const double *X)
+{
+  int n = p->s->sys.n_coef, kept = hbm_system_length(&p->s->sys, refine_next_harmonics(p->s->sys.n_harm, false));
+  return norm_2(n - kept, X + kept) / path_size(p);
+}
+
+/* More harmonics until the last point meets hbm.accuracy; *too_few: it takes more samples first. */
+static hc_status add_harmonics(path *p, bool *too_few)
+{
+  hbm_solver *s = p->s;
+  hbm_curve *c = p->curve;
+  const double accuracy = s->how.accuracy;
+  hc_status st = HC_OK;
+  *too_few = false;
+  while (st == HC_OK && (s->finer_harmonics || s->finer_samples)) {
+    hbm_point *last = &c->points[c->n - 1];
+    const double *X = hbm_curve_X(c, c->n - 1);
+    double by_harmonics = s->finer_harmonics ? refinement_error(s->finer_harmonics, last->omega, s->sys.n_harm, X) : 0;
+    double by_samples = s->finer_samples ? refinement_error(s->finer_samples, last->omega, s->sys.n_harm, X) : 0;
+    last->error = fmax(by_harmonics, by_samples);
+    int n_harm = by_harmonics > accuracy ? refine_next_harmonics(s->sys.n_harm, true) : s->sys.n_harm;
+    bool want_samples = s->finer_samples && (by_samples > accuracy || s->n_time < 4 * n_harm);
+    *too_few = want_samples && s->n_time < REFINE_MOST_SAMPLES;
+    if (*too_few) return HC_OK;
+    if (n_harm == s->sys.n_harm) {
+      c->inaccurate |= last->error > accuracy;
+      return HC_OK;
+    }
+    st = change_harmonics(p, n_harm);
+    p->droppable_points = 0;
+  }
+  return st;
+}
+
+hc_status path_adapt(path *p)
+{
+  hbm_solver *s = p->s;
+  hbm_curve *c = p->curve;
+  bool too_few_samples;
+  hc_status st = add_harmonics(p, &too_few_samples);
+  p->more_samples |= too_few_samples;
+  if (st != HC_OK || too_few_samples) return st;
+  bool has_spare = s->finer_harmonics && s->sys.n_harm > 1 &&
+                   refine_next_harmonics(s->sys.n_harm, false) >= model_highest_load(s->model);
+  bool droppable = has_spare && droppable_size(p, hbm_curve_X(c, c->n - 1)) < 0.05 * s->how.accuracy;
+  p->droppable_points = droppable ? p->droppable_points + 1 : 0;
+  if (p->droppable_points < POINTS_BEFORE_DROPPING) return HC_OK;
+  int before = s->sys.n_harm;
+  p->droppable_points = 0;
+  st = change_harmonics(p, refine_next_harmonics(before, false));
+  if (st == HC_OK) st = path_adapt(p); /* estimates the error, and adds them again if it is too large */
+  if (s->sys.n_harm >= before) p->droppable_points = -4 * POINTS_BEFORE_DROPPING;
+  return st;
+}
+
+hc_status path_finish(hbm_solver *s, hbm_curve *c)
+{
+  int most = 1, before = c->n_coef;
+  for (int k = 0; k < c->n; ++k) most = c->points[k].harmonics > most ? c->points[k].harmonics : most;
+  int n = hbm_system_length(&s->sys, most);
+  for (int k = 0; k < c->n; ++k) {
+    memmove(c->X + (size_t)k * n, c->X + (size_t)k * before, (size_t)n * sizeof(double));
+    memmove(c->dX + (size_t)k * n, c->dX + (size_t)k * before, (size_t)n * sizeof(double));
+  }
+  c->n_coef = n;
+  return most == s->sys.n_harm ? HC_OK : hbm_solver_resize(s, most, s->n_time);
+}

@@ -1,5 +1,5 @@
 /* path.h - a response curve while it is followed: where the next point is predicted and corrected. continuation.c
- * decides which way and how far, adapt.c with how many harmonics. Lengths are in the curve's metric
+ * decides which way and how far. Lengths are in the curve's metric
  * (response_curve.h), the harmonics measured by the norm of the last point's. */
 #ifndef HC_HBM_PATH_H
 #define HC_HBM_PATH_H
@@ -65,5 +65,20 @@ void path_fill_normal(path *p);
 /* Newton from (X, omega) in the plane across (dX, d_omega); the tangent there into dX, d_omega. Errors of
  * hbm_solve_plane and hbm_tangent_plane. */
 hc_status path_correct_in_plane(path *p);
+
+/* One step of fixed length into the trial, predicted along the last tangent and corrected by plain Newton. HC_OK, and
+ * accepted; HC_NOT_CONVERGED where hbm.iterations of Newton's were not enough, or another error of hbm_solve_plane and
+ * hbm_tangent_plane. */
+hc_status path_fixed_step(path *p, bool *accepted);
+
+/* As many harmonics as the last point needs. HC_OK once the estimated error (refine.h) meets hbm.accuracy, or where no
+ * finer equations are to be had (curve->inaccurate), or with p->more_samples set when the curve must start again.
+ * Fewer harmonics again after several points in a row whose highest ones would not show. Does nothing where the
+ * settings give both numbers. HC_NO_MEMORY, or why no point could be solved for with the finer equations. */
+hc_status path_adapt(path *p);
+
+/* The curve's rows cut to the harmonics it needed, and the solver set to them: what is solved on the curve later (an
+ * omega between its points, the peak) must not have fewer. HC_NO_MEMORY. */
+hc_status path_finish(hbm_solver *s, hbm_curve *c);
 
 #endif

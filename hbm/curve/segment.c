@@ -1,10 +1,18 @@
-/* segment.c - see segment.h. */
+/* segment.c - see segment.h. Newton at a fixed omega may converge to a solution other than the one meant, since others
+ * are close near turning points. Its answer counts only if it is next to the interpolant, measured by the segment's
+ * length, and if it was not found already from another sigma. */
 #include "hbm/curve/segment.h"
 
 #include <math.h>
+#include <stdlib.h>
+#include <string.h>
 
+#include "hbm/solver/corrector.h"
+#include "hbm/solver/hbm_solver_impl.h"
 #include "numerics/norm.h"
 #include "numerics/roots.h"
+
+/* ---- the interpolant ------------------------------------------------------------------------------- */
 
 /* Inner product in the segment's metric. */
 static double inner(const hbm_segment *s, const double *aX, double a_omega, const double *bX, double b_omega)
@@ -102,8 +110,9 @@ static int omega_extrema(const hbm_segment *s, double t[2])
   return n;
 }
 
-/* Between neighbouring knots, which are the ends and the extrema, omega(sigma) is monotone. */
-int hbm_segment_find(const hbm_segment *s, double omega, bool include_end, double sigma[3])
+/* The sigma in [0, 1) where the interpolant passes omega, ascending; at most 3. include_end: sigma = 1 counts too.
+ * Between neighbouring knots, which are the ends and the extrema, omega(sigma) is monotone. */
+static int find_omega(const hbm_segment *s, double omega, bool include_end, double sigma[3])
 {
   double knot[4] = {0}, extrema[2];
   int n_knots = 1, n = 0, n_extrema = omega_extrema(s, extrema);
@@ -129,4 +138,156 @@ int hbm_segment_find(const hbm_segment *s, double omega, bool include_end, doubl
     sigma[n++] = 0.5 * (change.before + change.x);
   }
   return n;
+}
+
+/* ---- solutions -------------------------------------------------------------------------------------- */
+
+enum { MAX_HALVINGS = 40 };
+
+hc_status hbm_candidate_new(int n_coef, hbm_candidate *out)
+{
+  size_t n = (size_t)n_coef + 1;
+  double *block = calloc(3 * n, sizeof *block);
+  if (!block) return HC_NO_MEMORY;
+  *out = (hbm_candidate){.X = block, .dX = block + n, .guess = block + 2 * n};
+  return HC_OK;
+}
+
+/* Of a solution next to segment k that moves in the direction d_omega. */
+static int branch_on_segment(const hbm_curve *c, int k, double d_omega)
+{
+  const hbm_point *a = &c->points[k];
+  return (d_omega > 0) == (a->d_omega > 0) ? a->branch : a[1].branch;
+}
+
+/* Newton at omega from the interpolant at sigma. False: no solution next to it. */
+static bool solve_at(hbm_solver *s, const hbm_curve *c, int k, const hbm_segment *seg, double sigma, double omega,
+                     hbm_candidate *x)
+{
+  double at, d_omega;
+  size_t bytes = (size_t)c->n_coef * sizeof(double);
+  x->point = (hbm_point){.omega = omega};
+  hbm_segment_at(seg, sigma, x->X, &at, x->dX, &d_omega);
+  hbm_truncate(s, c->n_coef, x->X);
+  hbm_truncate(s, c->n_coef, x->dX);
+  memcpy(x->guess, x->X, bytes);
+  if (hbm_solve_fixed(s, omega, seg->x_scale, x->X, &x->point) != HC_OK) return false;
+  const double near = (0.1 * seg->length + 1e-8) * seg->x_scale;
+  if (!(distance_2(c->n_coef, x->X, x->guess) <= near)) return false;
+  if (hbm_tangent_fixed(s, x->X, x->dX) != HC_OK) return false;
+  double sign = d_omega < 0 ? -1 : 1;
+  for (int i = 0; i < c->n_coef; ++i) x->dX[i] *= sign;
+  x->point.d_omega = sign;
+  x->point.branch = branch_on_segment(c, k, d_omega);
+  return true;
+}
+
+hc_status hbm_segment_point(hbm_solver *s, const hbm_curve *c, int k, double sigma, hbm_candidate *x)
+{
+  hbm_segment between = hbm_segment_between(c, k), *seg = &between;
+  double d_omega, *normal = x->guess;
+  int n = s->sys.n, first = s->sys.first;
+  hbm_segment_at(seg, sigma, x->X, &x->point.omega, x->dX, &d_omega);
+  hbm_truncate(s, c->n_coef, x->X);
+  hbm_truncate(s, c->n_coef, x->dX);
+  for (int i = 0; i < n; ++i) normal[i] = x->dX[i + first] / (seg->x_scale * seg->x_scale);
+  normal[n] = d_omega / (seg->omega_scale * seg->omega_scale);
+  double omega = x->point.omega;
+  hc_status st = hbm_solve_plane(s, normal, seg->x_scale, seg->omega_scale, x->X, &omega, &x->point);
+  if (st == HC_OK) st = hbm_tangent_plane(s, x->dX, &x->point.d_omega);
+  x->point.branch = branch_on_segment(c, k, x->point.d_omega);
+  return st;
+}
+
+/* A curve of three points: the ends of segment k and one between them. */
+static hc_status halve(hbm_solver *s, const hbm_curve *c, int k, const hbm_segment *seg, hbm_candidate *x,
+                       hbm_curve *halves)
+{
+  hc_status st = hbm_segment_point(s, c, k, 0.5, x);
+  halves->omega_scale = c->omega_scale;
+  if (st == HC_OK) st = hbm_curve_append(halves, c->n_coef, seg->X0, seg->dX0, &c->points[k]);
+  if (st == HC_OK) st = hbm_curve_append(halves, c->n_coef, x->X, x->dX, &x->point);
+  return st == HC_OK ? hbm_curve_append(halves, c->n_coef, seg->X1, seg->dX1, &c->points[k + 1]) : st;
+}
+
+/* Is x one of the solutions out[first..]? */
+static bool found_before(const hbm_curve *out, int first, const hbm_candidate *x, double x_scale)
+{
+  for (int j = first; j < out->n; ++j)
+    if (!(distance_2(out->n_coef, x->X, hbm_curve_X(out, j)) > 1e-9 * x_scale)) return true;
+  return false;
+}
+
+/* The solutions on segment k of c, which is the curve or, after a halving, three points of it. */
+static hc_status search_solutions(hbm_solver *s, const hbm_curve *c, int k, double omega, bool include_end,
+                                  int halvings_left, hbm_candidate *x, hbm_curve *out)
+{
+  hbm_segment seg = hbm_segment_between(c, k);
+  double sigma[3];
+  int crossings = find_omega(&seg, omega, include_end, sigma), before = out->n;
+  bool all_found = true;
+  for (int i = 0; i < crossings && all_found; ++i) {
+    all_found = solve_at(s, c, k, &seg, sigma[i], omega, x) && !found_before(out, before, x, seg.x_scale);
+    if (all_found && hbm_curve_append(out, c->n_coef, x->X, x->dX, &x->point) != HC_OK) return HC_NO_MEMORY;
+  }
+  if (all_found) return HC_OK;
+  out->n = before;
+  if (halvings_left == 0) return HC_NOT_CONVERGED;
+  hbm_curve halves = {0};
+  hc_status st = halve(s, c, k, &seg, x, &halves);
+  if (st == HC_OK) st = search_solutions(s, &halves, 0, omega, false, halvings_left - 1, x, out);
+  if (st == HC_OK) st = search_solutions(s, &halves, 1, omega, include_end, halvings_left - 1, x, out);
+  hbm_curve_free(&halves);
+  return st;
+}
+
+hc_status hbm_segment_solutions(hbm_solver *s, const hbm_curve *c, int k, double omega, bool include_end,
+                                hbm_curve *out)
+{
+  hbm_candidate x;
+  hc_status st = hbm_candidate_new(c->n_coef, &x);
+  if (st != HC_OK) return st;
+  st = search_solutions(s, c, k, omega, include_end, MAX_HALVINGS, &x, out);
+  free(x.X);
+  return st;
+}
+
+/* ---- a part of a segment that shrinks ---------------------------------------------------------------- */
+
+static const double SHORTEST_PART = 1e-7; /* ends that are right to 1e-13 of the segment: 1e-6 of the part */
+
+hc_status hbm_narrowing_start(hbm_narrowing *p, const hbm_curve *c, int k)
+{
+  hc_status st = HC_OK;
+  p->ends.n = 0;
+  p->ends.omega_scale = c->omega_scale;
+  p->from = 0;
+  p->to = 1;
+  for (int end = k; end <= k + 1 && st == HC_OK; ++end)
+    st = hbm_curve_append(&p->ends, c->n_coef, hbm_curve_X(c, end), hbm_curve_dX(c, end), &c->points[end]);
+  return st;
+}
+
+static double part_of(const hbm_narrowing *p, double sigma) { return (sigma - p->from) / (p->to - p->from); }
+
+void hbm_narrowing_guess(const hbm_narrowing *p, double sigma, double *X, double *omega)
+{
+  const hbm_segment between = hbm_segment_between(&p->ends, 0);
+  hbm_segment_at(&between, part_of(p, sigma), X, omega, NULL, NULL);
+}
+
+hc_status hbm_narrowing_point(hbm_solver *s, const hbm_narrowing *p, double sigma, hbm_candidate *x)
+{
+  return hbm_segment_point(s, &p->ends, 0, part_of(p, sigma), x);
+}
+
+void hbm_narrowing_move(hbm_narrowing *p, bool first, double sigma, const hbm_candidate *x)
+{
+  const int end = first ? 0 : 1;
+  const size_t bytes = (size_t)p->ends.n_coef * sizeof(double);
+  if (!((first ? p->to - sigma : sigma - p->from) >= SHORTEST_PART)) return;
+  *(first ? &p->from : &p->to) = sigma;
+  p->ends.points[end] = x->point;
+  memcpy(hbm_curve_X(&p->ends, end), x->X, bytes);
+  memcpy(hbm_curve_dX(&p->ends, end), x->dX, bytes);
 }

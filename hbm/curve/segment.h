@@ -1,5 +1,6 @@
-/* segment.h - cubic Hermite interpolation of a response curve between two neighbouring points, from the points and
- * their tangents. Lengths are in the curve's metric (response_curve.h). */
+/* segment.h - a response curve between two neighbouring points k and k + 1, its segment k: cubic Hermite interpolation
+ * from the points and their tangents, and solutions found by Newton from the interpolant as guess. Lengths are in the
+ * curve's metric (response_curve.h). */
 #ifndef HC_HBM_SEGMENT_H
 #define HC_HBM_SEGMENT_H
 
@@ -22,7 +23,47 @@ hbm_segment hbm_segment_between(const hbm_curve *curve, int k);
 /* z and dz/dsigma at sigma, which may lie outside 0..1: extrapolation. dX and d_omega may be NULL. */
 void hbm_segment_at(const hbm_segment *seg, double sigma, double *X, double *omega, double *dX, double *d_omega);
 
-/* The sigma in [0, 1) where the interpolant passes omega, ascending; at most 3. include_end: sigma = 1 counts too. */
-int hbm_segment_find(const hbm_segment *seg, double omega, bool include_end, double sigma[3]);
+/* ---- solutions ---- */
+
+/* Every solution at omega on segment k, appended to *out; include_end: point k + 1 itself counts too. Where Newton does
+ * not converge next to the interpolant, the segment is halved at a point of its own and both halves are searched.
+ * HC_NOT_CONVERGED after 40 halvings, HC_NO_MEMORY, errors of hbm_segment_point: *out has the solutions of the halves
+ * before the one that failed. */
+hc_status hbm_segment_solutions(hbm_solver *s, const hbm_curve *curve, int k, double omega, bool include_end,
+                                hbm_curve *out);
+
+/* A solution between points: its harmonics, its tangent, and the guess it was solved from. */
+typedef struct hbm_candidate {
+  double *X, *dX; /* [n_coef] */
+  double *guess;  /* [n_coef + 1] or, for a solve in a plane, the plane's normal */
+  hbm_point point;
+} hbm_candidate;
+hc_status hbm_candidate_new(int n_coef, hbm_candidate *out); /* one block: free(out->X) */
+
+/* The point of the curve in the plane across the interpolant at sigma on segment k, with its tangent. Errors of
+ * hbm_solve_plane and hbm_tangent_plane. */
+hc_status hbm_segment_point(hbm_solver *s, const hbm_curve *curve, int k, double sigma, hbm_candidate *x);
+
+/* ---- a part of a segment that shrinks ---- */
+
+/* Something is searched for on it, and solutions that are found become its ends, so that the interpolant between these
+ * says ever better where the next one is, and Newton starts next to it. */
+typedef struct hbm_narrowing {
+  hbm_curve ends;  /* two points; zeroed before the first use, hbm_curve_free'd after the last */
+  double from, to; /* sigma of the segment where these are */
+} hbm_narrowing;
+
+/* All of segment k of c. HC_NO_MEMORY. */
+hc_status hbm_narrowing_start(hbm_narrowing *p, const hbm_curve *c, int k);
+
+/* The interpolant at sigma, which is the segment's. */
+void hbm_narrowing_guess(const hbm_narrowing *p, double sigma, double *X, double *omega);
+
+/* The point of the curve there, as of hbm_segment_point, whose errors it has. */
+hc_status hbm_narrowing_point(hbm_solver *s, const hbm_narrowing *p, double sigma, hbm_candidate *x);
+
+/* x, at sigma, becomes the end that comes first, or else the last. Nothing happens where the part would become so
+ * short that the ends' rounding shows in the interpolant. */
+void hbm_narrowing_move(hbm_narrowing *p, bool first, double sigma, const hbm_candidate *x);
 
 #endif

@@ -2,7 +2,7 @@
  * changes between two points, the change is located on the segment between them. d omega along the tangent (turning
  * point) and the product of 1 + multiplier (period doubling) are smooth functions of sigma: their roots are found by
  * interpolation. The contact pattern is not: its change is bisected, with the pattern of the interpolant as a guess of
- * where (narrowing.h), and the rest of the segment searched for the next. Bisected, too, is the number of complex pairs
+ * where (segment.h), and the rest of the segment searched for the next. Bisected, too, is the number of complex pairs
  * of multipliers outside the unit circle (Neimark-Sacker): where it changes without a pair on the circle, two real ones
  * have met, or multipliers jump with the pattern. What is too near to be told apart is one change: slip and separation
  * that begin at once, two contacts that are alike. */
@@ -12,7 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "hbm/curve/narrowing.h"
+#include "hbm/curve/segment.h"
 #include "hbm/solver/corrector.h"
 #include "hbm/solver/hbm_solver_impl.h"
 #include "hbm/solver/stability.h"

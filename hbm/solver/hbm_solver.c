@@ -1,5 +1,5 @@
 /* hbm_solver.c - see hbm_solver.h: makes, resizes and frees a solver, and measures a solution. How it is found:
- * corrector.c from a guess, first_solution.c without one. */
+ * corrector.c from a guess, continuation.c without one. */
 #include "hbm/solver/hbm_solver.h"
 
 #include <stdlib.h>

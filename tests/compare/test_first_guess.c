@@ -4,7 +4,7 @@
 
 #include <string.h>
 
-#include "hbm/curve/first_solution.h"
+#include "hbm/curve/continuation.h"
 #include "study/scene_solvers.h"
 #include "tests/check.h"
 #include "tests/hbm/scenes.h"
