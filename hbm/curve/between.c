@@ -41,8 +41,7 @@ static hc_status append_solution(hbm_solver *s, const hbm_curve *c, const double
   return st;
 }
 
-/* Where slip of a circle begins or ends all round, planes across the interpolant may miss the curve (README.md, Edges
- * of slip in a plane): from both ends of a segment, at omega. */
+/* Planes across the interpolant may miss the curve at an edge of slip: from both ends of a segment, at omega. */
 static hc_status solve_from_ends(hbm_solver *s, const hbm_curve *c, int k, double omega, int before, hbm_curve *at)
 {
   for (int end = k; end <= k + 1; ++end)
@@ -72,18 +71,17 @@ static void drop_twins(hbm_curve *at, int before)
 hc_status hbm_curve_at(hbm_solver *s, const hbm_curve *c, double omega, hbm_curve *at)
 {
   const int before = at->n;
-  const bool circles = model_has_circle(s->model);
   hc_status worst = HC_OK;
   at->omega_scale = c->omega_scale;
   at->asked = true;
   for (int k = 0; k + 1 < c->n; ++k) {
     hc_status st = hbm_segment_solutions(s, c, k, omega, k + 2 == c->n, at);
-    if (st != HC_OK && circles) st = solve_from_ends(s, c, k, omega, before, at);
+    if (st != HC_OK && s->edges) st = solve_from_ends(s, c, k, omega, before, at);
     if (st != HC_OK) worst = st;
   }
-  if (circles) drop_twins(at, before);
+  if (s->edges) drop_twins(at, before);
   const bool stopped = at->n == before && c->n > 0 && c->end != HC_OK;
-  return stopped && circles ? append_solution(s, c, NULL, omega, before, at) : worst;
+  return stopped && s->edges ? append_solution(s, c, NULL, omega, before, at) : worst;
 }
 
 /* The two segments that meet at the highest point, by a position: -1 is the point before, 0 the highest, 1 the point

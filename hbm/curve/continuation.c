@@ -25,15 +25,12 @@
 
 static const double TOLERANCE = 1e-4; /* [1] of interpolation, relative to |X| */
 static const double STEP_FIRST = 0.02, STEP_MAX = 0.5, STEP_MIN = 1e-11;
-static const double STEP_CORNER = 1e-4; /* where steps are this short the curve has a corner: a kink is accepted */
-static const double STEP_ROUND = 1e-9;  /* where steps fail below this, a step round the corner is tried */
-static const double STEP_EDGE = 1e-6;   /* of models with circles (pass_edge) */
-static const double EDGE_FIRST = 1e-7, EDGE_LAST = 1e-3, EDGE_WIDEST = 3e-2; /* of omega; of |X| */
-static const double EDGE_TRACED = 0.05;
+static const double STEP_CORNER = 1e-4;      /* where steps are this short the curve has a corner: a kink is accepted */
+static const double STEP_ROUND = 1e-9;       /* where steps fail below this, a step round the corner is tried */
 static const double FAR = 4;                 /* factor beyond the start of the sweep up to which a loop is followed */
 static const double LINEAR_NEAR = 1e-2;      /* the linear response counts as the predicted solution within this part */
 static const double STEEP = 0.2, FLAT = 0.6; /* flatness below which natural steps end, above which they are resumed */
-enum { MAX_POINTS = 200000, FLAT_STEPS = 6, MAX_EDGES = 100 };
+enum { MAX_POINTS = 200000, FLAT_STEPS = 6 };
 
 static bool steps_are_fixed(const hbm_solver *s) { return s->how.continuation == HBM_CONTINUATION_FIXED_STEP; }
 static bool arclength_allowed(const path *p) { return p->s->how.continuation != HBM_CONTINUATION_NATURAL; }
@@ -176,7 +173,7 @@ static bool traced_before(const path *p)
     double off = 0;
     if (!(part >= 0 && part <= 1)) continue;
     for (int i = 0; i < c->n_coef; ++i) off = hypot(off, p->X[i] - X0[i] - part * (X1[i] - X0[i]));
-    if (off <= EDGE_TRACED * norm_2(c->n_coef, p->chord)) return true;
+    if (off <= p->s->edges->traced * norm_2(c->n_coef, p->chord)) return true;
   }
   return false;
 }
@@ -196,26 +193,26 @@ static bool solve_past_edge(path *p, double omega)
   p->det_sign = newton_sign(p->s->fixed);
   path_orient_tangent(p);
   fill_chord(p);
-  const bool near = norm_2(c->n_coef, p->chord) <= EDGE_WIDEST * path_size(p);
+  const bool near = norm_2(c->n_coef, p->chord) <= p->s->edges->widest * path_size(p);
   return p->d_omega * (omega - omega0) > 0 && near && !traced_before(p);
 }
 
-/* Past the edge of slip of a circle (README.md, Edges of slip in a plane): there the curve's tangent is steep on both
- * sides, and it may turn on its heels. */
+/* Past an edge of slip, where the curve's tangent is steep on both sides, and it may turn back. */
 static bool pass_edge(path *p)
 {
-  const hbm_point *last = &p->curve->points[p->curve->n - 1];
+  hbm_curve *c = p->curve;
+  const slip_edges *edges = p->s->edges;
+  const hbm_point *last = &c->points[c->n - 1];
   const double onward = last->d_omega > 0 ? last->omega : -last->omega;
   bool accepted = false;
-  if (!model_has_circle(p->s->model) || p->edges++ >= MAX_EDGES) return false;
-  for (double part = EDGE_FIRST; part <= EDGE_LAST && !accepted; part *= 4)
+  if (p->edges++ >= edges->most) return false;
+  for (double part = edges->first; part <= edges->last && !accepted; part *= 4)
     accepted = solve_past_edge(p, last->omega + part * onward) || solve_past_edge(p, last->omega - part * onward);
   if (!accepted) return false;
-  hbm_curve *c = p->curve;
   ++c->edges;
   c->edge_omega = fmax(c->edge_omega, fabs(p->omega / last->omega - 1));
   c->edge_motion = fmax(c->edge_motion, norm_2(c->n_coef, p->chord) / path_size(p));
-  p->step = STEP_EDGE;
+  p->step = edges->too_short;
   return true;
 }
 
@@ -347,7 +344,8 @@ static hc_status recover(path *p, hc_status step_status, bool *done)
   ++c->rejected;
   bool natural_fails = step_status != HC_OK || p->step < STEP_FIRST;
   if (p->natural && arclength_allowed(p) && natural_fails) switch_to_arclength(p);
-  const bool at_edge = p->step < STEP_EDGE && p->points_at_last_edge != c->n;
+  const slip_edges *edges = p->s->edges;
+  const bool at_edge = edges && p->step < edges->too_short && p->points_at_last_edge != c->n;
   bool at_corner = p->step < STEP_ROUND;
   bool past = at_edge && !p->natural && pass_edge(p);
   if (!past) past = at_corner && !p->natural && p->points_at_last_corner != c->n && round_corner(p);

@@ -14,8 +14,8 @@ hc_status hbm_trace(hbm_solver *s, double from, double to, const hc_monitor *mon
  * the step length, and two traces of different scales show whether they do. */
 void hbm_scale_steps(hbm_solver *s, double scale);
 
-/* hbm_solve_first that a monitor may stop: a solution X[n_coef] at omega, whatever X is at first. HC_OK, HC_INTERRUPTED,
- * HC_NO_MEMORY, or why the last ramp ended. */
+/* hbm_solve_first that a monitor may stop: a solution X[n_coef] at omega, whatever X is at first. HC_OK,
+ * HC_INTERRUPTED, HC_NO_MEMORY, or why the last ramp ended. */
 hc_status hbm_first_solution(hbm_solver *s, double omega, const hc_monitor *monitor, double *X, hbm_point *point);
 
 #endif

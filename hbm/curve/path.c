@@ -129,8 +129,8 @@ hc_status path_fixed_step(path *p, bool *accepted)
 
 /* ---- harmonics and samples ---------------------------------------------------------------------------- */
 
-/* Harmonics change along the curve, as far as the last point needs. Samples do not: the curve of sampled equations turns
- * elsewhere for another N, so one that needs more starts again with twice as many. */
+/* Harmonics change along the curve, as far as the last point needs. Samples do not: the curve of sampled equations
+ * turns elsewhere for another N, so one that needs more starts again with twice as many. */
 
 enum { POINTS_BEFORE_DROPPING = 4 };
 

@@ -13,7 +13,6 @@ enum {
   MOST_FINER = 100,     /* some milliseconds of an oscillator */
   MOST_UNKNOWNS = 1500, /* of the finer equations of many coordinates: about a second a step */
   STRIDE = 20,          /* harmonics between two sizes of the workspace, which is remade with each */
-  FEWEST_FINER = 14,    /* with less a short contact does not show in the error of H = 1 */
   MOST_STEPS = 10       /* of Newton: one or two but near turning points and for stiff contacts */
 };
 
@@ -34,7 +33,7 @@ static const double least_share = 0.04;
 static int finer_harmonics(double highest, int n_harm, int dim, double omega)
 {
   if (n_harm > HBM_MAX_HARMONICS / 2) return n_harm / 2;
-  const int twice = 2 * n_harm > FEWEST_FINER ? 2 * n_harm : FEWEST_FINER;
+  const int twice = 2 * n_harm > REFINE_FEWEST_HARMONICS ? 2 * n_harm : REFINE_FEWEST_HARMONICS;
   const double own = ceil(highest / (STRIDE * omega)) * STRIDE;
   const int affordable = (MOST_UNKNOWNS / (dim > 0 ? dim : 1) - 1) / 2;
   const int most = affordable < MOST_FINER ? affordable : MOST_FINER;
@@ -49,11 +48,10 @@ static hc_status need_finer(hbm_solver *s, double omega)
   refinement_free(s->exact_finer);
   free(s->improved);
   s->exact_finer = NULL;
-  s->improved = NULL;
   hbm_settings how = s->how;
   how.force = HBM_FORCE_EXACT;
   how.keep_mean = true;
-  if (!s->improved) s->improved = calloc((size_t)hbm_system_length(&s->sys, n_harm), sizeof *s->improved);
+  s->improved = calloc((size_t)hbm_system_length(&s->sys, n_harm), sizeof *s->improved);
   return s->improved ? refinement_new(s->model, &how, n_harm, 0, &s->exact_finer) : HC_NO_MEMORY;
 }
 

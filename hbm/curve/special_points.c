@@ -26,7 +26,6 @@ enum { MAX_CONTACT_CHANGES = 64 /* on one segment */, MOST_CONTACTS_FOLLOWED = 2
 /* What is nearer than this, relative to omega and to the amplitude (near a turning point omega alone says little), is
  * at one place: special_points.h promises no more. */
 static const double SAME_OMEGA = 1e-9, SAME_AMPLITUDE = 1e-8;
-static const double EDGE_OMEGA = 1e-6; /* and a circle's edge of slip to this */
 
 /* The test functions at a point. */
 typedef struct test_values {
@@ -245,22 +244,22 @@ static hc_status solve_at_omega(detector *d, const double *const guess[2], doubl
   return st;
 }
 
-/* Where slip of a circle begins or ends all round, planes across the interpolant may miss the curve (README.md, Edges
- * of slip in a plane): the change on segment k by bisection of omega, as far as there are solutions, but to 1e-6. */
+/* Planes across the interpolant may miss an edge of slip: the change on segment k by bisection of omega, as far as
+ * there are solutions, but to what it can be told to. */
 static hc_status locate_edge(detector *d, int k, const test_values *before, const test_values *end)
 {
   const hbm_point *p = &d->c->points[k];
   const double *const guess[2] = {hbm_curve_X(d->c, k), hbm_curve_X(d->c, k + 1)};
   double from = p[0].omega, to = p[1].omega;
   hc_status st = HC_OK;
-  for (int i = 0; i < 60 && st == HC_OK && fabs(to - from) > 0.5 * SAME_OMEGA * to; ++i) {
+  for (int i = 0; i < d->s->edges->bisections && st == HC_OK && fabs(to - from) > 0.5 * SAME_OMEGA * to; ++i) {
     const double middle = from + 0.5 * (to - from);
     test_values here = {0};
     st = solve_at_omega(d, guess, middle);
     if (st == HC_OK) st = evaluate_tests(d, middle, 0, d->x.X, false, &here);
     if (st == HC_OK) *(same_pattern(&here, before) ? &from : &to) = middle;
   }
-  if (!(fabs(to - from) <= EDGE_OMEGA * to)) return st == HC_OK ? HC_NOT_CONVERGED : st;
+  if (!(fabs(to - from) <= d->s->edges->located * to)) return st == HC_OK ? HC_NOT_CONVERGED : st;
   st = solve_at_omega(d, guess, from);
   d->x.point.branch = p->branch;
   return st == HC_OK ? insert_special(d, 0.5, HBM_CONTACT_CHANGE, before, end) : st;
@@ -325,7 +324,7 @@ static hc_status search_segment(detector *d, int k, const test_values *a, const 
   hc_status changes = HC_OK, turning = HC_OK, doubling = HC_OK, torus = HC_OK;
   d->first = d->n;
   if (!same_pattern(a, b)) changes = locate_contact_changes(d, k, *a, b);
-  if (changes != HC_OK && d->n == d->first && model_has_circle(d->s->model)) changes = locate_edge(d, k, a, b);
+  if (changes != HC_OK && d->n == d->first && d->s->edges) changes = locate_edge(d, k, a, b);
   if ((a->d_omega > 0) != (b->d_omega > 0)) turning = locate_root(d, k, HBM_TURNING_POINT, a->d_omega, b->d_omega);
   if ((a->flip > 0) != (b->flip > 0)) doubling = locate_root(d, k, HBM_PERIOD_DOUBLING, a->flip, b->flip);
   if (a->pairs_outside != b->pairs_outside) torus = locate_neimark_sacker(d, k, a);

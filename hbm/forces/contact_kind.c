@@ -2,11 +2,13 @@
 #include "hbm/forces/contact_kind.h"
 
 #include <math.h>
+#include <stddef.h>
 
 #include "hbm/contact/aft.h"
 #include "hbm/contact/contact_measures.h"
 #include "hbm/contact/exact_force.h"
 #include "hbm/planar/planar_aft.h"
+#include "hbm/planar/planar_corner.h"
 #include "hbm/planar/planar_force.h"
 #include "hbm/planar/planar_measures.h"
 
@@ -74,8 +76,8 @@ static hc_status line_measures(const contact *law, int n_harm, const double *u, 
 enum { LINE, PLANE };
 
 static const contact_kind kinds[] = {
-    [LINE] = {1, line_coordinates, &exact_force_evaluator, &aft_evaluator, line_measures},
-    [PLANE] = {2, plane_coordinates, &planar_force_evaluator, &planar_aft_evaluator, planar_measures_of},
+    [LINE] = {1, line_coordinates, &exact_force_evaluator, &aft_evaluator, line_measures, NULL},
+    [PLANE] = {2, plane_coordinates, &planar_force_evaluator, &planar_aft_evaluator, planar_measures_of, &planar_edges},
 };
 
 const contact_kind *contact_kind_of(const placed_contact *c) { return &kinds[c->planar ? PLANE : LINE]; }
@@ -85,4 +87,14 @@ placed_contact placed_contact_of(const model *m, int j)
   const model_contact *c = &m->contacts[j];
   return (placed_contact){.law = c->law,
                           .planar = c->circle && c->pair == CONTACT_FIRST && contact_has_friction(&c->law)};
+}
+
+const slip_edges *contact_edges_of(const model *m)
+{
+  const slip_edges *edges = NULL;
+  for (int j = 0; j < m->n_contacts && !edges; ++j) {
+    const placed_contact c = placed_contact_of(m, j);
+    edges = contact_kind_of(&c)->edges;
+  }
+  return edges;
 }

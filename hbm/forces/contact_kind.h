@@ -14,9 +14,13 @@ typedef struct contact_kind {
   /* out[contacts]: what the exact law does along the motion u, u_2 (NULL of one tangent), v [2 n_harm + 1]. */
   hc_status (*measures)(const contact *law, int n_harm, const double *u, const double *u_2, const double *v,
                         contact_period *out);
+  const slip_edges *edges; /* NULL: its curves have none */
 } contact_kind;
 
 const contact_kind *contact_kind_of(const placed_contact *c);
+
+/* The edges of slip that curves of m may have; NULL: none. */
+const slip_edges *contact_edges_of(const model *m);
 
 /* Contact j of the model, whose directions are left to be set but for a second one of two tangents under one limit.
  * Without friction two tangents share none, and each is a spring. */

@@ -11,6 +11,7 @@
 
 #include <stdbool.h>
 
+#include "hbm/contact/contact_evaluator.h"
 #include "hbm/planar/planar_motion.h"
 
 typedef struct planar_corner {
@@ -25,5 +26,7 @@ bool planar_corner_find(const planar_motion *m, const double w[2], const double 
 
 /* dw = what the corner moves by where h_1 and h_2 grow by these at a fixed w: e_i.dw = grows_i, grows = e.du - dR. */
 void planar_corner_move(const planar_corner *c, const double grows[2], double dw[2]);
+
+extern const slip_edges planar_edges; /* where the corner's lens closes, or slip all round begins */
 
 #endif

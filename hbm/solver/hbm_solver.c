@@ -29,16 +29,14 @@ static hc_status make_orbit(hbm_solver *s)
   return contact_forces_new(s->model, s->sys.linear, HBM_FORCE_EXACT, &how, &s->orbit);
 }
 
-/* Of auto: where it starts, and the fewest harmonics of the finer equations: with less than 14 a short contact does
- * not show in the error of H = 1. */
-enum { AUTO_FIRST_HARMONICS = 3, AUTO_FIRST_SAMPLES = 64, AUTO_FEWEST_FINER = 14 };
+enum { AUTO_FIRST_HARMONICS = 3, AUTO_FIRST_SAMPLES = 64 }; /* where auto starts */
 
 /* The finer equations by which auto estimates the error: twice the harmonics, twice the samples. */
 static hc_status make_refinements(hbm_solver *s, int n_time)
 {
   const hbm_settings *how = &s->how;
   int n_harm = s->sys.n_harm, twice = n_harm > HBM_MAX_HARMONICS / 2 ? HBM_MAX_HARMONICS : 2 * n_harm;
-  if (twice < AUTO_FEWEST_FINER) twice = AUTO_FEWEST_FINER;
+  if (twice < REFINE_FEWEST_HARMONICS) twice = REFINE_FEWEST_HARMONICS;
   hc_status st = HC_OK;
   if (how->harmonics == HBM_AUTO)
     st = refinement_new(s->model, how, twice, n_time < 4 * twice ? 4 * twice : n_time, &s->finer_harmonics);
@@ -69,6 +67,7 @@ static void free_equations(hbm_solver *s)
   double *const arrays[] = {s->X, s->x, s->z, s->z_scale, s->r_scale, s->normal, s->anchor};
   for (size_t i = 0; i < sizeof arrays / sizeof *arrays; ++i) free(arrays[i]);
   *s = (hbm_solver){.model = s->model,
+                    .edges = s->edges,
                     .how = s->how,
                     .monodromy = s->monodromy,
                     .ramp = s->ramp,
@@ -102,6 +101,7 @@ hc_status hbm_solver_new(const model *m, const hbm_settings *how, hbm_solver **o
   s->how = *how;
   s->step_scale = 1;
   hc_status st = model_copy(m, &s->model);
+  if (st == HC_OK) s->edges = contact_edges_of(s->model);
   if (st == HC_OK) st = make_equations(s, n_harm, n_time);
   if (st == HC_OK) {
     *out = s;

@@ -15,6 +15,7 @@ struct hbm_solver {            /* from hbm_solver_new, to hbm_solver_free; not s
   hbm_system sys;              /* the equations */
   int n_time;                  /* samples per period, for sampled forces */
   newton *fixed, *plane;       /* the two forms of corrector.h */
+  const slip_edges *edges;     /* of the model's response curves; NULL: there are none */
   contact_forces *orbit;       /* locates the transitions of a solution of sampled equations; NULL when sys does */
   monodromy *monodromy;        /* NULL until it is needed */
   refinement *finer_harmonics; /* tells auto the error of this many harmonics; NULL where the settings give a number */

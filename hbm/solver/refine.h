@@ -29,6 +29,9 @@ double refinement_rounding(refinement *r, double omega);
 /* Relative error of X[2 n_harm + 1], a solution with n_harm <= its own harmonics; infinite where it cannot be told. */
 double refinement_error(refinement *r, double omega, int n_harm, const double *X);
 
+/* Finer equations have as many harmonics at least: with fewer a short contact does not show in the error of H = 1. */
+enum { REFINE_FEWEST_HARMONICS = 14 };
+
 /* The ladder of truncation orders that auto climbs: the next above (up) or below, HBM_MAX_HARMONICS / 2 at most. */
 enum { REFINE_MOST_HARMONICS = HBM_MAX_HARMONICS / 2, REFINE_MOST_SAMPLES = 1 << 20 };
 int refine_next_harmonics(int n_harm, bool up);

@@ -1,10 +1,10 @@
 /* monodromy.c - see monodromy.h. The state is (dx, dx', dheld_1, ..., dheld_n); dheld_j counts only while contact j
- * is stuck. Row i of phi is state i, column q the initial state q. The period starts at the end of its longest interval.
- * Few motions outlast that (interval_flow.h), and columns are made of them alone; where there is planar friction, of all
- * states there.
+ * is stuck. Row i of phi is state i, column q the initial state q. The period starts at the end of its longest
+ * interval. Few motions outlast that (interval_flow.h), and columns are made of them alone; where there is planar
+ * friction, of all states there.
  *
- * While a planar contact sticks the rows of its two halves are dheld = kt dw, while it slips the first's is y = R d phi
- * (planar_flow.h). What they begin with, at fixed th (planar_force.h):
+ * While a planar contact sticks the rows of its two halves are dheld = kt dw, while it slips the first's is y = R d
+ * phi (planar_flow.h). What they begin with, at fixed th (planar_force.h):
  *     touch-down   sticks dw = du - (dR/R') u', slips y = 0, since R = 0
  *     to slip      y = (du - dw).e_perp
  *     to rest      dw = du - dR e - y e_perp */
