@@ -153,7 +153,7 @@ static void random_scenes_follow_cvode(void **state)
   uint64_t seed = 19;
   double worst = 0, worst_matrix = 0;
   int transitions = 0, counted_apart = 0;
-  for (int trial = 0; trial < 1000; ++trial) {
+  for (int trial = 0; trial < CHECK_TRIALS(1000); ++trial) {
     scaled_model m = exact_model(random_scene(&seed), 2 + 10 * random_unit(&seed), 1 + 4 * random_unit(&seed));
     integrator *in = closed_of(&m), *ref = cvode_of(&m);
     double y[SCENE_MAX_STATES], z[SCENE_MAX_STATES], fx[2][SCENE_MAX_STATES * SCENE_MAX_STATES], size = 1, apart = 0;
@@ -200,7 +200,7 @@ static void measures_are_those_of_the_motion(void **state)
   (void)state;
   uint64_t seed = 29;
   double worst = 0, worst_mean = 0;
-  for (int trial = 0; trial < 200; ++trial) {
+  for (int trial = 0; trial < CHECK_TRIALS(200); ++trial) {
     scene sc = random_scene(&seed);
     scaled_model m = exact_model(sc, 3 + 9 * random_unit(&seed), 3);
     integrator *in = closed_of(&m), *ref = cvode_of(&m);
@@ -259,7 +259,7 @@ static void measures_are_those_of_the_motion(void **state)
 static void ends_at_a_turn(void **state)
 {
   (void)state;
-  for (int trial = 0; trial < 300; ++trial) {
+  for (int trial = 0; trial < CHECK_TRIALS(300); ++trial) {
     const bool apart = trial % 2;
     const double angle = apart ? 45 : 0;
     scaled_model m = exact_model(one(100, 100 + trial, 200, 0.3, 0.5, angle), 5 + 0.03 * trial, 1);
