@@ -26,4 +26,19 @@ number_fault number_read_integer(const char *text, size_t length, int *value);
 enum { NUMBER_TEXT = 32 };
 const char *number_write(double value, char text[NUMBER_TEXT]);
 
+/* A short list of numbers by value, as options and case files give them. */
+enum { NUMBER_LIST_MAX = 256 };
+
+typedef struct number_list {
+  int n;
+  double v[NUMBER_LIST_MAX];
+} number_list;
+
+/* The order in which qsort puts doubles: a, b: const double *. Not for NaN, which is no part of any order. */
+static inline int ascending(const void *a, const void *b)
+{
+  double x = *(const double *)a, y = *(const double *)b;
+  return (x > y) - (x < y);
+}
+
 #endif

@@ -1,4 +1,4 @@
-/* field_value.c - a field's value: from what was written to what is stored (back: case_echo.c). The table itself: fields.c. */
+/* field_value.c - a field's value: from what was written to what is stored; back: case_echo.c. The table: fields.c. */
 #include "casefile/fields.h"
 
 #include <stdio.h>

@@ -8,8 +8,8 @@
 #include "casefile/matrices/matrix_label.h"
 #include "casefile/scene.h"
 
-/* Where something was given, for messages: the set-th assignment, counted from 1, or for set = 0 a line and column of the
- * file. line = 0: nowhere. */
+/* Where something was given, for messages: the set-th assignment, counted from 1, or for set = 0 a line and column of
+ * the file. line = 0: nowhere. */
 typedef struct case_place {
   int set;
   size_t line, column;

@@ -9,7 +9,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "base/ascending.h"
+#include "base/number.h"
 #include "casefile/case_file.h"
 #include "command/cli.h"
 #include "command/commands.h"

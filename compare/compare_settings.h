@@ -4,7 +4,7 @@
 #ifndef HC_COMPARE_SETTINGS_H
 #define HC_COMPARE_SETTINGS_H
 
-#include "base/number_list.h"
+#include "base/number.h"
 #include "hbm/hbm_settings.h"
 #include "model/model.h"
 #include "timeint/transient_settings.h"

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "base/ascending.h"
+#include "base/number.h"
 
 void comparison_sweep(double omega_from, double omega_to, const number_list *asked, double *from, double *to)
 {

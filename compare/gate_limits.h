@@ -6,7 +6,7 @@
 
 #include <stdbool.h>
 
-#include "base/number_list.h"
+#include "base/number.h"
 #include "compare/discrepancy.h"
 
 /* Other limits in parts of the sweep. Where ranges overlap the last one holds. */

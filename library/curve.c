@@ -44,7 +44,7 @@ static hbmcheck_solution solution_of(const response_row *r)
                              .mean_free = m->contact.free_sliders > 0};
 }
 
-static double *series_at(const hbmcheck_solutions *s, int k, int r)
+static double *solution_series(const hbmcheck_solutions *s, int k, int r)
 {
   return s->series + ((size_t)k * (size_t)s->n_responses + (size_t)r) * (size_t)s->length;
 }
@@ -57,7 +57,7 @@ static hc_status measure_solution(hbm_solver *solver, int k, hbmcheck_solutions 
   for (int r = 0; r < s->n_responses && st == HC_OK; ++r) {
     if (r > 0) st = response_row_turn(solver, &s->curve, k, r, &row);
     s->list[k * s->n_responses + r] = solution_of(&row);
-    if (st == HC_OK) st = hbm_response(solver, row.point.omega, hbm_curve_X(&s->curve, k), r, series_at(s, k, r));
+    if (st == HC_OK) st = hbm_response(solver, row.point.omega, hbm_curve_X(&s->curve, k), r, solution_series(s, k, r));
   }
   return st;
 }
@@ -117,7 +117,7 @@ hbmcheck_status hbmcheck_solutions_response_coefficients(const hbmcheck_solution
 {
   if (!n || !has_solution(s, k, r) || cap < 0 || (cap > 0 && !X)) return HBMCHECK_BAD_INPUT;
   *n = 2 * s->curve.points[k].harmonics + 1;
-  library_copy(*n, series_at(s, k, r), cap, X);
+  library_copy(*n, solution_series(s, k, r), cap, X);
   return HBMCHECK_OK;
 }
 

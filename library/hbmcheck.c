@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/number_list.h"
+#include "base/number.h"
 #include "casefile/case_file.h"
 #include "casefile/structure.h"
 #include "compare/comparison.h"

@@ -18,6 +18,23 @@ contact_state contact_step(const contact *c, double u, double v, double *w, doub
   return s > 0 ? CONTACT_SLIP_PLUS : CONTACT_SLIP_MINUS;
 }
 
+contact_state contact_step_planar(const contact *c, const double u[2], double v, double w[2], double T[2])
+{
+  const double N = contact_normal(c, v), limit = c->mu * N;
+  if (!(N > 0)) {
+    for (int d = 0; d < 2; ++d) w[d] = u[d], T[d] = 0;
+    return CONTACT_SEPARATED;
+  }
+  for (int d = 0; d < 2; ++d) T[d] = c->kt * (u[d] - w[d]);
+  const double size = hypot(T[0], T[1]);
+  if (size <= limit) return CONTACT_STICK;
+  for (int d = 0; d < 2; ++d) {
+    T[d] *= limit / size;
+    w[d] = u[d] - T[d] / c->kt; /* kt > 0: with kt = 0 the predictor is 0, which sticks */
+  }
+  return CONTACT_SLIP_PLUS;
+}
+
 contact_state contact_on_touch(const contact *c, double du, double dv)
 {
   double friction = c->mu * c->kn * dv;

@@ -8,7 +8,16 @@
  *     separated  T = 0, N = 0, w = u
  *
  * w is the displacement of the contact point (the slider). Source: Yang, Chu, Menq 1998 and Colonna et al. 2025, eq.
- * 9-12 ([1] in README.md). */
+ * 9-12 ([1] in README.md).
+ *
+ * With two tangents and one limit for both, the circle |T| <= mu N, motion u, slider w and traction T are vectors in
+ * the tangent plane:
+ *     stick      T = kt (u - w), |T| <= mu N, w constant
+ *     slip       T = mu N e, |e| = 1, w = u - (mu N/kt) e, w' = s e, s = u'.e - mu N'/kt >= 0
+ *     separated  T = 0, N = 0, w = u
+ * While it slips, the direction e = (cos phi, sin phi) follows the motion: (mu N/kt) phi' = u'.e_perp, e_perp =
+ * (-sin phi, cos phi). With u, w and T on one line it is the law above. Source: Yang and Menq 1998, J. Sound Vib. 217,
+ * 909-925 (the radial limit); the angle's equation is derived from it by differentiating w = u - (mu N/kt) e. */
 #ifndef HC_CONTACT_LAW_H
 #define HC_CONTACT_LAW_H
 
@@ -61,6 +70,13 @@ static inline double contact_normal_change(const contact *c, double v)
  * mu N/kt and u + mu N/kt are monotone over the step. *w becomes the new position, *t the tangential force. Returns
  * the state at the end. */
 contact_state contact_step(const contact *c, double u, double v, double *w, double *t);
+
+/* The same with two tangents: radial return to the limit; w becomes the new position, T [force] the traction. Slip is
+ * CONTACT_SLIP_PLUS, whatever its direction, which is T's. Exact where predictor and traction have one direction, else
+ * of first order: the slider goes the whole step in the direction that slip has at its end (hbm/planar/planar_slider.h
+ * follows it as it turns). Only mu N is taken from N here, so c may be the contact's or that of one of the two
+ * model_contacts that it is made of: mu N of each is the whole contact's. NaN anywhere gives NaN. */
+contact_state contact_step_planar(const contact *c, const double u[2], double v, double w[2], double T[2]);
 
 /* State just after v + gap rises through 0, from the velocities du and dv > 0 there: it slips with sign s if
  * s kt du > mu kn dv, else it sticks. */

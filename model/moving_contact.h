@@ -4,7 +4,7 @@
 
 #include "base/status.h"
 #include "model/model.h"
-#include "numerics/series_grid.h"
+#include "numerics/series.h"
 
 /* u = sum cu[d] x_d, v = sum cv[d] x_d. */
 typedef struct moving_contact {

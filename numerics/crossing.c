@@ -189,3 +189,10 @@ void guard_extrema(const series_vector *m, const double *a, double from, double 
   *max = r.max;
   *min = r.min;
 }
+
+void series_extrema(int n_harm, const double *X, double *max, double *min)
+{
+  const double one = 1;
+  const series_vector m = {n_harm, 1, {X}};
+  guard_extrema(&m, &one, 0, TWO_PI, max, min);
+}

@@ -5,7 +5,7 @@
 
 #include <stdbool.h>
 
-#include "numerics/series_grid.h"
+#include "numerics/series.h"
 
 /* f(th) = sum a[d] x_d^(order)(th) + constant, order 0 or 1: of values or of first derivatives. */
 typedef struct guard {

@@ -6,8 +6,6 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "numerics/safe_step.h"
-
 static const double rounding = 64 * DBL_EPSILON; /* of a term, relative: what it was computed from, too */
 static const double nothing = 1e-3;              /* [noise] what terms left out may add up to */
 enum { MAX_NEWTON = 60 };

@@ -10,6 +10,7 @@
 #define HC_EXPONENTIALS_H
 
 #include <complex.h>
+#include <math.h>
 
 typedef struct exponentials { /* the arrays are the owner's */
   int n;
@@ -37,5 +38,14 @@ void exponential_sum_measure(const exponentials *e, exponential_sum *s);
  * -noise at `from` has fallen there. */
 int exponentials_first_fall(exponentials *e, int n_sums, const exponential_sum *sums, double from, double to,
                             double *at);
+
+/* How far any function surely stays positive, from its value, slope and a bound of its second derivative: the tau up to
+ * which f + slope tau - bound tau^2/2 >= 0; f, bound >= 0. INFINITY: for ever. */
+static inline double safe_step(double f, double slope, double bound)
+{
+  const double root = sqrt(slope * slope + 2 * bound * f);
+  if (slope < 0) return 2 * f / (root - slope); /* without cancellation */
+  return bound > 0 ? (slope + root) / bound : INFINITY;
+}
 
 #endif

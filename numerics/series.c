@@ -2,9 +2,9 @@
 #include "numerics/series.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "base/constants.h"
-#include "numerics/crossing.h"
 
 series_jet series_at(int n_harm, const double *X, double c, double s)
 {
@@ -20,13 +20,6 @@ series_jet series_at(int n_harm, const double *X, double c, double s)
   return j;
 }
 
-void series_extrema(int n_harm, const double *X, double *max, double *min)
-{
-  const double one = 1;
-  const series_vector m = {n_harm, 1, {X}};
-  guard_extrema(&m, &one, 0, TWO_PI, max, min);
-}
-
 double series_rms(int n_harm, const double *X)
 {
   double sum = 0;
@@ -35,3 +28,73 @@ double series_rms(int n_harm, const double *X)
 }
 
 double series_harmonic_1(int n_harm, const double *X) { return n_harm > 0 ? hypot(X[1], X[2]) : 0; }
+
+/* ---- several at once ---- */
+
+enum { HALF = SERIES_GRID / 2 };
+
+void series_grid_table_fill(int n_harm, double *table)
+{
+  for (int h = 1; h <= n_harm; ++h)
+    for (int i = 0; i < HALF; ++i) {
+      double th = TWO_PI * (h * i % SERIES_GRID) / SERIES_GRID;
+      table[(h - 1) * SERIES_GRID + i] = cos(th);
+      table[(h - 1) * SERIES_GRID + HALF + i] = sin(th);
+    }
+}
+
+/* Sums over even harmonics, [0], and odd ones, [1], of x and two derivatives at the first half of the grid. */
+static void sum_harmonics(int n_harm, const double *X, const double *table, double sum[2][3][HALF])
+{
+  for (int i = 0; i < HALF; ++i) sum[0][0][i] = X[0];
+  for (int h = 1; h <= n_harm; ++h) {
+    const double *restrict c = table + (h - 1) * SERIES_GRID, *restrict s = c + HALF;
+    double *restrict x = sum[h & 1][0], *restrict d1 = sum[h & 1][1], *restrict d2 = sum[h & 1][2];
+    double a = X[2 * h - 1], b = X[2 * h], h1 = h, h2 = h1 * h1;
+    for (int i = 0; i < HALF; ++i) {
+      double even = a * c[i] + b * s[i], odd = b * c[i] - a * s[i];
+      x[i] += even;
+      d1[i] += h1 * odd;
+      d2[i] -= h2 * even;
+    }
+  }
+}
+
+static void fill_coordinate(series_grid *g, int d, const double *table)
+{
+  g->size[0][d] = fabs(g->m.X[d][0]);
+  g->size[1][d] = g->size[2][d] = 0;
+  for (int h = 1; h <= g->m.n_harm; ++h) {
+    double size = fabs(g->m.X[d][2 * h - 1]) + fabs(g->m.X[d][2 * h]);
+    g->size[0][d] += size;
+    g->size[1][d] += h * size;
+    g->size[2][d] += (double)h * h * size;
+  }
+  double sum[2][3][HALF] = {{{0}}};
+  sum_harmonics(g->m.n_harm, g->m.X[d], table, sum);
+  for (int k = 0; k < 3; ++k)
+    for (int i = 0; i < HALF; ++i) {
+      g->node[i].d[k][d] = sum[0][k][i] + sum[1][k][i];
+      g->node[i + HALF].d[k][d] = sum[0][k][i] - sum[1][k][i];
+    }
+}
+
+void series_grid_fill(series_grid *g, const series_vector *m, const double *table)
+{
+  g->m = *m;
+  for (int d = 0; d < m->dim; ++d) fill_coordinate(g, d, table);
+  memcpy(g->node + SERIES_GRID, g->node, SERIES_GRID * sizeof *g->node);
+  g->node[2 * SERIES_GRID] = g->node[0];
+  for (int i = 0; i <= 2 * SERIES_GRID; ++i) g->node[i].th = TWO_PI * i / SERIES_GRID;
+}
+
+series_node series_vector_at(const series_vector *m, double th)
+{
+  series_node node = {.th = th};
+  const double c = cos(th), s = sin(th);
+  for (int d = 0; d < m->dim; ++d) {
+    const series_jet j = series_at(m->n_harm, m->X[d], c, s);
+    node.d[0][d] = j.x, node.d[1][d] = j.d1, node.d[2][d] = j.d2;
+  }
+  return node;
+}

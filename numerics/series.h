@@ -26,7 +26,7 @@ static inline void series_turn(double c, double s, double *ch, double *sh)
 /* x, x', x'' at the angle whose cosine and sine are c and s. Error: about n_harm rounding units of sum |X|. */
 series_jet series_at(int n_harm, const double *X, double c, double s);
 
-/* Largest and smallest value over a period, to rounding: every extremum is found (crossing.h). */
+/* Largest and smallest value over a period, to rounding: every extremum is found; in crossing.c, which finds them. */
 void series_extrema(int n_harm, const double *X, double *max, double *min);
 
 /* Root mean square over a period, mean included. */
@@ -34,5 +34,36 @@ double series_rms(int n_harm, const double *X);
 
 /* |a_1 + i b_1|, or 0 when n_harm = 0. */
 double series_harmonic_1(int n_harm, const double *X);
+
+/* ---- several series at one angle or on a grid of angles, with two derivatives ---- */
+
+enum { SERIES_MAX_DIM = 2, SERIES_GRID = 32 };
+
+/* x_1(th) .. x_dim(th), each a series (series.h). */
+typedef struct series_vector {
+  int n_harm, dim;
+  const double *X[SERIES_MAX_DIM]; /* [2 n_harm + 1] */
+} series_vector;
+
+/* Values and two derivatives by th at one angle. */
+typedef struct series_node {
+  double th, d[3][SERIES_MAX_DIM];
+} series_node;
+
+series_node series_vector_at(const series_vector *m, double th);
+
+/* On SERIES_GRID equidistant angles a period. */
+typedef struct series_grid {
+  series_vector m;
+  double size[3][SERIES_MAX_DIM];        /* sums of |coefficients| of x, x', x'' */
+  series_node node[2 * SERIES_GRID + 1]; /* two periods: one that starts anywhere in the first lies in them */
+} series_grid;
+
+/* cos and sin of h th_i for half the grid, [n_harm][2][SERIES_GRID/2], filled once: half a period later odd harmonics
+ * change sign. */
+static inline int series_grid_table_length(int n_harm) { return SERIES_GRID * n_harm; }
+void series_grid_table_fill(int n_harm, double *table);
+
+void series_grid_fill(series_grid *g, const series_vector *m, const double *table);
 
 #endif

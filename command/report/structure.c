@@ -12,7 +12,7 @@
 #include "compare/first_guess.h"
 #include "compare/frequencies.h"
 #include "hbm/hbm.h"
-#include "model/circle_law.h"
+#include "model/contact_law.h"
 #include "numerics/series.h"
 
 enum { MOST_OMEGAS = 12, MOST_SOLUTIONS = 24, MOST_CONTACTS = 24, SAMPLES = 240, STEPS = 20, DIGITS = 6, NAME = 64 };
@@ -84,7 +84,7 @@ static void shown_close(shown *d)
 /* ---- one solution ---- */
 
 /* The tractions of two tangents over each other, followed as in loop_of, by short steps: they are of first order where
- * the direction of slip turns (circle_law.h). `first` is the model's contact, j the case's. */
+ * the direction of slip turns (contact_law.h). `first` is the model's contact, j the case's. */
 static json_t *loop_of_pair(const shown *d, int j, int first)
 {
   const contact *law = &d->m->contacts[first].law;
@@ -95,7 +95,7 @@ static json_t *loop_of_pair(const shown *d, int j, int first)
   for (int i = -SAMPLES * STEPS; i <= SAMPLES * STEPS; ++i) {
     const double th = TWO_PI * i / (SAMPLES * STEPS), c = cos(th), s = sin(th), v = series_at(H, d->series[1], c, s).x;
     const double u[2] = {series_at(H, d->series[0], c, s).x, series_at(H, d->series[2], c, s).x};
-    if (circle) circle_step(law, u, v, w, T);
+    if (circle) contact_step_planar(law, u, v, w, T);
     for (int k = 0; k < 2 && !circle; ++k) contact_step(law, u[k], v, &w[k], &T[k]);
     if (i < 0 || i % STEPS) continue;
     json_array_append_new(x, number(T[0]));

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/ascending.h"
+#include "base/number.h"
 #include "base/thread_clock.h"
 #include "compare/accuracy/reference.h"
 #include "numerics/workers.h"

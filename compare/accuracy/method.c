@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/ascending.h"
+#include "base/number.h"
 #include "base/thread_clock.h"
 #include "compare/first_guess.h"
 #include "compare/response.h"

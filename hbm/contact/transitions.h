@@ -15,7 +15,7 @@
 
 #include "base/status.h"
 #include "model/moving_contact.h"
-#include "numerics/series_grid.h"
+#include "numerics/series.h"
 
 /* An interval of the period in one state. */
 typedef struct contact_interval {

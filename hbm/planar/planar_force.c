@@ -29,7 +29,7 @@ struct planar_force {
   double *F_normal, *jac_normal;     /* [n_coef], [n_coef]^2 */
   double *X;                         /* [n_size] of the last evaluation, which its motion is read from later, too */
   planar_motion motion;
-  double *table; /* of series_grid.h */
+  double *table; /* of series.h */
   planar_point grid[PLANAR_GRID];
   collocation rule;
   planar_contact *contact; /* [cap] */

@@ -6,7 +6,7 @@
 
 #include "model/contact_law.h"
 #include "numerics/collocation.h"
-#include "numerics/series_grid.h"
+#include "numerics/series.h"
 
 typedef struct planar_motion {
   int n_harm;

@@ -15,8 +15,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/ascending.h"
 #include "base/constants.h"
+#include "base/number.h"
 #include "hbm/planar/planar_flow.h"
 #include "hbm/stability/interval_flow.h"
 #include "numerics/floquet.h"

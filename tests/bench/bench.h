@@ -9,7 +9,7 @@
 #include <string.h>
 #include <time.h>
 
-#include "base/ascending.h"
+#include "base/number.h"
 #include "casefile/case_file.h"
 
 enum { BENCH_MOST_ROUNDS = 1001 };

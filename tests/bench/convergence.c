@@ -4,14 +4,13 @@
  * against the same orbit. Errors are relative: of |a1 + i b1|, of a1 + i b1 in the plane, of the amplitude (max -
  * min)/2, and the largest of x over the period. An order is log(error before/error)/log(ratio of H, or of the
  * regularisation). */
+#include "base/constants.h"
 #include "numerics/series.h"
 #include "study/scene_solvers.h"
 #include "tests/bench/orbits.h"
 
 enum { MEASURES = 4, LEVELS = 4, DECADES = 5 };
 static const int levels[LEVELS] = {10, 20, 40, 80};
-static const double pi = 3.14159265358979323846;
-
 typedef struct bench_case {
   const char *name;
   scene sc;
@@ -22,7 +21,7 @@ static void errors_of_series(int H, const double *X, const hbm_measures *m, cons
 {
   double worst = 0;
   for (int i = 0; i < TIMEINT_WAVE; ++i) {
-    double th = 2 * pi * i / TIMEINT_WAVE;
+    double th = TWO_PI * i / TIMEINT_WAVE;
     worst = fmax(worst, fabs(series_at(H, X, cos(th), sin(th)).x - ref->wave[i]));
   }
   e[0] = fabs(m->harmonic_1 / ref->harmonic_1 - 1);

@@ -1,5 +1,5 @@
 /* test_planar_stability.c - Floquet multipliers of structures with circles against differences of a period map that the
- * test marches itself, by the law as model/circle_law.h states it and the method of Runge and Kutta between located
+ * test marches itself, by the law as model/contact_law.h states it and the method of Runge and Kutta between located
  * changes; nothing of hbm/'s evaluators is used.
  *
  *     M x'' + C x' + K x + sum over circles t_1 T_1 + t_2 T_2 + n (N - N0) = f(t)

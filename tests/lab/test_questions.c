@@ -197,7 +197,7 @@ static void loop_encloses_the_work(void **state)
   lab *l = lab_with_case();
   take_largest(l);
   assert_int_equal(lab_work(l), HC_OK);
-  const double work = row(l, 0)[5], limit = row(l, 0)[3], step = 2 * acos(-1) / N;
+  const double work = row(l, 0)[5], limit = row(l, 0)[3], step = TWO_PI / N;
   assert_true(work > 0);
   for (int force = LAB_EXACT; force <= LAB_SAMPLED; ++force) {
     double area = 0, widest = 0;

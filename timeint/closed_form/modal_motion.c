@@ -6,7 +6,7 @@
 #include <stddef.h>
 
 #include "model/linear.h"
-#include "numerics/safe_step.h"
+#include "numerics/exponentials.h"
 
 static const double near_resonance = 0.25;  /* of k - 1 + i c: below, r is computed as a divided difference */
 static const double near_free = 1e-2;       /* of k: below, s is not computed as a difference divided by k */

@@ -6,8 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "numerics/exponentials.h"
 #include "numerics/norm.h"
-#include "numerics/safe_step.h"
 
 enum { TERMS = TRACK_TERMS, MAX_NEWTON = 60 };
 

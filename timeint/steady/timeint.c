@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/constants.h"
 #include "timeint/closed_form/integrate_closed_form.h"
 #include "timeint/cvode/integrate_events.h"
 #include "timeint/cvode/integrate_regularised.h"
@@ -12,8 +13,6 @@
 #include "timeint/steady/scout.h"
 #include "timeint/steady/shoot.h"
 #include "timeint/steady/timeint_private.h"
-
-static const double pi = 3.14159265358979323846;
 
 enum { MOST_STATES = 40000 }; /* their square, the size of a monodromy matrix (13 GB), is an int */
 
@@ -203,7 +202,7 @@ hc_status timeint_begin(timeint *ti, double omega, const double *state)
   if (!positive(omega) || !state_ok(ti, state)) return HC_BAD_INPUT;
   ti->omega = omega;
   ti->measured = ti->is_extrapolated = false;
-  ti->contraction = exp(-2 * pi * ti->base->slowest / omega);
+  ti->contraction = exp(-TWO_PI * ti->base->slowest / omega);
   ti->periods = 0;
   ti->steps0 = integrate_steps(ti->in);
   ti->rhs0 = integrate_rhs(ti->in);

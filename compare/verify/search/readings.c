@@ -6,8 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/ascending.h"
 #include "base/constants.h"
+#include "base/number.h"
 
 static const struct {
   double factor;

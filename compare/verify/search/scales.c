@@ -7,8 +7,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "base/ascending.h"
 #include "base/constants.h"
+#include "base/number.h"
 #include "compare/first_guess.h"
 #include "compare/verify/search/search_impl.h"
 #include "hbm/curve/segment.h"

@@ -111,12 +111,6 @@ static int by_place(const void *a, const void *b)
   return (x->omega > y->omega) - (x->omega < y->omega);
 }
 
-static int ascending(const void *a, const void *b)
-{
-  const double x = *(const double *)a, y = *(const double *)b;
-  return (x > y) - (x < y);
-}
-
 static void neighbours_clear(neighbours *p)
 {
   free(p->row);

@@ -1,8 +1,8 @@
-/* test_circle_law.c - the law of the circle: its branches, the one-dimensional law along any line, and what no rotation
+/* test_planar_law.c - the law of two tangents: its branches, the one-dimensional law along any line, and what no rotation
  * of the tangents changes. */
 #include <float.h>
 
-#include "model/circle_law.h"
+#include "model/contact_law.h"
 #include "tests/check.h"
 #include "tests/random.h"
 
@@ -14,7 +14,7 @@ static void separated_lets_go_and_follows(void **state)
   (void)state;
   const double u[2] = {3, -4};
   double w[2] = {7, 8}, T[2] = {9, 9};
-  assert_int_equal(circle_step(&law, u, -0.5, w, T), CONTACT_SEPARATED);
+  assert_int_equal(contact_step_planar(&law, u, -0.5, w, T), CONTACT_SEPARATED);
   assert_true(w[0] == 3 && w[1] == -4 && T[0] == 0 && T[1] == 0);
 }
 
@@ -23,10 +23,9 @@ static void stick_is_a_spring_to_the_slider(void **state)
   (void)state;
   const double u[2] = {1.375, -0.5};
   double w[2] = {1, 0}, T[2];
-  assert_int_equal(circle_step(&law, u, 0.5, w, T), CONTACT_STICK); /* |T| = |(1.5, -2)| = 2.5, the limit included */
+  assert_int_equal(contact_step_planar(&law, u, 0.5, w, T),
+                   CONTACT_STICK); /* |T| = |(1.5, -2)| = 2.5, the limit included */
   assert_true(w[0] == 1 && w[1] == 0 && T[0] == 1.5 && T[1] == -2);
-  assert_true(circle_guard_stick(&law, u, 0.5, w) == 0);
-  assert_true(circle_guard_stick(&law, (double[2]){1, 0}, 0.5, w) == 6.25);
 }
 
 static void slip_returns_radially_and_drags_the_slider(void **state)
@@ -34,19 +33,9 @@ static void slip_returns_radially_and_drags_the_slider(void **state)
   (void)state;
   const double u[2] = {2.5, -2};
   double w[2] = {1, 0}, T[2]; /* the predictor (6, -8) is four times as long as the limit */
-  assert_int_equal(circle_step(&law, u, 0.5, w, T), CONTACT_SLIP_PLUS);
+  assert_int_equal(contact_step_planar(&law, u, 0.5, w, T), CONTACT_SLIP_PLUS);
   assert_true(T[0] == 1.5 && T[1] == -2);
   assert_true(w[0] == 2.125 && w[1] == -1.5);
-}
-
-static void touching_slips_along_the_velocity_or_sticks(void **state)
-{
-  (void)state;
-  const double du[2] = {0.375, 0.5}; /* kt |du| = mu kn dv = 2.5 at dv = 1 */
-  assert_int_equal(circle_on_touch(&law, du, 1), CONTACT_STICK);
-  assert_int_equal(circle_on_touch(&law, du, 0.99), CONTACT_SLIP_PLUS);
-  assert_true(circle_guard_slip(&law, (double[2]){0.6, 0.8}, du, 0) <= 2.5 * (1 + DBL_EPSILON));
-  assert_true(circle_guard_slip(&law, (double[2]){1, 0}, du, 0.25) == 1.5 - 0.625);
 }
 
 /* Steps along a line of any direction are contact_step's, to the rounding of the projections: each number below is off
@@ -60,7 +49,7 @@ static void along_a_line_it_is_the_law_of_one_tangent(void **state)
                  v = random_signed(&seed), start = random_signed(&seed);
     double w1 = start, t1, w[2] = {start * e[0], start * e[1]}, T[2];
     const double u[2] = {along * e[0], along * e[1]};
-    const contact_state one = contact_step(&law, along, v, &w1, &t1), two = circle_step(&law, u, v, w, T);
+    const contact_state one = contact_step(&law, along, v, &w1, &t1), two = contact_step_planar(&law, u, v, w, T);
     assert_int_equal(two, one == CONTACT_SLIP_MINUS ? CONTACT_SLIP_PLUS : one);
     for (int d = 0; d < 2; ++d) {
       CHECK_NEAR(T[d], t1 * e[d], 128 * DBL_EPSILON, "T of step %d", i);
@@ -82,10 +71,10 @@ static void nothing_depends_on_the_tangents_or_on_the_half(void **state)
   for (int i = 0; i < 500; ++i) {
     const double u[2] = {random_signed(&seed), random_signed(&seed)}, v = random_signed(&seed);
     const double u_turned[2] = {c * u[0] - s * u[1], s * u[0] + c * u[1]};
-    const contact_state whole = circle_step(&law, u, v, w, T);
-    assert_int_equal(circle_step(&half, u_turned, v, turned, T_turned), whole);
-    assert_true(circle_limit(&half, v) == circle_limit(&law, v));
-    CHECK_LE(hypot(T[0], T[1]), circle_limit(&law, v) * (1 + 4 * DBL_EPSILON), "step %d", i);
+    const contact_state whole = contact_step_planar(&law, u, v, w, T);
+    assert_int_equal(contact_step_planar(&half, u_turned, v, turned, T_turned), whole);
+    assert_true(half.mu * contact_normal(&half, v) == law.mu * contact_normal(&law, v));
+    CHECK_LE(hypot(T[0], T[1]), law.mu * contact_normal(&law, v) * (1 + 4 * DBL_EPSILON), "step %d", i);
     /* the step does not expand distances, so that at most i + 1 steps' roundings of lengths <= 3 add up */
     CHECK_NEAR(turned[0], c * w[0] - s * w[1], 16 * (i + 1) * DBL_EPSILON, "step %d", i);
     CHECK_NEAR(turned[1], s * w[0] + c * w[1], 16 * (i + 1) * DBL_EPSILON, "step %d", i);
@@ -96,7 +85,7 @@ static void not_a_number_is_no_stick(void **state)
 {
   (void)state;
   double w[2] = {0}, T[2];
-  assert_int_not_equal(circle_step(&law, (double[2]){NAN, 0}, 0.5, w, T), CONTACT_STICK);
+  assert_int_not_equal(contact_step_planar(&law, (double[2]){NAN, 0}, 0.5, w, T), CONTACT_STICK);
   assert_true(isnan(T[0]) && isnan(w[0]));
 }
 
@@ -107,10 +96,9 @@ int main(void)
       cmocka_unit_test(separated_lets_go_and_follows),
       cmocka_unit_test(stick_is_a_spring_to_the_slider),
       cmocka_unit_test(slip_returns_radially_and_drags_the_slider),
-      cmocka_unit_test(touching_slips_along_the_velocity_or_sticks),
       cmocka_unit_test(along_a_line_it_is_the_law_of_one_tangent),
       cmocka_unit_test(nothing_depends_on_the_tangents_or_on_the_half),
       cmocka_unit_test(not_a_number_is_no_stick),
   };
-  return cmocka_run_group_tests_name("model.circle_law", tests, NULL, NULL);
+  return cmocka_run_group_tests_name("model.planar_law", tests, NULL, NULL);
 }
