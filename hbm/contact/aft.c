@@ -288,14 +288,6 @@ static void subtract_stick_interval(aft *a, const moving_contact *c, const slide
     for (int p = 0; p < n_coef; ++p) jac[(size_t)q * (size_t)rows + (size_t)p] -= a->left[p] * a->right[q];
 }
 
-static void subtract_stick_intervals(aft *a, int j, double *jac)
-{
-  const sampled_interval *s = a->intervals + (size_t)j * (size_t)a->n_time;
-  for (int m = 0; m < a->n_intervals[j]; ++m)
-    if (s[m].state == CONTACT_STICK)
-      subtract_stick_interval(a, &a->contacts[j], &s[m].origin, s[m].first, end_of_interval(a, j, m), jac);
-}
-
 /* dF_i/dx_i at fixed w, of one coordinate. */
 static double stiffness_in(const moving_contact *c, contact_state state)
 {
@@ -314,14 +306,6 @@ static void add_stiffness(aft *a, int j)
     const double stiffness = stiffness_in(&a->contacts[j], s[m].state);
     for (int i = s[m].first; i < end; ++i) a->k[i] += stiffness;
   }
-}
-
-static void differentiate_one_coordinate(aft *a, double *jac)
-{
-  memset(a->k, 0, (size_t)a->n_time * sizeof(double));
-  for (int j = 0; j < a->n_contacts; ++j) add_stiffness(a, j);
-  to_series(a, a->to_freq_k, 2 * a->n_harm, a->symbol);
-  force_jacobian_add(a->n_harm, a->symbol, series_length(a->n_harm), jac);
 }
 
 /* One block of the Jacobian from its stiffness in every contact_state. */
@@ -350,8 +334,18 @@ void aft_jacobian(aft *a, double *jac)
   const size_t rows = (size_t)a->n_dof * (size_t)series_length(a->n_harm);
   memset(jac, 0, rows * rows * sizeof(double));
   if (a->n_dof > 1) differentiate_two_coordinates(a, jac);
-  else differentiate_one_coordinate(a, jac);
-  for (int j = 0; j < a->n_contacts; ++j) subtract_stick_intervals(a, j, jac);
+  else {
+    memset(a->k, 0, (size_t)a->n_time * sizeof(double));
+    for (int j = 0; j < a->n_contacts; ++j) add_stiffness(a, j);
+    to_series(a, a->to_freq_k, 2 * a->n_harm, a->symbol);
+    force_jacobian_add(a->n_harm, a->symbol, series_length(a->n_harm), jac);
+  }
+  for (int j = 0; j < a->n_contacts; ++j) {
+    const sampled_interval *s = a->intervals + (size_t)j * (size_t)a->n_time;
+    for (int m = 0; m < a->n_intervals[j]; ++m)
+      if (s[m].state == CONTACT_STICK)
+        subtract_stick_interval(a, &a->contacts[j], &s[m].origin, s[m].first, end_of_interval(a, j, m), jac);
+  }
 }
 
 /* ---- as one of contact_evaluator.h -------------------------------------------------------------------- */

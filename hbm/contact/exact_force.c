@@ -172,13 +172,6 @@ static void subtract_stick_interval(exact_force *e, const moving_contact *c, con
     }
 }
 
-static void subtract_stick_intervals(exact_force *e, double *jac)
-{
-  for (int j = 0; j < e->n_contacts; ++j)
-    for (int i = 0; i < e->n_intervals[j]; ++i)
-      subtract_stick_interval(e, &e->contacts[j], e->intervals + (size_t)j * e->cap + i, jac);
-}
-
 /* The blocks (d, f) of the matrix from the symbols K_df. */
 static void assemble(const exact_force *e, double *matrix)
 {
@@ -233,13 +226,6 @@ static void fill_report(const exact_force *e, contact_report *report)
   }
 }
 
-/* F += matrix X, while the matrix is Toeplitz + Hankel only. */
-static void multiply(const exact_force *e, const double *matrix, const double *X, double *F)
-{
-  int m = e->n_dof * e->n_coef;
-  for (int q = 0; q < m; ++q) add_scaled(m, X[q], matrix + (size_t)m * q, F);
-}
-
 hc_status exact_force_eval(exact_force *e, const double *X, double *F, double *jac, contact_report *report)
 {
   int m = e->n_dof * e->n_coef, symbol = force_jacobian_symbol_length(e->n_harm);
@@ -263,8 +249,10 @@ hc_status exact_force_eval(exact_force *e, const double *X, double *F, double *j
     }
   }
   assemble(e, matrix);
-  multiply(e, matrix, X, F);
-  if (jac) subtract_stick_intervals(e, jac);
+  for (int q = 0; q < m; ++q) add_scaled(m, X[q], matrix + (size_t)m * q, F); /* Toeplitz + Hankel only, so far */
+  for (int j = 0; jac && j < e->n_contacts; ++j)
+    for (int i = 0; i < e->n_intervals[j]; ++i)
+      subtract_stick_interval(e, &e->contacts[j], e->intervals + (size_t)j * e->cap + i, jac);
   if (report) fill_report(e, report);
   return HC_OK;
 }

@@ -24,14 +24,3 @@ void force_jacobian_add(int n_harm, const double *k, int ld, double *jac)
     }
   }
 }
-
-void force_jacobian_subtract(int n_harm, const double *restrict left, const double *restrict right,
-                             double *restrict jac)
-{
-  int n = series_length(n_harm);
-  for (int q = 0; q < n; ++q) {
-    double *restrict col = jac + (size_t)n * q;
-    const double factor = right[q];
-    for (int p = 0; p < n; ++p) col[p] -= left[p] * factor;
-  }
-}

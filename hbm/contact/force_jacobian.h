@@ -5,8 +5,7 @@
  * of two trigonometric functions become sums, so dF/dX is Toeplitz + Hankel in C and S: for example
  *
  *     d(cosine p of F)/d(cosine q of x) = (C_|p-q| + C_{p+q})/2,      C_0 = 2 k0
- *
- * The position of a stuck slider depends on the motion at another angle: that is a rank-1 term to subtract. */
+ */
 #ifndef HC_FORCE_JACOBIAN_H
 #define HC_FORCE_JACOBIAN_H
 
@@ -18,8 +17,5 @@ static inline int force_jacobian_symbol_length(int n_harm) { return 4 * n_harm +
 /* jac[row + ld col], rows and columns 0 .. 2 n_harm, += the Toeplitz + Hankel matrix of symbol[4 n_harm + 1]
  * [force/length]. */
 void force_jacobian_add(int n_harm, const double *symbol, int ld, double *jac);
-
-/* jac -= left right^T, both [2 n_harm + 1]. */
-void force_jacobian_subtract(int n_harm, const double *left, const double *right, double *jac);
 
 #endif

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static hc_status double_room(hbm_curve *c)
+static hc_status double_capacity(hbm_curve *c)
 {
   size_t cap = c->cap ? 2 * (size_t)c->cap : 128, row = (size_t)c->n_coef * sizeof(double);
   hbm_point *points = realloc(c->points, cap * sizeof *points);
@@ -21,7 +21,7 @@ static hc_status double_room(hbm_curve *c)
 hc_status hbm_curve_append(hbm_curve *c, int n_coef, const double *X, const double *dX, const hbm_point *point)
 {
   c->n_coef = n_coef;
-  if (c->n == c->cap && double_room(c) != HC_OK) return HC_NO_MEMORY;
+  if (c->n == c->cap && double_capacity(c) != HC_OK) return HC_NO_MEMORY;
   size_t row = (size_t)n_coef * sizeof(double);
   c->points[c->n] = *point;
   memcpy(hbm_curve_X(c, c->n), X, row);

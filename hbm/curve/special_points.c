@@ -48,8 +48,8 @@ typedef struct detector {
   const hbm_curve *c;
   hbm_candidate x;    /* the solution on a segment that was evaluated last */
   hbm_narrowing near; /* of a contact change */
-  int n, room, first; /* of found; `first` is the first one of the current segment */
-  found_point *found; /* [room] */
+  int n, cap, first;  /* of found; `first` is the first one of the current segment */
+  found_point *found; /* [cap] */
 } detector;
 
 bool hbm_specials_follow_each(const hbm_solver *s) { return s->model->n_contacts <= MOST_CONTACTS_FOLLOWED; }
@@ -81,14 +81,14 @@ static bool same_pattern(const test_values *a, const test_values *b)
   return a->regime == b->regime && a->transitions == b->transitions;
 }
 
-static hc_status make_room(detector *d)
+static hc_status need_capacity(detector *d)
 {
-  if (d->n < d->room) return HC_OK;
-  const int room = d->room ? 2 * d->room : 32;
-  found_point *grown = realloc(d->found, (size_t)room * sizeof *grown);
+  if (d->n < d->cap) return HC_OK;
+  const int cap = d->cap ? 2 * d->cap : 32;
+  found_point *grown = realloc(d->found, (size_t)cap * sizeof *grown);
   if (!grown) return HC_NO_MEMORY;
   d->found = grown;
-  d->room = room;
+  d->cap = cap;
   return HC_OK;
 }
 
@@ -97,7 +97,7 @@ static hc_status insert_special(detector *d, double sigma, hbm_special_kind kind
                                 const test_values *after)
 {
   hbm_measures m;
-  hc_status st = make_room(d);
+  hc_status st = need_capacity(d);
   if (st == HC_OK) st = hbm_measure(d->s, d->x.X, &m);
   if (st != HC_OK) return st;
   int i = d->n++;

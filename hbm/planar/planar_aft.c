@@ -1,4 +1,4 @@
-/* planar_aft.c - see planar_aft.h; its Jacobian is in planar_aft_jacobian.c.
+/* planar_aft.c - see planar_aft.h.
  *   X -> u_1, u_2, v at th_i = 2 pi i/N -> r -> the slider from sample to sample (planar_slider.h) until it closes
  *     -> T_1, T_2, N - N0 at th_i -> F
  * A period maps w to w no farther apart. Once out of contact all is forgotten, and the second period is the orbit.
@@ -60,23 +60,17 @@ static inline planar_sample planar_aft_sample(const planar_aft *a, int i)
 
 /* ---- made and freed ------------------------------------------------------------------------------ */
 
-static hc_status make_plans(planar_aft *a)
-{
-  hc_status st = fft_plan_to_samples(a->n_time, a->spec, a->motion[0], &a->to_time);
-  return st == HC_OK ? fft_plan_to_spectrum(a->n_time, a->sample, a->spec, &a->to_freq) : st;
-}
-
 static hc_status make_samples(planar_aft *a)
 {
   const size_t n = (size_t)a->n_time;
-  bool room = true;
-  for (int d = 0; d < 3; ++d) room &= (a->motion[d] = fftw_alloc_real(n)) != NULL;
-  for (int d = 0; d < 2; ++d) room &= (a->traction[d] = calloc(n, sizeof(double))) != NULL;
-  room &= (a->sample = fftw_alloc_real(n)) != NULL;
-  room &= (a->spec = fftw_alloc_complex(n / 2 + 1)) != NULL;
-  room &= (a->root = malloc(n * sizeof *a->root)) != NULL;
-  room &= (a->move = calloc(n, sizeof *a->move)) != NULL;
-  if (!room) return HC_NO_MEMORY;
+  bool allocated = true;
+  for (int d = 0; d < 3; ++d) allocated &= (a->motion[d] = fftw_alloc_real(n)) != NULL;
+  for (int d = 0; d < 2; ++d) allocated &= (a->traction[d] = calloc(n, sizeof(double))) != NULL;
+  allocated &= (a->sample = fftw_alloc_real(n)) != NULL;
+  allocated &= (a->spec = fftw_alloc_complex(n / 2 + 1)) != NULL;
+  allocated &= (a->root = malloc(n * sizeof *a->root)) != NULL;
+  allocated &= (a->move = calloc(n, sizeof *a->move)) != NULL;
+  if (!allocated) return HC_NO_MEMORY;
   for (int i = 0; i < a->n_time; ++i) a->root[i] = cos(i * (TWO_PI / a->n_time)) + I * sin(i * (TWO_PI / a->n_time));
   return HC_OK;
 }
@@ -84,14 +78,14 @@ static hc_status make_samples(planar_aft *a)
 static hc_status make_tables(planar_aft *a)
 {
   const size_t length = (size_t)series_length(a->n_harm), n_col = (size_t)a->n_dof * length + 2;
-  bool room = (a->symbol = calloc((size_t)force_jacobian_symbol_length(a->n_harm), sizeof(double))) != NULL;
+  bool allocated = (a->symbol = calloc((size_t)force_jacobian_symbol_length(a->n_harm), sizeof(double))) != NULL;
   for (int d = 0; d < 2; ++d) {
-    room &= (a->basis[d] = calloc(length, sizeof(double))) != NULL;
-    room &= (a->by[d] = calloc(n_col, sizeof(double))) != NULL;
+    allocated &= (a->basis[d] = calloc(length, sizeof(double))) != NULL;
+    allocated &= (a->by[d] = calloc(n_col, sizeof(double))) != NULL;
   }
-  room &= (a->held = calloc(length, sizeof(double))) != NULL;
-  room &= (a->whole = calloc(2 * length * n_col, sizeof(double))) != NULL;
-  return room ? HC_OK : HC_NO_MEMORY;
+  allocated &= (a->held = calloc(length, sizeof(double))) != NULL;
+  allocated &= (a->whole = calloc(2 * length * n_col, sizeof(double))) != NULL;
+  return allocated ? HC_OK : HC_NO_MEMORY;
 }
 
 hc_status planar_aft_new(int n_harm, int n_time, hbm_restart restart, int n_dof, const contact *law, planar_aft **out)
@@ -108,7 +102,8 @@ hc_status planar_aft_new(int n_harm, int n_time, hbm_restart restart, int n_dof,
   a->law = *law;
   hc_status st = make_samples(a);
   if (st == HC_OK) st = make_tables(a);
-  if (st == HC_OK) st = make_plans(a);
+  if (st == HC_OK) st = fft_plan_to_samples(a->n_time, a->spec, a->motion[0], &a->to_time);
+  if (st == HC_OK) st = fft_plan_to_spectrum(a->n_time, a->sample, a->spec, &a->to_freq);
   if (st == HC_OK) *out = a;
   else planar_aft_free(a);
   return st;

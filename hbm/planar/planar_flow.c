@@ -55,10 +55,10 @@ hc_status planar_flow_new(const model *m, planar_flow **out)
   for (int i = 0; i < N; ++i)
     for (int j = 0; j < N; ++j)
       for (int k = 0; k < N; ++k) f->twice[i][j] += f->c.a[i][k] * f->c.a[k][j];
-  const bool room = f->K && f->matrix && f->pivot && f->right && f->now && f->at && f->along && f->perp;
-  if (room) *out = f;
+  const bool allocated = f->K && f->matrix && f->pivot && f->right && f->now && f->at && f->along && f->perp;
+  if (allocated) *out = f;
   else planar_flow_free(f);
-  return room ? HC_OK : HC_NO_MEMORY;
+  return allocated ? HC_OK : HC_NO_MEMORY;
 }
 
 void planar_flow_free(planar_flow *f)

@@ -18,7 +18,7 @@ static void add_outer(int dim, double k, const double *d, double *K)
 
 static void add_stuck_stiffness(const hbm_system *sys)
 {
-  hbm_linear_room *r = sys->room;
+  hbm_linear_workspace *r = sys->workspace;
   memset(r->stiffness, 0, (size_t)sys->dim * (size_t)sys->dim * sizeof *r->stiffness);
   for (int j = 0; j < sys->model->n_contacts; ++j) {
     const contact *law = &sys->model->contacts[j].law;
@@ -31,7 +31,7 @@ static void add_stuck_stiffness(const hbm_system *sys)
 /* S_h + K', factored. */
 static hc_status factor(const hbm_system *sys, int h)
 {
-  hbm_linear_room *r = sys->room;
+  hbm_linear_workspace *r = sys->workspace;
   const double complex *S = condensation_stiffness(sys->linear, h);
   for (int i = 0; i < sys->dim * sys->dim; ++i) r->A[i] = S[i] + r->stiffness[i];
   return dense_factor_complex(sys->dim, r->A, r->pivot);
@@ -58,7 +58,7 @@ static void put_amplitude(const hbm_system *sys, int h, const double complex *z,
  * right: N - N0 is kn (v + gap) in contact with gap < 0, and -kn gap apart with gap > 0. */
 static hc_status solve_static(const hbm_system *sys)
 {
-  hbm_linear_room *r = sys->room;
+  hbm_linear_workspace *r = sys->workspace;
   const double complex *p = load_of(sys, 0);
   add_stuck_stiffness(sys);
   hc_status st = factor(sys, 0);
@@ -79,7 +79,7 @@ static double rest_motion(const hbm_system *sys, int j)
 {
   const double *n = condensation_normal(sys->linear, j);
   double v = 0;
-  for (int d = 0; d < sys->dim; ++d) v += n[d] * creal(sys->room->z[d]);
+  for (int d = 0; d < sys->dim; ++d) v += n[d] * creal(sys->workspace->z[d]);
   return v;
 }
 
@@ -93,7 +93,7 @@ static bool contact_is_closed(const hbm_system *sys, int j)
 static hc_status find_static_state(const hbm_system *sys, double *X)
 {
   enum { TRIES = 50 };
-  hbm_linear_room *r = sys->room;
+  hbm_linear_workspace *r = sys->workspace;
   const bool loaded = load_of(sys, 0) && sys->first == 0;
   for (int j = 0; j < sys->model->n_contacts; ++j) {
     const contact *law = &sys->model->contacts[j].law;
@@ -120,7 +120,7 @@ hc_status hbm_linear_rest(hbm_system *sys, double *N)
 {
   const double any = 1; /* at rest omega matters nowhere */
   hc_status st = condensation_at(sys->linear, any, 0);
-  memset(sys->room->z, 0, (size_t)sys->dim * sizeof *sys->room->z);
+  memset(sys->workspace->z, 0, (size_t)sys->dim * sizeof *sys->workspace->z);
   if (st == HC_OK) st = find_static_state(sys, sys->rows);
   for (int j = 0; j < sys->model->n_contacts && st == HC_OK; ++j)
     N[j] = contact_normal(&sys->model->contacts[j].law, rest_motion(sys, j));
@@ -129,7 +129,7 @@ hc_status hbm_linear_rest(hbm_system *sys, double *N)
 
 static hc_status respond(const hbm_system *sys, double omega, double *X)
 {
-  hbm_linear_room *r = sys->room;
+  hbm_linear_workspace *r = sys->workspace;
   hc_status st = condensation_at(sys->linear, omega, sys->more_damping);
   memset(X, 0, (size_t)sys->n_coef * sizeof(double));
   if (st == HC_OK) st = find_static_state(sys, X);
@@ -154,7 +154,7 @@ double hbm_linear_response(hbm_system *sys, double omega, double *X)
 /* dq_h = -(S + K')^-1 (dS q_h - dp), harmonic by harmonic: the rows of the equations' derivative. */
 static void differentiate_response(hbm_system *sys, double omega, const double *X, double *R, double *dX)
 {
-  hbm_linear_room *r = sys->room;
+  hbm_linear_workspace *r = sys->workspace;
   const int dim = sys->dim;
   memset(dX, 0, (size_t)sys->n_coef * sizeof(double));
   hbm_system_domega(sys, omega, X, R);

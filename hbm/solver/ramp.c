@@ -19,21 +19,11 @@ static const double least_force = 1e-4, least_damping = 1e-9; /* [1] of the whol
  * more than 246, the longest 806. One step in three is rejected. */
 enum { MOST_DAMPING_STEPS = 1500, MOST_FORCE_STEPS = 2000 };
 
-/* [force/length] The stiffness of the stuck structure's fastest mode, for the mean of the masses. */
-static double stiffest(const hbm_system *sys)
-{
-  const model *m = sys->model;
-  double mass = 0;
-  for (int i = 0; i < m->n; ++i) mass += m->mass[(size_t)i * (size_t)(m->n + 1)] / m->n;
-  return mass * sys->scales.highest * sys->scales.highest;
-}
-
-/* The mean of C's diagonal. */
-static double mean_damping(const model *m)
+static double mean_of_diagonal(int n, const double *A)
 {
   double sum = 0;
-  for (int i = 0; i < m->n; ++i) sum += m->damping[(size_t)i * (size_t)(m->n + 1)];
-  return sum / m->n;
+  for (int i = 0; i < n; ++i) sum += A[(size_t)i * (size_t)(n + 1)];
+  return sum / n;
 }
 
 hbm_ramp hbm_ramp_of(hbm_ramp_kind kind, const hbm_system *sys, double omega)
@@ -42,9 +32,12 @@ hbm_ramp hbm_ramp_of(hbm_ramp_kind kind, const hbm_system *sys, double omega)
   if (kind == HBM_RAMP_FORCE) return r;
   r.from = 2;
   r.most_steps = MOST_DAMPING_STEPS;
-  r.most = 10 * stiffest(sys) / omega;
+  /* [force/length] the stiffness of the stuck structure's fastest mode, for the mean of the masses */
+  const model *m = sys->model;
+  const double stiffest = mean_of_diagonal(m->n, m->mass) * sys->scales.highest * sys->scales.highest;
+  r.most = 10 * stiffest / omega;
   /* D falls by the same factor over equal parts of the ramp, until it is small beside C */
-  r.rate = fmax(1, -log(fmax(mean_damping(sys->model) / r.most, least_damping)));
+  r.rate = fmax(1, -log(fmax(mean_of_diagonal(m->n, m->damping) / r.most, least_damping)));
   return r;
 }
 

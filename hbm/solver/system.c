@@ -5,10 +5,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-static hc_status linear_room_new(const model *m, int dim, hbm_linear_room **out)
+static hc_status linear_workspace_new(const model *m, int dim, hbm_linear_workspace **out)
 {
   const size_t n = (size_t)dim;
-  hbm_linear_room *r = *out = calloc(1, sizeof *r);
+  hbm_linear_workspace *r = *out = calloc(1, sizeof *r);
   if (!r) return HC_NO_MEMORY;
   r->stuck = calloc((size_t)m->n_contacts + 1, sizeof *r->stuck);
   r->stiffness = calloc(n * n, sizeof *r->stiffness);
@@ -18,7 +18,7 @@ static hc_status linear_room_new(const model *m, int dim, hbm_linear_room **out)
   return r->stuck && r->stiffness && r->A && r->z && r->pivot ? HC_OK : HC_NO_MEMORY;
 }
 
-static void linear_room_free(hbm_linear_room *r)
+static void linear_workspace_free(hbm_linear_workspace *r)
 {
   if (!r) return;
   free(r->stuck);
@@ -46,7 +46,7 @@ hc_status hbm_system_init(hbm_system *sys, const model *m, const hbm_settings *h
   sys->rows = calloc(n, sizeof(double));
   sys->amplitudes = calloc(2 * dim, sizeof *sys->amplitudes);
   if (!sys->X || !sys->F || !sys->rows || !sys->amplitudes) return HC_NO_MEMORY;
-  if ((st = linear_room_new(m, sys->dim, &sys->room)) != HC_OK) return st;
+  if ((st = linear_workspace_new(m, sys->dim, &sys->workspace)) != HC_OK) return st;
   const evaluator_settings by = {n_harm, n_time, how->restart};
   return contact_forces_new(m, sys->linear, how->force, &by, &sys->contacts);
 }
@@ -55,7 +55,7 @@ void hbm_system_clear(hbm_system *sys)
 {
   condensation_free(sys->linear);
   contact_forces_free(sys->contacts);
-  linear_room_free(sys->room);
+  linear_workspace_free(sys->workspace);
   free(sys->X);
   free(sys->F);
   free(sys->rows);
@@ -105,17 +105,16 @@ hc_status hbm_system_any_response(hbm_system *sys, double omega, const double *X
 static size_t cosines(const hbm_system *sys, int h) { return (size_t)sys->dim * (size_t)(h ? 2 * h - 1 : 0); }
 static size_t sines(const hbm_system *sys, int h) { return (size_t)sys->dim * (size_t)(2 * h); }
 
-/* rows of harmonic h = S X, of one coordinate. */
-static void multiply_number(double *restrict rows, double complex S, int h, const double *X)
-{
-  const double re = creal(S), im = cimag(S), a = X[h ? 2 * h - 1 : 0], b = X[2 * h];
-  rows[2 * h] = re * b - im * a;
-  rows[h ? 2 * h - 1 : 0] = h ? re * a + im * b : re * a;
-}
-
+/* rows = S X, of one coordinate. */
 static void multiply_numbers(hbm_system *sys, const double complex *S, const double *X)
 {
-  for (int h = 0; h <= sys->n_harm; ++h) multiply_number(sys->rows, S[h], h, X);
+  double *restrict rows = sys->rows;
+  rows[0] = creal(S[0]) * X[0];
+  for (int h = 1; h <= sys->n_harm; ++h) {
+    const double re = creal(S[h]), im = cimag(S[h]), a = X[2 * h - 1], b = X[2 * h];
+    rows[2 * h - 1] = re * a + im * b;
+    rows[2 * h] = re * b - im * a;
+  }
 }
 
 /* rows of harmonic h += B X, B[dim][dim] complex. */
@@ -135,12 +134,6 @@ static void multiply_block(hbm_system *sys, const double complex *B, int h, cons
       of_a[d] += re * a[e] + im * b[e];
       of_b[d] += re * b[e] - im * a[e];
     }
-}
-
-static void multiply_blocks(hbm_system *sys, const double *X)
-{
-  memset(sys->rows, 0, (size_t)sys->n_coef * sizeof(double));
-  for (int h = 0; h <= sys->n_harm; ++h) multiply_block(sys, condensation_stiffness(sys->linear, h), h, X);
 }
 
 /* rows of harmonic h -= factor p, a complex amplitude a - i b. */
@@ -180,7 +173,9 @@ hc_status hbm_system_residual(hbm_system *sys, double omega, const double *X, do
   if (st == HC_OK) st = condensation_at(sys->linear, omega, sys->more_damping);
   if (st != HC_OK) return st;
   if (sys->dim == 1) multiply_numbers(sys, condensation_stiffness(sys->linear, 0), X);
-  else multiply_blocks(sys, X);
+  else memset(sys->rows, 0, (size_t)sys->n_coef * sizeof(double));
+  for (int h = 0; h <= sys->n_harm && sys->dim > 1; ++h)
+    multiply_block(sys, condensation_stiffness(sys->linear, h), h, X);
   for (int i = 0; i < sys->n_coef; ++i) sys->rows[i] += sys->F[i];
   for (int l = 0; l < sys->model->n_loads; ++l)
     subtract_load(sys, condensation_load(sys->linear, l), sys->model->loads[l].harmonic, sys->force_factor);

@@ -17,12 +17,12 @@
 #include "numerics/series.h"
 
 /* Of linear_solution.c. */
-typedef struct hbm_linear_room {
+typedef struct hbm_linear_workspace {
   bool *stuck;           /* [n_contacts] */
   double *stiffness;     /* [dim][dim] K' */
   double complex *A, *z; /* [dim][dim] factored; [dim] */
   int *pivot;            /* [dim] */
-} hbm_linear_room;
+} hbm_linear_workspace;
 
 typedef struct hbm_system {
   const model *model; /* the solver's */
@@ -33,7 +33,7 @@ typedef struct hbm_system {
   double force_factor /* phi */, more_damping /* D [force time/length] */;
   condensation *linear;
   contact_forces *contacts;
-  hbm_linear_room *room;
+  hbm_linear_workspace *workspace;
   model_scales scales;
   double *X, *F; /* [n_coef] the last evaluation: where, and the contact force */
   contact_report report;

@@ -224,8 +224,8 @@ hc_status interval_flow_new(const model *m, interval_flow **out)
   f->y = calloc(4 * n * (2 * n + contacts), sizeof *f->y);
   f->lasting = calloc(2 * n, sizeof *f->lasting);
   const bool linear = f->by_K && f->by_C && f->along && f->across,
-             room = f->key && f->A && f->pivot && f->work && f->y && f->lasting;
-  hc_status st = linear && room ? divide_by_mass(m, f) : HC_NO_MEMORY;
+             workspace = f->key && f->A && f->pivot && f->work && f->y && f->lasting;
+  hc_status st = linear && workspace ? divide_by_mass(m, f) : HC_NO_MEMORY;
   if (st == HC_OK) f->unit = middle_frequency(f);
   if (st == HC_OK) *out = f;
   else interval_flow_free(f);

@@ -226,7 +226,7 @@ static bool every_mode_is_damped(const modal_form *f)
   return true;
 }
 
-static hc_status make_room(const model *m, int dim, compliance *c)
+static hc_status make_workspace(const model *m, int dim, compliance *c)
 {
   const size_t columns = (size_t)dim + 2 * (size_t)m->n_loads + (size_t)m->n_responses,
                rows = (size_t)(dim > m->n_responses ? dim : m->n_responses);
@@ -249,7 +249,7 @@ hc_status compliance_new(const model *m, int dim, const double *B, compliance **
   hc_status st = make_form(m, dim, B, &f);
   if (st == HC_OK && every_mode_is_damped(&f))
     st = is_diagonal(&f) ? sum_modes(m, dim, &f, c) : sum_poles(m, dim, &f, c);
-  if (st == HC_OK && c->of_responses) st = make_room(m, dim, c);
+  if (st == HC_OK && c->of_responses) st = make_workspace(m, dim, c);
   clear_form(&f);
   const bool usable = st == HC_OK && c->of_responses;
   if (usable) *out = c;

@@ -18,6 +18,7 @@ struct condensation {
   /* at the omega asked for last; of harmonic h at [h] */
   double omega, more_damping;
   bool known;
+  bool loaded;               /* without a rest: loads, the same at every omega, are there */
   bool *by_compliance;       /* [n_harm + 1] the harmonic is by it */
   double complex *motion;    /* [n_loads][dim] of q under a load, nothing else acting, where it is */
   double complex *workspace; /* [2 n_loads][dim] */
@@ -275,8 +276,9 @@ static void fill_whole(condensation *c)
     const condensation_change dynamic = dynamic_at(c, h);
     for (size_t at = 0; at < entries; ++at) *S++ = Z_at(c, dynamic, at);
   }
-  for (int l = 0; l < c->m->n_loads; ++l)
+  for (int l = 0; l < c->m->n_loads && !c->loaded; ++l)
     if (c->m->loads[l].harmonic <= c->n_harm) fill_load(c, l);
+  c->loaded = true;
 }
 
 hc_status condensation_at(condensation *c, double omega, double more_damping)
@@ -399,6 +401,7 @@ static void apply_by_rest(const condensation *c, int h, condensation_change by, 
       inner[i] += change_at(c, by, entry(c, dim + i, e)) * a[e];
     }
   }
+  if (rest == 0) return;
   subtract_rest(c, h, by, y, inner);
   subtract_coupling(c, h, by, y, inner, dS_a);
 }

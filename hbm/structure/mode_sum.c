@@ -56,10 +56,11 @@ static hc_status new_sum(int n, int dim, int rows, bool poles, mode_sum **out)
   *m = (mode_sum){.n = n, .dim = dim, .rows = rows, .poles = poles};
   const size_t modes = (size_t)n + 1, entries = (size_t)rows * (size_t)n + 1;
   double **const lists[] = {&m->k, &m->c, &m->distance}, **const tables[] = {&m->lr, &m->li, &m->rr, &m->ri};
-  bool room = true;
-  for (size_t i = 0; i < sizeof lists / sizeof *lists; ++i) room &= (*lists[i] = calloc(modes, sizeof(double))) != NULL;
+  bool allocated = true;
+  for (size_t i = 0; i < sizeof lists / sizeof *lists; ++i)
+    allocated &= (*lists[i] = calloc(modes, sizeof(double))) != NULL;
   for (size_t i = 0; i < (poles ? sizeof tables / sizeof *tables : 1); ++i)
-    room &= (*tables[i] = calloc(entries, sizeof(double))) != NULL;
+    allocated &= (*tables[i] = calloc(entries, sizeof(double))) != NULL;
   m->lambda = calloc(modes, sizeof *m->lambda);
   m->power = calloc(modes, sizeof *m->power);
   m->weight = calloc(4 * modes, sizeof *m->weight);
@@ -68,7 +69,7 @@ static hc_status new_sum(int n, int dim, int rows, bool poles, mode_sum **out)
   m->term = calloc((size_t)rows * (size_t)dim + 1, sizeof *m->term);
   m->series = calloc(((size_t)rows * (size_t)dim + LANES) * TERMS, sizeof *m->series);
   const bool products = m->product && m->turned && m->term;
-  return room && m->lambda && m->power && m->weight && products && m->series ? HC_OK : HC_NO_MEMORY;
+  return allocated && m->lambda && m->power && m->weight && products && m->series ? HC_OK : HC_NO_MEMORY;
 }
 
 void mode_sum_free(mode_sum *m)

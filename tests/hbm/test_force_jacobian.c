@@ -44,22 +44,5 @@ static void matrix_equals_quadrature(void **state)
   }
 }
 
-/* One product and one difference: 1 eps of each of the two numbers involved. */
-static void rank_one_is_subtracted(void **state)
-{
-  (void)state;
-  enum { H = 3, N = 2 * H + 1 };
-  double left[N], right[N], jac[N * N], before[N * N];
-  uint64_t seed = 5;
-  random_motion(&seed, H, 1, 0, left);
-  random_motion(&seed, H, 1, 0, right);
-  for (int i = 0; i < N * N; ++i) jac[i] = before[i] = random_signed(&seed);
-  force_jacobian_subtract(H, left, right, jac);
-  for (int q = 0; q < N; ++q)
-    for (int p = 0; p < N; ++p)
-      CHECK_NEAR(jac[p + N * q], before[p + N * q] - left[p] * right[q], 2 * DBL_EPSILON, "row %d column %d", p, q);
-}
-
-static const struct CMUnitTest tests[] = {cmocka_unit_test(matrix_equals_quadrature),
-                                          cmocka_unit_test(rank_one_is_subtracted)};
+static const struct CMUnitTest tests[] = {cmocka_unit_test(matrix_equals_quadrature)};
 CHECK_MAIN("hbm.force_jacobian", tests, 60)
