@@ -47,8 +47,8 @@ typedef struct contact_evaluator {
   /* [length] The sliders at th = 0 in the last evaluation, one for each contact of the model. */
   void (*sliders)(const void *self, double *w);
 
-  /* Of exact forces, the last evaluation's: the intervals in contact, n of them; and the slip of a contact with two
-   * tangents, for whoever follows a perturbation along it. NULL where there is none. */
+  /* Where forces are exact, the last evaluation's: the intervals in contact, n of them; and the slip of a contact
+   * with two tangents, for whoever follows a perturbation along it. NULL where there is none. */
   const contact_interval *(*intervals)(const void *self, int *n);
   const struct planar_cycle *(*in_plane)(const void *self);
 } contact_evaluator;

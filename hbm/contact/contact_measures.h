@@ -14,7 +14,7 @@
 #include "hbm/hbm_settings.h"
 #include "model/contact_period.h"
 
-/* Of the motion u[2 n_harm + 1], v[2 n_harm + 1] [length] (numerics/series.h), n_harm >= 1; where the history decides,
+/* For the motion u[2 n_harm + 1], v[2 n_harm + 1] [length] (numerics/series.h), n_harm >= 1; where the history decides,
  * the slider starts from w = 0. HC_BAD_INPUT, HC_NO_MEMORY, HC_NOT_FINITE, and the errors of transitions_find. */
 hc_status contact_measures_of(const contact *law, int n_harm, const double *u, const double *v, contact_period *out);
 

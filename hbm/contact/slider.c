@@ -170,7 +170,7 @@ static bool same_from_here(const followed *k, const sampled_interval *a, const s
 }
 
 /* The first period; how many intervals. */
-static int settle(const followed *k, int n, double *f, slider *t, sampled_interval *out)
+static int follow_first_period(const followed *k, int n, double *f, slider *t, sampled_interval *out)
 {
   int count = 0;
   for (int i = 0; i < n;) i = follow_interval(k, n, f, i, t, &out[count++]);
@@ -205,7 +205,7 @@ slider_report slider_follow(const contact *law, hbm_restart restart, int n, cons
   slider_report found;
   slider t = {.state = CONTACT_STICK};
   if (!(contact_normal(law, k.m.s * m->across[n - 1]) > 0)) t.state = CONTACT_SEPARATED;
-  int n_first = settle(&k, n, f, &t, settling);
+  int n_first = follow_first_period(&k, n, f, &t, settling);
   contact_state before = t.state;
   found.settled = t.w;
   if (restart == HBM_RESTART_ONE_PASS || restart == HBM_RESTART_ONE_PASS_SAMPLE) {

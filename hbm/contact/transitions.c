@@ -23,7 +23,7 @@ typedef struct scan {
   int n, cap;
 } scan;
 
-/* Of stick[] and slip[]. */
+/* Index into stick[] and slip[]. */
 static int sign_index(int s) { return s < 0; }
 
 static guard make_guard(const scan *w, int order, double of_u, double of_v, double constant)

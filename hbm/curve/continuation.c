@@ -27,9 +27,19 @@ static const double TOLERANCE = 1e-4; /* [1] of interpolation, relative to |X| *
 static const double STEP_FIRST = 0.02, STEP_MAX = 0.5, STEP_MIN = 1e-11;
 static const double STEP_CORNER = 1e-4;      /* where steps are this short the curve has a corner: a kink is accepted */
 static const double STEP_ROUND = 1e-9;       /* where steps fail below this, a step round the corner is tried */
-static const double FAR = 4;                 /* factor beyond the start of the sweep up to which a loop is followed */
+static const double LOOP_RANGE = 4;          /* factor beyond the start of the sweep up to which a loop is followed */
 static const double LINEAR_NEAR = 1e-2;      /* the linear response counts as the predicted solution within this part */
 static const double STEEP = 0.2, FLAT = 0.6; /* flatness below which natural steps end, above which they are resumed */
+
+/* The step's controller. A trial counts as smooth where the corrector moved the prediction by no more than a quarter of
+ * the step, the tangent turned by less than 45 degrees (cos > 0.7), and the error is at most four tolerances: the step
+ * was then 4^(1/4) = 1.4 times too long, as much as the estimate may be off. The next one is chosen for the tolerance,
+ * with 0.9 for safety, within the factors of a solver of differential equations; many iterations of Newton ask for a
+ * shorter one. */
+static const double MOST_MOVED = 0.25, LEAST_COSINE = 0.7, MOST_ERROR = 4, SAFETY = 0.9;
+static const double SHRINK_ACCEPTED = 0.4, GROW_ACCEPTED = 2, SHRINK_REFUSED = 0.2, GROW_REFUSED = 0.5;
+static const double SHRINK_FAILED = 0.4, SHRINK_SLOW = 0.7;
+enum { MANY_ITERATIONS = 8 };
 enum { MAX_POINTS = 200000, FLAT_STEPS = 6 };
 
 static bool steps_are_fixed(const hbm_solver *s) { return s->how.continuation == HBM_CONTINUATION_FIXED_STEP; }
@@ -90,12 +100,13 @@ static bool check_trial(path *p, double ratio)
          error = ratio * path_correction(p, p->resolution);
   double scale = p->s->step_scale, tolerance = TOLERANCE * scale * scale * scale * scale;
   bool corner = p->step <= STEP_CORNER;
-  bool smooth = moved <= 0.25 * p->step && cosine >= 0.7 && error <= 4 * tolerance;
+  bool smooth = moved <= MOST_MOVED * p->step && cosine >= LEAST_COSINE && error <= MOST_ERROR * tolerance;
   bool kink = moved <= p->step || (p->natural && path_agrees_backwards(p, p->step));
   bool accepted = forward && (corner ? kink : smooth);
-  double growth = 0.9 * pow(tolerance / fmax(error, 1e-12 * tolerance), 0.25);
-  if (p->point.iterations > 8) growth = fmin(growth, 0.7);
-  p->step *= accepted ? fmin(2, fmax(0.4, growth)) : fmin(0.5, fmax(0.2, growth));
+  double growth = SAFETY * pow(tolerance / fmax(error, 1e-12 * tolerance), 0.25);
+  if (p->point.iterations > MANY_ITERATIONS) growth = fmin(growth, SHRINK_SLOW);
+  p->step *=
+      accepted ? fmin(GROW_ACCEPTED, fmax(SHRINK_ACCEPTED, growth)) : fmin(GROW_REFUSED, fmax(SHRINK_REFUSED, growth));
   if (corner && accepted) p->step = fmax(p->step, 2 * STEP_MIN);
   p->step = fmin(p->step, STEP_MAX * scale);
   return accepted;
@@ -109,13 +120,13 @@ static hc_status trial_step(path *p, bool *accepted)
   *accepted = false;
   bool onward = p->direction * (p->omega - p->curve->points[p->curve->n - 1].omega) > 0;
   if (p->natural && !onward) {
-    p->step *= 0.4;
+    p->step *= SHRINK_FAILED;
     return HC_NOT_CONVERGED;
   }
   hc_status st = p->natural ? correct_natural(p) : path_correct_in_plane(p);
   p->curve->iterations += p->point.iterations;
   if (st == HC_OK) *accepted = check_trial(p, ratio);
-  else p->step *= 0.4;
+  else p->step *= SHRINK_FAILED;
   return st;
 }
 
@@ -254,8 +265,8 @@ static hc_status end_on(path *p, double limit)
 }
 
 /* Is the sweep over? Yes past its end; also where the branch turned back past its start and did not come back within
- * a factor FAR: the curve is then cut where it left the sweep. In between (a loop of a superharmonic resonance across
- * the start) it is followed outside the sweep. */
+ * a factor LOOP_RANGE: the curve is then cut where it left the sweep. In between (a loop of a superharmonic
+ * resonance across the start) it is followed outside the sweep. */
 static hc_status end_at_limit(path *p, bool *done)
 {
   hbm_curve *c = p->curve;
@@ -267,7 +278,7 @@ static hc_status end_at_limit(path *p, bool *done)
     return HC_OK;
   }
   if (!p->first_outside) p->first_outside = c->n - 1;
-  *done = c->left_at_start = p->direction > 0 ? omega < p->from / FAR : omega > p->from * FAR;
+  *done = c->left_at_start = p->direction > 0 ? omega < p->from / LOOP_RANGE : omega > p->from * LOOP_RANGE;
   if (!*done) return HC_OK;
   c->n = p->first_outside + 1;
   c->turning_points = c->points[p->first_outside].branch;
@@ -283,7 +294,7 @@ static hc_status come_from_above(path *p, const hc_monitor *monitor)
 {
   const hc_monitor aside = {hc_monitor_tick_aside, (void *)monitor};
   hbm_curve down = {0};
-  double high = FAR * fmax(p->from, p->s->sys.scales.highest);
+  double high = LOOP_RANGE * fmax(p->from, p->s->sys.scales.highest);
   hc_status st = trace(p->s, high, p->from, false, &aside, &down);
   if (st == HC_OK && down.left_at_start) st = HC_NOT_CONVERGED;
   if (st == HC_OK) {
@@ -316,7 +327,7 @@ static hc_status first_point(path *p, const hc_monitor *monitor)
 }
 
 /* Part of the sweep that is done, by the last point. */
-static double progress(const path *p)
+static double part_done(const path *p)
 {
   double part = (p->curve->points[p->curve->n - 1].omega - p->from) / (p->to - p->from);
   return fmin(1, fmax(0, part));
@@ -371,9 +382,9 @@ static hc_status follow(path *p, const hc_monitor *monitor)
   bool done = p->from == p->to;
   while (st == HC_OK && !done && !p->more_samples) {
     if (c->n >= MAX_POINTS) return HC_TOO_MANY_POINTS;
-    if (!hc_monitor_tick(monitor, progress(p))) return HC_INTERRUPTED;
+    if (!hc_monitor_tick(monitor, part_done(p))) return HC_INTERRUPTED;
     bool accepted;
-    p->s->done = p->may_come_from_above ? progress(p) : -1;
+    p->s->done = p->may_come_from_above ? part_done(p) : -1;
     hc_status step_status = steps_are_fixed(s) ? path_fixed_step(p, &accepted) : trial_step(p, &accepted);
     bool no_other_step = !accepted && steps_are_fixed(s);
     if (step_status == HC_NO_MEMORY || no_other_step) return step_status;

@@ -19,11 +19,12 @@
 #include "hbm/solver/hbm_solver.h"
 #include "model/periodic_motion.h"
 
-/* Of the solution X[2H+1] at omega, H = hbm_n_harmonics. Never less than rounding leaves; where Newton does not
- * converge, never less than its longest step; INFINITY where the finer equations have no solution next to X, as beyond
- * a fold of theirs: the solution is one of few harmonics, not of the oscillator. What was computed wrong shows as well:
- * X need not solve the equations. The first call for a number of harmonics allocates, later ones do not. Unless HC_OK,
- * all of *out is NaN: errors of the contact force, HC_SINGULAR, HC_NOT_FINITE, HC_NO_MEMORY. */
+/* The error of the solution X[2H+1] at omega, H = hbm_n_harmonics. Never less than rounding leaves; where Newton
+ * does not converge, never less than its longest step; INFINITY where the finer equations have no solution next to
+ * X, as beyond a fold of theirs: the solution is one of few harmonics, not of the oscillator. What was computed
+ * wrong shows as well: X need not solve the equations. The first call for a number of harmonics allocates, later
+ * ones do not. Unless HC_OK, all of *out is NaN: errors of the contact force, HC_SINGULAR, HC_NOT_FINITE,
+ * HC_NO_MEMORY. */
 hc_status hbm_predict(hbm_solver *s, double omega, const double *X, motion_error *out);
 
 /* The same of response r, counted from 0, of the solution that hbm_predict was last asked about, with HC_OK: nothing is

@@ -19,7 +19,7 @@ typedef struct hbm_curve { /* made empty with {0}, freed by hbm_curve_free */
   bool inaccurate;    /* auto: somewhere not even the most harmonics or samples met hbm.accuracy */
   int linear;         /* points taken from the linear closed form */
   int turning_points; /* passed by the whole curve */
-  int edges;          /* of slip of a circle, stepped over: what lies on them may be missing (README.md) */
+  int edges;          /* of slip, stepped over: what lies on them may be missing (README.md) */
   double edge_omega, edge_motion; /* [1] the longest such step, of omega and of |X| */
   int rejected;                   /* continuation steps that were tried and not accepted */
   long iterations, evaluations;   /* Newton iterations and contact force evaluations, rejected steps included */

@@ -153,7 +153,7 @@ hc_status hbm_candidate_new(int n_coef, hbm_candidate *out)
   return HC_OK;
 }
 
-/* Of a solution next to segment k that moves in the direction d_omega. */
+/* The branch of a solution next to segment k that moves in the direction d_omega. */
 static int branch_on_segment(const hbm_curve *c, int k, double d_omega)
 {
   const hbm_point *a = &c->points[k];

@@ -191,7 +191,7 @@ static hc_status pattern_differs_at(void *self, double sigma, bool *differs)
   return st;
 }
 
-/* Of the interpolant: no equations are solved. */
+/* The same of the interpolant: no equations are solved. */
 static hc_status pattern_may_differ_at(void *self, double sigma, bool *differs)
 {
   segment_search *s = self;

@@ -17,14 +17,13 @@ typedef struct hbm_special {
   contact_regime before, after; /* along the curve; the same where only the number of transitions changes */
 } hbm_special;
 
-/* All of them in the curve's order, located to 1e-9 of omega or better (to 1e-6 where slip of a circle
- * begins or ends all round), into out[cap]; *n is how many there are,
- * which may exceed cap. Those of a kind that this cannot tell apart are one, or none if they undo each other. One that
- * could not be located makes the status, and leaves the others in place. */
+/* All of them in the curve's order, located to 1e-9 of omega or better (to 1e-6 at an edge of slip), into out[cap];
+ * *n is how many there are, which may exceed cap. Those of a kind that this cannot tell apart are one, or none if
+ * they undo each other. One that could not be located makes the status, and leaves the others in place. */
 hc_status hbm_specials(hbm_solver *s, const hbm_curve *curve, int cap, hbm_special *out, int *n);
 
-/* Of more than 24 contacts (directions, where two belong to one) some pattern changes on every bit of a curve: a
- * contact change is then one of the strongest state of all of them. */
+/* Where there are more than 24 contacts (directions, where two belong to one) some pattern changes on every bit of a
+ * curve: a contact change is then one of the strongest state of all of them. */
 bool hbm_specials_follow_each(const hbm_solver *s);
 
 #endif

@@ -263,7 +263,7 @@ static void scatter_members(contact_forces *f)
       for (int e = 0; e < f->members[j].n_dof; ++e) scatter_block(f, &f->members[j], d, e);
 }
 
-/* Of one coefficient q of the motion: d(forces of all members)/dX, product[dim][length][n_rows]. */
+/* product[dim][length][n_rows] = d(forces of all members)/dX, for one coefficient q of the motion. */
 static void differentiate_forces(contact_forces *f, size_t q)
 {
   const size_t length = (size_t)f->length, rows = (size_t)f->n_rows;
@@ -331,7 +331,7 @@ const planar_cycle *contact_forces_planar(const contact_forces *f, int j)
   return m->first == j && m->by->in_plane ? m->by->in_plane(m->evaluator) : NULL;
 }
 
-/* Of one coordinate both u and v may be multiples: d held/du is that by the coordinate over du/dx. */
+/* Both u and v may be multiples of one coordinate: d held/du is that by the coordinate over du/dx. */
 void contact_forces_held_by(const contact_forces *f, int j, const contact_interval *p, double by[2])
 {
   const member *m = member_of(f, j);

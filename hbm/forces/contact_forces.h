@@ -43,7 +43,7 @@ void contact_forces_sliders(const contact_forces *f, double *w);
 const contact_interval *contact_forces_intervals(const contact_forces *f, int j, int *n);
 void contact_forces_held_by(const contact_forces *f, int j, const contact_interval *p, double by[2]);
 
-/* Of the contact with two tangents under one limit that j is the first half of: what the last evaluation found, of
+/* For the planar contact that j is the first half of, what the last evaluation found, of
  * located forces only; NULL of any other contact. Valid until the next evaluation. */
 const planar_cycle *contact_forces_planar(const contact_forces *f, int j);
 

@@ -1,8 +1,8 @@
 /* given_motion.h - contact forces of a motion that is given, not solved for: of one degree of freedom that moves all
  * of its contacts, or of one contact under its own u (u_1, u_2) and v.
  *
- * Of two tangents a contact is two halves (model.h), whose normal forces add up. Under the square law each half is a
- * contact with one tangent, moved by its own u and the v of both; under that of the circle, and with friction, the two
+ * A contact with two tangents is two halves (model.h), whose normal forces add up. Under the square law each half is a
+ * contact with one tangent, moved by its own u and the v of both; where they share a limit, and with friction, the two
  * are evaluated together. */
 #ifndef HC_HBM_GIVEN_MOTION_H
 #define HC_HBM_GIVEN_MOTION_H

@@ -274,7 +274,7 @@ static hc_status follow(planar_aft *a, double size)
 
 /* ---- the force ---------------------------------------------------------------------------------------- */
 
-/* Of the state at each sample: not of contact, stuck, slipping. */
+/* The state at a sample: separated, stuck or slipping. */
 static int state_of(unsigned char move) { return move == PLANAR_PLACED ? PLANAR_HELD : move; }
 
 static void fill_report(const planar_aft *a, contact_report *out)

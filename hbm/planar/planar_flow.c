@@ -11,7 +11,7 @@
 
 enum { N = COLLOCATION_POINTS };
 
-/* A slipping circle at one point of a step. */
+/* A slipping planar contact at one point of a step. */
 typedef struct planar_state {
   double e[2];              /* direction of its traction */
   double R, turning, speed; /* R [length], phi' [1/time], s [length/time] */
@@ -24,19 +24,19 @@ struct planar_flow {
   collocation c;
   double twice[N][N];   /* a a: from accelerations to positions */
   double *K;            /* [n][n] by columns, K_j of the interval */
-  double *matrix;       /* [N (n + circles)]^2 by columns */
-  int *pivot;           /* [N (n + circles)] */
-  double *right;        /* [n_states][N (n + circles)] right sides, then accelerations, of every column of phi */
+  double *matrix;       /* [N (n + planar)]^2 by columns */
+  int *pivot;           /* [N (n + planar)] */
+  double *right;        /* [n_states][N (n + planar)] right sides, then accelerations, of every column of phi */
   double *now;          /* [2 n + n_contacts] a column of phi */
-  planar_state *at;     /* [circles][N] */
-  double *along, *perp; /* [circles][N][n] t.e and t.e_perp */
+  planar_state *at;     /* [planar][N] */
+  double *along, *perp; /* [planar][N][n] t.e and t.e_perp */
 };
 
 static int most_unknowns(const model *m) { return N * (m->n + m->n_contacts / 2 + 1); }
 
 hc_status planar_flow_new(const model *m, planar_flow **out)
 {
-  const size_t n = (size_t)m->n, unknowns = (size_t)most_unknowns(m), circles = (size_t)m->n_contacts / 2 + 1;
+  const size_t n = (size_t)m->n, unknowns = (size_t)most_unknowns(m), planar = (size_t)m->n_contacts / 2 + 1;
   planar_flow *f = calloc(1, sizeof *f);
   *out = NULL;
   if (!f) return HC_NO_MEMORY;
@@ -48,9 +48,9 @@ hc_status planar_flow_new(const model *m, planar_flow **out)
   f->pivot = calloc(unknowns, sizeof *f->pivot);
   f->right = calloc((size_t)f->n_states * unknowns, sizeof *f->right);
   f->now = calloc((size_t)f->n_states, sizeof *f->now);
-  f->at = calloc(circles * N, sizeof *f->at);
-  f->along = calloc(circles * N * n, sizeof *f->along);
-  f->perp = calloc(circles * N * n, sizeof *f->perp);
+  f->at = calloc(planar * N, sizeof *f->at);
+  f->along = calloc(planar * N * n, sizeof *f->along);
+  f->perp = calloc(planar * N * n, sizeof *f->perp);
   collocation_fill(&f->c);
   for (int i = 0; i < N; ++i)
     for (int j = 0; j < N; ++j)
@@ -129,7 +129,7 @@ static double highest_frequency(const planar_flow *f)
     const double least = 0.1 * f->m->mass[(size_t)i * (size_t)(f->n + 1)];
     most = fmax(most, k / fmax(mass, least));
   }
-  for (int k = 0; k < f->m->n_contacts; ++k) { /* kt of circles, in no K */
+  for (int k = 0; k < f->m->n_contacts; ++k) { /* kt of planar contacts, in no K */
     const model_contact *c = &f->m->contacts[k];
     for (int i = 0; i < f->n; ++i)
       most = fmax(most, 2 * c->law.kt * fabs(c->tangent[i]) / f->m->mass[(size_t)i * (size_t)(f->n + 1)]);
@@ -190,7 +190,7 @@ static void fill_states(planar_flow *f, int n_slipping, const planar_slipping *s
   }
 }
 
-/* dR/dv of circle k. */
+/* dR/dv of a slipping contact. */
 static double radius_by_v(const planar_flow *f, const planar_slipping *s)
 {
   const contact *law = &f->m->contacts[s->contact].law;
@@ -217,8 +217,8 @@ static void fill_motion_block(planar_flow *f, int n_slipping, const planar_slipp
   }
 }
 
-/* The same of the circles' equations. */
-static void fill_circle_block(planar_flow *f, int n_slipping, const planar_slipping *slipping, double h, int i, int j)
+/* The same of the equations of slip. */
+static void fill_slip_block(planar_flow *f, int n_slipping, const planar_slipping *slipping, double h, int i, int j)
 {
   const size_t n = (size_t)f->n, of_point = n + (size_t)n_slipping, ld = N * of_point;
   const double once = h * f->c.a[i][j], twice = h * h * f->twice[i][j];
@@ -298,7 +298,7 @@ static hc_status advance_step(planar_flow *f, const contact_interval *const *int
   for (int i = 0; i < N; ++i)
     for (int j = 0; j < N; ++j) {
       fill_motion_block(f, n_slipping, slipping, h, i, j);
-      fill_circle_block(f, n_slipping, slipping, h, i, j);
+      fill_slip_block(f, n_slipping, slipping, h, i, j);
     }
   if (dense_factor(unknowns, f->matrix, f->pivot) != HC_OK) return HC_SINGULAR;
   for (size_t q = 0; q < (size_t)columns; ++q) {

@@ -1,7 +1,7 @@
 /* planar_flow.h - how a perturbation of a structure's orbit moves while contacts of two tangents with one limit slip
  * (planar_motion.h, planar_slip.h). With e = (cos phi, sin phi), e_perp across it and y = R d phi [length]:
  *
- *     M dx'' + C dx' + K_j dx + sum over circles kt (t.e dR + t.e_perp y) = sum over stuck contacts t_j dheld_j
+ *     M dx'' + C dx' + K_j dx + sum over planar contacts kt (t.e dR + t.e_perp y) = sum over stuck contacts t_j dheld_j
  *     R y' = R (du'.e_perp - phi' dR) - s y,      s = u'.e - R' >= 0,      dR = (mu kn/kt) dv
  *
  * whose coefficients vary with phi: no exponentials. By collocation (numerics/collocation.h) on steps no longer than
@@ -16,19 +16,19 @@
 
 typedef struct planar_flow planar_flow;
 
-/* A circle that slips: its first contact, and its interval. */
+/* A planar contact that slips: its first half, and its interval. */
 typedef struct planar_slipping {
   int contact;
   const planar_cycle *cycle;
   const planar_interval *interval;
 } planar_slipping;
 
-/* Of m, which must live as long. HC_NO_MEMORY. */
+/* For m, which must live as long. HC_NO_MEMORY. */
 hc_status planar_flow_new(const model *m, planar_flow **out);
 void planar_flow_free(planar_flow *f); /* NULL is allowed */
 
 /* phi[2 n + n_contacts][2 n + n_contacts], by rows dx, dx' [1/time], dheld_j, its first `columns` columns, over the
- * interval from..to [rad]; y of a slipping circle is in the row of its first contact. interval[j] of the other
+ * interval from..to [rad]; y of a slipping planar contact is in the row of its first half. interval[j] of the other
  * contacts, NULL while separated. HC_SINGULAR, HC_NOT_FINITE. */
 hc_status planar_flow_advance(planar_flow *f, const contact_interval *const *interval, int n_slipping,
                               const planar_slipping *slipping, double from, double to, double omega, int columns,

@@ -84,7 +84,7 @@ typedef struct hbm_measures {
   contact_report contact;
 } hbm_measures;
 
-/* Of the first response. Errors of the contact force. */
+/* The measures of the first response. Errors of the contact force. */
 hc_status hbm_measure(hbm_solver *s, const double *X, hbm_measures *out);
 
 /* Response r of the model, counted from 0, of the solution X at omega: its series x[2H+1], or its measures.

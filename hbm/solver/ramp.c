@@ -15,8 +15,8 @@
 
 static const double least_force = 1e-4, least_damping = 1e-9; /* [1] of the whole; of `most` */
 
-/* Of 1173 scenes of `stress` whose linear response is no good guess, half need 43 points of the curve, one in a hundred
- * more than 246, the longest 806. One step in three is rejected. */
+/* Among 1173 scenes of `stress` whose linear response is no good guess half need 43 points of the curve, one in a
+ * hundred more than 246, the longest 806. One step in three is rejected. */
 enum { MOST_DAMPING_STEPS = 1500, MOST_FORCE_STEPS = 2000 };
 
 static double mean_of_diagonal(int n, const double *A)

@@ -6,14 +6,14 @@
 #include "hbm/solver/corrector.h"
 #include "hbm/solver/hbm_solver_impl.h"
 
-/* A structure of more degrees of freedom is large; with circles, whose slip is followed step by step, one of more
- * states, and beyond 50 degrees of freedom nothing is known of it. */
-enum { LARGE = 50, LARGE_WITH_CIRCLES = 12 };
+/* A structure of more degrees of freedom is large; with planar friction, whose slip is followed step by step, one of
+ * more states, and beyond 50 degrees of freedom nothing is known of it. */
+enum { LARGE = 50, LARGE_WITH_PLANAR = 12 };
 
 bool hbm_stability_is_costly(const hbm_solver *s)
 {
   const model *m = s->model;
-  return m->n > LARGE || (model_has_circle(m) && m->n + m->n_contacts > LARGE_WITH_CIRCLES);
+  return m->n > LARGE || (model_has_circle(m) && m->n + m->n_contacts > LARGE_WITH_PLANAR);
 }
 
 bool hbm_stability_is_unknown(const hbm_solver *s) { return s->model->n > LARGE && model_has_circle(s->model); }

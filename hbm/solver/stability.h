@@ -14,7 +14,7 @@ hc_status hbm_stability_at(hbm_solver *s, double omega, const double *X, hbm_sta
  * found where somebody asks for a solution, and unknown at the points of a curve. */
 bool hbm_stability_is_costly(const hbm_solver *s);
 
-/* Under the law of the circle (model.h) slip is followed step by step: costly from 12 degrees of freedom and directions
+/* Planar slip is followed step by step: costly from 12 degrees of freedom and directions
  * of contacts on, and beyond 50 degrees of freedom out of reach, where hbm_stability_at finds NaN, which is unknown. */
 bool hbm_stability_is_unknown(const hbm_solver *s);
 

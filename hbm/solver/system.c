@@ -183,7 +183,7 @@ hc_status hbm_system_residual(hbm_system *sys, double omega, const double *X, do
   return drop_means(sys, R);
 }
 
-/* Of one coordinate. */
+/* jac += S, of one coordinate. */
 static void add_numbers(const hbm_system *sys, const double complex *S, int ld, double *jac)
 {
   if (sys->first == 0) jac[0] += creal(S[0]);

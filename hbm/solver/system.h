@@ -16,7 +16,7 @@
 #include "model/modes.h"
 #include "numerics/series.h"
 
-/* Of linear_solution.c. */
+/* Workspace of linear_solution.c. */
 typedef struct hbm_linear_workspace {
   bool *stuck;           /* [n_contacts] */
   double *stiffness;     /* [dim][dim] K' */

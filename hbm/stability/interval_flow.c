@@ -1,6 +1,6 @@
 /* interval_flow.c - see interval_flow.h. With y = V^-1 (dx, dx') and b = V^-1 (0, M^-1 t_j):
  *     y(t) = e^(lambda t) y(0) + (e^(lambda t) - 1)/lambda b dheld
- * Of a complex pair one is followed, as two real coordinates; the other's share is conjugate. */
+ * One of a complex pair is followed, as two real coordinates; the other's share is conjugate. */
 #include "hbm/stability/interval_flow.h"
 
 #include <complex.h>

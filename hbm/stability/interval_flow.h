@@ -14,7 +14,7 @@
 
 typedef struct interval_flow interval_flow;
 
-/* Of m, which must live as long. HC_NO_MEMORY; HC_SINGULAR if the mass matrix is: *out is NULL. */
+/* For m, which must live as long. HC_NO_MEMORY; HC_SINGULAR if the mass matrix is: *out is NULL. */
 hc_status interval_flow_new(const model *m, interval_flow **out);
 void interval_flow_free(interval_flow *f); /* NULL is allowed */
 

@@ -141,7 +141,7 @@ typedef struct pole_table {
   double complex *left, *right; /* [rows][n kept] */
 } pole_table;
 
-/* Of the eigenvectors V, W: the rows' entries at the poles with Im lambda >= 0. False where one is ill conditioned. */
+/* From the eigenvectors V, W the rows' entries at the poles with Im lambda >= 0. False where one is ill conditioned. */
 static bool take_poles(const modal_form *f, double u, const double complex *lambda, const double complex *V,
                        const double complex *W, pole_table *t)
 {

@@ -15,7 +15,7 @@
 
 typedef struct compliance compliance;
 
-/* Of m in the coordinates q = B x, B[dim][n] by rows. *out is NULL with HC_OK where there is no such sum to rely on: K
+/* For m in the coordinates q = B x, B[dim][n] by rows. *out is NULL with HC_OK where there is no such sum to rely on: K
  * not symmetric, a mode without damping, or eigenvectors of the first-order form that are too ill conditioned.
  * HC_NO_MEMORY. */
 hc_status compliance_new(const model *m, int dim, const double *B, compliance **out);

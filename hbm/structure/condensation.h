@@ -22,7 +22,7 @@
 
 typedef struct condensation condensation;
 
-/* Of m, which must live as long, for harmonics 0..n_harm. HC_NO_MEMORY; HC_SINGULAR: the structure can move without
+/* For m, which must live as long, and harmonics 0..n_harm. HC_NO_MEMORY; HC_SINGULAR: the structure can move without
  * any contact, spring or mode of its own that holds it, or M is not positive definite. */
 hc_status condensation_new(const model *m, int n_harm, condensation **out);
 void condensation_free(condensation *c); /* NULL is allowed */

@@ -18,7 +18,7 @@ static const double dependent = 1e-10;
 /* What is new of a row, of length 1, where the row is no coordinate any more. Between the two the choice costs nothing
  * but zeros of other contacts' directions. */
 static const double little = 0.1;
-/* Of a direction's entries beside its largest: rounding of the change of coordinates. */
+/* Entries of a direction this small beside its largest are rounding of the change of coordinates. */
 static const double negligible = 1e-12;
 /* A mode of the rest is free if its eigenvalue is less than this part of the largest. */
 static const double free_mode = 1e-14;

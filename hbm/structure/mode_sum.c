@@ -192,7 +192,7 @@ typedef struct lane_sums {
   double even[LANES], odd[LANES];
 } lane_sums;
 
-/* Of the series T in x, v = x^2: the sum of even terms, and of odd ones over x. */
+/* even = sum over even t of T_t x^t, odd = sum over odd t of T_t x^(t-1), v = x^2. */
 static inline void sum_terms(const double *restrict T, double v, lane_sums *restrict s)
 {
   *s = (lane_sums){.even = {0}};
@@ -203,7 +203,7 @@ static inline void sum_terms(const double *restrict T, double v, lane_sums *rest
   }
 }
 
-/* Of its derivative: of even terms the sum over x, of odd ones the sum. */
+/* The same of the derivative: even = sum over even t of t T_t x^(t-2), odd = sum over odd t of t T_t x^(t-1). */
 static inline void sum_derivatives(const double *restrict T, double v, lane_sums *restrict s)
 {
   *s = (lane_sums){.even = {0}};

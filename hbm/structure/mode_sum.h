@@ -16,16 +16,16 @@
 
 typedef struct mode_sum mode_sum;
 
-/* Of real modes: k[n] and c[n], both only read here, x[rows][n]. Of a < dim and all b < rows. HC_NO_MEMORY. */
+/* Real modes: k[n] and c[n], both only read here, x[rows][n]; for a < dim and all b < rows. HC_NO_MEMORY. */
 hc_status mode_sum_of_modes(int n, const double *k, const double *c, int dim, int rows, const double *x,
                             mode_sum **out);
 
-/* Of poles lambda[n], one of each pair; left[rows][n], right[rows][n]. */
+/* Poles: lambda[n], one of each pair; left[rows][n], right[rows][n]. */
 hc_status mode_sum_of_poles(int n, const double complex *lambda, int dim, int rows, const double complex *left,
                             const double complex *right, mode_sum **out);
 void mode_sum_free(mode_sum *m); /* NULL is allowed */
 
-/* Of real modes, so that d may be other than 0? */
+/* Is it a sum over real modes, so that d may be other than 0? */
 bool mode_sum_takes_damping(const mode_sum *m);
 
 /* G[from <= b < to][dim], if not NULL, at s = i w. by_s, if not NULL, gets dG/ds, and by_d dG/dd (of real modes). The

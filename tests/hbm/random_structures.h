@@ -26,8 +26,8 @@ static inline void random_direction(uint64_t *seed, int n, double *d)
   for (int k = random_int(seed, 2, 3); k > 0; --k) d[random_int(seed, 0, n - 1)] = random_signed(seed);
 }
 
-/* Of n DOFs and n_contacts contacts, some of which share directions with others, with a static load and one of harmonic
- * 1; damping that no modes diagonalise. kt and kn are of the order of K. To free with model_free. */
+/* A structure of n DOFs and n_contacts contacts, some of which share directions with others, with a static load and
+ * one of harmonic 1; damping that no modes diagonalise. kt and kn are of the order of K. To free with model_free. */
 static inline model *random_structure(uint64_t *seed, int n, int n_contacts)
 {
   model *m;

@@ -53,7 +53,7 @@ static outcome trace_and_print(const scene *sc, const char *what)
   return o;
 }
 
-/* Of the same curve with exact forces: these are real. */
+/* Those of the same curve with exact forces are real. */
 static int real_turning_points(const scene *sampled)
 {
   scene sc = *sampled;

@@ -309,7 +309,7 @@ static void map_multipliers(const map *p, double complex *lambda)
   eigenvalues_of(n, A, lambda);
 }
 
-/* Of the solution at omega; the map's product of 1 + multiplier, as a part of its factors. */
+/* The solution's at omega; the map's product of 1 + multiplier, as a part of its factors. */
 static double check(const char *what, const structure_case *c, double omega)
 {
   map p = {.m = c->model, .omega = omega};
