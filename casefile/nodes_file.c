@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/growing.h"
 #include "base/number.h"
 #include "casefile/matrices/matrix_text.h"
 #include "casefile/matrices/text_file.h"
@@ -11,117 +12,85 @@
 enum { COLUMNS = 3 };
 static const size_t most_bytes = (size_t)1 << 29; /* it may be a matrix */
 
-typedef struct reader {
-  const char *name;
-  size_t line;
-  const char *line_text;
-  const char *field[COLUMNS];
-  size_t length[COLUMNS];
-  message *m;
-} reader;
-
-static message *blame(reader *r, const char *at)
-{
-  message_start(r->m, r->m->text, r->m->size);
-  message_add_input(r->m, r->name, strlen(r->name), 240);
-  message_add(r->m, ":%zu:%zu: ", r->line, (size_t)(at - r->line_text) + 1);
-  return r->m;
-}
-
-static message *blame_field(reader *r, int i)
-{
-  message *m = blame(r, r->field[i]);
-  message_add_quoted(m, r->field[i], r->length[i]);
-  return m;
-}
-
 hc_status nodes_add(scene_structure *s, int dof, int node, char direction)
 {
-  if ((s->n_nodes & (s->n_nodes - 1)) == 0) { /* full at powers of two */
-    const size_t room = s->n_nodes > 0 ? 2 * (size_t)s->n_nodes : 1;
-    structure_node *grown = realloc(s->nodes, room * sizeof *grown);
-    if (!grown) return HC_NO_MEMORY;
-    s->nodes = grown;
-  }
+  structure_node *grown = growing(s->nodes, s->n_nodes, sizeof *grown);
+  if (!grown) return HC_NO_MEMORY;
+  s->nodes = grown;
   s->nodes[s->n_nodes++] = (structure_node){.dof = dof, .node = node, .direction = direction};
   return HC_OK;
 }
 
-/* The line up to `stop` into three fields without the blanks around them. */
-static bool split(reader *r, const char *stop)
+/* ---- dof,node,direction ---- */
+
+static hc_status wrong_field(matrix_text *t, const matrix_word *w, const char *expected)
 {
-  const char *s = r->line_text;
+  message *m = matrix_text_blame(t, w->text);
+  message_add_quoted(m, w->text, w->length);
+  message_add(m, " is no %s", expected);
+  return HC_BAD_INPUT;
+}
+
+static bool is_end(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
+
+/* The current line into three fields without the blanks around them. */
+static bool split(const matrix_text *t, matrix_word field[COLUMNS])
+{
+  const char *s = t->line_text, *stop = t->next;
   for (int i = 0; i < COLUMNS; ++i) {
     const char *comma = memchr(s, ',', (size_t)(stop - s)), *end = comma ? comma : stop;
     if ((comma == NULL) != (i == COLUMNS - 1)) return false;
-    while (s < end && (*s == ' ' || *s == '\t')) ++s;
-    while (end > s && (end[-1] == ' ' || end[-1] == '\t' || end[-1] == '\r')) --end;
-    r->field[i] = s, r->length[i] = (size_t)(end - s);
+    while (s < end && is_end(*s)) ++s;
+    while (end > s && is_end(end[-1])) --end;
+    field[i] = (matrix_word){s, (size_t)(end - s)};
     s = comma ? comma + 1 : stop;
   }
   return true;
 }
 
-static bool is_header(const reader *r)
+static bool is_header(const matrix_word field[COLUMNS])
 {
   static const char *const words[COLUMNS] = {"dof", "node", "direction"};
   for (int i = 0; i < COLUMNS; ++i)
-    if (r->length[i] != strlen(words[i]) || memcmp(r->field[i], words[i], r->length[i])) return false;
+    if (field[i].length != strlen(words[i]) || memcmp(field[i].text, words[i], field[i].length)) return false;
   return true;
 }
 
-static hc_status read_row(reader *r, scene_structure *s)
+static hc_status read_row(matrix_text *t, const matrix_word field[COLUMNS], scene_structure *s)
 {
   int node;
-  const int dof = structure_dof(s, r->field[0], r->length[0]);
-  if (dof < 0) {
-    message_add(blame_field(r, 0), " is no DOF, expected a name or a number 1..%d", s->n);
-    return HC_BAD_INPUT;
-  }
-  if (number_read_integer(r->field[1], r->length[1], &node) != NUMBER_FINE) {
-    message_add(blame_field(r, 1), " is no node, expected its number");
-    return HC_BAD_INPUT;
-  }
-  if (r->length[2] != 1 || !structure_is_axis(*r->field[2])) {
-    message_add(blame_field(r, 2), " is no direction, expected x, y or z");
-    return HC_BAD_INPUT;
-  }
-  if (structure_node_dof(s, node, *r->field[2]) >= 0) {
-    message_add(blame(r, r->line_text), "node %d in direction %c again, expected it once", node, *r->field[2]);
-    return HC_BAD_INPUT;
-  }
-  return nodes_add(s, dof, node, *r->field[2]);
+  const int dof = structure_dof(s, field[0].text, field[0].length);
+  const char axis = *field[2].text;
+  char expected[64];
+  snprintf(expected, sizeof expected, "DOF, expected a name or a number 1..%d", s->n);
+  if (dof < 0) return wrong_field(t, &field[0], expected);
+  if (number_read_integer(field[1].text, field[1].length, &node) != NUMBER_FINE)
+    return wrong_field(t, &field[1], "node, expected its number");
+  if (field[2].length != 1 || !structure_is_axis(axis))
+    return wrong_field(t, &field[2], "direction, expected x, y or z");
+  if (structure_node_dof(s, node, axis) >= 0)
+    return matrix_text_refuse(t, t->line_text, "node %d in direction %c again, expected it once", node, axis);
+  return nodes_add(s, dof, node, axis);
 }
 
-static bool is_blank(const char *s, const char *stop)
+static hc_status read_lines(matrix_text *t, scene_structure *s)
 {
-  while (s < stop && (*s == ' ' || *s == '\t' || *s == '\r')) ++s;
-  return s == stop;
-}
-
-static hc_status read_lines(reader *r, scene_structure *s, const char *text, size_t length)
-{
-  const char *end = text + length;
   bool header = false;
   hc_status st = HC_OK;
-  r->line = 1;
-  r->line_text = text;
-  for (const char *next; st == HC_OK && r->line_text < end; r->line_text = next, ++r->line) {
-    const char *line_end = memchr(r->line_text, '\n', (size_t)(end - r->line_text)), *stop = line_end ? line_end : end;
-    next = line_end ? line_end + 1 : end;
-    if (is_blank(r->line_text, stop)) continue;
-    if (!split(r, stop) || (!header && !is_header(r))) {
-      message_add(blame(r, r->line_text), "expected %s",
-                  header ? "three values: dof, node and direction, with commas"
-                         : "the line `dof,node,direction` first");
-      return HC_BAD_INPUT;
-    }
-    if (header) st = read_row(r, s);
+  matrix_text_rewind(t);
+  while (st == HC_OK && matrix_text_line(t)) {
+    matrix_word field[COLUMNS];
+    if (t->n_words == 0) continue;
+    if (!split(t, field) || (!header && !is_header(field)))
+      return matrix_text_refuse(t, t->line_text, "expected %s",
+                                header ? "three values: dof, node and direction, with commas"
+                                       : "the line `dof,node,direction` first");
+    if (header) st = read_row(t, field, s);
     header = true;
   }
   if (st != HC_OK || header) return st;
-  if (r->line > 1 && end[-1] != '\n') --r->line; /* the last line has no end; its beginning will do */
-  message_add(blame(r, r->line_text), "nothing here, expected the line `dof,node,direction` and one a DOF");
+  t->line_text = t->end;
+  message_add(matrix_text_blame_end(t), "nothing here, expected the line `dof,node,direction` and one a DOF");
   return HC_BAD_INPUT;
 }
 
@@ -194,21 +163,15 @@ static hc_status read_labels(matrix_text *t, scene_structure *s)
   return st;
 }
 
-/* Of a .dof file: a line NODE.DIRECTION, direction 1..3, for each degree of freedom of s. Of a matrix: its DOFs 1..3;
- * rotations and all others are no node's direction. */
-static hc_status parse_mesh(const char *name, const char *text, size_t length, scene_structure *s, message *m)
-{
-  matrix_text t = matrix_text_start(name, text, length, s->n, m);
-  const bool lines = matrix_text_next(&t) && t.n_words == 1 && memchr(t.words[0].text, '.', t.words[0].length);
-  return lines ? read_dofs(&t, s) : read_labels(&t, s);
-}
-
-/* ---- any of them */
+/* ---- any of them: csv; a .dof file, a line NODE.DIRECTION, direction 1..3, for each degree of freedom of s; a matrix,
+ * its DOFs 1..3: rotations and all others are no node's direction ---- */
 
 hc_status nodes_file_parse(const char *name, const char *text, size_t length, scene_structure *s, message *m)
 {
-  reader r = {.name = name, .m = m};
-  return is_mesh(text, length) ? parse_mesh(name, text, length, s, m) : read_lines(&r, s, text, length);
+  matrix_text t = matrix_text_start(name, text, length, s->n, m);
+  if (!is_mesh(text, length)) return read_lines(&t, s);
+  const bool lines = matrix_text_next(&t) && t.n_words == 1 && memchr(t.words[0].text, '.', t.words[0].length);
+  return lines ? read_dofs(&t, s) : read_labels(&t, s);
 }
 
 hc_status nodes_file_read(const char *path, scene_structure *s, message *m)

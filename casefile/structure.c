@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/constants.h"
+#include "base/growing.h"
 #include "base/message.h"
 #include "base/number.h"
 
@@ -61,25 +62,38 @@ void structure_free(scene_structure *s)
 
 /* ---- lists that grow ---- */
 
-/* Room for one more entry than the `count` there are; they double in size at powers of two. NULL: out of memory, and
- * the list is as it was. */
-static void *with_room(void *list, int count, size_t size)
-{
-  if (count & (count - 1)) return list; /* not at a power of two, so there is room */
-  return realloc(list, size * (count > 0 ? 2 * (size_t)count : 1));
-}
-
 structure_load *structure_add_load(scene_structure *s)
 {
-  double *direction = calloc((size_t)s->n, sizeof *direction);
-  structure_load *grown = direction ? with_room(s->loads, s->n_loads, sizeof *grown) : NULL;
-  if (!grown) {
-    free(direction);
-    return NULL;
-  }
+  structure_load *grown = growing(s->loads, s->n_loads, sizeof *grown);
+  if (!grown) return NULL;
   s->loads = grown;
-  grown[s->n_loads] = (structure_load){.direction = direction};
-  return &grown[s->n_loads++];
+  grown += s->n_loads;
+  *grown = (structure_load){.direction = calloc((size_t)s->n, sizeof(double))};
+  s->n_loads += grown->direction != NULL;
+  return grown->direction ? grown : NULL;
+}
+
+structure_response *structure_add_response(scene_structure *s)
+{
+  structure_response *grown = growing(s->responses, s->n_responses, sizeof *grown);
+  if (!grown) return NULL;
+  s->responses = grown;
+  grown += s->n_responses;
+  *grown = (structure_response){.direction = calloc((size_t)s->n, sizeof(double))};
+  s->n_responses += grown->direction != NULL;
+  return grown->direction ? grown : NULL;
+}
+
+structure_contact *structure_add_contact(scene_structure *s)
+{
+  const size_t n = (size_t)s->n;
+  structure_contact *grown = growing(s->contacts, s->n_contacts, sizeof *grown);
+  double *directions = grown ? calloc(3 * n, sizeof *directions) : NULL;
+  if (grown) s->contacts = grown;
+  if (!directions) return NULL;
+  grown += s->n_contacts++;
+  *grown = (structure_contact){.tangent = directions, .tangent_2 = directions + n, .normal = directions + 2 * n};
+  return grown;
 }
 
 void structure_keep_response(scene_structure *s, int r)
@@ -91,85 +105,34 @@ void structure_keep_response(scene_structure *s, int r)
   s->n_responses = 1;
 }
 
-structure_response *structure_add_response(scene_structure *s)
-{
-  double *direction = calloc((size_t)s->n, sizeof *direction);
-  structure_response *grown = direction ? with_room(s->responses, s->n_responses, sizeof *grown) : NULL;
-  if (!grown) {
-    free(direction);
-    return NULL;
-  }
-  s->responses = grown;
-  grown[s->n_responses] = (structure_response){.direction = direction};
-  return &grown[s->n_responses++];
-}
-
-structure_contact *structure_add_contact(scene_structure *s)
-{
-  const size_t n = (size_t)s->n;
-  double *directions = calloc(3 * n, sizeof *directions);
-  structure_contact *grown = directions ? with_room(s->contacts, s->n_contacts, sizeof *grown) : NULL;
-  if (!grown) {
-    free(directions);
-    return NULL;
-  }
-  s->contacts = grown;
-  grown[s->n_contacts] = (structure_contact){
-      .tangent = directions, .tangent_2 = directions + n, .normal = directions + 2 * n, .place = {0}};
-  return &grown[s->n_contacts++];
-}
-
 /* ---- copies ---- */
 
-static bool copy_numbers(double **to, const double *from, size_t count)
+/* A copy of from[bytes]; NULL where there is nothing, or, with *failed, no memory. */
+static void *copied(const void *from, size_t bytes, bool *failed)
 {
-  *to = NULL;
-  if (!from) return true;
-  if (!(*to = malloc(count * sizeof **to))) return false;
-  memcpy(*to, from, count * sizeof **to);
-  return true;
+  if (!from) return NULL;
+  void *to = malloc(bytes);
+  if (to) memcpy(to, from, bytes);
+  else *failed = true;
+  return to;
 }
 
-static bool copy_text(char **to, const char *from)
+static structure_matrix copied_matrix(const structure_matrix *from, size_t n, bool *failed)
 {
-  *to = NULL;
-  if (!from) return true;
-  return (*to = strdup(from)) != NULL;
-}
-
-static bool copy_labels(matrix_label **to, const matrix_label *from, size_t count)
-{
-  *to = NULL;
-  if (!from) return true;
-  if (!(*to = malloc(count * sizeof **to))) return false;
-  memcpy(*to, from, count * sizeof **to);
-  return true;
-}
-
-static bool copy_matrix(structure_matrix *to, const structure_matrix *from, size_t n)
-{
-  to->place = from->place;
-  to->part = from->part;
-  return copy_numbers(&to->v, from->v, n * n) && copy_text(&to->file, from->file) &&
-         copy_labels(&to->labels, from->labels, n);
+  structure_matrix to = *from;
+  to.v = copied(from->v, n * n * sizeof *to.v, failed);
+  to.file = copied(from->file, from->file ? strlen(from->file) + 1 : 0, failed);
+  to.labels = copied(from->labels, n * sizeof *to.labels, failed);
+  return to;
 }
 
 static bool copy_names(scene_structure *to, const scene_structure *from)
 {
+  bool failed = false;
   if (!from->names) return true;
   if (!(to->names = calloc((size_t)from->n + 1, sizeof *to->names))) return false;
-  for (int i = 0; i < from->n; ++i)
-    if (!copy_text(&to->names[i], from->names[i])) return false;
-  return true;
-}
-
-static bool copy_nodes(scene_structure *to, const scene_structure *from)
-{
-  if (from->n_nodes == 0) return true;
-  if (!(to->nodes = malloc((size_t)from->n_nodes * sizeof *to->nodes))) return false;
-  memcpy(to->nodes, from->nodes, (size_t)from->n_nodes * sizeof *to->nodes);
-  to->n_nodes = from->n_nodes;
-  return true;
+  for (int i = 0; i < from->n; ++i) to->names[i] = copied(from->names[i], strlen(from->names[i]) + 1, &failed);
+  return !failed;
 }
 
 static bool copy_lists(scene_structure *to, const scene_structure *from)
@@ -204,16 +167,19 @@ scene_structure *structure_copy(const scene_structure *s)
 {
   scene_structure *to = structure_new();
   const size_t n = (size_t)s->n;
+  bool failed = false;
   if (!to) return NULL;
-  to->n = s->n;
-  to->how = s->how;
-  memcpy(to->rayleigh, s->rayleigh, sizeof to->rayleigh);
-  to->modal = s->modal;
-  to->place = s->place;
-  if (copy_matrix(&to->mass, &s->mass, n) && copy_matrix(&to->stiffness, &s->stiffness, n) &&
-      copy_matrix(&to->damping, &s->damping, n) && copy_numbers(&to->ratios, s->ratios, n) && copy_names(to, s) &&
-      copy_nodes(to, s) && copy_lists(to, s))
-    return to;
+  *to = *s;
+  to->names = NULL;
+  to->loads = NULL, to->n_loads = 0;
+  to->contacts = NULL, to->n_contacts = 0;
+  to->responses = NULL, to->n_responses = 0;
+  to->mass = copied_matrix(&s->mass, n, &failed);
+  to->stiffness = copied_matrix(&s->stiffness, n, &failed);
+  to->damping = copied_matrix(&s->damping, n, &failed);
+  to->ratios = copied(s->ratios, n * sizeof *to->ratios, &failed);
+  to->nodes = copied(s->nodes, (size_t)s->n_nodes * sizeof *to->nodes, &failed);
+  if (!failed && copy_names(to, s) && copy_lists(to, s)) return to;
   structure_free(to);
   return NULL;
 }

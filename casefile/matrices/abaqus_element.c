@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/growing.h"
 #include "base/number.h"
 #include "casefile/matrices/matrix_text.h"
 
@@ -32,12 +33,6 @@ static const char *keyword(const matrix_text *r, char text[KEYWORD])
   return text;
 }
 
-/* list[n] with room for one more, which grows at powers of two; NULL: out of memory, and the list is as it was. */
-static void *with_room(void *list, int n, size_t size)
-{
-  return n > 0 && (n & (n - 1)) != 0 ? list : realloc(list, (n > 0 ? 2 * (size_t)n : 1) * size);
-}
-
 /* ---- the header ---- */
 
 /* `** 101, 102`, nodes; any other comment says nothing. */
@@ -47,7 +42,7 @@ static hc_status read_comment(const matrix_text *r, element *e)
   for (int i = 1, node; i < r->n_words; ++i)
     if (number_read_integer(r->words[i].text, r->words[i].length, &node) != NUMBER_FINE) return HC_OK;
   for (int i = 1; i < r->n_words && e->n_nodes < MATRIX_MOST_ROWS; ++i) {
-    int *grown = with_room(e->nodes, e->n_nodes, sizeof *grown);
+    int *grown = growing(e->nodes, e->n_nodes, sizeof *grown);
     if (!grown) return HC_NO_MEMORY;
     e->nodes = grown;
     number_read_integer(r->words[i].text, r->words[i].length, &e->nodes[e->n_nodes++]);
@@ -60,7 +55,7 @@ static hc_status label_nodes(element *e, int place)
 {
   for (; e->place < place && e->place < e->n_nodes; ++e->place)
     for (int k = 0; k < e->n_dofs && e->n_labels < MATRIX_MOST_ROWS; ++k) {
-      matrix_label *grown = with_room(e->labels, e->n_labels, sizeof *grown);
+      matrix_label *grown = growing(e->labels, e->n_labels, sizeof *grown);
       if (!grown) return HC_NO_MEMORY;
       e->labels = grown;
       e->labels[e->n_labels++] = (matrix_label){.node = e->nodes[e->place], .dof = e->dofs[k]};
@@ -120,7 +115,7 @@ static hc_status read_row_line(matrix_text *r, element *e, int *row, int *column
     if (*row == MATRIX_MOST_ROWS)
       return matrix_text_refuse(r, r->words[i].text, "another row, expected at most %d", (int)MATRIX_MOST_ROWS);
     if (!matrix_text_number(r, i, &value)) return HC_BAD_INPUT;
-    double *grown = with_room(e->packed, e->n_values, sizeof value);
+    double *grown = growing(e->packed, e->n_values, sizeof value);
     if (!grown) return HC_NO_MEMORY;
     e->packed = grown;
     e->packed[e->n_values++] = value;

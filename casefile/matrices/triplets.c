@@ -2,6 +2,7 @@
  * over the text finds out which rows there are, a second one reads the entries. */
 #include <stdlib.h>
 
+#include "base/growing.h"
 #include "base/number.h"
 #include "casefile/matrices/matrix_text.h"
 
@@ -57,7 +58,6 @@ static int distinct(matrix_label *labels, int n)
 /* The labels of the diagonal's entries into r->labels, *n of them. */
 static hc_status collect_labels(matrix_text *r, int *n)
 {
-  int room = 0;
   *n = 0;
   while (matrix_text_next(r)) {
     matrix_label row, column;
@@ -66,12 +66,9 @@ static hc_status collect_labels(matrix_text *r, int *n)
     if (by_node(&row, &column) != 0) continue;
     if (*n == MATRIX_MOST_ROWS)
       return matrix_text_refuse(r, r->words[0].text, "another row, expected at most %d", (int)MATRIX_MOST_ROWS);
-    if (*n == room) {
-      room = room > 0 ? 2 * room : 64;
-      matrix_label *grown = realloc(r->labels, (size_t)room * sizeof *grown);
-      if (!grown) return HC_NO_MEMORY;
-      r->labels = grown;
-    }
+    matrix_label *grown = growing(r->labels, *n, sizeof *grown);
+    if (!grown) return HC_NO_MEMORY;
+    r->labels = grown;
     r->labels[(*n)++] = row;
   }
   if (*n > 0) *n = distinct(r->labels, *n);
