@@ -8,11 +8,15 @@
 
 enum { MAX_CALLS = 5000 };
 
-typedef struct probe {
+typedef struct probe probe;
+typedef hc_status equation(const probe *p, double z, double *r, double *slope);
+
+struct probe {
   int residuals, jacobians;
   double history[64][2]; /* z at each Jacobian */
   double limit;          /* some problems refuse |z_0| beyond this */
-} probe;
+  equation *f;           /* of those in one unknown */
+};
 
 static const double ones[2] = {1, 1};
 static const newton_options plain = {ones, ones, 1e-12, 100, 50, false};
@@ -55,6 +59,31 @@ static newton *make(probe *p, int n, hc_status (*residual)(void *, const double 
   *p = (probe){.limit = INFINITY};
   newton_problem problem = {n, p, residual, jacobian};
   assert_int_equal(newton_new(&problem, &nw), HC_OK);
+  return nw;
+}
+
+static hc_status scalar_residual(void *self, const double *z, double *r)
+{
+  probe *p = self;
+  double slope;
+  count(p);
+  return p->f(p, *z, r, &slope);
+}
+
+static hc_status scalar_jacobian(void *self, const double *z, double *jac)
+{
+  const double pair[2] = {z[0], 0};
+  double r;
+  probe *p = self;
+  remember(p, pair);
+  p->f(p, *z, &r, jac);
+  return HC_OK;
+}
+
+static newton *make_scalar(probe *p, equation *f)
+{
+  newton *nw = make(p, 1, scalar_residual, scalar_jacobian);
+  p->f = f;
   return nw;
 }
 
@@ -123,18 +152,11 @@ static void backsolve_is_the_inverse_at_the_end(void **state)
 }
 
 /* z + 0.1 z^3 = 1 from 0, where KINSOL's default longest step (1000 |z_0|) would be 0. */
-static hc_status cubic_residual(void *self, const double *z, double *r)
+static hc_status cubic(const probe *p, double z, double *r, double *slope)
 {
-  count(self);
-  *r = z[0] + 0.1 * z[0] * z[0] * z[0] - 1;
-  return HC_OK;
-}
-
-static hc_status cubic_jacobian(void *self, const double *z, double *jac)
-{
-  double pair[2] = {z[0], 0};
-  remember(self, pair);
-  *jac = 1 + 0.3 * z[0] * z[0];
+  (void)p;
+  *slope = 1 + 0.3 * z * z;
+  *r = z + 0.1 * z * z * z - 1;
   return HC_OK;
 }
 
@@ -142,7 +164,7 @@ static void starts_from_zero(void **state)
 {
   (void)state;
   probe p;
-  newton *nw = make(&p, 1, cubic_residual, cubic_jacobian);
+  newton *nw = make_scalar(&p, cubic);
   newton_report report;
   double z = 0;
   assert_int_equal(newton_solve(nw, &z, &plain, &report), HC_OK);
@@ -167,7 +189,7 @@ static void starts_at_the_root(void **state)
 {
   (void)state;
   probe p;
-  newton *nw = make(&p, 1, cubic_residual, cubic_jacobian);
+  newton *nw = make_scalar(&p, cubic);
   newton_report report;
   double z = 0;
   assert_int_equal(newton_solve(nw, &z, &plain, &report), HC_OK);
@@ -191,17 +213,11 @@ static hc_status fails_untouched(newton *nw, int n, const double *start, const n
 }
 
 /* x^2 + 1: no root; Newton wanders chaotically, the line search settles at the minimum x = 0, where J = 0. */
-static hc_status no_root_residual(void *self, const double *z, double *r)
+static hc_status no_root(const probe *p, double z, double *r, double *slope)
 {
-  count(self);
-  *r = z[0] * z[0] + 1;
-  return HC_OK;
-}
-
-static hc_status no_root_jacobian(void *self, const double *z, double *jac)
-{
-  (void)self;
-  *jac = 2 * z[0];
+  (void)p;
+  *slope = 2 * z;
+  *r = z * z + 1;
   return HC_OK;
 }
 
@@ -211,7 +227,7 @@ static void no_root_is_never_ok(void **state)
   /* the last has period 2 under Newton */
   static const double starts[] = {3, 0.5, -1, 1e-3, 1e-9, 0, 1e6, 1 / 1.7320508075688772};
   probe p;
-  newton *nw = make(&p, 1, no_root_residual, no_root_jacobian);
+  newton *nw = make_scalar(&p, no_root);
   for (size_t i = 0; i < sizeof starts / sizeof *starts; ++i) {
     newton_report report;
     p.residuals = 0;
@@ -223,17 +239,11 @@ static void no_root_is_never_ok(void **state)
 }
 
 /* atan x = 0 from 3: plain Newton runs away (it does beyond 1.39), the line search does not. */
-static hc_status atan_residual(void *self, const double *z, double *r)
+static hc_status atan_equation(const probe *p, double z, double *r, double *slope)
 {
-  count(self);
-  *r = atan(z[0]);
-  return HC_OK;
-}
-
-static hc_status atan_jacobian(void *self, const double *z, double *jac)
-{
-  (void)self;
-  *jac = 1 / (1 + z[0] * z[0]);
+  (void)p;
+  *slope = 1 / (1 + z * z);
+  *r = atan(z);
   return HC_OK;
 }
 
@@ -241,7 +251,7 @@ static void the_line_search_helps_out(void **state)
 {
   (void)state;
   probe p;
-  newton *nw = make(&p, 1, atan_residual, atan_jacobian);
+  newton *nw = make_scalar(&p, atan_equation);
   newton_report report;
   double z = 3;
   assert_int_equal(newton_solve(nw, &z, &plain, &report), HC_OK);
@@ -250,17 +260,11 @@ static void the_line_search_helps_out(void **state)
 }
 
 /* |x| + 1: ends in the kink, where no step lowers it. A stall, and said to be one. */
-static hc_status kink_residual(void *self, const double *z, double *r)
+static hc_status kink(const probe *p, double z, double *r, double *slope)
 {
-  count(self);
-  *r = fabs(z[0]) + 1;
-  return HC_OK;
-}
-
-static hc_status kink_jacobian(void *self, const double *z, double *jac)
-{
-  (void)self;
-  *jac = z[0] < 0 ? -1 : 1;
+  (void)p;
+  *slope = z < 0 ? -1 : 1;
+  *r = fabs(z) + 1;
   return HC_OK;
 }
 
@@ -268,7 +272,7 @@ static void a_stall_is_said(void **state)
 {
   (void)state;
   probe p;
-  newton *nw = make(&p, 1, kink_residual, kink_jacobian);
+  newton *nw = make_scalar(&p, kink);
   newton_report report;
   assert_int_equal(fails_untouched(nw, 1, (double[]){3}, &plain, &report), HC_STALLED);
   CHECK_NEAR(report.residual, 1, 1e-6, "the residual of the kink");
@@ -302,27 +306,20 @@ static void singular_is_said(void **state)
 }
 
 /* ln z = -1, |z| <= limit, refused outside: Newton from 5 jumps to -8; from 0.2 it converges to 1/e. */
-static hc_status log_residual(void *self, const double *z, double *r)
+static hc_status logarithm(const probe *p, double z, double *r, double *slope)
 {
-  probe *p = self;
-  count(p);
-  if (!(z[0] > 0 && z[0] <= p->limit)) return HC_NOT_FINITE;
-  *r = log(z[0]) + 1;
+  *slope = 1 / z;
+  if (!(z > 0 && z <= p->limit)) return HC_NOT_FINITE;
+  *r = log(z) + 1;
   return HC_OK;
 }
 
 /* The same, but leaving the NaN of log(-8) in r and saying all is well. */
-static hc_status nan_residual(void *self, const double *z, double *r)
+static hc_status nan_logarithm(const probe *p, double z, double *r, double *slope)
 {
-  count(self);
-  *r = log(z[0]) + 1;
-  return HC_OK;
-}
-
-static hc_status log_jacobian(void *self, const double *z, double *jac)
-{
-  (void)self;
-  *jac = 1 / z[0];
+  (void)p;
+  *slope = 1 / z;
+  *r = log(z) + 1;
   return HC_OK;
 }
 
@@ -330,7 +327,7 @@ static void refusals_are_passed_on(void **state)
 {
   (void)state;
   probe p;
-  newton *nw = make(&p, 1, log_residual, log_jacobian);
+  newton *nw = make_scalar(&p, logarithm);
   newton_report report;
   double z = 0.2;
   assert_int_equal(newton_solve(nw, &z, &plain, &report), HC_OK);
@@ -347,10 +344,11 @@ static void refusals_are_passed_on(void **state)
 
 /* Only the start is allowed: each step of both strategies is refused, however short. The solve must return the
  * status of the refusal. */
-static hc_status start_only_residual(void *self, const double *z, double *r)
+static hc_status start_only(const probe *p, double z, double *r, double *slope)
 {
-  count(self);
-  if (z[0] != 1) return HC_NOT_CLOSED;
+  (void)p;
+  *slope = 1 / z;
+  if (z != 1) return HC_NOT_CLOSED;
   *r = 1;
   return HC_OK;
 }
@@ -359,7 +357,7 @@ static void the_reason_of_a_refusal_survives(void **state)
 {
   (void)state;
   probe p;
-  newton *nw = make(&p, 1, start_only_residual, log_jacobian);
+  newton *nw = make_scalar(&p, start_only);
   newton_report report;
   assert_int_equal(fails_untouched(nw, 1, (double[]){1}, &plain, &report), HC_NOT_CLOSED);
   newton_free(nw);
@@ -370,7 +368,7 @@ static void nan_is_refused(void **state)
 {
   (void)state;
   probe p;
-  newton *nw = make(&p, 1, nan_residual, log_jacobian);
+  newton *nw = make_scalar(&p, nan_logarithm);
   newton_report report;
   assert_int_equal(fails_untouched(nw, 1, (double[]){-1}, &plain, &report), HC_NOT_FINITE); /* NaN at the start */
   p.residuals = 0;
@@ -381,18 +379,18 @@ static void nan_is_refused(void **state)
   newton_free(nw);
 }
 
-static hc_status nan_jacobian(void *self, const double *z, double *jac)
+static hc_status nan_slope(const probe *p, double z, double *r, double *slope)
 {
-  (void)self, (void)z;
-  *jac = NAN;
-  return HC_OK;
+  const hc_status st = cubic(p, z, r, slope);
+  *slope = NAN;
+  return st;
 }
 
 static void a_nan_jacobian_is_not_an_answer(void **state)
 {
   (void)state;
   probe p;
-  newton *nw = make(&p, 1, cubic_residual, nan_jacobian);
+  newton *nw = make_scalar(&p, nan_slope);
   newton_report report;
   fails_untouched(nw, 1, (double[]){0.5}, &plain, &report);
   newton_free(nw);
@@ -403,7 +401,7 @@ static void works_on_after_failures(void **state)
 {
   (void)state;
   probe p;
-  newton *nw = make(&p, 1, log_residual, log_jacobian);
+  newton *nw = make_scalar(&p, logarithm);
   newton_report report;
   for (int i = 0; i < 5; ++i) {
     assert_int_equal(fails_untouched(nw, 1, (double[]){-1}, &plain, &report), HC_NOT_FINITE);
@@ -490,4 +488,4 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(works_on_after_failures),
     cmocka_unit_test(out_of_memory_ends_it),
 };
-CHECK_MAIN("cases.newton", tests, 60)
+CHECK_MAIN("numerics.newton", tests, 60)
