@@ -151,63 +151,68 @@ static void write_structure(const scene_structure *s, FILE *to)
   if (s->n_responses > 0) fputs("]\n", to);
 }
 
-/* The scalars of an entry through the table of fields, but those that say nothing of it. */
-static void write_scalars(const char *section, const void *base, const char *const *left_out, FILE *to)
+/* The directions of a load or contact that are not 0, each on a line of its own. */
+static void write_directions(const scene_structure *s, const char *section, const void *entry, FILE *to)
 {
+  const char *before = "  - ";
   for (int i = 0; i < field_count(); ++i) {
     const field *f = field_at(i);
-    bool out = strcmp(f->section, section) != 0 || f->kind == FIELD_PART;
-    for (int k = 0; left_out[k] && !out; ++k) out = !strcmp(f->name, left_out[k]);
-    if (out) continue;
-    fprintf(to, "    %s: ", f->name);
-    field_write(f, base, to);
+    const bool is_direction = f->kind == FIELD_PART && f->size > 0 && strcmp(f->name, "dof") != 0;
+    if (!is_direction || strcmp(f->section, section) != 0) continue;
+    const double *direction = field_direction(f, entry);
+    if (structure_is_zero(direction, s->n)) continue;
+    fprintf(to, "%s%s: ", before, f->name);
+    write_direction(s, direction, to);
     putc('\n', to);
+    before = "    ";
   }
+}
+
+static void write_scalar(const field *f, const void *base, FILE *to)
+{
+  fprintf(to, "    %s: ", f->name);
+  field_write(f, base, to);
+  putc('\n', to);
 }
 
 static void write_loads(const scene_structure *s, FILE *to)
 {
-  static const char *const nothing[] = {NULL};
   fputs(s->n_loads > 0 ? "forcing:\n" : "forcing: []\n", to);
-  for (int i = 0; i < s->n_loads; ++i) {
-    fputs("  - direction: ", to);
-    write_direction(s, s->loads[i].direction, to);
-    putc('\n', to);
-    write_scalars("forcing[]", &s->loads[i], nothing, to);
+  for (int j = 0; j < s->n_loads; ++j) {
+    write_directions(s, "forcing[]", &s->loads[j], to);
+    for (int i = 0; i < field_count(); ++i)
+      if (field_at(i)->flags & FIELD_IN_LOAD && field_at(i)->kind != FIELD_PART)
+        write_scalar(field_at(i), &s->loads[j], to);
   }
+}
+
+/* Has the contact that direction? One given by its angle has a tangent and a normal. */
+static bool has_direction(const scene_structure *s, const structure_contact *c, const char *along)
+{
+  if (c->by_angle) return strcmp(along, "tangent_2") != 0;
+  const field *f = field_find("contacts", along, strlen(along));
+  return !structure_is_zero(field_direction(f, c), s->n);
+}
+
+/* Does the field say something of the contact? Of gap and preload the one that was given does. */
+static bool says_something(const scene_structure *s, const structure_contact *c, const field *f)
+{
+  const bool preload = !strcmp(f->name, "preload");
+  if (!strcmp(f->name, "angle_deg")) return c->by_angle;
+  if (!strcmp(f->name, "name")) return *c->given.name;
+  if (f->along && !has_direction(s, c, f->along)) return false;
+  return !f->group || !has_direction(s, c, "normal") || preload == (c->given.preload > 0);
 }
 
 static void write_structure_contact(const scene_structure *s, const structure_contact *c, FILE *to)
 {
-  const char *left_out[10];
-  const char *before = "  - ";
-  const bool tangent = !structure_is_zero(c->tangent, s->n), normal = !structure_is_zero(c->normal, s->n);
-  int n = 0;
-  if (!c->by_angle) left_out[n++] = "angle_deg";
-  if (!*c->given.name) left_out[n++] = "name";
-  if (!c->by_angle && !tangent) left_out[n++] = "tangential_stiffness", left_out[n++] = "friction";
-  if (structure_is_zero(c->tangent_2, s->n)) left_out[n++] = "limit";
-  if (!c->by_angle && !normal) left_out[n++] = "normal_stiffness", left_out[n++] = "gap";
-  else left_out[n++] = c->given.preload > 0 ? "gap" : "preload";
-  left_out[n] = NULL;
-  if (tangent) {
-    fprintf(to, "%stangent: ", before);
-    write_direction(s, c->tangent, to);
-    putc('\n', to);
-    before = "    ";
-  }
-  if (!structure_is_zero(c->tangent_2, s->n)) {
-    fprintf(to, "%stangent_2: ", before);
-    write_direction(s, c->tangent_2, to);
-    putc('\n', to);
-  }
-  if (normal) {
-    fprintf(to, "%snormal: ", before);
-    write_direction(s, c->normal, to);
-    putc('\n', to);
-  }
+  write_directions(s, "contacts", c, to);
   if (c->by_angle) fputs("  -\n", to);
-  write_scalars("contacts", &c->given, left_out, to);
+  for (int i = 0; i < field_count(); ++i) {
+    const field *f = field_at(i);
+    if (!strcmp(f->section, "contacts") && f->kind != FIELD_PART && says_something(s, c, f))
+      write_scalar(f, &c->given, to);
+  }
 }
 
 /* Write what the section of that name says of a structure; false where it says nothing that an oscillator's does not.

@@ -54,6 +54,10 @@ static const field_section sections[] = {
 #define STRUCTURE(member)                                                                                              \
   .flags = FIELD_IN_STRUCTURE | FIELD_STRUCTURE | FIELD_NO_ECHO, .offset = offsetof(scene_structure, member)
 #define PART(within, words) FIELD_PART, .flags = (within) | FIELD_STRUCTURE, .expects = (words)
+#define DIRECTION(within, type, member, words)                                                                         \
+  PART(within, words), .offset = offsetof(type, member), .size = sizeof(double *)
+#define ACROSS(member)                                                                                                 \
+  DIRECTION(FIELD_IN_CONTACT, structure_contact, member, "a DOF, or factors of DOFs such as {tip: 1, root: -1}")
 #define TEXT(member)                                                                                                   \
   .kind = FIELD_TEXT, .unit = "", .offset = offsetof(scene, member), .size = sizeof((scene *)0)->member
 #define CHOICE(names, member)                                                                                          \
@@ -104,8 +108,10 @@ static const field table[] = {
   {"forcing", "amplitude", "F0", FIELD_REAL, .unit = "force", SCENE(force), NOT_NEGATIVE,
    .meaning = "of the force F0 cos(omega t)"},
 
-  {"forcing[]", "dof", "", PART(FIELD_IN_LOAD, "a DOF"), .unit = "", .fallback = "", .meaning = "where it acts"},
-  {"forcing[]", "direction", "", PART(FIELD_IN_LOAD, "factors of DOFs such as {tip: 1, root: -0.5}"), .unit = "1",
+  {"forcing[]", "dof", "", DIRECTION(FIELD_IN_LOAD, structure_load, direction, "a DOF"),
+   .unit = "", .fallback = "", .meaning = "where it acts"},
+  {"forcing[]", "direction", "",
+   DIRECTION(FIELD_IN_LOAD, structure_load, direction, "factors of DOFs such as {tip: 1, root: -0.5}"), .unit = "1",
    .fallback = "", .meaning = "instead of dof, where it acts on several"},
   {"forcing[]", "amplitude", "", FIELD_REAL, .unit = "force", LOAD(amplitude), UNBOUNDED,
    .meaning = "of amplitude cos(harmonic omega t + phase)"},
@@ -118,29 +124,29 @@ static const field table[] = {
    .offset = offsetof(scene_contact, name), .size = SCENE_NAME, .fallback = "",
    .meaning = "then contacts[NAME] means it, too"},
   {"contacts", "tangential_stiffness", "kt", FIELD_REAL, .unit = "force/length", CONTACT(law.kt), NOT_NEGATIVE,
-   .meaning = "of the spring along the contact, in series with the slider"},
+   .along = "tangent", .meaning = "of the spring along the contact, in series with the slider"},
   {"contacts", "normal_stiffness", "kn", FIELD_REAL, .unit = "force/length", CONTACT(law.kn), NOT_NEGATIVE,
-   .meaning = "of the spring across the contact: N = max(kn (v + gap), 0)"},
-  {"contacts", "friction", "mu", FIELD_REAL, .unit = "1", CONTACT(law.mu), NOT_NEGATIVE,
+   .along = "normal", .meaning = "of the spring across the contact: N = max(kn (v + gap), 0)"},
+  {"contacts", "friction", "mu", FIELD_REAL, .unit = "1", CONTACT(law.mu), NOT_NEGATIVE, .along = "tangent",
    .meaning = "Coulomb's coefficient: |T| <= mu N"},
   {"contacts", "angle_deg", "alpha", FIELD_REAL, .unit = "deg", CONTACT(angle_deg), WITHIN(0, 90),
    .meaning = "from x to the tangent: u = x cos(alpha), v = x sin(alpha); of one DOF"},
-  {"contacts", "tangent", "", PART(FIELD_IN_CONTACT, "a DOF, or factors of DOFs such as {tip: 1, root: -1}"),
+  {"contacts", "tangent", "", ACROSS(tangent),
    .unit = "1", .fallback = "", .meaning = "u = tangent . x; none: a spring across the contact alone"},
-  {"contacts", "tangent_2", "", PART(FIELD_IN_CONTACT, "a DOF, or factors of DOFs such as {tip: 1, root: -1}"),
+  {"contacts", "tangent_2", "", ACROSS(tangent_2),
    .unit = "1", .fallback = "", .meaning = "a second tangent, across the first: the traction is a vector then"},
   {"contacts", "limit", "", FIELD_CHOICE, .unit = "", .choices = limit_names,
    .flags = FIELD_IN_CONTACT | FIELD_STRUCTURE,
-   .offset = offsetof(scene_contact, limit), .fallback = "circle",
+   .offset = offsetof(scene_contact, limit), .fallback = "circle", .along = "tangent_2",
    .meaning = "of two tangents: |(T_1, T_2)| <= mu N; square: |T_1| and |T_2| <= mu N each"},
-  {"contacts", "normal", "", PART(FIELD_IN_CONTACT, "a DOF, or factors of DOFs such as {tip: 1, root: -1}"),
+  {"contacts", "normal", "", ACROSS(normal),
    .unit = "1", .fallback = "", .meaning = "v = normal . x; none: N = preload, constant"},
   {"contacts", "pairs", "", PART(FIELD_IN_CONTACT, "a csv file node_a,node_b[,gap][,preload][,area], or such rows"),
    .unit = "", .fallback = "", .meaning = "a contact for each pair of nodes; stiffnesses are per area"},
   {"contacts", "axes", "", PART(FIELD_IN_CONTACT, "{normal: [X, Y, Z], tangent: [X, Y, Z]}, tangent_2: none"),
    .unit = "1", .fallback = "", .meaning = "of pairs, of a's motion less b's; tangent_2 is normal x tangent"},
   {"contacts", "gap", "g", FIELD_REAL, .unit = "length", CONTACT(law.gap), .fallback = "0", UNBOUNDED,
-   .group = "preload", .meaning = "> 0: preload, N0 = kn gap; < 0: clearance"},
+   .group = "preload", .along = "normal", .meaning = "> 0: preload, N0 = kn gap; < 0: clearance"},
   {"contacts", "preload", "", FIELD_REAL, .unit = "force", .flags = FIELD_IN_CONTACT | FIELD_STRUCTURE,
    .offset = offsetof(scene_contact, preload), .fallback = "0", NOT_NEGATIVE, .group = "preload",
    .meaning = "instead of gap = preload/kn; without normal: N itself"},

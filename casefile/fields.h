@@ -40,7 +40,8 @@ typedef struct field {
   field_kind kind;
   unsigned flags;             /* FIELD_IN_CONTACT, ... */
   const char *unit;           /* in terms of force, length, time; "1" for pure numbers, "" where there is none */
-  size_t offset, size;        /* in bytes; size only for FIELD_TEXT */
+  size_t offset, size;        /* in bytes; size for FIELD_TEXT, and for FIELD_PART that is a direction: a double *, the
+                                 offset into structure_load or structure_contact */
   const char *fallback;       /* the default as it is written in a file; "": empty; NULL: the field is required */
   double low, high;           /* range, of each entry in lists */
   double scale;               /* stored = scale * written; 0 counts as 1 */
@@ -49,6 +50,8 @@ typedef struct field {
                         false if it has none; 0: of no concern to it */
   const char *group; /* the fields of a section with one group give the same quantity, each in its own way: never two of
                         them in one file; or NULL */
+  const char *along; /* the direction of a contact without which the field says nothing, and with which it is required
+                        unless it has a default; or NULL */
   const char *expects; /* what may stand there, in words, where kind and range do not say it: all of FIELD_PART */
   const char *meaning;
 } field;
@@ -80,6 +83,12 @@ static inline bool field_is_in_list(const field *f) { return f->flags & (FIELD_I
  * tell. Not for FIELD_PART. */
 static inline void *field_place(const field *f, void *base) { return (char *)base + f->offset; }
 static inline const void *field_look(const field *f, const void *base) { return (const char *)base + f->offset; }
+
+/* A direction among the fields of a load or contact: entry is the structure_load or structure_contact. */
+static inline double *field_direction(const field *f, const void *entry)
+{
+  return *(double *const *)(const void *)((const char *)entry + f->offset);
+}
 
 /* A value as it was written, not yet read as a number or a choice. */
 typedef struct field_item {

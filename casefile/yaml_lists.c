@@ -41,11 +41,8 @@ hc_status yaml_entry_part(case_reader *r, yaml_document_t *doc, const field *f, 
   scene_structure *s = r->sc.structure;
   char path[FIELD_PATH];
   if (is_of_pairs(f)) return not_of_one(r, case_place_of(r, node->start_mark), f->name);
-  double *to = f->flags & FIELD_IN_LOAD             ? s->loads[j].direction
-               : f == part("contacts", "tangent")   ? s->contacts[j].tangent
-               : f == part("contacts", "tangent_2") ? s->contacts[j].tangent_2
-                                                    : s->contacts[j].normal;
-  return yaml_direction(r, doc, field_path(f, j, path), node, to);
+  const void *entry = f->flags & FIELD_IN_LOAD ? (const void *)&s->loads[j] : (const void *)&s->contacts[j];
+  return yaml_direction(r, doc, field_path(f, j, path), node, field_direction(f, entry));
 }
 
 /* A part given in a mapping, once. */
@@ -136,24 +133,27 @@ static hc_status read_contact_keys(case_reader *r, yaml_document_t *doc, const y
   return HC_OK;
 }
 
-/* What a contact with such a direction must have; what it has without one: case_check. */
-static hc_status check_needed(case_reader *r, int j, const char *direction, const char *const *needed)
+static hc_status missing(case_reader *r, int j, const field *f, const char *has)
 {
-  for (int i = 0; needed[i]; ++i) {
-    const field *f = part("contacts", needed[i]);
-    if (case_given(r, f)) continue;
-    message *m = case_blame(r, r->sc.structure->contacts[j].place);
-    message_add(m, "missing key `%s` in `contacts[%d]`, which has a %s, expected ", needed[i], j, direction);
-    field_expected(f, m);
-    return HC_BAD_INPUT;
+  message *m = case_blame(r, r->sc.structure->contacts[j].place);
+  message_add(m, "missing key `%s` in `contacts[%d]`, which has a %s, expected ", f->name, j, has);
+  field_expected(f, m);
+  return HC_BAD_INPUT;
+}
+
+/* What a contact with such a direction must have; what it has without one: case_check. */
+static hc_status check_needed(case_reader *r, int j, const char *direction)
+{
+  for (int i = 0; i < field_count(); ++i) {
+    const field *f = field_at(i);
+    if (f->along && !strcmp(f->along, direction) && !f->fallback && !case_given(r, f))
+      return missing(r, j, f, direction);
   }
   return HC_OK;
 }
 
 static hc_status check_contact(case_reader *r, int j)
 {
-  static const char *const of_tangent[] = {"tangential_stiffness", "friction", NULL};
-  static const char *const of_normal[] = {"normal_stiffness", NULL}, *const of_tangent_alone[] = {"preload", NULL};
   structure_contact *c = &r->sc.structure->contacts[j];
   const bool tangent = given(r, "contacts", "tangent"), normal = given(r, "contacts", "normal");
   c->by_angle = given(r, "contacts", "angle_deg");
@@ -169,10 +169,10 @@ static hc_status check_contact(case_reader *r, int j)
                        "limit in `contacts[%d]`, which has one tangent, expected it beside `tangent_2` only", j);
   if (!tangent && !normal && !c->by_angle)
     return case_refuse(r, c->place, "contacts[%d] moves nothing, expected `tangent`, `normal` or both", j);
-  hc_status st = tangent || c->by_angle ? check_needed(r, j, "tangent", of_tangent) : HC_OK;
-  if (st == HC_OK && (normal || c->by_angle)) st = check_needed(r, j, "normal", of_normal);
-  else if (st == HC_OK) st = check_needed(r, j, "tangent but no normal", of_tangent_alone);
-  return st;
+  hc_status st = tangent || c->by_angle ? check_needed(r, j, "tangent") : HC_OK;
+  if (st != HC_OK || normal || c->by_angle) return st == HC_OK ? check_needed(r, j, "normal") : st;
+  const field *preload = part("contacts", "preload");
+  return case_given(r, preload) ? HC_OK : missing(r, j, preload, "tangent but no normal");
 }
 
 hc_status yaml_contact_read(case_reader *r, yaml_document_t *doc, const yaml_node_t *node, int j)
@@ -185,9 +185,7 @@ hc_status yaml_contact_read(case_reader *r, yaml_document_t *doc, const yaml_nod
   structure_contact *c = &s->contacts[j];
   yaml_forget_fields(r, FIELD_IN_CONTACT);
   field_contact_defaults(&c->given);
-  memset(c->tangent, 0, (size_t)s->n * sizeof *c->tangent);
-  memset(c->tangent_2, 0, (size_t)s->n * sizeof *c->tangent_2);
-  memset(c->normal, 0, (size_t)s->n * sizeof *c->normal);
+  memset(c->tangent, 0, 3 * (size_t)s->n * sizeof *c->tangent); /* with the others behind it */
   c->place = case_place_of(r, node->start_mark);
   st = read_contact_keys(r, doc, node, j);
   return st == HC_OK ? check_contact(r, j) : st;

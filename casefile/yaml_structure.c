@@ -268,20 +268,25 @@ static hc_status read_nodes(case_reader *r, yaml_document_t *doc, const yaml_nod
 
 /* ---- the section ---- */
 
-hc_status yaml_structure_part(case_reader *r, yaml_document_t *doc, const field *f, const yaml_node_t *node)
+static hc_status read_stiffness(case_reader *r, yaml_document_t *doc, const yaml_node_t *node)
 {
   scene_structure *s = r->sc.structure;
   int n;
+  const hc_status st = yaml_matrix_read(r, doc, "structure.stiffness", node, s->n, &n, &s->stiffness);
+  return st == HC_OK ? check_labels(r, &s->stiffness, "structure.stiffness") : st;
+}
+
+hc_status yaml_structure_part(case_reader *r, yaml_document_t *doc, const field *f, const yaml_node_t *node)
+{
+  static const struct {
+    const char *name;
+    hc_status (*read)(case_reader *, yaml_document_t *, const yaml_node_t *);
+  } parts[] = {{"mass", read_mass},   {"stiffness", read_stiffness}, {"damping", read_damping},
+               {"names", read_names}, {"nodes", read_nodes},         {"response", yaml_responses_read}};
+  size_t i = 0;
   if (f->flags & FIELD_IN_STRUCTURE) return read_damping_value(r, doc, f, node);
-  if (f == part("mass")) return read_mass(r, doc, node);
-  if (f == part("damping")) return read_damping(r, doc, node);
-  if (f == part("names")) return read_names(r, doc, node);
-  if (f == part("nodes")) return read_nodes(r, doc, node);
-  if (f == part("stiffness")) {
-    const hc_status st = yaml_matrix_read(r, doc, "structure.stiffness", node, s->n, &n, &s->stiffness);
-    return st == HC_OK ? check_labels(r, &s->stiffness, "structure.stiffness") : st;
-  }
-  return yaml_responses_read(r, doc, node);
+  while (strcmp(parts[i].name, f->name)) ++i;
+  return parts[i].read(r, doc, node);
 }
 
 /* What each key of the section is given, value[field_index]. */
