@@ -55,8 +55,8 @@ static void rows_are_sound(void **state)
     assert_ptr_equal(field_find(f->section, f->name, strlen(f->name)), f); /* unique */
     assert_true(!*f->section || field_find_section(f->section, strlen(f->section)));
     assert_true(strlen(f->meaning) > 0);
-    const size_t contact = f->kind == FIELD_PART ? sizeof(structure_contact) : sizeof(scene_contact);
-    assert_true(f->offset < (f->flags & FIELD_IN_CONTACT     ? contact
+    const size_t of_contact = f->kind == FIELD_PART ? sizeof(structure_contact) : sizeof(scene_contact);
+    assert_true(f->offset < (f->flags & FIELD_IN_CONTACT     ? of_contact
                              : f->flags & FIELD_IN_LOAD      ? sizeof(structure_load)
                              : f->flags & FIELD_IN_STRUCTURE ? sizeof(scene_structure)
                                                              : sizeof(scene)));
