@@ -146,7 +146,7 @@ static hc_status read_labels(matrix_text *t, scene_structure *s)
   double *values;
   matrix_label *labels;
   hc_status st =
-      matrix_file_parse_part(t->name, t->text, (size_t)(t->end - t->text), NULL, s->n, &n, &values, &labels, t->m);
+      matrix_file_parse(t->name, t->text, (size_t)(t->end - t->text), NULL, s->n, &n, &values, &labels, t->m);
   if (st == HC_OK && !labels) {
     matrix_text_rewind(t);
     message_add(matrix_text_blame(t, t->text), "a matrix that does not say which nodes its rows are, expected one that "

@@ -133,7 +133,7 @@ static hc_status read_file(case_reader *r, const char *what, const yaml_node_t *
   const bool matlab = is_matlab_name(out->file);
   out->part = part_of(what);
   if (!matlab) {
-    const hc_status st = matrix_file_read_part(out->file, out->part, expected, n, &out->v, &out->labels, &r->msg);
+    const hc_status st = matrix_file_read(out->file, out->part, expected, n, &out->v, &out->labels, &r->msg);
     if (st == HC_NO_MEMORY) return case_out_of_memory(r);
     if (st != HC_IO) return st;
     snprintf(words, sizeof words, "%s", r->msg.text);

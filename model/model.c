@@ -134,15 +134,6 @@ bool model_has_circle(const model *m)
   return false;
 }
 
-contact model_pair_law(const model_contact *half)
-{
-  contact whole = half->law;
-  whole.kn *= 2;
-  whole.load *= 2;
-  whole.mu /= 2;
-  return whole;
-}
-
 contact model_half_law(const contact *whole)
 {
   contact half = *whole;

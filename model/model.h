@@ -72,10 +72,7 @@ int model_whole_contacts(const model *m);
 /* Does any contact follow the law of the circle? */
 bool model_has_circle(const model *m);
 
-/* The whole law of a pair, from that of either of the two. */
-contact model_pair_law(const model_contact *half);
-
-/* That of either of the two, from the whole law. */
+/* The law of either of a pair's two, from the whole contact's. */
 contact model_half_law(const contact *whole);
 
 /* (tangent, normal) = (cos, sin) of the angle [deg] between x and the contact's tangent, exact at 0 and 90 degrees. */

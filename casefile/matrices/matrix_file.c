@@ -55,51 +55,32 @@ static hc_status parse(matrix_text *r)
   return unknown_format(r);
 }
 
-hc_status matrix_file_parse_part(const char *name, const char *text, size_t length, const char *part, int expected,
-                                 int *rows, double **values, matrix_label **labels, message *m)
+hc_status matrix_file_parse(const char *name, const char *text, size_t length, const char *part, int expected,
+                            int *rows, double **values, matrix_label **labels, message *m)
 {
   matrix_text r = matrix_text_start(name, text, length, expected, m);
   r.part = part;
   const hc_status st = parse(&r);
   *rows = st == HC_OK ? r.n : 0;
   *values = NULL;
-  *labels = NULL;
-  if (st == HC_OK) {
-    *values = r.values, *labels = r.labels;
-    r.values = NULL, r.labels = NULL;
-  }
+  if (labels) *labels = NULL;
+  if (st == HC_OK) *values = r.values, r.values = NULL;
+  if (st == HC_OK && labels) *labels = r.labels, r.labels = NULL;
   matrix_text_free(&r);
   return st;
 }
 
-hc_status matrix_file_parse(const char *name, const char *text, size_t length, int expected, int *rows, double **values,
-                            message *m)
-{
-  matrix_label *labels;
-  const hc_status st = matrix_file_parse_part(name, text, length, NULL, expected, rows, values, &labels, m);
-  free(labels);
-  return st;
-}
-
-hc_status matrix_file_read_part(const char *path, const char *part, int expected, int *rows, double **values,
-                                matrix_label **labels, message *m)
+hc_status matrix_file_read(const char *path, const char *part, int expected, int *rows, double **values,
+                           matrix_label **labels, message *m)
 {
   char *text;
   size_t length;
   *rows = 0;
   *values = NULL;
-  *labels = NULL;
+  if (labels) *labels = NULL;
   hc_status st = text_file_read(path, most_bytes, &text, &length, m);
-  if (st == HC_OK) st = matrix_file_parse_part(path, text, length, part, expected, rows, values, labels, m);
+  if (st == HC_OK) st = matrix_file_parse(path, text, length, part, expected, rows, values, labels, m);
   free(text);
-  return st;
-}
-
-hc_status matrix_file_read(const char *path, int expected, int *rows, double **values, message *m)
-{
-  matrix_label *labels;
-  const hc_status st = matrix_file_read_part(path, NULL, expected, rows, values, &labels, m);
-  free(labels);
   return st;
 }
 

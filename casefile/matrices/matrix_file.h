@@ -14,22 +14,17 @@
 
 enum { MATRIX_MOST_ROWS = 4000 }; /* a matrix is kept dense: 128 MB */
 
-/* (*values)[n][n], n = *rows, by columns and to free in any case, from the file at `path`. It must have `expected`
- * rows unless expected = 0. HC_BAD_INPUT with "PATH:LINE:COLUMN: what is wrong, what was expected" in m; HC_IO where
- * there is no such file or none that can be read, with the words for it alone ("cannot be opened: ..."), which are the
- * caller's to place; HC_NO_MEMORY. */
-hc_status matrix_file_read(const char *path, int expected, int *rows, double **values, message *m);
+/* (*values)[n][n], n = *rows, by columns and to free in any case, from the file at `path`: of several matrices in it the
+ * one that `part` names ("MASS", "STIFFNESS", "VISCOUSDAMPING"; NULL: the first). It must have `expected` rows unless
+ * expected = 0. (*labels)[n], to free in any case, or NULL where there are none; labels may be NULL. HC_BAD_INPUT with
+ * "PATH:LINE:COLUMN: what is wrong, what was expected" in m; HC_IO where there is no such file or none that can be read,
+ * with the words for it alone ("cannot be opened: ..."), which are the caller's to place; HC_NO_MEMORY. */
+hc_status matrix_file_read(const char *path, const char *part, int expected, int *rows, double **values,
+                           matrix_label **labels, message *m);
 
-/* The same with what goes beyond the numbers: of several matrices in a file the one that `part` names ("MASS",
- * "STIFFNESS", "VISCOUSDAMPING"; NULL: the first); and (*labels)[n], to free in any case, or NULL. */
-hc_status matrix_file_read_part(const char *path, const char *part, int expected, int *rows, double **values,
-                                matrix_label **labels, message *m);
-
-/* Both of them from text[length], which `name` stands for. */
-hc_status matrix_file_parse(const char *name, const char *text, size_t length, int expected, int *rows, double **values,
-                            message *m);
-hc_status matrix_file_parse_part(const char *name, const char *text, size_t length, const char *part, int expected,
-                                 int *rows, double **values, matrix_label **labels, message *m);
+/* The same from text[length], which `name` stands for. */
+hc_status matrix_file_parse(const char *name, const char *text, size_t length, const char *part, int expected,
+                            int *rows, double **values, matrix_label **labels, message *m);
 
 /* Where the file at `path`, which has been read before, gives entry (row, column) of the part, both from 0, or by
  * symmetry its transpose: line and column from 1, or *line = 0 where it does not. */

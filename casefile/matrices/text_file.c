@@ -14,8 +14,8 @@ static hc_status cannot_open(int error, message *m)
   return error == ENOMEM ? HC_NO_MEMORY : HC_IO;
 }
 
-/* Only what lies on a disk has an end that is known; opening anything else may wait for ever. */
-hc_status text_file_open(const char *path, size_t most, FILE **from, size_t *size, message *m)
+/* The file at `path` for reading, of *size bytes. Only what lies on a disk has an end that is known; opening anything else may wait for ever. */
+static hc_status open_file(const char *path, size_t most, FILE **from, size_t *size, message *m)
 {
   struct stat info;
   *from = NULL;
@@ -39,7 +39,7 @@ hc_status text_file_read(const char *path, size_t most, char **text, size_t *len
   size_t size;
   *text = NULL;
   *length = 0;
-  hc_status st = text_file_open(path, most, &from, &size, m);
+  hc_status st = open_file(path, most, &from, &size, m);
   if (st != HC_OK) return st;
   if (!(*text = malloc(size + 1))) {
     st = HC_NO_MEMORY;

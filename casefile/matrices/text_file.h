@@ -8,12 +8,8 @@
 #include "base/message.h"
 #include "base/status.h"
 
-/* The file at `path` for reading, of *size bytes, at most `most`; to be closed. HC_IO with the words for it in m, which
- * are to follow the file's name ("cannot be opened: ..."); HC_NO_MEMORY. */
-hc_status text_file_open(const char *path, size_t most, FILE **from, size_t *size, message *m);
-
-/* The bytes of the file at `path`, at most `most` of them, with a NUL behind them, to free in any case. Errors
- * as of text_file_open. */
+/* The bytes of the file at `path`, at most `most` of them, with a NUL behind them, to free in any case. HC_IO
+ * with the words for it in m, which are to follow the file's name ("cannot be opened: ..."); HC_NO_MEMORY. */
 hc_status text_file_read(const char *path, size_t most, char **text, size_t *length, message *m);
 
 /* name[length] as seen from the folder of the file `from`, to free; NULL when out of memory. */

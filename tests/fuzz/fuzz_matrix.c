@@ -15,7 +15,7 @@ static hc_status parse(const char *text, size_t size, int expected, int *n, doub
 {
   message m;
   message_start(&m, words, WORDS);
-  return matrix_file_parse("f", text, size, expected, n, v, &m);
+  return matrix_file_parse("f", text, size, NULL, expected, n, v, NULL, &m);
 }
 
 static void array_reads_back(int n, const double *v)
@@ -45,7 +45,7 @@ static void part_is_one_of_them(const char *text, size_t size, const char *part)
   int n;
   message m;
   message_start(&m, words, WORDS);
-  const hc_status st = matrix_file_parse_part("f", text, size, part, 0, &n, &v, &labels, &m);
+  const hc_status st = matrix_file_parse("f", text, size, part, 0, &n, &v, &labels, &m);
   must(st == HC_OK || st == HC_BAD_INPUT, "status %d: %s", (int)st, words);
   if (st != HC_OK) place_is_inside(words, "f", text, size, false);
   must((st == HC_OK) == (v != NULL) && (st == HC_OK || !labels), "%d, but %p and %p", (int)st, (void *)v,

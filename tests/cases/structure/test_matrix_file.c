@@ -13,7 +13,7 @@ static void reads(const char *text, int n, const double *rows)
   char words[256];
   message m;
   message_start(&m, words, sizeof words);
-  if (matrix_file_parse("m", text, strlen(text), 0, &found, &v, &m) != HC_OK) fail_msg("%s", words);
+  if (matrix_file_parse("m", text, strlen(text), NULL, 0, &found, &v, NULL, &m) != HC_OK) fail_msg("%s", words);
   assert_int_equal(found, n);
   for (int i = 0; i < n; ++i)
     for (int j = 0; j < n; ++j) {
@@ -48,7 +48,7 @@ static void is_refused(const char *text, int expected, const char *words)
   char said[256];
   message m;
   message_start(&m, said, sizeof said);
-  const hc_status st = matrix_file_parse("m", text, strlen(text), expected, &n, &v, &m);
+  const hc_status st = matrix_file_parse("m", text, strlen(text), NULL, expected, &n, &v, NULL, &m);
   if (st != HC_BAD_INPUT || strncmp(said, words, strlen(words)))
     fail_msg("%s\ngave `%s`\nnot  `%s...`", text, said, words);
   assert_null(v);
@@ -114,7 +114,7 @@ static void files_are_found_and_searched(void **state)
   char words[256];
   message m;
   message_start(&m, words, sizeof words);
-  assert_int_equal(matrix_file_read(f.path, 3, &n, &v, &m), HC_OK);
+  assert_int_equal(matrix_file_read(f.path, NULL, 3, &n, &v, NULL, &m), HC_OK);
   assert_true(n == 3 && v[2] == 5 && v[6] == 5);
   free(v);
   matrix_file_place(f.path, NULL, 2, 0, &line, &column);
@@ -123,13 +123,13 @@ static void files_are_found_and_searched(void **state)
   assert_true(line == 4 && column == 1);
   matrix_file_place(f.path, NULL, 1, 0, &line, &column); /* not there */
   assert_true(line == 0 && column == 0);
-  assert_int_equal(matrix_file_read(f.folder, 3, &n, &v, &m), HC_IO);
+  assert_int_equal(matrix_file_read(f.folder, NULL, 3, &n, &v, NULL, &m), HC_IO);
   assert_string_equal(words, "is no file");
   message_start(&m, words, sizeof words);
-  assert_int_equal(matrix_file_read("no/such/file", 3, &n, &v, &m), HC_IO);
+  assert_int_equal(matrix_file_read("no/such/file", NULL, 3, &n, &v, NULL, &m), HC_IO);
   assert_non_null(strstr(words, "cannot be opened: "));
   message_start(&m, words, sizeof words);
-  assert_int_equal(matrix_file_read("/dev/zero", 3, &n, &v, &m), HC_IO);
+  assert_int_equal(matrix_file_read("/dev/zero", NULL, 3, &n, &v, NULL, &m), HC_IO);
   remove_file(&f);
 }
 

@@ -10,7 +10,7 @@ static hc_status parse_part(const char *text, const char *part, int expected, in
 {
   message m;
   message_start(&m, words, WORDS);
-  return matrix_file_parse_part("m", text, strlen(text), part, expected, n, v, labels, &m);
+  return matrix_file_parse("m", text, strlen(text), part, expected, n, v, labels, &m);
 }
 
 /* text's part is rows[n][n], its rows being labels[n], or no labels where NULL. */
