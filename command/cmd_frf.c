@@ -8,7 +8,6 @@
 #include "command/case_names.h"
 #include "command/commands.h"
 #include "command/plot/plot.h"
-#include "compare/frequencies.h"
 #include "compare/memory.h"
 #include "compare/response.h"
 #include "output/progress.h"

@@ -1,12 +1,14 @@
 /* comparison.c - see comparison.h. Here: frequencies, branches and rows; what the numbers of a row mean: solution.c. */
-#include "compare/comparison_private.h"
-
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "compare/comparison.h"
+#include "compare/comparison_private.h"
 #include "compare/first_guess.h"
-#include "compare/frequencies.h"
+#include "compare/motion.h"
+#include "compare/response.h"
 #include "numerics/series.h"
 #include "timeint/steady/sweep.h"
 

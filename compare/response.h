@@ -1,9 +1,18 @@
-/* response.h - what is reported of an HBM response curve: one row for each solution, and a summary of the curve. */
+/* response.h - the HBM response curve, the frequencies at which both sides are compared, and what is reported of the
+ * curve: one row for each solution, and a summary. */
 #ifndef HC_RESPONSE_H
 #define HC_RESPONSE_H
 
 #include "compare/compare_settings.h"
 #include "hbm/hbm.h"
+
+/* The sweep, widened where an asked omega lies outside it. */
+void comparison_sweep(double omega_from, double omega_to, const number_list *asked, double *from, double *to);
+
+/* compare.omega, sorted and each once; or compare.points of them, equally spaced in the arc length of the curve plotted
+ * as amplitude over omega, both scaled to 1: dense where the amplitude changes, as at peaks. */
+hc_status comparison_frequencies(const compare_settings *where, double omega_from, hbm_solver *hbm,
+                                 const hbm_curve *curve, number_list *out);
 
 /* The curve over the sweep, widened to the asked frequencies, into *curve as far as it goes; errors of hbm_trace. *hbm
  * is NULL where the solver could not be made. Free both in any case. */

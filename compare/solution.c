@@ -1,9 +1,11 @@
 /* solution.c - one HBM solution against the transient that starts from it: what both expect of themselves, the orbit
  * beside them, the verdict, and what the difference is made of; see comparison.h. */
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "compare/comparison_private.h"
+#include "compare/discrepancy.h"
 #include "compare/gate_limits.h"
 #include "compare/motion.h"
 #include "timeint/steady/contact_watch.h"
@@ -379,4 +381,155 @@ hc_status solution_contacts(comparison_work *w, const double *X, const compariso
   contact_comparison_judge(n, m->contacts, gate_limits_at(w->setup->limits, row->omega).waveform,
                            comparison_mean_free(row), c);
   return measured == HC_NO_MEMORY ? measured : HC_OK;
+}
+
+/* ---- what a comparison came to, from its rows alone; the verdict of a row: judge() ---- */
+
+static const struct {
+  const char *name, *meaning;
+} verdicts[] = {
+#define VERDICT_WORDS(code, name, meaning) {name, meaning},
+    VERDICT_LIST(VERDICT_WORDS)
+#undef VERDICT_WORDS
+};
+
+const char *verdict_name(verdict v) { return verdicts[v].name; }
+
+const char *verdict_meaning(verdict v) { return verdicts[v].meaning; }
+
+const char *comparison_verdict_text(const comparison_row *row, char text[24])
+{
+  if (row->verdict == VERDICT_PERIOD_K) snprintf(text, 24, "period_%d", row->transient.period_multiple);
+  else snprintf(text, 24, "%s", verdict_name(row->verdict));
+  return text;
+}
+
+bool comparison_mean_free(const comparison_row *row)
+{
+  if (row->transient_status == HC_OK) return motion_mean_is_free(&row->transient);
+  if (row->orbit_status == HC_OK) return motion_mean_is_free(&row->orbit);
+  return row->hbm_status == HC_OK && row->hbm.contact.free_sliders > 0;
+}
+
+bool comparison_nonlinear(const comparison *c)
+{
+  for (int i = 0; i < c->n_rows; ++i) {
+    const comparison_row *r = &c->rows[i];
+    const bool moved =
+        r->transient_status == HC_OK || r->transient_status == HC_NOT_SETTLED || r->transient_status == HC_APERIODIC;
+    if (r->hbm_status == HC_OK && r->hbm.contact.regime > CONTACT_STUCK) return true;
+    if (moved && r->transient.regime > CONTACT_STUCK) return true;
+  }
+  return false;
+}
+
+bool comparison_unaccounted(const comparison_row *row)
+{
+  bool known = row->transient_status == HC_OK || row->transient_status == HC_APERIODIC;
+  return known && row->hbm_status == HC_OK && !row->accounted;
+}
+
+/* False where one of the three is NaN. */
+static bool beyond(double observed, double hbm, double transient)
+{
+  return observed > COMPARISON_SLACK * (hbm + transient);
+}
+
+bool comparison_unexpected(const comparison_row *row)
+{
+  const discrepancy *h = &row->hbm_predicted, *t = &row->transient_predicted;
+  const bool one_orbit = row->verdict == VERDICT_MATCH || row->verdict == VERDICT_DIFFERS;
+  return one_orbit && !row->family && row->transient.period_multiple == 1 &&
+         (beyond(row->errors.amplitude, h->amplitude, t->amplitude) ||
+          beyond(row->errors.waveform, h->waveform, t->waveform));
+}
+
+const char *comparison_unexpected_text(const comparison_row *row, char text[COMPARISON_UNEXPECTED_TEXT])
+{
+  const discrepancy *h = &row->hbm_predicted, *t = &row->transient_predicted, *e = &row->errors;
+  const bool amplitude = beyond(e->amplitude, h->amplitude, t->amplitude);
+  snprintf(text, COMPARISON_UNEXPECTED_TEXT,
+           "observed %s error %.2g is above what both predicted (HBM %.2g, transient %.2g): something is wrong that "
+           "neither expected",
+           amplitude ? "amplitude" : "waveform", amplitude ? e->amplitude : e->waveform,
+           amplitude ? h->amplitude : h->waveform, amplitude ? t->amplitude : t->waveform);
+  return text;
+}
+
+int comparison_exit_code(const comparison *c)
+{
+  for (int i = 0; i < c->n_rows; ++i)
+    if (comparison_unaccounted(&c->rows[i])) return 1;
+  if (c->curve.end != HC_OK) return 3; /* what lies beyond was not compared, and the curve might have come back */
+  if (c->count[VERDICT_SOLVER_FAILED] > 0 || c->count[VERDICT_NOT_SETTLED] > 0 || c->count[VERDICT_MATCH] == 0)
+    return 3;
+  return 0;
+}
+
+/* ---- contacts, from both sides. Proof: tests/compare/test_contacts.c ---- */
+
+static const double negligible_work = 1e-6; /* [1] work, of T^2/kt */
+
+static double spring_energy(const contact *law, const contact_period *p)
+{
+  return law->kt > 0 ? p->traction_max * p->traction_max / law->kt : 0;
+}
+
+/* [force length] What work is measured by: the largest of any contact on either side. */
+static double work_unit(int n, const model_contact *contacts, const contact_comparison *c)
+{
+  double most = 0;
+  const model_contact *of = contacts;
+  for (int j = 0; j < n; ++j) {
+    most = fmax(most, fmax(c[j].hbm.work, c[j].transient.work));
+    most = fmax(most, negligible_work * spring_energy(&of->law, &c[j].hbm));
+    most = fmax(most, negligible_work * spring_energy(&of->law, &c[j].transient));
+    of += of->pair == CONTACT_FIRST ? 2 : 1;
+  }
+  return most;
+}
+
+static void judge_contact(double unit, double allowed, bool mean_free, contact_comparison *c)
+{
+  const contact_period *h = &c->hbm, *t = &c->transient;
+  c->work_error = discrepancy_relative(h->work - t->work, unit);
+  c->normal_error =
+      mean_free ? NAN : discrepancy_relative(h->normal_min - t->normal_min, fmax(h->normal_max, t->normal_max));
+  const bool both_touch = (h->regime == CONTACT_LINEAR) == (t->regime == CONTACT_LINEAR);
+  const bool same = both_touch && c->work_error <= allowed && (mean_free || c->normal_error <= allowed);
+  c->differs = c->one_orbit && !same;
+}
+
+void contact_comparison_judge(int n, const model_contact *contacts, double allowed, bool mean_free,
+                              contact_comparison *c)
+{
+  bool known = true;
+  for (int j = 0; j < n; ++j) known = known && c[j].hbm_status == HC_OK && c[j].transient_status == HC_OK;
+  const double unit = known ? work_unit(n, contacts, c) : NAN;
+  for (int j = 0; j < n; ++j) {
+    c[j].work_error = c[j].normal_error = NAN;
+    c[j].differs = false;
+    if (known) judge_contact(unit, allowed, mean_free, &c[j]);
+  }
+}
+
+bool contact_comparison_made(const contact_comparison *c) { return c->one_orbit && !isnan(c->work_error); }
+
+const char *contact_comparison_text(const contact_comparison *c, char text[CONTACT_COMPARISON_TEXT])
+{
+  const contact_period *h = &c->hbm, *t = &c->transient;
+  char who[RESPONSE_NAME];
+  if (*c->name) snprintf(who, sizeof who, "%s", c->name);
+  else snprintf(who, sizeof who, "%d", c->contact);
+  if (h->regime != t->regime)
+    snprintf(text, CONTACT_COMPARISON_TEXT, "contact %s: %s by HBM, %s by the transient; work %.4g and %.4g", who,
+             contact_regime_name(h->regime), contact_regime_name(t->regime), h->work, t->work);
+  else if (c->work_error > c->normal_error || isnan(c->normal_error))
+    snprintf(text, CONTACT_COMPARISON_TEXT,
+             "contact %s: work %.4g by HBM, %.4g by the transient, %.2g %% of the largest apart: so is the damping",
+             who, h->work, t->work, 100 * c->work_error);
+  else
+    snprintf(text, CONTACT_COMPARISON_TEXT, "contact %s: least normal force %.4g by HBM, %.4g by the transient", who,
+             h->normal_min, t->normal_min);
+  return text;
 }

@@ -8,7 +8,7 @@
 
 #include "compare/comparison.h"
 #include "compare/first_guess.h"
-#include "compare/frequencies.h"
+#include "compare/response.h"
 #include "timeint/steady/contact_watch.h"
 #include "timeint/steady/sweep.h"
 

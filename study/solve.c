@@ -7,7 +7,7 @@
 
 #include "base/thread_clock.h"
 #include "casefile/structure.h"
-#include "compare/frequencies.h"
+#include "compare/response.h"
 #include "study/scene_solvers.h"
 
 rows_kind study_rows(const study *s)

@@ -7,7 +7,7 @@
 
 #include "base/constants.h"
 #include "casefile/structure.h"
-#include "compare/frequencies.h"
+#include "compare/response.h"
 #include "hbm/curve/segment.h"
 #include "study/scene_solvers.h"
 

@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "base/constants.h"
-#include "compare/frequencies.h"
+#include "compare/response.h"
 #include "hbm/contact/aft.h"
 #include "hbm/contact/exact_force.h"
 #include "numerics/series.h"

@@ -9,7 +9,6 @@
 #include "casefile/structure.h"
 #include "command/report/parts.h"
 #include "compare/comparison.h"
-#include "compare/frequencies.h"
 #include "compare/response.h"
 #include "study/scene_solvers.h"
 

@@ -10,7 +10,7 @@
 #include "base/constants.h"
 #include "casefile/structure.h"
 #include "compare/first_guess.h"
-#include "compare/frequencies.h"
+#include "compare/response.h"
 #include "hbm/hbm.h"
 #include "model/contact_law.h"
 #include "numerics/series.h"

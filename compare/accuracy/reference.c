@@ -1,13 +1,12 @@
-/* reference.c - see reference.h. The tables' peak is that of the exact law's orbits, by shooting: three frequencies that
- * enclose it, from the peak of the curve by harmonic balance, then a minimum search between them. By harmonic balance
- * alone it would take 160 harmonics to know it to 1e-8. */
+/* reference.c - see reference.h. The tables' peak is that of the exact law's orbits, by shooting: three frequencies
+ * that enclose it, from the peak of the curve by harmonic balance, then a minimum search between them. By harmonic
+ * balance alone it would take 160 harmonics to know it to 1e-8. */
 #include "compare/accuracy/reference.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "compare/frequencies.h"
 #include "compare/response.h"
 #include "model/modes.h"
 #include "numerics/roots.h"

@@ -13,7 +13,8 @@ typedef struct scipy_run {
   double seconds[SCIPY_MOST_REPEATS]; /* of processor time inside the process, around solve_ivp alone */
 } scipy_run;
 
-/* Of one degree of freedom (model_is_oscillator). From the same state as the others, marched until 1e-9 of the start's distance is left (by `multiplier`, a period).
+/* For one degree of freedom (model_is_oscillator): from the same state as the others, marched until 1e-9 of the
+ * start's distance is left (by `multiplier`, a period).
  * Into runs, *n of them, and words for people in text[96]: versions, or why there is nothing. No python3 or scipy is
  * HC_OK with *n = 0. $PYTHON says which python3. It gets a few seconds; what it did until then counts.
  * HC_INTERRUPTED, HC_NO_MEMORY. */

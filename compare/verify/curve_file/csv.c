@@ -7,10 +7,142 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/constants.h"
 #include "base/message.h"
 #include "base/number.h"
 #include "compare/verify/curve_file/fields.h"
-#include "compare/verify/curve_file/header.h"
+
+enum { PLAIN = 48 };
+
+/* A name without what does not count, and its unit. */
+typedef struct plain_name {
+  char name[PLAIN], unit[PLAIN];
+} plain_name;
+
+typedef enum meaning { MEANS_NOTHING, MEANS_OMEGA, MEANS_CYCLES, MEANS_QUANTITY, MEANS_VALUE } meaning;
+
+static const char *const omega_names[] = {"omega", "w",      "om",        "\xCF\x89", "\xCE\xA9", "angularfrequency",
+                                          "rad/s", "omegaw", "pulsation", NULL};
+static const char *const cycle_names[] = {"frequency",        "freq", "f", "hz", "excitationfrequency",
+                                          "forcingfrequency", NULL};
+static const char *const value_names[] = {"value", "y", "response", NULL};
+static const struct {
+  const char *name, *quantity;
+} quantity_names[] = {
+    {"amplitude", "amplitude"},
+    {"amp", "amplitude"},
+    {"a", "amplitude"},
+    {"x", "amplitude"},
+    {"xamplitude", "amplitude"},
+    {"xamp", "amplitude"},
+    {"db", "dB"},
+    {"x1", "harmonic_1"},
+    {"firstharmonic", "harmonic_1"},
+    {"fundamental", "harmonic_1"},
+    {"xmax", "max"},
+    {"xmin", "min"},
+    {"xrms", "rms"},
+    {"2norm", "norm"},
+    {"l2norm", "norm"},
+    {"vel", "velocity"},
+    {"v", "velocity"},
+    {"acc", "acceleration"},
+    {"peaktopeak", "double_amplitude"},
+    {"p2p", "double_amplitude"},
+    {"pp", "double_amplitude"},
+};
+
+static char lower(char c) { return (char)(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c); }
+
+static plain_name plain_of(const field *f)
+{
+  plain_name p = {{0}, {0}};
+  char *to = p.name, *end = p.name + PLAIN - 1;
+  for (size_t i = 0; i < f->length; ++i) {
+    const char c = lower(f->text[i]);
+    if (c == '[' || c == '(') to = p.unit, end = p.unit + PLAIN - 1;
+    else if (to < end && !strchr(" _-|\"])", c) && c) *to++ = c;
+  }
+  return p;
+}
+
+static bool among(const char *const *words, const char *name)
+{
+  for (; *words; ++words)
+    if (!strcmp(*words, name)) return true;
+  return false;
+}
+
+/* "h3" or "harmonic3", or one of the names that --quantity takes, written as one may. */
+static bool quantity_of(const char *name, verify_quantity *out)
+{
+  char text[PLAIN + 16];
+  const size_t digits = strspn(name, "harmonic"), length = strlen(name);
+  int k;
+  for (size_t i = 0; i < sizeof quantity_names / sizeof *quantity_names; ++i)
+    if (!strcmp(quantity_names[i].name, name))
+      return verify_quantity_read(quantity_names[i].quantity, strlen(quantity_names[i].quantity), out);
+  if ((digits == 1 || !strncmp(name, "harmonic", 8)) && name[0] == 'h' && digits < length &&
+      number_read_integer(name + digits, length - digits, &k) == NUMBER_FINE) {
+    snprintf(text, sizeof text, "harmonic_%s", name + digits);
+    return verify_quantity_read(text, strlen(text), out);
+  }
+  return verify_quantity_read(name, length, out);
+}
+
+static meaning meaning_of(const field *f, verify_quantity *q)
+{
+  const plain_name p = plain_of(f);
+  const bool radians = strstr(p.unit, "rad"), hertz = !strcmp(p.unit, "hz") || !strcmp(p.unit, "khz");
+  if (among(omega_names, p.name)) return hertz ? MEANS_NOTHING : MEANS_OMEGA; /* omega in Hz: which of the two? */
+  if (among(cycle_names, p.name)) return radians ? MEANS_OMEGA : !strcmp(p.unit, "khz") ? MEANS_NOTHING : MEANS_CYCLES;
+  if (among(value_names, p.name)) return MEANS_VALUE;
+  if (!(f->length && (verify_quantity_read(f->text, f->length, q) || quantity_of(p.name, q)))) return MEANS_NOTHING;
+  q->decibel |= !strcmp(p.unit, "db");
+  return MEANS_QUANTITY;
+}
+
+static void say_ambiguous(int n, const field *fields, const char *what, int found, message *m)
+{
+  message_add(m, found ? "more than one column of %s among '" : "no column named like %s among '", what);
+  for (int i = 0; i < n && i < 10; ++i) {
+    message_add(m, i ? "', '" : "");
+    message_add_input(m, fields[i].text, fields[i].length, 24);
+  }
+  message_add(m, n > 10 ? "', ..., expected --columns omega=1,amplitude=2 (or frequency=, and any of --quantity)"
+                        : "', expected --columns omega=1,amplitude=2 (or frequency=, and any of --quantity)");
+}
+
+/* "omega", "w", "Frequency [Hz]", "|X1|", "Amplitude (mm)", ...: case, blanks, _ - | and a unit behind it do not count.
+ * From the header's fields: columns->omega, ->value by number, ->cycles and ->quantity. quantity_given: which quantity
+ * is wanted. False with what was seen, and what to do, added to *m. */
+static bool recognise_columns(int n, const field *fields, bool quantity_given, verify_columns *columns, message *m)
+{
+  const verify_quantity wanted = columns->quantity;
+  int of_omega = 0, of_cycles = 0, of_value = 0, of_unnamed = 0, omega = 0, cycle = 0, value = 0, unnamed = 0;
+  for (int i = 0; i < n; ++i) {
+    verify_quantity q = {0};
+    switch (meaning_of(&fields[i], &q)) {
+    case MEANS_OMEGA: ++of_omega, omega = i + 1; break;
+    case MEANS_CYCLES: ++of_cycles, cycle = i + 1; break;
+    case MEANS_VALUE: ++of_unnamed, unnamed = i + 1; break;
+    case MEANS_QUANTITY:
+      if (quantity_given && !verify_quantity_same(&q, &wanted)) break;
+      ++of_value, value = i + 1;
+      columns->quantity = q;
+      break;
+    case MEANS_NOTHING: break;
+    }
+  }
+  if (quantity_given && of_value == 0) of_value = of_unnamed, value = unnamed;
+  columns->cycles = of_omega == 0;
+  columns->omega = (verify_column){.number = of_omega ? omega : cycle};
+  columns->value = (verify_column){.number = value};
+  const int frequencies = of_omega ? of_omega : of_cycles; /* omega and frequency side by side say the same */
+  if (frequencies != 1) say_ambiguous(n, fields, "frequencies", frequencies, m);
+  else if (of_value != 1) say_ambiguous(n, fields, "values", of_value, m);
+  return frequencies == 1 && of_value == 1;
+}
 
 static const size_t most_bytes = (size_t)64 << 20; /* 640 a point */
 
@@ -111,7 +243,7 @@ static hc_status begin(reader *r, bool header)
     return HC_BAD_INPUT;
   }
   if (r->columns.by_header &&
-      !header_recognise(r->n_fields, r->fields, r->columns.quantity_given, &r->columns, &words)) {
+      !recognise_columns(r->n_fields, r->fields, r->columns.quantity_given, &r->columns, &words)) {
     blame(r, 1);
     message_add(r->m, "%s", text);
     return HC_BAD_INPUT;
@@ -303,4 +435,87 @@ hc_status verify_data_read(const char *path, const verify_columns *columns, veri
   free(text);
   free(r);
   return st;
+}
+
+/* ---- points from arrays ---- */
+
+verify_fault verify_point_convert(const verify_quantity *q, bool cycles, verify_point *p)
+{
+  if (!verify_quantity_signed(q) && !(p->value >= 0)) return VERIFY_NEGATIVE;
+  if (cycles) p->omega *= TWO_PI;
+  p->value = verify_quantity_from_column(q, p->value);
+  if (!isfinite(p->omega)) return VERIFY_OMEGA_TOO_LARGE;
+  return isfinite(p->value) ? VERIFY_FINE : VERIFY_VALUE_TOO_LARGE;
+}
+
+/* Point i into *p, which the message is about if it is none. */
+static hc_status convert_given(const verify_quantity *q, int i, verify_point *p, message *m)
+{
+  const double omega = p->omega, value = p->value;
+  char name[VERIFY_QUANTITY_TEXT];
+  if (!isfinite(omega)) message_add(m, "omega[%d] = %g is not finite, expected a number", i, omega);
+  else if (!isfinite(value))
+    message_add(m, "value[%d] = %g is not finite, expected %s", i, value, verify_quantity_name(q, name));
+  else switch (verify_point_convert(q, false, p)) {
+    case VERIFY_FINE: return HC_OK;
+    case VERIFY_NEGATIVE:
+      message_add(m, "value[%d] = %g is too small, expected a number >= 0", i, value);
+      if (!q->decibel) message_add(m, "; is it in dB? Name it dB, or dB_ and the quantity");
+      break;
+    case VERIFY_OMEGA_TOO_LARGE: message_add(m, "omega[%d] = %g is too large, expected a number", i, omega); break;
+    case VERIFY_VALUE_TOO_LARGE: message_add(m, "value[%d] = %g is too large, expected a number", i, value); break;
+    }
+  return HC_BAD_INPUT;
+}
+
+static hc_status read_quantity(const char *name, double noise, verify_quantity *q, message *m)
+{
+  if (!(noise >= 0 && noise <= 1))
+    message_add(m, "noise = %g is no scatter, expected a number from 0 to 1 such as 1e-2", noise);
+  else if (!verify_quantity_read(name, strlen(name), q)) {
+    message_add(m, "quantity '");
+    message_add_input(m, name, strlen(name), 60);
+    message_add(m, "' is unknown, expected one of %s", verify_quantity_names);
+  }
+  return m->used ? HC_BAD_INPUT : HC_OK;
+}
+
+static hc_status read_points(int n, const double *omega, const double *value, verify_data *out, message *m)
+{
+  if (n > VERIFY_MOST_POINTS) {
+    message_add(m, "%d points, expected at most %d", n, VERIFY_MOST_POINTS);
+    return HC_BAD_INPUT;
+  }
+  out->points = malloc((n > 0 ? (size_t)n : 1) * sizeof *out->points);
+  if (!out->points) {
+    message_add(m, "%s", hc_status_text(HC_NO_MEMORY));
+    return HC_NO_MEMORY;
+  }
+  for (int i = 0; i < n; ++i) {
+    verify_point p = {.omega = omega[i], .value = value[i], .line = i + 1};
+    hc_status st = convert_given(&out->quantity, i, &p, m);
+    if (st != HC_OK) return st;
+    if (p.omega > 0) out->points[out->n++] = p;
+    else ++out->left_out;
+  }
+  if (out->n >= VERIFY_LEAST_POINTS) return HC_OK;
+  message_add(m, "%d point%s%s, expected at least %d", out->n, out->n == 1 ? "" : "s",
+              out->left_out ? " at omega > 0" : "", VERIFY_LEAST_POINTS);
+  return HC_BAD_INPUT;
+}
+
+hc_status verify_data_of(const char *quantity, double noise, int n, const double *omega, const double *value,
+                         verify_data *out, char *words)
+{
+  message m;
+  message_start(&m, words, VERIFY_TEXT);
+  *out = (verify_data){.noise = noise};
+  hc_status st = read_quantity(quantity, noise, &out->quantity, &m);
+  return st == HC_OK ? read_points(n, omega, value, out, &m) : st;
+}
+
+void verify_data_clear(verify_data *d)
+{
+  free(d->points);
+  *d = (verify_data){0};
 }

@@ -22,7 +22,7 @@ typedef struct verify_column {
 } verify_column;
 
 typedef struct verify_columns {
-  bool by_header; /* the file's own names say which columns are meant (header.h) */
+  bool by_header; /* the file's own names say which columns are meant (recognise_columns) */
   verify_column omega, value;
   bool cycles;         /* the first is a frequency in cycles per time: times 2 pi */
   bool quantity_given; /* with by_header: by --quantity */

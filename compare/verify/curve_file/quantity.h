@@ -2,7 +2,8 @@
  *
  *     x(t) = X0 + sum_k a_k cos(k omega t) + b_k sin(k omega t)         X[2H+1] = X0, a1, b1, a2, b2, ...
  *
- * Of a motion truncated after H harmonics: a program that keeps H of them reports these of its own solution. */
+ * Everything is of a motion truncated after H harmonics: a program that keeps H of them reports these of its own
+ * solution. */
 #ifndef HC_VERIFY_QUANTITY_H
 #define HC_VERIFY_QUANTITY_H
 

@@ -9,7 +9,9 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
+#include "compare/response.h"
 #include "compare/verify/search/search_impl.h"
 #include "compare/verify/truth/truth.h"
 

@@ -93,7 +93,7 @@ bool verify_reading(int i, const verify_quantity *asked, verify_quantity *out, v
   return i == 0 || out->kind != asked->kind || out->harmonic != asked->harmonic;
 }
 
-/* Of x' and x'': costly, and most readings are one of them or measured by one. */
+/* Extrema of x' and x'' are costly, and most readings are one of them or measured by one. */
 typedef struct amplitudes {
   double velocity, acceleration;
 } amplitudes;

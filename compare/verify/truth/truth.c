@@ -8,9 +8,9 @@
 #include <string.h>
 
 #include "compare/first_guess.h"
-#include "compare/frequencies.h"
 #include "compare/gate_limits.h"
 #include "compare/motion.h"
+#include "compare/response.h"
 #include "compare/verify/truth/acceleration.h"
 #include "compare/verify/truth/solutions.h"
 #include "hbm/curve/segment.h"
