@@ -160,10 +160,6 @@ int comparison_exit_code(const comparison *c);
 /* The time integration that HBM solutions are held against: the model, with the exact law. For timeint_orbit. */
 hc_status comparison_referee(const compare_setup *setup, timeint **out);
 
-/* Largest |x_hbm(t) - x_transient(t)| over the period, relative to the transient's amplitude; the means, where a
- * slider is free, set equal. */
-double comparison_waveform_error(const hbm_measures *hbm, int n_harm, const double *X, const timeint_result *tr);
-
 /* A state on the transient's orbit of row i; meaningful where transient_status is HC_OK. */
 const double *comparison_state(const comparison *c, int i);
 

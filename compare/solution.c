@@ -18,17 +18,6 @@ hc_status comparison_orbit_start(hbm_solver *hbm, const double *X, double omega,
   return st == HC_OK ? hbm_sliders(hbm, X, state + 2 * n) : st;
 }
 
-static discrepancy errors_between(const hbm_measures *hbm, int n_harm, const double *X, const timeint_result *tr)
-{
-  const periodic_motion a = motion_of_solution(hbm, n_harm, X), b = motion_of_transient(tr);
-  return motion_discrepancy(&a, &b);
-}
-
-double comparison_waveform_error(const hbm_measures *hbm, int n_harm, const double *X, const timeint_result *tr)
-{
-  return errors_between(hbm, n_harm, X, tr).waveform;
-}
-
 /* What of the model is compared, and by whom. */
 typedef struct side {
   hbm_solver *hbm;

@@ -231,7 +231,10 @@ void gate_clear(gate_case *g)
 
 /* ---- what is shown ---- */
 
-const char *gate_place(const gate_case *g, double omega, char text[GATE_PLACE])
+enum { GATE_PLACE = 32 };
+
+/* "omega 7", or "frequency 345" in cycles, in text[GATE_PLACE], which is returned. */
+static const char *gate_place(const gate_case *g, double omega, char text[GATE_PLACE])
 {
   if (g->in_cycles) snprintf(text, GATE_PLACE, "frequency %.10g", omega / TWO_PI);
   else snprintf(text, GATE_PLACE, "omega %.10g", omega);

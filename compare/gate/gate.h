@@ -68,10 +68,6 @@ hc_status gate_run(const char *name, const compare_setup *setup, const hc_monito
 hc_status gate_judge(const char *name, const compare_setup *setup, const comparison *c, gate_case *out);
 void gate_clear(gate_case *g);
 
-/* "omega 7", or "frequency 345" in cycles, in text[GATE_PLACE], which is returned. */
-enum { GATE_PLACE = 32 };
-const char *gate_place(const gate_case *g, double omega, char text[GATE_PLACE]);
-
 /* The name of the response that the check is about; NULL: about none, or they have no names. */
 const char *gate_response(const gate_case *g, const gate_check *c);
 

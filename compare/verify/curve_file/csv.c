@@ -295,6 +295,24 @@ static hc_status read_number(reader *r, int index, const char *what, double *val
   return HC_BAD_INPUT;
 }
 
+/* What is wrong with the numbers of a point, if anything. */
+typedef enum verify_fault {
+  VERIFY_FINE,
+  VERIFY_NEGATIVE,        /* the value, of a quantity that cannot be */
+  VERIFY_OMEGA_TOO_LARGE, /* to be finite in rad per time */
+  VERIFY_VALUE_TOO_LARGE  /* to be finite, out of dB */
+} verify_fault;
+
+/* From the columns' numbers *p becomes omega [rad/time] and the quantity, not in dB. */
+static verify_fault verify_point_convert(const verify_quantity *q, bool cycles, verify_point *p)
+{
+  if (!verify_quantity_signed(q) && !(p->value >= 0)) return VERIFY_NEGATIVE;
+  if (cycles) p->omega *= TWO_PI;
+  p->value = verify_quantity_from_column(q, p->value);
+  if (!isfinite(p->omega)) return VERIFY_OMEGA_TOO_LARGE;
+  return isfinite(p->value) ? VERIFY_FINE : VERIFY_VALUE_TOO_LARGE;
+}
+
 /* The columns' numbers become omega in rad per time and the quantity, which must be in range. */
 static hc_status convert(reader *r, verify_point *p)
 {
@@ -438,15 +456,6 @@ hc_status verify_data_read(const char *path, const verify_columns *columns, veri
 }
 
 /* ---- points from arrays ---- */
-
-verify_fault verify_point_convert(const verify_quantity *q, bool cycles, verify_point *p)
-{
-  if (!verify_quantity_signed(q) && !(p->value >= 0)) return VERIFY_NEGATIVE;
-  if (cycles) p->omega *= TWO_PI;
-  p->value = verify_quantity_from_column(q, p->value);
-  if (!isfinite(p->omega)) return VERIFY_OMEGA_TOO_LARGE;
-  return isfinite(p->value) ? VERIFY_FINE : VERIFY_VALUE_TOO_LARGE;
-}
 
 /* Point i into *p, which the message is about if it is none. */
 static hc_status convert_given(const verify_quantity *q, int i, verify_point *p, message *m)

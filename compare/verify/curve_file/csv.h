@@ -50,18 +50,7 @@ typedef struct verify_data {
  * what value is, NULL if not told. `text` NULL: by the file's header. HC_BAD_INPUT with message[VERIFY_TEXT]. */
 hc_status verify_columns_read(const char *text, const char *quantity, verify_columns *out, char *message);
 
-/* What is wrong with the numbers of a point, if anything. */
-typedef enum verify_fault {
-  VERIFY_FINE,
-  VERIFY_NEGATIVE,        /* the value, of a quantity that cannot be */
-  VERIFY_OMEGA_TOO_LARGE, /* to be finite in rad per time */
-  VERIFY_VALUE_TOO_LARGE  /* to be finite, out of dB */
-} verify_fault;
-
-/* From the columns' numbers *p becomes omega [rad/time] and the quantity, not in dB. */
-verify_fault verify_point_convert(const verify_quantity *q, bool cycles, verify_point *p);
-
-/* The same of arrays omega[n] [rad/time] and value[n] of the quantity with that name, which scatter by `noise`, 0..1;
+/* The points of arrays omega[n] [rad/time] and value[n] of the quantity with that name, which scatter by `noise`, 0..1;
  * lines are counted from 1. HC_OK, or HC_BAD_INPUT, HC_NO_MEMORY with message[VERIFY_TEXT]. Free with
  * verify_data_clear in any case. */
 hc_status verify_data_of(const char *quantity, double noise, int n, const double *omega, const double *value,

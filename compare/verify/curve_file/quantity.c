@@ -11,9 +11,8 @@
 static const struct {
   const char *name;
   bool of_mean;
-  const char *formula;
 } kinds[] = {
-#define VERIFY_KIND_WORDS(code, name, free, formula) {name, free, formula},
+#define VERIFY_KIND_WORDS(code, name, free, formula) {name, free},
     VERIFY_KIND_LIST(VERIFY_KIND_WORDS)
 #undef VERIFY_KIND_WORDS
 };
@@ -67,8 +66,6 @@ const char *verify_quantity_name(const verify_quantity *q, char text[VERIFY_QUAN
   else snprintf(text, VERIFY_QUANTITY_TEXT, "%s%s", decibel, kinds[q->kind].name);
   return text;
 }
-
-const char *verify_quantity_formula(const verify_quantity *q) { return kinds[q->kind].formula; }
 
 bool verify_quantity_same(const verify_quantity *a, const verify_quantity *b)
 {

@@ -51,7 +51,6 @@ bool verify_quantity_read(const char *text, size_t length, verify_quantity *out)
 
 /* Its name into text[VERIFY_QUANTITY_TEXT], which is returned. */
 const char *verify_quantity_name(const verify_quantity *q, char text[VERIFY_QUANTITY_TEXT]);
-const char *verify_quantity_formula(const verify_quantity *q);
 
 bool verify_quantity_same(const verify_quantity *a, const verify_quantity *b);
 

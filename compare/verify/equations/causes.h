@@ -103,7 +103,6 @@ enum { VERIFY_CAUSE_LIST(VERIFY_CAUSE_NUMBER) VERIFY_CAUSES };
 typedef uint64_t verify_causes; /* bits */
 #define VERIFY_BIT(cause) ((verify_causes)1 << (cause))
 
-const char *verify_cause_word(int cause);
 const char *verify_cause_meaning(int cause);
 const char *verify_cause_remedy(int cause);
 

@@ -409,7 +409,6 @@ static const struct {
 #undef VERIFY_CAUSE_WORDS
 };
 
-const char *verify_cause_word(int cause) { return causes[cause].word; }
 const char *verify_cause_meaning(int cause) { return causes[cause].meaning; }
 const char *verify_cause_remedy(int cause) { return causes[cause].remedy; }
 

@@ -53,7 +53,7 @@ void verify_window(const compare_setup *setup, const verify_data *data, double *
   comparison_sweep(setup->omega_from, setup->omega_to, &ends, from, to);
 }
 
-double verify_gate(const compare_setup *setup, const verify_quantity *q)
+static double verify_gate(const compare_setup *setup, const verify_quantity *q)
 {
   const discrepancy *most = &setup->limits->most;
   if (q->kind == KIND_MEAN) return most->mean;

@@ -8,8 +8,6 @@
 /* The case's sweep, widened to the points, but not to more than `far` times beyond either end. */
 void verify_window(const compare_setup *setup, const verify_data *data, double *from, double *to);
 
-double verify_gate(const compare_setup *setup, const verify_quantity *q);
-
 /* out->rows, count, harmonics, checked, ...: the truth at each point, of as many harmonics as the referee asks for. */
 hc_status verify_truth(const compare_setup *setup, const verify_data *data, const hc_monitor *monitor,
                        verify_report *out);
