@@ -1,6 +1,6 @@
 /* test_units.c - a change of units changes no answer: lengths, forces and times of a scene multiplied, its answers
  * multiplied alike. Any absolute constant left in a solver shows here. */
-#include "study/scene_solvers.h"
+#include "tests/adversarial/scenes.h"
 #include "tests/adversarial/steady_references.h"
 
 typedef struct units {
@@ -43,36 +43,15 @@ static scene in_units(scene sc, const units *u)
   return sc;
 }
 
-typedef struct run {
-  hbm_solver *s;
-  hbm_curve curve;
-} run;
-
-static run traced_scene(const scene *sc)
-{
-  run r = {0};
-  assert_int_equal(scene_hbm_solver(sc, &r.s), HC_OK);
-  assert_int_equal(hbm_trace(r.s, sc->omega_from, sc->omega_to, NULL, &r.curve), HC_OK);
-  return r;
-}
-
-static void drop_run(run *r)
-{
-  hbm_curve_free(&r->curve);
-  hbm_solver_free(r->s);
-}
-
 /* Largest |X'/L - X| of the solutions at the reference omegas, relative to the norm. */
-static double solutions_apart(const char *name, run *a, run *b, const units *u)
+static double solutions_apart(const char *name, const response *a, const response *b, const units *u)
 {
   double worst = 0, last = 0;
   for (int i = 0; i < n_rows; ++i) {
     if (strcmp(rows[i].name, name) || rows[i].n_harm != 10 || !rows[i].keep_mean || rows[i].omega == last) continue;
-    hbm_curve p = {0}, q = {0};
     last = rows[i].omega;
-    assert_int_equal(hbm_curve_at(a->s, &a->curve, last, &p), HC_OK);
-    assert_int_equal(hbm_curve_at(b->s, &b->curve, last / u->time, &q), HC_OK);
-    assert_true(p.n > 0 && p.n == q.n);
+    hbm_curve p = response_at(a, last), q = response_at(b, last / u->time);
+    assert_int_equal(p.n, q.n);
     for (int k = 0; k < p.n; ++k) {
       const double *X = p.X + (size_t)k * p.n_coef, *Y = q.X + (size_t)k * q.n_coef;
       double d = 0, size = 0;
@@ -100,12 +79,12 @@ static void hbm_with(int force, int n_scenes)
       sc.hbm.force = force;
       sc.hbm.samples = 512;
       scene other = in_units(sc, &factors[f]);
-      run a = traced_scene(&sc), b = traced_scene(&other);
+      response a = response_of(&sc), b = response_of(&other);
       double d = solutions_apart(r->name, &a, &b, &factors[f]);
       CHECK_LE(d, INVARIANT, "%s, %s", r->name, factors[f].what);
       worst = fmax(worst, d);
-      drop_run(&a);
-      drop_run(&b);
+      response_free(&a);
+      response_free(&b);
     }
     print_message("%-24s %.1e\n", factors[f].what, worst);
   }
@@ -142,7 +121,8 @@ static double integrated(const timeint_result *r)
 
 /* Largest difference of x(t) over the period, relative to the amplitude, of the orbits next to the HBM solutions at
  * omega. */
-static double orbits_apart(timeint *a, timeint *b, run *from, const reference_scene *r, double omega, const units *u)
+static double orbits_apart(timeint *a, timeint *b, const response *from, const reference_scene *r, double omega,
+                           const units *u)
 {
   hbm_curve at = {0};
   double worst = 0;
@@ -172,7 +152,7 @@ static double transients_apart(const reference_scene *r, int law, const units *u
   sc.transient.law = law;
   sc.transient.tolerance = 1e-12;
   scene other = in_units(sc, u);
-  run from = traced_scene(&sc);
+  response from = response_of(&sc);
   timeint *a, *b;
   double worst = 0, last = 0;
   assert_int_equal(scene_timeint(&sc, &a), HC_OK);
@@ -184,7 +164,7 @@ static double transients_apart(const reference_scene *r, int law, const units *u
   }
   timeint_free(a);
   timeint_free(b);
-  drop_run(&from);
+  response_free(&from);
   return worst;
 }
 

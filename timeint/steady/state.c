@@ -1,0 +1,170 @@
+/* state.c - see timeint_private.h: the state of a handle, between the model's units and those of scaled.h; one period
+ * of the motion. */
+#include <math.h>
+#include <string.h>
+
+#include "base/constants.h"
+#include "timeint/steady/timeint_private.h"
+
+/* The unit of length for a model at rest without force: the largest gap, or 1. */
+static double any_length(const model *m)
+{
+  double length = 0;
+  for (int j = 0; j < m->n_contacts; ++j) length = fmax(length, fabs(m->contacts[j].law.gap));
+  return length > 0 ? length : 1;
+}
+
+static void set_length(timeint *ti, double length)
+{
+  const double ratio = ti->length / length;
+  for (int i = 0; i < ti->scaled.n_states; ++i) ti->y[i] *= ratio;
+  ti->length = length;
+  scaled_make(&ti->scaled, ti->model, &ti->how, ti->omega, length);
+}
+
+static bool state_ok(const timeint *ti, const double *state)
+{
+  bool ok = true;
+  for (int i = 0; i < ti->n; ++i) ok = ok && isfinite(state[i]);
+  return ok;
+}
+
+/* No response is smaller than the force over the sum of all that resists it, but at an antiresonance, and a single mass
+ * has none; nor have all modes together. */
+static double least_length(const timeint *ti)
+{
+  const modal_base *b = ti->base;
+  const double omega = ti->omega;
+  double force = 0;
+  for (int i = 0; i < b->n_loads * b->n; ++i) force += hypot(b->cosine[i], b->sine[i]);
+  return force / (b->highest * b->highest + omega * omega + 2 * b->slowest * omega);
+}
+
+/* X, P and W of the state, in units of `length`. */
+static void take_state(const timeint *ti, const double *state, double length, double *y)
+{
+  const int n = ti->n_dof;
+  modal_base_to_modes(ti->base, state, y);
+  modal_base_to_modes(ti->base, state + n, y + n);
+  for (int i = 0; i < n; ++i) {
+    y[i] /= length;
+    y[n + i] /= ti->omega * length;
+  }
+  for (int i = 2 * n; i < ti->n; ++i) y[i] = state[i] / length;
+}
+
+void timeint_take_state(const timeint *ti, const double *state, double *y) { take_state(ti, state, ti->length, y); }
+
+static double size_of(const timeint *ti)
+{
+  double size = 0;
+  for (int i = 0; i < 2 * ti->n_dof; ++i) size = hypot(size, ti->y[i]);
+  return size;
+}
+
+hc_status timeint_begin(timeint *ti, double omega, const double *state)
+{
+  const model *m = ti->model;
+  if (!(omega > 0 && isfinite(omega)) || !state_ok(ti, state)) return HC_BAD_INPUT;
+  ti->omega = omega;
+  ti->measured = ti->is_extrapolated = false;
+  ti->contraction = exp(-TWO_PI * ti->base->slowest / omega);
+  ti->periods = 0;
+  ti->steps0 = integrate_steps(ti->in);
+  ti->rhs0 = integrate_rhs(ti->in);
+  ti->least_length = least_length(ti);
+  take_state(ti, state, 1, ti->y);
+  double length = fmax(ti->least_length, size_of(ti));
+  if (!(length > 0)) length = any_length(m);
+  if (!(ti->least_length > 0)) ti->least_length = length;
+  ti->length = length;
+  take_state(ti, state, length, ti->y);
+  scaled_make(&ti->scaled, m, &ti->how, omega, length);
+  return HC_OK;
+}
+
+void timeint_regularise(timeint *ti, double regularisation)
+{
+  ti->how.regularisation = regularisation;
+  scaled_make(&ti->scaled, ti->model, &ti->how, ti->omega, ti->length);
+}
+
+hc_status timeint_set_tolerance(timeint *ti, double tolerance)
+{
+  ti->tolerance = tolerance;
+  return integrate_tolerance(ti->in, tolerance);
+}
+
+/* The unit stays within a factor of 4 of the motion's size. CVODE's absolute tolerance is in this unit, and needs to be
+ * in proportion to the motion to no better than that. */
+static void follow_length(timeint *ti)
+{
+  double size = timeint_motion_size(ti);
+  if (size > 4 * ti->length || size < 0.25 * ti->length) set_length(ti, size);
+}
+
+const hc_monitor *timeint_hear(timeint *ti, const hc_monitor *monitor)
+{
+  if (ti->scout) timeint_hear(ti->scout, monitor);
+  if (ti->exact) integrate_hear(ti->exact, monitor);
+  return integrate_hear(ti->in, monitor);
+}
+
+hc_status timeint_period(timeint *ti, bool measured)
+{
+  if (measured) measure_period(&ti->measure, ti->y);
+  hc_status st = integrate_period(ti->in, &ti->scaled, ti->y, measured ? measure_step : NULL, &ti->measure);
+  ti->measured = false;
+  if (st != HC_OK) return st;
+  ++ti->periods;
+  if (!measured) follow_length(ti); /* all periods of a measurement are in one unit */
+  return HC_OK;
+}
+
+void timeint_get_state(const timeint *ti, double *state)
+{
+  const int n = ti->n_dof;
+  const double length = ti->length;
+  modal_base_to_model(ti->base, ti->y, state);
+  modal_base_to_model(ti->base, ti->y + n, state + n);
+  for (int i = 0; i < n; ++i) {
+    state[i] *= length;
+    state[n + i] = state[n + i] * length * ti->omega;
+  }
+  for (int j = 0; j < ti->model->n_contacts; ++j) {
+    double u, v;
+    scaled_contact_motion(&ti->scaled, j, ti->y, &u, &v);
+    state[2 * n + j] = (ti->scaled.contact[j].law.has_friction ? ti->y[2 * n + j] : u) * length;
+  }
+}
+
+void timeint_save(timeint *ti) { memcpy(ti->saved, ti->y, sizeof *ti->y * (size_t)ti->n); }
+void timeint_restore(timeint *ti) { memcpy(ti->y, ti->saved, sizeof *ti->y * (size_t)ti->n); }
+
+double timeint_size(const timeint *ti) { return size_of(ti) * ti->length; }
+double timeint_motion_size(const timeint *ti) { return fmax(timeint_size(ti), ti->least_length); }
+
+void timeint_point(const timeint *ti, double *z)
+{
+  const scaled_model *m = &ti->scaled;
+  const int moving = 2 * ti->n_dof;
+  const double stiffest = ti->base->highest * ti->base->highest / (ti->omega * ti->omega);
+  for (int i = 0; i < moving; ++i) z[i] = ti->y[i] * ti->length;
+  for (int j = 0; j < m->n_contacts; ++j) {
+    const scaled_contact *c = &m->contact[j];
+    const double pull = c->law.kt * scaled_pull(m, j);
+    z[moving + j] = c->law.has_friction ? pull / stiffest * ti->y[moving + j] * ti->length : 0.0;
+  }
+}
+
+/* Measured: with CVODE restarted each period, the states of a settled orbit scatter by 20 to 250 times its tolerance,
+ * since each period is cut into other steps, and the error at a corner depends on where the step that contains it
+ * begins. A scatter of s a period adds up to s/sqrt(2 (1 - rho)) where the contraction rho is close to 1. Hence
+ * tolerance/1000, times sqrt(1 - rho), and not below 1e-14, where rounding is larger; never above 1e-6, where steps
+ * pass over whole contacts. */
+double timeint_final_tolerance(const timeint *ti)
+{
+  if (ti->how.method == TRANSIENT_METHOD_CLOSED_FORM) return 1e-14; /* of rounding alone */
+  double wanted = 1e-3 * ti->how.tolerance * sqrt(1 - fmin(ti->contraction, 1));
+  return fmin(fmax(wanted, 1e-14), 1e-6);
+}
