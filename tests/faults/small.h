@@ -77,4 +77,18 @@ static inline void small_clean(const char *name)
   assert_int_equal(system(line), 0);
 }
 
+/* The main() of tests that work in that folder, as faults.NAME. */
+static inline int small_main(const char *name, const struct CMUnitTest *tests, size_t n, unsigned seconds)
+{
+  char folder[100], group[100];
+  snprintf(folder, sizeof folder, "/tmp/hbmcheck-%s-XXXXXX", name);
+  snprintf(group, sizeof group, "faults.%s", name);
+  small_watchdog(seconds);
+  small_folder(folder);
+  const int failed = check_ended(_cmocka_run_group_tests(group, tests, n, NULL, NULL));
+  small_clean(folder);
+  return failed;
+}
+#define SMALL_MAIN(name, tests, seconds) small_main(name, tests, sizeof(tests) / sizeof *(tests), seconds)
+
 #endif

@@ -122,11 +122,6 @@ int main(void)
       cmocka_unit_test(closed_pipe),    cmocka_unit_test(damaged_results), cmocka_unit_test(changed_study),
       cmocka_unit_test(locked_results),
   };
-  static char folder[] = "/tmp/hbmcheck-files-XXXXXX";
-  small_watchdog(200);
   setenv("H", HBMCHECK_COMMAND, 1);
-  small_folder(folder);
-  int failed = cmocka_run_group_tests_name("faults.files", tests, NULL, NULL);
-  small_clean(folder);
-  return failed;
+  return SMALL_MAIN("files", tests, 200);
 }

@@ -223,12 +223,7 @@ int main(int argc, char **argv)
       cmocka_unit_test(study),         cmocka_unit_test(verify),
       cmocka_unit_test(describe),
   };
-  static char folder[] = "/tmp/hbmcheck-memory-XXXXXX";
   every = argc > 1 && !strcmp(argv[1], "every");
   if (argc == 5 && !strcmp(argv[1], "at")) return at_one(argv);
-  check_watchdog(every ? 3000 : 600);
-  small_folder(folder);
-  int failed = cmocka_run_group_tests_name("faults.memory", tests, NULL, NULL);
-  small_clean(folder);
-  return failed;
+  return SMALL_MAIN("memory", tests, every ? 3000 : 600);
 }

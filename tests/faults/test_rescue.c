@@ -103,10 +103,5 @@ int main(void)
       cmocka_unit_test(the_table_says_that_it_is_not_whole),
       cmocka_unit_test(nothing_found_yet),
   };
-  static char folder[] = "/tmp/hbmcheck-rescue-XXXXXX";
-  small_watchdog(600);
-  small_folder(folder);
-  int failed = cmocka_run_group_tests_name("faults.rescue", tests, NULL, NULL);
-  small_clean(folder);
-  return failed;
+  return SMALL_MAIN("rescue", tests, 600);
 }

@@ -165,12 +165,7 @@ int main(int argc, char **argv)
       cmocka_unit_test(frf),  cmocka_unit_test(compare), cmocka_unit_test(transient),
       cmocka_unit_test(gate), cmocka_unit_test(report),  cmocka_unit_test(study),
   };
-  static char folder[] = "/tmp/hbmcheck-signals-XXXXXX";
   if (argc > 1 && !strcmp(argv[1], "every")) times = 20;
-  small_watchdog(times > 4 ? 3000 : 300);
   setenv("H", HBMCHECK_COMMAND, 1);
-  small_folder(folder);
-  int failed = cmocka_run_group_tests_name("faults.signals", tests, NULL, NULL);
-  small_clean(folder);
-  return failed;
+  return SMALL_MAIN("signals", tests, times > 4 ? 3000 : 300);
 }

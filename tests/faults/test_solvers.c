@@ -327,11 +327,6 @@ int main(void)
       cmocka_unit_test(kinsol_fails), cmocka_unit_test(kinsol_lies),    cmocka_unit_test(cvode_fails),
       cmocka_unit_test(cvode_lies),   cmocka_unit_test(shooting_fails), cmocka_unit_test(failures_are_told),
   };
-  static char folder[] = "/tmp/hbmcheck-solvers-XXXXXX";
-  small_watchdog(300);
-  small_folder(folder);
   find_orbits();
-  int failed = cmocka_run_group_tests_name("faults.solvers", tests, NULL, NULL);
-  small_clean(folder);
-  return failed;
+  return SMALL_MAIN("solvers", tests, 300);
 }

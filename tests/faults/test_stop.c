@@ -95,11 +95,6 @@ int main(void)
       cmocka_unit_test(amid_thousands_of_scenes),  cmocka_unit_test(waiting_for_gnuplot),
       cmocka_unit_test(files_beside_are_removed),
   };
-  static char folder[] = "/tmp/hbmcheck-stop-XXXXXX";
-  small_watchdog(600);
   setenv("H", HBMCHECK_COMMAND, 1);
-  small_folder(folder);
-  int failed = cmocka_run_group_tests_name("faults.stop", tests, NULL, NULL);
-  small_clean(folder);
-  return failed;
+  return SMALL_MAIN("stop", tests, 600);
 }

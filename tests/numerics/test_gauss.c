@@ -1,0 +1,49 @@
+/* test_gauss.c - Gauss's rule of sixteen points: its nodes and weights, and its panels. */
+#include "numerics/gauss.h"
+
+#include <float.h>
+
+#include "tests/check.h"
+
+/* Exact for x^k, k <= 31: the integral over [-1, 1] is 2/(k + 1) or 0. The table has 17 digits, the sum 16 terms below
+ * 0.2: 8 roundings of 1. The rule is not exact for x^32: off by 2^33 (16!)^4 / (33 (32!)^3) 32! = 7e-10. */
+static void nodes_and_weights_are_the_rules(void **state)
+{
+  (void)state;
+  for (int i = 1; i < GAUSS_POINTS; ++i) assert_true(gauss_node(i) > gauss_node(i - 1));
+  for (int k = 0; k <= 32; ++k) {
+    const double exact = k % 2 ? 0 : 2.0 / (k + 1);
+    double sum = 0;
+    for (int i = 0; i < GAUSS_POINTS; ++i) sum += gauss_weight(i) * pow(gauss_node(i), k);
+    if (k < 32) CHECK_NEAR(sum, exact, 8 * DBL_EPSILON, "x^%d", k);
+    else CHECK_LE(1e-10, fabs(sum - exact), "x^%d", k);
+  }
+}
+
+static void two_powers(const void *self, double x, double value[2])
+{
+  const int *k = self;
+  for (int i = 0; i < 2; ++i) value[i] = pow(x, k[i]);
+}
+
+/* Over [0, 2] on 1 and on 7 panels: 2^(k + 1)/(k + 1), to the roundings of 112 terms. */
+static void panels_add_up(void **state)
+{
+  (void)state;
+  static const int k[2] = {4, 15};
+  for (int panels = 1; panels <= 7; panels += 6) {
+    double sum[2];
+    gauss_integrals(two_powers, k, 0, 2, panels, sum);
+    for (int i = 0; i < 2; ++i) {
+      const double exact = ldexp(1, k[i] + 1) / (k[i] + 1);
+      CHECK_NEAR(sum[i], exact, 112 * DBL_EPSILON * exact, "x^%d, %d panels", k[i], panels);
+    }
+  }
+}
+
+static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(nodes_and_weights_are_the_rules),
+    cmocka_unit_test(panels_add_up),
+};
+
+CHECK_MAIN("numerics.gauss", tests, 30)
