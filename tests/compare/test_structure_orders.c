@@ -5,7 +5,7 @@
 
 enum { SIZES = 7, FREQUENCIES = 3 };
 
-/* Of the number of harmonics: 8 to 64 by the square root of two. */
+/* The numbers of harmonics: 8 to 64 by the square root of two. */
 static double log2_size(int k) { return 3 + 0.5 * k; }
 
 static const transient_settings in_closed_form = {.law = TRANSIENT_LAW_EXACT,

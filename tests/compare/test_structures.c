@@ -40,7 +40,7 @@ static bool on_one_orbit(const comparison_row *r)
 
 /* ---- predictions ----------------------------------------------------------------------------------- */
 
-/* Of every response: what is observed is within three times what both sides expected, and what they expected within
+/* In every response what is observed is within three times what both sides expected, and what they expected within
  * thirty times of what is observed (of the waveform, which cannot agree by chance), for all but a row in ten of those
  * that a contact makes err at all. */
 static void every_response_predicts_its_error(void **state)

@@ -131,7 +131,7 @@ static void unstable_solutions_are_held_against_their_orbits(void **state)
   if (*XMLLINT) check_counts("p.xml", 1, 1, 0); /* the HBM solution itself is right */
 }
 
-/* Of chain3 with H = 20 everything is right, the unstable solution at 1.485 too; with H = 5 it is 5 % off. */
+/* Every response of chain3 with H = 20 is right, the unstable solution at 1.485 too; with H = 5 it is 5 % off. */
 static void every_response_of_a_structure_is_held_to_its_limits(void **state)
 {
   (void)state;
