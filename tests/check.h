@@ -16,6 +16,9 @@
 
 #include "base/constants.h"
 
+/* The parameter of a test that does not use it: static void what_it_holds(CHECK_STATE). */
+#define CHECK_STATE void **state __attribute__((unused))
+
 /* value <= bound, or fail with both and the context printf-style; NaN fails. */
 #define CHECK_LE(value, bound, ...)                                                                                    \
   do {                                                                                                                 \

@@ -6,9 +6,8 @@
 
 #define CASE2 "cases/paper/case2.yaml "
 
-static void columns_are_the_interface(void **state)
+static void columns_are_the_interface(CHECK_STATE)
 {
-  (void)state;
   expect("frf " CASE2 "--at 6 --format csv -q", 0, "omega,branch,amplitude,max,min,rms,mean,harmonic_1,");
   expect("transient " CASE2 "--at 6 --format csv -q", 0,
          "omega,verdict,amplitude,max,min,rms,mean,harmonic_1,periods,closure,period_multiple,steps");
@@ -24,9 +23,8 @@ static void columns_are_the_interface(void **state)
   expect("compare " CASE2 "--at 5 --format json -q", 0, "\"verdict\": \"match\"");
 }
 
-static void verdicts_reach_the_exit_code(void **state)
+static void verdicts_reach_the_exit_code(CHECK_STATE)
 {
-  (void)state;
   expect("compare " CASE2 "--at 6.5 -q", 0, "match");
   expect("compare " CASE2 "--at 6.5 -q --set hbm.static=false", 1, "differs");
   expect("compare " CASE2 "--at 6.5 -q --set transient.max_periods=3 2>&1", 3, "not_settled");
@@ -34,9 +32,8 @@ static void verdicts_reach_the_exit_code(void **state)
   expect("transient " CASE2 "--at 6.5 -q --set transient.max_periods=3 2>&1 >/dev/null", 3, "omega = 6.5");
 }
 
-static void the_closed_form_is_of_the_exact_law(void **state)
+static void the_closed_form_is_of_the_exact_law(CHECK_STATE)
 {
-  (void)state;
   expect("transient " CASE2 "--at 6.5 -q --set transient.method=closed_form 2>&1", 2,
          "--set transient.method=closed_form: only the exact law has a closed form");
   expect("transient " CASE2 "--at 6.5 -q --set transient.method=closed_form --set transient.law=exact", 0, "8.87144");
@@ -45,9 +42,8 @@ static void the_closed_form_is_of_the_exact_law(void **state)
 }
 
 /* Not agreed unless everything asked for was compared and every transient is accounted for by some HBM solution. */
-static void agreement_is_not_claimed_lightly(void **state)
+static void agreement_is_not_claimed_lightly(CHECK_STATE)
 {
-  (void)state;
   expect("compare " CASE2 "-q --set hbm.continuation=natural 2>&1", 3, "STOPPED at omega = 9.2");
   expect("frf " CASE2 "-q --at 8 --set hbm.continuation=natural 2>&1 >/dev/null", 3, "stopped at omega = 9.2");
   /* two contacts, one harmonic: the only HBM solution at 6.9 is unstable, and the transient is 20 % away from it */
@@ -66,16 +62,14 @@ static void agreement_is_not_claimed_lightly(void **state)
 
 /* Between two stable orbits of a blade that forgets 0.1 % a period: the motion crawls away from the saddle,
  * neighbours drifting apart as it goes, and settles all the same. It was called aperiodic once. */
-static void leaving_a_saddle_is_not_chaos(void **state)
+static void leaving_a_saddle_is_not_chaos(CHECK_STATE)
 {
-  (void)state;
   expect("compare cases/paper/table10_case2.yaml -q --at 707.201842866 --set transient.law=exact", 0, "unstable");
 }
 
 /* An overdamped scene decays as exp((w - a) t), not as 0 times infinity; and without damping nobody can say. */
-static void stability_is_said_or_unknown(void **state)
+static void stability_is_said_or_unknown(CHECK_STATE)
 {
-  (void)state;
   expect("frf " CASE2
          "-q --format csv --at 3.5 --set contacts=[] --set oscillator.damping=40 --set oscillator.stiffness=0.5",
          0, ",yes,");
@@ -102,9 +96,8 @@ static double first_row(const char *csv, const char *name)
 /* What dropping harmonic 0 costs on case 2, docs/theory.md section 3: 18 %, 42 %, 63 % of the fundamental at
  * 6.5, 8, 9 in the limit of many harmonics and samples. Figures given to a whole percent, hence half a percent, and
  * 1e-3 for H = 10. */
-static void dropping_the_mean_costs_what_it_costs(void **state)
+static void dropping_the_mean_costs_what_it_costs(CHECK_STATE)
 {
-  (void)state;
   static const double expected[][2] = {{6.5, 0.18}, {8, 0.42}, {9, 0.63}};
   for (int i = 0; i < 3; ++i) {
     char args[128];
@@ -117,9 +110,8 @@ static void dropping_the_mean_costs_what_it_costs(void **state)
   }
 }
 
-static void mistakes_are_named(void **state)
+static void mistakes_are_named(CHECK_STATE)
 {
-  (void)state;
   expect("frf /nonexistent.yaml 2>&1", 2, "/nonexistent.yaml: ");
   expect("frf " CASE2 "--set hbm.harmonic=3 2>&1", 2, "harmonics");
   expect("frf " CASE2 "--set oscillator.mass=nan 2>&1", 2, "--set oscillator.mass=nan");
@@ -146,9 +138,8 @@ static void mistakes_are_named(void **state)
 }
 
 /* What is nearly right is answered with what was meant; what is near to nothing is not guessed. */
-static void nearly_right_words_get_a_suggestion(void **state)
+static void nearly_right_words_get_a_suggestion(CHECK_STATE)
 {
-  (void)state;
   expect("comapre " CASE2 "2>&1", 64, "'comapre' is not a command, did you mean 'compare'?");
   expect("transiet " CASE2 "2>&1", 64, "did you mean 'transient'?");
   expect("xyzzy 2>&1", 64, "'xyzzy' is not a command\n\nusage");
@@ -184,9 +175,8 @@ static void rows_fit(const char *environment, const char *args, int width)
 }
 
 /* 100 columns where there is no terminal and COLUMNS says nothing. */
-static void tables_fit_the_screen(void **state)
+static void tables_fit_the_screen(CHECK_STATE)
 {
-  (void)state;
   static const char *const commands[] = {
       "compare " CASE2 "-q",
       "compare " CASE2 "-q --set sweep.frequency=[0.7,2] --set compare.points=12",
@@ -209,9 +199,8 @@ static void tables_fit_the_screen(void **state)
 }
 
 /* Each command takes its own options and the common ones, and no other's. */
-static void options_belong_to_their_command(void **state)
+static void options_belong_to_their_command(CHECK_STATE)
 {
-  (void)state;
   expect("frf " CASE2 "--motion 0,8,0 2>&1", 64, "motion");
   expect("describe --at 6 2>&1", 64, "--at");
   expect("describe hbm.samples --format csv -q", 0, "samples");
@@ -224,17 +213,15 @@ static void options_belong_to_their_command(void **state)
 }
 
 /* The advice names settings of the side that failed. */
-static void advice_is_about_the_side_that_failed(void **state)
+static void advice_is_about_the_side_that_failed(CHECK_STATE)
 {
-  (void)state;
   expect("frf " CASE2 "-q --set hbm.continuation=natural 2>&1 >/dev/null", 3, "try --set hbm.continuation=auto");
   expect("transient " CASE2 "--at 6.5 -q --set transient.max_periods=3 2>&1 >/dev/null", 3,
          "try a larger --set transient.max_periods=");
 }
 
-static void help_works_everywhere(void **state)
+static void help_works_everywhere(CHECK_STATE)
 {
-  (void)state;
   static const char *const commands[] = {"compare", "frf",    "transient", "study", "bench",   "gate",
                                          "verify",  "stress", "report",    "lab",   "contact", "describe"};
   for (size_t i = 0; i < sizeof commands / sizeof *commands; ++i) {
@@ -251,9 +238,8 @@ static void help_works_everywhere(void **state)
   expect("--version", 0, "SUNDIALS");
 }
 
-static void a_failed_run_touches_no_file(void **state)
+static void a_failed_run_touches_no_file(CHECK_STATE)
 {
-  (void)state;
   char path[] = "/tmp/hbmcheck-test-XXXXXX", args[256], text[16] = {0};
   int fd = mkstemp(path);
   assert_true(fd >= 0 && write(fd, "before", 6) == 6);
@@ -272,24 +258,21 @@ static void a_failed_run_touches_no_file(void **state)
   if (access("/dev/full", W_OK) == 0) expect("frf " CASE2 "-q --at 6 2>&1 >/dev/full", 3, "standard output");
 }
 
-int main(void)
-{
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(columns_are_the_interface),
-      cmocka_unit_test(the_closed_form_is_of_the_exact_law),
-      cmocka_unit_test(verdicts_reach_the_exit_code),
-      cmocka_unit_test(dropping_the_mean_costs_what_it_costs),
-      cmocka_unit_test(mistakes_are_named),
-      cmocka_unit_test(nearly_right_words_get_a_suggestion),
-      cmocka_unit_test(tables_fit_the_screen),
-      cmocka_unit_test(options_belong_to_their_command),
-      cmocka_unit_test(advice_is_about_the_side_that_failed),
-      cmocka_unit_test(agreement_is_not_claimed_lightly),
-      cmocka_unit_test(leaving_a_saddle_is_not_chaos),
-      cmocka_unit_test(stability_is_said_or_unknown),
-      cmocka_unit_test(help_works_everywhere),
-      cmocka_unit_test(a_failed_run_touches_no_file),
-  };
-  check_watchdog(300);
-  return cmocka_run_group_tests_name("compare.command", tests, NULL, NULL);
-}
+static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(columns_are_the_interface),
+    cmocka_unit_test(the_closed_form_is_of_the_exact_law),
+    cmocka_unit_test(verdicts_reach_the_exit_code),
+    cmocka_unit_test(dropping_the_mean_costs_what_it_costs),
+    cmocka_unit_test(mistakes_are_named),
+    cmocka_unit_test(nearly_right_words_get_a_suggestion),
+    cmocka_unit_test(tables_fit_the_screen),
+    cmocka_unit_test(options_belong_to_their_command),
+    cmocka_unit_test(advice_is_about_the_side_that_failed),
+    cmocka_unit_test(agreement_is_not_claimed_lightly),
+    cmocka_unit_test(leaving_a_saddle_is_not_chaos),
+    cmocka_unit_test(stability_is_said_or_unknown),
+    cmocka_unit_test(help_works_everywhere),
+    cmocka_unit_test(a_failed_run_touches_no_file),
+};
+
+CHECK_MAIN("compare.command", tests, 300)

@@ -18,9 +18,8 @@ static void expect(const char *args, int code, const char *fragment)
   shell_check(args, found, out, code, fragment);
 }
 
-static void every_field_is_there_for_programs(void **state)
+static void every_field_is_there_for_programs(CHECK_STATE)
 {
-  (void)state;
   expect("--format json", 0, "\"field\": \"hbm.samples\", \"symbol\": \"N\", \"unit\": \"1\", \"kind\": \"integer\"");
   expect("--format json", 0, "\"choices\": \"exact|sampled\"");
   expect("hbm.samples --format json", 0, "\"low\": 3.0, \"high\": 16777216.0, \"default\": \"1024\"");
@@ -32,9 +31,8 @@ static void every_field_is_there_for_programs(void **state)
   expect("hbm.samples", 0, "hbm.samples: per period"); /* people still get a page */
 }
 
-static void a_case_says_where_its_values_are_from(void **state)
+static void a_case_says_where_its_values_are_from(CHECK_STATE)
 {
-  (void)state;
   expect("--case " CASE2 " --format csv", 0, "\noscillator.mass,1,force time^2/length,file,4,20,,M,");
   expect("--case " CASE2 " --format csv", 0, "\nhbm.force,exact,,default,,,exact,");
   expect("--case " CASE2 " --format csv", 0, "\ncontacts[0].gap,-5,length,file,7,92,0,g,");
@@ -68,9 +66,8 @@ static double derived(const char *quantity)
 
 /* M = 1, C = 0.4, K = 40, F0 = 100; kt = 100, kn = 1000 at 45 degrees: 550 in parallel to K while it sticks. The
  * tolerances are the rounding of a few operations. */
-static void what_follows_is_what_the_formulas_say(void **state)
+static void what_follows_is_what_the_formulas_say(CHECK_STATE)
 {
-  (void)state;
   static const double rounding = 1e-14;
   expect("--case " CASE2 " --format csv", 0, "\n# Derived\n");
   CHECK_NEAR(derived("omega_open"), sqrt(40), 7 * rounding, "open");
@@ -87,9 +84,8 @@ static void what_follows_is_what_the_formulas_say(void **state)
   expect("--case " CASE2 " --set contacts[0].angle_deg=0 --format csv", 0, "\ncontacts[0].touches_at,,length,");
 }
 
-static void mistakes_are_named(void **state)
+static void mistakes_are_named(CHECK_STATE)
 {
-  (void)state;
   expect("--set hbm.force=sampled 2>&1", 64, "--set has no case file");
   expect("--case /nonexistent.yaml 2>&1", 2, "/nonexistent.yaml: cannot be opened");
   expect("--case " CASE2 " --set hbm.harmonics=0 2>&1", 2, "hbm.harmonics is `0`");
@@ -97,14 +93,11 @@ static void mistakes_are_named(void **state)
   expect("hbm.sampls --case " CASE2 " 2>&1", 64, "did you mean `hbm.samples`?");
 }
 
-int main(void)
-{
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(every_field_is_there_for_programs),
-      cmocka_unit_test(a_case_says_where_its_values_are_from),
-      cmocka_unit_test(what_follows_is_what_the_formulas_say),
-      cmocka_unit_test(mistakes_are_named),
-  };
-  check_watchdog(60);
-  return cmocka_run_group_tests_name("command.describe", tests, NULL, NULL);
-}
+static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(every_field_is_there_for_programs),
+    cmocka_unit_test(a_case_says_where_its_values_are_from),
+    cmocka_unit_test(what_follows_is_what_the_formulas_say),
+    cmocka_unit_test(mistakes_are_named),
+};
+
+CHECK_MAIN("command.describe", tests, 60)

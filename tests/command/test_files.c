@@ -40,9 +40,8 @@ static void refused(const char *line, const char *fragment)
 
 /* ---- the five that lost an input without a word ---- */
 
-static void an_output_over_its_case(void **state)
+static void an_output_over_its_case(CHECK_STATE)
 {
-  (void)state;
   refused("$H frf case.yaml -o case.yaml 2>&1", "--output case.yaml is the case file itself; give another name");
   refused("$H transient case.yaml -o case.yaml 2>&1", "--output case.yaml is the case file itself");
   refused("$H compare case.yaml -o case.yaml 2>&1", "--output case.yaml is the case file itself");
@@ -54,25 +53,22 @@ static void an_output_over_its_case(void **state)
           "--output case.yaml is the case file itself");
 }
 
-static void an_output_over_its_study_or_base(void **state)
+static void an_output_over_its_study_or_base(CHECK_STATE)
 {
-  (void)state;
   refused("$H study study.yaml --results new.sqlite -o study.yaml 2>&1", "--output study.yaml is the study itself");
   refused("$H study study.yaml --results new.sqlite --export csv -o case.yaml 2>&1",
           "--output case.yaml is the base case itself");
   refused("$H study study.yaml --results case.yaml 2>&1", "the results file case.yaml is the base case itself");
 }
 
-static void an_output_over_the_curve(void **state)
+static void an_output_over_the_curve(CHECK_STATE)
 {
-  (void)state;
   refused("$H verify case.yaml --against curve.csv --columns omega=1,amplitude=2 -o curve.csv 2>&1",
           "--output curve.csv is the curve itself");
 }
 
-static void an_output_over_the_results(void **state)
+static void an_output_over_the_results(CHECK_STATE)
 {
-  (void)state;
   expect("$H study study.yaml -q --results kept.sqlite 2>&1", 0, "kept.sqlite");
   refused("$H study study.yaml --results kept.sqlite -o kept.sqlite 2>&1",
           "the results file kept.sqlite and --output kept.sqlite are the same file; give another name");
@@ -84,9 +80,8 @@ static void an_output_over_the_results(void **state)
           "d/again.sqlite and the results file d/study.sqlite are the same file");
 }
 
-static void junit_plot_and_findings_over_another(void **state)
+static void junit_plot_and_findings_over_another(CHECK_STATE)
 {
-  (void)state;
   refused("$H gate case.yaml --junit case.yaml 2>&1", "--junit case.yaml is the case file itself");
   refused("$H gate case.yaml --junit new.xml -o new.xml 2>&1",
           "--junit new.xml and --output new.xml are the same file");
@@ -103,9 +98,8 @@ static void junit_plot_and_findings_over_another(void **state)
 
 /* ---- what else can be lost ---- */
 
-static void a_journal_is_kept(void **state)
+static void a_journal_is_kept(CHECK_STATE)
 {
-  (void)state;
   expect("$H stress --scenes 1 -q --results journal 2>&1 >/dev/null", 0, "");
   refused("$H stress --scenes 1 -q --results journal -o journal 2>&1", "--results journal and --output journal");
   refused("mkdir -p found; mv journal found/stress-1-0-linear.yaml; ln found/stress-1-0-linear.yaml journal; " LIST
@@ -116,9 +110,8 @@ static void a_journal_is_kept(void **state)
   expect("$H stress --scenes 1 -q --findings case.yaml 2>&1", 3, "case.yaml: Not a directory");
 }
 
-static void a_page_named_after_its_case(void **state)
+static void a_page_named_after_its_case(CHECK_STATE)
 {
-  (void)state;
   expect("cp case.yaml case.html", 0, "");
   refused(
       "out=$($H report case.html 2>&1); c=$?; echo \"$out\"; case $out in *'built without'*) echo 'the page case.html "
@@ -126,9 +119,8 @@ static void a_page_named_after_its_case(void **state)
       "the page case.html is the case file itself");
 }
 
-static void other_names_for_the_same_file(void **state)
+static void other_names_for_the_same_file(CHECK_STATE)
 {
-  (void)state;
   refused("$H frf case.yaml -o ./case.yaml 2>&1", "--output ./case.yaml is the case file case.yaml itself");
   refused("$H frf $PWD/case.yaml -o d/../case.yaml 2>&1", "is the case file ");
   refused("ln -sf case.yaml soft; ln -sf soft softer; " LIST " >listing.before; $H frf case.yaml -o softer 2>&1",
@@ -142,9 +134,8 @@ static void other_names_for_the_same_file(void **state)
           "--junit nowhere.xml and --output dangling are the same file");
 }
 
-static void the_streams_of_the_shell(void **state)
+static void the_streams_of_the_shell(CHECK_STATE)
 {
-  (void)state;
   refused("$H frf - -o case.yaml <case.yaml 2>&1", "--output case.yaml is the case file on standard input itself");
   refused("$H frf case.yaml 2>&1 >>case.yaml", "standard output is the case file case.yaml itself");
   refused("$H frf case.yaml -o /dev/stdout 2>&1 >>case.yaml", "is the case file case.yaml itself");
@@ -152,9 +143,8 @@ static void the_streams_of_the_shell(void **state)
           "--junit mixed and standard output");
 }
 
-static void what_may_be_said_twice(void **state)
+static void what_may_be_said_twice(CHECK_STATE)
 {
-  (void)state;
   expect("$H gate case.yaml case.yaml --junit /dev/null -o /dev/null 2>&1", 0, "");
   expect("$H gate case.yaml -q --junit /dev/stdout -o /dev/stdout >both && grep -c testsuites both", 0, "");
   expect("$H gate case.yaml -q --junit /dev/stderr 2>&1 | grep -c '</testsuites>'", 0, "1");
@@ -168,9 +158,8 @@ static void what_may_be_said_twice(void **state)
       0, "");
 }
 
-static int fill_folder(void **state)
+static int fill_folder(CHECK_STATE)
 {
-  (void)state;
   if (!mkdtemp(folder) || chdir(folder) != 0) return -1;
   put("case.yaml", scene);
   put("other.yaml", scene);
@@ -179,10 +168,9 @@ static int fill_folder(void **state)
   return 0;
 }
 
-static int remove_folder(void **state)
+static int remove_folder(CHECK_STATE)
 {
   char line[64];
-  (void)state;
   snprintf(line, sizeof line, "cd / && rm -r %s", folder);
   return system(line) == 0 ? 0 : -1;
 }

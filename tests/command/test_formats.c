@@ -25,9 +25,8 @@ static void print_modes(const char *mass, const char *stiffness, const char *nod
   if (code != 0) fail_msg("%s: %s", mass, out);
 }
 
-static void every_format_has_the_same_modes(void **state)
+static void every_format_has_the_same_modes(CHECK_STATE)
 {
-  (void)state;
   static const char *const all[][3] = {
       {"chain.mas", "chain.sti", "chain.dof"},
       {"chain_MASS1.mtx", "chain_STIF1.mtx", "chain_STIF1.mtx"},

@@ -18,9 +18,8 @@ static double cell(int index)
   return strtod(at, NULL);
 }
 
-static void at_is_in_cycles_where_the_sweep_is(void **state)
+static void at_is_in_cycles_where_the_sweep_is(CHECK_STATE)
 {
-  (void)state;
   expect("frf " CASE2 CYCLES "--at 1 --format csv -q", 0, "omega,frequency,branch,amplitude");
   assert_true(cell(0) == TWO_PI && cell(1) == 1);
   double amplitude = cell(3);
@@ -37,17 +36,15 @@ static void at_is_in_cycles_where_the_sweep_is(void **state)
 }
 
 /* The paper's blade between 250 and 500 cycles: 345 is a frequency there, not 345 rad per time. */
-static void cycles_are_not_taken_for_radians(void **state)
+static void cycles_are_not_taken_for_radians(CHECK_STATE)
 {
-  (void)state;
   expect("frf " SOURCE_DIR "/cases/paper/table10_case2.yaml --set sweep.frequency=250,500 --at 345 --format csv -q", 0,
          "omega,frequency");
   CHECK_LE(fabs(cell(0) - 2167.69893097696), 1e-11, "2 pi 345"); /* half a digit of what is written here */
 }
 
-static void compare_takes_frequencies_too(void **state)
+static void compare_takes_frequencies_too(CHECK_STATE)
 {
-  (void)state;
   expect("compare " CASE2 "--set compare.frequency=1 --format csv -q", 0, "omega,branch");
   assert_true(cell(0) == 8 * atan(1));
   expect("frf " CASE2 "--set compare.frequency=1 --set compare.omega=5 --at 6 --format csv -q", 0, "\n6,");
@@ -55,26 +52,23 @@ static void compare_takes_frequencies_too(void **state)
 }
 
 /* A limit of 1e-9 in a range that holds omega 6.28 = frequency 1 only if it is read in cycles. */
-static void the_gates_ranges_are_in_the_sweeps_unit(void **state)
+static void the_gates_ranges_are_in_the_sweeps_unit(CHECK_STATE)
 {
-  (void)state;
 #define TIGHT "--set gate.ranges=0.9,1.1 --set gate.range_amplitude=1e-9 "
   expect("gate " CASE2 CYCLES TIGHT "--at 1 -q", 1, "fail");
   expect("gate " CASE2 TIGHT "--at 6.28318530717958647693 -q", 0, "pass");
 }
 
-static void what_is_said_is_in_cycles(void **state)
+static void what_is_said_is_in_cycles(CHECK_STATE)
 {
-  (void)state;
   /* grazing at omega 5.0995831509 (closed form): 5.0995831509/(2 pi) */
   expect("frf " CASE2 CYCLES "-q", 0, "frequency = 0.8116238662 (omega = 5.0995831509)");
   expect("frf " CASE2 CYCLES "-q --set hbm.continuation=natural 2>&1 >/dev/null", 3, "stopped at frequency = 1.46");
   expect("frf " CASE2 CYCLES "--at 1 -q --plot - ", 0, "frequency [cycles/s]");
 }
 
-static void outside_the_sweep_is_warned_of(void **state)
+static void outside_the_sweep_is_warned_of(CHECK_STATE)
 {
-  (void)state;
   expect("frf " CASE2 "--at 25 2>&1 >/dev/null", 0, "omega = 25: outside the sweep from 3 to 20, which is widened");
   expect("compare " CASE2 "--at 5,25,2.5 2>&1 >/dev/null", 0, "omega = 25 and 1 more: outside the sweep");
   expect("frf " CASE2 "--at 1.2 2>&1 >/dev/null", 0, "frequencies here are in rad per s");

@@ -28,9 +28,8 @@ static void run(const char *args, int code, const char *fragment)
 /* Of 5 harmonics the disk's resonance misses the gate, and by what harmonic balance predicts of them: its prediction is
  * one Newton step on more harmonics, whose own error is of the next order, a tenth. Two sides that know nothing of
  * each other. The regularised law errs by the second order of 1e-4 where contacts slip and never open. */
-static void a_bladed_disk_is_compared(void **state)
+static void a_bladed_disk_is_compared(CHECK_STATE)
 {
-  (void)state;
   run("compare", 1, "\n985,0,3,differs,");
   const double regularised = cell("\n985,0,3,", 5), error = cell("\n985,0,3,", 6);
   CHECK_NEAR(error, cell("\n985,0,3,", 11), 0.1 * error, "predicted from truncation");
@@ -39,9 +38,6 @@ static void a_bladed_disk_is_compared(void **state)
   CHECK_NEAR(regularised, cell("\n985,3,", 3), 1e-7 * regularised, "regularised against exact");
 }
 
-int main(void)
-{
-  const struct CMUnitTest tests[] = {cmocka_unit_test(a_bladed_disk_is_compared)};
-  check_watchdog(600);
-  return cmocka_run_group_tests_name("command.large", tests, NULL, NULL);
-}
+static const struct CMUnitTest tests[] = {cmocka_unit_test(a_bladed_disk_is_compared)};
+
+CHECK_MAIN("command.large", tests, 600)

@@ -39,9 +39,8 @@ static double told(const struct run *r)
   return bytes;
 }
 
-static void memory_is_foretold(void **state)
+static void memory_is_foretold(CHECK_STATE)
 {
-  (void)state;
   static char out[1 << 16];
   for (size_t i = 0; i < sizeof runs / sizeof *runs; ++i) {
     const struct run *r = &runs[i];
@@ -59,9 +58,6 @@ static void memory_is_foretold(void **state)
   }
 }
 
-int main(void)
-{
-  const struct CMUnitTest tests[] = {cmocka_unit_test(memory_is_foretold)};
-  check_watchdog(300);
-  return cmocka_run_group_tests_name("command.memory", tests, NULL, NULL);
-}
+static const struct CMUnitTest tests[] = {cmocka_unit_test(memory_is_foretold)};
+
+CHECK_MAIN("command.memory", tests, 300)

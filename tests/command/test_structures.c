@@ -18,9 +18,8 @@ static int count(const char *fragment)
 
 /* ---- frf ------------------------------------------------------------------------------------------- */
 
-static void one_response_is_kept(void **state)
+static void one_response_is_kept(CHECK_STATE)
 {
-  (void)state;
   expect("frf " CHAIN "--at 1.2 --format csv -q", 0, "omega,branch,response,amplitude,");
   assert_int_equal(count("\n1.2,"), 3);
   expect("frf " CHAIN "--at 1.2 --format csv -q --response 3", 0, "\n1.2,0,3,");
@@ -48,9 +47,8 @@ static double cell(const char *table, const char *start, int column)
 /* A contact with two tangents is two in the model and one in every table: its normal forces are added up, its limit is
  * that of either. Under the square law, y being still but for rounding of what x does, its work is that of the one
  * tangent: the case without tangent_2. */
-static void pairs_are_one_row(void **state)
+static void pairs_are_one_row(CHECK_STATE)
 {
-  (void)state;
   char line[1024];
   static const char *const at[] = {"frf %s --at 11.5 --contacts --format csv -q",
                                    "transient %s --at 11.5 --contacts --format csv -q",
@@ -79,9 +77,8 @@ static void pairs_are_one_row(void **state)
 }
 
 /* What is not compared is said to be. */
-static void comparisons_say_what_they_leave_out(void **state)
+static void comparisons_say_what_they_leave_out(CHECK_STATE)
 {
-  (void)state;
   const char *const at_24 = "compare cases/structures/jenkins2.yaml --at 24.5 ";
   char line[256];
   snprintf(line, sizeof line, "%s--set 'response=[tip, {tip: 1e-12}]'", at_24);
@@ -92,9 +89,8 @@ static void comparisons_say_what_they_leave_out(void **state)
 
 /* --response keeps one, and the verdict is of that: with 7 harmonics the third is within the gate, the first is not.
  * The tables are of it, too. Every response has its prediction. */
-static void one_response_is_compared(void **state)
+static void one_response_is_compared(CHECK_STATE)
 {
-  (void)state;
   const char *const at = "compare " CHAIN "--at 1.4 --set hbm.harmonics=7 --set gate.amplitude=2e-3 --format csv -q ";
   char line[512];
   expect(at, 1, "omega,branch,response,verdict,");
@@ -113,9 +109,8 @@ static void one_response_is_compared(void **state)
 }
 
 /* Both sides of each contact; the work of ground, 1 on its path of 1, is what `transient` says. */
-static void contacts_are_compared(void **state)
+static void contacts_are_compared(CHECK_STATE)
 {
-  (void)state;
   expect("transient " CHAIN "--at 1.25 --contacts --format csv -q", 0,
          "omega,start,contact,name,regime,normal_min,normal_max,traction_max,slip_distance,work\n"
          "1.25,hbm branch 0,0,ground,slip,1,1,1,");
@@ -127,9 +122,8 @@ static void contacts_are_compared(void **state)
 }
 
 /* A damper out of reach of its contacts that no load presses on: by name, and what to do. */
-static void what_nothing_holds_is_named(void **state)
+static void what_nothing_holds_is_named(CHECK_STATE)
 {
-  (void)state;
   const char *const words = "nothing holds the motion {damper_";
   expect("frf cases/structures/wedge_F2.yaml -q --set contacts[0].gap=-1 --set contacts[1].gap=-1 "
          "--set forcing[0].amplitude=0 2>&1",
@@ -138,9 +132,8 @@ static void what_nothing_holds_is_named(void **state)
 }
 
 /* By name, and what to do. */
-static void what_has_no_mass_is_named(void **state)
+static void what_has_no_mass_is_named(CHECK_STATE)
 {
-  (void)state;
   const char *const words = "{root: 1} has none: condense it statically onto the others, or give it a small one";
   expect("transient cases/structures/jenkins2.yaml --at 24 --set structure.mass=[1,0] 2>&1", 2, words);
   expect("compare cases/structures/jenkins2.yaml --at 24 --set structure.mass=[1,0] 2>&1", 2, words);
@@ -150,9 +143,8 @@ static void what_has_no_mass_is_named(void **state)
 
 /* Two equal masses between which and behind one of which is a spring of 1: omega^2 = (3 -+ sqrt 5)/2. From rest the
  * transient in both modes stays, and no contact takes it out. */
-static void what_has_no_damping_is_named(void **state)
+static void what_has_no_damping_is_named(CHECK_STATE)
 {
-  (void)state;
   const char *const words = "no damping acts on the mode at omega = 0.6180339887";
   expect("transient cases/structures/stop2.yaml -q --at 0.7 --set 'structure.damping=[[0,0],[0,0]]' "
          "--set transient.start=rest 2>&1",
@@ -163,9 +155,8 @@ static void what_has_no_damping_is_named(void **state)
 }
 
 /* The stop touches DOF 3 alone, N = 1 (x3 - 0.25); the sliders have mu N = 1, so their work is their path. */
-static void every_contact_of_every_solution_has_a_row(void **state)
+static void every_contact_of_every_solution_has_a_row(CHECK_STATE)
 {
-  (void)state;
   expect("frf " CHAIN "--at 1.25 --contacts --format csv -q", 0,
          "\n\n# Contacts\n"
          "omega,branch,contact,name,regime,normal_min,normal_max,traction_max,slip_distance,work\n"
@@ -184,9 +175,8 @@ static void every_contact_of_every_solution_has_a_row(void **state)
 
 /* ground: kt = 20, mu N = 1. Under u = A cos, A = 0.1, it slips by 0.2 in all: work = 0.2 = -pi A b1. Rounding of
  * numbers of the order of 1. */
-static void a_jenkins_element_has_its_closed_form(void **state)
+static void a_jenkins_element_has_its_closed_form(CHECK_STATE)
 {
-  (void)state;
   expect("contact " CHAIN "--contact ground --motion-u 0,0.1,0 --samples 64 --format csv", 0,
          "force,harmonic,cos,sin,cos_64,sin_64\ntangential,0,");
   CHECK_NEAR(cell("force", "\ntangential,1,", 3), -0.2 / (PI * 0.1), 1e-15, "b1");
@@ -196,9 +186,8 @@ static void a_jenkins_element_has_its_closed_form(void **state)
 }
 
 /* T = 20 (u - w) with w = 0.005; from w = 0.03 the slider is dragged to 0.01, where T is -1 at least. */
-static void the_slider_starts_where_it_is_told(void **state)
+static void the_slider_starts_where_it_is_told(CHECK_STATE)
 {
-  (void)state;
   expect("contact " CHAIN "--contact ground --motion-u 0,0.04,0 --slider 0.005 --format csv", 0, "force,");
   CHECK_NEAR(cell("force", "\ntangential,0,", 2), -0.1, 1e-15, "mean of T");
   expect("contact " CHAIN "--contact ground --motion-u 0,0.04,0 --slider 0.03 --format csv", 0, "force,");
@@ -209,9 +198,8 @@ static void the_slider_starts_where_it_is_told(void **state)
 /* kt = 60, mu N = 2, R = 1/30. Round a circle of radius a = 0.1 > R it slips all the time, and T lags: mu N R/a of it
  * along u, mu N sqrt(1 - R^2/a^2) along u'. The slider goes round one of radius sqrt(a^2 - R^2). Between samples u goes
  * along chords, up to a h^2/8 beside the circle, h = 2 pi/64: T is off by less than kt times that (0.7 of it). */
-static void a_circular_motion_has_its_closed_form(void **state)
+static void a_circular_motion_has_its_closed_form(CHECK_STATE)
 {
-  (void)state;
   const double along = 2. / 3, across = 2 * sqrt(8. / 9);
   expect("contact " PLANE "--contact rub --motion-u 0,0.1,0 --motion-u2 0,0,0.1 --samples 64 --format csv", 0,
          "force,harmonic,cos,sin,cos_64,sin_64\ntangential,0,");
@@ -229,9 +217,8 @@ static void a_circular_motion_has_its_closed_form(void **state)
 
 /* u = (0.6, 0.8) s: T = (0.6, 0.8) of the contact with one tangent under s, exact and sampled; it slips and lifts off.
  * Rounding of forces up to 80 (0.07 + 0.02). */
-static void a_collinear_motion_is_that_of_one_tangent(void **state)
+static void a_collinear_motion_is_that_of_one_tangent(CHECK_STATE)
 {
-  (void)state;
   static const char *const forces[] = {"\ntangential,%d,", "\ntangential_2,%d,", "\nnormal,%d,"};
   enum { HARMONICS = 4, CELLS = 4 };
   double one[3][HARMONICS][CELLS], rows[3][HARMONICS][CELLS];
@@ -259,9 +246,8 @@ static void a_collinear_motion_is_that_of_one_tangent(void **state)
 }
 
 /* Under the square law each direction is a Jenkins element of its own: A = 0.1 loses 4 mu N (A - R) = pi A |b|. */
-static void a_square_has_two_jenkins_elements(void **state)
+static void a_square_has_two_jenkins_elements(CHECK_STATE)
 {
-  (void)state;
   const double b = 4 * 2 * (0.1 - 1. / 30) / (PI * 0.1);
   expect("contact " PLANE "--contact rub --motion-u 0,0.1,0 --motion-u2 0,0,0.1 --set contacts[0].limit=square "
          "--format csv",
@@ -278,9 +264,8 @@ static void a_square_has_two_jenkins_elements(void **state)
 }
 
 /* T = 60 (u - w) where it sticks. */
-static void a_slider_of_two_tangents_starts_where_it_is_told(void **state)
+static void a_slider_of_two_tangents_starts_where_it_is_told(CHECK_STATE)
 {
-  (void)state;
   static const char *const limits[] = {"circle", "square"};
   for (int i = 0; i < 2; ++i) {
     char args[256];
@@ -296,9 +281,8 @@ static void a_slider_of_two_tangents_starts_where_it_is_told(void **state)
 }
 
 /* N = max(cos - 0.25, 0), closed for |th| < p: its mean is (sin p - p/4)/pi. */
-static void a_stop_has_a_normal_force_alone(void **state)
+static void a_stop_has_a_normal_force_alone(CHECK_STATE)
 {
-  (void)state;
   const double p = acos(0.25);
   expect("contact " CHAIN "--contact stop --motion-v 0,1,0 --format csv", 0, "force,");
   CHECK_NEAR(cell("force", "\nnormal,0,", 2), (sin(p) - p / 4) / PI, 1e-15, "mean of N");
@@ -308,9 +292,8 @@ static void a_stop_has_a_normal_force_alone(void **state)
 }
 
 /* On x act T cos 45 + (N - N0) sin 45 of the one contact; N0 = 0 with a clearance, 200 with a preload. */
-static void one_contact_of_an_oscillator_adds_up(void **state)
+static void one_contact_of_an_oscillator_adds_up(CHECK_STATE)
 {
-  (void)state;
   const char *const set[] = {"", "--set 'contacts[0].gap=0.2' "};
   const double preload[] = {0, 200};
   for (int i = 0; i < 2; ++i) {
@@ -327,9 +310,8 @@ static void one_contact_of_an_oscillator_adds_up(void **state)
   }
 }
 
-static void a_motion_that_fits_no_contact_is_refused(void **state)
+static void a_motion_that_fits_no_contact_is_refused(CHECK_STATE)
 {
-  (void)state;
   expect("contact " CHAIN "--motion 0,1,0 2>&1", 64, "the case has 3 degrees of freedom; expected --contact NAME");
   expect("contact " CHAIN "--motion-u 0,1,0 2>&1", 64, "of which contact? expected --contact NAME");
   expect("contact " CHAIN "--contact 3 --motion-u 0,1,0 2>&1", 64, "no `3`; expected one of ground, between, stop");
@@ -349,9 +331,8 @@ static void a_motion_that_fits_no_contact_is_refused(void **state)
 /* ---- study and describe ---------------------------------------------------------------------------- */
 
 /* Two scenes, three responses each; what is drawn and summed up is of the first. */
-static void a_study_keeps_every_response(void **state)
+static void a_study_keeps_every_response(CHECK_STATE)
 {
-  (void)state;
   char line[1024];
   snprintf(line, sizeof line,
            "printf 'study: s\\nbase: %s/" CHAIN
@@ -365,9 +346,8 @@ static void a_study_keeps_every_response(void **state)
 }
 
 /* Both sides, and time integration alone, of two frictions; --response is a filter of the export. */
-static void a_study_runs_time_integration_of_structures(void **state)
+static void a_study_runs_time_integration_of_structures(CHECK_STATE)
 {
-  (void)state;
   static const struct run {
     const char *kind, *header, *row;
   } runs[] = {{"compare", ",omega,branch,response,verdict,hbm_amplitude,", ",25.800000000000001,0,%s,match,"},
@@ -392,9 +372,8 @@ static void a_study_runs_time_integration_of_structures(void **state)
          "has one degree of freedom, expected a structure");
 }
 
-static void a_structure_says_what_it_resolved_to(void **state)
+static void a_structure_says_what_it_resolved_to(CHECK_STATE)
 {
-  (void)state;
   expect("describe --case " CHAIN "--format csv", 0,
          "\nstructure.mass,\"3 x 3, diagonal\",force time^2/length,file,6,9,");
   const char *const words[] = {"\nstructure.damping,rayleigh,force",
@@ -422,31 +401,28 @@ static void a_structure_says_what_it_resolved_to(void **state)
   assert_null(strstr(out, "structure.mass"));
 }
 
-int main(void)
-{
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(pairs_are_one_row),
-      cmocka_unit_test(one_response_is_kept),
-      cmocka_unit_test(what_nothing_holds_is_named),
-      cmocka_unit_test(what_has_no_mass_is_named),
-      cmocka_unit_test(what_has_no_damping_is_named),
-      cmocka_unit_test(comparisons_say_what_they_leave_out),
-      cmocka_unit_test(one_response_is_compared),
-      cmocka_unit_test(contacts_are_compared),
-      cmocka_unit_test(every_contact_of_every_solution_has_a_row),
-      cmocka_unit_test(a_jenkins_element_has_its_closed_form),
-      cmocka_unit_test(the_slider_starts_where_it_is_told),
-      cmocka_unit_test(a_circular_motion_has_its_closed_form),
-      cmocka_unit_test(a_collinear_motion_is_that_of_one_tangent),
-      cmocka_unit_test(a_square_has_two_jenkins_elements),
-      cmocka_unit_test(a_slider_of_two_tangents_starts_where_it_is_told),
-      cmocka_unit_test(a_stop_has_a_normal_force_alone),
-      cmocka_unit_test(one_contact_of_an_oscillator_adds_up),
-      cmocka_unit_test(a_motion_that_fits_no_contact_is_refused),
-      cmocka_unit_test(a_study_keeps_every_response),
-      cmocka_unit_test(a_study_runs_time_integration_of_structures),
-      cmocka_unit_test(a_structure_says_what_it_resolved_to),
-  };
-  check_watchdog(60);
-  return cmocka_run_group_tests_name("command.structures", tests, NULL, NULL);
-}
+static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(pairs_are_one_row),
+    cmocka_unit_test(one_response_is_kept),
+    cmocka_unit_test(what_nothing_holds_is_named),
+    cmocka_unit_test(what_has_no_mass_is_named),
+    cmocka_unit_test(what_has_no_damping_is_named),
+    cmocka_unit_test(comparisons_say_what_they_leave_out),
+    cmocka_unit_test(one_response_is_compared),
+    cmocka_unit_test(contacts_are_compared),
+    cmocka_unit_test(every_contact_of_every_solution_has_a_row),
+    cmocka_unit_test(a_jenkins_element_has_its_closed_form),
+    cmocka_unit_test(the_slider_starts_where_it_is_told),
+    cmocka_unit_test(a_circular_motion_has_its_closed_form),
+    cmocka_unit_test(a_collinear_motion_is_that_of_one_tangent),
+    cmocka_unit_test(a_square_has_two_jenkins_elements),
+    cmocka_unit_test(a_slider_of_two_tangents_starts_where_it_is_told),
+    cmocka_unit_test(a_stop_has_a_normal_force_alone),
+    cmocka_unit_test(one_contact_of_an_oscillator_adds_up),
+    cmocka_unit_test(a_motion_that_fits_no_contact_is_refused),
+    cmocka_unit_test(a_study_keeps_every_response),
+    cmocka_unit_test(a_study_runs_time_integration_of_structures),
+    cmocka_unit_test(a_structure_says_what_it_resolved_to),
+};
+
+CHECK_MAIN("command.structures", tests, 60)

@@ -6,9 +6,8 @@
 #define CASE1                                                                                                          \
   SOURCE_DIR "/cases/paper/case1.yaml " /* its slider sticks all the time at omega 12 (tests/reference, a10) */
 
-static void a_free_mean_is_said_and_not_compared(void **state)
+static void a_free_mean_is_said_and_not_compared(CHECK_STATE)
 {
-  (void)state;
   expect("frf " CASE1 "--at 12 --format json -q", 0, "\"mean_free\": \"yes\"");
   expect("frf " CASE1 "--at 12 --format json -q --set hbm.force=sampled", 0, "\"mean_free\": \"yes\"");
   expect("transient " CASE1 "--at 12 --format json -q", 0, "\"mean_free\": \"yes\"");
@@ -22,9 +21,8 @@ static void a_free_mean_is_said_and_not_compared(void **state)
 }
 
 /* Where it slips or opens the mean is determined, and without friction there is no slider. */
-static void a_determined_mean_is_compared(void **state)
+static void a_determined_mean_is_compared(CHECK_STATE)
 {
-  (void)state;
   expect("frf " CASE2 "--at 6 --format json -q", 0, "\"mean_free\": \"no\"");
   expect("frf " CASE2 "--at 6 --format json -q --set hbm.force=sampled", 0, "\"mean_free\": \"no\"");
   expect("frf " CASE1 "--at 12 --format json -q --set contacts[0].friction=0", 0, "\"mean_free\": \"no\"");
@@ -37,9 +35,8 @@ static void a_determined_mean_is_compared(void **state)
 }
 
 /* An angle in radians is one of 0.785 degrees: the contact of case 2 is never touched. */
-static void nothing_nonlinear_is_said(void **state)
+static void nothing_nonlinear_is_said(CHECK_STATE)
 {
-  (void)state;
 #define RADIANS "--set contacts[0].angle_deg=0.785 "
   expect("compare " CASE2 RADIANS "-q", 0,
          "nothing nonlinear was compared: no contact changes its state in any of the 6");
@@ -55,9 +52,8 @@ static void nothing_nonlinear_is_said(void **state)
 }
 
 /* A mass without a spring, its contact apart at rest: anywhere apart is as good a place for it. */
-static void an_undetermined_mean_is_said(void **state)
+static void an_undetermined_mean_is_said(CHECK_STATE)
 {
-  (void)state;
 #define FREE_MASS "--set oscillator.stiffness=0 --set forcing.amplitude=10 "
 #define ADRIFT    "the mean is undetermined while nothing touches: oscillator.stiffness is 0"
   expect("frf " CASE2 FREE_MASS "--at 6 2>&1 >/dev/null", 3, "the Jacobian is singular; " ADRIFT);

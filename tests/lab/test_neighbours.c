@@ -52,9 +52,8 @@ static int rows_of(const lab *l, double rows[MOST_ROWS][LAB_SOLUTION + COEF])
 /* Two ways to the same equations' solution at omega 8, where there are three: along the sampled curve, and from the
  * exact solutions. Both leave a residual of 1e-13 of the forces; at the nearest of these solutions to a fold the
  * equations make 1e3 of it at most. Sampling moves the two that touch by 1e-4 and more: exact ones would be seen. */
-static void neighbours_solve_the_sampled_equations(void **state)
+static void neighbours_solve_the_sampled_equations(CHECK_STATE)
 {
-  (void)state;
   static double exact[MOST_ROWS][LAB_SOLUTION + COEF], near[MOST_ROWS][LAB_SOLUTION + COEF];
   const double touches = 5 * sqrt(2); /* the clearance over sin 45 */
   lab *l = lab_of(1000, 64);
@@ -80,9 +79,8 @@ static void neighbours_solve_the_sampled_equations(void **state)
 }
 
 /* A row for each point, in order; what is measured is of samples. */
-static void every_point_has_its_row(void **state)
+static void every_point_has_its_row(CHECK_STATE)
 {
-  (void)state;
   static double exact[MOST_ROWS][LAB_SOLUTION + COEF];
   lab *l = lab_of(1000, 64);
   assert_int_equal(lab_curve(l, LAB_EXACT), HC_OK);
@@ -101,9 +99,8 @@ static void every_point_has_its_row(void **state)
 
 /* There Newton goes round in circles from the exact solution: samples come into contact and leave it by turns. The
  * sampled solution is on the sampled curve all the same. */
-static void jumping_jacobians_are_got_round(void **state)
+static void jumping_jacobians_are_got_round(CHECK_STATE)
 {
-  (void)state;
   static double sampled[MOST_ROWS][LAB_SOLUTION + COEF];
   lab *l = lab_of(6000, 64);
   assert_int_equal(lab_curve(l, LAB_SAMPLED), HC_OK);
@@ -117,9 +114,8 @@ static void jumping_jacobians_are_got_round(void **state)
 }
 
 /* Nearly rigid, and 24 samples: of some points Newton ends at another solution, and of some nowhere. */
-static void another_solution_is_no_neighbour(void **state)
+static void another_solution_is_no_neighbour(CHECK_STATE)
 {
-  (void)state;
   static double exact[MOST_ROWS][LAB_SOLUTION + COEF];
   lab *l = lab_of(1e5, 24);
   int missing = 0;
@@ -137,9 +133,8 @@ static void another_solution_is_no_neighbour(void **state)
   lab_free(l);
 }
 
-static void without_a_curve_there_are_none(void **state)
+static void without_a_curve_there_are_none(CHECK_STATE)
 {
-  (void)state;
   lab *l = lab_of(1000, 64);
   assert_int_equal(lab_neighbours(l), HC_BAD_INPUT);
   assert_int_equal(lab_curve(l, LAB_SAMPLED), HC_OK);

@@ -51,9 +51,8 @@ static int take_largest(lab *l)
 
 /* ---- the case ---- */
 
-static void mistakes_are_named(void **state)
+static void mistakes_are_named(CHECK_STATE)
 {
-  (void)state;
   lab *l = lab_with_case();
   assert_int_equal(lab_read(l, "oscillator: {mass: -1, damping: 0.4, stiffness: 40}\n"), HC_BAD_INPUT);
   assert_non_null(strstr(lab_message(l), "case:1:20: "));
@@ -63,9 +62,8 @@ static void mistakes_are_named(void **state)
   lab_free(l);
 }
 
-static void a_new_case_forgets_the_old_ones_answers(void **state)
+static void a_new_case_forgets_the_old_ones_answers(CHECK_STATE)
 {
-  (void)state;
   lab *l = lab_with_case();
   take_largest(l);
   assert_int_equal(lab_read(l, text), HC_OK);
@@ -75,9 +73,8 @@ static void a_new_case_forgets_the_old_ones_answers(void **state)
   lab_free(l);
 }
 
-static void a_case_is_had_back_in_numbers(void **state)
+static void a_case_is_had_back_in_numbers(CHECK_STATE)
 {
-  (void)state;
   static const char other[] =
       "title: 'a: b'\n"
       "oscillator: {mass: 2, damping: 0.5, stiffness: 30}\n"
@@ -105,9 +102,8 @@ static void a_case_is_had_back_in_numbers(void **state)
   lab_free(l);
 }
 
-static void structures_are_refused(void **state)
+static void structures_are_refused(CHECK_STATE)
 {
-  (void)state;
   static const char structure[] = "structure: {mass: [1, 1], stiffness: [[2, -1], [-1, 2]], damping: {modal: 0.01}}\n"
                                   "forcing: [{dof: 1, amplitude: 1}]\n"
                                   "sweep: {omega: [0.5, 2]}\n";
@@ -118,9 +114,8 @@ static void structures_are_refused(void **state)
   lab_free(l);
 }
 
-static void questions_without_an_answer_are_refused(void **state)
+static void questions_without_an_answer_are_refused(CHECK_STATE)
 {
-  (void)state;
   lab *l = lab_with_case();
   const double no_omega[] = {-1};
   assert_int_equal(lab_curve(l, 2), HC_BAD_INPUT);
@@ -140,9 +135,8 @@ static void questions_without_an_answer_are_refused(void **state)
 
 /* ---- harmonic balance ---- */
 
-static void curve_is_the_librarys(void **state)
+static void curve_is_the_librarys(CHECK_STATE)
 {
-  (void)state;
   lab *l = lab_with_case();
   scene sc;
   case_error err;
@@ -170,9 +164,8 @@ static void curve_is_the_librarys(void **state)
   lab_free(l);
 }
 
-static void solutions_at_an_omega_lie_there(void **state)
+static void solutions_at_an_omega_lie_there(CHECK_STATE)
 {
-  (void)state;
   lab *l = lab_with_case();
   assert_int_equal(lab_curve(l, LAB_EXACT), HC_OK);
   assert_int_equal(lab_curve_at(l, LAB_EXACT, 8), HC_OK);
@@ -190,9 +183,8 @@ static void solutions_at_an_omega_lie_there(void **state)
 
 /* The loop's area is the work. Trapezoids miss it by (2 pi/N)^2/12 of what |T u'' + T' u'| is on average: taken to be
  * as large as the rectangle around the loop. Samples know the times of transitions to 2 pi/N, which costs as much. */
-static void loop_encloses_the_work(void **state)
+static void loop_encloses_the_work(CHECK_STATE)
 {
-  (void)state;
   enum { N = 4096 };
   lab *l = lab_with_case();
   take_largest(l);
@@ -215,9 +207,8 @@ static void loop_encloses_the_work(void **state)
 
 /* What is sampled n times a period is the sum of all harmonics k n + h: with one period's force sampled as it is, to
  * what the shown ones leave out. */
-static void sampled_harmonics_fold(void **state)
+static void sampled_harmonics_fold(CHECK_STATE)
 {
-  (void)state;
   enum { N = 64, SHOWN = 200 };
   lab *l = lab_with_case();
   take_largest(l);
@@ -234,9 +225,8 @@ static void sampled_harmonics_fold(void **state)
   lab_free(l);
 }
 
-static void motion_is_the_curves(void **state)
+static void motion_is_the_curves(CHECK_STATE)
 {
-  (void)state;
   lab *l = lab_with_case();
   const int k = take_largest(l);
   double max = -INFINITY;
@@ -249,9 +239,8 @@ static void motion_is_the_curves(void **state)
 
 /* ---- the truth ---- */
 
-static void more_harmonics_and_samples_come_closer(void **state)
+static void more_harmonics_and_samples_come_closer(CHECK_STATE)
 {
-  (void)state;
   lab *l = lab_with_case();
   const double omega = 7;
   assert_int_equal(lab_curve(l, LAB_EXACT), HC_OK);
@@ -269,9 +258,8 @@ static void more_harmonics_and_samples_come_closer(void **state)
   lab_free(l);
 }
 
-static void transients_are_steady(void **state)
+static void transients_are_steady(CHECK_STATE)
 {
-  (void)state;
   const double omega[] = {6};
   lab *l = lab_with_case();
   assert_int_equal(lab_curve(l, LAB_EXACT), HC_OK);

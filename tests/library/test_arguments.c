@@ -12,9 +12,8 @@
     assert_null(place);                                                                                                \
   } while (0)
 
-static void cases(void **state)
+static void cases(CHECK_STATE)
 {
-  (void)state;
   const char *const set[] = {"hbm.harmonics=3", NULL};
   const size_t length = strlen(case2_text);
   char message[64] = "";
@@ -35,9 +34,8 @@ static void cases(void **state)
   BAD_AND_NULL(c, hbmcheck_case_parse("x", case2_text, length, 1, (const char *[]){"hbm.harmonics=0x"}, NULL, 0, &c));
 }
 
-static void curves(void **state)
+static void curves(CHECK_STATE)
 {
-  (void)state;
   hbmcheck_case *c = CASE2("sweep.omega=3,6", "hbm.harmonics=3");
   hbmcheck_curve *curve;
   hbmcheck_solutions *at;
@@ -87,9 +85,8 @@ static void curves(void **state)
 }
 
 /* No frequencies are asked for without compare.omega in the case: the transient has none to choose from. */
-static void runs(void **state)
+static void runs(CHECK_STATE)
 {
-  (void)state;
   hbmcheck_case *c = CASE2("hbm.harmonics=3");
   hbmcheck_transient *t;
   hbmcheck_comparison *both;
@@ -143,9 +140,8 @@ static void runs(void **state)
 }
 
 /* What counts, names or frees takes NULL and values that are none. */
-static void harmless(void **state)
+static void harmless(CHECK_STATE)
 {
-  (void)state;
   hbmcheck_case_free(NULL);
   hbmcheck_solutions_free(NULL);
   hbmcheck_curve_free(NULL);
@@ -164,10 +160,7 @@ static void harmless(void **state)
   assert_string_equal(hbmcheck_verdict_name(HBMCHECK_VERDICT_SOLVER_FAILED), "solver_failed");
 }
 
-int main(void)
-{
-  const struct CMUnitTest tests[] = {cmocka_unit_test(cases), cmocka_unit_test(curves), cmocka_unit_test(runs),
-                                     cmocka_unit_test(harmless)};
-  check_watchdog(300);
-  return cmocka_run_group_tests_name("library.arguments", tests, NULL, NULL);
-}
+static const struct CMUnitTest tests[] = {cmocka_unit_test(cases), cmocka_unit_test(curves), cmocka_unit_test(runs),
+                                          cmocka_unit_test(harmless)};
+
+CHECK_MAIN("library.arguments", tests, 300)

@@ -7,9 +7,8 @@
 enum { H = 9, LENGTH = 2 * H + 1 };
 
 /* Stuck all period, T = kt u and N = N0 + kn v: of case 2's contact that is closed, kt = 100, kn = 1000. */
-static void stuck_it_is_linear(void **state)
+static void stuck_it_is_linear(CHECK_STATE)
 {
-  (void)state;
   hbmcheck_case *c = CASE2("contacts[0].gap=5", "contacts[0].friction=10");
   double u[LENGTH] = {0, 0.25, 0, 0, 0.125}, v[LENGTH] = {0.5, 0, 1}, T[LENGTH], N[LENGTH];
   for (int samples = 0; samples <= 64; samples += 64) {
@@ -24,9 +23,8 @@ static void stuck_it_is_linear(void **state)
 
 /* Constant N0 = kn gap and u = A cos th: a Jenkins element, whose loss per cycle 4 mu N0 (A - x_c), x_c = mu N0/kt, is
  * pi A times the drop of b1. */
-static void a_slider_loses_the_closed_form(void **state)
+static void a_slider_loses_the_closed_form(CHECK_STATE)
 {
-  (void)state;
   hbmcheck_case *c = CASE2("contacts[0].gap=0.01", "contacts[0].friction=0.5");
   const double A = 0.2, f = 5, x_c = f / 100;
   const double u[LENGTH] = {0, A};
@@ -38,9 +36,8 @@ static void a_slider_loses_the_closed_form(void **state)
 }
 
 /* In space, moved along a line: T and T2 share its forces as u and u2 do under the law of the circle. */
-static void two_tangents_share_a_line(void **state)
+static void two_tangents_share_a_line(CHECK_STATE)
 {
-  (void)state;
   hbmcheck_case *c;
   char name[32];
   const double a = 0.6, b = 0.8, A = 0.2;
@@ -63,9 +60,8 @@ static void two_tangents_share_a_line(void **state)
   hbmcheck_case_free(c);
 }
 
-static void contacts_have_names(void **state)
+static void contacts_have_names(CHECK_STATE)
 {
-  (void)state;
   hbmcheck_case *c = CASE2(NULL);
   char name[32] = "before";
   assert_int_equal(hbmcheck_case_contacts(NULL), 0);
@@ -85,9 +81,8 @@ static void contacts_have_names(void **state)
 }
 
 /* Every call below is BAD_INPUT and leaves T, T2 and N alone. */
-static void motions_that_are_none(void **state)
+static void motions_that_are_none(CHECK_STATE)
 {
-  (void)state;
   hbmcheck_case *c = CASE2(NULL), *chain;
   assert_int_equal(hbmcheck_case_read(SOURCE_DIR "/cases/structures/chain3.yaml", 0, NULL, NULL, 0, &chain),
                    HBMCHECK_OK);
@@ -120,13 +115,10 @@ static void motions_that_are_none(void **state)
   hbmcheck_case_free(c);
 }
 
-int main(void)
-{
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(stuck_it_is_linear),        cmocka_unit_test(a_slider_loses_the_closed_form),
-      cmocka_unit_test(two_tangents_share_a_line), cmocka_unit_test(contacts_have_names),
-      cmocka_unit_test(motions_that_are_none),
-  };
-  check_watchdog(300);
-  return cmocka_run_group_tests_name("library.contact_force", tests, NULL, NULL);
-}
+static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(stuck_it_is_linear),        cmocka_unit_test(a_slider_loses_the_closed_form),
+    cmocka_unit_test(two_tangents_share_a_line), cmocka_unit_test(contacts_have_names),
+    cmocka_unit_test(motions_that_are_none),
+};
+
+CHECK_MAIN("library.contact_force", tests, 300)

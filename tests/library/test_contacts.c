@@ -46,9 +46,8 @@ static bool same(const hbmcheck_contact_period *p, const contact_period *q)
 }
 
 /* Of one contact with two tangents, whose halves the model counts apart, and of three with one. */
-static void every_solution_has_its_contacts(void **state)
+static void every_solution_has_its_contacts(CHECK_STATE)
 {
-  (void)state;
   const char *const path[] = {FOLDER "space.yaml", FOLDER "chain3.yaml"};
   const double omega[] = {12.5, 1.9};
   const int contacts[] = {1, 3};
@@ -89,9 +88,8 @@ static void every_solution_has_its_contacts(void **state)
 
 /* Several states at one frequency, and equal starts at two: each must find its own; every response of a state has the
  * state's. */
-static void every_steady_state_has_its_contacts(void **state)
+static void every_steady_state_has_its_contacts(CHECK_STATE)
 {
-  (void)state;
   const double omega[] = {1.2, 1.3, 1.485};
   both b;
   read_both(FOLDER "chain3.yaml", omega[0], &b);
@@ -122,9 +120,8 @@ static void every_steady_state_has_its_contacts(void **state)
 }
 
 /* Three solutions at one frequency, three responses and three contacts each. */
-static void every_row_has_its_contacts(void **state)
+static void every_row_has_its_contacts(CHECK_STATE)
 {
-  (void)state;
   both b;
   read_both(FOLDER "chain3.yaml", 1.485, &b);
   comparison expected;
@@ -157,9 +154,8 @@ static void every_row_has_its_contacts(void **state)
 
 /* Of the pair that stands for two tangents, harmonic balance and time integration each put the halves together: half of
  * the contact on one side would be off by a half. The two are 8e-5 apart by truncation and a regularised law. */
-static void two_tangents_are_one_contact(void **state)
+static void two_tangents_are_one_contact(CHECK_STATE)
 {
-  (void)state;
   both b;
   read_both(FOLDER "space.yaml", 12.5, &b);
   hbmcheck_comparison *found;
@@ -177,9 +173,8 @@ static void two_tangents_are_one_contact(void **state)
 }
 
 /* And switched off again. */
-static void none_unless_asked_for(void **state)
+static void none_unless_asked_for(CHECK_STATE)
 {
-  (void)state;
   both b;
   read_both(FOLDER "chain3.yaml", 1.9, &b);
   hbmcheck_transient *t;
@@ -200,9 +195,8 @@ static void none_unless_asked_for(void **state)
   free_both(&b);
 }
 
-static void what_is_no_place_is_refused(void **state)
+static void what_is_no_place_is_refused(CHECK_STATE)
 {
-  (void)state;
   both b;
   read_both(FOLDER "stop2.yaml", 1, &b);
   hbmcheck_curve *curve, *other;

@@ -141,9 +141,8 @@ static void without(material *m, const char *name, attempt try, int most)
   assert_int_equal(try(m), HBMCHECK_OK); /* and all is well again */
 }
 
-static void every_call(void **state)
+static void every_call(CHECK_STATE)
 {
-  (void)state;
   material m = {.c = CASE2("sweep.omega=3,6", "hbm.harmonics=3")};
   assert_int_equal(hbmcheck_curve_trace(m.c, NULL, &m.curve), HBMCHECK_OK);
   without(&m, "hbmcheck_case_parse", parse, 100);
@@ -166,9 +165,6 @@ static void every_call(void **state)
   hbmcheck_case_free(m.c);
 }
 
-int main(void)
-{
-  const struct CMUnitTest tests[] = {cmocka_unit_test(every_call)};
-  check_watchdog(300);
-  return cmocka_run_group_tests_name("library.memory", tests, NULL, NULL);
-}
+static const struct CMUnitTest tests[] = {cmocka_unit_test(every_call)};
+
+CHECK_MAIN("library.memory", tests, 300)

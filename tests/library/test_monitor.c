@@ -85,28 +85,15 @@ static void stopped(work what, const char *name)
   hbmcheck_case_free(c);
 }
 
-static void curve(void **state)
-{
-  (void)state;
-  stopped(CURVE, "curve");
-}
+static void curve(CHECK_STATE) { stopped(CURVE, "curve"); }
 
-static void transient(void **state)
-{
-  (void)state;
-  stopped(TRANSIENT, "transient");
-}
+static void transient(CHECK_STATE) { stopped(TRANSIENT, "transient"); }
 
-static void comparison(void **state)
-{
-  (void)state;
-  stopped(COMPARISON, "comparison");
-}
+static void comparison(CHECK_STATE) { stopped(COMPARISON, "comparison"); }
 
 /* A monitor that has nothing to say is none. */
-static void silent(void **state)
+static void silent(CHECK_STATE)
 {
-  (void)state;
   const hbmcheck_monitor nobody = {NULL, NULL};
   hbmcheck_case *c = CASE2("hbm.harmonics=3", "sweep.omega=3,6");
   hbmcheck_curve *curve;

@@ -134,9 +134,8 @@ static void check_curve(const char *const *set)
   scene_setup_clear(&setup);
 }
 
-static void curve(void **state)
+static void curve(CHECK_STATE)
 {
-  (void)state;
   check_curve((const char *[]){"hbm.harmonics=7", NULL});
   check_curve((const char *[]){"hbm.harmonics=auto", "hbm.accuracy=1e-3", NULL});
   check_curve((const char *[]){"hbm.harmonics=5", "hbm.force=sampled", "hbm.samples=2048", NULL});
@@ -144,9 +143,8 @@ static void curve(void **state)
 
 /* Nearly rigid and without harmonic 0 the fold is beyond 4 times the start: the curve is cut where it left the sweep
  * (hbm.trace.a_branch_that_leaves). */
-static void curve_that_leaves(void **state)
+static void curve_that_leaves(CHECK_STATE)
 {
-  (void)state;
   hbmcheck_case *c =
       CASE2("sweep.omega=8.5,3", "hbm.harmonics=1", "hbm.static=false", "contacts[0].normal_stiffness=1e7");
   hbmcheck_curve *curve;
@@ -230,9 +228,8 @@ static void check_transient(const char *const *set, int n, const double *omega)
 /* Case 2: period 4 at 5.11, aperiodic at 5.3 (docs/transient.md), where shooting finds the unstable orbit; from rest
  * nothing settles in two periods; where the HBM curve stops before omega (natural continuation, at the fold), the start
  * is at rest. */
-static void transient(void **state)
+static void transient(CHECK_STATE)
 {
-  (void)state;
   check_transient((const char *[]){"hbm.harmonics=10", NULL}, 3, (double[]){5.11, 5.3, 8});
   check_transient(
       (const char *[]){"transient.start=rest", "transient.max_periods=2", "transient.steady_state=march", NULL}, 1,
@@ -309,9 +306,8 @@ static void check_comparison(const char *const *set, int exit_code, int gate_cod
 
 /* Agreement (0); without the mean, a difference (1); natural continuation, which cannot pass the fold, so that there is
  * no solution at 12 (3); a transient of another period, and none (1); from rest nothing settles in two periods (3). */
-static void comparison_and_gate(void **state)
+static void comparison_and_gate(CHECK_STATE)
 {
-  (void)state;
   check_comparison((const char *[]){"compare.omega=6,8", "hbm.harmonics=20", NULL}, 0, 0);
   check_comparison((const char *[]){"compare.omega=6.5,8", "hbm.static=false", NULL}, 1, 1);
   check_comparison((const char *[]){"compare.omega=6,12", "hbm.harmonics=10", "hbm.continuation=natural", NULL}, 3, 3);
@@ -323,9 +319,8 @@ static void comparison_and_gate(void **state)
 }
 
 /* Frequencies given in the call take the place of the case's; each once, ascending. */
-static void omegas_of_the_call(void **state)
+static void omegas_of_the_call(CHECK_STATE)
 {
-  (void)state;
   hbmcheck_case *c = CASE2("compare.omega=5,6");
   hbmcheck_comparison *both;
   hbmcheck_row row;
@@ -340,9 +335,8 @@ static void omegas_of_the_call(void **state)
 }
 
 /* The same case from a file, from memory, and what is wrong with it in words. */
-static void cases_and_messages(void **state)
+static void cases_and_messages(CHECK_STATE)
 {
-  (void)state;
   const char *const set[] = {"hbm.harmonic=3"};
   char message[512], cut[9];
   hbmcheck_case *c;
@@ -363,27 +357,23 @@ static void cases_and_messages(void **state)
 }
 
 /* The numbers and the text of the version say the same. */
-static void version(void **state)
+static void version(CHECK_STATE)
 {
-  (void)state;
   char text[32];
   snprintf(text, sizeof text, "%d.%d.%d", HBMCHECK_VERSION_MAJOR, HBMCHECK_VERSION_MINOR, HBMCHECK_VERSION_PATCH);
   assert_string_equal(text, HBMCHECK_VERSION);
   assert_string_equal(hbmcheck_version(), HBMCHECK_VERSION);
 }
 
-int main(void)
-{
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(curve),
-      cmocka_unit_test(curve_that_leaves),
-      cmocka_unit_test(transient),
+static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(curve),
+    cmocka_unit_test(curve_that_leaves),
+    cmocka_unit_test(transient),
 
-      cmocka_unit_test(comparison_and_gate),
-      cmocka_unit_test(omegas_of_the_call),
-      cmocka_unit_test(cases_and_messages),
-      cmocka_unit_test(version),
-  };
-  check_watchdog(300);
-  return cmocka_run_group_tests_name("library.results", tests, NULL, NULL);
-}
+    cmocka_unit_test(comparison_and_gate),
+    cmocka_unit_test(omegas_of_the_call),
+    cmocka_unit_test(cases_and_messages),
+    cmocka_unit_test(version),
+};
+
+CHECK_MAIN("library.results", tests, 300)

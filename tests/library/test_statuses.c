@@ -101,9 +101,8 @@ static void expect(hbmcheck_status found, int st, bool has_result, int line)
 
 static hbmcheck_case *small(void) { return CASE2("sweep.omega=3,4", "hbm.harmonics=1", "compare.omega=3.5"); }
 
-static void cases(void **state)
+static void cases(CHECK_STATE)
 {
-  (void)state;
   EACH(st)
   {
     char message[64];
@@ -119,9 +118,8 @@ static void cases(void **state)
   }
 }
 
-static void curve(void **state)
+static void curve(CHECK_STATE)
 {
-  (void)state;
   hbmcheck_case *c = small();
   hbmcheck_curve *curve;
   EACH(st)
@@ -150,9 +148,8 @@ static void curve(void **state)
 }
 
 /* Points before the one that could not be measured are kept. Why the curve stops comes first, but for no memory. */
-static void measures(void **state)
+static void measures(CHECK_STATE)
 {
-  (void)state;
   hbmcheck_case *c = small();
   hbmcheck_curve *curve;
   forced.rows_before = 2;
@@ -171,9 +168,8 @@ static void measures(void **state)
   hbmcheck_case_free(c);
 }
 
-static void searches(void **state)
+static void searches(CHECK_STATE)
 {
-  (void)state;
   hbmcheck_case *c = small();
   hbmcheck_curve *curve;
   hbmcheck_solutions *at;
@@ -197,9 +193,8 @@ static void searches(void **state)
   hbmcheck_case_free(c);
 }
 
-static void runs(void **state)
+static void runs(CHECK_STATE)
 {
-  (void)state;
   hbmcheck_case *c = small();
   hbmcheck_transient *t;
   hbmcheck_comparison *both;
@@ -231,9 +226,8 @@ static void runs(void **state)
 }
 
 /* Single rows with every status in every place: what was not computed is NaN, or 0 where there is no NaN. */
-static void rows(void **state)
+static void rows(CHECK_STATE)
 {
-  (void)state;
   hbmcheck_case *c = small();
   hbmcheck_transient *t;
   hbmcheck_comparison *both;
@@ -273,10 +267,8 @@ static void rows(void **state)
   hbmcheck_case_free(c);
 }
 
-int main(void)
-{
-  const struct CMUnitTest tests[] = {cmocka_unit_test(cases),    cmocka_unit_test(curve), cmocka_unit_test(measures),
-                                     cmocka_unit_test(searches), cmocka_unit_test(runs),  cmocka_unit_test(rows)};
-  check_watchdog(300);
-  return cmocka_run_group_tests_name("library.statuses", tests, NULL, NULL);
-}
+static const struct CMUnitTest tests[] = {cmocka_unit_test(cases),    cmocka_unit_test(curve),
+                                          cmocka_unit_test(measures), cmocka_unit_test(searches),
+                                          cmocka_unit_test(runs),     cmocka_unit_test(rows)};
+
+CHECK_MAIN("library.statuses", tests, 300)

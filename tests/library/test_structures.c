@@ -30,9 +30,8 @@ static compare_setup inner(scene *sc)
   return setup;
 }
 
-static void responses_have_names(void **state)
+static void responses_have_names(CHECK_STATE)
 {
-  (void)state;
   hbmcheck_case *c = chain();
   char name[32];
   assert_int_equal(hbmcheck_case_responses(c), RESPONSES);
@@ -45,9 +44,8 @@ static void responses_have_names(void **state)
   hbmcheck_case_free(c);
 }
 
-static void solutions_are_of_every_response(void **state)
+static void solutions_are_of_every_response(CHECK_STATE)
 {
-  (void)state;
   scene sc;
   compare_setup setup = inner(&sc);
   hbmcheck_case *c = chain();
@@ -90,9 +88,8 @@ static void solutions_are_of_every_response(void **state)
   case_clear(&sc);
 }
 
-static void steady_states_are_of_every_response(void **state)
+static void steady_states_are_of_every_response(CHECK_STATE)
 {
-  (void)state;
   scene sc;
   compare_setup setup = inner(&sc);
   hbmcheck_case *c = chain();
@@ -117,9 +114,8 @@ static void steady_states_are_of_every_response(void **state)
   case_clear(&sc);
 }
 
-static void comparisons_are_of_every_response(void **state)
+static void comparisons_are_of_every_response(CHECK_STATE)
 {
-  (void)state;
   scene sc;
   compare_setup setup = inner(&sc);
   hbmcheck_case *c = chain();

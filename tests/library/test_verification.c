@@ -118,9 +118,8 @@ static void check_hypotheses(const hbmcheck_verification *v, const verify_report
   SAME(h.distance, -1);
 }
 
-static void the_cause_is_named(void **state)
+static void the_cause_is_named(CHECK_STATE)
 {
-  (void)state;
   curve c;
   verify_data data = read_no_static(&c);
   verify_report expected;
@@ -152,9 +151,8 @@ static void the_cause_is_named(void **state)
 
 /* Three points from a solution, and one at omega = 0: in dB what is handed in comes back; the one left out is counted,
  * and the others keep their places. */
-static void decibels_and_points_left_out(void **state)
+static void decibels_and_points_left_out(CHECK_STATE)
 {
-  (void)state;
   hbmcheck_case *c = CASE2("sweep.omega=3,6", "hbm.harmonics=10");
   hbmcheck_curve *ours;
   hbmcheck_verification *v;
@@ -196,9 +194,8 @@ static void refuse(const hbmcheck_case *c, hbmcheck_foreign theirs, const char *
   if (!strstr(why, words)) fail_msg("'%s' does not say '%s'", why, words);
 }
 
-static void wrong_curves_are_refused_in_words(void **state)
+static void wrong_curves_are_refused_in_words(CHECK_STATE)
 {
-  (void)state;
   hbmcheck_case *c = CASE2("sweep.omega=3,6", "hbm.harmonics=3");
   const double omega[] = {3.5, 4, 4.5}, value[] = {1, 2, 3}, negative[] = {1, -2, 3}, nan[] = {1, 2, NAN},
                loud[] = {1, 2, 1e6};
@@ -237,9 +234,8 @@ static void wrong_curves_are_refused_in_words(void **state)
   hbmcheck_case_free(c);
 }
 
-static void accelerations_of_structures_are_refused(void **state)
+static void accelerations_of_structures_are_refused(CHECK_STATE)
 {
-  (void)state;
   hbmcheck_case *c;
   const double omega[] = {1, 1.1, 1.2}, value[] = {1, 2, 3};
   assert_int_equal(hbmcheck_case_read(SOURCE_DIR "/cases/structures/chain3.yaml", 0, NULL, NULL, 0, &c), HBMCHECK_OK);
@@ -254,9 +250,8 @@ static int stop_at_third(void *self, double done)
   return ++*(int *)self < 3;
 }
 
-static void a_monitor_stops_it(void **state)
+static void a_monitor_stops_it(CHECK_STATE)
 {
-  (void)state;
   curve c;
   verify_data data = read_no_static(&c);
   hbmcheck_case *public_case = CASE2("hbm.harmonics=10");
@@ -275,9 +270,8 @@ static void a_monitor_stops_it(void **state)
   verify_data_clear(&data);
 }
 
-static void nothing_is_harmless(void **state)
+static void nothing_is_harmless(CHECK_STATE)
 {
-  (void)state;
   hbmcheck_findings f;
   hbmcheck_point p;
   assert_int_equal(hbmcheck_verification_count(NULL), 0);
@@ -289,16 +283,13 @@ static void nothing_is_harmless(void **state)
   hbmcheck_verification_free(NULL);
 }
 
-int main(void)
-{
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(the_cause_is_named),
-      cmocka_unit_test(decibels_and_points_left_out),
-      cmocka_unit_test(wrong_curves_are_refused_in_words),
-      cmocka_unit_test(accelerations_of_structures_are_refused),
-      cmocka_unit_test(a_monitor_stops_it),
-      cmocka_unit_test(nothing_is_harmless),
-  };
-  check_watchdog(300);
-  return cmocka_run_group_tests_name("library.verification", tests, NULL, NULL);
-}
+static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(the_cause_is_named),
+    cmocka_unit_test(decibels_and_points_left_out),
+    cmocka_unit_test(wrong_curves_are_refused_in_words),
+    cmocka_unit_test(accelerations_of_structures_are_refused),
+    cmocka_unit_test(a_monitor_stops_it),
+    cmocka_unit_test(nothing_is_harmless),
+};
+
+CHECK_MAIN("library.verification", tests, 300)

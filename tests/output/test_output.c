@@ -15,9 +15,8 @@ enum { BIG = 1 << 20 /* more than any stdio buffer */ };
 static char folder[64], path[128], other[128];
 
 /* A fresh folder a test; path and other are names in it, of nothing yet. */
-static int make_folder(void **state)
+static int make_folder(CHECK_STATE)
 {
-  (void)state;
   strcpy(folder, "/tmp/hbmcheck-test-XXXXXX");
   if (!mkdtemp(folder)) return -1;
   snprintf(path, sizeof path, "%s/out.csv", folder);
@@ -42,9 +41,8 @@ static int files(bool remove_them)
   return n;
 }
 
-static int remove_folder(void **state)
+static int remove_folder(CHECK_STATE)
 {
-  (void)state;
   files(true);
   return rmdir(folder);
 }
@@ -97,9 +95,8 @@ static void expect_no_open(const char *name, int why)
   assert_null(o);
 }
 
-static void nothing_appears_until_commit(void **state)
+static void nothing_appears_until_commit(CHECK_STATE)
 {
-  (void)state;
   output *o = opened(path);
   write_big(o);
   assert_int_equal(fflush(output_stream(o)), 0);
@@ -111,9 +108,8 @@ static void nothing_appears_until_commit(void **state)
   assert_int_equal(files(false), 1);
 }
 
-static void abandon_leaves_nothing(void **state)
+static void abandon_leaves_nothing(CHECK_STATE)
 {
-  (void)state;
   output *o = opened(path);
   write_big(o);
   output_abandon(o);
@@ -121,9 +117,8 @@ static void abandon_leaves_nothing(void **state)
   output_abandon(NULL);
 }
 
-static void an_existing_file_stays_until_commit(void **state)
+static void an_existing_file_stays_until_commit(CHECK_STATE)
 {
-  (void)state;
   put_content(path, "old\n");
   output *o = opened(path);
   write_big(o);
@@ -138,9 +133,8 @@ static void an_existing_file_stays_until_commit(void **state)
   assert_int_equal(files(false), 1);
 }
 
-static void permissions_follow_the_umask_or_the_file(void **state)
+static void permissions_follow_the_umask_or_the_file(CHECK_STATE)
 {
-  (void)state;
   mode_t before = umask(027);
   assert_int_equal(output_commit(opened(path)), HC_OK);
   umask(before);
@@ -150,9 +144,8 @@ static void permissions_follow_the_umask_or_the_file(void **state)
   assert_int_equal(mode_of(path), 0604);
 }
 
-static void two_at_once_do_not_mix(void **state)
+static void two_at_once_do_not_mix(CHECK_STATE)
 {
-  (void)state;
   output *a = opened(path), *b = opened(other), *c = opened(path);
   fputs("a", output_stream(a));
   fputs("b", output_stream(b));
@@ -166,11 +159,10 @@ static void two_at_once_do_not_mix(void **state)
   assert_int_equal(files(false), 2);
 }
 
-static void a_link_keeps_pointing(void **state)
+static void a_link_keeps_pointing(CHECK_STATE)
 {
   char second[128];
   struct stat st;
-  (void)state;
   snprintf(second, sizeof second, "%s/second", folder);
   put_content(other, "old\n");
   assert_int_equal(symlink("second", path), 0); /* relative to the link's folder */
@@ -191,10 +183,9 @@ static void a_link_keeps_pointing(void **state)
   expect_no_open(path, ELOOP);
 }
 
-static void names_in_the_current_folder(void **state)
+static void names_in_the_current_folder(CHECK_STATE)
 {
   char before[1024];
-  (void)state;
   assert_non_null(getcwd(before, sizeof before));
   assert_int_equal(chdir(folder), 0);
   output *o = opened("out.csv");
@@ -205,10 +196,9 @@ static void names_in_the_current_folder(void **state)
   expect_content(path, "here");
 }
 
-static void a_long_name_is_fine(void **state)
+static void a_long_name_is_fine(CHECK_STATE)
 {
   char longest[512];
-  (void)state;
   int n = snprintf(longest, sizeof longest, "%s/", folder);
   memset(longest + n, 'n', 255); /* NAME_MAX */
   longest[n + 255] = 0;
@@ -223,10 +213,9 @@ static void a_long_name_is_fine(void **state)
   assert_int_equal(files(false), 1);
 }
 
-static void what_cannot_be_opened_says_so(void **state)
+static void what_cannot_be_opened_says_so(CHECK_STATE)
 {
   char name[256];
-  (void)state;
   expect_no_open(folder, EISDIR);
   expect_no_open("", ENOENT);
   snprintf(name, sizeof name, "%s/nowhere/out.csv", folder);
@@ -238,9 +227,8 @@ static void what_cannot_be_opened_says_so(void **state)
   assert_int_equal(files(false), 1);
 }
 
-static void a_failed_rename_leaves_nothing_behind(void **state)
+static void a_failed_rename_leaves_nothing_behind(CHECK_STATE)
 {
-  (void)state;
   output *o = opened(path);
   assert_int_equal(mkdir(path, 0777), 0);
   assert_int_equal(output_commit(o), HC_IO);
@@ -281,16 +269,11 @@ static int write_to_devices(void)
   return output_commit(o) == HC_OK ? 0 : 5;
 }
 
-static void a_full_disk_is_noticed(void **state)
-{
-  (void)state;
-  assert_int_equal(as_nobody(write_to_devices), 0);
-}
+static void a_full_disk_is_noticed(CHECK_STATE) { assert_int_equal(as_nobody(write_to_devices), 0); }
 
-static void a_fifo_is_written_straight_and_its_end_noticed(void **state)
+static void a_fifo_is_written_straight_and_its_end_noticed(CHECK_STATE)
 {
   char text[8] = "";
-  (void)state;
   assert_int_equal(mkfifo(path, 0600), 0);
   int reader = open(path, O_RDONLY | O_NONBLOCK);
   output *o = opened(path);
@@ -328,9 +311,8 @@ static int commit_in_child(const char *to, const char *name)
   return WEXITSTATUS(status);
 }
 
-static void standard_output_is_checked_too(void **state)
+static void standard_output_is_checked_too(CHECK_STATE)
 {
-  (void)state;
   assert_int_equal(commit_in_child("/dev/full", NULL), HC_IO);
   assert_int_equal(commit_in_child(path, NULL), HC_OK);
   expect_content(path, "first\nsecond\n");
@@ -349,9 +331,8 @@ static int open_read_only(void)
 }
 
 /* A rename would replace a file its owner made read-only. */
-static void a_read_only_file_is_respected(void **state)
+static void a_read_only_file_is_respected(CHECK_STATE)
 {
-  (void)state;
   put_content(path, "old\n");
   assert_int_equal(chmod(path, 0444), 0);
   assert_int_equal(chmod(folder, 0777), 0);

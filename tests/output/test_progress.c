@@ -102,55 +102,45 @@ static void run_often(void)
   progress_end(p);
 }
 
-static int set_term(void **state)
-{
-  (void)state;
-  return setenv("TERM", "xterm", 1);
-}
+static int set_term(CHECK_STATE) { return setenv("TERM", "xterm", 1); }
 
-static void a_terminal_shows_it_and_is_left_clean(void **state)
+static void a_terminal_shows_it_and_is_left_clean(CHECK_STATE)
 {
-  (void)state;
   watch_terminal(80, run_plain);
   assert_string_equal(seen, "\rsweep\033[K\rsweep  37 %\033[K\r\033[K");
   watch_terminal(0, run_plain); /* a terminal that does not know its size */
   assert_non_null(strstr(seen, "sweep  37 %"));
 }
 
-static void a_narrow_terminal_does_not_wrap(void **state)
+static void a_narrow_terminal_does_not_wrap(CHECK_STATE)
 {
-  (void)state;
   watch_terminal(20, run_long);
   assert_string_equal(seen, "\ra rather long label\033[K\ra rather long  37 %\033[K\r\033[K");
 }
 
-static void a_label_cannot_command_the_terminal(void **state)
+static void a_label_cannot_command_the_terminal(CHECK_STATE)
 {
-  (void)state;
   watch_terminal(80, run_hostile);
   assert_non_null(strstr(seen, "\ra [2Jb c\xef\xbf\xbd  37 %\033[K"));
 }
 
 /* The start and the end, and 3 in 350 ms: 100, 201 and 302 ms after the start at the latest. */
-static void drawings_are_a_tenth_of_a_second_apart(void **state)
+static void drawings_are_a_tenth_of_a_second_apart(CHECK_STATE)
 {
-  (void)state;
   int drawn = 0;
   watch_terminal(80, run_often);
   for (const char *p = seen; (p = strchr(p, '\r')); ++p) ++drawn;
   assert_int_equal(drawn, 2 + 3);
 }
 
-static void silence_in_a_pipe(void **state)
+static void silence_in_a_pipe(CHECK_STATE)
 {
-  (void)state;
   watch_pipe(run_plain);
   assert_string_equal(seen, "");
 }
 
-static void silence_if_quiet_or_dumb(void **state)
+static void silence_if_quiet_or_dumb(CHECK_STATE)
 {
-  (void)state;
   watch_terminal(80, run_quiet);
   assert_string_equal(seen, "");
   setenv("TERM", "dumb", 1);
@@ -170,9 +160,8 @@ static void expect_line(const char *label, double done, double elapsed, int colu
   assert_int_equal(line[size], '#');
 }
 
-static void lines_say_how_long_it_takes(void **state)
+static void lines_say_how_long_it_takes(CHECK_STATE)
 {
-  (void)state;
   expect_line("frf", 0.25, 4, 79, 100, "frf  25 %  12 s left");
   expect_line("frf", 0.25, 0.9, 79, 100, "frf  25 %");
   expect_line("frf", 0, 40, 79, 100, "frf  0 %");
@@ -221,9 +210,8 @@ static int interrupt_once(void) { return stopped_by(SIGINT); }
 static int terminate_once(void) { return stopped_by(SIGTERM); }
 static int interrupt_twice(void) { return stopped_by(SIGINT) ? 1 : raise(SIGINT); }
 
-static void signals_stop_the_work(void **state)
+static void signals_stop_the_work(CHECK_STATE)
 {
-  (void)state;
   assert_int_equal(fate(interrupt_once, SIG_DFL), 0);
   assert_int_equal(fate(terminate_once, SIG_DFL), 0);
   assert_int_equal(fate(interrupt_twice, SIG_DFL), 100 + SIGINT);

@@ -27,9 +27,8 @@ static void make(const char *name)
   assert_int_equal(fclose(to), 0);
 }
 
-static void files_that_are_there(void **state)
+static void files_that_are_there(CHECK_STATE)
 {
-  (void)state;
   make("a");
   make("b");
   assert_int_equal(mkdir("d", 0777) | symlink("a", "soft") | symlink("soft", "softer") | link("a", "hard"), 0);
@@ -38,9 +37,8 @@ static void files_that_are_there(void **state)
   assert_false(same("a", "new")); /* one is there, the other is not */
 }
 
-static void files_to_come(void **state)
+static void files_to_come(CHECK_STATE)
 {
-  (void)state;
   char whole[128];
   snprintf(whole, sizeof whole, "%s/new", folder);
   assert_int_equal(symlink("new", "to_new") | symlink("../new", "d/up") | symlink(".", "here"), 0);
@@ -50,9 +48,8 @@ static void files_to_come(void **state)
   assert_false(same("missing/new", "missing/new")); /* no folder: nothing will be written there */
 }
 
-static void what_is_no_regular_file(void **state)
+static void what_is_no_regular_file(CHECK_STATE)
 {
-  (void)state;
   assert_int_equal(mkfifo("pipe", 0666) | symlink("circle", "circle"), 0);
   assert_false(same("/dev/null", "/dev/null") || same("pipe", "pipe") || same("d", "d") || same("", ""));
   assert_false(same("circle", "circle"));
@@ -61,9 +58,8 @@ static void what_is_no_regular_file(void **state)
   assert_int_equal(errno, ELOOP);
 }
 
-static void open_descriptors(void **state)
+static void open_descriptors(CHECK_STATE)
 {
-  (void)state;
   int fd = open("a", O_RDONLY);
   file_identity open_one, named;
   assert_true(fd >= 0 && file_identify(NULL, fd, &open_one) && file_identify("soft", -1, &named));
@@ -73,23 +69,17 @@ static void open_descriptors(void **state)
   assert_false(file_same(&open_one, &open_one)); /* closed: no file */
 }
 
-static void right_in_a_folder(void **state)
+static void right_in_a_folder(CHECK_STATE)
 {
-  (void)state;
   assert_true(file_is_in("d/x", "d") && file_is_in("d/x", "./here/d") && file_is_in("x", ".") && file_is_in("/x", "/"));
   assert_false(file_is_in("x", "d") || file_is_in("d/x", ".") || file_is_in("missing/x", "missing"));
 }
 
-static int make_folder(void **state)
-{
-  (void)state;
-  return mkdtemp(folder) && chdir(folder) == 0 ? 0 : -1;
-}
+static int make_folder(CHECK_STATE) { return mkdtemp(folder) && chdir(folder) == 0 ? 0 : -1; }
 
-static int remove_folder(void **state)
+static int remove_folder(CHECK_STATE)
 {
   char line[64];
-  (void)state;
   snprintf(line, sizeof line, "cd / && rm -r %s", folder);
   return system(line);
 }

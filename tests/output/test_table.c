@@ -57,9 +57,8 @@ static table *small_table(const char *title)
 }
 
 /* Left out on the screen, kept for machines; the last one shown ends the line. */
-static void hidden_columns_are_for_machines(void **state)
+static void hidden_columns_are_for_machines(CHECK_STATE)
 {
-  (void)state;
   table *t = table_new(NULL, 4, columns);
   put(t, 5, "match", 1200, 1.25e-6);
   table_hide(t, "error");
@@ -72,9 +71,8 @@ static void hidden_columns_are_for_machines(void **state)
 
 /* Lines too long lose what can be spared, the empty ones and then the first ones first, and say so; what is left is
  * broken into blocks that begin with the first column; --wide has all of it, csv always. */
-static void lines_fit_the_screen(void **state)
+static void lines_fit_the_screen(CHECK_STATE)
 {
-  (void)state;
   static const char *const spare[] = {"verdict", "error", "no such column", NULL}, *const none[] = {NULL};
   table *t = table_new(NULL, 4, columns);
   put(t, 5, "match", 1200, 1.25e-6);
@@ -108,9 +106,8 @@ static void lines_fit_the_screen(void **state)
   table_free(t);
 }
 
-static void empty_columns_are_spared_first(void **state)
+static void empty_columns_are_spared_first(CHECK_STATE)
 {
-  (void)state;
   static const char *const spare[] = {"verdict", "error", NULL};
   table *t = table_new(NULL, 4, columns);
   put(t, 5, "match", 1200, NAN);
@@ -122,9 +119,8 @@ static void empty_columns_are_spared_first(void **state)
 }
 
 /* Words are not broken while anything else can be narrowed, and hidden columns take no room. */
-static void wrapped_columns_keep_their_words(void **state)
+static void wrapped_columns_keep_their_words(CHECK_STATE)
 {
-  (void)state;
   table *t = table_new(NULL, 2, two_texts);
   table_put_text(t, "cases/bracket.yaml");
   table_put_text(t, "one two three four five");
@@ -141,9 +137,8 @@ static void wrapped_columns_keep_their_words(void **state)
   table_free(t);
 }
 
-static void table_is_aligned(void **state)
+static void table_is_aligned(CHECK_STATE)
 {
-  (void)state;
   table *t = small_table("Small");
   assert_int_equal(table_rows(t), 3);
   expect(1, &t, FORMAT_TABLE,
@@ -157,9 +152,8 @@ static void table_is_aligned(void **state)
   table_free(t);
 }
 
-static void csv_is_exact(void **state)
+static void csv_is_exact(CHECK_STATE)
 {
-  (void)state;
   table *t = small_table("Small");
   expect(1, &t, FORMAT_CSV,
          "# 2 of 3, tolerance 5.0e-02\n"
@@ -170,9 +164,8 @@ static void csv_is_exact(void **state)
   table_free(t);
 }
 
-static void json_is_exact(void **state)
+static void json_is_exact(CHECK_STATE)
 {
-  (void)state;
   table *t = small_table("Small");
   expect(1, &t, FORMAT_JSON,
          "{\n  \"rows\": [\n"
@@ -183,9 +176,8 @@ static void json_is_exact(void **state)
   table_free(t);
 }
 
-static void no_rows_and_no_title(void **state)
+static void no_rows_and_no_title(CHECK_STATE)
 {
-  (void)state;
   table *t = table_new(NULL, 4, columns);
   expect(1, &t, FORMAT_TABLE, "omega  verdict  steps  error\n");
   expect(1, &t, FORMAT_CSV, "omega,verdict,steps,error\n");
@@ -197,9 +189,8 @@ static void no_rows_and_no_title(void **state)
 }
 
 /* Titles that collide, with each other and with "notes", must not hide a table. */
-static void several_tables(void **state)
+static void several_tables(CHECK_STATE)
 {
-  (void)state;
   table *t[4] = {small_table("A"), table_new("A", 1, one_real), table_new("notes", 1, one_real),
                  table_new(NULL, 1, one_real)};
   table_put_real(t[1], 2);
@@ -222,7 +213,7 @@ static void several_tables(void **state)
   for (int k = 0; k < 4; ++k) table_free(t[k]);
 }
 
-static void csv_quotes_what_a_reader_could_misread(void **state)
+static void csv_quotes_what_a_reader_could_misread(CHECK_STATE)
 {
   static const char *const pairs[][2] = {
       {"plain text", "plain text"},
@@ -238,7 +229,6 @@ static void csv_quotes_what_a_reader_could_misread(void **state)
       {"\ta", "\"\ta\""},
       {"M\xc3\xbcller", "M\xc3\xbcller"},
   };
-  (void)state;
   for (size_t i = 0; i < sizeof pairs / sizeof *pairs; ++i) {
     table *t = table_new(NULL, 2, two_texts);
     table_put_text(t, "x");
@@ -265,9 +255,8 @@ static void expect_reals(int n, const double *values, const char *expected)
 #define EXPECT_REALS(expected, ...)                                                                                    \
   expect_reals((int)(sizeof(double[]){__VA_ARGS__} / sizeof(double)), (const double[]){__VA_ARGS__}, expected)
 
-static void reals_get_one_notation_a_column(void **state)
+static void reals_get_one_notation_a_column(CHECK_STATE)
 {
-  (void)state;
   EXPECT_REALS("    3|   10|  200|", 3, 10, 200);
   EXPECT_REALS(" 3.00|12.25|-0.50|    0|", 3, 12.25, -0.5, -0.0);
   EXPECT_REALS("  0.1|  0.3|", 0.1, 0.1 + 0.2);
@@ -282,9 +271,8 @@ static void reals_get_one_notation_a_column(void **state)
   EXPECT_REALS("   10|", 9.99999996);
 }
 
-static void text_is_utf8_and_safe(void **state)
+static void text_is_utf8_and_safe(CHECK_STATE)
 {
-  (void)state;
   table *t = table_new("Stra\xc3\x9f"
                        "e\x1b[31m\n",
                        2, two_texts);
@@ -314,7 +302,7 @@ static void text_is_utf8_and_safe(void **state)
   table_free(t);
 }
 
-static void utf8_is_decoded_strictly(void **state)
+static void utf8_is_decoded_strictly(CHECK_STATE)
 {
   static const struct {
     const char *text;
@@ -341,7 +329,6 @@ static void utf8_is_decoded_strictly(void **state)
       {"\xf0\x9f\x98", 0xfffd, 1},
       {"\xc3(", 0xfffd, 1},
   };
-  (void)state;
   for (size_t i = 0; i < sizeof part / sizeof *part; ++i) {
     const char *p = part[i].text;
     assert_int_equal(utf8_next(&p), part[i].code);
@@ -353,9 +340,8 @@ static void utf8_is_decoded_strictly(void **state)
   assert_int_equal(utf8_width("\xf0\x9f\x98\x80"), 2); /* an emoji */
 }
 
-static void long_text_is_cut_except_at_the_end(void **state)
+static void long_text_is_cut_except_at_the_end(CHECK_STATE)
 {
-  (void)state;
   char longest[101], expected[512];
   memset(longest, 'x', 100);
   longest[100] = 0;
@@ -386,9 +372,8 @@ static table *random_table(double *values)
   return t;
 }
 
-static void doubles_come_back_bit_for_bit(void **state)
+static void doubles_come_back_bit_for_bit(CHECK_STATE)
 {
-  (void)state;
   double *values = calloc(N_RANDOM, sizeof *values);
   assert_non_null(values);
   table *t = random_table(values);
@@ -420,9 +405,8 @@ static bool set_comma_locale(void)
   return false;
 }
 
-static void a_comma_locale_changes_nothing(void **state)
+static void a_comma_locale_changes_nothing(CHECK_STATE)
 {
-  (void)state;
   char *before[3], *after[3];
   for (int f = 0; f < 3; ++f) {
     table *t = small_table("Small");
@@ -446,9 +430,8 @@ static void a_comma_locale_changes_nothing(void **state)
   if (!comma) skip(); /* no such locale here: the comparison above says little */
 }
 
-static void failures_are_reported(void **state)
+static void failures_are_reported(CHECK_STATE)
 {
-  (void)state;
   table *t = small_table(NULL), *none = NULL;
   FILE *full = fopen("/dev/full", "w");
   assert_non_null(full);
@@ -508,9 +491,8 @@ static void wrong_before_the_end(table *t)
 }
 
 /* Also where assert is nothing. */
-static void misuse_is_a_bug(void **state)
+static void misuse_is_a_bug(CHECK_STATE)
 {
-  (void)state;
   static const table_column kinds[] = {{"t", TABLE_TEXT}, {"i", TABLE_INTEGER}, {"r", TABLE_REAL}},
                             twice[] = {{"t", TABLE_TEXT}, {"i", TABLE_INTEGER}, {"t", TABLE_REAL}},
                             no_kind[] = {{"t", (table_kind)(TABLE_REAL + 1)}};

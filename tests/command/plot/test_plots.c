@@ -91,9 +91,8 @@ static void check_svg(const char *name, const char *args, int plots, const char 
 
 /* Case 2 has a stable and an unstable part, two turning points, two period doublings and two changes of contact:
  * five items. */
-static void response_curves(void **state)
+static void response_curves(CHECK_STATE)
 {
-  (void)state;
   check_svg("frf", "frf " CASE2, 5,
             WORDS("Case 2, intermittent contact", "H = 10, exact forces", "harmonic balance: stable", "unstable",
                   "turning point", "period doubling", "contact changes", "ω [rad/s]", "amplitude of x [m]"));
@@ -102,9 +101,8 @@ static void response_curves(void **state)
 }
 
 /* All of it is stable, with changes of contact: a line and its marks for each response, named in the key. */
-static void responses_of_a_structure(void **state)
+static void responses_of_a_structure(CHECK_STATE)
 {
-  (void)state;
   check_svg("three", "frf " WEDGE, 6, WORDS("blade", "damper_x", "damper_y", "contact changes", "amplitude [m]"));
   assert_null(strstr(text, "amplitude of"));
   check_svg("three-at", "frf " WEDGE "--at 37", 7, WORDS("solutions asked for"));
@@ -115,9 +113,8 @@ static void responses_of_a_structure(void **state)
             WORDS("contact ground; exact law", "slips"));
 }
 
-static void transients(void **state)
+static void transients(CHECK_STATE)
 {
-  (void)state;
   check_svg("compare", "compare " CASE2 "--at 6,8", 8,
             WORDS("transient: match (3)", "transient: unstable (1)", "where the transient went"));
   check_svg("points", "transient " CASE2 "--at 6,8", 3, WORDS("time integration: settled (4)"));
@@ -126,9 +123,8 @@ static void transients(void **state)
 }
 
 /* Ours, stable and unstable; theirs, right and wrong. tmdsimpy's wandering curve has 33 points at omega > 0. */
-static void curves_of_others(void **state)
+static void curves_of_others(CHECK_STATE)
 {
-  (void)state;
 #define WANDERED "verify cases/verify/case2.yaml --against cases/verify/tmdsimpy_case2_wandered.csv --quantity norm "
   check_svg_of("verify", WANDERED, 1, 4,
                WORDS("ours: H = 20, exact forces; cause: too_few_harmonics+too_few_samples", "ours: stable", "unstable",
@@ -138,26 +134,23 @@ static void curves_of_others(void **state)
 
 /* Four panels: 8 items, 2 truncation orders and 2 guides, exact forces, 2 sample counts and 2 guides, cells and 2
  * sets of labels. */
-static void accuracy(void **state)
+static void accuracy(CHECK_STATE)
 {
-  (void)state;
   check_svg("tables", "compare " CASE2 "--at 6,8 --harmonics 1,3 --samples 32,64", 8 + 4 + 5 + 3,
             WORDS("Aliasing: sampled against exact forces", "H = 1", "N = 64", "slope of 1/N²", "slope of 1/H⁴",
                   "over N and H", "exact"));
 }
 
-static void contacts(void **state)
+static void contacts(CHECK_STATE)
 {
-  (void)state;
   check_svg("contact", "contact cases/paper/table10_case2.yaml --motion 0,0.29,0", 3 + 4,
             WORDS("sticks", "slips", "separated", "tangential force T [N]", "normal force N", "± μ N"));
   check_svg("touch", "contact " CASE2 "--motion 0,8,0", 2 + 4, WORDS("sticks", "separated"));
 }
 
 /* Two tangents: what it does, the limit (two where N varies and stays), the ways of motion and slider, its rest. */
-static void contacts_in_a_plane(void **state)
+static void contacts_in_a_plane(CHECK_STATE)
 {
-  (void)state;
   check_svg("circle", "contact " SPACE "--motion-u 0,0.1,0.02 --motion-u2 0,0,0.07 --motion-v 0,0.04,0.03", 3 + 2,
             WORDS("contact foot; exact law, limit: circle", "traction T_1 [N]", "motion u_2 [m]", "slips", "separated",
                   "limit μ N at most", "slider w"));
@@ -183,9 +176,8 @@ static void write_study(const char *name, const char *axes)
   fclose(f);
 }
 
-static void studies(void **state)
+static void studies(CHECK_STATE)
 {
-  (void)state;
   write_study("lines", "  - hbm.static: [true, false]\n  - contacts[0].gap: [-5, -4, -3]\n");
   check_svg("lines", "study $D/lines.yaml --results :memory:", 2,
             WORDS("Drawn", "contacts[0].gap [m]", "peak_amplitude [m]", "static = true", "static = false"));
@@ -196,9 +188,8 @@ static void studies(void **state)
   expect("$H study $D/lines.yaml $D/heat.yaml --results $D --plot $D/x.svg 2>&1", 64, "one study at a time");
 }
 
-static void benchmarks(void **state)
+static void benchmarks(CHECK_STATE)
 {
-  (void)state;
   expect("$H bench " CASE2
          "--at 6.5 --repeats 1 --alone -q --set transient.max_periods=500 --plot $D/bench.svg 2>&1 >/dev/null",
          0, "");
@@ -207,9 +198,8 @@ static void benchmarks(void **state)
                WORDS("hbm_exact", "hbm_sampled", "exact_shooting", "nothing is nearer and faster", "ω = 6.5 rad/s"));
 }
 
-static void endings_make_the_kind(void **state)
+static void endings_make_the_kind(CHECK_STATE)
 {
-  (void)state;
   expect("$H frf " CASE2 "-q --plot $D/a.png 2>&1 >/dev/null && $H frf " CASE2 "-q --plot $D/a.pdf 2>&1 >/dev/null", 0,
          "");
   assert_true(slurp("a.png") > 2000);
@@ -222,9 +212,8 @@ static void endings_make_the_kind(void **state)
 }
 
 /* In the terminal: after the table, as wide as COLUMNS says; not into the midst of what a program reads. */
-static void letters(void **state)
+static void letters(CHECK_STATE)
 {
-  (void)state;
   expect("COLUMNS=70 $H frf " CASE2 "-q --plot -", 0, "harmonic balance: stable");
   const char *table = strstr(text, "period doubling at omega"), *drawing = strstr(text, "omega [rad/s]");
   assert_true(table && drawing && table < drawing);
@@ -241,9 +230,8 @@ static void letters(void **state)
 
 /* The results are there all the same, the file that stood there stays, and the exit code says that something is
  * missing. */
-static void what_can_go_wrong(void **state)
+static void what_can_go_wrong(CHECK_STATE)
 {
-  (void)state;
   expect("echo before >$D/old.svg; PATH=$D $H frf " CASE2 "-q --plot $D/old.svg 2>&1", 3, "gnuplot is not installed");
   assert_non_null(strstr(text, "apt install gnuplot-nox"));
   assert_non_null(strstr(text, "Response curve"));
@@ -276,9 +264,8 @@ static void what_can_go_wrong(void **state)
 
 /* Nothing a title or a label says is obeyed: quotes, backticks, gnuplot's and the shell's ways to run things, its
  * markup, XML's and Pango's. */
-static void hostile_words_are_words(void **state)
+static void hostile_words_are_words(CHECK_STATE)
 {
-  (void)state;
   static const char title[] =
       "title: \"q\\\" . system('touch RAN') `touch RAN` $(touch RAN) \\\\n\\\\ {/=40 big} a_b^c @d & <b>x</b> 'e' %d "
       "é ω\"\n";
@@ -305,17 +292,9 @@ static void hostile_words_are_words(void **state)
   expect("$H frf $D/hostile.yaml -q --plot \"$D/a'b \\$(id).svg\" >/dev/null; ls $D", 0, "a'b $(id).svg");
 }
 
-static int make_folder(void **state)
-{
-  (void)state;
-  return mkdtemp(folder) ? 0 : -1;
-}
+static int make_folder(CHECK_STATE) { return mkdtemp(folder) ? 0 : -1; }
 
-static int remove_folder(void **state)
-{
-  (void)state;
-  return shell("rm -r \"$D\"");
-}
+static int remove_folder(CHECK_STATE) { return shell("rm -r \"$D\""); }
 
 int main(void)
 {

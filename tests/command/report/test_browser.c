@@ -33,7 +33,7 @@ static void open_page(const char *folder, const char *of, const char *set, int c
   free(log);
 }
 
-static void every_plot_is_drawn_and_every_control_works(void **state)
+static void every_plot_is_drawn_and_every_control_works(CHECK_STATE)
 {
   static const struct {
     const char *set;
@@ -51,7 +51,6 @@ static void every_plot_is_drawn_and_every_control_works(void **state)
       {"--set sweep.frequency=0.5,3.2 --at 1,1.2", 0, ""},
       {"--set 'title=</script><b>x' --set 'units.length=<i>'", 0, ""}};
   char folder[64], line[128];
-  (void)state;
   if (!CHROMIUM[0]) {
     print_message("SKIPPED: chromium is not installed (Debian: chromium), so the page was not opened\n");
     skip();
@@ -69,9 +68,6 @@ static void every_plot_is_drawn_and_every_control_works(void **state)
   shell_read(line, out, sizeof out);
 }
 
-int main(void)
-{
-  static const struct CMUnitTest tests[] = {cmocka_unit_test(every_plot_is_drawn_and_every_control_works)};
-  check_watchdog(600);
-  return cmocka_run_group_tests_name("compare_report.browser", tests, NULL, NULL);
-}
+static const struct CMUnitTest tests[] = {cmocka_unit_test(every_plot_is_drawn_and_every_control_works)};
+
+CHECK_MAIN("compare_report.browser", tests, 600)

@@ -93,9 +93,8 @@ static void check_data(const char *page)
   json_decref(data);
 }
 
-static void page_is_small_and_complete(void **state)
+static void page_is_small_and_complete(CHECK_STATE)
 {
-  (void)state;
   char folder[64], args[512], path[2][96];
   size_t length[2];
   char *page[2];
@@ -155,9 +154,8 @@ static double entry(const json_t *of, const char *name, size_t i)
  * mean of 32 samples, where sampled - true = Re(F_N + F_2N + ...). The first term is in the page to 1e-6 of the
  * largest force; the rest falls like 1/n^2, at most sum_{m>=2} |F_N|/m^2 < 0.65 times the kinks' bound, for which 3
  * times the largest of |F_N|, |F_{N-1}|, |F_{N+1}| stands. */
-static void sampled_mean_is_what_folds_onto_it(void **state)
+static void sampled_mean_is_what_folds_onto_it(CHECK_STATE)
 {
-  (void)state;
   json_t *data = data_of_page("8,9");
   const json_t *one = state_of(data, 2, 1), /* H = 5, omega 9 */
       *sampled = json_array_get(json_object_get(one, "sampled"), 1);
@@ -171,9 +169,8 @@ static void sampled_mean_is_what_folds_onto_it(void **state)
 /* The harmonics are those of the force that is drawn: the trapezoidal sum over its 128 times is F_h + what folds from
  * 128 - h and 128 + h on, of which the page has the first two of each kept harmonic, and the rest at most 0.65 times
  * three times as much (above); the times are known to 1e-4 of the largest force, which bounds their mean's error. */
-static void harmonics_are_those_of_the_force_that_is_drawn(void **state)
+static void harmonics_are_those_of_the_force_that_is_drawn(CHECK_STATE)
 {
-  (void)state;
   enum { TIMES = 128 };
   json_t *data = data_of_page("8,9");
   const json_t *one = state_of(data, 2, 1), *sampled = json_array_get(json_object_get(one, "sampled"), 3);
@@ -194,9 +191,8 @@ static void harmonics_are_those_of_the_force_that_is_drawn(void **state)
 
 /* The branch on which the contact works ends at 8.877 with H = 1, and with H = 3 it is there at 8.9: Newton, started on
  * that solution, finds a motion that touches with 16 samples and with no more, an accident of sampling. */
-static void sampling_gains_a_branch_that_truncation_lost(void **state)
+static void sampling_gains_a_branch_that_truncation_lost(CHECK_STATE)
 {
-  (void)state;
   json_t *data = data_of_page("8,8.9");
   const json_t *lost = state_of(data, 0, 1), *kept = state_of(data, 1, 1),
                *few = json_array_get(json_object_get(lost, "sampled"), 0),
@@ -208,9 +204,8 @@ static void sampling_gains_a_branch_that_truncation_lost(void **state)
   json_decref(data);
 }
 
-static void hostile_titles_are_text(void **state)
+static void hostile_titles_are_text(CHECK_STATE)
 {
-  (void)state;
   char folder[64], args[512], path[96];
   size_t length;
   make_folder(folder);
@@ -237,9 +232,8 @@ static void hostile_titles_are_text(void **state)
 }
 
 /* Without contacts, and where they do nothing, there is nothing to alias; a page comes all the same. */
-static void linear_cases_have_a_page(void **state)
+static void linear_cases_have_a_page(CHECK_STATE)
 {
-  (void)state;
   static const char *const sets[] = {"--set contacts=[]", "--set forcing.amplitude=0.001"};
   for (size_t i = 0; i < sizeof sets / sizeof *sets; ++i) {
     char folder[64], args[512], path[96];
@@ -273,9 +267,8 @@ static double area(const json_t *loop)
  * each of its four corners, (2 pi/240)^2/2 of the amplitude at the most: 1.4e-3 in all of a loop as wide as that, and
  * this one's slip is a third of its width. A structure has no section on aliasing, one degree of freedom no other
  * responses. */
-static void a_structure_shows_its_shape_and_its_loops(void **state)
+static void a_structure_shows_its_shape_and_its_loops(CHECK_STATE)
 {
-  (void)state;
   char folder[64], args[512], path[96];
   size_t length;
   make_folder(folder);
@@ -331,9 +324,8 @@ static void expect_words(const char *set, int code, const char *const *words)
   rmdir(folder);
 }
 
-static void cycles_are_spoken_where_the_sweep_is_in_cycles(void **state)
+static void cycles_are_spoken_where_the_sweep_is_in_cycles(CHECK_STATE)
 {
-  (void)state;
   static const char *const words[] = {
       "\"cycles\":true", "<th scope=\"col\">at frequency</th>", "Largest error at frequency = 1.2 (omega = 7.5398",
       /* of the budget, of the curve's events */
@@ -343,9 +335,8 @@ static void cycles_are_spoken_where_the_sweep_is_in_cycles(void **state)
 }
 
 /* Preloaded so much that the slider never slips: where it rests is a matter of history. */
-static void what_is_not_unique_is_said(void **state)
+static void what_is_not_unique_is_said(CHECK_STATE)
 {
-  (void)state;
   static const char *const words[] = {"2 rows without a mean to compare (<code>mean_free</code>)",
                                       "not compared: a matter of history",
                                       "\"mean_free\":[1",
@@ -356,9 +347,8 @@ static void what_is_not_unique_is_said(void **state)
 }
 
 /* Exact forces are not advised to who has them. */
-static void advice_on_samples_knows_the_forces_in_use(void **state)
+static void advice_on_samples_knows_the_forces_in_use(CHECK_STATE)
 {
-  (void)state;
   static const char *const in_use[] = {"Sampling: not even 32 samples", "the exact forces in use need none.", NULL},
                            *const advised[] = {"Sampling: not even 32 samples", ": use exact forces.", NULL};
   expect_words(CASE2 " --at 8 --harmonics 5 --samples 32 -q", 0, in_use);
@@ -366,9 +356,8 @@ static void advice_on_samples_knows_the_forces_in_use(void **state)
 }
 
 /* Exit codes are compare's; a page that could not be written leaves what was there. */
-static void failures_touch_no_file(void **state)
+static void failures_touch_no_file(CHECK_STATE)
 {
-  (void)state;
   char folder[64], args[512], path[96], text[16] = {0};
   make_folder(folder);
   snprintf(path, sizeof path, "%s/page.html", folder);
@@ -394,9 +383,8 @@ static void failures_touch_no_file(void **state)
 
 /* Dropping harmonic 0 is the worst one can do to case 2: the page says so, names the cure, and the exit code is
  * compare's. */
-static void disagreement_is_said(void **state)
+static void disagreement_is_said(CHECK_STATE)
 {
-  (void)state;
   char folder[64], args[512], path[96];
   size_t length;
   make_folder(folder);
@@ -413,11 +401,7 @@ static void disagreement_is_said(void **state)
 }
 
 /* Built without Chart.js, the command names what is missing. */
-static void missing_charts_are_named(void **state)
-{
-  (void)state;
-  expect("report " CASE2 " 2>&1", 64, "libjs-chart.js");
-}
+static void missing_charts_are_named(CHECK_STATE) { expect("report " CASE2 " 2>&1", 64, "libjs-chart.js"); }
 
 int main(void)
 {
