@@ -55,46 +55,30 @@ static void write_matrix(int n, const structure_matrix *m, FILE *to)
   else if (is_diagonal(n, m->v)) fputs(", diagonal", to);
 }
 
-static void write_damping(const scene_structure *s, FILE *to)
-{
-  if (s->how == STRUCTURE_DAMPING_MATRIX) write_matrix(s->n, &s->damping, to);
-  else fputs(s->how == STRUCTURE_DAMPING_RAYLEIGH ? "rayleigh" : "modal", to);
-}
-
-static void write_modal(const scene_structure *s, const field *f, FILE *to)
-{
-  if (s->how == STRUCTURE_DAMPING_MODAL) field_write(f, s, to);
-  else if (s->how == STRUCTURE_DAMPING_MODES) fprintf(to, "a list, one for each of %d modes", s->n);
-}
-
-static void write_names(const scene_structure *s, FILE *to)
-{
-  for (int i = 0; s->names && i < s->n; ++i) fprintf(to, "%s%s", i ? ", " : "", s->names[i]);
-}
-
 static void write_direction(const scene_structure *s, const double *direction, FILE *to)
 {
   char text[512];
   if (!is_zero(s->n, direction)) fputs(structure_direction_name(s, direction, text, sizeof text), to);
 }
 
-static void write_responses(const scene_structure *s, FILE *to)
-{
-  char text[512];
-  for (int r = 0; r < structure_response_count(s); ++r)
-    fprintf(to, "%s%s", r ? ", " : "", structure_response_name(s, r, text, sizeof text));
-}
-
 static void write_part(const scene_structure *s, const field *f, FILE *to)
 {
+  char text[512];
   if (!strcmp(f->name, "mass")) write_matrix(s->n, &s->mass, to);
   else if (!strcmp(f->name, "stiffness")) write_matrix(s->n, &s->stiffness, to);
-  else if (!strcmp(f->name, "damping")) write_damping(s, to);
-  else if (!strcmp(f->name, "damping.modal")) write_modal(s, f, to);
-  else if (!strcmp(f->name, "names")) write_names(s, to);
-  else if (!strcmp(f->name, "response")) write_responses(s, to);
+  else if (!strcmp(f->name, "damping") && s->how == STRUCTURE_DAMPING_MATRIX) write_matrix(s->n, &s->damping, to);
+  else if (!strcmp(f->name, "damping")) fputs(s->how == STRUCTURE_DAMPING_RAYLEIGH ? "rayleigh" : "modal", to);
+  else if (!strcmp(f->name, "damping.modal") && s->how == STRUCTURE_DAMPING_MODES)
+    fprintf(to, "a list, one for each of %d modes", s->n);
+  else if ((!strcmp(f->name, "damping.modal") && s->how == STRUCTURE_DAMPING_MODAL) ||
+           (!strncmp(f->name, "damping.rayleigh", 16) && s->how == STRUCTURE_DAMPING_RAYLEIGH))
+    field_write(f, s, to);
+  else if (!strcmp(f->name, "names"))
+    for (int i = 0; s->names && i < s->n; ++i) fprintf(to, "%s%s", i ? ", " : "", s->names[i]);
+  else if (!strcmp(f->name, "response"))
+    for (int r = 0; r < structure_response_count(s); ++r)
+      fprintf(to, "%s%s", r ? ", " : "", structure_response_name(s, r, text, sizeof text));
   else if (!strcmp(f->name, "nodes") && s->n_nodes > 0) fprintf(to, "%d", s->n_nodes);
-  else if (!strncmp(f->name, "damping.rayleigh", 16) && s->how == STRUCTURE_DAMPING_RAYLEIGH) field_write(f, s, to);
 }
 
 /* The direction of a load stands beside `direction`, also where the case gave a DOF. */
@@ -317,6 +301,15 @@ typedef struct described {
   const char *asked; /* NULL: everything */
 } described;
 
+static void put_rest(table *t, const field *f, case_place at, bool counts)
+{
+  table_put_text(t, text_or_nothing(f->unit));
+  put_place(t, at, counts);
+  table_put_text(t, f->fallback);
+  table_put_text(t, text_or_nothing(f->symbol));
+  table_put_text(t, f->meaning);
+}
+
 /* j: the contact, if f is one of a contact's; else -1. */
 static hc_status put_value(table *t, const described *d, const field *f, int j)
 {
@@ -325,11 +318,7 @@ static hc_status put_value(table *t, const described *d, const field *f, int j)
   if (f->flags & FIELD_STRUCTURE || !case_field_asked(f, d->asked)) return HC_OK; /* an oscillator has none */
   table_put_text(t, field_path(f, j, path));
   hc_status st = put_text_of(t, f, j >= 0 ? (const void *)&d->sc->contacts[j] : d->sc, counts);
-  table_put_text(t, text_or_nothing(f->unit));
-  put_place(t, case_field_place(d->places, f, j), counts);
-  table_put_text(t, f->fallback);
-  table_put_text(t, text_or_nothing(f->symbol));
-  table_put_text(t, f->meaning);
+  put_rest(t, f, case_field_place(d->places, f, j), counts);
   return st;
 }
 
@@ -342,11 +331,7 @@ static hc_status put_part(table *t, const described *d, const field *f, int j)
   hc_status st = describe_structure_value(d->sc->structure, f, j, &text, &at);
   table_put_text(t, field_path(f, field_is_in_list(f) ? j : -1, path));
   table_put_text(t, text);
-  table_put_text(t, text_or_nothing(f->unit));
-  put_place(t, at, text != NULL);
-  table_put_text(t, f->fallback);
-  table_put_text(t, text_or_nothing(f->symbol));
-  table_put_text(t, f->meaning);
+  put_rest(t, f, at, text != NULL);
   free(text);
   return st;
 }

@@ -38,24 +38,26 @@ void html_printf(FILE *to, const char *format, ...)
   html_text(to, text);
 }
 
-void html_table(FILE *to, const char *caption)
+void html_table(FILE *to, const char *caption, int n, const char *const *heads)
 {
   fputs("<div class=\"wide\" tabindex=\"0\"><table><caption>", to);
   html_text(to, caption);
   fputs("</caption>\n<thead><tr>", to);
-}
-
-void html_head(FILE *to, const char *name)
-{
-  fputs("<th scope=\"col\">", to);
-  for (; *name; ++name) { /* a long name may break at its underscores */
-    html_text(to, (char[]){*name, 0});
-    if (*name == '_') fputs("<wbr>", to);
+  for (int i = 0; i < n; ++i) {
+    if (!heads[i]) continue;
+    fputs("<th scope=\"col\">", to);
+    for (const char *c = heads[i]; *c; ++c) { /* a long name may break at its underscores */
+      html_text(to, (char[]){*c, 0});
+      if (*c == '_') fputs("<wbr>", to);
+    }
+    fputs("</th>", to);
   }
-  fputs("</th>", to);
+  fputs("</tr></thead><tbody>", to);
 }
 
 void html_row(FILE *to) { fputs("\n<tr>", to); }
+
+void html_row_end(FILE *to) { fputs("</tr>", to); }
 
 void html_cell_text(FILE *to, const char *text)
 {
@@ -90,30 +92,27 @@ static bool is_among(const char *name, const char *const *list)
   return false;
 }
 
-static void write_cell(FILE *to, const row_cell *c)
-{
-  if (!c->there) fputs("<td></td>", to);
-  else if (c->kind == TABLE_TEXT) html_cell_text(to, c->as.text);
-  else if (c->kind == TABLE_INTEGER) fprintf(to, "<td>%ld</td>", c->as.integer);
-  else html_cell_number(to, c->as.real);
-}
-
 void html_rows(FILE *to, const char *caption, rows_kind kind, unsigned extra, int n, const void *rows,
                const char *const *without)
 {
   int n_columns;
+  const char *heads[ROWS_MOST];
   const table_column *columns = rows_columns(kind, extra, &n_columns);
-  html_table(to, caption);
-  for (int j = 0; j < n_columns; ++j)
-    if (!is_among(columns[j].name, without)) html_head(to, columns[j].name);
-  fputs("</tr></thead><tbody>", to);
+  for (int j = 0; j < n_columns; ++j) heads[j] = is_among(columns[j].name, without) ? NULL : columns[j].name;
+  html_table(to, caption, n_columns, heads);
   for (int i = 0; i < n; ++i) {
     row_cell cells[ROWS_MOST];
     rows_cells(kind, rows_at(kind, rows, i), extra, cells);
     html_row(to);
-    for (int j = 0; j < n_columns; ++j)
-      if (!is_among(columns[j].name, without)) write_cell(to, &cells[j]);
-    fputs("</tr>", to);
+    for (int j = 0; j < n_columns; ++j) {
+      const row_cell *cell = &cells[j];
+      if (!heads[j]) continue;
+      if (!cell->there) fputs("<td></td>", to);
+      else if (cell->kind == TABLE_TEXT) html_cell_text(to, cell->as.text);
+      else if (cell->kind == TABLE_INTEGER) fprintf(to, "<td>%ld</td>", cell->as.integer);
+      else html_cell_number(to, cell->as.real);
+    }
+    html_row_end(to);
   }
   html_table_end(to);
 }

@@ -16,11 +16,11 @@ void html_percent(FILE *to, const char *text);
 /* html_text, formatted; at most 511 bytes */
 void html_printf(FILE *to, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/* A table: html_table(to, caption), html_head for each column, html_row before each row, one cell after another,
- * html_table_end. */
-void html_table(FILE *to, const char *caption);
-void html_head(FILE *to, const char *name);
+/* A table: html_table with the names of its columns, of which NULL is none, html_row before each row, one cell after
+ * another, html_row_end, html_table_end. */
+void html_table(FILE *to, const char *caption, int n, const char *const *heads);
 void html_row(FILE *to);
+void html_row_end(FILE *to);
 void html_cell_text(FILE *to, const char *text);
 void html_cell_number(FILE *to, double value); /* 6 significant digits; NaN: empty */
 /* A part of an error budget or an error [1], with a bar from 1e-12 to 1 on a logarithmic scale; marked when beyond

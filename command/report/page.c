@@ -114,25 +114,25 @@ static void write_budget_row(FILE *to, const comparison_row *r, const scene *sc)
   BUDGET_PARTS(CELL)
 #undef CELL
   html_cell_bar(to, r->budget.known ? b->sum : NAN, sc->gate.most.amplitude);
-  fputs("</tr>", to);
+  html_row_end(to);
 }
 
 static void write_budget(page *p)
 {
-  static const char *const heads[] = {"verdict", "hbm_amplitude", "transient_amplitude", "amplitude_error"};
-  html_table(
-      p->to,
-      "Verdict and error budget of the amplitude, relative; bars: 1e-12 to 1, logarithmic; red: beyond the gate");
-  html_head(p->to, "omega");
-  if (p->d->sc->in_cycles) html_head(p->to, "frequency");
-  html_head(p->to, "branch");
-  if (p->d->sc->structure) html_head(p->to, "response");
-  for (int i = 0; i < 4; ++i) html_head(p->to, heads[i]);
-#define HEAD(part) html_head(p->to, "from_" #part);
-  BUDGET_PARTS(HEAD)
+#define HEAD(part) "from_" #part,
+  const char *const heads[] = {"omega",
+                               p->d->sc->in_cycles ? "frequency" : NULL,
+                               "branch",
+                               p->d->sc->structure ? "response" : NULL,
+                               "verdict",
+                               "hbm_amplitude",
+                               "transient_amplitude",
+                               "amplitude_error",
+                               BUDGET_PARTS(HEAD) "sum"};
 #undef HEAD
-  html_head(p->to, "sum");
-  fputs("</tr></thead><tbody>", p->to);
+  html_table(p->to,
+             "Verdict and error budget of the amplitude, relative; bars: 1e-12 to 1, logarithmic; red: beyond the gate",
+             sizeof heads / sizeof *heads, heads);
   for (int i = 0; i < p->d->comparison.n_rows; ++i) write_budget_row(p->to, &p->d->comparison.rows[i], p->d->sc);
   html_table_end(p->to);
 }
@@ -146,13 +146,8 @@ static void write_specials(page *p)
     fputs("<p>Nothing special happens on the curve.</p>\n", p->to);
     return;
   }
-  html_table(p->to, "What happens on the curve, in its order");
-  html_head(p->to, "what");
-  html_head(p->to, "omega");
-  if (p->d->sc->in_cycles) html_head(p->to, "frequency");
-  html_head(p->to, "amplitude");
-  html_head(p->to, "branch");
-  fputs("</tr></thead><tbody>", p->to);
+  html_table(p->to, "What happens on the curve, in its order", 5,
+             (const char *const[]){"what", "omega", p->d->sc->in_cycles ? "frequency" : NULL, "amplitude", "branch"});
   json_array_foreach(list, i, special)
   {
     html_row(p->to);
@@ -162,7 +157,7 @@ static void write_specials(page *p)
     if (p->d->sc->in_cycles) fprintf(p->to, "<td>%.10f</td>", scene_frequency(p->d->sc, omega));
     html_cell_number(p->to, json_number_value(json_object_get(special, "amplitude")));
     html_cell_number(p->to, (double)json_integer_value(json_object_get(special, "branch")));
-    fputs("</tr>", p->to);
+    html_row_end(p->to);
   }
   html_table_end(p->to);
 }
@@ -189,15 +184,14 @@ static void write_modes(page *p)
   model_mode *open = calloc(2 * (size_t)m->n, sizeof *open);
   hc_status st = open ? model_mode_list(m, false, open) : HC_NO_MEMORY;
   if (st == HC_OK) st = model_mode_list(m, true, open + m->n);
-  html_table(p->to, "Modes, contacts open and contacts stuck; damping of critical");
-  for (int i = 0; i < 5; ++i) html_head(p->to, p->d->sc->in_cycles ? of_cycles[i] : of_omega[i]);
-  fputs("</tr></thead><tbody>", p->to);
+  html_table(p->to, "Modes, contacts open and contacts stuck; damping of critical", 5,
+             p->d->sc->in_cycles ? of_cycles : of_omega);
   for (int i = 0; i < m->n && st == HC_OK; ++i) {
     html_row(p->to);
     html_cell_number(p->to, i + 1);
     write_mode(p, &open[i]);
     write_mode(p, &open[m->n + i]);
-    fputs("</tr>", p->to);
+    html_row_end(p->to);
   }
   html_table_end(p->to);
   free(open);

@@ -169,16 +169,6 @@ static int choose_omegas(const comparison *c, double *omega, int *first)
   return chosen;
 }
 
-static hc_status gather_aliasing(const scene *sc, const hc_monitor *monitor, report_data *out)
-{
-  double omega[ALIASING_MOST_OMEGAS];
-  int first, n = choose_omegas(&out->comparison, omega, &first);
-  if (n > 0 && !sc->structure && sc->n_contacts > 0) /* the section is of one degree of freedom */
-    return aliasing_answers(sc, n, omega, first, out->setup.jobs, monitor, &out->aliasing);
-  out->aliasing = json_null();
-  return HC_OK;
-}
-
 /* What a structure's responses and contacts are called. */
 static void name_rows(const scene *sc, comparison *c)
 {
@@ -212,7 +202,12 @@ hc_status report_gather(const scene *sc, int jobs, const hc_monitor *monitor,
   json_decref(others);
   if (st != HC_OK) return st;
   announce_stage(announce, self, "aliasing");
-  st = gather_aliasing(sc, monitor, out);
+  double omega[ALIASING_MOST_OMEGAS];
+  int first;
+  const int n = choose_omegas(&out->comparison, omega, &first);
+  if (n > 0 && !sc->structure && sc->n_contacts > 0) /* the section is of one degree of freedom */
+    st = aliasing_answers(sc, n, omega, first, jobs, monitor, &out->aliasing);
+  else out->aliasing = json_null();
   if (st != HC_OK) return st;
   announce_stage(announce, self, "samples and truncation orders");
   out->tabled = accuracy_run(&out->setup, &out->comparison, monitor, &out->accuracy);

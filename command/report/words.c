@@ -99,21 +99,14 @@ static void advise_on_error(const report_data *d, FILE *to)
         unknown, unknown == 1 ? "" : "s");
 }
 
-static const accuracy_row *exact_row(const accuracy *a, int n_harm)
+/* The row of the fewest harmonics of the table from which on the truncation is within the limit; NULL: none. */
+static const accuracy_row *enough_harmonics(const accuracy *a, double limit)
 {
-  for (int i = 0; i < a->n_rows; ++i)
-    if (a->rows[i].harmonics == n_harm && a->rows[i].samples == 0) return &a->rows[i];
-  return NULL;
-}
-
-/* The fewest harmonics of the table from which on the truncation is within the limit; 0: none. */
-static int enough_harmonics(const accuracy *a, double limit)
-{
-  int enough = 0;
+  const accuracy_row *enough = NULL;
   for (int i = a->n_rows - 1; i >= 0; --i) {
     if (a->rows[i].samples) continue;
     if (!(a->rows[i].worst <= limit) || a->rows[i].missing) break;
-    enough = a->rows[i].harmonics;
+    enough = &a->rows[i];
   }
   return enough;
 }
@@ -122,8 +115,8 @@ static void advise_on_harmonics(const report_data *d, FILE *to)
 {
   const accuracy *a = &d->accuracy;
   const double limit = d->sc->gate.most.amplitude;
-  const int enough = enough_harmonics(a, limit), kept = d->comparison.harmonics;
-  const accuracy_row *last = NULL, *row = exact_row(a, enough);
+  const int kept = d->comparison.harmonics;
+  const accuracy_row *last = NULL, *row = enough_harmonics(a, limit);
   if (!d->sc->hbm.keep_mean)
     fputs(
         "<li class=\"bad\">Harmonic 0 is left out (hbm.static: false): that solves another equation, and no number of "
@@ -132,12 +125,12 @@ static void advise_on_harmonics(const report_data *d, FILE *to)
   for (int i = 0; i < a->n_rows; ++i)
     if (a->rows[i].samples == 0) last = &a->rows[i];
   if (!last) return;
-  open_item(to, row && kept >= enough ? "good" : kept > last->harmonics ? "open" : "bad");
+  open_item(to, row && kept >= row->harmonics ? "good" : kept > last->harmonics ? "open" : "bad");
   html_printf(to, "Harmonics: %d kept. ", kept);
   if (row)
     html_printf(
         to, "Of those tried, H >= %d keeps the amplitude within %.3g %% of the exact transient's (H = %d: %.2g %%).",
-        enough, 100 * limit, enough, 100 * row->worst);
+        row->harmonics, 100 * limit, row->harmonics, 100 * row->worst);
   else
     html_printf(
         to,
@@ -146,11 +139,6 @@ static void advise_on_harmonics(const report_data *d, FILE *to)
   if (!row && last->missing)
     html_printf(to, " %d of %d orbits have no solution next to them.", last->missing, a->orbits);
   fputs("</li>\n", to);
-}
-
-static bool samples_suffice(const accuracy_row *r, const accuracy_row *plain, double limit)
-{
-  return r->possible && r->aliasing <= limit && r->missing <= plain->missing;
 }
 
 /* For the number of harmonics of the table next to the one kept: the fewest samples from which on aliasing stays
@@ -166,7 +154,7 @@ static void advise_on_samples(const report_data *d, FILE *to)
     const accuracy_row *r = &a->rows[i];
     if (r->harmonics != plain->harmonics || r->samples == 0) continue;
     if (!most) most = r;
-    if (!samples_suffice(r, plain, d->sc->gate.most.amplitude)) break;
+    if (!r->possible || !(r->aliasing <= d->sc->gate.most.amplitude) || r->missing > plain->missing) break;
     enough = r;
   }
   if (!most) return;
@@ -240,9 +228,8 @@ void words_gate(const report_data *d, FILE *to)
   const char *const heads[] = {"measure", "allowed", "largest found", d->sc->in_cycles ? "at frequency" : "at omega",
                                "within"};
   const worst_errors w = find_worst(&d->comparison);
-  html_table(to, "The gate: largest relative error allowed and found, where both sides are on the same orbit");
-  for (int k = 0; k < 5; ++k) html_head(to, heads[k]);
-  fputs("</tr></thead><tbody>", to);
+  html_table(to, "The gate: largest relative error allowed and found, where both sides are on the same orbit", 5,
+             heads);
   for (int k = 0; k < MEASURES; ++k) {
     html_row(to);
     html_cell_text(to, names[k]);
@@ -250,7 +237,7 @@ void words_gate(const report_data *d, FILE *to)
     html_cell_bar(to, w.error[k], limits[k]);
     html_cell_number(to, d->sc->in_cycles ? scene_frequency(d->sc, w.omega[k]) : w.omega[k]);
     html_cell_text(to, within(&w, k, limits[k]));
-    fputs("</tr>", to);
+    html_row_end(to);
   }
   html_table_end(to);
 }
