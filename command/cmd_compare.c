@@ -158,52 +158,47 @@ static void note_worst(table *t, const scene *sc, const compare_setup *setup, co
                unknown == 1 ? "" : "s");
 }
 
-/* What neither side expected, a line a row: under the table and in json. */
-static void note_unexpected(table *t, const scene *sc, const comparison *c)
+/* Rows of which something is not compared, or holds for one motion of many. */
+static void note_open_rows(table *t, const comparison *c)
 {
-  char text[COMPARISON_UNEXPECTED_TEXT], at[WHERE];
-  for (int i = 0; i < c->n_rows; ++i)
-    if (c->rows[i].unexpected)
-      table_note(t, "UNEXPECTED at %s: %s", row_where(sc, &c->rows[i], at),
-                 comparison_unexpected_text(&c->rows[i], text));
-}
-
-/* Means that are a matter of history. */
-static void note_mean(table *t, const comparison *c)
-{
-  int n = 0;
-  for (int i = 0; i < c->n_rows; ++i) n += comparison_mean_free(&c->rows[i]);
-  if (n == 0) table_hide(t, "mean_free");
+  int mean_free = 0, family = 0, still = 0;
+  for (int i = 0; i < c->n_rows; ++i) {
+    mean_free += comparison_mean_free(&c->rows[i]);
+    family += c->rows[i].family;
+    still += c->rows[i].still;
+  }
+  if (mean_free == 0) table_hide(t, "mean_free");
   else
     table_note(t,
                "%d row%s without a mean to compare (mean_free): a slider that never slips rests where the history "
                "left it, and the mean, max, min and rms with it",
-               n, n == 1 ? "" : "s");
-}
-
-/* Rows whose motion is one of many. */
-static void note_family(table *t, const comparison *c)
-{
-  int n = 0;
-  for (int i = 0; i < c->n_rows; ++i) n += c->rows[i].family;
-  if (n)
+               mean_free, mean_free == 1 ? "" : "s");
+  if (family)
     table_note(t,
                "%d row%s of a family of steady states: where a slider that never slips rests decides on the harmonics, "
                "too. HBM is held against the member that begins with its own sliders",
-               n, n == 1 ? "" : "s");
+               family, family == 1 ? "" : "s");
+  if (still)
+    table_note(t, "%d row%s not compared: that response moves less than 1e-9 of the largest", still,
+               still == 1 ? "" : "s");
 }
 
-/* Responses that hardly move. */
-static void note_still(table *t, const comparison *c)
+/* What neither side expected, a line a row: under the table if there is one, else on stderr. */
+static void say_unexpected(const cli_common *common, const comparison *c, table *t)
 {
-  int n = 0;
-  for (int i = 0; i < c->n_rows; ++i) n += c->rows[i].still;
-  if (n)
-    table_note(t, "%d row%s not compared: that response moves less than 1e-9 of the largest", n, n == 1 ? "" : "s");
+  char text[COMPARISON_UNEXPECTED_TEXT], at[WHERE];
+  for (int i = 0; i < c->n_rows; ++i) {
+    if (!c->rows[i].unexpected) continue;
+    row_where(common->scene, &c->rows[i], at);
+    comparison_unexpected_text(&c->rows[i], text);
+    if (t) table_note(t, "UNEXPECTED at %s: %s", at, text);
+    else cli_message(common, "at %s: %s", at, text);
+  }
 }
 
-static void note_comparison(table *t, const scene *sc, const compare_setup *setup, const comparison *c)
+static void note_comparison(const cli_common *common, table *t, const compare_setup *setup, const comparison *c)
 {
+  const scene *sc = common->scene;
   table_note(t, "%s", sc->title);
   char how[128];
   char law[64] = "exact law";
@@ -225,10 +220,8 @@ static void note_comparison(table *t, const scene *sc, const compare_setup *setu
   for (int v = 0; v < VERDICT_COUNT; ++v)
     if (c->count[v]) table_note(t, "%d %s: %s", c->count[v], verdict_name((verdict)v), verdict_meaning((verdict)v));
   note_worst(t, sc, setup, c);
-  note_unexpected(t, sc, c);
-  note_mean(t, c);
-  note_family(t, c);
-  note_still(t, c);
+  say_unexpected(common, c, t);
+  note_open_rows(t, c);
   if (scene_adrift(sc)) table_note(t, "%s", SCENE_ADRIFT);
   if (!comparison_nonlinear(c)) table_note(t, COMPARISON_LINEAR, c->n_rows);
 }
@@ -245,15 +238,6 @@ static void print_failures(const cli_common *common, const comparison *c)
     cli_solver_failed(common, CLI_HBM, "the HBM response curve", c->curve.end, c->curve.points[c->curve.n - 1].omega);
 }
 
-static void warn_unexpected(const cli_common *common, const comparison *c)
-{
-  char text[COMPARISON_UNEXPECTED_TEXT], at[WHERE];
-  for (int i = 0; i < c->n_rows; ++i)
-    if (c->rows[i].unexpected)
-      cli_message(common, "at %s: %s", row_where(common->scene, &c->rows[i], at),
-                  comparison_unexpected_text(&c->rows[i], text));
-}
-
 static table *comparison_table(const cli_common *common, const compare_setup *setup, comparison *c)
 {
   table *t = cli_table(common, "HBM against time integration", ROWS_COMPARE);
@@ -262,7 +246,7 @@ static table *comparison_table(const cli_common *common, const compare_setup *se
     if (of) structure_response_name(of, c->rows[i].response, c->rows[i].response_name, RESPONSE_NAME);
     cli_put_row(common, t, ROWS_COMPARE, &c->rows[i]);
   }
-  note_comparison(t, common->scene, setup, c);
+  note_comparison(common, t, setup, c);
   return t;
 }
 
@@ -372,7 +356,7 @@ static int run_compare(int argc, char **argv)
   else code = comparison_exit_code(&c);
   if (tabled != HC_OK) code = cli_solver_failed(&common, CLI_BOTH, "the tables", tabled, 0);
   print_failures(&common, &c);
-  warn_unexpected(&common, &c);
+  say_unexpected(&common, &c, NULL);
   if (c.n_rows && !common.quiet && !comparison_nonlinear(&c)) cli_message(&common, COMPARISON_LINEAR, c.n_rows);
   int written = c.n_rows ? cli_write(&common, n_tables, tables) : 0;
   plot_order drawing = {.path = own.plot};

@@ -33,30 +33,26 @@ typedef struct contact_options {
   const char *plot; /* NULL: no drawing */
 } contact_options;
 
-enum { CONTACT_MOST_COEF = GIVEN_MOST_COEF, CONTACT_MOST_DOF = GIVEN_MOST_DOF };
-
 typedef struct contact_motion {
-  int one;          /* which contact of the case, -1: all */
-  int in_model;     /* the same of its model */
-  bool pair;        /* it has two tangents */
-  bool circle;      /* and one limit for both */
-  double slider[2]; /* [length] where it starts: taken off u, or u_1 and u_2 */
-  int n_harm, n_dof, n_contacts;
-  moving_contact *contacts; /* [n_contacts] moved by X; of a pair one, either half's law (model.h) moved by u and v */
-  double given[CONTACT_MOTIONS][CONTACT_MOST_COEF]; /* [length] x; or u - slider, of two tangents both, and v */
-  double X[CONTACT_MOST_DOF * CONTACT_MOST_COEF];   /* [n_dof][2 n_harm + 1] x; u and v; or u_1, u_2 and v */
+  int one;         /* which contact of the case, -1: all */
+  int in_model;    /* the same of its model */
+  given_motion of; /* with these: */
+  moving_contact *contacts;
+  double slider[2];                               /* [length] where it starts: taken off u, or u_1 and u_2 */
+  double given[CONTACT_MOTIONS][GIVEN_MOST_COEF]; /* [length] x; or u - slider, of two tangents both, and v */
+  double X[GIVEN_MOST_DOF * GIVEN_MOST_COEF];
 } contact_motion;
 
 static const char *const motion_names[CONTACT_MOTIONS] = {"motion", "motion-u", "motion-u2", "motion-v"};
 
-/* X[CONTACT_MOST_COEF] from the option; the number of harmonics, 0 if it is not given, or -1 after the message. */
+/* X[GIVEN_MOST_COEF] from the option; the number of harmonics, 0 if it is not given, or -1 after the message. */
 static int read_motion(const cli_common *common, const char *option, const char *motion, double *X)
 {
   int n = 0;
   for (const char *at = motion; at;) {
     size_t length = strcspn(at, ",");
-    if (n == CONTACT_MOST_COEF) {
-      cli_message(common, "--%s takes at most %d coefficients", option, CONTACT_MOST_COEF);
+    if (n == GIVEN_MOST_COEF) {
+      cli_message(common, "--%s takes at most %d coefficients", option, GIVEN_MOST_COEF);
       return -1;
     }
     if (number_read(at, length, &X[n]) != NUMBER_FINE) {
@@ -114,7 +110,7 @@ static int check_directions(const cli_common *common, const contact_options *own
 {
   static const char *const words[] = {"tangent", "second tangent", "normal"};
   const model_contact *c = &of->contacts[m->in_model];
-  const double *const directions[] = {c->tangent, m->pair ? c[1].tangent : NULL, c->normal};
+  const double *const directions[] = {c->tangent, m->of.pair ? c[1].tangent : NULL, c->normal};
   char name[CLI_NAME];
   cli_contact_name(common, m->one, name);
   for (int d = 0; d < 3; ++d)
@@ -128,9 +124,9 @@ static int check_directions(const cli_common *common, const contact_options *own
 /* W, or W1,W2 of two tangents. */
 static bool read_slider(const char *text, contact_motion *m)
 {
-  const size_t first = m->pair ? strcspn(text, ",") : strlen(text);
+  const size_t first = m->of.pair ? strcspn(text, ",") : strlen(text);
   if (number_read(text, first, &m->slider[0]) != NUMBER_FINE) return false;
-  if (!m->pair) return true;
+  if (!m->of.pair) return true;
   const char *second = text + first + 1;
   return text[first] && number_read(second, strlen(second), &m->slider[1]) == NUMBER_FINE;
 }
@@ -141,18 +137,18 @@ static int read_motions(const cli_common *common, const contact_options *own, co
   for (int k = 0; k < CONTACT_MOTIONS; ++k) {
     const int n = read_motion(common, motion_names[k], own->motion[k], m->given[k]);
     if (n < 0) return EXIT_USAGE;
-    if (n > m->n_harm) m->n_harm = n;
+    if (n > m->of.n_harm) m->of.n_harm = n;
   }
   if (own->slider && !read_slider(own->slider, m)) {
     cli_message(common,
-                m->pair ? "--slider: '%s' is not two finite numbers W1,W2, of a contact with two tangents"
-                        : "--slider: '%s' is not a finite number",
+                m->of.pair ? "--slider: '%s' is not two finite numbers W1,W2, of a contact with two tangents"
+                           : "--slider: '%s' is not a finite number",
                 own->slider);
     return EXIT_USAGE;
   }
   if (m->one < 0) return 0;
   if (own->motion[CONTACT_X])
-    for (int i = 0; i < CONTACT_MOST_COEF; ++i) {
+    for (int i = 0; i < GIVEN_MOST_COEF; ++i) {
       m->given[CONTACT_U][i] = *of->contacts[m->in_model].tangent * m->given[CONTACT_X][i];
       m->given[CONTACT_V][i] = *of->contacts[m->in_model].normal * m->given[CONTACT_X][i];
     }
@@ -163,28 +159,19 @@ static int read_motions(const cli_common *common, const contact_options *own, co
 
 static hc_status take_contacts(const model *of, contact_motion *m)
 {
-  m->n_dof = 1;
-  m->n_contacts = of->n_contacts;
-  if (m->one < 0) return moving_contacts_of_model(of, &m->contacts);
+  if (m->one < 0) {
+    const hc_status st = moving_contacts_of_model(of, &m->contacts);
+    m->of = (given_motion){.n_dof = 1, .n_contacts = of->n_contacts, .contacts = m->contacts, .X = m->X};
+    return st;
+  }
   if (!(m->contacts = malloc(sizeof *m->contacts))) return HC_NO_MEMORY;
-  const given_motion given = given_motion_of_contact(of, m->in_model, m->contacts);
-  m->pair = given.pair;
-  m->circle = given.circle;
-  m->n_dof = given.n_dof;
-  m->n_contacts = given.n_contacts;
+  m->of = given_motion_of_contact(of, m->in_model, m->contacts);
+  m->of.X = m->X;
   return HC_OK;
 }
 
-/* Which motion coordinate d is: x of all contacts; u, v of one, or u, u2, v. */
-static int motion_at(const contact_motion *m, int d)
-{
-  if (m->one < 0) return CONTACT_X;
-  if (d == 0) return CONTACT_U;
-  return m->pair && d == 1 ? CONTACT_U2 : CONTACT_V;
-}
-
 /* What the options ask for, with as many harmonics as the motion or the case has, at least 1. 0, or the exit code after
- * the message. Free with contact_motion_clear in any case. */
+ * the message. m->contacts is to be freed in any case. */
 static int contact_motion_find(const cli_common *common, const contact_options *own, contact_motion *m)
 {
   const scene *sc = common->scene;
@@ -197,43 +184,15 @@ static int contact_motion_find(const cli_common *common, const contact_options *
   if (st != HC_OK) code = cli_solver_failed(common, CLI_HBM, "the contact force", st, 0);
   else if (m->one >= 0) code = check_directions(common, own, of, m);
   if (!code) code = read_motions(common, own, of, m);
-  if (m->n_harm < sc->hbm.harmonics) m->n_harm = sc->hbm.harmonics; /* auto is 0: the motion's own */
-  if (m->n_harm < 1) m->n_harm = 1;
-  const size_t n = (size_t)series_length(m->n_harm);
-  for (int d = 0; d < m->n_dof; ++d) memcpy(m->X + (size_t)d * n, m->given[motion_at(m, d)], n * sizeof *m->X);
+  if (m->of.n_harm < sc->hbm.harmonics) m->of.n_harm = sc->hbm.harmonics; /* auto is 0: the motion's own */
+  if (m->of.n_harm < 1) m->of.n_harm = 1;
+  const size_t n = (size_t)series_length(m->of.n_harm);
+  for (int d = 0; d < m->of.n_dof; ++d) {
+    const int motion = m->one < 0 ? CONTACT_X : d == 0 ? CONTACT_U : m->of.pair && d == 1 ? CONTACT_U2 : CONTACT_V;
+    memcpy(m->X + (size_t)d * n, m->given[motion], n * sizeof *m->X);
+  }
   model_free(of);
   return code;
-}
-
-static void contact_motion_clear(contact_motion *m)
-{
-  free(m->contacts);
-  m->contacts = NULL;
-}
-
-/* ---- its contact forces -------------------------------------------------------------------------- */
-
-enum { CONTACT_EXACT = GIVEN_EXACT }; /* in place of a number of samples */
-
-static given_motion given_of(const contact_motion *m)
-{
-  return (given_motion){.pair = m->pair,
-                        .circle = m->circle,
-                        .n_harm = m->n_harm,
-                        .n_dof = m->n_dof,
-                        .n_contacts = m->n_contacts,
-                        .contacts = m->contacts,
-                        .X = m->X};
-}
-
-/* F[n_dof (2H+1)] [force]: what drives each coordinate of m->X, of one contact T (T_1, T_2) and N, by n_time
- * samples a period or CONTACT_EXACT. HC_BAD_INPUT: too few samples; errors of given_motion_force. */
-static hc_status contact_force_of(const contact_motion *m, hbm_restart restart, int n_time, double *F)
-{
-  const given_motion given = given_of(m);
-  const hc_status st = given_motion_force(&given, restart, n_time, F);
-  if (st == HC_OK && m->one >= 0) F[(m->n_dof - 1) * series_length(m->n_harm)] += given_motion_preload(&given);
-  return st;
 }
 
 /* ---- in words what the exact law does along it ------------------------------------------- */
@@ -264,9 +223,9 @@ static void note_period(table *t, const char *name, const contact_period *p)
 static hc_status note_circle_pieces(table *t, const contact_motion *m, const char *name)
 {
   const contact *law = &m->contacts->law;
-  double F[CONTACT_MOST_DOF * CONTACT_MOST_COEF];
+  double F[GIVEN_MOST_DOF * GIVEN_MOST_COEF];
   planar_force *f = NULL;
-  hc_status st = planar_force_new(m->n_harm, given_motion_planar_dof(law), law, &f);
+  hc_status st = planar_force_new(m->of.n_harm, given_motion_planar_dof(law), law, &f);
   if (st == HC_OK) st = planar_force_eval(f, m->X, F, NULL, NULL);
   if (st == HC_OK) {
     const planar_cycle *c = planar_force_cycle(f);
@@ -284,7 +243,7 @@ static hc_status note_circle(table *t, const contact_motion *m, const char *name
   contact_period p[2];
   hc_status st = note_circle_pieces(t, m, name);
   if (st == HC_OK)
-    st = planar_measures_of(&m->contacts->law, m->n_harm, m->given[CONTACT_U], m->given[CONTACT_U2],
+    st = planar_measures_of(&m->contacts->law, m->of.n_harm, m->given[CONTACT_U], m->given[CONTACT_U2],
                             m->given[CONTACT_V], p);
   if (st != HC_OK) return st;
   p[0] = contact_period_of_pair(&p[0], &p[1]);
@@ -298,20 +257,20 @@ static hc_status note_halves(table *t, const contact_motion *m, const char *name
   contact_period p[2];
   for (int d = 0, n; d < 2; ++d) {
     const double *const x[] = {m->given[d ? CONTACT_U2 : CONTACT_U], m->given[CONTACT_V]};
-    const size_t length = (size_t)series_length(m->n_harm);
-    double X[2 * CONTACT_MOST_COEF], F[2 * CONTACT_MOST_COEF];
+    const size_t length = (size_t)series_length(m->of.n_harm);
+    double X[2 * GIVEN_MOST_COEF], F[2 * GIVEN_MOST_COEF];
     char half[CLI_NAME + 16];
     exact_force *e = NULL;
     for (size_t k = 0; k < 2; ++k) memcpy(X + k * length, x[k], length * sizeof *X);
     snprintf(half, sizeof half, "%s, %s", name, tangents[d]);
-    hc_status st = exact_force_new(m->n_harm, 2, 1, m->contacts, &e);
+    hc_status st = exact_force_new(m->of.n_harm, 2, 1, m->contacts, &e);
     if (st == HC_OK) st = exact_force_eval(e, X, F, NULL, NULL);
     if (st == HC_OK) {
       const contact_interval *piece = exact_force_intervals(e, 0, &n);
       note_pieces(t, half, n, piece);
     }
     exact_force_free(e);
-    if (st == HC_OK) st = contact_measures_of(&m->contacts->law, m->n_harm, x[0], x[1], &p[d]);
+    if (st == HC_OK) st = contact_measures_of(&m->contacts->law, m->of.n_harm, x[0], x[1], &p[d]);
     if (st != HC_OK) return st;
   }
   p[0] = contact_period_of_pair(&p[0], &p[1]);
@@ -323,21 +282,20 @@ static hc_status note_halves(table *t, const contact_motion *m, const char *name
  * as above. */
 static hc_status contact_force_note(table *t, const cli_common *common, const contact_motion *m)
 {
-  double F[2 * CONTACT_MOST_COEF];
+  double F[2 * GIVEN_MOST_COEF];
   char name[CLI_NAME];
-  const given_motion given = given_of(m);
-  if (m->pair) cli_contact_name(common, m->one, name);
-  if (m->pair) return given_motion_is_planar(&given) ? note_circle(t, m, name) : note_halves(t, m, name);
+  if (m->of.pair) cli_contact_name(common, m->one, name);
+  if (m->of.pair) return given_motion_is_planar(&m->of) ? note_circle(t, m, name) : note_halves(t, m, name);
   exact_force *e = NULL;
-  hc_status st = exact_force_new(m->n_harm, m->n_dof, m->n_contacts, m->contacts, &e);
+  hc_status st = exact_force_new(m->of.n_harm, m->of.n_dof, m->of.n_contacts, m->contacts, &e);
   if (st == HC_OK) st = exact_force_eval(e, m->X, F, NULL, NULL);
-  for (int j = 0, n; j < m->n_contacts && st == HC_OK; ++j) {
+  for (int j = 0, n; j < m->of.n_contacts && st == HC_OK; ++j) {
     const contact_interval *p = exact_force_intervals(e, j, &n);
     note_pieces(t, cli_contact_name(common, m->one < 0 ? j : m->one, name), n, p);
   }
   if (st == HC_OK && m->one >= 0) {
     contact_period p;
-    st = contact_measures_of(&m->contacts->law, m->n_harm, m->given[CONTACT_U], m->given[CONTACT_V], &p);
+    st = contact_measures_of(&m->contacts->law, m->of.n_harm, m->given[CONTACT_U], m->given[CONTACT_V], &p);
     if (st == HC_OK) note_period(t, name, &p);
   }
   exact_force_free(e);
@@ -373,28 +331,25 @@ static const cli_option options[] = {
 };
 
 /* A set: the coefficients for one number of samples. */
-enum { MAX_SETS = 17, MOST_NUMBERS = CONTACT_MOST_DOF * CONTACT_MOST_COEF };
+enum { MAX_SETS = 17, MOST_NUMBERS = GIVEN_MOST_DOF * GIVEN_MOST_COEF };
 
-/* ---- one set for each number of samples ------------------------------------------- */
-
-/* Coefficients for each number of samples n_time[n_sets] into F[n_sets][MOST_NUMBERS]. 0 or the exit code after the
- * message. */
+/* What drives each coordinate of m->X, of one contact T (T_1, T_2) and N, for each number of samples n_time[n_sets],
+ * into F[n_sets][MOST_NUMBERS]. 0 or the exit code after the message. */
 static int evaluate(const cli_common *common, const contact_motion *m, const int *n_time, int n_sets,
                     double (*F)[MOST_NUMBERS])
 {
   for (int i = 0; i < n_sets; ++i) {
-    hc_status st = contact_force_of(m, common->scene->hbm.restart, n_time[i], F[i]);
+    hc_status st = given_motion_force(&m->of, common->scene->hbm.restart, n_time[i], F[i]);
     if (st == HC_BAD_INPUT) {
-      cli_message(common, "%d samples are too few for %d harmonics; expected at least %d", n_time[i], m->n_harm,
-                  2 * m->n_harm + 1);
+      cli_message(common, "%d samples are too few for %d harmonics; expected at least %d", n_time[i], m->of.n_harm,
+                  2 * m->of.n_harm + 1);
       return EXIT_USAGE;
     }
     if (st != HC_OK) return cli_solver_failed(common, CLI_HBM, "the contact force", st, 0);
+    if (m->one >= 0) F[i][(m->of.n_dof - 1) * series_length(m->of.n_harm)] += given_motion_preload(&m->of);
   }
   return 0;
 }
-
-/* ---- the table ------------------------------------------------------------------------------------ */
 
 static int write_table(const cli_common *common, const contact_motion *m, const int *n_time, int n_sets,
                        double (*F)[MOST_NUMBERS])
@@ -411,17 +366,17 @@ static int write_table(const cli_common *common, const contact_motion *m, const 
       columns[2 + 2 * i + part] = (table_column){names[2 * i + part], TABLE_REAL};
     }
   table *t = table_new("Contact force", 1 + single + 2 * n_sets, columns + !single);
-  for (int d = 0; d < m->n_dof; ++d)
-    for (int h = 0; h <= m->n_harm; ++h) {
-      if (single) table_put_text(t, forces[d == m->n_dof - 1 ? 2 : d]);
+  for (int d = 0; d < m->of.n_dof; ++d)
+    for (int h = 0; h <= m->of.n_harm; ++h) {
+      if (single) table_put_text(t, forces[d == m->of.n_dof - 1 ? 2 : d]);
       table_put_integer(t, h);
       for (int i = 0; i < n_sets; ++i) {
-        const double *f = F[i] + d * series_length(m->n_harm);
+        const double *f = F[i] + d * series_length(m->of.n_harm);
         table_put_real(t, h ? f[2 * h - 1] : f[0]);
         table_put_real(t, h ? f[2 * h] : 0);
       }
     }
-  if (n_time[0] == CONTACT_EXACT) table_note(t, "%s: cos and sin exact", sc->title);
+  if (n_time[0] == GIVEN_EXACT) table_note(t, "%s: cos and sin exact", sc->title);
   else table_note(t, "%s: cos and sin by sampling, N = %d", sc->title, n_time[0]);
   hc_status st = contact_force_note(t, common, m);
   int code =
@@ -436,7 +391,7 @@ static int list_sets(const cli_common *common, const contact_options *own, int n
   const scene *sc = common->scene;
   static const double most = 1 << 24;
   int n_sets = 0;
-  n_time[n_sets++] = sc->hbm.force == HBM_FORCE_EXACT ? CONTACT_EXACT : sc->hbm.samples;
+  n_time[n_sets++] = sc->hbm.force == HBM_FORCE_EXACT ? GIVEN_EXACT : sc->hbm.samples;
   for (int i = 0; i < own->samples.n; ++i) {
     double n = own->samples.v[i];
     if (n_sets == MAX_SETS) cli_message(common, "--samples takes at most %d numbers", MAX_SETS - 1);
@@ -450,16 +405,8 @@ static int list_sets(const cli_common *common, const contact_options *own, int n
 static int draw_contact(const cli_common *common, const char *path, const contact_motion *m)
 {
   plot_order drawing = {.path = path};
-  const plot_motion motion = {.first = m->one < 0 ? 0 : m->one,
-                              .circle = m->circle,
-                              .slider = {m->slider[0], m->slider[1]},
-                              .n_harm = m->n_harm,
-                              .n_dof = m->n_dof,
-                              .n_contacts = m->n_contacts,
-                              .contacts = m->contacts,
-                              .X = m->X};
-  const hc_status st =
-      m->pair ? plot_contact_plane(&drawing, common->scene, &motion) : plot_contact(&drawing, common->scene, &motion);
+  const plot_motion motion = {m->one < 0 ? 0 : m->one, {m->slider[0], m->slider[1]}, &m->of};
+  const hc_status st = plot_contact(&drawing, common->scene, &motion);
   return cli_plotted(common, st, drawing.why);
 }
 
@@ -493,7 +440,7 @@ static int run_contact(int argc, char **argv)
   int code = cli_start(&cmd_contact, argc, argv, &own, &common, &sc);
   if (!code) code = contact_motion_find(&common, &own, &motion);
   if (!code) code = put_forces(&common, &own, &motion);
-  contact_motion_clear(&motion);
+  free(motion.contacts);
   case_clear(&sc);
   return code;
 }

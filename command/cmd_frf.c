@@ -128,21 +128,6 @@ static void note_curve(table *t, const scene *sc, const hbm_solver *s, const hbm
   else table_note(t, "STOPPED at %s: %s", last, hc_status_text(c->end));
 }
 
-/* "Newton: 275 unknowns, 612 factorisations" */
-static void note_newton(table *t, const hbm_solver *s)
-{
-  const hbm_newton_report r = hbm_newton_work(s);
-  table_note(t, "Newton: %d unknowns, %ld factorisations", r.unknowns, r.factorisations);
-}
-
-/* "omega = 9.2095785410", or "frequency = 1.4657502 (omega = ...)" where the sweep is in cycles. */
-static const char *precisely(const scene *sc, double omega, char text[SCENE_WHERE])
-{
-  if (sc->in_cycles) snprintf(text, SCENE_WHERE, "frequency = %.10f (omega = %.10f)", omega / TWO_PI, omega);
-  else snprintf(text, SCENE_WHERE, "omega = %.10f", omega);
-  return text;
-}
-
 static hc_status note_specials(table *t, const scene *sc, hbm_solver *s, const hbm_curve *c)
 {
   enum { SHOWN = 24 };
@@ -157,28 +142,14 @@ static hc_status note_specials(table *t, const scene *sc, hbm_solver *s, const h
   hc_status st = hbm_specials(s, c, SHOWN, special, &n);
   for (int i = 0; i < n && i < SHOWN; ++i) {
     const hbm_special *p = &special[i];
-    char where[SCENE_WHERE];
-    precisely(sc, p->omega, where);
-    const char *from = contact_regime_name(p->before), *to = contact_regime_name(p->after);
-    if (p->kind == HBM_TURNING_POINT) table_note(t, "turning point at %s, %s %.9g", where, amplitude, p->amplitude);
-    else if (p->kind == HBM_PERIOD_DOUBLING)
-      table_note(t, "period doubling at %s, %s %.9g", where, amplitude, p->amplitude);
-    else if (p->kind == HBM_NEIMARK_SACKER)
-      table_note(t, "Neimark-Sacker point at %s, %s %.9g", where, amplitude, p->amplitude);
-    else if (p->before != p->after)
-      table_note(t, "contact goes from %s to %s at %s, %s %.9g", from, to, where, amplitude, p->amplitude);
-    else table_note(t, "contact pattern changes (%s) at %s, %s %.9g", to, where, amplitude, p->amplitude);
+    char what[ROWS_SPECIAL], where[SCENE_WHERE];
+    if (sc->in_cycles) snprintf(where, sizeof where, "frequency = %.10f (omega = %.10f)", p->omega / TWO_PI, p->omega);
+    else snprintf(where, sizeof where, "omega = %.10f", p->omega);
+    table_note(t, "%s at %s, %s %.9g", rows_special_text(p, what), where, amplitude, p->amplitude);
   }
   if (n > SHOWN) table_note(t, "and %d more", n - SHOWN);
   if (st != HC_OK) table_note(t, "at least one more was noticed but not located: %s", hc_status_text(st));
   return st;
-}
-
-static void foretell_memory(const cli_common *common, const scene *sc)
-{
-  compare_setup setup;
-  if (scene_setup(sc, &setup) == HC_OK) cli_foretell_memory(common, memory_of_curve(setup.model, &setup.hbm));
-  scene_setup_clear(&setup);
 }
 
 static int run_frf(int argc, char **argv)
@@ -195,7 +166,9 @@ static int run_frf(int argc, char **argv)
   double from, to, failed_at = 0;
   table *t = cli_table(&common, "Response curve", ROWS_FRF);
   table *contacts = own.contacts ? cli_table(&common, "Contacts", ROWS_CONTACT) : NULL;
-  foretell_memory(&common, &sc);
+  compare_setup setup;
+  if (scene_setup(&sc, &setup) == HC_OK) cli_foretell_memory(&common, memory_of_curve(setup.model, &setup.hbm));
+  scene_setup_clear(&setup);
   progress *bar = progress_start("harmonic balance", common.quiet);
   hc_monitor monitor = progress_monitor(bar);
   if (!own.at.n) sc.compare.omega.n = 0; /* those of the case are for the comparison */
@@ -215,7 +188,8 @@ static int run_frf(int argc, char **argv)
     if (contacts) shown = put_contacts(&common, s, at->n ? &found : &curve, contacts);
     if (st == HC_OK) st = shown;
     note_curve(t, &sc, s, &curve, at->n > 0);
-    if (own.verbose) note_newton(t, s);
+    const hbm_newton_report work = hbm_newton_work(s);
+    if (own.verbose) table_note(t, "Newton: %d unknowns, %ld factorisations", work.unknowns, work.factorisations);
     hc_status noted = at->n ? HC_OK : note_specials(t, &sc, s, &curve);
     if (st == HC_OK && noted == HC_NO_MEMORY) st = noted; /* another failure to locate one is in the note */
     if (st != HC_OK && (curve.n == 0 || curve.end == HC_OK)) table_note(t, "INCOMPLETE: %s", hc_status_text(st));

@@ -189,11 +189,6 @@ static int close_junit(gate_call *call, hc_status st)
   return st == HC_OK ? 0 : cli_file_failed(&call->common, call->own.junit, st);
 }
 
-static int write_junit(gate_call *call)
-{
-  return call->junit ? close_junit(call, gate_write_junit(call->n_judged, call->cases, output_stream(call->junit))) : 0;
-}
-
 /* Where a case file is wrong: the JUnit file with its message, so that CI shows why nothing was judged. Returns the
  * exit code, which is that of the wrong file even if this one cannot be written. */
 static int report_unread(gate_call *call, int code)
@@ -206,16 +201,6 @@ static int report_unread(gate_call *call, int code)
       gate_write_junit_unread(call->common.n_arguments, call->common.arguments, wrong, output_stream(call->junit));
   close_junit(call, st);
   return code;
-}
-
-/* The table and the JUnit file: each is written even if the other one fails. */
-static int write_results(gate_call *call)
-{
-  table *t = checks_table(call);
-  int shown = cli_write(&call->common, 1, &t), reported = write_junit(call),
-      code = gate_exit_code(call->n_judged, call->cases);
-  table_free(t);
-  return code ? code : shown ? shown : reported;
 }
 
 static int run_gate(int argc, char **argv)
@@ -234,7 +219,16 @@ static int run_gate(int argc, char **argv)
   if (!code && (code = read_cases(&call)) == EXIT_BAD_CASE) code = report_unread(&call, code);
   if (!code) code = open_junit(&call);
   if (!code && call.cases && call.responses) code = judge_cases(&call);
-  if (!code) code = write_results(&call);
+  if (!code) { /* each is written even if the other one fails */
+    table *t = checks_table(&call);
+    const int shown = cli_write(&call.common, 1, &t);
+    int reported = 0;
+    if (call.junit)
+      reported = close_junit(&call, gate_write_junit(call.n_judged, call.cases, output_stream(call.junit)));
+    code = gate_exit_code(call.n_judged, call.cases);
+    if (!code) code = shown ? shown : reported;
+    table_free(t);
+  }
   output_abandon(call.junit);
   for (int i = 0; i < call.n_judged; ++i) gate_clear(&call.cases[i]);
   free(call.errors);

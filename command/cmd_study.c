@@ -104,12 +104,6 @@ static int study_failed(const study_call *call, hc_status st, const case_error *
 
 /* ---- before anything runs ---- */
 
-static bool is_folder(const char *path)
-{
-  struct stat info;
-  return stat(path, &info) == 0 && S_ISDIR(info.st_mode);
-}
-
 /* The file of --results; without, the study's name with .sqlite, here or in the folder of --results. */
 static void name_results(const study_options *own, study_entry *entry)
 {
@@ -119,7 +113,8 @@ static void name_results(const study_options *own, study_entry *entry)
                                               : name;
   const char *dot = strrchr(stem, '.');
   int length = (int)(dot && dot > stem ? (size_t)(dot - stem) : strlen(stem));
-  bool folder = own->results && is_folder(own->results);
+  struct stat info;
+  const bool folder = own->results && stat(own->results, &info) == 0 && S_ISDIR(info.st_mode);
   if (own->results && !folder) snprintf(entry->results, sizeof entry->results, "%s", own->results);
   else
     snprintf(entry->results, sizeof entry->results, "%s%s%.*s.sqlite", folder ? own->results : "", folder ? "/" : "",
@@ -194,14 +189,6 @@ static void list_files(study_entry *entry, cli_file *list)
     memcpy(entry->beside[i] + length, endings[i], strlen(endings[i]) + 1);
     list[2 + i] = (cli_file){"the results file's companion", kept ? entry->beside[i] : NULL, CLI_RESULTS};
   }
-}
-
-/* No file in two roles. 0 or the exit code. */
-static int check_files(study_call *call)
-{
-  int n = 0;
-  for (int i = 0; i < call->n_studies; ++i, n += FILES_EACH) list_files(&call->studies[i], call->files + n);
-  return cli_check_files(&call->common, n, call->files);
 }
 
 static int open_stores(study_call *call)
@@ -454,7 +441,9 @@ static int run_study(int argc, char **argv)
   call->jobs = call->own.jobs ? call->own.jobs : call->n_ranks > 1 ? 1 : cli_processors();
   int code = check_usage(call, without_mpi);
   if (!code) code = read_studies(call);
-  if (!code && call->rank == 0) code = check_files(call);
+  for (int i = 0; i < call->n_studies && !code; ++i)
+    list_files(&call->studies[i], call->files + (ptrdiff_t)i * FILES_EACH);
+  if (!code && call->rank == 0) code = cli_check_files(&call->common, call->n_studies * FILES_EACH, call->files);
   if (!code && call->rank == 0) code = open_stores(call);
   int agreed = cluster_agree(code);
   if (!agreed && call->rank == 0) code = run_rank_0(call);

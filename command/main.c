@@ -36,13 +36,6 @@ static int written(const char *what)
   return EXIT_NO_SOLUTION;
 }
 
-static const cli_command *find_command(const char *name)
-{
-  for (int i = 0; i < N_COMMANDS; ++i)
-    if (!strcmp(name, commands[i]->name)) return commands[i];
-  return NULL;
-}
-
 static int unknown_command(const char *asked)
 {
   char hint[NEAREST_HINT];
@@ -72,7 +65,9 @@ int main(int argc, char **argv)
   }
   const bool help = !strcmp(argv[1], "help"); /* help NAME is NAME --help */
   const char *name = argv[help ? 2 : 1];
-  const cli_command *command = find_command(name);
+  const cli_command *command = NULL;
+  for (int i = 0; i < N_COMMANDS && !command; ++i)
+    if (!strcmp(name, commands[i]->name)) command = commands[i];
   char *ask[] = {argv[0], "--help", NULL};
   return !command ? unknown_command(name) : help ? command->run(2, ask) : command->run(argc - 1, argv + 1);
 }

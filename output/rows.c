@@ -345,3 +345,14 @@ const void *rows_at(rows_kind kind, const void *rows, int i)
 }
 
 const char *const *rows_spare(rows_kind kind, bool in_cycles) { return kinds[kind].spare + !in_cycles; }
+
+const char *rows_special_text(const hbm_special *p, char text[ROWS_SPECIAL])
+{
+  const char *from = contact_regime_name(p->before), *to = contact_regime_name(p->after);
+  if (p->kind == HBM_TURNING_POINT) snprintf(text, ROWS_SPECIAL, "turning point");
+  else if (p->kind == HBM_PERIOD_DOUBLING) snprintf(text, ROWS_SPECIAL, "period doubling");
+  else if (p->kind == HBM_NEIMARK_SACKER) snprintf(text, ROWS_SPECIAL, "Neimark-Sacker point");
+  else if (p->before != p->after) snprintf(text, ROWS_SPECIAL, "contact goes from %s to %s", from, to);
+  else snprintf(text, ROWS_SPECIAL, "contact pattern changes (%s)", to);
+  return text;
+}

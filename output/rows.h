@@ -48,6 +48,10 @@ const char *const *rows_spare(rows_kind kind, bool in_cycles);
  * there. Cannot fail. */
 void rows_cells(rows_kind kind, const void *row, unsigned extra, row_cell *cells);
 
+/* "turning point", "contact goes from slip to separation": what happens there. Returns text. */
+enum { ROWS_SPECIAL = 96 };
+const char *rows_special_text(const hbm_special *p, char text[ROWS_SPECIAL]);
+
 /* Entry i of rows[] of that type. */
 const void *rows_at(rows_kind kind, const void *rows, int i);
 

@@ -98,8 +98,8 @@ static void compute_history(const plot_motion *m, const moving_contact *c, const
     double v = 0;
     const contact_interval *p = piece_at(pieces, n, th);
     out->u[i] = 0;
-    for (int d = 0; d < m->n_dof; ++d) {
-      const double x = series_at(m->n_harm, m->X + d * series_length(m->n_harm), cos(th), sin(th)).x;
+    for (int d = 0; d < m->of->n_dof; ++d) {
+      const double x = series_at(m->of->n_harm, m->of->X + d * series_length(m->of->n_harm), cos(th), sin(th)).x;
       out->u[i] += c->cu[d] * x;
       v += c->cv[d] * x;
     }
@@ -149,14 +149,15 @@ static hc_status write_contacts(figure *g, const plot_motion *m, int n, int ther
   double F[SERIES_MAX_DIM * (2 * HBM_MAX_HARMONICS + 1)];
   exact_force *e = NULL;
   contact_history *w = malloc(sizeof *w);
-  hc_status st = w ? exact_force_new(m->n_harm, m->n_dof, m->n_contacts, m->contacts, &e) : HC_NO_MEMORY;
-  if (st == HC_OK) st = exact_force_eval(e, m->X, F, NULL, NULL);
+  hc_status st =
+      w ? exact_force_new(m->of->n_harm, m->of->n_dof, m->of->n_contacts, m->of->contacts, &e) : HC_NO_MEMORY;
+  if (st == HC_OK) st = exact_force_eval(e, m->of->X, F, NULL, NULL);
   for (int j = 0, pieces; j < n && st == HC_OK; ++j) {
     const contact_interval *p = exact_force_intervals(e, j, &pieces);
-    compute_history(m, &m->contacts[j], p, pieces, w);
+    compute_history(m, &m->of->contacts[j], p, pieces, w);
     for (int k = 0; k < PHASES; ++k) there[j][k] = write_phase(g, j, k, POINTS, w->state, w->u, w->t);
     widen_to_closed(closed, w);
-    write_forces(g, w, &m->contacts[j].law, j);
+    write_forces(g, w, &m->of->contacts[j].law, j);
   }
   exact_force_free(e);
   free(w);
@@ -199,10 +200,10 @@ static const char *say_which(const scene *sc, const plot_motion *m, int n, char 
   return text;
 }
 
-hc_status plot_contact(plot_order *p, const scene *sc, const plot_motion *m)
+static hc_status plot_loops(plot_order *p, const scene *sc, const plot_motion *m)
 {
   figure g = {0};
-  int n = m->n_contacts < MOST_LOOPS ? m->n_contacts : MOST_LOOPS, there[MOST_LOOPS][PHASES];
+  int n = m->of->n_contacts < MOST_LOOPS ? m->of->n_contacts : MOST_LOOPS, there[MOST_LOOPS][PHASES];
   double closed[2] = {INFINITY, -INFINITY}; /* u while some contact is closed */
   char about[128];
   if (n == 0) {
@@ -231,11 +232,11 @@ typedef struct plane_history {
 /* The motion and the limit; no traction yet. */
 static void follow_motion(const plot_motion *m, plane_history *out)
 {
-  const contact *law = &m->contacts->law;
-  const int n = series_length(m->n_harm);
+  const contact *law = &m->of->contacts->law;
+  const int n = series_length(m->of->n_harm);
   for (int i = 0; i <= POINTS; ++i) {
-    const double c = cos(angle_of(i)), s = sin(angle_of(i)), v = series_at(m->n_harm, m->X + 2 * n, c, s).x;
-    for (int d = 0; d < 2; ++d) out->u[d][i] = series_at(m->n_harm, m->X + d * n, c, s).x;
+    const double c = cos(angle_of(i)), s = sin(angle_of(i)), v = series_at(m->of->n_harm, m->of->X + 2 * n, c, s).x;
+    for (int d = 0; d < 2; ++d) out->u[d][i] = series_at(m->of->n_harm, m->of->X + d * n, c, s).x;
     out->limit[i] = law->mu * contact_normal(law, v);
     out->state[i] = CONTACT_SEPARATED;
   }
@@ -265,11 +266,11 @@ static void follow_circle(const planar_cycle *c, const contact *law, plane_histo
 
 static hc_status evaluate_circle(const plot_motion *m, plane_history *out)
 {
-  const contact *law = &m->contacts->law;
+  const contact *law = &m->of->contacts->law;
   double F[SERIES_MAX_DIM * (2 * HBM_MAX_HARMONICS + 1)];
   planar_force *f = NULL;
-  hc_status st = planar_force_new(m->n_harm, law->kn > 0 ? 3 : 2, law, &f);
-  if (st == HC_OK) st = planar_force_eval(f, m->X, F, NULL, NULL);
+  hc_status st = planar_force_new(m->of->n_harm, law->kn > 0 ? 3 : 2, law, &f);
+  if (st == HC_OK) st = planar_force_eval(f, m->of->X, F, NULL, NULL);
   if (st == HC_OK) follow_circle(planar_force_cycle(f), law, out);
   planar_force_free(f);
   return st;
@@ -289,16 +290,16 @@ static void follow_tangent(int d, const contact_interval *p, int n, const contac
 
 static hc_status evaluate_square(const plot_motion *m, plane_history *out)
 {
-  const size_t n = (size_t)series_length(m->n_harm);
+  const size_t n = (size_t)series_length(m->of->n_harm);
   double F[2 * (2 * HBM_MAX_HARMONICS + 1)], X[2 * (2 * HBM_MAX_HARMONICS + 1)];
   exact_force *e = NULL;
-  hc_status st = exact_force_new(m->n_harm, 2, 1, m->contacts, &e);
-  memcpy(X + n, m->X + 2 * n, n * sizeof *X);
+  hc_status st = exact_force_new(m->of->n_harm, 2, 1, m->of->contacts, &e);
+  memcpy(X + n, m->of->X + 2 * n, n * sizeof *X);
   for (int d = 0, pieces; d < 2 && st == HC_OK; ++d) {
-    memcpy(X, m->X + (size_t)d * n, n * sizeof *X);
+    memcpy(X, m->of->X + (size_t)d * n, n * sizeof *X);
     st = exact_force_eval(e, X, F, NULL, NULL);
     const contact_interval *p = exact_force_intervals(e, 0, &pieces);
-    if (st == HC_OK) follow_tangent(d, p, pieces, &m->contacts->law, out);
+    if (st == HC_OK) follow_tangent(d, p, pieces, &m->of->contacts->law, out);
   }
   exact_force_free(e);
   return st;
@@ -310,7 +311,7 @@ static void place_slider(const plot_motion *m, plane_history *out)
   for (int d = 0; d < 2; ++d)
     for (int i = 0; i <= POINTS; ++i) {
       out->u[d][i] += m->slider[d];
-      out->w[d][i] = out->u[d][i] - out->t[d][i] / m->contacts->law.kt;
+      out->w[d][i] = out->u[d][i] - out->t[d][i] / m->of->contacts->law.kt;
     }
 }
 
@@ -384,13 +385,13 @@ static void draw_both(figure *g, const scene *sc, const plane_history *w, const 
   figure_draw(g);
 }
 
-hc_status plot_contact_plane(plot_order *p, const scene *sc, const plot_motion *m)
+static hc_status plot_plane(plot_order *p, const scene *sc, const plot_motion *m)
 {
   const char *const name = scene_contact_at(sc, m->first)->name;
   figure g = {0};
   char about[128];
   int there[PHASES];
-  if (!contact_has_friction(&m->contacts->law)) {
+  if (!contact_has_friction(&m->of->contacts->law)) {
     snprintf(p->why, sizeof p->why, "the contact has no friction: there is no traction to draw");
     return HC_BAD_INPUT;
   }
@@ -399,7 +400,7 @@ hc_status plot_contact_plane(plot_order *p, const scene *sc, const plot_motion *
   if (st == HC_OK && !w) st = HC_NO_MEMORY;
   if (st == HC_OK) {
     follow_motion(m, w);
-    st = m->circle ? evaluate_circle(m, w) : evaluate_square(m, w);
+    st = m->of->circle ? evaluate_circle(m, w) : evaluate_square(m, w);
   }
   if (st == HC_OK) {
     place_slider(m, w);
@@ -408,11 +409,16 @@ hc_status plot_contact_plane(plot_order *p, const scene *sc, const plot_motion *
     if (*name) snprintf(about, sizeof about, "contact %s", name);
     else snprintf(about, sizeof about, "contact %d", m->first);
     snprintf(about + strlen(about), sizeof about - strlen(about), "; exact law, limit: %s, along the given motion",
-             m->circle ? "circle" : "square");
+             m->of->circle ? "circle" : "square");
     panels_begin(&g, 1, 2, sc->title, about);
-    draw_both(&g, sc, w, there, m->circle);
+    draw_both(&g, sc, w, there, m->of->circle);
     panels_end(&g);
   }
   free(w);
   return figure_close(&g, st);
+}
+
+hc_status plot_contact(plot_order *p, const scene *sc, const plot_motion *m)
+{
+  return m->of->pair ? plot_plane(p, sc, m) : plot_loops(p, sc, m);
 }

@@ -14,6 +14,7 @@
 #include "compare/comparison.h"
 #include "compare/steady_states.h"
 #include "compare/verify/verify.h"
+#include "hbm/forces/given_motion.h"
 #include "hbm/hbm.h"
 #include "study/store.h"
 
@@ -53,18 +54,13 @@ hc_status plot_transient(plot_order *p, const scene *sc, const steady_states *fo
 
 /* Contacts under a given motion. */
 typedef struct plot_motion {
-  int first;        /* the first contact's number in the case */
-  bool circle;      /* of two tangents: one limit for both */
-  double slider[2]; /* [length] has been taken off u, or u_1 and u_2: u - w is what the law knows */
-  int n_harm, n_dof, n_contacts;
-  const moving_contact *contacts; /* [n_contacts] */
-  const double *X;                /* [n_dof][2 n_harm + 1] the coordinates that move them, n_harm >= 1 */
+  int first;              /* the first contact's number in the case */
+  double slider[2];       /* [length] has been taken off u, or u_1 and u_2: u - w is what the law knows */
+  const given_motion *of; /* with n_harm >= 1 */
 } plot_motion;
-/* Hysteresis loops T over u and the forces over the period. */
+/* Hysteresis loops T over u and the forces over the period; of one contact with two tangents the traction in the plane
+ * with the limit of friction, and the ways of the motion and of the slider. */
 hc_status plot_contact(plot_order *p, const scene *sc, const plot_motion *m);
-/* The same of one contact with two tangents, whose half moves by u_1, u_2 and v: the traction in the plane with the
- * limit of friction, and the ways of the motion and of the slider. */
-hc_status plot_contact_plane(plot_order *p, const scene *sc, const plot_motion *m);
 
 /* A measure (a column of scenes, or the largest of a column of rows; NULL: the peak's amplitude, or the amplitude)
  * of a response (a structure's; NULL: the first)

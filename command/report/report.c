@@ -10,6 +10,7 @@
 #include "command/report/parts.h"
 #include "compare/comparison.h"
 #include "compare/response.h"
+#include "output/rows.h"
 #include "study/scene_solvers.h"
 
 /* ---- the response curve ------------------------------------------------------------ */
@@ -50,15 +51,9 @@ static void append_specials(hbm_solver *s, const hbm_curve *c, json_t *list)
   hbm_specials(s, c, MOST, special, &n); /* if one cannot be located, those before it are shown */
   for (int i = 0; i < n && i < MOST; ++i) {
     const hbm_special *p = &special[i];
-    char text[96];
-    const char *from = contact_regime_name(p->before), *to = contact_regime_name(p->after);
-    if (p->kind == HBM_TURNING_POINT) snprintf(text, sizeof text, "turning point");
-    else if (p->kind == HBM_PERIOD_DOUBLING) snprintf(text, sizeof text, "period doubling");
-    else if (p->kind == HBM_NEIMARK_SACKER) snprintf(text, sizeof text, "Neimark-Sacker point");
-    else if (p->before != p->after) snprintf(text, sizeof text, "contact goes from %s to %s", from, to);
-    else snprintf(text, sizeof text, "contact pattern changes (%s)", to);
+    char text[ROWS_SPECIAL];
     json_array_append_new(list, json_pack("{s:f, s:f, s:i, s:s}", "omega", p->omega, "amplitude", p->amplitude,
-                                          "branch", p->branch, "what", text));
+                                          "branch", p->branch, "what", rows_special_text(p, text)));
   }
 }
 
