@@ -71,11 +71,7 @@ static const char *const spare_columns[] = {"omega",   "low",   "high",  "curve_
 static const double accuracies[] = {1e-2, 1e-3, 1e-4, 1e-6, 1e-8};
 enum { N_ACCURACIES = sizeof accuracies / sizeof *accuracies };
 
-static void put_count(table *t, int n)
-{
-  if (n > 0) table_put_integer(t, n);
-  else table_put_missing(t);
-}
+static void put_count(table *t, int n) { table_put_integer_if(t, n > 0, n); }
 
 /* Rounded to three digits: those beyond are noise of the clock. */
 static void put_seconds(table *t, double s)

@@ -288,10 +288,8 @@ static void put_place(table *t, case_place at, bool counts)
 {
   const bool in_file = counts && at.line > 0 && at.set == 0;
   table_put_text(t, !counts ? NULL : at.line == 0 ? "default" : in_file ? "file" : "--set");
-  if (in_file) table_put_integer(t, (long)at.line);
-  else table_put_missing(t);
-  if (in_file) table_put_integer(t, (long)at.column);
-  else table_put_missing(t);
+  table_put_integer_if(t, in_file, (long)at.line);
+  table_put_integer_if(t, in_file, (long)at.column);
 }
 
 /* What is shown of one case. */

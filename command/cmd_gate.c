@@ -146,8 +146,7 @@ static void put_check(const gate_call *call, table *t, int of, const gate_check 
   table_put_text(t, people && call->short_names ? without_folder(call->cases[of].name) : call->cases[of].name);
   table_put_real(t, c->omega);
   if (call->extra & ROWS_IN_CYCLES) table_put_real(t, sc->in_cycles ? scene_frequency(sc, c->omega) : NAN);
-  if (c->branch >= 0) table_put_integer(t, c->branch);
-  else table_put_missing(t);
+  table_put_integer_if(t, c->branch >= 0, c->branch);
   if (call->extra & ROWS_RESPONSES) table_put_text(t, gate_response(&call->cases[of], c));
   table_put_text(t, *c->verdict ? c->verdict : NULL);
   table_put_text(t, c->quantity);

@@ -173,8 +173,7 @@ static void put_errors(const stress_call *call, int kind, table *t)
   if (n > 0) qsort(errors, (size_t)n, sizeof *errors, ascending);
   table_put_real(t, n > 0 ? errors[n / 2] : NAN);
   table_put_real(t, n > 0 ? largest : NAN);
-  if (n > 0) table_put_integer(t, at);
-  else table_put_missing(t);
+  table_put_integer_if(t, n > 0, at);
   free(errors);
 }
 

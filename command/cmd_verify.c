@@ -224,8 +224,7 @@ static void put_row(table *t, const scene *sc, const verified *v, const verify_r
   if (sc->in_cycles) table_put_real(t, scene_frequency(sc, r->omega));
   table_put_real(t, verify_quantity_to_column(q, r->value));
   table_put_real(t, verify_quantity_to_column(q, r->nearest));
-  if (r->branch >= 0) table_put_integer(t, r->branch);
-  else table_put_missing(t);
+  table_put_integer_if(t, r->branch >= 0, r->branch);
   put_response(t, sc, v);
   table_put_text(t, r->branch < 0 ? NULL : r->stable > 0 ? "yes" : r->stable < 0 ? "no" : "unknown");
   table_put_real(t, r->error);
@@ -242,11 +241,9 @@ static void put_hypothesis(table *t, const scene *sc, const verified *v, const v
   table_put_text(t, verify_cause_words(h->causes, words));
   table_put_real(t, h->distance);
   table_put_real(t, v->report.truth_distance);
-  if (linear) table_put_missing(t);
-  else table_put_integer(t, e->harmonics);
+  table_put_integer_if(t, !linear, e->harmonics);
   table_put_text(t, linear ? NULL : e->keep_mean ? "true" : "false");
-  if (e->samples) table_put_integer(t, e->samples);
-  else table_put_missing(t);
+  table_put_integer_if(t, e->samples > 0, e->samples);
   table_put_text(t, !e->samples ? NULL : e->restart == HBM_RESTART_SAMPLE ? "sample" : "interpolated");
   table_put_real(t, h->omega_factor);
   table_put_real(t, h->value_factor);

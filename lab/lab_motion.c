@@ -48,21 +48,6 @@ static double *instant(lab *l, int i, int j)
   return l->values + (size_t)i * (size_t)l->columns + BEFORE + OF_CONTACT * j;
 }
 
-/* The piece that th, or th + 2 pi, lies in; NULL: the contact is separated there. */
-static const contact_interval *piece_at(int n, const contact_interval *piece, double th)
-{
-  for (int k = 0; k < n; ++k)
-    if ((piece[k].from <= th && th < piece[k].to) || (piece[k].from <= th + TWO_PI && th + TWO_PI < piece[k].to))
-      return &piece[k];
-  return NULL;
-}
-
-static double true_traction(const contact *law, const contact_interval *p, double u, double N)
-{
-  if (!p) return 0;
-  return p->state == CONTACT_STICK ? law->kt * u - p->held : contact_slip_sign(p->state) * law->mu * N;
-}
-
 static hc_status exact_tractions(lab *l, int n, const model *m, const moving_contact *contacts)
 {
   double F[LAB_MOST_COEF];
@@ -70,11 +55,12 @@ static hc_status exact_tractions(lab *l, int n, const model *m, const moving_con
   hc_status st = exact_force_new_of_model(l->n_harm, m, &e);
   if (st == HC_OK) st = exact_force_eval(e, l->X, F, NULL, NULL);
   for (int j = 0; j < m->n_contacts && st == HC_OK; ++j) {
-    int n_pieces;
-    const contact_interval *pieces = exact_force_intervals(e, j, &n_pieces);
+    int n_intervals;
+    const contact_interval *intervals = exact_force_intervals(e, j, &n_intervals);
     for (int i = 0; i < n; ++i) {
       double *at = instant(l, i, j);
-      at[3] = true_traction(&contacts[j].law, piece_at(n_pieces, pieces, TWO_PI * i / n), at[0], at[2]);
+      const contact_interval *now = contact_interval_at(n_intervals, intervals, TWO_PI * i / n);
+      at[3] = contact_interval_traction(&contacts[j].law, now, at[0], at[2]);
     }
   }
   exact_force_free(e);

@@ -139,6 +139,12 @@ void table_put_real(table *t, double value)
 
 void table_put_missing(table *t) { next_cell(t); }
 
+void table_put_integer_if(table *t, bool there, long value)
+{
+  if (there) table_put_integer(t, value);
+  else table_put_missing(t);
+}
+
 /* printf into new memory, with '.' for the decimal point. */
 __attribute__((format(printf, 1, 0))) static char *print_to_memory(const char *format, va_list args)
 {

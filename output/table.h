@@ -5,6 +5,7 @@
 #ifndef HC_TABLE_H
 #define HC_TABLE_H
 
+#include <stdbool.h>
 #include <stdio.h>
 
 #include "base/status.h"
@@ -31,6 +32,7 @@ void table_put_text(table *t, const char *value);
 void table_put_integer(table *t, long value);
 void table_put_real(table *t, double value);
 void table_put_missing(table *t);
+void table_put_integer_if(table *t, bool there, long value); /* else missing */
 /* A remark about the whole table, one line: after it in `table`, as "# ..." lines before the header in csv, under
  * "notes" in json. */
 void table_note(table *t, const char *format, ...) __attribute__((format(printf, 2, 3)));

@@ -81,22 +81,14 @@ typedef struct contact_history {
   contact_state state[POINTS + 1];
 } contact_history;
 
-/* The piece at th, or NULL: separated. */
-static const contact_interval *piece_at(const contact_interval *p, int n, double th)
-{
-  for (int i = 0; i < n; ++i)
-    if (!isnan(angle_inside(th, p[i].from, p[i].to))) return &p[i];
-  return NULL;
-}
-
-/* The exact law, from the pieces that exact_force.h found: sticking, T = kt u - held; slipping, T = +-mu N. */
-static void compute_history(const plot_motion *m, const moving_contact *c, const contact_interval *pieces, int n,
+/* The exact law, from the intervals that exact_force.h found. */
+static void compute_history(const plot_motion *m, const moving_contact *c, const contact_interval *intervals, int n,
                             contact_history *out)
 {
   for (int i = 0; i <= POINTS; ++i) {
     const double th = angle_of(i);
     double v = 0;
-    const contact_interval *p = piece_at(pieces, n, th);
+    const contact_interval *now = contact_interval_at(n, intervals, th);
     out->u[i] = 0;
     for (int d = 0; d < m->of->n_dof; ++d) {
       const double x = series_at(m->of->n_harm, m->of->X + d * series_length(m->of->n_harm), cos(th), sin(th)).x;
@@ -104,9 +96,8 @@ static void compute_history(const plot_motion *m, const moving_contact *c, const
       v += c->cv[d] * x;
     }
     out->normal[i] = contact_normal(&c->law, v);
-    out->state[i] = p ? p->state : CONTACT_SEPARATED;
-    out->t[i] = contact_slip_sign(out->state[i]) * c->law.mu * out->normal[i];
-    if (out->state[i] == CONTACT_STICK) out->t[i] = c->law.kt * out->u[i] - p->held;
+    out->state[i] = now ? now->state : CONTACT_SEPARATED;
+    out->t[i] = contact_interval_traction(&c->law, now, out->u[i], out->normal[i]);
     out->u[i] += m->slider[0];
   }
 }

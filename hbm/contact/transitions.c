@@ -295,3 +295,17 @@ contact_regime transitions_regime(int n, const contact_interval *interval)
   if (touching < TWO_PI * (1 - 1e-15)) return CONTACT_SEPARATES;
   return slips ? CONTACT_SLIPS : CONTACT_STUCK;
 }
+
+const contact_interval *contact_interval_at(int n, const contact_interval *interval, double th)
+{
+  for (int i = 0; i < n; ++i)
+    for (int turn = -1; turn <= 1; ++turn)
+      if (th + turn * TWO_PI >= interval[i].from && th + turn * TWO_PI <= interval[i].to) return &interval[i];
+  return NULL;
+}
+
+double contact_interval_traction(const contact *law, const contact_interval *at, double u, double normal)
+{
+  if (!at) return 0;
+  return at->state == CONTACT_STICK ? law->kt * u - at->held : contact_slip_sign(at->state) * law->mu * normal;
+}

@@ -41,4 +41,10 @@ hc_status transitions_find(const series_grid *grid, const moving_contact *c, int
 /* What happens to a contact with these intervals of one period. */
 contact_regime transitions_regime(int n, const contact_interval *interval);
 
+/* The interval at th [rad], between -2 pi and 4 pi; NULL: the contact is separated then. */
+const contact_interval *contact_interval_at(int n, const contact_interval *interval, double th);
+
+/* T [force] at an instant of that interval, or of none: kt u less held while stuck, +-mu N while it slips. */
+double contact_interval_traction(const contact *law, const contact_interval *at, double u, double normal);
+
 #endif
