@@ -16,6 +16,12 @@ periodic_motion motion_of_solution(const hbm_measures *m, int n_harm, const doub
 hc_status motion_of_response(hbm_solver *s, double omega, const double *X, int r, hbm_measures *m,
                              periodic_motion *out);
 
+/* Has a transient that ended with st been measured? */
+static inline bool motion_is_measured(hc_status st)
+{
+  return st == HC_OK || st == HC_NOT_SETTLED || st == HC_APERIODIC;
+}
+
 /* The motion over a transient's reported period. */
 periodic_motion motion_of_transient(const timeint_result *r);
 

@@ -2,17 +2,16 @@
 #include <math.h>
 #include <string.h>
 
+#include "compare/motion.h"
 #include "compare/steady_states.h"
 #include "lab/lab_inside.h"
 
 enum { COLUMNS = 13 /* before the wave */ };
 
-static bool is_measured(hc_status st) { return st == HC_OK || st == HC_NOT_SETTLED || st == HC_APERIODIC; }
-
 static hc_status add_state(lab *l, const steady_row *s)
 {
   const timeint_result *r = &s->result;
-  const bool settled = s->status == HC_OK, measured = is_measured(s->status);
+  const bool settled = s->status == HC_OK, measured = motion_is_measured(s->status);
   double *row = lab_row(l);
   if (!row) return HC_NO_MEMORY;
   row[0] = r->omega;

@@ -4,6 +4,7 @@
 
 #include "compare/comparison.h"
 #include "compare/gate/gate.h"
+#include "compare/motion.h"
 #include "library/inside.h"
 
 struct hbmcheck_comparison {
@@ -28,7 +29,7 @@ static hbmcheck_row row_of(const comparison_row *r)
                         .accounted = r->accounted,
                         .multiplier = hbm ? r->stability.multiplier : NAN,
                         .hbm_amplitude = hbm ? r->hbm.amplitude : NAN,
-                        .transient_amplitude = has_motion(r->transient_status) ? r->transient.amplitude : NAN,
+                        .transient_amplitude = motion_is_measured(r->transient_status) ? r->transient.amplitude : NAN,
                         .orbit_amplitude = r->orbit_status == HC_OK ? r->orbit.amplitude : NAN,
                         .amplitude_error = r->errors.amplitude,
                         .harmonic_1_error = r->errors.harmonic_1,

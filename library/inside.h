@@ -21,9 +21,6 @@ static inline hbmcheck_status public_status(hc_status st) { return (hbmcheck_sta
 /* Is there a result to hand over after st? If not, *out stays NULL. */
 static inline bool has_result(hc_status st) { return st != HC_BAD_INPUT && st != HC_NO_MEMORY; }
 
-/* Has a transient that ended with st been measured? */
-static inline bool has_motion(hc_status st) { return st == HC_OK || st == HC_NOT_SETTLED || st == HC_APERIODIC; }
-
 static inline bool is_omega(double omega) { return isfinite(omega) && omega > 0; }
 
 /* *m, which may be NULL, must live as long as the answer. */

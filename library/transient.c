@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "compare/motion.h"
 #include "compare/steady_states.h"
 #include "library/inside.h"
 
@@ -35,7 +36,7 @@ static hbmcheck_steady steady_of(const steady_row *row)
                        .left_orbit = r->left_orbit,
                        .response = row->response,
                        .contact = (hbmcheck_contact)r->regime};
-  if (!has_motion(row->status)) s.amplitude = s.max = s.min = s.rms = s.mean = s.harmonic_1 = s.closure = NAN;
+  if (!motion_is_measured(row->status)) s.amplitude = s.max = s.min = s.rms = s.mean = s.harmonic_1 = s.closure = NAN;
   return s;
 }
 
@@ -77,7 +78,7 @@ hbmcheck_status hbmcheck_transient_wave(const hbmcheck_transient *t, int k, int 
 {
   const steady_row *row = steady_row_at(t, k);
   if (!n || !row || cap < 0 || (cap > 0 && !x)) return HBMCHECK_BAD_INPUT;
-  *n = has_motion(row->status) ? TIMEINT_WAVE : 0;
+  *n = motion_is_measured(row->status) ? TIMEINT_WAVE : 0;
   library_copy(*n, row->result.wave, cap, x);
   return HBMCHECK_OK;
 }

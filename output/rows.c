@@ -13,10 +13,7 @@
 
 /* Questions about a row, for the lists below. */
 static bool settled(const steady_row *r) { return r->status == HC_OK; }
-static bool measured(const steady_row *r)
-{
-  return r->status == HC_OK || r->status == HC_NOT_SETTLED || r->status == HC_APERIODIC;
-}
+static bool measured(const steady_row *r) { return motion_is_measured(r->status); }
 static bool prediction_known(const comparison_row *r)
 {
   return !r->family && !isnan(r->hbm_predicted.amplitude) && !isnan(r->transient_predicted.amplitude);
@@ -24,10 +21,7 @@ static bool prediction_known(const comparison_row *r)
 static const char *yes_no(bool yes) { return yes ? "yes" : "no"; }
 static bool has_hbm(const comparison_row *r) { return r->branch >= 0 && r->hbm_status == HC_OK; }
 static bool has_orbit(const comparison_row *r) { return r->orbit_status == HC_OK; }
-static bool has_transient(const comparison_row *r)
-{
-  return r->transient_status == HC_OK || r->transient_status == HC_NOT_SETTLED || r->transient_status == HC_APERIODIC;
-}
+static bool has_transient(const comparison_row *r) { return motion_is_measured(r->transient_status); }
 static const char *largest_part(const comparison_row *r)
 {
   double fraction;

@@ -7,6 +7,7 @@
 #include "base/constants.h"
 #include "casefile/scene.h"
 #include "command/plot/curve.h"
+#include "compare/motion.h"
 
 enum { WIDTH = 800, HEIGHT = 540, MOST_RESPONSES = 8 };
 
@@ -129,10 +130,7 @@ hc_status plot_frf(plot_order *p, const scene *sc, hbm_solver *s, const hbm_curv
 
 /* ---- compare ---- */
 
-static bool has_transient(const comparison_row *r)
-{
-  return r->transient_status == HC_OK || r->transient_status == HC_NOT_SETTLED || r->transient_status == HC_APERIODIC;
-}
+static bool has_transient(const comparison_row *r) { return motion_is_measured(r->transient_status); }
 
 static bool has_hbm(const comparison_row *r) { return r->branch >= 0 && r->hbm_status == HC_OK; }
 
@@ -214,8 +212,7 @@ hc_status plot_compare(plot_order *p, const scene *sc, const comparison *c, cons
 /* And of the response that is drawn. */
 static bool measured(const steady_row *r)
 {
-  return r->response == 0 && r->stage == STEADY_TRANSIENT &&
-         (r->status == HC_OK || r->status == HC_NOT_SETTLED || r->status == HC_APERIODIC);
+  return r->response == 0 && r->stage == STEADY_TRANSIENT && motion_is_measured(r->status);
 }
 
 static const char *steady_point(const void *rows, int i, double *x, double *y, char text[24])

@@ -6,6 +6,7 @@
 #include "casefile/case_file.h"
 #include "command/report/html.h"
 #include "command/report/parts.h"
+#include "compare/motion.h"
 #include "model/modes.h"
 
 typedef struct page {
@@ -105,9 +106,7 @@ static void write_budget_row(FILE *to, const comparison_row *r, const scene *sc)
   if (sc->structure) html_cell_text(to, r->response_name);
   html_cell_text(to, comparison_verdict_text(r, text));
   html_cell_number(to, r->branch >= 0 && r->hbm_status == HC_OK ? r->hbm.amplitude : NAN);
-  bool moved =
-      r->transient_status == HC_OK || r->transient_status == HC_NOT_SETTLED || r->transient_status == HC_APERIODIC;
-  html_cell_number(to, moved ? r->transient.amplitude : NAN);
+  html_cell_number(to, motion_is_measured(r->transient_status) ? r->transient.amplitude : NAN);
   html_cell_bar(to, r->errors.amplitude,
                 r->verdict == VERDICT_MATCH || r->verdict == VERDICT_DIFFERS ? sc->gate.most.amplitude : INFINITY);
 #define CELL(part) html_cell_bar(to, b->part, sc->gate.most.amplitude);

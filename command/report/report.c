@@ -9,6 +9,7 @@
 #include "casefile/structure.h"
 #include "command/report/parts.h"
 #include "compare/comparison.h"
+#include "compare/motion.h"
 #include "compare/response.h"
 #include "output/rows.h"
 #include "study/scene_solvers.h"
@@ -90,9 +91,7 @@ static json_t *transient_rows(const comparison *c, int response)
   for (int i = 0; i < c->n_rows; ++i) {
     const comparison_row *r = &c->rows[i];
     char text[24];
-    bool moved =
-        r->transient_status == HC_OK || r->transient_status == HC_NOT_SETTLED || r->transient_status == HC_APERIODIC;
-    if (!moved || r->response != response) continue;
+    if (!motion_is_measured(r->transient_status) || r->response != response) continue;
     comparison_verdict_text(r, text);
     json_array_append_new(list, json_pack("{s:f, s:o, s:o, s:o, s:b, s:i, s:s, s:o}", "omega", r->omega, "amplitude",
                                           number(r->transient.amplitude), "harmonic_1", number(r->transient.harmonic_1),
